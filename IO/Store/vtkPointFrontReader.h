@@ -1,0 +1,79 @@
+/**
+ * @class vtkPointFrontReader
+ * @brief opens a `.pfront` store: an overview as vtkPolyData, and the store's name for vtkPointFrontMapper
+ *
+ * The output holds an overview (the hierarchy's first nodes, at most OverviewPoints points, double coordinates, one vertex cell,
+ * the chosen attributes as point data), so every VTK filter works at once, and names the store in its field data (see vtkPointFrontStore), so that vtkPointFrontMapper
+ * draws the whole cloud from it.
+ *
+ * RequestInformation gives the bounds and array names of the whole cloud without reading points. Pieces: the overview is cut by nodes.
+ * Errors (ErrorCode, vtkErrorMacro): no file name, a missing, truncated or corrupt file, a newer version.
+ */
+#ifndef vtkPointFrontReader_h
+#define vtkPointFrontReader_h
+
+#include "pointfrontIOStoreModule.h" // for the export macro
+#include "vtkNew.h"                  // for the selection
+#include "vtkPolyDataAlgorithm.h"
+#include "vtkSmartPointer.h" // for the store
+
+class vtkDataArraySelection;
+class vtkPointFrontStore;
+
+class POINTFRONTIOSTORE_EXPORT vtkPointFrontReader : public vtkPolyDataAlgorithm
+{
+public:
+  static vtkPointFrontReader* New();
+  vtkTypeMacro(vtkPointFrontReader, vtkPolyDataAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /// The store's file.
+  vtkSetFilePathMacro(FileName);
+  vtkGetFilePathMacro(FileName);
+  ///@}
+
+  /// 1 if the file begins like a store. Cheap, by content, silent.
+  static int CanReadFile(VTK_FILEPATH const char* fileName);
+
+  ///@{
+  /**
+   * Most points of the overview. Default 200,000; 0: none, the handle only.
+   */
+  vtkSetClampMacro(OverviewPoints, vtkIdType, 0, VTK_ID_MAX);
+  vtkGetMacro(OverviewPoints, vtkIdType);
+  ///@}
+
+  ///@{
+  /**
+   * Which attributes the overview carries. All by default. (The mapper draws any attribute of the store, whatever is chosen here.)
+   */
+  vtkDataArraySelection* GetPointDataArraySelection();
+  int GetNumberOfPointArrays();
+  const char* GetPointArrayName(int index);
+  int GetPointArrayStatus(const char* name);
+  void SetPointArrayStatus(const char* name, int status);
+  ///@}
+
+  /// The open store, after UpdateInformation(); null before, or if it could not be opened.
+  vtkPointFrontStore* GetStore();
+
+  vtkMTimeType GetMTime() override;
+
+protected:
+  vtkPointFrontReader();
+  ~vtkPointFrontReader() override;
+  int RequestInformation(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+
+  char* FileName = nullptr;
+  vtkIdType OverviewPoints = 200000;
+  vtkNew<vtkDataArraySelection> PointDataArraySelection;
+  vtkSmartPointer<vtkPointFrontStore> Store;
+
+private:
+  vtkPointFrontReader(const vtkPointFrontReader&) = delete;
+  void operator=(const vtkPointFrontReader&) = delete;
+};
+
+#endif

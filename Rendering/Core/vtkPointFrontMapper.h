@@ -1,0 +1,152 @@
+/**
+ * @class vtkPointFrontMapper
+ * @brief draws a point store that may be larger than memory, at an error and inside budgets that the user chooses
+ *
+ * Connect it to a vtkPointFrontReader (or to anything that keeps the reader's field data) and give it to a
+ * vtkActor. On every render it moves the store's rendering front (Richter & Doellner 2010, section 3.2.1)
+ * towards the view, asks for the nodes that are missing and draws what is there: a frame never waits for the disk unless Complete is on.
+ * When new nodes arrive it invokes vtkCommand::UpdateDataEvent (from the main thread, see RenderWhenDataArrives()).
+ *
+ * The OpenGL side comes by VTK's object factory from PointFront::RenderingOpenGL2.
+ *
+ * Colour: as any vtkMapper. ScalarVisibility, ScalarMode, SelectColorArray/ArrayName, ArrayComponent, ColorMode, LookupTable and
+ * ScalarRange choose it; arrays are named as the store's attributes are ("rgb", "intensity", "classification", "elevation" ...).
+ * With ColorMode default, "rgb" is drawn as it is; every other attribute goes through the lookup table.
+ */
+#ifndef vtkPointFrontMapper_h
+#define vtkPointFrontMapper_h
+
+#include "pointfrontRenderingCoreModule.h" // for the export macro
+#include "vtkPolyDataMapper.h"
+#include "vtkSmartPointer.h" // for the store
+
+#include <memory> // for the front
+
+class vtkPointFrontStore;
+
+class POINTFRONTRENDERINGCORE_EXPORT vtkPointFrontMapper : public vtkPolyDataMapper
+{
+public:
+  static vtkPointFrontMapper* New();
+  vtkTypeMacro(vtkPointFrontMapper, vtkPolyDataMapper);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * The projected point spacing that a still view refines to, in pixels. Default 1, clamped to [0.01, 1000].
+   */
+  vtkSetClampMacro(TargetError, double, 0.01, 1000.0);
+  vtkGetMacro(TargetError, double);
+  ///@}
+
+  ///@{
+  /**
+   * Most points drawn at a time (they are in GPU memory). Default 5,000,000; 0: no limit but memory.
+   */
+  vtkSetClampMacro(PointBudget, vtkIdType, 0, VTK_ID_MAX);
+  vtkGetMacro(PointBudget, vtkIdType);
+  ///@}
+
+  ///@{
+  /**
+   * Diameter of a point in pixels; 0 (default): the property's point size.
+   */
+  vtkSetClampMacro(PointSize, double, 0.0, 255.0);
+  vtkGetMacro(PointSize, double);
+  ///@}
+
+  ///@{
+  /**
+   * On: a still render (desired update rate below 0.01... as VTK and ParaView set it) loads and draws everything that
+   * TargetError and the budgets allow before it returns: screenshots, batch. The image is then deterministic. Default off.
+   */
+  vtkSetMacro(Complete, bool);
+  vtkGetMacro(Complete, bool);
+  vtkBooleanMacro(Complete, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Milliseconds that a frame should take while the user interacts. 0 (default): the time that VTK allots
+   * (vtkProp::GetAllocatedRenderTime, from the window's DesiredUpdateRate).
+   */
+  vtkSetClampMacro(TargetFrameTime, double, 0.0, 10000.0);
+  vtkGetMacro(TargetFrameTime, double);
+  ///@}
+
+  ///@{
+  /**
+   * Bytes uploaded to the GPU per frame while interacting. Default 16 MiB.
+   */
+  vtkSetClampMacro(UploadLimit, vtkTypeInt64, 1 << 16, VTK_TYPE_INT64_MAX);
+  vtkGetMacro(UploadLimit, vtkTypeInt64);
+  ///@}
+
+  ///@{
+  /**
+   * For distributed rendering: this mapper draws piece `StorePiece` of `NumberOfStorePieces` of the store (whole subtrees; the pieces
+   * together draw each point once) and loads only that. Default 0 of 1.
+   */
+  vtkSetMacro(StorePiece, int);
+  vtkGetMacro(StorePiece, int);
+  vtkSetClampMacro(NumberOfStorePieces, int, 1, VTK_INT_MAX);
+  vtkGetMacro(NumberOfStorePieces, int);
+  ///@}
+
+  /// The store being drawn: named by the input's field data. Null until the input is there or if it cannot be opened.
+  vtkPointFrontStore* GetStore();
+
+  /// Of the last frame. Error in pixels; Threshold is what the front worked with.
+  ///@{
+  vtkGetMacro(LastPointsDrawn, vtkIdType);
+  vtkGetMacro(LastNodesDrawn, vtkIdType);
+  vtkGetMacro(LastFrontLength, vtkIdType);
+  vtkGetMacro(LastMoves, vtkIdType);
+  vtkGetMacro(LastRequests, vtkIdType);
+  vtkGetMacro(LastError, double);
+  vtkGetMacro(LastThreshold, double);
+  vtkGetMacro(LastFrontTime, double);  ///< milliseconds of the front's update
+  vtkGetMacro(LastGPUBytes, vtkTypeInt64);
+  /// True when the last frame showed all that TargetError and the budgets allow: no further render will change the picture.
+  vtkGetMacro(LastComplete, bool);
+  ///@}
+
+  /**
+   * True if nodes arrived since the last render, or the last render left work over: render again. Cheap, non blocking; for timers and render loops.
+   */
+  virtual bool NeedsRender();
+
+  /// Of the whole store, at once, before anything is loaded.
+  double* GetBounds() VTK_SIZEHINT(6) override;
+  void GetBounds(double bounds[6]) override { this->Superclass::GetBounds(bounds); }
+
+protected:
+  vtkPointFrontMapper();
+  ~vtkPointFrontMapper() override;
+
+  double TargetError = 1.0;
+  vtkIdType PointBudget = 5000000;
+  double PointSize = 0.0;
+  bool Complete = false;
+  double TargetFrameTime = 0.0;
+  vtkTypeInt64 UploadLimit = 16 << 20;
+  int StorePiece = 0;
+  int NumberOfStorePieces = 1;
+
+  vtkIdType LastPointsDrawn = 0;
+  vtkIdType LastNodesDrawn = 0;
+  vtkIdType LastFrontLength = 0;
+  vtkIdType LastMoves = 0;
+  vtkIdType LastRequests = 0;
+  double LastError = 0.0;
+  double LastThreshold = 0.0;
+  double LastFrontTime = 0.0;
+  vtkTypeInt64 LastGPUBytes = 0;
+  bool LastComplete = false;
+
+private:
+  vtkPointFrontMapper(const vtkPointFrontMapper&) = delete;
+  void operator=(const vtkPointFrontMapper&) = delete;
+};
+
+#endif

@@ -1,0 +1,83 @@
+/**
+ * @class vtkPointFrontStore
+ * @brief an open point store, shared by every reader and mapper of this process that names it
+ *
+ * A store is opened once per process and file: Open() gives the same object for the same file until
+ * the last reference is gone. It owns the store's residency (decoded nodes in host memory, under one
+ * budget), so several views of one cloud share what is loaded.
+ *
+ * In the pipeline a store travels as a name: vtkPointFrontReader puts its absolute path into the field data of
+ * its output (array "PointFrontStore"), and vtkPointFrontMapper finds the store by that name. The name
+ * survives shallow and deep copies, filters that pass field data on and ParaView's delivery.
+ */
+#ifndef vtkPointFrontStore_h
+#define vtkPointFrontStore_h
+
+#include "pointfrontCommonModule.h" // for the export macro
+#include "vtkObject.h"
+#include "vtkSmartPointer.h" // for Open
+#include "vtkStdString.h"    // for names
+
+#include <memory> // for the kernel objects
+
+class vtkDataObject;
+namespace pointfront
+{
+class PointStore;
+class Residency;
+}
+
+class POINTFRONTCOMMON_EXPORT vtkPointFrontStore : public vtkObject
+{
+public:
+  vtkTypeMacro(vtkPointFrontStore, vtkObject);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /**
+   * The open store of that file: the one that is open already, or a new one. Null on failure; the reason (what,
+   * where, what to try) is then in `error`.
+   */
+  static vtkSmartPointer<vtkPointFrontStore> Open(VTK_FILEPATH const char* fileName, vtkStdString& error);
+
+  ///@{
+  /**
+   * The name of the store in an object's field data, and the store of that name.
+   */
+  static const char* FieldName() { return "PointFrontStore"; }
+  static void SetStoreName(vtkDataObject* data, const char* fileName);
+  static vtkStdString GetStoreName(vtkDataObject* data);
+  ///@}
+
+  /// Absolute path of the file.
+  const char* GetFileName() const;
+  /// Bounds of all points (world, tight), without reading any of them.
+  void GetBounds(double bounds[6]) const;
+  vtkIdType GetNumberOfPoints() const;
+  int GetNumberOfAttributes() const;
+  const char* GetAttributeName(int attribute) const;
+
+  /**
+   * Host memory for decoded nodes of this store, bytes. Default 1 GiB.
+   */
+  void SetHostMemoryBudget(vtkTypeInt64 bytes);
+  vtkTypeInt64 GetHostMemoryBudget() const;
+
+#ifndef __VTK_WRAP__
+  /// The kernel's objects, for modules of ours. Never null.
+  const std::shared_ptr<const pointfront::PointStore>& GetStore() const;
+  pointfront::Residency& GetResidency() const;
+#endif
+
+protected:
+  vtkPointFrontStore();
+  ~vtkPointFrontStore() override;
+
+private:
+  vtkPointFrontStore(const vtkPointFrontStore&) = delete;
+  void operator=(const vtkPointFrontStore&) = delete;
+
+  struct Content;
+  std::unique_ptr<Content> Internals;
+};
+
+#endif

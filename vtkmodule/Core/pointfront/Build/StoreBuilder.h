@@ -1,0 +1,54 @@
+#pragma once
+
+#include "pointfront/Base/Progress.h"
+#include "pointfront/Base/Result.h"
+#include "pointfront/Points/PointSource.h"
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pointfront
+{
+
+struct BuildOptions
+{
+  std::string outputPath;
+  std::string temporaryFolder;       ///< for spill files; empty: the output's folder
+  std::uint64_t memoryBytes = 0;     ///< budget for points in memory; 0: half of the machine's
+  unsigned threads = 0;              ///< 0: one a core
+  std::uint32_t nodePoints = 16384;  ///< capacity of a leaf; inner nodes hold about as many
+  std::optional<double> precision;   ///< world units a step; nothing: the sources' own (lossless)
+  /// Attributes to store, by name; nothing: all.
+  std::optional<std::vector<std::string>> attributes;
+  bool overwrite = false;            ///< false: an existing output is an Error
+};
+
+struct BuildReport
+{
+  std::uint64_t pointsRead = 0;
+  std::uint64_t pointsStored = 0;
+  std::map<std::string, std::uint64_t> pointsRejected; ///< reason -> count
+  double seconds = 0.0;
+  std::uint64_t bytesWritten = 0;
+  std::uint64_t spilledBytes = 0;
+  std::uint64_t nodes = 0;
+  std::vector<std::string> warnings; ///< of the sources and of the build; full sentences
+  std::map<std::string, double> phaseSeconds; ///< phase -> CPU seconds over all threads
+};
+
+/// Builds a store with an octree and `add` refinement from any number of sources.
+/// Guarantees  every point that is read is stored once, or counted in pointsRejected with its
+///             reason (NaN, infinite, outside the grid's range); read = stored + rejected is
+///             checked at the end. Same input, same bytes out: for any number of threads and any memory
+///             budget. A build that fails or is cancelled leaves no output and no spill files.
+/// Memory      points, columns and buffers stay under memoryBytes; with less than needed the
+///             points are spilled to disk (a fixed number of files).
+/// Threads     called from one thread; runs its own.
+Result<BuildReport> buildOctreeStore(const std::vector<std::unique_ptr<PointSource>>& sources,
+  const BuildOptions& options, const ProgressFunction& progress = {});
+
+} // namespace pointfront

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "pointfront/Front/View.h"
+#include "pointfront/Store/Hierarchy.h"
+
+namespace pointfront
+{
+
+/// Where a bounding sphere lies with respect to the frustum.
+enum class Visibility
+{
+  Outside, ///< no part of the sphere can be seen
+  Inside   ///< some part may be seen
+};
+
+/// FRONT-4: frustum test by bounding sphere: six plane distances.
+Visibility sphereVisibility(const View& view, const glm::dvec3& centre, double radius);
+
+/// FRONT-4: the projected point spacing (PPS) of a node, in pixels: its spacing, projected at the
+/// point of its bounding sphere that is nearest to the eye (never nearer than the near plane).
+/// The paper gives PPS in words only, as the pixels that the node's sphere covers, for nodes of one
+/// representative; our nodes are chunks, so we project the spacing between their points.
+double screenError(const View& view, const Node& node);
+
+/// Distance from the eye to the node's sphere, 0 when inside it; world units.
+double distanceToNode(const View& view, const Node& node);
+
+} // namespace pointfront

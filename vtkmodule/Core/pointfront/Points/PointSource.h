@@ -1,0 +1,72 @@
+#pragma once
+
+#include "pointfront/Base/Bounds.h"
+#include "pointfront/Base/Result.h"
+#include "pointfront/Points/AttributeSchema.h"
+#include "pointfront/Points/PointBatch.h"
+#include "pointfront/Points/QuantisationGrid.h"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pointfront
+{
+
+/// A metadata record that travels unread from the source into the store (a LAS VLR: CRS, extra
+/// bytes ...), so that an export gives it back.
+struct MetadataRecord
+{
+  std::string owner;    ///< LAS: user id, at most 16 characters
+  std::uint16_t id = 0; ///< LAS: record id
+  std::string description;
+  std::vector<std::byte> payload;
+};
+
+/// What is known of a source before its points are read.
+struct SourceDescription
+{
+  std::string path;
+  std::string format;          ///< for messages: "LAS 1.4 format 7", "LAZ 1.2 format 3" ...
+  std::uint64_t pointCount = 0; ///< points that can be read (not what a lying header claims)
+  Bounds declaredBounds;       ///< from the header; a hint, may lie; empty if not given
+  /// The grid that the coordinates already live on; nothing for sources of floating point.
+  std::optional<QuantisationGrid> grid;
+  AttributeSchema schema;
+  std::string crsWkt; ///< CRS as WKT, if the source carries one as WKT
+  std::vector<MetadataRecord> metadata; ///< CRS records kept as they are (LASF_Projection ...)
+  /// What was wrong and survived: each a full sentence that counts what was lost.
+  std::vector<std::string> warnings;
+};
+
+/// A readable cloud, cut into chunks that can be read in any order by any thread.
+/// Threads   description(), chunkCount() and chunkPoints() are constant; read() is thread-safe.
+/// Errors    read() gives Truncated or BadFormat with path and byte offset.
+/// Order     the input index of a point is its rank in (chunk, position in chunk); results that
+///           depend on order use it, so they do not depend on which thread came first.
+class PointSource
+{
+public:
+  virtual ~PointSource() = default;
+  virtual const SourceDescription& description() const = 0;
+  virtual std::uint64_t chunkCount() const = 0;
+  virtual std::uint64_t chunkPoints(std::uint64_t chunk) const = 0; ///< some ten thousand
+  /// Fills `batch` with that chunk's points: chunkPoints(chunk) of them, columns as in the schema.
+  virtual Result<void> read(std::uint64_t chunk, PointBatch& batch) const = 0;
+};
+
+/// Opens files of one family. Registered by the program at the top (IO modules do not know each
+/// other), asked in turn.
+class PointSourceFormat
+{
+public:
+  virtual ~PointSourceFormat() = default;
+  virtual std::string name() const = 0;                       ///< "LAS/LAZ"
+  virtual std::vector<std::string> extensions() const = 0;    ///< lower case, without the dot
+  virtual bool accepts(const std::string& path) const = 0;    ///< by content, silent
+  virtual Result<std::unique_ptr<PointSource>> open(const std::string& path) const = 0;
+};
+
+} // namespace pointfront

@@ -1,0 +1,79 @@
+#pragma once
+
+#include "pointfront/Base/Bounds.h"
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <vector>
+
+namespace pointfront
+{
+
+using NodeIndex = std::uint32_t;
+constexpr NodeIndex noNode = 0xffffffffu;
+
+/// One node of a hierarchy: all that the front may know of it. A node is a chunk of some ten
+/// thousand points, not a single point.
+/// Units  world units of the store's CRS (metres unless it says otherwise).
+struct Node
+{
+  glm::dvec3 centre{ 0.0 };    ///< of the box, world
+  glm::vec3 halfSize{ 0.0f };  ///< of the box of this node's points and all below; rounded up
+  float radius = 0.0f;         ///< of the sphere around `centre` with all those points; rounded up
+  float spacing = 0.0f;        ///< between neighbouring points when this node and all above it are drawn
+  std::uint32_t pointCount = 0; ///< the node's own points; may be 0 for an inner node
+  std::uint64_t pointsBelow = 0; ///< own points and those of all descendants
+  NodeIndex parent = noNode;
+  NodeIndex firstChild = noNode; ///< children are neighbours in the table
+  std::uint8_t childCount = 0;
+  std::uint8_t level = 0;      ///< roots are 0
+  std::uint16_t layer = 0;     ///< index into the store's layers
+
+  bool leaf() const { return childCount == 0; }
+  Bounds box() const { return Bounds{ centre - glm::dvec3(halfSize), centre + glm::dvec3(halfSize) }; }
+};
+
+/// What a deeper node means to the points above it.
+enum class Refinement : std::uint8_t
+{
+  Add = 1,    ///< inner nodes hold a subset; every point is stored once; ancestors stay drawn
+  Replace = 2 ///< inner nodes hold mean representatives; children replace their parent
+};
+
+/// The node table of one store: the shape of the hierarchy without any payload.
+/// Several roots when the store has layers. Virtual, because a table of 10^8 nodes is paged.
+/// Threads  const functions are safe from any thread.
+class Hierarchy
+{
+public:
+  virtual ~Hierarchy() = default;
+  virtual NodeIndex nodeCount() const = 0;
+  virtual const Node& node(NodeIndex index) const = 0;
+  virtual const std::vector<NodeIndex>& roots() const = 0;
+  virtual Refinement refinement() const = 0;
+};
+
+/// The plain table in memory.
+class HierarchyTable final : public Hierarchy
+{
+public:
+  HierarchyTable(std::vector<Node> nodes, std::vector<NodeIndex> roots, Refinement refinement)
+    : nodes_(std::move(nodes))
+    , roots_(std::move(roots))
+    , refinement_(refinement)
+  {
+  }
+  NodeIndex nodeCount() const override { return static_cast<NodeIndex>(nodes_.size()); }
+  const Node& node(NodeIndex index) const override { return nodes_[index]; }
+  const std::vector<NodeIndex>& roots() const override { return roots_; }
+  Refinement refinement() const override { return refinement_; }
+
+private:
+  std::vector<Node> nodes_;
+  std::vector<NodeIndex> roots_;
+  Refinement refinement_;
+};
+
+} // namespace pointfront

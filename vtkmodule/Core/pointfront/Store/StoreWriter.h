@@ -1,0 +1,63 @@
+#pragma once
+
+#include "pointfront/Base/Result.h"
+#include "pointfront/Store/NodeReader.h"
+#include "pointfront/Store/PointStore.h"
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace pointfront
+{
+
+/// The compressed payload of one node, ready to be appended: made by encodeNode() on any thread.
+struct EncodedNode
+{
+  struct Block
+  {
+    std::vector<std::byte> bytes;
+    std::uint8_t codec = 0;
+    std::uint32_t checksum = 0; ///< of `bytes`
+  };
+  Block positions;
+  std::vector<Block> columns; ///< one for each column of the schema
+  GridPosition origin{ 0 };
+  std::uint32_t pointCount = 0;
+
+  std::size_t bytes() const;
+};
+
+/// Compresses the columns of one node. `points.selection` must name every column of the schema.
+/// Pure: the same points give the same bytes, on any thread.
+EncodedNode encodeNode(const NodeColumns& points, const AttributeSchema& schema);
+
+/// Writes a store: payloads one after another, then the table. Whole or absent: writes to
+/// `path` + ".tmp" in the same folder, commit() makes it durable and renames it; a writer that is
+/// destroyed without commit() removes its file.
+/// Threads  one thread.
+/// Errors   Unwritable, with the bytes that were missing when the disk is full.
+class StoreWriter
+{
+public:
+  /// Bytes on disk of a node already appended.
+  using PayloadId = std::uint32_t;
+
+  static Result<std::unique_ptr<StoreWriter>> create(
+    const std::string& path, const AttributeSchema& schema);
+  virtual ~StoreWriter() = default;
+
+  /// Appends one node's payload; the id names it in commit().
+  virtual Result<PayloadId> append(const EncodedNode& node) = 0;
+
+  /// `nodes` is the whole table, breadth first, children neighbours; payloads[i] belongs to
+  /// nodes[i]. `description` gives grid, crs, structure, refinement, schema, ranges, layers,
+  /// metadata; counts, bounds and sizes are computed here.
+  virtual Result<void> commit(const StoreDescription& description, const std::vector<Node>& nodes,
+    const std::vector<NodeIndex>& roots, const std::vector<PayloadId>& payloads) = 0;
+
+  virtual std::uint64_t bytesWritten() const = 0;
+};
+
+} // namespace pointfront

@@ -1,0 +1,3 @@
+# Installation of what is not a VTK module, and the package config.
+install(DIRECTORY "${CMAKE_CURRENT_SOURCE_DIR}/vtkmodule/Core/pointfront"
+  DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" COMPONENT Development FILES_MATCHING PATTERN "*.h")

@@ -1,0 +1,25 @@
+# What every test of the project shares: where data are, how a test is named, where it draws.
+
+set(POINTFRONT_SHARED_DATA "${CMAKE_SOURCE_DIR}/../shared/data" CACHE PATH
+  "The folder of public test clouds; tests that need it fail without it")
+set(POINTFRONT_TEST_DATA "${CMAKE_SOURCE_DIR}/Testing/Data")
+set(POINTFRONT_TEST_PREFIX "" CACHE STRING
+  "Put before every test's name, so that the tests of several build trees can run as one")
+# The kernel compiled for ParaView is the kernel compiled for VTK: its tests need not run twice.
+option(POINTFRONT_TEST_KERNEL "Test the kernel, the readers and the tool" ON)
+
+find_program(POINTFRONT_XVFB_RUN xvfb-run)
+
+# pointfront_add_display_test(NAME <name> COMMAND <command> [<argument>...])
+# A test that opens a window. It draws on an X server of its own, in software: the same pictures on
+# every machine, with or without a screen. -noreset keeps the server when its last window closes.
+function (pointfront_add_display_test)
+  cmake_parse_arguments(PARSE_ARGV 0 test "" "NAME" "COMMAND")
+  if (NOT POINTFRONT_XVFB_RUN)
+    message(FATAL_ERROR "xvfb-run is missing: run scripts/setup, or set POINTFRONT_BUILD_TESTING=OFF")
+  endif ()
+  add_test(NAME "${POINTFRONT_TEST_PREFIX}${test_NAME}"
+    COMMAND "${POINTFRONT_XVFB_RUN}" -a -s "-screen 0 1280x1024x24 -noreset" ${test_COMMAND})
+  set_tests_properties("${POINTFRONT_TEST_PREFIX}${test_NAME}" PROPERTIES
+    ENVIRONMENT "LIBGL_ALWAYS_SOFTWARE=1")
+endfunction ()

@@ -14,6 +14,13 @@ if (POINTFRONT_HOST STREQUAL "VTK")
     CommonTransforms FiltersCore ImagingCore InteractionStyle IOImage RenderingAnnotation RenderingCore
     RenderingOpenGL2 RenderingUI TestingRendering glew opengl WrappingPythonCore Python WrappingTools)
 elseif (POINTFRONT_HOST STREQUAL "ParaView")
-  find_package(ParaView 5.11 REQUIRED COMPONENTS RemotingCore RemotingViews RemotingServerManager
-    RemotingClientServerStream VTKExtensionsCore WrapClientServer ProcessXML)
+  # Debian's package config works through the shadow prefix that scripts/paraview-prefix makes.
+  file(GLOB pointfront_paraview_prefix "${CMAKE_CURRENT_SOURCE_DIR}/.deps/paraview/usr/lib/*/cmake/paraview-*")
+  find_package(ParaView 5.11 COMPONENTS RemotingCore RemotingViews RemotingServerManager
+    RemotingClientServerStream VTKExtensionsCore WrapClientServer ProcessXML
+    HINTS ${pointfront_paraview_prefix})
+  if (NOT ParaView_FOUND)
+    message(FATAL_ERROR "ParaView 5.11 is not usable: ${ParaView_NOT_FOUND_MESSAGE}\n"
+      "On Debian run scripts/paraview-prefix first; elsewhere set ParaView_DIR.")
+  endif ()
 endif ()

@@ -1,0 +1,47 @@
+#pragma once
+
+#include "pointfront/Base/Bounds.h"
+#include "pointfront/Base/Result.h"
+#include "pointfront/Points/AttributeSchema.h"
+#include "pointfront/Points/PointBatch.h"
+#include "pointfront/Points/PointSource.h"
+#include "pointfront/Points/QuantisationGrid.h"
+
+#include <string>
+#include <vector>
+
+namespace pointfront
+{
+
+/// What a sink must know before its first point. A StoreDescription and a SourceDescription both
+/// hold these facts, so either can be passed on member by member.
+struct SinkDescription
+{
+  AttributeSchema schema; ///< of every batch that follows
+  /// The grid that the coordinates live on. A file of integers (LAS) is written on this grid, so
+  /// that integers stay the same; a text file prints as many digits as this grid needs.
+  QuantisationGrid grid;
+  /// Box of all points that will come, for sinks that must place an integer range; may be empty.
+  Bounds bounds;
+  std::string crsWkt;
+  std::vector<MetadataRecord> metadata; ///< as the source gave it (LAS: VLRs of the CRS ...)
+};
+
+/// A file being written from points: begin(), append() as often as there are batches, finish().
+/// Whole or absent: writes to a temporary name beside `path` and renames it in finish(); a sink
+/// that is destroyed before finish() succeeded removes its temporary file and leaves what was
+/// at `path` before.
+/// Order    points are written in the order they come.
+/// Threads  one thread.
+/// Errors   Unwritable (permission, full disk), BadArgument (what the format cannot hold: a
+///          coordinate out of its range, an attribute too wide). After an Error the sink is dead.
+class PointSink
+{
+public:
+  virtual ~PointSink() = default;
+  virtual Result<void> begin(const SinkDescription& description) = 0;
+  virtual Result<void> append(const PointBatch& batch) = 0;
+  virtual Result<void> finish() = 0;
+};
+
+} // namespace pointfront

@@ -7,6 +7,7 @@
 #include "pointfront/Points/PointSource.h"
 #include "pointfront/Points/QuantisationGrid.h"
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,10 @@ struct SinkDescription
   QuantisationGrid grid;
   /// Box of all points that will come, for sinks that must place an integer range; may be empty.
   Bounds bounds;
+  std::uint64_t pointCount = 0; ///< how many will come, 0 if not known
+  /// Largest value of any component of each column, as stored; empty if not known. Lets LAS choose
+  /// a point format that holds them (classes above 31, more than 7 returns).
+  std::vector<double> largest;
   std::string crsWkt;
   std::vector<MetadataRecord> metadata; ///< as the source gave it (LAS: VLRs of the CRS ...)
 };

@@ -8,15 +8,36 @@
 namespace pointfront
 {
 
-/// Writes points as LAS, or as LAZ through LASzip. The point format is the smallest that holds the
-/// schema's attributes: LAS 1.2 formats 0 to 3, LAS 1.3 formats 4 and 5, LAS 1.4 formats 6 to 10
-/// (also when there are more than 2^32 - 1 points, classes above 31, or more than 7 returns).
-/// Attributes that are not LAS fields become extra bytes with their descriptor record.
+/// Writes points as LAS, or as LAZ through LASzip (chunks of 50,000 points).
+/// Format      the smallest that holds the schema's attributes: point formats 0 to 5 unless there
+///             is a scanner channel, near infrared, a class above 31 or an 8th return; then 6 to
+///             10. LAS 1.2 where it suffices, 1.3 for wave packets, 1.4 for the rest.
+/// Extra       attributes that are not LAS fields become extra bytes, with their descriptors.
 /// Exactness   the integers of the grid, and every attribute that came from a LAS file, are written
 ///             as they were; colour of 8 bit is written as it is, not spread over 16 bit.
+/// Errors      as in PointSink; BadArgument names the attribute or coordinate that does not fit.
 /// Threads     one thread.
-std::unique_ptr<PointSink> makeLASWriter(const std::string& path);
-/// The same points, compressed: chunks of 50,000 points.
-std::unique_ptr<PointSink> makeLAZWriter(const std::string& path);
+class LASWriter final : public PointSink
+{
+public:
+  enum class Encoding
+  {
+    Las,
+    Laz
+  };
+
+  explicit LASWriter(std::string path, Encoding encoding = Encoding::Las);
+  ~LASWriter() override;
+  LASWriter(const LASWriter&) = delete;
+  LASWriter& operator=(const LASWriter&) = delete;
+
+  Result<void> begin(const SinkDescription& description) override;
+  Result<void> append(const PointBatch& batch) override;
+  Result<void> finish() override;
+
+private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
 
 } // namespace pointfront

@@ -1,9 +1,34 @@
 #include "LASFormat.h"
+
+#include "LASFile.h"
+#include "LASSource.h"
+
+#include <cstring>
+#include <fstream>
+#include <utility>
+
 namespace pointfront
 {
-bool LASFormat::accepts(const std::string&) const { return false; }
+
+bool LASFormat::accepts(const std::string& path) const
+{
+  char signature[4] = {};
+  std::ifstream file(path, std::ios::binary);
+  return file.read(signature, sizeof signature) && std::memcmp(signature, "LASF", 4) == 0;
+}
+
 Result<std::unique_ptr<PointSource>> LASFormat::open(const std::string& path) const
 {
-  return makeError(Error::Kind::Unsupported, path);
+  Result<LASFile> file = LASFile::open(path);
+  if (!file)
+  {
+    return file.error();
+  }
+  if (file->header.compressed)
+  {
+    return makeError(Error::Kind::Unsupported, path + ": LAZ points are not supported by this build");
+  }
+  return LASSource::open(std::move(*file));
 }
-}
+
+} // namespace pointfront

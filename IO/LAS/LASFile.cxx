@@ -1,0 +1,120 @@
+#include "LASFile.h"
+
+#include "LASExtraBytes.h"
+
+#include <utility>
+
+namespace pointfront
+{
+namespace
+{
+/// The records that go with the points into a store. Owner LASF_Spec 7 is "superseded"; those of
+/// compressors and indices describe bytes of the file that a store does not have.
+bool travels(const LASRecord& record)
+{
+  constexpr std::uint16_t superseded = 7;
+  return record.owner == "LASF_Projection" ||
+    (record.owner == "LASF_Spec" && record.id != superseded);
+}
+
+std::vector<MetadataRecord> metadataOf(
+  const LASHeader& header, const std::vector<LASRecord>& records)
+{
+  std::vector<MetadataRecord> metadata;
+  for (const LASRecord& record : records)
+  {
+    if (travels(record))
+    {
+      metadata.push_back({ record.owner, record.id, record.description,
+        { record.payload.data, record.payload.data + record.payload.size } });
+    }
+  }
+  std::vector<std::byte> encoding(sizeof header.globalEncoding);
+  storeNumber(encoding.data(), header.globalEncoding);
+  metadata.push_back({ lasKeptOwner, lasKeptEncodingRecord, "LAS global encoding", encoding });
+  return metadata;
+}
+
+/// The first record that holds a CRS as WKT.
+std::string wktOf(const std::vector<LASRecord>& records)
+{
+  for (const LASRecord& record : records)
+  {
+    if (record.is("LASF_Projection", lasWktRecord))
+    {
+      std::string wkt = printableText(loadText(record.payload.data, record.payload.size));
+      if (wkt.find_first_not_of(' ') != std::string::npos)
+      {
+        return wkt;
+      }
+    }
+  }
+  return {};
+}
+
+/// Points and EVLRs that claim the same bytes: the points are what counts, unless their count
+/// does not even fit into the file.
+void dropOverlappingRecords(
+  LASHeader& header, std::size_t fileBytes, std::vector<std::string>& warnings)
+{
+  const std::uint64_t begin = header.extendedRecordOffset;
+  const std::uint64_t room = (fileBytes - header.pointOffset) / header.pointBytes;
+  const bool countFits = !header.compressed && header.pointCount <= room;
+  const std::uint64_t pointEnd =
+    header.pointOffset + (countFits ? header.pointCount * header.pointBytes : 0);
+  if (header.extendedRecordCount > 0 && begin < pointEnd)
+  {
+    warnings.push_back("The extended variable length records would begin at byte " +
+      std::to_string(begin) + ", before the end of the points: " +
+      std::to_string(header.extendedRecordCount) + " records were lost.");
+    header.extendedRecordCount = 0;
+  }
+}
+} // namespace
+
+Result<LASFile> LASFile::open(const std::string& path)
+{
+  Result<MemoryMap> map = MemoryMap::open(path);
+  if (!map)
+  {
+    return map.error();
+  }
+  std::vector<std::string> warnings;
+  const ByteView bytes{ map->data(), map->size() };
+  Result<LASHeader> parsed = parseLASHeader(bytes, path, warnings);
+  if (!parsed)
+  {
+    return parsed.error();
+  }
+  LASHeader header = *parsed;
+  dropOverlappingRecords(header, bytes.size, warnings);
+  std::vector<LASRecord> records = readLASRecords(bytes, header, warnings);
+
+  std::vector<ByteView> descriptors;
+  for (const LASRecord& record : records)
+  {
+    if (record.is("LASF_Spec", lasExtraBytesRecord))
+    {
+      descriptors.push_back(record.payload);
+    }
+  }
+  const std::size_t extra = header.pointBytes - lasMinimumPointBytes(header.pointFormat);
+  const std::vector<Attribute> attributes = parseExtraBytes(descriptors, extra, warnings);
+  LASPointLayout layout = makeLASPointLayout(header.pointFormat, attributes);
+
+  SourceDescription description;
+  description.path = path;
+  description.format = std::string(header.compressed ? "LAZ " : "LAS ") + header.versionText() +
+    " format " + std::to_string(header.pointFormat);
+  description.pointCount = header.pointCount;
+  description.declaredBounds = header.bounds;
+  description.grid = header.grid;
+  description.schema = layout.schema;
+  description.crsWkt = wktOf(records);
+  description.metadata = metadataOf(header, records);
+  description.warnings = std::move(warnings);
+  return LASFile{ std::move(*map), header, std::move(records), std::move(layout),
+    std::move(description) };
+}
+
+} // namespace pointfront

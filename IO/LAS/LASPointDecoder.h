@@ -1,0 +1,21 @@
+#pragma once
+
+#include "LASPointLayout.h"
+
+#include "pointfront/Points/PointBatch.h"
+#include "pointfront/Points/QuantisationGrid.h"
+
+#include <cstddef>
+
+namespace pointfront
+{
+
+/// Turns `count` LAS records that lie one behind the other into positions [first, first + count)
+/// of `batch`, which is large enough and has the layout's columns.
+/// Speed    one strided pass for each column over some hundred records at a time, so that a
+///          record is read from memory once and from the nearest cache after that.
+/// Threads  pure.
+void decodeLASPoints(const LASPointLayout& layout, const QuantisationGrid& grid,
+  const std::byte* records, std::size_t count, PointBatch& batch, std::size_t first = 0);
+
+} // namespace pointfront

@@ -1,0 +1,92 @@
+#include "pointfront/Base/MemoryMap.h"
+
+#include <cerrno>
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <system_error>
+#include <unistd.h>
+#include <utility>
+
+namespace pointfront
+{
+namespace
+{
+Error systemError(const std::string& path, int code)
+{
+  const bool missing = code == ENOENT || code == ENOTDIR;
+  return makeError(missing ? Error::Kind::NotFound : Error::Kind::Unreadable,
+    path + ": " + std::generic_category().message(code));
+}
+
+/// Closes the descriptor on every way out; the mapping outlives it.
+struct Descriptor
+{
+  int number = -1;
+  ~Descriptor()
+  {
+    if (number >= 0)
+    {
+      ::close(number);
+    }
+  }
+};
+} // namespace
+
+Result<MemoryMap> MemoryMap::open(const std::string& path, Access access)
+{
+  // O_NONBLOCK: opening a named pipe must not wait for a writer; without effect on files.
+  const Descriptor file{ ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK) };
+  if (file.number < 0)
+  {
+    return systemError(path, errno);
+  }
+  struct stat status = {};
+  if (::fstat(file.number, &status) != 0)
+  {
+    return systemError(path, errno);
+  }
+  if (!S_ISREG(status.st_mode))
+  {
+    return makeError(Error::Kind::Unreadable, path + ": not a regular file");
+  }
+  MemoryMap map;
+  map.size_ = static_cast<std::size_t>(status.st_size);
+  if (map.size_ == 0)
+  {
+    return map;
+  }
+  void* address = ::mmap(nullptr, map.size_, PROT_READ, MAP_SHARED, file.number, 0);
+  if (address == MAP_FAILED)
+  {
+    map.size_ = 0;
+    return systemError(path, errno);
+  }
+  map.data_ = static_cast<const std::byte*>(address);
+  // Advice only: a system that does not take it reads correctly all the same.
+  ::madvise(address, map.size_, access == Access::Sequential ? MADV_SEQUENTIAL : MADV_RANDOM);
+  return map;
+}
+
+MemoryMap::MemoryMap(MemoryMap&& other) noexcept
+  : data_(std::exchange(other.data_, nullptr))
+  , size_(std::exchange(other.size_, 0))
+{
+}
+
+MemoryMap& MemoryMap::operator=(MemoryMap&& other) noexcept
+{
+  std::swap(data_, other.data_);
+  std::swap(size_, other.size_);
+  return *this;
+}
+
+MemoryMap::~MemoryMap()
+{
+  if (data_ != nullptr)
+  {
+    ::munmap(const_cast<std::byte*>(data_), size_);
+  }
+}
+
+} // namespace pointfront

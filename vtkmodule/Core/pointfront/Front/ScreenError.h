@@ -13,8 +13,17 @@ enum class Visibility
   Inside   ///< some part may be seen
 };
 
-/// FRONT-4: frustum test by bounding sphere: six plane distances.
+/// FRONT-4: frustum test by bounding sphere: six plane distances. Conservative: a sphere near an
+/// edge of the frustum may be called Inside, one that can be seen is never called Outside.
 Visibility sphereVisibility(const View& view, const glm::dvec3& centre, double radius);
+
+/// Distance from the eye to a sphere, world units, 0 when the eye is inside. Parallel views have
+/// no eye: there it is the depth along the line of sight.
+double distanceToSphere(const View& view, const glm::dvec3& centre, double radius);
+
+/// Pixels that `spacing` world units cover at `distance` (never nearer than the near plane).
+/// Always finite and not negative; 0 for a spacing that is not positive or not a number.
+double projectedSpacing(const View& view, double spacing, double distance);
 
 /// FRONT-4: the projected point spacing (PPS) of a node, in pixels: its spacing, projected at the
 /// point of its bounding sphere that is nearest to the eye (never nearer than the near plane).

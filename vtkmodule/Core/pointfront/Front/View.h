@@ -15,26 +15,32 @@ namespace pointfront
 /// Units  world units; pixels of the render target.
 struct View
 {
-  glm::dvec3 position{ 0.0 };  ///< of the eye; for a parallel view, a point on the near side
+  /// Of the eye. A parallel view has none: the middle of its near plane, nearDistance towards us.
+  glm::dvec3 position{ 0.0 };
   glm::dvec3 direction{ 0.0, 0.0, -1.0 }; ///< unit, away from the eye
   bool parallel = false;
-  /// perspective: pixels that one world unit covers at distance 1; parallel: at any distance
+  /// Pixels that one world unit covers, across the line of sight, along the axis of the screen that
+  /// shows it larger. Perspective: at depth 1; parallel: at any depth.
   double pixelsPerUnit = 1.0;
   double nearDistance = 0.1;   ///< along `direction`, > 0
   int width = 1;               ///< of the viewport, pixels
   int height = 1;
-  /// Left, right, bottom, top, near, far: (n, d) with n unit length and n.p + d >= 0 inside.
+  /// Left, right, bottom, top, near, far: (n, d) with n unit length and n.p + d >= 0 inside. A far
+  /// plane beyond what the matrix can resolve (far / near > 1e14) has d of the largest double.
   std::array<glm::dvec4, 6> planes{};
 
   /// From a world-to-clip matrix (column vectors, clip z in [-w, w], any off-axis frustum) and the
   /// viewport. Everything else is derived from it; `position` from the matrix' null space for a
-  /// perspective view.
+  /// perspective view. The matrix may contain a model matrix too: "world" is then the model's space.
   static View fromMatrix(const glm::dmat4& worldToClip, int width, int height);
 
-  /// A symmetric view for tools and tests; `verticalAngle` in radians.
+  /// A symmetric view for tools and tests; `verticalAngle` in radians, square pixels.
   static View perspective(const glm::dvec3& position, const glm::dvec3& focalPoint,
     const glm::dvec3& up, double verticalAngle, double nearDistance, double farDistance, int width,
     int height);
 };
+
+bool operator==(const View& a, const View& b);
+inline bool operator!=(const View& a, const View& b) { return !(a == b); }
 
 } // namespace pointfront

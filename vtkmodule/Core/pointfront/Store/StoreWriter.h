@@ -1,6 +1,7 @@
 #pragma once
 
 #include "pointfront/Base/Result.h"
+#include "pointfront/Store/GridBounds.h"
 #include "pointfront/Store/NodeReader.h"
 #include "pointfront/Store/PointStore.h"
 
@@ -25,11 +26,14 @@ struct EncodedNode
   std::vector<Block> columns; ///< one for each column of the schema
   GridPosition origin{ 0 };
   std::uint32_t pointCount = 0;
+  GridBounds bounds;               ///< of the points, not relative to the origin
+  std::vector<ColumnRange> ranges; ///< of the points, one for each column
 
   std::size_t bytes() const;
 };
 
-/// Compresses the columns of one node. `points.selection` must name every column of the schema.
+/// Compresses the columns of one node, which has at most 2^24 points. `points.selection` must name
+/// every column of the schema.
 /// Pure: the same points give the same bytes, on any thread.
 EncodedNode encodeNode(const NodeColumns& points, const AttributeSchema& schema);
 
@@ -51,9 +55,12 @@ public:
   /// Appends one node's payload; the id names it in commit().
   virtual Result<PayloadId> append(const EncodedNode& node) = 0;
 
-  /// `nodes` is the whole table, breadth first, children neighbours; payloads[i] belongs to
-  /// nodes[i]. `description` gives grid, crs, structure, refinement, schema, ranges, layers,
-  /// metadata; counts, bounds and sizes are computed here.
+  /// `nodes` is the whole table, breadth first, children neighbours, `roots` ascending;
+  /// payloads[i] belongs to nodes[i]. `description` gives grid, crs, structure, refinement,
+  /// schema, generator, metadata, and class and name of the layers; counts, bounds, ranges and
+  /// sizes are computed here from what was appended.
+  /// Errors  Unwritable; BadArgument when the table is not a hierarchy or does not match the
+  ///         payloads, with the node and the reason. The store is then not written.
   virtual Result<void> commit(const StoreDescription& description, const std::vector<Node>& nodes,
     const std::vector<NodeIndex>& roots, const std::vector<PayloadId>& payloads) = 0;
 

@@ -1,0 +1,143 @@
+#include "pointfront/Store/BlockDirectory.h"
+
+#include "pointfront/Store/ByteStream.h"
+
+#include <numeric>
+
+namespace pointfront
+{
+namespace
+{
+constexpr std::uint64_t nodeBytes = 3 * 8 + 8;
+constexpr std::uint64_t blockBytes = 4 + 4 + 1;
+
+template <typename T>
+void putArray(ByteWriter& out, const std::vector<T>& values)
+{
+  out.putBytes(values.data(), values.size() * sizeof(T));
+}
+
+template <typename T>
+void getArray(ByteReader& in, std::vector<T>& values, std::size_t count)
+{
+  values.resize(count);
+  in.getBytes(values.data(), count * sizeof(T));
+}
+
+bool inRange(const GridPosition& p)
+{
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    if (p[axis] < -maxGridPosition || p[axis] > maxGridPosition)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+} // namespace
+
+static_assert(sizeof(GridPosition) == 24, "origins are copied as they lie in memory");
+
+void BlockDirectory::addNode(const GridPosition& origin, std::uint64_t offset)
+{
+  origins_.push_back(origin);
+  offsets_.push_back(offset);
+}
+
+void BlockDirectory::addBlock(std::uint32_t bytes, std::uint32_t checksum, BlockCodec codec)
+{
+  sizes_.push_back(bytes);
+  checksums_.push_back(checksum);
+  codecs_.push_back(static_cast<std::uint8_t>(codec));
+}
+
+void BlockDirectory::addNode(const BlockDirectory& other, std::uint32_t node)
+{
+  addNode(other.origin(node), other.offset(node));
+  for (std::uint32_t b = 0; b < blocksPerNode_; ++b)
+  {
+    const Block from = other.block(node, b);
+    addBlock(from.bytes, from.checksum, from.codec);
+  }
+}
+
+std::uint64_t BlockDirectory::payloadBytes(std::uint32_t node) const
+{
+  const auto first = sizes_.begin() + static_cast<std::ptrdiff_t>(node) * blocksPerNode_;
+  return std::accumulate(first, first + blocksPerNode_, std::uint64_t(0));
+}
+
+BlockDirectory::Block BlockDirectory::block(std::uint32_t node, std::uint32_t block) const
+{
+  const std::size_t first = std::size_t(node) * blocksPerNode_;
+  Block result;
+  result.offset = offsets_[node];
+  for (std::size_t i = first; i < first + block; ++i)
+  {
+    result.offset += sizes_[i];
+  }
+  result.bytes = sizes_[first + block];
+  result.checksum = checksums_[first + block];
+  result.codec = static_cast<BlockCodec>(codecs_[first + block]);
+  return result;
+}
+
+std::vector<std::byte> BlockDirectory::encode() const
+{
+  ByteWriter out;
+  putArray(out, origins_);
+  putArray(out, offsets_);
+  putArray(out, sizes_);
+  putArray(out, checksums_);
+  putArray(out, codecs_);
+  return out.bytes();
+}
+
+std::uint64_t BlockDirectory::encodedBytes(std::uint64_t nodeCount, std::uint32_t blocksPerNode)
+{
+  return nodeCount * (nodeBytes + blockBytes * blocksPerNode);
+}
+
+BlockDirectory BlockDirectory::decode(
+  const std::byte* data, std::uint32_t nodeCount, std::uint32_t blocksPerNode)
+{
+  ByteReader in(data, static_cast<std::size_t>(encodedBytes(nodeCount, blocksPerNode)));
+  BlockDirectory directory(blocksPerNode);
+  const std::size_t blocks = std::size_t(nodeCount) * blocksPerNode;
+  getArray(in, directory.origins_, nodeCount);
+  getArray(in, directory.offsets_, nodeCount);
+  getArray(in, directory.sizes_, blocks);
+  getArray(in, directory.checksums_, blocks);
+  getArray(in, directory.codecs_, blocks);
+  return directory;
+}
+
+std::string BlockDirectory::fault(
+  std::uint64_t payloadBegin, std::uint64_t payloadEnd, bool& unknownCodec) const
+{
+  unknownCodec = false;
+  for (std::uint8_t codec : codecs_)
+  {
+    if (!knownBlockCodec(codec))
+    {
+      unknownCodec = true;
+      return "codec " + std::to_string(codec);
+    }
+  }
+  for (std::uint32_t node = 0; node < nodeCount(); ++node)
+  {
+    const std::uint64_t at = offsets_[node];
+    if (at < payloadBegin || at > payloadEnd || payloadBytes(node) > payloadEnd - at)
+    {
+      return "node " + std::to_string(node) + ": its payload lies outside the file";
+    }
+    if (!inRange(origins_[node]))
+    {
+      return "node " + std::to_string(node) + ": its origin is out of range";
+    }
+  }
+  return {};
+}
+
+} // namespace pointfront

@@ -1,0 +1,70 @@
+#pragma once
+
+#include "pointfront/Points/QuantisationGrid.h"
+#include "pointfront/Store/BlockCodec.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace pointfront
+{
+
+/// Where every block of every node lies. A node has 1 + columns blocks, one after another in the
+/// file: block 0 holds the positions, block 1 + c column c.
+/// Threads  const functions are safe from any thread.
+class BlockDirectory
+{
+public:
+  struct Block
+  {
+    std::uint64_t offset = 0; ///< in the file
+    std::uint32_t bytes = 0;
+    std::uint32_t checksum = 0;
+    BlockCodec codec = BlockCodec::Raw;
+  };
+
+  explicit BlockDirectory(std::uint32_t blocksPerNode)
+    : blocksPerNode_(blocksPerNode)
+  {
+  }
+
+  /// Appends a node whose payload begins at `offset`; its blocks follow by addBlock().
+  void addNode(const GridPosition& origin, std::uint64_t offset);
+  void addBlock(std::uint32_t bytes, std::uint32_t checksum, BlockCodec codec);
+  /// Appends a node of another directory.
+  void addNode(const BlockDirectory& other, std::uint32_t node);
+
+  std::uint32_t nodeCount() const { return static_cast<std::uint32_t>(offsets_.size()); }
+  std::uint32_t blocksPerNode() const { return blocksPerNode_; }
+  const GridPosition& origin(std::uint32_t node) const { return origins_[node]; }
+  /// Where the node's payload begins in the file, and how long it is.
+  std::uint64_t offset(std::uint32_t node) const { return offsets_[node]; }
+  std::uint64_t payloadBytes(std::uint32_t node) const;
+  Block block(std::uint32_t node, std::uint32_t block) const;
+
+  /// The section's bytes: origins, offsets, sizes, checksums, codecs, each as one array.
+  std::vector<std::byte> encode() const;
+  static std::uint64_t encodedBytes(std::uint64_t nodeCount, std::uint32_t blocksPerNode);
+  static BlockDirectory decode(
+    const std::byte* data, std::uint32_t nodeCount, std::uint32_t blocksPerNode);
+
+  /// What is wrong, or an empty text: every payload lies in [payloadBegin, payloadEnd), no origin
+  /// is out of range. `unknownCodec` is set when the fault is a codec that this program lacks.
+  std::string fault(
+    std::uint64_t payloadBegin, std::uint64_t payloadEnd, bool& unknownCodec) const;
+
+private:
+  std::uint32_t blocksPerNode_;
+  std::vector<GridPosition> origins_;
+  std::vector<std::uint64_t> offsets_;
+  std::vector<std::uint32_t> sizes_;     // node * blocksPerNode + block
+  std::vector<std::uint32_t> checksums_; // likewise
+  std::vector<std::uint8_t> codecs_;     // likewise
+};
+
+/// Grid positions beyond this (2^51 steps) would not survive double coordinates.
+constexpr std::int64_t maxGridPosition = std::int64_t(1) << 51;
+
+} // namespace pointfront

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace pointfront
+{
+
+/// The store's checksum: the low 32 bits of XXH3-64 with seed 0. Same on every machine.
+/// Finds accidents (a flipped bit, a lost page), not forgeries: decoders stay safe without it.
+std::uint32_t checksumOf(const std::byte* data, std::size_t size);
+
+} // namespace pointfront

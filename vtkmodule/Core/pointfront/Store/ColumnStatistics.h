@@ -1,0 +1,24 @@
+#pragma once
+
+#include "pointfront/Points/AttributeSchema.h"
+#include "pointfront/Store/BlockCodec.h"
+#include "pointfront/Store/PointStore.h"
+
+#include <cstddef>
+
+namespace pointfront
+{
+
+/// Three 32-bit integers a point.
+BlockShape positionShape(std::size_t points);
+BlockShape columnShape(const Attribute& attribute, std::size_t points);
+
+/// The range of no values: low is +infinity, high -infinity.
+ColumnRange emptyRange(const Attribute& attribute);
+/// Smallest and largest value of each component of `points` values; NaN is left out.
+ColumnRange rangeOf(const std::byte* values, const Attribute& attribute, std::size_t points);
+void addRange(ColumnRange& range, const ColumnRange& other);
+/// True when `inner` adds nothing to `outer`.
+bool encloses(const ColumnRange& outer, const ColumnRange& inner);
+
+} // namespace pointfront

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "pointfront/Base/Result.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+namespace pointfront
+{
+
+/// A file that is read at given places.
+/// Threads  readAt() from any thread: there is no shared cursor.
+/// Errors   NotFound, Unreadable; Truncated when the file ends before what was asked for.
+class InputFile
+{
+public:
+  static Result<std::unique_ptr<const InputFile>> open(const std::string& path);
+  ~InputFile();
+  InputFile(const InputFile&) = delete;
+  InputFile& operator=(const InputFile&) = delete;
+
+  const std::string& path() const { return path_; }
+  std::uint64_t bytes() const { return bytes_; } ///< when it was opened
+  Result<void> readAt(std::uint64_t offset, std::byte* target, std::size_t size) const;
+
+private:
+  InputFile(std::string path, int descriptor, std::uint64_t bytes);
+  std::string path_;
+  int descriptor_;
+  std::uint64_t bytes_;
+};
+
+} // namespace pointfront

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "pointfront/Base/Result.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+namespace pointfront
+{
+
+/// A file that is whole or absent: written under another name, given its own name at the end.
+/// Virtual, so that tests can have a disk that is full.
+/// Threads  one thread.
+/// Errors   Unwritable, with the bytes that were missing when the disk is full.
+class OutputFile
+{
+public:
+  /// Creates `path` + ".tmp" in the same folder and locks it. A left-over of a process that died
+  /// is overwritten (its lock died with it); that of a living one is an Error. File systems
+  /// without locks (some network shares) are used without that protection.
+  static Result<std::unique_ptr<OutputFile>> create(const std::string& path);
+
+  /// Without publish() before: removes what was written.
+  virtual ~OutputFile() = default;
+
+  virtual const std::string& path() const = 0;
+  virtual Result<void> append(const std::byte* data, std::size_t size) = 0;
+  /// Overwrites bytes that were appended before.
+  virtual Result<void> overwrite(std::uint64_t offset, const std::byte* data, std::size_t size) = 0;
+  /// Makes everything durable, renames to path() and makes the name durable. Nothing may follow.
+  virtual Result<void> publish() = 0;
+};
+
+} // namespace pointfront

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "pointfront/Store/OutputFile.h"
+#include "pointfront/Store/StoreWriter.h"
+
+#include <memory>
+
+namespace pointfront
+{
+
+/// A StoreWriter on a file of the caller's choice: StoreWriter::create() opens a real one, tests
+/// give one that fails.
+Result<std::unique_ptr<StoreWriter>> assembleStore(
+  std::unique_ptr<OutputFile> file, const AttributeSchema& schema);
+
+} // namespace pointfront

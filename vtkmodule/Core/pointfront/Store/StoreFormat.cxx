@@ -1,0 +1,213 @@
+#include "pointfront/Store/StoreFormat.h"
+
+#include "pointfront/Store/ByteStream.h"
+#include "pointfront/Store/Checksum.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace pointfront
+{
+namespace
+{
+constexpr std::size_t headerChecksumAt = storeHeaderBytes - 4;
+constexpr std::size_t footerFixedBytes = 24;
+constexpr std::size_t sectionEntryBytes = 24;
+constexpr std::uint32_t maxSections = 64;
+
+bool hasMagic(const std::byte* data)
+{
+  return std::memcmp(data, storeMagic.data(), storeMagic.size()) == 0;
+}
+
+std::string withName(SectionKind kind)
+{
+  switch (kind)
+  {
+    case SectionKind::Description:
+      return "description";
+    case SectionKind::NodeTable:
+      return "node table";
+    default:
+      return "block directory";
+  }
+}
+
+/// Text that is empty when the sections are where they may be, else what is wrong.
+std::string sectionFault(const StoreFooter& footer, const StoreHeader& header)
+{
+  for (const SectionEntry& section : footer.sections)
+  {
+    const bool inside = section.offset >= storeHeaderBytes &&
+      section.offset <= header.footerOffset &&
+      section.bytes <= header.footerOffset - section.offset;
+    if (!inside)
+    {
+      return "a section lies outside the file";
+    }
+  }
+  for (SectionKind kind :
+    { SectionKind::Description, SectionKind::NodeTable, SectionKind::BlockDirectory })
+  {
+    if (footer.find(kind) == nullptr)
+    {
+      return "the " + withName(kind) + " is missing";
+    }
+  }
+  return {};
+}
+} // namespace
+
+const SectionEntry* StoreFooter::find(SectionKind kind) const
+{
+  const auto found = std::find_if(sections.begin(), sections.end(),
+    [kind](const SectionEntry& section) { return section.kind == kind; });
+  return found == sections.end() ? nullptr : &*found;
+}
+
+Error corruptStore(const std::string& path, std::uint64_t offset, const std::string& what)
+{
+  return makeError(Error::Kind::Corrupt,
+    "'" + path + "' is damaged: " + what + " (byte " + std::to_string(offset) +
+      "); copy the file again or build the store again");
+}
+
+std::vector<std::byte> encodeHeader(const StoreHeader& header)
+{
+  ByteWriter out;
+  out.putBytes(storeMagic.data(), storeMagic.size());
+  out.put(header.version);
+  out.put(header.requiredFeatures);
+  out.put(header.fileBytes);
+  out.put(header.footerOffset);
+  out.put(header.footerBytes);
+  while (out.size() < headerChecksumAt)
+  {
+    out.put(std::uint8_t(0));
+  }
+  out.put(checksumOf(out.bytes().data(), out.size()));
+  assert(out.size() == storeHeaderBytes);
+  return out.bytes();
+}
+
+std::vector<std::byte> encodeFooter(const StoreFooter& footer)
+{
+  ByteWriter out;
+  out.put(footer.pointCount);
+  out.put(footer.nodeCount);
+  out.put(footer.columnCount);
+  out.put(static_cast<std::uint32_t>(footer.sections.size()));
+  out.put(std::uint32_t(0));
+  for (const SectionEntry& section : footer.sections)
+  {
+    out.put(static_cast<std::uint32_t>(section.kind));
+    out.put(section.checksum);
+    out.put(section.offset);
+    out.put(section.bytes);
+  }
+  out.put(checksumOf(out.bytes().data(), out.size()));
+  return out.bytes();
+}
+
+Result<StoreHeader> decodeHeader(
+  const std::byte* data, std::size_t size, std::uint64_t fileBytes, const std::string& path)
+{
+  if (size >= storeMagic.size() && !hasMagic(data))
+  {
+    return makeError(Error::Kind::BadFormat,
+      "'" + path + "' is not a PointFront store; stores are made with: pointfront build");
+  }
+  if (size < storeHeaderBytes)
+  {
+    return makeError(Error::Kind::Truncated,
+      "'" + path + "' has " + std::to_string(size) + " bytes, less than a store's header of " +
+        std::to_string(storeHeaderBytes) + "; copy the file again or build the store again");
+  }
+  ByteReader in(data + storeMagic.size(), storeHeaderBytes - storeMagic.size());
+  StoreHeader header;
+  header.version = in.get<std::uint32_t>();
+  header.requiredFeatures = in.get<std::uint32_t>();
+  header.fileBytes = in.get<std::uint64_t>();
+  header.footerOffset = in.get<std::uint64_t>();
+  header.footerBytes = in.get<std::uint32_t>();
+  ByteReader end(data + headerChecksumAt, 4);
+  if (end.get<std::uint32_t>() != checksumOf(data, headerChecksumAt))
+  {
+    return corruptStore(path, 0, "the header's checksum does not match");
+  }
+  if (header.version == 0 || header.version > storeVersion)
+  {
+    return makeError(Error::Kind::Unsupported,
+      "'" + path + "' is a store of version " + std::to_string(header.version) +
+        ", this program reads up to version " + std::to_string(storeVersion) +
+        "; update PointFront");
+  }
+  if (header.requiredFeatures != 0)
+  {
+    return makeError(Error::Kind::Unsupported,
+      "'" + path + "' uses features that this program does not know (flags " +
+        std::to_string(header.requiredFeatures) + "); update PointFront");
+  }
+  if (fileBytes < header.fileBytes)
+  {
+    return makeError(Error::Kind::Truncated,
+      "'" + path + "' has " + std::to_string(fileBytes) + " bytes of " +
+        std::to_string(header.fileBytes) + "; copy the file again or build the store again");
+  }
+  if (fileBytes > header.fileBytes)
+  {
+    return corruptStore(path, header.fileBytes,
+      std::to_string(fileBytes - header.fileBytes) + " bytes follow the store's end");
+  }
+  if (header.footerOffset < storeHeaderBytes || header.footerOffset > header.fileBytes ||
+    header.fileBytes - header.footerOffset != header.footerBytes ||
+    header.footerBytes < footerFixedBytes + 4 ||
+    header.footerBytes > footerFixedBytes + maxSections * sectionEntryBytes + 4)
+  {
+    return corruptStore(path, 24, "the footer does not lie at the end of the file");
+  }
+  return header;
+}
+
+Result<StoreFooter> decodeFooter(
+  const std::byte* data, const StoreHeader& header, const std::string& path)
+{
+  const std::size_t size = header.footerBytes;
+  ByteReader end(data + size - 4, 4);
+  if (end.get<std::uint32_t>() != checksumOf(data, size - 4))
+  {
+    return corruptStore(path, header.footerOffset, "the footer's checksum does not match");
+  }
+  ByteReader in(data, size - 4);
+  StoreFooter footer;
+  footer.pointCount = in.get<std::uint64_t>();
+  footer.nodeCount = in.get<std::uint32_t>();
+  footer.columnCount = in.get<std::uint32_t>();
+  const auto sections = in.get<std::uint32_t>();
+  in.get<std::uint32_t>(); // reserved
+  if (sections * std::uint64_t(sectionEntryBytes) != in.remaining())
+  {
+    return corruptStore(path, header.footerOffset, "the footer's size is wrong");
+  }
+  for (std::uint32_t i = 0; i < sections; ++i)
+  {
+    SectionEntry entry;
+    entry.kind = static_cast<SectionKind>(in.get<std::uint32_t>());
+    entry.checksum = in.get<std::uint32_t>();
+    entry.offset = in.get<std::uint64_t>();
+    entry.bytes = in.get<std::uint64_t>();
+    footer.sections.push_back(entry);
+  }
+  const std::string fault = sectionFault(footer, header);
+  if (!fault.empty())
+  {
+    return corruptStore(path, header.footerOffset, fault);
+  }
+  if (footer.columnCount > maxColumns)
+  {
+    return corruptStore(path, header.footerOffset, "the footer's column count is too large");
+  }
+  return footer;
+}
+
+} // namespace pointfront

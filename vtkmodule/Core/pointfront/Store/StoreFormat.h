@@ -1,0 +1,78 @@
+#pragma once
+
+#include "pointfront/Base/Result.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pointfront
+{
+
+// The frame of a store file: header, payload, sections, footer. docs/formats/pfront.md has every
+// byte; what stands here must agree with it.
+
+constexpr std::uint32_t storeVersion = 1; ///< written by this program, and the newest it reads
+constexpr std::size_t storeHeaderBytes = 64;
+constexpr std::array<unsigned char, 8> storeMagic{ 0x89, 'P', 'F', 'R', 'O', 'N', 'T', 0x0a };
+
+/// More points than a sane node has; a table that claims more is refused before memory is taken.
+constexpr std::uint32_t maxNodePoints = 1u << 24;
+/// Columns of a schema, a limit of the format.
+constexpr std::uint32_t maxColumns = 4096;
+
+enum class SectionKind : std::uint32_t
+{
+  Description = 1,
+  NodeTable = 2,
+  BlockDirectory = 3
+};
+
+/// Where a section lies and what it must hash to.
+struct SectionEntry
+{
+  SectionKind kind = SectionKind::Description;
+  std::uint32_t checksum = 0;
+  std::uint64_t offset = 0;
+  std::uint64_t bytes = 0;
+};
+
+/// The first 64 bytes. Their layout is the same in all versions for ever, so that any program can
+/// tell a newer store from a damaged one.
+struct StoreHeader
+{
+  std::uint32_t version = storeVersion;
+  std::uint32_t requiredFeatures = 0; ///< bits a reader must know; version 1 defines none
+  std::uint64_t fileBytes = 0;
+  std::uint64_t footerOffset = 0;
+  std::uint32_t footerBytes = 0;
+};
+
+/// The last bytes of the file.
+struct StoreFooter
+{
+  std::uint64_t pointCount = 0;
+  std::uint32_t nodeCount = 0;
+  std::uint32_t columnCount = 0;
+  std::vector<SectionEntry> sections;
+
+  const SectionEntry* find(SectionKind kind) const;
+};
+
+std::vector<std::byte> encodeHeader(const StoreHeader& header);
+std::vector<std::byte> encodeFooter(const StoreFooter& footer);
+
+/// `path` is for messages only. Errors: Truncated, BadFormat (not a store), Corrupt, Unsupported.
+Result<StoreHeader> decodeHeader(
+  const std::byte* data, std::size_t size, std::uint64_t fileBytes, const std::string& path);
+/// Also checks that the sections that version 1 needs are there and lie between header and footer.
+Result<StoreFooter> decodeFooter(
+  const std::byte* data, const StoreHeader& header, const std::string& path);
+
+/// "'x.pfront' is damaged: <what> (byte <offset>); <advice>".
+Error corruptStore(const std::string& path, std::uint64_t offset, const std::string& what);
+
+} // namespace pointfront

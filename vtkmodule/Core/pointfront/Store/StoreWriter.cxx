@@ -1,0 +1,262 @@
+#include "pointfront/Store/StoreWriter.h"
+
+#include "pointfront/Store/BlockDirectory.h"
+#include "pointfront/Store/Checksum.h"
+#include "pointfront/Store/ColumnStatistics.h"
+#include "pointfront/Store/DescriptionSection.h"
+#include "pointfront/Store/NodeTableSection.h"
+#include "pointfront/Store/StoreAssembly.h"
+#include "pointfront/Store/StoreFormat.h"
+
+#include <cassert>
+
+namespace pointfront
+{
+namespace
+{
+/// One write a few nodes: fewer calls, and the disk gets long runs.
+constexpr std::size_t writeBufferBytes = std::size_t(4) << 20;
+
+Error wrongTable(const std::string& path, const std::string& why)
+{
+  return makeError(
+    Error::Kind::BadArgument, "the node table of '" + path + "' is not sound: " + why);
+}
+
+class FileStoreWriter final : public StoreWriter
+{
+public:
+  FileStoreWriter(std::unique_ptr<OutputFile> file, const AttributeSchema& schema)
+    : file_(std::move(file))
+    , schema_(schema)
+    , payloads_(static_cast<std::uint32_t>(1 + schema.size()))
+  {
+    buffer_.reserve(writeBufferBytes);
+    for (const Attribute& attribute : schema)
+    {
+      ranges_.push_back(emptyRange(attribute));
+    }
+  }
+
+  /// The header's place; its bytes come last, so an unfinished file never looks like a store.
+  Result<void> begin() { return put(std::vector<std::byte>(storeHeaderBytes)); }
+
+  Result<PayloadId> append(const EncodedNode& node) override;
+  Result<void> commit(const StoreDescription& description, const std::vector<Node>& nodes,
+    const std::vector<NodeIndex>& roots, const std::vector<PayloadId>& payloads) override;
+  std::uint64_t bytesWritten() const override { return end_; }
+
+private:
+  Result<void> put(const std::vector<std::byte>& bytes);
+  Result<void> flush();
+  Result<void> putBlock(const EncodedNode::Block& block);
+  Result<void> putSection(
+    SectionKind kind, const std::vector<std::byte>& bytes, StoreFooter& footer);
+  Result<void> finish(const StoreFooter& footer);
+  std::string payloadFault(
+    const std::vector<Node>& nodes, const std::vector<PayloadId>& payloads) const;
+
+  std::unique_ptr<OutputFile> file_;
+  AttributeSchema schema_;
+  BlockDirectory payloads_; // by PayloadId
+  std::vector<std::uint32_t> pointCounts_; // likewise
+  std::uint64_t pointCount_ = 0;
+  GridBounds bounds_;
+  std::vector<ColumnRange> ranges_;
+  std::vector<std::byte> buffer_;
+  std::uint64_t end_ = 0;
+};
+
+Result<void> FileStoreWriter::put(const std::vector<std::byte>& bytes)
+{
+  if (buffer_.size() + bytes.size() > writeBufferBytes)
+  {
+    if (Result<void> done = flush(); !done)
+    {
+      return done;
+    }
+  }
+  end_ += bytes.size();
+  if (bytes.size() > writeBufferBytes)
+  {
+    return file_->append(bytes.data(), bytes.size());
+  }
+  buffer_.insert(buffer_.end(), bytes.begin(), bytes.end());
+  return {};
+}
+
+Result<void> FileStoreWriter::flush()
+{
+  Result<void> done = file_->append(buffer_.data(), buffer_.size());
+  buffer_.clear();
+  return done;
+}
+
+Result<void> FileStoreWriter::putBlock(const EncodedNode::Block& block)
+{
+  payloads_.addBlock(static_cast<std::uint32_t>(block.bytes.size()), block.checksum,
+    static_cast<BlockCodec>(block.codec));
+  return put(block.bytes);
+}
+
+Result<StoreWriter::PayloadId> FileStoreWriter::append(const EncodedNode& node)
+{
+  assert(node.columns.size() == schema_.size());
+  if (node.pointCount > maxNodePoints)
+  {
+    return makeError(Error::Kind::BadArgument,
+      "a node of " + std::to_string(node.pointCount) + " points is too large for '" +
+        file_->path() + "'; use smaller nodes");
+  }
+  const auto id = static_cast<PayloadId>(pointCounts_.size());
+  payloads_.addNode(node.origin, end_);
+  if (Result<void> done = putBlock(node.positions); !done)
+  {
+    return done.error();
+  }
+  for (std::size_t c = 0; c < node.columns.size(); ++c)
+  {
+    if (Result<void> done = putBlock(node.columns[c]); !done)
+    {
+      return done.error();
+    }
+    addRange(ranges_[c], node.ranges[c]);
+  }
+  pointCounts_.push_back(node.pointCount);
+  pointCount_ += node.pointCount;
+  bounds_.add(node.bounds);
+  return id;
+}
+
+std::string FileStoreWriter::payloadFault(
+  const std::vector<Node>& nodes, const std::vector<PayloadId>& payloads) const
+{
+  if (nodes.size() != payloads.size() || nodes.size() != pointCounts_.size())
+  {
+    return std::to_string(nodes.size()) + " nodes, " + std::to_string(payloads.size()) +
+      " payloads named, " + std::to_string(pointCounts_.size()) + " appended";
+  }
+  std::vector<bool> used(payloads.size(), false);
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+  {
+    const PayloadId id = payloads[i];
+    if (id >= used.size() || used[id])
+    {
+      return "node " + std::to_string(i) + ": its payload does not exist or is another node's";
+    }
+    used[id] = true;
+    if (pointCounts_[id] != nodes[i].pointCount)
+    {
+      return "node " + std::to_string(i) + " has " + std::to_string(nodes[i].pointCount) +
+        " points, its payload " + std::to_string(pointCounts_[id]);
+    }
+  }
+  return {};
+}
+
+Result<void> FileStoreWriter::commit(const StoreDescription& description,
+  const std::vector<Node>& nodes, const std::vector<NodeIndex>& roots,
+  const std::vector<PayloadId>& payloads)
+{
+  assert(description.schema == schema_);
+  std::string fault = payloadFault(nodes, payloads);
+  if (fault.empty())
+  {
+    fault = nodeTableFault(nodes, description.layers.size(), pointCount_);
+  }
+  if (fault.empty() && roots != rootsOf(nodes))
+  {
+    fault = "the list of roots is not that of the nodes without a parent, ascending";
+  }
+  if (!fault.empty())
+  {
+    return wrongTable(file_->path(), fault);
+  }
+  BlockDirectory directory(payloads_.blocksPerNode());
+  for (const PayloadId id : payloads)
+  {
+    directory.addNode(payloads_, id);
+  }
+  bool unknownCodec = false;
+  fault = directory.fault(storeHeaderBytes, end_, unknownCodec);
+  if (!fault.empty())
+  {
+    return wrongTable(file_->path(), fault);
+  }
+  StoredDescription stored{ description, bounds_ };
+  stored.description.schema = schema_;
+  stored.description.ranges = ranges_;
+
+  StoreFooter footer;
+  footer.pointCount = pointCount_;
+  footer.nodeCount = static_cast<std::uint32_t>(nodes.size());
+  footer.columnCount = static_cast<std::uint32_t>(schema_.size());
+  Result<void> done = putSection(SectionKind::NodeTable, encodeNodeTable(nodes), footer);
+  if (done)
+  {
+    done = putSection(SectionKind::BlockDirectory, directory.encode(), footer);
+  }
+  if (done)
+  {
+    done = putSection(SectionKind::Description, encodeDescription(stored), footer);
+  }
+  return done ? finish(footer) : done;
+}
+
+Result<void> FileStoreWriter::putSection(
+  SectionKind kind, const std::vector<std::byte>& bytes, StoreFooter& footer)
+{
+  footer.sections.push_back({ kind, checksumOf(bytes.data(), bytes.size()), end_, bytes.size() });
+  return put(bytes);
+}
+
+Result<void> FileStoreWriter::finish(const StoreFooter& footer)
+{
+  const std::vector<std::byte> footerBytes = encodeFooter(footer);
+  StoreHeader header;
+  header.footerOffset = end_;
+  header.footerBytes = static_cast<std::uint32_t>(footerBytes.size());
+  header.fileBytes = end_ + footerBytes.size();
+  Result<void> done = put(footerBytes);
+  if (done)
+  {
+    done = flush();
+  }
+  if (done)
+  {
+    const std::vector<std::byte> headerBytes = encodeHeader(header);
+    done = file_->overwrite(0, headerBytes.data(), headerBytes.size());
+  }
+  return done ? file_->publish() : done;
+}
+} // namespace
+
+Result<std::unique_ptr<StoreWriter>> assembleStore(
+  std::unique_ptr<OutputFile> file, const AttributeSchema& schema)
+{
+  if (schema.size() > maxColumns)
+  {
+    return makeError(Error::Kind::BadArgument,
+      "a store has at most " + std::to_string(maxColumns) + " attributes, not " +
+        std::to_string(schema.size()) + "; name the ones to store");
+  }
+  auto writer = std::make_unique<FileStoreWriter>(std::move(file), schema);
+  if (Result<void> done = writer->begin(); !done)
+  {
+    return done.error();
+  }
+  return std::unique_ptr<StoreWriter>(std::move(writer));
+}
+
+Result<std::unique_ptr<StoreWriter>> StoreWriter::create(
+  const std::string& path, const AttributeSchema& schema)
+{
+  Result<std::unique_ptr<OutputFile>> file = OutputFile::create(path);
+  if (!file)
+  {
+    return file.error();
+  }
+  return assembleStore(std::move(*file), schema);
+}
+
+} // namespace pointfront

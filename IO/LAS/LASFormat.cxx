@@ -26,7 +26,8 @@ Result<std::unique_ptr<PointSource>> LASFormat::open(const std::string& path) co
   }
   if (file->header.compressed)
   {
-    return makeError(Error::Kind::Unsupported, path + ": LAZ points are not supported by this build");
+    return makeError(
+      Error::Kind::Unsupported, path + ": LAZ points are not supported by this build");
   }
   return LASSource::open(std::move(*file));
 }

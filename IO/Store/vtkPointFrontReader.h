@@ -1,13 +1,16 @@
 /**
  * @class vtkPointFrontReader
- * @brief opens a `.pfront` store: an overview as vtkPolyData, and the store's name for vtkPointFrontMapper
+ * @brief opens a `.pfront` store: an overview as vtkPolyData, and the store's name for
+ * vtkPointFrontMapper
  *
- * The output holds an overview (the hierarchy's first nodes, at most OverviewPoints points, double coordinates, one vertex cell,
- * the chosen attributes as point data), so every VTK filter works at once, and names the store in its field data (see vtkPointFrontStore), so that vtkPointFrontMapper
+ * The output holds an overview (the hierarchy's first nodes, at most OverviewPoints points, double
+ * coordinates, one vertex cell, the chosen attributes as point data), so every VTK filter works at
+ * once, and names the store in its field data (see vtkPointFrontStore), so that vtkPointFrontMapper
  * draws the whole cloud from it.
  *
- * RequestInformation gives the bounds and array names of the whole cloud without reading points. Pieces: the overview is cut by nodes.
- * Errors (ErrorCode, vtkErrorMacro): no file name, a missing, truncated or corrupt file, a newer version.
+ * RequestInformation gives the bounds and array names of the whole cloud without reading points.
+ * Pieces: the overview is cut by nodes. Errors (ErrorCode, vtkErrorMacro): no file name, a missing,
+ * truncated or corrupt file, a newer version.
  */
 #ifndef vtkPointFrontReader_h
 #define vtkPointFrontReader_h
@@ -46,7 +49,8 @@ public:
 
   ///@{
   /**
-   * Which attributes the overview carries. All by default. (The mapper draws any attribute of the store, whatever is chosen here.)
+   * Which attributes the overview carries. All by default. (The mapper draws any attribute of the
+   * store, whatever is chosen here.)
    */
   vtkDataArraySelection* GetPointDataArraySelection();
   int GetNumberOfPointArrays();

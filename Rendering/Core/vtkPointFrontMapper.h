@@ -1,17 +1,20 @@
 /**
  * @class vtkPointFrontMapper
- * @brief draws a point store that may be larger than memory, at an error and inside budgets that the user chooses
+ * @brief draws a point store that may be larger than memory, at an error and inside budgets that
+ * the user chooses
  *
- * Connect it to a vtkPointFrontReader (or to anything that keeps the reader's field data) and give it to a
- * vtkActor. On every render it moves the store's rendering front (Richter & Doellner 2010, section 3.2.1)
- * towards the view, asks for the nodes that are missing and draws what is there: a frame never waits for the disk unless Complete is on.
- * When new nodes arrive it invokes vtkCommand::UpdateDataEvent (from the main thread, see RenderWhenDataArrives()).
+ * Connect it to a vtkPointFrontReader (or to anything that keeps the reader's field data) and give
+ * it to a vtkActor. On every render it moves the store's rendering front (Richter & Doellner 2010,
+ * section 3.2.1) towards the view, asks for the nodes that are missing and draws what is there: a
+ * frame never waits for the disk unless Complete is on. When new nodes arrive it invokes
+ * vtkCommand::UpdateDataEvent (from the main thread, see RenderWhenDataArrives()).
  *
  * The OpenGL side comes by VTK's object factory from PointFront::RenderingOpenGL2.
  *
- * Colour: as any vtkMapper. ScalarVisibility, ScalarMode, SelectColorArray/ArrayName, ArrayComponent, ColorMode, LookupTable and
- * ScalarRange choose it; arrays are named as the store's attributes are ("rgb", "intensity", "classification", "elevation" ...).
- * With ColorMode default, "rgb" is drawn as it is; every other attribute goes through the lookup table.
+ * Colour: as any vtkMapper. ScalarVisibility, ScalarMode, SelectColorArray/ArrayName,
+ * ArrayComponent, ColorMode, LookupTable and ScalarRange choose it; arrays are named as the store's
+ * attributes are ("rgb", "intensity", "classification", "elevation" ...). With ColorMode default,
+ * "rgb" is drawn as it is; every other attribute goes through the lookup table.
  */
 #ifndef vtkPointFrontMapper_h
 #define vtkPointFrontMapper_h
@@ -33,7 +36,8 @@ public:
 
   ///@{
   /**
-   * The projected point spacing that a still view refines to, in pixels. Default 1, clamped to [0.01, 1000].
+   * The projected point spacing that a still view refines to, in pixels. Default 1, clamped to
+   * [0.01, 1000].
    */
   vtkSetClampMacro(TargetError, double, 0.01, 1000.0);
   vtkGetMacro(TargetError, double);
@@ -41,7 +45,8 @@ public:
 
   ///@{
   /**
-   * Most points drawn at a time (they are in GPU memory). Default 5,000,000; 0: no limit but memory.
+   * Most points drawn at a time (they are in GPU memory). Default 5,000,000; 0: no limit but
+   * memory.
    */
   vtkSetClampMacro(PointBudget, vtkIdType, 0, VTK_ID_MAX);
   vtkGetMacro(PointBudget, vtkIdType);
@@ -57,8 +62,9 @@ public:
 
   ///@{
   /**
-   * On: a still render (desired update rate below 0.01... as VTK and ParaView set it) loads and draws everything that
-   * TargetError and the budgets allow before it returns: screenshots, batch. The image is then deterministic. Default off.
+   * On: a still render (desired update rate below 0.01... as VTK and ParaView set it) loads and
+   * draws everything that TargetError and the budgets allow before it returns: screenshots, batch.
+   * The image is then deterministic. Default off.
    */
   vtkSetMacro(Complete, bool);
   vtkGetMacro(Complete, bool);
@@ -67,8 +73,8 @@ public:
 
   ///@{
   /**
-   * Milliseconds that a frame should take while the user interacts. 0 (default): the time that VTK allots
-   * (vtkProp::GetAllocatedRenderTime, from the window's DesiredUpdateRate).
+   * Milliseconds that a frame should take while the user interacts. 0 (default): the time that VTK
+   * allots (vtkProp::GetAllocatedRenderTime, from the window's DesiredUpdateRate).
    */
   vtkSetClampMacro(TargetFrameTime, double, 0.0, 10000.0);
   vtkGetMacro(TargetFrameTime, double);
@@ -84,8 +90,9 @@ public:
 
   ///@{
   /**
-   * For distributed rendering: this mapper draws piece `StorePiece` of `NumberOfStorePieces` of the store (whole subtrees; the pieces
-   * together draw each point once) and loads only that. Default 0 of 1.
+   * For distributed rendering: this mapper draws piece `StorePiece` of `NumberOfStorePieces` of the
+   * store (whole subtrees; the pieces together draw each point once) and loads only that. Default 0
+   * of 1.
    */
   vtkSetMacro(StorePiece, int);
   vtkGetMacro(StorePiece, int);
@@ -93,7 +100,8 @@ public:
   vtkGetMacro(NumberOfStorePieces, int);
   ///@}
 
-  /// The store being drawn: named by the input's field data. Null until the input is there or if it cannot be opened.
+  /// The store being drawn: named by the input's field data. Null until the input is there or if it
+  /// cannot be opened.
   vtkPointFrontStore* GetStore();
 
   /// Of the last frame. Error in pixels; Threshold is what the front worked with.
@@ -107,12 +115,14 @@ public:
   vtkGetMacro(LastThreshold, double);
   vtkGetMacro(LastFrontTime, double);  ///< milliseconds of the front's update
   vtkGetMacro(LastGPUBytes, vtkTypeInt64);
-  /// True when the last frame showed all that TargetError and the budgets allow: no further render will change the picture.
+  /// True when the last frame showed all that TargetError and the budgets allow: no further render
+  /// will change the picture.
   vtkGetMacro(LastComplete, bool);
   ///@}
 
   /**
-   * True if nodes arrived since the last render, or the last render left work over: render again. Cheap, non blocking; for timers and render loops.
+   * True if nodes arrived since the last render, or the last render left work over: render again.
+   * Cheap, non blocking; for timers and render loops.
    */
   virtual bool NeedsRender();
 

@@ -3,12 +3,13 @@
  * @brief an open point store, shared by every reader and mapper of this process that names it
  *
  * A store is opened once per process and file: Open() gives the same object for the same file until
- * the last reference is gone. It owns the store's residency (decoded nodes in host memory, under one
- * budget), so several views of one cloud share what is loaded.
+ * the last reference is gone. It owns the store's residency (decoded nodes in host memory, under
+ * one budget), so several views of one cloud share what is loaded.
  *
- * In the pipeline a store travels as a name: vtkPointFrontReader puts its absolute path into the field data of
- * its output (array "PointFrontStore"), and vtkPointFrontMapper finds the store by that name. The name
- * survives shallow and deep copies, filters that pass field data on and ParaView's delivery.
+ * In the pipeline a store travels as a name: vtkPointFrontReader puts its absolute path into the
+ * field data of its output (array "PointFrontStore"), and vtkPointFrontMapper finds the store by
+ * that name. The name survives shallow and deep copies, filters that pass field data on and
+ * ParaView's delivery.
  */
 #ifndef vtkPointFrontStore_h
 #define vtkPointFrontStore_h
@@ -34,10 +35,11 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /**
-   * The open store of that file: the one that is open already, or a new one. Null on failure; the reason (what,
-   * where, what to try) is then in `error`.
+   * The open store of that file: the one that is open already, or a new one. Null on failure; the
+   * reason (what, where, what to try) is then in `error`.
    */
-  static vtkSmartPointer<vtkPointFrontStore> Open(VTK_FILEPATH const char* fileName, vtkStdString& error);
+  static vtkSmartPointer<vtkPointFrontStore> Open(
+    VTK_FILEPATH const char* fileName, vtkStdString& error);
 
   ///@{
   /**

@@ -1,3 +1,51 @@
-# Installation of what is not a VTK module, and the package config.
+# Installation of what is not a VTK module, and the CMake package `PointFront`.
+# Exports: PointFrontKernel (Core, IO*: plain C++), PointFront (VTK modules, see PointFrontModules).
+include(CMakePackageConfigHelpers)
+set(pointfront_package_folder "${CMAKE_INSTALL_LIBDIR}/cmake/PointFront")
+
 install(DIRECTORY "${CMAKE_CURRENT_SOURCE_DIR}/vtkmodule/Core/pointfront"
   DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" COMPONENT Development FILES_MATCHING PATTERN "*.h")
+set(pointfront_kernel_libraries pointfrontCore)
+foreach (family IN ITEMS LAS Text)
+  if (TARGET pointfrontIO${family})
+    list(APPEND pointfront_kernel_libraries pointfrontIO${family})
+    install(DIRECTORY "${CMAKE_CURRENT_SOURCE_DIR}/IO/${family}/"
+      DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/pointfront/IO" COMPONENT Development
+      FILES_MATCHING PATTERN "*.h" PATTERN "Testing" EXCLUDE)
+  endif ()
+endforeach ()
+install(TARGETS ${pointfront_kernel_libraries} EXPORT PointFrontKernel
+  RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT Runtime
+  LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT Runtime NAMELINK_COMPONENT Development
+  ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT Development)
+install(EXPORT PointFrontKernel NAMESPACE PointFront:: FILE PointFrontKernel-targets.cmake
+  DESTINATION "${pointfront_package_folder}" COMPONENT Development)
+export(EXPORT PointFrontKernel NAMESPACE PointFront::
+  FILE "${CMAKE_BINARY_DIR}/${pointfront_package_folder}/PointFrontKernel-targets.cmake")
+
+# The package names exactly what it was built with: VTK's C++ interface changes between releases.
+set(pointfront_vtk_version "")
+if (NOT POINTFRONT_HOST STREQUAL "NONE")
+  set(pointfront_vtk_version "${VTK_VERSION}") # with ParaView: of ParaView's own VTK
+endif ()
+configure_package_config_file(
+  "${CMAKE_CURRENT_LIST_DIR}/PointFrontConfig.cmake.in"
+  "${CMAKE_BINARY_DIR}/${pointfront_package_folder}/PointFrontConfig.cmake"
+  INSTALL_DESTINATION "${pointfront_package_folder}"
+  PATH_VARS pointfront_python_folder)
+write_basic_package_version_file(
+  "${CMAKE_BINARY_DIR}/${pointfront_package_folder}/PointFrontConfigVersion.cmake"
+  COMPATIBILITY SameMinorVersion)
+install(FILES
+  "${CMAKE_BINARY_DIR}/${pointfront_package_folder}/PointFrontConfig.cmake"
+  "${CMAKE_BINARY_DIR}/${pointfront_package_folder}/PointFrontConfigVersion.cmake"
+  "${CMAKE_CURRENT_LIST_DIR}/FindLASzip.cmake"
+  DESTINATION "${pointfront_package_folder}" COMPONENT Development)
+
+# The Python package: VTK's wrapping makes one extension module for each VTK module, this the rest.
+if (POINTFRONT_HOST STREQUAL "VTK" AND POINTFRONT_WRAP_PYTHON)
+  set(package "${CMAKE_CURRENT_SOURCE_DIR}/vtkmodule/Python/__init__.py")
+  configure_file("${package}"
+    "${CMAKE_BINARY_DIR}/${pointfront_python_folder}/pointfront/__init__.py" COPYONLY)
+  install(FILES "${package}" DESTINATION "${pointfront_python_folder}/pointfront" COMPONENT Runtime)
+endif ()

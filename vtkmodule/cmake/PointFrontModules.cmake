@@ -46,8 +46,8 @@ if (POINTFRONT_HOST STREQUAL "ParaView")
     PLUGINS_FILE_NAME "pointfront.xml")
 elseif (POINTFRONT_WRAP_PYTHON)
   set(Python3_ARTIFACTS_INTERACTIVE 1)
-  find_package(Python3 EXACT ${VTK_PYTHON_VERSION} REQUIRED COMPONENTS Interpreter Development.Module)
-  set(pointfront_python_folder "${CMAKE_INSTALL_LIBDIR}/python3/dist-packages")
+  find_package(Python3 EXACT ${VTK_PYTHON_VERSION} REQUIRED
+    COMPONENTS Interpreter Development.Module)
   vtk_module_wrap_python(
     MODULES ${pointfront_modules}
     INSTALL_EXPORT PointFrontPython

@@ -1,6 +1,7 @@
 # What can be chosen, and what holds for every target.
 
-set(POINTFRONT_HOST "VTK" CACHE STRING "What the modules are built into: NONE (kernel and tool only), VTK or ParaView")
+set(POINTFRONT_HOST "VTK" CACHE STRING
+  "What the modules are built into: NONE (kernel and tool only), VTK or ParaView")
 set_property(CACHE POINTFRONT_HOST PROPERTY STRINGS NONE VTK ParaView)
 if (NOT POINTFRONT_HOST MATCHES "^(NONE|VTK|ParaView)$")
   message(FATAL_ERROR "POINTFRONT_HOST is '${POINTFRONT_HOST}': use NONE, VTK or ParaView")
@@ -9,7 +10,8 @@ option(POINTFRONT_BUILD_TESTING "Build the tests" ON)
 option(POINTFRONT_BUILD_BENCHMARKS "Build the benchmarks" OFF)
 option(POINTFRONT_WRAP_PYTHON "Wrap the VTK modules for Python" ON)
 option(POINTFRONT_WARNINGS_AS_ERRORS "Stop at a warning" OFF)
-set(POINTFRONT_SANITIZE "" CACHE STRING "Sanitizers, as for -fsanitize=: address,undefined or thread")
+set(POINTFRONT_SANITIZE "" CACHE STRING
+  "Sanitizers, as for -fsanitize=: address,undefined or thread")
 
 if (NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
   set(CMAKE_BUILD_TYPE Release CACHE STRING "" FORCE)
@@ -21,10 +23,12 @@ set(CMAKE_CXX_VISIBILITY_PRESET default)
 option(BUILD_SHARED_LIBS "Build shared libraries" ON)
 
 include(GNUInstallDirs)
+set(pointfront_python_folder "${CMAKE_INSTALL_LIBDIR}/python3/dist-packages")
 set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/${CMAKE_INSTALL_BINDIR}")
 set(CMAKE_LIBRARY_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/${CMAKE_INSTALL_LIBDIR}")
 set(CMAKE_ARCHIVE_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/${CMAKE_INSTALL_LIBDIR}")
-# Libraries beside each other; programs in bin; Python modules in lib/python3/dist-packages/pointfront.
+# Libraries beside each other; programs in bin; Python modules in
+# lib/python3/dist-packages/pointfront.
 set(CMAKE_INSTALL_RPATH "$ORIGIN;$ORIGIN/../${CMAKE_INSTALL_LIBDIR};$ORIGIN/../../..")
 
 find_program(CCACHE_PROGRAM ccache)
@@ -34,7 +38,8 @@ if (CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
 endif ()
 
 if (POINTFRONT_SANITIZE)
-  add_compile_options(-fsanitize=${POINTFRONT_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  add_compile_options(-fsanitize=${POINTFRONT_SANITIZE}
+    -fno-omit-frame-pointer -fno-sanitize-recover=all)
   add_link_options(-fsanitize=${POINTFRONT_SANITIZE})
 endif ()
 

@@ -10,12 +10,15 @@ find_package(LASzip REQUIRED)                # LASzip::LASzip
 
 # VTK first: a find_package(Python3) before it would find another Python than Debian's.
 if (POINTFRONT_HOST STREQUAL "VTK")
-  find_package(VTK 9.1 REQUIRED COMPONENTS CommonCore CommonDataModel CommonExecutionModel CommonMath
-    CommonTransforms FiltersCore ImagingCore InteractionStyle IOImage RenderingAnnotation RenderingCore
-    RenderingOpenGL2 RenderingUI TestingRendering glew opengl WrappingPythonCore Python WrappingTools)
+  find_package(VTK 9.1 REQUIRED COMPONENTS
+    CommonCore CommonDataModel CommonExecutionModel CommonMath CommonTransforms
+    FiltersCore ImagingCore InteractionStyle IOImage
+    RenderingAnnotation RenderingCore RenderingOpenGL2 RenderingUI TestingRendering glew opengl
+    WrappingPythonCore Python WrappingTools)
 elseif (POINTFRONT_HOST STREQUAL "ParaView")
   # Debian's package config works through the shadow prefix that scripts/paraview-prefix makes.
-  file(GLOB pointfront_paraview_prefix "${CMAKE_CURRENT_SOURCE_DIR}/.deps/paraview/usr/lib/*/cmake/paraview-*")
+  file(GLOB pointfront_paraview_prefix
+    "${CMAKE_CURRENT_SOURCE_DIR}/.deps/paraview/usr/lib/*/cmake/paraview-*")
   find_package(ParaView 5.11 COMPONENTS RemotingCore RemotingViews RemotingServerManager
     RemotingClientServerStream VTKExtensionsCore WrapClientServer ProcessXML
     HINTS ${pointfront_paraview_prefix})

@@ -16,7 +16,8 @@ find_program(POINTFRONT_XVFB_RUN xvfb-run)
 function (pointfront_add_display_test)
   cmake_parse_arguments(PARSE_ARGV 0 test "" "NAME" "COMMAND")
   if (NOT POINTFRONT_XVFB_RUN)
-    message(FATAL_ERROR "xvfb-run is missing: run scripts/setup, or set POINTFRONT_BUILD_TESTING=OFF")
+    message(FATAL_ERROR
+      "xvfb-run is missing: run scripts/setup, or set POINTFRONT_BUILD_TESTING=OFF")
   endif ()
   add_test(NAME "${POINTFRONT_TEST_PREFIX}${test_NAME}"
     COMMAND "${POINTFRONT_XVFB_RUN}" -a -s "-screen 0 1280x1024x24 -noreset" ${test_COMMAND})

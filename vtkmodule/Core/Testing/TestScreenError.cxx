@@ -12,7 +12,8 @@ namespace pointfront
 namespace
 {
 
-/// Eye in the origin, looking down -z, 90 degrees on 200 x 200 pixels: 100 pixels a unit at depth 1.
+/// Eye in the origin, looking down -z, 90 degrees on 200 x 200 pixels: 100 pixels a unit at depth
+/// 1.
 View fromOrigin(double nearDistance = 0.1)
 {
   return View::perspective(

@@ -176,7 +176,8 @@ TEST(View, PerspectiveAgreesWithItsMatrix)
 
 TEST(View, LookingAlongUpStillHasAFrame)
 {
-  const View view = View::perspective({ 0, 0, 9 }, { 0, 0, 0 }, { 0, 0, 1 }, 1.0, 0.1, 99, 100, 100);
+  const View view =
+    View::perspective({ 0, 0, 9 }, { 0, 0, 0 }, { 0, 0, 1 }, 1.0, 0.1, 99, 100, 100);
   EXPECT_TRUE(seen(view, { 0, 0, 0 }));
   EXPECT_FALSE(seen(view, { 0, 0, 10 }));
 }

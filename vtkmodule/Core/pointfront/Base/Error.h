@@ -29,6 +29,9 @@ struct Error
   std::string what;
 };
 
-inline Error makeError(Error::Kind kind, std::string what) { return Error{ kind, std::move(what) }; }
+inline Error makeError(Error::Kind kind, std::string what)
+{
+  return Error{ kind, std::move(what) };
+}
 
 } // namespace pointfront

@@ -43,8 +43,9 @@ struct BuildReport
 /// Builds a store with an octree and `add` refinement from any number of sources.
 /// Guarantees  every point that is read is stored once, or counted in pointsRejected with its
 ///             reason (NaN, infinite, outside the grid's range); read = stored + rejected is
-///             checked at the end. Same input, same bytes out: for any number of threads and any memory
-///             budget. A build that fails or is cancelled leaves no output and no spill files.
+///             checked at the end. Same input, same bytes out: for any number of threads and any
+///             memory budget. A build that fails or is cancelled leaves no output and no spill
+///             files.
 /// Memory      points, columns and buffers stay under memoryBytes; with less than needed the
 ///             points are spilled to disk (a fixed number of files).
 /// Threads     called from one thread; runs its own.

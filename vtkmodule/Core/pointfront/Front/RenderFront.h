@@ -29,7 +29,8 @@ struct FrontLimits
 {
   double targetErrorPx = 1.0;       ///< the threshold stops falling here
   double initialErrorPx = 60.0;     ///< FRONT-7: where it starts
-  std::uint32_t movesPerFrame = 64; ///< FRONT-6: expansions + collapses; the rest goes on next frame
+  /// FRONT-6: expansions + collapses; the rest goes on next frame.
+  std::uint32_t movesPerFrame = 64;
   std::uint64_t pointBudget = 0;    ///< FRONT-8: most points drawn; 0: no limit
   std::uint32_t requestLimit = 256; ///< most requests handed out by one update
   bool interacting = false;         ///< in motion the threshold does not fall below motionErrorPx
@@ -59,7 +60,8 @@ struct FrontDelta
   std::uint32_t moves = 0;           ///< expansions + collapses of this update
   std::uint32_t frontLength = 0;     ///< nodes in the cut, culled ones too
   double thresholdPx = 0.0;          ///< in force for this update
-  double errorPx = 0.0;              ///< largest projected spacing of a visible front node that could be refined
+  /// Largest projected spacing of a visible front node that could be refined.
+  double errorPx = 0.0;
   /// Nothing to do: threshold at its target, no move pending, nothing wanted that is not resident.
   bool complete = false;
   bool limitedByBudget = false;      ///< settled, but pointBudget keeps it above the target
@@ -67,14 +69,17 @@ struct FrontDelta
 };
 
 /// The cut through a hierarchy that is drawn this frame.
-/// Shapes      FrontDelta::draw is ordered near to far, ties by NodeIndex: two runs give the same list.
+/// Shapes      FrontDelta::draw is ordered near to far, ties by NodeIndex: two runs give the same
+///             list.
 /// Units       error in pixels; distances in world units.
 /// Guarantees  detail that was on screen does not disappear while its replacement is loading. The
-///             nodes of the front are a cut: no node of it is an ancestor of another, each root-to-leaf path meets
-///             it once. With Refinement::Add the ancestors of the front are drawn too, each point once.
-/// Never       opens a file, blocks, allocates GPU memory or includes VTK. It only names nodes. In the
-///             steady state it does not allocate.
-/// Errors      none; a node that failed to load stays unrequested and its parent goes on being drawn.
+///             nodes of the front are a cut: no node of it is an ancestor of another, each
+///             root-to-leaf path meets it once. With Refinement::Add the ancestors of the front are
+///             drawn too, each point once.
+/// Never       opens a file, blocks, allocates GPU memory or includes VTK. It only names nodes. In
+///             the steady state it does not allocate.
+/// Errors      none; a node that failed to load stays unrequested and its parent goes on being
+///             drawn.
 /// Threads     one instance, one thread; View and ResidencyView are snapshots.
 /// Source      Richter & Doellner 2010, section 3.2.1 (the rendering front); FRONT-4..8.
 class RenderFront

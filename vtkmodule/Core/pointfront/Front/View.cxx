@@ -21,7 +21,10 @@ glm::dvec4 row(const glm::dmat4& m, int r)
 
 glm::dvec3 gradient(const glm::dvec4& form) { return glm::dvec3(form); }
 
-double at(const glm::dvec4& form, const glm::dvec3& p) { return glm::dot(gradient(form), p) + form.w; }
+double at(const glm::dvec4& form, const glm::dvec3& p)
+{
+  return glm::dot(gradient(form), p) + form.w;
+}
 
 /// The point where three linear forms have the values `values`. Rows are scaled to unit length
 /// first, so that a narrow view angle (long x and y rows) does not spoil the elimination.
@@ -57,7 +60,8 @@ glm::dvec4 normalised(const glm::dvec4& plane)
 /// Gribb & Hartmann 2001: a clip plane is the sum or difference of two rows. The difference of
 /// the z and w rows cancels when far / near is beyond what a double resolves: the plane is
 /// then farther than the matrix can say.
-std::array<glm::dvec4, 6> clipPlanes(const std::array<glm::dvec4, 4>& rows, const glm::dvec3& direction)
+std::array<glm::dvec4, 6> clipPlanes(
+  const std::array<glm::dvec4, 4>& rows, const glm::dvec3& direction)
 {
   std::array<glm::dvec4, 6> planes{};
   for (int axis = 0; axis < 3; ++axis)

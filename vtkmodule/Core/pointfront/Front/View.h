@@ -31,7 +31,8 @@ struct View
 
   /// From a world-to-clip matrix (column vectors, clip z in [-w, w], any off-axis frustum) and the
   /// viewport. Everything else is derived from it; `position` from the matrix' null space for a
-  /// perspective view. The matrix may contain a model matrix too: "world" is then the model's space.
+  /// perspective view. The matrix may contain a model matrix too: "world" is then the model's
+  /// space.
   static View fromMatrix(const glm::dmat4& worldToClip, int width, int height);
 
   /// A symmetric view for tools and tests; `verticalAngle` in radians, square pixels.

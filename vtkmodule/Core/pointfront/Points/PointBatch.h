@@ -11,7 +11,8 @@ namespace pointfront
 {
 
 /// Some points on their way from a source: positions and one packed column for each attribute.
-/// Shapes   positions[n]; columns[c] holds n * schema[c].bytes() bytes, c as in the source's schema.
+/// Shapes   positions[n]; columns[c] holds n * schema[c].bytes() bytes, c as in the source's
+///          schema.
 /// Reuse    a batch is made once a thread and filled again: resize() keeps the memory.
 struct PointBatch
 {

@@ -37,15 +37,17 @@ struct ResidencyStatistics
 /// Decoded nodes of one store in host memory, under one hard budget; loader threads bring in
 /// what is asked for (FRONT-9) and what is farthest under the front is released first (FRONT-10).
 /// Threads     request(), find(), ... are called by one thread (the renderer's); loader threads are
-///             its own. Destruction joins them; a running read is waited for, a waiting one dropped.
-/// Guarantees  residentBytes <= budgetBytes always: room is made, or reserved by its decodedBytes(), before a read
-///             begins. find() never blocks on the disk.
+///             its own. Destruction joins them; a running read is waited for, a waiting one
+///             dropped.
+/// Guarantees  residentBytes <= budgetBytes always: room is made, or reserved by its
+///             decodedBytes(), before a read begins. find() never blocks on the disk.
 /// Errors      a node that cannot be read is Failed for good; its Error is reported once by
 ///             takeErrors().
 class Residency
 {
 public:
-  Residency(std::shared_ptr<const NodeReader> reader, NodeIndex nodeCount, ResidencyOptions options);
+  Residency(
+    std::shared_ptr<const NodeReader> reader, NodeIndex nodeCount, ResidencyOptions options);
   ~Residency();
   Residency(const Residency&) = delete;
   Residency& operator=(const Residency&) = delete;
@@ -59,10 +61,12 @@ public:
   void request(const std::vector<LoadRequest>& requests);
 
   /// Frees memory for what is requested: nodes by distance under the front, farthest first, two
-  /// passes (count, release). Nodes of distance 0 stay. `distance` is asked for resident nodes only.
+  /// passes (count, release). Nodes of distance 0 stay. `distance` is asked for resident nodes
+  /// only.
   void release(const std::function<std::uint32_t(NodeIndex)>& distance);
 
-  /// The node's points, or null. The pointer keeps them alive after a release (and within the budget's account).
+  /// The node's points, or null. The pointer keeps them alive after a release (and within the
+  /// budget's account).
   std::shared_ptr<const NodeColumns> find(NodeIndex node) const;
   ResidencyView::State state(NodeIndex node) const;
 

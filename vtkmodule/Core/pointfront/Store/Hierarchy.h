@@ -22,7 +22,7 @@ struct Node
   glm::dvec3 centre{ 0.0 };    ///< of the box, world
   glm::vec3 halfSize{ 0.0f };  ///< of the box of this node's points and all below; rounded up
   float radius = 0.0f;         ///< of the sphere around `centre` with all those points; rounded up
-  float spacing = 0.0f;        ///< between neighbouring points when this node and all above it are drawn
+  float spacing = 0.0f;        ///< between points when this node and all above it are drawn
   std::uint32_t pointCount = 0; ///< the node's own points; may be 0 for an inner node
   std::uint64_t pointsBelow = 0; ///< own points and those of all descendants
   NodeIndex parent = noNode;
@@ -32,7 +32,10 @@ struct Node
   std::uint16_t layer = 0;     ///< index into the store's layers
 
   bool leaf() const { return childCount == 0; }
-  Bounds box() const { return Bounds{ centre - glm::dvec3(halfSize), centre + glm::dvec3(halfSize) }; }
+  Bounds box() const
+  {
+    return Bounds{ centre - glm::dvec3(halfSize), centre + glm::dvec3(halfSize) };
+  }
 };
 
 /// What a deeper node means to the points above it.

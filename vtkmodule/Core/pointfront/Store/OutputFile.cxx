@@ -190,7 +190,8 @@ Result<std::unique_ptr<OutputFile>> OutputFile::create(const std::string& path)
     if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
     { // any other failure: this file system has no locks
       ::close(descriptor);
-      return unwritable(temporaryPath, "another build is writing it now; wait or choose another name");
+      return unwritable(
+        temporaryPath, "another build is writing it now; wait or choose another name");
     }
     if (!stillNamed(descriptor, temporaryPath))
     {

@@ -1,0 +1,46 @@
+"""Checks one rule over the whole tree.
+
+usage: check_style.py RULE ROOT     exit 1 and one line for each place that breaks the rule
+       check_style.py --list        the rules
+"""
+
+import sys
+
+import include_rules
+import text_rules
+from source_tree import read_tree
+
+RULES = {
+    "FileLength": text_rules.file_length,
+    "LineLength": text_rules.line_length,
+    "FunctionLength": text_rules.function_length,
+    "MachinePaths": text_rules.machine_paths,
+    "Addresses": text_rules.addresses,
+    "Unfinished": text_rules.unfinished,
+    "IdleTests": text_rules.idle_tests,
+    "QuietLibraries": text_rules.quiet_libraries,
+    "Includes": include_rules.includes,
+    "ModuleEdges": include_rules.module_edges,
+}
+
+
+def main(arguments):
+    if arguments == ["--list"]:
+        print("\n".join(f"{name}: {rule.__doc__}" for name, rule in RULES.items()))
+        return 0
+    if len(arguments) != 2 or arguments[0] not in RULES:
+        print(__doc__, file=sys.stderr)
+        return 2
+    files = read_tree(arguments[1])
+    if not any(file.is_cpp for file in files):
+        print(f"{arguments[1]} holds no source: is it the project's root?", file=sys.stderr)
+        return 2
+    faults = list(RULES[arguments[0]](files))
+    for path, line, message in faults:
+        print(f"{path}:{line}: {message}")
+    print(f"{arguments[0]}: {len(files)} files, {len(faults)} faults")
+    return 1 if faults else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,188 @@
+"""Every rule finds what it is for, and only that: run on trees made up here.
+
+usage: test_rules.py FOLDER     writes below FOLDER
+"""
+
+import os
+import shutil
+import sys
+import unittest
+
+from check_style import RULES
+from source_tree import read_tree
+
+FOLDER = "."
+# Put together here, so that this file obeys the rules that it tests.
+WORD = "TO" + "DO"
+ADDRESS = "https:" + "//example.org"
+SLASH = "/"
+
+
+class RulesTest(unittest.TestCase):
+    def faults(self, rule, tree):
+        """(path, line) of each fault of `rule` in a tree given as {path: text}."""
+        root = os.path.join(FOLDER, self.id().split(".")[-1])
+        shutil.rmtree(root, ignore_errors=True)
+        for path, text in tree.items():
+            full = os.path.join(root, path)
+            os.makedirs(os.path.dirname(full), exist_ok=True)
+            with open(full, "w", encoding="utf-8") as stream:
+                stream.write(text)
+        return [(path, line) for path, line, _ in RULES[rule](read_tree(root))]
+
+    def test_file_length(self):
+        tree = {
+            "IO/LAS/A.cxx": "int a;\n" * 601,
+            "IO/LAS/B.cxx": "int a;\n" * 600,
+            "Rendering/OpenGL2/glsl/a.glsl": "int a;\n" * 151,
+            "docs/long.md": "text\n" * 900,
+        }
+        self.assertEqual(
+            self.faults("FileLength", tree),
+            [("IO/LAS/A.cxx", 601), ("Rendering/OpenGL2/glsl/a.glsl", 151)],
+        )
+
+    def test_line_length(self):
+        tree = {"IO/LAS/A.cxx": "x" * 100 + "\n" + "x" * 101 + "\n", "docs/a.md": "x" * 200}
+        self.assertEqual(self.faults("LineLength", tree), [("IO/LAS/A.cxx", 2)])
+
+    def test_function_length(self):
+        at = "  call();\n" * 100
+        more = at + "  call();\n"
+        tree = {
+            "IO/LAS/A.cxx": f"namespace n\n{{\n\nvoid f(int a,\n  int b)\n{{\n{more}}}\n}}\n",
+            "IO/LAS/B.cxx": f"namespace n\n{{\n\nvoid f()\n{{\n{at}}}\n\nvoid g()\n{{\n{at}}}\n}}",
+            "IO/LAS/C.h": f"class C\n{{\n  int f() const\n  {{\n{more}  }}\n}};\n",
+        }
+        self.assertEqual(
+            self.faults("FunctionLength", tree), [("IO/LAS/A.cxx", 4), ("IO/LAS/C.h", 3)]
+        )
+
+    def test_machine_paths(self):
+        tree = {
+            "docs/a.md": f"see {SLASH}home{SLASH}me\n",
+            "docs/b.md": "see /usr/lib and a/tmp/b\n",
+        }
+        self.assertEqual(self.faults("MachinePaths", tree), [("docs/a.md", 1)])
+
+    def test_addresses(self):
+        tree = {
+            "scripts/a": f"curl {ADDRESS}\n",
+            "x/CMakeLists.txt": f"# {ADDRESS}\n",
+            "docs/a.md": ADDRESS,
+        }
+        self.assertEqual(
+            self.faults("Addresses", tree), [("scripts/a", 1), ("x/CMakeLists.txt", 1)]
+        )
+
+    def test_unfinished(self):
+        tree = {"IO/LAS/A.cxx": f"\n// {WORD} later\n", "IO/LAS/B.cxx": "// a studio\n"}
+        self.assertEqual(self.faults("Unfinished", tree), [("IO/LAS/A.cxx", 2)])
+
+    def test_idle_tests(self):
+        idle = "EXPECT_" + "TRUE(true);"
+        tree = {
+            "IO/LAS/Testing/TestA.cxx": idle + "\n",
+            "IO/LAS/Testing/TestB.cxx": "EXPECT_TRUE(a);",
+        }
+        self.assertEqual(self.faults("IdleTests", tree), [("IO/LAS/Testing/TestA.cxx", 1)])
+
+    def test_quiet_libraries(self):
+        tree = {
+            "IO/LAS/A.cxx": "exit(1);\nstd::cout << 1;\n",
+            "IO/LAS/B.cxx": '// exit(1)\nauto s = "exit(1)";\nstd::snprintf(b, 1, s);\n',
+            "IO/LAS/C.cxx": "try\n{\n}\ncatch (...)\n{\n}\n",
+            "IO/LAS/Testing/TestA.cxx": "std::cout << 1;\n",
+            "CommandLine/main.cxx": "std::cout << 1;\n",
+        }
+        self.assertEqual(
+            self.faults("QuietLibraries", tree),
+            [("IO/LAS/A.cxx", 1), ("IO/LAS/A.cxx", 2), ("IO/LAS/C.cxx", 4)],
+        )
+
+    def include_faults(self, path, header):
+        known = {
+            name: "int a;\n"
+            for name in (
+                "vtkmodule/Core/pointfront/Store/PointStore.h",
+                "vtkmodule/Common/vtkPointFrontStore.h",
+                "IO/LAS/LASFormat.h",
+                "IO/Text/XYZWriter.h",
+                "Rendering/Core/vtkPointFrontMapper.h",
+                "Rendering/OpenGL2/GpuPool.h",
+                "Filters/Build/vtkBuild.h",
+                "Testing/Support/Clouds.h",
+                "IO/LAS/Testing/Files.h",
+                "paraview-plugin/Representation.h",
+            )
+        }
+        known[path] = f"#include {header}\n"
+        return len(self.faults("Includes", known))
+
+    def test_includes_that_are_refused(self):
+        for path, header in (
+            ("vtkmodule/Core/pointfront/Store/A.cxx", '"vtkObject.h"'),
+            ("vtkmodule/Core/pointfront/Store/A.cxx", "<GL/gl.h>"),
+            ("vtkmodule/Core/pointfront/Store/A.cxx", "<pcl/point_types.h>"),
+            ("vtkmodule/Core/pointfront/Store/A.cxx", "<OpenImageIO/imageio.h>"),
+            ("vtkmodule/Core/pointfront/Store/A.cxx", "<laszip/laszip_api.h>"),
+            ("vtkmodule/Core/pointfront/Store/A.cxx", '"LASFormat.h"'),
+            ("vtkmodule/Common/a.cxx", '"vtkPointFrontMapper.h"'),
+            ("IO/LAS/A.cxx", '"vtkPointFrontMapper.h"'),
+            ("IO/LAS/A.cxx", '"XYZWriter.h"'),
+            ("IO/LAS/A.cxx", '"vtkBuild.h"'),
+            ("IO/LAS/A.h", "<laszip/laszip_api.h>"),
+            ("IO/LAS/A.cxx", '"Testing/Files.h"'),
+            ("IO/Text/A.cxx", "<laszip/laszip_api.h>"),
+            ("IO/Text/A.cxx", "<gtest/gtest.h>"),
+            ("Filters/Build/A.cxx", '"LASFormat.h"'),
+            ("Filters/Build/A.cxx", "<flann/flann.hpp>"),
+            ("Rendering/Core/A.cxx", '"GpuPool.h"'),
+            ("Rendering/Core/A.cxx", '"vtk_glew.h"'),
+            ("Rendering/OpenGL2/A.cxx", '"LASFormat.h"'),
+            ("Rendering/OpenGL2/A.cxx", '"Clouds.h"'),
+            ("Rendering/OpenGL2/A.cxx", '"vtkPVRenderView.h"'),
+            ("IO/Store/A.cxx", '"Representation.h"'),
+            ("Examples/Cxx/A/main.cxx", '"../../../IO/LAS/LASFormat.h"'),
+            ("Testing/Consumer/A/main.cxx", '"../../Support/Clouds.h"'),
+        ):
+            with self.subTest(path=path, header=header):
+                self.assertEqual(self.include_faults(path, header), 1)
+
+    def test_includes_that_are_allowed(self):
+        for path, header in (
+            ("vtkmodule/Core/pointfront/Store/A.cxx", '"pointfront/Store/PointStore.h"'),
+            ("vtkmodule/Core/pointfront/Store/A.cxx", "<glm/vec3.hpp>"),
+            ("vtkmodule/Core/Testing/TestA.cxx", '"LASFormat.h"'),
+            ("vtkmodule/Common/a.cxx", '"pointfront/Store/PointStore.h"'),
+            ("IO/LAS/A.cxx", "<laszip/laszip_api.h>"),
+            ("IO/LAS/A.cxx", '"LASFormat.h"'),
+            ("IO/LAS/Testing/TestA.cxx", "<gtest/gtest.h>"),
+            ("Filters/Normals/A.cxx", "<pcl/point_types.h>"),
+            ("Rendering/OpenGL2/A.cxx", '"vtkPointFrontMapper.h"'),
+            ("Rendering/OpenGL2/A.cxx", '"vtk_glew.h"'),
+            ("paraview-plugin/A.cxx", '"vtkPVRenderView.h"'),
+            ("paraview-plugin/A.cxx", '"vtkPointFrontMapper.h"'),
+            ("CommandLine/A.cxx", '"XYZWriter.h"'),
+            ("Examples/Cxx/A/main.cxx", '"vtkPointFrontMapper.h"'),
+        ):
+            with self.subTest(path=path, header=header):
+                self.assertEqual(self.include_faults(path, header), 0)
+
+    def test_module_edges(self):
+        core = "NAME\n  PointFront::RenderingCore\nDEPENDS\n  VTK::RenderingCore\n"
+        store = "NAME\n  PointFront::IOStore\nDEPENDS\n  PointFront::RenderingCore\n"
+        gl = "NAME\n  PointFront::RenderingOpenGL2\nDEPENDS\n  PointFront::RenderingCore\n"
+        tree = {
+            "Rendering/Core/vtk.module": core,
+            "Rendering/OpenGL2/vtk.module": gl,
+            "IO/Store/vtk.module": store,
+        }
+        self.assertEqual(self.faults("ModuleEdges", tree), [("IO/Store/vtk.module", 4)])
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 2:
+        sys.exit(__doc__)
+    FOLDER = sys.argv.pop()
+    unittest.main()

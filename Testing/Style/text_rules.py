@@ -1,0 +1,123 @@
+"""Rules about single files. Each gives (path, line, message) for every place that breaks it."""
+
+import re
+
+FILE_LINES = 600
+FUNCTION_LINES = 100
+SHADER_LINES = 150
+COLUMNS = 100
+
+
+def file_length(files):
+    """No file is longer than 600 lines, no shader than 150."""
+    for file in files:
+        limit = SHADER_LINES if file.is_shader else FILE_LINES
+        if file.is_code and len(file.lines) > limit:
+            yield file.path, len(file.lines), f"{len(file.lines)} lines, at most {limit}"
+
+
+def line_length(files):
+    """No line of code is longer than 100 columns."""
+    for file in files:
+        for number, line in file.numbered() if file.is_code else ():
+            if len(line) > COLUMNS:
+                yield file.path, number, f"{len(line)} columns, at most {COLUMNS}"
+
+
+NOT_A_FUNCTION = re.compile(
+    r"\s*(namespace|class|struct|union|enum|extern)\b"
+    r"|\s*(if|else|for|while|do|switch|try|catch|case|default)\b"
+)
+
+
+def function_length(files):
+    """No function is longer than 100 lines. Counts on braces that stand alone (Allman)."""
+    for file in files:
+        if not file.is_cpp:
+            continue
+        code = file.code_lines()
+        for start, line in enumerate(code):
+            if line.strip() != "{" or start == 0:
+                continue
+            head = start - 1
+            while head > 0 and code[head - 1].strip() and code[head - 1].rstrip()[-1] not in ";{}":
+                head -= 1
+            text = " ".join(code[head:start])
+            if "(" not in text or NOT_A_FUNCTION.match(text):
+                continue
+            close = re.compile(re.escape(line[: line.index("{")]) + r"\}")
+            ends = (n for n in range(start + 1, len(code)) if close.match(code[n]))
+            length = next(ends, len(code)) - start - 1
+            if length > FUNCTION_LINES:
+                yield file.path, head + 1, f"a function of {length} lines, at most {FUNCTION_LINES}"
+
+
+MACHINE_PATH = re.compile(r"(^|[^a-zA-Z0-9_.])/(tmp|work|farm|root|home)/[a-z]")
+
+
+def machine_paths(files):
+    """Nothing names a folder of somebody's machine."""
+    for file in files:
+        for number, line in file.numbered():
+            if MACHINE_PATH.search(line):
+                yield file.path, number, "names a folder of one machine"
+
+
+ADDRESS = re.compile(r"https?:" + "//")
+
+
+def addresses(files):
+    """Scripts and CMake files name no host: packages come from where the machine gets its own."""
+    for file in files:
+        for number, line in file.numbered() if file.is_cmake or file.is_script else ():
+            if ADDRESS.search(line):
+                yield file.path, number, "names a host"
+
+
+# Spelt so that this file does not break its own rule.
+UNFINISHED = re.compile(
+    r"\b(TO" r"DO|FIX" r"ME|XX" r"X|HA" r"CK|not imple" r"mented|unimple" r"mented|st" r"ub"
+    r"|place" r"holder|for n" r"ow|dum" r"my)\b"
+)
+
+
+def unfinished(files):
+    """No word that says that something is not done."""
+    for file in files:
+        for number, line in file.numbered() if file.is_code else ():
+            if UNFINISHED.search(line):
+                yield file.path, number, "says that something is not done"
+
+
+IDLE_TEST = re.compile(r"GTEST_SKIP|DISABLED_|(EXPECT|ASSERT)_TRUE\(true\)|WILL_FAIL")
+
+
+def idle_tests(files):
+    """No test is switched off, skips itself, cannot fail or passes by failing anyhow."""
+    for file in files:
+        if not (file.is_cpp or file.is_cmake):
+            continue
+        for number, line in file.numbered():
+            if IDLE_TEST.search(line):
+                yield file.path, number, "a test that may assert nothing"
+
+
+LIBRARY_ROOMS = ("vtkmodule", "IO", "Filters", "Rendering", "paraview-plugin")
+LOUD = re.compile(r"(\b(exit|abort|printf|fprintf|puts)\s*\(|std::(cout|cerr|clog)\b)")
+SWALLOWED = re.compile(r"catch\s*\(\s*\.\.\.\s*\)\s*\{\s*\}")
+
+
+def quiet_libraries(files):
+    """A library does not end the program, does not print and does not swallow exceptions."""
+    for file in files:
+        if not file.is_cpp or file.in_tests or file.folders[:1] == []:
+            continue
+        if file.folders[0] not in LIBRARY_ROOMS:
+            continue
+        code = file.code_lines()
+        for number, line in enumerate(code, start=1):
+            if LOUD.search(line):
+                yield file.path, number, "a library that ends the program or prints"
+        text = "\n".join(code)
+        for match in SWALLOWED.finditer(text):
+            yield file.path, text.count("\n", 0, match.start()) + 1, "swallows an exception"

@@ -1,0 +1,12 @@
+"""Point clouds larger than memory in VTK.
+
+    reader = pointfront.vtkPointFrontReader(file_name="cloud.pfront")
+    mapper = pointfront.vtkPointFrontMapper(input_connection=reader.output_port)
+
+The classes are VTK classes (their C++ headers document them) and go together with vtkmodules.
+"""
+
+from .pointfrontCommon import *
+from .pointfrontIOStore import *
+from .pointfrontRenderingCore import *
+from .pointfrontRenderingOpenGL2 import *  # the OpenGL side of the mapper, by VTK's object factory

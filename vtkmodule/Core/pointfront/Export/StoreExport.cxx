@@ -1,0 +1,312 @@
+#include "pointfront/Export/StoreExport.h"
+
+#include <algorithm>
+#include <bitset>
+#include <chrono>
+#include <cstring>
+#include <future>
+#include <numeric>
+#include <utility>
+
+namespace pointfront
+{
+
+namespace
+{
+
+/// Decides about single points and copies the chosen ones.
+class PointFilter
+{
+public:
+  PointFilter(const StoreDescription& description, const ExportSelection& selection,
+    std::optional<std::size_t> classColumn)
+    : description_(description)
+    , box_(selection.box)
+    , classColumn_(classColumn)
+  {
+    for (const std::uint8_t code : selection.classes)
+    {
+      classes_.set(code);
+    }
+  }
+
+  /// False if no point of the node can pass.
+  bool mayPass(const Node& node) const { return !box_ || box_->overlaps(node.box()); }
+
+  /// Fills `batch` with the node's points that pass.
+  void filter(const NodeColumns& node, PointBatch& batch)
+  {
+    const QuantisationGrid& grid = description_.grid;
+    batch.positions.clear();
+    kept_.clear();
+    for (std::size_t i = 0; i < node.size(); ++i)
+    {
+      const glm::dvec3 world = grid.toWorld(node.origin + GridPosition(node.positions[i]));
+      if ((!box_ || box_->contains(world)) && classPasses(node, i))
+      {
+        batch.positions.push_back(world);
+        kept_.push_back(static_cast<std::uint32_t>(i));
+      }
+    }
+    batch.resize(batch.positions.size(), description_.schema);
+    for (std::size_t c = 0; c < description_.schema.size(); ++c)
+    {
+      copyKept(node.columns[c], batch.columns[c], description_.schema[c].bytes());
+    }
+  }
+
+private:
+  bool classPasses(const NodeColumns& node, std::size_t point) const
+  {
+    return !classColumn_ ||
+      classes_[std::to_integer<std::uint8_t>(node.columns[*classColumn_][point])];
+  }
+
+  void copyKept(
+    const std::vector<std::byte>& from, std::vector<std::byte>& to, std::size_t bytes) const
+  {
+    if (kept_.size() * bytes == from.size()) // every point passed
+    {
+      std::copy(from.begin(), from.end(), to.begin());
+      return;
+    }
+    for (std::size_t i = 0; i < kept_.size(); ++i)
+    {
+      std::memcpy(to.data() + i * bytes, from.data() + kept_[i] * bytes, bytes);
+    }
+  }
+
+  const StoreDescription& description_;
+  std::optional<Bounds> box_;
+  std::optional<std::size_t> classColumn_; ///< set only if classes are asked for
+  std::bitset<256> classes_;
+  std::vector<std::uint32_t> kept_;
+};
+
+/// Nodes to decode, ascending: those at most one level finer than the wanted spacing.
+std::vector<NodeIndex> chosenNodes(
+  const Hierarchy& hierarchy, const PointFilter& filter, double spacing)
+{
+  std::vector<NodeIndex> chosen;
+  std::vector<NodeIndex> open(hierarchy.roots());
+  while (!open.empty())
+  {
+    const NodeIndex index = open.back();
+    open.pop_back();
+    const Node& node = hierarchy.node(index);
+    if (!filter.mayPass(node))
+    {
+      continue;
+    }
+    if (node.pointCount > 0)
+    {
+      chosen.push_back(index);
+    }
+    if (spacing <= 0.0 || static_cast<double>(node.spacing) > spacing)
+    {
+      for (NodeIndex child = 0; child < node.childCount; ++child)
+      {
+        open.push_back(node.firstChild + child);
+      }
+    }
+  }
+  std::sort(chosen.begin(), chosen.end());
+  return chosen;
+}
+
+SinkDescription sinkDescription(const StoreDescription& store, const ExportSelection& selection)
+{
+  SinkDescription sink;
+  sink.schema = store.schema;
+  sink.grid = store.grid;
+  sink.bounds = store.bounds;
+  if (selection.box)
+  {
+    sink.bounds.low = glm::max(sink.bounds.low, selection.box->low);
+    sink.bounds.high = glm::min(sink.bounds.high, selection.box->high);
+  }
+  const bool everything =
+    !selection.box && selection.classes.empty() && selection.spacing <= 0.0;
+  sink.pointCount = everything ? store.pointCount : 0;
+  for (const ColumnRange& range : store.ranges)
+  {
+    double largest = 0.0;
+    for (const std::array<double, 2>& component : range.components)
+    {
+      largest = std::max(largest, component[1]);
+    }
+    sink.largest.push_back(largest);
+  }
+  sink.crsWkt = store.crsWkt;
+  sink.metadata = store.metadata;
+  return sink;
+}
+
+/// Sends some ten reports a second.
+class ProgressClock
+{
+public:
+  ProgressClock(const ProgressFunction& function, std::uint64_t total)
+    : function_(function)
+  {
+    progress_.phase = "exporting";
+    progress_.total = total;
+  }
+  /// False to cancel.
+  bool report(std::uint64_t done)
+  {
+    using Seconds = std::chrono::duration<double>;
+    const double now = Seconds(std::chrono::steady_clock::now() - begin_).count();
+    if (!function_ || now - progress_.secondsElapsed < 0.1)
+    {
+      return true;
+    }
+    progress_.secondsElapsed = now;
+    progress_.done = done;
+    progress_.fraction =
+      static_cast<double>(done) / static_cast<double>(std::max<std::uint64_t>(progress_.total, 1));
+    return function_(progress_);
+  }
+
+private:
+  const ProgressFunction& function_;
+  Progress progress_;
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+};
+
+/// Decodes one node after another, always one ahead on a thread of its own. The future's
+/// destructor waits for that thread, so nothing outlives the reader.
+class NodeStream
+{
+public:
+  NodeStream(const NodeReader& reader, std::vector<NodeIndex> nodes, ColumnSelection columns)
+    : reader_(reader)
+    , nodes_(std::move(nodes))
+    , columns_(std::move(columns))
+  {
+    startNext();
+  }
+  bool atEnd() const { return !ahead_.valid(); }
+  Result<NodeColumns> take()
+  {
+    Result<NodeColumns> node = ahead_.get();
+    startNext();
+    return node;
+  }
+
+private:
+  void startNext()
+  {
+    if (started_ < nodes_.size())
+    {
+      const NodeIndex node = nodes_[started_++];
+      ahead_ =
+        std::async(std::launch::async, [this, node]() { return reader_.read(node, columns_); });
+    }
+  }
+
+  const NodeReader& reader_;
+  std::vector<NodeIndex> nodes_;
+  ColumnSelection columns_;
+  std::size_t started_ = 0;
+  std::future<Result<NodeColumns>> ahead_;
+};
+
+std::uint64_t pointsOf(const Hierarchy& hierarchy, const std::vector<NodeIndex>& nodes)
+{
+  std::uint64_t points = 0;
+  for (const NodeIndex node : nodes)
+  {
+    points += hierarchy.node(node).pointCount;
+  }
+  return points;
+}
+
+/// Column of the classification if classes are asked for.
+Result<std::optional<std::size_t>> classColumnFor(
+  const StoreDescription& description, const ExportSelection& selection)
+{
+  if (selection.classes.empty())
+  {
+    return std::optional<std::size_t>();
+  }
+  const std::optional<std::size_t> column = description.schema.find("classification");
+  if (!column || description.schema[*column].bytes() != 1)
+  {
+    return makeError(Error::Kind::BadArgument,
+      description.path + ": the store has no classification of one byte to choose classes by");
+  }
+  return column;
+}
+
+Result<ExportReport> pump(NodeStream& nodes, PointFilter& filter, PointSink& sink,
+  ProgressClock& clock)
+{
+  ExportReport report;
+  PointBatch batch;
+  while (!nodes.atEnd())
+  {
+    const Result<NodeColumns> node = nodes.take();
+    if (!node)
+    {
+      return node.error();
+    }
+    filter.filter(node.value(), batch);
+    report.pointsRead += node->size();
+    report.pointsWritten += batch.size();
+    if (batch.size() > 0)
+    {
+      if (Result<void> appended = sink.append(batch); !appended)
+      {
+        return appended.error();
+      }
+    }
+    if (!clock.report(report.pointsRead))
+    {
+      return makeError(Error::Kind::Cancelled, "export cancelled");
+    }
+  }
+  return report;
+}
+
+} // namespace
+
+Result<ExportReport> exportPoints(const StoreDescription& description, const Hierarchy& hierarchy,
+  const NodeReader& reader, const ExportSelection& selection, PointSink& sink,
+  const ProgressFunction& progress)
+{
+  const Result<std::optional<std::size_t>> classColumn = classColumnFor(description, selection);
+  if (!classColumn)
+  {
+    return classColumn.error();
+  }
+  if (Result<void> begun = sink.begin(sinkDescription(description, selection)); !begun)
+  {
+    return begun.error();
+  }
+  PointFilter filter(description, selection, classColumn.value());
+  std::vector<NodeIndex> nodes = chosenNodes(hierarchy, filter, selection.spacing);
+  ProgressClock clock(progress, pointsOf(hierarchy, nodes));
+  ColumnSelection columns(description.schema.size());
+  std::iota(columns.begin(), columns.end(), 0u);
+  NodeStream stream(reader, std::move(nodes), std::move(columns));
+  Result<ExportReport> report = pump(stream, filter, sink, clock);
+  if (!report)
+  {
+    return report;
+  }
+  if (Result<void> finished = sink.finish(); !finished)
+  {
+    return finished.error();
+  }
+  return report;
+}
+
+Result<ExportReport> exportStore(const PointStore& store, const ExportSelection& selection,
+  PointSink& sink, const ProgressFunction& progress)
+{
+  return exportPoints(
+    store.description(), *store.hierarchy(), store, selection, sink, progress);
+}
+
+} // namespace pointfront

@@ -1,4 +1,7 @@
-int main()
+#include "Program.h"
+
+int main(int argc, char** argv)
 {
-  return 2;
+  pointfront::Program program;
+  return program.run(argc, argv);
 }

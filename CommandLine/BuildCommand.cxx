@@ -1,0 +1,169 @@
+#include "BuildCommand.h"
+
+#include "ByteSize.h"
+#include "CancelSignal.h"
+#include "InputFiles.h"
+#include "PeakMemory.h"
+#include "ProgressDisplay.h"
+#include "SourceFormats.h"
+#include "Unavailable.h"
+#include "Values.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <cstdio>
+
+namespace pointfront
+{
+
+void BuildCommand::declare(CLI::App& program)
+{
+  app_ = program.add_subcommand("build", "Build a store from point files");
+  app_->add_option("inputs", inputs_, "Files, glob patterns, folders; any mix")
+    ->required()
+    ->type_name("IN...");
+  app_->add_option("-o,--output", options_.outputPath, "The store to write")
+    ->required()
+    ->type_name("OUT.pfront");
+  app_->add_option("--structure", structure_, "Shape of the hierarchy (octree)")
+    ->check(availableValues({ "octree" }, { "kdtree" }));
+  app_->add_option("--refinement", refinement_, "Inner nodes hold a subset (add)")
+    ->check(availableValues({ "add" }, { "replace" }));
+  app_->add_option("--layers", layers_, "One tree for all points (none)")
+    ->check(availableValues({ "none" }, { "class" }));
+  app_->add_option("--node-points", options_.nodePoints, "Most points of a leaf (16384)")
+    ->check(CLI::Range(256u, 1u << 20))
+    ->type_name("N");
+  app_->add_option("--precision", precision_,
+        "Step of the stored coordinates (the inputs' own: lossless)")
+    ->check(CLI::PositiveNumber)
+    ->type_name("METRES");
+  app_->add_option("--attributes", attributes_, "Attributes to store: all, or names (all)")
+    ->type_name("all|LIST");
+  addByteSize(*app_, "--memory", options_.memoryBytes,
+    "Most memory for points; beyond it they are spilled to disk (half of the machine's)");
+  app_->add_option("--threads", options_.threads, "Threads (one a core)")
+    ->check(CLI::Range(1u, 1024u))
+    ->type_name("N");
+  app_->add_option("--temp", options_.temporaryFolder, "Folder for spill files (the output's)")
+    ->check(CLI::ExistingDirectory)
+    ->type_name("DIR");
+  app_->add_flag("--force", options_.overwrite, "Replace an existing output");
+  app_->add_option("--progress", progress_, "On stderr: auto, plain, json or none (auto)")
+    ->check(availableValues({ "auto", "plain", "json", "none" }, {}));
+  app_->add_flag("--json", json_, "Print the report as one JSON object");
+  declareUnavailableOptions(*app_);
+}
+
+void BuildCommand::declareUnavailableOptions(CLI::App& app)
+{
+  app.add_option("--normals", normals_, "Estimate normals (none)")
+    ->check(availableValues({ "none" }, { "scanline", "pca" }));
+  const std::string noNormals = "normals are not estimated";
+  for (const char* option :
+    { "--normals-k", "--normals-radius", "--normals-eps", "--normals-classes" })
+  {
+    declareUnavailable(app, option, noNormals);
+  }
+  declareUnavailableFlag(app, "--local-height", "heights are not computed");
+  declareUnavailableFlag(app, "--height-above-ground", "heights are not computed");
+  declareUnavailable(app, "--color-from", "points are not coloured from images");
+  declareUnavailable(app, "--attribute-from", "attributes are not taken from images");
+  declareUnavailable(app, "--crs", "coordinates are not transformed");
+  declareUnavailable(app, "--assume-crs", "coordinates are not transformed");
+}
+
+Result<std::vector<std::unique_ptr<PointSource>>> BuildCommand::openSources() const
+{
+  const SourceFormats formats;
+  Result<InputFileList> files = findInputFiles(inputs_, formats.extensions());
+  if (!files)
+  {
+    return files.error();
+  }
+  for (const std::string& warning : files->warnings)
+  {
+    warn(name(), warning);
+  }
+  std::vector<std::unique_ptr<PointSource>> sources;
+  for (const std::string& path : files->paths)
+  {
+    Result<std::unique_ptr<PointSource>> source = formats.open(path);
+    if (!source)
+    {
+      return source.error();
+    }
+    if (CancelSignal::requested())
+    {
+      return makeError(Error::Kind::Cancelled, "cancelled");
+    }
+    sources.push_back(std::move(*source));
+  }
+  return sources;
+}
+
+Result<void> BuildCommand::run()
+{
+  const CancelSignal signal(CancelSignal::Mode::Finish);
+  if (precision_ > 0.0)
+  {
+    options_.precision = precision_;
+  }
+  if (attributes_ != "all")
+  {
+    options_.attributes = splitList(attributes_);
+  }
+  Result<std::vector<std::unique_ptr<PointSource>>> sources = openSources();
+  if (!sources)
+  {
+    return sources.error();
+  }
+  std::optional<BuildReport> report;
+  {
+    ProgressDisplay display(*ProgressDisplay::styleOf(progress_));
+    Result<BuildReport> built = buildOctreeStore(*sources, options_, display.function());
+    if (!built)
+    {
+      return built.error();
+    }
+    report = std::move(*built);
+  }
+  for (const std::string& warning : report->warnings)
+  {
+    warn(name(), warning);
+  }
+  if (json_)
+  {
+    std::printf("%s\n", buildReportJson(*report, peakResidentBytes()).c_str());
+    return {};
+  }
+  std::printf("%s: %llu points in %llu nodes, %s, %.1f s (%.2f M points/s)\n",
+    options_.outputPath.c_str(), static_cast<unsigned long long>(report->pointsStored),
+    static_cast<unsigned long long>(report->nodes), byteSizeText(report->bytesWritten).c_str(),
+    report->seconds, report->seconds > 0.0
+      ? static_cast<double>(report->pointsStored) / report->seconds * 1e-6 : 0.0);
+  return {};
+}
+
+std::string buildReportJson(const BuildReport& report, std::uint64_t peakBytes)
+{
+  nlohmann::ordered_json object;
+  object["points_read"] = report.pointsRead;
+  object["points_stored"] = report.pointsStored;
+  object["points_rejected"] = nlohmann::ordered_json::object();
+  for (const auto& [reason, count] : report.pointsRejected)
+  {
+    object["points_rejected"][reason] = count;
+  }
+  object["seconds"] = report.seconds;
+  object["points_per_second"] = report.seconds > 0.0
+    ? std::llround(static_cast<double>(report.pointsStored) / report.seconds)
+    : 0;
+  object["peak_rss_bytes"] = peakBytes;
+  object["bytes_written"] = report.bytesWritten;
+  object["spilled_bytes"] = report.spilledBytes;
+  return object.dump(2);
+}
+
+} // namespace pointfront

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "Command.h"
+
+#include "pointfront/Build/StoreBuilder.h"
+#include "pointfront/Points/PointSource.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace pointfront
+{
+
+/// `pointfront build`: point files -> one store.
+class BuildCommand final : public Command
+{
+public:
+  void declare(CLI::App& program) override;
+  Result<void> run() override;
+
+private:
+  void declareUnavailableOptions(CLI::App& app);
+  /// Opens every input; warns of what was wrong and survived.
+  Result<std::vector<std::unique_ptr<PointSource>>> openSources() const;
+
+  std::vector<std::string> inputs_;
+  BuildOptions options_;
+  std::string attributes_ = "all";
+  std::string progress_ = "auto";
+  std::string structure_ = "octree";
+  std::string refinement_ = "add";
+  std::string layers_ = "none";
+  std::string normals_ = "none";
+  double precision_ = 0.0;
+  bool json_ = false;
+};
+
+/// The keys of `build --json`.
+std::string buildReportJson(const BuildReport& report, std::uint64_t peakBytes);
+
+} // namespace pointfront

@@ -1,0 +1,29 @@
+#pragma once
+
+namespace pointfront
+{
+
+/// SIGINT and SIGTERM while a command runs. One object at a time; the old handlers come back when
+/// it goes.
+/// Modes    Finish: the signal only sets a flag; the operation sees it at its next progress report,
+///          stops and removes what it had begun (builds, exports).
+///          Leave: the process ends at once with status 130; for commands that have nothing on the
+///          disk yet, whatever they are waiting for (a render in a driver, for example).
+class CancelSignal
+{
+public:
+  enum class Mode
+  {
+    Finish,
+    Leave
+  };
+  explicit CancelSignal(Mode mode);
+  ~CancelSignal();
+  CancelSignal(const CancelSignal&) = delete;
+  CancelSignal& operator=(const CancelSignal&) = delete;
+
+  /// True once a signal came. Any thread.
+  static bool requested();
+};
+
+} // namespace pointfront

@@ -1,0 +1,126 @@
+#include "InfoCommand.h"
+
+#include "ByteSize.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cstdio>
+#include <sstream>
+
+namespace pointfront
+{
+
+namespace
+{
+const char* refinementName(Refinement refinement)
+{
+  return refinement == Refinement::Add ? "add" : "replace";
+}
+
+/// The coarsest axis: no coordinate is farther from the truth than half of it.
+double precisionOf(const QuantisationGrid& grid)
+{
+  return std::max({ grid.scale.x, grid.scale.y, grid.scale.z });
+}
+
+nlohmann::ordered_json boundsJson(const Bounds& b)
+{
+  return b.empty() ? nlohmann::ordered_json()
+                   : nlohmann::ordered_json{ b.low.x, b.low.y, b.low.z, b.high.x, b.high.y,
+                       b.high.z };
+}
+} // namespace
+
+void InfoCommand::declare(CLI::App& program)
+{
+  app_ = program.add_subcommand("info", "Describe a store");
+  app_->add_option("store", path_, "The store")->required()->type_name("STORE");
+  app_->add_flag("--json", json_, "Print one JSON object");
+}
+
+Result<void> InfoCommand::run()
+{
+  Result<std::shared_ptr<const PointStore>> store = PointStore::open(path_);
+  if (!store)
+  {
+    return store.error();
+  }
+  const StoreDescription& description = (*store)->description();
+  const std::uint64_t nodes = (*store)->hierarchy()->nodeCount();
+  const std::string text = json_ ? storeJson(description, nodes) : storeText(description, nodes);
+  std::printf("%s\n", text.c_str());
+  return {};
+}
+
+std::string storeJson(const StoreDescription& store, std::uint64_t nodes)
+{
+  nlohmann::ordered_json object;
+  object["points"] = store.pointCount;
+  object["bounds"] = boundsJson(store.bounds);
+  object["precision"] = precisionOf(store.grid);
+  object["crs"] =
+    store.crsWkt.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(store.crsWkt);
+  object["structure"] = store.structure;
+  object["refinement"] = refinementName(store.refinement);
+  object["nodes"] = nodes;
+  object["levels"] = store.levels;
+  object["bytes"] = store.fileBytes;
+  object["attributes"] = nlohmann::ordered_json::array();
+  for (const Attribute& attribute : store.schema)
+  {
+    object["attributes"].push_back({ { "name", attribute.name },
+      { "type", std::string(nameOf(attribute.type)) }, { "components", attribute.components } });
+  }
+  object["layers"] = nlohmann::ordered_json::array();
+  for (const Layer& layer : store.layers)
+  {
+    object["layers"].push_back({ { "class", layer.objectClass }, { "name", layer.name },
+      { "points", layer.pointCount }, { "nodes", layer.nodeCount } });
+  }
+  object["version"] = store.version;
+  object["grid"] = { { "scale", { store.grid.scale.x, store.grid.scale.y, store.grid.scale.z } },
+    { "offset", { store.grid.offset.x, store.grid.offset.y, store.grid.offset.z } } };
+  // A name from a file need not be UTF-8: what is not becomes the replacement character.
+  return object.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+std::string storeText(const StoreDescription& store, std::uint64_t nodes)
+{
+  std::ostringstream text;
+  text.precision(15);
+  const Bounds& b = store.bounds;
+  text << store.path << "\n  points      " << store.pointCount << "\n  bounds      ";
+  if (b.empty())
+  {
+    text << "none";
+  }
+  else
+  {
+    text << b.low.x << ' ' << b.low.y << ' ' << b.low.z << " to " << b.high.x << ' ' << b.high.y
+         << ' ' << b.high.z;
+  }
+  text << "\n  precision   " << store.grid.scale.x << ' ' << store.grid.scale.y << ' '
+       << store.grid.scale.z << "\n  crs         "
+       << (store.crsWkt.empty() ? "not known" : store.crsWkt) << "\n  hierarchy   "
+       << store.structure << ", refinement " << refinementName(store.refinement) << ", " << nodes
+       << " nodes in " << store.levels << " levels\n  file        "
+       << byteSizeText(store.fileBytes) << " (" << store.fileBytes << " bytes), version "
+       << store.version << ", by " << store.generator << "\n  attributes ";
+  for (const Attribute& attribute : store.schema)
+  {
+    text << ' ' << attribute.name << ':' << nameOf(attribute.type);
+    if (attribute.components > 1)
+    {
+      text << 'x' << static_cast<int>(attribute.components);
+    }
+  }
+  for (const Layer& layer : store.layers)
+  {
+    text << "\n  layer       " << layer.name << " (class " << layer.objectClass << "): "
+         << layer.pointCount << " points in " << layer.nodeCount << " nodes";
+  }
+  return text.str();
+}
+
+} // namespace pointfront

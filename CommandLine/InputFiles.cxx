@@ -1,0 +1,151 @@
+#include "InputFiles.h"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <glob.h>
+#include <map>
+
+namespace pointfront
+{
+
+namespace
+{
+namespace fs = std::filesystem;
+
+bool hasExtension(const fs::path& path, const std::vector<std::string>& extensions)
+{
+  std::string extension = path.extension().string();
+  if (extension.empty())
+  {
+    return false;
+  }
+  extension.erase(0, 1);
+  for (char& c : extension)
+  {
+    c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  }
+  return std::find(extensions.begin(), extensions.end(), extension) != extensions.end();
+}
+
+Result<std::vector<std::string>> filesBelow(
+  const std::string& folder, const std::vector<std::string>& extensions)
+{
+  std::vector<std::string> files;
+  std::error_code failure;
+  fs::recursive_directory_iterator entry(folder, failure);
+  for (; !failure && entry != fs::recursive_directory_iterator(); entry.increment(failure))
+  {
+    std::error_code vanished;
+    if (entry->is_regular_file(vanished) && hasExtension(entry->path(), extensions))
+    {
+      files.push_back(entry->path().string());
+    }
+  }
+  if (failure)
+  {
+    return makeError(
+      Error::Kind::Unreadable, folder + ": cannot list the folder: " + failure.message());
+  }
+  if (files.empty())
+  {
+    return makeError(
+      Error::Kind::NotFound, folder + ": the folder holds no point file of a known extension");
+  }
+  return files;
+}
+
+Result<std::vector<std::string>> filesMatching(
+  const std::string& pattern, const std::vector<std::string>& extensions)
+{
+  glob_t matches = {};
+  const int status = ::glob(pattern.c_str(), GLOB_NOSORT, nullptr, &matches);
+  std::vector<std::string> found;
+  if (status == 0)
+  {
+    found.assign(matches.gl_pathv, matches.gl_pathv + matches.gl_pathc);
+  }
+  ::globfree(&matches);
+  if (status == GLOB_NOMATCH)
+  {
+    return makeError(Error::Kind::NotFound, pattern + ": no file matches the pattern");
+  }
+  if (status != 0)
+  {
+    return makeError(Error::Kind::Unreadable, pattern + ": cannot list what matches the pattern");
+  }
+  std::vector<std::string> files;
+  for (const std::string& path : found)
+  {
+    if (!fs::is_directory(path))
+    {
+      files.push_back(path);
+      continue;
+    }
+    Result<std::vector<std::string>> inside = filesBelow(path, extensions);
+    if (!inside)
+    {
+      return inside.error();
+    }
+    files.insert(files.end(), inside->begin(), inside->end());
+  }
+  return files;
+}
+
+Result<std::vector<std::string>> expand(
+  const std::string& argument, const std::vector<std::string>& extensions)
+{
+  std::error_code failure;
+  const fs::file_status status = fs::status(argument, failure);
+  if (fs::is_directory(status))
+  {
+    return filesBelow(argument, extensions);
+  }
+  if (fs::exists(status))
+  {
+    return std::vector<std::string>{ argument };
+  }
+  if (argument.find_first_of("*?[") != std::string::npos)
+  {
+    return filesMatching(argument, extensions);
+  }
+  return makeError(Error::Kind::NotFound, argument + ": no such file or folder");
+}
+} // namespace
+
+Result<InputFileList> findInputFiles(
+  const std::vector<std::string>& arguments, const std::vector<std::string>& extensions)
+{
+  InputFileList list;
+  for (const std::string& argument : arguments)
+  {
+    Result<std::vector<std::string>> files = expand(argument, extensions);
+    if (!files)
+    {
+      return files.error();
+    }
+    list.paths.insert(list.paths.end(), files->begin(), files->end());
+  }
+  std::sort(list.paths.begin(), list.paths.end());
+
+  std::map<std::string, std::string> seen; // real path -> as named
+  std::vector<std::string> once;
+  for (const std::string& path : list.paths)
+  {
+    std::error_code failure;
+    const fs::path real = fs::canonical(path, failure);
+    const auto [first, isNew] = seen.emplace(failure ? path : real.string(), path);
+    if (isNew)
+    {
+      once.push_back(path);
+    }
+    else
+    {
+      list.warnings.push_back(path + " is the same file as " + first->second + ": read once");
+    }
+  }
+  list.paths = std::move(once);
+  return list;
+}
+
+} // namespace pointfront

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "pointfront/Base/Result.h"
+
+#include <string>
+#include <vector>
+
+namespace pointfront
+{
+
+/// What the arguments of `build` stand for.
+struct InputFileList
+{
+  std::vector<std::string> paths;    ///< sorted bytewise: the same for any order of the arguments
+  std::vector<std::string> warnings; ///< a file that was named twice is read once
+};
+
+/// Turns files, glob patterns (*, ?, [...], for programs that call without a shell) and folders
+/// (every file below it whose extension is one of `extensions`, lower case without the dot) into a
+/// list of files.
+/// Errors  NotFound: no such file, a pattern that matches nothing, a folder without a point file.
+Result<InputFileList> findInputFiles(
+  const std::vector<std::string>& arguments, const std::vector<std::string>& extensions);
+
+} // namespace pointfront

@@ -1,0 +1,91 @@
+#include "Program.h"
+
+#include "InfoCommand.h"
+#include "Unavailable.h"
+#include "VerifyCommand.h"
+
+#include <cstdio>
+
+namespace pointfront
+{
+
+Program::Program()
+  : app_("Point clouds larger than memory: build stores, check them, draw them.", "pointfront")
+{
+  app_.set_version_flag("--version", "pointfront " POINTFRONT_VERSION);
+  commands_.push_back(std::make_unique<InfoCommand>());
+  commands_.push_back(std::make_unique<VerifyCommand>());
+  for (const auto& command : commands_)
+  {
+    command->declare(app_);
+  }
+  declareUnavailableCommands();
+}
+
+void Program::declareUnavailableCommands()
+{
+  declareUnavailableCommand(app_, "index", "LAS files are not indexed in place; use build");
+  declareUnavailableCommand(app_, "generate", "there is no generator of synthetic clouds");
+  declareUnavailableCommand(app_, "view", "there is no window; use render, or ParaView");
+}
+
+std::string Program::commandNamed(int argc, char** argv) const
+{
+  for (int i = 1; i < argc; ++i)
+  {
+    const std::string word = argv[i];
+    const auto isWord = [&word](const CLI::App* command) { return command->get_name() == word; };
+    if (!app_.get_subcommands(isWord).empty())
+    {
+      return word;
+    }
+  }
+  return {};
+}
+
+std::string Program::commandsText() const
+{
+  std::string names;
+  for (const auto& command : commands_)
+  {
+    names += (names.empty() ? "" : ", ") + command->name();
+  }
+  return "the first word is a command: " + names + " (COMMAND --help tells more)";
+}
+
+int Program::run(int argc, char** argv)
+{
+  try
+  {
+    app_.parse(argc, argv);
+  }
+  catch (const CLI::Success& help) // --help, --version
+  {
+    return app_.exit(help);
+  }
+  catch (const CLI::ParseError& wrong)
+  {
+    const std::string command = commandNamed(argc, argv);
+    complain(command, command.empty() ? commandsText() : wrong.what());
+    return ExitStatus::WrongUsage;
+  }
+  for (const auto& command : commands_)
+  {
+    if (!command->chosen())
+    {
+      continue;
+    }
+    const Result<void> outcome = command->run();
+    if (outcome)
+    {
+      return ExitStatus::Done;
+    }
+    complain(command->name(), outcome.error().what);
+    return outcome.error().kind == Error::Kind::Cancelled ? ExitStatus::Interrupted
+                                                          : ExitStatus::Failed;
+  }
+  complain("", commandsText());
+  return ExitStatus::WrongUsage;
+}
+
+} // namespace pointfront

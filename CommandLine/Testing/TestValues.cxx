@@ -1,0 +1,45 @@
+#include "Values.h"
+
+#include <gtest/gtest.h>
+
+namespace pointfront
+{
+
+TEST(Values, ListsSplitAtCommas)
+{
+  EXPECT_EQ(splitList("a,b"), (std::vector<std::string>{ "a", "b" }));
+  EXPECT_EQ(splitList(",a,,b c,"), (std::vector<std::string>{ "a", "b c" }));
+  EXPECT_TRUE(splitList("").empty());
+}
+
+TEST(Values, BoxNeedsSixFiniteNumbers)
+{
+  const auto box = parseNumbers<6>("-1,2.5,3e2,4,5,6");
+  ASSERT_TRUE(box);
+  EXPECT_EQ(*box, (std::array<double, 6>{ -1.0, 2.5, 300.0, 4.0, 5.0, 6.0 }));
+  for (const char* text : { "1,2,3,4,5", "1,2,3,4,5,6,7", "1,2,3,4,5,x", "1,2,3,4,5,nan",
+         "1,2,3,4,5,6m", "" })
+  {
+    EXPECT_FALSE(parseNumbers<6>(text)) << text;
+  }
+}
+
+TEST(Values, ClassesAreSortedCodesOfOneByte)
+{
+  EXPECT_EQ(parseClasses("6,2,2,255"), (std::vector<std::uint8_t>{ 2, 6, 255 }));
+  for (const char* text : { "", "256", "-1", "2;6", "ground" })
+  {
+    EXPECT_FALSE(parseClasses(text)) << text;
+  }
+}
+
+TEST(Values, ImageSizeIsTwoEdgesInPixels)
+{
+  EXPECT_EQ(parseImageSize("1280x720"), (std::array<int, 2>{ 1280, 720 }));
+  for (const char* text : { "1280", "1280x", "x720", "0x10", "20000x10", "-5x5", "1280x720x3" })
+  {
+    EXPECT_FALSE(parseImageSize(text)) << text;
+  }
+}
+
+} // namespace pointfront

@@ -1,0 +1,127 @@
+#include "Values.h"
+
+#include "ByteSize.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+namespace pointfront
+{
+
+namespace
+{
+constexpr int largestImageEdge = 16384;
+
+std::optional<double> parseNumber(const std::string& text)
+{
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  if (text.empty() || end != text.c_str() + text.size() || !std::isfinite(value))
+  {
+    return std::nullopt;
+  }
+  return value;
+}
+
+/// Decimal digits only.
+std::optional<long> parseCount(const std::string& text)
+{
+  const bool digits = !text.empty() && text.size() < 10 &&
+    std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
+  return digits ? std::optional<long>(std::strtol(text.c_str(), nullptr, 10)) : std::nullopt;
+}
+} // namespace
+
+std::vector<std::string> splitList(const std::string& text)
+{
+  std::vector<std::string> words;
+  std::string::size_type begin = 0;
+  while (begin <= text.size())
+  {
+    const std::string::size_type end = std::min(text.find(',', begin), text.size());
+    if (end > begin)
+    {
+      words.push_back(text.substr(begin, end - begin));
+    }
+    begin = end + 1;
+  }
+  return words;
+}
+
+template <std::size_t N>
+std::optional<std::array<double, N>> parseNumbers(const std::string& text)
+{
+  const std::vector<std::string> words = splitList(text);
+  std::array<double, N> numbers{};
+  if (words.size() != N)
+  {
+    return std::nullopt;
+  }
+  for (std::size_t i = 0; i < N; ++i)
+  {
+    const std::optional<double> number = parseNumber(words[i]);
+    if (!number)
+    {
+      return std::nullopt;
+    }
+    numbers[i] = *number;
+  }
+  return numbers;
+}
+template std::optional<std::array<double, 3>> parseNumbers<3>(const std::string&);
+template std::optional<std::array<double, 6>> parseNumbers<6>(const std::string&);
+
+std::optional<std::vector<std::uint8_t>> parseClasses(const std::string& text)
+{
+  std::vector<std::uint8_t> classes;
+  for (const std::string& word : splitList(text))
+  {
+    const std::optional<long> code = parseCount(word);
+    if (!code || *code > 255)
+    {
+      return std::nullopt;
+    }
+    classes.push_back(static_cast<std::uint8_t>(*code));
+  }
+  std::sort(classes.begin(), classes.end());
+  classes.erase(std::unique(classes.begin(), classes.end()), classes.end());
+  return classes.empty() ? std::nullopt : std::make_optional(std::move(classes));
+}
+
+std::optional<std::array<int, 2>> parseImageSize(const std::string& text)
+{
+  const std::string::size_type cross = text.find('x');
+  if (cross == std::string::npos)
+  {
+    return std::nullopt;
+  }
+  const std::optional<long> width = parseCount(text.substr(0, cross));
+  const std::optional<long> height = parseCount(text.substr(cross + 1));
+  const auto fits = [](const std::optional<long>& edge)
+  { return edge && *edge >= 1 && *edge <= largestImageEdge; };
+  if (!fits(width) || !fits(height))
+  {
+    return std::nullopt;
+  }
+  return std::array<int, 2>{ static_cast<int>(*width), static_cast<int>(*height) };
+}
+
+CLI::Option* addByteSize(
+  CLI::App& app, const std::string& option, std::uint64_t& bytes, const std::string& description)
+{
+  const CLI::callback_t parse = [option, &bytes](const CLI::results_t& words) -> bool
+  {
+    const std::optional<std::uint64_t> size = parseByteSize(words.back());
+    if (!size)
+    {
+      throw CLI::ParseError(
+        option + ": '" + words.back() + "' is not a size in bytes: write 512M or 4G", 2);
+    }
+    bytes = *size;
+    return true;
+  };
+  return app.add_option(option, parse, description)->type_name("BYTES")->expected(1);
+}
+
+} // namespace pointfront

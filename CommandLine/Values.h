@@ -1,0 +1,30 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pointfront
+{
+
+/// Values of options that are more than a number. Each parser gives nothing for wrong text.
+
+/// "2,6,9" -> the words between the commas; empty words are left out.
+std::vector<std::string> splitList(const std::string& text);
+/// "1,2.5,-3" -> exactly N finite numbers.
+template <std::size_t N>
+std::optional<std::array<double, N>> parseNumbers(const std::string& text);
+/// "2,6" -> class codes from 0 to 255, sorted, once each.
+std::optional<std::vector<std::uint8_t>> parseClasses(const std::string& text);
+/// "1280x720" -> width and height, 1 to 16384 pixels.
+std::optional<std::array<int, 2>> parseImageSize(const std::string& text);
+
+/// An option of bytes: "512M", "4G". Wrong text is wrong usage.
+CLI::Option* addByteSize(
+  CLI::App& app, const std::string& option, std::uint64_t& bytes, const std::string& description);
+
+} // namespace pointfront

@@ -2,6 +2,7 @@
 
 #include "LASFile.h"
 #include "LASSource.h"
+#include "LAZSource.h"
 
 #include <cstring>
 #include <fstream>
@@ -26,8 +27,7 @@ Result<std::unique_ptr<PointSource>> LASFormat::open(const std::string& path) co
   }
   if (file->header.compressed)
   {
-    return makeError(
-      Error::Kind::Unsupported, path + ": LAZ points are not supported by this build");
+    return LAZSource::open(std::move(*file));
   }
   return LASSource::open(std::move(*file));
 }

@@ -73,5 +73,6 @@ TEST_P(RealLASFile, LiesInItsDeclaredBounds)
 }
 
 INSTANTIATE_TEST_SUITE_P(LAS, RealLASFile, testing::ValuesIn(realLASFiles), testName);
+INSTANTIATE_TEST_SUITE_P(LAZ, RealLASFile, testing::ValuesIn(realLAZFiles), testName);
 } // namespace
 } // namespace pointfront::test

@@ -1,0 +1,199 @@
+#include "LAZIntegerDecoder.h"
+
+#include <algorithm>
+
+namespace pointfront
+{
+namespace
+{
+constexpr std::uint32_t minimumLength = 0x01000000u; // interval below which bytes are shifted in
+constexpr std::uint32_t bitShift = 13;               // precision of bit probabilities
+constexpr std::uint32_t symbolShift = 15;            // precision of symbol probabilities
+constexpr std::uint32_t integerBits = 32;
+constexpr std::uint32_t modelledBits = 8; // of a difference; bits below them are stored as they are
+} // namespace
+
+LAZIntegerDecoder::Model::Model(std::uint32_t symbols)
+  : counts(symbols, 1)
+  , distribution(symbols)
+  , cycle(symbols)
+{
+  update();
+  untilUpdate = cycle = (symbols + 6) >> 1;
+}
+
+void LAZIntegerDecoder::Model::update()
+{
+  const auto symbols = static_cast<std::uint32_t>(counts.size());
+  total += cycle;
+  if (total > (1u << symbolShift))
+  {
+    total = 0;
+    for (std::uint32_t& count : counts)
+    {
+      count = (count + 1) >> 1;
+      total += count;
+    }
+  }
+  const std::uint32_t scale = 0x80000000u / total;
+  std::uint32_t sum = 0;
+  for (std::uint32_t k = 0; k < symbols; ++k)
+  {
+    distribution[k] = (scale * sum) >> (31 - symbolShift);
+    sum += counts[k];
+  }
+  cycle = std::min((5 * cycle) >> 2, (symbols + 6) << 3);
+  untilUpdate = cycle;
+}
+
+void LAZIntegerDecoder::BitModel::update()
+{
+  total += cycle;
+  if (total > (1u << bitShift))
+  {
+    total = (total + 1) >> 1;
+    zeroCount = (zeroCount + 1) >> 1;
+    total += zeroCount == total ? 1 : 0;
+  }
+  zeroProbability = (zeroCount * (0x80000000u / total)) >> (31 - bitShift);
+  cycle = std::min((5 * cycle) >> 2, 64u);
+  untilUpdate = cycle;
+}
+
+LAZIntegerDecoder::LAZIntegerDecoder(ByteView bytes)
+  : bytes_(bytes)
+  , widths_{ Model(integerBits + 1), Model(integerBits + 1) }
+{
+  for (std::uint32_t width = 1; width <= integerBits; ++width)
+  {
+    highBits_.emplace_back(1u << std::min(width, modelledBits));
+  }
+  for (int i = 0; i < 4; ++i)
+  {
+    value_ = (value_ << 8) | byte();
+  }
+}
+
+std::optional<std::uint32_t> LAZIntegerDecoder::next(std::uint32_t prediction, int context)
+{
+  const std::uint32_t integer =
+    prediction + difference(widths_[static_cast<std::size_t>(context)]);
+  return sound_ ? std::optional<std::uint32_t>(integer) : std::nullopt;
+}
+
+std::uint32_t LAZIntegerDecoder::byte()
+{
+  if (at_ >= bytes_.size)
+  {
+    sound_ = false;
+    return 0;
+  }
+  return std::to_integer<std::uint32_t>(bytes_.data[at_++]);
+}
+
+void LAZIntegerDecoder::renormalise()
+{
+  while (length_ < minimumLength)
+  {
+    value_ = (value_ << 8) | byte();
+    length_ <<= 8;
+    if (length_ == 0) // only bytes that no encoder wrote lead here
+    {
+      sound_ = false;
+      length_ = 0xFFFFFFFFu;
+    }
+  }
+}
+
+std::uint32_t LAZIntegerDecoder::symbol(Model& model)
+{
+  std::uint32_t upper = length_;
+  length_ >>= symbolShift;
+  std::uint32_t lower = 0;
+  std::uint32_t found = 0;
+  auto end = static_cast<std::uint32_t>(model.counts.size());
+  for (std::uint32_t k = end >> 1; k != found; k = (found + end) >> 1)
+  {
+    const std::uint32_t bound = length_ * model.distribution[k];
+    if (bound > value_)
+    {
+      end = k;
+      upper = bound;
+    }
+    else
+    {
+      found = k;
+      lower = bound;
+    }
+  }
+  value_ -= lower;
+  length_ = upper - lower;
+  renormalise();
+  ++model.counts[found];
+  if (--model.untilUpdate == 0)
+  {
+    model.update();
+  }
+  return found;
+}
+
+std::uint32_t LAZIntegerDecoder::bit(BitModel& model)
+{
+  const std::uint32_t bound = model.zeroProbability * (length_ >> bitShift);
+  const bool one = value_ >= bound;
+  if (one)
+  {
+    value_ -= bound;
+    length_ -= bound;
+  }
+  else
+  {
+    length_ = bound;
+    ++model.zeroCount;
+  }
+  renormalise();
+  if (--model.untilUpdate == 0)
+  {
+    model.update();
+  }
+  return one ? 1 : 0;
+}
+
+std::uint32_t LAZIntegerDecoder::bits(std::uint32_t count)
+{
+  if (count > 19) // more than one step can hold
+  {
+    const std::uint32_t low = bits(16);
+    return (bits(count - 16) << 16) | low;
+  }
+  length_ >>= count;
+  const std::uint32_t found = value_ / length_;
+  value_ -= length_ * found;
+  sound_ = sound_ && found < (1u << count);
+  renormalise();
+  return found;
+}
+
+/// The difference lies in [-(2^w - 1), 2^w], outside the interval of the next smaller width w.
+/// Arithmetic is modulo 2^32, as the encoder's.
+std::uint32_t LAZIntegerDecoder::difference(Model& widthModel)
+{
+  const std::uint32_t width = symbol(widthModel);
+  if (width == 0)
+  {
+    return bit(zeroOrOne_);
+  }
+  if (width >= integerBits)
+  {
+    return 0x80000000u;
+  }
+  std::uint32_t position = symbol(highBits_[width - 1]);
+  if (width > modelledBits)
+  {
+    const std::uint32_t lowBits = width - modelledBits;
+    position = (position << lowBits) | bits(lowBits);
+  }
+  return position >= (1u << (width - 1)) ? position + 1 : position - ((1u << width) - 1);
+}
+
+} // namespace pointfront

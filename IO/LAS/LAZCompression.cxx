@@ -176,7 +176,8 @@ Result<LAZCompression> LAZCompression::of(const LASFile& file)
   }
   if (compression.scheme != Scheme::Pointwise && compression.chunkPoints == 0)
   {
-    return makeError(Error::Kind::BadFormat, path + ": the compression record has chunks of 0 points");
+    return makeError(
+      Error::Kind::BadFormat, path + ": the compression record has chunks of 0 points");
   }
   compression.record.assign(payload.data, payload.data + itemsAt + count * itemBytes);
   return compression;

@@ -15,8 +15,8 @@ namespace pointfront
 /// The points of a LAZ or COPC file. A chunk is a run of the file's own chunks with about 65,536
 /// points together, or a single larger one: nothing is ever decompressed twice.
 /// Threads   read() makes a decompressor of its own; any number of threads.
-/// Errors    of open(): those of LAZCompression::of and findLAZChunks, Unsupported for chunks of more
-///           than lazMostChunkPoints. Of read(): BadFormat with the byte of the damaged chunk.
+/// Errors    of open(): those of LAZCompression::of and findLAZChunks, Unsupported for chunks of
+///           more than lazMostChunkPoints. Of read(): BadFormat with the damaged chunk's byte.
 class LAZSource final : public PointSource
 {
 public:

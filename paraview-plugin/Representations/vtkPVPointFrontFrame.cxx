@@ -1,0 +1,86 @@
+#include "vtkPVPointFrontFrame.h"
+
+#include "vtkClientServerStream.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointFrontRepresentation.h"
+
+#include <algorithm>
+
+vtkStandardNewMacro(vtkPVPointFrontFrame);
+
+//------------------------------------------------------------------------------
+vtkPVPointFrontFrame::vtkPVPointFrontFrame() = default;
+
+//------------------------------------------------------------------------------
+vtkPVPointFrontFrame::~vtkPVPointFrontFrame() = default;
+
+//------------------------------------------------------------------------------
+void vtkPVPointFrontFrame::CopyFromObject(vtkObject* object)
+{
+  auto* representation = vtkPointFrontRepresentation::SafeDownCast(object);
+  if (!representation)
+  {
+    vtkErrorMacro("A vtkPointFrontRepresentation is asked for its frame, not "
+      << (object ? object->GetClassName() : "nothing"));
+    return;
+  }
+  this->PointsDrawn = representation->GetPointsDrawn();
+  this->NodesDrawn = representation->GetNodesDrawn();
+  this->ProjectedSpacing = representation->GetProjectedSpacing();
+  this->Complete = representation->GetFrameComplete();
+  this->Outdated = representation->GetFrameOutdated();
+}
+
+//------------------------------------------------------------------------------
+void vtkPVPointFrontFrame::AddInformation(vtkPVInformation* information)
+{
+  if (auto* other = vtkPVPointFrontFrame::SafeDownCast(information))
+  {
+    this->PointsDrawn += other->PointsDrawn;
+    this->NodesDrawn += other->NodesDrawn;
+    this->ProjectedSpacing = std::max(this->ProjectedSpacing, other->ProjectedSpacing);
+    this->Complete = this->Complete && other->Complete;
+    this->Outdated = this->Outdated || other->Outdated;
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkPVPointFrontFrame::CopyToStream(vtkClientServerStream* stream)
+{
+  stream->Reset();
+  *stream << vtkClientServerStream::Reply << static_cast<vtkTypeInt64>(this->PointsDrawn)
+          << static_cast<vtkTypeInt64>(this->NodesDrawn) << this->ProjectedSpacing
+          << (this->Complete ? 1 : 0) << (this->Outdated ? 1 : 0) << vtkClientServerStream::End;
+}
+
+//------------------------------------------------------------------------------
+void vtkPVPointFrontFrame::CopyFromStream(const vtkClientServerStream* stream)
+{
+  vtkTypeInt64 points = 0;
+  vtkTypeInt64 nodes = 0;
+  int complete = 1;
+  int outdated = 0;
+  if (!stream->GetArgument(0, 0, &points) || !stream->GetArgument(0, 1, &nodes) ||
+    !stream->GetArgument(0, 2, &this->ProjectedSpacing) || !stream->GetArgument(0, 3, &complete) ||
+    !stream->GetArgument(0, 4, &outdated))
+  {
+    vtkErrorMacro("The server's frame cannot be read: client and server have different plugins. "
+                  "Load the same build of the PointFront plugin on both.");
+    return;
+  }
+  this->PointsDrawn = static_cast<vtkIdType>(points);
+  this->NodesDrawn = static_cast<vtkIdType>(nodes);
+  this->Complete = complete != 0;
+  this->Outdated = outdated != 0;
+}
+
+//------------------------------------------------------------------------------
+void vtkPVPointFrontFrame::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "PointsDrawn: " << this->PointsDrawn << "\n"
+     << indent << "NodesDrawn: " << this->NodesDrawn << "\n"
+     << indent << "ProjectedSpacing: " << this->ProjectedSpacing << " px\n"
+     << indent << "Complete: " << this->Complete << "\n"
+     << indent << "Outdated: " << this->Outdated << "\n";
+}

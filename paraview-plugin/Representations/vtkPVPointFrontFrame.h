@@ -1,0 +1,55 @@
+/**
+ * @class vtkPVPointFrontFrame
+ * @brief what all processes drew of a store in their last frame, brought to the client
+ *
+ * Gathered from a vtkPointFrontRepresentation with vtkSMProxy::GatherInformation(), which asks every process that has
+ * one: counts add up, the spacing is the coarsest, and a frame is complete when it is complete everywhere.
+ */
+#ifndef vtkPVPointFrontFrame_h
+#define vtkPVPointFrontFrame_h
+
+#include "pointfrontParaViewRepresentationsModule.h" // for the export macro
+#include "vtkPVInformation.h"
+
+class POINTFRONTPARAVIEWREPRESENTATIONS_EXPORT vtkPVPointFrontFrame : public vtkPVInformation
+{
+public:
+  static vtkPVPointFrontFrame* New();
+  vtkTypeMacro(vtkPVPointFrontFrame, vtkPVInformation);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  void CopyFromObject(vtkObject* representation) override;
+  void AddInformation(vtkPVInformation* other) override;
+  void CopyToStream(vtkClientServerStream* stream) override;
+  void CopyFromStream(const vtkClientServerStream* stream) override;
+
+  ///@{
+  /**
+   * Of all processes together: points and nodes drawn; the largest projected point spacing, pixels.
+   */
+  vtkGetMacro(PointsDrawn, vtkIdType);
+  vtkGetMacro(NodesDrawn, vtkIdType);
+  vtkGetMacro(ProjectedSpacing, double);
+  ///@}
+
+  /// No process has more to show, now or later.
+  vtkGetMacro(Complete, bool);
+  /// A process has more to show now.
+  vtkGetMacro(Outdated, bool);
+
+protected:
+  vtkPVPointFrontFrame();
+  ~vtkPVPointFrontFrame() override;
+
+private:
+  vtkPVPointFrontFrame(const vtkPVPointFrontFrame&) = delete;
+  void operator=(const vtkPVPointFrontFrame&) = delete;
+
+  vtkIdType PointsDrawn = 0;
+  vtkIdType NodesDrawn = 0;
+  double ProjectedSpacing = 0.0;
+  bool Complete = true;
+  bool Outdated = false;
+};
+
+#endif

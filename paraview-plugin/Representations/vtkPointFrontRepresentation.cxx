@@ -1,0 +1,367 @@
+#include "vtkPointFrontRepresentation.h"
+
+#include "vtkDataObject.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkMatrix4x4.h"
+#include "vtkMultiProcessController.h"
+#include "vtkObjectFactory.h"
+#include "vtkPVLODActor.h"
+#include "vtkPVRenderView.h"
+#include "vtkPointFrontMapper.h"
+#include "vtkPointFrontStore.h"
+#include "vtkPolyData.h"
+#include "vtkProcessModule.h"
+#include "vtkProperty.h"
+#include "vtkRenderWindow.h"
+#include "vtkRenderer.h"
+#include "vtkScalarsToColors.h"
+#include "vtkStdString.h"
+#include "vtkTransform.h"
+
+vtkStandardNewMacro(vtkPointFrontRepresentation);
+
+namespace
+{
+/// Frames per second above which a render is interactive: ParaView sets 5 (interactive) and 0.002 (still).
+constexpr double StillRate = 0.01;
+
+/// Opens the protected getter of the one fact that tells a screenshot from any other still render.
+/// ParaView sets it on all processes (vtkSMViewProxy::CaptureWindow).
+struct CaptureState : vtkPVView
+{
+  static bool Of(vtkPVView* view) { return (view->*&CaptureState::GetInCaptureScreenshot)(); }
+};
+}
+
+//------------------------------------------------------------------------------
+vtkPointFrontRepresentation::vtkPointFrontRepresentation()
+{
+  this->Property->SetRepresentationToPoints();
+  this->Property->LightingOff();
+  this->Actor->SetProperty(this->Property);
+  this->Actor->SetMapper(this->Mapper);
+  this->Actor->SetEnableLOD(0); // the mapper has its own levels of detail
+}
+
+//------------------------------------------------------------------------------
+vtkPointFrontRepresentation::~vtkPointFrontRepresentation() = default;
+
+//------------------------------------------------------------------------------
+int vtkPointFrontRepresentation::FillInputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataObject");
+  // The client and the render server have the representation, but no pipeline.
+  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkPointFrontRepresentation::RequestData(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  this->Overview->Initialize();
+  this->Store = nullptr;
+  if (inputVector[0]->GetNumberOfInformationObjects() == 1)
+  {
+    vtkDataObject* input = vtkDataObject::GetData(inputVector[0], 0);
+    const vtkStdString name = vtkPointFrontStore::GetStoreName(input);
+    auto* overview = vtkPolyData::SafeDownCast(input);
+    if (!overview || name.empty())
+    {
+      vtkErrorMacro("Point Front draws what a .pfront reader gives, and this input ("
+        << (input ? input->GetClassName() : "none")
+        << ") names no point store. Choose another representation for it.");
+      return 0;
+    }
+    vtkStdString error;
+    this->Store = vtkPointFrontStore::Open(name.c_str(), error);
+    if (!this->Store)
+    {
+      vtkErrorMacro(<< error);
+      return 0;
+    }
+    this->Overview->ShallowCopy(overview);
+  }
+  return this->Superclass::RequestData(request, inputVector, outputVector);
+}
+
+//------------------------------------------------------------------------------
+int vtkPointFrontRepresentation::ProcessViewRequest(
+  vtkInformationRequestKey* request, vtkInformation* inInfo, vtkInformation* outInfo)
+{
+  if (!this->Superclass::ProcessViewRequest(request, inInfo, outInfo))
+  {
+    return 0; // hidden
+  }
+  if (request == vtkPVView::REQUEST_UPDATE())
+  {
+    this->ProvideData(inInfo);
+  }
+  else if (request == vtkPVView::REQUEST_UPDATE_LOD())
+  {
+    vtkPVView::SetPieceLOD(inInfo, this, this->Overview);
+    vtkPVRenderView::SetRequiresDistributedRenderingLOD(inInfo, this, true);
+  }
+  else if (request == vtkPVView::REQUEST_RENDER())
+  {
+    if (auto* view = vtkPVRenderView::SafeDownCast(inInfo->Get(vtkPVView::VIEW())))
+    {
+      this->PrepareFrame(inInfo, view);
+    }
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::ProvideData(vtkInformation* inInfo)
+{
+  vtkPVView::SetPiece(inInfo, this, this->Overview);
+  vtkPVRenderView::SetRequiresDistributedRendering(inInfo, this, true);
+  if (this->Store)
+  {
+    // Of the whole cloud on every rank: they set the camera's reset and its clipping range.
+    double bounds[6];
+    this->Store->GetBounds(bounds);
+    vtkNew<vtkMatrix4x4> matrix;
+    this->Actor->GetMatrix(matrix);
+    vtkPVRenderView::SetGeometryBounds(inInfo, this, bounds, matrix);
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::PrepareFrame(vtkInformation* inInfo, vtkPVRenderView* view)
+{
+  const bool lod = inInfo->Has(vtkPVRenderView::USE_LOD()) != 0;
+  this->Mapper->SetInputDataObject(lod ? vtkPVView::GetDeliveredPieceLOD(inInfo, this)
+                                       : vtkPVView::GetDeliveredPiece(inInfo, this));
+
+  const bool distributed = lod ? view->GetUseDistributedRenderingForLODRender()
+                               : view->GetUseDistributedRenderingForRender();
+  auto* controller = vtkMultiProcessController::GetGlobalController();
+  const bool shared = distributed && controller;
+  this->Mapper->SetNumberOfStorePieces(shared ? controller->GetNumberOfProcesses() : 1);
+  this->Mapper->SetStorePiece(shared ? controller->GetLocalProcessId() : 0);
+
+  const double rate = view->GetRenderWindow()->GetDesiredUpdateRate();
+  const bool interactive = rate > StillRate;
+  this->Mapper->SetComplete(!interactive && this->WantsComplete(view));
+  // vtkPVLODActor draws through an actor of its own, whose allotted time nobody sets: hand the time on here.
+  const double frameTime =
+    this->TargetFrameTime > 0.0 || !interactive ? this->TargetFrameTime : 1000.0 / rate;
+  this->Mapper->SetTargetFrameTime(frameTime);
+
+  if (vtkPointFrontStore* store = this->Mapper->GetStore())
+  {
+    const vtkTypeInt64 budget = static_cast<vtkTypeInt64>(this->HostMemoryBudget) << 20;
+    if (store->GetHostMemoryBudget() != budget)
+    {
+      store->SetHostMemoryBudget(budget);
+    }
+  }
+  this->PrepareColors();
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::PrepareColors()
+{
+  vtkInformation* info = this->GetInputArrayInformation(0);
+  const char* array = info && info->Has(vtkDataObject::FIELD_NAME())
+    ? info->Get(vtkDataObject::FIELD_NAME())
+    : nullptr;
+  const bool ofPoints = info && info->Has(vtkDataObject::FIELD_ASSOCIATION()) &&
+    info->Get(vtkDataObject::FIELD_ASSOCIATION()) == vtkDataObject::FIELD_ASSOCIATION_POINTS;
+  if (!array || !array[0] || !ofPoints)
+  {
+    this->Mapper->ScalarVisibilityOff();
+    return;
+  }
+  this->Mapper->ScalarVisibilityOn();
+  this->Mapper->SetScalarModeToUsePointFieldData();
+  this->Mapper->SelectColorArray(array);
+  this->Mapper->UseLookupTableScalarRangeOn();
+  if (!this->MapScalars)
+  {
+    this->Mapper->SetColorModeToDirectScalars();
+  }
+  else if (this->DirectColors)
+  {
+    this->Mapper->SetColorModeToDefault();
+  }
+  else
+  {
+    this->Mapper->SetColorModeToMapScalars();
+  }
+}
+
+//------------------------------------------------------------------------------
+bool vtkPointFrontRepresentation::WantsComplete(vtkPVRenderView* view) const
+{
+  if (this->CompleteStillRenders != WHEN_UNATTENDED)
+  {
+    return this->CompleteStillRenders == ALWAYS;
+  }
+  return vtkProcessModule::GetProcessType() == vtkProcessModule::PROCESS_BATCH ||
+    CaptureState::Of(view);
+}
+
+//------------------------------------------------------------------------------
+bool vtkPointFrontRepresentation::AddToView(vtkView* view)
+{
+  auto* renderView = vtkPVRenderView::SafeDownCast(view);
+  if (!renderView)
+  {
+    return false;
+  }
+  renderView->GetRenderer()->AddActor(this->Actor);
+  renderView->RegisterPropForHardwareSelection(this, this->Actor);
+  return this->Superclass::AddToView(view);
+}
+
+//------------------------------------------------------------------------------
+bool vtkPointFrontRepresentation::RemoveFromView(vtkView* view)
+{
+  auto* renderView = vtkPVRenderView::SafeDownCast(view);
+  if (!renderView)
+  {
+    return false;
+  }
+  renderView->GetRenderer()->RemoveActor(this->Actor);
+  renderView->UnRegisterPropForHardwareSelection(this, this->Actor);
+  return this->Superclass::RemoveFromView(view);
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetVisibility(bool visible)
+{
+  this->Actor->SetVisibility(visible);
+  this->Superclass::SetVisibility(visible);
+}
+
+//------------------------------------------------------------------------------
+bool vtkPointFrontRepresentation::IsDrawing()
+{
+  return this->GetVisibility() && this->GetView() && this->Mapper->GetStore();
+}
+
+//------------------------------------------------------------------------------
+vtkIdType vtkPointFrontRepresentation::GetPointsDrawn()
+{
+  return this->IsDrawing() ? this->Mapper->GetLastPointsDrawn() : 0;
+}
+
+//------------------------------------------------------------------------------
+vtkIdType vtkPointFrontRepresentation::GetNodesDrawn()
+{
+  return this->IsDrawing() ? this->Mapper->GetLastNodesDrawn() : 0;
+}
+
+//------------------------------------------------------------------------------
+double vtkPointFrontRepresentation::GetProjectedSpacing()
+{
+  return this->IsDrawing() ? this->Mapper->GetLastError() : 0.0;
+}
+
+//------------------------------------------------------------------------------
+bool vtkPointFrontRepresentation::GetFrameComplete()
+{
+  return !this->IsDrawing() || this->Mapper->GetLastComplete();
+}
+
+//------------------------------------------------------------------------------
+bool vtkPointFrontRepresentation::GetFrameOutdated()
+{
+  return this->IsDrawing() && this->Mapper->NeedsRender();
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetTargetError(double pixels)
+{
+  this->Mapper->SetTargetError(pixels);
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetPointBudget(vtkIdType points)
+{
+  this->Mapper->SetPointBudget(points);
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetLookupTable(vtkScalarsToColors* table)
+{
+  this->Mapper->SetLookupTable(table);
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetPointSize(double pixels)
+{
+  this->Property->SetPointSize(static_cast<float>(pixels));
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetOpacity(double opacity)
+{
+  this->Property->SetOpacity(opacity);
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetAmbientColor(double r, double g, double b)
+{
+  this->Property->SetAmbientColor(r, g, b);
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetDiffuseColor(double r, double g, double b)
+{
+  this->Property->SetDiffuseColor(r, g, b);
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetPickable(int pickable)
+{
+  this->Actor->SetPickable(pickable);
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetPosition(double x, double y, double z)
+{
+  this->Actor->SetPosition(x, y, z);
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetScale(double x, double y, double z)
+{
+  this->Actor->SetScale(x, y, z);
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetOrientation(double x, double y, double z)
+{
+  this->Actor->SetOrientation(x, y, z);
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetOrigin(double x, double y, double z)
+{
+  this->Actor->SetOrigin(x, y, z);
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetUserTransform(const double matrix[16])
+{
+  vtkNew<vtkTransform> transform;
+  transform->SetMatrix(matrix);
+  this->Actor->SetUserTransform(transform);
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "CompleteStillRenders: " << this->CompleteStillRenders << "\n"
+     << indent << "TargetFrameTime: " << this->TargetFrameTime << " ms\n"
+     << indent << "HostMemoryBudget: " << this->HostMemoryBudget << " MiB\n"
+     << indent << "MapScalars: " << this->MapScalars << "\n"
+     << indent << "DirectColors: " << this->DirectColors << "\n";
+  this->Mapper->PrintSelf(os, indent.GetNextIndent());
+}

@@ -1,0 +1,187 @@
+#include "vtkSMPointFrontRepresentationProxy.h"
+
+#include "vtkCommand.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPVPointFrontFrame.h"
+#include "vtkPointFrontRepresentation.h"
+#include "vtkProcessModule.h"
+#include "vtkRenderWindowInteractor.h"
+#include "vtkSMPropertyHelper.h"
+#include "vtkSMSession.h"
+#include "vtkSMSessionClient.h"
+#include "vtkSMViewProxy.h"
+
+#include <algorithm>
+
+vtkStandardNewMacro(vtkSMPointFrontRepresentationProxy);
+
+namespace
+{
+/// After a still render: about what a node takes from a warm disk.
+constexpr int StillDelay = 20;
+/// After an interactive render: not before the hand rests, for the next mouse move shall find the client idle.
+constexpr int InteractiveDelay = 250;
+/// Between questions while nothing comes, doubled each time up to this.
+constexpr int LongestDelay = 500;
+}
+
+//------------------------------------------------------------------------------
+vtkSMPointFrontRepresentationProxy::vtkSMPointFrontRepresentationProxy() = default;
+
+//------------------------------------------------------------------------------
+vtkSMPointFrontRepresentationProxy::~vtkSMPointFrontRepresentationProxy()
+{
+  this->Unfollow();
+}
+
+//------------------------------------------------------------------------------
+void vtkSMPointFrontRepresentationProxy::ViewUpdated(vtkSMProxy* view)
+{
+  this->Superclass::ViewUpdated(view);
+  if (vtkProcessModule::GetProcessType() != vtkProcessModule::PROCESS_BATCH)
+  {
+    this->Follow(vtkSMViewProxy::SafeDownCast(view));
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkSMPointFrontRepresentationProxy::Follow(vtkSMViewProxy* view)
+{
+  vtkRenderWindowInteractor* interactor = view ? view->GetInteractor() : nullptr;
+  if (view == this->View && interactor == this->Interactor)
+  {
+    return;
+  }
+  this->Unfollow();
+  if (interactor)
+  {
+    this->View = view;
+    this->Interactor = interactor;
+    this->RenderObserver =
+      view->AddObserver(vtkCommand::EndEvent, this, &vtkSMPointFrontRepresentationProxy::OnRendered);
+    this->TimerObserver = interactor->AddObserver(
+      vtkCommand::TimerEvent, this, &vtkSMPointFrontRepresentationProxy::OnTimer);
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkSMPointFrontRepresentationProxy::Unfollow()
+{
+  this->StopTimer();
+  if (this->View)
+  {
+    this->View->RemoveObserver(this->RenderObserver);
+  }
+  if (this->Interactor)
+  {
+    this->Interactor->RemoveObserver(this->TimerObserver);
+  }
+  this->View = nullptr;
+  this->Interactor = nullptr;
+}
+
+//------------------------------------------------------------------------------
+bool vtkSMPointFrontRepresentationProxy::IsActive()
+{
+  // The client has a representation of its own: no question to the server.
+  auto* local = vtkPointFrontRepresentation::SafeDownCast(this->GetClientSideObject());
+  return local && local->GetVisibility() && local->GetView();
+}
+
+//------------------------------------------------------------------------------
+bool vtkSMPointFrontRepresentationProxy::IsSessionBusy()
+{
+  auto* client = vtkSMSessionClient::SafeDownCast(this->GetSession());
+  return this->GetSession()->GetPendingProgress() || (client && !client->IsNotBusy());
+}
+
+//------------------------------------------------------------------------------
+void vtkSMPointFrontRepresentationProxy::StartTimer(int milliseconds)
+{
+  this->StopTimer();
+  if (this->Interactor)
+  {
+    this->Delay = milliseconds;
+    this->Timer =
+      this->Interactor->CreateOneShotTimer(static_cast<unsigned long>(milliseconds));
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkSMPointFrontRepresentationProxy::StopTimer()
+{
+  if (this->Timer > 0 && this->Interactor)
+  {
+    this->Interactor->DestroyTimer(this->Timer);
+  }
+  this->Timer = 0;
+}
+
+//------------------------------------------------------------------------------
+void vtkSMPointFrontRepresentationProxy::OnRendered(vtkObject*, unsigned long, void* interactive)
+{
+  if (this->IsActive())
+  {
+    this->StartTimer(*static_cast<int*>(interactive) ? InteractiveDelay : StillDelay);
+  }
+  else
+  {
+    this->StopTimer();
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkSMPointFrontRepresentationProxy::OnTimer(vtkObject*, unsigned long, void* timer)
+{
+  if (!timer || *static_cast<int*>(timer) != this->Timer || this->Timer == 0)
+  {
+    return; // of somebody else
+  }
+  this->Timer = 0;
+  if (!this->IsActive())
+  {
+    return;
+  }
+  if (this->IsSessionBusy())
+  {
+    this->StartTimer(this->Delay);
+    return;
+  }
+  vtkNew<vtkPVPointFrontFrame> frame;
+  // vtkSMSessionClient returns false always; a frame that could not be gathered says "complete", which ends here.
+  this->GatherInformation(frame);
+  if (frame->GetOutdated())
+  {
+    // Without a window of its own the interactor renders through ParaView's proxies; OnRendered comes next.
+    this->Interactor->InvokeEvent(vtkCommand::RenderEvent, nullptr);
+  }
+  else if (!frame->GetComplete())
+  {
+    this->StartTimer(std::min(2 * this->Delay, LongestDelay));
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkSMPointFrontRepresentationProxy::UpdatePropertyInformationInternal(vtkSMProperty* property)
+{
+  this->Superclass::UpdatePropertyInformationInternal(property);
+  if (!this->IsActive())
+  {
+    return;
+  }
+  vtkNew<vtkPVPointFrontFrame> frame;
+  this->GatherInformation(frame);
+  vtkSMPropertyHelper(this, "PointsDrawn").Set(frame->GetPointsDrawn());
+  vtkSMPropertyHelper(this, "NodesDrawn").Set(frame->GetNodesDrawn());
+  vtkSMPropertyHelper(this, "ProjectedSpacing").Set(frame->GetProjectedSpacing());
+  vtkSMPropertyHelper(this, "FrameComplete").Set(frame->GetComplete() ? 1 : 0);
+}
+
+//------------------------------------------------------------------------------
+void vtkSMPointFrontRepresentationProxy::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "View: " << this->View.Get() << "\n"
+     << indent << "Delay: " << this->Delay << " ms\n";
+}

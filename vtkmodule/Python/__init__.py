@@ -1,7 +1,9 @@
 """Point clouds larger than memory in VTK.
 
-    reader = pointfront.vtkPointFrontReader(file_name="cloud.pfront")
-    mapper = pointfront.vtkPointFrontMapper(input_connection=reader.output_port)
+    reader = pointfront.vtkPointFrontReader()
+    reader.SetFileName("cloud.pfront")
+    mapper = pointfront.vtkPointFrontMapper()
+    mapper.SetInputConnection(reader.GetOutputPort())
 
 The classes are VTK classes (their C++ headers document them) and go together with vtkmodules.
 """

@@ -1,159 +1,49 @@
 #include "pointfront/Store/BlockCodec.h"
 
-#include <zstd.h>
+#include "pointfront/Store/PackedCodec.h"
+#include "pointfront/Store/PlaneCodec.h"
 
-#include <cassert>
+#include <algorithm>
 #include <cstring>
-#include <memory>
-#include <type_traits>
 
 namespace pointfront
 {
 namespace
 {
-constexpr int zstdLevel = 1;
-
-struct FreeZstd
-{
-  void operator()(ZSTD_CCtx* context) const { ZSTD_freeCCtx(context); }
-  void operator()(ZSTD_DCtx* context) const { ZSTD_freeDCtx(context); }
-};
-
-// One context a thread: making one costs more than a block.
-ZSTD_CCtx* compressor()
-{
-  thread_local std::unique_ptr<ZSTD_CCtx, FreeZstd> context(ZSTD_createCCtx());
-  return context.get();
-}
-
-ZSTD_DCtx* decompressor()
-{
-  thread_local std::unique_ptr<ZSTD_DCtx, FreeZstd> context(ZSTD_createDCtx());
-  return context.get();
-}
-
-// Reused by every block of a thread: planes before and after Zstandard.
-std::vector<std::byte>& scratch(std::size_t size)
-{
-  thread_local std::vector<std::byte> bytes;
-  if (bytes.size() < size)
-  {
-    bytes.resize(size);
-  }
-  return bytes;
-}
-
-// Small differences of either sign become small numbers.
-template <typename T>
-T zigzag(T difference)
-{
-  using Signed = std::make_signed_t<T>;
-  const auto sign = static_cast<T>(static_cast<Signed>(difference) < 0 ? ~T(0) : T(0));
-  return static_cast<T>(static_cast<T>(difference << 1) ^ sign);
-}
-
-template <typename T>
-T unzigzag(T code)
-{
-  return static_cast<T>((code >> 1) ^ static_cast<T>(T(0) - (code & 1)));
-}
-
-// Plane b of component c holds byte b of every point's code, one after another.
-template <typename T>
-void toPlanes(const std::byte* values, const BlockShape& shape, std::byte* planes)
-{
-  for (unsigned c = 0; c < shape.components; ++c)
-  {
-    std::byte* plane = planes + std::size_t(c) * sizeof(T) * shape.points;
-    T before = 0;
-    for (std::size_t i = 0; i < shape.points; ++i)
-    {
-      T value;
-      std::memcpy(&value, values + (i * shape.components + c) * sizeof(T), sizeof(T));
-      const T code = zigzag(static_cast<T>(value - before));
-      before = value;
-      for (std::size_t b = 0; b < sizeof(T); ++b)
-      {
-        plane[b * shape.points + i] = static_cast<std::byte>((code >> (8 * b)) & 0xff);
-      }
-    }
-  }
-}
-
-template <typename T>
-void fromPlanes(const std::byte* planes, const BlockShape& shape, std::byte* values)
-{
-  for (unsigned c = 0; c < shape.components; ++c)
-  {
-    const std::byte* plane = planes + std::size_t(c) * sizeof(T) * shape.points;
-    T value = 0;
-    for (std::size_t i = 0; i < shape.points; ++i)
-    {
-      T code = 0;
-      for (std::size_t b = 0; b < sizeof(T); ++b)
-      {
-        code = static_cast<T>(code | static_cast<T>(T(plane[b * shape.points + i]) << (8 * b)));
-      }
-      value = static_cast<T>(value + unzigzag(code));
-      std::memcpy(values + (i * shape.components + c) * sizeof(T), &value, sizeof(T));
-    }
-  }
-}
-
-// Calls f with a number of the unsigned type of that size.
-template <typename F>
-void withUnsigned(unsigned scalarBytes, const F& f)
-{
-  switch (scalarBytes)
-  {
-    case 1:
-      return f(std::uint8_t{});
-    case 2:
-      return f(std::uint16_t{});
-    case 4:
-      return f(std::uint32_t{});
-    default:
-      assert(scalarBytes == 8);
-      return f(std::uint64_t{});
-  }
-}
-
 bool allEqual(const std::byte* values, const BlockShape& shape)
 {
   const std::size_t step = shape.pointBytes();
   return std::memcmp(values, values + step, shape.bytes() - step) == 0;
 }
 
-std::vector<std::byte> encodePlanes(const std::byte* values, const BlockShape& shape)
+CodedBlock raw(const std::byte* values, const BlockShape& shape)
 {
-  std::vector<std::byte>& planes = scratch(shape.bytes());
-  withUnsigned(shape.scalarBytes, [&](auto zero) {
-    toPlanes<decltype(zero)>(values, shape, planes.data());
-  });
-  std::vector<std::byte> coded(ZSTD_compressBound(shape.bytes()));
-  const std::size_t size = ZSTD_compressCCtx(
-    compressor(), coded.data(), coded.size(), planes.data(), shape.bytes(), zstdLevel);
-  assert(!ZSTD_isError(size));
-  coded.resize(size);
-  return coded;
+  return { BlockCodec::Raw, std::vector<std::byte>(values, values + shape.bytes()) };
 }
 
-bool decodePlanes(const std::byte* coded, std::size_t codedBytes, const BlockShape& shape,
-  std::byte* values)
+// Zstandard decodes at a quarter of Packed's rate: it has to save a quarter of the bytes
+// (docs/adr/0001-store-codecs.md).
+bool worthZstd(std::size_t planesBytes, std::size_t packedBytes)
 {
-  std::vector<std::byte>& planes = scratch(shape.bytes());
-  const std::size_t size =
-    ZSTD_decompressDCtx(decompressor(), planes.data(), shape.bytes(), coded, codedBytes);
-  if (ZSTD_isError(size) || size != shape.bytes())
-  {
-    return false;
-  }
-  withUnsigned(shape.scalarBytes, [&](auto zero) {
-    fromPlanes<decltype(zero)>(planes.data(), shape, values);
-  });
-  return true;
+  return planesBytes + packedBytes / 4 < packedBytes;
+}
+
+// Compressing with Zstandard takes longer than all else: first a sample.
+bool zstdPromises(const std::byte* values, const BlockShape& shape)
+{
+  const BlockShape sample = sampleOf(shape);
+  const std::byte* begin = values + (shape.bytes() - sample.bytes());
+  return worthZstd(encodePlanes(begin, sample).size(), encodePacked(begin, sample).size());
 }
 } // namespace
+
+BlockShape sampleOf(const BlockShape& shape)
+{
+  constexpr std::size_t samplePoints = 2048;
+  BlockShape sample = shape;
+  sample.points = std::min(samplePoints, shape.points);
+  return sample;
+}
 
 bool knownBlockCodec(std::uint8_t codec)
 {
@@ -162,20 +52,24 @@ bool knownBlockCodec(std::uint8_t codec)
 
 CodedBlock encodeBlock(const std::byte* values, const BlockShape& shape)
 {
-  if (shape.points > 1 && allEqual(values, shape))
+  if (shape.points < 2)
+  {
+    return raw(values, shape);
+  }
+  if (allEqual(values, shape))
   {
     return { BlockCodec::Constant, std::vector<std::byte>(values, values + shape.pointBytes()) };
   }
-  if (shape.points > 1)
+  CodedBlock best{ BlockCodec::Packed, encodePacked(values, shape) };
+  if (zstdPromises(values, shape))
   {
-    std::vector<std::byte> coded = encodePlanes(values, shape);
-    if (coded.size() < shape.bytes())
+    std::vector<std::byte> planes = encodePlanes(values, shape);
+    if (worthZstd(planes.size(), best.bytes.size()))
     {
-      coded.shrink_to_fit();
-      return { BlockCodec::PlanesZstd, std::move(coded) };
+      best = { BlockCodec::PlanesZstd, std::move(planes) };
     }
   }
-  return { BlockCodec::Raw, std::vector<std::byte>(values, values + shape.bytes()) };
+  return best.bytes.size() < shape.bytes() ? best : raw(values, shape);
 }
 
 bool decodeBlock(BlockCodec codec, const std::byte* coded, std::size_t codedBytes,
@@ -204,6 +98,8 @@ bool decodeBlock(BlockCodec codec, const std::byte* coded, std::size_t codedByte
         std::memcpy(values + i * codedBytes, coded, codedBytes);
       }
       return true;
+    case BlockCodec::Packed:
+      return decodePacked(coded, codedBytes, shape, values);
     case BlockCodec::PlanesZstd:
       return decodePlanes(coded, codedBytes, shape, values);
   }

@@ -12,7 +12,8 @@ enum class BlockCodec : std::uint8_t
 {
   Raw = 0,       ///< the values as they are
   Constant = 1,  ///< all points have the value that is stored once
-  PlanesZstd = 2 ///< per component: difference to the point before, zigzag, byte planes, Zstandard
+  Packed = 2,    ///< differences in groups of 128, as many bits as most of them need
+  PlanesZstd = 3 ///< differences in planes of bytes, then Zstandard
 };
 
 /// True for the codecs that decodeBlock() knows.
@@ -30,6 +31,10 @@ struct BlockShape
   std::size_t pointBytes() const { return std::size_t(components) * scalarBytes; }
   std::size_t bytes() const { return points * pointBytes(); }
 };
+
+/// The last points of a block, enough to choose how to code the whole. (The last, because they are
+/// the last and densest batch of a node: neighbours in space.)
+BlockShape sampleOf(const BlockShape& shape);
 
 /// The coded bytes of a block and their codec.
 struct CodedBlock

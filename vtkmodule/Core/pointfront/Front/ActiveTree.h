@@ -1,0 +1,94 @@
+#pragma once
+
+#include "pointfront/Front/View.h"
+#include "pointfront/Store/Hierarchy.h"
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace pointfront
+{
+
+using SlotIndex = std::uint32_t;
+constexpr SlotIndex noSlot = 0xffffffffu;
+
+/// A node of the front or above it: what the table says of it, copied when it became active
+/// (a paged table is not touched again), and how the current view sees it.
+struct ActiveNode
+{
+  glm::dvec3 centre{ 0.0 };
+  float radius = 0.0f;
+  float spacing = 0.0f;      ///< > 0: half the parent's where the table has none
+  float spacingRatio = 0.0f; ///< to the parent's spacing; 0 for a root
+  std::uint32_t pointCount = 0;
+  NodeIndex node = noNode;   ///< noNode: the slot is free
+  NodeIndex firstChild = noNode;
+  SlotIndex parent = noSlot;
+  SlotIndex children = noSlot; ///< first of childCount neighbouring slots; noSlot: on the front
+  std::uint8_t childCount = 0; ///< in the table
+  std::uint8_t level = 0;
+
+  bool visible = false;
+  float errorPx = 0.0f;
+  float distance = 0.0f;
+
+  // Numbers of the update in which it last was ...
+  std::uint32_t created = 0;
+  std::uint32_t evaluated = 0; ///< visible, errorPx and distance are of the current view
+  std::uint32_t live = 0;      ///< reached from a root through visible nodes above the threshold
+  std::uint32_t seen = 0;      ///< live and visible
+  std::uint32_t needed = 0;    ///< drawn, or waited for
+
+  bool leaf() const { return childCount == 0; }
+  bool expanded() const { return children != noSlot; }
+};
+
+/// The part of a hierarchy at and above the rendering front (FRONT-5). Its leaves are the front:
+/// they are a cut of the whole hierarchy by construction, since a node has all of its children
+/// here or none.
+/// Size     proportional to the active nodes, whatever the size of the table. Slots are used again:
+///          in the steady state nothing is allocated.
+/// Threads  one.
+class ActiveTree
+{
+public:
+  explicit ActiveTree(const Hierarchy& hierarchy);
+
+  /// Back to the roots.
+  void reset();
+
+  /// Slots 0 to rootCount() - 1 are the roots, in the order of Hierarchy::roots().
+  SlotIndex rootCount() const { return rootCount_; }
+  /// Free slots among them: node == noNode.
+  SlotIndex slotCount() const { return static_cast<SlotIndex>(slots_.size()); }
+  ActiveNode& operator[](SlotIndex slot) { return slots_[slot]; }
+  const ActiveNode& operator[](SlotIndex slot) const { return slots_[slot]; }
+  std::uint32_t frontLength() const { return frontLength_; }
+
+  /// Replaces a front node by its children. References into the tree become invalid.
+  void expand(SlotIndex slot, std::uint32_t update);
+  /// Replaces children that all are on the front by their parent.
+  void collapse(SlotIndex slot);
+
+  /// The node's slot, or that of its nearest active ancestor.
+  SlotIndex find(NodeIndex node) const;
+
+  /// What the table says of child number `child` of a node.
+  ActiveNode childOf(const ActiveNode& parent, std::uint8_t child) const;
+
+private:
+  SlotIndex takeBlock(std::uint8_t length);
+
+  const Hierarchy& hierarchy_;
+  std::vector<ActiveNode> slots_;
+  std::array<std::vector<SlotIndex>, 256> freeBlocks_; ///< by length
+  SlotIndex rootCount_ = 0;
+  std::uint32_t frontLength_ = 0;
+};
+
+/// Visibility, error and distance of a node for a view.
+void evaluate(ActiveNode& node, const View& view, std::uint32_t update);
+
+} // namespace pointfront

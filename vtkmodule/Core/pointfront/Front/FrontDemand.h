@@ -1,0 +1,50 @@
+#pragma once
+
+#include "pointfront/Front/ActiveTree.h"
+#include "pointfront/Front/View.h"
+
+#include <cstdint>
+
+namespace pointfront
+{
+
+/// What a threshold would cost.
+struct Demand
+{
+  std::uint64_t drawn = 0; ///< points on screen
+  std::uint64_t held = 0;  ///< points of the nodes that must be in memory for that, whole nodes
+};
+
+/// Counts, from the table alone, what a threshold asks for: what is loaded at the moment plays no
+/// part, so a view settles at the same threshold however its nodes arrive, and nothing is
+/// begun that would have to be taken back when its data comes. Front nodes above the threshold
+/// count with their children (one level ahead of the tree).
+/// Falls with the threshold, never rises: the lowest one that fits can be found by bisection.
+class FrontDemand
+{
+public:
+  /// Nodes that a threshold reaches must have been evaluated for this view.
+  FrontDemand(const ActiveTree& tree, Refinement refinement, const View& view)
+    : tree_(tree)
+    , refinement_(refinement)
+    , view_(view)
+  {
+  }
+
+  Demand at(double thresholdPx) const;
+  /// Of the children that a front node has in the table.
+  Demand ofChildren(const ActiveNode& parent, double thresholdPx) const;
+  /// Points of a visible node drawn at a threshold. Representatives (Replace) carry a
+  /// radius that closes the surface when all of them are drawn: they come whole.
+  static std::uint32_t pointsOf(const ActiveNode& node, Refinement refinement, double thresholdPx);
+
+private:
+  Demand below(const ActiveNode& node, double thresholdPx) const;
+  Demand joined(const ActiveNode& node, const Demand& children, double thresholdPx) const;
+
+  const ActiveTree& tree_;
+  Refinement refinement_;
+  const View& view_;
+};
+
+} // namespace pointfront

@@ -1,0 +1,213 @@
+#include "pointfront/Front/FrontPlan.h"
+
+#include "pointfront/Front/FrontDemand.h"
+#include "pointfront/Front/PointPrefix.h"
+
+#include <algorithm>
+
+namespace pointfront
+{
+namespace
+{
+
+/// On screen while a root is missing: nothing at all.
+constexpr double nothingDrawnPx = 1e30;
+
+bool nearer(const DrawItem& a, const DrawItem& b)
+{
+  return a.distance != b.distance ? a.distance < b.distance : a.node < b.node;
+}
+
+bool sooner(const LoadRequest& a, const LoadRequest& b)
+{
+  if (a.optional != b.optional)
+  {
+    return b.optional;
+  }
+  return a.priority != b.priority ? a.priority > b.priority : a.node < b.node;
+}
+
+} // namespace
+
+void FrontPlan::make(ActiveTree& tree, Refinement refinement, double thresholdPx,
+  const ResidencyView& residency, const FrontLimits& limits, std::uint32_t update,
+  FrontDelta& delta)
+{
+  tree_ = &tree;
+  residency_ = &residency;
+  limits_ = &limits;
+  delta_ = &delta;
+  thresholdPx_ = thresholdPx;
+  update_ = update;
+  missing_ = 0;
+  clipped_ = false;
+  wanted_.clear();
+  delta.draw.clear();
+  delta.pointsDrawn = 0;
+  delta.errorPx = 0.0;
+  delta.failedNodes = 0;
+
+  for (SlotIndex root = 0; root < tree.rootCount(); ++root)
+  {
+    // The first levels are wanted from the beginning, in sight or not.
+    tree[root].needed = update;
+    if (refinement == Refinement::Add)
+    {
+      visitAdd(root, { nothingDrawnPx, true, true });
+    }
+    else
+    {
+      const Presence presence = require(tree[root], nothingDrawnPx);
+      visitReplace(root,
+        { nothingDrawnPx, presence != Presence::Missing, presence == Presence::Ready });
+    }
+  }
+  std::sort(delta.draw.begin(), delta.draw.end(), nearer);
+  selectRequests(delta);
+}
+
+void FrontPlan::visitAdd(SlotIndex slot, Visit visit)
+{
+  ActiveNode& node = (*tree_)[slot];
+  if (!node.visible)
+  {
+    return;
+  }
+  const std::uint32_t points = FrontDemand::pointsOf(node, Refinement::Add, thresholdPx_);
+  Presence presence = Presence::Ready;
+  if (points > 0)
+  {
+    presence = require(node, visit.errorAbovePx);
+  }
+  if (points > 0 || node.pointCount == 0)
+  {
+    node.needed = update_;
+  }
+  const bool drawn = visit.drawable && presence == Presence::Ready;
+  if (drawn && points > 0)
+  {
+    draw(node, points);
+  }
+  const bool descend = node.expanded() && node.errorPx > thresholdPx_;
+  noteError(node, drawn ? points : 0, descend && presence == Presence::Ready);
+  if (!descend)
+  {
+    return;
+  }
+  const double errorPx = std::min<double>(visit.errorAbovePx, node.errorPx);
+  for (std::uint8_t c = 0; c < node.childCount; ++c)
+  {
+    const SlotIndex child = node.children + c;
+    if (!(*tree_)[child].visible && limits_->prefetchSiblings)
+    {
+      prefetch((*tree_)[child], errorPx);
+    }
+    // Below a node that failed the others go on: they are stored apart from it.
+    visitAdd(child, { errorPx, visit.drawable && presence != Presence::Missing, true });
+  }
+}
+
+bool FrontPlan::childrenReady(const ActiveNode& node, double errorPx)
+{
+  bool ready = true;
+  for (std::uint8_t c = 0; c < node.childCount; ++c)
+  {
+    // All siblings, in sight or not: the parent cannot be drawn beside them (FRONT-9).
+    ActiveNode& child = (*tree_)[node.children + c];
+    child.needed = update_;
+    ready = require(child, errorPx) == Presence::Ready && ready;
+  }
+  return ready;
+}
+
+void FrontPlan::visitReplace(SlotIndex slot, Visit visit)
+{
+  ActiveNode& node = (*tree_)[slot];
+  if (!node.visible)
+  {
+    return;
+  }
+  const double errorPx = std::min<double>(visit.errorAbovePx, node.errorPx);
+  const bool refine = node.expanded() && node.errorPx > thresholdPx_;
+  const bool ready = refine && childrenReady(node, errorPx);
+  if (visit.drawable && visit.itself && !ready)
+  {
+    draw(node, node.pointCount);
+    noteError(node, node.pointCount, false);
+  }
+  if (refine)
+  {
+    for (std::uint8_t c = 0; c < node.childCount; ++c)
+    {
+      visitReplace(node.children + c, { errorPx, visit.drawable && ready, ready });
+    }
+  }
+}
+
+FrontPlan::Presence FrontPlan::require(ActiveNode& node, double priority)
+{
+  if (node.pointCount == 0)
+  {
+    return Presence::Ready;
+  }
+  switch (residency_->state(node.node))
+  {
+    case ResidencyView::State::Resident:
+      return Presence::Ready;
+    case ResidencyView::State::Failed:
+      ++delta_->failedNodes;
+      return Presence::Failed;
+    case ResidencyView::State::Absent:
+      break;
+  }
+  ++missing_;
+  wanted_.push_back({ node.node, priority, false });
+  return Presence::Missing;
+}
+
+void FrontPlan::prefetch(const ActiveNode& node, double priority)
+{
+  if (node.pointCount > 0 && residency_->state(node.node) == ResidencyView::State::Absent)
+  {
+    wanted_.push_back({ node.node, priority, true });
+  }
+}
+
+void FrontPlan::draw(const ActiveNode& node, std::uint32_t points)
+{
+  if (limits_->pointBudget > 0 && points > limits_->pointBudget - delta_->pointsDrawn)
+  {
+    clipped_ = true;
+    points = static_cast<std::uint32_t>(limits_->pointBudget - delta_->pointsDrawn);
+  }
+  if (points > 0)
+  {
+    delta_->draw.push_back({ node.node, points, node.errorPx, node.distance });
+    delta_->pointsDrawn += points;
+  }
+}
+
+void FrontPlan::noteError(const ActiveNode& node, std::uint32_t drawn, bool refined)
+{
+  const bool everything = node.leaf() && drawn == node.pointCount;
+  if (!refined && !everything)
+  {
+    const double shown =
+      prefixErrorPx(node.pointCount, drawn, node.errorPx, node.spacingRatio);
+    delta_->errorPx = std::max(delta_->errorPx, shown);
+  }
+}
+
+void FrontPlan::selectRequests(FrontDelta& delta)
+{
+  if (wanted_.size() > limits_->requestLimit)
+  {
+    const auto end = wanted_.begin() + limits_->requestLimit;
+    std::nth_element(wanted_.begin(), end, wanted_.end(), sooner);
+    wanted_.erase(end, wanted_.end());
+  }
+  std::sort(wanted_.begin(), wanted_.end(), sooner);
+  delta.requests.assign(wanted_.begin(), wanted_.end());
+}
+
+} // namespace pointfront

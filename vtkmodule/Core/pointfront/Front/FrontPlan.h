@@ -1,0 +1,62 @@
+#pragma once
+
+#include "pointfront/Front/ActiveTree.h"
+#include "pointfront/Front/RenderFront.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace pointfront
+{
+
+/// What of the active tree is drawn and what is asked for, given what is resident: the
+/// last step of an update. Also marks every node that the view needs (ActiveNode::needed).
+/// Threads  one.
+class FrontPlan
+{
+public:
+  /// Fills draw, requests, pointsDrawn, errorPx and failedNodes of `delta`.
+  void make(ActiveTree& tree, Refinement refinement, double thresholdPx,
+    const ResidencyView& residency, const FrontLimits& limits, std::uint32_t update,
+    FrontDelta& delta);
+
+  /// Nodes that the view needs and that are neither resident nor failed.
+  std::uint32_t missing() const { return missing_; }
+  /// Points that the budget cut off (only where nodes are drawn whole, or not at all).
+  bool clipped() const { return clipped_; }
+
+private:
+  struct Visit
+  {
+    double errorAbovePx; ///< on screen while this node is missing
+    bool drawable;       ///< all that must be there before something of this branch is drawn is
+    bool itself;         ///< Replace: this node can stand in for its branch
+  };
+  enum class Presence
+  {
+    Ready,
+    Missing,
+    Failed
+  };
+
+  void visitAdd(SlotIndex slot, Visit visit);
+  void visitReplace(SlotIndex slot, Visit visit);
+  bool childrenReady(const ActiveNode& node, double errorPx);
+  Presence require(ActiveNode& node, double priority);
+  void draw(const ActiveNode& node, std::uint32_t points);
+  void prefetch(const ActiveNode& node, double priority);
+  void noteError(const ActiveNode& node, std::uint32_t drawn, bool refined);
+  void selectRequests(FrontDelta& delta);
+
+  ActiveTree* tree_ = nullptr;
+  const ResidencyView* residency_ = nullptr;
+  const FrontLimits* limits_ = nullptr;
+  FrontDelta* delta_ = nullptr;
+  std::vector<LoadRequest> wanted_;
+  double thresholdPx_ = 0.0;
+  std::uint32_t update_ = 0;
+  std::uint32_t missing_ = 0;
+  bool clipped_ = false;
+};
+
+} // namespace pointfront

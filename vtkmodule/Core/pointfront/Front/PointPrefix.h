@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+namespace pointfront
+{
+
+/// How many of a node's points are drawn, so that the projected point spacing is met per point
+/// although the front moves per node, and no chunk pops up at once.
+///
+/// Density   points of spacing s on a surface have a density ~ 1 / s^2. With Refinement::Add a
+///           region shows its ancestors (density 1 / s_parent^2) and the share f of the node that
+///           would bring it to 1 / s^2:
+///               1 / s_parent^2 + f (1 / s^2 - 1 / s_parent^2) = 1 / t^2
+///           where t is the spacing that projects to the threshold. With e = s in pixels, T = t in
+///           pixels and r = s / s_parent:
+///               f = ((e / T)^2 - r^2) / (1 - r^2)   within [0, 1]
+/// Hence     f = 0 where the parent alone is fine enough (T >= e / r), f = 1 from T = e on: as the
+///           threshold falls, a node fades in point by point between its parent's turn and its own.
+///           A root has no parent: r = 0 and f = (e / T)^2.
+/// Twin      none on the GPU: the renderer gets the count.
+/// `ratio` is r; a node hardly finer than its parent (r^2 > 3 / 4) is taken as r^2 = 3 / 4.
+inline double prefixFraction(double errorPx, double ratio, double thresholdPx)
+{
+  if (errorPx >= thresholdPx)
+  {
+    return 1.0;
+  }
+  const double wanted = (errorPx / thresholdPx) * (errorPx / thresholdPx);
+  const double above = ratio * ratio < 0.75 ? ratio * ratio : 0.75;
+  return wanted > above ? (wanted - above) / (1.0 - above) : 0.0;
+}
+
+/// The prefix in points, rounded; all of them for a fraction of 1. Falls with the threshold.
+inline std::uint32_t prefixLength(
+  std::uint32_t pointCount, double errorPx, double ratio, double thresholdPx)
+{
+  return static_cast<std::uint32_t>(
+    std::floor(pointCount * prefixFraction(errorPx, ratio, thresholdPx) + 0.5));
+}
+
+/// The spacing in pixels that is on screen when `drawn` of `pointCount` points are drawn: the
+/// inverse of the above.
+inline double prefixErrorPx(
+  std::uint32_t pointCount, std::uint32_t drawn, double errorPx, double ratio)
+{
+  const double above = ratio * ratio < 0.75 ? ratio * ratio : 0.75;
+  const double fraction = pointCount > 0 ? double(drawn) / pointCount : 1.0;
+  const double density = above + fraction * (1.0 - above);
+  return density > 0.0 ? errorPx / std::sqrt(density) : errorPx;
+}
+
+} // namespace pointfront

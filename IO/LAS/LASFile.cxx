@@ -13,8 +13,9 @@ namespace
 bool travels(const LASRecord& record)
 {
   constexpr std::uint16_t superseded = 7;
+  constexpr std::uint16_t waveformPackets = 65535; // bulk data, may be larger than the points
   return record.owner == "LASF_Projection" ||
-    (record.owner == "LASF_Spec" && record.id != superseded);
+    (record.owner == "LASF_Spec" && record.id != superseded && record.id != waveformPackets);
 }
 
 std::vector<MetadataRecord> metadataOf(

@@ -1,0 +1,58 @@
+#pragma once
+
+#include "LASPointLayout.h"
+
+#include "pointfront/Base/Result.h"
+#include "pointfront/Points/PointSink.h"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pointfront
+{
+
+/// What the header of a LAS file being written will say of its points; counted as they come.
+struct LASTotals
+{
+  std::uint64_t points = 0;
+  std::array<std::uint64_t, 15> byReturn{}; ///< return numbers 1 to 15
+  GridPosition low{ 0 };                    ///< valid if there are points
+  GridPosition high{ 0 };
+};
+
+/// How points of a schema become a LAS file: decided before the first point.
+/// Which format and version: see LASWriter.
+struct LASExport
+{
+  /// Where a field of the record comes from. A field without one is 0.
+  struct Origin
+  {
+    std::size_t column = 0;
+    std::size_t byte = 0; ///< of the column's element, for one component taken alone
+    ScalarType type = ScalarType::UInt8;
+  };
+
+  int versionMinor = 2;
+  LASPointLayout layout;
+  std::vector<std::optional<Origin>> origins; ///< one for each column of `layout`
+  QuantisationGrid grid;                      ///< every coordinate fits into 32 bits
+  std::uint16_t globalEncoding = 0;
+  std::vector<MetadataRecord> records;         ///< written before the points
+  std::vector<MetadataRecord> extendedRecords; ///< payloads above 65,535 bytes, behind them
+
+  std::size_t headerBytes() const;
+  /// Errors   BadArgument with `path`: coordinates or attributes that no LAS record can hold.
+  static Result<LASExport> plan(const SinkDescription& description, const std::string& path);
+  /// The public header block. `points` begin at `pointOffset`; `extendedOffset` is where the
+  /// extended records begin, 0 if there are none.
+  std::vector<std::byte> header(const LASTotals& totals, std::uint32_t recordCount,
+    std::uint32_t pointOffset, std::uint64_t extendedOffset, bool compressed) const;
+};
+
+/// A variable length record as it stands in a file; extended: with a header of 60 bytes.
+std::vector<std::byte> composeLASRecord(const MetadataRecord& record, bool extended);
+
+} // namespace pointfront

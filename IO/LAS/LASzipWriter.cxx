@@ -1,0 +1,286 @@
+#include "LASzipWriter.h"
+
+#include "LASBytes.h"
+#include "LASRecords.h"
+
+#include <laszip/laszip_api.h>
+
+#include <optional>
+#include <ostream>
+#include <streambuf>
+#include <utility>
+#include <vector>
+
+namespace pointfront
+{
+namespace
+{
+/// An OutputFile as a stream that can go back to overwrite what it wrote.
+class FileBuffer final : public std::streambuf
+{
+public:
+  FileBuffer(OutputFile& file, std::uint64_t offset)
+    : file_(file)
+    , end_(offset)
+    , position_(offset)
+  {
+  }
+
+  const std::optional<Error>& error() const { return error_; }
+  std::uint64_t end() const { return end_ + pending_.size(); }
+  /// Hands what is pending to the file.
+  bool flush()
+  {
+    const Result<void> done =
+      error_ ? Result<void>(*error_) : file_.append(pending_.data(), pending_.size());
+    if (!done)
+    {
+      error_ = done.error();
+      return false;
+    }
+    end_ += pending_.size();
+    pending_.clear();
+    return true;
+  }
+
+protected:
+  std::streamsize xsputn(const char* text, std::streamsize count) override
+  {
+    const auto* data = reinterpret_cast<const std::byte*>(text);
+    const auto size = static_cast<std::size_t>(count);
+    if (position_ == end())
+    {
+      pending_.insert(pending_.end(), data, data + size);
+      position_ += size;
+      return pending_.size() < flushBytes || flush() ? count : 0;
+    }
+    // Back in what was written: LASzip does so once, for the place of its chunk table.
+    const Result<void> done = flush() ? file_.overwrite(position_, data, size) : *error_;
+    if (!done)
+    {
+      error_ = done.error();
+      return 0;
+    }
+    position_ += size;
+    return count;
+  }
+
+  int_type overflow(int_type character) override
+  {
+    const char one = traits_type::to_char_type(character);
+    return xsputn(&one, 1) == 1 ? character : traits_type::eof();
+  }
+
+  pos_type seekoff(off_type offset, std::ios_base::seekdir way, std::ios_base::openmode) override
+  {
+    off_type base = way == std::ios_base::end ? static_cast<off_type>(end()) : 0;
+    base = way == std::ios_base::cur ? static_cast<off_type>(position_) : base;
+    const off_type target = base + offset;
+    if (target < 0 || target > static_cast<off_type>(end()))
+    {
+      return pos_type(off_type(-1));
+    }
+    position_ = static_cast<std::uint64_t>(target);
+    return target;
+  }
+
+  pos_type seekpos(pos_type position, std::ios_base::openmode mode) override
+  {
+    return seekoff(off_type(position), std::ios_base::beg, mode);
+  }
+
+private:
+  static constexpr std::size_t flushBytes = 1 << 20;
+
+  OutputFile& file_;
+  std::optional<Error> error_;
+  std::uint64_t end_;
+  std::uint64_t position_;
+  std::vector<std::byte> pending_;
+};
+
+/// The 30 bytes of formats 6 to 10 into LASzip's point. Its old fields must repeat the flags.
+void loadPoint14(const std::byte* from, laszip_point& point)
+{
+  std::memcpy(&point.X, from, 12);
+  point.intensity = loadNumber<std::uint16_t>(from + 12);
+  const unsigned returns = loadNumber<std::uint8_t>(from + 14);
+  const unsigned flags = loadNumber<std::uint8_t>(from + 15);
+  point.extended_point_type = 1;
+  point.extended_return_number = returns & 15;
+  point.extended_number_of_returns = (returns >> 4) & 15;
+  point.extended_classification_flags = flags & 15;
+  point.extended_scanner_channel = (flags >> 4) & 3;
+  point.scan_direction_flag = (flags >> 6) & 1;
+  point.edge_of_flight_line = (flags >> 7) & 1;
+  point.synthetic_flag = flags & 1;
+  point.keypoint_flag = (flags >> 1) & 1;
+  point.withheld_flag = (flags >> 2) & 1;
+  point.extended_classification = loadNumber<std::uint8_t>(from + 16);
+  point.user_data = loadNumber<std::uint8_t>(from + 17);
+  point.extended_scan_angle = loadNumber<std::int16_t>(from + 18);
+  point.point_source_ID = loadNumber<std::uint16_t>(from + 20);
+  point.gps_time = loadNumber<double>(from + 22);
+}
+
+void loadRecord(const std::byte* from, const LASPointLayout& layout, laszip_point& point)
+{
+  const auto take = [&from](void* to, std::size_t bytes) {
+    std::memcpy(to, from, bytes);
+    from += bytes;
+  };
+  const int format = layout.pointFormat;
+  if (format < 6)
+  {
+    take(&point.X, 20); // the first 20 bytes of laszip_point are those of the standard
+    if (format == 1 || format >= 3)
+    {
+      take(&point.gps_time, 8);
+    }
+  }
+  else
+  {
+    loadPoint14(from, point);
+    from += 30;
+  }
+  if (format == 2 || format == 3 || format == 5 || format == 7 || format == 8 || format == 10)
+  {
+    take(point.rgb, 6);
+  }
+  if (format == 8 || format == 10)
+  {
+    take(point.rgb + 3, 2);
+  }
+  if (format == 4 || format == 5 || format >= 9)
+  {
+    take(point.wave_packet, 29);
+  }
+  const std::size_t extra = layout.pointBytes - lasMinimumPointBytes(format);
+  if (extra > 0)
+  {
+    take(point.extra_bytes, extra);
+  }
+}
+} // namespace
+
+struct LASzipWriter::Handle
+{
+  ~Handle()
+  {
+    if (laszip == nullptr)
+    {
+      return;
+    }
+    // Their results do not matter any more: the handle goes either way.
+    if (opened)
+    {
+      laszip_close_writer(laszip);
+    }
+    laszip_destroy(laszip);
+  }
+
+  Error error(const std::string& what) const
+  {
+    if (buffer && buffer->error())
+    {
+      return *buffer->error(); // the disk's reason is the first cause
+    }
+    laszip_CHAR* words = nullptr;
+    laszip_get_error(laszip, &words);
+    return makeError(Error::Kind::Unwritable,
+      path + ": LASzip cannot " + what + ": " +
+        printableText(words != nullptr ? words : "no reason given"));
+  }
+
+  std::string path;
+  const LASPointLayout* layout = nullptr;
+  std::unique_ptr<FileBuffer> buffer;
+  std::unique_ptr<std::ostream> stream;
+  laszip_POINTER laszip = nullptr;
+  laszip_point_struct* point = nullptr;
+  bool opened = false;
+};
+
+LASzipWriter::LASzipWriter(std::unique_ptr<Handle> handle)
+  : handle_(std::move(handle))
+{
+}
+LASzipWriter::LASzipWriter(LASzipWriter&&) noexcept = default;
+LASzipWriter& LASzipWriter::operator=(LASzipWriter&&) noexcept = default;
+LASzipWriter::~LASzipWriter() = default;
+
+Result<LASzipWriter> LASzipWriter::create(const LASPointLayout& layout, const std::string& path)
+{
+  auto handle = std::make_unique<Handle>();
+  handle->path = path;
+  handle->layout = &layout;
+  if (laszip_create(&handle->laszip) != 0)
+  {
+    return makeError(Error::Kind::NoMemory, path + ": LASzip did not start");
+  }
+  const auto format = static_cast<laszip_U8>(layout.pointFormat);
+  const auto bytes = static_cast<laszip_U16>(layout.pointBytes);
+  if (laszip_set_point_type_and_size(handle->laszip, format, bytes) != 0 ||
+    laszip_request_native_extension(handle->laszip, 1) != 0)
+  {
+    return handle->error("compress these points");
+  }
+  return LASzipWriter(std::move(handle));
+}
+
+Result<MetadataRecord> LASzipWriter::compressionRecord() const
+{
+  laszip_U8* bytes = nullptr;
+  laszip_U32 size = 0;
+  if (laszip_create_laszip_vlr(handle_->laszip, &bytes, &size) != 0 ||
+    size < lasRecordHeaderBytes)
+  {
+    return handle_->error("describe its compression");
+  }
+  const auto* record = reinterpret_cast<const std::byte*>(bytes);
+  return MetadataRecord{ loadText(record + 2, 16), loadNumber<std::uint16_t>(record + 18),
+    loadText(record + 22, 32), { record + lasRecordHeaderBytes, record + size } };
+}
+
+Result<void> LASzipWriter::begin(OutputFile& file, std::uint64_t offset)
+{
+  handle_->buffer = std::make_unique<FileBuffer>(file, offset);
+  handle_->stream = std::make_unique<std::ostream>(handle_->buffer.get());
+  constexpr laszip_BOOL compress = 1;
+  constexpr laszip_BOOL withoutHeader = 1;
+  handle_->opened =
+    laszip_open_writer_stream(handle_->laszip, *handle_->stream, compress, withoutHeader) == 0;
+  if (!handle_->opened || laszip_get_point_pointer(handle_->laszip, &handle_->point) != 0)
+  {
+    return handle_->error("begin");
+  }
+  return {};
+}
+
+Result<void> LASzipWriter::append(const std::byte* records, std::size_t count)
+{
+  const LASPointLayout& layout = *handle_->layout;
+  for (std::size_t i = 0; i < count; ++i, records += layout.pointBytes)
+  {
+    loadRecord(records, layout, *handle_->point);
+    if (laszip_write_point(handle_->laszip) != 0)
+    {
+      return handle_->error("compress a point");
+    }
+  }
+  // LASzip does not look at its stream after every byte.
+  return handle_->buffer->error() ? Result<void>(*handle_->buffer->error()) : Result<void>();
+}
+
+Result<std::uint64_t> LASzipWriter::finish()
+{
+  handle_->opened = false;
+  const bool closed = laszip_close_writer(handle_->laszip) == 0;
+  if (!closed || !handle_->buffer->flush())
+  {
+    return handle_->error("finish");
+  }
+  return handle_->buffer->end();
+}
+
+} // namespace pointfront

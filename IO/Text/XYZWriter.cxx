@@ -1,0 +1,158 @@
+#include "XYZWriter.h"
+
+#include "DecimalText.h"
+
+#include "pointfront/Store/OutputFile.h"
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+namespace pointfront
+{
+namespace
+{
+constexpr std::size_t flushBytes = 1 << 20;
+
+/// Columns are separated by blanks, so names have none.
+std::string columnName(const Attribute& attribute, std::size_t component)
+{
+  static const char* const colours[3] = { "red", "green", "blue" };
+  if (attribute.name == "rgb" && attribute.components == 3)
+  {
+    return colours[component];
+  }
+  std::string name = attribute.name;
+  std::replace(name.begin(), name.end(), ' ', '_');
+  return attribute.components == 1 ? name : name + "[" + std::to_string(component) + "]";
+}
+
+bool isScaledInteger(const Attribute& attribute)
+{
+  const bool floating =
+    attribute.type == ScalarType::Float32 || attribute.type == ScalarType::Float64;
+  return !floating && (attribute.scale != 1.0 || attribute.offset != 0.0);
+}
+} // namespace
+
+struct XYZWriter::State
+{
+  /// How the components of one attribute are written.
+  struct Column
+  {
+    Attribute attribute;
+    bool fixed = false; ///< scaled integers: with `decimals`
+    int decimals = 0;
+  };
+
+  std::string path;
+  std::unique_ptr<OutputFile> file;
+  std::vector<Column> columns;
+  int decimals[3] = { 0, 0, 0 }; ///< of x, y and z
+  std::string text;              ///< not yet written
+
+  Result<void> flush()
+  {
+    const Result<void> done =
+      file->append(reinterpret_cast<const std::byte*>(text.data()), text.size());
+    text.clear();
+    return done;
+  }
+
+  void appendPoint(const PointBatch& batch, std::size_t point);
+};
+
+XYZWriter::XYZWriter(std::string path)
+  : state_(std::make_unique<State>())
+{
+  state_->path = std::move(path);
+}
+
+XYZWriter::~XYZWriter() = default;
+
+Result<void> XYZWriter::begin(const SinkDescription& description)
+{
+  assert(!state_->file);
+  Result<std::unique_ptr<OutputFile>> file = OutputFile::create(state_->path);
+  if (!file)
+  {
+    return file.error();
+  }
+  state_->file = std::move(*file);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    state_->decimals[axis] =
+      decimalsOf(description.grid.scale[axis], description.grid.offset[axis]);
+  }
+  state_->text = "# x y z";
+  for (const Attribute& attribute : description.schema)
+  {
+    const bool fixed = isScaledInteger(attribute);
+    state_->columns.push_back(
+      { attribute, fixed, fixed ? decimalsOf(attribute.scale, attribute.offset) : 0 });
+    for (std::size_t k = 0; k < attribute.components; ++k)
+    {
+      state_->text += " " + columnName(attribute, k);
+    }
+  }
+  state_->text += "\n";
+  return {};
+}
+
+void XYZWriter::State::appendPoint(const PointBatch& batch, std::size_t point)
+{
+  const glm::dvec3& p = batch.positions[point];
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    text.append(axis == 0 ? 0 : 1, ' ');
+    appendFixed(text, p[axis], decimals[axis]);
+  }
+  for (std::size_t c = 0; c < columns.size(); ++c)
+  {
+    const Attribute& attribute = columns[c].attribute;
+    const std::byte* from = batch.columns[c].data() + point * attribute.bytes();
+    for (std::size_t k = 0; k < attribute.components; ++k, from += sizeOf(attribute.type))
+    {
+      text += ' ';
+      if (columns[c].fixed)
+      {
+        const double value = scalarValue(attribute.type, from);
+        appendFixed(text, attribute.offset + attribute.scale * value, columns[c].decimals);
+      }
+      else
+      {
+        appendScalar(text, attribute.type, from);
+      }
+    }
+  }
+  text += '\n';
+}
+
+Result<void> XYZWriter::append(const PointBatch& batch)
+{
+  assert(state_->file);
+  for (std::size_t i = 0; i < batch.size(); ++i)
+  {
+    state_->appendPoint(batch, i);
+    if (state_->text.size() >= flushBytes)
+    {
+      if (auto done = state_->flush(); !done)
+      {
+        return done;
+      }
+    }
+  }
+  return {};
+}
+
+Result<void> XYZWriter::finish()
+{
+  assert(state_->file);
+  if (auto done = state_->flush(); !done)
+  {
+    return done;
+  }
+  return state_->file->publish();
+}
+
+} // namespace pointfront

@@ -17,14 +17,14 @@ namespace pointfront
 struct BuildOptions
 {
   std::string outputPath;
-  std::string temporaryFolder;       ///< for spill files; empty: the output's folder
-  std::uint64_t memoryBytes = 0;     ///< budget for points in memory; 0: half of the machine's
-  unsigned threads = 0;              ///< 0: one a core
-  std::uint32_t nodePoints = 16384;  ///< capacity of a leaf; inner nodes hold about as many
-  std::optional<double> precision;   ///< world units a step; nothing: the sources' own (lossless)
+  std::string temporaryFolder;      ///< for spill files; empty: the output's folder
+  std::uint64_t memoryBytes = 0;    ///< budget for points in memory; 0: half of the machine's
+  unsigned threads = 0;             ///< 0: one a core
+  std::uint32_t nodePoints = 16384; ///< capacity of a leaf; inner nodes hold about as many
+  std::optional<double> precision;  ///< world units a step; nothing: the sources' own (lossless)
   /// Attributes to store, by name; nothing: all.
   std::optional<std::vector<std::string>> attributes;
-  bool overwrite = false;            ///< false: an existing output is an Error
+  bool overwrite = false; ///< false: an existing output is an Error
 };
 
 struct BuildReport
@@ -36,7 +36,7 @@ struct BuildReport
   std::uint64_t bytesWritten = 0;
   std::uint64_t spilledBytes = 0;
   std::uint64_t nodes = 0;
-  std::vector<std::string> warnings; ///< of the sources and of the build; full sentences
+  std::vector<std::string> warnings;          ///< of the sources and of the build; full sentences
   std::map<std::string, double> phaseSeconds; ///< phase -> CPU seconds over all threads
 };
 

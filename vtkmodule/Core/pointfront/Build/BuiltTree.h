@@ -1,0 +1,41 @@
+#pragma once
+
+#include "pointfront/Base/Bounds.h"
+#include "pointfront/Store/Hierarchy.h"
+#include "pointfront/Store/StoreWriter.h"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace pointfront
+{
+
+/// A node of the tree under construction: its points are already encoded, or soon will be.
+struct BuiltNode
+{
+  Node row;              ///< box, spacing and counts; links and level come from nodeTable()
+  unsigned log2Side = 0; ///< of its octree cell, tree steps
+  int samplingLog2 = -1; ///< of the cells it sampled; -1 for a leaf
+  StoreWriter::PayloadId payload = 0;
+  std::vector<std::unique_ptr<BuiltNode>> children; ///< in the order of their octants
+};
+
+/// Sets centre, halfSize and radius from a node's own points and its finished children.
+/// Rounding  outward, and a parent's box encloses its children's rounded boxes exactly.
+void encloseNode(
+  Node& row, const Bounds& own, const std::vector<std::unique_ptr<BuiltNode>>& children);
+
+/// Node table and payloads in the order that StoreWriter::commit() wants.
+struct NodeTable
+{
+  std::vector<Node> nodes; ///< breadth first, children neighbours in octant order
+  std::vector<NodeIndex> roots;
+  std::vector<StoreWriter::PayloadId> payloads;
+  std::uint32_t levels = 0;
+};
+
+/// `root` may be null: an empty table. Makes spacing fall strictly from parent to child.
+NodeTable nodeTable(const BuiltNode* root);
+
+} // namespace pointfront

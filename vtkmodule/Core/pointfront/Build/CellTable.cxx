@@ -1,0 +1,99 @@
+#include "pointfront/Build/CellTable.h"
+
+#include <algorithm>
+
+namespace pointfront
+{
+
+CellTable::CellTable(unsigned shift) : shift_(shift), slots_(64) {}
+
+std::size_t CellTable::slotOf(const TreePosition& cell) const
+{
+  std::uint64_t h = (std::uint64_t(cell.x) << 32 | cell.y) * 0x9e3779b97f4a7c15ull;
+  h = (h ^ (h >> 32) ^ cell.z) * 0xff51afd7ed558ccdull;
+  const std::size_t mask = slots_.size() - 1;
+  std::size_t slot = (h >> 32) & mask;
+  while (slots_[slot].value != 0 && slots_[slot].cell != cell)
+  {
+    slot = (slot + 1) & mask;
+  }
+  return slot;
+}
+
+std::uint64_t& CellTable::at(const TreePosition& cell)
+{
+  std::size_t slot = slotOf(cell);
+  if (slots_[slot].value == 0)
+  {
+    if (2 * size_ >= slots_.size())
+    {
+      grow();
+      slot = slotOf(cell);
+    }
+    slots_[slot].cell = cell;
+    ++size_;
+  }
+  return slots_[slot].value;
+}
+
+std::uint64_t CellTable::find(const TreePosition& cell) const
+{
+  return slots_[slotOf(cell)].value;
+}
+
+void CellTable::grow()
+{
+  std::vector<Entry> old(2 * slots_.size());
+  old.swap(slots_);
+  for (const Entry& entry : old)
+  {
+    if (entry.value != 0)
+    {
+      slots_[slotOf(entry.cell)] = entry;
+    }
+  }
+}
+
+std::vector<CellTable::Entry> CellTable::entries() const
+{
+  std::vector<Entry> used;
+  used.reserve(size_);
+  std::copy_if(slots_.begin(), slots_.end(), std::back_inserter(used),
+    [](const Entry& entry) { return entry.value != 0; });
+  return used;
+}
+
+void CellCounts::add(const TreePosition& position, std::uint64_t count)
+{
+  table_.at(table_.cellOf(position)) += count;
+  if (table_.size() > limit)
+  {
+    coarsen(table_.shift() + 1);
+  }
+}
+
+void CellCounts::add(const CellCounts& other)
+{
+  coarsen(other.table_.shift());
+  const unsigned otherShift = other.table_.shift();
+  for (const CellTable::Entry& entry : other.table_.entries())
+  {
+    add({entry.cell.x << otherShift, entry.cell.y << otherShift, entry.cell.z << otherShift},
+      entry.value);
+  }
+}
+
+void CellCounts::coarsen(unsigned shift)
+{
+  while (table_.shift() < shift || table_.size() > limit)
+  {
+    CellTable coarse(table_.shift() + 1);
+    for (const CellTable::Entry& entry : table_.entries())
+    {
+      coarse.at({entry.cell.x >> 1, entry.cell.y >> 1, entry.cell.z >> 1}) += entry.value;
+    }
+    table_ = std::move(coarse);
+  }
+}
+
+} // namespace pointfront

@@ -1,0 +1,68 @@
+#pragma once
+
+#include "pointfront/Build/RecordLayout.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace pointfront
+{
+
+/// A sparse grid: a number for each cell that was touched. Cells are cubes of 2^shift steps,
+/// aligned to multiples of their side, so the bounds need not be known; coordinates are modulo
+/// 2^32. Memory   24 bytes a slot, at most 4 slots a cell. Threads  one instance, one thread.
+class CellTable
+{
+public:
+  struct Entry
+  {
+    TreePosition cell{0};    ///< position >> shift
+    std::uint64_t value = 0; ///< 0: the slot is free
+  };
+
+  explicit CellTable(unsigned shift);
+
+  unsigned shift() const { return shift_; }
+  std::size_t size() const { return size_; } ///< cells touched
+
+  /// The number of that cell, made with 0. The reference holds until the next call, and the
+  /// caller makes it other than 0 before that.
+  std::uint64_t& at(const TreePosition& cell);
+  /// The same without making it: 0 for a cell that was never touched.
+  std::uint64_t find(const TreePosition& cell) const;
+  TreePosition cellOf(const TreePosition& position) const
+  {
+    return {position.x >> shift_, position.y >> shift_, position.z >> shift_};
+  }
+  std::vector<Entry> entries() const; ///< in no particular order
+
+private:
+  std::size_t slotOf(const TreePosition& cell) const;
+  void grow();
+
+  unsigned shift_;
+  std::size_t size_ = 0;
+  std::vector<Entry> slots_; // a power of two, linear probing
+};
+
+/// Points for each cell. Coarsens itself while it has more than `limit` cells, so its memory is
+/// bounded whatever the points are.
+class CellCounts
+{
+public:
+  /// The grid of the root cube at 64 cells an edge has that many cells: a table that overflowed was
+  /// too fine for it, so coarsening never goes beyond it.
+  static constexpr std::size_t limit = std::size_t(1) << 18;
+
+  explicit CellCounts(unsigned shift) : table_(shift) {}
+  void add(const TreePosition& position, std::uint64_t count = 1);
+  void add(const CellCounts& other);
+  void coarsen(unsigned shift); ///< to at least that shift
+  const CellTable& table() const { return table_; }
+
+private:
+  CellTable table_;
+};
+
+} // namespace pointfront

@@ -1,0 +1,44 @@
+#pragma once
+
+#include "pointfront/Base/Result.h"
+#include "pointfront/Points/AttributeSchema.h"
+#include "pointfront/Points/PointSource.h"
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pointfront
+{
+
+/// Where one source has the values of one common column.
+struct ColumnMapping
+{
+  std::optional<std::size_t> column; ///< of the source; nothing: the source lacks it, zeros
+  bool converted = false;            ///< type, scale or offset differ from the common column
+};
+
+/// The attributes of several sources as one schema.
+/// Union       columns of the same name are one column; a source that lacks it gets zeros.
+/// Conversion  types that differ become the smallest type that holds both (integers of both
+///             signs and 64 bits, or integers and floats: float64); scales that differ become
+///             float64 world values.
+struct CommonSchema
+{
+  AttributeSchema schema;
+  std::vector<std::vector<ColumnMapping>> mappings; ///< [source][column]
+  std::vector<std::string> warnings;
+};
+
+/// `wanted`: names, or nothing for all. Error BadArgument for a name that no source has, with those
+/// that there are, and for columns of one name with different numbers of components.
+Result<CommonSchema> commonSchema(const std::vector<std::unique_ptr<PointSource>>& sources,
+  const std::optional<std::vector<std::string>>& wanted);
+
+/// `count` values of `from` (packed) as `to`; components are equal in number.
+void convertColumn(const Attribute& from, const std::byte* in, const Attribute& to, std::byte* out,
+  std::size_t count);
+
+} // namespace pointfront

@@ -1,0 +1,31 @@
+#pragma once
+
+#include "pointfront/Base/Result.h"
+#include "pointfront/Points/PointSource.h"
+#include "pointfront/Points/QuantisationGrid.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pointfront
+{
+
+struct GridChoice
+{
+  QuantisationGrid grid;
+  std::vector<std::string> warnings; ///< which source is rounded, by how much at most
+};
+
+/// The one grid of a store (FRONT-1: one uniform coordinate system, one defined precision).
+/// Lossless   when all sources lie on the grid of the finest of them: same scale or whole
+///            multiples, offsets apart by whole steps. The first such offset is taken.
+/// Rounded    otherwise, to at most half a step of the finest scale, with a warning.
+/// `precision` world units a step, > 0 and finite; BadArgument otherwise.
+/// Sources without a grid (floating point) and without `precision` get a millionth of the power of
+/// ten below their declared extent: 0.1 mm for 100 m; a millimetre if the extent is not known.
+Result<GridChoice> chooseGrid(
+  const std::vector<std::unique_ptr<PointSource>>& sources, const std::optional<double>& precision);
+
+} // namespace pointfront

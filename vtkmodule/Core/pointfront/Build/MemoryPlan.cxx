@@ -1,0 +1,86 @@
+#include "pointfront/Build/MemoryPlan.h"
+
+#include "pointfront/Build/MortonOrder.h"
+
+#include <algorithm>
+#include <string>
+
+namespace pointfront
+{
+namespace
+{
+/// Larger parts gain nothing: the sort leaves the caches.
+constexpr std::uint64_t mostPartPoints = 1u << 20;
+constexpr std::uint64_t mostBlockPoints = 1u << 22;
+constexpr std::uint64_t memoryBlockPoints = 1u << 18;
+
+/// Bytes for one point of a part while it is built: its record twice (unsorted and sorted), keys,
+/// index lists of the levels (their sum is below 2 indices a point), the encoded nodes of the
+/// part and of those finished out of turn.
+std::uint64_t partPointBytes(std::size_t recordBytes)
+{
+  return 2 * recordBytes + mortonOrderBytes + 8 + 2 * recordBytes;
+}
+
+/// A block and its sorted copy.
+std::uint64_t blockPointBytes(std::size_t recordBytes)
+{
+  return 2 * recordBytes + 8;
+}
+
+/// Parts much larger than a node: their ancestors are surely inner nodes.
+std::uint64_t leastPartPoints(const MemoryDemand& demand)
+{
+  return 4ull * demand.nodePoints;
+}
+
+/// Batches of doubles, and their records, for each thread.
+std::uint64_t readBytes(const MemoryDemand& demand)
+{
+  return demand.largestChunk * (3 * sizeof(double) + demand.sourceBytes + demand.recordBytes);
+}
+
+std::uint64_t leastBytes(const MemoryDemand& demand)
+{
+  return std::max(readBytes(demand),
+    std::min(demand.points, leastPartPoints(demand)) * partPointBytes(demand.recordBytes));
+}
+
+/// With the bytes left beside what stays in memory all the time.
+MemoryPlan divided(const MemoryDemand& demand, std::uint64_t bytes, bool spill)
+{
+  MemoryPlan plan;
+  plan.spill = spill;
+  const std::uint64_t least = std::max<std::uint64_t>(1, leastBytes(demand));
+  plan.threads = static_cast<unsigned>(
+    std::clamp<std::uint64_t>(bytes / least, 1, std::max(1u, demand.threads)));
+  const std::uint64_t share = bytes / plan.threads;
+  const std::uint64_t forBalance = demand.points / (8ull * plan.threads);
+  plan.partPoints = std::clamp(std::min(share / partPointBytes(demand.recordBytes), forBalance),
+    leastPartPoints(demand), std::max(mostPartPoints, leastPartPoints(demand)));
+  plan.blockPoints = std::clamp<std::uint64_t>(
+    share / blockPointBytes(demand.recordBytes), 1024, spill ? mostBlockPoints : memoryBlockPoints);
+  return plan;
+}
+} // namespace
+
+Result<MemoryPlan> planMemory(const MemoryDemand& demand)
+{
+  const std::uint64_t all = demand.points * demand.recordBytes;
+  const std::uint64_t least = leastBytes(demand);
+  if (demand.memoryBytes >= all &&
+      demand.memoryBytes - all >= std::min(least * demand.threads, demand.memoryBytes / 4 + least))
+  {
+    return divided(demand, demand.memoryBytes - all, false);
+  }
+  if (demand.memoryBytes < least)
+  {
+    return makeError(Error::Kind::NoMemory,
+      "a memory limit of " + std::to_string(demand.memoryBytes >> 10) +
+        " KiB is too small: this build needs at least " + std::to_string((least >> 10) + 1) +
+        " KiB; raise it or use fewer points a node");
+  }
+  return divided(demand, demand.memoryBytes, true);
+}
+
+} // namespace pointfront

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "pointfront/Base/Result.h"
+
+#include <cstddef>
+#include <cstdint>
+
+namespace pointfront
+{
+
+/// What a build needs to know to divide its memory.
+struct MemoryDemand
+{
+  std::uint64_t points = 0;       ///< at most
+  std::uint64_t largestChunk = 0; ///< points of the largest chunk of any source
+  std::size_t recordBytes = 0;
+  std::size_t sourceBytes = 0; ///< largest size of a point in a source's batch
+  std::uint32_t nodePoints = 0;
+  unsigned threads = 1;          ///< wanted
+  std::uint64_t memoryBytes = 0; ///< allowed
+};
+
+/// How the memory is divided. Only speed depends on it, never a byte of the store.
+struct MemoryPlan
+{
+  bool spill = false;            ///< records go to disk
+  unsigned threads = 1;          ///< those wanted, or fewer when memory is short
+  std::uint64_t blockPoints = 0; ///< records sorted into parts at a time, by each thread
+  std::uint64_t partPoints = 0;  ///< largest part built at a time, by each thread
+};
+
+/// Error NoMemory, with the least that would do, when even one thread has too little.
+Result<MemoryPlan> planMemory(const MemoryDemand& demand);
+
+} // namespace pointfront

@@ -1,0 +1,48 @@
+#pragma once
+
+#include "pointfront/Build/BuiltTree.h"
+#include "pointfront/Build/RecordLayout.h"
+#include "pointfront/Build/TreeSpace.h"
+#include "pointfront/Points/AttributeSchema.h"
+#include "pointfront/Store/StoreWriter.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace pointfront
+{
+
+/// How a record's column becomes a column of the store.
+struct StoredColumn
+{
+  std::size_t offset = 0; ///< in the record
+  std::size_t bytes = 0;  ///< of one point in the store
+  bool narrowed = false;  ///< two bytes a component in the record, one in the store
+};
+
+/// Turns the final points of a node into what the store keeps: orders them, splits records into
+/// columns, compresses them, and completes the node's row (box, counts).
+/// Threads  const after construction; any number of threads.
+class NodeEmitter
+{
+public:
+  /// `stored` differs from `pooled` only in columns whose 16-bit values all fit 8 bits.
+  NodeEmitter(TreeSpace space, const AttributeSchema& pooled, AttributeSchema stored);
+
+  /// `points` in Morton order; the children of `node` are finished.
+  EncodedNode emit(
+    BuiltNode& node, const RecordView& records, const std::vector<std::uint32_t>& points) const;
+
+  const TreeSpace& space() const { return space_; }
+
+private:
+  NodeColumns gather(const RecordView& records, const std::vector<std::uint32_t>& order) const;
+  void gatherColumn(const StoredColumn& column, const RecordView& records,
+    const std::vector<std::uint32_t>& order, std::vector<std::byte>& out) const;
+
+  TreeSpace space_;
+  AttributeSchema schema_;
+  std::vector<StoredColumn> columns_;
+};
+
+} // namespace pointfront

@@ -1,0 +1,162 @@
+#include "pointfront/Build/Partition.h"
+
+#include "pointfront/Build/OctreeSplit.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace pointfront
+{
+namespace
+{
+/// The smallest cell around all counted cells of a range in Morton order.
+OctreeCell cellAround(const std::vector<CountedCell>& cells, IndexRange range, unsigned cellLog2)
+{
+  const OctreeCell cell = commonCell(cells[range.begin].origin, cells[range.end - 1].origin);
+  return cell.log2Side >= cellLog2 ? cell : OctreeCell{cells[range.begin].origin, cellLog2};
+}
+
+struct OpenRange
+{
+  IndexRange range;
+  std::uint32_t parent;
+};
+} // namespace
+
+Partition::Partition(const std::vector<CountedCell>& cells, unsigned cellLog2,
+  std::uint64_t partPoints, std::vector<std::uint32_t>& partOf)
+{
+  partOf.assign(cells.size(), none);
+  std::vector<std::uint64_t> before{0};
+  for (const CountedCell& cell : cells)
+  {
+    before.push_back(before.back() + cell.count);
+  }
+  std::vector<OpenRange> open;
+  if (!cells.empty())
+  {
+    open.push_back({{0, cells.size()}, none});
+  }
+  while (!open.empty())
+  {
+    const OpenRange next = open.back();
+    open.pop_back();
+    const std::uint64_t count = before[next.range.end] - before[next.range.begin];
+    const OctreeCell cell = cellAround(cells, next.range, cellLog2);
+    if (count <= partPoints || next.range.end - next.range.begin == 1)
+    {
+      const std::uint32_t number = nodes_[addPart(cell, count, next.parent)].part;
+      std::fill(partOf.begin() + static_cast<std::ptrdiff_t>(next.range.begin),
+        partOf.begin() + static_cast<std::ptrdiff_t>(next.range.end), number);
+      continue;
+    }
+    const std::uint32_t node = addNode(cell, count, next.parent);
+    const auto octant = [&](std::uint64_t i) { return octantOf(cells[i].origin, cell.log2Side); };
+    const std::vector<IndexRange> split = splitRange(next.range, cell.log2Side, octant);
+    for (auto range = split.rbegin(); range != split.rend(); ++range)
+    {
+      open.push_back({*range, node}); // the last in is the first out: octant order
+    }
+  }
+}
+
+std::uint32_t Partition::addNode(OctreeCell cell, std::uint64_t count, std::uint32_t parent)
+{
+  const auto index = static_cast<std::uint32_t>(nodes_.size());
+  nodes_.push_back({cell, count, parent, none, {}});
+  if (parent != none)
+  {
+    nodes_[parent].children.push_back(index);
+  }
+  return index;
+}
+
+std::uint32_t Partition::addPart(OctreeCell cell, std::uint64_t count, std::uint32_t parent)
+{
+  const std::uint32_t index = addNode(cell, count, parent);
+  nodes_[index].part = partCount();
+  parts_.push_back(index);
+  return index;
+}
+
+std::vector<std::uint32_t> Partition::refine(std::uint32_t part, const Partition& finer)
+{
+  assert(finer.nodes_.size() > 0);
+  const std::uint32_t place = parts_[part];
+  std::vector<std::uint32_t> nodeOf(finer.nodes_.size());
+  std::vector<std::uint32_t> numbers(finer.partCount());
+  bool firstPart = true;
+  for (std::uint32_t i = 0; i < finer.nodes_.size(); ++i)
+  {
+    const Node& node = finer.nodes_[i];
+    if (i == 0)
+    {
+      nodeOf[0] = place;
+      nodes_[place].cell = node.cell;
+      nodes_[place].part = none;
+    }
+    else
+    {
+      nodeOf[i] = addNode(node.cell, node.count, nodeOf[node.parent]);
+    }
+    if (node.part != none)
+    {
+      const std::uint32_t number = firstPart ? part : partCount();
+      if (!firstPart)
+      {
+        parts_.push_back(none);
+      }
+      firstPart = false;
+      parts_[number] = nodeOf[i];
+      nodes_[nodeOf[i]].part = number;
+      numbers[node.part] = number;
+    }
+  }
+  return numbers;
+}
+
+std::vector<std::uint32_t> Partition::refineByOrder(std::uint32_t part)
+{
+  const std::uint32_t place = parts_[part];
+  const OctreeCell cell = nodes_[place].cell;
+  const std::vector<IndexRange> runs =
+    splitRange({0, nodes_[place].count}, 0, [](std::uint64_t) { return 0u; });
+  nodes_[place].part = none;
+  std::vector<std::uint32_t> numbers;
+  for (const IndexRange& run : runs)
+  {
+    const std::uint64_t count = run.end - run.begin;
+    if (numbers.empty())
+    {
+      const std::uint32_t index = addNode(cell, count, place);
+      nodes_[index].part = part;
+      parts_[part] = index;
+      numbers.push_back(part);
+    }
+    else
+    {
+      numbers.push_back(nodes_[addPart(cell, count, place)].part);
+    }
+  }
+  return numbers;
+}
+
+std::vector<std::uint32_t> Partition::postOrder() const
+{
+  std::vector<std::uint32_t> order;
+  std::vector<std::uint32_t> open;
+  if (!nodes_.empty())
+  {
+    open.push_back(root());
+  }
+  while (!open.empty()) // parents first with children from right to left, then reversed
+  {
+    const std::uint32_t index = open.back();
+    open.pop_back();
+    order.push_back(index);
+    open.insert(open.end(), nodes_[index].children.begin(), nodes_[index].children.end());
+  }
+  return {order.rbegin(), order.rend()};
+}
+
+} // namespace pointfront

@@ -1,0 +1,65 @@
+#pragma once
+
+#include "pointfront/Build/MortonOrder.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace pointfront
+{
+
+/// How many points a counted cell holds. Cells are aligned cubes of one size.
+struct CountedCell
+{
+  TreePosition origin{0}; ///< tree steps
+  std::uint64_t count = 0;
+};
+
+/// The upper octree, down to parts that are built one at a time.
+/// The nodes are those that a build in one piece would have: a cell that holds more points than a
+/// part may, the smallest around its points, is an inner node. So parts may be cut anywhere. Source
+/// Richter & Doellner 2010, section 3.1: split in eight until a part fits.
+class Partition
+{
+public:
+  static constexpr std::uint32_t none = 0xffffffffu;
+
+  struct Node
+  {
+    OctreeCell cell; ///< of a part: a cell around its points, not always the smallest
+    std::uint64_t count = 0;
+    std::uint32_t parent = none;
+    std::uint32_t part = none;           ///< number of the part; none for an inner node
+    std::vector<std::uint32_t> children; ///< octant order
+  };
+
+  /// Cuts so that a part holds at most `partPoints` points, where the cells are fine enough.
+  /// `cells` in Morton order, each of 2^cellLog2 steps. `partOf` (one for each cell) is filled.
+  Partition(const std::vector<CountedCell>& cells, unsigned cellLog2, std::uint64_t partPoints,
+    std::vector<std::uint32_t>& partOf);
+
+  const std::vector<Node>& nodes() const { return nodes_; }
+  std::uint32_t root() const { return 0; } ///< there is none when nodes() is empty
+  std::uint32_t partCount() const { return static_cast<std::uint32_t>(parts_.size()); }
+  const Node& part(std::uint32_t number) const { return nodes_[parts_[number]]; }
+
+  /// Replaces a part that is too large by the partition of its own finer cells. Its parts get
+  /// numbers from partCount() on, except for the first, which keeps the number.
+  /// Returns the numbers in the order of `partOf` of the finer partition.
+  std::vector<std::uint32_t> refine(std::uint32_t part, const Partition& finer);
+  /// Cuts a part of equal points into eight runs of input order; returns their numbers.
+  std::vector<std::uint32_t> refineByOrder(std::uint32_t part);
+
+  /// Inner nodes and parts, children before parents, siblings in octant order: the order in
+  /// which their nodes stand in the file.
+  std::vector<std::uint32_t> postOrder() const;
+
+private:
+  std::uint32_t addNode(OctreeCell cell, std::uint64_t count, std::uint32_t parent);
+  std::uint32_t addPart(OctreeCell cell, std::uint64_t count, std::uint32_t parent);
+
+  std::vector<Node> nodes_;
+  std::vector<std::uint32_t> parts_; // node of each part
+};
+
+} // namespace pointfront

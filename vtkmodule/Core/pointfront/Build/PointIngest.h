@@ -1,0 +1,43 @@
+#pragma once
+
+#include "pointfront/Build/CellTable.h"
+#include "pointfront/Build/CommonSchema.h"
+#include "pointfront/Build/RecordPool.h"
+#include "pointfront/Build/TreeSpace.h"
+#include "pointfront/Build/WorkCrew.h"
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace pointfront
+{
+
+/// What is known of the points once all are read.
+struct IngestedPoints
+{
+  std::uint64_t read = 0;
+  std::uint64_t kept = 0; ///< records 0 to kept - 1 of the pool, in input order
+  std::map<std::string, std::uint64_t> rejected;
+  GridPosition low{INT64_MAX}; ///< grid steps
+  GridPosition high{INT64_MIN};
+  CellCounts counts{0};
+  std::vector<std::uint64_t> sourceEnd;     ///< end of each source's records in the pool
+  std::vector<std::uint16_t> largestColour; ///< of each source's "rgb", 0 without one
+  double readSeconds = 0.0;                 ///< CPU, over all threads
+  double quantiseSeconds = 0.0;
+};
+
+/// Reads every chunk of every source once: decodes, rejects what is no position, rounds to the
+/// grid, packs records into the pool in input order, counts cells. Declared bounds are a hint for
+/// the first size of the cells only; nothing else trusts them.
+/// Errors  the first of any source's read(), or of the pool.
+Result<IngestedPoints> ingestPoints(const std::vector<std::unique_ptr<PointSource>>& sources,
+  const CommonSchema& schema, const TreeSpace& space, RecordPool& pool, WorkCrew& crew);
+
+/// Column "rgb" of the pooled schema if its values are 16 bits wide.
+std::optional<std::size_t> wideColourColumn(const AttributeSchema& schema);
+
+} // namespace pointfront

@@ -1,0 +1,66 @@
+#pragma once
+
+#include "pointfront/Points/AttributeSchema.h"
+
+#include <glm/vec3.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <vector>
+
+namespace pointfront
+{
+
+/// Where the values of one point lie in its packed record while a store is being built: three
+/// 32-bit coordinates in tree steps, then the columns of the schema one after another.
+/// Rows, not columns: a point is moved some five times before it is encoded, and a row is one copy
+/// and one cache line where columns would be one for each attribute.
+class RecordLayout
+{
+public:
+  explicit RecordLayout(const AttributeSchema& schema) : bytes_(positionBytes)
+  {
+    for (const Attribute& attribute : schema)
+    {
+      offsets_.push_back(bytes_);
+      bytes_ += attribute.bytes();
+    }
+  }
+
+  static constexpr std::size_t positionBytes = 3 * sizeof(std::uint32_t);
+  std::size_t bytes() const { return bytes_; } ///< of one record
+  std::size_t offset(std::size_t column) const { return offsets_[column]; }
+
+private:
+  std::size_t bytes_;
+  std::vector<std::size_t> offsets_;
+};
+
+/// A position inside the tree: steps from the origin of the root cube.
+using TreePosition = glm::u32vec3;
+
+/// Records are packed, so they are not aligned.
+inline TreePosition positionOf(const std::byte* record)
+{
+  TreePosition position;
+  std::memcpy(&position, record, RecordLayout::positionBytes);
+  return position;
+}
+
+inline void setPosition(std::byte* record, const TreePosition& position)
+{
+  std::memcpy(record, &position, RecordLayout::positionBytes);
+}
+
+/// A packed run of records that someone else owns.
+struct RecordView
+{
+  const std::byte* data = nullptr;
+  std::size_t stride = 0; ///< bytes of one record
+
+  const std::byte* record(std::size_t i) const { return data + i * stride; }
+  TreePosition position(std::size_t i) const { return positionOf(record(i)); }
+};
+
+} // namespace pointfront

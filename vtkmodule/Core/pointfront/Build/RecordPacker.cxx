@@ -1,0 +1,200 @@
+#include "pointfront/Build/RecordPacker.h"
+
+#include "pointfront/Build/PointIngest.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace pointfront
+{
+namespace
+{
+/// Doubles hold every integer up to here; a coordinate beyond it has lost its last step already.
+constexpr double largestSteps = 9007199254740992.0; // 2^53
+
+/// QuantisationGrid::toGrid() without a call of the C library for all but exact halves, which it
+/// rounds away from zero.
+std::int64_t rounded(double v)
+{
+  const auto nearest = static_cast<std::int64_t>(std::lrint(v));
+  return std::abs(v - static_cast<double>(nearest)) == 0.5 ? std::llround(v) : nearest;
+}
+
+std::optional<Rejection> fault(const glm::dvec3& world, const glm::dvec3& steps)
+{
+  const double reach = std::max({std::abs(steps.x), std::abs(steps.y), std::abs(steps.z)});
+  if (reach <= largestSteps && !std::isnan(steps.x + steps.y + steps.z))
+  {
+    return std::nullopt;
+  }
+  if (std::isnan(world.x) || std::isnan(world.y) || std::isnan(world.z))
+  {
+    return Rejection::NotANumber;
+  }
+  return std::isinf(world.x) || std::isinf(world.y) || std::isinf(world.z) ? Rejection::Infinite
+                                                                           : Rejection::OutsideGrid;
+}
+
+template <std::size_t Bytes>
+void scatter(const std::byte* in, std::byte* out, std::size_t stride, std::size_t count)
+{
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    std::memcpy(out + i * stride, in + i * Bytes, Bytes);
+  }
+}
+
+void scatter(
+  const std::byte* in, std::size_t bytes, std::byte* out, std::size_t stride, std::size_t count)
+{
+  switch (bytes)
+  {
+  case 1:
+    return scatter<1>(in, out, stride, count);
+  case 2:
+    return scatter<2>(in, out, stride, count);
+  case 3:
+    return scatter<3>(in, out, stride, count);
+  case 4:
+    return scatter<4>(in, out, stride, count);
+  case 6:
+    return scatter<6>(in, out, stride, count);
+  case 8:
+    return scatter<8>(in, out, stride, count);
+  default:
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      std::memcpy(out + i * stride, in + i * bytes, bytes);
+    }
+  }
+}
+
+void zero(std::size_t bytes, std::byte* out, std::size_t stride, std::size_t count)
+{
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    std::memset(out + i * stride, 0, bytes);
+  }
+}
+
+std::uint16_t largest(const std::byte* values, std::size_t count)
+{
+  std::uint16_t most = 0;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    std::uint16_t value;
+    std::memcpy(&value, values + 2 * i, sizeof(value));
+    most = std::max(most, value);
+  }
+  return most;
+}
+} // namespace
+
+const char* nameOf(Rejection reason)
+{
+  switch (reason)
+  {
+  case Rejection::NotANumber:
+    return "not a number";
+  case Rejection::Infinite:
+    return "infinite";
+  case Rejection::OutsideGrid:
+  case Rejection::Count:
+    break;
+  }
+  return "outside the grid's range";
+}
+
+RecordPacker::RecordPacker(const CommonSchema& schema, const TreeSpace& space, unsigned cellShift)
+    : schema_(schema), space_(space), layout_(schema.schema), counts_(cellShift)
+{
+}
+
+void RecordPacker::pack(const AttributeSchema& sourceSchema, std::size_t source, PointBatch& batch)
+{
+  records_.resize(batch.size() * layout_.bytes());
+  quantise(batch, sourceSchema);
+  largestColour_ = 0;
+  for (std::size_t c = 0; c < schema_.schema.size(); ++c)
+  {
+    packColumn(sourceSchema, source, c, batch);
+  }
+  countCells();
+}
+
+void RecordPacker::quantise(PointBatch& batch, const AttributeSchema& sourceSchema)
+{
+  const QuantisationGrid& grid = space_.grid;
+  count_ = 0;
+  for (std::size_t i = 0; i < batch.size(); ++i)
+  {
+    const glm::dvec3& world = batch.positions[i];
+    const glm::dvec3 steps = (world - grid.offset) / grid.scale;
+    if (const auto reason = fault(world, steps))
+    {
+      ++rejected_[std::size_t(*reason)];
+      continue;
+    }
+    const GridPosition g{rounded(steps.x), rounded(steps.y), rounded(steps.z)};
+    low_ = glm::min(low_, g);
+    high_ = glm::max(high_, g);
+    setPosition(records_.data() + count_ * layout_.bytes(), space_.absoluteSteps(g));
+    if (count_ != i)
+    {
+      for (std::size_t c = 0; c < sourceSchema.size(); ++c)
+      {
+        const std::size_t bytes = sourceSchema[c].bytes();
+        std::byte* column = batch.columns[c].data();
+        std::memcpy(column + count_ * bytes, column + i * bytes, bytes);
+      }
+    }
+    ++count_;
+  }
+}
+
+void RecordPacker::packColumn(const AttributeSchema& sourceSchema, std::size_t source,
+  std::size_t column, const PointBatch& batch)
+{
+  const Attribute& attribute = schema_.schema[column];
+  const ColumnMapping& mapping = schema_.mappings[source][column];
+  std::byte* out = records_.data() + layout_.offset(column);
+  if (!mapping.column)
+  {
+    zero(attribute.bytes(), out, layout_.bytes(), count_);
+    return;
+  }
+  const std::byte* values = batch.columns[*mapping.column].data();
+  if (mapping.converted)
+  {
+    converted_.resize(count_ * attribute.bytes());
+    convertColumn(sourceSchema[*mapping.column], values, attribute, converted_.data(), count_);
+    values = converted_.data();
+  }
+  if (wideColourColumn(schema_.schema) == column)
+  {
+    largestColour_ = largest(values, count_ * attribute.components);
+  }
+  scatter(values, attribute.bytes(), out, layout_.bytes(), count_);
+}
+
+void RecordPacker::countCells()
+{
+  // Neighbours in a file are neighbours in space: most lie in the cell of the point before.
+  std::size_t begin = 0;
+  const RecordView view{records_.data(), layout_.bytes()};
+  while (begin < count_)
+  {
+    const TreePosition position = view.position(begin);
+    const TreePosition cell = counts_.table().cellOf(position);
+    std::size_t end = begin + 1;
+    while (end < count_ && counts_.table().cellOf(view.position(end)) == cell)
+    {
+      ++end;
+    }
+    counts_.add(position, end - begin);
+    begin = end;
+  }
+}
+
+} // namespace pointfront

@@ -1,0 +1,66 @@
+#pragma once
+
+#include "pointfront/Build/CellTable.h"
+#include "pointfront/Build/CommonSchema.h"
+#include "pointfront/Build/RecordLayout.h"
+#include "pointfront/Build/TreeSpace.h"
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace pointfront
+{
+
+/// Why a point is not stored.
+enum class Rejection : std::uint8_t
+{
+  NotANumber,
+  Infinite,
+  OutsideGrid, ///< more than 2^53 steps from the grid's origin
+  Count
+};
+
+const char* nameOf(Rejection reason);
+
+/// Turns batches of a source into packed records, one batch after another.
+/// Threads  one instance a thread.
+class RecordPacker
+{
+public:
+  RecordPacker(const CommonSchema& schema, const TreeSpace& space, unsigned cellShift);
+
+  /// Packs a batch that came from `source`; rejected points are removed from the batch first.
+  void pack(const AttributeSchema& sourceSchema, std::size_t source, PointBatch& batch);
+
+  const std::vector<std::byte>& records() const { return records_; }
+  std::size_t count() const { return count_; }                   ///< of the last batch
+  std::uint16_t largestColour() const { return largestColour_; } ///< of the last batch
+
+  /// Over all batches:
+  const CellCounts& counts() const { return counts_; }
+  const GridPosition& low() const { return low_; } ///< grid steps
+  const GridPosition& high() const { return high_; }
+  std::uint64_t rejected(Rejection reason) const { return rejected_[std::size_t(reason)]; }
+
+private:
+  void quantise(PointBatch& batch, const AttributeSchema& sourceSchema);
+  void packColumn(const AttributeSchema& sourceSchema, std::size_t source, std::size_t column,
+    const PointBatch& batch);
+  void countCells();
+
+  const CommonSchema& schema_;
+  const TreeSpace& space_;
+  RecordLayout layout_;
+  std::vector<std::byte> records_;
+  std::vector<std::byte> converted_;
+  std::size_t count_ = 0;
+  std::uint16_t largestColour_ = 0;
+  CellCounts counts_;
+  GridPosition low_{INT64_MAX};
+  GridPosition high_{INT64_MIN};
+  std::array<std::uint64_t, std::size_t(Rejection::Count)> rejected_{};
+};
+
+} // namespace pointfront

@@ -1,0 +1,370 @@
+#include "pointfront/Build/StoreBuilder.h"
+
+#include "pointfront/Build/CommonSchema.h"
+#include "pointfront/Build/GridChoice.h"
+#include "pointfront/Build/MemoryPlan.h"
+#include "pointfront/Build/OctreeAssembly.h"
+#include "pointfront/Build/PartPool.h"
+#include "pointfront/Build/PointIngest.h"
+#include "pointfront/Build/ReferenceSystem.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <thread>
+#include <unistd.h>
+
+namespace pointfront
+{
+namespace
+{
+using Sources = std::vector<std::unique_ptr<PointSource>>;
+
+// Shares of the whole, for the progress fraction; measured on LAS and LAZ.
+constexpr double readShare = 0.35;
+constexpr double sortShare = 0.1;
+constexpr double buildShare = 0.55;
+
+std::uint64_t machineMemory()
+{
+  return std::uint64_t(sysconf(_SC_PHYS_PAGES)) * std::uint64_t(sysconf(_SC_PAGESIZE));
+}
+
+std::string folderOf(const std::string& path)
+{
+  const std::string folder = std::filesystem::path(path).parent_path().string();
+  return folder.empty() ? "." : folder;
+}
+
+Result<void> checkOptions(const Sources& sources, const BuildOptions& options)
+{
+  if (sources.empty())
+  {
+    return makeError(Error::Kind::BadArgument, "there is no input to build a store from");
+  }
+  if (options.nodePoints < 16 || options.nodePoints > (1u << 20))
+  {
+    return makeError(
+      Error::Kind::BadArgument, "a node of " + std::to_string(options.nodePoints) +
+                                  " points is not possible; choose 16 to 1048576 points a node");
+  }
+  std::error_code ignored;
+  if (!options.overwrite && std::filesystem::exists(options.outputPath, ignored))
+  {
+    return makeError(Error::Kind::Unwritable,
+      "'" + options.outputPath + "' exists already; allow overwriting or choose another name");
+  }
+  return {};
+}
+
+MemoryDemand demandOf(
+  const Sources& sources, const AttributeSchema& schema, const BuildOptions& options)
+{
+  MemoryDemand demand;
+  for (const auto& source : sources)
+  {
+    for (std::uint64_t chunk = 0; chunk < source->chunkCount(); ++chunk)
+    {
+      demand.points += source->chunkPoints(chunk);
+      demand.largestChunk = std::max(demand.largestChunk, source->chunkPoints(chunk));
+    }
+    demand.sourceBytes = std::max(demand.sourceBytes, source->description().schema.pointBytes());
+  }
+  demand.recordBytes = RecordLayout(schema).bytes();
+  demand.nodePoints = options.nodePoints;
+  demand.threads =
+    options.threads > 0 ? options.threads : std::max(1u, std::thread::hardware_concurrency());
+  demand.memoryBytes = options.memoryBytes > 0 ? options.memoryBytes : machineMemory() / 2;
+  return demand;
+}
+
+/// One build, from what is common to all sources to the committed store.
+class OctreeBuild
+{
+public:
+  OctreeBuild(const Sources& sources, const BuildOptions& options, ProgressFunction progress)
+      : sources_(sources), options_(options), progress_(std::move(progress))
+  {
+  }
+  Result<BuildReport> run();
+
+private:
+  Result<void> prepare();
+  Result<void> read();
+  Result<void> cutIntoParts();
+  Result<void> assemble();
+  Error tooLarge() const;
+  AttributeSchema storedSchema(std::optional<ColourWidening>& widening) const;
+  Result<void> commit(StoreWriter& writer, const BuiltNode* root);
+  Result<void> checkCounts(const BuiltNode* root) const;
+
+  const Sources& sources_;
+  const BuildOptions& options_;
+  ProgressFunction progress_;
+  BuildReport report_;
+  CommonSchema common_;
+  ReferenceSystem reference_;
+  TreeSpace space_;
+  unsigned rootLog2_ = 0;
+  MemoryPlan plan_;
+  std::size_t recordBytes_ = 0;
+  std::unique_ptr<WorkCrew> crew_;
+  std::unique_ptr<RecordPool> pool_;
+  IngestedPoints points_;
+  std::unique_ptr<PartPool> parts_;
+  AttributeSchema stored_;
+};
+
+void append(std::vector<std::string>& all, const std::vector<std::string>& more)
+{
+  all.insert(all.end(), more.begin(), more.end());
+}
+
+Result<void> OctreeBuild::prepare()
+{
+  for (const auto& source : sources_)
+  {
+    append(report_.warnings, source->description().warnings);
+  }
+  auto reference = commonReferenceSystem(sources_);
+  auto schema = commonSchema(sources_, options_.attributes);
+  auto grid = chooseGrid(sources_, options_.precision);
+  if (!reference || !schema || !grid)
+  {
+    return !reference ? reference.error() : !schema ? schema.error() : grid.error();
+  }
+  reference_ = std::move(*reference);
+  common_ = std::move(*schema);
+  append(report_.warnings, reference_.warnings);
+  append(report_.warnings, common_.warnings);
+  append(report_.warnings, grid->warnings);
+  space_.grid = grid->grid;
+  space_.shift = axisShifts(space_.grid.scale);
+
+  const MemoryDemand demand = demandOf(sources_, common_.schema, options_);
+  auto plan = planMemory(demand);
+  if (!plan)
+  {
+    return plan.error();
+  }
+  plan_ = *plan;
+  recordBytes_ = demand.recordBytes;
+  crew_ = std::make_unique<WorkCrew>(plan_.threads, progress_);
+  // A place that cannot be written is known before hours of reading.
+  if (auto writable = StoreWriter::create(options_.outputPath, common_.schema); !writable)
+  {
+    return writable.error();
+  }
+  if (!plan_.spill)
+  {
+    pool_ = RecordPool::inMemory(demand.points, recordBytes_);
+    return {};
+  }
+  const std::string folder =
+    options_.temporaryFolder.empty() ? folderOf(options_.outputPath) : options_.temporaryFolder;
+  auto spilled = RecordPool::spilled(folder, demand.points, recordBytes_);
+  if (!spilled)
+  {
+    return spilled.error();
+  }
+  pool_ = std::move(*spilled);
+  return {};
+}
+
+Result<void> OctreeBuild::read()
+{
+  std::uint64_t announced = 0;
+  for (const auto& source : sources_)
+  {
+    announced += source->description().pointCount;
+  }
+  crew_->beginPhase("reading", announced, readShare);
+  auto points = ingestPoints(sources_, common_, space_, *pool_, *crew_);
+  if (!points)
+  {
+    return points.error();
+  }
+  points_ = std::move(*points);
+  report_.pointsRead = points_.read;
+  report_.pointsRejected = points_.rejected;
+  report_.phaseSeconds["read"] = points_.readSeconds;
+  report_.phaseSeconds["quantise and count"] = points_.quantiseSeconds;
+  report_.spilledBytes = pool_->onDisk() ? points_.kept * recordBytes_ : 0;
+  if (points_.kept == 0)
+  {
+    report_.warnings.push_back("The input has no points to store; the store is empty.");
+    return {};
+  }
+  const auto rootLog2 = placeRoot(space_, points_.low, points_.high);
+  if (!rootLog2)
+  {
+    return tooLarge();
+  }
+  rootLog2_ = *rootLog2;
+  return {};
+}
+
+Error OctreeBuild::tooLarge() const
+{
+  const Bounds bounds{space_.grid.toWorld(points_.low), space_.grid.toWorld(points_.high)};
+  const glm::dvec3 size = bounds.size();
+  const double extent = std::max({size.x, size.y, size.z});
+  // The next power of ten that leaves a factor of two for axes of different scales.
+  const double fitting = std::pow(10.0, std::ceil(std::log10(extent / 2.0e9)));
+  char text[256];
+  std::snprintf(text, sizeof(text),
+    "the points extend over %.9g units, more than 32 bits of steps of %.9g units; a precision of "
+    "%g "
+    "fits, or leave out the points that lie far away",
+    extent, std::min({space_.grid.scale.x, space_.grid.scale.y, space_.grid.scale.z}), fitting);
+  return makeError(Error::Kind::BadArgument, text);
+}
+
+/// 16-bit colours become 8-bit if all fit; if only those of some files do, these are widened.
+AttributeSchema OctreeBuild::storedSchema(std::optional<ColourWidening>& widening) const
+{
+  const auto column = wideColourColumn(common_.schema);
+  const auto& largest = points_.largestColour;
+  if (!column)
+  {
+    return common_.schema;
+  }
+  if (*std::max_element(largest.begin(), largest.end()) <= 255)
+  {
+    AttributeSchema narrow;
+    for (std::size_t c = 0; c < common_.schema.size(); ++c)
+    {
+      Attribute attribute = common_.schema[c];
+      attribute.type = c == *column ? ScalarType::UInt8 : attribute.type;
+      narrow.add(std::move(attribute));
+    }
+    return narrow;
+  }
+  widening.emplace();
+  widening->offset = RecordLayout(common_.schema).offset(*column);
+  widening->components = common_.schema[*column].components;
+  std::uint64_t begin = 0;
+  for (std::size_t s = 0; s < sources_.size(); ++s)
+  {
+    if (largest[s] > 0 && largest[s] <= 255)
+    {
+      widening->runs.push_back({begin, points_.sourceEnd[s] - begin});
+    }
+    begin = points_.sourceEnd[s];
+  }
+  return common_.schema;
+}
+
+Result<void> OctreeBuild::cutIntoParts()
+{
+  crew_->beginPhase("sorting", points_.kept, sortShare);
+  std::optional<ColourWidening> widening;
+  stored_ = storedSchema(widening);
+  parts_ = std::make_unique<PartPool>(*pool_, recordBytes_, plan_, *crew_);
+  Result<void> done = parts_->build(points_, space_, rootLog2_, widening);
+  report_.phaseSeconds["distribute"] = parts_->seconds();
+  return done;
+}
+
+Result<void> OctreeBuild::assemble()
+{
+  crew_->beginPhase("building", points_.kept, buildShare);
+  auto writer = StoreWriter::create(options_.outputPath, stored_);
+  if (!writer)
+  {
+    return writer.error();
+  }
+  const NodeEmitter emitter(space_, common_.schema, stored_);
+  SamplingRule rule;
+  rule.nodePoints = options_.nodePoints;
+  OctreeAssembly assembly(*parts_, emitter, rule, recordBytes_, **writer, *crew_);
+  auto root = assembly.run();
+  report_.phaseSeconds["sort"] = assembly.seconds().sort;
+  report_.phaseSeconds["sample"] = assembly.seconds().sample;
+  report_.phaseSeconds["encode"] = assembly.seconds().encode;
+  report_.phaseSeconds["write"] = assembly.writeSeconds();
+  if (!root)
+  {
+    return root.error();
+  }
+  if (Result<void> done = checkCounts(root->get()); !done)
+  {
+    return done;
+  }
+  return commit(**writer, root->get());
+}
+
+Result<void> OctreeBuild::checkCounts(const BuiltNode* root) const
+{
+  const std::uint64_t stored = root ? root->row.pointsBelow : 0;
+  std::uint64_t rejected = 0;
+  for (const auto& [reason, count] : report_.pointsRejected)
+  {
+    rejected += count;
+  }
+  if (points_.read != stored + rejected)
+  {
+    return makeError(Error::Kind::Corrupt,
+      "internal: of " + std::to_string(points_.read) + " points read, " + std::to_string(stored) +
+        " were stored and " + std::to_string(rejected) +
+        " rejected; the store was not written, please report this");
+  }
+  return {};
+}
+
+Result<void> OctreeBuild::commit(StoreWriter& writer, const BuiltNode* root)
+{
+  const NodeTable table = nodeTable(root);
+  StoreDescription description;
+  description.grid = space_.grid;
+  description.crsWkt = reference_.wkt;
+  description.structure = "octree";
+  description.refinement = Refinement::Add;
+  description.levels = table.levels;
+  description.schema = stored_;
+  description.metadata = reference_.metadata;
+  description.generator = "pointfront " POINTFRONT_VERSION;
+  description.layers.push_back(
+    {0, "all", root ? root->row.pointsBelow : 0, static_cast<std::uint32_t>(table.nodes.size())});
+  description.pointCount = root ? root->row.pointsBelow : 0;
+  if (Result<void> stop = crew_->outcome(); !stop)
+  {
+    return stop; // cancelled after the last point, before the store is there
+  }
+  if (Result<void> done = writer.commit(description, table.nodes, table.roots, table.payloads);
+      !done)
+  {
+    return done;
+  }
+  report_.nodes = table.nodes.size();
+  report_.pointsStored = description.pointCount;
+  report_.bytesWritten = writer.bytesWritten();
+  return {};
+}
+
+Result<BuildReport> OctreeBuild::run()
+{
+  for (const auto step :
+    {&OctreeBuild::prepare, &OctreeBuild::read, &OctreeBuild::cutIntoParts, &OctreeBuild::assemble})
+  {
+    if (Result<void> done = (this->*step)(); !done)
+    {
+      return done.error();
+    }
+  }
+  report_.seconds = crew_->secondsElapsed();
+  return std::move(report_);
+}
+} // namespace
+
+Result<BuildReport> buildOctreeStore(const std::vector<std::unique_ptr<PointSource>>& sources,
+  const BuildOptions& options, const ProgressFunction& progress)
+{
+  if (Result<void> done = checkOptions(sources, options); !done)
+  {
+    return done.error();
+  }
+  return OctreeBuild(sources, options, progress).run();
+}
+
+} // namespace pointfront

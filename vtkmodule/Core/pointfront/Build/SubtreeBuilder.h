@@ -1,0 +1,86 @@
+#pragma once
+
+#include "pointfront/Build/BuiltTree.h"
+#include "pointfront/Build/NodeEmitter.h"
+#include "pointfront/Build/Sampler.h"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace pointfront
+{
+
+/// Encoded nodes of one task, in the order in which they belong into the file.
+struct EmittedNode
+{
+  BuiltNode* node = nullptr; ///< where the payload's id goes
+  EncodedNode payload;
+};
+
+/// A subtree whose root still waits for its parent: the points that the root holds are the parent's
+/// candidates, and only what the parent leaves is the root's own.
+struct OpenSubtree
+{
+  std::unique_ptr<BuiltNode> root; ///< null for an empty set of points
+  std::vector<std::byte> records;  ///< held by the root, packed, in Morton order
+};
+
+/// CPU seconds by phase of one task.
+struct SubtreeSeconds
+{
+  double sort = 0.0;
+  double sample = 0.0;
+  double encode = 0.0;
+};
+
+/// The octree over some points, from the leaves up.
+/// Shape     A node is an octree cell, the smallest that holds all its points, so each inner node
+///           has two to eight children (Richter & Doellner 2010, section 3.1). It is a leaf if and
+///           only if all points in it are at most nodePoints. Equal points are split by
+///           input order into eight runs, as if the octree went on below one step.
+/// Sampling  An inner node takes from what its children hold, one point per cell (Sampler.h); what
+///           it leaves is theirs. What a node ends up with depends on the points inside its
+///           parent only: not on where the cloud was cut into parts, nor on their order.
+/// Order     join() emits the children: siblings are neighbours in the file, below them all
+///           that they contain. A subtree's root is emitted by its parent or by close().
+/// Threads   one instance a task.
+class SubtreeBuilder
+{
+public:
+  SubtreeBuilder(const NodeEmitter& emitter, const SamplingRule& rule, std::size_t recordBytes)
+      : emitter_(emitter), rule_(rule), recordBytes_(recordBytes)
+  {
+  }
+
+  /// Builds over `count` records in input order, all inside one cell of the partition.
+  OpenSubtree build(std::vector<std::byte> records, std::size_t count);
+  /// Joins the subtrees of a node above them, in the order of their octants.
+  OpenSubtree join(std::vector<OpenSubtree> children, unsigned log2Side);
+  /// Emits the root itself: it has no parent.
+  std::unique_ptr<BuiltNode> close(OpenSubtree subtree);
+
+  std::vector<EmittedNode> takeEmitted() { return std::move(emitted_); }
+  const SubtreeSeconds& seconds() const { return seconds_; }
+
+private:
+  struct Branch
+  {
+    std::unique_ptr<BuiltNode> node;
+    std::vector<std::uint32_t> held; ///< indices into the sorted records, Morton order
+  };
+  Branch branch(const RecordView& records, std::uint32_t begin, std::uint32_t end);
+  Branch leaf(const RecordView& records, std::uint32_t begin, std::uint32_t end, unsigned side);
+  Branch joinBranches(const RecordView& records, std::vector<Branch> children, unsigned log2Side);
+  void emit(std::unique_ptr<BuiltNode> node, BuiltNode& parent, const RecordView& records,
+    const std::vector<std::uint32_t>& points);
+  OpenSubtree opened(const RecordView& records, Branch branch) const;
+
+  const NodeEmitter& emitter_;
+  SamplingRule rule_;
+  std::size_t recordBytes_;
+  std::vector<EmittedNode> emitted_;
+  SubtreeSeconds seconds_;
+};
+
+} // namespace pointfront

@@ -8,7 +8,6 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <string>
 #include <vector>
 
 namespace pointfront
@@ -25,7 +24,7 @@ struct ResidencyStatistics
   std::size_t residentBytes = 0;    ///< decoded nodes in memory, those being decoded included
   std::size_t residentBytesMax = 0; ///< the most there ever was; <= budgetBytes
   std::uint32_t residentNodes = 0;
-  std::uint32_t pending = 0;        ///< asked for and not yet begun
+  std::uint32_t pending = 0;        ///< asked for and not yet begun, re-reads included
   std::uint32_t loading = 0;        ///< being read or decoded now
   std::uint64_t requested = 0;      ///< ever
   std::uint64_t cancelled = 0;      ///< asked for and withdrawn before they were read
@@ -36,48 +35,62 @@ struct ResidencyStatistics
 
 /// Decoded nodes of one store in host memory, under one hard budget; loader threads bring in
 /// what is asked for (FRONT-9) and what is farthest under the front is released first (FRONT-10).
+/// Order       needed requests by priority, then re-reads for new columns, then optional requests;
+///             a request that does not fit waits, smaller ones behind it go on. Nodes that are
+///             drawn (found) with old columns are read again before everything else.
 /// Threads     request(), find(), ... are called by one thread (the renderer's); loader threads are
-///             its own. Destruction joins them; a running read is waited for, a waiting one
-///             dropped.
+///             its own and run at a lower priority. Destruction joins them; a running read is
+///             waited for, a waiting one dropped.
 /// Guarantees  residentBytes <= budgetBytes always: room is made, or reserved by its
-///             decodedBytes(), before a read begins. find() never blocks on the disk.
-/// Errors      a node that cannot be read is Failed for good; its Error is reported once by
-///             takeErrors().
-class Residency
+///             decodedBytes(), before a read begins. find() never blocks on the disk. A node that
+///             was released while somebody holds its points stays on the account until they
+///             are dropped. After setBudgetBytes() to less than is held nothing is loaded
+///             until release() has come down to it.
+/// Errors      a node that cannot be read is Failed for good (for these columns); one that is
+///             larger than the whole budget is Failed until the budget grows. Each is
+///             reported once by takeErrors().
+class Residency final : public ResidencyView
 {
 public:
   Residency(
     std::shared_ptr<const NodeReader> reader, NodeIndex nodeCount, ResidencyOptions options);
-  ~Residency();
+  ~Residency() override;
   Residency(const Residency&) = delete;
   Residency& operator=(const Residency&) = delete;
 
-  /// Columns that every node must have from now on. Nodes with other columns are read again
-  /// (they stay until their replacement is there).
+  /// Columns that every node must have from now on. Nodes that lack one are read again; they stay
+  /// until their replacement is there, unless the budget has room for one of the two only.
   void setColumns(const ColumnSelection& columns);
   ColumnSelection columns() const;
 
   /// Replaces the wish list: what is not in it and not yet begun is cancelled.
   void request(const std::vector<LoadRequest>& requests);
 
-  /// Frees memory for what is requested: nodes by distance under the front, farthest first, two
-  /// passes (count, release). Nodes of distance 0 stay. `distance` is asked for resident nodes
-  /// only.
+  /// Frees memory for what is requested and does not fit (not for optional requests): nodes by
+  /// distance under the front, farthest first, two passes (count, release). Nodes of distance 0
+  /// stay. `distance` is asked for resident nodes only and must not call this object. Costs
+  /// nothing while everything fits; call it after each request().
   void release(const std::function<std::uint32_t(NodeIndex)>& distance);
 
   /// The node's points, or null. The pointer keeps them alive after a release (and within the
   /// budget's account).
   std::shared_ptr<const NodeColumns> find(NodeIndex node) const;
-  ResidencyView::State state(NodeIndex node) const;
+  State state(NodeIndex node) const override;
+  /// Grows with every arrival, failure and release; never 0.
+  std::uint64_t revision() const override;
+  /// True when nothing is loading, no needed request that waits fits, and the last release()
+  /// found nothing that it could have freed.
+  bool exhausted() const override;
 
-  /// Called from a loader thread after a node arrived or failed. Keep it short. Null to unset.
+  /// Called from a loader thread after a node arrived or failed. Keep it short; it must not call
+  /// this function nor destroy this object. Null to unset: it is not running any more then.
   void setArrivalFunction(std::function<void()> arrived);
   /// Grows with every arrival or failure: a cheap "is there something new".
   std::uint64_t arrivals() const;
 
-  /// Blocks until nothing is pending or loading (complete renders, tests).
+  /// Blocks until nothing is loading and nothing that waits fits (complete renders, tests).
   void waitUntilIdle() const;
-  /// Blocks until arrivals() differs from `seen`, or nothing is pending or loading.
+  /// Blocks until arrivals() differs from `seen`, or as waitUntilIdle().
   void waitForArrival(std::uint64_t seen) const;
 
   std::vector<Error> takeErrors();
@@ -85,8 +98,8 @@ public:
   void setBudgetBytes(std::size_t bytes);
 
 private:
-  struct State;
-  std::unique_ptr<State> state_;
+  struct Content;
+  std::unique_ptr<Content> content_;
 };
 
 } // namespace pointfront

@@ -1,12 +1,12 @@
 #include "pointfront/Store/PackedCodec.h"
 
+#include "pointfront/Store/PackedGroup.h"
 #include "pointfront/Store/ValueCode.h"
 
 #include <algorithm>
 #include <array>
-#include <climits>
 #include <cstring>
-#include <utility>
+#include <numeric>
 
 namespace pointfront
 {
@@ -20,235 +20,8 @@ enum class Predictor : std::uint8_t
   SecondComponent = 2 ///< as 1, after component 1 was subtracted from 0 and 2: colours
 };
 constexpr std::uint8_t predictorCount = 3;
-
-constexpr std::size_t groupSize = 128;
-constexpr std::size_t rowBytes = 16; ///< one bit of each of 128 codes
-
-template <typename T>
-constexpr unsigned bitsOf = sizeof(T) * CHAR_BIT;
-
-template <typename T>
-constexpr T maskOf(unsigned width)
-{
-  return width == 0 ? T(0) : static_cast<T>(static_cast<T>(~T(0)) >> (bitsOf<T> - width));
-}
-
-template <typename T>
-using Group = std::array<T, groupSize>;
-
-// --- packing: code i lies in lane i % lanes; a lane is a bit stream over words of T, lowest bit
-// first; row r holds word r of every lane. Every width fills `width` rows exactly.
-
-template <typename T, unsigned width>
-void unpackRows(const std::byte* rows, Group<T>& codes)
-{
-  constexpr std::size_t lanes = rowBytes / sizeof(T);
-  constexpr T mask = maskOf<T>(width);
-  std::array<T, lanes * width> words; // NOLINT: filled by the copy
-  std::memcpy(words.data(), rows, rowBytes * width);
-#pragma GCC unroll 64
-  for (unsigned i = 0; i < bitsOf<T>; ++i)
-  {
-    const unsigned word = i * width / bitsOf<T>;
-    const unsigned shift = i * width % bitsOf<T>;
-    for (std::size_t lane = 0; lane < lanes; ++lane)
-    {
-      T code = static_cast<T>(words[word * lanes + lane] >> shift);
-      if (shift + width > bitsOf<T>)
-      {
-        const T upper = words[(word + 1) * lanes + lane];
-        code = static_cast<T>(code | static_cast<T>(upper << ((bitsOf<T> - shift) % bitsOf<T>)));
-      }
-      codes[i * lanes + lane] = static_cast<T>(code & mask);
-    }
-  }
-}
-
-template <typename T, unsigned width>
-void packRows(const Group<T>& codes, std::byte* rows)
-{
-  constexpr std::size_t lanes = rowBytes / sizeof(T);
-  constexpr T mask = maskOf<T>(width);
-  std::array<T, lanes * width> words{};
-#pragma GCC unroll 64
-  for (unsigned i = 0; i < bitsOf<T>; ++i)
-  {
-    const unsigned word = i * width / bitsOf<T>;
-    const unsigned shift = i * width % bitsOf<T>;
-    for (std::size_t lane = 0; lane < lanes; ++lane)
-    {
-      const T code = static_cast<T>(codes[i * lanes + lane] & mask);
-      T& low = words[word * lanes + lane];
-      low = static_cast<T>(low | static_cast<T>(code << shift));
-      if (shift + width > bitsOf<T>)
-      {
-        words[(word + 1) * lanes + lane] =
-          static_cast<T>(code >> ((bitsOf<T> - shift) % bitsOf<T>));
-      }
-    }
-  }
-  std::memcpy(rows, words.data(), rowBytes * width);
-}
-
-// Width 0 has no rows: entry w - 1 is for width w.
-template <typename T>
-using Unpack = void (*)(const std::byte*, Group<T>&);
-template <typename T>
-using Pack = void (*)(const Group<T>&, std::byte*);
-
-template <typename T, std::size_t... entries>
-constexpr std::array<Unpack<T>, sizeof...(entries)> unpackTable(std::index_sequence<entries...>)
-{
-  return { unpackRows<T, static_cast<unsigned>(entries + 1)>... };
-}
-
-template <typename T, std::size_t... entries>
-constexpr std::array<Pack<T>, sizeof...(entries)> packTable(std::index_sequence<entries...>)
-{
-  return { packRows<T, static_cast<unsigned>(entries + 1)>... };
-}
-
-template <typename T>
-void unpack(unsigned width, const std::byte* rows, Group<T>& codes)
-{
-  static constexpr auto table = unpackTable<T>(std::make_index_sequence<bitsOf<T>>{});
-  if (width == 0)
-  {
-    codes.fill(0);
-    return;
-  }
-  table[width - 1](rows, codes);
-}
-
-template <typename T>
-void pack(unsigned width, const Group<T>& codes, std::byte* rows)
-{
-  static constexpr auto table = packTable<T>(std::make_index_sequence<bitsOf<T>>{});
-  if (width != 0)
-  {
-    table[width - 1](codes, rows);
-  }
-}
-
-// --- the width of a group: the one that takes the fewest bytes, exceptions counted.
-
-struct GroupPlan
-{
-  unsigned width = 0;
-  unsigned exceptions = 0;     ///< codes of more than `width` bits
-  unsigned exceptionBytes = 0; ///< of the upper part of each
-  std::size_t bytes = 0;
-};
-
-template <typename T>
-unsigned bitLength(T code)
-{
-  return code == 0 ? 0u : 64u - static_cast<unsigned>(__builtin_clzll(code));
-}
-
-template <typename T>
-GroupPlan planOf(const Group<T>& codes)
-{
-  std::array<unsigned, 65> ofLength{};
-  for (const T code : codes)
-  {
-    ++ofLength[bitLength(code)];
-  }
-  unsigned longest = bitsOf<T>;
-  while (longest > 0 && ofLength[longest] == 0)
-  {
-    --longest;
-  }
-  GroupPlan best{ longest, 0, 0, 2 + rowBytes * longest };
-  unsigned exceptions = 0;
-  for (unsigned width = longest; width-- > 0;)
-  {
-    exceptions += ofLength[width + 1];
-    const unsigned upperBytes = (longest - width + 7) / 8;
-    const std::size_t bytes = 3 + rowBytes * width + exceptions * std::size_t(1 + upperBytes);
-    if (bytes < best.bytes)
-    {
-      best = { width, exceptions, upperBytes, bytes };
-    }
-  }
-  return best;
-}
-
-template <typename T>
-void putGroup(const Group<T>& codes, std::vector<std::byte>& out)
-{
-  const GroupPlan plan = planOf(codes);
-  const std::size_t begin = out.size();
-  out.resize(begin + plan.bytes);
-  std::byte* at = out.data() + begin;
-  *at++ = static_cast<std::byte>(plan.width);
-  *at++ = static_cast<std::byte>(plan.exceptions);
-  pack<T>(plan.width, codes, at);
-  at += rowBytes * plan.width;
-  if (plan.exceptions == 0)
-  {
-    return;
-  }
-  *at++ = static_cast<std::byte>(plan.exceptionBytes);
-  std::byte* upper = at + plan.exceptions;
-  for (std::size_t i = 0; i < groupSize; ++i)
-  {
-    if (bitLength(codes[i]) > plan.width)
-    {
-      *at++ = static_cast<std::byte>(i);
-      const std::uint64_t high = std::uint64_t(codes[i]) >> plan.width;
-      std::memcpy(upper, &high, plan.exceptionBytes);
-      upper += plan.exceptionBytes;
-    }
-  }
-}
-
-/// Reads one group; nullptr when it runs over `end` or is not one.
-template <typename T>
-const std::byte* getGroup(const std::byte* at, const std::byte* end, Group<T>& codes)
-{
-  if (end - at < 2)
-  {
-    return nullptr;
-  }
-  const auto width = static_cast<unsigned>(*at++);
-  const auto exceptions = static_cast<unsigned>(*at++);
-  if (width > bitsOf<T> || end - at < std::ptrdiff_t(rowBytes * width))
-  {
-    return nullptr;
-  }
-  unpack<T>(width, at, codes);
-  at += rowBytes * width;
-  if (exceptions == 0)
-  {
-    return at;
-  }
-  if (width == bitsOf<T> || end - at < 1)
-  {
-    return nullptr;
-  }
-  const auto upperBytes = static_cast<unsigned>(*at++);
-  if (upperBytes < 1 || upperBytes > sizeof(T) ||
-    end - at < std::ptrdiff_t(exceptions * std::size_t(1 + upperBytes)))
-  {
-    return nullptr;
-  }
-  const std::byte* upper = at + exceptions;
-  for (unsigned e = 0; e < exceptions; ++e, upper += upperBytes)
-  {
-    const auto i = static_cast<unsigned>(at[e]);
-    if (i >= groupSize)
-    {
-      return nullptr;
-    }
-    std::uint64_t high = 0;
-    std::memcpy(&high, upper, upperBytes);
-    codes[i] = static_cast<T>(codes[i] | static_cast<T>(high << width));
-  }
-  return upper;
-}
-
-// --- prediction
+/// Set in the byte of the predictor: a factor follows that all values were divided by.
+constexpr std::byte factorFlag{ 0x80 };
 
 template <typename T>
 T valueAt(const std::byte* values, std::size_t index)
@@ -272,9 +45,9 @@ T sourceValue(
 
 template <typename T>
 void codesOf(const std::byte* values, const BlockShape& shape, std::size_t begin, unsigned c,
-  Predictor predictor, Group<T>& codes)
+  Predictor predictor, CodeGroup<T>& codes)
 {
-  const std::size_t count = std::min(groupSize, shape.points - begin);
+  const std::size_t count = std::min(codesPerGroup, shape.points - begin);
   T before = predictor != Predictor::Zero && begin > 0
     ? sourceValue<T>(values, shape, begin - 1, c, predictor)
     : T(0);
@@ -293,13 +66,13 @@ std::size_t encodedBytes(
   Predictor predictor, const std::byte* values, const BlockShape& shape)
 {
   std::size_t sum = 1;
-  Group<T> codes;
-  for (std::size_t begin = 0; begin < shape.points; begin += groupSize)
+  CodeGroup<T> codes;
+  for (std::size_t begin = 0; begin < shape.points; begin += codesPerGroup)
   {
     for (unsigned c = 0; c < shape.components; ++c)
     {
       codesOf<T>(values, shape, begin, c, predictor, codes);
-      sum += planOf(codes).bytes;
+      sum += groupBytes(codes);
     }
   }
   return sum;
@@ -307,11 +80,17 @@ std::size_t encodedBytes(
 
 template <typename T>
 std::vector<std::byte> encodeWith(
-  Predictor predictor, const std::byte* values, const BlockShape& shape)
+  Predictor predictor, T factor, const std::byte* values, const BlockShape& shape)
 {
   std::vector<std::byte> out{ static_cast<std::byte>(predictor) };
-  Group<T> codes;
-  for (std::size_t begin = 0; begin < shape.points; begin += groupSize)
+  if (factor > 1)
+  {
+    out[0] |= factorFlag;
+    out.resize(1 + sizeof(T));
+    std::memcpy(out.data() + 1, &factor, sizeof(T));
+  }
+  CodeGroup<T> codes;
+  for (std::size_t begin = 0; begin < shape.points; begin += codesPerGroup)
   {
     for (unsigned c = 0; c < shape.components; ++c)
     {
@@ -352,9 +131,9 @@ bool decodeGroups(
   const std::byte* at, const std::byte* end, const BlockShape& shape, std::byte* values)
 {
   const unsigned components = fixedComponents != 0 ? fixedComponents : shape.components;
-  std::array<Group<T>, fixedComponents != 0 ? fixedComponents : 16> groups;
+  std::array<CodeGroup<T>, fixedComponents != 0 ? fixedComponents : 16> groups;
   std::array<T, 16> before{};
-  for (std::size_t begin = 0; begin < shape.points; begin += groupSize)
+  for (std::size_t begin = 0; begin < shape.points; begin += codesPerGroup)
   {
     for (unsigned c = 0; c < components; ++c)
     {
@@ -364,7 +143,7 @@ bool decodeGroups(
         return false;
       }
     }
-    const std::size_t count = std::min(groupSize, shape.points - begin);
+    const std::size_t count = std::min(codesPerGroup, shape.points - begin);
     putValues<T>(groups, components, predictor, count, before,
       values + begin * components * sizeof(T));
   }
@@ -386,10 +165,84 @@ bool decodeComponents(
   }
 }
 
+template <typename T>
+bool decodePredicted(Predictor predictor, const std::byte* at, const std::byte* end,
+  const BlockShape& shape, std::byte* values)
+{
+  switch (predictor)
+  {
+    case Predictor::Zero:
+      return decodeComponents<T, Predictor::Zero>(at, end, shape, values);
+    case Predictor::PointBefore:
+      return decodeComponents<T, Predictor::PointBefore>(at, end, shape, values);
+    case Predictor::SecondComponent:
+      break;
+  }
+  return decodeGroups<T, 3, Predictor::SecondComponent>(at, end, shape, values);
+}
+
 bool predictable(Predictor predictor, const BlockShape& shape)
 {
   return predictor != Predictor::SecondComponent ||
     (shape.components == 3 && shape.scalarBytes <= 2);
+}
+
+template <typename T>
+Predictor bestPredictor(const std::byte* values, const BlockShape& shape)
+{
+  const BlockShape sample = sampleOf(shape);
+  const std::byte* begin = values + (shape.bytes() - sample.bytes());
+  Predictor best = Predictor::Zero;
+  std::size_t bestBytes = encodedBytes<T>(best, begin, sample);
+  for (const Predictor predictor : { Predictor::PointBefore, Predictor::SecondComponent })
+  {
+    const std::size_t bytes =
+      predictable(predictor, shape) ? encodedBytes<T>(predictor, begin, sample) : SIZE_MAX;
+    if (bytes < bestBytes)
+    {
+      best = predictor;
+      bestBytes = bytes;
+    }
+  }
+  return best;
+}
+
+// --- a factor that all values share: colours of 8 bits that were stretched to 16, coordinates
+// of a scale finer than their instrument, doubles that once were floats.
+
+template <typename T>
+T commonFactor(const std::byte* values, const BlockShape& shape)
+{
+  T factor = 0;
+  for (std::size_t i = 0; i < shape.points * shape.components && factor != 1; ++i)
+  {
+    factor = std::gcd(factor, valueAt<T>(values, i));
+  }
+  return factor;
+}
+
+template <typename T>
+std::vector<std::byte> divided(const std::byte* values, const BlockShape& shape, T factor)
+{
+  std::vector<std::byte> quotients(shape.bytes());
+  for (std::size_t i = 0; i < shape.points * shape.components; ++i)
+  {
+    const auto quotient = static_cast<T>(valueAt<T>(values, i) / factor);
+    std::memcpy(quotients.data() + i * sizeof(T), &quotient, sizeof(T));
+  }
+  return quotients;
+}
+
+template <typename T>
+void multiply(std::byte* values, const BlockShape& shape, T factor)
+{
+  for (std::size_t i = 0; i < shape.points * shape.components; ++i)
+  {
+    // In 64 bits: the product of two uint16_t would overflow an int.
+    const auto product =
+      static_cast<T>(std::uint64_t(valueAt<T>(values, i)) * std::uint64_t(factor));
+    std::memcpy(values + i * sizeof(T), &product, sizeof(T));
+  }
 }
 } // namespace
 
@@ -397,54 +250,43 @@ std::vector<std::byte> encodePacked(const std::byte* values, const BlockShape& s
 {
   return withUnsigned(shape.scalarBytes, [&](auto zero) {
     using T = decltype(zero);
-    const BlockShape sample = sampleOf(shape);
-    const std::byte* sampleValues = values + (shape.bytes() - sample.bytes());
-    Predictor best = Predictor::Zero;
-    std::size_t bestBytes = SIZE_MAX;
-    for (std::uint8_t p = 0; p < predictorCount; ++p)
+    const T factor = commonFactor<T>(values, shape);
+    if (factor <= 1)
     {
-      const auto predictor = static_cast<Predictor>(p);
-      if (!predictable(predictor, shape))
-      {
-        continue;
-      }
-      const std::size_t bytes = encodedBytes<T>(predictor, sampleValues, sample);
-      if (bytes < bestBytes)
-      {
-        best = predictor;
-        bestBytes = bytes;
-      }
+      return encodeWith<T>(bestPredictor<T>(values, shape), 0, values, shape);
     }
-    return encodeWith<T>(best, values, shape);
+    const std::vector<std::byte> quotients = divided<T>(values, shape, factor);
+    const Predictor predictor = bestPredictor<T>(quotients.data(), shape);
+    return encodeWith<T>(predictor, factor, quotients.data(), shape);
   });
 }
 
 bool decodePacked(
   const std::byte* coded, std::size_t codedBytes, const BlockShape& shape, std::byte* values)
 {
-  if (codedBytes < 1 || static_cast<std::uint8_t>(coded[0]) >= predictorCount)
+  if (codedBytes < 1)
   {
     return false;
   }
-  const auto predictor = static_cast<Predictor>(coded[0]);
-  if (!predictable(predictor, shape))
+  const auto predictor = static_cast<Predictor>(coded[0] & ~factorFlag);
+  const bool hasFactor = (coded[0] & factorFlag) != std::byte(0);
+  if (static_cast<std::uint8_t>(predictor) >= predictorCount || !predictable(predictor, shape) ||
+    codedBytes < 1 + (hasFactor ? shape.scalarBytes : 0))
   {
     return false;
   }
   return withUnsigned(shape.scalarBytes, [&](auto zero) {
     using T = decltype(zero);
-    const std::byte* begin = coded + 1;
-    const std::byte* end = coded + codedBytes;
-    switch (predictor)
+    const std::byte* begin = coded + 1 + (hasFactor ? sizeof(T) : 0);
+    if (!decodePredicted<T>(predictor, begin, coded + codedBytes, shape, values))
     {
-      case Predictor::Zero:
-        return decodeComponents<T, Predictor::Zero>(begin, end, shape, values);
-      case Predictor::PointBefore:
-        return decodeComponents<T, Predictor::PointBefore>(begin, end, shape, values);
-      case Predictor::SecondComponent:
-        break;
+      return false;
     }
-    return decodeGroups<T, 3, Predictor::SecondComponent>(begin, end, shape, values);
+    if (hasFactor)
+    {
+      multiply<T>(values, shape, valueAt<T>(coded + 1, 0));
+    }
+    return true;
   });
 }
 

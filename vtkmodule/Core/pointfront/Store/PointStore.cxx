@@ -120,7 +120,11 @@ Result<BlockDirectory> readDirectory(const InputFile& file, const StoreFooter& f
   }
   BlockDirectory directory =
     BlockDirectory::decode(bytes->data.get(), footer.nodeCount, blocks);
-  const std::uint64_t payloadEnd = footer.find(SectionKind::NodeTable)->offset;
+  std::uint64_t payloadEnd = section.offset;
+  for (const SectionEntry& other : footer.sections)
+  {
+    payloadEnd = std::min(payloadEnd, other.offset);
+  }
   bool unknownCodec = false;
   const std::string fault = directory.fault(storeHeaderBytes, payloadEnd, unknownCodec);
   if (unknownCodec)

@@ -32,6 +32,7 @@ AttributeSchema sampleSchema()
   schema.add({ "count", ScalarType::UInt32, 1 });
   schema.add({ "long", ScalarType::Int64, 1 });
   schema.add({ "identity", ScalarType::UInt64, 1 });
+  schema.add({ "repeated", ScalarType::UInt8, 1 });
   return schema;
 }
 
@@ -72,6 +73,7 @@ NodeColumns samplePoints(NodeIndex node, std::uint32_t count, std::mt19937_64& r
     put(c[8], static_cast<std::uint32_t>(random()));
     put(c[9], static_cast<std::int64_t>(random() >> 20) - (std::int64_t(1) << 40));
     put(c[10], static_cast<std::uint64_t>(random() >> 12));
+    put(c[11], static_cast<std::uint8_t>(i % 50 * 181));
   }
   points.selection = everyColumn(sampleSchema());
   return points;

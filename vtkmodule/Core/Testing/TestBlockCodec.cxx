@@ -131,9 +131,9 @@ TEST(BlockCodec, ChoosesByWhatItSaves)
   EXPECT_EQ(codecOf({ 5000, 3, 4 }, patterns[1].value), BlockCodec::Constant);
   EXPECT_EQ(codecOf({ 5000, 1, 8 }, patterns[3].value), BlockCodec::Raw);
   EXPECT_EQ(codecOf({ 5000, 3, 4 }, patterns[4].value), BlockCodec::Packed);
-  // Long runs are what Zstandard is for.
-  EXPECT_EQ(codecOf({ 5000, 1, 1 },
-              [](std::size_t i, std::mt19937_64&) { return i / 300 % 2 * 100; }),
+  // What repeats at a distance is what Zstandard is for.
+  EXPECT_EQ(
+    codecOf({ 5000, 1, 1 }, [](std::size_t i, std::mt19937_64&) { return i % 50 * 181; }),
     BlockCodec::PlanesZstd);
 }
 

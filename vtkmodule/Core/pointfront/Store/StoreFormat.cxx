@@ -15,9 +15,9 @@ constexpr std::size_t footerFixedBytes = 24;
 constexpr std::size_t sectionEntryBytes = 24;
 constexpr std::uint32_t maxSections = 64;
 
-bool hasMagic(const std::byte* data)
+bool beginsLikeStore(const std::byte* data, std::size_t size)
 {
-  return std::memcmp(data, storeMagic.data(), storeMagic.size()) == 0;
+  return std::memcmp(data, storeMagic.data(), std::min(size, storeMagic.size())) == 0;
 }
 
 std::string withName(SectionKind kind)
@@ -112,7 +112,7 @@ std::vector<std::byte> encodeFooter(const StoreFooter& footer)
 Result<StoreHeader> decodeHeader(
   const std::byte* data, std::size_t size, std::uint64_t fileBytes, const std::string& path)
 {
-  if (size >= storeMagic.size() && !hasMagic(data))
+  if (!beginsLikeStore(data, size))
   {
     return makeError(Error::Kind::BadFormat,
       "'" + path + "' is not a PointFront store; stores are made with: pointfront build");

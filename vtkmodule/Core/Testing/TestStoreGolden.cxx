@@ -1,0 +1,80 @@
+#include "SampleStore.h"
+
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <set>
+
+namespace pointfront
+{
+namespace
+{
+// Two stores that version 1 wrote, kept for ever. A change of the format gets a new version and new
+// files; these stay, and stay readable. (POINTFRONT_WRITE_GOLDEN=FOLDER writes them anew there.)
+const std::string small = "/version1.pfront";
+const std::string large = "/version1-all-codecs.pfront";
+constexpr std::uint32_t smallPoints = 3;
+constexpr std::uint32_t largePoints = 260;
+
+std::string golden(const std::string& name) { return POINTFRONT_CORE_TEST_DATA + name; }
+
+void expectSample(const std::string& path, const SampleStore& sample)
+{
+  const auto opened = PointStore::open(path);
+  ASSERT_TRUE(opened) << opened.error().what;
+  const PointStore& store = **opened;
+  ASSERT_EQ(store.description().schema, sample.description.schema);
+  ASSERT_EQ(store.description().grid, sample.description.grid);
+  ASSERT_EQ(store.hierarchy()->nodeCount(), sample.nodes.size());
+  for (NodeIndex i = 0; i < sample.nodes.size(); ++i)
+  {
+    const auto points = store.read(i, everyColumn(sample.description.schema));
+    ASSERT_TRUE(points) << points.error().what;
+    ASSERT_EQ(points->origin, sample.points[i].origin);
+    ASSERT_EQ(points->positions, sample.points[i].positions);
+    ASSERT_EQ(points->columns, sample.points[i].columns);
+  }
+  const auto report = store.verify();
+  ASSERT_TRUE(report);
+  EXPECT_TRUE(report->ok) << report->firstError;
+}
+} // namespace
+
+TEST(StoreGolden, Version1StaysReadable)
+{
+  expectSample(golden(small), makeSample(smallPoints));
+  expectSample(golden(large), makeSample(largePoints));
+}
+
+TEST(StoreGolden, TheLargeOneHasEveryCodec)
+{
+  const SampleStore sample = makeSample(largePoints);
+  std::set<std::uint8_t> codecs;
+  for (const NodeColumns& points : sample.points)
+  {
+    const EncodedNode node = encodeNode(points, sample.description.schema);
+    codecs.insert(node.positions.codec);
+    for (const EncodedNode::Block& column : node.columns)
+    {
+      codecs.insert(column.codec);
+    }
+  }
+  EXPECT_EQ(codecs, (std::set<std::uint8_t>{ 0, 1, 2, 3 }));
+}
+
+// Only the small one: Zstandard may compress differently in another release.
+TEST(StoreGolden, TheFormatHasNotChanged)
+{
+  const std::string path = temporaryPath("a.pfront");
+  writeSample(makeSample(smallPoints), path);
+  EXPECT_TRUE(fileBytes(path) == fileBytes(golden(small)))
+    << "what is written now differs from version 1: give the format a new version";
+  if (const char* folder = std::getenv("POINTFRONT_WRITE_GOLDEN"))
+  {
+    writeSample(makeSample(smallPoints), folder + small);
+    writeSample(makeSample(largePoints), folder + large);
+  }
+}
+
+} // namespace pointfront

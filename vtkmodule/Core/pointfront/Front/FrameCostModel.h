@@ -1,18 +1,26 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 namespace pointfront
 {
 
 /// Learns what a frame costs and says what the next one may contain (FRONT-6, -7).
-/// Model    milliseconds = a * points + b * moves + c, fitted by exponentially weighted least
-///          squares over earlier frames; a small prior until there are enough.
+/// Model    milliseconds = a * points + b * moves + c, a, b, c >= 0, fitted by exponentially
+///          weighted least squares over earlier frames (half of the weight lies on the last 14). A prior
+///          with the weight of a third of a frame holds what the frames do not tell: with a still camera
+///          points and moves do not vary, and the fit alone would be singular.
+/// Outliers a frame far from its prediction (the first upload, a shader being compiled, another
+///          program) counts with a weight that shrinks with its distance (Huber 1964). If frames go
+///          on being different, the scale of what is far grows and the model follows within some
+///          ten frames.
 /// Threads  one instance, one thread.
 class FrameCostModel
 {
 public:
-  /// What a frame contained and how long it took (CPU + GPU, milliseconds).
+  /// What a frame contained and how long it took (CPU + GPU, milliseconds). Times that are not
+  /// positive and finite are left out.
   void record(std::uint64_t points, std::uint32_t moves, double milliseconds);
   double predictMs(std::uint64_t points, std::uint32_t moves) const;
   /// Most points whose frame is predicted to hold `targetMs`; at least `floorPoints`.
@@ -21,8 +29,17 @@ public:
   std::uint32_t movesFor(double targetMs, std::uint64_t points) const;
 
 private:
-  // Weighted sums of the normal equations, decayed by each frame.
-  double sums_[9] = { 0 };
+  /// Cost of a million points, of 64 moves, of an empty frame: numbers of one magnitude.
+  using Costs = std::array<double, 3>;
+
+  void solve();
+
+  static constexpr Costs prior_{ 10.0, 1.0, 2.0 };
+  Costs costs_ = prior_;
+  /// Upper triangle of the normal equations' matrix, and their right side; decayed by each frame.
+  std::array<double, 6> matrix_{};
+  Costs right_{};
+  double scaleMs_ = 0.0; ///< typical distance of a frame from its prediction
   std::uint64_t frames_ = 0;
 };
 

@@ -15,7 +15,6 @@ namespace pointfront
 struct BuiltNode
 {
   Node row;              ///< box, spacing and counts; links and level come from nodeTable()
-  unsigned log2Side = 0; ///< of its octree cell, tree steps
   int samplingLog2 = -1; ///< of the cells it sampled; -1 for a leaf
   StoreWriter::PayloadId payload = 0;
   std::vector<std::unique_ptr<BuiltNode>> children; ///< in the order of their octants

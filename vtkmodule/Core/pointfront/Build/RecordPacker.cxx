@@ -13,6 +13,9 @@ namespace
 /// Doubles hold every integer up to here; a coordinate beyond it has lost its last step already.
 constexpr double largestSteps = 9007199254740992.0; // 2^53
 
+/// Columns are scattered into the records of a tile while these are in the nearest cache.
+constexpr std::size_t tilePoints = 512;
+
 /// QuantisationGrid::toGrid() without a call of the C library for all but exact halves, which it
 /// rounds away from zero.
 std::int64_t rounded(double v)
@@ -107,27 +110,33 @@ const char* nameOf(Rejection reason)
 }
 
 RecordPacker::RecordPacker(const CommonSchema& schema, const TreeSpace& space, unsigned cellShift)
-    : schema_(schema), space_(space), layout_(schema.schema), counts_(cellShift)
+    : schema_(schema), space_(space), layout_(schema.schema),
+      colour_(wideColourColumn(schema.schema)), counts_(cellShift)
 {
 }
 
 void RecordPacker::pack(const AttributeSchema& sourceSchema, std::size_t source, PointBatch& batch)
 {
   records_.resize(batch.size() * layout_.bytes());
-  quantise(batch, sourceSchema);
   largestColour_ = 0;
-  for (std::size_t c = 0; c < schema_.schema.size(); ++c)
+  count_ = 0;
+  for (std::size_t begin = 0; begin < batch.size(); begin += tilePoints)
   {
-    packColumn(sourceSchema, source, c, batch);
+    const std::size_t firstKept = count_;
+    quantise(batch, sourceSchema, begin, std::min(batch.size(), begin + tilePoints));
+    for (std::size_t c = 0; c < schema_.schema.size(); ++c)
+    {
+      packColumn(sourceSchema, schema_.mappings[source][c], c, batch, firstKept);
+    }
   }
   countCells();
 }
 
-void RecordPacker::quantise(PointBatch& batch, const AttributeSchema& sourceSchema)
+void RecordPacker::quantise(
+  PointBatch& batch, const AttributeSchema& sourceSchema, std::size_t begin, std::size_t end)
 {
   const QuantisationGrid& grid = space_.grid;
-  count_ = 0;
-  for (std::size_t i = 0; i < batch.size(); ++i)
+  for (std::size_t i = begin; i < end; ++i)
   {
     const glm::dvec3& world = batch.positions[i];
     const glm::dvec3 steps = (world - grid.offset) / grid.scale;
@@ -153,29 +162,30 @@ void RecordPacker::quantise(PointBatch& batch, const AttributeSchema& sourceSche
   }
 }
 
-void RecordPacker::packColumn(const AttributeSchema& sourceSchema, std::size_t source,
-  std::size_t column, const PointBatch& batch)
+void RecordPacker::packColumn(const AttributeSchema& sourceSchema, const ColumnMapping& mapping,
+  std::size_t column, const PointBatch& batch, std::size_t begin)
 {
   const Attribute& attribute = schema_.schema[column];
-  const ColumnMapping& mapping = schema_.mappings[source][column];
-  std::byte* out = records_.data() + layout_.offset(column);
+  const std::size_t count = count_ - begin;
+  std::byte* out = records_.data() + begin * layout_.bytes() + layout_.offset(column);
   if (!mapping.column)
   {
-    zero(attribute.bytes(), out, layout_.bytes(), count_);
+    zero(attribute.bytes(), out, layout_.bytes(), count);
     return;
   }
-  const std::byte* values = batch.columns[*mapping.column].data();
+  const Attribute& own = sourceSchema[*mapping.column];
+  const std::byte* values = batch.columns[*mapping.column].data() + begin * own.bytes();
   if (mapping.converted)
   {
-    converted_.resize(count_ * attribute.bytes());
-    convertColumn(sourceSchema[*mapping.column], values, attribute, converted_.data(), count_);
+    converted_.resize(count * attribute.bytes());
+    convertColumn(own, values, attribute, converted_.data(), count);
     values = converted_.data();
   }
-  if (wideColourColumn(schema_.schema) == column)
+  if (colour_ == column)
   {
-    largestColour_ = largest(values, count_ * attribute.components);
+    largestColour_ = std::max(largestColour_, largest(values, count * attribute.components));
   }
-  scatter(values, attribute.bytes(), out, layout_.bytes(), count_);
+  scatter(values, attribute.bytes(), out, layout_.bytes(), count);
 }
 
 void RecordPacker::countCells()

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -45,14 +46,18 @@ public:
   std::uint64_t rejected(Rejection reason) const { return rejected_[std::size_t(reason)]; }
 
 private:
-  void quantise(PointBatch& batch, const AttributeSchema& sourceSchema);
-  void packColumn(const AttributeSchema& sourceSchema, std::size_t source, std::size_t column,
-    const PointBatch& batch);
+  /// Points `begin` to `end` - 1 of the batch; count_ grows by those kept.
+  void quantise(
+    PointBatch& batch, const AttributeSchema& sourceSchema, std::size_t begin, std::size_t end);
+  /// Column values of the kept points from `begin` on.
+  void packColumn(const AttributeSchema& sourceSchema, const ColumnMapping& mapping,
+    std::size_t column, const PointBatch& batch, std::size_t begin);
   void countCells();
 
   const CommonSchema& schema_;
   const TreeSpace& space_;
   RecordLayout layout_;
+  std::optional<std::size_t> colour_; ///< the column whose largest value matters
   std::vector<std::byte> records_;
   std::vector<std::byte> converted_;
   std::size_t count_ = 0;

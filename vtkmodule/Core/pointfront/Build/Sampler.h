@@ -28,7 +28,7 @@ struct SamplingRule
   /// through a node occupies about 128 * 128 of its 128^3 cells.
   unsigned finestGrid() const;
   /// An inner node never samples more points than that.
-  std::uint64_t mostPoints() const { return 4ull * nodePoints; }
+  std::uint64_t mostPoints() const { return 2ull * nodePoints; }
 };
 
 /// log2 of the cells' side in which an inner node keeps one point each: the finest that keeps the

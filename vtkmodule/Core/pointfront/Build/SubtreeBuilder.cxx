@@ -4,6 +4,7 @@
 #include "pointfront/Build/OctreeSplit.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <numeric>
 
@@ -66,7 +67,6 @@ SubtreeBuilder::Branch SubtreeBuilder::leaf(
   branch.held.resize(end - begin);
   std::iota(branch.held.begin(), branch.held.end(), begin);
   branch.node = std::make_unique<BuiltNode>();
-  branch.node->log2Side = side;
   const double steps =
     surfaceSpacing(cellOccupancy(records, branch.held), branch.held.size(), side);
   branch.node->row.spacing = static_cast<float>(steps * emitter_.space().stepLength());
@@ -78,7 +78,6 @@ SubtreeBuilder::Branch SubtreeBuilder::joinBranches(
 {
   Branch joined;
   joined.node = std::make_unique<BuiltNode>();
-  joined.node->log2Side = log2Side;
   std::vector<bool> chosen;
   {
     const CpuStopwatch watch(seconds_.sample);
@@ -104,23 +103,51 @@ SubtreeBuilder::Branch SubtreeBuilder::joinBranches(
     {
       (chosen[rank++] ? joined.held : left).push_back(point);
     }
-    child.held = {};
-    emit(std::move(child.node), *joined.node, records, left);
+    child.held = std::move(left);
+  }
+  mergeLeaves(children);
+  for (Branch& child : children)
+  {
+    emit(std::move(child), *joined.node, records);
   }
   return joined;
 }
 
-void SubtreeBuilder::emit(std::unique_ptr<BuiltNode> node, BuiltNode& parent,
-  const RecordView& records, const std::vector<std::uint32_t>& points)
+void SubtreeBuilder::mergeLeaves(std::vector<Branch>& children) const
 {
-  if (points.empty() && node->children.empty())
+  std::vector<Branch> merged;
+  std::size_t grown = SIZE_MAX; // the leaf in `merged` that takes in others
+  for (Branch& child : children)
   {
-    return; // all its points went up
+    const std::size_t points = child.held.size();
+    const bool leaf = child.node->children.empty();
+    if (leaf && points == 0)
+    {
+      continue; // all its points went up
+    }
+    if (!leaf || grown == SIZE_MAX || merged[grown].held.size() + points > rule_.nodePoints)
+    {
+      grown = leaf ? merged.size() : grown;
+      merged.push_back(std::move(child));
+      continue;
+    }
+    Branch& into = merged[grown];
+    // Spacing of a surface is sqrt(area / points), and areas add up.
+    const auto area = [](const Branch& b)
+    { return double(b.node->row.spacing) * b.node->row.spacing * double(b.held.size()); };
+    const double all = area(into) + area(child);
+    into.held.insert(into.held.end(), child.held.begin(), child.held.end());
+    into.node->row.spacing = static_cast<float>(std::sqrt(all / double(into.held.size())));
   }
+  children = std::move(merged);
+}
+
+void SubtreeBuilder::emit(Branch child, BuiltNode& parent, const RecordView& records)
+{
   const CpuStopwatch watch(seconds_.encode);
-  EncodedNode payload = emitter_.emit(*node, records, points);
-  emitted_.push_back({node.get(), std::move(payload)});
-  parent.children.push_back(std::move(node));
+  EncodedNode payload = emitter_.emit(*child.node, records, child.held);
+  emitted_.push_back({child.node.get(), std::move(payload)});
+  parent.children.push_back(std::move(child.node));
 }
 
 OpenSubtree SubtreeBuilder::opened(const RecordView& records, Branch branch) const

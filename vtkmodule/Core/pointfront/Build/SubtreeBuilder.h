@@ -35,10 +35,13 @@ struct SubtreeSeconds
 };
 
 /// The octree over some points, from the leaves up.
-/// Shape     A node is an octree cell, the smallest that holds all its points, so each inner node
+/// Shape     A cell is the smallest of the octree that holds all its points, so each inner cell
 ///           has two to eight children (Richter & Doellner 2010, section 3.1). It is a leaf if and
 ///           only if all points in it are at most nodePoints. Equal points are split by
 ///           input order into eight runs, as if the octree went on below one step.
+/// Mergers   Leaves of one parent become one node as long as what is left of them together is at
+///           most nodePoints: an octree over a surface has many slivers, and a node of some
+///           hundred points costs the front, the disk and the GPU as much as a full one.
 /// Sampling  An inner node takes from what its children hold, one point per cell (Sampler.h); what
 ///           it leaves is theirs. What a node ends up with depends on the points inside its
 ///           parent only: not on where the cloud was cut into parts, nor on their order.
@@ -69,11 +72,12 @@ private:
     std::unique_ptr<BuiltNode> node;
     std::vector<std::uint32_t> held; ///< indices into the sorted records, Morton order
   };
+  /// Leaves grown together: the node of the first, the points of all.
+  void mergeLeaves(std::vector<Branch>& children) const;
   Branch branch(const RecordView& records, std::uint32_t begin, std::uint32_t end);
   Branch leaf(const RecordView& records, std::uint32_t begin, std::uint32_t end, unsigned side);
   Branch joinBranches(const RecordView& records, std::vector<Branch> children, unsigned log2Side);
-  void emit(std::unique_ptr<BuiltNode> node, BuiltNode& parent, const RecordView& records,
-    const std::vector<std::uint32_t>& points);
+  void emit(Branch child, BuiltNode& parent, const RecordView& records);
   OpenSubtree opened(const RecordView& records, Branch branch) const;
 
   const NodeEmitter& emitter_;

@@ -208,5 +208,180 @@ TEST_F(StoreBuild, StoresAnOutlierFarAway)
   EXPECT_LT(store->description().levels, 8u); // no chain of nodes with one child each
 }
 
+TEST_F(StoreBuild, KeepsTinyAndHugeExtentsAndFarOrigins)
+{
+  expectSoundStore(hills(5000, 1000.0, {glm::dvec3(1e-9), glm::dvec3(0.5)}), options_); // 1e-6
+  expectSoundStore(hills(5000, 1e9, {glm::dvec3(1.0), glm::dvec3(0.0)}), options_);     // 1e9
+  expectSoundStore(hills(5000, 1e6, millimetres(glm::dvec3(1e7, -2e7, 3e6))), options_);
+}
+
+TEST_F(StoreBuild, KeepsCubesOnAnisotropicGrids)
+{
+  const QuantisationGrid grid{{0.01, 0.01, 0.001}, {500000.0, 4000000.0, 0.0}};
+  expectSoundStore(hills(20000, 50000.0, grid), options_);
+}
+
+TEST_F(StoreBuild, RefusesAnExtentBeyondTheGridAndSaysWhatFits)
+{
+  const auto sources = one(cloudOf(
+    2, millimetres(), [](std::size_t i) { return GridPosition(std::int64_t(i) << 33, 0, 0); }));
+  const auto refused = buildOctreeStore(sources, options_);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().kind, Error::Kind::BadArgument);
+  EXPECT_NE(refused.error().what.find("a precision of 0.01 fits"), std::string::npos)
+    << refused.error().what;
+  EXPECT_EQ(filesLeft(), 0u);
+  options_.precision = 0.01;
+  EXPECT_TRUE(buildOctreeStore(sources, options_));
+}
+
+TEST_F(StoreBuild, RejectsWhatIsNoPositionAndCountsWhy)
+{
+  auto cloud = hills(5000, 10000.0);
+  const double bad[] = {std::nan(""), HUGE_VAL, -HUGE_VAL, 1e300};
+  for (std::uint32_t i = 0; i < 40; ++i)
+  {
+    glm::dvec3 position(1.0);
+    position[static_cast<int>(i % 3)] = bad[i % 4];
+    cloud->addPosition(position);
+    cloud->addValue(0, 5000 + i);
+    cloud->addValue(1, std::uint16_t(0));
+  }
+  cloud->addPosition({1.0, 1.0, 0.0});
+  cloud->addValue(0, std::uint32_t(5040));
+  cloud->addValue(1, std::uint16_t(9));
+  const auto report = buildOctreeStore(one(std::move(cloud)), options_);
+  ASSERT_TRUE(report) << report.error().what;
+  EXPECT_EQ(report->pointsRead, 5041u);
+  EXPECT_EQ(report->pointsStored, 5001u);
+  const std::map<std::string, std::uint64_t> expected{
+    {"not a number", 10}, {"infinite", 20}, {"outside the grid's range", 10}};
+  EXPECT_EQ(report->pointsRejected, expected);
+  const auto points = pointsOf(**PointStore::open(options_.outputPath));
+  EXPECT_EQ(points.back(), Identified(5040, 1000, 1000, 0, 9)); // values moved with their points
+}
+
+TEST_F(StoreBuild, LeavesNothingWhenCancelled)
+{
+  options_.memoryBytes = 400 << 10;
+  const auto sources = one(hills(60000, 100000.0));
+  for (const char* phase : {"reading", "sorting", "building"})
+  {
+    bool met = false;
+    const auto cancelled = buildOctreeStore(sources, options_,
+      [&](const Progress& progress)
+      {
+        met = met || std::string(progress.phase) == phase;
+        return !met;
+      });
+    ASSERT_FALSE(cancelled) << phase;
+    EXPECT_TRUE(met) << phase;
+    EXPECT_EQ(cancelled.error().kind, Error::Kind::Cancelled);
+    EXPECT_EQ(filesLeft(), 0u) << phase;
+  }
+}
+
+TEST_F(StoreBuild, TellsProgressThatNeverFalls)
+{
+  double last = 0.0;
+  std::vector<std::string> phases;
+  const auto report = buildOctreeStore(one(hills(60000, 100000.0)), options_,
+    [&](const Progress& progress)
+    {
+      EXPECT_GE(progress.fraction, last);
+      EXPECT_LE(progress.fraction, 1.0);
+      EXPECT_LE(progress.done, progress.total);
+      last = progress.fraction;
+      if (phases.empty() || phases.back() != progress.phase)
+      {
+        phases.push_back(progress.phase);
+      }
+      return true;
+    });
+  ASSERT_TRUE(report);
+  EXPECT_EQ(phases, (std::vector<std::string>{"reading", "sorting", "building"}));
+}
+
+TEST_F(StoreBuild, KeepsAnExistingOutputUnlessAllowed)
+{
+  std::ofstream(options_.outputPath) << "precious";
+  options_.overwrite = false;
+  const auto refused = buildOctreeStore(one(hills(1000, 1000.0)), options_);
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().what.find("exists already"), std::string::npos);
+  EXPECT_EQ(bytes(), "precious");
+  options_.overwrite = true;
+  EXPECT_TRUE(buildOctreeStore(one(hills(1000, 1000.0)), options_));
+  EXPECT_TRUE(PointStore::open(options_.outputPath));
+}
+
+TEST_F(StoreBuild, SaysThatAFolderCannotBeWritten)
+{
+  options_.outputPath = (folder_ / "absent" / "cloud.pfront").string();
+  const auto noFolder = buildOctreeStore(one(hills(1000, 1000.0)), options_);
+  ASSERT_FALSE(noFolder);
+  EXPECT_NE(noFolder.error().what.find("absent"), std::string::npos) << noFolder.error().what;
+  options_.outputPath = "/proc/cloud.pfront"; // nobody, not even root, makes files there
+  const auto readOnly = buildOctreeStore(one(hills(1000, 1000.0)), options_);
+  ASSERT_FALSE(readOnly);
+  EXPECT_EQ(readOnly.error().kind, Error::Kind::Unwritable);
+  options_.outputPath = (folder_ / "cloud.pfront").string();
+  options_.temporaryFolder = "/proc";
+  options_.memoryBytes = 150 << 10;
+  const auto noSpill = buildOctreeStore(one(hills(60000, 100000.0)), options_);
+  ASSERT_FALSE(noSpill);
+  EXPECT_EQ(noSpill.error().kind, Error::Kind::Unwritable);
+  EXPECT_EQ(filesLeft(), 0u);
+}
+
+TEST_F(StoreBuild, StopsWhereASourceBreaks)
+{
+  for (const unsigned threads : {1u, 4u})
+  {
+    auto cloud = hills(60000, 100000.0);
+    cloud->failAt(37);
+    options_.threads = threads;
+    const auto failed = buildOctreeStore(one(std::move(cloud)), options_);
+    ASSERT_FALSE(failed);
+    EXPECT_EQ(failed.error().kind, Error::Kind::Truncated);
+    EXPECT_NE(failed.error().what.find("byte 4711"), std::string::npos);
+    EXPECT_EQ(filesLeft(), 0u);
+  }
+}
+
+TEST_F(StoreBuild, RefusesImpossibleOptions)
+{
+  EXPECT_FALSE(buildOctreeStore({}, options_));
+  options_.memoryBytes = 1000;
+  const auto tooLittle = buildOctreeStore(one(hills(60000, 100000.0)), options_);
+  ASSERT_FALSE(tooLittle);
+  EXPECT_EQ(tooLittle.error().kind, Error::Kind::NoMemory);
+  options_.memoryBytes = 0;
+  options_.nodePoints = 1;
+  EXPECT_FALSE(buildOctreeStore(one(hills(1000, 1000.0)), options_));
+  options_.nodePoints = 256;
+  options_.precision = -1.0;
+  EXPECT_FALSE(buildOctreeStore(one(hills(1000, 1000.0)), options_));
+  EXPECT_EQ(filesLeft(), 0u);
+}
+
+TEST_F(StoreBuild, DoesNotTrustDeclaredBounds)
+{
+  const auto reference = expectSoundStore(hills(20000, 100000.0), options_);
+  ASSERT_TRUE(reference);
+  const std::string expected = bytes();
+  Bounds lies[3];
+  lies[1].add(glm::dvec3(0.0));
+  lies[2].add(glm::dvec3(-1e12));
+  lies[2].add(glm::dvec3(1e12));
+  for (const Bounds& lie : lies)
+  {
+    auto cloud = hills(20000, 100000.0);
+    cloud->editDescription().declaredBounds = lie;
+    ASSERT_TRUE(expectSoundStore(std::move(cloud), options_));
+    EXPECT_TRUE(bytes() == expected);
+  }
+}
+
 } // namespace
 } // namespace pointfront

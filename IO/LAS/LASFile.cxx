@@ -8,6 +8,9 @@ namespace pointfront
 {
 namespace
 {
+/// One extra bytes record has room for 341; more are a damaged record length.
+constexpr std::size_t mostExtraAttributes = 1000;
+
 /// The records that go with the points into a store. Owner LASF_Spec 7 is "superseded"; those of
 /// compressors and indices describe bytes of the file that a store does not have.
 bool travels(const LASRecord& record)
@@ -101,6 +104,13 @@ Result<LASFile> LASFile::open(const std::string& path)
   }
   const std::size_t extra = header.pointBytes - lasMinimumPointBytes(header.pointFormat);
   const std::vector<Attribute> attributes = parseExtraBytes(descriptors, extra, warnings);
+  if (attributes.size() > mostExtraAttributes)
+  {
+    return makeError(Error::Kind::Unsupported,
+      path + ": " + std::to_string(attributes.size()) + " extra attributes a point (" +
+        std::to_string(extra) + " bytes) are more than the " +
+        std::to_string(mostExtraAttributes) + " that are read");
+  }
   LASPointLayout layout = makeLASPointLayout(header.pointFormat, attributes);
 
   SourceDescription description;

@@ -32,7 +32,8 @@ struct LASFile
 
   ByteView bytes() const { return { map.data(), map.size() }; }
 
-  /// Errors   of MemoryMap::open and parseLASHeader.
+  /// Errors   of MemoryMap::open and parseLASHeader; Unsupported if a point has a thousand
+  ///          attributes.
   static Result<LASFile> open(const std::string& path);
 };
 

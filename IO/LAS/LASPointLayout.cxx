@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cassert>
+#include <map>
 
 namespace pointfront
 {
@@ -33,11 +34,7 @@ constexpr std::array<FormatParts, lasHighestPointFormat + 1> formatParts{ {
 
 void add(LASPointLayout& layout, const Attribute& attribute, const LASField& field)
 {
-  Attribute named = attribute;
-  for (int copy = 2; !layout.schema.add(named); ++copy)
-  {
-    named.name = attribute.name + "_" + std::to_string(copy);
-  }
+  layout.schema.add(attribute);
   layout.fields.push_back(field);
 }
 
@@ -135,11 +132,18 @@ LASPointLayout makeLASPointLayout(int pointFormat, const std::vector<Attribute>&
   {
     addWavePacket(layout, parts.wave);
   }
+  std::map<std::string, int> copies; // of each name: a hostile file may repeat one for ever
   for (const Attribute& attribute : extra)
   {
     LASField field;
     field.offset = static_cast<std::uint16_t>(layout.pointBytes);
-    add(layout, attribute, field);
+    Attribute named = attribute;
+    int& copy = copies.try_emplace(attribute.name, 1).first->second;
+    while (!layout.schema.add(named))
+    {
+      named.name = attribute.name + "_" + std::to_string(++copy);
+    }
+    layout.fields.push_back(field);
     layout.pointBytes += attribute.bytes();
   }
   return layout;

@@ -18,7 +18,7 @@ namespace pointfront
 class LASzipReader
 {
 public:
-  /// `chunk` is inside the file's map and outlives the reader.
+  /// `chunk` is inside the file's map and outlives the reader; its codesCanBegin().
   /// Errors   Unsupported with LASzip's own words.
   static Result<LASzipReader> open(const LASFile& file, const LAZCompression& compression,
     ByteView chunk, std::uint32_t points);

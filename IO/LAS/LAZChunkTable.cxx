@@ -92,7 +92,12 @@ std::uint64_t totalPoints(const std::vector<LAZChunk>& chunks)
 Result<LAZChunk> measureChunk(const LASFile& file, const LAZCompression& compression,
   std::uint64_t offset, std::uint32_t points)
 {
-  const ByteView rest{ file.bytes().data + offset, file.bytes().size - offset };
+  LAZChunk chunk{ offset, file.bytes().size - offset, 0 };
+  if (!codesCanBegin(file, compression, chunk))
+  {
+    return chunk;
+  }
+  const ByteView rest{ file.bytes().data + offset, static_cast<std::size_t>(chunk.bytes) };
   Result<LASzipReader> reader = LASzipReader::open(file, compression, rest, points);
   if (!reader)
   {
@@ -100,7 +105,6 @@ Result<LAZChunk> measureChunk(const LASFile& file, const LAZCompression& compres
   }
   constexpr std::uint32_t block = 4096;
   std::vector<std::byte> records(std::size_t{ block } * file.header.pointBytes);
-  LAZChunk chunk{ offset, 0, 0 };
   while (chunk.points < points)
   {
     const std::uint32_t wanted = std::min(block, points - chunk.points);
@@ -108,7 +112,8 @@ Result<LAZChunk> measureChunk(const LASFile& file, const LAZCompression& compres
     chunk.points += got;
     if (got < wanted)
     {
-      break;
+      chunk.cut = true;
+      return chunk;
     }
   }
   chunk.bytes = reader->consumed();
@@ -143,7 +148,7 @@ Result<std::vector<LAZChunk>> walkChunks(
     chunks.push_back(*chunk);
     left -= chunk->points;
     offset += chunk->bytes;
-    if (pointwise || (!layered && chunk->points < points))
+    if (pointwise || chunk->cut)
     {
       break;
     }
@@ -241,26 +246,6 @@ void compareCounts(
   }
 }
 } // namespace
-
-LAZChunk parseLayeredChunk(const LASFile& file, const LAZCompression& compression,
-  std::uint64_t offset, std::uint64_t end)
-{
-  const std::uint64_t head =
-    file.header.pointBytes + sizeof(std::uint32_t) * (1 + compression.layers());
-  if (end - offset < head)
-  {
-    return {};
-  }
-  const std::byte* number = file.bytes().data + offset + file.header.pointBytes;
-  const auto points = loadNumber<std::uint32_t>(number);
-  std::uint64_t bytes = head;
-  for (std::size_t layer = 0; layer < compression.layers(); ++layer)
-  {
-    number += sizeof(std::uint32_t);
-    bytes += loadNumber<std::uint32_t>(number);
-  }
-  return bytes <= end - offset ? LAZChunk{ offset, bytes, points } : LAZChunk{};
-}
 
 Result<std::vector<LAZChunk>> findLAZChunks(const LASFile& file,
   const LAZCompression& compression, std::vector<std::string>& warnings)

@@ -109,6 +109,10 @@ Result<void> LAZSource::read(std::uint64_t chunk, PointBatch& batch) const
 Result<void> LAZSource::decompress(const LAZChunk& chunk, PointBatch& batch) const
 {
   const std::string& path = file_.description.path;
+  if (!codesCanBegin(file_, compression_, chunk))
+  {
+    return badChunk(path, chunk, "it begins with a code that no encoder writes");
+  }
   const ByteView bytes{ file_.bytes().data + chunk.offset,
     static_cast<std::size_t>(chunk.bytes) };
   Result<LASzipReader> reader = LASzipReader::open(file_, compression_, bytes, chunk.points);
@@ -131,7 +135,7 @@ Result<void> LAZSource::decompress(const LAZChunk& chunk, PointBatch& batch) con
       file_.layout, file_.header.grid, records.data(), wanted, batch, first);
     done += wanted;
   }
-  if (reader->consumed() != chunk.bytes)
+  if (!chunk.cut && reader->consumed() != chunk.bytes)
   {
     return badChunk(path, chunk,
       "its points take " + std::to_string(reader->consumed()) + " of its " +

@@ -1,3 +1,4 @@
+#include "FileBytes.h"
 #include "LASWriter.h"
 #include "RealFiles.h"
 #include "SourcePoints.h"
@@ -26,14 +27,6 @@ SinkDescription sinkFor(const PointSource& source)
   sink.crsWkt = description.crsWkt;
   sink.metadata = description.metadata;
   return sink;
-}
-
-/// A folder for this process alone.
-std::string outputFolder()
-{
-  const std::string folder = testing::TempDir() + "pointfront-las-writer";
-  fs::create_directories(folder);
-  return folder;
 }
 
 Result<void> copyTo(PointSink& sink, const PointSource& source, const SinkDescription& description)

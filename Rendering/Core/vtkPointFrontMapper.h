@@ -23,9 +23,17 @@
 #include "vtkPolyDataMapper.h"
 #include "vtkSmartPointer.h" // for the store
 
-#include <memory> // for the front
+#include <cstdint> // for counts
+#include <memory>  // for the front
 
 class vtkPointFrontStore;
+class vtkRenderWindowInteractor;
+namespace pointfront
+{
+class ViewFront;
+struct FrameDemand;
+struct PointColouring;
+} // namespace pointfront
 
 class POINTFRONTRENDERINGCORE_EXPORT vtkPointFrontMapper : public vtkPolyDataMapper
 {
@@ -113,7 +121,7 @@ public:
   vtkGetMacro(LastRequests, vtkIdType);
   vtkGetMacro(LastError, double);
   vtkGetMacro(LastThreshold, double);
-  vtkGetMacro(LastFrontTime, double);  ///< milliseconds of the front's update
+  vtkGetMacro(LastFrontTime, double); ///< milliseconds of the front's update
   vtkGetMacro(LastGPUBytes, vtkTypeInt64);
   /// True when the last frame showed all that TargetError and the budgets allow: no further render
   /// will change the picture.
@@ -126,13 +134,45 @@ public:
    */
   virtual bool NeedsRender();
 
+  /**
+   * Renders the interactor's window from a timer of it whenever NeedsRender(): what an application
+   * without an event loop of its own needs to see a view refine. Invokes
+   * vtkCommand::UpdateDataEvent before each. Null ends it.
+   */
+  void RenderWhenDataArrives(vtkRenderWindowInteractor* interactor);
+
   /// Of the whole store, at once, before anything is loaded.
   double* GetBounds() VTK_SIZEHINT(6) override;
   void GetBounds(double bounds[6]) override { this->Superclass::GetBounds(bounds); }
 
+  /// True when the lookup table has transparent colours.
+  bool HasTranslucentPolygonalGeometry() override;
+
 protected:
   vtkPointFrontMapper();
   ~vtkPointFrontMapper() override;
+
+#ifndef __VTK_WRAP__
+  /**
+   * For the OpenGL side, at each RenderPiece: the front of that renderer. It is moved on the first
+   * call of a frame and returned as it is by all others (peeling, selection and shadow passes draw
+   * one frame several times). Null, and an error once a cause, without a store.
+   */
+  pointfront::ViewFront* PrepareFrame(vtkRenderer* renderer, vtkActor* actor);
+  /// How the points are coloured, from the properties of vtkMapper.
+  pointfront::PointColouring GetColouring();
+  /// True from PrepareFrame() to FinishFrame(): the frame's first drawing, which uploads.
+  bool IsFirstDrawing(vtkRenderer* renderer) const;
+  /// What the first drawing of a frame came to; `uploadsLeft` when not all points of the front are
+  /// on the GPU yet.
+  void FinishFrame(
+    vtkRenderer* renderer, vtkIdType points, vtkTypeInt64 gpuBytes, bool uploadsLeft);
+  /// What the last frame of that renderer cost, CPU and GPU, when that is known.
+  void RecordFrameTime(vtkRenderer* renderer, double milliseconds);
+  static bool IsInteracting(vtkRenderer* renderer);
+  /// Renderers that this mapper draws in.
+  std::uint32_t GetNumberOfViews() const;
+#endif
 
   double TargetError = 1.0;
   vtkIdType PointBudget = 5000000;
@@ -155,6 +195,10 @@ protected:
   bool LastComplete = false;
 
 private:
+  struct Content;
+  pointfront::FrameDemand GetDemand(vtkRenderer* renderer, vtkActor* actor);
+  std::unique_ptr<Content> Internals;
+
   vtkPointFrontMapper(const vtkPointFrontMapper&) = delete;
   void operator=(const vtkPointFrontMapper&) = delete;
 };

@@ -26,7 +26,8 @@ namespace pointfront
 {
 class PointStore;
 class Residency;
-}
+class ResidencyShare;
+} // namespace pointfront
 
 class POINTFRONTCOMMON_EXPORT vtkPointFrontStore : public vtkObject
 {
@@ -68,11 +69,15 @@ public:
   /// The kernel's objects, for modules of ours. Never null.
   const std::shared_ptr<const pointfront::PointStore>& GetStore() const;
   pointfront::Residency& GetResidency() const;
+  /// Where fronts join; it owns the residency and merges their wishes.
+  pointfront::ResidencyShare& GetResidencyShare() const;
 #endif
 
 protected:
   vtkPointFrontStore();
   ~vtkPointFrontStore() override;
+  /// Under the registry's lock: Open() must not find an object whose last reference is going.
+  void UnRegisterInternal(vtkObjectBase* holder, vtkTypeBool check) override;
 
 private:
   vtkPointFrontStore(const vtkPointFrontStore&) = delete;

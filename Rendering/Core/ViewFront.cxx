@@ -1,0 +1,203 @@
+#include "ViewFront.h"
+
+#include <algorithm>
+
+namespace pointfront
+{
+namespace
+{
+
+/// Moves of a frame that nobody waits in: enough to finish a city in a few frames.
+constexpr std::uint32_t movesAtRest = 4096;
+/// Moves of an update inside a complete render.
+constexpr std::uint32_t movesToComplete = 1u << 20;
+/// Of the memory budget that a view's nodes may fill: some room stays for what is being decoded.
+constexpr double heldShare = 0.85;
+constexpr std::uint32_t requestsAtOnce = 1024;
+/// Fewest points of a frame in motion: less is no picture, whatever the machine.
+constexpr std::uint64_t fewestPoints = 100000;
+
+bool covers(const NodeColumns& node, const ColumnSelection& columns)
+{
+  return std::includes(
+    node.selection.begin(), node.selection.end(), columns.begin(), columns.end());
+}
+
+} // namespace
+
+/// The residency as the front of a piece sees it.
+class ViewFront::Residents final : public ResidencyView
+{
+public:
+  Residents(const HierarchyPiece& piece, const Residency& residency)
+      : piece_(piece), residency_(residency)
+  {
+  }
+  State state(NodeIndex node) const override
+  {
+    // A node without points (another piece has them) is there at once.
+    return piece_.hierarchy()->node(node).pointCount == 0 ? State::Resident
+                                                          : residency_.state(piece_.toStore(node));
+  }
+  std::uint64_t revision() const override { return residency_.revision(); }
+  bool exhausted() const override { return residency_.exhausted(); }
+
+private:
+  const HierarchyPiece& piece_;
+  const Residency& residency_;
+};
+
+ViewFront::ViewFront(
+  std::shared_ptr<const HierarchyPiece> piece, ResidencyShare& share, const AttributeSchema& schema)
+    : piece_(std::move(piece)), share_(share), schema_(schema), wish_(share.join()),
+      residents_(std::make_unique<Residents>(*piece_, share.residency())),
+      front_(piece_->hierarchy())
+{
+}
+
+ViewFront::~ViewFront() = default;
+
+std::shared_ptr<const NodeColumns> ViewFront::find(NodeIndex storeNode) const
+{
+  return share_.residency().find(storeNode);
+}
+
+const FrontDelta& ViewFront::update(const FrameDemand& demand)
+{
+  wish_->setColumns(demand.columns);
+  columns_ = demand.columns;
+  pointBytes_ = sizeof(glm::u32vec3);
+  for (const std::uint32_t column : share_.residency().columns())
+  {
+    pointBytes_ += schema_[column].bytes();
+  }
+  if (!begun_)
+  {
+    begun_ = true;
+    loadRoots();
+  }
+  if (demand.complete)
+  {
+    complete(demand);
+  }
+  else
+  {
+    step(demand);
+  }
+  return delta_;
+}
+
+void ViewFront::loadRoots()
+{
+  Residency& residency = share_.residency();
+  std::vector<LoadRequest> roots;
+  for (const NodeIndex root : piece_->hierarchy()->roots())
+  {
+    if (piece_->hierarchy()->node(root).pointCount > 0)
+    {
+      roots.push_back({piece_->toStore(root), 1e9});
+    }
+  }
+  wish_->request(roots, [](NodeIndex) { return 0u; });
+  const auto missing = [&](const LoadRequest& r)
+  { return residency.state(r.node) == ResidencyView::State::Absent; };
+  while (std::any_of(roots.begin(), roots.end(), missing))
+  {
+    const std::uint64_t seen = residency.arrivals();
+    residency.waitForArrival(seen);
+    const ResidencyStatistics now = residency.statistics();
+    if (residency.arrivals() == seen && now.pending + now.loading == 0)
+    {
+      break; // no room for them in the budget: the frame says what it can draw
+    }
+  }
+}
+
+FrontLimits ViewFront::limitsOf(const FrameDemand& demand) const
+{
+  FrontLimits limits;
+  limits.targetErrorPx = demand.targetErrorPx;
+  limits.pointBudget = demand.pointBudget;
+  limits.requestLimit = requestsAtOnce;
+  limits.interacting = demand.interacting;
+  limits.motionErrorPx = demand.targetErrorPx;
+  limits.movesPerFrame = demand.complete ? movesToComplete : movesAtRest;
+  limits.prefetchSiblings = !demand.complete;
+  limits.heldPointBudget = static_cast<std::uint64_t>(
+    heldShare * static_cast<double>(share_.budgetBytes()) /
+    static_cast<double>(pointBytes_ * std::max<std::size_t>(1, share_.wishes())));
+  if (demand.interacting && demand.frameMs > 0.0)
+  {
+    const std::uint64_t affordable = cost_.pointsFor(demand.frameMs, fewestPoints);
+    limits.pointBudget =
+      demand.pointBudget == 0 ? affordable : std::min(demand.pointBudget, affordable);
+    limits.movesPerFrame = cost_.movesFor(demand.frameMs, delta_.pointsDrawn);
+  }
+  return limits;
+}
+
+void ViewFront::step(const FrameDemand& demand)
+{
+  thresholdBefore_ = delta_.thresholdPx;
+  arrivalsSeen_ = share_.residency().arrivals();
+  delta_ = front_.update(demand.view, *residents_, limitsOf(demand));
+  for (DrawItem& item : delta_.draw)
+  {
+    item.node = piece_->toStore(item.node);
+  }
+  for (LoadRequest& request : delta_.requests)
+  {
+    request.node = piece_->toStore(request.node);
+  }
+  wish_->request(delta_.requests,
+    [this](NodeIndex node)
+    {
+      const NodeIndex own = piece_->fromStore(node);
+      return own == noNode ? 0xffffu : front_.distanceUnderFront(own);
+    });
+}
+
+bool ViewFront::allCovered() const
+{
+  return std::all_of(delta_.draw.begin(), delta_.draw.end(),
+    [&](const DrawItem& item)
+    {
+      const auto node = share_.residency().find(item.node);
+      return node && covers(*node, columns_);
+    });
+}
+
+void ViewFront::complete(const FrameDemand& demand)
+{
+  Residency& residency = share_.residency();
+  int idle = 0;
+  while (idle < 2)
+  {
+    step(demand);
+    if (delta_.complete && allCovered())
+    {
+      return;
+    }
+    const bool moved = delta_.moves > 0 || delta_.thresholdPx != thresholdBefore_;
+    if (!moved)
+    {
+      residency.waitForArrival(arrivalsSeen_);
+    }
+    // Twice nothing new and nothing under way: the memory budget holds no more of this view.
+    idle = moved || residency.arrivals() != arrivalsSeen_ ? 0 : idle + 1;
+  }
+  delta_.complete = true;
+}
+
+void ViewFront::recordFrameMs(double milliseconds)
+{
+  cost_.record(delta_.pointsDrawn, delta_.moves, milliseconds);
+}
+
+bool ViewFront::wantsUpdate() const
+{
+  return !begun_ || share_.residency().arrivals() != arrivalsSeen_ ||
+         (!delta_.complete && (delta_.moves > 0 || delta_.thresholdPx != thresholdBefore_));
+}
+
+} // namespace pointfront

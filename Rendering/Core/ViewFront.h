@@ -1,0 +1,82 @@
+#pragma once
+
+#include "HierarchyPiece.h"
+#include "ResidencyShare.h"
+
+#include "pointfront/Front/FrameCostModel.h"
+#include "pointfront/Front/RenderFront.h"
+#include "pointfront/Front/View.h"
+#include "pointfront/Points/AttributeSchema.h"
+#include "pointfrontRenderingCoreModule.h" // for the export macro
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace pointfront
+{
+
+/// What one frame of one view asks of its front.
+struct FrameDemand
+{
+  View view;               ///< in the store's coordinates
+  ColumnSelection columns; ///< that the points are drawn with
+  double targetErrorPx = 1.0;
+  std::uint64_t pointBudget = 0; ///< 0: no limit
+  bool interacting = false;
+  double frameMs = 0.0;  ///< interacting: that this cloud may take
+  bool complete = false; ///< wait until nothing is missing
+};
+
+/// The front of one view of a store, with its share of the residency and what it has learnt of the
+/// cost of its frames. Several views of one cloud have one of these each.
+/// Guarantees  update() waits for the disk only when the demand is `complete`, and on the first
+///             update for the roots (one node a layer), so that no first frame is empty.
+/// Threads     one thread (the renderer's).
+class POINTFRONTRENDERINGCORE_EXPORT ViewFront
+{
+public:
+  /// `schema` outlives the front: the store's.
+  ViewFront(std::shared_ptr<const HierarchyPiece> piece, ResidencyShare& share,
+    const AttributeSchema& schema);
+  ~ViewFront();
+
+  /// Moves the front towards the view. The delta's nodes are the store's numbers; valid until the
+  /// next update.
+  const FrontDelta& update(const FrameDemand& demand);
+  const FrontDelta& last() const { return delta_; }
+
+  /// The node's points, or null.
+  std::shared_ptr<const NodeColumns> find(NodeIndex storeNode) const;
+
+  /// What the frame that update() prepared cost this cloud (CPU + GPU).
+  void recordFrameMs(double milliseconds);
+
+  /// True if something arrived since the last update, or that update itself left moves for the
+  /// next.
+  bool wantsUpdate() const;
+
+private:
+  class Residents;
+  void step(const FrameDemand& demand);
+  bool allCovered() const;
+  void complete(const FrameDemand& demand);
+  void loadRoots();
+  FrontLimits limitsOf(const FrameDemand& demand) const;
+
+  std::shared_ptr<const HierarchyPiece> piece_;
+  ResidencyShare& share_;
+  const AttributeSchema& schema_;
+  std::unique_ptr<ResidencyShare::Wish> wish_;
+  std::unique_ptr<Residents> residents_;
+  RenderFront front_;
+  FrameCostModel cost_;
+  FrontDelta delta_;
+  ColumnSelection columns_;
+  std::size_t pointBytes_ = 0; ///< of a decoded point with columns_
+  std::uint64_t arrivalsSeen_ = 0;
+  double thresholdBefore_ = 0.0;
+  bool begun_ = false;
+};
+
+} // namespace pointfront

@@ -1,0 +1,400 @@
+#include "vtkPointFrontMapper.h"
+
+#include "PointColouring.h"
+#include "ViewFront.h"
+
+#include "vtkPointFrontStore.h"
+
+#include <vtkActor.h>
+#include <vtkCallbackCommand.h>
+#include <vtkCamera.h>
+#include <vtkCommand.h>
+#include <vtkIndent.h>
+#include <vtkMath.h>
+#include <vtkMatrix4x4.h>
+#include <vtkNew.h>
+#include <vtkObjectFactory.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkRenderer.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderWindowInteractor.h>
+#include <vtkScalarsToColors.h>
+#include <vtkWeakPointer.h>
+
+#include <algorithm>
+#include <chrono>
+#include <map>
+#include <string>
+
+vtkAbstractObjectFactoryNewMacro(vtkPointFrontMapper);
+
+namespace
+{
+
+/// VTK and ParaView set rates of 5 and more in motion, of 0.002 and less at rest.
+constexpr double interactiveRate = 0.01;
+constexpr unsigned long timerMilliseconds = 30;
+
+using Clock = std::chrono::steady_clock;
+
+double millisecondsSince(Clock::time_point begin)
+{
+  return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+}
+
+/// What one renderer sees of the store.
+struct RendererView
+{
+  vtkWeakPointer<vtkRenderer> Renderer;
+  unsigned long StartTag = 0;
+  std::unique_ptr<pointfront::ViewFront> Front;
+  bool NewFrame = true; ///< the renderer began a frame, and this mapper has not been drawn in it
+  bool FirstDrawing = false;
+  bool UploadsLeft = false;
+  bool Complete = false;
+
+  ~RendererView()
+  {
+    if (this->Renderer)
+    {
+      this->Renderer->RemoveObserver(this->StartTag);
+    }
+  }
+};
+
+} // namespace
+
+struct vtkPointFrontMapper::Content
+{
+  vtkSmartPointer<vtkPointFrontStore> Store; // before the views: their fronts refer to it
+  std::string StoreName;
+  vtkMTimeType InputTime = 0;
+  std::shared_ptr<const pointfront::HierarchyPiece> Piece;
+  int PieceNumber = 0;
+  int Pieces = 1;
+  std::map<vtkRenderer*, RendererView> Views;
+  std::string UnknownArray; ///< that has been warned of
+
+  vtkWeakPointer<vtkRenderWindowInteractor> Interactor;
+  int TimerId = -1;
+  unsigned long TimerTag = 0;
+
+  RendererView& ViewOf(vtkRenderer* renderer)
+  {
+    for (auto view = this->Views.begin(); view != this->Views.end();)
+    {
+      view = view->second.Renderer ? std::next(view) : this->Views.erase(view);
+    }
+    const auto found = this->Views.find(renderer);
+    if (found != this->Views.end())
+    {
+      return found->second;
+    }
+    RendererView& view = this->Views[renderer];
+    view.Renderer = renderer;
+    vtkNew<vtkCallbackCommand> begin;
+    begin->SetClientData(&view); // a map's elements stay where they are
+    begin->SetCallback([](vtkObject*, unsigned long, void* data, void*)
+      { static_cast<RendererView*>(data)->NewFrame = true; });
+    view.StartTag = renderer->AddObserver(vtkCommand::StartEvent, begin);
+    return view;
+  }
+
+  void StopTimer()
+  {
+    if (this->Interactor)
+    {
+      this->Interactor->RemoveObserver(this->TimerTag);
+      this->Interactor->DestroyTimer(this->TimerId);
+    }
+    this->Interactor = nullptr;
+  }
+};
+
+vtkPointFrontMapper::vtkPointFrontMapper() : Internals(new Content) {}
+
+vtkPointFrontMapper::~vtkPointFrontMapper()
+{
+  this->Internals->StopTimer();
+}
+
+vtkPointFrontStore* vtkPointFrontMapper::GetStore()
+{
+  Content& content = *this->Internals;
+  vtkPolyData* input = this->GetNumberOfInputConnections(0) > 0 ? this->GetInput() : nullptr;
+  const std::string name = vtkPointFrontStore::GetStoreName(input);
+  const vtkMTimeType inputTime = input ? input->GetMTime() : 0;
+  if (name == content.StoreName && (inputTime == content.InputTime || name.empty()))
+  {
+    return content.Store;
+  }
+  content.StoreName = name;
+  content.InputTime = inputTime;
+  vtkStdString reason;
+  auto store = name.empty() ? nullptr : vtkPointFrontStore::Open(name.c_str(), reason);
+  if (!store && !name.empty())
+  {
+    vtkErrorMacro(<< reason);
+  }
+  if (store != content.Store)
+  {
+    content.Views.clear();
+    content.Piece.reset();
+    content.Store = store;
+  }
+  return content.Store;
+}
+
+double* vtkPointFrontMapper::GetBounds()
+{
+  this->Superclass::GetBounds(); // brings the input, and with it the store's name, up to date
+  if (vtkPointFrontStore* store = this->GetStore())
+  {
+    store->GetBounds(this->Bounds);
+  }
+  return this->Bounds;
+}
+
+bool vtkPointFrontMapper::IsInteracting(vtkRenderer* renderer)
+{
+  vtkRenderWindow* window = renderer->GetRenderWindow();
+  return window && window->GetDesiredUpdateRate() > interactiveRate;
+}
+
+pointfront::PointColouring vtkPointFrontMapper::GetColouring()
+{
+  pointfront::ColourRequest request;
+  vtkPointFrontStore* store = this->GetStore();
+  if (!store || !this->ScalarVisibility)
+  {
+    return {};
+  }
+  const pointfront::StoreDescription& description = store->GetStore()->description();
+  vtkPointData* points = this->GetInput() ? this->GetInput()->GetPointData() : nullptr;
+  if (this->ScalarMode == VTK_SCALAR_MODE_USE_POINT_FIELD_DATA)
+  {
+    const bool byName = this->ArrayAccessMode == VTK_GET_ARRAY_BY_NAME;
+    const char* name =
+      byName ? this->GetArrayName() : (points ? points->GetArrayName(this->ArrayId) : nullptr);
+    request.name = name ? name : "";
+  }
+  else if (this->ScalarMode == VTK_SCALAR_MODE_DEFAULT ||
+           this->ScalarMode == VTK_SCALAR_MODE_USE_POINT_DATA)
+  {
+    vtkDataArray* active = points ? points->GetScalars() : nullptr;
+    const char* name = active ? active->GetName() : nullptr;
+    if (name && description.schema.find(name))
+    {
+      request.name = name;
+    }
+    else if (description.schema.find("rgb"))
+    {
+      request.name = "rgb";
+    }
+  }
+  vtkScalarsToColors* table = this->GetLookupTable();
+  const int vectorMode = table ? table->GetVectorMode() : vtkScalarsToColors::COMPONENT;
+  if (this->ColorMode == VTK_COLOR_MODE_DIRECT_SCALARS ||
+      vectorMode == vtkScalarsToColors::RGBCOLORS)
+  {
+    request.mode = pointfront::ColourRequest::Mode::Direct;
+  }
+  else if (this->ColorMode == VTK_COLOR_MODE_MAP_SCALARS)
+  {
+    request.mode = pointfront::ColourRequest::Mode::Table;
+  }
+  request.component = this->ArrayComponent;
+  if (request.component < 0 && vectorMode == vtkScalarsToColors::COMPONENT)
+  {
+    request.component = std::max(0, table ? table->GetVectorComponent() : 0);
+  }
+  const auto colouring = pointfront::PointColouring::choose(description, request);
+  if (!colouring && this->Internals->UnknownArray != request.name)
+  {
+    this->Internals->UnknownArray = request.name;
+    vtkWarningMacro(<< "the store " << store->GetFileName() << " has no attribute \""
+                    << request.name << "\"; its points are drawn in the property's colour");
+  }
+  return colouring.value_or(pointfront::PointColouring{});
+}
+
+bool vtkPointFrontMapper::HasTranslucentPolygonalGeometry()
+{
+  const pointfront::PointColouring colouring = this->GetColouring();
+  vtkScalarsToColors* table = this->GetLookupTable();
+  if (!colouring.usesTable() || !table)
+  {
+    return false;
+  }
+  table->Build();
+  return table->IsOpaque() == 0;
+}
+
+pointfront::FrameDemand vtkPointFrontMapper::GetDemand(vtkRenderer* renderer, vtkActor* actor)
+{
+  pointfront::FrameDemand demand;
+  int size[2];
+  int origin[2];
+  renderer->GetTiledSizeAndOrigin(&size[0], &size[1], &origin[0], &origin[1]);
+  vtkMatrix4x4* toClip = renderer->GetActiveCamera()->GetCompositeProjectionTransformMatrix(
+    renderer->GetTiledAspectRatio(), -1.0, 1.0);
+  vtkNew<vtkMatrix4x4> storeToClip;
+  vtkMatrix4x4::Multiply4x4(toClip, actor->GetMatrix(), storeToClip);
+  glm::dmat4 matrix;
+  for (int row = 0; row < 4; ++row)
+  {
+    for (int column = 0; column < 4; ++column)
+    {
+      matrix[column][row] = storeToClip->GetElement(row, column);
+    }
+  }
+  demand.view = pointfront::View::fromMatrix(matrix, std::max(1, size[0]), std::max(1, size[1]));
+  demand.columns = this->GetColouring().columns();
+  demand.targetErrorPx = this->TargetError;
+  demand.pointBudget = static_cast<std::uint64_t>(this->PointBudget);
+  demand.interacting = IsInteracting(renderer);
+  demand.frameMs =
+    this->TargetFrameTime > 0.0 ? this->TargetFrameTime : 1000.0 * actor->GetAllocatedRenderTime();
+  demand.complete = this->Complete && !demand.interacting;
+  return demand;
+}
+
+pointfront::ViewFront* vtkPointFrontMapper::PrepareFrame(vtkRenderer* renderer, vtkActor* actor)
+{
+  vtkPointFrontStore* store = this->GetStore();
+  if (!store)
+  {
+    if (this->Internals->StoreName.empty())
+    {
+      vtkErrorMacro("the input names no store (field data \""
+                    << vtkPointFrontStore::FieldName() << "\"); connect a vtkPointFrontReader");
+    }
+    return nullptr;
+  }
+  Content& content = *this->Internals;
+  if (!content.Piece || content.PieceNumber != this->StorePiece ||
+      content.Pieces != this->NumberOfStorePieces)
+  {
+    content.Views.clear();
+    content.PieceNumber = this->StorePiece;
+    content.Pieces = this->NumberOfStorePieces;
+    const int piece = std::clamp(this->StorePiece, 0, this->NumberOfStorePieces - 1);
+    content.Piece = std::make_shared<pointfront::HierarchyPiece>(
+      store->GetStore()->hierarchy(), piece, this->NumberOfStorePieces);
+  }
+  RendererView& view = content.ViewOf(renderer);
+  if (!view.Front)
+  {
+    view.Front = std::make_unique<pointfront::ViewFront>(
+      content.Piece, store->GetResidencyShare(), store->GetStore()->description().schema);
+  }
+  else if (!view.NewFrame || renderer->GetSelector())
+  {
+    return view.Front.get(); // a further drawing of the same frame
+  }
+  view.NewFrame = false;
+  view.FirstDrawing = true;
+
+  const auto begin = Clock::now();
+  const pointfront::FrontDelta& delta = view.Front->update(this->GetDemand(renderer, actor));
+  this->LastFrontTime = millisecondsSince(begin);
+  this->LastFrontLength = delta.frontLength;
+  this->LastMoves = delta.moves;
+  this->LastRequests = static_cast<vtkIdType>(delta.requests.size());
+  this->LastError = delta.errorPx;
+  this->LastThreshold = delta.thresholdPx;
+  for (const pointfront::Error& error : store->GetResidency().takeErrors())
+  {
+    vtkErrorMacro(<< error.what);
+  }
+  return view.Front.get();
+}
+
+bool vtkPointFrontMapper::IsFirstDrawing(vtkRenderer* renderer) const
+{
+  const auto view = this->Internals->Views.find(renderer);
+  return view != this->Internals->Views.end() && view->second.FirstDrawing;
+}
+
+void vtkPointFrontMapper::FinishFrame(
+  vtkRenderer* renderer, vtkIdType points, vtkTypeInt64 gpuBytes, bool uploadsLeft)
+{
+  RendererView& view = this->Internals->ViewOf(renderer);
+  const pointfront::FrontDelta& delta = view.Front->last();
+  view.FirstDrawing = false;
+  view.UploadsLeft = uploadsLeft;
+  // In motion the frame time limits the front: at rest the same view may show more.
+  view.Complete = delta.complete && !uploadsLeft &&
+                  (!IsInteracting(renderer) || delta.errorPx <= this->TargetError);
+  this->LastPointsDrawn = points;
+  this->LastNodesDrawn = static_cast<vtkIdType>(delta.draw.size());
+  this->LastGPUBytes = gpuBytes;
+  this->LastComplete = view.Complete;
+}
+
+void vtkPointFrontMapper::RecordFrameTime(vtkRenderer* renderer, double milliseconds)
+{
+  RendererView& view = this->Internals->ViewOf(renderer);
+  if (view.Front)
+  {
+    view.Front->recordFrameMs(milliseconds);
+  }
+}
+
+std::uint32_t vtkPointFrontMapper::GetNumberOfViews() const
+{
+  return static_cast<std::uint32_t>(this->Internals->Views.size());
+}
+
+bool vtkPointFrontMapper::NeedsRender()
+{
+  for (const auto& [renderer, view] : this->Internals->Views)
+  {
+    if (view.Renderer && (!view.Front || view.UploadsLeft || view.Front->wantsUpdate()))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+void vtkPointFrontMapper::RenderWhenDataArrives(vtkRenderWindowInteractor* interactor)
+{
+  Content& content = *this->Internals;
+  content.StopTimer();
+  if (!interactor)
+  {
+    return;
+  }
+  content.Interactor = interactor;
+  vtkNew<vtkCallbackCommand> tick;
+  tick->SetClientData(this);
+  tick->SetCallback(
+    [](vtkObject* caller, unsigned long, void* data, void*)
+    {
+      auto* self = static_cast<vtkPointFrontMapper*>(data);
+      if (self->NeedsRender())
+      {
+        self->InvokeEvent(vtkCommand::UpdateDataEvent);
+        static_cast<vtkRenderWindowInteractor*>(caller)->Render();
+      }
+    });
+  content.TimerTag = interactor->AddObserver(vtkCommand::TimerEvent, tick);
+  content.TimerId = interactor->CreateRepeatingTimer(timerMilliseconds);
+}
+
+void vtkPointFrontMapper::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "TargetError: " << this->TargetError << "\n";
+  os << indent << "PointBudget: " << this->PointBudget << "\n";
+  os << indent << "PointSize: " << this->PointSize << "\n";
+  os << indent << "Complete: " << this->Complete << "\n";
+  os << indent << "TargetFrameTime: " << this->TargetFrameTime << "\n";
+  os << indent << "UploadLimit: " << this->UploadLimit << "\n";
+  os << indent << "StorePiece: " << this->StorePiece << " of " << this->NumberOfStorePieces << "\n";
+  os << indent << "LastPointsDrawn: " << this->LastPointsDrawn << "\n";
+  os << indent << "LastError: " << this->LastError << "\n";
+  os << indent << "LastComplete: " << this->LastComplete << "\n";
+}

@@ -1,0 +1,31 @@
+// A lookup table as a row of texels: [0] below the range, [1 .. n] the table, [n + 1] above the
+// range, [n + 2] not a number. Editing the table changes this texture and no point.
+uniform sampler2D colourTable;
+uniform int tableSize;      // n
+uniform float tableShift;   // added to a value: to the low end of the range (linear) or to 0 (log)
+uniform float tableScale;   // entries per unit (linear) or per decade (log)
+uniform float tableLogLow;  // log10 of the low end; used when tableLogSign is not 0
+uniform float tableLogSign; // 0: linear; -1 or 1: the sign of the range
+
+/// Colour of a value. Twin: VTK's vtkLookupTable::GetIndex.
+vec4 tableColour(float value)
+{
+  float entry = (value + tableShift) * tableScale;
+  if (tableLogSign != 0.0)
+  {
+    float positive = tableLogSign * (value + tableShift);
+    entry = positive > 0.0 ? (log(positive) / log(10.0) - tableLogLow) * tableScale : -1.0;
+  }
+  float n = float(tableSize);
+  float slack = 1e-6 * n; // both ends of the range belong to it, however they were rounded
+  int texel = entry < -slack ? 0 : (entry > n + slack ? tableSize + 1 : 1);
+  if (texel == 1)
+  {
+    texel += clamp(int(floor(entry)), 0, tableSize - 1);
+  }
+  if (isnan(value))
+  {
+    texel = tableSize + 2;
+  }
+  return texelFetch(colourTable, ivec2(texel, 0), 0);
+}

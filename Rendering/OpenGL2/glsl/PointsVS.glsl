@@ -1,0 +1,93 @@
+//VTK::System::Dec
+// The points of a store's nodes. Positions are integers; see docs/adr/0004.
+//   MC   the store's coordinates (before the actor's matrix), relative to the frame's reference
+//        point (the eye; for a parallel view the focal point): float is enough near it.
+// POINTFRONT_COLOUR  0 the property's colour, 1 colours, 2 values for the table, 3 elevation
+// POINTFRONT_PICKING 1 in passes that draw point ids
+//POINTFRONT::Define::Dec
+#ifndef POINTFRONT_COLOUR
+#define POINTFRONT_COLOUR 0
+#endif
+#ifndef POINTFRONT_PICKING
+#define POINTFRONT_PICKING 0
+#endif
+
+in uvec3 positionSteps; // grid steps from the node's origin
+#if POINTFRONT_COLOUR == 1
+in vec4 pointColour;
+#elif POINTFRONT_COLOUR == 2
+in float pointValue; // world value - the colouring's base
+#endif
+
+uniform int slotPoints;            // vertices of a slot
+uniform isamplerBuffer slotSteps;  // xyz: the reference in the node's steps; w: shift, flag << 8
+uniform samplerBuffer slotBase;    // xyz: what rounding of the reference left over, MC
+uniform vec3 stepSize;             // MC units of a grid step
+
+out vec4 vertexColorVSOutput;      // a < 0: the property's colour
+
+#if POINTFRONT_PICKING
+uniform isamplerBuffer slotIds;    // x, y: low and high 24 bits of the id of the slot's first point
+flat out ivec2 pointIdVSOutput;
+#endif
+
+//VTK::CustomUniforms::Dec
+//VTK::PositionVC::Dec
+//VTK::Normal::Dec
+//VTK::Light::Dec
+//VTK::TCoord::Dec
+//VTK::Color::Dec
+//VTK::Clip::Dec
+//VTK::Camera::Dec
+//VTK::PrimID::Dec
+//VTK::ValuePass::Dec
+//VTK::Picking::Dec
+
+#if POINTFRONT_COLOUR >= 2
+//POINTFRONT::ColourTable::Dec
+#endif
+
+/// The difference is taken in integers, where it is exact; only then it becomes float.
+vec3 positionMC(ivec4 steps, vec3 base)
+{
+  int shift = steps.w & 255;
+  ivec3 difference = ivec3(positionSteps >> uint(shift)) - steps.xyz;
+  return vec3(difference) * (stepSize * exp2(float(shift))) + base;
+}
+
+void main()
+{
+  //VTK::CustomBegin::Impl
+  int slot = gl_VertexID / slotPoints;
+  ivec4 steps = texelFetchBuffer(slotSteps, slot);
+  vec4 vertexMC = vec4(positionMC(steps, texelFetchBuffer(slotBase, slot).xyz), 1.0);
+
+  vertexColorVSOutput = vec4(0.0, 0.0, 0.0, -1.0);
+#if POINTFRONT_COLOUR == 3
+  vertexColorVSOutput = tableColour(vertexMC.z);
+#elif POINTFRONT_COLOUR > 0
+  if ((steps.w & 256) != 0)
+  {
+#if POINTFRONT_COLOUR == 1
+    vertexColorVSOutput = pointColour;
+#else
+    vertexColorVSOutput = tableColour(pointValue);
+#endif
+  }
+#endif
+  //VTK::Color::Impl
+  //VTK::Normal::Impl
+  //VTK::TCoord::Impl
+  //VTK::Clip::Impl
+  //VTK::PrimID::Impl
+  //VTK::PositionVC::Impl
+  //VTK::ValuePass::Impl
+  //VTK::Light::Impl
+#if POINTFRONT_PICKING
+  ivec2 id = texelFetchBuffer(slotIds, slot).xy;
+  int low = id.x + gl_VertexID % slotPoints;
+  pointIdVSOutput = ivec2(low & 0xffffff, id.y + (low >> 24));
+#endif
+  //VTK::Picking::Impl
+  //VTK::CustomEnd::Impl
+}

@@ -1,0 +1,257 @@
+#include "vtkOpenGLPointFrontMapper.h"
+
+#include "ColourTable.h"
+#include "GpuPool.h"
+#include "SlotRecords.h"
+#include "ViewFront.h"
+
+#include "pointfront/Store/PointStore.h"
+#include "vtkOpenGLPointFrontPass.h"
+#include "vtkPointFrontStore.h"
+
+#include <vtkActor.h>
+#include <vtkCommand.h>
+#include <vtkIndent.h>
+#include <vtkNew.h>
+#include <vtkObjectFactory.h>
+#include <vtkOpenGLRenderTimer.h>
+#include <vtkOpenGLRenderWindow.h>
+#include <vtkRenderer.h>
+#include <vtkScalarsToColors.h>
+#include <vtkWeakPointer.h>
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+#include <map>
+
+vtkStandardNewMacro(vtkOpenGLPointFrontMapper);
+
+namespace
+{
+
+using Clock = std::chrono::steady_clock;
+
+/// GPU time of the last frame of one renderer, read when it is there: never waited for.
+struct FrameTimer
+{
+  vtkOpenGLRenderTimer Gpu;
+  double CpuMs = 0.0;
+};
+
+} // namespace
+
+struct vtkOpenGLPointFrontMapper::Content
+{
+  pointfront::GpuPool Pool;
+  pointfront::SlotRecords Records;
+  pointfront::ColourTable Table;
+  vtkNew<vtkOpenGLPointFrontPass> Pass;
+  vtkWeakPointer<vtkPointFrontStore> Store; ///< that the pool's nodes are of
+  std::vector<std::uint64_t> FirstIds;      ///< rank of each node's first point
+  std::map<vtkRenderer*, FrameTimer> Timers;
+  pointfront::PointDrawing Drawing;
+
+  void SetStore(vtkPointFrontStore* store);
+  bool Upload(const pointfront::ViewFront& front, std::int64_t bytes);
+  vtkIdType List(const pointfront::ViewFront& front);
+};
+
+void vtkOpenGLPointFrontMapper::Content::SetStore(vtkPointFrontStore* store)
+{
+  if (this->Store == store)
+  {
+    return;
+  }
+  this->Pool.release();
+  this->Store = store;
+  const pointfront::Hierarchy& hierarchy = *store->GetStore()->hierarchy();
+  this->FirstIds.resize(hierarchy.nodeCount());
+  std::uint64_t rank = 0;
+  for (pointfront::NodeIndex node = 0; node < hierarchy.nodeCount(); ++node)
+  {
+    this->FirstIds[node] = rank;
+    rank += hierarchy.node(node).pointCount;
+  }
+}
+
+/// Brings to the GPU what the front draws, near to far, until `bytes` are used up. True when
+/// something is left over.
+bool vtkOpenGLPointFrontMapper::Content::Upload(
+  const pointfront::ViewFront& front, std::int64_t bytes)
+{
+  const pointfront::PointColouring& colouring = this->Drawing.colouring;
+  const pointfront::Attribute* attribute =
+    colouring.usesColumn() ? &this->Store->GetStore()->description().schema[colouring.column]
+                           : nullptr;
+  bool left = false;
+  for (const pointfront::DrawItem& item : front.last().draw)
+  {
+    const auto node = front.find(item.node);
+    if (!node)
+    {
+      continue;
+    }
+    const auto* entry = this->Pool.bring(*node, item.pointCount, attribute, bytes);
+    left = left || !entry || entry->points < item.pointCount ||
+           (attribute && entry->values < item.pointCount);
+  }
+  return left;
+}
+
+/// Makes the runs of vertices and the slots' records of what is on the GPU of the front.
+vtkIdType vtkOpenGLPointFrontMapper::Content::List(const pointfront::ViewFront& front)
+{
+  const pointfront::PointStore& store = *this->Store->GetStore();
+  constexpr auto slotPoints = pointfront::GpuPool::slotPoints;
+  this->Records.begin(this->Pool.slotCount());
+  this->Drawing.firsts.clear();
+  this->Drawing.counts.clear();
+  vtkIdType drawn = 0;
+  for (const pointfront::DrawItem& item : front.last().draw)
+  {
+    const auto* entry = this->Pool.find(item.node);
+    const auto node = front.find(item.node);
+    if (!entry || !node)
+    {
+      continue;
+    }
+    const std::uint32_t points = std::min(item.pointCount, entry->points);
+    const bool coloured = this->Drawing.colouring.usesColumn() && entry->values >= points;
+    this->Records.set(entry->slots,
+      pointfront::SlotOrigin::of(store.description().grid, store.hierarchy()->node(item.node),
+        node->origin, this->Drawing.reference),
+      coloured, this->FirstIds[item.node]);
+    for (std::uint32_t first = 0; first < points; first += slotPoints)
+    {
+      const auto vertex = static_cast<int>(entry->slots[first / slotPoints] * slotPoints);
+      const auto count = static_cast<int>(std::min(slotPoints, points - first));
+      if (!this->Drawing.firsts.empty() &&
+          this->Drawing.firsts.back() + this->Drawing.counts.back() == vertex)
+      {
+        this->Drawing.counts.back() += count;
+      }
+      else
+      {
+        this->Drawing.firsts.push_back(vertex);
+        this->Drawing.counts.push_back(count);
+      }
+    }
+    drawn += points;
+  }
+  return drawn;
+}
+
+vtkOpenGLPointFrontMapper::vtkOpenGLPointFrontMapper() : Internals(new Content) {}
+
+vtkOpenGLPointFrontMapper::~vtkOpenGLPointFrontMapper() = default;
+
+void vtkOpenGLPointFrontMapper::RenderPiece(vtkRenderer* renderer, vtkActor* actor)
+{
+  auto* window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
+  if (!window || window->CheckAbortStatus())
+  {
+    return;
+  }
+  this->InvokeEvent(vtkCommand::StartEvent, nullptr);
+  if (!this->Static && this->GetNumberOfInputConnections(0) > 0)
+  {
+    this->GetInputAlgorithm()->Update();
+  }
+  this->InvokeEvent(vtkCommand::EndEvent, nullptr);
+
+  Content& content = *this->Internals;
+  const auto begin = Clock::now();
+  pointfront::ViewFront* front = this->PrepareFrame(renderer, actor);
+  if (!front)
+  {
+    return;
+  }
+  content.SetStore(this->GetStore());
+  const pointfront::StoreDescription& description = content.Store->GetStore()->description();
+  pointfront::PointDrawing& drawing = content.Drawing;
+  drawing.colouring = this->GetColouring();
+  drawing.pool = &content.Pool;
+  drawing.records = &content.Records;
+  drawing.pointSize = this->PointSize;
+  drawing.stepSize = description.grid.scale;
+  drawing.storePoints = static_cast<vtkIdType>(description.pointCount);
+  drawing.reference = vtkOpenGLPointFrontPass::GetReference(renderer, actor);
+  content.Pass->CopyState(this);
+
+  const bool first = this->IsFirstDrawing(renderer);
+  bool uploadsLeft = false;
+  content.Pool.setColouring(drawing.colouring);
+  if (first)
+  {
+    content.Pool.beginFrame(
+      static_cast<std::uint64_t>(this->PointBudget), this->GetNumberOfViews());
+    uploadsLeft = content.Upload(*front,
+      IsInteracting(renderer) ? this->UploadLimit : std::numeric_limits<std::int64_t>::max());
+  }
+  const vtkIdType points = content.List(*front);
+  drawing.table = nullptr;
+  if (drawing.colouring.usesTable())
+  {
+    vtkScalarsToColors* table = this->GetLookupTable(); // makes one if there is none
+    table->Build();
+    if (!this->UseLookupTableScalarRange)
+    {
+      table->SetRange(this->ScalarRange);
+    }
+    content.Table.update(window, table, drawing.colouring, table->GetMTime());
+    drawing.table = &content.Table;
+  }
+  FrameTimer& timer = content.Timers[renderer];
+  if (first && timer.Gpu.Started() && timer.Gpu.Stopped() && timer.Gpu.Ready())
+  {
+    this->TimeToDraw = 1e-3 * (timer.CpuMs + timer.Gpu.GetElapsedMilliseconds());
+    this->RecordFrameTime(renderer, 1e3 * this->TimeToDraw);
+  }
+  if (points > 0)
+  {
+    content.Records.upload(window);
+    if (first)
+    {
+      timer.Gpu.Reset();
+      timer.Gpu.Start();
+    }
+    content.Pass->Draw(renderer, actor, drawing);
+    if (first)
+    {
+      timer.Gpu.Stop();
+    }
+  }
+  timer.CpuMs = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+  if (first)
+  {
+    this->FinishFrame(renderer, points, content.Pool.bytes(), uploadsLeft);
+  }
+  this->UpdateProgress(1.0);
+}
+
+vtkTypeInt64 vtkOpenGLPointFrontMapper::GetUploadedBytes() const
+{
+  return static_cast<vtkTypeInt64>(this->Internals->Pool.uploadedBytes());
+}
+
+void vtkOpenGLPointFrontMapper::ReleaseGraphicsResources(vtkWindow* window)
+{
+  Content& content = *this->Internals;
+  content.Pool.release();
+  content.Records.release(window);
+  content.Table.release(window);
+  for (auto& [renderer, timer] : content.Timers)
+  {
+    timer.Gpu.ReleaseGraphicsResources();
+  }
+  content.Timers.clear();
+  content.Pass->ReleaseGraphicsResources(window);
+  this->Superclass::ReleaseGraphicsResources(window);
+}
+
+void vtkOpenGLPointFrontMapper::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "UploadedBytes: " << this->GetUploadedBytes() << "\n";
+}

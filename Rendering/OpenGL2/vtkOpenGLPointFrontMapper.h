@@ -1,0 +1,45 @@
+/**
+ * @class vtkOpenGLPointFrontMapper
+ * @brief the OpenGL side of vtkPointFrontMapper: uploads what the front draws and draws it as
+ * points
+ *
+ * Comes from vtkPointFrontMapper::New() by the object factory. Host nodes become slots of a GpuPool
+ * (bounded bytes a frame while interacting), the slots one glMultiDrawArrays of
+ * vtkOpenGLPointFrontPass. Hardware selection gives ids that are ranks in the store: (node,
+ * position in the node), 48 bits.
+ */
+#ifndef vtkOpenGLPointFrontMapper_h
+#define vtkOpenGLPointFrontMapper_h
+
+#include "pointfrontRenderingOpenGL2Module.h" // for the export macro
+#include "vtkPointFrontMapper.h"
+
+#include <memory> // for the pool
+
+class POINTFRONTRENDERINGOPENGL2_EXPORT vtkOpenGLPointFrontMapper : public vtkPointFrontMapper
+{
+public:
+  static vtkOpenGLPointFrontMapper* New();
+  vtkTypeMacro(vtkOpenGLPointFrontMapper, vtkPointFrontMapper);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  void RenderPiece(vtkRenderer* renderer, vtkActor* actor) override;
+  void ReleaseGraphicsResources(vtkWindow* window) override;
+  bool GetSupportsSelection() override { return true; }
+
+  /// Bytes uploaded to the GPU since the mapper was made (positions and values of points).
+  vtkTypeInt64 GetUploadedBytes() const;
+
+protected:
+  vtkOpenGLPointFrontMapper();
+  ~vtkOpenGLPointFrontMapper() override;
+
+private:
+  vtkOpenGLPointFrontMapper(const vtkOpenGLPointFrontMapper&) = delete;
+  void operator=(const vtkOpenGLPointFrontMapper&) = delete;
+
+  struct Content;
+  std::unique_ptr<Content> Internals;
+};
+
+#endif

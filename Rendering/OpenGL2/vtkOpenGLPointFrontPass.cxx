@@ -1,0 +1,324 @@
+#include "vtkOpenGLPointFrontPass.h"
+
+#include "ColourTable.h"
+#include "GpuPool.h"
+#include "SlotRecords.h"
+
+#include "ColourTableGLSL.h"
+#include "PointsFSGLSL.h"
+#include "PointsVSGLSL.h"
+
+#include <vtk_glew.h>
+
+#include <vtkActor.h>
+#include <vtkCamera.h>
+#include <vtkHardwareSelector.h>
+#include <vtkMatrix3x3.h>
+#include <vtkMatrix4x4.h>
+#include <vtkObjectFactory.h>
+#include <vtkOpenGLCamera.h>
+#include <vtkOpenGLError.h>
+#include <vtkOpenGLRenderWindow.h>
+#include <vtkOpenGLState.h>
+#include <vtkOpenGLVertexArrayObject.h>
+#include <vtkPolyData.h>
+#include <vtkProperty.h>
+#include <vtkRenderer.h>
+#include <vtkShaderProgram.h>
+#include <vtkShaderProperty.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+vtkStandardNewMacro(vtkOpenGLPointFrontPass);
+
+namespace
+{
+
+std::string definitions(pointfront::PointColouring::Kind kind, bool ids)
+{
+  return "#define POINTFRONT_COLOUR " + std::to_string(static_cast<int>(kind)) +
+         "\n#define POINTFRONT_PICKING " + (ids ? "1\n" : "0\n");
+}
+
+/// World to view without what VTK's matrix lost: `reference` to view is the origin where it is the
+/// eye, but comes out as rounding noise of two large terms. What is below that noise is zero.
+void referenceToView(vtkMatrix4x4* worldToView, const double reference[3], double view[3])
+{
+  for (int row = 0; row < 3; ++row)
+  {
+    double sum = worldToView->GetElement(row, 3);
+    double size = std::abs(sum);
+    for (int column = 0; column < 3; ++column)
+    {
+      const double term = worldToView->GetElement(row, column) * reference[column];
+      sum += term;
+      size = std::max(size, std::abs(term));
+    }
+    view[row] = std::abs(sum) <= 16.0 * std::numeric_limits<double>::epsilon() * size ? 0.0 : sum;
+  }
+}
+
+} // namespace
+
+vtkOpenGLPointFrontPass::vtkOpenGLPointFrontPass()
+{
+  this->SetPopulateSelectionSettings(1);
+  this->CurrentInput = this->NoInput; // no normals, no cells: what the superclass asks of it
+}
+
+vtkOpenGLPointFrontPass::~vtkOpenGLPointFrontPass() = default;
+
+void vtkOpenGLPointFrontPass::CopyState(vtkMapper* owner)
+{
+  if (this->GetClippingPlanes() != owner->GetClippingPlanes())
+  {
+    this->SetClippingPlanes(owner->GetClippingPlanes());
+  }
+  double mine = 0.0;
+  double wanted = 0.0;
+  this->GetRelativeCoincidentTopologyPointOffsetParameter(mine);
+  owner->GetRelativeCoincidentTopologyPointOffsetParameter(wanted);
+  if (mine != wanted)
+  {
+    this->SetRelativeCoincidentTopologyPointOffsetParameter(wanted);
+  }
+}
+
+glm::dvec3 vtkOpenGLPointFrontPass::GetReference(vtkRenderer* renderer, vtkActor* actor)
+{
+  vtkCamera* camera = renderer->GetActiveCamera();
+  const double* point =
+    camera->GetParallelProjection() ? camera->GetFocalPoint() : camera->GetPosition();
+  if (actor->GetIsIdentity())
+  {
+    return {point[0], point[1], point[2]};
+  }
+  vtkNew<vtkMatrix4x4> toStore;
+  vtkMatrix4x4::Invert(actor->GetMatrix(), toStore);
+  const double world[4] = {point[0], point[1], point[2], 1.0};
+  double store[4];
+  toStore->MultiplyPoint(world, store);
+  return {store[0] / store[3], store[1] / store[3], store[2] / store[3]};
+}
+
+void vtkOpenGLPointFrontPass::Draw(
+  vtkRenderer* renderer, vtkActor* actor, const pointfront::PointDrawing& drawing)
+{
+  this->Drawing = &drawing;
+  if (this->Variant != drawing.colouring.kind)
+  {
+    this->Variant = drawing.colouring.kind;
+    this->Modified(); // another program
+  }
+  this->RenderPieceStart(renderer, actor);
+  this->RenderPieceDraw(renderer, actor);
+  this->RenderPieceFinish(renderer, actor);
+  this->Drawing = nullptr;
+}
+
+bool vtkOpenGLPointFrontPass::IsDrawingIds() const
+{
+  return this->LastSelectionState >= vtkHardwareSelector::POINT_ID_LOW24 &&
+         this->LastSelectionState != vtkHardwareSelector::PROCESS_PASS;
+}
+
+void vtkOpenGLPointFrontPass::GetShaderTemplate(
+  std::map<vtkShader::Type, vtkShader*> shaders, vtkRenderer* ren, vtkActor* act)
+{
+  this->Superclass::GetShaderTemplate(shaders, ren, act);
+  vtkShaderProperty* custom = act->GetShaderProperty();
+  const std::string defines = definitions(this->Variant, this->IsDrawingIds());
+  if (!custom->HasVertexShaderCode())
+  {
+    std::string source = PointsVSGLSL;
+    vtkShaderProgram::Substitute(source, "//POINTFRONT::Define::Dec", defines);
+    vtkShaderProgram::Substitute(source, "//POINTFRONT::ColourTable::Dec", ColourTableGLSL);
+    shaders[vtkShader::Vertex]->SetSource(source);
+  }
+  if (!custom->HasFragmentShaderCode())
+  {
+    std::string source = PointsFSGLSL;
+    vtkShaderProgram::Substitute(source, "//POINTFRONT::Define::Dec", defines);
+    shaders[vtkShader::Fragment]->SetSource(source);
+  }
+  shaders[vtkShader::Geometry]->SetSource(
+    custom->HasGeometryShaderCode() ? custom->GetGeometryShaderCode() : "");
+}
+
+void vtkOpenGLPointFrontPass::ReplaceShaderColor(
+  std::map<vtkShader::Type, vtkShader*>, vtkRenderer*, vtkActor*)
+{
+  // The templates have it.
+}
+
+void vtkOpenGLPointFrontPass::ReplaceShaderPicking(
+  std::map<vtkShader::Type, vtkShader*> shaders, vtkRenderer* ren, vtkActor* act)
+{
+  if (!this->IsDrawingIds())
+  {
+    this->Superclass::ReplaceShaderPicking(shaders, ren, act);
+    return;
+  }
+  const bool high = this->LastSelectionState == vtkHardwareSelector::POINT_ID_HIGH24 ||
+                    this->LastSelectionState == vtkHardwareSelector::CELL_ID_HIGH24;
+  std::string source = shaders[vtkShader::Fragment]->GetSource();
+  vtkShaderProgram::Substitute(source, "//VTK::Picking::Impl",
+    std::string("  ivec3 idBytes = (ivec3(pointIdVSOutput.") + (high ? "y" : "x") +
+      ") >> ivec3(0, 8, 16)) & 255;\n"
+      "  gl_FragData[0] = vec4(vec3(idBytes) / 255.0, 1.0);\n");
+  shaders[vtkShader::Fragment]->SetSource(source);
+}
+
+void vtkOpenGLPointFrontPass::SetMapperShaderParameters(
+  vtkOpenGLHelper& cellBO, vtkRenderer* ren, vtkActor* act)
+{
+  this->Superclass::SetMapperShaderParameters(cellBO, ren, act);
+  cellBO.AttributeUpdateTime.Modified();
+  const pointfront::PointDrawing& drawing = *this->Drawing;
+  drawing.records->activate(cellBO.Program);
+  const float stepSize[3] = {static_cast<float>(drawing.stepSize.x),
+    static_cast<float>(drawing.stepSize.y), static_cast<float>(drawing.stepSize.z)};
+  cellBO.Program->SetUniform3f("stepSize", stepSize);
+  if (drawing.table)
+  {
+    drawing.table->activate(cellBO.Program, drawing.colouring, drawing.reference.z);
+  }
+  this->SetClippingUniforms(cellBO.Program, act);
+}
+
+void vtkOpenGLPointFrontPass::SetClippingUniforms(vtkShaderProgram* program, vtkActor* actor)
+{
+  const int planes = std::min(this->GetNumberOfClippingPlanes(), 6);
+  if (planes == 0 || !program->IsUniformUsed("clipPlanes"))
+  {
+    return;
+  }
+  const glm::dvec3& reference = this->Drawing->reference;
+  float equations[6][4] = {};
+  for (int i = 0; i < planes; ++i)
+  {
+    double plane[4];
+    this->GetClippingPlaneInDataCoords(actor->GetMatrix(), i, plane);
+    plane[3] += plane[0] * reference.x + plane[1] * reference.y + plane[2] * reference.z;
+    std::copy(plane, plane + 4, equations[i]);
+  }
+  program->SetUniform4fv("clipPlanes", 6, equations);
+}
+
+void vtkOpenGLPointFrontPass::SetCameraShaderParameters(
+  vtkOpenGLHelper& cellBO, vtkRenderer* ren, vtkActor* act)
+{
+  this->Superclass::SetCameraShaderParameters(cellBO, ren, act);
+
+  // What the superclass set takes world coordinates; ours are relative to the reference point, and
+  // all that is large is folded in here, in double.
+  vtkMatrix4x4 *wcvc, *vcdc, *wcdc; // stored transposed
+  vtkMatrix3x3* normals;
+  auto* camera = static_cast<vtkOpenGLCamera*>(ren->GetActiveCamera());
+  camera->GetKeyMatrices(ren, wcvc, normals, vcdc, wcdc);
+  vtkNew<vtkMatrix4x4> worldToView;
+  vtkMatrix4x4::Transpose(wcvc, worldToView);
+  vtkNew<vtkMatrix4x4> storeToView;
+  vtkMatrix4x4::Multiply4x4(worldToView, act->GetMatrix(), storeToView);
+
+  double moved[3];
+  if (act->GetIsIdentity())
+  {
+    referenceToView(worldToView, &this->Drawing->reference.x, moved);
+  }
+  else
+  {
+    // Through the world point: the product's translation is the difference of large numbers.
+    const double* world =
+      camera->GetParallelProjection() ? camera->GetFocalPoint() : camera->GetPosition();
+    referenceToView(worldToView, world, moved);
+  }
+  for (int row = 0; row < 3; ++row)
+  {
+    storeToView->SetElement(row, 3, moved[row]);
+  }
+  vtkNew<vtkMatrix4x4> viewToClip;
+  vtkMatrix4x4::Transpose(vcdc, viewToClip);
+  vtkNew<vtkMatrix4x4> storeToClip;
+  vtkMatrix4x4::Multiply4x4(viewToClip, storeToView, storeToClip);
+  storeToClip->Transpose();
+  cellBO.Program->SetUniformMatrix("MCDCMatrix", storeToClip);
+  if (cellBO.Program->IsUniformUsed("MCVCMatrix"))
+  {
+    storeToView->Transpose();
+    cellBO.Program->SetUniformMatrix("MCVCMatrix", storeToView);
+  }
+}
+
+void vtkOpenGLPointFrontPass::UpdateMaximumPointCellIds(vtkRenderer* ren, vtkActor*)
+{
+  vtkHardwareSelector* selector = ren->GetSelector();
+  const vtkIdType last = std::max<vtkIdType>(0, this->Drawing->storePoints - 1);
+  selector->UpdateMaximumPointId(last);
+  selector->UpdateMaximumCellId(last);
+}
+
+void vtkOpenGLPointFrontPass::BindVertices(vtkOpenGLHelper& cellBO)
+{
+  const GLuint program = static_cast<GLuint>(cellBO.Program->GetHandle());
+  const auto attach = [program](const char* name, std::uint32_t buffer, bool integers, int size,
+                        GLenum type, bool normalised)
+  {
+    const GLint location = glGetAttribLocation(program, name);
+    if (location < 0)
+    {
+      return;
+    }
+    const auto at = static_cast<GLuint>(location);
+    glBindBuffer(GL_ARRAY_BUFFER, buffer);
+    glEnableVertexAttribArray(at);
+    if (integers)
+    {
+      glVertexAttribIPointer(at, size, type, 0, nullptr);
+    }
+    else
+    {
+      glVertexAttribPointer(at, size, type, normalised ? GL_TRUE : GL_FALSE, 0, nullptr);
+    }
+  };
+  const pointfront::GpuPool& pool = *this->Drawing->pool;
+  attach("positionSteps", pool.positionBuffer(), true, 3, GL_UNSIGNED_INT, false);
+  attach("pointColour", pool.valueBuffer(), false, 4, GL_UNSIGNED_BYTE, true);
+  attach("pointValue", pool.valueBuffer(), false, 1, GL_FLOAT, false);
+  glBindBuffer(GL_ARRAY_BUFFER, 0);
+}
+
+void vtkOpenGLPointFrontPass::RenderPieceDraw(vtkRenderer* ren, vtkActor* act)
+{
+  auto* window = static_cast<vtkOpenGLRenderWindow*>(ren->GetRenderWindow());
+  vtkOpenGLState* state = window->GetState();
+  this->DrawingVertices = false;
+  this->DrawingSelection = false;
+  vtkOpenGLHelper& points = this->Primitives[PrimitivePoints];
+  points.PrimitiveType = PrimitivePoints;
+  this->UpdateShaders(points, ren, act);
+  if (points.Program)
+  {
+    if (this->PointPicking)
+    {
+      state->vtkglPointSize(static_cast<float>(std::max<double>(2.0, this->Drawing->pointSize)));
+    }
+    else if (this->Drawing->pointSize > 0.0)
+    {
+      state->vtkglPointSize(static_cast<float>(this->Drawing->pointSize));
+    }
+    points.VAO->Bind();
+    this->BindVertices(points);
+    glMultiDrawArrays(GL_POINTS, this->Drawing->firsts.data(), this->Drawing->counts.data(),
+      static_cast<GLsizei>(this->Drawing->firsts.size()));
+    vtkOpenGLCheckErrorMacro("failed after drawing points");
+  }
+  this->Drawing->records->deactivate();
+  if (this->Drawing->table)
+  {
+    this->Drawing->table->deactivate();
+  }
+}

@@ -1,0 +1,87 @@
+/**
+ * @class vtkOpenGLPointFrontPass
+ * @brief draws slots of a GpuPool as GL points, as one of VTK's polygonal mappers
+ *
+ * By being a vtkOpenGLPolyDataMapper it takes part in all that VTK does with shaders of such
+ * mappers: render passes (peeling, SSAO, EDL), clipping planes, selection passes, lights,
+ * coincident topology, vtkShaderProperty. What it replaces is the vertex template (integer
+ * positions relative to the camera), the colour, and the draw call: one glMultiDrawArrays.
+ */
+#ifndef vtkOpenGLPointFrontPass_h
+#define vtkOpenGLPointFrontPass_h
+
+#include "PointColouring.h" // for the colouring
+#include "vtkOpenGLPolyDataMapper.h"
+
+#include <glm/vec3.hpp> // for the reference point
+#include <vector>       // for the draw list
+
+namespace pointfront
+{
+class ColourTable;
+class GpuPool;
+class SlotRecords;
+
+/// What one call of the pass draws.
+struct PointDrawing
+{
+  const GpuPool* pool = nullptr;
+  SlotRecords* records = nullptr;
+  ColourTable* table = nullptr; ///< when the colouring uses one
+  PointColouring colouring;
+  glm::dvec3 reference{0.0}; ///< store coordinates that the records' origins are relative to
+  glm::dvec3 stepSize{1.0};  ///< store units of a grid step
+  double pointSize = 0.0;    ///< pixels; 0: the property's
+  vtkIdType storePoints = 0; ///< ids are below it
+  std::vector<int> firsts;   ///< of runs of vertices, in drawing order
+  std::vector<int> counts;
+};
+} // namespace pointfront
+
+class vtkOpenGLPointFrontPass : public vtkOpenGLPolyDataMapper
+{
+public:
+  static vtkOpenGLPointFrontPass* New();
+  vtkTypeMacro(vtkOpenGLPointFrontPass, vtkOpenGLPolyDataMapper);
+
+  /// Takes what an owner's properties say of drawing: clipping planes, coincident topology.
+  void CopyState(vtkMapper* owner);
+  /// Draws into what is bound. `drawing` is used until it returns.
+  void Draw(vtkRenderer* renderer, vtkActor* actor, const pointfront::PointDrawing& drawing);
+
+  /// The point that positions are taken relative to, in store coordinates: the eye, for a parallel
+  /// view the focal point.
+  static glm::dvec3 GetReference(vtkRenderer* renderer, vtkActor* actor);
+
+  void RenderPiece(vtkRenderer*, vtkActor*) override {}
+
+protected:
+  vtkOpenGLPointFrontPass();
+  ~vtkOpenGLPointFrontPass() override;
+
+  void GetShaderTemplate(
+    std::map<vtkShader::Type, vtkShader*> shaders, vtkRenderer* ren, vtkActor* act) override;
+  void ReplaceShaderColor(
+    std::map<vtkShader::Type, vtkShader*> shaders, vtkRenderer* ren, vtkActor* act) override;
+  void ReplaceShaderPicking(
+    std::map<vtkShader::Type, vtkShader*> shaders, vtkRenderer* ren, vtkActor* act) override;
+  void SetMapperShaderParameters(vtkOpenGLHelper& cellBO, vtkRenderer* ren, vtkActor* act) override;
+  void SetCameraShaderParameters(vtkOpenGLHelper& cellBO, vtkRenderer* ren, vtkActor* act) override;
+  void UpdateMaximumPointCellIds(vtkRenderer* ren, vtkActor* act) override;
+  void UpdateBufferObjects(vtkRenderer*, vtkActor*) override {}
+  void RenderPieceDraw(vtkRenderer* ren, vtkActor* act) override;
+
+private:
+  vtkOpenGLPointFrontPass(const vtkOpenGLPointFrontPass&) = delete;
+  void operator=(const vtkOpenGLPointFrontPass&) = delete;
+
+  bool IsDrawingIds() const;
+  void BindVertices(vtkOpenGLHelper& cellBO);
+  void SetClippingUniforms(vtkShaderProgram* program, vtkActor* actor);
+
+  const pointfront::PointDrawing* Drawing = nullptr;
+  pointfront::PointColouring::Kind Variant = pointfront::PointColouring::Kind::Flat;
+  vtkNew<vtkPolyData> NoInput;
+};
+
+#endif

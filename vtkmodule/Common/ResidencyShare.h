@@ -1,0 +1,76 @@
+#pragma once
+
+#include "pointfront/Residency/Residency.h"
+#include "pointfrontCommonModule.h" // for the export macro
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <vector>
+
+namespace pointfront
+{
+
+/// One residency, wished from by several fronts: each view of each mapper that draws a store has a
+/// front of its own, and all of them share what is loaded.
+/// Wishes      the residency is asked for the union of what the fronts want, each node with the
+///             largest priority that any of them gives it, optional if it is so for all; for the
+///             union of their columns; and keeps what any of them needs (the smallest distance
+///             under any front counts).
+/// Threads     one thread (the renderer's), as Residency.
+class POINTFRONTCOMMON_EXPORT ResidencyShare
+{
+public:
+  /// Levels that a node lies below a front; 0: the front needs it.
+  using Distance = std::function<std::uint32_t(NodeIndex)>;
+
+  /// What one front wants now. Destruction withdraws it.
+  class POINTFRONTCOMMON_EXPORT Wish
+  {
+  public:
+    ~Wish();
+    Wish(const Wish&) = delete;
+    Wish& operator=(const Wish&) = delete;
+
+    /// Columns that this front draws with; the residency reads them from now on.
+    void setColumns(const ColumnSelection& columns);
+    /// `distance` is asked until the wish is changed or withdrawn.
+    void request(const std::vector<LoadRequest>& requests, Distance distance);
+
+  private:
+    friend class ResidencyShare;
+    explicit Wish(ResidencyShare& share);
+    ResidencyShare& share_;
+    ColumnSelection columns_;
+    std::vector<LoadRequest> requests_;
+    Distance distance_;
+  };
+
+  ResidencyShare(
+    std::shared_ptr<const NodeReader> reader, NodeIndex nodeCount, const ResidencyOptions& options);
+  ~ResidencyShare();
+  ResidencyShare(const ResidencyShare&) = delete;
+  ResidencyShare& operator=(const ResidencyShare&) = delete;
+
+  /// A new front joins. The share must outlive its wishes.
+  std::unique_ptr<Wish> join();
+
+  Residency& residency() { return residency_; }
+  const Residency& residency() const { return residency_; }
+  /// Fronts that have joined.
+  std::size_t wishes() const { return wishes_.size(); }
+  std::size_t budgetBytes() const { return budgetBytes_; }
+  void setBudgetBytes(std::size_t bytes);
+
+private:
+  void updateColumns();
+  void updateRequests();
+
+  Residency residency_;
+  std::size_t budgetBytes_;
+  std::vector<Wish*> wishes_;
+  std::map<NodeIndex, LoadRequest> merged_; ///< scratch of updateRequests()
+};
+
+} // namespace pointfront

@@ -1,0 +1,213 @@
+#include "vtkPointFrontStore.h"
+
+#include "ResidencyShare.h"
+
+#include "pointfront/Store/PointStore.h"
+
+#include <vtkDataObject.h>
+#include <vtkFieldData.h>
+#include <vtkIndent.h>
+#include <vtkNew.h>
+#include <vtkStringArray.h>
+
+#include <filesystem>
+#include <map>
+#include <mutex>
+#include <string>
+#include <tuple>
+
+namespace
+{
+
+/// What makes a file the same file: its canonical path, and what changes when it is built anew.
+using FileIdentity = std::tuple<std::string, std::uintmax_t, std::int64_t>;
+
+bool identify(const std::string& fileName, FileIdentity& identity, std::string& error)
+{
+  std::error_code code;
+  const std::filesystem::path path = std::filesystem::canonical(fileName, code);
+  if (code)
+  {
+    error = "cannot open the store " + fileName + ": " + code.message() + "; check the path";
+    return false;
+  }
+  const auto bytes = std::filesystem::file_size(path, code);
+  if (code)
+  {
+    error = "cannot open the store " + path.string() + ": " + code.message() + "; name a file";
+    return false;
+  }
+  const auto written = std::filesystem::last_write_time(path, code);
+  identity = {path.string(), bytes, static_cast<std::int64_t>(written.time_since_epoch().count())};
+  return true;
+}
+
+/// The open stores of this process. Weak: an entry leaves with its store. The lock is recursive,
+/// because the last UnRegister() deletes the store, which erases its entry.
+struct Registry
+{
+  std::recursive_mutex mutex;
+  std::map<FileIdentity, vtkPointFrontStore*> stores;
+};
+
+Registry& registry()
+{
+  static Registry* instance = new Registry; // never deleted: stores may outlive static objects
+  return *instance;
+}
+
+} // namespace
+
+struct vtkPointFrontStore::Content
+{
+  FileIdentity identity;
+  std::shared_ptr<const pointfront::PointStore> store;
+  std::unique_ptr<pointfront::ResidencyShare> residency;
+};
+
+vtkPointFrontStore::vtkPointFrontStore() : Internals(new Content) {}
+
+vtkPointFrontStore::~vtkPointFrontStore()
+{
+  Registry& all = registry();
+  const std::lock_guard<std::recursive_mutex> lock(all.mutex);
+  const auto entry = all.stores.find(this->Internals->identity);
+  if (entry != all.stores.end() && entry->second == this)
+  {
+    all.stores.erase(entry);
+  }
+}
+
+void vtkPointFrontStore::UnRegisterInternal(vtkObjectBase* holder, vtkTypeBool check)
+{
+  const std::lock_guard<std::recursive_mutex> lock(registry().mutex);
+  this->Superclass::UnRegisterInternal(holder, check);
+}
+
+vtkSmartPointer<vtkPointFrontStore> vtkPointFrontStore::Open(
+  const char* fileName, vtkStdString& error)
+{
+  error.clear();
+  if (!fileName || !*fileName)
+  {
+    error = "no store is named; set a file name";
+    return nullptr;
+  }
+  FileIdentity identity;
+  if (!identify(fileName, identity, error))
+  {
+    return nullptr;
+  }
+  Registry& all = registry();
+  const std::lock_guard<std::recursive_mutex> lock(all.mutex);
+  const auto entry = all.stores.find(identity);
+  if (entry != all.stores.end())
+  {
+    return entry->second;
+  }
+  auto opened = pointfront::PointStore::open(std::get<0>(identity));
+  if (!opened)
+  {
+    error = opened.error().what;
+    return nullptr;
+  }
+  auto* made = new vtkPointFrontStore;
+  made->InitializeObjectBase();
+  auto result = vtkSmartPointer<vtkPointFrontStore>::Take(made);
+  made->Internals->identity = identity;
+  made->Internals->store = std::move(opened).value();
+  made->Internals->residency = std::make_unique<pointfront::ResidencyShare>(made->Internals->store,
+    made->Internals->store->hierarchy()->nodeCount(), pointfront::ResidencyOptions{});
+  all.stores[identity] = made;
+  return result;
+}
+
+void vtkPointFrontStore::SetStoreName(vtkDataObject* data, const char* fileName)
+{
+  vtkNew<vtkStringArray> name;
+  name->SetName(FieldName());
+  name->InsertNextValue(fileName ? fileName : "");
+  data->GetFieldData()->RemoveArray(FieldName());
+  data->GetFieldData()->AddArray(name);
+}
+
+vtkStdString vtkPointFrontStore::GetStoreName(vtkDataObject* data)
+{
+  vtkFieldData* fields = data ? data->GetFieldData() : nullptr;
+  auto* name =
+    fields ? vtkStringArray::SafeDownCast(fields->GetAbstractArray(FieldName())) : nullptr;
+  return name && name->GetNumberOfValues() > 0 ? name->GetValue(0) : vtkStdString();
+}
+
+const char* vtkPointFrontStore::GetFileName() const
+{
+  return std::get<0>(this->Internals->identity).c_str();
+}
+
+void vtkPointFrontStore::GetBounds(double bounds[6]) const
+{
+  const pointfront::Bounds& b = this->Internals->store->description().bounds;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    bounds[2 * axis] = b.low[axis];
+    bounds[2 * axis + 1] = b.high[axis];
+  }
+}
+
+vtkIdType vtkPointFrontStore::GetNumberOfPoints() const
+{
+  return static_cast<vtkIdType>(this->Internals->store->description().pointCount);
+}
+
+int vtkPointFrontStore::GetNumberOfAttributes() const
+{
+  return static_cast<int>(this->Internals->store->description().schema.size());
+}
+
+const char* vtkPointFrontStore::GetAttributeName(int attribute) const
+{
+  if (attribute < 0 || attribute >= this->GetNumberOfAttributes())
+  {
+    return nullptr;
+  }
+  const auto column = static_cast<std::size_t>(attribute);
+  return this->Internals->store->description().schema[column].name.c_str();
+}
+
+void vtkPointFrontStore::SetHostMemoryBudget(vtkTypeInt64 bytes)
+{
+  const vtkTypeInt64 kept = bytes < 0 ? 0 : bytes;
+  if (kept != this->GetHostMemoryBudget())
+  {
+    this->Internals->residency->setBudgetBytes(static_cast<std::size_t>(kept));
+    this->Modified();
+  }
+}
+
+vtkTypeInt64 vtkPointFrontStore::GetHostMemoryBudget() const
+{
+  return static_cast<vtkTypeInt64>(this->Internals->residency->budgetBytes());
+}
+
+const std::shared_ptr<const pointfront::PointStore>& vtkPointFrontStore::GetStore() const
+{
+  return this->Internals->store;
+}
+
+pointfront::ResidencyShare& vtkPointFrontStore::GetResidencyShare() const
+{
+  return *this->Internals->residency;
+}
+
+pointfront::Residency& vtkPointFrontStore::GetResidency() const
+{
+  return this->Internals->residency->residency();
+}
+
+void vtkPointFrontStore::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "FileName: " << this->GetFileName() << "\n";
+  os << indent << "NumberOfPoints: " << this->GetNumberOfPoints() << "\n";
+  os << indent << "HostMemoryBudget: " << this->GetHostMemoryBudget() << "\n";
+}

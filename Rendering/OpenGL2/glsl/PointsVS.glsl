@@ -59,8 +59,8 @@ void main()
 {
   //VTK::CustomBegin::Impl
   int slot = gl_VertexID / slotPoints;
-  ivec4 steps = texelFetchBuffer(slotSteps, slot);
-  vec4 vertexMC = vec4(positionMC(steps, texelFetchBuffer(slotBase, slot).xyz), 1.0);
+  ivec4 steps = texelFetch(slotSteps, slot);
+  vec4 vertexMC = vec4(positionMC(steps, texelFetch(slotBase, slot).xyz), 1.0);
 
   vertexColorVSOutput = vec4(0.0, 0.0, 0.0, -1.0);
 #if POINTFRONT_COLOUR == 3
@@ -84,7 +84,7 @@ void main()
   //VTK::ValuePass::Impl
   //VTK::Light::Impl
 #if POINTFRONT_PICKING
-  ivec2 id = texelFetchBuffer(slotIds, slot).xy;
+  ivec2 id = texelFetch(slotIds, slot).xy;
   int low = id.x + gl_VertexID % slotPoints;
   pointIdVSOutput = ivec2(low & 0xffffff, id.y + (low >> 24));
 #endif

@@ -54,7 +54,7 @@ Cloud plane(std::size_t count)
 std::vector<std::uint32_t> sampled(const Cloud& cloud, unsigned cellLog2)
 {
   std::vector<bool> chosen;
-  chooseNearTargets(cloud.view(), cloud.all, cellLog2, chosen);
+  SubsetSampler().choose(cloud.view(), cloud.all, cellLog2, chosen);
   std::vector<std::uint32_t> points;
   for (std::size_t i = 0; i < chosen.size(); ++i)
   {
@@ -108,13 +108,26 @@ TEST(Sampler, CountsOccupiedCellsOfEverySize)
   }
 }
 
-TEST(Sampler, TakesOnePointOfEachOccupiedCell)
+TEST(Sampler, CoversAllPointsWithoutClumps)
 {
+  const unsigned cellLog2 = 11;
+  const double cell = 2048.0;
   const Cloud cloud = plane(20000);
-  const std::vector<std::uint32_t> points = sampled(cloud, 11);
-  const std::set<Cell> cells = cellsOf(cloud, points, 11);
-  EXPECT_EQ(cells.size(), points.size());
-  EXPECT_EQ(cells, cellsOf(cloud, cloud.all, 11));
+  const std::vector<std::uint32_t> points = sampled(cloud, cellLog2);
+  EXPECT_EQ(cellsOf(cloud, points, cellLog2).size(), points.size()); // at most one a cell
+  EXPECT_GT(points.size(), 900u);
+  for (const std::uint32_t i : cloud.all)
+  {
+    double nearest = HUGE_VAL;
+    for (const std::uint32_t k : points)
+    {
+      const glm::dvec3 a(cloud.view().position(i));
+      const double distance = glm::length(a - glm::dvec3(cloud.view().position(k)));
+      nearest = i == k ? nearest : std::min(nearest, distance);
+    }
+    const bool taken = std::binary_search(points.begin(), points.end(), i);
+    ASSERT_TRUE(taken ? nearest >= 0.5 * cell : nearest <= 2.3 * cell) << i << ' ' << nearest;
+  }
 }
 
 TEST(Sampler, TakesThePointNearestToTheTarget)
@@ -127,12 +140,21 @@ TEST(Sampler, TakesThePointNearestToTheTarget)
   EXPECT_EQ(sampled(equal, 4), (std::vector<std::uint32_t>{0})); // input order decides
 }
 
+TEST(Sampler, FindsClumpsAcrossTheEdgesOfTheTree)
+{
+  const std::uint32_t top = ~0u;
+  const Cloud cloud({{15, 0, 0}, {16, 0, 0}, {top, top, top}});
+  EXPECT_EQ(sampled(cloud, 4), (std::vector<std::uint32_t>{0, 2})); // 15 comes first
+  EXPECT_EQ(sampled(cloud, 32).size(), 1u);
+  EXPECT_EQ(sampled(cloud, 0).size(), 3u);
+}
+
 TEST(Sampler, TargetsOfCoarseCellsAreTargetsOfFineOnes)
 {
   const Cloud cloud = plane(200000);
   std::vector<std::uint32_t> fine = sampled(cloud, 9);
   std::vector<bool> chosen;
-  chooseNearTargets(cloud.view(), fine, 10, chosen);
+  SubsetSampler().choose(cloud.view(), fine, 10, chosen);
   std::vector<std::uint32_t> fromFine;
   for (std::size_t i = 0; i < fine.size(); ++i)
   {

@@ -2,6 +2,7 @@
 
 #include "Command.h"
 
+#include <csignal>
 #include <unistd.h>
 
 namespace pointfront
@@ -10,6 +11,8 @@ namespace pointfront
 namespace
 {
 volatile std::sig_atomic_t signalled = 0;
+struct sigaction oldInterrupt;
+struct sigaction oldTerminate;
 
 // Called by the kernel on any thread: async-signal-safe calls only.
 void remember(int)
@@ -25,17 +28,18 @@ void leave(int)
 
 CancelSignal::CancelSignal(Mode mode)
 {
+  signalled = 0;
   struct sigaction action = {};
   action.sa_handler = mode == Mode::Finish ? remember : leave;
   sigemptyset(&action.sa_mask);
-  sigaction(SIGINT, &action, &oldInterrupt_);
-  sigaction(SIGTERM, &action, &oldTerminate_);
+  sigaction(SIGINT, &action, &oldInterrupt);
+  sigaction(SIGTERM, &action, &oldTerminate);
 }
 
 CancelSignal::~CancelSignal()
 {
-  sigaction(SIGINT, &oldInterrupt_, nullptr);
-  sigaction(SIGTERM, &oldTerminate_, nullptr);
+  sigaction(SIGINT, &oldInterrupt, nullptr);
+  sigaction(SIGTERM, &oldTerminate, nullptr);
 }
 
 bool CancelSignal::requested()

@@ -22,7 +22,7 @@ struct OverviewPart
 
 /// What an overview of at most `maxPoints` consists of: whole levels from the roots down while they
 /// fit, and of the next level the same share of every node (each prefix of a node is a fair subset
-/// of it), so that the overview is equally dense everywhere. In table order, which is breadth
+/// of it), so that the overview is about equally dense everywhere. In table order, which is breadth
 /// first.
 std::vector<OverviewPart> chooseOverview(const Hierarchy& hierarchy, std::uint64_t maxPoints);
 

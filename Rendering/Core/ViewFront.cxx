@@ -1,6 +1,7 @@
 #include "ViewFront.h"
 
 #include <algorithm>
+#include <chrono>
 
 namespace pointfront
 {
@@ -13,6 +14,8 @@ constexpr std::uint32_t movesAtRest = 4096;
 constexpr std::uint32_t movesToComplete = 1u << 20;
 /// Of the memory budget that a view's nodes may fill: some room stays for what is being decoded.
 constexpr double heldShare = 0.85;
+/// Longest that a frame at rest goes on moving its front.
+constexpr std::chrono::milliseconds restTime{10};
 constexpr std::uint32_t requestsAtOnce = 1024;
 /// Fewest points of a frame in motion: less is no picture, whatever the machine.
 constexpr std::uint64_t fewestPoints = 100000;
@@ -83,8 +86,21 @@ const FrontDelta& ViewFront::update(const FrameDemand& demand)
   else
   {
     step(demand);
+    // At rest the threshold falls on at once while all it asks for is there: no frame shows less
+    // than what is loaded.
+    const auto begin = std::chrono::steady_clock::now();
+    while (!demand.interacting && !delta_.complete && delta_.requests.empty() && movedOn() &&
+           std::chrono::steady_clock::now() - begin < restTime)
+    {
+      step(demand);
+    }
   }
   return delta_;
+}
+
+bool ViewFront::movedOn() const
+{
+  return delta_.moves > 0 || delta_.thresholdPx != thresholdBefore_;
 }
 
 void ViewFront::loadRoots()
@@ -178,7 +194,7 @@ void ViewFront::complete(const FrameDemand& demand)
     {
       return;
     }
-    const bool moved = delta_.moves > 0 || delta_.thresholdPx != thresholdBefore_;
+    const bool moved = movedOn();
     if (!moved)
     {
       residency.waitForArrival(arrivalsSeen_);
@@ -197,7 +213,7 @@ void ViewFront::recordFrameMs(double milliseconds)
 bool ViewFront::wantsUpdate() const
 {
   return !begun_ || share_.residency().arrivals() != arrivalsSeen_ ||
-         (!delta_.complete && (delta_.moves > 0 || delta_.thresholdPx != thresholdBefore_));
+         (!delta_.complete && movedOn());
 }
 
 } // namespace pointfront

@@ -60,6 +60,7 @@ private:
   class Residents;
   void step(const FrameDemand& demand);
   bool allCovered() const;
+  bool movedOn() const;
   void complete(const FrameDemand& demand);
   void loadRoots();
   FrontLimits limitsOf(const FrameDemand& demand) const;

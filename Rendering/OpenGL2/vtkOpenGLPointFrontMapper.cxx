@@ -19,6 +19,7 @@
 #include <vtkRenderer.h>
 #include <vtkScalarsToColors.h>
 #include <vtkWeakPointer.h>
+#include <vtkWindow.h>
 
 #include <algorithm>
 #include <chrono>
@@ -47,6 +48,8 @@ struct vtkOpenGLPointFrontMapper::Content
   pointfront::SlotRecords Records;
   pointfront::ColourTable Table;
   vtkNew<vtkOpenGLPointFrontPass> Pass;
+  vtkWeakPointer<vtkWindow>
+    Window; ///< whose context has the pool ///< that the pool's nodes are of
   vtkWeakPointer<vtkPointFrontStore> Store; ///< that the pool's nodes are of
   std::vector<std::uint64_t> FirstIds;      ///< rank of each node's first point
   std::map<vtkRenderer*, FrameTimer> Timers;
@@ -167,6 +170,16 @@ void vtkOpenGLPointFrontMapper::RenderPiece(vtkRenderer* renderer, vtkActor* act
   {
     return;
   }
+  if (content.Window != window)
+  {
+    if (content.Window) // another context: its objects are nothing to this one
+    {
+      vtkOpenGLRenderWindow::SafeDownCast(content.Window)->MakeCurrent();
+      this->ReleaseGraphicsResources(content.Window);
+      window->MakeCurrent();
+    }
+    content.Window = window;
+  }
   content.SetStore(this->GetStore());
   const pointfront::StoreDescription& description = content.Store->GetStore()->description();
   pointfront::PointDrawing& drawing = content.Drawing;
@@ -238,6 +251,7 @@ vtkTypeInt64 vtkOpenGLPointFrontMapper::GetUploadedBytes() const
 void vtkOpenGLPointFrontMapper::ReleaseGraphicsResources(vtkWindow* window)
 {
   Content& content = *this->Internals;
+  content.Window = nullptr;
   content.Pool.release();
   content.Records.release(window);
   content.Table.release(window);

@@ -66,7 +66,8 @@ void referenceToView(vtkMatrix4x4* worldToView, const double reference[3], doubl
 vtkOpenGLPointFrontPass::vtkOpenGLPointFrontPass()
 {
   this->SetPopulateSelectionSettings(1);
-  this->CurrentInput = this->NoInput; // no normals, no cells: what the superclass asks of it
+  // No points, no normals, no cells: what the superclass finds when it looks at its input.
+  this->SetInputData(this->NoInput);
 }
 
 vtkOpenGLPointFrontPass::~vtkOpenGLPointFrontPass() = default;
@@ -113,6 +114,9 @@ void vtkOpenGLPointFrontPass::Draw(
     this->Variant = drawing.colouring.kind;
     this->Modified(); // another program
   }
+  // Without points in its input the superclass only registers its resources with the window, by a
+  // class whose header is not installed; without that it never releases them.
+  this->Superclass::RenderPiece(renderer, actor);
   this->RenderPieceStart(renderer, actor);
   this->RenderPieceDraw(renderer, actor);
   this->RenderPieceFinish(renderer, actor);

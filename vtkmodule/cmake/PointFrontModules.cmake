@@ -61,3 +61,10 @@ elseif (POINTFRONT_WRAP_PYTHON)
     BUILD_STATIC OFF
     TARGET PointFront::pythonmodules)
 endif ()
+
+# Tests of the modules: after all of them, for they link several.
+if (POINTFRONT_BUILD_TESTING)
+  foreach (folder IN ITEMS vtkmodule/Common IO/Store Rendering/Core Rendering/OpenGL2)
+    add_subdirectory("${CMAKE_CURRENT_SOURCE_DIR}/${folder}/Testing")
+  endforeach ()
+endif ()

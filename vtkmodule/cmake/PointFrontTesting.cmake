@@ -24,3 +24,27 @@ function (pointfront_add_display_test)
   set_tests_properties("${POINTFRONT_TEST_PREFIX}${test_NAME}" PROPERTIES
     ENVIRONMENT "LIBGL_ALWAYS_SOFTWARE=1")
 endfunction ()
+
+# pointfront_add_module_test(<executable> MODULES <module>... [SUITES <suite>...])
+# One executable of all Cxx/*.cxx of the calling folder. With SUITES its tests draw: each suite is one
+# test on an X server; without, each test is found by itself.
+function (pointfront_add_module_test name)
+  cmake_parse_arguments(PARSE_ARGV 1 test "" "" "MODULES;SUITES")
+  find_package(GTest REQUIRED)
+  include(GoogleTest)
+  file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/Cxx/*.cxx")
+  add_executable(${name} ${sources})
+  target_include_directories(${name} PRIVATE "${CMAKE_CURRENT_SOURCE_DIR}/Cxx"
+    "${CMAKE_SOURCE_DIR}/vtkmodule/Core/Testing")
+  target_link_libraries(${name} PRIVATE ${test_MODULES} pointfrontWarnings GTest::gtest_main)
+  vtk_module_autoinit(TARGETS ${name} MODULES ${test_MODULES})
+  if (test_SUITES)
+    foreach (suite IN LISTS test_SUITES)
+      pointfront_add_display_test(NAME "${name}.${suite}"
+        COMMAND "$<TARGET_FILE:${name}>" "--gtest_filter=${suite}.*")
+    endforeach ()
+  else ()
+    gtest_discover_tests(${name} TEST_PREFIX "${POINTFRONT_TEST_PREFIX}${name}."
+      DISCOVERY_TIMEOUT 60)
+  endif ()
+endfunction ()

@@ -44,11 +44,10 @@ Result<std::unique_ptr<BuiltNode>> OctreeAssembly::run()
 
 Result<void> OctreeAssembly::work()
 {
-  SubsetSampler sampler;
   std::uint32_t node = 0;
   while (takePart(node))
   {
-    if (Result<void> done = buildPart(node, sampler); !done)
+    if (Result<void> done = buildPart(node); !done)
     {
       return done;
     }
@@ -71,7 +70,7 @@ bool OctreeAssembly::takePart(std::uint32_t& node)
   return false;
 }
 
-Result<void> OctreeAssembly::buildPart(std::uint32_t node, SubsetSampler& sampler)
+Result<void> OctreeAssembly::buildPart(std::uint32_t node)
 {
   const Partition::Node& part = parts_.partition().nodes()[node];
   Result<std::vector<std::byte>> records = parts_.load(part.part);
@@ -79,7 +78,7 @@ Result<void> OctreeAssembly::buildPart(std::uint32_t node, SubsetSampler& sample
   {
     return records.error();
   }
-  SubtreeBuilder builder(emitter_, rule_, recordBytes_, sampler);
+  SubtreeBuilder builder(emitter_, rule_, recordBytes_);
   OpenSubtree subtree = builder.build(std::move(*records), part.count);
   for (;;)
   {

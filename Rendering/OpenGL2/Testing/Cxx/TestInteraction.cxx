@@ -1,0 +1,127 @@
+#include "Scene.h"
+
+#include "pointfront/Store/PointStore.h"
+
+#include <chrono>
+#include <thread>
+
+using namespace pointfront;
+using namespace pointfront::test;
+
+namespace
+{
+
+/// 250,000 points in some 200 nodes.
+std::string terrain(const std::string& name)
+{
+  return planeStore(name, 500, 4);
+}
+
+/// Renders until the mapper has nothing more to show; at most 20 s.
+int settle(Scene& scene)
+{
+  int frames = 0;
+  const auto begin = std::chrono::steady_clock::now();
+  do
+  {
+    scene.window->Render();
+    ++frames;
+    while (!scene.mapper->NeedsRender() && !scene.mapper->GetLastComplete() &&
+           std::chrono::steady_clock::now() - begin < std::chrono::seconds(20))
+    {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+  } while (scene.mapper->NeedsRender() &&
+           std::chrono::steady_clock::now() - begin < std::chrono::seconds(20));
+  return frames;
+}
+
+TEST(Interaction, FramesRefineToTheCompletePicture)
+{
+  const auto store = terrain("refine");
+  Scene scene(store);
+  const Picture complete = scene.draw();
+  EXPECT_EQ(scene.mapper->GetLastPointsDrawn(), 250000);
+
+  Scene live(store);
+  live.mapper->CompleteOff();
+  live.window->Render();
+  const vtkIdType first = live.mapper->GetLastPointsDrawn();
+  EXPECT_GT(first, 0); // no first frame is empty
+  settle(live);
+  EXPECT_TRUE(live.mapper->GetLastComplete());
+  EXPECT_EQ(live.mapper->GetLastPointsDrawn(), 250000);
+  EXPECT_EQ(differing(complete, live.read()), 0);
+}
+
+TEST(Interaction, AFrameInMotionUploadsNoMoreThanItsLimitAndLosesNothing)
+{
+  Scene scene(terrain("motion"));
+  auto* gl = vtkOpenGLPointFrontMapper::SafeDownCast(scene.mapper);
+  scene.window->SetDesiredUpdateRate(15.0);
+  scene.mapper->SetTargetFrameTime(10000.0); // time is not what limits this test
+  scene.mapper->SetUploadLimit(1 << 16);
+  vtkIdType before = 0;
+  for (int frame = 0; frame < 60; ++frame)
+  {
+    const auto uploaded = gl->GetUploadedBytes();
+    scene.window->Render();
+    EXPECT_LE(gl->GetUploadedBytes() - uploaded, (1 << 16) + 2000 * 4 + 12);
+    EXPECT_GE(scene.mapper->GetLastPointsDrawn(), before);
+    before = scene.mapper->GetLastPointsDrawn();
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  EXPECT_GT(before, 10000);
+}
+
+TEST(Interaction, AMotionFrameKeepsToTheTimeThatIsAllotted)
+{
+  Scene scene(terrain("rate"));
+  scene.draw();
+  const vtkIdType all = scene.mapper->GetLastPointsDrawn();
+  scene.mapper->SetPointSize(20.0); // 250,000 points of 400 pixels: hundreds of ms
+  scene.window->SetDesiredUpdateRate(30.0);
+  for (int frame = 0; frame < 12; ++frame)
+  {
+    scene.renderer->GetActiveCamera()->Azimuth(0.5);
+    scene.window->Render();
+    scene.read(); // waits for the GPU: its timer is ready at the next frame
+  }
+  EXPECT_LT(scene.mapper->GetLastPointsDrawn(), all / 2 + 1);
+  EXPECT_FALSE(scene.mapper->GetLastComplete());
+}
+
+TEST(Interaction, TheHostMemoryBudgetHoldsAndSettles)
+{
+  Scene scene(terrain("host_budget"));
+  scene.mapper->GetBounds();
+  constexpr std::size_t budget = 1200000; // of 250,000 * 15 bytes
+  scene.mapper->GetStore()->SetHostMemoryBudget(budget);
+  scene.draw();
+  const auto statistics = scene.mapper->GetStore()->GetResidency().statistics();
+  EXPECT_LE(statistics.residentBytesMax, budget);
+  EXPECT_GT(scene.mapper->GetLastPointsDrawn(), 20000);
+  EXPECT_LT(scene.mapper->GetLastPointsDrawn(), 90000);
+  EXPECT_TRUE(scene.mapper->GetLastComplete());
+}
+
+TEST(Interaction, PiecesTogetherDrawEachPointOnce)
+{
+  const auto store = terrain("pieces");
+  vtkIdType sum = 0;
+  for (int piece = 0; piece < 3; ++piece)
+  {
+    Scene scene(store);
+    scene.mapper->SetNumberOfStorePieces(3);
+    scene.mapper->SetStorePiece(piece);
+    scene.draw();
+    const vtkIdType drawn = scene.mapper->GetLastPointsDrawn();
+    EXPECT_GT(drawn, 250000 / 6);
+    const auto& residency = scene.mapper->GetStore()->GetResidency();
+    EXPECT_LT(residency.statistics().residentBytes, std::size_t(250000) * 30 * 2 / 3);
+    sum += drawn;
+  }
+  EXPECT_EQ(sum, 250000);
+}
+
+} // namespace

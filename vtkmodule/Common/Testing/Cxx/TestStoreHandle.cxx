@@ -1,0 +1,115 @@
+#include "TestBuildClouds.h"
+
+#include "pointfront/Build/StoreBuilder.h"
+#include "vtkPointFrontStore.h"
+
+#include <vtkNew.h>
+#include <vtkPolyData.h>
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+using namespace pointfront;
+using namespace pointfront::test;
+
+namespace
+{
+
+std::string build(const std::string& name, std::size_t points)
+{
+  BuildOptions options;
+  options.outputPath = ::testing::TempDir() + name + ".pfront";
+  options.overwrite = true;
+  options.threads = 1;
+  const auto built = buildOctreeStore(one(hills(points, 1e6)), options);
+  EXPECT_TRUE(built.ok());
+  return options.outputPath;
+}
+
+TEST(StoreHandle, IsOneObjectForAFileUntilTheLastReferenceIsGone)
+{
+  const std::string path = build("one_object", 3000);
+  vtkStdString error;
+  auto first = vtkPointFrontStore::Open(path.c_str(), error);
+  ASSERT_NE(first, nullptr) << error;
+  EXPECT_EQ(first->GetNumberOfPoints(), 3000);
+  EXPECT_EQ(first->GetNumberOfAttributes(), 2);
+  EXPECT_STREQ(first->GetAttributeName(1), "intensity");
+  EXPECT_EQ(first->GetAttributeName(2), nullptr);
+
+  const std::string other =
+    (std::filesystem::path(path).parent_path() / "." / std::filesystem::path(path).filename())
+      .string();
+  EXPECT_EQ(vtkPointFrontStore::Open(other.c_str(), error), first); // another spelling
+  first->SetHostMemoryBudget(123456);
+  first = nullptr;
+  const auto again = vtkPointFrontStore::Open(path.c_str(), error);
+  EXPECT_EQ(again->GetHostMemoryBudget(), vtkTypeInt64(1) << 30); // a new one
+}
+
+TEST(StoreHandle, AStoreThatIsBuiltAnewIsAnotherStore)
+{
+  const std::string path = build("anew", 3000);
+  vtkStdString error;
+  const auto old = vtkPointFrontStore::Open(path.c_str(), error);
+  build("anew", 4000);
+  const auto fresh = vtkPointFrontStore::Open(path.c_str(), error);
+  ASSERT_NE(fresh, nullptr) << error;
+  EXPECT_NE(fresh, old);
+  EXPECT_EQ(old->GetNumberOfPoints(), 3000);
+  EXPECT_EQ(fresh->GetNumberOfPoints(), 4000);
+}
+
+TEST(StoreHandle, SaysWhatIsWrongWithAFile)
+{
+  vtkStdString error;
+  EXPECT_EQ(vtkPointFrontStore::Open(nullptr, error), nullptr);
+  EXPECT_NE(error.find("file name"), std::string::npos);
+  const std::string missing = ::testing::TempDir() + "nowhere.pfront";
+  EXPECT_EQ(vtkPointFrontStore::Open(missing.c_str(), error), nullptr);
+  EXPECT_NE(error.find("nowhere.pfront"), std::string::npos);
+  EXPECT_EQ(vtkPointFrontStore::Open(::testing::TempDir().c_str(), error), nullptr);
+  EXPECT_FALSE(error.empty());
+  const std::string text = ::testing::TempDir() + "text.pfront";
+  std::ofstream(text) << "x y z\n";
+  EXPECT_EQ(vtkPointFrontStore::Open(text.c_str(), error), nullptr);
+  EXPECT_NE(error.find("text.pfront"), std::string::npos);
+}
+
+TEST(StoreHandle, TheNameTravelsInFieldData)
+{
+  vtkNew<vtkPolyData> data;
+  EXPECT_EQ(vtkPointFrontStore::GetStoreName(data), "");
+  EXPECT_EQ(vtkPointFrontStore::GetStoreName(nullptr), "");
+  vtkPointFrontStore::SetStoreName(data, "first.pfront");
+  vtkPointFrontStore::SetStoreName(data, "a/b.pfront");
+  vtkNew<vtkPolyData> shallow;
+  shallow->ShallowCopy(data);
+  vtkNew<vtkPolyData> deep;
+  deep->DeepCopy(data);
+  EXPECT_EQ(vtkPointFrontStore::GetStoreName(shallow), "a/b.pfront");
+  EXPECT_EQ(vtkPointFrontStore::GetStoreName(deep), "a/b.pfront");
+}
+
+TEST(StoreHandle, BoundsAreTight)
+{
+  vtkStdString error;
+  BuildOptions options;
+  options.outputPath = ::testing::TempDir() + "tight.pfront";
+  options.overwrite = true;
+  auto cloud = cloudOf(3, millimetres(),
+    [](std::size_t i) { return GridPosition(1000 * i, -500 * static_cast<int>(i), 7); });
+  ASSERT_TRUE(buildOctreeStore(one(std::move(cloud)), options).ok());
+  const auto store = vtkPointFrontStore::Open(options.outputPath.c_str(), error);
+  double bounds[6];
+  store->GetBounds(bounds);
+  const double expected[6] = {0.0, 2.0, -1.0, 0.0, 0.007, 0.007};
+  for (int i = 0; i < 6; ++i)
+  {
+    EXPECT_DOUBLE_EQ(bounds[i], expected[i]);
+  }
+}
+
+} // namespace

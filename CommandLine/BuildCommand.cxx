@@ -13,6 +13,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 
 namespace pointfront
 {
@@ -103,6 +104,28 @@ Result<std::vector<std::unique_ptr<PointSource>>> BuildCommand::openSources() co
   return sources;
 }
 
+Result<void> BuildCommand::checkOutput(
+  const std::vector<std::unique_ptr<PointSource>>& sources) const
+{
+  std::error_code failure;
+  if (!options_.overwrite && std::filesystem::exists(options_.outputPath, failure))
+  {
+    return makeError(Error::Kind::BadArgument,
+      options_.outputPath + ": exists already; use --force to replace it, or another name");
+  }
+  for (const std::unique_ptr<PointSource>& source : sources)
+  {
+    std::error_code notThere;
+    const std::string& input = source->description().path;
+    if (std::filesystem::equivalent(input, options_.outputPath, notThere) && !notThere)
+    {
+      return makeError(Error::Kind::BadArgument,
+        options_.outputPath + ": is an input of this build; give the store another name");
+    }
+  }
+  return {};
+}
+
 Result<void> BuildCommand::run()
 {
   const CancelSignal signal(CancelSignal::Mode::Finish);
@@ -118,6 +141,10 @@ Result<void> BuildCommand::run()
   if (!sources)
   {
     return sources.error();
+  }
+  if (Result<void> checked = checkOutput(*sources); !checked)
+  {
+    return checked;
   }
   std::optional<BuildReport> report;
   {

@@ -23,6 +23,8 @@ private:
   void declareUnavailableOptions(CLI::App& app);
   /// Opens every input; warns of what was wrong and survived.
   Result<std::vector<std::unique_ptr<PointSource>>> openSources() const;
+  /// --force replaces an earlier store, never the points it is built from.
+  Result<void> checkOutput(const std::vector<std::unique_ptr<PointSource>>& sources) const;
 
   std::vector<std::string> inputs_;
   BuildOptions options_;

@@ -79,7 +79,8 @@ Camera cameraFitting(const Bounds& bounds, NamedView view, double aspect)
   double distance = 0.0;
   for (int corner = 0; corner < 8; ++corner)
   {
-    const glm::dvec3 sign(corner & 1 ? 1.0 : -1.0, corner & 2 ? 1.0 : -1.0, corner & 4 ? 1.0 : -1.0);
+    const glm::dvec3 sign(
+      corner & 1 ? 1.0 : -1.0, corner & 2 ? 1.0 : -1.0, corner & 4 ? 1.0 : -1.0);
     const glm::dvec3 c = sign * half;
     const double sideways = margin * std::abs(glm::dot(c, right)) / tangentX;
     const double upwards = margin * std::abs(glm::dot(c, camera.viewUp)) / tangentY;

@@ -2,7 +2,6 @@
 
 #include "Command.h"
 
-#include <csignal>
 #include <unistd.h>
 
 namespace pointfront
@@ -11,8 +10,6 @@ namespace pointfront
 namespace
 {
 volatile std::sig_atomic_t signalled = 0;
-struct sigaction oldInterrupt;
-struct sigaction oldTerminate;
 
 // Called by the kernel on any thread: async-signal-safe calls only.
 void remember(int)
@@ -28,18 +25,17 @@ void leave(int)
 
 CancelSignal::CancelSignal(Mode mode)
 {
-  signalled = 0;
   struct sigaction action = {};
   action.sa_handler = mode == Mode::Finish ? remember : leave;
   sigemptyset(&action.sa_mask);
-  sigaction(SIGINT, &action, &oldInterrupt);
-  sigaction(SIGTERM, &action, &oldTerminate);
+  sigaction(SIGINT, &action, &oldInterrupt_);
+  sigaction(SIGTERM, &action, &oldTerminate_);
 }
 
 CancelSignal::~CancelSignal()
 {
-  sigaction(SIGINT, &oldInterrupt, nullptr);
-  sigaction(SIGTERM, &oldTerminate, nullptr);
+  sigaction(SIGINT, &oldInterrupt_, nullptr);
+  sigaction(SIGTERM, &oldTerminate_, nullptr);
 }
 
 bool CancelSignal::requested()

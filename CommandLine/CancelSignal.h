@@ -1,10 +1,12 @@
 #pragma once
 
+#include <csignal>
+
 namespace pointfront
 {
 
-/// SIGINT and SIGTERM while a command runs. One object at a time; the old handlers come back when
-/// it goes.
+/// SIGINT and SIGTERM while a command runs. Objects may be nested; the handlers of before come back
+/// when one goes.
 /// Modes    Finish: the signal only sets a flag; the operation sees it at its next progress report,
 ///          stops and removes what it had begun (builds, exports).
 ///          Leave: the process ends at once with status 130; for commands that have nothing on the
@@ -24,6 +26,10 @@ public:
 
   /// True once a signal came. Any thread.
   static bool requested();
+
+private:
+  struct sigaction oldInterrupt_;
+  struct sigaction oldTerminate_;
 };
 
 } // namespace pointfront

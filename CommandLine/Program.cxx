@@ -1,6 +1,12 @@
 #include "Program.h"
 
+#include "BuildCommand.h"
+#include "ExportCommand.h"
 #include "InfoCommand.h"
+#ifdef POINTFRONT_WITH_VTK
+#include "BenchCommand.h"
+#include "RenderCommand.h"
+#endif
 #include "Unavailable.h"
 #include "VerifyCommand.h"
 
@@ -13,8 +19,14 @@ Program::Program()
   : app_("Point clouds larger than memory: build stores, check them, draw them.", "pointfront")
 {
   app_.set_version_flag("--version", "pointfront " POINTFRONT_VERSION);
+  commands_.push_back(std::make_unique<BuildCommand>());
   commands_.push_back(std::make_unique<InfoCommand>());
   commands_.push_back(std::make_unique<VerifyCommand>());
+  commands_.push_back(std::make_unique<ExportCommand>());
+#ifdef POINTFRONT_WITH_VTK
+  commands_.push_back(std::make_unique<RenderCommand>());
+  commands_.push_back(std::make_unique<BenchCommand>());
+#endif
   for (const auto& command : commands_)
   {
     command->declare(app_);
@@ -26,6 +38,10 @@ void Program::declareUnavailableCommands()
 {
   declareUnavailableCommand(app_, "index", "LAS files are not indexed in place; use build");
   declareUnavailableCommand(app_, "generate", "there is no generator of synthetic clouds");
+#ifndef POINTFRONT_WITH_VTK
+  declareUnavailableCommand(app_, "render", "this tool was built without VTK");
+  declareUnavailableCommand(app_, "bench", "this tool was built without VTK");
+#endif
   declareUnavailableCommand(app_, "view", "there is no window; use render, or ParaView");
 }
 

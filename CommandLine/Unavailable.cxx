@@ -50,7 +50,7 @@ void declareUnavailableCommand(
   CLI::App* app = program.add_subcommand(command, "(not available yet)");
   app->allow_extras();
   app->set_help_flag();
-  app->parse_complete_callback([command, why]() { throw refusal("this command", why); });
+  app->parse_complete_callback([command, why]() { throw refusal("the command", why); });
 }
 
 CLI::Validator availableValues(std::vector<std::string> available, std::vector<std::string> planned)

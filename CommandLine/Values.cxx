@@ -69,6 +69,7 @@ std::optional<std::array<double, N>> parseNumbers(const std::string& text)
   }
   return numbers;
 }
+template std::optional<std::array<double, 1>> parseNumbers<1>(const std::string&);
 template std::optional<std::array<double, 3>> parseNumbers<3>(const std::string&);
 template std::optional<std::array<double, 6>> parseNumbers<6>(const std::string&);
 

@@ -19,7 +19,7 @@ from vtkmodules.vtkRenderingCore import (
 
 
 def open_store(path):
-    """A reader of the store, updated; leaves the program with VTK's message if it cannot be read."""
+    """A reader of the store, updated. If it cannot be read, VTK says why and the script ends."""
     reader = pointfront.vtkPointFrontReader()
     reader.SetFileName(path)
     reader.Update()

@@ -16,6 +16,8 @@ namespace pointfront
 namespace
 {
 /// An OutputFile as a stream that can go back to overwrite what it wrote.
+/// After a failed write it keeps the first Error and takes bytes without writing them: LASzip
+/// loses memory when its stream goes bad, so it is not told; the owner of the buffer asks.
 class FileBuffer final : public std::streambuf
 {
 public:
@@ -29,18 +31,11 @@ public:
   const std::optional<Error>& error() const { return error_; }
   std::uint64_t end() const { return end_ + pending_.size(); }
   /// Hands what is pending to the file.
-  bool flush()
+  void flush()
   {
-    const Result<void> done =
-      error_ ? Result<void>(*error_) : file_.append(pending_.data(), pending_.size());
-    if (!done)
-    {
-      error_ = done.error();
-      return false;
-    }
+    keepError([this] { return file_.append(pending_.data(), pending_.size()); });
     end_ += pending_.size();
     pending_.clear();
-    return true;
   }
 
 protected:
@@ -51,15 +46,16 @@ protected:
     if (position_ == end())
     {
       pending_.insert(pending_.end(), data, data + size);
-      position_ += size;
-      return pending_.size() < flushBytes || flush() ? count : 0;
+      if (pending_.size() >= flushBytes)
+      {
+        flush();
+      }
     }
-    // Back in what was written: LASzip does so once, for the place of its chunk table.
-    const Result<void> done = flush() ? file_.overwrite(position_, data, size) : *error_;
-    if (!done)
+    else
     {
-      error_ = done.error();
-      return 0;
+      // Back in what was written: LASzip does so once, for the place of its chunk table.
+      flush();
+      keepError([&] { return file_.overwrite(position_, data, size); });
     }
     position_ += size;
     return count;
@@ -68,7 +64,8 @@ protected:
   int_type overflow(int_type character) override
   {
     const char one = traits_type::to_char_type(character);
-    return xsputn(&one, 1) == 1 ? character : traits_type::eof();
+    xsputn(&one, 1);
+    return character;
   }
 
   pos_type seekoff(off_type offset, std::ios_base::seekdir way, std::ios_base::openmode) override
@@ -91,6 +88,19 @@ protected:
 
 private:
   static constexpr std::size_t flushBytes = 1 << 20;
+
+  template <typename Write>
+  void keepError(const Write& write)
+  {
+    if (error_)
+    {
+      return;
+    }
+    if (const Result<void> done = write(); !done)
+    {
+      error_ = done.error();
+    }
+  }
 
   OutputFile& file_;
   std::optional<Error> error_;
@@ -268,7 +278,6 @@ Result<void> LASzipWriter::append(const std::byte* records, std::size_t count)
       return handle_->error("compress a point");
     }
   }
-  // LASzip does not look at its stream after every byte.
   return handle_->buffer->error() ? Result<void>(*handle_->buffer->error()) : Result<void>();
 }
 
@@ -276,7 +285,8 @@ Result<std::uint64_t> LASzipWriter::finish()
 {
   handle_->opened = false;
   const bool closed = laszip_close_writer(handle_->laszip) == 0;
-  if (!closed || !handle_->buffer->flush())
+  handle_->buffer->flush();
+  if (!closed || handle_->buffer->error())
   {
     return handle_->error("finish");
   }

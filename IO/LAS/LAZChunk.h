@@ -18,7 +18,7 @@ struct LAZChunk
   std::uint64_t offset = 0; ///< byte in the file
   std::uint64_t bytes = 0;
   std::uint32_t points = 0;
-  bool cut = false; ///< the file ends inside: `points` are sound, the bytes behind them are not used
+  bool cut = false; ///< the file ends inside: `points` are sound, the bytes behind them unused
 };
 
 /// The layered chunk that begins at byte `offset`; zero points if what is there is no whole chunk

@@ -63,6 +63,25 @@ std::vector<LAZCompression::Item> itemsOf(int format, std::size_t extraBytes)
   return items;
 }
 
+/// Versions of an item's code that LASzip 3.4 reads. (It refuses others too, but loses memory.)
+bool versionIsKnown(const LAZCompression::Item& item)
+{
+  switch (item.type)
+  {
+    case WavePacket13:
+      return item.version == 1;
+    case WavePacket14:
+      return item.version == 3 || item.version == 4;
+    case Point14:
+    case Rgb14:
+    case RgbNir14:
+    case Byte14:
+      return item.version >= 2 && item.version <= 4;
+    default:
+      return item.version == 1 || item.version == 2;
+  }
+}
+
 std::string describe(const LAZCompression::Item& item)
 {
   return "type " + std::to_string(item.type) + " of " + std::to_string(item.bytes) + " bytes";
@@ -89,6 +108,13 @@ Result<void> checkItems(const LASFile& file, const LAZCompression& compression)
       return makeError(Error::Kind::BadFormat,
         path + ": compressed item " + std::to_string(i + 1) + " is " + describe(item) +
           ", point format " + std::to_string(format) + " needs " + describe(expected[i]));
+    }
+    if (!versionIsKnown(item))
+    {
+      return makeError(Error::Kind::Unsupported,
+        path + ": compressed item " + std::to_string(i + 1) + " (" + describe(item) +
+          ") has version " + std::to_string(item.version) +
+          ", which LASzip does not read; compress the file again");
     }
   }
   return {};

@@ -66,7 +66,7 @@ Result<std::unique_ptr<PointSource>> LAZSource::open(LASFile file)
   {
     return compression.error();
   }
-  // Versions of the items are LASzip's to know: ask it before anything is promised.
+  // LASzip has the last word on what it reads: ask it before anything is promised.
   if (Result<LASzipReader> probe = LASzipReader::open(file, *compression, {}, 1); !probe)
   {
     return probe.error();

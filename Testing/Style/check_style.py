@@ -19,6 +19,7 @@ RULES = {
     "Unfinished": text_rules.unfinished,
     "IdleTests": text_rules.idle_tests,
     "QuietLibraries": text_rules.quiet_libraries,
+    "Links": text_rules.links,
     "Includes": include_rules.includes,
     "ModuleEdges": include_rules.module_edges,
 }

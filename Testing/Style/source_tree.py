@@ -13,6 +13,7 @@ class SourceFile:
     """One text file: its path relative to the root, with slashes, and its lines."""
 
     def __init__(self, root, path):
+        self.root = root
         self.path = path
         with open(os.path.join(root, path), encoding="utf-8") as stream:
             self.lines = stream.read().split("\n")

@@ -100,6 +100,14 @@ class RulesTest(unittest.TestCase):
             [("IO/LAS/A.cxx", 1), ("IO/LAS/A.cxx", 2), ("IO/LAS/C.cxx", 4)],
         )
 
+    def test_links(self):
+        tree = {
+            "docs/a.md": f"[b](b.md#part) [up](../IO) [host]({ADDRESS})\n![no](images/c.png)\n",
+            "docs/b.md": "",
+            "IO/A.cxx": "",
+        }
+        self.assertEqual(self.faults("Links", tree), [("docs/a.md", 2)])
+
     def include_faults(self, path, header):
         known = {
             name: "int a;\n"

@@ -1,5 +1,6 @@
 """Rules about single files. Each gives (path, line, message) for every place that breaks it."""
 
+import os
 import re
 
 FILE_LINES = 600
@@ -121,3 +122,16 @@ def quiet_libraries(files):
         text = "\n".join(code)
         for match in SWALLOWED.finditer(text):
             yield file.path, text.count("\n", 0, match.start()) + 1, "swallows an exception"
+
+
+LINK = re.compile(r"\]\(([^)#\s]+)[^)]*\)")
+
+
+def links(files):
+    """Links of the documentation to files of the project lead somewhere."""
+    for file in files:
+        for number, line in file.numbered() if file.ends(".md") else ():
+            for target in LINK.findall(line):
+                path = os.path.join(file.root, *file.folders, target)
+                if ":" not in target and not os.path.exists(path):
+                    yield file.path, number, f"{target} is not there"

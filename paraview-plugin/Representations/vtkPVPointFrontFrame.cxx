@@ -21,7 +21,7 @@ void vtkPVPointFrontFrame::CopyFromObject(vtkObject* object)
   if (!representation)
   {
     vtkErrorMacro("A vtkPointFrontRepresentation is asked for its frame, not "
-      << (object ? object->GetClassName() : "nothing"));
+                  << (object ? object->GetClassName() : "nothing"));
     return;
   }
   this->PointsDrawn = representation->GetPointsDrawn();
@@ -61,8 +61,8 @@ void vtkPVPointFrontFrame::CopyFromStream(const vtkClientServerStream* stream)
   int complete = 1;
   int outdated = 0;
   if (!stream->GetArgument(0, 0, &points) || !stream->GetArgument(0, 1, &nodes) ||
-    !stream->GetArgument(0, 2, &this->ProjectedSpacing) || !stream->GetArgument(0, 3, &complete) ||
-    !stream->GetArgument(0, 4, &outdated))
+      !stream->GetArgument(0, 2, &this->ProjectedSpacing) ||
+      !stream->GetArgument(0, 3, &complete) || !stream->GetArgument(0, 4, &outdated))
   {
     vtkErrorMacro("The server's frame cannot be read: client and server have different plugins. "
                   "Load the same build of the PointFront plugin on both.");

@@ -2,8 +2,9 @@
  * @class vtkPVPointFrontFrame
  * @brief what all processes drew of a store in their last frame, brought to the client
  *
- * Gathered from a vtkPointFrontRepresentation with vtkSMProxy::GatherInformation(), which asks every process that has
- * one: counts add up, the spacing is the coarsest, and a frame is complete when it is complete everywhere.
+ * Gathered from a vtkPointFrontRepresentation with vtkSMProxy::GatherInformation(), which asks
+ * every process that has one: counts add up, the spacing is the coarsest, and a frame is complete
+ * when it is complete everywhere.
  */
 #ifndef vtkPVPointFrontFrame_h
 #define vtkPVPointFrontFrame_h

@@ -6,15 +6,15 @@
 #include "vtkMatrix4x4.h"
 #include "vtkMultiProcessController.h"
 #include "vtkObjectFactory.h"
-#include "vtkPVLODActor.h"
-#include "vtkPVRenderView.h"
 #include "vtkPointFrontMapper.h"
 #include "vtkPointFrontStore.h"
 #include "vtkPolyData.h"
 #include "vtkProcessModule.h"
 #include "vtkProperty.h"
-#include "vtkRenderWindow.h"
+#include "vtkPVLODActor.h"
+#include "vtkPVRenderView.h"
 #include "vtkRenderer.h"
+#include "vtkRenderWindow.h"
 #include "vtkScalarsToColors.h"
 #include "vtkStdString.h"
 #include "vtkTransform.h"
@@ -23,7 +23,8 @@ vtkStandardNewMacro(vtkPointFrontRepresentation);
 
 namespace
 {
-/// Frames per second above which a render is interactive: ParaView sets 5 (interactive) and 0.002 (still).
+/// Frames per second above which a render is interactive: ParaView sets 5 (interactive) and 0.002
+/// (still).
 constexpr double StillRate = 0.01;
 
 /// Opens the protected getter of the one fact that tells a screenshot from any other still render.
@@ -32,7 +33,7 @@ struct CaptureState : vtkPVView
 {
   static bool Of(vtkPVView* view) { return (view->*&CaptureState::GetInCaptureScreenshot)(); }
 };
-}
+} // namespace
 
 //------------------------------------------------------------------------------
 vtkPointFrontRepresentation::vtkPointFrontRepresentation()
@@ -70,8 +71,8 @@ int vtkPointFrontRepresentation::RequestData(
     if (!overview || name.empty())
     {
       vtkErrorMacro("Point Front draws what a .pfront reader gives, and this input ("
-        << (input ? input->GetClassName() : "none")
-        << ") names no point store. Choose another representation for it.");
+                    << (input ? input->GetClassName() : "none")
+                    << ") names no point store. Choose another representation for it.");
       return 0;
     }
     vtkStdString error;
@@ -146,7 +147,8 @@ void vtkPointFrontRepresentation::PrepareFrame(vtkInformation* inInfo, vtkPVRend
   const double rate = view->GetRenderWindow()->GetDesiredUpdateRate();
   const bool interactive = rate > StillRate;
   this->Mapper->SetComplete(!interactive && this->WantsComplete(view));
-  // vtkPVLODActor draws through an actor of its own, whose allotted time nobody sets: hand the time on here.
+  // vtkPVLODActor draws through an actor of its own, whose allotted time nobody sets: hand the time
+  // on here.
   const double frameTime =
     this->TargetFrameTime > 0.0 || !interactive ? this->TargetFrameTime : 1000.0 / rate;
   this->Mapper->SetTargetFrameTime(frameTime);
@@ -167,9 +169,10 @@ void vtkPointFrontRepresentation::PrepareColors()
 {
   vtkInformation* info = this->GetInputArrayInformation(0);
   const char* array = info && info->Has(vtkDataObject::FIELD_NAME())
-    ? info->Get(vtkDataObject::FIELD_NAME())
-    : nullptr;
-  const bool ofPoints = info && info->Has(vtkDataObject::FIELD_ASSOCIATION()) &&
+                        ? info->Get(vtkDataObject::FIELD_NAME())
+                        : nullptr;
+  const bool ofPoints =
+    info && info->Has(vtkDataObject::FIELD_ASSOCIATION()) &&
     info->Get(vtkDataObject::FIELD_ASSOCIATION()) == vtkDataObject::FIELD_ASSOCIATION_POINTS;
   if (!array || !array[0] || !ofPoints)
   {
@@ -202,7 +205,7 @@ bool vtkPointFrontRepresentation::WantsComplete(vtkPVRenderView* view) const
     return this->CompleteStillRenders == ALWAYS;
   }
   return vtkProcessModule::GetProcessType() == vtkProcessModule::PROCESS_BATCH ||
-    CaptureState::Of(view);
+         CaptureState::Of(view);
 }
 
 //------------------------------------------------------------------------------

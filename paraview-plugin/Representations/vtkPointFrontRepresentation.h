@@ -2,17 +2,20 @@
  * @class vtkPointFrontRepresentation
  * @brief draws a point store in ParaView's render view with vtkPointFrontMapper
  *
- * The data that travels is the reader's overview; its field data names the store (vtkPointFrontStore), and every process
- * that renders opens the store itself. The points stay where the files are: with a server the view is asked for
- * distributed rendering, whatever the size of the overview, and each rank draws and loads only its piece of the store.
- * The pieces together draw each point once; IceT composites them by depth.
+ * The data that travels is the reader's overview; its field data names the store
+ * (vtkPointFrontStore), and every process that renders opens the store itself. The points stay
+ * where the files are: with a server the view is asked for distributed rendering, whatever the size
+ * of the overview, and each rank draws and loads only its piece of the store. The pieces together
+ * draw each point once; IceT composites them by depth.
  *
- * Regime: ParaView sets the window's DesiredUpdateRate on every rank (5 for an interactive render, 0.002 for a still one).
- * An interactive render keeps to 1 / rate seconds. A still render draws what is loaded, and the client asks for further
- * frames until nothing is missing (vtkSMPointFrontRepresentationProxy) - unless CompleteStillRenders says that it shall load
+ * Regime: ParaView sets the window's DesiredUpdateRate on every rank (5 for an interactive render,
+ * 0.002 for a still one). An interactive render keeps to 1 / rate seconds. A still render draws
+ * what is loaded, and the client asks for further frames until nothing is missing
+ * (vtkSMPointFrontRepresentationProxy) - unless CompleteStillRenders says that it shall load
  * everything before it returns.
  *
- * Exists on every process, as representations do; has an input on the data server only. Main thread.
+ * Exists on every process, as representations do; has an input on the data server only. Main
+ * thread.
  */
 #ifndef vtkPointFrontRepresentation_h
 #define vtkPointFrontRepresentation_h
@@ -31,21 +34,22 @@ class vtkProperty;
 class vtkScalarsToColors;
 
 class POINTFRONTPARAVIEWREPRESENTATIONS_EXPORT vtkPointFrontRepresentation
-  : public vtkPVDataRepresentation
+    : public vtkPVDataRepresentation
 {
 public:
   static vtkPointFrontRepresentation* New();
   vtkTypeMacro(vtkPointFrontRepresentation, vtkPVDataRepresentation);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  int ProcessViewRequest(vtkInformationRequestKey* request, vtkInformation* inInfo,
-    vtkInformation* outInfo) override;
+  int ProcessViewRequest(
+    vtkInformationRequestKey* request, vtkInformation* inInfo, vtkInformation* outInfo) override;
   void SetVisibility(bool visible) override;
 
-  /// Which still renders load and draw everything that TargetError and the budgets allow before they return.
+  /// Which still renders load and draw everything that TargetError and the budgets allow before
+  /// they return.
   enum StillRenders
   {
-    WHEN_UNATTENDED = 0, ///< screenshots and animations, and all in batch: nobody waits for a next frame
+    WHEN_UNATTENDED = 0, ///< screenshots, animations and all in batch: nobody sees a next frame
     ALWAYS = 1,
     NEVER = 2
   };
@@ -59,7 +63,8 @@ public:
 
   ///@{
   /**
-   * As in vtkPointFrontMapper: pixels; points; milliseconds, where 0 (default) keeps to the view's desired update rate.
+   * As in vtkPointFrontMapper: pixels; points; milliseconds, where 0 (default) keeps to the view's
+   * desired update rate.
    */
   void SetTargetError(double pixels);
   void SetPointBudget(vtkIdType points);
@@ -69,8 +74,8 @@ public:
 
   ///@{
   /**
-   * Host memory for the decoded nodes of the store, MiB, on each process that renders. Default 1024. The store is
-   * shared by the views of a process: the last value set holds.
+   * Host memory for the decoded nodes of the store, MiB, on each process that renders. Default
+   * 1024. The store is shared by the views of a process: the last value set holds.
    */
   vtkSetClampMacro(HostMemoryBudget, int, 1, VTK_INT_MAX);
   vtkGetMacro(HostMemoryBudget, int);
@@ -78,8 +83,9 @@ public:
 
   ///@{
   /**
-   * Colouring. MapScalars on: every array goes through the lookup table; off: colours are drawn as they are.
-   * DirectColors on (default): "rgb" is drawn as it is even if MapScalars is on, other arrays go through the table.
+   * Colouring. MapScalars on: every array goes through the lookup table; off: colours are drawn as
+   * they are. DirectColors on (default): "rgb" is drawn as it is even if MapScalars is on, other
+   * arrays go through the table.
    */
   void SetLookupTable(vtkScalarsToColors* table);
   vtkSetMacro(MapScalars, bool);
@@ -106,15 +112,16 @@ public:
 
   ///@{
   /**
-   * Of this process's last frame: points and nodes drawn; the largest projected point spacing, pixels.
-   * Zero on a process that draws nothing.
+   * Of this process's last frame: points and nodes drawn; the largest projected point spacing,
+   * pixels. Zero on a process that draws nothing.
    */
   vtkIdType GetPointsDrawn();
   vtkIdType GetNodesDrawn();
   double GetProjectedSpacing();
   ///@}
 
-  /// False while a further frame would show more, now or when nodes that are being loaded have come.
+  /// False while a further frame would show more, now or when nodes that are being loaded have
+  /// come.
   bool GetFrameComplete();
 
   /// True if a further frame would show more now. Cheap, never waits.
@@ -145,7 +152,7 @@ private:
   vtkNew<vtkPointFrontMapper> Mapper;
   vtkNew<vtkProperty> Property;
   vtkNew<vtkPVLODActor> Actor;
-  vtkNew<vtkPolyData> Overview;               ///< data server: the input
+  vtkNew<vtkPolyData> Overview;              ///< data server: the input
   vtkSmartPointer<vtkPointFrontStore> Store; ///< data server: for the bounds of the whole cloud
 
   int CompleteStillRenders = WHEN_UNATTENDED;

@@ -3,9 +3,9 @@
 #include "vtkCommand.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
-#include "vtkPVPointFrontFrame.h"
 #include "vtkPointFrontRepresentation.h"
 #include "vtkProcessModule.h"
+#include "vtkPVPointFrontFrame.h"
 #include "vtkRenderWindowInteractor.h"
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMSession.h"
@@ -20,11 +20,12 @@ namespace
 {
 /// After a still render: about what a node takes from a warm disk.
 constexpr int StillDelay = 20;
-/// After an interactive render: not before the hand rests, for the next mouse move shall find the client idle.
+/// After an interactive render: not before the hand rests, for the next mouse move shall find the
+/// client idle.
 constexpr int InteractiveDelay = 250;
 /// Between questions while nothing comes, doubled each time up to this.
 constexpr int LongestDelay = 500;
-}
+} // namespace
 
 //------------------------------------------------------------------------------
 vtkSMPointFrontRepresentationProxy::vtkSMPointFrontRepresentationProxy() = default;
@@ -58,8 +59,8 @@ void vtkSMPointFrontRepresentationProxy::Follow(vtkSMViewProxy* view)
   {
     this->View = view;
     this->Interactor = interactor;
-    this->RenderObserver =
-      view->AddObserver(vtkCommand::EndEvent, this, &vtkSMPointFrontRepresentationProxy::OnRendered);
+    this->RenderObserver = view->AddObserver(
+      vtkCommand::EndEvent, this, &vtkSMPointFrontRepresentationProxy::OnRendered);
     this->TimerObserver = interactor->AddObserver(
       vtkCommand::TimerEvent, this, &vtkSMPointFrontRepresentationProxy::OnTimer);
   }
@@ -103,8 +104,7 @@ void vtkSMPointFrontRepresentationProxy::StartTimer(int milliseconds)
   if (this->Interactor)
   {
     this->Delay = milliseconds;
-    this->Timer =
-      this->Interactor->CreateOneShotTimer(static_cast<unsigned long>(milliseconds));
+    this->Timer = this->Interactor->CreateOneShotTimer(static_cast<unsigned long>(milliseconds));
   }
 }
 
@@ -149,11 +149,13 @@ void vtkSMPointFrontRepresentationProxy::OnTimer(vtkObject*, unsigned long, void
     return;
   }
   vtkNew<vtkPVPointFrontFrame> frame;
-  // vtkSMSessionClient returns false always; a frame that could not be gathered says "complete", which ends here.
+  // vtkSMSessionClient returns false always; a frame that could not be gathered says "complete",
+  // which ends here.
   this->GatherInformation(frame);
   if (frame->GetOutdated())
   {
-    // Without a window of its own the interactor renders through ParaView's proxies; OnRendered comes next.
+    // Without a window of its own the interactor renders through ParaView's proxies; OnRendered
+    // comes next.
     this->Interactor->InvokeEvent(vtkCommand::RenderEvent, nullptr);
   }
   else if (!frame->GetComplete())

@@ -1,16 +1,19 @@
 /**
  * @class vtkSMPointFrontRepresentationProxy
- * @brief the client's end of a vtkPointFrontRepresentation: asks for further frames while the view is at rest
+ * @brief the client's end of a vtkPointFrontRepresentation: asks for further frames while the view
+ * is at rest
  *
- * A render never waits for the disk, so a picture becomes complete over several frames, and somebody must ask for
- * them. After each render of its view this object starts a one-shot timer of the view's interactor. When it fires,
- * the last frame is gathered from all processes (vtkPVPointFrontFrame); if one of them has more to show, the interactor's
- * RenderEvent is invoked, which ParaView turns into a still render, or an interactive one while a mouse button is held.
- * It ends when the frame is complete everywhere. Works without Qt: in the ParaView application, and in a Python
- * client with a window (Interact()), with the builtin and with remote servers. In batch there is no event loop and no timer.
+ * A render never waits for the disk, so a picture becomes complete over several frames, and
+ * somebody must ask for them. After each render of its view this object starts a one-shot timer of
+ * the view's interactor. When it fires, the last frame is gathered from all processes
+ * (vtkPVPointFrontFrame); if one of them has more to show, the interactor's RenderEvent is invoked,
+ * which ParaView turns into a still render, or an interactive one while a mouse button is held. It
+ * ends when the frame is complete everywhere. Works without Qt: in the ParaView application, and in
+ * a Python client with a window (Interact()), with the builtin and with remote servers. In batch
+ * there is no event loop and no timer.
  *
- * The server manager makes one for every representation of a view, whatever it draws; one that is not the
- * active type stays silent and sends nothing to the server. Client only, main thread.
+ * The server manager makes one for every representation of a view, whatever it draws; one that is
+ * not the active type stays silent and sends nothing to the server. Client only, main thread.
  */
 #ifndef vtkSMPointFrontRepresentationProxy_h
 #define vtkSMPointFrontRepresentationProxy_h
@@ -23,7 +26,7 @@ class vtkRenderWindowInteractor;
 class vtkSMViewProxy;
 
 class POINTFRONTPARAVIEWREPRESENTATIONS_EXPORT vtkSMPointFrontRepresentationProxy
-  : public vtkSMRepresentationProxy
+    : public vtkSMRepresentationProxy
 {
 public:
   static vtkSMPointFrontRepresentationProxy* New();
@@ -37,7 +40,8 @@ protected:
   vtkSMPointFrontRepresentationProxy();
   ~vtkSMPointFrontRepresentationProxy() override;
 
-  /// PointsDrawn, NodesDrawn, ProjectedSpacing and FrameComplete are of all processes, not of the server's root.
+  /// PointsDrawn, NodesDrawn, ProjectedSpacing and FrameComplete are of all processes, not of the
+  /// server's root.
   void UpdatePropertyInformationInternal(vtkSMProperty* property) override;
 
 private:

@@ -32,7 +32,8 @@ const std::vector<NamedPattern> patterns{
   { "rare peaks",
     [](std::size_t i, std::mt19937_64& random)
     { return i % 97 == 5 ? random() : std::uint64_t(1000) + random() % 3; } },
-  { "extremes", [](std::size_t i, std::mt19937_64&) { return i % 2 == 0 ? 0 : ~std::uint64_t(0); } },
+  { "extremes",
+    [](std::size_t i, std::mt19937_64&) { return i % 2 == 0 ? 0 : ~std::uint64_t(0); } },
   { "few kinds", [](std::size_t, std::mt19937_64& random) { return random() % 3; } },
   { "common factor", [](std::size_t, std::mt19937_64& random) { return random() % 250 * 257; } },
   { "one differs", [](std::size_t i, std::mt19937_64&) { return i == 1 ? 1 : 0; } },

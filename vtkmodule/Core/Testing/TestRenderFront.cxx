@@ -393,7 +393,10 @@ TEST(RenderFront, AnExhaustedResidencyEndsTheView)
     EXPECT_FALSE(front.update(view, residency, FrontLimits()).complete);
   }
   residency.full = true;
-  const FrontDelta& delta = front.update(view, residency, FrontLimits());
+  // Another view: the residency has not heard of its wishes yet.
+  const FrontDelta& delta = front.update(fromAbove(1201.0), residency, FrontLimits());
+  EXPECT_FALSE(delta.complete);
+  front.update(fromAbove(1201.0), residency, FrontLimits());
   EXPECT_TRUE(delta.complete);
   EXPECT_TRUE(delta.limitedByMemory);
   EXPECT_EQ(requested(delta), (std::vector<NodeIndex>{ 4, 5, 6 }));

@@ -122,7 +122,8 @@ TEST(StoreWriter, FullDiskIsToldAtEveryByte)
   const std::string path = temporaryPath("a.pfront");
   writeSample(sample, path);
   const std::uint64_t needed = fs::file_size(path);
-  for (std::uint64_t capacity = 0; capacity <= needed; capacity += capacity + 700 < needed ? 700 : 1)
+  for (std::uint64_t capacity = 0; capacity <= needed;
+       capacity += capacity + 700 < needed ? 700 : 1)
   {
     bool published = false;
     auto writer = assembleStore(

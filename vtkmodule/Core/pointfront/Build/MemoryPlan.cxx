@@ -46,9 +46,16 @@ std::uint64_t leastBytes(const MemoryDemand& demand)
     std::min(demand.points, leastPartPoints(demand)) * partPointBytes(demand.recordBytes));
 }
 
-/// With the bytes left beside what stays in memory all the time.
-MemoryPlan divided(const MemoryDemand& demand, std::uint64_t bytes, bool spill)
+/// What the allocator keeps, tables of cells and nodes, decoders, the pages of mapped inputs.
+std::uint64_t withoutOverhead(std::uint64_t bytes)
 {
+  return bytes - bytes / 4;
+}
+
+/// With the bytes left beside what stays in memory all the time.
+MemoryPlan divided(const MemoryDemand& demand, std::uint64_t available, bool spill)
+{
+  const std::uint64_t bytes = withoutOverhead(available);
   MemoryPlan plan;
   plan.spill = spill;
   const std::uint64_t least = std::max<std::uint64_t>(1, leastBytes(demand));

@@ -44,10 +44,11 @@ Result<std::unique_ptr<BuiltNode>> OctreeAssembly::run()
 
 Result<void> OctreeAssembly::work()
 {
+  SubsetSampler sampler;
   std::uint32_t node = 0;
   while (takePart(node))
   {
-    if (Result<void> done = buildPart(node); !done)
+    if (Result<void> done = buildPart(node, sampler); !done)
     {
       return done;
     }
@@ -70,7 +71,7 @@ bool OctreeAssembly::takePart(std::uint32_t& node)
   return false;
 }
 
-Result<void> OctreeAssembly::buildPart(std::uint32_t node)
+Result<void> OctreeAssembly::buildPart(std::uint32_t node, SubsetSampler& sampler)
 {
   const Partition::Node& part = parts_.partition().nodes()[node];
   Result<std::vector<std::byte>> records = parts_.load(part.part);
@@ -78,7 +79,7 @@ Result<void> OctreeAssembly::buildPart(std::uint32_t node)
   {
     return records.error();
   }
-  SubtreeBuilder builder(emitter_, rule_, recordBytes_);
+  SubtreeBuilder builder(emitter_, rule_, recordBytes_, sampler);
   OpenSubtree subtree = builder.build(std::move(*records), part.count);
   for (;;)
   {

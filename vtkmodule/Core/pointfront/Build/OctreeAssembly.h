@@ -36,7 +36,7 @@ public:
 private:
   Result<void> work();
   bool takePart(std::uint32_t& node);
-  Result<void> buildPart(std::uint32_t node);
+  Result<void> buildPart(std::uint32_t node, SubsetSampler& sampler);
   OpenSubtree joinChildren(std::uint32_t node, SubtreeBuilder& builder);
   Result<void> writeInTurn();
   void addSeconds(const SubtreeBuilder& builder);

@@ -24,6 +24,35 @@ std::uint64_t targetDistance(const TreePosition& p, unsigned cellLog2)
   }
   return sum;
 }
+
+/// The best point of one cell.
+struct Candidate
+{
+  std::size_t rank = 0; // in the list of points
+  std::uint64_t distance = 0;
+  TreePosition position{0};
+};
+
+/// One for each occupied cell, in Morton order; of equally near ones the first.
+std::vector<Candidate> nearestToTargets(
+  const RecordView& records, const std::vector<std::uint32_t>& points, unsigned cellLog2)
+{
+  std::vector<Candidate> candidates;
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    const TreePosition position = records.position(points[i]);
+    const Candidate candidate{i, targetDistance(position, cellLog2), position};
+    if (candidates.empty() || differingBits(position, candidates.back().position) > cellLog2)
+    {
+      candidates.push_back(candidate);
+    }
+    else if (candidate.distance < candidates.back().distance)
+    {
+      candidates.back() = candidate;
+    }
+  }
+  return candidates;
+}
 } // namespace
 
 CellOccupancy cellOccupancy(const RecordView& records, const std::vector<std::uint32_t>& points)
@@ -67,32 +96,69 @@ unsigned samplingCell(const CellOccupancy& occupancy, unsigned nodeLog2Side, int
   return std::min(cell, nodeLog2Side);
 }
 
-void chooseNearTargets(const RecordView& records, const std::vector<std::uint32_t>& points,
+SubsetSampler::SubsetSampler() : slots_(std::size_t(1) << (3 * slotBits)) {}
+
+std::uint32_t& SubsetSampler::slotOf(const TreePosition& cell)
+{
+  constexpr std::uint32_t mask = (1u << slotBits) - 1;
+  return slots_[((cell.z & mask) << (2 * slotBits)) | ((cell.y & mask) << slotBits) |
+                (cell.x & mask)];
+}
+
+bool SubsetSampler::crowded(const TreePosition& p, unsigned cellLog2)
+{
+  const double half = std::ldexp(0.5, static_cast<int>(cellLog2));
+  const std::uint32_t halfBit = 1u << (cellLog2 - 1);
+  const TreePosition cell(p.x >> cellLog2, p.y >> cellLog2, p.z >> cellLog2);
+  TreePosition beside; // the neighbour on the nearer side of each axis: nothing else is in reach
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    beside[axis] = (p[axis] & halfBit) != 0 ? cell[axis] + 1 : cell[axis] - 1;
+  }
+  for (unsigned octant = 1; octant < 8; ++octant)
+  {
+    const std::uint32_t taken = slotOf({(octant & 1u) != 0 ? beside.x : cell.x,
+      (octant & 2u) != 0 ? beside.y : cell.y, (octant & 4u) != 0 ? beside.z : cell.z});
+    if (taken == 0)
+    {
+      continue;
+    }
+    const glm::dvec3 d = glm::dvec3(taken_[taken - 1]) - glm::dvec3(p);
+    if (d.x * d.x + d.y * d.y + d.z * d.z < half * half)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+void SubsetSampler::choose(const RecordView& records, const std::vector<std::uint32_t>& points,
   unsigned cellLog2, std::vector<bool>& chosen)
 {
   chosen.assign(points.size(), false);
-  std::size_t best = 0;
-  std::uint64_t bestDistance = 0;
-  TreePosition cellMember{0};
-  for (std::size_t i = 0; i < points.size(); ++i)
+  taken_.clear();
+  const bool thin = cellLog2 > 0 && cellLog2 < 32; // else no two candidates can be that close
+  for (const Candidate& candidate : nearestToTargets(records, points, cellLog2))
   {
-    const TreePosition position = records.position(points[i]);
-    const std::uint64_t distance = targetDistance(position, cellLog2);
-    const bool newCell = i == 0 || differingBits(position, cellMember) > cellLog2;
-    if (newCell && i > 0)
+    const TreePosition& p = candidate.position;
+    if (thin && crowded(p, cellLog2))
     {
-      chosen[best] = true;
+      continue;
     }
-    if (newCell || distance < bestDistance)
+    chosen[candidate.rank] = true;
+    taken_.push_back(p);
+    if (thin)
     {
-      best = i;
-      bestDistance = distance;
-      cellMember = position;
+      slotOf({p.x >> cellLog2, p.y >> cellLog2, p.z >> cellLog2}) =
+        static_cast<std::uint32_t>(taken_.size());
     }
   }
-  if (!points.empty())
+  for (const TreePosition& p : taken_)
   {
-    chosen[best] = true;
+    if (thin)
+    {
+      slotOf({p.x >> cellLog2, p.y >> cellLog2, p.z >> cellLog2}) = 0;
+    }
   }
 }
 

@@ -37,14 +37,35 @@ struct SamplingRule
 unsigned samplingCell(const CellOccupancy& occupancy, unsigned nodeLog2Side, int coarsestBelow,
   const SamplingRule& rule);
 
-/// Marks one point for each occupied cell: the one nearest to the cell's target, ties by Morton
-/// order, then input order. `points` in Morton order; `chosen[i]` belongs to points[i].
-/// The target is not the centre: it lies at one third and two thirds of the cell's edge in
-/// turn from level to level, since one third of a cell is two thirds of the low octant's and so on.
-/// The targets of coarse cells are targets of finer cells too, so a point that was chosen for
-/// being near the target is still near it on the level above. Never first-come.
-void chooseNearTargets(const RecordView& records, const std::vector<std::uint32_t>& points,
-  unsigned cellLog2, std::vector<bool>& chosen);
+/// Marks a subset that covers all points: in each occupied cell the point nearest to the cell's
+/// target is a candidate (ties by Morton order, then input order); along the Morton curve,
+/// candidates closer than half a cell to a marked one are left out. So every point has a marked one
+/// within about a cell, and no two marked ones make a clump, as they would where a slope crosses
+/// the corner of a cell. Never first-come. Targets   not the centre: one third and two thirds of
+/// the cell's edge in turn from level to
+///           level, since one third of a cell is two thirds of its low octant, and so on. The
+///           targets of coarse cells are targets of finer cells too, so a point that was chosen
+///           for being near the target is still near it on the level above.
+/// Memory    8 MiB of slots, one for each cell of a node of 128 cells an edge, clear between calls.
+///           Larger nodes wrap around; then a slot may be another cell's, and a clump may stay.
+/// Threads   one instance, one thread.
+/// Source    the minimum distance within a node, as PotreeConverter 2 keeps it (Schuetz 2020).
+class SubsetSampler
+{
+public:
+  SubsetSampler();
+  /// `points` in Morton order; `chosen[i]` belongs to points[i]. cellLog2 up to 32.
+  void choose(const RecordView& records, const std::vector<std::uint32_t>& points,
+    unsigned cellLog2, std::vector<bool>& chosen);
+
+private:
+  static constexpr unsigned slotBits = 7; // of each axis
+  std::uint32_t& slotOf(const TreePosition& cell);
+  bool crowded(const TreePosition& p, unsigned cellLog2);
+
+  std::vector<std::uint32_t> slots_; // number of the cell's point in taken_, plus one
+  std::vector<TreePosition> taken_;
+};
 
 /// Spacing between neighbours in tree steps of a set whose occupancy is known, taken as a
 /// surface: cells that hold four points or more on average are all hit, so their

@@ -93,7 +93,7 @@ SubtreeBuilder::Branch SubtreeBuilder::joinBranches(
     joined.node->samplingLog2 = static_cast<int>(cell);
     joined.node->row.spacing =
       static_cast<float>(std::ldexp(emitter_.space().stepLength(), static_cast<int>(cell)));
-    chooseNearTargets(records, candidates, cell, chosen);
+    sampler_.choose(records, candidates, cell, chosen);
   }
   std::size_t rank = 0;
   for (Branch& child : children)

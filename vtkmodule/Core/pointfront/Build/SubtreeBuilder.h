@@ -42,7 +42,8 @@ struct SubtreeSeconds
 /// Mergers   Leaves of one parent become one node as long as what is left of them together is at
 ///           most nodePoints: an octree over a surface has many slivers, and a node of some
 ///           hundred points costs the front, the disk and the GPU as much as a full one.
-/// Sampling  An inner node takes from what its children hold, one point per cell (Sampler.h); what
+/// Sampling  An inner node takes from what its children hold, about one point per cell (Sampler.h);
+/// what
 ///           it leaves is theirs. What a node ends up with depends on the points inside its
 ///           parent only: not on where the cloud was cut into parts, nor on their order.
 /// Order     join() emits the children: siblings are neighbours in the file, below them all
@@ -51,8 +52,10 @@ struct SubtreeSeconds
 class SubtreeBuilder
 {
 public:
-  SubtreeBuilder(const NodeEmitter& emitter, const SamplingRule& rule, std::size_t recordBytes)
-      : emitter_(emitter), rule_(rule), recordBytes_(recordBytes)
+  /// `sampler` is the thread's own, reused from task to task.
+  SubtreeBuilder(const NodeEmitter& emitter, const SamplingRule& rule, std::size_t recordBytes,
+    SubsetSampler& sampler)
+      : emitter_(emitter), rule_(rule), recordBytes_(recordBytes), sampler_(sampler)
   {
   }
 
@@ -83,6 +86,7 @@ private:
   const NodeEmitter& emitter_;
   SamplingRule rule_;
   std::size_t recordBytes_;
+  SubsetSampler& sampler_;
   std::vector<EmittedNode> emitted_;
   SubtreeSeconds seconds_;
 };

@@ -8,9 +8,9 @@ namespace pointfront
 
 /// Learns what a frame costs and says what the next one may contain (FRONT-6, -7).
 /// Model    milliseconds = a * points + b * moves + c, a, b, c >= 0, fitted by exponentially
-///          weighted least squares over earlier frames (half of the weight lies on the last 14). A prior
-///          with the weight of a third of a frame holds what the frames do not tell: with a still camera
-///          points and moves do not vary, and the fit alone would be singular.
+///          weighted least squares over earlier frames (half of the weight lies on the last 14).
+///          A prior with the weight of a third of a frame holds what the frames do not tell: with a
+///          still camera points and moves do not vary, and the fit alone would be singular.
 /// Outliers a frame far from its prediction (the first upload, a shader being compiled, another
 ///          program) counts with a weight that shrinks with its distance (Huber 1964). If frames go
 ///          on being different, the scale of what is far grows and the model follows within some

@@ -51,17 +51,19 @@ struct RenderFront::State
   View view;
   FrontLimits limits;
   std::uint64_t revision = 0;
-  bool exhausted = false;
+  bool exhausted = false;      ///< of these requests: nothing more can come
+  bool inputChanged = true;    ///< other view or limits than in the update before
 
   // What the last update left behind.
   bool atRest = false;         ///< the same input would give the same output
-  bool movesUsedUp = false;    ///< FRONT-6: the cut goes on moving behind `nextSlot`
+  bool movesUsedUp = false;    ///< FRONT-6: expansions are left for the next update
+  std::uint32_t expansions = 0;
   bool growthHeldBack = false; ///< an expansion would have broken a budget
   bool budgetBound = false;    ///< the next lower threshold does not fit
   bool boundByMemory = false;  ///< ... because of heldPointBudget
   int floorRung = 0;           ///< FRONT-7: of the motion
   int lowestRung = 0;          ///< proved too low for this view and these limits: not tried again
-  SlotIndex nextSlot = 0;
+  SlotIndex nextSlot = 0;      ///< FRONT-6: where the next update goes on
   Demand demand;               ///< the last one that fits: of the threshold in force
 
   Refinement refinement() const { return hierarchy->refinement(); }
@@ -94,7 +96,8 @@ void RenderFront::State::adopt(const View& newView, const FrontLimits& newLimits
     ladder = ThresholdLadder(newLimits.targetErrorPx, newLimits.initialErrorPx);
     rung = ladder.rungFor(before);
   }
-  if (first || view != newView || !(limits == newLimits))
+  inputChanged = first || view != newView || !(limits == newLimits);
+  if (inputChanged)
   {
     lowestRung = 0;
   }
@@ -263,9 +266,11 @@ void RenderFront::State::expand(SlotIndex slot)
     evaluate(child, view, update);
     child.live = update;
   }
+  ++expansions;
   ++delta.moves;
 }
 
+/// The branch below, deepest first, as far as the moves go.
 void RenderFront::State::collapse(SlotIndex slot)
 {
   for (std::uint8_t c = 0; c < tree[slot].childCount; ++c)
@@ -276,30 +281,37 @@ void RenderFront::State::collapse(SlotIndex slot)
       collapse(child);
     }
   }
-  if (delta.moves >= limits.movesPerFrame)
+  // A child that was not collapsed has used the moves up.
+  if (delta.moves < limits.movesPerFrame)
   {
-    movesUsedUp = true;
-    return;
+    tree.collapse(slot);
+    ++delta.moves;
   }
-  // A child that could not be collapsed any more has used the moves up: this line is not reached.
-  tree.collapse(slot);
-  ++delta.moves;
 }
 
 /// FRONT-6: round the slots from where the last update stopped, until the moves are used up.
+/// Collapses that are left over wait: they save memory and change nothing on screen, where
+/// branches below the threshold are passed over. Expansions that are left over keep the threshold.
 void RenderFront::State::moveFront()
 {
   movesUsedUp = false;
+  expansions = 0;
   delta.moves = 0;
   SlotIndex slot = nextSlot < tree.slotCount() ? nextSlot : 0;
-  for (SlotIndex seen = 0; seen < tree.slotCount(); ++seen)
+  bool stopped = false;
+  for (SlotIndex seen = 0; seen < tree.slotCount() && !movesUsedUp; ++seen)
   {
     const ActiveNode& node = tree[slot];
     const bool expansion = node.node != noNode && wantsExpansion(node);
     const bool collapsing = node.node != noNode && wantsCollapse(node);
-    if ((expansion || collapsing) && delta.moves >= limits.movesPerFrame)
+    if (delta.moves >= limits.movesPerFrame)
     {
-      movesUsedUp = true;
+      movesUsedUp = expansion;
+      if ((expansion || collapsing) && !stopped)
+      {
+        nextSlot = slot;
+        stopped = true;
+      }
     }
     else if (expansion)
     {
@@ -309,29 +321,25 @@ void RenderFront::State::moveFront()
     {
       collapse(slot);
     }
-    if (movesUsedUp)
-    {
-      nextSlot = slot;
-      return;
-    }
     slot = slot + 1 < tree.slotCount() ? slot + 1 : 0;
   }
 }
 
 void RenderFront::State::finish(int rungBefore, const ResidencyView& residency)
 {
-  const bool settled = delta.moves == 0 && !movesUsedUp && !growthHeldBack;
+  const bool settled = expansions == 0 && !movesUsedUp && !growthHeldBack;
   const bool arrived = rung == 0 || budgetBound;
-  exhausted = plan.missing() > 0 && residency.exhausted();
+  // The residency speaks of what it was asked for after an earlier update: of the same view?
+  exhausted = !inputChanged && rung == rungBefore && plan.missing() > 0 && residency.exhausted();
   revision = residency.revision();
   delta.frontLength = tree.frontLength();
   delta.thresholdPx = thresholdPx();
   delta.limitedByBudget = plan.clipped() || (budgetBound && !boundByMemory && rung > 0);
   delta.limitedByMemory = exhausted || (budgetBound && boundByMemory && rung > 0);
   delta.complete =
-    settled && arrived && rung == rungBefore && (plan.missing() == 0 || exhausted);
+    settled && rung == rungBefore && (exhausted || (arrived && plan.missing() == 0));
   const bool falls = rung > floorRung && !budgetBound && plan.missing() <= limits.requestLimit;
-  atRest = settled && rung == rungBefore && !falls;
+  atRest = settled && delta.moves == 0 && rung == rungBefore && !falls;
 }
 
 RenderFront::RenderFront(std::shared_ptr<const Hierarchy> hierarchy)

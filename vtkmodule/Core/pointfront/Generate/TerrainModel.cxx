@@ -152,8 +152,8 @@ glm::u8vec3 TerrainModel::colourOf(const Echo& echo, double x, double y, double 
       const auto i = static_cast<std::int64_t>(std::floor(x / plotSize));
       const auto j = static_cast<std::int64_t>(std::floor(y / plotSize));
       const double tile = draw(hashOfCell(seed_ + plotStream, i, j), 5);
-      return tile < 0.5 ? glm::u8vec3(channel(170 * shade), channel(88 * shade), channel(66 * shade))
-                        : glm::u8vec3(channel(150 * shade), channel(150 * shade), channel(158 * shade));
+      const glm::dvec3 roof = tile < 0.5 ? glm::dvec3(170, 88, 66) : glm::dvec3(150, 150, 158);
+      return { channel(roof.r * shade), channel(roof.g * shade), channel(roof.b * shade) };
     }
     case HighVegetation:
       return { channel(48 * shade), channel(96 * shade), channel(40 * shade) };

@@ -49,6 +49,7 @@ struct Residency::Content
     NodeIndex node = noNode;
     ColumnSelection columns;
     std::size_t bytes = 0; ///< reserved for it
+    bool reread = false;   ///< of a node that is or was in memory with other columns
   };
   struct Choice
   {
@@ -169,7 +170,7 @@ std::optional<Residency::Content::Task> Residency::Content::begin()
     return std::nullopt;
   }
   const NodeIndex node = choice->request.node;
-  Task task{ node, columns, need(node) };
+  Task task{ node, columns, need(node), choice->reread };
   if (choice->inPlaceOfOld)
   {
     cache.remove(node);
@@ -276,6 +277,8 @@ void Residency::Content::perform(const Task& task)
     {
       bytesRead += reader->storedBytes(task.node, task.columns);
       news = store(task, std::move(result).value());
+      // What has come may be what can go: a node that was wanted when its read began.
+      nothingToRelease = nothingToRelease && task.reread;
       if (news)
       {
         ++arrivals;
@@ -453,6 +456,7 @@ void Residency::request(const std::vector<LoadRequest>& requests)
     {
       return;
     }
+    c.nothingToRelease = false;
   }
   content_->budget->announceChange();
 }

@@ -21,11 +21,21 @@ CodedBlock raw(const std::byte* values, const BlockShape& shape)
   return { BlockCodec::Raw, std::vector<std::byte>(values, values + shape.bytes()) };
 }
 
-// Zstandard decodes at a quarter of Packed's rate: it has to save a quarter of the bytes
-// (docs/adr/0001-store-codecs.md).
-bool worthZstd(std::size_t planesBytes, std::size_t packedBytes)
+// Zstandard decodes at a quarter of Packed's rate or less: it has to save a quarter of the bytes,
+// and a bit a point (docs/adr/0001-store-codecs.md).
+bool worthZstd(std::size_t planesBytes, std::size_t packedBytes, std::size_t points)
 {
-  return planesBytes + packedBytes / 4 < packedBytes;
+  return planesBytes + std::max(packedBytes / 4, points / 8) < packedBytes;
+}
+
+// In steps that double: a copy for each point would take as long as decoding it.
+void repeat(const std::byte* value, std::size_t valueBytes, std::byte* values, std::size_t bytes)
+{
+  std::memcpy(values, value, valueBytes);
+  for (std::size_t done = valueBytes; done < bytes; done *= 2)
+  {
+    std::memcpy(values + done, values, std::min(done, bytes - done));
+  }
 }
 
 // Compressing with Zstandard takes longer than all else: first a sample.
@@ -33,7 +43,8 @@ bool zstdPromises(const std::byte* values, const BlockShape& shape)
 {
   const BlockShape sample = sampleOf(shape);
   const std::byte* begin = values + (shape.bytes() - sample.bytes());
-  return worthZstd(encodePlanes(begin, sample).size(), encodePacked(begin, sample).size());
+  return worthZstd(
+    encodePlanes(begin, sample).size(), encodePacked(begin, sample).size(), sample.points);
 }
 } // namespace
 
@@ -64,7 +75,7 @@ CodedBlock encodeBlock(const std::byte* values, const BlockShape& shape)
   if (zstdPromises(values, shape))
   {
     std::vector<std::byte> planes = encodePlanes(values, shape);
-    if (worthZstd(planes.size(), best.bytes.size()))
+    if (worthZstd(planes.size(), best.bytes.size(), shape.points))
     {
       best = { BlockCodec::PlanesZstd, std::move(planes) };
     }
@@ -93,10 +104,7 @@ bool decodeBlock(BlockCodec codec, const std::byte* coded, std::size_t codedByte
       {
         return false;
       }
-      for (std::size_t i = 0; i < shape.points; ++i)
-      {
-        std::memcpy(values + i * codedBytes, coded, codedBytes);
-      }
+      repeat(coded, codedBytes, values, shape.bytes());
       return true;
     case BlockCodec::Packed:
       return decodePacked(coded, codedBytes, shape, values);

@@ -87,12 +87,22 @@ void fromPlanes(const std::byte* planes, const BlockShape& shape, std::byte* val
 }
 } // namespace
 
+void splitPlanes(const std::byte* values, const BlockShape& shape, std::byte* planes)
+{
+  withUnsigned(shape.scalarBytes,
+    [&](auto zero) { toPlanes<decltype(zero)>(values, shape, planes); });
+}
+
+void joinPlanes(const std::byte* planes, const BlockShape& shape, std::byte* values)
+{
+  withUnsigned(shape.scalarBytes,
+    [&](auto zero) { fromPlanes<decltype(zero)>(planes, shape, values); });
+}
+
 std::vector<std::byte> encodePlanes(const std::byte* values, const BlockShape& shape)
 {
   std::vector<std::byte>& planes = scratch(shape.bytes());
-  withUnsigned(shape.scalarBytes, [&](auto zero) {
-    toPlanes<decltype(zero)>(values, shape, planes.data());
-  });
+  splitPlanes(values, shape, planes.data());
   std::vector<std::byte> coded(ZSTD_compressBound(shape.bytes()));
   const std::size_t size = ZSTD_compressCCtx(
     compressor(), coded.data(), coded.size(), planes.data(), shape.bytes(), zstdLevel);
@@ -111,9 +121,7 @@ bool decodePlanes(const std::byte* coded, std::size_t codedBytes, const BlockSha
   {
     return false;
   }
-  withUnsigned(shape.scalarBytes, [&](auto zero) {
-    fromPlanes<decltype(zero)>(planes.data(), shape, values);
-  });
+  joinPlanes(planes.data(), shape, values);
   return true;
 }
 } // namespace pointfront

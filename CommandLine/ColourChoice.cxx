@@ -1,0 +1,166 @@
+#include "ColourChoice.h"
+
+#include "pointfront/Store/StoreSample.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace pointfront
+{
+
+namespace
+{
+constexpr double lowShare = 0.02;
+constexpr double highShare = 0.98;
+
+/// Smallest and largest stored value over all components; {0, 0} if it is not known.
+std::array<double, 2> storedRange(const StoreDescription& store, std::size_t column)
+{
+  std::array<double, 2> range{ std::numeric_limits<double>::infinity(),
+    -std::numeric_limits<double>::infinity() };
+  if (column < store.ranges.size())
+  {
+    for (const std::array<double, 2>& component : store.ranges[column].components)
+    {
+      range = { std::min(range[0], component[0]), std::max(range[1], component[1]) };
+    }
+  }
+  return range[0] <= range[1] ? range : std::array<double, 2>{ 0.0, 0.0 };
+}
+
+bool varies(const StoreDescription& store, const char* attribute)
+{
+  const std::optional<std::size_t> column = store.schema.find(attribute);
+  return column && storedRange(store, *column)[0] < storedRange(store, *column)[1];
+}
+
+bool hasColour(const StoreDescription& store)
+{
+  const std::optional<std::size_t> column = store.schema.find("rgb");
+  return column && storedRange(store, *column)[1] > 0.0;
+}
+
+struct TwoRanges
+{
+  std::array<double, 2> robust{ std::numeric_limits<double>::infinity(),
+    -std::numeric_limits<double>::infinity() };
+  std::array<double, 2> whole = robust;
+
+  void add(std::array<double, 2> robustOfOne, std::array<double, 2> wholeOfOne)
+  {
+    robust = { std::min(robust[0], robustOfOne[0]), std::max(robust[1], robustOfOne[1]) };
+    whole = { std::min(whole[0], wholeOfOne[0]), std::max(whole[1], wholeOfOne[1]) };
+  }
+  std::array<double, 2> best() const
+  {
+    if (robust[0] < robust[1])
+    {
+      return robust;
+    }
+    return whole[0] < whole[1] ? whole : std::array<double, 2>{ whole[0], whole[0] + 1.0 };
+  }
+};
+
+Result<TwoRanges> rangesOf(
+  const std::string& attribute, const std::vector<std::shared_ptr<const PointStore>>& stores)
+{
+  TwoRanges ranges;
+  for (const std::shared_ptr<const PointStore>& store : stores)
+  {
+    const StoreDescription& description = store->description();
+    ColumnSelection selection;
+    const std::optional<std::size_t> column = description.schema.find(attribute);
+    if (attribute != "elevation" && !column)
+    {
+      continue;
+    }
+    if (attribute != "elevation")
+    {
+      selection.push_back(static_cast<std::uint32_t>(*column));
+    }
+    const Result<StoreSample> sample = StoreSample::read(
+      *store->hierarchy(), *store, description.grid, description.schema, selection);
+    if (!sample)
+    {
+      return sample.error();
+    }
+    if (selection.empty())
+    {
+      ranges.add({ sample->elevationQuantile(lowShare), sample->elevationQuantile(highShare) },
+        { description.bounds.low.z, description.bounds.high.z });
+    }
+    else
+    {
+      const double low = sample->columnQuantile(0, 0, lowShare);
+      const double high = sample->columnQuantile(0, 0, highShare);
+      ranges.add({ low, high }, storedRange(description, *column));
+    }
+  }
+  return ranges;
+}
+} // namespace
+
+std::string defaultColourAttribute(const StoreDescription& store)
+{
+  if (hasColour(store))
+  {
+    return "rgb";
+  }
+  for (const char* attribute : { "classification", "intensity" })
+  {
+    if (varies(store, attribute))
+    {
+      return attribute;
+    }
+  }
+  return "elevation";
+}
+
+Result<ColourChoice> chooseColour(
+  const std::string& attribute, const std::vector<std::shared_ptr<const PointStore>>& stores)
+{
+  ColourChoice choice;
+  choice.attribute = attribute;
+  if (attribute != "elevation")
+  {
+    const Attribute* found = nullptr;
+    for (const std::shared_ptr<const PointStore>& store : stores)
+    {
+      const AttributeSchema& schema = store->description().schema;
+      const std::optional<std::size_t> column = schema.find(attribute);
+      found = column && found == nullptr ? &schema[*column] : found;
+    }
+    if (found == nullptr)
+    {
+      return makeError(Error::Kind::BadArgument,
+        "--color-by: no store here has the attribute '" + attribute + "' (info lists them)");
+    }
+    choice.attribute = found->name;
+    choice.direct = found->name == "rgb";
+    if (!choice.direct && found->components != 1)
+    {
+      return makeError(Error::Kind::BadArgument,
+        "--color-by: '" + attribute + "' has several components and cannot be mapped to colours");
+    }
+  }
+  if (choice.direct)
+  {
+    return choice;
+  }
+  if (choice.attribute == "classification")
+  {
+    choice.table = classificationTable();
+    choice.range = { -0.5, 255.5 }; // code c falls into the middle of entry c
+    return choice;
+  }
+  const Result<TwoRanges> ranges = rangesOf(choice.attribute, stores);
+  if (!ranges)
+  {
+    return ranges.error();
+  }
+  choice.range = ranges->best();
+  choice.table = choice.attribute == "intensity" ? greyTable() : viridisTable();
+  return choice;
+}
+
+} // namespace pointfront

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "ColourTable.h"
+
+#include "pointfront/Base/Result.h"
+#include "pointfront/Store/PointStore.h"
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace pointfront
+{
+
+/// How the points of one picture get their colour.
+struct ColourChoice
+{
+  std::string attribute;             ///< of the store, or "elevation"
+  bool direct = false;               ///< rgb: the values are the colours
+  ColourTable table = {};            ///< else: from range[0] to range[1]
+  std::array<double, 2> range{ 0.0, 1.0 }; ///< as stored; "elevation": world z
+};
+
+/// What is drawn when the user does not say: rgb if the store has any colour, else classification
+/// if there are several classes, else intensity if it varies, else elevation.
+std::string defaultColourAttribute(const StoreDescription& store);
+
+/// Table and range for an attribute over all stores of a picture.
+/// Range   2 % to 98 % of a sample of the points (StoreSample), so that a few outliers do not eat
+///         the colours; the whole range when those are equal. classification: one colour a code.
+/// Errors  BadArgument: no store has the attribute, or it has several components (but rgb).
+Result<ColourChoice> chooseColour(
+  const std::string& attribute, const std::vector<std::shared_ptr<const PointStore>>& stores);
+
+} // namespace pointfront

@@ -1,0 +1,128 @@
+#include "DrawingOptions.h"
+
+#include "Unavailable.h"
+#include "Values.h"
+
+#include <algorithm>
+
+namespace pointfront
+{
+
+namespace
+{
+constexpr double largestPointSizePx = 255.0;
+
+/// Calls `take` with the word; false from it is wrong usage, explained by `expected`.
+template <typename Take>
+CLI::callback_t word(const std::string& option, const std::string& expected, Take take)
+{
+  return [option, expected, take](const CLI::results_t& words) -> bool
+  {
+    if (!take(words.back()))
+    {
+      throw CLI::ParseError(option + ": '" + words.back() + "' is not " + expected, 2);
+    }
+    return true;
+  };
+}
+
+void declareColour(CLI::App& app, DrawingOptions& options)
+{
+  const auto colourBy = [&options](const CLI::results_t& words)
+  {
+    for (const char* planned : { "normal", "horizontality", "global-height", "local-height" })
+    {
+      if (words.back() == planned)
+      {
+        throw CLI::ParseError("--color-by: '" + words.back() +
+            "' is not available in this version: use rgb, classification, intensity, elevation or "
+            "an attribute of the store", 2);
+      }
+    }
+    options.colourBy = words.back();
+    return true;
+  };
+  app.add_option("--color-by", colourBy,
+       "rgb, classification, intensity, elevation or an attribute (the first of them that says "
+       "something)")
+    ->type_name("ATTRIBUTE")
+    ->expected(1);
+  const auto background = word("--background", "a colour: write R,G,B with 0 to 255",
+    [&options](const std::string& text)
+    {
+      const auto colour = parseColour(text);
+      options.background = colour.value_or(options.background);
+      return colour.has_value();
+    });
+  app.add_option("--background", background, "Colour behind the points (a dark grey)")
+    ->type_name("R,G,B")
+    ->expected(1);
+}
+
+void declareUnavailableDrawing(CLI::App& app)
+{
+  app.add_option("--technique", "points (others are not available yet)")
+    ->check(availableValues(
+      { "points" }, { "splats", "spheres", "silhouettes", "solid", "ewa" }));
+  declareUnavailable(app, "--style", "classes have no styles of their own");
+  declareUnavailable(app, "--classes", "the renderer does not choose by class; use export");
+}
+} // namespace
+
+std::optional<std::array<double, 3>> parseColour(const std::string& text)
+{
+  std::optional<std::array<double, 3>> colour = parseNumbers<3>(text);
+  if (!colour)
+  {
+    return std::nullopt;
+  }
+  const double largest = std::max({ (*colour)[0], (*colour)[1], (*colour)[2] });
+  const double scale = largest > 1.0 ? 1.0 / 255.0 : 1.0;
+  for (double& channel : *colour)
+  {
+    if (channel < 0.0 || channel > 255.0)
+    {
+      return std::nullopt;
+    }
+    channel *= scale;
+  }
+  return colour;
+}
+
+void DrawingOptions::declare(CLI::App& app)
+{
+  app.add_option("stores", stores, "Stores, drawn together")->required()->type_name("STORE...");
+  const auto imageSize = word("--size", "a size in pixels: write 1280x720",
+    [this](const std::string& text)
+    {
+      const auto edges = parseImageSize(text);
+      size = edges.value_or(size);
+      return edges.has_value();
+    });
+  app.add_option("--size", imageSize, "Pixels of the picture (1280x720)")
+    ->type_name("WxH")
+    ->expected(1);
+  declareColour(app, *this);
+  const auto pointSize = word("--point-size", "a diameter from 1 to 255 pixels, or auto",
+    [this](const std::string& text)
+    {
+      const auto pixels = parseNumbers<1>(text);
+      pointSizePx = pixels ? (*pixels)[0] : 0.0;
+      return text == "auto" ||
+        (pixels && pointSizePx >= 1.0 && pointSizePx <= largestPointSizePx);
+    });
+  app.add_option("--point-size", pointSize, "Diameter of a point (auto: as the points' spacing)")
+    ->type_name("PX|auto")
+    ->expected(1);
+  app.add_flag("--edl", eyeDomeLighting, "Eye-dome lighting: shade by depth");
+  app.add_option("--error", errorPx, "Projected point spacing to refine to (1)")
+    ->check(CLI::Range(0.01, 1000.0))
+    ->type_name("PX");
+  app.add_option("--point-budget", pointBudget, "Most points drawn at a time")
+    ->check(CLI::Range(std::int64_t(1), std::int64_t(1) << 40))
+    ->type_name("N");
+  addByteSize(app, "--memory", memoryBytes, "Most memory for decoded points (1G)");
+  declareUnavailableDrawing(app);
+}
+
+} // namespace pointfront

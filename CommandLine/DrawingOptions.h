@@ -1,0 +1,34 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pointfront
+{
+
+/// What `render` and `bench` have in common: which stores, and how they are drawn.
+struct DrawingOptions
+{
+  std::vector<std::string> stores;
+  std::array<int, 2> size{ 1280, 720 };              ///< pixels
+  std::array<double, 3> background{ 0.09, 0.10, 0.12 }; ///< 0 to 1
+  std::string colourBy;          ///< empty: defaultColourAttribute()
+  double pointSizePx = 0.0;      ///< 0: auto
+  double errorPx = 1.0;          ///< projected point spacing
+  std::uint64_t memoryBytes = 0; ///< decoded points of all stores; 0: the library's default
+  std::int64_t pointBudget = -1; ///< most points drawn; -1: not given
+  bool eyeDomeLighting = false;
+
+  /// Adds the options to a command; this object must outlive the parsing.
+  void declare(CLI::App& app);
+};
+
+/// "R,G,B", each 0 to 255, or each 0 to 1 if none is larger than 1. Nothing for wrong text.
+std::optional<std::array<double, 3>> parseColour(const std::string& text);
+
+} // namespace pointfront

@@ -1,0 +1,119 @@
+#include "ExportCommand.h"
+
+#include "CancelSignal.h"
+#include "LASWriter.h"
+#include "ProgressDisplay.h"
+#include "Unavailable.h"
+#include "Values.h"
+#include "XYZWriter.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+namespace pointfront
+{
+
+namespace
+{
+std::string extensionOf(const std::string& path)
+{
+  std::string extension = std::filesystem::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+/// By the extension, which has been checked.
+std::unique_ptr<PointSink> makeSink(const std::string& path)
+{
+  const std::string extension = extensionOf(path);
+  if (extension == ".xyz")
+  {
+    return std::make_unique<XYZWriter>(path);
+  }
+  return std::make_unique<LASWriter>(
+    path, extension == ".laz" ? LASWriter::Encoding::Laz : LASWriter::Encoding::Las);
+}
+
+std::string checkExtension(std::string& path)
+{
+  const CLI::Validator check =
+    availableValues({ ".las", ".laz", ".xyz" }, { ".ply", ".pcd" });
+  std::string extension = extensionOf(path);
+  return check(extension);
+}
+} // namespace
+
+void ExportCommand::declare(CLI::App& program)
+{
+  app_ = program.add_subcommand("export", "Write points of a store to a point file");
+  app_->add_option("store", storePath_, "The store")->required()->type_name("STORE");
+  app_->add_option("-o,--output", outputPath_, "The file to write; replaced if it is there")
+    ->required()
+    ->check(CLI::Validator(checkExtension, "OUT.las|.laz|.xyz"));
+  const auto box = [this](const CLI::results_t& words)
+  {
+    const auto numbers = parseNumbers<6>(words.back());
+    if (!numbers || (*numbers)[0] > (*numbers)[3] || (*numbers)[1] > (*numbers)[4] ||
+      (*numbers)[2] > (*numbers)[5])
+    {
+      throw CLI::ParseError("--box: '" + words.back() +
+          "' is not a box: write x0,y0,z0,x1,y1,z1 with lower before upper corner", 2);
+    }
+    const auto& n = *numbers;
+    selection_.box = Bounds{ { n[0], n[1], n[2] }, { n[3], n[4], n[5] } };
+    return true;
+  };
+  app_->add_option("--box", box, "Only points inside or on this box")
+    ->type_name("x0,y0,z0,x1,y1,z1")
+    ->expected(1);
+  const auto classes = [this](const CLI::results_t& words)
+  {
+    const auto codes = parseClasses(words.back());
+    if (!codes)
+    {
+      throw CLI::ParseError(
+        "--classes: '" + words.back() + "' is not a list of class codes: write 2,6", 2);
+    }
+    selection_.classes = *codes;
+    return true;
+  };
+  app_->add_option("--classes", classes, "Only points of these classes")
+    ->type_name("LIST")
+    ->expected(1);
+  app_->add_option("--spacing", selection_.spacing,
+        "Thin out: levels until the points are at least this dense")
+    ->check(CLI::PositiveNumber)
+    ->type_name("METRES");
+  app_->add_option("--progress", progress_, "On stderr: auto, plain, json or none (auto)")
+    ->check(availableValues({ "auto", "plain", "json", "none" }, {}));
+}
+
+Result<void> ExportCommand::run()
+{
+  const CancelSignal signal(CancelSignal::Mode::Finish);
+  Result<std::shared_ptr<const PointStore>> store = PointStore::open(storePath_);
+  if (!store)
+  {
+    return store.error();
+  }
+  const std::unique_ptr<PointSink> sink = makeSink(outputPath_);
+  ExportReport report;
+  {
+    ProgressDisplay display(*ProgressDisplay::styleOf(progress_));
+    Result<ExportReport> exported = exportStore(**store, selection_, *sink, display.function());
+    if (!exported)
+    {
+      return exported.error();
+    }
+    report = *exported;
+  }
+  std::printf("%s: %llu points\n", outputPath_.c_str(),
+    static_cast<unsigned long long>(report.pointsWritten));
+  return {};
+}
+
+} // namespace pointfront

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "Command.h"
+
+#include "pointfront/Export/StoreExport.h"
+
+#include <string>
+
+namespace pointfront
+{
+
+/// `pointfront export`: points of a store -> an ordinary point file, its kind by the extension.
+class ExportCommand final : public Command
+{
+public:
+  void declare(CLI::App& program) override;
+  Result<void> run() override;
+
+private:
+  std::string storePath_;
+  std::string outputPath_;
+  ExportSelection selection_;
+  std::string progress_ = "auto";
+};
+
+} // namespace pointfront

@@ -1,0 +1,176 @@
+#include "RenderCommand.h"
+
+#include "CancelSignal.h"
+#include "PeakMemory.h"
+#include "Unavailable.h"
+#include "WholeFile.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cstdio>
+
+namespace pointfront
+{
+
+namespace
+{
+std::string checkPng(std::string& path)
+{
+  const std::string::size_type dot = path.rfind('.');
+  const std::string extension = dot == std::string::npos ? "" : path.substr(dot);
+  return extension == ".png" || extension == ".PNG" ? "" : "'" + path + "' must end in .png";
+}
+} // namespace
+
+void RenderCommand::declare(CLI::App& program)
+{
+  app_ = program.add_subcommand("render", "Draw a picture of stores, offscreen");
+  drawing_.declare(*app_);
+  app_->add_option("-o,--output", outputPath_, "The picture; replaced if it is there")
+    ->required()
+    ->check(CLI::Validator(checkPng, "OUT.png"));
+  CLI::Option* const view =
+    app_->add_option("--view", view_, "Where from, showing all (iso)")
+      ->check(availableValues({ "iso", "top", "front", "back", "left", "right" }, {}));
+  app_->add_option("--camera", cameraPath_, "Camera file")->type_name("FILE.json")->excludes(view);
+  CLI::Option* const complete = app_->add_flag(
+    "--complete", "Wait for all that the error and the budgets allow (this is the default)");
+  app_->add_option("--frames", frames_, "Instead: what a user sees after N frames")
+    ->check(CLI::Range(1, 1000000))
+    ->type_name("N")
+    ->excludes(complete);
+  app_->add_option("--stats", statisticsPath_, "Write what was done as JSON")
+    ->type_name("FILE.json");
+}
+
+Result<Camera> RenderCommand::camera(const StoreScene& scene) const
+{
+  if (!cameraPath_.empty())
+  {
+    return readCameraFile(cameraPath_);
+  }
+  const double aspect = static_cast<double>(drawing_.size[0]) / drawing_.size[1];
+  return cameraFitting(scene.bounds(), *namedView(view_), aspect);
+}
+
+void RenderCommand::note(const FrameRecord& frame)
+{
+  const std::chrono::duration<double, std::milli> now = Clock::now() - begin_;
+  if (!firstImageMs_ && frame.points > 0)
+  {
+    firstImageMs_ = now.count();
+  }
+  if (!completeMs_ && frame.complete)
+  {
+    completeMs_ = now.count();
+  }
+}
+
+Result<FrameRecord> RenderCommand::drawFrames(StoreScene& scene)
+{
+  Result<FrameRecord> frame = scene.renderFrame();
+  for (int i = 1; i < frames_ && frame; ++i)
+  {
+    note(*frame);
+    frame = scene.renderFrame();
+  }
+  return frame;
+}
+
+Result<FrameRecord> RenderCommand::drawComplete(StoreScene& scene)
+{
+  // What a user sees first, for the time it takes; then all the rest.
+  Result<FrameRecord> frame = scene.renderFrame();
+  while (frame && frame->points == 0 && scene.waitForArrival())
+  {
+    frame = scene.renderFrame();
+  }
+  if (!frame)
+  {
+    return frame;
+  }
+  note(*frame);
+  return scene.renderComplete();
+}
+
+Result<FrameRecord> RenderCommand::draw(StoreScene& scene)
+{
+  Result<FrameRecord> frame = frames_ > 0 ? drawFrames(scene) : drawComplete(scene);
+  if (frame)
+  {
+    note(*frame);
+  }
+  return frame;
+}
+
+Result<void> RenderCommand::run()
+{
+  const CancelSignal signal(CancelSignal::Mode::Leave);
+  begin_ = Clock::now();
+  for (const std::string& path : { outputPath_, statisticsPath_ })
+  {
+    if (Result<void> writable = path.empty() ? Result<void>() : checkWritable(path); !writable)
+    {
+      return writable;
+    }
+  }
+  Result<std::unique_ptr<StoreScene>> scene = StoreScene::open(drawing_);
+  if (!scene)
+  {
+    return scene.error();
+  }
+  const Result<Camera> from = camera(**scene);
+  if (!from)
+  {
+    return from.error();
+  }
+  (*scene)->setCamera(from.value());
+  const Result<FrameRecord> last = draw(**scene);
+  if (!last)
+  {
+    return last.error();
+  }
+  if (frames_ == 0 && !last->complete)
+  {
+    warn(name(), "the picture is coarser than --error asks: the budgets allow no more"
+                 " (raise --point-budget or --memory)");
+  }
+  // From here on there are files to finish: a signal is seen when they are whole.
+  const CancelSignal finishing(CancelSignal::Mode::Finish);
+  if (Result<void> written = (*scene)->writePicture(outputPath_); !written)
+  {
+    return written;
+  }
+  if (!statisticsPath_.empty())
+  {
+    if (Result<void> written = writeWholeFile(statisticsPath_, statistics(**scene, *last) + "\n");
+        !written)
+    {
+      return written;
+    }
+  }
+  std::printf("%s: %lld points in %lld nodes\n", outputPath_.c_str(),
+    static_cast<long long>(last->points), static_cast<long long>(last->nodes));
+  return {};
+}
+
+std::string RenderCommand::statistics(const StoreScene& scene, const FrameRecord& last) const
+{
+  const auto orNull = [](const std::optional<double>& ms)
+  { return ms ? nlohmann::ordered_json(*ms) : nlohmann::ordered_json(); };
+  nlohmann::ordered_json object;
+  object["complete"] = last.complete;
+  object["time_to_first_image_ms"] = orNull(firstImageMs_);
+  object["time_to_complete_ms"] = orNull(completeMs_);
+  object["points_drawn"] = last.points;
+  object["nodes_drawn"] = last.nodes;
+  object["error_px"] = last.errorPx;
+  object["peak_rss_bytes"] = peakResidentBytes();
+  object["resident_bytes"] = last.residentBytes;
+  object["gpu_bytes"] = last.gpuBytes;
+  object["bytes_read"] = last.bytesRead;
+  object["attributes_read"] = scene.attributesRead();
+  return object.dump(2);
+}
+
+} // namespace pointfront

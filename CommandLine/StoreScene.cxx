@@ -1,0 +1,455 @@
+#include "StoreScene.h"
+
+#include "ColourChoice.h"
+#include "PointSize.h"
+#include "WholeFile.h"
+
+#include "pointfront/Front/View.h"
+#include "pointfront/Residency/Residency.h"
+#include "pointfront/Store/PointStore.h"
+#include "pointfront/Store/StoreSample.h"
+
+#include "vtkPointFrontMapper.h"
+#include "vtkPointFrontReader.h"
+#include "vtkPointFrontStore.h"
+
+#include <vtkActor.h>
+#include <vtkCallbackCommand.h>
+#include <vtkCamera.h>
+#include <vtkEDLShading.h>
+#include <vtkLookupTable.h>
+#include <vtkMatrix4x4.h>
+#include <vtkNew.h>
+#include <vtkOpenGLRenderer.h>
+#include <vtkPNGWriter.h>
+#include <vtkProperty.h>
+#include <vtkRenderStepsPass.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+#include <vtkSmartPointer.h>
+#include <vtkUnsignedCharArray.h>
+#include <vtkWindowToImageFilter.h>
+
+#include <X11/Xlib.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <set>
+
+namespace pointfront
+{
+
+namespace
+{
+
+constexpr double stillRate = 0.0001;      // frames a second: VTK's value for a view at rest
+constexpr double interactiveRate = 15.0;  // VTK's value for a view in motion
+
+/// VTK ends the process when its window finds no X server, so it is asked before.
+Result<void> checkDisplay()
+{
+  const char* const name = std::getenv("DISPLAY");
+  const std::string hint = "; run it under xvfb-run -a";
+  if (name == nullptr || *name == '\0')
+  {
+    return makeError(
+      Error::Kind::Unsupported, "drawing needs an X server and DISPLAY is not set" + hint);
+  }
+  Display* const display = XOpenDisplay(nullptr);
+  if (display == nullptr)
+  {
+    return makeError(
+      Error::Kind::Unsupported, std::string("no X server answers at DISPLAY=") + name + hint);
+  }
+  XCloseDisplay(display);
+  return {};
+}
+
+/// Keeps the first error that any of the observed objects reports; VTK then prints none.
+class ErrorListener
+{
+public:
+  ErrorListener()
+  {
+    command_->SetClientData(this);
+    command_->SetCallback(
+      [](vtkObject*, unsigned long, void* self, void* text)
+      { static_cast<ErrorListener*>(self)->hear(static_cast<const char*>(text)); });
+  }
+  ~ErrorListener() { command_->SetClientData(nullptr); }
+  ErrorListener(const ErrorListener&) = delete;
+  ErrorListener& operator=(const ErrorListener&) = delete;
+
+  void observe(vtkObject* object) { object->AddObserver(vtkCommand::ErrorEvent, command_); }
+  Result<void> outcome() const
+  {
+    return first_.empty() ? Result<void>() : makeError(Error::Kind::Corrupt, first_);
+  }
+
+private:
+  /// VTK's text: "ERROR: In FILE, line N\nCLASS (ADDRESS): WHAT\n\n". Users want WHAT.
+  void hear(const char* text)
+  {
+    if (!first_.empty() || text == nullptr)
+    {
+      return;
+    }
+    first_ = text;
+    const std::string::size_type begin = first_.find("): ");
+    if (first_.compare(0, 6, "ERROR:") == 0 && begin != std::string::npos)
+    {
+      first_.erase(0, begin + 3);
+    }
+    first_.erase(first_.find_last_not_of("\n ") + 1);
+  }
+
+  vtkNew<vtkCallbackCommand> command_;
+  std::string first_;
+};
+
+/// One store with what draws it.
+struct DrawnStore
+{
+  vtkSmartPointer<vtkPointFrontStore> store;
+  vtkNew<vtkPointFrontReader> reader;
+  vtkNew<vtkPointFrontMapper> mapper;
+  vtkNew<vtkActor> actor;
+};
+
+void applyColour(const ColourChoice& colour, vtkPointFrontMapper* mapper)
+{
+  mapper->ScalarVisibilityOn();
+  mapper->SetScalarModeToUsePointFieldData();
+  mapper->SelectColorArray(colour.attribute.c_str());
+  if (colour.direct)
+  {
+    mapper->SetColorModeToDefault();
+    return;
+  }
+  vtkNew<vtkLookupTable> table;
+  table->SetNumberOfTableValues(static_cast<vtkIdType>(colour.table.size()));
+  for (std::size_t i = 0; i < colour.table.size(); ++i)
+  {
+    table->SetTableValue(static_cast<vtkIdType>(i), colour.table[i][0] / 255.0,
+      colour.table[i][1] / 255.0, colour.table[i][2] / 255.0, 1.0);
+  }
+  table->SetTableRange(colour.range[0], colour.range[1]);
+  mapper->SetColorModeToMapScalars();
+  mapper->SetLookupTable(table);
+  mapper->UseLookupTableScalarRangeOn();
+}
+
+class OffscreenScene final : public StoreScene
+{
+public:
+  explicit OffscreenScene(const DrawingOptions& options)
+    : options_(options)
+  {
+  }
+  ~OffscreenScene() override
+  {
+    for (const auto& drawn : stores_)
+    {
+      renderer_->RemoveActor(drawn->actor);
+    }
+  }
+
+  Result<void> openStores();
+  Result<void> setUpDrawing();
+
+  const Bounds& bounds() const override { return bounds_; }
+  double ground() const override { return ground_; }
+  void setCamera(const Camera& camera) override;
+  void setInteractive(bool interactive) override
+  {
+    window_->SetDesiredUpdateRate(interactive ? interactiveRate : stillRate);
+  }
+  Result<FrameRecord> renderFrame() override { return render(false); }
+  Result<FrameRecord> renderComplete() override { return render(true); }
+  bool waitForArrival() override;
+  std::vector<std::string> attributesRead() const override;
+  std::uint64_t budgetBytes() const override;
+  std::uint64_t residentBytesMax() const override;
+  Result<void> writePicture(const std::string& path) override;
+
+private:
+  Result<FrameRecord> render(bool complete);
+  FrameRecord record() const;
+  View viewNow();
+  void setPointSize();
+
+  DrawingOptions options_;
+  Bounds bounds_;
+  double ground_ = 0.0;
+  ErrorListener errors_;
+  std::vector<std::unique_ptr<DrawnStore>> stores_;
+  vtkNew<vtkRenderer> renderer_;
+  vtkNew<vtkRenderWindow> window_;
+};
+
+Result<void> OffscreenScene::openStores()
+{
+  for (const std::string& path : options_.stores)
+  {
+    auto drawn = std::make_unique<DrawnStore>();
+    vtkStdString why;
+    drawn->store = vtkPointFrontStore::Open(path.c_str(), why);
+    if (!drawn->store)
+    {
+      return makeError(Error::Kind::BadFormat, why);
+    }
+    if (options_.memoryBytes > 0)
+    {
+      drawn->store->SetHostMemoryBudget(
+        static_cast<vtkTypeInt64>(options_.memoryBytes / options_.stores.size()));
+    }
+    errors_.observe(drawn->reader);
+    errors_.observe(drawn->mapper);
+    drawn->reader->SetFileName(path.c_str());
+    drawn->reader->SetOverviewPoints(0); // the mapper alone draws
+    drawn->mapper->SetInputConnection(drawn->reader->GetOutputPort());
+    drawn->actor->SetMapper(drawn->mapper);
+    bounds_.add(drawn->store->GetStore()->description().bounds);
+    stores_.push_back(std::move(drawn));
+  }
+  const PointStore& first = *stores_.front()->store->GetStore();
+  const Result<StoreSample> sample = StoreSample::read(
+    *first.hierarchy(), first, first.description().grid, first.description().schema, {});
+  if (!sample)
+  {
+    return sample.error();
+  }
+  ground_ = sample->elevationQuantile(0.5);
+  return {};
+}
+
+Result<void> OffscreenScene::setUpDrawing()
+{
+  std::vector<std::shared_ptr<const PointStore>> stores;
+  for (const auto& drawn : stores_)
+  {
+    stores.push_back(drawn->store->GetStore());
+  }
+  const std::string attribute = options_.colourBy.empty()
+    ? defaultColourAttribute(stores.front()->description())
+    : options_.colourBy;
+  const Result<ColourChoice> colour = chooseColour(attribute, stores);
+  if (!colour)
+  {
+    return colour.error();
+  }
+  for (const auto& drawn : stores_)
+  {
+    applyColour(colour.value(), drawn->mapper);
+    drawn->mapper->SetTargetError(options_.errorPx);
+    if (options_.pointBudget > 0)
+    {
+      drawn->mapper->SetPointBudget(options_.pointBudget);
+    }
+    drawn->actor->GetProperty()->LightingOff(); // colours are drawn as they are
+    renderer_->AddActor(drawn->actor);
+  }
+  renderer_->SetBackground(options_.background.data());
+  if (options_.eyeDomeLighting)
+  {
+    vtkNew<vtkRenderStepsPass> steps;
+    vtkNew<vtkEDLShading> shading;
+    shading->SetDelegatePass(steps);
+    renderer_->SetPass(shading);
+  }
+  window_->SetOffScreenRendering(1);
+  window_->SetMultiSamples(0);
+  window_->SetSize(options_.size[0], options_.size[1]);
+  window_->AddRenderer(renderer_);
+  errors_.observe(window_);
+  setInteractive(false);
+  return {};
+}
+
+void OffscreenScene::setCamera(const Camera& camera)
+{
+  vtkCamera* const to = renderer_->GetActiveCamera();
+  to->SetPosition(camera.position.x, camera.position.y, camera.position.z);
+  to->SetFocalPoint(camera.focalPoint.x, camera.focalPoint.y, camera.focalPoint.z);
+  to->SetViewUp(camera.viewUp.x, camera.viewUp.y, camera.viewUp.z);
+  to->SetViewAngle(camera.viewAngleDegrees);
+  to->SetParallelProjection(camera.parallelScale ? 1 : 0);
+  to->SetParallelScale(camera.parallelScale.value_or(1.0));
+  const double box[6] = { bounds_.low.x, bounds_.high.x, bounds_.low.y, bounds_.high.y,
+    bounds_.low.z, bounds_.high.z };
+  renderer_->ResetCameraClippingRange(box);
+  setPointSize();
+}
+
+View OffscreenScene::viewNow()
+{
+  const double aspect = static_cast<double>(options_.size[0]) / options_.size[1];
+  const vtkMatrix4x4* const m =
+    renderer_->GetActiveCamera()->GetCompositeProjectionTransformMatrix(aspect, -1.0, 1.0);
+  glm::dmat4 worldToClip;
+  for (int row = 0; row < 4; ++row)
+  {
+    for (int column = 0; column < 4; ++column)
+    {
+      worldToClip[column][row] = m->GetElement(row, column);
+    }
+  }
+  return View::fromMatrix(worldToClip, options_.size[0], options_.size[1]);
+}
+
+void OffscreenScene::setPointSize()
+{
+  const View view = viewNow();
+  for (const auto& drawn : stores_)
+  {
+    const Hierarchy& hierarchy = *drawn->store->GetStore()->hierarchy();
+    const double pixels = options_.pointSizePx > 0.0
+      ? options_.pointSizePx
+      : closingPointSize(hierarchy, view, options_.errorPx);
+    drawn->mapper->SetPointSize(pixels);
+  }
+}
+
+FrameRecord OffscreenScene::record() const
+{
+  FrameRecord frame;
+  frame.complete = true;
+  for (const auto& drawn : stores_)
+  {
+    vtkPointFrontMapper* const mapper = drawn->mapper;
+    const ResidencyStatistics residency = drawn->store->GetResidency().statistics();
+    frame.frontMilliseconds += mapper->GetLastFrontTime();
+    frame.points += mapper->GetLastPointsDrawn();
+    frame.nodes += mapper->GetLastNodesDrawn();
+    frame.frontLength += mapper->GetLastFrontLength();
+    frame.moves += mapper->GetLastMoves();
+    frame.requests += mapper->GetLastRequests();
+    frame.thresholdPx = std::max(frame.thresholdPx, mapper->GetLastThreshold());
+    frame.errorPx = std::max(frame.errorPx, mapper->GetLastError());
+    frame.complete = frame.complete && mapper->GetLastComplete();
+    frame.gpuBytes += mapper->GetLastGPUBytes();
+    frame.residentBytes += residency.residentBytes;
+    frame.bytesRead += residency.bytesRead;
+    frame.cancelled += residency.cancelled;
+  }
+  return frame;
+}
+
+Result<FrameRecord> OffscreenScene::render(bool complete)
+{
+  for (const auto& drawn : stores_)
+  {
+    drawn->mapper->SetComplete(complete);
+    if (complete && options_.pointBudget < 0)
+    {
+      drawn->mapper->SetPointBudget(0); // all that the error asks for, as far as memory goes
+    }
+  }
+  const auto begin = std::chrono::steady_clock::now();
+  window_->Render();
+  window_->WaitForCompletion();
+  const std::chrono::duration<double, std::milli> taken =
+    std::chrono::steady_clock::now() - begin;
+  if (const Result<void> heard = errors_.outcome(); !heard)
+  {
+    return heard.error();
+  }
+  FrameRecord frame = record();
+  frame.milliseconds = taken.count();
+  return frame;
+}
+
+bool OffscreenScene::waitForArrival()
+{
+  for (const auto& drawn : stores_)
+  {
+    if (drawn->mapper->NeedsRender())
+    {
+      return true;
+    }
+  }
+  for (const auto& drawn : stores_)
+  {
+    Residency& residency = drawn->store->GetResidency();
+    const ResidencyStatistics now = residency.statistics();
+    if (now.pending + now.loading > 0)
+    {
+      residency.waitForArrival(residency.arrivals());
+      return true;
+    }
+  }
+  return false;
+}
+
+std::vector<std::string> OffscreenScene::attributesRead() const
+{
+  std::set<std::string> names;
+  for (const auto& drawn : stores_)
+  {
+    const AttributeSchema& schema = drawn->store->GetStore()->description().schema;
+    for (const std::uint32_t column : drawn->store->GetResidency().columns())
+    {
+      names.insert(schema[column].name);
+    }
+  }
+  return { names.begin(), names.end() };
+}
+
+std::uint64_t OffscreenScene::budgetBytes() const
+{
+  std::uint64_t bytes = 0;
+  for (const auto& drawn : stores_)
+  {
+    bytes += static_cast<std::uint64_t>(drawn->store->GetHostMemoryBudget());
+  }
+  return bytes;
+}
+
+std::uint64_t OffscreenScene::residentBytesMax() const
+{
+  std::uint64_t bytes = 0;
+  for (const auto& drawn : stores_)
+  {
+    bytes += drawn->store->GetResidency().statistics().residentBytesMax;
+  }
+  return bytes;
+}
+
+Result<void> OffscreenScene::writePicture(const std::string& path)
+{
+  vtkNew<vtkWindowToImageFilter> image;
+  image->SetInput(window_);
+  image->SetInputBufferTypeToRGB();
+  image->ReadFrontBufferOff();
+  image->ShouldRerenderOff();
+  vtkNew<vtkPNGWriter> png;
+  png->SetInputConnection(image->GetOutputPort());
+  png->WriteToMemoryOn();
+  png->Write();
+  vtkUnsignedCharArray* const bytes = png->GetResult();
+  return writeWholeFile(path, bytes->GetPointer(0),
+    static_cast<std::size_t>(bytes->GetNumberOfValues()));
+}
+
+} // namespace
+
+Result<std::unique_ptr<StoreScene>> StoreScene::open(const DrawingOptions& options)
+{
+  auto scene = std::make_unique<OffscreenScene>(options);
+  if (Result<void> opened = scene->openStores(); !opened)
+  {
+    return opened.error();
+  }
+  if (Result<void> display = checkDisplay(); !display)
+  {
+    return display.error();
+  }
+  if (Result<void> ready = scene->setUpDrawing(); !ready)
+  {
+    return ready.error();
+  }
+  return std::unique_ptr<StoreScene>(std::move(scene));
+}
+
+} // namespace pointfront

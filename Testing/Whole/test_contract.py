@@ -1,0 +1,248 @@
+"""Names, exit codes and JSON keys that scripts rely on."""
+
+import json
+import os
+import signal
+import subprocess
+import unittest
+
+from tool import DATA, TOOL, ToolTest, pointfront
+
+SMALL = DATA / "las/version_x_format/las1.2_pf3_10pts.las"
+LARGE = DATA / "large/autzen_10653336_rgb_intensity.laz"
+WITH_VTK = os.environ["POINTFRONT_WITH_VTK"] == "1"
+
+
+class Usage(ToolTest):
+    def test_no_command(self):
+        self.refuse(2)
+
+    def test_help_and_version_go_to_stdout(self):
+        for word in ("--help", "--version"):
+            outcome = self.succeed(word)
+            self.assertIn("pointfront", outcome.out)
+            self.assertEqual(outcome.err, "")
+        for command in ("build", "info", "verify", "export"):
+            self.assertIn("Usage", self.succeed(command, "--help").out)
+
+    def test_unknown_words(self):
+        outcome = pointfront("frobnicate")
+        self.assertEqual(outcome.status, 2)
+        self.assertIn("build", outcome.err)
+        self.refuse(2, "build", SMALL, "-o", self.folder / "x.pfront", "--bogus")
+        self.refuse(2, "info")
+        self.refuse(2, "build", SMALL)
+
+    def test_commands_of_the_contract_that_are_not_there_say_so(self):
+        missing = ["index", "generate", "view"] + ([] if WITH_VTK else ["render", "bench"])
+        for command in missing:
+            outcome = self.refuse(2, command, "a", "-o", "b", "--points", "3")
+            self.assertIn("not available", outcome.err)
+
+    def test_build_flags_of_the_contract_that_do_not_work_are_refused(self):
+        flags = [
+            ("--structure", "kdtree"), ("--refinement", "replace"), ("--layers", "class"),
+            ("--normals", "pca"), ("--normals", "scanline"), ("--normals-k", "8"),
+            ("--normals-radius", "1"), ("--normals-eps", "0.1"), ("--normals-classes", "2,6"),
+            ("--local-height",), ("--height-above-ground",), ("--color-from", "a.tif", "b.tif"),
+            ("--attribute-from", "NAME=a.tif"), ("--crs", "EPSG:2992"),
+            ("--assume-crs", "EPSG:2992"),
+        ]
+        for flag in flags:
+            outcome = self.refuse(2, "build", SMALL, "-o", self.folder / "x.pfront", *flag)
+            self.assertIn("not available", outcome.err)
+            self.assertIn(flag[0], outcome.err)
+        self.assertEqual(self.entries(), [])
+
+    def test_wrong_values_are_wrong_usage(self):
+        wrong = [
+            ("--structure", "rtree"), ("--memory", "12Q"), ("--memory", "0"), ("--threads", "0"),
+            ("--threads", "many"), ("--precision", "-1"), ("--node-points", "1"),
+            ("--progress", "loud"),
+        ]
+        for flag in wrong:
+            self.refuse(2, "build", SMALL, "-o", self.folder / "x.pfront", *flag)
+        for flag in [("--box", "1,2,3"), ("--box", "5,0,0,1,1,1"), ("--classes", "300"),
+                     ("--spacing", "0")]:
+            self.refuse(2, "export", "store.pfront", "-o", self.folder / "x.las", *flag)
+        for name in ("x.ply", "x.pcd", "x.foo", "x"):
+            self.refuse(2, "export", "store.pfront", "-o", self.folder / name)
+        self.assertEqual(self.entries(), [])
+
+    @unittest.skipUnless(WITH_VTK, "render is not part of this build")
+    def test_render_flags(self):
+        refused = [
+            ("--technique", "splats"), ("--technique", "spheres"), ("--technique", "silhouettes"),
+            ("--technique", "solid"), ("--technique", "ewa"), ("--style", "s.json"),
+            ("--classes", "2"), ("--color-by", "normal"), ("--color-by", "horizontality"),
+            ("--color-by", "global-height"), ("--color-by", "local-height"),
+        ]
+        for flag in refused:
+            outcome = self.refuse(2, "render", "s.pfront", "-o", self.folder / "x.png", *flag)
+            self.assertIn("not available", outcome.err)
+        wrong = [
+            ("--size", "big"), ("--view", "below"), ("--error", "0"), ("--point-size", "0"),
+            ("--background", "red"), ("--frames", "0"), ("--frames", "3", "--complete"),
+            ("--view", "top", "--camera", "c.json"), ("--point-budget", "0"),
+        ]
+        for flag in wrong:
+            self.refuse(2, "render", "s.pfront", "-o", self.folder / "x.png", *flag)
+        self.refuse(2, "render", "s.pfront", "-o", self.folder / "x.jpg")
+        self.refuse(2, "bench", "s.pfront", "--path", "orbit")
+
+
+class Reports(ToolTest):
+    def test_build(self):
+        outcome = self.succeed("build", SMALL, "-o", self.folder / "x.pfront", "--json")
+        report = outcome.json
+        self.assertEqual(set(report), {
+            "points_read", "points_stored", "points_rejected", "seconds", "points_per_second",
+            "peak_rss_bytes", "bytes_written", "spilled_bytes"})
+        self.assertEqual(report["points_read"], 10)
+        self.assertEqual(report["points_stored"], 10)
+        self.assertEqual(report["points_rejected"], {})
+        self.assertEqual(report["spilled_bytes"], 0)
+        self.assertEqual(report["bytes_written"], (self.folder / "x.pfront").stat().st_size)
+        self.assertGreater(report["peak_rss_bytes"], 1 << 20)
+        for key in ("points_per_second", "peak_rss_bytes", "bytes_written"):
+            self.assertIsInstance(report[key], int)
+
+    def test_info(self):
+        store = self.build(DATA / "las/real/1.2-with-color.las")
+        report = self.succeed("info", store, "--json").json
+        keys = {"points", "bounds", "precision", "crs", "structure", "refinement", "nodes",
+                "levels", "bytes", "attributes", "layers", "version"}
+        self.assertLessEqual(keys, set(report))
+        self.assertEqual(report["points"], 1065)
+        self.assertEqual(len(report["bounds"]), 6)
+        for axis in range(3):
+            self.assertLess(report["bounds"][axis], report["bounds"][axis + 3])
+        self.assertEqual(report["precision"], 0.01)
+        self.assertEqual((report["structure"], report["refinement"]), ("octree", "add"))
+        self.assertEqual(report["bytes"], store.stat().st_size)
+        attributes = {a["name"]: (a["type"], a["components"]) for a in report["attributes"]}
+        self.assertEqual(attributes["intensity"], ("uint16", 1))
+        self.assertEqual(attributes["rgb"][1], 3)
+        self.assertEqual(sum(layer["points"] for layer in report["layers"]), 1065)
+        for layer in report["layers"]:
+            self.assertEqual(set(layer), {"class", "name", "points", "nodes"})
+        self.assertIn("1065", self.succeed("info", store).out)
+
+    def test_verify(self):
+        store = self.build(SMALL)
+        report = self.succeed("verify", store, "--json").json
+        self.assertEqual(set(report), {"ok", "nodes_checked", "points_checked", "first_error"})
+        self.assertIs(report["ok"], True)
+        self.assertEqual(report["points_checked"], 10)
+        self.assertIsNone(report["first_error"])
+
+    def test_progress_is_on_stderr(self):
+        outcome = self.succeed(
+            "build", DATA / "las/real/autzen_trim.las", "-o", self.folder / "x.pfront",
+            "--json", "--progress", "json")
+        self.assertEqual(outcome.json["points_stored"], 110000)
+        reports = [json.loads(line) for line in outcome.err.splitlines()]
+        self.assertGreater(len(reports), 0)
+        fractions = [report["fraction"] for report in reports]
+        self.assertEqual(fractions, sorted(fractions))
+        for report in reports:
+            self.assertLessEqual({"phase", "done", "total", "fraction", "points_per_second",
+                                  "seconds", "seconds_remaining"}, set(report))
+
+
+class Failures(ToolTest):
+    def test_missing_inputs(self):
+        for words in (("build", "no/such.las", "-o", self.folder / "x.pfront"),
+                      ("build", self.folder / "*.las", "-o", self.folder / "x.pfront"),
+                      ("build", self.folder, "-o", self.folder / "x.pfront"),
+                      ("info", "no/such.pfront"), ("verify", "no/such.pfront"),
+                      ("export", "no/such.pfront", "-o", self.folder / "x.las")):
+            outcome = self.refuse(1, *words)
+            self.assertIn(str(words[1]), outcome.err)
+        self.assertEqual(self.entries(), [])
+
+    def test_output_that_cannot_be_written(self):
+        store = self.build(SMALL)
+        self.refuse(1, "build", SMALL, "-o", "/proc/x.pfront")
+        self.refuse(1, "build", SMALL, "-o", self.folder / "none" / "x.pfront")
+        self.refuse(1, "export", store, "-o", "/proc/x.las")
+        self.refuse(1, "export", store, "-o", self.folder / "none" / "x.xyz")
+
+    def test_existing_output_is_kept_unless_forced(self):
+        store = self.build(SMALL)
+        before = store.read_bytes()
+        outcome = self.refuse(1, "build", DATA / "las/real/1.2-with-color.las", "-o", store)
+        self.assertIn("--force", outcome.err)
+        self.assertEqual(store.read_bytes(), before)
+        self.succeed("build", DATA / "las/real/1.2-with-color.las", "-o", store, "--force")
+        self.assertEqual(self.succeed("info", store, "--json").json["points"], 1065)
+        self.assertEqual(self.entries(), ["cloud.pfront"])
+
+    def test_an_input_is_never_the_output(self):
+        copy = self.folder / "cloud.las"
+        copy.write_bytes(SMALL.read_bytes())
+        self.refuse(1, "build", copy, "-o", copy, "--force")
+        self.assertEqual(copy.read_bytes(), SMALL.read_bytes())
+
+    def test_what_is_no_store(self):
+        for command in ("info", "verify"):
+            self.refuse(1, command, SMALL)
+        report = pointfront("verify", SMALL, "--json").json
+        self.assertIs(report["ok"], False)
+
+    def test_broken_store(self):
+        store = self.build(DATA / "las/real/autzen_trim.las")
+        whole = store.read_bytes()
+        store.write_bytes(whole[: len(whole) // 2])
+        self.refuse(1, "info", store)
+        self.refuse(1, "verify", store)
+        broken = bytearray(whole)
+        broken[len(whole) // 2] ^= 0x10
+        store.write_bytes(broken)
+        outcome = pointfront("verify", store, "--json")
+        self.assertEqual(outcome.status, 1)
+        self.assertIs(outcome.json["ok"], False)
+        self.assertIn("node", outcome.json["first_error"])
+        self.refuse(1, "verify", store)
+        self.refuse(1, "export", store, "-o", self.folder / "x.las")
+        self.assertEqual(self.entries(), ["cloud.pfront"])
+
+    def test_a_folder_is_one_cloud(self):
+        (self.folder / "tiles/deeper").mkdir(parents=True)
+        (self.folder / "tiles/a.LAS").write_bytes(SMALL.read_bytes())
+        (self.folder / "tiles/deeper/b.las").write_bytes(SMALL.read_bytes())
+        (self.folder / "tiles/notes.txt").write_text("not a point file")
+        report = self.succeed(
+            "build", self.folder / "tiles", "-o", self.folder / "x.pfront", "--json").json
+        self.assertEqual(report["points_stored"], 20)
+
+
+class Interruption(ToolTest):
+    def interrupt(self, number, *arguments):
+        """Sends the signal after the first sign of progress."""
+        process = subprocess.Popen(
+            [TOOL, *map(str, arguments), "--progress", "json"],
+            stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        self.assertTrue(process.stderr.readline(), "no progress before the end")
+        process.send_signal(number)
+        _, err = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 130, err)
+
+    def test_build_leaves_nothing(self):
+        for number in (signal.SIGINT, signal.SIGTERM):
+            (self.folder / "spill").mkdir(exist_ok=True)
+            self.interrupt(number, "build", LARGE, "-o", self.folder / "x.pfront",
+                           "--memory", "256M", "--temp", self.folder / "spill")
+            self.assertEqual(self.entries(), ["spill"])
+            self.assertEqual(list((self.folder / "spill").iterdir()), [])
+
+    def test_build_keeps_what_was_there(self):
+        store = self.build(SMALL)
+        before = store.read_bytes()
+        self.interrupt(signal.SIGINT, "build", LARGE, "-o", store, "--force")
+        self.assertEqual(store.read_bytes(), before)
+        self.assertEqual(self.entries(), ["cloud.pfront"])
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

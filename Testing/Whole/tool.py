@@ -1,0 +1,108 @@
+"""The tool under test, and files for it.
+
+Environment: POINTFRONT_TOOL the program, POINTFRONT_SHARED_DATA the folder of public clouds,
+POINTFRONT_WORK a folder to write in, POINTFRONT_SLOWNESS how many times slower than a release
+build this one may be (sanitizers).
+"""
+
+import json
+import os
+import pathlib
+import shutil
+import struct
+import subprocess
+import time
+import unittest
+
+TOOL = os.environ["POINTFRONT_TOOL"]
+DATA = pathlib.Path(os.environ["POINTFRONT_SHARED_DATA"])
+WORK = pathlib.Path(os.environ["POINTFRONT_WORK"])
+SLOWNESS = float(os.environ.get("POINTFRONT_SLOWNESS", "1"))
+
+
+class Outcome:
+    """What one run of a program gave."""
+
+    def __init__(self, finished, seconds):
+        self.status = finished.returncode
+        self.out = finished.stdout.decode()
+        self.err = finished.stderr.decode()
+        self.seconds = seconds
+
+    @property
+    def json(self):
+        return json.loads(self.out)
+
+    def __repr__(self):
+        return f"status {self.status}\nstdout: {self.out}\nstderr: {self.err}"
+
+
+def run(program, *arguments, environment=None, limit=240):
+    begin = time.monotonic()
+    finished = subprocess.run(
+        [str(program), *map(str, arguments)],
+        stdin=subprocess.DEVNULL,
+        capture_output=True,
+        env=environment,
+        timeout=limit,
+        check=False,
+    )
+    return Outcome(finished, time.monotonic() - begin)
+
+
+def pointfront(*arguments, **options):
+    return run(TOOL, *arguments, **options)
+
+
+class ToolTest(unittest.TestCase):
+    """A test with a fresh folder of its own."""
+
+    def setUp(self):
+        if not DATA.is_dir():
+            self.fail(f"the public test clouds are not at {DATA}: set POINTFRONT_SHARED_DATA")
+        self.folder = WORK / self.id()
+        shutil.rmtree(self.folder, ignore_errors=True)
+        self.folder.mkdir(parents=True)
+        self.addCleanup(shutil.rmtree, self.folder, ignore_errors=True)
+
+    def succeed(self, *arguments, **options):
+        outcome = pointfront(*arguments, **options)
+        self.assertEqual(outcome.status, 0, f"{arguments}: {outcome}")
+        return outcome
+
+    def refuse(self, status, *arguments, **options):
+        """The run fails with that status and says why in one line that names the command."""
+        outcome = pointfront(*arguments, **options)
+        self.assertEqual(outcome.status, status, f"{arguments}: {outcome}")
+        lines = outcome.err.splitlines()
+        self.assertEqual(len(lines), 1, f"{arguments}: not one line on stderr: {outcome}")
+        prefix = f"pointfront {arguments[0]}: " if arguments else "pointfront: "
+        self.assertTrue(lines[0].startswith(prefix), outcome)
+        self.assertGreater(len(lines[0]), len(prefix) + 10, outcome)
+        return outcome
+
+    def build(self, *inputs, name="cloud.pfront"):
+        store = self.folder / name
+        self.succeed("build", *inputs, "-o", store)
+        return store
+
+    def entries(self):
+        return sorted(entry.name for entry in self.folder.iterdir())
+
+
+def write_las(path, points, scale=0.01):
+    """A LAS 1.2 file of format 2; points are (x, y, z, red, green, blue), colours 0 to 65535."""
+    low = [min(p[axis] for p in points) for axis in range(3)]
+    high = [max(p[axis] for p in points) for axis in range(3)]
+    header = struct.pack(
+        "<4sHH16sBB32s32sHHHIIBHI5I12d",
+        b"LASF", 0, 0, bytes(16), 1, 2, b"test", b"pointfront tests", 1, 2020, 227, 227, 0, 2, 26,
+        len(points), len(points), 0, 0, 0, 0, scale, scale, scale, *low,
+        high[0], low[0], high[1], low[1], high[2], low[2],
+    )
+    with open(path, "wb") as file:
+        file.write(header)
+        for p in points:
+            grid = [round((p[axis] - low[axis]) / scale) for axis in range(3)]
+            file.write(struct.pack("<3iHBBBBH3H", *grid, 0, 9, 1, 0, 0, 0, *p[3:6]))
+    return path

@@ -1,0 +1,51 @@
+"""pvbatch on one process or several: the whole cloud, colouring, and what motion draws.
+
+usage: pvbatch batch.py NAME [stock]
+NAME.png, NAME-intensity.png: our representation. stock: the same with ParaView's own "Points",
+which has the whole cloud in memory, as NAME-stock.png and NAME-stock-intensity.png.
+"""
+
+import os
+import sys
+
+from paraview import simple
+
+simple.LoadPlugin(os.environ["POINTFRONT_PLUGIN"], remote=False, ns=globals())
+
+from scene import POINTS, SIZE, Scene, require
+
+name = sys.argv[1]
+scene = Scene()
+scene.view.ViewSize = SIZE
+scene.color_by(scene.display, "rgb")
+simple.Render(scene.view)
+points, complete = scene.frame()
+require(complete and points == POINTS, "a still render in batch is complete: %d points" % points)
+scene.save_complete(name)
+
+# While the view moves, a frame keeps to its time and draws fewer points; at rest all come back.
+scene.display.TargetFrameTime = 2.0  # milliseconds
+for _ in range(10):
+    scene.view.SMProxy.InteractiveRender()
+moving, _ = scene.frame()
+require(0 < moving < POINTS, "in motion %d points are drawn, at rest %d" % (moving, POINTS))
+print("in motion %d of %d points" % (moving, POINTS))
+
+scene.color_by(scene.display, "intensity")
+scene.display.RescaleTransferFunctionToDataRange(False)
+scene.save_complete(name + "-intensity")
+
+if "stock" in sys.argv[2:]:
+    simple.Hide(scene.reader, scene.view)
+    whole = simple.OpenDataFile(scene.reader.FileName)
+    whole.OverviewPoints = POINTS
+    display = scene.show(whole)
+    display.SetRepresentationType("Points")
+    require(whole.GetDataInformation().GetNumberOfPoints() == POINTS,
+            "the overview holds %d points" % whole.GetDataInformation().GetNumberOfPoints())
+    display.Ambient, display.Diffuse = 1.0, 0.0  # unlit
+    scene.color_by(display, "intensity")  # the same lookup table
+    scene.save(name + "-stock-intensity")
+    scene.color_by(display, "rgb")
+    display.MapScalars = 0
+    scene.save(name + "-stock")

@@ -1,0 +1,37 @@
+"""A Python client of a pvserver with several ranks: each draws its piece, together the cloud.
+
+usage: python3 client.py PORT NAME RANKS     saves NAME.png
+"""
+
+import sys
+import time
+
+from paraview import servermanager, simple
+
+port, name, ranks = int(sys.argv[1]), sys.argv[2], int(sys.argv[3])
+simple.Connect("127.0.0.1", port)
+
+from scene import PLUGIN, POINTS, SIZE, Scene, require
+
+require(servermanager.ActiveConnection.GetNumberOfDataPartitions() == ranks, "ranks of the server")
+simple.LoadPlugin(PLUGIN, remote=True, ns=globals())
+simple.LoadPlugin(PLUGIN, remote=False, ns=globals())
+
+scene = Scene()
+scene.view.ViewSize = SIZE
+scene.color_by(scene.display, "rgb")
+
+# At rest: the first frame does not wait; the client asks for further ones until nothing is missing.
+frames = []
+scene.view.SMProxy.AddObserver("EndEvent", lambda *_: frames.append(scene.frame()))
+simple.Render(scene.view)
+deadline = time.time() + 60.0
+while not frames[-1][1] and time.time() < deadline:
+    scene.view.SMProxy.GetInteractor().ProcessEvents()
+    time.sleep(0.005)
+print("frames at rest:", frames)
+require(frames[-1] == (POINTS, True), "the last frame is %s of %d points" % (frames[-1], POINTS))
+require(len(frames) > 1 and frames[0][0] < POINTS, "the first frame waited for all points")
+
+scene.save_complete(name)
+simple.Disconnect()

@@ -1,0 +1,166 @@
+"""Runs ParaView in one of its ways on a store and compares its pictures with those of the tool.
+
+usage: drive.py WAY      batch | ranks | server | application, under a display of its own
+Told by the environment: POINTFRONT_TOOL, POINTFRONT_PLUGIN, POINTFRONT_CLOUD (what to build the
+store from), POINTFRONT_CAMERA, POINTFRONT_PVPYTHONPATH, POINTFRONT_{PVBATCH,PVSERVER,PARAVIEW,
+MPIEXEC}. Writes under the current folder only.
+"""
+
+import json
+import os
+import signal
+import socket
+import subprocess
+import sys
+import time
+
+import pictures
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+# Seconds for all programs of a run together: below the test's own limit, so that they are ended
+# here.
+LIMIT = 240
+
+# Two pictures of the same points with the same shader differ where two points meet in a pixel at
+# nearly the same depth and the order of drawing decides: nodes come in another order, ranks are
+# composited, and the depth buffer's 24 bits lie over another clipping range.
+CHANNEL = 8
+SHARE = 0.005
+
+
+def tool(*arguments):
+    command = [os.environ["POINTFRONT_TOOL"], *arguments]
+    done = subprocess.run(command, check=True, timeout=LIMIT, stdout=subprocess.PIPE, text=True)
+    return done.stdout
+
+
+class Programs:
+    """The programs of a run, each in a process group of its own, all ended when the run ends."""
+
+    def __init__(self):
+        self.deadline = time.time() + LIMIT
+        self.running = []
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        for program in self.running:
+            if program.poll() is None:
+                os.killpg(program.pid, signal.SIGTERM)
+        for program in self.running:
+            try:
+                program.wait(10)
+            except subprocess.TimeoutExpired:
+                os.killpg(program.pid, signal.SIGKILL)
+                program.wait()
+
+    def start(self, *command, output=None):
+        environment = dict(os.environ)
+        environment["PYTHONPATH"] = os.pathsep.join([os.environ["POINTFRONT_PVPYTHONPATH"], HERE])
+        # The user's settings stay out, and none are left behind.
+        home = os.path.abspath("home")
+        os.makedirs(home, mode=0o700, exist_ok=True)
+        for name in ("HOME", "XDG_CONFIG_HOME", "XDG_RUNTIME_DIR"):
+            environment[name] = home
+        program = subprocess.Popen(command, env=environment, start_new_session=True, stdout=output,
+                                   stderr=subprocess.STDOUT if output else None)
+        self.running.append(program)
+        return program
+
+    def finish(self, program):
+        status = program.wait(max(1.0, self.deadline - time.time()))
+        if status != 0:
+            raise AssertionError("%s ended with %d" % (os.path.basename(program.args[0]), status))
+
+    def run(self, *command):
+        self.finish(self.start(*command))
+
+
+def mpi(ranks, program, *arguments):
+    # One machine, no network: shared memory between the ranks, no remote shell. A waiting rank
+    # leaves its core to others.
+    return [os.environ["POINTFRONT_MPIEXEC"], "--allow-run-as-root", "--oversubscribe",
+            "--mca", "btl", "self,vader", "--mca", "plm_rsh_agent", "false",
+            "--mca", "mpi_yield_when_idle", "1",
+            "-np", str(ranks), program, *arguments]
+
+
+def free_port():
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return probe.getsockname()[1]
+
+
+def compare(one, other, share=SHARE):
+    first, second = pictures.load(one + ".png"), pictures.load(other + ".png")
+    covered = pictures.covered(first)
+    found = pictures.differing(first, second, CHANNEL)
+    print("%s, %s: %.3f %% of pixels differ by more than %d (limit %.3f %%), %.1f %% covered"
+          % (one, other, 100 * found, CHANNEL, 100 * share, 100 * covered))
+    # An empty picture agrees with an empty one.
+    if covered < 0.1:
+        raise AssertionError(one + " shows next to nothing")
+    if found > share:
+        raise AssertionError(one + " and " + other + " differ")
+
+
+def batch(programs):
+    programs.run(os.environ["POINTFRONT_PVBATCH"], os.path.join(HERE, "batch.py"), "batch", "stock")
+    compare("batch", "tool")
+    compare("batch", "batch-stock")
+    compare("batch-intensity", "batch-stock-intensity")
+
+
+def ranks(programs):
+    programs.run(*mpi(2, os.environ["POINTFRONT_PVBATCH"], os.path.join(HERE, "batch.py"), "ranks"))
+    compare("ranks", "tool")
+
+
+def server(programs):
+    port = free_port()
+    with open("server.log", "w") as log:
+        running = programs.start(
+            *mpi(2, os.environ["POINTFRONT_PVSERVER"], "--server-port=%d" % port), output=log)
+        # A probing connection would be taken for the client, so wait for what the server says.
+        while "Accepting connection" not in open("server.log").read():
+            if running.poll() is not None or time.time() > programs.deadline:
+                raise AssertionError("pvserver does not start:\n" + open("server.log").read())
+            time.sleep(0.1)
+        programs.run(sys.executable, os.path.join(HERE, "client.py"), str(port), "server", "2")
+        programs.finish(running)  # a server ends with its client
+    compare("server", "tool")
+
+
+def application(programs):
+    try:
+        programs.run(os.environ["POINTFRONT_PARAVIEW"], "--dr",
+                     "--script=" + os.path.join(HERE, "application.py"))
+    finally:
+        if os.path.exists("application.json"):
+            with open("application.json") as file:
+                print(file.read())
+    with open("application.json") as file:
+        drawn = [points for points, _ in json.load(file)["frames"]]
+    if len(drawn) < 2 or drawn != sorted(drawn) or drawn[0] >= drawn[-1]:
+        raise AssertionError("refinement at rest shows growing frames, not %s" % drawn)
+    compare("application", "tool")
+
+
+def main(way):
+    # Ended from outside: through the exits, so that no program stays behind.
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))
+    os.environ["POINTFRONT_OUTPUT"] = os.getcwd()
+    store = os.environ["POINTFRONT_STORE"] = os.path.abspath("cloud.pfront")
+    tool("build", os.environ["POINTFRONT_CLOUD"], "-o", store, "--force")
+    os.environ["POINTFRONT_POINTS"] = str(json.loads(tool("info", store, "--json"))["points"])
+    tool("render", store, "-o", "tool.png", "--size", "640x360",
+         "--camera", os.environ["POINTFRONT_CAMERA"], "--color-by", "rgb", "--point-size", "2",
+         "--error", "0.01", "--point-budget", "0", "--background", "0,0,0")
+    ways = {"batch": batch, "ranks": ranks, "server": server, "application": application}
+    with Programs() as programs:
+        ways[way](programs)
+
+
+if __name__ == "__main__":
+    main(sys.argv[1])

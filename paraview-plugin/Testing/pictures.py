@@ -1,0 +1,30 @@
+"""Pictures as arrays, and how much two of them differ."""
+
+import numpy
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOImage import vtkPNGReader
+
+
+def load(path):
+    """Rows x columns x (red, green, blue), 8 bits."""
+    reader = vtkPNGReader()
+    reader.SetFileName(path)
+    if not reader.CanReadFile(path):
+        raise AssertionError("no picture: " + path)
+    reader.Update()
+    image = reader.GetOutput()
+    columns, rows, _ = image.GetDimensions()
+    scalars = vtk_to_numpy(image.GetPointData().GetScalars())
+    return scalars.reshape(rows, columns, -1)[:, :, :3].astype(numpy.int16)
+
+
+def covered(picture):
+    """Share of pixels that are not background (black)."""
+    return float(numpy.mean(picture.max(axis=2) > 0))
+
+
+def differing(one, other, channel):
+    """Share of pixels whose largest channel difference is more than `channel` (0..255)."""
+    if one.shape != other.shape:
+        raise AssertionError("sizes differ: %s and %s" % (one.shape, other.shape))
+    return float(numpy.mean(numpy.abs(one - other).max(axis=2) > channel))

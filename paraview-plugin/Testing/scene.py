@@ -1,0 +1,85 @@
+"""One scene for every way to run ParaView: a store opened as File > Open does it, a fixed camera.
+
+The application hands no arguments to its scripts, so all of them are told by the environment what
+to use (see drive.py): POINTFRONT_PLUGIN, POINTFRONT_STORE, POINTFRONT_POINTS, POINTFRONT_CAMERA,
+POINTFRONT_OUTPUT.
+"""
+
+import json
+import os
+
+from paraview import simple
+
+SIZE = [640, 360]
+PLUGIN = os.environ["POINTFRONT_PLUGIN"]
+STORE = os.environ["POINTFRONT_STORE"]
+POINTS = int(os.environ["POINTFRONT_POINTS"])  # of the store, each to be drawn once
+OUTPUT = os.environ["POINTFRONT_OUTPUT"]
+
+
+def require(condition, message):
+    if not condition:
+        raise AssertionError(message)
+
+
+class Scene:
+    """A render view that shows the store and nothing else, so that pictures can be compared."""
+
+    def __init__(self, view=None):
+        self.view = view or simple.CreateView("RenderView")
+        simple.SetActiveView(self.view)
+        # As pointfront render draws: black behind, and no filter over the points.
+        self.view.UseColorPaletteForBackground = 0
+        self.view.BackgroundColorMode = "Single Color"
+        self.view.Background = [0, 0, 0]
+        self.view.OrientationAxesVisibility = 0
+        self.view.UseFXAA = 0
+        self.look()
+        self.reader = simple.OpenDataFile(STORE)
+        require(self.reader is not None, "no reader opens " + STORE)
+        require(self.reader.GetXMLName() == "PointFrontReader",
+                "opened by " + self.reader.GetXMLName())
+        # Few, for the overview's nodes are loaded before the first frame.
+        self.reader.OverviewPoints = 5000
+        self.display = self.show(self.reader)
+        require(self.display.Representation == "Point Front",
+                "shown as " + str(self.display.Representation))
+        self.display.TargetError = 0.01  # pixels: every point
+        self.display.PointBudget = 0     # no limit
+
+    def show(self, source):
+        display = simple.Show(source, self.view)
+        display.PointSize = 2
+        # The camera stays where look() put it; only the clipping range follows the data.
+        return display
+
+    def look(self):
+        with open(os.environ["POINTFRONT_CAMERA"]) as file:
+            camera = json.load(file)
+        self.view.CameraPosition = camera["position"]
+        self.view.CameraFocalPoint = camera["focal_point"]
+        self.view.CameraViewUp = camera["view_up"]
+        self.view.CameraViewAngle = camera["view_angle"]
+
+    def color_by(self, display, array):
+        simple.ColorBy(display, ("POINTS", array))
+        display.SetScalarBarVisibility(self.view, False)
+
+    def frame(self):
+        """Of the last frame, of all processes together: points drawn, whether it is complete."""
+        proxy = self.display.SMProxy
+        proxy.UpdatePropertyInformation()
+        return (proxy.GetProperty("PointsDrawn").GetElement(0),
+                bool(proxy.GetProperty("FrameComplete").GetElement(0)))
+
+    def save(self, name):
+        path = os.path.join(OUTPUT, name + ".png")
+        saved = simple.SaveScreenshot(path, self.view, ImageResolution=SIZE)
+        require(saved, "not saved: " + path)
+
+    def save_complete(self, name):
+        """A screenshot, which must hold every point whatever was drawn before it."""
+        self.save(name)
+        points, complete = self.frame()
+        require(complete, name + ": the screenshot is not complete")
+        require(points == POINTS, "%s: %d points drawn of %d" % (name, points, POINTS))

@@ -1,0 +1,142 @@
+#include "pointfront/Store/StoreSample.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace pointfront
+{
+
+namespace
+{
+constexpr std::size_t enoughPoints = 10000;
+
+template <typename T>
+double valueAt(const std::byte* bytes)
+{
+  T value;
+  std::memcpy(&value, bytes, sizeof(T));
+  return static_cast<double>(value);
+}
+
+double valueAt(ScalarType type, const std::byte* bytes)
+{
+  switch (type)
+  {
+    case ScalarType::Int8:
+      return valueAt<std::int8_t>(bytes);
+    case ScalarType::UInt8:
+      return valueAt<std::uint8_t>(bytes);
+    case ScalarType::Int16:
+      return valueAt<std::int16_t>(bytes);
+    case ScalarType::UInt16:
+      return valueAt<std::uint16_t>(bytes);
+    case ScalarType::Int32:
+      return valueAt<std::int32_t>(bytes);
+    case ScalarType::UInt32:
+      return valueAt<std::uint32_t>(bytes);
+    case ScalarType::Int64:
+      return valueAt<std::int64_t>(bytes);
+    case ScalarType::UInt64:
+      return valueAt<std::uint64_t>(bytes);
+    case ScalarType::Float32:
+      return valueAt<float>(bytes);
+    case ScalarType::Float64:
+      break;
+  }
+  return valueAt<double>(bytes);
+}
+
+void appendValues(const Attribute& attribute, const std::vector<std::byte>& bytes,
+  std::vector<std::vector<double>>& components)
+{
+  const std::size_t step = sizeOf(attribute.type);
+  for (std::size_t at = 0; at + attribute.bytes() <= bytes.size(); at += attribute.bytes())
+  {
+    for (std::size_t c = 0; c < attribute.components; ++c)
+    {
+      const double value = valueAt(attribute.type, bytes.data() + at + c * step);
+      if (!std::isnan(value))
+      {
+        components[c].push_back(value);
+      }
+    }
+  }
+}
+
+double quantile(const std::vector<double>& sorted, double share)
+{
+  if (sorted.empty())
+  {
+    return 0.0;
+  }
+  const double last = static_cast<double>(sorted.size() - 1);
+  return sorted[static_cast<std::size_t>(std::lround(std::clamp(share, 0.0, 1.0) * last))];
+}
+
+std::vector<NodeIndex> childrenOf(const Hierarchy& hierarchy, const std::vector<NodeIndex>& level)
+{
+  std::vector<NodeIndex> next;
+  for (const NodeIndex index : level)
+  {
+    const Node& node = hierarchy.node(index);
+    for (NodeIndex child = 0; child < node.childCount; ++child)
+    {
+      next.push_back(node.firstChild + child);
+    }
+  }
+  return next;
+}
+} // namespace
+
+Result<StoreSample> StoreSample::read(const Hierarchy& hierarchy, const NodeReader& reader,
+  const QuantisationGrid& grid, const AttributeSchema& schema, const ColumnSelection& selection)
+{
+  StoreSample sample;
+  for (const std::uint32_t column : selection)
+  {
+    sample.columns_.emplace_back(schema[column].components);
+  }
+  std::vector<NodeIndex> level = hierarchy.roots();
+  while (!level.empty() && sample.size() < enoughPoints)
+  {
+    for (const NodeIndex index : level)
+    {
+      const Result<NodeColumns> node = reader.read(index, selection);
+      if (!node)
+      {
+        return node.error();
+      }
+      for (const glm::u32vec3& position : node->positions)
+      {
+        sample.elevations_.push_back(grid.toWorld(node->origin + GridPosition(position)).z);
+      }
+      for (std::size_t c = 0; c < selection.size(); ++c)
+      {
+        appendValues(schema[selection[c]], node->columns[c], sample.columns_[c]);
+      }
+    }
+    level = childrenOf(hierarchy, level);
+  }
+  std::sort(sample.elevations_.begin(), sample.elevations_.end());
+  for (std::vector<std::vector<double>>& column : sample.columns_)
+  {
+    for (std::vector<double>& component : column)
+    {
+      std::sort(component.begin(), component.end());
+    }
+  }
+  return sample;
+}
+
+double StoreSample::elevationQuantile(double share) const
+{
+  return quantile(elevations_, share);
+}
+
+double StoreSample::columnQuantile(std::size_t column, std::size_t component, double share) const
+{
+  return quantile(columns_[column][component], share);
+}
+
+} // namespace pointfront

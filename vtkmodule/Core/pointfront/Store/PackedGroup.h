@@ -9,6 +9,14 @@
 #include <utility>
 #include <vector>
 
+// A constant shift for every code, where it counts; a debug or sanitizer build would compile for
+// minutes.
+#ifdef NDEBUG
+#define POINTFRONT_UNROLL _Pragma("GCC unroll 64")
+#else
+#define POINTFRONT_UNROLL
+#endif
+
 namespace pointfront
 {
 
@@ -43,7 +51,7 @@ void unpackRows(const std::byte* rows, CodeGroup<T>& codes)
   constexpr T mask = maskOf<T>(width);
   std::array<T, lanes * width> words; // NOLINT: filled by the copy
   std::memcpy(words.data(), rows, rowBytes * width);
-#pragma GCC unroll 64
+  POINTFRONT_UNROLL
   for (unsigned i = 0; i < bitsOf<T>; ++i)
   {
     const unsigned word = i * width / bitsOf<T>;
@@ -61,26 +69,26 @@ void unpackRows(const std::byte* rows, CodeGroup<T>& codes)
   }
 }
 
-template <typename T, unsigned width>
-void packRows(const CodeGroup<T>& codes, std::byte* rows)
+// Of any width: encoding is not what is waited for, and 120 more functions take long to compile.
+template <typename T>
+void packRows(const CodeGroup<T>& codes, unsigned width, std::byte* rows)
 {
   constexpr std::size_t lanes = rowBytes / sizeof(T);
-  constexpr T mask = maskOf<T>(width);
-  std::array<T, lanes * width> words{};
-#pragma GCC unroll 64
+  const T mask = maskOf<T>(width);
+  std::array<T, codesPerGroup> words{};
   for (unsigned i = 0; i < bitsOf<T>; ++i)
   {
     const unsigned word = i * width / bitsOf<T>;
     const unsigned shift = i * width % bitsOf<T>;
+    const bool split = shift + width > bitsOf<T>;
     for (std::size_t lane = 0; lane < lanes; ++lane)
     {
       const T code = static_cast<T>(codes[i * lanes + lane] & mask);
       T& low = words[word * lanes + lane];
       low = static_cast<T>(low | static_cast<T>(code << shift));
-      if (shift + width > bitsOf<T>)
+      if (split)
       {
-        words[(word + 1) * lanes + lane] =
-          static_cast<T>(code >> ((bitsOf<T> - shift) % bitsOf<T>));
+        words[(word + 1) * lanes + lane] = static_cast<T>(code >> (bitsOf<T> - shift));
       }
     }
   }
@@ -90,19 +98,11 @@ void packRows(const CodeGroup<T>& codes, std::byte* rows)
 // Width 0 has no rows: entry w - 1 is for width w.
 template <typename T>
 using Unpack = void (*)(const std::byte*, CodeGroup<T>&);
-template <typename T>
-using Pack = void (*)(const CodeGroup<T>&, std::byte*);
 
 template <typename T, std::size_t... entries>
 constexpr std::array<Unpack<T>, sizeof...(entries)> unpackTable(std::index_sequence<entries...>)
 {
   return { unpackRows<T, static_cast<unsigned>(entries + 1)>... };
-}
-
-template <typename T, std::size_t... entries>
-constexpr std::array<Pack<T>, sizeof...(entries)> packTable(std::index_sequence<entries...>)
-{
-  return { packRows<T, static_cast<unsigned>(entries + 1)>... };
 }
 
 template <typename T>
@@ -115,16 +115,6 @@ void unpack(unsigned width, const std::byte* rows, CodeGroup<T>& codes)
     return;
   }
   table[width - 1](rows, codes);
-}
-
-template <typename T>
-void pack(unsigned width, const CodeGroup<T>& codes, std::byte* rows)
-{
-  static constexpr auto table = packTable<T>(std::make_index_sequence<bitsOf<T>>{});
-  if (width != 0)
-  {
-    table[width - 1](codes, rows);
-  }
 }
 
 // --- the width of a group: the one that takes the fewest bytes, exceptions counted.
@@ -189,7 +179,7 @@ void putGroup(const CodeGroup<T>& codes, std::vector<std::byte>& out)
   std::byte* at = out.data() + begin;
   *at++ = static_cast<std::byte>(plan.width);
   *at++ = static_cast<std::byte>(plan.exceptions);
-  packed::pack<T>(plan.width, codes, at);
+  packed::packRows<T>(codes, plan.width, at);
   at += packed::rowBytes * plan.width;
   if (plan.exceptions == 0)
   {
@@ -256,3 +246,5 @@ const std::byte* getGroup(const std::byte* at, const std::byte* end, CodeGroup<T
 }
 
 } // namespace pointfront
+
+#undef POINTFRONT_UNROLL

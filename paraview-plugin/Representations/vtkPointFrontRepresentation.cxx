@@ -153,15 +153,21 @@ void vtkPointFrontRepresentation::PrepareFrame(vtkInformation* inInfo, vtkPVRend
     this->TargetFrameTime > 0.0 || !interactive ? this->TargetFrameTime : 1000.0 / rate;
   this->Mapper->SetTargetFrameTime(frameTime);
 
-  if (vtkPointFrontStore* store = this->Mapper->GetStore())
-  {
-    const vtkTypeInt64 budget = static_cast<vtkTypeInt64>(this->HostMemoryBudget) << 20;
-    if (store->GetHostMemoryBudget() != budget)
-    {
-      store->SetHostMemoryBudget(budget);
-    }
-  }
+  this->PrepareBudget();
   this->PrepareColors();
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::PrepareBudget()
+{
+  vtkPointFrontStore* store = this->Mapper->GetStore();
+  if (store && (store != this->BudgetStore || this->HostMemoryBudget != this->BudgetSet))
+  {
+    // Once a change, not once a frame: other views of the store may have set theirs since.
+    store->SetHostMemoryBudget(static_cast<vtkTypeInt64>(this->HostMemoryBudget) << 20);
+    this->BudgetStore = store;
+    this->BudgetSet = this->HostMemoryBudget;
+  }
 }
 
 //------------------------------------------------------------------------------

@@ -24,6 +24,7 @@
 #include "vtkNew.h"                                  // for the members
 #include "vtkPVDataRepresentation.h"
 #include "vtkSmartPointer.h" // for the store
+#include "vtkWeakPointer.h"  // for the store
 
 class vtkPVLODActor;
 class vtkPVRenderView;
@@ -144,6 +145,7 @@ private:
   void ProvideData(vtkInformation* inInfo);
   /// Sets the mapper up for the frame that `view` is about to render.
   void PrepareFrame(vtkInformation* inInfo, vtkPVRenderView* view);
+  void PrepareBudget();
   void PrepareColors();
   bool WantsComplete(vtkPVRenderView* view) const;
   /// Whether this process draws points of a store.
@@ -158,6 +160,8 @@ private:
   int CompleteStillRenders = WHEN_UNATTENDED;
   double TargetFrameTime = 0.0;
   int HostMemoryBudget = 1024;
+  vtkWeakPointer<vtkPointFrontStore> BudgetStore; ///< that has been given BudgetSet, MiB
+  int BudgetSet = 0;
   bool MapScalars = true;
   bool DirectColors = true;
 };

@@ -1,8 +1,9 @@
 """pvbatch on one process or several: the whole cloud, colouring, and what motion draws.
 
 usage: pvbatch batch.py NAME [stock]
-NAME.png, NAME-intensity.png: our representation. stock: the same with ParaView's own "Points",
-which has the whole cloud in memory, as NAME-stock.png and NAME-stock-intensity.png.
+NAME.png, NAME-intensity.png: our representation; NAME-moved.png: cloud and camera moved alike.
+stock: the same with ParaView's own "Points", which has the whole cloud in memory, as
+NAME-stock.png and NAME-stock-intensity.png.
 """
 
 import os
@@ -30,6 +31,20 @@ for _ in range(10):
 moving, _ = scene.frame()
 require(0 < moving < POINTS, "in motion %d points are drawn, at rest %d" % (moving, POINTS))
 print("in motion %d of %d points" % (moving, POINTS))
+
+# What is not a store is refused before a reader is made for it.
+other = os.path.join(os.environ["POINTFRONT_OUTPUT"], "other.pfront")
+with open(other, "w") as file:
+    file.write("not a point store")
+try:
+    require(simple.OpenDataFile(other) is None, "opened, although not a store")
+except RuntimeError:
+    pass  # how newer versions say it
+
+# The representation's transformation reaches the front's culling and the points alike.
+scene.move([3000.0, -2000.0, 500.0])
+scene.save_complete(name + "-moved")
+scene.move([0.0, 0.0, 0.0])
 
 scene.color_by(scene.display, "intensity")
 scene.display.RescaleTransferFunctionToDataRange(False)

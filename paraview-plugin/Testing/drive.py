@@ -109,6 +109,7 @@ def batch(programs):
     programs.run(os.environ["POINTFRONT_PVBATCH"], os.path.join(HERE, "batch.py"), "batch", "stock")
     compare("batch", "tool")
     compare("batch", "batch-stock")
+    compare("batch", "batch-moved")
     compare("batch-intensity", "batch-stock-intensity")
 
 

@@ -22,6 +22,10 @@ def require(condition, message):
         raise AssertionError(message)
 
 
+def moved(point, by):
+    return [coordinate + offset for coordinate, offset in zip(point, by)]
+
+
 class Scene:
     """A render view that shows the store and nothing else, so that pictures can be compared."""
 
@@ -53,13 +57,18 @@ class Scene:
         # The camera stays where look() put it; only the clipping range follows the data.
         return display
 
-    def look(self):
+    def look(self, by=(0.0, 0.0, 0.0)):
         with open(os.environ["POINTFRONT_CAMERA"]) as file:
             camera = json.load(file)
-        self.view.CameraPosition = camera["position"]
-        self.view.CameraFocalPoint = camera["focal_point"]
+        self.view.CameraPosition = moved(camera["position"], by)
+        self.view.CameraFocalPoint = moved(camera["focal_point"], by)
         self.view.CameraViewUp = camera["view_up"]
         self.view.CameraViewAngle = camera["view_angle"]
+
+    def move(self, by):
+        """Cloud and camera, so that the picture stays the same."""
+        self.display.Position = by
+        self.look(by)
 
     def color_by(self, display, array):
         simple.ColorBy(display, ("POINTS", array))

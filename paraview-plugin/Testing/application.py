@@ -52,7 +52,7 @@ def start():
             end(None)
 
     shown.view.SMProxy.AddObserver("EndEvent", rendered)
-    simple.Render(shown.view)
+    shown.view.SMProxy.StillRender()
 
 
 start()

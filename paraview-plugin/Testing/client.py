@@ -24,7 +24,7 @@ scene.color_by(scene.display, "rgb")
 # At rest: the first frame does not wait; the client asks for further ones until nothing is missing.
 frames = []
 scene.view.SMProxy.AddObserver("EndEvent", lambda *_: frames.append(scene.frame()))
-simple.Render(scene.view)
+scene.view.SMProxy.StillRender()
 deadline = time.time() + 60.0
 while not frames[-1][1] and time.time() < deadline:
     scene.view.SMProxy.GetInteractor().ProcessEvents()

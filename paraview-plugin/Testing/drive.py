@@ -17,15 +17,15 @@ import time
 import pictures
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-# Seconds for all programs of a run together: below the test's own limit, so that they are ended
-# here.
+# Seconds for all programs of a run together: below the test's own limit, to be ended here.
 LIMIT = 240
 
 # Two pictures of the same points with the same shader differ where two points meet in a pixel at
 # nearly the same depth and the order of drawing decides: nodes come in another order, ranks are
-# composited, and the depth buffer's 24 bits lie over another clipping range.
+# composited, and the depth buffer's 24 bits lie over another clipping range. Found: 9 pixels at
+# most, 0.004 %.
 CHANNEL = 8
-SHARE = 0.005
+SHARE = 0.001
 
 
 def tool(*arguments):
@@ -106,7 +106,7 @@ def compare(one, other, share=SHARE):
 
 
 def batch(programs):
-    programs.run(os.environ["POINTFRONT_PVBATCH"], os.path.join(HERE, "batch.py"), "batch", "stock")
+    programs.run(os.environ["POINTFRONT_PVBATCH"], os.path.join(HERE, "batch.py"), "batch", "alone")
     compare("batch", "tool")
     compare("batch", "batch-stock")
     compare("batch", "batch-moved")
@@ -157,7 +157,7 @@ def main(way):
     os.environ["POINTFRONT_POINTS"] = str(json.loads(tool("info", store, "--json"))["points"])
     tool("render", store, "-o", "tool.png", "--size", "640x360",
          "--camera", os.environ["POINTFRONT_CAMERA"], "--color-by", "rgb", "--point-size", "2",
-         "--error", "0.01", "--point-budget", "0", "--background", "0,0,0")
+         "--error", "0.01", "--background", "0,0,0")
     ways = {"batch": batch, "ranks": ranks, "server": server, "application": application}
     with Programs() as programs:
         ways[way](programs)

@@ -38,7 +38,6 @@ class Scene:
         self.view.Background = [0, 0, 0]
         self.view.OrientationAxesVisibility = 0
         self.view.UseFXAA = 0
-        self.look()
         self.reader = simple.OpenDataFile(STORE)
         require(self.reader is not None, "no reader opens " + STORE)
         require(self.reader.GetXMLName() == "PointFrontReader",
@@ -54,7 +53,7 @@ class Scene:
     def show(self, source):
         display = simple.Show(source, self.view)
         display.PointSize = 2
-        # The camera stays where look() put it; only the clipping range follows the data.
+        self.look()  # after what is shown first has reset the camera
         return display
 
     def look(self, by=(0.0, 0.0, 0.0)):

@@ -28,7 +28,12 @@ scene.save_complete(name)
 other = os.path.join(os.environ["POINTFRONT_OUTPUT"], "other.pfront")
 with open(other, "w") as file:
     file.write("not a point store")
-require(simple.OpenDataFile(other) is None, "opened, although not a store")
+try:
+    opened = simple.OpenDataFile(other)
+except RuntimeError as refusal:
+    opened = None
+    require("No reader found" in str(refusal), str(refusal))
+require(opened is None, "opened, although not a store")
 
 # The representation's transformation reaches the front's culling and the points alike.
 scene.move([3000.0, -2000.0, 500.0])

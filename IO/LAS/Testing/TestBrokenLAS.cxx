@@ -34,7 +34,8 @@ const Refused refusedFiles[] = {
   { "derived_hostile/las_truncated_header_200_bytes.las", Error::Kind::Truncated,
     "the file ends at byte 200, inside its header" },
   { "las/broken_real/1.2-no-points.las", Error::Kind::Truncated, "promises 1065 points" },
-  { "las/broken_real/broken_size.laz", Error::Kind::Unsupported, "compressed item 1 (type 6 of 20 bytes) has version 6" },
+  { "las/broken_real/broken_size.laz", Error::Kind::Unsupported,
+    "compressed item 1 (type 6 of 20 bytes) has version 6" },
   { "las/broken_real/broken_type.laz", Error::Kind::BadFormat,
     "compressed item 2 is type 22 of 8 bytes" },
 };

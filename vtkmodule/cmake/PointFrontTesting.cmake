@@ -26,7 +26,7 @@ function (pointfront_add_display_test)
 endfunction ()
 
 # pointfront_add_module_test(<executable> MODULES <module>... [SUITES <suite>...])
-# One executable of all Cxx/*.cxx of the calling folder. With SUITES its tests draw: each suite is one
+# One executable of all Cxx/*.cxx of the calling folder. With SUITES its tests draw: each is one
 # test on an X server; without, each test is found by itself.
 function (pointfront_add_module_test name)
   cmake_parse_arguments(PARSE_ARGV 1 test "" "" "MODULES;SUITES")

@@ -1,8 +1,8 @@
-"""The ParaView application: opens the store, comes to rest over several frames, saves a picture.
+"""The ParaView application: opens the store, comes to rest, is moved, comes to rest again.
 
 Runs as `paraview --dr --script=application.py`. The script returns with the first frame; the rest
-happens in the application's event loop, as for a user who does nothing. Writes application.json:
-{"frames": [[points drawn, complete], ...], "failure": ...}.
+happens in the application's event loop, as for a user. Saves application.png. Writes
+application.json: the frames of each phase, as [points drawn, complete], and what failed.
 """
 
 import json
@@ -11,13 +11,13 @@ import traceback
 
 from paraview import simple
 
-frames = []  # (points drawn, complete) of each, in order
+phases = {"opened": [], "moving": [], "at rest again": []}
 
 
 def end(failure):
     """Ends the application at once: it has no way out for scripts, and nothing is left to save."""
     with open(os.path.join(os.environ["POINTFRONT_OUTPUT"], "application.json"), "w") as file:
-        json.dump({"frames": frames, "failure": failure}, file)
+        json.dump({"phases": phases, "failure": failure}, file)
     os._exit(1 if failure else 0)
 
 
@@ -39,17 +39,37 @@ def start():
 
     shown = scene.Scene(simple.GetActiveViewOrCreate("RenderView"))
     shown.color_by(shown.display, "rgb")
-    saving = []
+    # So that 174,151 points are too many for a frame in motion.
+    shown.display.TargetFrameTime = 2.0  # milliseconds
+    current = ["opened"]
 
     @guarded
     def rendered():
-        if saving:
+        phase = current[0]
+        if phase is None:
             return
-        frames.append(shown.frame())
-        if frames[-1][1]:
-            saving.append(True)
+        phases[phase].append(shown.frame())
+        complete = phases[phase][-1][1]
+        if phase == "opened" and complete:
+            current[0] = None
             shown.save_complete("application")
+            drag()
+        elif phase == "at rest again" and complete:
+            current[0] = None
             end(None)
+
+    def drag():
+        """As the interactor tells of a mouse that is pressed, moved to and fro, and let go."""
+        interactor = shown.view.SMProxy.GetInteractor()
+        camera = shown.view.SMProxy.GetActiveCamera()
+        current[0] = "moving"
+        interactor.InvokeEvent("StartInteractionEvent")
+        for step in range(10):
+            camera.Azimuth(1 if step % 2 == 0 else -1)
+            interactor.InvokeEvent("InteractionEvent")
+            interactor.InvokeEvent("RenderEvent")
+        current[0] = "at rest again"
+        interactor.InvokeEvent("EndInteractionEvent")
 
     shown.view.SMProxy.AddObserver("EndEvent", rendered)
     shown.view.SMProxy.StillRender()

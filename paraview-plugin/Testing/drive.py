@@ -141,10 +141,17 @@ def application(programs):
         if os.path.exists("application.json"):
             with open("application.json") as file:
                 print(file.read())
+    points = int(os.environ["POINTFRONT_POINTS"])
     with open("application.json") as file:
-        drawn = [points for points, _ in json.load(file)["frames"]]
-    if len(drawn) < 2 or drawn != sorted(drawn) or drawn[0] >= drawn[-1]:
-        raise AssertionError("refinement at rest shows growing frames, not %s" % drawn)
+        phases = json.load(file)["phases"]
+    drawn = {phase: [count for count, _ in frames] for phase, frames in phases.items()}
+    opened = drawn["opened"]
+    if len(opened) < 2 or opened != sorted(opened) or not opened[0] < opened[-1] == points:
+        raise AssertionError("refinement at rest shows growing frames, not %s" % opened)
+    if not drawn["moving"][-1] < points:
+        raise AssertionError("frames in motion keep to their time, not %s" % drawn["moving"])
+    if drawn["at rest again"][-1] != points:
+        raise AssertionError("all points come back at rest, not %s" % drawn["at rest again"])
     compare("application", "tool")
 
 

@@ -3,10 +3,15 @@
  * @brief opens a `.pfront` store: an overview as vtkPolyData, and the store's name for
  * vtkPointFrontMapper
  *
- * The output holds an overview (the hierarchy's first nodes, at most OverviewPoints points, double
- * coordinates, one vertex cell, the chosen attributes as point data), so every VTK filter works at
- * once, and names the store in its field data (see vtkPointFrontStore), so that vtkPointFrontMapper
- * draws the whole cloud from it.
+ * The output holds an overview (the hierarchy's first levels, at most OverviewPoints points, about
+ * equally dense everywhere; double coordinates, one vertex cell a point, the chosen attributes as
+ * point data), so every VTK filter works at once, and names the store in its field data (see
+ * vtkPointFrontStore), so that vtkPointFrontMapper draws the whole cloud from it.
+ *
+ * Attributes keep their type; one with a scale or an offset becomes double with both applied. "rgb"
+ * is the active scalars, three bytes: 16-bit colour is reduced, for VTK takes only bytes as colours
+ * without a lookup table. Global point ids ("point_id") are ranks in the store, as hardware
+ * selections of vtkPointFrontMapper give them. An aborted update leaves an empty output.
  *
  * RequestInformation gives the bounds and array names of the whole cloud without reading points.
  * Pieces: the overview is cut by nodes. Errors (ErrorCode, vtkErrorMacro): no file name, a missing,

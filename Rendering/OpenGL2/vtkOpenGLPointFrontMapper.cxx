@@ -54,6 +54,7 @@ struct vtkOpenGLPointFrontMapper::Content
   std::vector<std::uint64_t> FirstIds;      ///< rank of each node's first point
   std::map<vtkRenderer*, FrameTimer> Timers;
   pointfront::PointDrawing Drawing;
+  bool IndexedWarned = false;
 
   void SetStore(vtkPointFrontStore* store);
   bool Upload(const pointfront::ViewFront& front, std::int64_t bytes);
@@ -211,6 +212,12 @@ void vtkOpenGLPointFrontMapper::RenderPiece(vtkRenderer* renderer, vtkActor* act
     if (!this->UseLookupTableScalarRange)
     {
       table->SetRange(this->ScalarRange);
+    }
+    if (table->GetIndexedLookup() && !drawing.colouring.integers && !content.IndexedWarned)
+    {
+      content.IndexedWarned = true;
+      vtkWarningMacro("an indexed lookup table needs an attribute of whole numbers with less than "
+                      "8192 different values; this one is drawn in the table's NaN colour");
     }
     content.Table.update(window, table, drawing.colouring, table->GetMTime());
     drawing.table = &content.Table;

@@ -1,8 +1,9 @@
 #include "pointfront/Export/StoreExport.h"
 
+#include "pointfront/Export/ExportClock.h"
+
 #include <algorithm>
 #include <bitset>
-#include <chrono>
 #include <cstring>
 #include <future>
 #include <numeric>
@@ -142,38 +143,6 @@ SinkDescription sinkDescription(const StoreDescription& store, const ExportSelec
   return sink;
 }
 
-/// Sends some ten reports a second.
-class ProgressClock
-{
-public:
-  ProgressClock(const ProgressFunction& function, std::uint64_t total)
-    : function_(function)
-  {
-    progress_.phase = "exporting";
-    progress_.total = total;
-  }
-  /// False to cancel.
-  bool report(std::uint64_t done)
-  {
-    using Seconds = std::chrono::duration<double>;
-    const double now = Seconds(std::chrono::steady_clock::now() - begin_).count();
-    if (!function_ || now - progress_.secondsElapsed < 0.1)
-    {
-      return true;
-    }
-    progress_.secondsElapsed = now;
-    progress_.done = done;
-    progress_.fraction =
-      static_cast<double>(done) / static_cast<double>(std::max<std::uint64_t>(progress_.total, 1));
-    return function_(progress_);
-  }
-
-private:
-  const ProgressFunction& function_;
-  Progress progress_;
-  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
-};
-
 /// Decodes one node after another, always one ahead on a thread of its own. The future's
 /// destructor waits for that thread, so nothing outlives the reader.
 class NodeStream
@@ -240,7 +209,7 @@ Result<std::optional<std::size_t>> classColumnFor(
 }
 
 Result<ExportReport> pump(NodeStream& nodes, PointFilter& filter, PointSink& sink,
-  ProgressClock& clock)
+  ExportClock& clock)
 {
   ExportReport report;
   PointBatch batch;
@@ -286,7 +255,7 @@ Result<ExportReport> exportPoints(const StoreDescription& description, const Hie
   }
   PointFilter filter(description, selection, classColumn.value());
   std::vector<NodeIndex> nodes = chosenNodes(hierarchy, filter, selection.spacing);
-  ProgressClock clock(progress, pointsOf(hierarchy, nodes));
+  ExportClock clock(progress, pointsOf(hierarchy, nodes));
   ColumnSelection columns(description.schema.size());
   std::iota(columns.begin(), columns.end(), 0u);
   NodeStream stream(reader, std::move(nodes), std::move(columns));

@@ -24,6 +24,7 @@ enum Column
   ReturnNumber,
   ReturnCount,
   Classification,
+  ScannerChannel,
   ScanAngle,
   PointSourceId,
   GpsTime,
@@ -37,6 +38,7 @@ AttributeSchema surveySchema()
   schema.add({ "return_number", ScalarType::UInt8, 1 });
   schema.add({ "return_count", ScalarType::UInt8, 1 });
   schema.add({ "classification", ScalarType::UInt8, 1 });
+  schema.add({ "scanner_channel", ScalarType::UInt8, 1 }); // LAS 1.4, whose angles have fractions
   schema.add({ "scan_angle", ScalarType::Float32, 1 });
   schema.add({ "point_source_id", ScalarType::UInt16, 1 });
   schema.add({ "gps_time", ScalarType::Float64, 1 });
@@ -132,6 +134,7 @@ Result<void> TerrainSource::read(std::uint64_t chunk, PointBatch& batch) const
     store(batch, ReturnNumber, i, echo.returnNumber);
     store(batch, ReturnCount, i, echo.returnCount);
     store(batch, Classification, i, static_cast<std::uint8_t>(echo.objectClass));
+    store(batch, ScannerChannel, i, std::uint8_t(0));
     store(batch, ScanAngle, i, angle);
     store(batch, PointSourceId, i, static_cast<std::uint16_t>(strip + 1));
     store(batch, GpsTime, i, 1.0e6 + static_cast<double>(index) * 2.0e-6);

@@ -11,8 +11,8 @@ namespace pointfront
 /// Points   about 10 a square metre, in flight strips of 80 m, tile by tile along the strip, scan
 ///          line by scan line inside a tile: the order of a real survey.
 /// Grid     1 mm; UTM-like eastings and northings (no CRS is claimed).
-/// Schema   intensity, return_number, return_count, classification, scan_angle, point_source_id
-///          (the strip), gps_time, rgb (16 bit).
+/// Schema   intensity, return_number, return_count, classification, scanner_channel, scan_angle,
+///          point_source_id (the strip), gps_time, rgb (16 bit).
 /// Threads  read() is a function of (seed, chunk) and safe from any thread.
 class TerrainSource final : public PointSource
 {

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "pointfront/Base/Progress.h"
+#include "pointfront/Base/Result.h"
+#include "pointfront/Points/PointSink.h"
+#include "pointfront/Points/PointSource.h"
+
+#include <cstdint>
+
+namespace pointfront
+{
+
+/// Brings all points of a source into a sink, chunk by chunk in the source's order: a made-up
+/// survey into a file, for example. Gives the number of points.
+/// Errors   of both; BadArgument for a source without a grid of integers; Cancelled. The sink then
+///          never finishes, and leaves nothing.
+/// Threads  called from one thread; makes the next chunk on one of its own.
+Result<std::uint64_t> exportSource(
+  const PointSource& source, PointSink& sink, const ProgressFunction& progress = {});
+
+} // namespace pointfront

@@ -14,6 +14,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <set>
 
 namespace pointfront
 {
@@ -99,6 +100,10 @@ Result<std::vector<std::unique_ptr<PointSource>>> BuildCommand::openSources() co
     {
       return makeError(Error::Kind::Cancelled, "cancelled");
     }
+    for (const std::string& warning : (*source)->description().warnings)
+    {
+      warn(name(), path + ": " + warning);
+    }
     sources.push_back(std::move(*source));
   }
   return sources;
@@ -124,6 +129,24 @@ Result<void> BuildCommand::checkOutput(
     }
   }
   return {};
+}
+
+void BuildCommand::warnOfBuild(
+  const std::vector<std::unique_ptr<PointSource>>& sources, const BuildReport& report) const
+{
+  std::set<std::string> told;
+  for (const std::unique_ptr<PointSource>& source : sources)
+  {
+    const std::vector<std::string>& warnings = source->description().warnings;
+    told.insert(warnings.begin(), warnings.end());
+  }
+  for (const std::string& warning : report.warnings)
+  {
+    if (told.count(warning) == 0)
+    {
+      warn(name(), warning);
+    }
+  }
 }
 
 Result<void> BuildCommand::run()
@@ -156,10 +179,7 @@ Result<void> BuildCommand::run()
     }
     report = std::move(*built);
   }
-  for (const std::string& warning : report->warnings)
-  {
-    warn(name(), warning);
-  }
+  warnOfBuild(*sources, *report);
   if (json_)
   {
     std::printf("%s\n", buildReportJson(*report, peakResidentBytes()).c_str());

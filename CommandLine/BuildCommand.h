@@ -23,6 +23,9 @@ private:
   void declareUnavailableOptions(CLI::App& app);
   /// Opens every input; warns of what was wrong and survived.
   Result<std::vector<std::unique_ptr<PointSource>>> openSources() const;
+  /// Tells what the build itself found; what the sources said has been told, with their paths.
+  void warnOfBuild(const std::vector<std::unique_ptr<PointSource>>& sources,
+    const BuildReport& report) const;
   /// --force replaces an earlier store, never the points it is built from.
   Result<void> checkOutput(const std::vector<std::unique_ptr<PointSource>>& sources) const;
 

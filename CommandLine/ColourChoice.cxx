@@ -28,6 +28,11 @@ std::array<double, 2> storedRange(const StoreDescription& store, std::size_t col
   return range[0] <= range[1] ? range : std::array<double, 2>{ 0.0, 0.0 };
 }
 
+double inWorldUnits(const Attribute& attribute, double stored)
+{
+  return stored * attribute.scale + attribute.offset;
+}
+
 bool varies(const StoreDescription& store, const char* attribute)
 {
   const std::optional<std::size_t> column = store.schema.find(attribute);
@@ -91,9 +96,11 @@ Result<TwoRanges> rangesOf(
     }
     else
     {
-      const double low = sample->columnQuantile(0, 0, lowShare);
-      const double high = sample->columnQuantile(0, 0, highShare);
-      ranges.add({ low, high }, storedRange(description, *column));
+      const Attribute& stored = description.schema[*column];
+      const std::array<double, 2> whole = storedRange(description, *column);
+      ranges.add({ inWorldUnits(stored, sample->columnQuantile(0, 0, lowShare)),
+                   inWorldUnits(stored, sample->columnQuantile(0, 0, highShare)) },
+        { inWorldUnits(stored, whole[0]), inWorldUnits(stored, whole[1]) });
     }
   }
   return ranges;

@@ -19,7 +19,7 @@ struct ColourChoice
   std::string attribute;             ///< of the store, or "elevation"
   bool direct = false;               ///< rgb: the values are the colours
   ColourTable table = {};            ///< else: from range[0] to range[1]
-  std::array<double, 2> range{ 0.0, 1.0 }; ///< as stored; "elevation": world z
+  std::array<double, 2> range{ 0.0, 1.0 }; ///< world units
 };
 
 /// What is drawn when the user does not say: rgb if the store has any colour, else classification

@@ -1,51 +1,16 @@
 #include "ExportCommand.h"
 
 #include "CancelSignal.h"
-#include "LASWriter.h"
 #include "ProgressDisplay.h"
+#include "SinkFormats.h"
 #include "Unavailable.h"
 #include "Values.h"
-#include "XYZWriter.h"
 
-#include <algorithm>
-#include <cctype>
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 
 namespace pointfront
 {
-
-namespace
-{
-std::string extensionOf(const std::string& path)
-{
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
-}
-
-/// By the extension, which has been checked.
-std::unique_ptr<PointSink> makeSink(const std::string& path)
-{
-  const std::string extension = extensionOf(path);
-  if (extension == ".xyz")
-  {
-    return std::make_unique<XYZWriter>(path);
-  }
-  return std::make_unique<LASWriter>(
-    path, extension == ".laz" ? LASWriter::Encoding::Laz : LASWriter::Encoding::Las);
-}
-
-std::string checkExtension(std::string& path)
-{
-  const CLI::Validator check =
-    availableValues({ ".las", ".laz", ".xyz" }, { ".ply", ".pcd" });
-  std::string extension = extensionOf(path);
-  return check(extension);
-}
-} // namespace
 
 void ExportCommand::declare(CLI::App& program)
 {
@@ -53,7 +18,7 @@ void ExportCommand::declare(CLI::App& program)
   app_->add_option("store", storePath_, "The store")->required()->type_name("STORE");
   app_->add_option("-o,--output", outputPath_, "The file to write; replaced if it is there")
     ->required()
-    ->check(CLI::Validator(checkExtension, "OUT.las|.laz|.xyz"));
+    ->check(sinkExtension());
   const auto box = [this](const CLI::results_t& words)
   {
     const auto numbers = parseNumbers<6>(words.back());

@@ -2,6 +2,7 @@
 
 #include "BuildCommand.h"
 #include "ExportCommand.h"
+#include "GenerateCommand.h"
 #include "InfoCommand.h"
 #ifdef POINTFRONT_WITH_VTK
 #include "BenchCommand.h"
@@ -23,6 +24,7 @@ Program::Program()
   commands_.push_back(std::make_unique<InfoCommand>());
   commands_.push_back(std::make_unique<VerifyCommand>());
   commands_.push_back(std::make_unique<ExportCommand>());
+  commands_.push_back(std::make_unique<GenerateCommand>());
 #ifdef POINTFRONT_WITH_VTK
   commands_.push_back(std::make_unique<RenderCommand>());
   commands_.push_back(std::make_unique<BenchCommand>());
@@ -37,7 +39,6 @@ Program::Program()
 void Program::declareUnavailableCommands()
 {
   declareUnavailableCommand(app_, "index", "LAS files are not indexed in place; use build");
-  declareUnavailableCommand(app_, "generate", "there is no generator of synthetic clouds");
 #ifndef POINTFRONT_WITH_VTK
   declareUnavailableCommand(app_, "render", "this tool was built without VTK");
   declareUnavailableCommand(app_, "bench", "this tool was built without VTK");

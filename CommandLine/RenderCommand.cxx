@@ -130,7 +130,8 @@ Result<void> RenderCommand::run()
   {
     return last.error();
   }
-  if (frames_ == 0 && !last->complete)
+  const double roundingOfPrefixes = 1.01;
+  if (frames_ == 0 && (!last->complete || last->errorPx > drawing_.errorPx * roundingOfPrefixes))
   {
     warn(name(), "the picture is coarser than --error asks: the budgets allow no more"
                  " (raise --point-budget or --memory)");

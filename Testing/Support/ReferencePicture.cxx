@@ -2,7 +2,8 @@
 //
 // Draws all points of a LAS or LAZ file from memory with VTK's own vtkPolyDataMapper, in their RGB,
 // unlit, on black, without multisampling: what the tool's picture must equal when its error is
-// small enough to draw everything. 16 bit colours are shown by their high byte.
+// small enough to draw everything. 16 bit colours are shown by their high byte, unless the whole
+// file has none above 255: then they are 8 bit colours in wide fields.
 
 #include "LASFormat.h"
 
@@ -23,6 +24,7 @@
 #include <vtkUnsignedCharArray.h>
 #include <vtkWindowToImageFilter.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstring>
 #include <fstream>
@@ -40,27 +42,34 @@ using namespace pointfront;
   std::exit(1);
 }
 
-void appendColours(const Attribute& rgb, const std::vector<std::byte>& column, std::size_t points,
-  vtkUnsignedCharArray* colours)
+/// Three values a point, as the file has them.
+void appendColours(const Attribute& rgb, const std::vector<std::byte>& column,
+  std::vector<std::uint16_t>& colours)
 {
-  for (std::size_t i = 0; i < points; ++i)
+  const std::size_t before = colours.size();
+  colours.resize(before + column.size() / sizeOf(rgb.type));
+  if (rgb.type == ScalarType::UInt16)
   {
-    unsigned char colour[3];
-    for (std::size_t c = 0; c < 3; ++c)
-    {
-      if (rgb.type == ScalarType::UInt8)
-      {
-        colour[c] = std::to_integer<unsigned char>(column[3 * i + c]);
-      }
-      else
-      {
-        std::uint16_t value;
-        std::memcpy(&value, column.data() + 2 * (3 * i + c), sizeof(value));
-        colour[c] = static_cast<unsigned char>(value >> 8);
-      }
-    }
-    colours->InsertNextTypedTuple(colour);
+    std::memcpy(colours.data() + before, column.data(), column.size());
+    return;
   }
+  for (std::size_t i = 0; i < column.size(); ++i)
+  {
+    colours[before + i] = std::to_integer<std::uint16_t>(column[i]);
+  }
+}
+
+vtkSmartPointer<vtkUnsignedCharArray> shownColours(const std::vector<std::uint16_t>& colours)
+{
+  const bool wide = std::any_of(
+    colours.begin(), colours.end(), [](std::uint16_t value) { return value > 255; });
+  auto shown = vtkSmartPointer<vtkUnsignedCharArray>::New();
+  shown->SetNumberOfComponents(3);
+  for (const std::uint16_t value : colours)
+  {
+    shown->InsertNextValue(static_cast<unsigned char>(wide ? value >> 8 : value));
+  }
+  return shown;
 }
 
 vtkSmartPointer<vtkPolyData> readAll(const std::string& path)
@@ -78,8 +87,7 @@ vtkSmartPointer<vtkPolyData> readAll(const std::string& path)
   }
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
-  vtkNew<vtkUnsignedCharArray> colours;
-  colours->SetNumberOfComponents(3);
+  std::vector<std::uint16_t> colours;
   vtkNew<vtkCellArray> vertices;
   PointBatch batch;
   for (std::uint64_t chunk = 0; chunk < (*source)->chunkCount(); ++chunk)
@@ -93,12 +101,12 @@ vtkSmartPointer<vtkPolyData> readAll(const std::string& path)
       const vtkIdType id = points->InsertNextPoint(p.x, p.y, p.z);
       vertices->InsertNextCell(1, &id);
     }
-    appendColours(schema[*rgb], batch.columns[*rgb], batch.size(), colours);
+    appendColours(schema[*rgb], batch.columns[*rgb], colours);
   }
   auto data = vtkSmartPointer<vtkPolyData>::New();
   data->SetPoints(points);
   data->SetVerts(vertices);
-  data->GetPointData()->SetScalars(colours);
+  data->GetPointData()->SetScalars(shownColours(colours));
   return data;
 }
 

@@ -1,5 +1,6 @@
 """PNG pictures as arrays of height x width x 3 bytes, first row on top."""
 
+import pathlib
 import struct
 import zlib
 
@@ -8,7 +9,7 @@ import numpy
 
 def read_png(path):
     """8 bit RGB without interlacing, as the tools write it."""
-    data = open(path, "rb").read()
+    data = pathlib.Path(path).read_bytes()
     if data[:8] != b"\x89PNG\r\n\x1a\n":
         raise ValueError(f"{path} is not a PNG file")
     at, compressed, size = 8, b"", None

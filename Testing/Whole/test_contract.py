@@ -34,7 +34,7 @@ class Usage(ToolTest):
         self.refuse(2, "build", SMALL)
 
     def test_commands_of_the_contract_that_are_not_there_say_so(self):
-        missing = ["index", "generate", "view"] + ([] if WITH_VTK else ["render", "bench"])
+        missing = ["index", "view"] + ([] if WITH_VTK else ["render", "bench"])
         for command in missing:
             outcome = self.refuse(2, command, "a", "-o", "b", "--points", "3")
             self.assertIn("not available", outcome.err)
@@ -148,6 +148,19 @@ class Reports(ToolTest):
         for report in reports:
             self.assertLessEqual({"phase", "done", "total", "fraction", "points_per_second",
                                   "seconds", "seconds_remaining"}, set(report))
+
+
+    def test_generated_surveys_repeat(self):
+        one, two, other = (self.folder / name for name in ("1.las", "2.las", "3.las"))
+        self.succeed("generate", "--points", 50000, "-o", one)
+        self.succeed("generate", "--points", 50000, "--seed", 1, "-o", two)
+        self.succeed("generate", "--points", 50000, "--seed", 2, "-o", other)
+        self.assertEqual(one.read_bytes(), two.read_bytes())
+        self.assertNotEqual(one.read_bytes(), other.read_bytes())
+        report = self.succeed("build", one, "-o", self.folder / "x.pfront", "--json").json
+        self.assertEqual(report["points_stored"], 50000)
+        self.refuse(2, "generate", "-o", one)
+        self.refuse(2, "generate", "--points", 5, "-o", self.folder / "x.ply")
 
 
 class Failures(ToolTest):

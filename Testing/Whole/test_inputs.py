@@ -9,27 +9,27 @@ REAL_FOLDERS = ("las/real", "las/version_x_format", "laz", "copc", "classified",
                 "ept/lone-star-laszip/ept-data", "ortho/autzen")
 
 # What becomes of each broken file: an error that says this, or a store with so many points and a
-# warning (None: sound enough for none).
+# warning that says this (None: no warning).
 BROKEN = {
-    "las/broken_real/1.2-with-color-clipped.las": (1064, "1 "),
-    "las/broken_real/1.2-no-points.las": (0, "1065"),
-    "las/broken_real/bad_vlr_count.las": (10, ""),
+    "las/broken_real/1.2-with-color-clipped.las": (1064, "1 of 1065 points are missing"),
+    "las/broken_real/1.2-no-points.las": "1065",
+    "las/broken_real/bad_vlr_count.las": (10, "1 of these records were lost"),
     "las/broken_real/gps-time-nan.las": (1, None),
     "las/broken_real/bad-geotiff-keys.las": (10, None),
-    "las/broken_real/no-points.las": (0, None),
+    "las/broken_real/no-points.las": (0, "empty"),
     "las/broken_real/spurious.las": (1065, None),
     "las/broken_real/1.2-empty-geotiff-vlrs.las": (43, None),
-    "las/broken_real/no-points-1.3.las": (0, None),
+    "las/broken_real/no-points-1.3.las": (0, "empty"),
     "las/broken_real/broken_size.laz": "broken_size.laz",
     "las/broken_real/broken_type.laz": "broken_type.laz",
-    "derived_hostile/las_bbox_inverted.las": (100, None),
-    "derived_hostile/las_count_4294967295.las": (100, "4294967195"),
+    "derived_hostile/las_bbox_inverted.las": (100, "bounding box"),
+    "derived_hostile/las_count_4294967295.las": (100, "4294967195 of 4294967295"),
     "derived_hostile/las_offset_to_points_past_eof.las": "offset",
     "derived_hostile/las_point_format_63.las": "63",
     "derived_hostile/las_record_length_0.las": "record",
     "derived_hostile/las_scale_zero.las": "scale",
     "derived_hostile/las_truncated_header_200_bytes.las": "header",
-    "derived_hostile/las_truncated_mid_record.las": (56, "44"),
+    "derived_hostile/las_truncated_mid_record.las": (57, "43 of 100"),
 }
 
 
@@ -72,6 +72,7 @@ class BrokenFiles(ToolTest):
                 store.unlink(missing_ok=True)
                 if isinstance(expected, str):
                     outcome = self.refuse(1, "build", DATA / name, "-o", store)
+                    self.assertLess(outcome.seconds, 2.0 * SLOWNESS)
                     self.assertIn(expected, outcome.err)
                     self.assertIn(pathlib.Path(name).name, outcome.err)
                     self.assertEqual(self.entries(), [])
@@ -90,6 +91,8 @@ class BrokenFiles(ToolTest):
             self.assertGreater(len(warnings), 0, "no warning")
             self.assertIn("warning", warnings[0])
             self.assertIn(lost, outcome.err)
+            if points > 0:
+                self.assertIn(pathlib.Path(name).name, warnings[0])
         self.succeed("verify", store)
 
 

@@ -93,8 +93,8 @@ class Exports(ToolTest):
         self.assertEqual(west + east, 110000)
         self.assertEqual(count("--classes", "1")[0], 83893)
         self.assertEqual(count("--classes", "2")[0], 26107)
-        thin, _ = count("--spacing", "20")
-        thinner, _ = count("--spacing", "100")
+        thin, _ = count("--spacing", "4") # feet
+        thinner, _ = count("--spacing", "12")
         self.assertTrue(0 < thinner < thin < 110000, (thinner, thin))
 
 

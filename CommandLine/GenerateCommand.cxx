@@ -1,0 +1,52 @@
+#include "GenerateCommand.h"
+
+#include "CancelSignal.h"
+#include "ProgressDisplay.h"
+#include "SinkFormats.h"
+#include "Unavailable.h"
+
+#include "pointfront/Export/SourceExport.h"
+#include "pointfront/Generate/TerrainSource.h"
+
+#include <cstdio>
+
+namespace pointfront
+{
+
+void GenerateCommand::declare(CLI::App& program)
+{
+  const std::uint64_t most = 1000000000000; // 10^12
+  app_ = program.add_subcommand("generate", "Make up a realistic airborne survey");
+  app_->add_option("--points", points_, "How many")
+    ->required()
+    ->check(CLI::Range(std::uint64_t(1), most))
+    ->type_name("N");
+  app_->add_option("-o,--output", outputPath_, "The file to write; replaced if it is there")
+    ->required()
+    ->check(sinkExtension());
+  app_->add_option("--seed", seed_, "Another landscape for another number (1)")->type_name("S");
+  app_->add_option("--progress", progress_, "On stderr: auto, plain, json or none (auto)")
+    ->check(availableValues({ "auto", "plain", "json", "none" }, {}));
+}
+
+Result<void> GenerateCommand::run()
+{
+  const CancelSignal signal(CancelSignal::Mode::Finish);
+  const TerrainSource survey(points_, seed_);
+  const std::unique_ptr<PointSink> sink = makeSink(outputPath_);
+  std::uint64_t written = 0;
+  {
+    ProgressDisplay display(*ProgressDisplay::styleOf(progress_));
+    const Result<std::uint64_t> exported = exportSource(survey, *sink, display.function());
+    if (!exported)
+    {
+      return exported.error();
+    }
+    written = exported.value();
+  }
+  std::printf(
+    "%s: %llu points\n", outputPath_.c_str(), static_cast<unsigned long long>(written));
+  return {};
+}
+
+} // namespace pointfront

@@ -48,8 +48,7 @@ struct vtkOpenGLPointFrontMapper::Content
   pointfront::SlotRecords Records;
   pointfront::ColourTable Table;
   vtkNew<vtkOpenGLPointFrontPass> Pass;
-  vtkWeakPointer<vtkWindow>
-    Window; ///< whose context has the pool ///< that the pool's nodes are of
+  vtkWeakPointer<vtkWindow> Window;         ///< whose context has the pool
   vtkWeakPointer<vtkPointFrontStore> Store; ///< that the pool's nodes are of
   std::vector<std::uint64_t> FirstIds;      ///< rank of each node's first point
   std::map<vtkRenderer*, FrameTimer> Timers;

@@ -16,12 +16,13 @@ constexpr double largestSteps = 9007199254740992.0; // 2^53
 /// Columns are scattered into the records of a tile while these are in the nearest cache.
 constexpr std::size_t tilePoints = 512;
 
-/// QuantisationGrid::toGrid() without a call of the C library for all but exact halves, which it
-/// rounds away from zero.
+/// std::llround() for |v| < 2^53, as QuantisationGrid::toGrid() does it, without the call: the
+/// fraction is exact, and exact halves go away from zero.
 std::int64_t rounded(double v)
 {
-  const auto nearest = static_cast<std::int64_t>(std::lrint(v));
-  return std::abs(v - static_cast<double>(nearest)) == 0.5 ? std::llround(v) : nearest;
+  const auto whole = static_cast<std::int64_t>(v);
+  const double fraction = v - static_cast<double>(whole);
+  return whole + (fraction >= 0.5 ? 1 : 0) - (fraction <= -0.5 ? 1 : 0);
 }
 
 std::optional<Rejection> fault(const glm::dvec3& world, const glm::dvec3& steps)

@@ -37,7 +37,7 @@ std::optional<unsigned> placeRoot(
   for (unsigned log2Side = 0; log2Side <= 32; ++log2Side)
   {
     const unsigned cell = log2Side > rootCellsLog2 ? log2Side - rootCellsLog2 : 0;
-    space.origin = (first >> GridPosition(cell)) << GridPosition(cell);
+    space.origin = first & GridPosition(-(std::int64_t(1) << cell)); // rounds down
     const GridPosition reached = (last - space.origin) >> GridPosition(log2Side);
     if (reached == GridPosition(0))
     {

@@ -1,0 +1,222 @@
+// usage: pointfrontFrameBenchmark STORE.pfront [ROUNDS]
+//
+// Milliseconds for a frame of the same cloud from the same cameras, 1280 x 720, 2 px points:
+//   all points in memory, drawn by vtkPolyDataMapper (in the store's order, which is a Morton order
+//   inside each node),
+//   all points, drawn by vtkPointFrontMapper (an error small enough),
+//   vtkPointFrontMapper at its default error of 1 px.
+// The three take turns, round by round, while the camera goes around the cloud. JSON on stdout.
+
+#include "vtkPointFrontMapper.h"
+#include "vtkPointFrontReader.h"
+#include "vtkPointFrontStore.h"
+
+#include "pointfront/Store/PointStore.h"
+
+#include <nlohmann/json.hpp>
+
+#include <vtkActor.h>
+#include <vtkCamera.h>
+#include <vtkCellArray.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+#include <vtkUnsignedCharArray.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstring>
+#include <string>
+#include <vector>
+
+namespace
+{
+
+using namespace pointfront;
+
+[[noreturn]] void fail(const std::string& text)
+{
+  std::fprintf(stderr, "%s\n", text.c_str());
+  std::exit(1);
+}
+
+/// 8 bit of one point's colour.
+void colourOf(const Attribute& rgb, const std::byte* bytes, unsigned char* colour)
+{
+  for (std::size_t c = 0; c < 3; ++c)
+  {
+    std::uint16_t wide = 0;
+    std::memcpy(&wide, bytes + c * sizeOf(rgb.type), sizeOf(rgb.type)); // little-endian
+    colour[c] = static_cast<unsigned char>(rgb.type == ScalarType::UInt8 ? wide : wide >> 8);
+  }
+}
+
+vtkSmartPointer<vtkPolyData> allPoints(const PointStore& store)
+{
+  const StoreDescription& description = store.description();
+  const std::optional<std::size_t> column = description.schema.find("rgb");
+  if (!column)
+  {
+    fail(description.path + ": has no rgb");
+  }
+  const Attribute& rgb = description.schema[*column];
+  const auto count = static_cast<vtkIdType>(description.pointCount);
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  points->SetNumberOfPoints(count);
+  vtkNew<vtkUnsignedCharArray> colours;
+  colours->SetNumberOfComponents(3);
+  colours->SetNumberOfTuples(count);
+  vtkNew<vtkCellArray> vertices;
+  vertices->InsertNextCell(static_cast<int>(count));
+  vtkIdType id = 0;
+  for (NodeIndex node = 0; node < store.hierarchy()->nodeCount(); ++node)
+  {
+    const Result<NodeColumns> decoded = store.read(node, { static_cast<std::uint32_t>(*column) });
+    if (!decoded)
+    {
+      fail(decoded.error().what);
+    }
+    for (std::size_t i = 0; i < decoded->size(); ++i, ++id)
+    {
+      const glm::dvec3 p = description.grid.toWorld(
+        decoded->origin + GridPosition(decoded->positions[i]));
+      points->SetPoint(id, p.x, p.y, p.z);
+      colourOf(rgb, decoded->columns[0].data() + i * rgb.bytes(), colours->GetPointer(3 * id));
+      vertices->InsertCellPoint(id);
+    }
+  }
+  auto data = vtkSmartPointer<vtkPolyData>::New();
+  data->SetPoints(points);
+  data->SetVerts(vertices);
+  data->GetPointData()->SetScalars(colours);
+  return data;
+}
+
+/// One way of drawing: an actor that is visible in its turn only, and its times.
+struct Contestant
+{
+  std::string name;
+  vtkNew<vtkActor> actor;
+  std::vector<double> milliseconds;
+
+  void dress(vtkMapper* mapper)
+  {
+    actor->SetMapper(mapper);
+    actor->GetProperty()->LightingOff();
+    actor->GetProperty()->SetPointSize(2.0f);
+    actor->VisibilityOff();
+  }
+};
+
+nlohmann::ordered_json summary(Contestant& contestant)
+{
+  std::vector<double>& ms = contestant.milliseconds;
+  std::sort(ms.begin(), ms.end());
+  return { { "median_ms", ms[ms.size() / 2] }, { "min_ms", ms.front() }, { "max_ms", ms.back() } };
+}
+
+double frameMs(vtkRenderWindow* window)
+{
+  const auto begin = std::chrono::steady_clock::now();
+  window->Render();
+  window->WaitForCompletion();
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin)
+    .count();
+}
+
+void dressOurs(vtkPointFrontMapper* mapper, vtkPointFrontReader* reader, double error)
+{
+  mapper->SetInputConnection(reader->GetOutputPort());
+  mapper->SetScalarModeToUsePointFieldData();
+  mapper->SelectColorArray("rgb");
+  mapper->SetTargetError(error);
+  mapper->SetPointBudget(0);
+  mapper->CompleteOn();
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+  if (argc < 2 || argc > 3)
+  {
+    fail("usage: pointfrontFrameBenchmark STORE.pfront [ROUNDS]");
+  }
+  const int rounds = argc == 3 ? std::stoi(argv[2]) : 9;
+  vtkNew<vtkPointFrontReader> reader;
+  reader->SetFileName(argv[1]);
+  reader->SetOverviewPoints(0);
+  reader->UpdateInformation();
+  if (reader->GetStore() == nullptr)
+  {
+    fail(std::string(argv[1]) + ": cannot be opened");
+  }
+  reader->GetStore()->SetHostMemoryBudget(vtkTypeInt64(4) << 30);
+
+  Contestant theirs;
+  theirs.name = "vtkPolyDataMapper, all points";
+  vtkNew<vtkPolyDataMapper> theirMapper;
+  theirMapper->SetInputData(allPoints(*reader->GetStore()->GetStore()));
+  theirs.dress(theirMapper);
+  Contestant all;
+  all.name = "vtkPointFrontMapper, all points";
+  vtkNew<vtkPointFrontMapper> allMapper;
+  dressOurs(allMapper, reader, 0.01);
+  all.dress(allMapper);
+  Contestant front;
+  front.name = "vtkPointFrontMapper, error 1 px";
+  vtkNew<vtkPointFrontMapper> frontMapper;
+  dressOurs(frontMapper, reader, 1.0);
+  front.dress(frontMapper);
+
+  vtkNew<vtkRenderer> renderer;
+  vtkNew<vtkRenderWindow> window;
+  window->SetOffScreenRendering(1);
+  window->SetMultiSamples(0);
+  window->SetSize(1280, 720);
+  window->AddRenderer(renderer);
+  Contestant* const contestants[] = { &theirs, &all, &front };
+  for (Contestant* contestant : contestants)
+  {
+    renderer->AddActor(contestant->actor);
+  }
+  renderer->GetActiveCamera()->SetPosition(1.0, -1.0, 1.0);
+  renderer->GetActiveCamera()->SetFocalPoint(0.0, 0.0, 0.0);
+  renderer->GetActiveCamera()->SetViewUp(0.0, 0.0, 1.0);
+  renderer->ResetCamera(frontMapper->GetBounds());
+  renderer->GetActiveCamera()->Zoom(1.5);
+
+  nlohmann::ordered_json result;
+  for (int round = 0; round <= rounds; ++round) // the first one uploads, and does not count
+  {
+    renderer->GetActiveCamera()->Azimuth(2.0);
+    renderer->ResetCameraClippingRange(frontMapper->GetBounds());
+    for (Contestant* contestant : contestants)
+    {
+      contestant->actor->VisibilityOn();
+      const double ms = frameMs(window);
+      contestant->actor->VisibilityOff();
+      if (round > 0)
+      {
+        contestant->milliseconds.push_back(ms);
+      }
+    }
+  }
+  result["points"] = reader->GetStore()->GetNumberOfPoints();
+  result["rounds"] = rounds;
+  for (Contestant* contestant : contestants)
+  {
+    result[contestant->name] = summary(*contestant);
+  }
+  result["points drawn, all points"] = allMapper->GetLastPointsDrawn();
+  result["points drawn, error 1 px"] = frontMapper->GetLastPointsDrawn();
+  std::printf("%s\n", result.dump(2).c_str());
+  return 0;
+}

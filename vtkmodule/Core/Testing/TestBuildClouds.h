@@ -3,16 +3,31 @@
 #include "pointfront/Build/StoreBuilder.h"
 #include "pointfront/Points/PointSource.h"
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cstring>
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include <unistd.h>
+
 namespace pointfront::test
 {
+
+/// A folder of this process alone: the suite may run several times at once.
+inline std::filesystem::path freshFolder(const std::string& name)
+{
+  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) /
+                                       ("pointfront-" + name + "-" + std::to_string(getpid()));
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directories(folder);
+  return folder;
+}
 
 /// A cloud in memory, as a source of `chunk` points a chunk.
 class CloudSource final : public PointSource

@@ -205,9 +205,9 @@ std::set<std::array<unsigned, 3>> coloursOf(const PointStore& store)
 
 TEST(BuildColours, AreEightBitsIfAllFitAndAreWidenedFileByFile)
 {
-  const auto path = std::filesystem::path(testing::TempDir()) / "pointfront-colours.pfront";
+  const auto folder = freshFolder("colours");
   BuildOptions options;
-  options.outputPath = path.string();
+  options.outputPath = (folder / "cloud.pfront").string();
   options.overwrite = true;
   options.nodePoints = 64;
   for (const std::uint64_t memory : {std::uint64_t(1) << 30, std::uint64_t(40) << 10})
@@ -230,7 +230,7 @@ TEST(BuildColours, AreEightBitsIfAllFitAndAreWidenedFileByFile)
     EXPECT_EQ(coloursOf(**wide),
       (std::set<std::array<unsigned, 3>>{{0, 0, 0}, {0, 2570, 65535}, {3, 256, 65535}}));
   }
-  std::filesystem::remove(path);
+  std::filesystem::remove_all(folder);
 }
 
 } // namespace

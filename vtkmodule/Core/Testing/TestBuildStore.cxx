@@ -25,9 +25,7 @@ protected:
   void SetUp() override
   {
     const testing::TestInfo* test = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::path(testing::TempDir()) / ("pointfront-build-" + std::string(test->name()));
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
+    folder_ = freshFolder(test->name());
     options_.outputPath = (folder_ / "cloud.pfront").string();
     options_.nodePoints = 256;
     options_.threads = 2;

@@ -16,8 +16,7 @@ namespace fs = std::filesystem;
 
 TEST(SpillFile, KeepsBytesWithoutAName)
 {
-  const fs::path folder = fs::path(testing::TempDir()) / "pointfront-spill";
-  fs::create_directories(folder);
+  const fs::path folder = test::freshFolder("spill");
   {
     auto file = SpillFile::create(folder.string(), 100);
     ASSERT_TRUE(file) << file.error().what;

@@ -34,4 +34,10 @@ require(frames[-1] == (POINTS, True), "the last frame is %s of %d points" % (fra
 require(len(frames) > 1 and frames[0][0] < POINTS, "the first frame waited for all points")
 
 scene.save_complete(name)
+
+# Complete Still Renders overrules what a window does by itself.
+patient = Scene()
+patient.display.CompleteStillRenders = "Always"
+patient.view.SMProxy.StillRender()
+require(patient.frame() == (POINTS, True), "a patient render draws %s" % (patient.frame(),))
 simple.Disconnect()

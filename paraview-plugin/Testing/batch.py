@@ -19,6 +19,12 @@ name = sys.argv[1]
 scene = Scene()
 scene.view.ViewSize = SIZE
 scene.color_by(scene.display, "rgb")
+# Complete Still Renders overrules what batch does by itself.
+scene.display.CompleteStillRenders = "Never"
+scene.view.SMProxy.StillRender()
+points, complete = scene.frame()
+require(not complete and 0 < points < POINTS, "a render that does not wait: %d points" % points)
+scene.display.CompleteStillRenders = "When unattended"
 scene.view.SMProxy.StillRender()
 points, complete = scene.frame()
 require(complete and points == POINTS, "a still render in batch is complete: %d points" % points)

@@ -60,9 +60,11 @@ Result<void> LASSource::read(std::uint64_t chunk, PointBatch& batch) const
 {
   const std::size_t count = static_cast<std::size_t>(chunkPoints(chunk));
   batch.resize(count, file_.layout.schema);
-  const std::byte* records = file_.map.data() + file_.header.pointOffset +
-    chunk * pointsPerChunk * file_.layout.pointBytes;
-  decodeLASPoints(file_.layout, file_.header.grid, records, count, batch);
+  const std::size_t offset =
+    file_.header.pointOffset + chunk * pointsPerChunk * file_.layout.pointBytes;
+  decodeLASPoints(file_.layout, file_.header.grid, file_.map.data() + offset, count, batch);
+  // Read once, not kept: a file larger than the memory limit must not count against it.
+  file_.map.release(offset, count * file_.layout.pointBytes);
   return {};
 }
 

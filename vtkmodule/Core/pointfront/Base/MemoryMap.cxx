@@ -68,6 +68,18 @@ Result<MemoryMap> MemoryMap::open(const std::string& path, Access access)
   return map;
 }
 
+void MemoryMap::release(std::size_t offset, std::size_t bytes) const
+{
+  if (bytes == 0)
+  {
+    return;
+  }
+  const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+  const std::size_t begin = offset / page * page;
+  // Advice only, as above. The mapping is read-only: no page of it can hold what the file does not.
+  ::madvise(const_cast<std::byte*>(data_) + begin, offset + bytes - begin, MADV_DONTNEED);
+}
+
 MemoryMap::MemoryMap(MemoryMap&& other) noexcept
   : data_(std::exchange(other.data_, nullptr))
   , size_(std::exchange(other.size_, 0))

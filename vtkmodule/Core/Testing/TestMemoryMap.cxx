@@ -1,0 +1,71 @@
+#include "pointfront/Base/MemoryMap.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <numeric>
+#include <string>
+#include <unistd.h>
+
+namespace pointfront
+{
+namespace
+{
+constexpr std::size_t fileBytes = 64u << 20;
+
+std::string sampleFile()
+{
+  const std::string path =
+    testing::TempDir() + "pointfront_map_" + std::to_string(::getpid()) + ".bin";
+  std::ofstream file(path, std::ios::binary);
+  std::string block(1u << 20, '\0');
+  for (std::size_t i = 0; i < fileBytes / block.size(); ++i)
+  {
+    std::fill(block.begin(), block.end(), static_cast<char>(i + 1));
+    file.write(block.data(), static_cast<std::streamsize>(block.size()));
+  }
+  return path;
+}
+
+/// Pages of files that this process has mapped and touched (statm's third number), in bytes.
+std::size_t sharedBytes()
+{
+  std::ifstream statm("/proc/self/statm");
+  std::size_t size = 0;
+  std::size_t resident = 0;
+  std::size_t shared = 0;
+  statm >> size >> resident >> shared;
+  return shared * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+}
+
+unsigned long sumOf(const MemoryMap& map)
+{
+  return std::accumulate(map.data(), map.data() + map.size(), 0ul,
+    [](unsigned long sum, std::byte b) { return sum + static_cast<unsigned long>(b); });
+}
+} // namespace
+
+TEST(MemoryMap, ReleasedPagesNoLongerCountAndStayReadable)
+{
+  const std::string path = sampleFile();
+  const auto map = MemoryMap::open(path);
+  ASSERT_TRUE(map.ok());
+  const std::size_t before = sharedBytes();
+  const unsigned long sum = sumOf(*map);
+  const std::size_t touched = sharedBytes();
+  ASSERT_GT(touched, before + fileBytes / 2) << "the kernel did not count the touched pages";
+  map->release(1000, fileBytes - 2000);
+  EXPECT_LT(sharedBytes(), touched - fileBytes / 2);
+  EXPECT_EQ(sumOf(*map), sum);
+  map->release(0, 0);
+  ::unlink(path.c_str());
+}
+
+TEST(MemoryMap, SaysWhatIsWrong)
+{
+  EXPECT_EQ(MemoryMap::open("no/such/file").error().kind, Error::Kind::NotFound);
+  EXPECT_EQ(MemoryMap::open(testing::TempDir()).error().kind, Error::Kind::Unreadable);
+}
+
+} // namespace pointfront

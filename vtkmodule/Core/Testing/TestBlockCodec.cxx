@@ -106,7 +106,7 @@ TEST(BlockCodec, EveryCodecGivesBackEveryBit)
       }
     }
   };
-  forEveryShape({ 0, 1, 2, 3, 127, 128, 129, 255, 256, 1000, 2048, 2049 }, visit);
+  forEveryShape({ 0, 1, 2, 127, 128, 129, 300, 2049 }, visit);
   visit({ 70000, 3, 4 });
   visit({ 70000, 1, 8 });
   visit({ 70000, 3, 1 });

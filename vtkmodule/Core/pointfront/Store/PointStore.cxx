@@ -181,6 +181,33 @@ std::uint64_t runBytes(
 {
   return blocks[end - 1].offset + blocks[end - 1].bytes - blocks[first].offset;
 }
+/// Checks and decodes one block; what is wrong, or an empty text.
+std::string decodeFault(const BlockDirectory::Block& block, const std::byte* data,
+  const BlockShape& shape, std::byte* values)
+{
+  if (checksumOf(data, block.bytes) != block.checksum)
+  {
+    return ": the checksum does not match";
+  }
+  return decodeBlock(block.codec, data, block.bytes, shape, values)
+    ? ""
+    : ": the block cannot be decoded";
+}
+
+/// Memory for the points of a node, of exactly the size that decodedBytes() tells.
+NodeColumns emptyColumns(
+  NodeIndex node, std::size_t points, const ColumnSelection& columns, const AttributeSchema& schema)
+{
+  NodeColumns result;
+  result.node = node;
+  result.selection = columns;
+  result.positions.resize(points);
+  for (const std::uint32_t column : columns)
+  {
+    result.columns.emplace_back(columnShape(schema[column], points).bytes());
+  }
+  return result;
+}
 } // namespace
 
 std::string blockName(const StoreDescription& description, NodeIndex node, std::uint32_t block)
@@ -293,12 +320,8 @@ Result<NodeColumns> PointStore::read(NodeIndex node, const ColumnSelection& colu
   const StoreDescription& description = content_->description;
   const std::size_t points = content_->hierarchy->node(node).pointCount;
   const auto blocks = wantedBlocks(content_->directory, node, columns);
-  NodeColumns result;
-  result.node = node;
+  NodeColumns result = emptyColumns(node, points, columns, description.schema);
   result.origin = content_->directory.origin(node);
-  result.selection = columns;
-  result.positions.resize(points);
-  result.columns.resize(columns.size());
   for (std::size_t first = 0; first < blocks.size();)
   {
     const std::size_t end = runEnd(blocks, first);
@@ -316,16 +339,11 @@ Result<NodeColumns> PointStore::read(NodeIndex node, const ColumnSelection& colu
       if (b > 0)
       {
         shape = columnShape(description.schema[columns[b - 1]], points);
-        result.columns[b - 1].resize(shape.bytes());
         values = result.columns[b - 1].data();
       }
       const std::byte* data = coded.data.get() + (blocks[b].offset - blocks[first].offset);
-      const char* fault = checksumOf(data, blocks[b].bytes) != blocks[b].checksum
-        ? ": the checksum does not match"
-        : decodeBlock(blocks[b].codec, data, blocks[b].bytes, shape, values)
-        ? nullptr
-        : ": the block cannot be decoded";
-      if (fault != nullptr)
+      const std::string fault = decodeFault(blocks[b], data, shape, values);
+      if (!fault.empty())
       {
         const std::uint32_t block = b == 0 ? 0 : columns[b - 1] + 1;
         return corruptStore(

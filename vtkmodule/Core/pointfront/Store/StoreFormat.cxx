@@ -56,6 +56,43 @@ std::string sectionFault(const StoreFooter& footer, const StoreHeader& header)
   }
   return {};
 }
+/// What a header with the right checksum may still say: another version, another size.
+Result<void> checkHeader(
+  const StoreHeader& header, std::uint64_t fileBytes, const std::string& path)
+{
+  if (header.version == 0 || header.version > storeVersion)
+  {
+    return makeError(Error::Kind::Unsupported,
+      "'" + path + "' is a store of version " + std::to_string(header.version) +
+        ", this program reads up to version " + std::to_string(storeVersion) +
+        "; update PointFront");
+  }
+  if (header.requiredFeatures != 0)
+  {
+    return makeError(Error::Kind::Unsupported,
+      "'" + path + "' uses features that this program does not know (flags " +
+        std::to_string(header.requiredFeatures) + "); update PointFront");
+  }
+  if (fileBytes < header.fileBytes)
+  {
+    return makeError(Error::Kind::Truncated,
+      "'" + path + "' has " + std::to_string(fileBytes) + " bytes of " +
+        std::to_string(header.fileBytes) + "; copy the file again or build the store again");
+  }
+  if (fileBytes > header.fileBytes)
+  {
+    return corruptStore(path, header.fileBytes,
+      std::to_string(fileBytes - header.fileBytes) + " bytes follow the store's end");
+  }
+  if (header.footerOffset < storeHeaderBytes || header.footerOffset > header.fileBytes ||
+    header.fileBytes - header.footerOffset != header.footerBytes ||
+    header.footerBytes < footerFixedBytes + 4 ||
+    header.footerBytes > footerFixedBytes + maxSections * sectionEntryBytes + 4)
+  {
+    return corruptStore(path, 24, "the footer does not lie at the end of the file");
+  }
+  return {};
+}
 } // namespace
 
 const SectionEntry* StoreFooter::find(SectionKind kind) const
@@ -135,36 +172,9 @@ Result<StoreHeader> decodeHeader(
   {
     return corruptStore(path, 0, "the header's checksum does not match");
   }
-  if (header.version == 0 || header.version > storeVersion)
+  if (Result<void> sound = checkHeader(header, fileBytes, path); !sound)
   {
-    return makeError(Error::Kind::Unsupported,
-      "'" + path + "' is a store of version " + std::to_string(header.version) +
-        ", this program reads up to version " + std::to_string(storeVersion) +
-        "; update PointFront");
-  }
-  if (header.requiredFeatures != 0)
-  {
-    return makeError(Error::Kind::Unsupported,
-      "'" + path + "' uses features that this program does not know (flags " +
-        std::to_string(header.requiredFeatures) + "); update PointFront");
-  }
-  if (fileBytes < header.fileBytes)
-  {
-    return makeError(Error::Kind::Truncated,
-      "'" + path + "' has " + std::to_string(fileBytes) + " bytes of " +
-        std::to_string(header.fileBytes) + "; copy the file again or build the store again");
-  }
-  if (fileBytes > header.fileBytes)
-  {
-    return corruptStore(path, header.fileBytes,
-      std::to_string(fileBytes - header.fileBytes) + " bytes follow the store's end");
-  }
-  if (header.footerOffset < storeHeaderBytes || header.footerOffset > header.fileBytes ||
-    header.fileBytes - header.footerOffset != header.footerBytes ||
-    header.footerBytes < footerFixedBytes + 4 ||
-    header.footerBytes > footerFixedBytes + maxSections * sectionEntryBytes + 4)
-  {
-    return corruptStore(path, 24, "the footer does not lie at the end of the file");
+    return sound.error();
   }
   return header;
 }

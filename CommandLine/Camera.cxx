@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace pointfront
@@ -40,6 +41,31 @@ Axes axesOf(NamedView view)
   }
   return { { 1.0, -1.0, 1.0 }, z };
 }
+
+/// Along one axis of the picture: the least distance from the box's centre at which the box lies
+/// between two planes of the frustum, and where its eye then is.
+struct Fit
+{
+  double distance = 0.0;
+  double shift = 0.0; ///< of the eye along the axis
+};
+
+/// A corner at (c, z) is inside if |c - shift| <= tangent (distance + z): near corners push the
+/// planes apart more than far ones, so the best shift is not 0.
+Fit fit(const glm::dvec3& half, const glm::dvec3& axis, const glm::dvec3& away, double tangent)
+{
+  double high = -std::numeric_limits<double>::infinity();
+  double low = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 8; ++i)
+  {
+    const glm::dvec3 sign(i & 1 ? 1.0 : -1.0, i & 2 ? 1.0 : -1.0, i & 4 ? 1.0 : -1.0);
+    const double along = glm::dot(sign * half, axis);
+    const double depth = glm::dot(sign * half, away);
+    high = std::max(high, along - tangent * depth);
+    low = std::min(low, along + tangent * depth);
+  }
+  return { (high - low) / (2.0 * tangent), 0.5 * (high + low) };
+}
 } // namespace
 
 glm::dvec3 Camera::direction() const
@@ -70,24 +96,15 @@ Camera cameraFitting(const Bounds& bounds, NamedView view, double aspect)
   const glm::dvec3 away = -glm::normalize(axes.toEye);
   const glm::dvec3 right = glm::normalize(glm::cross(away, axes.up));
   camera.viewUp = glm::cross(right, away);
-  camera.focalPoint = bounds.empty() ? glm::dvec3(0.0) : bounds.centre();
-  const double tangentY = std::tan(0.5 * glm::radians(camera.viewAngleDegrees));
-  const double tangentX = tangentY * aspect;
-
-  // Each corner asks for the distance at which it just touches the frustum's side.
+  const double tangent = std::tan(0.5 * glm::radians(camera.viewAngleDegrees)) / margin;
   const glm::dvec3 half = bounds.empty() ? glm::dvec3(0.5) : 0.5 * bounds.size();
-  double distance = 0.0;
-  for (int corner = 0; corner < 8; ++corner)
-  {
-    const glm::dvec3 sign(
-      corner & 1 ? 1.0 : -1.0, corner & 2 ? 1.0 : -1.0, corner & 4 ? 1.0 : -1.0);
-    const glm::dvec3 c = sign * half;
-    const double sideways = margin * std::abs(glm::dot(c, right)) / tangentX;
-    const double upwards = margin * std::abs(glm::dot(c, camera.viewUp)) / tangentY;
-    distance = std::max(distance, std::max(sideways, upwards) - glm::dot(c, away));
-  }
+  const Fit sideways = fit(half, right, away, tangent * aspect);
+  const Fit upwards = fit(half, camera.viewUp, away, tangent);
   const double leastDistance = 1.0e-3; // a cloud of one point, or one seen along its only axis
-  camera.position = camera.focalPoint - std::max(distance, leastDistance) * away;
+  const double distance = std::max({ sideways.distance, upwards.distance, leastDistance });
+  camera.focalPoint = bounds.empty() ? glm::dvec3(0.0) : bounds.centre();
+  camera.focalPoint += sideways.shift * right + upwards.shift * camera.viewUp;
+  camera.position = camera.focalPoint - distance * away;
   return camera;
 }
 

@@ -83,8 +83,9 @@ Result<KeyCamera> keyCameraFromJson(const nlohmann::json& entry, const std::stri
 
 CameraPath orbitPath(const PathSubject& subject, int frames)
 {
-  const Camera start = cameraFitting(subject.bounds, NamedView::Iso, subject.aspect);
+  Camera start = cameraFitting(subject.bounds, NamedView::Iso, subject.aspect);
   const glm::dvec3 arm = start.position - start.focalPoint;
+  start.focalPoint = subject.bounds.empty() ? glm::dvec3(0.0) : subject.bounds.centre();
   CameraPath path;
   for (int frame = 0; frame < frames; ++frame)
   {
@@ -105,6 +106,7 @@ CameraPath zoomPath(const PathSubject& subject, int frames)
   const double nearest = 0.02;
   Camera camera = cameraFitting(subject.bounds, NamedView::Iso, subject.aspect);
   const glm::dvec3 arm = camera.position - camera.focalPoint;
+  camera.focalPoint = subject.bounds.empty() ? glm::dvec3(0.0) : subject.bounds.centre();
   camera.focalPoint.z = subject.ground;
   CameraPath path;
   for (int frame = 0; frame < frames; ++frame)

@@ -46,25 +46,44 @@ namespace
 constexpr double stillRate = 0.0001;      // frames a second: VTK's value for a view at rest
 constexpr double interactiveRate = 15.0;  // VTK's value for a view in motion
 
-/// VTK ends the process when its window finds no X server, so it is asked before.
-Result<void> checkDisplay()
+/// A connection of our own to the X server. VTK ends the process when its window finds none, so it
+/// is asked before; and it stays open as long as the window, because a server without -noreset
+/// begins anew when its last client goes, and refuses others meanwhile.
+class XConnection
 {
-  const char* const name = std::getenv("DISPLAY");
-  const std::string hint = "; run it under xvfb-run -a";
-  if (name == nullptr || *name == '\0')
+public:
+  ~XConnection()
   {
-    return makeError(
-      Error::Kind::Unsupported, "drawing needs an X server and DISPLAY is not set" + hint);
+    if (display_ != nullptr)
+    {
+      XCloseDisplay(display_);
+    }
   }
-  Display* const display = XOpenDisplay(nullptr);
-  if (display == nullptr)
+  XConnection() = default;
+  XConnection(const XConnection&) = delete;
+  XConnection& operator=(const XConnection&) = delete;
+
+  Result<void> open()
   {
-    return makeError(
-      Error::Kind::Unsupported, std::string("no X server answers at DISPLAY=") + name + hint);
+    const char* const name = std::getenv("DISPLAY");
+    const std::string hint = "; run it under xvfb-run -a";
+    if (name == nullptr || *name == '\0')
+    {
+      return makeError(
+        Error::Kind::Unsupported, "drawing needs an X server and DISPLAY is not set" + hint);
+    }
+    display_ = XOpenDisplay(nullptr);
+    if (display_ == nullptr)
+    {
+      return makeError(
+        Error::Kind::Unsupported, std::string("no X server answers at DISPLAY=") + name + hint);
+    }
+    return {};
   }
-  XCloseDisplay(display);
-  return {};
-}
+
+private:
+  Display* display_ = nullptr;
+};
 
 /// Keeps the first error that any of the observed objects reports; VTK then prints none.
 class ErrorListener
@@ -179,6 +198,7 @@ private:
   View viewNow();
   void setPointSize();
 
+  XConnection connection_; // outlives the window
   DrawingOptions options_;
   Bounds bounds_;
   double ground_ = 0.0;
@@ -226,6 +246,10 @@ Result<void> OffscreenScene::openStores()
 
 Result<void> OffscreenScene::setUpDrawing()
 {
+  if (Result<void> connected = connection_.open(); !connected)
+  {
+    return connected;
+  }
   std::vector<std::shared_ptr<const PointStore>> stores;
   for (const auto& drawn : stores_)
   {
@@ -440,10 +464,6 @@ Result<std::unique_ptr<StoreScene>> StoreScene::open(const DrawingOptions& optio
   if (Result<void> opened = scene->openStores(); !opened)
   {
     return opened.error();
-  }
-  if (Result<void> display = checkDisplay(); !display)
-  {
-    return display.error();
   }
   if (Result<void> ready = scene->setUpDrawing(); !ready)
   {

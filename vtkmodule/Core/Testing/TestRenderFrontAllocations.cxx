@@ -29,9 +29,15 @@ void* counted(std::size_t bytes)
 
 } // namespace
 
-// Never inlined: a compiler that sees free() behind a delete takes it for a mistake.
+// Never inlined: a compiler that sees free() behind a delete takes it for a mistake. The one that
+// does not throw is replaced too: AddressSanitizer has its own, and would pair it with our delete.
 [[gnu::noinline]] void* operator new(std::size_t bytes) { return counted(bytes); }
 [[gnu::noinline]] void* operator new[](std::size_t bytes) { return counted(bytes); }
+[[gnu::noinline]] void* operator new(std::size_t bytes, const std::nothrow_t&) noexcept
+{
+  ++allocations;
+  return std::malloc(bytes > 0 ? bytes : 1);
+}
 [[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
 [[gnu::noinline]] void operator delete[](void* memory) noexcept { std::free(memory); }
 [[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }

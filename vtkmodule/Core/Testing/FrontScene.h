@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <random>
 #include <unordered_map>
@@ -91,7 +92,12 @@ public:
   {
     ++asked;
     const auto found = states_.find(node);
-    return found != states_.end() ? found->second : otherwise;
+    const State state = found != states_.end() ? found->second : otherwise;
+    if (const auto meanwhile = afterAsked) // a copy: it may put itself away
+    {
+      meanwhile(node);
+    }
+    return state;
   }
   std::uint64_t revision() const override { return revision_; }
   bool exhausted() const override { return full; }
@@ -115,6 +121,7 @@ public:
   State otherwise = State::Absent;
   bool full = false;
   mutable std::uint64_t asked = 0;
+  std::function<void(NodeIndex)> afterAsked; ///< what other threads do in the middle of an update
 
 private:
   std::unordered_map<NodeIndex, State> states_;

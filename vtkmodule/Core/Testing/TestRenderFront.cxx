@@ -536,6 +536,36 @@ TEST(RenderFront, NothingChangedEndsAtOnce)
   EXPECT_EQ(requested(delta), std::vector<NodeIndex>{ 6 });
 }
 
+TEST(RenderFront, WhatArrivesInTheMiddleOfAnUpdateIsNewsToTheNext)
+{
+  RenderFront front(sevenNodes());
+  ScriptedResidency residency;
+  residency.tellRevisions();
+  residency.otherwise = State::Resident;
+  residency.set(6, State::Absent);
+  const View view = fromAbove(1200.0);
+  for (int update = 0; update < 30; ++update)
+  {
+    front.update(view, residency, FrontLimits());
+  }
+  residency.set(6, State::Absent); // some change, so that the next update looks again
+  // Node 6 comes from a loader thread just after that update was told that it is absent.
+  residency.afterAsked = [&](NodeIndex node)
+  {
+    if (node == 6)
+    {
+      residency.afterAsked = nullptr;
+      residency.set(6, State::Resident);
+    }
+  };
+  const FrontDelta& delta = front.update(view, residency, FrontLimits());
+  ASSERT_EQ(residency.afterAsked, nullptr);
+  EXPECT_EQ(delta.pointsDrawn, 600u);
+  front.update(view, residency, FrontLimits());
+  EXPECT_TRUE(delta.complete);
+  EXPECT_EQ(delta.pointsDrawn, 700u);
+}
+
 TEST(RenderFront, ResetStartsAgain)
 {
   RenderFront front(sevenNodes());

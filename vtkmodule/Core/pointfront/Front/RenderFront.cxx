@@ -331,7 +331,6 @@ void RenderFront::State::finish(int rungBefore, const ResidencyView& residency)
   const bool arrived = rung == 0 || budgetBound;
   // The residency speaks of what it was asked for after an earlier update: of the same view?
   exhausted = !inputChanged && rung == rungBefore && plan.missing() > 0 && residency.exhausted();
-  revision = residency.revision();
   delta.frontLength = tree.frontLength();
   delta.thresholdPx = thresholdPx();
   delta.limitedByBudget = plan.clipped() || (budgetBound && !boundByMemory && rung > 0);
@@ -359,6 +358,8 @@ const FrontDelta& RenderFront::update(
   {
     return s.delta;
   }
+  // Before anything is asked: what arrives while this update looks is news to the next one.
+  s.revision = residency.revision();
   s.adopt(view, limits);
   const int rungBefore = s.rung;
   s.chooseThreshold();

@@ -55,28 +55,10 @@ void BuildCommand::declare(CLI::App& program)
   app_->add_option("--progress", progress_, "On stderr: auto, plain, json or none (auto)")
     ->check(availableValues({ "auto", "plain", "json", "none" }, {}));
   app_->add_flag("--json", json_, "Print the report as one JSON object");
-  declareUnavailableOptions(*app_);
+  passes_.declare(*app_);
 }
 
-void BuildCommand::declareUnavailableOptions(CLI::App& app)
-{
-  app.add_option("--normals", normals_, "Estimate normals (none)")
-    ->check(availableValues({ "none" }, { "scanline", "pca" }));
-  const std::string noNormals = "normals are not estimated";
-  for (const char* option :
-    { "--normals-k", "--normals-radius", "--normals-eps", "--normals-classes" })
-  {
-    declareUnavailable(app, option, noNormals);
-  }
-  declareUnavailableFlag(app, "--local-height", "heights are not computed");
-  declareUnavailableFlag(app, "--height-above-ground", "heights are not computed");
-  declareUnavailable(app, "--color-from", "points are not coloured from images");
-  declareUnavailable(app, "--attribute-from", "attributes are not taken from images");
-  declareUnavailable(app, "--crs", "coordinates are not transformed");
-  declareUnavailable(app, "--assume-crs", "coordinates are not transformed");
-}
-
-Result<std::vector<std::unique_ptr<PointSource>>> BuildCommand::openSources() const
+Result<PointSources> BuildCommand::openSources() const
 {
   const SourceFormats formats;
   Result<InputFileList> files = findInputFiles(inputs_, formats.extensions());
@@ -88,7 +70,7 @@ Result<std::vector<std::unique_ptr<PointSource>>> BuildCommand::openSources() co
   {
     warn(name(), warning);
   }
-  std::vector<std::unique_ptr<PointSource>> sources;
+  PointSources sources;
   for (const std::string& path : files->paths)
   {
     Result<std::unique_ptr<PointSource>> source = formats.open(path);
@@ -110,7 +92,7 @@ Result<std::vector<std::unique_ptr<PointSource>>> BuildCommand::openSources() co
 }
 
 Result<void> BuildCommand::checkOutput(
-  const std::vector<std::unique_ptr<PointSource>>& sources) const
+  const PointSources& sources) const
 {
   std::error_code failure;
   if (!options_.overwrite && std::filesystem::exists(options_.outputPath, failure))
@@ -132,7 +114,7 @@ Result<void> BuildCommand::checkOutput(
 }
 
 void BuildCommand::warnOfBuild(
-  const std::vector<std::unique_ptr<PointSource>>& sources, const BuildReport& report) const
+  const PointSources& sources, const BuildReport& report) const
 {
   std::set<std::string> told;
   for (const std::unique_ptr<PointSource>& source : sources)
@@ -149,6 +131,31 @@ void BuildCommand::warnOfBuild(
   }
 }
 
+Result<PointSources> BuildCommand::applyPasses(
+  PointSources sources, const ProgressFunction& progress) const
+{
+  Result<std::vector<std::unique_ptr<AttributePass>>> passes = passes_.passes();
+  if (!passes)
+  {
+    return passes.error();
+  }
+  PassResources resources;
+  resources.memoryBytes = options_.memoryBytes;
+  resources.threads = options_.threads;
+  resources.temporaryFolder = options_.temporaryFolder;
+  resources.progress = progress;
+  for (const std::unique_ptr<AttributePass>& pass : *passes)
+  {
+    Result<PointSources> next = pass->apply(std::move(sources), resources);
+    if (!next)
+    {
+      return next.error();
+    }
+    sources = std::move(*next);
+  }
+  return sources;
+}
+
 Result<void> BuildCommand::run()
 {
   const CancelSignal signal(CancelSignal::Mode::Finish);
@@ -160,7 +167,7 @@ Result<void> BuildCommand::run()
   {
     options_.attributes = splitList(attributes_);
   }
-  Result<std::vector<std::unique_ptr<PointSource>>> sources = openSources();
+  Result<PointSources> sources = openSources();
   if (!sources)
   {
     return sources.error();
@@ -172,6 +179,11 @@ Result<void> BuildCommand::run()
   std::optional<BuildReport> report;
   {
     ProgressDisplay display(*ProgressDisplay::styleOf(progress_));
+    sources = applyPasses(std::move(*sources), display.function());
+    if (!sources)
+    {
+      return sources.error();
+    }
     Result<BuildReport> built = buildOctreeStore(*sources, options_, display.function());
     if (!built)
     {

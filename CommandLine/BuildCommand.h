@@ -1,5 +1,6 @@
 #pragma once
 
+#include "BuildPasses.h"
 #include "Command.h"
 
 #include "pointfront/Build/StoreBuilder.h"
@@ -20,23 +21,23 @@ public:
   Result<void> run() override;
 
 private:
-  void declareUnavailableOptions(CLI::App& app);
   /// Opens every input; warns of what was wrong and survived.
-  Result<std::vector<std::unique_ptr<PointSource>>> openSources() const;
+  Result<PointSources> openSources() const;
+  Result<PointSources> applyPasses(PointSources sources, const ProgressFunction& progress) const;
   /// Tells what the build itself found; what the sources said has been told, with their paths.
-  void warnOfBuild(const std::vector<std::unique_ptr<PointSource>>& sources,
+  void warnOfBuild(const PointSources& sources,
     const BuildReport& report) const;
   /// --force replaces an earlier store, never the points it is built from.
-  Result<void> checkOutput(const std::vector<std::unique_ptr<PointSource>>& sources) const;
+  Result<void> checkOutput(const PointSources& sources) const;
 
   std::vector<std::string> inputs_;
   BuildOptions options_;
+  BuildPasses passes_;
   std::string attributes_ = "all";
   std::string progress_ = "auto";
   std::string structure_ = "octree";
   std::string refinement_ = "add";
   std::string layers_ = "none";
-  std::string normals_ = "none";
   double precision_ = 0.0;
   bool json_ = false;
 };

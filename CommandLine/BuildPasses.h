@@ -1,0 +1,28 @@
+#pragma once
+
+#include "pointfront/Points/AttributePass.h"
+
+#include <CLI/CLI.hpp>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace pointfront
+{
+
+/// The options of `pointfront build` that compute something between the inputs and the tree, and
+/// the passes they ask for, in the order in which they must run: coordinates first, then what comes
+/// from images, then what comes from neighbours.
+class BuildPasses
+{
+public:
+  void declare(CLI::App& app);
+  /// Errors  an option that contradicts another.
+  Result<std::vector<std::unique_ptr<AttributePass>>> passes() const;
+
+private:
+  std::string normals_ = "none";
+};
+
+} // namespace pointfront

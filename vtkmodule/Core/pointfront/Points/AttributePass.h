@@ -1,0 +1,46 @@
+#pragma once
+
+#include "pointfront/Base/Progress.h"
+#include "pointfront/Base/Result.h"
+#include "pointfront/Points/PointSource.h"
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace pointfront
+{
+
+using PointSources = std::vector<std::unique_ptr<PointSource>>;
+
+/// What a pass may use.
+struct PassResources
+{
+  std::uint64_t memoryBytes = 0;  ///< for points and buffers; 0: half of the machine's
+  unsigned threads = 0;           ///< 0: one a core
+  std::string temporaryFolder;    ///< for files that are unlinked as soon as they are open
+  ProgressFunction progress;      ///< may be empty; false cancels
+};
+
+/// Gives points something that they do not bring along: normals, heights, colours, other
+/// coordinates. It runs between the sources and the build, on all sources together, so what it
+/// computes cannot depend on where a tree cuts the cloud into parts.
+/// Order       the result has the same number of sources, in the same order; each with the same
+///             chunks as its original and the same points in them: input order stays what results
+///             depend on.
+/// Columns     added behind those of the source's schema, or replaced where a name is there
+///             already. What is per point alone is computed in read(); what needs neighbours is
+///             computed by apply() into a temporary column file, under memoryBytes.
+/// Threads     apply() is called from one thread and runs its own; the sources it gives keep
+///             PointSource's promises.
+/// Errors      apply(): what, where, what to try; Error::Kind::Cancelled leaves nothing behind.
+class AttributePass
+{
+public:
+  virtual ~AttributePass() = default;
+  virtual Result<PointSources> apply(
+    PointSources sources, const PassResources& resources) const = 0;
+};
+
+} // namespace pointfront

@@ -11,6 +11,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -132,19 +133,15 @@ void BuildCommand::warnOfBuild(
 }
 
 Result<PointSources> BuildCommand::applyPasses(
-  PointSources sources, const ProgressFunction& progress) const
+  PointSources sources, const AttributePasses& passes, const ProgressFunction& progress)
 {
-  Result<std::vector<std::unique_ptr<AttributePass>>> passes = passes_.passes();
-  if (!passes)
-  {
-    return passes.error();
-  }
   PassResources resources;
   resources.memoryBytes = options_.memoryBytes;
   resources.threads = options_.threads;
   resources.temporaryFolder = options_.temporaryFolder;
   resources.progress = progress;
-  for (const std::unique_ptr<AttributePass>& pass : *passes)
+  std::uint64_t held = 0;
+  for (const std::unique_ptr<AttributePass>& pass : passes)
   {
     Result<PointSources> next = pass->apply(std::move(sources), resources);
     if (!next)
@@ -152,8 +149,27 @@ Result<PointSources> BuildCommand::applyPasses(
       return next.error();
     }
     sources = std::move(*next);
+    held += pass->heldBytes(resources);
+  }
+  if (options_.memoryBytes > 0) // a limit; without one the build asks the machine
+  {
+    options_.memoryBytes -= std::min(held, options_.memoryBytes - 1);
   }
   return sources;
+}
+
+void BuildCommand::warnOfPasses(const AttributePasses& passes)
+{
+  for (const std::unique_ptr<AttributePass>& pass : passes)
+  {
+    for (const std::string& finding : pass->findings())
+    {
+      if (told_.insert(finding).second)
+      {
+        warn(name(), finding);
+      }
+    }
+  }
 }
 
 Result<void> BuildCommand::run()
@@ -176,14 +192,20 @@ Result<void> BuildCommand::run()
   {
     return checked;
   }
+  const Result<AttributePasses> passes = passes_.passes();
+  if (!passes)
+  {
+    return passes.error();
+  }
   std::optional<BuildReport> report;
   {
     ProgressDisplay display(*ProgressDisplay::styleOf(progress_));
-    sources = applyPasses(std::move(*sources), display.function());
+    sources = applyPasses(std::move(*sources), *passes, display.function());
     if (!sources)
     {
       return sources.error();
     }
+    warnOfPasses(*passes);
     Result<BuildReport> built = buildOctreeStore(*sources, options_, display.function());
     if (!built)
     {
@@ -192,6 +214,7 @@ Result<void> BuildCommand::run()
     report = std::move(*built);
   }
   warnOfBuild(*sources, *report);
+  warnOfPasses(*passes);
   if (json_)
   {
     std::printf("%s\n", buildReportJson(*report, peakResidentBytes()).c_str());

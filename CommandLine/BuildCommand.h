@@ -7,6 +7,7 @@
 #include "pointfront/Points/PointSource.h"
 
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -23,7 +24,11 @@ public:
 private:
   /// Opens every input; warns of what was wrong and survived.
   Result<PointSources> openSources() const;
-  Result<PointSources> applyPasses(PointSources sources, const ProgressFunction& progress) const;
+  /// Runs the passes one after another; the build gets the memory that they leave.
+  Result<PointSources> applyPasses(PointSources sources, const AttributePasses& passes,
+    const ProgressFunction& progress);
+  /// What passes found, each sentence once.
+  void warnOfPasses(const AttributePasses& passes);
   /// Tells what the build itself found; what the sources said has been told, with their paths.
   void warnOfBuild(const PointSources& sources,
     const BuildReport& report) const;
@@ -40,6 +45,7 @@ private:
   std::string layers_ = "none";
   double precision_ = 0.0;
   bool json_ = false;
+  std::set<std::string> told_; ///< warnings of passes that are on the terminal already
 };
 
 /// The keys of `build --json`.

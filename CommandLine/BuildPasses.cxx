@@ -25,9 +25,9 @@ void BuildPasses::declare(CLI::App& app)
   declareUnavailableFlag(app, "--height-above-ground", "heights are not computed");
 }
 
-Result<std::vector<std::unique_ptr<AttributePass>>> BuildPasses::passes() const
+Result<AttributePasses> BuildPasses::passes() const
 {
-  return std::vector<std::unique_ptr<AttributePass>>();
+  return AttributePasses();
 }
 
 } // namespace pointfront

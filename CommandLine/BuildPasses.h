@@ -11,6 +11,8 @@
 namespace pointfront
 {
 
+using AttributePasses = std::vector<std::unique_ptr<AttributePass>>;
+
 /// The options of `pointfront build` that compute something between the inputs and the tree, and
 /// the passes they ask for, in the order in which they must run: coordinates first, then what comes
 /// from images, then what comes from neighbours.
@@ -19,7 +21,7 @@ class BuildPasses
 public:
   void declare(CLI::App& app);
   /// Errors  an option that contradicts another.
-  Result<std::vector<std::unique_ptr<AttributePass>>> passes() const;
+  Result<AttributePasses> passes() const;
 
 private:
   std::string normals_ = "none";

@@ -41,6 +41,17 @@ public:
   virtual ~AttributePass() = default;
   virtual Result<PointSources> apply(
     PointSources sources, const PassResources& resources) const = 0;
+
+  /// Memory in bytes that the sources it gives keep while they are read (a cache of images). The
+  /// build has that much less of resources.memoryBytes.
+  virtual std::uint64_t heldBytes(const PassResources& resources) const
+  {
+    (void)resources;
+    return 0;
+  }
+  /// What it met and survived, full sentences that count what was lost. Asked after apply(), and
+  /// again after the sources have been read: what was said the first time is told once.
+  virtual std::vector<std::string> findings() const { return {}; }
 };
 
 } // namespace pointfront

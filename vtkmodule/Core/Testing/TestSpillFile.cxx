@@ -38,7 +38,7 @@ TEST(SpillFile, RefusesADiskThatIsTooSmallBeforeTheWork)
   const auto refused = SpillFile::create(testing::TempDir(), std::uint64_t(1) << 60);
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().kind, Error::Kind::Unwritable);
-  EXPECT_NE(refused.error().what.find("1099511627777 MiB of spill space"), std::string::npos)
+  EXPECT_NE(refused.error().what.find("1099511627776 MiB of spill space"), std::string::npos)
     << refused.error().what;
 }
 

@@ -1,36 +1,34 @@
 #include "pointfront/Build/SpillFile.h"
 
+#include "pointfront/Build/DiskDemand.h"
+
 #include <atomic>
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
-#include <sys/statvfs.h>
 #include <unistd.h>
 
 namespace pointfront
 {
 namespace
 {
-std::string mebibytes(std::uint64_t bytes)
-{
-  return std::to_string((bytes >> 20) + 1) + " MiB";
-}
-
 Error tooSmall(const std::string& folder, std::uint64_t needed, std::uint64_t available)
 {
   return makeError(Error::Kind::Unwritable,
     "the points do not fit in the memory limit and need " + mebibytes(needed) +
       " of spill space in '" + folder + "', where " + mebibytes(available) +
-      " are free; choose another folder for temporary files or a higher memory limit");
+      " are free; choose another folder for temporary files (--temp) or a higher memory limit "
+      "(--memory)");
 }
 
-std::uint64_t freeBytes(const std::string& folder)
+/// The disk, a quota or a limit on the size of files ended while it was written.
+Error writeFault(const std::string& folder, std::uint64_t needed, int systemError)
 {
-  struct statvfs file
-  {
-  };
-  return statvfs(folder.c_str(), &file) == 0 ? std::uint64_t(file.f_bavail) * file.f_frsize
-                                             : UINT64_MAX;
+  return makeError(Error::Kind::Unwritable,
+    "cannot write a temporary file in '" + folder + "': " + std::strerror(systemError) +
+      "; it needs " + mebibytes(needed) + ", and " + mebibytes(diskSpaceOf(folder).freeBytes) +
+      " are free now; choose another folder for temporary files (--temp) or a higher memory "
+      "limit (--memory)");
 }
 
 Error systemError(const std::string& doing, const std::string& folder)
@@ -43,7 +41,7 @@ Error systemError(const std::string& doing, const std::string& folder)
 Result<std::unique_ptr<SpillFile>> SpillFile::create(const std::string& folder, std::uint64_t bytes)
 {
   static std::atomic<unsigned> serial{0};
-  if (const std::uint64_t available = freeBytes(folder); available < bytes)
+  if (const std::uint64_t available = diskSpaceOf(folder).freeBytes; available < bytes)
   {
     return tooSmall(folder, bytes, available);
   }
@@ -77,10 +75,11 @@ Result<void> SpillFile::write(std::uint64_t offset, const std::byte* data, std::
     {
       continue;
     }
-    if (done < 0)
+    if (done <= 0)
     {
-      return errno == ENOSPC ? tooSmall(folder_, bytes_, freeBytes(folder_))
-                             : systemError("cannot write", folder_);
+      const int fault = done < 0 ? errno : ENOSPC;
+      return isDiskFault(fault) ? writeFault(folder_, bytes_, fault)
+                                : systemError("cannot write", folder_);
     }
     data += done;
     offset += static_cast<std::uint64_t>(done);

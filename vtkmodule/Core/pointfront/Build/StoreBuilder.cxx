@@ -1,6 +1,7 @@
 #include "pointfront/Build/StoreBuilder.h"
 
 #include "pointfront/Build/CommonSchema.h"
+#include "pointfront/Build/DiskDemand.h"
 #include "pointfront/Build/GridChoice.h"
 #include "pointfront/Build/MemoryPlan.h"
 #include "pointfront/Build/OctreeAssembly.h"
@@ -108,6 +109,7 @@ private:
   unsigned rootLog2_ = 0;
   MemoryPlan plan_;
   std::size_t recordBytes_ = 0;
+  DiskDemand disk_;
   std::unique_ptr<WorkCrew> crew_;
   std::unique_ptr<RecordPool> pool_;
   IngestedPoints points_;
@@ -155,14 +157,21 @@ Result<void> OctreeBuild::prepare()
   {
     return writable.error();
   }
+  disk_.outputFolder = folderOf(options_.outputPath);
+  disk_.storeBytes = leastStoreBytes(demand.points, recordBytes_);
+  disk_.spillFolder =
+    options_.temporaryFolder.empty() ? disk_.outputFolder : options_.temporaryFolder;
+  disk_.spillBytes = plan_.spill ? demand.points * recordBytes_ : 0;
+  if (Result<void> enough = checkDiskSpace(disk_); !enough)
+  {
+    return enough;
+  }
   if (!plan_.spill)
   {
     pool_ = RecordPool::inMemory(demand.points, recordBytes_);
     return {};
   }
-  const std::string folder =
-    options_.temporaryFolder.empty() ? folderOf(options_.outputPath) : options_.temporaryFolder;
-  auto spilled = RecordPool::spilled(folder, demand.points, recordBytes_);
+  auto spilled = RecordPool::spilled(disk_.spillFolder, demand.points, recordBytes_);
   if (!spilled)
   {
     return spilled.error();
@@ -344,12 +353,15 @@ Result<void> OctreeBuild::commit(StoreWriter& writer, const BuiltNode* root)
 
 Result<BuildReport> OctreeBuild::run()
 {
-  for (const auto step :
-    {&OctreeBuild::prepare, &OctreeBuild::read, &OctreeBuild::cutIntoParts, &OctreeBuild::assemble})
+  if (Result<void> ready = prepare(); !ready)
+  {
+    return ready.error();
+  }
+  for (const auto step : {&OctreeBuild::read, &OctreeBuild::cutIntoParts, &OctreeBuild::assemble})
   {
     if (Result<void> done = (this->*step)(); !done)
     {
-      return done.error();
+      return withDemand(done.error(), disk_);
     }
   }
   report_.seconds = crew_->secondsElapsed();

@@ -1,0 +1,51 @@
+#pragma once
+
+#include "pointfront/Base/Result.h"
+
+#include <cstdint>
+#include <functional>
+#include <string>
+
+namespace pointfront
+{
+
+/// The disk that a folder lies on: which one, and what an ordinary user may still write there.
+struct DiskSpace
+{
+  std::uint64_t device = 0;    ///< equal for folders on one disk
+  std::uint64_t freeBytes = 0; ///< UINT64_MAX if the system does not tell
+};
+
+/// By stat and statvfs; a folder that is not there has all the space: opening it will say so.
+DiskSpace diskSpaceOf(const std::string& folder);
+
+/// What a build will write, and where: known before the first point is read.
+/// Units    bytes. The spill is exact; the store is estimated from below, so that a build is
+///          refused only if it could hardly succeed.
+struct DiskDemand
+{
+  std::string spillFolder;
+  std::uint64_t spillBytes = 0; ///< 0: nothing is spilled
+  std::string outputFolder;
+  std::uint64_t storeBytes = 0;
+};
+
+/// The least that a store of so many points is expected to take. `recordBytes` is a point with
+/// all attributes, uncompressed.
+std::uint64_t leastStoreBytes(std::uint64_t points, std::size_t recordBytes);
+
+/// Unwritable when a disk has too little: how much is needed, where, what is free, what to do.
+/// Spill and store that share a disk need their sum there.
+Result<void> checkDiskSpace(const DiskDemand& demand,
+  const std::function<DiskSpace(const std::string&)>& spaceOf = diskSpaceOf);
+
+/// An Error of writing with what the build needs in all, when the disk was the reason.
+Error withDemand(Error error, const DiskDemand& demand);
+
+/// ENOSPC, EDQUOT, EFBIG, EIO: what `errno` is when a disk, a quota, a limit or a device ends.
+bool isDiskFault(int systemError);
+
+/// "12 MiB", rounded up.
+std::string mebibytes(std::uint64_t bytes);
+
+} // namespace pointfront

@@ -1,6 +1,7 @@
 #include "InfoCommand.h"
 
 #include "ByteSize.h"
+#include "CancelSignal.h"
 
 #include <nlohmann/json.hpp>
 
@@ -41,6 +42,7 @@ void InfoCommand::declare(CLI::App& program)
 
 Result<void> InfoCommand::run()
 {
+  const CancelSignal signal(CancelSignal::Mode::Leave);
   Result<std::shared_ptr<const PointStore>> store = PointStore::open(path_);
   if (!store)
   {

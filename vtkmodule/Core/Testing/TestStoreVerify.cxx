@@ -154,6 +154,21 @@ TEST(StoreThreads, EncodingGivesTheSameBytesOnEveryThread)
   EXPECT_EQ(here.bounds, there.bounds);
 }
 
+TEST(StoreVerify, NamesTheLowestFaultWhicheverThreadIsFirst)
+{
+  SampleStore sample = makeSample(50);
+  for (const NodeIndex node : { 6u, 5u, 3u })
+  {
+    sample.nodes[node].halfSize.x *= 0.5f;
+  }
+  const std::string path = temporaryPath("wrong.pfront");
+  writeSample(sample, path);
+  for (int run = 0; run < 50; ++run)
+  {
+    ASSERT_TRUE(contains(verifyFault(path), "node 3: points lie outside its box"));
+  }
+}
+
 TEST(NodeTable, NamesWhatIsWrong)
 {
   const SampleStore sound = makeSample(10);

@@ -24,9 +24,19 @@ struct PointStore::Content
 /// "node 12, positions" or "node 12, attribute 'rgb'", for messages.
 std::string blockName(const StoreDescription& description, NodeIndex node, std::uint32_t block);
 
+/// What the points of some nodes add up to.
+struct SeenPoints
+{
+  GridBounds bounds;
+  std::vector<ColumnRange> ranges;
+
+  void add(const SeenPoints& other);
+};
+
 /// Walks an open store and looks for the first thing that is wrong.
 /// Source   docs/formats/pfront.md, section "What must hold".
-/// Threads  one thread.
+/// Order    the fault reported is that of the lowest node that has one, for any number of threads.
+/// Threads  run() is called from one thread and runs others, each on nodes of its own.
 class StoreVerification
 {
 public:
@@ -37,19 +47,19 @@ public:
   Result<VerifyReport> run(const ProgressFunction& progress);
 
 private:
-  std::string nodeFault(NodeIndex index);
-  std::string pointsFault(NodeIndex index, const NodeColumns& points);
+  struct Walk;
+  SeenPoints nothingSeen() const;
+  void work(Walk& walk) const;
+  std::string nodeFault(NodeIndex index, SeenPoints& seen) const;
+  std::string pointsFault(NodeIndex index, const NodeColumns& points, SeenPoints& seen) const;
   std::string sphereFault(NodeIndex index, const NodeColumns& points, const Bounds& box) const;
-  std::string totalsFault() const;
+  std::string totalsFault(const SeenPoints& seen) const;
 
   const PointStore& store_;
   const StoreDescription& description_;
   const GridBounds& gridBounds_;
   const Hierarchy& hierarchy_;
   ColumnSelection everyColumn_;
-  GridBounds seenBounds_;
-  std::vector<ColumnRange> seenRanges_;
-  std::uint64_t seenPoints_ = 0;
 };
 
 } // namespace pointfront

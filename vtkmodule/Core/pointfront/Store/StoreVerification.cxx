@@ -5,9 +5,12 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <mutex>
+#include <thread>
 
 namespace pointfront
 {
@@ -92,6 +95,33 @@ private:
 };
 } // namespace
 
+void SeenPoints::add(const SeenPoints& other)
+{
+  bounds.add(other.bounds);
+  for (std::size_t c = 0; c < ranges.size(); ++c)
+  {
+    addRange(ranges[c], other.ranges[c]);
+  }
+}
+
+/// What the threads of one run share.
+struct StoreVerification::Walk
+{
+  Walk(SeenPoints nothing, const ProgressFunction& progress, std::uint64_t total)
+    : seen(std::move(nothing))
+    , pace(progress, total)
+  {
+  }
+  std::atomic<NodeIndex> next{ 0 };
+  std::atomic<NodeIndex> faulty{ noNode }; ///< the lowest so far: nodes beyond it do not matter
+  std::atomic<bool> cancelled{ false };
+  std::mutex mutex; ///< guards what follows
+  std::string fault; ///< of node `faulty`
+  SeenPoints seen;
+  std::uint64_t done = 0;
+  Pace pace;
+};
+
 StoreVerification::StoreVerification(
   const PointStore& store, const StoreDescription& description, const GridBounds& gridBounds)
   : store_(store)
@@ -102,37 +132,78 @@ StoreVerification::StoreVerification(
   for (std::uint32_t c = 0; c < description.schema.size(); ++c)
   {
     everyColumn_.push_back(c);
-    seenRanges_.push_back(emptyRange(description.schema[c]));
   }
+}
+
+SeenPoints StoreVerification::nothingSeen() const
+{
+  SeenPoints seen;
+  for (const Attribute& attribute : description_.schema)
+  {
+    seen.ranges.push_back(emptyRange(attribute));
+  }
+  return seen;
 }
 
 Result<VerifyReport> StoreVerification::run(const ProgressFunction& progress)
 {
   // Header, footer, tables and their invariants were checked by open().
-  VerifyReport report;
-  Pace pace(progress, description_.pointCount);
-  for (NodeIndex i = 0; i < hierarchy_.nodeCount() && report.ok; ++i)
+  Walk walk(nothingSeen(), progress, description_.pointCount);
+  std::vector<std::thread> others;
+  for (unsigned i = 1; i < std::max(1u, std::thread::hardware_concurrency()); ++i)
   {
-    report.firstError = nodeFault(i);
-    report.ok = report.firstError.empty();
-    report.nodesChecked += report.ok ? 1 : 0;
-    report.pointsChecked = seenPoints_;
-    if (!pace.goOn(seenPoints_))
-    {
-      return makeError(Error::Kind::Cancelled,
-        "verifying '" + description_.path + "' was cancelled after " +
-          std::to_string(seenPoints_) + " points");
-    }
+    others.emplace_back([this, &walk] { work(walk); });
   }
-  if (report.ok)
+  work(walk);
+  for (std::thread& thread : others)
   {
-    report.firstError = totalsFault();
-    report.ok = report.firstError.empty();
+    thread.join();
+  }
+  if (walk.cancelled)
+  {
+    return makeError(Error::Kind::Cancelled,
+      "verifying '" + description_.path + "' was cancelled after " + std::to_string(walk.done) +
+        " points");
+  }
+  // Nodes were taken in order: all below the faulty one are sound.
+  VerifyReport report;
+  report.firstError = walk.faulty != noNode ? walk.fault : totalsFault(walk.seen);
+  report.ok = report.firstError.empty();
+  report.nodesChecked = std::min<NodeIndex>(walk.faulty, hierarchy_.nodeCount());
+  for (NodeIndex i = 0; i < report.nodesChecked; ++i)
+  {
+    report.pointsChecked += hierarchy_.node(i).pointCount;
   }
   return report;
 }
 
-std::string StoreVerification::nodeFault(NodeIndex index)
+void StoreVerification::work(Walk& walk) const
+{
+  SeenPoints own = nothingSeen();
+  for (NodeIndex i = walk.next++; i < hierarchy_.nodeCount(); i = walk.next++)
+  {
+    if (walk.cancelled || i > walk.faulty)
+    {
+      break;
+    }
+    const std::string fault = nodeFault(i, own);
+    const std::lock_guard<std::mutex> lock(walk.mutex);
+    if (!fault.empty() && i < walk.faulty)
+    {
+      walk.faulty = i;
+      walk.fault = fault;
+    }
+    walk.done += hierarchy_.node(i).pointCount;
+    if (!walk.cancelled && !walk.pace.goOn(walk.done))
+    {
+      walk.cancelled = true;
+    }
+  }
+  const std::lock_guard<std::mutex> lock(walk.mutex);
+  walk.seen.add(own);
+}
+
+std::string StoreVerification::nodeFault(NodeIndex index, SeenPoints& seen) const
 {
   const Node& node = hierarchy_.node(index);
   if (node.parent != noNode && !boxEnclosesChild(hierarchy_.node(node.parent), node))
@@ -145,16 +216,16 @@ std::string StoreVerification::nodeFault(NodeIndex index)
   {
     return points.error().what;
   }
-  const std::string fault = pointsFault(index, *points);
+  const std::string fault = pointsFault(index, *points, seen);
   if (!fault.empty())
   {
     return "'" + description_.path + "', node " + std::to_string(index) + ": " + fault;
   }
-  seenPoints_ += points->size();
   return {};
 }
 
-std::string StoreVerification::pointsFault(NodeIndex index, const NodeColumns& points)
+std::string StoreVerification::pointsFault(
+  NodeIndex index, const NodeColumns& points, SeenPoints& seen) const
 {
   if (points.size() == 0)
   {
@@ -175,7 +246,7 @@ std::string StoreVerification::pointsFault(NodeIndex index, const NodeColumns& p
   {
     return "points lie outside its box";
   }
-  seenBounds_.add(bounds);
+  seen.bounds.add(bounds);
   for (std::size_t c = 0; c < everyColumn_.size(); ++c)
   {
     const Attribute& attribute = description_.schema[c];
@@ -184,7 +255,7 @@ std::string StoreVerification::pointsFault(NodeIndex index, const NodeColumns& p
     {
       return "attribute '" + attribute.name + "' has values outside the store's range";
     }
-    addRange(seenRanges_[c], range);
+    addRange(seen.ranges[c], range);
   }
   return sphereFault(index, points, box);
 }
@@ -215,15 +286,15 @@ std::string StoreVerification::sphereFault(
   return {};
 }
 
-std::string StoreVerification::totalsFault() const
+std::string StoreVerification::totalsFault(const SeenPoints& seen) const
 {
-  if (!(seenBounds_ == gridBounds_))
+  if (!(seen.bounds == gridBounds_))
   {
     return "'" + description_.path + "': the bounds are not those of the points";
   }
-  for (std::size_t c = 0; c < seenRanges_.size(); ++c)
+  for (std::size_t c = 0; c < seen.ranges.size(); ++c)
   {
-    if (seenRanges_[c].components != description_.ranges[c].components)
+    if (seen.ranges[c].components != description_.ranges[c].components)
     {
       return "'" + description_.path + "': the range of attribute '" +
         description_.schema[c].name + "' is not that of its values";

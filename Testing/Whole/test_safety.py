@@ -1,0 +1,159 @@
+"""Long runs that end early: by a signal, by a kill, by a disk that ends."""
+
+import os
+import resource
+import signal
+import subprocess
+import time
+import unittest
+
+from tool import DATA, TOOL, ToolTest, pointfront
+
+LARGE = DATA / "large/autzen_10653336_rgb_intensity.laz"
+WITH_VTK = os.environ["POINTFRONT_WITH_VTK"] == "1"
+WITH_DISPLAY = bool(os.environ.get("DISPLAY"))
+STOPPED = 130
+TRIES = 8  # a run may end before the signal comes: then again
+
+
+def start(*arguments):
+    return subprocess.Popen(
+        [TOOL, *map(str, arguments)], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+
+
+def after_first_progress(number, *arguments):
+    """Starts the run, sends the signal at the first sign of progress; the exit status."""
+    process = start(*arguments, "--progress", "json")
+    process.stderr.readline()
+    process.send_signal(number)
+    process.communicate(timeout=120)
+    return process.returncode
+
+
+class Signals(ToolTest):
+    def stopped(self, *arguments):
+        for number in (signal.SIGINT, signal.SIGTERM):
+            status = [after_first_progress(number, *arguments)]
+            while status[-1] == 0 and len(status) < TRIES:
+                for path in self.folder.glob("out*"):
+                    path.unlink()
+                status.append(after_first_progress(number, *arguments))
+            self.assertEqual(status[-1], STOPPED, f"{arguments}: {status}")
+
+    def test_generate(self):
+        for name in ("out.las", "out.laz", "out.xyz"):
+            self.stopped("generate", "--points", 200000000, "-o", self.folder / name)
+            self.assertEqual(self.entries(), [])
+
+    def test_build_export_verify(self):
+        self.stopped("build", LARGE, "-o", self.folder / "out.pfront")
+        self.assertEqual(self.entries(), [])
+        store = self.build(LARGE)
+        whole = store.stat().st_size
+        for name in ("out.las", "out.laz", "out.xyz"):
+            self.stopped("export", store, "-o", self.folder / name)
+            self.assertEqual(self.entries(), ["cloud.pfront"])
+        self.stopped("verify", store)
+        self.assertEqual(store.stat().st_size, whole)
+
+    def test_an_export_that_is_stopped_keeps_what_was_there(self):
+        store = self.build(LARGE)
+        earlier = self.folder / "points.xyz"
+        earlier.write_text("1 2 3\n")
+        self.stopped("export", store, "-o", earlier)
+        self.assertEqual(earlier.read_text(), "1 2 3\n")
+
+    @unittest.skipUnless(WITH_VTK and WITH_DISPLAY, "render and bench need VTK and an X server")
+    def test_render_and_bench(self):
+        store = self.build(DATA / "las/real/autzen_trim.las")
+        runs = (
+            ("render", store, "-o", self.folder / "out.png", "--size", "3000x2000", "--frames",
+             100000),
+            ("bench", store, "--path", "orbit", "--frames", 100000, "--stats",
+             self.folder / "out.json"),
+        )
+        for arguments in runs:
+            for number in (signal.SIGINT, signal.SIGTERM):
+                process = start(*arguments)
+                time.sleep(1.5)
+                self.assertIsNone(process.poll(), "ended before the signal")
+                process.send_signal(number)
+                _, err = process.communicate(timeout=60)
+                self.assertEqual(process.returncode, STOPPED, err)
+                self.assertEqual(self.entries(), ["cloud.pfront"])
+
+
+class Kills(ToolTest):
+    def kill_while_building(self, store, *options):
+        """SIGKILL in the last phase, when the output is half written."""
+        process = start("build", LARGE, "-o", store, "--progress", "json", *options)
+        for line in process.stderr:
+            if b'"building"' in line and b'"done":0,' not in line:
+                break
+        process.kill()
+        process.communicate(timeout=60)
+        self.assertEqual(process.returncode, -signal.SIGKILL)
+
+    def test_nothing_that_opens_is_left_and_the_next_run_cleans_up(self):
+        (self.folder / "spill").mkdir()
+        store = self.folder / "x.pfront"
+        self.kill_while_building(
+            store, "--memory", "256M", "--temp", self.folder / "spill")
+        self.assertEqual(list((self.folder / "spill").iterdir()), [])
+        self.assertFalse(store.exists())
+        for path in self.folder.iterdir():
+            if path.is_file():
+                self.assertEqual(pointfront("info", path).status, 1, f"{path} opens")
+        report = self.succeed(
+            "build", DATA / "las/real/1.2-with-color.las", "-o", store, "--json").json
+        self.assertEqual(report["points_stored"], 1065)
+        self.assertEqual(self.entries(), ["spill", "x.pfront"])
+
+    def test_an_earlier_store_survives(self):
+        store = self.build(DATA / "las/real/1.2-with-color.las")
+        before = store.read_bytes()
+        self.kill_while_building(store, "--force")
+        self.assertEqual(store.read_bytes(), before)
+        self.succeed("verify", store)
+
+
+class Disks(ToolTest):
+    def refuse_with_limit(self, bytes_allowed, *arguments):
+        """As refuse(1, ...), where no file may grow beyond so many bytes."""
+        soft = resource.getrlimit(resource.RLIMIT_FSIZE)
+        finished = subprocess.run(
+            [TOOL, *map(str, arguments)], capture_output=True, timeout=240, check=False,
+            preexec_fn=lambda: resource.setrlimit(
+                resource.RLIMIT_FSIZE, (bytes_allowed, soft[1])))
+        lines = finished.stderr.decode().splitlines()
+        self.assertEqual(finished.returncode, 1, lines)
+        self.assertEqual(len(lines), 1, lines)
+        return lines[0]
+
+    def test_a_store_that_cannot_grow(self):
+        said = self.refuse_with_limit(
+            1000000, "build", LARGE, "-o", self.folder / "x.pfront")
+        self.assertRegex(said, r"the store needs at least \d+ MiB")
+        self.assertEqual(self.entries(), [])
+
+    def test_a_spill_that_cannot_grow(self):
+        said = self.refuse_with_limit(
+            1000000, "build", LARGE, "-o", self.folder / "x.pfront", "--memory", "128M")
+        self.assertRegex(said, r"needs \d+ MiB")
+        self.assertIn("--temp", said)
+        self.assertEqual(self.entries(), [])
+
+    def test_exports_and_surveys_that_cannot_grow(self):
+        store = self.build(DATA / "las/real/autzen_trim.las")
+        for name in ("out.las", "out.laz", "out.xyz"):
+            said = self.refuse_with_limit(
+                100000, "export", store, "-o", self.folder / name)
+            self.assertIn(name, said)
+            said = self.refuse_with_limit(
+                100000, "generate", "--points", 1000000, "-o", self.folder / name)
+            self.assertIn(name, said)
+            self.assertEqual(self.entries(), ["cloud.pfront"])
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

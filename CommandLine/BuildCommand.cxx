@@ -245,6 +245,8 @@ std::string buildReportJson(const BuildReport& report, std::uint64_t peakBytes)
   object["peak_rss_bytes"] = peakBytes;
   object["bytes_written"] = report.bytesWritten;
   object["spilled_bytes"] = report.spilledBytes;
+  object["cpu_seconds"] = report.phaseSeconds;
+  object["cpu_seconds"]["total"] = report.cpuSeconds;
   return object.dump(2);
 }
 

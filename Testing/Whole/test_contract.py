@@ -97,7 +97,8 @@ class Reports(ToolTest):
         report = outcome.json
         self.assertEqual(set(report), {
             "points_read", "points_stored", "points_rejected", "seconds", "points_per_second",
-            "peak_rss_bytes", "bytes_written", "spilled_bytes"})
+            "peak_rss_bytes", "bytes_written", "spilled_bytes", "cpu_seconds"})
+        self.assertGreater(report["cpu_seconds"]["total"], 0.0)
         self.assertEqual(report["points_read"], 10)
         self.assertEqual(report["points_stored"], 10)
         self.assertEqual(report["points_rejected"], {})

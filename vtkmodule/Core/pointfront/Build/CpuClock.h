@@ -13,6 +13,14 @@ inline double threadSeconds()
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
+/// CPU seconds of all threads of the process.
+inline double processSeconds()
+{
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
 /// Adds the CPU time of its scope to a sum.
 class CpuStopwatch
 {

@@ -1,6 +1,7 @@
 #include "pointfront/Build/StoreBuilder.h"
 
 #include "pointfront/Build/CommonSchema.h"
+#include "pointfront/Build/CpuClock.h"
 #include "pointfront/Build/DiskDemand.h"
 #include "pointfront/Build/GridChoice.h"
 #include "pointfront/Build/MemoryPlan.h"
@@ -353,6 +354,7 @@ Result<void> OctreeBuild::commit(StoreWriter& writer, const BuiltNode* root)
 
 Result<BuildReport> OctreeBuild::run()
 {
+  const double cpuBefore = processSeconds();
   if (Result<void> ready = prepare(); !ready)
   {
     return ready.error();
@@ -365,6 +367,7 @@ Result<BuildReport> OctreeBuild::run()
     }
   }
   report_.seconds = crew_->secondsElapsed();
+  report_.cpuSeconds = processSeconds() - cpuBefore;
   return std::move(report_);
 }
 } // namespace

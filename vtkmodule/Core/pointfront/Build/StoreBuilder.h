@@ -38,6 +38,7 @@ struct BuildReport
   std::uint64_t nodes = 0;
   std::vector<std::string> warnings;          ///< of the sources and of the build; full sentences
   std::map<std::string, double> phaseSeconds; ///< phase -> CPU seconds over all threads
+  double cpuSeconds = 0.0; ///< of the process while it built: the phases and what is between them
 };
 
 /// Builds a store with an octree and `add` refinement from any number of sources.

@@ -67,10 +67,10 @@ struct TwoRanges
 };
 
 Result<TwoRanges> rangesOf(
-  const std::string& attribute, const std::vector<std::shared_ptr<const PointStore>>& stores)
+  const std::string& attribute, const std::vector<std::shared_ptr<const StoredCloud>>& stores)
 {
   TwoRanges ranges;
-  for (const std::shared_ptr<const PointStore>& store : stores)
+  for (const std::shared_ptr<const StoredCloud>& store : stores)
   {
     const StoreDescription& description = store->description();
     ColumnSelection selection;
@@ -124,14 +124,14 @@ std::string defaultColourAttribute(const StoreDescription& store)
 }
 
 Result<ColourChoice> chooseColour(
-  const std::string& attribute, const std::vector<std::shared_ptr<const PointStore>>& stores)
+  const std::string& attribute, const std::vector<std::shared_ptr<const StoredCloud>>& stores)
 {
   ColourChoice choice;
   choice.attribute = attribute;
   if (attribute != "elevation")
   {
     const Attribute* found = nullptr;
-    for (const std::shared_ptr<const PointStore>& store : stores)
+    for (const std::shared_ptr<const StoredCloud>& store : stores)
     {
       const AttributeSchema& schema = store->description().schema;
       const std::optional<std::size_t> column = schema.find(attribute);

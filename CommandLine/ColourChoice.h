@@ -3,7 +3,7 @@
 #include "ColourTable.h"
 
 #include "pointfront/Base/Result.h"
-#include "pointfront/Store/PointStore.h"
+#include "pointfront/Store/StoredCloud.h"
 
 #include <array>
 #include <memory>
@@ -31,6 +31,6 @@ std::string defaultColourAttribute(const StoreDescription& store);
 ///         the colours; the whole range when those are equal. classification: one colour a code.
 /// Errors  BadArgument: no store has the attribute, or it has several components (but rgb).
 Result<ColourChoice> chooseColour(
-  const std::string& attribute, const std::vector<std::shared_ptr<const PointStore>>& stores);
+  const std::string& attribute, const std::vector<std::shared_ptr<const StoredCloud>>& stores);
 
 } // namespace pointfront

@@ -6,6 +6,8 @@
 #include "Unavailable.h"
 #include "Values.h"
 
+#include "pointfront/Store/StoredCloudFormats.h"
+
 #include <cstdio>
 #include <memory>
 
@@ -60,7 +62,8 @@ void ExportCommand::declare(CLI::App& program)
 Result<void> ExportCommand::run()
 {
   const CancelSignal signal(CancelSignal::Mode::Finish);
-  Result<std::shared_ptr<const PointStore>> store = PointStore::open(storePath_);
+  Result<std::shared_ptr<const StoredCloud>> store =
+    StoredCloudFormats::ofProcess().open(storePath_);
   if (!store)
   {
     return store.error();

@@ -1,6 +1,8 @@
 #include "InfoCommand.h"
 
 #include "ByteSize.h"
+
+#include "pointfront/Store/StoredCloudFormats.h"
 #include "CancelSignal.h"
 
 #include <nlohmann/json.hpp>
@@ -43,7 +45,8 @@ void InfoCommand::declare(CLI::App& program)
 Result<void> InfoCommand::run()
 {
   const CancelSignal signal(CancelSignal::Mode::Leave);
-  Result<std::shared_ptr<const PointStore>> store = PointStore::open(path_);
+  Result<std::shared_ptr<const StoredCloud>> store =
+    StoredCloudFormats::ofProcess().open(path_);
   if (!store)
   {
     return store.error();

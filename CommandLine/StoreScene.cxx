@@ -6,7 +6,7 @@
 
 #include "pointfront/Front/View.h"
 #include "pointfront/Residency/Residency.h"
-#include "pointfront/Store/PointStore.h"
+#include "pointfront/Store/StoredCloud.h"
 #include "pointfront/Store/StoreSample.h"
 
 #include "vtkPointFrontMapper.h"
@@ -233,7 +233,7 @@ Result<void> OffscreenScene::openStores()
     bounds_.add(drawn->store->GetStore()->description().bounds);
     stores_.push_back(std::move(drawn));
   }
-  const PointStore& first = *stores_.front()->store->GetStore();
+  const StoredCloud& first = *stores_.front()->store->GetStore();
   const Result<StoreSample> sample = StoreSample::read(
     *first.hierarchy(), first, first.description().grid, first.description().schema, {});
   if (!sample)
@@ -250,7 +250,7 @@ Result<void> OffscreenScene::setUpDrawing()
   {
     return connected;
   }
-  std::vector<std::shared_ptr<const PointStore>> stores;
+  std::vector<std::shared_ptr<const StoredCloud>> stores;
   for (const auto& drawn : stores_)
   {
     stores.push_back(drawn->store->GetStore());

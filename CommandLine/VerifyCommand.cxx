@@ -4,6 +4,8 @@
 #include "ProgressDisplay.h"
 #include "Unavailable.h"
 
+#include "pointfront/Store/StoredCloudFormats.h"
+
 #include <nlohmann/json.hpp>
 
 #include <cstdio>
@@ -15,7 +17,8 @@ namespace
 {
 Result<VerifyReport> verifyStore(const std::string& path, const std::string& progress)
 {
-  Result<std::shared_ptr<const PointStore>> store = PointStore::open(path);
+  Result<std::shared_ptr<const StoredCloud>> store =
+    StoredCloudFormats::ofProcess().open(path);
   if (!store)
   {
     return store.error();

@@ -2,7 +2,7 @@
 
 #include "Command.h"
 
-#include "pointfront/Store/PointStore.h"
+#include "pointfront/Store/StoredCloud.h"
 
 #include <string>
 

@@ -262,7 +262,7 @@ std::vector<OverviewPart> overviewPiece(
   return chosen;
 }
 
-Result<void> fillOverview(const PointStore& store, const std::vector<OverviewPart>& parts,
+Result<void> fillOverview(const StoredCloud& store, const std::vector<OverviewPart>& parts,
   const ColumnSelection& columns, vtkPolyData* output, const std::function<bool(double)>& advance)
 {
   const StoreDescription& description = store.description();

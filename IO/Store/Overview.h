@@ -2,7 +2,7 @@
 
 #include "pointfront/Base/Result.h"
 #include "pointfront/Store/Hierarchy.h"
-#include "pointfront/Store/PointStore.h"
+#include "pointfront/Store/StoredCloud.h"
 
 #include <cstdint>
 #include <functional>
@@ -37,8 +37,8 @@ std::vector<OverviewPart> overviewPiece(
 ///             keeps its type. "rgb" is UInt8 x 3 and the active scalars: 16-bit colour is reduced
 ///             to 8 bits, because VTK takes only bytes as colours without a lookup table.
 /// Identity    global point ids are ranks in the store: (node, position in the node).
-/// Errors      those of PointStore::read; Cancelled when `advance` (fraction done) returns false.
-Result<void> fillOverview(const PointStore& store, const std::vector<OverviewPart>& parts,
+/// Errors      those of NodeReader::read; Cancelled when `advance` (fraction done) returns false.
+Result<void> fillOverview(const StoredCloud& store, const std::vector<OverviewPart>& parts,
   const ColumnSelection& columns, vtkPolyData* output, const std::function<bool(double)>& advance);
 
 } // namespace pointfront

@@ -2,7 +2,7 @@
 
 #include "Overview.h"
 
-#include "pointfront/Store/PointStore.h"
+#include "pointfront/Store/StoredCloudFormats.h"
 #include "vtkPointFrontStore.h"
 
 #include <vtkDataArraySelection.h>
@@ -31,7 +31,8 @@ vtkPointFrontReader::~vtkPointFrontReader()
 
 int vtkPointFrontReader::CanReadFile(const char* fileName)
 {
-  return fileName && *fileName && pointfront::PointStore::looksLikeStore(fileName) ? 1 : 0;
+  return fileName && *fileName && pointfront::StoredCloudFormats::ofProcess().accepts(fileName) ? 1
+                                                                                         : 0;
 }
 
 vtkDataArraySelection* vtkPointFrontReader::GetPointDataArraySelection()
@@ -125,7 +126,7 @@ int vtkPointFrontReader::RequestData(
   const int pieces =
     std::max(1, info->Get(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES()));
 
-  const pointfront::PointStore& store = *this->Store->GetStore();
+  const pointfront::StoredCloud& store = *this->Store->GetStore();
   pointfront::ColumnSelection columns;
   for (int i = 0; i < this->Store->GetNumberOfAttributes(); ++i)
   {

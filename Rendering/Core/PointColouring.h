@@ -1,7 +1,7 @@
 #pragma once
 
 #include "pointfront/Store/NodeReader.h"
-#include "pointfront/Store/PointStore.h"
+#include "pointfront/Store/StoredCloud.h"
 #include "pointfrontRenderingCoreModule.h" // for the export macro
 
 #include <cstdint>

@@ -5,7 +5,7 @@
 #include "SlotRecords.h"
 #include "ViewFront.h"
 
-#include "pointfront/Store/PointStore.h"
+#include "pointfront/Store/StoredCloud.h"
 #include "vtkOpenGLPointFrontPass.h"
 #include "vtkPointFrontStore.h"
 
@@ -105,7 +105,7 @@ bool vtkOpenGLPointFrontMapper::Content::Upload(
 /// Makes the runs of vertices and the slots' records of what is on the GPU of the front.
 vtkIdType vtkOpenGLPointFrontMapper::Content::List(const pointfront::ViewFront& front)
 {
-  const pointfront::PointStore& store = *this->Store->GetStore();
+  const pointfront::StoredCloud& store = *this->Store->GetStore();
   constexpr auto slotPoints = pointfront::GpuPool::slotPoints;
   this->Records.begin(this->Pool.slotCount());
   this->Drawing.firsts.clear();

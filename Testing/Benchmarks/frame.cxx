@@ -11,7 +11,7 @@
 #include "vtkPointFrontReader.h"
 #include "vtkPointFrontStore.h"
 
-#include "pointfront/Store/PointStore.h"
+#include "pointfront/Store/StoredCloud.h"
 
 #include <nlohmann/json.hpp>
 
@@ -57,7 +57,7 @@ void colourOf(const Attribute& rgb, const std::byte* bytes, unsigned char* colou
   }
 }
 
-vtkSmartPointer<vtkPolyData> allPoints(const PointStore& store)
+vtkSmartPointer<vtkPolyData> allPoints(const StoredCloud& store)
 {
   const StoreDescription& description = store.description();
   const std::optional<std::size_t> column = description.schema.find("rgb");

@@ -2,7 +2,7 @@
 
 #include "ResidencyShare.h"
 
-#include "pointfront/Store/PointStore.h"
+#include "pointfront/Store/StoredCloudFormats.h"
 
 #include <vtkDataObject.h>
 #include <vtkFieldData.h>
@@ -61,7 +61,7 @@ Registry& registry()
 struct vtkPointFrontStore::Content
 {
   FileIdentity identity;
-  std::shared_ptr<const pointfront::PointStore> store;
+  std::shared_ptr<const pointfront::StoredCloud> store;
   std::unique_ptr<pointfront::ResidencyShare> residency;
 };
 
@@ -105,7 +105,7 @@ vtkSmartPointer<vtkPointFrontStore> vtkPointFrontStore::Open(
   {
     return entry->second;
   }
-  auto opened = pointfront::PointStore::open(std::get<0>(identity));
+  auto opened = pointfront::StoredCloudFormats::ofProcess().open(std::get<0>(identity));
   if (!opened)
   {
     error = opened.error().what;
@@ -189,7 +189,7 @@ vtkTypeInt64 vtkPointFrontStore::GetHostMemoryBudget() const
   return static_cast<vtkTypeInt64>(this->Internals->residency->budgetBytes());
 }
 
-const std::shared_ptr<const pointfront::PointStore>& vtkPointFrontStore::GetStore() const
+const std::shared_ptr<const pointfront::StoredCloud>& vtkPointFrontStore::GetStore() const
 {
   return this->Internals->store;
 }

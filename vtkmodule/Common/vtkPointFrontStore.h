@@ -24,9 +24,9 @@
 class vtkDataObject;
 namespace pointfront
 {
-class PointStore;
 class Residency;
 class ResidencyShare;
+class StoredCloud;
 } // namespace pointfront
 
 class POINTFRONTCOMMON_EXPORT vtkPointFrontStore : public vtkObject
@@ -67,7 +67,7 @@ public:
 
 #ifndef __VTK_WRAP__
   /// The kernel's objects, for modules of ours. Never null.
-  const std::shared_ptr<const pointfront::PointStore>& GetStore() const;
+  const std::shared_ptr<const pointfront::StoredCloud>& GetStore() const;
   pointfront::Residency& GetResidency() const;
   /// Where fronts join; it owns the residency and merges their wishes.
   pointfront::ResidencyShare& GetResidencyShare() const;

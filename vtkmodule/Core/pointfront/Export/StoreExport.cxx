@@ -271,7 +271,7 @@ Result<ExportReport> exportPoints(const StoreDescription& description, const Hie
   return report;
 }
 
-Result<ExportReport> exportStore(const PointStore& store, const ExportSelection& selection,
+Result<ExportReport> exportStore(const StoredCloud& store, const ExportSelection& selection,
   PointSink& sink, const ProgressFunction& progress)
 {
   return exportPoints(

@@ -6,7 +6,7 @@
 #include "pointfront/Points/PointSink.h"
 #include "pointfront/Store/Hierarchy.h"
 #include "pointfront/Store/NodeReader.h"
-#include "pointfront/Store/PointStore.h"
+#include "pointfront/Store/StoredCloud.h"
 
 #include <cstdint>
 #include <optional>
@@ -45,7 +45,7 @@ Result<ExportReport> exportPoints(const StoreDescription& description, const Hie
   const NodeReader& reader, const ExportSelection& selection, PointSink& sink,
   const ProgressFunction& progress = {});
 
-Result<ExportReport> exportStore(const PointStore& store, const ExportSelection& selection,
+Result<ExportReport> exportStore(const StoredCloud& store, const ExportSelection& selection,
   PointSink& sink, const ProgressFunction& progress = {});
 
 } // namespace pointfront

@@ -2,7 +2,7 @@
 
 #include "pointfront/Points/AttributeSchema.h"
 #include "pointfront/Store/BlockCodec.h"
-#include "pointfront/Store/PointStore.h"
+#include "pointfront/Store/StoredCloud.h"
 
 #include <cstddef>
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "pointfront/Store/GridBounds.h"
-#include "pointfront/Store/PointStore.h"
+#include "pointfront/Store/StoredCloud.h"
 
 #include <cstddef>
 #include <optional>

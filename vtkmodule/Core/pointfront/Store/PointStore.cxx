@@ -5,6 +5,7 @@
 #include "pointfront/Store/NodeTableSection.h"
 #include "pointfront/Store/StoreContent.h"
 #include "pointfront/Store/StoreFormat.h"
+#include "pointfront/Store/StoreVerification.h"
 
 #include <algorithm>
 #include <cassert>
@@ -357,7 +358,7 @@ Result<NodeColumns> PointStore::read(NodeIndex node, const ColumnSelection& colu
 
 Result<VerifyReport> PointStore::verify(const ProgressFunction& progress) const
 {
-  return StoreVerification(*this, content_->description, content_->gridBounds).run(progress);
+  return StoreVerification(*this, content_->gridBounds).run(progress);
 }
 
 } // namespace pointfront

@@ -1,5 +1,6 @@
+#include "pointfront/Store/StoreVerification.h"
+
 #include "pointfront/Store/ColumnStatistics.h"
-#include "pointfront/Store/StoreContent.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -122,14 +123,13 @@ struct StoreVerification::Walk
   Pace pace;
 };
 
-StoreVerification::StoreVerification(
-  const PointStore& store, const StoreDescription& description, const GridBounds& gridBounds)
-  : store_(store)
-  , description_(description)
+StoreVerification::StoreVerification(const StoredCloud& cloud, const GridBounds& gridBounds)
+  : cloud_(cloud)
+  , description_(cloud.description())
   , gridBounds_(gridBounds)
-  , hierarchy_(*store.hierarchy())
+  , hierarchy_(*cloud.hierarchy())
 {
-  for (std::uint32_t c = 0; c < description.schema.size(); ++c)
+  for (std::uint32_t c = 0; c < description_.schema.size(); ++c)
   {
     everyColumn_.push_back(c);
   }
@@ -211,7 +211,7 @@ std::string StoreVerification::nodeFault(NodeIndex index, SeenPoints& seen) cons
     return "'" + description_.path + "', node " + std::to_string(index) +
       ": its box leaves the box of its parent, node " + std::to_string(node.parent);
   }
-  const Result<NodeColumns> points = store_.read(index, everyColumn_);
+  const Result<NodeColumns> points = cloud_.read(index, everyColumn_);
   if (!points)
   {
     return points.error().what;

@@ -3,7 +3,7 @@
 #include "pointfront/Base/Result.h"
 #include "pointfront/Store/GridBounds.h"
 #include "pointfront/Store/NodeReader.h"
-#include "pointfront/Store/PointStore.h"
+#include "pointfront/Store/StoredCloud.h"
 
 #include <cstddef>
 #include <memory>

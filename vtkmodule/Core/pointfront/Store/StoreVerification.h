@@ -1,0 +1,50 @@
+#pragma once
+
+#include "pointfront/Store/GridBounds.h"
+#include "pointfront/Store/StoredCloud.h"
+
+#include <string>
+#include <vector>
+
+namespace pointfront
+{
+
+/// What the points of some nodes add up to.
+struct SeenPoints
+{
+  GridBounds bounds;
+  std::vector<ColumnRange> ranges;
+
+  void add(const SeenPoints& other);
+};
+
+/// Walks the nodes of an open cloud and looks for the first thing that is wrong.
+/// Source   docs/formats/pfront.md, section "What must hold".
+/// Order    the fault reported is that of the lowest node that has one, for any number of threads.
+/// Threads  run() is called from one thread and runs others, each on nodes of its own.
+class StoreVerification
+{
+public:
+  /// `gridBounds` is the box that the file claims for all points.
+  StoreVerification(const StoredCloud& cloud, const GridBounds& gridBounds);
+
+  /// Cancelled is the only Error.
+  Result<VerifyReport> run(const ProgressFunction& progress);
+
+private:
+  struct Walk;
+  SeenPoints nothingSeen() const;
+  void work(Walk& walk) const;
+  std::string nodeFault(NodeIndex index, SeenPoints& seen) const;
+  std::string pointsFault(NodeIndex index, const NodeColumns& points, SeenPoints& seen) const;
+  std::string sphereFault(NodeIndex index, const NodeColumns& points, const Bounds& box) const;
+  std::string totalsFault(const SeenPoints& seen) const;
+
+  const StoredCloud& cloud_;
+  const StoreDescription& description_;
+  const GridBounds& gridBounds_;
+  const Hierarchy& hierarchy_;
+  ColumnSelection everyColumn_;
+};
+
+} // namespace pointfront

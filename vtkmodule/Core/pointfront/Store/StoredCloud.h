@@ -1,0 +1,89 @@
+#pragma once
+
+#include "pointfront/Base/Bounds.h"
+#include "pointfront/Base/Progress.h"
+#include "pointfront/Base/Result.h"
+#include "pointfront/Points/AttributeSchema.h"
+#include "pointfront/Points/PointSource.h"
+#include "pointfront/Points/QuantisationGrid.h"
+#include "pointfront/Store/Hierarchy.h"
+#include "pointfront/Store/NodeReader.h"
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace pointfront
+{
+
+/// One object class with a tree of its own (or the single layer 0 of a store without layers).
+struct Layer
+{
+  std::uint16_t objectClass = 0;
+  std::string name; ///< "ground", "building" ...; "all" for the single layer
+  std::uint64_t pointCount = 0;
+  std::uint32_t nodeCount = 0;
+};
+
+/// Smallest and largest value of each component of a column, over the whole store, as stored
+/// (before scale and offset). NaN components are left out.
+struct ColumnRange
+{
+  std::vector<std::array<double, 2>> components;
+};
+
+/// What `pointfront info` prints: everything about a stored cloud but its points.
+struct StoreDescription
+{
+  std::string path;
+  std::uint32_t version = 0;
+  std::uint64_t fileBytes = 0;
+  std::uint64_t pointCount = 0;
+  Bounds bounds; ///< tight, of the stored points
+  QuantisationGrid grid;
+  std::string crsWkt;
+  std::string structure;   ///< "octree", "kdtree", "inplace"
+  Refinement refinement = Refinement::Add;
+  std::uint32_t levels = 0;
+  AttributeSchema schema;
+  std::vector<ColumnRange> ranges; ///< one for each column
+  std::vector<Layer> layers;
+  std::vector<MetadataRecord> metadata;
+  std::string generator; ///< "pointfront 0.1.0"
+};
+
+struct VerifyReport
+{
+  bool ok = true;
+  std::uint64_t nodesChecked = 0;
+  std::uint64_t pointsChecked = 0;
+  std::string firstError; ///< names the node and the byte offset; empty when ok
+};
+
+/// A cloud on disk that can be drawn at once: a description, a node table and the nodes' points.
+/// Whoever draws, exports or checks knows no more than this; it may be a store of ours or an index
+/// over a file that someone else wrote.
+/// Threads    all functions are safe from any thread.
+class StoredCloud : public NodeReader
+{
+public:
+  virtual const StoreDescription& description() const = 0;
+  virtual const std::shared_ptr<const Hierarchy>& hierarchy() const = 0;
+
+  /// Every checksum, count and invariant (tree shape, boxes enclose their points and children,
+  /// sums of counts). Stops at the first broken one. Cancelled is the only Error.
+  virtual Result<VerifyReport> verify(const ProgressFunction& progress = {}) const = 0;
+};
+
+/// Opens stored clouds of one kind.
+class StoredCloudFormat
+{
+public:
+  virtual ~StoredCloudFormat() = default;
+  virtual std::string name() const = 0;                    ///< "store", "index of a LAS file"
+  virtual bool accepts(const std::string& path) const = 0; ///< by content, cheap, silent
+  virtual Result<std::shared_ptr<const StoredCloud>> open(const std::string& path) const = 0;
+};
+
+} // namespace pointfront

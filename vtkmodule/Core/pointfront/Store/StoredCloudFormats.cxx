@@ -1,0 +1,73 @@
+#include "pointfront/Store/StoredCloudFormats.h"
+
+#include "pointfront/Store/PointStore.h"
+
+#include <algorithm>
+#include <mutex>
+
+namespace pointfront
+{
+namespace
+{
+class StoreFile final : public StoredCloudFormat
+{
+public:
+  std::string name() const override { return "store"; }
+  bool accepts(const std::string& path) const override { return PointStore::looksLikeStore(path); }
+  Result<std::shared_ptr<const StoredCloud>> open(const std::string& path) const override
+  {
+    Result<std::shared_ptr<const PointStore>> store = PointStore::open(path);
+    if (!store)
+    {
+      return store.error();
+    }
+    return std::shared_ptr<const StoredCloud>(std::move(*store));
+  }
+};
+} // namespace
+
+StoredCloudFormats& StoredCloudFormats::ofProcess()
+{
+  static auto* const formats = new StoredCloudFormats; // never deleted: static objects may use it
+  return *formats;
+}
+
+StoredCloudFormats::StoredCloudFormats()
+{
+  formats_.push_back(std::make_shared<StoreFile>());
+}
+
+void StoredCloudFormats::add(std::shared_ptr<const StoredCloudFormat> format)
+{
+  const std::unique_lock<std::shared_mutex> lock(mutex_);
+  const auto same = std::find_if(formats_.begin(), formats_.end(),
+    [&format](const auto& known) { return known->name() == format->name(); });
+  if (same != formats_.end())
+  {
+    *same = std::move(format);
+    return;
+  }
+  formats_.push_back(std::move(format));
+}
+
+std::shared_ptr<const StoredCloudFormat> StoredCloudFormats::formatOf(
+  const std::string& path) const
+{
+  const std::shared_lock<std::shared_mutex> lock(mutex_);
+  const auto found = std::find_if(formats_.begin(), formats_.end(),
+    [&path](const auto& format) { return format->accepts(path); });
+  return found == formats_.end() ? nullptr : *found;
+}
+
+bool StoredCloudFormats::accepts(const std::string& path) const
+{
+  return formatOf(path) != nullptr;
+}
+
+Result<std::shared_ptr<const StoredCloud>> StoredCloudFormats::open(const std::string& path) const
+{
+  const std::shared_ptr<const StoredCloudFormat> format = formatOf(path);
+  return format ? format->open(path) : StoreFile().open(path);
+}
+
+} // namespace pointfront

@@ -2,6 +2,7 @@
 
 #include "pointfront/Build/PrefixOrder.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cstring>
 #include <numeric>
@@ -10,39 +11,69 @@ namespace pointfront
 {
 namespace
 {
+/// Records gathered together: all their columns while they are in the nearest cache.
+constexpr std::size_t tilePoints = 256;
+
+/// `count` points of a node, in the order in which they are stored.
+struct Tile
+{
+  const RecordView& records;
+  const std::uint32_t* order;
+  std::size_t count;
+};
+
 /// The fixed sizes let the compiler turn the copy into one or two moves.
 template <std::size_t Bytes>
-void copyColumn(const RecordView& records, std::size_t offset,
-  const std::vector<std::uint32_t>& order, std::byte* out)
+void copyColumn(const Tile& tile, std::size_t offset, std::byte* out)
 {
-  for (const std::uint32_t i : order)
+  for (std::size_t i = 0; i < tile.count; ++i, out += Bytes)
   {
-    std::memcpy(out, records.record(i) + offset, Bytes);
-    out += Bytes;
+    std::memcpy(out, tile.records.record(tile.order[i]) + offset, Bytes);
   }
 }
 
-void copyColumn(const RecordView& records, std::size_t offset, std::size_t bytes,
-  const std::vector<std::uint32_t>& order, std::byte* out)
+void copyColumn(const Tile& tile, std::size_t offset, std::size_t bytes, std::byte* out)
 {
-  for (const std::uint32_t i : order)
+  for (std::size_t i = 0; i < tile.count; ++i, out += bytes)
   {
-    std::memcpy(out, records.record(i) + offset, bytes);
-    out += bytes;
+    std::memcpy(out, tile.records.record(tile.order[i]) + offset, bytes);
   }
 }
 
-void copyLowBytes(const RecordView& records, std::size_t offset, std::size_t components,
-  const std::vector<std::uint32_t>& order, std::byte* out)
+void copyLowBytes(const Tile& tile, std::size_t offset, std::size_t components, std::byte* out)
 {
-  for (const std::uint32_t i : order)
+  for (std::size_t i = 0; i < tile.count; ++i)
   {
+    const std::byte* values = tile.records.record(tile.order[i]) + offset;
     for (std::size_t k = 0; k < components; ++k)
     {
-      std::uint16_t value;
-      std::memcpy(&value, records.record(i) + offset + 2 * k, sizeof(value));
-      *out++ = static_cast<std::byte>(value);
+      *out++ = values[2 * k]; // records are of this machine: little-endian
     }
+  }
+}
+
+void gatherColumn(const StoredColumn& column, const Tile& tile, std::byte* out)
+{
+  if (column.narrowed)
+  {
+    return copyLowBytes(tile, column.offset, column.bytes, out);
+  }
+  switch (column.bytes)
+  {
+  case 1:
+    return copyColumn<1>(tile, column.offset, out);
+  case 2:
+    return copyColumn<2>(tile, column.offset, out);
+  case 3:
+    return copyColumn<3>(tile, column.offset, out);
+  case 4:
+    return copyColumn<4>(tile, column.offset, out);
+  case 6:
+    return copyColumn<6>(tile, column.offset, out);
+  case 8:
+    return copyColumn<8>(tile, column.offset, out);
+  default:
+    return copyColumn(tile, column.offset, column.bytes, out);
   }
 }
 
@@ -75,63 +106,40 @@ NodeEmitter::NodeEmitter(TreeSpace space, const AttributeSchema& pooled, Attribu
   }
 }
 
-void NodeEmitter::gatherColumn(const StoredColumn& column, const RecordView& records,
-  const std::vector<std::uint32_t>& order, std::vector<std::byte>& out) const
-{
-  out.resize(order.size() * column.bytes);
-  if (column.narrowed)
-  {
-    copyLowBytes(records, column.offset, column.bytes, order, out.data());
-    return;
-  }
-  switch (column.bytes)
-  {
-  case 1:
-    copyColumn<1>(records, column.offset, order, out.data());
-    break;
-  case 2:
-    copyColumn<2>(records, column.offset, order, out.data());
-    break;
-  case 4:
-    copyColumn<4>(records, column.offset, order, out.data());
-    break;
-  case 6:
-    copyColumn<6>(records, column.offset, order, out.data());
-    break;
-  case 8:
-    copyColumn<8>(records, column.offset, order, out.data());
-    break;
-  default:
-    copyColumn(records, column.offset, column.bytes, order, out.data());
-  }
-}
-
 NodeColumns NodeEmitter::gather(
   const RecordView& records, const std::vector<std::uint32_t>& order) const
 {
   NodeColumns points;
-  points.positions.reserve(order.size());
-  TreePosition low(UINT32_MAX);
-  for (const std::uint32_t i : order)
-  {
-    low = glm::min(low, records.position(i));
-  }
-  if (!order.empty())
-  {
-    points.origin = space_.gridPosition(low);
-  }
-  for (const std::uint32_t i : order)
-  {
-    const TreePosition steps = records.position(i) - low;
-    points.positions.emplace_back(
-      steps.x >> space_.shift[0], steps.y >> space_.shift[1], steps.z >> space_.shift[2]);
-  }
+  points.positions.resize(order.size());
   points.selection.resize(columns_.size());
   std::iota(points.selection.begin(), points.selection.end(), 0u);
   points.columns.resize(columns_.size());
   for (std::size_t c = 0; c < columns_.size(); ++c)
   {
-    gatherColumn(columns_[c], records, order, points.columns[c]);
+    points.columns[c].resize(order.size() * columns_[c].bytes);
+  }
+  for (std::size_t begin = 0; begin < order.size(); begin += tilePoints)
+  {
+    const Tile tile{records, order.data() + begin, std::min(tilePoints, order.size() - begin)};
+    for (std::size_t i = 0; i < tile.count; ++i)
+    {
+      points.positions[begin + i] = records.position(tile.order[i]);
+    }
+    for (std::size_t c = 0; c < columns_.size(); ++c)
+    {
+      gatherColumn(columns_[c], tile, points.columns[c].data() + begin * columns_[c].bytes);
+    }
+  }
+  TreePosition low(order.empty() ? 0u : UINT32_MAX);
+  for (const TreePosition& p : points.positions)
+  {
+    low = glm::min(low, p);
+  }
+  points.origin = order.empty() ? points.origin : space_.gridPosition(low);
+  for (TreePosition& p : points.positions)
+  {
+    const TreePosition steps = p - low;
+    p = {steps.x >> space_.shift[0], steps.y >> space_.shift[1], steps.z >> space_.shift[2]};
   }
   return points;
 }

@@ -37,8 +37,6 @@ public:
 
 private:
   NodeColumns gather(const RecordView& records, const std::vector<std::uint32_t>& order) const;
-  void gatherColumn(const StoredColumn& column, const RecordView& records,
-    const std::vector<std::uint32_t>& order, std::vector<std::byte>& out) const;
 
   TreeSpace space_;
   AttributeSchema schema_;

@@ -20,13 +20,24 @@ std::uint64_t hashOf(const TreePosition& p)
   h ^= h >> 33;
   return h;
 }
+
+struct RankedHash
+{
+  std::uint32_t index;
+  std::uint32_t hash;
+};
 } // namespace
 
 std::vector<std::uint32_t> prefixOrder(
   const RecordView& records, const std::vector<std::uint32_t>& indices)
 {
   std::vector<std::uint32_t> ordered(indices.size());
-  std::vector<std::uint32_t> coarse = indices;
+  // Ranks and hashes move together: a hash is made once, and read where it is needed.
+  std::vector<RankedHash> coarse(indices.size());
+  for (std::size_t i = 0; i < indices.size(); ++i)
+  {
+    coarse[i] = {indices[i], static_cast<std::uint32_t>(hashOf(records.position(indices[i])))};
+  }
   std::size_t end = ordered.size(); // the places before it are still free
   for (unsigned round = 0; coarse.size() > smallestBatch; ++round)
   {
@@ -35,9 +46,8 @@ std::vector<std::uint32_t> prefixOrder(
     for (std::size_t i = 0; i < pairs; ++i)
     {
       // A fresh bit of the hash each round, so that the picks of two rounds are independent.
-      const std::uint64_t hash = hashOf(records.position(coarse[2 * i]));
-      const std::size_t picked = (hash >> (round & 63u)) & 1u;
-      batch[i] = coarse[2 * i + (1 - picked)];
+      const std::size_t picked = (coarse[2 * i].hash >> (round & 31u)) & 1u;
+      batch[i] = coarse[2 * i + (1 - picked)].index;
       coarse[i] = coarse[2 * i + picked];
     }
     if (coarse.size() % 2 == 1)
@@ -47,7 +57,10 @@ std::vector<std::uint32_t> prefixOrder(
     coarse.resize(coarse.size() - pairs);
     end -= pairs;
   }
-  std::copy(coarse.begin(), coarse.end(), ordered.begin());
+  for (std::size_t i = 0; i < coarse.size(); ++i)
+  {
+    ordered[i] = coarse[i].index;
+  }
   return ordered;
 }
 

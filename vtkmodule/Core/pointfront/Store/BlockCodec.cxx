@@ -39,12 +39,12 @@ void repeat(const std::byte* value, std::size_t valueBytes, std::byte* values, s
 }
 
 // Compressing with Zstandard takes longer than all else: first a sample.
-bool zstdPromises(const std::byte* values, const BlockShape& shape)
+bool zstdPromises(const std::byte* values, const BlockShape& shape, std::size_t packedSample)
 {
   const BlockShape sample = sampleOf(shape);
-  const std::byte* begin = values + (shape.bytes() - sample.bytes());
-  return worthZstd(
-    encodePlanes(begin, sample).size(), encodePacked(begin, sample).size(), sample.points);
+  return worthZstd(0, packedSample, sample.points) &&
+    worthZstd(encodePlanes(values + (shape.bytes() - sample.bytes()), sample).size(), packedSample,
+      sample.points);
 }
 } // namespace
 
@@ -71,8 +71,9 @@ CodedBlock encodeBlock(const std::byte* values, const BlockShape& shape)
   {
     return { BlockCodec::Constant, std::vector<std::byte>(values, values + shape.pointBytes()) };
   }
-  CodedBlock best{ BlockCodec::Packed, encodePacked(values, shape) };
-  if (zstdPromises(values, shape))
+  PackedBlock packed = packBlock(values, shape);
+  CodedBlock best{ BlockCodec::Packed, std::move(packed.bytes) };
+  if (zstdPromises(values, shape, packed.sampleBytes))
   {
     std::vector<std::byte> planes = encodePlanes(values, shape);
     if (worthZstd(planes.size(), best.bytes.size(), shape.points))

@@ -12,54 +12,93 @@ namespace
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 template <typename T>
-std::array<double, 2> componentRange(
-  const std::byte* values, std::size_t points, std::size_t strideBytes)
+constexpr T lowest = std::numeric_limits<T>::has_infinity ? -std::numeric_limits<T>::infinity()
+                                                          : std::numeric_limits<T>::lowest();
+template <typename T>
+constexpr T highest = std::numeric_limits<T>::has_infinity ? std::numeric_limits<T>::infinity()
+                                                           : std::numeric_limits<T>::max();
+
+/// Smallest and largest values of lanes: value i belongs to lane i % lanes. Of a multiple of the
+/// components and a length the compiler knows: the inner loop is a few vectors.
+template <typename T, std::size_t lanes>
+class LaneRange
 {
-  if (points == 0)
+public:
+  LaneRange()
   {
-    return { infinity, -infinity };
+    low_.fill(highest<T>);
+    high_.fill(lowest<T>);
   }
-  T low = std::numeric_limits<T>::has_infinity ? std::numeric_limits<T>::infinity()
-                                               : std::numeric_limits<T>::max();
-  T high = std::numeric_limits<T>::has_infinity ? -std::numeric_limits<T>::infinity()
-                                                : std::numeric_limits<T>::lowest();
-  for (std::size_t i = 0; i < points; ++i)
+  void add(const std::byte* values, std::size_t count = lanes)
   {
-    T value;
-    std::memcpy(&value, values + i * strideBytes, sizeof(T));
-    low = value < low ? value : low; // false for NaN
-    high = value > high ? value : high;
+    std::array<T, lanes> block; // NOLINT: filled as far as it is read
+    std::memcpy(block.data(), values, count * sizeof(T));
+    for (std::size_t lane = 0; lane < count; ++lane)
+    {
+      const T value = block[lane];
+      low_[lane] = value < low_[lane] ? value : low_[lane]; // false for NaN
+      high_[lane] = value > high_[lane] ? value : high_[lane];
+    }
   }
-  return { static_cast<double>(low), static_cast<double>(high) };
+  std::array<double, 2> component(std::size_t c, std::size_t components) const
+  {
+    T low = highest<T>;
+    T high = lowest<T>;
+    for (std::size_t lane = c; lane < lanes; lane += components)
+    {
+      low = std::min(low, low_[lane]);
+      high = std::max(high, high_[lane]);
+    }
+    return { static_cast<double>(low), static_cast<double>(high) };
+  }
+
+private:
+  std::array<T, lanes> low_;
+  std::array<T, lanes> high_;
+};
+
+/// `components` divides `lanes`.
+template <typename T, std::size_t lanes>
+ColumnRange rangeOfValues(const std::byte* values, std::size_t points, std::size_t components)
+{
+  LaneRange<T, lanes> sum;
+  const std::size_t count = points * components;
+  std::size_t done = 0;
+  for (; done + lanes <= count; done += lanes)
+  {
+    sum.add(values + done * sizeof(T));
+  }
+  sum.add(values + done * sizeof(T), count - done);
+  ColumnRange range;
+  for (std::size_t c = 0; c < components; ++c)
+  {
+    range.components.push_back(sum.component(c, components));
+  }
+  return range;
 }
 
-std::array<double, 2> componentRange(
-  ScalarType type, const std::byte* values, std::size_t points, std::size_t strideBytes)
+template <typename T>
+ColumnRange rangeOfValues(const std::byte* values, std::size_t points, std::size_t components)
 {
-  switch (type)
+  if (components == 3)
   {
-    case ScalarType::Int8:
-      return componentRange<std::int8_t>(values, points, strideBytes);
-    case ScalarType::UInt8:
-      return componentRange<std::uint8_t>(values, points, strideBytes);
-    case ScalarType::Int16:
-      return componentRange<std::int16_t>(values, points, strideBytes);
-    case ScalarType::UInt16:
-      return componentRange<std::uint16_t>(values, points, strideBytes);
-    case ScalarType::Int32:
-      return componentRange<std::int32_t>(values, points, strideBytes);
-    case ScalarType::UInt32:
-      return componentRange<std::uint32_t>(values, points, strideBytes);
-    case ScalarType::Int64:
-      return componentRange<std::int64_t>(values, points, strideBytes);
-    case ScalarType::UInt64:
-      return componentRange<std::uint64_t>(values, points, strideBytes);
-    case ScalarType::Float32:
-      return componentRange<float>(values, points, strideBytes);
-    case ScalarType::Float64:
-      break;
+    return rangeOfValues<T, 48>(values, points, components);
   }
-  return componentRange<double>(values, points, strideBytes);
+  if (32 % components == 0)
+  {
+    return rangeOfValues<T, 32>(values, points, components);
+  }
+  ColumnRange range;
+  for (std::size_t c = 0; c < components; ++c)
+  {
+    LaneRange<T, 1> own;
+    for (std::size_t i = 0; i < points; ++i)
+    {
+      own.add(values + (i * components + c) * sizeof(T));
+    }
+    range.components.push_back(own.component(0, 1));
+  }
+  return range;
 }
 } // namespace
 
@@ -79,13 +118,35 @@ ColumnRange emptyRange(const Attribute& attribute)
 
 ColumnRange rangeOf(const std::byte* values, const Attribute& attribute, std::size_t points)
 {
-  ColumnRange range;
-  for (unsigned c = 0; c < attribute.components; ++c)
+  const std::size_t components = attribute.components;
+  if (points == 0)
   {
-    range.components.push_back(componentRange(
-      attribute.type, values + c * sizeOf(attribute.type), points, attribute.bytes()));
+    return emptyRange(attribute);
   }
-  return range;
+  switch (attribute.type)
+  {
+    case ScalarType::Int8:
+      return rangeOfValues<std::int8_t>(values, points, components);
+    case ScalarType::UInt8:
+      return rangeOfValues<std::uint8_t>(values, points, components);
+    case ScalarType::Int16:
+      return rangeOfValues<std::int16_t>(values, points, components);
+    case ScalarType::UInt16:
+      return rangeOfValues<std::uint16_t>(values, points, components);
+    case ScalarType::Int32:
+      return rangeOfValues<std::int32_t>(values, points, components);
+    case ScalarType::UInt32:
+      return rangeOfValues<std::uint32_t>(values, points, components);
+    case ScalarType::Int64:
+      return rangeOfValues<std::int64_t>(values, points, components);
+    case ScalarType::UInt64:
+      return rangeOfValues<std::uint64_t>(values, points, components);
+    case ScalarType::Float32:
+      return rangeOfValues<float>(values, points, components);
+    case ScalarType::Float64:
+      break;
+  }
+  return rangeOfValues<double>(values, points, components);
 }
 
 void addRange(ColumnRange& range, const ColumnRange& other)

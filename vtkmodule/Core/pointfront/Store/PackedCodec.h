@@ -16,6 +16,14 @@ namespace pointfront
 ///          the lanes as in Lemire & Boytsov 2015, Decoding billions of integers per second.
 std::vector<std::byte> encodePacked(const std::byte* values, const BlockShape& shape);
 
+/// The same, with the bytes of its last groups: those that hold the points of sampleOf(shape).
+struct PackedBlock
+{
+  std::vector<std::byte> bytes;
+  std::size_t sampleBytes = 0;
+};
+PackedBlock packBlock(const std::byte* values, const BlockShape& shape);
+
 /// As decodeBlock(): safe with any bytes.
 bool decodePacked(
   const std::byte* coded, std::size_t codedBytes, const BlockShape& shape, std::byte* values);

@@ -69,32 +69,6 @@ void unpackRows(const std::byte* rows, CodeGroup<T>& codes)
   }
 }
 
-// Of any width: encoding is not what is waited for, and 120 more functions take long to compile.
-template <typename T>
-void packRows(const CodeGroup<T>& codes, unsigned width, std::byte* rows)
-{
-  constexpr std::size_t lanes = rowBytes / sizeof(T);
-  const T mask = maskOf<T>(width);
-  std::array<T, codesPerGroup> words{};
-  for (unsigned i = 0; i < bitsOf<T>; ++i)
-  {
-    const unsigned word = i * width / bitsOf<T>;
-    const unsigned shift = i * width % bitsOf<T>;
-    const bool split = shift + width > bitsOf<T>;
-    for (std::size_t lane = 0; lane < lanes; ++lane)
-    {
-      const T code = static_cast<T>(codes[i * lanes + lane] & mask);
-      T& low = words[word * lanes + lane];
-      low = static_cast<T>(low | static_cast<T>(code << shift));
-      if (split)
-      {
-        words[(word + 1) * lanes + lane] = static_cast<T>(code >> (bitsOf<T> - shift));
-      }
-    }
-  }
-  std::memcpy(rows, words.data(), rowBytes * width);
-}
-
 // Width 0 has no rows: entry w - 1 is for width w.
 template <typename T>
 using Unpack = void (*)(const std::byte*, CodeGroup<T>&);
@@ -117,87 +91,7 @@ void unpack(unsigned width, const std::byte* rows, CodeGroup<T>& codes)
   table[width - 1](rows, codes);
 }
 
-// --- the width of a group: the one that takes the fewest bytes, exceptions counted.
-
-struct GroupPlan
-{
-  unsigned width = 0;
-  unsigned exceptions = 0;     ///< codes of more than `width` bits
-  unsigned exceptionBytes = 0; ///< of the upper part of each
-  std::size_t bytes = 0;
-};
-
-template <typename T>
-unsigned bitLength(T code)
-{
-  return code == 0 ? 0u : 64u - static_cast<unsigned>(__builtin_clzll(code));
-}
-
-template <typename T>
-GroupPlan planOf(const CodeGroup<T>& codes)
-{
-  std::array<unsigned, 65> ofLength{};
-  for (const T code : codes)
-  {
-    ++ofLength[bitLength(code)];
-  }
-  unsigned longest = bitsOf<T>;
-  while (longest > 0 && ofLength[longest] == 0)
-  {
-    --longest;
-  }
-  GroupPlan best{ longest, 0, 0, 2 + rowBytes * longest };
-  unsigned exceptions = 0;
-  for (unsigned width = longest; width-- > 0;)
-  {
-    exceptions += ofLength[width + 1];
-    const unsigned upperBytes = (longest - width + 7) / 8;
-    const std::size_t bytes = 3 + rowBytes * width + exceptions * std::size_t(1 + upperBytes);
-    if (bytes < best.bytes)
-    {
-      best = { width, exceptions, upperBytes, bytes };
-    }
-  }
-  return best;
-}
 } // namespace packed
-
-/// Bytes that putGroup() appends.
-template <typename T>
-std::size_t groupBytes(const CodeGroup<T>& codes)
-{
-  return packed::planOf(codes).bytes;
-}
-
-/// Appends the group.
-template <typename T>
-void putGroup(const CodeGroup<T>& codes, std::vector<std::byte>& out)
-{
-  const packed::GroupPlan plan = packed::planOf(codes);
-  const std::size_t begin = out.size();
-  out.resize(begin + plan.bytes);
-  std::byte* at = out.data() + begin;
-  *at++ = static_cast<std::byte>(plan.width);
-  *at++ = static_cast<std::byte>(plan.exceptions);
-  packed::packRows<T>(codes, plan.width, at);
-  at += packed::rowBytes * plan.width;
-  if (plan.exceptions == 0)
-  {
-    return;
-  }
-  *at++ = static_cast<std::byte>(plan.exceptionBytes);
-  std::byte* upper = at + plan.exceptions;
-  for (std::size_t i = 0; i < codesPerGroup; ++i)
-  {
-    if (packed::bitLength(codes[i]) > plan.width)
-    {
-      *at++ = static_cast<std::byte>(i);
-      const std::uint64_t high = std::uint64_t(codes[i]) >> plan.width;
-      std::memcpy(upper, &high, plan.exceptionBytes);
-      upper += plan.exceptionBytes;
-    }
-  }
-}
 
 /// Reads a group at `at` and returns what follows it; nullptr when it runs over `end` or is not a
 /// group. Reads nothing outside [at, end).

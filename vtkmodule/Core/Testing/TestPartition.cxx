@@ -43,7 +43,7 @@ TEST(Partition, SplitsUntilPartsFit)
   EXPECT_EQ(partition.part(0).count, 60u);
   EXPECT_EQ(partition.part(0).cell.log2Side, 6u);
   EXPECT_EQ(partition.part(1).cell.log2Side, 4u); // too large, but no finer cells are known
-  EXPECT_EQ(partition.postOrder(), (std::vector<std::uint32_t>{1, 2, 0}));
+  EXPECT_EQ(postOrder(partition.tree()), (std::vector<std::uint32_t>{1, 2, 0}));
 }
 
 TEST(Partition, SkipsLevelsWithOneChild)
@@ -73,7 +73,7 @@ TEST(Partition, RefinesAPartByItsOwnCells)
     inParts += partition.part(part).count;
   }
   EXPECT_EQ(inParts, 65u);
-  const std::vector<std::uint32_t> order = partition.postOrder();
+  const std::vector<std::uint32_t> order = postOrder(partition.tree());
   EXPECT_EQ(order.size(), partition.nodes().size());
   EXPECT_EQ(order.back(), partition.root());
 }

@@ -49,16 +49,17 @@ void encloseNode(
   row.radius = roundedUp(glm::length(glm::dvec3(row.halfSize)));
 }
 
-NodeTable nodeTable(const BuiltNode* root)
+NodeTable nodeTable(const std::vector<std::unique_ptr<BuiltNode>>& trees)
 {
   NodeTable table;
-  if (root == nullptr)
+  std::vector<const BuiltNode*> order;
+  for (const auto& root : trees)
   {
-    return table;
+    table.roots.push_back(static_cast<NodeIndex>(order.size()));
+    order.push_back(root.get());
+    table.nodes.push_back(root->row);
+    table.nodes.back().layer = static_cast<std::uint16_t>(table.roots.size() - 1);
   }
-  std::vector<const BuiltNode*> order{root};
-  table.nodes.push_back(root->row);
-  table.roots.push_back(0);
   for (std::size_t i = 0; i < order.size(); ++i)
   {
     const BuiltNode& node = *order[i];
@@ -74,6 +75,7 @@ NodeTable nodeTable(const BuiltNode* root)
     {
       Node row = child->row;
       row.parent = static_cast<NodeIndex>(i);
+      row.layer = table.nodes[i].layer;
       row.level = static_cast<std::uint8_t>(table.nodes[i].level + 1);
       row.spacing = std::min(row.spacing, spacingFall * table.nodes[i].spacing);
       order.push_back(child.get());

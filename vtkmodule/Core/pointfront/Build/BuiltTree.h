@@ -34,7 +34,7 @@ struct NodeTable
   std::uint32_t levels = 0;
 };
 
-/// `root` may be null: an empty table. Makes spacing fall strictly from parent to child.
-NodeTable nodeTable(const BuiltNode* root);
+/// One tree a layer; none for an empty table. Makes spacing fall strictly from parent to child.
+NodeTable nodeTable(const std::vector<std::unique_ptr<BuiltNode>>& trees);
 
 } // namespace pointfront

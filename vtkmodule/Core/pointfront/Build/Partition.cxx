@@ -63,9 +63,13 @@ Partition::Partition(const std::vector<CountedCell>& cells, unsigned cellLog2,
 std::uint32_t Partition::addNode(OctreeCell cell, std::uint64_t count, std::uint32_t parent)
 {
   const auto index = static_cast<std::uint32_t>(nodes_.size());
-  nodes_.push_back({cell, count, parent, none, {}});
+  nodes_.emplace_back();
+  nodes_.back().cell = cell;
+  nodes_.back().count = count;
+  nodes_.back().parent = parent;
   if (parent != none)
   {
+    nodes_.back().layer = nodes_[parent].layer;
     nodes_[parent].children.push_back(index);
   }
   return index;
@@ -141,22 +145,26 @@ std::vector<std::uint32_t> Partition::refineByOrder(std::uint32_t part)
   return numbers;
 }
 
-std::vector<std::uint32_t> Partition::postOrder() const
+void Partition::append(const Partition& other)
 {
-  std::vector<std::uint32_t> order;
-  std::vector<std::uint32_t> open;
-  if (!nodes_.empty())
+  const auto firstNode = static_cast<std::uint32_t>(nodes_.size());
+  const std::uint32_t firstPart = partCount();
+  const auto layer = static_cast<std::uint16_t>(nodes_.empty() ? 0 : nodes_.back().layer + 1);
+  for (Node node : other.nodes_)
   {
-    open.push_back(root());
+    node.layer = layer;
+    node.parent += node.parent != none ? firstNode : 0;
+    node.part += node.part != none ? firstPart : 0;
+    for (std::uint32_t& child : node.children)
+    {
+      child += firstNode;
+    }
+    nodes_.push_back(std::move(node));
   }
-  while (!open.empty()) // parents first with children from right to left, then reversed
+  for (const std::uint32_t place : other.parts_)
   {
-    const std::uint32_t index = open.back();
-    open.pop_back();
-    order.push_back(index);
-    open.insert(open.end(), nodes_[index].children.begin(), nodes_[index].children.end());
+    parts_.push_back(firstNode + place);
   }
-  return {order.rbegin(), order.rend()};
 }
 
 } // namespace pointfront

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "pointfront/Build/MortonOrder.h"
+#include "pointfront/Build/PartTree.h"
 
 #include <cstdint>
 #include <vector>
@@ -22,15 +23,11 @@ struct CountedCell
 class Partition
 {
 public:
-  static constexpr std::uint32_t none = 0xffffffffu;
+  static constexpr std::uint32_t none = PartNode::none;
 
-  struct Node
+  struct Node : PartNode
   {
     OctreeCell cell; ///< of a part: a cell around its points, not always the smallest
-    std::uint64_t count = 0;
-    std::uint32_t parent = none;
-    std::uint32_t part = none;           ///< number of the part; none for an inner node
-    std::vector<std::uint32_t> children; ///< octant order
   };
 
   /// Cuts so that a part holds at most `partPoints` points, where the cells are fine enough.
@@ -39,7 +36,7 @@ public:
     std::vector<std::uint32_t>& partOf);
 
   const std::vector<Node>& nodes() const { return nodes_; }
-  std::uint32_t root() const { return 0; } ///< there is none when nodes() is empty
+  std::uint32_t root() const { return 0; } ///< of layer 0; none when nodes() is empty
   std::uint32_t partCount() const { return static_cast<std::uint32_t>(parts_.size()); }
   const Node& part(std::uint32_t number) const { return nodes_[parts_[number]]; }
 
@@ -50,9 +47,12 @@ public:
   /// Cuts a part of equal points into eight runs of input order; returns their numbers.
   std::vector<std::uint32_t> refineByOrder(std::uint32_t part);
 
-  /// Inner nodes and parts, children before parents, siblings in octant order: the order in
-  /// which their nodes stand in the file.
-  std::vector<std::uint32_t> postOrder() const;
+  /// Adds the trees of `other`, of points of their own, as the next layer. Its parts get numbers
+  /// from partCount() on, in their order.
+  void append(const Partition& other);
+
+  /// The nodes without their cells.
+  std::vector<PartNode> tree() const { return {nodes_.begin(), nodes_.end()}; }
 
 private:
   std::uint32_t addNode(OctreeCell cell, std::uint64_t count, std::uint32_t parent);

@@ -5,10 +5,11 @@
 #include "pointfront/Build/DiskDemand.h"
 #include "pointfront/Build/GridChoice.h"
 #include "pointfront/Build/MemoryPlan.h"
-#include "pointfront/Build/OctreeAssembly.h"
 #include "pointfront/Build/PartPool.h"
 #include "pointfront/Build/PointIngest.h"
 #include "pointfront/Build/ReferenceSystem.h"
+#include "pointfront/Build/SubtreeBuilder.h"
+#include "pointfront/Build/TreeAssembly.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,6 +22,7 @@ namespace pointfront
 namespace
 {
 using Sources = std::vector<std::unique_ptr<PointSource>>;
+using Trees = std::vector<std::unique_ptr<BuiltNode>>; // of each layer
 
 // Shares of the whole, for the progress fraction; measured on LAS and LAZ.
 constexpr double readShare = 0.35;
@@ -97,8 +99,8 @@ private:
   Result<void> assemble();
   Error tooLarge() const;
   AttributeSchema storedSchema(std::optional<ColourWidening>& widening) const;
-  Result<void> commit(StoreWriter& writer, const BuiltNode* root);
-  Result<void> checkCounts(const BuiltNode* root) const;
+  Result<void> commit(StoreWriter& writer, const Trees& trees);
+  Result<void> checkCounts(const Trees& trees) const;
 
   const Sources& sources_;
   const BuildOptions& options_;
@@ -117,6 +119,16 @@ private:
   std::unique_ptr<PartPool> parts_;
   AttributeSchema stored_;
 };
+
+std::uint64_t pointsIn(const Trees& trees)
+{
+  std::uint64_t points = 0;
+  for (const auto& root : trees)
+  {
+    points += root->row.pointsBelow;
+  }
+  return points;
+}
 
 void append(std::vector<std::string>& all, const std::vector<std::string>& more)
 {
@@ -287,26 +299,32 @@ Result<void> OctreeBuild::assemble()
   const NodeEmitter emitter(space_, common_.schema, stored_);
   SamplingRule rule;
   rule.nodePoints = options_.nodePoints;
-  OctreeAssembly assembly(*parts_, emitter, rule, recordBytes_, **writer, *crew_);
-  auto root = assembly.run();
+  AssemblyPlan plan;
+  plan.tree = parts_->partition().tree();
+  plan.load = [this](std::uint32_t part) { return parts_->load(part); };
+  plan.builder = [&] {
+    return std::make_unique<SubtreeBuilder>(emitter, rule, recordBytes_, parts_->partition());
+  };
+  TreeAssembly assembly(std::move(plan), **writer, *crew_);
+  auto trees = assembly.run();
   report_.phaseSeconds["sort"] = assembly.seconds().sort;
   report_.phaseSeconds["sample"] = assembly.seconds().sample;
   report_.phaseSeconds["encode"] = assembly.seconds().encode;
   report_.phaseSeconds["write"] = assembly.writeSeconds();
-  if (!root)
+  if (!trees)
   {
-    return root.error();
+    return trees.error();
   }
-  if (Result<void> done = checkCounts(root->get()); !done)
+  if (Result<void> done = checkCounts(*trees); !done)
   {
     return done;
   }
-  return commit(**writer, root->get());
+  return commit(**writer, *trees);
 }
 
-Result<void> OctreeBuild::checkCounts(const BuiltNode* root) const
+Result<void> OctreeBuild::checkCounts(const Trees& trees) const
 {
-  const std::uint64_t stored = root ? root->row.pointsBelow : 0;
+  const std::uint64_t stored = pointsIn(trees);
   std::uint64_t rejected = 0;
   for (const auto& [reason, count] : report_.pointsRejected)
   {
@@ -322,9 +340,9 @@ Result<void> OctreeBuild::checkCounts(const BuiltNode* root) const
   return {};
 }
 
-Result<void> OctreeBuild::commit(StoreWriter& writer, const BuiltNode* root)
+Result<void> OctreeBuild::commit(StoreWriter& writer, const Trees& trees)
 {
-  const NodeTable table = nodeTable(root);
+  const NodeTable table = nodeTable(trees);
   StoreDescription description;
   description.grid = space_.grid;
   description.crsWkt = reference_.wkt;
@@ -335,8 +353,8 @@ Result<void> OctreeBuild::commit(StoreWriter& writer, const BuiltNode* root)
   description.metadata = reference_.metadata;
   description.generator = "pointfront " POINTFRONT_VERSION;
   description.layers.push_back(
-    {0, "all", root ? root->row.pointsBelow : 0, static_cast<std::uint32_t>(table.nodes.size())});
-  description.pointCount = root ? root->row.pointsBelow : 0;
+    {0, "all", pointsIn(trees), static_cast<std::uint32_t>(table.nodes.size())});
+  description.pointCount = pointsIn(trees);
   if (Result<void> stop = crew_->outcome(); !stop)
   {
     return stop; // cancelled after the last point, before the store is there

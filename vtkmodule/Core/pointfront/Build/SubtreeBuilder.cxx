@@ -25,7 +25,8 @@ std::vector<std::byte> gathered(const RecordView& records, const std::vector<std
 }
 } // namespace
 
-OpenSubtree SubtreeBuilder::build(std::vector<std::byte> records, std::size_t count)
+OpenSubtree SubtreeBuilder::build(
+  std::vector<std::byte> records, std::size_t count, std::uint32_t /*node*/)
 {
   if (count == 0)
   {
@@ -155,7 +156,7 @@ OpenSubtree SubtreeBuilder::opened(const RecordView& records, Branch branch) con
   return {std::move(branch.node), gathered(records, branch.held)};
 }
 
-OpenSubtree SubtreeBuilder::join(std::vector<OpenSubtree> children, unsigned log2Side)
+OpenSubtree SubtreeBuilder::join(std::vector<OpenSubtree> children, std::uint32_t node)
 {
   std::vector<std::byte> records;
   std::vector<Branch> branches;
@@ -171,7 +172,8 @@ OpenSubtree SubtreeBuilder::join(std::vector<OpenSubtree> children, unsigned log
     child.records = {};
   }
   const RecordView view{records.data(), recordBytes_};
-  return opened(view, joinBranches(view, std::move(branches), log2Side));
+  return opened(
+    view, joinBranches(view, std::move(branches), partition_.nodes()[node].cell.log2Side));
 }
 
 std::unique_ptr<BuiltNode> SubtreeBuilder::close(OpenSubtree subtree)

@@ -1,40 +1,21 @@
 #pragma once
 
-#include "pointfront/Build/BuiltTree.h"
 #include "pointfront/Build/NodeEmitter.h"
+#include "pointfront/Build/Partition.h"
 #include "pointfront/Build/Sampler.h"
+#include "pointfront/Build/TreeBuilder.h"
 
 #include <cstdint>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace pointfront
 {
 
-/// Encoded nodes of one task, in the order in which they belong into the file.
-struct EmittedNode
-{
-  BuiltNode* node = nullptr; ///< where the payload's id goes
-  EncodedNode payload;
-};
-
-/// A subtree whose root still waits for its parent: the points that the root holds are the parent's
-/// candidates, and only what the parent leaves is the root's own.
-struct OpenSubtree
-{
-  std::unique_ptr<BuiltNode> root; ///< null for an empty set of points
-  std::vector<std::byte> records;  ///< held by the root, packed, in Morton order
-};
-
-/// CPU seconds by phase of one task.
-struct SubtreeSeconds
-{
-  double sort = 0.0;
-  double sample = 0.0;
-  double encode = 0.0;
-};
-
-/// The octree over some points, from the leaves up.
+/// The octree over some points with `add` refinement, from the leaves up. What an open subtree
+/// holds are the points of its root, in Morton order: they are its parent's candidates, and only
+/// what the parent leaves is the root's own.
 /// Shape     A cell is the smallest of the octree that holds all its points, so each inner cell
 ///           has two to eight children (Richter & Doellner 2010, section 3.1). It is a leaf if and
 ///           only if all points in it are at most nodePoints. Equal points are split by
@@ -48,26 +29,20 @@ struct SubtreeSeconds
 ///           parent only: not on where the cloud was cut into parts, nor on their order.
 /// Order     join() emits the children: siblings are neighbours in the file, below them all
 ///           that they contain. A subtree's root is emitted by its parent or by close().
-/// Threads   one instance a task.
-class SubtreeBuilder
+class SubtreeBuilder final : public TreeBuilder
 {
 public:
-  /// `sampler` is the thread's own, reused from task to task.
   SubtreeBuilder(const NodeEmitter& emitter, const SamplingRule& rule, std::size_t recordBytes,
-    SubsetSampler& sampler)
-      : emitter_(emitter), rule_(rule), recordBytes_(recordBytes), sampler_(sampler)
+    const Partition& partition)
+      : emitter_(emitter), rule_(rule), recordBytes_(recordBytes), partition_(partition)
   {
   }
 
-  /// Builds over `count` records in input order, all inside one cell of the partition.
-  OpenSubtree build(std::vector<std::byte> records, std::size_t count);
-  /// Joins the subtrees of a node above them, in the order of their octants.
-  OpenSubtree join(std::vector<OpenSubtree> children, unsigned log2Side);
-  /// Emits the root itself: it has no parent.
-  std::unique_ptr<BuiltNode> close(OpenSubtree subtree);
-
-  std::vector<EmittedNode> takeEmitted() { return std::move(emitted_); }
-  const SubtreeSeconds& seconds() const { return seconds_; }
+  OpenSubtree build(std::vector<std::byte> records, std::size_t count, std::uint32_t node) override;
+  OpenSubtree join(std::vector<OpenSubtree> children, std::uint32_t node) override;
+  std::unique_ptr<BuiltNode> close(OpenSubtree subtree) override;
+  std::vector<EmittedNode> takeEmitted() override { return std::exchange(emitted_, {}); }
+  const SubtreeSeconds& seconds() const override { return seconds_; }
 
 private:
   struct Branch
@@ -86,7 +61,8 @@ private:
   const NodeEmitter& emitter_;
   SamplingRule rule_;
   std::size_t recordBytes_;
-  SubsetSampler& sampler_;
+  const Partition& partition_;
+  SubsetSampler sampler_;
   std::vector<EmittedNode> emitted_;
   SubtreeSeconds seconds_;
 };

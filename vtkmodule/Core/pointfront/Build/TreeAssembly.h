@@ -2,14 +2,15 @@
 
 #include "pointfront/Base/Result.h"
 #include "pointfront/Build/BuiltTree.h"
-#include "pointfront/Build/NodeEmitter.h"
-#include "pointfront/Build/PartPool.h"
-#include "pointfront/Build/SubtreeBuilder.h"
+#include "pointfront/Build/PartTree.h"
+#include "pointfront/Build/TreeBuilder.h"
 #include "pointfront/Build/WorkCrew.h"
 #include "pointfront/Store/StoreWriter.h"
 
 #include <condition_variable>
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -18,33 +19,38 @@
 namespace pointfront
 {
 
+/// Where the parts are and what makes nodes of them.
+struct AssemblyPlan
+{
+  std::vector<PartNode> tree;
+  /// The records of a part; from any thread.
+  std::function<Result<std::vector<std::byte>>(std::uint32_t part)> load;
+  std::function<std::unique_ptr<TreeBuilder>()> builder; ///< one for each thread
+};
+
 /// Builds all parts on the crew's threads, joins them upwards as soon as all children of a node
 /// are there, and writes the nodes in the one order that does not depend on threads or cuts.
 /// Memory   a part is begun only while few are finished ahead of the file's turn; what the roots
 ///          of finished parts hold is at most some nodes' worth for each level of the partition.
-class OctreeAssembly
+class TreeAssembly
 {
 public:
-  OctreeAssembly(const PartPool& parts, const NodeEmitter& emitter, const SamplingRule& rule,
-    std::size_t recordBytes, StoreWriter& writer, WorkCrew& crew);
+  TreeAssembly(AssemblyPlan plan, StoreWriter& writer, WorkCrew& crew);
 
-  /// The finished tree with its payloads written; null for no points.
-  Result<std::unique_ptr<BuiltNode>> run();
+  /// The finished trees, one for each layer, with their payloads written.
+  Result<std::vector<std::unique_ptr<BuiltNode>>> run();
   const SubtreeSeconds& seconds() const { return seconds_; }
   double writeSeconds() const { return writeSeconds_; }
 
 private:
   Result<void> work();
   bool takePart(std::uint32_t& node);
-  Result<void> buildPart(std::uint32_t node, SubsetSampler& sampler);
-  OpenSubtree joinChildren(std::uint32_t node, SubtreeBuilder& builder);
+  Result<void> buildPart(std::uint32_t node, TreeBuilder& builder);
+  OpenSubtree joinChildren(std::uint32_t node, TreeBuilder& builder);
   Result<void> writeInTurn();
-  void addSeconds(const SubtreeBuilder& builder);
+  void addSeconds(const TreeBuilder& builder);
 
-  const PartPool& parts_;
-  const NodeEmitter& emitter_;
-  SamplingRule rule_;
-  std::size_t recordBytes_;
+  AssemblyPlan plan_;
   StoreWriter& writer_;
   WorkCrew& crew_;
   std::vector<std::uint32_t> order_;     // partition nodes in the order of the file
@@ -59,7 +65,7 @@ private:
   std::vector<OpenSubtree> open_;     // of each partition node
   std::vector<std::uint8_t> missing_; // children not finished, of each partition node
   std::map<std::uint32_t, std::vector<EmittedNode>> waiting_; // by rank
-  std::unique_ptr<BuiltNode> root_;
+  std::vector<std::unique_ptr<BuiltNode>> roots_;             // of each layer
   SubtreeSeconds seconds_;
   double writeSeconds_ = 0.0;
 };

@@ -1,7 +1,8 @@
-#include "pointfront/Build/OctreeAssembly.h"
+#include "pointfront/Build/TreeAssembly.h"
 
 #include "pointfront/Build/CpuClock.h"
 
+#include <algorithm>
 #include <chrono>
 
 namespace pointfront
@@ -13,50 +14,50 @@ constexpr std::uint32_t aheadPerThread = 3;
 constexpr auto wakeInterval = std::chrono::milliseconds(50); // an Error elsewhere ends a wait
 } // namespace
 
-OctreeAssembly::OctreeAssembly(const PartPool& parts, const NodeEmitter& emitter,
-  const SamplingRule& rule, std::size_t recordBytes, StoreWriter& writer, WorkCrew& crew)
-    : parts_(parts), emitter_(emitter), rule_(rule), recordBytes_(recordBytes), writer_(writer),
-      crew_(crew), order_(parts.partition().postOrder()), rank_(order_.size()), open_(order_.size())
+TreeAssembly::TreeAssembly(AssemblyPlan plan, StoreWriter& writer, WorkCrew& crew)
+    : plan_(std::move(plan)), writer_(writer), crew_(crew), order_(postOrder(plan_.tree)),
+      rank_(order_.size()), open_(order_.size())
 {
-  const std::vector<Partition::Node>& nodes = parts.partition().nodes();
   for (std::uint32_t i = 0; i < order_.size(); ++i)
   {
     rank_[order_[i]] = i;
-    if (nodes[order_[i]].part != Partition::none)
+    if (plan_.tree[order_[i]].part != PartNode::none)
     {
       partNodes_.push_back(order_[i]);
     }
   }
-  for (const Partition::Node& node : nodes)
+  for (const PartNode& node : plan_.tree)
   {
     missing_.push_back(static_cast<std::uint8_t>(node.children.size()));
+    roots_.resize(std::max<std::size_t>(roots_.size(), node.layer + 1u));
   }
 }
 
-Result<std::unique_ptr<BuiltNode>> OctreeAssembly::run()
+Result<std::vector<std::unique_ptr<BuiltNode>>> TreeAssembly::run()
 {
   if (Result<void> done = crew_.run([this] { return work(); }); !done)
   {
     return done.error();
   }
-  return std::move(root_);
+  return std::move(roots_);
 }
 
-Result<void> OctreeAssembly::work()
+Result<void> TreeAssembly::work()
 {
-  SubsetSampler sampler;
+  const std::unique_ptr<TreeBuilder> builder = plan_.builder();
   std::uint32_t node = 0;
   while (takePart(node))
   {
-    if (Result<void> done = buildPart(node, sampler); !done)
+    if (Result<void> done = buildPart(node, *builder); !done)
     {
       return done;
     }
   }
+  addSeconds(*builder);
   return {};
 }
 
-bool OctreeAssembly::takePart(std::uint32_t& node)
+bool TreeAssembly::takePart(std::uint32_t& node)
 {
   std::unique_lock<std::mutex> lock(mutex_);
   while (!crew_.stopped() && nextPart_ < partNodes_.size())
@@ -71,35 +72,34 @@ bool OctreeAssembly::takePart(std::uint32_t& node)
   return false;
 }
 
-Result<void> OctreeAssembly::buildPart(std::uint32_t node, SubsetSampler& sampler)
+Result<void> TreeAssembly::buildPart(std::uint32_t node, TreeBuilder& builder)
 {
-  const Partition::Node& part = parts_.partition().nodes()[node];
-  Result<std::vector<std::byte>> records = parts_.load(part.part);
+  const PartNode& part = plan_.tree[node];
+  Result<std::vector<std::byte>> records = plan_.load(part.part);
   if (!records)
   {
     return records.error();
   }
-  SubtreeBuilder builder(emitter_, rule_, recordBytes_, sampler);
-  OpenSubtree subtree = builder.build(std::move(*records), part.count);
+  OpenSubtree subtree = builder.build(std::move(*records), part.count, node);
   for (;;)
   {
-    const std::uint32_t parent = parts_.partition().nodes()[node].parent;
+    const std::uint32_t parent = plan_.tree[node].parent;
     std::unique_ptr<BuiltNode> root;
-    if (parent == Partition::none)
+    if (parent == PartNode::none)
     {
       root = builder.close(std::move(subtree));
     }
     std::unique_lock<std::mutex> lock(mutex_);
     waiting_[rank_[node]] = builder.takeEmitted();
-    if (parent == Partition::none)
+    if (parent == PartNode::none)
     {
-      root_ = std::move(root);
+      roots_[part.layer] = std::move(root);
     }
     else
     {
       open_[node] = std::move(subtree);
     }
-    const bool last = parent != Partition::none && --missing_[parent] == 0;
+    const bool last = parent != PartNode::none && --missing_[parent] == 0;
     lock.unlock();
     if (Result<void> done = writeInTurn(); !done)
     {
@@ -112,26 +112,24 @@ Result<void> OctreeAssembly::buildPart(std::uint32_t node, SubsetSampler& sample
     subtree = joinChildren(parent, builder); // whoever finishes the last child joins them
     node = parent;
   }
-  addSeconds(builder);
   crew_.advance(part.count);
   return {};
 }
 
-OpenSubtree OctreeAssembly::joinChildren(std::uint32_t node, SubtreeBuilder& builder)
+OpenSubtree TreeAssembly::joinChildren(std::uint32_t node, TreeBuilder& builder)
 {
-  const Partition::Node& joined = parts_.partition().nodes()[node];
   std::vector<OpenSubtree> children;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    for (const std::uint32_t child : joined.children)
+    for (const std::uint32_t child : plan_.tree[node].children)
     {
       children.push_back(std::move(open_[child]));
     }
   }
-  return builder.join(std::move(children), joined.cell.log2Side);
+  return builder.join(std::move(children), node);
 }
 
-Result<void> OctreeAssembly::writeInTurn()
+Result<void> TreeAssembly::writeInTurn()
 {
   std::unique_lock<std::mutex> lock(mutex_);
   if (writing_)
@@ -166,7 +164,7 @@ Result<void> OctreeAssembly::writeInTurn()
   return {};
 }
 
-void OctreeAssembly::addSeconds(const SubtreeBuilder& builder)
+void TreeAssembly::addSeconds(const TreeBuilder& builder)
 {
   const std::lock_guard<std::mutex> lock(mutex_);
   seconds_.sort += builder.seconds().sort;

@@ -21,12 +21,18 @@ nlohmann::ordered_json percentilesJson(const std::vector<double>& values)
   return { { "p50", p.p50 }, { "p95", p.p95 }, { "p99", p.p99 }, { "max", p.max } };
 }
 
-Result<std::vector<FrameRecord>> replay(StoreScene& scene, const CameraPath& path)
+/// `interactive`: frames whose camera moved are drawn as in motion, others as at rest; the first is
+/// in motion if the second is.
+Result<std::vector<FrameRecord>> replay(
+  StoreScene& scene, const CameraPath& path, bool interactive)
 {
   std::vector<FrameRecord> frames;
   frames.reserve(path.size());
-  for (const Camera& camera : path)
+  for (std::size_t i = 0; i < path.size(); ++i)
   {
+    const Camera& camera = path[i];
+    const Camera& other = i > 0 ? path[i - 1] : path[std::min<std::size_t>(1, path.size() - 1)];
+    scene.setInteractive(interactive && !(camera == other));
     scene.setCamera(camera);
     const Result<FrameRecord> frame = scene.renderFrame();
     if (!frame)
@@ -49,7 +55,7 @@ void BenchCommand::declare(CLI::App& program)
     ->check(CLI::Range(1, 1000000))
     ->type_name("N");
   app_->add_flag("--interactive", interactive_,
-    "As in motion: the fronts hold VTK's frame time for a moving view");
+    "While the camera moves the fronts hold VTK's frame time for a moving view");
   app_->add_option("--stats", statisticsPath_, "Write the result as JSON")
     ->required()
     ->type_name("FILE.json");
@@ -97,8 +103,8 @@ Result<void> BenchCommand::run()
   {
     return cameras.error();
   }
-  (*scene)->setInteractive(interactive_);
-  const Result<std::vector<FrameRecord>> frames = replay(**scene, cameras.value());
+  const Result<std::vector<FrameRecord>> frames =
+    replay(**scene, cameras.value(), interactive_);
   if (!frames)
   {
     return frames.error();

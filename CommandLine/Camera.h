@@ -24,6 +24,13 @@ struct Camera
   glm::dvec3 direction() const; ///< unit, away from the eye
 };
 
+/// The same picture, bit for bit.
+inline bool operator==(const Camera& a, const Camera& b)
+{
+  return a.position == b.position && a.focalPoint == b.focalPoint && a.viewUp == b.viewUp &&
+    a.viewAngleDegrees == b.viewAngleDegrees && a.parallelScale == b.parallelScale;
+}
+
 /// From where `--view` looks.
 enum class NamedView
 {

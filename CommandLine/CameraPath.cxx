@@ -24,6 +24,10 @@ double shareOf(int frame, int frames)
 
 Camera between(const Camera& a, const Camera& b, double share)
 {
+  if (a == b)
+  {
+    return a; // a rest is one to the last bit
+  }
   Camera camera;
   camera.position = glm::mix(a.position, b.position, share);
   camera.focalPoint = glm::mix(a.focalPoint, b.focalPoint, share);

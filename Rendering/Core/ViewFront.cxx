@@ -205,11 +205,6 @@ void ViewFront::complete(const FrameDemand& demand)
   delta_.complete = true;
 }
 
-void ViewFront::recordFrameMs(double milliseconds)
-{
-  cost_.record(delta_.pointsDrawn, delta_.moves, milliseconds);
-}
-
 bool ViewFront::wantsUpdate() const
 {
   return !begun_ || share_.residency().arrivals() != arrivalsSeen_ ||

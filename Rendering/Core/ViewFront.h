@@ -49,8 +49,11 @@ public:
   /// The node's points, or null.
   std::shared_ptr<const NodeColumns> find(NodeIndex storeNode) const;
 
-  /// What the frame that update() prepared cost this cloud (CPU + GPU).
-  void recordFrameMs(double milliseconds);
+  /// What an earlier frame cost this cloud (CPU + GPU), and what was in it.
+  void recordFrame(std::uint64_t points, std::uint32_t moves, double milliseconds)
+  {
+    cost_.record(points, moves, milliseconds);
+  }
 
   /// True if something arrived since the last update, or that update itself left moves for the
   /// next.

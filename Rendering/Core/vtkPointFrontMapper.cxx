@@ -333,12 +333,14 @@ void vtkPointFrontMapper::FinishFrame(
   this->LastComplete = view.Complete;
 }
 
-void vtkPointFrontMapper::RecordFrameTime(vtkRenderer* renderer, double milliseconds)
+void vtkPointFrontMapper::RecordFrame(
+  vtkRenderer* renderer, vtkIdType points, vtkIdType moves, double milliseconds)
 {
-  RendererView& view = this->Internals->ViewOf(renderer);
-  if (view.Front)
+  const auto view = this->Internals->Views.find(renderer);
+  if (view != this->Internals->Views.end() && view->second.Front)
   {
-    view.Front->recordFrameMs(milliseconds);
+    view->second.Front->recordFrame(static_cast<std::uint64_t>(points),
+      static_cast<std::uint32_t>(moves), milliseconds);
   }
 }
 

@@ -167,8 +167,9 @@ protected:
   /// on the GPU yet.
   void FinishFrame(
     vtkRenderer* renderer, vtkIdType points, vtkTypeInt64 gpuBytes, bool uploadsLeft);
-  /// What the last frame of that renderer cost, CPU and GPU, when that is known.
-  void RecordFrameTime(vtkRenderer* renderer, double milliseconds);
+  /// What an earlier frame of that renderer drew and cost, CPU and GPU, as soon as that is known.
+  void RecordFrame(
+    vtkRenderer* renderer, vtkIdType points, vtkIdType moves, double milliseconds);
   static bool IsInteracting(vtkRenderer* renderer);
   /// Renderers that this mapper draws in.
   std::uint32_t GetNumberOfViews() const;

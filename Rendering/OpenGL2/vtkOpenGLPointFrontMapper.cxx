@@ -33,11 +33,17 @@ namespace
 
 using Clock = std::chrono::steady_clock;
 
-/// GPU time of the last frame of one renderer, read when it is there: never waited for.
+/// GPU time of the last frame of one renderer, read when it is there: never waited for. With it
+/// what that frame held.
 struct FrameTimer
 {
   vtkOpenGLRenderTimer Gpu;
   double CpuMs = 0.0;
+  vtkIdType Points = 0;
+  vtkIdType Moves = 0;
+
+  bool Known() { return this->Gpu.Started() && this->Gpu.Stopped() && this->Gpu.Ready(); }
+  double Milliseconds() { return this->CpuMs + this->Gpu.GetElapsedMilliseconds(); }
 };
 
 } // namespace
@@ -149,6 +155,36 @@ vtkOpenGLPointFrontMapper::vtkOpenGLPointFrontMapper() : Internals(new Content) 
 
 vtkOpenGLPointFrontMapper::~vtkOpenGLPointFrontMapper() = default;
 
+/// The pool's objects belong to one context.
+void vtkOpenGLPointFrontMapper::EnterContext(vtkOpenGLRenderWindow* window)
+{
+  Content& content = *this->Internals;
+  if (content.Window == window)
+  {
+    return;
+  }
+  if (content.Window) // another context: its objects are nothing to this one
+  {
+    vtkOpenGLRenderWindow::SafeDownCast(content.Window)->MakeCurrent();
+    this->ReleaseGraphicsResources(content.Window);
+    window->MakeCurrent();
+  }
+  content.Window = window;
+}
+
+/// Tells the front what its last frame cost, once.
+void vtkOpenGLPointFrontMapper::ReadTimer(vtkRenderer* renderer)
+{
+  const auto timer = this->Internals->Timers.find(renderer);
+  if (timer != this->Internals->Timers.end() && timer->second.Known())
+  {
+    const double milliseconds = timer->second.Milliseconds();
+    this->TimeToDraw = 1e-3 * milliseconds;
+    this->RecordFrame(renderer, timer->second.Points, timer->second.Moves, milliseconds);
+    timer->second.Gpu.Reset();
+  }
+}
+
 void vtkOpenGLPointFrontMapper::RenderPiece(vtkRenderer* renderer, vtkActor* actor)
 {
   auto* window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
@@ -164,21 +200,13 @@ void vtkOpenGLPointFrontMapper::RenderPiece(vtkRenderer* renderer, vtkActor* act
   this->InvokeEvent(vtkCommand::EndEvent, nullptr);
 
   Content& content = *this->Internals;
+  this->EnterContext(window);
   const auto begin = Clock::now();
+  this->ReadTimer(renderer);
   pointfront::ViewFront* front = this->PrepareFrame(renderer, actor);
   if (!front)
   {
     return;
-  }
-  if (content.Window != window)
-  {
-    if (content.Window) // another context: its objects are nothing to this one
-    {
-      vtkOpenGLRenderWindow::SafeDownCast(content.Window)->MakeCurrent();
-      this->ReleaseGraphicsResources(content.Window);
-      window->MakeCurrent();
-    }
-    content.Window = window;
   }
   content.SetStore(this->GetStore());
   const pointfront::StoreDescription& description = content.Store->GetStore()->description();
@@ -222,26 +250,27 @@ void vtkOpenGLPointFrontMapper::RenderPiece(vtkRenderer* renderer, vtkActor* act
     drawing.table = &content.Table;
   }
   FrameTimer& timer = content.Timers[renderer];
-  if (first && timer.Gpu.Started() && timer.Gpu.Stopped() && timer.Gpu.Ready())
-  {
-    this->TimeToDraw = 1e-3 * (timer.CpuMs + timer.Gpu.GetElapsedMilliseconds());
-    this->RecordFrameTime(renderer, 1e3 * this->TimeToDraw);
-  }
+  // A time that is still on its way is waited for by leaving later frames untimed.
+  const bool timed = first && points > 0 && !timer.Gpu.Started();
   if (points > 0)
   {
     content.Records.upload(window);
-    if (first)
+    if (timed)
     {
-      timer.Gpu.Reset();
       timer.Gpu.Start();
     }
     content.Pass->Draw(renderer, actor, drawing);
-    if (first)
+    if (timed)
     {
       timer.Gpu.Stop();
     }
   }
-  timer.CpuMs = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+  if (timed)
+  {
+    timer.CpuMs = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+    timer.Points = points;
+    timer.Moves = this->LastMoves;
+  }
   if (first)
   {
     this->FinishFrame(renderer, points, content.Pool.bytes(), uploadsLeft);

@@ -16,6 +16,8 @@
 
 #include <memory> // for the pool
 
+class vtkOpenGLRenderWindow;
+
 class POINTFRONTRENDERINGOPENGL2_EXPORT vtkOpenGLPointFrontMapper : public vtkPointFrontMapper
 {
 public:
@@ -37,6 +39,9 @@ protected:
 private:
   vtkOpenGLPointFrontMapper(const vtkOpenGLPointFrontMapper&) = delete;
   void operator=(const vtkOpenGLPointFrontMapper&) = delete;
+
+  void EnterContext(vtkOpenGLRenderWindow* window);
+  void ReadTimer(vtkRenderer* renderer);
 
   struct Content;
   std::unique_ptr<Content> Internals;

@@ -21,6 +21,10 @@ constexpr double priorWeight = 0.3;
 constexpr double outlierScale = 3.0;
 /// Frames before outliers can be told.
 constexpr std::uint64_t learningFrames = 3;
+/// Moves are never taken for more than that share of a frame.
+constexpr double mostMoveShare = 0.5;
+/// Frames that are as near to the target as that, relatively, leave the points as they are.
+constexpr double nearTarget = 0.1;
 
 glm::dvec3 features(std::uint64_t points, std::uint32_t moves)
 {
@@ -77,6 +81,15 @@ void FrameCostModel::record(std::uint64_t points, std::uint32_t moves, double mi
   {
     scaleMs_ = frames_ == 0 ? residual : std::min(scaleMs_, residual);
   }
+  const double ownMs = milliseconds -
+    std::min(costs_[1] * double(moves) / moveUnit, mostMoveShare * milliseconds);
+  const double perPoint = ownMs / std::max(1.0, double(points));
+  recentPerPoint_[frames_ % recentPerPoint_.size()] = perPoint;
+  if (frames_ == 0)
+  {
+    recentPerPoint_.fill(perPoint);
+  }
+  lastPoints_ = double(points);
   ++frames_;
 
   const glm::dvec3 x = features(points, moves);
@@ -115,18 +128,46 @@ double FrameCostModel::predictMs(std::uint64_t points, std::uint32_t moves) cons
   return glm::dot(features(points, moves), glm::dvec3(costs_[0], costs_[1], costs_[2]));
 }
 
+double FrameCostModel::recentPerPoint() const
+{
+  const auto [a, b, c] = recentPerPoint_;
+  return std::max(std::min(a, b), std::min(std::max(a, b), c)); // the median
+}
+
 std::uint64_t FrameCostModel::pointsFor(double targetMs, std::uint64_t floorPoints) const
 {
   // Where points cost nothing that can be measured, a hundred times the prior is promised.
-  const double perPoint = std::max(costs_[0], 0.01 * prior_[0]) / pointUnit;
-  const double points = (targetMs - costs_[2]) / perPoint;
+  const double fittedPerPoint = std::max(costs_[0], 0.01 * prior_[0]) / pointUnit;
+  double points = (targetMs - costs_[2]) / fittedPerPoint;
+  if (frames_ > 0)
+  {
+    const double proportional = targetMs / recentPerPoint();
+    const double scale = proportional / std::max(1.0, lastPoints_);
+    points = scale >= 1.0
+      ? proportional
+      : std::clamp(points, proportional * std::sqrt(scale), proportional);
+    if (std::abs(scale - 1.0) < nearTarget)
+    {
+      points = lastPoints_;
+    }
+    else if (std::abs(std::log2(scale)) < 1.0)
+    {
+      points = std::sqrt(points * lastPoints_); // half the way
+    }
+  }
   return std::max(floorPoints, static_cast<std::uint64_t>(std::max(points, 0.0)));
 }
 
 std::uint32_t FrameCostModel::movesFor(double targetMs, std::uint64_t points) const
 {
   const double perMove = std::max(costs_[1], 1e-3 * prior_[1]) / moveUnit;
-  const double moves = (targetMs - predictMs(points, 0)) / perMove;
+  double pointsMs = predictMs(points, 0);
+  if (frames_ > 0)
+  {
+    // What the fit still holds of a slower time must not stop the front.
+    pointsMs = std::min(pointsMs, 2.0 * recentPerPoint() * double(points));
+  }
+  const double moves = (targetMs - pointsMs) / perMove;
   return static_cast<std::uint32_t>(std::clamp(moves, 8.0, 4096.0));
 }
 

@@ -15,14 +15,14 @@ namespace pointfront
 ///          program) counts with a weight that shrinks with its distance (Huber 1964). If frames go
 ///          on being different, the scale of what is far grows and the model follows within some
 ///          ten frames.
-/// Control  the fit alone is no good guide away from the frames it saw: while a camera hardly moves,
-///          points and moves do not vary, a and c cannot be told apart, and a few spare
+/// Control  the fit alone is no good guide away from the frames it saw: while a camera hardly
+///          moves, points and moves do not vary, a and c cannot be told apart, and a few spare
 ///          milliseconds would promise twice the points. So answers go from the median time a
 ///          point of the last three frames. With time to spare they grow in proportion: c >= 0, so
 ///          more could be afforded, never less. When a frame was too long the fit says how much
 ///          of it c is, within bounds. Half the way is gone, unless the frame was off by more than
-///          a factor of two; within a tenth of the target nothing changes: detail does not flicker
-///          with the noise of a clock.
+///          a factor of two; within a tenth of the target nothing changes: detail does not
+///          flicker with the noise of a clock.
 /// Threads  one instance, one thread.
 class FrameCostModel
 {

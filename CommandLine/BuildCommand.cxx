@@ -61,7 +61,10 @@ void BuildCommand::declare(CLI::App& program)
 
 Result<PointSources> BuildCommand::openSources() const
 {
-  const SourceFormats formats;
+  SourceOptions options;
+  options.survey.threads = options_.threads;
+  options.survey.cancelled = [] { return CancelSignal::requested(); };
+  const SourceFormats formats(options);
   Result<InputFileList> files = findInputFiles(inputs_, formats.extensions());
   if (!files)
   {

@@ -1,6 +1,7 @@
 #include "SourceFormats.h"
 
 #include "LASFormat.h"
+#include "PLYFormat.h"
 
 #include <algorithm>
 #include <cctype>
@@ -9,9 +10,10 @@
 namespace pointfront
 {
 
-SourceFormats::SourceFormats()
+SourceFormats::SourceFormats(const SourceOptions& options)
 {
   formats_.push_back(std::make_unique<LASFormat>());
+  formats_.push_back(std::make_unique<PLYFormat>(options.survey));
 }
 
 std::vector<std::string> SourceFormats::extensions() const

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "pointfront/Points/PointSource.h"
+#include "pointfront/Table/ParallelChunks.h"
 
 #include <memory>
 #include <string>
@@ -9,13 +10,19 @@
 namespace pointfront
 {
 
+/// What the user says about how point files are opened.
+struct SourceOptions
+{
+  SurveyOptions survey; ///< of files that are looked through when they are opened
+};
+
 /// The families of point files that this program reads. IO modules do not know each other: they
 /// are put together here, and asked in turn.
 class SourceFormats
 {
 public:
   /// All that this build carries.
-  SourceFormats();
+  explicit SourceFormats(const SourceOptions& options = {});
 
   /// Lower case, without the dot.
   std::vector<std::string> extensions() const;

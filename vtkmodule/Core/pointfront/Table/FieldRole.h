@@ -1,0 +1,33 @@
+#pragma once
+
+#include "pointfront/Points/ScalarType.h"
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace pointfront
+{
+
+/// What a field of that name is of a point. The one place that knows how others call things.
+/// Spelling   case, blanks, '_' and '-' do not matter; a leading "scalar_" (CloudCompare) is
+///            dropped. "Intensity", "scalar_Intensity" and "i" are the attribute "intensity";
+///            "red", "R" and "diffuse_red" are component 0 of "rgb"; "nx", "normal_x" of "normal".
+struct FieldRole
+{
+  enum class Kind
+  {
+    Position,  ///< component 0, 1, 2: x, y, z
+    Vector,    ///< a component of `attribute`, which exists only if all three are there
+    Attribute, ///< `attribute`
+    Padding    ///< "_" and "-": bytes without a meaning
+  };
+  Kind kind = Kind::Attribute;
+  std::string attribute;
+  unsigned component = 0;
+  std::optional<ScalarType> type = {}; ///< the type of a well-known attribute
+};
+
+FieldRole roleOf(std::string_view name);
+
+} // namespace pointfront

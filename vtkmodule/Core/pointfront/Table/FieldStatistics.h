@@ -1,0 +1,49 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace pointfront
+{
+
+/// What the values of one field have in common. NaN and infinities count for `finite` only.
+struct FieldStatistics
+{
+  double low = std::numeric_limits<double>::infinity();
+  double high = -std::numeric_limits<double>::infinity();
+  bool finite = true;      ///< neither NaN nor infinity among them
+  bool whole = true;       ///< every one is an integer
+  double off255 = 0.0;     ///< farthest that a value * 255 is from an integer (colours as fractions)
+  int decimals = 0;        ///< text: most places after the point, trailing zeros left out
+  int digits = 0;          ///< text: most significant digits
+  bool pointSeen = false;  ///< text: a decimal point or an exponent is written somewhere
+
+  bool empty() const { return low > high; }
+  void add(double value)
+  {
+    if (!std::isfinite(value))
+    {
+      finite = false;
+      return;
+    }
+    low = std::min(low, value);
+    high = std::max(high, value);
+    whole = whole && value == std::trunc(value);
+    const double scaled = value * 255.0;
+    off255 = std::max(off255, std::abs(scaled - std::nearbyint(scaled)));
+  }
+  void add(const FieldStatistics& other)
+  {
+    low = std::min(low, other.low);
+    high = std::max(high, other.high);
+    finite = finite && other.finite;
+    whole = whole && other.whole;
+    off255 = std::max(off255, other.off255);
+    decimals = std::max(decimals, other.decimals);
+    digits = std::max(digits, other.digits);
+    pointSeen = pointSeen || other.pointSeen;
+  }
+};
+
+} // namespace pointfront

@@ -1,0 +1,63 @@
+#pragma once
+
+#include "pointfront/Base/Result.h"
+#include "pointfront/Points/ScalarType.h"
+#include "pointfront/Table/FieldStatistics.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pointfront
+{
+
+/// One number that every row of a foreign file has.
+/// Name   as the file gives it; "name[k]" is component k of an array field.
+struct TableField
+{
+  std::string name;
+  std::optional<ScalarType> type; ///< nothing: text, its values decide
+};
+
+/// Rows of a chunk as numbers, one column a field. Columns that nobody asked for are empty.
+/// Exactness  every type of up to 32 bits and every float is exact in a double; integers of 64 bits
+///            are so up to 2^53.
+struct TableBlock
+{
+  std::vector<std::vector<double>> columns;
+
+  void resize(std::size_t rows, const std::vector<bool>& wanted)
+  {
+    columns.resize(wanted.size());
+    for (std::size_t f = 0; f < wanted.size(); ++f)
+    {
+      columns[f].resize(wanted[f] ? rows : 0);
+    }
+  }
+};
+
+/// A foreign file as most of them are: rows of named numbers, cut into chunks. What the names mean
+/// is not the table's business: TableSource turns it into points.
+/// Threads   read() is thread-safe; the rest is constant.
+class PointTable
+{
+public:
+  virtual ~PointTable() = default;
+  virtual const std::string& path() const = 0;
+  virtual const std::string& format() const = 0; ///< for messages: "PLY ascii" ...
+  virtual const std::vector<TableField>& fields() const = 0;
+  /// What was wrong with the file and survived, each a full sentence.
+  virtual const std::vector<std::string>& warnings() const = 0;
+  virtual std::uint64_t chunkCount() const = 0;
+  virtual std::uint64_t chunkRows(std::uint64_t chunk) const = 0;
+  /// Fills the wanted columns with chunkRows(chunk) values each. A row that is no row (text) is NaN
+  /// in every column.
+  virtual Result<void> read(
+    std::uint64_t chunk, const std::vector<bool>& wanted, TableBlock& block) const = 0;
+  /// One for each field if the table had to look at every value anyway (text); else empty.
+  virtual std::vector<FieldStatistics> statistics() const { return {}; }
+};
+
+} // namespace pointfront

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "pointfront/Points/ScalarType.h"
+
+#include <cstddef>
+
+namespace pointfront
+{
+
+/// Numbers that lie at equal distances in memory, in either byte order; need not be aligned.
+struct RecordNumbers
+{
+  const std::byte* first = nullptr;
+  std::size_t stride = 0;
+  ScalarType type = ScalarType::Float32;
+  bool swapped = false; ///< byte order is not this machine's
+};
+
+/// The first `count` of them as doubles. Pure.
+void gatherNumbers(const RecordNumbers& numbers, std::size_t count, double* to);
+
+} // namespace pointfront

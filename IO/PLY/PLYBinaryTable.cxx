@@ -140,7 +140,8 @@ Result<void> PLYBinaryTable::locate()
   if (!points.hasList())
   {
     const std::size_t bytes = points.rowBytes();
-    rows_ = bytes == 0 ? 0 : std::min<std::uint64_t>(points.count, (file_.map.size() - begin) / bytes);
+    const std::uint64_t room = bytes == 0 ? 0 : (file_.map.size() - begin) / bytes;
+    rows_ = std::min(points.count, room);
     return {};
   }
   RowWalk walk(file_.map, points, swapped_, begin);

@@ -272,7 +272,8 @@ void Planner::addNormal()
 {
   if (const auto normal = vectorOf("normal"))
   {
-    addColumn(Attribute{ "normal", ScalarType::Float32, 3 }, { normal->begin(), normal->end() }, 1.0);
+    const Attribute attribute{ "normal", ScalarType::Float32, 3 };
+    addColumn(attribute, { normal->begin(), normal->end() }, 1.0);
   }
 }
 

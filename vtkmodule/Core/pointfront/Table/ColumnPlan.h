@@ -17,8 +17,8 @@ namespace pointfront
 ///             values of the file: fractions from 0 to 1 are spread over 8 bits if they are 255ths,
 ///             over 16 if not; whole numbers up to 255 are 8 bits, up to 65,535 16 bits. What is
 ///             none of these is kept as attributes "red", "green", "blue".
-/// Well-known  a field becomes an attribute of the type that AttributeSchema names if all its values
-///             fit; else it keeps its own.
+/// Well-known  a field becomes an attribute of the type that AttributeSchema names if all its
+///             values fit; else it keeps its own.
 /// Own types   a binary file's are kept. Text: the smallest integer, float32 if six digits are
 ///             enough, else float64.
 struct ColumnPlan

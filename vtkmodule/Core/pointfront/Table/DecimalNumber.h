@@ -12,8 +12,8 @@ struct DecimalNumber
   bool pointSeen = false; ///< a decimal point or an exponent is there
 };
 
-/// Reads a number from `text` on, which ends at `end`: sign, digits, one `point`, an exponent (e, E,
-/// d or D), "nan" and "inf" in any case with what the C libraries print behind them.
+/// Reads a number from `text` on, which ends at `end`: sign, digits, one `point`, an exponent (e or
+/// d in any case), "nan" and "inf" in any case with what the C libraries print behind them.
 /// Returns the first character behind it, `text` if there is no number.
 /// Speed    some 10 ns for what coordinates look like; the general way for 17 digits and more.
 /// Threads  pure; no locale.

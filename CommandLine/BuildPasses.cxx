@@ -7,8 +7,11 @@ namespace pointfront
 
 void BuildPasses::declare(CLI::App& app)
 {
-  declareUnavailable(app, "--crs", "coordinates are not transformed");
-  declareUnavailable(app, "--assume-crs", "coordinates are not transformed");
+  app.add_option("--crs", projection_.target,
+        "Coordinate reference system of the store; utm: the zone of the first input (the inputs')")
+    ->type_name("EPSG:N|WKTFILE|utm");
+  app.add_option("--assume-crs", projection_.assumed, "What inputs are in that do not name it")
+    ->type_name("EPSG:N|WKTFILE");
 
   declareUnavailable(app, "--color-from", "points are not coloured from images");
   declareUnavailable(app, "--attribute-from", "attributes are not taken from images");
@@ -27,7 +30,9 @@ void BuildPasses::declare(CLI::App& app)
 
 Result<AttributePasses> BuildPasses::passes() const
 {
-  return AttributePasses();
+  AttributePasses passes;
+  passes.push_back(std::make_unique<ProjectionPass>(projection_));
+  return passes;
 }
 
 } // namespace pointfront

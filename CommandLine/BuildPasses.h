@@ -1,5 +1,7 @@
 #pragma once
 
+#include "ProjectionPass.h"
+
 #include "pointfront/Points/AttributePass.h"
 
 #include <CLI/CLI.hpp>
@@ -24,6 +26,7 @@ public:
   Result<AttributePasses> passes() const;
 
 private:
+  ProjectionOptions projection_;
   std::string normals_ = "none";
 };
 

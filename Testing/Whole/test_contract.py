@@ -45,8 +45,7 @@ class Usage(ToolTest):
             ("--normals", "pca"), ("--normals", "scanline"), ("--normals-k", "8"),
             ("--normals-radius", "1"), ("--normals-eps", "0.1"), ("--normals-classes", "2,6"),
             ("--local-height",), ("--height-above-ground",), ("--color-from", "a.tif", "b.tif"),
-            ("--attribute-from", "NAME=a.tif"), ("--crs", "EPSG:2992"),
-            ("--assume-crs", "EPSG:2992"),
+            ("--attribute-from", "NAME=a.tif"),
         ]
         for flag in flags:
             outcome = self.refuse(2, "build", SMALL, "-o", self.folder / "x.pfront", *flag)

@@ -14,6 +14,12 @@ foreach (family IN ITEMS LAS PLY Text)
       FILES_MATCHING PATTERN "*.h" PATTERN "Testing" EXCLUDE)
   endif ()
 endforeach ()
+foreach (filter IN ITEMS Projection)
+  list(APPEND pointfront_kernel_libraries pointfrontFilters${filter})
+  install(DIRECTORY "${CMAKE_CURRENT_SOURCE_DIR}/Filters/${filter}/"
+    DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/pointfront/Filters" COMPONENT Development
+    FILES_MATCHING PATTERN "*.h" PATTERN "Testing" EXCLUDE)
+endforeach ()
 install(TARGETS ${pointfront_kernel_libraries} EXPORT PointFrontKernel
   RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT Runtime
   LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT Runtime NAMELINK_COMPONENT Development

@@ -7,6 +7,7 @@ find_package(meshoptimizer CONFIG REQUIRED)  # meshoptimizer::meshoptimizer
 find_package(nlohmann_json REQUIRED)
 find_package(CLI11 CONFIG REQUIRED)
 find_package(LASzip REQUIRED)                # LASzip::LASzip
+find_package(PROJ CONFIG REQUIRED)           # PROJ::proj
 
 # VTK first: a find_package(Python3) before it would find another Python than Debian's.
 if (POINTFRONT_HOST STREQUAL "VTK")

@@ -22,6 +22,7 @@ struct CoordinateSystem
   std::string wkt;        ///< WKT 1 where it can say all of it (LAS 1.4 asks for it), else WKT 2
   std::string name;       ///< for messages: "WGS 84 / UTM zone 32N (EPSG:32632)"
   bool geographic = false; ///< x and y are angles; else lengths
+  bool geocentric = false; ///< x, y and z count from the middle of the Earth
   bool vertical = false;   ///< heights have a system of their own: compound or with three axes
   double unitLength = 1.0; ///< metres a unit of x and y; geographic: radians a unit
   double heightUnit = 1.0; ///< metres a unit of z, if `vertical`

@@ -1,0 +1,363 @@
+#include "ProjectionPass.h"
+
+#include "ReferencedSource.h"
+#include "TransformedExtent.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <utility>
+
+namespace pointfront
+{
+namespace
+{
+const char* const utm = "utm";
+
+void dropProjectionRecords(std::vector<MetadataRecord>& records)
+{
+  records.erase(std::remove_if(records.begin(), records.end(),
+                  [](const MetadataRecord& r) { return r.owner == "LASF_Projection"; }),
+    records.end());
+}
+
+/// Angles in a file that does not say so: inside the globe, far from the origin for their extent,
+/// on a grid no one uses for metres or with heights that dwarf it.
+bool looksLikeDegrees(const SourceDescription& source)
+{
+  const Bounds& b = source.declaredBounds;
+  if (b.empty() || b.low.x < -180.0 || b.high.x > 180.0 || b.low.y < -90.0 || b.high.y > 90.0)
+  {
+    return false;
+  }
+  if (source.grid)
+  {
+    constexpr double micrometre = 1e-6;
+    return source.grid->scale.x <= micrometre;
+  }
+  const double extent = std::max(b.size().x, b.size().y);
+  return extent < 1.0 && b.size().z > 10.0 * extent &&
+    std::abs(b.centre().x) + std::abs(b.centre().y) > 10.0 * extent;
+}
+} // namespace
+
+Result<CoordinateSystem> ProjectionPass::defined(const std::string& definition) const
+{
+  std::error_code failure;
+  if (!std::filesystem::is_regular_file(definition, failure))
+  {
+    return known_.parse(definition);
+  }
+  std::ifstream file(definition, std::ios::binary);
+  const std::string text{ std::istreambuf_iterator<char>(file), {} };
+  Result<CoordinateSystem> system = known_.parse(text);
+  if (!system)
+  {
+    return makeError(system.error().kind, definition + ": " + system.error().what);
+  }
+  return system;
+}
+
+ProjectionPass::Known ProjectionPass::systemOf(const SourceDescription& source) const
+{
+  const GeoKeys keys = GeoKeys::parse(source.metadata);
+  std::string reason;
+  if (!source.crsWkt.empty())
+  {
+    Result<CoordinateSystem> system = known_.parse(source.crsWkt);
+    if (system)
+    {
+      return StatedSystem{ *system, false };
+    }
+    reason = system.error().what;
+  }
+  if (!keys.empty())
+  {
+    std::vector<std::string> warnings;
+    Result<CoordinateSystem> system = known_.fromGeoKeys(keys, warnings);
+    for (const std::string& warning : warnings)
+    {
+      findings_.push_back(source.path + ": " + warning);
+    }
+    if (system)
+    {
+      return StatedSystem{ *system, false };
+    }
+    reason = reason.empty() ? system.error().what : reason;
+  }
+  if (!reason.empty())
+  {
+    findings_.push_back(source.path + ": its coordinate reference system is not known: " + reason +
+      (options_.assumed.empty() ? ". Name it with --assume-crs."
+                                : ". It is taken to be what is assumed."));
+  }
+  return std::nullopt;
+}
+
+Result<std::vector<ProjectionPass::Known>> ProjectionPass::systemsOf(
+  const PointSources& sources) const
+{
+  Known assumed;
+  if (!options_.assumed.empty())
+  {
+    Result<CoordinateSystem> system = defined(options_.assumed);
+    if (!system)
+    {
+      return system.error();
+    }
+    assumed = StatedSystem{ *system, true };
+  }
+  std::vector<Known> systems;
+  for (const std::unique_ptr<PointSource>& source : sources)
+  {
+    Known own = systemOf(source->description());
+    systems.push_back(own ? std::move(own) : assumed);
+  }
+  return systems;
+}
+
+Result<std::optional<CoordinateSystem>> ProjectionPass::chooseTarget(
+  const PointSources& sources, const std::vector<Known>& systems) const
+{
+  std::size_t first = 0;
+  while (first < systems.size() && !systems[first])
+  {
+    ++first;
+  }
+  if (options_.target.empty())
+  {
+    return first < systems.size() ? std::optional<CoordinateSystem>(*systems[first])
+                                  : std::nullopt;
+  }
+  for (std::size_t s = 0; s < sources.size(); ++s)
+  {
+    if (!systems[s])
+    {
+      return makeError(Error::Kind::BadArgument,
+        sources[s]->description().path + ": names no coordinate reference system, so its points " +
+          "cannot be transformed to " + options_.target +
+          "; say with --assume-crs what they are in");
+    }
+  }
+  Result<CoordinateSystem> target = [&]() -> Result<CoordinateSystem>
+  {
+    if (options_.target != utm)
+    {
+      return defined(options_.target);
+    }
+    const Bounds& where = sources[first]->description().declaredBounds;
+    if (where.empty())
+    {
+      return makeError(Error::Kind::BadArgument,
+        sources[first]->description().path +
+          ": does not say where it is before it is read, so no UTM zone can be chosen; "
+          "name the zone");
+    }
+    return known_.utmZone(*systems[first], where.centre());
+  }();
+  if (!target)
+  {
+    return target.error();
+  }
+  const bool allUpright = std::all_of(
+    systems.begin(), systems.end(), [](const Known& system) { return system->vertical; });
+  if (!target->vertical && !target->geocentric && allUpright)
+  {
+    target = known_.compound(*target, *systems[first]);
+    if (!target)
+    {
+      return target.error();
+    }
+  }
+  return std::optional<CoordinateSystem>(*target);
+}
+
+void ProjectionPass::warnOfHeights(const std::string& path, const CoordinateSystem& from,
+  const CoordinateSystem& to, bool transformed) const
+{
+  if (from.vertical && !to.vertical)
+  {
+    findings_.push_back(path + ": its heights, those of " + from.name +
+      ", stay as they are; " + to.name + " names none.");
+  }
+  else if (!from.vertical && to.vertical)
+  {
+    findings_.push_back(path + ": " + from.name + " names no system of heights; they stay as " +
+      "they are and are taken to be those of " + to.name + ".");
+  }
+  else if (transformed && !from.vertical && !from.geographic && !to.geographic &&
+    std::abs(from.unitLength / to.unitLength - 1.0) > 1e-3)
+  {
+    findings_.push_back(path + ": " + from.name + " names no system of heights; they stay as " +
+      "they are, although x and y get another unit. A compound system (EPSG:a+b) converts them.");
+  }
+}
+
+Result<ProjectionPass::Way> ProjectionPass::wayFrom(const std::string& path,
+  const CoordinateSystem& from, const CoordinateSystem& to, const Bounds& where) const
+{
+  Way way;
+  way.same = known_.equivalent(from, to, !from.vertical || !to.vertical);
+  if (way.same)
+  {
+    return way;
+  }
+  Result<std::unique_ptr<CoordinateTransform>> made = known_.transform(from, to, where);
+  if (!made)
+  {
+    return makeError(made.error().kind, path + ": " + made.error().what);
+  }
+  way.transform = std::move(*made);
+  const std::vector<std::string>& doubts = way.transform->warnings();
+  findings_.insert(findings_.end(), doubts.begin(), doubts.end());
+  return way;
+}
+
+Result<std::vector<ProjectionPass::Way>> ProjectionPass::waysTo(const CoordinateSystem& target,
+  const PointSources& sources, const std::vector<Known>& systems) const
+{
+  std::map<std::string, Bounds> extents; // of all points of each system: one choice for all
+  for (std::size_t s = 0; s < sources.size(); ++s)
+  {
+    if (systems[s])
+    {
+      extents[systems[s]->wkt].add(sources[s]->description().declaredBounds);
+    }
+  }
+  std::map<std::string, Way> found;
+  std::vector<Way> ways(sources.size());
+  for (std::size_t s = 0; s < sources.size(); ++s)
+  {
+    if (!systems[s])
+    {
+      continue;
+    }
+    const std::string& path = sources[s]->description().path;
+    auto known = found.find(systems[s]->wkt);
+    if (known == found.end())
+    {
+      Result<Way> way = wayFrom(path, *systems[s], target, extents[systems[s]->wkt]);
+      if (!way)
+      {
+        return way.error();
+      }
+      known = found.emplace(systems[s]->wkt, std::move(*way)).first;
+    }
+    ways[s] = known->second;
+    warnOfHeights(path, *systems[s], target, !ways[s].same);
+  }
+  return ways;
+}
+
+Result<PointSources> ProjectionPass::inOneSystem(PointSources sources,
+  const std::vector<Known>& systems, const CoordinateSystem& target) const
+{
+  const Result<std::vector<Way>> ways = waysTo(target, sources, systems);
+  if (!ways)
+  {
+    return ways.error();
+  }
+  std::vector<SourceDescription> descriptions;
+  std::optional<QuantisationGrid> resident; // of the first that is in the target already
+  Bounds extent;
+  for (std::size_t s = 0; s < sources.size(); ++s)
+  {
+    descriptions.push_back(sources[s]->description());
+    SourceDescription& description = descriptions[s];
+    const Way& way = ways.value()[s];
+    if (way.same && !resident)
+    {
+      resident = description.grid;
+    }
+    if (way.transform && !description.declaredBounds.empty())
+    {
+      Result<Bounds> moved = transformedBounds(description.declaredBounds, *way.transform);
+      if (!moved)
+      {
+        return makeError(moved.error().kind, description.path + ": " + moved.error().what);
+      }
+      description.declaredBounds = *moved;
+      extent.add(*moved);
+    }
+  }
+  for (std::size_t s = 0; s < sources.size(); ++s)
+  {
+    SourceDescription& description = descriptions[s];
+    const Way& way = ways.value()[s];
+    if (!systems[s])
+    {
+      continue;
+    }
+    description.crsWkt = target.wkt;
+    if (way.transform)
+    {
+      description.grid = transformedGrid(description, *systems[s], target, extent, resident);
+    }
+    else if (!description.grid && target.geographic)
+    {
+      description.grid = QuantisationGrid{ { angularStep, angularStep, lengthStep }, {} };
+    }
+    if (way.transform || systems[s]->assumed) // the records tell another system
+    {
+      dropProjectionRecords(description.metadata);
+    }
+    sources[s] = std::make_unique<ReferencedSource>(
+      std::move(sources[s]), std::move(description), way.transform);
+  }
+  return sources;
+}
+
+void ProjectionPass::warnOfDegrees(const PointSources& sources, const std::vector<Known>& systems,
+  const std::optional<CoordinateSystem>& target) const
+{
+  if (target && target->geographic)
+  {
+    findings_.push_back("The coordinates are longitudes and latitudes (" + target->name +
+      "): distances and levels of detail mix degrees with heights. --crs utm transforms them to "
+      "metres, as does --crs with any projected system.");
+    return;
+  }
+  for (std::size_t s = 0; s < sources.size(); ++s)
+  {
+    if (!systems[s] && looksLikeDegrees(sources[s]->description()))
+    {
+      findings_.push_back(sources[s]->description().path + ": the coordinates look like longitudes "
+        "and latitudes. If they are, --assume-crs EPSG:4326 --crs utm transforms them to metres.");
+    }
+  }
+}
+
+Result<PointSources> ProjectionPass::apply(
+  PointSources sources, const PassResources&) const
+{
+  findings_.clear();
+  if (sources.empty())
+  {
+    return sources;
+  }
+  Result<std::vector<Known>> systems = systemsOf(sources);
+  if (!systems)
+  {
+    return systems.error();
+  }
+  const Result<std::optional<CoordinateSystem>> target = chooseTarget(sources, *systems);
+  if (!target)
+  {
+    return target.error();
+  }
+  warnOfDegrees(sources, *systems, *target);
+  if (!*target)
+  {
+    if (findings_.empty())
+    {
+      findings_.push_back("No input names its coordinate reference system; --assume-crs does.");
+    }
+    return sources;
+  }
+  return inOneSystem(std::move(sources), *systems, **target);
+}
+
+} // namespace pointfront

@@ -17,6 +17,9 @@ constexpr double heldShare = 0.85;
 /// Longest that a frame at rest goes on moving its front.
 constexpr std::chrono::milliseconds restTime{10};
 constexpr std::uint32_t requestsAtOnce = 1024;
+/// Frames that a moving view is looked ahead: about what a disk and a decoder take, and half a
+/// second at the rates of interactors.
+constexpr double framesAhead = 8.0;
 /// Fewest points of a frame in motion: less is no picture, whatever the machine.
 constexpr std::uint64_t fewestPoints = 100000;
 
@@ -54,7 +57,7 @@ ViewFront::ViewFront(
   std::shared_ptr<const HierarchyPiece> piece, ResidencyShare& share, const AttributeSchema& schema)
     : piece_(std::move(piece)), share_(share), schema_(schema), wish_(share.join()),
       residents_(std::make_unique<Residents>(*piece_, share.residency())),
-      front_(piece_->hierarchy())
+      front_(piece_->hierarchy()), margin_(piece_->hierarchy())
 {
 }
 
@@ -157,6 +160,7 @@ void ViewFront::step(const FrameDemand& demand)
   thresholdBefore_ = delta_.thresholdPx;
   arrivalsSeen_ = share_.residency().arrivals();
   delta_ = front_.update(demand.view, *residents_, limitsOf(demand));
+  addMargin(demand);
   for (DrawItem& item : delta_.draw)
   {
     item.node = piece_->toStore(item.node);
@@ -171,6 +175,20 @@ void ViewFront::step(const FrameDemand& demand)
       const NodeIndex own = piece_->fromStore(node);
       return own == noNode ? 0xffffu : front_.distanceUnderFront(own);
     });
+}
+
+/// In motion, behind all that the view needs itself.
+void ViewFront::addMargin(const FrameDemand& demand)
+{
+  if (!demand.interacting)
+  {
+    margin_.rest(demand.view);
+    return;
+  }
+  const auto asked = static_cast<std::uint32_t>(delta_.requests.size());
+  const std::vector<LoadRequest>& margin = margin_.requests(demand.view, delta_.thresholdPx,
+    *residents_, framesAhead, requestsAtOnce - std::min(requestsAtOnce, asked));
+  delta_.requests.insert(delta_.requests.end(), margin.begin(), margin.end());
 }
 
 bool ViewFront::allCovered() const

@@ -4,6 +4,7 @@
 #include "ResidencyShare.h"
 
 #include "pointfront/Front/FrameCostModel.h"
+#include "pointfront/Front/MotionMargin.h"
 #include "pointfront/Front/RenderFront.h"
 #include "pointfront/Front/View.h"
 #include "pointfront/Points/AttributeSchema.h"
@@ -62,6 +63,7 @@ public:
 private:
   class Residents;
   void step(const FrameDemand& demand);
+  void addMargin(const FrameDemand& demand);
   bool allCovered() const;
   bool movedOn() const;
   void complete(const FrameDemand& demand);
@@ -74,6 +76,7 @@ private:
   std::unique_ptr<ResidencyShare::Wish> wish_;
   std::unique_ptr<Residents> residents_;
   RenderFront front_;
+  MotionMargin margin_;
   FrameCostModel cost_;
   FrontDelta delta_;
   ColumnSelection columns_;

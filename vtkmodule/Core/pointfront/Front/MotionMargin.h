@@ -32,8 +32,8 @@ public:
   }
 
   /// Nodes that are absent and that the view ahead shows above `thresholdPx`, all optional, largest
-  /// error first, ties by node; at most `most`. `frames`: how far ahead. Call it once a frame. Valid
-  /// until the next call.
+  /// error first, ties by node; at most `most`. `frames`: how far ahead. Call it once a frame.
+  /// Valid until the next call.
   const std::vector<LoadRequest>& requests(const View& now, double thresholdPx,
     const ResidencyView& residency, double frames, std::uint32_t most);
 

@@ -43,6 +43,12 @@ if (POINTFRONT_SANITIZE)
   add_link_options(-fsanitize=${POINTFRONT_SANITIZE})
 endif ()
 
+# For libraries whose inner loops call their own functions: nobody replaces these at run time, so
+# the compiler may inline them (GCC does not when it builds a shared library; Clang does).
+add_library(pointfrontInlining INTERFACE)
+target_compile_options(pointfrontInlining INTERFACE
+  $<$<CXX_COMPILER_ID:GNU>:-fno-semantic-interposition>)
+
 # Our own targets only: headers of others are system headers.
 add_library(pointfrontWarnings INTERFACE)
 target_compile_options(pointfrontWarnings INTERFACE

@@ -51,16 +51,17 @@ Cloud plane(std::size_t count)
   return Cloud(positions);
 }
 
-std::vector<std::uint32_t> sampled(const Cloud& cloud, unsigned cellLog2)
+std::vector<std::uint32_t> sampled(
+  const Cloud& cloud, const std::vector<std::uint32_t>& candidates, SamplingDistance distance)
 {
-  std::vector<bool> chosen;
-  SubsetSampler().choose(cloud.view(), cloud.all, cellLog2, chosen);
+  std::vector<std::uint8_t> chosen;
+  SubsetSampler().choose(cloud.view(), candidates, distance, chosen);
   std::vector<std::uint32_t> points;
   for (std::size_t i = 0; i < chosen.size(); ++i)
   {
-    if (chosen[i])
+    if (chosen[i] != 0)
     {
-      points.push_back(cloud.all[i]);
+      points.push_back(candidates[i]);
     }
   }
   return points;
@@ -108,100 +109,148 @@ TEST(Sampler, CountsOccupiedCellsOfEverySize)
   }
 }
 
-TEST(Sampler, CoversAllPointsWithoutClumps)
+double distanceOf(const Cloud& cloud, std::uint32_t a, std::uint32_t b)
 {
-  const unsigned cellLog2 = 11;
-  const double cell = 2048.0;
-  const Cloud cloud = plane(20000);
-  const std::vector<std::uint32_t> points = sampled(cloud, cellLog2);
-  EXPECT_EQ(cellsOf(cloud, points, cellLog2).size(), points.size()); // at most one a cell
-  EXPECT_GT(points.size(), 900u);
-  for (const std::uint32_t i : cloud.all)
+  return glm::length(
+    glm::dvec3(cloud.view().position(a)) - glm::dvec3(cloud.view().position(b)));
+}
+
+double nearest(const Cloud& cloud, std::uint32_t point, const std::vector<std::uint32_t>& points)
+{
+  double least = HUGE_VAL;
+  for (const std::uint32_t k : points)
   {
-    double nearest = HUGE_VAL;
-    for (const std::uint32_t k : points)
+    least = k == point ? least : std::min(least, distanceOf(cloud, point, k));
+  }
+  return least;
+}
+
+TEST(Sampler, DistancesAreQuartersOfAnOctave)
+{
+  EXPECT_EQ(SamplingDistance{0}.squaredSteps(), 1.0);
+  EXPECT_EQ(SamplingDistance{8}.steps(), 4.0);
+  EXPECT_NEAR(SamplingDistance{3}.steps(), std::pow(2.0, 0.75), 1e-12);
+  EXPECT_NEAR(SamplingDistance{126}.steps(), std::pow(2.0, 31.5), 1e-3);
+}
+
+TEST(Sampler, KeepsTheDistanceAndCoversAllPoints)
+{
+  const Cloud cloud = plane(20000);
+  for (const int quarters : {41, 43, 44, 46})
+  {
+    const SamplingDistance distance{quarters};
+    const std::vector<std::uint32_t> points = sampled(cloud, cloud.all, distance);
+    ASSERT_GT(points.size(), 300u);
+    for (const std::uint32_t i : cloud.all)
     {
-      const glm::dvec3 a(cloud.view().position(i));
-      const double distance = glm::length(a - glm::dvec3(cloud.view().position(k)));
-      nearest = i == k ? nearest : std::min(nearest, distance);
+      const bool taken = std::binary_search(points.begin(), points.end(), i);
+      const double reach = nearest(cloud, i, points);
+      ASSERT_TRUE(taken ? reach >= distance.steps() : reach < distance.steps()) << i;
     }
-    const bool taken = std::binary_search(points.begin(), points.end(), i);
-    ASSERT_TRUE(taken ? nearest >= 0.5 * cell : nearest <= 2.3 * cell) << i << ' ' << nearest;
   }
 }
 
-TEST(Sampler, TakesThePointNearestToTheTarget)
+TEST(Sampler, KeepsTheDistanceInABlockToo)
 {
-  // One cell of 2^4 = 16 steps, target at 16 / 3; of 2^3 = 8, target at 2 * 8 / 3.
-  const Cloud cloud({{0, 0, 0}, {5, 5, 5}, {7, 5, 5}, {15, 15, 15}});
-  EXPECT_EQ(sampled(cloud, 4), (std::vector<std::uint32_t>{1}));
-  EXPECT_EQ(sampled(cloud, 3), (std::vector<std::uint32_t>{1, 3}));
-  const Cloud equal({{2, 2, 2}, {2, 2, 2}});
-  EXPECT_EQ(sampled(equal, 4), (std::vector<std::uint32_t>{0})); // input order decides
+  Random random(6);
+  std::vector<TreePosition> positions;
+  for (int i = 0; i < 8000; ++i)
+  {
+    positions.emplace_back(random.next() % 4096, random.next() % 4096, random.next() % 4096);
+  }
+  const Cloud cloud(positions);
+  const SamplingDistance distance{33};
+  const std::vector<std::uint32_t> points = sampled(cloud, cloud.all, distance);
+  for (const std::uint32_t i : cloud.all)
+  {
+    const bool taken = std::binary_search(points.begin(), points.end(), i);
+    const double reach = nearest(cloud, i, points);
+    ASSERT_TRUE(taken ? reach >= distance.steps() : reach < distance.steps()) << i;
+  }
 }
 
-TEST(Sampler, FindsClumpsAcrossTheEdgesOfTheTree)
+TEST(Sampler, TakesOneOfEqualPoints)
+{
+  const Cloud equal({{2, 2, 2}, {2, 2, 2}, {2, 2, 2}});
+  EXPECT_EQ(sampled(equal, equal.all, {0}), (std::vector<std::uint32_t>{0})); // input order decides
+  EXPECT_TRUE(sampled(equal, {}, {8}).empty());
+}
+
+TEST(Sampler, DoesNotWrapAroundTheEdgesOfTheTree)
 {
   const std::uint32_t top = ~0u;
   const Cloud cloud({{15, 0, 0}, {16, 0, 0}, {top, top, top}});
-  EXPECT_EQ(sampled(cloud, 4), (std::vector<std::uint32_t>{0, 2})); // 15 comes first
-  EXPECT_EQ(sampled(cloud, 32).size(), 1u);
-  EXPECT_EQ(sampled(cloud, 0).size(), 3u);
+  EXPECT_EQ(sampled(cloud, cloud.all, {16}), (std::vector<std::uint32_t>{0, 2})); // 15 comes first
+  EXPECT_EQ(sampled(cloud, cloud.all, {128}).size(), 2u); // the diagonal is longer than an edge
+  EXPECT_EQ(sampled(cloud, cloud.all, {0}).size(), 3u);
 }
 
-TEST(Sampler, TargetsOfCoarseCellsAreTargetsOfFineOnes)
-{
-  const Cloud cloud = plane(200000);
-  std::vector<std::uint32_t> fine = sampled(cloud, 9);
-  std::vector<bool> chosen;
-  SubsetSampler().choose(cloud.view(), fine, 10, chosen);
-  std::vector<std::uint32_t> fromFine;
-  for (std::size_t i = 0; i < fine.size(); ++i)
-  {
-    if (chosen[i])
-    {
-      fromFine.push_back(fine[i]);
-    }
-  }
-  const std::vector<std::uint32_t> fromAll = sampled(cloud, 10);
-  std::vector<std::uint32_t> same;
-  std::set_intersection(
-    fromFine.begin(), fromFine.end(), fromAll.begin(), fromAll.end(), std::back_inserter(same));
-  EXPECT_GT(static_cast<double>(same.size()), 0.5 * static_cast<double>(fromAll.size()));
-}
-
-TEST(Sampler, SpreadsPointsBetterThanChance)
+TEST(Sampler, SpreadsPointsAsDartsThatKeepTheirDistance)
 {
   const Cloud cloud = plane(60000);
-  const std::vector<std::uint32_t> points = sampled(cloud, 11);
-  ASSERT_GT(points.size(), 1000u);
+  const SamplingDistance distance{44};
+  const std::vector<std::uint32_t> points = sampled(cloud, cloud.all, distance);
+  ASSERT_GT(points.size(), 600u);
   Random random(4);
   std::set<std::uint32_t> picked;
   while (picked.size() < points.size())
   {
     picked.insert(static_cast<std::uint32_t>(random.next() % cloud.all.size()));
   }
-  const double byChance = meanNearestDistance(cloud, {picked.begin(), picked.end()});
-  EXPECT_GT(meanNearestDistance(cloud, points), 1.4 * byChance);
+  // Darts: points in random order, each kept if it is not too close to one before.
+  std::vector<std::uint32_t> order = cloud.all;
+  for (std::size_t i = order.size(); i-- > 1;)
+  {
+    std::swap(order[i], order[random.next() % (i + 1)]);
+  }
+  std::vector<std::uint32_t> darts;
+  for (const std::uint32_t i : order)
+  {
+    if (nearest(cloud, i, darts) >= distance.steps())
+    {
+      darts.push_back(i);
+    }
+  }
+  // Of the same number of points: the mean distance in units of what the number allows.
+  const auto spread = [&](const std::vector<std::uint32_t>& set)
+  { return meanNearestDistance(cloud, set) * std::sqrt(static_cast<double>(set.size())); };
+  EXPECT_GT(spread(points), 1.5 * spread({picked.begin(), picked.end()}));
+  EXPECT_GT(spread(points), 0.97 * spread(darts));
 }
 
-TEST(Sampler, KeepsANodeWithinItsPointsAndTwiceAsCoarseAsItsChildren)
+/// Cells of a block or a plane of 2^20 steps an edge.
+CellOccupancy filled(unsigned dimensions)
 {
+  CellOccupancy occupancy;
+  for (unsigned level = 0; level <= 32; ++level)
+  {
+    occupancy.distinct[level] =
+      level >= 20 ? 1 : std::uint64_t(1) << (dimensions * (20 - level));
+  }
+  return occupancy;
+}
+
+TEST(Sampler, ChoosesTheDistanceThatFillsANode)
+{
+  const SamplingRule rule; // 16384 points: up to 21845 cells
+  const std::uint64_t many = std::uint64_t(1) << 40;
+  EXPECT_EQ(samplingDistance(filled(2), many, -1, rule).quarters, 52); // 2^14 cells
+  EXPECT_EQ(samplingDistance(filled(3), many, -1, rule).quarters, 61); // 2^14.25 cells
+  EXPECT_EQ(samplingDistance(filled(2), many, 51, rule).quarters, 53); // coarser than its children
+  EXPECT_EQ(samplingDistance(filled(2), 2048, -1, rule).quarters, 60); // half of 2048: 2^10 cells
+  EXPECT_EQ(samplingDistance(filled(2), many, 127, rule).quarters, 128);
+}
+
+TEST(Sampler, AFullerNodeThanExpectedIsStillOfItsOrder)
+{
+  const Cloud cloud = plane(60000);
   SamplingRule rule;
-  EXPECT_EQ(rule.finestGrid(), 7u);
-  CellOccupancy occupancy; // a block: eight times more cells for half the size
-  for (unsigned level = 0; level <= 32; ++level)
-  {
-    occupancy.distinct[level] = level >= 20 ? 1 : std::uint64_t(1) << (3 * (20 - level));
-  }
-  EXPECT_EQ(samplingCell(occupancy, 20, -1, rule), 15u); // 32^3 = 32768 = 2 * 16384
-  for (unsigned level = 0; level <= 32; ++level)
-  {
-    occupancy.distinct[level] = level >= 20 ? 1 : std::uint64_t(1) << (2 * (20 - level));
-  }
-  EXPECT_EQ(samplingCell(occupancy, 20, -1, rule), 13u); // a plane: all 128^2 cells
-  EXPECT_EQ(samplingCell(occupancy, 20, 13, rule), 14u);
-  EXPECT_EQ(samplingCell(occupancy, 0, -1, rule), 0u);
+  rule.nodePoints = 2000;
+  const SamplingDistance distance =
+    samplingDistance(cellOccupancy(cloud.view(), cloud.all), cloud.all.size(), -1, rule);
+  const std::size_t held = sampled(cloud, cloud.all, distance).size();
+  EXPECT_GT(held, 1000u);
+  EXPECT_LT(held, 2400u);
 }
 
 TEST(Sampler, EstimatesTheSpacingOfASurface)

@@ -7,51 +7,13 @@ namespace pointfront
 {
 namespace
 {
-/// Squared distance to the target of the cell, in thirds of a step: all integers, no rounding.
-/// Bounds  an offset is below 3 * 2^32, its square below 2^68: so it is scaled down by `drop`.
-std::uint64_t targetDistance(const TreePosition& p, unsigned cellLog2)
-{
-  const std::uint64_t side = std::uint64_t(1) << cellLog2;
-  const std::uint64_t mask = side - 1;
-  const std::int64_t target = static_cast<std::int64_t>(cellLog2 % 2 == 0 ? side : 2 * side);
-  const unsigned drop = cellLog2 > 28 ? cellLog2 - 28 : 0;
-  std::uint64_t sum = 0;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    const std::int64_t inCell = 3 * static_cast<std::int64_t>(p[axis] & mask);
-    const std::int64_t d = std::abs(inCell - target) >> drop;
-    sum += static_cast<std::uint64_t>(d * d);
-  }
-  return sum;
-}
+constexpr int mostQuarters = 4 * 32;
+/// From level to level spacing falls by at least that: the square root of two.
+constexpr int leastRise = 2;
 
-/// The best point of one cell.
-struct Candidate
+double fourthPower(double v)
 {
-  std::size_t rank = 0; // in the list of points
-  std::uint64_t distance = 0;
-  TreePosition position{0};
-};
-
-/// One for each occupied cell, in Morton order; of equally near ones the first.
-std::vector<Candidate> nearestToTargets(
-  const RecordView& records, const std::vector<std::uint32_t>& points, unsigned cellLog2)
-{
-  std::vector<Candidate> candidates;
-  for (std::size_t i = 0; i < points.size(); ++i)
-  {
-    const TreePosition position = records.position(points[i]);
-    const Candidate candidate{i, targetDistance(position, cellLog2), position};
-    if (candidates.empty() || differingBits(position, candidates.back().position) > cellLog2)
-    {
-      candidates.push_back(candidate);
-    }
-    else if (candidate.distance < candidates.back().distance)
-    {
-      candidates.back() = candidate;
-    }
-  }
-  return candidates;
+  return v * v * v * v;
 }
 } // namespace
 
@@ -62,103 +24,137 @@ CellOccupancy cellOccupancy(const RecordView& records, const std::vector<std::ui
   {
     return occupancy;
   }
-  std::array<std::uint64_t, 34> stepsAt{}; // neighbours that share cells of 2^n but not 2^(n-1)
+  // Neighbours that share cells of 2^n but not 2^(n-1); in turn in two tables, since neighbours
+  // often differ alike and the same counter twice in a row waits for itself.
+  std::array<std::array<std::uint32_t, 34>, 2> stepsAt{};
   TreePosition previous = records.position(points.front());
   for (std::size_t i = 1; i < points.size(); ++i)
   {
     const TreePosition position = records.position(points[i]);
-    ++stepsAt[differingBits(position, previous)];
+    ++stepsAt[i & 1][differingBits(position, previous)];
     previous = position;
   }
   std::uint64_t sum = 1;
   for (int level = 32; level >= 0; --level)
   {
-    sum += stepsAt[static_cast<std::size_t>(level) + 1];
+    const auto finer = static_cast<std::size_t>(level) + 1;
+    sum += stepsAt[0][finer] + std::uint64_t(stepsAt[1][finer]);
     occupancy.distinct[static_cast<std::size_t>(level)] = sum;
   }
   return occupancy;
 }
 
-unsigned SamplingRule::finestGrid() const
+double SamplingDistance::squaredSteps() const
 {
-  return static_cast<unsigned>(std::max(1L, std::lround(0.5 * std::log2(double(nodePoints)))));
+  const double half = quarters % 2 == 0 ? 1.0 : 1.41421356237309504880; // 2^(quarters / 2)
+  return std::ldexp(half, quarters / 2);
 }
 
-unsigned samplingCell(const CellOccupancy& occupancy, unsigned nodeLog2Side, int coarsestBelow,
-  const SamplingRule& rule)
+double SamplingDistance::steps() const
 {
-  const unsigned grid = std::min(rule.finestGrid(), nodeLog2Side);
-  unsigned cell = std::max(nodeLog2Side - grid, static_cast<unsigned>(coarsestBelow + 1));
-  while (cell < nodeLog2Side && occupancy.distinct[cell] > rule.mostPoints())
-  {
-    ++cell;
-  }
-  return std::min(cell, nodeLog2Side);
+  return std::sqrt(squaredSteps());
 }
 
-SubsetSampler::SubsetSampler() : slots_(std::size_t(1) << (3 * slotBits)) {}
-
-std::uint32_t& SubsetSampler::slotOf(const TreePosition& cell)
+SamplingDistance samplingDistance(const CellOccupancy& occupancy, std::uint64_t candidates,
+  int coarsestBelow, const SamplingRule& rule)
 {
-  constexpr std::uint32_t mask = (1u << slotBits) - 1;
-  return slots_[((cell.z & mask) << (2 * slotBits)) | ((cell.y & mask) << slotBits) |
-                (cell.x & mask)];
-}
-
-bool SubsetSampler::crowded(const TreePosition& p, unsigned cellLog2)
-{
-  const double half = std::ldexp(0.5, static_cast<int>(cellLog2));
-  const std::uint32_t halfBit = 1u << (cellLog2 - 1);
-  const TreePosition cell(p.x >> cellLog2, p.y >> cellLog2, p.z >> cellLog2);
-  TreePosition beside; // the neighbour on the nearer side of each axis: nothing else is in reach
-  for (int axis = 0; axis < 3; ++axis)
+  // In fourth powers, so that interpolating by quarters takes multiplications only: the same
+  // result on every machine.
+  const double most =
+    fourthPower(std::min(double(rule.nodePoints) * 4.0 / 3.0, double(candidates) / 2.0));
+  const auto cells = [&](int quarters)
   {
-    beside[axis] = (p[axis] & halfBit) != 0 ? cell[axis] + 1 : cell[axis] - 1;
-  }
-  for (unsigned octant = 1; octant < 8; ++octant)
-  {
-    const std::uint32_t taken = slotOf({(octant & 1u) != 0 ? beside.x : cell.x,
-      (octant & 2u) != 0 ? beside.y : cell.y, (octant & 4u) != 0 ? beside.z : cell.z});
-    if (taken == 0)
+    const auto level = static_cast<std::size_t>(quarters / 4);
+    const auto next = std::min<std::size_t>(level + 1, 32);
+    const auto fine = static_cast<double>(occupancy.distinct[level]);
+    const auto coarse = static_cast<double>(occupancy.distinct[next]);
+    double product = 1.0;
+    for (int i = 0; i < 4; ++i)
     {
-      continue;
+      product *= i < quarters % 4 ? coarse : fine;
     }
-    const glm::dvec3 d = glm::dvec3(taken_[taken - 1]) - glm::dvec3(p);
-    if (d.x * d.x + d.y * d.y + d.z * d.z < half * half)
+    return product;
+  };
+  int quarters = coarsestBelow < 0 ? 0 : coarsestBelow + leastRise;
+  while (quarters < mostQuarters && cells(quarters) > most)
+  {
+    ++quarters;
+  }
+  return {std::min(quarters, mostQuarters)};
+}
+
+SubsetSampler::SubsetSampler() : slots_(std::size_t(1) << slotBits, none) {}
+
+SubsetSampler::Reach SubsetSampler::reachOf(const glm::dvec3& p) const
+{
+  // Odd constants of large period (those of xxHash): a sum of products spreads a lattice evenly.
+  constexpr std::array<std::uint32_t, 3> factors{0x9e3779b1u, 0x85ebca77u, 0xc2b2ae3du};
+  Reach reach;
+  const auto axis = [&](double coordinate, std::uint32_t factor, std::array<std::uint32_t, 2>& out)
+  {
+    const double cells = coordinate * cellsPerStep_;
+    const auto own = static_cast<std::int64_t>(cells);
+    const bool upper = cells - static_cast<double>(own) >= 0.5;
+    out[0] = static_cast<std::uint32_t>(own) * factor;
+    out[1] = upper ? out[0] + factor : out[0] - factor; // beyond the nearer side
+  };
+  axis(p.x, factors[0], reach.x);
+  axis(p.y, factors[1], reach.y);
+  axis(p.z, factors[2], reach.z);
+  return reach;
+}
+
+std::uint32_t SubsetSampler::slotOf(const Reach& reach, unsigned octant)
+{
+  return (reach.x[octant & 1u] + reach.y[(octant >> 1) & 1u] + reach.z[octant >> 2]) >>
+         (32 - slotBits);
+}
+
+bool SubsetSampler::near(const glm::dvec3& p, const Taken& taken) const
+{
+  const glm::dvec3 d = p - taken.position;
+  return d.x * d.x + d.y * d.y + d.z * d.z < squared_;
+}
+
+bool SubsetSampler::crowded(const glm::dvec3& p, const Reach& reach) const
+{
+  for (unsigned octant = 0; octant < 8; ++octant)
+  {
+    for (std::uint32_t i = slots_[slotOf(reach, octant)]; i != none; i = taken_[i].next)
     {
-      return true;
+      if (near(p, taken_[i]))
+      {
+        return true;
+      }
     }
   }
   return false;
 }
 
 void SubsetSampler::choose(const RecordView& records, const std::vector<std::uint32_t>& points,
-  unsigned cellLog2, std::vector<bool>& chosen)
+  SamplingDistance distance, std::vector<std::uint8_t>& chosen)
 {
-  chosen.assign(points.size(), false);
+  chosen.assign(points.size(), 0);
   taken_.clear();
-  const bool thin = cellLog2 > 0 && cellLog2 < 32; // else no two candidates can be that close
-  for (const Candidate& candidate : nearestToTargets(records, points, cellLog2))
+  std::fill(slots_.begin(), slots_.end(), none);
+  squared_ = distance.squaredSteps();
+  cellsPerStep_ = 0.499999 / distance.steps(); // a hair larger than twice the distance
+  for (std::size_t i = 0; i < points.size(); ++i)
   {
-    const TreePosition& p = candidate.position;
-    if (thin && crowded(p, cellLog2))
+    const glm::dvec3 p(records.position(points[i]));
+    if (!taken_.empty() && near(p, taken_.back()))
     {
       continue;
     }
-    chosen[candidate.rank] = true;
-    taken_.push_back(p);
-    if (thin)
+    const Reach reach = reachOf(p);
+    if (crowded(p, reach))
     {
-      slotOf({p.x >> cellLog2, p.y >> cellLog2, p.z >> cellLog2}) =
-        static_cast<std::uint32_t>(taken_.size());
+      continue;
     }
-  }
-  for (const TreePosition& p : taken_)
-  {
-    if (thin)
-    {
-      slotOf({p.x >> cellLog2, p.y >> cellLog2, p.z >> cellLog2}) = 0;
-    }
+    chosen[i] = 1;
+    std::uint32_t& head = slots_[slotOf(reach, 0)];
+    taken_.push_back({p, head});
+    head = static_cast<std::uint32_t>(taken_.size() - 1);
   }
 }
 

@@ -19,52 +19,76 @@ struct CellOccupancy
 
 CellOccupancy cellOccupancy(const RecordView& records, const std::vector<std::uint32_t>& points);
 
+/// A distance of 2^(quarters / 4) tree steps: the distances that inner nodes sample at. Quarters of
+/// an octave, so that a node's points come near its capacity; whole numbers, so that they compare.
+/// Range  quarters 0 to 128.
+struct SamplingDistance
+{
+  int quarters = 0;
+
+  double squaredSteps() const; ///< exact powers of two times one of two fixed factors
+  double steps() const;
+};
+
 /// What an inner node may hold.
 struct SamplingRule
 {
   std::uint32_t nodePoints = 16384;
-
-  /// log2 of the cells along one edge of a node: 128 for 16384 points, since a surface
-  /// through a node occupies about 128 * 128 of its 128^3 cells.
-  unsigned finestGrid() const;
-  /// An inner node never samples more points than that.
-  std::uint64_t mostPoints() const { return 2ull * nodePoints; }
 };
 
-/// log2 of the cells' side in which an inner node keeps one point each: the finest that keeps the
-/// node within its points, at least twice as coarse as those of its inner children
-/// (`coarsestBelow`, -1 if none), so that spacing halves at least from level to level.
-unsigned samplingCell(const CellOccupancy& occupancy, unsigned nodeLog2Side, int coarsestBelow,
-  const SamplingRule& rule);
+/// The distance at which an inner node samples its candidates: the smallest for which the node is
+/// expected to hold at most nodePoints of them, and at most about a third of them.
+/// Expectation  points no closer than d, as dense as they can be, are three for every four cells
+///              of d that are occupied: on a surface (0.70 / d^2 on a plane) as in a
+///              block (0.73 / d^3). Between two sizes of cell, occupancy is interpolated.
+/// `coarsestBelow` is the largest distance of the inner children (-1: none); spacing falls by
+///              at least the square root of two from level to level.
+/// A node's own candidates decide, not the grid of its cell: a dense child does not thin out
+/// what lies above it, and a cell with a sliver of surface in it is filled as any other.
+SamplingDistance samplingDistance(const CellOccupancy& occupancy, std::uint64_t candidates,
+  int coarsestBelow, const SamplingRule& rule);
 
-/// Marks a subset that covers all points: in each occupied cell the point nearest to the cell's
-/// target is a candidate (ties by Morton order, then input order); along the Morton curve,
-/// candidates closer than half a cell to a marked one are left out. So every point has a marked one
-/// within about a cell, and no two marked ones make a clump, as they would where a slope crosses
-/// the corner of a cell. Never first-come. Targets   not the centre: one third and two thirds of
-/// the cell's edge in turn from level to
-///           level, since one third of a cell is two thirds of its low octant, and so on. The
-///           targets of coarse cells are targets of finer cells too, so a point that was chosen
-///           for being near the target is still near it on the level above.
-/// Memory    8 MiB of slots, one for each cell of a node of 128 cells an edge, clear between calls.
-///           Larger nodes wrap around; then a slot may be another cell's, and a clump may stay.
-/// Threads   one instance, one thread.
-/// Source    the minimum distance within a node, as PotreeConverter 2 keeps it (Schuetz 2020).
+/// Marks a subset that covers all points: along the Morton curve, each point that is not closer
+/// than the distance to one marked before. No two marked ones are closer than that,
+/// and none can be added: a maximal Poisson-disk sample. It depends on the positions
+/// only, never on who came first (of equal positions: the first in input order).
+/// Cost     a hash table of cells of twice the distance, so that what is in reach lies in eight of
+///          them; most points fall to the one marked last and never ask the table.
+/// Memory   64 KiB, and 32 bytes for each marked point, reused from call to call.
+/// Threads  one instance, one thread.
+/// Source   the minimum distance within a node, as PotreeConverter 2 keeps it (Schuetz 2020); cells
+///          that make the search local: Bridson 2007, Fast Poisson Disk Sampling.
 class SubsetSampler
 {
 public:
   SubsetSampler();
-  /// `points` in Morton order; `chosen[i]` belongs to points[i]. cellLog2 up to 32.
+  /// `points` in Morton order; `chosen[i]`, 0 or 1, belongs to points[i].
   void choose(const RecordView& records, const std::vector<std::uint32_t>& points,
-    unsigned cellLog2, std::vector<bool>& chosen);
+    SamplingDistance distance, std::vector<std::uint8_t>& chosen);
 
 private:
-  static constexpr unsigned slotBits = 7; // of each axis
-  std::uint32_t& slotOf(const TreePosition& cell);
-  bool crowded(const TreePosition& p, unsigned cellLog2);
+  static constexpr unsigned slotBits = 14;
+  static constexpr std::uint32_t none = 0xffffffffu;
 
-  std::vector<std::uint32_t> slots_; // number of the cell's point in taken_, plus one
-  std::vector<TreePosition> taken_;
+  struct Taken
+  {
+    glm::dvec3 position{0.0};
+    std::uint32_t next = none; ///< another one whose cell has the same slot
+  };
+  /// The cells that a ball around a point can touch.
+  struct Reach
+  {
+    std::array<std::uint32_t, 2> x, y, z; ///< parts of hashes: [0] of the point's own cell
+  };
+  Reach reachOf(const glm::dvec3& p) const;
+  static std::uint32_t slotOf(const Reach& reach, unsigned octant);
+  bool near(const glm::dvec3& p, const Taken& taken) const;
+  bool crowded(const glm::dvec3& p, const Reach& reach) const;
+
+  std::vector<std::uint32_t> slots_; // heads of lists in taken_
+  std::vector<Taken> taken_;
+  double squared_ = 0.0;      // of the distance, in steps
+  double cellsPerStep_ = 0.0; // of the table's cells
 };
 
 /// Spacing between neighbours in tree steps of a set whose occupancy is known, taken as a

@@ -303,7 +303,7 @@ Result<void> OctreeBuild::assemble()
   plan.tree = parts_->partition().tree();
   plan.load = [this](std::uint32_t part) { return parts_->load(part); };
   plan.builder = [&] {
-    return std::make_unique<SubtreeBuilder>(emitter, rule, recordBytes_, parts_->partition());
+    return std::make_unique<SubtreeBuilder>(emitter, rule, recordBytes_);
   };
   TreeAssembly assembly(std::move(plan), **writer, *crew_);
   auto trees = assembly.run();

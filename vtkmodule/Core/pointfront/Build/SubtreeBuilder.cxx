@@ -37,31 +37,45 @@ OpenSubtree SubtreeBuilder::build(
     const RecordView view{records.data(), recordBytes_};
     records = gathered(view, mortonOrder(view, count));
   }
-  const RecordView sorted{records.data(), recordBytes_};
-  return opened(sorted, branch(sorted, 0, static_cast<std::uint32_t>(count)));
+  const SortedPoints sorted = sortedPoints({records.data(), recordBytes_}, count);
+  return opened(sorted.records, branch(sorted, 0, static_cast<std::uint32_t>(count)));
+}
+
+SubtreeBuilder::SortedPoints SubtreeBuilder::sortedPoints(
+  const RecordView& records, std::size_t count)
+{
+  const CpuStopwatch watch(seconds_.sort);
+  positions_.resize(count);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    positions_[i] = records.position(i);
+  }
+  const auto* positions = reinterpret_cast<const std::byte*>(positions_.data());
+  return {records, {positions, RecordLayout::positionBytes}};
 }
 
 SubtreeBuilder::Branch SubtreeBuilder::branch(
-  const RecordView& records, std::uint32_t begin, std::uint32_t end)
+  const SortedPoints& points, std::uint32_t begin, std::uint32_t end)
 {
-  const unsigned side = differingBits(records.position(begin), records.position(end - 1));
+  const RecordView& positions = points.positions;
+  const unsigned side = differingBits(positions.position(begin), positions.position(end - 1));
   if (end - begin <= rule_.nodePoints)
   {
-    return leaf(records, begin, end, side);
+    return leaf(points, begin, end, side);
   }
   std::vector<Branch> children;
   const auto octant = [&](std::uint64_t i)
-  { return octantOf(records.position(static_cast<std::size_t>(i)), side); };
+  { return octantOf(positions.position(static_cast<std::size_t>(i)), side); };
   for (const IndexRange& range : splitRange({begin, end}, side, octant))
   {
     children.push_back(branch(
-      records, static_cast<std::uint32_t>(range.begin), static_cast<std::uint32_t>(range.end)));
+      points, static_cast<std::uint32_t>(range.begin), static_cast<std::uint32_t>(range.end)));
   }
-  return joinBranches(records, std::move(children), side);
+  return joinBranches(points, std::move(children));
 }
 
 SubtreeBuilder::Branch SubtreeBuilder::leaf(
-  const RecordView& records, std::uint32_t begin, std::uint32_t end, unsigned side)
+  const SortedPoints& points, std::uint32_t begin, std::uint32_t end, unsigned side)
 {
   const CpuStopwatch watch(seconds_.sample);
   Branch branch;
@@ -69,47 +83,53 @@ SubtreeBuilder::Branch SubtreeBuilder::leaf(
   std::iota(branch.held.begin(), branch.held.end(), begin);
   branch.node = std::make_unique<BuiltNode>();
   const double steps =
-    surfaceSpacing(cellOccupancy(records, branch.held), branch.held.size(), side);
+    surfaceSpacing(cellOccupancy(points.positions, branch.held), branch.held.size(), side);
   branch.node->row.spacing = static_cast<float>(steps * emitter_.space().stepLength());
   return branch;
 }
 
 SubtreeBuilder::Branch SubtreeBuilder::joinBranches(
-  const RecordView& records, std::vector<Branch> children, unsigned log2Side)
+  const SortedPoints& points, std::vector<Branch> children)
 {
   Branch joined;
   joined.node = std::make_unique<BuiltNode>();
-  std::vector<bool> chosen;
   {
     const CpuStopwatch watch(seconds_.sample);
-    std::vector<std::uint32_t> candidates;
+    candidates_.clear();
     int coarsestBelow = -1;
     for (const Branch& child : children)
     {
-      candidates.insert(candidates.end(), child.held.begin(), child.held.end());
-      coarsestBelow = std::max(coarsestBelow, child.node->samplingLog2);
+      candidates_.insert(candidates_.end(), child.held.begin(), child.held.end());
+      coarsestBelow = std::max(coarsestBelow, child.node->samplingQuarters);
     }
-    const unsigned cell =
-      samplingCell(cellOccupancy(records, candidates), log2Side, coarsestBelow, rule_);
-    joined.node->samplingLog2 = static_cast<int>(cell);
+    const SamplingDistance distance = samplingDistance(
+      cellOccupancy(points.positions, candidates_), candidates_.size(), coarsestBelow, rule_);
+    joined.node->samplingQuarters = distance.quarters;
     joined.node->row.spacing =
-      static_cast<float>(std::ldexp(emitter_.space().stepLength(), static_cast<int>(cell)));
-    sampler_.choose(records, candidates, cell, chosen);
-  }
-  std::size_t rank = 0;
-  for (Branch& child : children)
-  {
-    std::vector<std::uint32_t> left;
-    for (const std::uint32_t point : child.held)
+      static_cast<float>(emitter_.space().stepLength() * distance.steps());
+    sampler_.choose(points.positions, candidates_, distance, chosen_);
+    std::size_t rank = 0;
+    for (Branch& child : children)
     {
-      (chosen[rank++] ? joined.held : left).push_back(point);
+      std::size_t left = 0;
+      for (const std::uint32_t point : child.held)
+      {
+        if (chosen_[rank++] != 0)
+        {
+          joined.held.push_back(point);
+        }
+        else
+        {
+          child.held[left++] = point;
+        }
+      }
+      child.held.resize(left);
     }
-    child.held = std::move(left);
   }
   mergeLeaves(children);
   for (Branch& child : children)
   {
-    emit(std::move(child), *joined.node, records);
+    emit(std::move(child), *joined.node, points.records);
   }
   return joined;
 }
@@ -151,12 +171,12 @@ void SubtreeBuilder::emit(Branch child, BuiltNode& parent, const RecordView& rec
   parent.children.push_back(std::move(child.node));
 }
 
-OpenSubtree SubtreeBuilder::opened(const RecordView& records, Branch branch) const
+OpenSubtree SubtreeBuilder::opened(const RecordView& records, Branch branch)
 {
   return {std::move(branch.node), gathered(records, branch.held)};
 }
 
-OpenSubtree SubtreeBuilder::join(std::vector<OpenSubtree> children, std::uint32_t node)
+OpenSubtree SubtreeBuilder::join(std::vector<OpenSubtree> children, std::uint32_t /*node*/)
 {
   std::vector<std::byte> records;
   std::vector<Branch> branches;
@@ -171,9 +191,9 @@ OpenSubtree SubtreeBuilder::join(std::vector<OpenSubtree> children, std::uint32_
     branches.push_back(std::move(branch));
     child.records = {};
   }
-  const RecordView view{records.data(), recordBytes_};
-  return opened(
-    view, joinBranches(view, std::move(branches), partition_.nodes()[node].cell.log2Side));
+  const SortedPoints points =
+    sortedPoints({records.data(), recordBytes_}, records.size() / recordBytes_);
+  return opened(points.records, joinBranches(points, std::move(branches)));
 }
 
 std::unique_ptr<BuiltNode> SubtreeBuilder::close(OpenSubtree subtree)

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "pointfront/Build/NodeEmitter.h"
-#include "pointfront/Build/Partition.h"
 #include "pointfront/Build/Sampler.h"
 #include "pointfront/Build/TreeBuilder.h"
 
@@ -23,18 +22,17 @@ namespace pointfront
 /// Mergers   Leaves of one parent become one node as long as what is left of them together is at
 ///           most nodePoints: an octree over a surface has many slivers, and a node of some
 ///           hundred points costs the front, the disk and the GPU as much as a full one.
-/// Sampling  An inner node takes from what its children hold, about one point per cell (Sampler.h);
-/// what
-///           it leaves is theirs. What a node ends up with depends on the points inside its
-///           parent only: not on where the cloud was cut into parts, nor on their order.
+/// Sampling  An inner node takes from what its children hold, as many as it may, none closer than
+///           a distance of its own (Sampler.h); what it leaves is theirs. What a node ends up with
+///           depends on the points inside its parent only: not on where the cloud was cut into
+///           parts, nor on their order.
 /// Order     join() emits the children: siblings are neighbours in the file, below them all
 ///           that they contain. A subtree's root is emitted by its parent or by close().
 class SubtreeBuilder final : public TreeBuilder
 {
 public:
-  SubtreeBuilder(const NodeEmitter& emitter, const SamplingRule& rule, std::size_t recordBytes,
-    const Partition& partition)
-      : emitter_(emitter), rule_(rule), recordBytes_(recordBytes), partition_(partition)
+  SubtreeBuilder(const NodeEmitter& emitter, const SamplingRule& rule, std::size_t recordBytes)
+      : emitter_(emitter), rule_(rule), recordBytes_(recordBytes)
   {
   }
 
@@ -45,24 +43,34 @@ public:
   const SubtreeSeconds& seconds() const override { return seconds_; }
 
 private:
+  /// Records in Morton order, and their positions once more: a tree is made of positions, and
+  /// close together five of them come with one line of the cache.
+  struct SortedPoints
+  {
+    RecordView records;
+    RecordView positions;
+  };
   struct Branch
   {
     std::unique_ptr<BuiltNode> node;
-    std::vector<std::uint32_t> held; ///< indices into the sorted records, Morton order
+    std::vector<std::uint32_t> held; ///< indices into the sorted points, Morton order
   };
   /// Leaves grown together: the node of the first, the points of all.
   void mergeLeaves(std::vector<Branch>& children) const;
-  Branch branch(const RecordView& records, std::uint32_t begin, std::uint32_t end);
-  Branch leaf(const RecordView& records, std::uint32_t begin, std::uint32_t end, unsigned side);
-  Branch joinBranches(const RecordView& records, std::vector<Branch> children, unsigned log2Side);
+  Branch branch(const SortedPoints& points, std::uint32_t begin, std::uint32_t end);
+  Branch leaf(const SortedPoints& points, std::uint32_t begin, std::uint32_t end, unsigned side);
+  Branch joinBranches(const SortedPoints& points, std::vector<Branch> children);
   void emit(Branch child, BuiltNode& parent, const RecordView& records);
-  OpenSubtree opened(const RecordView& records, Branch branch) const;
+  static OpenSubtree opened(const RecordView& records, Branch branch);
+  SortedPoints sortedPoints(const RecordView& records, std::size_t count);
 
   const NodeEmitter& emitter_;
   SamplingRule rule_;
   std::size_t recordBytes_;
-  const Partition& partition_;
   SubsetSampler sampler_;
+  std::vector<TreePosition> positions_; // of the sorted points
+  std::vector<std::uint32_t> candidates_;
+  std::vector<std::uint8_t> chosen_;
   std::vector<EmittedNode> emitted_;
   SubtreeSeconds seconds_;
 };

@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -55,6 +56,9 @@ void BuildCommand::declare(CLI::App& program)
   app_->add_flag("--force", options_.overwrite, "Replace an existing output");
   app_->add_option("--progress", progress_, "On stderr: auto, plain, json or none (auto)")
     ->check(availableValues({ "auto", "plain", "json", "none" }, {}));
+  app_->add_option("--preview", preview_,
+        "A small store beside the output, to look at while it is built: auto or none (auto)")
+    ->check(availableValues({ "auto", "none" }, {}));
   app_->add_flag("--json", json_, "Print the report as one JSON object");
   passes_.declare(*app_);
 }
@@ -135,8 +139,8 @@ void BuildCommand::warnOfBuild(
   }
 }
 
-Result<PointSources> BuildCommand::applyPasses(
-  PointSources sources, const AttributePasses& passes, const ProgressFunction& progress)
+Result<PointSources> BuildCommand::applyPasses(PointSources sources,
+  const AttributePasses& passes, BuildPreview& preview, const ProgressFunction& progress)
 {
   PassResources resources;
   resources.memoryBytes = options_.memoryBytes;
@@ -144,8 +148,14 @@ Result<PointSources> BuildCommand::applyPasses(
   resources.temporaryFolder = options_.temporaryFolder;
   resources.progress = progress;
   std::uint64_t held = 0;
+  bool shown = false;
   for (const std::unique_ptr<AttributePass>& pass : passes)
   {
+    if (pass->readsPoints() && !shown)
+    {
+      preview.showOverview(sources, progress);
+      shown = true;
+    }
     Result<PointSources> next = pass->apply(std::move(sources), resources);
     if (!next)
     {
@@ -158,7 +168,46 @@ Result<PointSources> BuildCommand::applyPasses(
   {
     options_.memoryBytes -= std::min(held, options_.memoryBytes - 1);
   }
+  if (!shown)
+  {
+    preview.showOverview(sources, progress);
+  }
   return sources;
+}
+
+Result<BuildReport> BuildCommand::buildFrom(PointSources& sources, const AttributePasses& passes)
+{
+  const auto begin = std::chrono::steady_clock::now();
+  ProgressDisplay display(*ProgressDisplay::styleOf(progress_));
+  PreviewOptions wish;
+  wish.wanted = preview_ != "none";
+  const auto preview = BuildPreview::create(sources, options_, wish);
+  if (!preview)
+  {
+    return preview.error();
+  }
+  if (options_.memoryBytes > 0)
+  {
+    options_.memoryBytes -= (*preview)->heldBytes();
+  }
+  Result<PointSources> prepared =
+    applyPasses(std::move(sources), passes, **preview, display.function());
+  if (!prepared)
+  {
+    return prepared.error();
+  }
+  sources = std::move(*prepared);
+  warnOfPasses(passes);
+  const PointSources watched = (*preview)->watched(sources);
+  Result<BuildReport> report = buildOctreeStore(watched, options_, display.function());
+  if (report)
+  {
+    const std::vector<std::string> warnings = (*preview)->warnings();
+    report->warnings.insert(report->warnings.end(), warnings.begin(), warnings.end());
+    const auto end = std::chrono::steady_clock::now();
+    report->seconds = std::chrono::duration<double>(end - begin).count(); // passes and overview too
+  }
+  return report;
 }
 
 void BuildCommand::warnOfPasses(const AttributePasses& passes)
@@ -200,22 +249,12 @@ Result<void> BuildCommand::run()
   {
     return passes.error();
   }
-  std::optional<BuildReport> report;
+  const Result<BuildReport> built = buildFrom(*sources, *passes);
+  if (!built)
   {
-    ProgressDisplay display(*ProgressDisplay::styleOf(progress_));
-    sources = applyPasses(std::move(*sources), *passes, display.function());
-    if (!sources)
-    {
-      return sources.error();
-    }
-    warnOfPasses(*passes);
-    Result<BuildReport> built = buildOctreeStore(*sources, options_, display.function());
-    if (!built)
-    {
-      return built.error();
-    }
-    report = std::move(*built);
+    return built.error();
   }
+  const BuildReport* report = &built.value();
   warnOfBuild(*sources, *report);
   warnOfPasses(*passes);
   if (json_)

@@ -3,6 +3,7 @@
 #include "BuildPasses.h"
 #include "Command.h"
 
+#include "pointfront/Build/BuildPreview.h"
 #include "pointfront/Build/StoreBuilder.h"
 #include "pointfront/Points/PointSource.h"
 
@@ -24,9 +25,12 @@ public:
 private:
   /// Opens every input; warns of what was wrong and survived.
   Result<PointSources> openSources() const;
-  /// Runs the passes one after another; the build gets the memory that they leave.
+  /// Runs the passes one after another; the build gets the memory that they leave. Shows an
+  /// overview before the first one that takes long.
   Result<PointSources> applyPasses(PointSources sources, const AttributePasses& passes,
-    const ProgressFunction& progress);
+    BuildPreview& preview, const ProgressFunction& progress);
+  /// Passes, preview and build, with progress on stderr. `sources` becomes what the passes gave.
+  Result<BuildReport> buildFrom(PointSources& sources, const AttributePasses& passes);
   /// What passes found, each sentence once.
   void warnOfPasses(const AttributePasses& passes);
   /// Tells what the build itself found; what the sources said has been told, with their paths.
@@ -40,6 +44,7 @@ private:
   BuildPasses passes_;
   std::string attributes_ = "all";
   std::string progress_ = "auto";
+  std::string preview_ = "auto";
   std::string structure_ = "octree";
   std::string refinement_ = "add";
   std::string layers_ = "none";

@@ -5,6 +5,8 @@
 #include "pointfront/Store/StoredCloudFormats.h"
 #include "CancelSignal.h"
 
+#include "pointfront/Store/PreviewRecord.h"
+
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -84,6 +86,11 @@ std::string storeJson(const StoreDescription& store, std::uint64_t nodes)
       { "points", layer.pointCount }, { "nodes", layer.nodeCount } });
   }
   object["version"] = store.version;
+  if (const auto preview = previewRecordOf(store.metadata))
+  {
+    object["preview"] = { { "of", preview->storeName },
+      { "points_expected", preview->pointsExpected }, { "points_read", preview->pointsRead } };
+  }
   object["grid"] = { { "scale", { store.grid.scale.x, store.grid.scale.y, store.grid.scale.z } },
     { "offset", { store.grid.offset.x, store.grid.offset.y, store.grid.offset.z } } };
   // A name from a file need not be UTF-8: what is not becomes the replacement character.
@@ -95,7 +102,14 @@ std::string storeText(const StoreDescription& store, std::uint64_t nodes)
   std::ostringstream text;
   text.precision(15);
   const Bounds& b = store.bounds;
-  text << store.path << "\n  points      " << store.pointCount << "\n  bounds      ";
+  text << store.path;
+  if (const auto preview = previewRecordOf(store.metadata))
+  {
+    text << "\n  preview     of " << preview->storeName << ", which is being built from "
+         << preview->pointsExpected << " points; " << preview->pointsRead
+         << " were read when this was written";
+  }
+  text << "\n  points      " << store.pointCount << "\n  bounds      ";
   if (b.empty())
   {
     text << "none";

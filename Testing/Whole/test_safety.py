@@ -117,6 +117,45 @@ class Kills(ToolTest):
         self.succeed("verify", store)
 
 
+class Previews(ToolTest):
+    def test_a_build_can_be_looked_at_while_it_runs(self):
+        store, preview = self.folder / "x.pfront", self.folder / "x.preview.pfront"
+        process = start("build", LARGE, "-o", store)
+        began = time.monotonic()
+        while not preview.exists() and process.poll() is None:
+            time.sleep(0.005)
+        waited = time.monotonic() - began
+        looked = pointfront("info", preview, "--json")
+        checked = pointfront("verify", preview)
+        _, err = process.communicate(timeout=240)
+        took = time.monotonic() - began
+        self.assertEqual(process.returncode, 0, err)
+        self.assertEqual(looked.status, 0, looked)
+        self.assertEqual(checked.status, 0, checked)
+        self.assertLess(waited, max(3.0, 0.3 * took))
+        said = looked.json["preview"]
+        self.assertEqual(said["of"], "x.pfront")
+        self.assertEqual(said["points_expected"], 10653336)
+        self.assertGreater(looked.json["points"], 20000)
+        self.assertLess(looked.json["points"], 200000)
+        finished = self.succeed("info", store, "--json").json
+        self.assertNotIn("preview", finished)
+        self.assertEqual(finished["points"], 10653336)
+        for axis in range(2):  # the first look shows most of the extent
+            whole = finished["bounds"][axis + 3] - finished["bounds"][axis]
+            seen = looked.json["bounds"][axis + 3] - looked.json["bounds"][axis]
+            self.assertGreater(seen, 0.5 * whole)
+        self.assertEqual(self.entries(), ["x.pfront"])
+
+    def test_the_store_is_the_same_without(self):
+        with_one = self.folder / "with.pfront"
+        without = self.folder / "without.pfront"
+        self.succeed("build", LARGE, "-o", with_one)
+        self.succeed("build", LARGE, "-o", without, "--preview", "none")
+        self.assertEqual(with_one.read_bytes(), without.read_bytes())
+        self.refuse(2, "build", LARGE, "-o", without, "--preview", "often")
+
+
 class Disks(ToolTest):
     def refuse_with_limit(self, bytes_allowed, *arguments):
         """As refuse(1, ...), where no file may grow beyond so many bytes."""

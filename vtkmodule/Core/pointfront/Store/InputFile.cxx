@@ -3,6 +3,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -55,6 +56,24 @@ Result<std::unique_ptr<const InputFile>> InputFile::open(const std::string& path
   }
   return std::unique_ptr<const InputFile>(
     new InputFile(path, descriptor, static_cast<std::uint64_t>(status.st_size)));
+}
+
+bool InputFile::isLocked() const
+{
+  if (::flock(descriptor_, LOCK_SH | LOCK_NB) != 0)
+  {
+    return true;
+  }
+  ::flock(descriptor_, LOCK_UN);
+  return false;
+}
+
+bool InputFile::isStillNamed() const
+{
+  struct stat opened = {};
+  struct stat named = {};
+  return ::fstat(descriptor_, &opened) == 0 && ::stat(path_.c_str(), &named) == 0 &&
+    opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
 }
 
 Result<void> InputFile::readAt(std::uint64_t offset, std::byte* target, std::size_t size) const

@@ -23,6 +23,11 @@ public:
 
   const std::string& path() const { return path_; }
   std::uint64_t bytes() const { return bytes_; } ///< when it was opened
+  /// True while somebody else has the file open under an exclusive lock: it is being replaced or
+  /// kept by a running build. Also true on file systems that have no locks.
+  bool isLocked() const;
+  /// False once another file has this path, or none.
+  bool isStillNamed() const;
   Result<void> readAt(std::uint64_t offset, std::byte* target, std::size_t size) const;
 
 private:

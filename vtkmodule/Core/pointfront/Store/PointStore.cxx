@@ -3,6 +3,7 @@
 #include "pointfront/Store/Checksum.h"
 #include "pointfront/Store/ColumnStatistics.h"
 #include "pointfront/Store/NodeTableSection.h"
+#include "pointfront/Store/PreviewRecord.h"
 #include "pointfront/Store/StoreContent.h"
 #include "pointfront/Store/StoreFormat.h"
 #include "pointfront/Store/StoreVerification.h"
@@ -234,7 +235,32 @@ bool PointStore::looksLikeStore(const std::string& path)
     bytes == storeMagic;
 }
 
+bool PointStore::looksLikePreview(const std::string& path)
+{
+  const auto store = openAny(path);
+  return store && previewRecordOf((*store)->description().metadata);
+}
+
 Result<std::shared_ptr<const PointStore>> PointStore::open(const std::string& path)
+{
+  auto store = openAny(path);
+  const InputFile* file = store ? (*store)->content_->file.get() : nullptr;
+  const auto preview =
+    store ? previewRecordOf((*store)->description().metadata) : std::nullopt;
+  if (!preview || file->isLocked())
+  {
+    return store;
+  }
+  if (!file->isStillNamed() && InputFile::open(path))
+  {
+    return open(path); // the running build has just replaced it
+  }
+  return makeError(Error::Kind::Truncated,
+    "'" + path + "' is the preview of a build that has ended; open '" + preview->storeName +
+      "' if it is there, otherwise build again");
+}
+
+Result<std::shared_ptr<const PointStore>> PointStore::openAny(const std::string& path)
 {
   Result<std::unique_ptr<const InputFile>> opened = InputFile::open(path);
   if (!opened)

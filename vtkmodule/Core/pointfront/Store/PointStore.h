@@ -15,7 +15,10 @@ namespace pointfront
 class PointStore final : public StoredCloud
 {
 public:
+  /// A preview (PreviewRecord.h) opens while its build runs; that of a killed build is Truncated.
   static Result<std::shared_ptr<const PointStore>> open(const std::string& path);
+  /// True for the preview of a build, whether it still runs or was killed. Silent.
+  static bool looksLikePreview(const std::string& path);
   /// True if the file begins like a store of any version. Cheap, silent.
   static bool looksLikeStore(const std::string& path);
   ~PointStore() override;
@@ -31,6 +34,7 @@ public:
 
 private:
   PointStore();
+  static Result<std::shared_ptr<const PointStore>> openAny(const std::string& path);
   struct Content;
   std::unique_ptr<Content> content_;
 };

@@ -1,0 +1,98 @@
+#pragma once
+
+#include "pointfront/Base/Progress.h"
+#include "pointfront/Base/Result.h"
+#include "pointfront/Build/PointSample.h"
+#include "pointfront/Build/PreviewFile.h"
+#include "pointfront/Build/StoreBuilder.h"
+
+#include <condition_variable>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace pointfront
+{
+
+struct PreviewOptions
+{
+  bool wanted = true;
+  /// Smaller inputs are built in about the time that an overview takes.
+  std::uint64_t leastPoints = 4000000;
+  /// Called after each version with the preview's path; from a thread of the preview.
+  std::function<void(const std::string&)> shown;
+};
+
+/// Shows a cloud while its store is built: beside the store lies a small one, the preview
+/// (PreviewRecord.h). Its first version comes from some chunks spread over all inputs, within
+/// seconds; later ones from a random share of all that the build has read, each with four times as
+/// much of it. What the build writes does not depend on it.
+/// Cost        the sample has at most a 128th of the points; all versions together, decoding for
+///             the first included, stay below 5 % of the build's CPU time. Memory: a 16th of the
+///             build's limit, at most 512 MiB, see heldBytes().
+/// Errors      what goes wrong with a preview never ends the build: see warnings().
+/// Guarantees  removed with this object; a killed build's does not open (PreviewFile).
+/// Threads     called from one thread; runs one of its own while the build reads.
+/// Source      Futterlieb et al. 2016, section 3.3.1: the first task generates an overview, later
+///             ones recompute it (SMOOTH-1).
+class BuildPreview
+{
+public:
+  /// Claims the preview's name. Without a wish, with few points or little memory it stays silent:
+  /// all other functions then only pass things on.
+  /// Errors  PreviewFile::claim(): another build of this store is running.
+  static Result<std::unique_ptr<BuildPreview>> create(
+    const PointSources& sources, const BuildOptions& build, const PreviewOptions& options = {});
+  ~BuildPreview();
+  BuildPreview(const BuildPreview&) = delete;
+  BuildPreview& operator=(const BuildPreview&) = delete;
+
+  bool active() const { return capacity_ > 0; }
+  const std::string& path() const { return file_->path(); }
+
+  /// Reads some chunks on all threads and shows them. Reports as the phase "overview".
+  void showOverview(const PointSources& sources, const ProgressFunction& progress = {});
+
+  /// The sources to build from: as these, which must outlive them, watched while they are read.
+  PointSources watched(const PointSources& sources);
+  /// Memory that the preview may take; passes and build have that much less.
+  std::uint64_t heldBytes() const { return memoryBytes_; }
+
+  /// Why there was no preview, or no later version of it; full sentences.
+  std::vector<std::string> warnings() const;
+
+private:
+  class WatchedSource;
+  BuildPreview(const BuildOptions& build, PreviewOptions options);
+  void chooseCapacity(const PointSources& sources);
+  void pickChunks(const PointSources& sources, const std::function<bool()>& goOn);
+  void pointsWereRead(std::uint64_t points);
+  void refine(const PointSources& sources);
+  void show(const PointSources& originals, std::uint64_t pointsRead, unsigned threads,
+    const std::function<bool()>& goOn);
+  Result<void> write(const PointSources& originals, std::uint64_t pointsRead, unsigned threads,
+    const std::function<bool()>& goOn);
+
+  BuildOptions build_;
+  PreviewOptions options_;
+  std::unique_ptr<PreviewFile> file_;
+  std::uint64_t expected_ = 0; ///< points that the sources announce
+  std::uint64_t chunks_ = 0;
+  std::uint64_t memoryBytes_ = 0; ///< for the sample, and for building from it
+  std::uint64_t capacity_ = 0; ///< points of the sample; 0: silent
+  const PointSource* firstShown_ = nullptr; ///< of the sources that showOverview() was given
+  bool mixed_ = false; ///< the sample still holds points of the overview
+  PointSample sample_;
+  std::thread refiner_;
+  mutable std::mutex mutex_; // guards what follows
+  std::condition_variable changed_;
+  std::uint64_t read_ = 0;
+  bool stop_ = false;
+  std::vector<std::string> warnings_;
+};
+
+} // namespace pointfront

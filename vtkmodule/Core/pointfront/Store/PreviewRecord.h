@@ -1,0 +1,34 @@
+#pragma once
+
+#include "pointfront/Points/PointSource.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pointfront
+{
+
+/// What makes a store the preview of one that is still being built: a metadata record, so that
+/// the format stays version 1 and every reader shows it (ADR 0011, SMOOTH-1).
+struct PreviewRecord
+{
+  std::string storeName;         ///< file name of the finished store, in the preview's folder
+  std::uint64_t pointsExpected = 0; ///< of the finished store, as the inputs announce them
+  std::uint64_t pointsRead = 0;  ///< that the build had read when the preview was written
+};
+
+MetadataRecord previewMetadata(const PreviewRecord& record);
+
+/// The record among a store's metadata; nothing: the store is finished.
+std::optional<PreviewRecord> previewRecordOf(const std::vector<MetadataRecord>& metadata);
+
+/// "folder/city.pfront" -> "folder/city.preview.pfront": beside the store, with its extension, so
+/// that every program that opens stores opens it.
+std::string previewPathOf(const std::string& storePath);
+
+/// The other way round; nothing if the path is not named like a preview.
+std::optional<std::string> storePathOfPreview(const std::string& previewPath);
+
+} // namespace pointfront

@@ -133,8 +133,10 @@ Result<void> RenderCommand::run()
   const double roundingOfPrefixes = 1.01;
   if (frames_ == 0 && (!last->complete || last->errorPx > drawing_.errorPx * roundingOfPrefixes))
   {
-    warn(name(), "the picture is coarser than --error asks: the budgets allow no more"
-                 " (raise --point-budget or --memory)");
+    const char* raise = last->limitedByMemory && last->limitedByPoints
+      ? "--memory and --point-budget"
+      : last->limitedByMemory ? "--memory" : "--point-budget";
+    warn(name(), std::string("the picture is coarser than --error asks; raise ") + raise);
   }
   // From here on there are files to finish: a signal is seen when they are whole.
   const CancelSignal finishing(CancelSignal::Mode::Finish);
@@ -166,6 +168,16 @@ std::string RenderCommand::statistics(const StoreScene& scene, const FrameRecord
   object["points_drawn"] = last.points;
   object["nodes_drawn"] = last.nodes;
   object["error_px"] = last.errorPx;
+  object["limited_by"] = nlohmann::ordered_json::array();
+  if (last.limitedByPoints)
+  {
+    object["limited_by"].push_back("points");
+  }
+  if (last.limitedByMemory)
+  {
+    object["limited_by"].push_back("memory");
+  }
+  object["failed_nodes"] = last.failedNodes;
   object["peak_rss_bytes"] = peakResidentBytes();
   object["resident_bytes"] = last.residentBytes;
   object["gpu_bytes"] = last.gpuBytes;

@@ -352,6 +352,9 @@ FrameRecord OffscreenScene::record() const
     frame.thresholdPx = std::max(frame.thresholdPx, mapper->GetLastThreshold());
     frame.errorPx = std::max(frame.errorPx, mapper->GetLastError());
     frame.complete = frame.complete && mapper->GetLastComplete();
+    frame.limitedByPoints = frame.limitedByPoints || mapper->GetLastLimitedByPoints();
+    frame.limitedByMemory = frame.limitedByMemory || mapper->GetLastLimitedByMemory();
+    frame.failedNodes += mapper->GetLastFailedNodes();
     frame.gpuBytes += mapper->GetLastGPUBytes();
     frame.residentBytes += residency.residentBytes;
     frame.bytesRead += residency.bytesRead;

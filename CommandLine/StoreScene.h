@@ -27,6 +27,9 @@ struct FrameRecord
   double thresholdPx = 0.0;       ///< largest
   double errorPx = 0.0;           ///< largest
   bool complete = false;          ///< no further frame will change the picture
+  bool limitedByPoints = false;   ///< --point-budget kept the error above --error
+  bool limitedByMemory = false;   ///< --memory did
+  std::int64_t failedNodes = 0;   ///< that could not be read
   std::int64_t gpuBytes = 0;
   std::uint64_t residentBytes = 0;
   std::uint64_t bytesRead = 0;    ///< from the disk, ever

@@ -53,6 +53,8 @@ struct RendererView
   bool FirstDrawing = false;
   bool UploadsLeft = false;
   bool Complete = false;
+  bool Announced = false; ///< ViewCompleteEvent was invoked for `View`
+  pointfront::View View;  ///< of the last frame, in the store's coordinates
 
   ~RendererView()
   {
@@ -297,7 +299,10 @@ pointfront::ViewFront* vtkPointFrontMapper::PrepareFrame(vtkRenderer* renderer, 
   view.FirstDrawing = true;
 
   const auto begin = Clock::now();
-  const pointfront::FrontDelta& delta = view.Front->update(this->GetDemand(renderer, actor));
+  const pointfront::FrameDemand demand = this->GetDemand(renderer, actor);
+  view.Announced = view.Announced && view.View == demand.view;
+  view.View = demand.view;
+  const pointfront::FrontDelta& delta = view.Front->update(demand);
   this->LastFrontTime = millisecondsSince(begin);
   this->LastFrontLength = delta.frontLength;
   this->LastMoves = delta.moves;
@@ -331,6 +336,15 @@ void vtkPointFrontMapper::FinishFrame(
   this->LastNodesDrawn = static_cast<vtkIdType>(delta.draw.size());
   this->LastGPUBytes = gpuBytes;
   this->LastComplete = view.Complete;
+  this->LastLimitedByPoints = delta.limitedByBudget;
+  this->LastLimitedByMemory = delta.limitedByMemory;
+  this->LastFailedNodes = static_cast<vtkIdType>(delta.failedNodes);
+  const bool announce = view.Complete && !view.Announced;
+  view.Announced = view.Complete;
+  if (announce)
+  {
+    this->InvokeEvent(ViewCompleteEvent);
+  }
 }
 
 void vtkPointFrontMapper::RecordFrame(
@@ -399,4 +413,7 @@ void vtkPointFrontMapper::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "LastPointsDrawn: " << this->LastPointsDrawn << "\n";
   os << indent << "LastError: " << this->LastError << "\n";
   os << indent << "LastComplete: " << this->LastComplete << "\n";
+  os << indent << "LastLimitedByPoints: " << this->LastLimitedByPoints << "\n";
+  os << indent << "LastLimitedByMemory: " << this->LastLimitedByMemory << "\n";
+  os << indent << "LastFailedNodes: " << this->LastFailedNodes << "\n";
 }

@@ -126,7 +126,20 @@ public:
   /// True when the last frame showed all that TargetError and the budgets allow: no further render
   /// will change the picture.
   vtkGetMacro(LastComplete, bool);
+  /// True when PointBudget, or the time of a frame in motion, kept the error above TargetError.
+  vtkGetMacro(LastLimitedByPoints, bool);
+  /// True when the store's host memory budget did.
+  vtkGetMacro(LastLimitedByMemory, bool);
+  /// Nodes of this view that could not be read; what lies above them is drawn in their place.
+  vtkGetMacro(LastFailedNodes, vtkIdType);
   ///@}
+
+  enum EventIds
+  {
+    /// Invoked after a frame that is the first to be complete (LastComplete) for its view: the
+    /// picture is as good as the budgets allow and stays so until something is changed.
+    ViewCompleteEvent = 10440
+  };
 
   /**
    * True if nodes arrived since the last render, or the last render left work over: render again.
@@ -194,6 +207,9 @@ protected:
   double LastFrontTime = 0.0;
   vtkTypeInt64 LastGPUBytes = 0;
   bool LastComplete = false;
+  bool LastLimitedByPoints = false;
+  bool LastLimitedByMemory = false;
+  vtkIdType LastFailedNodes = 0;
 
 private:
   struct Content;

@@ -188,6 +188,9 @@ class Refinement(SceneTest):
         statistics = json.loads(stats.read_text())
         self.assertLessEqual(statistics["points_drawn"], 50000)
         self.assertIn("--point-budget", outcome.err)
+        self.assertNotIn("--memory", outcome.err)
+        self.assertEqual(statistics["limited_by"], ["points"])
+        self.assertEqual(statistics["failed_nodes"], 0)
 
     def test_bench(self):
         stats, table = self.folder / "bench.json", self.folder / "frames.csv"

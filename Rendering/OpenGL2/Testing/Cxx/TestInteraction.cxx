@@ -2,6 +2,8 @@
 
 #include "pointfront/Store/PointStore.h"
 
+#include <vtkCallbackCommand.h>
+
 #include <chrono>
 #include <thread>
 
@@ -72,6 +74,47 @@ TEST(Interaction, AFrameInMotionUploadsNoMoreThanItsLimitAndLosesNothing)
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
   EXPECT_GT(before, 10000);
+}
+
+TEST(Interaction, AViewIsAnnouncedOnceWhenItIsComplete)
+{
+  Scene scene(terrain("announced"));
+  scene.mapper->CompleteOff();
+  int announced = 0;
+  vtkNew<vtkCallbackCommand> counter;
+  counter->SetClientData(&announced);
+  counter->SetCallback([](vtkObject*, unsigned long, void* count, void*)
+    { ++*static_cast<int*>(count); });
+  scene.mapper->AddObserver(vtkPointFrontMapper::ViewCompleteEvent, counter);
+  scene.window->Render();
+  EXPECT_EQ(announced, 0); // the roots alone
+  settle(scene);
+  EXPECT_TRUE(scene.mapper->GetLastComplete());
+  EXPECT_FALSE(scene.mapper->GetLastLimitedByPoints());
+  EXPECT_FALSE(scene.mapper->GetLastLimitedByMemory());
+  EXPECT_EQ(scene.mapper->GetLastFailedNodes(), 0);
+  EXPECT_EQ(announced, 1);
+  scene.window->Render();
+  EXPECT_EQ(announced, 1); // nothing has changed
+  scene.renderer->GetActiveCamera()->Azimuth(20.0);
+  settle(scene);
+  EXPECT_EQ(announced, 2); // another view
+}
+
+TEST(Interaction, WhatLimitsAViewIsTold)
+{
+  Scene few(terrain("few"));
+  few.mapper->SetPointBudget(20000);
+  few.draw();
+  EXPECT_TRUE(few.mapper->GetLastLimitedByPoints());
+  EXPECT_FALSE(few.mapper->GetLastLimitedByMemory());
+  EXPECT_LE(few.mapper->GetLastPointsDrawn(), 20000);
+
+  Scene small(terrain("small"));
+  small.mapper->GetBounds();
+  small.mapper->GetStore()->SetHostMemoryBudget(1200000);
+  small.draw();
+  EXPECT_TRUE(small.mapper->GetLastLimitedByMemory());
 }
 
 TEST(Interaction, AMotionFrameKeepsToTheTimeThatIsAllotted)

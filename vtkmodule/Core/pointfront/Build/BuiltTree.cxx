@@ -41,6 +41,11 @@ void encloseNode(
   {
     box.add(child->row.box());
   }
+  encloseBox(row, box);
+}
+
+void encloseBox(Node& row, const Bounds& box)
+{
   row.centre = box.centre();
   for (int axis = 0; axis < 3; ++axis)
   {

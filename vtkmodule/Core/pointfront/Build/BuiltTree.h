@@ -25,6 +25,9 @@ struct BuiltNode
 void encloseNode(
   Node& row, const Bounds& own, const std::vector<std::unique_ptr<BuiltNode>>& children);
 
+/// Sets centre, halfSize and radius so that they enclose `box`, which is not empty. Rounds outward.
+void encloseBox(Node& row, const Bounds& box);
+
 /// Node table and payloads in the order that StoreWriter::commit() wants.
 struct NodeTable
 {

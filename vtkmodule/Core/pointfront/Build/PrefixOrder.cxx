@@ -1,6 +1,6 @@
 #include "pointfront/Build/PrefixOrder.h"
 
-#include <algorithm>
+#include <utility>
 
 namespace pointfront
 {
@@ -20,24 +20,24 @@ std::uint64_t hashOf(const TreePosition& p)
   h ^= h >> 33;
   return h;
 }
-
-struct RankedHash
-{
-  std::uint32_t index;
-  std::uint32_t hash;
-};
 } // namespace
 
 std::vector<std::uint32_t> prefixOrder(
   const RecordView& records, const std::vector<std::uint32_t>& indices)
 {
-  std::vector<std::uint32_t> ordered(indices.size());
-  // Ranks and hashes move together: a hash is made once, and read where it is needed.
-  std::vector<RankedHash> coarse(indices.size());
+  std::vector<RankedHash> points(indices.size());
   for (std::size_t i = 0; i < indices.size(); ++i)
   {
-    coarse[i] = {indices[i], static_cast<std::uint32_t>(hashOf(records.position(indices[i])))};
+    points[i] = {indices[i], static_cast<std::uint32_t>(hashOf(records.position(indices[i])))};
   }
+  return prefixBatches(std::move(points));
+}
+
+std::vector<std::uint32_t> prefixBatches(std::vector<RankedHash> points)
+{
+  std::vector<std::uint32_t> ordered(points.size());
+  // Ranks and hashes move together: a hash is made once, and read where it is needed.
+  std::vector<RankedHash> coarse = std::move(points);
   std::size_t end = ordered.size(); // the places before it are still free
   for (unsigned round = 0; coarse.size() > smallestBatch; ++round)
   {

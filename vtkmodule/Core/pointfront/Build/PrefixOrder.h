@@ -20,4 +20,15 @@ namespace pointfront
 std::vector<std::uint32_t> prefixOrder(
   const RecordView& records, const std::vector<std::uint32_t>& indices);
 
+/// A point of a node and a fixed, well mixed hash of it.
+struct RankedHash
+{
+  std::uint32_t index;
+  std::uint32_t hash;
+};
+
+/// The same order of points that come in some order of their own, which every batch keeps: along
+/// the Morton curve, or as a scanner wrote them.
+std::vector<std::uint32_t> prefixBatches(std::vector<RankedHash> points);
+
 } // namespace pointfront

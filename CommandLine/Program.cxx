@@ -3,6 +3,8 @@
 #include "BuildCommand.h"
 #include "ExportCommand.h"
 #include "GenerateCommand.h"
+#include "IndexCommand.h"
+#include "IndexedLASFile.h"
 #include "InfoCommand.h"
 #ifdef POINTFRONT_WITH_VTK
 #include "BenchCommand.h"
@@ -10,6 +12,8 @@
 #endif
 #include "Unavailable.h"
 #include "VerifyCommand.h"
+
+#include "pointfront/Store/StoredCloudFormats.h"
 
 #include <cstdio>
 
@@ -21,6 +25,8 @@ Program::Program()
 {
   app_.set_version_flag("--version", "pointfront " POINTFRONT_VERSION);
   commands_.push_back(std::make_unique<BuildCommand>());
+  StoredCloudFormats::ofProcess().add(std::make_shared<LASIndexFormat>());
+  commands_.push_back(std::make_unique<IndexCommand>());
   commands_.push_back(std::make_unique<InfoCommand>());
   commands_.push_back(std::make_unique<VerifyCommand>());
   commands_.push_back(std::make_unique<ExportCommand>());
@@ -38,7 +44,6 @@ Program::Program()
 
 void Program::declareUnavailableCommands()
 {
-  declareUnavailableCommand(app_, "index", "LAS files are not indexed in place; use build");
 #ifndef POINTFRONT_WITH_VTK
   declareUnavailableCommand(app_, "render", "this tool was built without VTK");
   declareUnavailableCommand(app_, "bench", "this tool was built without VTK");

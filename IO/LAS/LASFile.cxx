@@ -2,6 +2,7 @@
 
 #include "LASExtraBytes.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace pointfront
@@ -74,11 +75,19 @@ void dropOverlappingRecords(
     header.extendedRecordCount = 0;
   }
 }
+
+/// Points may reach to the EVLRs behind them, or to the end of the file.
+std::uint64_t endOfPoints(const LASFile& file)
+{
+  return file.header.extendedRecordCount > 0
+    ? std::min<std::uint64_t>(file.header.extendedRecordOffset, file.map.size())
+    : file.map.size();
+}
 } // namespace
 
-Result<LASFile> LASFile::open(const std::string& path)
+Result<LASFile> LASFile::open(const std::string& path, MemoryMap::Access access)
 {
-  Result<MemoryMap> map = MemoryMap::open(path);
+  Result<MemoryMap> map = MemoryMap::open(path, access);
   if (!map)
   {
     return map.error();
@@ -126,6 +135,29 @@ Result<LASFile> LASFile::open(const std::string& path)
   description.warnings = std::move(warnings);
   return LASFile{ std::move(*map), header, std::move(records), std::move(layout),
     std::move(description) };
+}
+
+Result<void> LASFile::countRecords()
+{
+  const std::uint64_t claimed = header.pointCount;
+  const std::uint64_t room = endOfPoints(*this) - header.pointOffset;
+  const std::uint64_t present = std::min(claimed, room / header.pointBytes);
+  if (present < claimed)
+  {
+    const std::string where = "their bytes end at byte " + std::to_string(endOfPoints(*this));
+    if (present == 0)
+    {
+      return makeError(Error::Kind::Truncated,
+        description.path + ": the header promises " + std::to_string(claimed) +
+          " points from byte " + std::to_string(header.pointOffset) + " on, but " + where +
+          ": there is none; get a whole copy");
+    }
+    description.warnings.push_back(std::to_string(claimed - present) + " of " +
+      std::to_string(claimed) + " points are missing: " + where + ", after " +
+      std::to_string(present) + " whole points.");
+  }
+  description.pointCount = present;
+  return {};
 }
 
 } // namespace pointfront

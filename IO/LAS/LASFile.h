@@ -34,7 +34,13 @@ struct LASFile
 
   /// Errors   of MemoryMap::open and parseLASHeader; Unsupported if a point has a thousand
   ///          attributes.
-  static Result<LASFile> open(const std::string& path);
+  static Result<LASFile> open(
+    const std::string& path, MemoryMap::Access access = MemoryMap::Access::Sequential);
+
+  /// Sets description.pointCount to the whole records that are there, with a warning if the header
+  /// claims more. Uncompressed files only.
+  /// Errors   Truncated if points are claimed and not one is there.
+  Result<void> countRecords();
 };
 
 } // namespace pointfront

@@ -127,4 +127,11 @@ void decodeLASPoints(const LASPointLayout& layout, const QuantisationGrid& grid,
   }
 }
 
+void decodeLASColumn(const LASPointLayout& layout, std::size_t column, const std::byte* records,
+  std::size_t count, std::byte* to)
+{
+  decodeColumn(Records{ records, layout.pointBytes, count }, layout.fields[column],
+    layout.schema[column].bytes(), to);
+}
+
 } // namespace pointfront

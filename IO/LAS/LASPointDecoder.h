@@ -18,4 +18,8 @@ namespace pointfront
 void decodeLASPoints(const LASPointLayout& layout, const QuantisationGrid& grid,
   const std::byte* records, std::size_t count, PointBatch& batch, std::size_t first = 0);
 
+/// The values of one column of `count` records that lie one behind the other.
+void decodeLASColumn(const LASPointLayout& layout, std::size_t column, const std::byte* records,
+  std::size_t count, std::byte* to);
+
 } // namespace pointfront

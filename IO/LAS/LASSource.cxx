@@ -11,37 +11,14 @@ namespace pointfront
 namespace
 {
 constexpr std::uint64_t pointsPerChunk = 65536;
-
-/// Points may reach to the EVLRs behind them, or to the end of the file.
-std::uint64_t endOfPoints(const LASFile& file)
-{
-  return file.header.extendedRecordCount > 0
-    ? std::min<std::uint64_t>(file.header.extendedRecordOffset, file.map.size())
-    : file.map.size();
-}
 } // namespace
 
 Result<std::unique_ptr<PointSource>> LASSource::open(LASFile file)
 {
-  SourceDescription& description = file.description;
-  const std::uint64_t claimed = file.header.pointCount;
-  const std::uint64_t room = endOfPoints(file) - file.header.pointOffset;
-  const std::uint64_t present = std::min(claimed, room / file.header.pointBytes);
-  if (present < claimed)
+  if (Result<void> counted = file.countRecords(); !counted)
   {
-    const std::string where = "their bytes end at byte " + std::to_string(endOfPoints(file));
-    if (present == 0)
-    {
-      return makeError(Error::Kind::Truncated,
-        description.path + ": the header promises " + std::to_string(claimed) +
-          " points from byte " + std::to_string(file.header.pointOffset) + " on, but " + where +
-          ": there is none; get a whole copy");
-    }
-    description.warnings.push_back(std::to_string(claimed - present) + " of " +
-      std::to_string(claimed) + " points are missing: " + where + ", after " +
-      std::to_string(present) + " whole points.");
+    return counted.error();
   }
-  description.pointCount = present;
   return std::unique_ptr<PointSource>(new LASSource(std::move(file)));
 }
 

@@ -34,7 +34,7 @@ class Usage(ToolTest):
         self.refuse(2, "build", SMALL)
 
     def test_commands_of_the_contract_that_are_not_there_say_so(self):
-        missing = ["index", "view"] + ([] if WITH_VTK else ["render", "bench"])
+        missing = ["view"] + ([] if WITH_VTK else ["render", "bench"])
         for command in missing:
             outcome = self.refuse(2, command, "a", "-o", "b", "--points", "3")
             self.assertIn("not available", outcome.err)

@@ -109,6 +109,31 @@ BlockShape columnShape(const Attribute& attribute, std::size_t points)
   return { points, attribute.components, static_cast<unsigned>(sizeOf(attribute.type)) };
 }
 
+NodeColumns emptyColumns(
+  NodeIndex node, std::size_t points, const ColumnSelection& columns, const AttributeSchema& schema)
+{
+  NodeColumns result;
+  result.node = node;
+  result.selection = columns;
+  result.positions.resize(points);
+  for (const std::uint32_t column : columns)
+  {
+    result.columns.emplace_back(columnShape(schema[column], points).bytes());
+  }
+  return result;
+}
+
+std::size_t decodedBytesOf(
+  std::size_t points, const ColumnSelection& columns, const AttributeSchema& schema)
+{
+  std::size_t sum = sizeof(NodeColumns) + positionShape(points).bytes();
+  for (const std::uint32_t column : columns)
+  {
+    sum += columnShape(schema[column], points).bytes() + sizeof(std::vector<std::byte>);
+  }
+  return sum;
+}
+
 ColumnRange emptyRange(const Attribute& attribute)
 {
   ColumnRange range;

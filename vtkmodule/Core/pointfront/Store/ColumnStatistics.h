@@ -13,6 +13,12 @@ namespace pointfront
 BlockShape positionShape(std::size_t points);
 BlockShape columnShape(const Attribute& attribute, std::size_t points);
 
+/// Memory for the points of a node: of exactly decodedBytesOf() bytes.
+NodeColumns emptyColumns(NodeIndex node, std::size_t points, const ColumnSelection& columns,
+  const AttributeSchema& schema);
+std::size_t decodedBytesOf(
+  std::size_t points, const ColumnSelection& columns, const AttributeSchema& schema);
+
 /// The range of no values: low is +infinity, high -infinity.
 ColumnRange emptyRange(const Attribute& attribute);
 /// Smallest and largest value of each component of `points` values; NaN is left out.

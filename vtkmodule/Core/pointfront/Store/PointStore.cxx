@@ -195,21 +195,6 @@ std::string decodeFault(const BlockDirectory::Block& block, const std::byte* dat
     ? ""
     : ": the block cannot be decoded";
 }
-
-/// Memory for the points of a node, of exactly the size that decodedBytes() tells.
-NodeColumns emptyColumns(
-  NodeIndex node, std::size_t points, const ColumnSelection& columns, const AttributeSchema& schema)
-{
-  NodeColumns result;
-  result.node = node;
-  result.selection = columns;
-  result.positions.resize(points);
-  for (const std::uint32_t column : columns)
-  {
-    result.columns.emplace_back(columnShape(schema[column], points).bytes());
-  }
-  return result;
-}
 } // namespace
 
 std::string blockName(const StoreDescription& description, NodeIndex node, std::uint32_t block)
@@ -320,14 +305,8 @@ const std::shared_ptr<const Hierarchy>& PointStore::hierarchy() const
 
 std::size_t PointStore::decodedBytes(NodeIndex node, const ColumnSelection& columns) const
 {
-  const std::size_t points = content_->hierarchy->node(node).pointCount;
-  std::size_t sum = sizeof(NodeColumns) + positionShape(points).bytes();
-  for (const std::uint32_t column : columns)
-  {
-    sum += columnShape(content_->description.schema[column], points).bytes() +
-      sizeof(std::vector<std::byte>);
-  }
-  return sum;
+  return decodedBytesOf(
+    content_->hierarchy->node(node).pointCount, columns, content_->description.schema);
 }
 
 std::size_t PointStore::storedBytes(NodeIndex node, const ColumnSelection& columns) const

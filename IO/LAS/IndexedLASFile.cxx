@@ -1,0 +1,267 @@
+#include "IndexedLASFile.h"
+
+#include "LASIndexing.h"
+#include "LASPointDecoder.h"
+
+#include "pointfront/Build/PrefixOrder.h"
+#include "pointfront/InPlace/SampleStream.h"
+#include "pointfront/Store/ColumnStatistics.h"
+#include "pointfront/Store/StoreVerification.h"
+
+#include <algorithm>
+#include <cassert>
+#include <filesystem>
+
+namespace pointfront
+{
+namespace
+{
+constexpr std::size_t pageBytes = 4096;
+/// Pages of the map may count as memory of this process up to here, then they are given back.
+constexpr std::size_t mappedLimit = std::size_t(32) << 20;
+
+/// The records of some points, one behind the other, each at its place in the prefix order. They
+/// are fetched in the order of the file: a disk is read forwards.
+std::vector<std::byte> gather(
+  const GridRecords& records, const std::vector<std::uint64_t>& points)
+{
+  std::vector<RankedHash> ranked(points.size());
+  for (std::uint32_t i = 0; i < points.size(); ++i)
+  {
+    ranked[i] = { i, static_cast<std::uint32_t>(SampleStream::mixed(points[i]) >> 32) };
+  }
+  const std::vector<std::uint32_t> order = prefixBatches(std::move(ranked));
+  std::vector<std::uint32_t> place(order.size());
+  for (std::uint32_t rank = 0; rank < order.size(); ++rank)
+  {
+    place[order[rank]] = rank;
+  }
+  std::vector<std::byte> gathered(points.size() * records.stride);
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    std::memcpy(gathered.data() + place[i] * records.stride, records.record(points[i]),
+      records.stride);
+  }
+  return gathered;
+}
+
+void decodeSteps(const GridRecords& gathered, const glm::ivec3& low, NodeColumns& to)
+{
+  to.origin = GridPosition(low);
+  for (std::size_t i = 0; i < to.positions.size(); ++i)
+  {
+    // Modulo 2^32: bytes that somebody changed since are wrong, never undefined.
+    const glm::ivec3 position = gathered.position(i);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      to.positions[i][axis] =
+        static_cast<std::uint32_t>(position[axis]) - static_cast<std::uint32_t>(low[axis]);
+    }
+  }
+}
+
+std::string differenceOf(const IndexedFile& now, const IndexedFile& then)
+{
+  const auto numbers = [](const char* what, std::uint64_t a, std::uint64_t b)
+  { return std::string(what) + " " + std::to_string(a) + ", not " + std::to_string(b); };
+  if (now.bytes != then.bytes)
+  {
+    return numbers("its size in bytes is", now.bytes, then.bytes);
+  }
+  if (now.headerChecksum != then.headerChecksum)
+  {
+    return "its header is another one";
+  }
+  if (now.points != then.points)
+  {
+    return numbers("its points are", now.points, then.points);
+  }
+  if (now.firstRecord != then.firstRecord || now.recordBytes != then.recordBytes)
+  {
+    return "its points lie elsewhere";
+  }
+  return now.edgesChecksum != then.edgesChecksum ? "its first or last points are others" : "";
+}
+} // namespace
+
+IndexedLASFile::IndexedLASFile(std::unique_ptr<const SideFile> side, LASFile file)
+  : side_(std::move(side))
+  , file_(std::move(file))
+{
+}
+
+Result<void> IndexedLASFile::checkIdentity(const std::string& sidePath) const
+{
+  const std::string difference = differenceOf(identityOf(file_), side_->content().indexed);
+  if (!difference.empty())
+  {
+    return makeError(Error::Kind::Corrupt,
+      "'" + sidePath + "' is not an index of '" + file_.description.path +
+        "' as it is now: " + difference + "; index the file again: pointfront index");
+  }
+  if (!(file_.layout.schema == side_->content().stored.description.schema))
+  {
+    return makeError(Error::Kind::Corrupt,
+      "'" + sidePath + "' describes other attributes than '" + file_.description.path +
+        "' has; index the file again: pointfront index");
+  }
+  return {};
+}
+
+void IndexedLASFile::describe(const std::string& sidePath)
+{
+  const SideFileContent& content = side_->content();
+  description_ = content.stored.description;
+  description_.path = sidePath;
+  description_.fileBytes = side_->bytes();
+  description_.pointCount = content.indexed.points;
+  description_.layers[0].pointCount = content.indexed.points;
+  description_.layers[0].nodeCount = static_cast<std::uint32_t>(content.table.nodes.size());
+  for (const Node& node : content.table.nodes)
+  {
+    description_.levels = std::max<std::uint32_t>(description_.levels, node.level + 1u);
+  }
+  hierarchy_ = std::make_shared<HierarchyTable>(content.table.nodes,
+    content.table.nodes.empty() ? std::vector<NodeIndex>() : std::vector<NodeIndex>{ 0 },
+    description_.refinement);
+}
+
+Result<std::shared_ptr<const IndexedLASFile>> IndexedLASFile::open(const std::string& sidePath)
+{
+  Result<std::unique_ptr<const SideFile>> side = SideFile::open(sidePath);
+  if (!side)
+  {
+    return side.error();
+  }
+  const std::filesystem::path folder = std::filesystem::path(sidePath).parent_path();
+  const std::string lasPath = (folder / (*side)->content().indexed.name).string();
+  std::error_code failure;
+  if (!std::filesystem::exists(lasPath, failure))
+  {
+    return makeError(Error::Kind::NotFound,
+      "'" + sidePath + "' is an index of '" + lasPath +
+        "', which is not there; move it back, or index it where it is: pointfront index");
+  }
+  Result<LASFile> file = LASFile::open(lasPath, MemoryMap::Access::Random);
+  if (!file)
+  {
+    return file.error();
+  }
+  if (file->header.compressed)
+  {
+    return makeError(Error::Kind::Corrupt,
+      "'" + sidePath + "' is an index of '" + lasPath + "', whose points are compressed now");
+  }
+  if (Result<void> counted = file->countRecords(); !counted)
+  {
+    return counted.error();
+  }
+  std::shared_ptr<IndexedLASFile> indexed(
+    new IndexedLASFile(std::move(*side), std::move(*file)));
+  if (Result<void> same = indexed->checkIdentity(sidePath); !same)
+  {
+    return same.error();
+  }
+  indexed->describe(sidePath);
+  return std::shared_ptr<const IndexedLASFile>(std::move(indexed));
+}
+
+std::size_t IndexedLASFile::decodedBytes(NodeIndex node, const ColumnSelection& columns) const
+{
+  return decodedBytesOf(hierarchy_->node(node).pointCount, columns, description_.schema);
+}
+
+std::size_t IndexedLASFile::storedBytes(NodeIndex node, const ColumnSelection&) const
+{
+  const InPlaceRow& row = side_->content().table.rows[node];
+  return row.bytes + row.pages * pageBytes;
+}
+
+void IndexedLASFile::giveBack(std::size_t bytes) const
+{
+  if (mapped_.fetch_add(bytes) + bytes > mappedLimit)
+  {
+    mapped_ = 0;
+    file_.map.release(0, file_.map.size());
+  }
+}
+
+Result<NodeColumns> IndexedLASFile::read(NodeIndex node, const ColumnSelection& columns) const
+{
+  assert(node < hierarchy_->nodeCount());
+  const Result<std::vector<std::uint64_t>> points = side_->pointsOf(node);
+  if (!points)
+  {
+    return points.error();
+  }
+  const GridRecords records = recordsOf(file_);
+  const std::vector<std::byte> bytes = gather(records, *points);
+  giveBack(side_->content().table.rows[node].pages * pageBytes);
+  GridRecords gathered = records;
+  gathered.first = bytes.data();
+  gathered.count = points->size();
+  NodeColumns result = emptyColumns(node, points->size(), columns, description_.schema);
+  decodeSteps(gathered, side_->content().table.rows[node].low, result);
+  for (std::size_t c = 0; c < columns.size(); ++c)
+  {
+    decodeLASColumn(
+      file_.layout, columns[c], bytes.data(), points->size(), result.columns[c].data());
+  }
+  return result;
+}
+
+/// Counts alone could hide one point twice and another left out; a sum of hashes of their numbers
+/// does not.
+std::string IndexedLASFile::membersFault() const
+{
+  std::uint64_t wanted = 0;
+  for (std::uint64_t point = 0; point < description_.pointCount; ++point)
+  {
+    wanted += SampleStream::mixed(point);
+  }
+  std::uint64_t found = 0;
+  for (NodeIndex node = 0; node < hierarchy_->nodeCount(); ++node)
+  {
+    const Result<std::vector<std::uint64_t>> points = side_->pointsOf(node);
+    if (!points)
+    {
+      return points.error().what;
+    }
+    for (const std::uint64_t point : *points)
+    {
+      found += SampleStream::mixed(point);
+    }
+  }
+  return found == wanted
+    ? ""
+    : "'" + description_.path + "': its nodes do not hold every point exactly once";
+}
+
+Result<VerifyReport> IndexedLASFile::verify(const ProgressFunction& progress) const
+{
+  Result<VerifyReport> report =
+    StoreVerification(*this, side_->content().stored.gridBounds).run(progress);
+  if (report && report->ok)
+  {
+    report->firstError = membersFault();
+    report->ok = report->firstError.empty();
+  }
+  return report;
+}
+
+bool LASIndexFormat::accepts(const std::string& path) const
+{
+  return SideFile::looksLikeSideFile(path);
+}
+
+Result<std::shared_ptr<const StoredCloud>> LASIndexFormat::open(const std::string& path) const
+{
+  Result<std::shared_ptr<const IndexedLASFile>> file = IndexedLASFile::open(path);
+  if (!file)
+  {
+    return file.error();
+  }
+  return std::shared_ptr<const StoredCloud>(std::move(*file));
+}
+
+} // namespace pointfront

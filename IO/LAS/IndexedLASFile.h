@@ -1,0 +1,60 @@
+#pragma once
+
+#include "LASFile.h"
+
+#include "pointfront/InPlace/SideFile.h"
+#include "pointfront/Store/StoredCloud.h"
+
+#include <atomic>
+#include <memory>
+#include <string>
+
+namespace pointfront
+{
+
+/// A LAS file that is drawn in place, through the side file that indexLASFile() made. Points are
+/// decoded straight from a map of the LAS file.
+/// Order     a node's points by prefix batches, each in the order of the file.
+/// Threads   all functions are safe from any thread.
+/// Errors    open: those of SideFile and LASFile; NotFound if the LAS file is not where the side
+///           file says; Corrupt if it is not the file that was indexed, with what differs.
+///           read: Corrupt with the node.
+/// Limits    the LAS file must not be written to while it is open (see MemoryMap).
+class IndexedLASFile final : public StoredCloud
+{
+public:
+  static Result<std::shared_ptr<const IndexedLASFile>> open(const std::string& sidePath);
+
+  const StoreDescription& description() const override { return description_; }
+  const std::shared_ptr<const Hierarchy>& hierarchy() const override { return hierarchy_; }
+  Result<NodeColumns> read(NodeIndex node, const ColumnSelection& columns) const override;
+  std::size_t decodedBytes(NodeIndex node, const ColumnSelection& columns) const override;
+  /// Whole pages, all columns: records lie as they lie.
+  std::size_t storedBytes(NodeIndex node, const ColumnSelection& columns) const override;
+  /// Also that every point of the LAS file is in exactly one node.
+  Result<VerifyReport> verify(const ProgressFunction& progress = {}) const override;
+
+private:
+  IndexedLASFile(std::unique_ptr<const SideFile> side, LASFile file);
+  Result<void> checkIdentity(const std::string& sidePath) const;
+  void describe(const std::string& sidePath);
+  void giveBack(std::size_t bytes) const;
+  std::string membersFault() const;
+
+  std::unique_ptr<const SideFile> side_;
+  LASFile file_;
+  StoreDescription description_;
+  std::shared_ptr<const Hierarchy> hierarchy_;
+  mutable std::atomic<std::size_t> mapped_{ 0 }; ///< bytes touched since pages were given back
+};
+
+/// Opens side files of LAS files as stored clouds.
+class LASIndexFormat final : public StoredCloudFormat
+{
+public:
+  std::string name() const override { return "index of a LAS file"; }
+  bool accepts(const std::string& path) const override;
+  Result<std::shared_ptr<const StoredCloud>> open(const std::string& path) const override;
+};
+
+} // namespace pointfront

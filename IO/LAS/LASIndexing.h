@@ -1,0 +1,52 @@
+#pragma once
+
+#include "LASFile.h"
+
+#include "pointfront/Base/Progress.h"
+#include "pointfront/InPlace/InPlaceTable.h"
+#include "pointfront/InPlace/SideFile.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace pointfront
+{
+
+/// What a LAS file's index is called when it is given no name: beside the file, with this behind.
+constexpr const char* lasIndexSuffix = ".pfindex";
+
+struct LASIndexOptions
+{
+  std::uint32_t leafPoints = 16384;
+  std::uint64_t memoryBytes = 0;   ///< 0: 256 MiB
+  unsigned threads = 0;            ///< 0: one a core
+  std::string temporaryFolder;     ///< empty: the side file's
+};
+
+struct LASIndexReport
+{
+  std::uint64_t points = 0;
+  std::uint64_t nodes = 0;
+  std::uint64_t runs = 0;         ///< of consecutive points, over all leaves
+  std::uint64_t bytesWritten = 0; ///< of the side file
+  std::uint64_t spilledBytes = 0;
+  double seconds = 0.0;
+  std::vector<std::string> warnings;
+};
+
+/// Makes the in-place quadtree of a LAS file: a side file that tells which runs of its points lie
+/// where. The LAS file is read, never written; nothing of it is copied.
+/// Errors   of LASFile::open; Unsupported for LAZ (its points have no places of their own);
+///          BadArgument if `sidePath` is there and is no index; Corrupt if the file changes
+///          meanwhile; Unwritable; Cancelled. Nothing is left behind then.
+/// Source   Kovac 2009, sections 2 and 3.1.
+Result<LASIndexReport> indexLASFile(const std::string& lasPath, const std::string& sidePath,
+  const LASIndexOptions& options, const ProgressFunction& progress = {});
+
+/// The records of an open, uncompressed LAS file whose records were counted.
+GridRecords recordsOf(const LASFile& file);
+/// How a side file knows `file` again; its name is left empty.
+IndexedFile identityOf(const LASFile& file);
+
+} // namespace pointfront

@@ -198,7 +198,10 @@ Result<SideFileContent> indexPoints(const LASFile& file, const LASIndexOptions& 
 {
   const GridRecords records = recordsOf(file);
   const auto released = [&](std::uint64_t begin, std::uint64_t end)
-  { file.map.release(records.fileOffset + begin * records.stride, (end - begin) * records.stride); };
+  {
+    file.map.release(
+      records.fileOffset + begin * records.stride, (end - begin) * records.stride);
+  };
   Result<Survey> survey = surveyPoints(file, records, crew, released);
   if (!survey)
   {

@@ -4,6 +4,7 @@ clouds whose picture is known, and with itself."""
 import csv
 import json
 import os
+import shutil
 import unittest
 
 from pictures import read_png, share_alike
@@ -90,6 +91,27 @@ class KnownPictures(SceneTest):
         self.assertLess(int(shaded.sum()), int(plain.sum()))
         self.assertGreater(int(shaded.sum()), int(plain.sum()) // 3)
         self.assertFalse((shaded == plain).all())
+
+
+class InPlace(SceneTest):
+    def test_an_indexed_file_looks_like_its_store(self):
+        las = self.folder / "points.las"
+        shutil.copyfile(TRIM, las)
+        self.succeed("index", las, "--node-points", "2000")
+        store = self.build(las)
+        for view in ("iso", "top"):
+            common = ("--view", view, "--background", "0,0,0", "--point-size", "2")
+            all_of = (*common, "--error", "0.01")
+            ours, statistics = self.statistics(self.folder / "points.las.pfindex", *all_of)
+            self.assertTrue(statistics["complete"])
+            self.assertEqual(statistics["points_drawn"], 110000)
+            # Equal depths may be drawn in another order; nothing else can differ.
+            self.assertGreater(share_alike(ours, self.picture(store, *all_of)), 0.995, view)
+            coarse, statistics = self.statistics(
+                self.folder / "points.las.pfindex", *common, "--error", "4")
+            self.assertTrue(statistics["complete"])
+            self.assertLess(statistics["points_drawn"], 60000)
+            self.assertGreater(share_alike(coarse, ours), 0.5, view)
 
 
 class AgainstAllPoints(SceneTest):

@@ -23,9 +23,9 @@ struct Square
 /// Counts points in the cells of a square grid in the plane, finer where they are dense; later
 /// tells for any position which leaf it belongs to.
 /// Shape     one grid of 2^topBits cells a side over the square frame around `box`; a cell that
-///           holds too many is cut into 8 x 8 by refine(), and so on. Cells lie in Morton order, so
-///           that every square of the quadtree is one range of them.
-/// Memory    4 bytes a cell: at most 64 MiB for the first grid, 256 bytes for each cell that is cut.
+///           holds too many is cut into 8 x 8 by refine(), and so on. Cells lie in Morton order,
+///           so that every square of the quadtree is one range of them.
+/// Memory    4 bytes a cell: at most 64 MiB for the first grid, 256 for each cell that is cut.
 /// Counts    stop at 2^30: they shape the tree, the exact ones come with the runs.
 /// Threads   count() from any number of threads at once; everything else from one.
 class CellGrid

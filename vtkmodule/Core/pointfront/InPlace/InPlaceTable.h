@@ -34,8 +34,8 @@ struct InPlaceOptions
 
 /// The in-place tree over some records: which points each node holds, told by runs.
 /// Shapes    nodes[i] goes with rows[i]; breadth first. An inner node's points are those of its
-///           runs of strata that no coarser stream of an ancestor has; a leaf's are those of its runs
-///           of points that no ancestor's stream has. Every point is in exactly one node.
+///           runs of strata that no coarser stream of an ancestor has; a leaf's are those of its
+///           runs of points that no ancestor's stream has. Every point is in exactly one node.
 struct InPlaceTable
 {
   std::vector<Node> nodes;

@@ -189,8 +189,7 @@ Result<void> RunLedger::spill()
   return {};
 }
 
-Result<void> RunLedger::write(
-  const std::function<Result<void>(NodeIndex, const std::vector<std::byte>&)>& to)
+Result<void> RunLedger::write(const ListSink& to)
 {
   std::vector<std::byte> list;
   for (NodeIndex i = 0; i < entries_.size(); ++i)

@@ -58,7 +58,8 @@ public:
 
   const std::vector<Entry>& entries() const { return entries_; }
   /// Hands over each node's list in the order of the nodes. Once, at the end.
-  Result<void> write(const std::function<Result<void>(NodeIndex, const std::vector<std::byte>&)>& to);
+  using ListSink = std::function<Result<void>(NodeIndex, const std::vector<std::byte>&)>;
+  Result<void> write(const ListSink& to);
   std::uint64_t spilledBytes() const { return spilledBytes_; }
 
 private:

@@ -64,7 +64,8 @@ private:
 
 /// A side file, open for reading. The format: docs/formats/pfindex.md.
 /// Threads  const functions are safe from any thread.
-/// Errors   open: NotFound, Unreadable, BadFormat, Unsupported (a newer version), Truncated, Corrupt.
+/// Errors   open: NotFound, Unreadable, BadFormat, Unsupported (a newer version), Truncated,
+///          Corrupt.
 class SideFile
 {
 public:

@@ -9,8 +9,8 @@ namespace pointfront
 {
 namespace
 {
-/// Larger parts gain nothing: the sort leaves the caches.
-constexpr std::uint64_t mostPartPoints = 1u << 20;
+/// Larger parts gain nothing: sorting and sampling leave the caches.
+constexpr std::uint64_t mostPartPoints = 1u << 18;
 constexpr std::uint64_t mostBlockPoints = 1u << 22;
 constexpr std::uint64_t memoryBlockPoints = 1u << 18;
 

@@ -2,32 +2,38 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <numeric>
 
 namespace pointfront
 {
 namespace
 {
-constexpr unsigned keyBits = 21; // of one axis; 3 * 21 fit a 64-bit key
-constexpr unsigned digitBits = 11;
-constexpr std::size_t digits = std::size_t(1) << digitBits;
+constexpr unsigned mostAxisBits = 21; // 3 * 21 fit a 64-bit key
+constexpr unsigned mostDigitBits = 11;
+constexpr unsigned mostPasses = 6; // 63 bits
+constexpr std::size_t mostDigits = std::size_t(1) << mostDigitBits;
 
-struct KeyedIndex
+/// Two zero bits before each bit of a byte.
+constexpr std::array<std::uint32_t, 256> makeSpreadBytes()
 {
-  std::uint64_t key;
-  std::uint32_t index;
-};
+  std::array<std::uint32_t, 256> table{};
+  for (std::uint32_t byte = 0; byte < table.size(); ++byte)
+  {
+    for (unsigned bit = 0; bit < 8; ++bit)
+    {
+      table[byte] |= ((byte >> bit) & 1u) << (3 * bit);
+    }
+  }
+  return table;
+}
+constexpr std::array<std::uint32_t, 256> spreadBytes = makeSpreadBytes();
 
 /// Two zero bits before each of the low 21 bits.
-std::uint64_t spread(std::uint64_t v)
+std::uint64_t spread(std::uint32_t v)
 {
-  v &= 0x1fffff;
-  v = (v | (v << 32)) & 0x001f00000000ffffull;
-  v = (v | (v << 16)) & 0x001f0000ff0000ffull;
-  v = (v | (v << 8)) & 0x100f00f00f00f00full;
-  v = (v | (v << 4)) & 0x10c30c30c30c30c3ull;
-  v = (v | (v << 2)) & 0x1249249249249249ull;
-  return v;
+  return spreadBytes[v & 0xffu] | std::uint64_t(spreadBytes[(v >> 8) & 0xffu]) << 24 |
+         std::uint64_t(spreadBytes[(v >> 16) & 0x1fu]) << 48;
 }
 
 std::uint64_t keyOf(const TreePosition& p, unsigned shift)
@@ -47,45 +53,101 @@ unsigned commonBits(const RecordView& records, std::size_t count)
   return differingBits(differ, TreePosition{0});
 }
 
-/// Stable, least significant digit first; digits that all keys share are skipped.
-void radixSort(std::vector<KeyedIndex>& items, unsigned bits)
+unsigned bitsFor(std::uint64_t largest)
 {
-  std::vector<KeyedIndex> other(items.size());
-  for (unsigned shift = 0; shift < bits; shift += digitBits)
+  return largest == 0 ? 0u : 64u - static_cast<unsigned>(__builtin_clzll(largest));
+}
+
+/// Keys and indices share one word: the highest bits of the key that fit above the index. Half the
+/// bytes to move, and equal keys stay in the order of their indices.
+struct WordLayout
+{
+  unsigned axisShift = 0; ///< bits of an axis below its key
+  unsigned keyShift = 0;  ///< bits of the key that do not fit
+  unsigned keyBits = 0;   ///< that do
+  unsigned indexBits = 0;
+
+  WordLayout(unsigned axisBits, std::size_t count)
+      : axisShift(axisBits > mostAxisBits ? axisBits - mostAxisBits : 0),
+        indexBits(bitsFor(count - 1))
   {
-    std::array<std::uint32_t, digits> start{};
-    for (const KeyedIndex& item : items)
+    const unsigned all = 3 * (axisBits - axisShift);
+    keyBits = std::min(all, 64 - indexBits);
+    keyShift = all - keyBits;
+  }
+  bool whole() const { return axisShift == 0 && keyShift == 0; }
+  std::uint64_t word(const TreePosition& p, std::size_t i) const
+  {
+    return (keyOf(p, axisShift) >> keyShift) << indexBits | i;
+  }
+  std::uint32_t index(std::uint64_t word) const
+  {
+    return static_cast<std::uint32_t>(word & ((std::uint64_t(1) << indexBits) - 1));
+  }
+};
+
+/// Stable, by `bits` bits from `lowest` up, least significant digit first.
+void radixSort(std::vector<std::uint64_t>& words, unsigned lowest, unsigned bits)
+{
+  const unsigned passes = (bits + mostDigitBits - 1) / mostDigitBits;
+  if (passes == 0)
+  {
+    return;
+  }
+  const unsigned digitBits = (bits + passes - 1) / passes;
+  const std::uint64_t mask = (std::uint64_t(1) << digitBits) - 1;
+  // Of all digits in one pass over the words; the highest digit may reach above the key: zeros.
+  std::vector<std::array<std::uint32_t, mostDigits>> starts(passes);
+  for (const std::uint64_t word : words)
+  {
+    std::uint64_t key = word >> lowest;
+    for (unsigned pass = 0; pass < passes; ++pass, key >>= digitBits)
     {
-      ++start[(item.key >> shift) & (digits - 1)];
+      ++starts[pass][key & mask];
     }
-    if (start[(items.front().key >> shift) & (digits - 1)] == items.size())
+  }
+  std::vector<std::uint64_t> other(words.size());
+  for (unsigned pass = 0; pass < passes; ++pass)
+  {
+    const unsigned shift = lowest + pass * digitBits;
+    std::array<std::uint32_t, mostDigits>& start = starts[pass];
+    if (start[(words.front() >> shift) & mask] == words.size())
     {
-      continue;
+      continue; // all share it
     }
     std::exclusive_scan(start.begin(), start.end(), start.begin(), std::uint32_t(0));
-    for (const KeyedIndex& item : items)
+    for (const std::uint64_t word : words)
     {
-      other[start[(item.key >> shift) & (digits - 1)]++] = item;
+      other[start[(word >> shift) & mask]++] = word;
     }
-    items.swap(other);
+    words.swap(other);
   }
 }
 
-/// Keys were cut off below their 21st bit: finish runs of equal keys by the whole position.
-void sortWithinKeys(std::vector<KeyedIndex>& items, const RecordView& records)
+/// Finishes runs that are equal from `lowest` up: few and short, unless points are equal.
+template <typename Less>
+void sortRuns(std::vector<std::uint64_t>& words, unsigned lowest, const Less& less)
 {
-  for (auto begin = items.begin(); begin != items.end();)
+  for (auto begin = words.begin(); begin != words.end();)
   {
-    const auto end = std::find_if(
-      begin + 1, items.end(), [&](const KeyedIndex& item) { return item.key != begin->key; });
+    auto end = begin + 1;
+    while (end != words.end() && ((*begin ^ *end) >> lowest) == 0)
+    {
+      ++end;
+    }
     if (end - begin > 1)
     {
-      std::stable_sort(begin, end,
-        [&](const KeyedIndex& a, const KeyedIndex& b)
-        { return mortonLess(records.position(a.index), records.position(b.index)); });
+      std::sort(begin, end, less);
     }
     begin = end;
   }
+}
+
+/// Bits of the key that tell most neighbours of a surface apart: an octree level for each factor of
+/// four, and two more. The rest is for sortRuns().
+unsigned tellingBits(std::size_t count)
+{
+  return 3 * ((bitsFor(count) + 1) / 2) + 6;
 }
 } // namespace
 
@@ -123,20 +185,35 @@ std::vector<std::uint32_t> mortonOrder(const RecordView& records, std::size_t co
   {
     return order;
   }
-  const unsigned bits = commonBits(records, count);
-  const unsigned shift = bits > keyBits ? bits - keyBits : 0;
-  std::vector<KeyedIndex> items(count);
+  const WordLayout layout(commonBits(records, count), count);
+  std::vector<std::uint64_t> words(count);
   for (std::size_t i = 0; i < count; ++i)
   {
-    items[i] = {keyOf(records.position(i), shift), static_cast<std::uint32_t>(i)};
+    words[i] = layout.word(records.position(i), i);
   }
-  radixSort(items, 3 * std::min(bits, keyBits));
-  if (shift > 0)
+  const unsigned sorted = std::min(layout.keyBits, tellingBits(count));
+  const unsigned lowest = layout.indexBits + layout.keyBits - sorted;
+  radixSort(words, lowest, sorted);
+  if (layout.whole())
   {
-    sortWithinKeys(items, records);
+    sortRuns(words, lowest, std::less<>());
   }
-  std::transform(
-    items.begin(), items.end(), order.begin(), [](const KeyedIndex& item) { return item.index; });
+  else
+  {
+    const auto less = [&](std::uint64_t a, std::uint64_t b)
+    {
+      if ((a ^ b) >> layout.indexBits != 0)
+      {
+        return a < b;
+      }
+      const TreePosition p = records.position(layout.index(a));
+      const TreePosition q = records.position(layout.index(b));
+      return p == q ? a < b : mortonLess(p, q);
+    };
+    sortRuns(words, lowest, less);
+  }
+  std::transform(words.begin(), words.end(), order.begin(),
+    [&](std::uint64_t word) { return layout.index(word); });
   return order;
 }
 

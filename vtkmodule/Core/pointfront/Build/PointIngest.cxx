@@ -15,15 +15,20 @@ namespace
 {
 using Sources = std::vector<std::unique_ptr<PointSource>>;
 
-/// Cells of a 1024th of the declared extent; coarsened as points come, counted again if too coarse.
+/// Cells such that a surface has some hundred points in each: enough of them to cut parts along, and
+/// few enough for the nearest caches. Of a 64th to a 512th of the declared extent; coarsened as
+/// points come, counted again if too coarse.
 unsigned hintedShift(const Sources& sources, const TreeSpace& space)
 {
-  constexpr int cellsLog2 = 10;
+  constexpr double pointsOfCell = 256.0;
   Bounds bounds;
+  double points = 1.0;
   for (const auto& source : sources)
   {
     bounds.add(source->description().declaredBounds);
+    points += static_cast<double>(source->description().pointCount);
   }
+  const double cellsLog2 = std::clamp(std::ceil(0.5 * std::log2(points / pointsOfCell)), 6.0, 9.0);
   const glm::dvec3 size = bounds.empty() ? glm::dvec3(0.0) : bounds.size();
   const double steps = std::max({size.x, size.y, size.z}) / space.stepLength();
   const double bits = std::log2(std::max(1.0, steps)) - cellsLog2;

@@ -53,6 +53,27 @@ inline void setPosition(std::byte* record, const TreePosition& position)
   std::memcpy(record, &position, RecordLayout::positionBytes);
 }
 
+/// A record from one place to another that does not overlap: no call, unlike a std::memcpy() of a
+/// length that is not known when compiled.
+inline void copyRecord(std::byte* to, const std::byte* from, std::size_t bytes)
+{
+  constexpr std::size_t word = 16;
+  if (bytes < word) // a position and up to three bytes
+  {
+    std::memcpy(to, from, RecordLayout::positionBytes);
+    for (std::size_t i = RecordLayout::positionBytes; i < bytes; ++i)
+    {
+      to[i] = from[i];
+    }
+    return;
+  }
+  for (std::size_t i = 0; i + word <= bytes; i += word)
+  {
+    std::memcpy(to + i, from + i, word);
+  }
+  std::memcpy(to + bytes - word, from + bytes - word, word); // once more what overlaps
+}
+
 /// A packed run of records that someone else owns.
 struct RecordView
 {

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <memory>
 #include <string>
 
@@ -28,7 +29,11 @@ public:
 private:
   explicit RecordPool(std::size_t recordBytes) : recordBytes_(recordBytes) {}
   std::size_t recordBytes_;
-  std::unique_ptr<std::byte[]> memory_;
+  struct Free
+  {
+    void operator()(std::byte* memory) const { std::free(memory); }
+  };
+  std::unique_ptr<std::byte, Free> memory_;
   std::unique_ptr<SpillFile> file_;
 };
 

@@ -12,16 +12,14 @@ namespace pointfront
 {
 namespace
 {
-std::vector<std::byte> gathered(const RecordView& records, const std::vector<std::uint32_t>& order)
+void gather(const RecordView& records, const std::vector<std::uint32_t>& order, std::byte* to)
 {
-  std::vector<std::byte> out(order.size() * records.stride);
-  std::byte* to = out.data();
-  for (const std::uint32_t i : order)
+  constexpr std::size_t ahead = 12; // records lie anywhere in the part: ask for them early
+  for (std::size_t i = 0; i < order.size(); ++i, to += records.stride)
   {
-    std::memcpy(to, records.record(i), records.stride);
-    to += records.stride;
+    __builtin_prefetch(records.record(order[std::min(i + ahead, order.size() - 1)]));
+    copyRecord(to, records.record(order[i]), records.stride);
   }
-  return out;
 }
 } // namespace
 
@@ -35,9 +33,14 @@ OpenSubtree SubtreeBuilder::build(
   {
     const CpuStopwatch watch(seconds_.sort);
     const RecordView view{records.data(), recordBytes_};
-    records = gathered(view, mortonOrder(view, count));
+    if (sorted_.size() < records.size())
+    {
+      sorted_.resize(records.size());
+    }
+    gather(view, mortonOrder(view, count), sorted_.data());
+    records = {};
   }
-  const SortedPoints sorted = sortedPoints({records.data(), recordBytes_}, count);
+  const SortedPoints sorted = sortedPoints({sorted_.data(), recordBytes_}, count);
   return opened(sorted.records, branch(sorted, 0, static_cast<std::uint32_t>(count)));
 }
 
@@ -173,7 +176,10 @@ void SubtreeBuilder::emit(Branch child, BuiltNode& parent, const RecordView& rec
 
 OpenSubtree SubtreeBuilder::opened(const RecordView& records, Branch branch)
 {
-  return {std::move(branch.node), gathered(records, branch.held)};
+  OpenSubtree open{std::move(branch.node), {}};
+  open.records.resize(branch.held.size() * records.stride);
+  gather(records, branch.held, open.records.data());
+  return open;
 }
 
 OpenSubtree SubtreeBuilder::join(std::vector<OpenSubtree> children, std::uint32_t /*node*/)

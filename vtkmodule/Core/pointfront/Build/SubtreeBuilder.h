@@ -68,6 +68,8 @@ private:
   SamplingRule rule_;
   std::size_t recordBytes_;
   SubsetSampler sampler_;
+  // Reused from part to part: fresh memory costs more than what is done with it.
+  std::vector<std::byte> sorted_;       // records
   std::vector<TreePosition> positions_; // of the sorted points
   std::vector<std::uint32_t> candidates_;
   std::vector<std::uint8_t> chosen_;

@@ -5,7 +5,6 @@
 #include "InputFiles.h"
 #include "PeakMemory.h"
 #include "ProgressDisplay.h"
-#include "SourceFormats.h"
 #include "Unavailable.h"
 #include "Values.h"
 
@@ -60,16 +59,16 @@ void BuildCommand::declare(CLI::App& program)
         "A small store beside the output, to look at while it is built: auto or none (auto)")
     ->check(availableValues({ "auto", "none" }, {}));
   app_->add_flag("--json", json_, "Print the report as one JSON object");
+  sourceChoice_.declare(*app_);
   passes_.declare(*app_);
 }
 
 Result<PointSources> BuildCommand::openSources() const
 {
-  SourceOptions options;
-  options.survey.threads = options_.threads;
-  options.survey.cancelled = [] { return CancelSignal::requested(); };
-  const SourceFormats formats(options);
-  Result<InputFileList> files = findInputFiles(inputs_, formats.extensions());
+  const SourceFormats formats(sourceChoice_.options(options_));
+  const auto holdsPoints = [&formats](const std::string& path)
+  { return formats.mayHoldPoints(path); };
+  Result<InputFileList> files = findInputFiles(inputs_, formats.extensions(), holdsPoints);
   if (!files)
   {
     return files.error();

@@ -2,6 +2,7 @@
 
 #include "BuildPasses.h"
 #include "Command.h"
+#include "SourceChoice.h"
 
 #include "pointfront/Build/BuildPreview.h"
 #include "pointfront/Build/StoreBuilder.h"
@@ -41,6 +42,7 @@ private:
 
   std::vector<std::string> inputs_;
   BuildOptions options_;
+  SourceChoice sourceChoice_;
   BuildPasses passes_;
   std::string attributes_ = "all";
   std::string progress_ = "auto";

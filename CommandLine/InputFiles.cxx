@@ -28,8 +28,19 @@ bool hasExtension(const fs::path& path, const std::vector<std::string>& extensio
   return std::find(extensions.begin(), extensions.end(), extension) != extensions.end();
 }
 
-Result<std::vector<std::string>> filesBelow(
-  const std::string& folder, const std::vector<std::string>& extensions)
+/// Which files of a folder are meant when it is named.
+struct FolderRule
+{
+  const std::vector<std::string>& extensions;
+  const PointFileTest& isPointFile;
+
+  bool takes(const fs::path& path) const
+  {
+    return hasExtension(path, extensions) && (!isPointFile || isPointFile(path.string()));
+  }
+};
+
+Result<std::vector<std::string>> filesBelow(const std::string& folder, const FolderRule& rule)
 {
   std::vector<std::string> files;
   std::error_code failure;
@@ -37,7 +48,7 @@ Result<std::vector<std::string>> filesBelow(
   for (; !failure && entry != fs::recursive_directory_iterator(); entry.increment(failure))
   {
     std::error_code vanished;
-    if (entry->is_regular_file(vanished) && hasExtension(entry->path(), extensions))
+    if (entry->is_regular_file(vanished) && rule.takes(entry->path()))
     {
       files.push_back(entry->path().string());
     }
@@ -56,7 +67,7 @@ Result<std::vector<std::string>> filesBelow(
 }
 
 Result<std::vector<std::string>> filesMatching(
-  const std::string& pattern, const std::vector<std::string>& extensions)
+  const std::string& pattern, const FolderRule& rule)
 {
   glob_t matches = {};
   const int status = ::glob(pattern.c_str(), GLOB_NOSORT, nullptr, &matches);
@@ -82,7 +93,7 @@ Result<std::vector<std::string>> filesMatching(
       files.push_back(path);
       continue;
     }
-    Result<std::vector<std::string>> inside = filesBelow(path, extensions);
+    Result<std::vector<std::string>> inside = filesBelow(path, rule);
     if (!inside)
     {
       return inside.error();
@@ -93,13 +104,13 @@ Result<std::vector<std::string>> filesMatching(
 }
 
 Result<std::vector<std::string>> expand(
-  const std::string& argument, const std::vector<std::string>& extensions)
+  const std::string& argument, const FolderRule& rule)
 {
   std::error_code failure;
   const fs::file_status status = fs::status(argument, failure);
   if (fs::is_directory(status))
   {
-    return filesBelow(argument, extensions);
+    return filesBelow(argument, rule);
   }
   if (fs::exists(status))
   {
@@ -107,19 +118,21 @@ Result<std::vector<std::string>> expand(
   }
   if (argument.find_first_of("*?[") != std::string::npos)
   {
-    return filesMatching(argument, extensions);
+    return filesMatching(argument, rule);
   }
   return makeError(Error::Kind::NotFound, argument + ": no such file or folder");
 }
 } // namespace
 
 Result<InputFileList> findInputFiles(
-  const std::vector<std::string>& arguments, const std::vector<std::string>& extensions)
+  const std::vector<std::string>& arguments, const std::vector<std::string>& extensions,
+  const PointFileTest& isPointFile)
 {
+  const FolderRule rule{ extensions, isPointFile };
   InputFileList list;
   for (const std::string& argument : arguments)
   {
-    Result<std::vector<std::string>> files = expand(argument, extensions);
+    Result<std::vector<std::string>> files = expand(argument, rule);
     if (!files)
     {
       return files.error();

@@ -2,6 +2,7 @@
 
 #include "pointfront/Base/Result.h"
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -15,11 +16,15 @@ struct InputFileList
   std::vector<std::string> warnings; ///< a file that was named twice is read once
 };
 
+/// Tells points from notes; may be empty.
+using PointFileTest = std::function<bool(const std::string&)>;
+
 /// Turns files, glob patterns (*, ?, [...], for programs that call without a shell) and folders
-/// (every file below it whose extension is one of `extensions`, lower case without the dot) into a
-/// list of files.
+/// (every file below it whose extension is one of `extensions`, lower case without the dot, and
+/// that passes `isPointFile`) into a list of files.
 /// Errors  NotFound: no such file, a pattern that matches nothing, a folder without a point file.
 Result<InputFileList> findInputFiles(
-  const std::vector<std::string>& arguments, const std::vector<std::string>& extensions);
+  const std::vector<std::string>& arguments, const std::vector<std::string>& extensions,
+  const PointFileTest& isPointFile = {});
 
 } // namespace pointfront

@@ -1,6 +1,8 @@
 #include "SinkFormats.h"
 
 #include "LASWriter.h"
+#include "PCDWriter.h"
+#include "PLYWriter.h"
 #include "Unavailable.h"
 #include "XYZWriter.h"
 
@@ -23,7 +25,7 @@ std::string extensionOf(const std::string& path)
 
 std::string checkExtension(std::string& path)
 {
-  const CLI::Validator check = availableValues({ ".las", ".laz", ".xyz" }, { ".ply", ".pcd" });
+  const CLI::Validator check = availableValues({ ".las", ".laz", ".xyz", ".ply", ".pcd" }, {});
   std::string extension = extensionOf(path);
   return check(extension);
 }
@@ -36,13 +38,21 @@ std::unique_ptr<PointSink> makeSink(const std::string& path)
   {
     return std::make_unique<XYZWriter>(path);
   }
+  if (extension == ".ply")
+  {
+    return std::make_unique<PLYWriter>(path);
+  }
+  if (extension == ".pcd")
+  {
+    return std::make_unique<PCDWriter>(path);
+  }
   return std::make_unique<LASWriter>(
     path, extension == ".laz" ? LASWriter::Encoding::Laz : LASWriter::Encoding::Las);
 }
 
 CLI::Validator sinkExtension()
 {
-  return CLI::Validator(checkExtension, "OUT.las|.laz|.xyz");
+  return CLI::Validator(checkExtension, "OUT.las|.laz|.xyz|.ply|.pcd");
 }
 
 } // namespace pointfront

@@ -14,8 +14,7 @@ namespace pointfront
 
 /// What writes a file of that name; the extension has passed the check.
 std::unique_ptr<PointSink> makeSink(const std::string& path);
-/// Check for an option that names such a file; kinds of the contract that cannot be written yet
-/// are refused as not available.
+/// Check for an option that names such a file.
 CLI::Validator sinkExtension();
 
 } // namespace pointfront

@@ -1,7 +1,10 @@
 #include "SourceFormats.h"
 
 #include "LASFormat.h"
+#include "PCDFormat.h"
 #include "PLYFormat.h"
+#include "RefusedFormat.h"
+#include "TextFormat.h"
 
 #include <algorithm>
 #include <cctype>
@@ -14,6 +17,17 @@ SourceFormats::SourceFormats(const SourceOptions& options)
 {
   formats_.push_back(std::make_unique<LASFormat>());
   formats_.push_back(std::make_unique<PLYFormat>(options.survey));
+  formats_.push_back(std::make_unique<PCDFormat>(options.survey, options.temporaryFolder));
+  formats_.push_back(std::make_unique<RefusedFormat>("E57 (refused)",
+    std::vector<std::string>{ "e57" }, RefusedFormat::Mark{ "ASTM-E57", "" },
+    "E57 files are not read: no E57 library comes with the system; convert it to LAS, LAZ or PLY "
+    "(with CloudCompare, or PDAL's readers.e57)"));
+  formats_.push_back(std::make_unique<RefusedFormat>("EPT (refused)", std::vector<std::string>(),
+    RefusedFormat::Mark{ "", "ept.json" },
+    "an Entwine tree is not read by its ept.json: give the folder that holds its LAZ files "
+    "(ept-data); trees of other encodings: convert them to LAZ"));
+  // Last: any text with numbers in it is accepted.
+  formats_.push_back(std::make_unique<TextFormat>(options.columns, options.survey));
 }
 
 std::vector<std::string> SourceFormats::extensions() const
@@ -25,6 +39,17 @@ std::vector<std::string> SourceFormats::extensions() const
     all.insert(all.end(), own.begin(), own.end());
   }
   return all;
+}
+
+bool SourceFormats::mayHoldPoints(const std::string& path) const
+{
+  const std::string extension = std::filesystem::path(path).extension().string();
+  if (extension != ".txt" && extension != ".csv" && extension != ".asc")
+  {
+    return true;
+  }
+  return std::any_of(formats_.begin(), formats_.end(),
+    [&path](const std::unique_ptr<PointSourceFormat>& format) { return format->accepts(path); });
 }
 
 Result<std::unique_ptr<PointSource>> SourceFormats::open(const std::string& path) const

@@ -13,7 +13,9 @@ namespace pointfront
 /// What the user says about how point files are opened.
 struct SourceOptions
 {
-  SurveyOptions survey; ///< of files that are looked through when they are opened
+  std::vector<std::string> columns; ///< of text files; empty: by header or guess
+  SurveyOptions survey;        ///< of files that are looked through when they are opened
+  std::string temporaryFolder; ///< for what must be unpacked; empty: the system's
 };
 
 /// The families of point files that this program reads. IO modules do not know each other: they
@@ -26,6 +28,10 @@ public:
 
   /// Lower case, without the dot.
   std::vector<std::string> extensions() const;
+
+  /// False for a file whose extension stands for all kinds of text (.txt, .csv, .asc) and in which
+  /// no row of numbers is found: a note beside the points.
+  bool mayHoldPoints(const std::string& path) const;
 
   /// Opens with the first format that accepts the file's content. If none does, the format that
   /// the extension names says why; a file of an unknown kind is Unsupported.

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cstring>
 #include <utility>
 
 namespace pointfront
@@ -102,14 +101,6 @@ std::optional<std::size_t> endOf(
     return std::nullopt;
   }
   return begin + static_cast<std::size_t>(element.count) * bytes;
-}
-
-bool machineIsLittleEndian()
-{
-  const std::uint16_t one = 1;
-  unsigned char first = 0;
-  std::memcpy(&first, &one, 1);
-  return first == 1;
 }
 } // namespace
 

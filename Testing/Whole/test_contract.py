@@ -64,7 +64,7 @@ class Usage(ToolTest):
         for flag in [("--box", "1,2,3"), ("--box", "5,0,0,1,1,1"), ("--classes", "300"),
                      ("--spacing", "0")]:
             self.refuse(2, "export", "store.pfront", "-o", self.folder / "x.las", *flag)
-        for name in ("x.ply", "x.pcd", "x.foo", "x"):
+        for name in ("x.e57", "x.foo", "x"):
             self.refuse(2, "export", "store.pfront", "-o", self.folder / name)
         self.assertEqual(self.entries(), [])
 
@@ -160,7 +160,7 @@ class Reports(ToolTest):
         report = self.succeed("build", one, "-o", self.folder / "x.pfront", "--json").json
         self.assertEqual(report["points_stored"], 50000)
         self.refuse(2, "generate", "-o", one)
-        self.refuse(2, "generate", "--points", 5, "-o", self.folder / "x.ply")
+        self.refuse(2, "generate", "--points", 5, "-o", self.folder / "x.foo")
 
 
 class Failures(ToolTest):

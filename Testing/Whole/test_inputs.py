@@ -6,7 +6,13 @@ import unittest
 from tool import DATA, SLOWNESS, ToolTest, pointfront
 
 REAL_FOLDERS = ("las/real", "las/version_x_format", "laz", "copc", "classified", "normals",
-                "ept/lone-star-laszip/ept-data", "ortho/autzen")
+                "ept/lone-star-laszip/ept-data", "ortho/autzen", "ply", "pcd", "text",
+                "classified/isprs_ground_truth")
+SUFFIXES = (".las", ".laz", ".ply", ".pcd", ".txt", ".pts", ".ptx", ".xyz")
+
+# Points of real files that are no positions: what a scanner saw nothing in.
+REJECTED = {"pcd/office1.pcd": 52744, "text/complex-transform.ptx": 8,
+            "normals/sac_plane_test.pcd": None}
 
 # What becomes of each broken file: an error that says this, or a store with so many points and a
 # warning that says this (None: no warning).
@@ -22,6 +28,11 @@ BROKEN = {
     "las/broken_real/no-points-1.3.las": (0, "empty"),
     "las/broken_real/broken_size.laz": "broken_size.laz",
     "las/broken_real/broken_type.laz": "broken_type.laz",
+    "ply/no_vertex.ply": "no element 'vertex'",
+    "ply/displaz_ply_points.ply": "no element 'vertex'",
+    "text/badheader.txt": "'X' is named twice",
+    "derived_hostile/ply_binary_truncated.ply": (2, "1 of 3 points are missing"),
+    "derived_hostile/pcd_points_4e9.pcd": "4000000000",
     "derived_hostile/las_bbox_inverted.las": (100, "bounding box"),
     "derived_hostile/las_count_4294967295.las": (100, "4294967195 of 4294967295"),
     "derived_hostile/las_offset_to_points_past_eof.las": "offset",
@@ -33,21 +44,28 @@ BROKEN = {
 }
 
 
-def las_files(folder):
-    return sorted(p for p in pathlib.Path(folder).rglob("*") if p.suffix in (".las", ".laz"))
+def point_files(folder):
+    return sorted(p for p in pathlib.Path(folder).rglob("*") if p.suffix in SUFFIXES)
+
+
+def name_of(path):
+    return str(path.relative_to(DATA))
 
 
 class RealFiles(ToolTest):
     def test_each_builds_and_verifies(self):
-        files = [path for folder in REAL_FOLDERS for path in las_files(DATA / folder)]
-        self.assertGreater(len(files), 70)
+        files = [path for folder in REAL_FOLDERS for path in point_files(DATA / folder)
+                 if name_of(path) not in BROKEN]
+        self.assertGreater(len(files), 130)
         for path in files:
-            with self.subTest(file=str(path.relative_to(DATA))):
+            with self.subTest(file=name_of(path)):
                 store = self.folder / "x.pfront"
                 report = self.succeed("build", path, "-o", store, "--force", "--json").json
                 self.assertGreater(report["points_stored"], 0)
-                self.assertEqual(report["points_read"], report["points_stored"])
-                self.assertEqual(report["points_rejected"], {})
+                rejected = sum(report["points_rejected"].values())
+                self.assertEqual(report["points_read"], report["points_stored"] + rejected)
+                expected = REJECTED.get(name_of(path), 0)
+                self.assertTrue(rejected > 0 if expected is None else rejected == expected, rejected)
                 verified = self.succeed("verify", store, "--json").json
                 self.assertEqual(verified["points_checked"], report["points_stored"])
 
@@ -59,11 +77,63 @@ class RealFiles(ToolTest):
             self.assertEqual(one[key], other[key], key)
 
 
+    def test_same_points_in_every_encoding_of_ply(self):
+        names = ("platonic_shelf.ply", "platonic_shelf_ascii.ply", "platonic_shelf_big_endian.ply")
+        infos = [self.succeed("info", self.build(DATA / "ply" / name, name=name + ".pfront"),
+                              "--json").json for name in names]
+        for info in infos:
+            self.assertEqual(info["points"], 50)
+            for one, other in zip(info["bounds"], infos[0]["bounds"]):
+                self.assertAlmostEqual(one, other, delta=2e-5)
+
+    def test_formats_mix_in_one_store(self):
+        las = DATA / "las/real/1.2-with-color.las"
+        store = self.build(las, name="las.pfront")
+        written = []
+        for kind in ("ply", "pcd", "xyz"):
+            written.append(self.folder / f"copy.{kind}")
+            self.succeed("export", store, "-o", written[-1])
+        report = self.succeed("build", las, *written, "-o", self.folder / "mixed.pfront",
+                              "--json").json
+        self.assertEqual(report["points_stored"], 4 * 1065)
+        one, mixed = (self.succeed("info", self.folder / name, "--json").json
+                      for name in ("las.pfront", "mixed.pfront"))
+        self.assertEqual(one["bounds"], mixed["bounds"])
+        self.assertEqual(one["precision"], mixed["precision"])
+        self.assertEqual(one["attributes"], mixed["attributes"])
+
+    def test_columns_of_text_are_named_by_the_user(self):
+        path = self.folder / "points.csv"
+        path.write_text("9;1,5;2,5;3,5\n8;4,5;5,5;6,5\n")
+        store = self.folder / "x.pfront"
+        self.succeed("build", path, "-o", store, "--columns", "-,x,y,z")
+        info = self.succeed("info", store, "--json").json
+        self.assertEqual(info["bounds"], [1.5, 2.5, 3.5, 4.5, 5.5, 6.5])
+        self.assertEqual(info["attributes"], [])
+        self.refuse(1, "build", path, "-o", store, "--force", "--columns", "a,b")
+        self.refuse(2, "build", path, "-o", store, "--force", "--columns", "x")
+
+    def test_folder_leaves_notes_out(self):
+        (self.folder / "in").mkdir()
+        (self.folder / "in/points.txt").write_text("1 2 3\n4 5 6\n")
+        (self.folder / "in/readme.txt").write_text("These points were made by hand.\n")
+        store = self.build(self.folder / "in")
+        self.assertEqual(self.succeed("info", store, "--json").json["points"], 2)
+
+    def test_kinds_that_are_not_read_say_what_to_do(self):
+        for name, advice in (("e57/bunnyInt32.e57", "convert it"),
+                             ("ept/lone-star-laszip/ept.json", "ept-data")):
+            outcome = self.refuse(1, "build", DATA / name, "-o", self.folder / "x.pfront")
+            self.assertIn(advice, outcome.err)
+        folder = self.build(DATA / "ept/lone-star-laszip")
+        self.assertEqual(self.succeed("info", folder, "--json").json["points"], 518862)
+
+
 class BrokenFiles(ToolTest):
     def test_list_is_complete(self):
-        found = [path for folder in ("las/broken_real", "derived_hostile")
-                 for path in las_files(DATA / folder)]
-        self.assertEqual({str(path.relative_to(DATA)) for path in found}, set(BROKEN))
+        folders = ("las/broken_real", "derived_hostile")
+        found = {name_of(path) for folder in folders for path in point_files(DATA / folder)}
+        self.assertEqual(found, {name for name in BROKEN if name.startswith(folders)})
 
     def test_each_is_told(self):
         for name, expected in BROKEN.items():

@@ -8,6 +8,7 @@ if (NOT POINTFRONT_HOST MATCHES "^(NONE|VTK|ParaView)$")
 endif ()
 option(POINTFRONT_BUILD_TESTING "Build the tests" ON)
 option(POINTFRONT_BUILD_BENCHMARKS "Build the benchmarks" OFF)
+option(POINTFRONT_BUILD_FUZZERS "Build the fuzz targets (clang)" OFF)
 option(POINTFRONT_WRAP_PYTHON "Wrap the VTK modules for Python" ON)
 option(POINTFRONT_WARNINGS_AS_ERRORS "Stop at a warning" OFF)
 set(POINTFRONT_SANITIZE "" CACHE STRING
@@ -37,6 +38,9 @@ if (CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   set(CMAKE_CXX_COMPILER_LAUNCHER "${CCACHE_PROGRAM}")
 endif ()
 
+if (POINTFRONT_BUILD_FUZZERS)
+  add_compile_options(-fsanitize=fuzzer-no-link) # coverage of the libraries leads the fuzzer
+endif ()
 if (POINTFRONT_SANITIZE)
   add_compile_options(-fsanitize=${POINTFRONT_SANITIZE}
     -fno-omit-frame-pointer -fno-sanitize-recover=all)

@@ -41,6 +41,14 @@ void gather(const RecordNumbers& numbers, std::size_t count, double* to)
 }
 } // namespace
 
+bool machineIsLittleEndian()
+{
+  const std::uint16_t one = 1;
+  unsigned char first = 0;
+  std::memcpy(&first, &one, 1);
+  return first == 1;
+}
+
 void gatherNumbers(const RecordNumbers& numbers, std::size_t count, double* to)
 {
   switch (numbers.type)

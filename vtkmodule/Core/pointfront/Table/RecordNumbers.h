@@ -16,6 +16,8 @@ struct RecordNumbers
   bool swapped = false; ///< byte order is not this machine's
 };
 
+bool machineIsLittleEndian();
+
 /// The first `count` of them as doubles. Pure.
 void gatherNumbers(const RecordNumbers& numbers, std::size_t count, double* to);
 

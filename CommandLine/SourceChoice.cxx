@@ -1,0 +1,37 @@
+#include "SourceChoice.h"
+
+#include "CancelSignal.h"
+#include "Values.h"
+
+namespace pointfront
+{
+
+void SourceChoice::declare(CLI::App& app)
+{
+  const auto columns = [this](const CLI::results_t& words)
+  {
+    columns_ = splitList(words.back());
+    if (columns_.size() < 2)
+    {
+      throw CLI::ParseError("--columns: '" + words.back() +
+          "' names no columns: write x,y,z,intensity,r,g,b,- or the like", 2);
+    }
+    return true;
+  };
+  app.add_option("--columns", columns,
+       "Columns of text files: x,y,z,intensity,r,g,b,- (their headers, or a guess)")
+    ->type_name("LIST")
+    ->expected(1);
+}
+
+SourceOptions SourceChoice::options(const BuildOptions& build) const
+{
+  SourceOptions options;
+  options.columns = columns_;
+  options.survey.threads = build.threads;
+  options.survey.cancelled = [] { return CancelSignal::requested(); };
+  options.temporaryFolder = build.temporaryFolder;
+  return options;
+}
+
+} // namespace pointfront

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "SourceFormats.h"
+
+#include "pointfront/Build/StoreBuilder.h"
+
+#include <CLI/CLI.hpp>
+
+#include <string>
+#include <vector>
+
+namespace pointfront
+{
+
+/// The options of `pointfront build` that say how its input files are to be read.
+class SourceChoice
+{
+public:
+  void declare(CLI::App& app);
+  /// What the formats are opened with; threads and temporary folder are those of the build.
+  SourceOptions options(const BuildOptions& build) const;
+
+private:
+  std::vector<std::string> columns_;
+};
+
+} // namespace pointfront

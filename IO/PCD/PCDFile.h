@@ -1,0 +1,44 @@
+#pragma once
+
+#include "PCDHeader.h"
+
+#include "pointfront/Base/MemoryMap.h"
+#include "pointfront/Base/Result.h"
+#include "pointfront/Table/PointTable.h"
+
+#include <string>
+#include <vector>
+
+namespace pointfront
+{
+
+/// A PCD file with its header understood: what its tables share.
+struct PCDFile
+{
+  /// Where the numbers of one TableField are in a point.
+  struct Element
+  {
+    std::size_t field = 0; ///< of the header
+    std::size_t byte = 0;  ///< within that field
+    ScalarType type = ScalarType::Float32;
+  };
+
+  MemoryMap map;
+  std::string path;
+  PCDHeader header;
+  std::string format; ///< "PCD binary" ...
+  std::vector<std::string> warnings;
+  /// One for each element of each field, but not padding and not fields of more than 16. A packed
+  /// colour is three of 8 bits: red, green, blue; its alpha is left out.
+  std::vector<TableField> fields;
+  std::vector<Element> elements; ///< of each of `fields`
+
+  /// Errors  of MemoryMap::open and PCDHeader::parse.
+  static Result<PCDFile> open(const std::string& path);
+  /// How many points are there if `present` of those promised are. A file that was cut short gives
+  /// what it has, with a warning; one with less than half of what its header promises was never
+  /// such a file. Errors  Truncated.
+  Result<std::uint64_t> countPresent(std::uint64_t present);
+};
+
+} // namespace pointfront

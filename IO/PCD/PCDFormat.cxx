@@ -1,0 +1,56 @@
+#include "PCDFormat.h"
+
+#include "PCDBinaryTable.h"
+#include "PCDFile.h"
+#include "PCDTextTable.h"
+
+#include "pointfront/Table/TableSource.h"
+
+#include <algorithm>
+#include <fstream>
+#include <utility>
+
+namespace pointfront
+{
+
+bool PCDFormat::accepts(const std::string& path) const
+{
+  std::ifstream file(path, std::ios::binary);
+  std::string start(512, '\0');
+  file.read(start.data(), static_cast<std::streamsize>(start.size()));
+  start.resize(static_cast<std::size_t>(file.gcount()));
+  if (start.rfind("# .PCD", 0) == 0)
+  {
+    return true;
+  }
+  std::size_t line = 0;
+  while (line < start.size() && (start[line] == '#' || start[line] == '\n' || start[line] == '\r'))
+  {
+    line = std::min(start.find('\n', line), start.size() - 1) + 1;
+  }
+  const std::string first = start.substr(std::min(line, start.size()), 8);
+  return first.rfind("VERSION ", 0) == 0 || first.rfind("FIELDS ", 0) == 0;
+}
+
+Result<std::unique_ptr<PointSource>> PCDFormat::open(const std::string& path) const
+{
+  Result<PCDFile> file = PCDFile::open(path);
+  if (!file)
+  {
+    return file.error();
+  }
+  if (file->fields.empty())
+  {
+    return makeError(Error::Kind::BadFormat, path + ": the PCD file has no field of use");
+  }
+  Result<std::unique_ptr<PointTable>> table = file->header.encoding == PCDEncoding::Ascii
+    ? PCDTextTable::open(std::move(*file), survey_)
+    : PCDBinaryTable::open(std::move(*file), temporaryFolder_);
+  if (!table)
+  {
+    return table.error();
+  }
+  return TableSource::open(std::move(*table), survey_);
+}
+
+} // namespace pointfront

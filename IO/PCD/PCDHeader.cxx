@@ -1,0 +1,285 @@
+#include "PCDHeader.h"
+
+#include <algorithm>
+#include <charconv>
+#include <optional>
+
+namespace pointfront
+{
+namespace
+{
+constexpr std::size_t mostHeaderBytes = 1 << 20;
+constexpr std::size_t mostFields = 1000;
+constexpr std::uint64_t mostElements = 1 << 20; // of a field, and of all fields of a point
+constexpr std::uint64_t mostPoints = 1ull << 48;
+
+using Words = std::vector<std::string_view>;
+
+Words wordsOf(std::string_view line)
+{
+  Words words;
+  constexpr std::string_view blanks = " \t\r";
+  for (std::size_t begin = line.find_first_not_of(blanks); begin != std::string_view::npos;)
+  {
+    const std::size_t end = std::min(line.find_first_of(blanks, begin), line.size());
+    words.push_back(line.substr(begin, end - begin));
+    begin = line.find_first_not_of(blanks, end);
+  }
+  return words;
+}
+
+std::optional<std::uint64_t> countOf(std::string_view word, std::uint64_t most)
+{
+  std::uint64_t value = 0;
+  const auto read = std::from_chars(word.data(), word.data() + word.size(), value);
+  const bool whole = read.ec == std::errc() && read.ptr == word.data() + word.size();
+  return whole && value <= most ? std::make_optional(value) : std::nullopt;
+}
+
+std::optional<ScalarType> typeOf(std::string_view type, std::uint64_t size)
+{
+  if (type == "F")
+  {
+    return size == 4 ? std::make_optional(ScalarType::Float32)
+      : size == 8    ? std::make_optional(ScalarType::Float64)
+                     : std::nullopt;
+  }
+  if (type != "I" && type != "U")
+  {
+    return std::nullopt;
+  }
+  const bool isSigned = type == "I";
+  switch (size)
+  {
+    case 1:
+      return isSigned ? ScalarType::Int8 : ScalarType::UInt8;
+    case 2:
+      return isSigned ? ScalarType::Int16 : ScalarType::UInt16;
+    case 4:
+      return isSigned ? ScalarType::Int32 : ScalarType::UInt32;
+    case 8:
+      return isSigned ? ScalarType::Int64 : ScalarType::UInt64;
+    default:
+      return std::nullopt;
+  }
+}
+
+class HeaderReader
+{
+public:
+  HeaderReader(std::string_view text, const std::string& path)
+    : text_(text.substr(0, mostHeaderBytes))
+    , path_(path)
+  {
+  }
+  Result<PCDHeader> read();
+
+private:
+  bool nextLine();
+  Error fault(Error::Kind kind, const std::string& what) const
+  {
+    return makeError(kind, path_ + ": line " + std::to_string(header_.lines) + ": " + what);
+  }
+  Result<void> take(const Words& words);
+  Result<void> takeData(const Words& words);
+  Result<void> assembleFields();
+  Result<void> checkCounts();
+
+  std::string_view text_;
+  const std::string& path_;
+  std::string_view line_;
+  PCDHeader header_;
+  Words names_, sizes_, types_, counts_;
+  std::optional<std::uint64_t> width_, height_, points_;
+  bool dataSeen_ = false;
+};
+
+bool HeaderReader::nextLine()
+{
+  const std::size_t begin = header_.dataOffset;
+  const std::size_t end = text_.find('\n', begin);
+  if (end == std::string_view::npos)
+  {
+    return false;
+  }
+  line_ = text_.substr(begin, end - begin);
+  header_.dataOffset = end + 1;
+  ++header_.lines;
+  return true;
+}
+
+Result<void> HeaderReader::takeData(const Words& words)
+{
+  const std::string_view kind = words.size() > 1 ? words[1] : std::string_view();
+  dataSeen_ = true;
+  if (kind == "ascii")
+  {
+    header_.encoding = PCDEncoding::Ascii;
+  }
+  else if (kind == "binary")
+  {
+    header_.encoding = PCDEncoding::Binary;
+  }
+  else if (kind == "binary_compressed")
+  {
+    header_.encoding = PCDEncoding::BinaryCompressed;
+  }
+  else
+  {
+    return fault(Error::Kind::Unsupported, "DATA '" + std::string(kind.substr(0, 40)) +
+        "' is unknown: ascii, binary or binary_compressed are read");
+  }
+  return {};
+}
+
+Result<void> HeaderReader::take(const Words& words)
+{
+  const Words values(words.begin() + 1, words.end());
+  if (words[0] == "FIELDS" || words[0] == "COLUMNS")
+  {
+    names_ = values;
+  }
+  else if (words[0] == "SIZE")
+  {
+    sizes_ = values;
+  }
+  else if (words[0] == "TYPE")
+  {
+    types_ = values;
+  }
+  else if (words[0] == "COUNT")
+  {
+    counts_ = values;
+  }
+  else if (words[0] == "WIDTH" || words[0] == "HEIGHT" || words[0] == "POINTS")
+  {
+    const auto count = values.empty() ? std::nullopt : countOf(values[0], mostPoints);
+    if (!count)
+    {
+      return fault(
+        Error::Kind::BadFormat, std::string(words[0]) + " is no count that a file can hold");
+    }
+    (words[0] == "WIDTH" ? width_ : words[0] == "HEIGHT" ? height_ : points_) = count;
+  }
+  else if (words[0] == "DATA")
+  {
+    return takeData(words);
+  }
+  else if (words[0] != "VERSION" && words[0] != "VIEWPOINT")
+  {
+    return fault(Error::Kind::BadFormat,
+      "'" + std::string(words[0].substr(0, 40)) + "' is no keyword of a PCD header");
+  }
+  return {};
+}
+
+Result<void> HeaderReader::assembleFields()
+{
+  const std::size_t n = names_.size();
+  const bool counted = counts_.empty() || counts_.size() == n;
+  if (n == 0 || sizes_.size() != n || types_.size() != n || !counted)
+  {
+    return makeError(Error::Kind::BadFormat,
+      path_ + ": FIELDS, SIZE, TYPE and COUNT of the PCD header do not name as many fields (" +
+        std::to_string(n) + ", " + std::to_string(sizes_.size()) + ", " +
+        std::to_string(types_.size()) + ", " + std::to_string(counts_.size()) + ")");
+  }
+  if (n > mostFields)
+  {
+    return makeError(Error::Kind::Unsupported,
+      path_ + ": more than " + std::to_string(mostFields) + " fields");
+  }
+  std::uint64_t elements = 0;
+  for (std::size_t f = 0; f < n; ++f)
+  {
+    const auto size = countOf(sizes_[f], 8);
+    const auto type = size ? typeOf(types_[f], *size) : std::nullopt;
+    const auto count =
+      counts_.empty() ? std::optional<std::uint64_t>(1) : countOf(counts_[f], mostElements);
+    if (!type || !count || *count == 0)
+    {
+      return makeError(Error::Kind::BadFormat,
+        path_ + ": field '" + std::string(names_[f].substr(0, 40)) +
+          "' of the PCD header has no type that there is (TYPE I or U with SIZE 1, 2, 4, 8; F "
+          "with 4, 8; COUNT 1 or more)");
+    }
+    elements += *count;
+    if (elements > mostElements)
+    {
+      return makeError(Error::Kind::Unsupported,
+        path_ + ": a point of more than " + std::to_string(mostElements) + " numbers");
+    }
+    header_.fields.push_back({ std::string(names_[f]), *type, static_cast<std::size_t>(*count) });
+  }
+  return {};
+}
+
+Result<void> HeaderReader::checkCounts()
+{
+  if (!points_ && !width_)
+  {
+    return makeError(Error::Kind::BadFormat,
+      path_ + ": the PCD header says neither POINTS nor WIDTH: how many points there are");
+  }
+  const std::uint64_t height = height_.value_or(1);
+  const std::uint64_t width = width_.value_or(points_.value_or(0));
+  const bool overflow = height > 0 && width > mostPoints / height;
+  header_.points = points_.value_or(overflow ? 0 : width * height);
+  if (overflow || width * height != header_.points)
+  {
+    return makeError(Error::Kind::BadFormat,
+      path_ + ": the PCD header contradicts itself: WIDTH " + std::to_string(width) +
+        " times HEIGHT " + std::to_string(height) + " is not POINTS " +
+        std::to_string(header_.points));
+  }
+  return {};
+}
+
+Result<PCDHeader> HeaderReader::read()
+{
+  while (!dataSeen_ && nextLine())
+  {
+    const Words words = wordsOf(line_);
+    if (words.empty() || words[0].front() == '#')
+    {
+      continue;
+    }
+    if (Result<void> taken = take(words); !taken)
+    {
+      return taken.error();
+    }
+  }
+  if (!dataSeen_)
+  {
+    return makeError(Error::Kind::Truncated,
+      path_ + ": the PCD header does not end (no DATA line in the first " +
+        std::to_string(text_.size()) + " bytes); get a whole copy");
+  }
+  if (Result<void> fields = assembleFields(); !fields)
+  {
+    return fields.error();
+  }
+  if (Result<void> counts = checkCounts(); !counts)
+  {
+    return counts.error();
+  }
+  return std::move(header_);
+}
+} // namespace
+
+std::size_t PCDHeader::pointBytes() const
+{
+  std::size_t bytes = 0;
+  for (const PCDField& field : fields)
+  {
+    bytes += field.bytes();
+  }
+  return bytes;
+}
+
+Result<PCDHeader> PCDHeader::parse(std::string_view text, const std::string& path)
+{
+  return HeaderReader(text, path).read();
+}
+
+} // namespace pointfront

@@ -1,0 +1,46 @@
+#pragma once
+
+#include "PCDFile.h"
+
+#include "pointfront/Table/ParallelChunks.h"
+#include "pointfront/Table/PointTable.h"
+#include "pointfront/Table/TextRows.h"
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace pointfront
+{
+
+/// The points of an ascii PCD file: one a line, its numbers separated by blanks, tabs or commas.
+class PCDTextTable final : public PointTable
+{
+public:
+  /// Errors  Truncated, as PCDFile::countPresent; Cancelled.
+  static Result<std::unique_ptr<PointTable>> open(PCDFile file, const SurveyOptions& survey);
+
+  const std::string& path() const override { return file_.path; }
+  const std::string& format() const override { return file_.format; }
+  const std::vector<TableField>& fields() const override { return file_.fields; }
+  const std::vector<std::string>& warnings() const override { return file_.warnings; }
+  std::uint64_t chunkCount() const override { return rows_->chunkCount(); }
+  std::uint64_t chunkRows(std::uint64_t chunk) const override { return rows_->chunkRows(chunk); }
+  Result<void> read(
+    std::uint64_t chunk, const std::vector<bool>& wanted, TableBlock& block) const override;
+  std::vector<FieldStatistics> statistics() const override;
+
+private:
+  explicit PCDTextTable(PCDFile file)
+    : file_(std::move(file))
+  {
+  }
+  Result<void> index(const SurveyOptions& survey);
+  TextLayout layOut();
+
+  PCDFile file_;
+  std::vector<std::size_t> columns_; ///< of each field: which number of a row it is taken from
+  std::optional<TextRows> rows_;
+};
+
+} // namespace pointfront

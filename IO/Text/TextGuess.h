@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace pointfront
+{
+
+/// Names for columns that have none, from what the first rows hold; see TextColumns::find.
+/// Shapes   rows[i][c]; NaN where a cell is no number: a column that begins with one is "-".
+std::vector<std::string> guessColumns(const std::vector<std::vector<double>>& rows);
+
+} // namespace pointfront

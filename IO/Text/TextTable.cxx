@@ -1,0 +1,117 @@
+#include "TextTable.h"
+
+#include "pointfront/Table/FieldRole.h"
+
+#include <utility>
+
+namespace pointfront
+{
+namespace
+{
+constexpr std::size_t beginningBytes = 1 << 18;
+
+TextLayout layoutOf(const TextColumns& columns, std::vector<TableField>& fields)
+{
+  TextLayout layout;
+  layout.separator = columns.separator;
+  layout.decimalPoint = columns.decimalPoint;
+  layout.lineEnd = columns.lineEnd;
+  layout.countLines = columns.countLines;
+  std::size_t used = 0; // cells up to the last that is wanted
+  for (const std::string& name : columns.names)
+  {
+    TextLayout::Cell cell;
+    if (roleOf(name).kind != FieldRole::Kind::Padding)
+    {
+      cell.field = fields.size();
+      fields.push_back({ name, std::nullopt });
+      used = layout.cells.size() + 1;
+    }
+    layout.cells.push_back(cell);
+  }
+  layout.cells.resize(used);
+  layout.fieldCount = fields.size();
+  return layout;
+}
+} // namespace
+
+std::string_view beginningOf(const MemoryMap& map)
+{
+  const std::string_view text(reinterpret_cast<const char*>(map.data()), map.size());
+  if (text.size() <= beginningBytes)
+  {
+    return text;
+  }
+  const std::string_view start = text.substr(0, beginningBytes);
+  const std::size_t lastLine = start.find_last_of("\n\r");
+  return lastLine == std::string_view::npos ? start : start.substr(0, lastLine + 1);
+}
+
+Result<void> TextTable::index(const TextColumns& columns, const SurveyOptions& survey)
+{
+  TextLayout layout = layoutOf(columns, fields_);
+  const TextRegion region{ columns.dataBegin, map_.size(), columns.dataLine };
+  Result<TextRows> rows = TextRows::open(map_, region, std::move(layout), survey);
+  if (!rows)
+  {
+    return rows.error();
+  }
+  rows_.emplace(std::move(*rows));
+  if (rows_->badRows() == rows_->rows())
+  {
+    return makeError(Error::Kind::BadFormat,
+      path_ + ": not one line is a point; name its columns with --columns. " +
+        rows_->complaint());
+  }
+  warn(columns);
+  return {};
+}
+
+void TextTable::warn(const TextColumns& columns)
+{
+  if (columns.guessed && columns.names.size() > 3)
+  {
+    std::string names;
+    for (const std::string& name : columns.names)
+    {
+      names += (names.empty() ? "" : ",") + name;
+    }
+    warnings_.push_back("There is no header: its columns are taken to be " + names +
+      "; --columns names them otherwise.");
+  }
+  if (const std::string complaint = rows_->complaint(); !complaint.empty())
+  {
+    warnings_.push_back(complaint);
+  }
+  if (columns.countLines && rows_->promisedRows() != rows_->rows())
+  {
+    warnings_.push_back("Its count lines promise " + std::to_string(rows_->promisedRows()) +
+      " points; there are " + std::to_string(rows_->rows()) + ".");
+  }
+}
+
+Result<std::unique_ptr<PointTable>> TextTable::open(const std::string& path, MemoryMap map,
+  const std::vector<std::string>& wanted, const SurveyOptions& survey)
+{
+  const Result<TextColumns> columns = TextColumns::find(beginningOf(map), wanted, path);
+  if (!columns)
+  {
+    return columns.error();
+  }
+  // The rows keep the map's address: the table must not move once they are there.
+  auto table = std::unique_ptr<TextTable>(new TextTable(path, std::move(map)));
+  if (Result<void> done = table->index(*columns, survey); !done)
+  {
+    return done.error();
+  }
+  return std::unique_ptr<PointTable>(std::move(table));
+}
+
+Result<void> TextTable::read(
+  std::uint64_t chunk, const std::vector<bool>& wanted, TableBlock& block) const
+{
+  rows_->read(chunk, wanted, block);
+  return {};
+}
+
+} // namespace pointfront

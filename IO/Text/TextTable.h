@@ -1,0 +1,55 @@
+#pragma once
+
+#include "TextColumns.h"
+
+#include "pointfront/Base/MemoryMap.h"
+#include "pointfront/Table/PointTable.h"
+#include "pointfront/Table/TextRows.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pointfront
+{
+
+/// The rows of a text file of points.
+class TextTable final : public PointTable
+{
+public:
+  /// Errors  of TextColumns::find; BadFormat: not one line is a point; Cancelled.
+  static Result<std::unique_ptr<PointTable>> open(const std::string& path, MemoryMap map,
+    const std::vector<std::string>& wanted, const SurveyOptions& survey);
+
+  const std::string& path() const override { return path_; }
+  const std::string& format() const override { return format_; }
+  const std::vector<TableField>& fields() const override { return fields_; }
+  const std::vector<std::string>& warnings() const override { return warnings_; }
+  std::uint64_t chunkCount() const override { return rows_->chunkCount(); }
+  std::uint64_t chunkRows(std::uint64_t chunk) const override { return rows_->chunkRows(chunk); }
+  Result<void> read(
+    std::uint64_t chunk, const std::vector<bool>& wanted, TableBlock& block) const override;
+  std::vector<FieldStatistics> statistics() const override { return rows_->statistics(); }
+
+private:
+  TextTable(std::string path, MemoryMap map)
+    : path_(std::move(path))
+    , map_(std::move(map))
+  {
+  }
+  Result<void> index(const TextColumns& columns, const SurveyOptions& survey);
+  void warn(const TextColumns& columns);
+
+  std::string path_;
+  std::string format_ = "text";
+  MemoryMap map_;
+  std::vector<TableField> fields_;
+  std::vector<std::string> warnings_;
+  std::optional<TextRows> rows_;
+};
+
+/// The beginning of a text file that is looked at before it is read: whole lines.
+std::string_view beginningOf(const MemoryMap& map);
+
+} // namespace pointfront

@@ -47,7 +47,8 @@ inline void require(bool held, const char* promise)
 
 /// Opens the bytes as that format and reads every point: an Error with words, or the points that
 /// were announced.
-inline void readAsPoints(const PointSourceFormat& format, const std::uint8_t* data, std::size_t size)
+inline void readAsPoints(
+  const PointSourceFormat& format, const std::uint8_t* data, std::size_t size)
 {
   const BytesAsFile file(data, size);
   format.accepts(file.path());

@@ -13,8 +13,8 @@ namespace pointfront
 
 /// Turns points into records of a binary file, little endian and packed: x, y, z as float64, then
 /// the parts in the order in which they were added.
-/// Exactness  float64 holds every coordinate of a grid exactly as the store gives it. A component is
-///            copied; one with a scale or an offset becomes its world value as float64.
+/// Exactness  float64 holds every coordinate of a grid exactly as the store gives it. A component
+///            is copied; one with a scale or an offset becomes its world value as float64.
 /// Threads    one thread.
 class RecordEncoder
 {

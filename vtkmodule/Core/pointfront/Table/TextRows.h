@@ -44,7 +44,7 @@ struct TextRegion
 ///           chunks can be read in any order, and finds out which lines are no rows, how many
 ///           decimals there are and between which values each field lies.
 /// Rows      blank lines and comments are none. A line with too few cells, or with a cell that is
-///           no number, is a row whose every field is NaN: it is counted, and rejected by the build.
+///           no number, is a row whose every field is NaN: counted, and rejected by the build.
 /// Threads   read() is thread-safe.
 class TextRows
 {

@@ -87,8 +87,8 @@ Result<std::uint64_t> PCDFile::countPresent(std::uint64_t present)
   {
     return makeError(Error::Kind::Truncated,
       path + ": of the " + std::to_string(claimed) + " points that the header promises, " +
-        std::to_string(present) + " are there: the header is wrong, or most of the file is lost; get a whole "
-        "copy");
+        std::to_string(present) +
+        " are there: the header is wrong, or most of the file is lost; get a whole copy");
   }
   if (present < claimed)
   {

@@ -1,11 +1,11 @@
 // usage: pointfrontSpacingBenchmark STORE [LEVEL]
 //
-// How evenly an inner level of a store covers its cloud. For nodes of the level (3), spread over the
-// table: the points that are drawn when the node and all above it are, inside the node's box;
+// How evenly an inner level of a store covers its cloud. For nodes of the level (3), spread over
+// the table: the points that are drawn when the node and all above it are, inside the node's box;
 // as many picked at random from all points in the box; and as many darts: all points in
-// random order, each kept if it is not closer than a distance to one before (found by bisection).
-// Prints the distances to the nearest neighbour in units of the darts' mean: means, 5th percentiles,
-// histogram. 1 is as good as Poisson disk; random points of a plane are at about 0.56.
+// random order, each kept if it is not closer than a distance to one before (by bisection).
+// Prints the distances to the nearest neighbour in units of the darts' mean: means, 5th
+// percentiles, histogram. 1 is as good as Poisson disk; random points of a plane are at about 0.56.
 
 #include "pointfront/Store/PointStore.h"
 

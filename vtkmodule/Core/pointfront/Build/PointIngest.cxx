@@ -15,8 +15,8 @@ namespace
 {
 using Sources = std::vector<std::unique_ptr<PointSource>>;
 
-/// Cells such that a surface has some hundred points in each: enough of them to cut parts along, and
-/// few enough for the nearest caches. Of a 64th to a 512th of the declared extent; coarsened as
+/// Cells such that a surface has some hundred points in each: enough of them to cut parts along,
+/// and few enough for the nearest caches. Of a 64th to a 512th of the declared extent; coarsened as
 /// points come, counted again if too coarse.
 unsigned hintedShift(const Sources& sources, const TreeSpace& space)
 {

@@ -16,7 +16,7 @@ std::unique_ptr<RecordPool> RecordPool::inMemory(std::uint64_t capacity, std::si
 {
   std::unique_ptr<RecordPool> pool(new RecordPool(recordBytes));
   const std::size_t bytes = capacity * recordBytes;
-  // Not zeroed: pages come when used. In large ones: taking a small one costs as much as filling it.
+  // Not zeroed: pages come when used. In large ones: a small one costs as much to take as to fill.
   const std::size_t rounded = (bytes + largePageBytes - 1) / largePageBytes * largePageBytes;
   pool->memory_.reset(
     static_cast<std::byte*>(std::aligned_alloc(largePageBytes, std::max(rounded, largePageBytes))));

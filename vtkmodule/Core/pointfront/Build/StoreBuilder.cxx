@@ -307,6 +307,7 @@ Result<void> OctreeBuild::assemble()
   };
   TreeAssembly assembly(std::move(plan), **writer, *crew_);
   auto trees = assembly.run();
+  report_.phaseSeconds["load"] = assembly.loadSeconds();
   report_.phaseSeconds["sort"] = assembly.seconds().sort;
   report_.phaseSeconds["sample"] = assembly.seconds().sample;
   report_.phaseSeconds["encode"] = assembly.seconds().encode;

@@ -75,10 +75,19 @@ bool TreeAssembly::takePart(std::uint32_t& node)
 Result<void> TreeAssembly::buildPart(std::uint32_t node, TreeBuilder& builder)
 {
   const PartNode& part = plan_.tree[node];
-  Result<std::vector<std::byte>> records = plan_.load(part.part);
+  double loadSeconds = 0.0;
+  Result<std::vector<std::byte>> records = [&]
+  {
+    const CpuStopwatch watch(loadSeconds);
+    return plan_.load(part.part);
+  }();
   if (!records)
   {
     return records.error();
+  }
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    loadSeconds_ += loadSeconds;
   }
   OpenSubtree subtree = builder.build(std::move(*records), part.count, node);
   for (;;)

@@ -40,6 +40,7 @@ public:
   /// The finished trees, one for each layer, with their payloads written.
   Result<std::vector<std::unique_ptr<BuiltNode>>> run();
   const SubtreeSeconds& seconds() const { return seconds_; }
+  double loadSeconds() const { return loadSeconds_; } ///< CPU, over all threads
   double writeSeconds() const { return writeSeconds_; }
 
 private:
@@ -67,6 +68,7 @@ private:
   std::map<std::uint32_t, std::vector<EmittedNode>> waiting_; // by rank
   std::vector<std::unique_ptr<BuiltNode>> roots_;             // of each layer
   SubtreeSeconds seconds_;
+  double loadSeconds_ = 0.0;
   double writeSeconds_ = 0.0;
 };
 

@@ -27,6 +27,8 @@ public:
 
 private:
   ProjectionOptions projection_;
+  std::vector<std::string> colourFrom_;
+  std::vector<std::string> attributeFrom_;
   std::string normals_ = "none";
 };
 

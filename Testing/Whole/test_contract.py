@@ -44,8 +44,7 @@ class Usage(ToolTest):
             ("--structure", "kdtree"), ("--refinement", "replace"), ("--layers", "class"),
             ("--normals", "pca"), ("--normals", "scanline"), ("--normals-k", "8"),
             ("--normals-radius", "1"), ("--normals-eps", "0.1"), ("--normals-classes", "2,6"),
-            ("--local-height",), ("--height-above-ground",), ("--color-from", "a.tif", "b.tif"),
-            ("--attribute-from", "NAME=a.tif"),
+            ("--local-height",), ("--height-above-ground",),
         ]
         for flag in flags:
             outcome = self.refuse(2, "build", SMALL, "-o", self.folder / "x.pfront", *flag)

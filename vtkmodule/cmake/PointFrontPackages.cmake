@@ -8,6 +8,19 @@ find_package(nlohmann_json REQUIRED)
 find_package(CLI11 CONFIG REQUIRED)
 find_package(LASzip REQUIRED)                # LASzip::LASzip
 find_package(PROJ CONFIG REQUIRED)           # PROJ::proj
+find_package(TIFF REQUIRED)                  # TIFF::TIFF
+find_package(OpenImageIO CONFIG REQUIRED)    # OpenImageIO::OpenImageIO
+# Debian's targets name a folder that is not there, which CMake refuses.
+foreach (target IN ITEMS OpenImageIO::OpenImageIO OpenImageIO::OpenImageIO_Util)
+  get_target_property(folders ${target} INTERFACE_INCLUDE_DIRECTORIES)
+  set(present "")
+  foreach (folder IN LISTS folders)
+    if (EXISTS "${folder}")
+      list(APPEND present "${folder}")
+    endif ()
+  endforeach ()
+  set_target_properties(${target} PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "${present}")
+endforeach ()
 
 # VTK first: a find_package(Python3) before it would find another Python than Debian's.
 if (POINTFRONT_HOST STREQUAL "VTK")

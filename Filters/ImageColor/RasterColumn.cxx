@@ -1,0 +1,256 @@
+#include "RasterColumn.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <utility>
+
+namespace pointfront
+{
+namespace
+{
+template <typename T>
+T load(const std::byte* from)
+{
+  T value;
+  std::memcpy(&value, from, sizeof value);
+  return value;
+}
+
+/// Calls `use` with a value of the C++ type of `type`, 0.
+template <typename Use>
+auto withType(ScalarType type, const Use& use)
+{
+  switch (type)
+  {
+    case ScalarType::Int8:
+      return use(std::int8_t(0));
+    case ScalarType::UInt8:
+      return use(std::uint8_t(0));
+    case ScalarType::Int16:
+      return use(std::int16_t(0));
+    case ScalarType::UInt16:
+      return use(std::uint16_t(0));
+    case ScalarType::Int32:
+      return use(std::int32_t(0));
+    case ScalarType::UInt32:
+      return use(std::uint32_t(0));
+    case ScalarType::Int64:
+      return use(std::int64_t(0));
+    case ScalarType::UInt64:
+      return use(std::uint64_t(0));
+    case ScalarType::Float32:
+      return use(0.0f);
+    case ScalarType::Float64:
+      break;
+  }
+  return use(0.0);
+}
+
+double asDouble(ScalarType type, const std::byte* from)
+{
+  return withType(type, [&](auto zero) { return static_cast<double>(load<decltype(zero)>(from)); });
+}
+
+/// Stores `value` if the type holds it: integers exactly, float rounded. False otherwise.
+bool storeDouble(double value, ScalarType type, std::byte* to)
+{
+  return withType(type, [&](auto zero) {
+    using To = decltype(zero);
+    if constexpr (std::is_integral_v<To>)
+    {
+      // 2^n - 1 is no double for 64 bits, 2^n is.
+      const double end = std::ldexp(1.0, std::numeric_limits<To>::digits);
+      const double begin = std::is_signed_v<To> ? -end : 0.0;
+      if (!(value >= begin && value < end) || value != std::trunc(value))
+      {
+        return false;
+      }
+    }
+    const To stored = static_cast<To>(value);
+    std::memcpy(to, &stored, sizeof stored);
+    return true;
+  });
+}
+
+bool withoutData(const RasterFile& file, const std::byte* pixel)
+{
+  const std::size_t bytes = sizeOf(file.type);
+  if (file.alphaChannel >= 0 &&
+    asDouble(file.type, pixel + static_cast<std::size_t>(file.alphaChannel) * bytes) == 0.0)
+  {
+    return true;
+  }
+  const bool floating = file.type == ScalarType::Float32 || file.type == ScalarType::Float64;
+  if (!file.noData && !floating)
+  {
+    return false;
+  }
+  // The value in the tag is decimal, the pixel perhaps a float.
+  const double none = !file.noData ? std::nan("")
+    : file.type == ScalarType::Float32 ? static_cast<double>(static_cast<float>(*file.noData))
+                                       : *file.noData;
+  for (int channel = 0; channel < file.channels; ++channel)
+  {
+    const double value =
+      asDouble(file.type, pixel + static_cast<std::size_t>(channel) * bytes);
+    if (channel != file.alphaChannel && !std::isnan(value) && value != none)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// Types that programs expect under well-known names (AttributeSchema).
+ScalarType typeOfNew(const std::string& name, ScalarType ofImages)
+{
+  static const std::array<std::pair<const char*, ScalarType>, 5> known{
+    { { "intensity", ScalarType::UInt16 }, { "classification", ScalarType::UInt8 },
+      { "user_data", ScalarType::UInt8 }, { "point_source_id", ScalarType::UInt16 },
+      { "nir", ScalarType::UInt16 } }
+  };
+  const auto found = std::find_if(
+    known.begin(), known.end(), [&](const auto& entry) { return name == entry.first; });
+  return found == known.end() ? ofImages : found->second;
+}
+
+/// Do the 16-bit colours of a source hold 8 bits? Asked of up to 16 chunks spread over it: a cloud
+/// of 16 bits has a colour above 255 in the first of them.
+Result<bool> holdsEightBits(const PointSource& source, std::size_t column)
+{
+  constexpr std::uint64_t most = 16;
+  const std::uint64_t chunks = source.chunkCount();
+  PointBatch batch;
+  for (std::uint64_t i = 0; i < std::min(most, chunks); ++i)
+  {
+    if (Result<void> done = source.read(i * chunks / std::min(most, chunks), batch); !done)
+    {
+      return done.error();
+    }
+    const std::vector<std::byte>& bytes = batch.columns[column];
+    for (std::size_t at = 0; at + 2 <= bytes.size(); at += 2)
+    {
+      if (load<std::uint16_t>(bytes.data() + at) > 255)
+      {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+} // namespace
+
+Result<RasterColumn> RasterColumn::make(
+  const std::string& name, const std::vector<RasterFile>& files, const PointSource& source)
+{
+  RasterColumn column;
+  column.colour_ = files.front().use == RasterUse::Colour;
+  Attribute wanted;
+  wanted.name = name;
+  if (column.colour_)
+  {
+    const bool wide = std::any_of(files.begin(), files.end(),
+      [](const RasterFile& file) { return file.type == ScalarType::UInt16; });
+    wanted.type = wide ? ScalarType::UInt16 : ScalarType::UInt8;
+    wanted.components = 3;
+  }
+  else
+  {
+    wanted.type = typeOfNew(name, files.front().type);
+    wanted.components = static_cast<std::uint8_t>(files.front().dataChannels());
+  }
+  column.attribute_ = wanted;
+  const SourceDescription& description = source.description();
+  const std::optional<std::size_t> present = description.schema.find(name);
+  if (!present)
+  {
+    return column;
+  }
+  const Attribute& own = description.schema[*present];
+  if (own.components != wanted.components || own.scale != 1.0 || own.offset != 0.0)
+  {
+    return makeError(Error::Kind::BadArgument,
+      description.path + ": its attribute " + own.name + " has " +
+        std::to_string(own.components) + " components" +
+        (own.scale != 1.0 || own.offset != 0.0 ? " with a scale" : "") + ", the images have " +
+        std::to_string(wanted.components) + "; take another name for them");
+  }
+  column.old_ = true;
+  column.attribute_ = own;
+  if (column.colour_ && own.type == ScalarType::UInt16)
+  {
+    Result<bool> eight = holdsEightBits(source, *present);
+    if (!eight)
+    {
+      return eight.error();
+    }
+    column.eightBitsInSixteen_ = *eight && wanted.type == ScalarType::UInt8;
+  }
+  return column;
+}
+
+RasterColumn::Outcome RasterColumn::store(
+  const RasterFile& file, const std::byte* pixel, std::byte* to) const
+{
+  if (withoutData(file, pixel))
+  {
+    return Outcome::NoData;
+  }
+  return colour_ ? storeColour(file, pixel, to) : storeValues(file, pixel, to);
+}
+
+RasterColumn::Outcome RasterColumn::storeColour(
+  const RasterFile& file, const std::byte* pixel, std::byte* to) const
+{
+  const bool grey = file.dataChannels() < 3;
+  for (std::size_t c = 0; c < 3; ++c)
+  {
+    const std::size_t channel = grey ? 0 : c;
+    const bool wide = file.type == ScalarType::UInt16;
+    const unsigned value = wide ? load<std::uint16_t>(pixel + 2 * channel)
+                                : std::to_integer<unsigned>(pixel[channel]);
+    if (attribute_.type == ScalarType::UInt8)
+    {
+      to[c] = static_cast<std::byte>(wide ? (value + 128) / 257 : value);
+      continue;
+    }
+    const unsigned stored = wide || eightBitsInSixteen_ ? value : value * 257;
+    const auto sixteen = static_cast<std::uint16_t>(stored);
+    std::memcpy(to + 2 * c, &sixteen, sizeof sixteen);
+  }
+  return Outcome::Taken;
+}
+
+RasterColumn::Outcome RasterColumn::storeValues(
+  const RasterFile& file, const std::byte* pixel, std::byte* to) const
+{
+  const std::size_t from = sizeOf(file.type);
+  const std::size_t step = sizeOf(attribute_.type);
+  std::array<std::byte, 16 * 8> values; // of all components: all are stored, or none
+  std::size_t component = 0;
+  for (int channel = 0; channel < file.channels; ++channel)
+  {
+    if (channel == file.alphaChannel)
+    {
+      continue;
+    }
+    const std::byte* value = pixel + static_cast<std::size_t>(channel) * from;
+    if (file.type == attribute_.type)
+    {
+      std::memcpy(values.data() + component * step, value, step);
+    }
+    else if (!storeDouble(asDouble(file.type, value), attribute_.type,
+               values.data() + component * step))
+    {
+      return Outcome::NotHeld;
+    }
+    ++component;
+  }
+  std::memcpy(to, values.data(), component * step);
+  return Outcome::Taken;
+}
+
+} // namespace pointfront

@@ -1,0 +1,71 @@
+#include "RasterSource.h"
+
+#include <utility>
+
+namespace pointfront
+{
+
+RasterSource::RasterSource(std::unique_ptr<PointSource> original,
+  std::shared_ptr<RasterPass::Images> images, std::vector<Input> inputs, AttributeSchema schema)
+  : original_(std::move(original))
+  , images_(std::move(images))
+  , inputs_(std::move(inputs))
+  , description_(original_->description())
+  , counted_(original_->chunkCount())
+{
+  description_.schema = std::move(schema);
+}
+
+Result<void> RasterSource::read(std::uint64_t chunk, PointBatch& batch) const
+{
+  if (Result<void> done = original_->read(chunk, batch); !done)
+  {
+    return done;
+  }
+  const std::size_t own = batch.columns.size();
+  batch.columns.resize(description_.schema.size());
+  for (std::size_t c = own; c < batch.columns.size(); ++c)
+  {
+    batch.columns[c].assign(batch.size() * description_.schema[c].bytes(), std::byte(0));
+  }
+  const bool count = !counted_[chunk].exchange(true);
+  for (std::size_t input = 0; input < inputs_.size(); ++input)
+  {
+    if (Result<void> done = fill(input, count, batch); !done)
+    {
+      return makeError(done.error().kind,
+        done.error().what + " (while points of '" + description_.path + "' were read)");
+    }
+  }
+  return {};
+}
+
+Result<void> RasterSource::fill(std::size_t input, bool count, PointBatch& batch) const
+{
+  const RasterColumn& column = inputs_[input].column;
+  std::vector<std::byte>& bytes = batch.columns[inputs_[input].target];
+  const std::size_t step = column.attribute().bytes();
+  std::uint64_t notHeld = 0;
+  const Result<std::uint64_t> without = images_->mosaics[input].sample(batch.positions,
+    inputs_[input].ways,
+    [&](std::size_t point, const RasterFile& file, const std::byte* pixel)
+    {
+      const auto outcome = column.store(file, pixel, bytes.data() + point * step);
+      notHeld += outcome == RasterColumn::Outcome::NotHeld ? 1 : 0;
+      return outcome != RasterColumn::Outcome::NoData;
+    });
+  if (!without)
+  {
+    return without.error();
+  }
+  if (count)
+  {
+    RasterTally& tally = *images_->tallies[input];
+    tally.seen += batch.size();
+    tally.without += *without;
+    tally.notHeld += notHeld;
+  }
+  return {};
+}
+
+} // namespace pointfront

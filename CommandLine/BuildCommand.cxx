@@ -230,6 +230,7 @@ Result<void> BuildCommand::run()
   {
     options_.precision = precision_;
   }
+  options_.colourDepth = sourceChoice_.colourDepth();
   if (attributes_ != "all")
   {
     options_.attributes = splitList(attributes_);

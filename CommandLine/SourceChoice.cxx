@@ -1,6 +1,7 @@
 #include "SourceChoice.h"
 
 #include "CancelSignal.h"
+#include "Unavailable.h"
 #include "Values.h"
 
 namespace pointfront
@@ -22,6 +23,16 @@ void SourceChoice::declare(CLI::App& app)
        "Columns of text files: x,y,z,intensity,r,g,b,- (their headers, or a guess)")
     ->type_name("LIST")
     ->expected(1);
+  app.add_option("--color-depth", colourDepth_,
+       "Bits of 16-bit colours: by each file's largest (auto), 8 or 16")
+    ->check(availableValues({ "auto", "8", "16" }, {}));
+}
+
+ColourDepth SourceChoice::colourDepth() const
+{
+  return colourDepth_ == "8" ? ColourDepth::Eight
+    : colourDepth_ == "16"   ? ColourDepth::Sixteen
+                             : ColourDepth::ByFile;
 }
 
 SourceOptions SourceChoice::options(const BuildOptions& build) const

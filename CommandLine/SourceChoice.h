@@ -17,11 +17,14 @@ class SourceChoice
 {
 public:
   void declare(CLI::App& app);
+  /// How colours of 16 bits are taken.
+  ColourDepth colourDepth() const;
   /// What the formats are opened with; threads and temporary folder are those of the build.
   SourceOptions options(const BuildOptions& build) const;
 
 private:
   std::vector<std::string> columns_;
+  std::string colourDepth_ = "auto";
 };
 
 } // namespace pointfront

@@ -98,6 +98,7 @@ private:
   Result<void> cutIntoParts();
   Result<void> assemble();
   Error tooLarge() const;
+  Result<void> checkColourDepth() const;
   AttributeSchema storedSchema(std::optional<ColourWidening>& widening) const;
   Result<void> commit(StoreWriter& writer, const Trees& trees);
   Result<void> checkCounts(const Trees& trees) const;
@@ -242,12 +243,27 @@ Error OctreeBuild::tooLarge() const
   return makeError(Error::Kind::BadArgument, text);
 }
 
+Result<void> OctreeBuild::checkColourDepth() const
+{
+  for (std::size_t s = 0; s < sources_.size(); ++s)
+  {
+    if (options_.colourDepth == ColourDepth::Eight && points_.largestColour[s] > 255)
+    {
+      return makeError(Error::Kind::BadArgument,
+        "'" + sources_[s]->description().path + "' has a colour of " +
+          std::to_string(points_.largestColour[s]) +
+          ", which is more than 8 bits hold; let the colour depth be 16, or found by file");
+    }
+  }
+  return {};
+}
+
 /// 16-bit colours become 8-bit if all fit; if only those of some files do, these are widened.
 AttributeSchema OctreeBuild::storedSchema(std::optional<ColourWidening>& widening) const
 {
   const auto column = wideColourColumn(common_.schema);
   const auto& largest = points_.largestColour;
-  if (!column)
+  if (!column || options_.colourDepth == ColourDepth::Sixteen)
   {
     return common_.schema;
   }
@@ -280,6 +296,10 @@ AttributeSchema OctreeBuild::storedSchema(std::optional<ColourWidening>& widenin
 Result<void> OctreeBuild::cutIntoParts()
 {
   crew_->beginPhase("sorting", points_.kept, sortShare);
+  if (Result<void> fits = checkColourDepth(); !fits)
+  {
+    return fits;
+  }
   std::optional<ColourWidening> widening;
   stored_ = storedSchema(widening);
   parts_ = std::make_unique<PartPool>(*pool_, recordBytes_, plan_, *crew_);

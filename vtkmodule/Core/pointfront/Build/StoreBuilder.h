@@ -14,6 +14,14 @@
 namespace pointfront
 {
 
+/// What the 16 bits of a colour hold. Files do not say: many have values of 8 bits in them.
+enum class ColourDepth
+{
+  ByFile, ///< a file whose largest value is at most 255 has 8 bits; beside others it is widened
+  Eight,  ///< 8 in all files; a larger value is an Error
+  Sixteen ///< 16 in all files: stored as they are
+};
+
 struct BuildOptions
 {
   std::string outputPath;
@@ -24,6 +32,7 @@ struct BuildOptions
   std::optional<double> precision;  ///< world units a step; nothing: the sources' own (lossless)
   /// Attributes to store, by name; nothing: all.
   std::optional<std::vector<std::string>> attributes;
+  ColourDepth colourDepth = ColourDepth::ByFile;
   bool overwrite = false; ///< false: an existing output is an Error
 };
 

@@ -50,6 +50,11 @@ std::string_view beginningOf(const MemoryMap& map)
 Result<void> TextTable::index(const TextColumns& columns, const SurveyOptions& survey)
 {
   TextLayout layout = layoutOf(columns, fields_);
+  if (fields_.empty())
+  {
+    return makeError(Error::Kind::BadFormat,
+      path_ + ": its header leaves every column out; name them with --columns");
+  }
   const TextRegion region{ columns.dataBegin, map_.size(), columns.dataLine };
   Result<TextRows> rows = TextRows::open(map_, region, std::move(layout), survey);
   if (!rows)

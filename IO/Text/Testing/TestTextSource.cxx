@@ -192,6 +192,7 @@ TEST(TextRowsThatAreNone, AreRejectedAndTold)
 
 TEST(TextWithoutPoints, IsRefused)
 {
+  EXPECT_FALSE(TextFormat().open(writeFile("none.txt", "2\n- _ -\n1 2 3\n")).ok());
   for (const char* text : { "", "\n\n", "hello\nworld\n", "1\n2\n3\n", "x,y,z\n" })
   {
     const std::string path = writeFile("none.txt", text);

@@ -123,6 +123,9 @@ NodeColumns NodeEmitter::gather(
     const Tile tile{records, order.data() + begin, std::min(tilePoints, order.size() - begin)};
     for (std::size_t i = 0; i < tile.count; ++i)
     {
+      // The node's records lie anywhere in the part: ask early for those of the next tile.
+      const std::size_t ahead = std::min(begin + tilePoints + i, order.size() - 1);
+      __builtin_prefetch(records.record(order[ahead]));
       points.positions[begin + i] = records.position(tile.order[i]);
     }
     for (std::size_t c = 0; c < columns_.size(); ++c)

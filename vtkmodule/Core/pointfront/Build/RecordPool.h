@@ -5,7 +5,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <memory>
 #include <string>
 
@@ -29,11 +28,7 @@ public:
 private:
   explicit RecordPool(std::size_t recordBytes) : recordBytes_(recordBytes) {}
   std::size_t recordBytes_;
-  struct Free
-  {
-    void operator()(std::byte* memory) const { std::free(memory); }
-  };
-  std::unique_ptr<std::byte, Free> memory_;
+  std::unique_ptr<std::byte[]> memory_;
   std::unique_ptr<SpillFile> file_;
 };
 

@@ -116,6 +116,19 @@ bool SubsetSampler::near(const glm::dvec3& p, const Taken& taken) const
   return d.x * d.x + d.y * d.y + d.z * d.z < squared_;
 }
 
+bool SubsetSampler::nearRecent(const glm::dvec3& p) const
+{
+  // All of them, without a branch in between: which one it is cannot be foretold.
+  constexpr std::size_t most = 6;
+  const std::size_t recent = std::min(taken_.size(), most);
+  bool found = false;
+  for (std::size_t back = 1; back <= recent; ++back)
+  {
+    found |= near(p, taken_[taken_.size() - back]);
+  }
+  return found;
+}
+
 bool SubsetSampler::crowded(const glm::dvec3& p, const Reach& reach) const
 {
   for (unsigned octant = 0; octant < 8; ++octant)
@@ -142,7 +155,7 @@ void SubsetSampler::choose(const RecordView& records, const std::vector<std::uin
   for (std::size_t i = 0; i < points.size(); ++i)
   {
     const glm::dvec3 p(records.position(points[i]));
-    if (!taken_.empty() && near(p, taken_.back()))
+    if (nearRecent(p))
     {
       continue;
     }

@@ -53,7 +53,7 @@ SamplingDistance samplingDistance(const CellOccupancy& occupancy, std::uint64_t 
 /// and none can be added: a maximal Poisson-disk sample. It depends on the positions
 /// only, never on who came first (of equal positions: the first in input order).
 /// Cost     a hash table of cells of twice the distance, so that what is in reach lies in eight of
-///          them; most points fall to the one marked last and never ask the table.
+///          them; many points fall to those marked last and never ask the table.
 /// Memory   64 KiB, and 32 bytes for each marked point, reused from call to call.
 /// Threads  one instance, one thread.
 /// Source   the minimum distance within a node, as PotreeConverter 2 keeps it (Schuetz 2020); cells
@@ -83,6 +83,8 @@ private:
   Reach reachOf(const glm::dvec3& p) const;
   static std::uint32_t slotOf(const Reach& reach, unsigned octant);
   bool near(const glm::dvec3& p, const Taken& taken) const;
+  /// To one of those marked last: along the curve they are the most likely ones.
+  bool nearRecent(const glm::dvec3& p) const;
   bool crowded(const glm::dvec3& p, const Reach& reach) const;
 
   std::vector<std::uint32_t> slots_; // heads of lists in taken_

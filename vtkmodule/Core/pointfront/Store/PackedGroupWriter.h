@@ -165,6 +165,10 @@ template <typename T>
 GroupPlan planOf(const CodeGroup<T>& codes, GroupLengths& lengths)
 {
   const unsigned longest = longestOf<T>(codes);
+  if (longest == 0)
+  {
+    return { 0, 0, 0, 2 }; // flags and classes are the same for long runs
+  }
   LongerThan longer; // NOLINT: filled as far as it is read
   if constexpr (sizeof(T) == 1)
   {

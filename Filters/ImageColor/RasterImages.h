@@ -30,6 +30,7 @@ struct RasterPass::Images
   RasterTiles tiles;
   std::vector<RasterMosaic> mosaics; ///< one for each input
   std::vector<std::unique_ptr<RasterTally>> tallies;
+  std::uint64_t points = 0; ///< of all sources: counts are told when all have been read
   std::vector<std::string> warnings; ///< known before the first point
 };
 

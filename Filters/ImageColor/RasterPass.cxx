@@ -144,6 +144,10 @@ Result<PointSources> RasterPass::apply(PointSources sources, const PassResources
   for (std::unique_ptr<PointSource>& source : sources)
   {
     AttributeSchema schema = source->description().schema;
+    for (std::uint64_t chunk = 0; chunk < source->chunkCount(); ++chunk)
+    {
+      images_->points += source->chunkPoints(chunk);
+    }
     std::vector<RasterSource::Input> inputs;
     for (std::size_t i = 0; i < inputs_.size(); ++i)
     {
@@ -182,6 +186,10 @@ std::vector<std::string> RasterPass::findings() const
   for (std::size_t i = 0; i < images_->tallies.size(); ++i)
   {
     const RasterTally& tally = *images_->tallies[i];
+    if (tally.seen < images_->points)
+    {
+      continue; // a sample of the points is no count
+    }
     if (tally.without > 0)
     {
       sentences.push_back(counted(tally.without, tally.seen) + " lie where no image has data for " +

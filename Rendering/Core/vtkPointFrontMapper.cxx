@@ -262,8 +262,28 @@ pointfront::FrameDemand vtkPointFrontMapper::GetDemand(vtkRenderer* renderer, vt
   return demand;
 }
 
+void vtkPointFrontMapper::FollowPreview(vtkRenderer* renderer)
+{
+  Content& content = *this->Internals;
+  vtkPointFrontStore* store = this->GetStore();
+  // Between frames only: the fronts of a frame refer to their store.
+  if (!store || !store->IsPreview() || !content.ViewOf(renderer).NewFrame ||
+    renderer->GetSelector())
+  {
+    return;
+  }
+  if (auto next = store->GetSuccessor())
+  {
+    content.Views.clear();
+    content.Piece.reset();
+    content.Store = next;
+    this->Modified();
+  }
+}
+
 pointfront::ViewFront* vtkPointFrontMapper::PrepareFrame(vtkRenderer* renderer, vtkActor* actor)
 {
+  this->FollowPreview(renderer);
   vtkPointFrontStore* store = this->GetStore();
   if (!store)
   {
@@ -365,6 +385,10 @@ std::uint32_t vtkPointFrontMapper::GetNumberOfViews() const
 
 bool vtkPointFrontMapper::NeedsRender()
 {
+  if (this->Internals->Store && this->Internals->Store->HasSuccessor())
+  {
+    return true;
+  }
   for (const auto& [renderer, view] : this->Internals->Views)
   {
     if (view.Renderer && (!view.Front || view.UploadsLeft || view.Front->wantsUpdate()))

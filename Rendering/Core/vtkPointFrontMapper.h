@@ -214,6 +214,8 @@ protected:
 private:
   struct Content;
   pointfront::FrameDemand GetDemand(vtkRenderer* renderer, vtkActor* actor);
+  /// Goes over to the next version of the preview that it draws, or to the finished store.
+  void FollowPreview(vtkRenderer* renderer);
   std::unique_ptr<Content> Internals;
 
   vtkPointFrontMapper(const vtkPointFrontMapper&) = delete;

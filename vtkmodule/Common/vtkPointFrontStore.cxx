@@ -10,6 +10,7 @@
 #include <vtkNew.h>
 #include <vtkStringArray.h>
 
+#include <chrono>
 #include <filesystem>
 #include <map>
 #include <mutex>
@@ -22,10 +23,21 @@ namespace
 /// What makes a file the same file: its canonical path, and what changes when it is built anew.
 using FileIdentity = std::tuple<std::string, std::uintmax_t, std::int64_t>;
 
+/// The name as it is, or that of the finished store for a preview that is gone.
+std::string presentName(const std::string& fileName)
+{
+  std::error_code ignored;
+  const auto finished = pointfront::storePathOfPreview(fileName);
+  return finished && !std::filesystem::exists(fileName, ignored) &&
+      std::filesystem::exists(*finished, ignored)
+    ? *finished
+    : fileName;
+}
+
 bool identify(const std::string& fileName, FileIdentity& identity, std::string& error)
 {
   std::error_code code;
-  const std::filesystem::path path = std::filesystem::canonical(fileName, code);
+  const std::filesystem::path path = std::filesystem::canonical(presentName(fileName), code);
   if (code)
   {
     error = "cannot open the store " + fileName + ": " + code.message() + "; check the path";
@@ -58,9 +70,13 @@ Registry& registry()
 
 } // namespace
 
+constexpr std::chrono::milliseconds betweenLooks{250};
+
 struct vtkPointFrontStore::Content
 {
   FileIdentity identity;
+  bool preview = false;
+  std::chrono::steady_clock::time_point looked;
   std::shared_ptr<const pointfront::StoredCloud> store;
   std::unique_ptr<pointfront::ResidencyShare> residency;
 };
@@ -116,6 +132,8 @@ vtkSmartPointer<vtkPointFrontStore> vtkPointFrontStore::Open(
   auto result = vtkSmartPointer<vtkPointFrontStore>::Take(made);
   made->Internals->identity = identity;
   made->Internals->store = std::move(opened).value();
+  made->Internals->preview =
+    pointfront::previewRecordOf(made->Internals->store->description().metadata).has_value();
   made->Internals->residency = std::make_unique<pointfront::ResidencyShare>(made->Internals->store,
     made->Internals->store->hierarchy()->nodeCount(), pointfront::ResidencyOptions{});
   all.stores[identity] = made;
@@ -137,6 +155,37 @@ vtkStdString vtkPointFrontStore::GetStoreName(vtkDataObject* data)
   auto* name =
     fields ? vtkStringArray::SafeDownCast(fields->GetAbstractArray(FieldName())) : nullptr;
   return name && name->GetNumberOfValues() > 0 ? name->GetValue(0) : vtkStdString();
+}
+
+bool vtkPointFrontStore::IsPreview() const
+{
+  return this->Internals->preview;
+}
+
+bool vtkPointFrontStore::HasSuccessor()
+{
+  const auto now = std::chrono::steady_clock::now();
+  if (!this->Internals->preview || now - this->Internals->looked < betweenLooks)
+  {
+    return false;
+  }
+  this->Internals->looked = now;
+  FileIdentity identity;
+  std::string error;
+  return identify(this->GetFileName(), identity, error) && identity != this->Internals->identity;
+}
+
+vtkSmartPointer<vtkPointFrontStore> vtkPointFrontStore::GetSuccessor()
+{
+  FileIdentity identity;
+  std::string error;
+  if (!this->Internals->preview || !identify(this->GetFileName(), identity, error) ||
+    identity == this->Internals->identity)
+  {
+    return nullptr;
+  }
+  vtkStdString reason; // a build that ends in this moment: the next look finds what is there then
+  return Open(this->GetFileName(), reason);
 }
 
 const char* vtkPointFrontStore::GetFileName() const
@@ -208,6 +257,7 @@ void vtkPointFrontStore::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "FileName: " << this->GetFileName() << "\n";
+  os << indent << "IsPreview: " << this->IsPreview() << "\n";
   os << indent << "NumberOfPoints: " << this->GetNumberOfPoints() << "\n";
   os << indent << "HostMemoryBudget: " << this->GetHostMemoryBudget() << "\n";
 }

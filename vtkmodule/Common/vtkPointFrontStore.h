@@ -51,6 +51,18 @@ public:
   static vtkStdString GetStoreName(vtkDataObject* data);
   ///@}
 
+  ///@{
+  /**
+   * A preview is the store that a running build shows meanwhile (docs/adr/0011). Its successor is
+   * the next version of it, or the finished store once the build has ended; null while there is
+   * none. HasSuccessor() looks at the disk four times a second at most, GetSuccessor() each time.
+   * Open() with a preview's name gives the finished store when the preview is gone.
+   */
+  bool IsPreview() const;
+  bool HasSuccessor();
+  vtkSmartPointer<vtkPointFrontStore> GetSuccessor();
+  ///@}
+
   /// Absolute path of the file.
   const char* GetFileName() const;
   /// Bounds of all points (world, tight), without reading any of them.

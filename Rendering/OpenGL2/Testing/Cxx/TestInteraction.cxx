@@ -1,10 +1,14 @@
 #include "Scene.h"
 
+#include "TestBuildClouds.h"
+
+#include "pointfront/Build/BuildPreview.h"
 #include "pointfront/Store/PointStore.h"
 
 #include <vtkCallbackCommand.h>
 
 #include <chrono>
+#include <filesystem>
 #include <thread>
 
 using namespace pointfront;
@@ -165,6 +169,35 @@ TEST(Interaction, PiecesTogetherDrawEachPointOnce)
     sum += drawn;
   }
   EXPECT_EQ(sum, 250000);
+}
+
+TEST(Interaction, AViewOfAPreviewGoesOverToTheFinishedStore)
+{
+  const std::filesystem::path folder = freshFolder("preview-view");
+  BuildOptions options;
+  options.outputPath = (folder / "city.pfront").string();
+  options.memoryBytes = std::uint64_t(1) << 30;
+  PreviewOptions wish;
+  wish.leastPoints = 1000;
+  const PointSources cloud = one(hills(60000, 1e6));
+  auto preview = BuildPreview::create(cloud, options, wish);
+  ASSERT_TRUE(preview);
+  (*preview)->showOverview(cloud);
+
+  Scene scene((*preview)->path());
+  scene.mapper->SetTargetError(0.01);
+  scene.draw();
+  const vtkIdType early = scene.mapper->GetLastPointsDrawn();
+  EXPECT_GT(early, 1000);
+  EXPECT_LT(early, 30000);
+
+  ASSERT_TRUE(buildOctreeStore(cloud, options));
+  preview.value().reset();
+  std::this_thread::sleep_for(std::chrono::milliseconds(300)); // it looks four times a second
+  EXPECT_TRUE(scene.mapper->NeedsRender());
+  scene.draw();
+  EXPECT_EQ(scene.mapper->GetLastPointsDrawn(), 60000);
+  EXPECT_FALSE(scene.mapper->NeedsRender());
 }
 
 } // namespace

@@ -1,5 +1,6 @@
 #include "TestBuildClouds.h"
 
+#include "pointfront/Build/BuildPreview.h"
 #include "pointfront/Build/StoreBuilder.h"
 #include "vtkPointFrontStore.h"
 
@@ -8,8 +9,10 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <thread>
 
 using namespace pointfront;
 using namespace pointfront::test;
@@ -110,6 +113,48 @@ TEST(StoreHandle, BoundsAreTight)
   {
     EXPECT_DOUBLE_EQ(bounds[i], expected[i]);
   }
+}
+
+TEST(StoreHandle, APreviewHasSuccessors)
+{
+  const std::filesystem::path folder = freshFolder("preview-handle");
+  BuildOptions options;
+  options.outputPath = (folder / "city.pfront").string();
+  options.memoryBytes = std::uint64_t(1) << 30;
+  PreviewOptions wish;
+  wish.leastPoints = 1000;
+  const PointSources cloud = one(hills(40000, 1e6));
+  auto preview = BuildPreview::create(cloud, options, wish);
+  ASSERT_TRUE(preview);
+  (*preview)->showOverview(cloud);
+  const std::string name = (*preview)->path();
+  vtkStdString error;
+  const auto early = vtkPointFrontStore::Open(name.c_str(), error);
+  ASSERT_NE(early, nullptr) << error;
+  EXPECT_TRUE(early->IsPreview());
+  EXPECT_LT(early->GetNumberOfPoints(), 40000);
+  EXPECT_FALSE(early->HasSuccessor());
+  EXPECT_EQ(early->GetSuccessor(), nullptr);
+
+  std::filesystem::last_write_time(name, std::filesystem::last_write_time(name) -
+      std::chrono::hours(1)); // a clock too coarse to tell two versions apart
+  (*preview)->showOverview(cloud);
+  const auto later = early->GetSuccessor();
+  ASSERT_NE(later, nullptr);
+  EXPECT_NE(later, early);
+  EXPECT_TRUE(later->IsPreview());
+
+  ASSERT_TRUE(buildOctreeStore(cloud, options));
+  preview.value().reset();
+  std::this_thread::sleep_for(std::chrono::milliseconds(300)); // it looks four times a second
+  EXPECT_TRUE(early->HasSuccessor());
+  const auto finished = later->GetSuccessor();
+  ASSERT_NE(finished, nullptr);
+  EXPECT_FALSE(finished->IsPreview());
+  EXPECT_EQ(finished->GetNumberOfPoints(), 40000);
+  EXPECT_EQ(vtkPointFrontStore::Open(name.c_str(), error), finished); // the name leads there
+  EXPECT_FALSE(finished->HasSuccessor());
+  EXPECT_EQ(finished->GetSuccessor(), nullptr);
 }
 
 } // namespace

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pointfront/Points/PointSource.h"
+#include "pointfront/Points/PointFileOpener.h"
 #include "pointfront/Table/ParallelChunks.h"
 
 #include <memory>
@@ -19,15 +19,16 @@ struct SourceOptions
 };
 
 /// The families of point files that this program reads. IO modules do not know each other: they
-/// are put together here, and asked in turn.
-class SourceFormats
+/// are put together here, and asked in turn. A library of its own: a process that loads it has them
+/// all, as PointFileOpener::ofProcess(), with the usual options.
+class SourceFormats final : public PointFileOpener
 {
 public:
   /// All that this build carries.
   explicit SourceFormats(const SourceOptions& options = {});
 
   /// Lower case, without the dot.
-  std::vector<std::string> extensions() const;
+  std::vector<std::string> extensions() const override;
 
   /// False for a file whose extension stands for all kinds of text (.txt, .csv, .asc) and in which
   /// no row of numbers is found: a note beside the points.
@@ -35,7 +36,7 @@ public:
 
   /// Opens with the first format that accepts the file's content. If none does, the format that
   /// the extension names says why; a file of an unknown kind is Unsupported.
-  Result<std::unique_ptr<PointSource>> open(const std::string& path) const;
+  Result<std::unique_ptr<PointSource>> open(const std::string& path) const override;
 
 private:
   std::vector<std::unique_ptr<PointSourceFormat>> formats_;

@@ -2,6 +2,7 @@
 
 #include "ResidencyShare.h"
 
+#include "pointfront/Store/PreviewRecord.h"
 #include "pointfront/Store/StoredCloudFormats.h"
 
 #include <vtkDataObject.h>

@@ -9,6 +9,7 @@ The classes are VTK classes (their C++ headers document them) and go together wi
 """
 
 from .pointfrontCommon import *
+from .pointfrontFiltersBuild import *
 from .pointfrontIOStore import *
 from .pointfrontRenderingCore import *
 from .pointfrontRenderingOpenGL2 import *  # the OpenGL side of the mapper, by VTK's object factory

@@ -34,6 +34,15 @@ vtk_module_build(
   TARGETS_COMPONENT Runtime
   USE_EXTERNAL OFF)
 
+# Put together at the top: the builder finds the readers in the process, and nothing names them.
+if (BUILD_SHARED_LIBS)
+  target_link_options(FiltersBuild PRIVATE LINKER:--no-as-needed)
+  target_link_libraries(FiltersBuild PRIVATE pointfrontSourceFormats)
+else ()
+  target_link_libraries(FiltersBuild PRIVATE
+    "$<LINK_LIBRARY:WHOLE_ARCHIVE,pointfrontSourceFormats>")
+endif ()
+
 if (POINTFRONT_HOST STREQUAL "ParaView")
   paraview_plugin_scan(
     PLUGIN_FILES "${CMAKE_CURRENT_SOURCE_DIR}/paraview-plugin/paraview.plugin"
@@ -64,7 +73,7 @@ endif ()
 
 # Tests of the modules: after all of them, for they link several.
 if (POINTFRONT_BUILD_TESTING)
-  foreach (folder IN ITEMS vtkmodule/Common IO/Store Rendering/Core Rendering/OpenGL2)
+  foreach (folder IN ITEMS vtkmodule/Common IO/Store Filters/Build Rendering/Core Rendering/OpenGL2)
     add_subdirectory("${CMAKE_CURRENT_SOURCE_DIR}/${folder}/Testing")
   endforeach ()
 endif ()

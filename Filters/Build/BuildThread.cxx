@@ -1,0 +1,120 @@
+#include "BuildThread.h"
+
+#include "pointfront/Points/PointFileOpener.h"
+
+#include <chrono>
+#include <new>
+#include <thread>
+
+namespace pointfront
+{
+
+namespace
+{
+Result<PointSources> openFiles(const std::vector<std::string>& files)
+{
+  const auto opener = PointFileOpener::ofProcess();
+  if (!opener)
+  {
+    return makeError(Error::Kind::Unsupported,
+      "this program carries no readers of point files; link PointFront::SourceFormats");
+  }
+  PointSources sources;
+  for (const std::string& file : files)
+  {
+    auto source = opener->open(file);
+    if (!source)
+    {
+      return source.error();
+    }
+    sources.push_back(std::move(*source));
+  }
+  return sources;
+}
+} // namespace
+
+bool BuildThread::report(const Progress& progress)
+{
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    News news{progress, news_ && news_->preview};
+    news_ = news;
+  }
+  changed_.notify_one();
+  return !cancelled_;
+}
+
+Result<BuildReport> BuildThread::build(
+  const std::vector<std::string>& files, BuildOptions options, PreviewOptions wish)
+{
+  const Result<PointSources> sources = openFiles(files);
+  if (!sources)
+  {
+    return sources.error();
+  }
+  wish.shown = [this](const std::string&)
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    news_ = News{news_ ? news_->progress : Progress{}, true};
+  };
+  const auto preview = BuildPreview::create(sources.value(), options, wish);
+  if (!preview)
+  {
+    return preview.error();
+  }
+  if (options.memoryBytes > 0)
+  {
+    options.memoryBytes -= preview.value()->heldBytes();
+  }
+  const auto progress = [this](const Progress& state) { return report(state); };
+  preview.value()->showOverview(sources.value(), progress);
+  const PointSources watched = preview.value()->watched(sources.value());
+  Result<BuildReport> built = buildOctreeStore(watched, options, progress);
+  if (built)
+  {
+    const std::vector<std::string> more = preview.value()->warnings();
+    built->warnings.insert(built->warnings.end(), more.begin(), more.end());
+  }
+  return built;
+}
+
+Result<BuildReport> BuildThread::run(const std::vector<std::string>& files,
+  const BuildOptions& options, const PreviewOptions& preview, const Watch& watch)
+{
+  std::thread worker(
+    [&]
+    {
+      Result<BuildReport> done = makeError(Error::Kind::NoMemory,
+        "the system gave no more memory to the build; use a lower memory limit");
+      try
+      {
+        done = build(files, options, preview);
+      }
+      catch (const std::bad_alloc&)
+      {
+      }
+      const std::lock_guard<std::mutex> lock(mutex_);
+      outcome_ = std::move(done);
+      changed_.notify_one();
+    });
+  constexpr std::chrono::milliseconds betweenLooks{100}; // an abort is seen without news too
+  std::unique_lock<std::mutex> lock(mutex_);
+  News last;
+  while (!outcome_)
+  {
+    changed_.wait_for(lock, betweenLooks);
+    last = news_.value_or(News{last.progress, false});
+    news_.reset();
+    lock.unlock();
+    if (!cancelled_ && !watch(last))
+    {
+      cancelled_ = true;
+    }
+    lock.lock();
+  }
+  lock.unlock();
+  worker.join();
+  return std::move(*outcome_);
+}
+
+} // namespace pointfront

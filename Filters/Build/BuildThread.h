@@ -1,0 +1,47 @@
+#pragma once
+
+#include "pointfront/Build/BuildPreview.h"
+#include "pointfront/Build/StoreBuilder.h"
+
+#include <atomic>
+#include <condition_variable>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pointfront
+{
+
+/// A build on threads of its own, watched from the caller's: VTK's observers, and Python's above
+/// all, may only be called from there.
+class BuildThread
+{
+public:
+  /// What the caller sees between two looks.
+  struct News
+  {
+    Progress progress;
+    bool preview = false; ///< a new version of the preview is there
+  };
+  /// Called from the thread that called run(), some ten times a second; false cancels.
+  using Watch = std::function<bool(const News&)>;
+
+  /// Opens the files with PointFileOpener::ofProcess(), builds, returns when all is done.
+  Result<BuildReport> run(const std::vector<std::string>& files, const BuildOptions& options,
+    const PreviewOptions& preview, const Watch& watch);
+
+private:
+  Result<BuildReport> build(
+    const std::vector<std::string>& files, BuildOptions options, PreviewOptions preview);
+  bool report(const Progress& progress);
+
+  std::atomic<bool> cancelled_{false};
+  std::mutex mutex_; // guards what follows
+  std::condition_variable changed_;
+  std::optional<News> news_;
+  std::optional<Result<BuildReport>> outcome_;
+};
+
+} // namespace pointfront

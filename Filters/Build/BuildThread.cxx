@@ -37,8 +37,7 @@ bool BuildThread::report(const Progress& progress)
 {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    News news{progress, news_ && news_->preview};
-    news_ = news;
+    news_.progress = progress;
   }
   changed_.notify_one();
   return !cancelled_;
@@ -55,7 +54,7 @@ Result<BuildReport> BuildThread::build(
   wish.shown = [this](const std::string&)
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    news_ = News{news_ ? news_->progress : Progress{}, true};
+    news_.preview = true;
   };
   const auto preview = BuildPreview::create(sources.value(), options, wish);
   if (!preview)
@@ -99,12 +98,11 @@ Result<BuildReport> BuildThread::run(const std::vector<std::string>& files,
     });
   constexpr std::chrono::milliseconds betweenLooks{100}; // an abort is seen without news too
   std::unique_lock<std::mutex> lock(mutex_);
-  News last;
   while (!outcome_)
   {
     changed_.wait_for(lock, betweenLooks);
-    last = news_.value_or(News{last.progress, false});
-    news_.reset();
+    const News last = news_;
+    news_.preview = false;
     lock.unlock();
     if (!cancelled_ && !watch(last))
     {

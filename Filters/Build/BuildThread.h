@@ -40,7 +40,7 @@ private:
   std::atomic<bool> cancelled_{false};
   std::mutex mutex_; // guards what follows
   std::condition_variable changed_;
-  std::optional<News> news_;
+  News news_; ///< the latest progress; a preview until it is told
   std::optional<Result<BuildReport>> outcome_;
 };
 

@@ -186,6 +186,7 @@ TEST(Interaction, AViewOfAPreviewGoesOverToTheFinishedStore)
 
   Scene scene((*preview)->path());
   scene.mapper->SetTargetError(0.01);
+  scene.renderer->ResetCamera();
   scene.draw();
   const vtkIdType early = scene.mapper->GetLastPointsDrawn();
   EXPECT_GT(early, 1000);
@@ -195,6 +196,8 @@ TEST(Interaction, AViewOfAPreviewGoesOverToTheFinishedStore)
   preview.value().reset();
   std::this_thread::sleep_for(std::chrono::milliseconds(300)); // it looks four times a second
   EXPECT_TRUE(scene.mapper->NeedsRender());
+  scene.draw();
+  scene.renderer->ResetCamera(); // the whole is a little larger than what the preview showed
   scene.draw();
   EXPECT_EQ(scene.mapper->GetLastPointsDrawn(), 60000);
   EXPECT_FALSE(scene.mapper->NeedsRender());

@@ -6,10 +6,12 @@
 #include "pointfront/Build/PrefixOrder.h"
 #include "pointfront/InPlace/SampleStream.h"
 #include "pointfront/Store/ColumnStatistics.h"
+#include "pointfront/Store/NodeTableSection.h"
 #include "pointfront/Store/StoreVerification.h"
 
 #include <algorithm>
 #include <cassert>
+#include <chrono>
 #include <filesystem>
 
 namespace pointfront
@@ -17,6 +19,7 @@ namespace pointfront
 namespace
 {
 constexpr std::size_t pageBytes = 4096;
+constexpr double secondsBetweenReports = 0.1;
 /// Pages of the map may count as memory of this process up to here, then they are given back.
 constexpr std::size_t mappedLimit = std::size_t(32) << 20;
 
@@ -121,9 +124,8 @@ void IndexedLASFile::describe(const std::string& sidePath)
   {
     description_.levels = std::max<std::uint32_t>(description_.levels, node.level + 1u);
   }
-  hierarchy_ = std::make_shared<HierarchyTable>(content.table.nodes,
-    content.table.nodes.empty() ? std::vector<NodeIndex>() : std::vector<NodeIndex>{ 0 },
-    description_.refinement);
+  hierarchy_ = std::make_shared<HierarchyTable>(
+    content.table.nodes, rootsOf(content.table.nodes), description_.refinement);
 }
 
 Result<std::shared_ptr<const IndexedLASFile>> IndexedLASFile::open(const std::string& sidePath)
@@ -212,8 +214,11 @@ Result<NodeColumns> IndexedLASFile::read(NodeIndex node, const ColumnSelection& 
 
 /// Counts alone could hide one point twice and another left out; a sum of hashes of their numbers
 /// does not.
-std::string IndexedLASFile::membersFault() const
+Result<std::string> IndexedLASFile::membersFault(const ProgressFunction& progress) const
 {
+  Progress state{ "verifying", description_.pointCount, description_.pointCount, 1.0, 0.0 };
+  const auto begin = std::chrono::steady_clock::now();
+  double reported = 0.0;
   std::uint64_t wanted = 0;
   for (std::uint64_t point = 0; point < description_.pointCount; ++point)
   {
@@ -222,6 +227,17 @@ std::string IndexedLASFile::membersFault() const
   std::uint64_t found = 0;
   for (NodeIndex node = 0; node < hierarchy_->nodeCount(); ++node)
   {
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
+    state.secondsElapsed = elapsed.count();
+    if (progress && state.secondsElapsed - reported > secondsBetweenReports)
+    {
+      reported = state.secondsElapsed;
+      if (!progress(state))
+      {
+        return makeError(
+          Error::Kind::Cancelled, "verifying '" + description_.path + "' was cancelled");
+      }
+    }
     const Result<std::vector<std::uint64_t>> points = side_->pointsOf(node);
     if (!points)
     {
@@ -233,7 +249,7 @@ std::string IndexedLASFile::membersFault() const
     }
   }
   return found == wanted
-    ? ""
+    ? std::string()
     : "'" + description_.path + "': its nodes do not hold every point exactly once";
 }
 
@@ -243,7 +259,12 @@ Result<VerifyReport> IndexedLASFile::verify(const ProgressFunction& progress) co
     StoreVerification(*this, side_->content().stored.gridBounds).run(progress);
   if (report && report->ok)
   {
-    report->firstError = membersFault();
+    const Result<std::string> fault = membersFault(progress);
+    if (!fault)
+    {
+      return fault.error();
+    }
+    report->firstError = *fault;
     report->ok = report->firstError.empty();
   }
   return report;

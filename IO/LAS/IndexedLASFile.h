@@ -39,7 +39,7 @@ private:
   Result<void> checkIdentity(const std::string& sidePath) const;
   void describe(const std::string& sidePath);
   void giveBack(std::size_t bytes) const;
-  std::string membersFault() const;
+  Result<std::string> membersFault(const ProgressFunction& progress) const;
 
   std::unique_ptr<const SideFile> side_;
   LASFile file_;

@@ -11,5 +11,6 @@ The classes are VTK classes (their C++ headers document them) and go together wi
 from .pointfrontCommon import *
 from .pointfrontFiltersBuild import *
 from .pointfrontIOStore import *
+from .pointfrontIOLASIndex import *  # readers and mappers know side files of LAS files by it
 from .pointfrontRenderingCore import *
 from .pointfrontRenderingOpenGL2 import *  # the OpenGL side of the mapper, by VTK's object factory

@@ -11,7 +11,7 @@ foreach (family IN ITEMS LAS PCD PLY Text)
     list(APPEND pointfront_kernel_libraries pointfrontIO${family})
     install(DIRECTORY "${CMAKE_CURRENT_SOURCE_DIR}/IO/${family}/"
       DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/pointfront/IO" COMPONENT Development
-      FILES_MATCHING PATTERN "*.h" PATTERN "Testing" EXCLUDE)
+      FILES_MATCHING PATTERN "*.h" PATTERN "Testing" EXCLUDE PATTERN "vtk*.h" EXCLUDE)
   endif ()
 endforeach ()
 foreach (filter IN ITEMS Projection ImageColor)

@@ -99,6 +99,7 @@ Result<void> findRuns(const QuadTree& tree, const CellGrid& cells, const GridRec
 {
   crew.beginPhase("indexing", records.count, findingWeight);
   const RunFinder finder(records, cells, tree);
+  const SampleFinder sampler(tree);
   BlockQueue blocks(records.count);
   return crew.run(
     [&]() -> Result<void>
@@ -108,7 +109,7 @@ Result<void> findRuns(const QuadTree& tree, const CellGrid& cells, const GridRec
       {
         batch.runs.clear();
         finder.find(begin, end, batch.runs);
-        findSamples(tree, batch);
+        sampler.find(batch);
         if (!blocks.enter(begin, crew))
         {
           break;

@@ -3,7 +3,6 @@
 #include "pointfront/InPlace/SampleStream.h"
 
 #include <algorithm>
-#include <map>
 
 namespace pointfront
 {
@@ -48,27 +47,32 @@ void findSamples(
 }
 } // namespace
 
-void findSamples(const QuadTree& tree, RunBatch& batch)
+SampleFinder::SampleFinder(const QuadTree& tree)
+  : holders_(tree.nodes().size())
 {
-  std::map<NodeIndex, std::vector<QuadTree::Holder>> holders; // of the leaves met so far
+  for (NodeIndex i = 0; i < tree.nodes().size(); ++i)
+  {
+    const QuadNode& node = tree.nodes()[i];
+    if (node.leaf() || node.sliced)
+    {
+      holders_[i] = tree.holdersAbove(node.sliced ? node.firstChild : i);
+    }
+  }
+}
+
+void SampleFinder::find(RunBatch& batch) const
+{
   batch.samples.clear();
   batch.sampleEnd.clear();
   for (const LeafRun& run : batch.runs)
   {
-    const auto [entry, isNew] = holders.try_emplace(run.leaf);
-    if (isNew)
-    {
-      entry->second = tree.holdersAbove(run.leaf);
-      if (tree.nodes()[run.leaf].sliced) // holds a sample of its own slices
-      {
-        const NodeIndex slice = tree.nodes()[run.leaf].firstChild;
-        entry->second = tree.holdersAbove(slice);
-      }
-    }
     const std::size_t begin = batch.samples.size();
-    findSamples(run, entry->second, batch.samples);
-    std::sort(batch.samples.begin() + static_cast<std::ptrdiff_t>(begin), batch.samples.end(),
-      [](const HeldSample& a, const HeldSample& b) { return a.point < b.point; });
+    findSamples(run, holders_[run.leaf], batch.samples);
+    if (batch.samples.size() > begin + 1)
+    {
+      std::sort(batch.samples.begin() + static_cast<std::ptrdiff_t>(begin), batch.samples.end(),
+        [](const HeldSample& a, const HeldSample& b) { return a.point < b.point; });
+    }
     batch.sampleEnd.push_back(batch.samples.size());
   }
 }

@@ -30,8 +30,18 @@ struct RunBatch
   std::vector<std::size_t> sampleEnd; ///< of run i in `samples`; they begin where i - 1 ends
 };
 
-/// Fills the samples of a batch whose runs are found.
-void findSamples(const QuadTree& tree, RunBatch& batch);
+/// Tells which points of runs are held above their leaves. Constant once made: for all threads.
+class SampleFinder
+{
+public:
+  explicit SampleFinder(const QuadTree& tree);
+  /// Fills the samples of a batch whose runs are found.
+  void find(RunBatch& batch) const;
+
+private:
+  /// Above a leaf, or above the slices of a sliced node.
+  std::vector<std::vector<QuadTree::Holder>> holders_;
+};
 
 /// Enters runs into the lists of their nodes, in the order of the file, and counts what each node
 /// holds: every point is its leaf's, or that of the one ancestor whose stream has it.

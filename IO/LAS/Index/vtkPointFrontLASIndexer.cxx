@@ -1,0 +1,86 @@
+#include "vtkPointFrontLASIndexer.h"
+
+#include "IndexedLASFile.h"
+#include "LASIndexing.h"
+
+#include "pointfront/Store/StoredCloudFormats.h"
+
+#include <vtkCommand.h>
+#include <vtkIndent.h>
+#include <vtkObjectFactory.h>
+
+#include <memory>
+#include <string>
+#include <thread>
+
+vtkStandardNewMacro(vtkPointFrontLASIndexer);
+
+namespace
+{
+const bool registered = (vtkPointFrontLASIndexer::RegisterFormat(), true);
+}
+
+void vtkPointFrontLASIndexer::RegisterFormat()
+{
+  pointfront::StoredCloudFormats::ofProcess().add(std::make_shared<pointfront::LASIndexFormat>());
+}
+
+vtkPointFrontLASIndexer::~vtkPointFrontLASIndexer()
+{
+  this->SetFileName(nullptr);
+  this->SetIndexFileName(nullptr);
+}
+
+bool vtkPointFrontLASIndexer::Index()
+{
+  this->NumberOfPoints = 0;
+  this->Abort = false;
+  if (!this->FileName || !*this->FileName)
+  {
+    vtkErrorMacro("no file name: set FileName to a LAS file");
+    return false;
+  }
+  const std::string side = this->IndexFileName && *this->IndexFileName
+    ? std::string(this->IndexFileName)
+    : std::string(this->FileName) + pointfront::lasIndexSuffix;
+  pointfront::LASIndexOptions options;
+  options.leafPoints = static_cast<std::uint32_t>(this->NodePoints);
+  // Observers are called in the caller's thread only: what other threads report is left out.
+  const std::thread::id caller = std::this_thread::get_id();
+  const auto report = pointfront::indexLASFile(this->FileName, side, options,
+    [this, caller](const pointfront::Progress& progress)
+    {
+      if (std::this_thread::get_id() == caller)
+      {
+        double fraction = progress.fraction;
+        this->InvokeEvent(vtkCommand::ProgressEvent, &fraction);
+        return !this->Abort;
+      }
+      return true;
+    });
+  if (!report)
+  {
+    if (report.error().kind != pointfront::Error::Kind::Cancelled)
+    {
+      vtkErrorMacro(<< report.error().what);
+    }
+    return false;
+  }
+  for (const std::string& warning : report->warnings)
+  {
+    vtkWarningMacro(<< this->FileName << ": " << warning);
+  }
+  this->NumberOfPoints = static_cast<vtkIdType>(report->points);
+  return true;
+}
+
+void vtkPointFrontLASIndexer::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << "\n";
+  os << indent << "IndexFileName: " << (this->IndexFileName ? this->IndexFileName : "(none)")
+     << "\n";
+  os << indent << "NodePoints: " << this->NodePoints << "\n";
+  os << indent << "Abort: " << this->Abort << "\n";
+  os << indent << "NumberOfPoints: " << this->NumberOfPoints << "\n";
+}

@@ -1,0 +1,78 @@
+/**
+ * @class vtkPointFrontLASIndexer
+ * @brief makes a LAS file drawable in place, by a small side file
+ *
+ * Index() reads the LAS file, which stays as it is, and writes a side file that tells which runs of
+ * its points lie where. vtkPointFrontReader opens that side file as it opens a store. LAZ is
+ * refused: its points have no places of their own.
+ *
+ * Loading this module also makes vtkPointFrontStore and vtkPointFrontReader know side files. A
+ * linker that drops libraries nobody calls can be made to keep it by calling RegisterFormat().
+ *
+ * Invokes vtkCommand::ProgressEvent with the fraction done (double); an observer may then call
+ * SetAbort(true), which leaves what was there before.
+ *
+ * Source: Kovac 2009, section 2. docs/formats/pfindex.md describes the file.
+ */
+#ifndef vtkPointFrontLASIndexer_h
+#define vtkPointFrontLASIndexer_h
+
+#include "pointfrontIOLASIndexModule.h" // for the export macro
+#include "vtkObject.h"
+
+class POINTFRONTIOLASINDEX_EXPORT vtkPointFrontLASIndexer : public vtkObject
+{
+public:
+  static vtkPointFrontLASIndexer* New();
+  vtkTypeMacro(vtkPointFrontLASIndexer, vtkObject);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /// The LAS file, 1.0 to 1.4, any point format, uncompressed.
+  vtkSetFilePathMacro(FileName);
+  vtkGetFilePathMacro(FileName);
+
+  ///@{
+  /// The side file. Not set or empty: FileName with ".pfindex" behind. An index that is there is
+  /// replaced; any other file is refused.
+  vtkSetFilePathMacro(IndexFileName);
+  vtkGetFilePathMacro(IndexFileName);
+  ///@}
+
+  ///@{
+  /// Most points of a leaf. Default 16384.
+  vtkSetClampMacro(NodePoints, int, 256, 1 << 20);
+  vtkGetMacro(NodePoints, int);
+  ///@}
+
+  ///@{
+  /// Stops a running Index().
+  vtkSetMacro(Abort, bool);
+  vtkGetMacro(Abort, bool);
+  ///@}
+
+  /// Writes the side file. False on failure (reported as vtkErrorMacro does) and when aborted.
+  bool Index();
+
+  /// Points of the file that Index() read last.
+  vtkGetMacro(NumberOfPoints, vtkIdType);
+
+  /// Lets every reader and mapper of this process open side files. Done when the module is loaded;
+  /// doing it again changes nothing.
+  static void RegisterFormat();
+
+protected:
+  vtkPointFrontLASIndexer() = default;
+  ~vtkPointFrontLASIndexer() override;
+
+private:
+  vtkPointFrontLASIndexer(const vtkPointFrontLASIndexer&) = delete;
+  void operator=(const vtkPointFrontLASIndexer&) = delete;
+
+  char* FileName = nullptr;
+  char* IndexFileName = nullptr;
+  int NodePoints = 16384;
+  bool Abort = false;
+  vtkIdType NumberOfPoints = 0;
+};
+
+#endif

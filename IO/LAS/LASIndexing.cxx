@@ -279,7 +279,10 @@ Result<LASIndexReport> indexLASFile(const std::string& lasPath, const std::strin
     options.temporaryFolder.empty() ? beside : options.temporaryFolder, crew, **writer);
   if (!content)
   {
-    return makeError(content.error().kind, lasPath + ": " + content.error().what);
+    const bool cancelled = content.error().kind == Error::Kind::Cancelled;
+    return makeError(content.error().kind,
+      lasPath + ": " +
+        (cancelled ? "indexing was cancelled; nothing was written" : content.error().what));
   }
   if (before != FileState(lasPath))
   {

@@ -56,6 +56,12 @@ class Signals(ToolTest):
         self.stopped("verify", store)
         self.assertEqual(store.stat().st_size, whole)
 
+    def test_index(self):
+        las = self.folder / "large.las"
+        self.succeed("generate", "--points", "4000000", "-o", las)
+        self.stopped("index", las, "-o", self.folder / "out.pfindex")
+        self.assertEqual(self.entries(), ["large.las"])
+
     def test_an_export_that_is_stopped_keeps_what_was_there(self):
         store = self.build(LARGE)
         earlier = self.folder / "points.xyz"

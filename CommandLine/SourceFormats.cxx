@@ -63,6 +63,22 @@ bool SourceFormats::mayHoldPoints(const std::string& path) const
     [&path](const std::unique_ptr<PointSourceFormat>& format) { return format->accepts(path); });
 }
 
+const PointSourceFormat* SourceFormats::named(const std::string& path) const
+{
+  std::string extension = std::filesystem::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  for (const auto& format : formats_)
+  {
+    const std::vector<std::string> own = format->extensions();
+    if (!extension.empty() && std::find(own.begin(), own.end(), extension.substr(1)) != own.end())
+    {
+      return format.get();
+    }
+  }
+  return nullptr;
+}
+
 Result<std::unique_ptr<PointSource>> SourceFormats::open(const std::string& path) const
 {
   std::error_code failure;
@@ -70,25 +86,22 @@ Result<std::unique_ptr<PointSource>> SourceFormats::open(const std::string& path
   {
     return makeError(Error::Kind::NotFound, path + ": no such file");
   }
-  for (const auto& format : formats_)
-  {
-    if (format->accepts(path))
-    {
-      return format->open(path);
-    }
-  }
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const PointSourceFormat* const byName = named(path);
+  const PointSourceFormat* const anyText = formats_.back().get();
   std::string known;
   for (const auto& format : formats_)
   {
-    const std::vector<std::string> own = format->extensions();
-    if (!extension.empty() && std::find(own.begin(), own.end(), extension.substr(1)) != own.end())
+    // A PCD file without its header is a broken PCD file, not text.
+    const bool claimed = format.get() == anyText && byName != nullptr && byName != anyText;
+    if (!claimed && format->accepts(path))
     {
       return format->open(path);
     }
     known += (known.empty() ? "" : ", ") + format->name();
+  }
+  if (byName != nullptr)
+  {
+    return byName->open(path);
   }
   return makeError(Error::Kind::Unsupported,
     path + ": not a point file of a family that is read here (" + known + ")");

@@ -34,11 +34,15 @@ public:
   /// no row of numbers is found: a note beside the points.
   bool mayHoldPoints(const std::string& path) const;
 
-  /// Opens with the first format that accepts the file's content. If none does, the format that
-  /// the extension names says why; a file of an unknown kind is Unsupported.
+  /// Opens with the first format that accepts the file's content; as text only what no other
+  /// format's extension names. If none does, the format that the extension names says why; a file
+  /// of an unknown kind is Unsupported.
   Result<std::unique_ptr<PointSource>> open(const std::string& path) const override;
 
 private:
+  /// The format that the extension names, or none.
+  const PointSourceFormat* named(const std::string& path) const;
+
   std::vector<std::unique_ptr<PointSourceFormat>> formats_;
 };
 

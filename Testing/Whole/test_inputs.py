@@ -118,6 +118,14 @@ class RealFiles(ToolTest):
         store = self.build(self.folder / "in")
         self.assertEqual(self.succeed("info", store, "--json").json["points"], 2)
 
+    def test_pcd_and_ply_without_their_headers_are_no_text(self):
+        for name, reason in (("x.pcd", "no keyword of a PCD header"), ("x.ply", "not a PLY file"),
+                             ("x.las", "x.las")):
+            path = self.folder / name
+            path.write_text("1 2 3\n4 5 6\n")
+            outcome = self.refuse(1, "build", path, "-o", self.folder / "x.pfront")
+            self.assertIn(reason, outcome.err)
+
     def test_kinds_that_are_not_read_say_what_to_do(self):
         for name, advice in (("e57/bunnyInt32.e57", "convert it"),
                              ("ept/lone-star-laszip/ept.json", "ept-data")):

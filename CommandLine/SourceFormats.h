@@ -37,9 +37,6 @@ public:
   /// Opens with the first format that accepts the file's content; as text only what no other
   /// format's extension names. If none does, the format that the extension names says why; a file
   /// of an unknown kind is Unsupported.
-  /// Opens with the first format that accepts the file's content; as text only what no other
-  /// format's extension names. If none does, the format that the extension names says why; a file
-  /// of an unknown kind is Unsupported.
   Result<std::unique_ptr<PointSource>> open(const std::string& path) const override;
 
 private:

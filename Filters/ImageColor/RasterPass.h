@@ -34,6 +34,7 @@ public:
     PointSources sources, const PassResources& resources) const override;
   std::uint64_t heldBytes(const PassResources& resources) const override;
   std::vector<std::string> findings() const override;
+  bool readsPoints() const override { return false; }
 
   /// What all sources share while they are read.
   struct Images;

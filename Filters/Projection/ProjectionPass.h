@@ -38,6 +38,7 @@ public:
   Result<PointSources> apply(
     PointSources sources, const PassResources& resources) const override;
   std::vector<std::string> findings() const override { return findings_; }
+  bool readsPoints() const override { return false; }
 
 private:
   struct StatedSystem : CoordinateSystem

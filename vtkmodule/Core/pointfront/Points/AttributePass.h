@@ -42,9 +42,9 @@ public:
   virtual Result<PointSources> apply(
     PointSources sources, const PassResources& resources) const = 0;
 
-  /// True if apply() reads the points, which takes as long as that does: what can be shown of the
-  /// cloud is shown before.
-  virtual bool readsPoints() const { return false; }
+  /// False if apply() only wraps the sources. True if it reads points, which takes as long as that
+  /// does: what can be shown of the cloud is shown before.
+  virtual bool readsPoints() const { return true; }
   /// Memory in bytes that the sources it gives keep while they are read (a cache of images). The
   /// build has that much less of resources.memoryBytes.
   virtual std::uint64_t heldBytes(const PassResources& resources) const

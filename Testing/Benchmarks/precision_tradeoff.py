@@ -50,7 +50,8 @@ def main():
     source, store, back = work / "terrain.las", work / "terrain.pfront", work / "back.las"
     run(tool, "generate", "--points", points, "-o", source)
     exact, key = read_las(source)
-    print("| precision | all attributes, bytes a point | positions and intensity | largest error, mm |")
+    print("| precision | all attributes, bytes a point | positions and intensity "
+          "| largest error, mm |")
     print("| --- | ---: | ---: | ---: |")
     for precision in PRECISIONS:
         option = ["--precision", precision] if precision else []

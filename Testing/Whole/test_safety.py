@@ -170,7 +170,8 @@ class Disks(ToolTest):
             [TOOL, *map(str, arguments)], capture_output=True, timeout=240, check=False,
             preexec_fn=lambda: resource.setrlimit(
                 resource.RLIMIT_FSIZE, (bytes_allowed, soft[1])))
-        lines = [line for line in finished.stderr.decode().splitlines() if ": warning: " not in line]
+        lines = finished.stderr.decode().splitlines()
+        lines = [line for line in lines if ": warning: " not in line]
         self.assertEqual(finished.returncode, 1, lines)
         self.assertEqual(len(lines), 1, lines)
         return lines[0]

@@ -15,8 +15,8 @@ constexpr std::uint64_t mostBlockPoints = 1u << 22;
 constexpr std::uint64_t memoryBlockPoints = 1u << 18;
 
 /// Bytes for one point of a part while it is built: its record twice (unsorted and sorted), keys,
-/// its position once more, index lists of the levels (their sum is below 2 indices a point), the encoded nodes of
-/// the /// part and of those finished out of turn.
+/// its position once more, index lists of the levels (their sum is below 2 indices a point), the
+/// encoded nodes of the part and of those finished out of turn.
 std::uint64_t partPointBytes(std::size_t recordBytes)
 {
   return 2 * recordBytes + mortonOrderBytes + RecordLayout::positionBytes + 8 + 2 * recordBytes;

@@ -1,0 +1,365 @@
+#include "pointfront/Neighbourhood/NearestNeighbours.h"
+
+#include "pointfront/Neighbourhood/TileSearch.h"
+
+#include <algorithm>
+#include <atomic>
+#include <mutex>
+#include <numeric>
+
+namespace pointfront
+{
+namespace
+{
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// Shares of the whole, for the progress fraction.
+constexpr double readShare = 0.1; // twice
+constexpr double searchShare = 0.8;
+
+/// What a point of a tile needs while it is searched: itself, its place and the tree over it, its
+/// order, its value on the way to the column.
+constexpr std::uint64_t tilePointBytes = sizeof(TilePoint) + 2 * sizeof(glm::dvec3) + 64;
+
+/// One computation over all tiles.
+class Search
+{
+public:
+  Search(const PointTiles& tiles, const NeighbourhoodOptions& options, const IndexMaker& makeIndex,
+    const NeighbourhoodFeature& feature, PointColumn& column, WorkCrew& crew)
+    : tiles_(tiles)
+    , options_(options)
+    , makeIndex_(makeIndex)
+    , feature_(feature)
+    , column_(column)
+    , crew_(crew)
+  {
+  }
+
+  /// Both rounds; `mostUnfinished` points wait for the second one at a time.
+  Result<void> run(std::size_t mostUnfinished);
+
+private:
+  Result<void> searchTile(std::size_t tile);
+  /// Index and neighbours of a tile, reused from tile to tile by one thread.
+  struct Local
+  {
+    PositionSet references;
+    std::unique_ptr<NeighbourIndex> index;
+    std::vector<NearPoint> near;
+    std::vector<std::byte> values;
+    std::vector<std::uint64_t> numbers;
+  };
+  double squaredReach(const NeighbourList& list, const glm::dvec3& p) const;
+  Result<void> store(const std::vector<TilePoint>& points, std::vector<std::uint32_t>& done,
+    const std::vector<std::byte>& values) const;
+  Result<void> finishUnfinished();
+  Result<void> searchAgain(std::size_t tile, std::vector<std::vector<NearPoint>>& found);
+  void merge(std::vector<NearPoint>& found, const std::vector<NearPoint>& more) const;
+
+  const PointTiles& tiles_;
+  const NeighbourhoodOptions& options_;
+  const IndexMaker& makeIndex_;
+  const NeighbourhoodFeature& feature_;
+  PointColumn& column_;
+  WorkCrew& crew_;
+  std::atomic<std::size_t> nextTile_{ 0 };
+  std::mutex mutex_; // guards what follows
+  std::vector<UnfinishedPoint> unfinished_;
+};
+
+Result<void> Search::run(std::size_t mostUnfinished)
+{
+  while (nextTile_ < tiles_.count())
+  {
+    const auto work = [&]() -> Result<void>
+    {
+      while (!crew_.stopped())
+      {
+        {
+          const std::lock_guard<std::mutex> lock(mutex_);
+          if (unfinished_.size() >= mostUnfinished)
+          {
+            return {};
+          }
+        }
+        const std::size_t tile = nextTile_++;
+        if (tile >= tiles_.count())
+        {
+          return {};
+        }
+        if (Result<void> done = searchTile(tile); !done)
+        {
+          return done;
+        }
+      }
+      return {};
+    };
+    Result<void> done = crew_.run(work);
+    done = done ? finishUnfinished() : done;
+    if (!done)
+    {
+      return done;
+    }
+  }
+  return {};
+}
+
+Result<void> Search::searchTile(std::size_t tile)
+{
+  Result<GatheredPoints> gathered = tiles_.gathered(tile);
+  if (!gathered)
+  {
+    return gathered.error();
+  }
+  const std::vector<TilePoint>& points = gathered->points;
+  const std::vector<std::uint32_t> order = placeOrder(points);
+  PositionSet references;
+  const std::uint32_t most = options_.neighbours > 0 ? options_.neighbours : ~0u;
+  collectReferences(points, order, tiles_.participants().references, options_.axes, most,
+    references);
+  const std::unique_ptr<NeighbourIndex> index = makeIndex_(references);
+  const Bounds& box = tiles_.layout().tiles()[tile].gathered;
+
+  NeighbourList list(options_.neighbours);
+  std::vector<NearPoint> near;
+  std::vector<std::uint32_t> finished;
+  std::vector<UnfinishedPoint> unfinished;
+  const std::size_t bytes = feature_.bytes();
+  std::vector<std::byte> values(gathered->own * bytes); // of points[i], own ones come first
+  const std::uint32_t* before = nullptr;
+  for (const std::uint32_t& i : order)
+  {
+    if (crew_.stopped())
+    {
+      return {};
+    }
+    const glm::dvec3& p = points[i].position;
+    if (i >= gathered->own || !tiles_.participants().queries[points[i].objectClass()])
+    {
+      continue;
+    }
+    if (before != nullptr && points[*before].position == p) // a duplicate
+    {
+      std::copy_n(values.begin() + std::ptrdiff_t(*before * bytes), bytes,
+        values.begin() + std::ptrdiff_t(i * bytes));
+      finished.push_back(i);
+      continue;
+    }
+    before = nullptr;
+    list.begin(references, options_.neighbours > 0 ? infinity : options_.radius * options_.radius);
+    index->search(p, list);
+    const double clearance = squaredClearance(box, p);
+    if (options_.neighbours > 0 && clearance < infinity &&
+      !(list.full() && list.bound() < clearance))
+    {
+      unfinished.push_back({ points[i], squaredReach(list, p) });
+      continue;
+    }
+    collectNear(references, list, options_.neighbours, near);
+    if (options_.neighbours == 0)
+    {
+      std::sort(near.begin(), near.end(),
+        [](const NearPoint& a, const NearPoint& b)
+        {
+          return a.squaredDistance != b.squaredDistance ? a.squaredDistance < b.squaredDistance
+                                                        : positionLess(a.position, b.position);
+        });
+    }
+    feature_.compute(p, near, values.data() + i * bytes);
+    finished.push_back(i);
+    before = &i;
+  }
+  crew_.advance(finished.size());
+  if (Result<void> done = store(points, finished, values); !done)
+  {
+    return done;
+  }
+  const std::lock_guard<std::mutex> lock(mutex_);
+  unfinished_.insert(unfinished_.end(), unfinished.begin(), unfinished.end());
+  return {};
+}
+
+double Search::squaredReach(const NeighbourList& list, const glm::dvec3& p) const
+{
+  if (list.full())
+  {
+    return list.bound();
+  }
+  // All references of a tile that has enough of them are nearer than its farthest corner.
+  double reach = infinity;
+  for (std::size_t t = 0; t < tiles_.count(); ++t)
+  {
+    const ReferenceExtent& extent = tiles_.references(t);
+    if (extent.points >= options_.neighbours)
+    {
+      reach = std::min(reach, squaredDistanceAcross(extent.bounds, p, options_.axes));
+    }
+  }
+  return reach * (1.0 + 1e-12);
+}
+
+Result<void> Search::store(const std::vector<TilePoint>& points,
+  std::vector<std::uint32_t>& done, const std::vector<std::byte>& values) const
+{
+  std::sort(done.begin(), done.end(), [&](std::uint32_t a, std::uint32_t b)
+    { return points[a].number() < points[b].number(); });
+  const std::size_t bytes = feature_.bytes();
+  std::vector<std::uint64_t> numbers(done.size());
+  std::vector<std::byte> sorted(done.size() * bytes);
+  for (std::size_t i = 0; i < done.size(); ++i)
+  {
+    numbers[i] = points[done[i]].number();
+    std::copy_n(values.begin() + std::ptrdiff_t(done[i] * bytes), bytes,
+      sorted.begin() + std::ptrdiff_t(i * bytes));
+  }
+  return column_.write(numbers, sorted);
+}
+
+/// The second round: all tiles in reach of each point, one tile after another.
+Result<void> Search::finishUnfinished()
+{
+  if (unfinished_.empty())
+  {
+    return {};
+  }
+  std::vector<std::vector<NearPoint>> found(unfinished_.size());
+  std::atomic<std::size_t> next{ 0 };
+  const auto work = [&]() -> Result<void>
+  {
+    for (std::size_t t = next++; t < tiles_.count() && !crew_.stopped(); t = next++)
+    {
+      if (Result<void> done = searchAgain(t, found); !done)
+      {
+        return done;
+      }
+    }
+    return {};
+  };
+  if (Result<void> done = crew_.run(work); !done)
+  {
+    return done;
+  }
+  std::vector<TilePoint> points(unfinished_.size());
+  std::vector<std::byte> values(unfinished_.size() * feature_.bytes());
+  for (std::size_t i = 0; i < unfinished_.size(); ++i)
+  {
+    points[i] = unfinished_[i].point;
+    feature_.compute(points[i].position, found[i], values.data() + i * feature_.bytes());
+  }
+  std::vector<std::uint32_t> all(points.size());
+  std::iota(all.begin(), all.end(), 0u);
+  crew_.advance(all.size());
+  unfinished_.clear();
+  return store(points, all, values);
+}
+
+Result<void> Search::searchAgain(std::size_t tile, std::vector<std::vector<NearPoint>>& found)
+{
+  const ReferenceExtent& extent = tiles_.references(tile);
+  std::vector<std::size_t> visitors;
+  for (std::size_t i = 0; i < unfinished_.size() && extent.points > 0; ++i)
+  {
+    const UnfinishedPoint& from = unfinished_[i];
+    if (squaredDistanceTo(extent.bounds, from.point.position, options_.axes) <= from.squaredReach)
+    {
+      visitors.push_back(i);
+    }
+  }
+  if (visitors.empty())
+  {
+    return {};
+  }
+  const Result<std::vector<TilePoint>> own = tiles_.own(tile);
+  if (!own)
+  {
+    return own.error();
+  }
+  PositionSet references;
+  collectReferences(*own, placeOrder(*own), tiles_.participants().references, options_.axes,
+    options_.neighbours, references);
+  const std::unique_ptr<NeighbourIndex> index = makeIndex_(references);
+  NeighbourList list(options_.neighbours);
+  std::vector<NearPoint> near;
+  for (const std::size_t i : visitors)
+  {
+    list.begin(references, unfinished_[i].squaredReach);
+    index->search(unfinished_[i].point.position, list);
+    collectNear(references, list, options_.neighbours, near);
+    const std::lock_guard<std::mutex> lock(mutex_);
+    merge(found[i], near);
+  }
+  return {};
+}
+
+/// Keeps the nearest of both; whichever tile comes first, the result is the same.
+void Search::merge(std::vector<NearPoint>& found, const std::vector<NearPoint>& more) const
+{
+  found.insert(found.end(), more.begin(), more.end());
+  std::sort(found.begin(), found.end(),
+    [](const NearPoint& a, const NearPoint& b)
+    {
+      return a.squaredDistance != b.squaredDistance ? a.squaredDistance < b.squaredDistance
+                                                    : positionLess(a.position, b.position);
+    });
+  std::uint32_t total = 0;
+  std::size_t kept = 0;
+  for (; kept < found.size() && total < options_.neighbours; ++kept)
+  {
+    found[kept].count = std::min(found[kept].count, options_.neighbours - total);
+    total += found[kept].count;
+  }
+  found.resize(kept);
+}
+} // namespace
+
+Result<std::unique_ptr<PointColumn>> computeFromNeighbours(const PointSources& sources,
+  const InputOrder& order, const NeighbourhoodOptions& options, const IndexMaker& makeIndex,
+  const NeighbourhoodFeature& feature, const PassResources& resources)
+{
+  TilingOptions tiling;
+  tiling.axes = options.axes;
+  tiling.tilePoints = options.tilePoints;
+  tiling.neighbours = options.neighbours;
+  // A little more than the radius: what lies exactly on it must not fall to rounding.
+  tiling.halo = options.neighbours > 0 ? 0.0 : options.radius * (1.0 + 1e-9);
+  WorkCrew reading(threadsOf(resources), resources.progress);
+  Result<std::unique_ptr<PointTiles>> tiles = PointTiles::make(
+    sources, order, tiling, options.participants, resources, reading, readShare);
+  if (!tiles)
+  {
+    return tiles.error();
+  }
+  Result<std::unique_ptr<PointColumn>> column =
+    PointColumn::create(resources, order.points(), feature.bytes());
+  if (!column)
+  {
+    return column.error();
+  }
+  const std::uint64_t memory = memoryOf(resources) / 2;
+  const std::uint64_t tileBytes = (*tiles)->largestTile() * tilePointBytes;
+  if (tileBytes > memory)
+  {
+    return makeError(Error::Kind::NoMemory,
+      "a memory limit of " + std::to_string(memoryOf(resources) >> 20) +
+        " MiB is too small for neighbourhoods: the densest piece of the cloud needs " +
+        std::to_string((2 * tileBytes >> 20) + 1) + " MiB");
+  }
+  const auto threads = static_cast<unsigned>(std::clamp<std::uint64_t>(
+    memory / std::max<std::uint64_t>(1, tileBytes), 1, threadsOf(resources)));
+  const std::uint64_t unfinishedBytes =
+    sizeof(UnfinishedPoint) + (options.neighbours + 1) * sizeof(NearPoint);
+  WorkCrew crew(threads, resources.progress);
+  crew.beginPhase(options.phase, 0, 2 * readShare);
+  crew.beginPhase(options.phase, order.points(), searchShare);
+  Search search(**tiles, options, makeIndex, feature, **column, crew);
+  const std::size_t mostUnfinished =
+    std::max<std::size_t>(1024, static_cast<std::size_t>(memory / 4 / unfinishedBytes));
+  if (Result<void> done = search.run(mostUnfinished); !done)
+  {
+    return done.error();
+  }
+  return std::move(*column);
+}
+
+} // namespace pointfront

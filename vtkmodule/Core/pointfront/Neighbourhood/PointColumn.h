@@ -1,0 +1,54 @@
+#pragma once
+
+#include "pointfront/Build/SpillFile.h"
+#include "pointfront/Neighbourhood/InputOrder.h"
+#include "pointfront/Points/AttributeSchema.h"
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace pointfront
+{
+
+/// Values of all points, by their number in input order, in an unnamed file: what was computed from
+/// neighbours waits there until its source is read. Zero bytes where nothing was written.
+/// Threads  write() and read() from any thread, on separate points.
+class PointColumn
+{
+public:
+  static Result<std::unique_ptr<PointColumn>> create(
+    const PassResources& resources, std::uint64_t points, std::size_t valueBytes);
+
+  std::size_t valueBytes() const { return valueBytes_; }
+  /// `numbers` ascending; `values`: valueBytes() each.
+  Result<void> write(
+    const std::vector<std::uint64_t>& numbers, const std::vector<std::byte>& values);
+  Result<void> read(std::uint64_t first, std::uint64_t count, std::byte* values) const;
+
+private:
+  PointColumn(std::unique_ptr<SpillFile> file, std::size_t valueBytes)
+    : file_(std::move(file))
+    , valueBytes_(valueBytes)
+  {
+  }
+  std::unique_ptr<SpillFile> file_;
+  std::size_t valueBytes_;
+};
+
+/// Gives the points of one chunk their new values: bytes of all new attributes of a point side by
+/// side, one after another for each point.
+/// `batch` has the source's own columns; called from any thread.
+using ValueSource =
+  std::function<Result<void>(const SourceChunk&, const PointBatch& batch, std::byte* values)>;
+
+/// Sources that give what the originals give, and the new attributes: behind the others, or in the
+/// place of one with the same name.
+PointSources withAttributes(
+  PointSources sources, const std::vector<Attribute>& attributes, const ValueSource& values);
+
+/// A ValueSource that reads a column.
+ValueSource valuesOf(std::shared_ptr<const PointColumn> column, InputOrder order);
+
+} // namespace pointfront

@@ -1,0 +1,38 @@
+#pragma once
+
+#include "pointfront/Neighbourhood/NearestNeighbours.h"
+
+namespace pointfront
+{
+
+/// The points of one tile in an order that is the same whatever order they came in: along a Morton
+/// curve, places at the same step of it by positionLess(). Neighbours in space are neighbours in
+/// memory, which halves the time of searches in a row.
+std::vector<std::uint32_t> placeOrder(const std::vector<TilePoint>& points);
+
+/// The places of the references among `points`, taken in `order`. With two axes, points above one
+/// another are one place: the lowest.
+void collectReferences(const std::vector<TilePoint>& points,
+  const std::vector<std::uint32_t>& order, const ClassSet& references, unsigned axes,
+  std::uint32_t mostCount, PositionSet& set);
+
+/// The entries of a list as points, in its order, with no more than `wanted` points in all (0: any
+/// number).
+void collectNear(const PositionSet& set, const NeighbourList& list, std::uint32_t wanted,
+  std::vector<NearPoint>& near);
+
+/// A point whose neighbours may lie outside of what its tile gathered.
+struct UnfinishedPoint
+{
+  TilePoint point;
+  double squaredReach = 0.0; ///< its neighbours are within this squared distance
+};
+
+/// Squared distance from p to what lies outside of the box, a little less than it is; infinite if
+/// nothing does.
+double squaredClearance(const Bounds& box, const glm::dvec3& p);
+/// Squared distance from p to the nearest and to the farthest point of a box, over some axes.
+double squaredDistanceTo(const Bounds& box, const glm::dvec3& p, unsigned axes);
+double squaredDistanceAcross(const Bounds& box, const glm::dvec3& p, unsigned axes);
+
+} // namespace pointfront

@@ -22,6 +22,9 @@ foreach (target IN ITEMS OpenImageIO::OpenImageIO OpenImageIO::OpenImageIO_Util)
   set_target_properties(${target} PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "${present}")
 endforeach ()
 
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(POINTFRONT_LZ4 REQUIRED IMPORTED_TARGET liblz4) # what FLANN's headers call
+
 # VTK first: a find_package(Python3) before it would find another Python than Debian's.
 if (POINTFRONT_HOST STREQUAL "VTK")
   find_package(VTK 9.1 REQUIRED COMPONENTS
@@ -41,3 +44,13 @@ elseif (POINTFRONT_HOST STREQUAL "ParaView")
       "On Debian run scripts/paraview-prefix first; elsewhere set ParaView_DIR.")
   endif ()
 endif ()
+
+# pcl_common and, for tests, pcl_features and pcl_search. In a function: PCL must not see VTK (it
+# would bring Debian's into a build for ParaView, and Qt), and what it sets must not be seen here.
+function (pointfront_find_pcl)
+  set(CMAKE_DISABLE_FIND_PACKAGE_VTK ON)
+  set(CMAKE_DISABLE_FIND_PACKAGE_MPI ON)
+  set(VTK_FOUND 0)
+  find_package(PCL 1.13 REQUIRED QUIET COMPONENTS common kdtree search features)
+endfunction ()
+pointfront_find_pcl()

@@ -33,9 +33,9 @@ inline bool hasPlace(const glm::dvec3& p)
 
 /// Where the points are, coarsely and in bounded memory: it begins with fine cells and doubles their
 /// edge whenever there are more than `mostCells`.
-/// Order   the result is the same whatever the order of the points, and however they are spread over
-///         several histograms that are added up: its edge is the smallest, from the first on, that
-///         needs no more than mostCells for all points.
+/// Order   the result is the same whatever the order of the points, and however they are spread
+///         over several histograms that are added up: its edge is the smallest, from the first on,
+///         that needs no more than mostCells for all points.
 /// Axes    with 2, height plays no part: all cells lie in layer 0.
 /// Threads one thread each.
 class CellHistogram

@@ -45,10 +45,10 @@ struct NeighbourhoodOptions
 };
 
 /// Computes a feature of every query from its nearest references among all sources, out of core.
-/// Exact    with an exact index the values do not depend on tiles, memory, threads or the order of
-///          the points: a point is final only if its last neighbour is nearer than what its tile did
-///          not gather; the others are looked for in all tiles within their reach in a second round.
-///          With an approximate index they depend on the points and tilePoints alone.
+/// Exact    with an exact index the values do not depend on tiles, memory, threads or the order
+///          of the points: a point is final only if its last neighbour is nearer than what its tile
+///          did not gather; the others are looked for in all tiles within their reach in a second
+///          round. With an approximate index they depend on the points and tilePoints alone.
 /// Memory   a tile a thread and the points of the second round: under resources.memoryBytes.
 /// Errors   those of PointTiles and of the sources; NoMemory; Cancelled.
 Result<std::unique_ptr<PointColumn>> computeFromNeighbours(const PointSources& sources,

@@ -52,17 +52,17 @@ struct ReferenceExtent
   std::uint64_t points = 0;
 };
 
-/// All points of all sources, distributed once into tiles, each with copies of the references in its
-/// halo. In memory, or in one unnamed file when they do not fit.
+/// All points of all sources, distributed once into tiles, each with copies of the references in
+/// its halo. In memory, or in one unnamed file when they do not fit.
 /// Points that have no place (NaN, infinite, farther than 1e12) are in no tile.
 /// Threads  made from one thread, runs on those of the crew; then immutable, read from any thread.
 class PointTiles
 {
 public:
-  /// Reads every source twice: to count, and to distribute. Reports the phases "cutting into tiles"
-  /// and "distributing", each with `weight` of the whole.
-  /// Errors  those of the sources; NoMemory; Unwritable (spill file); BadArgument: halos so wide that
-  ///         each point would be copied many times.
+  /// Reads every source twice: to count, and to distribute. Reports the phases "cutting into
+  /// tiles" and "distributing", each with `weight` of the whole.
+  /// Errors  those of the sources; NoMemory; Unwritable (spill file); BadArgument: halos so wide
+  ///         that each point would be copied many times.
   static Result<std::unique_ptr<PointTiles>> make(const PointSources& sources,
     const InputOrder& order, const TilingOptions& tiling, const Participants& participants,
     const PassResources& resources, WorkCrew& crew, double weight);

@@ -36,7 +36,8 @@ struct Attribute
 /// Well-known names (all lower case; extra bytes keep the name their file gives them):
 ///   intensity u16, return_number u8, return_count u8, classification u8, classification_flags u8,
 ///   scan_direction u8, edge_of_flight_line u8, scanner_channel u8, scan_angle f32 (degrees),
-///   user_data u8, point_source_id u16, gps_time f64, rgb u8x3 or u16x3, nir u16, normal f32x3.
+///   user_data u8, point_source_id u16, gps_time f64, rgb u8x3 or u16x3, nir u16, normal f32x3 or
+///   i16x3 with a scale (NormalAttribute.h).
 /// classification_flags holds the bits synthetic 1, key point 2, withheld 4, overlap 8.
 class AttributeSchema
 {

@@ -36,6 +36,8 @@ struct SourceDescription
   std::optional<QuantisationGrid> grid;
   AttributeSchema schema;
   std::string crsWkt; ///< CRS as WKT, if the source carries one as WKT
+  /// Where the scanner stood, world coordinates, if the source says so (PCD VIEWPOINT, E57 pose).
+  std::optional<glm::dvec3> scanner;
   std::vector<MetadataRecord> metadata; ///< CRS records kept as they are (LASF_Projection ...)
   /// What was wrong and survived: each a full sentence that counts what was lost.
   std::vector<std::string> warnings;

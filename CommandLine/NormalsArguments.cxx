@@ -1,0 +1,74 @@
+#include "NormalsArguments.h"
+
+#include "NormalsPass.h"
+#include "Values.h"
+
+#include <limits>
+
+namespace pointfront
+{
+
+void NormalsArguments::declare(CLI::App& app)
+{
+  app
+    .add_option("--normals", method_,
+      "Estimate normals: from planes through neighbours (pca) or neighbours in the scan "
+      "(scanline) (none)")
+    ->check(CLI::IsMember({ "none", "scanline", "pca" }));
+  CLI::Option* neighbours =
+    app.add_option("--normals-k", neighbours_, "Neighbours of a plane, with the point itself (16)")
+      ->check(CLI::Range(3u, 4096u))
+      ->type_name("N");
+  CLI::Option* radius =
+    app.add_option("--normals-radius", radius_, "Instead: all points within that distance")
+      ->check(CLI::Range(std::numeric_limits<double>::min(), 1e9))
+      ->type_name("METRES")
+      ->excludes(neighbours);
+  CLI::Option* eps = app.add_option("--normals-eps", eps_, "Error of an approximate search (0)")
+                       ->check(CLI::Range(0.0, 1000.0))
+                       ->type_name("E");
+  CLI::Option* curvature =
+    app.add_flag("--curvature", curvature_, "Keep the curvature that PCA gives beside the normal");
+  ofPCA_ = { neighbours, radius, eps, curvature };
+  classesOption_ =
+    app.add_option("--normals-classes", classes_, "Classes that get normals; others get none (all)")
+      ->check(
+        [](const std::string& text)
+        { return parseClasses(text) ? std::string() : "'" + text + "' is no list of classes"; })
+      ->type_name("LIST");
+}
+
+void NormalsArguments::check() const
+{
+  for (const CLI::Option* option : ofPCA_)
+  {
+    if (option->count() > 0 && method_ != "pca")
+    {
+      throw CLI::ValidationError(option->get_name(), "needs --normals pca");
+    }
+  }
+  if (classesOption_->count() > 0 && method_ == "none")
+  {
+    throw CLI::ValidationError(classesOption_->get_name(), "needs --normals");
+  }
+}
+
+std::unique_ptr<AttributePass> NormalsArguments::pass() const
+{
+  if (method_ == "none")
+  {
+    return nullptr;
+  }
+  NormalsOptions options;
+  options.neighbours = neighbours_;
+  options.radius = radius_;
+  options.eps = eps_;
+  options.curvature = curvature_;
+  if (classesOption_->count() > 0)
+  {
+    options.classes = parseClasses(classes_);
+  }
+  return std::make_unique<NormalsPass>(options);
+}
+
+} // namespace pointfront

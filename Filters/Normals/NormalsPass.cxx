@@ -1,0 +1,146 @@
+#include "NormalsPass.h"
+
+#include "FlannIndex.h"
+#include "SurfaceFit.h"
+
+#include "pointfront/Neighbourhood/NearestNeighbours.h"
+#include "pointfront/Points/NormalAttribute.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace pointfront
+{
+namespace
+{
+constexpr double curvatureSteps = 65535.0 * 3.0; // to 1; the largest curvature is 1/3
+
+Attribute curvatureAttribute()
+{
+  return { "curvature", ScalarType::UInt16, 1, 1.0 / curvatureSteps, 0.0,
+    "smallest eigenvalue of the neighbours' covariance over the sum of all" };
+}
+
+/// Normal, then curvature if asked.
+class SurfaceFeature final : public NeighbourhoodFeature
+{
+public:
+  SurfaceFeature(bool curvature, std::atomic<std::uint64_t>& without)
+    : curvature_(curvature)
+    , without_(without)
+  {
+  }
+  std::size_t bytes() const override
+  {
+    return sizeof(PackedNormal) + (curvature_ ? sizeof(std::uint16_t) : 0);
+  }
+  void compute(const glm::dvec3&, const std::vector<NearPoint>& near,
+    std::byte* value) const override
+  {
+    const std::optional<SurfaceFit> fit = fitSurface(near);
+    without_ += fit ? 0 : 1;
+    const PackedNormal normal = facingUp(packNormal(fit ? fit->normal : glm::dvec3(0.0)));
+    std::memcpy(value, &normal, sizeof normal);
+    if (curvature_)
+    {
+      const double steps = std::min(65535.0, (fit ? fit->curvature : 0.0) * curvatureSteps);
+      const auto curvature = static_cast<std::uint16_t>(std::lround(steps));
+      std::memcpy(value + sizeof normal, &curvature, sizeof curvature);
+    }
+  }
+
+private:
+  bool curvature_;
+  std::atomic<std::uint64_t>& without_;
+};
+
+/// Where each source's scanner stood, if it is known.
+std::vector<std::optional<glm::dvec3>> scannersOf(const PointSources& sources)
+{
+  std::vector<std::optional<glm::dvec3>> scanners;
+  for (const auto& source : sources)
+  {
+    scanners.push_back(source->description().scanner);
+  }
+  return scanners;
+}
+
+/// The values of a column, normals turned towards the scanner.
+ValueSource facingTheScanner(
+  const ValueSource& values, std::vector<std::optional<glm::dvec3>> scanners, std::size_t bytes)
+{
+  return [values, scanners = std::move(scanners), bytes](
+           const SourceChunk& chunk, const PointBatch& batch, std::byte* out) -> Result<void>
+  {
+    Result<void> done = values(chunk, batch, out);
+    const std::optional<glm::dvec3>& scanner = scanners[chunk.source];
+    for (std::size_t i = 0; done && scanner && i < batch.size(); ++i)
+    {
+      PackedNormal normal;
+      std::memcpy(&normal, out + i * bytes, sizeof normal);
+      normal = facing(normal, batch.positions[i], *scanner);
+      std::memcpy(out + i * bytes, &normal, sizeof normal);
+    }
+    return done;
+  };
+}
+} // namespace
+
+Result<PointSources> NormalsPass::apply(
+  PointSources sources, const PassResources& resources) const
+{
+  const InputOrder order(sources);
+  NeighbourhoodOptions search;
+  search.neighbours = options_.radius > 0.0 ? 0 : options_.neighbours;
+  search.radius = options_.radius;
+  search.tilePoints = options_.tilePoints;
+  search.phase = "normals";
+  if (options_.classes)
+  {
+    const bool classified = std::any_of(sources.begin(), sources.end(), [](const auto& source)
+      { return source->description().schema.find("classification").has_value(); });
+    if (!classified)
+    {
+      return makeError(Error::Kind::BadArgument,
+        "normals of some classes only: no input has a classification; leave the classes out");
+    }
+    ClassSet classes;
+    for (const std::uint8_t code : *options_.classes)
+    {
+      classes.set(code);
+    }
+    search.participants = { classes, classes };
+  }
+  const auto eps = static_cast<float>(options_.eps);
+  without_ = 0;
+  const SurfaceFeature feature(options_.curvature, without_);
+  Result<std::unique_ptr<PointColumn>> column = computeFromNeighbours(
+    sources, order, search,
+    [eps](const PositionSet& set) { return std::make_unique<FlannIndex>(set, eps); }, feature,
+    resources);
+  if (!column)
+  {
+    return column.error();
+  }
+  std::vector<Attribute> attributes{ normalAttribute() };
+  if (options_.curvature)
+  {
+    attributes.push_back(curvatureAttribute());
+  }
+  const ValueSource values = facingTheScanner(
+    valuesOf(std::move(*column), order), scannersOf(sources), feature.bytes());
+  return withAttributes(std::move(sources), attributes, values);
+}
+
+std::vector<std::string> NormalsPass::findings() const
+{
+  if (without_ == 0)
+  {
+    return {};
+  }
+  return { std::to_string(without_) +
+    " points have no normal: they have fewer than three neighbours, or all are on one line." };
+}
+
+} // namespace pointfront

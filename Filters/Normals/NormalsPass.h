@@ -1,0 +1,50 @@
+#pragma once
+
+#include "pointfront/Neighbourhood/PointTiles.h"
+#include "pointfront/Points/AttributePass.h"
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pointfront
+{
+
+struct NormalsOptions
+{
+  std::uint32_t neighbours = 16; ///< k, the point itself included; 3 or more
+  double radius = 0.0;           ///< if > 0: instead all points within, world units
+  double eps = 0.0;              ///< of FLANN's approximate search, 0: exact
+  bool curvature = false;        ///< also give attribute "curvature"
+  /// These classes only: others get no normal and are nobody's neighbours.
+  std::optional<std::vector<std::uint8_t>> classes;
+  std::uint64_t tilePoints = 1u << 17; ///< only approximate results depend on it
+};
+
+/// Attribute "normal" (NormalAttribute.h) of each point from the plane through its nearest points
+/// (PCA; LAYERS 3.1, after Mitra and Nguyen 2003), and "curvature" if asked: smallest eigenvalue
+/// over the sum of all.
+/// Sign     towards the scanner where a source tells where it stood, else up.
+/// Zero     where there is no plane: fewer than three neighbours, or all on one line; for the other
+///          classes; for positions that the build rejects.
+/// Exact    does not depend on parts, memory or threads (NearestNeighbours.h).
+class NormalsPass final : public AttributePass
+{
+public:
+  explicit NormalsPass(NormalsOptions options)
+    : options_(std::move(options))
+  {
+  }
+  Result<PointSources> apply(
+    PointSources sources, const PassResources& resources) const override;
+  std::vector<std::string> findings() const override;
+
+private:
+  NormalsOptions options_;
+  mutable std::atomic<std::uint64_t> without_{ 0 }; ///< points that asked for a normal in vain
+};
+
+} // namespace pointfront

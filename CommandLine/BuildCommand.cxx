@@ -144,7 +144,9 @@ Result<PointSources> BuildCommand::applyPasses(PointSources sources,
   PassResources resources;
   resources.memoryBytes = options_.memoryBytes;
   resources.threads = options_.threads;
-  resources.temporaryFolder = options_.temporaryFolder;
+  resources.temporaryFolder = options_.temporaryFolder.empty()
+    ? std::filesystem::absolute(options_.outputPath).parent_path().string()
+    : options_.temporaryFolder;
   resources.progress = progress;
   std::uint64_t held = 0;
   bool shown = false;

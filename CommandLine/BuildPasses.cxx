@@ -22,16 +22,9 @@ void BuildPasses::declare(CLI::App& app)
     ->type_name("NAME=IMG...")
     ->expected(1, -1);
 
-  app.add_option("--normals", normals_, "Estimate normals (none)")
-    ->check(availableValues({ "none" }, { "scanline", "pca" }));
-  const std::string noNormals = "normals are not estimated";
-  for (const char* option :
-    { "--normals-k", "--normals-radius", "--normals-eps", "--normals-classes" })
-  {
-    declareUnavailable(app, option, noNormals);
-  }
-  declareUnavailableFlag(app, "--local-height", "heights are not computed");
-  declareUnavailableFlag(app, "--height-above-ground", "heights are not computed");
+  normals_.declare(app);
+  heights_.declare(app);
+  app.parse_complete_callback([this]() { normals_.check(); });
 }
 
 Result<AttributePasses> BuildPasses::passes() const
@@ -53,6 +46,14 @@ Result<AttributePasses> BuildPasses::passes() const
       return pass.error();
     }
     passes.push_back(std::move(*pass));
+  }
+  if (std::unique_ptr<AttributePass> pass = normals_.pass())
+  {
+    passes.push_back(std::move(pass));
+  }
+  for (std::unique_ptr<AttributePass>& pass : heights_.passes())
+  {
+    passes.push_back(std::move(pass));
   }
   return passes;
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "HeightArguments.h"
+#include "NormalsArguments.h"
 #include "ProjectionPass.h"
 
 #include "pointfront/Points/AttributePass.h"
@@ -29,7 +31,8 @@ private:
   ProjectionOptions projection_;
   std::vector<std::string> colourFrom_;
   std::vector<std::string> attributeFrom_;
-  std::string normals_ = "none";
+  NormalsArguments normals_;
+  HeightArguments heights_;
 };
 
 } // namespace pointfront

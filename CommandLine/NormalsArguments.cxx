@@ -1,6 +1,8 @@
 #include "NormalsArguments.h"
 
 #include "NormalsPass.h"
+#include "ScanNormalsPass.h"
+#include "Unavailable.h"
 #include "Values.h"
 
 #include <limits>
@@ -14,7 +16,7 @@ void NormalsArguments::declare(CLI::App& app)
     .add_option("--normals", method_,
       "Estimate normals: from planes through neighbours (pca) or neighbours in the scan "
       "(scanline) (none)")
-    ->check(CLI::IsMember({ "none", "scanline", "pca" }));
+    ->check(availableValues({ "none", "scanline", "pca" }, {}));
   CLI::Option* neighbours =
     app.add_option("--normals-k", neighbours_, "Neighbours of a plane, with the point itself (16)")
       ->check(CLI::Range(3u, 4096u))
@@ -59,15 +61,21 @@ std::unique_ptr<AttributePass> NormalsArguments::pass() const
   {
     return nullptr;
   }
+  std::optional<std::vector<std::uint8_t>> classes;
+  if (classesOption_->count() > 0)
+  {
+    classes = parseClasses(classes_);
+  }
+  if (method_ == "scanline")
+  {
+    return std::make_unique<ScanNormalsPass>(classes);
+  }
   NormalsOptions options;
+  options.classes = classes;
   options.neighbours = neighbours_;
   options.radius = radius_;
   options.eps = eps_;
   options.curvature = curvature_;
-  if (classesOption_->count() > 0)
-  {
-    options.classes = parseClasses(classes_);
-  }
   return std::make_unique<NormalsPass>(options);
 }
 

@@ -8,8 +8,8 @@ namespace pointfront
 {
 
 /// A search by FLANN's single kd-tree, in double precision.
-/// `eps`    0: exact. Larger: branches are left out whose places are at most (1 + eps) times nearer,
-///          in terms of squared distances, than what is found already (SearchParams::eps).
+/// `eps`    0: exact. Larger: branches are left out whose places are at most (1 + eps) times
+///          nearer, in squared distance, than what is found already (SearchParams::eps).
 /// Memory   about 45 bytes a place.
 /// Threads  immutable; the set must live as long as the index.
 class FlannIndex final : public NeighbourIndex

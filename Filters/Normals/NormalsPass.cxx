@@ -1,5 +1,6 @@
 #include "NormalsPass.h"
 
+#include "ClassChoice.h"
 #include "FlannIndex.h"
 #include "SurfaceFit.h"
 
@@ -96,22 +97,12 @@ Result<PointSources> NormalsPass::apply(
   search.radius = options_.radius;
   search.tilePoints = options_.tilePoints;
   search.phase = "normals";
-  if (options_.classes)
+  const Result<ClassSet> classes = chosenClasses(sources, options_.classes);
+  if (!classes)
   {
-    const bool classified = std::any_of(sources.begin(), sources.end(), [](const auto& source)
-      { return source->description().schema.find("classification").has_value(); });
-    if (!classified)
-    {
-      return makeError(Error::Kind::BadArgument,
-        "normals of some classes only: no input has a classification; leave the classes out");
-    }
-    ClassSet classes;
-    for (const std::uint8_t code : *options_.classes)
-    {
-      classes.set(code);
-    }
-    search.participants = { classes, classes };
+    return classes.error();
   }
+  search.participants = { *classes, *classes };
   const auto eps = static_cast<float>(options_.eps);
   without_ = 0;
   const SurfaceFeature feature(options_.curvature, without_);

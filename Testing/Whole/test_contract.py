@@ -42,14 +42,27 @@ class Usage(ToolTest):
     def test_build_flags_of_the_contract_that_do_not_work_are_refused(self):
         flags = [
             ("--structure", "kdtree"), ("--refinement", "replace"), ("--layers", "class"),
-            ("--normals", "pca"), ("--normals", "scanline"), ("--normals-k", "8"),
-            ("--normals-radius", "1"), ("--normals-eps", "0.1"), ("--normals-classes", "2,6"),
-            ("--local-height",), ("--height-above-ground",),
         ]
         for flag in flags:
             outcome = self.refuse(2, "build", SMALL, "-o", self.folder / "x.pfront", *flag)
             self.assertIn("not available", outcome.err)
             self.assertIn(flag[0], outcome.err)
+        self.assertEqual(self.entries(), [])
+
+    def test_flags_that_make_no_sense_together_are_wrong_usage(self):
+        wrong = [
+            ("--normals-k", "8"), ("--normals-radius", "1"), ("--normals-eps", "0.1"),
+            ("--normals-classes", "2,6"), ("--curvature",),
+            ("--local-height-radius", "3"), ("--ground-cell", "3"),
+            ("--local-height", "--local-height-radius", "0"),
+            ("--normals", "scanline", "--normals-k", "8"), ("--normals", "scanline", "--curvature"),
+            ("--normals", "pca", "--normals-k", "8", "--normals-radius", "1"),
+            ("--normals", "pca", "--normals-k", "2"), ("--normals", "pca", "--normals-eps", "-1"),
+            ("--normals", "pca", "--normals-radius", "0"), ("--normals", "best"),
+            ("--normals", "pca", "--normals-classes", "ground"),
+        ]
+        for flags in wrong:
+            self.refuse(2, "build", SMALL, "-o", self.folder / "x.pfront", *flags)
         self.assertEqual(self.entries(), [])
 
     def test_wrong_values_are_wrong_usage(self):

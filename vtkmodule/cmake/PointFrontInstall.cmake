@@ -14,7 +14,7 @@ foreach (family IN ITEMS LAS PCD PLY Text)
       FILES_MATCHING PATTERN "*.h" PATTERN "Testing" EXCLUDE PATTERN "vtk*.h" EXCLUDE)
   endif ()
 endforeach ()
-foreach (filter IN ITEMS Projection ImageColor)
+foreach (filter IN ITEMS Attributes Normals Projection ImageColor)
   list(APPEND pointfront_kernel_libraries pointfrontFilters${filter})
   install(DIRECTORY "${CMAKE_CURRENT_SOURCE_DIR}/Filters/${filter}/"
     DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/pointfront/Filters" COMPONENT Development

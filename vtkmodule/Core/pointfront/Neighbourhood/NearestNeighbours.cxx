@@ -336,25 +336,19 @@ Result<std::unique_ptr<PointColumn>> computeFromNeighbours(const PointSources& s
   {
     return column.error();
   }
-  const std::uint64_t memory = memoryOf(resources) / 2;
-  const std::uint64_t tileBytes = (*tiles)->largestTile() * tilePointBytes;
-  if (tileBytes > memory)
+  const Result<unsigned> threads = (*tiles)->threadsFor(tilePointBytes, resources);
+  if (!threads)
   {
-    return makeError(Error::Kind::NoMemory,
-      "a memory limit of " + std::to_string(memoryOf(resources) >> 20) +
-        " MiB is too small for neighbourhoods: the densest piece of the cloud needs " +
-        std::to_string((2 * tileBytes >> 20) + 1) + " MiB");
+    return threads.error();
   }
-  const auto threads = static_cast<unsigned>(std::clamp<std::uint64_t>(
-    memory / std::max<std::uint64_t>(1, tileBytes), 1, threadsOf(resources)));
   const std::uint64_t unfinishedBytes =
     sizeof(UnfinishedPoint) + (options.neighbours + 1) * sizeof(NearPoint);
-  WorkCrew crew(threads, resources.progress);
+  WorkCrew crew(*threads, resources.progress);
   crew.beginPhase(options.phase, 0, 2 * readShare);
   crew.beginPhase(options.phase, order.points(), searchShare);
   Search search(**tiles, options, makeIndex, feature, **column, crew);
   const std::size_t mostUnfinished =
-    std::max<std::size_t>(1024, static_cast<std::size_t>(memory / 4 / unfinishedBytes));
+    std::max<std::uint64_t>(1024, memoryOf(resources) / 8 / unfinishedBytes);
   if (Result<void> done = search.run(mostUnfinished); !done)
   {
     return done.error();

@@ -305,14 +305,25 @@ Result<void> PointTiles::placeTiles(const PassResources& resources)
   return {};
 }
 
-std::uint64_t PointTiles::largestTile() const
+Result<unsigned> PointTiles::threadsFor(
+  std::uint64_t pointBytes, const PassResources& resources) const
 {
   std::uint64_t largest = 0;
   for (const Tile& tile : layout_->tiles())
   {
     largest = std::max({ largest, tile.points, tile.mostGathered });
   }
-  return largest;
+  const std::uint64_t memory = memoryOf(resources) / 2;
+  const std::uint64_t tileBytes = std::max<std::uint64_t>(1, largest * pointBytes);
+  if (tileBytes > memory)
+  {
+    return makeError(Error::Kind::NoMemory,
+      "a memory limit of " + std::to_string(memoryOf(resources) >> 20) +
+        " MiB is too small for neighbourhoods: the densest piece of the cloud needs " +
+        std::to_string((2 * tileBytes >> 20) + 1) + " MiB");
+  }
+  return static_cast<unsigned>(
+    std::clamp<std::uint64_t>(memory / tileBytes, 1, threadsOf(resources)));
 }
 
 Result<GatheredPoints> PointTiles::gathered(std::size_t tile) const

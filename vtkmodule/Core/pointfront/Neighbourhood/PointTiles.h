@@ -71,7 +71,9 @@ public:
   std::size_t count() const { return layout_->tiles().size(); }
   const Participants& participants() const { return participants_; }
   const ReferenceExtent& references(std::size_t tile) const { return extents_[tile]; }
-  std::uint64_t largestTile() const; ///< points that the largest tile gathers, at most
+  /// How many threads can work on a tile each, with `pointBytes` for each point that it gathers, in
+  /// half of the memory. Error NoMemory when not even one can.
+  Result<unsigned> threadsFor(std::uint64_t pointBytes, const PassResources& resources) const;
   bool onDisk() const { return pool_->onDisk(); }
 
   /// The order of the points differs from run to run.

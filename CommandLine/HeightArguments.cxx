@@ -1,0 +1,47 @@
+#include "HeightArguments.h"
+
+#include "HeightAboveGroundPass.h"
+#include "LocalHeightPass.h"
+
+namespace pointfront
+{
+namespace
+{
+const CLI::Range lengths(1e-3, 1e6); // cells of positions up to 1e12 can be numbered
+} // namespace
+
+void HeightArguments::declare(CLI::App& app)
+{
+  CLI::Option* local = app.add_flag("--local-height", local_,
+    "Attribute local_height: height above the mean of the same class nearby");
+  app.add_option("--local-height-radius", localRadius_, "What is nearby, horizontally (5)")
+    ->check(lengths)
+    ->type_name("METRES")
+    ->needs(local);
+  CLI::Option* ground = app.add_flag("--height-above-ground", aboveGround_,
+    "Attribute height_above_ground: from class 2, or the lowest points when there is none");
+  app
+    .add_option("--ground-cell", groundCell_,
+      "Cells whose lowest points are the ground when no point is of class 2 (10)")
+    ->check(lengths)
+    ->type_name("METRES")
+    ->needs(ground);
+}
+
+std::vector<std::unique_ptr<AttributePass>> HeightArguments::passes() const
+{
+  std::vector<std::unique_ptr<AttributePass>> passes;
+  if (local_)
+  {
+    passes.push_back(std::make_unique<LocalHeightPass>(localRadius_));
+  }
+  if (aboveGround_)
+  {
+    GroundOptions options;
+    options.cell = groundCell_;
+    passes.push_back(std::make_unique<HeightAboveGroundPass>(options));
+  }
+  return passes;
+}
+
+} // namespace pointfront

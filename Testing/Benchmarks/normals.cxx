@@ -21,6 +21,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <ctime>
 #include <filesystem>
 #include <random>
 
@@ -142,7 +143,31 @@ struct Estimate
 {
   Vectors normals;
   double seconds = 0.0;
+  double cpuSeconds = 0.0; ///< of all threads: what a busy machine does not change much
 };
+
+/// Measures its life.
+class Stopwatch
+{
+public:
+  void stop(Estimate& estimate) const
+  {
+    estimate.seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+    estimate.cpuSeconds = double(std::clock() - cpuBegin_) / CLOCKS_PER_SEC;
+  }
+
+private:
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+  std::clock_t cpuBegin_ = std::clock();
+};
+
+void printSpeed(const Estimate& estimate)
+{
+  const auto points = double(estimate.normals.size());
+  std::printf(" %.2f | %.0f |", points / estimate.seconds * 1e-6,
+    estimate.cpuSeconds / points * 1e9);
+}
 
 /// From the first reading to the last: the normals of all points in input order.
 Estimate estimated(const AttributePass& pass, const Vectors& positions)
@@ -151,7 +176,7 @@ Estimate estimated(const AttributePass& pass, const Vectors& positions)
   sources.push_back(std::make_unique<MemorySource>(positions));
   PassResources resources;
   resources.temporaryFolder = std::filesystem::temp_directory_path().string();
-  const auto begin = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   const Result<PointSources> result = pass.apply(std::move(sources), resources);
   if (!result)
   {
@@ -173,8 +198,7 @@ Estimate estimated(const AttributePass& pass, const Vectors& positions)
       estimate.normals.push_back(unpackNormal(packed));
     }
   }
-  estimate.seconds =
-    std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  watch.stop(estimate);
   return estimate;
 }
 
@@ -253,7 +277,7 @@ Estimate estimatedByPCL(const Vectors& positions, int neighbours)
   {
     bounds.add(p);
   }
-  const auto begin = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   const auto cloud = pcl::make_shared<pcl::PointCloud<pcl::PointXYZ>>();
   for (const glm::dvec3& p : positions)
   {
@@ -267,8 +291,7 @@ Estimate estimatedByPCL(const Vectors& positions, int neighbours)
   pcl::PointCloud<pcl::Normal> normals;
   estimation.compute(normals);
   Estimate estimate;
-  estimate.seconds =
-    std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  watch.stop(estimate);
   for (const pcl::Normal& n : normals)
   {
     estimate.normals.emplace_back(n.normal_x, n.normal_y, n.normal_z);
@@ -280,14 +303,16 @@ void compareWithPCL(const std::string& path)
 {
   const Vectors positions = lasPositions(path);
   const Estimate pcl = estimatedByPCL(positions, 16);
-  std::printf("\n%zu points; pcl::NormalEstimationOMP, k = 16: %.2f M points/s\n",
-    positions.size(), double(positions.size()) / pcl.seconds * 1e-6);
-  std::printf("| way | M points/s | RMS to PCL, degrees | 95 %% | without, %% |\n");
+  std::printf("\n%zu points of the cloud\n", positions.size());
+  std::printf("| way | M points/s | CPU ns | RMS to PCL, degrees | 95 %% | without, %% |\n");
+  std::printf("| pcl::NormalEstimationOMP, k = 16 |");
+  printSpeed(pcl);
+  std::printf(" 0 | 0 | 0 |\n");
   for (const Method& method : methods())
   {
     const Estimate estimate = estimated(*method.pass, positions);
-    std::printf("| %s | %.2f |", method.name.c_str(),
-      double(positions.size()) / estimate.seconds * 1e-6);
+    std::printf("| %s |", method.name.c_str());
+    printSpeed(estimate);
     printAngles(estimate.normals, pcl.normals);
     std::printf("\n");
   }
@@ -298,14 +323,14 @@ int main(int argc, char** argv)
 {
   const std::size_t points =
     argc > 1 ? static_cast<std::size_t>(std::strtoull(argv[1], nullptr, 10)) : 1000000;
-  std::printf("| shape | way | M points/s | RMS, degrees | 95 %% | without, %% |\n");
+  std::printf("| shape | way | M points/s | CPU ns | RMS, degrees | 95 %% | without, %% |\n");
   for (const Shape& shape : { sphere(points), noisyPlane(points), terrain(points) })
   {
     for (const Method& method : methods())
     {
       const Estimate estimate = estimated(*method.pass, shape.positions);
-      std::printf("| %s | %s | %.2f |", shape.name.c_str(), method.name.c_str(),
-        double(shape.positions.size()) / estimate.seconds * 1e-6);
+      std::printf("| %s | %s |", shape.name.c_str(), method.name.c_str());
+      printSpeed(estimate);
       printAngles(estimate.normals, shape.normals);
       std::printf("\n");
       std::fflush(stdout);

@@ -31,8 +31,8 @@ void BuildCommand::declare(CLI::App& program)
     ->type_name("OUT.pfront");
   app_->add_option("--structure", structure_, "Shape of the hierarchy (octree)")
     ->check(availableValues({ "octree" }, { "kdtree" }));
-  app_->add_option("--refinement", refinement_, "Inner nodes hold a subset (add)")
-    ->check(availableValues({ "add" }, { "replace" }));
+  app_->add_option("--refinement", refinement_, "Inner nodes hold a subset, or mean points (add)")
+    ->check(availableValues({ "add", "replace" }, {}));
   app_->add_option("--layers", layers_, "One tree for all points (none)")
     ->check(availableValues({ "none" }, { "class" }));
   app_->add_option("--node-points", options_.nodePoints, "Most points of a leaf (16384)")
@@ -233,6 +233,7 @@ Result<void> BuildCommand::run()
     options_.precision = precision_;
   }
   options_.colourDepth = sourceChoice_.colourDepth();
+  options_.refinement = refinement_ == "replace" ? Refinement::Replace : Refinement::Add;
   if (attributes_ != "all")
   {
     options_.attributes = splitList(attributes_);

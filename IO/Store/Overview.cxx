@@ -215,7 +215,7 @@ std::vector<OverviewPart> chooseOverview(const Hierarchy& hierarchy, std::uint64
       }
     }
     left -= std::min(left, points);
-    // With mean representatives a level stands for all above it.
+    // With mean representatives a level stands for all above it but the leaves.
     if (hierarchy.refinement() == Refinement::Replace && whole && !below.empty())
     {
       std::uint64_t next = 0;
@@ -223,12 +223,19 @@ std::vector<OverviewPart> chooseOverview(const Hierarchy& hierarchy, std::uint64
       {
         next += hierarchy.node(child).pointCount;
       }
-      if (next > maxPoints)
+      std::uint64_t leaves = 0;
+      for (const OverviewPart& part : parts)
+      {
+        leaves += hierarchy.node(part.node).leaf() ? part.count : 0;
+      }
+      if (leaves + next > maxPoints)
       {
         break;
       }
-      parts.clear();
-      left = maxPoints;
+      const auto replaced = [&](const OverviewPart& part)
+      { return !hierarchy.node(part.node).leaf(); };
+      parts.erase(std::remove_if(parts.begin(), parts.end(), replaced), parts.end());
+      left = maxPoints - leaves;
     }
     level = std::move(below);
   }

@@ -6,11 +6,6 @@
 
 namespace pointfront
 {
-namespace
-{
-/// A leaf's spacing is an estimate; it must still be finer than what its parent shows.
-constexpr float spacingFall = 0.75f;
-
 float roundedUp(double v)
 {
   float f = static_cast<float>(v);
@@ -20,6 +15,11 @@ float roundedUp(double v)
   }
   return f;
 }
+
+namespace
+{
+/// A leaf's spacing is an estimate; it must still be finer than what its parent shows.
+constexpr float spacingFall = 0.75f;
 
 /// Smallest float h with centre - h <= low and high <= centre + h, evaluated as box() does.
 float halfSizeOf(double centre, double low, double high)

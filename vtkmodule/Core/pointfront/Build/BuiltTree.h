@@ -20,6 +20,9 @@ struct BuiltNode
   std::vector<std::unique_ptr<BuiltNode>> children; ///< in the order of their octants
 };
 
+/// The smallest float that is not below.
+float roundedUp(double v);
+
 /// Sets centre, halfSize and radius from a node's own points and its finished children.
 /// Rounding  outward, and a parent's box encloses its children's rounded boxes exactly.
 void encloseNode(

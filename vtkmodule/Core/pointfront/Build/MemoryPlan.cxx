@@ -17,9 +17,10 @@ constexpr std::uint64_t memoryBlockPoints = 1u << 18;
 /// Bytes for one point of a part while it is built: its record twice (unsorted and sorted), keys,
 /// its position once more, index lists of the levels (their sum is below 2 indices a point), the
 /// encoded nodes of the part and of those finished out of turn.
-std::uint64_t partPointBytes(std::size_t recordBytes)
+std::uint64_t partPointBytes(const MemoryDemand& demand)
 {
-  return 2 * recordBytes + mortonOrderBytes + RecordLayout::positionBytes + 8 + 2 * recordBytes;
+  return 2 * demand.recordBytes + mortonOrderBytes + RecordLayout::positionBytes + 8 +
+    2 * demand.recordBytes + demand.partBytes;
 }
 
 /// A block and its sorted copy.
@@ -43,7 +44,7 @@ std::uint64_t readBytes(const MemoryDemand& demand)
 std::uint64_t leastBytes(const MemoryDemand& demand)
 {
   return std::max(readBytes(demand),
-    std::min(demand.points, leastPartPoints(demand)) * partPointBytes(demand.recordBytes));
+    std::min(demand.points, leastPartPoints(demand)) * partPointBytes(demand));
 }
 
 /// What the allocator keeps, tables of cells and nodes, decoders, the pages of mapped inputs.
@@ -63,7 +64,7 @@ MemoryPlan divided(const MemoryDemand& demand, std::uint64_t available, bool spi
     std::clamp<std::uint64_t>(bytes / least, 1, std::max(1u, demand.threads)));
   const std::uint64_t share = bytes / plan.threads;
   const std::uint64_t forBalance = demand.points / (8ull * plan.threads);
-  plan.partPoints = std::clamp(std::min(share / partPointBytes(demand.recordBytes), forBalance),
+  plan.partPoints = std::clamp(std::min(share / partPointBytes(demand), forBalance),
     leastPartPoints(demand), std::max(mostPartPoints, leastPartPoints(demand)));
   plan.blockPoints = std::clamp<std::uint64_t>(
     share / blockPointBytes(demand.recordBytes), 1024, spill ? mostBlockPoints : memoryBlockPoints);

@@ -95,8 +95,9 @@ Bounds boundsOf(const QuantisationGrid& grid, const NodeColumns& points)
 }
 } // namespace
 
-NodeEmitter::NodeEmitter(TreeSpace space, const AttributeSchema& pooled, AttributeSchema stored)
-    : space_(std::move(space)), schema_(std::move(stored))
+NodeEmitter::NodeEmitter(TreeSpace space, const AttributeSchema& pooled, AttributeSchema stored,
+  Refinement refinement)
+    : space_(std::move(space)), schema_(std::move(stored)), refinement_(refinement)
 {
   assert(pooled.size() == schema_.size());
   const RecordLayout layout(pooled);
@@ -153,7 +154,8 @@ EncodedNode NodeEmitter::emit(
   const NodeColumns columns = gather(records, prefixOrder(records, points));
   encloseNode(node.row, boundsOf(space_.grid, columns), node.children);
   node.row.pointCount = static_cast<std::uint32_t>(columns.size());
-  node.row.pointsBelow = columns.size();
+  const bool original = refinement_ == Refinement::Add || node.children.empty();
+  node.row.pointsBelow = original ? columns.size() : 0;
   for (const auto& child : node.children)
   {
     node.row.pointsBelow += child->row.pointsBelow;

@@ -27,7 +27,9 @@ class NodeEmitter
 {
 public:
   /// `stored` differs from `pooled` only in columns whose 16-bit values all fit 8 bits.
-  NodeEmitter(TreeSpace space, const AttributeSchema& pooled, AttributeSchema stored);
+  /// With Refinement::Replace the points of inner nodes do not count as points of the input.
+  NodeEmitter(TreeSpace space, const AttributeSchema& pooled, AttributeSchema stored,
+    Refinement refinement = Refinement::Add);
 
   /// `points` in Morton order; the children of `node` are finished.
   EncodedNode emit(
@@ -40,6 +42,7 @@ private:
 
   TreeSpace space_;
   AttributeSchema schema_;
+  Refinement refinement_;
   std::vector<StoredColumn> columns_;
 };
 

@@ -4,6 +4,7 @@
 #include "pointfront/Build/CpuClock.h"
 #include "pointfront/Build/DiskDemand.h"
 #include "pointfront/Build/GridChoice.h"
+#include "pointfront/Build/MeanSubtreeBuilder.h"
 #include "pointfront/Build/MemoryPlan.h"
 #include "pointfront/Build/PartPool.h"
 #include "pointfront/Build/PointIngest.h"
@@ -75,6 +76,12 @@ MemoryDemand demandOf(
     demand.sourceBytes = std::max(demand.sourceBytes, source->description().schema.pointBytes());
   }
   demand.recordBytes = RecordLayout(schema).bytes();
+  if (options.refinement == Refinement::Replace)
+  {
+    // The inputs of a node, and a representative for every third of them.
+    demand.partBytes =
+      sizeof(MeanInput) + sizeof(TreePosition) + 4 + MeanRecord(TreeSpace(), schema).bytes() / 2;
+  }
   demand.nodePoints = options.nodePoints;
   demand.threads =
     options.threads > 0 ? options.threads : std::max(1u, std::thread::hardware_concurrency());
@@ -94,6 +101,8 @@ public:
 
 private:
   Result<void> prepare();
+  Result<void> addRadius();
+  std::unique_ptr<TreeBuilder> treeBuilder(const NodeEmitter& emitter) const;
   Result<void> read();
   Result<void> cutIntoParts();
   Result<void> assemble();
@@ -136,6 +145,26 @@ void append(std::vector<std::string>& all, const std::vector<std::string>& more)
   all.insert(all.end(), more.begin(), more.end());
 }
 
+/// Points of the input have radius 0: no source has the column, so all get zeros.
+Result<void> OctreeBuild::addRadius()
+{
+  if (options_.refinement == Refinement::Add)
+  {
+    return {};
+  }
+  if (!common_.schema.add(enclosingRadiusAttribute()))
+  {
+    return makeError(Error::Kind::BadArgument,
+      std::string("the input has an attribute '") + enclosingRadiusName +
+        "' already, which representatives need; leave it out of the attributes to store");
+  }
+  for (std::vector<ColumnMapping>& mapping : common_.mappings)
+  {
+    mapping.emplace_back();
+  }
+  return {};
+}
+
 Result<void> OctreeBuild::prepare()
 {
   for (const auto& source : sources_)
@@ -154,6 +183,10 @@ Result<void> OctreeBuild::prepare()
   append(report_.warnings, reference_.warnings);
   append(report_.warnings, common_.warnings);
   append(report_.warnings, grid->warnings);
+  if (Result<void> ready = addRadius(); !ready)
+  {
+    return ready;
+  }
   space_.grid = grid->grid;
   space_.shift = axisShifts(space_.grid.scale);
 
@@ -308,6 +341,19 @@ Result<void> OctreeBuild::cutIntoParts()
   return done;
 }
 
+std::unique_ptr<TreeBuilder> OctreeBuild::treeBuilder(const NodeEmitter& emitter) const
+{
+  SamplingRule rule;
+  rule.nodePoints = options_.nodePoints;
+  const Partition& partition = parts_->partition();
+  if (options_.refinement == Refinement::Add)
+  {
+    return std::make_unique<SubtreeBuilder>(emitter, rule, recordBytes_);
+  }
+  return std::make_unique<MeanSubtreeBuilder>(
+    emitter, rule, MeanRecord(space_, common_.schema), recordBytes_, partition);
+}
+
 Result<void> OctreeBuild::assemble()
 {
   crew_->beginPhase("building", points_.kept, buildShare);
@@ -316,15 +362,11 @@ Result<void> OctreeBuild::assemble()
   {
     return writer.error();
   }
-  const NodeEmitter emitter(space_, common_.schema, stored_);
-  SamplingRule rule;
-  rule.nodePoints = options_.nodePoints;
+  const NodeEmitter emitter(space_, common_.schema, stored_, options_.refinement);
   AssemblyPlan plan;
   plan.tree = parts_->partition().tree();
   plan.load = [this](std::uint32_t part) { return parts_->load(part); };
-  plan.builder = [&] {
-    return std::make_unique<SubtreeBuilder>(emitter, rule, recordBytes_);
-  };
+  plan.builder = [&] { return treeBuilder(emitter); };
   TreeAssembly assembly(std::move(plan), **writer, *crew_);
   auto trees = assembly.run();
   report_.phaseSeconds["load"] = assembly.loadSeconds();
@@ -368,7 +410,7 @@ Result<void> OctreeBuild::commit(StoreWriter& writer, const Trees& trees)
   description.grid = space_.grid;
   description.crsWkt = reference_.wkt;
   description.structure = "octree";
-  description.refinement = Refinement::Add;
+  description.refinement = options_.refinement;
   description.levels = table.levels;
   description.schema = stored_;
   description.metadata = reference_.metadata;

@@ -3,6 +3,7 @@
 #include "pointfront/Base/Progress.h"
 #include "pointfront/Base/Result.h"
 #include "pointfront/Points/PointSource.h"
+#include "pointfront/Store/Hierarchy.h"
 
 #include <cstdint>
 #include <map>
@@ -25,6 +26,9 @@ enum class ColourDepth
 struct BuildOptions
 {
   std::string outputPath;
+  /// Replace: the leaves hold the points, inner nodes mean representatives, and the store gets the
+  /// column "enclosing_radius" (float32, world units; MeanRecord.h).
+  Refinement refinement = Refinement::Add;
   std::string temporaryFolder;      ///< for spill files; empty: the output's folder
   std::uint64_t memoryBytes = 0;    ///< budget for points in memory; 0: half of the machine's
   unsigned threads = 0;             ///< 0: one a core
@@ -50,7 +54,7 @@ struct BuildReport
   double cpuSeconds = 0.0; ///< of the process while it built: the phases and what is between them
 };
 
-/// Builds a store with an octree and `add` refinement from any number of sources.
+/// Builds a store with an octree from any number of sources.
 /// Guarantees  every point that is read is stored once, or counted in pointsRejected with its
 ///             reason (NaN, infinite, outside the grid's range); read = stored + rejected is
 ///             checked at the end. Same input, same bytes out: for any number of threads and any

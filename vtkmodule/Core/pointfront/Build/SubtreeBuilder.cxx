@@ -1,6 +1,7 @@
 #include "pointfront/Build/SubtreeBuilder.h"
 
 #include "pointfront/Build/CpuClock.h"
+#include "pointfront/Build/LeafMerging.h"
 #include "pointfront/Build/OctreeSplit.h"
 
 #include <algorithm>
@@ -129,41 +130,12 @@ SubtreeBuilder::Branch SubtreeBuilder::joinBranches(
       child.held.resize(left);
     }
   }
-  mergeLeaves(children);
+  mergeLeaves(children, rule_.nodePoints);
   for (Branch& child : children)
   {
     emit(std::move(child), *joined.node, points.records);
   }
   return joined;
-}
-
-void SubtreeBuilder::mergeLeaves(std::vector<Branch>& children) const
-{
-  std::vector<Branch> merged;
-  std::size_t grown = SIZE_MAX; // the leaf in `merged` that takes in others
-  for (Branch& child : children)
-  {
-    const std::size_t points = child.held.size();
-    const bool leaf = child.node->children.empty();
-    if (leaf && points == 0)
-    {
-      continue; // all its points went up
-    }
-    if (!leaf || grown == SIZE_MAX || merged[grown].held.size() + points > rule_.nodePoints)
-    {
-      grown = leaf ? merged.size() : grown;
-      merged.push_back(std::move(child));
-      continue;
-    }
-    Branch& into = merged[grown];
-    // Spacing of a surface is sqrt(area / points), and areas add up.
-    const auto area = [](const Branch& b)
-    { return double(b.node->row.spacing) * b.node->row.spacing * double(b.held.size()); };
-    const double all = area(into) + area(child);
-    into.held.insert(into.held.end(), child.held.begin(), child.held.end());
-    into.node->row.spacing = static_cast<float>(std::sqrt(all / double(into.held.size())));
-  }
-  children = std::move(merged);
 }
 
 void SubtreeBuilder::emit(Branch child, BuiltNode& parent, const RecordView& records)

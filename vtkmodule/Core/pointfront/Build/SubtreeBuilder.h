@@ -55,8 +55,6 @@ private:
     std::unique_ptr<BuiltNode> node;
     std::vector<std::uint32_t> held; ///< indices into the sorted points, Morton order
   };
-  /// Leaves grown together: the node of the first, the points of all.
-  void mergeLeaves(std::vector<Branch>& children) const;
   Branch branch(const SortedPoints& points, std::uint32_t begin, std::uint32_t end);
   Branch leaf(const SortedPoints& points, std::uint32_t begin, std::uint32_t end, unsigned side);
   Branch joinBranches(const SortedPoints& points, std::vector<Branch> children);

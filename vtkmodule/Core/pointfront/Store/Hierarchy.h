@@ -24,7 +24,8 @@ struct Node
   float radius = 0.0f;         ///< of the sphere around `centre` with all those points; rounded up
   float spacing = 0.0f;        ///< between points when this node and all above it are drawn
   std::uint32_t pointCount = 0; ///< the node's own points; may be 0 for an inner node
-  std::uint64_t pointsBelow = 0; ///< own points and those of all descendants
+  /// Points of the input in this node and all its descendants: representatives do not count.
+  std::uint64_t pointsBelow = 0;
   NodeIndex parent = noNode;
   NodeIndex firstChild = noNode; ///< children are neighbours in the table
   std::uint8_t childCount = 0;
@@ -44,6 +45,12 @@ enum class Refinement : std::uint8_t
   Add = 1,    ///< inner nodes hold a subset; every point is stored once; ancestors stay drawn
   Replace = 2 ///< inner nodes hold mean representatives; children replace their parent
 };
+
+/// How many of a node's points are points of the input: with Replace those of the leaves only.
+inline std::uint32_t originalPoints(const Node& node, Refinement refinement)
+{
+  return refinement == Refinement::Add || node.leaf() ? node.pointCount : 0u;
+}
 
 /// The node table of one store: the shape of the hierarchy without any payload.
 /// Several roots when the store has layers. Virtual, because a table of 10^8 nodes is paged.

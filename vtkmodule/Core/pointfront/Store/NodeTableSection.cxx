@@ -66,7 +66,7 @@ std::string childrenFault(const std::vector<Node>& nodes, std::size_t i)
   return {};
 }
 
-std::string countFault(const std::vector<Node>& nodes, std::size_t i)
+std::string countFault(const std::vector<Node>& nodes, std::size_t i, Refinement refinement)
 {
   const Node& node = nodes[i];
   if (node.pointCount > maxNodePoints)
@@ -74,7 +74,7 @@ std::string countFault(const std::vector<Node>& nodes, std::size_t i)
     return "it claims " + std::to_string(node.pointCount) + " points of its own, more than " +
       std::to_string(maxNodePoints);
   }
-  std::uint64_t sum = node.pointCount;
+  std::uint64_t sum = originalPoints(node, refinement);
   for (std::uint32_t k = 0; k < node.childCount; ++k)
   {
     const Node& child = nodes[node.firstChild + k];
@@ -146,8 +146,8 @@ std::vector<Node> decodeNodeTable(const std::byte* data, std::uint32_t nodeCount
   return nodes;
 }
 
-std::string nodeTableFault(
-  const std::vector<Node>& nodes, std::size_t layerCount, std::uint64_t pointCount)
+std::string nodeTableFault(const std::vector<Node>& nodes, std::size_t layerCount,
+  std::uint64_t pointCount, Refinement refinement)
 {
   std::uint64_t total = 0;
   for (std::size_t i = 0; i < nodes.size(); ++i)
@@ -163,7 +163,7 @@ std::string nodeTableFault(
     }
     if (fault.empty())
     {
-      fault = countFault(nodes, i);
+      fault = countFault(nodes, i, refinement);
     }
     if (fault.empty() && nodes[i].layer >= layerCount)
     {
@@ -173,7 +173,7 @@ std::string nodeTableFault(
     {
       return "node " + std::to_string(i) + ": " + fault;
     }
-    total += nodes[i].pointCount; // at most 2^32 nodes of 2^24 points: no overflow
+    total += originalPoints(nodes[i], refinement); // at most 2^32 nodes of 2^24 points: no overflow
   }
   if (total != pointCount)
   {

@@ -86,7 +86,7 @@ Result<StoredDescription> readDescription(const InputFile& file, const StoreFoot
 }
 
 Result<std::vector<Node>> readNodes(
-  const InputFile& file, const StoreFooter& footer, std::size_t layerCount)
+  const InputFile& file, const StoreFooter& footer, const StoreDescription& description)
 {
   const SectionEntry& section = *footer.find(SectionKind::NodeTable);
   if (section.bytes != std::uint64_t(footer.nodeCount) * nodeRowBytes)
@@ -99,7 +99,8 @@ Result<std::vector<Node>> readNodes(
     return bytes.error();
   }
   std::vector<Node> nodes = decodeNodeTable(bytes->data.get(), footer.nodeCount);
-  const std::string fault = nodeTableFault(nodes, layerCount, footer.pointCount);
+  const std::string fault = nodeTableFault(
+    nodes, description.layers.size(), footer.pointCount, description.refinement);
   if (!fault.empty())
   {
     return corruptStore(file.path(), section.offset, fault);
@@ -147,7 +148,7 @@ void countLayers(const std::vector<Node>& nodes, StoreDescription& description)
   for (const Node& node : nodes)
   {
     Layer& layer = description.layers[node.layer];
-    layer.pointCount += node.pointCount;
+    layer.pointCount += originalPoints(node, description.refinement);
     ++layer.nodeCount;
     description.levels = std::max<std::uint32_t>(description.levels, node.level + 1u);
   }
@@ -269,7 +270,7 @@ Result<std::shared_ptr<const PointStore>> PointStore::openAny(const std::string&
     return stored.error();
   }
   Result<std::vector<Node>> nodes =
-    readNodes(file, *footer, stored->description.layers.size());
+    readNodes(file, *footer, stored->description);
   if (!nodes)
   {
     return nodes.error();

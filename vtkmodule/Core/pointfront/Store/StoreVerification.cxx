@@ -172,7 +172,7 @@ Result<VerifyReport> StoreVerification::run(const ProgressFunction& progress)
   report.nodesChecked = std::min<NodeIndex>(walk.faulty, hierarchy_.nodeCount());
   for (NodeIndex i = 0; i < report.nodesChecked; ++i)
   {
-    report.pointsChecked += hierarchy_.node(i).pointCount;
+    report.pointsChecked += originalPoints(hierarchy_.node(i), hierarchy_.refinement());
   }
   return report;
 }
@@ -193,7 +193,7 @@ void StoreVerification::work(Walk& walk) const
       walk.faulty = i;
       walk.fault = fault;
     }
-    walk.done += hierarchy_.node(i).pointCount;
+    walk.done += originalPoints(hierarchy_.node(i), hierarchy_.refinement());
     if (!walk.cancelled && !walk.pace.goOn(walk.done))
     {
       walk.cancelled = true;

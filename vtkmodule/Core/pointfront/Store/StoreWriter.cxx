@@ -60,7 +60,6 @@ private:
   AttributeSchema schema_;
   BlockDirectory payloads_; // by PayloadId
   std::vector<std::uint32_t> pointCounts_; // likewise
-  std::uint64_t pointCount_ = 0;
   GridBounds bounds_;
   std::vector<ColumnRange> ranges_;
   std::vector<std::byte> buffer_;
@@ -123,7 +122,6 @@ Result<StoreWriter::PayloadId> FileStoreWriter::append(const EncodedNode& node)
     addRange(ranges_[c], node.ranges[c]);
   }
   pointCounts_.push_back(node.pointCount);
-  pointCount_ += node.pointCount;
   bounds_.add(node.bounds);
   return id;
 }
@@ -159,10 +157,16 @@ Result<void> FileStoreWriter::commit(const StoreDescription& description,
   const std::vector<PayloadId>& payloads)
 {
   assert(description.schema == schema_);
+  std::uint64_t pointCount = 0; // nodes and payloads hold the same numbers
   std::string fault = payloadFault(nodes, payloads);
   if (fault.empty())
   {
-    fault = nodeTableFault(nodes, description.layers.size(), pointCount_);
+    for (const Node& node : nodes)
+    {
+      pointCount += originalPoints(node, description.refinement);
+    }
+    fault =
+      nodeTableFault(nodes, description.layers.size(), pointCount, description.refinement);
   }
   if (fault.empty() && roots != rootsOf(nodes))
   {
@@ -188,7 +192,7 @@ Result<void> FileStoreWriter::commit(const StoreDescription& description,
   stored.description.ranges = ranges_;
 
   StoreFooter footer;
-  footer.pointCount = pointCount_;
+  footer.pointCount = pointCount;
   footer.nodeCount = static_cast<std::uint32_t>(nodes.size());
   footer.columnCount = static_cast<std::uint32_t>(schema_.size());
   Result<void> done = putSection(SectionKind::NodeTable, encodeNodeTable(nodes), footer);

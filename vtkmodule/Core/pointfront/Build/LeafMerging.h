@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace pointfront
+{
+
+/// Leaves of one parent grow together as long as one node holds their points: an octree over a
+/// surface has many slivers, and a node of some hundred points costs the front, the disk and the
+/// GPU as much as a full one. A leaf without points of its own goes away.
+/// A branch has `node` (a BuiltNode) and `held`, numbers of records; those of leaves are numbers in
+/// one and the same array.
+template <typename Branch>
+void mergeLeaves(std::vector<Branch>& children, std::uint32_t nodePoints)
+{
+  std::vector<Branch> merged;
+  std::size_t grown = SIZE_MAX; // the leaf in `merged` that takes in others
+  for (Branch& child : children)
+  {
+    const std::size_t points = child.held.size();
+    const bool leaf = child.node->children.empty();
+    if (leaf && points == 0)
+    {
+      continue;
+    }
+    if (!leaf || grown == SIZE_MAX || merged[grown].held.size() + points > nodePoints)
+    {
+      grown = leaf ? merged.size() : grown;
+      merged.push_back(std::move(child));
+      continue;
+    }
+    Branch& into = merged[grown];
+    // Spacing of a surface is sqrt(area / points), and areas add up.
+    const auto area = [](const Branch& b)
+    { return double(b.node->row.spacing) * b.node->row.spacing * double(b.held.size()); };
+    const double all = area(into) + area(child);
+    into.held.insert(into.held.end(), child.held.begin(), child.held.end());
+    into.node->row.spacing = static_cast<float>(std::sqrt(all / double(into.held.size())));
+  }
+  children = std::move(merged);
+}
+
+} // namespace pointfront

@@ -1,0 +1,253 @@
+#include "pointfront/Build/MeanRecord.h"
+
+#include "pointfront/Build/BuiltTree.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+namespace pointfront
+{
+namespace
+{
+template <typename T>
+T valueAt(const std::byte* at)
+{
+  T value;
+  std::memcpy(&value, at, sizeof(T));
+  return value;
+}
+
+template <typename T>
+void setValue(std::byte* at, T value)
+{
+  std::memcpy(at, &value, sizeof(T));
+}
+
+template <typename T>
+void setRounded(std::byte* at, double value)
+{
+  const double low = static_cast<double>(std::numeric_limits<T>::lowest());
+  const double high = static_cast<double>(std::numeric_limits<T>::max());
+  const double whole = std::round(value);
+  // The largest 64-bit integers are no doubles: compare before the cast.
+  setValue<T>(at, whole >= high ? std::numeric_limits<T>::max()
+      : whole <= low            ? std::numeric_limits<T>::lowest()
+                                : static_cast<T>(whole));
+}
+
+double readScalar(ScalarType type, const std::byte* at)
+{
+  switch (type)
+  {
+  case ScalarType::Int8:
+    return valueAt<std::int8_t>(at);
+  case ScalarType::UInt8:
+    return valueAt<std::uint8_t>(at);
+  case ScalarType::Int16:
+    return valueAt<std::int16_t>(at);
+  case ScalarType::UInt16:
+    return valueAt<std::uint16_t>(at);
+  case ScalarType::Int32:
+    return valueAt<std::int32_t>(at);
+  case ScalarType::UInt32:
+    return valueAt<std::uint32_t>(at);
+  case ScalarType::Int64:
+    return static_cast<double>(valueAt<std::int64_t>(at));
+  case ScalarType::UInt64:
+    return static_cast<double>(valueAt<std::uint64_t>(at));
+  case ScalarType::Float32:
+    return valueAt<float>(at);
+  case ScalarType::Float64:
+    break;
+  }
+  return valueAt<double>(at);
+}
+
+void writeScalar(ScalarType type, std::byte* at, double value)
+{
+  switch (type)
+  {
+  case ScalarType::Int8:
+    return setRounded<std::int8_t>(at, value);
+  case ScalarType::UInt8:
+    return setRounded<std::uint8_t>(at, value);
+  case ScalarType::Int16:
+    return setRounded<std::int16_t>(at, value);
+  case ScalarType::UInt16:
+    return setRounded<std::uint16_t>(at, value);
+  case ScalarType::Int32:
+    return setRounded<std::int32_t>(at, value);
+  case ScalarType::UInt32:
+    return setRounded<std::uint32_t>(at, value);
+  case ScalarType::Int64:
+    return setRounded<std::int64_t>(at, value);
+  case ScalarType::UInt64:
+    return setRounded<std::uint64_t>(at, value);
+  case ScalarType::Float32:
+    return setValue<float>(at, static_cast<float>(value));
+  case ScalarType::Float64:
+    break;
+  }
+  setValue<double>(at, value);
+}
+
+constexpr std::size_t centreOffset = sizeof(double); // behind the weight
+constexpr std::size_t headBytes = 4 * sizeof(double);
+} // namespace
+
+Attribute enclosingRadiusAttribute()
+{
+  Attribute radius;
+  radius.name = enclosingRadiusName;
+  radius.type = ScalarType::Float32;
+  radius.description = "distance to the farthest point it stands for";
+  return radius;
+}
+
+bool hasMean(const Attribute& attribute)
+{
+  const bool fractional =
+    attribute.type == ScalarType::Float32 || attribute.type == ScalarType::Float64;
+  const bool scaled = attribute.scale != 1.0 || attribute.offset != 0.0;
+  return fractional || scaled || attribute.name == "intensity" || attribute.name == "rgb" ||
+    attribute.name == "nir";
+}
+
+MeanRecord::MeanRecord(const TreeSpace& space, const AttributeSchema& pooled)
+{
+  const RecordLayout layout(pooled);
+  assert(!pooled.empty() && pooled[pooled.size() - 1].name == enclosingRadiusName);
+  recordBytes_ = layout.bytes();
+  radiusOffset_ = layout.offset(pooled.size() - 1);
+  meansOffset_ = recordBytes_ + headBytes;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const unsigned shift = space.shift[static_cast<std::size_t>(axis)];
+    gridStep_[axis] = 1u << shift;
+    stepLength_[axis] = std::ldexp(space.grid.scale[axis], -static_cast<int>(shift));
+  }
+  for (std::size_t c = 0; c + 1 < pooled.size(); ++c)
+  {
+    const Attribute& attribute = pooled[c];
+    for (std::size_t k = 0; hasMean(attribute) && k < attribute.components; ++k)
+    {
+      Mean mean;
+      mean.offset = layout.offset(c) + k * sizeOf(attribute.type);
+      mean.type = attribute.type;
+      mean.normal = k == 0 && attribute.name == "normal" && attribute.components == 3;
+      means_.push_back(mean);
+    }
+  }
+}
+
+double MeanRecord::weightOf(const MeanInput& input) const
+{
+  return input.original ? 1.0 : valueAt<double>(input.record + recordBytes_);
+}
+
+glm::dvec3 MeanRecord::centreOf(const MeanInput& input) const
+{
+  return input.original ? glm::dvec3(positionOf(input.record))
+                        : valueAt<glm::dvec3>(input.record + recordBytes_ + centreOffset);
+}
+
+TreePosition MeanRecord::onGrid(const glm::dvec3& centre) const
+{
+  TreePosition position;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const double step = gridStep_[axis];
+    position[axis] = static_cast<std::uint32_t>(std::round(centre[axis] / step) * step);
+  }
+  return position;
+}
+
+void MeanRecord::addMeans(const MeanInput& input, double weight)
+{
+  const std::byte* exact = input.record + meansOffset_;
+  for (Mean& mean : means_)
+  {
+    const double value = input.original ? readScalar(mean.type, input.record + mean.offset)
+                                        : valueAt<double>(exact);
+    exact += sizeof(double);
+    if (!std::isnan(value))
+    {
+      mean.sum += weight * value;
+      mean.weight += weight;
+    }
+  }
+}
+
+void MeanRecord::writeMeans(std::byte* out)
+{
+  for (std::size_t m = 0; m < means_.size(); ++m)
+  {
+    const double value = means_[m].weight > 0.0 ? means_[m].sum / means_[m].weight
+                                                : std::numeric_limits<double>::quiet_NaN();
+    setValue(out + meansOffset_ + m * sizeof(double), value);
+    if (means_[m].weight > 0.0)
+    {
+      writeScalar(means_[m].type, out + means_[m].offset, value);
+    }
+  }
+  for (std::size_t m = 0; m + 2 < means_.size(); ++m)
+  {
+    const double length = means_[m].normal
+      ? glm::length(valueAt<glm::dvec3>(out + meansOffset_ + m * sizeof(double)))
+      : 0.0;
+    for (std::size_t k = m; length > 0.0 && k < m + 3; ++k)
+    {
+      writeScalar(means_[k].type, out + means_[k].offset,
+        valueAt<double>(out + meansOffset_ + k * sizeof(double)) / length);
+    }
+  }
+}
+
+void MeanRecord::summarise(const std::vector<MeanInput>& inputs, std::size_t begin,
+  std::size_t end, std::byte* out)
+{
+  double weight = 0.0;
+  glm::dvec3 centre(0.0);
+  for (Mean& mean : means_)
+  {
+    mean.sum = 0.0;
+    mean.weight = 0.0;
+  }
+  for (std::size_t i = begin; i < end; ++i)
+  {
+    const double own = weightOf(inputs[i]);
+    weight += own;
+    centre += own * centreOf(inputs[i]);
+    addMeans(inputs[i], own);
+  }
+  centre /= weight;
+  const TreePosition stored = onGrid(centre);
+  double radius = 0.0;
+  double nearest = std::numeric_limits<double>::infinity();
+  const std::byte* kept = nullptr;
+  for (std::size_t i = begin; i < end; ++i)
+  {
+    const std::byte* record = inputs[i].record;
+    const glm::dvec3 position(positionOf(record));
+    const double own = inputs[i].original ? 0.0 : valueAt<float>(record + radiusOffset_);
+    const double distance = glm::length((position - glm::dvec3(stored)) * stepLength_);
+    radius = std::max(radius, distance + own);
+    if (distance < nearest)
+    {
+      nearest = distance;
+      kept = record;
+    }
+  }
+  std::memcpy(out, kept, recordBytes_);
+  setPosition(out, stored);
+  setValue(out + radiusOffset_, roundedUp(radius));
+  setValue(out + recordBytes_, weight);
+  setValue(out + recordBytes_ + centreOffset, centre);
+  writeMeans(out);
+}
+
+} // namespace pointfront

@@ -1,0 +1,207 @@
+#include "pointfront/Build/MeanSubtreeBuilder.h"
+
+#include "pointfront/Build/CpuClock.h"
+#include "pointfront/Build/LeafMerging.h"
+#include "pointfront/Build/OctreeSplit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <numeric>
+
+namespace pointfront
+{
+namespace
+{
+/// Points that one representative stands in for, at least on average.
+constexpr std::uint64_t leastShare = 3;
+
+unsigned meanCell(const CellOccupancy& occupancy, std::uint64_t points, unsigned nodeLog2Side,
+  int coarsestBelow, const SamplingRule& rule)
+{
+  unsigned cell = samplingCell(occupancy, nodeLog2Side, coarsestBelow, rule);
+  while (cell < nodeLog2Side && occupancy.distinct[cell] * leastShare > points)
+  {
+    ++cell;
+  }
+  return cell;
+}
+} // namespace
+
+OpenSubtree MeanSubtreeBuilder::build(
+  std::vector<std::byte> records, std::size_t count, std::uint32_t /*node*/)
+{
+  if (count == 0)
+  {
+    return {};
+  }
+  {
+    const CpuStopwatch watch(seconds_.sort);
+    const RecordView view{records.data(), recordBytes_};
+    std::vector<std::byte> sorted(records.size());
+    std::byte* to = sorted.data();
+    for (const std::uint32_t i : mortonOrder(view, count))
+    {
+      std::memcpy(to, view.record(i), recordBytes_);
+      to += recordBytes_;
+    }
+    records = std::move(sorted);
+  }
+  const RecordView sorted{records.data(), recordBytes_};
+  return opened(branch(sorted, 0, static_cast<std::uint32_t>(count)));
+}
+
+MeanSubtreeBuilder::Branch MeanSubtreeBuilder::branch(
+  const RecordView& records, std::uint32_t begin, std::uint32_t end)
+{
+  const unsigned side = differingBits(records.position(begin), records.position(end - 1));
+  if (end - begin <= rule_.nodePoints)
+  {
+    return leaf(records, begin, end, side);
+  }
+  std::vector<Branch> children;
+  const auto octant = [&](std::uint64_t i)
+  { return octantOf(records.position(static_cast<std::size_t>(i)), side); };
+  for (const IndexRange& range : splitRange({begin, end}, side, octant))
+  {
+    children.push_back(branch(
+      records, static_cast<std::uint32_t>(range.begin), static_cast<std::uint32_t>(range.end)));
+  }
+  return joinBranches(std::move(children), side);
+}
+
+MeanSubtreeBuilder::Branch MeanSubtreeBuilder::leaf(
+  const RecordView& records, std::uint32_t begin, std::uint32_t end, unsigned side)
+{
+  const CpuStopwatch watch(seconds_.sample);
+  Branch branch;
+  branch.view = records;
+  branch.original = true;
+  branch.held.resize(end - begin);
+  std::iota(branch.held.begin(), branch.held.end(), begin);
+  branch.node = std::make_unique<BuiltNode>();
+  const double steps =
+    surfaceSpacing(cellOccupancy(records, branch.held), branch.held.size(), side);
+  branch.node->row.spacing = static_cast<float>(steps * emitter_.space().stepLength());
+  return branch;
+}
+
+void MeanSubtreeBuilder::represent(
+  const std::vector<Branch>& children, unsigned log2Side, Branch& joined)
+{
+  const CpuStopwatch watch(seconds_.sample);
+  inputs_.clear();
+  positions_.clear();
+  int coarsestBelow = -1;
+  for (const Branch& child : children)
+  {
+    for (const std::uint32_t i : child.held)
+    {
+      inputs_.push_back({child.view.record(i), child.original});
+      positions_.push_back(child.view.position(i));
+    }
+    coarsestBelow = std::max(coarsestBelow, child.node->samplingLog2);
+  }
+  everyInput_.resize(inputs_.size());
+  std::iota(everyInput_.begin(), everyInput_.end(), 0u);
+  const RecordView positions{
+    reinterpret_cast<const std::byte*>(positions_.data()), sizeof(TreePosition)};
+  const CellOccupancy occupancy = cellOccupancy(positions, everyInput_);
+  const unsigned cell = meanCell(occupancy, inputs_.size(), log2Side, coarsestBelow, rule_);
+  joined.node->samplingLog2 = static_cast<int>(cell);
+  joined.node->row.spacing =
+    static_cast<float>(std::ldexp(emitter_.space().stepLength(), static_cast<int>(cell)));
+  joined.held.resize(occupancy.distinct[cell]);
+  std::iota(joined.held.begin(), joined.held.end(), 0u);
+  joined.means.resize(joined.held.size() * form_.bytes());
+  joined.view = {joined.means.data(), form_.bytes()};
+  std::byte* out = joined.means.data();
+  for (std::size_t begin = 0; begin < inputs_.size(); out += form_.bytes())
+  {
+    std::size_t end = begin + 1;
+    while (end < inputs_.size() && differingBits(positions_[end], positions_[begin]) <= cell)
+    {
+      ++end;
+    }
+    form_.summarise(inputs_, begin, end, out);
+    begin = end;
+  }
+}
+
+MeanSubtreeBuilder::Branch MeanSubtreeBuilder::joinBranches(
+  std::vector<Branch> children, unsigned log2Side)
+{
+  Branch joined;
+  joined.node = std::make_unique<BuiltNode>();
+  represent(children, log2Side, joined);
+  mergeLeaves(children, rule_.nodePoints);
+  for (Branch& child : children)
+  {
+    emit(std::move(child), *joined.node);
+  }
+  return joined;
+}
+
+void MeanSubtreeBuilder::emit(Branch child, BuiltNode& parent)
+{
+  const CpuStopwatch watch(seconds_.encode);
+  EncodedNode payload = emitter_.emit(*child.node, child.view, child.held);
+  emitted_.push_back({child.node.get(), std::move(payload)});
+  parent.children.push_back(std::move(child.node));
+}
+
+OpenSubtree MeanSubtreeBuilder::opened(Branch branch)
+{
+  if (!branch.original)
+  {
+    return {std::move(branch.node), std::move(branch.means)};
+  }
+  inputs_.clear();
+  std::vector<std::byte> records(branch.held.size() * form_.bytes());
+  for (std::size_t i = 0; i < branch.held.size(); ++i)
+  {
+    inputs_.push_back({branch.view.record(branch.held[i]), true});
+    form_.summarise(inputs_, i, i + 1, records.data() + i * form_.bytes());
+  }
+  return {std::move(branch.node), std::move(records)};
+}
+
+OpenSubtree MeanSubtreeBuilder::join(std::vector<OpenSubtree> children, std::uint32_t node)
+{
+  std::vector<std::byte> records; // one array, because leaves of different parts may grow together
+  for (const OpenSubtree& child : children)
+  {
+    records.insert(records.end(), child.records.begin(), child.records.end());
+  }
+  std::vector<Branch> branches;
+  std::uint32_t first = 0;
+  for (OpenSubtree& child : children)
+  {
+    Branch branch;
+    branch.node = std::move(child.root);
+    branch.view = {records.data(), form_.bytes()};
+    branch.held.resize(child.records.size() / form_.bytes());
+    std::iota(branch.held.begin(), branch.held.end(), first);
+    first += static_cast<std::uint32_t>(branch.held.size());
+    branches.push_back(std::move(branch));
+    child.records = {};
+  }
+  return opened(joinBranches(std::move(branches), partition_.nodes()[node].cell.log2Side));
+}
+
+std::unique_ptr<BuiltNode> MeanSubtreeBuilder::close(OpenSubtree subtree)
+{
+  if (!subtree.root)
+  {
+    return nullptr;
+  }
+  const RecordView view{subtree.records.data(), form_.bytes()};
+  std::vector<std::uint32_t> all(subtree.records.size() / form_.bytes());
+  std::iota(all.begin(), all.end(), 0u);
+  const CpuStopwatch watch(seconds_.encode);
+  EncodedNode payload = emitter_.emit(*subtree.root, view, all);
+  emitted_.push_back({subtree.root.get(), std::move(payload)});
+  return std::move(subtree.root);
+}
+
+} // namespace pointfront

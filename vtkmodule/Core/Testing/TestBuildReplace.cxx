@@ -1,6 +1,7 @@
 #include "TestBuildClouds.h"
 
 #include "pointfront/Build/MeanRecord.h"
+#include "pointfront/Export/StoreExport.h"
 #include "pointfront/Store/PointStore.h"
 
 #include <gtest/gtest.h>
@@ -182,7 +183,7 @@ TEST_F(ReplaceBuild, RepresentativesAreMeansOfTheInput)
     intensity += static_cast<double>((i * 7) & 0xffff) / 2400.0;
   }
   EXPECT_EQ(root->origin.x + root->positions[0].x, 500003);
-  EXPECT_EQ(valueOf<std::uint16_t>(*root, 0, 0), std::llround(intensity));
+  EXPECT_NEAR(valueOf<std::uint16_t>(*root, 0, 0), intensity, 0.501);
   EXPECT_NEAR(valueOf<float>(*root, 1, 0), 500.005, 1e-3);
 }
 
@@ -201,6 +202,45 @@ TEST_F(ReplaceBuild, SameBytesForAnyThreadsAndMemory)
   EXPECT_TRUE(built(4, 1u << 30) == reference);
   EXPECT_TRUE(built(2, 400 << 10) == reference);
   EXPECT_TRUE(built(3, 1000 << 10) == reference);
+}
+
+/// Counts points and keeps the schema.
+class CountingSink final : public PointSink
+{
+public:
+  Result<void> begin(const SinkDescription& description) override
+  {
+    schema = description.schema;
+    announced = description.pointCount;
+    return {};
+  }
+  Result<void> append(const PointBatch& batch) override
+  {
+    EXPECT_EQ(batch.columns.size(), schema.size());
+    points += batch.size();
+    return {};
+  }
+  Result<void> finish() override { return {}; }
+
+  AttributeSchema schema;
+  std::uint64_t announced = 0;
+  std::uint64_t points = 0;
+};
+
+TEST_F(ReplaceBuild, ExportGivesTheInputAndRepresentativesOnlyWhereASpacingIsAsked)
+{
+  const auto store = build(hills(20000, 100000.0));
+  CountingSink all;
+  ASSERT_TRUE(exportStore(*store, {}, all));
+  EXPECT_EQ(all.points, 20000u);
+  EXPECT_EQ(all.announced, 20000u);
+  EXPECT_TRUE(all.schema == idSchema());
+  ExportSelection coarse;
+  coarse.spacing = store->hierarchy()->node(0).spacing;
+  CountingSink means;
+  ASSERT_TRUE(exportStore(*store, coarse, means));
+  EXPECT_EQ(means.points, store->hierarchy()->node(0).pointCount);
+  EXPECT_TRUE(means.schema.find(enclosingRadiusName));
 }
 
 TEST_F(ReplaceBuild, RefusesAnInputThatHasTheColumnAlready)

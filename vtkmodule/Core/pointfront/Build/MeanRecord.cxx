@@ -99,15 +99,6 @@ constexpr std::size_t centreOffset = sizeof(double); // behind the weight
 constexpr std::size_t headBytes = 4 * sizeof(double);
 } // namespace
 
-Attribute enclosingRadiusAttribute()
-{
-  Attribute radius;
-  radius.name = enclosingRadiusName;
-  radius.type = ScalarType::Float32;
-  radius.description = "distance to the farthest point it stands for";
-  return radius;
-}
-
 bool hasMean(const Attribute& attribute)
 {
   const bool fractional =

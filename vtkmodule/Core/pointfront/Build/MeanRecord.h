@@ -3,6 +3,7 @@
 #include "pointfront/Build/RecordLayout.h"
 #include "pointfront/Build/TreeSpace.h"
 #include "pointfront/Points/AttributeSchema.h"
+#include "pointfront/Points/EnclosingRadius.h"
 
 #include <glm/vec3.hpp>
 
@@ -11,12 +12,6 @@
 
 namespace pointfront
 {
-
-/// Name of the column that tells how far the points that a representative stands for lie from it.
-constexpr const char* enclosingRadiusName = "enclosing_radius";
-
-/// "enclosing_radius", float32, world units: 0 for points of the input.
-Attribute enclosingRadiusAttribute();
 
 /// True for values that have a mean: floating point (normals, angles, heights, times), those of a
 /// scale (LAS extra bytes that measure something) and intensity, rgb, nir. All other integers are

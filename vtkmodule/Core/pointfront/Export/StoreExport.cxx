@@ -1,12 +1,12 @@
 #include "pointfront/Export/StoreExport.h"
 
 #include "pointfront/Export/ExportClock.h"
+#include "pointfront/Points/EnclosingRadius.h"
 
 #include <algorithm>
 #include <bitset>
 #include <cstring>
 #include <future>
-#include <numeric>
 #include <utility>
 
 namespace pointfront
@@ -84,7 +84,8 @@ private:
   std::vector<std::uint32_t> kept_;
 };
 
-/// Nodes to decode, ascending: those at most one level finer than the wanted spacing.
+/// Nodes to decode, ascending: those at most one level finer than the wanted spacing; with mean
+/// representatives only the last ones of each branch.
 std::vector<NodeIndex> chosenNodes(
   const Hierarchy& hierarchy, const PointFilter& filter, double spacing)
 {
@@ -99,11 +100,12 @@ std::vector<NodeIndex> chosenNodes(
     {
       continue;
     }
-    if (node.pointCount > 0)
+    const bool finer = !node.leaf() && (spacing <= 0.0 || double(node.spacing) > spacing);
+    if (node.pointCount > 0 && (hierarchy.refinement() == Refinement::Add || !finer))
     {
       chosen.push_back(index);
     }
-    if (spacing <= 0.0 || static_cast<double>(node.spacing) > spacing)
+    if (finer)
     {
       for (NodeIndex child = 0; child < node.childCount; ++child)
       {
@@ -191,6 +193,39 @@ std::uint64_t pointsOf(const Hierarchy& hierarchy, const std::vector<NodeIndex>&
   return points;
 }
 
+/// What comes out. Points of the input have no enclosing radius: the column is left out unless
+/// representatives are asked for.
+StoreDescription exported(const StoreDescription& store, const ExportSelection& selection)
+{
+  StoreDescription out = store;
+  if (store.refinement == Refinement::Add || selection.spacing > 0.0)
+  {
+    return out;
+  }
+  out.schema = {};
+  out.ranges.clear();
+  for (std::size_t c = 0; c < store.schema.size(); ++c)
+  {
+    if (store.schema[c].name != enclosingRadiusName)
+    {
+      out.schema.add(store.schema[c]);
+      out.ranges.push_back(store.ranges[c]);
+    }
+  }
+  return out;
+}
+
+/// Columns of the store that `out` has.
+ColumnSelection columnsOf(const StoreDescription& store, const StoreDescription& out)
+{
+  ColumnSelection columns;
+  for (const Attribute& attribute : out.schema)
+  {
+    columns.push_back(static_cast<std::uint32_t>(*store.schema.find(attribute.name)));
+  }
+  return columns;
+}
+
 /// Column of the classification if classes are asked for.
 Result<std::optional<std::size_t>> classColumnFor(
   const StoreDescription& description, const ExportSelection& selection)
@@ -240,10 +275,11 @@ Result<ExportReport> pump(NodeStream& nodes, PointFilter& filter, PointSink& sin
 
 } // namespace
 
-Result<ExportReport> exportPoints(const StoreDescription& description, const Hierarchy& hierarchy,
+Result<ExportReport> exportPoints(const StoreDescription& store, const Hierarchy& hierarchy,
   const NodeReader& reader, const ExportSelection& selection, PointSink& sink,
   const ProgressFunction& progress)
 {
+  const StoreDescription description = exported(store, selection);
   const Result<std::optional<std::size_t>> classColumn = classColumnFor(description, selection);
   if (!classColumn)
   {
@@ -256,9 +292,7 @@ Result<ExportReport> exportPoints(const StoreDescription& description, const Hie
   PointFilter filter(description, selection, classColumn.value());
   std::vector<NodeIndex> nodes = chosenNodes(hierarchy, filter, selection.spacing);
   ExportClock clock(progress, pointsOf(hierarchy, nodes));
-  ColumnSelection columns(description.schema.size());
-  std::iota(columns.begin(), columns.end(), 0u);
-  NodeStream stream(reader, std::move(nodes), std::move(columns));
+  NodeStream stream(reader, std::move(nodes), columnsOf(store, description));
   Result<ExportReport> report = pump(stream, filter, sink, clock);
   if (!report)
   {

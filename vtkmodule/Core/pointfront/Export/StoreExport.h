@@ -24,7 +24,9 @@ struct ExportSelection
   std::vector<std::uint8_t> classes;
   /// World units between neighbouring points: a branch is followed down until its nodes are at
   /// least this dense and no further, so the result is as dense as asked or a little denser,
-  /// never coarser (where the store has that much). 0: all levels.
+  /// never coarser (where the store has that much). 0: all points of the input.
+  /// Of a store with mean representatives these come out where they are dense enough, with their
+  /// enclosing radius, and nothing of what they stand for.
   double spacing = 0.0;
 };
 
@@ -41,7 +43,7 @@ struct ExportReport
 /// Errors     of the reader and of the sink; BadArgument when classes are asked of a store without
 ///            `classification`; Cancelled. The sink then never finishes, and leaves nothing.
 /// Threads    called from one thread; decodes on one of its own.
-Result<ExportReport> exportPoints(const StoreDescription& description, const Hierarchy& hierarchy,
+Result<ExportReport> exportPoints(const StoreDescription& store, const Hierarchy& hierarchy,
   const NodeReader& reader, const ExportSelection& selection, PointSink& sink,
   const ProgressFunction& progress = {});
 

@@ -83,16 +83,85 @@ void CellCounts::add(const CellCounts& other)
   }
 }
 
+namespace
+{
+CellTable twiceAsCoarse(const CellTable& table)
+{
+  CellTable coarse(table.shift() + 1);
+  for (const CellTable::Entry& entry : table.entries())
+  {
+    coarse.at({entry.cell.x >> 1, entry.cell.y >> 1, entry.cell.z >> 1}) += entry.value;
+  }
+  return coarse;
+}
+
+TreePosition lowestOf(const CellTable& table, const TreePosition& cell)
+{
+  return {cell.x << table.shift(), cell.y << table.shift(), cell.z << table.shift()};
+}
+} // namespace
+
 void CellCounts::coarsen(unsigned shift)
 {
   while (table_.shift() < shift || table_.size() > limit)
   {
-    CellTable coarse(table_.shift() + 1);
-    for (const CellTable::Entry& entry : table_.entries())
+    table_ = twiceAsCoarse(table_);
+  }
+}
+
+void ClassCounts::add(std::uint8_t objectClass, const TreePosition& position, std::uint64_t count)
+{
+  CellTable& table = classes_.try_emplace(objectClass, shift_).first->second;
+  const std::size_t before = table.size();
+  table.at(table.cellOf(position)) += count;
+  cells_ += table.size() - before;
+  fit();
+}
+
+void ClassCounts::fit()
+{
+  while (cells_ > CellCounts::limit && shift_ < coarsest_)
+  {
+    coarsen(shift_ + 1);
+  }
+}
+
+void ClassCounts::add(const ClassCounts& other)
+{
+  coarsen(other.shift_);
+  for (const auto& [objectClass, table] : other.classes_)
+  {
+    for (const CellTable::Entry& entry : table.entries())
     {
-      coarse.at({entry.cell.x >> 1, entry.cell.y >> 1, entry.cell.z >> 1}) += entry.value;
+      add(objectClass, lowestOf(table, entry.cell), entry.value);
     }
-    table_ = std::move(coarse);
+  }
+}
+
+void ClassCounts::coarsen(unsigned shift)
+{
+  for (; shift_ < shift; ++shift_)
+  {
+    cells_ = 0;
+    for (auto& [objectClass, table] : classes_)
+    {
+      table = twiceAsCoarse(table);
+      cells_ += table.size();
+    }
+  }
+}
+
+void ClassCounts::merge()
+{
+  const std::map<std::uint8_t, CellTable> all = std::move(classes_);
+  classes_.clear();
+  cells_ = 0;
+  for (const auto& [objectClass, table] : all)
+  {
+    for (const CellTable::Entry& entry : table.entries())
+    {
+      add(0, lowestOf(table, entry.cell), entry.value);
+    }
   }
 }
 

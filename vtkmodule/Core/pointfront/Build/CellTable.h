@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <vector>
 
 namespace pointfront
@@ -63,6 +64,31 @@ public:
 
 private:
   CellTable table_;
+};
+
+/// CellCounts for each object class, with cells of one size: of all classes together there are
+/// not many more than CellCounts::limit.
+class ClassCounts
+{
+public:
+  explicit ClassCounts(unsigned shift, unsigned coarsest = 32) : shift_(shift), coarsest_(coarsest)
+  {
+  }
+  unsigned shift() const { return shift_; }
+  void add(std::uint8_t objectClass, const TreePosition& position, std::uint64_t count = 1);
+  void add(const ClassCounts& other);
+  void coarsen(unsigned shift); ///< to at least that shift
+  /// All classes as one, which gets the number 0.
+  void merge();
+  /// Ascending.
+  const std::map<std::uint8_t, CellTable>& classes() const { return classes_; }
+
+private:
+  void fit();
+  unsigned shift_;
+  unsigned coarsest_; ///< cells never get larger
+  std::size_t cells_ = 0;
+  std::map<std::uint8_t, CellTable> classes_;
 };
 
 } // namespace pointfront

@@ -40,16 +40,17 @@ class Ingest
 {
 public:
   Ingest(const Sources& sources, const CommonSchema& schema, const TreeSpace& space,
-    RecordPool& pool, WorkCrew& crew)
+    RecordPool& pool, WorkCrew& crew, std::optional<std::size_t> classOffset)
       : sources_(sources), schema_(schema), space_(space), pool_(pool), crew_(crew),
-        shift_(hintedShift(sources, space))
+        classOffset_(classOffset), shift_(hintedShift(sources, space))
   {
     for (const auto& source : sources)
     {
       chunkBegin_.push_back(chunks_);
       chunks_ += source->chunkCount();
     }
-    points_.counts = CellCounts(shift_);
+    points_.counts = ClassCounts(shift_);
+    points_.hintedShift = shift_;
     points_.sourceEnd.assign(sources.size(), 0);
     points_.largestColour.assign(sources.size(), 0);
   }
@@ -69,6 +70,7 @@ private:
   const TreeSpace& space_;
   RecordPool& pool_;
   WorkCrew& crew_;
+  std::optional<std::size_t> classOffset_;
   unsigned shift_;
   std::vector<std::uint64_t> chunkBegin_; // number of the first chunk of each source
   std::uint64_t chunks_ = 0;
@@ -82,7 +84,7 @@ private:
 Result<void> Ingest::work()
 {
   PointBatch batch;
-  RecordPacker packer(schema_, space_, shift_);
+  RecordPacker packer(schema_, space_, shift_, classOffset_);
   double readSeconds = 0.0;
   double quantiseSeconds = 0.0;
   for (std::uint64_t chunk = nextChunk_++; chunk < chunks_ && !crew_.stopped();
@@ -185,9 +187,9 @@ std::optional<std::size_t> wideColourColumn(const AttributeSchema& schema)
 }
 
 Result<IngestedPoints> ingestPoints(const Sources& sources, const CommonSchema& schema,
-  const TreeSpace& space, RecordPool& pool, WorkCrew& crew)
+  const TreeSpace& space, RecordPool& pool, WorkCrew& crew, std::optional<std::size_t> classOffset)
 {
-  Ingest ingest(sources, schema, space, pool, crew);
+  Ingest ingest(sources, schema, space, pool, crew, classOffset);
   if (Result<void> done = crew.run([&] { return ingest.work(); }); !done)
   {
     return done.error();

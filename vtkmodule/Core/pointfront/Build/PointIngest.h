@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,9 +24,10 @@ struct IngestedPoints
   std::map<std::string, std::uint64_t> rejected;
   GridPosition low{INT64_MAX}; ///< grid steps
   GridPosition high{INT64_MIN};
-  CellCounts counts{0};
+  ClassCounts counts{0};
   std::vector<std::uint64_t> sourceEnd;     ///< end of each source's records in the pool
   std::vector<std::uint16_t> largestColour; ///< of each source's "rgb", 0 without one
+  unsigned hintedShift = 0; ///< of the cells before any were joined
   double readSeconds = 0.0;                 ///< CPU, over all threads
   double quantiseSeconds = 0.0;
 };
@@ -34,8 +36,10 @@ struct IngestedPoints
 /// grid, packs records into the pool in input order, counts cells. Declared bounds are a hint for
 /// the first size of the cells only; nothing else trusts them.
 /// Errors  the first of any source's read(), or of the pool.
+/// `classOffset`: the byte of a record by which cells are counted apart; nothing: all as class 0.
 Result<IngestedPoints> ingestPoints(const std::vector<std::unique_ptr<PointSource>>& sources,
-  const CommonSchema& schema, const TreeSpace& space, RecordPool& pool, WorkCrew& crew);
+  const CommonSchema& schema, const TreeSpace& space, RecordPool& pool, WorkCrew& crew,
+  std::optional<std::size_t> classOffset = std::nullopt);
 
 /// Column "rgb" of the pooled schema if its values are 16 bits wide.
 std::optional<std::size_t> wideColourColumn(const AttributeSchema& schema);

@@ -110,9 +110,10 @@ const char* nameOf(Rejection reason)
   return "outside the grid's range";
 }
 
-RecordPacker::RecordPacker(const CommonSchema& schema, const TreeSpace& space, unsigned cellShift)
+RecordPacker::RecordPacker(const CommonSchema& schema, const TreeSpace& space, unsigned cellShift,
+  std::optional<std::size_t> classOffset)
     : schema_(schema), space_(space), layout_(schema.schema),
-      colour_(wideColourColumn(schema.schema)), counts_(cellShift)
+      colour_(wideColourColumn(schema.schema)), classOffset_(classOffset), counts_(cellShift)
 {
 }
 
@@ -191,20 +192,36 @@ void RecordPacker::packColumn(const AttributeSchema& sourceSchema, const ColumnM
 
 void RecordPacker::countCells()
 {
-  // Neighbours in a file are neighbours in space: most lie in the cell of the point before.
-  std::size_t begin = 0;
   const RecordView view{records_.data(), layout_.bytes()};
-  while (begin < count_)
+  const unsigned shift = counts_.shift(); // counts_ may coarsen meanwhile
+  for (std::size_t i = 0; i < count_; ++i)
   {
-    const TreePosition position = view.position(begin);
-    const TreePosition cell = counts_.table().cellOf(position);
-    std::size_t end = begin + 1;
-    while (end < count_ && counts_.table().cellOf(view.position(end)) == cell)
+    const TreePosition p = view.position(i);
+    const TreePosition cell{p.x >> shift, p.y >> shift, p.z >> shift};
+    const auto objectClass =
+      classOffset_ ? std::to_integer<std::uint8_t>(view.record(i)[*classOffset_]) : std::uint8_t(0);
+    Run& run = runs_[objectClass];
+    if (run.cell != cell)
     {
-      ++end;
+      endRun(objectClass, shift);
     }
-    counts_.add(position, end - begin);
-    begin = end;
+    run.cell = cell;
+    ++run.count;
+  }
+  for (unsigned c = 0; c < runs_.size(); ++c)
+  {
+    endRun(static_cast<std::uint8_t>(c), shift);
+  }
+}
+
+void RecordPacker::endRun(std::uint8_t objectClass, unsigned shift)
+{
+  Run& run = runs_[objectClass];
+  if (run.count > 0)
+  {
+    counts_.add(objectClass,
+      {run.cell.x << shift, run.cell.y << shift, run.cell.z << shift}, run.count);
+    run.count = 0;
   }
 }
 

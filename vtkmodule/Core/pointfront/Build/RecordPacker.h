@@ -30,7 +30,9 @@ const char* nameOf(Rejection reason);
 class RecordPacker
 {
 public:
-  RecordPacker(const CommonSchema& schema, const TreeSpace& space, unsigned cellShift);
+  /// `classOffset`: the byte of a record by which cells are counted apart; nothing: class 0.
+  RecordPacker(const CommonSchema& schema, const TreeSpace& space, unsigned cellShift,
+    std::optional<std::size_t> classOffset);
 
   /// Packs a batch that came from `source`; rejected points are removed from the batch first.
   void pack(const AttributeSchema& sourceSchema, std::size_t source, PointBatch& batch);
@@ -40,7 +42,7 @@ public:
   std::uint16_t largestColour() const { return largestColour_; } ///< of the last batch
 
   /// Over all batches:
-  const CellCounts& counts() const { return counts_; }
+  const ClassCounts& counts() const { return counts_; }
   const GridPosition& low() const { return low_; } ///< grid steps
   const GridPosition& high() const { return high_; }
   std::uint64_t rejected(Rejection reason) const { return rejected_[std::size_t(reason)]; }
@@ -62,7 +64,17 @@ private:
   std::vector<std::byte> converted_;
   std::size_t count_ = 0;
   std::uint16_t largestColour_ = 0;
-  CellCounts counts_;
+  /// Neighbours in a file are neighbours in space: points of one class that follow each other in a
+  /// cell are counted at once.
+  struct Run
+  {
+    TreePosition cell{0};
+    std::uint64_t count = 0;
+  };
+  void endRun(std::uint8_t objectClass, unsigned shift);
+  std::optional<std::size_t> classOffset_;
+  std::array<Run, 256> runs_{}; // of each class
+  ClassCounts counts_;
   GridPosition low_{INT64_MAX};
   GridPosition high_{INT64_MIN};
   std::array<std::uint64_t, std::size_t(Rejection::Count)> rejected_{};

@@ -30,11 +30,12 @@ void BuildCommand::declare(CLI::App& program)
     ->required()
     ->type_name("OUT.pfront");
   app_->add_option("--structure", structure_, "Shape of the hierarchy (octree)")
-    ->check(availableValues({ "octree" }, { "kdtree" }));
+    ->check(availableValues({ "octree", "kdtree" }, {}));
   app_->add_option("--refinement", refinement_, "Inner nodes hold a subset, or mean points (add)")
     ->check(availableValues({ "add", "replace" }, {}));
-  app_->add_option("--layers", layers_, "One tree for all points (none)")
-    ->check(availableValues({ "none" }, { "class" }));
+  app_->add_option("--layers", layers_,
+        "One tree for all points, or for each class (class if any point is classified)")
+    ->check(availableValues({ "none", "class" }, {}));
   app_->add_option("--node-points", options_.nodePoints, "Most points of a leaf (16384)")
     ->check(CLI::Range(256u, 1u << 20))
     ->type_name("N");
@@ -233,6 +234,10 @@ Result<void> BuildCommand::run()
     options_.precision = precision_;
   }
   options_.colourDepth = sourceChoice_.colourDepth();
+  options_.structure = structure_ == "kdtree" ? Structure::KdTree : Structure::Octree;
+  options_.layering = layers_.empty() ? Layering::Automatic
+    : layers_ == "class"              ? Layering::ObjectClass
+                                      : Layering::None;
   options_.refinement = refinement_ == "replace" ? Refinement::Replace : Refinement::Add;
   if (attributes_ != "all")
   {

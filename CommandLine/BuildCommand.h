@@ -49,7 +49,7 @@ private:
   std::string preview_ = "auto";
   std::string structure_ = "octree";
   std::string refinement_ = "add";
-  std::string layers_ = "none";
+  std::string layers_; ///< empty: by class if any point is classified
   double precision_ = 0.0;
   bool json_ = false;
   std::set<std::string> told_; ///< warnings of passes that are on the terminal already

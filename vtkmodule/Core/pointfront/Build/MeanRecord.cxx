@@ -34,9 +34,9 @@ void setRounded(std::byte* at, double value)
   const double high = static_cast<double>(std::numeric_limits<T>::max());
   const double whole = std::round(value);
   // The largest 64-bit integers are no doubles: compare before the cast.
-  setValue<T>(at, whole >= high ? std::numeric_limits<T>::max()
-      : whole <= low            ? std::numeric_limits<T>::lowest()
-                                : static_cast<T>(whole));
+  setValue<T>(at, whole >= high  ? std::numeric_limits<T>::max()
+                  : whole <= low ? std::numeric_limits<T>::lowest()
+                                 : static_cast<T>(whole));
 }
 
 double readScalar(ScalarType type, const std::byte* at)
@@ -105,7 +105,7 @@ bool hasMean(const Attribute& attribute)
     attribute.type == ScalarType::Float32 || attribute.type == ScalarType::Float64;
   const bool scaled = attribute.scale != 1.0 || attribute.offset != 0.0;
   return fractional || scaled || attribute.name == "intensity" || attribute.name == "rgb" ||
-    attribute.name == "nir";
+         attribute.name == "nir";
 }
 
 MeanRecord::MeanRecord(const TreeSpace& space, const AttributeSchema& pooled)
@@ -162,8 +162,8 @@ void MeanRecord::addMeans(const MeanInput& input, double weight)
   const std::byte* exact = input.record + meansOffset_;
   for (Mean& mean : means_)
   {
-    const double value = input.original ? readScalar(mean.type, input.record + mean.offset)
-                                        : valueAt<double>(exact);
+    const double value =
+      input.original ? readScalar(mean.type, input.record + mean.offset) : valueAt<double>(exact);
     exact += sizeof(double);
     if (!std::isnan(value))
     {
@@ -187,9 +187,9 @@ void MeanRecord::writeMeans(std::byte* out)
   }
   for (std::size_t m = 0; m + 2 < means_.size(); ++m)
   {
-    const double length = means_[m].normal
-      ? glm::length(valueAt<glm::dvec3>(out + meansOffset_ + m * sizeof(double)))
-      : 0.0;
+    const double length =
+      means_[m].normal ? glm::length(valueAt<glm::dvec3>(out + meansOffset_ + m * sizeof(double)))
+                       : 0.0;
     for (std::size_t k = m; length > 0.0 && k < m + 3; ++k)
     {
       writeScalar(means_[k].type, out + means_[k].offset,
@@ -198,8 +198,8 @@ void MeanRecord::writeMeans(std::byte* out)
   }
 }
 
-void MeanRecord::summarise(const std::vector<MeanInput>& inputs, std::size_t begin,
-  std::size_t end, std::byte* out)
+void MeanRecord::summarise(
+  const std::vector<MeanInput>& inputs, std::size_t begin, std::size_t end, std::byte* out)
 {
   double weight = 0.0;
   glm::dvec3 centre(0.0);

@@ -45,8 +45,8 @@ public:
   std::size_t bytes() const { return meansOffset_ + means_.size() * sizeof(double); }
 
   /// Writes bytes() to `out`. All inputs lie in one cell of the tree, and so does the result.
-  void summarise(const std::vector<MeanInput>& inputs, std::size_t begin, std::size_t end,
-    std::byte* out);
+  void summarise(
+    const std::vector<MeanInput>& inputs, std::size_t begin, std::size_t end, std::byte* out);
 
 private:
   struct Mean

@@ -16,15 +16,18 @@ namespace
 /// Points that one representative stands in for, at least on average.
 constexpr std::uint64_t leastShare = 3;
 
+/// log2 of the cells that are represented by one point each: the finest that gives at most twice
+/// the node's capacity, twice as coarse as those of the inner children.
 unsigned meanCell(const CellOccupancy& occupancy, std::uint64_t points, unsigned nodeLog2Side,
   int coarsestBelow, const SamplingRule& rule)
 {
-  unsigned cell = samplingCell(occupancy, nodeLog2Side, coarsestBelow, rule);
-  while (cell < nodeLog2Side && occupancy.distinct[cell] * leastShare > points)
+  const std::uint64_t most = std::min<std::uint64_t>(2ull * rule.nodePoints, points / leastShare);
+  unsigned cell = static_cast<unsigned>(coarsestBelow + 1);
+  while (cell < nodeLog2Side && occupancy.distinct[cell] > most)
   {
     ++cell;
   }
-  return cell;
+  return std::min(cell, nodeLog2Side);
 }
 } // namespace
 
@@ -100,7 +103,9 @@ void MeanSubtreeBuilder::represent(
       inputs_.push_back({child.view.record(i), child.original});
       positions_.push_back(child.view.position(i));
     }
-    coarsestBelow = std::max(coarsestBelow, child.node->samplingLog2);
+    const bool leaf = child.node->samplingQuarters < 0;
+    coarsestBelow =
+      leaf ? coarsestBelow : std::max(coarsestBelow, child.node->samplingQuarters / 4);
   }
   everyInput_.resize(inputs_.size());
   std::iota(everyInput_.begin(), everyInput_.end(), 0u);
@@ -108,7 +113,7 @@ void MeanSubtreeBuilder::represent(
     reinterpret_cast<const std::byte*>(positions_.data()), sizeof(TreePosition)};
   const CellOccupancy occupancy = cellOccupancy(positions, everyInput_);
   const unsigned cell = meanCell(occupancy, inputs_.size(), log2Side, coarsestBelow, rule_);
-  joined.node->samplingLog2 = static_cast<int>(cell);
+  joined.node->samplingQuarters = 4 * static_cast<int>(cell);
   joined.node->row.spacing =
     static_cast<float>(std::ldexp(emitter_.space().stepLength(), static_cast<int>(cell)));
   joined.held.resize(occupancy.distinct[cell]);

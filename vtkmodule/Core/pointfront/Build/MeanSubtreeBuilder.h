@@ -32,8 +32,7 @@ public:
   {
   }
 
-  OpenSubtree build(
-    std::vector<std::byte> records, std::size_t count, std::uint32_t node) override;
+  OpenSubtree build(std::vector<std::byte> records, std::size_t count, std::uint32_t node) override;
   OpenSubtree join(std::vector<OpenSubtree> children, std::uint32_t node) override;
   std::unique_ptr<BuiltNode> close(OpenSubtree subtree) override;
   std::vector<EmittedNode> takeEmitted() override { return std::exchange(emitted_, {}); }

@@ -32,7 +32,7 @@ std::uint64_t blockPointBytes(std::size_t recordBytes)
 /// Parts much larger than a node: their ancestors are surely inner nodes.
 std::uint64_t leastPartPoints(const MemoryDemand& demand)
 {
-  return 4ull * demand.nodePoints;
+  return std::max<std::uint64_t>(4ull * demand.nodePoints, demand.wholePart);
 }
 
 /// Batches of doubles, and their records, for each thread.

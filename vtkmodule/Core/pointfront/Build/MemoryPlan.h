@@ -15,6 +15,7 @@ struct MemoryDemand
   std::uint64_t largestChunk = 0; ///< points of the largest chunk of any source
   std::size_t recordBytes = 0;
   std::size_t partBytes = 0;   ///< for each point of a part, beyond what every tree needs
+  std::uint64_t wholePart = 0; ///< points of parts that cannot be cut smaller; 0: there are none
   std::size_t sourceBytes = 0; ///< largest size of a point in a source's batch
   std::uint32_t nodePoints = 0;
   unsigned threads = 1;          ///< wanted

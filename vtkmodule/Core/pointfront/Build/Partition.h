@@ -30,6 +30,7 @@ public:
     OctreeCell cell; ///< of a part: a cell around its points, not always the smallest
   };
 
+  Partition() = default;
   /// Cuts so that a part holds at most `partPoints` points, where the cells are fine enough.
   /// `cells` in Morton order, each of 2^cellLog2 steps. `partOf` (one for each cell) is filled.
   Partition(const std::vector<CountedCell>& cells, unsigned cellLog2, std::uint64_t partPoints,

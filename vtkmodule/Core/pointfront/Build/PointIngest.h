@@ -27,7 +27,7 @@ struct IngestedPoints
   ClassCounts counts{0};
   std::vector<std::uint64_t> sourceEnd;     ///< end of each source's records in the pool
   std::vector<std::uint16_t> largestColour; ///< of each source's "rgb", 0 without one
-  unsigned hintedShift = 0; ///< of the cells before any were joined
+  unsigned hintedShift = 0;                 ///< of the cells before any were joined
   double readSeconds = 0.0;                 ///< CPU, over all threads
   double quantiseSeconds = 0.0;
 };

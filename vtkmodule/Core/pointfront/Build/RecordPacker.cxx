@@ -219,8 +219,8 @@ void RecordPacker::endRun(std::uint8_t objectClass, unsigned shift)
   Run& run = runs_[objectClass];
   if (run.count > 0)
   {
-    counts_.add(objectClass,
-      {run.cell.x << shift, run.cell.y << shift, run.cell.z << shift}, run.count);
+    counts_.add(
+      objectClass, {run.cell.x << shift, run.cell.y << shift, run.cell.z << shift}, run.count);
     run.count = 0;
   }
 }

@@ -4,13 +4,13 @@
 #include "pointfront/Build/CpuClock.h"
 #include "pointfront/Build/DiskDemand.h"
 #include "pointfront/Build/GridChoice.h"
-#include "pointfront/Build/MeanSubtreeBuilder.h"
 #include "pointfront/Build/MemoryPlan.h"
-#include "pointfront/Build/PartPool.h"
 #include "pointfront/Build/PointIngest.h"
 #include "pointfront/Build/ReferenceSystem.h"
-#include "pointfront/Build/SubtreeBuilder.h"
 #include "pointfront/Build/TreeAssembly.h"
+#include "pointfront/Build/TreeConstruction.h"
+#include "pointfront/Points/EnclosingRadius.h"
+#include "pointfront/Points/ObjectClass.h"
 
 #include <algorithm>
 #include <cmath>
@@ -53,6 +53,12 @@ Result<void> checkOptions(const Sources& sources, const BuildOptions& options)
       Error::Kind::BadArgument, "a node of " + std::to_string(options.nodePoints) +
                                   " points is not possible; choose 16 to 1048576 points a node");
   }
+  if (options.structure == Structure::KdTree && options.refinement == Refinement::Replace)
+  {
+    return makeError(Error::Kind::BadArgument,
+      "a kd-tree holds each point once and has no representatives: use refinement add, or an "
+      "octree");
+  }
   std::error_code ignored;
   if (!options.overwrite && std::filesystem::exists(options.outputPath, ignored))
   {
@@ -76,12 +82,8 @@ MemoryDemand demandOf(
     demand.sourceBytes = std::max(demand.sourceBytes, source->description().schema.pointBytes());
   }
   demand.recordBytes = RecordLayout(schema).bytes();
-  if (options.refinement == Refinement::Replace)
-  {
-    // The inputs of a node, and a representative for every third of them.
-    demand.partBytes =
-      sizeof(MeanInput) + sizeof(TreePosition) + 4 + MeanRecord(TreeSpace(), schema).bytes() / 2;
-  }
+  demand.partBytes = constructionBytes(options, schema);
+  demand.wholePart = constructionPart(options);
   demand.nodePoints = options.nodePoints;
   demand.threads =
     options.threads > 0 ? options.threads : std::max(1u, std::thread::hardware_concurrency());
@@ -90,10 +92,10 @@ MemoryDemand demandOf(
 }
 
 /// One build, from what is common to all sources to the committed store.
-class OctreeBuild
+class StoreBuild
 {
 public:
-  OctreeBuild(const Sources& sources, const BuildOptions& options, ProgressFunction progress)
+  StoreBuild(const Sources& sources, const BuildOptions& options, ProgressFunction progress)
       : sources_(sources), options_(options), progress_(std::move(progress))
   {
   }
@@ -102,7 +104,7 @@ public:
 private:
   Result<void> prepare();
   Result<void> addRadius();
-  std::unique_ptr<TreeBuilder> treeBuilder(const NodeEmitter& emitter) const;
+  Result<void> chooseLayers();
   Result<void> read();
   Result<void> cutIntoParts();
   Result<void> assemble();
@@ -126,7 +128,9 @@ private:
   std::unique_ptr<WorkCrew> crew_;
   std::unique_ptr<RecordPool> pool_;
   IngestedPoints points_;
-  std::unique_ptr<PartPool> parts_;
+  std::optional<std::size_t> classOffset_; ///< by which layers are told apart, in a record
+  ClassLayers layers_;
+  std::unique_ptr<TreeConstruction> construction_;
   AttributeSchema stored_;
 };
 
@@ -145,8 +149,26 @@ void append(std::vector<std::string>& all, const std::vector<std::string>& more)
   all.insert(all.end(), more.begin(), more.end());
 }
 
+/// Where the class is in a record, if there may be layers.
+Result<void> StoreBuild::chooseLayers()
+{
+  const auto column = common_.schema.find("classification");
+  const bool usable = column && common_.schema[*column].bytes() == 1;
+  if (!usable && options_.layering == Layering::ObjectClass)
+  {
+    return makeError(Error::Kind::BadArgument,
+      "layers by class need the attribute 'classification' of one byte, which is not among those "
+      "to store; build without layers, or name it among the attributes");
+  }
+  if (usable && options_.layering != Layering::None)
+  {
+    classOffset_ = RecordLayout(common_.schema).offset(*column);
+  }
+  return {};
+}
+
 /// Points of the input have radius 0: no source has the column, so all get zeros.
-Result<void> OctreeBuild::addRadius()
+Result<void> StoreBuild::addRadius()
 {
   if (options_.refinement == Refinement::Add)
   {
@@ -165,7 +187,7 @@ Result<void> OctreeBuild::addRadius()
   return {};
 }
 
-Result<void> OctreeBuild::prepare()
+Result<void> StoreBuild::prepare()
 {
   for (const auto& source : sources_)
   {
@@ -184,6 +206,10 @@ Result<void> OctreeBuild::prepare()
   append(report_.warnings, common_.warnings);
   append(report_.warnings, grid->warnings);
   if (Result<void> ready = addRadius(); !ready)
+  {
+    return ready;
+  }
+  if (Result<void> ready = chooseLayers(); !ready)
   {
     return ready;
   }
@@ -227,7 +253,7 @@ Result<void> OctreeBuild::prepare()
   return {};
 }
 
-Result<void> OctreeBuild::read()
+Result<void> StoreBuild::read()
 {
   std::uint64_t announced = 0;
   for (const auto& source : sources_)
@@ -235,7 +261,7 @@ Result<void> OctreeBuild::read()
     announced += source->description().pointCount;
   }
   crew_->beginPhase("reading", announced, readShare);
-  auto points = ingestPoints(sources_, common_, space_, *pool_, *crew_);
+  auto points = ingestPoints(sources_, common_, space_, *pool_, *crew_, classOffset_);
   if (!points)
   {
     return points.error();
@@ -257,10 +283,27 @@ Result<void> OctreeBuild::read()
     return tooLarge();
   }
   rootLog2_ = *rootLog2;
+  if (classOffset_)
+  {
+    std::vector<std::uint8_t> classes;
+    for (const auto& [objectClass, table] : points_.counts.classes())
+    {
+      classes.push_back(objectClass);
+    }
+    const bool classified = !std::all_of(classes.begin(), classes.end(), unclassified);
+    if (classified || options_.layering == Layering::ObjectClass)
+    {
+      layers_ = ClassLayers(*classOffset_, std::move(classes));
+    }
+    else
+    {
+      points_.counts.merge();
+    }
+  }
   return {};
 }
 
-Error OctreeBuild::tooLarge() const
+Error StoreBuild::tooLarge() const
 {
   const Bounds bounds{space_.grid.toWorld(points_.low), space_.grid.toWorld(points_.high)};
   const glm::dvec3 size = bounds.size();
@@ -276,7 +319,7 @@ Error OctreeBuild::tooLarge() const
   return makeError(Error::Kind::BadArgument, text);
 }
 
-Result<void> OctreeBuild::checkColourDepth() const
+Result<void> StoreBuild::checkColourDepth() const
 {
   for (std::size_t s = 0; s < sources_.size(); ++s)
   {
@@ -292,7 +335,7 @@ Result<void> OctreeBuild::checkColourDepth() const
 }
 
 /// 16-bit colours become 8-bit if all fit; if only those of some files do, these are widened.
-AttributeSchema OctreeBuild::storedSchema(std::optional<ColourWidening>& widening) const
+AttributeSchema StoreBuild::storedSchema(std::optional<ColourWidening>& widening) const
 {
   const auto column = wideColourColumn(common_.schema);
   const auto& largest = points_.largestColour;
@@ -326,35 +369,27 @@ AttributeSchema OctreeBuild::storedSchema(std::optional<ColourWidening>& widenin
   return common_.schema;
 }
 
-Result<void> OctreeBuild::cutIntoParts()
+Result<void> StoreBuild::cutIntoParts()
 {
   crew_->beginPhase("sorting", points_.kept, sortShare);
   if (Result<void> fits = checkColourDepth(); !fits)
   {
     return fits;
   }
-  std::optional<ColourWidening> widening;
-  stored_ = storedSchema(widening);
-  parts_ = std::make_unique<PartPool>(*pool_, recordBytes_, plan_, *crew_);
-  Result<void> done = parts_->build(points_, space_, rootLog2_, widening);
-  report_.phaseSeconds["distribute"] = parts_->seconds();
+  PoolPreparation preparation;
+  preparation.points = points_.kept;
+  preparation.space = space_;
+  preparation.rootLog2 = rootLog2_;
+  preparation.layers = layers_;
+  stored_ = storedSchema(preparation.widening);
+  construction_ = treeConstruction(options_, {*pool_, recordBytes_, plan_, *crew_, common_.schema});
+  Result<void> done =
+    construction_->cut(preparation, std::move(points_.counts), points_.hintedShift);
+  report_.phaseSeconds["distribute"] = construction_->seconds();
   return done;
 }
 
-std::unique_ptr<TreeBuilder> OctreeBuild::treeBuilder(const NodeEmitter& emitter) const
-{
-  SamplingRule rule;
-  rule.nodePoints = options_.nodePoints;
-  const Partition& partition = parts_->partition();
-  if (options_.refinement == Refinement::Add)
-  {
-    return std::make_unique<SubtreeBuilder>(emitter, rule, recordBytes_);
-  }
-  return std::make_unique<MeanSubtreeBuilder>(
-    emitter, rule, MeanRecord(space_, common_.schema), recordBytes_, partition);
-}
-
-Result<void> OctreeBuild::assemble()
+Result<void> StoreBuild::assemble()
 {
   crew_->beginPhase("building", points_.kept, buildShare);
   auto writer = StoreWriter::create(options_.outputPath, stored_);
@@ -363,11 +398,7 @@ Result<void> OctreeBuild::assemble()
     return writer.error();
   }
   const NodeEmitter emitter(space_, common_.schema, stored_, options_.refinement);
-  AssemblyPlan plan;
-  plan.tree = parts_->partition().tree();
-  plan.load = [this](std::uint32_t part) { return parts_->load(part); };
-  plan.builder = [&] { return treeBuilder(emitter); };
-  TreeAssembly assembly(std::move(plan), **writer, *crew_);
+  TreeAssembly assembly(construction_->assembly(emitter), **writer, *crew_);
   auto trees = assembly.run();
   report_.phaseSeconds["load"] = assembly.loadSeconds();
   report_.phaseSeconds["sort"] = assembly.seconds().sort;
@@ -385,7 +416,7 @@ Result<void> OctreeBuild::assemble()
   return commit(**writer, *trees);
 }
 
-Result<void> OctreeBuild::checkCounts(const Trees& trees) const
+Result<void> StoreBuild::checkCounts(const Trees& trees) const
 {
   const std::uint64_t stored = pointsIn(trees);
   std::uint64_t rejected = 0;
@@ -403,20 +434,23 @@ Result<void> OctreeBuild::checkCounts(const Trees& trees) const
   return {};
 }
 
-Result<void> OctreeBuild::commit(StoreWriter& writer, const Trees& trees)
+Result<void> StoreBuild::commit(StoreWriter& writer, const Trees& trees)
 {
   const NodeTable table = nodeTable(trees);
   StoreDescription description;
   description.grid = space_.grid;
   description.crsWkt = reference_.wkt;
-  description.structure = "octree";
+  description.structure = options_.structure == Structure::KdTree ? "kdtree" : "octree";
   description.refinement = options_.refinement;
   description.levels = table.levels;
   description.schema = stored_;
   description.metadata = reference_.metadata;
   description.generator = "pointfront " POINTFRONT_VERSION;
-  description.layers.push_back(
-    {0, "all", pointsIn(trees), static_cast<std::uint32_t>(table.nodes.size())});
+  for (const std::uint8_t objectClass : layers_.classes())
+  {
+    const std::string name = layers_.byClass() ? objectClassName(objectClass) : "all";
+    description.layers.push_back({objectClass, name, 0, 0}); // the writer counts
+  }
   description.pointCount = pointsIn(trees);
   if (Result<void> stop = crew_->outcome(); !stop)
   {
@@ -433,14 +467,14 @@ Result<void> OctreeBuild::commit(StoreWriter& writer, const Trees& trees)
   return {};
 }
 
-Result<BuildReport> OctreeBuild::run()
+Result<BuildReport> StoreBuild::run()
 {
   const double cpuBefore = processSeconds();
   if (Result<void> ready = prepare(); !ready)
   {
     return ready.error();
   }
-  for (const auto step : {&OctreeBuild::read, &OctreeBuild::cutIntoParts, &OctreeBuild::assemble})
+  for (const auto step : {&StoreBuild::read, &StoreBuild::cutIntoParts, &StoreBuild::assemble})
   {
     if (Result<void> done = (this->*step)(); !done)
     {
@@ -460,7 +494,7 @@ Result<BuildReport> buildOctreeStore(const std::vector<std::unique_ptr<PointSour
   {
     return done.error();
   }
-  return OctreeBuild(sources, options, progress).run();
+  return StoreBuild(sources, options, progress).run();
 }
 
 } // namespace pointfront

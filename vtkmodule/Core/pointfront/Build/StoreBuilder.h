@@ -23,9 +23,25 @@ enum class ColourDepth
   Sixteen ///< 16 in all files: stored as they are
 };
 
+enum class Structure : std::uint8_t
+{
+  Octree,
+  KdTree ///< balanced, all nodes but one a tree with nodePoints points; Refinement::Add only
+};
+
+/// Which points share a tree.
+enum class Layering : std::uint8_t
+{
+  Automatic,  ///< ObjectClass if any point has a class other than 0 and 1, else None
+  None,       ///< all
+  ObjectClass ///< those of one value of "classification"
+};
+
 struct BuildOptions
 {
   std::string outputPath;
+  Structure structure = Structure::Octree;
+  Layering layering = Layering::None;
   /// Replace: the leaves hold the points, inner nodes mean representatives, and the store gets the
   /// column "enclosing_radius" (float32, world units; MeanRecord.h).
   Refinement refinement = Refinement::Add;
@@ -54,8 +70,9 @@ struct BuildReport
   double cpuSeconds = 0.0; ///< of the process while it built: the phases and what is between them
 };
 
-/// Builds a store with an octree from any number of sources.
-/// Guarantees  every point that is read is stored once, or counted in pointsRejected with its
+/// Builds a store from any number of sources; with an octree or a kd-tree, for all points or one
+/// for each object class. Guarantees  every point that is read is stored once, or counted in
+/// pointsRejected with its
 ///             reason (NaN, infinite, outside the grid's range); read = stored + rejected is
 ///             checked at the end. Same input, same bytes out: for any number of threads and any
 ///             memory budget. A build that fails or is cancelled leaves no output and no spill

@@ -1,0 +1,111 @@
+#pragma once
+
+#include "pointfront/Base/Result.h"
+#include "pointfront/Build/CellTable.h"
+#include "pointfront/Build/ClassLayers.h"
+#include "pointfront/Build/MemoryPlan.h"
+#include "pointfront/Build/MortonOrder.h"
+#include "pointfront/Build/Partition.h"
+#include "pointfront/Build/RecordPool.h"
+#include "pointfront/Build/RunSorter.h"
+#include "pointfront/Build/TreeSpace.h"
+#include "pointfront/Build/WorkCrew.h"
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace pointfront
+{
+
+/// Colours of files with 8 bits among files with 16 bits: those records are multiplied by 257.
+struct ColourWidening
+{
+  std::size_t offset = 0; ///< of the column in the record
+  std::size_t components = 0;
+  std::vector<Piece> runs; ///< records to be widened, ascending
+};
+
+/// What is done once to all records of the pool when they have been read.
+struct PoolPreparation
+{
+  std::uint64_t points = 0; ///< records 0 to points - 1
+  TreeSpace space;          ///< with its origin
+  unsigned rootLog2 = 0;    ///< of the root cube's side
+  std::optional<ColourWidening> widening;
+  ClassLayers layers;
+};
+
+/// Counted cells in Morton order, moved to where they are in the tree.
+std::vector<CountedCell> countedCells(const CellTable& table, const TreeSpace& space);
+
+/// For each layer, the bucket of each counted cell, plus one.
+using BucketTables = std::vector<CellTable>;
+
+/// Finds buckets of neighbouring points without a look-up each.
+class BucketFinder
+{
+public:
+  BucketFinder(const BucketTables& tables, const ClassLayers& layers)
+      : tables_(tables), layers_(layers), last_(tables.size())
+  {
+  }
+  std::uint32_t operator()(const std::byte* record)
+  {
+    const std::size_t layer = layers_.layerOf(record);
+    const TreePosition cell = tables_[layer].cellOf(positionOf(record));
+    Last& last = last_[layer];
+    if (last.bucket == 0 || cell != last.cell)
+    {
+      last = {cell, tables_[layer].find(cell)};
+    }
+    return static_cast<std::uint32_t>(last.bucket - 1);
+  }
+
+private:
+  struct Last
+  {
+    TreePosition cell{0};
+    std::uint64_t bucket = 0;
+  };
+  const BucketTables& tables_;
+  const ClassLayers& layers_;
+  std::vector<Last> last_; // of each layer
+};
+
+/// Walks over the whole pool, block by block, on all threads.
+/// Threads  called from one thread; runs on the crew.
+class BlockSorter
+{
+public:
+  BlockSorter(RecordPool& pool, std::size_t recordBytes, const MemoryPlan& plan, WorkCrew& crew)
+      : pool_(pool), recordBytes_(recordBytes), plan_(plan), crew_(crew)
+  {
+  }
+
+  /// Counts once more by layers, from cells of 2^finest steps on, never beyond 2^coarsest. Before
+  /// sort(): positions are not relative to the root yet.
+  Result<ClassCounts> count(const PoolPreparation& points, unsigned finest, unsigned coarsest);
+
+  /// Moves positions to the root's origin, widens colours, and sorts each block of the pool by
+  /// bucket in its own place: a bucket is one piece from each block that it touches, and its pieces
+  /// are in input order. No second copy on disk, no file a bucket.
+  Result<std::vector<std::vector<Piece>>> sort(
+    const PoolPreparation& points, const BucketTables& buckets, std::uint32_t bucketCount);
+
+  RecordPool& pool() const { return pool_; }
+  std::size_t recordBytes() const { return recordBytes_; }
+  const MemoryPlan& plan() const { return plan_; }
+  WorkCrew& crew() const { return crew_; }
+  /// CPU seconds of sort(), over all threads.
+  double seconds() const { return seconds_; }
+
+private:
+  RecordPool& pool_;
+  std::size_t recordBytes_;
+  MemoryPlan plan_;
+  WorkCrew& crew_;
+  double seconds_ = 0.0;
+};
+
+} // namespace pointfront

@@ -1,0 +1,269 @@
+#include "pointfront/Build/KdSubtreeBuilder.h"
+
+#include "pointfront/Build/CpuClock.h"
+#include "pointfront/Build/MortonOrder.h"
+
+#include <glm/common.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <numeric>
+
+namespace pointfront
+{
+namespace
+{
+constexpr unsigned intervalsLog2 = 11;
+
+RecordView viewOf(const std::vector<TreePosition>& positions)
+{
+  return {reinterpret_cast<const std::byte*>(positions.data()), sizeof(TreePosition)};
+}
+} // namespace
+
+void KdSubtreeBuilder::sortRecords(std::vector<std::byte>& records, std::size_t count)
+{
+  const CpuStopwatch watch(seconds_.sort);
+  const RecordView view{records.data(), recordBytes_};
+  std::vector<std::byte> sorted(records.size());
+  positions_.resize(count);
+  std::byte* to = sorted.data();
+  std::size_t rank = 0;
+  for (const std::uint32_t i : mortonOrder(view, count))
+  {
+    std::memcpy(to, view.record(i), recordBytes_);
+    positions_[rank++] = positionOf(to);
+    to += recordBytes_;
+  }
+  records = std::move(sorted);
+}
+
+OpenSubtree KdSubtreeBuilder::build(
+  std::vector<std::byte> records, std::size_t count, std::uint32_t node)
+{
+  if (count == 0)
+  {
+    return {};
+  }
+  sortRecords(records, count);
+  const RecordView view{records.data(), recordBytes_};
+  active_.resize(count);
+  std::iota(active_.begin(), active_.end(), 0u);
+  Region all{0, count, 0.0};
+  OpenSubtree subtree;
+  subtree.records = owed(view, node, all);
+  subtree.root = this->node(view, all);
+  return subtree;
+}
+
+/// All that is owed is taken at once, evenly spread; the nodes farthest above choose among it
+/// first.
+std::vector<std::byte> KdSubtreeBuilder::owed(
+  const RecordView& records, std::uint32_t node, Region& region)
+{
+  std::uint64_t total = 0;
+  for (const KdShare& share : shares_[node])
+  {
+    total += share.points;
+  }
+  take(region, total);
+  region.above = static_cast<double>(total);
+  std::vector<std::uint32_t> rest = std::exchange(active_, std::move(held_));
+  Region open{0, active_.size(), 0.0};
+  std::vector<std::byte> owedRecords;
+  owedRecords.reserve(total * recordBytes_);
+  for (const KdShare& share : shares_[node])
+  {
+    take(open, share.points);
+    for (const std::uint32_t i : held_)
+    {
+      owedRecords.insert(owedRecords.end(), records.record(i), records.record(i) + recordBytes_);
+    }
+  }
+  active_ = std::move(rest);
+  return owedRecords;
+}
+
+void KdSubtreeBuilder::take(Region& region, std::uint64_t wanted)
+{
+  const CpuStopwatch watch(seconds_.sample);
+  const auto begin = active_.begin() + static_cast<std::ptrdiff_t>(region.begin);
+  const auto end = active_.begin() + static_cast<std::ptrdiff_t>(region.end);
+  points_.assign(begin, end);
+  held_.clear();
+  occupancy_ = cellOccupancy(viewOf(positions_), points_);
+  sampler_.choose(viewOf(positions_), points_, occupancy_, wanted, chosen_);
+  auto left = begin;
+  for (std::size_t i = 0; i < points_.size(); ++i)
+  {
+    if (chosen_[i] != 0)
+    {
+      held_.push_back(points_[i]);
+    }
+    else
+    {
+      *left++ = points_[i];
+    }
+  }
+  region.end = static_cast<std::size_t>(left - active_.begin());
+}
+
+/// Of `drawn` points in the region of points_.
+double KdSubtreeBuilder::spacing(double drawn) const
+{
+  const unsigned side = differingBits(positions_[points_.front()], positions_[points_.back()]);
+  const double all = surfaceSpacing(occupancy_, points_.size(), side);
+  return all * std::sqrt(static_cast<double>(points_.size()) / drawn) *
+         emitter_.space().stepLength();
+}
+
+std::unique_ptr<BuiltNode> KdSubtreeBuilder::node(const RecordView& records, Region region)
+{
+  auto built = std::make_unique<BuiltNode>();
+  const std::size_t count = region.end - region.begin;
+  take(region, std::min<std::size_t>(count, rule_.nodePoints));
+  const double drawn = static_cast<double>(held_.size()) + region.above;
+  built->row.spacing = static_cast<float>(spacing(drawn));
+  const std::vector<std::uint32_t> own = std::move(held_);
+  held_ = {};
+  if (region.end > region.begin)
+  {
+    const double left = static_cast<double>(region.end - region.begin);
+    const std::size_t middle = divide(region);
+    for (const auto& [begin, end] : {std::pair(region.begin, middle), {middle, region.end}})
+    {
+      if (begin < end)
+      {
+        built->children.push_back(
+          node(records, {begin, end, drawn * static_cast<double>(end - begin) / left}));
+      }
+    }
+  }
+  emit(*built, records, own);
+  return built;
+}
+
+unsigned KdSubtreeBuilder::longestAxis(
+  const Region& region, std::uint32_t& low, std::uint32_t& high) const
+{
+  TreePosition lowest(UINT32_MAX);
+  TreePosition highest(0);
+  for (std::size_t i = region.begin; i < region.end; ++i)
+  {
+    lowest = glm::min(lowest, positions_[active_[i]]);
+    highest = glm::max(highest, positions_[active_[i]]);
+  }
+  const TreePosition size = highest - lowest;
+  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+  low = lowest[axis];
+  high = highest[axis];
+  return static_cast<unsigned>(axis);
+}
+
+/// Puts the points of the left before those of the right, each in Morton order; where these begin.
+std::size_t KdSubtreeBuilder::divide(const Region& region)
+{
+  const CpuStopwatch watch(seconds_.sample);
+  const std::uint64_t wanted = kdLeftPoints(region.end - region.begin, rule_.nodePoints);
+  if (wanted == region.end - region.begin)
+  {
+    return region.end;
+  }
+  std::uint32_t low = 0;
+  std::uint32_t high = 0;
+  const auto axis = static_cast<int>(longestAxis(region, low, high));
+  const auto coordinate = [&](std::size_t i) { return positions_[active_[i]][axis]; };
+  unsigned shift = 0;
+  while ((high - low) >> shift >= 1u << intervalsLog2)
+  {
+    ++shift;
+  }
+  std::array<std::uint32_t, 1u << intervalsLog2> counts{};
+  for (std::size_t i = region.begin; i < region.end; ++i)
+  {
+    ++counts[(coordinate(i) - low) >> shift];
+  }
+  std::uint64_t rank = wanted;
+  std::uint32_t interval = 0;
+  while (rank >= counts[interval])
+  {
+    rank -= counts[interval++];
+  }
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> inside; // coordinate, Morton order
+  for (std::size_t i = region.begin; i < region.end; ++i)
+  {
+    if ((coordinate(i) - low) >> shift == interval)
+    {
+      inside.emplace_back(coordinate(i), active_[i]);
+    }
+  }
+  const auto at = inside.begin() + static_cast<std::ptrdiff_t>(rank);
+  std::nth_element(inside.begin(), at, inside.end());
+  const std::pair<std::uint32_t, std::uint32_t> first = *at; // of the right
+  right_.clear();
+  std::size_t left = region.begin;
+  for (std::size_t i = region.begin; i < region.end; ++i)
+  {
+    const std::uint32_t point = active_[i];
+    if (std::pair(positions_[point][axis], point) < first)
+    {
+      active_[left++] = point;
+    }
+    else
+    {
+      right_.push_back(point);
+    }
+  }
+  std::copy(right_.begin(), right_.end(), active_.begin() + static_cast<std::ptrdiff_t>(left));
+  return left;
+}
+
+void KdSubtreeBuilder::emit(
+  BuiltNode& node, const RecordView& records, const std::vector<std::uint32_t>& points)
+{
+  const CpuStopwatch watch(seconds_.encode);
+  EncodedNode payload = emitter_.emit(node, records, points);
+  emitted_.push_back({&node, std::move(payload)});
+}
+
+OpenSubtree KdSubtreeBuilder::join(std::vector<OpenSubtree> children, std::uint32_t node)
+{
+  OpenSubtree joined;
+  joined.root = std::make_unique<BuiltNode>();
+  std::vector<std::byte> own;
+  std::vector<std::size_t> read(children.size(), 0);
+  const std::size_t owed = shares_[node].size(); // the children owe to these, and to this node
+  for (std::size_t level = 0; level <= owed; ++level)
+  {
+    std::vector<std::byte>& out = level == owed ? own : joined.records;
+    for (std::size_t c = 0; c < children.size(); ++c)
+    {
+      const auto& records = children[c].records;
+      const std::size_t bytes = shares_[tree_[node].children[c]][level].points * recordBytes_;
+      const auto from = records.begin() + static_cast<std::ptrdiff_t>(read[c]);
+      out.insert(out.end(), from, from + static_cast<std::ptrdiff_t>(bytes));
+      read[c] += bytes;
+    }
+  }
+  for (OpenSubtree& child : children)
+  {
+    joined.root->children.push_back(std::move(child.root));
+  }
+  const std::size_t count = own.size() / recordBytes_;
+  sortRecords(own, count);
+  points_.resize(count);
+  std::iota(points_.begin(), points_.end(), 0u);
+  occupancy_ = cellOccupancy(viewOf(positions_), points_);
+  double drawn = static_cast<double>(count);
+  for (const KdShare& share : shares_[node])
+  {
+    drawn += static_cast<double>(share.points);
+  }
+  joined.root->row.spacing = static_cast<float>(spacing(drawn));
+  emit(*joined.root, {own.data(), recordBytes_}, points_);
+  return joined;
+}
+
+} // namespace pointfront

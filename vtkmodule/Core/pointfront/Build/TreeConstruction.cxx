@@ -1,0 +1,125 @@
+#include "pointfront/Build/TreeConstruction.h"
+
+#include "pointfront/Build/KdPool.h"
+#include "pointfront/Build/KdSubtreeBuilder.h"
+#include "pointfront/Build/MeanSubtreeBuilder.h"
+#include "pointfront/Build/PartPool.h"
+#include "pointfront/Build/SubtreeBuilder.h"
+
+namespace pointfront
+{
+namespace
+{
+class OctreeConstruction final : public TreeConstruction
+{
+public:
+  OctreeConstruction(const BuildOptions& options, const ConstructionSite& site)
+      : refinement_(options.refinement), recordBytes_(site.recordBytes), pooled_(site.pooled),
+        parts_(site.pool, site.recordBytes, site.plan, site.crew)
+  {
+    rule_.nodePoints = options.nodePoints;
+  }
+  Result<void> cut(
+    const PoolPreparation& points, ClassCounts counts, unsigned /*hintedShift*/) override
+  {
+    return parts_.build(points, std::move(counts));
+  }
+  AssemblyPlan assembly(const NodeEmitter& emitter) const override
+  {
+    AssemblyPlan plan;
+    plan.tree = parts_.partition().tree();
+    plan.load = [this](std::uint32_t part) { return parts_.load(part); };
+    plan.builder = [this, &emitter] { return builder(emitter); };
+    return plan;
+  }
+  double seconds() const override { return parts_.seconds(); }
+
+private:
+  std::unique_ptr<TreeBuilder> builder(const NodeEmitter& emitter) const
+  {
+    if (refinement_ == Refinement::Add)
+    {
+      return std::make_unique<SubtreeBuilder>(emitter, rule_, recordBytes_);
+    }
+    return std::make_unique<MeanSubtreeBuilder>(
+      emitter, rule_, MeanRecord(emitter.space(), pooled_), recordBytes_, parts_.partition());
+  }
+
+  Refinement refinement_;
+  std::size_t recordBytes_;
+  const AttributeSchema& pooled_;
+  SamplingRule rule_;
+  PartPool parts_;
+};
+
+KdRule kdRule(const BuildOptions& options)
+{
+  KdRule rule;
+  rule.nodePoints = options.nodePoints;
+  return rule;
+}
+
+class KdConstruction final : public TreeConstruction
+{
+public:
+  KdConstruction(const BuildOptions& options, const ConstructionSite& site)
+      : rule_(kdRule(options)), recordBytes_(site.recordBytes),
+        parts_(site.pool, site.recordBytes, site.plan, site.crew)
+  {
+  }
+  Result<void> cut(const PoolPreparation& points, ClassCounts counts, unsigned hintedShift) override
+  {
+    return parts_.build(points, std::move(counts), hintedShift, rule_);
+  }
+  AssemblyPlan assembly(const NodeEmitter& emitter) const override
+  {
+    AssemblyPlan plan;
+    plan.tree = parts_.tree();
+    plan.load = [this](std::uint32_t part) { return parts_.load(part); };
+    plan.builder = [this, &emitter]
+    {
+      return std::make_unique<KdSubtreeBuilder>(
+        emitter, rule_, recordBytes_, parts_.tree(), parts_.shares());
+    };
+    return plan;
+  }
+  double seconds() const override { return parts_.seconds(); }
+
+private:
+  KdRule rule_;
+  std::size_t recordBytes_;
+  KdPool parts_;
+};
+} // namespace
+
+std::unique_ptr<TreeConstruction> treeConstruction(
+  const BuildOptions& options, const ConstructionSite& site)
+{
+  if (options.structure == Structure::KdTree)
+  {
+    return std::make_unique<KdConstruction>(options, site);
+  }
+  return std::make_unique<OctreeConstruction>(options, site);
+}
+
+std::size_t constructionBytes(const BuildOptions& options, const AttributeSchema& pooled)
+{
+  if (options.structure == Structure::KdTree)
+  {
+    return sizeof(TreePosition) + 2 * sizeof(std::uint32_t); // positions and lists of points
+  }
+  // The inputs of a node, and a representative for every third of them.
+  return options.refinement == Refinement::Replace ? sizeof(MeanInput) + sizeof(TreePosition) + 4 +
+                                                       MeanRecord(TreeSpace(), pooled).bytes() / 2
+                                                   : 0;
+}
+
+std::uint64_t constructionPart(const BuildOptions& options)
+{
+  // What a part owes to the nodes above it is about as much as one node has.
+  return options.structure == Structure::KdTree
+           ? kdRule(options).partPoints() + 2ull * options.nodePoints
+           : 0;
+}
+
+} // namespace pointfront

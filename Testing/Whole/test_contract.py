@@ -39,32 +39,6 @@ class Usage(ToolTest):
             outcome = self.refuse(2, command, "a", "-o", "b", "--points", "3")
             self.assertIn("not available", outcome.err)
 
-    def test_build_flags_of_the_contract_that_do_not_work_are_refused(self):
-        flags = [
-            ("--structure", "kdtree"), ("--refinement", "replace"), ("--layers", "class"),
-        ]
-        for flag in flags:
-            outcome = self.refuse(2, "build", SMALL, "-o", self.folder / "x.pfront", *flag)
-            self.assertIn("not available", outcome.err)
-            self.assertIn(flag[0], outcome.err)
-        self.assertEqual(self.entries(), [])
-
-    def test_flags_that_make_no_sense_together_are_wrong_usage(self):
-        wrong = [
-            ("--normals-k", "8"), ("--normals-radius", "1"), ("--normals-eps", "0.1"),
-            ("--normals-classes", "2,6"), ("--curvature",),
-            ("--local-height-radius", "3"), ("--ground-cell", "3"),
-            ("--local-height", "--local-height-radius", "0"),
-            ("--normals", "scanline", "--normals-k", "8"), ("--normals", "scanline", "--curvature"),
-            ("--normals", "pca", "--normals-k", "8", "--normals-radius", "1"),
-            ("--normals", "pca", "--normals-k", "2"), ("--normals", "pca", "--normals-eps", "-1"),
-            ("--normals", "pca", "--normals-radius", "0"), ("--normals", "best"),
-            ("--normals", "pca", "--normals-classes", "ground"),
-        ]
-        for flags in wrong:
-            self.refuse(2, "build", SMALL, "-o", self.folder / "x.pfront", *flags)
-        self.assertEqual(self.entries(), [])
-
     def test_wrong_values_are_wrong_usage(self):
         wrong = [
             ("--structure", "rtree"), ("--memory", "12Q"), ("--memory", "0"), ("--threads", "0"),
@@ -139,6 +113,28 @@ class Reports(ToolTest):
         for layer in report["layers"]:
             self.assertEqual(set(layer), {"class", "name", "points", "nodes"})
         self.assertIn("1065", self.succeed("info", store).out)
+
+    def test_structures_refinements_and_layers(self):
+        kinds = [
+            (("--structure", "kdtree"), "kdtree", "add"),
+            (("--refinement", "replace"), "octree", "replace"),
+            (("--layers", "none"), "octree", "add"),
+            (("--layers", "class", "--structure", "kdtree"), "kdtree", "add"),
+        ]
+        for flags, structure, refinement in kinds:
+            store = self.build(SMALL, *flags, "--force")
+            report = json.loads(self.succeed("info", "--json", store).out)
+            self.assertEqual((report["structure"], report["refinement"]), (structure, refinement))
+            self.assertEqual(report["points"], 1065)
+            layers = report["layers"]
+            self.assertEqual(sum(layer["points"] for layer in layers), 1065)
+            self.assertEqual(sum(layer["nodes"] for layer in layers), report["nodes"])
+            if flags[1] == "none":
+                self.assertEqual([layer["name"] for layer in layers], ["all"])
+            verified = json.loads(self.succeed("verify", "--json", store).out)
+            self.assertEqual((verified["ok"], verified["points_checked"]), (True, 1065))
+        self.refuse(1, "build", SMALL, "-o", self.folder / "y.pfront", "--structure", "kdtree",
+                    "--refinement", "replace")
 
     def test_verify(self):
         store = self.build(SMALL)

@@ -13,7 +13,7 @@ namespace pointfront
 
 /// A unit normal as it is stored: three whole numbers of `normalSteps` steps to 1; zero where a
 /// point has none. Readers that apply the attribute's scale see an ordinary vector.
-/// Error  at most 0.005 degrees; what other steps cost is measured in docs/tradeoffs.md.
+/// Error  at most 0.005 degrees; 6 bytes a point before compression.
 using PackedNormal = glm::vec<3, std::int16_t, glm::defaultp>;
 
 constexpr int normalSteps = 10000;

@@ -226,7 +226,7 @@ std::vector<OverviewPart> chooseOverview(const Hierarchy& hierarchy, std::uint64
       std::uint64_t leaves = 0;
       for (const OverviewPart& part : parts)
       {
-        leaves += hierarchy.node(part.node).leaf() ? part.count : 0;
+        leaves += hierarchy.node(part.node).leaf() ? part.pointCount : 0;
       }
       if (leaves + next > maxPoints)
       {

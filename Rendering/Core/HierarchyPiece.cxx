@@ -135,7 +135,9 @@ HierarchyPiece::HierarchyPiece(std::shared_ptr<const Hierarchy> whole, int piece
   }
   for (std::size_t at = nodes.size(); at-- > 0;) // children come after their parent
   {
-    nodes[at].pointsBelow = nodes[at].pointCount;
+    // Representatives are no points of the input.
+    const bool original = whole->refinement() == Refinement::Add || nodes[at].leaf();
+    nodes[at].pointsBelow = original ? nodes[at].pointCount : 0;
     for (std::uint32_t child = 0; child < nodes[at].childCount; ++child)
     {
       nodes[at].pointsBelow += nodes[nodes[at].firstChild + child].pointsBelow;

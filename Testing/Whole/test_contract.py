@@ -122,7 +122,7 @@ class Reports(ToolTest):
             (("--layers", "class", "--structure", "kdtree"), "kdtree", "add"),
         ]
         for flags, structure, refinement in kinds:
-            store = self.build(SMALL, *flags, "--force")
+            store = self.build(DATA / "las/real/1.2-with-color.las", *flags, "--force")
             report = json.loads(self.succeed("info", "--json", store).out)
             self.assertEqual((report["structure"], report["refinement"]), (structure, refinement))
             self.assertEqual(report["points"], 1065)

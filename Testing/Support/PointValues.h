@@ -60,8 +60,12 @@ std::vector<T> columnOf(const PointSource& source, const PointBatch& batch, cons
     ADD_FAILURE() << name << " has another type";
     return {};
   }
-  std::vector<T> values(batch.columns[*column].size() / sizeof(T));
-  std::memcpy(values.data(), batch.columns[*column].data(), batch.columns[*column].size());
+  const std::vector<std::byte>& bytes = batch.columns[*column];
+  std::vector<T> values(bytes.size() / sizeof(T));
+  if (!bytes.empty()) // memcpy takes no null pointers, not even for nothing
+  {
+    std::memcpy(values.data(), bytes.data(), bytes.size());
+  }
   return values;
 }
 

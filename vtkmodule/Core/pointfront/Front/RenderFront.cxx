@@ -330,7 +330,9 @@ void RenderFront::State::finish(int rungBefore, const ResidencyView& residency)
   const bool settled = expansions == 0 && !movesUsedUp && !growthHeldBack;
   const bool arrived = rung == 0 || budgetBound;
   // The residency speaks of what it was asked for after an earlier update: of the same view?
-  exhausted = !inputChanged && rung == rungBefore && plan.missing() > 0 && residency.exhausted();
+  // And nothing came after this update had looked.
+  exhausted = !inputChanged && rung == rungBefore && plan.missing() > 0 &&
+    residency.exhausted() && residency.revision() == revision;
   delta.frontLength = tree.frontLength();
   delta.thresholdPx = thresholdPx();
   delta.limitedByBudget = plan.clipped() || (budgetBound && !boundByMemory && rung > 0);

@@ -50,7 +50,8 @@ struct RenderFront::State
   // What the last update saw.
   View view;
   FrontLimits limits;
-  std::uint64_t revision = 0;
+  std::uint64_t revision = 0;  ///< of the residency, before the update asked it anything
+  bool sameRevision = true;    ///< as in the update before
   bool exhausted = false;      ///< of these requests: nothing more can come
   bool inputChanged = true;    ///< other view or limits than in the update before
 
@@ -330,8 +331,8 @@ void RenderFront::State::finish(int rungBefore, const ResidencyView& residency)
   const bool settled = expansions == 0 && !movesUsedUp && !growthHeldBack;
   const bool arrived = rung == 0 || budgetBound;
   // The residency speaks of what it was asked for after an earlier update: of the same view?
-  // And nothing came after this update had looked.
-  exhausted = !inputChanged && rung == rungBefore && plan.missing() > 0 &&
+  // And nothing came since that one looked: the requests are the same.
+  exhausted = !inputChanged && rung == rungBefore && plan.missing() > 0 && sameRevision &&
     residency.exhausted() && residency.revision() == revision;
   delta.frontLength = tree.frontLength();
   delta.thresholdPx = thresholdPx();
@@ -361,7 +362,9 @@ const FrontDelta& RenderFront::update(
     return s.delta;
   }
   // Before anything is asked: what arrives while this update looks is news to the next one.
-  s.revision = residency.revision();
+  const std::uint64_t revision = residency.revision();
+  s.sameRevision = s.revision == revision;
+  s.revision = revision;
   s.adopt(view, limits);
   const int rungBefore = s.rung;
   s.chooseThreshold();

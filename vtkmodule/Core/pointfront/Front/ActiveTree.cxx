@@ -26,6 +26,7 @@ ActiveNode activeNode(const Node& entry, NodeIndex index)
   node.firstChild = entry.firstChild;
   node.childCount = entry.childCount;
   node.level = entry.level;
+  node.layer = entry.layer;
   return node;
 }
 
@@ -51,10 +52,32 @@ void ActiveTree::reset()
     {
       node.spacing = alwaysTooCoarse;
     }
+    applyLayer(node);
     slots_.push_back(node);
   }
   rootCount_ = slotCount();
   frontLength_ = rootCount_;
+}
+
+void ActiveTree::applyLayer(ActiveNode& node) const
+{
+  const LayerLimits limits = node.layer < layers_.size() ? layers_[node.layer] : LayerLimits();
+  assert(limits.errorFactor > 0.0 && limits.share >= 0.0);
+  node.hidden = !limits.visible;
+  node.errorWeight = static_cast<float>(1.0 / limits.errorFactor);
+}
+
+void ActiveTree::setLayers(const std::vector<LayerLimits>& layers)
+{
+  if (layers == layers_)
+  {
+    return;
+  }
+  layers_ = layers;
+  for (ActiveNode& node : slots_)
+  {
+    applyLayer(node);
+  }
 }
 
 ActiveNode ActiveTree::childOf(const ActiveNode& parent, std::uint8_t child) const
@@ -66,6 +89,8 @@ ActiveNode ActiveTree::childOf(const ActiveNode& parent, std::uint8_t child) con
     node.spacing = 0.5f * parent.spacing;
   }
   node.spacingRatio = node.spacing / parent.spacing;
+  node.hidden = parent.hidden;
+  node.errorWeight = parent.errorWeight;
   return node;
 }
 
@@ -141,10 +166,12 @@ SlotIndex ActiveTree::find(NodeIndex node) const
 void evaluate(ActiveNode& node, const View& view, std::uint32_t update)
 {
   node.evaluated = update;
-  node.visible = sphereVisibility(view, node.centre, node.radius) == Visibility::Inside;
+  node.visible = !node.hidden &&
+    sphereVisibility(view, node.centre, node.radius) == Visibility::Inside;
   const double distance = distanceToSphere(view, node.centre, node.radius);
   node.distance = static_cast<float>(distance);
-  node.errorPx = static_cast<float>(projectedSpacing(view, node.spacing, distance));
+  node.errorPx =
+    static_cast<float>(projectedSpacing(view, node.spacing, distance)) * node.errorWeight;
 }
 
 } // namespace pointfront

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "pointfront/Front/LayerLimits.h"
 #include "pointfront/Front/View.h"
 #include "pointfront/Store/Hierarchy.h"
 
@@ -29,9 +30,12 @@ struct ActiveNode
   SlotIndex children = noSlot; ///< first of childCount neighbouring slots; noSlot: on the front
   std::uint8_t childCount = 0; ///< in the table
   std::uint8_t level = 0;
+  std::uint16_t layer = 0;
+  bool hidden = false;         ///< its layer is
+  float errorWeight = 1.0f;    ///< LAYERS-11: 1 / the layer's errorFactor
 
   bool visible = false;
-  float errorPx = 0.0f;
+  float errorPx = 0.0f;        ///< projected spacing * errorWeight
   float distance = 0.0f;
 
   // Numbers of the update in which it last was ...
@@ -59,6 +63,12 @@ public:
   /// Back to the roots.
   void reset();
 
+  /// LAYERS-11: how the layers are seen from now on; those beyond the list as if by default. Time
+  /// linear in the slots when something changes.
+  void setLayers(const std::vector<LayerLimits>& layers);
+
+  Refinement refinement() const { return hierarchy_.refinement(); }
+
   /// Slots 0 to rootCount() - 1 are the roots, in the order of Hierarchy::roots().
   SlotIndex rootCount() const { return rootCount_; }
   /// Free slots among them: node == noNode.
@@ -81,7 +91,10 @@ public:
 private:
   SlotIndex takeBlock(std::uint8_t length);
 
+  void applyLayer(ActiveNode& node) const;
+
   const Hierarchy& hierarchy_;
+  std::vector<LayerLimits> layers_;
   std::vector<ActiveNode> slots_;
   std::array<std::vector<SlotIndex>, 256> freeBlocks_; ///< by length
   SlotIndex rootCount_ = 0;

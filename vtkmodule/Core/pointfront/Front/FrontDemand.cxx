@@ -34,9 +34,7 @@ Demand FrontDemand::ofChildren(const ActiveNode& parent, double thresholdPx) con
   {
     ActiveNode child = tree_.childOf(parent, c);
     evaluate(child, view_, 0);
-    const Demand own = joined(child, {}, thresholdPx);
-    sum.drawn += own.drawn;
-    sum.held += own.held;
+    sum += joined(child, {}, thresholdPx);
   }
   return sum;
 }
@@ -52,24 +50,10 @@ Demand FrontDemand::below(const ActiveNode& node, double thresholdPx) const
     }
     for (std::uint8_t c = 0; c < node.childCount; ++c)
     {
-      const Demand child = below(tree_[node.children + c], thresholdPx);
-      children.drawn += child.drawn;
-      children.held += child.held;
+      children += below(tree_[node.children + c], thresholdPx);
     }
   }
   return joined(node, children, thresholdPx);
-}
-
-Demand FrontDemand::at(double thresholdPx) const
-{
-  Demand sum;
-  for (SlotIndex root = 0; root < tree_.rootCount(); ++root)
-  {
-    const Demand demand = below(tree_[root], thresholdPx);
-    sum.drawn += demand.drawn;
-    sum.held += demand.held;
-  }
-  return sum;
 }
 
 } // namespace pointfront

@@ -13,6 +13,13 @@ struct Demand
 {
   std::uint64_t drawn = 0; ///< points on screen
   std::uint64_t held = 0;  ///< points of the nodes that must be in memory for that, whole nodes
+
+  Demand& operator+=(const Demand& more)
+  {
+    drawn += more.drawn;
+    held += more.held;
+    return *this;
+  }
 };
 
 /// Counts, from the table alone, what a threshold asks for: what is loaded at the moment plays no
@@ -31,7 +38,8 @@ public:
   {
   }
 
-  Demand at(double thresholdPx) const;
+  /// Of the tree under a root, at a threshold in the pixels of ActiveNode::errorPx.
+  Demand ofRoot(SlotIndex root, double thresholdPx) const { return below(tree_[root], thresholdPx); }
   /// Of the children that a front node has in the table.
   Demand ofChildren(const ActiveNode& parent, double thresholdPx) const;
   /// Points of a visible node drawn at a threshold. Representatives (Replace) carry a

@@ -29,7 +29,7 @@ bool sooner(const LoadRequest& a, const LoadRequest& b)
 
 } // namespace
 
-void FrontPlan::make(ActiveTree& tree, Refinement refinement, double thresholdPx,
+void FrontPlan::make(ActiveTree& tree, const FrontThreshold& threshold,
   const ResidencyView& residency, const FrontLimits& limits, std::uint32_t update,
   FrontDelta& delta)
 {
@@ -37,7 +37,6 @@ void FrontPlan::make(ActiveTree& tree, Refinement refinement, double thresholdPx
   residency_ = &residency;
   limits_ = &limits;
   delta_ = &delta;
-  thresholdPx_ = thresholdPx;
   update_ = update;
   missing_ = 0;
   clipped_ = false;
@@ -49,9 +48,14 @@ void FrontPlan::make(ActiveTree& tree, Refinement refinement, double thresholdPx
 
   for (SlotIndex root = 0; root < tree.rootCount(); ++root)
   {
+    if (tree[root].hidden)
+    {
+      continue;
+    }
     // The first levels are wanted from the beginning, in sight or not.
     tree[root].needed = update;
-    if (refinement == Refinement::Add)
+    thresholdPx_ = threshold.px(tree[root].layer);
+    if (tree.refinement() == Refinement::Add)
     {
       visitAdd(root, { nothingDrawnPx, true, true });
     }
@@ -182,7 +186,8 @@ void FrontPlan::draw(const ActiveNode& node, std::uint32_t points)
   }
   if (points > 0)
   {
-    delta_->draw.push_back({ node.node, points, node.errorPx, node.distance });
+    const float projectedPx = node.errorPx / node.errorWeight;
+    delta_->draw.push_back({ node.node, points, projectedPx, node.distance });
     delta_->pointsDrawn += points;
   }
 }

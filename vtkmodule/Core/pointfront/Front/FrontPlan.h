@@ -1,6 +1,7 @@
 #pragma once
 
 #include "pointfront/Front/ActiveTree.h"
+#include "pointfront/Front/FrontThreshold.h"
 #include "pointfront/Front/RenderFront.h"
 
 #include <cstdint>
@@ -16,9 +17,8 @@ class FrontPlan
 {
 public:
   /// Fills draw, requests, pointsDrawn, errorPx and failedNodes of `delta`.
-  void make(ActiveTree& tree, Refinement refinement, double thresholdPx,
-    const ResidencyView& residency, const FrontLimits& limits, std::uint32_t update,
-    FrontDelta& delta);
+  void make(ActiveTree& tree, const FrontThreshold& threshold, const ResidencyView& residency,
+    const FrontLimits& limits, std::uint32_t update, FrontDelta& delta);
 
   /// Nodes that the view needs and that are neither resident nor failed.
   std::uint32_t missing() const { return missing_; }
@@ -53,7 +53,7 @@ private:
   const FrontLimits* limits_ = nullptr;
   FrontDelta* delta_ = nullptr;
   std::vector<LoadRequest> wanted_;
-  double thresholdPx_ = 0.0;
+  double thresholdPx_ = 0.0; ///< of the layer being visited
   std::uint32_t update_ = 0;
   std::uint32_t missing_ = 0;
   bool clipped_ = false;

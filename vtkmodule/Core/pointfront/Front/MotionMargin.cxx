@@ -54,7 +54,8 @@ View viewAhead(const View& before, const View& now, double frames)
 }
 
 const std::vector<LoadRequest>& MotionMargin::requests(const View& now, double thresholdPx,
-  const ResidencyView& residency, double frames, std::uint32_t most)
+  const ResidencyView& residency, double frames, std::uint32_t most,
+  const std::vector<LayerLimits>& layers)
 {
   requests_.clear();
   visits_ = 0;
@@ -66,7 +67,12 @@ const std::vector<LoadRequest>& MotionMargin::requests(const View& now, double t
   }
   for (const NodeIndex root : hierarchy_->roots())
   {
-    visit(root, ahead, thresholdPx, residency);
+    const std::uint16_t number = hierarchy_->node(root).layer;
+    const LayerLimits layer = number < layers.size() ? layers[number] : LayerLimits();
+    if (layer.visible)
+    {
+      visit(root, ahead, layer, thresholdPx, residency);
+    }
   }
   const auto sooner = [](const LoadRequest& a, const LoadRequest& b)
   { return a.priority != b.priority ? a.priority > b.priority : a.node < b.node; };
@@ -81,8 +87,8 @@ void MotionMargin::rest(const View& now)
   first_ = false;
 }
 
-void MotionMargin::visit(
-  NodeIndex index, const View& ahead, double thresholdPx, const ResidencyView& residency)
+void MotionMargin::visit(NodeIndex index, const View& ahead, const LayerLimits& layer,
+  double thresholdPx, const ResidencyView& residency)
 {
   if (++visits_ > visitLimit)
   {
@@ -93,14 +99,14 @@ void MotionMargin::visit(
   {
     return;
   }
-  const double errorPx = screenError(ahead, node);
+  const double errorPx = screenError(ahead, node) / layer.errorFactor;
   if (node.pointCount > 0 && residency.state(index) == ResidencyView::State::Absent)
   {
     requests_.push_back({ index, errorPx, true });
   }
   for (std::uint8_t c = 0; errorPx > thresholdPx && c < node.childCount; ++c)
   {
-    visit(node.firstChild + c, ahead, thresholdPx, residency);
+    visit(node.firstChild + c, ahead, layer, thresholdPx, residency);
   }
 }
 

@@ -34,8 +34,10 @@ public:
   /// Nodes that are absent and that the view ahead shows above `thresholdPx`, all optional, largest
   /// error first, ties by node; at most `most`. `frames`: how far ahead. Call it once a frame.
   /// Valid until the next call.
+  /// Layers as in FrontLimits.
   const std::vector<LoadRequest>& requests(const View& now, double thresholdPx,
-    const ResidencyView& residency, double frames, std::uint32_t most);
+    const ResidencyView& residency, double frames, std::uint32_t most,
+    const std::vector<LayerLimits>& layers = {});
 
   /// Instead of requests(), for a frame that is not part of a motion.
   void rest(const View& now);
@@ -43,7 +45,7 @@ public:
   static constexpr std::uint32_t visitLimit = 4096;
 
 private:
-  void visit(NodeIndex index, const View& ahead, double thresholdPx,
+  void visit(NodeIndex index, const View& ahead, const LayerLimits& layer, double thresholdPx,
     const ResidencyView& residency);
 
   std::shared_ptr<const Hierarchy> hierarchy_;

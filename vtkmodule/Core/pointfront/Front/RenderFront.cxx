@@ -3,7 +3,7 @@
 #include "pointfront/Front/ActiveTree.h"
 #include "pointfront/Front/FrontDemand.h"
 #include "pointfront/Front/FrontPlan.h"
-#include "pointfront/Front/ThresholdLadder.h"
+#include "pointfront/Front/FrontThreshold.h"
 
 #include <algorithm>
 #include <cassert>
@@ -13,8 +13,6 @@ namespace pointfront
 namespace
 {
 
-/// Rungs that the threshold falls by an update: a factor of 0.8, from 60 px to 1 px in 19 frames.
-constexpr int rungsPerFall = 20;
 /// A node collapses when its error is this much below the threshold: it must not flip.
 constexpr double collapseBelow = 0.8;
 /// Updates that a branch stays in the cut after it was last in sight.
@@ -26,7 +24,7 @@ bool operator==(const FrontLimits& a, const FrontLimits& b)
     a.movesPerFrame == b.movesPerFrame && a.pointBudget == b.pointBudget &&
     a.heldPointBudget == b.heldPointBudget && a.requestLimit == b.requestLimit &&
     a.interacting == b.interacting && a.motionErrorPx == b.motionErrorPx &&
-    a.prefetchSiblings == b.prefetchSiblings;
+    a.prefetchSiblings == b.prefetchSiblings && a.layers == b.layers;
 }
 
 } // namespace
@@ -43,8 +41,7 @@ struct RenderFront::State
   ActiveTree tree;
   FrontPlan plan;
   FrontDelta delta;
-  ThresholdLadder ladder;
-  int rung = 0;
+  FrontThreshold threshold;
   std::uint32_t update = 0; ///< number of this update; 0 before the first
 
   // What the last update saw.
@@ -60,22 +57,13 @@ struct RenderFront::State
   bool movesUsedUp = false;    ///< FRONT-6: expansions are left for the next update
   std::uint32_t expansions = 0;
   bool growthHeldBack = false; ///< an expansion would have broken a budget
-  bool budgetBound = false;    ///< the next lower threshold does not fit
-  bool boundByMemory = false;  ///< ... because of heldPointBudget
-  int floorRung = 0;           ///< FRONT-7: of the motion
-  int lowestRung = 0;          ///< proved too low for this view and these limits: not tried again
   SlotIndex nextSlot = 0;      ///< FRONT-6: where the next update goes on
-  Demand demand;               ///< the last one that fits: of the threshold in force
 
   Refinement refinement() const { return hierarchy->refinement(); }
-  double thresholdPx() const { return ladder.at(rung); }
+  double thresholdOf(const ActiveNode& node) const { return threshold.px(node.layer); }
 
   void adopt(const View& newView, const FrontLimits& newLimits);
   void evaluateBranch(SlotIndex slot, double lowestPx);
-  bool fits(const Demand& wanted);
-  bool fitsAt(int candidate);
-  int lowestFitting(int unfit, int fit);
-  int risenRung();
   void chooseThreshold();
   void markLive(SlotIndex slot);
   void moveFront();
@@ -83,27 +71,15 @@ struct RenderFront::State
   bool wantsCollapse(const ActiveNode& node) const;
   void expand(SlotIndex slot);
   void collapse(SlotIndex slot);
-  void finish(int rungBefore, const ResidencyView& residency);
+  void finish(const ResidencyView& residency);
 };
 
 void RenderFront::State::adopt(const View& newView, const FrontLimits& newLimits)
 {
-  assert(newLimits.targetErrorPx > 0.0 && newLimits.movesPerFrame > 0);
-  const bool first = update == 0;
-  if (first || limits.targetErrorPx != newLimits.targetErrorPx ||
-    limits.initialErrorPx != newLimits.initialErrorPx)
-  {
-    const double before = first ? newLimits.initialErrorPx : thresholdPx();
-    ladder = ThresholdLadder(newLimits.targetErrorPx, newLimits.initialErrorPx);
-    rung = ladder.rungFor(before);
-  }
-  inputChanged = first || view != newView || !(limits == newLimits);
-  if (inputChanged)
-  {
-    lowestRung = 0;
-  }
+  inputChanged = update == 0 || view != newView || !(limits == newLimits);
   view = newView;
   limits = newLimits;
+  tree.setLayers(limits.layers);
   ++update;
 }
 
@@ -120,93 +96,16 @@ void RenderFront::State::evaluateBranch(SlotIndex slot, double lowestPx)
   }
 }
 
-bool RenderFront::State::fits(const Demand& wanted)
-{
-  const bool heldFits = limits.heldPointBudget == 0 || wanted.held <= limits.heldPointBudget;
-  const bool drawnFits = limits.pointBudget == 0 || wanted.drawn <= limits.pointBudget;
-  if (heldFits && drawnFits)
-  {
-    demand = wanted;
-    return true;
-  }
-  boundByMemory = drawnFits;
-  return false;
-}
-
-bool RenderFront::State::fitsAt(int candidate)
-{
-  return fits(FrontDemand(tree, refinement(), view).at(ladder.at(candidate)));
-}
-
-/// By bisection between a rung that does not fit and a higher one that does.
-int RenderFront::State::lowestFitting(int unfit, int fit)
-{
-  while (fit - unfit > 1)
-  {
-    const int middle = unfit + (fit - unfit) / 2;
-    (fitsAt(middle) ? fit : unfit) = middle;
-  }
-  return fit;
-}
-
-/// The lowest rung above the present one that fits. Where nodes come whole nothing is won above
-/// the largest error of a root: the plan then cuts what is too much.
-int RenderFront::State::risenRung()
-{
-  double largestPx = 0.0;
-  for (SlotIndex root = 0; root < tree.rootCount(); ++root)
-  {
-    largestPx = std::max<double>(largestPx, tree[root].visible ? tree[root].errorPx : 0.0f);
-  }
-  const double headroom = refinement() == Refinement::Add ? 65536.0 : 1.0;
-  const int highest = std::max(rung, ladder.rungFor(largestPx * headroom));
-  int unfit = rung;
-  for (int stride = 1; unfit < highest; stride *= 2)
-  {
-    const int candidate = std::min(unfit + stride, highest);
-    if (fitsAt(candidate))
-    {
-      return lowestFitting(unfit, candidate);
-    }
-    unfit = candidate;
-  }
-  demand = FrontDemand(tree, refinement(), view).at(ladder.at(highest));
-  return highest;
-}
-
 void RenderFront::State::chooseThreshold()
 {
-  // FRONT-7: in motion the threshold rises to what holds the frame rate, at rest it falls.
-  floorRung = limits.interacting ? ladder.rungFor(limits.motionErrorPx) : 0;
-  rung = std::max(rung, floorRung);
   const bool mayFall = !movesUsedUp && plan.missing() <= limits.requestLimit;
-  const int goal = mayFall ? std::max(floorRung, rung - rungsPerFall) : rung;
+  threshold.begin(limits, tree, inputChanged, mayFall);
   for (SlotIndex root = 0; root < tree.rootCount(); ++root)
   {
-    evaluateBranch(root, ladder.at(goal));
+    evaluateBranch(root, threshold.lowestPx(tree[root].layer));
   }
-
-  budgetBound = false;
   growthHeldBack = false;
-  if (limits.pointBudget == 0 && limits.heldPointBudget == 0)
-  {
-    rung = goal;
-    return;
-  }
-  if (!fitsAt(rung))
-  {
-    rung = risenRung();
-    // What grew beyond the budget at a lower threshold will do so again.
-    lowestRung = rung;
-    budgetBound = true;
-  }
-  else
-  {
-    const int lowest = std::min(rung, std::max(goal, lowestRung));
-    const bool free = lowest == rung || fitsAt(lowest);
-    rung = free ? lowest : lowestFitting(lowest, rung);
-    budgetBound = !free || (mayFall && rung > floorRung && rung == lowestRung);
-  }
+  threshold.choose(tree, FrontDemand(tree, refinement(), view));
 }
 
 void RenderFront::State::markLive(SlotIndex slot)
@@ -218,7 +117,7 @@ void RenderFront::State::markLive(SlotIndex slot)
     return;
   }
   node.seen = update;
-  if (node.expanded() && node.errorPx > thresholdPx())
+  if (node.expanded() && node.errorPx > thresholdOf(node))
   {
     for (std::uint8_t c = 0; c < node.childCount; ++c)
     {
@@ -230,7 +129,7 @@ void RenderFront::State::markLive(SlotIndex slot)
 bool RenderFront::State::wantsExpansion(const ActiveNode& node) const
 {
   return !node.expanded() && !node.leaf() && node.live == update && node.visible &&
-    node.errorPx > thresholdPx();
+    node.errorPx > thresholdOf(node);
 }
 
 bool RenderFront::State::wantsCollapse(const ActiveNode& node) const
@@ -240,7 +139,7 @@ bool RenderFront::State::wantsCollapse(const ActiveNode& node) const
     return false;
   }
   const bool fineEnough = node.live == update && node.visible &&
-    node.errorPx <= collapseBelow * thresholdPx();
+    node.errorPx <= collapseBelow * thresholdOf(node);
   return fineEnough || update - node.seen > updatesUnseen;
 }
 
@@ -252,8 +151,7 @@ void RenderFront::State::expand(SlotIndex slot)
   if (limited && tree[slot].created == update)
   {
     const FrontDemand estimate(tree, refinement(), view);
-    const Demand children = estimate.ofChildren(tree[slot], thresholdPx());
-    if (!fits({ demand.drawn + children.drawn, demand.held + children.held }))
+    if (!threshold.admit(estimate.ofChildren(tree[slot], thresholdOf(tree[slot]))))
     {
       growthHeldBack = true;
       return;
@@ -326,22 +224,24 @@ void RenderFront::State::moveFront()
   }
 }
 
-void RenderFront::State::finish(int rungBefore, const ResidencyView& residency)
+void RenderFront::State::finish(const ResidencyView& residency)
 {
   const bool settled = expansions == 0 && !movesUsedUp && !growthHeldBack;
-  const bool arrived = rung == 0 || budgetBound;
+  const bool steady = !threshold.changed();
+  const bool bound = threshold.bound();
   // The residency speaks of what it was asked for after an earlier update: of the same view?
   // And nothing came since that one looked: the requests are the same.
-  exhausted = !inputChanged && rung == rungBefore && plan.missing() > 0 && sameRevision &&
+  exhausted = !inputChanged && steady && plan.missing() > 0 && sameRevision &&
     residency.exhausted() && residency.revision() == revision;
+  const bool held = bound && !threshold.atTarget();
   delta.frontLength = tree.frontLength();
-  delta.thresholdPx = thresholdPx();
-  delta.limitedByBudget = plan.clipped() || (budgetBound && !boundByMemory && rung > 0);
-  delta.limitedByMemory = exhausted || (budgetBound && boundByMemory && rung > 0);
-  delta.complete =
-    settled && rung == rungBefore && (exhausted || (arrived && plan.missing() == 0));
-  const bool falls = rung > floorRung && !budgetBound && plan.missing() <= limits.requestLimit;
-  atRest = settled && delta.moves == 0 && rung == rungBefore && !falls;
+  delta.thresholdPx = threshold.largestPx(tree);
+  delta.limitedByBudget = plan.clipped() || (held && !threshold.boundByMemory());
+  delta.limitedByMemory = exhausted || (held && threshold.boundByMemory());
+  delta.complete = settled && steady &&
+    (exhausted || ((threshold.atTarget() || bound) && plan.missing() == 0));
+  const bool falls = threshold.falling() && plan.missing() <= limits.requestLimit;
+  atRest = settled && delta.moves == 0 && steady && !falls;
 }
 
 RenderFront::RenderFront(std::shared_ptr<const Hierarchy> hierarchy)
@@ -366,15 +266,14 @@ const FrontDelta& RenderFront::update(
   s.sameRevision = s.revision == revision;
   s.revision = revision;
   s.adopt(view, limits);
-  const int rungBefore = s.rung;
   s.chooseThreshold();
   for (SlotIndex root = 0; root < s.tree.rootCount(); ++root)
   {
     s.markLive(root);
   }
   s.moveFront();
-  s.plan.make(s.tree, s.refinement(), s.thresholdPx(), residency, s.limits, s.update, s.delta);
-  s.finish(rungBefore, residency);
+  s.plan.make(s.tree, s.threshold, residency, s.limits, s.update, s.delta);
+  s.finish(residency);
   return s.delta;
 }
 
@@ -386,7 +285,8 @@ std::uint32_t RenderFront::distanceUnderFront(NodeIndex node) const
   {
     slot = tree[slot].parent;
   }
-  return state_->hierarchy->node(node).level - tree[slot].level;
+  const std::uint32_t above = tree[slot].needed == state_->update ? 0 : 1; // a hidden root
+  return state_->hierarchy->node(node).level - tree[slot].level + above;
 }
 
 void RenderFront::reset()

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "pointfront/Front/LayerLimits.h"
 #include "pointfront/Front/View.h"
 #include "pointfront/Store/Hierarchy.h"
 
@@ -48,13 +49,15 @@ struct FrontLimits
   /// FRONT-9: ask also for the siblings (out of sight) of what is asked for, after everything that
   /// is in sight and only into free memory. Off for a single still picture.
   bool prefetchSiblings = true;
+  /// LAYERS-11: by number of the layer; layers beyond the list are as by default.
+  std::vector<LayerLimits> layers;
 };
 
 struct DrawItem
 {
   NodeIndex node = noNode;
   std::uint32_t pointCount = 0; ///< a prefix of the node's points (PointPrefix.h), at least 1
-  float errorPx = 0.0f;         ///< projected spacing of this node
+  float errorPx = 0.0f;         ///< projected spacing of this node, whatever its layer's factor
   float distance = 0.0f;        ///< from the eye to its sphere
 };
 
@@ -74,9 +77,9 @@ struct FrontDelta
   std::uint64_t pointsDrawn = 0;
   std::uint32_t moves = 0;           ///< expansions + collapses of this update
   std::uint32_t frontLength = 0;     ///< nodes in the cut, culled ones too
-  double thresholdPx = 0.0;          ///< in force for this update
-  /// Largest projected spacing on screen where the store holds more than is drawn; 0 when every
-  /// point in sight is drawn.
+  double thresholdPx = 0.0;          ///< in force for this update; the largest of the layers'
+  /// Largest projected spacing on screen where the store holds more than is drawn, divided by its
+  /// layer's errorFactor; 0 when every point in sight is drawn.
   double errorPx = 0.0;
   /// At rest: the threshold is at its target (or at the lowest that fits the budgets), no move is
   /// pending, everything wanted is drawn or cannot be had. Another update of the same view would
@@ -95,7 +98,7 @@ struct FrontDelta
 /// Threshold   starts at initialErrorPx and falls by a fifth an update while moves are not used up
 ///             and requests not piled up (FRONT-7). Budgets act on it: the lowest threshold whose
 ///             demand fits is taken, so the largest errors win, and a view that needs more settles
-///             instead of thrashing.
+///             instead of thrashing. Layers have factors, shares and switches (LayerLimits.h).
 /// Shapes      FrontDelta::draw is ordered near to far, ties by NodeIndex: two runs give the same
 ///             list.
 /// Units       error in pixels; distances in world units.
@@ -109,7 +112,8 @@ struct FrontDelta
 /// Errors      none; a node that failed to load stays unrequested, and what stands in goes on being
 ///             drawn. With Add its descendants, which are stored apart, are still refined into.
 /// Threads     one instance, one thread; View and ResidencyView are snapshots.
-/// Source      Richter & Doellner 2010, section 3.2.1 (the rendering front); FRONT-4..8.
+/// Source      Richter & Doellner 2010, section 3.2.1 (the rendering front); FRONT-4..8;
+///          Richter, Discher & Doellner 2015, section 4.2 (LAYERS-11).
 class RenderFront
 {
 public:
@@ -124,7 +128,8 @@ public:
 
   /// FRONT-10, first pass: levels that a node lies below the part of the front that the last
   /// update needed; 0 for what it needed itself (which must stay), larger for what may be released
-  /// first. Branches out of sight count from their last ancestor in sight.
+  /// first. Branches out of sight count from their last ancestor in sight; of a hidden layer
+  /// nothing is needed, not even its root.
   std::uint32_t distanceUnderFront(NodeIndex node) const;
 
   /// Back to the roots and the initial threshold.

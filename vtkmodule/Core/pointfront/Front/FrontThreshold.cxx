@@ -1,0 +1,284 @@
+#include "pointfront/Front/FrontThreshold.h"
+
+#include <algorithm>
+#include <cassert>
+#include <limits>
+
+namespace pointfront
+{
+namespace
+{
+
+/// Rungs that the threshold falls by an update: a factor of 0.8, from 60 px to 1 px in 19 frames.
+constexpr int rungsPerFall = 20;
+
+std::uint64_t shareOf(std::uint64_t budget, double share)
+{
+  return share < 1.0 ? static_cast<std::uint64_t>(share * static_cast<double>(budget)) : budget;
+}
+
+} // namespace
+
+int FrontThreshold::rungOf(std::uint16_t layer) const
+{
+  return layer < layers_.size() && layers_[layer].share > 0.0
+    ? std::min(common_.rung, layers_[layer].own.rung)
+    : common_.rung;
+}
+
+double FrontThreshold::lowestPx(std::uint16_t layer) const
+{
+  const bool own = layer < layers_.size() && layers_[layer].share > 0.0;
+  return ladder_.at(own ? std::min(common_.goal, layers_[layer].own.goal) : common_.goal);
+}
+
+double FrontThreshold::largestPx(const ActiveTree& tree) const
+{
+  int rung = 0;
+  for (SlotIndex root = 0; root < tree.rootCount(); ++root)
+  {
+    rung = tree[root].hidden ? rung : std::max(rung, rungOf(tree[root].layer));
+  }
+  return ladder_.at(rung);
+}
+
+void FrontThreshold::adoptLayers(const ActiveTree& tree)
+{
+  std::size_t count = 0;
+  double sum = 0.0;
+  for (const LayerLimits& layer : limits_.layers)
+  {
+    sum += layer.visible ? layer.share : 0.0;
+  }
+  for (SlotIndex root = 0; sum > 0.0 && root < tree.rootCount(); ++root)
+  {
+    count = std::max<std::size_t>(count, tree[root].layer + std::size_t(1));
+  }
+  layers_.resize(count);
+  for (std::size_t l = 0; l < count; ++l)
+  {
+    const bool given = l < limits_.layers.size() && limits_.layers[l].visible;
+    const double share = given ? limits_.layers[l].share / std::max(1.0, sum) : 0.0;
+    if (layers_[l].share == 0.0)
+    {
+      layers_[l].own.rung = common_.rung;
+    }
+    layers_[l].share = share;
+  }
+}
+
+void FrontThreshold::begin(
+  const FrontLimits& limits, const ActiveTree& tree, bool inputChanged, bool mayFall)
+{
+  assert(limits.targetErrorPx > 0.0 && limits.movesPerFrame > 0);
+  if (first_ || limits_.targetErrorPx != limits.targetErrorPx ||
+    limits_.initialErrorPx != limits.initialErrorPx)
+  {
+    const double before = first_ ? limits.initialErrorPx : ladder_.at(common_.rung);
+    ladder_ = ThresholdLadder(limits.targetErrorPx, limits.initialErrorPx);
+    common_.rung = ladder_.rungFor(before);
+    layers_.clear();
+    first_ = false;
+  }
+  limits_ = limits;
+  mayFall_ = mayFall;
+  if (inputChanged)
+  {
+    adoptLayers(tree);
+  }
+  // FRONT-7: in motion the threshold rises to what holds the frame rate, at rest it falls.
+  floor_ = limits.interacting ? ladder_.rungFor(limits.motionErrorPx) : 0;
+  const auto start = [&](Rung& state)
+  {
+    state.lowest = inputChanged ? 0 : state.lowest;
+    state.rung = std::max(state.rung, floor_);
+    state.goal = mayFall ? std::max(floor_, state.rung - rungsPerFall) : state.rung;
+  };
+  start(common_);
+  for (LayerRung& layer : layers_)
+  {
+    start(layer.own);
+  }
+}
+
+bool FrontThreshold::fits(const Demand& wanted, double share) const
+{
+  const bool heldFits =
+    limits_.heldPointBudget == 0 || wanted.held <= shareOf(limits_.heldPointBudget, share);
+  const bool drawnFits =
+    limits_.pointBudget == 0 || wanted.drawn <= shareOf(limits_.pointBudget, share);
+  return heldFits && drawnFits;
+}
+
+Demand FrontThreshold::totalAt(
+  const ActiveTree& tree, const FrontDemand& demand, int common) const
+{
+  Demand sum;
+  for (SlotIndex root = 0; root < tree.rootCount(); ++root)
+  {
+    const std::uint16_t layer = tree[root].layer;
+    const bool own = layer < layers_.size() && layers_[layer].share > 0.0;
+    const int rung = own ? std::min(common, layers_[layer].own.rung) : common;
+    sum += demand.ofRoot(root, ladder_.at(rung));
+  }
+  return sum;
+}
+
+/// Where nodes come whole nothing is won above the largest error of a root: the plan then cuts
+/// what is too much. Where prefixes are drawn, a higher threshold draws fewer points.
+int FrontThreshold::highestOf(const ActiveTree& tree) const
+{
+  double largestPx = 0.0;
+  for (SlotIndex root = 0; root < tree.rootCount(); ++root)
+  {
+    largestPx = std::max<double>(largestPx, tree[root].visible ? tree[root].errorPx : 0.0f);
+  }
+  const double headroom = tree.refinement() == Refinement::Add ? 65536.0 : 1.0;
+  return ladder_.rungFor(largestPx * headroom);
+}
+
+/// The lowest rung from the goal on that fits.
+template <typename FitsAt>
+void FrontThreshold::settle(Rung& state, int highest, FitsAt fitsAt)
+{
+  int unfit = state.rung;
+  int fit = state.rung;
+  const bool rises = !fitsAt(state.rung);
+  if (rises)
+  {
+    fit = std::max(state.rung, highest);
+    for (int stride = 1; unfit + stride < fit; stride *= 2)
+    {
+      if (fitsAt(unfit + stride))
+      {
+        fit = unfit + stride;
+        break;
+      }
+      unfit += stride;
+    }
+  }
+  else
+  {
+    const int lowest = std::min(state.rung, std::max(state.goal, state.lowest));
+    if (lowest == state.rung || fitsAt(lowest))
+    {
+      state.rung = lowest;
+      state.bound = mayFall_ && lowest > floor_ && lowest == state.lowest;
+      return;
+    }
+    unfit = lowest;
+  }
+  // By bisection between a rung that does not fit and a higher one that does.
+  while (fit - unfit > 1)
+  {
+    const int middle = unfit + (fit - unfit) / 2;
+    (fitsAt(middle) ? fit : unfit) = middle;
+  }
+  state.rung = fit;
+  state.bound = true;
+  if (rises)
+  {
+    // What grew beyond the budget at a lower threshold will do so again.
+    state.lowest = fit;
+  }
+}
+
+void FrontThreshold::choose(const ActiveTree& tree, const FrontDemand& demand)
+{
+  const int before = common_.rung;
+  changed_ = false;
+  if (limits_.pointBudget == 0 && limits_.heldPointBudget == 0)
+  {
+    common_.rung = common_.goal;
+    common_.bound = false;
+    for (LayerRung& layer : layers_)
+    {
+      layer.own.rung = common_.rung;
+      layer.own.bound = false;
+    }
+  }
+  else
+  {
+    chooseFitting(tree, demand);
+  }
+  changed_ = changed_ || common_.rung != before;
+  commonPx_ = ladder_.at(common_.rung);
+  for (std::size_t l = 0; l < layers_.size(); ++l)
+  {
+    layers_[l].px = ladder_.at(rungOf(static_cast<std::uint16_t>(l)));
+  }
+}
+
+void FrontThreshold::chooseFitting(const ActiveTree& tree, const FrontDemand& demand)
+{
+  const int highest = highestOf(tree);
+  for (std::size_t l = 0; l < layers_.size(); ++l)
+  {
+    LayerRung& layer = layers_[l];
+    if (layer.share > 0.0)
+    {
+      const int ownBefore = layer.own.rung;
+      settle(layer.own, highest,
+        [&](int rung)
+        {
+          Demand sum;
+          for (SlotIndex root = 0; root < tree.rootCount(); ++root)
+          {
+            if (tree[root].layer == l)
+            {
+              sum += demand.ofRoot(root, ladder_.at(rung));
+            }
+          }
+          return fits(sum, layer.share);
+        });
+      changed_ = changed_ || layer.own.rung != ownBefore;
+    }
+  }
+  int demandRung = -1;
+  settle(common_, highest,
+    [&](int rung)
+    {
+      const Demand wanted = totalAt(tree, demand, rung);
+      const bool enough = fits(wanted, 1.0);
+      if (enough)
+      {
+        demand_ = wanted;
+        demandRung = rung;
+      }
+      else
+      {
+        boundByMemory_ = limits_.pointBudget == 0 || wanted.drawn <= limits_.pointBudget;
+      }
+      return enough;
+    });
+  if (demandRung != common_.rung)
+  {
+    demand_ = totalAt(tree, demand, common_.rung); // not even the highest fits
+  }
+}
+
+bool FrontThreshold::admit(const Demand& more)
+{
+  if (limits_.pointBudget == 0 && limits_.heldPointBudget == 0)
+  {
+    return true;
+  }
+  Demand wanted = demand_;
+  wanted += more;
+  if (!fits(wanted, 1.0))
+  {
+    boundByMemory_ = limits_.pointBudget == 0 || wanted.drawn <= limits_.pointBudget;
+    return false;
+  }
+  demand_ = wanted;
+  return true;
+}
+
+bool FrontThreshold::falling() const
+{
+  const auto falls = [&](const Rung& state) { return state.rung > floor_ && !state.bound; };
+  return falls(common_) || std::any_of(layers_.begin(), layers_.end(),
+    [&](const LayerRung& layer) { return layer.share > 0.0 && falls(layer.own); });
+}
+
+} // namespace pointfront

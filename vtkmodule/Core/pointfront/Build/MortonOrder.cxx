@@ -11,7 +11,6 @@ namespace
 {
 constexpr unsigned mostAxisBits = 21; // 3 * 21 fit a 64-bit key
 constexpr unsigned mostDigitBits = 11;
-constexpr unsigned mostPasses = 6; // 63 bits
 constexpr std::size_t mostDigits = std::size_t(1) << mostDigitBits;
 
 /// Two zero bits before each bit of a byte.

@@ -199,7 +199,7 @@ Result<Header> readHeader(const InputFile& file)
   header.tableChecksum = in.get<std::uint32_t>();
   std::uint32_t checksum = 0;
   std::memcpy(&checksum, bytes + headerChecksumAt, sizeof checksum);
-  if (checksum != checksumOf(bytes, headerChecksumAt))
+  if (!matchesChecksum(bytes, headerChecksumAt, checksum))
   {
     return corrupt(file.path(), 0, "the header's checksum does not match");
   }
@@ -310,7 +310,7 @@ Result<std::unique_ptr<const SideFile>> SideFile::open(const std::string& path)
   {
     return done.error();
   }
-  if (checksumOf(table.data(), table.size()) != header->tableChecksum)
+  if (!matchesChecksum(table.data(), table.size(), header->tableChecksum))
   {
     return corrupt(path, header->tableOffset, "the table's checksum does not match");
   }
@@ -334,7 +334,7 @@ Result<std::vector<std::byte>> SideFile::readList(NodeIndex node) const
   {
     return done.error();
   }
-  if (checksumOf(list.data(), list.size()) != row.checksum)
+  if (!matchesChecksum(list.data(), list.size(), row.checksum))
   {
     return corrupt(file_->path(), row.offset,
       "node " + std::to_string(node) + ": the checksum of its runs does not match");

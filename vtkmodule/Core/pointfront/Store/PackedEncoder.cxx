@@ -138,6 +138,7 @@ void codesOf(const ComponentPlanes<T>& planes, std::size_t begin, unsigned c, bo
   CodeGroup<T>& codes)
 {
   const T* values = planes.plane(c) + begin;
+  const T* before = values - 1;
   const std::size_t count = std::min(codesPerGroup, planes.points() - begin);
   if (!difference)
   {
@@ -147,14 +148,14 @@ void codesOf(const ComponentPlanes<T>& planes, std::size_t begin, unsigned c, bo
   {
     for (std::size_t i = 0; i < count; ++i)
     {
-      codes[i] = zigzag(static_cast<T>(values[i] - values[i - 1]));
+      codes[i] = zigzag(static_cast<T>(values[i] - before[i]));
     }
   }
   else
   {
     for (std::size_t i = 0; i < codesPerGroup; ++i) // of fixed length: vectors without a rest
     {
-      codes[i] = zigzag(static_cast<T>(values[i] - values[i - 1]));
+      codes[i] = zigzag(static_cast<T>(values[i] - before[i]));
     }
   }
   std::fill(codes.begin() + static_cast<std::ptrdiff_t>(count), codes.end(), T(0));

@@ -39,7 +39,7 @@ Result<Bytes> readSection(const InputFile& file, const SectionEntry& section, co
   {
     return done.error();
   }
-  if (checksumOf(bytes.data.get(), bytes.size) != section.checksum)
+  if (!matchesChecksum(bytes.data.get(), bytes.size, section.checksum))
   {
     return corruptStore(
       file.path(), section.offset, std::string("the ") + name + "'s checksum does not match");
@@ -188,7 +188,7 @@ std::uint64_t runBytes(
 std::string decodeFault(const BlockDirectory::Block& block, const std::byte* data,
   const BlockShape& shape, std::byte* values)
 {
-  if (checksumOf(data, block.bytes) != block.checksum)
+  if (!matchesChecksum(data, block.bytes, block.checksum))
   {
     return ": the checksum does not match";
   }

@@ -168,7 +168,7 @@ Result<StoreHeader> decodeHeader(
   header.footerOffset = in.get<std::uint64_t>();
   header.footerBytes = in.get<std::uint32_t>();
   ByteReader end(data + headerChecksumAt, 4);
-  if (end.get<std::uint32_t>() != checksumOf(data, headerChecksumAt))
+  if (!matchesChecksum(data, headerChecksumAt, end.get<std::uint32_t>()))
   {
     return corruptStore(path, 0, "the header's checksum does not match");
   }
@@ -184,7 +184,7 @@ Result<StoreFooter> decodeFooter(
 {
   const std::size_t size = header.footerBytes;
   ByteReader end(data + size - 4, 4);
-  if (end.get<std::uint32_t>() != checksumOf(data, size - 4))
+  if (!matchesChecksum(data, size - 4, end.get<std::uint32_t>()))
   {
     return corruptStore(path, header.footerOffset, "the footer's checksum does not match");
   }

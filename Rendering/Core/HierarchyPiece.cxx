@@ -12,7 +12,8 @@ namespace
 constexpr std::uint64_t unitsPerPiece = 8;
 
 /// Walks depth first and gives every unit (a small subtree, or the own points of a node above them)
-/// to the piece in which its middle point lies.
+/// to the piece in which its middle point lies. Representatives above the units go to every piece
+/// that has something below them: each piece needs them until its own children are there.
 class PieceChoice
 {
 public:
@@ -38,7 +39,8 @@ private:
   {
     const std::uint64_t middle = before_ + points / 2;
     before_ += points;
-    return middle * pieces_ / std::max<std::uint64_t>(total_, 1) == piece_;
+    const std::uint64_t owner = middle * pieces_ / std::max<std::uint64_t>(total_, 1);
+    return std::min(owner, pieces_ - 1) == piece_;
   }
 
   void keepAll(NodeIndex index)
@@ -63,12 +65,14 @@ private:
       }
       return whole;
     }
-    bool any = mine(node.pointCount);
-    owned_[index] = any ? 1 : 0;
+    const bool representatives = whole_.refinement() == Refinement::Replace;
+    const bool own = !representatives && mine(node.pointCount);
+    bool any = own;
     for (std::uint32_t child = 0; child < node.childCount; ++child)
     {
       any = visit(node.firstChild + child) || any;
     }
+    owned_[index] = own || (representatives && any) ? 1 : 0;
     kept_[index] = any ? 1 : 0;
     return any;
   }
@@ -135,9 +139,7 @@ HierarchyPiece::HierarchyPiece(std::shared_ptr<const Hierarchy> whole, int piece
   }
   for (std::size_t at = nodes.size(); at-- > 0;) // children come after their parent
   {
-    // Representatives are no points of the input.
-    const bool original = whole->refinement() == Refinement::Add || nodes[at].leaf();
-    nodes[at].pointsBelow = original ? nodes[at].pointCount : 0;
+    nodes[at].pointsBelow = originalPoints(nodes[at], whole->refinement());
     for (std::uint32_t child = 0; child < nodes[at].childCount; ++child)
     {
       nodes[at].pointsBelow += nodes[nodes[at].firstChild + child].pointsBelow;

@@ -12,9 +12,11 @@ namespace pointfront
 /// The share of a hierarchy that one of several processes draws (sort-last rendering).
 /// Shapes      whole subtrees, neighbours in depth-first order, about as many points in each piece.
 ///             Nodes above them stand in every piece that has something below them, but only one
-///             piece has their points; in the others their point count is 0.
-/// Guarantees  the pieces together have every point once. Piece 0 of 1 is the hierarchy itself,
-///             without a copy.
+///             piece has their points; in the others their point count is 0. With
+///             Refinement::Replace each of those pieces has their representatives, to show them
+///             until its own part of the children is there.
+/// Guarantees  the pieces together have every point of the input once. Piece 0 of 1 is the
+///             hierarchy itself, without a copy.
 class POINTFRONTRENDERINGCORE_EXPORT HierarchyPiece
 {
 public:

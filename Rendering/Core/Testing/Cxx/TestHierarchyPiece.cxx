@@ -10,7 +10,7 @@ namespace
 {
 
 /// Four levels: a root, 4, 16 and 64 nodes of 10 points each, breadth first.
-std::shared_ptr<const HierarchyTable> fourLevels()
+std::shared_ptr<const HierarchyTable> fourLevels(Refinement refinement = Refinement::Add)
 {
   std::vector<Node> nodes(85);
   NodeIndex next = 1;
@@ -27,14 +27,14 @@ std::shared_ptr<const HierarchyTable> fourLevels()
   for (NodeIndex i = 85; i-- > 0;)
   {
     nodes[i].pointCount = 10;
-    nodes[i].pointsBelow += 10;
+    nodes[i].pointsBelow += originalPoints(nodes[i], refinement);
     if (i > 0)
     {
       nodes[nodes[i].parent].pointsBelow += nodes[i].pointsBelow;
     }
   }
   return std::make_shared<HierarchyTable>(
-    std::move(nodes), std::vector<NodeIndex>{0}, Refinement::Add);
+    std::move(nodes), std::vector<NodeIndex>{0}, refinement);
 }
 
 TEST(HierarchyPiece, OneOfOneIsTheHierarchyItself)
@@ -79,6 +79,31 @@ TEST(HierarchyPiece, PiecesHaveEachPointOnceAndAreBalanced)
   }
   EXPECT_EQ(owned.size(), 85u);
   EXPECT_EQ(points, 850u);
+}
+
+TEST(HierarchyPiece, RepresentativesStandInEveryPieceThatHasSomethingBelow)
+{
+  const auto whole = fourLevels(Refinement::Replace);
+  std::set<NodeIndex> leaves;
+  for (int number = 0; number < 3; ++number)
+  {
+    const HierarchyPiece piece(whole, number, 3);
+    std::uint64_t mine = 0;
+    for (NodeIndex i = 0; i < piece.hierarchy()->nodeCount(); ++i)
+    {
+      const Node& node = piece.hierarchy()->node(i);
+      EXPECT_EQ(node.pointCount, 10u);
+      EXPECT_EQ(node.leaf(), whole->node(piece.toStore(i)).leaf()) << "no node lost all children";
+      if (node.leaf())
+      {
+        EXPECT_TRUE(leaves.insert(piece.toStore(i)).second) << "twice: " << piece.toStore(i);
+        mine += node.pointCount;
+      }
+    }
+    EXPECT_EQ(piece.hierarchy()->node(0).pointsBelow, mine);
+    EXPECT_NEAR(static_cast<double>(mine), 640.0 / 3, 60.0);
+  }
+  EXPECT_EQ(leaves.size(), 64u) << "every leaf is in a piece";
 }
 
 TEST(HierarchyPiece, MorePiecesThanNodesLeavesSomeEmpty)

@@ -116,6 +116,12 @@ def batch(programs):
 def ranks(programs):
     programs.run(*mpi(2, os.environ["POINTFRONT_PVBATCH"], os.path.join(HERE, "batch.py"), "ranks"))
     compare("ranks", "tool")
+    # Means above, the input's points in the leaves: at full detail the same picture.
+    store = os.environ["POINTFRONT_STORE"] = os.path.abspath("replace.pfront")
+    tool("build", os.environ["POINTFRONT_CLOUD"], "-o", store, "--refinement", "replace", "--force")
+    script = os.path.join(HERE, "pieces.py")
+    programs.run(*mpi(3, os.environ["POINTFRONT_PVBATCH"], script, "pieces"))
+    compare("pieces", "tool")
 
 
 def server(programs):

@@ -20,13 +20,47 @@ namespace
 {
 constexpr std::size_t pageBytes = 4096;
 constexpr double secondsBetweenReports = 0.1;
-/// Pages of the map may count as memory of this process up to here, then they are given back.
-constexpr std::size_t mappedLimit = std::size_t(32) << 20;
+/// Records with at most this many unwanted bytes between them are fetched by one read: the system
+/// reads whole pages, and ahead.
+constexpr std::uint64_t mergeGapBytes = 4 * pageBytes;
+constexpr std::uint64_t readAtOnce = std::uint64_t(1) << 20;
 
-/// The records of some points, one behind the other, each at its place in the prefix order. They
-/// are fetched in the order of the file: a disk is read forwards.
-std::vector<std::byte> gather(
-  const GridRecords& records, const std::vector<std::uint64_t>& points)
+/// The records of some points (ascending), one behind the other: the disk is read forwards.
+Result<RawBytes> recordsAt(
+  const InputFile& file, const GridRecords& records, const std::vector<std::uint64_t>& points)
+{
+  RawBytes gathered(points.size() * records.stride);
+  RawBytes window(static_cast<std::size_t>(readAtOnce) + records.stride);
+  const auto offset = [&](std::size_t i)
+  { return records.fileOffset + points[i] * records.stride; };
+  for (std::size_t first = 0; first < points.size();)
+  {
+    std::size_t end = first + 1;
+    while (end < points.size() && offset(end) - offset(end - 1) <= mergeGapBytes &&
+      offset(end) - offset(first) <= readAtOnce)
+    {
+      ++end;
+    }
+    const std::uint64_t size = offset(end - 1) + records.stride - offset(first);
+    Result<void> done =
+      file.readAt(offset(first), window.data.get(), static_cast<std::size_t>(size));
+    if (!done)
+    {
+      return done.error();
+    }
+    for (std::size_t i = first; i < end; ++i)
+    {
+      std::memcpy(gathered.data.get() + i * records.stride,
+        window.data.get() + (offset(i) - offset(first)), records.stride);
+    }
+    first = end;
+  }
+  return gathered;
+}
+
+/// Each record at its place in the prefix order.
+std::vector<std::byte> inPrefixOrder(
+  const std::byte* records, std::size_t stride, const std::vector<std::uint64_t>& points)
 {
   std::vector<RankedHash> ranked(points.size());
   for (std::uint32_t i = 0; i < points.size(); ++i)
@@ -34,18 +68,12 @@ std::vector<std::byte> gather(
     ranked[i] = { i, static_cast<std::uint32_t>(SampleStream::mixed(points[i]) >> 32) };
   }
   const std::vector<std::uint32_t> order = prefixBatches(std::move(ranked));
-  std::vector<std::uint32_t> place(order.size());
-  for (std::uint32_t rank = 0; rank < order.size(); ++rank)
+  std::vector<std::byte> ordered(points.size() * stride);
+  for (std::size_t rank = 0; rank < order.size(); ++rank)
   {
-    place[order[rank]] = rank;
+    std::memcpy(ordered.data() + rank * stride, records + order[rank] * stride, stride);
   }
-  std::vector<std::byte> gathered(points.size() * records.stride);
-  for (std::size_t i = 0; i < points.size(); ++i)
-  {
-    std::memcpy(gathered.data() + place[i] * records.stride, records.record(points[i]),
-      records.stride);
-  }
-  return gathered;
+  return ordered;
 }
 
 void decodeSteps(const GridRecords& gathered, const glm::ivec3& low, NodeColumns& to)
@@ -87,9 +115,11 @@ std::string differenceOf(const IndexedFile& now, const IndexedFile& then)
 }
 } // namespace
 
-IndexedLASFile::IndexedLASFile(std::unique_ptr<const SideFile> side, LASFile file)
+IndexedLASFile::IndexedLASFile(std::unique_ptr<const SideFile> side, LASFile file,
+  std::unique_ptr<const InputFile> points)
   : side_(std::move(side))
   , file_(std::move(file))
+  , points_(std::move(points))
 {
 }
 
@@ -158,8 +188,13 @@ Result<std::shared_ptr<const IndexedLASFile>> IndexedLASFile::open(const std::st
   {
     return counted.error();
   }
+  Result<std::unique_ptr<const InputFile>> points = InputFile::open(lasPath);
+  if (!points)
+  {
+    return points.error();
+  }
   std::shared_ptr<IndexedLASFile> indexed(
-    new IndexedLASFile(std::move(*side), std::move(*file)));
+    new IndexedLASFile(std::move(*side), std::move(*file), std::move(*points)));
   if (Result<void> same = indexed->checkIdentity(sidePath); !same)
   {
     return same.error();
@@ -179,16 +214,7 @@ std::size_t IndexedLASFile::storedBytes(NodeIndex node, const ColumnSelection&) 
   return row.bytes + row.pages * pageBytes;
 }
 
-void IndexedLASFile::giveBack(std::size_t bytes) const
-{
-  if (mapped_.fetch_add(bytes) + bytes > mappedLimit)
-  {
-    mapped_ = 0;
-    file_.map.release(0, file_.map.size());
-  }
-}
-
-Result<NodeColumns> IndexedLASFile::read(NodeIndex node, const ColumnSelection& columns) const
+Result<FetchedNode> IndexedLASFile::fetch(NodeIndex node, const ColumnSelection& columns) const
 {
   assert(node < hierarchy_->nodeCount());
   const Result<std::vector<std::uint64_t>> points = side_->pointsOf(node);
@@ -196,18 +222,36 @@ Result<NodeColumns> IndexedLASFile::read(NodeIndex node, const ColumnSelection& 
   {
     return points.error();
   }
-  const GridRecords records = recordsOf(file_);
-  const std::vector<std::byte> bytes = gather(records, *points);
-  giveBack(side_->content().table.rows[node].pages * pageBytes);
-  GridRecords gathered = records;
-  gathered.first = bytes.data();
-  gathered.count = points->size();
-  NodeColumns result = emptyColumns(node, points->size(), columns, description_.schema);
-  decodeSteps(gathered, side_->content().table.rows[node].low, result);
-  for (std::size_t c = 0; c < columns.size(); ++c)
+  Result<RawBytes> records = recordsAt(*points_, recordsOf(file_), *points);
+  if (!records)
+  {
+    return records.error();
+  }
+  RawBytes numbers(points->size() * sizeof(std::uint64_t));
+  std::memcpy(numbers.data.get(), points->data(), numbers.size);
+  FetchedNode fetched{ node, columns, {} };
+  fetched.runs.push_back(std::move(records).value());
+  fetched.runs.push_back(std::move(numbers));
+  return fetched;
+}
+
+Result<NodeColumns> IndexedLASFile::decode(const FetchedNode& fetched) const
+{
+  const RawBytes& numbers = fetched.runs[1];
+  std::vector<std::uint64_t> points(numbers.size / sizeof(std::uint64_t));
+  std::memcpy(points.data(), numbers.data.get(), numbers.size);
+  GridRecords records = recordsOf(file_);
+  const std::vector<std::byte> bytes =
+    inPrefixOrder(fetched.runs[0].data.get(), records.stride, points);
+  records.first = bytes.data();
+  records.count = points.size();
+  NodeColumns result =
+    emptyColumns(fetched.node, points.size(), fetched.columns, description_.schema);
+  decodeSteps(records, side_->content().table.rows[fetched.node].low, result);
+  for (std::size_t c = 0; c < fetched.columns.size(); ++c)
   {
     decodeLASColumn(
-      file_.layout, columns[c], bytes.data(), points->size(), result.columns[c].data());
+      file_.layout, fetched.columns[c], bytes.data(), points.size(), result.columns[c].data());
   }
   return result;
 }

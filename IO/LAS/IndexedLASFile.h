@@ -3,9 +3,9 @@
 #include "LASFile.h"
 
 #include "pointfront/InPlace/SideFile.h"
+#include "pointfront/Store/InputFile.h"
 #include "pointfront/Store/StoredCloud.h"
 
-#include <atomic>
 #include <memory>
 #include <string>
 
@@ -13,12 +13,12 @@ namespace pointfront
 {
 
 /// A LAS file that is drawn in place, through the side file that indexLASFile() made. Points are
-/// decoded straight from a map of the LAS file.
+/// read from the LAS file where they lie; a disk that goes away gives errors, not signals.
 /// Order     a node's points by prefix batches, each in the order of the file.
 /// Threads   all functions are safe from any thread.
 /// Errors    open: those of SideFile and LASFile; NotFound if the LAS file is not where the side
 ///           file says; Corrupt if it is not the file that was indexed, with what differs.
-///           read: Corrupt with the node.
+///           fetch: Unreadable, Truncated; Corrupt with the node.
 /// Limits    the LAS file must not be written to while it is open (see MemoryMap).
 class IndexedLASFile final : public StoredCloud
 {
@@ -27,25 +27,27 @@ public:
 
   const StoreDescription& description() const override { return description_; }
   const std::shared_ptr<const Hierarchy>& hierarchy() const override { return hierarchy_; }
-  Result<NodeColumns> read(NodeIndex node, const ColumnSelection& columns) const override;
+  Result<FetchedNode> fetch(NodeIndex node, const ColumnSelection& columns) const override;
+  Result<NodeColumns> decode(const FetchedNode& fetched) const override;
   std::size_t decodedBytes(NodeIndex node, const ColumnSelection& columns) const override;
   /// Whole pages, all columns: records lie as they lie.
   std::size_t storedBytes(NodeIndex node, const ColumnSelection& columns) const override;
+  std::uint64_t disk() const override { return points_->device(); }
   /// Also that every point of the LAS file is in exactly one node.
   Result<VerifyReport> verify(const ProgressFunction& progress = {}) const override;
 
 private:
-  IndexedLASFile(std::unique_ptr<const SideFile> side, LASFile file);
+  IndexedLASFile(std::unique_ptr<const SideFile> side, LASFile file,
+    std::unique_ptr<const InputFile> points);
   Result<void> checkIdentity(const std::string& sidePath) const;
   void describe(const std::string& sidePath);
-  void giveBack(std::size_t bytes) const;
   Result<std::string> membersFault(const ProgressFunction& progress) const;
 
   std::unique_ptr<const SideFile> side_;
-  LASFile file_;
+  LASFile file_; ///< its map is for opening: pages that are gone raise a signal
+  std::unique_ptr<const InputFile> points_;
   StoreDescription description_;
   std::shared_ptr<const Hierarchy> hierarchy_;
-  mutable std::atomic<std::size_t> mapped_{ 0 }; ///< bytes touched since pages were given back
 };
 
 /// Opens side files of LAS files as stored clouds.

@@ -24,7 +24,8 @@ public:
   {
   }
 
-  Result<NodeColumns> read(NodeIndex node, const ColumnSelection& columns) const override
+  /// Here are the gate and the failures.
+  Result<FetchedNode> fetch(NodeIndex node, const ColumnSelection& columns) const override
   {
     {
       std::unique_lock<std::mutex> lock(mutex_);
@@ -34,6 +35,7 @@ public:
       changed_.wait(lock, [&] { return open_ || tickets_ > 0; });
       tickets_ -= open_ ? 0 : 1;
       --waiting_;
+      changed_.notify_all();
       if (broken_.count(node) > 0)
       {
         return makeError(
@@ -44,6 +46,13 @@ public:
         throw std::runtime_error("made to throw");
       }
     }
+    return FetchedNode{ node, columns, {} };
+  }
+
+  Result<NodeColumns> decode(const FetchedNode& fetched) const override
+  {
+    const NodeIndex node = fetched.node;
+    const ColumnSelection& columns = fetched.columns;
     NodeColumns result;
     result.node = node;
     result.origin = GridPosition(node);
@@ -68,6 +77,8 @@ public:
   {
     return pointsOf(node) * (3 + columns.size());
   }
+
+  std::uint64_t disk() const override { return diskNumber; }
 
   std::size_t pointsOf(NodeIndex node) const { return points_ + node % 7 * varyBy; }
   std::size_t trueBytes(NodeIndex node, const ColumnSelection& columns) const
@@ -95,6 +106,7 @@ public:
     return order_;
   }
 
+  std::uint64_t diskNumber = 0;
   std::size_t promised = 0; ///< what decodedBytes() says, if not the truth
   std::size_t varyBy = 0;   ///< points more in nodes 1 to 6 of each seven
 

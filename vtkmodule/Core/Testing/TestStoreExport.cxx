@@ -32,8 +32,10 @@ public:
       node(25, 25, 2, 1, noNode, 0) };
   }
 
-  Result<NodeColumns> read(NodeIndex index, const ColumnSelection& columns) const override
+  Result<NodeColumns> decode(const FetchedNode& fetched) const override
   {
+    const NodeIndex index = fetched.node;
+    const ColumnSelection& columns = fetched.columns;
     if (index == broken)
     {
       return makeError(Error::Kind::Corrupt, "node is broken");

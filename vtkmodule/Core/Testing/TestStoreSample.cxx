@@ -23,8 +23,10 @@ public:
     grid.scale = glm::dvec3(0.5);
     grid.offset = glm::dvec3(0.0, 0.0, 1000.0);
   }
-  Result<NodeColumns> read(NodeIndex index, const ColumnSelection& selection) const override
+  Result<NodeColumns> decode(const FetchedNode& fetched) const override
   {
+    const NodeIndex index = fetched.node;
+    const ColumnSelection& selection = fetched.columns;
     reads = std::max(reads, static_cast<int>(index) + 1);
     NodeColumns node;
     node.selection = selection;

@@ -13,8 +13,10 @@ namespace
 class RememberingReader final : public NodeReader
 {
 public:
-  Result<NodeColumns> read(NodeIndex node, const ColumnSelection& columns) const override
+  Result<NodeColumns> decode(const FetchedNode& fetched) const override
   {
+    const NodeIndex node = fetched.node;
+    const ColumnSelection& columns = fetched.columns;
     const std::lock_guard<std::mutex> lock(mutex_);
     asked_.push_back(node);
     NodeColumns result;

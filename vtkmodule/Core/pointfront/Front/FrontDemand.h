@@ -39,7 +39,10 @@ public:
   }
 
   /// Of the tree under a root, at a threshold in the pixels of ActiveNode::errorPx.
-  Demand ofRoot(SlotIndex root, double thresholdPx) const { return below(tree_[root], thresholdPx); }
+  Demand ofRoot(SlotIndex root, double thresholdPx) const
+  {
+    return below(tree_[root], thresholdPx);
+  }
   /// Of the children that a front node has in the table.
   Demand ofChildren(const ActiveNode& parent, double thresholdPx) const;
   /// Points of a visible node drawn at a threshold. Representatives (Replace) carry a

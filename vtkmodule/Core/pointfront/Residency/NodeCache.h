@@ -25,7 +25,7 @@ struct CachedNode
   bool tooLarge = false;    ///< failed because it does not fit the whole budget
 };
 
-/// The nodes in memory, and which of them go when room is needed (FRONT-10).
+/// The nodes of a store that are in memory or were asked for, and their account.
 /// Threads  none of its own: the owner locks. Pointers that come out may be dropped anywhere.
 class NodeCache
 {
@@ -49,11 +49,6 @@ public:
   /// Takes a node's points out.
   std::shared_ptr<const NodeColumns> remove(NodeIndex node);
 
-  /// Takes out at least `bytes` of nodes that lie under the front, as far as there are any:
-  /// counts the bytes at each distance, then takes all beyond a distance and of that one
-  /// what is still missing, highest node first.
-  std::vector<NodeIndex> farthest(std::size_t bytes, const Distance& distance) const;
-
   /// Of the nodes in here; what was taken out and is still held somewhere is not among them.
   std::size_t bytes() const { return bytes_; }
   std::uint32_t count() const { return count_; }
@@ -62,6 +57,14 @@ public:
   void forEach(Function function)
   {
     for (auto& [node, cached] : nodes_)
+    {
+      function(node, cached);
+    }
+  }
+  template <typename Function>
+  void forEach(Function function) const
+  {
+    for (const auto& [node, cached] : nodes_)
     {
       function(node, cached);
     }

@@ -4,6 +4,7 @@
 #include "pointfront/Front/RenderFront.h"
 #include "pointfront/Store/NodeReader.h"
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -13,6 +14,10 @@
 namespace pointfront
 {
 
+class LoadScheduler;
+class StoreNodes;
+
+/// Of a residency with a scheduler of its own.
 struct ResidencyOptions
 {
   std::size_t budgetBytes = std::size_t(1) << 30; ///< hard: decoded nodes never hold more
@@ -33,25 +38,30 @@ struct ResidencyStatistics
   std::uint64_t bytesRead = 0;      ///< from the disk
 };
 
-/// Decoded nodes of one store in host memory, under one hard budget; loader threads bring in
-/// what is asked for (FRONT-9) and what is farthest under the front is released first (FRONT-10).
+/// Decoded nodes of one store in host memory, under hard budgets: the store's own and that of its
+/// scheduler, which brings in what is asked for (FRONT-9); what is farthest under the front is
+/// released first (FRONT-10), over all stores of the scheduler.
 /// Order       needed requests by priority, then re-reads for new columns, then optional requests;
 ///             a request that does not fit waits, smaller ones behind it go on. Nodes that are
 ///             drawn (found) with old columns are read again before everything else.
-/// Threads     request(), find(), ... are called by one thread (the renderer's); loader threads are
-///             its own and run at a lower priority. Destruction joins them; a running read is
-///             waited for, a waiting one dropped.
-/// Guarantees  residentBytes <= budgetBytes always: room is made, or reserved by its
+/// Threads     request(), release(), find(), ... are called by one thread (the renderer's), the
+///             same for all residencies of a scheduler. Destruction withdraws what waits, waits for
+///             a running read (not for one that hangs) and gives the memory back.
+/// Guarantees  residentBytes <= the budgets always: room is made, or reserved by its
 ///             decodedBytes(), before a read begins. find() never blocks on the disk. A node that
 ///             was released while somebody holds its points stays on the account until they
 ///             are dropped. After setBudgetBytes() to less than is held nothing is loaded
 ///             until release() has come down to it.
 /// Errors      a node that cannot be read is Failed for good (for these columns); one that is
 ///             larger than the whole budget is Failed until the budget grows. Each is
-///             reported once by takeErrors().
+///             reported once by takeErrors(); a file that cannot be read once for all its nodes.
 class Residency final : public ResidencyView
 {
 public:
+  /// One of several stores of a scheduler. Its own budget is without limit until setBudgetBytes().
+  Residency(std::shared_ptr<const NodeReader> reader, NodeIndex nodeCount,
+    std::shared_ptr<LoadScheduler> scheduler, std::uint64_t points = 0);
+  /// With a scheduler of its own.
   Residency(
     std::shared_ptr<const NodeReader> reader, NodeIndex nodeCount, ResidencyOptions options);
   ~Residency() override;
@@ -68,7 +78,8 @@ public:
 
   /// Frees memory for what is requested and does not fit (not for optional requests): nodes by
   /// distance under the front, farthest first, two passes (count, release). Nodes of distance 0
-  /// stay. `distance` is asked for resident nodes only and must not call this object. Costs
+  /// stay. `distance` is asked for resident nodes only and must not call this object; it is kept
+  /// until the next call, and asked again when other stores of the scheduler want room. Costs
   /// nothing while everything fits; call it after each request().
   void release(const std::function<std::uint32_t(NodeIndex)>& distance);
 
@@ -92,14 +103,23 @@ public:
   void waitUntilIdle() const;
   /// Blocks until arrivals() differs from `seen`, or as waitUntilIdle().
   void waitForArrival(std::uint64_t seen) const;
+  /// The same, at most that long.
+  void waitForArrival(std::uint64_t seen, std::chrono::milliseconds most) const;
 
   std::vector<Error> takeErrors();
   ResidencyStatistics statistics() const;
+  /// The store's own; the scheduler's holds too.
   void setBudgetBytes(std::size_t bytes);
+  /// The lower of the two.
+  std::size_t budgetBytes() const;
+  /// This store's points as a share of those of all stores of the scheduler: its part of what is
+  /// shared in proportion to size (SMOOTH-2).
+  double shareOfAll() const;
+  LoadScheduler& scheduler() const { return *scheduler_; }
 
 private:
-  struct Content;
-  std::unique_ptr<Content> content_;
+  std::shared_ptr<LoadScheduler> scheduler_;
+  std::shared_ptr<StoreNodes> nodes_;
 };
 
 } // namespace pointfront

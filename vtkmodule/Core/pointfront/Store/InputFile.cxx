@@ -24,10 +24,12 @@ Error notReadable(const std::string& path, int error)
 }
 } // namespace
 
-InputFile::InputFile(std::string path, int descriptor, std::uint64_t bytes)
+InputFile::InputFile(
+  std::string path, int descriptor, std::uint64_t bytes, std::uint64_t device)
   : path_(std::move(path))
   , descriptor_(descriptor)
   , bytes_(bytes)
+  , device_(device)
 {
 }
 
@@ -55,7 +57,8 @@ Result<std::unique_ptr<const InputFile>> InputFile::open(const std::string& path
       "cannot read '" + path + "': it is not a file; name a file");
   }
   return std::unique_ptr<const InputFile>(
-    new InputFile(path, descriptor, static_cast<std::uint64_t>(status.st_size)));
+    new InputFile(path, descriptor, static_cast<std::uint64_t>(status.st_size),
+      static_cast<std::uint64_t>(status.st_dev)));
 }
 
 bool InputFile::isLocked() const

@@ -22,6 +22,8 @@ public:
   InputFile& operator=(const InputFile&) = delete;
 
   const std::string& path() const { return path_; }
+  /// The number of the file system that it lies on.
+  std::uint64_t device() const { return device_; }
   std::uint64_t bytes() const { return bytes_; } ///< when it was opened
   /// True while somebody else has the file open under an exclusive lock: it is being replaced or
   /// kept by a running build. Also true on file systems that have no locks.
@@ -31,10 +33,11 @@ public:
   Result<void> readAt(std::uint64_t offset, std::byte* target, std::size_t size) const;
 
 private:
-  InputFile(std::string path, int descriptor, std::uint64_t bytes);
+  InputFile(std::string path, int descriptor, std::uint64_t bytes, std::uint64_t device);
   std::string path_;
   int descriptor_;
   std::uint64_t bytes_;
+  std::uint64_t device_;
 };
 
 } // namespace pointfront

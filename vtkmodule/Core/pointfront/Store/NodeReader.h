@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace pointfront
@@ -42,17 +43,59 @@ struct NodeColumns
   }
 };
 
-/// Where nodes are decoded from: a store, or a made-up one in tests.
-/// Threads  both functions are called from several loader threads at once.
+/// Bytes that are written before they are read: not cleared.
+struct RawBytes
+{
+  RawBytes() = default;
+  explicit RawBytes(std::size_t bytes)
+    : data(new std::byte[bytes])
+    , size(bytes)
+  {
+  }
+  std::unique_ptr<std::byte[]> data;
+  std::size_t size = 0;
+};
+
+/// What of a node came from the disk, as it lies there: on the way from fetch() to decode().
+struct FetchedNode
+{
+  NodeIndex node = noNode;
+  ColumnSelection columns;
+  std::vector<RawBytes> runs; ///< their meaning is the reader's
+};
+
+/// Where nodes come from: a store, or a made-up one in tests. In two steps, so that the disk serves
+/// one at a time while processors decode others (SMOOTH-8).
+/// Threads  all functions are called from several loader threads at once.
 class NodeReader
 {
 public:
   virtual ~NodeReader() = default;
-  virtual Result<NodeColumns> read(NodeIndex node, const ColumnSelection& columns) const = 0;
-  /// Host bytes that read() of these columns will need: known before, so that a budget can hold.
+  /// The disk's part: reads bytes, and does no more with them than it must. May take long. Without
+  /// a disk there is nothing to fetch.
+  virtual Result<FetchedNode> fetch(NodeIndex node, const ColumnSelection& columns) const
+  {
+    return FetchedNode{ node, columns, {} };
+  }
+  /// The processor's part: checks and decodes. Touches no file.
+  virtual Result<NodeColumns> decode(const FetchedNode& fetched) const = 0;
+  /// Both, one after the other.
+  Result<NodeColumns> read(NodeIndex node, const ColumnSelection& columns) const
+  {
+    const Result<FetchedNode> fetched = fetch(node, columns);
+    if (!fetched)
+    {
+      return fetched.error();
+    }
+    return decode(*fetched);
+  }
+
+  /// Host bytes that the points will need: known before, so that a budget can hold.
   virtual std::size_t decodedBytes(NodeIndex node, const ColumnSelection& columns) const = 0;
-  /// Bytes that read() fetches from the disk.
+  /// Bytes that fetch() reads from the disk.
   virtual std::size_t storedBytes(NodeIndex node, const ColumnSelection& columns) const = 0;
+  /// A number that readers on the same disk (file system) share.
+  virtual std::uint64_t disk() const { return 0; }
 };
 
 } // namespace pointfront

@@ -19,22 +19,10 @@ namespace
 /// and the page cache hand out whole pages anyway.
 constexpr std::uint64_t mergeGapBytes = 4096;
 
-/// Bytes that are written before they are read: not cleared.
-struct Bytes
+Result<RawBytes> readSection(const InputFile& file, const SectionEntry& section, const char* name)
 {
-  std::unique_ptr<std::byte[]> data;
-  std::size_t size = 0;
-};
-
-Bytes allocate(std::uint64_t size)
-{
-  return { std::unique_ptr<std::byte[]>(new std::byte[static_cast<std::size_t>(size)]),
-    static_cast<std::size_t>(size) };
-}
-
-Result<Bytes> readSection(const InputFile& file, const SectionEntry& section, const char* name)
-{
-  Bytes bytes = allocate(section.bytes); // at most the file's size: the footer was checked
+  // At most the file's size: the footer was checked.
+  RawBytes bytes(static_cast<std::size_t>(section.bytes));
   if (Result<void> done = file.readAt(section.offset, bytes.data.get(), bytes.size); !done)
   {
     return done.error();
@@ -61,7 +49,7 @@ Result<StoreHeader> readHeader(const InputFile& file)
 
 Result<StoreFooter> readFooter(const InputFile& file, const StoreHeader& header)
 {
-  const Bytes bytes = allocate(header.footerBytes);
+  const RawBytes bytes(static_cast<std::size_t>(header.footerBytes));
   if (Result<void> done = file.readAt(header.footerOffset, bytes.data.get(), bytes.size); !done)
   {
     return done.error();
@@ -72,7 +60,7 @@ Result<StoreFooter> readFooter(const InputFile& file, const StoreHeader& header)
 Result<StoredDescription> readDescription(const InputFile& file, const StoreFooter& footer)
 {
   const SectionEntry& section = *footer.find(SectionKind::Description);
-  Result<Bytes> bytes = readSection(file, section, "description");
+  Result<RawBytes> bytes = readSection(file, section, "description");
   if (!bytes)
   {
     return bytes.error();
@@ -93,7 +81,7 @@ Result<std::vector<Node>> readNodes(
   {
     return corruptStore(file.path(), section.offset, "the node table's size is wrong");
   }
-  Result<Bytes> bytes = readSection(file, section, "node table");
+  Result<RawBytes> bytes = readSection(file, section, "node table");
   if (!bytes)
   {
     return bytes.error();
@@ -116,7 +104,7 @@ Result<BlockDirectory> readDirectory(const InputFile& file, const StoreFooter& f
   {
     return corruptStore(file.path(), section.offset, "the block directory's size is wrong");
   }
-  Result<Bytes> bytes = readSection(file, section, "block directory");
+  Result<RawBytes> bytes = readSection(file, section, "block directory");
   if (!bytes)
   {
     return bytes.error();
@@ -321,24 +309,42 @@ std::size_t PointStore::storedBytes(NodeIndex node, const ColumnSelection& colum
   return static_cast<std::size_t>(sum);
 }
 
-Result<NodeColumns> PointStore::read(NodeIndex node, const ColumnSelection& columns) const
+std::uint64_t PointStore::disk() const
+{
+  return content_->file->device();
+}
+
+Result<FetchedNode> PointStore::fetch(NodeIndex node, const ColumnSelection& columns) const
 {
   assert(node < content_->hierarchy->nodeCount());
+  const auto blocks = wantedBlocks(content_->directory, node, columns);
+  FetchedNode fetched{ node, columns, {} };
+  for (std::size_t first = 0; first < blocks.size(); first = runEnd(blocks, first))
+  {
+    RawBytes run(static_cast<std::size_t>(runBytes(blocks, first, runEnd(blocks, first))));
+    Result<void> done = content_->file->readAt(blocks[first].offset, run.data.get(), run.size);
+    if (!done)
+    {
+      return done.error();
+    }
+    fetched.runs.push_back(std::move(run));
+  }
+  return fetched;
+}
+
+Result<NodeColumns> PointStore::decode(const FetchedNode& fetched) const
+{
+  const NodeIndex node = fetched.node;
+  const ColumnSelection& columns = fetched.columns;
   const StoreDescription& description = content_->description;
   const std::size_t points = content_->hierarchy->node(node).pointCount;
   const auto blocks = wantedBlocks(content_->directory, node, columns);
   NodeColumns result = emptyColumns(node, points, columns, description.schema);
   result.origin = content_->directory.origin(node);
-  for (std::size_t first = 0; first < blocks.size();)
+  auto run = fetched.runs.begin();
+  for (std::size_t first = 0; first < blocks.size(); ++run)
   {
     const std::size_t end = runEnd(blocks, first);
-    const Bytes coded = allocate(runBytes(blocks, first, end));
-    Result<void> done =
-      content_->file->readAt(blocks[first].offset, coded.data.get(), coded.size);
-    if (!done)
-    {
-      return done.error();
-    }
     for (std::size_t b = first; b < end; ++b)
     {
       BlockShape shape = positionShape(points);
@@ -348,7 +354,7 @@ Result<NodeColumns> PointStore::read(NodeIndex node, const ColumnSelection& colu
         shape = columnShape(description.schema[columns[b - 1]], points);
         values = result.columns[b - 1].data();
       }
-      const std::byte* data = coded.data.get() + (blocks[b].offset - blocks[first].offset);
+      const std::byte* data = run->data.get() + (blocks[b].offset - blocks[first].offset);
       const std::string fault = decodeFault(blocks[b], data, shape, values);
       if (!fault.empty())
       {

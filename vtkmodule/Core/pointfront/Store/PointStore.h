@@ -11,7 +11,8 @@ namespace pointfront
 /// A `.pfront` file, open for reading. The format: docs/formats/pfront.md.
 /// Threads    all functions are safe from any thread (positional reads, no shared cursor).
 /// Errors     open: NotFound, Unreadable, BadFormat (not a store), Unsupported (a newer version, or
-///            made for other codecs), Truncated, Corrupt. read: Corrupt with node and byte offset.
+///            made for other codecs), Truncated, Corrupt. fetch: Unreadable, Truncated. decode:
+///            Corrupt with node and byte offset.
 class PointStore final : public StoredCloud
 {
 public:
@@ -26,9 +27,11 @@ public:
   const StoreDescription& description() const override;
   const std::shared_ptr<const Hierarchy>& hierarchy() const override;
 
-  Result<NodeColumns> read(NodeIndex node, const ColumnSelection& columns) const override;
+  Result<FetchedNode> fetch(NodeIndex node, const ColumnSelection& columns) const override;
+  Result<NodeColumns> decode(const FetchedNode& fetched) const override;
   std::size_t decodedBytes(NodeIndex node, const ColumnSelection& columns) const override;
   std::size_t storedBytes(NodeIndex node, const ColumnSelection& columns) const override;
+  std::uint64_t disk() const override;
 
   Result<VerifyReport> verify(const ProgressFunction& progress = {}) const override;
 

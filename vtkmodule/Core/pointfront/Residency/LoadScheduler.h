@@ -1,0 +1,89 @@
+#pragma once
+
+#include "pointfront/Residency/MemoryBudget.h"
+#include "pointfront/Residency/NodeCache.h"
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+
+namespace pointfront
+{
+
+class StoreNodes;
+
+struct LoadSchedulerOptions
+{
+  /// Of decoded nodes in host memory, over all stores. Hard.
+  std::size_t budgetBytes = std::size_t(1) << 30;
+  /// That fetch and decode; 0: one less than there are processors, 2 to 16.
+  unsigned threads = 0;
+  /// A read that takes longer holds up no other store (see DiskLane).
+  std::chrono::milliseconds overdueAfter{ 250 };
+  /// Threads more, at most, in the place of those that hang in overdue reads.
+  unsigned spareThreads = 8;
+};
+
+struct LoadSchedulerStatistics
+{
+  std::uint32_t stores = 0;
+  std::uint32_t threads = 0; ///< spare ones included
+  std::uint32_t overdueReads = 0;
+  std::size_t residentBytes = 0;
+  std::size_t residentBytesMax = 0;
+};
+
+/// Loads the nodes of any number of stores: they share its threads, its host memory and one order
+/// of requests, so that a hundred stores cost what one does. Stores come and go at run time: each
+/// Residency is one.
+/// Order       most urgent first over all stores: nodes drawn with old columns, then needed ones by
+///             projected error, then re-reads, then optional ones; ties by the order of joining.
+/// Disk        one read at a time over all stores, decoding beside it on the other threads; a read
+///             that hangs is passed by others (DiskLane). Bytes fetched and not yet decoded, at
+///             most one node a thread, are not on the account.
+/// Memory      release() frees by distance under the fronts of all stores together (FRONT-10).
+/// Threads     its own for loading, at a lower priority. release() and the distance functions that
+///             were given to it: one thread (the renderer's) for all residencies of a scheduler.
+///             The rest from any thread. The last residency to go ends the scheduler: running reads
+///             are waited for, except overdue ones, which end by themselves.
+/// Source      Futterlieb, Teutsch & Berndt 2016, section 3.3 (SMOOTH-8); docs/adr.
+class LoadScheduler
+{
+public:
+  explicit LoadScheduler(const LoadSchedulerOptions& options);
+  ~LoadScheduler();
+  LoadScheduler(const LoadScheduler&) = delete;
+  LoadScheduler& operator=(const LoadScheduler&) = delete;
+
+  /// That of this process: it begins with its first user and ends with the last.
+  static std::shared_ptr<LoadScheduler> ofProcess();
+  /// Its budget, whether it runs or not.
+  static void setProcessBudgetBytes(std::size_t bytes);
+  static std::size_t processBudgetBytes();
+
+  const std::shared_ptr<MemoryBudget>& budget() const;
+  void setBudgetBytes(std::size_t bytes);
+  LoadSchedulerStatistics statistics() const;
+
+  // For residencies.
+
+  /// From now on the store takes its turn. `points`: its size, for shareOf().
+  void join(const std::shared_ptr<StoreNodes>& store, std::uint64_t points);
+  /// Returns when nothing of the store is being read any more, but does not wait for a read that is
+  /// overdue.
+  void leave(const std::shared_ptr<StoreNodes>& store);
+  /// The store's points as a share of those of all stores here (SMOOTH-2: sections of the overview
+  /// are in proportion to size).
+  double shareOf(const StoreNodes& store) const;
+  /// Frees what the waiting requests of all stores need, and what this one's own budget does.
+  /// `distance` is kept, and asked again when other stores want room.
+  void release(StoreNodes& store, const NodeCache::Distance& distance);
+
+private:
+  LoadScheduler(const LoadSchedulerOptions& options, std::shared_ptr<MemoryBudget> budget);
+  struct Content;
+  std::shared_ptr<Content> content_; ///< shared with threads that hang in a read at the end
+};
+
+} // namespace pointfront

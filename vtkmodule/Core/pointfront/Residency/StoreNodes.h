@@ -1,0 +1,138 @@
+#pragma once
+
+#include "pointfront/Base/Error.h"
+#include "pointfront/Residency/MemoryBudget.h"
+#include "pointfront/Residency/NodeCache.h"
+#include "pointfront/Residency/ReleasePlan.h"
+#include "pointfront/Residency/RequestQueue.h"
+#include "pointfront/Residency/Residency.h"
+#include "pointfront/Store/NodeReader.h"
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+namespace pointfront
+{
+
+/// One store's part of what a LoadScheduler loads: its nodes in memory, what is asked for, and what
+/// should come next. What it promises its users is written at Residency, which is its face.
+/// Order     needed requests by priority, then re-reads for new columns, then optional requests; a
+///           request that does not fit waits, smaller ones behind it go on. Nodes that are drawn
+///           with old columns are read again before everything else.
+/// Threads   all functions from any thread; its lock is never held while a node is read.
+class StoreNodes
+{
+public:
+  struct Task
+  {
+    NodeIndex node = noNode;
+    ColumnSelection columns;
+    std::size_t bytes = 0; ///< reserved for it
+    bool reread = false;   ///< of a node that is or was in memory with other columns
+  };
+  /// What waits longest for is compared across stores by this: lower ranks first, then larger
+  /// priorities (projected errors).
+  struct Urgency
+  {
+    int rank = 0;
+    double priority = 0.0;
+  };
+
+  /// `budget` is the store's own, a part of the scheduler's.
+  StoreNodes(std::shared_ptr<const NodeReader> reader, NodeIndex nodeCount,
+    std::shared_ptr<MemoryBudget> budget);
+
+  const NodeReader& reader() const { return *reader_; }
+  MemoryBudget& budget() const { return *budget_; }
+
+  // What Residency does.
+  bool setColumns(const ColumnSelection& columns); ///< false: no change
+  ColumnSelection columns() const;
+  bool request(const std::vector<LoadRequest>& requests); ///< false: no change
+  std::shared_ptr<const NodeColumns> find(NodeIndex node);
+  ResidencyView::State state(NodeIndex node) const;
+  std::uint64_t revision() const { return revision_; }
+  std::uint64_t arrivals() const { return arrivals_; }
+  bool exhausted() const;
+  bool idle() const; ///< nothing is loading, nothing that waits fits
+  void setArrivalFunction(std::function<void()> arrived);
+  std::vector<Error> takeErrors();
+  ResidencyStatistics statistics() const;
+  /// The budget has changed: what was too large for it may be no more.
+  void reconsider();
+
+  // What the scheduler does.
+  std::optional<Urgency> next() const; ///< of what waits and fits
+  std::optional<Task> begin();         ///< takes that; none when it does not fit any more
+  /// A read has ended. True when there is something new: then tell() is called.
+  bool finish(const Task& task, Result<NodeColumns> result);
+  void tell();
+  void leave(); ///< after all: the task is no longer loading
+  /// Its requests are withdrawn and its nodes leave; nobody is told of anything any more.
+  void close();
+
+  std::size_t waitingBytes() const; ///< of what is asked for and does not wait for free memory
+  std::size_t stayingBytes() const; ///< in memory or on its way
+  void offer(
+    std::uint32_t number, const NodeCache::Distance& distance, ReleasePlan& plan) const;
+  using Gone = std::vector<std::shared_ptr<const NodeColumns>>;
+  /// Takes a node out; who calls drops the points after all locks.
+  void release(NodeIndex node, Gone& gone);
+  /// What the last release found; true when that is a change.
+  bool noteRelease(bool nothingFound);
+  bool loading() const;
+
+private:
+  struct Choice
+  {
+    LoadRequest request;
+    int rank = 0;
+    bool reread = false;
+    bool inPlaceOfOld = false; ///< fits only after the node's old points are gone
+  };
+
+  std::size_t need(NodeIndex node) const;
+  std::optional<Choice> choose() const;
+  void noteLeastNeed();
+  void markFailed(CachedNode& cached, Error error);
+  void report(Error error);
+  void refuseTooLarge(const std::vector<LoadRequest>& requests);
+  bool store(const Task& task, NodeColumns points);
+
+  const std::shared_ptr<const NodeReader> reader_;
+  const NodeIndex nodeCount_;
+  /// Shared with the points that are out: they may be dropped after this object is gone.
+  const std::shared_ptr<MemoryBudget> budget_;
+
+  mutable std::mutex mutex_; ///< of all below
+  NodeCache cache_;
+  RequestQueue queue_;
+  RequestQueue rereads_;
+  ColumnSelection columns_;
+  std::vector<Error> errors_;
+  std::unordered_map<NodeIndex, std::size_t> trueBytes_; ///< where decodedBytes() said too little
+  std::size_t leastNeed_ = 0;  ///< nothing that waits needs less
+  mutable std::size_t waiting_ = 0;
+  mutable bool waitingKnown_ = false; ///< `waiting_` is what waitingBytes() says
+  std::size_t loadingBytes_ = 0;
+  std::uint32_t loading_ = 0;
+  bool nothingToRelease_ = false; ///< found by the last release that room was wanted from
+  bool fileFailed_ = false;       ///< told already that the file cannot be read
+  std::uint64_t requested_ = 0;
+  std::uint64_t cancelled_ = 0;
+  std::uint64_t failed_ = 0;
+  std::uint64_t released_ = 0;
+  std::uint64_t bytesRead_ = 0;
+
+  std::atomic<std::uint64_t> arrivals_{ 0 };
+  std::atomic<std::uint64_t> revision_{ 1 };
+  std::mutex arrivedMutex_; ///< held while `arrived_` runs
+  std::function<void()> arrived_;
+};
+
+} // namespace pointfront

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "pointfront/Front/ActiveTree.h"
+#include "pointfront/Front/DemandCurve.h"
 #include "pointfront/Front/View.h"
 
 #include <cstdint>
@@ -43,6 +44,8 @@ public:
   {
     return below(tree_[root], thresholdPx);
   }
+  /// The demand at all thresholds, of the active nodes alone.
+  void curves(DemandCurve& drawn, DemandCurve& held) const;
   /// Of the children that a front node has in the table.
   Demand ofChildren(const ActiveNode& parent, double thresholdPx) const;
   /// Points of a visible node drawn at a threshold. Representatives (Replace) carry a
@@ -50,6 +53,8 @@ public:
   static std::uint32_t pointsOf(const ActiveNode& node, Refinement refinement, double thresholdPx);
 
 private:
+  struct Curves;
+  void addBelow(const ActiveNode& node, double beginPx, Curves& curves) const;
   Demand below(const ActiveNode& node, double thresholdPx) const;
   Demand joined(const ActiveNode& node, const Demand& children, double thresholdPx) const;
 

@@ -40,6 +40,11 @@ void FrontPlan::make(ActiveTree& tree, const FrontThreshold& threshold,
   update_ = update;
   missing_ = 0;
   clipped_ = false;
+  mostDrawn_ = limits.pointBudget > 0 ? limits.pointBudget : UINT64_MAX;
+  if (limits.sharedDrawn.points > 0)
+  {
+    mostDrawn_ = std::min(mostDrawn_, limits.sharedDrawn.leftAt(0.0)); // beside what others draw
+  }
   wanted_.clear();
   delta.draw.clear();
   delta.pointsDrawn = 0;
@@ -179,10 +184,10 @@ void FrontPlan::prefetch(const ActiveNode& node, double priority)
 
 void FrontPlan::draw(const ActiveNode& node, std::uint32_t points)
 {
-  if (limits_->pointBudget > 0 && points > limits_->pointBudget - delta_->pointsDrawn)
+  if (points > mostDrawn_ - delta_->pointsDrawn)
   {
     clipped_ = true;
-    points = static_cast<std::uint32_t>(limits_->pointBudget - delta_->pointsDrawn);
+    points = static_cast<std::uint32_t>(mostDrawn_ - delta_->pointsDrawn);
   }
   if (points > 0)
   {

@@ -53,6 +53,7 @@ private:
   const FrontLimits* limits_ = nullptr;
   FrontDelta* delta_ = nullptr;
   std::vector<LoadRequest> wanted_;
+  std::uint64_t mostDrawn_ = 0;
   double thresholdPx_ = 0.0; ///< of the layer being visited
   std::uint32_t update_ = 0;
   std::uint32_t missing_ = 0;

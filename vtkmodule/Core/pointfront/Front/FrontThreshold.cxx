@@ -17,6 +17,16 @@ std::uint64_t shareOf(std::uint64_t budget, double share)
   return share < 1.0 ? static_cast<std::uint64_t>(share * static_cast<double>(budget)) : budget;
 }
 
+/// More room than when a threshold proved too low, by this share of it: it is tried again.
+constexpr double moreRoom = 1.02;
+
+bool fitsIn(std::uint64_t points, std::uint64_t budget, const SharedLimit& shared, double share,
+  double px)
+{
+  return (budget == 0 || points <= shareOf(budget, share)) &&
+    (shared.points == 0 || points <= shareOf(shared.leftAt(px), share));
+}
+
 } // namespace
 
 int FrontThreshold::rungOf(std::uint16_t layer) const
@@ -86,6 +96,12 @@ void FrontThreshold::begin(
   {
     adoptLayers(tree);
   }
+  if (!inputChanged && common_.lowest > 0 &&
+    static_cast<double>(sharedLeft(ladder_.at(common_.lowest))) >
+      moreRoom * static_cast<double>(leftAtLowest_))
+  {
+    common_.lowest = 0;
+  }
   // FRONT-7: in motion the threshold rises to what holds the frame rate, at rest it falls.
   floor_ = limits.interacting ? ladder_.rungFor(limits.motionErrorPx) : 0;
   const auto start = [&](Rung& state)
@@ -101,13 +117,32 @@ void FrontThreshold::begin(
   }
 }
 
-bool FrontThreshold::fits(const Demand& wanted, double share) const
+bool FrontThreshold::limited() const
 {
-  const bool heldFits =
-    limits_.heldPointBudget == 0 || wanted.held <= shareOf(limits_.heldPointBudget, share);
-  const bool drawnFits =
-    limits_.pointBudget == 0 || wanted.drawn <= shareOf(limits_.pointBudget, share);
-  return heldFits && drawnFits;
+  return limits_.pointBudget > 0 || limits_.heldPointBudget > 0 ||
+    limits_.sharedDrawn.points > 0 || limits_.sharedHeld.points > 0;
+}
+
+bool FrontThreshold::drawnFits(std::uint64_t points, double share, double px) const
+{
+  return fitsIn(points, limits_.pointBudget, limits_.sharedDrawn, share, px);
+}
+
+bool FrontThreshold::fits(const Demand& wanted, double share, double px) const
+{
+  return drawnFits(wanted.drawn, share, px) &&
+    fitsIn(wanted.held, limits_.heldPointBudget, limits_.sharedHeld, share, px);
+}
+
+/// Of both shared limits together: grows when others take less.
+std::uint64_t FrontThreshold::sharedLeft(double px) const
+{
+  std::uint64_t left = 0;
+  for (const SharedLimit* shared : { &limits_.sharedDrawn, &limits_.sharedHeld })
+  {
+    left += shared->points > 0 ? shared->leftAt(px) : 0;
+  }
+  return left;
 }
 
 Demand FrontThreshold::totalAt(
@@ -187,7 +222,7 @@ void FrontThreshold::choose(const ActiveTree& tree, const FrontDemand& demand)
 {
   const int before = common_.rung;
   changed_ = false;
-  if (limits_.pointBudget == 0 && limits_.heldPointBudget == 0)
+  if (!limited())
   {
     common_.rung = common_.goal;
     common_.bound = false;
@@ -229,17 +264,19 @@ void FrontThreshold::chooseFitting(const ActiveTree& tree, const FrontDemand& de
               sum += demand.ofRoot(root, ladder_.at(rung));
             }
           }
-          return fits(sum, layer.share);
+          return fits(sum, layer.share, ladder_.at(rung));
         });
       changed_ = changed_ || layer.own.rung != ownBefore;
     }
   }
+  const int lowestBefore = common_.lowest;
   int demandRung = -1;
   settle(common_, highest,
     [&](int rung)
     {
       const Demand wanted = totalAt(tree, demand, rung);
-      const bool enough = fits(wanted, 1.0);
+      const double px = ladder_.at(rung);
+      const bool enough = fits(wanted, 1.0, px);
       if (enough)
       {
         demand_ = wanted;
@@ -247,10 +284,14 @@ void FrontThreshold::chooseFitting(const ActiveTree& tree, const FrontDemand& de
       }
       else
       {
-        boundByMemory_ = limits_.pointBudget == 0 || wanted.drawn <= limits_.pointBudget;
+        boundByMemory_ = drawnFits(wanted.drawn, 1.0, px);
       }
       return enough;
     });
+  if (common_.lowest > 0 && common_.lowest != lowestBefore)
+  {
+    leftAtLowest_ = sharedLeft(ladder_.at(common_.lowest));
+  }
   if (demandRung != common_.rung)
   {
     demand_ = totalAt(tree, demand, common_.rung); // not even the highest fits
@@ -259,15 +300,12 @@ void FrontThreshold::chooseFitting(const ActiveTree& tree, const FrontDemand& de
 
 bool FrontThreshold::admit(const Demand& more)
 {
-  if (limits_.pointBudget == 0 && limits_.heldPointBudget == 0)
-  {
-    return true;
-  }
   Demand wanted = demand_;
   wanted += more;
-  if (!fits(wanted, 1.0))
+  const double px = commonPx_;
+  if (!fits(wanted, 1.0, px))
   {
-    boundByMemory_ = limits_.pointBudget == 0 || wanted.drawn <= limits_.pointBudget;
+    boundByMemory_ = drawnFits(wanted.drawn, 1.0, px);
     return false;
   }
   demand_ = wanted;

@@ -41,6 +41,8 @@ public:
   /// budget.
   bool admit(const Demand& more);
 
+  /// By any budget.
+  bool limited() const;
   bool changed() const { return changed_; }   ///< by the last choose()
   bool atTarget() const { return common_.rung == 0; }
   bool bound() const { return common_.bound; } ///< by a budget, which keeps the next lower rung out
@@ -65,12 +67,14 @@ private:
 
   int rungOf(std::uint16_t layer) const;
   Demand totalAt(const ActiveTree& tree, const FrontDemand& demand, int common) const;
-  bool fits(const Demand& wanted, double share) const;
+  bool fits(const Demand& wanted, double share, double px) const;
   void chooseFitting(const ActiveTree& tree, const FrontDemand& demand);
   template <typename FitsAt>
   void settle(Rung& state, int highest, FitsAt fitsAt);
   int highestOf(const ActiveTree& tree) const;
   void adoptLayers(const ActiveTree& tree);
+  bool drawnFits(std::uint64_t points, double share, double px) const;
+  std::uint64_t sharedLeft(double px) const;
 
   ThresholdLadder ladder_;
   FrontLimits limits_;
@@ -82,6 +86,7 @@ private:
   bool mayFall_ = false;
   bool changed_ = false;
   bool boundByMemory_ = false;
+  std::uint64_t leftAtLowest_ = 0; ///< of the shared limits when common_.lowest was found
   Demand demand_;       ///< the last one that fits: of the thresholds in force
 };
 

@@ -18,13 +18,15 @@ constexpr double collapseBelow = 0.8;
 /// Updates that a branch stays in the cut after it was last in sight.
 constexpr std::uint32_t updatesUnseen = 30;
 
+/// What others take of a shared limit is no input: it may change with every update of theirs.
 bool operator==(const FrontLimits& a, const FrontLimits& b)
 {
   return a.targetErrorPx == b.targetErrorPx && a.initialErrorPx == b.initialErrorPx &&
     a.movesPerFrame == b.movesPerFrame && a.pointBudget == b.pointBudget &&
     a.heldPointBudget == b.heldPointBudget && a.requestLimit == b.requestLimit &&
     a.interacting == b.interacting && a.motionErrorPx == b.motionErrorPx &&
-    a.prefetchSiblings == b.prefetchSiblings && a.layers == b.layers;
+    a.prefetchSiblings == b.prefetchSiblings && a.layers == b.layers &&
+    a.sharedDrawn.points == b.sharedDrawn.points && a.sharedHeld.points == b.sharedHeld.points;
 }
 
 } // namespace
@@ -147,8 +149,7 @@ bool RenderFront::State::wantsCollapse(const ActiveNode& node) const
 /// the front when the threshold was chosen; those of nodes that came since are new to it.
 void RenderFront::State::expand(SlotIndex slot)
 {
-  const bool limited = limits.pointBudget > 0 || limits.heldPointBudget > 0;
-  if (limited && tree[slot].created == update)
+  if (threshold.limited() && tree[slot].created == update)
   {
     const FrontDemand estimate(tree, refinement(), view);
     if (!threshold.admit(estimate.ofChildren(tree[slot], thresholdOf(tree[slot]))))
@@ -257,7 +258,8 @@ const FrontDelta& RenderFront::update(
   State& s = *state_;
   const bool sameResidency = s.revision != 0 && s.revision == residency.revision() &&
     s.exhausted == (s.plan.missing() > 0 && residency.exhausted());
-  if (s.atRest && sameResidency && s.view == view && s.limits == limits)
+  if (s.atRest && sameResidency && s.view == view && s.limits == limits &&
+    s.limits.sharedRevision == limits.sharedRevision)
   {
     return s.delta;
   }
@@ -275,6 +277,20 @@ const FrontDelta& RenderFront::update(
   s.plan.make(s.tree, s.threshold, residency, s.limits, s.update, s.delta);
   s.finish(residency);
   return s.delta;
+}
+
+void RenderFront::demandCurves(DemandCurve& drawn, DemandCurve& held) const
+{
+  const State& s = *state_;
+  FrontDemand(s.tree, s.refinement(), s.view).curves(drawn, held);
+  double lowestPx = s.threshold.largestPx(s.tree);
+  for (SlotIndex root = 0; root < s.tree.rootCount(); ++root)
+  {
+    lowestPx = std::min(lowestPx, s.threshold.px(s.tree[root].layer));
+  }
+  drawn.levelOff(lowestPx);
+  held.levelOff(lowestPx);
+  drawn[0] = s.delta.pointsDrawn;
 }
 
 std::uint32_t RenderFront::distanceUnderFront(NodeIndex node) const

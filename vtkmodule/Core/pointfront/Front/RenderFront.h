@@ -1,5 +1,6 @@
 #pragma once
 
+#include "pointfront/Front/DemandCurve.h"
 #include "pointfront/Front/LayerLimits.h"
 #include "pointfront/Front/View.h"
 #include "pointfront/Store/Hierarchy.h"
@@ -31,6 +32,21 @@ public:
   virtual bool exhausted() const { return false; }
 };
 
+/// A limit of points that a front shares with others (SharedDemand.h).
+struct SharedLimit
+{
+  std::uint64_t points = 0; ///< of all together, in points of this store; 0: no limit
+  /// What the others take, in points of this store; step 0 is what they have at this moment. Not
+  /// null where there is a limit, and alive while the limits are in use.
+  const DemandCurve* elsewhere = nullptr;
+
+  std::uint64_t leftAt(double px) const
+  {
+    const std::uint64_t others = elsewhere->at(px);
+    return points > others ? points - others : 0;
+  }
+};
+
 /// What one update may do and strives for.
 struct FrontLimits
 {
@@ -43,6 +59,10 @@ struct FrontLimits
   /// although a prefix of it may be drawn); 0: no limit. Budget bytes / bytes of a decoded point,
   /// with some room to spare, makes a view that needs more settle at the best error that fits.
   std::uint64_t heldPointBudget = 0;
+  SharedLimit sharedDrawn;          ///< as pointBudget, over all clouds of a window
+  SharedLimit sharedHeld;           ///< as heldPointBudget, over all stores of a process
+  /// Changes whenever one of the curves of the shared limits does.
+  std::uint64_t sharedRevision = 0;
   std::uint32_t requestLimit = 256; ///< most requests handed out by one update
   bool interacting = false;         ///< in motion the threshold does not fall below motionErrorPx
   double motionErrorPx = 0.0;       ///< FRONT-7: raised by the caller until the frame rate holds
@@ -125,6 +145,10 @@ public:
   /// One frame. The result is owned by the front and valid until the next call.
   const FrontDelta& update(
     const View& view, const ResidencyView& residency, const FrontLimits& limits);
+
+  /// What the last update's view takes at each threshold from the one in force on, in points: on
+  /// screen and in memory. Below that it takes what it takes now; step 0 is what is drawn.
+  void demandCurves(DemandCurve& drawn, DemandCurve& held) const;
 
   /// FRONT-10, first pass: levels that a node lies below the part of the front that the last
   /// update needed; 0 for what it needed itself (which must stay), larger for what may be released

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "pointfront/Front/SharedDemand.h"
 #include "pointfront/Residency/MemoryBudget.h"
 #include "pointfront/Residency/NodeCache.h"
 
@@ -66,6 +67,9 @@ public:
   void setBudgetBytes(std::size_t bytes);
   LoadSchedulerStatistics statistics() const;
 
+  /// What the views of its stores want in memory, in bytes: they settle at one error (SharedDemand).
+  const std::shared_ptr<SharedDemand>& sharedDemand() const { return demand_; }
+
   // For residencies.
 
   /// From now on the store takes its turn. `points`: its size, for shareOf().
@@ -83,6 +87,7 @@ public:
 private:
   LoadScheduler(const LoadSchedulerOptions& options, std::shared_ptr<MemoryBudget> budget);
   struct Content;
+  const std::shared_ptr<SharedDemand> demand_ = std::make_shared<SharedDemand>();
   std::shared_ptr<Content> content_; ///< shared with threads that hang in a read at the end
 };
 

@@ -5,6 +5,7 @@
 #include "WholeFile.h"
 
 #include "pointfront/Front/View.h"
+#include "pointfront/Residency/LoadScheduler.h"
 #include "pointfront/Residency/Residency.h"
 #include "pointfront/Store/StoredCloud.h"
 #include "pointfront/Store/StoreSample.h"
@@ -43,6 +44,8 @@ namespace pointfront
 namespace
 {
 
+/// One store's arrivals are waited for that long before the others are looked at.
+constexpr std::chrono::milliseconds lookAtOthers{ 20 };
 constexpr double stillRate = 0.0001;      // frames a second: VTK's value for a view at rest
 constexpr double interactiveRate = 15.0;  // VTK's value for a view in motion
 
@@ -210,6 +213,10 @@ private:
 
 Result<void> OffscreenScene::openStores()
 {
+  if (options_.memoryBytes > 0)
+  {
+    vtkPointFrontStore::SetProcessMemoryBudget(static_cast<vtkTypeInt64>(options_.memoryBytes));
+  }
   for (const std::string& path : options_.stores)
   {
     auto drawn = std::make_unique<DrawnStore>();
@@ -218,11 +225,6 @@ Result<void> OffscreenScene::openStores()
     if (!drawn->store)
     {
       return makeError(Error::Kind::BadFormat, why);
-    }
-    if (options_.memoryBytes > 0)
-    {
-      drawn->store->SetHostMemoryBudget(
-        static_cast<vtkTypeInt64>(options_.memoryBytes / options_.stores.size()));
     }
     errors_.observe(drawn->reader);
     errors_.observe(drawn->mapper);
@@ -389,24 +391,27 @@ Result<FrameRecord> OffscreenScene::render(bool complete)
 
 bool OffscreenScene::waitForArrival()
 {
-  for (const auto& drawn : stores_)
+  while (true)
   {
-    if (drawn->mapper->NeedsRender())
+    const auto wanting = std::find_if(stores_.begin(), stores_.end(),
+      [](const auto& drawn) { return drawn->mapper->NeedsRender(); });
+    if (wanting != stores_.end())
     {
       return true;
     }
-  }
-  for (const auto& drawn : stores_)
-  {
-    Residency& residency = drawn->store->GetResidency();
-    const ResidencyStatistics now = residency.statistics();
-    if (now.pending + now.loading > 0)
+    const auto loading = std::find_if(stores_.begin(), stores_.end(),
+      [](const auto& drawn)
+      {
+        const ResidencyStatistics now = drawn->store->GetResidency().statistics();
+        return now.loading > 0 || (now.pending > 0 && !drawn->store->GetResidency().exhausted());
+      });
+    if (loading == stores_.end())
     {
-      residency.waitForArrival(residency.arrivals());
-      return true;
+      return false;
     }
+    const Residency& residency = (*loading)->store->GetResidency();
+    residency.waitForArrival(residency.arrivals(), lookAtOthers);
   }
-  return false;
 }
 
 std::vector<std::string> OffscreenScene::attributesRead() const
@@ -425,22 +430,12 @@ std::vector<std::string> OffscreenScene::attributesRead() const
 
 std::uint64_t OffscreenScene::budgetBytes() const
 {
-  std::uint64_t bytes = 0;
-  for (const auto& drawn : stores_)
-  {
-    bytes += static_cast<std::uint64_t>(drawn->store->GetHostMemoryBudget());
-  }
-  return bytes;
+  return static_cast<std::uint64_t>(vtkPointFrontStore::GetProcessMemoryBudget());
 }
 
 std::uint64_t OffscreenScene::residentBytesMax() const
 {
-  std::uint64_t bytes = 0;
-  for (const auto& drawn : stores_)
-  {
-    bytes += drawn->store->GetResidency().statistics().residentBytesMax;
-  }
-  return bytes;
+  return stores_.front()->store->GetResidency().scheduler().statistics().residentBytesMax;
 }
 
 Result<void> OffscreenScene::writePicture(const std::string& path)

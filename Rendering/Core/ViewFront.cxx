@@ -1,5 +1,7 @@
 #include "ViewFront.h"
 
+#include "pointfront/Residency/LoadScheduler.h"
+
 #include <algorithm>
 #include <chrono>
 
@@ -20,6 +22,8 @@ constexpr std::uint32_t requestsAtOnce = 1024;
 /// Frames that a moving view is looked ahead: about what a disk and a decoder take, and half a
 /// second at the rates of interactors.
 constexpr double framesAhead = 8.0;
+/// Longest wait for the roots: a disk that hangs must not hold up the other clouds of a scene.
+constexpr std::chrono::milliseconds rootTime{500};
 /// Fewest points of a frame in motion: less is no picture, whatever the machine.
 constexpr std::uint64_t fewestPoints = 100000;
 
@@ -53,11 +57,12 @@ private:
   const Residency& residency_;
 };
 
-ViewFront::ViewFront(
-  std::shared_ptr<const HierarchyPiece> piece, ResidencyShare& share, const AttributeSchema& schema)
+ViewFront::ViewFront(std::shared_ptr<const HierarchyPiece> piece, ResidencyShare& share,
+  const AttributeSchema& schema, std::shared_ptr<SharedDemand> windowDemand)
     : piece_(std::move(piece)), share_(share), schema_(schema), wish_(share.join()),
       residents_(std::make_unique<Residents>(*piece_, share.residency())),
-      front_(piece_->hierarchy()), margin_(piece_->hierarchy())
+      front_(piece_->hierarchy()), margin_(piece_->hierarchy()),
+      memory_(share.residency().scheduler().sharedDemand()), window_(std::move(windowDemand))
 {
 }
 
@@ -117,26 +122,68 @@ void ViewFront::loadRoots()
       roots.push_back({piece_->toStore(root), 1e9});
     }
   }
-  wish_->request(roots, [](NodeIndex) { return 0u; });
   const auto missing = [&](const LoadRequest& r)
   { return residency.state(r.node) == ResidencyView::State::Absent; };
-  while (std::any_of(roots.begin(), roots.end(), missing))
+  const auto end = std::chrono::steady_clock::now() + rootTime;
+  bool waits = true; // false: no room for them in the budget; the frame says what it can draw
+  while (waits && std::any_of(roots.begin(), roots.end(), missing) &&
+         std::chrono::steady_clock::now() < end)
   {
+    wish_->request(roots, [](NodeIndex) { return 0u; }); // frees memory for them, too
     const std::uint64_t seen = residency.arrivals();
-    residency.waitForArrival(seen);
+    residency.waitForArrival(seen, rootTime);
     const ResidencyStatistics now = residency.statistics();
-    if (residency.arrivals() == seen && now.pending + now.loading == 0)
-    {
-      break; // no room for them in the budget: the frame says what it can draw
-    }
+    waits = residency.arrivals() != seen || now.loading > 0 ||
+            (now.pending > 0 && !residency.exhausted());
   }
 }
 
-FrontLimits ViewFront::limitsOf(const FrameDemand& demand) const
+/// What the other views take now, of the memory and of the window.
+void ViewFront::readShares()
 {
-  FrontLimits limits;
+  const LoadScheduler& scheduler = share_.residency().scheduler();
+  const std::uint64_t revision = memory_.revision() + window_.revision();
+  if (revision != sharedSeen_)
+  {
+    sharedSeen_ = revision;
+    window_.elsewhere(drawnElsewhere_);
+    memory_.elsewhere(heldElsewhere_);
+    for (std::size_t step = 0; step < DemandCurve::size; ++step)
+    {
+      heldElsewhere_[step] /= pointBytes_;
+    }
+  }
+  limits_.sharedRevision = revision;
+  limits_.sharedDrawn.elsewhere = &drawnElsewhere_;
+  limits_.sharedHeld.elsewhere = &heldElsewhere_;
+  limits_.sharedHeld.points = static_cast<std::uint64_t>(heldShare *
+    static_cast<double>(scheduler.budget()->limit()) / static_cast<double>(pointBytes_));
+}
+
+/// What this view takes, for the others.
+void ViewFront::tellDemand()
+{
+  DemandCurve drawn;
+  DemandCurve held;
+  front_.demandCurves(drawn, held);
+  for (std::size_t step = 0; step < DemandCurve::size; ++step)
+  {
+    held[step] *= pointBytes_;
+  }
+  // Its own change is none for itself; another one's, since the look, is.
+  const std::uint64_t before = memory_.revision() + window_.revision();
+  memory_.set(held);
+  window_.set(drawn);
+  sharedSeen_ += memory_.revision() + window_.revision() - before;
+}
+
+void ViewFront::setLimits(const FrameDemand& demand)
+{
+  FrontLimits& limits = limits_;
   limits.targetErrorPx = demand.targetErrorPx;
   limits.pointBudget = demand.pointBudget;
+  limits.layers = demand.layers;
+  limits.sharedDrawn.points = demand.pointBudget;
   limits.requestLimit = requestsAtOnce;
   limits.interacting = demand.interacting;
   limits.motionErrorPx = demand.targetErrorPx;
@@ -152,14 +199,16 @@ FrontLimits ViewFront::limitsOf(const FrameDemand& demand) const
       demand.pointBudget == 0 ? affordable : std::min(demand.pointBudget, affordable);
     limits.movesPerFrame = cost_.movesFor(demand.frameMs, delta_.pointsDrawn);
   }
-  return limits;
+  readShares();
 }
 
 void ViewFront::step(const FrameDemand& demand)
 {
   thresholdBefore_ = delta_.thresholdPx;
   arrivalsSeen_ = share_.residency().arrivals();
-  delta_ = front_.update(demand.view, *residents_, limitsOf(demand));
+  setLimits(demand);
+  delta_ = front_.update(demand.view, *residents_, limits_);
+  tellDemand();
   addMargin(demand);
   for (DrawItem& item : delta_.draw)
   {
@@ -187,7 +236,8 @@ void ViewFront::addMargin(const FrameDemand& demand)
   }
   const auto asked = static_cast<std::uint32_t>(delta_.requests.size());
   const std::vector<LoadRequest>& margin = margin_.requests(demand.view, delta_.thresholdPx,
-    *residents_, framesAhead, requestsAtOnce - std::min(requestsAtOnce, asked));
+    *residents_, framesAhead, requestsAtOnce - std::min(requestsAtOnce, asked),
+    demand.layers);
   delta_.requests.insert(delta_.requests.end(), margin.begin(), margin.end());
 }
 
@@ -226,6 +276,7 @@ void ViewFront::complete(const FrameDemand& demand)
 bool ViewFront::wantsUpdate() const
 {
   return !begun_ || share_.residency().arrivals() != arrivalsSeen_ ||
+         memory_.revision() + window_.revision() != sharedSeen_ ||
          (!delta_.complete && movedOn());
 }
 

@@ -6,6 +6,7 @@
 #include "pointfront/Front/FrameCostModel.h"
 #include "pointfront/Front/MotionMargin.h"
 #include "pointfront/Front/RenderFront.h"
+#include "pointfront/Front/SharedDemand.h"
 #include "pointfront/Front/View.h"
 #include "pointfront/Points/AttributeSchema.h"
 #include "pointfrontRenderingCoreModule.h" // for the export macro
@@ -23,23 +24,26 @@ struct FrameDemand
   View view;               ///< in the store's coordinates
   ColumnSelection columns; ///< that the points are drawn with
   double targetErrorPx = 1.0;
-  std::uint64_t pointBudget = 0; ///< 0: no limit
+  std::uint64_t pointBudget = 0; ///< 0: no limit; over all clouds of the window
   bool interacting = false;
   double frameMs = 0.0;  ///< interacting: that this cloud may take
   bool complete = false; ///< wait until nothing is missing
+  std::vector<LayerLimits> layers; ///< by number of the store's layer (LAYERS-11)
 };
 
 /// The front of one view of a store, with its share of the residency and what it has learnt of the
 /// cost of its frames. Several views of one cloud have one of these each.
 /// Guarantees  update() waits for the disk only when the demand is `complete`, and on the first
-///             update for the roots (one node a layer), so that no first frame is empty.
+///             update for the roots (one node a layer), half a second at most, so that no first
+///             frame is empty unless the disk hangs.
 /// Threads     one thread (the renderer's).
 class POINTFRONTRENDERINGCORE_EXPORT ViewFront
 {
 public:
-  /// `schema` outlives the front: the store's.
+  /// `schema` outlives the front: the store's. `windowDemand`: of all clouds that are drawn in the
+  /// same window, in points.
   ViewFront(std::shared_ptr<const HierarchyPiece> piece, ResidencyShare& share,
-    const AttributeSchema& schema);
+    const AttributeSchema& schema, std::shared_ptr<SharedDemand> windowDemand);
   ~ViewFront();
 
   /// Moves the front towards the view. The delta's nodes are the store's numbers; valid until the
@@ -56,8 +60,8 @@ public:
     cost_.record(points, moves, milliseconds);
   }
 
-  /// True if something arrived since the last update, or that update itself left moves for the
-  /// next.
+  /// True if something arrived since the last update, that update itself left moves for the
+  /// next, or other clouds took or left memory since.
   bool wantsUpdate() const;
 
 private:
@@ -68,7 +72,9 @@ private:
   bool movedOn() const;
   void complete(const FrameDemand& demand);
   void loadRoots();
-  FrontLimits limitsOf(const FrameDemand& demand) const;
+  void setLimits(const FrameDemand& demand);
+  void readShares();
+  void tellDemand();
 
   std::shared_ptr<const HierarchyPiece> piece_;
   ResidencyShare& share_;
@@ -79,6 +85,13 @@ private:
   MotionMargin margin_;
   FrameCostModel cost_;
   FrontDelta delta_;
+  FrontLimits limits_;
+  // What this view shares with others: memory (in bytes) and the window's points.
+  SharedDemand::Claim memory_;
+  SharedDemand::Claim window_;
+  DemandCurve heldElsewhere_;  ///< in points of this store
+  DemandCurve drawnElsewhere_;
+  std::uint64_t sharedSeen_ = 0;
   ColumnSelection columns_;
   std::size_t pointBytes_ = 0; ///< of a decoded point with columns_
   std::uint64_t arrivalsSeen_ = 0;

@@ -43,6 +43,24 @@ double millisecondsSince(Clock::time_point begin)
   return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
 }
 
+/// What all clouds of a window draw, in points.
+std::shared_ptr<pointfront::SharedDemand> demandOf(vtkWindow* window)
+{
+  static std::map<vtkWindow*, std::weak_ptr<pointfront::SharedDemand>> windows;
+  for (auto entry = windows.begin(); entry != windows.end();)
+  {
+    entry = entry->second.expired() ? windows.erase(entry) : std::next(entry);
+  }
+  std::weak_ptr<pointfront::SharedDemand>& known = windows[window];
+  auto demand = known.lock();
+  if (!demand)
+  {
+    demand = std::make_shared<pointfront::SharedDemand>();
+    known = demand;
+  }
+  return demand;
+}
+
 /// What one renderer sees of the store.
 struct RendererView
 {
@@ -76,6 +94,7 @@ struct vtkPointFrontMapper::Content
   int PieceNumber = 0;
   int Pieces = 1;
   std::map<vtkRenderer*, RendererView> Views;
+  std::map<int, pointfront::LayerLimits> ClassLimits;
   std::string UnknownArray; ///< that has been warned of
 
   vtkWeakPointer<vtkRenderWindowInteractor> Interactor;
@@ -119,6 +138,69 @@ vtkPointFrontMapper::vtkPointFrontMapper() : Internals(new Content) {}
 vtkPointFrontMapper::~vtkPointFrontMapper()
 {
   this->Internals->StopTimer();
+}
+
+namespace
+{
+pointfront::LayerLimits limitsOf(
+  const std::map<int, pointfront::LayerLimits>& all, int objectClass)
+{
+  const auto found = all.find(objectClass);
+  return found != all.end() ? found->second : pointfront::LayerLimits();
+}
+} // namespace
+
+void vtkPointFrontMapper::SetClassVisibility(int objectClass, bool visible)
+{
+  if (visible != this->GetClassVisibility(objectClass))
+  {
+    this->Internals->ClassLimits[objectClass].visible = visible;
+    this->Modified();
+  }
+}
+
+bool vtkPointFrontMapper::GetClassVisibility(int objectClass) const
+{
+  return limitsOf(this->Internals->ClassLimits, objectClass).visible;
+}
+
+void vtkPointFrontMapper::SetClassTargetErrorFactor(int objectClass, double factor)
+{
+  const double kept = std::clamp(factor, 0.01, 100.0);
+  if (kept != this->GetClassTargetErrorFactor(objectClass))
+  {
+    this->Internals->ClassLimits[objectClass].errorFactor = kept;
+    this->Modified();
+  }
+}
+
+double vtkPointFrontMapper::GetClassTargetErrorFactor(int objectClass) const
+{
+  return limitsOf(this->Internals->ClassLimits, objectClass).errorFactor;
+}
+
+void vtkPointFrontMapper::SetClassBudgetShare(int objectClass, double share)
+{
+  const double kept = std::clamp(share, 0.0, 1.0);
+  if (kept != this->GetClassBudgetShare(objectClass))
+  {
+    this->Internals->ClassLimits[objectClass].share = kept;
+    this->Modified();
+  }
+}
+
+double vtkPointFrontMapper::GetClassBudgetShare(int objectClass) const
+{
+  return limitsOf(this->Internals->ClassLimits, objectClass).share;
+}
+
+void vtkPointFrontMapper::ClearClassLimits()
+{
+  if (!this->Internals->ClassLimits.empty())
+  {
+    this->Internals->ClassLimits.clear();
+    this->Modified();
+  }
 }
 
 vtkPointFrontStore* vtkPointFrontMapper::GetStore()
@@ -259,6 +341,15 @@ pointfront::FrameDemand vtkPointFrontMapper::GetDemand(vtkRenderer* renderer, vt
   demand.frameMs =
     this->TargetFrameTime > 0.0 ? this->TargetFrameTime : 1000.0 * actor->GetAllocatedRenderTime();
   demand.complete = this->Complete && !demand.interacting;
+  if (!this->Internals->ClassLimits.empty())
+  {
+    const auto& layers = this->GetStore()->GetStore()->description().layers;
+    for (const pointfront::Layer& layer : layers)
+    {
+      const int objectClass = layers.size() == 1 && layer.name == "all" ? -1 : layer.objectClass;
+      demand.layers.push_back(limitsOf(this->Internals->ClassLimits, objectClass));
+    }
+  }
   return demand;
 }
 
@@ -309,7 +400,8 @@ pointfront::ViewFront* vtkPointFrontMapper::PrepareFrame(vtkRenderer* renderer, 
   if (!view.Front)
   {
     view.Front = std::make_unique<pointfront::ViewFront>(
-      content.Piece, store->GetResidencyShare(), store->GetStore()->description().schema);
+      content.Piece, store->GetResidencyShare(), store->GetStore()->description().schema,
+      demandOf(renderer->GetRenderWindow()));
   }
   else if (!view.NewFrame || renderer->GetSelector())
   {

@@ -53,8 +53,9 @@ public:
 
   ///@{
   /**
-   * Most points drawn at a time (they are in GPU memory). Default 5,000,000; 0: no limit but
-   * memory.
+   * Most points drawn at a time (they are in GPU memory), over all clouds of a window: several
+   * mappers in one window share it, the largest errors on screen first. Default 5,000,000; 0: no
+   * limit but memory.
    */
   vtkSetClampMacro(PointBudget, vtkIdType, 0, VTK_ID_MAX);
   vtkGetMacro(PointBudget, vtkIdType);
@@ -106,6 +107,30 @@ public:
   vtkGetMacro(StorePiece, int);
   vtkSetClampMacro(NumberOfStorePieces, int, 1, VTK_INT_MAX);
   vtkGetMacro(NumberOfStorePieces, int);
+  ///@}
+
+  ///@{
+  /**
+   * Object classes with a tree of their own (stores with layers; `pointfront info` lists them) may
+   * have a threshold, a share of the budgets and a switch of their own (Richter, Discher & Doellner
+   * 2015, section 4.2). `objectClass` is the class's number in the store (2 ground, 6 building...);
+   * -1 stands for the single layer of a store without layers. A class that no store of this mapper
+   * has is remembered and ignored.
+   *
+   * Visibility: a class that is switched off is not drawn and not loaded; its share goes to the
+   * others. Default on.
+   * TargetErrorFactor: its target is TargetError times this, [0.01, 100]. Default 1.
+   * BudgetShare: of PointBudget and of the host memory, [0, 1]: so much it has before all others.
+   * What it does not need is lent to others and taken back when it does. Default 0: no share of its
+   * own; the largest errors win.
+   */
+  void SetClassVisibility(int objectClass, bool visible);
+  bool GetClassVisibility(int objectClass) const;
+  void SetClassTargetErrorFactor(int objectClass, double factor);
+  double GetClassTargetErrorFactor(int objectClass) const;
+  void SetClassBudgetShare(int objectClass, double share);
+  double GetClassBudgetShare(int objectClass) const;
+  void ClearClassLimits();
   ///@}
 
   /// The store being drawn: named by the input's field data. Null until the input is there or if it

@@ -34,7 +34,13 @@ void ResidencyShare::Wish::request(const std::vector<LoadRequest>& requests, Dis
 
 ResidencyShare::ResidencyShare(
   std::shared_ptr<const NodeReader> reader, NodeIndex nodeCount, const ResidencyOptions& options)
-    : residency_(std::move(reader), nodeCount, options), budgetBytes_(options.budgetBytes)
+    : residency_(std::move(reader), nodeCount, options)
+{
+}
+
+ResidencyShare::ResidencyShare(std::shared_ptr<const NodeReader> reader, NodeIndex nodeCount,
+  std::shared_ptr<LoadScheduler> scheduler, std::uint64_t points)
+    : residency_(std::move(reader), nodeCount, std::move(scheduler), points)
 {
 }
 
@@ -45,12 +51,6 @@ std::unique_ptr<ResidencyShare::Wish> ResidencyShare::join()
   std::unique_ptr<Wish> wish(new Wish(*this));
   wishes_.push_back(wish.get());
   return wish;
-}
-
-void ResidencyShare::setBudgetBytes(std::size_t bytes)
-{
-  budgetBytes_ = bytes;
-  residency_.setBudgetBytes(bytes);
 }
 
 void ResidencyShare::updateColumns()

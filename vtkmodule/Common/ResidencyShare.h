@@ -47,8 +47,12 @@ public:
     Distance distance_;
   };
 
+  /// With a scheduler of its own.
   ResidencyShare(
     std::shared_ptr<const NodeReader> reader, NodeIndex nodeCount, const ResidencyOptions& options);
+  /// One of several stores of a scheduler; `points` is its size.
+  ResidencyShare(std::shared_ptr<const NodeReader> reader, NodeIndex nodeCount,
+    std::shared_ptr<LoadScheduler> scheduler, std::uint64_t points);
   ~ResidencyShare();
   ResidencyShare(const ResidencyShare&) = delete;
   ResidencyShare& operator=(const ResidencyShare&) = delete;
@@ -60,15 +64,15 @@ public:
   const Residency& residency() const { return residency_; }
   /// Fronts that have joined.
   std::size_t wishes() const { return wishes_.size(); }
-  std::size_t budgetBytes() const { return budgetBytes_; }
-  void setBudgetBytes(std::size_t bytes);
+  /// The store's own budget or the scheduler's: the lower one.
+  std::size_t budgetBytes() const { return residency_.budgetBytes(); }
+  void setBudgetBytes(std::size_t bytes) { residency_.setBudgetBytes(bytes); }
 
 private:
   void updateColumns();
   void updateRequests();
 
   Residency residency_;
-  std::size_t budgetBytes_;
   std::vector<Wish*> wishes_;
   std::map<NodeIndex, LoadRequest> merged_; ///< scratch of updateRequests()
 };

@@ -2,6 +2,7 @@
 
 #include "ResidencyShare.h"
 
+#include "pointfront/Residency/LoadScheduler.h"
 #include "pointfront/Store/PreviewRecord.h"
 #include "pointfront/Store/StoredCloudFormats.h"
 
@@ -62,6 +63,24 @@ struct Registry
   std::recursive_mutex mutex;
   std::map<FileIdentity, vtkPointFrontStore*> stores;
 };
+
+/// Whether the process's budget was set, or follows those of single stores.
+struct ProcessBudget
+{
+  std::mutex mutex;
+  bool set = false;
+};
+
+ProcessBudget& processBudget()
+{
+  static ProcessBudget* instance = new ProcessBudget;
+  return *instance;
+}
+
+std::size_t bytesOf(vtkTypeInt64 bytes)
+{
+  return bytes < 0 ? 0 : static_cast<std::size_t>(bytes);
+}
 
 Registry& registry()
 {
@@ -136,7 +155,8 @@ vtkSmartPointer<vtkPointFrontStore> vtkPointFrontStore::Open(
   made->Internals->preview =
     pointfront::previewRecordOf(made->Internals->store->description().metadata).has_value();
   made->Internals->residency = std::make_unique<pointfront::ResidencyShare>(made->Internals->store,
-    made->Internals->store->hierarchy()->nodeCount(), pointfront::ResidencyOptions{});
+    made->Internals->store->hierarchy()->nodeCount(), pointfront::LoadScheduler::ofProcess(),
+    made->Internals->store->description().pointCount);
   all.stores[identity] = made;
   return result;
 }
@@ -226,12 +246,33 @@ const char* vtkPointFrontStore::GetAttributeName(int attribute) const
 
 void vtkPointFrontStore::SetHostMemoryBudget(vtkTypeInt64 bytes)
 {
-  const vtkTypeInt64 kept = bytes < 0 ? 0 : bytes;
-  if (kept != this->GetHostMemoryBudget())
+  const std::size_t own = bytesOf(bytes);
   {
-    this->Internals->residency->setBudgetBytes(static_cast<std::size_t>(kept));
+    ProcessBudget& process = processBudget();
+    const std::lock_guard<std::mutex> lock(process.mutex);
+    if (!process.set && own > pointfront::LoadScheduler::processBudgetBytes())
+    {
+      pointfront::LoadScheduler::setProcessBudgetBytes(own);
+    }
+  }
+  if (own != this->Internals->residency->budgetBytes())
+  {
+    this->Internals->residency->setBudgetBytes(own);
     this->Modified();
   }
+}
+
+void vtkPointFrontStore::SetProcessMemoryBudget(vtkTypeInt64 bytes)
+{
+  ProcessBudget& process = processBudget();
+  const std::lock_guard<std::mutex> lock(process.mutex);
+  process.set = true;
+  pointfront::LoadScheduler::setProcessBudgetBytes(bytesOf(bytes));
+}
+
+vtkTypeInt64 vtkPointFrontStore::GetProcessMemoryBudget()
+{
+  return static_cast<vtkTypeInt64>(pointfront::LoadScheduler::processBudgetBytes());
 }
 
 vtkTypeInt64 vtkPointFrontStore::GetHostMemoryBudget() const

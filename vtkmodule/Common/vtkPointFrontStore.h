@@ -3,8 +3,10 @@
  * @brief an open point store, shared by every reader and mapper of this process that names it
  *
  * A store is opened once per process and file: Open() gives the same object for the same file until
- * the last reference is gone. It owns the store's residency (decoded nodes in host memory, under
- * one budget), so several views of one cloud share what is loaded.
+ * the last reference is gone. It owns the store's residency (decoded nodes in host memory), so
+ * several views of one cloud share what is loaded. All stores of the process are loaded by one
+ * scheduler: its threads, its host memory and the order of requests are shared, however many
+ * stores are open, and memory goes to the largest errors on screen.
  *
  * In the pipeline a store travels as a name: vtkPointFrontReader puts its absolute path into the
  * field data of its output (array "PointFrontStore"), and vtkPointFrontMapper finds the store by
@@ -71,11 +73,24 @@ public:
   int GetNumberOfAttributes() const;
   const char* GetAttributeName(int attribute) const;
 
+  ///@{
   /**
-   * Host memory for decoded nodes of this store, bytes. Default 1 GiB.
+   * Host memory for decoded nodes of all stores of this process, bytes. Set it once; it holds
+   * whatever is opened. While it was never set it is 1 GiB, or the largest budget that was set for
+   * a single store.
+   */
+  static void SetProcessMemoryBudget(vtkTypeInt64 bytes);
+  static vtkTypeInt64 GetProcessMemoryBudget();
+  ///@}
+
+  ///@{
+  /**
+   * Host memory that decoded nodes of this store may have of the process's, bytes. Default: all of
+   * it.
    */
   void SetHostMemoryBudget(vtkTypeInt64 bytes);
   vtkTypeInt64 GetHostMemoryBudget() const;
+  ///@}
 
 #ifndef __VTK_WRAP__
   /// The kernel's objects, for modules of ours. Never null.

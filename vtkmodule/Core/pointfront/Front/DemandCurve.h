@@ -9,9 +9,9 @@
 namespace pointfront
 {
 
-/// What a view takes (points or bytes) at each threshold: falls as the threshold rises. A table over
-/// thresholds, so that the curves of many views can be added and the threshold that all of them
-/// can have together be found.
+/// What a view takes (points or bytes) at each threshold: falls as the threshold rises. A table
+/// over thresholds, so that the curves of many views can be added and the threshold that all of
+/// them can have together be found.
 /// Steps     eight to a factor of two, from 2^-8 to 2^24 px; between two the larger demand counts.
 /// Threads   a value.
 class DemandCurve

@@ -67,7 +67,7 @@ public:
   void setBudgetBytes(std::size_t bytes);
   LoadSchedulerStatistics statistics() const;
 
-  /// What the views of its stores want in memory, in bytes: they settle at one error (SharedDemand).
+  /// What the views of its stores want in memory, in bytes: they settle at one error.
   const std::shared_ptr<SharedDemand>& sharedDemand() const { return demand_; }
 
   // For residencies.

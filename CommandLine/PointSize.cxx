@@ -14,13 +14,26 @@ double closingPointSize(const Hierarchy& hierarchy, const View& view, double err
 {
   std::vector<std::pair<double, double>> spacings; // pixels, points
   double points = 0.0;
-  for (NodeIndex index = 0; index < hierarchy.nodeCount(); ++index)
+  std::vector<NodeIndex> open(hierarchy.roots());
+  while (!open.empty())
   {
-    const Node& node = hierarchy.node(index);
-    if (node.leaf() && sphereVisibility(view, node.centre, node.radius) == Visibility::Inside)
+    const NodeIndex index = open.back();
+    open.pop_back();
+    const Node node = hierarchy.node(index);
+    if (sphereVisibility(view, node.centre, node.radius) == Visibility::Outside)
     {
-      spacings.emplace_back(std::max(screenError(view, node), errorPx), node.pointCount);
-      points += node.pointCount;
+      continue;
+    }
+    // Below a node that is fine enough every leaf is: their spacing is not larger.
+    const double pixels = screenError(view, node);
+    if (node.leaf() || pixels <= errorPx)
+    {
+      spacings.emplace_back(std::max(pixels, errorPx), double(node.pointsBelow));
+      points += double(node.pointsBelow);
+    }
+    else
+    {
+      hierarchy.appendChildren(index, node, open);
     }
   }
   std::sort(spacings.begin(), spacings.end());

@@ -15,6 +15,7 @@ HierarchyTable leafOf(float spacing)
   node.radius = 1.8f;
   node.spacing = spacing;
   node.pointCount = 1000;
+  node.pointsBelow = 1000;
   return HierarchyTable({ node }, { 0 }, Refinement::Add);
 }
 

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cstring>
 #include <map>
+#include <optional>
 
 namespace pointfront
 {
@@ -167,15 +168,9 @@ std::map<NodeIndex, std::uint64_t> ranksOf(
   const Hierarchy& hierarchy, const std::vector<OverviewPart>& parts)
 {
   std::map<NodeIndex, std::uint64_t> ranks;
-  std::uint64_t rank = 0;
-  NodeIndex next = 0;
   for (const OverviewPart& part : parts)
   {
-    for (; next < part.node; ++next)
-    {
-      rank += hierarchy.node(next).pointCount;
-    }
-    ranks[part.node] = rank;
+    ranks[part.node] = hierarchy.node(part.node).firstPoint;
   }
   return ranks;
 }
@@ -199,7 +194,7 @@ std::vector<OverviewPart> chooseOverview(const Hierarchy& hierarchy, std::uint64
     std::vector<NodeIndex> below;
     for (const NodeIndex index : level)
     {
-      const Node& node = hierarchy.node(index);
+      const Node node = hierarchy.node(index);
       const std::uint64_t count =
         whole
           ? node.pointCount
@@ -209,9 +204,9 @@ std::vector<OverviewPart> chooseOverview(const Hierarchy& hierarchy, std::uint64
       {
         parts.push_back({index, static_cast<std::uint32_t>(count)});
       }
-      for (std::uint32_t child = 0; whole && child < node.childCount; ++child)
+      if (whole)
       {
-        below.push_back(node.firstChild + child);
+        hierarchy.appendChildren(index, node, below);
       }
     }
     left -= std::min(left, points);
@@ -273,6 +268,10 @@ Result<void> fillOverview(const StoredCloud& store, const std::vector<OverviewPa
   const ColumnSelection& columns, vtkPolyData* output, const std::function<bool(double)>& advance)
 {
   const StoreDescription& description = store.description();
+  if (std::optional<Error> damage = store.hierarchy()->fault()) // met while parts were chosen
+  {
+    return *damage;
+  }
   const auto ranks = ranksOf(*store.hierarchy(), parts);
   std::size_t total = 0;
   for (const OverviewPart& part : parts)

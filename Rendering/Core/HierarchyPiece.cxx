@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cassert>
+#include <unordered_map>
+#include <utility>
+#include <vector>
 
 namespace pointfront
 {
@@ -11,16 +14,73 @@ namespace
 /// Subtrees are cut until none holds more than this share of a piece: pieces then differ by little.
 constexpr std::uint64_t unitsPerPiece = 8;
 
+using ChangedRows = std::unordered_map<NodeIndex, Node>;
+
+/// A table seen through some changed rows.
+class ChangedTable final : public Hierarchy
+{
+public:
+  ChangedTable(
+    std::shared_ptr<const Hierarchy> whole, ChangedRows changed, std::vector<NodeIndex> roots)
+      : whole_(std::move(whole)), changed_(std::move(changed)), roots_(std::move(roots))
+  {
+  }
+  NodeIndex nodeCount() const override { return whole_->nodeCount(); }
+  const std::vector<NodeIndex>& roots() const override { return roots_; }
+  Refinement refinement() const override { return whole_->refinement(); }
+  Node node(NodeIndex index) const override
+  {
+    const auto row = changed_.find(index);
+    return row != changed_.end() ? row->second : whole_->node(index);
+  }
+  Node childOf(NodeIndex parent, const Node& row, std::uint8_t child) const override
+  {
+    const auto changed = changed_.find(row.firstChild + child);
+    return changed != changed_.end() ? changed->second : whole_->childOf(parent, row, child);
+  }
+  RowState peek(NodeIndex index, Node& row) const override
+  {
+    const auto changed = changed_.find(index);
+    if (changed != changed_.end())
+    {
+      row = changed->second;
+      return RowState::Here;
+    }
+    return whole_->peek(index, row);
+  }
+  RowState peekChild(
+    NodeIndex parent, const Node& row, std::uint8_t child, Node& found) const override
+  {
+    const auto changed = changed_.find(row.firstChild + child);
+    if (changed != changed_.end())
+    {
+      found = changed->second;
+      return RowState::Here;
+    }
+    return whole_->peekChild(parent, row, child, found);
+  }
+  std::uint64_t arrivals() const override { return whole_->arrivals(); }
+  void waitForArrival(std::uint64_t seen) const override { whole_->waitForArrival(seen); }
+  std::optional<Error> fault() const override { return whole_->fault(); }
+  std::vector<Error> takeFaults() const override { return whole_->takeFaults(); }
+
+private:
+  std::shared_ptr<const Hierarchy> whole_;
+  ChangedRows changed_;
+  std::vector<NodeIndex> roots_;
+};
+
 /// Walks depth first and gives every unit (a small subtree, or the own points of a node above them)
-/// to the piece in which its middle point lies. Representatives above the units go to every piece
-/// that has something below them: each piece needs them until its own children are there.
+/// to the piece in which its middle point lies. Pieces follow each other in that order, so those
+/// children of a node that have something of a piece are neighbours. Representatives above the
+/// units go to every piece that has something below them: each needs them until its own children
+/// are there.
 class PieceChoice
 {
 public:
   PieceChoice(const Hierarchy& whole, int piece, int pieces)
       : whole_(whole), piece_(static_cast<std::uint64_t>(piece)),
-        pieces_(static_cast<std::uint64_t>(pieces)), kept_(whole.nodeCount(), 0),
-        owned_(whole.nodeCount(), 0)
+        pieces_(static_cast<std::uint64_t>(pieces))
   {
     for (const NodeIndex root : whole.roots())
     {
@@ -28,13 +88,23 @@ public:
     }
     for (const NodeIndex root : whole.roots())
     {
-      visit(root);
+      if (visit(root, whole.node(root)).any)
+      {
+        roots.push_back(root);
+      }
     }
   }
-  bool kept(NodeIndex node) const { return kept_[node] != 0; }
-  bool owned(NodeIndex node) const { return owned_[node] != 0; }
+
+  ChangedRows rows;
+  std::vector<NodeIndex> roots;
 
 private:
+  struct Share
+  {
+    bool any = false;
+    std::uint64_t pointsBelow = 0;
+  };
+
   bool mine(std::uint64_t points)
   {
     const std::uint64_t middle = before_ + points / 2;
@@ -43,38 +113,37 @@ private:
     return std::min(owner, pieces_ - 1) == piece_;
   }
 
-  void keepAll(NodeIndex index)
+  Share visit(NodeIndex index, const Node& node)
   {
-    kept_[index] = owned_[index] = 1;
-    const Node& node = whole_.node(index);
-    for (std::uint32_t child = 0; child < node.childCount; ++child)
-    {
-      keepAll(node.firstChild + child);
-    }
-  }
-
-  bool visit(NodeIndex index)
-  {
-    const Node& node = whole_.node(index);
     if (node.leaf() || node.pointsBelow * pieces_ * unitsPerPiece <= total_)
     {
       const bool whole = mine(node.pointsBelow);
-      if (whole)
-      {
-        keepAll(index);
-      }
-      return whole;
+      return {whole, whole ? node.pointsBelow : 0};
     }
     const bool representatives = whole_.refinement() == Refinement::Replace;
-    const bool own = !representatives && mine(node.pointCount);
-    bool any = own;
-    for (std::uint32_t child = 0; child < node.childCount; ++child)
+    Node row = node;
+    Share share;
+    share.any = !representatives && mine(node.pointCount);
+    const bool own = share.any;
+    share.pointsBelow = own ? node.pointCount : 0;
+    row.firstChild = noNode;
+    row.childCount = 0;
+    for (std::uint32_t c = 0; c < node.childCount; ++c)
     {
-      any = visit(node.firstChild + child) || any;
+      const Node child = whole_.childOf(index, node, static_cast<std::uint8_t>(c));
+      const Share below = visit(node.firstChild + c, child);
+      share.pointsBelow += below.pointsBelow;
+      if (below.any)
+      {
+        share.any = true;
+        row.firstChild = std::min(row.firstChild, node.firstChild + c);
+        row.childCount = static_cast<std::uint8_t>(node.firstChild + c + 1 - row.firstChild);
+      }
     }
-    owned_[index] = own || (representatives && any) ? 1 : 0;
-    kept_[index] = any ? 1 : 0;
-    return any;
+    row.pointCount = own || (representatives && share.any) ? node.pointCount : 0;
+    row.pointsBelow = share.pointsBelow;
+    rows.emplace(index, row);
+    return share;
   }
 
   const Hierarchy& whole_;
@@ -82,8 +151,6 @@ private:
   std::uint64_t pieces_;
   std::uint64_t total_ = 0;
   std::uint64_t before_ = 0;
-  std::vector<char> kept_;
-  std::vector<char> owned_;
 };
 
 } // namespace
@@ -96,56 +163,9 @@ HierarchyPiece::HierarchyPiece(std::shared_ptr<const Hierarchy> whole, int piece
     part_ = std::move(whole);
     return;
   }
-  const PieceChoice choice(*whole, piece, pieces);
-  std::vector<Node> nodes;
-  std::vector<NodeIndex> roots;
-  fromStore_.assign(whole->nodeCount(), noNode);
-  const auto append = [&](NodeIndex index, NodeIndex parent)
-  {
-    Node node = whole->node(index);
-    node.parent = parent;
-    node.pointCount = choice.owned(index) ? node.pointCount : 0;
-    fromStore_[index] = static_cast<NodeIndex>(nodes.size());
-    toStore_.push_back(index);
-    nodes.push_back(node);
-  };
-  for (const NodeIndex root : whole->roots())
-  {
-    if (choice.kept(root))
-    {
-      roots.push_back(static_cast<NodeIndex>(nodes.size()));
-      append(root, noNode);
-    }
-  }
-  for (NodeIndex at = 0; at < nodes.size();
-       ++at) // breadth first: appended children stay neighbours
-  {
-    const Node original = whole->node(toStore_[at]);
-    nodes[at].firstChild = noNode;
-    nodes[at].childCount = 0;
-    for (std::uint32_t child = 0; child < original.childCount; ++child)
-    {
-      const NodeIndex index = original.firstChild + child;
-      if (!choice.kept(index))
-      {
-        continue;
-      }
-      if (nodes[at].childCount++ == 0)
-      {
-        nodes[at].firstChild = static_cast<NodeIndex>(nodes.size());
-      }
-      append(index, at);
-    }
-  }
-  for (std::size_t at = nodes.size(); at-- > 0;) // children come after their parent
-  {
-    nodes[at].pointsBelow = originalPoints(nodes[at], whole->refinement());
-    for (std::uint32_t child = 0; child < nodes[at].childCount; ++child)
-    {
-      nodes[at].pointsBelow += nodes[nodes[at].firstChild + child].pointsBelow;
-    }
-  }
-  part_ = std::make_shared<HierarchyTable>(std::move(nodes), std::move(roots), whole->refinement());
+  PieceChoice choice(*whole, piece, pieces);
+  part_ = std::make_shared<ChangedTable>(
+    std::move(whole), std::move(choice.rows), std::move(choice.roots));
 }
 
 } // namespace pointfront

@@ -39,28 +39,22 @@ bool covers(const NodeColumns& node, const ColumnSelection& columns)
 class ViewFront::Residents final : public ResidencyView
 {
 public:
-  Residents(const HierarchyPiece& piece, const Residency& residency)
-      : piece_(piece), residency_(residency)
-  {
-  }
+  explicit Residents(const Residency& residency) : residency_(residency) {}
   State state(NodeIndex node) const override
   {
-    // A node without points (another piece has them) is there at once.
-    return piece_.hierarchy()->node(node).pointCount == 0 ? State::Resident
-                                                          : residency_.state(piece_.toStore(node));
+    return residency_.state(node);
   }
   std::uint64_t revision() const override { return residency_.revision(); }
   bool exhausted() const override { return residency_.exhausted(); }
 
 private:
-  const HierarchyPiece& piece_;
   const Residency& residency_;
 };
 
 ViewFront::ViewFront(std::shared_ptr<const HierarchyPiece> piece, ResidencyShare& share,
   const AttributeSchema& schema, std::shared_ptr<SharedDemand> windowDemand)
     : piece_(std::move(piece)), share_(share), schema_(schema), wish_(share.join()),
-      residents_(std::make_unique<Residents>(*piece_, share.residency())),
+      residents_(std::make_unique<Residents>(share.residency())),
       front_(piece_->hierarchy()), margin_(piece_->hierarchy()),
       memory_(share.residency().scheduler().sharedDemand()), window_(std::move(windowDemand))
 {
@@ -68,9 +62,9 @@ ViewFront::ViewFront(std::shared_ptr<const HierarchyPiece> piece, ResidencyShare
 
 ViewFront::~ViewFront() = default;
 
-std::shared_ptr<const NodeColumns> ViewFront::find(NodeIndex storeNode) const
+std::shared_ptr<const NodeColumns> ViewFront::find(NodeIndex node) const
 {
-  return share_.residency().find(storeNode);
+  return share_.residency().find(node);
 }
 
 const FrontDelta& ViewFront::update(const FrameDemand& demand)
@@ -119,7 +113,7 @@ void ViewFront::loadRoots()
   {
     if (piece_->hierarchy()->node(root).pointCount > 0)
     {
-      roots.push_back({piece_->toStore(root), 1e9});
+      roots.push_back({root, 1e9});
     }
   }
   const auto missing = [&](const LoadRequest& r)
@@ -206,24 +200,13 @@ void ViewFront::step(const FrameDemand& demand)
 {
   thresholdBefore_ = delta_.thresholdPx;
   arrivalsSeen_ = share_.residency().arrivals();
+  rowsSeen_ = piece_->hierarchy()->arrivals();
   setLimits(demand);
   delta_ = front_.update(demand.view, *residents_, limits_);
   tellDemand();
   addMargin(demand);
-  for (DrawItem& item : delta_.draw)
-  {
-    item.node = piece_->toStore(item.node);
-  }
-  for (LoadRequest& request : delta_.requests)
-  {
-    request.node = piece_->toStore(request.node);
-  }
-  wish_->request(delta_.requests,
-    [this](NodeIndex node)
-    {
-      const NodeIndex own = piece_->fromStore(node);
-      return own == noNode ? 0xffffu : front_.distanceUnderFront(own);
-    });
+  wish_->request(
+    delta_.requests, [this](NodeIndex node) { return front_.distanceUnderFront(node); });
 }
 
 /// In motion, behind all that the view needs itself.
@@ -263,6 +246,11 @@ void ViewFront::complete(const FrameDemand& demand)
       return;
     }
     const bool moved = movedOn();
+    if (delta_.rowsComing)
+    {
+      piece_->hierarchy()->waitForArrival(rowsSeen_);
+      continue;
+    }
     if (!moved)
     {
       residency.waitForArrival(arrivalsSeen_);
@@ -277,6 +265,7 @@ bool ViewFront::wantsUpdate() const
 {
   return !begun_ || share_.residency().arrivals() != arrivalsSeen_ ||
          memory_.revision() + window_.revision() != sharedSeen_ ||
+         (delta_.rowsComing && piece_->hierarchy()->arrivals() != rowsSeen_) ||
          (!delta_.complete && movedOn());
 }
 

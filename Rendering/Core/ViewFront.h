@@ -46,13 +46,12 @@ public:
     const AttributeSchema& schema, std::shared_ptr<SharedDemand> windowDemand);
   ~ViewFront();
 
-  /// Moves the front towards the view. The delta's nodes are the store's numbers; valid until the
-  /// next update.
+  /// Moves the front towards the view. The delta is valid until the next update.
   const FrontDelta& update(const FrameDemand& demand);
   const FrontDelta& last() const { return delta_; }
 
   /// The node's points, or null.
-  std::shared_ptr<const NodeColumns> find(NodeIndex storeNode) const;
+  std::shared_ptr<const NodeColumns> find(NodeIndex node) const;
 
   /// What an earlier frame cost this cloud (CPU + GPU), and what was in it.
   void recordFrame(std::uint64_t points, std::uint32_t moves, double milliseconds)
@@ -95,6 +94,7 @@ private:
   ColumnSelection columns_;
   std::size_t pointBytes_ = 0; ///< of a decoded point with columns_
   std::uint64_t arrivalsSeen_ = 0;
+  std::uint64_t rowsSeen_ = 0; ///< arrivals of the table's rows
   double thresholdBefore_ = 0.0;
   bool begun_ = false;
 };

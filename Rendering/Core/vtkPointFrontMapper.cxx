@@ -425,6 +425,10 @@ pointfront::ViewFront* vtkPointFrontMapper::PrepareFrame(vtkRenderer* renderer, 
   {
     vtkErrorMacro(<< error.what);
   }
+  for (const pointfront::Error& error : store->GetStore()->hierarchy()->takeFaults())
+  {
+    vtkErrorMacro(<< error.what);
+  }
   return view.Front.get();
 }
 

@@ -56,7 +56,6 @@ struct vtkOpenGLPointFrontMapper::Content
   vtkNew<vtkOpenGLPointFrontPass> Pass;
   vtkWeakPointer<vtkWindow> Window;         ///< whose context has the pool
   vtkWeakPointer<vtkPointFrontStore> Store; ///< that the pool's nodes are of
-  std::vector<std::uint64_t> FirstIds;      ///< rank of each node's first point
   std::map<vtkRenderer*, FrameTimer> Timers;
   pointfront::PointDrawing Drawing;
   bool IndexedWarned = false;
@@ -74,14 +73,6 @@ void vtkOpenGLPointFrontMapper::Content::SetStore(vtkPointFrontStore* store)
   }
   this->Pool.release();
   this->Store = store;
-  const pointfront::Hierarchy& hierarchy = *store->GetStore()->hierarchy();
-  this->FirstIds.resize(hierarchy.nodeCount());
-  std::uint64_t rank = 0;
-  for (pointfront::NodeIndex node = 0; node < hierarchy.nodeCount(); ++node)
-  {
-    this->FirstIds[node] = rank;
-    rank += hierarchy.node(node).pointCount;
-  }
 }
 
 /// Brings to the GPU what the front draws, near to far, until `bytes` are used up. True when
@@ -127,10 +118,12 @@ vtkIdType vtkOpenGLPointFrontMapper::Content::List(const pointfront::ViewFront& 
     }
     const std::uint32_t points = std::min(item.pointCount, entry->points);
     const bool coloured = this->Drawing.colouring.usesColumn() && entry->values >= points;
+    // In memory: the front has just read it, and so does every frame that draws it.
+    const pointfront::Node row = store.hierarchy()->node(item.node);
     this->Records.set(entry->slots,
-      pointfront::SlotOrigin::of(store.description().grid, store.hierarchy()->node(item.node),
-        node->origin, this->Drawing.reference),
-      coloured, this->FirstIds[item.node]);
+      pointfront::SlotOrigin::of(
+        store.description().grid, row, node->origin, this->Drawing.reference),
+      coloured, row.firstPoint);
     for (std::uint32_t first = 0; first < points; first += slotPoints)
     {
       const auto vertex = static_cast<int>(entry->slots[first / slotPoints] * slotPoints);

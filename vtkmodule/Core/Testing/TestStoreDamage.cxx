@@ -1,7 +1,10 @@
 #include "ForgedStore.h"
 #include "SampleStore.h"
 
+#include "pointfront/Store/Checksum.h"
+#include "pointfront/Store/NodePage.h"
 #include "pointfront/Store/NodeTableSection.h"
+#include "pointfront/Store/PayloadDirectory.h"
 
 #include <gtest/gtest.h>
 
@@ -30,6 +33,21 @@ Error openFails(const std::string& path)
 bool mentions(const Error& error, const std::string& text)
 {
   return error.what.find(text) != std::string::npos;
+}
+
+/// Where the record of a node begins in the block directory.
+std::size_t recordOf(const ForgedStore& forged, NodeIndex node)
+{
+  return node * payloadRecordBytes(forged.footer.columnCount + 1);
+}
+
+/// Gives a record the checksum of what stands in it now.
+void sign(std::vector<std::byte>& directory, const ForgedStore& forged, NodeIndex node)
+{
+  const std::size_t begin = recordOf(forged, node);
+  const std::size_t end = recordOf(forged, node + 1) - 4;
+  const std::uint32_t checksum = checksumOf(directory.data() + begin, end - begin);
+  std::memcpy(directory.data() + end, &checksum, sizeof(checksum));
 }
 
 template <typename T>
@@ -142,15 +160,15 @@ TEST(StoreDamage, NewerVersionsAreNamed)
 {
   ForgedStore forged(soundStore());
   const std::string path = temporaryPath("newer.pfront");
-  forged.header.version = 2;
+  forged.header.version = 3;
   forged.write(path);
   const Error newer = openFails(path);
   EXPECT_EQ(newer.kind, Error::Kind::Unsupported);
-  EXPECT_TRUE(mentions(newer, "version 2") && mentions(newer, "up to version 1") &&
+  EXPECT_TRUE(mentions(newer, "version 3") && mentions(newer, "up to version 2") &&
     mentions(newer, "update"))
     << newer.what;
   EXPECT_TRUE(PointStore::looksLikeStore(path));
-  forged.header.version = 1;
+  forged.header.version = 2;
   forged.header.requiredFeatures = 4;
   forged.write(path);
   EXPECT_EQ(openFails(path).kind, Error::Kind::Unsupported);
@@ -159,6 +177,24 @@ TEST(StoreDamage, NewerVersionsAreNamed)
 TEST(StoreDamage, UnknownCodecIsUnsupported)
 {
   ForgedStore forged(soundStore());
+  std::vector<std::byte> directory = forged.section(SectionKind::BlockDirectory);
+  directory[recordOf(forged, 6) - 5] = std::byte(77); // the last codec of node 5
+  sign(directory, forged, 5);
+  forged.replaceSection(SectionKind::BlockDirectory, directory);
+  const std::string path = temporaryPath("codec.pfront");
+  forged.write(path);
+  const auto store = PointStore::open(path);
+  ASSERT_TRUE(store) << store.error().what;
+  EXPECT_TRUE((*store)->read(4, {}));
+  const auto points = (*store)->read(5, {});
+  ASSERT_FALSE(points);
+  EXPECT_EQ(points.error().kind, Error::Kind::Unsupported);
+  EXPECT_TRUE(mentions(points.error(), "codec 77")) << points.error().what;
+}
+
+TEST(StoreDamage, UnknownCodecOfVersion1IsUnsupported)
+{
+  ForgedStore forged(POINTFRONT_CORE_TEST_DATA "/version1.pfront");
   std::vector<std::byte> directory = forged.section(SectionKind::BlockDirectory);
   directory.back() = std::byte(77); // the codecs are its last array
   forged.replaceSection(SectionKind::BlockDirectory, directory);
@@ -190,6 +226,58 @@ TEST(StoreDamage, HugeClaimsAreRefused)
   refused("missing section",
     [](ForgedStore& f) { f.footer.sections[2].kind = static_cast<SectionKind>(99); });
   refused("footer", [](ForgedStore& f) { f.header.footerOffset = UINT64_MAX - 3; });
+  refused("points of a node",
+    [](ForgedStore& f)
+    {
+      NodePage page;
+      const TableLimits limits{ f.footer.nodeCount, 2 };
+      const std::vector<std::byte> table = f.section(SectionKind::NodeTable);
+      EXPECT_EQ(decodeNodePage(table.data(), 0, limits, page), "");
+      page[4].pointCount = 0xffffffffu;
+      std::vector<std::byte> forged(nodePageBytes);
+      encodeNodePage(page.data(), f.footer.nodeCount, 0, forged.data());
+      f.replaceSection(SectionKind::NodeTable, forged);
+    });
+}
+
+// What open() does not read: found when the node is.
+TEST(StoreDamage, HugeClaimsOfANodeAreRefusedWhenItIsRead)
+{
+  const std::string sound = soundStore();
+  const std::string path = temporaryPath("huge.pfront");
+  const auto refused = [&](const char* what, std::size_t at, auto value)
+  {
+    ForgedStore forged(sound);
+    std::vector<std::byte> directory = forged.section(SectionKind::BlockDirectory);
+    poke(directory, recordOf(forged, 3) + at, value);
+    sign(directory, forged, 3);
+    forged.replaceSection(SectionKind::BlockDirectory, directory);
+    forged.write(path);
+    const auto store = PointStore::open(path);
+    ASSERT_TRUE(store) << store.error().what;
+    EXPECT_TRUE((*store)->read(2, {}));
+    const auto points = (*store)->read(3, {});
+    ASSERT_FALSE(points) << what;
+    EXPECT_EQ(points.error().kind, Error::Kind::Corrupt) << what;
+    EXPECT_TRUE(mentions(points.error(), "node 3")) << points.error().what;
+    EXPECT_FALSE((*store)->verify()->ok);
+  };
+  refused("origin", 0, INT64_MAX);
+  refused("payload offset", 24, UINT64_MAX - 5);
+  refused("block size", 32, 0xffffffffu);
+}
+
+TEST(StoreDamage, HugeClaimsOfVersion1AreRefused)
+{
+  const std::string path = temporaryPath("huge.pfront");
+  const auto refused = [&](const char* what, const auto& change)
+  {
+    ForgedStore forged(POINTFRONT_CORE_TEST_DATA "/version1.pfront");
+    change(forged);
+    forged.write(path);
+    EXPECT_EQ(openFails(path).kind, Error::Kind::Corrupt) << what;
+  };
+  refused("nodes", [](ForgedStore& f) { f.footer.nodeCount = 0xffffffffu; });
   refused("points of a node",
     [](ForgedStore& f)
     {

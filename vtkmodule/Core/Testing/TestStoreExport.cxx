@@ -30,6 +30,8 @@ public:
     description.ranges = { ColumnRange{ { { 2.0, 9.0 } } } };
     nodes = { node(0, 30, 8, 2, 1, 2), node(0, 10, 4, 1, noNode, 0), node(20, 30, 4, 1, 3, 1),
       node(25, 25, 2, 1, noNode, 0) };
+    nodes[1].parent = nodes[2].parent = 0;
+    nodes[3].parent = 2;
   }
 
   Result<NodeColumns> decode(const FetchedNode& fetched) const override

@@ -10,10 +10,10 @@ namespace pointfront
 {
 namespace
 {
-// Two stores that version 1 wrote, kept for ever. A change of the format gets a new version and new
-// files; these stay, and stay readable. (POINTFRONT_WRITE_GOLDEN=FOLDER writes them anew there.)
-const std::string small = "/version1.pfront";
-const std::string large = "/version1-all-codecs.pfront";
+// Two stores of each version, kept for ever. A change of the format gets a new version and new
+// files; these stay, and stay readable. (POINTFRONT_WRITE_GOLDEN=FOLDER writes the newest there.)
+const std::string small = "/version2.pfront";
+const std::string large = "/version2-all-codecs.pfront";
 constexpr std::uint32_t smallPoints = 3;
 constexpr std::uint32_t largePoints = 260;
 
@@ -24,11 +24,18 @@ void expectSample(const std::string& path, const SampleStore& sample)
   const auto opened = PointStore::open(path);
   ASSERT_TRUE(opened) << opened.error().what;
   const PointStore& store = **opened;
+  ASSERT_EQ(store.description().levels, 3u);
+  ASSERT_EQ(store.description().layers[0].nodeCount, 5u);
+  ASSERT_EQ(store.description().layers[1].pointCount, sample.nodes[4].pointCount);
+  ASSERT_EQ(store.hierarchy()->roots(), sample.roots);
   ASSERT_EQ(store.description().schema, sample.description.schema);
   ASSERT_EQ(store.description().grid, sample.description.grid);
   ASSERT_EQ(store.hierarchy()->nodeCount(), sample.nodes.size());
+  std::uint64_t rank = 0;
   for (NodeIndex i = 0; i < sample.nodes.size(); ++i)
   {
+    ASSERT_EQ(store.hierarchy()->node(i).firstPoint, rank);
+    rank += sample.nodes[i].pointCount;
     const auto points = store.read(i, everyColumn(sample.description.schema));
     ASSERT_TRUE(points) << points.error().what;
     ASSERT_EQ(points->origin, sample.points[i].origin);
@@ -41,8 +48,10 @@ void expectSample(const std::string& path, const SampleStore& sample)
 }
 } // namespace
 
-TEST(StoreGolden, Version1StaysReadable)
+TEST(StoreGolden, EveryVersionStaysReadable)
 {
+  expectSample(golden("/version1.pfront"), makeSample(smallPoints));
+  expectSample(golden("/version1-all-codecs.pfront"), makeSample(largePoints));
   expectSample(golden(small), makeSample(smallPoints));
   expectSample(golden(large), makeSample(largePoints));
 }
@@ -69,7 +78,7 @@ TEST(StoreGolden, TheFormatHasNotChanged)
   const std::string path = temporaryPath("a.pfront");
   writeSample(makeSample(smallPoints), path);
   EXPECT_TRUE(fileBytes(path) == fileBytes(golden(small)))
-    << "what is written now differs from version 1: give the format a new version";
+    << "what is written now differs from version 2: give the format a new version";
   if (const char* folder = std::getenv("POINTFRONT_WRITE_GOLDEN"))
   {
     writeSample(makeSample(smallPoints), folder + small);

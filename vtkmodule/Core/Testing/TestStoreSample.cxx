@@ -58,6 +58,7 @@ public:
     {
       nodes[i].firstChild = i + 1;
       nodes[i].childCount = 1;
+      nodes[i + 1].parent = i;
     }
     return HierarchyTable(std::move(nodes), { 0 }, Refinement::Add);
   }

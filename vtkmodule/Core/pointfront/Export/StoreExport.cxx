@@ -7,6 +7,7 @@
 #include <bitset>
 #include <cstring>
 #include <future>
+#include <optional>
 #include <utility>
 
 namespace pointfront
@@ -95,7 +96,7 @@ std::vector<NodeIndex> chosenNodes(
   {
     const NodeIndex index = open.back();
     open.pop_back();
-    const Node& node = hierarchy.node(index);
+    const Node node = hierarchy.node(index);
     if (!filter.mayPass(node))
     {
       continue;
@@ -107,10 +108,7 @@ std::vector<NodeIndex> chosenNodes(
     }
     if (finer)
     {
-      for (NodeIndex child = 0; child < node.childCount; ++child)
-      {
-        open.push_back(node.firstChild + child);
-      }
+      hierarchy.appendChildren(index, node, open);
     }
   }
   std::sort(chosen.begin(), chosen.end());
@@ -292,6 +290,10 @@ Result<ExportReport> exportPoints(const StoreDescription& store, const Hierarchy
   PointFilter filter(description, selection, classColumn.value());
   std::vector<NodeIndex> nodes = chosenNodes(hierarchy, filter, selection.spacing);
   ExportClock clock(progress, pointsOf(hierarchy, nodes));
+  if (std::optional<Error> damage = hierarchy.fault())
+  {
+    return *damage;
+  }
   NodeStream stream(reader, std::move(nodes), columnsOf(store, description));
   Result<ExportReport> report = pump(stream, filter, sink, clock);
   if (!report)

@@ -41,6 +41,7 @@ ActiveTree::ActiveTree(const Hierarchy& hierarchy)
 void ActiveTree::reset()
 {
   slots_.clear();
+  slotOf_.clear();
   for (auto& blocks : freeBlocks_)
   {
     blocks.clear();
@@ -53,6 +54,7 @@ void ActiveTree::reset()
       node.spacing = alwaysTooCoarse;
     }
     applyLayer(node);
+    slotOf_.insert(root, slotCount());
     slots_.push_back(node);
   }
   rootCount_ = slotCount();
@@ -80,18 +82,36 @@ void ActiveTree::setLayers(const std::vector<LayerLimits>& layers)
   }
 }
 
-ActiveNode ActiveTree::childOf(const ActiveNode& parent, std::uint8_t child) const
+bool ActiveTree::childOf(const ActiveNode& parent, std::uint8_t child, ActiveNode& node) const
 {
+  Node parentRow;
+  parentRow.firstChild = parent.firstChild;
+  parentRow.level = parent.level;
+  Node row;
+  const RowState state = hierarchy_.peekChild(parent.node, parentRow, child, row);
+  if (state == RowState::Coming)
+  {
+    return false;
+  }
   const NodeIndex index = parent.firstChild + child;
-  ActiveNode node = activeNode(hierarchy_.node(index), index);
-  if (!usable(node.spacing))
+  node = activeNode(row, index);
+  if (state == RowState::Lost)
+  {
+    node.lost = true;
+    node.layer = parent.layer;
+    node.centre = parent.centre;
+    node.radius = parent.radius;
+    node.spacing = parent.spacing;
+    node.level = static_cast<std::uint8_t>(parent.level + 1);
+  }
+  else if (!usable(node.spacing))
   {
     node.spacing = 0.5f * parent.spacing;
   }
   node.spacingRatio = node.spacing / parent.spacing;
   node.hidden = parent.hidden;
   node.errorWeight = parent.errorWeight;
-  return node;
+  return true;
 }
 
 SlotIndex ActiveTree::takeBlock(std::uint8_t length)
@@ -108,21 +128,33 @@ SlotIndex ActiveTree::takeBlock(std::uint8_t length)
   return first;
 }
 
-void ActiveTree::expand(SlotIndex slot, std::uint32_t update)
+bool ActiveTree::expand(SlotIndex slot, std::uint32_t update)
 {
   assert(!slots_[slot].expanded() && !slots_[slot].leaf());
+  children_.resize(slots_[slot].childCount);
+  bool here = true;
+  for (std::uint8_t c = 0; c < slots_[slot].childCount; ++c)
+  {
+    here = childOf(slots_[slot], c, children_[c]) && here; // all of them are asked for
+  }
+  if (!here)
+  {
+    return false;
+  }
   const SlotIndex first = takeBlock(slots_[slot].childCount);
   const ActiveNode& parent = slots_[slot];
   for (std::uint8_t c = 0; c < parent.childCount; ++c)
   {
     ActiveNode& child = slots_[first + c];
-    child = childOf(parent, c);
+    child = children_[c];
     child.parent = slot;
     child.created = update;
     child.seen = update;
+    slotOf_.insert(child.node, first + c);
   }
   slots_[slot].children = first;
   frontLength_ += parent.childCount - 1u;
+  return true;
 }
 
 void ActiveTree::collapse(SlotIndex slot)
@@ -131,36 +163,32 @@ void ActiveTree::collapse(SlotIndex slot)
   assert(parent.expanded());
   for (std::uint8_t c = 0; c < parent.childCount; ++c)
   {
-    assert(!slots_[parent.children + c].expanded());
-    slots_[parent.children + c].node = noNode;
+    ActiveNode& child = slots_[parent.children + c];
+    assert(!child.expanded());
+    slotOf_.erase(child.node);
+    child.node = noNode;
   }
   freeBlocks_[parent.childCount].push_back(parent.children);
   parent.children = noSlot;
   frontLength_ -= parent.childCount - 1u;
 }
 
-SlotIndex ActiveTree::find(NodeIndex node) const
+ActiveTree::Place ActiveTree::find(NodeIndex node) const
 {
-  // Up by the table to the root, then down by the slots: a path, not a map of all active nodes.
-  std::array<NodeIndex, 256> path;
-  std::size_t length = 0;
-  NodeIndex parent = node;
-  while (parent != noNode && length < path.size())
+  Place place;
+  NodeIndex above = node;
+  while (above != noNode)
   {
-    path[length++] = parent;
-    parent = hierarchy_.node(parent).parent;
+    place.slot = slotOf_.find(above);
+    Node row;
+    if (place.slot != noSlot || hierarchy_.peek(above, row) != RowState::Here)
+    {
+      return place;
+    }
+    above = row.parent; // comes before it in the table: this ends
+    ++place.levelsAbove;
   }
-  SlotIndex slot = 0;
-  while (slot < rootCount_ && slots_[slot].node != path[length - 1])
-  {
-    ++slot;
-  }
-  assert(slot < rootCount_);
-  for (std::size_t step = length - 1; step > 0 && slots_[slot].expanded(); --step)
-  {
-    slot = slots_[slot].children + (path[step - 1] - slots_[slot].firstChild);
-  }
-  return slot;
+  return place;
 }
 
 void evaluate(ActiveNode& node, const View& view, std::uint32_t update)

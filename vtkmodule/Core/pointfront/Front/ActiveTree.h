@@ -1,6 +1,7 @@
 #pragma once
 
 #include "pointfront/Front/LayerLimits.h"
+#include "pointfront/Front/NodeSlots.h"
 #include "pointfront/Front/View.h"
 #include "pointfront/Store/Hierarchy.h"
 
@@ -34,6 +35,7 @@ struct ActiveNode
   bool hidden = false;         ///< its layer is
   float errorWeight = 1.0f;    ///< LAYERS-11: 1 / the layer's errorFactor
 
+  bool lost = false; ///< its row cannot be read: a leaf without points in its parent's place
   bool visible = false;
   float errorPx = 0.0f;        ///< projected spacing * errorWeight
   float distance = 0.0f;
@@ -77,16 +79,23 @@ public:
   const ActiveNode& operator[](SlotIndex slot) const { return slots_[slot]; }
   std::uint32_t frontLength() const { return frontLength_; }
 
-  /// Replaces a front node by its children. References into the tree become invalid.
-  void expand(SlotIndex slot, std::uint32_t update);
+  /// Replaces a front node by its children. References into the tree become invalid. False, and
+  /// nothing is done, while a row of them is coming from a paged table.
+  bool expand(SlotIndex slot, std::uint32_t update);
   /// Replaces children that all are on the front by their parent.
   void collapse(SlotIndex slot);
 
-  /// The node's slot, or that of its nearest active ancestor.
-  SlotIndex find(NodeIndex node) const;
+  /// The slot of the node's nearest active ancestor (or its own) and how many levels that lies
+  /// above it; noSlot when that cannot be told without waiting for the table.
+  struct Place
+  {
+    SlotIndex slot = noSlot;
+    std::uint32_t levelsAbove = 0;
+  };
+  Place find(NodeIndex node) const;
 
-  /// What the table says of child number `child` of a node.
-  ActiveNode childOf(const ActiveNode& parent, std::uint8_t child) const;
+  /// What the table says of child number `child` of a node; false when it is coming.
+  bool childOf(const ActiveNode& parent, std::uint8_t child, ActiveNode& node) const;
 
 private:
   SlotIndex takeBlock(std::uint8_t length);
@@ -96,6 +105,8 @@ private:
   const Hierarchy& hierarchy_;
   std::vector<LayerLimits> layers_;
   std::vector<ActiveNode> slots_;
+  NodeSlots slotOf_;
+  std::vector<ActiveNode> children_; ///< scratch of expand()
   std::array<std::vector<SlotIndex>, 256> freeBlocks_; ///< by length
   SlotIndex rootCount_ = 0;
   std::uint32_t frontLength_ = 0;

@@ -32,7 +32,11 @@ Demand FrontDemand::ofChildren(const ActiveNode& parent, double thresholdPx) con
   Demand sum;
   for (std::uint8_t c = 0; c < parent.childCount; ++c)
   {
-    ActiveNode child = tree_.childOf(parent, c);
+    ActiveNode child;
+    if (!tree_.childOf(parent, c, child))
+    {
+      continue; // its row is coming: the threshold stays until then
+    }
     evaluate(child, view_, 0);
     sum += joined(child, {}, thresholdPx);
   }

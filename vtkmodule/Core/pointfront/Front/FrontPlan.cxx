@@ -84,7 +84,7 @@ void FrontPlan::visitAdd(SlotIndex slot, Visit visit)
   }
   const std::uint32_t points = FrontDemand::pointsOf(node, Refinement::Add, thresholdPx_);
   Presence presence = Presence::Ready;
-  if (points > 0)
+  if (points > 0 || node.lost)
   {
     presence = require(node, visit.errorAbovePx);
   }
@@ -155,6 +155,11 @@ void FrontPlan::visitReplace(SlotIndex slot, Visit visit)
 
 FrontPlan::Presence FrontPlan::require(ActiveNode& node, double priority)
 {
+  if (node.lost)
+  {
+    ++delta_->failedNodes;
+    return Presence::Failed;
+  }
   if (node.pointCount == 0)
   {
     return Presence::Ready;
@@ -199,7 +204,7 @@ void FrontPlan::draw(const ActiveNode& node, std::uint32_t points)
 
 void FrontPlan::noteError(const ActiveNode& node, std::uint32_t drawn, bool refined)
 {
-  const bool everything = node.leaf() && drawn == node.pointCount;
+  const bool everything = node.leaf() && drawn == node.pointCount && !node.lost;
   if (!refined && !everything)
   {
     const double shown =

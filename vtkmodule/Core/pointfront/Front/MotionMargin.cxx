@@ -94,7 +94,11 @@ void MotionMargin::visit(NodeIndex index, const View& ahead, const LayerLimits& 
   {
     return;
   }
-  const Node node = hierarchy_->node(index);
+  Node node;
+  if (hierarchy_->peek(index, node) != RowState::Here)
+  {
+    return; // by the next frame it may be
+  }
   if (sphereVisibility(ahead, node.centre, node.radius) == Visibility::Outside)
   {
     return;

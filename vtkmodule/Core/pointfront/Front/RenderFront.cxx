@@ -17,6 +17,8 @@ namespace
 constexpr double collapseBelow = 0.8;
 /// Updates that a branch stays in the cut after it was last in sight.
 constexpr std::uint32_t updatesUnseen = 30;
+/// Of a node that the front is not near: its way up is not in memory, or it is another piece's.
+constexpr std::uint32_t farUnderFront = 0xffff;
 
 /// What others take of a shared limit is no input: it may change with every update of theirs.
 bool operator==(const FrontLimits& a, const FrontLimits& b)
@@ -58,6 +60,7 @@ struct RenderFront::State
   bool atRest = false;         ///< the same input would give the same output
   bool movesUsedUp = false;    ///< FRONT-6: expansions are left for the next update
   std::uint32_t expansions = 0;
+  bool rowsComing = false;     ///< expansions wait for rows of a paged table
   bool growthHeldBack = false; ///< an expansion would have broken a budget
   SlotIndex nextSlot = 0;      ///< FRONT-6: where the next update goes on
 
@@ -100,7 +103,7 @@ void RenderFront::State::evaluateBranch(SlotIndex slot, double lowestPx)
 
 void RenderFront::State::chooseThreshold()
 {
-  const bool mayFall = !movesUsedUp && plan.missing() <= limits.requestLimit;
+  const bool mayFall = !movesUsedUp && !rowsComing && plan.missing() <= limits.requestLimit;
   threshold.begin(limits, tree, inputChanged, mayFall);
   for (SlotIndex root = 0; root < tree.rootCount(); ++root)
   {
@@ -158,7 +161,11 @@ void RenderFront::State::expand(SlotIndex slot)
       return;
     }
   }
-  tree.expand(slot, update);
+  if (!tree.expand(slot, update))
+  {
+    rowsComing = true;
+    return;
+  }
   const ActiveNode& parent = tree[slot];
   for (std::uint8_t c = 0; c < parent.childCount; ++c)
   {
@@ -195,6 +202,7 @@ void RenderFront::State::collapse(SlotIndex slot)
 void RenderFront::State::moveFront()
 {
   movesUsedUp = false;
+  rowsComing = false;
   expansions = 0;
   delta.moves = 0;
   SlotIndex slot = nextSlot < tree.slotCount() ? nextSlot : 0;
@@ -227,7 +235,7 @@ void RenderFront::State::moveFront()
 
 void RenderFront::State::finish(const ResidencyView& residency)
 {
-  const bool settled = expansions == 0 && !movesUsedUp && !growthHeldBack;
+  const bool settled = expansions == 0 && !movesUsedUp && !growthHeldBack && !rowsComing;
   const bool steady = !threshold.changed();
   const bool bound = threshold.bound();
   // The residency speaks of what it was asked for after an earlier update: of the same view?
@@ -236,6 +244,7 @@ void RenderFront::State::finish(const ResidencyView& residency)
     residency.exhausted() && residency.revision() == revision;
   const bool held = bound && !threshold.atTarget();
   delta.frontLength = tree.frontLength();
+  delta.rowsComing = rowsComing;
   delta.thresholdPx = threshold.largestPx(tree);
   delta.limitedByBudget = plan.clipped() || (held && !threshold.boundByMemory());
   delta.limitedByMemory = exhausted || (held && threshold.boundByMemory());
@@ -296,13 +305,18 @@ void RenderFront::demandCurves(DemandCurve& drawn, DemandCurve& held) const
 std::uint32_t RenderFront::distanceUnderFront(NodeIndex node) const
 {
   const ActiveTree& tree = state_->tree;
-  SlotIndex slot = tree.find(node);
+  auto [slot, distance] = tree.find(node);
+  if (slot == noSlot)
+  {
+    return farUnderFront;
+  }
   while (tree[slot].parent != noSlot && tree[slot].needed != state_->update)
   {
     slot = tree[slot].parent;
+    ++distance;
   }
   const std::uint32_t above = tree[slot].needed == state_->update ? 0 : 1; // a hidden root
-  return state_->hierarchy->node(node).level - tree[slot].level + above;
+  return distance + above;
 }
 
 void RenderFront::reset()

@@ -108,6 +108,9 @@ struct FrontDelta
   bool limitedByBudget = false;      ///< pointBudget keeps the threshold above the target
   bool limitedByMemory = false;      ///< heldPointBudget does, or the residency is exhausted
   std::uint32_t failedNodes = 0;     ///< nodes wanted in this view that could not be read
+  /// Rows of a paged table that the front waits for: another update after
+  /// Hierarchy::arrivals() has changed.
+  bool rowsComing = false;
 };
 
 /// The cut through a hierarchy that is drawn this frame.
@@ -153,7 +156,8 @@ public:
   /// FRONT-10, first pass: levels that a node lies below the part of the front that the last
   /// update needed; 0 for what it needed itself (which must stay), larger for what may be released
   /// first. Branches out of sight count from their last ancestor in sight; of a hidden layer
-  /// nothing is needed, not even its root.
+  /// nothing is needed, not even its root. Does not wait for a paged table: what is nowhere near
+  /// the front is far below it.
   std::uint32_t distanceUnderFront(NodeIndex node) const;
 
   /// Back to the roots and the initial threshold.

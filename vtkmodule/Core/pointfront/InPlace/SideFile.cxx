@@ -98,7 +98,7 @@ std::vector<std::byte> encodeTable(const SideFileContent& content)
   out.put(file.edgesChecksum);
   out.put(content.leafPoints);
   out.put(content.table.leafRuns);
-  const std::vector<std::byte> description = encodeDescription(content.stored);
+  const std::vector<std::byte> description = encodeDescription(content.stored, 1);
   out.put(static_cast<std::uint64_t>(description.size()));
   out.putBytes(description.data(), description.size());
   out.put(static_cast<std::uint32_t>(content.table.nodes.size()));
@@ -144,7 +144,7 @@ std::string tableFault(
     return "the table is cut off";
   }
   std::optional<StoredDescription> stored =
-    decodeDescription(data + in.position(), static_cast<std::size_t>(described));
+    decodeDescription(data + in.position(), static_cast<std::size_t>(described), 1);
   if (!stored || stored->description.layers.size() != 1)
   {
     return "the description contradicts itself";

@@ -121,6 +121,46 @@ bool getMetadata(ByteReader& in, StoreDescription& description)
   return in.ok();
 }
 
+/// Since version 2.
+void putTableSummary(ByteWriter& out, const StoredDescription& stored)
+{
+  out.put(stored.description.levels);
+  for (const Layer& layer : stored.description.layers)
+  {
+    out.put(layer.pointCount);
+    out.put(layer.nodeCount);
+  }
+  out.put(static_cast<std::uint32_t>(stored.roots.size()));
+  for (const NodeIndex root : stored.roots)
+  {
+    out.put(root);
+  }
+}
+
+bool getTableSummary(ByteReader& in, StoredDescription& stored)
+{
+  stored.description.levels = in.get<std::uint32_t>();
+  for (Layer& layer : stored.description.layers)
+  {
+    layer.pointCount = in.get<std::uint64_t>();
+    layer.nodeCount = in.get<std::uint32_t>();
+  }
+  const auto roots = in.get<std::uint32_t>();
+  if (!in.ok() || roots > stored.description.layers.size())
+  {
+    return false;
+  }
+  for (std::uint32_t r = 0; r < roots; ++r)
+  {
+    stored.roots.push_back(in.get<NodeIndex>());
+    if (r > 0 && stored.roots[r] <= stored.roots[r - 1])
+    {
+      return false;
+    }
+  }
+  return in.ok();
+}
+
 bool soundGrid(const QuantisationGrid& grid)
 {
   for (int axis = 0; axis < 3; ++axis)
@@ -135,7 +175,8 @@ bool soundGrid(const QuantisationGrid& grid)
 }
 } // namespace
 
-std::vector<std::byte> encodeDescription(const StoredDescription& stored)
+std::vector<std::byte> encodeDescription(
+  const StoredDescription& stored, std::uint32_t version)
 {
   const StoreDescription& d = stored.description;
   ByteWriter out;
@@ -167,10 +208,15 @@ std::vector<std::byte> encodeDescription(const StoredDescription& stored)
     out.put(static_cast<std::uint64_t>(record.payload.size()));
     out.putBytes(record.payload.data(), record.payload.size());
   }
+  if (version >= 2)
+  {
+    putTableSummary(out, stored);
+  }
   return out.bytes();
 }
 
-std::optional<StoredDescription> decodeDescription(const std::byte* data, std::size_t size)
+std::optional<StoredDescription> decodeDescription(
+  const std::byte* data, std::size_t size, std::uint32_t version)
 {
   ByteReader in(data, size);
   StoredDescription stored;
@@ -184,7 +230,8 @@ std::optional<StoredDescription> decodeDescription(const std::byte* data, std::s
   d.generator = in.getText();
   d.crsWkt = in.getText();
   if (!in.ok() || !soundGrid(d.grid) || refinement < 1 || refinement > 2 ||
-    !getColumns(in, d) || !getLayers(in, d) || !getMetadata(in, d) || in.remaining() != 0)
+    !getColumns(in, d) || !getLayers(in, d) || !getMetadata(in, d) ||
+    (version >= 2 && !getTableSummary(in, stored)) || in.remaining() != 0)
   {
     return std::nullopt;
   }

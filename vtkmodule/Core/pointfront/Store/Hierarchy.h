@@ -1,11 +1,14 @@
 #pragma once
 
 #include "pointfront/Base/Bounds.h"
+#include "pointfront/Base/Error.h"
 
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
 #include <cstdint>
+#include <optional>
+#include <utility>
 #include <vector>
 
 namespace pointfront
@@ -26,6 +29,8 @@ struct Node
   std::uint32_t pointCount = 0; ///< the node's own points; may be 0 for an inner node
   /// Points of the input in this node and all its descendants: representatives do not count.
   std::uint64_t pointsBelow = 0;
+  /// Own points of all nodes before it in the table: the rank of its first point in the store.
+  std::uint64_t firstPoint = 0;
   NodeIndex parent = noNode;
   NodeIndex firstChild = noNode; ///< children are neighbours in the table
   std::uint8_t childCount = 0;
@@ -52,31 +57,90 @@ inline std::uint32_t originalPoints(const Node& node, Refinement refinement)
   return refinement == Refinement::Add || node.leaf() ? node.pointCount : 0u;
 }
 
+/// What a table can say of a node without waiting.
+enum class RowState : std::uint8_t
+{
+  Here,   ///< in memory
+  Coming, ///< not in memory; now being fetched: Hierarchy::arrivals() will change
+  Lost    ///< cannot be read, or is damaged
+};
+
 /// The node table of one store: the shape of the hierarchy without any payload.
 /// Several roots when the store has layers. Virtual, because a table of 10^8 nodes is paged.
+/// Damage   of a paged table is found when a page is read. Such a row comes back hollow: no points,
+///          no children, no parent; and fault() is set. Who walks a table for a result that
+///          must be whole asks fault() at the end.
 /// Threads  const functions are safe from any thread.
 class Hierarchy
 {
 public:
   virtual ~Hierarchy() = default;
   virtual NodeIndex nodeCount() const = 0;
-  virtual const Node& node(NodeIndex index) const = 0;
+  /// May wait for the disk.
+  virtual Node node(NodeIndex index) const = 0;
   virtual const std::vector<NodeIndex>& roots() const = 0;
   virtual Refinement refinement() const = 0;
+
+  /// Child number `child` of a node; hollow unless its row agrees that it is (so that a walk down
+  /// meets each node once, whatever the bytes say). May wait for the disk.
+  virtual Node childOf(NodeIndex parent, const Node& row, std::uint8_t child) const
+  {
+    static_cast<void>(parent);
+    return node(row.firstChild + child);
+  }
+  /// Numbers of a node's children, appended to `target`; those whose rows are lost are left out.
+  void appendChildren(NodeIndex parent, const Node& row, std::vector<NodeIndex>& target) const
+  {
+    for (std::uint32_t c = 0; c < row.childCount; ++c)
+    {
+      if (childOf(parent, row, static_cast<std::uint8_t>(c)).parent == parent)
+      {
+        target.push_back(row.firstChild + c);
+      }
+    }
+  }
+  /// For a thread that must not wait: fills `row` if it is here.
+  virtual RowState peek(NodeIndex index, Node& row) const
+  {
+    row = node(index);
+    return RowState::Here;
+  }
+  /// The same of a child: Lost unless its row agrees that it is one.
+  virtual RowState peekChild(
+    NodeIndex parent, const Node& row, std::uint8_t child, Node& found) const
+  {
+    found = childOf(parent, row, child);
+    return RowState::Here;
+  }
+  /// Grows when rows that were coming are here, or lost.
+  virtual std::uint64_t arrivals() const { return 0; }
+  /// Blocks until arrivals() differs from `seen` or nothing is coming.
+  virtual void waitForArrival(std::uint64_t seen) const { static_cast<void>(seen); }
+  /// The first damage that was met.
+  virtual std::optional<Error> fault() const { return std::nullopt; }
+  /// Damage met since the last call, each page once.
+  virtual std::vector<Error> takeFaults() const { return {}; }
 };
 
 /// The plain table in memory.
 class HierarchyTable final : public Hierarchy
 {
 public:
+  /// Sets firstPoint of the nodes.
   HierarchyTable(std::vector<Node> nodes, std::vector<NodeIndex> roots, Refinement refinement)
     : nodes_(std::move(nodes))
     , roots_(std::move(roots))
     , refinement_(refinement)
   {
+    std::uint64_t rank = 0;
+    for (Node& node : nodes_)
+    {
+      node.firstPoint = rank;
+      rank += node.pointCount;
+    }
   }
   NodeIndex nodeCount() const override { return static_cast<NodeIndex>(nodes_.size()); }
-  const Node& node(NodeIndex index) const override { return nodes_[index]; }
+  Node node(NodeIndex index) const override { return nodes_[index]; }
   const std::vector<NodeIndex>& roots() const override { return roots_; }
   Refinement refinement() const override { return refinement_; }
 

@@ -1,46 +1,24 @@
 #include "pointfront/Store/NodeTableSection.h"
 
 #include "pointfront/Store/ByteStream.h"
-#include "pointfront/Store/StoreFormat.h"
+#include "pointfront/Store/NodePage.h"
+#include "pointfront/Store/StoredCloud.h"
 
+#include <algorithm>
 #include <cassert>
-#include <cmath>
 
 namespace pointfront
 {
 namespace
 {
-bool notNegative(float value) { return std::isfinite(value) && value >= 0.0f; }
-
-std::string sizeFault(const Node& node)
+std::string parentFault(const Hierarchy& table, NodeIndex index, const Node& node)
 {
-  const glm::dvec3& c = node.centre;
-  if (!std::isfinite(c.x) || !std::isfinite(c.y) || !std::isfinite(c.z))
-  {
-    return "its centre is not a number";
-  }
-  const glm::vec3& h = node.halfSize;
-  if (!notNegative(h.x) || !notNegative(h.y) || !notNegative(h.z) || !notNegative(node.radius) ||
-    !notNegative(node.spacing))
-  {
-    return "its size, radius or spacing is not a positive number";
-  }
-  return {};
-}
-
-std::string parentFault(const std::vector<Node>& nodes, std::size_t i)
-{
-  const Node& node = nodes[i];
   if (node.parent == noNode)
   {
-    return node.level == 0 ? "" : "it has no parent and is not at level 0";
+    return {};
   }
-  if (node.parent >= i)
-  {
-    return "its parent does not come before it";
-  }
-  const Node& parent = nodes[node.parent];
-  if (i < parent.firstChild || i - parent.firstChild >= parent.childCount)
+  const Node parent = table.node(node.parent);
+  if (index < parent.firstChild || index - parent.firstChild >= parent.childCount)
   {
     return "its parent does not name it as a child";
   }
@@ -51,34 +29,13 @@ std::string parentFault(const std::vector<Node>& nodes, std::size_t i)
   return node.layer == parent.layer ? "" : "its layer is not its parent's";
 }
 
-std::string childrenFault(const std::vector<Node>& nodes, std::size_t i)
+std::string countFault(const Hierarchy& table, NodeIndex index, const Node& node)
 {
-  const Node& node = nodes[i];
-  if (node.leaf())
-  {
-    return node.firstChild == noNode ? "" : "it has no children but names a first child";
-  }
-  if (node.firstChild <= i || node.firstChild >= nodes.size() ||
-    node.childCount > nodes.size() - node.firstChild)
-  {
-    return "its children lie outside the table";
-  }
-  return {};
-}
-
-std::string countFault(const std::vector<Node>& nodes, std::size_t i, Refinement refinement)
-{
-  const Node& node = nodes[i];
-  if (node.pointCount > maxNodePoints)
-  {
-    return "it claims " + std::to_string(node.pointCount) + " points of its own, more than " +
-      std::to_string(maxNodePoints);
-  }
-  std::uint64_t sum = originalPoints(node, refinement);
+  std::uint64_t sum = originalPoints(node, table.refinement());
   for (std::uint32_t k = 0; k < node.childCount; ++k)
   {
-    const Node& child = nodes[node.firstChild + k];
-    if (child.parent != i)
+    const Node child = table.node(node.firstChild + k);
+    if (child.parent != index)
     {
       return "a child of it names another parent";
     }
@@ -90,30 +47,85 @@ std::string countFault(const std::vector<Node>& nodes, std::size_t i, Refinement
   }
   return sum == node.pointsBelow ? "" : "the points below it do not add up";
 }
+
+std::string rootFault(const Hierarchy& table, NodeIndex index, const Node& node, std::size_t& root)
+{
+  if (node.parent != noNode)
+  {
+    return {};
+  }
+  const bool listed = root < table.roots().size() && table.roots()[root] == index;
+  ++root;
+  return listed ? "" : "it has no parent and is not in the list of roots";
+}
+
+std::string nodeFault(const Hierarchy& table, NodeIndex index, const Node& node,
+  const TableLimits& limits, std::size_t& root)
+{
+  std::string fault = rowFault(node, index, limits);
+  fault = fault.empty() ? parentFault(table, index, node) : fault;
+  fault = fault.empty() ? countFault(table, index, node) : fault;
+  return fault.empty() ? rootFault(table, index, node, root) : fault;
+}
 } // namespace
+
+BorrowedTable::BorrowedTable(const std::vector<Node>& nodes, Refinement refinement)
+  : nodes_(nodes)
+  , roots_(rootsOf(nodes))
+  , refinement_(refinement)
+{
+}
+
+void encodeNodeRow(const Node& node, ByteWriter& out)
+{
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    out.put(node.centre[axis]);
+  }
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    out.put(node.halfSize[axis]);
+  }
+  out.put(node.radius);
+  out.put(node.spacing);
+  out.put(node.pointCount);
+  out.put(node.pointsBelow);
+  out.put(node.parent);
+  out.put(node.firstChild);
+  out.put(node.childCount);
+  out.put(node.level);
+  out.put(node.layer);
+}
+
+Node decodeNodeRow(ByteReader& in)
+{
+  Node node;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    node.centre[axis] = in.get<double>();
+  }
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    node.halfSize[axis] = in.get<float>();
+  }
+  node.radius = in.get<float>();
+  node.spacing = in.get<float>();
+  node.pointCount = in.get<std::uint32_t>();
+  node.pointsBelow = in.get<std::uint64_t>();
+  node.parent = in.get<std::uint32_t>();
+  node.firstChild = in.get<std::uint32_t>();
+  node.childCount = in.get<std::uint8_t>();
+  node.level = in.get<std::uint8_t>();
+  node.layer = in.get<std::uint16_t>();
+  return node;
+}
 
 std::vector<std::byte> encodeNodeTable(const std::vector<Node>& nodes)
 {
   ByteWriter out;
   for (const Node& node : nodes)
   {
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      out.put(node.centre[axis]);
-    }
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      out.put(node.halfSize[axis]);
-    }
-    out.put(node.radius);
-    out.put(node.spacing);
-    out.put(node.pointCount);
-    out.put(node.pointsBelow);
-    out.put(node.parent);
-    out.put(node.firstChild);
-    out.put(node.childCount);
-    out.put(node.level);
-    out.put(node.layer);
+    encodeNodeRow(node, out);
   }
   assert(out.size() == nodes.size() * nodeRowBytes);
   return out.bytes();
@@ -125,55 +137,35 @@ std::vector<Node> decodeNodeTable(const std::byte* data, std::uint32_t nodeCount
   std::vector<Node> nodes(nodeCount);
   for (Node& node : nodes)
   {
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      node.centre[axis] = in.get<double>();
-    }
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      node.halfSize[axis] = in.get<float>();
-    }
-    node.radius = in.get<float>();
-    node.spacing = in.get<float>();
-    node.pointCount = in.get<std::uint32_t>();
-    node.pointsBelow = in.get<std::uint64_t>();
-    node.parent = in.get<std::uint32_t>();
-    node.firstChild = in.get<std::uint32_t>();
-    node.childCount = in.get<std::uint8_t>();
-    node.level = in.get<std::uint8_t>();
-    node.layer = in.get<std::uint16_t>();
+    node = decodeNodeRow(in);
   }
   return nodes;
 }
 
-std::string nodeTableFault(const std::vector<Node>& nodes, std::size_t layerCount,
-  std::uint64_t pointCount, Refinement refinement)
+std::string nodeTableFault(
+  const Hierarchy& table, std::size_t layerCount, std::uint64_t pointCount)
 {
+  const TableLimits limits{ table.nodeCount(), static_cast<std::uint32_t>(layerCount) };
   std::uint64_t total = 0;
-  for (std::size_t i = 0; i < nodes.size(); ++i)
+  std::size_t root = 0;
+  for (NodeIndex i = 0; i < limits.nodes; ++i)
   {
-    std::string fault = sizeFault(nodes[i]);
-    if (fault.empty())
+    const Node node = table.node(i);
+    const std::string fault = nodeFault(table, i, node, limits, root);
+    if (const std::optional<Error> damage = table.fault())
     {
-      fault = parentFault(nodes, i);
-    }
-    if (fault.empty())
-    {
-      fault = childrenFault(nodes, i);
-    }
-    if (fault.empty())
-    {
-      fault = countFault(nodes, i, refinement);
-    }
-    if (fault.empty() && nodes[i].layer >= layerCount)
-    {
-      fault = "its layer is not in the list of layers";
+      return damage->what;
     }
     if (!fault.empty())
     {
       return "node " + std::to_string(i) + ": " + fault;
     }
-    total += originalPoints(nodes[i], refinement); // at most 2^32 nodes of 2^24 points: no overflow
+    total += originalPoints(node, table.refinement()); // 2^32 nodes of 2^24 points: no overflow
+  }
+  if (root != table.roots().size())
+  {
+    return "the list of roots names " + std::to_string(table.roots().size()) + " nodes, " +
+      std::to_string(root) + " have no parent";
   }
   if (total != pointCount)
   {
@@ -181,6 +173,30 @@ std::string nodeTableFault(const std::vector<Node>& nodes, std::size_t layerCoun
       std::to_string(pointCount);
   }
   return {};
+}
+
+std::string nodeTableFault(const std::vector<Node>& nodes, std::size_t layerCount,
+  std::uint64_t pointCount, Refinement refinement)
+{
+  return nodeTableFault(BorrowedTable(nodes, refinement), layerCount, pointCount);
+}
+
+void countLayers(const Hierarchy& table, StoreDescription& description)
+{
+  for (Layer& layer : description.layers)
+  {
+    layer.pointCount = 0;
+    layer.nodeCount = 0;
+  }
+  description.levels = 0;
+  for (NodeIndex i = 0; i < table.nodeCount(); ++i)
+  {
+    const Node node = table.node(i);
+    Layer& layer = description.layers[node.layer];
+    layer.pointCount += originalPoints(node, table.refinement());
+    ++layer.nodeCount;
+    description.levels = std::max<std::uint32_t>(description.levels, node.level + 1u);
+  }
 }
 
 std::vector<NodeIndex> rootsOf(const std::vector<Node>& nodes)

@@ -11,21 +11,49 @@
 namespace pointfront
 {
 
-/// Bytes of one node in the section.
+class ByteReader;
+class ByteWriter;
+struct StoreDescription;
+
+/// Bytes of one node in a table, in pages (NodePage.h) or one after another.
 constexpr std::size_t nodeRowBytes = 68;
 
-/// The node table as bytes: one row of 68 bytes for each node.
+void encodeNodeRow(const Node& node, ByteWriter& out);
+Node decodeNodeRow(ByteReader& in);
+
+/// The node table as bytes: one row of 68 bytes for each node. Side files, and stores of version 1.
 std::vector<std::byte> encodeNodeTable(const std::vector<Node>& nodes);
 
 /// `size` must be nodeCount * nodeRowBytes (the caller has checked it against the file).
 std::vector<Node> decodeNodeTable(const std::byte* data, std::uint32_t nodeCount);
 
+/// A table whose rows somebody else holds, for the length of a check.
+class BorrowedTable final : public Hierarchy
+{
+public:
+  BorrowedTable(const std::vector<Node>& nodes, Refinement refinement);
+  NodeIndex nodeCount() const override { return static_cast<NodeIndex>(nodes_.size()); }
+  Node node(NodeIndex index) const override { return nodes_[index]; }
+  const std::vector<NodeIndex>& roots() const override { return roots_; }
+  Refinement refinement() const override { return refinement_; }
+
+private:
+  const std::vector<Node>& nodes_;
+  std::vector<NodeIndex> roots_;
+  Refinement refinement_;
+};
+
 /// What is wrong with a table, or an empty text: parents before children, children neighbours and
 /// linked both ways, levels, layers, counts and their sums (of points of the input), sizes finite
-/// and not negative.
-/// Time  linear in the nodes; takes no memory.
+/// and not negative, roots those without a parent; or what a paged table itself calls its fault.
+/// Time  linear in the nodes, from the first to the last; takes no memory.
+std::string nodeTableFault(
+  const Hierarchy& table, std::size_t layerCount, std::uint64_t pointCount);
 std::string nodeTableFault(const std::vector<Node>& nodes, std::size_t layerCount,
   std::uint64_t pointCount, Refinement refinement = Refinement::Add);
+
+/// Sets the layers' counts and the number of levels to those of the table.
+void countLayers(const Hierarchy& table, StoreDescription& description);
 
 /// Nodes without a parent, in the table's order.
 std::vector<NodeIndex> rootsOf(const std::vector<Node>& nodes);

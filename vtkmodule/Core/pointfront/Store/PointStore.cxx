@@ -2,11 +2,11 @@
 
 #include "pointfront/Store/Checksum.h"
 #include "pointfront/Store/ColumnStatistics.h"
-#include "pointfront/Store/NodeTableSection.h"
 #include "pointfront/Store/PreviewRecord.h"
 #include "pointfront/Store/StoreContent.h"
 #include "pointfront/Store/StoreFormat.h"
 #include "pointfront/Store/StoreVerification.h"
+#include "pointfront/Store/StoredNodeTable.h"
 
 #include <algorithm>
 #include <cassert>
@@ -57,7 +57,8 @@ Result<StoreFooter> readFooter(const InputFile& file, const StoreHeader& header)
   return decodeFooter(bytes.data.get(), header, file.path());
 }
 
-Result<StoredDescription> readDescription(const InputFile& file, const StoreFooter& footer)
+Result<StoredDescription> readDescription(
+  const InputFile& file, const StoreHeader& header, const StoreFooter& footer)
 {
   const SectionEntry& section = *footer.find(SectionKind::Description);
   Result<RawBytes> bytes = readSection(file, section, "description");
@@ -65,7 +66,8 @@ Result<StoredDescription> readDescription(const InputFile& file, const StoreFoot
   {
     return bytes.error();
   }
-  std::optional<StoredDescription> stored = decodeDescription(bytes->data.get(), bytes->size);
+  std::optional<StoredDescription> stored =
+    decodeDescription(bytes->data.get(), bytes->size, header.version);
   if (!stored || stored->description.schema.size() != footer.columnCount)
   {
     return corruptStore(file.path(), section.offset, "the description contradicts itself");
@@ -73,84 +75,15 @@ Result<StoredDescription> readDescription(const InputFile& file, const StoreFoot
   return std::move(*stored);
 }
 
-Result<std::vector<Node>> readNodes(
-  const InputFile& file, const StoreFooter& footer, const StoreDescription& description)
-{
-  const SectionEntry& section = *footer.find(SectionKind::NodeTable);
-  if (section.bytes != std::uint64_t(footer.nodeCount) * nodeRowBytes)
-  {
-    return corruptStore(file.path(), section.offset, "the node table's size is wrong");
-  }
-  Result<RawBytes> bytes = readSection(file, section, "node table");
-  if (!bytes)
-  {
-    return bytes.error();
-  }
-  std::vector<Node> nodes = decodeNodeTable(bytes->data.get(), footer.nodeCount);
-  const std::string fault = nodeTableFault(
-    nodes, description.layers.size(), footer.pointCount, description.refinement);
-  if (!fault.empty())
-  {
-    return corruptStore(file.path(), section.offset, fault);
-  }
-  return nodes;
-}
-
-Result<BlockDirectory> readDirectory(const InputFile& file, const StoreFooter& footer)
-{
-  const SectionEntry& section = *footer.find(SectionKind::BlockDirectory);
-  const std::uint32_t blocks = footer.columnCount + 1;
-  if (section.bytes != BlockDirectory::encodedBytes(footer.nodeCount, blocks))
-  {
-    return corruptStore(file.path(), section.offset, "the block directory's size is wrong");
-  }
-  Result<RawBytes> bytes = readSection(file, section, "block directory");
-  if (!bytes)
-  {
-    return bytes.error();
-  }
-  BlockDirectory directory =
-    BlockDirectory::decode(bytes->data.get(), footer.nodeCount, blocks);
-  std::uint64_t payloadEnd = section.offset;
-  for (const SectionEntry& other : footer.sections)
-  {
-    payloadEnd = std::min(payloadEnd, other.offset);
-  }
-  bool unknownCodec = false;
-  const std::string fault = directory.fault(storeHeaderBytes, payloadEnd, unknownCodec);
-  if (unknownCodec)
-  {
-    return makeError(Error::Kind::Unsupported,
-      "'" + file.path() + "' was written with " + fault +
-        ", which this program does not know; update PointFront");
-  }
-  if (!fault.empty())
-  {
-    return corruptStore(file.path(), section.offset, fault);
-  }
-  return directory;
-}
-
-void countLayers(const std::vector<Node>& nodes, StoreDescription& description)
-{
-  for (const Node& node : nodes)
-  {
-    Layer& layer = description.layers[node.layer];
-    layer.pointCount += originalPoints(node, description.refinement);
-    ++layer.nodeCount;
-    description.levels = std::max<std::uint32_t>(description.levels, node.level + 1u);
-  }
-}
-
 /// The blocks of one node that are wanted: the positions and the columns selected.
 std::vector<BlockDirectory::Block> wantedBlocks(
-  const BlockDirectory& directory, NodeIndex node, const ColumnSelection& columns)
+  const NodePayload& payload, const ColumnSelection& columns)
 {
-  std::vector<BlockDirectory::Block> blocks{ directory.block(node, 0) };
+  std::vector<BlockDirectory::Block> blocks{ payload.blocks[0] };
   for (const std::uint32_t column : columns)
   {
-    assert(column + 1 < directory.blocksPerNode());
-    blocks.push_back(directory.block(node, column + 1));
+    assert(column + 1 < payload.blocks.size());
+    blocks.push_back(payload.blocks[column + 1]);
   }
   return blocks;
 }
@@ -241,7 +174,8 @@ Result<std::shared_ptr<const PointStore>> PointStore::openAny(const std::string&
   {
     return opened.error();
   }
-  const InputFile& file = **opened;
+  const std::shared_ptr<const InputFile> shared = std::move(*opened);
+  const InputFile& file = *shared;
   const Result<StoreHeader> header = readHeader(file);
   if (!header)
   {
@@ -252,18 +186,18 @@ Result<std::shared_ptr<const PointStore>> PointStore::openAny(const std::string&
   {
     return footer.error();
   }
-  Result<StoredDescription> stored = readDescription(file, *footer);
+  Result<StoredDescription> stored = readDescription(file, *header, *footer);
   if (!stored)
   {
     return stored.error();
   }
-  Result<std::vector<Node>> nodes =
-    readNodes(file, *footer, stored->description);
-  if (!nodes)
+  Result<std::shared_ptr<const Hierarchy>> table =
+    openNodeTable(shared, header->version, *footer, *stored);
+  if (!table)
   {
-    return nodes.error();
+    return table.error();
   }
-  Result<BlockDirectory> directory = readDirectory(file, *footer);
+  auto directory = PayloadDirectory::open(file, header->version, *footer);
   if (!directory)
   {
     return directory.error();
@@ -275,13 +209,10 @@ Result<std::shared_ptr<const PointStore>> PointStore::openAny(const std::string&
   content.description.version = header->version;
   content.description.fileBytes = header->fileBytes;
   content.description.pointCount = footer->pointCount;
-  countLayers(*nodes, content.description);
   content.gridBounds = stored->gridBounds;
-  std::vector<NodeIndex> roots = rootsOf(*nodes);
-  content.hierarchy = std::make_shared<HierarchyTable>(
-    std::move(*nodes), std::move(roots), content.description.refinement);
+  content.hierarchy = std::move(*table);
   content.directory = std::move(*directory);
-  content.file = std::move(*opened);
+  content.file = shared;
   return std::shared_ptr<const PointStore>(std::move(store));
 }
 
@@ -300,7 +231,17 @@ std::size_t PointStore::decodedBytes(NodeIndex node, const ColumnSelection& colu
 
 std::size_t PointStore::storedBytes(NodeIndex node, const ColumnSelection& columns) const
 {
-  const auto blocks = wantedBlocks(content_->directory, node, columns);
+  const Result<RawBytes> record = content_->directory->fetch(node, 0);
+  if (!record)
+  {
+    return 0; // read() says why
+  }
+  const Result<NodePayload> payload = content_->directory->decode(node, *record);
+  if (!payload)
+  {
+    return 0;
+  }
+  const auto blocks = wantedBlocks(*payload, columns);
   std::uint64_t sum = 0;
   for (std::size_t first = 0; first < blocks.size(); first = runEnd(blocks, first))
   {
@@ -317,8 +258,27 @@ std::uint64_t PointStore::disk() const
 Result<FetchedNode> PointStore::fetch(NodeIndex node, const ColumnSelection& columns) const
 {
   assert(node < content_->hierarchy->nodeCount());
-  const auto blocks = wantedBlocks(content_->directory, node, columns);
+  Node row = content_->hierarchy->node(node); // waits for it
+  if (content_->hierarchy->peek(node, row) == RowState::Lost)
+  {
+    return makeError(Error::Kind::Corrupt,
+      "'" + content_->description.path + "' is damaged: the row of node " +
+        std::to_string(node) +
+        " in the node table cannot be read; copy the file again or build the store again");
+  }
+  Result<RawBytes> record = content_->directory->fetch(node, row.pointCount);
+  if (!record)
+  {
+    return record.error();
+  }
+  const Result<NodePayload> payload = content_->directory->decode(node, *record);
+  if (!payload)
+  {
+    return payload.error();
+  }
+  const auto blocks = wantedBlocks(*payload, columns);
   FetchedNode fetched{ node, columns, {} };
+  fetched.runs.push_back(std::move(*record));
   for (std::size_t first = 0; first < blocks.size(); first = runEnd(blocks, first))
   {
     RawBytes run(static_cast<std::size_t>(runBytes(blocks, first, runEnd(blocks, first))));
@@ -337,11 +297,16 @@ Result<NodeColumns> PointStore::decode(const FetchedNode& fetched) const
   const NodeIndex node = fetched.node;
   const ColumnSelection& columns = fetched.columns;
   const StoreDescription& description = content_->description;
-  const std::size_t points = content_->hierarchy->node(node).pointCount;
-  const auto blocks = wantedBlocks(content_->directory, node, columns);
+  const Result<NodePayload> payload = content_->directory->decode(node, fetched.runs[0]);
+  if (!payload)
+  {
+    return payload.error();
+  }
+  const std::size_t points = payload->pointCount;
+  const auto blocks = wantedBlocks(*payload, columns);
   NodeColumns result = emptyColumns(node, points, columns, description.schema);
-  result.origin = content_->directory.origin(node);
-  auto run = fetched.runs.begin();
+  result.origin = payload->origin;
+  auto run = fetched.runs.begin() + 1;
   for (std::size_t first = 0; first < blocks.size(); ++run)
   {
     const std::size_t end = runEnd(blocks, first);

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "pointfront/Store/BlockDirectory.h"
 #include "pointfront/Store/DescriptionSection.h"
 #include "pointfront/Store/InputFile.h"
+#include "pointfront/Store/PayloadDirectory.h"
 #include "pointfront/Store/PointStore.h"
 
 #include <memory>
@@ -14,11 +14,11 @@ namespace pointfront
 /// All of an open store but its points; constant once open() has returned.
 struct PointStore::Content
 {
-  std::unique_ptr<const InputFile> file;
+  std::shared_ptr<const InputFile> file; ///< the hierarchy has a part in it
   StoreDescription description;
   GridBounds gridBounds;
   std::shared_ptr<const Hierarchy> hierarchy;
-  BlockDirectory directory{ 1 };
+  std::unique_ptr<const PayloadDirectory> directory; ///< reads from `file`
 };
 
 /// "node 12, positions" or "node 12, attribute 'rgb'", for messages.

@@ -15,7 +15,7 @@ namespace pointfront
 // The frame of a store file: header, payload, sections, footer. docs/formats/pfront.md has every
 // byte; what stands here must agree with it.
 
-constexpr std::uint32_t storeVersion = 1; ///< written by this program, and the newest it reads
+constexpr std::uint32_t storeVersion = 2; ///< written by this program, and the newest it reads
 constexpr std::size_t storeHeaderBytes = 64;
 constexpr std::array<unsigned char, 8> storeMagic{ 0x89, 'P', 'F', 'R', 'O', 'N', 'T', 0x0a };
 
@@ -31,7 +31,8 @@ enum class SectionKind : std::uint32_t
   BlockDirectory = 3
 };
 
-/// Where a section lies and what it must hash to.
+/// Where a section lies and what it must hash to (since version 2 only the description: the others
+/// are read in parts, which have checksums of their own, and 0 stands here).
 struct SectionEntry
 {
   SectionKind kind = SectionKind::Description;
@@ -45,7 +46,7 @@ struct SectionEntry
 struct StoreHeader
 {
   std::uint32_t version = storeVersion;
-  std::uint32_t requiredFeatures = 0; ///< bits a reader must know; version 1 defines none
+  std::uint32_t requiredFeatures = 0; ///< bits a reader must know; none is defined yet
   std::uint64_t fileBytes = 0;
   std::uint64_t footerOffset = 0;
   std::uint32_t footerBytes = 0;
@@ -68,7 +69,7 @@ std::vector<std::byte> encodeFooter(const StoreFooter& footer);
 /// `path` is for messages only. Errors: Truncated, BadFormat (not a store), Corrupt, Unsupported.
 Result<StoreHeader> decodeHeader(
   const std::byte* data, std::size_t size, std::uint64_t fileBytes, const std::string& path);
-/// Also checks that the sections that version 1 needs are there and lie between header and footer.
+/// Also checks that the sections that a store needs are there and lie between header and footer.
 Result<StoreFooter> decodeFooter(
   const std::byte* data, const StoreHeader& header, const std::string& path);
 

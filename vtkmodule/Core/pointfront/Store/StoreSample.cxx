@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <optional>
 
 namespace pointfront
 {
@@ -79,11 +80,7 @@ std::vector<NodeIndex> childrenOf(const Hierarchy& hierarchy, const std::vector<
   std::vector<NodeIndex> next;
   for (const NodeIndex index : level)
   {
-    const Node& node = hierarchy.node(index);
-    for (NodeIndex child = 0; child < node.childCount; ++child)
-    {
-      next.push_back(node.firstChild + child);
-    }
+    hierarchy.appendChildren(index, hierarchy.node(index), next);
   }
   return next;
 }
@@ -117,6 +114,10 @@ Result<StoreSample> StoreSample::read(const Hierarchy& hierarchy, const NodeRead
       }
     }
     level = childrenOf(hierarchy, level);
+    if (std::optional<Error> damage = hierarchy.fault())
+    {
+      return *damage;
+    }
   }
   std::sort(sample.elevations_.begin(), sample.elevations_.end());
   for (std::vector<std::vector<double>>& column : sample.columns_)

@@ -1,6 +1,7 @@
 #include "pointfront/Store/StoreVerification.h"
 
 #include "pointfront/Store/ColumnStatistics.h"
+#include "pointfront/Store/NodeTableSection.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -147,7 +148,14 @@ SeenPoints StoreVerification::nothingSeen() const
 
 Result<VerifyReport> StoreVerification::run(const ProgressFunction& progress)
 {
-  // Header, footer, tables and their invariants were checked by open().
+  // Header, footer and description were checked by open().
+  if (std::string fault = tableFault(); !fault.empty())
+  {
+    VerifyReport report;
+    report.ok = false;
+    report.firstError = std::move(fault);
+    return report;
+  }
   Walk walk(nothingSeen(), progress, description_.pointCount);
   std::vector<std::thread> others;
   for (unsigned i = 1; i < std::max(1u, std::thread::hardware_concurrency()); ++i)
@@ -175,6 +183,47 @@ Result<VerifyReport> StoreVerification::run(const ProgressFunction& progress)
     report.pointsChecked += originalPoints(hierarchy_.node(i), hierarchy_.refinement());
   }
   return report;
+}
+
+/// The node table, every page of it, and what the description says of it.
+std::string StoreVerification::tableFault() const
+{
+  const std::string fault =
+    nodeTableFault(hierarchy_, description_.layers.size(), description_.pointCount);
+  if (const std::optional<Error> damage = hierarchy_.fault())
+  {
+    return damage->what;
+  }
+  if (!fault.empty())
+  {
+    return "'" + description_.path + "', " + fault;
+  }
+  std::uint64_t rank = 0;
+  for (NodeIndex i = 0; i < hierarchy_.nodeCount(); ++i)
+  {
+    const Node node = hierarchy_.node(i);
+    if (node.firstPoint != rank)
+    {
+      return "'" + description_.path + "', node " + std::to_string(i) +
+        ": the rank of its first point is " + std::to_string(node.firstPoint) + " instead of " +
+        std::to_string(rank);
+    }
+    rank += node.pointCount;
+  }
+  StoreDescription counted = description_;
+  countLayers(hierarchy_, counted);
+  for (std::size_t l = 0; l < counted.layers.size(); ++l)
+  {
+    if (counted.layers[l].pointCount != description_.layers[l].pointCount ||
+      counted.layers[l].nodeCount != description_.layers[l].nodeCount)
+    {
+      return "'" + description_.path + "': the counts of layer '" + counted.layers[l].name +
+        "' are not those of its nodes";
+    }
+  }
+  return counted.levels == description_.levels
+    ? ""
+    : "'" + description_.path + "': the number of levels is not that of the nodes";
 }
 
 void StoreVerification::work(Walk& walk) const
@@ -205,7 +254,7 @@ void StoreVerification::work(Walk& walk) const
 
 std::string StoreVerification::nodeFault(NodeIndex index, SeenPoints& seen) const
 {
-  const Node& node = hierarchy_.node(index);
+  const Node node = hierarchy_.node(index);
   if (node.parent != noNode && !boxEnclosesChild(hierarchy_.node(node.parent), node))
   {
     return "'" + description_.path + "', node " + std::to_string(index) +
@@ -267,7 +316,7 @@ std::string StoreVerification::sphereFault(
 {
   for (NodeIndex above = index; above != noNode; above = hierarchy_.node(above).parent)
   {
-    const Node& node = hierarchy_.node(above);
+    const Node node = hierarchy_.node(above);
     if (sphereEncloses(node, farthestCorner(node.centre, box)))
     {
       continue;

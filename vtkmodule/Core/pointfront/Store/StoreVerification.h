@@ -34,6 +34,7 @@ public:
 private:
   struct Walk;
   SeenPoints nothingSeen() const;
+  std::string tableFault() const;
   void work(Walk& walk) const;
   std::string nodeFault(NodeIndex index, SeenPoints& seen) const;
   std::string pointsFault(NodeIndex index, const NodeColumns& points, SeenPoints& seen) const;

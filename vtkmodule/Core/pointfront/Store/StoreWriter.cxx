@@ -4,7 +4,9 @@
 #include "pointfront/Store/Checksum.h"
 #include "pointfront/Store/ColumnStatistics.h"
 #include "pointfront/Store/DescriptionSection.h"
+#include "pointfront/Store/NodePage.h"
 #include "pointfront/Store/NodeTableSection.h"
+#include "pointfront/Store/PayloadDirectory.h"
 #include "pointfront/Store/StoreAssembly.h"
 #include "pointfront/Store/StoreFormat.h"
 
@@ -50,7 +52,7 @@ private:
   Result<void> put(const std::vector<std::byte>& bytes);
   Result<void> flush();
   Result<void> putBlock(const EncodedNode::Block& block);
-  Result<void> putSection(
+  Result<void> putParts(
     SectionKind kind, const std::vector<std::byte>& bytes, StoreFooter& footer);
   Result<void> finish(const StoreFooter& footer);
   std::string payloadFault(
@@ -187,30 +189,35 @@ Result<void> FileStoreWriter::commit(const StoreDescription& description,
   {
     return wrongTable(file_->path(), fault);
   }
-  StoredDescription stored{ description, bounds_ };
+  StoredDescription stored{ description, bounds_, roots };
   stored.description.schema = schema_;
   stored.description.ranges = ranges_;
+  countLayers(BorrowedTable(nodes, description.refinement), stored.description);
 
   StoreFooter footer;
   footer.pointCount = pointCount;
   footer.nodeCount = static_cast<std::uint32_t>(nodes.size());
   footer.columnCount = static_cast<std::uint32_t>(schema_.size());
-  Result<void> done = putSection(SectionKind::NodeTable, encodeNodeTable(nodes), footer);
+  Result<void> done = putParts(SectionKind::NodeTable, encodeNodePages(nodes), footer);
   if (done)
   {
-    done = putSection(SectionKind::BlockDirectory, directory.encode(), footer);
+    done = putParts(SectionKind::BlockDirectory, encodePayloadRecords(directory), footer);
   }
   if (done)
   {
-    done = putSection(SectionKind::Description, encodeDescription(stored), footer);
+    const std::vector<std::byte> bytes = encodeDescription(stored);
+    footer.sections.push_back({ SectionKind::Description,
+      checksumOf(bytes.data(), bytes.size()), end_, bytes.size() });
+    done = put(bytes);
   }
   return done ? finish(footer) : done;
 }
 
-Result<void> FileStoreWriter::putSection(
+/// A section whose parts have checksums of their own.
+Result<void> FileStoreWriter::putParts(
   SectionKind kind, const std::vector<std::byte>& bytes, StoreFooter& footer)
 {
-  footer.sections.push_back({ kind, checksumOf(bytes.data(), bytes.size()), end_, bytes.size() });
+  footer.sections.push_back({ kind, 0, end_, bytes.size() });
   return put(bytes);
 }
 

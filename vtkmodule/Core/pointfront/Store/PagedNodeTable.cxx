@@ -1,0 +1,339 @@
+#include "pointfront/Store/PagedNodeTable.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cassert>
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+#include <unordered_set>
+#include <utility>
+
+namespace pointfront
+{
+namespace
+{
+constexpr std::size_t waysPerSet = 12;
+constexpr std::uint32_t noPage = 0xffffffffu;
+constexpr std::size_t mostWanted = 1024;
+
+/// Pages whose numbers leave the same rest: one lock, and no map that would allocate.
+class PageSet
+{
+public:
+  bool copyRow(std::uint32_t page, std::uint32_t row, Node& target)
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    for (std::size_t w = 0; w < waysPerSet; ++w)
+    {
+      if (pages_[w] == page)
+      {
+        used_[w] = ++clock_;
+        target = (*rows_[w])[row];
+        return true;
+      }
+    }
+    return false;
+  }
+
+  /// True when that took memory.
+  bool insert(std::uint32_t page, const NodePage& rows)
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    std::size_t way = 0;
+    for (std::size_t w = 0; w < waysPerSet; ++w)
+    {
+      if (pages_[w] == page)
+      {
+        return false; // another thread was faster
+      }
+      way = used_[w] < used_[way] ? w : way;
+    }
+    const bool fresh = !rows_[way];
+    if (fresh)
+    {
+      rows_[way] = std::make_unique<NodePage>();
+    }
+    *rows_[way] = rows;
+    pages_[way] = page;
+    used_[way] = ++clock_;
+    return fresh;
+  }
+
+private:
+  std::mutex mutex_;
+  std::array<std::uint32_t, waysPerSet> pages_ = filled();
+  std::array<std::uint64_t, waysPerSet> used_{};
+  std::array<std::unique_ptr<NodePage>, waysPerSet> rows_;
+  std::uint64_t clock_ = 0;
+
+  static std::array<std::uint32_t, waysPerSet> filled()
+  {
+    std::array<std::uint32_t, waysPerSet> pages{};
+    pages.fill(noPage);
+    return pages;
+  }
+};
+
+/// What stands in for a row that is lost.
+Node hollowRow() { return Node(); }
+} // namespace
+
+struct PagedNodeTable::Content
+{
+  Content(std::unique_ptr<const NodePageSource> from, std::vector<NodeIndex> rootNodes,
+    Refinement kind, std::size_t cacheBytes)
+    : source(std::move(from))
+    , nodes(source->nodeCount())
+    , roots(std::move(rootNodes))
+    , refinement(kind)
+    , sets(std::max<std::size_t>(
+        1, std::min<std::size_t>(cacheBytes / (waysPerSet * sizeof(NodePage)),
+             nodePageCount(nodes) / waysPerSet + 1)))
+  {
+    wanted.reserve(mostWanted);
+  }
+
+  PageSet& setOf(std::uint32_t page) { return sets[page % sets.size()]; }
+  bool isLost(std::uint32_t page);
+  bool load(std::uint32_t page, NodePage& rows);
+  void noteFault(Error error);
+  bool linked(NodeIndex parent, const Node& parentRow, NodeIndex child, const Node& row);
+  void want(std::uint32_t page);
+  void fetch();
+
+  const std::unique_ptr<const NodePageSource> source;
+  const NodeIndex nodes;
+  const std::vector<NodeIndex> roots;
+  const Refinement refinement;
+  std::vector<PageSet> sets;
+  std::atomic<std::uint64_t> pagesRead{ 0 };
+  std::atomic<std::size_t> pagesHeld{ 0 };
+  std::atomic<std::uint64_t> arrivals{ 0 };
+
+  std::mutex faultMutex; ///< guards what follows
+  std::unordered_set<std::uint32_t> lost;     ///< pages
+  std::unordered_set<NodeIndex> unlinked;     ///< nodes that deny their parent
+  std::optional<Error> firstFault;
+  std::vector<Error> newFaults;
+  std::atomic<bool> damaged{ false }; ///< written under the lock
+
+  std::mutex fetchMutex; ///< guards what follows
+  std::condition_variable changed;
+  std::vector<std::uint32_t> wanted; ///< the oldest first
+  std::uint32_t fetching = noPage;
+  bool ending = false;
+  std::thread fetcher;
+};
+
+bool PagedNodeTable::Content::isLost(std::uint32_t page)
+{
+  if (!damaged)
+  {
+    return false;
+  }
+  const std::lock_guard<std::mutex> lock(faultMutex);
+  return lost.count(page) > 0;
+}
+
+/// Under the lock of the faults.
+void PagedNodeTable::Content::noteFault(Error error)
+{
+  firstFault = firstFault ? firstFault : error;
+  newFaults.push_back(std::move(error));
+  damaged = true;
+}
+
+/// Reads a page and keeps it; false when it is lost.
+bool PagedNodeTable::Content::load(std::uint32_t page, NodePage& rows)
+{
+  Result<void> done = source->read(page, rows);
+  ++pagesRead;
+  if (done)
+  {
+    pagesHeld += setOf(page).insert(page, rows) ? 1 : 0;
+    return true;
+  }
+  const std::lock_guard<std::mutex> lock(faultMutex);
+  if (lost.insert(page).second)
+  {
+    noteFault(done.error());
+  }
+  return false;
+}
+
+bool PagedNodeTable::Content::linked(
+  NodeIndex parent, const Node& parentRow, NodeIndex child, const Node& row)
+{
+  if (row.parent == parent && row.level == parentRow.level + 1)
+  {
+    return true;
+  }
+  const std::lock_guard<std::mutex> lock(faultMutex);
+  if (unlinked.insert(child).second)
+  {
+    noteFault(makeError(Error::Kind::Corrupt,
+      "node " + std::to_string(child) + " of the node table denies node " +
+        std::to_string(parent) + ", which names it as a child; build the store again"));
+  }
+  return false;
+}
+
+void PagedNodeTable::Content::want(std::uint32_t page)
+{
+  const std::lock_guard<std::mutex> lock(fetchMutex);
+  if (page == fetching || wanted.size() == mostWanted ||
+    std::find(wanted.begin(), wanted.end(), page) != wanted.end())
+  {
+    return;
+  }
+  wanted.push_back(page);
+  if (!fetcher.joinable())
+  {
+    fetcher = std::thread([this] { fetch(); });
+  }
+  changed.notify_all();
+}
+
+void PagedNodeTable::Content::fetch()
+{
+  auto rows = std::make_unique<NodePage>();
+  std::unique_lock<std::mutex> lock(fetchMutex);
+  while (true)
+  {
+    changed.wait(lock, [&] { return ending || !wanted.empty(); });
+    if (ending)
+    {
+      return;
+    }
+    fetching = wanted.front();
+    wanted.erase(wanted.begin());
+    lock.unlock();
+    load(fetching, *rows);
+    lock.lock();
+    fetching = noPage;
+    ++arrivals;
+    changed.notify_all();
+  }
+}
+
+PagedNodeTable::PagedNodeTable(std::unique_ptr<const NodePageSource> source,
+  std::vector<NodeIndex> roots, Refinement refinement, std::size_t cacheBytes)
+  : content_(
+      std::make_unique<Content>(std::move(source), std::move(roots), refinement, cacheBytes))
+{
+}
+
+PagedNodeTable::~PagedNodeTable()
+{
+  {
+    const std::lock_guard<std::mutex> lock(content_->fetchMutex);
+    content_->ending = true;
+    content_->changed.notify_all();
+  }
+  if (content_->fetcher.joinable())
+  {
+    content_->fetcher.join();
+  }
+}
+
+NodeIndex PagedNodeTable::nodeCount() const { return content_->nodes; }
+
+const std::vector<NodeIndex>& PagedNodeTable::roots() const { return content_->roots; }
+
+Refinement PagedNodeTable::refinement() const { return content_->refinement; }
+
+Node PagedNodeTable::node(NodeIndex index) const
+{
+  assert(index < content_->nodes);
+  const std::uint32_t page = index / nodePageRows;
+  Node row;
+  if (content_->setOf(page).copyRow(page, index % nodePageRows, row))
+  {
+    return row;
+  }
+  NodePage rows;
+  const bool sound = !content_->isLost(page) && content_->load(page, rows);
+  return sound ? rows[index % nodePageRows] : hollowRow();
+}
+
+Node PagedNodeTable::childOf(NodeIndex parent, const Node& row, std::uint8_t child) const
+{
+  const NodeIndex index = row.firstChild + child;
+  const Node found = node(index);
+  const bool lost = content_->isLost(index / nodePageRows);
+  return !lost && content_->linked(parent, row, index, found) ? found : hollowRow();
+}
+
+RowState PagedNodeTable::peekChild(
+  NodeIndex parent, const Node& row, std::uint8_t child, Node& found) const
+{
+  const NodeIndex index = row.firstChild + child;
+  const RowState state = peek(index, found);
+  if (state == RowState::Here && !content_->linked(parent, row, index, found))
+  {
+    found = hollowRow();
+    return RowState::Lost;
+  }
+  return state;
+}
+
+RowState PagedNodeTable::peek(NodeIndex index, Node& row) const
+{
+  assert(index < content_->nodes);
+  const std::uint32_t page = index / nodePageRows;
+  if (content_->setOf(page).copyRow(page, index % nodePageRows, row))
+  {
+    return RowState::Here;
+  }
+  if (content_->isLost(page))
+  {
+    row = hollowRow();
+    return RowState::Lost;
+  }
+  content_->want(page);
+  return RowState::Coming;
+}
+
+std::uint64_t PagedNodeTable::arrivals() const { return content_->arrivals; }
+
+void PagedNodeTable::waitForArrival(std::uint64_t seen) const
+{
+  std::unique_lock<std::mutex> lock(content_->fetchMutex);
+  content_->changed.wait(lock,
+    [&]
+    {
+      return content_->arrivals != seen ||
+        (content_->wanted.empty() && content_->fetching == noPage);
+    });
+}
+
+std::optional<Error> PagedNodeTable::fault() const
+{
+  if (!content_->damaged)
+  {
+    return std::nullopt;
+  }
+  const std::lock_guard<std::mutex> lock(content_->faultMutex);
+  return content_->firstFault;
+}
+
+std::vector<Error> PagedNodeTable::takeFaults() const
+{
+  if (!content_->damaged)
+  {
+    return {};
+  }
+  const std::lock_guard<std::mutex> lock(content_->faultMutex);
+  return std::exchange(content_->newFaults, {});
+}
+
+std::uint64_t PagedNodeTable::pagesRead() const { return content_->pagesRead; }
+
+std::size_t PagedNodeTable::cachedBytes() const
+{
+  return content_->pagesHeld * sizeof(NodePage);
+}
+
+} // namespace pointfront

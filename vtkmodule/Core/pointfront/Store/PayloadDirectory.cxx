@@ -1,0 +1,251 @@
+#include "pointfront/Store/PayloadDirectory.h"
+
+#include "pointfront/Store/ByteStream.h"
+#include "pointfront/Store/Checksum.h"
+
+#include <algorithm>
+#include <cstring>
+#include <string>
+#include <utility>
+
+namespace pointfront
+{
+namespace
+{
+/// Payloads lie between the header and the first section.
+std::uint64_t payloadEndOf(const StoreFooter& footer)
+{
+  std::uint64_t end = UINT64_MAX;
+  for (const SectionEntry& section : footer.sections)
+  {
+    end = std::min(end, section.offset);
+  }
+  return end;
+}
+
+Error unknownCodecIn(const std::string& path, const std::string& codec)
+{
+  return makeError(Error::Kind::Unsupported,
+    "'" + path + "' was written with " + codec +
+      ", which this program does not know; update PointFront");
+}
+
+bool inRange(const GridPosition& p)
+{
+  return std::all_of(&p[0], &p[0] + 3,
+    [](std::int64_t v) { return v >= -maxGridPosition && v <= maxGridPosition; });
+}
+
+constexpr std::size_t countBytes = sizeof(std::uint32_t);
+
+/// Room for a record behind the number of points.
+RawBytes begun(std::uint32_t pointCount, std::size_t recordBytes)
+{
+  RawBytes bytes(countBytes + recordBytes);
+  std::memcpy(bytes.data.get(), &pointCount, countBytes);
+  return bytes;
+}
+
+std::uint32_t pointCountOf(const RawBytes& fetched)
+{
+  std::uint32_t count = 0;
+  std::memcpy(&count, fetched.data.get(), countBytes);
+  return count;
+}
+
+/// Version 1: five arrays that were read when the store was opened.
+class DirectoryInMemory final : public PayloadDirectory
+{
+public:
+  explicit DirectoryInMemory(BlockDirectory directory)
+    : directory_(std::move(directory))
+  {
+  }
+  Result<RawBytes> fetch(std::uint32_t, std::uint32_t pointCount) const override
+  {
+    return begun(pointCount, 0);
+  }
+  Result<NodePayload> decode(std::uint32_t node, const RawBytes& fetched) const override
+  {
+    NodePayload payload;
+    payload.pointCount = pointCountOf(fetched);
+    payload.origin = directory_.origin(node);
+    for (std::uint32_t b = 0; b < directory_.blocksPerNode(); ++b)
+    {
+      payload.blocks.push_back(directory_.block(node, b));
+    }
+    return payload;
+  }
+
+private:
+  BlockDirectory directory_;
+};
+
+/// Version 2: a record is read when its node is.
+class DirectoryInFile final : public PayloadDirectory
+{
+public:
+  DirectoryInFile(const InputFile& file, std::uint64_t offset, std::uint32_t blocksPerNode,
+    std::uint64_t payloadEnd)
+    : file_(file)
+    , offset_(offset)
+    , blocksPerNode_(blocksPerNode)
+    , payloadEnd_(payloadEnd)
+  {
+  }
+
+  Result<RawBytes> fetch(std::uint32_t node, std::uint32_t pointCount) const override
+  {
+    RawBytes bytes = begun(pointCount, payloadRecordBytes(blocksPerNode_));
+    Result<void> done =
+      file_.readAt(placeOf(node), bytes.data.get() + countBytes, bytes.size - countBytes);
+    return done ? Result<RawBytes>(std::move(bytes)) : done.error();
+  }
+
+  Result<NodePayload> decode(std::uint32_t node, const RawBytes& fetched) const override
+  {
+    const std::byte* record = fetched.data.get() + countBytes;
+    const std::size_t size = fetched.size - countBytes;
+    const auto damaged = [&](const std::string& what)
+    {
+      return corruptStore(file_.path(), placeOf(node),
+        "block directory, node " + std::to_string(node) + ": " + what);
+    };
+    ByteReader end(record + size - 4, 4);
+    if (!matchesChecksum(record, size - 4, end.get<std::uint32_t>()))
+    {
+      return damaged("the checksum does not match");
+    }
+    ByteReader in(record, size);
+    Result<NodePayload> payload = decodeRecord(in, damaged);
+    if (payload)
+    {
+      payload->pointCount = pointCountOf(fetched);
+    }
+    return payload;
+  }
+
+private:
+  std::uint64_t placeOf(std::uint32_t node) const
+  {
+    return offset_ + std::uint64_t(node) * payloadRecordBytes(blocksPerNode_);
+  }
+
+  template <typename Damaged>
+  Result<NodePayload> decodeRecord(ByteReader& in, const Damaged& damaged) const
+  {
+    NodePayload payload;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      payload.origin[axis] = in.get<std::int64_t>();
+    }
+    auto offset = in.get<std::uint64_t>();
+    if (!inRange(payload.origin))
+    {
+      return damaged("its origin is out of range");
+    }
+    for (std::uint32_t b = 0; b < blocksPerNode_; ++b)
+    {
+      BlockDirectory::Block block;
+      block.offset = offset;
+      block.bytes = in.get<std::uint32_t>();
+      block.checksum = in.get<std::uint32_t>();
+      const auto codec = in.get<std::uint8_t>();
+      if (!knownBlockCodec(codec))
+      {
+        return unknownCodecIn(file_.path(), "codec " + std::to_string(codec));
+      }
+      if (offset < storeHeaderBytes || offset > payloadEnd_ || block.bytes > payloadEnd_ - offset)
+      {
+        return damaged("its payload lies outside the file");
+      }
+      block.codec = static_cast<BlockCodec>(codec);
+      payload.blocks.push_back(block);
+      offset += block.bytes;
+    }
+    return payload;
+  }
+
+  const InputFile& file_;
+  std::uint64_t offset_;
+  std::uint32_t blocksPerNode_;
+  std::uint64_t payloadEnd_;
+};
+
+Result<std::unique_ptr<const PayloadDirectory>> openInMemory(
+  const InputFile& file, const SectionEntry& section, const StoreFooter& footer)
+{
+  std::vector<std::byte> bytes(static_cast<std::size_t>(section.bytes));
+  if (Result<void> done = file.readAt(section.offset, bytes.data(), bytes.size()); !done)
+  {
+    return done.error();
+  }
+  if (!matchesChecksum(bytes.data(), bytes.size(), section.checksum))
+  {
+    return corruptStore(
+      file.path(), section.offset, "the block directory's checksum does not match");
+  }
+  BlockDirectory directory =
+    BlockDirectory::decode(bytes.data(), footer.nodeCount, footer.columnCount + 1);
+  bool unknownCodec = false;
+  const std::string fault =
+    directory.fault(storeHeaderBytes, payloadEndOf(footer), unknownCodec);
+  if (unknownCodec)
+  {
+    return unknownCodecIn(file.path(), fault);
+  }
+  if (!fault.empty())
+  {
+    return corruptStore(file.path(), section.offset, fault);
+  }
+  return std::unique_ptr<const PayloadDirectory>(
+    std::make_unique<DirectoryInMemory>(std::move(directory)));
+}
+} // namespace
+
+Result<std::unique_ptr<const PayloadDirectory>> PayloadDirectory::open(
+  const InputFile& file, std::uint32_t version, const StoreFooter& footer)
+{
+  const SectionEntry& section = *footer.find(SectionKind::BlockDirectory);
+  const std::uint32_t blocks = footer.columnCount + 1;
+  const std::uint64_t expected = version == 1
+    ? BlockDirectory::encodedBytes(footer.nodeCount, blocks)
+    : std::uint64_t(footer.nodeCount) * payloadRecordBytes(blocks);
+  if (section.bytes != expected)
+  {
+    return corruptStore(file.path(), section.offset, "the block directory's size is wrong");
+  }
+  if (version == 1)
+  {
+    return openInMemory(file, section, footer);
+  }
+  return std::unique_ptr<const PayloadDirectory>(std::make_unique<DirectoryInFile>(
+    file, section.offset, blocks, payloadEndOf(footer)));
+}
+
+std::vector<std::byte> encodePayloadRecords(const BlockDirectory& directory)
+{
+  std::vector<std::byte> bytes;
+  bytes.reserve(directory.nodeCount() * payloadRecordBytes(directory.blocksPerNode()));
+  for (std::uint32_t node = 0; node < directory.nodeCount(); ++node)
+  {
+    ByteWriter out;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      out.put(directory.origin(node)[axis]);
+    }
+    out.put(directory.offset(node));
+    for (std::uint32_t b = 0; b < directory.blocksPerNode(); ++b)
+    {
+      const BlockDirectory::Block block = directory.block(node, b);
+      out.put(block.bytes);
+      out.put(block.checksum);
+      out.put(static_cast<std::uint8_t>(block.codec));
+    }
+    out.put(checksumOf(out.bytes().data(), out.size()));
+    bytes.insert(bytes.end(), out.bytes().begin(), out.bytes().end());
+  }
+  return bytes;
+}
+
+} // namespace pointfront

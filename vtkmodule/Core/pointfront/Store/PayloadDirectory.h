@@ -1,0 +1,51 @@
+#pragma once
+
+#include "pointfront/Base/Result.h"
+#include "pointfront/Store/BlockDirectory.h"
+#include "pointfront/Store/InputFile.h"
+#include "pointfront/Store/NodeReader.h"
+#include "pointfront/Store/StoreFormat.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace pointfront
+{
+
+/// Where one node's blocks lie: block 0 the positions, block 1 + c column c, one after another.
+struct NodePayload
+{
+  std::uint32_t pointCount = 0; ///< as its row in the node table says
+  GridPosition origin{ 0 };
+  std::vector<BlockDirectory::Block> blocks;
+};
+
+/// Tells where nodes' payloads lie in the file of an open store.
+/// Threads  from any thread.
+class PayloadDirectory
+{
+public:
+  virtual ~PayloadDirectory() = default;
+  /// What the file says of a node, with the number of points of its row in front of it.
+  virtual Result<RawBytes> fetch(std::uint32_t node, std::uint32_t pointCount) const = 0;
+  /// Checks and reads what fetch() gave. Touches no file.
+  virtual Result<NodePayload> decode(std::uint32_t node, const RawBytes& fetched) const = 0;
+
+  /// That of the store: read as a whole and checked for version 1, a record at a time from version
+  /// 2 on. `file` must outlive it.
+  static Result<std::unique_ptr<const PayloadDirectory>> open(
+    const InputFile& file, std::uint32_t version, const StoreFooter& footer);
+};
+
+/// Bytes of a node's record from version 2 on: origin, offset, blocks, checksum.
+constexpr std::size_t payloadRecordBytes(std::uint32_t blocksPerNode)
+{
+  return 3 * 8 + 8 + std::size_t(9) * blocksPerNode + 4;
+}
+
+/// The section of version 2: a record for each node.
+std::vector<std::byte> encodePayloadRecords(const BlockDirectory& directory);
+
+} // namespace pointfront

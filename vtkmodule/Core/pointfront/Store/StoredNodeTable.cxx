@@ -1,0 +1,144 @@
+#include "pointfront/Store/StoredNodeTable.h"
+
+#include "pointfront/Store/Checksum.h"
+#include "pointfront/Store/NodePage.h"
+#include "pointfront/Store/NodeTableSection.h"
+#include "pointfront/Store/PagedNodeTable.h"
+
+#include <array>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace pointfront
+{
+namespace
+{
+/// Pages of a store's file.
+class NodePageFile final : public NodePageSource
+{
+public:
+  NodePageFile(std::shared_ptr<const InputFile> file, std::uint64_t offset, TableLimits limits)
+    : file_(std::move(file))
+    , offset_(offset)
+    , limits_(limits)
+  {
+  }
+  NodeIndex nodeCount() const override { return limits_.nodes; }
+  Result<void> read(std::uint32_t page, NodePage& rows) const override
+  {
+    std::array<std::byte, nodePageBytes> bytes;
+    const std::uint64_t at = offset_ + std::uint64_t(page) * nodePageBytes;
+    if (Result<void> done = file_->readAt(at, bytes.data(), bytes.size()); !done)
+    {
+      return done;
+    }
+    const std::string fault = decodeNodePage(bytes.data(), page, limits_, rows);
+    return fault.empty() ? Result<void>() : corruptStore(file_->path(), at, fault);
+  }
+
+private:
+  std::shared_ptr<const InputFile> file_;
+  std::uint64_t offset_;
+  TableLimits limits_;
+};
+
+Result<std::shared_ptr<const Hierarchy>> readWhole(
+  const InputFile& file, const StoreFooter& footer, StoreDescription& description)
+{
+  const SectionEntry& section = *footer.find(SectionKind::NodeTable);
+  std::vector<std::byte> bytes(static_cast<std::size_t>(section.bytes));
+  if (Result<void> done = file.readAt(section.offset, bytes.data(), bytes.size()); !done)
+  {
+    return done.error();
+  }
+  if (!matchesChecksum(bytes.data(), bytes.size(), section.checksum))
+  {
+    return corruptStore(
+      file.path(), section.offset, "the node table's checksum does not match");
+  }
+  std::vector<Node> nodes = decodeNodeTable(bytes.data(), footer.nodeCount);
+  const std::string fault = nodeTableFault(
+    nodes, description.layers.size(), footer.pointCount, description.refinement);
+  if (!fault.empty())
+  {
+    return corruptStore(file.path(), section.offset, fault);
+  }
+  std::vector<NodeIndex> roots = rootsOf(nodes);
+  auto table = std::make_shared<HierarchyTable>(
+    std::move(nodes), std::move(roots), description.refinement);
+  countLayers(*table, description);
+  return std::shared_ptr<const Hierarchy>(std::move(table));
+}
+
+/// What the roots, the layers and the footer say of each other.
+std::string summaryFault(
+  const Hierarchy& table, const StoreFooter& footer, const StoreDescription& description)
+{
+  std::uint64_t below = 0;
+  for (const NodeIndex index : table.roots())
+  {
+    if (index >= footer.nodeCount)
+    {
+      return "the list of roots names a node outside the table";
+    }
+    const Node root = table.node(index);
+    if (const std::optional<Error> damage = table.fault())
+    {
+      return damage->what;
+    }
+    if (root.parent != noNode)
+    {
+      return "node " + std::to_string(index) + " is in the list of roots and has a parent";
+    }
+    below += root.pointsBelow;
+  }
+  std::uint64_t points = 0;
+  std::uint64_t nodes = 0;
+  for (const Layer& layer : description.layers)
+  {
+    points += layer.pointCount;
+    nodes += layer.nodeCount;
+  }
+  if (points != footer.pointCount || below != footer.pointCount)
+  {
+    return "the layers hold " + std::to_string(points) + " points, the roots " +
+      std::to_string(below) + ", the store claims " + std::to_string(footer.pointCount);
+  }
+  return nodes == footer.nodeCount ? "" : "the layers' nodes do not add up";
+}
+} // namespace
+
+Result<std::shared_ptr<const Hierarchy>> openNodeTable(std::shared_ptr<const InputFile> file,
+  std::uint32_t version, const StoreFooter& footer, StoredDescription& stored)
+{
+  const SectionEntry& section = *footer.find(SectionKind::NodeTable);
+  const std::uint64_t expected = version == 1
+    ? std::uint64_t(footer.nodeCount) * nodeRowBytes
+    : std::uint64_t(nodePageCount(footer.nodeCount)) * nodePageBytes;
+  if (section.bytes != expected)
+  {
+    return corruptStore(file->path(), section.offset, "the node table's size is wrong");
+  }
+  if (version == 1)
+  {
+    return readWhole(*file, footer, stored.description);
+  }
+  const TableLimits limits{ footer.nodeCount,
+    static_cast<std::uint32_t>(stored.description.layers.size()) };
+  auto table = std::make_shared<PagedNodeTable>(
+    std::make_unique<NodePageFile>(file, section.offset, limits), stored.roots,
+    stored.description.refinement);
+  const std::string fault = summaryFault(*table, footer, stored.description);
+  if (const std::optional<Error> damage = table->fault())
+  {
+    return *damage;
+  }
+  if (!fault.empty())
+  {
+    return corruptStore(file->path(), section.offset, fault);
+  }
+  return std::shared_ptr<const Hierarchy>(std::move(table));
+}
+
+} // namespace pointfront

@@ -51,7 +51,7 @@ TEST(Store, DescribesWhatWasWritten)
   ASSERT_TRUE(opened) << opened.error().what;
   const StoreDescription& d = (*opened)->description();
   EXPECT_EQ(d.path, path);
-  EXPECT_EQ(d.version, 1u);
+  EXPECT_EQ(d.version, 2u);
   EXPECT_EQ(d.fileBytes, fileBytes(path).size());
   EXPECT_EQ(d.pointCount, 600u);
   EXPECT_EQ(d.grid, sample.description.grid);

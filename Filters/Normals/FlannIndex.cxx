@@ -2,7 +2,6 @@
 
 #include <flann/flann.hpp>
 
-#include <cmath>
 #include <limits>
 
 namespace pointfront
@@ -27,7 +26,8 @@ public:
   /// FLANN leaves out what is not nearer than this, the list only what is farther than its bound.
   double worstDist() const override
   {
-    return std::nextafter(list_.bound(), std::numeric_limits<double>::infinity());
+    return list_.bound() * (1.0 + 4.0 * std::numeric_limits<double>::epsilon()) +
+      std::numeric_limits<double>::min();
   }
 
 private:

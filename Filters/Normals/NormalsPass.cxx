@@ -40,7 +40,10 @@ public:
     std::byte* value) const override
   {
     const std::optional<SurfaceFit> fit = fitSurface(near);
-    without_ += fit ? 0 : 1;
+    if (!fit)
+    {
+      ++without_; // not touched for each point: all threads share it
+    }
     const PackedNormal normal = facingUp(packNormal(fit ? fit->normal : glm::dvec3(0.0)));
     std::memcpy(value, &normal, sizeof normal);
     if (curvature_)

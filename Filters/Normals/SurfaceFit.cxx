@@ -20,23 +20,30 @@ std::optional<SurfaceFit> fitSurface(const std::vector<NearPoint>& points)
   {
     return std::nullopt;
   }
+  // Moments about the nearest point, which is within the neighbourhood's own extent of the mean: no
+  // digits are lost that count.
   const glm::dvec3 origin = points.front().position;
-  glm::dvec3 sum(0.0);
   double count = 0.0;
+  glm::dvec3 sum(0.0);
+  glm::dvec3 squares(0.0);  // xx, yy, zz
+  glm::dvec3 products(0.0); // xy, xz, yz
   for (const NearPoint& point : points)
   {
-    sum += double(point.count) * (point.position - origin);
+    const glm::dvec3 d = point.position - origin;
+    const glm::dvec3 weighted = double(point.count) * d;
     count += point.count;
+    sum += weighted;
+    squares += weighted * d;
+    products += glm::dvec3(weighted.x * d.y, weighted.x * d.z, weighted.y * d.z);
   }
   const glm::dvec3 mean = sum / count;
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  for (const NearPoint& point : points)
-  {
-    const glm::dvec3 offset = point.position - origin - mean;
-    const Eigen::Vector3d d(offset.x, offset.y, offset.z);
-    covariance += (double(point.count) * d) * d.transpose();
-  }
-  covariance /= count;
+  squares = squares / count - mean * mean;
+  products = products / count -
+    glm::dvec3(mean.x * mean.y, mean.x * mean.z, mean.y * mean.z);
+  Eigen::Matrix3d covariance;
+  covariance << squares.x, products.x, products.y, //
+    products.x, squares.y, products.z,             //
+    products.y, products.z, squares.z;
   const double trace = covariance.trace();
   if (!(trace > 0.0))
   {

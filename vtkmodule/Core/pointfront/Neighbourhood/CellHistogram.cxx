@@ -2,19 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace pointfront
 {
-
-CellHistogram::CellHistogram(int edgeLog2, unsigned axes, std::size_t mostCells)
-  : edgeLog2_(edgeLog2)
-  , edge_(std::ldexp(1.0, edgeLog2))
-  , axes_(axes)
-  , mostCells_(mostCells)
+namespace
 {
-}
+constexpr std::size_t fewestSlots = 1u << 10;
 
-std::size_t CellHistogram::Hash::operator()(const CellIndex& index) const
+std::size_t hashOf(const CellIndex& index)
 {
   std::uint64_t mixed = 0;
   for (const std::int64_t i : index)
@@ -23,6 +19,50 @@ std::size_t CellHistogram::Hash::operator()(const CellIndex& index) const
     mixed ^= mixed >> 29;
   }
   return static_cast<std::size_t>(mixed);
+}
+} // namespace
+
+CellHistogram::CellHistogram(int edgeLog2, unsigned axes, std::size_t mostCells)
+  : edgeLog2_(edgeLog2)
+  , edge_(std::ldexp(1.0, edgeLog2))
+  , axes_(axes)
+  , mostCells_(mostCells)
+  , slots_(fewestSlots)
+{
+}
+
+/// Its count; a new cell has 0 points until the caller adds some.
+std::uint64_t& CellHistogram::countOf(const CellIndex& index)
+{
+  if (2 * (taken_ + 1) > slots_.size())
+  {
+    grow();
+  }
+  std::size_t at = hashOf(index) & (slots_.size() - 1);
+  while (slots_[at].points > 0 && slots_[at].index != index)
+  {
+    at = (at + 1) & (slots_.size() - 1);
+  }
+  if (slots_[at].points == 0)
+  {
+    slots_[at].index = index;
+    ++taken_;
+  }
+  return slots_[at].points;
+}
+
+void CellHistogram::grow()
+{
+  const std::vector<PopulatedCell> cells = std::move(slots_);
+  slots_.assign(2 * cells.size(), {});
+  taken_ = 0;
+  for (const PopulatedCell& cell : cells)
+  {
+    if (cell.points > 0)
+    {
+      countOf(cell.index) = cell.points;
+    }
+  }
 }
 
 void CellHistogram::add(const glm::dvec3& p)
@@ -35,11 +75,11 @@ void CellHistogram::add(const glm::dvec3& p)
   ++points_;
   if (last_ == nullptr || index != lastIndex_)
   {
-    last_ = &counts_[index]; // nodes of the map stay where they are
+    last_ = &countOf(index); // stays where it is until the next one
     lastIndex_ = index;
   }
   ++*last_;
-  if (counts_.size() > mostCells_)
+  while (taken_ > mostCells_)
   {
     coarsen();
   }
@@ -52,18 +92,21 @@ void CellHistogram::add(const CellHistogram& other)
     coarsen();
   }
   const int shift = edgeLog2_ - other.edgeLog2_;
-  for (const auto& [index, count] : other.counts_)
+  for (const PopulatedCell& cell : other.slots_)
   {
-    CellIndex mine{};
-    for (std::size_t axis = 0; axis < mine.size(); ++axis)
+    if (cell.points > 0)
     {
-      mine[axis] = index[axis] >> std::min(shift, 63);
+      CellIndex mine{};
+      for (std::size_t axis = 0; axis < mine.size(); ++axis)
+      {
+        mine[axis] = cell.index[axis] >> std::min(shift, 63);
+      }
+      countOf(mine) += cell.points;
     }
-    counts_[mine] += count;
   }
   points_ += other.points_;
   last_ = nullptr;
-  while (counts_.size() > mostCells_)
+  while (taken_ > mostCells_)
   {
     coarsen();
   }
@@ -71,12 +114,16 @@ void CellHistogram::add(const CellHistogram& other)
 
 void CellHistogram::coarsen()
 {
-  std::unordered_map<CellIndex, std::uint64_t, Hash> coarse;
-  for (const auto& [index, count] : counts_)
+  const std::vector<PopulatedCell> fine = std::move(slots_);
+  slots_.assign(fine.size(), {});
+  taken_ = 0;
+  for (const PopulatedCell& cell : fine)
   {
-    coarse[{ index[0] >> 1, index[1] >> 1, index[2] >> 1 }] += count;
+    if (cell.points > 0)
+    {
+      countOf({ cell.index[0] >> 1, cell.index[1] >> 1, cell.index[2] >> 1 }) += cell.points;
+    }
   }
-  counts_ = std::move(coarse);
   edge_ = std::ldexp(1.0, ++edgeLog2_);
   last_ = nullptr;
 }
@@ -84,11 +131,9 @@ void CellHistogram::coarsen()
 std::vector<PopulatedCell> CellHistogram::cells() const
 {
   std::vector<PopulatedCell> all;
-  all.reserve(counts_.size());
-  for (const auto& [index, count] : counts_)
-  {
-    all.push_back({ index, count });
-  }
+  all.reserve(taken_);
+  std::copy_if(slots_.begin(), slots_.end(), std::back_inserter(all),
+    [](const PopulatedCell& cell) { return cell.points > 0; });
   std::sort(all.begin(), all.end(),
     [](const PopulatedCell& a, const PopulatedCell& b) { return a.index < b.index; });
   return all;

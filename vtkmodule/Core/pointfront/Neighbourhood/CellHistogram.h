@@ -5,7 +5,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <unordered_map>
 #include <vector>
 
 namespace pointfront
@@ -54,10 +53,8 @@ public:
   std::vector<PopulatedCell> cells() const;
 
 private:
-  struct Hash
-  {
-    std::size_t operator()(const CellIndex& index) const;
-  };
+  std::uint64_t& countOf(const CellIndex& index);
+  void grow();
   void coarsen();
 
   int edgeLog2_;
@@ -65,7 +62,9 @@ private:
   unsigned axes_;
   std::size_t mostCells_;
   std::uint64_t points_ = 0;
-  std::unordered_map<CellIndex, std::uint64_t, Hash> counts_;
+  // A hash table of cells, those without points are free; at most half are taken. A power of two.
+  std::vector<PopulatedCell> slots_;
+  std::size_t taken_ = 0;
   std::uint64_t* last_ = nullptr; ///< count of the cell of the point before: points come in runs
   CellIndex lastIndex_{};
 };

@@ -1,9 +1,11 @@
 #include "pointfront/Neighbourhood/NearestNeighbours.h"
 
+#include "pointfront/Neighbourhood/NeighbourCluster.h"
 #include "pointfront/Neighbourhood/TileSearch.h"
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <mutex>
 #include <numeric>
 
@@ -20,6 +22,13 @@ constexpr double searchShare = 0.8;
 /// What a point of a tile needs while it is searched: itself, its place and the tree over it, its
 /// order, its value on the way to the column.
 constexpr std::uint64_t tilePointBytes = sizeof(TilePoint) + 2 * sizeof(glm::dvec3) + 64;
+
+/// The order in which a feature sees neighbours.
+bool nearer(const NearPoint& a, const NearPoint& b)
+{
+  return a.squaredDistance != b.squaredDistance ? a.squaredDistance < b.squaredDistance
+                                                : positionLess(a.position, b.position);
+}
 
 /// One computation over all tiles.
 class Search
@@ -41,15 +50,10 @@ public:
 
 private:
   Result<void> searchTile(std::size_t tile);
-  /// Index and neighbours of a tile, reused from tile to tile by one thread.
-  struct Local
-  {
-    PositionSet references;
-    std::unique_ptr<NeighbourIndex> index;
-    std::vector<NearPoint> near;
-    std::vector<std::byte> values;
-    std::vector<std::uint64_t> numbers;
-  };
+  struct TileWork;
+  void searchRun(
+    TileWork& work, std::size_t begin, std::size_t end, NeighbourCluster& cluster) const;
+  bool compute(TileWork& work, std::uint32_t point, const NeighbourList& list) const;
   double squaredReach(const NeighbourList& list, const glm::dvec3& p) const;
   Result<void> store(const std::vector<TilePoint>& points, std::vector<std::uint32_t>& done,
     const std::vector<std::byte>& values) const;
@@ -105,6 +109,25 @@ Result<void> Search::run(std::size_t mostUnfinished)
   return {};
 }
 
+/// What one tile is searched with.
+struct Search::TileWork
+{
+  TileWork(GatheredPoints gatheredPoints, const Bounds& gatheredBox, std::size_t valueBytes)
+    : points(std::move(gatheredPoints.points))
+    , box(gatheredBox)
+    , values(gatheredPoints.own * valueBytes)
+  {
+  }
+  std::vector<TilePoint> points; ///< own ones come first
+  Bounds box;                    ///< that they were gathered from
+  PlaceOrder queries;
+  PositionSet references;
+  std::vector<std::byte> values; ///< of points[i]
+  std::vector<std::uint32_t> finished;
+  std::vector<UnfinishedPoint> unfinished;
+  std::vector<NearPoint> near; ///< of one point
+};
+
 Result<void> Search::searchTile(std::size_t tile)
 {
   Result<GatheredPoints> gathered = tiles_.gathered(tile);
@@ -112,72 +135,100 @@ Result<void> Search::searchTile(std::size_t tile)
   {
     return gathered.error();
   }
-  const std::vector<TilePoint>& points = gathered->points;
-  const std::vector<std::uint32_t> order = placeOrder(points);
-  PositionSet references;
-  const std::uint32_t most = options_.neighbours > 0 ? options_.neighbours : ~0u;
-  collectReferences(points, order, tiles_.participants().references, options_.axes, most,
-    references);
-  const std::unique_ptr<NeighbourIndex> index = makeIndex_(references);
-  const Bounds& box = tiles_.layout().tiles()[tile].gathered;
-
-  NeighbourList list(options_.neighbours);
-  std::vector<NearPoint> near;
-  std::vector<std::uint32_t> finished;
-  std::vector<UnfinishedPoint> unfinished;
-  const std::size_t bytes = feature_.bytes();
-  std::vector<std::byte> values(gathered->own * bytes); // of points[i], own ones come first
-  const std::uint32_t* before = nullptr;
-  for (const std::uint32_t& i : order)
+  const std::size_t own = gathered->own;
+  TileWork work(
+    std::move(*gathered), tiles_.layout().tiles()[tile].gathered, feature_.bytes());
+  const PlaceOrder order = placeOrder(work.points);
+  const Participants& participants = tiles_.participants();
+  collectReferences(work.points, order, participants.references, options_.axes,
+    options_.neighbours > 0 ? options_.neighbours : ~0u, work.references);
+  work.queries = queriesOf(order, work.points, own, participants.queries);
+  const std::unique_ptr<NeighbourIndex> index = makeIndex_(work.references);
+  NeighbourCluster cluster(
+    work.references, *index, { options_.neighbours, options_.radius, options_.axes });
+  for (std::size_t begin = 0; begin < work.queries.points.size();)
   {
     if (crew_.stopped())
     {
       return {};
     }
-    const glm::dvec3& p = points[i].position;
-    if (i >= gathered->own || !tiles_.participants().queries[points[i].objectClass()])
-    {
-      continue;
-    }
-    if (before != nullptr && points[*before].position == p) // a duplicate
-    {
-      std::copy_n(values.begin() + std::ptrdiff_t(*before * bytes), bytes,
-        values.begin() + std::ptrdiff_t(i * bytes));
-      finished.push_back(i);
-      continue;
-    }
-    before = nullptr;
-    list.begin(references, options_.neighbours > 0 ? infinity : options_.radius * options_.radius);
-    index->search(p, list);
-    const double clearance = squaredClearance(box, p);
-    if (options_.neighbours > 0 && clearance < infinity &&
-      !(list.full() && list.bound() < clearance))
-    {
-      unfinished.push_back({ points[i], squaredReach(list, p) });
-      continue;
-    }
-    collectNear(references, list, options_.neighbours, near);
-    if (options_.neighbours == 0)
-    {
-      std::sort(near.begin(), near.end(),
-        [](const NearPoint& a, const NearPoint& b)
-        {
-          return a.squaredDistance != b.squaredDistance ? a.squaredDistance < b.squaredDistance
-                                                        : positionLess(a.position, b.position);
-        });
-    }
-    feature_.compute(p, near, values.data() + i * bytes);
-    finished.push_back(i);
-    before = &i;
+    const std::size_t end = runEnd(work.queries.keys, begin);
+    searchRun(work, begin, end, cluster);
+    begin = end;
   }
-  crew_.advance(finished.size());
-  if (Result<void> done = store(points, finished, values); !done)
+  crew_.advance(work.finished.size());
+  if (Result<void> done = store(work.points, work.finished, work.values); !done)
   {
     return done;
   }
   const std::lock_guard<std::mutex> lock(mutex_);
-  unfinished_.insert(unfinished_.end(), unfinished.begin(), unfinished.end());
+  unfinished_.insert(unfinished_.end(), work.unfinished.begin(), work.unfinished.end());
   return {};
+}
+
+void Search::searchRun(
+  TileWork& work, std::size_t begin, std::size_t end, NeighbourCluster& cluster) const
+{
+  const auto position = [&work](std::size_t query) -> const glm::dvec3&
+  { return work.points[work.queries.points[query]].position; };
+  Bounds bounds;
+  for (std::size_t query = begin; query < end; ++query)
+  {
+    bounds.add(position(query));
+  }
+  const glm::dvec3 middle = bounds.centre();
+  double reach = 0.0;
+  for (std::size_t query = begin; query < end; ++query)
+  {
+    const glm::dvec3 out = position(query) - middle;
+    reach = std::max(reach, out.x * out.x + out.y * out.y +
+        (options_.axes > 2 ? out.z * out.z : 0.0));
+  }
+  cluster.gather(middle, std::sqrt(reach));
+  NeighbourList list(options_.neighbours);
+  const std::size_t bytes = feature_.bytes();
+  const std::uint32_t* before = nullptr; // computed last
+  for (std::size_t query = begin; query < end; ++query)
+  {
+    const std::uint32_t& i = work.queries.points[query];
+    if (before != nullptr && work.points[*before].position == position(query)) // a duplicate
+    {
+      std::copy_n(work.values.begin() + std::ptrdiff_t(*before * bytes), bytes,
+        work.values.begin() + std::ptrdiff_t(i * bytes));
+      work.finished.push_back(i);
+      continue;
+    }
+    before = nullptr;
+    cluster.search(position(query), list);
+    if (compute(work, i, list))
+    {
+      work.finished.push_back(i);
+      before = &i;
+    }
+    else
+    {
+      work.unfinished.push_back({ work.points[i], squaredReach(list, position(query)) });
+    }
+  }
+}
+
+/// The value of a point from its list; false if neighbours may lie outside of what was gathered.
+bool Search::compute(TileWork& work, std::uint32_t point, const NeighbourList& list) const
+{
+  const glm::dvec3& p = work.points[point].position;
+  const double clearance = squaredClearance(work.box, p);
+  if (options_.neighbours > 0 && clearance < infinity &&
+    !(list.full() && list.bound() < clearance))
+  {
+    return false;
+  }
+  collectNear(work.references, list, options_.neighbours, work.near);
+  if (options_.neighbours == 0)
+  {
+    std::sort(work.near.begin(), work.near.end(), nearer);
+  }
+  feature_.compute(p, work.near, work.values.data() + point * feature_.bytes());
+  return true;
 }
 
 double Search::squaredReach(const NeighbourList& list, const glm::dvec3& p) const
@@ -296,12 +347,7 @@ Result<void> Search::searchAgain(std::size_t tile, std::vector<std::vector<NearP
 void Search::merge(std::vector<NearPoint>& found, const std::vector<NearPoint>& more) const
 {
   found.insert(found.end(), more.begin(), more.end());
-  std::sort(found.begin(), found.end(),
-    [](const NearPoint& a, const NearPoint& b)
-    {
-      return a.squaredDistance != b.squaredDistance ? a.squaredDistance < b.squaredDistance
-                                                    : positionLess(a.position, b.position);
-    });
+  std::sort(found.begin(), found.end(), nearer);
   std::uint32_t total = 0;
   std::size_t kept = 0;
   for (; kept < found.size() && total < options_.neighbours; ++kept)

@@ -49,6 +49,7 @@ struct NeighbourhoodOptions
 ///          of the points: a point is final only if its last neighbour is nearer than what its tile
 ///          did not gather; the others are looked for in all tiles within their reach in a second
 ///          round. With an approximate index they depend on the points and tilePoints alone.
+/// Speed    points in a row along a Morton curve share a search (NeighbourCluster).
 /// Memory   a tile a thread and the points of the second round: under resources.memoryBytes.
 /// Errors   those of PointTiles and of the sources; NoMemory; Cancelled.
 Result<std::unique_ptr<PointColumn>> computeFromNeighbours(const PointSources& sources,

@@ -9,6 +9,8 @@ namespace
 {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int keyBits = 21; // an axis
+/// Longer runs share a search among more points, each of which has more places to choose from.
+constexpr std::size_t longestRun = 16;
 
 /// Bit i of v goes to bit 3 i.
 std::uint64_t spread(std::uint64_t v)
@@ -26,7 +28,7 @@ bool samePlace(const glm::dvec3& a, const glm::dvec3& b, unsigned axes)
 }
 } // namespace
 
-std::vector<std::uint32_t> placeOrder(const std::vector<TilePoint>& points)
+PlaceOrder placeOrder(const std::vector<TilePoint>& points)
 {
   Bounds bounds;
   for (const TilePoint& point : points)
@@ -57,18 +59,61 @@ std::vector<std::uint32_t> placeOrder(const std::vector<TilePoint>& points)
         ? a.key < b.key
         : positionLess(points[a.index].position, points[b.index].position);
     });
-  std::vector<std::uint32_t> order(points.size());
-  std::transform(
-    keyed.begin(), keyed.end(), order.begin(), [](const Keyed& k) { return k.index; });
+  PlaceOrder order;
+  order.points.reserve(points.size());
+  order.keys.reserve(points.size());
+  for (const Keyed& k : keyed)
+  {
+    order.points.push_back(k.index);
+    order.keys.push_back(k.key);
+  }
   return order;
 }
 
+PlaceOrder queriesOf(const PlaceOrder& order, const std::vector<TilePoint>& points,
+  std::size_t own, const ClassSet& queries)
+{
+  PlaceOrder chosen;
+  chosen.points.reserve(own);
+  chosen.keys.reserve(own);
+  for (std::size_t i = 0; i < order.points.size(); ++i)
+  {
+    const std::uint32_t point = order.points[i];
+    if (point < own && queries[points[point].objectClass()])
+    {
+      chosen.points.push_back(point);
+      chosen.keys.push_back(order.keys[i]);
+    }
+  }
+  return chosen;
+}
+
+std::size_t runEnd(const std::vector<std::uint64_t>& keys, std::size_t begin)
+{
+  if (keys.size() - begin <= longestRun)
+  {
+    return keys.size();
+  }
+  std::size_t end = begin + longestRun;
+  std::uint64_t largest = 0; // the highest bit that differs tells the cell that is left
+  for (std::size_t i = begin + longestRun / 2; i <= begin + longestRun; ++i)
+  {
+    const std::uint64_t difference = keys[i] ^ keys[i - 1];
+    if (difference > largest)
+    {
+      largest = difference;
+      end = i;
+    }
+  }
+  return end;
+}
+
 void collectReferences(const std::vector<TilePoint>& points,
-  const std::vector<std::uint32_t>& order, const ClassSet& references, unsigned axes,
+  const PlaceOrder& order, const ClassSet& references, unsigned axes,
   std::uint32_t mostCount, PositionSet& set)
 {
   set.clear();
-  for (const std::uint32_t i : order)
+  for (const std::uint32_t i : order.points)
   {
     const glm::dvec3& p = points[i].position;
     if (!references[points[i].objectClass()])

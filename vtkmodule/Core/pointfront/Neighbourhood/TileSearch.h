@@ -8,12 +8,25 @@ namespace pointfront
 /// The points of one tile in an order that is the same whatever order they came in: along a Morton
 /// curve, places at the same step of it by positionLess(). Neighbours in space are neighbours in
 /// memory, which halves the time of searches in a row.
-std::vector<std::uint32_t> placeOrder(const std::vector<TilePoint>& points);
+struct PlaceOrder
+{
+  std::vector<std::uint32_t> points; ///< indices into the tile's
+  std::vector<std::uint64_t> keys;   ///< steps of the curve
+};
+PlaceOrder placeOrder(const std::vector<TilePoint>& points);
+
+/// Those of the points that are searched for: in `queries`, and among the first `own`.
+PlaceOrder queriesOf(const PlaceOrder& order, const std::vector<TilePoint>& points,
+  std::size_t own, const ClassSet& queries);
+
+/// Where the run of points close together ends that begins at `begin`: after 8 to 16 points, where
+/// the curve leaves the largest cell.
+std::size_t runEnd(const std::vector<std::uint64_t>& keys, std::size_t begin);
 
 /// The places of the references among `points`, taken in `order`. With two axes, points above one
 /// another are one place: the lowest.
 void collectReferences(const std::vector<TilePoint>& points,
-  const std::vector<std::uint32_t>& order, const ClassSet& references, unsigned axes,
+  const PlaceOrder& order, const ClassSet& references, unsigned axes,
   std::uint32_t mostCount, PositionSet& set);
 
 /// The entries of a list as points, in its order, with no more than `wanted` points in all (0: any

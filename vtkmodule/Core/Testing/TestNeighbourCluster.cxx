@@ -1,0 +1,107 @@
+#include "pointfront/Neighbourhood/KdIndex.h"
+#include "pointfront/Neighbourhood/NeighbourCluster.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace
+{
+using namespace pointfront;
+
+/// Dense and sparse places, a grid full of ties, several points at some places.
+PositionSet unevenPlaces(const glm::dvec3& origin)
+{
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  PositionSet set;
+  for (int i = 0; i < 3000; ++i)
+  {
+    const double spread = i % 3 == 0 ? 1.0 : 40.0;
+    set.positions.push_back(origin +
+      (i % 5 == 0 ? glm::dvec3(i % 30, i / 30 % 30, i / 900)
+                  : spread * glm::dvec3(uniform(random), uniform(random), uniform(random))));
+    set.counts.push_back(static_cast<std::uint32_t>(1 + random() % 3));
+  }
+  return set;
+}
+
+/// Each list of a cluster is, entry by entry, that of a search of its own.
+void expectTheListsOfTheIndex(
+  const PositionSet& set, const NeighbourDemand& demand, double size, const glm::dvec3& origin)
+{
+  const KdIndex index(set, static_cast<int>(demand.axes));
+  NeighbourCluster cluster(set, index, demand);
+  NeighbourList expected(demand.neighbours);
+  NeighbourList list(demand.neighbours);
+  std::mt19937_64 random(4);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  for (int c = 0; c < 40; ++c)
+  {
+    const glm::dvec3 middle = set.positions[random() % set.positions.size()];
+    cluster.gather(middle, size * std::sqrt(3.0));
+    for (int i = 0; i < 10; ++i)
+    {
+      const glm::dvec3 from =
+        middle + size * glm::dvec3(uniform(random), uniform(random), uniform(random));
+      expected.begin(set,
+        demand.neighbours > 0 ? std::numeric_limits<double>::infinity()
+                              : demand.radius * demand.radius);
+      index.search(from, expected);
+      cluster.search(from, list);
+      auto a = expected.entries();
+      auto b = list.entries();
+      ASSERT_EQ(a.size(), b.size()) << origin.x << " " << size;
+      if (demand.neighbours == 0) // in any order
+      {
+        const auto less = [](const NeighbourList::Entry& l, const NeighbourList::Entry& r)
+        { return l.index < r.index; };
+        std::sort(a.begin(), a.end(), less);
+        std::sort(b.begin(), b.end(), less);
+      }
+      for (std::size_t n = 0; n < a.size(); ++n)
+      {
+        EXPECT_EQ(a[n].squaredDistance, b[n].squaredDistance);
+        EXPECT_EQ(set.positions[a[n].index], set.positions[b[n].index]);
+      }
+    }
+  }
+}
+
+TEST(NeighbourCluster, GivesTheListsOfTheIndex)
+{
+  for (const glm::dvec3& origin : { glm::dvec3(0.0), glm::dvec3(1e7, -1e7, 1e7) })
+  {
+    const PositionSet set = unevenPlaces(origin);
+    for (const double size : { 0.0, 0.3, 5.0, 100.0 })
+    {
+      expectTheListsOfTheIndex(set, { 16, 0.0, 3 }, size, origin);
+      expectTheListsOfTheIndex(set, { 1, 0.0, 3 }, size, origin);
+      expectTheListsOfTheIndex(set, { 300, 0.0, 3 }, size, origin);
+      expectTheListsOfTheIndex(set, { 12, 0.0, 2 }, size, origin);
+      expectTheListsOfTheIndex(set, { 0, 2.5, 3 }, size, origin);
+      expectTheListsOfTheIndex(set, { 0, 2.5, 2 }, size, origin);
+    }
+  }
+}
+
+TEST(NeighbourCluster, OfFewerPlacesThanAreWantedGivesAll)
+{
+  PositionSet set;
+  for (int i = 0; i < 5; ++i)
+  {
+    set.positions.emplace_back(std::pow(1e3, i), 0.0, 0.0);
+    set.counts.push_back(1);
+  }
+  expectTheListsOfTheIndex(set, { 16, 0.0, 3 }, 1.0, glm::dvec3(0.0));
+  const PositionSet none;
+  const KdIndex index(none, 3);
+  NeighbourCluster cluster(none, index, { 16, 0.0, 3 });
+  NeighbourList list(16);
+  cluster.gather(glm::dvec3(1.0), 2.0);
+  cluster.search(glm::dvec3(1.0), list);
+  EXPECT_TRUE(list.entries().empty());
+}
+} // namespace

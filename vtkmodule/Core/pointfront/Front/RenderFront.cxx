@@ -21,15 +21,6 @@ constexpr std::uint32_t updatesUnseen = 30;
 constexpr std::uint32_t farUnderFront = 0xffff;
 
 /// What others take of a shared limit is no input: it may change with every update of theirs.
-bool operator==(const FrontLimits& a, const FrontLimits& b)
-{
-  return a.targetErrorPx == b.targetErrorPx && a.initialErrorPx == b.initialErrorPx &&
-    a.movesPerFrame == b.movesPerFrame && a.pointBudget == b.pointBudget &&
-    a.heldPointBudget == b.heldPointBudget && a.requestLimit == b.requestLimit &&
-    a.interacting == b.interacting && a.motionErrorPx == b.motionErrorPx &&
-    a.prefetchSiblings == b.prefetchSiblings && a.layers == b.layers &&
-    a.sharedDrawn.points == b.sharedDrawn.points && a.sharedHeld.points == b.sharedHeld.points;
-}
 
 } // namespace
 

@@ -160,14 +160,16 @@ std::string benchStatistics(const std::vector<FrameRecord>& frames, std::uint64_
 std::string benchTable(const std::vector<FrameRecord>& frames)
 {
   std::ostringstream table;
-  table << "frame,ms,points,front_length,threshold_px,moves,requests,cancelled,resident_bytes\n";
+  table << "frame,ms,points,front_length,threshold_px,moves,requests,cancelled,resident_bytes,"
+           "front_ms,error_px\n";
   std::uint64_t cancelledBefore = 0;
   for (std::size_t i = 0; i < frames.size(); ++i)
   {
     const FrameRecord& frame = frames[i];
     table << i << ',' << frame.milliseconds << ',' << frame.points << ',' << frame.frontLength
           << ',' << frame.thresholdPx << ',' << frame.moves << ',' << frame.requests << ','
-          << frame.cancelled - cancelledBefore << ',' << frame.residentBytes << '\n';
+          << frame.cancelled - cancelledBefore << ',' << frame.residentBytes << ','
+          << frame.frontMilliseconds << ',' << frame.errorPx << '\n';
     cancelledBefore = frame.cancelled;
   }
   return table.str();

@@ -121,6 +121,9 @@ void DrawingOptions::declare(CLI::App& app)
   app.add_option("--point-budget", pointBudget, "Most points drawn at a time")
     ->check(CLI::Range(std::int64_t(1), std::int64_t(1) << 40))
     ->type_name("N");
+  app.add_option("--detail", detail,
+      "front: each part as fine as it projects; view: one level that fills the view (front)")
+    ->check(availableValues({ "front", "view" }, {}));
   addByteSize(app, "--memory", memoryBytes, "Most memory for decoded points (1G)");
   declareUnavailableDrawing(app);
 }

@@ -23,6 +23,7 @@ struct DrawingOptions
   std::uint64_t memoryBytes = 0; ///< decoded points of all stores; 0: the library's default
   std::int64_t pointBudget = -1; ///< most points drawn; -1: not given
   bool eyeDomeLighting = false;
+  std::string detail = "front"; ///< or "view": how the detail of a view is chosen
 
   /// Adds the options to a command; this object must outlive the parsing.
   void declare(CLI::App& app);

@@ -269,6 +269,9 @@ Result<void> OffscreenScene::setUpDrawing()
   {
     applyColour(colour.value(), drawn->mapper);
     drawn->mapper->SetTargetError(options_.errorPx);
+    drawn->mapper->SetDetailSelection(options_.detail == "view"
+        ? vtkPointFrontMapper::VIEW_SPECIFIC
+        : vtkPointFrontMapper::RENDERING_FRONT);
     if (options_.pointBudget > 0)
     {
       drawn->mapper->SetPointBudget(options_.pointBudget);

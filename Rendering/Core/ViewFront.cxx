@@ -1,5 +1,7 @@
 #include "ViewFront.h"
 
+#include "pointfront/Front/RenderFront.h"
+#include "pointfront/Front/ViewDetail.h"
 #include "pointfront/Residency/LoadScheduler.h"
 
 #include <algorithm>
@@ -55,7 +57,7 @@ ViewFront::ViewFront(std::shared_ptr<const HierarchyPiece> piece, ResidencyShare
   const AttributeSchema& schema, std::shared_ptr<SharedDemand> windowDemand)
     : piece_(std::move(piece)), share_(share), schema_(schema), wish_(share.join()),
       residents_(std::make_unique<Residents>(share.residency())),
-      front_(piece_->hierarchy()), margin_(piece_->hierarchy()),
+      selection_(std::make_unique<RenderFront>(piece_->hierarchy())), margin_(piece_->hierarchy()),
       memory_(share.residency().scheduler().sharedDemand()), window_(std::move(windowDemand))
 {
 }
@@ -76,6 +78,7 @@ const FrontDelta& ViewFront::update(const FrameDemand& demand)
   {
     pointBytes_ += schema_[column].bytes();
   }
+  choose(demand.method);
   if (!begun_)
   {
     begun_ = true;
@@ -98,6 +101,25 @@ const FrontDelta& ViewFront::update(const FrameDemand& demand)
     }
   }
   return delta_;
+}
+
+/// Nothing that is loaded is lost by it: what the other needs as well stays.
+void ViewFront::choose(DetailMethod method)
+{
+  if (method == method_)
+  {
+    return;
+  }
+  method_ = method;
+  // The wish's distance function asks the selection that is there when it is called.
+  if (method == DetailMethod::ViewSpecific)
+  {
+    selection_ = std::make_unique<ViewDetail>(piece_->hierarchy());
+  }
+  else
+  {
+    selection_ = std::make_unique<RenderFront>(piece_->hierarchy());
+  }
 }
 
 bool ViewFront::movedOn() const
@@ -159,7 +181,7 @@ void ViewFront::tellDemand()
 {
   DemandCurve drawn;
   DemandCurve held;
-  front_.demandCurves(drawn, held);
+  selection_->demandCurves(drawn, held);
   for (std::size_t step = 0; step < DemandCurve::size; ++step)
   {
     held[step] *= pointBytes_;
@@ -183,6 +205,7 @@ void ViewFront::setLimits(const FrameDemand& demand)
   limits.motionErrorPx = demand.targetErrorPx;
   limits.movesPerFrame = demand.complete ? movesToComplete : movesAtRest;
   limits.prefetchSiblings = !demand.complete;
+  limits.overviewPoints = demand.overviewPoints;
   limits.heldPointBudget = static_cast<std::uint64_t>(
     heldShare * static_cast<double>(share_.budgetBytes()) /
     static_cast<double>(pointBytes_ * std::max<std::size_t>(1, share_.wishes())));
@@ -202,11 +225,11 @@ void ViewFront::step(const FrameDemand& demand)
   arrivalsSeen_ = share_.residency().arrivals();
   rowsSeen_ = piece_->hierarchy()->arrivals();
   setLimits(demand);
-  delta_ = front_.update(demand.view, *residents_, limits_);
+  delta_ = selection_->update(demand.view, *residents_, limits_);
   tellDemand();
   addMargin(demand);
   wish_->request(
-    delta_.requests, [this](NodeIndex node) { return front_.distanceUnderFront(node); });
+    delta_.requests, [this](NodeIndex node) { return selection_->distanceUnderFront(node); });
 }
 
 /// In motion, behind all that the view needs itself.

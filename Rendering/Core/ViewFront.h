@@ -3,9 +3,9 @@
 #include "HierarchyPiece.h"
 #include "ResidencyShare.h"
 
+#include "pointfront/Front/DetailSelection.h"
 #include "pointfront/Front/FrameCostModel.h"
 #include "pointfront/Front/MotionMargin.h"
-#include "pointfront/Front/RenderFront.h"
 #include "pointfront/Front/SharedDemand.h"
 #include "pointfront/Front/View.h"
 #include "pointfront/Points/AttributeSchema.h"
@@ -18,9 +18,18 @@
 namespace pointfront
 {
 
+/// How the detail of a view is chosen.
+enum class DetailMethod
+{
+  RenderingFront, ///< RenderFront
+  ViewSpecific    ///< ViewDetail
+};
+
 /// What one frame of one view asks of its front.
 struct FrameDemand
 {
+  DetailMethod method = DetailMethod::RenderingFront;
+  std::uint64_t overviewPoints = 0; ///< ViewSpecific: this store's share of the overview
   View view;               ///< in the store's coordinates
   ColumnSelection columns; ///< that the points are drawn with
   double targetErrorPx = 1.0;
@@ -65,6 +74,7 @@ public:
 
 private:
   class Residents;
+  void choose(DetailMethod method);
   void step(const FrameDemand& demand);
   void addMargin(const FrameDemand& demand);
   bool allCovered() const;
@@ -80,7 +90,8 @@ private:
   const AttributeSchema& schema_;
   std::unique_ptr<ResidencyShare::Wish> wish_;
   std::unique_ptr<Residents> residents_;
-  RenderFront front_;
+  DetailMethod method_ = DetailMethod::RenderingFront;
+  std::unique_ptr<DetailSelection> selection_;
   MotionMargin margin_;
   FrameCostModel cost_;
   FrontDelta delta_;

@@ -3,6 +3,7 @@
 #include "PointColouring.h"
 #include "ViewFront.h"
 
+#include "pointfront/Front/DetailLevel.h"
 #include "vtkPointFrontStore.h"
 
 #include <vtkActor.h>
@@ -337,6 +338,13 @@ pointfront::FrameDemand vtkPointFrontMapper::GetDemand(vtkRenderer* renderer, vt
   demand.columns = this->GetColouring().columns();
   demand.targetErrorPx = this->TargetError;
   demand.pointBudget = static_cast<std::uint64_t>(this->PointBudget);
+  demand.method = this->DetailSelection == VIEW_SPECIFIC
+                    ? pointfront::DetailMethod::ViewSpecific
+                    : pointfront::DetailMethod::RenderingFront;
+  demand.overviewPoints =
+    pointfront::overviewShare(static_cast<std::uint64_t>(this->OverviewPoints),
+      static_cast<std::uint64_t>(this->GetStore()->GetNumberOfPoints()),
+      static_cast<std::uint64_t>(vtkPointFrontStore::GetNumberOfPointsOfAllStores()));
   demand.interacting = IsInteracting(renderer);
   demand.frameMs =
     this->TargetFrameTime > 0.0 ? this->TargetFrameTime : 1000.0 * actor->GetAllocatedRenderTime();
@@ -525,6 +533,8 @@ void vtkPointFrontMapper::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "TargetError: " << this->TargetError << "\n";
   os << indent << "PointBudget: " << this->PointBudget << "\n";
+  os << indent << "DetailSelection: " << this->DetailSelection << "\n";
+  os << indent << "OverviewPoints: " << this->OverviewPoints << "\n";
   os << indent << "PointSize: " << this->PointSize << "\n";
   os << indent << "Complete: " << this->Complete << "\n";
   os << indent << "TargetFrameTime: " << this->TargetFrameTime << "\n";

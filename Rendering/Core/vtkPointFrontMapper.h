@@ -61,6 +61,34 @@ public:
   vtkGetMacro(PointBudget, vtkIdType);
   ///@}
 
+  enum DetailSelections
+  {
+    RENDERING_FRONT = 0,
+    VIEW_SPECIFIC = 1
+  };
+  ///@{
+  /**
+   * How the detail of a view is chosen. RENDERING_FRONT (default): each part of the cloud as fine
+   * as its projected point spacing asks for (Richter & Doellner 2010, section 3.2.1).
+   * VIEW_SPECIFIC: an overview of the whole cloud is always there, and one detail level for the
+   * view fills its pixels, near to far (Futterlieb, Teutsch & Berndt 2016, section 3.1).
+   * TargetError and the budgets hold for both. Can be changed between any two frames.
+   */
+  vtkSetClampMacro(DetailSelection, int, RENDERING_FRONT, VIEW_SPECIFIC);
+  vtkGetMacro(DetailSelection, int);
+  void SetDetailSelectionToRenderingFront() { this->SetDetailSelection(RENDERING_FRONT); }
+  void SetDetailSelectionToViewSpecific() { this->SetDetailSelection(VIEW_SPECIFIC); }
+  ///@}
+
+  ///@{
+  /**
+   * VIEW_SPECIFIC: points of the overview that all open stores of this process share, in
+   * proportion to their sizes. Default 2,000,000.
+   */
+  vtkSetClampMacro(OverviewPoints, vtkIdType, 1, VTK_ID_MAX);
+  vtkGetMacro(OverviewPoints, vtkIdType);
+  ///@}
+
   ///@{
   /**
    * Diameter of a point in pixels; 0 (default): the property's point size.
@@ -215,6 +243,8 @@ protected:
 
   double TargetError = 1.0;
   vtkIdType PointBudget = 5000000;
+  int DetailSelection = RENDERING_FRONT;
+  vtkIdType OverviewPoints = 2000000;
   double PointSize = 0.0;
   bool Complete = false;
   double TargetFrameTime = 0.0;

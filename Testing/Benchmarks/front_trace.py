@@ -63,11 +63,11 @@ def tours(bounds):
     return {"overview": overview, "zoom": zoom}
 
 
-def replay(tool, store, tour, folder, name):
+def replay(tool, store, tour, folder, name, options=()):
     path, table = folder / f"{name}-path.json", folder / f"{name}.csv"
     path.write_text(json.dumps(tour.cameras))
     subprocess.run([tool, "bench", store, "--path", path, "--interactive", "--size", "1280x720",
-                    "--stats", folder / f"{name}.json", "--frames-csv", table],
+                    "--stats", folder / f"{name}.json", "--frames-csv", table, *options],
                    check=True, stdout=subprocess.DEVNULL)
     with open(table, newline="") as rows:
         return list(csv.DictReader(rows))

@@ -68,7 +68,7 @@ class Usage(ToolTest):
         wrong = [
             ("--size", "big"), ("--view", "below"), ("--error", "0"), ("--point-size", "0"),
             ("--background", "red"), ("--frames", "0"), ("--frames", "3", "--complete"),
-            ("--view", "top", "--camera", "c.json"), ("--point-budget", "0"),
+            ("--view", "top", "--camera", "c.json"), ("--point-budget", "0"), ("--detail", "both"),
         ]
         for flag in wrong:
             self.refuse(2, "render", "s.pfront", "-o", self.folder / "x.png", *flag)

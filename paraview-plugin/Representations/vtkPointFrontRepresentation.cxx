@@ -296,6 +296,12 @@ void vtkPointFrontRepresentation::SetPointBudget(vtkIdType points)
 }
 
 //------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetDetailSelection(int method)
+{
+  this->Mapper->SetDetailSelection(method);
+}
+
+//------------------------------------------------------------------------------
 void vtkPointFrontRepresentation::SetLookupTable(vtkScalarsToColors* table)
 {
   this->Mapper->SetLookupTable(table);

@@ -69,6 +69,7 @@ public:
    */
   void SetTargetError(double pixels);
   void SetPointBudget(vtkIdType points);
+  void SetDetailSelection(int method);
   vtkSetClampMacro(TargetFrameTime, double, 0.0, 10000.0);
   vtkGetMacro(TargetFrameTime, double);
   ///@}

@@ -229,6 +229,18 @@ vtkIdType vtkPointFrontStore::GetNumberOfPoints() const
   return static_cast<vtkIdType>(this->Internals->store->description().pointCount);
 }
 
+vtkIdType vtkPointFrontStore::GetNumberOfPointsOfAllStores()
+{
+  Registry& all = registry();
+  const std::lock_guard<std::recursive_mutex> lock(all.mutex);
+  vtkIdType points = 0;
+  for (const auto& entry : all.stores)
+  {
+    points += entry.second->GetNumberOfPoints();
+  }
+  return points;
+}
+
 int vtkPointFrontStore::GetNumberOfAttributes() const
 {
   return static_cast<int>(this->Internals->store->description().schema.size());

@@ -70,6 +70,8 @@ public:
   /// Bounds of all points (world, tight), without reading any of them.
   void GetBounds(double bounds[6]) const;
   vtkIdType GetNumberOfPoints() const;
+  /// Of all stores that are open in this process.
+  static vtkIdType GetNumberOfPointsOfAllStores();
   int GetNumberOfAttributes() const;
   const char* GetAttributeName(int attribute) const;
 

@@ -97,6 +97,32 @@ TEST(Drawing, ThePointBudgetHolds)
   EXPECT_TRUE(scene.mapper->GetLastComplete());
 }
 
+TEST(Drawing, TheSelectionOfDetailCanBeChangedBetweenFrames)
+{
+  Scene scene(planeStore("selection", 200, 10));
+  EXPECT_EQ(scene.mapper->GetDetailSelection(), vtkPointFrontMapper::RENDERING_FRONT);
+  scene.mapper->SetTargetError(0.05); // every point
+  const Picture front = scene.draw();
+  EXPECT_EQ(scene.mapper->GetLastPointsDrawn(), 40000);
+  scene.mapper->SetDetailSelectionToViewSpecific();
+  scene.mapper->SetOverviewPoints(1000);
+  EXPECT_EQ(differing(front, scene.draw(), 0), 0);
+  EXPECT_EQ(scene.mapper->GetLastPointsDrawn(), 40000);
+  EXPECT_TRUE(scene.mapper->GetLastComplete());
+  scene.mapper->SetTargetError(4.0); // 300 x 200 pixels: 3,750 points
+  scene.draw();
+  EXPECT_GE(scene.mapper->GetLastPointsDrawn(), 1000);
+  EXPECT_LE(scene.mapper->GetLastPointsDrawn(), 8000);
+  scene.mapper->SetPointBudget(2000);
+  scene.draw();
+  EXPECT_LE(scene.mapper->GetLastPointsDrawn(), 2000);
+  EXPECT_TRUE(scene.mapper->GetLastLimitedByPoints());
+  scene.mapper->SetDetailSelectionToRenderingFront();
+  scene.mapper->SetPointBudget(0);
+  scene.mapper->SetTargetError(0.05);
+  EXPECT_EQ(differing(front, scene.draw(), 0), 0);
+}
+
 TEST(Drawing, PointSizeIsThePropertysOrTheMappers)
 {
   Scene scene(planeStore("sizes", 2, 1000));

@@ -11,7 +11,6 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -139,91 +138,14 @@ void BuildCommand::warnOfBuild(
   }
 }
 
-Result<PointSources> BuildCommand::applyPasses(PointSources sources,
-  const AttributePasses& passes, BuildPreview& preview, const ProgressFunction& progress)
-{
-  PassResources resources;
-  resources.memoryBytes = options_.memoryBytes;
-  resources.threads = options_.threads;
-  resources.temporaryFolder = options_.temporaryFolder.empty()
-    ? std::filesystem::absolute(options_.outputPath).parent_path().string()
-    : options_.temporaryFolder;
-  resources.progress = progress;
-  std::uint64_t held = 0;
-  bool shown = false;
-  for (const std::unique_ptr<AttributePass>& pass : passes)
-  {
-    if (pass->readsPoints() && !shown)
-    {
-      preview.showOverview(sources, progress);
-      shown = true;
-    }
-    Result<PointSources> next = pass->apply(std::move(sources), resources);
-    if (!next)
-    {
-      return next.error();
-    }
-    sources = std::move(*next);
-    held += pass->heldBytes(resources);
-  }
-  if (options_.memoryBytes > 0) // a limit; without one the build asks the machine
-  {
-    options_.memoryBytes -= std::min(held, options_.memoryBytes - 1);
-  }
-  if (!shown)
-  {
-    preview.showOverview(sources, progress);
-  }
-  return sources;
-}
-
 Result<BuildReport> BuildCommand::buildFrom(PointSources& sources, const AttributePasses& passes)
 {
-  const auto begin = std::chrono::steady_clock::now();
   ProgressDisplay display(*ProgressDisplay::styleOf(progress_));
-  PreviewOptions wish;
-  wish.wanted = preview_ != "none";
-  const auto preview = BuildPreview::create(sources, options_, wish);
-  if (!preview)
-  {
-    return preview.error();
-  }
-  if (options_.memoryBytes > 0)
-  {
-    options_.memoryBytes -= (*preview)->heldBytes();
-  }
-  Result<PointSources> prepared =
-    applyPasses(std::move(sources), passes, **preview, display.function());
-  if (!prepared)
-  {
-    return prepared.error();
-  }
-  sources = std::move(*prepared);
-  warnOfPasses(passes);
-  const PointSources watched = (*preview)->watched(sources);
-  Result<BuildReport> report = buildOctreeStore(watched, options_, display.function());
-  if (report)
-  {
-    const std::vector<std::string> warnings = (*preview)->warnings();
-    report->warnings.insert(report->warnings.end(), warnings.begin(), warnings.end());
-    const auto end = std::chrono::steady_clock::now();
-    report->seconds = std::chrono::duration<double>(end - begin).count(); // passes and overview too
-  }
-  return report;
-}
-
-void BuildCommand::warnOfPasses(const AttributePasses& passes)
-{
-  for (const std::unique_ptr<AttributePass>& pass : passes)
-  {
-    for (const std::string& finding : pass->findings())
-    {
-      if (told_.insert(finding).second)
-      {
-        warn(name(), finding);
-      }
-    }
-  }
+  PreviewOptions preview;
+  preview.wanted = preview_ != "none";
+  BuildRun run(
+    options_, preview, [this](const std::string& finding) { warn(name(), finding); });
+  return run.run(sources, passes, display.function());
 }
 
 Result<void> BuildCommand::run()
@@ -264,7 +186,6 @@ Result<void> BuildCommand::run()
   }
   const BuildReport* report = &built.value();
   warnOfBuild(*sources, *report);
-  warnOfPasses(*passes);
   if (json_)
   {
     std::printf("%s\n", buildReportJson(*report, peakResidentBytes()).c_str());

@@ -4,12 +4,11 @@
 #include "Command.h"
 #include "SourceChoice.h"
 
-#include "pointfront/Build/BuildPreview.h"
+#include "pointfront/Build/BuildRun.h"
 #include "pointfront/Build/StoreBuilder.h"
 #include "pointfront/Points/PointSource.h"
 
 #include <memory>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -26,14 +25,8 @@ public:
 private:
   /// Opens every input; warns of what was wrong and survived.
   Result<PointSources> openSources() const;
-  /// Runs the passes one after another; the build gets the memory that they leave. Shows an
-  /// overview before the first one that takes long.
-  Result<PointSources> applyPasses(PointSources sources, const AttributePasses& passes,
-    BuildPreview& preview, const ProgressFunction& progress);
   /// Passes, preview and build, with progress on stderr. `sources` becomes what the passes gave.
   Result<BuildReport> buildFrom(PointSources& sources, const AttributePasses& passes);
-  /// What passes found, each sentence once.
-  void warnOfPasses(const AttributePasses& passes);
   /// Tells what the build itself found; what the sources said has been told, with their paths.
   void warnOfBuild(const PointSources& sources,
     const BuildReport& report) const;
@@ -52,7 +45,6 @@ private:
   std::string layers_; ///< empty: by class if any point is classified
   double precision_ = 0.0;
   bool json_ = false;
-  std::set<std::string> told_; ///< warnings of passes that are on the terminal already
 };
 
 /// The keys of `build --json`.

@@ -2,20 +2,13 @@
 
 #include "HeightArguments.h"
 #include "NormalsArguments.h"
-#include "ProjectionPass.h"
 
-#include "pointfront/Points/AttributePass.h"
+#include "pointfront/Points/PassChoice.h"
 
 #include <CLI/CLI.hpp>
 
-#include <memory>
-#include <string>
-#include <vector>
-
 namespace pointfront
 {
-
-using AttributePasses = std::vector<std::unique_ptr<AttributePass>>;
 
 /// The options of `pointfront build` that compute something between the inputs and the tree, and
 /// the passes they ask for, in the order in which they must run: coordinates first, then what comes
@@ -24,13 +17,11 @@ class BuildPasses
 {
 public:
   void declare(CLI::App& app);
-  /// Errors  an option that contradicts another.
+  /// Errors  those of AttributePassMaker::passes().
   Result<AttributePasses> passes() const;
 
 private:
-  ProjectionOptions projection_;
-  std::vector<std::string> colourFrom_;
-  std::vector<std::string> attributeFrom_;
+  PassChoice choice_; ///< but for what follows
   NormalsArguments normals_;
   HeightArguments heights_;
 };

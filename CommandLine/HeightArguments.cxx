@@ -1,8 +1,5 @@
 #include "HeightArguments.h"
 
-#include "HeightAboveGroundPass.h"
-#include "LocalHeightPass.h"
-
 namespace pointfront
 {
 namespace
@@ -28,20 +25,12 @@ void HeightArguments::declare(CLI::App& app)
     ->needs(ground);
 }
 
-std::vector<std::unique_ptr<AttributePass>> HeightArguments::passes() const
+void HeightArguments::fill(PassChoice& choice) const
 {
-  std::vector<std::unique_ptr<AttributePass>> passes;
-  if (local_)
-  {
-    passes.push_back(std::make_unique<LocalHeightPass>(localRadius_));
-  }
-  if (aboveGround_)
-  {
-    GroundOptions options;
-    options.cell = groundCell_;
-    passes.push_back(std::make_unique<HeightAboveGroundPass>(options));
-  }
-  return passes;
+  choice.localHeight = local_;
+  choice.localHeightRadius = localRadius_;
+  choice.heightAboveGround = aboveGround_;
+  choice.groundCell = groundCell_;
 }
 
 } // namespace pointfront

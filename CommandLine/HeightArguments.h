@@ -1,21 +1,18 @@
 #pragma once
 
-#include "pointfront/Points/AttributePass.h"
+#include "pointfront/Points/PassChoice.h"
 
 #include <CLI/CLI.hpp>
-
-#include <memory>
-#include <vector>
 
 namespace pointfront
 {
 
-/// The options of `pointfront build` about heights, and the passes they ask for.
+/// The options of `pointfront build` about heights.
 class HeightArguments
 {
 public:
   void declare(CLI::App& app);
-  std::vector<std::unique_ptr<AttributePass>> passes() const;
+  void fill(PassChoice& choice) const;
 
 private:
   bool local_ = false;

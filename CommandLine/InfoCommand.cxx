@@ -89,7 +89,8 @@ std::string storeJson(const StoreDescription& store, std::uint64_t nodes)
   if (const auto preview = previewRecordOf(store.metadata))
   {
     object["preview"] = { { "of", preview->storeName },
-      { "points_expected", preview->pointsExpected }, { "points_read", preview->pointsRead } };
+      { "points_expected", preview->pointsExpected }, { "points_read", preview->pointsRead },
+      { "points_finished", preview->pointsFinished } };
   }
   object["grid"] = { { "scale", { store.grid.scale.x, store.grid.scale.y, store.grid.scale.z } },
     { "offset", { store.grid.offset.x, store.grid.offset.y, store.grid.offset.z } } };
@@ -107,7 +108,8 @@ std::string storeText(const StoreDescription& store, std::uint64_t nodes)
   {
     text << "\n  preview     of " << preview->storeName << ", which is being built from "
          << preview->pointsExpected << " points; " << preview->pointsRead
-         << " were read when this was written";
+         << " were read when this was written, " << preview->pointsFinished
+         << " of them are shown in full";
   }
   text << "\n  points      " << store.pointCount << "\n  bounds      ";
   if (b.empty())

@@ -1,7 +1,5 @@
 #include "NormalsArguments.h"
 
-#include "NormalsPass.h"
-#include "ScanNormalsPass.h"
 #include "Unavailable.h"
 #include "Values.h"
 
@@ -55,28 +53,19 @@ void NormalsArguments::check() const
   }
 }
 
-std::unique_ptr<AttributePass> NormalsArguments::pass() const
+void NormalsArguments::fill(PassChoice& choice) const
 {
-  if (method_ == "none")
-  {
-    return nullptr;
-  }
-  std::optional<std::vector<std::uint8_t>> classes;
+  choice.normals = method_ == "none" ? PassChoice::Normals::None
+    : method_ == "pca"               ? PassChoice::Normals::PCA
+                                     : PassChoice::Normals::ScanLine;
+  choice.normalsNeighbours = neighbours_;
+  choice.normalsRadius = radius_;
+  choice.normalsEps = eps_;
+  choice.curvature = curvature_;
   if (classesOption_->count() > 0)
   {
-    classes = parseClasses(classes_);
+    choice.normalsClasses = parseClasses(classes_);
   }
-  if (method_ == "scanline")
-  {
-    return std::make_unique<ScanNormalsPass>(classes);
-  }
-  NormalsOptions options;
-  options.classes = classes;
-  options.neighbours = neighbours_;
-  options.radius = radius_;
-  options.eps = eps_;
-  options.curvature = curvature_;
-  return std::make_unique<NormalsPass>(options);
 }
 
 } // namespace pointfront

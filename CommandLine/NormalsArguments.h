@@ -1,17 +1,16 @@
 #pragma once
 
-#include "pointfront/Points/AttributePass.h"
+#include "pointfront/Points/PassChoice.h"
 
 #include <CLI/CLI.hpp>
 
-#include <memory>
 #include <string>
 #include <vector>
 
 namespace pointfront
 {
 
-/// The options of `pointfront build` about normals, and the pass they ask for.
+/// The options of `pointfront build` about normals.
 class NormalsArguments
 {
 public:
@@ -19,8 +18,7 @@ public:
   /// Called when all options are read. Throws CLI::ValidationError for combinations that make no
   /// sense: wrong usage.
   void check() const;
-  /// Nothing for --normals none.
-  std::unique_ptr<AttributePass> pass() const;
+  void fill(PassChoice& choice) const;
 
 private:
   std::string method_ = "none";

@@ -43,42 +43,43 @@ bool BuildThread::report(const Progress& progress)
   return !cancelled_;
 }
 
-Result<BuildReport> BuildThread::build(
-  const std::vector<std::string>& files, BuildOptions options, PreviewOptions wish)
+Result<BuildReport> BuildThread::build(const Order& order)
 {
-  const Result<PointSources> sources = openFiles(files);
+  const auto maker = AttributePassMaker::ofProcess();
+  if (!maker)
+  {
+    return makeError(Error::Kind::Unsupported,
+      "this program carries no attribute passes; link PointFront::AttributePasses");
+  }
+  const Result<AttributePasses> passes = maker->passes(order.passes);
+  if (!passes)
+  {
+    return passes.error();
+  }
+  Result<PointSources> sources = openFiles(order.files);
   if (!sources)
   {
     return sources.error();
   }
-  wish.shown = [this](const std::string&)
+  PreviewOptions preview = order.preview;
+  preview.shown = [this](const std::string&)
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     news_.preview = true;
   };
-  const auto preview = BuildPreview::create(sources.value(), options, wish);
-  if (!preview)
-  {
-    return preview.error();
-  }
-  if (options.memoryBytes > 0)
-  {
-    options.memoryBytes -= preview.value()->heldBytes();
-  }
-  const auto progress = [this](const Progress& state) { return report(state); };
-  preview.value()->showOverview(sources.value(), progress);
-  const PointSources watched = preview.value()->watched(sources.value());
-  Result<BuildReport> built = buildOctreeStore(watched, options, progress);
+  std::vector<std::string> findings;
+  BuildRun run(order.options, preview,
+    [&findings](const std::string& finding) { findings.push_back(finding); });
+  Result<BuildReport> built =
+    run.run(*sources, *passes, [this](const Progress& state) { return report(state); });
   if (built)
   {
-    const std::vector<std::string> more = preview.value()->warnings();
-    built->warnings.insert(built->warnings.end(), more.begin(), more.end());
+    built->warnings.insert(built->warnings.end(), findings.begin(), findings.end());
   }
   return built;
 }
 
-Result<BuildReport> BuildThread::run(const std::vector<std::string>& files,
-  const BuildOptions& options, const PreviewOptions& preview, const Watch& watch)
+Result<BuildReport> BuildThread::run(const Order& order, const Watch& watch)
 {
   std::thread worker(
     [&]
@@ -87,7 +88,7 @@ Result<BuildReport> BuildThread::run(const std::vector<std::string>& files,
         "the system gave no more memory to the build; use a lower memory limit");
       try
       {
-        done = build(files, options, preview);
+        done = build(order);
       }
       catch (const std::bad_alloc&)
       {

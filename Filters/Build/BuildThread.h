@@ -1,7 +1,7 @@
 #pragma once
 
-#include "pointfront/Build/BuildPreview.h"
-#include "pointfront/Build/StoreBuilder.h"
+#include "pointfront/Build/BuildRun.h"
+#include "pointfront/Points/PassChoice.h"
 
 #include <atomic>
 #include <condition_variable>
@@ -28,13 +28,22 @@ public:
   /// Called from the thread that called run(), some ten times a second; false cancels.
   using Watch = std::function<bool(const News&)>;
 
-  /// Opens the files with PointFileOpener::ofProcess(), builds, returns when all is done.
-  Result<BuildReport> run(const std::vector<std::string>& files, const BuildOptions& options,
-    const PreviewOptions& preview, const Watch& watch);
+  /// What to build, of what, and how.
+  struct Order
+  {
+    std::vector<std::string> files;
+    BuildOptions options;
+    PassChoice passes;
+    PreviewOptions preview;
+  };
+
+  /// Opens the files with PointFileOpener::ofProcess(), makes the passes with
+  /// AttributePassMaker::ofProcess(), builds, returns when all is done. What passes find is among
+  /// the report's warnings.
+  Result<BuildReport> run(const Order& order, const Watch& watch);
 
 private:
-  Result<BuildReport> build(
-    const std::vector<std::string>& files, BuildOptions options, PreviewOptions preview);
+  Result<BuildReport> build(const Order& order);
   bool report(const Progress& progress);
 
   std::atomic<bool> cancelled_{false};

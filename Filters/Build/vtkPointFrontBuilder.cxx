@@ -49,11 +49,120 @@ unsigned long errorCodeOf(pointfront::Error::Kind kind)
 struct vtkPointFrontBuilder::Content
 {
   std::vector<std::string> FileNames;
+  std::vector<std::string> Attributes;
+  std::vector<int> NormalsClasses;
+  std::vector<std::string> ColorImages;
+  std::vector<std::string> AttributeImages; // NAME=IMAGE
   std::string PreviewFileName;
   std::string Phase;
   double PhaseBegan = 0.0;       // seconds into the build
   std::uint64_t PhaseDone = 0;   // points at that time
+
+  pointfront::BuildThread::Order Order(const vtkPointFrontBuilder& builder) const;
+  void Choose(const vtkPointFrontBuilder& builder, pointfront::PassChoice& choice) const;
+  void Show(vtkPointFrontBuilder& builder, const pointfront::Progress& state);
+  static void Report(vtkPointFrontBuilder& builder, const pointfront::BuildReport& built);
 };
+
+pointfront::BuildThread::Order vtkPointFrontBuilder::Content::Order(
+  const vtkPointFrontBuilder& builder) const
+{
+  pointfront::BuildThread::Order order;
+  order.files = this->FileNames;
+  std::sort(order.files.begin(), order.files.end());
+  pointfront::BuildOptions& options = order.options;
+  options.outputPath = builder.OutputFileName;
+  options.temporaryFolder = builder.TemporaryFolder ? builder.TemporaryFolder : "";
+  options.overwrite = builder.Overwrite;
+  options.memoryBytes = static_cast<std::uint64_t>(builder.MemoryLimit);
+  options.threads = static_cast<unsigned>(builder.NumberOfThreads);
+  options.nodePoints = static_cast<std::uint32_t>(builder.NodePoints);
+  options.structure =
+    builder.Structure == KDTREE ? pointfront::Structure::KdTree : pointfront::Structure::Octree;
+  options.refinement = builder.Refinement == REPLACE ? pointfront::Refinement::Replace
+                                                     : pointfront::Refinement::Add;
+  options.layering = builder.Layers == BY_CLASS ? pointfront::Layering::ObjectClass
+    : builder.Layers == NO_LAYERS               ? pointfront::Layering::None
+                                                : pointfront::Layering::Automatic;
+  options.colourDepth = builder.ColorDepth == 8 ? pointfront::ColourDepth::Eight
+    : builder.ColorDepth == 16                  ? pointfront::ColourDepth::Sixteen
+                                                : pointfront::ColourDepth::ByFile;
+  if (builder.Precision > 0.0)
+  {
+    options.precision = builder.Precision;
+  }
+  if (!this->Attributes.empty())
+  {
+    options.attributes = this->Attributes;
+  }
+  this->Choose(builder, order.passes);
+  order.preview.wanted = builder.Preview;
+  order.preview.leastPoints = static_cast<std::uint64_t>(builder.PreviewPoints);
+  return order;
+}
+
+void vtkPointFrontBuilder::Content::Choose(
+  const vtkPointFrontBuilder& builder, pointfront::PassChoice& choice) const
+{
+  using Normals = pointfront::PassChoice::Normals;
+  choice.targetCrs = builder.CRS ? builder.CRS : "";
+  choice.assumedCrs = builder.AssumedCRS ? builder.AssumedCRS : "";
+  choice.colourFrom = this->ColorImages;
+  choice.attributeFrom = this->AttributeImages;
+  choice.normals = builder.Normals == PCA ? Normals::PCA
+    : builder.Normals == SCAN_LINE        ? Normals::ScanLine
+                                          : Normals::None;
+  choice.normalsNeighbours = static_cast<std::uint32_t>(std::max(0, builder.NormalsNeighbors));
+  choice.normalsRadius = builder.NormalsRadius;
+  choice.normalsEps = builder.NormalsError;
+  choice.curvature = builder.Curvature;
+  if (!this->NormalsClasses.empty())
+  {
+    choice.normalsClasses.emplace(this->NormalsClasses.begin(), this->NormalsClasses.end());
+    std::sort(choice.normalsClasses->begin(), choice.normalsClasses->end());
+  }
+  choice.localHeight = builder.LocalHeight;
+  choice.localHeightRadius = builder.LocalHeightRadius;
+  choice.heightAboveGround = builder.HeightAboveGround;
+  choice.groundCell = builder.GroundCell;
+}
+
+/// Sets what observers of ProgressEvent ask for, then calls them.
+void vtkPointFrontBuilder::Content::Show(
+  vtkPointFrontBuilder& builder, const pointfront::Progress& state)
+{
+  if (this->Phase != state.phase)
+  {
+    this->Phase = state.phase;
+    this->PhaseBegan = state.secondsElapsed;
+    this->PhaseDone = state.done;
+    builder.SetProgressText(state.phase);
+  }
+  const double seconds = state.secondsElapsed - this->PhaseBegan;
+  builder.PointsDone = static_cast<vtkIdType>(state.done);
+  builder.PointsTotal = static_cast<vtkIdType>(state.total);
+  builder.PointsPerSecond =
+    seconds > 0.0 ? static_cast<double>(state.done - this->PhaseDone) / seconds : 0.0;
+  const double leastFraction = 0.02; // the first moments say nothing about the rest
+  builder.SecondsRemaining = state.fraction < leastFraction
+    ? -1.0
+    : state.secondsElapsed * (1.0 - state.fraction) / state.fraction;
+  builder.UpdateProgress(state.fraction);
+}
+
+void vtkPointFrontBuilder::Content::Report(
+  vtkPointFrontBuilder& builder, const pointfront::BuildReport& built)
+{
+  for (const std::string& warning : built.warnings)
+  {
+    vtkWarningWithObjectMacro(&builder, << warning);
+  }
+  builder.NumberOfPointsRead = static_cast<vtkIdType>(built.pointsRead);
+  builder.NumberOfPointsStored = static_cast<vtkIdType>(built.pointsStored);
+  builder.NumberOfNodes = static_cast<vtkIdType>(built.nodes);
+  builder.BytesWritten = static_cast<vtkTypeInt64>(built.bytesWritten);
+  builder.BytesSpilled = static_cast<vtkTypeInt64>(built.spilledBytes);
+}
 
 vtkPointFrontBuilder::vtkPointFrontBuilder() : Internals(new Content)
 {
@@ -65,6 +174,8 @@ vtkPointFrontBuilder::~vtkPointFrontBuilder()
 {
   this->SetOutputFileName(nullptr);
   this->SetTemporaryFolder(nullptr);
+  this->SetCRS(nullptr);
+  this->SetAssumedCRS(nullptr);
 }
 
 void vtkPointFrontBuilder::AddFileName(const char* fileName)
@@ -102,55 +213,98 @@ const char* vtkPointFrontBuilder::GetPreviewFileName()
   return this->Internals->PreviewFileName.c_str();
 }
 
-int vtkPointFrontBuilder::Write()
+void vtkPointFrontBuilder::AddAttribute(const char* name)
 {
-  this->SetErrorCode(vtkErrorCode::NoError);
+  if (name && *name)
+  {
+    this->Internals->Attributes.emplace_back(name);
+    this->Modified();
+  }
+}
+
+void vtkPointFrontBuilder::ClearAttributes()
+{
+  this->Internals->Attributes.clear();
+  this->Modified();
+}
+
+void vtkPointFrontBuilder::AddNormalsClass(int objectClass)
+{
+  this->Internals->NormalsClasses.push_back(objectClass);
+  this->Modified();
+}
+
+void vtkPointFrontBuilder::ClearNormalsClasses()
+{
+  this->Internals->NormalsClasses.clear();
+  this->Modified();
+}
+
+void vtkPointFrontBuilder::AddColorImage(const char* fileName)
+{
+  if (fileName && *fileName)
+  {
+    this->Internals->ColorImages.emplace_back(fileName);
+    this->Modified();
+  }
+}
+
+void vtkPointFrontBuilder::AddAttributeImage(const char* attribute, const char* fileName)
+{
+  if (attribute && fileName && *fileName)
+  {
+    this->Internals->AttributeImages.push_back(std::string(attribute) + "=" + fileName);
+    this->Modified();
+  }
+}
+
+void vtkPointFrontBuilder::ClearImages()
+{
+  this->Internals->ColorImages.clear();
+  this->Internals->AttributeImages.clear();
+  this->Modified();
+}
+
+/// What the kernel's types cannot even express; it checks the rest.
+bool vtkPointFrontBuilder::CheckProperties()
+{
   if (!this->OutputFileName || !*this->OutputFileName || this->Internals->FileNames.empty())
   {
     this->SetErrorCode(vtkErrorCode::NoFileNameError);
     vtkErrorMacro("no file names: add the point files to read and set OutputFileName");
+    return false;
+  }
+  if (this->ColorDepth != 0 && this->ColorDepth != 8 && this->ColorDepth != 16)
+  {
+    this->SetErrorCode(vtkErrorCode::UnknownError);
+    vtkErrorMacro("a ColorDepth of " << this->ColorDepth << " bits is none of 0, 8 and 16");
+    return false;
+  }
+  for (const int objectClass : this->Internals->NormalsClasses)
+  {
+    if (objectClass < 0 || objectClass > 255)
+    {
+      this->SetErrorCode(vtkErrorCode::UnknownError);
+      vtkErrorMacro("a class " << objectClass << " for normals is none of 0 to 255");
+      return false;
+    }
+  }
+  return true;
+}
+
+int vtkPointFrontBuilder::Write()
+{
+  this->SetErrorCode(vtkErrorCode::NoError);
+  if (!this->CheckProperties())
+  {
     return 0;
   }
-  pointfront::BuildOptions options;
-  options.outputPath = this->OutputFileName;
-  options.temporaryFolder = this->TemporaryFolder ? this->TemporaryFolder : "";
-  options.overwrite = this->Overwrite;
-  options.memoryBytes = static_cast<std::uint64_t>(this->MemoryLimit);
-  options.threads = static_cast<unsigned>(this->NumberOfThreads);
-  options.nodePoints = static_cast<std::uint32_t>(this->NodePoints);
-  if (this->Precision > 0.0)
-  {
-    options.precision = this->Precision;
-  }
-  pointfront::PreviewOptions preview;
-  preview.wanted = this->Preview;
-  preview.leastPoints = static_cast<std::uint64_t>(this->PreviewPoints);
-  std::vector<std::string> files = this->Internals->FileNames;
-  std::sort(files.begin(), files.end());
-
+  Content& content = *this->Internals;
   this->SetAbortExecute(0);
-  this->Internals->Phase.clear();
-  const auto watch = [this](const pointfront::BuildThread::News& news)
+  content.Phase.clear();
+  const auto watch = [this, &content](const pointfront::BuildThread::News& news)
   {
-    const pointfront::Progress& state = news.progress;
-    Content& content = *this->Internals;
-    if (content.Phase != state.phase)
-    {
-      content.Phase = state.phase;
-      content.PhaseBegan = state.secondsElapsed;
-      content.PhaseDone = state.done;
-      this->SetProgressText(state.phase);
-    }
-    const double seconds = state.secondsElapsed - content.PhaseBegan;
-    this->PointsDone = static_cast<vtkIdType>(state.done);
-    this->PointsTotal = static_cast<vtkIdType>(state.total);
-    this->PointsPerSecond =
-      seconds > 0.0 ? static_cast<double>(state.done - content.PhaseDone) / seconds : 0.0;
-    const double leastFraction = 0.02; // the first moments say nothing about the rest
-    this->SecondsRemaining = state.fraction < leastFraction
-      ? -1.0
-      : state.secondsElapsed * (1.0 - state.fraction) / state.fraction;
-    this->UpdateProgress(state.fraction);
+    content.Show(*this, news.progress);
     if (news.preview)
     {
       this->InvokeEvent(vtkCommand::UpdateDataEvent);
@@ -159,7 +313,7 @@ int vtkPointFrontBuilder::Write()
     return this->GetAbortExecute() == 0;
   };
   this->InvokeEvent(vtkCommand::StartEvent);
-  const auto report = pointfront::BuildThread().run(files, options, preview, watch);
+  const auto report = pointfront::BuildThread().run(content.Order(*this), watch);
   this->InvokeEvent(vtkCommand::EndEvent);
   if (!report)
   {
@@ -170,16 +324,7 @@ int vtkPointFrontBuilder::Write()
     }
     return 0;
   }
-  const pointfront::BuildReport& built = report.value();
-  for (const std::string& warning : built.warnings)
-  {
-    vtkWarningMacro(<< warning);
-  }
-  this->NumberOfPointsRead = static_cast<vtkIdType>(built.pointsRead);
-  this->NumberOfPointsStored = static_cast<vtkIdType>(built.pointsStored);
-  this->NumberOfNodes = static_cast<vtkIdType>(built.nodes);
-  this->BytesWritten = static_cast<vtkTypeInt64>(built.bytesWritten);
-  this->BytesSpilled = static_cast<vtkTypeInt64>(built.spilledBytes);
+  Content::Report(*this, report.value());
   this->UpdateProgress(1.0);
   return 1;
 }
@@ -195,5 +340,23 @@ void vtkPointFrontBuilder::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
   os << indent << "NodePoints: " << this->NodePoints << "\n";
   os << indent << "Precision: " << this->Precision << "\n";
+  os << indent << "Structure: " << (this->Structure == KDTREE ? "kd-tree" : "octree") << "\n";
+  os << indent << "Refinement: " << (this->Refinement == REPLACE ? "replace" : "add") << "\n";
+  os << indent << "Layers: " << this->Layers << "\n";
+  os << indent << "Attributes: " << this->Internals->Attributes.size() << " named\n";
+  os << indent << "ColorDepth: " << this->ColorDepth << "\n";
+  os << indent << "CRS: " << (this->CRS ? this->CRS : "(none)") << "\n";
+  os << indent << "AssumedCRS: " << (this->AssumedCRS ? this->AssumedCRS : "(none)") << "\n";
+  os << indent << "Normals: " << this->Normals << "\n";
+  os << indent << "NormalsNeighbors: " << this->NormalsNeighbors << "\n";
+  os << indent << "NormalsRadius: " << this->NormalsRadius << "\n";
+  os << indent << "NormalsError: " << this->NormalsError << "\n";
+  os << indent << "Curvature: " << this->Curvature << "\n";
+  os << indent << "LocalHeight: " << this->LocalHeight << "\n";
+  os << indent << "LocalHeightRadius: " << this->LocalHeightRadius << "\n";
+  os << indent << "HeightAboveGround: " << this->HeightAboveGround << "\n";
+  os << indent << "GroundCell: " << this->GroundCell << "\n";
+  os << indent << "ColorImages: " << this->Internals->ColorImages.size() << "\n";
+  os << indent << "AttributeImages: " << this->Internals->AttributeImages.size() << "\n";
   os << indent << "Preview: " << this->Preview << "\n";
 }

@@ -4,7 +4,8 @@
  *
  * Write() reads the files of FileNames (every family that this build of PointFront carries; the
  * content decides, not the name) and writes the store OutputFileName: whole, or not at all. The
- * store's bytes do not depend on memory, threads or the order of the file names.
+ * store's bytes do not depend on memory, threads or the order of the file names. Every property
+ * means what the option of `pointfront build` of that name means (docs/user/command-line.md).
  *
  * Events, all on the thread that calls Write(), some ten times a second: ProgressEvent (call data:
  * fraction, a double; GetProgressText() is the phase, GetPointsDone(), GetPointsPerSecond(),
@@ -82,6 +83,138 @@ public:
   ///@}
 
   ///@{
+  /// Shape of the hierarchy. A kd-tree has RefinementType ADD only. Default OCTREE.
+  enum StructureType
+  {
+    OCTREE = 0,
+    KDTREE = 1
+  };
+  vtkSetClampMacro(Structure, int, OCTREE, KDTREE);
+  vtkGetMacro(Structure, int);
+  void SetStructureToOctree() { this->SetStructure(OCTREE); }
+  void SetStructureToKdTree() { this->SetStructure(KDTREE); }
+  ///@}
+
+  ///@{
+  /// Inner nodes hold a subset of the points (ADD), or mean points that their children replace.
+  enum RefinementType
+  {
+    ADD = 0,
+    REPLACE = 1
+  };
+  vtkSetClampMacro(Refinement, int, ADD, REPLACE);
+  vtkGetMacro(Refinement, int);
+  void SetRefinementToAdd() { this->SetRefinement(ADD); }
+  void SetRefinementToReplace() { this->SetRefinement(REPLACE); }
+  ///@}
+
+  ///@{
+  /// One tree for all points, or one for each class; AUTOMATIC (default): by class if any point is
+  /// classified.
+  enum LayersType
+  {
+    AUTOMATIC = 0,
+    NO_LAYERS = 1,
+    BY_CLASS = 2
+  };
+  vtkSetClampMacro(Layers, int, AUTOMATIC, BY_CLASS);
+  vtkGetMacro(Layers, int);
+  void SetLayersToAutomatic() { this->SetLayers(AUTOMATIC); }
+  void SetLayersToNone() { this->SetLayers(NO_LAYERS); }
+  void SetLayersToClass() { this->SetLayers(BY_CLASS); }
+  ///@}
+
+  ///@{
+  /// Attributes to store. None named: all.
+  void AddAttribute(const char* name);
+  void ClearAttributes();
+  ///@}
+
+  ///@{
+  /// Bits of 16-bit colours: 8, 16, or 0 (default), by the largest in each file.
+  vtkSetMacro(ColorDepth, int);
+  vtkGetMacro(ColorDepth, int);
+  ///@}
+
+  ///@{
+  /**
+   * Coordinate reference system of the store ("EPSG:25832", a WKT file, "utm"; null: the files'
+   * own), and what files are in that name none (null: unknown).
+   */
+  vtkSetStringMacro(CRS);
+  vtkGetStringMacro(CRS);
+  vtkSetStringMacro(AssumedCRS);
+  vtkGetStringMacro(AssumedCRS);
+  ///@}
+
+  ///@{
+  /// Estimate normals: from neighbours in the scan, or by PCA of the nearest points. Default none.
+  enum NormalsType
+  {
+    NO_NORMALS = 0,
+    SCAN_LINE = 1,
+    PCA = 2
+  };
+  vtkSetClampMacro(Normals, int, NO_NORMALS, PCA);
+  vtkGetMacro(Normals, int);
+  void SetNormalsToNone() { this->SetNormals(NO_NORMALS); }
+  void SetNormalsToScanLine() { this->SetNormals(SCAN_LINE); }
+  void SetNormalsToPCA() { this->SetNormals(PCA); }
+  ///@}
+
+  ///@{
+  /**
+   * Of PCA: points of a plane, the point itself among them (16), or all within NormalsRadius if
+   * that is not 0; NormalsError of an approximate search (0: exact); keep Curvature as an
+   * attribute. Set without PCA, or out of range, they are an error of Write(). Normals point to the
+   * scanner where files say where it stood, else up.
+   */
+  vtkSetMacro(NormalsNeighbors, int);
+  vtkGetMacro(NormalsNeighbors, int);
+  vtkSetMacro(NormalsRadius, double);
+  vtkGetMacro(NormalsRadius, double);
+  vtkSetMacro(NormalsError, double);
+  vtkGetMacro(NormalsError, double);
+  vtkSetMacro(Curvature, bool);
+  vtkGetMacro(Curvature, bool);
+  vtkBooleanMacro(Curvature, bool);
+  ///@}
+
+  ///@{
+  /// Classes (0 to 255) that get normals. None named: all.
+  void AddNormalsClass(int objectClass);
+  void ClearNormalsClasses();
+  ///@}
+
+  ///@{
+  /// Attribute local_height: above the mean of the same class within LocalHeightRadius (5).
+  vtkSetMacro(LocalHeight, bool);
+  vtkGetMacro(LocalHeight, bool);
+  vtkBooleanMacro(LocalHeight, bool);
+  vtkSetMacro(LocalHeightRadius, double);
+  vtkGetMacro(LocalHeightRadius, double);
+  ///@}
+
+  ///@{
+  /// Attribute height_above_ground: from class 2, or the lowest points in cells of GroundCell (10).
+  vtkSetMacro(HeightAboveGround, bool);
+  vtkGetMacro(HeightAboveGround, bool);
+  vtkBooleanMacro(HeightAboveGround, bool);
+  vtkSetMacro(GroundCell, double);
+  vtkGetMacro(GroundCell, double);
+  ///@}
+
+  ///@{
+  /**
+   * Colours, and values of attributes, from georeferenced images: files, patterns, folders. The
+   * first has right of way.
+   */
+  void AddColorImage(VTK_FILEPATH const char* fileName);
+  void AddAttributeImage(const char* attribute, VTK_FILEPATH const char* fileName);
+  void ClearImages();
+  ///@}
+
+  ///@{
   /// Show a preview beside the store while it is built, if there are at least PreviewPoints points
   /// (4 million; fewer are built in the time that an overview takes). On by default.
   vtkSetMacro(Preview, bool);
@@ -122,6 +255,21 @@ protected:
 
   char* OutputFileName = nullptr;
   char* TemporaryFolder = nullptr;
+  char* CRS = nullptr;
+  char* AssumedCRS = nullptr;
+  int Structure = OCTREE;
+  int Refinement = ADD;
+  int Layers = AUTOMATIC;
+  int ColorDepth = 0;
+  int Normals = NO_NORMALS;
+  int NormalsNeighbors = 16;
+  double NormalsRadius = 0.0;
+  double NormalsError = 0.0;
+  bool Curvature = false;
+  bool LocalHeight = false;
+  double LocalHeightRadius = 5.0;
+  bool HeightAboveGround = false;
+  double GroundCell = 10.0;
   bool Overwrite = false;
   bool Preview = true;
   vtkIdType PreviewPoints = 4000000;
@@ -144,6 +292,7 @@ private:
   void operator=(const vtkPointFrontBuilder&) = delete;
 
   struct Content;
+  bool CheckProperties();
   std::unique_ptr<Content> Internals;
 };
 

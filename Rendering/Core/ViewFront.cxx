@@ -58,11 +58,18 @@ ViewFront::ViewFront(std::shared_ptr<const HierarchyPiece> piece, ResidencyShare
     : piece_(std::move(piece)), share_(share), schema_(schema), wish_(share.join()),
       residents_(std::make_unique<Residents>(share.residency())),
       selection_(std::make_unique<RenderFront>(piece_->hierarchy())), margin_(piece_->hierarchy()),
-      memory_(share.residency().scheduler().sharedDemand()), window_(std::move(windowDemand))
+      memory_(share.residency().scheduler().sharedDemand()),
+      window_(std::make_unique<SharedDemand::Claim>(std::move(windowDemand)))
 {
 }
 
 ViewFront::~ViewFront() = default;
+
+void ViewFront::enterWindow(std::shared_ptr<SharedDemand> windowDemand)
+{
+  window_ = std::make_unique<SharedDemand::Claim>(std::move(windowDemand));
+  sharedSeen_ = 0;
+}
 
 std::shared_ptr<const NodeColumns> ViewFront::find(NodeIndex node) const
 {
@@ -158,11 +165,11 @@ void ViewFront::loadRoots()
 void ViewFront::readShares()
 {
   const LoadScheduler& scheduler = share_.residency().scheduler();
-  const std::uint64_t revision = memory_.revision() + window_.revision();
+  const std::uint64_t revision = memory_.revision() + window_->revision();
   if (revision != sharedSeen_)
   {
     sharedSeen_ = revision;
-    window_.elsewhere(drawnElsewhere_);
+    window_->elsewhere(drawnElsewhere_);
     memory_.elsewhere(heldElsewhere_);
     for (std::size_t step = 0; step < DemandCurve::size; ++step)
     {
@@ -187,10 +194,10 @@ void ViewFront::tellDemand()
     held[step] *= pointBytes_;
   }
   // Its own change is none for itself; another one's, since the look, is.
-  const std::uint64_t before = memory_.revision() + window_.revision();
+  const std::uint64_t before = memory_.revision() + window_->revision();
   memory_.set(held);
-  window_.set(drawn);
-  sharedSeen_ += memory_.revision() + window_.revision() - before;
+  window_->set(drawn);
+  sharedSeen_ += memory_.revision() + window_->revision() - before;
 }
 
 void ViewFront::setLimits(const FrameDemand& demand)
@@ -287,7 +294,7 @@ void ViewFront::complete(const FrameDemand& demand)
 bool ViewFront::wantsUpdate() const
 {
   return !begun_ || share_.residency().arrivals() != arrivalsSeen_ ||
-         memory_.revision() + window_.revision() != sharedSeen_ ||
+         memory_.revision() + window_->revision() != sharedSeen_ ||
          (delta_.rowsComing && piece_->hierarchy()->arrivals() != rowsSeen_) ||
          (!delta_.complete && movedOn());
 }

@@ -59,6 +59,9 @@ public:
   const FrontDelta& update(const FrameDemand& demand);
   const FrontDelta& last() const { return delta_; }
 
+  /// From now on it is drawn among the clouds with that demand.
+  void enterWindow(std::shared_ptr<SharedDemand> windowDemand);
+
   /// The node's points, or null.
   std::shared_ptr<const NodeColumns> find(NodeIndex node) const;
 
@@ -98,7 +101,7 @@ private:
   FrontLimits limits_;
   // What this view shares with others: memory (in bytes) and the window's points.
   SharedDemand::Claim memory_;
-  SharedDemand::Claim window_;
+  std::unique_ptr<SharedDemand::Claim> window_;
   DemandCurve heldElsewhere_;  ///< in points of this store
   DemandCurve drawnElsewhere_;
   std::uint64_t sharedSeen_ = 0;

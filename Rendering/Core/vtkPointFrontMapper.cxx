@@ -1,6 +1,7 @@
 #include "vtkPointFrontMapper.h"
 
 #include "PointColouring.h"
+#include "StoreSuccession.h"
 #include "ViewFront.h"
 
 #include "pointfront/Front/DetailLevel.h"
@@ -62,6 +63,13 @@ std::shared_ptr<pointfront::SharedDemand> demandOf(vtkWindow* window)
   return demand;
 }
 
+pointfront::LayerLimits limitsOf(
+  const std::map<int, pointfront::LayerLimits>& all, int objectClass)
+{
+  const auto found = all.find(objectClass);
+  return found != all.end() ? found->second : pointfront::LayerLimits();
+}
+
 /// What one renderer sees of the store.
 struct RendererView
 {
@@ -72,8 +80,8 @@ struct RendererView
   bool FirstDrawing = false;
   bool UploadsLeft = false;
   bool Complete = false;
-  bool Announced = false; ///< ViewCompleteEvent was invoked for `View`
-  pointfront::View View;  ///< of the last frame, in the store's coordinates
+  bool Announced = false; ///< ViewCompleteEvent was invoked for that view
+  pointfront::FrameDemand Demand; ///< of the last frame, its view in the store's coordinates
 
   ~RendererView()
   {
@@ -96,6 +104,7 @@ struct vtkPointFrontMapper::Content
   int Pieces = 1;
   std::map<vtkRenderer*, RendererView> Views;
   std::map<int, pointfront::LayerLimits> ClassLimits;
+  std::unique_ptr<pointfront::StoreSuccession> Succession; ///< from Store, while it is a preview
   std::string UnknownArray; ///< that has been warned of
 
   vtkWeakPointer<vtkRenderWindowInteractor> Interactor;
@@ -123,6 +132,18 @@ struct vtkPointFrontMapper::Content
     return view;
   }
 
+  std::vector<pointfront::LayerLimits> LayersOf(vtkPointFrontStore& store) const
+  {
+    std::vector<pointfront::LayerLimits> limits;
+    const auto& layers = store.GetStore()->description().layers;
+    for (std::size_t i = 0; i < layers.size() && !this->ClassLimits.empty(); ++i)
+    {
+      const bool all = layers.size() == 1 && layers[i].name == "all";
+      limits.push_back(limitsOf(this->ClassLimits, all ? -1 : layers[i].objectClass));
+    }
+    return limits;
+  }
+
   void StopTimer()
   {
     if (this->Interactor)
@@ -140,16 +161,6 @@ vtkPointFrontMapper::~vtkPointFrontMapper()
 {
   this->Internals->StopTimer();
 }
-
-namespace
-{
-pointfront::LayerLimits limitsOf(
-  const std::map<int, pointfront::LayerLimits>& all, int objectClass)
-{
-  const auto found = all.find(objectClass);
-  return found != all.end() ? found->second : pointfront::LayerLimits();
-}
-} // namespace
 
 void vtkPointFrontMapper::SetClassVisibility(int objectClass, bool visible)
 {
@@ -224,6 +235,7 @@ vtkPointFrontStore* vtkPointFrontMapper::GetStore()
   }
   if (store != content.Store)
   {
+    content.Succession.reset();
     content.Views.clear();
     content.Piece.reset();
     content.Store = store;
@@ -349,40 +361,72 @@ pointfront::FrameDemand vtkPointFrontMapper::GetDemand(vtkRenderer* renderer, vt
   demand.frameMs =
     this->TargetFrameTime > 0.0 ? this->TargetFrameTime : 1000.0 * actor->GetAllocatedRenderTime();
   demand.complete = this->Complete && !demand.interacting;
-  if (!this->Internals->ClassLimits.empty())
-  {
-    const auto& layers = this->GetStore()->GetStore()->description().layers;
-    for (const pointfront::Layer& layer : layers)
-    {
-      const int objectClass = layers.size() == 1 && layer.name == "all" ? -1 : layer.objectClass;
-      demand.layers.push_back(limitsOf(this->Internals->ClassLimits, objectClass));
-    }
-  }
+  demand.layers = this->Internals->LayersOf(*this->GetStore());
   return demand;
 }
 
-void vtkPointFrontMapper::FollowPreview(vtkRenderer* renderer)
+void vtkPointFrontMapper::FollowPreview(vtkRenderer* renderer, vtkActor* actor)
 {
   Content& content = *this->Internals;
   vtkPointFrontStore* store = this->GetStore();
-  // Between frames only: the fronts of a frame refer to their store.
+  // Between frames only: the fronts of a frame refer to their store. At rest only: a frame in
+  // motion has no time for a second front, nor for bringing all points to the GPU again.
   if (!store || !store->IsPreview() || !content.ViewOf(renderer).NewFrame ||
-    renderer->GetSelector())
+    renderer->GetSelector() || IsInteracting(renderer))
   {
     return;
   }
-  if (auto next = store->GetSuccessor())
+  if (!content.Succession)
   {
-    content.Views.clear();
-    content.Piece.reset();
-    content.Store = next;
-    this->Modified();
+    auto next = store->GetSuccessor();
+    if (!next)
+    {
+      return;
+    }
+    const int piece = std::clamp(this->StorePiece, 0, this->NumberOfStorePieces - 1);
+    content.Succession = std::make_unique<pointfront::StoreSuccession>(
+      next, *store, piece, this->NumberOfStorePieces);
   }
+  pointfront::StoreSuccession& succession = *content.Succession;
+  for (auto& [viewing, view] : content.Views) // others may not be rendered for a while
+  {
+    if (view.Front || viewing == renderer)
+    {
+      pointfront::FrameDemand demand =
+        viewing == renderer ? this->GetDemand(renderer, actor) : view.Demand;
+      demand.layers = content.LayersOf(*succession.store());
+      succession.advance(viewing, std::move(demand));
+    }
+  }
+  const auto shown = [&](const auto& view)
+  { return !view.second.Front || !view.second.Renderer || succession.ready(view.first); };
+  if (std::all_of(content.Views.begin(), content.Views.end(), shown))
+  {
+    this->TakeSuccessor();
+  }
+}
+
+void vtkPointFrontMapper::TakeSuccessor()
+{
+  Content& content = *this->Internals;
+  const std::unique_ptr<pointfront::StoreSuccession> succession = std::move(content.Succession);
+  for (auto& [renderer, view] : content.Views)
+  {
+    view.Front = succession->take(renderer);
+    view.Announced = false;
+    if (view.Front && view.Renderer)
+    {
+      view.Front->enterWindow(demandOf(view.Renderer->GetRenderWindow()));
+    }
+  }
+  content.Piece = succession->piece();
+  content.Store = succession->store();
+  this->Modified();
 }
 
 pointfront::ViewFront* vtkPointFrontMapper::PrepareFrame(vtkRenderer* renderer, vtkActor* actor)
 {
-  this->FollowPreview(renderer);
+  this->FollowPreview(renderer, actor);
   vtkPointFrontStore* store = this->GetStore();
   if (!store)
   {
@@ -397,6 +441,7 @@ pointfront::ViewFront* vtkPointFrontMapper::PrepareFrame(vtkRenderer* renderer, 
   if (!content.Piece || content.PieceNumber != this->StorePiece ||
       content.Pieces != this->NumberOfStorePieces)
   {
+    content.Succession.reset();
     content.Views.clear();
     content.PieceNumber = this->StorePiece;
     content.Pieces = this->NumberOfStorePieces;
@@ -420,8 +465,8 @@ pointfront::ViewFront* vtkPointFrontMapper::PrepareFrame(vtkRenderer* renderer, 
 
   const auto begin = Clock::now();
   const pointfront::FrameDemand demand = this->GetDemand(renderer, actor);
-  view.Announced = view.Announced && view.View == demand.view;
-  view.View = demand.view;
+  view.Announced = view.Announced && view.Demand.view == demand.view;
+  view.Demand = demand;
   const pointfront::FrontDelta& delta = view.Front->update(demand);
   this->LastFrontTime = millisecondsSince(begin);
   this->LastFrontLength = delta.frontLength;
@@ -489,7 +534,9 @@ std::uint32_t vtkPointFrontMapper::GetNumberOfViews() const
 
 bool vtkPointFrontMapper::NeedsRender()
 {
-  if (this->Internals->Store && this->Internals->Store->HasSuccessor())
+  const std::unique_ptr<pointfront::StoreSuccession>& succession = this->Internals->Succession;
+  if (succession ? succession->wantsUpdate()
+                 : this->Internals->Store && this->Internals->Store->HasSuccessor())
   {
     return true;
   }

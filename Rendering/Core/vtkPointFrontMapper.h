@@ -269,8 +269,10 @@ protected:
 private:
   struct Content;
   pointfront::FrameDemand GetDemand(vtkRenderer* renderer, vtkActor* actor);
-  /// Goes over to the next version of the preview that it draws, or to the finished store.
-  void FollowPreview(vtkRenderer* renderer);
+  /// Goes over to the next version of the preview that it draws, or to the finished store, once
+  /// that shows as much of the view.
+  void FollowPreview(vtkRenderer* renderer, vtkActor* actor);
+  void TakeSuccessor();
   std::unique_ptr<Content> Internals;
 
   vtkPointFrontMapper(const vtkPointFrontMapper&) = delete;

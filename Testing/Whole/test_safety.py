@@ -142,7 +142,7 @@ class Previews(ToolTest):
         said = looked.json["preview"]
         self.assertEqual(said["of"], "x.pfront")
         self.assertEqual(said["points_expected"], 10653336)
-        self.assertGreater(looked.json["points"], 20000)
+        self.assertGreater(looked.json["points"], 10000)
         self.assertLess(looked.json["points"], 200000)
         finished = self.succeed("info", store, "--json").json
         self.assertNotIn("preview", finished)
@@ -151,6 +151,25 @@ class Previews(ToolTest):
             whole = finished["bounds"][axis + 3] - finished["bounds"][axis]
             seen = looked.json["bounds"][axis + 3] - looked.json["bounds"][axis]
             self.assertGreater(seen, 0.5 * whole)
+        self.assertEqual(self.entries(), ["x.pfront"])
+
+    def test_it_shows_finished_parts(self):
+        store, preview = self.folder / "x.pfront", self.folder / "x.preview.pfront"
+        process = start("build", LARGE, "-o", store, "--node-points", 4096, "--threads", 1)
+        seen = []
+        while process.poll() is None:
+            looked = pointfront("info", preview, "--json")
+            if looked.status == 0 and "preview" in looked.json:
+                seen.append((looked.json["preview"]["points_finished"], looked.json["points"]))
+                if seen[-1][0] > 0:
+                    checked = pointfront("verify", preview, "--json")
+                    gone = process.poll() is not None or not preview.exists()
+                    self.assertTrue(gone or checked.status == 0, checked)
+        self.assertEqual(process.wait(), 0)
+        self.assertGreater(max(finished for finished, _ in seen), 1000000, seen)
+        for finished, points in seen:
+            self.assertGreaterEqual(points, finished)
+            self.assertLess(points - finished, 100000)
         self.assertEqual(self.entries(), ["x.pfront"])
 
     def test_the_store_is_the_same_without(self):

@@ -40,8 +40,7 @@ protected:
       return preview.error();
     }
     (*preview)->showOverview(cloud_, progress);
-    const PointSources watched = (*preview)->watched(cloud_);
-    Result<BuildReport> report = buildOctreeStore(watched, build_, progress);
+    Result<BuildReport> report = (*preview)->build(cloud_, build_, progress);
     EXPECT_TRUE((*preview)->warnings().empty()) << (*preview)->warnings().front();
     return report;
   }
@@ -55,14 +54,27 @@ protected:
     std::sort(names.begin(), names.end());
     return names;
   }
+  /// Small parts, each of which is shown.
+  void everyVersion()
+  {
+    build_.nodePoints = 512;
+    wish_.shareOfTime = 1e9;
+  }
   std::string previewPath() const { return (folder_ / "city.preview.pfront").string(); }
-  /// Leaves what a build leaves that is killed after its first preview.
-  void killAfterOverview()
+  /// Leaves what a build leaves that is killed once `condition` holds for its preview.
+  void killWhen(bool (*condition)(const PreviewRecord&))
   {
     const pid_t child = fork();
     if (child == 0)
     {
-      wish_.shown = [](const std::string&) { _exit(0); }; // no destructor runs
+      wish_.shown = [condition](const std::string& path)
+      {
+        const auto store = PointStore::open(path);
+        if (store && condition(*previewRecordOf((*store)->description().metadata)))
+        {
+          _exit(0); // no destructor runs
+        }
+      };
       const auto never = buildWithPreview();
       _exit(1);
     }
@@ -182,9 +194,81 @@ TEST_F(BuildPreviews, LeaveNothingWhenTheBuildIsCancelled)
   EXPECT_TRUE(entries().empty());
 }
 
+TEST_F(BuildPreviews, RefineAsPartsFinish)
+{
+  everyVersion();
+  std::vector<PreviewRecord> versions;
+  std::vector<std::shared_ptr<const PointStore>> stores;
+  std::mutex mutex;
+  wish_.shown = [&](const std::string& path)
+  {
+    const std::lock_guard<std::mutex> lock(mutex);
+    auto store = PointStore::open(path);
+    ASSERT_TRUE(store) << store.error().what;
+    versions.push_back(*previewRecordOf((*store)->description().metadata));
+    stores.push_back(*store);
+  };
+  const auto report = buildWithPreview();
+  ASSERT_TRUE(report) << report.error().what;
+  EXPECT_EQ(entries(), std::vector<std::string>{"city.pfront"});
+  EXPECT_GT(versions.back().pointsFinished, cloudPoints / 2);
+  std::size_t finishing = 0;
+  for (std::size_t v = 1; v < versions.size(); ++v)
+  {
+    const bool more = versions[v].pointsFinished > versions[v - 1].pointsFinished;
+    EXPECT_TRUE(more || versions[v].pointsFinished == 0);
+    finishing += more ? 1u : 0u;
+    // Finished parts in full, and of the others no more than the sample, of 10,000 points.
+    const std::uint64_t points = stores[v]->description().pointCount;
+    EXPECT_GE(points, versions[v].pointsFinished);
+    EXPECT_LE(points, versions[v].pointsFinished + 10300);
+    const auto verified = stores[v]->verify();
+    ASSERT_TRUE(verified);
+    EXPECT_TRUE(verified->ok) << verified->firstError;
+  }
+  EXPECT_GT(finishing, 5u);
+}
+
+TEST_F(BuildPreviews, KeepToTheirShareOfTheTime)
+{
+  build_.nodePoints = 512;
+  build_.threads = 1;
+  wish_.shareOfTime = 0.0;
+  std::atomic<int> finishing{0};
+  wish_.shown = [&](const std::string& path)
+  {
+    const auto store = PointStore::open(path);
+    ASSERT_TRUE(store);
+    const auto record = previewRecordOf((*store)->description().metadata);
+    finishing += record->pointsFinished > 0 ? 1 : 0;
+  };
+  ASSERT_TRUE(buildWithPreview());
+  EXPECT_EQ(finishing, 0);
+  wish_.shareOfTime = 1.0; // a version may take as long as what was built since the one before
+  build_.overwrite = true;
+  ASSERT_TRUE(buildWithPreview());
+  EXPECT_GE(finishing, 1);
+  EXPECT_LT(finishing, 20); // of some 60 parts
+}
+
+TEST_F(BuildPreviews, OfAKilledBuildWithFinishedPartsGoWithTheNext)
+{
+  everyVersion();
+  killWhen([](const PreviewRecord& record) { return record.pointsFinished > cloudPoints / 3; });
+  EXPECT_EQ(entries(),
+    (std::vector<std::string>{"city.pfront.tmp", "city.preview.pfront"})); // as it was killed
+  const auto left = PointStore::open(previewPath());
+  ASSERT_FALSE(left);
+  EXPECT_EQ(left.error().kind, Error::Kind::Truncated);
+  EXPECT_NE(left.error().what.find("preview of a build that has ended"), std::string::npos);
+  EXPECT_FALSE(PointStore::open(build_.outputPath + ".tmp"));
+  ASSERT_TRUE(buildWithPreview());
+  EXPECT_EQ(entries(), std::vector<std::string>{"city.pfront"});
+}
+
 TEST_F(BuildPreviews, OfAKilledBuildDoNotOpenAndGoWithTheNext)
 {
-  killAfterOverview();
+  killWhen([](const PreviewRecord&) { return true; });
   const auto left = PointStore::open(previewPath());
   ASSERT_FALSE(left);
   EXPECT_EQ(left.error().kind, Error::Kind::Truncated);
@@ -228,14 +312,15 @@ TEST_F(BuildPreviews, ThatCannotBeWrittenAreAWarning)
 
 TEST(PreviewRecord, TravelsAsMetadata)
 {
-  const PreviewRecord record{"city.pfront", std::uint64_t(1) << 40, 12345};
+  const PreviewRecord record{"city.pfront", std::uint64_t(1) << 40, 12345, 678};
   const auto back = previewRecordOf({{"LASF_Projection", 1, "", {}}, previewMetadata(record)});
   ASSERT_TRUE(back);
   EXPECT_EQ(back->storeName, record.storeName);
   EXPECT_EQ(back->pointsExpected, record.pointsExpected);
   EXPECT_EQ(back->pointsRead, record.pointsRead);
+  EXPECT_EQ(back->pointsFinished, record.pointsFinished);
   EXPECT_FALSE(previewRecordOf({}));
-  EXPECT_FALSE(previewRecordOf({{"pointfront", 1, "", std::vector<std::byte>(15)}}));
+  EXPECT_FALSE(previewRecordOf({{"pointfront", 1, "", std::vector<std::byte>(23)}}));
 }
 
 TEST(PreviewRecord, HasANameBesideTheStore)

@@ -138,4 +138,90 @@ TEST_F(Builder, NamesWhatIsWrong)
   EXPECT_EQ(builder->Write(), 1);
 }
 
+TEST_F(Builder, GivesTheStoreTheShapeAndTheAttributesThatAreAskedFor)
+{
+  builder->SetStructureToKdTree();
+  builder->SetLayersToNone();
+  builder->AddAttribute("intensity");
+  builder->AddAttribute("normal");
+  builder->AddAttribute("curvature");
+  builder->AddAttribute("local_height");
+  builder->AddAttribute("height_above_ground");
+  builder->SetNormalsToPCA();
+  builder->SetNormalsNeighbors(8);
+  builder->SetNormalsError(1.0);
+  builder->CurvatureOn();
+  builder->LocalHeightOn();
+  builder->HeightAboveGroundOn();
+  builder->SetPrecision(0.01);
+  ASSERT_EQ(builder->Write(), 1);
+  const auto store = pointfront::PointStore::open(builder->GetOutputFileName());
+  ASSERT_TRUE(store);
+  const pointfront::StoreDescription& description = store.value()->description();
+  EXPECT_EQ(description.structure, "kdtree");
+  EXPECT_EQ(description.layers.size(), 1u);
+  EXPECT_EQ(description.grid.scale.x, 0.01);
+  EXPECT_EQ(description.schema.size(), 5u);
+  for (const char* name : {"intensity", "normal", "curvature", "local_height"})
+  {
+    EXPECT_TRUE(description.schema.find(name)) << name;
+  }
+}
+
+TEST_F(Builder, BuildsRepresentativesByClass)
+{
+  builder->SetRefinementToReplace();
+  builder->SetLayersToClass();
+  builder->SetNormalsToScanLine();
+  builder->AddNormalsClass(2);
+  ASSERT_EQ(builder->Write(), 1);
+  const auto store = pointfront::PointStore::open(builder->GetOutputFileName());
+  ASSERT_TRUE(store);
+  const pointfront::StoreDescription& description = store.value()->description();
+  EXPECT_EQ(description.refinement, pointfront::Refinement::Replace);
+  ASSERT_EQ(description.layers.size(), 1u);
+  EXPECT_NE(description.layers[0].name, "all"); // the one class that this file has
+  EXPECT_TRUE(description.schema.find("enclosing_radius"));
+  EXPECT_TRUE(description.schema.find("normal"));
+}
+
+TEST_F(Builder, RefusesWhatDoesNotGoTogether)
+{
+  vtkNew<vtkTest::ErrorObserver> errors;
+  builder->AddObserver(vtkCommand::ErrorEvent, errors);
+  const auto refuses = [&](const char* why)
+  {
+    errors->Clear();
+    EXPECT_EQ(builder->Write(), 0) << why;
+    EXPECT_NE(builder->GetErrorCode(), static_cast<unsigned long>(vtkErrorCode::NoError));
+    EXPECT_EQ(errors->CheckErrorMessage(why), 0);
+    EXPECT_EQ(entries(), 0u);
+  };
+  builder->SetNormalsRadius(2.0);
+  refuses("normals by PCA, which are not asked for");
+  builder->SetNormalsToPCA();
+  builder->SetNormalsNeighbors(8);
+  refuses("not both");
+  builder->SetNormalsRadius(0.0);
+  builder->SetNormalsNeighbors(2);
+  refuses("a number of neighbours of 2");
+  builder->SetNormalsNeighbors(16);
+  builder->AddNormalsClass(300);
+  refuses("class 300");
+  builder->ClearNormalsClasses();
+  builder->SetNormalsToNone();
+  builder->SetColorDepth(12);
+  refuses("ColorDepth of 12");
+  builder->SetColorDepth(0);
+  builder->SetStructureToKdTree();
+  builder->SetRefinementToReplace();
+  refuses("has no representatives");
+  builder->SetStructureToOctree();
+  builder->AddColorImage("no/such.tif");
+  refuses("no/such.tif");
+  builder->ClearImages();
+  builder->SetCRS("EPSG:0");
+  refuses("EPSG:0");
+}
+
 } // namespace

@@ -52,6 +52,28 @@ assert builder.Write() == 0
 assert os.path.getsize(store) == size
 assert sorted(os.listdir(os.path.dirname(store))).count("python.pfront.tmp") == 0
 
+# What the tool's options are: structure, attributes, normals, heights.
+shaped = pointfront.vtkPointFrontBuilder()
+shaped.AddFileName(points)
+shaped.SetOutputFileName(store + ".shaped.pfront")
+shaped.OverwriteOn()
+shaped.SetStructureToKdTree()
+shaped.SetLayersToNone()
+shaped.SetNormalsToScanLine()
+shaped.LocalHeightOn()
+for name in ("intensity", "normal", "local_height"):
+    shaped.AddAttribute(name)
+assert shaped.Write() == 1, shaped.GetErrorCode()
+reader.SetFileName(store + ".shaped.pfront")
+reader.Update()
+opened = reader.GetStore()
+names = {opened.GetAttributeName(i) for i in range(opened.GetNumberOfAttributes())}
+assert names == {"intensity", "normal", "local_height"}, names
+shaped.CurvatureOn()  # of PCA, which is not asked for
+refused = []
+shaped.AddObserver(vtkCommand.ErrorEvent, lambda b, e: refused.append(e))
+assert shaped.Write() == 0 and shaped.GetErrorCode() != 0 and len(refused) == 1, refused
+
 # An error has a code, and a message that an observer gets.
 said = []
 wrong = pointfront.vtkPointFrontBuilder()

@@ -4,11 +4,14 @@
 
 #include "pointfront/Build/BuildPreview.h"
 #include "pointfront/Store/PointStore.h"
+#include "pointfront/Store/PreviewRecord.h"
 
 #include <vtkCallbackCommand.h>
 
 #include <chrono>
+#include <condition_variable>
 #include <filesystem>
+#include <mutex>
 #include <thread>
 
 using namespace pointfront;
@@ -169,6 +172,134 @@ TEST(Interaction, PiecesTogetherDrawEachPointOnce)
     sum += drawn;
   }
   EXPECT_EQ(sum, 250000);
+}
+
+/// A build that waits after each version of its preview until it is let go on.
+class SteppedBuild
+{
+public:
+  explicit SteppedBuild(const std::string& name) : folder_(freshFolder(name))
+  {
+    options_.outputPath = (folder_ / "city.pfront").string();
+    options_.memoryBytes = std::uint64_t(1) << 30;
+    options_.nodePoints = 512;
+    options_.threads = 1;
+    wish_.leastPoints = 1000;
+    wish_.shareOfTime = 1e9;
+    wish_.shown = [this](const std::string& path)
+    {
+      const auto store = PointStore::open(path);
+      std::unique_lock<std::mutex> lock(mutex_);
+      const auto record = previewRecordOf(store.value()->description().metadata);
+      finished_ = record->pointsFinished;
+      ++version_;
+      changed_.notify_all();
+      const bool parts = finished_ > 0; // versions before that may come from two threads
+      changed_.wait(lock, [&] { return !parts || allowed_ >= version_; });
+    };
+    thread_ = std::thread([this] { run(); });
+  }
+  ~SteppedBuild()
+  {
+    while (next())
+    {
+    }
+    thread_.join();
+    std::filesystem::remove_all(folder_);
+  }
+  /// Goes on to the next version with more finished parts; false once the store is finished.
+  bool next()
+  {
+    std::unique_lock<std::mutex> lock(mutex_);
+    const std::uint64_t before = finished_;
+    allowed_ = version_;
+    changed_.notify_all();
+    changed_.wait(lock, [&] { return ended_ || finished_ > before; });
+    return !ended_;
+  }
+  std::string previewPath() const { return (folder_ / "city.preview.pfront").string(); }
+  static constexpr std::size_t points = 60000;
+
+private:
+  void run()
+  {
+    const PointSources cloud = one(hills(points, 1e6));
+    auto preview = BuildPreview::create(cloud, options_, wish_);
+    EXPECT_TRUE(preview);
+    (*preview)->showOverview(cloud);
+    EXPECT_TRUE((*preview)->build(cloud, options_));
+    preview.value().reset();
+    const std::lock_guard<std::mutex> lock(mutex_);
+    ended_ = true;
+    changed_.notify_all();
+  }
+
+  std::filesystem::path folder_;
+  BuildOptions options_;
+  PreviewOptions wish_;
+  std::thread thread_;
+  std::mutex mutex_; // guards what follows
+  std::condition_variable changed_;
+  std::uint64_t finished_ = 0;
+  int version_ = 0;
+  int allowed_ = 0;
+  bool ended_ = false;
+};
+
+TEST(Interaction, AViewOfABuildGetsFinerAndLosesNothingOnTheWay)
+{
+  SteppedBuild build("stepped-view");
+  ASSERT_TRUE(build.next());
+  Scene scene(build.previewPath());
+  scene.mapper->SetTargetError(1e-6); // all that there is
+  scene.mapper->CompleteOff();
+  scene.renderer->ResetCamera();
+  scene.renderer->GetActiveCamera()->Zoom(0.5); // later versions are a little wider
+  settle(scene);
+  vtkIdType before = scene.mapper->GetLastPointsDrawn();
+  EXPECT_GT(before, 1000);
+  int versions = 0;
+  for (bool running = true; running;)
+  {
+    running = build.next();
+    const vtkIdType seen = before;
+    const auto begin = std::chrono::steady_clock::now();
+    do // the mapper looks for a successor four times a second
+    {
+      scene.window->Render();
+      EXPECT_GE(scene.mapper->GetLastPointsDrawn(), before);
+      before = scene.mapper->GetLastPointsDrawn();
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    } while ((scene.mapper->NeedsRender() || before == seen) &&
+             std::chrono::steady_clock::now() - begin < std::chrono::seconds(20));
+    EXPECT_GT(before, seen);
+    ++versions;
+  }
+  EXPECT_GT(versions, 4);
+  EXPECT_EQ(before, vtkIdType(SteppedBuild::points));
+  EXPECT_FALSE(scene.mapper->GetStore()->IsPreview());
+}
+
+TEST(Interaction, AViewInMotionStaysWithItsPreview)
+{
+  SteppedBuild build("moving-view");
+  ASSERT_TRUE(build.next());
+  Scene scene(build.previewPath());
+  scene.mapper->CompleteOff();
+  settle(scene);
+  const std::string before = scene.mapper->GetStore()->GetFileName();
+  auto* const early = scene.mapper->GetStore();
+  while (build.next())
+  {
+  }
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  scene.window->SetDesiredUpdateRate(15.0);
+  scene.window->Render();
+  EXPECT_EQ(scene.mapper->GetStore(), early); // still readable, from a file that is gone
+  EXPECT_GT(scene.mapper->GetLastPointsDrawn(), 1000);
+  scene.window->SetDesiredUpdateRate(0.001);
+  settle(scene);
+  EXPECT_NE(scene.mapper->GetStore()->GetFileName(), before);
 }
 
 TEST(Interaction, AViewOfAPreviewGoesOverToTheFinishedStore)

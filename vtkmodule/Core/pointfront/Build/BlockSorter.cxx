@@ -18,14 +18,7 @@ void widen(RunSorter& sorter, const Piece& block, const ColourWidening& widening
     const std::uint64_t end = std::min(block.first + block.count, run.first + run.count);
     for (std::uint64_t i = begin; i < end; ++i)
     {
-      std::byte* colour = sorter.record(i - block.first) + widening.offset;
-      for (std::size_t k = 0; k < widening.components; ++k)
-      {
-        std::uint16_t value;
-        std::memcpy(&value, colour + 2 * k, sizeof(value));
-        value = static_cast<std::uint16_t>(value * 257u);
-        std::memcpy(colour + 2 * k, &value, sizeof(value));
-      }
+      widening.widen(sorter.record(i - block.first));
     }
   }
 }

@@ -11,7 +11,9 @@
 #include "pointfront/Build/TreeSpace.h"
 #include "pointfront/Build/WorkCrew.h"
 
+#include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <optional>
 #include <vector>
 
@@ -24,6 +26,17 @@ struct ColourWidening
   std::size_t offset = 0; ///< of the column in the record
   std::size_t components = 0;
   std::vector<Piece> runs; ///< records to be widened, ascending
+
+  void widen(std::byte* record) const
+  {
+    for (std::size_t k = 0; k < components; ++k)
+    {
+      std::uint16_t value;
+      std::memcpy(&value, record + offset + 2 * k, sizeof(value));
+      value = static_cast<std::uint16_t>(value * 257u);
+      std::memcpy(record + offset + 2 * k, &value, sizeof(value));
+    }
+  }
 };
 
 /// What is done once to all records of the pool when they have been read.
@@ -34,6 +47,7 @@ struct PoolPreparation
   unsigned rootLog2 = 0;    ///< of the root cube's side
   std::optional<ColourWidening> widening;
   ClassLayers layers;
+  bool findable = false; ///< TreeConstruction::nodeOf() will be called
 };
 
 /// Counted cells in Morton order, moved to where they are in the tree.

@@ -1,7 +1,7 @@
 #include "pointfront/Build/BuildPreview.h"
 
+#include "pointfront/Build/CpuClock.h"
 #include "pointfront/Build/RecordLayout.h"
-#include "pointfront/Store/PreviewRecord.h"
 
 #include <algorithm>
 #include <atomic>
@@ -15,18 +15,24 @@ namespace
 {
 constexpr std::uint64_t mostPoints = 2000000;
 constexpr std::uint64_t fewestPoints = 10000;
-constexpr std::uint64_t leastShareOfPoints = 128; ///< the sample has at most a 128th of all
-constexpr std::uint64_t mostMemory = std::uint64_t(512) << 20;
+constexpr std::uint64_t leastShareOfPoints = 256; ///< the sample has at most a 256th of all
+constexpr std::uint64_t mostMemory = std::uint64_t(1) << 30;
 constexpr std::uint64_t shareOfMemory = 16;
+/// Of that: the rest is for what finished parts hold for the nodes above them.
+constexpr double sampleShareOfMemory = 0.65;
+/// A version copies what finished parts hold, and joins it level by level.
+constexpr std::uint64_t copiesOfHeld = 2;
+/// CPU seconds for a point of the sample: the first version's cost is a guess.
+constexpr double firstEstimate = 4e-7;
 /// Building needs a record twice, its node and what lies between, for each point of the sample.
 constexpr std::uint64_t recordsPerPoint = 6;
 /// Parts, buffers and tables of a small build, whatever its points.
 constexpr std::uint64_t fixedMemory = std::uint64_t(4) << 20;
 constexpr std::uint64_t mostPickedChunks = 64;
 constexpr std::uint64_t fewestPickedChunks = 4;
-constexpr std::uint64_t leastShareOfChunks = 32; ///< at most a 32nd of them is decoded twice
-/// Shares of the input, read, at which the preview is written again: 1/16, 1/4, all of it.
-constexpr double firstShare = 1.0 / 16.0;
+constexpr std::uint64_t leastShareOfChunks = 64; ///< at most a 64th of them is decoded twice
+/// Shares of the input, read, at which the preview is written again: 1/4, all of it.
+constexpr double firstShare = 1.0 / 4.0;
 constexpr double shareFactor = 4.0;
 
 std::uint64_t memoryOf(const BuildOptions& build)
@@ -117,8 +123,9 @@ void BuildPreview::chooseCapacity(const PointSources& sources)
     memoryBytes_ = 0;
     return;
   }
+  const auto forSample = static_cast<std::uint64_t>(sampleShareOfMemory * double(memoryBytes_));
   const std::uint64_t fitting =
-    (memoryBytes_ - fixedMemory) / (2 * pointBytes + recordsPerPoint * recordBytes);
+    (forSample - fixedMemory) / (2 * pointBytes + recordsPerPoint * recordBytes);
   capacity_ = std::min({mostPoints, fitting,
     std::max(fewestPoints, expected_ / leastShareOfPoints)});
 }
@@ -203,6 +210,20 @@ void BuildPreview::pickChunks(const PointSources& sources, const std::function<b
   mixed_ = goOn();
 }
 
+Result<BuildReport> BuildPreview::build(
+  const PointSources& sources, const BuildOptions& options, const ProgressFunction& progress)
+{
+  const PointSources watchedSources = watched(sources);
+  Result<BuildReport> report =
+    buildOctreeStore(watchedSources, options, progress, active() ? this : nullptr);
+  if (report)
+  {
+    const std::vector<std::string> told = warnings();
+    report->warnings.insert(report->warnings.end(), told.begin(), told.end());
+  }
+  return report;
+}
+
 PointSources BuildPreview::watched(const PointSources& sources)
 {
   PointSources result;
@@ -217,6 +238,7 @@ PointSources BuildPreview::watched(const PointSources& sources)
       sample_.clear(); // other coordinates, other columns
       mixed_ = false;
     }
+    sources_ = &sources;
     refiner_ = std::thread([this, &sources] { refine(sources); });
   }
   return result;
@@ -241,19 +263,19 @@ void BuildPreview::refine(const PointSources& sources)
     std::uint64_t read = 0;
     {
       std::unique_lock<std::mutex> lock(mutex_);
-      changed_.wait(lock, [&] { return stop_ || read_ >= wanted; });
-      if (stop_)
+      changed_.wait(lock, [&] { return stop_ || allRead_ || read_ >= wanted; });
+      if (stop_ || allRead_)
       {
         return;
       }
       read = read_;
+      refining_ = true;
     }
-    show(sources, read, 1,
-      [this]
-      {
-        const std::lock_guard<std::mutex> lock(mutex_);
-        return !stop_;
-      });
+    show(sources, read, 1, [this] { return !stopped(); });
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      refining_ = false;
+    }
     do
     {
       share *= shareFactor;
@@ -273,6 +295,11 @@ void BuildPreview::show(const PointSources& originals, std::uint64_t pointsRead,
   {
     done = makeError(Error::Kind::NoMemory, "the system gave no more memory");
   }
+  tell(done);
+}
+
+void BuildPreview::tell(const Result<void>& done)
+{
   if (done)
   {
     if (options_.shown)
@@ -287,25 +314,95 @@ void BuildPreview::show(const PointSources& originals, std::uint64_t pointsRead,
   }
 }
 
-Result<void> BuildPreview::write(const PointSources& originals, std::uint64_t pointsRead,
-  unsigned threads, const std::function<bool()>& goOn)
+bool BuildPreview::stopped() const
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return stop_;
+}
+
+PreviewRecord BuildPreview::recordOf(std::uint64_t pointsRead) const
 {
   PreviewRecord record;
   record.storeName = std::filesystem::path(build_.outputPath).filename().string();
   record.pointsExpected = expected_;
   record.pointsRead = pointsRead;
+  return record;
+}
+
+Result<void> BuildPreview::write(const PointSources& originals, std::uint64_t pointsRead,
+  unsigned threads, const std::function<bool()>& goOn)
+{
   BuildOptions options;
   options.outputPath = file_->nextPath();
   options.overwrite = true;
   options.temporaryFolder = build_.temporaryFolder;
-  options.memoryBytes = std::max(memoryBytes_ / 2, 2 * fixedMemory);
+  options.memoryBytes = std::max(memoryBytes_ / 3, 2 * fixedMemory);
   options.threads = threads;
   options.precision = build_.precision;
   options.attributes = build_.attributes;
-  const PointSources sample = sample_.snapshot(originals, previewMetadata(record));
+  const PointSources sample =
+    sample_.snapshot(originals, previewMetadata(recordOf(pointsRead)));
   const Result<BuildReport> built =
     buildOctreeStore(sample, options, [&](const Progress&) { return goOn(); });
   return built ? file_->replace() : Result<void>(built.error());
+}
+
+PointSources BuildPreview::sample()
+{
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    allRead_ = true;
+  }
+  changed_.notify_all();
+  began_ = processSeconds();
+  estimate_ = firstEstimate * double(sample_.points());
+  PointSources taken = sample_.snapshot(*sources_, {});
+  sample_.clear(); // what the refiner still has at hand, it keeps
+  return taken;
+}
+
+bool BuildPreview::due(std::size_t bytes)
+{
+  const double affordable = options_.shareOfTime * (processSeconds() - began_);
+  if (spent_ + estimate_ > affordable)
+  {
+    return false;
+  }
+  const double left = (1.0 - sampleShareOfMemory) * double(memoryBytes_);
+  const bool fits = double(copiesOfHeld * bytes) <= left;
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (!fits && !tooLittleMemory_)
+  {
+    tooLittleMemory_ = true;
+    warnings_.push_back("The preview shows no finished parts: the memory limit leaves " +
+      std::to_string(std::uint64_t(left)) + " bytes for it, " +
+      std::to_string(copiesOfHeld * bytes) + " are needed.");
+  }
+  return fits && !refining_;
+}
+
+void BuildPreview::show(PartialStore& store)
+{
+  double seconds = 0.0;
+  Result<void> done;
+  try
+  {
+    const CpuStopwatch watch(seconds);
+    PreviewRecord record = recordOf(expected_);
+    record.pointsFinished = store.pointsFinished();
+    done = store.write(file_->nextPath(), previewMetadata(record));
+    if (done)
+    {
+      done = file_->replace();
+    }
+  }
+  catch (const std::bad_alloc&)
+  {
+    done = makeError(Error::Kind::NoMemory, "the system gave no more memory");
+  }
+  spent_ += seconds;
+  estimate_ = seconds;
+  tell(done);
 }
 
 std::vector<std::string> BuildPreview::warnings() const

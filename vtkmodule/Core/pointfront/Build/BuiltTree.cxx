@@ -58,12 +58,15 @@ NodeTable nodeTable(const std::vector<std::unique_ptr<BuiltNode>>& trees)
 {
   NodeTable table;
   std::vector<const BuiltNode*> order;
-  for (const auto& root : trees)
+  for (std::size_t layer = 0; layer < trees.size(); ++layer)
   {
-    table.roots.push_back(static_cast<NodeIndex>(order.size()));
-    order.push_back(root.get());
-    table.nodes.push_back(root->row);
-    table.nodes.back().layer = static_cast<std::uint16_t>(table.roots.size() - 1);
+    if (const BuiltNode* root = trees[layer].get())
+    {
+      table.roots.push_back(static_cast<NodeIndex>(order.size()));
+      order.push_back(root);
+      table.nodes.push_back(root->row);
+      table.nodes.back().layer = static_cast<std::uint16_t>(layer);
+    }
   }
   for (std::size_t i = 0; i < order.size(); ++i)
   {

@@ -40,7 +40,8 @@ struct NodeTable
   std::uint32_t levels = 0;
 };
 
-/// One tree a layer; none for an empty table. Makes spacing fall strictly from parent to child.
+/// One tree a layer, null for a layer without points; none for an empty table. Makes spacing fall
+/// strictly from parent to child.
 NodeTable nodeTable(const std::vector<std::unique_ptr<BuiltNode>>& trees);
 
 } // namespace pointfront

@@ -113,6 +113,11 @@ Result<void> KdPool::build(
     return pieces.error();
   }
   pieces_.assign(pieces->begin(), pieces->begin() + parts);
+  if (points.findable)
+  {
+    layers_ = points.layers;
+    buckets_ = std::move(buckets);
+  }
   const CpuStopwatch watch(seconds_);
   for (std::size_t i = 0; i < divided_.size() && !sorter_.crew().stopped(); ++i)
   {
@@ -136,6 +141,7 @@ void KdPool::append(const KdCut& cut, std::size_t cells)
     {
       counts_.push_back(node.count);
       node.part += firstPart;
+      nodeOfPart_.push_back(static_cast<std::uint32_t>(tree_.size()));
     }
     node.parent += node.parent != PartNode::none ? firstNode : 0;
     for (std::uint32_t& child : node.children)
@@ -178,6 +184,34 @@ CellTable KdPool::bucketTable(
     table.at(table.cellOf(cells[i].origin)) = bucket + 1;
   }
   return table;
+}
+
+std::uint32_t KdPool::nodeOf(const std::byte* record) const
+{
+  const CellTable& table = buckets_[layers_.layerOf(record)];
+  const std::uint64_t bucket = table.find(table.cellOf(positionOf(record))); // plus one
+  if (bucket == 0)
+  {
+    return PartNode::none;
+  }
+  return bucket <= counts_.size() ? nodeOfPart_[bucket - 1]
+                                  : nodeOfPlace(divided_[bucket - 1 - counts_.size()]);
+}
+
+std::uint32_t KdPool::nodeOfPlace(std::uint32_t place) const
+{
+  if (places_[place].part != KdPlace::none)
+  {
+    return nodeOfPart_[places_[place].part];
+  }
+  std::uint32_t a = nodeOfPlace(places_[place].left);
+  std::uint32_t b = nodeOfPlace(places_[place].right);
+  while (a != b) // parents come before their children
+  {
+    std::uint32_t& lower = a > b ? a : b;
+    lower = tree_[lower].parent;
+  }
+  return a;
 }
 
 Result<void> KdPool::distribute(std::uint32_t place, std::vector<Piece> pieces)

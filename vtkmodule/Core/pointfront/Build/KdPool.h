@@ -34,6 +34,10 @@ public:
   const std::vector<std::vector<KdShare>>& shares() const { return shares_; }
   /// The records of a part.
   Result<std::vector<std::byte>> load(std::uint32_t part) const;
+  /// The node of tree() that surely contains a record: its part, or above a divided cell the one
+  /// that all its points lie below; PartNode::none for a point that was not counted. After build()
+  /// with findable points.
+  std::uint32_t nodeOf(const std::byte* record) const;
   double seconds() const { return sorter_.seconds() + seconds_; }
 
 private:
@@ -42,6 +46,7 @@ private:
   void append(const KdCut& cut, std::size_t cells);
   CellTable bucketTable(
     const std::vector<CountedCell>& cells, unsigned shift, std::size_t firstPlace) const;
+  std::uint32_t nodeOfPlace(std::uint32_t place) const;
   Result<void> distribute(std::uint32_t place, std::vector<Piece> pieces);
   Result<void> divide(const KdPlace& place, const std::vector<Piece>& pieces,
     std::vector<Piece>& left, std::vector<Piece>& right);
@@ -53,6 +58,10 @@ private:
   std::vector<std::uint32_t> divided_;     // places of cells that are divided
   std::vector<std::vector<Piece>> pieces_; // of each part
   std::vector<std::uint64_t> counts_;      // of each part
+  // Of findable points:
+  ClassLayers layers_;
+  BucketTables buckets_;
+  std::vector<std::uint32_t> nodeOfPart_;
   double seconds_ = 0.0;
 };
 

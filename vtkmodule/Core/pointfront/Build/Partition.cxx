@@ -60,6 +60,28 @@ Partition::Partition(const std::vector<CountedCell>& cells, unsigned cellLog2,
   }
 }
 
+std::uint32_t Partition::nodeAt(std::size_t layer, const TreePosition& position) const
+{
+  const auto holds = [&](std::uint32_t node)
+  { return differingBits(position, nodes_[node].cell.origin) <= nodes_[node].cell.log2Side; };
+  if (layer >= roots_.size() || !holds(roots_[layer]))
+  {
+    return none;
+  }
+  std::uint32_t node = roots_[layer];
+  for (;;)
+  {
+    const std::vector<std::uint32_t>& children = nodes_[node].children;
+    const auto child = std::find_if(children.begin(), children.end(), holds);
+    const bool byOrder = nodes_[node].cell.log2Side == 0; // all children have the same cell
+    if (child == children.end() || byOrder)
+    {
+      return node;
+    }
+    node = *child;
+  }
+}
+
 std::uint32_t Partition::addNode(OctreeCell cell, std::uint64_t count, std::uint32_t parent)
 {
   const auto index = static_cast<std::uint32_t>(nodes_.size());
@@ -67,7 +89,11 @@ std::uint32_t Partition::addNode(OctreeCell cell, std::uint64_t count, std::uint
   nodes_.back().cell = cell;
   nodes_.back().count = count;
   nodes_.back().parent = parent;
-  if (parent != none)
+  if (parent == none)
+  {
+    roots_.push_back(index);
+  }
+  else
   {
     nodes_.back().layer = nodes_[parent].layer;
     nodes_[parent].children.push_back(index);
@@ -150,6 +176,10 @@ void Partition::append(const Partition& other)
   const auto firstNode = static_cast<std::uint32_t>(nodes_.size());
   const std::uint32_t firstPart = partCount();
   const auto layer = static_cast<std::uint16_t>(nodes_.empty() ? 0 : nodes_.back().layer + 1);
+  for (const std::uint32_t root : other.roots_)
+  {
+    roots_.push_back(firstNode + root);
+  }
   for (Node node : other.nodes_)
   {
     node.layer = layer;

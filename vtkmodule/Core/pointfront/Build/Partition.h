@@ -52,6 +52,10 @@ public:
   /// from partCount() on, in their order.
   void append(const Partition& other);
 
+  /// The deepest node of that layer whose cell holds the position: a part, or the inner node
+  /// that is cut by order. none outside of the layer.
+  std::uint32_t nodeAt(std::size_t layer, const TreePosition& position) const;
+
   /// The nodes without their cells.
   std::vector<PartNode> tree() const { return {nodes_.begin(), nodes_.end()}; }
 
@@ -61,6 +65,7 @@ private:
 
   std::vector<Node> nodes_;
   std::vector<std::uint32_t> parts_; // node of each part
+  std::vector<std::uint32_t> roots_; // node of each layer's root
 };
 
 } // namespace pointfront

@@ -5,8 +5,10 @@
 #include "pointfront/Build/DiskDemand.h"
 #include "pointfront/Build/GridChoice.h"
 #include "pointfront/Build/MemoryPlan.h"
+#include "pointfront/Build/PartialTrees.h"
 #include "pointfront/Build/PointIngest.h"
 #include "pointfront/Build/ReferenceSystem.h"
+#include "pointfront/Build/SampleRecords.h"
 #include "pointfront/Build/TreeAssembly.h"
 #include "pointfront/Build/TreeConstruction.h"
 #include "pointfront/Points/EnclosingRadius.h"
@@ -15,6 +17,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <new>
 #include <thread>
 #include <unistd.h>
 
@@ -95,8 +98,9 @@ MemoryDemand demandOf(
 class StoreBuild
 {
 public:
-  StoreBuild(const Sources& sources, const BuildOptions& options, ProgressFunction progress)
-      : sources_(sources), options_(options), progress_(std::move(progress))
+  StoreBuild(const Sources& sources, const BuildOptions& options, ProgressFunction progress,
+    BuildWatch* watch)
+      : sources_(sources), options_(options), progress_(std::move(progress)), watch_(watch)
   {
   }
   Result<BuildReport> run();
@@ -110,13 +114,18 @@ private:
   Result<void> assemble();
   Error tooLarge() const;
   Result<void> checkColourDepth() const;
+  bool narrowColours(std::size_t source) const;
   AttributeSchema storedSchema(std::optional<ColourWidening>& widening) const;
+  std::unique_ptr<PartialTrees> partialTrees(
+    const NodeEmitter& emitter, const std::vector<PartNode>& tree) const;
+  StoreDescription description() const;
   Result<void> commit(StoreWriter& writer, const Trees& trees);
   Result<void> checkCounts(const Trees& trees) const;
 
   const Sources& sources_;
   const BuildOptions& options_;
   ProgressFunction progress_;
+  BuildWatch* watch_;
   BuildReport report_;
   CommonSchema common_;
   ReferenceSystem reference_;
@@ -130,6 +139,7 @@ private:
   IngestedPoints points_;
   std::optional<std::size_t> classOffset_; ///< by which layers are told apart, in a record
   ClassLayers layers_;
+  std::optional<ColourWidening> widening_;
   std::unique_ptr<TreeConstruction> construction_;
   AttributeSchema stored_;
 };
@@ -334,6 +344,12 @@ Result<void> StoreBuild::checkColourDepth() const
   return {};
 }
 
+/// A file whose 16-bit colours hold 8 bits.
+bool StoreBuild::narrowColours(std::size_t source) const
+{
+  return points_.largestColour[source] > 0 && points_.largestColour[source] <= 255;
+}
+
 /// 16-bit colours become 8-bit if all fit; if only those of some files do, these are widened.
 AttributeSchema StoreBuild::storedSchema(std::optional<ColourWidening>& widening) const
 {
@@ -360,7 +376,7 @@ AttributeSchema StoreBuild::storedSchema(std::optional<ColourWidening>& widening
   std::uint64_t begin = 0;
   for (std::size_t s = 0; s < sources_.size(); ++s)
   {
-    if (largest[s] > 0 && largest[s] <= 255)
+    if (narrowColours(s))
     {
       widening->runs.push_back({begin, points_.sourceEnd[s] - begin});
     }
@@ -381,7 +397,9 @@ Result<void> StoreBuild::cutIntoParts()
   preparation.space = space_;
   preparation.rootLog2 = rootLog2_;
   preparation.layers = layers_;
-  stored_ = storedSchema(preparation.widening);
+  stored_ = storedSchema(widening_);
+  preparation.widening = widening_;
+  preparation.findable = watch_ != nullptr;
   construction_ = treeConstruction(options_, {*pool_, recordBytes_, plan_, *crew_, common_.schema});
   Result<void> done =
     construction_->cut(preparation, std::move(points_.counts), points_.hintedShift);
@@ -398,7 +416,9 @@ Result<void> StoreBuild::assemble()
     return writer.error();
   }
   const NodeEmitter emitter(space_, common_.schema, stored_, options_.refinement);
-  TreeAssembly assembly(construction_->assembly(emitter), **writer, *crew_);
+  AssemblyPlan plan = construction_->assembly(emitter);
+  const auto partial = partialTrees(emitter, plan.tree);
+  TreeAssembly assembly(std::move(plan), **writer, *crew_, partial.get());
   auto trees = assembly.run();
   report_.phaseSeconds["load"] = assembly.loadSeconds();
   report_.phaseSeconds["sort"] = assembly.seconds().sort;
@@ -414,6 +434,31 @@ Result<void> StoreBuild::assemble()
     return done;
   }
   return commit(**writer, *trees);
+}
+
+/// The trees as the watch sees them, with its sample as records of the pool; nothing without a
+/// watch, or without memory for it.
+std::unique_ptr<PartialTrees> StoreBuild::partialTrees(
+  const NodeEmitter& emitter, const std::vector<PartNode>& tree) const
+try
+{
+  if (!watch_)
+  {
+    return nullptr;
+  }
+  std::vector<bool> widened(sources_.size(), false);
+  for (std::size_t s = 0; s < sources_.size(); ++s)
+  {
+    widened[s] = widening_ && narrowColours(s);
+  }
+  const std::vector<std::byte> sample =
+    sampleRecords(watch_->sample(), common_, space_, widening_, widened);
+  return std::make_unique<PartialTrees>(
+    PartialTreesSite{*construction_, emitter, recordBytes_, description()}, tree, sample, *watch_);
+}
+catch (const std::bad_alloc&)
+{
+  return nullptr;
 }
 
 Result<void> StoreBuild::checkCounts(const Trees& trees) const
@@ -434,15 +479,14 @@ Result<void> StoreBuild::checkCounts(const Trees& trees) const
   return {};
 }
 
-Result<void> StoreBuild::commit(StoreWriter& writer, const Trees& trees)
+/// All that is known before the trees are.
+StoreDescription StoreBuild::description() const
 {
-  const NodeTable table = nodeTable(trees);
   StoreDescription description;
   description.grid = space_.grid;
   description.crsWkt = reference_.wkt;
   description.structure = options_.structure == Structure::KdTree ? "kdtree" : "octree";
   description.refinement = options_.refinement;
-  description.levels = table.levels;
   description.schema = stored_;
   description.metadata = reference_.metadata;
   description.generator = "pointfront " POINTFRONT_VERSION;
@@ -451,6 +495,14 @@ Result<void> StoreBuild::commit(StoreWriter& writer, const Trees& trees)
     const std::string name = layers_.byClass() ? objectClassName(objectClass) : "all";
     description.layers.push_back({objectClass, name, 0, 0}); // the writer counts
   }
+  return description;
+}
+
+Result<void> StoreBuild::commit(StoreWriter& writer, const Trees& trees)
+{
+  const NodeTable table = nodeTable(trees);
+  StoreDescription description = this->description();
+  description.levels = table.levels;
   description.pointCount = pointsIn(trees);
   if (Result<void> stop = crew_->outcome(); !stop)
   {
@@ -488,13 +540,13 @@ Result<BuildReport> StoreBuild::run()
 } // namespace
 
 Result<BuildReport> buildOctreeStore(const std::vector<std::unique_ptr<PointSource>>& sources,
-  const BuildOptions& options, const ProgressFunction& progress)
+  const BuildOptions& options, const ProgressFunction& progress, BuildWatch* watch)
 {
   if (Result<void> done = checkOptions(sources, options); !done)
   {
     return done.error();
   }
-  return StoreBuild(sources, options, progress).run();
+  return StoreBuild(sources, options, progress, watch).run();
 }
 
 } // namespace pointfront

@@ -14,6 +14,7 @@
 
 namespace pointfront
 {
+class BuildWatch;
 
 /// What the 16 bits of a colour hold. Files do not say: many have values of 8 bits in them.
 enum class ColourDepth
@@ -80,7 +81,8 @@ struct BuildReport
 /// Memory      points, columns and buffers stay under memoryBytes; with less than needed the
 ///             points are spilled to disk (a fixed number of files).
 /// Threads     called from one thread; runs its own.
+/// `watch`     sees the store while its trees are built; the store's bytes do not depend on it.
 Result<BuildReport> buildOctreeStore(const std::vector<std::unique_ptr<PointSource>>& sources,
-  const BuildOptions& options, const ProgressFunction& progress = {});
+  const BuildOptions& options, const ProgressFunction& progress = {}, BuildWatch* watch = nullptr);
 
 } // namespace pointfront

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <optional>
 
 namespace pointfront
 {
@@ -12,11 +13,25 @@ namespace
 /// Entries of the file's order that may be finished ahead of its turn, for each thread.
 constexpr std::uint32_t aheadPerThread = 3;
 constexpr auto wakeInterval = std::chrono::milliseconds(50); // an Error elsewhere ends a wait
+
+std::unique_ptr<BuiltNode> copyOf(const BuiltNode& node)
+{
+  auto copy = std::make_unique<BuiltNode>();
+  copy->row = node.row;
+  copy->samplingQuarters = node.samplingQuarters;
+  copy->payload = node.payload;
+  for (const auto& child : node.children)
+  {
+    copy->children.push_back(copyOf(*child));
+  }
+  return copy;
+}
 } // namespace
 
-TreeAssembly::TreeAssembly(AssemblyPlan plan, StoreWriter& writer, WorkCrew& crew)
-    : plan_(std::move(plan)), writer_(writer), crew_(crew), order_(postOrder(plan_.tree)),
-      rank_(order_.size()), open_(order_.size())
+TreeAssembly::TreeAssembly(
+  AssemblyPlan plan, StoreWriter& writer, WorkCrew& crew, AssemblyWatch* watch)
+    : plan_(std::move(plan)), writer_(writer), crew_(crew), watch_(watch),
+      order_(postOrder(plan_.tree)), rank_(order_.size()), open_(order_.size())
 {
   for (std::uint32_t i = 0; i < order_.size(); ++i)
   {
@@ -169,8 +184,81 @@ Result<void> TreeAssembly::writeInTurn()
     ++turn_;
     turnChanged_.notify_all();
   }
+  return letWatch(lock);
+}
+
+/// Called by who wrote, before another may. A watch sees the trees only while the next in turn is a
+/// part that is not finished: then nobody joins what stands before it, for want of that part.
+Result<void> TreeAssembly::letWatch(std::unique_lock<std::mutex>& lock)
+{
+  std::optional<FinishedSubtrees> shown;
+  const bool settled = turn_ < order_.size() && plan_.tree[order_[turn_]].part != PartNode::none;
+  if (watch_ && settled && turn_ > shown_ && !watched_)
+  {
+    const std::vector<std::uint32_t> nodes = writtenSubtrees();
+    std::size_t held = 0;
+    for (const std::uint32_t node : nodes)
+    {
+      held += open_[node].records.size();
+    }
+    if (watch_->due(held))
+    {
+      auto done = finished(nodes);
+      if (!done)
+      {
+        return done.error();
+      }
+      shown = std::move(*done);
+      shown_ = turn_;
+    }
+  }
   writing_ = false;
+  if (shown)
+  {
+    watched_ = true;
+    lock.unlock();
+    watch_->show(std::move(*shown));
+    lock.lock();
+    watched_ = false;
+  }
   return {};
+}
+
+/// The largest subtrees of which all is written.
+std::vector<std::uint32_t> TreeAssembly::writtenSubtrees() const
+{
+  std::vector<std::uint32_t> nodes;
+  for (std::uint32_t i = 0; i < turn_; ++i)
+  {
+    const std::uint32_t parent = plan_.tree[order_[i]].parent;
+    if (parent == PartNode::none || rank_[parent] >= turn_)
+    {
+      nodes.push_back(order_[i]);
+    }
+  }
+  return nodes;
+}
+
+Result<FinishedSubtrees> TreeAssembly::finished(const std::vector<std::uint32_t>& nodes)
+{
+  FinishedSubtrees result;
+  for (const std::uint32_t node : nodes)
+  {
+    const PartNode& place = plan_.tree[node];
+    const bool closed = place.parent == PartNode::none;
+    const BuiltNode* root = closed ? roots_[place.layer].get() : open_[node].root.get();
+    if (root)
+    {
+      result.subtrees.push_back({node, {copyOf(*root), open_[node].records}});
+    }
+  }
+  auto written = writer_.written();
+  if (!written)
+  {
+    return written.error();
+  }
+  result.written = std::move(*written);
+  return result;
 }
 
 void TreeAssembly::addSeconds(const TreeBuilder& builder)

@@ -28,6 +28,31 @@ struct AssemblyPlan
   std::function<std::unique_ptr<TreeBuilder>()> builder; ///< one for each thread
 };
 
+/// A finished subtree of the upper tree. Without a parent above it is closed, its root written.
+struct FinishedSubtree
+{
+  std::uint32_t node = 0; ///< of the upper tree (PartTree.h)
+  OpenSubtree subtree;
+};
+
+/// What of the trees is finished, and written but for what it still holds for the nodes above.
+struct FinishedSubtrees
+{
+  std::vector<FinishedSubtree> subtrees; ///< no one contains another; in the order of the file
+  WrittenPayloads written;               ///< exactly the nodes of the subtrees
+};
+
+/// Somebody who wants to see finished subtrees while others are built.
+/// Threads  called from the crew's threads, one at a time; due() with the assembly waiting.
+class AssemblyWatch
+{
+public:
+  virtual ~AssemblyWatch() = default;
+  /// Whether show() is wanted now; `heldBytes`: of what the subtrees hold, which would be copied.
+  virtual bool due(std::size_t heldBytes) = 0;
+  virtual void show(FinishedSubtrees finished) = 0;
+};
+
 /// Builds all parts on the crew's threads, joins them upwards as soon as all children of a node
 /// are there, and writes the nodes in the one order that does not depend on threads or cuts.
 /// Memory   a part is begun only while few are finished ahead of the file's turn; what the roots
@@ -35,7 +60,8 @@ struct AssemblyPlan
 class TreeAssembly
 {
 public:
-  TreeAssembly(AssemblyPlan plan, StoreWriter& writer, WorkCrew& crew);
+  TreeAssembly(
+    AssemblyPlan plan, StoreWriter& writer, WorkCrew& crew, AssemblyWatch* watch = nullptr);
 
   /// The finished trees, one for each layer, with their payloads written.
   Result<std::vector<std::unique_ptr<BuiltNode>>> run();
@@ -49,11 +75,15 @@ private:
   Result<void> buildPart(std::uint32_t node, TreeBuilder& builder);
   OpenSubtree joinChildren(std::uint32_t node, TreeBuilder& builder);
   Result<void> writeInTurn();
+  Result<void> letWatch(std::unique_lock<std::mutex>& lock);
+  std::vector<std::uint32_t> writtenSubtrees() const;
+  Result<FinishedSubtrees> finished(const std::vector<std::uint32_t>& nodes);
   void addSeconds(const TreeBuilder& builder);
 
   AssemblyPlan plan_;
   StoreWriter& writer_;
   WorkCrew& crew_;
+  AssemblyWatch* watch_;
   std::vector<std::uint32_t> order_;     // partition nodes in the order of the file
   std::vector<std::uint32_t> rank_;      // of each partition node in order_
   std::vector<std::uint32_t> partNodes_; // the parts among order_
@@ -63,6 +93,8 @@ private:
   std::size_t nextPart_ = 0; // in partNodes_
   std::uint32_t turn_ = 0;   // in order_: whose nodes are written next
   bool writing_ = false;
+  bool watched_ = false;    // watch_ is being shown something
+  std::uint32_t shown_ = 0;  // turn_ of what it was shown last
   std::vector<OpenSubtree> open_;     // of each partition node
   std::vector<std::uint8_t> missing_; // children not finished, of each partition node
   std::map<std::uint32_t, std::vector<EmittedNode>> waiting_; // by rank

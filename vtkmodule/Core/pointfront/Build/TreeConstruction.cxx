@@ -22,6 +22,7 @@ public:
   Result<void> cut(
     const PoolPreparation& points, ClassCounts counts, unsigned /*hintedShift*/) override
   {
+    layers_ = points.layers;
     return parts_.build(points, std::move(counts));
   }
   AssemblyPlan assembly(const NodeEmitter& emitter) const override
@@ -32,6 +33,16 @@ public:
     plan.builder = [this, &emitter] { return builder(emitter); };
     return plan;
   }
+  std::uint32_t nodeOf(const std::byte* record) const override
+  {
+    return parts_.partition().nodeAt(layers_.layerOf(record), positionOf(record));
+  }
+  std::unique_ptr<TreeBuilder> partialBuilder(const NodeEmitter& emitter) const override
+  {
+    return builder(emitter);
+  }
+  std::size_t partialChildren() const override { return 0; }
+  OpenSubtree reopened(OpenSubtree finished) const override { return finished; }
   double seconds() const override { return parts_.seconds(); }
 
 private:
@@ -49,6 +60,7 @@ private:
   std::size_t recordBytes_;
   const AttributeSchema& pooled_;
   SamplingRule rule_;
+  ClassLayers layers_;
   PartPool parts_;
 };
 
@@ -82,6 +94,25 @@ public:
         emitter, rule_, recordBytes_, parts_.tree(), parts_.shares());
     };
     return plan;
+  }
+  std::uint32_t nodeOf(const std::byte* record) const override { return parts_.nodeOf(record); }
+  /// A balanced tree needs all points: what is above the finished parts is an octree's sample.
+  std::unique_ptr<TreeBuilder> partialBuilder(const NodeEmitter& emitter) const override
+  {
+    SamplingRule rule;
+    rule.nodePoints = rule_.nodePoints;
+    return std::make_unique<SubtreeBuilder>(emitter, rule, recordBytes_);
+  }
+  /// A binary tree of samples would have nearly nothing at its root.
+  std::size_t partialChildren() const override { return 8; }
+  /// The root has its points; those owed to the nodes above become a node that has them.
+  OpenSubtree reopened(OpenSubtree finished) const override
+  {
+    constexpr float coarser = 1.5f; // than its child, like any node
+    auto above = std::make_unique<BuiltNode>();
+    above->row.spacing = coarser * finished.root->row.spacing;
+    above->children.push_back(std::move(finished.root));
+    return {std::move(above), std::move(finished.records)};
   }
   double seconds() const override { return parts_.seconds(); }
 

@@ -31,6 +31,17 @@ public:
     const PoolPreparation& points, ClassCounts counts, unsigned hintedShift) = 0;
   /// How the parts become trees. `emitter` and this must outlive the assembly.
   virtual AssemblyPlan assembly(const NodeEmitter& emitter) const = 0;
+  /// Where in the tree of assembly() a record of the pool belongs: the deepest node that surely
+  /// contains it, a part but for places that several parts share; PartNode::none if it is not one
+  /// of the pool's. After cut() with findable points.
+  virtual std::uint32_t nodeOf(const std::byte* record) const = 0;
+  /// Builds and joins when of some parts there is only a sample.
+  virtual std::unique_ptr<TreeBuilder> partialBuilder(const NodeEmitter& emitter) const = 0;
+  /// Children that partialBuilder() joins at once, at most: nodes of the upper tree are left out
+  /// for that, or not if they have as many already.
+  virtual std::size_t partialChildren() const = 0;
+  /// A finished subtree of the assembly as partialBuilder() joins it.
+  virtual OpenSubtree reopened(OpenSubtree finished) const = 0;
   /// CPU seconds of cut(), over all threads.
   virtual double seconds() const = 0;
 };

@@ -57,4 +57,6 @@ public:
   virtual std::vector<std::string> findings() const { return {}; }
 };
 
+using AttributePasses = std::vector<std::unique_ptr<AttributePass>>; ///< in the order they run in
+
 } // namespace pointfront

@@ -54,11 +54,20 @@ void BlockDirectory::addBlock(std::uint32_t bytes, std::uint32_t checksum, Block
 
 void BlockDirectory::addNode(const BlockDirectory& other, std::uint32_t node)
 {
-  addNode(other.origin(node), other.offset(node));
+  addNode(other.origin(node), other.offsets_[node]); // with the mark of its file
   for (std::uint32_t b = 0; b < blocksPerNode_; ++b)
   {
     const Block from = other.block(node, b);
     addBlock(from.bytes, from.checksum, from.codec);
+  }
+}
+
+void BlockDirectory::addElsewhere(const BlockDirectory& other)
+{
+  for (std::uint32_t node = 0; node < other.nodeCount(); ++node)
+  {
+    addNode(other, node);
+    offsets_.back() |= elsewhereBit;
   }
 }
 
@@ -72,7 +81,7 @@ BlockDirectory::Block BlockDirectory::block(std::uint32_t node, std::uint32_t bl
 {
   const std::size_t first = std::size_t(node) * blocksPerNode_;
   Block result;
-  result.offset = offsets_[node];
+  result.offset = offset(node);
   for (std::size_t i = first; i < first + block; ++i)
   {
     result.offset += sizes_[i];
@@ -113,8 +122,7 @@ BlockDirectory BlockDirectory::decode(
   return directory;
 }
 
-std::string BlockDirectory::fault(
-  std::uint64_t payloadBegin, std::uint64_t payloadEnd, bool& unknownCodec) const
+std::string BlockDirectory::fault(const Limits& limits, bool& unknownCodec) const
 {
   unknownCodec = false;
   for (std::uint8_t codec : codecs_)
@@ -127,8 +135,9 @@ std::string BlockDirectory::fault(
   }
   for (std::uint32_t node = 0; node < nodeCount(); ++node)
   {
-    const std::uint64_t at = offsets_[node];
-    if (at < payloadBegin || at > payloadEnd || payloadBytes(node) > payloadEnd - at)
+    const std::uint64_t at = offset(node);
+    const std::uint64_t end = isElsewhere(node) ? limits.endElsewhere : limits.end;
+    if (at < limits.begin || at > end || payloadBytes(node) > end - at)
     {
       return "node " + std::to_string(node) + ": its payload lies outside the file";
     }

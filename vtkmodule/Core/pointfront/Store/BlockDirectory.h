@@ -35,12 +35,16 @@ public:
   void addBlock(std::uint32_t bytes, std::uint32_t checksum, BlockCodec codec);
   /// Appends a node of another directory.
   void addNode(const BlockDirectory& other, std::uint32_t node);
+  /// Appends all nodes of another directory as nodes whose payload lies in that other file.
+  void addElsewhere(const BlockDirectory& other);
 
   std::uint32_t nodeCount() const { return static_cast<std::uint32_t>(offsets_.size()); }
   std::uint32_t blocksPerNode() const { return blocksPerNode_; }
   const GridPosition& origin(std::uint32_t node) const { return origins_[node]; }
-  /// Where the node's payload begins in the file, and how long it is.
-  std::uint64_t offset(std::uint32_t node) const { return offsets_[node]; }
+  /// Where the node's payload begins in its file, and how long it is.
+  std::uint64_t offset(std::uint32_t node) const { return offsets_[node] & ~elsewhereBit; }
+  /// True if that is not the file of this directory but the one that its store names.
+  bool isElsewhere(std::uint32_t node) const { return (offsets_[node] & elsewhereBit) != 0; }
   std::uint64_t payloadBytes(std::uint32_t node) const;
   Block block(std::uint32_t node, std::uint32_t block) const;
 
@@ -50,10 +54,19 @@ public:
   static BlockDirectory decode(
     const std::byte* data, std::uint32_t nodeCount, std::uint32_t blocksPerNode);
 
-  /// What is wrong, or an empty text: every payload lies in [payloadBegin, payloadEnd), no origin
-  /// is out of range. `unknownCodec` is set when the fault is a codec that this program lacks.
-  std::string fault(
-    std::uint64_t payloadBegin, std::uint64_t payloadEnd, bool& unknownCodec) const;
+  /// Where payloads may lie: from `begin` on, up to a different end in each of the two files.
+  struct Limits
+  {
+    std::uint64_t begin = 0;
+    std::uint64_t end = 0;
+    std::uint64_t endElsewhere = 0;
+  };
+  /// What is wrong, or an empty text: every payload lies within the limits, no origin is out of
+  /// range. `unknownCodec` is set when the fault is a codec that this program lacks.
+  std::string fault(const Limits& limits, bool& unknownCodec) const;
+
+  /// Marks the offset of a node whose payload is elsewhere, in files too.
+  static constexpr std::uint64_t elsewhereBit = std::uint64_t(1) << 63;
 
 private:
   std::uint32_t blocksPerNode_;

@@ -59,10 +59,12 @@ Error noSpace(const std::string& path, std::size_t missing, std::uint64_t writte
 class PosixOutputFile final : public OutputFile
 {
 public:
-  PosixOutputFile(std::string path, std::string temporaryPath, int descriptor)
+  PosixOutputFile(
+    std::string path, std::string temporaryPath, int descriptor, Durability durability)
     : path_(std::move(path))
     , temporaryPath_(std::move(temporaryPath))
     , descriptor_(descriptor)
+    , durable_(durability == Durability::Full)
   {
   }
   ~PosixOutputFile() override
@@ -93,7 +95,7 @@ public:
 
   Result<void> publish() override
   {
-    if (::fsync(descriptor_) != 0)
+    if (durable_ && ::fsync(descriptor_) != 0)
     {
       return unwritable(temporaryPath_, std::strerror(errno));
     }
@@ -102,7 +104,7 @@ public:
       return unwritable(path_, std::strerror(errno));
     }
     published_ = true;
-    return syncFolder();
+    return durable_ ? syncFolder() : Result<void>{};
   }
 
 private:
@@ -152,6 +154,7 @@ private:
   std::string path_;
   std::string temporaryPath_;
   int descriptor_;
+  bool durable_;
   std::uint64_t end_ = 0;
   bool published_ = false;
 };
@@ -167,7 +170,8 @@ bool stillNamed(int descriptor, const std::string& path)
 }
 } // namespace
 
-Result<std::unique_ptr<OutputFile>> OutputFile::create(const std::string& path)
+Result<std::unique_ptr<OutputFile>> OutputFile::create(
+  const std::string& path, Durability durability)
 {
   struct stat existing = {};
   if (::stat(path.c_str(), &existing) == 0 && !S_ISREG(existing.st_mode))
@@ -205,7 +209,7 @@ Result<std::unique_ptr<OutputFile>> OutputFile::create(const std::string& path)
       return unwritable(temporaryPath, std::strerror(error));
     }
     return std::unique_ptr<OutputFile>(
-      std::make_unique<PosixOutputFile>(path, temporaryPath, descriptor));
+      std::make_unique<PosixOutputFile>(path, temporaryPath, descriptor, durability));
   }
 }
 

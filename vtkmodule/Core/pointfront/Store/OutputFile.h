@@ -17,10 +17,18 @@ namespace pointfront
 class OutputFile
 {
 public:
+  /// What publish() waits for.
+  enum class Durability
+  {
+    Full, ///< the disk has it
+    None  ///< nothing: for a file that means nothing after a crash
+  };
+
   /// Creates `path` + ".tmp" in the same folder and locks it. A left-over of a process that died
   /// is overwritten (its lock died with it); that of a living one is an Error. File systems
   /// without locks (some network shares) are used without that protection.
-  static Result<std::unique_ptr<OutputFile>> create(const std::string& path);
+  static Result<std::unique_ptr<OutputFile>> create(
+    const std::string& path, Durability durability = Durability::Full);
 
   /// Without publish() before: removes what was written.
   virtual ~OutputFile() = default;
@@ -29,7 +37,7 @@ public:
   virtual Result<void> append(const std::byte* data, std::size_t size) = 0;
   /// Overwrites bytes that were appended before.
   virtual Result<void> overwrite(std::uint64_t offset, const std::byte* data, std::size_t size) = 0;
-  /// Makes everything durable, renames to path() and makes the name durable. Nothing may follow.
+  /// Renames to path(), and makes bytes and name as durable as asked for. Nothing may follow.
   virtual Result<void> publish() = 0;
 };
 

@@ -86,11 +86,12 @@ class DirectoryInFile final : public PayloadDirectory
 {
 public:
   DirectoryInFile(const InputFile& file, std::uint64_t offset, std::uint32_t blocksPerNode,
-    std::uint64_t payloadEnd)
+    std::uint64_t payloadEnd, std::uint64_t bytesElsewhere)
     : file_(file)
     , offset_(offset)
     , blocksPerNode_(blocksPerNode)
     , payloadEnd_(payloadEnd)
+    , bytesElsewhere_(bytesElsewhere)
   {
   }
 
@@ -140,6 +141,9 @@ private:
       payload.origin[axis] = in.get<std::int64_t>();
     }
     auto offset = in.get<std::uint64_t>();
+    payload.elsewhere = (offset & BlockDirectory::elsewhereBit) != 0;
+    offset &= ~BlockDirectory::elsewhereBit;
+    const std::uint64_t payloadEnd = payload.elsewhere ? bytesElsewhere_ : payloadEnd_;
     if (!inRange(payload.origin))
     {
       return damaged("its origin is out of range");
@@ -155,7 +159,7 @@ private:
       {
         return unknownCodecIn(file_.path(), "codec " + std::to_string(codec));
       }
-      if (offset < storeHeaderBytes || offset > payloadEnd_ || block.bytes > payloadEnd_ - offset)
+      if (offset < storeHeaderBytes || offset > payloadEnd || block.bytes > payloadEnd - offset)
       {
         return damaged("its payload lies outside the file");
       }
@@ -170,6 +174,7 @@ private:
   std::uint64_t offset_;
   std::uint32_t blocksPerNode_;
   std::uint64_t payloadEnd_;
+  std::uint64_t bytesElsewhere_;
 };
 
 Result<std::unique_ptr<const PayloadDirectory>> openInMemory(
@@ -189,7 +194,7 @@ Result<std::unique_ptr<const PayloadDirectory>> openInMemory(
     BlockDirectory::decode(bytes.data(), footer.nodeCount, footer.columnCount + 1);
   bool unknownCodec = false;
   const std::string fault =
-    directory.fault(storeHeaderBytes, payloadEndOf(footer), unknownCodec);
+    directory.fault({ storeHeaderBytes, payloadEndOf(footer), 0 }, unknownCodec);
   if (unknownCodec)
   {
     return unknownCodecIn(file.path(), fault);
@@ -204,7 +209,8 @@ Result<std::unique_ptr<const PayloadDirectory>> openInMemory(
 } // namespace
 
 Result<std::unique_ptr<const PayloadDirectory>> PayloadDirectory::open(
-  const InputFile& file, std::uint32_t version, const StoreFooter& footer)
+  const InputFile& file, std::uint32_t version, const StoreFooter& footer,
+  std::uint64_t bytesElsewhere)
 {
   const SectionEntry& section = *footer.find(SectionKind::BlockDirectory);
   const std::uint32_t blocks = footer.columnCount + 1;
@@ -220,7 +226,7 @@ Result<std::unique_ptr<const PayloadDirectory>> PayloadDirectory::open(
     return openInMemory(file, section, footer);
   }
   return std::unique_ptr<const PayloadDirectory>(std::make_unique<DirectoryInFile>(
-    file, section.offset, blocks, payloadEndOf(footer)));
+    file, section.offset, blocks, payloadEndOf(footer), bytesElsewhere));
 }
 
 std::vector<std::byte> encodePayloadRecords(const BlockDirectory& directory)
@@ -234,7 +240,8 @@ std::vector<std::byte> encodePayloadRecords(const BlockDirectory& directory)
     {
       out.put(directory.origin(node)[axis]);
     }
-    out.put(directory.offset(node));
+    out.put(directory.offset(node) |
+      (directory.isElsewhere(node) ? BlockDirectory::elsewhereBit : 0u));
     for (std::uint32_t b = 0; b < directory.blocksPerNode(); ++b)
     {
       const BlockDirectory::Block block = directory.block(node, b);

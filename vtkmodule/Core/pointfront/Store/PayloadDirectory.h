@@ -19,6 +19,7 @@ struct NodePayload
 {
   std::uint32_t pointCount = 0; ///< as its row in the node table says
   GridPosition origin{ 0 };
+  bool elsewhere = false; ///< they lie in the store's second file (PayloadElsewhere.h)
   std::vector<BlockDirectory::Block> blocks;
 };
 
@@ -34,9 +35,9 @@ public:
   virtual Result<NodePayload> decode(std::uint32_t node, const RawBytes& fetched) const = 0;
 
   /// That of the store: read as a whole and checked for version 1, a record at a time from version
-  /// 2 on. `file` must outlive it.
-  static Result<std::unique_ptr<const PayloadDirectory>> open(
-    const InputFile& file, std::uint32_t version, const StoreFooter& footer);
+  /// 2 on. `file` must outlive it. `bytesElsewhere`: of a second file, from version 2 on.
+  static Result<std::unique_ptr<const PayloadDirectory>> open(const InputFile& file,
+    std::uint32_t version, const StoreFooter& footer, std::uint64_t bytesElsewhere = 0);
 };
 
 /// Bytes of a node's record from version 2 on: origin, offset, blocks, checksum.

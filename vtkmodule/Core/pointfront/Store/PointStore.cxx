@@ -75,6 +75,31 @@ Result<StoredDescription> readDescription(
   return std::move(*stored);
 }
 
+Result<std::optional<PayloadElsewhere>> readElsewhere(
+  const InputFile& file, const StoreHeader& header, const StoreFooter& footer)
+{
+  if ((header.requiredFeatures & payloadElsewhere) == 0)
+  {
+    return std::optional<PayloadElsewhere>();
+  }
+  const SectionEntry* section = footer.find(SectionKind::Elsewhere);
+  if (section == nullptr)
+  {
+    return corruptStore(file.path(), header.footerOffset, "the name of its second file is missing");
+  }
+  Result<RawBytes> bytes = readSection(file, *section, "second file's name");
+  if (!bytes)
+  {
+    return bytes.error();
+  }
+  std::optional<PayloadElsewhere> elsewhere = decodeElsewhere(bytes->data.get(), bytes->size);
+  if (!elsewhere)
+  {
+    return corruptStore(file.path(), section->offset, "the second file's name is none");
+  }
+  return elsewhere;
+}
+
 /// The blocks of one node that are wanted: the positions and the columns selected.
 std::vector<BlockDirectory::Block> wantedBlocks(
   const NodePayload& payload, const ColumnSelection& columns)
@@ -144,30 +169,45 @@ bool PointStore::looksLikeStore(const std::string& path)
 
 bool PointStore::looksLikePreview(const std::string& path)
 {
-  const auto store = openAny(path);
+  const auto store = openTables(path);
   return store && previewRecordOf((*store)->description().metadata);
 }
 
 Result<std::shared_ptr<const PointStore>> PointStore::open(const std::string& path)
 {
-  auto store = openAny(path);
-  const InputFile* file = store ? (*store)->content_->file.get() : nullptr;
-  const auto preview =
-    store ? previewRecordOf((*store)->description().metadata) : std::nullopt;
-  if (!preview || file->isLocked())
+  auto store = openTables(path);
+  if (!store)
   {
-    return store;
+    return store.error();
   }
-  if (!file->isStillNamed() && InputFile::open(path))
+  Content& content = *(*store)->content_;
+  const auto preview = previewRecordOf(content.description.metadata);
+  const bool running = !preview || content.file->isLocked();
+  Result<void> whole;
+  if (content.elsewhere)
+  {
+    auto file = openElsewhere(path, *content.elsewhere);
+    content.fileElsewhere = file ? std::move(*file) : nullptr;
+    whole = file ? Result<void>{} : Result<void>(file.error());
+  }
+  if (whole && running)
+  {
+    return std::shared_ptr<const PointStore>(std::move(*store));
+  }
+  if (!content.file->isStillNamed() && InputFile::open(path))
   {
     return open(path); // the running build has just replaced it
+  }
+  if (running)
+  {
+    return whole.error();
   }
   return makeError(Error::Kind::Truncated,
     "'" + path + "' is the preview of a build that has ended; open '" + preview->storeName +
       "' if it is there, otherwise build again");
 }
 
-Result<std::shared_ptr<const PointStore>> PointStore::openAny(const std::string& path)
+Result<std::shared_ptr<PointStore>> PointStore::openTables(const std::string& path)
 {
   Result<std::unique_ptr<const InputFile>> opened = InputFile::open(path);
   if (!opened)
@@ -197,7 +237,13 @@ Result<std::shared_ptr<const PointStore>> PointStore::openAny(const std::string&
   {
     return table.error();
   }
-  auto directory = PayloadDirectory::open(file, header->version, *footer);
+  const auto elsewhere = readElsewhere(file, *header, *footer);
+  if (!elsewhere)
+  {
+    return elsewhere.error();
+  }
+  auto directory = PayloadDirectory::open(
+    file, header->version, *footer, *elsewhere ? (*elsewhere)->bytes : 0);
   if (!directory)
   {
     return directory.error();
@@ -212,8 +258,9 @@ Result<std::shared_ptr<const PointStore>> PointStore::openAny(const std::string&
   content.gridBounds = stored->gridBounds;
   content.hierarchy = std::move(*table);
   content.directory = std::move(*directory);
+  content.elsewhere = *elsewhere;
   content.file = shared;
-  return std::shared_ptr<const PointStore>(std::move(store));
+  return store;
 }
 
 const StoreDescription& PointStore::description() const { return content_->description; }
@@ -282,7 +329,8 @@ Result<FetchedNode> PointStore::fetch(NodeIndex node, const ColumnSelection& col
   for (std::size_t first = 0; first < blocks.size(); first = runEnd(blocks, first))
   {
     RawBytes run(static_cast<std::size_t>(runBytes(blocks, first, runEnd(blocks, first))));
-    Result<void> done = content_->file->readAt(blocks[first].offset, run.data.get(), run.size);
+    Result<void> done =
+      content_->fileOf(*payload).readAt(blocks[first].offset, run.data.get(), run.size);
     if (!done)
     {
       return done.error();
@@ -324,8 +372,8 @@ Result<NodeColumns> PointStore::decode(const FetchedNode& fetched) const
       if (!fault.empty())
       {
         const std::uint32_t block = b == 0 ? 0 : columns[b - 1] + 1;
-        return corruptStore(
-          description.path, blocks[b].offset, blockName(description, node, block) + fault);
+        return corruptStore(content_->fileOf(*payload).path(), blocks[b].offset,
+          blockName(description, node, block) + fault);
       }
     }
     first = end;

@@ -16,7 +16,8 @@ namespace pointfront
 class PointStore final : public StoredCloud
 {
 public:
-  /// A preview (PreviewRecord.h) opens while its build runs; that of a killed build is Truncated.
+  /// A preview (PreviewRecord.h) opens while its build runs, and stays readable after it; that of a
+  /// killed build is Truncated.
   static Result<std::shared_ptr<const PointStore>> open(const std::string& path);
   /// True for the preview of a build, whether it still runs or was killed. Silent.
   static bool looksLikePreview(const std::string& path);
@@ -37,7 +38,8 @@ public:
 
 private:
   PointStore();
-  static Result<std::shared_ptr<const PointStore>> openAny(const std::string& path);
+  /// All but the file that payloads may lie in elsewhere.
+  static Result<std::shared_ptr<PointStore>> openTables(const std::string& path);
   struct Content;
   std::unique_ptr<Content> content_;
 };

@@ -6,7 +6,7 @@ namespace
 {
 const std::string owner = "pointfront";
 constexpr std::uint16_t recordId = 1;
-constexpr std::size_t numbersBytes = 16; ///< two little-endian 64-bit numbers before the name
+constexpr std::size_t numbersBytes = 24; ///< three little-endian 64-bit numbers before the name
 const std::string extension = ".pfront";
 const std::string previewExtension = ".preview.pfront";
 
@@ -42,6 +42,7 @@ MetadataRecord previewMetadata(const PreviewRecord& record)
   metadata.description = "preview of a build";
   put(metadata.payload, record.pointsExpected);
   put(metadata.payload, record.pointsRead);
+  put(metadata.payload, record.pointsFinished);
   for (const char c : record.storeName)
   {
     metadata.payload.push_back(static_cast<std::byte>(c));
@@ -61,6 +62,7 @@ std::optional<PreviewRecord> previewRecordOf(const std::vector<MetadataRecord>& 
     PreviewRecord record;
     record.pointsExpected = get(candidate.payload, 0);
     record.pointsRead = get(candidate.payload, 8);
+    record.pointsFinished = get(candidate.payload, 16);
     for (std::size_t i = numbersBytes; i < candidate.payload.size(); ++i)
     {
       record.storeName.push_back(std::to_integer<char>(candidate.payload[i]));

@@ -3,9 +3,11 @@
 #include "pointfront/Store/DescriptionSection.h"
 #include "pointfront/Store/InputFile.h"
 #include "pointfront/Store/PayloadDirectory.h"
+#include "pointfront/Store/PayloadElsewhere.h"
 #include "pointfront/Store/PointStore.h"
 
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace pointfront
@@ -19,6 +21,13 @@ struct PointStore::Content
   GridBounds gridBounds;
   std::shared_ptr<const Hierarchy> hierarchy;
   std::unique_ptr<const PayloadDirectory> directory; ///< reads from `file`
+  std::optional<PayloadElsewhere> elsewhere;
+  std::unique_ptr<const InputFile> fileElsewhere; ///< with `elsewhere`, unless only looked at
+
+  const InputFile& fileOf(const NodePayload& payload) const
+  {
+    return payload.elsewhere ? *fileElsewhere : *file;
+  }
 };
 
 /// "node 12, positions" or "node 12, attribute 'rgb'", for messages.

@@ -67,7 +67,7 @@ Result<void> checkHeader(
         ", this program reads up to version " + std::to_string(storeVersion) +
         "; update PointFront");
   }
-  if (header.requiredFeatures != 0)
+  if ((header.requiredFeatures & ~payloadElsewhere) != 0)
   {
     return makeError(Error::Kind::Unsupported,
       "'" + path + "' uses features that this program does not know (flags " +

@@ -28,11 +28,17 @@ enum class SectionKind : std::uint32_t
 {
   Description = 1,
   NodeTable = 2,
-  BlockDirectory = 3
+  BlockDirectory = 3,
+  Elsewhere = 4 ///< only with payloadElsewhere
 };
 
-/// Where a section lies and what it must hash to (since version 2 only the description: the others
-/// are read in parts, which have checksums of their own, and 0 stands here).
+/// Required feature: the payload of some nodes lies in another file (see NodePayload::elsewhere).
+/// Previews of a build have it: they name the store being written.
+constexpr std::uint32_t payloadElsewhere = 1;
+
+/// Where a section lies and what it must hash to (since version 2 only the description and the name
+/// of another file: the others are read in parts, which have checksums of their own, and 0 stands
+/// here).
 struct SectionEntry
 {
   SectionKind kind = SectionKind::Description;
@@ -46,7 +52,7 @@ struct SectionEntry
 struct StoreHeader
 {
   std::uint32_t version = storeVersion;
-  std::uint32_t requiredFeatures = 0; ///< bits a reader must know; none is defined yet
+  std::uint32_t requiredFeatures = 0; ///< bits a reader must know: payloadElsewhere or none
   std::uint64_t fileBytes = 0;
   std::uint64_t footerOffset = 0;
   std::uint32_t footerBytes = 0;

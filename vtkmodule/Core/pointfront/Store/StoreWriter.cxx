@@ -7,10 +7,13 @@
 #include "pointfront/Store/NodePage.h"
 #include "pointfront/Store/NodeTableSection.h"
 #include "pointfront/Store/PayloadDirectory.h"
+#include "pointfront/Store/PayloadElsewhere.h"
 #include "pointfront/Store/StoreAssembly.h"
 #include "pointfront/Store/StoreFormat.h"
 
 #include <cassert>
+#include <filesystem>
+#include <optional>
 
 namespace pointfront
 {
@@ -28,12 +31,18 @@ Error wrongTable(const std::string& path, const std::string& why)
 class FileStoreWriter final : public StoreWriter
 {
 public:
-  FileStoreWriter(std::unique_ptr<OutputFile> file, const AttributeSchema& schema)
+  FileStoreWriter(std::unique_ptr<OutputFile> file, const AttributeSchema& schema,
+    std::optional<WrittenPayloads> elsewhere)
     : file_(std::move(file))
     , schema_(schema)
     , payloads_(static_cast<std::uint32_t>(1 + schema.size()))
   {
     buffer_.reserve(writeBufferBytes);
+    if (elsewhere)
+    {
+      refer(std::move(*elsewhere));
+      return;
+    }
     for (const Attribute& attribute : schema)
     {
       ranges_.push_back(emptyRange(attribute));
@@ -47,11 +56,15 @@ public:
   Result<void> commit(const StoreDescription& description, const std::vector<Node>& nodes,
     const std::vector<NodeIndex>& roots, const std::vector<PayloadId>& payloads) override;
   std::uint64_t bytesWritten() const override { return end_; }
+  Result<WrittenPayloads> written() override;
 
 private:
+  void refer(WrittenPayloads elsewhere);
   Result<void> put(const std::vector<std::byte>& bytes);
   Result<void> flush();
   Result<void> putBlock(const EncodedNode::Block& block);
+  Result<void> putWhole(
+    SectionKind kind, const std::vector<std::byte>& bytes, StoreFooter& footer);
   Result<void> putParts(
     SectionKind kind, const std::vector<std::byte>& bytes, StoreFooter& footer);
   Result<void> finish(const StoreFooter& footer);
@@ -66,7 +79,36 @@ private:
   std::vector<ColumnRange> ranges_;
   std::vector<std::byte> buffer_;
   std::uint64_t end_ = 0;
+  std::string nameElsewhere_; // empty: all payloads are in this file
+  std::uint64_t bytesElsewhere_ = 0;
 };
+
+void FileStoreWriter::refer(WrittenPayloads elsewhere)
+{
+  assert(elsewhere.ranges.size() == schema_.size());
+  payloads_.addElsewhere(elsewhere.directory);
+  pointCounts_ = std::move(elsewhere.pointCounts);
+  bounds_ = elsewhere.bounds;
+  ranges_ = std::move(elsewhere.ranges);
+  nameElsewhere_ = std::move(elsewhere.storeName);
+  bytesElsewhere_ = elsewhere.bytes;
+}
+
+Result<WrittenPayloads> FileStoreWriter::written()
+{
+  if (Result<void> done = flush(); !done)
+  {
+    return done.error();
+  }
+  WrittenPayloads result;
+  result.storeName = std::filesystem::path(file_->path()).filename().string();
+  result.bytes = end_;
+  result.directory = payloads_;
+  result.pointCounts = pointCounts_;
+  result.bounds = bounds_;
+  result.ranges = ranges_;
+  return result;
+}
 
 Result<void> FileStoreWriter::put(const std::vector<std::byte>& bytes)
 {
@@ -184,7 +226,7 @@ Result<void> FileStoreWriter::commit(const StoreDescription& description,
     directory.addNode(payloads_, id);
   }
   bool unknownCodec = false;
-  fault = directory.fault(storeHeaderBytes, end_, unknownCodec);
+  fault = directory.fault({ storeHeaderBytes, end_, bytesElsewhere_ }, unknownCodec);
   if (!fault.empty())
   {
     return wrongTable(file_->path(), fault);
@@ -205,12 +247,23 @@ Result<void> FileStoreWriter::commit(const StoreDescription& description,
   }
   if (done)
   {
-    const std::vector<std::byte> bytes = encodeDescription(stored);
-    footer.sections.push_back({ SectionKind::Description,
-      checksumOf(bytes.data(), bytes.size()), end_, bytes.size() });
-    done = put(bytes);
+    done = putWhole(SectionKind::Description, encodeDescription(stored), footer);
+  }
+  if (done && !nameElsewhere_.empty())
+  {
+    const PayloadElsewhere elsewhere =
+      describeElsewhere(nameElsewhere_, bytesElsewhere_, directory);
+    done = putWhole(SectionKind::Elsewhere, encodeElsewhere(elsewhere), footer);
   }
   return done ? finish(footer) : done;
+}
+
+/// A section that is read as a whole.
+Result<void> FileStoreWriter::putWhole(
+  SectionKind kind, const std::vector<std::byte>& bytes, StoreFooter& footer)
+{
+  footer.sections.push_back({ kind, checksumOf(bytes.data(), bytes.size()), end_, bytes.size() });
+  return put(bytes);
 }
 
 /// A section whose parts have checksums of their own.
@@ -228,6 +281,7 @@ Result<void> FileStoreWriter::finish(const StoreFooter& footer)
   header.footerOffset = end_;
   header.footerBytes = static_cast<std::uint32_t>(footerBytes.size());
   header.fileBytes = end_ + footerBytes.size();
+  header.requiredFeatures = nameElsewhere_.empty() ? 0 : payloadElsewhere;
   Result<void> done = put(footerBytes);
   if (done)
   {
@@ -242,8 +296,8 @@ Result<void> FileStoreWriter::finish(const StoreFooter& footer)
 }
 } // namespace
 
-Result<std::unique_ptr<StoreWriter>> assembleStore(
-  std::unique_ptr<OutputFile> file, const AttributeSchema& schema)
+Result<std::unique_ptr<StoreWriter>> assembleStore(std::unique_ptr<OutputFile> file,
+  const AttributeSchema& schema, std::optional<WrittenPayloads> elsewhere)
 {
   if (schema.size() > maxColumns)
   {
@@ -251,7 +305,8 @@ Result<std::unique_ptr<StoreWriter>> assembleStore(
       "a store has at most " + std::to_string(maxColumns) + " attributes, not " +
         std::to_string(schema.size()) + "; name the ones to store");
   }
-  auto writer = std::make_unique<FileStoreWriter>(std::move(file), schema);
+  auto writer =
+    std::make_unique<FileStoreWriter>(std::move(file), schema, std::move(elsewhere));
   if (Result<void> done = writer->begin(); !done)
   {
     return done.error();
@@ -268,6 +323,18 @@ Result<std::unique_ptr<StoreWriter>> StoreWriter::create(
     return file.error();
   }
   return assembleStore(std::move(*file), schema);
+}
+
+Result<std::unique_ptr<StoreWriter>> StoreWriter::createReferring(
+  const std::string& path, const AttributeSchema& schema, WrittenPayloads elsewhere)
+{
+  Result<std::unique_ptr<OutputFile>> file =
+    OutputFile::create(path, OutputFile::Durability::None);
+  if (!file)
+  {
+    return file.error();
+  }
+  return assembleStore(std::move(*file), schema, std::move(elsewhere));
 }
 
 } // namespace pointfront

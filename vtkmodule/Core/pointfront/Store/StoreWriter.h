@@ -1,6 +1,7 @@
 #pragma once
 
 #include "pointfront/Base/Result.h"
+#include "pointfront/Store/BlockDirectory.h"
 #include "pointfront/Store/GridBounds.h"
 #include "pointfront/Store/NodeReader.h"
 #include "pointfront/Store/StoredCloud.h"
@@ -37,6 +38,17 @@ struct EncodedNode
 /// Pure: the same points give the same bytes, on any thread.
 EncodedNode encodeNode(const NodeColumns& points, const AttributeSchema& schema);
 
+/// What a writer has written so far, for stores that refer to it.
+struct WrittenPayloads
+{
+  std::string storeName;          ///< file name of the store; it has ".tmp" at its end meanwhile
+  std::uint64_t bytes = 0;        ///< of that file, to be relied on from now on
+  BlockDirectory directory{ 1 };  ///< by PayloadId, like the next one
+  std::vector<std::uint32_t> pointCounts;
+  GridBounds bounds;
+  std::vector<ColumnRange> ranges; ///< of all their points, one for each column
+};
+
 /// Writes a store: payloads one after another, then the table. Whole or absent: writes to
 /// `path` + ".tmp" in the same folder, commit() makes it durable and renames it; a writer that is
 /// destroyed without commit() removes its file.
@@ -50,6 +62,11 @@ public:
 
   static Result<std::unique_ptr<StoreWriter>> create(
     const std::string& path, const AttributeSchema& schema);
+  /// A store that refers to payloads in the file of another writer: their ids are the same here,
+  /// and commit() has to place them all. Nothing of it is made durable: it has a meaning only while
+  /// the other writer lives. It must lie in the folder of the other store.
+  static Result<std::unique_ptr<StoreWriter>> createReferring(
+    const std::string& path, const AttributeSchema& schema, WrittenPayloads elsewhere);
   virtual ~StoreWriter() = default;
 
   /// Appends one node's payload; the id names it in commit().
@@ -65,6 +82,10 @@ public:
     const std::vector<NodeIndex>& roots, const std::vector<PayloadId>& payloads) = 0;
 
   virtual std::uint64_t bytesWritten() const = 0;
+
+  /// All that was appended, readable in the file from now on, and for as long as somebody has the
+  /// file open, also after commit().
+  virtual Result<WrittenPayloads> written() = 0;
 };
 
 } // namespace pointfront

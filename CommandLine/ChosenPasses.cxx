@@ -1,0 +1,129 @@
+#include "ChosenPasses.h"
+
+#include "HeightAboveGroundPass.h"
+#include "LocalHeightPass.h"
+#include "NormalsPass.h"
+#include "ProjectionPass.h"
+#include "RasterModule.h"
+#include "ScanNormalsPass.h"
+
+#include <string>
+
+namespace pointfront
+{
+namespace
+{
+/// When the library is loaded.
+const bool registered = []
+{
+  AttributePassMaker::use(std::make_shared<ChosenPasses>());
+  return true;
+}();
+
+Error wrong(const std::string& what)
+{
+  return makeError(Error::Kind::BadArgument, what);
+}
+
+Result<void> within(double value, double least, double most, const char* name)
+{
+  if (value >= least && value <= most) // false for what is no number
+  {
+    return {};
+  }
+  return wrong(std::string(name) + " of " + std::to_string(value) + " is not possible; choose " +
+    std::to_string(least) + " to " + std::to_string(most));
+}
+
+Result<void> checkNormals(const PassChoice& choice)
+{
+  const PassChoice usual;
+  const bool radius = choice.normalsRadius != usual.normalsRadius;
+  const bool neighbours = choice.normalsNeighbours != usual.normalsNeighbours;
+  const bool eps = choice.normalsEps != usual.normalsEps;
+  const bool ofPCA = radius || neighbours || eps || choice.curvature;
+  if (choice.normals != PassChoice::Normals::PCA && ofPCA)
+  {
+    return wrong("neighbours, radius, search error and curvature are of normals by PCA, which are "
+                 "not asked for");
+  }
+  if (choice.normals == PassChoice::Normals::None && choice.normalsClasses)
+  {
+    return wrong("classes are named that get normals, but no normals are asked for");
+  }
+  if (radius && neighbours)
+  {
+    return wrong("normals are from a number of neighbours or from those within a radius, not both");
+  }
+  Result<void> sound = within(choice.normalsNeighbours, 3, 4096, "a number of neighbours");
+  sound = sound ? within(choice.normalsRadius, 0.0, 1e9, "a radius of normals") : sound;
+  return sound ? within(choice.normalsEps, 0.0, 1000.0, "a search error") : sound;
+}
+
+Result<void> check(const PassChoice& choice)
+{
+  Result<void> sound = checkNormals(choice); // lengths: cells of positions up to 1e12 have numbers
+  sound = sound ? within(choice.localHeightRadius, 1e-3, 1e6, "a radius of heights") : sound;
+  return sound ? within(choice.groundCell, 1e-3, 1e6, "a cell of ground") : sound;
+}
+
+std::unique_ptr<AttributePass> normalsPass(const PassChoice& choice)
+{
+  if (choice.normals == PassChoice::Normals::ScanLine)
+  {
+    return std::make_unique<ScanNormalsPass>(choice.normalsClasses);
+  }
+  NormalsOptions options;
+  options.classes = choice.normalsClasses;
+  options.neighbours = choice.normalsNeighbours;
+  options.radius = choice.normalsRadius;
+  options.eps = choice.normalsEps;
+  options.curvature = choice.curvature;
+  return std::make_unique<NormalsPass>(options);
+}
+} // namespace
+
+Result<AttributePasses> ChosenPasses::passes(const PassChoice& choice) const
+{
+  static_cast<void>(registered);
+  if (Result<void> sound = check(choice); !sound)
+  {
+    return sound.error();
+  }
+  AttributePasses passes;
+  passes.push_back(
+    std::make_unique<ProjectionPass>(ProjectionOptions{ choice.targetCrs, choice.assumedCrs }));
+  const Result<std::vector<RasterInput>> images =
+    RasterModule::inputs(choice.colourFrom, choice.attributeFrom);
+  if (!images)
+  {
+    return images.error();
+  }
+  if (!images->empty())
+  {
+    Result<std::unique_ptr<AttributePass>> pass =
+      RasterModule::load(*images, std::make_shared<ProjCoordinateSystems>());
+    if (!pass)
+    {
+      return pass.error();
+    }
+    passes.push_back(std::move(*pass));
+  }
+  if (choice.normals != PassChoice::Normals::None)
+  {
+    passes.push_back(normalsPass(choice));
+  }
+  if (choice.localHeight)
+  {
+    passes.push_back(std::make_unique<LocalHeightPass>(choice.localHeightRadius));
+  }
+  if (choice.heightAboveGround)
+  {
+    GroundOptions options;
+    options.cell = choice.groundCell;
+    passes.push_back(std::make_unique<HeightAboveGroundPass>(options));
+  }
+  return passes;
+}
+
+} // namespace pointfront

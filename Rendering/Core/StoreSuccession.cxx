@@ -1,0 +1,51 @@
+#include "StoreSuccession.h"
+
+#include "pointfront/Store/StoredCloud.h"
+
+#include <algorithm>
+
+namespace pointfront
+{
+
+StoreSuccession::StoreSuccession(vtkSmartPointer<vtkPointFrontStore> successor,
+  vtkPointFrontStore& preview, int piece, int pieces)
+    : store_(std::move(successor)), piece_(std::make_shared<HierarchyPiece>(
+                                      store_->GetStore()->hierarchy(), piece, pieces))
+{
+  store_->SetHostMemoryBudget(preview.GetHostMemoryBudget());
+}
+
+void StoreSuccession::advance(vtkRenderer* renderer, FrameDemand demand)
+{
+  const AttributeSchema& schema = store_->GetStore()->description().schema;
+  std::unique_ptr<ViewFront>& front = fronts_[renderer];
+  if (!front)
+  {
+    front = std::make_unique<ViewFront>(piece_, store_->GetResidencyShare(), schema,
+      std::make_shared<SharedDemand>()); // not in the window yet: it takes nothing from the others
+  }
+  const auto unknown = std::remove_if(demand.columns.begin(), demand.columns.end(),
+    [&](std::uint32_t column) { return column >= schema.size(); });
+  demand.columns.erase(unknown, demand.columns.end());
+  front->update(demand);
+}
+
+bool StoreSuccession::ready(vtkRenderer* renderer) const
+{
+  const auto front = fronts_.find(renderer);
+  return front != fronts_.end() && front->second->last().complete;
+}
+
+bool StoreSuccession::wantsUpdate() const
+{
+  return std::any_of(fronts_.begin(), fronts_.end(),
+    [](const auto& entry) { return entry.second->wantsUpdate() || entry.second->last().complete; });
+}
+
+std::unique_ptr<ViewFront> StoreSuccession::take(vtkRenderer* renderer)
+{
+  const auto front = fronts_.find(renderer);
+  return front != fronts_.end() ? std::move(front->second) : nullptr;
+}
+
+} // namespace pointfront

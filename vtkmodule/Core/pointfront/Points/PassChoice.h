@@ -1,0 +1,64 @@
+#pragma once
+
+#include "pointfront/Points/AttributePass.h"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pointfront
+{
+
+/// What a user wants computed between the inputs and the tree, whatever it is asked with.
+/// Units  lengths in the units of the coordinates.
+struct PassChoice
+{
+  enum class Normals : std::uint8_t
+  {
+    None,
+    ScanLine, ///< from neighbours in the scan
+    PCA       ///< from planes through the nearest points
+  };
+
+  std::string targetCrs;  ///< a code, a definition, a file with one, "utm"; empty: the inputs'
+  std::string assumedCrs; ///< of inputs that name none; empty: unknown
+
+  std::vector<std::string> colourFrom;    ///< georeferenced images: files, patterns, folders
+  std::vector<std::string> attributeFrom; ///< likewise, NAME=IMAGE; without NAME= as the one before
+
+  Normals normals = Normals::None;
+  std::uint32_t normalsNeighbours = 16; ///< of a plane, with the point itself; 3 to 4096
+  double normalsRadius = 0.0;           ///< if > 0, instead: all points within
+  double normalsEps = 0.0;              ///< of an approximate search, 0 (exact) to 1000
+  bool curvature = false;               ///< attribute "curvature" too; PCA only
+  /// Classes that get normals; nothing: all.
+  std::optional<std::vector<std::uint8_t>> normalsClasses;
+
+  bool localHeight = false;
+  double localHeightRadius = 5.0; ///< 1e-3 to 1e6
+  bool heightAboveGround = false;
+  double groundCell = 10.0; ///< where no point is of class 2: of the lowest points; 1e-3 to 1e6
+};
+
+/// Makes the passes that a choice asks for, from all families that a program carries. Filters do
+/// not know each other: whoever puts them together gives the process a maker.
+/// Threads  const functions from any thread; use() and ofProcess() from any thread.
+class AttributePassMaker
+{
+public:
+  virtual ~AttributePassMaker() = default;
+  /// In the order in which they must run: coordinates first, then what comes from images, then what
+  /// comes from neighbours.
+  /// Errors  BadArgument: a value out of its range, an option of something that is not asked for;
+  ///         NotFound: an image; Unsupported: the library that reads images is not installed.
+  virtual Result<AttributePasses> passes(const PassChoice& choice) const = 0;
+
+  /// From now on that of this process.
+  static void use(std::shared_ptr<const AttributePassMaker> maker);
+  /// Null when no passes were put together.
+  static std::shared_ptr<const AttributePassMaker> ofProcess();
+};
+
+} // namespace pointfront

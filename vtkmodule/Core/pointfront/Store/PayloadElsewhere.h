@@ -1,0 +1,43 @@
+#pragma once
+
+#include "pointfront/Base/Result.h"
+#include "pointfront/Store/BlockDirectory.h"
+#include "pointfront/Store/InputFile.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pointfront
+{
+
+/// The second file of a store that refers to a store in the making (StoreWriter::createReferring).
+struct PayloadElsewhere
+{
+  /// File name of the other store, in the folder of this one. While it is written it has ".tmp" at
+  /// its end, afterwards it is the same file.
+  std::string storeName;
+  std::uint64_t bytes = 0; ///< that it had at least when this store was written
+  /// By which it is known: positions of the node that was written last.
+  BlockDirectory::Block mark;
+};
+
+/// The bytes of SectionKind::Elsewhere.
+std::vector<std::byte> encodeElsewhere(const PayloadElsewhere& elsewhere);
+/// Nothing if the bytes are no such section, or the name leaves the folder.
+std::optional<PayloadElsewhere> decodeElsewhere(const std::byte* data, std::size_t size);
+
+/// With the mark that `directory` gives.
+PayloadElsewhere describeElsewhere(
+  std::string storeName, std::uint64_t bytes, const BlockDirectory& directory);
+
+/// Opens the file that the store at `path` refers to: the one being written, or what has become of
+/// it. Another file that has taken its name is told by the mark.
+/// Errors  Truncated: it is gone, because its build was killed or cancelled.
+Result<std::unique_ptr<const InputFile>> openElsewhere(
+  const std::string& path, const PayloadElsewhere& elsewhere);
+
+} // namespace pointfront

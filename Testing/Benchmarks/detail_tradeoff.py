@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """The two ways to choose detail on the same camera paths: rendering front and view-specific level.
 
-    Testing/Benchmarks/detail_tradeoff.py TOOL STORE WORK_FOLDER
+    Testing/Benchmarks/detail_tradeoff.py TOOL STORE WORK_FOLDER [overview] [zoom]
 
 Replays the paths of front_trace.py with --detail front and --detail view and prints a Markdown
 table: time of an update, points, front moves and requests while the camera moves, and points and
@@ -39,7 +39,9 @@ def main():
     print("| path | detail | update p50 / p99, ms | moving: points | moves | requests "
           "| at rest: points | error, px |")
     print("| --- | --- | ---: | ---: | ---: | ---: | ---: | ---: |")
-    for name, tour in front_trace.tours(described["bounds"]).items():
+    tours = front_trace.tours(described["bounds"])
+    for name in sys.argv[4:] or tours:
+        tour = tours[name]
         for detail in ("front", "view"):
             work = folder / detail
             work.mkdir(parents=True, exist_ok=True)

@@ -59,27 +59,26 @@ private:
   std::atomic<std::uint64_t>& without_;
 };
 
-/// Where each source's scanner stood, if it is known.
-std::vector<std::optional<glm::dvec3>> scannersOf(const PointSources& sources)
+std::vector<SourceDescription> descriptionsOf(const PointSources& sources)
 {
-  std::vector<std::optional<glm::dvec3>> scanners;
+  std::vector<SourceDescription> descriptions;
   for (const auto& source : sources)
   {
-    scanners.push_back(source->description().scanner);
+    descriptions.push_back(source->description());
   }
-  return scanners;
+  return descriptions;
 }
 
-/// The values of a column, normals turned towards the scanner.
+/// The values of a column, normals turned towards the scanner where it is known.
 ValueSource facingTheScanner(
-  const ValueSource& values, std::vector<std::optional<glm::dvec3>> scanners, std::size_t bytes)
+  const ValueSource& values, std::vector<SourceDescription> descriptions, std::size_t bytes)
 {
-  return [values, scanners = std::move(scanners), bytes](
+  return [values, descriptions = std::move(descriptions), bytes](
            const SourceChunk& chunk, const PointBatch& batch, std::byte* out) -> Result<void>
   {
     Result<void> done = values(chunk, batch, out);
-    const std::optional<glm::dvec3>& scanner = scanners[chunk.source];
-    for (std::size_t i = 0; done && scanner && i < batch.size(); ++i)
+    const glm::dvec3* const scanner = descriptions[chunk.source].scanner(chunk.chunk);
+    for (std::size_t i = 0; done && scanner != nullptr && i < batch.size(); ++i)
     {
       PackedNormal normal;
       std::memcpy(&normal, out + i * bytes, sizeof normal);
@@ -123,7 +122,7 @@ Result<PointSources> NormalsPass::apply(
     attributes.push_back(curvatureAttribute());
   }
   const ValueSource values = facingTheScanner(
-    valuesOf(std::move(*column), order), scannersOf(sources), feature.bytes());
+    valuesOf(std::move(*column), order), descriptionsOf(sources), feature.bytes());
   return withAttributes(std::move(sources), attributes, values);
 }
 

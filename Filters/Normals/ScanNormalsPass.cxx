@@ -23,15 +23,14 @@ public:
   {
     for (const auto& source : sources)
     {
-      schemas_.push_back(source->description().schema);
-      scanners_.push_back(source->description().scanner);
+      descriptions_.push_back(source->description());
     }
   }
 
   void compute(const SourceChunk& chunk, const PointBatch& batch, std::byte* values) const
   {
     std::vector<std::uint8_t> classes;
-    readClasses(schemas_[chunk.source], batch, classes);
+    readClasses(descriptions_[chunk.source].schema, batch, classes);
     std::vector<std::size_t> taking;
     std::vector<glm::dvec3> positions;
     for (std::size_t i = 0; i < batch.size(); ++i)
@@ -46,11 +45,11 @@ public:
     scanNormals(positions, normals);
     std::memset(values, 0, batch.size() * sizeof(PackedNormal));
     std::uint64_t without = 0;
-    const std::optional<glm::dvec3>& scanner = scanners_[chunk.source];
+    const glm::dvec3* const scanner = descriptions_[chunk.source].scanner(chunk.chunk);
     for (std::size_t i = 0; i < taking.size(); ++i)
     {
       const PackedNormal normal =
-        scanner ? facing(normals[i], positions[i], *scanner) : normals[i];
+        scanner != nullptr ? facing(normals[i], positions[i], *scanner) : normals[i];
       without += normal == PackedNormal(0) ? 1 : 0;
       std::memcpy(values + taking[i] * sizeof normal, &normal, sizeof normal);
     }
@@ -61,8 +60,7 @@ private:
   ClassSet classes_;
   std::shared_ptr<std::atomic<std::uint64_t>> without_;
   // By source, of the originals: the columns of the batch come first in the new schema too.
-  std::vector<AttributeSchema> schemas_;
-  std::vector<std::optional<glm::dvec3>> scanners_;
+  std::vector<SourceDescription> descriptions_;
 };
 } // namespace
 

@@ -282,6 +282,15 @@ Result<PointSources> ProjectionPass::inOneSystem(PointSources sources,
       description.declaredBounds = *moved;
       extent.add(*moved);
     }
+    for (ScannerPlace& scanner : description.scanners)
+    {
+      if (Result<void> done =
+            way.transform ? way.transform->apply(&scanner.position, 1) : Result<void>();
+          !done)
+      {
+        return makeError(done.error().kind, description.path + ": " + done.error().what);
+      }
+    }
   }
   for (std::size_t s = 0; s < sources.size(); ++s)
   {
@@ -353,7 +362,8 @@ Result<PointSources> ProjectionPass::apply(
   {
     if (findings_.empty())
     {
-      findings_.push_back("No input names its coordinate reference system; --assume-crs does.");
+      findings_.push_back("No input says which coordinate reference system it is in, so the store "
+                          "says none either. Name it with --assume-crs if you know it.");
     }
     return sources;
   }

@@ -40,12 +40,12 @@ std::vector<MetadataRecord> metadataOf(
   return metadata;
 }
 
-/// The first record that holds a CRS as WKT.
-std::string wktOf(const std::vector<LASRecord>& records)
+/// The first record that holds a CRS as WKT; "" without one.
+std::string wktOf(const std::vector<LASRecord>& records, const char* owner)
 {
   for (const LASRecord& record : records)
   {
-    if (record.is("LASF_Projection", lasWktRecord))
+    if (record.is(owner, lasWktRecord))
     {
       std::string wkt = printableText(loadText(record.payload.data, record.payload.size));
       if (wkt.find_first_not_of(' ') != std::string::npos)
@@ -55,6 +55,19 @@ std::string wktOf(const std::vector<LASRecord>& records)
     }
   }
   return {};
+}
+
+/// What the standard's record says, else what libLAS wrote before the standard knew WKT; not beside
+/// GeoTIFF keys, which are the standard's way to say it then.
+std::string wktOf(const std::vector<LASRecord>& records)
+{
+  constexpr std::uint16_t geoKeyDirectory = 34735;
+  constexpr std::size_t oneKey = 16; // bytes, with the directory's own four numbers
+  std::string wkt = wktOf(records, "LASF_Projection");
+  const bool keys = std::any_of(records.begin(), records.end(),
+    [](const LASRecord& record)
+    { return record.is("LASF_Projection", geoKeyDirectory) && record.payload.size >= oneKey; });
+  return wkt.empty() && !keys ? wktOf(records, "liblas") : wkt;
 }
 
 /// Points and EVLRs that claim the same bytes: the points are what counts, unless their count

@@ -34,6 +34,10 @@ public:
   std::uint64_t chunkRows(std::uint64_t chunk) const override;
   Result<void> read(
     std::uint64_t chunk, const std::vector<bool>& wanted, TableBlock& block) const override;
+  std::vector<ScannerPlace> scanners(const Bounds& positions) const override
+  {
+    return file_.scanners(positions);
+  }
 
 private:
   explicit PCDBinaryTable(PCDFile file)

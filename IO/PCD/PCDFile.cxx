@@ -1,5 +1,7 @@
 #include "PCDFile.h"
 
+#include <glm/geometric.hpp>
+
 #include <algorithm>
 #include <utility>
 
@@ -77,7 +79,27 @@ Result<PCDFile> PCDFile::open(const std::string& path)
     }
     addElements(file, f);
   }
+  if (file.header.viewpointDamaged)
+  {
+    file.warnings.push_back("VIEWPOINT is not seven numbers: where the sensor was is not known.");
+  }
   return file;
+}
+
+std::vector<ScannerPlace> PCDFile::scanners(const Bounds& positions) const
+{
+  if (!header.viewpoint)
+  {
+    return {};
+  }
+  constexpr double nearby = 10.0; // extents
+  const double extent = positions.empty() ? 0.0 : glm::length(positions.size());
+  const bool stated = *header.viewpoint != glm::dvec3(0.0);
+  if (!stated && !(glm::length(positions.centre()) <= nearby * extent))
+  {
+    return {};
+  }
+  return { { 0, *header.viewpoint } };
 }
 
 Result<std::uint64_t> PCDFile::countPresent(std::uint64_t present)

@@ -39,6 +39,10 @@ struct PCDFile
   /// what it has, with a warning; one with less than half of what its header promises was never
   /// such a file. Errors  Truncated.
   Result<std::uint64_t> countPresent(std::uint64_t present);
+  /// From where the points were seen: VIEWPOINT, in the frame of the points. Writers that know
+  /// nothing of a sensor write 0 0 0, too: that is believed if the origin is near the points,
+  /// within ten times their extent, as for a depth camera, but not for coordinates of a survey.
+  std::vector<ScannerPlace> scanners(const Bounds& positions) const;
 };
 
 } // namespace pointfront

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <optional>
 
 namespace pointfront
@@ -62,6 +63,26 @@ std::optional<ScalarType> typeOf(std::string_view type, std::uint64_t size)
     default:
       return std::nullopt;
   }
+}
+
+/// The position among seven finite numbers: x y z, and a quaternion.
+std::optional<glm::dvec3> viewpointOf(const Words& words)
+{
+  double values[7];
+  for (std::size_t i = 0; i < 7; ++i)
+  {
+    if (words.size() != 7)
+    {
+      return std::nullopt;
+    }
+    const char* const end = words[i].data() + words[i].size();
+    const auto read = std::from_chars(words[i].data(), end, values[i]);
+    if (read.ec != std::errc() || read.ptr != end || !std::isfinite(values[i]))
+    {
+      return std::nullopt;
+    }
+  }
+  return glm::dvec3(values[0], values[1], values[2]);
 }
 
 class HeaderReader
@@ -165,7 +186,12 @@ Result<void> HeaderReader::take(const Words& words)
   {
     return takeData(words);
   }
-  else if (words[0] != "VERSION" && words[0] != "VIEWPOINT")
+  else if (words[0] == "VIEWPOINT")
+  {
+    header_.viewpoint = viewpointOf(values);
+    header_.viewpointDamaged = !header_.viewpoint;
+  }
+  else if (words[0] != "VERSION")
   {
     return fault(Error::Kind::BadFormat,
       "'" + std::string(words[0].substr(0, 40)) + "' is no keyword of a PCD header");

@@ -3,8 +3,11 @@
 #include "pointfront/Base/Result.h"
 #include "pointfront/Points/ScalarType.h"
 
+#include <glm/vec3.hpp>
+
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -43,6 +46,10 @@ struct PCDHeader
   std::vector<PCDField> fields;
   std::uint64_t points = 0;
   std::size_t dataOffset = 0;
+  /// Where the sensor was: the first three of VIEWPOINT's seven numbers. Its orientation, the other
+  /// four, moves nothing.
+  std::optional<glm::dvec3> viewpoint;
+  bool viewpointDamaged = false; ///< there is such a line, but without seven numbers
   std::uint64_t lines = 0; ///< of the header
 
   std::size_t pointBytes() const; ///< of one point in a binary file

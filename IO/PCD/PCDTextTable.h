@@ -29,6 +29,10 @@ public:
   Result<void> read(
     std::uint64_t chunk, const std::vector<bool>& wanted, TableBlock& block) const override;
   std::vector<FieldStatistics> statistics() const override;
+  std::vector<ScannerPlace> scanners(const Bounds& positions) const override
+  {
+    return file_.scanners(positions);
+  }
 
 private:
   explicit PCDTextTable(PCDFile file)

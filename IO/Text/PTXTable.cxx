@@ -160,6 +160,20 @@ std::uint64_t PTXTable::chunkRows(std::uint64_t chunk) const
   return scans_[at.scan].rows.chunkRows(at.chunk);
 }
 
+std::vector<ScannerPlace> PTXTable::scanners(const Bounds&) const
+{
+  std::vector<ScannerPlace> places;
+  for (std::size_t chunk = 0; chunk < chunks_.size(); ++chunk)
+  {
+    if (chunk == 0 || chunks_[chunk].scan != chunks_[chunk - 1].scan)
+    {
+      const std::array<double, 16>& m = scans_[chunks_[chunk].scan].matrix;
+      places.push_back({ chunk, { m[12], m[13], m[14] } });
+    }
+  }
+  return places;
+}
+
 Result<void> PTXTable::read(
   std::uint64_t chunk, const std::vector<bool>& wanted, TableBlock& block) const
 {

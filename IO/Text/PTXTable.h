@@ -31,6 +31,8 @@ public:
   const std::vector<TableField>& fields() const override { return fields_; }
   const std::vector<std::string>& warnings() const override { return warnings_; }
   std::uint64_t chunkCount() const override { return chunks_.size(); }
+  /// Each scan's origin, taken into the common frame as its points are.
+  std::vector<ScannerPlace> scanners(const Bounds& positions) const override;
   std::uint64_t chunkRows(std::uint64_t chunk) const override;
   Result<void> read(
     std::uint64_t chunk, const std::vector<bool>& wanted, TableBlock& block) const override;

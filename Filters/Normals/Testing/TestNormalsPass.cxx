@@ -104,7 +104,7 @@ TEST(NormalsPass, TheWholeBunnyAsOneNeighbourhood)
 TEST(NormalsPass, TowardsTheScannerWhereItIsKnown)
 {
   PointSources sources = sourcesOf(bunny());
-  dynamic_cast<CloudSource&>(*sources[0]).editDescription().scanner = glm::dvec3(0.0);
+  dynamic_cast<CloudSource&>(*sources[0]).editDescription().scanners = { { 0, glm::dvec3(0.0) } };
   for (const PackedNormal& packed : normalsBy(NormalsPass(nearest(397)), std::move(sources)))
   {
     EXPECT_NEAR(packed.x / double(normalSteps), -0.035592, 1e-4);

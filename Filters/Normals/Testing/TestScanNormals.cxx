@@ -111,7 +111,8 @@ TEST(ScanNormals, OnGeneratedGroundTheyAreCoarserThanPCA)
 TEST(ScanNormals, TowardsTheScanner)
 {
   PointSources sources = sourcesOf(slope(20, 100, true));
-  dynamic_cast<CloudSource&>(*sources[0]).editDescription().scanner = glm::dvec3(4e5, 5.6e6, 0.0);
+  auto& description = dynamic_cast<CloudSource&>(*sources[0]).editDescription();
+  description.scanners = { { 0, glm::dvec3(4e5, 5.6e6, 0.0) } };
   for (const PackedNormal& n : normalsBy(ScanNormalsPass(std::nullopt), std::move(sources)))
   {
     EXPECT_LT(n.z, 0); // from below

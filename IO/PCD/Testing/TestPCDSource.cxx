@@ -126,6 +126,45 @@ std::string header(const std::string& fields, std::uint64_t points, const std::s
 }
 const std::string xyz = "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\n";
 
+/// Two points, and where they were seen from.
+SourceDescription seenFrom(const std::string& viewpoint, const std::string& points)
+{
+  std::string text = header(xyz, 2, "ascii");
+  const std::string usual = "VIEWPOINT 0 0 0 1 0 0 0\n";
+  text.replace(text.find(usual), usual.size(), viewpoint) += points;
+  const auto source = openPoints(PCDFormat(), writeFile("viewpoint.pcd", text));
+  return source ? source->description() : SourceDescription();
+}
+
+TEST(PCDViewpoint, IsWhereTheScannerStood)
+{
+  const std::string near = "1 0 2\n0 1 2\n";
+  const std::string survey = "482000 5400000 2\n482100 5400100 3\n";
+  const auto stated = seenFrom("VIEWPOINT 10 -20 1.5 0.5 0.5 0.5 0.5\n", near);
+  ASSERT_NE(stated.scanner(0), nullptr);
+  EXPECT_EQ(*stated.scanner(0), glm::dvec3(10, -20, 1.5));
+  EXPECT_EQ(stated.declaredBounds.low, glm::dvec3(0, 0, 2)) << "points stay where they are";
+  // Everybody's default: a camera's frame, or nobody thought of it.
+  const auto camera = seenFrom("VIEWPOINT 0 0 0 1 0 0 0\n", near);
+  ASSERT_NE(camera.scanner(0), nullptr);
+  EXPECT_EQ(*camera.scanner(0), glm::dvec3(0.0));
+  EXPECT_EQ(seenFrom("VIEWPOINT 0 0 0 1 0 0 0\n", survey).scanner(0), nullptr);
+  EXPECT_NE(seenFrom("VIEWPOINT 1 0 0 1 0 0 0\n", survey).scanner(0), nullptr);
+  EXPECT_EQ(seenFrom("", near).scanner(0), nullptr);
+}
+
+TEST(PCDViewpoint, ThatIsDamagedIsSaid)
+{
+  for (const char* line : { "VIEWPOINT 1 2 3\n", "VIEWPOINT 1 2 x 1 0 0 0\n",
+         "VIEWPOINT 1 2 nan 1 0 0 0\n", "VIEWPOINT\n", "VIEWPOINT 1 2 3 1 0 0 0 0\n" })
+  {
+    const auto damaged = seenFrom(line, "1 0 2\n0 1 2\n");
+    EXPECT_EQ(damaged.scanner(0), nullptr);
+    EXPECT_EQ(damaged.warnings.size(), 1u) << line;
+    EXPECT_EQ(damaged.pointCount, 2u);
+  }
+}
+
 TEST(PCDFields, OfManyElementsAreArraysOrLeftOut)
 {
   const std::string fields = "FIELDS x y z pair histogram _ rgb\nSIZE 8 8 8 2 4 1 4\n"

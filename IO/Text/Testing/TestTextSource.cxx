@@ -269,6 +269,9 @@ TEST(TextScans, OfPTXAreTransformed)
   EXPECT_TRUE(std::isnan(all.positions[1].x)) << "nothing came back";
   EXPECT_EQ(all.positions[2], glm::dvec3(7, 8, 9));
   EXPECT_EQ(columnOf<float>(*source, all, "intensity")[2], 0.25f);
+  ASSERT_EQ(source->chunkCount(), 2u);
+  EXPECT_EQ(*source->description().scanner(0), glm::dvec3(100, 200, 300));
+  EXPECT_EQ(*source->description().scanner(1), glm::dvec3(0, 0, 0));
 }
 
 TEST(CutTextFile, IsSoundAtEveryByte)

@@ -25,6 +25,13 @@ struct MetadataRecord
   std::vector<std::byte> payload;
 };
 
+/// The points of some chunks were seen from here.
+struct ScannerPlace
+{
+  std::uint64_t firstChunk = 0;   ///< that one and those behind it, up to the next place
+  glm::dvec3 position{ 0.0 };     ///< world coordinates
+};
+
 /// What is known of a source before its points are read.
 struct SourceDescription
 {
@@ -36,11 +43,22 @@ struct SourceDescription
   std::optional<QuantisationGrid> grid;
   AttributeSchema schema;
   std::string crsWkt; ///< CRS as WKT, if the source carries one as WKT
-  /// Where the scanner stood, world coordinates, if the source says so (PCD VIEWPOINT, E57 pose).
-  std::optional<glm::dvec3> scanner;
+  /// Where the scanner stood, if the source says so (PCD VIEWPOINT, the scans of a PTX); by chunk.
+  std::vector<ScannerPlace> scanners;
   std::vector<MetadataRecord> metadata; ///< CRS records kept as they are (LASF_Projection ...)
   /// What was wrong and survived: each a full sentence that counts what was lost.
   std::vector<std::string> warnings;
+
+  /// From where a chunk was seen; none if that is not known.
+  const glm::dvec3* scanner(std::uint64_t chunk) const
+  {
+    const glm::dvec3* position = nullptr;
+    for (const ScannerPlace& place : scanners)
+    {
+      position = place.firstChunk <= chunk ? &place.position : position;
+    }
+    return position;
+  }
 };
 
 /// A readable cloud, cut into chunks that can be read in any order by any thread.

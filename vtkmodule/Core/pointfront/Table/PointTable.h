@@ -1,6 +1,8 @@
 #pragma once
 
+#include "pointfront/Base/Bounds.h"
 #include "pointfront/Base/Result.h"
+#include "pointfront/Points/PointSource.h"
 #include "pointfront/Points/ScalarType.h"
 #include "pointfront/Table/FieldStatistics.h"
 
@@ -58,6 +60,12 @@ public:
     std::uint64_t chunk, const std::vector<bool>& wanted, TableBlock& block) const = 0;
   /// One for each field if the table had to look at every value anyway (text); else empty.
   virtual std::vector<FieldStatistics> statistics() const { return {}; }
+  /// SourceDescription::scanners; `positions` is where the points are, as far as that is known.
+  virtual std::vector<ScannerPlace> scanners(const Bounds& positions) const
+  {
+    static_cast<void>(positions);
+    return {};
+  }
 };
 
 } // namespace pointfront

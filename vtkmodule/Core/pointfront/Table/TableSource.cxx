@@ -207,6 +207,7 @@ Result<std::unique_ptr<PointSource>> TableSource::open(
   }
   description.declaredBounds = extent.bounds;
   description.grid = extent.grid;
+  description.scanners = source->table_->scanners(extent.bounds);
   description.schema = source->plan_.schema;
   description.warnings = source->table_->warnings();
   const std::vector<std::string>& planned = source->plan_.warnings;

@@ -186,6 +186,12 @@ void ViewFront::readShares()
 /// What this view takes, for the others.
 void ViewFront::tellDemand()
 {
+  if (front_.updates() == updatesTold_ && pointBytes_ == pointBytesTold_)
+  {
+    return;
+  }
+  updatesTold_ = front_.updates();
+  pointBytesTold_ = pointBytes_;
   DemandCurve drawn;
   DemandCurve held;
   selection_->demandCurves(drawn, held);
@@ -289,6 +295,15 @@ void ViewFront::complete(const FrameDemand& demand)
     idle = moved || residency.arrivals() != arrivalsSeen_ ? 0 : idle + 1;
   }
   delta_.complete = true;
+}
+
+std::uint64_t ViewFront::pointsOnGpu(std::uint64_t windowBudget) const
+{
+  DemandCurve others;
+  window_.elsewhere(others);
+  const std::uint64_t drawn = delta_.pointsDrawn + others[0];
+  const std::uint64_t idle = windowBudget > drawn ? windowBudget - drawn : 0;
+  return delta_.pointsDrawn + idle / window_.claims();
 }
 
 bool ViewFront::wantsUpdate() const

@@ -62,6 +62,10 @@ public:
   /// From now on it is drawn among the clouds with that demand.
   void enterWindow(std::shared_ptr<SharedDemand> windowDemand);
 
+  /// Of a window's budget of points (0: no limit), what this view has on the GPU and may keep there
+  /// beside it: what it draws, and its part of what nobody draws.
+  std::uint64_t pointsOnGpu(std::uint64_t windowBudget) const;
+
   /// The node's points, or null.
   std::shared_ptr<const NodeColumns> find(NodeIndex node) const;
 
@@ -105,6 +109,8 @@ private:
   DemandCurve heldElsewhere_;  ///< in points of this store
   DemandCurve drawnElsewhere_;
   std::uint64_t sharedSeen_ = 0;
+  std::uint32_t updatesTold_ = 0; ///< of the front, when memory_ and window_ were told last
+  std::size_t pointBytesTold_ = 0;
   ColumnSelection columns_;
   std::size_t pointBytes_ = 0; ///< of a decoded point with columns_
   std::uint64_t arrivalsSeen_ = 0;

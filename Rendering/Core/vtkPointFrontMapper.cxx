@@ -527,6 +527,18 @@ void vtkPointFrontMapper::RecordFrame(
   }
 }
 
+vtkIdType vtkPointFrontMapper::GetPointsOnGPU() const
+{
+  std::uint64_t points = 0;
+  for (const auto& [renderer, view] : this->Internals->Views)
+  {
+    points += view.Front && this->PointBudget > 0
+      ? view.Front->pointsOnGpu(static_cast<std::uint64_t>(this->PointBudget))
+      : 0;
+  }
+  return this->PointBudget > 0 ? std::max<vtkIdType>(1, static_cast<vtkIdType>(points)) : 0;
+}
+
 std::uint32_t vtkPointFrontMapper::GetNumberOfViews() const
 {
   return static_cast<std::uint32_t>(this->Internals->Views.size());

@@ -237,6 +237,9 @@ protected:
   void RecordFrame(
     vtkRenderer* renderer, vtkIdType points, vtkIdType moves, double milliseconds);
   static bool IsInteracting(vtkRenderer* renderer);
+  /// Of PointBudget, what this mapper may have on the GPU beside the other clouds of the window; 0:
+  /// no limit.
+  vtkIdType GetPointsOnGPU() const;
   /// Renderers that this mapper draws in.
   std::uint32_t GetNumberOfViews() const;
 #endif

@@ -76,6 +76,10 @@ void GpuPool::beginFrame(std::uint64_t mostPoints, std::uint32_t views)
   const auto slots = static_cast<std::uint32_t>(
     std::min<std::uint64_t>((mostPoints + slotPoints - 1) / slotPoints, 1u << 24));
   slotLimit_ = mostPoints == 0 ? 0 : slots + slots / cacheShare + 1;
+  if (slotLimit_ != 0 && slotCount_ / 2 > std::max(slotLimit_, firstSlots))
+  {
+    shrink();
+  }
 }
 
 const GpuPool::Entry* GpuPool::find(NodeIndex node) const
@@ -189,6 +193,61 @@ bool GpuPool::evictOne()
   free_.insert(free_.end(), oldest->second.slots.begin(), oldest->second.slots.end());
   entries_.erase(oldest);
   return true;
+}
+
+/// Into smaller buffers, as far as what is on the screen allows.
+void GpuPool::shrink()
+{
+  const auto used = [this] { return slotCount_ - static_cast<std::uint32_t>(free_.size()); };
+  while (used() > slotLimit_ && evictOne())
+  {
+  }
+  const std::uint32_t slots = std::max({slotLimit_, firstSlots, used()});
+  if (slotCount_ / 2 <= slots)
+  {
+    return;
+  }
+  const auto moved = [&](std::uint32_t& buffer, std::int64_t bytes)
+  {
+    const std::int64_t slotBytes = bytes * slotPoints;
+    const std::uint32_t smaller = makeBuffer(slots * slotBytes);
+    glBindBuffer(GL_COPY_READ_BUFFER, buffer);
+    glBindBuffer(GL_COPY_WRITE_BUFFER, smaller);
+    std::int64_t to = 0;
+    for (const auto& [node, entry] : entries_)
+    {
+      for (const std::uint32_t slot : entry.slots)
+      {
+        glCopyBufferSubData(GL_COPY_READ_BUFFER, GL_COPY_WRITE_BUFFER,
+          static_cast<GLintptr>(slot * slotBytes), static_cast<GLintptr>(to * slotBytes),
+          static_cast<GLsizeiptr>(slotBytes));
+        ++to;
+      }
+    }
+    glBindBuffer(GL_COPY_READ_BUFFER, 0);
+    glBindBuffer(GL_COPY_WRITE_BUFFER, 0);
+    glDeleteBuffers(1, &buffer);
+    buffer = smaller;
+  };
+  moved(positions_, positionBytes);
+  if (values_ != 0)
+  {
+    moved(values_, valueBytes);
+  }
+  std::uint32_t next = 0; // in the same order
+  for (auto& [node, entry] : entries_)
+  {
+    for (std::uint32_t& slot : entry.slots)
+    {
+      slot = next++;
+    }
+  }
+  free_.clear();
+  for (std::uint32_t slot = slots; slot-- > next;)
+  {
+    free_.push_back(slot);
+  }
+  slotCount_ = slots;
 }
 
 void GpuPool::grow()

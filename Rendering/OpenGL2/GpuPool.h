@@ -15,6 +15,8 @@ namespace pointfront
 /// GPU memory of one cloud in one GL context: a vertex buffer of equal slots, and beside it one of
 /// values, made only when a colouring needs values. A node takes as many slots as its drawn prefix
 /// fills; what is no longer drawn stays until its slots are wanted, least recently drawn first.
+/// The clouds of a window share its budget: a pool that may have less than half of what it has
+/// gives memory back.
 /// Units       a vertex is 12 bytes of position (three unsigned grid steps) and 4 bytes of value.
 /// Guarantees  a node that any view has drawn within the last `views` frames is never evicted: what
 ///             is on screen stays, even when that takes more than the limit of points.
@@ -62,6 +64,7 @@ private:
   bool takeSlot(std::uint32_t& slot);
   bool evictOne();
   void grow();
+  void shrink();
   void allocateValues();
   void uploadPositions(const NodeColumns& node, Entry& entry, std::uint32_t end);
   void uploadValues(

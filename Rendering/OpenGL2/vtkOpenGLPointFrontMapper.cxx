@@ -219,7 +219,7 @@ void vtkOpenGLPointFrontMapper::RenderPiece(vtkRenderer* renderer, vtkActor* act
   if (first)
   {
     content.Pool.beginFrame(
-      static_cast<std::uint64_t>(this->PointBudget), this->GetNumberOfViews());
+      static_cast<std::uint64_t>(this->GetPointsOnGPU()), this->GetNumberOfViews());
     uploadsLeft = content.Upload(*front,
       IsInteracting(renderer) ? this->UploadLimit : std::numeric_limits<std::int64_t>::max());
   }

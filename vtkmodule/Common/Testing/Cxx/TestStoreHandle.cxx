@@ -157,4 +157,27 @@ TEST(StoreHandle, APreviewHasSuccessors)
   EXPECT_EQ(finished->GetSuccessor(), nullptr);
 }
 
+TEST(StoreHandle, StoresShareTheMemoryOfTheProcess)
+{
+  const vtkTypeInt64 before = vtkPointFrontStore::GetProcessMemoryBudget();
+  vtkStdString error;
+  const auto one = vtkPointFrontStore::Open(build("share_one", 3000).c_str(), error);
+  const auto two = vtkPointFrontStore::Open(build("share_two", 3000).c_str(), error);
+  ASSERT_NE(one, nullptr);
+  ASSERT_NE(two, nullptr);
+  EXPECT_EQ(one->GetHostMemoryBudget(), before);
+  // Never set: a store may ask for more than there would be, as programs did before.
+  one->SetHostMemoryBudget(2 * before);
+  EXPECT_EQ(vtkPointFrontStore::GetProcessMemoryBudget(), 2 * before);
+  EXPECT_EQ(two->GetHostMemoryBudget(), 2 * before);
+  // Set: it holds, whatever a store asks for.
+  vtkPointFrontStore::SetProcessMemoryBudget(before);
+  EXPECT_EQ(one->GetHostMemoryBudget(), before);
+  two->SetHostMemoryBudget(3 * before);
+  EXPECT_EQ(two->GetHostMemoryBudget(), before);
+  two->SetHostMemoryBudget(before / 4);
+  EXPECT_EQ(two->GetHostMemoryBudget(), before / 4);
+  EXPECT_EQ(one->GetHostMemoryBudget(), before);
+}
+
 } // namespace

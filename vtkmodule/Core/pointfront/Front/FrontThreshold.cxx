@@ -312,6 +312,11 @@ bool FrontThreshold::admit(const Demand& more)
   return true;
 }
 
+bool FrontThreshold::unmoved() const
+{
+  return !limited() || (!common_.bound && fits(demand_, 1.0, commonPx_));
+}
+
 bool FrontThreshold::falling() const
 {
   const auto falls = [&](const Rung& state) { return state.rung > floor_ && !state.bound; };

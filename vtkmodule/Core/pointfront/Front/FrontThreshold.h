@@ -47,6 +47,9 @@ public:
   bool atTarget() const { return common_.rung == 0; }
   bool bound() const { return common_.bound; } ///< by a budget, which keeps the next lower rung out
   bool boundByMemory() const { return boundByMemory_; } ///< if bound(): by heldPointBudget
+  /// Whether what others take now of the shared limits leaves the choice as it was: it is not bound
+  /// by them, and fits beside them still.
+  bool unmoved() const;
   /// If nothing is missing, the next update will try a lower one.
   bool falling() const;
 

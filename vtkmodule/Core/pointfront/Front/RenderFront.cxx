@@ -259,7 +259,7 @@ const FrontDelta& RenderFront::update(
   const bool sameResidency = s.revision != 0 && s.revision == residency.revision() &&
     s.exhausted == (s.plan.missing() > 0 && residency.exhausted());
   if (s.atRest && sameResidency && s.view == view && s.limits == limits &&
-    s.limits.sharedRevision == limits.sharedRevision)
+    (s.limits.sharedRevision == limits.sharedRevision || s.threshold.unmoved()))
   {
     return s.delta;
   }
@@ -278,6 +278,8 @@ const FrontDelta& RenderFront::update(
   s.finish(residency);
   return s.delta;
 }
+
+std::uint32_t RenderFront::updates() const { return state_->update; }
 
 void RenderFront::demandCurves(DemandCurve& drawn, DemandCurve& held) const
 {

@@ -24,8 +24,15 @@ public:
     explicit Claim(std::shared_ptr<SharedDemand> shared)
       : shared_(std::move(shared))
     {
+      const std::lock_guard<std::mutex> lock(shared_->mutex_);
+      ++shared_->claims_;
     }
-    ~Claim() { set(DemandCurve()); }
+    ~Claim()
+    {
+      set(DemandCurve());
+      const std::lock_guard<std::mutex> lock(shared_->mutex_);
+      --shared_->claims_;
+    }
     Claim(const Claim&) = delete;
     Claim& operator=(const Claim&) = delete;
 
@@ -47,6 +54,12 @@ public:
       others = shared_->total_;
       others.subtract(own_);
     }
+    /// How many views share.
+    std::uint64_t claims() const
+    {
+      const std::lock_guard<std::mutex> lock(shared_->mutex_);
+      return shared_->claims_;
+    }
     /// Changes whenever a claim does.
     std::uint64_t revision() const
     {
@@ -63,6 +76,7 @@ private:
   std::mutex mutex_;
   DemandCurve total_;
   std::uint64_t revision_ = 1;
+  std::uint64_t claims_ = 0;
 };
 
 } // namespace pointfront

@@ -1,0 +1,295 @@
+// What the clouds of a window, the stores of a process and the classes of a store share.
+
+#include "Scene.h"
+
+#include "pointfront/Residency/LoadScheduler.h"
+
+#include <array>
+#include <memory>
+
+using namespace pointfront;
+using namespace pointfront::test;
+
+namespace
+{
+
+/// Hills beside each other, seen together from above; one mapper each.
+struct Clouds
+{
+  explicit Clouds(int count) : first(store(0))
+  {
+    first.mapper->SetTargetError(0.02);
+    for (int c = 1; c < count; ++c)
+    {
+      add(c);
+    }
+    first.lookFrom({0.0, 0.0, 40.0}, {0.0, 0.0, 0.0});
+  }
+  static std::string store(int number)
+  {
+    const double x = 3.0 * (number % 4) - 6.0;
+    const double y = 3.0 * (number / 4) - 3.0;
+    BuildOptions options;
+    options.outputPath = ::testing::TempDir() + "cloud" + std::to_string(number) + ".pfront";
+    options.nodePoints = 2000;
+    options.overwrite = true;
+    options.threads = 1;
+    EXPECT_TRUE(buildOctreeStore(
+      one(hills(40000, 3000.0, millimetres({x, y, 0.0}))), options).ok());
+    return options.outputPath;
+  }
+  void add(int number)
+  {
+    readers.push_back(vtkSmartPointer<vtkPointFrontReader>::New());
+    readers.back()->SetFileName(store(number).c_str());
+    mappers.push_back(vtkSmartPointer<vtkPointFrontMapper>::New());
+    mappers.back()->SetInputConnection(readers.back()->GetOutputPort());
+    mappers.back()->CompleteOn();
+    mappers.back()->SetTargetError(0.02);
+    actors.push_back(vtkSmartPointer<vtkActor>::New());
+    actors.back()->SetMapper(mappers.back());
+    first.renderer->AddActor(actors.back());
+  }
+  std::vector<vtkPointFrontMapper*> all() const
+  {
+    std::vector<vtkPointFrontMapper*> list{first.mapper};
+    list.insert(list.end(), mappers.begin(), mappers.end());
+    return list;
+  }
+  void setPointBudget(vtkIdType points) const
+  {
+    for (vtkPointFrontMapper* mapper : all())
+    {
+      mapper->SetPointBudget(points);
+    }
+  }
+  /// Frames until nobody wants another one.
+  void settle()
+  {
+    int frames = 0;
+    bool again = true;
+    while (again && ++frames < 200)
+    {
+      first.window->Render();
+      again = false;
+      for (vtkPointFrontMapper* mapper : all())
+      {
+        again = again || mapper->NeedsRender();
+      }
+    }
+    EXPECT_LT(frames, 200);
+  }
+  vtkIdType drawn() const
+  {
+    vtkIdType sum = 0;
+    for (vtkPointFrontMapper* mapper : all())
+    {
+      sum += mapper->GetLastPointsDrawn();
+    }
+    return sum;
+  }
+  vtkTypeInt64 gpuBytes() const
+  {
+    vtkTypeInt64 sum = 0;
+    for (vtkPointFrontMapper* mapper : all())
+    {
+      sum += mapper->GetLastGPUBytes();
+    }
+    return sum;
+  }
+  /// Largest threshold over smallest.
+  double spread() const
+  {
+    double least = 1e30;
+    double most = 0.0;
+    for (vtkPointFrontMapper* mapper : all())
+    {
+      least = std::min(least, mapper->GetLastThreshold());
+      most = std::max(most, mapper->GetLastThreshold());
+    }
+    return most / least;
+  }
+
+  Scene first;
+  std::vector<vtkSmartPointer<vtkPointFrontReader>> readers;
+  std::vector<vtkSmartPointer<vtkPointFrontMapper>> mappers;
+  std::vector<vtkSmartPointer<vtkActor>> actors;
+};
+
+/// The process's budget for the length of a test.
+class ProcessBudget
+{
+public:
+  explicit ProcessBudget(vtkTypeInt64 bytes) : before_(vtkPointFrontStore::GetProcessMemoryBudget())
+  {
+    vtkPointFrontStore::SetProcessMemoryBudget(bytes);
+  }
+  ~ProcessBudget() { vtkPointFrontStore::SetProcessMemoryBudget(before_); }
+
+private:
+  vtkTypeInt64 before_;
+};
+
+TEST(Budgets, TheCloudsOfAWindowShareItsPoints)
+{
+  Clouds scene(6);
+  scene.settle();
+  EXPECT_EQ(scene.drawn(), 240000);
+  constexpr vtkIdType budget = 60000;
+  scene.setPointBudget(budget);
+  scene.settle();
+  EXPECT_LE(scene.drawn(), budget);
+  EXPECT_GT(scene.drawn(), budget * 3 / 4);
+  EXPECT_LT(scene.spread(), 1.5);
+  for (vtkPointFrontMapper* mapper : scene.all())
+  {
+    EXPECT_TRUE(mapper->GetLastLimitedByPoints());
+    EXPECT_TRUE(mapper->GetLastComplete());
+  }
+  // One more takes its part of the same budget, one that goes leaves it.
+  scene.add(6);
+  scene.setPointBudget(budget);
+  scene.settle();
+  EXPECT_LE(scene.drawn(), budget);
+  EXPECT_GT(scene.mappers.back()->GetLastPointsDrawn(), budget / 14);
+  scene.first.renderer->RemoveActor(scene.actors.back());
+  scene.actors.pop_back();
+  scene.mappers.pop_back();
+  scene.settle();
+  EXPECT_LE(scene.drawn(), budget);
+  EXPECT_GT(scene.drawn(), budget * 3 / 4);
+}
+
+TEST(Budgets, APoolGivesBackWhatItMayNotKeep)
+{
+  Scene scene(planeStore("pool", 500, 5));
+  scene.mapper->SetPointBudget(0);
+  const Picture before = scene.draw();
+  EXPECT_EQ(scene.mapper->GetLastPointsDrawn(), 250000);
+  const vtkTypeInt64 large = scene.mapper->GetLastGPUBytes();
+  scene.mapper->SetPointBudget(20000);
+  scene.draw();
+  EXPECT_LE(scene.mapper->GetLastPointsDrawn(), 20000);
+  scene.draw(); // what the frame before still drew can go now
+  const Picture few = scene.draw();
+  EXPECT_LT(scene.mapper->GetLastGPUBytes(), large / 2);
+  Scene fresh(scene.reader->GetFileName());
+  fresh.mapper->SetPointBudget(20000);
+  EXPECT_EQ(differing(few, fresh.draw()), 0) << "slots keep their points when they move";
+  scene.mapper->SetPointBudget(0);
+  EXPECT_EQ(differing(before, scene.draw()), 0);
+}
+
+TEST(Budgets, TheStoresOfAProcessShareItsMemory)
+{
+  constexpr vtkTypeInt64 budget = 2000000;
+  const ProcessBudget memory(budget);
+  Clouds scene(6); // 240,000 points of 12 bytes and more
+  scene.settle();
+  const auto statistics =
+    scene.first.mapper->GetStore()->GetResidency().scheduler().statistics();
+  EXPECT_EQ(statistics.stores, 6u);
+  EXPECT_LE(statistics.residentBytes, static_cast<std::size_t>(budget));
+  EXPECT_LE(statistics.threads, 16u);
+  EXPECT_LT(scene.spread(), 1.5);
+  for (vtkPointFrontMapper* mapper : scene.all())
+  {
+    EXPECT_TRUE(mapper->GetLastLimitedByMemory());
+    EXPECT_GT(mapper->GetLastPointsDrawn(), 6000);
+  }
+  // At rest nothing is read.
+  const auto read = [&]
+  {
+    std::uint64_t bytes = 0;
+    for (vtkPointFrontMapper* mapper : scene.all())
+    {
+      bytes += mapper->GetStore()->GetResidency().statistics().bytesRead;
+    }
+    return bytes;
+  };
+  const std::uint64_t before = read();
+  for (int frame = 0; frame < 10; ++frame)
+  {
+    scene.first.window->Render();
+  }
+  EXPECT_EQ(read(), before);
+}
+
+/// Two classes in one place: left of each pair red (class 2), right blue (class 6).
+std::string layeredStore()
+{
+  AttributeSchema schema;
+  schema.add({"rgb", ScalarType::UInt8, 3});
+  schema.add({"classification", ScalarType::UInt8, 1});
+  const QuantisationGrid grid = millimetres();
+  auto cloud = std::make_unique<CloudSource>("layered", schema, grid);
+  for (int row = 0; row < 200; ++row)
+  {
+    for (int column = 0; column < 200; ++column)
+    {
+      const bool red = column % 2 == 0;
+      cloud->addPosition(grid.toWorld(GridPosition(column * 20 - 2000, row * 20 - 2000, 0)));
+      cloud->addValue(
+        0, red ? std::array<std::uint8_t, 3>{255, 0, 0} : std::array<std::uint8_t, 3>{0, 0, 255});
+      cloud->addValue(1, static_cast<std::uint8_t>(red ? 2 : 6));
+    }
+  }
+  BuildOptions options;
+  options.outputPath = ::testing::TempDir() + "layered.pfront";
+  options.layering = Layering::ObjectClass;
+  options.nodePoints = 1000;
+  options.overwrite = true;
+  options.threads = 1;
+  EXPECT_TRUE(buildOctreeStore(one(std::move(cloud)), options).ok());
+  return options.outputPath;
+}
+
+/// Pixels of a colour: channel 0 red, 2 blue.
+int lit(const Picture& picture, std::size_t channel)
+{
+  int count = 0;
+  for (std::size_t i = 0; i < picture.rgb.size(); i += 3)
+  {
+    count += picture.rgb[i + channel] > 0 ? 1 : 0;
+  }
+  return count;
+}
+
+TEST(Budgets, AClassHasASwitchAThresholdAndAShare)
+{
+  Scene scene(layeredStore());
+  scene.actor->GetProperty()->LightingOff();
+  scene.draw();
+  EXPECT_EQ(scene.mapper->GetLastPointsDrawn(), 40000);
+  scene.mapper->SetClassVisibility(6, false);
+  EXPECT_FALSE(scene.mapper->GetClassVisibility(6));
+  Picture picture = scene.draw();
+  EXPECT_EQ(scene.mapper->GetLastPointsDrawn(), 20000);
+  EXPECT_GT(lit(picture, 0), 1000);
+  EXPECT_EQ(lit(picture, 2), 0);
+
+  scene.mapper->SetClassVisibility(6, true);
+  scene.mapper->SetClassTargetErrorFactor(6, 100.0);
+  picture = scene.draw();
+  EXPECT_LT(scene.mapper->GetLastPointsDrawn(), 30000);
+  EXPECT_GT(scene.mapper->GetLastPointsDrawn(), 20000);
+  EXPECT_GT(lit(picture, 0), 2 * lit(picture, 2));
+
+  // Its errors weigh little beside the other's; its share is kept for it nevertheless.
+  scene.mapper->SetClassTargetErrorFactor(6, 8.0);
+  scene.mapper->SetPointBudget(8000);
+  const int few = lit(scene.draw(), 2);
+  scene.mapper->SetClassBudgetShare(6, 0.5);
+  EXPECT_GT(lit(scene.draw(), 2), 2 * few);
+  EXPECT_LE(scene.mapper->GetLastPointsDrawn(), 8000);
+
+  scene.mapper->ClearClassLimits();
+  EXPECT_EQ(scene.mapper->GetClassBudgetShare(6), 0.0);
+  EXPECT_EQ(scene.mapper->GetClassTargetErrorFactor(6), 1.0);
+  EXPECT_TRUE(scene.mapper->GetClassVisibility(6));
+  scene.mapper->SetPointBudget(0);
+  scene.draw();
+  EXPECT_EQ(scene.mapper->GetLastPointsDrawn(), 40000);
+}
+
+} // namespace

@@ -229,7 +229,7 @@ Result<FetchedNode> IndexedLASFile::fetch(NodeIndex node, const ColumnSelection&
   }
   RawBytes numbers(points->size() * sizeof(std::uint64_t));
   std::memcpy(numbers.data.get(), points->data(), numbers.size);
-  FetchedNode fetched{ node, columns, {} };
+  FetchedNode fetched{ node, columns, {}, storedBytes(node, columns) };
   fetched.runs.push_back(std::move(records).value());
   fetched.runs.push_back(std::move(numbers));
   return fetched;

@@ -46,7 +46,7 @@ public:
         throw std::runtime_error("made to throw");
       }
     }
-    return FetchedNode{ node, columns, {} };
+    return FetchedNode{ node, columns, {}, storedBytes(node, columns) };
   }
 
   Result<NodeColumns> decode(const FetchedNode& fetched) const override

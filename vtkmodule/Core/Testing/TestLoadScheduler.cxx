@@ -80,7 +80,7 @@ public:
   Result<FetchedNode> fetch(NodeIndex node, const ColumnSelection& columns) const override
   {
     pass(counts_->fetching, counts_->fetchingMax, milliseconds(1));
-    return FetchedNode{ node, columns, {} };
+    return FetchedNode{ node, columns, {}, 1 };
   }
   Result<NodeColumns> decode(const FetchedNode& fetched) const override
   {
@@ -252,7 +252,15 @@ TEST(LoadScheduler, RemovalWithdrawsWhatWaitsAndWaitsForTheRunningReadOnly)
   scene.readers[0]->closeGate();
   scene.stores[0]->request(wish(0, 50));
   scene.readers[0]->awaitReads(1);
-  std::thread opener([&] { scene.readers[0]->letThrough(1); });
+  std::thread opener(
+    [&]
+    {
+      while (scene.scheduler->statistics().stores > 0)
+      {
+        std::this_thread::yield(); // until the removal has begun
+      }
+      scene.readers[0]->letThrough(1);
+    });
   scene.stores[0].reset();
   opener.join();
   EXPECT_EQ(scene.readers[0]->order().size(), 1u);

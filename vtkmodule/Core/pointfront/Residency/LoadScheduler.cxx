@@ -219,11 +219,12 @@ void LoadScheduler::Content::perform(Worker& self, const Job& job)
     self.fetching = false;
   }
   budget->announceChange(); // the disk is free
+  const std::size_t bytesRead = fetched ? fetched->bytesRead : 0;
   Result<NodeColumns> result = fetched
     ? guarded(task.node, [&] { return reader.decode(*fetched); })
     : Result<NodeColumns>(fetched.error());
   fetched = makeError(Error::Kind::Cancelled, "decoded"); // its bytes go before anyone is told
-  const bool news = job.store->finish(task, std::move(result));
+  const bool news = job.store->finish(task, std::move(result), bytesRead);
   budget->announceChange();
   if (news)
   {

@@ -19,6 +19,8 @@ bool hasAll(const ColumnSelection& present, const ColumnSelection& wanted)
 /// A node that is drawn with old columns is read again before everything else.
 constexpr double drawnNow = 1.0;
 
+constexpr std::size_t mostNeedsKept = 1u << 16;
+
 /// Errors of the file as a whole, not of a node in it: one tells of all.
 bool isOfTheFile(const Error& error)
 {
@@ -39,9 +41,14 @@ StoreNodes::StoreNodes(std::shared_ptr<const NodeReader> reader, NodeIndex nodeC
 
 std::size_t StoreNodes::need(NodeIndex node) const
 {
-  const auto known = trueBytes_.find(node);
+  const auto known = needs_.find(node);
+  if (known != needs_.end())
+  {
+    return known->second;
+  }
   const std::size_t promised = reader_->decodedBytes(node, columns_);
-  return known != trueBytes_.end() ? std::max(known->second, promised) : promised;
+  needs_.emplace(node, promised);
+  return promised;
 }
 
 /// What should be read next and fits.
@@ -194,7 +201,7 @@ bool StoreNodes::store(const Task& task, NodeColumns points)
   const std::size_t bytes = points.bytes();
   if (bytes > task.bytes && !budget_->reserve(bytes - task.bytes))
   {
-    trueBytes_[task.node] = bytes;
+    needs_[task.node] = bytes;
     waitingKnown_ = false;
     budget_->giveBack(task.bytes);
     return false;
@@ -216,7 +223,7 @@ bool StoreNodes::store(const Task& task, NodeColumns points)
   return true;
 }
 
-bool StoreNodes::finish(const Task& task, Result<NodeColumns> result)
+bool StoreNodes::finish(const Task& task, Result<NodeColumns> result, std::size_t bytesRead)
 {
   const std::lock_guard<std::mutex> lock(mutex_);
   CachedNode& cached = cache_[task.node];
@@ -230,7 +237,7 @@ bool StoreNodes::finish(const Task& task, Result<NodeColumns> result)
     return true;
   }
   fileFailed_ = false;
-  bytesRead_ += reader_->storedBytes(task.node, task.columns);
+  bytesRead_ += bytesRead;
   const bool news = store(task, std::move(result).value());
   // What has come may be what can go: a node that was wanted when its read began.
   nothingToRelease_ = nothingToRelease_ && task.reread;
@@ -335,7 +342,7 @@ bool StoreNodes::setColumns(const ColumnSelection& columns)
     return false;
   }
   columns_ = columns;
-  trueBytes_.clear();
+  needs_.clear();
   rereads_.clear();
   std::vector<LoadRequest> lacking;
   cache_.forEach(
@@ -380,6 +387,10 @@ ColumnSelection StoreNodes::columns() const
 bool StoreNodes::request(const std::vector<LoadRequest>& requests)
 {
   const std::lock_guard<std::mutex> lock(mutex_);
+  if (needs_.size() > mostNeedsKept)
+  {
+    needs_.clear();
+  }
   std::vector<LoadRequest> wanted;
   wanted.reserve(requests.size());
   for (const LoadRequest& request : requests)

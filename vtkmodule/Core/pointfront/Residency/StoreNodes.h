@@ -70,7 +70,7 @@ public:
   std::optional<Urgency> next() const; ///< of what waits and fits
   std::optional<Task> begin();         ///< takes that; none when it does not fit any more
   /// A read has ended. True when there is something new: then tell() is called.
-  bool finish(const Task& task, Result<NodeColumns> result);
+  bool finish(const Task& task, Result<NodeColumns> result, std::size_t bytesRead);
   void tell();
   void leave(); ///< after all: the task is no longer loading
   /// Its requests are withdrawn and its nodes leave; nobody is told of anything any more.
@@ -115,7 +115,9 @@ private:
   RequestQueue rereads_;
   ColumnSelection columns_;
   std::vector<Error> errors_;
-  std::unordered_map<NodeIndex, std::size_t> trueBytes_; ///< where decodedBytes() said too little
+  /// Bytes that nodes need: what decodedBytes() said, or the truth where that was too little. Asked
+  /// when a node is requested, because later the answer may have to come from the disk.
+  mutable std::unordered_map<NodeIndex, std::size_t> needs_;
   std::size_t leastNeed_ = 0;  ///< nothing that waits needs less
   mutable std::size_t waiting_ = 0;
   mutable bool waitingKnown_ = false; ///< `waiting_` is what waitingBytes() says

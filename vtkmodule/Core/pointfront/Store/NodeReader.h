@@ -62,6 +62,7 @@ struct FetchedNode
   NodeIndex node = noNode;
   ColumnSelection columns;
   std::vector<RawBytes> runs; ///< their meaning is the reader's
+  std::size_t bytesRead = 0;  ///< from the disk
 };
 
 /// Where nodes come from: a store, or a made-up one in tests. In two steps, so that the disk serves
@@ -75,7 +76,7 @@ public:
   /// a disk there is nothing to fetch.
   virtual Result<FetchedNode> fetch(NodeIndex node, const ColumnSelection& columns) const
   {
-    return FetchedNode{ node, columns, {} };
+    return FetchedNode{ node, columns, {}, 0 };
   }
   /// The processor's part: checks and decodes. Touches no file.
   virtual Result<NodeColumns> decode(const FetchedNode& fetched) const = 0;

@@ -324,7 +324,7 @@ Result<FetchedNode> PointStore::fetch(NodeIndex node, const ColumnSelection& col
     return payload.error();
   }
   const auto blocks = wantedBlocks(*payload, columns);
-  FetchedNode fetched{ node, columns, {} };
+  FetchedNode fetched{ node, columns, {}, record->size };
   fetched.runs.push_back(std::move(*record));
   for (std::size_t first = 0; first < blocks.size(); first = runEnd(blocks, first))
   {
@@ -335,6 +335,7 @@ Result<FetchedNode> PointStore::fetch(NodeIndex node, const ColumnSelection& col
     {
       return done.error();
     }
+    fetched.bytesRead += run.size;
     fetched.runs.push_back(std::move(run));
   }
   return fetched;

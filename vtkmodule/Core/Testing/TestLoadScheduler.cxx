@@ -255,7 +255,7 @@ TEST(LoadScheduler, RemovalWithdrawsWhatWaitsAndWaitsForTheRunningReadOnly)
   std::thread opener(
     [&]
     {
-      while (scene.scheduler->statistics().stores > 0)
+      while (scene.scheduler->statistics().stores > 1)
       {
         std::this_thread::yield(); // until the removal has begun
       }

@@ -186,12 +186,6 @@ void ViewFront::readShares()
 /// What this view takes, for the others.
 void ViewFront::tellDemand()
 {
-  if (front_.updates() == updatesTold_ && pointBytes_ == pointBytesTold_)
-  {
-    return;
-  }
-  updatesTold_ = front_.updates();
-  pointBytesTold_ = pointBytes_;
   DemandCurve drawn;
   DemandCurve held;
   selection_->demandCurves(drawn, held);

@@ -109,8 +109,6 @@ private:
   DemandCurve heldElsewhere_;  ///< in points of this store
   DemandCurve drawnElsewhere_;
   std::uint64_t sharedSeen_ = 0;
-  std::uint32_t updatesTold_ = 0; ///< of the front, when memory_ and window_ were told last
-  std::size_t pointBytesTold_ = 0;
   ColumnSelection columns_;
   std::size_t pointBytes_ = 0; ///< of a decoded point with columns_
   std::uint64_t arrivalsSeen_ = 0;

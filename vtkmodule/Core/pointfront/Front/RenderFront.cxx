@@ -279,8 +279,6 @@ const FrontDelta& RenderFront::update(
   return s.delta;
 }
 
-std::uint32_t RenderFront::updates() const { return state_->update; }
-
 void RenderFront::demandCurves(DemandCurve& drawn, DemandCurve& held) const
 {
   const State& s = *state_;

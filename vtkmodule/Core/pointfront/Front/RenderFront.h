@@ -41,9 +41,6 @@ public:
   const FrontDelta& update(
     const View& view, const ResidencyView& residency, const FrontLimits& limits) override;
 
-  /// Updates that had something to do: the same number, the same delta.
-  std::uint32_t updates() const;
-
   /// What the last update's view takes at each threshold from the one in force on, in points: on
   /// screen and in memory. Below that it takes what it takes now; step 0 is what is drawn.
   void demandCurves(DemandCurve& drawn, DemandCurve& held) const override;

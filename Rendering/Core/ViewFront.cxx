@@ -294,10 +294,10 @@ void ViewFront::complete(const FrameDemand& demand)
 std::uint64_t ViewFront::pointsOnGpu(std::uint64_t windowBudget) const
 {
   DemandCurve others;
-  window_.elsewhere(others);
+  window_->elsewhere(others);
   const std::uint64_t drawn = delta_.pointsDrawn + others[0];
   const std::uint64_t idle = windowBudget > drawn ? windowBudget - drawn : 0;
-  return delta_.pointsDrawn + idle / window_.claims();
+  return delta_.pointsDrawn + idle / window_->claims();
 }
 
 bool ViewFront::wantsUpdate() const

@@ -234,7 +234,7 @@ class Refinement(SceneTest):
             rows = list(csv.DictReader(table.read_text().splitlines()))
             self.assertEqual(list(rows[0]), [
                 "frame", "ms", "points", "front_length", "threshold_px", "moves", "requests",
-                "cancelled", "resident_bytes"])
+                "cancelled", "resident_bytes", "front_ms", "error_px"])
             self.assertEqual(len(rows), 6)
 
 

@@ -228,7 +228,8 @@ Result<FetchedNode> IndexedLASFile::fetch(NodeIndex node, const ColumnSelection&
     return records.error();
   }
   RawBytes numbers(points->size() * sizeof(std::uint64_t));
-  std::memcpy(numbers.data.get(), points->data(), numbers.size);
+  std::copy_n(reinterpret_cast<const std::byte*>(points->data()), numbers.size,
+    numbers.data.get()); // none of a node without points: memcpy must not have a null
   FetchedNode fetched{ node, columns, {}, storedBytes(node, columns) };
   fetched.runs.push_back(std::move(records).value());
   fetched.runs.push_back(std::move(numbers));
@@ -239,7 +240,7 @@ Result<NodeColumns> IndexedLASFile::decode(const FetchedNode& fetched) const
 {
   const RawBytes& numbers = fetched.runs[1];
   std::vector<std::uint64_t> points(numbers.size / sizeof(std::uint64_t));
-  std::memcpy(points.data(), numbers.data.get(), numbers.size);
+  std::copy_n(numbers.data.get(), numbers.size, reinterpret_cast<std::byte*>(points.data()));
   GridRecords records = recordsOf(file_);
   const std::vector<std::byte> bytes =
     inPrefixOrder(fetched.runs[0].data.get(), records.stride, points);

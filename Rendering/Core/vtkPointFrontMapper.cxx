@@ -3,6 +3,7 @@
 #include "PointColouring.h"
 #include "StoreSuccession.h"
 #include "ViewFront.h"
+#include "WindowDemand.h"
 
 #include "pointfront/Front/DetailLevel.h"
 #include "vtkPointFrontStore.h"
@@ -43,24 +44,6 @@ using Clock = std::chrono::steady_clock;
 double millisecondsSince(Clock::time_point begin)
 {
   return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
-}
-
-/// What all clouds of a window draw, in points.
-std::shared_ptr<pointfront::SharedDemand> demandOf(vtkWindow* window)
-{
-  static std::map<vtkWindow*, std::weak_ptr<pointfront::SharedDemand>> windows;
-  for (auto entry = windows.begin(); entry != windows.end();)
-  {
-    entry = entry->second.expired() ? windows.erase(entry) : std::next(entry);
-  }
-  std::weak_ptr<pointfront::SharedDemand>& known = windows[window];
-  auto demand = known.lock();
-  if (!demand)
-  {
-    demand = std::make_shared<pointfront::SharedDemand>();
-    known = demand;
-  }
-  return demand;
 }
 
 pointfront::LayerLimits limitsOf(
@@ -416,7 +399,7 @@ void vtkPointFrontMapper::TakeSuccessor()
     view.Announced = false;
     if (view.Front && view.Renderer)
     {
-      view.Front->enterWindow(demandOf(view.Renderer->GetRenderWindow()));
+      view.Front->enterWindow(pointfront::demandOf(view.Renderer->GetRenderWindow()));
     }
   }
   content.Piece = succession->piece();
@@ -454,7 +437,7 @@ pointfront::ViewFront* vtkPointFrontMapper::PrepareFrame(vtkRenderer* renderer, 
   {
     view.Front = std::make_unique<pointfront::ViewFront>(
       content.Piece, store->GetResidencyShare(), store->GetStore()->description().schema,
-      demandOf(renderer->GetRenderWindow()));
+      pointfront::demandOf(renderer->GetRenderWindow()));
   }
   else if (!view.NewFrame || renderer->GetSelector())
   {

@@ -298,7 +298,14 @@ TEST(Interaction, AViewInMotionStaysWithItsPreview)
   EXPECT_EQ(scene.mapper->GetStore(), early); // still readable, from a file that is gone
   EXPECT_GT(scene.mapper->GetLastPointsDrawn(), 1000);
   scene.window->SetDesiredUpdateRate(0.001);
-  settle(scene);
+  // The mapper looks for a successor four times a second and goes over when that is loaded.
+  const auto begin = std::chrono::steady_clock::now();
+  while (scene.mapper->GetStore()->GetFileName() == before &&
+         std::chrono::steady_clock::now() - begin < std::chrono::seconds(20))
+  {
+    settle(scene);
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
   EXPECT_NE(scene.mapper->GetStore()->GetFileName(), before);
 }
 

@@ -13,11 +13,6 @@ namespace
 /// On screen while a root is missing: nothing at all.
 constexpr double nothingDrawnPx = 1e30;
 
-bool nearer(const DrawItem& a, const DrawItem& b)
-{
-  return a.distance != b.distance ? a.distance < b.distance : a.node < b.node;
-}
-
 bool sooner(const LoadRequest& a, const LoadRequest& b)
 {
   if (a.optional != b.optional)
@@ -71,7 +66,7 @@ void FrontPlan::make(ActiveTree& tree, const FrontThreshold& threshold,
         { nothingDrawnPx, presence != Presence::Missing, presence == Presence::Ready });
     }
   }
-  std::sort(delta.draw.begin(), delta.draw.end(), nearer);
+  order_.sort(delta.draw);
   selectRequests(delta);
 }
 
@@ -207,9 +202,15 @@ void FrontPlan::noteError(const ActiveNode& node, std::uint32_t drawn, bool refi
   const bool everything = node.leaf() && drawn == node.pointCount && !node.lost;
   if (!refined && !everything)
   {
-    const double shown =
-      prefixErrorPx(node.pointCount, drawn, node.errorPx, node.spacingRatio);
-    delta_->errorPx = std::max(delta_->errorPx, shown);
+    // Of 2,000 nodes a dozen are the largest so far: no root for the others.
+    const double density = prefixDensity(node.pointCount, drawn, node.spacingRatio);
+    const double errorPx = node.errorPx;
+    if (errorPx * errorPx > delta_->errorPx * delta_->errorPx * density)
+    {
+      const double shown =
+        prefixErrorPx(node.pointCount, drawn, node.errorPx, node.spacingRatio);
+      delta_->errorPx = std::max(delta_->errorPx, shown);
+    }
   }
 }
 

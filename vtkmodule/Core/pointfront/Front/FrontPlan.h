@@ -1,6 +1,7 @@
 #pragma once
 
 #include "pointfront/Front/ActiveTree.h"
+#include "pointfront/Front/DrawOrder.h"
 #include "pointfront/Front/FrontThreshold.h"
 #include "pointfront/Front/RenderFront.h"
 
@@ -53,6 +54,7 @@ private:
   const FrontLimits* limits_ = nullptr;
   FrontDelta* delta_ = nullptr;
   std::vector<LoadRequest> wanted_;
+  DrawOrder order_;
   std::uint64_t mostDrawn_ = 0;
   double thresholdPx_ = 0.0; ///< of the layer being visited
   std::uint32_t update_ = 0;

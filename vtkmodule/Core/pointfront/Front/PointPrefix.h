@@ -36,18 +36,24 @@ inline double prefixFraction(double errorPx, double ratio, double thresholdPx)
 inline std::uint32_t prefixLength(
   std::uint32_t pointCount, double errorPx, double ratio, double thresholdPx)
 {
-  return static_cast<std::uint32_t>(
-    std::floor(pointCount * prefixFraction(errorPx, ratio, thresholdPx) + 0.5));
+  return errorPx >= thresholdPx
+    ? pointCount
+    : static_cast<std::uint32_t>(pointCount * prefixFraction(errorPx, ratio, thresholdPx) + 0.5);
 }
 
-/// The spacing in pixels that is on screen when `drawn` of `pointCount` points are drawn: the
-/// inverse of the above.
-inline double prefixErrorPx(
-  std::uint32_t pointCount, std::uint32_t drawn, double errorPx, double ratio)
+/// The density on screen when `drawn` of `pointCount` points are drawn, to that of all of them.
+inline double prefixDensity(std::uint32_t pointCount, std::uint32_t drawn, double ratio)
 {
   const double above = ratio * ratio < 0.75 ? ratio * ratio : 0.75;
   const double fraction = pointCount > 0 ? double(drawn) / pointCount : 1.0;
-  const double density = above + fraction * (1.0 - above);
+  return above + fraction * (1.0 - above);
+}
+
+/// The spacing in pixels that is on screen then: the inverse of the prefix' length.
+inline double prefixErrorPx(
+  std::uint32_t pointCount, std::uint32_t drawn, double errorPx, double ratio)
+{
+  const double density = prefixDensity(pointCount, drawn, ratio);
   return density > 0.0 ? errorPx / std::sqrt(density) : errorPx;
 }
 

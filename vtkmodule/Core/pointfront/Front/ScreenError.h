@@ -3,6 +3,10 @@
 #include "pointfront/Front/View.h"
 #include "pointfront/Store/Hierarchy.h"
 
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+
 namespace pointfront
 {
 
@@ -15,15 +19,45 @@ enum class Visibility
 
 /// FRONT-4: frustum test by bounding sphere: six plane distances. Conservative: a sphere near an
 /// edge of the frustum may be called Inside, one that can be seen is never called Outside.
-Visibility sphereVisibility(const View& view, const glm::dvec3& centre, double radius);
+/// Inline, as what follows: asked for each node of a front in each update.
+inline Visibility sphereVisibility(const View& view, const glm::dvec3& centre, double radius)
+{
+  for (const glm::dvec4& plane : view.planes)
+  {
+    if (glm::dot(glm::dvec3(plane), centre) + plane.w < -radius)
+    {
+      return Visibility::Outside;
+    }
+  }
+  return Visibility::Inside;
+}
 
 /// Distance from the eye to a sphere, world units, 0 when the eye is inside. Parallel views have
 /// no eye: there it is the depth along the line of sight.
-double distanceToSphere(const View& view, const glm::dvec3& centre, double radius);
+inline double distanceToSphere(const View& view, const glm::dvec3& centre, double radius)
+{
+  const glm::dvec3 fromEye = centre - view.position;
+  const double distance =
+    view.parallel ? glm::dot(fromEye, view.direction) : glm::length(fromEye);
+  return distance > radius ? distance - radius : 0.0; // a NaN gives 0: first rather than lost
+}
+
+/// The order of nodes stays monotone and every sum of errors finite, also with an eye inside a
+/// node and a near plane of 1e-300.
+constexpr double largestErrorPx = 1e30;
 
 /// Pixels that `spacing` world units cover at `distance` (never nearer than the near plane).
 /// Always finite and not negative; 0 for a spacing that is not positive or not a number.
-double projectedSpacing(const View& view, double spacing, double distance);
+inline double projectedSpacing(const View& view, double spacing, double distance)
+{
+  if (!(spacing > 0.0))
+  {
+    return 0.0;
+  }
+  const double nearest = view.parallel ? 1.0 : std::max(view.nearDistance, distance);
+  const double pixels = spacing * view.pixelsPerUnit / nearest;
+  return pixels < largestErrorPx ? pixels : largestErrorPx;
+}
 
 /// FRONT-4: the projected point spacing (PPS) of a node, in pixels: its spacing, projected at the
 /// point of its bounding sphere that is nearest to the eye (never nearer than the near plane).

@@ -1,4 +1,4 @@
-// LAYERS-11: threshold, share and switch of each layer of a front.
+// LAYERS-11: threshold, share and switch of each layer, the same for every selection of detail.
 //
 //   layer 0 (ground)  o--+--o    layer 1 (buildings)  o--+--o   the same tree twice, in the same
 //                        +--o                            +--o   place
@@ -7,6 +7,7 @@
 
 #include "pointfront/Front/MotionMargin.h"
 #include "pointfront/Front/RenderFront.h"
+#include "pointfront/Front/ViewDetail.h"
 
 #include "FrontScene.h"
 
@@ -52,24 +53,40 @@ View lookingFrom(double x)
   return View::perspective({ x, 300, 200 }, { 0, 0, 0 }, { 0, 0, 1 }, 0.9, 0.1, 1e5, 800, 600);
 }
 
+enum class Way
+{
+  Front,
+  ViewDetail
+};
+
+std::unique_ptr<DetailSelection> selectionOf(Way way, std::shared_ptr<const Hierarchy> tree)
+{
+  if (way == Way::Front)
+  {
+    return std::make_unique<RenderFront>(std::move(tree));
+  }
+  return std::make_unique<ViewDetail>(std::move(tree));
+}
+
 struct Layers
 {
-  explicit Layers(std::uint16_t count = 2, Refinement refinement = Refinement::Add)
+  explicit Layers(Way way, std::uint16_t count = 2, Refinement refinement = Refinement::Add)
     : tree(layered(count, refinement))
-    , front(tree)
+    , selection(selectionOf(way, tree))
   {
     residency.otherwise = State::Resident;
     limits.targetErrorPx = 2.0;
+    limits.overviewPoints = 3000;
     limits.layers.resize(count);
   }
 
   const FrontDelta& settle()
   {
-    const FrontDelta* delta = &front.update(view, residency, limits);
+    const FrontDelta* delta = &selection->update(view, residency, limits);
     for (int u = 0; u < 2000 && !delta->complete; ++u)
     {
       residency.load(delta->requests);
-      delta = &front.update(view, residency, limits);
+      delta = &selection->update(view, residency, limits);
     }
     EXPECT_TRUE(delta->complete);
     return *delta;
@@ -87,18 +104,25 @@ struct Layers
   void draw() { last = &settle(); }
 
   std::shared_ptr<const HierarchyTable> tree;
-  RenderFront front;
+  std::unique_ptr<DetailSelection> selection;
   ScriptedResidency residency;
   FrontLimits limits;
   View view = lookingFrom(1000.0);
   const FrontDelta* last = nullptr;
 };
 
+class LayerLimitsOf : public ::testing::TestWithParam<Way>
+{
+};
+
 } // namespace
 
-TEST(LayerLimits, AFactorMakesALayerCoarserByThatMuch)
+INSTANTIATE_TEST_SUITE_P(Selections, LayerLimitsOf, ::testing::Values(Way::Front, Way::ViewDetail),
+  [](const auto& way) { return way.param == Way::Front ? "Front" : "ViewDetail"; });
+
+TEST_P(LayerLimitsOf, AFactorMakesALayerCoarserByThatMuch)
 {
-  Layers l;
+  Layers l(GetParam());
   l.draw();
   const std::uint64_t whole = l.drawn(0);
   EXPECT_EQ(l.drawn(1), whole);
@@ -108,7 +132,7 @@ TEST(LayerLimits, AFactorMakesALayerCoarserByThatMuch)
   EXPECT_LT(l.drawn(1), whole / 2);
   // As a view with four times the error has it.
   const std::uint64_t coarse = l.drawn(1);
-  Layers reference;
+  Layers reference(GetParam());
   reference.limits.targetErrorPx = 8.0;
   reference.draw();
   EXPECT_EQ(coarse, reference.drawn(1));
@@ -126,17 +150,17 @@ TEST(LayerLimits, AFactorMakesALayerCoarserByThatMuch)
   }
 }
 
-TEST(LayerLimits, AHiddenLayerIsNeitherDrawnNorAskedForNorKept)
+TEST_P(LayerLimitsOf, AHiddenLayerIsNeitherDrawnNorAskedForNorKept)
 {
   for (const Refinement refinement : { Refinement::Add, Refinement::Replace })
   {
-    Layers l(2, refinement);
+    Layers l(GetParam(), 2, refinement);
     l.residency.otherwise = State::Absent;
     l.draw();
     EXPECT_GT(l.drawn(1), 0u);
     l.limits.layers[1].visible = false;
     l.view = lookingFrom(700.0);
-    const FrontDelta* delta = &l.front.update(l.view, l.residency, l.limits);
+    const FrontDelta* delta = &l.selection->update(l.view, l.residency, l.limits);
     EXPECT_FALSE(delta->requests.empty());
     for (const LoadRequest& request : delta->requests)
     {
@@ -146,9 +170,9 @@ TEST(LayerLimits, AHiddenLayerIsNeitherDrawnNorAskedForNorKept)
     EXPECT_EQ(l.drawn(1), 0u);
     for (NodeIndex n = l.tree->nodeCount() / 2; n < l.tree->nodeCount(); ++n)
     {
-      EXPECT_GT(l.front.distanceUnderFront(n), 0u) << "its memory is free for others";
+      EXPECT_GT(l.selection->distanceUnderFront(n), 0u) << "its memory is free for others";
     }
-    EXPECT_EQ(l.front.distanceUnderFront(0), 0u);
+    EXPECT_EQ(l.selection->distanceUnderFront(0), 0u);
     l.limits.layers[1].visible = true;
     l.draw();
     EXPECT_GT(l.drawn(1), 0u);
@@ -157,7 +181,7 @@ TEST(LayerLimits, AHiddenLayerIsNeitherDrawnNorAskedForNorKept)
 
 TEST(LayerLimits, TheMarginAheadOfTheMotionHasLayersToo)
 {
-  Layers l;
+  Layers l(Way::Front);
   MotionMargin margin(l.tree);
   ScriptedResidency nothing;
   l.limits.layers[0].visible = false;
@@ -171,9 +195,10 @@ TEST(LayerLimits, TheMarginAheadOfTheMotionHasLayersToo)
   }
 }
 
-TEST(LayerLimits, AShareIsHeldAgainstLayersWithLargerErrors)
+TEST_P(LayerLimitsOf, AShareIsHeldAgainstLayersWithLargerErrors)
 {
-  Layers l;
+  Layers l(GetParam());
+  l.limits.targetErrorPx = 1.0; // the share is not more than it could use
   l.limits.layers[1].errorFactor = 5.0; // its errors count little beside those of layer 0
   l.limits.pointBudget = 20000;
   l.draw();
@@ -187,9 +212,9 @@ TEST(LayerLimits, AShareIsHeldAgainstLayersWithLargerErrors)
   EXPECT_GT(l.drawn(0) + l.drawn(1), 17000u) << "and nothing lies idle";
 }
 
-TEST(LayerLimits, WhatAShareDoesNotUseIsLentAndTakenBack)
+TEST_P(LayerLimitsOf, WhatAShareDoesNotUseIsLentAndTakenBack)
 {
-  Layers l;
+  Layers l(GetParam());
   l.limits.pointBudget = 20000;
   l.limits.layers[0].share = 0.5;
   l.limits.layers[1].share = 0.5;
@@ -213,9 +238,9 @@ TEST(LayerLimits, WhatAShareDoesNotUseIsLentAndTakenBack)
   EXPECT_EQ(l.drawn(0), l.drawn(1));
 }
 
-TEST(LayerLimits, SharesOfMoreThanAllAreCutDown)
+TEST_P(LayerLimitsOf, SharesOfMoreThanAllAreCutDown)
 {
-  Layers l(3);
+  Layers l(GetParam(), 3);
   l.limits.pointBudget = 30000;
   for (LayerLimits& layer : l.limits.layers)
   {
@@ -229,7 +254,7 @@ TEST(LayerLimits, SharesOfMoreThanAllAreCutDown)
 
 /// Random factors, shares, switches, budgets and views: never beyond the budget, a layer that is
 /// left finer than its share allows never costs another one that has less than its own.
-TEST(LayerLimits, SharesAndBudgetsHoldOnEveryPath)
+TEST_P(LayerLimitsOf, SharesAndBudgetsHoldOnEveryPath)
 {
   for (std::uint32_t seed = 1; seed <= 8; ++seed)
   {
@@ -237,7 +262,7 @@ TEST(LayerLimits, SharesAndBudgetsHoldOnEveryPath)
     std::mt19937 random(seed);
     const auto below = [&](double end)
     { return std::uniform_real_distribution<double>(0.0, end)(random); };
-    Layers l(4, seed % 2 == 0 ? Refinement::Add : Refinement::Replace);
+    Layers l(GetParam(), 4, seed % 2 == 0 ? Refinement::Add : Refinement::Replace);
     for (int change = 0; change < 6; ++change)
     {
       for (LayerLimits& layer : l.limits.layers)
@@ -249,7 +274,7 @@ TEST(LayerLimits, SharesAndBudgetsHoldOnEveryPath)
       l.view = lookingFrom(600.0 + below(1500.0));
       for (int u = 0; u < 30; ++u)
       {
-        l.last = &l.front.update(l.view, l.residency, l.limits);
+        l.last = &l.selection->update(l.view, l.residency, l.limits);
         ASSERT_LE(l.delta().pointsDrawn, l.limits.pointBudget);
       }
       l.draw();
@@ -259,8 +284,8 @@ TEST(LayerLimits, SharesAndBudgetsHoldOnEveryPath)
         EXPECT_TRUE(l.limits.layers[l.tree->node(item.node).layer].visible);
         before[item.node] = item.pointCount;
       }
-      // Another front that comes from elsewhere settles the same.
-      Layers other(4, l.tree->refinement());
+      // Another selection that comes from elsewhere settles the same.
+      Layers other(GetParam(), 4, l.tree->refinement());
       other.limits = l.limits;
       other.view = lookingFrom(400.0);
       other.draw();

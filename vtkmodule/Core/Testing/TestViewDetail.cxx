@@ -88,6 +88,9 @@ TEST(OverviewCount, CountsWhatLiesInTheFrustum)
   EXPECT_NEAR(overviewInFrustum(*table, fromAbove(0.5), shown), 0.25e6, 0.02e6);
   EXPECT_NEAR(overviewInFrustum(*table, fromAbove(0.05), shown), 0.0025e6, 0.0005e6);
   EXPECT_EQ(overviewInFrustum(*table, fromAbove(0.5, 9.0), shown), 0.0);
+  LayerLimits hidden;
+  hidden.visible = false;
+  EXPECT_EQ(overviewInFrustum(*table, fromAbove(2.0), shown, { hidden }), 0.0);
 }
 
 TEST(OverviewCount, MeasuresBoxes)

@@ -1,19 +1,9 @@
 #include "pointfront/Front/FrontDemand.h"
 
-#include "pointfront/Front/PointPrefix.h"
-
 #include <algorithm>
 
 namespace pointfront
 {
-
-std::uint32_t FrontDemand::pointsOf(
-  const ActiveNode& node, Refinement refinement, double thresholdPx)
-{
-  return refinement == Refinement::Replace
-    ? node.pointCount
-    : prefixLength(node.pointCount, node.errorPx, node.spacingRatio, thresholdPx);
-}
 
 Demand FrontDemand::joined(
   const ActiveNode& node, const Demand& children, double thresholdPx) const

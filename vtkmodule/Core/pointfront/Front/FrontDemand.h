@@ -2,26 +2,14 @@
 
 #include "pointfront/Front/ActiveTree.h"
 #include "pointfront/Front/DemandCurve.h"
+#include "pointfront/Front/FrontBudgets.h"
+#include "pointfront/Front/PointPrefix.h"
 #include "pointfront/Front/View.h"
 
 #include <cstdint>
 
 namespace pointfront
 {
-
-/// What a threshold would cost.
-struct Demand
-{
-  std::uint64_t drawn = 0; ///< points on screen
-  std::uint64_t held = 0;  ///< points of the nodes that must be in memory for that, whole nodes
-
-  Demand& operator+=(const Demand& more)
-  {
-    drawn += more.drawn;
-    held += more.held;
-    return *this;
-  }
-};
 
 /// Counts, from the table alone, what a threshold asks for: what is loaded at the moment plays no
 /// part, so a view settles at the same threshold however its nodes arrive, and nothing is
@@ -50,7 +38,12 @@ public:
   Demand ofChildren(const ActiveNode& parent, double thresholdPx) const;
   /// Points of a visible node drawn at a threshold. Representatives (Replace) carry a
   /// radius that closes the surface when all of them are drawn: they come whole.
-  static std::uint32_t pointsOf(const ActiveNode& node, Refinement refinement, double thresholdPx);
+  static std::uint32_t pointsOf(const ActiveNode& node, Refinement refinement, double thresholdPx)
+  {
+    return refinement == Refinement::Replace
+      ? node.pointCount
+      : prefixLength(node.pointCount, node.errorPx, node.spacingRatio, thresholdPx);
+  }
 
 private:
   struct Curves;

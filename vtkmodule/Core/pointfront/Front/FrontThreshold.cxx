@@ -12,20 +12,8 @@ namespace
 /// Rungs that the threshold falls by an update: a factor of 0.8, from 60 px to 1 px in 19 frames.
 constexpr int rungsPerFall = 20;
 
-std::uint64_t shareOf(std::uint64_t budget, double share)
-{
-  return share < 1.0 ? static_cast<std::uint64_t>(share * static_cast<double>(budget)) : budget;
-}
-
 /// More room than when a threshold proved too low, by this share of it: it is tried again.
 constexpr double moreRoom = 1.02;
-
-bool fitsIn(std::uint64_t points, std::uint64_t budget, const SharedLimit& shared, double share,
-  double px)
-{
-  return (budget == 0 || points <= shareOf(budget, share)) &&
-    (shared.points == 0 || points <= shareOf(shared.leftAt(px), share));
-}
 
 } // namespace
 
@@ -55,20 +43,16 @@ double FrontThreshold::largestPx(const ActiveTree& tree) const
 void FrontThreshold::adoptLayers(const ActiveTree& tree)
 {
   std::size_t count = 0;
-  double sum = 0.0;
-  for (const LayerLimits& layer : limits_.layers)
-  {
-    sum += layer.visible ? layer.share : 0.0;
-  }
-  for (SlotIndex root = 0; sum > 0.0 && root < tree.rootCount(); ++root)
+  const bool shared = std::any_of(limits_.layers.begin(), limits_.layers.end(),
+    [](const LayerLimits& layer) { return layer.visible && layer.share > 0.0; });
+  for (SlotIndex root = 0; shared && root < tree.rootCount(); ++root)
   {
     count = std::max<std::size_t>(count, tree[root].layer + std::size_t(1));
   }
   layers_.resize(count);
   for (std::size_t l = 0; l < count; ++l)
   {
-    const bool given = l < limits_.layers.size() && limits_.layers[l].visible;
-    const double share = given ? limits_.layers[l].share / std::max(1.0, sum) : 0.0;
+    const double share = shareOf(limits_.layers, l);
     if (layers_[l].share == 0.0)
     {
       layers_[l].own.rung = common_.rung;
@@ -117,22 +101,7 @@ void FrontThreshold::begin(
   }
 }
 
-bool FrontThreshold::limited() const
-{
-  return limits_.pointBudget > 0 || limits_.heldPointBudget > 0 ||
-    limits_.sharedDrawn.points > 0 || limits_.sharedHeld.points > 0;
-}
-
-bool FrontThreshold::drawnFits(std::uint64_t points, double share, double px) const
-{
-  return fitsIn(points, limits_.pointBudget, limits_.sharedDrawn, share, px);
-}
-
-bool FrontThreshold::fits(const Demand& wanted, double share, double px) const
-{
-  return drawnFits(wanted.drawn, share, px) &&
-    fitsIn(wanted.held, limits_.heldPointBudget, limits_.sharedHeld, share, px);
-}
+bool FrontThreshold::limited() const { return pointfront::limited(limits_); }
 
 /// Of both shared limits together: grows when others take less.
 std::uint64_t FrontThreshold::sharedLeft(double px) const
@@ -264,7 +233,7 @@ void FrontThreshold::chooseFitting(const ActiveTree& tree, const FrontDemand& de
               sum += demand.ofRoot(root, ladder_.at(rung));
             }
           }
-          return fits(sum, layer.share, ladder_.at(rung));
+          return fitsBudgets(limits_, sum, layer.share, ladder_.at(rung));
         });
       changed_ = changed_ || layer.own.rung != ownBefore;
     }
@@ -276,7 +245,7 @@ void FrontThreshold::chooseFitting(const ActiveTree& tree, const FrontDemand& de
     {
       const Demand wanted = totalAt(tree, demand, rung);
       const double px = ladder_.at(rung);
-      const bool enough = fits(wanted, 1.0, px);
+      const bool enough = fitsBudgets(limits_, wanted, 1.0, px);
       if (enough)
       {
         demand_ = wanted;
@@ -284,7 +253,7 @@ void FrontThreshold::chooseFitting(const ActiveTree& tree, const FrontDemand& de
       }
       else
       {
-        boundByMemory_ = drawnFits(wanted.drawn, 1.0, px);
+        boundByMemory_ = drawnFits(limits_, wanted.drawn, 1.0, px);
       }
       return enough;
     });
@@ -303,9 +272,9 @@ bool FrontThreshold::admit(const Demand& more)
   Demand wanted = demand_;
   wanted += more;
   const double px = commonPx_;
-  if (!fits(wanted, 1.0, px))
+  if (!fitsBudgets(limits_, wanted, 1.0, px))
   {
-    boundByMemory_ = drawnFits(wanted.drawn, 1.0, px);
+    boundByMemory_ = drawnFits(limits_, wanted.drawn, 1.0, px);
     return false;
   }
   demand_ = wanted;
@@ -314,7 +283,7 @@ bool FrontThreshold::admit(const Demand& more)
 
 bool FrontThreshold::unmoved() const
 {
-  return !limited() || (!common_.bound && fits(demand_, 1.0, commonPx_));
+  return !limited() || (!common_.bound && fitsBudgets(limits_, demand_, 1.0, commonPx_));
 }
 
 bool FrontThreshold::falling() const

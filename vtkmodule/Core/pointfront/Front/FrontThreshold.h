@@ -70,13 +70,11 @@ private:
 
   int rungOf(std::uint16_t layer) const;
   Demand totalAt(const ActiveTree& tree, const FrontDemand& demand, int common) const;
-  bool fits(const Demand& wanted, double share, double px) const;
   void chooseFitting(const ActiveTree& tree, const FrontDemand& demand);
   template <typename FitsAt>
   void settle(Rung& state, int highest, FitsAt fitsAt);
   int highestOf(const ActiveTree& tree) const;
   void adoptLayers(const ActiveTree& tree);
-  bool drawnFits(std::uint64_t points, double share, double px) const;
   std::uint64_t sharedLeft(double px) const;
 
   ThresholdLadder ladder_;

@@ -78,12 +78,17 @@ double shareInFrustum(const Bounds& box, const View& view)
   return double(count) / (placesPerAxis * placesPerAxis * placesPerAxis);
 }
 
-double overviewInFrustum(const Hierarchy& hierarchy, const View& view, double shown)
+double overviewInFrustum(const Hierarchy& hierarchy, const View& view, double shown,
+  const std::vector<LayerLimits>& layers)
 {
   double sum = 0.0;
   for (const NodeIndex root : hierarchy.roots())
   {
-    sum += countBelow(hierarchy, view, shown, root, hierarchy.node(root));
+    const Node row = hierarchy.node(root);
+    if (row.layer >= layers.size() || layers[row.layer].visible)
+    {
+      sum += countBelow(hierarchy, view, shown, root, row);
+    }
   }
   return sum;
 }

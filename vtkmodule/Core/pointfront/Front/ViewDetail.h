@@ -10,19 +10,11 @@ namespace pointfront
 /// View-specific detail, the alternative to a rendering front: an overview of the whole cloud that
 /// never leaves memory, and for the view one detail level, chosen so that its frustum holds about
 /// as many points as the image has pixels.
-/// Level       every subtree shows the same share of its points: by detailLevel() from the overview
-///             points in the frustum, counted from the table. Where a frustum cuts a node, the part
-///             inside is measured at 64 places of its box. The image's pixels are counted at
-///             targetErrorPx: a third of the error wants nine times the points.
-/// Chunks      our nodes hold thousands of points. With Refinement::Add a node draws a prefix of
-///             its points (a fair subset) and leaves the rest of its subtree's share to its
-///             children; with Replace it is drawn until its share is more than its own
-///             representatives.
-/// Order       requests near to far by slices of the frustum; the overview before all, in sight
-///             or not. A subtree whose sphere falls on one pixel is not descended.
-/// Budgets     hard. The level falls by eighths until what it draws and holds fits; if even the
-///             overview does not, that is made smaller. Layers can be hidden and have factors;
-///             shares of layers are not kept (all are drawn at one level).
+/// Level       chosen by DetailLevels, the list made by DetailWalk. Layers can be hidden, have
+///             factors and shares of the budgets, with the meaning that they have for a front
+///             (LayerLimits.h): a layer with a share may be shown deeper than the others.
+/// Budgets     hard. Levels fall by eighths until what they draw and hold fits; if even the
+///             overview does not, that is made smaller.
 /// Guarantees  those of DetailSelection. What was on screen goes only when the level or the
 ///             frustum leaves it, not while something else loads. With Add the ancestors of what is
 ///             drawn are drawn too, whole.
@@ -30,7 +22,8 @@ namespace pointfront
 ///             new view one more to check the budgets, and some eight more where they hold the
 ///             level down. No memory is taken in the steady state. FrontLimits::movesPerFrame and
 ///             initialErrorPx mean nothing here.
-/// Source      Futterlieb, Teutsch & Berndt 2016, section 3.1 (SMOOTH-2, SMOOTH-3).
+/// Source      Futterlieb, Teutsch & Berndt 2016, section 3.1 (SMOOTH-2, SMOOTH-3); Richter,
+///             Discher & Doellner 2015, section 4.2 (LAYERS-11).
 class ViewDetail final : public DetailSelection
 {
 public:
@@ -45,7 +38,8 @@ public:
   std::uint32_t distanceUnderFront(NodeIndex node) const override;
   void reset() override;
 
-  /// Of the last update, as log2 of the points that the whole store would show.
+  /// Of the last update, the lowest of its layers', as log2 of the points that the whole store
+  /// would show.
   double level() const;
 
 private:

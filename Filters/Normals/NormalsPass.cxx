@@ -27,8 +27,11 @@ Attribute curvatureAttribute()
 class SurfaceFeature final : public NeighbourhoodFeature
 {
 public:
-  SurfaceFeature(bool curvature, std::atomic<std::uint64_t>& without)
-    : curvature_(curvature)
+  /// Of so many neighbours; 0: those within a radius.
+  SurfaceFeature(
+    std::uint32_t neighbours, bool curvature, std::atomic<std::uint64_t>& without)
+    : neighbours_(neighbours)
+    , curvature_(curvature)
     , without_(without)
   {
   }
@@ -36,10 +39,11 @@ public:
   {
     return sizeof(PackedNormal) + (curvature_ ? sizeof(std::uint16_t) : 0);
   }
-  void compute(const glm::dvec3&, const std::vector<NearPoint>& near,
+  bool orderFree() const override { return neighbours_ <= mostExactlySummed; }
+  void compute(const glm::dvec3& position, const std::vector<NearPoint>& near,
     std::byte* value) const override
   {
-    const std::optional<SurfaceFit> fit = fitSurface(near);
+    const std::optional<SurfaceFit> fit = fitSurface(position, near);
     if (!fit)
     {
       ++without_; // not touched for each point: all threads share it
@@ -55,6 +59,7 @@ public:
   }
 
 private:
+  std::uint32_t neighbours_;
   bool curvature_;
   std::atomic<std::uint64_t>& without_;
 };
@@ -107,7 +112,7 @@ Result<PointSources> NormalsPass::apply(
   search.participants = { *classes, *classes };
   const auto eps = static_cast<float>(options_.eps);
   without_ = 0;
-  const SurfaceFeature feature(options_.curvature, without_);
+  const SurfaceFeature feature(search.neighbours, options_.curvature, without_);
   Result<std::unique_ptr<PointColumn>> column = computeFromNeighbours(
     sources, order, search,
     [eps](const PositionSet& set) { return std::make_unique<FlannIndex>(set, eps); }, feature,

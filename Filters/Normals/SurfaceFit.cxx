@@ -4,6 +4,9 @@
 
 #include <Eigen/Eigenvalues>
 
+#include <algorithm>
+#include <cmath>
+
 namespace pointfront
 {
 namespace
@@ -12,33 +15,58 @@ namespace
 constexpr double onOneLine = 1e-12;
 /// Below this gap between eigenvalues, relative to the largest, the closed form loses digits.
 constexpr double closeEigenvalues = 1e-4;
+/// Times the largest offset, it leaves 2^22 to 2^24 steps in one; the squares of mostExactlySummed
+/// such numbers are less than 2^53 steps, which a double holds.
+constexpr double roundingFactor = 1.5 * (1 << 30);
+struct Moments
+{
+  double count = 0.0;
+  glm::dvec3 sum{ 0.0 };
+  glm::dvec3 squares{ 0.0 };  ///< xx, yy, zz
+  glm::dvec3 products{ 0.0 }; ///< xy, xz, yz
+};
+
+Moments momentsOf(const std::vector<NearPoint>& points, const glm::dvec3& origin)
+{
+  double farthest = 0.0;
+  std::uint64_t count = 0;
+  for (const NearPoint& point : points)
+  {
+    farthest = std::max(farthest, point.squaredDistance);
+    count += point.count;
+  }
+  // Added to an offset and taken away again, it leaves a multiple of a step.
+  const double rounding = count > mostExactlySummed ? 0.0 : roundingFactor * std::sqrt(farthest);
+  Moments moments;
+  moments.count = static_cast<double>(count);
+  for (const NearPoint& point : points)
+  {
+    const double weight = point.count;
+    const double x = (point.position.x - origin.x + rounding) - rounding;
+    const double y = (point.position.y - origin.y + rounding) - rounding;
+    const double z = (point.position.z - origin.z + rounding) - rounding;
+    const double weightedX = weight * x;
+    const double weightedY = weight * y;
+    const double weightedZ = weight * z;
+    moments.sum += glm::dvec3(weightedX, weightedY, weightedZ);
+    moments.squares += glm::dvec3(weightedX * x, weightedY * y, weightedZ * z);
+    moments.products += glm::dvec3(weightedX * y, weightedX * z, weightedY * z);
+  }
+  return moments;
+}
 } // namespace
 
-std::optional<SurfaceFit> fitSurface(const std::vector<NearPoint>& points)
+std::optional<SurfaceFit> fitSurface(
+  const glm::dvec3& origin, const std::vector<NearPoint>& points)
 {
   if (points.size() < 3)
   {
     return std::nullopt;
   }
-  // Moments about the nearest point, which is within the neighbourhood's own extent of the mean: no
-  // digits are lost that count.
-  const glm::dvec3 origin = points.front().position;
-  double count = 0.0;
-  glm::dvec3 sum(0.0);
-  glm::dvec3 squares(0.0);  // xx, yy, zz
-  glm::dvec3 products(0.0); // xy, xz, yz
-  for (const NearPoint& point : points)
-  {
-    const glm::dvec3 d = point.position - origin;
-    const glm::dvec3 weighted = double(point.count) * d;
-    count += point.count;
-    sum += weighted;
-    squares += weighted * d;
-    products += glm::dvec3(weighted.x * d.y, weighted.x * d.z, weighted.y * d.z);
-  }
-  const glm::dvec3 mean = sum / count;
-  squares = squares / count - mean * mean;
-  products = products / count -
+  const Moments moments = momentsOf(points, origin);
+  const glm::dvec3 mean = moments.sum / moments.count;
+  const glm::dvec3 squares = moments.squares / moments.count - mean * mean;
+  const glm::dvec3 products = moments.products / moments.count -
     glm::dvec3(mean.x * mean.y, mean.x * mean.z, mean.y * mean.z);
   Eigen::Matrix3d covariance;
   covariance << squares.x, products.x, products.y, //

@@ -15,10 +15,16 @@ struct SurfaceFit
   glm::dvec3 centre{ 0.0 }; ///< mean of the points
 };
 
+/// Up to so many points the sums of a fit are exact, and so do not depend on their order.
+constexpr std::uint32_t mostExactlySummed = 64;
+
 /// The plane of least squared distances: the eigenvector of the smallest eigenvalue of the points'
-/// covariance (PCA), in double precision relative to the first of them.
+/// covariance (PCA). Offsets are taken from `origin`, which is one of the points or close to them.
+/// Sums     of no more than mostExactlySummed points: of offsets rounded to 2^-23 of the largest
+///          or finer, the same in any order. Of more: in the order given.
 /// Nothing  for fewer than three places, and for places on one line to within a millionth of their
 ///          extent: they have no plane.
-std::optional<SurfaceFit> fitSurface(const std::vector<NearPoint>& points);
+std::optional<SurfaceFit> fitSurface(
+  const glm::dvec3& origin, const std::vector<NearPoint>& points);
 
 } // namespace pointfront

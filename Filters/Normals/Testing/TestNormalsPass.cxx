@@ -1,6 +1,7 @@
 #include "NormalClouds.h"
 
 #include "NormalsPass.h"
+#include "SurfaceFit.h"
 
 #include "LASFormat.h"
 
@@ -228,6 +229,33 @@ TEST(NormalsPass, WithoutAPlaneThereIsNoNormal)
   line[500].z += 0.01;
   EXPECT_LT(without(line), 1000u);
   EXPECT_EQ(without({ { 0.0, 0.0, 0.0 }, { 1.0, 0.0, 0.0 }, { 0.0, 1.0, 0.0 } }), 0u);
+}
+
+TEST(SurfaceFit, UpTo64PointsTheOrderChangesNothing)
+{
+  Random random(13);
+  for (const std::size_t count : { 3u, 16u, 64u })
+  {
+    const glm::dvec3 origin(4e5, 5.6e6, 120.0);
+    std::vector<NearPoint> points;
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      const glm::dvec3 d(random.uniform(), random.uniform(), 0.1 * random.uniform());
+      points.push_back({ origin + d, glm::dot(d, d), 1 });
+    }
+    const auto fit = fitSurface(origin, points);
+    ASSERT_TRUE(fit);
+    for (int turn = 0; turn < 20; ++turn)
+    {
+      std::rotate(points.begin(), points.begin() + 1, points.end());
+      std::swap(points[0], points[random.next() % count]);
+      const auto other = fitSurface(origin, points);
+      ASSERT_TRUE(other);
+      EXPECT_EQ(fit->normal, other->normal);
+      EXPECT_EQ(fit->curvature, other->curvature);
+      EXPECT_EQ(fit->centre, other->centre);
+    }
+  }
 }
 
 TEST(NormalsPass, ADenseBlockAndDuplicates)

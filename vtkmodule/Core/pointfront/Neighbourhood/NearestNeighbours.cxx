@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <cstring>
 #include <mutex>
-#include <numeric>
 
 namespace pointfront
 {
@@ -22,6 +22,17 @@ constexpr double searchShare = 0.8;
 /// What a point of a tile needs while it is searched: itself, its place and the tree over it, its
 /// order, its value on the way to the column.
 constexpr std::uint64_t tilePointBytes = sizeof(TilePoint) + 2 * sizeof(glm::dvec3) + 64;
+
+/// Points in a row along the curve that share what an index gives, and, of those, the ones that
+/// share a choice from it. Longer ones have more places to choose from for each point.
+constexpr std::size_t longestGroup = 64;
+constexpr std::size_t longestRun = 16;
+
+struct Ball
+{
+  glm::dvec3 middle{ 0.0 };
+  double reach = 0.0;
+};
 
 /// The order in which a feature sees neighbours.
 bool nearer(const NearPoint& a, const NearPoint& b)
@@ -55,7 +66,7 @@ private:
     TileWork& work, std::size_t begin, std::size_t end, NeighbourCluster& cluster) const;
   bool compute(TileWork& work, std::uint32_t point, const NeighbourList& list) const;
   double squaredReach(const NeighbourList& list, const glm::dvec3& p) const;
-  Result<void> store(const std::vector<TilePoint>& points, std::vector<std::uint32_t>& done,
+  Result<void> store(const std::vector<TilePoint>& points, const std::vector<bool>& finished,
     const std::vector<std::byte>& values) const;
   Result<void> finishUnfinished();
   Result<void> searchAgain(std::size_t tile, std::vector<std::vector<NearPoint>>& found);
@@ -116,6 +127,7 @@ struct Search::TileWork
     : points(std::move(gatheredPoints.points))
     , box(gatheredBox)
     , values(gatheredPoints.own * valueBytes)
+    , finished(gatheredPoints.own)
   {
   }
   std::vector<TilePoint> points; ///< own ones come first
@@ -123,10 +135,32 @@ struct Search::TileWork
   PlaceOrder queries;
   PositionSet references;
   std::vector<std::byte> values; ///< of points[i]
-  std::vector<std::uint32_t> finished;
+  std::vector<bool> finished;    ///< points[i]
   std::vector<UnfinishedPoint> unfinished;
-  std::vector<NearPoint> near; ///< of one point
+  std::vector<std::uint32_t> places; ///< near one point
+  std::vector<NearPoint> near;
+
+  /// Around queries [begin, end); the reach is over the first `axes`.
+  Ball ballAround(std::size_t begin, std::size_t end, unsigned axes) const;
 };
+
+Ball Search::TileWork::ballAround(std::size_t begin, std::size_t end, unsigned axes) const
+{
+  Bounds bounds;
+  for (std::size_t query = begin; query < end; ++query)
+  {
+    bounds.add(points[queries.points[query]].position);
+  }
+  const glm::dvec3 middle = bounds.centre();
+  double reach = 0.0;
+  for (std::size_t query = begin; query < end; ++query)
+  {
+    const glm::dvec3 out = points[queries.points[query]].position - middle;
+    reach =
+      std::max(reach, out.x * out.x + out.y * out.y + (axes > 2 ? out.z * out.z : 0.0));
+  }
+  return { middle, std::sqrt(reach) };
+}
 
 Result<void> Search::searchTile(std::size_t tile)
 {
@@ -152,11 +186,21 @@ Result<void> Search::searchTile(std::size_t tile)
     {
       return {};
     }
-    const std::size_t end = runEnd(work.queries.keys, begin);
-    searchRun(work, begin, end, cluster);
+    const std::size_t end =
+      runEnd(work.queries.keys, begin, work.queries.keys.size(), longestGroup);
+    const Ball group = work.ballAround(begin, end, options_.axes);
+    cluster.gather(group.middle, group.reach);
+    for (std::size_t run = begin; run < end;)
+    {
+      const std::size_t next = runEnd(work.queries.keys, run, end, longestRun);
+      const Ball ball = work.ballAround(run, next, options_.axes);
+      cluster.focus(ball.middle, ball.reach);
+      searchRun(work, run, next, cluster);
+      run = next;
+    }
     begin = end;
   }
-  crew_.advance(work.finished.size());
+  crew_.advance(work.queries.points.size() - work.unfinished.size());
   if (Result<void> done = store(work.points, work.finished, work.values); !done)
   {
     return done;
@@ -169,45 +213,40 @@ Result<void> Search::searchTile(std::size_t tile)
 void Search::searchRun(
   TileWork& work, std::size_t begin, std::size_t end, NeighbourCluster& cluster) const
 {
-  const auto position = [&work](std::size_t query) -> const glm::dvec3&
-  { return work.points[work.queries.points[query]].position; };
-  Bounds bounds;
-  for (std::size_t query = begin; query < end; ++query)
-  {
-    bounds.add(position(query));
-  }
-  const glm::dvec3 middle = bounds.centre();
-  double reach = 0.0;
-  for (std::size_t query = begin; query < end; ++query)
-  {
-    const glm::dvec3 out = position(query) - middle;
-    reach = std::max(reach, out.x * out.x + out.y * out.y +
-        (options_.axes > 2 ? out.z * out.z : 0.0));
-  }
-  cluster.gather(middle, std::sqrt(reach));
   NeighbourList list(options_.neighbours);
   const std::size_t bytes = feature_.bytes();
+  const bool orderFree = feature_.orderFree() && options_.axes > 2;
+  double reach = 0.0;
   const std::uint32_t* before = nullptr; // computed last
   for (std::size_t query = begin; query < end; ++query)
   {
     const std::uint32_t& i = work.queries.points[query];
-    if (before != nullptr && work.points[*before].position == position(query)) // a duplicate
+    const glm::dvec3& position = work.points[i].position;
+    if (before != nullptr && work.points[*before].position == position) // a duplicate
     {
-      std::copy_n(work.values.begin() + std::ptrdiff_t(*before * bytes), bytes,
-        work.values.begin() + std::ptrdiff_t(i * bytes));
-      work.finished.push_back(i);
+      std::memcpy(work.values.data() + i * bytes, work.values.data() + *before * bytes, bytes);
+      work.finished[i] = true;
       continue;
     }
     before = nullptr;
-    cluster.search(position(query), list);
+    if (orderFree && cluster.searchUnordered(position, work.places, reach) &&
+      reach < squaredClearance(work.box, position))
+    {
+      collectNear(work.references, work.places, position, work.near);
+      feature_.compute(position, work.near, work.values.data() + i * bytes);
+      work.finished[i] = true;
+      before = &i;
+      continue;
+    }
+    cluster.search(position, list);
     if (compute(work, i, list))
     {
-      work.finished.push_back(i);
+      work.finished[i] = true;
       before = &i;
     }
     else
     {
-      work.unfinished.push_back({ work.points[i], squaredReach(list, position(query)) });
+      work.unfinished.push_back({ work.points[i], squaredReach(list, position) });
     }
   }
 }
@@ -250,21 +289,24 @@ double Search::squaredReach(const NeighbourList& list, const glm::dvec3& p) cons
   return reach * (1.0 + 1e-12);
 }
 
+/// Values of points[i] that are finished. The own points of a tile came from the sources in blocks,
+/// each in input order: so there are long runs to write at once without a sort.
 Result<void> Search::store(const std::vector<TilePoint>& points,
-  std::vector<std::uint32_t>& done, const std::vector<std::byte>& values) const
+  const std::vector<bool>& finished, const std::vector<std::byte>& values) const
 {
-  std::sort(done.begin(), done.end(), [&](std::uint32_t a, std::uint32_t b)
-    { return points[a].number() < points[b].number(); });
   const std::size_t bytes = feature_.bytes();
-  std::vector<std::uint64_t> numbers(done.size());
-  std::vector<std::byte> sorted(done.size() * bytes);
-  for (std::size_t i = 0; i < done.size(); ++i)
+  std::vector<std::uint64_t> numbers;
+  std::vector<std::byte> kept(finished.size() * bytes);
+  numbers.reserve(finished.size());
+  for (std::size_t i = 0; i < finished.size(); ++i)
   {
-    numbers[i] = points[done[i]].number();
-    std::copy_n(values.begin() + std::ptrdiff_t(done[i] * bytes), bytes,
-      sorted.begin() + std::ptrdiff_t(i * bytes));
+    if (finished[i])
+    {
+      std::memcpy(kept.data() + numbers.size() * bytes, values.data() + i * bytes, bytes);
+      numbers.push_back(points[i].number());
+    }
   }
-  return column_.write(numbers, sorted);
+  return column_.write(numbers, kept);
 }
 
 /// The second round: all tiles in reach of each point, one tile after another.
@@ -274,6 +316,8 @@ Result<void> Search::finishUnfinished()
   {
     return {};
   }
+  std::sort(unfinished_.begin(), unfinished_.end(), [](const auto& a, const auto& b)
+    { return a.point.number() < b.point.number(); });
   std::vector<std::vector<NearPoint>> found(unfinished_.size());
   std::atomic<std::size_t> next{ 0 };
   const auto work = [&]() -> Result<void>
@@ -298,11 +342,9 @@ Result<void> Search::finishUnfinished()
     points[i] = unfinished_[i].point;
     feature_.compute(points[i].position, found[i], values.data() + i * feature_.bytes());
   }
-  std::vector<std::uint32_t> all(points.size());
-  std::iota(all.begin(), all.end(), 0u);
-  crew_.advance(all.size());
+  crew_.advance(points.size());
   unfinished_.clear();
-  return store(points, all, values);
+  return store(points, std::vector<bool>(points.size(), true), values);
 }
 
 Result<void> Search::searchAgain(std::size_t tile, std::vector<std::vector<NearPoint>>& found)

@@ -25,8 +25,12 @@ class NeighbourhoodFeature
 public:
   virtual ~NeighbourhoodFeature() = default;
   virtual std::size_t bytes() const = 0; ///< of a value
-  /// `near`: nearest first, ties by positionLess(); the point itself is among them if it is a
-  /// reference. Their counts sum up to the neighbours wanted, or fewer when there are no more.
+  /// True if the value has the same bytes in whatever order the neighbours come: then they are not
+  /// sorted, which is much of the time of a search.
+  virtual bool orderFree() const { return false; }
+  /// `near`: nearest first, ties by positionLess(), or in any order; the point itself is among them
+  /// if it is a reference. Their counts sum up to the neighbours wanted, or fewer when there are no
+  /// more.
   virtual void compute(const glm::dvec3& position, const std::vector<NearPoint>& near,
     std::byte* value) const = 0;
 };

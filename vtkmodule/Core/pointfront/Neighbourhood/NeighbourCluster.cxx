@@ -1,7 +1,6 @@
 #include "pointfront/Neighbourhood/NeighbourCluster.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace pointfront
@@ -9,17 +8,24 @@ namespace pointfront
 namespace
 {
 constexpr double infinity = std::numeric_limits<double>::infinity();
-/// The places are looked up farther than the last neighbour of the middle, as points at the rim may
-/// have theirs farther away: 4 % of the points of a survey still need a search of their own.
-constexpr double widened = 1.15;
+/// A group's places are looked up farther than the last neighbour of the middle, as points at the
+/// rim may have theirs farther away. A point for which those picked for a few do not reach far
+/// enough asks the group's.
+constexpr double widenedGroup = 1.3;
+constexpr double widenedFew = 1.0;
+/// Share of the reach within which most points are.
+constexpr double usualReach = 0.6;
 /// More than what is lost to rounding in a sum of distances.
 constexpr double margin = 1.0 + 1e-9;
-/// Share of the searched distance by which a distance between two places in float may be wrong.
+/// Share of a ball's extent by which a distance between two places in float may be wrong.
 constexpr double floatError = 1e-6;
-/// Of squared distances up to the bound: that many places of a surface share one of them, or fewer.
-constexpr std::size_t bins = 64;
-/// The time of ranking grows with the square.
-constexpr std::size_t mostRanked = 128;
+/// A bound for squared distances in float with which nothing is lost that is within the bound in
+/// double. What is selected too much is refused later.
+float safely(double squaredBound, double extent)
+{
+  const double bound = std::sqrt(squaredBound) + floatError * extent;
+  return static_cast<float>(std::min(bound * bound * (1.0 + 1e-6), 3e38));
+}
 } // namespace
 
 NeighbourCluster::NeighbourCluster(
@@ -27,178 +33,230 @@ NeighbourCluster::NeighbourCluster(
   : set_(set)
   , index_(index)
   , demand_(demand)
-  , around_(demand.neighbours)
+  , nearest_(demand.neighbours)
   , within_(0)
 {
 }
 
 void NeighbourCluster::gather(const glm::dvec3& middle, double reach)
 {
-  middle_ = middle;
+  lookUp(middle, reach, widenedGroup, group_);
+  around_ = &group_;
+}
+
+void NeighbourCluster::lookUp(
+  const glm::dvec3& middle, double reach, double widened, PlaceBall& ball)
+{
   double around = demand_.radius;
   if (demand_.neighbours > 0)
   {
-    around_.begin(set_);
-    index_.search(middle, around_);
-    around = around_.full() ? widened * std::sqrt(around_.bound()) : infinity;
-    keepLast(around_);
+    nearest_.begin(set_);
+    index_.search(middle, nearest_);
+    around = nearest_.full() ? widened * std::sqrt(nearest_.bound()) : infinity;
+    likely_ = float(std::min(nearest_.bound(), double(PlaceSelection::everything)));
   }
-  searched_ = around + reach;
-  const double squared = searched_ * searched_ * margin;
-  within_.begin(set_, squared);
+  ball.middle = middle;
+  ball.searched = around + reach;
+  ball.origin = middle;
+  ball.extent = ball.searched;
+  within_.begin(set_, ball.searched * ball.searched * margin);
   index_.search(middle, within_);
   const std::size_t count = within_.entries().size();
-  candidates_.resize(count);
-  x_.resize(count);
-  y_.resize(count);
-  z_.resize(count);
-  squaredDistances_.resize(count);
-  selected_.resize(count);
-  sorted_.resize(count);
+  ball.resize(count);
   for (std::size_t i = 0; i < count; ++i)
   {
-    candidates_[i] = within_.entries()[i].index;
-    const glm::dvec3 place = set_.positions[candidates_[i]] - middle;
-    x_[i] = static_cast<float>(place.x);
-    y_[i] = static_cast<float>(place.y);
-    z_[i] = demand_.axes > 2 ? static_cast<float>(place.z) : 0.0f;
+    ball.places[i] = within_.entries()[i].index;
+    const glm::dvec3 place = set_.positions[ball.places[i]] - middle;
+    ball.x[i] = static_cast<float>(place.x);
+    ball.y[i] = static_cast<float>(place.y);
+    ball.z[i] = demand_.axes > 2 ? static_cast<float>(place.z) : 0.0f;
+  }
+}
+
+void NeighbourCluster::focus(const glm::dvec3& middle, double reach)
+{
+  around_ = &group_;
+  if (std::isinf(group_.searched))
+  {
+    return;
+  }
+  const double known = group_.searched - std::sqrt(squaredDistance(middle, group_.middle));
+  double around = demand_.radius;
+  selection_.measure(group_, middle, demand_.axes);
+  if (demand_.neighbours > 0)
+  {
+    likely_ = limitAmongAll(demand_.neighbours, demand_.neighbours + demand_.neighbours / 8);
+    around = std::sqrt(double(likely_)) + floatError * group_.extent;
+    if (around + usualReach * reach > known)
+    {
+      lookUp(middle, reach, widenedFew, few_);
+      around_ = &few_;
+      return;
+    }
+    around *= widenedFew;
+  }
+  else if (around + reach > known) // some within the radius may lie outside
+  {
+    return;
+  }
+  few_.middle = middle;
+  few_.searched = std::min(around + reach, known);
+  few_.origin = group_.origin;
+  few_.extent = group_.extent;
+  selection_.select(safely(few_.searched * few_.searched * margin, group_.extent));
+  pick();
+  around_ = &few_;
+}
+
+/// Copies what is selected of the group.
+void NeighbourCluster::pick()
+{
+  few_.resize(selection_.size());
+  for (std::size_t i = 0; i < selection_.size(); ++i)
+  {
+    const std::uint32_t from = selection_[i];
+    few_.places[i] = group_.places[from];
+    few_.x[i] = group_.x[from];
+    few_.y[i] = group_.y[from];
+    few_.z[i] = group_.z[from];
   }
 }
 
 void NeighbourCluster::search(const glm::dvec3& from, NeighbourList& list)
 {
-  const double bound = squaredBound(from);
-  list.begin(set_, bound);
-  offerCandidates(from, bound, list);
-  if (demand_.neighbours == 0 || std::isinf(searched_))
-  {
-    return;
-  }
-  const double known = searched_ - std::sqrt(squaredDistance(from, middle_));
-  if (!list.full() || known <= 0.0 || list.bound() * margin >= known * known)
-  {
-    list.begin(set_);
-    index_.search(from, list);
-  }
-  keepLast(list);
-}
-
-void NeighbourCluster::offerCandidates(
-  const glm::dvec3& from, double squaredBound, NeighbourList& list)
-{
-  const glm::vec3 at(from - middle_);
-  const float z = demand_.axes > 2 ? at.z : 0.0f;
-  const std::size_t count = candidates_.size();
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    const float dx = x_[i] - at.x;
-    const float dy = y_[i] - at.y;
-    const float dz = z_[i] - z;
-    squaredDistances_[i] = dx * dx + dy * dy + dz * dz;
-  }
-  std::copy(candidates_.begin(), candidates_.end(), selected_.begin());
-  const float limit = safely(squaredBound);
-  std::size_t selected = select(count, limit);
-  if (demand_.neighbours > 0 && selected > demand_.neighbours + demand_.neighbours / 4)
-  {
-    selected = select(selected, safely(enoughWithin(selected, limit)));
-  }
-  sortSelected(selected);
-  for (std::size_t i = 0; i < selected; ++i)
-  {
-    const std::uint32_t index = sorted_[i];
-    list.offer(squaredDistance(set_.positions[index], from), index);
-  }
-}
-
-/// A bound for squared distances in float with which nothing is lost that is within the bound in
-/// double. What is selected too much, the list refuses.
-float NeighbourCluster::safely(double squaredBound) const
-{
-  const double bound = std::sqrt(squaredBound) + floatError * searched_;
-  return static_cast<float>(std::min(bound * bound * (1.0 + 1e-6), 3e38));
-}
-
-/// Keeps those of the first `count` that are within the limit.
-std::size_t NeighbourCluster::select(std::size_t count, float limit)
-{
-  std::size_t selected = 0;
-  for (std::size_t i = 0; i < count; ++i) // without a branch: half of them would be mispredicted
-  {
-    const float distance = squaredDistances_[i];
-    selected_[selected] = selected_[i];
-    squaredDistances_[selected] = distance;
-    selected += distance <= limit ? 1 : 0;
-  }
-  return selected;
-}
-
-/// A squared distance, at most the limit, within which enough of the first `count` lie: the end of
-/// the bin of a histogram that holds the last neighbour.
-double NeighbourCluster::enoughWithin(std::size_t count, float limit) const
-{
-  std::array<std::uint32_t, bins + 1> histogram{};
-  const float scale = static_cast<float>(bins) / limit;
-  if (!(limit > 0.0f) || !std::isfinite(scale))
-  {
-    return limit;
-  }
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    ++histogram[static_cast<std::size_t>(squaredDistances_[i] * scale)];
-  }
-  std::uint32_t within = 0;
-  for (std::size_t bin = 0; bin < bins; ++bin)
-  {
-    within += histogram[bin];
-    if (within >= demand_.neighbours)
-    {
-      return static_cast<double>(bin + 1) / static_cast<double>(scale) * (1.0 + 1e-6);
-    }
-  }
-  return limit;
-}
-
-/// Nearest first but for rounding, so that hardly an offer has to be moved to its place. Each one's
-/// rank is counted: for the thirty there usually are that is faster than a sort, as nothing in it
-/// depends on a comparison.
-void NeighbourCluster::sortSelected(std::size_t selected)
-{
-  if (selected > mostRanked)
-  {
-    std::copy_n(selected_.begin(), selected, sorted_.begin());
-    return;
-  }
-  const float* const distances = squaredDistances_.data();
-  for (std::size_t i = 0; i < selected; ++i)
-  {
-    const float mine = distances[i];
-    std::uint32_t rank = 0;
-    for (std::size_t other = 0; other < i; ++other)
-    {
-      rank += distances[other] <= mine ? 1u : 0u;
-    }
-    for (std::size_t other = i + 1; other < selected; ++other)
-    {
-      rank += distances[other] < mine ? 1u : 0u;
-    }
-    sorted_[rank] = selected_[i];
-  }
-}
-
-/// So far at most, squared, are the neighbours: enough of those of the point before are no farther.
-double NeighbourCluster::squaredBound(const glm::dvec3& from) const
-{
   if (demand_.neighbours == 0)
   {
-    return demand_.radius * demand_.radius;
+    const double squared = demand_.radius * demand_.radius;
+    list.begin(set_, squared);
+    selection_.measure(*around_, from, demand_.axes);
+    selection_.select(safely(squared, around_->extent));
+    for (std::size_t i = 0; i < selection_.size(); ++i)
+    {
+      const std::uint32_t place = around_->places[selection_[i]];
+      list.offer(squaredDistance(set_.positions[place], from), place);
+    }
+    return;
   }
-  double farthest = last_.empty() ? infinity : 0.0;
-  for (const std::uint32_t index : last_)
+  if (searchBall(*around_, from, list) ||
+    (around_ == &few_ && searchBall(group_, from, list)))
   {
-    farthest = std::max(farthest, squaredDistance(set_.positions[index], from));
+    return;
   }
-  return farthest;
+  list.begin(set_, list.bound()); // what was found is far enough away for all neighbours
+  index_.search(from, list);
+}
+
+/// False if neighbours may lie outside of the ball.
+bool NeighbourCluster::searchBall(
+  const PlaceBall& ball, const glm::dvec3& from, NeighbourList& list)
+{
+  list.begin(set_);
+  selection_.measure(ball, from, demand_.axes);
+  selection_.select(
+    limitAmongAll(demand_.neighbours, demand_.neighbours + demand_.neighbours / 4));
+  chooseNearest(ball, from, list);
+  if (list.full())
+  {
+    const float needed = safely(list.bound(), ball.extent);
+    if (needed > selection_.limit()) // rounding: those between were not selected
+    {
+      selection_.select(needed);
+      chooseNearest(ball, from, list);
+    }
+    likely_ = static_cast<float>(list.bound());
+  }
+  if (std::isinf(ball.searched))
+  {
+    return true;
+  }
+  const double known = ball.searched - std::sqrt(squaredDistance(from, ball.middle));
+  return list.full() && known > 0.0 && list.bound() * margin < known * known;
+}
+
+/// Fills the list from those that are selected. As many places as points are wanted are enough.
+void NeighbourCluster::chooseNearest(
+  const PlaceBall& ball, const glm::dvec3& from, NeighbourList& list)
+{
+  selection_.rank();
+  chosen_.clear();
+  float cut = PlaceSelection::everything;
+  for (std::size_t i = 0; i < selection_.size(); ++i)
+  {
+    const std::uint32_t next = selection_.ranked(i);
+    if (selection_.distances().squared[next] > cut)
+    {
+      break;
+    }
+    const std::uint32_t place = ball.places[selection_[next]];
+    const NeighbourList::Entry entry{ squaredDistance(set_.positions[place], from), place,
+      set_.counts[place] };
+    const bool enough = chosen_.size() == demand_.neighbours;
+    if (enough && !list.less(entry, chosen_.back()))
+    {
+      continue;
+    }
+    if (enough)
+    {
+      chosen_.pop_back();
+    }
+    chosen_.push_back(entry);
+    std::size_t at = chosen_.size() - 1;
+    for (; at > 0 && list.less(entry, chosen_[at - 1]); --at)
+    {
+      chosen_[at] = chosen_[at - 1];
+    }
+    chosen_[at] = entry;
+    if (chosen_.size() == demand_.neighbours) // none farther than these can be among them
+    {
+      cut = safely(chosen_.back().squaredDistance, ball.extent) *
+        (1.0f + PlaceSelection::rankError);
+    }
+  }
+  list.assign(chosen_);
+}
+
+bool NeighbourCluster::searchUnordered(
+  const glm::dvec3& from, std::vector<std::uint32_t>& places, double& squaredReach)
+{
+  return demand_.neighbours > 0 &&
+    (chooseExactly(*around_, from, places, squaredReach) ||
+      (around_ == &few_ && chooseExactly(group_, from, places, squaredReach)));
+}
+
+/// With a limit within which there are as many places as are wanted, and none so close beyond it
+/// that rounding could have put it there, nothing has to be sorted or measured in double.
+bool NeighbourCluster::chooseExactly(const PlaceBall& ball, const glm::dvec3& from,
+  std::vector<std::uint32_t>& places, double& squaredReach)
+{
+  const std::size_t wanted = demand_.neighbours;
+  selection_.measure(ball, from, demand_.axes);
+  selection_.select(limitAmongAll(wanted + 1, wanted + wanted / 2));
+  selection_.narrow(
+    PlaceSelection::limitOf(selection_.distances(), wanted, wanted, likely_));
+  if (selection_.size() != wanted)
+  {
+    return false;
+  }
+  float last = 0.0f;
+  std::uint32_t most = 1;
+  places.resize(wanted);
+  for (std::size_t i = 0; i < wanted; ++i)
+  {
+    last = std::max(last, selection_.distances().squared[i]);
+    places[i] = ball.places[selection_[i]];
+    most = std::max(most, set_.counts[places[i]]);
+  }
+  squaredReach = safely(last, ball.extent);
+  likely_ = last;
+  const double known = ball.searched - std::sqrt(squaredDistance(from, ball.middle));
+  const float unclear = safely(squaredReach, ball.extent);
+  return most == 1 && PlaceSelection::countWithin(selection_.measured(), unclear) == wanted &&
+    known > 0.0 && squaredReach * margin < known * known;
+}
+
+float NeighbourCluster::limitAmongAll(std::size_t fewest, std::size_t most) const
+{
+  return PlaceSelection::limitOf(selection_.measured(), fewest, most, likely_);
 }
 
 double NeighbourCluster::squaredDistance(const glm::dvec3& a, const glm::dvec3& b) const
@@ -206,18 +264,6 @@ double NeighbourCluster::squaredDistance(const glm::dvec3& a, const glm::dvec3& 
   // As the indices do: the same products in the same order.
   const glm::dvec3 d = a - b;
   return demand_.axes > 2 ? d.x * d.x + d.y * d.y + d.z * d.z : d.x * d.x + d.y * d.y;
-}
-
-void NeighbourCluster::keepLast(const NeighbourList& list)
-{
-  last_.clear();
-  if (list.full())
-  {
-    for (const NeighbourList::Entry& entry : list.entries())
-    {
-      last_.push_back(entry.index);
-    }
-  }
 }
 
 } // namespace pointfront

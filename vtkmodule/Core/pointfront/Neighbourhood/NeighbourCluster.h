@@ -1,6 +1,7 @@
 #pragma once
 
 #include "pointfront/Neighbourhood/NeighbourList.h"
+#include "pointfront/Neighbourhood/PlaceSelection.h"
 
 #include <vector>
 
@@ -15,12 +16,14 @@ struct NeighbourDemand
   unsigned axes = 3;             ///< 2: distances are horizontal
 };
 
-/// The neighbours of points that lie close together: the places around their middle are looked up
-/// once, then each point chooses among them, which is cheaper than to descend the tree for each.
+/// The neighbours of points that lie close together: the places around the middle of a group are
+/// looked up once, those around a few points of it picked from them, and each point chooses among
+/// these, which is cheaper than to descend the tree for each.
 /// Exact    the lists are those that the index gives. A place that was not looked up is farther
 ///          from the middle than the search went; a point for which that is not far enough is
 ///          searched for alone.
-/// Eps      an approximate index is asked for twice: its lists depend on which points are together.
+/// Eps      an approximate index is asked once or twice for a group: its lists depend on which
+///          points are together.
 /// Threads  one a thread; the set and its index must live as long.
 class NeighbourCluster
 {
@@ -28,40 +31,40 @@ public:
   NeighbourCluster(
     const PositionSet& set, const NeighbourIndex& index, const NeighbourDemand& demand);
 
-  /// Looks up what is around. All points that are searched for next are within `reach` of the
-  /// middle, over the axes of the demand.
+  /// Looks up what is around a group. All points that are searched for next are within `reach` of
+  /// the middle, over the axes of the demand.
   void gather(const glm::dvec3& middle, double reach);
+  /// Picks what is around some points of the group: all that are searched for next.
+  void focus(const glm::dvec3& middle, double reach);
   /// Fills the list for one of them.
   void search(const glm::dvec3& from, NeighbourList& list);
+  /// The places of that list, in any order, without it; all of them are at most squaredReach away.
+  /// False where rounding, places with several points, or what was looked up does not let them be
+  /// told apart so easily: ask for the list then.
+  bool searchUnordered(
+    const glm::dvec3& from, std::vector<std::uint32_t>& places, double& squaredReach);
 
 private:
-  void offerCandidates(const glm::dvec3& from, double squaredBound, NeighbourList& list);
-  float safely(double squaredBound) const;
-  std::size_t select(std::size_t count, float limit);
-  double enoughWithin(std::size_t count, float limit) const;
-  void sortSelected(std::size_t selected);
-  double squaredBound(const glm::dvec3& from) const;
+  void lookUp(const glm::dvec3& middle, double reach, double widened, PlaceBall& ball);
+  void pick();
+  bool searchBall(const PlaceBall& ball, const glm::dvec3& from, NeighbourList& list);
+  void chooseNearest(const PlaceBall& ball, const glm::dvec3& from, NeighbourList& list);
+  bool chooseExactly(const PlaceBall& ball, const glm::dvec3& from,
+    std::vector<std::uint32_t>& places, double& squaredReach);
+  float limitAmongAll(std::size_t fewest, std::size_t most) const;
   double squaredDistance(const glm::dvec3& a, const glm::dvec3& b) const;
-  void keepLast(const NeighbourList& list);
 
   const PositionSet& set_;
   const NeighbourIndex& index_;
   const NeighbourDemand demand_;
-  glm::dvec3 middle_{ 0.0 };
-  double searched_ = 0.0; ///< all places within this distance of the middle are candidates
-  NeighbourList around_;  ///< of the middle
-  NeighbourList within_;  ///< the ball
-  std::vector<std::uint32_t> last_; ///< neighbours of the point before; none if there are too few
-
-  // Candidates: an index into the set, and the place relative to the middle, for a first selection
-  // four at a time.
-  std::vector<std::uint32_t> candidates_;
-  std::vector<float> x_;
-  std::vector<float> y_;
-  std::vector<float> z_;
-  std::vector<float> squaredDistances_;
-  std::vector<std::uint32_t> selected_;
-  std::vector<std::uint32_t> sorted_;
+  PlaceBall group_;
+  PlaceBall few_;
+  const PlaceBall* around_ = &group_; ///< that points choose from
+  NeighbourList nearest_;             ///< of a middle
+  NeighbourList within_;              ///< a ball
+  float likely_ = 0.0f;               ///< squared distance to the last neighbour
+  PlaceSelection selection_;
+  std::vector<NeighbourList::Entry> chosen_;
 };
 
 } // namespace pointfront

@@ -95,7 +95,28 @@ public:
     }
     if (full())
     {
-      bound_ = entries_.back().squaredDistance * (1.0 + 1e-12) + std::numeric_limits<double>::min();
+      bound_ = boundOf(entries_.back().squaredDistance);
+    }
+  }
+
+  /// In the place of all that was offered: places nearest first, each once. Keeps the fewest that
+  /// have `wanted` points together, of those within the bound.
+  void assign(const std::vector<Entry>& sorted)
+  {
+    entries_.clear();
+    total_ = 0;
+    for (const Entry& entry : sorted)
+    {
+      if (entry.squaredDistance > bound_ || full())
+      {
+        break;
+      }
+      entries_.push_back(entry);
+      total_ += entry.count;
+    }
+    if (full())
+    {
+      bound_ = boundOf(entries_.back().squaredDistance);
     }
   }
 
@@ -107,6 +128,11 @@ public:
   }
 
 private:
+  static double boundOf(double squaredDistance)
+  {
+    return squaredDistance * (1.0 + 1e-12) + std::numeric_limits<double>::min();
+  }
+
   std::uint32_t wanted_;
   std::uint64_t total_ = 0;
   double bound_ = 0.0;

@@ -22,7 +22,7 @@ public:
     const PassResources& resources, std::uint64_t points, std::size_t valueBytes);
 
   std::size_t valueBytes() const { return valueBytes_; }
-  /// `numbers` ascending; `values`: valueBytes() each.
+  /// `numbers`: runs of successive ones are written at once; `values`: valueBytes() each.
   Result<void> write(
     const std::vector<std::uint64_t>& numbers, const std::vector<std::byte>& values);
   Result<void> read(std::uint64_t first, std::uint64_t count, std::byte* values) const;

@@ -17,9 +17,10 @@ constexpr double mostRecordsPerPoint = 12.0;
 /// Records that a thread collects before it sorts them by tile and writes them.
 constexpr std::size_t blockRecords = 1u << 16;
 
+/// About a thousand for a tile: enough to cut it evenly, few enough to be counted in a cache.
 std::size_t mostCells(std::uint64_t points)
 {
-  return static_cast<std::size_t>(std::clamp<std::uint64_t>(points / 16, 1u << 12, 1u << 18));
+  return static_cast<std::size_t>(std::clamp<std::uint64_t>(points / 128, 1u << 12, 1u << 18));
 }
 
 /// A fine cell to begin with: 2^-16 of the extent of the first chunk that has an extent.

@@ -9,8 +9,6 @@ namespace
 {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int keyBits = 21; // an axis
-/// Longer runs share a search among more points, each of which has more places to choose from.
-constexpr std::size_t longestRun = 16;
 
 /// Bit i of v goes to bit 3 i.
 std::uint64_t spread(std::uint64_t v)
@@ -88,24 +86,25 @@ PlaceOrder queriesOf(const PlaceOrder& order, const std::vector<TilePoint>& poin
   return chosen;
 }
 
-std::size_t runEnd(const std::vector<std::uint64_t>& keys, std::size_t begin)
+std::size_t runEnd(const std::vector<std::uint64_t>& keys, std::size_t begin, std::size_t end,
+  std::size_t longest)
 {
-  if (keys.size() - begin <= longestRun)
+  if (end - begin <= longest)
   {
-    return keys.size();
+    return end;
   }
-  std::size_t end = begin + longestRun;
+  std::size_t leaving = begin + longest;
   std::uint64_t largest = 0; // the highest bit that differs tells the cell that is left
-  for (std::size_t i = begin + longestRun / 2; i <= begin + longestRun; ++i)
+  for (std::size_t i = begin + longest / 2; i <= begin + longest; ++i)
   {
     const std::uint64_t difference = keys[i] ^ keys[i - 1];
     if (difference > largest)
     {
       largest = difference;
-      end = i;
+      leaving = i;
     }
   }
-  return end;
+  return leaving;
 }
 
 void collectReferences(const std::vector<TilePoint>& points,
@@ -144,14 +143,30 @@ void collectReferences(const std::vector<TilePoint>& points,
 void collectNear(const PositionSet& set, const NeighbourList& list, std::uint32_t wanted,
   std::vector<NearPoint>& near)
 {
-  near.clear();
+  near.resize(list.entries().size());
   std::uint32_t total = 0;
+  auto place = near.begin();
   for (const NeighbourList::Entry& entry : list.entries())
   {
-    const std::uint32_t count =
-      wanted > 0 ? std::min(entry.count, wanted - total) : entry.count;
-    near.push_back({ set.positions[entry.index], entry.squaredDistance, count });
-    total += count;
+    place->position = set.positions[entry.index];
+    place->squaredDistance = entry.squaredDistance;
+    place->count = wanted > 0 ? std::min(entry.count, wanted - total) : entry.count;
+    total += place->count;
+    ++place;
+  }
+}
+
+void collectNear(const PositionSet& set, const std::vector<std::uint32_t>& places,
+  const glm::dvec3& from, std::vector<NearPoint>& near)
+{
+  near.resize(places.size());
+  for (std::size_t i = 0; i < places.size(); ++i)
+  {
+    const glm::dvec3& position = set.positions[places[i]];
+    const glm::dvec3 d = position - from;
+    near[i].position = position;
+    near[i].squaredDistance = d.x * d.x + d.y * d.y + d.z * d.z;
+    near[i].count = 1;
   }
 }
 

@@ -19,9 +19,10 @@ PlaceOrder placeOrder(const std::vector<TilePoint>& points);
 PlaceOrder queriesOf(const PlaceOrder& order, const std::vector<TilePoint>& points,
   std::size_t own, const ClassSet& queries);
 
-/// Where the run of points close together ends that begins at `begin`: after 8 to 16 points, where
-/// the curve leaves the largest cell.
-std::size_t runEnd(const std::vector<std::uint64_t>& keys, std::size_t begin);
+/// Where the run of points close together ends that begins at `begin`: at `end`, or after
+/// `longest` / 2 to `longest` points, where the curve leaves the largest cell.
+std::size_t runEnd(const std::vector<std::uint64_t>& keys, std::size_t begin, std::size_t end,
+  std::size_t longest);
 
 /// The places of the references among `points`, taken in `order`. With two axes, points above one
 /// another are one place: the lowest.
@@ -33,6 +34,10 @@ void collectReferences(const std::vector<TilePoint>& points,
 /// number).
 void collectNear(const PositionSet& set, const NeighbourList& list, std::uint32_t wanted,
   std::vector<NearPoint>& near);
+
+/// Places with one point each as neighbours of `from`.
+void collectNear(const PositionSet& set, const std::vector<std::uint32_t>& places,
+  const glm::dvec3& from, std::vector<NearPoint>& near);
 
 /// A point whose neighbours may lie outside of what its tile gathered.
 struct UnfinishedPoint

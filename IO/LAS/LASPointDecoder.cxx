@@ -30,6 +30,15 @@ void decodePositions(const Records& records, const QuantisationGrid& grid, glm::
   }
 }
 
+void decodeSteps(const Records& records, glm::ivec3* to)
+{
+  const std::byte* from = records.first;
+  for (std::size_t i = 0; i < records.count; ++i, from += records.stride)
+  {
+    std::memcpy(to + i, from, sizeof(*to)); // x, y, z are the first 12 bytes of every format
+  }
+}
+
 /// Width known when compiled: each copy is one or two moves.
 template <std::size_t Width>
 void copyFixed(const Records& records, const std::byte* from, std::byte* to)
@@ -117,7 +126,14 @@ void decodeLASPoints(const LASPointLayout& layout, const QuantisationGrid& grid,
   {
     const Records block{ records + begin * layout.pointBytes, layout.pointBytes,
       std::min(blockPoints, count - begin) };
-    decodePositions(block, grid, batch.positions.data() + first + begin);
+    if (batch.steps.empty())
+    {
+      decodePositions(block, grid, batch.positions.data() + first + begin);
+    }
+    else
+    {
+      decodeSteps(block, batch.steps.data() + first + begin);
+    }
     for (std::size_t c = 0; c < layout.fields.size(); ++c)
     {
       const std::size_t width = layout.schema[c].bytes();

@@ -10,8 +10,9 @@
 namespace pointfront
 {
 
-/// Turns `count` LAS records that lie one behind the other into positions [first, first + count)
-/// of `batch`, which is large enough and has the layout's columns.
+/// Turns `count` LAS records that lie one behind the other into points [first, first + count) of
+/// `batch`, which is large enough and has the layout's columns. Positions are the records' own
+/// steps if the batch has steps, otherwise world coordinates.
 /// Speed    one strided pass for each column over some hundred records at a time, so that a
 ///          record is read from memory once and from the nearest cache after that.
 /// Threads  pure.

@@ -10,7 +10,7 @@ namespace pointfront
 {
 namespace
 {
-constexpr std::uint64_t pointsPerChunk = 65536;
+constexpr std::uint64_t pointsPerChunk = 16384;
 } // namespace
 
 Result<std::unique_ptr<PointSource>> LASSource::open(LASFile file)
@@ -35,14 +35,26 @@ std::uint64_t LASSource::chunkPoints(std::uint64_t chunk) const
 
 Result<void> LASSource::read(std::uint64_t chunk, PointBatch& batch) const
 {
-  const std::size_t count = static_cast<std::size_t>(chunkPoints(chunk));
-  batch.resize(count, file_.layout.schema);
+  batch.resize(static_cast<std::size_t>(chunkPoints(chunk)), file_.layout.schema);
+  decode(chunk, batch);
+  return {};
+}
+
+Result<void> LASSource::readSteps(std::uint64_t chunk, PointBatch& batch) const
+{
+  batch.resizeSteps(static_cast<std::size_t>(chunkPoints(chunk)), file_.layout.schema);
+  decode(chunk, batch);
+  return {};
+}
+
+void LASSource::decode(std::uint64_t chunk, PointBatch& batch) const
+{
   const std::size_t offset =
     file_.header.pointOffset + chunk * pointsPerChunk * file_.layout.pointBytes;
-  decodeLASPoints(file_.layout, file_.header.grid, file_.map.data() + offset, count, batch);
+  decodeLASPoints(
+    file_.layout, file_.header.grid, file_.map.data() + offset, batch.size(), batch);
   // Read once, not kept: a file larger than the memory limit must not count against it.
-  file_.map.release(offset, count * file_.layout.pointBytes);
-  return {};
+  file_.map.release(offset, batch.size() * file_.layout.pointBytes);
 }
 
 } // namespace pointfront

@@ -21,8 +21,10 @@ public:
   std::uint64_t chunkCount() const override;
   std::uint64_t chunkPoints(std::uint64_t chunk) const override;
   Result<void> read(std::uint64_t chunk, PointBatch& batch) const override;
+  Result<void> readSteps(std::uint64_t chunk, PointBatch& batch) const override;
 
 private:
+  void decode(std::uint64_t chunk, PointBatch& batch) const;
   explicit LASSource(LASFile file)
     : file_(std::move(file))
   {

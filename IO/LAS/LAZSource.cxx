@@ -93,12 +93,24 @@ std::uint64_t LAZSource::chunkPoints(std::uint64_t chunk) const
 
 Result<void> LAZSource::read(std::uint64_t chunk, PointBatch& batch) const
 {
+  batch.resize(0, file_.layout.schema);
+  return decompress(chunk, batch, Positions::World);
+}
+
+Result<void> LAZSource::readSteps(std::uint64_t chunk, PointBatch& batch) const
+{
+  batch.resizeSteps(0, file_.layout.schema);
+  return decompress(chunk, batch, Positions::Steps);
+}
+
+Result<void> LAZSource::decompress(
+  std::uint64_t chunk, PointBatch& batch, Positions positions) const
+{
   assert(chunk < runs_.size());
   const Run& run = runs_[chunk];
-  batch.resize(0, file_.layout.schema);
   for (std::size_t i = run.first; i < run.end; ++i)
   {
-    if (auto done = decompress(chunks_[i], batch); !done)
+    if (auto done = decompress(chunks_[i], batch, positions); !done)
     {
       return done;
     }
@@ -106,7 +118,8 @@ Result<void> LAZSource::read(std::uint64_t chunk, PointBatch& batch) const
   return {};
 }
 
-Result<void> LAZSource::decompress(const LAZChunk& chunk, PointBatch& batch) const
+Result<void> LAZSource::decompress(
+  const LAZChunk& chunk, PointBatch& batch, Positions positions) const
 {
   const std::string& path = file_.description.path;
   if (!codesCanBegin(file_, compression_, chunk))
@@ -130,7 +143,14 @@ Result<void> LAZSource::decompress(const LAZChunk& chunk, PointBatch& batch) con
       return badChunk(path, chunk, "its bytes end or contradict themselves");
     }
     const std::size_t first = batch.size();
-    batch.resize(first + wanted, file_.layout.schema);
+    if (positions == Positions::Steps)
+    {
+      batch.resizeSteps(first + wanted, file_.layout.schema);
+    }
+    else
+    {
+      batch.resize(first + wanted, file_.layout.schema);
+    }
     decodeLASPoints(
       file_.layout, file_.header.grid, records.data(), wanted, batch, first);
     done += wanted;

@@ -26,8 +26,15 @@ public:
   std::uint64_t chunkCount() const override { return runs_.size(); }
   std::uint64_t chunkPoints(std::uint64_t chunk) const override;
   Result<void> read(std::uint64_t chunk, PointBatch& batch) const override;
+  Result<void> readSteps(std::uint64_t chunk, PointBatch& batch) const override;
 
 private:
+  /// How positions are given.
+  enum class Positions
+  {
+    World,
+    Steps
+  };
   /// Some of the file's chunks, one behind the other.
   struct Run
   {
@@ -37,8 +44,9 @@ private:
   };
 
   LAZSource(LASFile file, LAZCompression compression, std::vector<LAZChunk> chunks);
+  Result<void> decompress(std::uint64_t chunk, PointBatch& batch, Positions positions) const;
   /// Appends the points of one chunk to `batch`.
-  Result<void> decompress(const LAZChunk& chunk, PointBatch& batch) const;
+  Result<void> decompress(const LAZChunk& chunk, PointBatch& batch, Positions positions) const;
 
   LASFile file_;
   LAZCompression compression_;

@@ -45,6 +45,27 @@ TEST_P(RealLASFile, GivesItsPointsAndClasses)
   EXPECT_TRUE(std::all_of(returns.begin(), returns.end(), [](double r) { return r <= 15; }));
 }
 
+TEST_P(RealLASFile, GivesTheSameAsStepsOfItsGrid)
+{
+  const auto source = openOrFail(sharedData(GetParam().path));
+  ASSERT_TRUE(source);
+  const QuantisationGrid grid = *source->description().grid;
+  PointBatch world;
+  PointBatch steps;
+  for (std::uint64_t chunk = 0; chunk < source->chunkCount(); ++chunk)
+  {
+    ASSERT_TRUE(source->read(chunk, world));
+    ASSERT_TRUE(source->readSteps(chunk, steps));
+    ASSERT_TRUE(steps.positions.empty());
+    ASSERT_EQ(steps.size(), world.size());
+    EXPECT_EQ(steps.columns, world.columns);
+    for (std::size_t i = 0; i < steps.size(); ++i)
+    {
+      ASSERT_EQ(grid.toGrid(world.positions[i]), GridPosition(steps.steps[i])) << i;
+    }
+  }
+}
+
 TEST_P(RealLASFile, LiesInItsDeclaredBounds)
 {
   const auto source = openOrFail(sharedData(GetParam().path));

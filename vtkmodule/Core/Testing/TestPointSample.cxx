@@ -25,7 +25,7 @@ void keepAll(PointSample& sample, const PointSources& sources, double share)
   for (std::uint64_t chunk = 0; chunk < sources[0]->chunkCount(); ++chunk)
   {
     ASSERT_TRUE(sources[0]->read(chunk, batch));
-    sample.keep(0, chunk, sources[0]->description().schema, batch, share);
+    sample.keep(0, chunk, sources[0]->description(), batch, share);
   }
 }
 
@@ -81,7 +81,7 @@ TEST(PointSample, IsTheSameInAnyOrderOfReading)
   for (std::uint64_t chunk = sources[0]->chunkCount(); chunk-- > 0;)
   {
     ASSERT_TRUE(sources[0]->read(chunk, batch));
-    backwards.keep(0, chunk, sources[0]->description().schema, batch, 0.1);
+    backwards.keep(0, chunk, sources[0]->description(), batch, 0.1);
   }
   EXPECT_EQ(idsOf(*forwards.snapshot(sources, {})[0]), idsOf(*backwards.snapshot(sources, {})[0]));
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "pointfront/Base/Result.h"
+#include "pointfront/Build/BlockCells.h"
 #include "pointfront/Build/CellTable.h"
 #include "pointfront/Build/ClassLayers.h"
 #include "pointfront/Build/MemoryPlan.h"
@@ -39,12 +40,13 @@ struct ColourWidening
   }
 };
 
-/// What is done once to all records of the pool when they have been read.
+/// The records of the pool when all have been read, and what becomes of them when they are loaded.
 struct PoolPreparation
 {
-  std::uint64_t points = 0; ///< records 0 to points - 1
-  TreeSpace space;          ///< with its origin
-  unsigned rootLog2 = 0;    ///< of the root cube's side
+  std::uint64_t points = 0;      ///< records 0 to points - 1
+  TreeSpace space;               ///< with its origin; positions in the pool are absolute steps
+  unsigned rootLog2 = 0;         ///< of the root cube's side
+  std::vector<PoolBlock> blocks; ///< of the pool
   std::optional<ColourWidening> widening;
   ClassLayers layers;
   bool findable = false; ///< TreeConstruction::nodeOf() will be called
@@ -56,18 +58,18 @@ std::vector<CountedCell> countedCells(const CellTable& table, const TreeSpace& s
 /// For each layer, the bucket of each counted cell, plus one.
 using BucketTables = std::vector<CellTable>;
 
-/// Finds buckets of neighbouring points without a look-up each.
+/// Finds buckets of neighbouring records of the pool without a look-up each.
 class BucketFinder
 {
 public:
-  BucketFinder(const BucketTables& tables, const ClassLayers& layers)
-      : tables_(tables), layers_(layers), last_(tables.size())
+  BucketFinder(const BucketTables& tables, const ClassLayers& layers, const TreeSpace& space)
+      : tables_(tables), layers_(layers), space_(space), last_(tables.size())
   {
   }
   std::uint32_t operator()(const std::byte* record)
   {
     const std::size_t layer = layers_.layerOf(record);
-    const TreePosition cell = tables_[layer].cellOf(positionOf(record));
+    const TreePosition cell = tables_[layer].cellOf(space_.relativeSteps(positionOf(record)));
     Last& last = last_[layer];
     if (last.bucket == 0 || cell != last.cell)
     {
@@ -84,11 +86,12 @@ private:
   };
   const BucketTables& tables_;
   const ClassLayers& layers_;
+  const TreeSpace& space_;
   std::vector<Last> last_; // of each layer
 };
 
 /// Walks over the whole pool, block by block, on all threads.
-/// Threads  called from one thread; runs on the crew.
+/// Threads  called from one thread, runs on the crew; load() may be called from any thread.
 class BlockSorter
 {
 public:
@@ -97,15 +100,18 @@ public:
   {
   }
 
-  /// Counts once more by layers, from cells of 2^finest steps on, never beyond 2^coarsest. Before
-  /// sort(): positions are not relative to the root yet.
+  /// Counts once more by layers, from cells of 2^finest steps on, never beyond 2^coarsest.
   Result<ClassCounts> count(const PoolPreparation& points, unsigned finest, unsigned coarsest);
 
-  /// Moves positions to the root's origin, widens colours, and sorts each block of the pool by
-  /// bucket in its own place: a bucket is one piece from each block that it touches, and its pieces
-  /// are in input order. No second copy on disk, no file a bucket.
+  /// The pieces of each bucket, in input order. Most are runs of blocks, which are there already;
+  /// runs of cells that several buckets share are sorted by bucket, each in its own place. Inside
+  /// a piece equal positions keep their input order; others are in the order of cells.
   Result<std::vector<std::vector<Piece>>> sort(
     const PoolPreparation& points, const BucketTables& buckets, std::uint32_t bucketCount);
+
+  /// The records of some pieces, with positions relative to the root and colours widened.
+  Result<std::vector<std::byte>> load(
+    const PoolPreparation& points, const std::vector<Piece>& pieces) const;
 
   RecordPool& pool() const { return pool_; }
   std::size_t recordBytes() const { return recordBytes_; }

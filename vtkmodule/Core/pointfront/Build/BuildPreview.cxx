@@ -68,17 +68,25 @@ public:
   }
   Result<void> read(std::uint64_t chunk, PointBatch& batch) const override
   {
-    Result<void> done = original_.read(chunk, batch);
+    return watched(chunk, batch, original_.read(chunk, batch));
+  }
+  Result<void> readSteps(std::uint64_t chunk, PointBatch& batch) const override
+  {
+    return watched(chunk, batch, original_.readSteps(chunk, batch));
+  }
+
+private:
+  Result<void> watched(std::uint64_t chunk, const PointBatch& batch, Result<void> done) const
+  {
     if (done && share_ > 0.0)
     {
       preview_.sample_.keep(
-        number_, chunk, original_.description().schema, batch, std::min(1.0, share_));
+        number_, chunk, original_.description(), batch, std::min(1.0, share_));
       preview_.pointsWereRead(batch.size());
     }
     return done;
   }
 
-private:
   const PointSource& original_;
   std::size_t number_;
   BuildPreview& preview_;
@@ -193,7 +201,7 @@ void BuildPreview::pickChunks(const PointSources& sources, const std::function<b
       const auto [number, chunk] = picked[i];
       if (sources[number]->read(chunk, batch)) // the build meets, and tells, what is wrong
       {
-        sample_.keep(number, chunk, sources[number]->description().schema, batch, share);
+        sample_.keep(number, chunk, sources[number]->description(), batch, share);
       }
     }
   };
@@ -271,7 +279,11 @@ void BuildPreview::refine(const PointSources& sources)
       read = read_;
       refining_ = true;
     }
-    show(sources, read, 1, [this] { return !stopped(); });
+    const std::chrono::duration<double> age = std::chrono::steady_clock::now() - shownAt_;
+    if (age.count() >= options_.leastSeconds)
+    {
+      show(sources, read, 1, [this] { return !stopped(); });
+    }
     {
       const std::lock_guard<std::mutex> lock(mutex_);
       refining_ = false;
@@ -302,6 +314,7 @@ void BuildPreview::tell(const Result<void>& done)
 {
   if (done)
   {
+    shownAt_ = std::chrono::steady_clock::now();
     if (options_.shown)
     {
       options_.shown(file_->path());

@@ -8,6 +8,7 @@
 #include "pointfront/Build/StoreBuilder.h"
 #include "pointfront/Store/PreviewRecord.h"
 
+#include <chrono>
 #include <condition_variable>
 #include <functional>
 #include <memory>
@@ -27,6 +28,9 @@ struct PreviewOptions
   std::uint64_t leastPoints = 4000000;
   /// Of the CPU time that building the trees has taken so far, what showing finished parts may.
   double shareOfTime = 0.02;
+  /// A later version of the sample is left out when the one before is younger: of a build that
+  /// takes some seconds nobody looks at four pictures.
+  double leastSeconds = 0.0;
   /// Called after each version with the preview's path; from a thread of the preview.
   std::function<void(const std::string&)> shown;
 };
@@ -102,6 +106,8 @@ private:
   std::uint64_t memoryBytes_ = 0; ///< for the sample, building from it, and finished parts
   std::uint64_t capacity_ = 0; ///< points of the sample; 0: silent
   const PointSource* firstShown_ = nullptr; ///< of the sources that showOverview() was given
+  /// When the last version was there. No two threads at a time: who shows parts waits for refining_.
+  std::chrono::steady_clock::time_point shownAt_;
   bool mixed_ = false; ///< the sample still holds points of the overview
   PointSample sample_;
   const PointSources* sources_ = nullptr; ///< that the build reads

@@ -3,13 +3,13 @@
 #include "pointfront/Build/CpuClock.h"
 
 #include <algorithm>
+#include <array>
+#include <functional>
 
 namespace pointfront
 {
 namespace
 {
-/// Cells along an edge of the root cube, before they are joined.
-constexpr unsigned rootCells = 10;
 /// A cell with more points than an 8th of a part makes for crooked borders.
 constexpr std::uint64_t clumpsAPart = 8;
 
@@ -38,6 +38,28 @@ std::size_t cellsOf(const ClassCounts& counts)
 
 using Digits = std::vector<std::uint64_t>; // how many values have each 16 bits
 
+/// A position by 16 bits at a time, coordinate after coordinate from that of the cut's axis on.
+using CutKey = std::array<std::uint16_t, 6>;
+
+struct CutOrder
+{
+  const TreeSpace& space;
+  int axis = 0;
+
+  CutKey keyOf(const std::byte* record) const
+  {
+    const TreePosition position = space.relativeSteps(positionOf(record));
+    CutKey key;
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      const std::uint32_t v = position[(axis + static_cast<int>(i)) % 3];
+      key[2 * i] = static_cast<std::uint16_t>(v >> 16);
+      key[2 * i + 1] = static_cast<std::uint16_t>(v & 0xffffu);
+    }
+    return key;
+  }
+};
+
 std::uint32_t digitAt(const Digits& digits, std::uint64_t& rank)
 {
   std::uint32_t digit = 0;
@@ -55,7 +77,7 @@ Result<ClassCounts> KdPool::settled(
 {
   const auto below = [&](unsigned bits)
   { return points.rootLog2 > bits ? points.rootLog2 - bits : 0u; };
-  const unsigned finest = below(rootCells);
+  const unsigned finest = below(histogramCellsLog2);
   const unsigned coarsest = below(rootCellsLog2);
   if (counts.shift() > coarsest || (counts.shift() == hintedShift && counts.shift() > finest))
   {
@@ -78,6 +100,7 @@ Result<ClassCounts> KdPool::settled(
 Result<void> KdPool::build(
   const PoolPreparation& points, ClassCounts counts, unsigned hintedShift, const KdRule& rule)
 {
+  points_ = &points;
   auto settledCounts =
     settled(points, std::move(counts), hintedShift, rule.partPoints() / clumpsAPart);
   if (!settledCounts)
@@ -238,14 +261,18 @@ Result<void> KdPool::distribute(std::uint32_t place, std::vector<Piece> pieces)
 }
 
 /// By counting 16 bits at a time, so that a cell of any number of points is divided in the memory
-/// of a block: points before the value of that rank go to the left, of equal ones the first.
+/// of a block. Points are in the order of their coordinates, that of the cut's axis first: those
+/// before the position of that rank go to the left, of those at it the first in input order.
 Result<void> KdPool::divide(const KdPlace& place, const std::vector<Piece>& pieces,
   std::vector<Piece>& left, std::vector<Piece>& right)
 {
   RunSorter sorter(sorter_.pool(), sorter_.recordBytes());
-  const int axis = place.axis;
-  const auto walk = [&](const auto& visit) -> Result<void>
+  const CutOrder order{points_->space, place.axis};
+  std::uint64_t rank = place.first;
+  CutKey key{};
+  for (std::size_t digit = 0; digit < key.size() && (digit == 0 || rank > 0); ++digit)
   {
+    Digits digits(1u << 16, 0);
     for (const Piece& piece : pieces)
     {
       if (Result<void> done = sorter.load(piece); !done)
@@ -254,35 +281,25 @@ Result<void> KdPool::divide(const KdPlace& place, const std::vector<Piece>& piec
       }
       for (std::uint64_t i = 0; i < piece.count; ++i)
       {
-        visit(positionOf(sorter.record(i))[axis]);
+        const CutKey own = order.keyOf(sorter.record(i));
+        digits[own[digit]] +=
+          std::equal(key.begin(), key.begin() + static_cast<std::ptrdiff_t>(digit), own.begin())
+            ? 1u
+            : 0u;
       }
     }
-    return {};
-  };
-  std::uint64_t rank = place.first;
-  Digits digits(1u << 16, 0);
-  Result<void> walked = walk([&](std::uint32_t v) { ++digits[v >> 16]; });
-  const std::uint32_t upper = walked ? digitAt(digits, rank) : 0;
-  std::fill(digits.begin(), digits.end(), 0);
-  if (walked)
-  {
-    walked = walk([&](std::uint32_t v) { digits[v & 0xffffu] += v >> 16 == upper ? 1u : 0u; });
+    key[digit] = static_cast<std::uint16_t>(digitAt(digits, rank));
   }
-  if (!walked)
-  {
-    return walked;
-  }
-  const std::uint32_t value = upper << 16 | digitAt(digits, rank);
   std::uint64_t equalToTheLeft = rank;
   const auto side = [&](const std::byte* record) -> std::uint32_t
   {
-    const std::uint32_t v = positionOf(record)[axis];
-    if (v == value && equalToTheLeft > 0)
+    const CutKey own = order.keyOf(record);
+    if (equalToTheLeft > 0 && own == key)
     {
       --equalToTheLeft;
       return 0;
     }
-    return v < value ? 0 : 1;
+    return own < key ? 0 : 1;
   };
   for (const Piece& piece : pieces)
   {
@@ -290,7 +307,7 @@ Result<void> KdPool::divide(const KdPlace& place, const std::vector<Piece>& piec
     {
       return done;
     }
-    auto sorted = sorter.sort(2, side);
+    auto sorted = sorter.sort(2, std::ref(side));
     if (!sorted)
     {
       return sorted.error();
@@ -305,17 +322,7 @@ Result<void> KdPool::divide(const KdPlace& place, const std::vector<Piece>& piec
 
 Result<std::vector<std::byte>> KdPool::load(std::uint32_t part) const
 {
-  std::vector<std::byte> records(counts_[part] * sorter_.recordBytes());
-  std::byte* to = records.data();
-  for (const Piece& piece : pieces_[part])
-  {
-    if (Result<void> done = sorter_.pool().read(piece.first, piece.count, to); !done)
-    {
-      return done.error();
-    }
-    to += piece.count * sorter_.recordBytes();
-  }
-  return records;
+  return sorter_.load(*points_, pieces_[part]);
 }
 
 } // namespace pointfront

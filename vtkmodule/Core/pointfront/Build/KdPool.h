@@ -14,18 +14,22 @@ namespace pointfront
 /// The pool's records, cut into the parts of a kd-tree for each layer. Records are moved once for
 /// all levels of the upper trees; after that only the cells that a median divides are touched
 /// again, each run of them in its own place and with no more memory than a block.
-/// Order     the records of a part come in input order, those of divided cells behind the others,
-///           whatever the blocks and threads were.
+/// Order     the records of a part come block by block, those of divided cells behind the others;
+///           those at equal positions in input order, whatever the blocks and threads were.
 /// Threads   build() runs on the crew; load() may be called from any thread.
 class KdPool
 {
 public:
+  /// Cells along an edge of the root cube that medians are found in, before any are joined.
+  static constexpr unsigned histogramCellsLog2 = 10;
+
   KdPool(RecordPool& pool, std::size_t recordBytes, const MemoryPlan& plan, WorkCrew& crew)
       : sorter_(pool, recordBytes, plan, crew)
   {
   }
 
-  /// `counts`: of the layers' classes; their cells had 2^hintedShift steps at first.
+  /// `counts`: of the layers' classes; their cells had 2^hintedShift steps at first. `points` must
+  /// outlive this.
   Result<void> build(
     const PoolPreparation& points, ClassCounts counts, unsigned hintedShift, const KdRule& rule);
 
@@ -52,6 +56,7 @@ private:
     std::vector<Piece>& left, std::vector<Piece>& right);
 
   BlockSorter sorter_;
+  const PoolPreparation* points_ = nullptr;
   std::vector<PartNode> tree_;
   std::vector<std::vector<KdShare>> shares_;
   std::vector<KdPlace> places_;            // of all layers

@@ -12,7 +12,7 @@ namespace
 /// Larger parts gain nothing: sorting and sampling leave the caches.
 constexpr std::uint64_t mostPartPoints = 1u << 18;
 constexpr std::uint64_t mostBlockPoints = 1u << 22;
-constexpr std::uint64_t memoryBlockPoints = 1u << 18;
+constexpr std::uint64_t memoryBlockPoints = 1u << 17;
 
 /// Bytes for one point of a part while it is built: its record twice (unsorted and sorted), keys,
 /// its position once more, index lists of the levels (their sum is below 2 indices a point), the
@@ -23,7 +23,7 @@ std::uint64_t partPointBytes(const MemoryDemand& demand)
     2 * demand.recordBytes + demand.partBytes;
 }
 
-/// A block and its sorted copy.
+/// A block, its sorted copy, and the cell of each point.
 std::uint64_t blockPointBytes(std::size_t recordBytes)
 {
   return 2 * recordBytes + 8;
@@ -35,10 +35,16 @@ std::uint64_t leastPartPoints(const MemoryDemand& demand)
   return std::max<std::uint64_t>(4ull * demand.nodePoints, demand.wholePart);
 }
 
-/// Batches of doubles, and their records, for each thread.
+/// A batch of doubles, for each thread.
+std::uint64_t batchBytes(const MemoryDemand& demand)
+{
+  return demand.largestChunk * (3 * sizeof(double) + demand.sourceBytes);
+}
+
+/// A batch, and a block of it alone.
 std::uint64_t readBytes(const MemoryDemand& demand)
 {
-  return demand.largestChunk * (3 * sizeof(double) + demand.sourceBytes + demand.recordBytes);
+  return batchBytes(demand) + demand.largestChunk * blockPointBytes(demand.recordBytes);
 }
 
 std::uint64_t leastBytes(const MemoryDemand& demand)
@@ -66,8 +72,9 @@ MemoryPlan divided(const MemoryDemand& demand, std::uint64_t available, bool spi
   const std::uint64_t forBalance = demand.points / (8ull * plan.threads);
   plan.partPoints = std::clamp(std::min(share / partPointBytes(demand), forBalance),
     leastPartPoints(demand), std::max(mostPartPoints, leastPartPoints(demand)));
-  plan.blockPoints = std::clamp<std::uint64_t>(
-    share / blockPointBytes(demand.recordBytes), 1024, spill ? mostBlockPoints : memoryBlockPoints);
+  const std::uint64_t forBlock = share - std::min(share, batchBytes(demand));
+  plan.blockPoints = std::clamp<std::uint64_t>(forBlock / blockPointBytes(demand.recordBytes),
+    1024, spill ? mostBlockPoints : memoryBlockPoints);
   return plan;
 }
 } // namespace

@@ -27,7 +27,7 @@ struct MemoryPlan
 {
   bool spill = false;            ///< records go to disk
   unsigned threads = 1;          ///< those wanted, or fewer when memory is short
-  std::uint64_t blockPoints = 0; ///< records sorted into parts at a time, by each thread
+  std::uint64_t blockPoints = 0; ///< records read and sorted by cells at a time, by each thread
   std::uint64_t partPoints = 0;  ///< largest part built at a time, by each thread
 };
 

@@ -56,24 +56,24 @@ void gatherColumn(const StoredColumn& column, const Tile& tile, std::byte* out)
 {
   if (column.narrowed)
   {
-    return copyLowBytes(tile, column.offset, column.bytes, out);
+    return copyLowBytes(tile, *column.offset, column.bytes, out);
   }
   switch (column.bytes)
   {
   case 1:
-    return copyColumn<1>(tile, column.offset, out);
+    return copyColumn<1>(tile, *column.offset, out);
   case 2:
-    return copyColumn<2>(tile, column.offset, out);
+    return copyColumn<2>(tile, *column.offset, out);
   case 3:
-    return copyColumn<3>(tile, column.offset, out);
+    return copyColumn<3>(tile, *column.offset, out);
   case 4:
-    return copyColumn<4>(tile, column.offset, out);
+    return copyColumn<4>(tile, *column.offset, out);
   case 6:
-    return copyColumn<6>(tile, column.offset, out);
+    return copyColumn<6>(tile, *column.offset, out);
   case 8:
-    return copyColumn<8>(tile, column.offset, out);
+    return copyColumn<8>(tile, *column.offset, out);
   default:
-    return copyColumn(tile, column.offset, column.bytes, out);
+    return copyColumn(tile, *column.offset, column.bytes, out);
   }
 }
 
@@ -95,15 +95,22 @@ Bounds boundsOf(const QuantisationGrid& grid, const NodeColumns& points)
 }
 } // namespace
 
-NodeEmitter::NodeEmitter(TreeSpace space, const AttributeSchema& pooled, AttributeSchema stored,
+NodeEmitter::NodeEmitter(TreeSpace space, const RecordColumns& columns, AttributeSchema stored,
   Refinement refinement)
     : space_(std::move(space)), schema_(std::move(stored)), refinement_(refinement)
 {
-  assert(pooled.size() == schema_.size());
-  const RecordLayout layout(pooled);
+  const RecordLayout layout(columns.schema());
   for (std::size_t c = 0; c < schema_.size(); ++c)
   {
-    columns_.push_back({layout.offset(c), schema_[c].bytes(), pooled[c].type != schema_[c].type});
+    StoredColumn column;
+    column.bytes = schema_[c].bytes();
+    if (const auto& place = columns.place(c))
+    {
+      column.offset = layout.offset(*place);
+      column.narrowed = columns.schema()[*place].type != schema_[c].type;
+    }
+    columns_.push_back(column);
+    constants_.push_back(columns.constant(c));
   }
 }
 
@@ -117,7 +124,7 @@ NodeColumns NodeEmitter::gather(
   points.columns.resize(columns_.size());
   for (std::size_t c = 0; c < columns_.size(); ++c)
   {
-    points.columns[c].resize(order.size() * columns_[c].bytes);
+    points.columns[c].resize(columns_[c].offset ? order.size() * columns_[c].bytes : 0);
   }
   for (std::size_t begin = 0; begin < order.size(); begin += tilePoints)
   {
@@ -131,7 +138,10 @@ NodeColumns NodeEmitter::gather(
     }
     for (std::size_t c = 0; c < columns_.size(); ++c)
     {
-      gatherColumn(columns_[c], tile, points.columns[c].data() + begin * columns_[c].bytes);
+      if (columns_[c].offset)
+      {
+        gatherColumn(columns_[c], tile, points.columns[c].data() + begin * columns_[c].bytes);
+      }
     }
   }
   TreePosition low(order.empty() ? 0u : UINT32_MAX);
@@ -160,7 +170,7 @@ EncodedNode NodeEmitter::emit(
   {
     node.row.pointsBelow += child->row.pointsBelow;
   }
-  return encodeNode(columns, schema_);
+  return encodeNode(columns, schema_, constants_);
 }
 
 } // namespace pointfront

@@ -1,12 +1,14 @@
 #pragma once
 
 #include "pointfront/Build/BuiltTree.h"
+#include "pointfront/Build/RecordColumns.h"
 #include "pointfront/Build/RecordLayout.h"
 #include "pointfront/Build/TreeSpace.h"
 #include "pointfront/Points/AttributeSchema.h"
 #include "pointfront/Store/StoreWriter.h"
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace pointfront
@@ -15,8 +17,8 @@ namespace pointfront
 /// How a record's column becomes a column of the store.
 struct StoredColumn
 {
-  std::size_t offset = 0; ///< in the record
-  std::size_t bytes = 0;  ///< of one point in the store
+  std::optional<std::size_t> offset; ///< in the record; nothing: it is not carried
+  std::size_t bytes = 0; ///< of one point in the store
   bool narrowed = false;  ///< two bytes a component in the record, one in the store
 };
 
@@ -26,9 +28,10 @@ struct StoredColumn
 class NodeEmitter
 {
 public:
-  /// `stored` differs from `pooled` only in columns whose 16-bit values all fit 8 bits.
+  /// `stored` has the common columns, of which records carry `columns`; it differs from these only
+  /// in columns whose 16-bit values all fit 8 bits.
   /// With Refinement::Replace the points of inner nodes do not count as points of the input.
-  NodeEmitter(TreeSpace space, const AttributeSchema& pooled, AttributeSchema stored,
+  NodeEmitter(TreeSpace space, const RecordColumns& columns, AttributeSchema stored,
     Refinement refinement = Refinement::Add);
 
   /// `points` in Morton order; the children of `node` are finished.
@@ -44,6 +47,7 @@ private:
   AttributeSchema schema_;
   Refinement refinement_;
   std::vector<StoredColumn> columns_;
+  ColumnConstants constants_;
 };
 
 } // namespace pointfront

@@ -30,6 +30,7 @@ PartPool::PartPool(
 
 Result<void> PartPool::build(const PoolPreparation& points, ClassCounts counts)
 {
+  points_ = &points;
   const unsigned coarsest = points.rootLog2 > rootCellsLog2 ? points.rootLog2 - rootCellsLog2 : 0;
   if (counts.shift() > coarsest) // the declared bounds were far too large
   {
@@ -97,13 +98,14 @@ Result<void> PartPool::refine(std::uint32_t part)
     }
     for (std::uint64_t i = 0; i < run.count; ++i)
     {
-      counts.add(positionOf(sorter.record(i)));
+      counts.add(points_->space.relativeSteps(positionOf(sorter.record(i))));
     }
   }
   const std::vector<CountedCell> cells =
-    countedCells(counts.table(), TreeSpace()); // relative to the root already
+    countedCells(counts.table(), TreeSpace()); // relative to the root
   std::vector<std::uint32_t> partOf;
   const Partition finer(cells, counts.table().shift(), sorter_.plan().partPoints, partOf);
+  const ClassLayers layer; // of the part: there is no other in it
   const BucketTables table{partTable(cells, counts.table().shift(), partOf, 0)};
   const std::vector<std::uint32_t> numbers = partition_->refine(part, finer);
   pieces_.resize(partition_->partCount());
@@ -114,7 +116,7 @@ Result<void> PartPool::refine(std::uint32_t part)
     {
       return done;
     }
-    auto pieces = sorter.sort(finer.partCount(), BucketFinder(table, ClassLayers()));
+    auto pieces = sorter.sort(finer.partCount(), BucketFinder(table, layer, points_->space));
     if (!pieces)
     {
       return pieces.error();
@@ -155,18 +157,7 @@ void PartPool::refineByOrder(std::uint32_t part)
 
 Result<std::vector<std::byte>> PartPool::load(std::uint32_t part) const
 {
-  std::vector<std::byte> records(partition_->part(part).count * sorter_.recordBytes());
-  std::uint64_t loaded = 0;
-  for (const Piece& piece : pieces_[part])
-  {
-    std::byte* to = records.data() + loaded * sorter_.recordBytes();
-    if (Result<void> done = sorter_.pool().read(piece.first, piece.count, to); !done)
-    {
-      return done.error();
-    }
-    loaded += piece.count;
-  }
-  return records;
+  return sorter_.load(*points_, pieces_[part]);
 }
 
 } // namespace pointfront

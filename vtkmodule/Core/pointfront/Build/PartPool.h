@@ -18,11 +18,11 @@ class PartPool
 public:
   PartPool(RecordPool& pool, std::size_t recordBytes, const MemoryPlan& plan, WorkCrew& crew);
 
-  /// `counts`: of the layers' classes.
+  /// `counts`: of the layers' classes. `points` must outlive this.
   Result<void> build(const PoolPreparation& points, ClassCounts counts);
 
   const Partition& partition() const { return *partition_; }
-  /// The records of a part, in input order.
+  /// The records of a part; those at equal positions in input order.
   Result<std::vector<std::byte>> load(std::uint32_t part) const;
   /// CPU seconds of build(), over all threads.
   double seconds() const { return sorter_.seconds() + seconds_; }
@@ -33,6 +33,7 @@ private:
   void refineByOrder(std::uint32_t part);
 
   BlockSorter sorter_;
+  const PoolPreparation* points_ = nullptr;
   std::optional<Partition> partition_;
   std::vector<std::vector<Piece>> pieces_; // of each part
   double seconds_ = 0.0;

@@ -15,12 +15,12 @@ namespace
 {
 using Sources = std::vector<std::unique_ptr<PointSource>>;
 
-/// Cells such that a surface has some hundred points in each: enough of them to cut parts along,
-/// and few enough for the nearest caches. Of a 64th to a 512th of the declared extent; coarsened as
-/// points come, counted again if too coarse.
-unsigned hintedShift(const Sources& sources, const TreeSpace& space)
+/// Cells such that a surface has some thousand points in each: enough of them to cut parts along,
+/// and few enough for the nearest caches. Of 2^least to the 512th part of the declared extent, if
+/// `least` is less; coarsened as points come, counted again if too coarse.
+unsigned hintedShift(const Sources& sources, const TreeSpace& space, double least)
 {
-  constexpr double pointsOfCell = 256.0;
+  constexpr double pointsOfCell = 1024.0;
   Bounds bounds;
   double points = 1.0;
   for (const auto& source : sources)
@@ -28,31 +28,60 @@ unsigned hintedShift(const Sources& sources, const TreeSpace& space)
     bounds.add(source->description().declaredBounds);
     points += static_cast<double>(source->description().pointCount);
   }
-  const double cellsLog2 = std::clamp(std::ceil(0.5 * std::log2(points / pointsOfCell)), 6.0, 9.0);
+  const double cellsLog2 = std::clamp(
+    std::ceil(0.5 * std::log2(points / pointsOfCell)), least, std::max(least, 9.0));
   const glm::dvec3 size = bounds.empty() ? glm::dvec3(0.0) : bounds.size();
   const double steps = std::max({size.x, size.y, size.z}) / space.stepLength();
   const double bits = std::log2(std::max(1.0, steps)) - cellsLog2;
   return bits > 0.0 && std::isfinite(bits) ? static_cast<unsigned>(std::min(bits, 26.0)) : 0u;
 }
 
+/// Chunks of one source that become a block.
+struct ChunkRun
+{
+  std::size_t source = 0;
+  std::uint64_t begin = 0;
+  std::uint64_t end = 0;
+  std::uint64_t points = 0; ///< at most
+};
+
+std::vector<ChunkRun> chunkRuns(const Sources& sources, std::uint64_t blockPoints)
+{
+  std::vector<ChunkRun> runs;
+  for (std::size_t s = 0; s < sources.size(); ++s)
+  {
+    for (std::uint64_t chunk = 0; chunk < sources[s]->chunkCount(); ++chunk)
+    {
+      const std::uint64_t more = sources[s]->chunkPoints(chunk);
+      if (chunk == 0 || runs.back().points + more > blockPoints)
+      {
+        runs.push_back({s, chunk, chunk, 0});
+      }
+      runs.back().points += more;
+      runs.back().end = chunk + 1;
+    }
+  }
+  return runs;
+}
+
 /// One run over all chunks of all sources, shared by the threads.
 class Ingest
 {
 public:
-  Ingest(const Sources& sources, const CommonSchema& schema, const TreeSpace& space,
-    RecordPool& pool, WorkCrew& crew, std::optional<std::size_t> classOffset)
-      : sources_(sources), schema_(schema), space_(space), pool_(pool), crew_(crew),
-        classOffset_(classOffset), shift_(hintedShift(sources, space))
+  Ingest(const IngestSite& site, std::optional<std::size_t> classOffset)
+      : site_(site), classOffset_(classOffset), shift_(hintedShift(site.sources, site.space, site.leastCellsLog2)),
+        runs_(chunkRuns(site.sources, site.blockPoints))
   {
-    for (const auto& source : sources)
-    {
-      chunkBegin_.push_back(chunks_);
-      chunks_ += source->chunkCount();
-    }
     points_.counts = ClassCounts(shift_);
     points_.hintedShift = shift_;
-    points_.sourceEnd.assign(sources.size(), 0);
-    points_.largestColour.assign(sources.size(), 0);
+    points_.sourceEnd.assign(site.sources.size(), 0);
+    points_.largestColour.assign(site.sources.size(), 0);
+    points_.wrong.assign(site.common.schema.size(), false);
+    points_.blocks.resize(runs_.size());
+    for (const auto& source : site.sources)
+    {
+      onGrid_.push_back(source->description().grid == site.space.grid);
+    }
   }
 
   /// The work of one thread.
@@ -61,100 +90,165 @@ public:
   IngestedPoints finish();
 
 private:
-  std::optional<std::uint64_t> placeInOrder(
-    std::uint64_t chunk, std::size_t source, std::uint64_t read, const RecordPacker& packer);
-  void merge(const RecordPacker& packer, double readSeconds, double quantiseSeconds);
+  /// What one thread did.
+  struct Share
+  {
+    std::uint64_t points = 0; ///< read
+    double readSeconds = 0.0; ///< CPU
+    double quantiseSeconds = 0.0;
+  };
+  Result<bool> fill(
+    const ChunkRun& run, RecordPacker& packer, PointBatch& batch, Share& share);
+  Result<bool> store(std::size_t number, RecordPacker& packer, std::vector<std::byte>& sorted);
+  bool placeInOrder(std::size_t number, const RecordPacker& packer);
+  void merge(const RecordPacker& packer, const Share& share);
+  bool over() const { return site_.crew.stopped() || guessedWrong_; }
 
-  const Sources& sources_;
-  const CommonSchema& schema_;
-  const TreeSpace& space_;
-  RecordPool& pool_;
-  WorkCrew& crew_;
+  const IngestSite& site_;
   std::optional<std::size_t> classOffset_;
   unsigned shift_;
-  std::vector<std::uint64_t> chunkBegin_; // number of the first chunk of each source
-  std::uint64_t chunks_ = 0;
-  std::atomic<std::uint64_t> nextChunk_{0};
+  std::vector<ChunkRun> runs_;
+  std::vector<bool> onGrid_; // of each source: its grid is the store's
+  std::atomic<std::size_t> nextRun_{0};
+  std::atomic<bool> guessedWrong_{false};
   std::mutex mutex_; // guards what follows
   std::condition_variable turnChanged_;
-  std::uint64_t turn_ = 0; // the chunk whose records are placed next
+  std::size_t turn_ = 0; // the run whose records are placed next
   IngestedPoints points_;
 };
 
 Result<void> Ingest::work()
 {
   PointBatch batch;
-  RecordPacker packer(schema_, space_, shift_, classOffset_);
-  double readSeconds = 0.0;
-  double quantiseSeconds = 0.0;
-  for (std::uint64_t chunk = nextChunk_++; chunk < chunks_ && !crew_.stopped();
-       chunk = nextChunk_++)
+  std::vector<std::byte> sorted;
+  RecordPacker packer(site_.common, site_.columns, site_.space, shift_, classOffset_);
+  Share share;
+  for (std::size_t number = nextRun_++; number < runs_.size() && !over(); number = nextRun_++)
   {
-    const auto after = std::upper_bound(chunkBegin_.begin(), chunkBegin_.end(), chunk);
-    const auto source = static_cast<std::size_t>(after - chunkBegin_.begin() - 1);
+    auto filled = fill(runs_[number], packer, batch, share);
+    if (filled && *filled)
     {
-      const CpuStopwatch watch(readSeconds);
-      const Result<void> done = sources_[source]->read(chunk - chunkBegin_[source], batch);
-      if (!done)
-      {
-        crew_.fail(done.error());
-        turnChanged_.notify_all();
-        return done;
-      }
+      const CpuStopwatch watch(share.quantiseSeconds);
+      filled = store(number, packer, sorted);
     }
-    const std::uint64_t read = batch.size();
-    if (read > sources_[source]->chunkPoints(chunk - chunkBegin_[source]))
+    if (!filled)
     {
-      return makeError(Error::Kind::BadFormat,
-        "'" + sources_[source]->description().path + "' gave more points than it announced");
+      site_.crew.fail(filled.error());
+      turnChanged_.notify_all();
+      return filled.error();
     }
-    const CpuStopwatch watch(quantiseSeconds);
-    packer.pack(sources_[source]->description().schema, source, batch);
-    const auto place = placeInOrder(chunk, source, read, packer);
-    if (!place)
+    if (!*filled)
     {
       break;
     }
-    if (Result<void> done = pool_.write(*place, packer.count(), packer.records().data()); !done)
-    {
-      return done;
-    }
-    crew_.advance(read);
   }
-  merge(packer, readSeconds, quantiseSeconds);
+  merge(packer, share);
   return {};
 }
 
-std::optional<std::uint64_t> Ingest::placeInOrder(
-  std::uint64_t chunk, std::size_t source, std::uint64_t read, const RecordPacker& packer)
+/// False when the run is given up.
+Result<bool> Ingest::fill(
+  const ChunkRun& run, RecordPacker& packer, PointBatch& batch, Share& share)
+{
+  const PointSource& source = *site_.sources[run.source];
+  packer.begin(run.points);
+  for (std::uint64_t chunk = run.begin; chunk < run.end; ++chunk)
+  {
+    {
+      const CpuStopwatch watch(share.readSeconds);
+      const Result<void> done =
+        onGrid_[run.source] ? source.readSteps(chunk, batch) : source.read(chunk, batch);
+      if (!done)
+      {
+        return done.error();
+      }
+    }
+    const std::uint64_t read = batch.size();
+    if (read > source.chunkPoints(chunk))
+    {
+      return makeError(Error::Kind::BadFormat,
+        "'" + source.description().path + "' gave more points than it announced");
+    }
+    share.points += read;
+    const CpuStopwatch watch(share.quantiseSeconds);
+    if (!packer.append(source.description().schema, run.source, batch))
+    {
+      guessedWrong_ = true;
+      turnChanged_.notify_all();
+    }
+    if (over())
+    {
+      return false;
+    }
+    site_.crew.advance(read);
+  }
+  return true;
+}
+
+/// False when the run is given up.
+Result<bool> Ingest::store(
+  std::size_t number, RecordPacker& packer, std::vector<std::byte>& sorted)
+{
+  PoolBlock& block = points_.blocks[number]; // this thread's own until all are done
+  block.runs = packer.order();
+  block.shift = packer.runShift();
+  block.count = packer.count();
+  if (!placeInOrder(number, packer))
+  {
+    return false;
+  }
+  if (block.count == 0)
+  {
+    return true;
+  }
+  if (std::byte* memory = site_.pool.memory(block.first))
+  {
+    packer.writeTo(memory);
+    return true;
+  }
+  sorted.resize(std::max(sorted.size(), block.count * site_.pool.recordBytes()));
+  packer.writeTo(sorted.data());
+  if (Result<void> done = site_.pool.write(block.first, block.count, sorted.data()); !done)
+  {
+    return done.error();
+  }
+  return true;
+}
+
+bool Ingest::placeInOrder(std::size_t number, const RecordPacker& packer)
 {
   std::unique_lock<std::mutex> lock(mutex_);
-  while (turn_ != chunk && !crew_.stopped())
+  while (turn_ != number && !over())
   {
     turnChanged_.wait_for(lock, std::chrono::milliseconds(50)); // an Error elsewhere ends it too
   }
-  if (crew_.stopped())
+  if (over())
   {
-    return std::nullopt;
+    return false;
   }
-  const std::uint64_t place = points_.kept;
+  const std::size_t source = runs_[number].source;
+  points_.blocks[number].first = points_.kept;
   points_.kept += packer.count();
-  points_.read += read;
   points_.sourceEnd[source] = points_.kept;
   points_.largestColour[source] = std::max(points_.largestColour[source], packer.largestColour());
   ++turn_;
   turnChanged_.notify_all();
-  return place;
+  return true;
 }
 
-void Ingest::merge(const RecordPacker& packer, double readSeconds, double quantiseSeconds)
+void Ingest::merge(const RecordPacker& packer, const Share& share)
 {
   const std::lock_guard<std::mutex> lock(mutex_);
   points_.counts.add(packer.counts());
+  points_.read += share.points;
   points_.low = glm::min(points_.low, packer.low());
   points_.high = glm::max(points_.high, packer.high());
-  points_.readSeconds += readSeconds;
-  points_.quantiseSeconds += quantiseSeconds;
+  points_.readSeconds += share.readSeconds;
+  points_.quantiseSeconds += share.quantiseSeconds;
+  for (std::size_t c = 0; c < points_.wrong.size(); ++c)
+  {
+    points_.wrong[c] = points_.wrong[c] || packer.wrong()[c];
+  }
   for (std::size_t i = 0; i < std::size_t(Rejection::Count); ++i)
   {
     if (const std::uint64_t count = packer.rejected(Rejection(i)))
@@ -166,6 +260,7 @@ void Ingest::merge(const RecordPacker& packer, double readSeconds, double quanti
 
 IngestedPoints Ingest::finish()
 {
+  points_.guessedWrong = guessedWrong_;
   for (std::size_t s = 1; s < points_.sourceEnd.size(); ++s) // sources without a chunk
   {
     points_.sourceEnd[s] = std::max(points_.sourceEnd[s], points_.sourceEnd[s - 1]);
@@ -174,23 +269,11 @@ IngestedPoints Ingest::finish()
 }
 } // namespace
 
-std::optional<std::size_t> wideColourColumn(const AttributeSchema& schema)
+Result<IngestedPoints> ingestPoints(
+  const IngestSite& site, std::optional<std::size_t> classOffset)
 {
-  for (std::size_t c = 0; c < schema.size(); ++c)
-  {
-    if (schema[c].name == "rgb" && schema[c].type == ScalarType::UInt16)
-    {
-      return c;
-    }
-  }
-  return std::nullopt;
-}
-
-Result<IngestedPoints> ingestPoints(const Sources& sources, const CommonSchema& schema,
-  const TreeSpace& space, RecordPool& pool, WorkCrew& crew, std::optional<std::size_t> classOffset)
-{
-  Ingest ingest(sources, schema, space, pool, crew, classOffset);
-  if (Result<void> done = crew.run([&] { return ingest.work(); }); !done)
+  Ingest ingest(site, classOffset);
+  if (Result<void> done = site.crew.run([&] { return ingest.work(); }); !done)
   {
     return done.error();
   }

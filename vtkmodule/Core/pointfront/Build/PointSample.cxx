@@ -65,16 +65,19 @@ private:
 };
 } // namespace
 
-void PointSample::keep(std::size_t source, std::uint64_t chunk, const AttributeSchema& schema,
-  const PointBatch& batch, double share)
+void PointSample::keep(std::size_t source, std::uint64_t chunk,
+  const SourceDescription& description, const PointBatch& batch, double share)
 {
+  const AttributeSchema& schema = description.schema;
   const std::uint64_t seed = source * 0xd1342543de82ef95ull + chunk;
   const std::vector<std::size_t> chosen = chosenIndices(batch.size(), share, seed);
   auto kept = std::make_shared<PointBatch>();
   kept->resize(chosen.size(), schema);
   for (std::size_t i = 0; i < chosen.size(); ++i)
   {
-    kept->positions[i] = batch.positions[chosen[i]];
+    kept->positions[i] = batch.steps.empty()
+                           ? batch.positions[chosen[i]]
+                           : description.grid->toWorld(GridPosition(batch.steps[chosen[i]]));
   }
   for (std::size_t c = 0; c < schema.size(); ++c)
   {

@@ -21,7 +21,7 @@ class PointSample
 {
 public:
   /// Keeps about `share` (0 to 1) of a chunk, instead of what was kept of it before.
-  void keep(std::size_t source, std::uint64_t chunk, const AttributeSchema& schema,
+  void keep(std::size_t source, std::uint64_t chunk, const SourceDescription& description,
     const PointBatch& batch, double share);
   void clear();
 

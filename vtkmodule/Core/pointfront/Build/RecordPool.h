@@ -23,6 +23,12 @@ public:
 
   Result<void> write(std::uint64_t first, std::uint64_t count, const std::byte* records);
   Result<void> read(std::uint64_t first, std::uint64_t count, std::byte* records) const;
+  /// Where that record is; nullptr if it is on disk.
+  std::byte* memory(std::uint64_t first)
+  {
+    return file_ ? nullptr : memory_.get() + first * recordBytes_;
+  }
+  std::size_t recordBytes() const { return recordBytes_; }
   bool onDisk() const { return file_ != nullptr; }
 
 private:

@@ -9,13 +9,12 @@ namespace
 constexpr unsigned oneCell = 31; // the packer's counts are of no interest here
 } // namespace
 
-std::vector<std::byte> sampleRecords(const PointSources& sample, const CommonSchema& schema,
-  const TreeSpace& space, const std::optional<ColourWidening>& widening,
-  const std::vector<bool>& widened)
+std::vector<std::byte> sampleRecords(const PointSources& sample, const RecordForm& form,
+  const std::optional<ColourWidening>& widening, const std::vector<bool>& widened)
 {
   std::vector<std::byte> records;
-  RecordPacker packer(schema, space, oneCell, std::nullopt);
-  const std::size_t recordBytes = RecordLayout(schema.schema).bytes();
+  RecordPacker packer(form.common, form.columns, form.space, oneCell, std::nullopt);
+  const std::size_t recordBytes = RecordLayout(form.columns.schema()).bytes();
   PointBatch batch;
   for (std::size_t s = 0; s < sample.size(); ++s)
   {
@@ -25,14 +24,19 @@ std::vector<std::byte> sampleRecords(const PointSources& sample, const CommonSch
       {
         continue;
       }
-      packer.pack(sample[s]->description().schema, s, batch);
+      packer.begin(batch.size());
+      if (!packer.append(sample[s]->description().schema, s, batch))
+      {
+        continue;
+      }
+      packer.order();
       const std::size_t begin = records.size();
-      records.insert(records.end(), packer.records().begin(),
-        packer.records().begin() + static_cast<std::ptrdiff_t>(packer.count() * recordBytes));
+      records.resize(begin + packer.count() * recordBytes);
+      packer.writeTo(records.data() + begin);
       for (std::size_t at = begin; at < records.size(); at += recordBytes)
       {
         std::byte* record = records.data() + at;
-        setPosition(record, space.relativeSteps(positionOf(record)));
+        setPosition(record, form.space.relativeSteps(positionOf(record)));
         if (widened[s])
         {
           widening->widen(record);

@@ -2,6 +2,7 @@
 
 #include "pointfront/Build/BlockSorter.h"
 #include "pointfront/Build/CommonSchema.h"
+#include "pointfront/Build/RecordColumns.h"
 #include "pointfront/Build/TreeSpace.h"
 #include "pointfront/Points/AttributePass.h"
 
@@ -12,11 +13,19 @@
 namespace pointfront
 {
 
-/// The points of a sample as the records that they have in the pool once it is cut into parts:
+/// How points become records of the pool.
+struct RecordForm
+{
+  const CommonSchema& common;
+  const RecordColumns& columns;
+  const TreeSpace& space; ///< with its origin
+};
+
+/// The points of a sample as the records that they are once they are loaded from the pool: with
 /// positions relative to the root, colours of the sources marked in `widened` widened.
-/// `sample`: one source for each that the build reads; what cannot be read of it is left out.
-std::vector<std::byte> sampleRecords(const PointSources& sample, const CommonSchema& schema,
-  const TreeSpace& space, const std::optional<ColourWidening>& widening,
-  const std::vector<bool>& widened);
+/// `sample`: one source for each that the build reads; what cannot be read of it, or contradicts
+/// the columns left out, is left out.
+std::vector<std::byte> sampleRecords(const PointSources& sample, const RecordForm& form,
+  const std::optional<ColourWidening>& widening, const std::vector<bool>& widened);
 
 } // namespace pointfront

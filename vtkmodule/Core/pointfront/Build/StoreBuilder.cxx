@@ -1,14 +1,17 @@
 #include "pointfront/Build/StoreBuilder.h"
 
+#include "pointfront/Build/BuildStorage.h"
 #include "pointfront/Build/CommonSchema.h"
 #include "pointfront/Build/CpuClock.h"
-#include "pointfront/Build/DiskDemand.h"
 #include "pointfront/Build/GridChoice.h"
-#include "pointfront/Build/MemoryPlan.h"
+#include "pointfront/Build/MeanRecord.h"
 #include "pointfront/Build/PartialTrees.h"
 #include "pointfront/Build/PointIngest.h"
+#include "pointfront/Build/RecordColumns.h"
 #include "pointfront/Build/ReferenceSystem.h"
 #include "pointfront/Build/SampleRecords.h"
+#include "pointfront/Build/SampleRecords.h"
+#include "pointfront/Build/StoredColours.h"
 #include "pointfront/Build/TreeAssembly.h"
 #include "pointfront/Build/TreeConstruction.h"
 #include "pointfront/Points/EnclosingRadius.h"
@@ -18,8 +21,6 @@
 #include <cmath>
 #include <filesystem>
 #include <new>
-#include <thread>
-#include <unistd.h>
 
 namespace pointfront
 {
@@ -32,17 +33,6 @@ using Trees = std::vector<std::unique_ptr<BuiltNode>>; // of each layer
 constexpr double readShare = 0.35;
 constexpr double sortShare = 0.1;
 constexpr double buildShare = 0.55;
-
-std::uint64_t machineMemory()
-{
-  return std::uint64_t(sysconf(_SC_PHYS_PAGES)) * std::uint64_t(sysconf(_SC_PAGESIZE));
-}
-
-std::string folderOf(const std::string& path)
-{
-  const std::string folder = std::filesystem::path(path).parent_path().string();
-  return folder.empty() ? "." : folder;
-}
 
 Result<void> checkOptions(const Sources& sources, const BuildOptions& options)
 {
@@ -71,36 +61,13 @@ Result<void> checkOptions(const Sources& sources, const BuildOptions& options)
   return {};
 }
 
-MemoryDemand demandOf(
-  const Sources& sources, const AttributeSchema& schema, const BuildOptions& options)
-{
-  MemoryDemand demand;
-  for (const auto& source : sources)
-  {
-    for (std::uint64_t chunk = 0; chunk < source->chunkCount(); ++chunk)
-    {
-      demand.points += source->chunkPoints(chunk);
-      demand.largestChunk = std::max(demand.largestChunk, source->chunkPoints(chunk));
-    }
-    demand.sourceBytes = std::max(demand.sourceBytes, source->description().schema.pointBytes());
-  }
-  demand.recordBytes = RecordLayout(schema).bytes();
-  demand.partBytes = constructionBytes(options, schema);
-  demand.wholePart = constructionPart(options);
-  demand.nodePoints = options.nodePoints;
-  demand.threads =
-    options.threads > 0 ? options.threads : std::max(1u, std::thread::hardware_concurrency());
-  demand.memoryBytes = options.memoryBytes > 0 ? options.memoryBytes : machineMemory() / 2;
-  return demand;
-}
-
 /// One build, from what is common to all sources to the committed store.
 class StoreBuild
 {
 public:
   StoreBuild(const Sources& sources, const BuildOptions& options, ProgressFunction progress,
     BuildWatch* watch)
-      : sources_(sources), options_(options), progress_(std::move(progress)), watch_(watch)
+      : sources_(sources), options_(options), watch_(watch), crew_(std::move(progress))
   {
   }
   Result<BuildReport> run();
@@ -109,13 +76,14 @@ private:
   Result<void> prepare();
   Result<void> addRadius();
   Result<void> chooseLayers();
+  ColumnGuess columnGuess() const;
+  Result<void> reserve();
   Result<void> read();
+  Result<void> readAll();
+  void takeLayers();
   Result<void> cutIntoParts();
   Result<void> assemble();
   Error tooLarge() const;
-  Result<void> checkColourDepth() const;
-  bool narrowColours(std::size_t source) const;
-  AttributeSchema storedSchema(std::optional<ColourWidening>& widening) const;
   std::unique_ptr<PartialTrees> partialTrees(
     const NodeEmitter& emitter, const std::vector<PartNode>& tree) const;
   StoreDescription description() const;
@@ -124,22 +92,19 @@ private:
 
   const Sources& sources_;
   const BuildOptions& options_;
-  ProgressFunction progress_;
   BuildWatch* watch_;
   BuildReport report_;
   CommonSchema common_;
   ReferenceSystem reference_;
   TreeSpace space_;
   unsigned rootLog2_ = 0;
-  MemoryPlan plan_;
-  std::size_t recordBytes_ = 0;
-  DiskDemand disk_;
-  std::unique_ptr<WorkCrew> crew_;
-  std::unique_ptr<RecordPool> pool_;
+  std::optional<std::size_t> classColumn_; ///< common, by which layers are told apart
+  RecordColumns columns_;
+  BuildStorage storage_;
+  WorkCrew crew_;
   IngestedPoints points_;
-  std::optional<std::size_t> classOffset_; ///< by which layers are told apart, in a record
   ClassLayers layers_;
-  std::optional<ColourWidening> widening_;
+  PoolPreparation prepared_;
   std::unique_ptr<TreeConstruction> construction_;
   AttributeSchema stored_;
 };
@@ -159,7 +124,7 @@ void append(std::vector<std::string>& all, const std::vector<std::string>& more)
   all.insert(all.end(), more.begin(), more.end());
 }
 
-/// Where the class is in a record, if there may be layers.
+/// Which column the class is, if there may be layers.
 Result<void> StoreBuild::chooseLayers()
 {
   const auto column = common_.schema.find("classification");
@@ -172,7 +137,7 @@ Result<void> StoreBuild::chooseLayers()
   }
   if (usable && options_.layering != Layering::None)
   {
-    classOffset_ = RecordLayout(common_.schema).offset(*column);
+    classColumn_ = column;
   }
   return {};
 }
@@ -226,62 +191,95 @@ Result<void> StoreBuild::prepare()
   space_.grid = grid->grid;
   space_.shift = axisShifts(space_.grid.scale);
 
-  const MemoryDemand demand = demandOf(sources_, common_.schema, options_);
-  auto plan = planMemory(demand);
-  if (!plan)
-  {
-    return plan.error();
-  }
-  plan_ = *plan;
-  recordBytes_ = demand.recordBytes;
-  crew_ = std::make_unique<WorkCrew>(plan_.threads, progress_);
   // A place that cannot be written is known before hours of reading.
   if (auto writable = StoreWriter::create(options_.outputPath, common_.schema); !writable)
   {
     return writable.error();
   }
-  disk_.outputFolder = folderOf(options_.outputPath);
-  disk_.storeBytes = leastStoreBytes(demand.points, recordBytes_);
-  disk_.spillFolder =
-    options_.temporaryFolder.empty() ? disk_.outputFolder : options_.temporaryFolder;
-  disk_.spillBytes = plan_.spill ? demand.points * recordBytes_ : 0;
-  if (Result<void> enough = checkDiskSpace(disk_); !enough)
+  columns_ = guessColumns(sources_, common_, columnGuess());
+  return reserve();
+}
+
+ColumnGuess StoreBuild::columnGuess() const
+{
+  ColumnGuess guess;
+  const auto colour = wideColourColumn(common_.schema);
+  guess.mayBeNarrow = options_.colourDepth != ColourDepth::Sixteen;
+  for (std::size_t c = 0; c < common_.schema.size(); ++c)
   {
-    return enough;
+    // Means of equal values are these values, where sums are exact; not of normals.
+    const bool mean =
+      options_.refinement == Refinement::Replace && hasMean(common_.schema[c]) &&
+      (common_.schema[c].type == ScalarType::Float64 || common_.schema[c].components > 1);
+    const bool radius = common_.schema[c].name == enclosingRadiusName;
+    guess.mayBeConstant.push_back(c != classColumn_ && c != colour && !mean && !radius);
   }
-  if (!plan_.spill)
+  return guess;
+}
+
+Result<void> StoreBuild::reserve()
+{
+  storage_ = {}; // the pool before gives its memory back first
+  auto storage = reserveStorage(sources_, columns_.schema(), options_);
+  if (!storage)
   {
-    pool_ = RecordPool::inMemory(demand.points, recordBytes_);
-    return {};
+    return storage.error();
   }
-  auto spilled = RecordPool::spilled(disk_.spillFolder, demand.points, recordBytes_);
-  if (!spilled)
-  {
-    return spilled.error();
-  }
-  pool_ = std::move(*spilled);
+  storage_ = std::move(*storage);
+  crew_.setThreads(storage_.plan.threads);
   return {};
 }
 
-Result<void> StoreBuild::read()
+Result<void> StoreBuild::readAll()
 {
   std::uint64_t announced = 0;
   for (const auto& source : sources_)
   {
     announced += source->description().pointCount;
   }
-  crew_->beginPhase("reading", announced, readShare);
-  auto points = ingestPoints(sources_, common_, space_, *pool_, *crew_, classOffset_);
-  if (!points)
+  crew_.beginPhase("reading", announced, readShare);
+  for (;;)
   {
-    return points.error();
+    std::optional<std::size_t> classOffset;
+    if (classColumn_)
+    {
+      classOffset = RecordLayout(columns_.schema()).offset(*columns_.place(*classColumn_));
+    }
+    const IngestSite site{sources_, common_, columns_, space_, *storage_.pool,
+      storage_.plan.blockPoints, countedCellsLog2(options_), crew_};
+    auto points = ingestPoints(site, classOffset);
+    if (!points)
+    {
+      return points.error();
+    }
+    points->readSeconds += points_.readSeconds;
+    points->quantiseSeconds += points_.quantiseSeconds;
+    points_ = std::move(*points);
+    if (!points_.guessedWrong)
+    {
+      return {};
+    }
+    columns_ = columns_.carrying(common_.schema, points_.wrong);
+    if (Result<void> ready = reserve(); !ready)
+    {
+      return ready;
+    }
+    crew_.repeatPhase();
   }
-  points_ = std::move(*points);
+}
+
+Result<void> StoreBuild::read()
+{
+  if (Result<void> done = readAll(); !done)
+  {
+    return done;
+  }
   report_.pointsRead = points_.read;
   report_.pointsRejected = points_.rejected;
   report_.phaseSeconds["read"] = points_.readSeconds;
   report_.phaseSeconds["quantise and count"] = points_.quantiseSeconds;
-  report_.spilledBytes = pool_->onDisk() ? points_.kept * recordBytes_ : 0;
+  report_.spilledBytes =
+    storage_.pool->onDisk() ? points_.kept * storage_.pool->recordBytes() : 0;
   if (points_.kept == 0)
   {
     report_.warnings.push_back("The input has no points to store; the store is empty.");
@@ -293,24 +291,31 @@ Result<void> StoreBuild::read()
     return tooLarge();
   }
   rootLog2_ = *rootLog2;
-  if (classOffset_)
-  {
-    std::vector<std::uint8_t> classes;
-    for (const auto& [objectClass, table] : points_.counts.classes())
-    {
-      classes.push_back(objectClass);
-    }
-    const bool classified = !std::all_of(classes.begin(), classes.end(), unclassified);
-    if (classified || options_.layering == Layering::ObjectClass)
-    {
-      layers_ = ClassLayers(*classOffset_, std::move(classes));
-    }
-    else
-    {
-      points_.counts.merge();
-    }
-  }
+  takeLayers();
   return {};
+}
+
+void StoreBuild::takeLayers()
+{
+  if (!classColumn_)
+  {
+    return;
+  }
+  std::vector<std::uint8_t> classes;
+  for (const auto& [objectClass, table] : points_.counts.classes())
+  {
+    classes.push_back(objectClass);
+  }
+  const bool classified = !std::all_of(classes.begin(), classes.end(), unclassified);
+  if (classified || options_.layering == Layering::ObjectClass)
+  {
+    const RecordLayout layout(columns_.schema());
+    layers_ = ClassLayers(layout.offset(*columns_.place(*classColumn_)), std::move(classes));
+  }
+  else
+  {
+    points_.counts.merge();
+  }
 }
 
 Error StoreBuild::tooLarge() const
@@ -329,96 +334,42 @@ Error StoreBuild::tooLarge() const
   return makeError(Error::Kind::BadArgument, text);
 }
 
-Result<void> StoreBuild::checkColourDepth() const
-{
-  for (std::size_t s = 0; s < sources_.size(); ++s)
-  {
-    if (options_.colourDepth == ColourDepth::Eight && points_.largestColour[s] > 255)
-    {
-      return makeError(Error::Kind::BadArgument,
-        "'" + sources_[s]->description().path + "' has a colour of " +
-          std::to_string(points_.largestColour[s]) +
-          ", which is more than 8 bits hold; let the colour depth be 16, or found by file");
-    }
-  }
-  return {};
-}
-
-/// A file whose 16-bit colours hold 8 bits.
-bool StoreBuild::narrowColours(std::size_t source) const
-{
-  return points_.largestColour[source] > 0 && points_.largestColour[source] <= 255;
-}
-
-/// 16-bit colours become 8-bit if all fit; if only those of some files do, these are widened.
-AttributeSchema StoreBuild::storedSchema(std::optional<ColourWidening>& widening) const
-{
-  const auto column = wideColourColumn(common_.schema);
-  const auto& largest = points_.largestColour;
-  if (!column || options_.colourDepth == ColourDepth::Sixteen)
-  {
-    return common_.schema;
-  }
-  if (*std::max_element(largest.begin(), largest.end()) <= 255)
-  {
-    AttributeSchema narrow;
-    for (std::size_t c = 0; c < common_.schema.size(); ++c)
-    {
-      Attribute attribute = common_.schema[c];
-      attribute.type = c == *column ? ScalarType::UInt8 : attribute.type;
-      narrow.add(std::move(attribute));
-    }
-    return narrow;
-  }
-  widening.emplace();
-  widening->offset = RecordLayout(common_.schema).offset(*column);
-  widening->components = common_.schema[*column].components;
-  std::uint64_t begin = 0;
-  for (std::size_t s = 0; s < sources_.size(); ++s)
-  {
-    if (narrowColours(s))
-    {
-      widening->runs.push_back({begin, points_.sourceEnd[s] - begin});
-    }
-    begin = points_.sourceEnd[s];
-  }
-  return common_.schema;
-}
-
 Result<void> StoreBuild::cutIntoParts()
 {
-  crew_->beginPhase("sorting", points_.kept, sortShare);
-  if (Result<void> fits = checkColourDepth(); !fits)
+  crew_.beginPhase("sorting", points_.kept, sortShare);
+  auto colours = storedColours(sources_, common_, columns_, points_, options_.colourDepth);
+  if (!colours)
   {
-    return fits;
+    return colours.error();
   }
-  PoolPreparation preparation;
-  preparation.points = points_.kept;
-  preparation.space = space_;
-  preparation.rootLog2 = rootLog2_;
-  preparation.layers = layers_;
-  stored_ = storedSchema(widening_);
-  preparation.widening = widening_;
-  preparation.findable = watch_ != nullptr;
-  construction_ = treeConstruction(options_, {*pool_, recordBytes_, plan_, *crew_, common_.schema});
+  stored_ = std::move(colours->schema);
+  prepared_.widening = std::move(colours->widening);
+  prepared_.points = points_.kept;
+  prepared_.space = space_;
+  prepared_.rootLog2 = rootLog2_;
+  prepared_.layers = layers_;
+  prepared_.findable = watch_ != nullptr;
+  prepared_.blocks = std::move(points_.blocks);
+  construction_ = treeConstruction(options_, {*storage_.pool, storage_.pool->recordBytes(),
+    storage_.plan, crew_, columns_.schema()});
   Result<void> done =
-    construction_->cut(preparation, std::move(points_.counts), points_.hintedShift);
+    construction_->cut(prepared_, std::move(points_.counts), points_.hintedShift);
   report_.phaseSeconds["distribute"] = construction_->seconds();
   return done;
 }
 
 Result<void> StoreBuild::assemble()
 {
-  crew_->beginPhase("building", points_.kept, buildShare);
+  crew_.beginPhase("building", points_.kept, buildShare);
   auto writer = StoreWriter::create(options_.outputPath, stored_);
   if (!writer)
   {
     return writer.error();
   }
-  const NodeEmitter emitter(space_, common_.schema, stored_, options_.refinement);
+  const NodeEmitter emitter(space_, columns_, stored_, options_.refinement);
   AssemblyPlan plan = construction_->assembly(emitter);
   const auto partial = partialTrees(emitter, plan.tree);
-  TreeAssembly assembly(std::move(plan), **writer, *crew_, partial.get());
+  TreeAssembly assembly(std::move(plan), **writer, crew_, partial.get());
   auto trees = assembly.run();
   report_.phaseSeconds["load"] = assembly.loadSeconds();
   report_.phaseSeconds["sort"] = assembly.seconds().sort;
@@ -449,12 +400,13 @@ try
   std::vector<bool> widened(sources_.size(), false);
   for (std::size_t s = 0; s < sources_.size(); ++s)
   {
-    widened[s] = widening_ && narrowColours(s);
+    widened[s] = prepared_.widening && hasNarrowColours(points_, s);
   }
   const std::vector<std::byte> sample =
-    sampleRecords(watch_->sample(), common_, space_, widening_, widened);
-  return std::make_unique<PartialTrees>(
-    PartialTreesSite{*construction_, emitter, recordBytes_, description()}, tree, sample, *watch_);
+    sampleRecords(watch_->sample(), {common_, columns_, space_}, prepared_.widening, widened);
+  const PartialTreesSite site{
+    *construction_, emitter, storage_.pool->recordBytes(), description()};
+  return std::make_unique<PartialTrees>(site, tree, sample, *watch_);
 }
 catch (const std::bad_alloc&)
 {
@@ -504,7 +456,7 @@ Result<void> StoreBuild::commit(StoreWriter& writer, const Trees& trees)
   StoreDescription description = this->description();
   description.levels = table.levels;
   description.pointCount = pointsIn(trees);
-  if (Result<void> stop = crew_->outcome(); !stop)
+  if (Result<void> stop = crew_.outcome(); !stop)
   {
     return stop; // cancelled after the last point, before the store is there
   }
@@ -530,10 +482,10 @@ Result<BuildReport> StoreBuild::run()
   {
     if (Result<void> done = (this->*step)(); !done)
     {
-      return withDemand(done.error(), disk_);
+      return withDemand(done.error(), storage_.disk);
     }
   }
-  report_.seconds = crew_->secondsElapsed();
+  report_.seconds = crew_.secondsElapsed();
   report_.cpuSeconds = processSeconds() - cpuBefore;
   return std::move(report_);
 }

@@ -153,4 +153,9 @@ std::uint64_t constructionPart(const BuildOptions& options)
            : 0;
 }
 
+unsigned countedCellsLog2(const BuildOptions& options)
+{
+  return options.structure == Structure::KdTree ? KdPool::histogramCellsLog2 : rootCellsLog2;
+}
+
 } // namespace pointfront

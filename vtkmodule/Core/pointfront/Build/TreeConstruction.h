@@ -56,4 +56,8 @@ std::size_t constructionBytes(const BuildOptions& options, const AttributeSchema
 /// 0: parts may be as small as memory wants.
 std::uint64_t constructionPart(const BuildOptions& options);
 
+/// How many cells along the extent, as a power of two, should be counted while points are read, so
+/// that they need not be counted again.
+unsigned countedCellsLog2(const BuildOptions& options);
+
 } // namespace pointfront

@@ -18,9 +18,12 @@ namespace pointfront
 class WorkCrew
 {
 public:
+  explicit WorkCrew(ProgressFunction progress) : WorkCrew(1, std::move(progress)) {}
   WorkCrew(unsigned threads, ProgressFunction progress);
 
   unsigned threads() const { return threads_; }
+  /// Between two run().
+  void setThreads(unsigned threads) { threads_ = threads; }
 
   /// Calls `work` once on each thread and waits for all. The first Error stops the others at
   /// their next stopped(); running out of memory is an Error too.
@@ -28,6 +31,8 @@ public:
 
   /// Enters a phase: `weight` is its share of the whole operation, all shares sum up to 1.
   void beginPhase(const char* name, std::uint64_t total, double weight);
+  /// What was done of the phase was in vain.
+  void repeatPhase() { done_ = 0; }
   /// Adds to what is done; from any thread. May call the user's function.
   void advance(std::uint64_t points);
   /// True once the work is to be given up: an Error, or the user cancelled.

@@ -75,6 +75,13 @@ public:
   virtual std::uint64_t chunkPoints(std::uint64_t chunk) const = 0; ///< some ten thousand
   /// Fills `batch` with that chunk's points: chunkPoints(chunk) of them, columns as in the schema.
   virtual Result<void> read(std::uint64_t chunk, PointBatch& batch) const = 0;
+  /// The same for a reader that works on description().grid itself: a source that has whole steps
+  /// may give batch.steps instead of batch.positions. grid->toGrid() of a position that read()
+  /// gives is that step.
+  virtual Result<void> readSteps(std::uint64_t chunk, PointBatch& batch) const
+  {
+    return read(chunk, batch);
+  }
 };
 
 /// Opens files of one family. Registered by the program at the top (IO modules do not know each

@@ -69,7 +69,7 @@ CodedBlock encodeBlock(const std::byte* values, const BlockShape& shape)
   }
   if (allEqual(values, shape))
   {
-    return { BlockCodec::Constant, std::vector<std::byte>(values, values + shape.pointBytes()) };
+    return encodeConstant(values, shape);
   }
   PackedBlock packed = packBlock(values, shape);
   CodedBlock best{ BlockCodec::Packed, std::move(packed.bytes) };
@@ -82,6 +82,15 @@ CodedBlock encodeBlock(const std::byte* values, const BlockShape& shape)
     }
   }
   return best.bytes.size() < shape.bytes() ? best : raw(values, shape);
+}
+
+CodedBlock encodeConstant(const std::byte* value, const BlockShape& shape)
+{
+  if (shape.points < 2)
+  {
+    return raw(value, shape);
+  }
+  return { BlockCodec::Constant, std::vector<std::byte>(value, value + shape.pointBytes()) };
 }
 
 bool decodeBlock(BlockCodec codec, const std::byte* coded, std::size_t codedBytes,

@@ -47,6 +47,9 @@ struct CodedBlock
 /// the same bytes on any thread.
 CodedBlock encodeBlock(const std::byte* values, const BlockShape& shape);
 
+/// The same for a block of which all points have `value` (shape.pointBytes() bytes).
+CodedBlock encodeConstant(const std::byte* value, const BlockShape& shape);
+
 /// Decodes into `values` (shape.bytes() bytes). False when the coded bytes are not what a block of
 /// this shape looks like.
 /// Guarantees  reads only [coded, coded + codedBytes), writes only shape.bytes() bytes, whatever

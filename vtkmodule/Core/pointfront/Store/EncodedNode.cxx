@@ -6,20 +6,30 @@
 #include "pointfront/Store/ColumnStatistics.h"
 #include "pointfront/Store/StoreFormat.h"
 
+#include <algorithm>
 #include <cassert>
 
 namespace pointfront
 {
 namespace
 {
-EncodedNode::Block encodedBlock(const std::byte* values, const BlockShape& shape)
+EncodedNode::Block checked(CodedBlock coded)
 {
-  CodedBlock coded = encodeBlock(values, shape);
   EncodedNode::Block block;
   block.codec = static_cast<std::uint8_t>(coded.codec);
   block.checksum = checksumOf(coded.bytes.data(), coded.bytes.size());
   block.bytes = std::move(coded.bytes);
   return block;
+}
+
+EncodedNode::Block encodedBlock(const std::byte* values, const BlockShape& shape)
+{
+  return checked(encodeBlock(values, shape));
+}
+
+EncodedNode::Block constantBlock(const std::vector<std::byte>& value, const BlockShape& shape)
+{
+  return checked(encodeConstant(value.data(), shape));
 }
 
 GridBounds boundsOf(const NodeColumns& points)
@@ -54,8 +64,15 @@ std::size_t EncodedNode::bytes() const
 
 EncodedNode encodeNode(const NodeColumns& points, const AttributeSchema& schema)
 {
+  return encodeNode(points, schema, ColumnConstants(schema.size()));
+}
+
+EncodedNode encodeNode(
+  const NodeColumns& points, const AttributeSchema& schema, const ColumnConstants& constants)
+{
   assert(points.size() <= maxNodePoints);
   assert(points.selection.size() == schema.size() && points.columns.size() == schema.size());
+  assert(constants.size() == schema.size());
   EncodedNode node;
   node.origin = points.origin;
   node.pointCount = static_cast<std::uint32_t>(points.size());
@@ -64,6 +81,13 @@ EncodedNode encodeNode(const NodeColumns& points, const AttributeSchema& schema)
   node.positions = encodedBlock(positions, positionShape(points.size()));
   for (std::size_t c = 0; c < schema.size(); ++c)
   {
+    if (constants[c])
+    {
+      node.columns.push_back(constantBlock(*constants[c], columnShape(schema[c], points.size())));
+      node.ranges.push_back(
+        rangeOf(constants[c]->data(), schema[c], std::min<std::size_t>(points.size(), 1)));
+      continue;
+    }
     const BlockShape shape = columnShape(schema[c], points.size());
     assert(points.selection[c] == c && points.columns[c].size() == shape.bytes());
     node.columns.push_back(encodedBlock(points.columns[c].data(), shape));

@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,12 @@ struct EncodedNode
 /// every column of the schema.
 /// Pure: the same points give the same bytes, on any thread.
 EncodedNode encodeNode(const NodeColumns& points, const AttributeSchema& schema);
+
+/// The one value that a column has in all points, of Attribute::bytes(); nothing: they differ.
+using ColumnConstants = std::vector<std::optional<std::vector<std::byte>>>;
+/// The same, with `constants` for each column; points.columns of constant ones may be empty.
+EncodedNode encodeNode(
+  const NodeColumns& points, const AttributeSchema& schema, const ColumnConstants& constants);
 
 /// What a writer has written so far, for stores that refer to it.
 struct WrittenPayloads

@@ -1,0 +1,86 @@
+#include "pointfront/Build/BuildStorage.h"
+
+#include "pointfront/Build/RecordLayout.h"
+#include "pointfront/Build/TreeConstruction.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <thread>
+#include <unistd.h>
+
+namespace pointfront
+{
+namespace
+{
+using Sources = std::vector<std::unique_ptr<PointSource>>;
+
+std::uint64_t machineMemory()
+{
+  return std::uint64_t(sysconf(_SC_PHYS_PAGES)) * std::uint64_t(sysconf(_SC_PAGESIZE));
+}
+
+std::string folderOf(const std::string& path)
+{
+  const std::string folder = std::filesystem::path(path).parent_path().string();
+  return folder.empty() ? "." : folder;
+}
+
+MemoryDemand demandOf(
+  const Sources& sources, const AttributeSchema& pooled, const BuildOptions& options)
+{
+  MemoryDemand demand;
+  for (const auto& source : sources)
+  {
+    for (std::uint64_t chunk = 0; chunk < source->chunkCount(); ++chunk)
+    {
+      demand.points += source->chunkPoints(chunk);
+      demand.largestChunk = std::max(demand.largestChunk, source->chunkPoints(chunk));
+    }
+    demand.sourceBytes = std::max(demand.sourceBytes, source->description().schema.pointBytes());
+  }
+  demand.recordBytes = RecordLayout(pooled).bytes();
+  demand.partBytes = constructionBytes(options, pooled);
+  demand.wholePart = constructionPart(options);
+  demand.nodePoints = options.nodePoints;
+  demand.threads =
+    options.threads > 0 ? options.threads : std::max(1u, std::thread::hardware_concurrency());
+  demand.memoryBytes = options.memoryBytes > 0 ? options.memoryBytes : machineMemory() / 2;
+  return demand;
+}
+} // namespace
+
+Result<BuildStorage> reserveStorage(
+  const Sources& sources, const AttributeSchema& pooled, const BuildOptions& options)
+{
+  const MemoryDemand demand = demandOf(sources, pooled, options);
+  const auto plan = planMemory(demand);
+  if (!plan)
+  {
+    return plan.error();
+  }
+  BuildStorage storage;
+  storage.plan = *plan;
+  DiskDemand& disk = storage.disk;
+  disk.outputFolder = folderOf(options.outputPath);
+  disk.storeBytes = leastStoreBytes(demand.points, demand.recordBytes);
+  disk.spillFolder = options.temporaryFolder.empty() ? disk.outputFolder : options.temporaryFolder;
+  disk.spillBytes = plan->spill ? demand.points * demand.recordBytes : 0;
+  if (Result<void> enough = checkDiskSpace(disk); !enough)
+  {
+    return enough.error();
+  }
+  if (!plan->spill)
+  {
+    storage.pool = RecordPool::inMemory(demand.points, demand.recordBytes);
+    return storage;
+  }
+  auto spilled = RecordPool::spilled(disk.spillFolder, demand.points, demand.recordBytes);
+  if (!spilled)
+  {
+    return spilled.error();
+  }
+  storage.pool = std::move(*spilled);
+  return storage;
+}
+
+} // namespace pointfront

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "pointfront/Build/DiskDemand.h"
+#include "pointfront/Build/MemoryPlan.h"
+#include "pointfront/Build/RecordPool.h"
+#include "pointfront/Build/StoreBuilder.h"
+
+#include <memory>
+#include <vector>
+
+namespace pointfront
+{
+
+/// The memory and the disk of one build.
+struct BuildStorage
+{
+  MemoryPlan plan;
+  DiskDemand disk;
+  std::unique_ptr<RecordPool> pool; ///< for all points that the sources may give
+};
+
+/// For records of `pooled`. Errors  NoMemory, Unwritable: with what is needed.
+Result<BuildStorage> reserveStorage(const std::vector<std::unique_ptr<PointSource>>& sources,
+  const AttributeSchema& pooled, const BuildOptions& options);
+
+} // namespace pointfront

@@ -83,6 +83,7 @@ public:
     Result<void> done = writeAt(end_, data, size);
     if (done)
     {
+      startWriting(end_, size);
       end_ += size;
     }
     return done;
@@ -132,6 +133,19 @@ private:
       offset += static_cast<std::uint64_t>(count);
     }
     return {};
+  }
+
+  /// The disk works while the next bytes are made: what is left for publish() is then short.
+  /// Advice only.
+  void startWriting(std::uint64_t offset, std::size_t size) const
+  {
+#ifdef SYNC_FILE_RANGE_WRITE
+    ::sync_file_range(descriptor_, static_cast<off64_t>(offset), static_cast<off64_t>(size),
+      SYNC_FILE_RANGE_WRITE);
+#else
+    static_cast<void>(offset);
+    static_cast<void>(size);
+#endif
   }
 
   // The new name is durable only when the folder is.

@@ -67,7 +67,7 @@ protected:
     EXPECT_EQ((*store)->description().schema[2].type,
       odd < 5000 ? ScalarType::UInt16 : ScalarType::UInt8);
     sum = 0;
-    for (NodeIndex node = 0; node < (*store)->hierarchy().nodeCount(); ++node)
+    for (NodeIndex node = 0; node < (*store)->hierarchy()->nodeCount(); ++node)
     {
       const auto columns = (*store)->read(node, {1});
       EXPECT_TRUE(columns);

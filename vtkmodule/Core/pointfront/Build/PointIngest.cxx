@@ -69,7 +69,8 @@ class Ingest
 {
 public:
   Ingest(const IngestSite& site, std::optional<std::size_t> classOffset)
-      : site_(site), classOffset_(classOffset), shift_(hintedShift(site.sources, site.space, site.leastCellsLog2)),
+      : site_(site), classOffset_(classOffset),
+        shift_(hintedShift(site.sources, site.space, site.leastCellsLog2)),
         runs_(chunkRuns(site.sources, site.blockPoints))
   {
     points_.counts = ClassCounts(shift_);

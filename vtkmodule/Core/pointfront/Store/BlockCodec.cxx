@@ -50,7 +50,7 @@ bool zstdPromises(const std::byte* values, const BlockShape& shape, std::size_t 
 
 BlockShape sampleOf(const BlockShape& shape)
 {
-  constexpr std::size_t samplePoints = 2048;
+  constexpr std::size_t samplePoints = 1024;
   BlockShape sample = shape;
   sample.points = std::min(samplePoints, shape.points);
   return sample;

@@ -161,13 +161,14 @@ void codesOf(const ComponentPlanes<T>& planes, std::size_t begin, unsigned c, bo
   std::fill(codes.begin() + static_cast<std::ptrdiff_t>(count), codes.end(), T(0));
 }
 
-/// Bytes of the groups from the group of point `begin` on.
+/// Bytes of the groups from the group of point `begin` on; any number above `most` for more.
 template <typename T>
-std::size_t groupsBytes(const ComponentPlanes<T>& planes, std::size_t begin, bool difference)
+std::size_t groupsBytes(const ComponentPlanes<T>& planes, std::size_t begin, bool difference,
+  std::size_t most = SIZE_MAX)
 {
   std::size_t sum = 0;
   CodeGroup<T> codes;
-  for (; begin < planes.points(); begin += codesPerGroup)
+  for (; begin < planes.points() && sum <= most; begin += codesPerGroup)
   {
     for (unsigned c = 0; c < planes.components(); ++c)
     {
@@ -191,15 +192,17 @@ PredictorChoice choosePredictor(ComponentPlanes<T>& planes, const BlockShape& sh
 {
   const std::size_t skipped = shape.points - sampleOf(shape).points;
   const std::size_t begin = skipped - skipped % codesPerGroup;
-  PredictorChoice best{ Predictor::Zero, groupsBytes(planes, begin, false) };
-  if (const std::size_t bytes = groupsBytes(planes, begin, true); bytes < best.sampleBytes)
+  PredictorChoice best{ Predictor::PointBefore, groupsBytes(planes, begin, true) };
+  if (const std::size_t bytes = groupsBytes(planes, begin, false, best.sampleBytes);
+      bytes <= best.sampleBytes)
   {
-    best = { Predictor::PointBefore, bytes };
+    best = { Predictor::Zero, bytes };
   }
   if (predictable(Predictor::SecondComponent, shape))
   {
     planes.addSecond(-1);
-    if (const std::size_t bytes = groupsBytes(planes, begin, true); bytes < best.sampleBytes)
+    if (const std::size_t bytes = groupsBytes(planes, begin, true, best.sampleBytes);
+        bytes < best.sampleBytes)
     {
       return { Predictor::SecondComponent, bytes };
     }

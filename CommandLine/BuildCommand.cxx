@@ -18,10 +18,6 @@
 
 namespace pointfront
 {
-namespace
-{
-constexpr double secondsBetweenPreviews = 2.0;
-} // namespace
 
 void BuildCommand::declare(CLI::App& program)
 {
@@ -147,7 +143,6 @@ Result<BuildReport> BuildCommand::buildFrom(PointSources& sources, const Attribu
   ProgressDisplay display(*ProgressDisplay::styleOf(progress_));
   PreviewOptions preview;
   preview.wanted = preview_ != "none";
-  preview.leastSeconds = secondsBetweenPreviews;
   BuildRun run(
     options_, preview, [this](const std::string& finding) { warn(name(), finding); });
   return run.run(sources, passes, display.function());

@@ -29,6 +29,7 @@ protected:
     build_.threads = 2;
     build_.memoryBytes = std::uint64_t(1) << 30;
     wish_.leastPoints = 1000;
+    wish_.leastSeconds = 0.0;
   }
   void TearDown() override { fs::remove_all(folder_); }
 

@@ -185,6 +185,7 @@ public:
     options_.nodePoints = 512;
     options_.threads = 1;
     wish_.leastPoints = 1000;
+    wish_.leastSeconds = 0.0;
     wish_.shareOfTime = 1e9;
     wish_.shown = [this](const std::string& path)
     {
@@ -317,6 +318,7 @@ TEST(Interaction, AViewOfAPreviewGoesOverToTheFinishedStore)
   options.memoryBytes = std::uint64_t(1) << 30;
   PreviewOptions wish;
   wish.leastPoints = 1000;
+  wish.leastSeconds = 0.0;
   const PointSources cloud = one(hills(60000, 1e6));
   auto preview = BuildPreview::create(cloud, options, wish);
   ASSERT_TRUE(preview);

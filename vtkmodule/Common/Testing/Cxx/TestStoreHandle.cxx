@@ -123,6 +123,7 @@ TEST(StoreHandle, APreviewHasSuccessors)
   options.memoryBytes = std::uint64_t(1) << 30;
   PreviewOptions wish;
   wish.leastPoints = 1000;
+  wish.leastSeconds = 0.0;
   const PointSources cloud = one(hills(40000, 1e6));
   auto preview = BuildPreview::create(cloud, options, wish);
   ASSERT_TRUE(preview);

@@ -30,16 +30,17 @@ struct PreviewOptions
   double shareOfTime = 0.02;
   /// A later version of the sample is left out when the one before is younger: of a build that
   /// takes some seconds nobody looks at four pictures.
-  double leastSeconds = 0.0;
+  double leastSeconds = 2.0;
   /// Called after each version with the preview's path; from a thread of the preview.
   std::function<void(const std::string&)> shown;
 };
 
 /// Shows a cloud while its store is built: beside the store lies a small one, the preview
 /// (PreviewRecord.h). Its first version comes from some chunks spread over all inputs, within
-/// seconds; the next ones from a random share of all that the build has read. While the trees are
-/// built, versions show finished parts in full, out of the file that the build is writing, and
-/// that share of the others (PartialTrees.h). What the build writes does not depend on it.
+/// seconds; the next ones from a random share of all that the build has read, unless the one before
+/// is very young. While the trees are built, versions show finished parts in full, out of the file
+/// that the build is writing, and that share of the others (PartialTrees.h). What the build writes
+/// does not depend on it.
 /// Cost        the sample has at most a 256th of the points; versions with finished parts come as
 ///             often as PreviewOptions::shareOfTime lets them. Memory: a 16th of the build's limit,
 ///             at most 1 GiB, see heldBytes().
@@ -106,7 +107,7 @@ private:
   std::uint64_t memoryBytes_ = 0; ///< for the sample, building from it, and finished parts
   std::uint64_t capacity_ = 0; ///< points of the sample; 0: silent
   const PointSource* firstShown_ = nullptr; ///< of the sources that showOverview() was given
-  /// When the last version was there. No two threads at a time: who shows parts waits for refining_.
+  /// When the last version was there. One thread at a time: who shows parts waits for refining_.
   std::chrono::steady_clock::time_point shownAt_;
   bool mixed_ = false; ///< the sample still holds points of the overview
   PointSample sample_;

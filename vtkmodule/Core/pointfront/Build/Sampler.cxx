@@ -10,6 +10,8 @@ namespace
 constexpr int mostQuarters = 4 * 32;
 /// From level to level spacing falls by at least that: the square root of two.
 constexpr int leastRise = 2;
+/// Further from everything than any distance; its square is finite.
+constexpr double nowhere = 1e30;
 
 double fourthPower(double v)
 {
@@ -120,7 +122,7 @@ bool SubsetSampler::nearRecent(const glm::dvec3& p) const
 {
   // All of them, without a branch in between: which one it is cannot be foretold.
   constexpr std::size_t most = 6;
-  const std::size_t recent = std::min(taken_.size(), most);
+  const std::size_t recent = std::min(taken_.size() - 1, most);
   bool found = false;
   for (std::size_t back = 1; back <= recent; ++back)
   {
@@ -131,14 +133,28 @@ bool SubsetSampler::nearRecent(const glm::dvec3& p) const
 
 bool SubsetSampler::crowded(const glm::dvec3& p, const Reach& reach) const
 {
+  // All eight lists at once, an entry of each a round: how long each of them is cannot be foretold,
+  // how long the longest is can. A list that is over goes on with an entry near to nothing.
+  std::array<std::uint32_t, 8> at;
   for (unsigned octant = 0; octant < 8; ++octant)
   {
-    for (std::uint32_t i = slots_[slotOf(reach, octant)]; i != none; i = taken_[i].next)
+    at[octant] = slots_[slotOf(reach, octant)];
+  }
+  std::uint32_t more = 1;
+  while (more != 0)
+  {
+    bool found = false;
+    more = 0;
+    for (std::uint32_t& i : at)
     {
-      if (near(p, taken_[i]))
-      {
-        return true;
-      }
+      const Taken& taken = taken_[i];
+      found |= near(p, taken);
+      i = taken.next;
+      more |= i;
+    }
+    if (found)
+    {
+      return true;
     }
   }
   return false;
@@ -148,7 +164,7 @@ void SubsetSampler::choose(const RecordView& records, const std::vector<std::uin
   SamplingDistance distance, std::vector<std::uint8_t>& chosen)
 {
   chosen.assign(points.size(), 0);
-  taken_.clear();
+  taken_.assign(1, {glm::dvec3(nowhere), none});
   std::fill(slots_.begin(), slots_.end(), none);
   squared_ = distance.squaredSteps();
   cellsPerStep_ = 0.499999 / distance.steps(); // a hair larger than twice the distance

@@ -68,7 +68,7 @@ public:
 
 private:
   static constexpr unsigned slotBits = 14;
-  static constexpr std::uint32_t none = 0xffffffffu;
+  static constexpr std::uint32_t none = 0; ///< in taken_ a point near to nothing
 
   struct Taken
   {

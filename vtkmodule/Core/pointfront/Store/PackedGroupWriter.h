@@ -26,24 +26,13 @@ unsigned bitLength(T code)
 
 using GroupLengths = std::array<std::uint8_t, codesPerGroup>;
 
-/// Bits of each code. Loops that the compiler turns into vectors: comparisons for bytes, the
-/// exponent of a float for 16 and 32 bits.
+/// Bits of each code of more than a byte. Loops that the compiler turns into vectors: the exponent
+/// of a float for 16 and 32 bits.
 template <typename T>
 void bitLengths(const CodeGroup<T>& codes, GroupLengths& lengths)
 {
-  if constexpr (sizeof(T) == 1)
-  {
-    for (std::size_t i = 0; i < codesPerGroup; ++i)
-    {
-      std::uint8_t length = 0;
-      for (unsigned bit = 0; bit < 8; ++bit)
-      {
-        length = static_cast<std::uint8_t>(length + (codes[i] >= (1u << bit) ? 1 : 0));
-      }
-      lengths[i] = length;
-    }
-  }
-  else if constexpr (sizeof(T) == 8)
+  static_assert(sizeof(T) > 1, "bytes are compared as they are");
+  if constexpr (sizeof(T) == 8)
   {
     for (std::size_t i = 0; i < codesPerGroup; ++i)
     {
@@ -209,6 +198,29 @@ void packRows(const CodeGroup<T>& codes, unsigned width, std::byte* rows)
   }
   std::memcpy(rows, words.data(), rowBytes * width);
 }
+
+/// Of eight codes from `first` on, the highest bit of the byte of each that has more than `width`
+/// bits. `lengths` is filled unless the codes are bytes: these are looked at themselves.
+template <typename T>
+std::uint64_t longerThan(
+  const CodeGroup<T>& codes, const GroupLengths& lengths, std::size_t first, unsigned width)
+{
+  constexpr std::uint64_t ones = 0x0101010101010101ull;
+  std::uint64_t eight = 0;
+  if constexpr (sizeof(T) == 1)
+  {
+    std::memcpy(&eight, codes.data() + first, sizeof(eight));
+    const std::uint64_t above = eight & (ones * ((0xffu << width) & 0xffu));
+    // Adding 127 to the low seven bits of a byte sets its highest bit unless they are zero.
+    return (((above & (ones * 0x7fu)) + ones * 0x7fu) | above) & (ones * 0x80u);
+  }
+  else
+  {
+    // Lengths are at most 64: adding 127 - width sets the highest bit of those above the width.
+    std::memcpy(&eight, lengths.data() + first, sizeof(eight));
+    return (eight + ones * (127u - width)) & (ones * 0x80u);
+  }
+}
 } // namespace packed
 
 /// Bytes that putGroup() writes.
@@ -234,19 +246,11 @@ std::byte* putGroup(const CodeGroup<T>& codes, std::byte* at)
   {
     return at;
   }
-  if constexpr (sizeof(T) == 1)
-  {
-    packed::bitLengths<T>(codes, lengths);
-  }
   *at++ = static_cast<std::byte>(plan.exceptionBytes);
   std::byte* upper = at + plan.exceptions;
-  constexpr std::uint64_t ones = 0x0101010101010101ull;
   for (std::size_t i = 0; i < codesPerGroup; i += 8)
   {
-    // Lengths are at most 64: adding 127 - width sets the highest bit of those above the width.
-    std::uint64_t longer = 0;
-    std::memcpy(&longer, lengths.data() + i, sizeof(longer));
-    longer = (longer + ones * (127u - plan.width)) & (ones * 0x80u);
+    std::uint64_t longer = packed::longerThan<T>(codes, lengths, i, plan.width);
     for (; longer != 0; longer &= longer - 1)
     {
       const std::size_t place = i + static_cast<std::size_t>(__builtin_ctzll(longer)) / 8;

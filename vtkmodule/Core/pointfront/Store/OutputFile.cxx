@@ -1,5 +1,7 @@
 #include "pointfront/Store/OutputFile.h"
 
+#include "pointfront/Store/DirectAppender.h"
+
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
@@ -65,6 +67,7 @@ public:
     , temporaryPath_(std::move(temporaryPath))
     , descriptor_(descriptor)
     , durable_(durability == Durability::Full)
+    , direct_(durable_ ? DirectAppender::open(temporaryPath_) : nullptr)
   {
   }
   ~PosixOutputFile() override
@@ -80,8 +83,23 @@ public:
 
   Result<void> append(const std::byte* data, std::size_t size) override
   {
+    while (direct_ && size != 0)
+    {
+      const std::size_t taken = direct_->take(data, size);
+      data += taken;
+      size -= taken;
+      end_ += taken;
+      if (direct_->full() && !direct_->write())
+      {
+        // The usual way may work all the same, or it says what is wrong.
+        if (Result<void> done = leaveDirect(); !done)
+        {
+          return done;
+        }
+      }
+    }
     Result<void> done = writeAt(end_, data, size);
-    if (done)
+    if (done && size != 0)
     {
       startWriting(end_, size);
       end_ += size;
@@ -89,13 +107,23 @@ public:
     return done;
   }
 
+  Result<void> settle() override
+  {
+    return direct_ ? writeAt(direct_->begin(), direct_->data(), direct_->size()) : Result<void>{};
+  }
+
   Result<void> overwrite(std::uint64_t offset, const std::byte* data, std::size_t size) override
   {
-    return writeAt(offset, data, size);
+    Result<void> done = leaveDirect();
+    return done ? writeAt(offset, data, size) : done;
   }
 
   Result<void> publish() override
   {
+    if (Result<void> done = leaveDirect(); !done)
+    {
+      return done;
+    }
     if (durable_ && ::fsync(descriptor_) != 0)
     {
       return unwritable(temporaryPath_, std::strerror(errno));
@@ -109,6 +137,13 @@ public:
   }
 
 private:
+  Result<void> leaveDirect()
+  {
+    Result<void> done = settle();
+    direct_.reset();
+    return done;
+  }
+
   Result<void> writeAt(std::uint64_t offset, const std::byte* data, std::size_t size)
   {
     while (size != 0)
@@ -169,6 +204,7 @@ private:
   std::string temporaryPath_;
   int descriptor_;
   bool durable_;
+  std::unique_ptr<DirectAppender> direct_; // nullptr: all goes through the page cache
   std::uint64_t end_ = 0;
   bool published_ = false;
 };

@@ -12,6 +12,7 @@ namespace pointfront
 
 /// A file that is whole or absent: written under another name, given its own name at the end.
 /// Virtual, so that tests can have a disk that is full.
+/// Cost     a durable file of some size goes to the disk past the page cache, where that is possible.
 /// Threads  one thread.
 /// Errors   Unwritable, with the bytes that were missing when the disk is full.
 class OutputFile
@@ -35,6 +36,8 @@ public:
 
   virtual const std::string& path() const = 0;
   virtual Result<void> append(const std::byte* data, std::size_t size) = 0;
+  /// What was appended can be read from the file now.
+  virtual Result<void> settle() { return {}; }
   /// Overwrites bytes that were appended before.
   virtual Result<void> overwrite(std::uint64_t offset, const std::byte* data, std::size_t size) = 0;
   /// Renames to path(), and makes bytes and name as durable as asked for. Nothing may follow.

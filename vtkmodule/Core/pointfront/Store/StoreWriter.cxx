@@ -96,7 +96,9 @@ void FileStoreWriter::refer(WrittenPayloads elsewhere)
 
 Result<WrittenPayloads> FileStoreWriter::written()
 {
-  if (Result<void> done = flush(); !done)
+  Result<void> done = flush();
+  done = done ? file_->settle() : done;
+  if (!done)
   {
     return done.error();
   }

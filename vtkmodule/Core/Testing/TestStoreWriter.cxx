@@ -164,7 +164,7 @@ TEST(StoreWriter, FullDiskLeavesNothing)
 
 TEST(StoreWriter, KilledBuildBlocksNothingAndOpensNowhere)
 {
-  const SampleStore sample = makeSample(20000);
+  const SampleStore sample = makeSample(50000);
   const std::string path = temporaryPath("a.pfront");
   const pid_t child = fork();
   ASSERT_GE(child, 0);

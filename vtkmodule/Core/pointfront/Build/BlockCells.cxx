@@ -17,9 +17,17 @@ constexpr std::size_t fewRuns = 64;
 void BlockCells::begin(std::size_t records)
 {
   numbers_.resize(std::max(numbers_.size(), records));
+  // A table as large as the last block needed: one block all over the cloud would else leave all
+  // that follow one that no cache holds.
+  std::size_t slots = leastSlots;
+  while (slots < 4 * met_)
+  {
+    slots *= 2;
+  }
+  slots_.assign(slots, 0u);
+  met_ = 0;
   cells_.clear();
   records_ = 0;
-  std::fill(slots_.begin(), slots_.end(), 0u);
   last_.fill(Last{});
   runShift_ = shift_;
 }
@@ -100,6 +108,7 @@ void BlockCells::coarsen()
 
 std::vector<CellRun> BlockCells::order()
 {
+  met_ = cells_.size();
   coarsen();
   std::vector<std::uint32_t> sorted(cells_.size());
   std::iota(sorted.begin(), sorted.end(), 0u);

@@ -39,7 +39,7 @@ struct PoolBlock
 class BlockCells
 {
 public:
-  explicit BlockCells(unsigned shift) : shift_(shift), runShift_(shift), slots_(1024) {}
+  explicit BlockCells(unsigned shift) : shift_(shift), runShift_(shift), slots_(leastSlots) {}
 
   void begin(std::size_t records); ///< the next block, of at most so many
   void add(const TreePosition& position, std::uint8_t objectClass)
@@ -64,6 +64,7 @@ public:
 
 private:
   static constexpr std::uint32_t none = 0xffffffffu;
+  static constexpr std::size_t leastSlots = 1024;
   struct Last
   {
     TreePosition cell{0};
@@ -76,6 +77,7 @@ private:
   unsigned runShift_;
   std::array<Last, 256> last_{};
   std::vector<CellRun> cells_;         // in the order in which they were met
+  std::size_t met_ = 0; // cells of the last block that was ordered
   std::size_t records_ = 0;
   std::vector<std::uint32_t> numbers_; // of each record's cell
   std::vector<std::uint32_t> slots_;   // hash table of numbers in cells_, plus one

@@ -12,7 +12,7 @@ namespace pointfront
 
 /// A file that is whole or absent: written under another name, given its own name at the end.
 /// Virtual, so that tests can have a disk that is full.
-/// Cost     a durable file of some size goes to the disk past the page cache, where that is possible.
+/// Cost     a durable file of some size goes past the page cache, where the system can do that.
 /// Threads  one thread.
 /// Errors   Unwritable, with the bytes that were missing when the disk is full.
 class OutputFile

@@ -118,11 +118,10 @@ struct vtkPointFrontMapper::Content
   std::vector<pointfront::LayerLimits> LayersOf(vtkPointFrontStore& store) const
   {
     std::vector<pointfront::LayerLimits> limits;
-    const auto& layers = store.GetStore()->description().layers;
-    for (std::size_t i = 0; i < layers.size() && !this->ClassLimits.empty(); ++i)
+    const int classes = this->ClassLimits.empty() ? 0 : store.GetNumberOfObjectClasses();
+    for (int i = 0; i < classes; ++i)
     {
-      const bool all = layers.size() == 1 && layers[i].name == "all";
-      limits.push_back(limitsOf(this->ClassLimits, all ? -1 : layers[i].objectClass));
+      limits.push_back(limitsOf(this->ClassLimits, store.GetObjectClassNumber(i)));
     }
     return limits;
   }

@@ -27,6 +27,7 @@ void vtkPVPointFrontFrame::CopyFromObject(vtkObject* object)
   this->PointsDrawn = representation->GetPointsDrawn();
   this->NodesDrawn = representation->GetNodesDrawn();
   this->ProjectedSpacing = representation->GetProjectedSpacing();
+  this->HostMemoryBudget = representation->GetHostMemoryBudget();
   this->Complete = representation->GetFrameComplete();
   this->Outdated = representation->GetFrameOutdated();
 }
@@ -39,6 +40,10 @@ void vtkPVPointFrontFrame::AddInformation(vtkPVInformation* information)
     this->PointsDrawn += other->PointsDrawn;
     this->NodesDrawn += other->NodesDrawn;
     this->ProjectedSpacing = std::max(this->ProjectedSpacing, other->ProjectedSpacing);
+    // 0: the client, before anything was added to it.
+    this->HostMemoryBudget = this->HostMemoryBudget > 0
+                               ? std::min(this->HostMemoryBudget, other->HostMemoryBudget)
+                               : other->HostMemoryBudget;
     this->Complete = this->Complete && other->Complete;
     this->Outdated = this->Outdated || other->Outdated;
   }
@@ -50,7 +55,8 @@ void vtkPVPointFrontFrame::CopyToStream(vtkClientServerStream* stream)
   stream->Reset();
   *stream << vtkClientServerStream::Reply << static_cast<vtkTypeInt64>(this->PointsDrawn)
           << static_cast<vtkTypeInt64>(this->NodesDrawn) << this->ProjectedSpacing
-          << (this->Complete ? 1 : 0) << (this->Outdated ? 1 : 0) << vtkClientServerStream::End;
+          << (this->Complete ? 1 : 0) << (this->Outdated ? 1 : 0) << this->HostMemoryBudget
+          << vtkClientServerStream::End;
 }
 
 //------------------------------------------------------------------------------
@@ -62,7 +68,8 @@ void vtkPVPointFrontFrame::CopyFromStream(const vtkClientServerStream* stream)
   int outdated = 0;
   if (!stream->GetArgument(0, 0, &points) || !stream->GetArgument(0, 1, &nodes) ||
       !stream->GetArgument(0, 2, &this->ProjectedSpacing) ||
-      !stream->GetArgument(0, 3, &complete) || !stream->GetArgument(0, 4, &outdated))
+      !stream->GetArgument(0, 3, &complete) || !stream->GetArgument(0, 4, &outdated) ||
+      !stream->GetArgument(0, 5, &this->HostMemoryBudget))
   {
     vtkErrorMacro("The server's frame cannot be read: client and server have different plugins. "
                   "Load the same build of the PointFront plugin on both.");
@@ -81,6 +88,7 @@ void vtkPVPointFrontFrame::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "PointsDrawn: " << this->PointsDrawn << "\n"
      << indent << "NodesDrawn: " << this->NodesDrawn << "\n"
      << indent << "ProjectedSpacing: " << this->ProjectedSpacing << " px\n"
+     << indent << "HostMemoryBudget: " << this->HostMemoryBudget << " MiB\n"
      << indent << "Complete: " << this->Complete << "\n"
      << indent << "Outdated: " << this->Outdated << "\n";
 }

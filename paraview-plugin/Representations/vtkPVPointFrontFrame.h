@@ -33,6 +33,9 @@ public:
   vtkGetMacro(ProjectedSpacing, double);
   ///@}
 
+  /// MiB for points, of the process that has least.
+  vtkGetMacro(HostMemoryBudget, int);
+
   /// No process has more to show, now or later.
   vtkGetMacro(Complete, bool);
   /// A process has more to show now.
@@ -49,6 +52,7 @@ private:
   vtkIdType PointsDrawn = 0;
   vtkIdType NodesDrawn = 0;
   double ProjectedSpacing = 0.0;
+  int HostMemoryBudget = 0;
   bool Complete = true;
   bool Outdated = false;
 };

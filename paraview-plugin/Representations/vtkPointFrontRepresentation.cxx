@@ -153,20 +153,27 @@ void vtkPointFrontRepresentation::PrepareFrame(vtkInformation* inInfo, vtkPVRend
     this->TargetFrameTime > 0.0 || !interactive ? this->TargetFrameTime : 1000.0 / rate;
   this->Mapper->SetTargetFrameTime(frameTime);
 
-  this->PrepareBudget();
+  this->PrepareClasses();
   this->PrepareColors();
 }
 
 //------------------------------------------------------------------------------
-void vtkPointFrontRepresentation::PrepareBudget()
+void vtkPointFrontRepresentation::PrepareClasses()
 {
-  vtkPointFrontStore* store = this->Mapper->GetStore();
-  if (store && (store != this->BudgetStore || this->HostMemoryBudget != this->BudgetSet))
+  const auto valueOf =
+    [](const std::map<std::string, double>& values, const char* name, double otherwise)
   {
-    // Once a change, not once a frame: other views of the store may have set theirs since.
-    store->SetHostMemoryBudget(static_cast<vtkTypeInt64>(this->HostMemoryBudget) << 20);
-    this->BudgetStore = store;
-    this->BudgetSet = this->HostMemoryBudget;
+    const auto found = values.find(name);
+    return found != values.end() ? found->second : otherwise;
+  };
+  vtkPointFrontStore* store = this->Mapper->GetStore();
+  for (int i = 0; store && i < store->GetNumberOfObjectClasses(); ++i)
+  {
+    const char* name = store->GetObjectClassName(i);
+    const int number = store->GetObjectClassNumber(i);
+    this->Mapper->SetClassVisibility(number, this->HiddenClasses.count(name) == 0);
+    this->Mapper->SetClassTargetErrorFactor(number, valueOf(this->ClassFactors, name, 1.0));
+    this->Mapper->SetClassBudgetShare(number, valueOf(this->ClassShares, name, 0.0));
   }
 }
 
@@ -302,6 +309,61 @@ void vtkPointFrontRepresentation::SetDetailSelection(int method)
 }
 
 //------------------------------------------------------------------------------
+int vtkPointFrontRepresentation::GetHostMemoryBudget()
+{
+  return static_cast<int>(vtkPointFrontStore::GetProcessMemoryBudget() >> 20);
+}
+
+//------------------------------------------------------------------------------
+int vtkPointFrontRepresentation::GetNumberOfClasses()
+{
+  return this->Store ? this->Store->GetNumberOfObjectClasses() : 0;
+}
+
+//------------------------------------------------------------------------------
+const char* vtkPointFrontRepresentation::GetNameOfClass(int index)
+{
+  return this->Store ? this->Store->GetObjectClassName(index) : nullptr;
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetClassVisibility(const char* name, int shown)
+{
+  if (shown != 0)
+  {
+    this->HiddenClasses.erase(name);
+  }
+  else
+  {
+    this->HiddenClasses.insert(name);
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::ClearClassTargetErrorFactors()
+{
+  this->ClassFactors.clear();
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetClassTargetErrorFactor(const char* name, double factor)
+{
+  this->ClassFactors[name] = factor;
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::ClearClassBudgetShares()
+{
+  this->ClassShares.clear();
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetClassBudgetShare(const char* name, double share)
+{
+  this->ClassShares[name] = share;
+}
+
+//------------------------------------------------------------------------------
 void vtkPointFrontRepresentation::SetLookupTable(vtkScalarsToColors* table)
 {
   this->Mapper->SetLookupTable(table);
@@ -375,7 +437,7 @@ void vtkPointFrontRepresentation::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "CompleteStillRenders: " << this->CompleteStillRenders << "\n"
      << indent << "TargetFrameTime: " << this->TargetFrameTime << " ms\n"
-     << indent << "HostMemoryBudget: " << this->HostMemoryBudget << " MiB\n"
+     << indent << "HiddenClasses: " << this->HiddenClasses.size() << "\n"
      << indent << "MapScalars: " << this->MapScalars << "\n"
      << indent << "DirectColors: " << this->DirectColors << "\n";
   this->Mapper->PrintSelf(os, indent.GetNextIndent());

@@ -23,8 +23,11 @@
 #include "pointfrontParaViewRepresentationsModule.h" // for the export macro
 #include "vtkNew.h"                                  // for the members
 #include "vtkPVDataRepresentation.h"
-#include "vtkSmartPointer.h" // for the store
-#include "vtkWeakPointer.h"  // for the store
+#include "vtkSmartPointer.h"                         // for the store
+
+#include <map>
+#include <set>
+#include <string>
 
 class vtkPVLODActor;
 class vtkPVRenderView;
@@ -76,11 +79,18 @@ public:
 
   ///@{
   /**
-   * Host memory for the decoded nodes of the store, MiB, on each process that renders. Default
-   * 1024. The store is shared by the views of a process: the last value set holds.
+   * Object classes of the store, by name ("ground" ...; "all" in a store without layers): whether
+   * they are shown, and what they ask for (vtkPointFrontMapper::SetClassTargetErrorFactor and
+   * SetClassBudgetShare). A name that the store does not have is remembered and ignored. The list
+   * is empty on a process that has no input.
    */
-  vtkSetClampMacro(HostMemoryBudget, int, 1, VTK_INT_MAX);
-  vtkGetMacro(HostMemoryBudget, int);
+  int GetNumberOfClasses();
+  const char* GetNameOfClass(int index);
+  void SetClassVisibility(const char* name, int shown);
+  void ClearClassTargetErrorFactors();
+  void SetClassTargetErrorFactor(const char* name, double factor);
+  void ClearClassBudgetShares();
+  void SetClassBudgetShare(const char* name, double share);
   ///@}
 
   ///@{
@@ -122,6 +132,9 @@ public:
   double GetProjectedSpacing();
   ///@}
 
+  /// Memory that this process has for the points of all clouds, MiB (vtkPointFrontSettings).
+  int GetHostMemoryBudget();
+
   /// False while a further frame would show more, now or when nodes that are being loaded have
   /// come.
   bool GetFrameComplete();
@@ -146,7 +159,7 @@ private:
   void ProvideData(vtkInformation* inInfo);
   /// Sets the mapper up for the frame that `view` is about to render.
   void PrepareFrame(vtkInformation* inInfo, vtkPVRenderView* view);
-  void PrepareBudget();
+  void PrepareClasses();
   void PrepareColors();
   bool WantsComplete(vtkPVRenderView* view) const;
   /// Whether this process draws points of a store.
@@ -160,9 +173,9 @@ private:
 
   int CompleteStillRenders = WHEN_UNATTENDED;
   double TargetFrameTime = 0.0;
-  int HostMemoryBudget = 1024;
-  vtkWeakPointer<vtkPointFrontStore> BudgetStore; ///< that has been given BudgetSet, MiB
-  int BudgetSet = 0;
+  std::set<std::string> HiddenClasses;
+  std::map<std::string, double> ClassFactors;
+  std::map<std::string, double> ClassShares;
   bool MapScalars = true;
   bool DirectColors = true;
 };

@@ -5,12 +5,17 @@
 #include "vtkObjectFactory.h"
 #include "vtkPointFrontRepresentation.h"
 #include "vtkProcessModule.h"
+#include "vtkPVPointFrontClasses.h"
 #include "vtkPVPointFrontFrame.h"
 #include "vtkRenderWindowInteractor.h"
+#include "vtkSMParaViewPipelineController.h"
+#include "vtkSMProperty.h"
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMSession.h"
 #include "vtkSMSessionClient.h"
+#include "vtkSMStringVectorProperty.h"
 #include "vtkSMViewProxy.h"
+#include "vtkStringList.h"
 
 #include <algorithm>
 
@@ -40,10 +45,51 @@ vtkSMPointFrontRepresentationProxy::~vtkSMPointFrontRepresentationProxy()
 void vtkSMPointFrontRepresentationProxy::ViewUpdated(vtkSMProxy* view)
 {
   this->Superclass::ViewUpdated(view);
+  this->GatherClasses();
   if (vtkProcessModule::GetProcessType() != vtkProcessModule::PROCESS_BATCH)
   {
     this->Follow(vtkSMViewProxy::SafeDownCast(view));
   }
+}
+
+//------------------------------------------------------------------------------
+void vtkSMPointFrontRepresentationProxy::CreateVTKObjects()
+{
+  const bool created = this->ObjectsCreated != 0;
+  this->Superclass::CreateVTKObjects();
+  if (!created && this->ObjectsCreated)
+  {
+    vtkNew<vtkSMParaViewPipelineController> controller;
+    controller->UpdateSettingsProxies(this->GetSession());
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkSMPointFrontRepresentationProxy::GatherClasses()
+{
+  vtkNew<vtkPVPointFrontClasses> classes;
+  this->GatherInformation(classes);
+  this->Classes = classes->GetNames();
+  this->TellClasses();
+  vtkSMProperty* shown = this->GetProperty("Classes");
+  if (!this->Classes.empty() && vtkSMPropertyHelper(shown).GetNumberOfElements() == 0)
+  {
+    shown->ResetToDomainDefaults();
+    this->UpdateVTKObjects();
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkSMPointFrontRepresentationProxy::TellClasses()
+{
+  // As an array selection tells of its arrays: pairs of a name and whether it is on by default.
+  vtkNew<vtkStringList> pairs;
+  for (const std::string& name : this->Classes)
+  {
+    pairs->AddString(name.c_str());
+    pairs->AddString("1");
+  }
+  vtkSMStringVectorProperty::SafeDownCast(this->GetProperty("ClassInfo"))->SetElements(pairs);
 }
 
 //------------------------------------------------------------------------------
@@ -168,6 +214,7 @@ void vtkSMPointFrontRepresentationProxy::OnTimer(vtkObject*, unsigned long, void
 void vtkSMPointFrontRepresentationProxy::UpdatePropertyInformationInternal(vtkSMProperty* property)
 {
   this->Superclass::UpdatePropertyInformationInternal(property);
+  this->TellClasses(); // the client's own is empty
   if (!this->IsActive())
   {
     return;
@@ -177,6 +224,7 @@ void vtkSMPointFrontRepresentationProxy::UpdatePropertyInformationInternal(vtkSM
   vtkSMPropertyHelper(this, "PointsDrawn").Set(frame->GetPointsDrawn());
   vtkSMPropertyHelper(this, "NodesDrawn").Set(frame->GetNodesDrawn());
   vtkSMPropertyHelper(this, "ProjectedSpacing").Set(frame->GetProjectedSpacing());
+  vtkSMPropertyHelper(this, "HostMemoryBudget").Set(frame->GetHostMemoryBudget());
   vtkSMPropertyHelper(this, "FrameComplete").Set(frame->GetComplete() ? 1 : 0);
 }
 

@@ -22,6 +22,9 @@
 #include "vtkSMRepresentationProxy.h"
 #include "vtkWeakPointer.h" // for the view
 
+#include <string>
+#include <vector>
+
 class vtkRenderWindowInteractor;
 class vtkSMViewProxy;
 
@@ -33,12 +36,16 @@ public:
   vtkTypeMacro(vtkSMPointFrontRepresentationProxy, vtkSMRepresentationProxy);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  /// Begins to follow the view.
+  /// Begins to follow the view; what it shows has an input now, and the input has classes.
   void ViewUpdated(vtkSMProxy* view) override;
 
 protected:
   vtkSMPointFrontRepresentationProxy();
   ~vtkSMPointFrontRepresentationProxy() override;
+
+  /// Also makes the page of our settings, if the plugin was loaded without the application's doing
+  /// so (pvbatch, Python).
+  void CreateVTKObjects() override;
 
   /// PointsDrawn, NodesDrawn, ProjectedSpacing and FrameComplete are of all processes, not of the
   /// server's root.
@@ -48,6 +55,9 @@ private:
   vtkSMPointFrontRepresentationProxy(const vtkSMPointFrontRepresentationProxy&) = delete;
   void operator=(const vtkSMPointFrontRepresentationProxy&) = delete;
 
+  /// Asks the server for the classes of the store; all are shown where nothing else was chosen.
+  void GatherClasses();
+  void TellClasses();
   void Follow(vtkSMViewProxy* view);
   void Unfollow();
   /// Whether this is the representation that the view draws now.
@@ -58,6 +68,7 @@ private:
   void OnRendered(vtkObject* view, unsigned long event, void* interactive);
   void OnTimer(vtkObject* interactor, unsigned long event, void* timer);
 
+  std::vector<std::string> Classes; ///< of the store
   vtkWeakPointer<vtkSMViewProxy> View;
   vtkWeakPointer<vtkRenderWindowInteractor> Interactor;
   unsigned long RenderObserver = 0;

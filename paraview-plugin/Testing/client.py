@@ -35,6 +35,12 @@ require(len(frames) > 1 and frames[0][0] < POINTS, "the first frame waited for a
 
 scene.save_complete(name)
 
+# Classes and settings are those of the server's processes.
+require(list(scene.display.Classes.Available) == ["all"],
+        "classes of the server's store: %s" % scene.display.Classes.Available)
+simple.GetSettingsProxy("PointFrontSettings").HostMemoryBudgetMiB = 400
+require(scene.budget() == 400, "set to 400 MiB, the server has %d" % scene.budget())
+
 # Complete Still Renders overrules what a window does by itself.
 patient = Scene()
 patient.display.CompleteStillRenders = "Always"

@@ -113,6 +113,18 @@ def batch(programs):
     compare("batch-intensity", "batch-stock-intensity")
 
 
+def classes(programs):
+    """A made-up survey, whose points are classified."""
+    store = os.environ["POINTFRONT_STORE"] = os.path.abspath("classes.pfront")
+    tool("generate", "--points", "200000", "--seed", "3", "-o", "survey.las")  # has four classes
+    tool("build", "survey.las", "-o", store, "--layers", "class", "--force")
+    described = json.loads(tool("info", store, "--json"))
+    os.environ["POINTFRONT_POINTS"] = str(described["points"])
+    points = json.dumps({layer["name"]: layer["points"] for layer in described["layers"]})
+    programs.run(
+        os.environ["POINTFRONT_PVBATCH"], os.path.join(HERE, "classes.py"), points)
+
+
 def ranks(programs):
     programs.run(*mpi(2, os.environ["POINTFRONT_PVBATCH"], os.path.join(HERE, "batch.py"), "ranks"))
     compare("ranks", "tool")
@@ -171,7 +183,8 @@ def main(way):
     tool("render", store, "-o", "tool.png", "--size", "640x360",
          "--camera", os.environ["POINTFRONT_CAMERA"], "--color-by", "rgb", "--point-size", "2",
          "--error", "0.01", "--background", "0,0,0")
-    ways = {"batch": batch, "ranks": ranks, "server": server, "application": application}
+    ways = {"batch": batch, "classes": classes, "ranks": ranks, "server": server,
+            "application": application}
     with Programs() as programs:
         ways[way](programs)
 

@@ -80,6 +80,12 @@ class Scene:
         return (proxy.GetProperty("PointsDrawn").GetElement(0),
                 bool(proxy.GetProperty("FrameComplete").GetElement(0)))
 
+    def budget(self):
+        """Memory for points, MiB, of the process that has least."""
+        proxy = self.display.SMProxy
+        proxy.UpdatePropertyInformation()
+        return proxy.GetProperty("HostMemoryBudget").GetElement(0)
+
     def save(self, name):
         path = os.path.join(OUTPUT, name + ".png")
         saved = simple.SaveScreenshot(path, self.view, ImageResolution=SIZE)

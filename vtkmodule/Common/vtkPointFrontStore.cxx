@@ -256,6 +256,28 @@ const char* vtkPointFrontStore::GetAttributeName(int attribute) const
   return this->Internals->store->description().schema[column].name.c_str();
 }
 
+int vtkPointFrontStore::GetNumberOfObjectClasses() const
+{
+  return static_cast<int>(this->Internals->store->description().layers.size());
+}
+
+const char* vtkPointFrontStore::GetObjectClassName(int index) const
+{
+  const auto& layers = this->Internals->store->description().layers;
+  return index >= 0 && index < this->GetNumberOfObjectClasses()
+    ? layers[static_cast<std::size_t>(index)].name.c_str()
+    : nullptr;
+}
+
+int vtkPointFrontStore::GetObjectClassNumber(int index) const
+{
+  const auto& layers = this->Internals->store->description().layers;
+  const bool single = layers.size() == 1 && layers.front().name == "all";
+  return index >= 0 && index < this->GetNumberOfObjectClasses() && !single
+    ? layers[static_cast<std::size_t>(index)].objectClass
+    : -1;
+}
+
 void vtkPointFrontStore::SetHostMemoryBudget(vtkTypeInt64 bytes)
 {
   const std::size_t own = bytesOf(bytes);

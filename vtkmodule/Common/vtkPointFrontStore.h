@@ -77,6 +77,16 @@ public:
 
   ///@{
   /**
+   * Object classes with a tree of their own: name ("ground", "building" ...) and number in the
+   * source. A store without layers has one, "all", whose number is -1. Null and -1 out of range.
+   */
+  int GetNumberOfObjectClasses() const;
+  const char* GetObjectClassName(int index) const;
+  int GetObjectClassNumber(int index) const;
+  ///@}
+
+  ///@{
+  /**
    * Host memory for decoded nodes of all stores of this process, bytes. Set it once; it holds
    * whatever is opened. While it was never set it is 1 GiB, or the largest budget that was set for
    * a single store.

@@ -41,6 +41,11 @@ TEST(StoreHandle, IsOneObjectForAFileUntilTheLastReferenceIsGone)
   EXPECT_EQ(first->GetNumberOfAttributes(), 2);
   EXPECT_STREQ(first->GetAttributeName(1), "intensity");
   EXPECT_EQ(first->GetAttributeName(2), nullptr);
+  ASSERT_EQ(first->GetNumberOfObjectClasses(), 1);
+  EXPECT_STREQ(first->GetObjectClassName(0), "all");
+  EXPECT_EQ(first->GetObjectClassNumber(0), -1) << "as the mapper calls it";
+  EXPECT_EQ(first->GetObjectClassName(1), nullptr);
+  EXPECT_EQ(first->GetObjectClassNumber(1), -1);
 
   const std::string other =
     (std::filesystem::path(path).parent_path() / "." / std::filesystem::path(path).filename())

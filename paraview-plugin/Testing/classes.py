@@ -1,0 +1,71 @@
+"""pvbatch: the classes of a store in the representation's properties, and our page of settings.
+
+usage: pvbatch classes.py CLASSES     a JSON object: points of each class of POINTFRONT_STORE
+"""
+
+import json
+import os
+import sys
+
+from paraview import simple
+
+simple.LoadPlugin(os.environ["POINTFRONT_PLUGIN"], remote=False, ns=globals())
+
+from scene import POINTS, SIZE, Scene, require
+
+classes = json.loads(sys.argv[1])
+names = list(classes)
+require(len(names) > 2, "too few classes to tell them apart: %s" % names)
+
+scene = Scene()
+scene.view.ViewSize = SIZE
+scene.view.ResetCamera(True)
+
+
+def drawn():
+    scene.view.SMProxy.StillRender()
+    points, complete = scene.frame()
+    require(complete, "a still render in batch is complete")
+    return points
+
+
+# The list is that of the store, and everything is shown at first.
+require(drawn() == POINTS, "not all points are in sight")
+require(list(scene.display.Classes.Available) == names,
+        "listed: %s, in the store: %s" % (scene.display.Classes.Available, names))
+require(list(scene.display.Classes) == names, "shown at first: %s" % scene.display.Classes)
+
+# What is switched off is not drawn; and comes back.
+for shown in (names[:1], names[1:], names):
+    scene.display.Classes = shown
+    wanted = sum(classes[name] for name in shown)
+    require(drawn() == wanted, "%s: %d points, not %d" % (shown, drawn(), wanted))
+
+# A threshold for one class alone. With an error of 1 px for all, a hundred for it are a few points.
+largest = max(names, key=lambda name: classes[name])
+scene.display.ClassTargetErrorFactors = [largest, "100"]
+scene.display.TargetError = 1.0
+coarse = drawn()
+scene.display.ClassTargetErrorFactors = []
+fine = drawn()
+require(coarse < fine, "%s a hundred times coarser: %d points, before %d" % (largest, coarse, fine))
+
+# A share: of a budget that is too small, the class gets what it is promised.
+scene.display.TargetError = 0.01
+scene.display.PointBudget = POINTS // 4
+smallest = min(names, key=lambda name: classes[name])
+scene.display.ClassTargetErrorFactors = [smallest, "100"]  # its errors count for nothing
+without = drawn()
+scene.display.ClassBudgetShares = [smallest, "1"]
+require(0 < drawn() <= POINTS // 4, "the budget is broken: %d points" % drawn())
+scene.display.ClassBudgetShares = []
+require(drawn() == without, "without its share it is as before")
+
+# One host memory for all clouds: a page of the settings, which is there although nobody loaded the
+# plugin through the application's dialog.
+settings = simple.GetSettingsProxy("PointFrontSettings")
+require(settings is not None, "no page of settings")
+require(settings.HostMemoryBudgetMiB == 1024, "by default %s MiB" % settings.HostMemoryBudgetMiB)
+require(scene.budget() == 1024, "in use: %d MiB" % scene.budget())
+settings.HostMemoryBudgetMiB = 300
+require(scene.budget() == 300, "set to 300 MiB, in use: %d" % scene.budget())

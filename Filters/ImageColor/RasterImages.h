@@ -24,9 +24,11 @@ struct RasterTally
 struct RasterPass::Images
 {
   explicit Images(std::uint64_t bytes)
-    : tiles(bytes)
+    : tileBytes(bytes)
+    , tiles(bytes)
   {
   }
+  std::uint64_t tileBytes; ///< most memory for tiles
   RasterTiles tiles;
   std::vector<RasterMosaic> mosaics; ///< one for each input
   std::vector<std::unique_ptr<RasterTally>> tallies;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <set>
 #include <tuple>
 #include <utility>
 
@@ -193,6 +194,71 @@ Result<void> RasterMosaic::visitHits(const std::vector<Hit>& hits, const Visit& 
   return {};
 }
 
+/// The first image from `from` on that has a pixel for the point.
+std::optional<RasterMosaic::Hit> RasterMosaic::firstHit(const std::vector<glm::dvec3>& positions,
+  const std::vector<std::vector<glm::dvec3>>& moved, std::size_t point, std::uint32_t from) const
+{
+  std::optional<Hit> best;
+  for (std::size_t g = 0; g < groups_.size(); ++g)
+  {
+    Hit hit;
+    const std::vector<glm::dvec3>& own = moved[g].empty() ? positions : moved[g];
+    if (find(groups_[g], own[point], from, hit) && (!best || hit.image < best->image))
+    {
+      hit.point = static_cast<std::uint32_t>(point);
+      best = hit;
+    }
+  }
+  return best;
+}
+
+std::uint64_t RasterMosaic::tileBytes(std::uint32_t image) const
+{
+  const RasterTiles::Layout& layout = tiles_->layout(numbers_[image]);
+  return static_cast<std::uint64_t>(layout.width) * static_cast<std::uint64_t>(layout.height) *
+    files_[image].pixelBytes();
+}
+
+RasterMosaic::Tiles RasterMosaic::tiles() const
+{
+  Tiles all;
+  for (std::uint32_t image = 0; image < files_.size(); ++image)
+  {
+    const RasterTiles::Layout& layout = tiles_->layout(numbers_[image]);
+    const int down = (files_[image].height + layout.height - 1) / layout.height;
+    const std::uint64_t count =
+      static_cast<std::uint64_t>(layout.across) * static_cast<std::uint64_t>(down);
+    all.count += count;
+    all.bytes += count * tileBytes(image);
+  }
+  return all;
+}
+
+Result<RasterMosaic::Tiles> RasterMosaic::tilesOf(
+  const std::vector<glm::dvec3>& positions, const Ways& ways) const
+{
+  const Result<std::vector<std::vector<glm::dvec3>>> moved = positionsOf(positions, ways);
+  if (!moved)
+  {
+    return moved.error();
+  }
+  std::set<std::pair<std::uint32_t, std::uint32_t>> touched; // image, tile
+  for (std::size_t point = 0; point < positions.size(); ++point)
+  {
+    if (const std::optional<Hit> hit = firstHit(positions, *moved, point, 0))
+    {
+      touched.emplace(hit->image, hit->tile);
+    }
+  }
+  Tiles tiles;
+  for (const auto& [image, tile] : touched)
+  {
+    ++tiles.count;
+    tiles.bytes += tileBytes(image);
+  }
+  return tiles;
+}
+
 Result<std::uint64_t> RasterMosaic::sample(
   const std::vector<glm::dvec3>& positions, const Ways& ways, const Visit& visit) const
 {
@@ -214,20 +280,9 @@ Result<std::uint64_t> RasterMosaic::sample(
     hits.clear();
     for (const auto& [point, from] : pending)
     {
-      std::optional<Hit> best;
-      for (std::size_t g = 0; g < groups_.size(); ++g)
+      if (const std::optional<Hit> hit = firstHit(positions, *moved, point, from))
       {
-        Hit hit;
-        const std::vector<glm::dvec3>& own = ways[g] ? moved.value()[g] : positions;
-        if (find(groups_[g], own[point], from, hit) && (!best || hit.image < best->image))
-        {
-          best = hit;
-        }
-      }
-      if (best)
-      {
-        best->point = point;
-        hits.push_back(*best);
+        hits.push_back(*hit);
       }
       else
       {

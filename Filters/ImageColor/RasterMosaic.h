@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -45,6 +46,17 @@ public:
   Result<std::uint64_t> sample(
     const std::vector<glm::dvec3>& positions, const Ways& ways, const Visit& visit) const;
 
+  /// A number of tiles, and their bytes decoded.
+  struct Tiles
+  {
+    std::uint64_t count = 0;
+    std::uint64_t bytes = 0;
+  };
+  /// All of all images.
+  Tiles tiles() const;
+  /// Those that hold the first pixel of any of the points.
+  Result<Tiles> tilesOf(const std::vector<glm::dvec3>& positions, const Ways& ways) const;
+
 private:
   /// The images of one system and where to look for them: a lattice of cells over their extent,
   /// each with the images that touch it, in the order in which they were named.
@@ -68,6 +80,10 @@ private:
 
   void group();
   bool find(const Group& group, const glm::dvec3& p, std::uint32_t from, Hit& hit) const;
+  std::optional<Hit> firstHit(const std::vector<glm::dvec3>& positions,
+    const std::vector<std::vector<glm::dvec3>>& moved, std::size_t point,
+    std::uint32_t from) const;
+  std::uint64_t tileBytes(std::uint32_t image) const;
   Result<void> visitHits(const std::vector<Hit>& hits, const Visit& visit,
     std::vector<std::uint32_t>& refused) const;
   Result<std::vector<std::vector<glm::dvec3>>> positionsOf(

@@ -2,6 +2,7 @@
 
 #include "RasterImages.h"
 #include "RasterSource.h"
+#include "SortedRasterValues.h"
 
 #include <algorithm>
 #include <map>
@@ -141,14 +142,16 @@ Result<PointSources> RasterPass::apply(PointSources sources, const PassResources
     images_->tallies.push_back(std::make_unique<RasterTally>());
   }
   Ways ways(*systems_);
-  for (std::unique_ptr<PointSource>& source : sources)
+  Inputs inputs;
+  std::vector<AttributeSchema> schemas;
+  for (const std::unique_ptr<PointSource>& source : sources)
   {
     AttributeSchema schema = source->description().schema;
     for (std::uint64_t chunk = 0; chunk < source->chunkCount(); ++chunk)
     {
       images_->points += source->chunkPoints(chunk);
     }
-    std::vector<RasterSource::Input> inputs;
+    std::vector<RasterSource::Input> own;
     for (std::size_t i = 0; i < inputs_.size(); ++i)
     {
       const RasterMosaic& mosaic = images_->mosaics[i];
@@ -158,22 +161,56 @@ Result<PointSources> RasterPass::apply(PointSources sources, const PassResources
       {
         return column.error();
       }
-      Result<RasterMosaic::Ways> own = ways.to(mosaic, source->description(), images_->warnings);
-      if (!own)
+      Result<RasterMosaic::Ways> way = ways.to(mosaic, source->description(), images_->warnings);
+      if (!way)
       {
-        return own.error();
+        return way.error();
       }
       if (!column->isOld())
       {
         schema.add(column->attribute());
       }
       const std::size_t target = *schema.find(inputs_[i].attribute);
-      inputs.push_back({ std::move(*column), target, std::move(*own) });
+      own.push_back({ std::move(*column), target, std::move(*way) });
     }
-    source = std::make_unique<RasterSource>(
-      std::move(source), images_, std::move(inputs), std::move(schema));
+    inputs.push_back(std::move(own));
+    schemas.push_back(std::move(schema));
+  }
+  return wrapped(std::move(sources), std::move(inputs), std::move(schemas), resources);
+}
+
+Result<PointSources> RasterPass::wrapped(PointSources sources, Inputs inputs,
+  std::vector<AttributeSchema> schemas, const PassResources& resources) const
+{
+  std::shared_ptr<const SortedRasterValues> sorted;
+  const Result<bool> scattered =
+    SortedRasterValues::areNeeded(sources, inputs, *images_, resources);
+  if (!scattered)
+  {
+    return scattered.error();
+  }
+  if (*scattered)
+  {
+    auto values = SortedRasterValues::compute(sources, inputs, *images_, resources);
+    if (!values)
+    {
+      return values.error();
+    }
+    sorted = std::move(*values);
+  }
+  for (std::size_t s = 0; s < sources.size(); ++s)
+  {
+    auto source = std::make_unique<RasterSource>(
+      std::move(sources[s]), images_, std::move(inputs[s]), std::move(schemas[s]));
+    source->use(sorted, s);
+    sources[s] = std::move(source);
   }
   return sources;
+}
+
+std::uint64_t RasterPass::tilesRead() const
+{
+  return images_ ? images_->tiles.tilesRead() : 0;
 }
 
 std::vector<std::string> RasterPass::findings() const

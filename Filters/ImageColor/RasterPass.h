@@ -11,6 +11,8 @@
 namespace pointfront
 {
 
+struct RasterSourceInput;
+
 /// An attribute and the images that it is taken from, in the order of their right of way.
 struct RasterInput
 {
@@ -24,6 +26,9 @@ struct RasterInput
 /// Systems  where a source and an image name different coordinate reference systems, points are
 ///          transformed for the lookup; where one names none, they are taken to be the same, with
 ///          a warning.
+/// Order    points are looked up while they are read, those of a chunk sorted by image tile. Where
+///          chunks are so scattered that the cache would thrash, apply() looks all of them up,
+///          sorted by place (SortedRasterValues). The values are the same.
 /// Memory   decoded tiles take an eighth of the limit (1 GiB at most), 10 MiB at least.
 class RasterPass final : public AttributePass
 {
@@ -34,12 +39,18 @@ public:
     PointSources sources, const PassResources& resources) const override;
   std::uint64_t heldBytes(const PassResources& resources) const override;
   std::vector<std::string> findings() const override;
-  bool readsPoints() const override { return false; }
+  bool readsPoints() const override { return false; } ///< but for scattered clouds
+  /// Tiles decoded for the sources of the last apply() so far, those decoded again included.
+  std::uint64_t tilesRead() const;
 
   /// What all sources share while they are read.
   struct Images;
 
 private:
+  using Inputs = std::vector<std::vector<RasterSourceInput>>; ///< of each source
+  Result<PointSources> wrapped(PointSources sources, Inputs inputs,
+    std::vector<AttributeSchema> schemas, const PassResources& resources) const;
+
   std::vector<RasterInput> inputs_;
   std::shared_ptr<const CoordinateSystems> systems_;
   mutable std::shared_ptr<Images> images_; ///< of the last apply()

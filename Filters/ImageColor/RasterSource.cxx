@@ -1,5 +1,8 @@
 #include "RasterSource.h"
 
+#include "SortedRasterValues.h"
+
+#include <cstring>
 #include <utility>
 
 namespace pointfront
@@ -16,6 +19,12 @@ RasterSource::RasterSource(std::unique_ptr<PointSource> original,
   description_.schema = std::move(schema);
 }
 
+void RasterSource::use(std::shared_ptr<const SortedRasterValues> sorted, std::size_t number)
+{
+  sorted_ = std::move(sorted);
+  number_ = number;
+}
+
 Result<void> RasterSource::read(std::uint64_t chunk, PointBatch& batch) const
 {
   if (Result<void> done = original_->read(chunk, batch); !done)
@@ -29,6 +38,19 @@ Result<void> RasterSource::read(std::uint64_t chunk, PointBatch& batch) const
     batch.columns[c].assign(batch.size() * description_.schema[c].bytes(), std::byte(0));
   }
   const bool count = !counted_[chunk].exchange(true);
+  if (sorted_)
+  {
+    const Result<std::vector<std::byte>> values = sorted_->read({ number_, chunk }, batch.size());
+    if (!values)
+    {
+      return values.error();
+    }
+    for (std::size_t input = 0; input < inputs_.size(); ++input)
+    {
+      fill(input, count, *values, batch);
+    }
+    return {};
+  }
   for (std::size_t input = 0; input < inputs_.size(); ++input)
   {
     if (Result<void> done = fill(input, count, batch); !done)
@@ -66,6 +88,35 @@ Result<void> RasterSource::fill(std::size_t input, bool count, PointBatch& batch
     tally.notHeld += notHeld;
   }
   return {};
+}
+
+void RasterSource::fill(std::size_t input, bool count, const std::vector<std::byte>& values,
+  PointBatch& batch) const
+{
+  using Outcome = SortedRasterValues::Outcome;
+  std::byte* const column = batch.columns[inputs_[input].target].data();
+  const std::size_t step = inputs_[input].column.attribute().bytes();
+  std::uint64_t without = 0;
+  std::uint64_t notHeld = 0;
+  for (std::size_t i = 0; i < batch.size(); ++i)
+  {
+    const std::byte* const value =
+      values.data() + i * sorted_->valueBytes() + sorted_->place(input);
+    const auto outcome = static_cast<Outcome>(*value);
+    without += outcome == Outcome::Without ? 1 : 0;
+    notHeld += outcome == Outcome::NotHeld ? 1 : 0;
+    if (outcome == Outcome::Taken)
+    {
+      std::memcpy(column + i * step, value + 1, step);
+    }
+  }
+  if (count)
+  {
+    RasterTally& tally = *images_->tallies[input];
+    tally.seen += batch.size();
+    tally.without += without;
+    tally.notHeld += notHeld;
+  }
 }
 
 } // namespace pointfront

@@ -270,8 +270,8 @@ RasterTiles::Tile::~Tile()
 
 std::uint64_t RasterTiles::tilesRead() const
 {
-  long long count = 0;
-  cache_->images->getattribute("stat:tiles_created", OIIO::TypeDesc::INT64, &count);
+  int count = 0; // asked for as 64 bits, it is not given
+  cache_->images->getattribute("stat:tiles_created", OIIO::TypeDesc::INT32, &count);
   return static_cast<std::uint64_t>(count);
 }
 

@@ -1,7 +1,9 @@
 #include "BenchCommand.h"
 
 #include "CancelSignal.h"
+#include "PeakMemory.h"
 #include "Percentiles.h"
+#include "Settling.h"
 #include "WholeFile.h"
 
 #include <nlohmann/json.hpp>
@@ -19,6 +21,16 @@ nlohmann::ordered_json percentilesJson(const std::vector<double>& values)
 {
   const Percentiles p = percentilesOf(values);
   return { { "p50", p.p50 }, { "p95", p.p95 }, { "p99", p.p99 }, { "max", p.max } };
+}
+
+std::int64_t gpuBytesMax(const std::vector<FrameRecord>& frames)
+{
+  std::int64_t most = 0;
+  for (const FrameRecord& frame : frames)
+  {
+    most = std::max(most, frame.gpuBytes);
+  }
+  return most;
 }
 
 /// `interactive`: frames whose camera moved are drawn as in motion, others as at rest; the first is
@@ -56,6 +68,13 @@ void BenchCommand::declare(CLI::App& program)
     ->type_name("N");
   app_->add_flag("--interactive", interactive_,
     "While the camera moves the fronts hold VTK's frame time for a moving view");
+  app_->add_option("--frame-ms", drawing_.frameMs,
+         "--interactive: time that a frame may take (that of VTK for a moving view)")
+    ->check(CLI::Range(1.0, 10000.0))
+    ->type_name("MS");
+  app_->add_flag("--settle", settles_,
+    "After the path: frames at rest until the view is complete; --stats tells what that took");
+  app_->add_option("--picture", picturePath_, "Write the last frame")->type_name("FILE.png");
   app_->add_option("--stats", statisticsPath_, "Write the result as JSON")
     ->required()
     ->type_name("FILE.json");
@@ -86,13 +105,14 @@ Result<CameraPath> BenchCommand::path(const StoreScene& scene) const
 Result<void> BenchCommand::run()
 {
   const CancelSignal signal(CancelSignal::Mode::Leave);
-  for (const std::string& file : { statisticsPath_, framesPath_ })
+  for (const std::string& file : { statisticsPath_, framesPath_, picturePath_ })
   {
     if (Result<void> writable = file.empty() ? Result<void>() : checkWritable(file); !writable)
     {
       return writable;
     }
   }
+  drawing_.measureEmptyScene = true;
   Result<std::unique_ptr<StoreScene>> scene = StoreScene::open(drawing_);
   if (!scene)
   {
@@ -103,45 +123,75 @@ Result<void> BenchCommand::run()
   {
     return cameras.error();
   }
-  const Result<std::vector<FrameRecord>> frames =
-    replay(**scene, cameras.value(), interactive_);
+  Result<std::vector<FrameRecord>> frames = replay(**scene, cameras.value(), interactive_);
   if (!frames)
   {
     return frames.error();
   }
+  nlohmann::ordered_json statistics = benchStatistics(frames.value());
+  if (settles_)
+  {
+    (*scene)->setInteractive(false);
+    Settling settling(**scene);
+    const auto keep = [&](const FrameRecord& frame) { frames->push_back(frame); };
+    if (Result<void> settled = settling.run(**scene, keep); !settled)
+    {
+      return settled;
+    }
+    statistics["settle"] = settling.json();
+  }
+  const LoadingRecord loading = (*scene)->loading();
+  statistics["loading"] = { { "bytes_read", loading.fetchedBytes },
+    { "bytes_decoded", loading.decodedBytes }, { "read_seconds", loading.fetchSeconds },
+    { "decode_cpu_seconds", loading.decodeSeconds } };
+  statistics["resident_bytes_max"] = (*scene)->residentBytesMax();
+  statistics["gpu_bytes_max"] = gpuBytesMax(frames.value());
+  statistics["budget_bytes"] = (*scene)->budgetBytes();
+  statistics["bytes_read"] = frames->empty() ? 0 : frames->back().bytesRead;
+  statistics["empty_scene_rss_bytes"] = (*scene)->emptySceneBytes();
+  statistics["peak_rss_bytes"] = peakResidentBytes();
+  return write(**scene, statistics.dump(2), frames.value());
+}
+
+Result<void> BenchCommand::write(
+  StoreScene& scene, const std::string& statistics, const std::vector<FrameRecord>& frames) const
+{
   const CancelSignal finishing(CancelSignal::Mode::Finish);
-  const std::string statistics =
-    benchStatistics(frames.value(), (*scene)->budgetBytes(), (*scene)->residentBytesMax());
   if (Result<void> written = writeWholeFile(statisticsPath_, statistics + "\n"); !written)
   {
     return written;
   }
   if (!framesPath_.empty())
   {
-    if (Result<void> written = writeWholeFile(framesPath_, benchTable(frames.value())); !written)
+    if (Result<void> written = writeWholeFile(framesPath_, benchTable(frames)); !written)
     {
       return written;
     }
   }
-  std::printf("%s: %zu frames\n", statisticsPath_.c_str(), frames->size());
+  if (!picturePath_.empty())
+  {
+    if (Result<void> written = scene.writePicture(picturePath_); !written)
+    {
+      return written;
+    }
+  }
+  std::printf("%s: %zu frames\n", statisticsPath_.c_str(), frames.size());
   return {};
 }
 
-std::string benchStatistics(const std::vector<FrameRecord>& frames, std::uint64_t budgetBytes,
-  std::uint64_t residentBytesMax)
+nlohmann::ordered_json benchStatistics(const std::vector<FrameRecord>& frames)
 {
   std::vector<double> milliseconds;
   std::vector<double> frontMilliseconds;
   std::vector<double> points;
-  std::int64_t gpuBytes = 0;
-  std::uint64_t bytesRead = 0;
+  int reading = 0;
   for (const FrameRecord& frame : frames)
   {
     milliseconds.push_back(frame.milliseconds);
     frontMilliseconds.push_back(frame.frontMilliseconds);
     points.push_back(static_cast<double>(frame.points));
-    gpuBytes = std::max(gpuBytes, frame.gpuBytes);
-    bytesRead = std::max(bytesRead, frame.bytesRead);
+    // The first frame waits for the roots.
+    reading += &frame != &frames.front() && frame.threadReadBytes > 0 ? 1 : 0;
   }
   const Percentiles drawn = percentilesOf(points);
   nlohmann::ordered_json object;
@@ -150,18 +200,15 @@ std::string benchStatistics(const std::vector<FrameRecord>& frames, std::uint64_
   object["front_update_ms"] = percentilesJson(frontMilliseconds);
   object["points_drawn"] = { { "p50", static_cast<std::int64_t>(drawn.p50) },
     { "max", static_cast<std::int64_t>(drawn.max) } };
-  object["resident_bytes_max"] = residentBytesMax;
-  object["gpu_bytes_max"] = gpuBytes;
-  object["budget_bytes"] = budgetBytes;
-  object["bytes_read"] = bytesRead;
-  return object.dump(2);
+  object["frames_that_read_files"] = reading;
+  return object;
 }
 
 std::string benchTable(const std::vector<FrameRecord>& frames)
 {
   std::ostringstream table;
   table << "frame,ms,points,front_length,threshold_px,moves,requests,cancelled,resident_bytes,"
-           "front_ms,error_px\n";
+           "front_ms,error_px,gpu_bytes,thread_read_bytes\n";
   std::uint64_t cancelledBefore = 0;
   for (std::size_t i = 0; i < frames.size(); ++i)
   {
@@ -169,7 +216,8 @@ std::string benchTable(const std::vector<FrameRecord>& frames)
     table << i << ',' << frame.milliseconds << ',' << frame.points << ',' << frame.frontLength
           << ',' << frame.thresholdPx << ',' << frame.moves << ',' << frame.requests << ','
           << frame.cancelled - cancelledBefore << ',' << frame.residentBytes << ','
-          << frame.frontMilliseconds << ',' << frame.errorPx << '\n';
+          << frame.frontMilliseconds << ',' << frame.errorPx << ',' << frame.gpuBytes << ','
+          << frame.threadReadBytes << '\n';
     cancelledBefore = frame.cancelled;
   }
   return table.str();

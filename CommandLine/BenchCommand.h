@@ -5,6 +5,8 @@
 #include "DrawingOptions.h"
 #include "StoreScene.h"
 
+#include <nlohmann/json_fwd.hpp>
+
 #include <string>
 #include <vector>
 
@@ -20,18 +22,21 @@ public:
 
 private:
   Result<CameraPath> path(const StoreScene& scene) const;
+  Result<void> write(StoreScene& scene, const std::string& statistics,
+    const std::vector<FrameRecord>& frames) const;
 
   DrawingOptions drawing_;
   std::string path_ = "orbit";
   std::string statisticsPath_;
   std::string framesPath_;
+  std::string picturePath_;
   int frames_ = 0;
   bool interactive_ = false;
+  bool settles_ = false;
 };
 
-/// The keys of `bench --stats`.
-std::string benchStatistics(const std::vector<FrameRecord>& frames, std::uint64_t budgetBytes,
-  std::uint64_t residentBytesMax);
+/// The keys of `bench --stats` that come from the frames of the path.
+nlohmann::ordered_json benchStatistics(const std::vector<FrameRecord>& frames);
 /// The table of `bench --frames-csv`, with its head line.
 std::string benchTable(const std::vector<FrameRecord>& frames);
 

@@ -22,6 +22,8 @@ struct DrawingOptions
   double errorPx = 1.0;          ///< projected point spacing
   std::uint64_t memoryBytes = 0; ///< decoded points of all stores; 0: the library's default
   std::int64_t pointBudget = -1; ///< most points drawn; -1: not given
+  double frameMs = 0.0;          ///< while the camera moves; 0: that VTK allots
+  bool measureEmptyScene = false; ///< see StoreScene::emptySceneBytes()
   bool eyeDomeLighting = false;
   std::string detail = "front"; ///< or "view": how the detail of a view is chosen
 

@@ -1,7 +1,9 @@
 #include "StoreScene.h"
 
 #include "ColourChoice.h"
+#include "PeakMemory.h"
 #include "PointSize.h"
+#include "ThreadReads.h"
 #include "WholeFile.h"
 
 #include "pointfront/Front/View.h"
@@ -49,6 +51,7 @@ constexpr std::chrono::milliseconds lookAtOthers{ 20 };
 constexpr int mostRounds = 64; // of a complete render
 constexpr double stillRate = 0.0001;      // frames a second: VTK's value for a view at rest
 constexpr double interactiveRate = 15.0;  // VTK's value for a view in motion
+constexpr int emptyFrames = 3;            // until a window has all that it ever makes by itself
 
 /// A connection of our own to the X server. VTK ends the process when its window finds none, so it
 /// is asked before; and it stays open as long as the window, because a server without -noreset
@@ -178,6 +181,8 @@ public:
     }
   }
 
+  /// `empty`: draws it, and keeps what the process then holds.
+  Result<void> openWindow(bool empty);
   Result<void> openStores();
   Result<void> setUpDrawing();
 
@@ -194,6 +199,8 @@ public:
   std::vector<std::string> attributesRead() const override;
   std::uint64_t budgetBytes() const override;
   std::uint64_t residentBytesMax() const override;
+  LoadingRecord loading() const override;
+  std::uint64_t emptySceneBytes() const override { return emptySceneBytes_; }
   Result<void> writePicture(const std::string& path) override;
 
 private:
@@ -207,6 +214,8 @@ private:
   DrawingOptions options_;
   Bounds bounds_;
   double ground_ = 0.0;
+  std::uint64_t emptySceneBytes_ = 0;
+  ThreadReads reads_;
   ErrorListener errors_;
   std::vector<std::unique_ptr<DrawnStore>> stores_;
   vtkNew<vtkRenderer> renderer_;
@@ -248,12 +257,30 @@ Result<void> OffscreenScene::openStores()
   return {};
 }
 
-Result<void> OffscreenScene::setUpDrawing()
+Result<void> OffscreenScene::openWindow(bool empty)
 {
   if (Result<void> connected = connection_.open(); !connected)
   {
     return connected;
   }
+  renderer_->SetBackground(options_.background.data());
+  window_->SetOffScreenRendering(1);
+  window_->SetMultiSamples(0);
+  window_->SetSize(options_.size[0], options_.size[1]);
+  window_->AddRenderer(renderer_);
+  errors_.observe(window_);
+  setInteractive(false);
+  for (int frame = 0; empty && frame < emptyFrames; ++frame)
+  {
+    window_->Render();
+    window_->WaitForCompletion();
+    emptySceneBytes_ = residentBytesNow();
+  }
+  return errors_.outcome();
+}
+
+Result<void> OffscreenScene::setUpDrawing()
+{
   std::vector<std::shared_ptr<const StoredCloud>> stores;
   for (const auto& drawn : stores_)
   {
@@ -278,10 +305,10 @@ Result<void> OffscreenScene::setUpDrawing()
     {
       drawn->mapper->SetPointBudget(options_.pointBudget);
     }
+    drawn->mapper->SetTargetFrameTime(options_.frameMs);
     drawn->actor->GetProperty()->LightingOff(); // colours are drawn as they are
     renderer_->AddActor(drawn->actor);
   }
-  renderer_->SetBackground(options_.background.data());
   if (options_.eyeDomeLighting)
   {
     vtkNew<vtkRenderStepsPass> steps;
@@ -289,12 +316,6 @@ Result<void> OffscreenScene::setUpDrawing()
     shading->SetDelegatePass(steps);
     renderer_->SetPass(shading);
   }
-  window_->SetOffScreenRendering(1);
-  window_->SetMultiSamples(0);
-  window_->SetSize(options_.size[0], options_.size[1]);
-  window_->AddRenderer(renderer_);
-  errors_.observe(window_);
-  setInteractive(false);
   return {};
 }
 
@@ -380,6 +401,7 @@ Result<FrameRecord> OffscreenScene::render(bool complete)
       drawn->mapper->SetPointBudget(0); // all that the error asks for, as far as memory goes
     }
   }
+  reads_.since();
   const auto begin = std::chrono::steady_clock::now();
   // Stores that share a budget come to one error within a few rounds.
   int rounds = 0;
@@ -396,6 +418,7 @@ Result<FrameRecord> OffscreenScene::render(bool complete)
   }
   FrameRecord frame = record();
   frame.milliseconds = taken.count();
+  frame.threadReadBytes = reads_.since();
   return frame;
 }
 
@@ -447,6 +470,14 @@ std::uint64_t OffscreenScene::budgetBytes() const
   return static_cast<std::uint64_t>(vtkPointFrontStore::GetProcessMemoryBudget());
 }
 
+LoadingRecord OffscreenScene::loading() const
+{
+  const LoadSchedulerStatistics s =
+    stores_.front()->store->GetResidency().scheduler().statistics();
+  return { s.fetchedBytes, s.decodedBytes, s.fetchSeconds, s.decodeSeconds,
+    s.lastLoaded };
+}
+
 std::uint64_t OffscreenScene::residentBytesMax() const
 {
   return stores_.front()->store->GetResidency().scheduler().statistics().residentBytesMax;
@@ -473,7 +504,18 @@ Result<void> OffscreenScene::writePicture(const std::string& path)
 Result<std::unique_ptr<StoreScene>> StoreScene::open(const DrawingOptions& options)
 {
   auto scene = std::make_unique<OffscreenScene>(options);
+  // The window first where it is measured; else what is wrong with a store is told without one.
+  if (Result<void> opened = options.measureEmptyScene ? scene->openWindow(true) : Result<void>();
+      !opened)
+  {
+    return opened.error();
+  }
   if (Result<void> opened = scene->openStores(); !opened)
+  {
+    return opened.error();
+  }
+  if (Result<void> opened = options.measureEmptyScene ? Result<void>() : scene->openWindow(false);
+      !opened)
   {
     return opened.error();
   }

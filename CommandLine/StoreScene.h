@@ -6,6 +6,7 @@
 #include "pointfront/Base/Bounds.h"
 #include "pointfront/Base/Result.h"
 
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -32,8 +33,19 @@ struct FrameRecord
   std::int64_t failedNodes = 0;   ///< that could not be read
   std::int64_t gpuBytes = 0;
   std::uint64_t residentBytes = 0;
+  std::uint64_t threadReadBytes = 0; ///< that the rendering thread read from files in this frame
   std::uint64_t bytesRead = 0;    ///< from the disk, ever
   std::uint64_t cancelled = 0;    ///< requests withdrawn, ever
+};
+
+/// What all the loading of a scene came to so far.
+struct LoadingRecord
+{
+  std::uint64_t fetchedBytes = 0;
+  std::uint64_t decodedBytes = 0;
+  double fetchSeconds = 0.0;  ///< one read at a time
+  double decodeSeconds = 0.0; ///< CPU time of all threads
+  std::chrono::steady_clock::time_point last; ///< when the last of it was there
 };
 
 /// Stores in an offscreen window, drawn as any VTK program would draw them: a reader, a mapper and
@@ -65,6 +77,10 @@ public:
   virtual std::vector<std::string> attributesRead() const = 0;
   virtual std::uint64_t budgetBytes() const = 0;
   virtual std::uint64_t residentBytesMax() const = 0;
+  virtual LoadingRecord loading() const = 0;
+  /// Resident set of the process when the window had drawn nothing yet but its background, and no
+  /// store was open.
+  virtual std::uint64_t emptySceneBytes() const = 0;
 
   /// The last frame as PNG; whole or absent.
   virtual Result<void> writePicture(const std::string& path) = 0;

@@ -223,7 +223,9 @@ class Refinement(SceneTest):
             result = json.loads(stats.read_text())
             self.assertEqual(set(result), {
                 "frames", "frame_ms", "front_update_ms", "points_drawn", "resident_bytes_max",
-                "gpu_bytes_max", "budget_bytes", "bytes_read"})
+                "gpu_bytes_max", "budget_bytes", "bytes_read", "frames_that_read_files", "loading",
+                "empty_scene_rss_bytes", "peak_rss_bytes"})
+            self.assertGreater(result["peak_rss_bytes"], result["empty_scene_rss_bytes"])
             self.assertEqual(result["frames"], 6)
             self.assertEqual(result["budget_bytes"], 64 << 20)
             self.assertLessEqual(result["resident_bytes_max"], result["budget_bytes"])
@@ -234,8 +236,28 @@ class Refinement(SceneTest):
             rows = list(csv.DictReader(table.read_text().splitlines()))
             self.assertEqual(list(rows[0]), [
                 "frame", "ms", "points", "front_length", "threshold_px", "moves", "requests",
-                "cancelled", "resident_bytes", "front_ms", "error_px"])
+                "cancelled", "resident_bytes", "front_ms", "error_px", "gpu_bytes",
+                "thread_read_bytes"])
             self.assertEqual(len(rows), 6)
+
+    def test_bench_settles(self):
+        stats, table = self.folder / "settle.json", self.folder / "settle.csv"
+        picture = self.folder / "settle.png"
+        self.succeed("bench", self.store, "--path", "orbit", "--frames", 4, "--interactive",
+                     "--frame-ms", 5, "--settle", "--picture", picture, "--stats", stats,
+                     "--frames-csv", table, "--size", "320x240")
+        result = json.loads(stats.read_text())
+        settle = result["settle"]
+        self.assertTrue(settle["complete"])
+        self.assertGreaterEqual(settle["frames"], 1)
+        self.assertGreaterEqual(settle["ms"], settle["drawing_ms"])
+        self.assertGreaterEqual(settle["ms"], settle["loaded_ms"])
+        self.assertLessEqual(settle["error_px"], 1.01)
+        self.assertLessEqual(settle["bytes_decoded"], result["loading"]["bytes_decoded"])
+        rows = list(csv.DictReader(table.read_text().splitlines()))
+        self.assertEqual(len(rows), 4 + settle["frames"])
+        self.assertEqual(int(rows[-1]["points"]), settle["points_drawn"])
+        self.assertTrue(picture.read_bytes().startswith(b"\x89PNG"))
 
 
 class Trouble(SceneTest):

@@ -149,6 +149,9 @@ TEST(LoadScheduler, AHundredStoresShareThreadsAndMemory)
   EXPECT_EQ(s.threads, 2u);
   EXPECT_EQ(s.residentBytes, 250 * scene.readers[0]->trueBytes(0, {}));
   EXPECT_EQ(s.residentBytesMax, s.residentBytes);
+  EXPECT_EQ(s.decodedBytes, s.residentBytes) << "nothing was read twice";
+  EXPECT_GT(s.decodeSeconds, 0.0);
+  EXPECT_GT(s.fetchSeconds, 0.0);
 }
 
 TEST(LoadScheduler, TheLargestErrorOfAllStoresComesFirst)

@@ -1,6 +1,6 @@
 #include "pointfront/Build/BuildPreview.h"
 
-#include "pointfront/Build/CpuClock.h"
+#include "pointfront/Base/CpuClock.h"
 #include "pointfront/Build/RecordLayout.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "pointfront/Build/KdSubtreeBuilder.h"
 
-#include "pointfront/Build/CpuClock.h"
+#include "pointfront/Base/CpuClock.h"
 #include "pointfront/Build/MortonOrder.h"
 
 #include <glm/common.hpp>

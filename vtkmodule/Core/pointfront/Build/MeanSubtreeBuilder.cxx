@@ -1,6 +1,6 @@
 #include "pointfront/Build/MeanSubtreeBuilder.h"
 
-#include "pointfront/Build/CpuClock.h"
+#include "pointfront/Base/CpuClock.h"
 #include "pointfront/Build/LeafMerging.h"
 #include "pointfront/Build/OctreeSplit.h"
 

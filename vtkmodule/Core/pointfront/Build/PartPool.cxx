@@ -1,6 +1,6 @@
 #include "pointfront/Build/PartPool.h"
 
-#include "pointfront/Build/CpuClock.h"
+#include "pointfront/Base/CpuClock.h"
 #include "pointfront/Build/MortonOrder.h"
 
 #include <algorithm>

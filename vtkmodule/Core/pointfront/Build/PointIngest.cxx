@@ -1,6 +1,6 @@
 #include "pointfront/Build/PointIngest.h"
 
-#include "pointfront/Build/CpuClock.h"
+#include "pointfront/Base/CpuClock.h"
 #include "pointfront/Build/RecordPacker.h"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 #include "pointfront/Build/StoreBuilder.h"
 
+#include "pointfront/Base/CpuClock.h"
 #include "pointfront/Build/BuildStorage.h"
 #include "pointfront/Build/CommonSchema.h"
-#include "pointfront/Build/CpuClock.h"
 #include "pointfront/Build/GridChoice.h"
 #include "pointfront/Build/MeanRecord.h"
 #include "pointfront/Build/PartialTrees.h"

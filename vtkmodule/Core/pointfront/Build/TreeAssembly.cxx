@@ -1,6 +1,6 @@
 #include "pointfront/Build/TreeAssembly.h"
 
-#include "pointfront/Build/CpuClock.h"
+#include "pointfront/Base/CpuClock.h"
 
 #include <algorithm>
 #include <chrono>

@@ -1,5 +1,6 @@
 #include "pointfront/Residency/LoadScheduler.h"
 
+#include "pointfront/Base/CpuClock.h"
 #include "pointfront/Residency/DiskLane.h"
 #include "pointfront/Residency/StoreNodes.h"
 
@@ -124,6 +125,7 @@ struct LoadScheduler::Content : std::enable_shared_from_this<LoadScheduler::Cont
   const unsigned steadyThreads;
   std::list<Worker> workers;
   bool stopped = false;
+  LoadSchedulerStatistics loaded; ///< its sums over all loads
 
   void addWorker();
   bool surplus(Clock::time_point now) const;
@@ -211,19 +213,30 @@ void LoadScheduler::Content::perform(Worker& self, const Job& job)
 {
   const NodeReader& reader = job.store->reader();
   const StoreNodes::Task& task = job.task;
+  const Clock::time_point begin = Clock::now();
   Result<FetchedNode> fetched =
     guarded(task.node, [&] { return reader.fetch(task.node, task.columns); });
   {
     const std::lock_guard<std::mutex> lock(mutex);
     lane.leave(job.ticket);
     self.fetching = false;
+    loaded.fetchSeconds += std::chrono::duration<double>(Clock::now() - begin).count();
+    loaded.fetchedBytes += fetched ? fetched->bytesRead : 0;
   }
   budget->announceChange(); // the disk is free
   const std::size_t bytesRead = fetched ? fetched->bytesRead : 0;
+  double decodeSeconds = -threadSeconds();
   Result<NodeColumns> result = fetched
     ? guarded(task.node, [&] { return reader.decode(*fetched); })
     : Result<NodeColumns>(fetched.error());
+  decodeSeconds += threadSeconds();
   fetched = makeError(Error::Kind::Cancelled, "decoded"); // its bytes go before anyone is told
+  {
+    const std::lock_guard<std::mutex> lock(mutex);
+    loaded.decodeSeconds += decodeSeconds;
+    loaded.lastLoaded = Clock::now();
+    loaded.decodedBytes += result ? result->bytes() : 0;
+  }
   const bool news = job.store->finish(task, std::move(result), bytesRead);
   budget->announceChange();
   if (news)
@@ -395,7 +408,7 @@ void LoadScheduler::setBudgetBytes(std::size_t bytes)
 LoadSchedulerStatistics LoadScheduler::statistics() const
 {
   const std::lock_guard<std::mutex> lock(content_->mutex);
-  LoadSchedulerStatistics s;
+  LoadSchedulerStatistics s = content_->loaded;
   s.stores = static_cast<std::uint32_t>(content_->members.size());
   s.threads = static_cast<std::uint32_t>(std::count_if(content_->workers.begin(),
     content_->workers.end(), [](const Content::Worker& w) { return !w.ended; }));

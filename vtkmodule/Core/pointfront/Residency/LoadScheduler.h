@@ -33,6 +33,12 @@ struct LoadSchedulerStatistics
   std::uint32_t overdueReads = 0;
   std::size_t residentBytes = 0;
   std::size_t residentBytesMax = 0;
+  // Of all that was loaded so far:
+  std::uint64_t fetchedBytes = 0;
+  std::uint64_t decodedBytes = 0; ///< in memory
+  double fetchSeconds = 0.0;      ///< of the disk lane: one read at a time
+  double decodeSeconds = 0.0;     ///< CPU time of all threads together
+  std::chrono::steady_clock::time_point lastLoaded; ///< when the last of it was there
 };
 
 /// Loads the nodes of any number of stores: they share its threads, its host memory and one order

@@ -1,6 +1,7 @@
 #include "vtkOpenGLPointFrontPass.h"
 
 #include "ColourTable.h"
+#include "DrawBatches.h"
 #include "GpuPool.h"
 #include "SlotRecords.h"
 
@@ -316,8 +317,8 @@ void vtkOpenGLPointFrontPass::RenderPieceDraw(vtkRenderer* ren, vtkActor* act)
     }
     points.VAO->Bind();
     this->BindVertices(points);
-    glMultiDrawArrays(GL_POINTS, this->Drawing->firsts.data(), this->Drawing->counts.data(),
-      static_cast<GLsizei>(this->Drawing->firsts.size()));
+    pointfront::DrawBatches batches;
+    batches.draw(this->Drawing->firsts, this->Drawing->counts);
     vtkOpenGLCheckErrorMacro("failed after drawing points");
   }
   this->Drawing->records->deactivate();

@@ -1,0 +1,79 @@
+#include "DrawBatches.h"
+
+#include <vtk_glew.h>
+
+#include <algorithm>
+#include <string>
+
+namespace pointfront
+{
+namespace
+{
+
+/// Points of a batch: what both sides of a rasteriser's pipeline need to be busy.
+constexpr int batchPoints = 1 << 13;
+/// Batches that are handed over and not drawn, while the next is made ready.
+constexpr std::size_t mostUnderWay = 1;
+
+bool drawnByProgram()
+{
+  const GLubyte* const text = glGetString(GL_RENDERER);
+  const std::string name = text ? reinterpret_cast<const char*>(text) : "";
+  return name.find("llvmpipe") != std::string::npos || name.find("softpipe") != std::string::npos;
+}
+
+} // namespace
+
+void DrawBatches::draw(const std::vector<int>& firsts, const std::vector<int>& counts)
+{
+  if (drawnByProgram())
+  {
+    this->drawInTurn(firsts, counts);
+  }
+  else
+  {
+    glMultiDrawArrays(
+      GL_POINTS, firsts.data(), counts.data(), static_cast<GLsizei>(firsts.size()));
+  }
+}
+
+void DrawBatches::drawInTurn(const std::vector<int>& firsts, const std::vector<int>& counts)
+{
+  int waiting = 0; // points handed to GL since the last flush
+  for (std::size_t run = 0; run < firsts.size(); ++run)
+  {
+    for (int drawn = 0; drawn < counts[run];)
+    {
+      const int count = std::min(counts[run] - drawn, batchPoints - waiting);
+      glDrawArrays(GL_POINTS, firsts[run] + drawn, count);
+      drawn += count;
+      waiting += count;
+      if (waiting == batchPoints)
+      {
+        this->flush();
+        waiting = 0;
+      }
+    }
+  }
+  while (!underWay_.empty())
+  {
+    glDeleteSync(static_cast<GLsync>(underWay_.front()));
+    underWay_.pop_front();
+  }
+}
+
+/// Hands over what was drawn, and waits until not more than some batches are under way.
+void DrawBatches::flush()
+{
+  underWay_.push_back(glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0));
+  glFlush();
+  while (underWay_.size() > mostUnderWay)
+  {
+    const auto oldest = static_cast<GLsync>(underWay_.front());
+    glClientWaitSync(oldest, GL_SYNC_FLUSH_COMMANDS_BIT, GL_TIMEOUT_IGNORED);
+    glDeleteSync(oldest);
+    underWay_.pop_front();
+  }
+}
+
+} // namespace pointfront

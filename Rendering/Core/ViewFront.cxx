@@ -216,12 +216,15 @@ void ViewFront::setLimits(const FrameDemand& demand)
   limits.heldPointBudget = static_cast<std::uint64_t>(
     heldShare * static_cast<double>(share_.budgetBytes()) /
     static_cast<double>(pointBytes_ * std::max<std::size_t>(1, share_.wishes())));
-  if (demand.interacting && demand.frameMs > 0.0)
+  const auto clouds = static_cast<double>(window_->claims());
+  const double frameMs = demand.frameMs > 0.0 ? demand.frameMs : clouds * demand.cloudMs;
+  if (demand.interacting && frameMs > 0.0)
   {
-    const std::uint64_t affordable = cost_.pointsFor(demand.frameMs, fewestPoints);
-    limits.pointBudget =
-      demand.pointBudget == 0 ? affordable : std::min(demand.pointBudget, affordable);
-    limits.movesPerFrame = cost_.movesFor(demand.frameMs, delta_.pointsDrawn);
+    // At what a point of this cloud costs; several clouds share them, at one error.
+    const std::uint64_t affordable = cost_.pointsFor(frameMs, fewestPoints);
+    std::uint64_t& most = clouds > 1.0 ? limits.sharedDrawn.points : limits.pointBudget;
+    most = demand.pointBudget == 0 ? affordable : std::min(demand.pointBudget, affordable);
+    limits.movesPerFrame = cost_.movesFor(frameMs / clouds, delta_.pointsDrawn);
   }
   readShares();
 }
@@ -298,6 +301,14 @@ std::uint64_t ViewFront::pointsOnGpu(std::uint64_t windowBudget) const
   const std::uint64_t drawn = delta_.pointsDrawn + others[0];
   const std::uint64_t idle = windowBudget > drawn ? windowBudget - drawn : 0;
   return delta_.pointsDrawn + idle / window_->claims();
+}
+
+bool ViewFront::expectsMore() const
+{
+  const ResidencyStatistics now = share_.residency().statistics();
+  return !delta_.complete &&
+         (delta_.rowsComing || now.loading > 0 ||
+           (now.pending > 0 && !share_.residency().exhausted()));
 }
 
 bool ViewFront::wantsUpdate() const

@@ -35,7 +35,8 @@ struct FrameDemand
   double targetErrorPx = 1.0;
   std::uint64_t pointBudget = 0; ///< 0: no limit; over all clouds of the window
   bool interacting = false;
-  double frameMs = 0.0;  ///< interacting: that this cloud may take
+  double frameMs = 0.0;  ///< interacting: that a frame may take, with all clouds of the window
+  double cloudMs = 0.0;  ///< where frameMs is 0: that this cloud may take
   bool complete = false; ///< wait until nothing is missing
   std::vector<LayerLimits> layers; ///< by number of the store's layer (LAYERS-11)
 };
@@ -78,6 +79,8 @@ public:
   /// True if something arrived since the last update, that update itself left moves for the
   /// next, or other clouds took or left memory since.
   bool wantsUpdate() const;
+  /// True while the last update misses something that is being read or waits to be.
+  bool expectsMore() const;
 
 private:
   class Residents;

@@ -1,6 +1,7 @@
 #include "vtkPointFrontMapper.h"
 
 #include "PointColouring.h"
+#include "RendererView.h"
 #include "StoreSuccession.h"
 #include "ViewFront.h"
 #include "WindowDemand.h"
@@ -53,28 +54,6 @@ pointfront::LayerLimits limitsOf(
   return found != all.end() ? found->second : pointfront::LayerLimits();
 }
 
-/// What one renderer sees of the store.
-struct RendererView
-{
-  vtkWeakPointer<vtkRenderer> Renderer;
-  unsigned long StartTag = 0;
-  std::unique_ptr<pointfront::ViewFront> Front;
-  bool NewFrame = true; ///< the renderer began a frame, and this mapper has not been drawn in it
-  bool FirstDrawing = false;
-  bool UploadsLeft = false;
-  bool Complete = false;
-  bool Announced = false; ///< ViewCompleteEvent was invoked for that view
-  pointfront::FrameDemand Demand; ///< of the last frame, its view in the store's coordinates
-
-  ~RendererView()
-  {
-    if (this->Renderer)
-    {
-      this->Renderer->RemoveObserver(this->StartTag);
-    }
-  }
-};
-
 } // namespace
 
 struct vtkPointFrontMapper::Content
@@ -85,7 +64,7 @@ struct vtkPointFrontMapper::Content
   std::shared_ptr<const pointfront::HierarchyPiece> Piece;
   int PieceNumber = 0;
   int Pieces = 1;
-  std::map<vtkRenderer*, RendererView> Views;
+  std::map<vtkRenderer*, pointfront::RendererView> Views;
   std::map<int, pointfront::LayerLimits> ClassLimits;
   std::unique_ptr<pointfront::StoreSuccession> Succession; ///< from Store, while it is a preview
   std::string UnknownArray; ///< that has been warned of
@@ -94,7 +73,7 @@ struct vtkPointFrontMapper::Content
   int TimerId = -1;
   unsigned long TimerTag = 0;
 
-  RendererView& ViewOf(vtkRenderer* renderer)
+  pointfront::RendererView& ViewOf(vtkRenderer* renderer)
   {
     for (auto view = this->Views.begin(); view != this->Views.end();)
     {
@@ -105,12 +84,12 @@ struct vtkPointFrontMapper::Content
     {
       return found->second;
     }
-    RendererView& view = this->Views[renderer];
+    pointfront::RendererView& view = this->Views[renderer];
     view.Renderer = renderer;
     vtkNew<vtkCallbackCommand> begin;
     begin->SetClientData(&view); // a map's elements stay where they are
     begin->SetCallback([](vtkObject*, unsigned long, void* data, void*)
-      { static_cast<RendererView*>(data)->NewFrame = true; });
+      { static_cast<pointfront::RendererView*>(data)->NewFrame = true; });
     view.StartTag = renderer->AddObserver(vtkCommand::StartEvent, begin);
     return view;
   }
@@ -340,8 +319,8 @@ pointfront::FrameDemand vtkPointFrontMapper::GetDemand(vtkRenderer* renderer, vt
       static_cast<std::uint64_t>(this->GetStore()->GetNumberOfPoints()),
       static_cast<std::uint64_t>(vtkPointFrontStore::GetNumberOfPointsOfAllStores()));
   demand.interacting = IsInteracting(renderer);
-  demand.frameMs =
-    this->TargetFrameTime > 0.0 ? this->TargetFrameTime : 1000.0 * actor->GetAllocatedRenderTime();
+  demand.frameMs = this->TargetFrameTime;
+  demand.cloudMs = 1000.0 * actor->GetAllocatedRenderTime();
   demand.complete = this->Complete && !demand.interacting;
   demand.layers = this->Internals->LayersOf(*this->GetStore());
   return demand;
@@ -431,7 +410,7 @@ pointfront::ViewFront* vtkPointFrontMapper::PrepareFrame(vtkRenderer* renderer, 
     content.Piece = std::make_shared<pointfront::HierarchyPiece>(
       store->GetStore()->hierarchy(), piece, this->NumberOfStorePieces);
   }
-  RendererView& view = content.ViewOf(renderer);
+  pointfront::RendererView& view = content.ViewOf(renderer);
   if (!view.Front)
   {
     view.Front = std::make_unique<pointfront::ViewFront>(
@@ -476,9 +455,11 @@ bool vtkPointFrontMapper::IsFirstDrawing(vtkRenderer* renderer) const
 void vtkPointFrontMapper::FinishFrame(
   vtkRenderer* renderer, vtkIdType points, vtkTypeInt64 gpuBytes, bool uploadsLeft)
 {
-  RendererView& view = this->Internals->ViewOf(renderer);
+  pointfront::RendererView& view = this->Internals->ViewOf(renderer);
   const pointfront::FrontDelta& delta = view.Front->last();
   view.FirstDrawing = false;
+  view.Ahead = false;
+  view.DrawnAt = Clock::now();
   view.UploadsLeft = uploadsLeft;
   // In motion the frame time limits the front: at rest the same view may show more.
   view.Complete = delta.complete && !uploadsLeft &&
@@ -504,6 +485,7 @@ void vtkPointFrontMapper::RecordFrame(
   const auto view = this->Internals->Views.find(renderer);
   if (view != this->Internals->Views.end() && view->second.Front)
   {
+    view->second.DrawingMs = milliseconds;
     view->second.Front->recordFrame(static_cast<std::uint64_t>(points),
       static_cast<std::uint32_t>(moves), milliseconds);
   }
@@ -526,6 +508,12 @@ std::uint32_t vtkPointFrontMapper::GetNumberOfViews() const
   return static_cast<std::uint32_t>(this->Internals->Views.size());
 }
 
+bool vtkPointFrontMapper::IsAheadOfFrame(vtkRenderer* renderer) const
+{
+  const auto view = this->Internals->Views.find(renderer);
+  return view != this->Internals->Views.end() && view->second.Ahead;
+}
+
 bool vtkPointFrontMapper::NeedsRender()
 {
   const std::unique_ptr<pointfront::StoreSuccession>& succession = this->Internals->Succession;
@@ -534,14 +522,12 @@ bool vtkPointFrontMapper::NeedsRender()
   {
     return true;
   }
-  for (const auto& [renderer, view] : this->Internals->Views)
+  bool needed = false;
+  for (auto& [renderer, view] : this->Internals->Views)
   {
-    if (view.Renderer && (!view.Front || view.UploadsLeft || view.Front->wantsUpdate()))
-    {
-      return true;
-    }
+    needed = (view.Renderer && view.NeedsRender()) || needed;
   }
-  return false;
+  return needed;
 }
 
 void vtkPointFrontMapper::RenderWhenDataArrives(vtkRenderWindowInteractor* interactor)

@@ -110,7 +110,8 @@ public:
 
   ///@{
   /**
-   * Milliseconds that a frame should take while the user interacts. 0 (default): the time that VTK
+   * Milliseconds that a frame should take while the user interacts, with all clouds of the window
+   * together. 0 (default): the time that VTK
    * allots (vtkProp::GetAllocatedRenderTime, from the window's DesiredUpdateRate).
    */
   vtkSetClampMacro(TargetFrameTime, double, 0.0, 10000.0);
@@ -196,7 +197,9 @@ public:
 
   /**
    * True if nodes arrived since the last render, or the last render left work over: render again.
-   * Cheap, non blocking; for timers and render loops.
+   * Cheap, non blocking; for timers and render loops, from the rendering thread. While a view at
+   * rest is being loaded, drawings take a quarter of the time at most: until then this moves the
+   * front alone, so that loading does not wait for a slow drawing, and says false.
    */
   virtual bool NeedsRender();
 
@@ -229,6 +232,9 @@ protected:
   pointfront::PointColouring GetColouring();
   /// True from PrepareFrame() to FinishFrame(): the frame's first drawing, which uploads.
   bool IsFirstDrawing(vtkRenderer* renderer) const;
+  /// True when the front was moved since the renderer's last frame (see NeedsRender()): what a
+  /// further drawing of that frame shows may not be on the GPU yet.
+  bool IsAheadOfFrame(vtkRenderer* renderer) const;
   /// What the first drawing of a frame came to; `uploadsLeft` when not all points of the front are
   /// on the GPU yet.
   void FinishFrame(

@@ -33,17 +33,26 @@ namespace
 
 using Clock = std::chrono::steady_clock;
 
+double millisecondsSince(Clock::time_point begin)
+{
+  return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+}
+
 /// GPU time of the last frame of one renderer, read when it is there: never waited for. With it
 /// what that frame held.
 struct FrameTimer
 {
   vtkOpenGLRenderTimer Gpu;
-  double CpuMs = 0.0;
+  double CpuMs = 0.0;     ///< before the drawing
+  double DrawingMs = 0.0; ///< of the CPU; the GPU draws meanwhile, or after
   vtkIdType Points = 0;
   vtkIdType Moves = 0;
 
   bool Known() { return this->Gpu.Started() && this->Gpu.Stopped() && this->Gpu.Ready(); }
-  double Milliseconds() { return this->CpuMs + this->Gpu.GetElapsedMilliseconds(); }
+  double Milliseconds()
+  {
+    return this->CpuMs + std::max<double>(this->DrawingMs, this->Gpu.GetElapsedMilliseconds());
+  }
 };
 
 } // namespace
@@ -84,6 +93,13 @@ bool vtkOpenGLPointFrontMapper::Content::Upload(
   const pointfront::Attribute* attribute =
     colouring.usesColumn() ? &this->Store->GetStore()->description().schema[colouring.column]
                            : nullptr;
+  std::uint64_t slots = 0;
+  for (const pointfront::DrawItem& item : front.last().draw)
+  {
+    slots += (item.pointCount + pointfront::GpuPool::slotPoints - 1) /
+             pointfront::GpuPool::slotPoints;
+  }
+  this->Pool.makeRoom(slots, bytes != std::numeric_limits<std::int64_t>::max());
   bool left = false;
   for (const pointfront::DrawItem& item : front.last().draw)
   {
@@ -223,6 +239,10 @@ void vtkOpenGLPointFrontMapper::RenderPiece(vtkRenderer* renderer, vtkActor* act
     uploadsLeft = content.Upload(*front,
       IsInteracting(renderer) ? this->UploadLimit : std::numeric_limits<std::int64_t>::max());
   }
+  else if (this->IsAheadOfFrame(renderer))
+  {
+    content.Upload(*front, std::numeric_limits<std::int64_t>::max());
+  }
   const vtkIdType points = content.List(*front);
   drawing.table = nullptr;
   if (drawing.colouring.usesTable())
@@ -250,6 +270,7 @@ void vtkOpenGLPointFrontMapper::RenderPiece(vtkRenderer* renderer, vtkActor* act
     content.Records.upload(window);
     if (timed)
     {
+      timer.CpuMs = millisecondsSince(begin);
       timer.Gpu.Start();
     }
     content.Pass->Draw(renderer, actor, drawing);
@@ -260,7 +281,7 @@ void vtkOpenGLPointFrontMapper::RenderPiece(vtkRenderer* renderer, vtkActor* act
   }
   if (timed)
   {
-    timer.CpuMs = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+    timer.DrawingMs = millisecondsSince(begin) - timer.CpuMs;
     timer.Points = points;
     timer.Moves = this->LastMoves;
   }

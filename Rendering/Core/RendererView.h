@@ -1,0 +1,44 @@
+#pragma once
+
+#include "ViewFront.h"
+
+#include <vtkRenderer.h>
+#include <vtkWeakPointer.h>
+
+#include <chrono>
+#include <memory>
+
+namespace pointfront
+{
+
+/// What one renderer sees of a mapper's store: the front, and how far its frames are.
+/// Threads  the renderer's.
+struct RendererView
+{
+  using Clock = std::chrono::steady_clock;
+
+  vtkWeakPointer<vtkRenderer> Renderer;
+  unsigned long StartTag = 0;
+  std::unique_ptr<ViewFront> Front;
+  bool NewFrame = true; ///< the renderer began a frame, and this mapper has not been drawn in it
+  bool FirstDrawing = false;
+  bool UploadsLeft = false;
+  bool Complete = false;
+  bool Announced = false; ///< ViewCompleteEvent was invoked for that view
+  bool Ahead = false;     ///< the front was moved since the last frame
+  Clock::time_point DrawnAt; ///< end of the last frame's first drawing
+  double DrawingMs = 0.0;    ///< what a frame took lately
+  FrameDemand Demand; ///< of the last frame, its view in the store's coordinates
+
+  RendererView() = default;
+  ~RendererView();
+  RendererView(const RendererView&) = delete;
+  RendererView& operator=(const RendererView&) = delete;
+
+  /// Whether a frame is due. A view at rest that is being loaded is drawn a quarter of the time at
+  /// most: till the next frame is due its front is moved here, so that what it asks for next does
+  /// not wait for a slow drawing.
+  bool NeedsRender();
+};
+
+} // namespace pointfront

@@ -12,9 +12,12 @@ namespace
 
 constexpr std::int64_t positionBytes = sizeof(glm::u32vec3);
 constexpr std::int64_t valueBytes = sizeof(std::uint32_t);
-constexpr std::uint32_t firstSlots = 64; // 256 K points, 4 MiB
+constexpr std::uint32_t firstSlots = 8; // 32 K points, 512 KiB: a scene may have many pools
 /// Slots kept beyond what may be drawn, so that turning back and forth uploads nothing: a quarter.
 constexpr std::uint32_t cacheShare = 4;
+
+/// gl_VertexID is a signed 32-bit integer.
+constexpr std::uint32_t mostSlots = 0x7fffffffu / GpuPool::slotPoints;
 
 std::uint32_t makeBuffer(std::int64_t bytes)
 {
@@ -250,16 +253,37 @@ void GpuPool::shrink()
   slotCount_ = slots;
 }
 
+void GpuPool::makeRoom(std::uint64_t slots, bool copying)
+{
+  if (slots <= slotCount_)
+  {
+    return;
+  }
+  const std::uint64_t next = slotCount_ == 0
+    ? firstSlots
+    : std::min<std::uint64_t>(slotLimit_, slotCount_ + slotCount_ / 2);
+  const auto wanted =
+    static_cast<std::uint32_t>(std::min<std::uint64_t>(std::max(slots, next), mostSlots));
+  if (!copying && views_ == 1)
+  {
+    release();
+  }
+  growTo(wanted);
+}
+
 void GpuPool::grow()
 {
-  const std::uint32_t most = 0x7fffffffu / slotPoints; // gl_VertexID is a signed 32-bit integer
   std::uint32_t slots = slotCount_ == 0 ? firstSlots : slotCount_ + slotCount_ / 2;
   if (slotLimit_ != 0 && slotCount_ < slotLimit_)
   {
     slots = std::min(slots, slotLimit_);
   }
-  slots = std::min(slots, most);
-  if (slots == slotCount_)
+  growTo(std::min(slots, mostSlots));
+}
+
+void GpuPool::growTo(std::uint32_t slots)
+{
+  if (slots <= slotCount_)
   {
     return;
   }

@@ -42,6 +42,12 @@ public:
   /// views take turns.
   void beginFrame(std::uint64_t mostPoints, std::uint32_t views);
 
+  /// Before a frame's first bring(): the slots that its nodes will take. `copying`: what is there
+  /// stays, and for a moment there are two buffers. Else, where there is one view only, a larger
+  /// buffer begins empty: for frames that may upload everything again, and no more memory is taken
+  /// than there is in the end.
+  void makeRoom(std::uint64_t slots, bool copying);
+
   /// Brings the first `count` points of `node` and their values, as far as the node has the
   /// colouring's column, to the GPU. Positions beyond `bytesLeft` wait for another frame; bytesLeft
   /// falls by what is uploaded. Null when nothing of the node is there yet.
@@ -64,6 +70,7 @@ private:
   bool takeSlot(std::uint32_t& slot);
   bool evictOne();
   void grow();
+  void growTo(std::uint32_t slots);
   void shrink();
   void allocateValues();
   void uploadPositions(const NodeColumns& node, Entry& entry, std::uint32_t end);

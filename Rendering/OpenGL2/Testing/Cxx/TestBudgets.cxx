@@ -180,6 +180,25 @@ TEST(Budgets, APoolGivesBackWhatItMayNotKeep)
   EXPECT_EQ(differing(before, scene.draw()), 0);
 }
 
+TEST(Budgets, AStillFrameTakesTheSlotsThatItNeeds)
+{
+  constexpr vtkTypeInt64 slot = 4096 * 16; // bytes: positions and values
+  Scene scene(planeStore("slots", 800, 5));
+  scene.mapper->SetPointBudget(280000);
+  scene.draw();
+  scene.mapper->SetPointBudget(330000); // a little more than there is room for
+  scene.draw();
+  // Each node rounds up to slots; a quarter more than the budget may be kept.
+  const vtkTypeInt64 needed = 330000 / 4096 + scene.mapper->GetLastNodesDrawn();
+  const vtkTypeInt64 kept = 330000 / 4096 * 5 / 4 + 2;
+  EXPECT_GT(scene.mapper->GetLastPointsDrawn(), 290000);
+  EXPECT_LE(scene.mapper->GetLastGPUBytes(), std::max(needed, kept) * slot);
+  const Picture moved = scene.draw();
+  Scene fresh(scene.reader->GetFileName());
+  fresh.mapper->SetPointBudget(330000);
+  EXPECT_EQ(differing(moved, fresh.draw()), 0) << "what was dropped is uploaded again";
+}
+
 TEST(Budgets, TheStoresOfAProcessShareItsMemory)
 {
   constexpr vtkTypeInt64 budget = 2000000;

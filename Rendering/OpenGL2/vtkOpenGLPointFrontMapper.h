@@ -4,7 +4,7 @@
  * points
  *
  * Comes from vtkPointFrontMapper::New() by the object factory. Host nodes become slots of a GpuPool
- * (bounded bytes a frame while interacting), the slots one glMultiDrawArrays of
+ * (bounded bytes a frame while interacting), the slots one drawing of
  * vtkOpenGLPointFrontPass. Hardware selection gives ids that are ranks in the store: (node,
  * position in the node), 48 bits.
  */

@@ -5,7 +5,7 @@
  * By being a vtkOpenGLPolyDataMapper it takes part in all that VTK does with shaders of such
  * mappers: render passes (peeling, SSAO, EDL), clipping planes, selection passes, lights,
  * coincident topology, vtkShaderProperty. What it replaces is the vertex template (integer
- * positions relative to the camera), the colour, and the draw call: one glMultiDrawArrays.
+ * positions relative to the camera), the colour, and the draw call (DrawBatches).
  */
 #ifndef vtkOpenGLPointFrontPass_h
 #define vtkOpenGLPointFrontPass_h

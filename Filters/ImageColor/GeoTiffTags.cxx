@@ -32,7 +32,7 @@ struct Close
 };
 using Tiff = std::unique_ptr<TIFF, Close>;
 
-int keepError(TIFF*, void* kept, const char*, const char* format, va_list arguments)
+int keepMessage(TIFF*, void* kept, const char*, const char* format, va_list arguments)
 {
   char text[256];
   std::vsnprintf(text, sizeof text, format, arguments);
@@ -40,7 +40,7 @@ int keepError(TIFF*, void* kept, const char*, const char* format, va_list argume
   return 1; // handled: libtiff prints nothing
 }
 
-int dropWarning(TIFF*, void*, const char*, const char*, va_list)
+int ignoreWarning(TIFF*, void*, const char*, const char*, va_list)
 {
   return 1; // unknown tags, mostly the very ones that are wanted here
 }
@@ -48,8 +48,8 @@ int dropWarning(TIFF*, void*, const char*, const char*, va_list)
 Tiff openTiff(const std::string& path, std::string& message)
 {
   TIFFOpenOptions* options = TIFFOpenOptionsAlloc();
-  TIFFOpenOptionsSetErrorHandlerExtR(options, &keepError, &message);
-  TIFFOpenOptionsSetWarningHandlerExtR(options, &dropWarning, nullptr);
+  TIFFOpenOptionsSetErrorHandlerExtR(options, &keepMessage, &message);
+  TIFFOpenOptionsSetWarningHandlerExtR(options, &ignoreWarning, nullptr);
   Tiff tiff(TIFFOpenExt(path.c_str(), "rm", options)); // m: no memory map
   TIFFOpenOptionsFree(options);
   return tiff;

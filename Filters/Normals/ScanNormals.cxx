@@ -1,16 +1,16 @@
 #include "ScanNormals.h"
 
+#include "pointfront/Base/Infinity.h"
+
 #include <glm/vec2.hpp>
 
 #include <algorithm>
-#include <limits>
 #include <optional>
 
 namespace pointfront
 {
 namespace
 {
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double jumpSteps = 10.0; // to another line
 constexpr double turnSteps = 3.0;  // behind the farthest point of a line
 constexpr std::size_t window = 6;  // points to either side of where the last search ended

@@ -53,21 +53,21 @@ Result<void> readGrid(const std::byte* bytes, const std::string& path, LASHeader
 {
   for (int axis = 0; axis < 3; ++axis)
   {
-    const std::size_t scaleAt = Scale + 8 * static_cast<std::size_t>(axis);
-    const std::size_t offsetAt = Offset + 8 * static_cast<std::size_t>(axis);
-    const double scale = loadNumber<double>(bytes + scaleAt);
-    const double offset = loadNumber<double>(bytes + offsetAt);
+    const std::size_t scaleField = Scale + 8 * static_cast<std::size_t>(axis);
+    const std::size_t offsetField = Offset + 8 * static_cast<std::size_t>(axis);
+    const double scale = loadNumber<double>(bytes + scaleField);
+    const double offset = loadNumber<double>(bytes + offsetField);
     const std::string name(1, "xyz"[axis]);
     if (!std::isfinite(scale) || scale <= 0.0)
     {
       return makeError(Error::Kind::BadFormat,
-        path + ": the " + name + " scale is " + numberText(scale) + at(scaleAt) +
+        path + ": the " + name + " scale is " + numberText(scale) + at(scaleField) +
           ", it must be a number above 0; write the file again with a valid header");
     }
     if (!std::isfinite(offset) || !exactInDouble(scale, offset))
     {
       return makeError(Error::Kind::BadFormat,
-        path + ": the " + name + " offset is " + numberText(offset) + at(offsetAt) +
+        path + ": the " + name + " offset is " + numberText(offset) + at(offsetField) +
           ", which double precision cannot hold in steps of " + numberText(scale) +
           "; write the file again with a valid header");
     }

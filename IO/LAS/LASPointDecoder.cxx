@@ -9,7 +9,7 @@ namespace pointfront
 namespace
 {
 /// Records handled together: 16 to 40 KiB of input, inside a level 1 or 2 cache.
-constexpr std::size_t blockPoints = 512;
+constexpr std::size_t decodedPoints = 512;
 
 /// `count` records of `stride` bytes.
 struct Records
@@ -122,10 +122,10 @@ void decodeColumn(
 void decodeLASPoints(const LASPointLayout& layout, const QuantisationGrid& grid,
   const std::byte* records, std::size_t count, PointBatch& batch, std::size_t first)
 {
-  for (std::size_t begin = 0; begin < count; begin += blockPoints)
+  for (std::size_t begin = 0; begin < count; begin += decodedPoints)
   {
     const Records block{ records + begin * layout.pointBytes, layout.pointBytes,
-      std::min(blockPoints, count - begin) };
+      std::min(decodedPoints, count - begin) };
     if (batch.steps.empty())
     {
       decodePositions(block, grid, batch.positions.data() + first + begin);

@@ -13,7 +13,7 @@ namespace
 {
 constexpr std::uint64_t pointsPerRun = 65536;
 /// Records decompressed before they are decoded: they stay in the cache in between.
-constexpr std::uint32_t pointsPerBlock = 1024;
+constexpr std::uint32_t pointsPerRead = 1024;
 
 Error badChunk(const std::string& path, const LAZChunk& chunk, const std::string& what)
 {
@@ -133,11 +133,11 @@ Result<void> LAZSource::decompress(
   {
     return reader.error();
   }
-  std::vector<std::byte> records(std::size_t{ pointsPerBlock } * file_.layout.pointBytes);
+  std::vector<std::byte> records(std::size_t{ pointsPerRead } * file_.layout.pointBytes);
   // The batch grows as points come: a count that lies does not allocate.
   for (std::uint32_t done = 0; done < chunk.points;)
   {
-    const std::uint32_t wanted = std::min(pointsPerBlock, chunk.points - done);
+    const std::uint32_t wanted = std::min(pointsPerRead, chunk.points - done);
     if (reader->read(wanted, records.data()) < wanted)
     {
       return badChunk(path, chunk, "its bytes end or contradict themselves");

@@ -25,7 +25,7 @@ namespace
 
 using namespace pointfront;
 
-constexpr double terrainSize = testing::Terrain::sizeMetres;
+constexpr double terrainSize = test::Terrain::sizeMetres;
 
 /// Resident memory of this process, bytes.
 double processBytes()
@@ -137,7 +137,7 @@ void frontUpdate(benchmark::State& state)
 {
   const auto levels = static_cast<int>(state.range(0));
   const auto motion = static_cast<Motion>(state.range(1));
-  const auto table = testing::terrainTable(levels);
+  const auto table = test::terrainTable(levels);
   FrontLimits limits;
   limits.targetErrorPx = limits.initialErrorPx = errorFor2000(table, motion, levels);
   limits.pointBudget = 50000000;
@@ -172,7 +172,7 @@ void frontUpdate(benchmark::State& state)
   state.counters["ns_a_node"] = 1e6 * sum / nodesDrawn;
   state.counters["table_nodes"] = table->nodeCount();
   state.counters["table_points"] =
-    double(table->nodeCount()) * testing::Terrain::pointsOfNode;
+    double(table->nodeCount()) * test::Terrain::pointsOfNode;
   state.counters["pages_read"] = double(table->pagesRead() - pagesBefore);
   state.counters["rows_mib"] = double(table->cachedBytes()) / 1048576.0;
   state.counters["process_mib"] = processBytes() / 1048576.0;

@@ -10,7 +10,7 @@
 #include <memory>
 #include <vector>
 
-namespace pointfront::testing
+namespace pointfront::test
 {
 
 /// The node table of a made-up terrain: a complete quadtree, breadth first, of any size. A row is a
@@ -104,4 +104,4 @@ inline std::shared_ptr<PagedNodeTable> terrainTable(
     std::vector<NodeIndex>{ 0 }, Refinement::Add, cacheBytes);
 }
 
-} // namespace pointfront::testing
+} // namespace pointfront::test

@@ -11,6 +11,7 @@ option(POINTFRONT_BUILD_BENCHMARKS "Build the benchmarks" OFF)
 option(POINTFRONT_BUILD_FUZZERS "Build the fuzz targets (clang)" OFF)
 option(POINTFRONT_WRAP_PYTHON "Wrap the VTK modules for Python" ON)
 option(POINTFRONT_WARNINGS_AS_ERRORS "Stop at a warning" OFF)
+option(POINTFRONT_COMPILE_BY_FOLDER "Compile the sources of a folder as one" OFF)
 set(POINTFRONT_SANITIZE "" CACHE STRING
   "Sanitizers, as for -fsanitize=: address,undefined or thread")
 
@@ -57,5 +58,24 @@ target_compile_options(pointfrontInlining INTERFACE
 # Our own targets only: headers of others are system headers.
 add_library(pointfrontWarnings INTERFACE)
 target_compile_options(pointfrontWarnings INTERFACE
-  -Wall -Wextra -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor -Woverloaded-virtual
+  -Wall -Wextra -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor -Woverloaded-virtual
+  # Two that only make sense of a source alone.
+  $<IF:$<BOOL:${POINTFRONT_COMPILE_BY_FOLDER}>,$<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>,-Wshadow>
   $<$<BOOL:${POINTFRONT_WARNINGS_AS_ERRORS}>:-Werror>)
+
+# pointfront_compile_by_folder(<target>)
+# With POINTFRONT_COMPILE_BY_FOLDER the sources of one folder are compiled as one: their headers and
+# templates once. What they keep to themselves then needs names that are unique in the folder.
+function (pointfront_compile_by_folder target)
+  if (NOT POINTFRONT_COMPILE_BY_FOLDER)
+    return ()
+  endif ()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  get_target_property(sources ${target} SOURCES)
+  list(FILTER sources INCLUDE REGEX "\\.cxx$")
+  foreach (source IN LISTS sources)
+    get_filename_component(folder "${source}" DIRECTORY)
+    get_filename_component(folder "${folder}" NAME)
+    set_source_files_properties("${source}" PROPERTIES UNITY_GROUP "${folder}_sources")
+  endforeach ()
+endfunction ()

@@ -38,7 +38,7 @@ std::string broken(const char* file, const std::function<void(FileBytes&)>& chan
   return bytes.write("broken.laz");
 }
 
-void expectRefused(const std::string& path, Error::Kind kind, const std::string& words)
+void expectArchiveRefused(const std::string& path, Error::Kind kind, const std::string& words)
 {
   const auto source = LASFormat().open(path);
   ASSERT_FALSE(source) << "was opened";
@@ -47,7 +47,7 @@ void expectRefused(const std::string& path, Error::Kind kind, const std::string&
 }
 
 /// Opens with one warning of these words and `points` points that can all be read.
-void expectSurvived(const std::string& path, std::uint64_t points, const std::string& words)
+void expectArchiveSurvived(const std::string& path, std::uint64_t points, const std::string& words)
 {
   const auto source = openOrFail(path);
   ASSERT_TRUE(source);
@@ -83,12 +83,12 @@ TEST(BrokenLAZ, ALyingCompressionRecordIsRefusedBeforeLASzipSeesIt)
     SCOPED_TRACE(c.words);
     const std::string path = broken(c.file,
       [&](FileBytes& b) { b.put<std::uint16_t>(compressionRecord(b) + c.at, c.value); });
-    expectRefused(path, c.kind, c.words);
+    expectArchiveRefused(path, c.kind, c.words);
   }
-  expectRefused(broken(chunked, [](FileBytes& b) {
+  expectArchiveRefused(broken(chunked, [](FileBytes& b) {
     b.put<std::uint32_t>(compressionRecord(b) + 12, 0);
   }), Error::Kind::BadFormat, "chunks of 0 points");
-  expectRefused(broken(chunked, [](FileBytes& b) { b[b.find("laszip encoded")] = 'x'; }),
+  expectArchiveRefused(broken(chunked, [](FileBytes& b) { b[b.find("laszip encoded")] = 'x'; }),
     Error::Kind::BadFormat, "record \"laszip encoded\" that says how is missing");
 }
 
@@ -96,18 +96,18 @@ TEST(BrokenLAZ, ACountBeyondItsChunksIsRefused)
 {
   const std::string path =
     broken(chunked, [](FileBytes& b) { b.put<std::uint32_t>(107, 4294967295u); });
-  expectRefused(path, Error::Kind::BadFormat, "its 3 chunks hold at most 150000");
+  expectArchiveRefused(path, Error::Kind::BadFormat, "its 3 chunks hold at most 150000");
 }
 
 TEST(BrokenLAZ, ACountBelowItsChunksIsAWarning)
 {
-  expectSurvived(broken(chunked, [](FileBytes& b) { b.put<std::uint32_t>(107, 50000); }), 50000,
-    "2 of 3 chunks lie behind them");
+  const auto one = [](FileBytes& b) { b.put<std::uint32_t>(107, 50000); };
+  expectArchiveSurvived(broken(chunked, one), 50000, "2 of 3 chunks lie behind them");
   const auto fewer = [](FileBytes& b) {
     b.put<std::uint64_t>(247, 1000);
     b.put<std::uint32_t>(107, 0);
   };
-  expectSurvived(broken(variable, fewer), 1065, "the chunk table 1065");
+  expectArchiveSurvived(broken(variable, fewer), 1065, "the chunk table 1065");
 }
 
 TEST(BrokenLAZ, WithoutItsChunkTableIsWalkedThrough)
@@ -116,14 +116,14 @@ TEST(BrokenLAZ, WithoutItsChunkTableIsWalkedThrough)
   for (const std::int64_t place : nowhere)
   {
     const auto lose = [&](FileBytes& b) { b.put<std::int64_t>(firstPoint(b), place); };
-    expectSurvived(broken(chunked, lose), 110000, "0 of 110000 points are missing");
-    expectSurvived(broken(layered, lose), 1024, "0 of 1024 points are missing");
-    expectSurvived(broken(variable, lose), 1065, "0 of 1065 points are missing");
+    expectArchiveSurvived(broken(chunked, lose), 110000, "0 of 110000 points are missing");
+    expectArchiveSurvived(broken(layered, lose), 1024, "0 of 1024 points are missing");
+    expectArchiveSurvived(broken(variable, lose), 1065, "0 of 1065 points are missing");
   }
-  expectSurvived(
+  expectArchiveSurvived(
     broken(chunked, [](FileBytes& b) { b.put<std::uint32_t>(chunkTable(b) + 4, 4294967295u); }),
     110000, "chunk table is missing or damaged");
-  expectSurvived(
+  expectArchiveSurvived(
     broken(layered, [](FileBytes& b) { b.put<std::uint32_t>(chunkTable(b), 9); }), 1024,
     "chunk table is missing or damaged");
 }
@@ -160,9 +160,9 @@ TEST(BrokenLAZ, CutShortGivesWhatIsSound)
   ASSERT_EQ(part.size(), points);
   EXPECT_TRUE(std::equal(part.positions.begin(), part.positions.end(), all.positions.begin()));
 
-  expectSurvived(broken(layered, [](FileBytes& b) { b.resize(b.size() / 2); }), 256,
+  expectArchiveSurvived(broken(layered, [](FileBytes& b) { b.resize(b.size() / 2); }), 256,
     "768 of 1024 points are missing");
-  expectRefused(broken(layered, [](FileBytes& b) { b.resize(firstPoint(b) + 100); }),
+  expectArchiveRefused(broken(layered, [](FileBytes& b) { b.resize(firstPoint(b) + 100); }),
     Error::Kind::Truncated, "holds not one that is sound");
   const auto old = openOrFail(broken(pointwise, [](FileBytes& b) { b.resize(b.size() / 2); }));
   ASSERT_TRUE(old);

@@ -11,7 +11,7 @@
 #include <unordered_map>
 #include <vector>
 
-namespace pointfront::testing
+namespace pointfront::test
 {
 
 /// Made-up node tables for tests and benchmarks of the front and of residency: no payload.
@@ -128,4 +128,4 @@ private:
   std::uint64_t revision_ = 0;
 };
 
-} // namespace pointfront::testing
+} // namespace pointfront::test

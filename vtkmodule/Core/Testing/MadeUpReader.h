@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace pointfront::testing
+namespace pointfront::test
 {
 
 /// Nodes without a file: node n has pointsOf(n) points in a row that begins at (n, n, n); each
@@ -130,4 +130,4 @@ private:
   std::set<NodeIndex> throwing_;
 };
 
-} // namespace pointfront::testing
+} // namespace pointfront::test

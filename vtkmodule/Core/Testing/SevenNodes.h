@@ -7,7 +7,7 @@
 #include <set>
 #include <vector>
 
-namespace pointfront::testing
+namespace pointfront::test
 {
 
 //        0          spacing 8     x = 0
@@ -85,4 +85,4 @@ inline std::vector<NodeIndex> requested(const FrontDelta& delta)
 
 using Nodes = std::set<NodeIndex>;
 
-} // namespace pointfront::testing
+} // namespace pointfront::test

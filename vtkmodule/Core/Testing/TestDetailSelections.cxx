@@ -17,8 +17,8 @@ namespace pointfront
 namespace
 {
 
-using testing::ScriptedResidency;
-using testing::TreeShape;
+using test::ScriptedResidency;
+using test::TreeShape;
 using State = ResidencyView::State;
 
 struct Case
@@ -65,7 +65,7 @@ std::shared_ptr<const HierarchyTable> treeOf(const Case& c)
   shape.roots = 1 + int(c.seed % 3);
   shape.childChance = 0.4 + 0.05 * (c.seed % 8);
   shape.refinement = c.refinement;
-  return testing::randomTree(shape);
+  return test::randomTree(shape);
 }
 
 /// Any view that a host application may set: tiny and huge angles, parallel, off-axis, near planes

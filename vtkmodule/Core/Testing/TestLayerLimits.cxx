@@ -21,15 +21,15 @@ namespace pointfront
 namespace
 {
 
-using testing::ScriptedResidency;
+using test::ScriptedResidency;
 using State = ResidencyView::State;
 
 /// `count` copies of one random tree, breadth first, one layer each.
 std::shared_ptr<const HierarchyTable> layered(std::uint16_t count, Refinement refinement)
 {
-  testing::TreeShape shape;
+  test::TreeShape shape;
   shape.refinement = refinement;
-  const auto one = testing::randomTree(shape);
+  const auto one = test::randomTree(shape);
   std::vector<Node> nodes;
   std::vector<NodeIndex> roots;
   for (std::uint16_t layer = 0; layer < count; ++layer)

@@ -16,7 +16,7 @@ namespace pointfront
 namespace
 {
 
-using testing::MadeUpReader;
+using test::MadeUpReader;
 using State = ResidencyView::State;
 using std::chrono::milliseconds;
 

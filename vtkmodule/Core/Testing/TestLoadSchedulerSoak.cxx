@@ -19,7 +19,7 @@ namespace pointfront
 namespace
 {
 
-using testing::MadeUpReader;
+using test::MadeUpReader;
 
 struct Store
 {

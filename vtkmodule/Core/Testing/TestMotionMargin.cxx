@@ -13,7 +13,7 @@ namespace pointfront
 namespace
 {
 
-using testing::ScriptedResidency;
+using test::ScriptedResidency;
 
 constexpr double angle = 0.8;
 
@@ -25,11 +25,11 @@ View lookingDown(double x, double height = 400.0)
 
 std::shared_ptr<const HierarchyTable> strip()
 {
-  testing::TreeShape shape;
+  test::TreeShape shape;
   shape.levels = 5;
   shape.roots = 8; // in a row along x
   shape.childChance = 0.6;
-  return testing::randomTree(shape);
+  return test::randomTree(shape);
 }
 
 /// Flies along the strip; what is asked for arrives two frames later. Nodes drawn less than would

@@ -21,9 +21,9 @@ namespace pointfront
 {
 namespace
 {
-using testing::Terrain;
-using testing::TerrainPages;
-using testing::terrainTable;
+using test::Terrain;
+using test::TerrainPages;
+using test::terrainTable;
 
 constexpr std::size_t smallCache = 12 * sizeof(NodePage);
 
@@ -234,7 +234,7 @@ TEST(PagedNodeTable, TheFrontSettlesAsOverATableInMemory)
   {
     nodes[i] = terrain.row(i);
   }
-  testing::ScriptedResidency residency;
+  test::ScriptedResidency residency;
   residency.otherwise = ResidencyView::State::Resident;
   const auto settled = [&](const std::shared_ptr<const Hierarchy>& table, std::size_t cached)
   {
@@ -279,7 +279,7 @@ TEST(PagedNodeTable, TheFrontDrawsTheParentOfALostPage)
     const auto table = std::make_shared<PagedNodeTable>(
       std::move(source), std::vector<NodeIndex>{ 0 }, refinement);
     RenderFront front(table);
-    testing::ScriptedResidency residency;
+    test::ScriptedResidency residency;
     residency.otherwise = ResidencyView::State::Resident;
     const FrontDelta* delta = nullptr;
     for (int u = 0; u < 1000; ++u)

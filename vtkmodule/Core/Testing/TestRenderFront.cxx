@@ -11,7 +11,7 @@
 namespace pointfront
 {
 
-using namespace testing;
+using namespace test;
 using State = ResidencyView::State;
 
 // Nothing is there at first:  (0)   then 0 arrives:  0 drawn, 1 and 2 asked for
@@ -204,8 +204,8 @@ TEST(RenderFront, EmptyInnerNodesAreNeverAskedForAndDoNotStandInTheWay)
 
 TEST(RenderFront, DrawsNearToFarWithTiesByNode)
 {
-  testing::TreeShape shape;
-  const auto tree = testing::randomTree(shape);
+  test::TreeShape shape;
+  const auto tree = test::randomTree(shape);
   RenderFront front(tree);
   ScriptedResidency residency;
   residency.otherwise = State::Resident;

@@ -54,7 +54,7 @@ namespace pointfront
 std::pair<std::uint32_t, std::size_t> allocationsOf(
   DetailSelection& front, const Hierarchy& table, double size, std::uint64_t pointBudget)
 {
-  testing::ScriptedResidency residency;
+  test::ScriptedResidency residency;
   residency.otherwise = ResidencyView::State::Resident;
   FrontLimits limits;
   limits.targetErrorPx = 1.0;
@@ -84,9 +84,9 @@ TEST(RenderFront, AllocatesNothingInTheSteadyState)
 {
   for (const Refinement refinement : { Refinement::Add, Refinement::Replace })
   {
-    testing::TreeShape shape;
+    test::TreeShape shape;
     shape.refinement = refinement;
-    const auto tree = testing::randomTree(shape);
+    const auto tree = test::randomTree(shape);
     RenderFront front(tree);
     const auto [longest, counted] = allocationsOf(front, *tree, 1000.0, 100000);
     EXPECT_EQ(counted, 0u);
@@ -96,10 +96,10 @@ TEST(RenderFront, AllocatesNothingInTheSteadyState)
 
 TEST(RenderFront, AllocatesNothingOverAPagedTableOfHundredMillionNodes)
 {
-  const auto table = testing::terrainTable(14);
+  const auto table = test::terrainTable(14);
   RenderFront front(table);
   const auto [longest, counted] =
-    allocationsOf(front, *table, testing::Terrain::sizeMetres, 10000000);
+    allocationsOf(front, *table, test::Terrain::sizeMetres, 10000000);
   EXPECT_EQ(counted, 0u);
   EXPECT_GT(longest, 200u);
   EXPECT_LE(table->cachedBytes(), PagedNodeTable::defaultCacheBytes);
@@ -109,9 +109,9 @@ TEST(ViewDetail, AllocatesNothingInTheSteadyState)
 {
   for (const Refinement refinement : { Refinement::Add, Refinement::Replace })
   {
-    testing::TreeShape shape;
+    test::TreeShape shape;
     shape.refinement = refinement;
-    const auto tree = testing::randomTree(shape);
+    const auto tree = test::randomTree(shape);
     ViewDetail detail(tree);
     const auto [longest, counted] = allocationsOf(detail, *tree, 1000.0, 100000);
     EXPECT_EQ(counted, 0u);

@@ -15,9 +15,9 @@ namespace pointfront
 namespace
 {
 
-using testing::randomTree;
-using testing::ScriptedResidency;
-using testing::TreeShape;
+using test::randomTree;
+using test::ScriptedResidency;
+using test::TreeShape;
 using State = ResidencyView::State;
 
 struct Case

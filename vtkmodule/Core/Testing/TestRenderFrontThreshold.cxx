@@ -11,7 +11,7 @@
 namespace pointfront
 {
 
-using namespace testing;
+using namespace test;
 using State = ResidencyView::State;
 
 TEST(RenderFront, ThresholdStartsAtSixtyAndFallsToTheTarget)
@@ -86,9 +86,9 @@ TEST(RenderFront, ASmallStepBackAndForthDoesNotMoveTheFront)
 
 TEST(RenderFront, MovesAreBoundedAndGoOnInTheNextUpdate)
 {
-  testing::TreeShape shape;
+  test::TreeShape shape;
   shape.childChance = 1.0;
-  const auto tree = testing::randomTree(shape);
+  const auto tree = test::randomTree(shape);
   ScriptedResidency residency;
   residency.otherwise = State::Resident;
   FrontLimits limits = settleAt(1.0);

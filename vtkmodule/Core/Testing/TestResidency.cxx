@@ -14,7 +14,7 @@ namespace pointfront
 namespace
 {
 
-using testing::MadeUpReader;
+using test::MadeUpReader;
 using State = ResidencyView::State;
 
 /// One loader: reads happen in the order of the queue. Room for `nodes` nodes of `reader`.

@@ -16,7 +16,7 @@
 namespace pointfront
 {
 
-using testing::MadeUpReader;
+using test::MadeUpReader;
 
 namespace
 {
@@ -137,10 +137,10 @@ TEST(ResidencySoak, AnotherThreadMayDropPointsAndTheEndMayComeAtAnyTime)
 /// The front and the residency together: memory for a part of what a view needs.
 TEST(ResidencySoak, AViewThatNeedsMoreThanTheMemorySettlesWithoutThrashing)
 {
-  testing::TreeShape shape;
+  test::TreeShape shape;
   shape.emptyChance = 0.0;
   shape.pointsMax = 200;
-  const auto tree = testing::randomTree(shape);
+  const auto tree = test::randomTree(shape);
   const auto reader = std::make_shared<MadeUpReader>(200);
   ResidencyOptions options;
   options.budgetBytes = 150 * reader->trueBytes(0, {});

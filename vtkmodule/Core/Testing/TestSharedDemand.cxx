@@ -38,10 +38,10 @@ struct Cloud
   }
   static std::shared_ptr<const HierarchyTable> treeOf(std::uint32_t seed, Refinement refinement)
   {
-    testing::TreeShape shape;
+    test::TreeShape shape;
     shape.seed = seed;
     shape.refinement = refinement;
-    return testing::randomTree(shape);
+    return test::randomTree(shape);
   }
   bool changed() const { return held.revision() + drawn.revision() != seen; }
   void update()
@@ -73,7 +73,7 @@ struct Cloud
 
   std::shared_ptr<const HierarchyTable> tree;
   RenderFront front;
-  testing::ScriptedResidency residency;
+  test::ScriptedResidency residency;
   SharedDemand::Claim held;
   SharedDemand::Claim drawn;
   DemandCurve heldElsewhere;

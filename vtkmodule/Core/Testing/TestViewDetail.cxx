@@ -16,8 +16,8 @@ namespace pointfront
 namespace
 {
 
-using testing::ScriptedResidency;
-using testing::Terrain;
+using test::ScriptedResidency;
+using test::Terrain;
 using State = ResidencyView::State;
 
 constexpr double size = Terrain::sizeMetres;
@@ -263,9 +263,9 @@ TEST(ViewDetail, BudgetsLowerTheLevel)
 
 TEST(ViewDetail, HiddenLayersAskForNothing)
 {
-  testing::TreeShape shape;
+  test::TreeShape shape;
   shape.roots = 2;
-  const auto random = testing::randomTree(shape);
+  const auto random = test::randomTree(shape);
   std::vector<Node> nodes;
   for (NodeIndex i = 0; i < random->nodeCount(); ++i)
   {
@@ -331,7 +331,7 @@ TEST(ViewDetail, WaitsForRowsOfAPagedTable)
     ADD_FAILURE() << "never complete";
     return std::map<NodeIndex, std::uint32_t>();
   };
-  EXPECT_EQ(listOf(testing::terrainTable(8)), listOf(terrainInMemory(8)));
+  EXPECT_EQ(listOf(test::terrainTable(8)), listOf(terrainInMemory(8)));
 }
 
 } // namespace pointfront

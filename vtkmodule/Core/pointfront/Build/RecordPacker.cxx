@@ -13,7 +13,7 @@ namespace
 constexpr double largestSteps = 9007199254740992.0; // 2^53
 
 /// Columns are scattered into the records of a tile while these are in the nearest cache.
-constexpr std::size_t tilePoints = 512;
+constexpr std::size_t scatteredPoints = 512;
 
 /// std::llround() for |v| < 2^53, as QuantisationGrid::toGrid() does it, without the call: the
 /// fraction is exact, and exact halves go away from zero.
@@ -177,9 +177,9 @@ bool RecordPacker::append(
   assert((count_ + batch.size()) * layout_.bytes() <= records_.size());
   bool right = true;
   std::size_t kept = 0; // of the batch, at its beginning
-  for (std::size_t begin = 0; begin < batch.size(); begin += tilePoints)
+  for (std::size_t begin = 0; begin < batch.size(); begin += scatteredPoints)
   {
-    const std::size_t end = std::min(batch.size(), begin + tilePoints);
+    const std::size_t end = std::min(batch.size(), begin + scatteredPoints);
     const std::size_t from = kept;
     const std::size_t to = count_;
     if (batch.steps.empty())

@@ -22,7 +22,7 @@ std::uint32_t prefixOf(double quota, std::uint32_t count)
   return quota >= count ? count : static_cast<std::uint32_t>(std::max(0.0, quota + 0.5));
 }
 
-bool sooner(const LoadRequest& a, const LoadRequest& b)
+bool moreUrgent(const LoadRequest& a, const LoadRequest& b)
 {
   return a.priority != b.priority ? a.priority > b.priority : a.node < b.node;
 }
@@ -120,7 +120,7 @@ void DetailWalk::plan(const ResidencyView& residency, const std::vector<Shown>& 
     }
   }
   order_.sort(delta.draw);
-  std::sort(wanted_.begin(), wanted_.end(), sooner);
+  std::sort(wanted_.begin(), wanted_.end(), moreUrgent);
   if (wanted_.size() > limits_->requestLimit)
   {
     wanted_.resize(limits_->requestLimit);

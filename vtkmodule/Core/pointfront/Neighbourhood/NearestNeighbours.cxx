@@ -1,5 +1,6 @@
 #include "pointfront/Neighbourhood/NearestNeighbours.h"
 
+#include "pointfront/Base/Infinity.h"
 #include "pointfront/Neighbourhood/NeighbourCluster.h"
 #include "pointfront/Neighbourhood/TileSearch.h"
 
@@ -13,8 +14,6 @@ namespace pointfront
 {
 namespace
 {
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 // Shares of the whole, for the progress fraction.
 constexpr double readShare = 0.1; // twice
 constexpr double searchShare = 0.8;

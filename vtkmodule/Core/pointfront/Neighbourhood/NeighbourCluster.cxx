@@ -1,5 +1,7 @@
 #include "pointfront/Neighbourhood/NeighbourCluster.h"
 
+#include "pointfront/Base/Infinity.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -7,7 +9,6 @@ namespace pointfront
 {
 namespace
 {
-constexpr double infinity = std::numeric_limits<double>::infinity();
 /// A group's places are looked up farther than the last neighbour of the middle, as points at the
 /// rim may have theirs farther away. A point for which those picked for a few do not reach far
 /// enough asks the group's.

@@ -1,5 +1,7 @@
 #include "pointfront/Neighbourhood/TileLayout.h"
 
+#include "pointfront/Base/Infinity.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -7,7 +9,6 @@ namespace pointfront
 {
 namespace
 {
-constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Halos of an estimate are made narrower until the copies are no more than this share of all.
 constexpr double mostCopies = 1.0;
 

@@ -1,5 +1,7 @@
 #include "pointfront/Neighbourhood/TileSearch.h"
 
+#include "pointfront/Base/Infinity.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -7,7 +9,6 @@ namespace pointfront
 {
 namespace
 {
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int keyBits = 21; // an axis
 
 /// Bit i of v goes to bit 3 i.

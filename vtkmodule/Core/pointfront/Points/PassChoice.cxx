@@ -6,29 +6,30 @@ namespace pointfront
 {
 namespace
 {
-struct Registered
+struct MakerOfProcess
 {
   std::mutex mutex;
   std::shared_ptr<const AttributePassMaker> maker;
 };
 
-Registered& registered()
+MakerOfProcess& registeredMaker()
 {
-  static Registered* instance = new Registered; // libraries register while others are unloaded
+  // Never taken down: libraries register while others are unloaded.
+  static MakerOfProcess* instance = new MakerOfProcess;
   return *instance;
 }
 } // namespace
 
 void AttributePassMaker::use(std::shared_ptr<const AttributePassMaker> maker)
 {
-  const std::lock_guard<std::mutex> lock(registered().mutex);
-  registered().maker = std::move(maker);
+  const std::lock_guard<std::mutex> lock(registeredMaker().mutex);
+  registeredMaker().maker = std::move(maker);
 }
 
 std::shared_ptr<const AttributePassMaker> AttributePassMaker::ofProcess()
 {
-  const std::lock_guard<std::mutex> lock(registered().mutex);
-  return registered().maker;
+  const std::lock_guard<std::mutex> lock(registeredMaker().mutex);
+  return registeredMaker().maker;
 }
 
 } // namespace pointfront

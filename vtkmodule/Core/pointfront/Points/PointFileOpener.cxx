@@ -6,29 +6,30 @@ namespace pointfront
 {
 namespace
 {
-struct Registered
+struct OpenerOfProcess
 {
   std::mutex mutex;
   std::shared_ptr<const PointFileOpener> opener;
 };
 
-Registered& registered()
+OpenerOfProcess& registeredOpener()
 {
-  static Registered* instance = new Registered; // libraries register while others are unloaded
+  // Never taken down: libraries register while others are unloaded.
+  static OpenerOfProcess* instance = new OpenerOfProcess;
   return *instance;
 }
 } // namespace
 
 void PointFileOpener::use(std::shared_ptr<const PointFileOpener> opener)
 {
-  const std::lock_guard<std::mutex> lock(registered().mutex);
-  registered().opener = std::move(opener);
+  const std::lock_guard<std::mutex> lock(registeredOpener().mutex);
+  registeredOpener().opener = std::move(opener);
 }
 
 std::shared_ptr<const PointFileOpener> PointFileOpener::ofProcess()
 {
-  const std::lock_guard<std::mutex> lock(registered().mutex);
-  return registered().opener;
+  const std::lock_guard<std::mutex> lock(registeredOpener().mutex);
+  return registeredOpener().opener;
 }
 
 } // namespace pointfront

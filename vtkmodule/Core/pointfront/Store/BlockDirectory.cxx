@@ -23,18 +23,6 @@ void getArray(ByteReader& in, std::vector<T>& values, std::size_t count)
   values.resize(count);
   in.getBytes(values.data(), count * sizeof(T));
 }
-
-bool inRange(const GridPosition& p)
-{
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    if (p[axis] < -maxGridPosition || p[axis] > maxGridPosition)
-    {
-      return false;
-    }
-  }
-  return true;
-}
 } // namespace
 
 static_assert(sizeof(GridPosition) == 24, "origins are copied as they lie in memory");

@@ -3,6 +3,7 @@
 #include "pointfront/Points/QuantisationGrid.h"
 #include "pointfront/Store/BlockCodec.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -79,5 +80,11 @@ private:
 
 /// Grid positions beyond this (2^51 steps) would not survive double coordinates.
 constexpr std::int64_t maxGridPosition = std::int64_t(1) << 51;
+
+inline bool inRange(const GridPosition& p)
+{
+  return std::all_of(&p[0], &p[0] + 3,
+    [](std::int64_t v) { return v >= -maxGridPosition && v <= maxGridPosition; });
+}
 
 } // namespace pointfront

@@ -1,5 +1,6 @@
 #include "pointfront/Store/ColumnStatistics.h"
 
+#include "pointfront/Base/Infinity.h"
 #include "pointfront/Store/ByteStream.h"
 
 #include <algorithm>
@@ -9,8 +10,6 @@ namespace pointfront
 {
 namespace
 {
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 template <typename T>
 constexpr T lowest = std::numeric_limits<T>::has_infinity ? -std::numeric_limits<T>::infinity()
                                                           : std::numeric_limits<T>::lowest();

@@ -30,12 +30,6 @@ Error unknownCodecIn(const std::string& path, const std::string& codec)
       ", which this program does not know; update PointFront");
 }
 
-bool inRange(const GridPosition& p)
-{
-  return std::all_of(&p[0], &p[0] + 3,
-    [](std::int64_t v) { return v >= -maxGridPosition && v <= maxGridPosition; });
-}
-
 constexpr std::size_t countBytes = sizeof(std::uint32_t);
 
 /// Room for a record behind the number of points.

@@ -65,7 +65,6 @@ void declareUnavailableDrawing(CLI::App& app)
     ->check(availableValues(
       { "points" }, { "splats", "spheres", "silhouettes", "solid", "ewa" }));
   declareUnavailable(app, "--style", "classes have no styles of their own");
-  declareUnavailable(app, "--classes", "the renderer does not choose by class; use export");
 }
 } // namespace
 
@@ -125,6 +124,16 @@ void DrawingOptions::declare(CLI::App& app)
       "front: each part as fine as it projects; view: one level that fills the view (front)")
     ->check(availableValues({ "front", "view" }, {}));
   addByteSize(app, "--memory", memoryBytes, "Most memory for decoded points (1G)");
+  const auto shown = word("--classes", "a list of class codes: write 2,6",
+    [this](const std::string& text)
+    {
+      const auto codes = parseClasses(text);
+      classes = codes.value_or(classes);
+      return codes.has_value();
+    });
+  app.add_option("--classes", shown, "Only these classes (stores built with --layers class)")
+    ->type_name("LIST")
+    ->expected(1);
   declareUnavailableDrawing(app);
 }
 

@@ -24,6 +24,7 @@ struct DrawingOptions
   std::int64_t pointBudget = -1; ///< most points drawn; -1: not given
   double frameMs = 0.0;          ///< while the camera moves; 0: that VTK allots
   bool measureEmptyScene = false; ///< see StoreScene::emptySceneBytes()
+  std::vector<std::uint8_t> classes; ///< sorted codes of what is drawn; empty: all
   bool eyeDomeLighting = false;
   std::string detail = "front"; ///< or "view": how the detail of a view is chosen
 

@@ -3,6 +3,7 @@
 #include "ColourChoice.h"
 #include "PeakMemory.h"
 #include "PointSize.h"
+#include "ShownClasses.h"
 #include "ThreadReads.h"
 #include "WholeFile.h"
 
@@ -184,6 +185,7 @@ public:
   /// `empty`: draws it, and keeps what the process then holds.
   Result<void> openWindow(bool empty);
   Result<void> openStores();
+  Result<void> hideOtherClasses();
   Result<void> setUpDrawing();
 
   const Bounds& bounds() const override { return bounds_; }
@@ -255,6 +257,24 @@ Result<void> OffscreenScene::openStores()
   }
   ground_ = sample->elevationQuantile(0.5);
   return {};
+}
+
+Result<void> OffscreenScene::hideOtherClasses()
+{
+  std::uint64_t shown = options_.classes.empty() ? 1 : 0;
+  for (std::size_t i = 0; i < stores_.size() && !options_.classes.empty(); ++i)
+  {
+    const Result<std::uint64_t> points = showOnly(
+      options_.classes, stores_[i]->store->GetStore()->description(), stores_[i]->mapper);
+    if (!points)
+    {
+      return points.error();
+    }
+    shown += points.value();
+  }
+  return shown > 0 ? Result<void>()
+                   : makeError(Error::Kind::BadArgument,
+                       "--classes: no store here has a point of these classes (info lists them)");
 }
 
 Result<void> OffscreenScene::openWindow(bool empty)
@@ -513,6 +533,10 @@ Result<std::unique_ptr<StoreScene>> StoreScene::open(const DrawingOptions& optio
   if (Result<void> opened = scene->openStores(); !opened)
   {
     return opened.error();
+  }
+  if (Result<void> hidden = scene->hideOtherClasses(); !hidden)
+  {
+    return hidden.error();
   }
   if (Result<void> opened = options.measureEmptyScene ? Result<void>() : scene->openWindow(false);
       !opened)

@@ -59,7 +59,7 @@ class Usage(ToolTest):
         refused = [
             ("--technique", "splats"), ("--technique", "spheres"), ("--technique", "silhouettes"),
             ("--technique", "solid"), ("--technique", "ewa"), ("--style", "s.json"),
-            ("--classes", "2"), ("--color-by", "normal"), ("--color-by", "horizontality"),
+            ("--color-by", "normal"), ("--color-by", "horizontality"),
             ("--color-by", "global-height"), ("--color-by", "local-height"),
         ]
         for flag in refused:
@@ -69,6 +69,7 @@ class Usage(ToolTest):
             ("--size", "big"), ("--view", "below"), ("--error", "0"), ("--point-size", "0"),
             ("--background", "red"), ("--frames", "0"), ("--frames", "3", "--complete"),
             ("--view", "top", "--camera", "c.json"), ("--point-budget", "0"), ("--detail", "both"),
+            ("--classes", "300"), ("--classes", "ground"),
         ]
         for flag in wrong:
             self.refuse(2, "render", "s.pfront", "-o", self.folder / "x.png", *flag)

@@ -114,6 +114,41 @@ class InPlace(SceneTest):
             self.assertGreater(share_alike(coarse, ours), 0.5, view)
 
 
+class ChosenClasses(SceneTest):
+    def setUp(self):
+        super().setUp()
+        self.store = self.folder / "layers.pfront"
+        self.succeed("build", TRIM, "-o", self.store, "--layers", "class")
+
+    def drawn(self, *arguments):
+        picture, statistics = self.statistics(
+            self.store, "--view", "top", "--error", "0.01", "--background", "0,0,0",
+            "--color-by", "classification", *arguments)
+        self.assertTrue(statistics["complete"])
+        return picture, statistics["points_drawn"]
+
+    def test_only_their_points_are_drawn(self):
+        everything, count = self.drawn()
+        self.assertEqual(count, 110000)
+        self.assertEqual(self.drawn("--classes", "1,2")[1], 110000)
+        for classes, points in (("1", 83893), ("2", 26107), ("2,6", 26107)):
+            picture, count = self.drawn("--classes", classes)
+            self.assertEqual(count, points)
+            colours = {tuple(c) for c in picture.reshape(-1, 3).tolist()} - {(0, 0, 0)}
+            self.assertEqual(len(colours), 1, classes)
+            self.assertLess(int((picture.max(axis=2) > 0).sum()),
+                            int((everything.max(axis=2) > 0).sum()))
+
+    def test_what_cannot_be_chosen_is_told(self):
+        picture = self.folder / "x.png"
+        outcome = self.refuse(1, "render", self.store, "-o", picture, "--classes", "9")
+        self.assertIn("no store here has a point of these classes", outcome.err)
+        plain = self.build(TRIM)
+        outcome = self.refuse(1, "render", plain, "-o", picture, "--classes", "2")
+        self.assertIn("--layers class", outcome.err)
+        self.assertFalse(picture.exists())
+
+
 class AgainstAllPoints(SceneTest):
     def compare(self, cloud, point_size):
         store = self.build(cloud)

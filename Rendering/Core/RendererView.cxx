@@ -20,7 +20,7 @@ RendererView::~RendererView()
 
 bool RendererView::NeedsRender()
 {
-  if (!this->Front || this->UploadsLeft)
+  if (!this->Front || this->UploadsLeft || this->Due)
   {
     return true;
   }
@@ -32,7 +32,9 @@ bool RendererView::NeedsRender()
     this->Front->update(this->Demand);
     this->Ahead = true;
   }
-  return (this->Ahead || this->Front->wantsUpdate()) && !(paused && this->Front->expectsMore());
+  this->Due =
+    (this->Ahead || this->Front->wantsUpdate()) && !(paused && this->Front->expectsMore());
+  return this->Due;
 }
 
 } // namespace pointfront

@@ -26,6 +26,7 @@ struct RendererView
   bool Complete = false;
   bool Announced = false; ///< ViewCompleteEvent was invoked for that view
   bool Ahead = false;     ///< the front was moved since the last frame
+  bool Due = false;       ///< NeedsRender() said so, and no frame was drawn since
   Clock::time_point DrawnAt; ///< end of the last frame's first drawing
   double DrawingMs = 0.0;    ///< what a frame took lately
   FrameDemand Demand; ///< of the last frame, its view in the store's coordinates
@@ -37,7 +38,7 @@ struct RendererView
 
   /// Whether a frame is due. A view at rest that is being loaded is drawn a quarter of the time at
   /// most: till the next frame is due its front is moved here, so that what it asks for next does
-  /// not wait for a slow drawing.
+  /// not wait for a slow drawing. Once a frame is due it stays so until it is drawn.
   bool NeedsRender();
 };
 

@@ -459,6 +459,7 @@ void vtkPointFrontMapper::FinishFrame(
   const pointfront::FrontDelta& delta = view.Front->last();
   view.FirstDrawing = false;
   view.Ahead = false;
+  view.Due = false;
   view.DrawnAt = Clock::now();
   view.UploadsLeft = uploadsLeft;
   // In motion the frame time limits the front: at rest the same view may show more.

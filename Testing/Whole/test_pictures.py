@@ -143,7 +143,8 @@ class ChosenClasses(SceneTest):
         picture = self.folder / "x.png"
         outcome = self.refuse(1, "render", self.store, "-o", picture, "--classes", "9")
         self.assertIn("no store here has a point of these classes", outcome.err)
-        plain = self.build(TRIM)
+        plain = self.folder / "plain.pfront"
+        self.succeed("build", TRIM, "-o", plain, "--layers", "none")
         outcome = self.refuse(1, "render", plain, "-o", picture, "--classes", "2")
         self.assertIn("--layers class", outcome.err)
         self.assertFalse(picture.exists())

@@ -60,14 +60,16 @@ add_library(pointfrontWarnings INTERFACE)
 target_compile_options(pointfrontWarnings INTERFACE
   -Wall -Wextra -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor -Woverloaded-virtual
   # Two that only make sense of a source alone.
-  $<IF:$<BOOL:${POINTFRONT_COMPILE_BY_FOLDER}>,$<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>,-Wshadow>
+  $<$<NOT:$<BOOL:${POINTFRONT_COMPILE_BY_FOLDER}>>:-Wshadow>
+  $<$<AND:$<BOOL:${POINTFRONT_COMPILE_BY_FOLDER}>,$<CXX_COMPILER_ID:GNU>>:-Wno-subobject-linkage>
   $<$<BOOL:${POINTFRONT_WARNINGS_AS_ERRORS}>:-Werror>)
 
-# pointfront_compile_by_folder(<target>)
+# pointfront_compile_by_folder(<target> [ALWAYS])
 # With POINTFRONT_COMPILE_BY_FOLDER the sources of one folder are compiled as one: their headers and
 # templates once. What they keep to themselves then needs names that are unique in the folder.
+# ALWAYS: whatever that option says, for code that is mostly its headers' templates.
 function (pointfront_compile_by_folder target)
-  if (NOT POINTFRONT_COMPILE_BY_FOLDER)
+  if (NOT POINTFRONT_COMPILE_BY_FOLDER AND NOT "ALWAYS" IN_LIST ARGN)
     return ()
   endif ()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)

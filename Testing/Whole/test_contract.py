@@ -254,7 +254,7 @@ class Interruption(ToolTest):
         for number in (signal.SIGINT, signal.SIGTERM):
             (self.folder / "spill").mkdir(exist_ok=True)
             self.interrupt(number, "build", LARGE, "-o", self.folder / "x.pfront",
-                           "--memory", "256M", "--temp", self.folder / "spill")
+                           "--memory", "128M", "--temp", self.folder / "spill")
             self.assertEqual(self.entries(), ["spill"])
             self.assertEqual(list((self.folder / "spill").iterdir()), [])
 

@@ -33,8 +33,8 @@ class Autzen(ToolTest):
 
         small = self.folder / "small.pfront"
         report = self.succeed(
-            "build", AUTZEN, "-o", small, "--memory", "256M", "--threads", "2", "--json").json
-        self.assertLess(report["peak_rss_bytes"], (256 + 128) * MIB)
+            "build", AUTZEN, "-o", small, "--memory", "128M", "--threads", "2", "--json").json
+        self.assertLess(report["peak_rss_bytes"], (128 + 128) * MIB)
         self.assertGreater(report["spilled_bytes"], 0)
         self.assertTrue(filecmp.cmp(store, small, shallow=False), "the stores differ")
         self.assertEqual(self.entries(), ["autzen.pfront", "small.pfront"])

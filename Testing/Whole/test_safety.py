@@ -104,7 +104,7 @@ class Kills(ToolTest):
         (self.folder / "spill").mkdir()
         store = self.folder / "x.pfront"
         self.kill_while_building(
-            store, "--memory", "256M", "--temp", self.folder / "spill")
+            store, "--memory", "128M", "--temp", self.folder / "spill")
         self.assertEqual(list((self.folder / "spill").iterdir()), [])
         self.assertFalse(store.exists())
         for path in self.folder.iterdir():

@@ -1,6 +1,6 @@
 """Runs ParaView in one of its ways on a store and compares its pictures with those of the tool.
 
-usage: drive.py WAY      batch | ranks | server | application, under a display of its own
+usage: drive.py WAY      batch | classes | ranks | server | application, under a display of its own
 Told by the environment: POINTFRONT_TOOL, POINTFRONT_PLUGIN, POINTFRONT_CLOUD (what to build the
 store from), POINTFRONT_CAMERA, POINTFRONT_PVPYTHONPATH, POINTFRONT_{PVBATCH,PVSERVER,PARAVIEW,
 MPIEXEC}. Writes under the current folder only.
@@ -8,6 +8,7 @@ MPIEXEC}. Writes under the current folder only.
 
 import json
 import os
+import shutil
 import signal
 import socket
 import subprocess
@@ -40,6 +41,10 @@ class Programs:
     def __init__(self):
         self.deadline = time.time() + LIMIT
         self.running = []
+        # The user's settings stay out, none are left behind, and none of an earlier run are found.
+        self.home = os.path.abspath("home")
+        shutil.rmtree(self.home, ignore_errors=True)
+        os.makedirs(self.home, mode=0o700)
 
     def __enter__(self):
         return self
@@ -58,11 +63,8 @@ class Programs:
     def start(self, *command, output=None):
         environment = dict(os.environ)
         environment["PYTHONPATH"] = os.pathsep.join([os.environ["POINTFRONT_PVPYTHONPATH"], HERE])
-        # The user's settings stay out, and none are left behind.
-        home = os.path.abspath("home")
-        os.makedirs(home, mode=0o700, exist_ok=True)
         for name in ("HOME", "XDG_CONFIG_HOME", "XDG_RUNTIME_DIR"):
-            environment[name] = home
+            environment[name] = self.home
         program = subprocess.Popen(command, env=environment, start_new_session=True, stdout=output,
                                    stderr=subprocess.STDOUT if output else None)
         self.running.append(program)

@@ -123,6 +123,7 @@ TEST_F(BuildPreviews, OpenWhileTheBuildRunsAndGrow)
   {
     EXPECT_EQ(versions[v].storeName, "city.pfront");
     EXPECT_EQ(versions[v].pointsExpected, cloudPoints);
+    EXPECT_LE(versions[v].pointsRead, cloudPoints); // although some chunks are read twice
     // Held by us, the version stays readable although it has been replaced and removed.
     const auto verified = stores[v]->verify();
     ASSERT_TRUE(verified);
@@ -168,6 +169,36 @@ TEST_F(BuildPreviews, ComeAgainWhenEverythingIsRead)
   }
   EXPECT_EQ(last, cloudPoints);
   EXPECT_GE(versions, 2);
+}
+
+TEST_F(BuildPreviews, CountAChunkThatIsReadAgainOnce)
+{
+  std::atomic<std::uint64_t> last{0};
+  wish_.shown = [&](const std::string& path)
+  {
+    const auto store = PointStore::open(path);
+    ASSERT_TRUE(store);
+    last = previewRecordOf(store.value()->description().metadata)->pointsRead;
+  };
+  auto preview = BuildPreview::create(cloud_, build_, wish_);
+  ASSERT_TRUE(preview);
+  const PointSources watched = (*preview)->watched(cloud_);
+  PointBatch batch;
+  for (std::uint64_t again = 0; again < watched[0]->chunkCount(); ++again)
+  {
+    ASSERT_TRUE(watched[0]->read(0, batch));
+  }
+  std::this_thread::sleep_for(std::chrono::milliseconds(100)); // enough to show too early
+  EXPECT_EQ(last, 0u);
+  for (std::uint64_t chunk = 0; chunk < watched[0]->chunkCount(); ++chunk)
+  {
+    ASSERT_TRUE(watched[0]->readSteps(chunk, batch));
+  }
+  for (int wait = 0; wait < 600 && last == 0; ++wait)
+  {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+  EXPECT_EQ(last, cloudPoints); // without an overview the one version comes at the end
 }
 
 TEST_F(BuildPreviews, DoNotChangeTheStore)

@@ -57,7 +57,8 @@ public:
       : original_(original), number_(number), preview_(preview),
         share_(preview.active()
             ? double(preview.capacity_) / double(std::max<std::uint64_t>(preview.expected_, 1))
-            : 0.0)
+            : 0.0),
+        seen_(original.chunkCount())
   {
   }
   const SourceDescription& description() const override { return original_.description(); }
@@ -82,7 +83,11 @@ private:
     {
       preview_.sample_.keep(
         number_, chunk, original_.description(), batch, std::min(1.0, share_));
-      preview_.pointsWereRead(batch.size());
+      // The build reads some chunks again: to guess its columns, or when that guess was wrong.
+      if (!seen_[chunk].exchange(true))
+      {
+        preview_.pointsWereRead(batch.size());
+      }
     }
     return done;
   }
@@ -91,6 +96,7 @@ private:
   std::size_t number_;
   BuildPreview& preview_;
   double share_;
+  mutable std::vector<std::atomic<bool>> seen_; // chunks, counted as read
 };
 
 BuildPreview::BuildPreview(const BuildOptions& build, PreviewOptions options)

@@ -1,8 +1,8 @@
 // Normals: points a second and angle to what is known, for each way to estimate them.
 //
 // usage: pointfrontNormalsBenchmark [POINTS] [CLOUD.las]
-// Shapes of about POINTS points (1,000,000), in the order of a scan. With a cloud, also the angle
-// to what pcl::NormalEstimationOMP gives for it (k = 16, exact).
+// Shapes of about POINTS points (1,000,000), in the order of a scan. With a cloud, also the angles
+// to what pcl::NormalEstimationOMP gives for it (exact): of as many neighbours, and of 16.
 
 #include "LASFormat.h"
 #include "NormalsPass.h"
@@ -23,6 +23,7 @@
 #include <cstring>
 #include <ctime>
 #include <filesystem>
+#include <map>
 #include <random>
 
 namespace
@@ -202,7 +203,16 @@ Estimate estimated(const AttributePass& pass, const Vectors& positions)
   return estimate;
 }
 
-void printAngles(const Vectors& normals, const Vectors& known)
+/// Between lines: the sign of a normal plays no part.
+struct Angles
+{
+  double rms = 0.0;     ///< degrees
+  double most95 = 0.0;  ///< degrees; 95 % are no larger
+  double without = 0.0; ///< share of the known ones that have no normal
+};
+
+/// Where something is known.
+Angles anglesBetween(const Vectors& normals, const Vectors& known)
 {
   std::vector<double> degrees;
   double squares = 0.0;
@@ -223,23 +233,27 @@ void printAngles(const Vectors& normals, const Vectors& known)
     degrees.push_back(angle);
     squares += angle * angle;
   }
+  if (degrees.empty())
+  {
+    return {};
+  }
   const auto rank = static_cast<std::ptrdiff_t>(0.95 * double(degrees.size()));
   std::nth_element(degrees.begin(), degrees.begin() + rank, degrees.end());
-  std::printf(" %.3f | %.3f | %.2f |", std::sqrt(squares / double(degrees.size())),
-    degrees[static_cast<std::size_t>(rank)],
-    100.0 * double(without) / double(degrees.size() + without));
+  return { std::sqrt(squares / double(degrees.size())), degrees[static_cast<std::size_t>(rank)],
+    double(without) / double(degrees.size() + without) };
 }
 
 struct Method
 {
   std::string name;
+  unsigned neighbours = 0; ///< 0: not of the k nearest
   std::unique_ptr<AttributePass> pass;
 };
 
 std::vector<Method> methods()
 {
   std::vector<Method> all;
-  all.push_back({ "scan neighbours", std::make_unique<ScanNormalsPass>(std::nullopt) });
+  all.push_back({ "scan neighbours", 0, std::make_unique<ScanNormalsPass>(std::nullopt) });
   const std::pair<unsigned, double> settings[] = { { 8, 0.0 }, { 16, 0.0 }, { 32, 0.0 },
     { 16, 0.5 }, { 16, 2.0 }, { 8, 2.0 } };
   for (const auto& [neighbours, eps] : settings)
@@ -249,7 +263,7 @@ std::vector<Method> methods()
     options.eps = eps;
     char name[64];
     std::snprintf(name, sizeof name, "PCA k = %u, eps = %g", neighbours, eps);
-    all.push_back({ name, std::make_unique<NormalsPass>(options) });
+    all.push_back({ name, neighbours, std::make_unique<NormalsPass>(options) });
   }
   return all;
 }
@@ -299,22 +313,43 @@ Estimate estimatedByPCL(const Vectors& positions, int neighbours)
   return estimate;
 }
 
+/// PCL's own rows first: its rate and ours are of one run.
 void compareWithPCL(const std::string& path)
 {
   const Vectors positions = lasPositions(path);
-  const Estimate pcl = estimatedByPCL(positions, 16);
   std::printf("\n%zu points of the cloud\n", positions.size());
-  std::printf("| way | M points/s | CPU ns | RMS to PCL, degrees | 95 %% | without, %% |\n");
-  std::printf("| pcl::NormalEstimationOMP, k = 16 |");
-  printSpeed(pcl);
-  std::printf(" 0 | 0 | 0 |\n");
+  std::printf("| way | M points/s | CPU ns | CPU, PCL's to it | RMS to PCL of its k, degrees | 95 %% "
+              "| RMS to PCL, k = 16 | 95 %% | without, %% |\n");
+  std::map<unsigned, Estimate> pcl;
+  for (const unsigned neighbours : { 8u, 16u, 32u })
+  {
+    pcl[neighbours] = estimatedByPCL(positions, static_cast<int>(neighbours));
+  }
+  const auto print = [&pcl](const std::string& name, unsigned neighbours, const Estimate& estimate)
+  {
+    std::printf("| %s |", name.c_str());
+    printSpeed(estimate);
+    if (const auto same = pcl.find(neighbours); same != pcl.end())
+    {
+      const Angles angles = anglesBetween(estimate.normals, same->second.normals);
+      std::printf(" %.2f | %.3f | %.3f |", same->second.cpuSeconds / estimate.cpuSeconds,
+        angles.rms, angles.most95);
+    }
+    else
+    {
+      std::printf(" | | |");
+    }
+    const Angles angles = anglesBetween(estimate.normals, pcl[16].normals);
+    std::printf(" %.3f | %.3f | %.2f |\n", angles.rms, angles.most95, 100.0 * angles.without);
+    std::fflush(stdout);
+  };
+  for (const auto& [neighbours, estimate] : pcl)
+  {
+    print("pcl::NormalEstimationOMP, k = " + std::to_string(neighbours), neighbours, estimate);
+  }
   for (const Method& method : methods())
   {
-    const Estimate estimate = estimated(*method.pass, positions);
-    std::printf("| %s |", method.name.c_str());
-    printSpeed(estimate);
-    printAngles(estimate.normals, pcl.normals);
-    std::printf("\n");
+    print(method.name, method.neighbours, estimated(*method.pass, positions));
   }
 }
 } // namespace
@@ -331,8 +366,9 @@ int main(int argc, char** argv)
       const Estimate estimate = estimated(*method.pass, shape.positions);
       std::printf("| %s | %s |", shape.name.c_str(), method.name.c_str());
       printSpeed(estimate);
-      printAngles(estimate.normals, shape.normals);
-      std::printf("\n");
+      const Angles angles = anglesBetween(estimate.normals, shape.normals);
+      std::printf(
+        " %.3f | %.3f | %.2f |\n", angles.rms, angles.most95, 100.0 * angles.without);
       std::fflush(stdout);
     }
   }

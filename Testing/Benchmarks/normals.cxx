@@ -318,8 +318,8 @@ void compareWithPCL(const std::string& path)
 {
   const Vectors positions = lasPositions(path);
   std::printf("\n%zu points of the cloud\n", positions.size());
-  std::printf("| way | M points/s | CPU ns | CPU, PCL's to it | RMS to PCL of its k, degrees | 95 %% "
-              "| RMS to PCL, k = 16 | 95 %% | without, %% |\n");
+  std::printf("| way | M points/s | CPU ns | CPU, PCL's to it | RMS to PCL of its k, degrees "
+              "| 95 %% | RMS to PCL, k = 16 | 95 %% | without, %% |\n");
   std::map<unsigned, Estimate> pcl;
   for (const unsigned neighbours : { 8u, 16u, 32u })
   {

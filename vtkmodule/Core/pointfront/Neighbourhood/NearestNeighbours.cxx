@@ -24,7 +24,7 @@ constexpr std::uint64_t tilePointBytes = sizeof(TilePoint) + 2 * sizeof(glm::dve
 
 /// Points in a row along the curve that share what an index gives, and, of those, the ones that
 /// share a choice from it. Longer ones have more places to choose from for each point.
-constexpr std::size_t longestGroup = 64;
+constexpr std::size_t longestGroup = 96;
 constexpr std::size_t longestRun = 16;
 
 struct Ball

@@ -231,28 +231,25 @@ bool NeighbourCluster::chooseExactly(const PlaceBall& ball, const glm::dvec3& fr
 {
   const std::size_t wanted = demand_.neighbours;
   selection_.measure(ball, from, demand_.axes);
-  selection_.select(limitAmongAll(wanted + 1, wanted + wanted / 2));
-  selection_.narrow(
-    PlaceSelection::limitOf(selection_.distances(), wanted, wanted, likely_));
-  if (selection_.size() != wanted)
+  selection_.select(limitAmongAll(wanted + 1, wanted + wanted / 2 + 1));
+  const std::optional<PlaceSelection::Gap> gap = selection_.keepNearest(wanted);
+  if (!gap)
   {
     return false;
   }
-  float last = 0.0f;
   std::uint32_t most = 1;
   places.resize(wanted);
   for (std::size_t i = 0; i < wanted; ++i)
   {
-    last = std::max(last, selection_.distances().squared[i]);
     places[i] = ball.places[selection_[i]];
     most = std::max(most, set_.counts[places[i]]);
   }
-  squaredReach = safely(last, ball.extent);
-  likely_ = last;
+  squaredReach = safely(gap->last, ball.extent);
+  likely_ = gap->last;
   const double known = ball.searched - std::sqrt(squaredDistance(from, ball.middle));
   const float unclear = safely(squaredReach, ball.extent);
-  return most == 1 && PlaceSelection::countWithin(selection_.measured(), unclear) == wanted &&
-    known > 0.0 && squaredReach * margin < known * known;
+  return most == 1 && std::min(gap->next, selection_.limit()) > unclear && known > 0.0 &&
+    squaredReach * margin < known * known;
 }
 
 float NeighbourCluster::limitAmongAll(std::size_t fewest, std::size_t most) const

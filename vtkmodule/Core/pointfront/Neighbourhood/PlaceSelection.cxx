@@ -1,5 +1,7 @@
 #include "pointfront/Neighbourhood/PlaceSelection.h"
 
+#include "pointfront/Neighbourhood/FourLanes.h"
+
 #include <algorithm>
 #include <array>
 #include <cstring>
@@ -16,33 +18,41 @@ constexpr int mostSteps = 10;
 constexpr std::size_t mostCounted = 64;
 /// In the place of a float's last bits: its number among those ranked. So no two are equal.
 constexpr std::int32_t numberBits = 0x3f;
+
+std::size_t padded(std::size_t count)
+{
+  return (count + 3) / 4 * 4;
+}
 } // namespace
 
 void PlaceBall::resize(std::size_t count)
 {
   places.resize(count);
-  x.resize(count);
-  y.resize(count);
-  z.resize(count);
+  for (std::vector<float>* const axis : { &x, &y, &z })
+  {
+    axis->resize(padded(count));
+    std::fill(axis->begin() + static_cast<std::ptrdiff_t>(count), axis->end(),
+      std::numeric_limits<float>::infinity());
+  }
 }
 
-/// Ends with distances beyond any limit, so that four at a time can be compared.
+/// Ends with distances beyond any limit, so that four or eight at a time can be compared.
 void PlaceSelection::Distances::close(std::size_t number)
 {
   count = number;
-  std::fill_n(squared.begin() + static_cast<std::ptrdiff_t>(number), 4,
+  std::fill_n(squared.begin() + static_cast<std::ptrdiff_t>(number), 8,
     std::numeric_limits<float>::infinity());
 }
 
 void PlaceSelection::measure(const PlaceBall& ball, const glm::dvec3& from, unsigned axes)
 {
   const std::size_t count = ball.places.size();
-  if (selected_.size() < count + 1)
+  if (order_.size() < count + 8)
   {
-    measured_.squared.resize(count + 4);
-    distances_.squared.resize(count + 4);
-    selected_.resize(count + 1);
-    order_.resize(count);
+    measured_.squared.resize(count + 8);
+    distances_.squared.resize(count + 8);
+    selected_.resize(count + 8);
+    order_.resize(count + 8);
   }
   const glm::vec3 at(from - ball.origin);
   const float atX = at.x;
@@ -52,7 +62,7 @@ void PlaceSelection::measure(const PlaceBall& ball, const glm::dvec3& from, unsi
   const float* const y = ball.y.data();
   const float* const z = ball.z.data();
   float* const squared = measured_.squared.data();
-  for (std::size_t i = 0; i < count; ++i)
+  for (std::size_t i = 0; i < padded(count); ++i)
   {
     const float dx = x[i] - atX;
     const float dy = y[i] - atY;
@@ -66,35 +76,69 @@ void PlaceSelection::select(float limit)
 {
   limit_ = limit;
   const float* const all = measured_.squared.data();
-  std::uint32_t* const selected = selected_.data();
-  const std::size_t count = measured_.count;
-  std::size_t next = 0;
-  for (std::size_t i = 0; i < count; ++i)
+  const std::uint32_t* const selected = selected_.data();
+  const FourFloats limits = fourTimes(limit);
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < measured_.count; i += 4)
   {
-    selected[next] = static_cast<std::uint32_t>(i);
-    next += all[i] <= limit ? 1 : 0;
+    count += appendSet(
+      fourFrom(all + i) <= limits, static_cast<std::int32_t>(i), selected_.data() + count);
   }
   float* const squared = distances_.squared.data();
-  for (std::size_t i = 0; i < next; ++i)
+  for (std::size_t i = 0; i < count; ++i)
   {
     squared[i] = all[selected[i]];
   }
-  distances_.close(next);
+  distances_.close(count);
 }
 
-void PlaceSelection::narrow(float limit)
+/// Each one's rank is counted, as in rank().
+std::optional<PlaceSelection::Gap> PlaceSelection::keepNearest(std::size_t wanted)
 {
-  float* const squared = distances_.squared.data();
-  const std::size_t count = distances_.count;
-  std::size_t next = 0;
-  for (std::size_t i = 0; i < count; ++i)
+  const std::size_t count = size();
+  if (count < wanted || count > mostToKeepFrom)
   {
-    const float distance = squared[i];
-    selected_[next] = selected_[i];
-    squared[next] = distance;
-    next += distance <= limit ? 1 : 0;
+    return std::nullopt;
   }
-  distances_.close(next);
+  float* const squared = distances_.squared.data();
+  FourFloats last = fourTimes(0.0f);
+  FourFloats next = fourTimes(everything);
+  const auto most = static_cast<std::int32_t>(wanted);
+  std::size_t kept = 0;
+  const auto keep = [&](std::size_t first, const FourFloats& own, const FourLanes& nearer)
+  {
+    const FourLanes inner = nearer < most;
+    last = inner && own > last ? own : last;
+    next = !inner && own < next ? own : next;
+    kept += appendSet(inner, static_cast<std::int32_t>(first), order_.data() + kept);
+  };
+  for (std::size_t i = 0; i < count; i += 8)
+  {
+    const FourFloats own = fourFrom(squared + i);
+    const FourFloats own2 = fourFrom(squared + i + 4);
+    FourLanes nearer{};
+    FourLanes nearer2{};
+    for (std::size_t other = 0; other < count; ++other)
+    {
+      const FourFloats distance = fourTimes(squared[other]);
+      nearer -= distance < own;
+      nearer2 -= distance < own2;
+    }
+    keep(i, own, nearer);
+    keep(i + 4, own2, nearer2);
+  }
+  if (kept != wanted) // several at the distance of the last
+  {
+    return std::nullopt;
+  }
+  for (std::size_t i = 0; i < kept; ++i)
+  {
+    selected_[i] = selected_[order_[i]];
+    squared[i] = squared[order_[i]];
+  }
+  distances_.close(kept);
+  return Gap{ std::max({ last[0], last[1], last[2], last[3] }),
+    std::min({ next[0], next[1], next[2], next[3] }) };
 }
 
 /// The search goes on as the number of places grows on a surface: with the squared distance. Two or
@@ -134,15 +178,13 @@ float PlaceSelection::limitOf(
 std::size_t PlaceSelection::countWithin(const Distances& distances, float limit)
 {
   const float* const squared = distances.squared.data();
-  std::int32_t within = 0;
+  const FourFloats limits = fourTimes(limit);
+  FourLanes within{};
   for (std::size_t i = 0; i < distances.count; i += 4)
   {
-    for (std::size_t lane = 0; lane < 4; ++lane)
-    {
-      within += squared[i + lane] <= limit ? 1 : 0;
-    }
+    within -= fourFrom(squared + i) <= limits;
   }
-  return static_cast<std::size_t>(within);
+  return static_cast<std::size_t>(within[0] + within[1] + within[2] + within[3]);
 }
 
 /// Each one's rank is counted: for the twenty there usually are that is faster than a sort, as
@@ -169,11 +211,10 @@ void PlaceSelection::rank()
     std::memcpy(&bits, &squared[i], sizeof bits);
     keys[i] = (bits & ~numberBits) | static_cast<std::int32_t>(i);
   }
-  const std::size_t padded = (count + 3) / 4 * 4;
   for (std::size_t other = 0; other < count; ++other)
   {
     const std::int32_t key = keys[other];
-    for (std::size_t i = 0; i < padded; ++i)
+    for (std::size_t i = 0; i < padded(count); ++i)
     {
       ranks[i] += keys[i] > key ? 1 : 0;
     }

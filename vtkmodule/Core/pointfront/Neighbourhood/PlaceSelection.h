@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace pointfront
@@ -17,7 +18,7 @@ struct PlaceBall
   glm::dvec3 origin{ 0.0 };
   double extent = 0.0;   ///< how far from the origin places, and points searched for, are at most
   std::vector<std::uint32_t> places; ///< indices into a PositionSet
-  std::vector<float> x, y, z;        ///< relative to the origin
+  std::vector<float> x, y, z; ///< relative to the origin; infinite behind the last, up to fours
   void resize(std::size_t count);
 };
 
@@ -29,7 +30,9 @@ class PlaceSelection
 public:
   /// More than any squared distance in float.
   static constexpr float everything = 3e38f;
-  /// Squared distances; behind them four that are infinite.
+  /// The time of keepNearest() grows with the square of what is selected.
+  static constexpr std::size_t mostToKeepFrom = 96;
+  /// Squared distances; behind them eight that are infinite.
   struct Distances
   {
     std::vector<float> squared;
@@ -41,8 +44,17 @@ public:
   void measure(const PlaceBall& ball, const glm::dvec3& from, unsigned axes);
   /// Selects those measured that are within the limit.
   void select(float limit);
-  /// Keeps those of the selected that are within the limit.
-  void narrow(float limit);
+  /// Where the kept places end: squared distances of the last of them and of the next one
+  /// (`everything` if none is selected).
+  struct Gap
+  {
+    float last = 0.0f;
+    float next = 0.0f;
+  };
+  /// Keeps the nearest of the selected. Nothing, and a selection of no use, where several at the
+  /// distance of the last cannot be told apart, and for fewer than are wanted or more than
+  /// mostToKeepFrom.
+  std::optional<Gap> keepNearest(std::size_t wanted);
   /// Puts the selected in order, nearest first but for a share of rankError.
   void rank();
 

@@ -26,6 +26,9 @@ struct Moments
   glm::dvec3 products{ 0.0 }; ///< xy, xz, yz
 };
 
+/// GCC's and Clang's vector types: one operation for two numbers on any machine that has such.
+using Pair = double __attribute__((vector_size(16)));
+
 Moments momentsOf(const std::vector<NearPoint>& points, const glm::dvec3& origin)
 {
   double farthest = 0.0;
@@ -37,21 +40,29 @@ Moments momentsOf(const std::vector<NearPoint>& points, const glm::dvec3& origin
   }
   // Added to an offset and taken away again, it leaves a multiple of a step.
   const double rounding = count > mostExactlySummed ? 0.0 : roundingFactor * std::sqrt(farthest);
-  Moments moments;
-  moments.count = static_cast<double>(count);
+  const Pair originXY{ origin.x, origin.y };
+  Pair sumXY{};
+  Pair squaresXY{}; // xx, yy
+  Pair productsZ{}; // xz, yz
+  Pair sumZ{};      // z, zz
+  double productXY = 0.0;
   for (const NearPoint& point : points)
   {
     const double weight = point.count;
-    const double x = (point.position.x - origin.x + rounding) - rounding;
-    const double y = (point.position.y - origin.y + rounding) - rounding;
+    const Pair xy = (Pair{ point.position.x, point.position.y } - originXY + rounding) - rounding;
     const double z = (point.position.z - origin.z + rounding) - rounding;
-    const double weightedX = weight * x;
-    const double weightedY = weight * y;
-    const double weightedZ = weight * z;
-    moments.sum += glm::dvec3(weightedX, weightedY, weightedZ);
-    moments.squares += glm::dvec3(weightedX * x, weightedY * y, weightedZ * z);
-    moments.products += glm::dvec3(weightedX * y, weightedX * z, weightedY * z);
+    const Pair weightedXY = weight * xy;
+    sumXY += weightedXY;
+    squaresXY += weightedXY * xy;
+    productsZ += weightedXY * z;
+    sumZ += weight * z * Pair{ 1.0, z };
+    productXY += weightedXY[0] * xy[1];
   }
+  Moments moments;
+  moments.count = static_cast<double>(count);
+  moments.sum = { sumXY[0], sumXY[1], sumZ[0] };
+  moments.squares = { squaresXY[0], squaresXY[1], sumZ[1] };
+  moments.products = { productXY, productsZ[0], productsZ[1] };
   return moments;
 }
 } // namespace

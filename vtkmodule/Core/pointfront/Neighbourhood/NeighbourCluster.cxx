@@ -231,24 +231,28 @@ bool NeighbourCluster::chooseExactly(const PlaceBall& ball, const glm::dvec3& fr
 {
   const std::size_t wanted = demand_.neighbours;
   selection_.measure(ball, from, demand_.axes);
-  selection_.select(limitAmongAll(wanted + 1, wanted + wanted / 2 + 1));
+  const std::size_t most = wanted + wanted / 2 + 1;
+  // As places grow on a surface.
+  const float more = 0.5f * float(wanted + 1 + most) / float(wanted);
+  selection_.select(
+    PlaceSelection::limitOf(selection_.measured(), wanted + 1, most, likely_ * more));
   const std::optional<PlaceSelection::Gap> gap = selection_.keepNearest(wanted);
   if (!gap)
   {
     return false;
   }
-  std::uint32_t most = 1;
+  std::uint32_t mostPoints = 1;
   places.resize(wanted);
   for (std::size_t i = 0; i < wanted; ++i)
   {
     places[i] = ball.places[selection_[i]];
-    most = std::max(most, set_.counts[places[i]]);
+    mostPoints = std::max(mostPoints, set_.counts[places[i]]);
   }
   squaredReach = safely(gap->last, ball.extent);
   likely_ = gap->last;
   const double known = ball.searched - std::sqrt(squaredDistance(from, ball.middle));
   const float unclear = safely(squaredReach, ball.extent);
-  return most == 1 && std::min(gap->next, selection_.limit()) > unclear && known > 0.0 &&
+  return mostPoints == 1 && std::min(gap->next, selection_.limit()) > unclear && known > 0.0 &&
     squaredReach * margin < known * known;
 }
 

@@ -154,6 +154,7 @@ float PlaceSelection::limitOf(
   float limit = likely;
   for (int step = 0; step < mostSteps; ++step)
   {
+    limit = std::min(limit, everything);
     const std::size_t within = countWithin(distances, limit);
     if (within >= fewest && within <= most)
     {
@@ -172,7 +173,7 @@ float PlaceSelection::limitOf(
     limit = above < 0.0f ? limit * (aim + 1.0f) / (below + 0.5f)
                          : low + (high - low) * (aim + 0.5f - below) / (above - below + 1.0f);
   }
-  return std::min(high, everything);
+  return high;
 }
 
 std::size_t PlaceSelection::countWithin(const Distances& distances, float limit)

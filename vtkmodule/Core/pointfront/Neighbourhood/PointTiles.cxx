@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <numeric>
 #include <thread>
 #include <unistd.h>
 
@@ -97,6 +98,7 @@ private:
   };
   void place(const TilePoint& point, std::vector<Placed>& block) const;
   Result<void> write(std::vector<Placed>& block);
+  Result<void> writeRun(std::size_t tile, bool own, const TilePoint* points, std::size_t count);
 
   PointTiles& tiles_;
   PointReading& reading_;
@@ -158,42 +160,38 @@ void PointTiles::Distribution::place(const TilePoint& point, std::vector<Placed>
     });
 }
 
+/// Brings what goes to one place together, in the order it came, by counting: own points of tile t
+/// are kind 2 t, its halo is kind 2 t + 1.
 Result<void> PointTiles::Distribution::write(std::vector<Placed>& block)
 {
-  std::stable_sort(block.begin(), block.end(),
-    [](const Placed& a, const Placed& b)
-    { return a.tile != b.tile ? a.tile < b.tile : a.own > b.own; });
-  std::vector<TilePoint> run;
+  const auto kindOf = [](const Placed& placed)
+  { return 2 * std::size_t(placed.tile) + (placed.own ? 0 : 1); };
+  std::vector<std::size_t> end(2 * tiles_.count() + 1);
   std::vector<ReferenceExtent> extents(tiles_.count());
-  for (std::size_t i = 0; i < block.size();)
+  for (const Placed& placed : block)
   {
-    const Placed first = block[i];
-    run.clear();
-    for (; i < block.size() && block[i].tile == first.tile && block[i].own == first.own; ++i)
+    ++end[kindOf(placed) + 1];
+    if (placed.own && tiles_.participants_.references[placed.point.objectClass()])
     {
-      run.push_back(block[i].point);
-      if (first.own && tiles_.participants_.references[block[i].point.objectClass()])
-      {
-        extents[first.tile].bounds.add(block[i].point.position);
-        ++extents[first.tile].points;
-      }
+      extents[placed.tile].bounds.add(placed.point.position);
+      ++extents[placed.tile].points;
     }
-    auto& cursor = first.own ? ownCursor_[first.tile] : haloCursor_[first.tile];
-    const std::uint64_t at = cursor.fetch_add(run.size());
-    const std::uint64_t end = first.own
-      ? tiles_.begin_[first.tile] + tiles_.layout_->tiles()[first.tile].points
-      : tiles_.begin_[first.tile + 1];
-    if (at + run.size() > end)
-    {
-      return makeError(Error::Kind::Corrupt,
-        "an input gave other points when it was read a second time; is it being written to?");
-    }
-    if (Result<void> done =
-          tiles_.pool_->write(at, run.size(), reinterpret_cast<const std::byte*>(run.data()));
-        !done)
+  }
+  std::partial_sum(end.begin(), end.end(), end.begin());
+  std::vector<TilePoint> points(block.size());
+  for (const Placed& placed : block) // what begins a kind moves on to its end
+  {
+    points[end[kindOf(placed)]++] = placed.point;
+  }
+  std::size_t begin = 0;
+  for (std::size_t kind = 0; kind < 2 * tiles_.count(); ++kind)
+  {
+    const TilePoint* const run = points.data() + begin;
+    if (Result<void> done = writeRun(kind / 2, kind % 2 == 0, run, end[kind] - begin); !done)
     {
       return done;
     }
+    begin = end[kind];
   }
   block.clear();
   const std::lock_guard<std::mutex> lock(extents_);
@@ -203,6 +201,24 @@ Result<void> PointTiles::Distribution::write(std::vector<Placed>& block)
     tiles_.extents_[t].points += extents[t].points;
   }
   return {};
+}
+
+Result<void> PointTiles::Distribution::writeRun(
+  std::size_t tile, bool own, const TilePoint* points, std::size_t count)
+{
+  if (count == 0)
+  {
+    return {};
+  }
+  const std::uint64_t at = (own ? ownCursor_ : haloCursor_)[tile].fetch_add(count);
+  const std::uint64_t end =
+    own ? tiles_.begin_[tile] + tiles_.layout_->tiles()[tile].points : tiles_.begin_[tile + 1];
+  if (at + count > end)
+  {
+    return makeError(Error::Kind::Corrupt,
+      "an input gave other points when it was read a second time; is it being written to?");
+  }
+  return tiles_.pool_->write(at, count, reinterpret_cast<const std::byte*>(points));
 }
 
 void PointTiles::Distribution::finish()

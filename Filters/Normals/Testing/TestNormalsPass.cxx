@@ -5,6 +5,8 @@
 
 #include "LASFormat.h"
 
+#include <Eigen/Eigenvalues>
+
 #include <glm/common.hpp>
 #include <pcl/features/normal_3d.h>
 #include <pcl/search/kdtree.h>
@@ -254,6 +256,46 @@ TEST(SurfaceFit, UpTo64PointsTheOrderChangesNothing)
       EXPECT_EQ(fit->normal, other->normal);
       EXPECT_EQ(fit->curvature, other->curvature);
       EXPECT_EQ(fit->centre, other->centre);
+    }
+  }
+}
+
+/// The plane of 16 points whose extents along three turned axes are 1, `middle` and `thin`.
+TEST(SurfaceFit, OfAnyShapeIsWhatASolverForAnyMatrixFinds)
+{
+  Random random(14);
+  for (const double thin : { 0.0, 1e-9, 1e-5, 1e-3, 0.1, 0.9, 1.0 })
+  {
+    for (const double middle : { 1e-4, 1e-2, 0.3, 1.0 })
+    {
+      for (int turn = 0; thin <= middle && turn < 50; ++turn)
+      {
+        const glm::dvec3 up =
+          glm::normalize(glm::dvec3(random.uniform(), random.uniform(), random.uniform()) - 0.5);
+        const glm::dvec3 along = glm::normalize(glm::cross(up, glm::dvec3(0.3, 0.8, 0.5)));
+        std::vector<NearPoint> points;
+        Eigen::Matrix<double, 16, 3> rows;
+        for (int i = 0; i < 16; ++i)
+        {
+          const glm::dvec3 d = (random.uniform() - 0.5) * along +
+            middle * (random.uniform() - 0.5) * glm::cross(up, along) +
+            thin * (random.uniform() - 0.5) * up;
+          points.push_back({ d, glm::dot(d, d), 1 });
+          rows.row(i) << d.x, d.y, d.z;
+        }
+        const Eigen::Matrix<double, 16, 3> centred = rows.rowwise() - rows.colwise().mean();
+        const Eigen::Matrix3d covariance = centred.transpose() * centred;
+        const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
+        const auto fit = fitSurface(glm::dvec3(0.0), points);
+        ASSERT_TRUE(fit) << thin << " " << middle;
+        const Eigen::Vector3d normal(fit->normal.x, fit->normal.y, fit->normal.z);
+        const double across = (covariance * normal).dot(normal);
+        // Offsets are rounded to 2^-23 of the largest.
+        EXPECT_NEAR(across, solver.eigenvalues()[0], 1e-11) << thin << " " << middle;
+        EXPECT_NEAR(
+          fit->curvature, solver.eigenvalues()[0] / solver.eigenvalues().sum(), 1e-11);
+        EXPECT_NEAR(normal.norm(), 1.0, 1e-12);
+      }
     }
   }
 }

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <numeric>
 
 namespace pointfront
@@ -23,21 +22,19 @@ RecordView viewOf(const std::vector<TreePosition>& positions)
 }
 } // namespace
 
-void KdSubtreeBuilder::sortRecords(std::vector<std::byte>& records, std::size_t count)
+RecordView KdSubtreeBuilder::sorted(const std::vector<std::byte>& records, std::size_t count)
 {
   const CpuStopwatch watch(seconds_.sort);
   const RecordView view{records.data(), recordBytes_};
-  std::vector<std::byte> sorted(records.size());
+  sorted_.resize(std::max(sorted_.size(), records.size()));
+  gatherRecords(view, mortonOrder(view, count), sorted_.data());
+  const RecordView sorted{sorted_.data(), recordBytes_};
   positions_.resize(count);
-  std::byte* to = sorted.data();
-  std::size_t rank = 0;
-  for (const std::uint32_t i : mortonOrder(view, count))
+  for (std::size_t i = 0; i < count; ++i)
   {
-    std::memcpy(to, view.record(i), recordBytes_);
-    positions_[rank++] = positionOf(to);
-    to += recordBytes_;
+    positions_[i] = sorted.position(i);
   }
-  records = std::move(sorted);
+  return sorted;
 }
 
 OpenSubtree KdSubtreeBuilder::build(
@@ -47,8 +44,8 @@ OpenSubtree KdSubtreeBuilder::build(
   {
     return {};
   }
-  sortRecords(records, count);
-  const RecordView view{records.data(), recordBytes_};
+  const RecordView view = sorted(records, count);
+  records = {};
   active_.resize(count);
   std::iota(active_.begin(), active_.end(), 0u);
   Region all{0, count, 0.0};
@@ -252,7 +249,7 @@ OpenSubtree KdSubtreeBuilder::join(std::vector<OpenSubtree> children, std::uint3
     joined.root->children.push_back(std::move(child.root));
   }
   const std::size_t count = own.size() / recordBytes_;
-  sortRecords(own, count);
+  const RecordView records = sorted(own, count);
   points_.resize(count);
   std::iota(points_.begin(), points_.end(), 0u);
   occupancy_ = cellOccupancy(viewOf(positions_), points_);
@@ -262,7 +259,7 @@ OpenSubtree KdSubtreeBuilder::join(std::vector<OpenSubtree> children, std::uint3
     drawn += static_cast<double>(share.points);
   }
   joined.root->row.spacing = static_cast<float>(spacing(drawn));
-  emit(*joined.root, {own.data(), recordBytes_}, points_);
+  emit(*joined.root, records, points_);
   return joined;
 }
 

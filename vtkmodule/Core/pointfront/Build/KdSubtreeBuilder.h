@@ -49,7 +49,8 @@ private:
     std::size_t end = 0;
     double above = 0.0;
   };
-  void sortRecords(std::vector<std::byte>& records, std::size_t count);
+  /// The records in Morton order, with their positions_; until the next call.
+  RecordView sorted(const std::vector<std::byte>& records, std::size_t count);
   /// Moves `wanted` evenly spread points of a region to held_; the others stay, in order. Leaves
   /// in occupancy_ that of all of them.
   void take(Region& region, std::uint64_t wanted);
@@ -66,6 +67,8 @@ private:
   const std::vector<PartNode>& tree_;
   const std::vector<std::vector<KdShare>>& shares_;
   ExactSampler sampler_;
+  // Reused from part to part: fresh memory costs more than what is done with it.
+  std::vector<std::byte> sorted_;       // records of the part
   std::vector<TreePosition> positions_; // of the sorted records
   std::vector<std::uint32_t> active_;   // numbers of those that no node has yet, region by region
   std::vector<std::uint32_t> points_;   // of the region at hand

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <numeric>
 
 namespace pointfront
@@ -41,16 +40,11 @@ OpenSubtree MeanSubtreeBuilder::build(
   {
     const CpuStopwatch watch(seconds_.sort);
     const RecordView view{records.data(), recordBytes_};
-    std::vector<std::byte> sorted(records.size());
-    std::byte* to = sorted.data();
-    for (const std::uint32_t i : mortonOrder(view, count))
-    {
-      std::memcpy(to, view.record(i), recordBytes_);
-      to += recordBytes_;
-    }
-    records = std::move(sorted);
+    sorted_.resize(std::max(sorted_.size(), records.size()));
+    gatherRecords(view, mortonOrder(view, count), sorted_.data());
+    records = {};
   }
-  const RecordView sorted{records.data(), recordBytes_};
+  const RecordView sorted{sorted_.data(), recordBytes_};
   return opened(branch(sorted, 0, static_cast<std::uint32_t>(count)));
 }
 

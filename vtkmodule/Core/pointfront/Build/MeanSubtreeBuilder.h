@@ -59,6 +59,8 @@ private:
   MeanRecord form_;
   std::size_t recordBytes_;
   const Partition& partition_;
+  // Reused from part to part: fresh memory costs more than what is done with it.
+  std::vector<std::byte> sorted_;         // records of the part
   std::vector<MeanInput> inputs_;         // of the node at hand
   std::vector<TreePosition> positions_;   // of inputs_
   std::vector<std::uint32_t> everyInput_; // 0, 1, 2 ...

@@ -4,6 +4,7 @@
 
 #include <glm/vec3.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -83,5 +84,17 @@ struct RecordView
   const std::byte* record(std::size_t i) const { return data + i * stride; }
   TreePosition position(std::size_t i) const { return positionOf(record(i)); }
 };
+
+/// The records numbered in `order`, one behind the other from `to` on.
+inline void gatherRecords(
+  const RecordView& records, const std::vector<std::uint32_t>& order, std::byte* to)
+{
+  constexpr std::size_t ahead = 12; // records lie anywhere in the part: ask for them early
+  for (std::size_t i = 0; i < order.size(); ++i, to += records.stride)
+  {
+    __builtin_prefetch(records.record(order[std::min(i + ahead, order.size() - 1)]));
+    copyRecord(to, records.record(order[i]), records.stride);
+  }
+}
 
 } // namespace pointfront

@@ -6,24 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <numeric>
 
 namespace pointfront
 {
-namespace
-{
-void gather(const RecordView& records, const std::vector<std::uint32_t>& order, std::byte* to)
-{
-  constexpr std::size_t ahead = 12; // records lie anywhere in the part: ask for them early
-  for (std::size_t i = 0; i < order.size(); ++i, to += records.stride)
-  {
-    __builtin_prefetch(records.record(order[std::min(i + ahead, order.size() - 1)]));
-    copyRecord(to, records.record(order[i]), records.stride);
-  }
-}
-} // namespace
-
 OpenSubtree SubtreeBuilder::build(
   std::vector<std::byte> records, std::size_t count, std::uint32_t /*node*/)
 {
@@ -38,7 +24,7 @@ OpenSubtree SubtreeBuilder::build(
     {
       sorted_.resize(records.size());
     }
-    gather(view, mortonOrder(view, count), sorted_.data());
+    gatherRecords(view, mortonOrder(view, count), sorted_.data());
     records = {};
   }
   const SortedPoints sorted = sortedPoints({sorted_.data(), recordBytes_}, count);
@@ -150,7 +136,7 @@ OpenSubtree SubtreeBuilder::opened(const RecordView& records, Branch branch)
 {
   OpenSubtree open{std::move(branch.node), {}};
   open.records.resize(branch.held.size() * records.stride);
-  gather(records, branch.held, open.records.data());
+  gatherRecords(records, branch.held, open.records.data());
   return open;
 }
 

@@ -134,5 +134,24 @@ TEST(BlockCells, CountTheFineCellsWhateverTheRunsAre)
   }
 }
 
+TEST(CellTable, FindsCellsThatAllPreferTheSamePlaceOfTheirTile)
+{
+  // Every fourth cell along an axis, or of a plane: one place of 16, so tiles overflow.
+  for (const TreePosition& along : {TreePosition(4, 0, 0), {0, 4, 0}, {0, 0, 4}, {4, 8, 0}})
+  {
+    CellTable table(0);
+    for (std::uint32_t i = 0; i < 5000; ++i)
+    {
+      table.at(i * along) += i + 1;
+    }
+    EXPECT_EQ(table.size(), 5000u);
+    for (std::uint32_t i = 0; i < 5000; ++i)
+    {
+      ASSERT_EQ(table.find(i * along), i + 1);
+      ASSERT_EQ(table.find(i * along + TreePosition(1)), 0u);
+    }
+  }
+}
+
 } // namespace
 } // namespace pointfront

@@ -44,22 +44,18 @@ std::uint32_t BlockCells::numberOf(const CellRun& wanted, std::vector<CellRun>& 
       numberOf(cell, cells); // gets the number that it had
     }
   }
-  std::uint64_t h = (std::uint64_t(wanted.cell.x) << 32 | wanted.cell.y) * 0x9e3779b97f4a7c15ull;
-  h = (h ^ (h >> 32) ^ wanted.cell.z ^ std::uint64_t(wanted.objectClass) << 32) *
-      0xff51afd7ed558ccdull;
-  const std::size_t mask = slots_.size() - 1;
-  std::size_t slot = (h >> 32) & mask;
-  for (; slots_[slot] != 0; slot = (slot + 1) & mask)
+  CellPlace place(wanted.cell, wanted.objectClass, slots_.size());
+  for (; slots_[place.slot()] != 0; place.next())
   {
-    const CellRun& known = cells[slots_[slot] - 1];
+    const CellRun& known = cells[slots_[place.slot()] - 1];
     if (known.cell == wanted.cell && known.objectClass == wanted.objectClass)
     {
-      return slots_[slot] - 1;
+      return slots_[place.slot()] - 1;
     }
   }
   cells.push_back(wanted);
-  slots_[slot] = static_cast<std::uint32_t>(cells.size());
-  return slots_[slot] - 1;
+  slots_[place.slot()] = static_cast<std::uint32_t>(cells.size());
+  return slots_[place.slot()] - 1;
 }
 
 void BlockCells::countInto(ClassCounts& counts) const

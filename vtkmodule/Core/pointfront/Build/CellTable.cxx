@@ -9,15 +9,12 @@ CellTable::CellTable(unsigned shift) : shift_(shift), slots_(64) {}
 
 std::size_t CellTable::slotOf(const TreePosition& cell) const
 {
-  std::uint64_t h = (std::uint64_t(cell.x) << 32 | cell.y) * 0x9e3779b97f4a7c15ull;
-  h = (h ^ (h >> 32) ^ cell.z) * 0xff51afd7ed558ccdull;
-  const std::size_t mask = slots_.size() - 1;
-  std::size_t slot = (h >> 32) & mask;
-  while (slots_[slot].value != 0 && slots_[slot].cell != cell)
+  CellPlace place(cell, 0, slots_.size());
+  while (slots_[place.slot()].value != 0 && slots_[place.slot()].cell != cell)
   {
-    slot = (slot + 1) & mask;
+    place.next();
   }
-  return slot;
+  return place.slot();
 }
 
 std::uint64_t& CellTable::at(const TreePosition& cell)

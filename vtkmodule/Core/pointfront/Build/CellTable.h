@@ -10,6 +10,33 @@
 namespace pointfront
 {
 
+/// Where a cell is sought in hash tables of 2^n slots: the places of a tile of 4 x 2 x 2 cells lie
+/// side by side in 16 slots, one line of the cache if a slot has four bytes. Points come along
+/// lines and surfaces, so the next cell that is asked for is nearly always near the last one.
+/// `salt` tells apart what has the same cell.
+class CellPlace
+{
+public:
+  static constexpr std::size_t fewestSlots = 16;
+
+  CellPlace(const TreePosition& cell, std::uint64_t salt, std::size_t slots) : mask_(slots - 1)
+  {
+    std::uint64_t h =
+      (std::uint64_t(cell.x >> 2) << 32 | cell.y >> 1) * 0x9e3779b97f4a7c15ull;
+    h = (h ^ (h >> 32) ^ cell.z >> 1 ^ salt << 32) * 0xff51afd7ed558ccdull;
+    const std::uint32_t inTile = (cell.x & 3u) + 4 * (cell.y & 1u) + 8 * (cell.z & 1u);
+    slot_ = ((h >> 32) * fewestSlots + inTile) & mask_;
+  }
+  std::size_t slot() const { return slot_; }
+  /// It is taken by another cell: the place beside the same one in the next 16 slots. Tiles stay
+  /// nearly whole, and an odd step comes to every slot, whatever places cells prefer.
+  void next() { slot_ = (slot_ + fewestSlots + 1) & mask_; }
+
+private:
+  std::size_t mask_;
+  std::size_t slot_;
+};
+
 /// A sparse grid: a number for each cell that was touched. Cells are cubes of 2^shift steps,
 /// aligned to multiples of their side, so the bounds need not be known; coordinates are modulo
 /// 2^32. Memory   24 bytes a slot, at most 4 slots a cell. Threads  one instance, one thread.

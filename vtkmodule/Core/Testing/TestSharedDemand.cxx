@@ -21,15 +21,23 @@ View lookingFrom(double x)
   return View::perspective({ x, 300, 200 }, { 0, 0, 0 }, { 0, 0, 1 }, 0.9, 0.1, 1e5, 800, 600);
 }
 
+/// What all clouds share.
+struct Shared
+{
+  std::shared_ptr<SharedDemand> memory = std::make_shared<SharedDemand>();
+  std::shared_ptr<SharedDemand> window = std::make_shared<SharedDemand>();
+  std::shared_ptr<SharedDemand> gpu = std::make_shared<SharedDemand>();
+};
+
 /// One cloud: a front with everything loaded, and its claims.
 struct Cloud
 {
-  Cloud(std::uint32_t seed, std::shared_ptr<SharedDemand> memory,
-    std::shared_ptr<SharedDemand> window, Refinement refinement = Refinement::Add)
+  Cloud(std::uint32_t seed, const Shared& shared, Refinement refinement = Refinement::Add)
     : tree(treeOf(seed, refinement))
     , front(tree)
-    , held(std::move(memory))
-    , drawn(std::move(window))
+    , held(shared.memory)
+    , drawn(shared.window)
+    , slots(shared.gpu)
   {
     residency.otherwise = State::Resident;
     residency.tellRevisions();
@@ -43,23 +51,26 @@ struct Cloud
     shape.refinement = refinement;
     return test::randomTree(shape);
   }
-  bool changed() const { return held.revision() + drawn.revision() != seen; }
+  std::uint64_t revision() const { return held.revision() + drawn.revision() + slots.revision(); }
+  bool changed() const { return revision() != seen; }
   void update()
   {
-    seen = held.revision() + drawn.revision();
-    held.elsewhere(heldElsewhere);
-    drawn.elsewhere(drawnElsewhere);
-    limits.sharedHeld = { heldPoints, &heldElsewhere };
-    limits.sharedDrawn = { drawnPoints, &drawnElsewhere };
+    seen = revision();
+    held.elsewhere(elsewhere.held);
+    drawn.elsewhere(elsewhere.drawn);
+    slots.elsewhere(elsewhere.slots);
+    limits.sharedHeld = { heldPoints, &elsewhere.held };
+    limits.sharedDrawn = { drawnPoints, &elsewhere.drawn };
+    limits.sharedSlots = { gpuSlots, &elsewhere.slots };
     limits.sharedRevision = seen;
     delta = &front.update(view, residency, limits);
-    DemandCurve drawnCurve;
-    DemandCurve heldCurve;
-    front.demandCurves(drawnCurve, heldCurve);
-    const std::uint64_t before = held.revision() + drawn.revision();
-    held.set(heldCurve);
-    drawn.set(drawnCurve);
-    seen += held.revision() + drawn.revision() - before;
+    DemandCurves curves;
+    front.demandCurves(curves);
+    const std::uint64_t before = revision();
+    held.set(curves.held);
+    drawn.set(curves.drawn);
+    slots.set(curves.slots);
+    seen += revision() - before;
   }
   std::uint64_t needed() const
   {
@@ -76,15 +87,26 @@ struct Cloud
   test::ScriptedResidency residency;
   SharedDemand::Claim held;
   SharedDemand::Claim drawn;
-  DemandCurve heldElsewhere;
-  DemandCurve drawnElsewhere;
+  SharedDemand::Claim slots;
+  DemandCurves elsewhere;
   FrontLimits limits;
   View view = lookingFrom(1000.0);
   std::uint64_t heldPoints = 0;
   std::uint64_t drawnPoints = 0;
+  std::uint64_t gpuSlots = 0;
   std::uint64_t seen = 0;
   const FrontDelta* delta = nullptr;
 };
+
+std::uint64_t slotsOf(const std::vector<DrawItem>& draw)
+{
+  std::uint64_t slots = 0;
+  for (const DrawItem& item : draw)
+  {
+    slots += (item.pointCount + 4095) / 4096;
+  }
+  return slots;
+}
 
 struct Scene
 {
@@ -92,7 +114,7 @@ struct Scene
   {
     for (std::uint32_t c = 0; c < count; ++c)
     {
-      clouds.push_back(std::make_unique<Cloud>(c + 1, memory, window, refinement));
+      clouds.push_back(std::make_unique<Cloud>(c + 1, shared, refinement));
     }
   }
   void update()
@@ -118,12 +140,13 @@ struct Scene
     }
     EXPECT_LT(frames, 500) << "the scene comes to rest";
   }
-  void limit(std::uint64_t heldPoints, std::uint64_t drawnPoints)
+  void limit(std::uint64_t heldPoints, std::uint64_t drawnPoints, std::uint64_t gpuSlots = 0)
   {
     for (const auto& cloud : clouds)
     {
       cloud->heldPoints = heldPoints;
       cloud->drawnPoints = drawnPoints;
+      cloud->gpuSlots = gpuSlots;
     }
   }
   std::uint64_t pointsDrawn() const
@@ -132,6 +155,15 @@ struct Scene
     for (const auto& cloud : clouds)
     {
       sum += cloud->delta->pointsDrawn;
+    }
+    return sum;
+  }
+  std::uint64_t slotsDrawn() const
+  {
+    std::uint64_t sum = 0;
+    for (const auto& cloud : clouds)
+    {
+      sum += cloud->delta->slotsDrawn;
     }
     return sum;
   }
@@ -156,8 +188,7 @@ struct Scene
     return most / least;
   }
 
-  std::shared_ptr<SharedDemand> memory = std::make_shared<SharedDemand>();
-  std::shared_ptr<SharedDemand> window = std::make_shared<SharedDemand>();
+  Shared shared;
   std::vector<std::unique_ptr<Cloud>> clouds;
 };
 
@@ -210,13 +241,15 @@ TEST(SharedDemand, TheCurveIsWhatAFrontTakesAtEachThreshold)
   Scene scene(1);
   scene.settle();
   Cloud& cloud = *scene.clouds[0];
-  DemandCurve drawn;
-  DemandCurve held;
-  cloud.front.demandCurves(drawn, held);
+  DemandCurves curves;
+  cloud.front.demandCurves(curves);
+  const DemandCurve& drawn = curves.drawn;
   EXPECT_EQ(drawn[0], cloud.delta->pointsDrawn);
+  EXPECT_EQ(curves.slots[0], cloud.delta->slotsDrawn);
+  EXPECT_EQ(cloud.delta->slotsDrawn, slotsOf(cloud.delta->draw));
   for (const double px : { 4.0, 16.0, 64.0 })
   {
-    Cloud coarse(1, scene.memory, scene.window);
+    Cloud coarse(1, scene.shared);
     coarse.limits.targetErrorPx = px;
     for (int u = 0; u < 60; ++u)
     {
@@ -225,6 +258,8 @@ TEST(SharedDemand, TheCurveIsWhatAFrontTakesAtEachThreshold)
     ASSERT_TRUE(coarse.delta->complete);
     EXPECT_GE(drawn.at(px) + 10, coarse.delta->pointsDrawn) << px;
     EXPECT_LE(double(drawn.at(px)), 1.3 * double(coarse.delta->pointsDrawn) + 100.0) << px;
+    EXPECT_GE(curves.slots.at(px), coarse.delta->slotsDrawn) << px;
+    EXPECT_LE(double(curves.slots.at(px)), 1.3 * double(coarse.delta->slotsDrawn) + 5.0) << px;
   }
 }
 
@@ -264,7 +299,7 @@ TEST(SharedDemand, ANewCloudTakesItsPartAndLeavesItAgain)
   EXPECT_LE(scene.pointsDrawn(), 30000u);
   EXPECT_GT(scene.pointsDrawn(), 24000u);
   const double before = scene.clouds[0]->delta->thresholdPx;
-  scene.clouds.push_back(std::make_unique<Cloud>(9, scene.memory, scene.window));
+  scene.clouds.push_back(std::make_unique<Cloud>(9, scene.shared));
   scene.limit(0, 30000);
   scene.settle();
   EXPECT_LE(scene.pointsDrawn(), 30000u);
@@ -273,6 +308,32 @@ TEST(SharedDemand, ANewCloudTakesItsPartAndLeavesItAgain)
   scene.clouds.pop_back();
   scene.settle();
   EXPECT_LE(scene.clouds[0]->delta->thresholdPx, before * 1.2);
+}
+
+TEST(SharedDemand, CloudsSettleAtOneErrorInsideTheGpu)
+{
+  for (const Refinement refinement : { Refinement::Add, Refinement::Replace })
+  {
+    Scene alone(4, refinement);
+    alone.settle();
+    const std::uint64_t everything = alone.slotsDrawn();
+    Scene scene(4, refinement);
+    scene.limit(0, 0, everything / 3);
+    scene.settle();
+    EXPECT_LE(scene.slotsDrawn(), everything / 3);
+    EXPECT_GT(scene.slotsDrawn(), everything / 8);
+    EXPECT_LT(scene.spread(), refinement == Refinement::Add ? 1.5 : 2.5);
+    for (const auto& cloud : scene.clouds)
+    {
+      EXPECT_TRUE(cloud->delta->limitedByGpu);
+      EXPECT_FALSE(cloud->delta->limitedByBudget);
+      EXPECT_FALSE(cloud->delta->limitedByMemory);
+      EXPECT_TRUE(cloud->delta->complete);
+    }
+    scene.limit(0, 0, 0);
+    scene.settle();
+    EXPECT_EQ(scene.slotsDrawn(), everything) << "the limit leaves nothing behind";
+  }
 }
 
 TEST(SharedDemand, BudgetsHoldInEveryFrameOfEveryPath)
@@ -284,9 +345,10 @@ TEST(SharedDemand, BudgetsHoldInEveryFrameOfEveryPath)
     std::uniform_real_distribution<double> place(400.0, 2500.0);
     Scene scene(5, seed % 2 == 0 ? Refinement::Add : Refinement::Replace);
     const std::uint64_t budget = 20000 + 10000 * seed;
+    const std::uint64_t slots = 10 + 10 * seed;
     for (int move = 0; move < 8; ++move)
     {
-      scene.limit(0, budget);
+      scene.limit(0, budget, slots);
       for (const auto& cloud : scene.clouds)
       {
         cloud->view = lookingFrom(place(random));
@@ -298,11 +360,14 @@ TEST(SharedDemand, BudgetsHoldInEveryFrameOfEveryPath)
           cloud->update();
           // After its update a cloud fits beside what the others draw.
           std::uint64_t all = 0;
+          std::uint64_t allSlots = 0;
           for (const auto& other : scene.clouds)
           {
             all += other->delta ? other->delta->pointsDrawn : 0;
+            allSlots += other->delta ? slotsOf(other->delta->draw) : 0;
           }
           ASSERT_LE(all, budget);
+          ASSERT_LE(allSlots, slots);
         }
       }
       scene.settle();

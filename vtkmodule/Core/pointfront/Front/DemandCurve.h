@@ -68,4 +68,12 @@ private:
   std::array<std::uint64_t, size> steps_{};
 };
 
+/// All that a view takes at each threshold.
+struct DemandCurves
+{
+  DemandCurve drawn; ///< points on screen
+  DemandCurve slots; ///< of GPU memory (GpuSlots.h)
+  DemandCurve held;  ///< points in memory, whole nodes
+};
+
 } // namespace pointfront

@@ -80,10 +80,9 @@ bool DetailLevels::fitsAt(DetailWalk& walk, const FrontLimits& limits, double le
       sum += layer.own >= level ? layer.demand : walk.demand(l, shownAt(level));
     }
   }
-  const double px = errorAt(level);
-  const bool fits = fitsBudgets(limits, sum, 1.0, px);
-  boundByMemory_ = fits ? boundByMemory_ : drawnFits(limits, sum.drawn, 1.0, px);
-  return fits;
+  const std::optional<FrontBudget> broken = brokenBudget(limits, sum, 1.0, errorAt(level));
+  boundBy_ = broken.value_or(boundBy_);
+  return !broken;
 }
 
 void DetailLevels::chooseCommon(DetailWalk& walk, const FrontLimits& limits)
@@ -118,7 +117,7 @@ void DetailLevels::choose(
   shown_.resize(walk.layerCount());
   all_ = std::max(walk.points(), 1.0);
   targetErrorPx_ = limits.targetErrorPx;
-  boundByMemory_ = false;
+  boundBy_ = FrontBudget::Points;
   std::uint64_t overview = std::min<std::uint64_t>(
     std::max<std::uint64_t>(limits.overviewPoints, 1), static_cast<std::uint64_t>(all_));
   if (limits.pointBudget > 0)

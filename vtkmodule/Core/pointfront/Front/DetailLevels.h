@@ -35,7 +35,7 @@ public:
   /// A level as a threshold: four times fewer points than the pixels ask for are twice the error.
   double errorAt(double level) const;
   bool bound() const { return lowest_ < wanted_; }      ///< by a budget
-  bool boundByMemory() const { return boundByMemory_; } ///< if bound(): by heldPointBudget
+  FrontBudget boundBy() const { return boundBy_; } ///< if bound()
 
 private:
   struct LayerLevel
@@ -59,7 +59,7 @@ private:
   double wanted_ = 0.0;
   double lowest_ = 0.0;
   double targetErrorPx_ = 1.0;
-  bool boundByMemory_ = false;
+  FrontBudget boundBy_ = FrontBudget::Points;
 };
 
 } // namespace pointfront

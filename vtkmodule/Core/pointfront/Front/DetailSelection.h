@@ -27,9 +27,10 @@ public:
   virtual const FrontDelta& update(
     const View& view, const ResidencyView& residency, const FrontLimits& limits) = 0;
 
-  /// What the last update's view takes at each threshold from the one in force on, in points: on
-  /// screen and in memory. Below that it takes what it takes now; step 0 is what is drawn.
-  virtual void demandCurves(DemandCurve& drawn, DemandCurve& held) const = 0;
+  /// What the last update's view takes at each threshold from the one in force on, on
+  /// screen, on the GPU and in memory. Below that it takes what it takes now; step 0 is what is
+  /// drawn.
+  virtual void demandCurves(DemandCurves& curves) const = 0;
 
   /// FRONT-10, first pass: levels that a node lies below what the last update needed; 0 for what it
   /// needed itself (which must stay), larger for what may be released first. Does not wait for a

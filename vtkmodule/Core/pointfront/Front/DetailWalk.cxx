@@ -98,11 +98,11 @@ Demand DetailWalk::demand(std::size_t layer, const Shown& shown)
 }
 
 void DetailWalk::plan(const ResidencyView& residency, const std::vector<Shown>& shown,
-  std::uint64_t mostDrawn, FrontDelta& delta)
+  FrontDelta& delta)
 {
   residency_ = &residency;
   delta_ = &delta;
-  mostDrawn_ = mostDrawn;
+  allowance_ = DrawAllowance(*limits_);
   sum_ = {};
   missing_ = 0;
   rowsComing_ = false;
@@ -127,6 +127,7 @@ void DetailWalk::plan(const ResidencyView& residency, const std::vector<Shown>& 
   }
   delta.requests.assign(wanted_.begin(), wanted_.end());
   delta.pointsDrawn = sum_.drawn;
+  delta.slotsDrawn = sum_.slots;
   delta.rowsComing = rowsComing_;
 }
 
@@ -302,9 +303,10 @@ void DetailWalk::draw(const Visit& at, std::uint32_t count, double distance)
 {
   if (residency_)
   {
-    count = static_cast<std::uint32_t>(std::min<std::uint64_t>(count, mostDrawn_ - sum_.drawn));
+    count = allowance_.take(count);
   }
   sum_.drawn += count;
+  sum_.slots += gpuSlotsOf(count);
   if (residency_ && count > 0)
   {
     const double projectedPx = projectedSpacing(*view_, at.row.spacing, distance);

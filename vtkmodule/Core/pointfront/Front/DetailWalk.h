@@ -49,9 +49,9 @@ public:
   Demand demand(std::size_t layer, const Shown& shown);
 
   /// Fills draw, requests, pointsDrawn, errorPx, failedNodes and rowsComing of `delta`; draws
-  /// `mostDrawn` points at most. `shown` is by layer.
+  /// as much as the limits allow. `shown` is by layer.
   void plan(const ResidencyView& residency, const std::vector<Shown>& shown,
-    std::uint64_t mostDrawn, FrontDelta& delta);
+    FrontDelta& delta);
 
   // Of the last plan.
   std::uint32_t missing() const { return missing_; } ///< neither resident nor failed
@@ -86,7 +86,7 @@ private:
   const ResidencyView* residency_ = nullptr; ///< null: the walk only counts
   FrontDelta* delta_ = nullptr;              ///< null likewise
   Demand sum_;
-  std::uint64_t mostDrawn_ = 0;
+  DrawAllowance allowance_;
   std::uint32_t missing_ = 0;
   bool rowsComing_ = false;
   NodeSlots needed_;

@@ -1,9 +1,11 @@
 #pragma once
 
 #include "pointfront/Front/FrontDelta.h"
+#include "pointfront/Front/GpuSlots.h"
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace pointfront
@@ -13,11 +15,13 @@ namespace pointfront
 struct Demand
 {
   std::uint64_t drawn = 0; ///< points on screen
+  std::uint64_t slots = 0; ///< of GPU memory, for them
   std::uint64_t held = 0;  ///< points of the nodes that must be in memory for that, whole nodes
 
   Demand& operator+=(const Demand& more)
   {
     drawn += more.drawn;
+    slots += more.slots;
     held += more.held;
     return *this;
   }
@@ -28,11 +32,18 @@ struct Demand
 // every selection of detail.
 // Units    points; `px` is the threshold that the demand is of: what others take depends on it.
 
+enum class FrontBudget
+{
+  Points,
+  GpuMemory,
+  HostMemory
+};
+
 /// By any budget.
 inline bool limited(const FrontLimits& limits)
 {
-  return limits.pointBudget > 0 || limits.heldPointBudget > 0 || limits.sharedDrawn.points > 0 ||
-    limits.sharedHeld.points > 0;
+  return limits.pointBudget > 0 || limits.heldPointBudget > 0 || limits.sharedDrawn.most > 0 ||
+    limits.sharedSlots.most > 0 || limits.sharedHeld.most > 0;
 }
 
 /// Of a layer, 0 to 1; shares of the visible layers that come to more than 1 are cut down.
@@ -55,18 +66,65 @@ inline bool fitsBudget(std::uint64_t points, std::uint64_t budget, const SharedL
     return share < 1.0 ? static_cast<std::uint64_t>(share * static_cast<double>(whole)) : whole;
   };
   return (budget == 0 || points <= part(budget)) &&
-    (shared.points == 0 || points <= part(shared.leftAt(px)));
+    (shared.most == 0 || points <= part(shared.leftAt(px)));
 }
 
-inline bool drawnFits(const FrontLimits& limits, std::uint64_t points, double share, double px)
+/// The first budget that the demand breaks, if it breaks one.
+inline std::optional<FrontBudget> brokenBudget(
+  const FrontLimits& limits, const Demand& wanted, double share, double px)
 {
-  return fitsBudget(points, limits.pointBudget, limits.sharedDrawn, share, px);
+  if (!fitsBudget(wanted.drawn, limits.pointBudget, limits.sharedDrawn, share, px))
+  {
+    return FrontBudget::Points;
+  }
+  if (!fitsBudget(wanted.slots, 0, limits.sharedSlots, share, px))
+  {
+    return FrontBudget::GpuMemory;
+  }
+  if (!fitsBudget(wanted.held, limits.heldPointBudget, limits.sharedHeld, share, px))
+  {
+    return FrontBudget::HostMemory;
+  }
+  return std::nullopt;
 }
 
 inline bool fitsBudgets(const FrontLimits& limits, const Demand& wanted, double share, double px)
 {
-  return drawnFits(limits, wanted.drawn, share, px) &&
-    fitsBudget(wanted.held, limits.heldPointBudget, limits.sharedHeld, share, px);
+  return !brokenBudget(limits, wanted, share, px);
 }
+
+/// How many points may be drawn when a list is made, whatever the threshold: beside what the others
+/// have on screen at this moment.
+class DrawAllowance
+{
+public:
+  DrawAllowance() = default;
+  explicit DrawAllowance(const FrontLimits& limits)
+  {
+    points_ = limits.pointBudget > 0 ? limits.pointBudget : points_;
+    if (limits.sharedDrawn.most > 0)
+    {
+      points_ = std::min(points_, limits.sharedDrawn.leftAt(0.0));
+    }
+    if (limits.sharedSlots.most > 0)
+    {
+      slots_ = limits.sharedSlots.leftAt(0.0);
+    }
+  }
+  /// Takes what a node draws, as much of it as is allowed.
+  std::uint32_t take(std::uint32_t points)
+  {
+    const auto most =
+      std::min(points_, slots_ < UINT32_MAX ? slots_ * gpuSlotPoints : UINT64_MAX);
+    const auto taken = static_cast<std::uint32_t>(std::min<std::uint64_t>(points, most));
+    points_ -= taken;
+    slots_ -= gpuSlotsOf(taken);
+    return taken;
+  }
+
+private:
+  std::uint64_t points_ = UINT64_MAX;
+  std::uint64_t slots_ = UINT64_MAX;
+};
 
 } // namespace pointfront

@@ -30,18 +30,19 @@ public:
   virtual bool exhausted() const { return false; }
 };
 
-/// A limit of points that a front shares with others (SharedDemand.h).
+/// A limit that a front shares with others (SharedDemand.h), in points of this store or in slots of
+/// GPU memory.
 struct SharedLimit
 {
-  std::uint64_t points = 0; ///< of all together, in points of this store; 0: no limit
-  /// What the others take, in points of this store; step 0 is what they have at this moment. Not
-  /// null where there is a limit, and alive while the limits are in use.
+  std::uint64_t most = 0; ///< of all together; 0: no limit
+  /// What the others take; step 0 is what they have at this moment. Not null where there is a
+  /// limit, and alive while the limits are in use.
   const DemandCurve* elsewhere = nullptr;
 
   std::uint64_t leftAt(double px) const
   {
     const std::uint64_t others = elsewhere->at(px);
-    return points > others ? points - others : 0;
+    return most > others ? most - others : 0;
   }
 };
 
@@ -58,6 +59,7 @@ struct FrontLimits
   /// with some room to spare, makes a view that needs more settle at the best error that fits.
   std::uint64_t heldPointBudget = 0;
   SharedLimit sharedDrawn;          ///< as pointBudget, over all clouds of a window
+  SharedLimit sharedSlots;          ///< of GPU memory (GpuSlots.h), over all clouds of a window
   SharedLimit sharedHeld;           ///< as heldPointBudget, over all stores of a process
   /// Changes whenever one of the curves of the shared limits does.
   std::uint64_t sharedRevision = 0;
@@ -83,7 +85,8 @@ inline bool operator==(const FrontLimits& a, const FrontLimits& b)
     a.interacting == b.interacting && a.motionErrorPx == b.motionErrorPx &&
     a.prefetchSiblings == b.prefetchSiblings && a.overviewPoints == b.overviewPoints &&
     a.layers == b.layers &&
-    a.sharedDrawn.points == b.sharedDrawn.points && a.sharedHeld.points == b.sharedHeld.points;
+    a.sharedDrawn.most == b.sharedDrawn.most && a.sharedSlots.most == b.sharedSlots.most &&
+    a.sharedHeld.most == b.sharedHeld.most;
 }
 
 struct DrawItem
@@ -108,6 +111,7 @@ struct FrontDelta
   /// All that is wanted now: optional ones last, highest priority first, ties by node.
   std::vector<LoadRequest> requests;
   std::uint64_t pointsDrawn = 0;
+  std::uint64_t slotsDrawn = 0;      ///< of GPU memory (GpuSlots.h), that they take
   std::uint32_t moves = 0;           ///< expansions + collapses of this update
   std::uint32_t frontLength = 0;     ///< nodes in the cut, culled ones too
   double thresholdPx = 0.0;          ///< in force for this update; the largest of the layers'
@@ -118,7 +122,9 @@ struct FrontDelta
   /// pending, everything wanted is drawn or cannot be had. Another update of the same view would
   /// give the same list.
   bool complete = false;
-  bool limitedByBudget = false;      ///< pointBudget keeps the threshold above the target
+  // Which budget keeps the threshold above the target:
+  bool limitedByBudget = false;      ///< pointBudget
+  bool limitedByGpu = false;         ///< sharedSlots
   bool limitedByMemory = false;      ///< heldPointBudget does, or the residency is exhausted
   std::uint32_t failedNodes = 0;     ///< nodes wanted in this view that could not be read
   /// Rows of a paged table that the front waits for: another update after

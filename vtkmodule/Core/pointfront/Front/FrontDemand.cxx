@@ -12,9 +12,11 @@ Demand FrontDemand::joined(
   if (refinement_ == Refinement::Replace)
   {
     // The parent stands in while a child is missing: both must fit.
-    return { std::max(own, children.drawn), node.pointCount + children.held };
+    return { std::max(own, children.drawn), std::max(gpuSlotsOf(own), children.slots),
+      node.pointCount + children.held };
   }
-  return { own + children.drawn, (own > 0 ? node.pointCount : 0) + children.held };
+  return { own + children.drawn, gpuSlotsOf(own) + children.slots,
+    (own > 0 ? node.pointCount : 0) + children.held };
 }
 
 Demand FrontDemand::ofChildren(const ActiveNode& parent, double thresholdPx) const
@@ -50,17 +52,10 @@ Demand FrontDemand::below(const ActiveNode& node, double thresholdPx) const
   return joined(node, children, thresholdPx);
 }
 
-/// Demand curves in the making.
-struct FrontDemand::Curves
-{
-  DemandCurve& drawn;
-  DemandCurve& held;
-  DemandCurve drawnUpTo; ///< points that are drawn at all thresholds up to a step
-  DemandCurve heldUpTo;
-};
-
-/// `beginPx`: the node is held at thresholds below this.
-void FrontDemand::addBelow(const ActiveNode& node, double beginPx, Curves& curves) const
+/// `beginPx`: the node is held at thresholds below this. `upTo` gets what is taken at all
+/// thresholds up to a step, `at` the rest.
+void FrontDemand::addBelow(
+  const ActiveNode& node, double beginPx, DemandCurves& at, DemandCurves& upTo) const
 {
   const bool replace = refinement_ == Refinement::Replace;
   if (!node.visible && !replace)
@@ -68,26 +63,32 @@ void FrontDemand::addBelow(const ActiveNode& node, double beginPx, Curves& curve
     return;
   }
   const std::size_t begin = DemandCurve::stepOf(beginPx);
-  curves.heldUpTo[begin] += node.pointCount;
+  upTo.held[begin] += node.pointCount;
   if (!node.visible)
   {
     return; // a sibling that must be there before its parent is replaced
   }
   const std::size_t whole = std::min(begin, DemandCurve::stepOf(node.errorPx));
+  const auto add = [&](std::size_t step, std::uint32_t points)
+  {
+    at.drawn[step] += points;
+    at.slots[step] += gpuSlotsOf(points);
+  };
   if (replace)
   {
     const std::size_t end = node.leaf() ? 0 : whole; // its children come in its place there
     for (std::size_t s = end; s <= begin; ++s)
     {
-      curves.drawn[s] += node.pointCount;
+      add(s, node.pointCount);
     }
   }
   else
   {
-    curves.drawnUpTo[whole] += node.pointCount;
+    upTo.drawn[whole] += node.pointCount;
+    upTo.slots[whole] += gpuSlotsOf(node.pointCount);
     for (std::size_t s = whole + 1; s <= begin; ++s)
     {
-      curves.drawn[s] += pointsOf(node, refinement_, DemandCurve::pxOf(s));
+      add(s, pointsOf(node, refinement_, DemandCurve::pxOf(s)));
     }
   }
   for (std::uint8_t c = 0; node.expanded() && c < node.childCount; ++c)
@@ -96,30 +97,33 @@ void FrontDemand::addBelow(const ActiveNode& node, double beginPx, Curves& curve
     // Prefixes begin before the parent's error is reached.
     const double ratio = child.spacingRatio > 0.0f ? child.spacingRatio : 1.0;
     const double ownBegin = replace ? node.errorPx : child.errorPx / ratio;
-    addBelow(child, std::min(beginPx, ownBegin), curves);
+    addBelow(child, std::min(beginPx, ownBegin), at, upTo);
   }
 }
 
-void FrontDemand::curves(DemandCurve& drawn, DemandCurve& held) const
+void FrontDemand::curves(DemandCurves& curves) const
 {
-  drawn.clear();
-  held.clear();
-  Curves making{ drawn, held, {}, {} };
+  curves = {};
+  DemandCurves upTo;
   for (SlotIndex root = 0; root < tree_.rootCount(); ++root)
   {
     if (!tree_[root].hidden)
     {
       // Roots stay in memory; a prefix of one point is the least that is drawn.
-      addBelow(tree_[root], DemandCurve::pxOf(DemandCurve::size - 1), making);
+      addBelow(tree_[root], DemandCurve::pxOf(DemandCurve::size - 1), curves, upTo);
     }
   }
-  std::uint64_t drawnSum = 0;
-  std::uint64_t heldSum = 0;
-  for (std::size_t s = DemandCurve::size; s-- > 0;)
+  const auto sum = [](DemandCurve& curve, const DemandCurve& below)
   {
-    drawn[s] += drawnSum += making.drawnUpTo[s];
-    held[s] += heldSum += making.heldUpTo[s];
-  }
+    std::uint64_t all = 0;
+    for (std::size_t s = DemandCurve::size; s-- > 0;)
+    {
+      curve[s] += all += below[s];
+    }
+  };
+  sum(curves.drawn, upTo.drawn);
+  sum(curves.slots, upTo.slots);
+  sum(curves.held, upTo.held);
 }
 
 } // namespace pointfront

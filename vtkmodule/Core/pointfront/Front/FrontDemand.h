@@ -33,7 +33,7 @@ public:
     return below(tree_[root], thresholdPx);
   }
   /// The demand at all thresholds, of the active nodes alone.
-  void curves(DemandCurve& drawn, DemandCurve& held) const;
+  void curves(DemandCurves& curves) const;
   /// Of the children that a front node has in the table.
   Demand ofChildren(const ActiveNode& parent, double thresholdPx) const;
   /// Points of a visible node drawn at a threshold. Representatives (Replace) carry a
@@ -46,8 +46,8 @@ public:
   }
 
 private:
-  struct Curves;
-  void addBelow(const ActiveNode& node, double beginPx, Curves& curves) const;
+  void addBelow(
+    const ActiveNode& node, double beginPx, DemandCurves& at, DemandCurves& upTo) const;
   Demand below(const ActiveNode& node, double thresholdPx) const;
   Demand joined(const ActiveNode& node, const Demand& children, double thresholdPx) const;
 

@@ -35,14 +35,11 @@ void FrontPlan::make(ActiveTree& tree, const FrontThreshold& threshold,
   update_ = update;
   missing_ = 0;
   clipped_ = false;
-  mostDrawn_ = limits.pointBudget > 0 ? limits.pointBudget : UINT64_MAX;
-  if (limits.sharedDrawn.points > 0)
-  {
-    mostDrawn_ = std::min(mostDrawn_, limits.sharedDrawn.leftAt(0.0)); // beside what others draw
-  }
+  allowance_ = DrawAllowance(limits);
   wanted_.clear();
   delta.draw.clear();
   delta.pointsDrawn = 0;
+  delta.slotsDrawn = 0;
   delta.errorPx = 0.0;
   delta.failedNodes = 0;
 
@@ -184,16 +181,15 @@ void FrontPlan::prefetch(const ActiveNode& node, double priority)
 
 void FrontPlan::draw(const ActiveNode& node, std::uint32_t points)
 {
-  if (points > mostDrawn_ - delta_->pointsDrawn)
-  {
-    clipped_ = true;
-    points = static_cast<std::uint32_t>(mostDrawn_ - delta_->pointsDrawn);
-  }
+  const std::uint32_t wanted = points;
+  points = allowance_.take(wanted);
+  clipped_ = clipped_ || points < wanted;
   if (points > 0)
   {
     const float projectedPx = node.errorPx / node.errorWeight;
     delta_->draw.push_back({ node.node, points, projectedPx, node.distance });
     delta_->pointsDrawn += points;
+    delta_->slotsDrawn += gpuSlotsOf(points);
   }
 }
 

@@ -55,7 +55,7 @@ private:
   FrontDelta* delta_ = nullptr;
   std::vector<LoadRequest> wanted_;
   DrawOrder order_;
-  std::uint64_t mostDrawn_ = 0;
+  DrawAllowance allowance_;
   double thresholdPx_ = 0.0; ///< of the layer being visited
   std::uint32_t update_ = 0;
   std::uint32_t missing_ = 0;

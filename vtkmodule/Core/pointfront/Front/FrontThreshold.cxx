@@ -103,15 +103,13 @@ void FrontThreshold::begin(
 
 bool FrontThreshold::limited() const { return pointfront::limited(limits_); }
 
-/// Of both shared limits together: grows when others take less.
+/// Of all shared limits together: grows when others take less.
 std::uint64_t FrontThreshold::sharedLeft(double px) const
 {
-  std::uint64_t left = 0;
-  for (const SharedLimit* shared : { &limits_.sharedDrawn, &limits_.sharedHeld })
-  {
-    left += shared->points > 0 ? shared->leftAt(px) : 0;
-  }
-  return left;
+  const auto leftOf = [&](const SharedLimit& shared)
+  { return shared.most > 0 ? shared.leftAt(px) : 0; };
+  return leftOf(limits_.sharedDrawn) + leftOf(limits_.sharedHeld) +
+    gpuSlotPoints * leftOf(limits_.sharedSlots);
 }
 
 Demand FrontThreshold::totalAt(
@@ -245,17 +243,14 @@ void FrontThreshold::chooseFitting(const ActiveTree& tree, const FrontDemand& de
     {
       const Demand wanted = totalAt(tree, demand, rung);
       const double px = ladder_.at(rung);
-      const bool enough = fitsBudgets(limits_, wanted, 1.0, px);
-      if (enough)
+      const std::optional<FrontBudget> broken = brokenBudget(limits_, wanted, 1.0, px);
+      if (!broken)
       {
         demand_ = wanted;
         demandRung = rung;
       }
-      else
-      {
-        boundByMemory_ = drawnFits(limits_, wanted.drawn, 1.0, px);
-      }
-      return enough;
+      boundBy_ = broken.value_or(boundBy_);
+      return !broken;
     });
   if (common_.lowest > 0 && common_.lowest != lowestBefore)
   {
@@ -271,10 +266,9 @@ bool FrontThreshold::admit(const Demand& more)
 {
   Demand wanted = demand_;
   wanted += more;
-  const double px = commonPx_;
-  if (!fitsBudgets(limits_, wanted, 1.0, px))
+  if (const auto broken = brokenBudget(limits_, wanted, 1.0, commonPx_))
   {
-    boundByMemory_ = drawnFits(limits_, wanted.drawn, 1.0, px);
+    boundBy_ = *broken;
     return false;
   }
   demand_ = wanted;

@@ -46,7 +46,7 @@ public:
   bool changed() const { return changed_; }   ///< by the last choose()
   bool atTarget() const { return common_.rung == 0; }
   bool bound() const { return common_.bound; } ///< by a budget, which keeps the next lower rung out
-  bool boundByMemory() const { return boundByMemory_; } ///< if bound(): by heldPointBudget
+  FrontBudget boundBy() const { return boundBy_; } ///< if bound()
   /// Whether what others take now of the shared limits leaves the choice as it was: it is not bound
   /// by them, and fits beside them still.
   bool unmoved() const;
@@ -86,7 +86,7 @@ private:
   bool first_ = true;
   bool mayFall_ = false;
   bool changed_ = false;
-  bool boundByMemory_ = false;
+  FrontBudget boundBy_ = FrontBudget::Points;
   std::uint64_t leftAtLowest_ = 0; ///< of the shared limits when common_.lowest was found
   Demand demand_;       ///< the last one that fits: of the thresholds in force
 };

@@ -234,11 +234,13 @@ void RenderFront::State::finish(const ResidencyView& residency)
   exhausted = !inputChanged && steady && plan.missing() > 0 && sameRevision &&
     residency.exhausted() && residency.revision() == revision;
   const bool held = bound && !threshold.atTarget();
+  const auto heldBy = [&](FrontBudget budget) { return held && threshold.boundBy() == budget; };
   delta.frontLength = tree.frontLength();
   delta.rowsComing = rowsComing;
   delta.thresholdPx = threshold.largestPx(tree);
-  delta.limitedByBudget = plan.clipped() || (held && !threshold.boundByMemory());
-  delta.limitedByMemory = exhausted || (held && threshold.boundByMemory());
+  delta.limitedByBudget = plan.clipped() || heldBy(FrontBudget::Points);
+  delta.limitedByGpu = heldBy(FrontBudget::GpuMemory);
+  delta.limitedByMemory = exhausted || heldBy(FrontBudget::HostMemory);
   delta.complete = settled && steady &&
     (exhausted || ((threshold.atTarget() || bound) && plan.missing() == 0));
   const bool falls = threshold.falling() && plan.missing() <= limits.requestLimit;
@@ -279,18 +281,20 @@ const FrontDelta& RenderFront::update(
   return s.delta;
 }
 
-void RenderFront::demandCurves(DemandCurve& drawn, DemandCurve& held) const
+void RenderFront::demandCurves(DemandCurves& curves) const
 {
   const State& s = *state_;
-  FrontDemand(s.tree, s.refinement(), s.view).curves(drawn, held);
+  FrontDemand(s.tree, s.refinement(), s.view).curves(curves);
   double lowestPx = s.threshold.largestPx(s.tree);
   for (SlotIndex root = 0; root < s.tree.rootCount(); ++root)
   {
     lowestPx = std::min(lowestPx, s.threshold.px(s.tree[root].layer));
   }
-  drawn.levelOff(lowestPx);
-  held.levelOff(lowestPx);
-  drawn[0] = s.delta.pointsDrawn;
+  curves.drawn.levelOff(lowestPx);
+  curves.slots.levelOff(lowestPx);
+  curves.held.levelOff(lowestPx);
+  curves.drawn[0] = s.delta.pointsDrawn;
+  curves.slots[0] = s.delta.slotsDrawn;
 }
 
 std::uint32_t RenderFront::distanceUnderFront(NodeIndex node) const

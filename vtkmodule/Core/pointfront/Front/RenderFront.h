@@ -41,9 +41,10 @@ public:
   const FrontDelta& update(
     const View& view, const ResidencyView& residency, const FrontLimits& limits) override;
 
-  /// What the last update's view takes at each threshold from the one in force on, in points: on
-  /// screen and in memory. Below that it takes what it takes now; step 0 is what is drawn.
-  void demandCurves(DemandCurve& drawn, DemandCurve& held) const override;
+  /// What the last update's view takes at each threshold from the one in force on, on
+  /// screen, on the GPU and in memory. Below that it takes what it takes now; step 0 is what is
+  /// drawn.
+  void demandCurves(DemandCurves& curves) const override;
 
   /// FRONT-10, first pass: levels that a node lies below the part of the front that the last
   /// update needed; 0 for what it needed itself (which must stay), larger for what may be released

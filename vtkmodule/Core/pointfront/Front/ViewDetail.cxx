@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 
 namespace pointfront
 {
@@ -38,7 +39,6 @@ struct ViewDetail::State
   bool atRest = false;
   bool exhausted = false;
 
-  std::uint64_t mostDrawn() const;
   bool unchanged(const View& v, const ResidencyView& from, const FrontLimits& l) const;
   void finish(const ResidencyView& from, bool sameInput, bool sameRevision);
 };
@@ -49,14 +49,6 @@ ViewDetail::ViewDetail(std::shared_ptr<const Hierarchy> hierarchy)
 }
 
 ViewDetail::~ViewDetail() = default;
-
-std::uint64_t ViewDetail::State::mostDrawn() const
-{
-  const std::uint64_t own = limits.pointBudget > 0 ? limits.pointBudget : UINT64_MAX;
-  return limits.sharedDrawn.points > 0 // step 0: what the others have on screen now
-    ? std::min(own, limits.sharedDrawn.leftAt(DemandCurve::pxOf(0)))
-    : own;
-}
 
 bool ViewDetail::State::unchanged(
   const View& v, const ResidencyView& from, const FrontLimits& l) const
@@ -74,8 +66,11 @@ void ViewDetail::State::finish(const ResidencyView& from, bool sameInput, bool s
   delta.thresholdPx = levels.errorAt(levels.lowest());
   exhausted = sameInput && sameRevision && walk.missing() > 0 && from.exhausted() &&
     from.revision() == revision;
-  delta.limitedByBudget = levels.bound() && !levels.boundByMemory();
-  delta.limitedByMemory = exhausted || (levels.bound() && levels.boundByMemory());
+  const auto boundBy = [&](FrontBudget budget)
+  { return levels.bound() && levels.boundBy() == budget; };
+  delta.limitedByBudget = boundBy(FrontBudget::Points);
+  delta.limitedByGpu = boundBy(FrontBudget::GpuMemory);
+  delta.limitedByMemory = exhausted || boundBy(FrontBudget::HostMemory);
   delta.complete = !delta.rowsComing && (walk.missing() == 0 || exhausted);
   atRest = !delta.rowsComing;
 }
@@ -105,12 +100,12 @@ const FrontDelta& ViewDetail::update(
   {
     s.levels.choose(s.walk, *s.hierarchy, s.view, s.limits);
   }
-  s.walk.plan(residency, s.levels.shown(), s.mostDrawn(), s.delta);
+  s.walk.plan(residency, s.levels.shown(), s.delta);
   s.finish(residency, sameInput, sameRevision);
   return s.delta;
 }
 
-void ViewDetail::demandCurves(DemandCurve& drawn, DemandCurve& held) const
+void ViewDetail::demandCurves(DemandCurves& curves) const
 {
   const State& s = *state_;
   const double px = s.levels.errorAt(s.levels.lowest());
@@ -118,10 +113,10 @@ void ViewDetail::demandCurves(DemandCurve& drawn, DemandCurve& held) const
   {
     const double ratio = px / std::max(px, DemandCurve::pxOf(step));
     const double share = ratio * ratio;
-    drawn[step] = static_cast<std::uint64_t>(double(s.delta.pointsDrawn) * share);
-    held[step] = static_cast<std::uint64_t>(double(s.walk.held()) * share);
+    curves.drawn[step] = static_cast<std::uint64_t>(double(s.delta.pointsDrawn) * share);
+    curves.slots[step] = static_cast<std::uint64_t>(std::ceil(double(s.delta.slotsDrawn) * share));
+    curves.held[step] = static_cast<std::uint64_t>(double(s.walk.held()) * share);
   }
-  drawn[0] = s.delta.pointsDrawn;
 }
 
 std::uint32_t ViewDetail::distanceUnderFront(NodeIndex node) const

@@ -34,7 +34,7 @@ public:
     const View& view, const ResidencyView& residency, const FrontLimits& limits) override;
   /// Above the threshold in force estimated, without another walk: a quarter of the points for
   /// twice the error.
-  void demandCurves(DemandCurve& drawn, DemandCurve& held) const override;
+  void demandCurves(DemandCurves& curves) const override;
   std::uint32_t distanceUnderFront(NodeIndex node) const override;
   void reset() override;
 

@@ -1,6 +1,7 @@
 // What must hold of every selection of detail (rendering front, view-specific detail), for every
 // tree, camera path, projection and order of arrival (fixed seeds).
 
+#include "pointfront/Front/GpuSlots.h"
 #include "pointfront/Front/RenderFront.h"
 #include "pointfront/Front/ViewDetail.h"
 
@@ -114,6 +115,7 @@ struct Trip
     for (NodeIndex i = 0; i < tree->nodeCount(); ++i)
     {
       points += tree->node(i).pointCount;
+      slots += gpuSlotsOf(tree->node(i).pointCount);
     }
     limits.targetErrorPx = 1.5;
     limits.movesPerFrame = 64;
@@ -122,6 +124,7 @@ struct Trip
     // The coarsest picture of the tree always fits.
     limits.pointBudget = c.seed % 3 == 0 ? 0 : points / (2 + c.seed % 3);
     limits.heldPointBudget = c.seed % 2 == 0 ? 0 : points / 2;
+    limits.sharedSlots = { c.seed % 4 == 1 ? 0 : std::max<std::uint64_t>(8, slots / 4), &nobody };
   }
 
   const FrontDelta& step(const View& view) { return selection->update(view, residency, limits); }
@@ -150,9 +153,11 @@ struct Trip
   {
     const Counts counts = countsOf(delta);
     std::uint64_t sum = 0;
+    std::uint64_t slotSum = 0;
     for (const auto& [index, count] : counts)
     {
       sum += count;
+      slotSum += gpuSlotsOf(count);
       ASSERT_GE(count, 1u);
       ASSERT_LE(count, tree->node(index).pointCount);
       ASSERT_EQ(residency.state(index), State::Resident);
@@ -163,9 +168,14 @@ struct Trip
       }
     }
     ASSERT_EQ(sum, delta.pointsDrawn);
+    ASSERT_EQ(slotSum, delta.slotsDrawn);
     if (limits.pointBudget > 0)
     {
       ASSERT_LE(sum, limits.pointBudget);
+    }
+    if (limits.sharedSlots.most > 0)
+    {
+      ASSERT_LE(slotSum, limits.sharedSlots.most);
     }
     ASSERT_LE(delta.requests.size(), limits.requestLimit);
     ASSERT_TRUE(std::isfinite(delta.errorPx));
@@ -193,6 +203,8 @@ struct Trip
   std::unique_ptr<DetailSelection> selection;
   std::mt19937 random;
   std::uint64_t points = 0;
+  std::uint64_t slots = 0; ///< of GPU memory
+  DemandCurve nobody;      ///< shares
   ScriptedResidency residency;
   FrontLimits limits;
 };
@@ -266,7 +278,7 @@ TEST_P(DetailSelections, WhatIsHeldFitsTheBudget)
 TEST_P(DetailSelections, WhatWasDrawnStaysWhileTheRestLoads)
 {
   Trip trip(GetParam());
-  trip.limits.pointBudget = trip.limits.heldPointBudget = 0;
+  trip.limits.pointBudget = trip.limits.heldPointBudget = trip.limits.sharedSlots.most = 0;
   for (int v = 0; v < 6; ++v)
   {
     const View view = walkingView(60 * v);

@@ -147,6 +147,7 @@ Result<void> BenchCommand::run()
   statistics["resident_bytes_max"] = (*scene)->residentBytesMax();
   statistics["gpu_bytes_max"] = gpuBytesMax(frames.value());
   statistics["budget_bytes"] = (*scene)->budgetBytes();
+  statistics["gpu_budget_bytes"] = drawing_.gpuBytes;
   statistics["bytes_read"] = frames->empty() ? 0 : frames->back().bytesRead;
   statistics["empty_scene_rss_bytes"] = (*scene)->emptySceneBytes();
   statistics["peak_rss_bytes"] = peakResidentBytes();

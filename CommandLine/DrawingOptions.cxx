@@ -120,6 +120,7 @@ void DrawingOptions::declare(CLI::App& app)
   app.add_option("--point-budget", pointBudget, "Most points drawn at a time")
     ->check(CLI::Range(std::int64_t(1), std::int64_t(1) << 40))
     ->type_name("N");
+  addByteSize(app, "--gpu-memory", gpuBytes, "Most GPU memory for points (as the points need)");
   app.add_option("--detail", detail,
       "front: each part as fine as it projects; view: one level that fills the view (front)")
     ->check(availableValues({ "front", "view" }, {}));

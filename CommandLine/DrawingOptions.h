@@ -22,6 +22,7 @@ struct DrawingOptions
   double errorPx = 1.0;          ///< projected point spacing
   std::uint64_t memoryBytes = 0; ///< decoded points of all stores; 0: the library's default
   std::int64_t pointBudget = -1; ///< most points drawn; -1: not given
+  std::uint64_t gpuBytes = 0;    ///< most GPU memory for points; 0: no limit but the points
   double frameMs = 0.0;          ///< while the camera moves; 0: that VTK allots
   bool measureEmptyScene = false; ///< see StoreScene::emptySceneBytes()
   std::vector<std::uint8_t> classes; ///< sorted codes of what is drawn; empty: all

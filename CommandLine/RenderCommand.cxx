@@ -133,10 +133,13 @@ Result<void> RenderCommand::run()
   const double roundingOfPrefixes = 1.01;
   if (frames_ == 0 && (!last->complete || last->errorPx > drawing_.errorPx * roundingOfPrefixes))
   {
-    const char* raise = last->limitedByMemory && last->limitedByPoints
-      ? "--memory and --point-budget"
-      : last->limitedByMemory ? "--memory" : "--point-budget";
-    warn(name(), std::string("the picture is coarser than --error asks; raise ") + raise);
+    std::string raise;
+    const auto add = [&](bool limited, const char* option)
+    { raise += limited ? (raise.empty() ? "" : " and ") + std::string(option) : ""; };
+    add(last->limitedByMemory, "--memory");
+    add(last->limitedByGpu, "--gpu-memory");
+    add(last->limitedByPoints || raise.empty(), "--point-budget");
+    warn(name(), "the picture is coarser than --error asks; raise " + raise);
   }
   // From here on there are files to finish: a signal is seen when they are whole.
   const CancelSignal finishing(CancelSignal::Mode::Finish);
@@ -172,6 +175,10 @@ std::string RenderCommand::statistics(const StoreScene& scene, const FrameRecord
   if (last.limitedByPoints)
   {
     object["limited_by"].push_back("points");
+  }
+  if (last.limitedByGpu)
+  {
+    object["limited_by"].push_back("gpu-memory");
   }
   if (last.limitedByMemory)
   {

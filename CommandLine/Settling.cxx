@@ -35,6 +35,7 @@ nlohmann::ordered_json Settling::json() const
   object["points_drawn"] = last_.points;
   object["error_px"] = last_.errorPx;
   object["limited_by_points"] = last_.limitedByPoints;
+  object["limited_by_gpu_memory"] = last_.limitedByGpu;
   object["limited_by_memory"] = last_.limitedByMemory;
   object["bytes_read"] = after_.fetchedBytes - before_.fetchedBytes;
   object["bytes_decoded"] = after_.decodedBytes - before_.decodedBytes;

@@ -325,6 +325,7 @@ Result<void> OffscreenScene::setUpDrawing()
     {
       drawn->mapper->SetPointBudget(options_.pointBudget);
     }
+    drawn->mapper->SetGPUMemoryBudget(static_cast<vtkTypeInt64>(options_.gpuBytes));
     drawn->mapper->SetTargetFrameTime(options_.frameMs);
     drawn->actor->GetProperty()->LightingOff(); // colours are drawn as they are
     renderer_->AddActor(drawn->actor);
@@ -401,9 +402,11 @@ FrameRecord OffscreenScene::record() const
     frame.errorPx = std::max(frame.errorPx, mapper->GetLastError());
     frame.complete = frame.complete && mapper->GetLastComplete();
     frame.limitedByPoints = frame.limitedByPoints || mapper->GetLastLimitedByPoints();
+    frame.limitedByGpu = frame.limitedByGpu || mapper->GetLastLimitedByGPUMemory();
     frame.limitedByMemory = frame.limitedByMemory || mapper->GetLastLimitedByMemory();
     frame.failedNodes += mapper->GetLastFailedNodes();
-    frame.gpuBytes += mapper->GetLastGPUBytes();
+    frame.gpuBytes =
+      std::max<std::int64_t>(frame.gpuBytes, mapper->GetLastWindowGPUBytes());
     frame.residentBytes += residency.residentBytes;
     frame.bytesRead += residency.bytesRead;
     frame.cancelled += residency.cancelled;

@@ -29,6 +29,7 @@ struct FrameRecord
   double errorPx = 0.0;           ///< largest
   bool complete = false;          ///< no further frame will change the picture
   bool limitedByPoints = false;   ///< --point-budget kept the error above --error
+  bool limitedByGpu = false;      ///< --gpu-memory did
   bool limitedByMemory = false;   ///< --memory did
   std::int64_t failedNodes = 0;   ///< that could not be read
   std::int64_t gpuBytes = 0;

@@ -1,5 +1,12 @@
 #include "RendererView.h"
 
+#include <vtkCallbackCommand.h>
+#include <vtkCommand.h>
+#include <vtkNew.h>
+#include <vtkRenderWindow.h>
+
+#include <utility>
+
 namespace pointfront
 {
 namespace
@@ -10,16 +17,52 @@ constexpr double pauseOfDrawings = 3.0;
 
 } // namespace
 
+RendererView::RendererView(vtkRenderer* renderer, std::function<void()> unseen)
+    : Renderer(renderer), Unseen(std::move(unseen))
+{
+  vtkNew<vtkCallbackCommand> begin;
+  begin->SetClientData(this);
+  begin->SetCallback([](vtkObject*, unsigned long, void* data, void*)
+    { static_cast<RendererView*>(data)->NewFrame = true; });
+  this->StartTag = renderer->AddObserver(vtkCommand::StartEvent, begin);
+  vtkNew<vtkCallbackCommand> end;
+  end->SetClientData(this);
+  end->SetCallback([](vtkObject*, unsigned long, void* data, void*)
+    { static_cast<RendererView*>(data)->EndFrame(); });
+  this->EndTag = renderer->AddObserver(vtkCommand::EndEvent, end);
+}
+
 RendererView::~RendererView()
 {
   if (this->Renderer)
   {
     this->Renderer->RemoveObserver(this->StartTag);
+    this->Renderer->RemoveObserver(this->EndTag);
+  }
+}
+
+/// A frame that was broken off, or that is drawn for a selection, says nothing.
+void RendererView::EndFrame()
+{
+  vtkRenderWindow* window = this->Renderer->GetRenderWindow();
+  if (this->Renderer->GetSelector() || (window && window->GetAbortRender()))
+  {
+    return;
+  }
+  this->Seen = !this->NewFrame;
+  if (!this->Seen && this->Front)
+  {
+    this->Front->leave();
+    this->Unseen();
   }
 }
 
 bool RendererView::NeedsRender()
 {
+  if (this->Front && !this->Seen)
+  {
+    return false;
+  }
   if (!this->Front || this->UploadsLeft || this->Due)
   {
     return true;

@@ -6,6 +6,7 @@
 #include <vtkWeakPointer.h>
 
 #include <chrono>
+#include <functional>
 #include <memory>
 
 namespace pointfront
@@ -18,9 +19,9 @@ struct RendererView
   using Clock = std::chrono::steady_clock;
 
   vtkWeakPointer<vtkRenderer> Renderer;
-  unsigned long StartTag = 0;
   std::unique_ptr<ViewFront> Front;
   bool NewFrame = true; ///< the renderer began a frame, and this mapper has not been drawn in it
+  bool Seen = true;     ///< the mapper was drawn in the renderer's last frame
   bool FirstDrawing = false;
   bool UploadsLeft = false;
   bool Complete = false;
@@ -31,15 +32,25 @@ struct RendererView
   double DrawingMs = 0.0;    ///< what a frame took lately
   FrameDemand Demand; ///< of the last frame, its view in the store's coordinates
 
-  RendererView() = default;
+  /// `unseen` is called after a frame of the renderer without this mapper: its actor is hidden, out
+  /// of sight or no longer there.
+  RendererView(vtkRenderer* renderer, std::function<void()> unseen);
   ~RendererView();
   RendererView(const RendererView&) = delete;
   RendererView& operator=(const RendererView&) = delete;
 
   /// Whether a frame is due. A view at rest that is being loaded is drawn a quarter of the time at
   /// most: till the next frame is due its front is moved here, so that what it asks for next does
-  /// not wait for a slow drawing. Once a frame is due it stays so until it is drawn.
+  /// not wait for a slow drawing. Once a frame is due it stays so until it is drawn. Never for what
+  /// the renderer does not show: it would stay due for ever.
   bool NeedsRender();
+
+private:
+  void EndFrame();
+
+  std::function<void()> Unseen;
+  unsigned long StartTag = 0;
+  unsigned long EndTag = 0;
 };
 
 } // namespace pointfront

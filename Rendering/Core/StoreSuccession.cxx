@@ -22,7 +22,7 @@ void StoreSuccession::advance(vtkRenderer* renderer, FrameDemand demand)
   if (!front)
   {
     front = std::make_unique<ViewFront>(piece_, store_->GetResidencyShare(), schema,
-      std::make_shared<SharedDemand>()); // not in the window yet: it takes nothing from the others
+      std::make_shared<WindowDemand>()); // not in the window yet: it takes nothing from the others
   }
   const auto unknown = std::remove_if(demand.columns.begin(), demand.columns.end(),
     [&](std::uint32_t column) { return column >= schema.size(); });

@@ -1,5 +1,7 @@
 #include "ViewFront.h"
 
+#include "GpuSlotBytes.h"
+
 #include "pointfront/Front/RenderFront.h"
 #include "pointfront/Front/ViewDetail.h"
 #include "pointfront/Residency/LoadScheduler.h"
@@ -54,21 +56,31 @@ private:
 };
 
 ViewFront::ViewFront(std::shared_ptr<const HierarchyPiece> piece, ResidencyShare& share,
-  const AttributeSchema& schema, std::shared_ptr<SharedDemand> windowDemand)
+  const AttributeSchema& schema, std::shared_ptr<const WindowDemand> window)
     : piece_(std::move(piece)), share_(share), schema_(schema), wish_(share.join()),
       residents_(std::make_unique<Residents>(share.residency())),
       selection_(std::make_unique<RenderFront>(piece_->hierarchy())), margin_(piece_->hierarchy()),
       memory_(share.residency().scheduler().sharedDemand()),
-      window_(std::make_unique<SharedDemand::Claim>(std::move(windowDemand)))
+      window_(std::make_unique<WindowClaims>(std::move(window)))
 {
 }
 
 ViewFront::~ViewFront() = default;
 
-void ViewFront::enterWindow(std::shared_ptr<SharedDemand> windowDemand)
+void ViewFront::enterWindow(std::shared_ptr<const WindowDemand> window)
 {
-  window_ = std::make_unique<SharedDemand::Claim>(std::move(windowDemand));
+  window_ = std::make_unique<WindowClaims>(std::move(window));
   sharedSeen_ = 0;
+}
+
+void ViewFront::leave()
+{
+  const DemandCurve nothing;
+  memory_.set(nothing);
+  window_->points.set(nothing);
+  window_->slots.set(nothing);
+  sharedSeen_ = 0;
+  wish_->request({}, [](NodeIndex) { return 1u; });
 }
 
 std::shared_ptr<const NodeColumns> ViewFront::find(NodeIndex node) const
@@ -165,39 +177,41 @@ void ViewFront::loadRoots()
 void ViewFront::readShares()
 {
   const LoadScheduler& scheduler = share_.residency().scheduler();
-  const std::uint64_t revision = memory_.revision() + window_->revision();
+  const std::uint64_t revision = sharedRevision();
   if (revision != sharedSeen_)
   {
     sharedSeen_ = revision;
-    window_->elsewhere(drawnElsewhere_);
-    memory_.elsewhere(heldElsewhere_);
+    window_->points.elsewhere(elsewhere_.drawn);
+    window_->slots.elsewhere(elsewhere_.slots);
+    memory_.elsewhere(elsewhere_.held);
     for (std::size_t step = 0; step < DemandCurve::size; ++step)
     {
-      heldElsewhere_[step] /= pointBytes_;
+      elsewhere_.held[step] /= pointBytes_;
     }
   }
   limits_.sharedRevision = revision;
-  limits_.sharedDrawn.elsewhere = &drawnElsewhere_;
-  limits_.sharedHeld.elsewhere = &heldElsewhere_;
-  limits_.sharedHeld.points = static_cast<std::uint64_t>(heldShare *
+  limits_.sharedDrawn.elsewhere = &elsewhere_.drawn;
+  limits_.sharedSlots.elsewhere = &elsewhere_.slots;
+  limits_.sharedHeld.elsewhere = &elsewhere_.held;
+  limits_.sharedHeld.most = static_cast<std::uint64_t>(heldShare *
     static_cast<double>(scheduler.budget()->limit()) / static_cast<double>(pointBytes_));
 }
 
 /// What this view takes, for the others.
 void ViewFront::tellDemand()
 {
-  DemandCurve drawn;
-  DemandCurve held;
-  selection_->demandCurves(drawn, held);
+  DemandCurves curves;
+  selection_->demandCurves(curves);
   for (std::size_t step = 0; step < DemandCurve::size; ++step)
   {
-    held[step] *= pointBytes_;
+    curves.held[step] *= pointBytes_;
   }
   // Its own change is none for itself; another one's, since the look, is.
-  const std::uint64_t before = memory_.revision() + window_->revision();
-  memory_.set(held);
-  window_->set(drawn);
-  sharedSeen_ += memory_.revision() + window_->revision() - before;
+  const std::uint64_t before = sharedRevision();
+  memory_.set(curves.held);
+  window_->points.set(curves.drawn);
+  window_->slots.set(curves.slots);
+  sharedSeen_ += sharedRevision() - before;
 }
 
 void ViewFront::setLimits(const FrameDemand& demand)
@@ -206,7 +220,11 @@ void ViewFront::setLimits(const FrameDemand& demand)
   limits.targetErrorPx = demand.targetErrorPx;
   limits.pointBudget = demand.pointBudget;
   limits.layers = demand.layers;
-  limits.sharedDrawn.points = demand.pointBudget;
+  limits.sharedDrawn.most = demand.pointBudget;
+  const std::uint64_t claims = window_->points.claims();
+  limits.sharedSlots.most = demand.gpuBytes > 0
+    ? GpuSlotBytes::slotsWithin(demand.gpuBytes, !demand.columns.empty(), claims)
+    : 0;
   limits.requestLimit = requestsAtOnce;
   limits.interacting = demand.interacting;
   limits.motionErrorPx = demand.targetErrorPx;
@@ -216,13 +234,13 @@ void ViewFront::setLimits(const FrameDemand& demand)
   limits.heldPointBudget = static_cast<std::uint64_t>(
     heldShare * static_cast<double>(share_.budgetBytes()) /
     static_cast<double>(pointBytes_ * std::max<std::size_t>(1, share_.wishes())));
-  const auto clouds = static_cast<double>(window_->claims());
+  const auto clouds = static_cast<double>(claims);
   const double frameMs = demand.frameMs > 0.0 ? demand.frameMs : clouds * demand.cloudMs;
   if (demand.interacting && frameMs > 0.0)
   {
     // At what a point of this cloud costs; several clouds share them, at one error.
     const std::uint64_t affordable = cost_.pointsFor(frameMs, fewestPoints);
-    std::uint64_t& most = clouds > 1.0 ? limits.sharedDrawn.points : limits.pointBudget;
+    std::uint64_t& most = clouds > 1.0 ? limits.sharedDrawn.most : limits.pointBudget;
     most = demand.pointBudget == 0 ? affordable : std::min(demand.pointBudget, affordable);
     limits.movesPerFrame = cost_.movesFor(frameMs / clouds, delta_.pointsDrawn);
   }
@@ -297,10 +315,10 @@ void ViewFront::complete(const FrameDemand& demand)
 std::uint64_t ViewFront::pointsOnGpu(std::uint64_t windowBudget) const
 {
   DemandCurve others;
-  window_->elsewhere(others);
+  window_->points.elsewhere(others);
   const std::uint64_t drawn = delta_.pointsDrawn + others[0];
   const std::uint64_t idle = windowBudget > drawn ? windowBudget - drawn : 0;
-  return delta_.pointsDrawn + idle / window_->claims();
+  return delta_.pointsDrawn + idle / window_->points.claims();
 }
 
 bool ViewFront::expectsMore() const
@@ -314,7 +332,7 @@ bool ViewFront::expectsMore() const
 bool ViewFront::wantsUpdate() const
 {
   return !begun_ || share_.residency().arrivals() != arrivalsSeen_ ||
-         memory_.revision() + window_->revision() != sharedSeen_ ||
+         sharedRevision() != sharedSeen_ ||
          (delta_.rowsComing && piece_->hierarchy()->arrivals() != rowsSeen_) ||
          (!delta_.complete && movedOn());
 }

@@ -2,11 +2,11 @@
 
 #include "HierarchyPiece.h"
 #include "ResidencyShare.h"
+#include "WindowDemand.h"
 
 #include "pointfront/Front/DetailSelection.h"
 #include "pointfront/Front/FrameCostModel.h"
 #include "pointfront/Front/MotionMargin.h"
-#include "pointfront/Front/SharedDemand.h"
 #include "pointfront/Front/View.h"
 #include "pointfront/Points/AttributeSchema.h"
 #include "pointfrontRenderingCoreModule.h" // for the export macro
@@ -34,6 +34,7 @@ struct FrameDemand
   ColumnSelection columns; ///< that the points are drawn with
   double targetErrorPx = 1.0;
   std::uint64_t pointBudget = 0; ///< 0: no limit; over all clouds of the window
+  std::int64_t gpuBytes = 0;     ///< likewise, of GPU memory
   bool interacting = false;
   double frameMs = 0.0;  ///< interacting: that a frame may take, with all clouds of the window
   double cloudMs = 0.0;  ///< where frameMs is 0: that this cloud may take
@@ -50,18 +51,21 @@ struct FrameDemand
 class POINTFRONTRENDERINGCORE_EXPORT ViewFront
 {
 public:
-  /// `schema` outlives the front: the store's. `windowDemand`: of all clouds that are drawn in the
-  /// same window, in points.
+  /// `schema` outlives the front: the store's. `window`: all clouds that are drawn in the same one.
   ViewFront(std::shared_ptr<const HierarchyPiece> piece, ResidencyShare& share,
-    const AttributeSchema& schema, std::shared_ptr<SharedDemand> windowDemand);
+    const AttributeSchema& schema, std::shared_ptr<const WindowDemand> window);
   ~ViewFront();
 
   /// Moves the front towards the view. The delta is valid until the next update.
   const FrontDelta& update(const FrameDemand& demand);
   const FrontDelta& last() const { return delta_; }
 
+  /// Nobody sees it until the next update: its part of all that is shared goes to the others, what
+  /// it has loaded stays as long as nobody wants the memory.
+  void leave();
+
   /// From now on it is drawn among the clouds with that demand.
-  void enterWindow(std::shared_ptr<SharedDemand> windowDemand);
+  void enterWindow(std::shared_ptr<const WindowDemand> window);
 
   /// Of a window's budget of points (0: no limit), what this view has on the GPU and may keep there
   /// beside it: what it draws, and its part of what nobody draws.
@@ -92,6 +96,7 @@ private:
   void complete(const FrameDemand& demand);
   void loadRoots();
   void setLimits(const FrameDemand& demand);
+  std::uint64_t sharedRevision() const { return memory_.revision() + window_->revision(); }
   void readShares();
   void tellDemand();
 
@@ -106,11 +111,10 @@ private:
   FrameCostModel cost_;
   FrontDelta delta_;
   FrontLimits limits_;
-  // What this view shares with others: memory (in bytes) and the window's points.
+  // What this view shares with others: memory (in bytes), and the window's.
   SharedDemand::Claim memory_;
-  std::unique_ptr<SharedDemand::Claim> window_;
-  DemandCurve heldElsewhere_;  ///< in points of this store
-  DemandCurve drawnElsewhere_;
+  std::unique_ptr<WindowClaims> window_;
+  DemandCurves elsewhere_; ///< in points of this store and slots
   std::uint64_t sharedSeen_ = 0;
   ColumnSelection columns_;
   std::size_t pointBytes_ = 0; ///< of a decoded point with columns_

@@ -2,33 +2,32 @@
 
 #include "pointfront/Front/SharedDemand.h"
 
-#include <vtkWindow.h>
-
-#include <iterator>
-#include <map>
+#include <cstdint>
 #include <memory>
+#include <utility>
 
 namespace pointfront
 {
 
-/// What all clouds of a window draw, in points: their views settle at one error. It lives as long
-/// as one of them holds it.
-/// Threads  the renderer's only.
-inline std::shared_ptr<SharedDemand> demandOf(vtkWindow* window)
+/// What all clouds of a window take: their views settle at one error.
+struct WindowDemand
 {
-  static std::map<vtkWindow*, std::weak_ptr<SharedDemand>> windows;
-  for (auto entry = windows.begin(); entry != windows.end();)
+  std::shared_ptr<SharedDemand> points = std::make_shared<SharedDemand>(); ///< on screen
+  std::shared_ptr<SharedDemand> slots = std::make_shared<SharedDemand>();  ///< of GPU memory
+};
+
+/// One view's part.
+struct WindowClaims
+{
+  explicit WindowClaims(std::shared_ptr<const WindowDemand> demand)
+      : window(std::move(demand)), points(window->points), slots(window->slots)
   {
-    entry = entry->second.expired() ? windows.erase(entry) : std::next(entry);
   }
-  std::weak_ptr<SharedDemand>& known = windows[window];
-  auto demand = known.lock();
-  if (!demand)
-  {
-    demand = std::make_shared<SharedDemand>();
-    known = demand;
-  }
-  return demand;
-}
+  std::uint64_t revision() const { return points.revision() + slots.revision(); }
+
+  std::shared_ptr<const WindowDemand> window; ///< lives as long as somebody claims
+  SharedDemand::Claim points;
+  SharedDemand::Claim slots;
+};
 
 } // namespace pointfront

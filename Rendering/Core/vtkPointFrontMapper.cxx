@@ -1,10 +1,11 @@
 #include "vtkPointFrontMapper.h"
 
+#include "PerWindow.h"
 #include "PointColouring.h"
+#include "RenderTimer.h"
 #include "RendererView.h"
 #include "StoreSuccession.h"
 #include "ViewFront.h"
-#include "WindowDemand.h"
 
 #include "pointfront/Front/DetailLevel.h"
 #include "vtkPointFrontStore.h"
@@ -38,7 +39,6 @@ namespace
 
 /// VTK and ParaView set rates of 5 and more in motion, of 0.002 and less at rest.
 constexpr double interactiveRate = 0.01;
-constexpr unsigned long timerMilliseconds = 30;
 
 using Clock = std::chrono::steady_clock;
 
@@ -58,6 +58,12 @@ pointfront::LayerLimits limitsOf(
 
 struct vtkPointFrontMapper::Content
 {
+  explicit Content(vtkPointFrontMapper* owner)
+      : Owner(owner), Timer([owner] { return owner->Announce(); })
+  {
+  }
+
+  vtkPointFrontMapper* Owner;
   vtkSmartPointer<vtkPointFrontStore> Store; // before the views: their fronts refer to it
   std::string StoreName;
   vtkMTimeType InputTime = 0;
@@ -69,9 +75,7 @@ struct vtkPointFrontMapper::Content
   std::unique_ptr<pointfront::StoreSuccession> Succession; ///< from Store, while it is a preview
   std::string UnknownArray; ///< that has been warned of
 
-  vtkWeakPointer<vtkRenderWindowInteractor> Interactor;
-  int TimerId = -1;
-  unsigned long TimerTag = 0;
+  pointfront::RenderTimer Timer;
 
   pointfront::RendererView& ViewOf(vtkRenderer* renderer)
   {
@@ -84,14 +88,22 @@ struct vtkPointFrontMapper::Content
     {
       return found->second;
     }
-    pointfront::RendererView& view = this->Views[renderer];
-    view.Renderer = renderer;
-    vtkNew<vtkCallbackCommand> begin;
-    begin->SetClientData(&view); // a map's elements stay where they are
-    begin->SetCallback([](vtkObject*, unsigned long, void* data, void*)
-      { static_cast<pointfront::RendererView*>(data)->NewFrame = true; });
-    view.StartTag = renderer->AddObserver(vtkCommand::StartEvent, begin);
-    return view;
+    // A map's elements stay where they are.
+    return this->Views.try_emplace(renderer, renderer, [this] { this->LeaveScreen(); })
+      .first->second;
+  }
+
+  bool IsSeen() const
+  {
+    return std::any_of(this->Views.begin(), this->Views.end(),
+      [](const auto& view) { return view.second.Renderer && view.second.Seen; });
+  }
+  void LeaveScreen()
+  {
+    if (!this->IsSeen())
+    {
+      this->Owner->LeaveScreen();
+    }
   }
 
   std::vector<pointfront::LayerLimits> LayersOf(vtkPointFrontStore& store) const
@@ -104,23 +116,13 @@ struct vtkPointFrontMapper::Content
     }
     return limits;
   }
-
-  void StopTimer()
-  {
-    if (this->Interactor)
-    {
-      this->Interactor->RemoveObserver(this->TimerTag);
-      this->Interactor->DestroyTimer(this->TimerId);
-    }
-    this->Interactor = nullptr;
-  }
 };
 
-vtkPointFrontMapper::vtkPointFrontMapper() : Internals(new Content) {}
+vtkPointFrontMapper::vtkPointFrontMapper() : Internals(new Content(this)) {}
 
 vtkPointFrontMapper::~vtkPointFrontMapper()
 {
-  this->Internals->StopTimer();
+  this->Internals->Timer.stop();
 }
 
 void vtkPointFrontMapper::SetClassVisibility(int objectClass, bool visible)
@@ -311,6 +313,7 @@ pointfront::FrameDemand vtkPointFrontMapper::GetDemand(vtkRenderer* renderer, vt
   demand.columns = this->GetColouring().columns();
   demand.targetErrorPx = this->TargetError;
   demand.pointBudget = static_cast<std::uint64_t>(this->PointBudget);
+  demand.gpuBytes = this->GPUMemoryBudget;
   demand.method = this->DetailSelection == VIEW_SPECIFIC
                     ? pointfront::DetailMethod::ViewSpecific
                     : pointfront::DetailMethod::RenderingFront;
@@ -377,7 +380,8 @@ void vtkPointFrontMapper::TakeSuccessor()
     view.Announced = false;
     if (view.Front && view.Renderer)
     {
-      view.Front->enterWindow(pointfront::demandOf(view.Renderer->GetRenderWindow()));
+      view.Front->enterWindow(
+        pointfront::perWindow<pointfront::WindowDemand>(view.Renderer->GetRenderWindow()));
     }
   }
   content.Piece = succession->piece();
@@ -415,7 +419,7 @@ pointfront::ViewFront* vtkPointFrontMapper::PrepareFrame(vtkRenderer* renderer, 
   {
     view.Front = std::make_unique<pointfront::ViewFront>(
       content.Piece, store->GetResidencyShare(), store->GetStore()->description().schema,
-      pointfront::demandOf(renderer->GetRenderWindow()));
+      pointfront::perWindow<pointfront::WindowDemand>(renderer->GetRenderWindow()));
   }
   else if (!view.NewFrame || renderer->GetSelector())
   {
@@ -453,7 +457,7 @@ bool vtkPointFrontMapper::IsFirstDrawing(vtkRenderer* renderer) const
 }
 
 void vtkPointFrontMapper::FinishFrame(
-  vtkRenderer* renderer, vtkIdType points, vtkTypeInt64 gpuBytes, bool uploadsLeft)
+  vtkRenderer* renderer, vtkIdType points, bool uploadsLeft)
 {
   pointfront::RendererView& view = this->Internals->ViewOf(renderer);
   const pointfront::FrontDelta& delta = view.Front->last();
@@ -467,9 +471,9 @@ void vtkPointFrontMapper::FinishFrame(
                   (!IsInteracting(renderer) || delta.errorPx <= this->TargetError);
   this->LastPointsDrawn = points;
   this->LastNodesDrawn = static_cast<vtkIdType>(delta.draw.size());
-  this->LastGPUBytes = gpuBytes;
   this->LastComplete = view.Complete;
   this->LastLimitedByPoints = delta.limitedByBudget;
+  this->LastLimitedByGPUMemory = delta.limitedByGpu;
   this->LastLimitedByMemory = delta.limitedByMemory;
   this->LastFailedNodes = static_cast<vtkIdType>(delta.failedNodes);
   const bool announce = view.Complete && !view.Announced;
@@ -490,6 +494,22 @@ void vtkPointFrontMapper::RecordFrame(
     view->second.Front->recordFrame(static_cast<std::uint64_t>(points),
       static_cast<std::uint32_t>(moves), milliseconds);
   }
+}
+
+/// The last frame showed nothing of it, and that is all there is to show.
+void vtkPointFrontMapper::LeaveScreen()
+{
+  this->LastPointsDrawn = 0;
+  this->LastNodesDrawn = 0;
+  this->LastMoves = 0;
+  this->LastRequests = 0;
+  this->LastError = 0.0;
+  this->LastFrontTime = 0.0;
+  this->LastComplete = true;
+  this->LastLimitedByPoints = false;
+  this->LastLimitedByGPUMemory = false;
+  this->LastLimitedByMemory = false;
+  this->LastFailedNodes = 0;
 }
 
 vtkIdType vtkPointFrontMapper::GetPointsOnGPU() const
@@ -517,6 +537,10 @@ bool vtkPointFrontMapper::IsAheadOfFrame(vtkRenderer* renderer) const
 
 bool vtkPointFrontMapper::NeedsRender()
 {
+  if (!this->Internals->Views.empty() && !this->Internals->IsSeen())
+  {
+    return false;
+  }
   const std::unique_ptr<pointfront::StoreSuccession>& succession = this->Internals->Succession;
   if (succession ? succession->wantsUpdate()
                  : this->Internals->Store && this->Internals->Store->HasSuccessor())
@@ -533,27 +557,22 @@ bool vtkPointFrontMapper::NeedsRender()
 
 void vtkPointFrontMapper::RenderWhenDataArrives(vtkRenderWindowInteractor* interactor)
 {
-  Content& content = *this->Internals;
-  content.StopTimer();
-  if (!interactor)
+  this->Internals->Timer.stop();
+  if (interactor)
   {
-    return;
+    this->Internals->Timer.start(interactor);
   }
-  content.Interactor = interactor;
-  vtkNew<vtkCallbackCommand> tick;
-  tick->SetClientData(this);
-  tick->SetCallback(
-    [](vtkObject* caller, unsigned long, void* data, void*)
-    {
-      auto* self = static_cast<vtkPointFrontMapper*>(data);
-      if (self->NeedsRender())
-      {
-        self->InvokeEvent(vtkCommand::UpdateDataEvent);
-        static_cast<vtkRenderWindowInteractor*>(caller)->Render();
-      }
-    });
-  content.TimerTag = interactor->AddObserver(vtkCommand::TimerEvent, tick);
-  content.TimerId = interactor->CreateRepeatingTimer(timerMilliseconds);
+}
+
+/// Whether a render is due; who observes is told before it.
+bool vtkPointFrontMapper::Announce()
+{
+  const bool due = this->NeedsRender();
+  if (due)
+  {
+    this->InvokeEvent(vtkCommand::UpdateDataEvent);
+  }
+  return due;
 }
 
 void vtkPointFrontMapper::PrintSelf(ostream& os, vtkIndent indent)
@@ -561,6 +580,7 @@ void vtkPointFrontMapper::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "TargetError: " << this->TargetError << "\n";
   os << indent << "PointBudget: " << this->PointBudget << "\n";
+  os << indent << "GPUMemoryBudget: " << this->GPUMemoryBudget << "\n";
   os << indent << "DetailSelection: " << this->DetailSelection << "\n";
   os << indent << "OverviewPoints: " << this->OverviewPoints << "\n";
   os << indent << "PointSize: " << this->PointSize << "\n";
@@ -572,6 +592,7 @@ void vtkPointFrontMapper::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "LastError: " << this->LastError << "\n";
   os << indent << "LastComplete: " << this->LastComplete << "\n";
   os << indent << "LastLimitedByPoints: " << this->LastLimitedByPoints << "\n";
+  os << indent << "LastLimitedByGPUMemory: " << this->LastLimitedByGPUMemory << "\n";
   os << indent << "LastLimitedByMemory: " << this->LastLimitedByMemory << "\n";
   os << indent << "LastFailedNodes: " << this->LastFailedNodes << "\n";
 }

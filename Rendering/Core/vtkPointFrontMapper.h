@@ -61,6 +61,18 @@ public:
   vtkGetMacro(PointBudget, vtkIdType);
   ///@}
 
+  ///@{
+  /**
+   * Most bytes of GPU memory for points, over all clouds of a window. A view that needs more
+   * settles at the best error that fits (LastLimitedByGPUMemory). Counted is what the buffers take,
+   * filled or not, not the points in them; a frame in which they grow takes no more than that
+   * either. When it is lowered, it holds from the second frame on. Default 0: no limit but
+   * PointBudget.
+   */
+  vtkSetClampMacro(GPUMemoryBudget, vtkTypeInt64, 0, VTK_TYPE_INT64_MAX);
+  vtkGetMacro(GPUMemoryBudget, vtkTypeInt64);
+  ///@}
+
   enum DetailSelections
   {
     RENDERING_FRONT = 0,
@@ -177,11 +189,15 @@ public:
   vtkGetMacro(LastThreshold, double);
   vtkGetMacro(LastFrontTime, double); ///< milliseconds of the front's update
   vtkGetMacro(LastGPUBytes, vtkTypeInt64);
+  /// As LastGPUBytes, of all clouds of the window together.
+  vtkGetMacro(LastWindowGPUBytes, vtkTypeInt64);
   /// True when the last frame showed all that TargetError and the budgets allow: no further render
   /// will change the picture.
   vtkGetMacro(LastComplete, bool);
   /// True when PointBudget, or the time of a frame in motion, kept the error above TargetError.
   vtkGetMacro(LastLimitedByPoints, bool);
+  /// True when GPUMemoryBudget did.
+  vtkGetMacro(LastLimitedByGPUMemory, bool);
   /// True when the store's host memory budget did.
   vtkGetMacro(LastLimitedByMemory, bool);
   /// Nodes of this view that could not be read; what lies above them is drawn in their place.
@@ -199,7 +215,9 @@ public:
    * True if nodes arrived since the last render, or the last render left work over: render again.
    * Cheap, non blocking; for timers and render loops, from the rendering thread. While a view at
    * rest is being loaded, drawings take a quarter of the time at most: until then this moves the
-   * front alone, so that loading does not wait for a slow drawing, and says false.
+   * front alone, so that loading does not wait for a slow drawing, and says false. False for a
+   * mapper that no renderer shows: hidden or out of sight, it leaves its part of the budgets to the
+   * others.
    */
   virtual bool NeedsRender();
 
@@ -237,11 +255,12 @@ protected:
   bool IsAheadOfFrame(vtkRenderer* renderer) const;
   /// What the first drawing of a frame came to; `uploadsLeft` when not all points of the front are
   /// on the GPU yet.
-  void FinishFrame(
-    vtkRenderer* renderer, vtkIdType points, vtkTypeInt64 gpuBytes, bool uploadsLeft);
+  void FinishFrame(vtkRenderer* renderer, vtkIdType points, bool uploadsLeft);
   /// What an earlier frame of that renderer drew and cost, CPU and GPU, as soon as that is known.
   void RecordFrame(
     vtkRenderer* renderer, vtkIdType points, vtkIdType moves, double milliseconds);
+  /// A renderer drew a frame, and none shows this mapper any more: what it has on the GPU is idle.
+  virtual void LeaveScreen();
   static bool IsInteracting(vtkRenderer* renderer);
   /// Of PointBudget, what this mapper may have on the GPU beside the other clouds of the window; 0:
   /// no limit.
@@ -252,6 +271,7 @@ protected:
 
   double TargetError = 1.0;
   vtkIdType PointBudget = 5000000;
+  vtkTypeInt64 GPUMemoryBudget = 0;
   int DetailSelection = RENDERING_FRONT;
   vtkIdType OverviewPoints = 2000000;
   double PointSize = 0.0;
@@ -270,8 +290,10 @@ protected:
   double LastThreshold = 0.0;
   double LastFrontTime = 0.0;
   vtkTypeInt64 LastGPUBytes = 0;
+  vtkTypeInt64 LastWindowGPUBytes = 0;
   bool LastComplete = false;
   bool LastLimitedByPoints = false;
+  bool LastLimitedByGPUMemory = false;
   bool LastLimitedByMemory = false;
   vtkIdType LastFailedNodes = 0;
 
@@ -282,6 +304,7 @@ private:
   /// that shows as much of the view.
   void FollowPreview(vtkRenderer* renderer, vtkActor* actor);
   void TakeSuccessor();
+  bool Announce();
   std::unique_ptr<Content> Internals;
 
   vtkPointFrontMapper(const vtkPointFrontMapper&) = delete;

@@ -24,6 +24,14 @@ bool drawnByProgram()
 
 } // namespace
 
+DrawBatches::~DrawBatches()
+{
+  for (void* const fence : underWay_)
+  {
+    glDeleteSync(static_cast<GLsync>(fence));
+  }
+}
+
 void DrawBatches::draw(const std::vector<int>& firsts, const std::vector<int>& counts)
 {
   if (drawnByProgram())
@@ -39,26 +47,20 @@ void DrawBatches::draw(const std::vector<int>& firsts, const std::vector<int>& c
 
 void DrawBatches::drawInTurn(const std::vector<int>& firsts, const std::vector<int>& counts)
 {
-  int waiting = 0; // points handed to GL since the last flush
   for (std::size_t run = 0; run < firsts.size(); ++run)
   {
     for (int drawn = 0; drawn < counts[run];)
     {
-      const int count = std::min(counts[run] - drawn, batchPoints - waiting);
+      const int count = std::min(counts[run] - drawn, batchPoints - waiting_);
       glDrawArrays(GL_POINTS, firsts[run] + drawn, count);
       drawn += count;
-      waiting += count;
-      if (waiting == batchPoints)
+      waiting_ += count;
+      if (waiting_ == batchPoints)
       {
         this->flush();
-        waiting = 0;
+        waiting_ = 0;
       }
     }
-  }
-  while (!underWay_.empty())
-  {
-    glDeleteSync(static_cast<GLsync>(underWay_.front()));
-    underWay_.pop_front();
   }
 }
 

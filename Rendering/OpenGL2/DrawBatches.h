@@ -15,12 +15,19 @@ namespace pointfront
 class DrawBatches
 {
 public:
+  DrawBatches() = default;
+  ~DrawBatches();
+  DrawBatches(const DrawBatches&) = delete;
+  DrawBatches& operator=(const DrawBatches&) = delete;
+
+  /// As often as there are buffers to draw from: a batch goes on from one to the next.
   void draw(const std::vector<int>& firsts, const std::vector<int>& counts);
 
 private:
   void drawInTurn(const std::vector<int>& firsts, const std::vector<int>& counts);
   void flush();
 
+  int waiting_ = 0; ///< points handed to GL since the last flush
   std::deque<void*> underWay_; ///< GLsync of batches that were handed over
 };
 

@@ -1,46 +1,33 @@
 #include "GpuPool.h"
 
-#include <vtk_glew.h>
+#include "GpuAccount.h"
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 
 namespace pointfront
 {
 namespace
 {
 
-constexpr std::int64_t positionBytes = sizeof(glm::u32vec3);
-constexpr std::int64_t valueBytes = sizeof(std::uint32_t);
-constexpr std::uint32_t firstSlots = 8; // 32 K points, 512 KiB: a scene may have many pools
+constexpr std::uint32_t fewestSlots = 8; ///< nothing is given back below it: 32 K points
+/// A pool grows by an eighth of what it has, a small one by what it wants.
+constexpr std::uint32_t growthShare = 8;
+constexpr std::uint64_t mostSmallSlots = 8;
+constexpr std::uint64_t mostBlockSlots = 4096; ///< 256 MiB
 /// Slots kept beyond what may be drawn, so that turning back and forth uploads nothing: a quarter.
 constexpr std::uint32_t cacheShare = 4;
 
-/// gl_VertexID is a signed 32-bit integer.
-constexpr std::uint32_t mostSlots = 0x7fffffffu / GpuPool::slotPoints;
-
-std::uint32_t makeBuffer(std::int64_t bytes)
+/// The largest power of two that is not larger; 1 for 0.
+std::uint64_t powerBelow(std::uint64_t value)
 {
-  GLuint buffer = 0;
-  glGenBuffers(1, &buffer);
-  glBindBuffer(GL_COPY_WRITE_BUFFER, buffer);
-  glBufferData(GL_COPY_WRITE_BUFFER, static_cast<GLsizeiptr>(bytes), nullptr, GL_DYNAMIC_DRAW);
-  glBindBuffer(GL_COPY_WRITE_BUFFER, 0);
-  return buffer;
-}
-
-/// A larger buffer with the same beginning in place of `buffer`.
-void enlarge(std::uint32_t& buffer, std::int64_t from, std::int64_t to)
-{
-  const std::uint32_t larger = makeBuffer(to);
-  glBindBuffer(GL_COPY_READ_BUFFER, buffer);
-  glBindBuffer(GL_COPY_WRITE_BUFFER, larger);
-  glCopyBufferSubData(
-    GL_COPY_READ_BUFFER, GL_COPY_WRITE_BUFFER, 0, 0, static_cast<GLsizeiptr>(from));
-  glBindBuffer(GL_COPY_READ_BUFFER, 0);
-  glBindBuffer(GL_COPY_WRITE_BUFFER, 0);
-  glDeleteBuffers(1, &buffer);
-  buffer = larger;
+  std::uint64_t power = 1;
+  while (power <= value / 2)
+  {
+    power *= 2;
+  }
+  return power;
 }
 
 /// Calls write(slot, offset in the slot, first point, count) for each slot that [begin, end) meets.
@@ -59,6 +46,44 @@ void forSlots(const std::vector<std::uint32_t>& slots, std::uint32_t begin, std:
 
 } // namespace
 
+GpuPool::~GpuPool()
+{
+  if (account_)
+  {
+    charge(-bytes_);
+    account_->leave(*this);
+  }
+}
+
+void GpuPool::enter(std::shared_ptr<GpuAccount> account)
+{
+  if (account_ == account)
+  {
+    return;
+  }
+  if (account_)
+  {
+    account_->charge(-bytes_);
+    account_->leave(*this);
+  }
+  account_ = std::move(account);
+  account_->charge(bytes_);
+  account_->join(*this);
+}
+
+void GpuPool::charge(std::int64_t bytes)
+{
+  bytes_ += bytes;
+  account_->charge(bytes);
+}
+
+std::int64_t GpuPool::windowBytes() const { return account_ ? account_->bytes() : 0; }
+
+bool GpuPool::tooMuch(std::int64_t more) const
+{
+  return limits_.bytes > 0 && account_->bytes() + more > limits_.bytes;
+}
+
 void GpuPool::setColouring(const PointColouring& colouring)
 {
   if (colouring == colouring_)
@@ -70,19 +95,253 @@ void GpuPool::setColouring(const PointColouring& colouring)
   {
     entry.values = 0;
   }
+  for (GpuBlock& block : blocks_)
+  {
+    if (!colouring_.usesColumn() && block.valueBuffer() != 0)
+    {
+      charge(-block.bytes());
+      block.dropValues();
+      charge(block.bytes());
+    }
+  }
 }
 
-void GpuPool::beginFrame(std::uint64_t mostPoints, std::uint32_t views)
+void GpuPool::beginFrame(const Limits& limits)
 {
   ++frame_;
-  views_ = std::max(1u, views);
-  const auto slots = static_cast<std::uint32_t>(
-    std::min<std::uint64_t>((mostPoints + slotPoints - 1) / slotPoints, 1u << 24));
-  slotLimit_ = mostPoints == 0 ? 0 : slots + slots / cacheShare + 1;
-  if (slotLimit_ != 0 && slotCount_ / 2 > std::max(slotLimit_, firstSlots))
+  limits_ = limits;
+  limits_.views = std::max(1u, limits.views);
+  const std::uint64_t slots = std::min<std::uint64_t>(gpuSlotsOf(limits.points), 1u << 24);
+  slotLimit_ =
+    limits.points == 0 ? 0 : static_cast<std::uint32_t>(slots + slots / cacheShare + 1);
+}
+
+void GpuPool::leaveScreen() { frame_ += limits_.views; }
+
+bool GpuPool::makeRoom(const std::vector<DrawItem>& draw)
+{
+  mark(draw);
+  keepWithin();
+  addValues();
+  std::uint64_t missing = 0;
+  for (const DrawItem& item : draw)
   {
-    shrink();
+    const std::uint64_t wanted = gpuSlotsOf(item.pointCount);
+    const auto found = entries_.find(item.node);
+    const std::uint64_t there = found == entries_.end() ? 0 : found->second.slots.size();
+    missing += wanted - std::min(wanted, there);
   }
+  return makeFree(missing);
+}
+
+/// What this frame draws is on the screen.
+void GpuPool::mark(const std::vector<DrawItem>& draw)
+{
+  for (const DrawItem& item : draw)
+  {
+    const auto found = entries_.find(item.node);
+    if (found != entries_.end())
+    {
+      Entry& entry = found->second;
+      const bool others = entry.frame + limits_.views > frame_; // another view draws it as well
+      entry.wanted = others ? std::max(entry.wanted, item.pointCount) : item.pointCount;
+      entry.frame = frame_;
+    }
+  }
+}
+
+void GpuPool::keepWithin()
+{
+  if (slotLimit_ != 0 && slotCount() / 2 > std::max(slotLimit_, fewestSlots))
+  {
+    while (blocks_.back().first() >= std::max(slotLimit_, fewestSlots) && giveBack())
+    {
+    }
+  }
+  while (tooMuch(0) && (giveBack() || (trim() && giveBack())))
+  {
+  }
+  if (limits_.bytes > 0 && bytes_ > limits_.bytes)
+  {
+    release(); // less than a slot for each node: what fits comes again
+  }
+}
+
+/// Where the colouring wants values and there are none; where they do not fit beside the positions,
+/// all begins anew.
+void GpuPool::addValues()
+{
+  std::int64_t more = 0;
+  for (const GpuBlock& block : blocks_)
+  {
+    more += block.valueBuffer() == 0 ? block.slots() * slotPoints * GpuSlotBytes::value : 0;
+  }
+  if (!colouring_.usesColumn() || more == 0)
+  {
+    return;
+  }
+  if (tooMuch(more))
+  {
+    release();
+  }
+  for (GpuBlock& block : blocks_)
+  {
+    if (block.valueBuffer() == 0)
+    {
+      charge(-block.bytes());
+      block.addValues();
+      charge(block.bytes());
+    }
+  }
+}
+
+/// Below the limit: more memory. At the limit: what is not drawn gives way; if all is drawn, more.
+bool GpuPool::makeFree(std::uint64_t slots)
+{
+  while (free_.size() < slots)
+  {
+    const std::uint64_t missing = slots - free_.size();
+    const bool below = slotLimit_ != 0 && slotCount() < slotLimit_;
+    if (!(below && grow(missing)) && !evictOne() && !grow(missing) && !trim())
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+bool GpuPool::isIdle(const Entry& entry) const
+{
+  return entry.frame + limits_.views <= frame_ && !entry.slots.empty();
+}
+
+void GpuPool::listIdle()
+{
+  for (const auto& [node, entry] : entries_)
+  {
+    if (isIdle(entry))
+    {
+      idle_.emplace_back(entry.frame, node);
+    }
+  }
+  std::sort(idle_.begin(), idle_.end(), std::greater<>());
+}
+
+/// The list may be older than this frame: what became idle since was drawn after all that is in it,
+/// and what was drawn again is passed over.
+bool GpuPool::evictOne()
+{
+  if (idle_.empty())
+  {
+    listIdle();
+  }
+  while (!idle_.empty())
+  {
+    const auto [frame, node] = idle_.back();
+    idle_.pop_back();
+    const auto entry = entries_.find(node);
+    if (entry != entries_.end() && entry->second.frame == frame && isIdle(entry->second))
+    {
+      free_.insert(free_.end(), entry->second.slots.begin(), entry->second.slots.end());
+      entries_.erase(entry);
+      return true;
+    }
+  }
+  return false;
+}
+
+/// Slots of points that are no longer drawn of nodes that are. False if there are none.
+bool GpuPool::trim()
+{
+  const std::size_t before = free_.size();
+  for (auto& [node, entry] : entries_)
+  {
+    const std::uint64_t wanted = gpuSlotsOf(entry.wanted);
+    while (entry.slots.size() > wanted)
+    {
+      free_.push_back(entry.slots.back());
+      entry.slots.pop_back();
+    }
+    const auto most = static_cast<std::uint32_t>(entry.slots.size() * slotPoints);
+    entry.points = std::min(entry.points, most);
+    entry.values = std::min(entry.values, most);
+  }
+  return free_.size() > before;
+}
+
+/// By a block, towards `slots` more; false if the budget of bytes has no room for a slot.
+bool GpuPool::grow(std::uint64_t slots)
+{
+  const std::int64_t slotBytes = GpuSlotBytes::of(colouring_.usesColumn());
+  const std::uint64_t wanted =
+    std::max<std::uint64_t>(slotCount() / growthShare, std::min(slots, mostSmallSlots));
+  auto size = static_cast<std::int64_t>(powerBelow(std::min(wanted, mostBlockSlots)));
+  if (tooMuch(size * slotBytes))
+  {
+    account_->reclaim(account_->bytes() + size * slotBytes - limits_.bytes, *this);
+    size = std::min(size, (limits_.bytes - account_->bytes()) / slotBytes);
+  }
+  if (size <= 0)
+  {
+    return false;
+  }
+  blocks_.emplace_back(
+    slotCount(), static_cast<std::uint32_t>(size), colouring_.usesColumn());
+  charge(blocks_.back().bytes());
+  for (std::uint32_t slot = blocks_.back().end(); slot-- > blocks_.back().first();)
+  {
+    free_.push_back(slot); // the lowest is taken first
+  }
+  return true;
+}
+
+bool GpuPool::giveBack()
+{
+  if (blocks_.empty())
+  {
+    return false;
+  }
+  while (free_.size() < blocks_.back().slots())
+  {
+    if (!evictOne())
+    {
+      return false;
+    }
+  }
+  dropLast();
+  return true;
+}
+
+/// What it has goes to free slots of the others, of which there are enough.
+void GpuPool::dropLast()
+{
+  GpuBlock& last = blocks_.back();
+  const auto outside = std::partition(
+    free_.begin(), free_.end(), [&](std::uint32_t slot) { return slot < last.first(); });
+  free_.erase(outside, free_.end());
+  for (auto& [node, entry] : entries_)
+  {
+    for (std::uint32_t& slot : entry.slots)
+    {
+      if (slot >= last.first())
+      {
+        const std::uint32_t to = free_.back();
+        free_.pop_back();
+        blocks_[blockOf(to)].copy(last, slot, to);
+        slot = to;
+      }
+    }
+  }
+  charge(-last.bytes());
+  last.release();
+  blocks_.pop_back();
+}
+
+std::size_t GpuPool::blockOf(std::uint32_t slot) const
+{
+  const auto after = std::upper_bound(blocks_.begin(), blocks_.end(), slot,
+    [](std::uint32_t wanted, const GpuBlock& block) { return wanted < block.first(); });
+  return static_cast<std::size_t>(after - blocks_.begin()) - 1;
 }
 
 const GpuPool::Entry* GpuPool::find(NodeIndex node) const
@@ -97,18 +356,19 @@ const GpuPool::Entry* GpuPool::bring(
   Entry& entry = entries_[node.node];
   entry.frame = frame_;
   const auto wanted = std::min(count, static_cast<std::uint32_t>(node.size()));
+  entry.wanted = std::max(entry.wanted, wanted);
   if (entry.points < wanted && bytesLeft > 0)
   {
-    const auto affordable =
-      static_cast<std::uint32_t>(std::min<std::int64_t>(bytesLeft / positionBytes + 1, wanted));
+    const auto affordable = static_cast<std::uint32_t>(
+      std::min<std::int64_t>(bytesLeft / GpuSlotBytes::position + 1, wanted));
     uploadPositions(node, entry, std::min(wanted, entry.points + affordable));
-    bytesLeft -= static_cast<std::int64_t>(affordable) * positionBytes;
+    bytesLeft -= static_cast<std::int64_t>(affordable) * GpuSlotBytes::position;
   }
   if (attribute && entry.values < std::min(wanted, entry.points) && bytesLeft > 0 &&
       colouring_.coveredBy(node))
   {
     const std::uint32_t end = std::min(wanted, entry.points);
-    bytesLeft -= static_cast<std::int64_t>(end - entry.values) * valueBytes;
+    bytesLeft -= static_cast<std::int64_t>(end - entry.values) * GpuSlotBytes::value;
     uploadValues(node, *attribute, entry, end);
   }
   return entry.points == 0 ? nullptr : &entry;
@@ -116,224 +376,46 @@ const GpuPool::Entry* GpuPool::bring(
 
 void GpuPool::uploadPositions(const NodeColumns& node, Entry& entry, std::uint32_t end)
 {
-  while (entry.slots.size() * slotPoints < end)
+  while (entry.slots.size() * slotPoints < end && !free_.empty())
   {
-    std::uint32_t slot = 0;
-    if (!takeSlot(slot))
-    {
-      end = std::min(end, static_cast<std::uint32_t>(entry.slots.size() * slotPoints));
-      break;
-    }
-    entry.slots.push_back(slot);
+    entry.slots.push_back(free_.back());
+    free_.pop_back();
   }
-  glBindBuffer(GL_COPY_WRITE_BUFFER, positions_);
+  end = std::min(end, static_cast<std::uint32_t>(entry.slots.size() * slotPoints));
   forSlots(entry.slots, entry.points, end,
     [&](std::uint32_t slot, std::uint32_t offset, std::uint32_t first, std::uint32_t points)
     {
-      const auto at = (static_cast<std::int64_t>(slot) * slotPoints + offset) * positionBytes;
-      glBufferSubData(GL_COPY_WRITE_BUFFER, static_cast<GLintptr>(at),
-        static_cast<GLsizeiptr>(points * positionBytes), node.positions.data() + first);
-      uploaded_ += static_cast<std::uint64_t>(points * positionBytes);
+      blocks_[blockOf(slot)].writePositions(slot, offset, points, node.positions.data() + first);
+      uploaded_ += static_cast<std::uint64_t>(points * GpuSlotBytes::position);
     });
-  glBindBuffer(GL_COPY_WRITE_BUFFER, 0);
   entry.points = std::max(entry.points, end);
 }
 
 void GpuPool::uploadValues(
   const NodeColumns& node, const Attribute& attribute, Entry& entry, std::uint32_t end)
 {
-  allocateValues();
   staging_.clear();
   colouring_.encode(node, attribute, entry.values, end - entry.values, staging_);
-  glBindBuffer(GL_COPY_WRITE_BUFFER, values_);
   forSlots(entry.slots, entry.values, end,
     [&](std::uint32_t slot, std::uint32_t offset, std::uint32_t first, std::uint32_t points)
     {
-      const auto at = (static_cast<std::int64_t>(slot) * slotPoints + offset) * valueBytes;
-      glBufferSubData(GL_COPY_WRITE_BUFFER, static_cast<GLintptr>(at),
-        static_cast<GLsizeiptr>(points * valueBytes), staging_.data() + (first - entry.values));
-      uploaded_ += static_cast<std::uint64_t>(points * valueBytes);
+      blocks_[blockOf(slot)].writeValues(
+        slot, offset, points, staging_.data() + (first - entry.values));
+      uploaded_ += static_cast<std::uint64_t>(points * GpuSlotBytes::value);
     });
-  glBindBuffer(GL_COPY_WRITE_BUFFER, 0);
   entry.values = end;
-}
-
-bool GpuPool::takeSlot(std::uint32_t& slot)
-{
-  if (free_.empty())
-  {
-    // Below the limit: more memory. At the limit: what is not drawn gives way; if all is drawn,
-    // more.
-    if ((slotLimit_ != 0 && slotCount_ < slotLimit_) || !evictOne())
-    {
-      grow();
-    }
-  }
-  if (free_.empty())
-  {
-    return false;
-  }
-  slot = free_.back();
-  free_.pop_back();
-  return true;
-}
-
-bool GpuPool::evictOne()
-{
-  auto oldest = entries_.end();
-  for (auto entry = entries_.begin(); entry != entries_.end(); ++entry)
-  {
-    if (entry->second.frame + views_ <= frame_ && !entry->second.slots.empty() &&
-        (oldest == entries_.end() || entry->second.frame < oldest->second.frame))
-    {
-      oldest = entry;
-    }
-  }
-  if (oldest == entries_.end())
-  {
-    return false;
-  }
-  free_.insert(free_.end(), oldest->second.slots.begin(), oldest->second.slots.end());
-  entries_.erase(oldest);
-  return true;
-}
-
-/// Into smaller buffers, as far as what is on the screen allows.
-void GpuPool::shrink()
-{
-  const auto used = [this] { return slotCount_ - static_cast<std::uint32_t>(free_.size()); };
-  while (used() > slotLimit_ && evictOne())
-  {
-  }
-  const std::uint32_t slots = std::max({slotLimit_, firstSlots, used()});
-  if (slotCount_ / 2 <= slots)
-  {
-    return;
-  }
-  const auto moved = [&](std::uint32_t& buffer, std::int64_t bytes)
-  {
-    const std::int64_t slotBytes = bytes * slotPoints;
-    const std::uint32_t smaller = makeBuffer(slots * slotBytes);
-    glBindBuffer(GL_COPY_READ_BUFFER, buffer);
-    glBindBuffer(GL_COPY_WRITE_BUFFER, smaller);
-    std::int64_t to = 0;
-    for (const auto& [node, entry] : entries_)
-    {
-      for (const std::uint32_t slot : entry.slots)
-      {
-        glCopyBufferSubData(GL_COPY_READ_BUFFER, GL_COPY_WRITE_BUFFER,
-          static_cast<GLintptr>(slot * slotBytes), static_cast<GLintptr>(to * slotBytes),
-          static_cast<GLsizeiptr>(slotBytes));
-        ++to;
-      }
-    }
-    glBindBuffer(GL_COPY_READ_BUFFER, 0);
-    glBindBuffer(GL_COPY_WRITE_BUFFER, 0);
-    glDeleteBuffers(1, &buffer);
-    buffer = smaller;
-  };
-  moved(positions_, positionBytes);
-  if (values_ != 0)
-  {
-    moved(values_, valueBytes);
-  }
-  std::uint32_t next = 0; // in the same order
-  for (auto& [node, entry] : entries_)
-  {
-    for (std::uint32_t& slot : entry.slots)
-    {
-      slot = next++;
-    }
-  }
-  free_.clear();
-  for (std::uint32_t slot = slots; slot-- > next;)
-  {
-    free_.push_back(slot);
-  }
-  slotCount_ = slots;
-}
-
-void GpuPool::makeRoom(std::uint64_t slots, bool copying)
-{
-  if (slots <= slotCount_)
-  {
-    return;
-  }
-  const std::uint64_t next = slotCount_ == 0
-    ? firstSlots
-    : std::min<std::uint64_t>(slotLimit_, slotCount_ + slotCount_ / 2);
-  const auto wanted =
-    static_cast<std::uint32_t>(std::min<std::uint64_t>(std::max(slots, next), mostSlots));
-  if (!copying && views_ == 1)
-  {
-    release();
-  }
-  growTo(wanted);
-}
-
-void GpuPool::grow()
-{
-  std::uint32_t slots = slotCount_ == 0 ? firstSlots : slotCount_ + slotCount_ / 2;
-  if (slotLimit_ != 0 && slotCount_ < slotLimit_)
-  {
-    slots = std::min(slots, slotLimit_);
-  }
-  growTo(std::min(slots, mostSlots));
-}
-
-void GpuPool::growTo(std::uint32_t slots)
-{
-  if (slots <= slotCount_)
-  {
-    return;
-  }
-  const std::int64_t before = static_cast<std::int64_t>(slotCount_) * slotPoints;
-  const std::int64_t after = static_cast<std::int64_t>(slots) * slotPoints;
-  if (positions_ == 0)
-  {
-    positions_ = makeBuffer(after * positionBytes);
-  }
-  else
-  {
-    enlarge(positions_, before * positionBytes, after * positionBytes);
-  }
-  if (values_ != 0)
-  {
-    enlarge(values_, before * valueBytes, after * valueBytes);
-  }
-  for (std::uint32_t slot = slots; slot-- > slotCount_;)
-  {
-    free_.push_back(slot); // the lowest is taken first
-  }
-  slotCount_ = slots;
-}
-
-void GpuPool::allocateValues()
-{
-  if (values_ == 0)
-  {
-    values_ = makeBuffer(static_cast<std::int64_t>(slotCount_) * slotPoints * valueBytes);
-  }
-}
-
-std::int64_t GpuPool::bytes() const
-{
-  const std::int64_t points = static_cast<std::int64_t>(slotCount_) * slotPoints;
-  return (positions_ != 0 ? points * positionBytes : 0) + (values_ != 0 ? points * valueBytes : 0);
 }
 
 void GpuPool::release()
 {
-  if (positions_ != 0)
+  for (GpuBlock& block : blocks_)
   {
-    glDeleteBuffers(1, &positions_);
+    charge(-block.bytes());
+    block.release();
   }
-  if (values_ != 0)
-  {
-    glDeleteBuffers(1, &values_);
-  }
-  positions_ = values_ = slotCount_ = 0;
+  blocks_.clear();
   entries_.clear();
+  idle_.clear();
   free_.clear();
 }
 

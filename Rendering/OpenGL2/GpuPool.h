@@ -1,52 +1,71 @@
 #pragma once
 
+#include "GpuBlock.h"
 #include "PointColouring.h"
 
 #include "pointfront/Front/RenderFront.h"
 #include "pointfront/Store/NodeReader.h"
 
 #include <cstdint>
+#include <memory>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace pointfront
 {
 
-/// GPU memory of one cloud in one GL context: a vertex buffer of equal slots, and beside it one of
-/// values, made only when a colouring needs values. A node takes as many slots as its drawn prefix
-/// fills; what is no longer drawn stays until its slots are wanted, least recently drawn first.
-/// The clouds of a window share its budget: a pool that may have less than half of what it has
-/// gives memory back.
-/// Units       a vertex is 12 bytes of position (three unsigned grid steps) and 4 bytes of value.
+class GpuAccount;
+
+/// GPU memory of one cloud in one GL context: equal slots, in blocks of vertex buffers that come
+/// and go, so that growing copies nothing and takes no more than it ends with. A node takes as many
+/// slots as its drawn prefix fills; what is no longer drawn stays until its slots are wanted, least
+/// recently drawn first.
+/// The clouds of a window share its budgets: a pool that may have less than half of what it has
+/// gives memory back, and so does one whose idle memory another one wants.
 /// Guarantees  a node that any view has drawn within the last `views` frames is never evicted: what
-///             is on screen stays, even when that takes more than the limit of points.
+///             is on screen stays, even when that takes more than the limit of points; and never
+///             more than the limit of bytes.
 /// Threads     one thread, that of the GL context, which must be current in every function but
 ///             the constructor and the destructor. Destruction without release() leaks the buffers
 ///             to the context, which is gone then.
 class GpuPool
 {
 public:
-  static constexpr std::uint32_t slotPoints = 4096;
+  static constexpr std::uint32_t slotPoints = gpuSlotPoints;
 
   struct Entry
   {
     std::vector<std::uint32_t> slots;
     std::uint32_t points = 0; ///< uploaded positions: a prefix of the node
     std::uint32_t values = 0; ///< uploaded values of the pool's colouring: a prefix
+    std::uint32_t wanted = 0; ///< most points that a view draws of it
     std::uint64_t frame = 0;  ///< last drawn
   };
+  /// What a frame may take.
+  struct Limits
+  {
+    std::uint64_t points = 0; ///< drawn at a time; 0: no limit
+    std::int64_t bytes = 0;   ///< of all pools of the window; 0: no limit
+    std::uint32_t views = 1;  ///< that take turns
+  };
 
+  GpuPool() = default;
+  ~GpuPool();
+  GpuPool(const GpuPool&) = delete;
+  GpuPool& operator=(const GpuPool&) = delete;
+
+  /// Before anything else in a context: the account of its window.
+  void enter(std::shared_ptr<GpuAccount> account);
   /// Values of another colouring are worth nothing: they are uploaded again as nodes are drawn.
   void setColouring(const PointColouring& colouring);
-  /// A frame begins. `mostPoints` is what may be drawn at a time (0: no limit), `views` how many
-  /// views take turns.
-  void beginFrame(std::uint64_t mostPoints, std::uint32_t views);
+  void beginFrame(const Limits& limits);
+  /// Before a frame's first bring(): what it draws. False if the budget of bytes does not hold all
+  /// of it: bring() then brings what there is room for.
+  bool makeRoom(const std::vector<DrawItem>& draw);
 
-  /// Before a frame's first bring(): the slots that its nodes will take. `copying`: what is there
-  /// stays, and for a moment there are two buffers. Else, where there is one view only, a larger
-  /// buffer begins empty: for frames that may upload everything again, and no more memory is taken
-  /// than there is in the end.
-  void makeRoom(std::uint64_t slots, bool copying);
+  /// Nothing of it is drawn until the next frame: all of it may be given back.
+  void leaveScreen();
 
   /// Brings the first `count` points of `node` and their values, as far as the node has the
   /// colouring's column, to the GPU. Positions beyond `bytesLeft` wait for another frame; bytesLeft
@@ -56,38 +75,50 @@ public:
   /// What is there of a node, or null.
   const Entry* find(NodeIndex node) const;
 
-  std::uint32_t positionBuffer() const { return positions_; }
-  std::uint32_t valueBuffer() const { return values_; }
-  std::uint32_t slotCount() const { return slotCount_; }
-  std::int64_t bytes() const;
+  const std::vector<GpuBlock>& blocks() const { return blocks_; }
+  /// Number of the block that has a slot.
+  std::size_t blockOf(std::uint32_t slot) const;
+  std::uint32_t slotCount() const { return blocks_.empty() ? 0 : blocks_.back().end(); }
+  std::int64_t bytes() const { return bytes_; }
+  /// Of all pools of the window.
+  std::int64_t windowBytes() const;
   /// Bytes uploaded ever: positions and values.
   std::uint64_t uploadedBytes() const { return uploaded_; }
 
-  /// Gives the buffers back.
+  /// The last block, if what is drawn finds room in the others; false if not.
+  bool giveBack();
+  /// Gives all buffers back.
   void release();
 
 private:
-  bool takeSlot(std::uint32_t& slot);
+  void mark(const std::vector<DrawItem>& draw);
+  void keepWithin();
+  void addValues();
+  bool makeFree(std::uint64_t slots);
+  bool isIdle(const Entry& entry) const;
+  void listIdle();
   bool evictOne();
-  void grow();
-  void growTo(std::uint32_t slots);
-  void shrink();
-  void allocateValues();
+  bool trim();
+  bool grow(std::uint64_t slots);
+  void dropLast();
+  bool tooMuch(std::int64_t more) const;
+  void charge(std::int64_t bytes);
   void uploadPositions(const NodeColumns& node, Entry& entry, std::uint32_t end);
   void uploadValues(
     const NodeColumns& node, const Attribute& attribute, Entry& entry, std::uint32_t end);
 
+  std::shared_ptr<GpuAccount> account_;
   PointColouring colouring_;
+  std::vector<GpuBlock> blocks_; ///< each goes on where the one before ends
   std::unordered_map<NodeIndex, Entry> entries_;
-  std::vector<std::uint32_t> free_;
+  std::vector<std::uint32_t> free_; ///< slots
+  std::vector<std::pair<std::uint64_t, NodeIndex>> idle_; ///< last drawn; oldest at the end
   std::vector<std::uint32_t> staging_;
-  std::uint32_t positions_ = 0; ///< GL buffers; 0: not made
-  std::uint32_t values_ = 0;
-  std::uint32_t slotCount_ = 0;
-  std::uint32_t slotLimit_ = 0; ///< grows beyond only for what is on screen; 0: no limit
-  std::uint32_t views_ = 1;
+  Limits limits_;
+  std::uint32_t slotLimit_ = 0; ///< of `points`: grows beyond for what is on screen; 0: none
   std::uint64_t frame_ = 0;
   std::uint64_t uploaded_ = 0;
+  std::int64_t bytes_ = 0;
 };
 
 } // namespace pointfront

@@ -1,7 +1,9 @@
 #include "vtkOpenGLPointFrontMapper.h"
 
 #include "ColourTable.h"
+#include "GpuAccount.h"
 #include "GpuPool.h"
+#include "PerWindow.h"
 #include "SlotRecords.h"
 #include "ViewFront.h"
 
@@ -93,13 +95,7 @@ bool vtkOpenGLPointFrontMapper::Content::Upload(
   const pointfront::Attribute* attribute =
     colouring.usesColumn() ? &this->Store->GetStore()->description().schema[colouring.column]
                            : nullptr;
-  std::uint64_t slots = 0;
-  for (const pointfront::DrawItem& item : front.last().draw)
-  {
-    slots += (item.pointCount + pointfront::GpuPool::slotPoints - 1) /
-             pointfront::GpuPool::slotPoints;
-  }
-  this->Pool.makeRoom(slots, bytes != std::numeric_limits<std::int64_t>::max());
+  const bool room = this->Pool.makeRoom(front.last().draw);
   bool left = false;
   for (const pointfront::DrawItem& item : front.last().draw)
   {
@@ -112,7 +108,7 @@ bool vtkOpenGLPointFrontMapper::Content::Upload(
     left = left || !entry || entry->points < item.pointCount ||
            (attribute && entry->values < item.pointCount);
   }
-  return left;
+  return left && (room || bytes <= 0); // what has no room does not come with another frame
 }
 
 /// Makes the runs of vertices and the slots' records of what is on the GPU of the front.
@@ -121,8 +117,12 @@ vtkIdType vtkOpenGLPointFrontMapper::Content::List(const pointfront::ViewFront& 
   const pointfront::StoredCloud& store = *this->Store->GetStore();
   constexpr auto slotPoints = pointfront::GpuPool::slotPoints;
   this->Records.begin(this->Pool.slotCount());
-  this->Drawing.firsts.clear();
-  this->Drawing.counts.clear();
+  this->Drawing.runs.resize(this->Pool.blocks().size());
+  for (pointfront::BlockRuns& runs : this->Drawing.runs)
+  {
+    runs.firsts.clear();
+    runs.counts.clear();
+  }
   vtkIdType drawn = 0;
   for (const pointfront::DrawItem& item : front.last().draw)
   {
@@ -142,18 +142,11 @@ vtkIdType vtkOpenGLPointFrontMapper::Content::List(const pointfront::ViewFront& 
       coloured, row.firstPoint);
     for (std::uint32_t first = 0; first < points; first += slotPoints)
     {
-      const auto vertex = static_cast<int>(entry->slots[first / slotPoints] * slotPoints);
-      const auto count = static_cast<int>(std::min(slotPoints, points - first));
-      if (!this->Drawing.firsts.empty() &&
-          this->Drawing.firsts.back() + this->Drawing.counts.back() == vertex)
-      {
-        this->Drawing.counts.back() += count;
-      }
-      else
-      {
-        this->Drawing.firsts.push_back(vertex);
-        this->Drawing.counts.push_back(count);
-      }
+      const std::uint32_t slot = entry->slots[first / slotPoints];
+      const std::size_t block = this->Pool.blockOf(slot);
+      const std::uint32_t inBlock = slot - this->Pool.blocks()[block].first();
+      this->Drawing.runs[block].add(static_cast<int>(inBlock * slotPoints),
+        static_cast<int>(std::min(slotPoints, points - first)));
     }
     drawn += points;
   }
@@ -179,6 +172,7 @@ void vtkOpenGLPointFrontMapper::EnterContext(vtkOpenGLRenderWindow* window)
     window->MakeCurrent();
   }
   content.Window = window;
+  content.Pool.enter(pointfront::perWindow<pointfront::GpuAccount>(window));
 }
 
 /// Tells the front what its last frame cost, once.
@@ -234,8 +228,8 @@ void vtkOpenGLPointFrontMapper::RenderPiece(vtkRenderer* renderer, vtkActor* act
   content.Pool.setColouring(drawing.colouring);
   if (first)
   {
-    content.Pool.beginFrame(
-      static_cast<std::uint64_t>(this->GetPointsOnGPU()), this->GetNumberOfViews());
+    content.Pool.beginFrame({static_cast<std::uint64_t>(this->GetPointsOnGPU()),
+      this->GPUMemoryBudget, this->GetNumberOfViews()});
     uploadsLeft = content.Upload(*front,
       IsInteracting(renderer) ? this->UploadLimit : std::numeric_limits<std::int64_t>::max());
   }
@@ -287,9 +281,19 @@ void vtkOpenGLPointFrontMapper::RenderPiece(vtkRenderer* renderer, vtkActor* act
   }
   if (first)
   {
-    this->FinishFrame(renderer, points, content.Pool.bytes(), uploadsLeft);
+    this->LastGPUBytes = content.Pool.bytes();
+    this->LastWindowGPUBytes = content.Pool.windowBytes();
+    this->FinishFrame(renderer, points, uploadsLeft);
   }
   this->UpdateProgress(1.0);
+}
+
+void vtkOpenGLPointFrontMapper::LeaveScreen()
+{
+  this->Superclass::LeaveScreen();
+  this->Internals->Pool.leaveScreen();
+  this->LastGPUBytes = this->Internals->Pool.bytes();
+  this->LastWindowGPUBytes = this->Internals->Pool.windowBytes();
 }
 
 vtkTypeInt64 vtkOpenGLPointFrontMapper::GetUploadedBytes() const

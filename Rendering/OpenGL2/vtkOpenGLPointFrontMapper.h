@@ -35,6 +35,7 @@ public:
 protected:
   vtkOpenGLPointFrontMapper();
   ~vtkOpenGLPointFrontMapper() override;
+  void LeaveScreen() override;
 
 private:
   vtkOpenGLPointFrontMapper(const vtkOpenGLPointFrontMapper&) = delete;

@@ -266,7 +266,8 @@ void vtkOpenGLPointFrontPass::UpdateMaximumPointCellIds(vtkRenderer* ren, vtkAct
   selector->UpdateMaximumCellId(last);
 }
 
-void vtkOpenGLPointFrontPass::BindVertices(vtkOpenGLHelper& cellBO)
+void vtkOpenGLPointFrontPass::BindVertices(
+  vtkOpenGLHelper& cellBO, const pointfront::GpuBlock& block)
 {
   const GLuint program = static_cast<GLuint>(cellBO.Program->GetHandle());
   const auto attach = [program](const char* name, std::uint32_t buffer, bool integers, int size,
@@ -289,11 +290,11 @@ void vtkOpenGLPointFrontPass::BindVertices(vtkOpenGLHelper& cellBO)
       glVertexAttribPointer(at, size, type, normalised ? GL_TRUE : GL_FALSE, 0, nullptr);
     }
   };
-  const pointfront::GpuPool& pool = *this->Drawing->pool;
-  attach("positionSteps", pool.positionBuffer(), true, 3, GL_UNSIGNED_INT, false);
-  attach("pointColour", pool.valueBuffer(), false, 4, GL_UNSIGNED_BYTE, true);
-  attach("pointValue", pool.valueBuffer(), false, 1, GL_FLOAT, false);
+  attach("positionSteps", block.positionBuffer(), true, 3, GL_UNSIGNED_INT, false);
+  attach("pointColour", block.valueBuffer(), false, 4, GL_UNSIGNED_BYTE, true);
+  attach("pointValue", block.valueBuffer(), false, 1, GL_FLOAT, false);
   glBindBuffer(GL_ARRAY_BUFFER, 0);
+  cellBO.Program->SetUniformi("firstSlot", static_cast<int>(block.first()));
 }
 
 void vtkOpenGLPointFrontPass::RenderPieceDraw(vtkRenderer* ren, vtkActor* act)
@@ -316,9 +317,17 @@ void vtkOpenGLPointFrontPass::RenderPieceDraw(vtkRenderer* ren, vtkActor* act)
       state->vtkglPointSize(static_cast<float>(this->Drawing->pointSize));
     }
     points.VAO->Bind();
-    this->BindVertices(points);
     pointfront::DrawBatches batches;
-    batches.draw(this->Drawing->firsts, this->Drawing->counts);
+    const std::vector<pointfront::GpuBlock>& blocks = this->Drawing->pool->blocks();
+    for (std::size_t b = 0; b < this->Drawing->runs.size(); ++b)
+    {
+      const pointfront::BlockRuns& runs = this->Drawing->runs[b];
+      if (!runs.firsts.empty())
+      {
+        this->BindVertices(points, blocks[b]);
+        batches.draw(runs.firsts, runs.counts);
+      }
+    }
     vtkOpenGLCheckErrorMacro("failed after drawing points");
   }
   this->Drawing->records->deactivate();

@@ -19,8 +19,27 @@
 namespace pointfront
 {
 class ColourTable;
+class GpuBlock;
 class GpuPool;
 class SlotRecords;
+
+/// Runs of vertices of one block of the pool.
+struct BlockRuns
+{
+  std::vector<int> firsts;
+  std::vector<int> counts;
+
+  void add(int first, int count)
+  {
+    if (!firsts.empty() && firsts.back() + counts.back() == first)
+    {
+      counts.back() += count;
+      return;
+    }
+    firsts.push_back(first);
+    counts.push_back(count);
+  }
+};
 
 /// What one call of the pass draws.
 struct PointDrawing
@@ -33,8 +52,7 @@ struct PointDrawing
   glm::dvec3 stepSize{1.0};  ///< store units of a grid step
   double pointSize = 0.0;    ///< pixels; 0: the property's
   vtkIdType storePoints = 0; ///< ids are below it
-  std::vector<int> firsts;   ///< of runs of vertices, in drawing order
-  std::vector<int> counts;
+  std::vector<BlockRuns> runs; ///< by block, each in drawing order
 };
 } // namespace pointfront
 
@@ -76,7 +94,7 @@ private:
   void operator=(const vtkOpenGLPointFrontPass&) = delete;
 
   bool IsDrawingIds() const;
-  void BindVertices(vtkOpenGLHelper& cellBO);
+  void BindVertices(vtkOpenGLHelper& cellBO, const pointfront::GpuBlock& block);
   void SetClippingUniforms(vtkShaderProgram* program, vtkActor* actor);
 
   const pointfront::PointDrawing* Drawing = nullptr;

@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 """A flight over a store with a small memory budget: do the budgets and the frame time hold?
 
-    Testing/Benchmarks/flight.py TOOL STORE [--memory 256M] [--point-budget N] [--frame-ms MS]
-                                 [--work DIR]
+    Testing/Benchmarks/flight.py TOOL STORE [--memory 256M] [--gpu-memory 64M] [--point-budget N]
+                                 [--frame-ms MS] [--work DIR]
 
 Needs an X server (xvfb-run -a). Flies from a height down to the points and low across the store,
 turns, and rushes off to another corner, faster than can be loaded; there the camera stops. Before
@@ -61,8 +61,8 @@ def fly(given, work):
     subprocess.run(
         [given.tool, "bench", given.store, "--path", path, "--interactive", "--settle",
          "--frame-ms", str(given.frame_ms), "--memory", given.memory,
-         "--point-budget", str(given.point_budget), "--stats", stats, "--frames-csv", frames,
-         "--picture", work / "flight.png"],
+         "--gpu-memory", given.gpu_memory, "--point-budget", str(given.point_budget),
+         "--stats", stats, "--frames-csv", frames, "--picture", work / "flight.png"],
         check=True, stdout=subprocess.DEVNULL,
         env={**os.environ, "MESA_SHADER_CACHE_DISABLE": "true"})
     with open(frames, encoding="ascii") as file:
@@ -80,13 +80,14 @@ def bytes_time_ms(told):
 
 def report(points, told, rows, frame_ms):
     resident = max(int(row["resident_bytes"]) for row in rows)
-    budget, gpu = told["budget_bytes"], told["gpu_bytes_max"]
+    budget, gpu = told["budget_bytes"], told["gpu_budget_bytes"]
     allowed = budget + gpu + told["empty_scene_rss_bytes"] + ALLOWANCE
     settle, loading = told["settle"], told["loading"]
     own = bytes_time_ms(told)
     checks = [
         ("resident bytes, most of any frame, MiB", resident / MIB, budget / MIB),
         ("the same between frames, MiB", told["resident_bytes_max"] / MIB, budget / MIB),
+        ("GPU bytes, most of any frame, MiB", told["gpu_bytes_max"] / MIB, gpu / MIB),
         ("peak RSS, MiB", told["peak_rss_bytes"] / MIB, allowed / MIB),
         ("frame time, p99, ms", told["frame_ms"]["p99"], 2 * frame_ms),
         ("frames that read from a file", told["frames_that_read_files"], 0),
@@ -122,6 +123,7 @@ def main():
     options.add_argument("tool")
     options.add_argument("store")
     options.add_argument("--memory", default="256M")
+    options.add_argument("--gpu-memory", default="64M")
     options.add_argument("--point-budget", type=int, default=1_500_000)
     options.add_argument("--frame-ms", type=float, default=150.0)
     options.add_argument("--work", type=pathlib.Path)

@@ -250,6 +250,23 @@ class Refinement(SceneTest):
         self.assertEqual(statistics["limited_by"], ["points"])
         self.assertEqual(statistics["failed_nodes"], 0)
 
+    def test_gpu_memory_is_held_and_told(self):
+        path = self.folder / "x.png"
+        stats = self.folder / "stats.json"
+        outcome = self.succeed("render", self.store, "-o", path, "--gpu-memory", "4M",
+                               "--stats", stats)
+        statistics = json.loads(stats.read_text())
+        self.assertLessEqual(statistics["gpu_bytes"], 4 << 20)
+        self.assertGreater(statistics["gpu_bytes"], 2 << 20)
+        self.assertIn("raise --gpu-memory", outcome.err)
+        self.assertEqual(statistics["limited_by"], ["gpu-memory"])
+        self.succeed("bench", self.store, "--path", "zoom", "--frames", 12, "--interactive",
+                     "--gpu-memory", "4M", "--settle", "--stats", stats, "--size", "320x240")
+        result = json.loads(stats.read_text())
+        self.assertLessEqual(result["gpu_bytes_max"], 4 << 20)
+        self.assertEqual(result["gpu_budget_bytes"], 4 << 20)
+        self.assertTrue(result["settle"]["complete"])
+
     def test_bench(self):
         stats, table = self.folder / "bench.json", self.folder / "frames.csv"
         for path in ("orbit", "zoom", "flight"):
@@ -259,7 +276,8 @@ class Refinement(SceneTest):
             result = json.loads(stats.read_text())
             self.assertEqual(set(result), {
                 "frames", "frame_ms", "front_update_ms", "points_drawn", "resident_bytes_max",
-                "gpu_bytes_max", "budget_bytes", "bytes_read", "frames_that_read_files", "loading",
+                "gpu_bytes_max", "gpu_budget_bytes", "budget_bytes", "bytes_read",
+                "frames_that_read_files", "loading",
                 "empty_scene_rss_bytes", "peak_rss_bytes"})
             self.assertGreater(result["peak_rss_bytes"], result["empty_scene_rss_bytes"])
             self.assertEqual(result["frames"], 6)

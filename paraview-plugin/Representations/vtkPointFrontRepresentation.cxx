@@ -303,6 +303,12 @@ void vtkPointFrontRepresentation::SetPointBudget(vtkIdType points)
 }
 
 //------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetGPUMemoryBudget(int mebibytes)
+{
+  this->Mapper->SetGPUMemoryBudget(static_cast<vtkTypeInt64>(mebibytes) << 20);
+}
+
+//------------------------------------------------------------------------------
 void vtkPointFrontRepresentation::SetDetailSelection(int method)
 {
   this->Mapper->SetDetailSelection(method);

@@ -72,6 +72,7 @@ public:
    */
   void SetTargetError(double pixels);
   void SetPointBudget(vtkIdType points);
+  void SetGPUMemoryBudget(int mebibytes); ///< 0: no limit
   void SetDetailSelection(int method);
   vtkSetClampMacro(TargetFrameTime, double, 0.0, 10000.0);
   vtkGetMacro(TargetFrameTime, double);

@@ -20,6 +20,7 @@ in float pointValue; // world value - the colouring's base
 #endif
 
 uniform int slotPoints;            // vertices of a slot
+uniform int firstSlot;             // of the buffers that are drawn from
 uniform isamplerBuffer slotSteps;  // xyz: the reference in the node's steps; w: shift, flag << 8
 uniform samplerBuffer slotBase;    // xyz: what rounding of the reference left over, MC
 uniform vec3 stepSize;             // MC units of a grid step
@@ -58,7 +59,7 @@ vec3 positionMC(ivec4 steps, vec3 base)
 void main()
 {
   //VTK::CustomBegin::Impl
-  int slot = gl_VertexID / slotPoints;
+  int slot = firstSlot + gl_VertexID / slotPoints;
   ivec4 steps = texelFetch(slotSteps, slot);
   vec4 vertexMC = vec4(positionMC(steps, texelFetch(slotBase, slot).xyz), 1.0);
 

@@ -336,6 +336,18 @@ TEST(SharedDemand, CloudsSettleAtOneErrorInsideTheGpu)
   }
 }
 
+TEST(SharedDemand, WhatIsLeftOfASmallLimitIsTakenBesideALargeOne)
+{
+  Scene scene(2);
+  scene.limit(50000000, 30000); // memory for all, points for few
+  scene.settle();
+  const std::uint64_t shared = scene.clouds[0]->delta->pointsDrawn;
+  EXPECT_LT(shared, 20000u);
+  scene.clouds.pop_back();
+  scene.settle();
+  EXPECT_GT(scene.clouds[0]->delta->pointsDrawn, 24000u);
+}
+
 TEST(SharedDemand, BudgetsHoldInEveryFrameOfEveryPath)
 {
   for (std::uint32_t seed = 1; seed <= 4; ++seed)

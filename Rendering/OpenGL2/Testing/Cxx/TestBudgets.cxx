@@ -63,7 +63,15 @@ struct Clouds
       mapper->SetPointBudget(points);
     }
   }
-  /// Frames until nobody wants another one.
+  void setGpuBudget(vtkTypeInt64 bytes)
+  {
+    gpuBudget = bytes;
+    for (vtkPointFrontMapper* mapper : all())
+    {
+      mapper->SetGPUMemoryBudget(bytes);
+    }
+  }
+  /// Frames until nobody wants another one, each within the budget of GPU memory.
   void settle()
   {
     int frames = 0;
@@ -71,6 +79,10 @@ struct Clouds
     while (again && ++frames < 200)
     {
       first.window->Render();
+      if (gpuBudget > 0)
+      {
+        EXPECT_LE(gpuBytes(), gpuBudget) << "frame " << frames;
+      }
       again = false;
       for (vtkPointFrontMapper* mapper : all())
       {
@@ -88,14 +100,15 @@ struct Clouds
     }
     return sum;
   }
+  /// The most that there was of all of them while they were drawn.
   vtkTypeInt64 gpuBytes() const
   {
-    vtkTypeInt64 sum = 0;
+    vtkTypeInt64 most = 0;
     for (vtkPointFrontMapper* mapper : all())
     {
-      sum += mapper->GetLastGPUBytes();
+      most = std::max(most, mapper->GetLastWindowGPUBytes());
     }
-    return sum;
+    return most;
   }
   /// Largest threshold over smallest.
   double spread() const
@@ -114,6 +127,7 @@ struct Clouds
   std::vector<vtkSmartPointer<vtkPointFrontReader>> readers;
   std::vector<vtkSmartPointer<vtkPointFrontMapper>> mappers;
   std::vector<vtkSmartPointer<vtkActor>> actors;
+  vtkTypeInt64 gpuBudget = 0;
 };
 
 /// The process's budget for the length of a test.
@@ -158,6 +172,104 @@ TEST(Budgets, TheCloudsOfAWindowShareItsPoints)
   scene.settle();
   EXPECT_LE(scene.drawn(), budget);
   EXPECT_GT(scene.drawn(), budget * 3 / 4);
+}
+
+TEST(Budgets, TheCloudsOfAWindowShareItsGpuMemory)
+{
+  constexpr vtkTypeInt64 budget = 5 << 20; // 79 slots; the scene takes some 140
+  Clouds scene(6);
+  scene.setGpuBudget(budget);
+  scene.settle();
+  EXPECT_GT(scene.gpuBytes(), budget / 2);
+  EXPECT_LT(scene.spread(), 1.5);
+  for (vtkPointFrontMapper* mapper : scene.all())
+  {
+    EXPECT_TRUE(mapper->GetLastLimitedByGPUMemory());
+    EXPECT_FALSE(mapper->GetLastLimitedByPoints());
+    EXPECT_TRUE(mapper->GetLastComplete());
+    EXPECT_GT(mapper->GetLastPointsDrawn(), 2000);
+  }
+  // What one cloud leaves idle, another takes.
+  scene.first.lookFrom({-6.0, -3.0, 5.0}, {-6.0, -3.0, 0.0});
+  scene.settle();
+  const vtkIdType near = scene.first.mapper->GetLastPointsDrawn();
+  scene.first.lookFrom({3.0, -3.0, 5.0}, {3.0, -3.0, 0.0});
+  scene.settle();
+  EXPECT_GT(scene.mappers[2]->GetLastPointsDrawn(), near * 3 / 4);
+  // A path, frame by frame, some of them in motion.
+  scene.first.mapper->CompleteOff();
+  for (int step = 0; step < 60; ++step)
+  {
+    scene.first.window->SetDesiredUpdateRate(step % 20 < 12 ? 15.0 : 0.0001);
+    const double x = -6.0 + 0.15 * step;
+    scene.first.lookFrom({x, -3.0, 3.0 + 0.6 * (step % 30)}, {x, -3.0, 0.0});
+    scene.first.window->Render();
+    EXPECT_LE(scene.gpuBytes(), budget) << "step " << step;
+  }
+}
+
+TEST(Budgets, WhatIsNotSeenLeavesItsPartToTheOthers)
+{
+  constexpr vtkIdType budget = 30000;
+  Clouds scene(2);
+  scene.setPointBudget(budget);
+  scene.setGpuBudget(3 << 20);
+  scene.settle();
+  vtkPointFrontMapper* hidden = scene.mappers[0];
+  const vtkIdType shared = scene.first.mapper->GetLastPointsDrawn();
+  EXPECT_LT(shared, budget * 2 / 3);
+  const vtkIdType before = hidden->GetLastPointsDrawn();
+  scene.actors[0]->VisibilityOff();
+  scene.settle();
+  EXPECT_GT(scene.first.mapper->GetLastPointsDrawn(), shared * 3 / 2);
+  EXPECT_FALSE(hidden->NeedsRender()) << "a render would not change it";
+  scene.actors[0]->VisibilityOn();
+  scene.settle();
+  EXPECT_EQ(scene.first.mapper->GetLastPointsDrawn(), shared);
+  EXPECT_EQ(hidden->GetLastPointsDrawn(), before);
+  // Out of sight VTK does not draw it either.
+  scene.first.lookFrom({-6.0, -3.0, 4.0}, {-6.0, -3.0, 0.0});
+  scene.settle();
+  EXPECT_EQ(hidden->GetLastPointsDrawn(), 0);
+  EXPECT_FALSE(hidden->NeedsRender());
+  EXPECT_FALSE(scene.first.mapper->GetLastLimitedByPoints()) << "all of them are its own";
+}
+
+TEST(Budgets, ABudgetOfGpuMemoryMayChange)
+{
+  Scene scene(planeStore("gpu", 500, 5));
+  const Picture everything = scene.draw();
+  EXPECT_EQ(scene.mapper->GetLastPointsDrawn(), 250000);
+  EXPECT_FALSE(scene.mapper->GetLastLimitedByGPUMemory());
+  constexpr vtkTypeInt64 budget = 4 << 20;
+  EXPECT_GT(scene.mapper->GetLastGPUBytes(), budget);
+  scene.mapper->SetGPUMemoryBudget(budget);
+  scene.draw();
+  const Picture few = scene.draw();
+  EXPECT_LE(scene.mapper->GetLastGPUBytes(), budget);
+  EXPECT_TRUE(scene.mapper->GetLastLimitedByGPUMemory());
+  EXPECT_GT(scene.mapper->GetLastPointsDrawn(), 20000);
+  Scene fresh(scene.reader->GetFileName());
+  fresh.mapper->SetGPUMemoryBudget(budget);
+  EXPECT_EQ(differing(few, fresh.draw()), 0) << "slots keep their points when blocks go";
+  // Other colours take other memory, never more than there is.
+  scene.mapper->ScalarVisibilityOff();
+  scene.draw();
+  const vtkIdType flat = scene.mapper->GetLastPointsDrawn();
+  EXPECT_LE(scene.mapper->GetLastGPUBytes(), budget);
+  scene.mapper->ScalarVisibilityOn();
+  EXPECT_EQ(differing(few, scene.draw()), 0);
+  EXPECT_LE(scene.mapper->GetLastGPUBytes(), budget);
+  EXPECT_LE(scene.mapper->GetLastPointsDrawn(), flat);
+  scene.mapper->SetGPUMemoryBudget(0);
+  EXPECT_EQ(differing(everything, scene.draw()), 0);
+  // Less than a slot: nothing fits, and nothing breaks.
+  scene.mapper->SetGPUMemoryBudget(1000);
+  scene.draw();
+  scene.draw();
+  EXPECT_EQ(scene.mapper->GetLastGPUBytes(), 0);
+  EXPECT_EQ(scene.mapper->GetLastPointsDrawn(), 0);
+  EXPECT_FALSE(scene.mapper->NeedsRender());
 }
 
 TEST(Budgets, APoolGivesBackWhatItMayNotKeep)

@@ -185,8 +185,8 @@ public:
     options_.nodePoints = 512;
     options_.threads = 1;
     wish_.leastPoints = 1000;
-    wish_.leastSeconds = 0.0;
-    wish_.shareOfTime = 1e9;
+    wish_.leastSeconds = 1e9; // no version that shows no parts: they would come from a thread
+    wish_.shareOfTime = 1e9;  // of their own, and while it writes one the parts are left out
     wish_.shown = [this](const std::string& path)
     {
       const auto store = PointStore::open(path);
@@ -195,7 +195,7 @@ public:
       finished_ = record->pointsFinished;
       ++version_;
       changed_.notify_all();
-      const bool parts = finished_ > 0; // versions before that may come from two threads
+      const bool parts = finished_ > 0; // the overview does not wait
       changed_.wait(lock, [&] { return !parts || allowed_ >= version_; });
     };
     thread_ = std::thread([this] { run(); });

@@ -80,9 +80,7 @@ void FrontThreshold::begin(
   {
     adoptLayers(tree);
   }
-  if (!inputChanged && common_.lowest > 0 &&
-    static_cast<double>(sharedLeft(ladder_.at(common_.lowest))) >
-      moreRoom * static_cast<double>(leftAtLowest_))
+  if (!inputChanged && common_.lowest > 0 && moreLeft())
   {
     common_.lowest = 0;
   }
@@ -103,13 +101,26 @@ void FrontThreshold::begin(
 
 bool FrontThreshold::limited() const { return pointfront::limited(limits_); }
 
-/// Of all shared limits together: grows when others take less.
-std::uint64_t FrontThreshold::sharedLeft(double px) const
+FrontThreshold::Left FrontThreshold::sharedLeft(double px) const
 {
   const auto leftOf = [&](const SharedLimit& shared)
   { return shared.most > 0 ? shared.leftAt(px) : 0; };
-  return leftOf(limits_.sharedDrawn) + leftOf(limits_.sharedHeld) +
-    gpuSlotPoints * leftOf(limits_.sharedSlots);
+  return { leftOf(limits_.sharedDrawn), leftOf(limits_.sharedSlots), leftOf(limits_.sharedHeld) };
+}
+
+/// Of any shared limit, since a threshold proved too low: others take less. Each counts by itself:
+/// the memory's may be a thousand times the window's.
+bool FrontThreshold::moreLeft() const
+{
+  const Left now = sharedLeft(ladder_.at(common_.lowest));
+  for (std::size_t limit = 0; limit < now.size(); ++limit)
+  {
+    if (static_cast<double>(now[limit]) > moreRoom * static_cast<double>(leftAtLowest_[limit]))
+    {
+      return true;
+    }
+  }
+  return false;
 }
 
 Demand FrontThreshold::totalAt(

@@ -5,6 +5,7 @@
 #include "pointfront/Front/RenderFront.h"
 #include "pointfront/Front/ThresholdLadder.h"
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -75,7 +76,10 @@ private:
   void settle(Rung& state, int highest, FitsAt fitsAt);
   int highestOf(const ActiveTree& tree) const;
   void adoptLayers(const ActiveTree& tree);
-  std::uint64_t sharedLeft(double px) const;
+  /// Of the shared limits, drawn, slots and held; 0 where there is none.
+  using Left = std::array<std::uint64_t, 3>;
+  Left sharedLeft(double px) const;
+  bool moreLeft() const;
 
   ThresholdLadder ladder_;
   FrontLimits limits_;
@@ -87,7 +91,7 @@ private:
   bool mayFall_ = false;
   bool changed_ = false;
   FrontBudget boundBy_ = FrontBudget::Points;
-  std::uint64_t leftAtLowest_ = 0; ///< of the shared limits when common_.lowest was found
+  Left leftAtLowest_{}; ///< when common_.lowest was found
   Demand demand_;       ///< the last one that fits: of the thresholds in force
 };
 

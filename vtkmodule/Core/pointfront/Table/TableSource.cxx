@@ -1,5 +1,6 @@
 #include "pointfront/Table/TableSource.h"
 
+#include "pointfront/Table/DecimalStep.h"
 #include "pointfront/Table/FieldRole.h"
 
 #include <algorithm>
@@ -21,48 +22,126 @@ bool isInteger(const TableField& field)
   return field.type && *field.type != ScalarType::Float32 && *field.type != ScalarType::Float64;
 }
 
-/// Looks through the table: all of it if some field is undecided, else a sample.
-Result<std::vector<FieldStatistics>> survey(const PointTable& table, const SurveyOptions& options)
+/// What is known of the values of a table's fields.
+struct Survey
 {
-  const std::vector<TableField>& fields = table.fields();
-  std::vector<bool> looked = undecidedFields(fields);
-  const bool all = std::find(looked.begin(), looked.end(), true) != looked.end();
-  for (std::size_t f = 0; f < fields.size(); ++f)
+  std::vector<FieldStatistics> statistics; ///< a field each
+  std::vector<DecimalStep> steps;          ///< the same; of floating point positions that were seen
+  bool whole = true;                       ///< all values were looked at
+
+  explicit Survey(const std::vector<TableField>& fields)
+    : statistics(fields.size())
   {
-    looked[f] = looked[f] || roleOf(fields[f].name).kind == FieldRole::Kind::Position;
+    for (const TableField& field : fields)
+    {
+      steps.emplace_back(field.type.value_or(ScalarType::Float64));
+    }
   }
-  const std::uint64_t chunks = table.chunkCount();
-  const std::uint64_t visits = all ? chunks : std::min(chunks, sampledChunks);
-  std::vector<FieldStatistics> statistics(fields.size());
-  std::mutex mutex; // guards `statistics`
-  const auto look = [&](std::uint64_t visit) -> Result<void>
+  void add(const Survey& other)
   {
-    const std::uint64_t chunk = visits < 2 ? 0 : visit * (chunks - 1) / (visits - 1);
+    for (std::size_t f = 0; f < statistics.size(); ++f)
+    {
+      statistics[f].add(other.statistics[f]);
+      steps[f].add(other.steps[f]);
+    }
+  }
+};
+
+std::vector<bool> positionFields(const std::vector<TableField>& fields)
+{
+  std::vector<bool> positions;
+  for (const TableField& field : fields)
+  {
+    positions.push_back(roleOf(field.name).kind == FieldRole::Kind::Position);
+  }
+  return positions;
+}
+
+/// Looks at some fields in so many chunks, spread over the table.
+Result<Survey> look(const PointTable& table, const SurveyOptions& options,
+  const std::vector<bool>& looked, std::uint64_t visits)
+{
+  const std::uint64_t chunks = table.chunkCount();
+  const std::vector<bool> positions = positionFields(table.fields());
+  Survey survey(table.fields());
+  survey.whole = visits == chunks;
+  std::mutex mutex; // guards `survey`
+  const auto visit = [&](std::uint64_t number) -> Result<void>
+  {
+    const std::uint64_t chunk = visits < 2 ? 0 : number * (chunks - 1) / (visits - 1);
     TableBlock block;
     if (Result<void> done = table.read(chunk, looked, block); !done)
     {
       return done;
     }
-    std::vector<FieldStatistics> own(fields.size());
-    for (std::size_t f = 0; f < fields.size(); ++f)
+    Survey own(table.fields());
+    for (std::size_t f = 0; f < positions.size(); ++f)
     {
       for (const double value : block.columns[f])
       {
-        own[f].add(value);
+        own.statistics[f].add(value);
+        if (positions[f])
+        {
+          own.steps[f].add(value);
+        }
       }
     }
     const std::lock_guard<std::mutex> lock(mutex);
-    for (std::size_t f = 0; f < fields.size(); ++f)
-    {
-      statistics[f].add(own[f]);
-    }
+    survey.add(own);
     return {};
   };
-  if (Result<void> done = forEachChunk(visits, options, look); !done)
+  if (Result<void> done = forEachChunk(visits, options, visit); !done)
   {
     return done.error();
   }
-  return statistics;
+  return survey;
+}
+
+/// True if some position is of floating point, and all that are have a decimal step.
+bool decimalPositions(const PointTable& table, const Survey& survey)
+{
+  const std::vector<TableField>& fields = table.fields();
+  const std::vector<bool> positions = positionFields(fields);
+  bool some = false;
+  for (std::size_t f = 0; f < fields.size(); ++f)
+  {
+    if (positions[f] && !isInteger(fields[f]))
+    {
+      some = true;
+      if (!survey.steps[f].decimals())
+      {
+        return false;
+      }
+    }
+  }
+  return some;
+}
+
+/// Looks through the table: all of it if some field is undecided, else a sample. If that seems to
+/// have decimal positions, all positions: a grid on which one of them does not lie would round it.
+Result<Survey> surveyed(const PointTable& table, const SurveyOptions& options)
+{
+  if (std::vector<FieldStatistics> known = table.statistics(); !known.empty())
+  {
+    Survey survey(table.fields());
+    survey.statistics = std::move(known);
+    return survey;
+  }
+  std::vector<bool> looked = undecidedFields(table.fields());
+  const bool all = std::find(looked.begin(), looked.end(), true) != looked.end();
+  const std::vector<bool> positions = positionFields(table.fields());
+  for (std::size_t f = 0; f < looked.size(); ++f)
+  {
+    looked[f] = looked[f] || positions[f];
+  }
+  const std::uint64_t chunks = table.chunkCount();
+  Result<Survey> survey =
+    look(table, options, looked, all ? chunks : std::min(chunks, sampledChunks));
+  if (survey && !survey->whole && decimalPositions(table, *survey))
+  {
+    survey = look(table, options, positions, chunks);
+  }
+  return survey;
 }
 
 struct Extent
@@ -73,7 +152,7 @@ struct Extent
 
 /// Whether the coordinates lie on a decimal grid that a store can hold, see TableSource.
 Extent extentOf(const ColumnPlan& plan, const std::vector<TableField>& fields,
-  const std::vector<FieldStatistics>& statistics)
+  const Survey& survey)
 {
   Extent extent;
   int decimals = 0;
@@ -87,15 +166,19 @@ Extent extentOf(const ColumnPlan& plan, const std::vector<TableField>& fields,
     {
       continue;
     }
-    const FieldStatistics& values = statistics[*field];
+    const FieldStatistics& values = survey.statistics[*field];
     if (values.empty())
     {
       return extent;
     }
     low[axis] = values.low;
     high[axis] = values.high;
-    exact = exact && (isInteger(fields[*field]) || values.digits > 0);
-    decimals = std::max(decimals, values.decimals);
+    const bool text = values.digits > 0;
+    const std::optional<int> step = text || isInteger(fields[*field])
+      ? values.decimals
+      : survey.whole ? survey.steps[*field].decimals() : std::nullopt;
+    exact = exact && step;
+    decimals = std::max(decimals, step.value_or(0));
   }
   extent.bounds.add(low);
   extent.bounds.add(high);
@@ -179,23 +262,18 @@ void storeComponent(const Attribute& attribute, const std::vector<double>& value
 Result<std::unique_ptr<PointSource>> TableSource::open(
   std::unique_ptr<PointTable> table, const SurveyOptions& options)
 {
-  std::vector<FieldStatistics> statistics = table->statistics();
-  if (statistics.empty())
+  const Result<Survey> survey = surveyed(*table, options);
+  if (!survey)
   {
-    Result<std::vector<FieldStatistics>> surveyed = survey(*table, options);
-    if (!surveyed)
-    {
-      return surveyed.error();
-    }
-    statistics = std::move(*surveyed);
+    return survey.error();
   }
   const std::vector<TableField>& fields = table->fields();
-  Result<ColumnPlan> plan = ColumnPlan::make(fields, statistics, table->path());
+  Result<ColumnPlan> plan = ColumnPlan::make(fields, survey->statistics, table->path());
   if (!plan)
   {
     return plan.error();
   }
-  const Extent extent = extentOf(*plan, fields, statistics);
+  const Extent extent = extentOf(*plan, fields, *survey);
   auto source =
     std::unique_ptr<TableSource>(new TableSource(std::move(table), std::move(*plan)));
   SourceDescription& description = source->description_;

@@ -12,9 +12,12 @@ namespace pointfront
 
 /// The points of a PointTable: names become attributes as ColumnPlan says.
 /// Opening    looks at all values where a type depends on them, else at the positions of some
-///            sixty chunks for the bounds (a hint, as PointSource says).
+///            sixty chunks for the bounds (a hint, as PointSource says), and at those of all others
+///            if these lie on decimal steps.
 /// Grid       text whose coordinates have so few decimals that the extent fits into 2^31 steps,
-///            and coordinates that are integers, have a grid of their own: nothing is rounded.
+///            floating point whose coordinates all lie on decimal steps (DecimalStep), and
+///            coordinates that are integers, have a grid of their own: nothing is rounded, but for
+///            what floating point had rounded off a decimal number.
 ///            Other floating point has none: the build chooses one and says so.
 /// Positions  NaN and infinities go through: the build counts them as rejected.
 class TableSource final : public PointSource

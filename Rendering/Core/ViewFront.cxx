@@ -110,10 +110,11 @@ const FrontDelta& ViewFront::update(const FrameDemand& demand)
   else
   {
     step(demand);
-    // At rest the threshold falls on at once while all it asks for is there: no frame shows less
-    // than what is loaded.
+    // At rest the threshold falls on at once until requests pile up (FRONT-7): no frame shows less
+    // than what is loaded, and what is missing is asked for together, the largest errors first. One
+    // update a drawing would ask for it in waves, each as long as a drawing.
     const auto begin = std::chrono::steady_clock::now();
-    while (!demand.interacting && !delta_.complete && delta_.requests.empty() && movedOn() &&
+    while (!demand.interacting && !delta_.complete && movedOn() &&
            std::chrono::steady_clock::now() - begin < restTime)
     {
       step(demand);

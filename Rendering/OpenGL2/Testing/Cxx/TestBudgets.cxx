@@ -346,6 +346,43 @@ TEST(Budgets, TheStoresOfAProcessShareItsMemory)
   EXPECT_EQ(read(), before);
 }
 
+/// One that is four times as large as the other.
+TEST(Budgets, TheStoresOfAProcessShareTheOverviewByTheirSizes)
+{
+  Scene large(Clouds::store(0)); // 40,000 points
+  BuildOptions options;
+  options.outputPath = ::testing::TempDir() + "quarter.pfront";
+  options.nodePoints = 500;
+  options.overwrite = true;
+  ASSERT_TRUE(buildOctreeStore(one(hills(10000, 3000.0, millimetres({-6.0, -3.0, 0.0}))), options));
+  Scene small(options.outputPath);
+  for (Scene* scene : {&large, &small})
+  {
+    scene->mapper->SetDetailSelectionToViewSpecific();
+    scene->mapper->SetTargetError(1.0);
+    scene->window->SetSize(30, 20); // fewer pixels than the overview has points
+    scene->lookFrom({-6.0, -3.0, 30.0}, {-6.0, -3.0, 0.0});
+  }
+  vtkIdType before = 0;
+  for (const vtkIdType overview : {5000, 10000})
+  {
+    large.mapper->SetOverviewPoints(overview);
+    small.mapper->SetOverviewPoints(overview);
+    for (Scene* scene : {&large, &small, &large, &small}) // from the second on both are open
+    {
+      scene->draw();
+    }
+    const double ratio = double(large.mapper->GetLastPointsDrawn()) /
+                         double(small.mapper->GetLastPointsDrawn());
+    EXPECT_NEAR(ratio, 4.0, 0.4);
+    const vtkIdType both =
+      large.mapper->GetLastPointsDrawn() + small.mapper->GetLastPointsDrawn();
+    EXPECT_LE(both, overview * 11 / 10);
+    EXPECT_GT(both, before * 3 / 2);
+    before = both;
+  }
+}
+
 /// Two classes in one place: left of each pair red (class 2), right blue (class 6).
 std::string layeredStore()
 {

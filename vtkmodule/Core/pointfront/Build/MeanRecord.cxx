@@ -8,6 +8,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 namespace pointfront
 {
@@ -27,72 +28,71 @@ void setValue(std::byte* at, T value)
   std::memcpy(at, &value, sizeof(T));
 }
 
-template <typename T>
-void setRounded(std::byte* at, double value)
+/// std::round() without the call: the fraction is exact, and exact halves go away from zero.
+double roundedAway(double value)
 {
-  const double low = static_cast<double>(std::numeric_limits<T>::lowest());
-  const double high = static_cast<double>(std::numeric_limits<T>::max());
-  const double whole = std::round(value);
-  // The largest 64-bit integers are no doubles: compare before the cast.
-  setValue<T>(at, whole >= high  ? std::numeric_limits<T>::max()
-                  : whole <= low ? std::numeric_limits<T>::lowest()
-                                 : static_cast<T>(whole));
+  constexpr double wholeFrom = 4503599627370496.0; // 2^52: no larger double has a fraction
+  if (!(std::abs(value) < wholeFrom))
+  {
+    return value;
+  }
+  const auto whole = static_cast<double>(static_cast<std::int64_t>(value));
+  const double fraction = value - whole;
+  return whole + (fraction >= 0.5 ? 1.0 : 0.0) - (fraction <= -0.5 ? 1.0 : 0.0);
 }
 
-double readScalar(ScalarType type, const std::byte* at)
+template <typename T>
+void setNearest(std::byte* at, double value)
+{
+  if constexpr (std::is_floating_point_v<T>)
+  {
+    setValue<T>(at, static_cast<T>(value));
+  }
+  else
+  {
+    const double low = static_cast<double>(std::numeric_limits<T>::lowest());
+    const double high = static_cast<double>(std::numeric_limits<T>::max());
+    const double whole = roundedAway(value);
+    // The largest 64-bit integers are no doubles: compare before the cast.
+    setValue<T>(at, whole >= high  ? std::numeric_limits<T>::max()
+                    : whole <= low ? std::numeric_limits<T>::lowest()
+                                   : static_cast<T>(whole));
+  }
+}
+
+/// Calls `visitor` with a value of the type.
+template <typename Visitor>
+void visit(ScalarType type, const Visitor& visitor)
 {
   switch (type)
   {
   case ScalarType::Int8:
-    return valueAt<std::int8_t>(at);
+    return visitor(std::int8_t());
   case ScalarType::UInt8:
-    return valueAt<std::uint8_t>(at);
+    return visitor(std::uint8_t());
   case ScalarType::Int16:
-    return valueAt<std::int16_t>(at);
+    return visitor(std::int16_t());
   case ScalarType::UInt16:
-    return valueAt<std::uint16_t>(at);
+    return visitor(std::uint16_t());
   case ScalarType::Int32:
-    return valueAt<std::int32_t>(at);
+    return visitor(std::int32_t());
   case ScalarType::UInt32:
-    return valueAt<std::uint32_t>(at);
+    return visitor(std::uint32_t());
   case ScalarType::Int64:
-    return static_cast<double>(valueAt<std::int64_t>(at));
+    return visitor(std::int64_t());
   case ScalarType::UInt64:
-    return static_cast<double>(valueAt<std::uint64_t>(at));
+    return visitor(std::uint64_t());
   case ScalarType::Float32:
-    return valueAt<float>(at);
+    return visitor(float());
   case ScalarType::Float64:
     break;
   }
-  return valueAt<double>(at);
+  visitor(double());
 }
 
 void writeScalar(ScalarType type, std::byte* at, double value)
 {
-  switch (type)
-  {
-  case ScalarType::Int8:
-    return setRounded<std::int8_t>(at, value);
-  case ScalarType::UInt8:
-    return setRounded<std::uint8_t>(at, value);
-  case ScalarType::Int16:
-    return setRounded<std::int16_t>(at, value);
-  case ScalarType::UInt16:
-    return setRounded<std::uint16_t>(at, value);
-  case ScalarType::Int32:
-    return setRounded<std::int32_t>(at, value);
-  case ScalarType::UInt32:
-    return setRounded<std::uint32_t>(at, value);
-  case ScalarType::Int64:
-    return setRounded<std::int64_t>(at, value);
-  case ScalarType::UInt64:
-    return setRounded<std::uint64_t>(at, value);
-  case ScalarType::Float32:
-    return setValue<float>(at, static_cast<float>(value));
-  case ScalarType::Float64:
-    break;
-  }
-  setValue<double>(at, value);
+  visit(type, [&](auto zero) { setNearest<decltype(zero)>(at, value); });
 }
 
 constexpr std::size_t centreOffset = sizeof(double); // behind the weight
@@ -152,24 +152,42 @@ TreePosition MeanRecord::onGrid(const glm::dvec3& centre) const
   for (int axis = 0; axis < 3; ++axis)
   {
     const double step = gridStep_[axis];
-    position[axis] = static_cast<std::uint32_t>(std::round(centre[axis] / step) * step);
+    position[axis] = static_cast<std::uint32_t>(roundedAway(centre[axis] / step) * step);
   }
   return position;
 }
 
-void MeanRecord::addMeans(const MeanInput& input, double weight)
+template <typename T>
+void MeanRecord::addMean(
+  Mean& mean, std::size_t exactOffset, const MeanInput* first, const MeanInput* last) const
 {
-  const std::byte* exact = input.record + meansOffset_;
+  double sum = 0.0;
+  double weight = 0.0;
+  for (const MeanInput* input = first; input != last; ++input)
+  {
+    const double value = input->original
+                           ? static_cast<double>(valueAt<T>(input->record + mean.offset))
+                           : valueAt<double>(input->record + exactOffset);
+    if (std::is_integral_v<T> || !std::isnan(value))
+    {
+      const double own = weightOf(*input);
+      sum += own * value;
+      weight += own;
+    }
+  }
+  mean.sum = sum;
+  mean.weight = weight;
+}
+
+/// Value by value, not input by input: the type is asked for once.
+void MeanRecord::addMeans(const MeanInput* first, const MeanInput* last)
+{
+  std::size_t exactOffset = meansOffset_;
   for (Mean& mean : means_)
   {
-    const double value =
-      input.original ? readScalar(mean.type, input.record + mean.offset) : valueAt<double>(exact);
-    exact += sizeof(double);
-    if (!std::isnan(value))
-    {
-      mean.sum += weight * value;
-      mean.weight += weight;
-    }
+    visit(mean.type,
+      [&](auto zero) { addMean<decltype(zero)>(mean, exactOffset, first, last); });
+    exactOffset += sizeof(double);
   }
 }
 
@@ -203,18 +221,13 @@ void MeanRecord::summarise(
 {
   double weight = 0.0;
   glm::dvec3 centre(0.0);
-  for (Mean& mean : means_)
-  {
-    mean.sum = 0.0;
-    mean.weight = 0.0;
-  }
   for (std::size_t i = begin; i < end; ++i)
   {
     const double own = weightOf(inputs[i]);
     weight += own;
     centre += own * centreOf(inputs[i]);
-    addMeans(inputs[i], own);
   }
+  addMeans(inputs.data() + begin, inputs.data() + end);
   centre /= weight;
   const TreePosition stored = onGrid(centre);
   double radius = 0.0;
@@ -233,7 +246,7 @@ void MeanRecord::summarise(
       kept = record;
     }
   }
-  std::memcpy(out, kept, recordBytes_);
+  copyRecord(out, kept, recordBytes_);
   setPosition(out, stored);
   setValue(out + radiusOffset_, roundedUp(radius));
   setValue(out + recordBytes_, weight);

@@ -60,7 +60,10 @@ private:
   double weightOf(const MeanInput& input) const;
   glm::dvec3 centreOf(const MeanInput& input) const;
   TreePosition onGrid(const glm::dvec3& centre) const;
-  void addMeans(const MeanInput& input, double weight);
+  template <typename T>
+  void addMean(
+    Mean& mean, std::size_t exactOffset, const MeanInput* first, const MeanInput* last) const;
+  void addMeans(const MeanInput* first, const MeanInput* last);
   void writeMeans(std::byte* out);
 
   glm::dvec3 stepLength_; ///< of a tree step on each axis, world units

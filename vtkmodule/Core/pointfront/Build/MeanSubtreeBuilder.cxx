@@ -87,15 +87,21 @@ void MeanSubtreeBuilder::represent(
   const std::vector<Branch>& children, unsigned log2Side, Branch& joined)
 {
   const CpuStopwatch watch(seconds_.sample);
-  inputs_.clear();
-  positions_.clear();
+  std::size_t count = 0;
+  for (const Branch& child : children)
+  {
+    count += child.held.size();
+  }
+  inputs_.resize(count);
+  positions_.resize(count);
+  std::size_t next = 0;
   int coarsestBelow = -1;
   for (const Branch& child : children)
   {
     for (const std::uint32_t i : child.held)
     {
-      inputs_.push_back({child.view.record(i), child.original});
-      positions_.push_back(child.view.position(i));
+      inputs_[next] = {child.view.record(i), child.original};
+      positions_[next++] = child.view.position(i);
     }
     const bool leaf = child.node->samplingQuarters < 0;
     coarsestBelow =

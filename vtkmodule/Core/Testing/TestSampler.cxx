@@ -109,6 +109,25 @@ TEST(Sampler, CountsOccupiedCellsOfEverySize)
   }
 }
 
+TEST(Sampler, CountsCellsOfRunsThatFollowEachOther)
+{
+  const Cloud cloud = plane(3000);
+  const CellOccupancy whole = cellOccupancy(cloud.view(), cloud.all);
+  CellOccupancy joined;
+  std::size_t begin = 0;
+  for (const std::size_t end : {1u, 2u, 700u, 2999u, 3000u})
+  {
+    const auto first = cloud.all.begin() + static_cast<std::ptrdiff_t>(begin);
+    const auto last = cloud.all.begin() + static_cast<std::ptrdiff_t>(end);
+    const unsigned between =
+      begin == 0 ? 0
+                 : differingBits(cloud.view().position(begin - 1), cloud.view().position(begin));
+    joined.append(cellOccupancy(cloud.view(), {first, last}), between);
+    begin = end;
+  }
+  EXPECT_EQ(joined.distinct, whole.distinct);
+}
+
 double distanceOf(const Cloud& cloud, std::uint32_t a, std::uint32_t b)
 {
   return glm::length(

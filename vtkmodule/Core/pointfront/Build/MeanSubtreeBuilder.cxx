@@ -77,8 +77,8 @@ MeanSubtreeBuilder::Branch MeanSubtreeBuilder::leaf(
   branch.held.resize(end - begin);
   std::iota(branch.held.begin(), branch.held.end(), begin);
   branch.node = std::make_unique<BuiltNode>();
-  const double steps =
-    surfaceSpacing(cellOccupancy(records, branch.held), branch.held.size(), side);
+  branch.occupancy = cellOccupancy(records, branch.held);
+  const double steps = surfaceSpacing(*branch.occupancy, branch.held.size(), side);
   branch.node->row.spacing = static_cast<float>(steps * emitter_.space().stepLength());
   return branch;
 }
@@ -96,8 +96,10 @@ void MeanSubtreeBuilder::represent(
   positions_.resize(count);
   std::size_t next = 0;
   int coarsestBelow = -1;
+  CellOccupancy occupancy;
   for (const Branch& child : children)
   {
+    const std::size_t first = next;
     for (const std::uint32_t i : child.held)
     {
       inputs_[next] = {child.view.record(i), child.original};
@@ -106,12 +108,12 @@ void MeanSubtreeBuilder::represent(
     const bool leaf = child.node->samplingQuarters < 0;
     coarsestBelow =
       leaf ? coarsestBelow : std::max(coarsestBelow, child.node->samplingQuarters / 4);
+    if (first < next)
+    {
+      occupancy.append(child.occupancy ? *child.occupancy : cellOccupancy(child.view, child.held),
+        first == 0 ? 0 : differingBits(positions_[first - 1], positions_[first]));
+    }
   }
-  everyInput_.resize(inputs_.size());
-  std::iota(everyInput_.begin(), everyInput_.end(), 0u);
-  const RecordView positions{
-    reinterpret_cast<const std::byte*>(positions_.data()), sizeof(TreePosition)};
-  const CellOccupancy occupancy = cellOccupancy(positions, everyInput_);
   const unsigned cell = meanCell(occupancy, inputs_.size(), log2Side, coarsestBelow, rule_);
   joined.node->samplingQuarters = 4 * static_cast<int>(cell);
   joined.node->row.spacing =

@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -46,6 +47,7 @@ private:
     RecordView view;
     bool original = false;           ///< the view shows records of the pool
     std::vector<std::uint32_t> held; ///< numbers in the view, Morton order
+    std::optional<CellOccupancy> occupancy; ///< of `held`, where it is known already
   };
   Branch branch(const RecordView& records, std::uint32_t begin, std::uint32_t end);
   Branch leaf(const RecordView& records, std::uint32_t begin, std::uint32_t end, unsigned side);
@@ -63,7 +65,6 @@ private:
   std::vector<std::byte> sorted_;         // records of the part
   std::vector<MeanInput> inputs_;         // of the node at hand
   std::vector<TreePosition> positions_;   // of inputs_
-  std::vector<std::uint32_t> everyInput_; // 0, 1, 2 ...
   std::vector<EmittedNode> emitted_;
   SubtreeSeconds seconds_;
 };

@@ -19,6 +19,15 @@ double fourthPower(double v)
 }
 } // namespace
 
+void CellOccupancy::append(const CellOccupancy& others, unsigned between)
+{
+  const bool first = distinct[0] == 0;
+  for (unsigned level = 0; level < distinct.size(); ++level)
+  {
+    distinct[level] += others.distinct[level] - (!first && level >= between ? 1u : 0u);
+  }
+}
+
 CellOccupancy cellOccupancy(const RecordView& records, const std::vector<std::uint32_t>& points)
 {
   CellOccupancy occupancy;

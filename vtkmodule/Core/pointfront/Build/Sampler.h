@@ -15,6 +15,10 @@ namespace pointfront
 struct CellOccupancy
 {
   std::array<std::uint64_t, 33> distinct{};
+
+  /// Adds points that come behind these; the last here and the first there differ in so many bits
+  /// (differingBits()).
+  void append(const CellOccupancy& others, unsigned between);
 };
 
 CellOccupancy cellOccupancy(const RecordView& records, const std::vector<std::uint32_t>& points);

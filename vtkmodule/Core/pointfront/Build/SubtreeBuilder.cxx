@@ -72,8 +72,8 @@ SubtreeBuilder::Branch SubtreeBuilder::leaf(
   branch.held.resize(end - begin);
   std::iota(branch.held.begin(), branch.held.end(), begin);
   branch.node = std::make_unique<BuiltNode>();
-  const double steps =
-    surfaceSpacing(cellOccupancy(points.positions, branch.held), branch.held.size(), side);
+  branch.occupancy = cellOccupancy(points.positions, branch.held);
+  const double steps = surfaceSpacing(*branch.occupancy, branch.held.size(), side);
   branch.node->row.spacing = static_cast<float>(steps * emitter_.space().stepLength());
   return branch;
 }
@@ -93,7 +93,7 @@ SubtreeBuilder::Branch SubtreeBuilder::joinBranches(
       coarsestBelow = std::max(coarsestBelow, child.node->samplingQuarters);
     }
     const SamplingDistance distance = samplingDistance(
-      cellOccupancy(points.positions, candidates_), candidates_.size(), coarsestBelow, rule_);
+      occupancyOf(points.positions, children), candidates_.size(), coarsestBelow, rule_);
     joined.node->samplingQuarters = distance.quarters;
     joined.node->row.spacing =
       static_cast<float>(emitter_.space().stepLength() * distance.steps());
@@ -122,6 +122,28 @@ SubtreeBuilder::Branch SubtreeBuilder::joinBranches(
     emit(std::move(child), *joined.node, points.records);
   }
   return joined;
+}
+
+/// Of all that the children hold; what a leaf holds was counted already.
+CellOccupancy SubtreeBuilder::occupancyOf(
+  const RecordView& positions, const std::vector<Branch>& children)
+{
+  CellOccupancy all;
+  const Branch* before = nullptr;
+  for (const Branch& child : children)
+  {
+    if (child.held.empty())
+    {
+      continue;
+    }
+    const unsigned between =
+      before ? differingBits(positions.position(before->held.back()),
+                 positions.position(child.held.front()))
+             : 0;
+    all.append(child.occupancy ? *child.occupancy : cellOccupancy(positions, child.held), between);
+    before = &child;
+  }
+  return all;
 }
 
 void SubtreeBuilder::emit(Branch child, BuiltNode& parent, const RecordView& records)

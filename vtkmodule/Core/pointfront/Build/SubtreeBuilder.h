@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -54,10 +55,13 @@ private:
   {
     std::unique_ptr<BuiltNode> node;
     std::vector<std::uint32_t> held; ///< indices into the sorted points, Morton order
+    std::optional<CellOccupancy> occupancy; ///< of `held`, where it is known already
   };
   Branch branch(const SortedPoints& points, std::uint32_t begin, std::uint32_t end);
   Branch leaf(const SortedPoints& points, std::uint32_t begin, std::uint32_t end, unsigned side);
   Branch joinBranches(const SortedPoints& points, std::vector<Branch> children);
+  static CellOccupancy occupancyOf(
+    const RecordView& positions, const std::vector<Branch>& children);
   void emit(Branch child, BuiltNode& parent, const RecordView& records);
   static OpenSubtree opened(const RecordView& records, Branch branch);
   SortedPoints sortedPoints(const RecordView& records, std::size_t count);

@@ -140,7 +140,7 @@ std::size_t constructionBytes(const BuildOptions& options, const AttributeSchema
     return sizeof(TreePosition) + 2 * sizeof(std::uint32_t); // positions and lists of points
   }
   // The inputs of a node, and a representative for every third of them.
-  return options.refinement == Refinement::Replace ? sizeof(MeanInput) + sizeof(TreePosition) + 4 +
+  return options.refinement == Refinement::Replace ? sizeof(MeanInput) + sizeof(TreePosition) +
                                                        MeanRecord(TreeSpace(), pooled).bytes() / 2
                                                    : 0;
 }

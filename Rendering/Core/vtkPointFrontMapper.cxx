@@ -1,5 +1,6 @@
 #include "vtkPointFrontMapper.h"
 
+#include "MapperProperties.h"
 #include "PerWindow.h"
 #include "PointColouring.h"
 #include "RenderTimer.h"
@@ -11,15 +12,9 @@
 #include "vtkPointFrontStore.h"
 
 #include <vtkActor.h>
-#include <vtkCallbackCommand.h>
-#include <vtkCamera.h>
 #include <vtkCommand.h>
 #include <vtkIndent.h>
-#include <vtkMath.h>
-#include <vtkMatrix4x4.h>
-#include <vtkNew.h>
 #include <vtkObjectFactory.h>
-#include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkRenderer.h>
 #include <vtkRenderWindow.h>
@@ -224,51 +219,13 @@ bool vtkPointFrontMapper::IsInteracting(vtkRenderer* renderer)
 
 pointfront::PointColouring vtkPointFrontMapper::GetColouring()
 {
-  pointfront::ColourRequest request;
   vtkPointFrontStore* store = this->GetStore();
   if (!store || !this->ScalarVisibility)
   {
     return {};
   }
   const pointfront::StoreDescription& description = store->GetStore()->description();
-  vtkPointData* points = this->GetInput() ? this->GetInput()->GetPointData() : nullptr;
-  if (this->ScalarMode == VTK_SCALAR_MODE_USE_POINT_FIELD_DATA)
-  {
-    const bool byName = this->ArrayAccessMode == VTK_GET_ARRAY_BY_NAME;
-    const char* name =
-      byName ? this->GetArrayName() : (points ? points->GetArrayName(this->ArrayId) : nullptr);
-    request.name = name ? name : "";
-  }
-  else if (this->ScalarMode == VTK_SCALAR_MODE_DEFAULT ||
-           this->ScalarMode == VTK_SCALAR_MODE_USE_POINT_DATA)
-  {
-    vtkDataArray* active = points ? points->GetScalars() : nullptr;
-    const char* name = active ? active->GetName() : nullptr;
-    if (name && description.schema.find(name))
-    {
-      request.name = name;
-    }
-    else if (description.schema.find("rgb"))
-    {
-      request.name = "rgb";
-    }
-  }
-  vtkScalarsToColors* table = this->GetLookupTable();
-  const int vectorMode = table ? table->GetVectorMode() : vtkScalarsToColors::COMPONENT;
-  if (this->ColorMode == VTK_COLOR_MODE_DIRECT_SCALARS ||
-      vectorMode == vtkScalarsToColors::RGBCOLORS)
-  {
-    request.mode = pointfront::ColourRequest::Mode::Direct;
-  }
-  else if (this->ColorMode == VTK_COLOR_MODE_MAP_SCALARS)
-  {
-    request.mode = pointfront::ColourRequest::Mode::Table;
-  }
-  request.component = this->ArrayComponent;
-  if (request.component < 0 && vectorMode == vtkScalarsToColors::COMPONENT)
-  {
-    request.component = std::max(0, table ? table->GetVectorComponent() : 0);
-  }
+  const pointfront::ColourRequest request = pointfront::colourRequestOf(*this, description);
   const auto colouring = pointfront::PointColouring::choose(description, request);
   if (!colouring && this->Internals->UnknownArray != request.name)
   {
@@ -294,22 +251,7 @@ bool vtkPointFrontMapper::HasTranslucentPolygonalGeometry()
 pointfront::FrameDemand vtkPointFrontMapper::GetDemand(vtkRenderer* renderer, vtkActor* actor)
 {
   pointfront::FrameDemand demand;
-  int size[2];
-  int origin[2];
-  renderer->GetTiledSizeAndOrigin(&size[0], &size[1], &origin[0], &origin[1]);
-  vtkMatrix4x4* toClip = renderer->GetActiveCamera()->GetCompositeProjectionTransformMatrix(
-    renderer->GetTiledAspectRatio(), -1.0, 1.0);
-  vtkNew<vtkMatrix4x4> storeToClip;
-  vtkMatrix4x4::Multiply4x4(toClip, actor->GetMatrix(), storeToClip);
-  glm::dmat4 matrix;
-  for (int row = 0; row < 4; ++row)
-  {
-    for (int column = 0; column < 4; ++column)
-    {
-      matrix[column][row] = storeToClip->GetElement(row, column);
-    }
-  }
-  demand.view = pointfront::View::fromMatrix(matrix, std::max(1, size[0]), std::max(1, size[1]));
+  demand.view = pointfront::viewOf(renderer, actor);
   demand.columns = this->GetColouring().columns();
   demand.targetErrorPx = this->TargetError;
   demand.pointBudget = static_cast<std::uint64_t>(this->PointBudget);

@@ -1,8 +1,5 @@
 #include "PCDWriter.h"
 
-#include "pointfront/Table/RecordFile.h"
-
-#include <cassert>
 #include <utility>
 
 namespace pointfront
@@ -83,60 +80,30 @@ void addAttribute(
 }
 } // namespace
 
-struct PCDWriter::State
-{
-  std::string path;
-  std::unique_ptr<RecordFile> file;
-};
-
 PCDWriter::PCDWriter(std::string path)
-  : state_(std::make_unique<State>())
+  : RecordWriter(std::move(path))
 {
-  state_->path = std::move(path);
 }
 
-PCDWriter::~PCDWriter() = default;
-
-Result<void> PCDWriter::begin(const SinkDescription& description)
+RecordFile::Header PCDWriter::describe(
+  const AttributeSchema& schema, RecordEncoder& encoder) const
 {
-  assert(!state_->file);
-  RecordEncoder encoder(description.schema);
   FieldLines lines;
   for (const char* axis : { "x", "y", "z" })
   {
     lines.add(axis, ScalarType::Float64);
   }
-  for (std::size_t c = 0; c < description.schema.size(); ++c)
+  for (std::size_t c = 0; c < schema.size(); ++c)
   {
-    addAttribute(c, description.schema[c], encoder, lines);
+    addAttribute(c, schema[c], encoder, lines);
   }
   const std::string fields = lines.text();
-  const auto header = [fields](std::uint64_t points)
+  return [fields](std::uint64_t points)
   {
     const std::string count = paddedCount(points);
     return "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\n" + fields + "WIDTH " + count +
       "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + count + "\nDATA binary\n";
   };
-  Result<std::unique_ptr<RecordFile>> file =
-    RecordFile::create(state_->path, std::move(encoder), header);
-  if (!file)
-  {
-    return file.error();
-  }
-  state_->file = std::move(*file);
-  return {};
-}
-
-Result<void> PCDWriter::append(const PointBatch& batch)
-{
-  assert(state_->file);
-  return state_->file->append(batch);
-}
-
-Result<void> PCDWriter::finish()
-{
-  assert(state_->file);
-  return state_->file->finish();
 }
 
 } // namespace pointfront

@@ -1,8 +1,5 @@
 #include "PLYWriter.h"
 
-#include "pointfront/Table/RecordFile.h"
-
-#include <cassert>
 #include <utility>
 
 namespace pointfront
@@ -52,25 +49,14 @@ std::string propertyName(const Attribute& attribute, std::size_t component)
 }
 } // namespace
 
-struct PLYWriter::State
-{
-  std::string path;
-  std::unique_ptr<RecordFile> file;
-};
-
 PLYWriter::PLYWriter(std::string path)
-  : state_(std::make_unique<State>())
+  : RecordWriter(std::move(path))
 {
-  state_->path = std::move(path);
 }
 
-PLYWriter::~PLYWriter() = default;
-
-Result<void> PLYWriter::begin(const SinkDescription& description)
+RecordFile::Header PLYWriter::describe(
+  const AttributeSchema& schema, RecordEncoder& encoder) const
 {
-  assert(!state_->file);
-  const AttributeSchema& schema = description.schema;
-  RecordEncoder encoder(schema);
   std::string properties = "property double x\nproperty double y\nproperty double z\n";
   for (std::size_t c = 0; c < schema.size(); ++c)
   {
@@ -83,31 +69,11 @@ Result<void> PLYWriter::begin(const SinkDescription& description)
         propertyName(schema[c], k) + "\n";
     }
   }
-  const auto header = [properties](std::uint64_t points)
+  return [properties](std::uint64_t points)
   {
     return "ply\nformat binary_little_endian 1.0\nelement vertex " + paddedCount(points) + "\n" +
       properties + "end_header\n";
   };
-  Result<std::unique_ptr<RecordFile>> file =
-    RecordFile::create(state_->path, std::move(encoder), header);
-  if (!file)
-  {
-    return file.error();
-  }
-  state_->file = std::move(*file);
-  return {};
-}
-
-Result<void> PLYWriter::append(const PointBatch& batch)
-{
-  assert(state_->file);
-  return state_->file->append(batch);
-}
-
-Result<void> PLYWriter::finish()
-{
-  assert(state_->file);
-  return state_->file->finish();
 }
 
 } // namespace pointfront

@@ -32,7 +32,7 @@ int main(int argc, char* argv[])
   options.outputPath = argv[argc - 1];
   options.overwrite = true;
   const auto report =
-    pointfront::buildOctreeStore(sources, options, [](const pointfront::Progress& progress) {
+    pointfront::buildStore(sources, options, [](const pointfront::Progress& progress) {
       std::fprintf(stderr, "%s %3.0f %%\n", progress.phase, 100.0 * progress.fraction);
       return true; // false cancels, and leaves nothing behind
     });

@@ -1,120 +1,39 @@
 #include "PLYFormat.h"
 #include "PLYWriter.h"
-#include "PointValues.h"
-
-#include <gtest/gtest.h>
-
-#include <filesystem>
+#include "WriterCases.h"
 
 namespace pointfront::test
 {
 namespace
 {
-SinkDescription manyKinds(PointBatch& batch)
+class PLYWriterTest : public testing::Test
 {
-  SinkDescription description;
-  description.schema.add({ "intensity", ScalarType::UInt16 });
-  description.schema.add({ "rgb", ScalarType::UInt8, 3 });
-  description.schema.add({ "normal", ScalarType::Float32, 3 });
-  description.schema.add({ "gps_time", ScalarType::Float64 });
-  description.schema.add({ "wave offset", ScalarType::UInt64 });
-  description.schema.add({ "pair", ScalarType::Int16, 2 });
-  description.schema.add({ "width", ScalarType::Int16, 1, 0.1, 1000.0 });
-  batch.resize(2, description.schema);
-  batch.positions = { { 637012.24, 849028.31, 431.66 }, { -0.05, 0.0, 12.3456 } };
-  const auto fill = [&](std::size_t column, const auto& values)
-  { std::memcpy(batch.columns[column].data(), values.data(), batch.columns[column].size()); };
-  fill(0, std::vector<std::uint16_t>{ 143, 65535 });
-  fill(1, std::vector<std::uint8_t>{ 68, 77, 88, 0, 255, 1 });
-  fill(2, std::vector<float>{ 0.0f, 0.6f, 0.8f, 1.0f, 0.0f, 0.0f });
-  fill(3, std::vector<double>{ 1.0 / 3.0, 1e9 });
-  fill(4, std::vector<std::uint64_t>{ 1ull << 40, 7 });
-  fill(5, std::vector<std::int16_t>{ -1, 2, -3, 4 });
-  fill(6, std::vector<std::int16_t>{ 3, -10000 });
-  return description;
-}
+protected:
+  PLYFormat format_;
+  const WriterCase case_{ format_, "ply",
+    [](const std::string& path) { return std::make_unique<PLYWriter>(path); } };
+};
 
-TEST(PLYWriter, WritesWhatTheReaderReads)
+TEST_F(PLYWriterTest, WritesWhatTheReaderReads)
 {
-  PointBatch batch;
-  const SinkDescription description = manyKinds(batch);
-  const std::string path = writeFile("written.ply", "");
-  std::filesystem::remove(path);
-  {
-    PLYWriter writer(path);
-    ASSERT_TRUE(writer.begin(description));
-    ASSERT_TRUE(writer.append(batch));
-    ASSERT_TRUE(writer.append(batch));
-    EXPECT_FALSE(std::filesystem::exists(path)) << "whole or absent";
-    ASSERT_TRUE(writer.finish());
-  }
-  const auto source = openPoints(PLYFormat(), path);
-  ASSERT_TRUE(source);
-  EXPECT_TRUE(source->description().warnings.empty());
-  const PointBatch all = readPoints(*source);
-  ASSERT_EQ(all.size(), 4u);
-  EXPECT_EQ(all.positions[2], batch.positions[0]);
-  EXPECT_EQ(all.positions[3], batch.positions[1]);
-  EXPECT_EQ(schemaText(*source),
+  expectReadAsWritten<double>(case_,
     "intensity uint16, rgb uint8x3, normal float32x3, gps_time float64, wave_offset float64, "
     "pair int16x2, width float64");
-  EXPECT_EQ(columnOf<std::uint16_t>(*source, all, "intensity"),
-    (std::vector<std::uint16_t>{ 143, 65535, 143, 65535 }));
-  EXPECT_EQ(columnOf<std::uint8_t>(*source, all, "rgb"),
-    (std::vector<std::uint8_t>{ 68, 77, 88, 0, 255, 1, 68, 77, 88, 0, 255, 1 }));
-  EXPECT_EQ(columnOf<float>(*source, all, "normal")[2], 0.8f);
-  EXPECT_EQ(columnOf<double>(*source, all, "gps_time")[0], 1.0 / 3.0);
-  EXPECT_EQ(columnOf<double>(*source, all, "wave_offset")[0], 1ull << 40);
-  EXPECT_EQ(columnOf<std::int16_t>(*source, all, "pair"),
-    (std::vector<std::int16_t>{ -1, 2, -3, 4, -1, 2, -3, 4 }));
-  EXPECT_NEAR(columnOf<double>(*source, all, "width")[0], 1000.3, 1e-9);
 }
 
-TEST(PLYWriter, LeavesNothingWhenItIsNotFinished)
+TEST_F(PLYWriterTest, LeavesNothingWhenItIsNotFinished)
 {
-  PointBatch batch;
-  const SinkDescription description = manyKinds(batch);
-  const std::string path = writeFile("kept.ply", "earlier");
-  {
-    PLYWriter writer(path);
-    ASSERT_TRUE(writer.begin(description));
-    ASSERT_TRUE(writer.append(batch));
-  }
-  EXPECT_EQ(bytesOfFile(path), "earlier");
-  EXPECT_FALSE(std::filesystem::exists(path + ".tmp"));
+  expectNothingLeftUnfinished(case_);
 }
 
-TEST(PLYWriter, WritesNoPointsAndColourOf16Bits)
+TEST_F(PLYWriterTest, WritesNoPointsAndColourOf16Bits)
 {
-  SinkDescription description;
-  description.schema.add({ "rgb", ScalarType::UInt16, 3 });
-  const std::string path = writeFile("wide.ply", "");
-  PointBatch batch;
-  batch.resize(1, description.schema);
-  batch.positions[0] = glm::dvec3(1, 2, 3);
-  const std::uint16_t rgb[3] = { 256, 65535, 0 };
-  std::memcpy(batch.columns[0].data(), rgb, sizeof rgb);
-  for (const int points : { 0, 1 })
-  {
-    PLYWriter writer(path);
-    ASSERT_TRUE(writer.begin(description));
-    ASSERT_TRUE(points == 0 || writer.append(batch).ok());
-    ASSERT_TRUE(writer.finish());
-    const auto source = openPoints(PLYFormat(), path);
-    ASSERT_TRUE(source);
-    const PointBatch all = readPoints(*source);
-    EXPECT_EQ(all.size(), static_cast<std::size_t>(points));
-    EXPECT_EQ(columnOf<std::uint16_t>(*source, all, "rgb"),
-      std::vector<std::uint16_t>(rgb, rgb + 3 * points));
-  }
+  expectNoneAndWideColour(case_);
 }
 
-TEST(PLYWriter, SaysWhyItCannotWrite)
+TEST_F(PLYWriterTest, SaysWhyItCannotWrite)
 {
-  PLYWriter writer(testing::TempDir() + "no such folder/x.ply");
-  const Result<void> begun = writer.begin({});
-  ASSERT_FALSE(begun.ok());
-  EXPECT_NE(begun.error().what.find("no such folder"), std::string::npos);
+  expectReasonWhenItCannotWrite(case_);
 }
 } // namespace
 } // namespace pointfront::test

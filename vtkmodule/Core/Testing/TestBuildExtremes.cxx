@@ -64,7 +64,7 @@ protected:
     options.nodePoints = 500;
     options.threads = 2;
     options.overwrite = true;
-    return buildOctreeStore(one(std::move(source)), options);
+    return buildStore(one(std::move(source)), options);
   }
 
   /// Builds, verifies, and compares the stored points with those of the source, as steps of the

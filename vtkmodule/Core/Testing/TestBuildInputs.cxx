@@ -216,14 +216,14 @@ TEST(BuildColours, AreEightBitsIfAllFitAndAreWidenedFileByFile)
     Sources sources;
     sources.push_back(coloured("dark", 0.0, {0, 10, 255}));
     sources.push_back(coloured("black", 1.0, {0, 0, 0}));
-    ASSERT_TRUE(buildOctreeStore(sources, options));
+    ASSERT_TRUE(buildStore(sources, options));
     const auto narrow = PointStore::open(options.outputPath);
     ASSERT_TRUE(narrow);
     EXPECT_EQ((*narrow)->description().schema[0].type, ScalarType::UInt8);
     EXPECT_EQ(coloursOf(**narrow), (std::set<std::array<unsigned, 3>>{{0, 0, 0}, {0, 10, 255}}));
 
     sources.push_back(coloured("wide", 2.0, {3, 256, 65535}));
-    ASSERT_TRUE(buildOctreeStore(sources, options));
+    ASSERT_TRUE(buildStore(sources, options));
     const auto wide = PointStore::open(options.outputPath);
     ASSERT_TRUE(wide);
     EXPECT_EQ((*wide)->description().schema[0].type, ScalarType::UInt16);
@@ -242,24 +242,24 @@ TEST(BuildColours, AreAsDeepAsTheUserSays)
   Sources sources;
   sources.push_back(coloured("dark", 0.0, {0, 10, 255}));
   options.colourDepth = ColourDepth::Sixteen;
-  ASSERT_TRUE(buildOctreeStore(sources, options));
+  ASSERT_TRUE(buildStore(sources, options));
   const auto dark = PointStore::open(options.outputPath);
   ASSERT_TRUE(dark);
   EXPECT_EQ((*dark)->description().schema[0].type, ScalarType::UInt16);
   EXPECT_EQ(coloursOf(**dark), (std::set<std::array<unsigned, 3>>{{0, 10, 255}}));
 
   sources.push_back(coloured("wide", 2.0, {3, 256, 65535}));
-  ASSERT_TRUE(buildOctreeStore(sources, options));
+  ASSERT_TRUE(buildStore(sources, options));
   const auto both = PointStore::open(options.outputPath);
   ASSERT_TRUE(both);
   EXPECT_EQ(coloursOf(**both), (std::set<std::array<unsigned, 3>>{{0, 10, 255}, {3, 256, 65535}}));
 
   options.colourDepth = ColourDepth::Eight;
-  const auto refused = buildOctreeStore(sources, options);
+  const auto refused = buildStore(sources, options);
   ASSERT_FALSE(refused);
   EXPECT_NE(refused.error().what.find("'wide' has a colour of 65535"), std::string::npos);
   sources.pop_back();
-  EXPECT_TRUE(buildOctreeStore(sources, options));
+  EXPECT_TRUE(buildStore(sources, options));
   std::filesystem::remove_all(folder);
 }
 

@@ -1,15 +1,9 @@
-#include "TestBuildClouds.h"
+#include "StoreBuildTest.h"
 
 #include "pointfront/Build/KdCut.h"
-#include "pointfront/Store/PointStore.h"
-
-#include <gtest/gtest.h>
 
 #include <array>
-#include <filesystem>
-#include <fstream>
 #include <functional>
-#include <iterator>
 
 namespace pointfront
 {
@@ -18,40 +12,15 @@ namespace
 using namespace pointfront::test;
 namespace fs = std::filesystem;
 
-class KdTreeBuild : public testing::Test
+class KdTreeBuild : public StoreBuildTest
 {
 protected:
   void SetUp() override
   {
-    folder_ = freshFolder(
-      std::string("kdtree-") + testing::UnitTest::GetInstance()->current_test_info()->name());
-    options_.outputPath = (folder_ / "cloud.pfront").string();
+    StoreBuildTest::SetUp();
     options_.structure = Structure::KdTree;
     options_.nodePoints = 64;
-    options_.threads = 2;
-    options_.overwrite = true;
   }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  std::shared_ptr<const PointStore> build(std::unique_ptr<CloudSource> cloud)
-  {
-    const auto report = buildOctreeStore(one(std::move(cloud)), options_);
-    EXPECT_TRUE(report) << report.error().what;
-    const auto store = PointStore::open(options_.outputPath);
-    EXPECT_TRUE(store) << store.error().what;
-    const auto verified = (*store)->verify();
-    EXPECT_TRUE(verified && verified->ok)
-      << (verified ? verified->firstError : verified.error().what);
-    return *store;
-  }
-  std::string bytes() const
-  {
-    std::ifstream file(options_.outputPath, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  }
-
-  fs::path folder_;
-  BuildOptions options_;
 };
 
 std::uint32_t idOf(const NodeColumns& node, std::size_t point)
@@ -133,7 +102,7 @@ TEST_F(KdTreeBuild, SameBytesForAnyThreadsAndMemory)
     {
       cloud->editDescription().declaredBounds = *declared;
     }
-    const auto report = buildOctreeStore(one(std::move(cloud)), options_);
+    const auto report = buildStore(one(std::move(cloud)), options_);
     EXPECT_TRUE(report) << report.error().what;
     spilled = report ? report->spilledBytes : 0;
     return bytes();
@@ -279,12 +248,12 @@ TEST_F(KdTreeBuild, PointsThatNobodyClassifiedShareATree)
 TEST_F(KdTreeBuild, RefusesWhatItCannotDo)
 {
   options_.layering = Layering::ObjectClass; // of a cloud without classes
-  const auto noClass = buildOctreeStore(one(hills(100, 1000.0)), options_);
+  const auto noClass = buildStore(one(hills(100, 1000.0)), options_);
   ASSERT_FALSE(noClass);
   EXPECT_NE(noClass.error().what.find("classification"), std::string::npos);
   options_.layering = Layering::None;
   options_.refinement = Refinement::Replace;
-  const auto replace = buildOctreeStore(one(hills(100, 1000.0)), options_);
+  const auto replace = buildStore(one(hills(100, 1000.0)), options_);
   ASSERT_FALSE(replace);
   EXPECT_EQ(replace.error().kind, Error::Kind::BadArgument);
   EXPECT_FALSE(fs::exists(options_.outputPath));

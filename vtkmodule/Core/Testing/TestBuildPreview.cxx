@@ -206,7 +206,7 @@ TEST_F(BuildPreviews, DoNotChangeTheStore)
   ASSERT_TRUE(buildWithPreview());
   const std::string with = bytesOf(build_.outputPath);
   build_.overwrite = true;
-  ASSERT_TRUE(buildOctreeStore(cloud_, build_));
+  ASSERT_TRUE(buildStore(cloud_, build_));
   EXPECT_TRUE(with == bytesOf(build_.outputPath));
 }
 

@@ -1,15 +1,9 @@
-#include "TestBuildClouds.h"
+#include "StoreBuildTest.h"
 
 #include "pointfront/Build/MeanRecord.h"
 #include "pointfront/Export/StoreExport.h"
-#include "pointfront/Store/PointStore.h"
-
-#include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 
 namespace pointfront
 {
@@ -18,40 +12,15 @@ namespace
 using namespace pointfront::test;
 namespace fs = std::filesystem;
 
-class ReplaceBuild : public testing::Test
+class ReplaceBuild : public StoreBuildTest
 {
 protected:
   void SetUp() override
   {
-    folder_ = freshFolder(
-      std::string("replace-") + testing::UnitTest::GetInstance()->current_test_info()->name());
-    options_.outputPath = (folder_ / "cloud.pfront").string();
+    StoreBuildTest::SetUp();
     options_.refinement = Refinement::Replace;
     options_.nodePoints = 256;
-    options_.threads = 2;
-    options_.overwrite = true;
   }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  std::shared_ptr<const PointStore> build(std::unique_ptr<CloudSource> cloud)
-  {
-    const auto report = buildOctreeStore(one(std::move(cloud)), options_);
-    EXPECT_TRUE(report) << report.error().what;
-    const auto store = PointStore::open(options_.outputPath);
-    EXPECT_TRUE(store) << store.error().what;
-    const auto verified = (*store)->verify();
-    EXPECT_TRUE(verified && verified->ok)
-      << (verified ? verified->firstError : verified.error().what);
-    return *store;
-  }
-  std::string bytes() const
-  {
-    std::ifstream file(options_.outputPath, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  }
-
-  fs::path folder_;
-  BuildOptions options_;
 };
 
 template <typename T>
@@ -193,7 +162,7 @@ TEST_F(ReplaceBuild, SameBytesForAnyThreadsAndMemory)
   {
     options_.threads = threads;
     options_.memoryBytes = memory;
-    const auto report = buildOctreeStore(one(hills(40000, 100000.0)), options_);
+    const auto report = buildStore(one(hills(40000, 100000.0)), options_);
     EXPECT_TRUE(report) << report.error().what;
     return bytes();
   };
@@ -250,7 +219,7 @@ TEST_F(ReplaceBuild, RefusesAnInputThatHasTheColumnAlready)
   auto cloud = std::make_unique<CloudSource>("cloud", schema, millimetres());
   cloud->addPosition({0.0, 0.0, 0.0});
   cloud->addValue(0, 1.0f);
-  const auto report = buildOctreeStore(one(std::move(cloud)), options_);
+  const auto report = buildStore(one(std::move(cloud)), options_);
   ASSERT_FALSE(report);
   EXPECT_NE(report.error().what.find(enclosingRadiusName), std::string::npos);
   EXPECT_FALSE(fs::exists(options_.outputPath));

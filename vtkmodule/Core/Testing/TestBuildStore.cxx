@@ -91,7 +91,7 @@ std::shared_ptr<const PointStore> expectSoundStore(
   const QuantisationGrid grid = *cloud->description().grid;
   const std::vector<Identified> expected = pointsOf(*cloud, grid);
   const auto sources = one(std::move(cloud));
-  const auto report = buildOctreeStore(sources, options);
+  const auto report = buildStore(sources, options);
   EXPECT_TRUE(report) << report.error().what;
   if (!report)
   {
@@ -126,7 +126,7 @@ TEST_F(StoreBuild, SameBytesForAnyThreadsAndMemory)
     options_.threads = threads;
     options_.memoryBytes = memory;
     const auto sources = one(hills(60000, 100000.0));
-    const auto report = buildOctreeStore(sources, options_);
+    const auto report = buildStore(sources, options_);
     EXPECT_TRUE(report) << report.error().what;
     return std::make_pair(report ? report->spilledBytes : 0, bytes());
   };
@@ -223,14 +223,14 @@ TEST_F(StoreBuild, RefusesAnExtentBeyondTheGridAndSaysWhatFits)
 {
   const auto sources = one(cloudOf(
     2, millimetres(), [](std::size_t i) { return GridPosition(std::int64_t(i) << 33, 0, 0); }));
-  const auto refused = buildOctreeStore(sources, options_);
+  const auto refused = buildStore(sources, options_);
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().kind, Error::Kind::BadArgument);
   EXPECT_NE(refused.error().what.find("a precision of 0.01 fits"), std::string::npos)
     << refused.error().what;
   EXPECT_EQ(filesLeft(), 0u);
   options_.precision = 0.01;
-  EXPECT_TRUE(buildOctreeStore(sources, options_));
+  EXPECT_TRUE(buildStore(sources, options_));
 }
 
 TEST_F(StoreBuild, RejectsWhatIsNoPositionAndCountsWhy)
@@ -248,7 +248,7 @@ TEST_F(StoreBuild, RejectsWhatIsNoPositionAndCountsWhy)
   cloud->addPosition({1.0, 1.0, 0.0});
   cloud->addValue(0, std::uint32_t(5040));
   cloud->addValue(1, std::uint16_t(9));
-  const auto report = buildOctreeStore(one(std::move(cloud)), options_);
+  const auto report = buildStore(one(std::move(cloud)), options_);
   ASSERT_TRUE(report) << report.error().what;
   EXPECT_EQ(report->pointsRead, 5041u);
   EXPECT_EQ(report->pointsStored, 5001u);
@@ -266,7 +266,7 @@ TEST_F(StoreBuild, LeavesNothingWhenCancelled)
   for (const char* phase : {"reading", "sorting", "building"})
   {
     bool met = false;
-    const auto cancelled = buildOctreeStore(sources, options_,
+    const auto cancelled = buildStore(sources, options_,
       [&](const Progress& progress)
       {
         met = met || std::string(progress.phase) == phase;
@@ -283,7 +283,7 @@ TEST_F(StoreBuild, TellsProgressThatNeverFalls)
 {
   double last = 0.0;
   std::vector<std::string> phases;
-  const auto report = buildOctreeStore(one(hills(60000, 100000.0)), options_,
+  const auto report = buildStore(one(hills(60000, 100000.0)), options_,
     [&](const Progress& progress)
     {
       EXPECT_GE(progress.fraction, last);
@@ -304,29 +304,29 @@ TEST_F(StoreBuild, KeepsAnExistingOutputUnlessAllowed)
 {
   std::ofstream(options_.outputPath) << "precious";
   options_.overwrite = false;
-  const auto refused = buildOctreeStore(one(hills(1000, 1000.0)), options_);
+  const auto refused = buildStore(one(hills(1000, 1000.0)), options_);
   ASSERT_FALSE(refused);
   EXPECT_NE(refused.error().what.find("exists already"), std::string::npos);
   EXPECT_EQ(bytes(), "precious");
   options_.overwrite = true;
-  EXPECT_TRUE(buildOctreeStore(one(hills(1000, 1000.0)), options_));
+  EXPECT_TRUE(buildStore(one(hills(1000, 1000.0)), options_));
   EXPECT_TRUE(PointStore::open(options_.outputPath));
 }
 
 TEST_F(StoreBuild, SaysThatAFolderCannotBeWritten)
 {
   options_.outputPath = (folder_ / "absent" / "cloud.pfront").string();
-  const auto noFolder = buildOctreeStore(one(hills(1000, 1000.0)), options_);
+  const auto noFolder = buildStore(one(hills(1000, 1000.0)), options_);
   ASSERT_FALSE(noFolder);
   EXPECT_NE(noFolder.error().what.find("absent"), std::string::npos) << noFolder.error().what;
   options_.outputPath = "/proc/cloud.pfront"; // nobody, not even root, makes files there
-  const auto readOnly = buildOctreeStore(one(hills(1000, 1000.0)), options_);
+  const auto readOnly = buildStore(one(hills(1000, 1000.0)), options_);
   ASSERT_FALSE(readOnly);
   EXPECT_EQ(readOnly.error().kind, Error::Kind::Unwritable);
   options_.outputPath = (folder_ / "cloud.pfront").string();
   options_.temporaryFolder = "/proc";
   options_.memoryBytes = 150 << 10;
-  const auto noSpill = buildOctreeStore(one(hills(60000, 100000.0)), options_);
+  const auto noSpill = buildStore(one(hills(60000, 100000.0)), options_);
   ASSERT_FALSE(noSpill);
   EXPECT_EQ(noSpill.error().kind, Error::Kind::Unwritable);
   EXPECT_EQ(filesLeft(), 0u);
@@ -339,7 +339,7 @@ TEST_F(StoreBuild, StopsWhereASourceBreaks)
     auto cloud = hills(60000, 100000.0);
     cloud->failAt(37);
     options_.threads = threads;
-    const auto failed = buildOctreeStore(one(std::move(cloud)), options_);
+    const auto failed = buildStore(one(std::move(cloud)), options_);
     ASSERT_FALSE(failed);
     EXPECT_EQ(failed.error().kind, Error::Kind::Truncated);
     EXPECT_NE(failed.error().what.find("byte 4711"), std::string::npos);
@@ -349,17 +349,17 @@ TEST_F(StoreBuild, StopsWhereASourceBreaks)
 
 TEST_F(StoreBuild, RefusesImpossibleOptions)
 {
-  EXPECT_FALSE(buildOctreeStore({}, options_));
+  EXPECT_FALSE(buildStore({}, options_));
   options_.memoryBytes = 1000;
-  const auto tooLittle = buildOctreeStore(one(hills(60000, 100000.0)), options_);
+  const auto tooLittle = buildStore(one(hills(60000, 100000.0)), options_);
   ASSERT_FALSE(tooLittle);
   EXPECT_EQ(tooLittle.error().kind, Error::Kind::NoMemory);
   options_.memoryBytes = 0;
   options_.nodePoints = 1;
-  EXPECT_FALSE(buildOctreeStore(one(hills(1000, 1000.0)), options_));
+  EXPECT_FALSE(buildStore(one(hills(1000, 1000.0)), options_));
   options_.nodePoints = 256;
   options_.precision = -1.0;
-  EXPECT_FALSE(buildOctreeStore(one(hills(1000, 1000.0)), options_));
+  EXPECT_FALSE(buildStore(one(hills(1000, 1000.0)), options_));
   EXPECT_EQ(filesLeft(), 0u);
 }
 

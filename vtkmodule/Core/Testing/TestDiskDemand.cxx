@@ -130,7 +130,7 @@ void buildMeetsTheLimit(std::uint64_t memory, const char* need)
       options.outputPath = (folder / "x.pfront").string();
       options.memoryBytes = memory;
       options.threads = 2;
-      const auto built = buildOctreeStore(cloud, options);
+      const auto built = buildStore(cloud, options);
       if (built || built.error().kind != Error::Kind::Unwritable)
       {
         return 1;

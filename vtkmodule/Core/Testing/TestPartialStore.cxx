@@ -133,7 +133,7 @@ protected:
   std::vector<Version> versionsWith(PointSources sample)
   {
     EveryMoment watch(momentPath(), std::move(sample));
-    const auto report = buildOctreeStore(cloud_, options_, {}, &watch);
+    const auto report = buildStore(cloud_, options_, {}, &watch);
     EXPECT_TRUE(report) << report.error().what;
     EXPECT_GT(watch.versions.size(), 5u);
     return std::move(watch.versions);
@@ -217,7 +217,7 @@ TEST_P(PartialStores, DoNotChangeTheStore)
   versionsWith(test::one(classified()));
   const std::string watched = bytes();
   options_.overwrite = true;
-  ASSERT_TRUE(buildOctreeStore(cloud_, options_));
+  ASSERT_TRUE(buildStore(cloud_, options_));
   EXPECT_TRUE(watched == bytes());
 }
 
@@ -242,7 +242,7 @@ TEST_P(PartialStores, StayReadableWhenTheBuildIsCancelledAndDoNotOpenAgain)
   private:
     fs::path folder_;
   } watch(folder_);
-  const auto report = buildOctreeStore(
+  const auto report = buildStore(
     cloud_, options_, [&](const Progress&) { return !watch.open; }, &watch);
   if (report) // the last report came before the first moment: nothing was cancelled
   {

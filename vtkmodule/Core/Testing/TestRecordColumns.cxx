@@ -60,7 +60,7 @@ protected:
     options.overwrite = true;
     options.threads = threads;
     options.nodePoints = 256;
-    const auto report = buildOctreeStore(test::one(cloud(5000, odd)), options);
+    const auto report = buildStore(test::one(cloud(5000, odd)), options);
     EXPECT_TRUE(report) << report.error().what;
     const auto store = PointStore::open(options.outputPath);
     EXPECT_TRUE(store) << store.error().what;

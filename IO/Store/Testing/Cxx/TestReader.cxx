@@ -51,7 +51,7 @@ std::string storeOf(const std::string& name, std::size_t count)
   options.nodePoints = 500;
   options.overwrite = true;
   options.threads = 1;
-  const auto built = buildOctreeStore(one(std::move(cloud)), options);
+  const auto built = buildStore(one(std::move(cloud)), options);
   EXPECT_TRUE(built.ok());
   return options.outputPath;
 }

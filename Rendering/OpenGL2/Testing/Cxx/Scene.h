@@ -65,7 +65,7 @@ inline std::string storeOf(const std::string& name, std::size_t count,
   options.nodePoints = 2000;
   options.overwrite = true;
   options.threads = 1;
-  const auto built = buildOctreeStore(one(std::move(cloud)), options);
+  const auto built = buildStore(one(std::move(cloud)), options);
   EXPECT_TRUE(built.ok()) << (built.ok() ? "" : built.error().what);
   return options.outputPath;
 }

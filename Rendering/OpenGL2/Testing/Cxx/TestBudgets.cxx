@@ -34,7 +34,7 @@ struct Clouds
     options.nodePoints = 2000;
     options.overwrite = true;
     options.threads = 1;
-    EXPECT_TRUE(buildOctreeStore(
+    EXPECT_TRUE(buildStore(
       one(hills(40000, 3000.0, millimetres({x, y, 0.0}))), options).ok());
     return options.outputPath;
   }
@@ -354,7 +354,7 @@ TEST(Budgets, TheStoresOfAProcessShareTheOverviewByTheirSizes)
   options.outputPath = ::testing::TempDir() + "quarter.pfront";
   options.nodePoints = 500;
   options.overwrite = true;
-  ASSERT_TRUE(buildOctreeStore(one(hills(10000, 3000.0, millimetres({-6.0, -3.0, 0.0}))), options));
+  ASSERT_TRUE(buildStore(one(hills(10000, 3000.0, millimetres({-6.0, -3.0, 0.0}))), options));
   Scene small(options.outputPath);
   for (Scene* scene : {&large, &small})
   {
@@ -408,7 +408,7 @@ std::string layeredStore()
   options.nodePoints = 1000;
   options.overwrite = true;
   options.threads = 1;
-  EXPECT_TRUE(buildOctreeStore(one(std::move(cloud)), options).ok());
+  EXPECT_TRUE(buildStore(one(std::move(cloud)), options).ok());
   return options.outputPath;
 }
 

@@ -332,7 +332,7 @@ TEST(Interaction, AViewOfAPreviewGoesOverToTheFinishedStore)
   EXPECT_GT(early, 1000);
   EXPECT_LT(early, 30000);
 
-  ASSERT_TRUE(buildOctreeStore(cloud, options));
+  ASSERT_TRUE(buildStore(cloud, options));
   preview.value().reset();
   std::this_thread::sleep_for(std::chrono::milliseconds(300)); // it looks four times a second
   EXPECT_TRUE(scene.mapper->NeedsRender());

@@ -26,7 +26,7 @@ std::string build(const std::string& name, std::size_t points)
   options.outputPath = ::testing::TempDir() + name + ".pfront";
   options.overwrite = true;
   options.threads = 1;
-  const auto built = buildOctreeStore(one(hills(points, 1e6)), options);
+  const auto built = buildStore(one(hills(points, 1e6)), options);
   EXPECT_TRUE(built.ok());
   return options.outputPath;
 }
@@ -109,7 +109,7 @@ TEST(StoreHandle, BoundsAreTight)
   options.overwrite = true;
   auto cloud = cloudOf(3, millimetres(),
     [](std::size_t i) { return GridPosition(1000 * i, -500 * static_cast<int>(i), 7); });
-  ASSERT_TRUE(buildOctreeStore(one(std::move(cloud)), options).ok());
+  ASSERT_TRUE(buildStore(one(std::move(cloud)), options).ok());
   const auto store = vtkPointFrontStore::Open(options.outputPath.c_str(), error);
   double bounds[6];
   store->GetBounds(bounds);
@@ -150,7 +150,7 @@ TEST(StoreHandle, APreviewHasSuccessors)
   EXPECT_NE(later, early);
   EXPECT_TRUE(later->IsPreview());
 
-  ASSERT_TRUE(buildOctreeStore(cloud, options));
+  ASSERT_TRUE(buildStore(cloud, options));
   preview.value().reset();
   std::this_thread::sleep_for(std::chrono::milliseconds(300)); // it looks four times a second
   EXPECT_TRUE(early->HasSuccessor());

@@ -229,7 +229,7 @@ Result<BuildReport> BuildPreview::build(
 {
   const PointSources watchedSources = watched(sources);
   Result<BuildReport> report =
-    buildOctreeStore(watchedSources, options, progress, active() ? this : nullptr);
+    buildStore(watchedSources, options, progress, active() ? this : nullptr);
   if (report)
   {
     const std::vector<std::string> told = warnings();
@@ -362,7 +362,7 @@ Result<void> BuildPreview::write(const PointSources& originals, std::uint64_t po
   const PointSources sample =
     sample_.snapshot(originals, previewMetadata(recordOf(pointsRead)));
   const Result<BuildReport> built =
-    buildOctreeStore(sample, options, [&](const Progress&) { return goOn(); });
+    buildStore(sample, options, [&](const Progress&) { return goOn(); });
   return built ? file_->replace() : Result<void>(built.error());
 }
 

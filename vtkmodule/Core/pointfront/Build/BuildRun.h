@@ -27,7 +27,7 @@ public:
   }
 
   /// `sources` becomes what the passes made of them. The report's seconds are those of all.
-  /// Errors  those of the passes, of PreviewFile::claim() and of buildOctreeStore().
+  /// Errors  those of the passes, of PreviewFile::claim() and of buildStore().
   Result<BuildReport> run(PointSources& sources, const AttributePasses& passes,
     const ProgressFunction& progress = {});
 

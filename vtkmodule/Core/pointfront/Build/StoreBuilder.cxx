@@ -491,7 +491,7 @@ Result<BuildReport> StoreBuild::run()
 }
 } // namespace
 
-Result<BuildReport> buildOctreeStore(const std::vector<std::unique_ptr<PointSource>>& sources,
+Result<BuildReport> buildStore(const std::vector<std::unique_ptr<PointSource>>& sources,
   const BuildOptions& options, const ProgressFunction& progress, BuildWatch* watch)
 {
   if (Result<void> done = checkOptions(sources, options); !done)

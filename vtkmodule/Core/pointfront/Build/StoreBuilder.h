@@ -72,8 +72,8 @@ struct BuildReport
 };
 
 /// Builds a store from any number of sources; with an octree or a kd-tree, for all points or one
-/// for each object class. Guarantees  every point that is read is stored once, or counted in
-/// pointsRejected with its
+/// for each object class.
+/// Guarantees  every point that is read is stored once, or counted in pointsRejected with its
 ///             reason (NaN, infinite, outside the grid's range); read = stored + rejected is
 ///             checked at the end. Same input, same bytes out: for any number of threads and any
 ///             memory budget. A build that fails or is cancelled leaves no output and no spill
@@ -82,7 +82,7 @@ struct BuildReport
 ///             points are spilled to disk (a fixed number of files).
 /// Threads     called from one thread; runs its own.
 /// `watch`     sees the store while its trees are built; the store's bytes do not depend on it.
-Result<BuildReport> buildOctreeStore(const std::vector<std::unique_ptr<PointSource>>& sources,
+Result<BuildReport> buildStore(const std::vector<std::unique_ptr<PointSource>>& sources,
   const BuildOptions& options, const ProgressFunction& progress = {}, BuildWatch* watch = nullptr);
 
 } // namespace pointfront

@@ -1,0 +1,134 @@
+#pragma once
+
+#include "PointValues.h"
+
+#include "pointfront/Points/PointSink.h"
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+/// What every writer of a foreign format must do, as cases for the tests of each.
+namespace pointfront::test
+{
+
+/// A writer, and the reader that must understand it.
+struct WriterCase
+{
+  const PointSourceFormat& format;
+  std::string extension; ///< without the dot
+  std::function<std::unique_ptr<PointSink>(const std::string& path)> make;
+};
+
+/// Two points with an attribute of every kind.
+inline SinkDescription manyKinds(PointBatch& batch)
+{
+  SinkDescription description;
+  description.schema.add({ "intensity", ScalarType::UInt16 });
+  description.schema.add({ "rgb", ScalarType::UInt8, 3 });
+  description.schema.add({ "normal", ScalarType::Float32, 3 });
+  description.schema.add({ "gps_time", ScalarType::Float64 });
+  description.schema.add({ "wave offset", ScalarType::UInt64 });
+  description.schema.add({ "pair", ScalarType::Int16, 2 });
+  description.schema.add({ "width", ScalarType::Int16, 1, 0.1, 1000.0 });
+  batch.resize(2, description.schema);
+  batch.positions = { { 637012.24, 849028.31, 431.66 }, { -0.05, 0.0, 12.3456 } };
+  const auto fill = [&](std::size_t column, const auto& values)
+  { std::memcpy(batch.columns[column].data(), values.data(), batch.columns[column].size()); };
+  fill(0, std::vector<std::uint16_t>{ 143, 65535 });
+  fill(1, std::vector<std::uint8_t>{ 68, 77, 88, 0, 255, 1 });
+  fill(2, std::vector<float>{ 0.0f, 0.6f, 0.8f, 1.0f, 0.0f, 0.0f });
+  fill(3, std::vector<double>{ 1.0 / 3.0, 1e9 });
+  fill(4, std::vector<std::uint64_t>{ 1ull << 40, 7 });
+  fill(5, std::vector<std::int16_t>{ -1, 2, -3, 4 });
+  fill(6, std::vector<std::int16_t>{ 3, -10000 });
+  return description;
+}
+
+/// Writes manyKinds() twice over and reads it. The type of the 64-bit integer "wave_offset", named
+/// in `schema`, is the format's.
+template <typename WaveOffset>
+void expectReadAsWritten(const WriterCase& writerCase, const std::string& schema)
+{
+  PointBatch batch;
+  const SinkDescription description = manyKinds(batch);
+  const std::string path = writeFile("written." + writerCase.extension, "");
+  std::filesystem::remove(path);
+  const auto writer = writerCase.make(path);
+  ASSERT_TRUE(writer->begin(description));
+  ASSERT_TRUE(writer->append(batch));
+  ASSERT_TRUE(writer->append(batch));
+  EXPECT_FALSE(std::filesystem::exists(path)) << "whole or absent";
+  ASSERT_TRUE(writer->finish());
+  const auto source = openPoints(writerCase.format, path);
+  ASSERT_TRUE(source);
+  EXPECT_TRUE(source->description().warnings.empty());
+  const PointBatch all = readPoints(*source);
+  ASSERT_EQ(all.size(), 4u);
+  EXPECT_EQ(all.positions[2], batch.positions[0]);
+  EXPECT_EQ(all.positions[3], batch.positions[1]);
+  EXPECT_EQ(schemaText(*source), schema);
+  EXPECT_EQ(columnOf<std::uint16_t>(*source, all, "intensity"),
+    (std::vector<std::uint16_t>{ 143, 65535, 143, 65535 }));
+  EXPECT_EQ(columnOf<std::uint8_t>(*source, all, "rgb"),
+    (std::vector<std::uint8_t>{ 68, 77, 88, 0, 255, 1, 68, 77, 88, 0, 255, 1 }));
+  EXPECT_EQ(columnOf<float>(*source, all, "normal")[2], 0.8f);
+  EXPECT_EQ(columnOf<double>(*source, all, "gps_time")[0], 1.0 / 3.0);
+  EXPECT_EQ(columnOf<WaveOffset>(*source, all, "wave_offset")[0], WaveOffset(1ull << 40));
+  EXPECT_EQ(columnOf<std::int16_t>(*source, all, "pair"),
+    (std::vector<std::int16_t>{ -1, 2, -3, 4, -1, 2, -3, 4 }));
+  EXPECT_NEAR(columnOf<double>(*source, all, "width")[0], 1000.3, 1e-9);
+}
+
+/// What was there before stays when a writer is destroyed before finish().
+inline void expectNothingLeftUnfinished(const WriterCase& writerCase)
+{
+  PointBatch batch;
+  const SinkDescription description = manyKinds(batch);
+  const std::string path = writeFile("kept." + writerCase.extension, "earlier");
+  {
+    const auto writer = writerCase.make(path);
+    ASSERT_TRUE(writer->begin(description));
+    ASSERT_TRUE(writer->append(batch));
+  }
+  EXPECT_EQ(bytesOfFile(path), "earlier");
+  EXPECT_FALSE(std::filesystem::exists(path + ".tmp"));
+}
+
+/// A file of no points, and one of a point with a colour of 16 bits.
+inline void expectNoneAndWideColour(const WriterCase& writerCase)
+{
+  SinkDescription description;
+  description.schema.add({ "rgb", ScalarType::UInt16, 3 });
+  const std::string path = writeFile("wide." + writerCase.extension, "");
+  PointBatch batch;
+  batch.resize(1, description.schema);
+  batch.positions[0] = glm::dvec3(1, 2, 3);
+  const std::uint16_t rgb[3] = { 256, 65535, 0 };
+  std::memcpy(batch.columns[0].data(), rgb, sizeof rgb);
+  for (const int points : { 0, 1 })
+  {
+    const auto writer = writerCase.make(path);
+    ASSERT_TRUE(writer->begin(description));
+    ASSERT_TRUE(points == 0 || writer->append(batch).ok());
+    ASSERT_TRUE(writer->finish());
+    const auto source = openPoints(writerCase.format, path);
+    ASSERT_TRUE(source);
+    const PointBatch all = readPoints(*source);
+    EXPECT_EQ(all.size(), static_cast<std::size_t>(points));
+    EXPECT_EQ(columnOf<std::uint16_t>(*source, all, "rgb"),
+      std::vector<std::uint16_t>(rgb, rgb + 3 * points));
+  }
+}
+
+inline void expectReasonWhenItCannotWrite(const WriterCase& writerCase)
+{
+  const auto writer =
+    writerCase.make(testing::TempDir() + "no such folder/x." + writerCase.extension);
+  const Result<void> begun = writer->begin({});
+  ASSERT_FALSE(begun.ok());
+  EXPECT_NE(begun.error().what.find("no such folder"), std::string::npos);
+}
+
+} // namespace pointfront::test

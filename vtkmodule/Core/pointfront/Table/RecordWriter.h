@@ -1,0 +1,37 @@
+#pragma once
+
+#include "pointfront/Points/PointSink.h"
+#include "pointfront/Table/RecordFile.h"
+
+#include <memory>
+#include <string>
+
+namespace pointfront
+{
+
+/// Writes points as one record each behind a text header, as PLY and PCD have it. What the header
+/// says, and what a record holds behind x, y and z as double, is the format's.
+/// CRS         such formats have no place for it: it is lost.
+/// Errors      as in PointSink.
+/// Threads     one thread.
+class RecordWriter : public PointSink
+{
+public:
+  Result<void> begin(const SinkDescription& description) final;
+  Result<void> append(const PointBatch& batch) final;
+  Result<void> finish() final;
+
+protected:
+  explicit RecordWriter(std::string path);
+
+private:
+  /// Adds the attributes to the encoder, in the order of the file, and gives the header that
+  /// announces them.
+  virtual RecordFile::Header describe(
+    const AttributeSchema& schema, RecordEncoder& encoder) const = 0;
+
+  std::string path_;
+  std::unique_ptr<RecordFile> file_; ///< since begin()
+};
+
+} // namespace pointfront

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace pointfront
 {
@@ -121,26 +122,31 @@ std::uint32_t SubsetSampler::slotOf(const Reach& reach, unsigned octant)
          (32 - slotBits);
 }
 
-bool SubsetSampler::near(const glm::dvec3& p, const Taken& taken) const
+SubsetSampler::Mask SubsetSampler::near(const Query& query, const Taken& a, const Taken& b)
 {
-  const glm::dvec3 d = p - taken.position;
-  return d.x * d.x + d.y * d.y + d.z * d.z < squared_;
+  Pair da;
+  Pair db;
+  std::memcpy(&da, &a.position, sizeof(Pair)); // x and y
+  std::memcpy(&db, &b.position, sizeof(Pair));
+  da -= query.xy;
+  db -= query.xy;
+  da *= da;
+  db *= db;
+  const Pair dz = Pair{a.position.z, b.position.z} - query.z;
+  return Pair{da[0], db[0]} + Pair{da[1], db[1]} + dz * dz < query.squared;
 }
 
-bool SubsetSampler::nearRecent(const glm::dvec3& p) const
+bool SubsetSampler::nearRecent(const Query& query) const
 {
   // All of them, without a branch in between: which one it is cannot be foretold.
-  constexpr std::size_t most = 6;
-  const std::size_t recent = std::min(taken_.size() - 1, most);
-  bool found = false;
-  for (std::size_t back = 1; back <= recent; ++back)
-  {
-    found |= near(p, taken_[taken_.size() - back]);
-  }
-  return found;
+  const Taken* end = taken_.data() + taken_.size();
+  static_assert(recentPoints == 6);
+  const Mask found = near(query, end[-1], end[-2]) | near(query, end[-3], end[-4]) |
+                     near(query, end[-5], end[-6]);
+  return (found[0] | found[1]) != 0;
 }
 
-bool SubsetSampler::crowded(const glm::dvec3& p, const Reach& reach) const
+bool SubsetSampler::crowded(const Query& query, const Reach& reach) const
 {
   // All eight lists at once, an entry of each a round: how long each of them is cannot be foretold,
   // how long the longest is can. A list that is over goes on with an entry near to nothing.
@@ -152,16 +158,18 @@ bool SubsetSampler::crowded(const glm::dvec3& p, const Reach& reach) const
   std::uint32_t more = 1;
   while (more != 0)
   {
-    bool found = false;
+    Mask found{0, 0};
     more = 0;
-    for (std::uint32_t& i : at)
+    for (unsigned list = 0; list < 8; list += 2)
     {
-      const Taken& taken = taken_[i];
-      found |= near(p, taken);
-      i = taken.next;
-      more |= i;
+      const Taken& a = taken_[at[list]];
+      const Taken& b = taken_[at[list + 1]];
+      found |= near(query, a, b);
+      at[list] = a.next;
+      at[list + 1] = b.next;
+      more |= a.next | b.next;
     }
-    if (found)
+    if ((found[0] | found[1]) != 0)
     {
       return true;
     }
@@ -173,19 +181,22 @@ void SubsetSampler::choose(const RecordView& records, const std::vector<std::uin
   SamplingDistance distance, std::vector<std::uint8_t>& chosen)
 {
   chosen.assign(points.size(), 0);
-  taken_.assign(1, {glm::dvec3(nowhere), none});
+  taken_.assign(recentPoints, {glm::dvec3(nowhere), none}); // there are always that many
   std::fill(slots_.begin(), slots_.end(), none);
-  squared_ = distance.squaredSteps();
+  Query query;
+  query.squared = Pair{distance.squaredSteps(), distance.squaredSteps()};
   cellsPerStep_ = 0.499999 / distance.steps(); // a hair larger than twice the distance
   for (std::size_t i = 0; i < points.size(); ++i)
   {
     const glm::dvec3 p(records.position(points[i]));
-    if (nearRecent(p))
+    query.xy = Pair{p.x, p.y};
+    query.z = Pair{p.z, p.z};
+    if (nearRecent(query))
     {
       continue;
     }
     const Reach reach = reachOf(p);
-    if (crowded(p, reach))
+    if (crowded(query, reach))
     {
       continue;
     }

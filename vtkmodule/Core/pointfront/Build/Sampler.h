@@ -73,6 +73,10 @@ public:
 private:
   static constexpr unsigned slotBits = 14;
   static constexpr std::uint32_t none = 0; ///< in taken_ a point near to nothing
+  static constexpr std::size_t recentPoints = 6;
+
+  using Pair = double __attribute__((vector_size(16))); ///< every x86-64 and ARMv8 has it
+  using Mask = decltype(Pair() < Pair());
 
   struct Taken
   {
@@ -86,14 +90,22 @@ private:
   };
   Reach reachOf(const glm::dvec3& p) const;
   static std::uint32_t slotOf(const Reach& reach, unsigned octant);
-  bool near(const glm::dvec3& p, const Taken& taken) const;
+
+  /// A candidate, as vectors.
+  struct Query
+  {
+    Pair xy;
+    Pair z;       ///< twice
+    Pair squared; ///< of the distance in steps, twice
+  };
+  /// Two points at a time, in the halves of vectors; the same sums as one by one.
+  static Mask near(const Query& query, const Taken& a, const Taken& b);
   /// To one of those marked last: along the curve they are the most likely ones.
-  bool nearRecent(const glm::dvec3& p) const;
-  bool crowded(const glm::dvec3& p, const Reach& reach) const;
+  bool nearRecent(const Query& query) const;
+  bool crowded(const Query& query, const Reach& reach) const;
 
   std::vector<std::uint32_t> slots_; // heads of lists in taken_
   std::vector<Taken> taken_;
-  double squared_ = 0.0;      // of the distance, in steps
   double cellsPerStep_ = 0.0; // of the table's cells
 };
 

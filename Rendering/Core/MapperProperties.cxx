@@ -22,8 +22,8 @@ ColourRequest colourRequestOf(vtkPolyDataMapper& mapper, const StoreDescription&
   if (mapper.GetScalarMode() == VTK_SCALAR_MODE_USE_POINT_FIELD_DATA)
   {
     const bool byName = mapper.GetArrayAccessMode() == VTK_GET_ARRAY_BY_NAME;
-    const char* name =
-      byName ? mapper.GetArrayName() : (points ? points->GetArrayName(mapper.GetArrayId()) : nullptr);
+    const char* numbered = points ? points->GetArrayName(mapper.GetArrayId()) : nullptr;
+    const char* name = byName ? mapper.GetArrayName() : numbered;
     request.name = name ? name : "";
   }
   else if (mapper.GetScalarMode() == VTK_SCALAR_MODE_DEFAULT ||

@@ -32,22 +32,23 @@ DrawBatches::~DrawBatches()
   }
 }
 
-void DrawBatches::draw(const std::vector<int>& firsts, const std::vector<int>& counts)
+DrawBatches::DrawBatches() : inTurn_(drawnByProgram()) {}
+
+void DrawBatches::draw(const int* firsts, const int* counts, std::size_t runs)
 {
-  if (drawnByProgram())
+  if (inTurn_)
   {
-    this->drawInTurn(firsts, counts);
+    this->drawInTurn(firsts, counts, runs);
   }
   else
   {
-    glMultiDrawArrays(
-      GL_POINTS, firsts.data(), counts.data(), static_cast<GLsizei>(firsts.size()));
+    glMultiDrawArrays(GL_POINTS, firsts, counts, static_cast<GLsizei>(runs));
   }
 }
 
-void DrawBatches::drawInTurn(const std::vector<int>& firsts, const std::vector<int>& counts)
+void DrawBatches::drawInTurn(const int* firsts, const int* counts, std::size_t runs)
 {
-  for (std::size_t run = 0; run < firsts.size(); ++run)
+  for (std::size_t run = 0; run < runs; ++run)
   {
     for (int drawn = 0; drawn < counts[run];)
     {

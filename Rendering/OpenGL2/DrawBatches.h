@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <deque>
-#include <vector>
 
 namespace pointfront
 {
@@ -15,18 +14,19 @@ namespace pointfront
 class DrawBatches
 {
 public:
-  DrawBatches() = default;
+  DrawBatches();
   ~DrawBatches();
   DrawBatches(const DrawBatches&) = delete;
   DrawBatches& operator=(const DrawBatches&) = delete;
 
   /// As often as there are buffers to draw from: a batch goes on from one to the next.
-  void draw(const std::vector<int>& firsts, const std::vector<int>& counts);
+  void draw(const int* firsts, const int* counts, std::size_t runs);
 
 private:
-  void drawInTurn(const std::vector<int>& firsts, const std::vector<int>& counts);
+  void drawInTurn(const int* firsts, const int* counts, std::size_t runs);
   void flush();
 
+  bool inTurn_ = false;
   int waiting_ = 0; ///< points handed to GL since the last flush
   std::deque<void*> underWay_; ///< GLsync of batches that were handed over
 };

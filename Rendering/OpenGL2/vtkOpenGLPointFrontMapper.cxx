@@ -117,12 +117,7 @@ vtkIdType vtkOpenGLPointFrontMapper::Content::List(const pointfront::ViewFront& 
   const pointfront::StoredCloud& store = *this->Store->GetStore();
   constexpr auto slotPoints = pointfront::GpuPool::slotPoints;
   this->Records.begin(this->Pool.slotCount());
-  this->Drawing.runs.resize(this->Pool.blocks().size());
-  for (pointfront::BlockRuns& runs : this->Drawing.runs)
-  {
-    runs.firsts.clear();
-    runs.counts.clear();
-  }
+  this->Drawing.runs.clear();
   vtkIdType drawn = 0;
   for (const pointfront::DrawItem& item : front.last().draw)
   {
@@ -145,7 +140,7 @@ vtkIdType vtkOpenGLPointFrontMapper::Content::List(const pointfront::ViewFront& 
       const std::uint32_t slot = entry->slots[first / slotPoints];
       const std::size_t block = this->Pool.blockOf(slot);
       const std::uint32_t inBlock = slot - this->Pool.blocks()[block].first();
-      this->Drawing.runs[block].add(static_cast<int>(inBlock * slotPoints),
+      this->Drawing.runs.add(block, static_cast<int>(inBlock * slotPoints),
         static_cast<int>(std::min(slotPoints, points - first)));
     }
     drawn += points;

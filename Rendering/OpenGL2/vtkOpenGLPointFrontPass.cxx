@@ -266,35 +266,46 @@ void vtkOpenGLPointFrontPass::UpdateMaximumPointCellIds(vtkRenderer* ren, vtkAct
   selector->UpdateMaximumCellId(last);
 }
 
-void vtkOpenGLPointFrontPass::BindVertices(
-  vtkOpenGLHelper& cellBO, const pointfront::GpuBlock& block)
+/// From one block's buffers after the other.
+void vtkOpenGLPointFrontPass::DrawBlocks(vtkOpenGLHelper& cellBO)
 {
-  const GLuint program = static_cast<GLuint>(cellBO.Program->GetHandle());
-  const auto attach = [program](const char* name, std::uint32_t buffer, bool integers, int size,
-                        GLenum type, bool normalised)
+  const auto program = static_cast<GLuint>(cellBO.Program->GetHandle());
+  const GLint positions = glGetAttribLocation(program, "positionSteps");
+  const GLint colours = glGetAttribLocation(program, "pointColour");
+  const GLint values = glGetAttribLocation(program, "pointValue");
+  for (const GLint location : {positions, colours, values})
   {
-    const GLint location = glGetAttribLocation(program, name);
-    if (location < 0)
+    if (location >= 0)
     {
-      return;
+      glEnableVertexAttribArray(static_cast<GLuint>(location));
     }
-    const auto at = static_cast<GLuint>(location);
-    glBindBuffer(GL_ARRAY_BUFFER, buffer);
-    glEnableVertexAttribArray(at);
-    if (integers)
+  }
+  const auto attach = [](GLint location, std::uint32_t buffer, int size, GLenum type, bool colour)
+  {
+    if (location >= 0)
     {
-      glVertexAttribIPointer(at, size, type, 0, nullptr);
-    }
-    else
-    {
-      glVertexAttribPointer(at, size, type, normalised ? GL_TRUE : GL_FALSE, 0, nullptr);
+      glBindBuffer(GL_ARRAY_BUFFER, buffer);
+      glVertexAttribPointer(
+        static_cast<GLuint>(location), size, type, colour ? GL_TRUE : GL_FALSE, 0, nullptr);
     }
   };
-  attach("positionSteps", block.positionBuffer(), true, 3, GL_UNSIGNED_INT, false);
-  attach("pointColour", block.valueBuffer(), false, 4, GL_UNSIGNED_BYTE, true);
-  attach("pointValue", block.valueBuffer(), false, 1, GL_FLOAT, false);
+  pointfront::DrawBatches batches;
+  const pointfront::DrawRuns& runs = this->Drawing->runs;
+  for (const pointfront::DrawRuns::Stretch& stretch : runs.stretches())
+  {
+    const pointfront::GpuBlock& block = this->Drawing->pool->blocks()[stretch.block];
+    if (positions >= 0) // a user's own vertex shader may do without
+    {
+      glBindBuffer(GL_ARRAY_BUFFER, block.positionBuffer());
+      glVertexAttribIPointer(static_cast<GLuint>(positions), 3, GL_UNSIGNED_INT, 0, nullptr);
+    }
+    attach(colours, block.valueBuffer(), 4, GL_UNSIGNED_BYTE, true);
+    attach(values, block.valueBuffer(), 1, GL_FLOAT, false);
+    cellBO.Program->SetUniformi("firstSlot", static_cast<int>(block.first()));
+    batches.draw(
+      runs.firsts() + stretch.begin, runs.counts() + stretch.begin, stretch.end - stretch.begin);
+  }
   glBindBuffer(GL_ARRAY_BUFFER, 0);
-  cellBO.Program->SetUniformi("firstSlot", static_cast<int>(block.first()));
 }
 
 void vtkOpenGLPointFrontPass::RenderPieceDraw(vtkRenderer* ren, vtkActor* act)
@@ -317,17 +328,7 @@ void vtkOpenGLPointFrontPass::RenderPieceDraw(vtkRenderer* ren, vtkActor* act)
       state->vtkglPointSize(static_cast<float>(this->Drawing->pointSize));
     }
     points.VAO->Bind();
-    pointfront::DrawBatches batches;
-    const std::vector<pointfront::GpuBlock>& blocks = this->Drawing->pool->blocks();
-    for (std::size_t b = 0; b < this->Drawing->runs.size(); ++b)
-    {
-      const pointfront::BlockRuns& runs = this->Drawing->runs[b];
-      if (!runs.firsts.empty())
-      {
-        this->BindVertices(points, blocks[b]);
-        batches.draw(runs.firsts, runs.counts);
-      }
-    }
+    this->DrawBlocks(points);
     vtkOpenGLCheckErrorMacro("failed after drawing points");
   }
   this->Drawing->records->deactivate();

@@ -10,11 +10,11 @@
 #ifndef vtkOpenGLPointFrontPass_h
 #define vtkOpenGLPointFrontPass_h
 
+#include "DrawRuns.h"       // for the draw list
 #include "PointColouring.h" // for the colouring
 #include "vtkOpenGLPolyDataMapper.h"
 
 #include <glm/vec3.hpp> // for the reference point
-#include <vector>       // for the draw list
 
 namespace pointfront
 {
@@ -22,24 +22,6 @@ class ColourTable;
 class GpuBlock;
 class GpuPool;
 class SlotRecords;
-
-/// Runs of vertices of one block of the pool.
-struct BlockRuns
-{
-  std::vector<int> firsts;
-  std::vector<int> counts;
-
-  void add(int first, int count)
-  {
-    if (!firsts.empty() && firsts.back() + counts.back() == first)
-    {
-      counts.back() += count;
-      return;
-    }
-    firsts.push_back(first);
-    counts.push_back(count);
-  }
-};
 
 /// What one call of the pass draws.
 struct PointDrawing
@@ -52,7 +34,7 @@ struct PointDrawing
   glm::dvec3 stepSize{1.0};  ///< store units of a grid step
   double pointSize = 0.0;    ///< pixels; 0: the property's
   vtkIdType storePoints = 0; ///< ids are below it
-  std::vector<BlockRuns> runs; ///< by block, each in drawing order
+  DrawRuns runs;
 };
 } // namespace pointfront
 
@@ -94,7 +76,7 @@ private:
   void operator=(const vtkOpenGLPointFrontPass&) = delete;
 
   bool IsDrawingIds() const;
-  void BindVertices(vtkOpenGLHelper& cellBO, const pointfront::GpuBlock& block);
+  void DrawBlocks(vtkOpenGLHelper& cellBO);
   void SetClippingUniforms(vtkShaderProgram* program, vtkActor* actor);
 
   const pointfront::PointDrawing* Drawing = nullptr;

@@ -56,6 +56,13 @@ class Scene:
         self.look()  # after what is shown first has reset the camera
         return display
 
+    def show_large(self):
+        """All of a cloud whose points take longer to load than a frame may."""
+        display = self.show(simple.OpenDataFile(os.environ["POINTFRONT_LARGE"]))
+        display.TargetError, display.PointBudget = 0.01, 0
+        self.view.SMProxy.ResetCamera()
+        return display
+
     def look(self, by=(0.0, 0.0, 0.0)):
         with open(os.environ["POINTFRONT_CAMERA"]) as file:
             camera = json.load(file)
@@ -73,9 +80,9 @@ class Scene:
         simple.ColorBy(display, ("POINTS", array))
         display.SetScalarBarVisibility(self.view, False)
 
-    def frame(self):
+    def frame(self, display=None):
         """Of the last frame, of all processes together: points drawn, whether it is complete."""
-        proxy = self.display.SMProxy
+        proxy = (display or self.display).SMProxy
         proxy.UpdatePropertyInformation()
         return (proxy.GetProperty("PointsDrawn").GetElement(0),
                 bool(proxy.GetProperty("FrameComplete").GetElement(0)))

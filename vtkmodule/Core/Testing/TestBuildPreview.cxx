@@ -56,11 +56,15 @@ protected:
     std::sort(names.begin(), names.end());
     return names;
   }
-  /// Small parts, each of which is shown.
+  /// Small parts, each of which is shown by the one thread that builds: another would go on
+  /// meanwhile. But for the overview, no version that shows none: those come from a thread of their
+  /// own, and while it writes one, finished parts are not shown.
   void everyVersion()
   {
     build_.nodePoints = 512;
+    build_.threads = 1;
     wish_.shareOfTime = 1e9;
+    wish_.leastSeconds = 1e9;
   }
   std::string previewPath() const { return (folder_ / "city.preview.pfront").string(); }
   /// Leaves what a build leaves that is killed once `condition` holds for its preview.

@@ -49,8 +49,9 @@ void RendererView::EndFrame()
   {
     return;
   }
+  const bool before = this->Seen;
   this->Seen = !this->NewFrame;
-  if (!this->Seen && this->Front)
+  if (before && !this->Seen && this->Front)
   {
     this->Front->leave();
     this->Unseen();

@@ -81,6 +81,7 @@ Result<std::unique_ptr<PointSource>> LAZSource::open(LASFile file)
   {
     return done.error();
   }
+  file.map.release(0, file.map.size()); // what the search for chunks has looked at
   return std::unique_ptr<PointSource>(
     new LAZSource(std::move(file), std::move(*compression), std::move(*chunks)));
 }
@@ -114,6 +115,8 @@ Result<void> LAZSource::decompress(
     {
       return done;
     }
+    // Read once, not kept: a file larger than the memory limit must not count against it.
+    file_.map.release(chunks_[i].offset, static_cast<std::size_t>(chunks_[i].bytes));
   }
   return {};
 }

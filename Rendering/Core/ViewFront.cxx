@@ -175,15 +175,19 @@ void ViewFront::loadRoots()
 }
 
 /// What the other views take now, of the memory and of the window.
-void ViewFront::readShares()
+void ViewFront::readShares(const FrameDemand& demand)
 {
   const LoadScheduler& scheduler = share_.residency().scheduler();
   const std::uint64_t revision = sharedRevision();
-  if (revision != sharedSeen_)
+  const bool otherBudgets =
+    demand.pointBudget != pointBudgetSeen_ || demand.gpuBytes != gpuBytesSeen_;
+  if (revision != sharedSeen_ || otherBudgets)
   {
     sharedSeen_ = revision;
-    window_->points.elsewhere(elsewhere_.drawn);
-    window_->slots.elsewhere(elsewhere_.slots);
+    pointBudgetSeen_ = demand.pointBudget;
+    gpuBytesSeen_ = demand.gpuBytes;
+    window_->points.elsewhere(elsewhere_.drawn, demand.pointBudget);
+    window_->slots.elsewhere(elsewhere_.slots, static_cast<std::uint64_t>(demand.gpuBytes));
     memory_.elsewhere(elsewhere_.held);
     for (std::size_t step = 0; step < DemandCurve::size; ++step)
     {
@@ -199,7 +203,7 @@ void ViewFront::readShares()
 }
 
 /// What this view takes, for the others.
-void ViewFront::tellDemand()
+void ViewFront::tellDemand(const FrameDemand& demand)
 {
   DemandCurves curves;
   selection_->demandCurves(curves);
@@ -210,8 +214,8 @@ void ViewFront::tellDemand()
   // Its own change is none for itself; another one's, since the look, is.
   const std::uint64_t before = sharedRevision();
   memory_.set(curves.held);
-  window_->points.set(curves.drawn);
-  window_->slots.set(curves.slots);
+  window_->points.set(curves.drawn, demand.pointBudget);
+  window_->slots.set(curves.slots, static_cast<std::uint64_t>(demand.gpuBytes));
   sharedSeen_ += sharedRevision() - before;
 }
 
@@ -245,7 +249,7 @@ void ViewFront::setLimits(const FrameDemand& demand)
     most = demand.pointBudget == 0 ? affordable : std::min(demand.pointBudget, affordable);
     limits.movesPerFrame = cost_.movesFor(frameMs / clouds, delta_.pointsDrawn);
   }
-  readShares();
+  readShares(demand);
 }
 
 void ViewFront::step(const FrameDemand& demand)
@@ -255,7 +259,7 @@ void ViewFront::step(const FrameDemand& demand)
   rowsSeen_ = piece_->hierarchy()->arrivals();
   setLimits(demand);
   delta_ = selection_->update(demand.view, *residents_, limits_);
-  tellDemand();
+  tellDemand(demand);
   addMargin(demand);
   wish_->request(
     delta_.requests, [this](NodeIndex node) { return selection_->distanceUnderFront(node); });

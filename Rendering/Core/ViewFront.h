@@ -97,8 +97,8 @@ private:
   void loadRoots();
   void setLimits(const FrameDemand& demand);
   std::uint64_t sharedRevision() const { return memory_.revision() + window_->revision(); }
-  void readShares();
-  void tellDemand();
+  void readShares(const FrameDemand& demand);
+  void tellDemand(const FrameDemand& demand);
 
   std::shared_ptr<const HierarchyPiece> piece_;
   ResidencyShare& share_;
@@ -116,6 +116,8 @@ private:
   std::unique_ptr<WindowClaims> window_;
   DemandCurves elsewhere_; ///< in points of this store and slots
   std::uint64_t sharedSeen_ = 0;
+  std::uint64_t pointBudgetSeen_ = 0;
+  std::int64_t gpuBytesSeen_ = 0;
   ColumnSelection columns_;
   std::size_t pointBytes_ = 0; ///< of a decoded point with columns_
   std::uint64_t arrivalsSeen_ = 0;

@@ -66,8 +66,7 @@ public:
    * Most bytes of GPU memory for points, over all clouds of a window. A view that needs more
    * settles at the best error that fits (LastLimitedByGPUMemory). Counted is what the buffers take,
    * filled or not, not the points in them; a frame in which they grow takes no more than that
-   * either. When it is lowered, it holds from the second frame on. Default 0: no limit but
-   * PointBudget.
+   * either, nor does the first one after it was lowered. Default 0: no limit but PointBudget.
    */
   vtkSetClampMacro(GPUMemoryBudget, vtkTypeInt64, 0, VTK_TYPE_INT64_MAX);
   vtkGetMacro(GPUMemoryBudget, vtkTypeInt64);

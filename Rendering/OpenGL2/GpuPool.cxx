@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <functional>
 
 namespace pointfront
 {
@@ -109,19 +108,26 @@ void GpuPool::setColouring(const PointColouring& colouring)
 void GpuPool::beginFrame(const Limits& limits)
 {
   ++frame_;
+  const bool less = limits.bytes > 0 && (limits_.bytes == 0 || limits.bytes < limits_.bytes);
+  lowered_ = less && account_->bytes() > limits.bytes;
   limits_ = limits;
   limits_.views = std::max(1u, limits.views);
   const std::uint64_t slots = std::min<std::uint64_t>(gpuSlotsOf(limits.points), 1u << 24);
   slotLimit_ =
     limits.points == 0 ? 0 : static_cast<std::uint32_t>(slots + slots / cacheShare + 1);
+  account_->draw(*this, lowered_);
 }
 
 void GpuPool::leaveScreen() { frame_ += limits_.views; }
 
 bool GpuPool::makeRoom(const std::vector<DrawItem>& draw)
 {
+  if (lowered_)
+  {
+    leaveScreen(); // of other views, too: they bring theirs again
+  }
   mark(draw);
-  keepWithin();
+  keepWithin(draw);
   addValues();
   std::uint64_t missing = 0;
   for (const DrawItem& item : draw)
@@ -150,7 +156,7 @@ void GpuPool::mark(const std::vector<DrawItem>& draw)
   }
 }
 
-void GpuPool::keepWithin()
+void GpuPool::keepWithin(const std::vector<DrawItem>& draw)
 {
   if (slotLimit_ != 0 && slotCount() / 2 > std::max(slotLimit_, fewestSlots))
   {
@@ -161,9 +167,24 @@ void GpuPool::keepWithin()
   while (tooMuch(0) && (giveBack() || (trim() && giveBack())))
   {
   }
-  if (limits_.bytes > 0 && bytes_ > limits_.bytes)
+  if (!tooMuch(0))
   {
-    release(); // less than a slot for each node: what fits comes again
+    return;
+  }
+  account_->reclaim(account_->bytes() - limits_.bytes, *this);
+  // The frame draws more than there may be: a front comes down by some moves a frame in motion.
+  for (auto item = draw.rbegin(); item != draw.rend() && bytes_ > limits_.bytes; ++item)
+  {
+    const auto farthest = entries_.find(item->node);
+    if (farthest != entries_.end())
+    {
+      free_.insert(
+        free_.end(), farthest->second.slots.begin(), farthest->second.slots.end());
+      entries_.erase(farthest);
+    }
+    while (tooMuch(0) && giveBack())
+    {
+    }
   }
 }
 
@@ -224,17 +245,25 @@ void GpuPool::listIdle()
       idle_.emplace_back(entry.frame, node);
     }
   }
-  std::sort(idle_.begin(), idle_.end(), std::greater<>());
+  std::sort(idle_.begin(), idle_.end(),
+    [](const auto& a, const auto& b)
+    { return a.first != b.first ? a.first > b.first : a.second < b.second; });
 }
 
 /// The list may be older than this frame: what became idle since was drawn after all that is in it,
 /// and what was drawn again is passed over.
 bool GpuPool::evictOne()
 {
-  if (idle_.empty())
+  if (evictListed())
   {
-    listIdle();
+    return true;
   }
+  listIdle();
+  return evictListed();
+}
+
+bool GpuPool::evictListed()
+{
   while (!idle_.empty())
   {
     const auto [frame, node] = idle_.back();

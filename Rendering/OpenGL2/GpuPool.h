@@ -25,7 +25,8 @@ class GpuAccount;
 /// gives memory back, and so does one whose idle memory another one wants.
 /// Guarantees  a node that any view has drawn within the last `views` frames is never evicted: what
 ///             is on screen stays, even when that takes more than the limit of points; and never
-///             more than the limit of bytes.
+///             more than the limit of bytes. In the first frame after that was lowered only what
+///             the frame itself draws stays, and of that the nearest if not all fits.
 /// Threads     one thread, that of the GL context, which must be current in every function but
 ///             the constructor and the destructor. Destruction without release() leaks the buffers
 ///             to the context, which is gone then.
@@ -60,6 +61,8 @@ public:
   /// Values of another colouring are worth nothing: they are uploaded again as nodes are drawn.
   void setColouring(const PointColouring& colouring);
   void beginFrame(const Limits& limits);
+  /// This frame's limit of bytes is lower than that of the frame before, and was exceeded.
+  bool lowered() const { return lowered_; }
   /// Before a frame's first bring(): what it draws. False if the budget of bytes does not hold all
   /// of it: bring() then brings what there is room for.
   bool makeRoom(const std::vector<DrawItem>& draw);
@@ -92,11 +95,12 @@ public:
 
 private:
   void mark(const std::vector<DrawItem>& draw);
-  void keepWithin();
+  void keepWithin(const std::vector<DrawItem>& draw);
   void addValues();
   bool makeFree(std::uint64_t slots);
   bool isIdle(const Entry& entry) const;
   void listIdle();
+  bool evictListed();
   bool evictOne();
   bool trim();
   bool grow(std::uint64_t slots);
@@ -112,9 +116,11 @@ private:
   std::vector<GpuBlock> blocks_; ///< each goes on where the one before ends
   std::unordered_map<NodeIndex, Entry> entries_;
   std::vector<std::uint32_t> free_; ///< slots
-  std::vector<std::pair<std::uint64_t, NodeIndex>> idle_; ///< last drawn; oldest at the end
+  /// Last drawn, node: the oldest at the end, of those drawn last together the deepest.
+  std::vector<std::pair<std::uint64_t, NodeIndex>> idle_;
   std::vector<std::uint32_t> staging_;
   Limits limits_;
+  bool lowered_ = false;
   std::uint32_t slotLimit_ = 0; ///< of `points`: grows beyond for what is on screen; 0: none
   std::uint64_t frame_ = 0;
   std::uint64_t uploaded_ = 0;

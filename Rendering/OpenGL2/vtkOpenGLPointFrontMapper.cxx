@@ -108,7 +108,9 @@ bool vtkOpenGLPointFrontMapper::Content::Upload(
     left = left || !entry || entry->points < item.pointCount ||
            (attribute && entry->values < item.pointCount);
   }
-  return left && (room || bytes <= 0); // what has no room does not come with another frame
+  // What has no room does not come with another frame, unless clouds that are drawn after this one
+  // have yet to come down to a budget that was lowered.
+  return left && (room || bytes <= 0 || this->Pool.lowered());
 }
 
 /// Makes the runs of vertices and the slots' records of what is on the GPU of the front.

@@ -194,6 +194,45 @@ struct Scene
 
 } // namespace
 
+// Whoever comes down to a lower budget first finds the others where they were: what they have at
+// this moment does not count until they had their turn, what they will take does.
+TEST(SharedDemand, WhoIsYetToComeDownDoesNotStarveWhoComesFirst)
+{
+  const auto shared = std::make_shared<SharedDemand>();
+  SharedDemand::Claim first(shared);
+  SharedDemand::Claim second(shared);
+  SharedDemand::Claim third(shared);
+  const auto curve = [](std::uint64_t now, std::uint64_t later)
+  {
+    DemandCurve made;
+    for (std::size_t step = 0; step < DemandCurve::size; ++step)
+    {
+      made[step] = later;
+    }
+    made[0] = now;
+    return made;
+  };
+  first.set(curve(40, 10), 100);
+  second.set(curve(40, 10)); // without a budget
+  third.set(curve(40, 10), 50);
+  DemandCurve others;
+  first.elsewhere(others, 100);
+  EXPECT_EQ(others[0], 40u) << "the third has a lower one already";
+  EXPECT_EQ(others[1], 20u);
+  first.elsewhere(others, 30);
+  EXPECT_EQ(others[0], 0u);
+  EXPECT_EQ(others[1], 20u);
+  const std::uint64_t before = first.revision();
+  second.set(curve(40, 10), 30);
+  EXPECT_NE(first.revision(), before) << "from now on it counts";
+  first.elsewhere(others, 30);
+  EXPECT_EQ(others[0], 40u);
+  second.set(curve(7, 7), 30);
+  third.set(curve(5, 5), 30);
+  first.elsewhere(others, 30);
+  EXPECT_EQ(others[0], 12u);
+}
+
 TEST(DemandCurve, IsATableOverThresholds)
 {
   EXPECT_EQ(DemandCurve::stepOf(0.0), 0u);

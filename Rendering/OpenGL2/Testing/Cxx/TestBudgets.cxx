@@ -4,6 +4,10 @@
 
 #include "pointfront/Residency/LoadScheduler.h"
 
+#include <vtkActorCollection.h>
+#include <vtkCallbackCommand.h>
+#include <vtkCommand.h>
+
 #include <array>
 #include <memory>
 
@@ -208,6 +212,22 @@ TEST(Budgets, TheCloudsOfAWindowShareItsGpuMemory)
   }
 }
 
+TEST(Budgets, ALoweredBudgetOfPointsHoldsInTheFirstFrame)
+{
+  Clouds scene(6);
+  scene.settle();
+  ASSERT_EQ(scene.drawn(), 240000);
+  for (const vtkIdType budget : {150000, 60000, 20000})
+  {
+    scene.setPointBudget(budget);
+    scene.first.window->Render();
+    const vtkIdType drawn = scene.drawn();
+    EXPECT_LE(drawn, budget);
+    scene.settle();
+    EXPECT_GT(drawn, scene.drawn() * 3 / 4) << "no cloud is away for a frame";
+  }
+}
+
 TEST(Budgets, WhatIsNotSeenLeavesItsPartToTheOthers)
 {
   constexpr vtkIdType budget = 30000;
@@ -245,6 +265,7 @@ TEST(Budgets, ABudgetOfGpuMemoryMayChange)
   EXPECT_GT(scene.mapper->GetLastGPUBytes(), budget);
   scene.mapper->SetGPUMemoryBudget(budget);
   scene.draw();
+  EXPECT_LE(scene.mapper->GetLastGPUBytes(), budget);
   const Picture few = scene.draw();
   EXPECT_LE(scene.mapper->GetLastGPUBytes(), budget);
   EXPECT_TRUE(scene.mapper->GetLastLimitedByGPUMemory());
@@ -270,6 +291,87 @@ TEST(Budgets, ABudgetOfGpuMemoryMayChange)
   EXPECT_EQ(scene.mapper->GetLastGPUBytes(), 0);
   EXPECT_EQ(scene.mapper->GetLastPointsDrawn(), 0);
   EXPECT_FALSE(scene.mapper->NeedsRender());
+}
+
+/// One frame within a budget that was lowered before it, whichever cloud is drawn first.
+void lowerTo(Clouds& scene, vtkTypeInt64 budget, double updateRate)
+{
+  scene.setGpuBudget(budget);
+  scene.first.window->SetDesiredUpdateRate(updateRate);
+  scene.first.window->Render();
+  EXPECT_LE(scene.gpuBytes(), budget) << "update rate " << updateRate;
+}
+
+TEST(Budgets, ALoweredBudgetOfGpuMemoryHoldsInTheFirstFrame)
+{
+  constexpr vtkTypeInt64 budget = 5 << 20;
+  constexpr double atRest = 0.0001;
+  Clouds scene(6);
+  scene.settle();
+  ASSERT_GT(scene.gpuBytes(), budget * 3 / 2);
+  lowerTo(scene, budget, atRest);
+  const Picture first = scene.first.read();
+  const vtkIdType drawn = scene.drawn();
+  for (vtkPointFrontMapper* mapper : scene.all())
+  {
+    EXPECT_GT(mapper->GetLastPointsDrawn(), 2000) << "nobody's memory goes to the others for good";
+  }
+  scene.settle();
+  EXPECT_GT(drawn, scene.drawn() * 3 / 4) << "what is left is on screen in that frame";
+  EXPECT_GT(first.lit(), scene.first.read().lit() * 3 / 4);
+  // In steps, in motion, where fronts move by a few nodes a frame.
+  scene.setGpuBudget(0);
+  scene.settle();
+  for (vtkPointFrontMapper* mapper : scene.all())
+  {
+    mapper->CompleteOff();
+  }
+  for (const vtkTypeInt64 less : {vtkTypeInt64(7) << 20, budget, budget / 2, budget / 8})
+  {
+    lowerTo(scene, less, 15.0);
+    lowerTo(scene, less, 15.0);
+    EXPECT_GT(scene.first.mapper->GetLastPointsDrawn(), 0);
+  }
+  scene.first.window->SetDesiredUpdateRate(atRest);
+  scene.settle();
+}
+
+/// Two renderers show one cloud: the memory of either is the other's budget.
+TEST(Budgets, ALoweredBudgetOfGpuMemoryHoldsForAllViews)
+{
+  constexpr vtkTypeInt64 budget = 3 << 20;
+  Scene scene(planeStore("views", 500, 5));
+  scene.renderer->SetViewport(0.0, 0.0, 0.5, 1.0);
+  vtkNew<vtkRenderer> other;
+  other->SetViewport(0.5, 0.0, 1.0, 1.0);
+  other->AddActor(scene.actor);
+  scene.window->AddRenderer(other);
+  other->GetActiveCamera()->SetPosition(0.6, 0.0, 3.0);
+  other->GetActiveCamera()->SetFocalPoint(0.6, 0.0, 0.0);
+  other->GetActiveCamera()->SetClippingRange(0.5, 50.0);
+  scene.draw();
+  ASSERT_GT(scene.mapper->GetLastGPUBytes(), budget);
+  vtkTypeInt64 most = 0;
+  vtkNew<vtkCallbackCommand> watch; // after each renderer's frame
+  watch->SetClientData(&most);
+  watch->SetCallback([](vtkObject* caller, unsigned long, void* data, void*)
+    {
+      auto* actor = vtkActor::SafeDownCast(
+        static_cast<vtkRenderer*>(caller)->GetActors()->GetLastActor());
+      auto* mapper = static_cast<vtkPointFrontMapper*>(actor->GetMapper());
+      auto* bytes = static_cast<vtkTypeInt64*>(data);
+      *bytes = std::max(*bytes, mapper->GetLastWindowGPUBytes());
+    });
+  scene.renderer->AddObserver(vtkCommand::EndEvent, watch);
+  other->AddObserver(vtkCommand::EndEvent, watch);
+  scene.mapper->SetGPUMemoryBudget(budget);
+  const Picture first = scene.draw();
+  EXPECT_LE(most, budget);
+  scene.draw();
+  const Picture settled = scene.draw();
+  EXPECT_LE(most, budget);
+  EXPECT_GT(settled.lit(), 1000);
+  EXPECT_LT(differing(first, settled), settled.lit() / 4) << "no view loses its picture";
 }
 
 TEST(Budgets, APoolGivesBackWhatItMayNotKeep)

@@ -2,9 +2,11 @@
 
 #include "pointfront/Front/DemandCurve.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <vector>
 
 namespace pointfront
 {
@@ -13,6 +15,9 @@ namespace pointfront
 /// what it takes at which threshold, and asks what the others take: the threshold that fits all of
 /// them together is then the same for all, so the memory goes to the largest errors on screen,
 /// and a scene that needs more settles at the best error that every view can have.
+/// Budgets  a claim is made under a budget (in any unit; 0: none). After that was lowered the views
+///          come down one after the other, each before it draws: what those that are yet to come
+///          down have at this moment does not count for those that do, only what they will take.
 /// Threads  any.
 class SharedDemand
 {
@@ -25,22 +30,24 @@ public:
       : shared_(std::move(shared))
     {
       const std::lock_guard<std::mutex> lock(shared_->mutex_);
-      ++shared_->claims_;
+      shared_->claims_.push_back(this);
     }
     ~Claim()
     {
       set(DemandCurve());
       const std::lock_guard<std::mutex> lock(shared_->mutex_);
-      --shared_->claims_;
+      std::vector<const Claim*>& all = shared_->claims_;
+      all.erase(std::find(all.begin(), all.end(), this));
     }
     Claim(const Claim&) = delete;
     Claim& operator=(const Claim&) = delete;
 
-    void set(const DemandCurve& own)
+    void set(const DemandCurve& own, std::uint64_t budget = 0)
     {
       const std::lock_guard<std::mutex> lock(shared_->mutex_);
-      if (!(own == own_))
+      if (!(own == own_) || budget != budget_)
       {
+        budget_ = budget;
         shared_->total_.subtract(own_);
         shared_->total_.add(own);
         own_ = own;
@@ -48,17 +55,22 @@ public:
       }
     }
     /// What all others take.
-    void elsewhere(DemandCurve& others) const
+    void elsewhere(DemandCurve& others, std::uint64_t budget = 0) const
     {
       const std::lock_guard<std::mutex> lock(shared_->mutex_);
       others = shared_->total_;
       others.subtract(own_);
+      for (const Claim* claim : shared_->claims_)
+      {
+        const bool comesDown = budget > 0 && (claim->budget_ == 0 || claim->budget_ > budget);
+        others[0] -= claim != this && comesDown ? claim->own_[0] : 0;
+      }
     }
     /// How many views share.
     std::uint64_t claims() const
     {
       const std::lock_guard<std::mutex> lock(shared_->mutex_);
-      return shared_->claims_;
+      return shared_->claims_.size();
     }
     /// Changes whenever a claim does.
     std::uint64_t revision() const
@@ -70,13 +82,14 @@ public:
   private:
     const std::shared_ptr<SharedDemand> shared_;
     DemandCurve own_;
+    std::uint64_t budget_ = 0; ///< that it was made under
   };
 
 private:
   std::mutex mutex_;
   DemandCurve total_;
   std::uint64_t revision_ = 1;
-  std::uint64_t claims_ = 0;
+  std::vector<const Claim*> claims_;
 };
 
 } // namespace pointfront

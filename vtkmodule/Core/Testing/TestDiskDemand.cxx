@@ -99,14 +99,15 @@ int withFileLimit(rlim_t bytes, const std::function<int()>& work)
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
-TEST(SpillFile, SaysWhatWasNeededWhenTheDiskEnds)
+/// Of so many bytes, where no file may grow beyond a third of them.
+void spillMeetsTheLimit(std::size_t bytes, SpillFile::Way way)
 {
   const fs::path folder = test::freshFolder("spill-limit");
-  const int status = withFileLimit(10000,
+  const int status = withFileLimit(bytes / 3,
     [&]
     {
-      auto file = SpillFile::create(folder.string(), 3 * mega);
-      const std::vector<std::byte> data(20000);
+      auto file = SpillFile::create(folder.string(), 3 * mega, way);
+      const std::vector<std::byte> data(bytes);
       const Result<void> done = file ? (*file)->write(0, data.data(), data.size()) : file.error();
       const bool told = !done && done.error().kind == Error::Kind::Unwritable &&
         done.error().what.find("needs 3 MiB") != std::string::npos &&
@@ -116,6 +117,15 @@ TEST(SpillFile, SaysWhatWasNeededWhenTheDiskEnds)
   EXPECT_EQ(status, 0);
   EXPECT_TRUE(fs::is_empty(folder));
   fs::remove_all(folder);
+}
+
+TEST(SpillFile, SaysWhatWasNeededWhenTheDiskEnds)
+{
+  for (const std::size_t bytes : {30000u, 2000000u})
+  {
+    spillMeetsTheLimit(bytes, SpillFile::Way::PastCache);
+    spillMeetsTheLimit(bytes, SpillFile::Way::ThroughCache);
+  }
 }
 
 /// A build whose store, or whose spill file, cannot grow: an Error with the need, nothing left.

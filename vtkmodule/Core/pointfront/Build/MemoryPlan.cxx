@@ -13,6 +13,8 @@ namespace
 constexpr std::uint64_t mostPartPoints = 1u << 18;
 constexpr std::uint64_t mostBlockPoints = 1u << 22;
 constexpr std::uint64_t memoryBlockPoints = 1u << 17;
+/// For each thread. Small parts go by faster than the disk answers.
+constexpr std::uint64_t mostPartsAhead = 4;
 
 /// Bytes for one point of a part while it is built: its record twice (unsorted and sorted), keys,
 /// its position once more, index lists of the levels (their sum is below 2 indices a point), the
@@ -53,7 +55,8 @@ std::uint64_t leastBytes(const MemoryDemand& demand)
     std::min(demand.points, leastPartPoints(demand)) * partPointBytes(demand));
 }
 
-/// What the allocator keeps, tables of cells and nodes, decoders, the pages of mapped inputs.
+/// What the allocator keeps, tables of cells and nodes, decoders, the pages of mapped inputs, the
+/// buffers of a spill.
 std::uint64_t withoutOverhead(std::uint64_t bytes)
 {
   return bytes - bytes / 4;
@@ -75,6 +78,12 @@ MemoryPlan divided(const MemoryDemand& demand, std::uint64_t available, bool spi
   const std::uint64_t forBlock = share - std::min(share, batchBytes(demand));
   plan.blockPoints = std::clamp<std::uint64_t>(forBlock / blockPointBytes(demand.recordBytes),
     1024, spill ? mostBlockPoints : memoryBlockPoints);
+  if (spill) // of what parts leave, so that little memory is still enough
+  {
+    const std::uint64_t left = share - std::min(share, plan.partPoints * partPointBytes(demand));
+    const std::uint64_t part = std::max<std::uint64_t>(1, plan.partPoints * demand.recordBytes);
+    plan.partsAhead = plan.threads * std::min(mostPartsAhead, left / part);
+  }
   return plan;
 }
 } // namespace

@@ -29,6 +29,8 @@ struct MemoryPlan
   unsigned threads = 1;          ///< those wanted, or fewer when memory is short
   std::uint64_t blockPoints = 0; ///< records read and sorted by cells at a time, by each thread
   std::uint64_t partPoints = 0;  ///< largest part built at a time, by each thread
+  /// Parts read from the disk before a thread wants them, by all threads; 0 without a spill.
+  std::uint64_t partsAhead = 0;
 };
 
 /// Error NoMemory, with the least that would do, when even one thread has too little.

@@ -38,7 +38,8 @@ Error systemError(const std::string& doing, const std::string& folder)
 }
 } // namespace
 
-Result<std::unique_ptr<SpillFile>> SpillFile::create(const std::string& folder, std::uint64_t bytes)
+Result<std::unique_ptr<SpillFile>> SpillFile::create(
+  const std::string& folder, std::uint64_t bytes, Way way)
 {
   static std::atomic<unsigned> serial{0};
   if (const std::uint64_t available = diskSpaceOf(folder).freeBytes; available < bytes)
@@ -52,8 +53,13 @@ Result<std::unique_ptr<SpillFile>> SpillFile::create(const std::string& folder, 
   {
     return systemError("cannot create", folder);
   }
+  std::unique_ptr<SpillFile> file(new SpillFile(descriptor, folder, bytes));
+  if (way == Way::PastCache)
+  {
+    file->direct_ = DirectAccess::open(path);
+  }
   unlink(path.c_str());
-  return std::unique_ptr<SpillFile>(new SpillFile(descriptor, folder, bytes));
+  return file;
 }
 
 SpillFile::SpillFile(int descriptor, std::string folder, std::uint64_t bytes)
@@ -66,7 +72,29 @@ SpillFile::~SpillFile()
   close(descriptor_);
 }
 
+/// Blocks of the disk that are not the range's alone go through the page cache, which puts together
+/// what several threads have of them.
 Result<void> SpillFile::write(std::uint64_t offset, const std::byte* data, std::size_t bytes)
+{
+  if (direct_ && bytes >= leastDirectBytes)
+  {
+    constexpr std::uint64_t block = DirectAccess::alignment;
+    const auto shared = static_cast<std::size_t>((block - offset % block) % block);
+    if (Result<void> done = writeCached(offset, data, shared); !done)
+    {
+      return done;
+    }
+    const std::size_t done =
+      shared + direct_->write(offset + shared, data + shared, bytes - shared);
+    offset += done;
+    data += done;
+    bytes -= done;
+  }
+  return writeCached(offset, data, bytes);
+}
+
+Result<void> SpillFile::writeCached(
+  std::uint64_t offset, const std::byte* data, std::size_t bytes)
 {
   while (bytes > 0)
   {
@@ -89,6 +117,14 @@ Result<void> SpillFile::write(std::uint64_t offset, const std::byte* data, std::
 }
 
 Result<void> SpillFile::read(std::uint64_t offset, std::byte* data, std::size_t bytes) const
+{
+  const std::size_t done =
+    direct_ && bytes >= leastDirectBytes ? direct_->read(offset, data, bytes) : 0;
+  return readCached(offset + done, data + done, bytes - done);
+}
+
+Result<void> SpillFile::readCached(
+  std::uint64_t offset, std::byte* data, std::size_t bytes) const
 {
   while (bytes > 0)
   {

@@ -368,6 +368,7 @@ Result<void> StoreBuild::assemble()
   }
   const NodeEmitter emitter(space_, columns_, stored_, options_.refinement);
   AssemblyPlan plan = construction_->assembly(emitter);
+  plan.readAhead = {storage_.plan.partsAhead, (storage_.plan.threads + 1) / 2};
   const auto partial = partialTrees(emitter, plan.tree);
   TreeAssembly assembly(std::move(plan), **writer, crew_, partial.get());
   auto trees = assembly.run();

@@ -50,20 +50,28 @@ TreeAssembly::TreeAssembly(
 
 Result<std::vector<std::unique_ptr<BuiltNode>>> TreeAssembly::run()
 {
-  if (Result<void> done = crew_.run([this] { return work(); }); !done)
+  std::vector<std::uint32_t> order;
+  for (const std::uint32_t node : partNodes_)
+  {
+    order.push_back(plan_.tree[node].part);
+  }
+  ReadAhead parts(std::move(order), plan_.load, plan_.readAhead);
+  const Result<void> done = crew_.run([&] { return work(parts); });
+  loadSeconds_ = parts.seconds();
+  if (!done)
   {
     return done.error();
   }
   return std::move(roots_);
 }
 
-Result<void> TreeAssembly::work()
+Result<void> TreeAssembly::work(ReadAhead& parts)
 {
   const std::unique_ptr<TreeBuilder> builder = plan_.builder();
   std::uint32_t node = 0;
   while (takePart(node))
   {
-    if (Result<void> done = buildPart(node, *builder); !done)
+    if (Result<void> done = buildPart(node, parts, *builder); !done)
     {
       return done;
     }
@@ -87,22 +95,14 @@ bool TreeAssembly::takePart(std::uint32_t& node)
   return false;
 }
 
-Result<void> TreeAssembly::buildPart(std::uint32_t node, TreeBuilder& builder)
+Result<void> TreeAssembly::buildPart(
+  std::uint32_t node, ReadAhead& parts, TreeBuilder& builder)
 {
   const PartNode& part = plan_.tree[node];
-  double loadSeconds = 0.0;
-  Result<std::vector<std::byte>> records = [&]
-  {
-    const CpuStopwatch watch(loadSeconds);
-    return plan_.load(part.part);
-  }();
+  ReadAhead::Records records = parts.take(part.part);
   if (!records)
   {
     return records.error();
-  }
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    loadSeconds_ += loadSeconds;
   }
   OpenSubtree subtree = builder.build(std::move(*records), part.count, node);
   for (;;)

@@ -3,6 +3,7 @@
 #include "pointfront/Base/Result.h"
 #include "pointfront/Build/BuiltTree.h"
 #include "pointfront/Build/PartTree.h"
+#include "pointfront/Build/ReadAhead.h"
 #include "pointfront/Build/TreeBuilder.h"
 #include "pointfront/Build/WorkCrew.h"
 #include "pointfront/Store/StoreWriter.h"
@@ -24,7 +25,8 @@ struct AssemblyPlan
 {
   std::vector<PartNode> tree;
   /// The records of a part; from any thread.
-  std::function<Result<std::vector<std::byte>>(std::uint32_t part)> load;
+  ReadAhead::Load load;
+  ReadAheadPlan readAhead; ///< nothing for parts that are in memory
   std::function<std::unique_ptr<TreeBuilder>()> builder; ///< one for each thread
 };
 
@@ -70,9 +72,9 @@ public:
   double writeSeconds() const { return writeSeconds_; }
 
 private:
-  Result<void> work();
+  Result<void> work(ReadAhead& parts);
   bool takePart(std::uint32_t& node);
-  Result<void> buildPart(std::uint32_t node, TreeBuilder& builder);
+  Result<void> buildPart(std::uint32_t node, ReadAhead& parts, TreeBuilder& builder);
   OpenSubtree joinChildren(std::uint32_t node, TreeBuilder& builder);
   Result<void> writeInTurn();
   Result<void> letWatch(std::unique_lock<std::mutex>& lock);

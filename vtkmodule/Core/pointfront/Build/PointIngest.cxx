@@ -2,6 +2,7 @@
 
 #include "pointfront/Base/CpuClock.h"
 #include "pointfront/Build/RecordPacker.h"
+#include "pointfront/Build/WriteBehind.h"
 
 #include <algorithm>
 #include <atomic>
@@ -79,6 +80,11 @@ public:
     points_.largestColour.assign(site.sources.size(), 0);
     points_.wrong.assign(site.common.schema.size(), false);
     points_.blocks.resize(runs_.size());
+    if (site.pool.onDisk())
+    {
+      // A block is read in longer than one is written: no thread needs two.
+      behind_.emplace(site.pool, site.crew.threads());
+    }
     for (const auto& source : site.sources)
     {
       onGrid_.push_back(source->description().grid == site.space.grid);
@@ -88,7 +94,7 @@ public:
   /// The work of one thread.
   Result<void> work();
   /// After the last thread.
-  IngestedPoints finish();
+  Result<IngestedPoints> finish();
 
 private:
   /// What one thread did.
@@ -100,7 +106,7 @@ private:
   };
   Result<bool> fill(
     const ChunkRun& run, RecordPacker& packer, PointBatch& batch, Share& share);
-  Result<bool> store(std::size_t number, RecordPacker& packer, std::vector<std::byte>& sorted);
+  Result<bool> store(std::size_t number, RecordPacker& packer);
   bool placeInOrder(std::size_t number, const RecordPacker& packer);
   void merge(const RecordPacker& packer, const Share& share);
   bool over() const { return site_.crew.stopped() || guessedWrong_; }
@@ -110,6 +116,7 @@ private:
   unsigned shift_;
   std::vector<ChunkRun> runs_;
   std::vector<bool> onGrid_; // of each source: its grid is the store's
+  std::optional<WriteBehind> behind_; // for a pool on disk
   std::atomic<std::size_t> nextRun_{0};
   std::atomic<bool> guessedWrong_{false};
   std::mutex mutex_; // guards what follows
@@ -121,7 +128,6 @@ private:
 Result<void> Ingest::work()
 {
   PointBatch batch;
-  std::vector<std::byte> sorted;
   RecordPacker packer(site_.common, site_.columns, site_.space, shift_, classOffset_);
   Share share;
   for (std::size_t number = nextRun_++; number < runs_.size() && !over(); number = nextRun_++)
@@ -130,7 +136,7 @@ Result<void> Ingest::work()
     if (filled && *filled)
     {
       const CpuStopwatch watch(share.quantiseSeconds);
-      filled = store(number, packer, sorted);
+      filled = store(number, packer);
     }
     if (!filled)
     {
@@ -187,8 +193,7 @@ Result<bool> Ingest::fill(
 }
 
 /// False when the run is given up.
-Result<bool> Ingest::store(
-  std::size_t number, RecordPacker& packer, std::vector<std::byte>& sorted)
+Result<bool> Ingest::store(std::size_t number, RecordPacker& packer)
 {
   PoolBlock& block = points_.blocks[number]; // this thread's own until all are done
   block.runs = packer.order();
@@ -202,17 +207,18 @@ Result<bool> Ingest::store(
   {
     return true;
   }
-  if (std::byte* memory = site_.pool.memory(block.first))
+  if (!behind_)
   {
-    packer.writeTo(memory);
+    packer.writeTo(site_.pool.memory(block.first));
     return true;
   }
-  sorted.resize(std::max(sorted.size(), block.count * site_.pool.recordBytes()));
-  packer.writeTo(sorted.data());
-  if (Result<void> done = site_.pool.write(block.first, block.count, sorted.data()); !done)
+  auto sorted = behind_->buffer(block.count * site_.pool.recordBytes());
+  if (!sorted)
   {
-    return done.error();
+    return sorted.error();
   }
+  packer.writeTo(sorted->data());
+  behind_->write(block.first, block.count, std::move(*sorted));
   return true;
 }
 
@@ -259,8 +265,16 @@ void Ingest::merge(const RecordPacker& packer, const Share& share)
   }
 }
 
-IngestedPoints Ingest::finish()
+Result<IngestedPoints> Ingest::finish()
 {
+  if (behind_)
+  {
+    if (Result<void> done = behind_->finish(); !done)
+    {
+      return done.error();
+    }
+    points_.quantiseSeconds += behind_->seconds();
+  }
   points_.guessedWrong = guessedWrong_;
   for (std::size_t s = 1; s < points_.sourceEnd.size(); ++s) // sources without a chunk
   {

@@ -6,9 +6,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 #include <vector>
 
 namespace pointfront
@@ -40,7 +44,7 @@ std::vector<std::byte> contentOf(const std::string& path)
 /// Pieces of any size, on both sides of what is written at once; settled now and then.
 void appendAndCompare(OutputFile::Durability durability)
 {
-  const std::vector<std::byte> all = pattern(3 * DirectAppender::bufferBytes + 12345);
+  const std::vector<std::byte> all = pattern(7 * DirectAppender::bufferBytes + 12345);
   const std::string path = temporaryPath("out.bin");
   auto file = OutputFile::create(path, durability);
   ASSERT_TRUE(file) << file.error().what;
@@ -79,6 +83,52 @@ TEST(OutputFile, DurableBytesArriveWhateverTheirPieces)
 TEST(OutputFile, PassingBytesArriveWhateverTheirPieces)
 {
   appendAndCompare(OutputFile::Durability::None);
+}
+
+/// Buffers are written while the next ones are gathered: the Error comes at the latest when all
+/// must be there, and says where the disk ended.
+TEST(OutputFile, ADiskThatEndsIsAnErrorAndLeavesNothing)
+{
+  const std::string path = temporaryPath("limited.bin");
+  const pid_t child = fork();
+  if (child == 0)
+  {
+    std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit limit{ 5000000, 5000000 };
+    setrlimit(RLIMIT_FSIZE, &limit);
+    auto file = OutputFile::create(path, OutputFile::Durability::Full);
+    const std::vector<std::byte> piece = pattern(300000);
+    Result<void> done;
+    for (int i = 0; file && done && i < 50; ++i)
+    {
+      done = (*file)->append(piece.data(), piece.size());
+    }
+    done = done ? (*file)->publish() : done;
+    const bool told = !done && done.error().kind == Error::Kind::Unwritable &&
+      done.error().what.find("after byte 5000000;") != std::string::npos;
+    file = makeError(Error::Kind::Cancelled, "closed");
+    _exit(told ? 0 : 1);
+  }
+  int status = -1;
+  waitpid(child, &status, 0);
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 0);
+  EXPECT_FALSE(std::filesystem::exists(path));
+  EXPECT_FALSE(std::filesystem::exists(path + ".tmp"));
+}
+
+/// A file that is given up while the disk works.
+TEST(OutputFile, IsGoneWhenItIsGivenUp)
+{
+  const std::string path = temporaryPath("given-up.bin");
+  {
+    auto file = OutputFile::create(path, OutputFile::Durability::Full);
+    ASSERT_TRUE(file);
+    const std::vector<std::byte> bytes = pattern(2 * DirectAppender::bufferBytes + 1);
+    ASSERT_TRUE((*file)->append(bytes.data(), bytes.size()));
+  }
+  EXPECT_FALSE(std::filesystem::exists(path));
+  EXPECT_FALSE(std::filesystem::exists(path + ".tmp"));
 }
 } // namespace
 } // namespace pointfront

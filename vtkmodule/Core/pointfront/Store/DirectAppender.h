@@ -1,46 +1,84 @@
 #pragma once
 
+#include <array>
+#include <condition_variable>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <memory>
+#include <mutex>
 #include <string>
+#include <thread>
 
 namespace pointfront
 {
 
 /// Bytes on their way to the end of a file, past the page cache: what is written once and not read
 /// soon costs a page of memory and a copy there, for each 4 KiB. Gathers whole blocks in memory of
-/// its own and hands them to the disk as one.
-/// Threads  one thread.
+/// its own and hands them to the disk as one, on a thread of its own: who appends does not wait
+/// unless the disk is slower.
+/// Memory   two buffers: one is gathered in while the other is written.
+/// Threads  called from one thread.
 class DirectAppender
 {
 public:
   /// Bytes gathered before they are written.
-  static constexpr std::size_t bufferBytes = std::size_t(4) << 20;
+  static constexpr std::size_t bufferBytes = std::size_t(2) << 20;
+
+  /// Bytes that belong into the file and are not known to be there.
+  struct Span
+  {
+    std::uint64_t begin = 0; ///< byte of the file
+    const std::byte* data = nullptr;
+    std::size_t size = 0;
+  };
 
   /// For an empty file; nullptr where files cannot be written that way.
   static std::unique_ptr<DirectAppender> open(const std::string& path);
+  /// What is handed over is written.
   ~DirectAppender();
   DirectAppender(const DirectAppender&) = delete;
   DirectAppender& operator=(const DirectAppender&) = delete;
 
   /// Takes as much as fits; returns how much that was.
   std::size_t take(const std::byte* data, std::size_t size);
-  bool full() const { return size_ == bufferBytes; }
-  /// What was taken and not written: `size()` bytes, which belong to byte begin() of the file.
-  std::uint64_t begin() const { return begin_; }
-  const std::byte* data() const { return buffer_; }
-  std::size_t size() const { return size_; }
-  /// Writes the buffer, which is full; it is empty then. False when it was not written, or not as
-  /// a whole: it is still here.
+  bool full() const { return gathered_.size == bufferBytes; }
+  /// Hands over the buffer, which is full, to be written; the other one is gathered in then. False
+  /// when the one before was not written, or not as a whole: both are still here.
   bool write();
+  /// What was taken and is not in the file, in its order: of a buffer that could not be written,
+  /// and of the one that is gathered in. Waits for what is being written.
+  std::array<Span, 2> unwritten();
 
 private:
-  DirectAppender(int descriptor, std::byte* buffer);
+  struct Release
+  {
+    void operator()(std::byte* memory) const { std::free(memory); }
+  };
+  using Memory = std::unique_ptr<std::byte, Release>;
+
+  /// Bytes from `begin` of the file on.
+  struct Buffer
+  {
+    Memory memory;
+    std::uint64_t begin = 0;
+    std::size_t size = 0;
+  };
+
+  DirectAppender(int descriptor, Memory first, Memory second);
+  bool writeHanded() const;
+  void awaitWritten(std::unique_lock<std::mutex>& lock);
+  bool startThread();
+  void work();
+
   int descriptor_;
-  std::byte* buffer_;
-  std::uint64_t begin_ = 0;
-  std::size_t size_ = 0;
+  Buffer gathered_;
+  std::mutex mutex_; // guards what follows
+  std::condition_variable changed_;
+  Buffer handed_; // empty once it is written
+  bool writing_ = false;
+  bool over_ = false;
+  std::thread thread_; // from the first full buffer on
 };
 
 } // namespace pointfront

@@ -109,7 +109,17 @@ public:
 
   Result<void> settle() override
   {
-    return direct_ ? writeAt(direct_->begin(), direct_->data(), direct_->size()) : Result<void>{};
+    if (direct_)
+    {
+      for (const DirectAppender::Span& span : direct_->unwritten())
+      {
+        if (Result<void> done = writeAt(span.begin, span.data, span.size); !done)
+        {
+          return done;
+        }
+      }
+    }
+    return {};
   }
 
   Result<void> overwrite(std::uint64_t offset, const std::byte* data, std::size_t size) override

@@ -117,6 +117,10 @@ std::string ProgressDisplay::json(const Progress& progress, double pointsPerSeco
   object["seconds"] = progress.secondsElapsed;
   const std::optional<double> rest = secondsRemaining(progress);
   object["seconds_remaining"] = rest ? nlohmann::ordered_json(*rest) : nlohmann::ordered_json();
+  if (!progress.notice.empty())
+  {
+    object["notice"] = progress.notice;
+  }
   return object.dump();
 }
 
@@ -124,6 +128,12 @@ void ProgressDisplay::show(const Progress& progress)
 {
   if (style_ == Style::None)
   {
+    return;
+  }
+  if (style_ != Style::Json && !progress.notice.empty())
+  {
+    std::fprintf(stderr, "%s%s\n", lineOpen_ ? "\r\033[K" : "", progress.notice.c_str());
+    lineOpen_ = false;
     return;
   }
   const bool newPhase = phase_ != progress.phase;

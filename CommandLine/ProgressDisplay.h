@@ -11,7 +11,8 @@ namespace pointfront
 /// Shows on stderr how a long operation gets on, and passes a SIGINT or SIGTERM on to it.
 /// Styles   Line: one line that is rewritten, for a terminal. Plain: one line at a new phase and
 ///          every two seconds. Json: one object a report: phase, done, total, fraction,
-///          points_per_second, seconds, seconds_remaining (null until there is an estimate). None.
+///          points_per_second, seconds, seconds_remaining (null until there is an estimate);
+///          notice, a sentence, when there is one. None.
 /// Threads  as ProgressFunction: one at a time.
 class ProgressDisplay
 {

@@ -50,6 +50,19 @@ TEST(ProgressDisplay, JsonHasTheSameFacts)
   EXPECT_DOUBLE_EQ(object["seconds_remaining"], 90.0);
 }
 
+TEST(ProgressDisplay, ANoticeIsTold)
+{
+  Progress progress = halfWay();
+  EXPECT_FALSE(nlohmann::json::parse(ProgressDisplay::json(progress, 0.0)).contains("notice"));
+  progress.notice = "Disk space may not suffice.";
+  EXPECT_EQ(nlohmann::json::parse(ProgressDisplay::json(progress, 0.0))["notice"],
+    "Disk space may not suffice.");
+  testing::internal::CaptureStderr();
+  ProgressDisplay plain(ProgressDisplay::Style::Plain);
+  plain.function()(progress);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "Disk space may not suffice.\n");
+}
+
 TEST(ProgressDisplay, KnowsItsStyles)
 {
   EXPECT_EQ(ProgressDisplay::styleOf("plain"), ProgressDisplay::Style::Plain);

@@ -205,7 +205,7 @@ TEST(LASExport, RefusesAFractionOfADegreeInOldFormatsAndRoundsInNewOnes)
   SinkDescription description = withAttributes({ angle });
   PointBatch batch = onePoint(description, glm::dvec3(0.0));
   std::memcpy(batch.columns[0].data(), &degrees, sizeof degrees);
-  EXPECT_EQ(written(description, batch, "angle.las", &error), nullptr);
+  EXPECT_EQ(written(description, batch, "fraction.las", &error), nullptr);
   EXPECT_NE(error.what.find("a scan_angle of 12.5"), std::string::npos) << error.what;
 
   description = withAttributes({ angle, channel });

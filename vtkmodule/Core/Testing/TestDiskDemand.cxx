@@ -33,7 +33,7 @@ struct TwoDisks
 
 DiskDemand demandOf(const char* spill, std::uint64_t spillBytes)
 {
-  return {spill, spillBytes, "/a/out", 100 * mega};
+  return {spill, spillBytes, "/a/out", 100 * mega, 250 * mega};
 }
 
 TEST(DiskDemand, SpillAndStoreOnOneDiskNeedTheirSum)
@@ -42,8 +42,8 @@ TEST(DiskDemand, SpillAndStoreOnOneDiskNeedTheirSum)
   const auto refused = checkDiskSpace(demandOf("/a/tmp", 300 * mega), TwoDisks{400 * mega - 1, 0});
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().kind, Error::Kind::Unwritable);
-  for (const char* part : {"100 MiB in '/a/out'", "300 MiB in '/a/tmp'", "400 MiB are free",
-         "--temp", "--memory"})
+  for (const char* part : {"100 MiB, perhaps 250 MiB, in '/a/out'", "300 MiB in '/a/tmp'",
+         "400 MiB are free", "--temp", "--memory"})
   {
     EXPECT_NE(refused.error().what.find(part), std::string::npos) << refused.error().what;
   }
@@ -65,6 +65,27 @@ TEST(DiskDemand, WithoutSpillOnlyTheStoreCounts)
 {
   EXPECT_TRUE(checkDiskSpace(demandOf("", 0), TwoDisks{100 * mega, 0}));
   EXPECT_FALSE(checkDiskSpace(demandOf("", 0), TwoDisks{99 * mega, 0}));
+}
+
+TEST(DiskDemand, WarnsWhereTheStoreMayNotFit)
+{
+  const DiskDemand demand = demandOf("/a/tmp", 300 * mega);
+  EXPECT_EQ(diskSpaceWarning(demand, TwoDisks{550 * mega, 0}), "");
+  const std::string told = diskSpaceWarning(demand, TwoDisks{550 * mega - 1, 0});
+  for (const char* part : {"may not suffice", "perhaps 250 MiB", "550 MiB are free in '/a/tmp'"})
+  {
+    EXPECT_NE(told.find(part), std::string::npos) << told;
+  }
+  EXPECT_EQ(diskSpaceWarning(demandOf("/b/tmp", 9 * mega), TwoDisks{250 * mega, 9 * mega}), "");
+  EXPECT_NE(diskSpaceWarning(demandOf("", 0), TwoDisks{249 * mega, 0}), "");
+}
+
+TEST(DiskDemand, EstimatesTheStoreFromBothSides)
+{
+  DiskDemand demand;
+  estimateStore(demand, 1'000'000'000, 30);
+  EXPECT_EQ(demand.storeBytes, 5'000'000'000u);
+  EXPECT_EQ(demand.likelyStoreBytes, 15'000'000'000u);
 }
 
 TEST(DiskDemand, KnowsTheRealDisk)

@@ -1,3 +1,4 @@
+#include "SortedCloud.h"
 #include "TestBuildClouds.h"
 
 #include "pointfront/Build/PrefixOrder.h"
@@ -14,42 +15,10 @@ namespace pointfront
 {
 namespace
 {
+using test::meanNearestDistance;
+using test::plane;
 using test::Random;
-
-/// Records of positions only, in Morton order.
-struct Cloud
-{
-  std::vector<std::byte> records;
-  std::vector<std::uint32_t> all;
-
-  explicit Cloud(const std::vector<TreePosition>& positions)
-  {
-    std::vector<TreePosition> sorted = positions;
-    std::stable_sort(sorted.begin(), sorted.end(), mortonLess);
-    records.resize(sorted.size() * RecordLayout::positionBytes);
-    for (std::size_t i = 0; i < sorted.size(); ++i)
-    {
-      setPosition(records.data() + i * RecordLayout::positionBytes, sorted[i]);
-    }
-    all.resize(sorted.size());
-    std::iota(all.begin(), all.end(), 0u);
-  }
-  RecordView view() const { return {records.data(), RecordLayout::positionBytes}; }
-};
-
-/// A gently sloped plane through a cube of 2^16 steps.
-Cloud plane(std::size_t count)
-{
-  Random random(3);
-  std::vector<TreePosition> positions;
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    const std::uint32_t x = random.next() & 0xffff;
-    const std::uint32_t y = random.next() & 0xffff;
-    positions.emplace_back(x, y, 20000 + x / 8 + y / 16);
-  }
-  return Cloud(positions);
-}
+using Cloud = test::SortedCloud;
 
 std::vector<std::uint32_t> sampled(
   const Cloud& cloud, const std::vector<std::uint32_t>& candidates, SamplingDistance distance)
@@ -79,24 +48,6 @@ std::set<Cell> cellsOf(
     cells.insert({p.x >> cellLog2, p.y >> cellLog2, p.z >> cellLog2});
   }
   return cells;
-}
-
-/// Mean distance to the nearest other point, brute force.
-double meanNearestDistance(const Cloud& cloud, const std::vector<std::uint32_t>& points)
-{
-  double sum = 0.0;
-  for (const std::uint32_t i : points)
-  {
-    double nearest = HUGE_VAL;
-    for (const std::uint32_t k : points)
-    {
-      const glm::dvec3 d =
-        glm::dvec3(cloud.view().position(i)) - glm::dvec3(cloud.view().position(k));
-      nearest = i == k ? nearest : std::min(nearest, glm::length(d));
-    }
-    sum += nearest;
-  }
-  return sum / static_cast<double>(points.size());
 }
 
 TEST(Sampler, CountsOccupiedCellsOfEverySize)

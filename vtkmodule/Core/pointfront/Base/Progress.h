@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <string>
 
 namespace pointfront
 {
@@ -14,6 +15,7 @@ struct Progress
   std::uint64_t total = 0;       ///< points of this phase, 0 if not known yet
   double fraction = 0.0;         ///< of the whole operation, 0 to 1, never falls
   double secondsElapsed = 0.0;   ///< since the operation began
+  std::string notice = {};       ///< a sentence that cannot wait for the end; empty: none
 };
 
 /// Returns false to cancel: the operation then ends with Error::Kind::Cancelled and leaves nothing.

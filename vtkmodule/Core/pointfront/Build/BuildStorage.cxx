@@ -62,13 +62,14 @@ Result<BuildStorage> reserveStorage(
   storage.plan = *plan;
   DiskDemand& disk = storage.disk;
   disk.outputFolder = folderOf(options.outputPath);
-  disk.storeBytes = leastStoreBytes(demand.points, demand.recordBytes);
+  estimateStore(disk, demand.points, demand.recordBytes);
   disk.spillFolder = options.temporaryFolder.empty() ? disk.outputFolder : options.temporaryFolder;
   disk.spillBytes = plan->spill ? demand.points * demand.recordBytes : 0;
   if (Result<void> enough = checkDiskSpace(disk); !enough)
   {
     return enough.error();
   }
+  storage.diskWarning = diskSpaceWarning(disk);
   if (!plan->spill)
   {
     storage.pool = RecordPool::inMemory(demand.points, demand.recordBytes);

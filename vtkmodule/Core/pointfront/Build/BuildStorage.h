@@ -6,6 +6,7 @@
 #include "pointfront/Build/StoreBuilder.h"
 
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace pointfront
@@ -16,6 +17,7 @@ struct BuildStorage
 {
   MemoryPlan plan;
   DiskDemand disk;
+  std::string diskWarning; ///< for the user, when the disk may be too small; or empty
   std::unique_ptr<RecordPool> pool; ///< for all points that the sources may give
 };
 

@@ -1,6 +1,7 @@
 #include "pointfront/Build/DiskDemand.h"
 
 #include <cerrno>
+#include <optional>
 #include <sys/stat.h>
 #include <sys/statvfs.h>
 
@@ -10,6 +11,7 @@ namespace
 {
 /// Stores of airborne and terrestrial surveys take a fifth to a half of their raw records.
 constexpr std::uint64_t leastShareOfRecords = 6;
+constexpr std::uint64_t likelyShareOfRecords = 2;
 
 const char advice[] = "; free some space, choose another folder for temporary files (--temp), "
                       "allow more memory (--memory) so that less is spilled, or write to "
@@ -17,8 +19,8 @@ const char advice[] = "; free some space, choose another folder for temporary fi
 
 std::string needsText(const DiskDemand& demand)
 {
-  std::string text = "the store needs at least " + mebibytes(demand.storeBytes) + " in '" +
-    demand.outputFolder + "'";
+  std::string text = "the store needs at least " + mebibytes(demand.storeBytes) + ", perhaps " +
+    mebibytes(demand.likelyStoreBytes) + ", in '" + demand.outputFolder + "'";
   if (demand.spillBytes > 0)
   {
     text += " and the points that do not fit in memory need " + mebibytes(demand.spillBytes) +
@@ -27,11 +29,42 @@ std::string needsText(const DiskDemand& demand)
   return text;
 }
 
-Error tooLittle(const DiskDemand& demand, const std::string& folder, std::uint64_t available)
+/// A folder whose disk has too little.
+struct Shortage
 {
-  return makeError(Error::Kind::Unwritable,
-    "not enough disk space: " + needsText(demand) + ", but only " + mebibytes(available) +
-      " are free in '" + folder + "'" + advice);
+  std::string folder;
+  std::uint64_t freeBytes;
+};
+
+/// Where `storeBytes` and the spill do not fit. On one disk they need their sum.
+std::optional<Shortage> shortageOf(const DiskDemand& demand, std::uint64_t storeBytes,
+  const std::function<DiskSpace(const std::string&)>& spaceOf)
+{
+  const DiskSpace output = spaceOf(demand.outputFolder);
+  if (demand.spillBytes > 0)
+  {
+    const DiskSpace spill = spaceOf(demand.spillFolder);
+    const bool shared = spill.device == output.device;
+    if (spill.freeBytes < demand.spillBytes + (shared ? storeBytes : 0))
+    {
+      return Shortage{demand.spillFolder, spill.freeBytes};
+    }
+    if (shared)
+    {
+      return std::nullopt;
+    }
+  }
+  if (output.freeBytes < storeBytes)
+  {
+    return Shortage{demand.outputFolder, output.freeBytes};
+  }
+  return std::nullopt;
+}
+
+std::string shortageText(const DiskDemand& demand, const Shortage& shortage)
+{
+  return needsText(demand) + ", but only " + mebibytes(shortage.freeBytes) + " are free in '" +
+    shortage.folder + "'" + advice;
 }
 } // namespace
 
@@ -60,33 +93,28 @@ DiskSpace diskSpaceOf(const std::string& folder)
   return space;
 }
 
-std::uint64_t leastStoreBytes(std::uint64_t points, std::size_t recordBytes)
+void estimateStore(DiskDemand& demand, std::uint64_t points, std::size_t recordBytes)
 {
-  return points * recordBytes / leastShareOfRecords;
+  demand.storeBytes = points * recordBytes / leastShareOfRecords;
+  demand.likelyStoreBytes = points * recordBytes / likelyShareOfRecords;
 }
 
 Result<void> checkDiskSpace(
   const DiskDemand& demand, const std::function<DiskSpace(const std::string&)>& spaceOf)
 {
-  const DiskSpace output = spaceOf(demand.outputFolder);
-  if (demand.spillBytes == 0)
+  if (const auto shortage = shortageOf(demand, demand.storeBytes, spaceOf))
   {
-    return output.freeBytes < demand.storeBytes
-      ? Result<void>(tooLittle(demand, demand.outputFolder, output.freeBytes))
-      : Result<void>();
-  }
-  const DiskSpace spill = spaceOf(demand.spillFolder);
-  const bool shared = spill.device == output.device;
-  const std::uint64_t inSpill = demand.spillBytes + (shared ? demand.storeBytes : 0);
-  if (spill.freeBytes < inSpill)
-  {
-    return tooLittle(demand, demand.spillFolder, spill.freeBytes);
-  }
-  if (!shared && output.freeBytes < demand.storeBytes)
-  {
-    return tooLittle(demand, demand.outputFolder, output.freeBytes);
+    return makeError(
+      Error::Kind::Unwritable, "not enough disk space: " + shortageText(demand, *shortage));
   }
   return {};
+}
+
+std::string diskSpaceWarning(
+  const DiskDemand& demand, const std::function<DiskSpace(const std::string&)>& spaceOf)
+{
+  const auto shortage = shortageOf(demand, demand.likelyStoreBytes, spaceOf);
+  return shortage ? "Disk space may not suffice: " + shortageText(demand, *shortage) + "." : "";
 }
 
 Error withDemand(Error error, const DiskDemand& demand)

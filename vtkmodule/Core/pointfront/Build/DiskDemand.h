@@ -20,23 +20,29 @@ struct DiskSpace
 DiskSpace diskSpaceOf(const std::string& folder);
 
 /// What a build will write, and where: known before the first point is read.
-/// Units    bytes. The spill is exact; the store is estimated from below, so that a build is
-///          refused only if it could hardly succeed.
+/// Units    bytes. The spill is exact; the store is estimated from both sides: a build is refused
+///          only if it could hardly succeed, and a disk that may be too small is told of.
 struct DiskDemand
 {
   std::string spillFolder;
   std::uint64_t spillBytes = 0; ///< 0: nothing is spilled
   std::string outputFolder;
-  std::uint64_t storeBytes = 0;
+  std::uint64_t storeBytes = 0;       ///< the least that the store is expected to take
+  std::uint64_t likelyStoreBytes = 0; ///< more than most stores take
 };
 
-/// The least that a store of so many points is expected to take. `recordBytes` is a point with
-/// all attributes, uncompressed.
-std::uint64_t leastStoreBytes(std::uint64_t points, std::size_t recordBytes);
+/// Fills in what a store of so many points takes. `recordBytes` is a point with all attributes,
+/// uncompressed.
+void estimateStore(DiskDemand& demand, std::uint64_t points, std::size_t recordBytes);
 
 /// Unwritable when a disk has too little: how much is needed, where, what is free, what to do.
 /// Spill and store that share a disk need their sum there.
 Result<void> checkDiskSpace(const DiskDemand& demand,
+  const std::function<DiskSpace(const std::string&)>& spaceOf = diskSpaceOf);
+
+/// A sentence for the user when checkDiskSpace() has nothing to say, but the store might still not
+/// fit; empty when all is well.
+std::string diskSpaceWarning(const DiskDemand& demand,
   const std::function<DiskSpace(const std::string&)>& spaceOf = diskSpaceOf);
 
 /// An Error of writing with what the build needs in all, when the disk was the reason.

@@ -197,7 +197,13 @@ Result<void> StoreBuild::prepare()
     return writable.error();
   }
   columns_ = guessColumns(sources_, common_, columnGuess());
-  return reserve();
+  Result<void> ready = reserve();
+  if (ready && !storage_.diskWarning.empty())
+  {
+    report_.warnings.push_back(storage_.diskWarning);
+    crew_.tell(storage_.diskWarning); // what takes hours should not end with this
+  }
+  return ready;
 }
 
 ColumnGuess StoreBuild::columnGuess() const

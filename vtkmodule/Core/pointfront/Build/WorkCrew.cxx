@@ -85,13 +85,18 @@ void WorkCrew::beginPhase(const char* name, std::uint64_t total, double weight)
   report(true);
 }
 
+void WorkCrew::tell(const std::string& notice)
+{
+  report(true, notice);
+}
+
 void WorkCrew::advance(std::uint64_t points)
 {
   done_ += points;
   report(false);
 }
 
-void WorkCrew::report(bool always)
+void WorkCrew::report(bool always, const std::string& notice)
 {
   if (!progress_)
   {
@@ -114,6 +119,7 @@ void WorkCrew::report(bool always)
   }
   lastReport_ = state.secondsElapsed;
   state.phase = phase_;
+  state.notice = notice;
   state.total = total_;
   state.done = std::min<std::uint64_t>(done_, total_);
   const double share = total_ == 0 ? 0.0 : static_cast<double>(state.done) / double(total_);

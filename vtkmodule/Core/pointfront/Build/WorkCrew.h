@@ -9,6 +9,7 @@
 #include <functional>
 #include <mutex>
 #include <optional>
+#include <string>
 
 namespace pointfront
 {
@@ -31,6 +32,8 @@ public:
 
   /// Enters a phase: `weight` is its share of the whole operation, all shares sum up to 1.
   void beginPhase(const char* name, std::uint64_t total, double weight);
+  /// Hands a sentence to the user's function at once; between two run().
+  void tell(const std::string& notice);
   /// What was done of the phase was in vain.
   void repeatPhase() { done_ = 0; }
   /// Adds to what is done; from any thread. May call the user's function.
@@ -43,7 +46,7 @@ public:
   double secondsElapsed() const;
 
 private:
-  void report(bool always);
+  void report(bool always, const std::string& notice = {});
 
   unsigned threads_;
   ProgressFunction progress_;

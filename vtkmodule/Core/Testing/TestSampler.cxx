@@ -2,6 +2,7 @@
 #include "TestBuildClouds.h"
 
 #include "pointfront/Build/PrefixOrder.h"
+#include "pointfront/Build/ExactSampler.h"
 #include "pointfront/Build/Sampler.h"
 
 #include <glm/geometric.hpp>
@@ -23,15 +24,12 @@ using Cloud = test::SortedCloud;
 std::vector<std::uint32_t> sampled(
   const Cloud& cloud, const std::vector<std::uint32_t>& candidates, SamplingDistance distance)
 {
-  std::vector<std::uint8_t> chosen;
+  std::vector<std::uint32_t> chosen;
   SubsetSampler().choose(cloud.view(), candidates, distance, chosen);
   std::vector<std::uint32_t> points;
-  for (std::size_t i = 0; i < chosen.size(); ++i)
+  for (const std::uint32_t place : chosen)
   {
-    if (chosen[i] != 0)
-    {
-      points.push_back(candidates[i]);
-    }
+    points.push_back(candidates[place]);
   }
   return points;
 }
@@ -57,6 +55,71 @@ TEST(Sampler, CountsOccupiedCellsOfEverySize)
   for (const unsigned level : {0u, 5u, 9u, 12u, 16u, 32u})
   {
     EXPECT_EQ(occupancy.distinct[level], level == 32 ? 1 : cellsOf(cloud, cloud.all, level).size());
+  }
+}
+
+/// Of two points on the curve, the largest step between them is theirs.
+TEST(Sampler, CountsOccupiedCellsByStepsAlone)
+{
+  const Cloud cloud = plane(3000);
+  for (const std::size_t every : {1u, 2u, 7u})
+  {
+    std::vector<std::uint32_t> points;
+    std::vector<std::uint8_t> steps;
+    std::uint8_t step = 200; // that of the first says nothing
+    for (std::size_t i = 0; i < cloud.all.size(); ++i)
+    {
+      if (i > 0)
+      {
+        step = std::max(step, std::uint8_t(differingBits(cloud.view().position(i),
+                                cloud.view().position(i - 1))));
+      }
+      if (i % every == every - 1)
+      {
+        points.push_back(cloud.all[i]);
+        steps.push_back(std::exchange(step, std::uint8_t(0)));
+      }
+    }
+    const CellOccupancy asked = cellOccupancy(cloud.view(), points);
+    EXPECT_EQ(cellOccupancy(steps.data(), steps.size()).distinct, asked.distinct) << every;
+  }
+  EXPECT_EQ(cellOccupancy(nullptr, 0).distinct[32], 0u);
+}
+
+TEST(ExactSampler, ChoosesExactlySoManyEvenly)
+{
+  const Cloud cloud = plane(4000);
+  const CellOccupancy occupancy = cellOccupancy(cloud.view(), cloud.all);
+  ExactSampler sampler;
+  for (const std::size_t wanted : {0u, 1u, 2u, 100u, 500u, 2000u, 3999u, 4000u})
+  {
+    std::vector<std::uint32_t> chosen{7};
+    sampler.choose(cloud.view(), cloud.all, occupancy, wanted, chosen);
+    ASSERT_EQ(chosen.size(), wanted);
+    for (std::size_t i = 0; i < chosen.size(); ++i)
+    {
+      ASSERT_LT(chosen[i], cloud.all.size());
+      ASSERT_TRUE(i == 0 || chosen[i] > chosen[i - 1]) << wanted;
+    }
+  }
+  std::vector<std::uint32_t> chosen;
+  sampler.choose(cloud.view(), cloud.all, occupancy, 500, chosen);
+  const double ideal = 65536.0 / std::sqrt(500.0);
+  EXPECT_GT(meanNearestDistance(cloud, chosen), 0.7 * ideal);
+}
+
+/// Of equal points the sample has one; the others that are wanted come from all of them evenly.
+TEST(ExactSampler, FillsUpFromEqualPoints)
+{
+  const Cloud cloud(std::vector<TreePosition>(1000, TreePosition(5)));
+  std::vector<std::uint32_t> chosen;
+  ExactSampler().choose(
+    cloud.view(), cloud.all, cellOccupancy(cloud.view(), cloud.all), 100, chosen);
+  ASSERT_EQ(chosen.size(), 100u);
+  for (std::size_t i = 1; i < chosen.size(); ++i)
+  {
+    EXPECT_GT(chosen[i], chosen[i - 1]);
+    EXPECT_LE(chosen[i] - chosen[i - 1], 25u);
   }
 }
 

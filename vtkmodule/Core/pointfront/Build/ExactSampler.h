@@ -16,15 +16,13 @@ namespace pointfront
 class ExactSampler
 {
 public:
-  /// `points` in Morton order, at least `wanted`; `chosen[i]`, 0 or 1, belongs to points[i].
-  /// `occupancy` is that of the points.
+  /// `points` in Morton order, at least `wanted`; `chosen`: at which places of `points` those are,
+  /// ascending. `occupancy` is that of the points.
   void choose(const RecordView& records, const std::vector<std::uint32_t>& points,
-    const CellOccupancy& occupancy, std::uint64_t wanted, std::vector<std::uint8_t>& chosen);
+    const CellOccupancy& occupancy, std::uint64_t wanted, std::vector<std::uint32_t>& chosen);
 
 private:
-  void change(std::vector<std::uint8_t>& chosen, std::uint8_t from, std::uint64_t count);
   SubsetSampler sampler_;
-  std::vector<std::uint32_t> ranks_;
 };
 
 } // namespace pointfront

@@ -48,6 +48,7 @@ OpenSubtree KdSubtreeBuilder::build(
   records = {};
   active_.resize(count);
   std::iota(active_.begin(), active_.end(), 0u);
+  countSteps(active_);
   Region all{0, count, 0.0};
   OpenSubtree subtree;
   subtree.records = owed(view, node, all);
@@ -68,6 +69,8 @@ std::vector<std::byte> KdSubtreeBuilder::owed(
   take(region, total);
   region.above = static_cast<double>(total);
   std::vector<std::uint32_t> rest = std::exchange(active_, std::move(held_));
+  std::vector<std::uint8_t> restSteps = std::exchange(steps_, {});
+  countSteps(active_);
   Region open{0, active_.size(), 0.0};
   std::vector<std::byte> owedRecords;
   owedRecords.reserve(total * recordBytes_);
@@ -80,31 +83,55 @@ std::vector<std::byte> KdSubtreeBuilder::owed(
     }
   }
   active_ = std::move(rest);
+  steps_ = std::move(restSteps);
   return owedRecords;
 }
 
+void KdSubtreeBuilder::countSteps(const std::vector<std::uint32_t>& points)
+{
+  const CpuStopwatch watch(seconds_.sample);
+  steps_.resize(points.size());
+  for (std::size_t i = 1; i < points.size(); ++i)
+  {
+    steps_[i] = static_cast<std::uint8_t>(
+      differingBits(positions_[points[i]], positions_[points[i - 1]]));
+  }
+}
+
+/// Along the Morton curve, two points differ in as many bits as the neighbours between them that
+/// differ most: so steps_ is kept without asking again where the points are.
 void KdSubtreeBuilder::take(Region& region, std::uint64_t wanted)
 {
   const CpuStopwatch watch(seconds_.sample);
-  const auto begin = active_.begin() + static_cast<std::ptrdiff_t>(region.begin);
-  const auto end = active_.begin() + static_cast<std::ptrdiff_t>(region.end);
-  points_.assign(begin, end);
+  points_.assign(active_.begin() + static_cast<std::ptrdiff_t>(region.begin),
+    active_.begin() + static_cast<std::ptrdiff_t>(region.end));
   held_.clear();
-  occupancy_ = cellOccupancy(viewOf(positions_), points_);
+  occupancy_ = cellOccupancy(steps_.data() + region.begin, points_.size());
   sampler_.choose(viewOf(positions_), points_, occupancy_, wanted, chosen_);
-  auto left = begin;
-  for (std::size_t i = 0; i < points_.size(); ++i)
+  std::size_t left = region.begin;
+  std::size_t from = region.begin; // behind the last one taken
+  std::uint8_t step = 0;           // the largest of those taken since one was left
+  const auto leave = [&](std::size_t end)
   {
-    if (chosen_[i] != 0)
+    if (from < end)
     {
-      held_.push_back(points_[i]);
+      steps_[from] = std::max(steps_[from], step);
+      step = 0;
     }
-    else
+    for (; from < end; ++from, ++left)
     {
-      *left++ = points_[i];
+      active_[left] = active_[from];
+      steps_[left] = steps_[from];
     }
+  };
+  for (const std::uint32_t place : chosen_)
+  {
+    leave(region.begin + place);
+    step = std::max(step, steps_[from]);
+    held_.push_back(active_[from++]);
   }
-  region.end = static_cast<std::size_t>(left - active_.begin());
+  leave(region.end);
+  region.end = left;
 }
 
 /// Of `drawn` points in the region of points_.
@@ -200,20 +227,29 @@ std::size_t KdSubtreeBuilder::divide(const Region& region)
   std::nth_element(inside.begin(), at, inside.end());
   const std::pair<std::uint32_t, std::uint32_t> first = *at; // of the right
   right_.clear();
+  rightSteps_.clear();
   std::size_t left = region.begin;
+  std::uint8_t leftStep = 0; // the largest since the last one on that side
+  std::uint8_t rightStep = 0;
   for (std::size_t i = region.begin; i < region.end; ++i)
   {
     const std::uint32_t point = active_[i];
+    leftStep = std::max(leftStep, steps_[i]);
+    rightStep = std::max(rightStep, steps_[i]);
     if (std::pair(positions_[point][axis], point) < first)
     {
+      steps_[left] = std::exchange(leftStep, std::uint8_t(0));
       active_[left++] = point;
     }
     else
     {
+      rightSteps_.push_back(std::exchange(rightStep, std::uint8_t(0)));
       right_.push_back(point);
     }
   }
   std::copy(right_.begin(), right_.end(), active_.begin() + static_cast<std::ptrdiff_t>(left));
+  std::copy(
+    rightSteps_.begin(), rightSteps_.end(), steps_.begin() + static_cast<std::ptrdiff_t>(left));
   return left;
 }
 

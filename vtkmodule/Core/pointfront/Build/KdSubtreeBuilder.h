@@ -51,6 +51,8 @@ private:
   };
   /// The records in Morton order, with their positions_; until the next call.
   RecordView sorted(const std::vector<std::byte>& records, std::size_t count);
+  /// The bits that each of some points differs in from the one before.
+  void countSteps(const std::vector<std::uint32_t>& points);
   /// Moves `wanted` evenly spread points of a region to held_; the others stay, in order. Leaves
   /// in occupancy_ that of all of them.
   void take(Region& region, std::uint64_t wanted);
@@ -71,11 +73,13 @@ private:
   std::vector<std::byte> sorted_;       // records of the part
   std::vector<TreePosition> positions_; // of the sorted records
   std::vector<std::uint32_t> active_;   // numbers of those that no node has yet, region by region
+  std::vector<std::uint8_t> steps_;     // bits that each of active_ differs in from the one before
   std::vector<std::uint32_t> points_;   // of the region at hand
   CellOccupancy occupancy_;             // of points_
   std::vector<std::uint32_t> held_;     // what take() took
   std::vector<std::uint32_t> right_;
-  std::vector<std::uint8_t> chosen_;
+  std::vector<std::uint8_t> rightSteps_;
+  std::vector<std::uint32_t> chosen_;   // places in points_
   std::vector<EmittedNode> emitted_;
   SubtreeSeconds seconds_;
 };

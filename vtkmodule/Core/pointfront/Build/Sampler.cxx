@@ -14,6 +14,27 @@ constexpr int leastRise = 2;
 /// Further from everything than any distance; its square is finite.
 constexpr double nowhere = 1e30;
 
+/// How many neighbours share cells of 2^n but not 2^(n-1); in turn in some tables, since
+/// neighbours often differ alike and the same counter twice in a row waits for itself.
+template <std::size_t Tables>
+using Steps = std::array<std::array<std::uint32_t, 34>, Tables>;
+
+template <std::size_t Tables>
+CellOccupancy occupancyOf(const Steps<Tables>& stepsAt)
+{
+  CellOccupancy occupancy;
+  std::uint64_t sum = 1;
+  for (int level = 32; level >= 0; --level)
+  {
+    for (const auto& table : stepsAt)
+    {
+      sum += table[static_cast<std::size_t>(level) + 1];
+    }
+    occupancy.distinct[static_cast<std::size_t>(level)] = sum;
+  }
+  return occupancy;
+}
+
 double fourthPower(double v)
 {
   return v * v * v * v;
@@ -31,14 +52,11 @@ void CellOccupancy::append(const CellOccupancy& others, unsigned between)
 
 CellOccupancy cellOccupancy(const RecordView& records, const std::vector<std::uint32_t>& points)
 {
-  CellOccupancy occupancy;
   if (points.empty())
   {
-    return occupancy;
+    return {};
   }
-  // Neighbours that share cells of 2^n but not 2^(n-1); in turn in two tables, since neighbours
-  // often differ alike and the same counter twice in a row waits for itself.
-  std::array<std::array<std::uint32_t, 34>, 2> stepsAt{};
+  Steps<2> stepsAt{};
   TreePosition previous = records.position(points.front());
   for (std::size_t i = 1; i < points.size(); ++i)
   {
@@ -46,14 +64,21 @@ CellOccupancy cellOccupancy(const RecordView& records, const std::vector<std::ui
     ++stepsAt[i & 1][differingBits(position, previous)];
     previous = position;
   }
-  std::uint64_t sum = 1;
-  for (int level = 32; level >= 0; --level)
+  return occupancyOf(stepsAt);
+}
+
+CellOccupancy cellOccupancy(const std::uint8_t* steps, std::size_t points)
+{
+  if (points == 0)
   {
-    const auto finer = static_cast<std::size_t>(level) + 1;
-    sum += stepsAt[0][finer] + std::uint64_t(stepsAt[1][finer]);
-    occupancy.distinct[static_cast<std::size_t>(level)] = sum;
+    return {};
   }
-  return occupancy;
+  Steps<4> stepsAt{};
+  for (std::size_t i = 1; i < points; ++i)
+  {
+    ++stepsAt[i & 3][steps[i]];
+  }
+  return occupancyOf(stepsAt);
 }
 
 double SamplingDistance::squaredSteps() const
@@ -178,9 +203,9 @@ bool SubsetSampler::crowded(const Query& query, const Reach& reach) const
 }
 
 void SubsetSampler::choose(const RecordView& records, const std::vector<std::uint32_t>& points,
-  SamplingDistance distance, std::vector<std::uint8_t>& chosen)
+  SamplingDistance distance, std::vector<std::uint32_t>& chosen)
 {
-  chosen.assign(points.size(), 0);
+  chosen.clear();
   taken_.assign(recentPoints, {glm::dvec3(nowhere), none}); // there are always that many
   std::fill(slots_.begin(), slots_.end(), none);
   Query query;
@@ -200,7 +225,7 @@ void SubsetSampler::choose(const RecordView& records, const std::vector<std::uin
     {
       continue;
     }
-    chosen[i] = 1;
+    chosen.push_back(static_cast<std::uint32_t>(i));
     std::uint32_t& head = slots_[slotOf(reach, 0)];
     taken_.push_back({p, head});
     head = static_cast<std::uint32_t>(taken_.size() - 1);

@@ -22,6 +22,9 @@ struct CellOccupancy
 };
 
 CellOccupancy cellOccupancy(const RecordView& records, const std::vector<std::uint32_t>& points);
+/// The same from how many bits each point differs in from the one before (differingBits()), without
+/// asking where they are. That of the first is not looked at.
+CellOccupancy cellOccupancy(const std::uint8_t* steps, std::size_t points);
 
 /// A distance of 2^(quarters / 4) tree steps: the distances that inner nodes sample at. Quarters of
 /// an octave, so that a node's points come near its capacity; whole numbers, so that they compare.
@@ -52,13 +55,13 @@ struct SamplingRule
 SamplingDistance samplingDistance(const CellOccupancy& occupancy, std::uint64_t candidates,
   int coarsestBelow, const SamplingRule& rule);
 
-/// Marks a subset that covers all points: along the Morton curve, each point that is not closer
-/// than the distance to one marked before. No two marked ones are closer than that,
+/// Chooses a subset that covers all points: along the Morton curve, each point that is not closer
+/// than the distance to one chosen before. No two chosen ones are closer than that,
 /// and none can be added: a maximal Poisson-disk sample. It depends on the positions
 /// only, never on who came first (of equal positions: the first in input order).
 /// Cost     a hash table of cells of twice the distance, so that what is in reach lies in eight of
-///          them; many points fall to those marked last and never ask the table.
-/// Memory   64 KiB, and 32 bytes for each marked point, reused from call to call.
+///          them; many points fall to those chosen last and never ask the table.
+/// Memory   64 KiB, and 32 bytes for each chosen point, reused from call to call.
 /// Threads  one instance, one thread.
 /// Source   the minimum distance within a node, as PotreeConverter 2 keeps it (Schuetz 2020); cells
 ///          that make the search local: Bridson 2007, Fast Poisson Disk Sampling.
@@ -66,9 +69,9 @@ class SubsetSampler
 {
 public:
   SubsetSampler();
-  /// `points` in Morton order; `chosen[i]`, 0 or 1, belongs to points[i].
+  /// `points` in Morton order; `chosen`: at which places of `points` those are, ascending.
   void choose(const RecordView& records, const std::vector<std::uint32_t>& points,
-    SamplingDistance distance, std::vector<std::uint8_t>& chosen);
+    SamplingDistance distance, std::vector<std::uint32_t>& chosen);
 
 private:
   static constexpr unsigned slotBits = 14;
@@ -100,7 +103,7 @@ private:
   };
   /// Two points at a time, in the halves of vectors; the same sums as one by one.
   static Mask near(const Query& query, const Taken& a, const Taken& b);
-  /// To one of those marked last: along the curve they are the most likely ones.
+  /// To one of those chosen last: along the curve they are the most likely ones.
   bool nearRecent(const Query& query) const;
   bool crowded(const Query& query, const Reach& reach) const;
 

@@ -98,22 +98,23 @@ SubtreeBuilder::Branch SubtreeBuilder::joinBranches(
     joined.node->row.spacing =
       static_cast<float>(emitter_.space().stepLength() * distance.steps());
     sampler_.choose(points.positions, candidates_, distance, chosen_);
-    std::size_t rank = 0;
+    joined.held.reserve(chosen_.size());
+    auto next = chosen_.begin();
+    std::size_t first = 0; // of the child, among the candidates
     for (Branch& child : children)
     {
-      std::size_t left = 0;
-      for (const std::uint32_t point : child.held)
+      auto left = child.held.begin();
+      auto from = child.held.begin();
+      const std::size_t end = first + child.held.size();
+      for (; next != chosen_.end() && *next < end; ++next)
       {
-        if (chosen_[rank++] != 0)
-        {
-          joined.held.push_back(point);
-        }
-        else
-        {
-          child.held[left++] = point;
-        }
+        const auto at = child.held.begin() + static_cast<std::ptrdiff_t>(*next - first);
+        left = std::copy(from, at, left);
+        joined.held.push_back(*at);
+        from = at + 1;
       }
-      child.held.resize(left);
+      child.held.erase(std::copy(from, child.held.end(), left), child.held.end());
+      first = end;
     }
   }
   mergeLeaves(children, rule_.nodePoints);

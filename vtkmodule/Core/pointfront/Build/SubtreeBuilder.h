@@ -74,7 +74,7 @@ private:
   std::vector<std::byte> sorted_;       // records
   std::vector<TreePosition> positions_; // of the sorted points
   std::vector<std::uint32_t> candidates_;
-  std::vector<std::uint8_t> chosen_;
+  std::vector<std::uint32_t> chosen_;
   std::vector<EmittedNode> emitted_;
   SubtreeSeconds seconds_;
 };

@@ -105,6 +105,47 @@ Result<TwoRanges> rangesOf(
   }
   return ranges;
 }
+
+std::string withUnderscores(std::string name)
+{
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+}
+
+/// By its name, or by that name with underscores.
+const Attribute* findIn(
+  const std::vector<std::shared_ptr<const StoredCloud>>& stores, const std::string& name)
+{
+  for (const std::string& spelling : { name, withUnderscores(name) })
+  {
+    for (const std::shared_ptr<const StoredCloud>& store : stores)
+    {
+      const AttributeSchema& schema = store->description().schema;
+      if (const std::optional<std::size_t> column = schema.find(spelling))
+      {
+        return &schema[*column];
+      }
+    }
+  }
+  return nullptr;
+}
+
+Error missing(const std::string& attribute)
+{
+  const std::string name = withUnderscores(attribute);
+  std::string hint = " (info lists them)";
+  if (name == "normal" || name == "horizontality")
+  {
+    hint = ", which --color-by " + attribute + " needs: build it with --normals pca";
+  }
+  else if (name == "local_height")
+  {
+    hint = ": build it with --local-height";
+  }
+  return makeError(Error::Kind::BadArgument,
+    "--color-by: no store here has the attribute '" +
+      std::string(name == "horizontality" ? "normal" : attribute) + "'" + hint);
+}
 } // namespace
 
 std::string defaultColourAttribute(const StoreDescription& store)
@@ -126,33 +167,38 @@ std::string defaultColourAttribute(const StoreDescription& store)
 Result<ColourChoice> chooseColour(
   const std::string& attribute, const std::vector<std::shared_ptr<const StoredCloud>>& stores)
 {
+  const Attribute* found = findIn(stores, attribute);
   ColourChoice choice;
-  choice.attribute = attribute;
-  if (attribute != "elevation")
+  choice.attribute = found ? found->name : withUnderscores(attribute);
+  if (!found && (choice.attribute == "global_height" || choice.attribute == "horizontality"))
   {
-    const Attribute* found = nullptr;
-    for (const std::shared_ptr<const StoredCloud>& store : stores)
+    if (choice.attribute == "horizontality" && !findIn(stores, "normal"))
     {
-      const AttributeSchema& schema = store->description().schema;
-      const std::optional<std::size_t> column = schema.find(attribute);
-      found = column && found == nullptr ? &schema[*column] : found;
+      return missing(attribute);
     }
-    if (found == nullptr)
-    {
-      return makeError(Error::Kind::BadArgument,
-        "--color-by: no store here has the attribute '" + attribute + "' (info lists them)");
-    }
-    choice.attribute = found->name;
-    choice.direct = found->name == "rgb";
-    if (!choice.direct && found->components != 1)
-    {
-      return makeError(Error::Kind::BadArgument,
-        "--color-by: '" + attribute + "' has several components and cannot be mapped to colours");
-    }
+    choice.table = viridisTable();
+    return choice; // from 0 to 1
   }
-  if (choice.direct)
+  if (!found && choice.attribute != "elevation")
   {
+    return missing(attribute);
+  }
+  if (choice.attribute == "rgb")
+  {
+    choice.direct = true;
     return choice;
+  }
+  if (choice.attribute == "normal" && found->components == 3)
+  {
+    choice.vector = true;
+    choice.range = { -1.0, 1.0 };
+    choice.table = greyTable(); // of what a mapper would do with one component
+    return choice;
+  }
+  if (found && found->components != 1)
+  {
+    return makeError(Error::Kind::BadArgument,
+      "--color-by: '" + attribute + "' has several components and cannot be mapped to colours");
   }
   if (choice.attribute == "classification")
   {

@@ -28,25 +28,12 @@ CLI::callback_t word(const std::string& option, const std::string& expected, Tak
 
 void declareColour(CLI::App& app, DrawingOptions& options)
 {
-  const auto colourBy = [&options](const CLI::results_t& words)
-  {
-    for (const char* planned : { "normal", "horizontality", "global-height", "local-height" })
-    {
-      if (words.back() == planned)
-      {
-        throw CLI::ParseError("--color-by: '" + words.back() +
-            "' is not available in this version: use rgb, classification, intensity, elevation or "
-            "an attribute of the store", 2);
-      }
-    }
-    options.colourBy = words.back();
-    return true;
-  };
-  app.add_option("--color-by", colourBy,
-       "rgb, classification, intensity, elevation or an attribute (the first of them that says "
-       "something)")
+  app.add_option("--color-by", options.colourBy,
+       "rgb, classification, intensity, elevation, normal, horizontality, global-height, "
+       "local-height or an attribute (the first of them that says something)")
     ->type_name("ATTRIBUTE")
-    ->expected(1);
+    ->expected(1)
+    ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
   const auto background = word("--background", "a colour: write R,G,B with 0 to 255",
     [&options](const std::string& text)
     {

@@ -155,6 +155,10 @@ void applyColour(const ColourChoice& colour, vtkPointFrontMapper* mapper)
     return;
   }
   vtkNew<vtkLookupTable> table;
+  if (colour.vector)
+  {
+    table->SetVectorModeToRGBColors();
+  }
   table->SetNumberOfTableValues(static_cast<vtkIdType>(colour.table.size()));
   for (std::size_t i = 0; i < colour.table.size(); ++i)
   {

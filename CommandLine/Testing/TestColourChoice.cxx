@@ -45,6 +45,23 @@ TEST(ColourChoice, MissingAttributeIsAnErrorThatNamesIt)
   EXPECT_NE(choice.error().what.find("weight"), std::string::npos);
 }
 
+TEST(ColourChoice, WhatIsMadeOfNormalsSaysHowToGetThem)
+{
+  for (const char* name : { "normal", "horizontality" })
+  {
+    const auto choice = chooseColour(name, {});
+    ASSERT_FALSE(choice);
+    EXPECT_NE(choice.error().what.find("--normals"), std::string::npos) << choice.error().what;
+  }
+  const auto local = chooseColour("local-height", {});
+  ASSERT_FALSE(local);
+  EXPECT_NE(local.error().what.find("--local-height"), std::string::npos);
+  const auto global = chooseColour("global-height", {});
+  ASSERT_TRUE(global); // every cloud has heights
+  EXPECT_EQ(global->attribute, "global_height");
+  EXPECT_EQ(global->range, (std::array<double, 2>{ 0.0, 1.0 }));
+}
+
 TEST(ColourTable, LightnessOfViridisRises)
 {
   const ColourTable table = viridisTable();

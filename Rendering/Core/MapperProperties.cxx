@@ -46,6 +46,12 @@ ColourRequest colourRequestOf(vtkPolyDataMapper& mapper, const StoreDescription&
       vectorMode == vtkScalarsToColors::RGBCOLORS)
   {
     request.mode = ColourRequest::Mode::Direct;
+    if (vectorMode == vtkScalarsToColors::RGBCOLORS)
+    {
+      const double* range =
+        mapper.GetUseLookupTableScalarRange() ? table->GetRange() : mapper.GetScalarRange();
+      request.colourRange = {range[0], range[1]};
+    }
   }
   else if (mapper.GetColorMode() == VTK_COLOR_MODE_MAP_SCALARS)
   {

@@ -1,11 +1,14 @@
 #include "PointColouring.h"
 
+#include "ClassHeights.h"
+
 #include <algorithm>
 #include <array>
 #include <cassert>
 #include <cctype>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 #include <limits>
 
 namespace pointfront
@@ -80,16 +83,27 @@ std::uint32_t packed(float number)
   return value;
 }
 
-/// Factor from a component to 0..255.
-double toByte(const Attribute& attribute, bool wide)
+/// From a stored component to 0..255.
+struct ToByte
 {
-  if (!isInteger(attribute.type))
+  double factor = 1.0;
+  double offset = 0.0;
+
+  ToByte(const Attribute& attribute, bool wide, const std::array<double, 2>& range)
   {
-    return 255.0; // VTK's convention: floating colours are 0 to 1
+    if (isInteger(attribute.type) && attribute.scale == 1.0 && attribute.offset == 0.0)
+    {
+      const double most = std::ldexp(1.0, static_cast<int>(8 * sizeOf(attribute.type)));
+      factor = wide ? 256.0 / most : 1.0;
+      return;
+    }
+    // VTK's convention: what is no integer is a colour from 0 to 1, or over the table's range.
+    const double width = range[1] - range[0];
+    const double full = width != 0.0 ? 255.0 / width : 0.0;
+    factor = attribute.scale * full;
+    offset = (attribute.offset - range[0]) * full;
   }
-  const double most = std::ldexp(1.0, static_cast<int>(8 * sizeOf(attribute.type)));
-  return wide ? 256.0 / most : 1.0;
-}
+};
 
 bool isColour(const Attribute& attribute, ColourRequest::Mode mode)
 {
@@ -104,8 +118,42 @@ bool isColour(const Attribute& attribute, ColourRequest::Mode mode)
 
 } // namespace
 
-std::optional<PointColouring> PointColouring::choose(
+bool PointColouring::wantsHeights(
   const StoreDescription& description, const ColourRequest& request)
+{
+  return sameName(request.name, "global_height") && !description.schema.find(request.name);
+}
+
+/// An attribute that the store has not, made of what it has.
+std::optional<PointColouring> PointColouring::derived(const StoreDescription& description,
+  const ColourRequest& request, std::shared_ptr<const ClassHeights> heights)
+{
+  PointColouring colouring;
+  if (sameName(request.name, "elevation"))
+  {
+    colouring.kind = Kind::Elevation;
+    return colouring;
+  }
+  colouring.kind = Kind::Table;
+  if (heights && wantsHeights(description, request))
+  {
+    colouring.heights = std::move(heights);
+    return colouring;
+  }
+  const auto normal = description.schema.find("normal");
+  if (sameName(request.name, "horizontality") && normal &&
+      description.schema[*normal].components == 3)
+  {
+    colouring.column = static_cast<std::uint32_t>(*normal);
+    colouring.component = 2;
+    colouring.absolute = true;
+    return colouring;
+  }
+  return std::nullopt;
+}
+
+std::optional<PointColouring> PointColouring::choose(const StoreDescription& description,
+  const ColourRequest& request, std::shared_ptr<const ClassHeights> heights)
 {
   PointColouring colouring;
   if (request.name.empty())
@@ -115,12 +163,7 @@ std::optional<PointColouring> PointColouring::choose(
   const auto column = description.schema.find(request.name);
   if (!column)
   {
-    if (!sameName(request.name, "elevation"))
-    {
-      return std::nullopt;
-    }
-    colouring.kind = Kind::Elevation;
-    return colouring;
+    return derived(description, request, std::move(heights));
   }
   const Attribute& attribute = description.schema[*column];
   const auto& ranges = description.ranges[*column].components;
@@ -128,6 +171,7 @@ std::optional<PointColouring> PointColouring::choose(
   if (isColour(attribute, request.mode))
   {
     colouring.kind = Kind::Direct;
+    colouring.colourRange = request.colourRange;
     for (const auto& range : ranges)
     {
       colouring.wide = colouring.wide || range[1] > 255.0;
@@ -165,46 +209,66 @@ bool PointColouring::coveredBy(const NodeColumns& node) const
          std::find(node.selection.begin(), node.selection.end(), column) != node.selection.end();
 }
 
-void PointColouring::encode(const NodeColumns& node, const Attribute& attribute,
+void PointColouring::encode(const NodeColumns& node, const AttributeSchema& schema,
   std::uint32_t first, std::uint32_t count, std::vector<std::uint32_t>& values) const
 {
-  const auto place = std::find(node.selection.begin(), node.selection.end(), column);
-  assert(usesColumn() && place != node.selection.end() && first + count <= node.size());
-  const std::size_t stride = attribute.bytes();
-  const std::size_t width = sizeOf(attribute.type);
-  const std::byte* point =
-    node.columns[static_cast<std::size_t>(place - node.selection.begin())].data() + first * stride;
-  const Reading reading = readingOf(attribute.type);
+  assert(hasValues() && coveredBy(node) && first + count <= node.size());
   values.reserve(values.size() + count);
-  if (kind == Kind::Direct)
+  if (heights)
   {
-    const double factor = toByte(attribute, wide);
-    for (std::uint32_t i = 0; i < count; ++i, point += stride)
-    {
-      std::array<std::uint8_t, 4> rgba{255, 255, 255, 255};
-      for (std::size_t c = 0; c < attribute.components; ++c)
-      {
-        rgba[c] =
-          static_cast<std::uint8_t>(std::clamp(reading(point + c * width) * factor, 0.0, 255.0));
-      }
-      values.push_back(packed(rgba));
-    }
+    std::vector<float> numbers;
+    heights->append(node, first, count, numbers);
+    std::transform(numbers.begin(), numbers.end(), std::back_inserter(values),
+      [](float height) { return packed(height); });
     return;
   }
-  for (std::uint32_t i = 0; i < count; ++i, point += stride)
+  const auto place = std::find(node.selection.begin(), node.selection.end(), column);
+  const Attribute& attribute = schema[column];
+  const std::byte* point =
+    node.columns[static_cast<std::size_t>(place - node.selection.begin())].data() +
+    first * attribute.bytes();
+  kind == Kind::Direct ? encodeColours(point, attribute, count, values)
+                       : encodeNumbers(point, attribute, count, values);
+}
+
+void PointColouring::encodeColours(const std::byte* point, const Attribute& attribute,
+  std::uint32_t count, std::vector<std::uint32_t>& values) const
+{
+  const Reading reading = readingOf(attribute.type);
+  const std::size_t width = sizeOf(attribute.type);
+  const ToByte toByte(attribute, wide, colourRange);
+  for (std::uint32_t i = 0; i < count; ++i, point += attribute.bytes())
+  {
+    std::array<std::uint8_t, 4> rgba{255, 255, 255, 255};
+    for (std::size_t c = 0; c < attribute.components; ++c)
+    {
+      const double byte = reading(point + c * width) * toByte.factor + toByte.offset;
+      rgba[c] = static_cast<std::uint8_t>(std::clamp(byte, 0.0, 255.0));
+    }
+    values.push_back(packed(rgba));
+  }
+}
+
+void PointColouring::encodeNumbers(const std::byte* point, const Attribute& attribute,
+  std::uint32_t count, std::vector<std::uint32_t>& values) const
+{
+  const Reading reading = readingOf(attribute.type);
+  const std::size_t width = sizeOf(attribute.type);
+  const auto number = [&](std::size_t c)
+  { return reading(point + c * width) * attribute.scale + attribute.offset; };
+  for (std::uint32_t i = 0; i < count; ++i, point += attribute.bytes())
   {
     double value = 0.0;
     if (component >= 0)
     {
-      value = reading(point + static_cast<std::size_t>(component) * width) * attribute.scale +
-              attribute.offset;
+      value = number(static_cast<std::size_t>(component));
+      value = absolute ? std::abs(value) : value;
     }
     else
     {
       for (std::size_t c = 0; c < attribute.components; ++c)
       {
-        const double x = reading(point + c * width) * attribute.scale + attribute.offset;
-        value += x * x;
+        value += number(c) * number(c);
       }
       value = std::sqrt(value);
     }

@@ -4,13 +4,16 @@
 #include "pointfront/Store/StoredCloud.h"
 #include "pointfrontRenderingCoreModule.h" // for the export macro
 
+#include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace pointfront
 {
+class ClassHeights;
 
 /// How VTK wants colours: the part of vtkMapper's and its lookup table's properties that decides
 /// which column is needed and what is made of it. What the table says of a value is not part of it.
@@ -25,11 +28,18 @@ struct ColourRequest
   std::string name; ///< of the attribute; empty: the property's colour
   Mode mode = Mode::Default;
   int component = -1; ///< -1: the magnitude of several
+  /// Direct: the values of floating or scaled components that are black and full (a lookup table
+  /// of vector mode RGB colours has such a range). {-1, 1} shows a normal as a colour.
+  std::array<double, 2> colourRange{0.0, 1.0};
 };
 
 /// What colours the points: which column is read, and how a point's bytes become the one 32-bit
 /// value that it has on the GPU. "Model only what a scene requires": flat colour and elevation need
 /// no column and no value.
+/// Derived  three attributes that no store holds are made of what it has, unless it has one of
+///          that name: "elevation" is z; "horizontality" is the absolute third component of
+///          "normal", 1 on a flat roof and 0 on a wall; "global_height" is ClassHeights.
+/// Source   the last two: Richter, Discher & Doellner 2015, section 3.1.
 /// Threads  a value; const functions from any thread.
 struct POINTFRONTRENDERINGCORE_EXPORT PointColouring
 {
@@ -44,15 +54,23 @@ struct POINTFRONTRENDERINGCORE_EXPORT PointColouring
   std::uint32_t column = 0;
   int component = 0; ///< -1: magnitude
   double base = 0.0; ///< world value that float 0 stands for: floats keep large GPS times apart
+  bool absolute = false; ///< Table: of the component
   bool wide = false; ///< Direct: integer components use all bits of their type
+  std::array<double, 2> colourRange{0.0, 1.0}; ///< Direct: as in ColourRequest
+  /// Table: the value is a point's height in its class, of no column.
+  std::shared_ptr<const ClassHeights> heights;
   /// Table: world values are the integers of this range, few enough for a table of one entry each.
   std::optional<std::array<std::int64_t, 2>> integers;
 
-  /// How `request` is met with that store; nothing when no attribute has that name.
-  static std::optional<PointColouring> choose(
-    const StoreDescription& description, const ColourRequest& request);
+  /// How `request` is met with that store; nothing when no attribute has that name. `heights` are
+  /// asked for where wantsHeights() says so.
+  static std::optional<PointColouring> choose(const StoreDescription& description,
+    const ColourRequest& request, std::shared_ptr<const ClassHeights> heights = nullptr);
+  static bool wantsHeights(const StoreDescription& description, const ColourRequest& request);
 
-  bool usesColumn() const { return kind == Kind::Direct || kind == Kind::Table; }
+  /// A point has a value on the GPU.
+  bool hasValues() const { return kind == Kind::Direct || kind == Kind::Table; }
+  bool usesColumn() const { return hasValues() && !heights; }
   bool usesTable() const { return kind == Kind::Table || kind == Kind::Elevation; }
   /// What has to be read for it.
   ColumnSelection columns() const;
@@ -60,15 +78,24 @@ struct POINTFRONTRENDERINGCORE_EXPORT PointColouring
   bool coveredBy(const NodeColumns& node) const;
 
   /// Values of points [first, first + count) of a node that covers this colouring. Appends.
-  void encode(const NodeColumns& node, const Attribute& attribute, std::uint32_t first,
+  void encode(const NodeColumns& node, const AttributeSchema& schema, std::uint32_t first,
     std::uint32_t count, std::vector<std::uint32_t>& values) const;
 
   friend bool operator==(const PointColouring& a, const PointColouring& b)
   {
     return a.kind == b.kind && a.column == b.column && a.component == b.component &&
-           a.base == b.base && a.wide == b.wide;
+           a.base == b.base && a.absolute == b.absolute && a.wide == b.wide &&
+           a.colourRange == b.colourRange && a.heights == b.heights;
   }
   friend bool operator!=(const PointColouring& a, const PointColouring& b) { return !(a == b); }
+
+private:
+  static std::optional<PointColouring> derived(const StoreDescription& description,
+    const ColourRequest& request, std::shared_ptr<const ClassHeights> heights);
+  void encodeColours(const std::byte* point, const Attribute& attribute, std::uint32_t count,
+    std::vector<std::uint32_t>& values) const;
+  void encodeNumbers(const std::byte* point, const Attribute& attribute, std::uint32_t count,
+    std::vector<std::uint32_t>& values) const;
 };
 
 } // namespace pointfront

@@ -2,6 +2,7 @@
 
 #include "MapperProperties.h"
 #include "PerWindow.h"
+#include "ClassHeights.h"
 #include "PointColouring.h"
 #include "RenderTimer.h"
 #include "RendererView.h"
@@ -69,8 +70,19 @@ struct vtkPointFrontMapper::Content
   std::map<int, pointfront::LayerLimits> ClassLimits;
   std::unique_ptr<pointfront::StoreSuccession> Succession; ///< from Store, while it is a preview
   std::string UnknownArray; ///< that has been warned of
+  std::shared_ptr<const pointfront::ClassHeights> Heights; ///< once they were asked for
 
   pointfront::RenderTimer Timer;
+
+  std::shared_ptr<const pointfront::ClassHeights> HeightsOf(
+    const std::shared_ptr<const pointfront::StoredCloud>& store)
+  {
+    if (!this->Heights || this->Heights->store() != store)
+    {
+      this->Heights = std::make_shared<pointfront::ClassHeights>(store);
+    }
+    return this->Heights;
+  }
 
   pointfront::RendererView& ViewOf(vtkRenderer* renderer)
   {
@@ -226,7 +238,12 @@ pointfront::PointColouring vtkPointFrontMapper::GetColouring()
   }
   const pointfront::StoreDescription& description = store->GetStore()->description();
   const pointfront::ColourRequest request = pointfront::colourRequestOf(*this, description);
-  const auto colouring = pointfront::PointColouring::choose(description, request);
+  std::shared_ptr<const pointfront::ClassHeights> heights;
+  if (pointfront::PointColouring::wantsHeights(description, request))
+  {
+    heights = this->Internals->HeightsOf(store->GetStore());
+  }
+  const auto colouring = pointfront::PointColouring::choose(description, request, heights);
   if (!colouring && this->Internals->UnknownArray != request.name)
   {
     this->Internals->UnknownArray = request.name;

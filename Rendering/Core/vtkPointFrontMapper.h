@@ -14,7 +14,11 @@
  * Colour: as any vtkMapper. ScalarVisibility, ScalarMode, SelectColorArray/ArrayName,
  * ArrayComponent, ColorMode, LookupTable and ScalarRange choose it; arrays are named as the store's
  * attributes are ("rgb", "intensity", "classification", "elevation" ...). With ColorMode default,
- * "rgb" is drawn as it is; every other attribute goes through the lookup table.
+ * "rgb" is drawn as it is; every other attribute goes through the lookup table. Three more names
+ * can be chosen of what the store has: "elevation" (z), "horizontality" (of "normal": 1 on flat
+ * roofs, 0 on walls) and "global_height" (0 to 1: how high among the points of its class, in a
+ * store with a tree for each class; Richter, Discher & Doellner 2015, section 3.1). A lookup table
+ * of vector mode RGB colours shows vectors over its range as colours: -1 to 1 for "normal".
  */
 #ifndef vtkPointFrontMapper_h
 #define vtkPointFrontMapper_h

@@ -96,7 +96,7 @@ void GpuPool::setColouring(const PointColouring& colouring)
   }
   for (GpuBlock& block : blocks_)
   {
-    if (!colouring_.usesColumn() && block.valueBuffer() != 0)
+    if (!colouring_.hasValues() && block.valueBuffer() != 0)
     {
       charge(-block.bytes());
       block.dropValues();
@@ -197,7 +197,7 @@ void GpuPool::addValues()
   {
     more += block.valueBuffer() == 0 ? block.slots() * slotPoints * GpuSlotBytes::value : 0;
   }
-  if (!colouring_.usesColumn() || more == 0)
+  if (!colouring_.hasValues() || more == 0)
   {
     return;
   }
@@ -301,7 +301,7 @@ bool GpuPool::trim()
 /// By a block, towards `slots` more; false if the budget of bytes has no room for a slot.
 bool GpuPool::grow(std::uint64_t slots)
 {
-  const std::int64_t slotBytes = GpuSlotBytes::of(colouring_.usesColumn());
+  const std::int64_t slotBytes = GpuSlotBytes::of(colouring_.hasValues());
   const std::uint64_t wanted =
     std::max<std::uint64_t>(slotCount() / growthShare, std::min(slots, mostSmallSlots));
   auto size = static_cast<std::int64_t>(powerBelow(std::min(wanted, mostBlockSlots)));
@@ -315,7 +315,7 @@ bool GpuPool::grow(std::uint64_t slots)
     return false;
   }
   blocks_.emplace_back(
-    slotCount(), static_cast<std::uint32_t>(size), colouring_.usesColumn());
+    slotCount(), static_cast<std::uint32_t>(size), colouring_.hasValues());
   charge(blocks_.back().bytes());
   for (std::uint32_t slot = blocks_.back().end(); slot-- > blocks_.back().first();)
   {
@@ -379,8 +379,8 @@ const GpuPool::Entry* GpuPool::find(NodeIndex node) const
   return found == entries_.end() || found->second.points == 0 ? nullptr : &found->second;
 }
 
-const GpuPool::Entry* GpuPool::bring(
-  const NodeColumns& node, std::uint32_t count, const Attribute* attribute, std::int64_t& bytesLeft)
+const GpuPool::Entry* GpuPool::bring(const NodeColumns& node, std::uint32_t count,
+  const AttributeSchema& schema, std::int64_t& bytesLeft)
 {
   Entry& entry = entries_[node.node];
   entry.frame = frame_;
@@ -393,12 +393,12 @@ const GpuPool::Entry* GpuPool::bring(
     uploadPositions(node, entry, std::min(wanted, entry.points + affordable));
     bytesLeft -= static_cast<std::int64_t>(affordable) * GpuSlotBytes::position;
   }
-  if (attribute && entry.values < std::min(wanted, entry.points) && bytesLeft > 0 &&
+  if (colouring_.hasValues() && entry.values < std::min(wanted, entry.points) && bytesLeft > 0 &&
       colouring_.coveredBy(node))
   {
     const std::uint32_t end = std::min(wanted, entry.points);
     bytesLeft -= static_cast<std::int64_t>(end - entry.values) * GpuSlotBytes::value;
-    uploadValues(node, *attribute, entry, end);
+    uploadValues(node, schema, entry, end);
   }
   return entry.points == 0 ? nullptr : &entry;
 }
@@ -421,10 +421,10 @@ void GpuPool::uploadPositions(const NodeColumns& node, Entry& entry, std::uint32
 }
 
 void GpuPool::uploadValues(
-  const NodeColumns& node, const Attribute& attribute, Entry& entry, std::uint32_t end)
+  const NodeColumns& node, const AttributeSchema& schema, Entry& entry, std::uint32_t end)
 {
   staging_.clear();
-  colouring_.encode(node, attribute, entry.values, end - entry.values, staging_);
+  colouring_.encode(node, schema, entry.values, end - entry.values, staging_);
   forSlots(entry.slots, entry.values, end,
     [&](std::uint32_t slot, std::uint32_t offset, std::uint32_t first, std::uint32_t points)
     {

@@ -73,7 +73,7 @@ public:
   /// Brings the first `count` points of `node` and their values, as far as the node has the
   /// colouring's column, to the GPU. Positions beyond `bytesLeft` wait for another frame; bytesLeft
   /// falls by what is uploaded. Null when nothing of the node is there yet.
-  const Entry* bring(const NodeColumns& node, std::uint32_t count, const Attribute* attribute,
+  const Entry* bring(const NodeColumns& node, std::uint32_t count, const AttributeSchema& schema,
     std::int64_t& bytesLeft);
   /// What is there of a node, or null.
   const Entry* find(NodeIndex node) const;
@@ -109,7 +109,7 @@ private:
   void charge(std::int64_t bytes);
   void uploadPositions(const NodeColumns& node, Entry& entry, std::uint32_t end);
   void uploadValues(
-    const NodeColumns& node, const Attribute& attribute, Entry& entry, std::uint32_t end);
+    const NodeColumns& node, const AttributeSchema& schema, Entry& entry, std::uint32_t end);
 
   std::shared_ptr<GpuAccount> account_;
   PointColouring colouring_;

@@ -91,10 +91,8 @@ void vtkOpenGLPointFrontMapper::Content::SetStore(vtkPointFrontStore* store)
 bool vtkOpenGLPointFrontMapper::Content::Upload(
   const pointfront::ViewFront& front, std::int64_t bytes)
 {
-  const pointfront::PointColouring& colouring = this->Drawing.colouring;
-  const pointfront::Attribute* attribute =
-    colouring.usesColumn() ? &this->Store->GetStore()->description().schema[colouring.column]
-                           : nullptr;
+  const bool values = this->Drawing.colouring.hasValues();
+  const pointfront::AttributeSchema& schema = this->Store->GetStore()->description().schema;
   const bool room = this->Pool.makeRoom(front.last().draw);
   bool left = false;
   for (const pointfront::DrawItem& item : front.last().draw)
@@ -104,9 +102,9 @@ bool vtkOpenGLPointFrontMapper::Content::Upload(
     {
       continue;
     }
-    const auto* entry = this->Pool.bring(*node, item.pointCount, attribute, bytes);
+    const auto* entry = this->Pool.bring(*node, item.pointCount, schema, bytes);
     left = left || !entry || entry->points < item.pointCount ||
-           (attribute && entry->values < item.pointCount);
+           (values && entry->values < item.pointCount);
   }
   // What has no room does not come with another frame, unless clouds that are drawn after this one
   // have yet to come down to a budget that was lowered.
@@ -130,7 +128,7 @@ vtkIdType vtkOpenGLPointFrontMapper::Content::List(const pointfront::ViewFront& 
       continue;
     }
     const std::uint32_t points = std::min(item.pointCount, entry->points);
-    const bool coloured = this->Drawing.colouring.usesColumn() && entry->values >= points;
+    const bool coloured = this->Drawing.colouring.hasValues() && entry->values >= points;
     // In memory: the front has just read it, and so does every frame that draws it.
     const pointfront::Node row = store.hierarchy()->node(item.node);
     this->Records.set(entry->slots,

@@ -59,8 +59,6 @@ class Usage(ToolTest):
         refused = [
             ("--technique", "splats"), ("--technique", "spheres"), ("--technique", "silhouettes"),
             ("--technique", "solid"), ("--technique", "ewa"), ("--style", "s.json"),
-            ("--color-by", "normal"), ("--color-by", "horizontality"),
-            ("--color-by", "global-height"), ("--color-by", "local-height"),
         ]
         for flag in refused:
             outcome = self.refuse(2, "render", "s.pfront", "-o", self.folder / "x.png", *flag)

@@ -7,6 +7,8 @@ import os
 import shutil
 import unittest
 
+import numpy
+
 from pictures import read_png, share_alike
 from tool import DATA, ToolTest, run, write_las
 
@@ -237,6 +239,30 @@ class Refinement(SceneTest):
             for other in pictures[:i]:
                 self.assertLess(share_alike(one, other), 0.9)
         self.refuse(1, "render", self.store, "-o", self.folder / "x.png", "--color-by", "weight")
+
+    def test_colours_of_normals_and_heights(self):
+        outcome = self.refuse(
+            1, "render", self.store, "-o", self.folder / "x.png", "--color-by", "horizontality")
+        self.assertIn("--normals", outcome.err)
+        store = self.folder / "shapes.pfront"
+        self.succeed("build", TRIM, "-o", store, "--normals", "pca", "--local-height",
+                     "--layers", "class")
+        by_name = {name: self.picture(store, "--color-by", name) for name in
+                   ("normal", "horizontality", "global-height", "local-height", "elevation")}
+        pictures = list(by_name.values())
+        for i, one in enumerate(pictures):
+            self.assertGreater(one.std(), 5.0)
+            for other in pictures[:i]:
+                self.assertLess(share_alike(one, other), 0.95)
+        # Airborne ground is flat: its normals point up, which is blue, and it is fully horizontal,
+        # which is the end of the table.
+        drawn = numpy.any(by_name["horizontality"] != by_name["horizontality"][0, 0], axis=2)
+        blue = by_name["normal"][drawn]
+        self.assertGreater(numpy.median(blue[:, 2]), 200)
+        self.assertLess(abs(numpy.median(blue[:, 0]) - 127), 40)
+        yellow = numpy.median(by_name["horizontality"][drawn], axis=0)
+        self.assertGreater(yellow[0], 200)
+        self.assertLess(yellow[2], 80)
 
     def test_point_budget_is_held_and_told(self):
         path = self.folder / "x.png"

@@ -1,3 +1,4 @@
+#include "ClassHeights.h"
 #include "PointColouring.h"
 
 #include <gtest/gtest.h>
@@ -89,7 +90,7 @@ TEST(PointColouring, LargeValuesAreKeptRelativeToTheLowest)
   const auto time = *PointColouring::choose(store, request);
   EXPECT_EQ(time.base, 3e8);
   std::vector<std::uint32_t> values;
-  time.encode(nodeOf<double>(2, {3e8, 3e8 + 0.25, 3e8 + 9.5}, 3), store.schema[2], 1, 2, values);
+  time.encode(nodeOf<double>(2, {3e8, 3e8 + 0.25, 3e8 + 9.5}, 3), store.schema, 1, 2, values);
   ASSERT_EQ(values.size(), 2u);
   EXPECT_EQ(number(values[0]), 0.25f);
   EXPECT_EQ(number(values[1]), 9.5f);
@@ -103,7 +104,7 @@ TEST(PointColouring, ScaleAndOffsetAreApplied)
   const auto scaled = *PointColouring::choose(store, request);
   EXPECT_DOUBLE_EQ(scaled.base, 4.0);
   std::vector<std::uint32_t> values;
-  scaled.encode(nodeOf<std::int16_t>(4, {-10, 10}, 2), store.schema[4], 0, 2, values);
+  scaled.encode(nodeOf<std::int16_t>(4, {-10, 10}, 2), store.schema, 0, 2, values);
   EXPECT_FLOAT_EQ(number(values[0]), 0.0f);
   EXPECT_FLOAT_EQ(number(values[1]), 2.0f);
 }
@@ -117,7 +118,7 @@ TEST(PointColouring, SixteenBitColoursAreReducedOnlyWhenTheyAreWide)
   {
     std::vector<std::uint32_t> values;
     PointColouring::choose(store, request)
-      ->encode(nodeOf<std::uint16_t>(0, std::move(rgb), 1), store.schema[0], 0, 1, values);
+      ->encode(nodeOf<std::uint16_t>(0, std::move(rgb), 1), store.schema, 0, 1, values);
     std::array<std::uint8_t, 4> result;
     std::memcpy(result.data(), values.data(), 4);
     return result;
@@ -134,12 +135,114 @@ TEST(PointColouring, MagnitudeAndComponents)
   request.name = "normal";
   const NodeColumns node = nodeOf<float>(3, {3.0f, 0.0f, 4.0f}, 1);
   std::vector<std::uint32_t> values;
-  PointColouring::choose(store, request)->encode(node, store.schema[3], 0, 1, values);
+  PointColouring::choose(store, request)->encode(node, store.schema, 0, 1, values);
   request.component = 2;
   const auto z = *PointColouring::choose(store, request);
-  z.encode(node, store.schema[3], 0, 1, values);
+  z.encode(node, store.schema, 0, 1, values);
   EXPECT_FLOAT_EQ(number(values[0]), 5.0f);
   EXPECT_FLOAT_EQ(number(values[1]) + static_cast<float>(z.base), 4.0f);
+}
+
+TEST(PointColouring, AVectorOverARangeIsAColour)
+{
+  StoreDescription store = description();
+  store.schema = {};
+  store.ranges.resize(1);
+  store.ranges[0].components.assign(3, {-100.0, 100.0});
+  store.schema.add({"normal", ScalarType::Int16, 3, 0.01});
+  ColourRequest request;
+  request.name = "normal";
+  request.mode = Mode::Direct;
+  request.colourRange = {-1.0, 1.0};
+  const auto colouring = *PointColouring::choose(store, request);
+  EXPECT_EQ(colouring.kind, Kind::Direct);
+  std::vector<std::uint32_t> values;
+  colouring.encode(nodeOf<std::int16_t>(0, {-100, 0, 100}, 1), store.schema, 0, 1, values);
+  std::array<std::uint8_t, 4> rgba;
+  std::memcpy(rgba.data(), values.data(), 4);
+  EXPECT_EQ(rgba, (std::array<std::uint8_t, 4>{0, 127, 255, 255}));
+  request.colourRange = {0.0, 1.0};
+  EXPECT_NE(colouring, *PointColouring::choose(store, request)); // values are uploaded again
+}
+
+TEST(PointColouring, HorizontalityIsOfTheNormal)
+{
+  StoreDescription store = description();
+  ColourRequest request;
+  request.name = "horizontality";
+  const auto horizontality = *PointColouring::choose(store, request);
+  EXPECT_EQ(horizontality.columns(), ColumnSelection{3});
+  std::vector<std::uint32_t> values;
+  horizontality.encode(
+    nodeOf<float>(3, {0.6f, 0.0f, -0.8f, 1.0f, 0.0f, 0.0f}, 2), store.schema, 0, 2, values);
+  EXPECT_FLOAT_EQ(number(values[0]), 0.8f); // a ceiling is as flat as a roof
+  EXPECT_FLOAT_EQ(number(values[1]), 0.0f);
+  store.schema.add({"horizontality", ScalarType::Float32, 1});
+  store.ranges.push_back({{{0.0, 1.0}}});
+  EXPECT_EQ(PointColouring::choose(store, request)->columns(), ColumnSelection{5}); // its own
+  EXPECT_FALSE(PointColouring::choose(StoreDescription(), request));
+}
+
+/// Two layers: one from z = 0 to 10, one with the single height 4.
+class TwoClasses final : public StoredCloud
+{
+public:
+  TwoClasses()
+  {
+    description_.layers.resize(2);
+    description_.grid.scale = {0.1, 0.1, 0.5};
+    description_.grid.offset = {0.0, 0.0, -1.0};
+    std::vector<Node> nodes(2);
+    nodes[0].centre.z = 5.0;
+    nodes[0].halfSize.z = 5.0f;
+    nodes[0].pointsBelow = 7;
+    nodes[1].centre.z = 4.0;
+    nodes[1].pointsBelow = 1;
+    nodes[1].layer = 1;
+    hierarchy_ = std::make_shared<HierarchyTable>(
+      nodes, std::vector<NodeIndex>{0, 1}, Refinement::Add);
+  }
+  const StoreDescription& description() const override { return description_; }
+  const std::shared_ptr<const Hierarchy>& hierarchy() const override { return hierarchy_; }
+  Result<VerifyReport> verify(const ProgressFunction&) const override { return VerifyReport(); }
+  Result<NodeColumns> decode(const FetchedNode&) const override { return NodeColumns(); }
+  std::size_t decodedBytes(NodeIndex, const ColumnSelection&) const override { return 0; }
+  std::size_t storedBytes(NodeIndex, const ColumnSelection&) const override { return 0; }
+
+private:
+  StoreDescription description_;
+  std::shared_ptr<const Hierarchy> hierarchy_;
+};
+
+TEST(PointColouring, GlobalHeightIsAmongThePointsOfAClass)
+{
+  const auto store = std::make_shared<TwoClasses>();
+  ColourRequest request;
+  request.name = "global_height";
+  ASSERT_TRUE(PointColouring::wantsHeights(store->description(), request));
+  const auto heights = std::make_shared<ClassHeights>(store);
+  const auto colouring = *PointColouring::choose(store->description(), request, heights);
+  EXPECT_TRUE(colouring.columns().empty());
+  EXPECT_TRUE(colouring.hasValues() && colouring.usesTable());
+  NodeColumns node;
+  node.node = 0;
+  node.origin.z = 4; // z = 1
+  node.positions = {{9, 9, 0}, {9, 9, 8}, {9, 9, 18}, {9, 9, 40}};
+  EXPECT_TRUE(colouring.coveredBy(node));
+  std::vector<std::uint32_t> values;
+  colouring.encode(node, store->description().schema, 0, 2, values);
+  colouring.encode(node, store->description().schema, 2, 2, values);
+  EXPECT_FLOAT_EQ(number(values[0]), 0.1f);
+  EXPECT_FLOAT_EQ(number(values[1]), 0.5f);
+  EXPECT_FLOAT_EQ(number(values[2]), 1.0f);
+  EXPECT_FLOAT_EQ(number(values[3]), 1.0f);
+  node.node = 1;
+  colouring.encode(node, store->description().schema, 0, 1, values);
+  EXPECT_FLOAT_EQ(number(values[4]), 0.5f);
+  StoreDescription own;
+  own.schema.add({"global_height", ScalarType::Float32, 1});
+  EXPECT_FALSE(PointColouring::wantsHeights(own, request));
+  EXPECT_FALSE(PointColouring::choose(store->description(), request)); // no heights were given
 }
 
 TEST(PointColouring, FewIntegersGetATableOfTheirOwn)

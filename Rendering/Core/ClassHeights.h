@@ -1,0 +1,34 @@
+#pragma once
+
+#include "pointfront/Store/StoredCloud.h"
+#include "pointfrontRenderingCoreModule.h" // for the export macro
+
+#include <array>
+#include <memory>
+#include <vector>
+
+namespace pointfront
+{
+
+/// Global height (Richter, Discher & Doellner 2015, section 3.1): how high a point lies among all
+/// points of its object class, from 0, the lowest, to 1. The classes are the store's layers; in a
+/// store without layers all points are one class.
+/// Cost     nothing is stored: it is computed from z when a point goes to the GPU.
+/// Threads  const functions from any thread.
+class POINTFRONTRENDERINGCORE_EXPORT ClassHeights
+{
+public:
+  explicit ClassHeights(std::shared_ptr<const StoredCloud> store);
+
+  const std::shared_ptr<const StoredCloud>& store() const { return store_; }
+  /// Of the points [first, first + count) of a node, appended; 0.5 where the class has one height
+  /// only.
+  void append(const NodeColumns& node, std::uint32_t first, std::uint32_t count,
+    std::vector<float>& heights) const;
+
+private:
+  std::shared_ptr<const StoredCloud> store_;
+  std::vector<std::array<double, 2>> ranges_; ///< world z of each layer; low > high: no points
+};
+
+} // namespace pointfront

@@ -15,23 +15,15 @@ using test::plane;
 using test::Random;
 using test::SortedCloud;
 
-/// The points that are chosen, by their places.
+/// The points that are chosen.
 std::vector<std::uint32_t> exactly(const SortedCloud& cloud, std::uint64_t wanted)
 {
-  std::vector<std::uint8_t> chosen;
+  std::vector<std::uint32_t> places;
   ExactSampler().choose(
-    cloud.view(), cloud.all, cellOccupancy(cloud.view(), cloud.all), wanted, chosen);
-  EXPECT_EQ(chosen.size(), cloud.all.size());
-  std::vector<std::uint32_t> points;
-  for (std::size_t i = 0; i < chosen.size(); ++i)
-  {
-    EXPECT_LE(chosen[i], 1);
-    if (chosen[i] == 1)
-    {
-      points.push_back(cloud.all[i]);
-    }
-  }
-  return points;
+    cloud.view(), cloud.all, cellOccupancy(cloud.view(), cloud.all), wanted, places);
+  EXPECT_TRUE(std::is_sorted(places.begin(), places.end()));
+  EXPECT_EQ(std::adjacent_find(places.begin(), places.end()), places.end());
+  return places; // of all points: these are their numbers
 }
 
 TEST(ExactSampler, ChoosesExactlyAsManyAsWanted)
@@ -104,8 +96,8 @@ TEST(ExactSampler, OneInstanceForgetsWhatItChoseBefore)
   const SortedCloud cloud = plane(3000);
   const CellOccupancy occupancy = cellOccupancy(cloud.view(), cloud.all);
   ExactSampler sampler;
-  std::vector<std::uint8_t> first;
-  std::vector<std::uint8_t> again;
+  std::vector<std::uint32_t> first;
+  std::vector<std::uint32_t> again;
   sampler.choose(cloud.view(), cloud.all, occupancy, 700, first);
   sampler.choose(cloud.view(), cloud.all, occupancy, 90, again);
   sampler.choose(cloud.view(), cloud.all, occupancy, 700, again);

@@ -2,7 +2,6 @@
 #include "TestBuildClouds.h"
 
 #include "pointfront/Build/PrefixOrder.h"
-#include "pointfront/Build/ExactSampler.h"
 #include "pointfront/Build/Sampler.h"
 
 #include <glm/geometric.hpp>
@@ -84,43 +83,6 @@ TEST(Sampler, CountsOccupiedCellsByStepsAlone)
     EXPECT_EQ(cellOccupancy(steps.data(), steps.size()).distinct, asked.distinct) << every;
   }
   EXPECT_EQ(cellOccupancy(nullptr, 0).distinct[32], 0u);
-}
-
-TEST(ExactSampler, ChoosesExactlySoManyEvenly)
-{
-  const Cloud cloud = plane(4000);
-  const CellOccupancy occupancy = cellOccupancy(cloud.view(), cloud.all);
-  ExactSampler sampler;
-  for (const std::size_t wanted : {0u, 1u, 2u, 100u, 500u, 2000u, 3999u, 4000u})
-  {
-    std::vector<std::uint32_t> chosen{7};
-    sampler.choose(cloud.view(), cloud.all, occupancy, wanted, chosen);
-    ASSERT_EQ(chosen.size(), wanted);
-    for (std::size_t i = 0; i < chosen.size(); ++i)
-    {
-      ASSERT_LT(chosen[i], cloud.all.size());
-      ASSERT_TRUE(i == 0 || chosen[i] > chosen[i - 1]) << wanted;
-    }
-  }
-  std::vector<std::uint32_t> chosen;
-  sampler.choose(cloud.view(), cloud.all, occupancy, 500, chosen);
-  const double ideal = 65536.0 / std::sqrt(500.0);
-  EXPECT_GT(meanNearestDistance(cloud, chosen), 0.7 * ideal);
-}
-
-/// Of equal points the sample has one; the others that are wanted come from all of them evenly.
-TEST(ExactSampler, FillsUpFromEqualPoints)
-{
-  const Cloud cloud(std::vector<TreePosition>(1000, TreePosition(5)));
-  std::vector<std::uint32_t> chosen;
-  ExactSampler().choose(
-    cloud.view(), cloud.all, cellOccupancy(cloud.view(), cloud.all), 100, chosen);
-  ASSERT_EQ(chosen.size(), 100u);
-  for (std::size_t i = 1; i < chosen.size(); ++i)
-  {
-    EXPECT_GT(chosen[i], chosen[i - 1]);
-    EXPECT_LE(chosen[i] - chosen[i - 1], 25u);
-  }
 }
 
 TEST(Sampler, CountsCellsOfRunsThatFollowEachOther)

@@ -27,14 +27,10 @@ RecordView KdSubtreeBuilder::sorted(const std::vector<std::byte>& records, std::
   const CpuStopwatch watch(seconds_.sort);
   const RecordView view{records.data(), recordBytes_};
   sorted_.resize(std::max(sorted_.size(), records.size()));
-  gatherRecords(view, mortonOrder(view, count), sorted_.data());
-  const RecordView sorted{sorted_.data(), recordBytes_};
-  positions_.resize(count);
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    positions_[i] = sorted.position(i);
-  }
-  return sorted;
+  positions_.resize(std::max(positions_.size(), count));
+  gatherRecords(view, mortonOrder(view, count), sorted_.data(),
+    [&](std::size_t i, const std::byte* record) { positions_[i] = positionOf(record); });
+  return {sorted_.data(), recordBytes_};
 }
 
 OpenSubtree KdSubtreeBuilder::build(
@@ -198,7 +194,8 @@ std::size_t KdSubtreeBuilder::divide(const Region& region)
   std::uint32_t low = 0;
   std::uint32_t high = 0;
   const auto axis = static_cast<int>(longestAxis(region, low, high));
-  const auto coordinate = [&](std::size_t i) { return positions_[active_[i]][axis]; };
+  coordinates_.resize(std::max(coordinates_.size(), region.end));
+  const auto coordinate = [&](std::size_t i) { return coordinates_[i]; };
   unsigned shift = 0;
   while ((high - low) >> shift >= 1u << intervalsLog2)
   {
@@ -207,6 +204,7 @@ std::size_t KdSubtreeBuilder::divide(const Region& region)
   std::array<std::uint32_t, 1u << intervalsLog2> counts{};
   for (std::size_t i = region.begin; i < region.end; ++i)
   {
+    coordinates_[i] = positions_[active_[i]][axis];
     ++counts[(coordinate(i) - low) >> shift];
   }
   std::uint64_t rank = wanted;
@@ -236,7 +234,7 @@ std::size_t KdSubtreeBuilder::divide(const Region& region)
     const std::uint32_t point = active_[i];
     leftStep = std::max(leftStep, steps_[i]);
     rightStep = std::max(rightStep, steps_[i]);
-    if (std::pair(positions_[point][axis], point) < first)
+    if (std::pair(coordinate(i), point) < first)
     {
       steps_[left] = std::exchange(leftStep, std::uint8_t(0));
       active_[left++] = point;

@@ -77,6 +77,7 @@ private:
   std::vector<std::uint32_t> points_;   // of the region at hand
   CellOccupancy occupancy_;             // of points_
   std::vector<std::uint32_t> held_;     // what take() took
+  std::vector<std::uint32_t> coordinates_; // of active_, along the axis at hand
   std::vector<std::uint32_t> right_;
   std::vector<std::uint8_t> rightSteps_;
   std::vector<std::uint32_t> chosen_;   // places in points_

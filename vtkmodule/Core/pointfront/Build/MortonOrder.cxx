@@ -143,10 +143,13 @@ void sortRuns(std::vector<std::uint64_t>& words, unsigned lowest, const Less& le
 }
 
 /// Bits of the key that tell most neighbours of a surface apart: an octree level for each factor of
-/// four, and two more. The rest is for sortRuns().
+/// four, and two more. The rest is for sortRuns(), and so is a level that would take a digit more.
 unsigned tellingBits(std::size_t count)
 {
-  return 3 * ((bitsFor(count) + 1) / 2) + 6;
+  constexpr unsigned level = 3;
+  const unsigned bits = level * ((bitsFor(count) + 1) / 2) + 2 * level;
+  const unsigned beyond = bits % mostDigitBits;
+  return beyond <= level ? bits - beyond : bits;
 }
 } // namespace
 

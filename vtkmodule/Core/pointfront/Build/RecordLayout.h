@@ -85,16 +85,26 @@ struct RecordView
   TreePosition position(std::size_t i) const { return positionOf(record(i)); }
 };
 
-/// The records numbered in `order`, one behind the other from `to` on.
-inline void gatherRecords(
-  const RecordView& records, const std::vector<std::uint32_t>& order, std::byte* to)
+/// The records numbered in `order`, one behind the other from `to` on; `seen(i, record)` is called
+/// with each of them while it is near.
+template <typename Seen>
+void gatherRecords(const RecordView& records, const std::vector<std::uint32_t>& order,
+  std::byte* to, const Seen& seen)
 {
   constexpr std::size_t ahead = 12; // records lie anywhere in the part: ask for them early
   for (std::size_t i = 0; i < order.size(); ++i, to += records.stride)
   {
     __builtin_prefetch(records.record(order[std::min(i + ahead, order.size() - 1)]));
-    copyRecord(to, records.record(order[i]), records.stride);
+    const std::byte* record = records.record(order[i]);
+    copyRecord(to, record, records.stride);
+    seen(i, record);
   }
+}
+
+inline void gatherRecords(
+  const RecordView& records, const std::vector<std::uint32_t>& order, std::byte* to)
+{
+  gatherRecords(records, order, to, [](std::size_t, const std::byte*) {});
 }
 
 } // namespace pointfront

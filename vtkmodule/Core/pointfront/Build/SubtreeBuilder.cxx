@@ -20,14 +20,13 @@ OpenSubtree SubtreeBuilder::build(
   {
     const CpuStopwatch watch(seconds_.sort);
     const RecordView view{records.data(), recordBytes_};
-    if (sorted_.size() < records.size())
-    {
-      sorted_.resize(records.size());
-    }
-    gatherRecords(view, mortonOrder(view, count), sorted_.data());
+    sorted_.resize(std::max(sorted_.size(), records.size()));
+    positions_.resize(std::max(positions_.size(), count));
+    gatherRecords(view, mortonOrder(view, count), sorted_.data(),
+      [&](std::size_t i, const std::byte* record) { positions_[i] = positionOf(record); });
     records = {};
   }
-  const SortedPoints sorted = sortedPoints({sorted_.data(), recordBytes_}, count);
+  const SortedPoints sorted{{sorted_.data(), recordBytes_}, positionsView()};
   return opened(sorted.records, branch(sorted, 0, static_cast<std::uint32_t>(count)));
 }
 
@@ -35,13 +34,18 @@ SubtreeBuilder::SortedPoints SubtreeBuilder::sortedPoints(
   const RecordView& records, std::size_t count)
 {
   const CpuStopwatch watch(seconds_.sort);
-  positions_.resize(count);
+  positions_.resize(std::max(positions_.size(), count));
   for (std::size_t i = 0; i < count; ++i)
   {
     positions_[i] = records.position(i);
   }
-  const auto* positions = reinterpret_cast<const std::byte*>(positions_.data());
-  return {records, {positions, RecordLayout::positionBytes}};
+  return {records, positionsView()};
+}
+
+RecordView SubtreeBuilder::positionsView() const
+{
+  return {
+    reinterpret_cast<const std::byte*>(positions_.data()), RecordLayout::positionBytes};
 }
 
 SubtreeBuilder::Branch SubtreeBuilder::branch(

@@ -65,6 +65,7 @@ private:
   void emit(Branch child, BuiltNode& parent, const RecordView& records);
   static OpenSubtree opened(const RecordView& records, Branch branch);
   SortedPoints sortedPoints(const RecordView& records, std::size_t count);
+  RecordView positionsView() const;
 
   const NodeEmitter& emitter_;
   SamplingRule rule_;

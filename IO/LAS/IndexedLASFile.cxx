@@ -203,9 +203,10 @@ Result<std::shared_ptr<const IndexedLASFile>> IndexedLASFile::open(const std::st
   return std::shared_ptr<const IndexedLASFile>(std::move(indexed));
 }
 
-std::size_t IndexedLASFile::decodedBytes(NodeIndex node, const ColumnSelection& columns) const
+std::size_t IndexedLASFile::decodedBytes(
+  NodeIndex, std::uint32_t points, const ColumnSelection& columns) const
 {
-  return decodedBytesOf(hierarchy_->node(node).pointCount, columns, description_.schema);
+  return decodedBytesOf(points, columns, description_.schema);
 }
 
 std::size_t IndexedLASFile::storedBytes(NodeIndex node, const ColumnSelection&) const
@@ -230,7 +231,7 @@ Result<FetchedNode> IndexedLASFile::fetch(NodeIndex node, const ColumnSelection&
   RawBytes numbers(points->size() * sizeof(std::uint64_t));
   std::copy_n(reinterpret_cast<const std::byte*>(points->data()), numbers.size,
     numbers.data.get()); // none of a node without points: memcpy must not have a null
-  FetchedNode fetched{ node, columns, {}, storedBytes(node, columns) };
+  FetchedNode fetched{ node, columns, {}, storedBytes(node, columns), hierarchy_->node(node) };
   fetched.runs.push_back(std::move(records).value());
   fetched.runs.push_back(std::move(numbers));
   return fetched;
@@ -248,6 +249,8 @@ Result<NodeColumns> IndexedLASFile::decode(const FetchedNode& fetched) const
   records.count = points.size();
   NodeColumns result =
     emptyColumns(fetched.node, points.size(), fetched.columns, description_.schema);
+  result.firstPoint = fetched.row.firstPoint;
+  result.halfSize = fetched.row.halfSize;
   decodeSteps(records, side_->content().table.rows[fetched.node].low, result);
   for (std::size_t c = 0; c < fetched.columns.size(); ++c)
   {

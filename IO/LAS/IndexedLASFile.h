@@ -29,7 +29,8 @@ public:
   const std::shared_ptr<const Hierarchy>& hierarchy() const override { return hierarchy_; }
   Result<FetchedNode> fetch(NodeIndex node, const ColumnSelection& columns) const override;
   Result<NodeColumns> decode(const FetchedNode& fetched) const override;
-  std::size_t decodedBytes(NodeIndex node, const ColumnSelection& columns) const override;
+  std::size_t decodedBytes(
+    NodeIndex node, std::uint32_t points, const ColumnSelection& columns) const override;
   /// Whole pages, all columns: records lie as they lie.
   std::size_t storedBytes(NodeIndex node, const ColumnSelection& columns) const override;
   std::uint64_t disk() const override { return points_->device(); }

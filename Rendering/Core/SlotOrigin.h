@@ -1,7 +1,6 @@
 #pragma once
 
 #include "pointfront/Points/QuantisationGrid.h"
-#include "pointfront/Store/Hierarchy.h"
 
 #include <glm/vec3.hpp>
 
@@ -14,6 +13,7 @@ namespace pointfront
 
 /// Where the frame's reference point (the eye) lies in one node's integer coordinates: what the
 /// vertex shader subtracts. See docs/adr/0004 and glsl/PointsVS.glsl.
+/// Units      `halfSize` of the node's box in store units.
 /// Exactness  integer difference exact; the remainder `base` is computed in double, offset minus
 ///            reference first: both are large and near each other, so that difference loses
 ///            nothing.
@@ -23,12 +23,12 @@ struct SlotOrigin
   int shift = 0;        ///< bits dropped of positions of nodes of more than 2^30 steps
   glm::vec3 base{0.0f}; ///< what rounding and clamping left over, store units
 
-  static SlotOrigin of(const QuantisationGrid& grid, const Node& node, const GridPosition& origin,
-    const glm::dvec3& reference)
+  static SlotOrigin of(const QuantisationGrid& grid, const glm::vec3& halfSize,
+    const GridPosition& origin, const glm::dvec3& reference)
   {
     constexpr double most = 1073741824.0; // 2^30
     SlotOrigin result;
-    const glm::dvec3 extent = 2.0 * glm::dvec3(node.halfSize) / grid.scale;
+    const glm::dvec3 extent = 2.0 * glm::dvec3(halfSize) / grid.scale;
     for (double steps = std::max({extent.x, extent.y, extent.z}); steps > most; steps *= 0.5)
     {
       ++result.shift;

@@ -153,9 +153,10 @@ void ViewFront::loadRoots()
   std::vector<LoadRequest> roots;
   for (const NodeIndex root : piece_->hierarchy()->roots())
   {
-    if (piece_->hierarchy()->node(root).pointCount > 0)
+    const std::uint32_t points = piece_->hierarchy()->node(root).pointCount; // roots stay in memory
+    if (points > 0)
     {
-      roots.push_back({root, 1e9});
+      roots.push_back({root, 1e9, false, points});
     }
   }
   const auto missing = [&](const LoadRequest& r)

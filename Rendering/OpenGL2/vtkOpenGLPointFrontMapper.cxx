@@ -129,12 +129,10 @@ vtkIdType vtkOpenGLPointFrontMapper::Content::List(const pointfront::ViewFront& 
     }
     const std::uint32_t points = std::min(item.pointCount, entry->points);
     const bool coloured = this->Drawing.colouring.hasValues() && entry->values >= points;
-    // In memory: the front has just read it, and so does every frame that draws it.
-    const pointfront::Node row = store.hierarchy()->node(item.node);
     this->Records.set(entry->slots,
       pointfront::SlotOrigin::of(
-        store.description().grid, row, node->origin, this->Drawing.reference),
-      coloured, row.firstPoint);
+        store.description().grid, node->halfSize, node->origin, this->Drawing.reference),
+      coloured, node->firstPoint);
     for (std::uint32_t first = 0; first < points; first += slotPoints)
     {
       const std::uint32_t slot = entry->slots[first / slotPoints];

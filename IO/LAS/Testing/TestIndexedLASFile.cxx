@@ -82,7 +82,8 @@ std::vector<std::string> pointsOf(const StoredCloud& cloud)
   {
     const auto node = cloud.read(i, columns);
     EXPECT_TRUE(node) << node.error().what;
-    EXPECT_EQ(node->bytes(), cloud.decodedBytes(i, columns));
+    const auto count = static_cast<std::uint32_t>(node->size());
+    EXPECT_EQ(node->bytes(), cloud.decodedBytes(i, count, columns));
     for (std::size_t p = 0; p < node->size(); ++p)
     {
       set.add(description.grid.toWorld(node->origin + GridPosition(node->positions[p])),

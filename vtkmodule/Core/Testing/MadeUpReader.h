@@ -69,7 +69,8 @@ public:
     return result;
   }
 
-  std::size_t decodedBytes(NodeIndex node, const ColumnSelection& columns) const override
+  std::size_t decodedBytes(
+    NodeIndex node, std::uint32_t, const ColumnSelection& columns) const override
   {
     return promised != 0 ? promised : trueBytes(node, columns);
   }

@@ -89,7 +89,7 @@ public:
     result.node = fetched.node;
     return result;
   }
-  std::size_t decodedBytes(NodeIndex, const ColumnSelection&) const override
+  std::size_t decodedBytes(NodeIndex, std::uint32_t, const ColumnSelection&) const override
   {
     return sizeof(NodeColumns);
   }
@@ -340,7 +340,10 @@ TEST(LoadScheduler, AFileThatIsGoneIsToldOfOnceAndFailsEachNode)
         Error::Kind::Unreadable, "cannot read 'x' at byte " + std::to_string(100 * node));
     }
     Result<NodeColumns> decode(const FetchedNode&) const override { return NodeColumns(); }
-    std::size_t decodedBytes(NodeIndex, const ColumnSelection&) const override { return 100; }
+    std::size_t decodedBytes(NodeIndex, std::uint32_t, const ColumnSelection&) const override
+    {
+      return 100;
+    }
     std::size_t storedBytes(NodeIndex, const ColumnSelection&) const override { return 100; }
   };
   Scene scene(1);

@@ -60,7 +60,10 @@ public:
     }
     return out;
   }
-  std::size_t decodedBytes(NodeIndex, const ColumnSelection&) const override { return 0; }
+  std::size_t decodedBytes(NodeIndex, std::uint32_t, const ColumnSelection&) const override
+  {
+    return 0;
+  }
   std::size_t storedBytes(NodeIndex, const ColumnSelection&) const override { return 0; }
 
   HierarchyTable hierarchy() const { return HierarchyTable(nodes, { 0 }, Refinement::Add); }

@@ -30,7 +30,8 @@ TEST_P(StoreRoundTrip, GivesBackEveryBit)
     EXPECT_EQ(points->origin, sample.points[i].origin);
     EXPECT_EQ(points->positions, sample.points[i].positions);
     EXPECT_EQ(points->columns, sample.points[i].columns);
-    EXPECT_EQ(points->bytes(), store.decodedBytes(i, columns));
+    const auto count = static_cast<std::uint32_t>(points->size());
+    EXPECT_EQ(points->bytes(), store.decodedBytes(i, count, columns));
   }
   const auto report = store.verify();
   ASSERT_TRUE(report) << report.error().what;
@@ -94,7 +95,8 @@ TEST(Store, ReadsOnlyTheColumnsThatAreAskedFor)
   ASSERT_EQ(points->columns.size(), 2u);
   EXPECT_EQ(points->columns[0], sample.points[2].columns[1]);
   EXPECT_EQ(points->columns[1], sample.points[2].columns[10]);
-  EXPECT_EQ(points->bytes(), store.decodedBytes(2, some));
+  const auto count = static_cast<std::uint32_t>(points->size());
+  EXPECT_EQ(points->bytes(), store.decodedBytes(2, count, some));
   const ColumnSelection all = everyColumn(sample.description.schema);
   EXPECT_LT(store.storedBytes(2, {}), store.storedBytes(2, some));
   EXPECT_LT(store.storedBytes(2, some), store.storedBytes(2, all));

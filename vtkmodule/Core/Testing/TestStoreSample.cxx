@@ -48,7 +48,10 @@ public:
     }
     return node;
   }
-  std::size_t decodedBytes(NodeIndex, const ColumnSelection&) const override { return 0; }
+  std::size_t decodedBytes(NodeIndex, std::uint32_t, const ColumnSelection&) const override
+  {
+    return 0;
+  }
   std::size_t storedBytes(NodeIndex, const ColumnSelection&) const override { return 0; }
 
   static HierarchyTable hierarchy()

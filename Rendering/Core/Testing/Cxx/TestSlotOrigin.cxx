@@ -7,12 +7,7 @@ using namespace pointfront;
 namespace
 {
 
-Node cube(double halfSize)
-{
-  Node node;
-  node.halfSize = glm::vec3(static_cast<float>(halfSize));
-  return node;
-}
+glm::vec3 cube(double halfSize) { return glm::vec3(static_cast<float>(halfSize)); }
 
 const QuantisationGrid far{glm::dvec3(0.001), glm::dvec3(1e7, 1e7, 1e3)};
 

@@ -26,7 +26,8 @@ public:
     result.columns.resize(columns.size(), std::vector<std::byte>(10));
     return result;
   }
-  std::size_t decodedBytes(NodeIndex, const ColumnSelection& columns) const override
+  std::size_t decodedBytes(
+    NodeIndex, std::uint32_t, const ColumnSelection& columns) const override
   {
     return sizeof(NodeColumns) + 120 + columns.size() * (10 + sizeof(std::vector<std::byte>));
   }
@@ -84,7 +85,7 @@ TEST(ResidencyShare, ReadsTheColumnsOfAllFronts)
 TEST(ResidencyShare, KeepsWhatAnotherFrontNeeds)
 {
   Shared s;
-  const std::size_t one = s.reader->decodedBytes(0, {});
+  const std::size_t one = s.reader->decodedBytes(0, 0, {});
   s.share.setBudgetBytes(2 * one + one / 2); // room for two nodes
   const auto a = s.share.join();
   const auto b = s.share.join();

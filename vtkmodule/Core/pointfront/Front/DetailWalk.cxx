@@ -294,7 +294,7 @@ ResidencyView::State DetailWalk::require(
   else if (state == ResidencyView::State::Absent)
   {
     ++missing_;
-    wanted_.push_back({ node, priority, false });
+    wanted_.push_back({ node, priority, false, count });
   }
   return state;
 }

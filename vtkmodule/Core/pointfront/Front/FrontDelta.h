@@ -102,6 +102,8 @@ struct LoadRequest
   NodeIndex node = noNode;
   double priority = 0.0; ///< larger is sooner; the error on screen that it would mend, in px
   bool optional = false; ///< not needed for this view: after all others, into free memory only
+  /// The node's own, all of them: who loads it must know what it takes without reading the table.
+  std::uint32_t pointCount = 0;
 };
 
 /// What one update decided. Owned by the front, valid until its next update.

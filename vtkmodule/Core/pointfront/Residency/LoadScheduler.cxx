@@ -133,6 +133,8 @@ struct LoadScheduler::Content : std::enable_shared_from_this<LoadScheduler::Cont
   std::optional<Job> take(Clock::time_point now);
   void work(Worker& self);
   void perform(Worker& self, const Job& job);
+  void readRows(Worker& self, const Job& job);
+  void freeLane(Worker& self, const Job& job, Clock::time_point begin, std::size_t bytesRead);
   Member* memberOf(const StoreNodes& store);
   std::size_t bytesWanted() const;
   void releaseFrom(ReleasePlan& plan, std::size_t bytes, StoreNodes::Gone& gone);
@@ -209,22 +211,43 @@ std::optional<LoadScheduler::Content::Job> LoadScheduler::Content::take(Clock::t
   return Job{ best->store, std::move(*task), ticket };
 }
 
-void LoadScheduler::Content::perform(Worker& self, const Job& job)
+void LoadScheduler::Content::freeLane(
+  Worker& self, const Job& job, Clock::time_point begin, std::size_t bytesRead)
 {
-  const NodeReader& reader = job.store->reader();
-  const StoreNodes::Task& task = job.task;
-  const Clock::time_point begin = Clock::now();
-  Result<FetchedNode> fetched =
-    guarded(task.node, [&] { return reader.fetch(task.node, task.columns); });
   {
     const std::lock_guard<std::mutex> lock(mutex);
     lane.leave(job.ticket);
     self.fetching = false;
     loaded.fetchSeconds += std::chrono::duration<double>(Clock::now() - begin).count();
-    loaded.fetchedBytes += fetched ? fetched->bytesRead : 0;
+    loaded.fetchedBytes += bytesRead;
   }
-  budget->announceChange(); // the disk is free
+  budget->announceChange();
+}
+
+/// The table keeps what was read, and tells who waits.
+void LoadScheduler::Content::readRows(Worker& self, const Job& job)
+{
+  const Clock::time_point begin = Clock::now();
+  const std::size_t bytesRead = job.store->reader().missingRows()->readNext();
+  freeLane(self, job, begin, bytesRead);
+  job.store->leave(job.task);
+  budget->announceChange();
+}
+
+void LoadScheduler::Content::perform(Worker& self, const Job& job)
+{
+  if (job.task.node == noNode)
+  {
+    readRows(self, job);
+    return;
+  }
+  const NodeReader& reader = job.store->reader();
+  const StoreNodes::Task& task = job.task;
+  const Clock::time_point begin = Clock::now();
+  Result<FetchedNode> fetched =
+    guarded(task.node, [&] { return reader.fetch(task.node, task.columns); });
   const std::size_t bytesRead = fetched ? fetched->bytesRead : 0;
+  freeLane(self, job, begin, bytesRead);
   double decodeSeconds = -threadSeconds();
   Result<NodeColumns> result = fetched
     ? guarded(task.node, [&] { return reader.decode(*fetched); })
@@ -244,7 +267,7 @@ void LoadScheduler::Content::perform(Worker& self, const Job& job)
     job.store->tell();
   }
   // Only now: who waits until nothing is loading may count on all having been told.
-  job.store->leave();
+  job.store->leave(task);
   budget->announceChange();
 }
 

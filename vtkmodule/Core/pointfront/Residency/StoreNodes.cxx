@@ -33,22 +33,30 @@ bool isOfTheFile(const Error& error)
 StoreNodes::StoreNodes(std::shared_ptr<const NodeReader> reader, NodeIndex nodeCount,
   std::shared_ptr<MemoryBudget> budget)
   : reader_(std::move(reader))
+  , rows_(reader_->missingRows())
   , nodeCount_(nodeCount)
   , budget_(std::move(budget))
   , cache_(budget_)
 {
+  if (rows_ != nullptr)
+  {
+    rows_->attach(this, [whole = budget_] { whole->announceChange(); });
+  }
 }
 
-std::size_t StoreNodes::need(NodeIndex node) const
+StoreNodes::~StoreNodes() { close(); }
+
+std::size_t StoreNodes::need(const LoadRequest& request) const
 {
-  const auto known = needs_.find(node);
-  if (known != needs_.end())
-  {
-    return known->second;
-  }
-  const std::size_t promised = reader_->decodedBytes(node, columns_);
-  needs_.emplace(node, promised);
-  return promised;
+  const auto known = needs_.find(request.node);
+  return known != needs_.end()
+    ? known->second
+    : reader_->decodedBytes(request.node, request.pointCount, columns_);
+}
+
+bool StoreNodes::rowsNext(const std::optional<Choice>& choice) const
+{
+  return rows_ != nullptr && rows_->waiting() && !(rowsLast_ && choice);
 }
 
 /// What should be read next and fits.
@@ -57,7 +65,7 @@ std::optional<StoreNodes::Choice> StoreNodes::choose() const
   const auto fitting = [this](const RequestQueue& from, auto&& taken) -> const LoadRequest*
   {
     const auto found = std::find_if(from.begin(), from.end(),
-      [&](const LoadRequest& r) { return taken(r) && budget_->fits(need(r.node)); });
+      [&](const LoadRequest& r) { return taken(r) && budget_->fits(need(r)); });
     return found != from.end() ? &*found : nullptr;
   };
   const auto drawn = [](const LoadRequest& r) { return r.priority >= drawnNow; };
@@ -82,7 +90,7 @@ std::optional<StoreNodes::Choice> StoreNodes::choose() const
     for (const LoadRequest& request : rereads_)
     {
       const CachedNode* cached = cache_.find(request.node);
-      if (cached->points.use_count() == 1 && budget_->fits(need(request.node), cached->bytes))
+      if (cached->points.use_count() == 1 && budget_->fits(need(request), cached->bytes))
       {
         return Choice{ request, 3, true, true };
       }
@@ -99,6 +107,10 @@ std::optional<StoreNodes::Urgency> StoreNodes::next() const
 {
   const std::lock_guard<std::mutex> lock(mutex_);
   const std::optional<Choice> choice = choose();
+  if (rowsNext(choice))
+  {
+    return Urgency{ 0, std::numeric_limits<double>::infinity() };
+  }
   return choice ? std::optional<Urgency>({ choice->rank, choice->request.priority })
                 : std::nullopt;
 }
@@ -107,12 +119,18 @@ std::optional<StoreNodes::Task> StoreNodes::begin()
 {
   const std::lock_guard<std::mutex> lock(mutex_);
   const std::optional<Choice> choice = choose();
+  rowsLast_ = rowsNext(choice);
+  if (rowsLast_)
+  {
+    ++loadingRows_;
+    return Task();
+  }
   if (!choice)
   {
     return std::nullopt;
   }
   const NodeIndex node = choice->request.node;
-  Task task{ node, columns_, need(node), choice->reread };
+  Task task{ node, columns_, need(choice->request), choice->reread };
   if (choice->inPlaceOfOld)
   {
     cache_.remove(node);
@@ -141,7 +159,7 @@ bool StoreNodes::idle() const
 bool StoreNodes::loading() const
 {
   const std::lock_guard<std::mutex> lock(mutex_);
-  return loading_ > 0;
+  return loading_ > 0 || loadingRows_ > 0;
 }
 
 bool StoreNodes::exhausted() const
@@ -180,9 +198,10 @@ void StoreNodes::refuseTooLarge(const std::vector<LoadRequest>& requests)
   const std::size_t limit = budget_->limit();
   for (const LoadRequest& request : requests)
   {
-    const std::size_t bytes = need(request.node);
+    const std::size_t bytes = need(request);
     if (bytes > limit)
     {
+      needs_[request.node] = bytes;
       CachedNode& cached = cache_[request.node];
       cached.tooLarge = true;
       queue_.cancel(request.node);
@@ -211,14 +230,15 @@ bool StoreNodes::store(const Task& task, NodeColumns points)
     budget_->giveBack(task.bytes - bytes);
   }
   const bool complete = hasAll(points.selection, columns_);
+  const LoadRequest again{ task.node, 0.0, false, static_cast<std::uint32_t>(points.size()) };
   cache_.insert(task.node, std::move(points), bytes);
   if (!complete)
   {
     // Other columns were asked for while it was read.
     cache_[task.node].stale = true;
-    rereads_.add({ task.node, 0.0, false });
+    rereads_.add(again);
     waitingKnown_ = false;
-    leastNeed_ = std::min(leastNeed_, need(task.node));
+    leastNeed_ = std::min(leastNeed_, need(again));
   }
   return true;
 }
@@ -258,15 +278,19 @@ void StoreNodes::tell()
   }
 }
 
-void StoreNodes::leave()
+void StoreNodes::leave(const Task& task)
 {
   const std::lock_guard<std::mutex> lock(mutex_);
-  --loading_;
+  --(task.node != noNode ? loading_ : loadingRows_);
 }
 
 void StoreNodes::close()
 {
   setArrivalFunction(nullptr);
+  if (rows_ != nullptr)
+  {
+    rows_->detach(this);
+  }
   Gone gone;
   const std::lock_guard<std::mutex> lock(mutex_);
   queue_.clear();
@@ -283,11 +307,11 @@ std::size_t StoreNodes::waitingBytes() const
     waiting_ = 0;
     for (const LoadRequest& request : queue_)
     {
-      waiting_ += request.optional ? 0 : need(request.node);
+      waiting_ += request.optional ? 0 : need(request);
     }
     for (const LoadRequest& request : rereads_)
     {
-      waiting_ += need(request.node);
+      waiting_ += need(request);
     }
   }
   return waiting_;
@@ -356,7 +380,8 @@ bool StoreNodes::setColumns(const ColumnSelection& columns)
         !hasAll(cached.points->selection, columns);
       if (cached.stale)
       {
-        lacking.push_back({ node, 0.0, false });
+        const auto points = static_cast<std::uint32_t>(cached.points->size());
+        lacking.push_back({ node, 0.0, false, points });
       }
     });
   rereads_.replace(lacking);
@@ -373,7 +398,7 @@ void StoreNodes::noteLeastNeed()
   {
     for (const LoadRequest& request : *waiting)
     {
-      leastNeed_ = std::min(leastNeed_, need(request.node));
+      leastNeed_ = std::min(leastNeed_, need(request));
     }
   }
 }
@@ -427,7 +452,8 @@ std::shared_ptr<const NodeColumns> StoreNodes::find(NodeIndex node)
   if (cached->stale && !cached->drawn)
   {
     cached->drawn = true;
-    rereads_.add({ node, drawnNow, false });
+    const auto points = static_cast<std::uint32_t>(cached->points->size());
+    rereads_.add({ node, drawnNow, false, points });
   }
   return cached->points;
 }
@@ -480,7 +506,8 @@ void StoreNodes::reconsider()
   cache_.forEach(
     [&](NodeIndex node, CachedNode& cached)
     {
-      if (cached.tooLarge && need(node) <= limit)
+      const auto known = needs_.find(node);
+      if (cached.tooLarge && (known == needs_.end() || known->second <= limit))
       {
         cached.tooLarge = cached.failed = false;
         ++revision_;

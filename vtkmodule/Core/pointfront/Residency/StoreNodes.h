@@ -21,6 +21,8 @@ namespace pointfront
 
 /// One store's part of what a LoadScheduler loads: its nodes in memory, what is asked for, and what
 /// should come next. What it promises its users is written at Residency, which is its face.
+/// Rows      of the node table that its front waits for (MissingRows) take turns with nodes, before
+///           them: without rows nothing further is asked for, and they are small.
 /// Order     needed requests by priority, then re-reads for new columns, then optional requests; a
 ///           request that does not fit waits, smaller ones behind it go on. Nodes that are drawn
 ///           with old columns are read again before everything else.
@@ -30,7 +32,7 @@ class StoreNodes
 public:
   struct Task
   {
-    NodeIndex node = noNode;
+    NodeIndex node = noNode; ///< none: rows of the node table
     ColumnSelection columns;
     std::size_t bytes = 0; ///< reserved for it
     bool reread = false;   ///< of a node that is or was in memory with other columns
@@ -46,6 +48,9 @@ public:
   /// `budget` is the store's own, a part of the scheduler's.
   StoreNodes(std::shared_ptr<const NodeReader> reader, NodeIndex nodeCount,
     std::shared_ptr<MemoryBudget> budget);
+  ~StoreNodes();
+  StoreNodes(const StoreNodes&) = delete;
+  StoreNodes& operator=(const StoreNodes&) = delete;
 
   const NodeReader& reader() const { return *reader_; }
   MemoryBudget& budget() const { return *budget_; }
@@ -72,7 +77,7 @@ public:
   /// A read has ended. True when there is something new: then tell() is called.
   bool finish(const Task& task, Result<NodeColumns> result, std::size_t bytesRead);
   void tell();
-  void leave(); ///< after all: the task is no longer loading
+  void leave(const Task& task); ///< after all: it is no longer loading
   /// Its requests are withdrawn and its nodes leave; nobody is told of anything any more.
   void close();
 
@@ -85,7 +90,7 @@ public:
   void release(NodeIndex node, Gone& gone);
   /// What the last release found; true when that is a change.
   bool noteRelease(bool nothingFound);
-  bool loading() const;
+  bool loading() const; ///< rows included
 
 private:
   struct Choice
@@ -96,8 +101,9 @@ private:
     bool inPlaceOfOld = false; ///< fits only after the node's old points are gone
   };
 
-  std::size_t need(NodeIndex node) const;
+  std::size_t need(const LoadRequest& request) const;
   std::optional<Choice> choose() const;
+  bool rowsNext(const std::optional<Choice>& choice) const;
   void noteLeastNeed();
   void markFailed(CachedNode& cached, Error error);
   void report(Error error);
@@ -105,6 +111,7 @@ private:
   bool store(const Task& task, NodeColumns points);
 
   const std::shared_ptr<const NodeReader> reader_;
+  MissingRows* const rows_; ///< the reader's, or null
   const NodeIndex nodeCount_;
   /// Shared with the points that are out: they may be dropped after this object is gone.
   const std::shared_ptr<MemoryBudget> budget_;
@@ -115,14 +122,15 @@ private:
   RequestQueue rereads_;
   ColumnSelection columns_;
   std::vector<Error> errors_;
-  /// Bytes that nodes need: what decodedBytes() said, or the truth where that was too little. Asked
-  /// when a node is requested, because later the answer may have to come from the disk.
-  mutable std::unordered_map<NodeIndex, std::size_t> needs_;
+  /// Bytes of nodes of which decodedBytes() said too little, and of those that are too large.
+  std::unordered_map<NodeIndex, std::size_t> needs_;
   std::size_t leastNeed_ = 0;  ///< nothing that waits needs less
   mutable std::size_t waiting_ = 0;
   mutable bool waitingKnown_ = false; ///< `waiting_` is what waitingBytes() says
   std::size_t loadingBytes_ = 0;
-  std::uint32_t loading_ = 0;
+  std::uint32_t loading_ = 0;     ///< nodes
+  std::uint32_t loadingRows_ = 0; ///< pages
+  bool rowsLast_ = false;         ///< what began last were rows
   bool nothingToRelease_ = false; ///< found by the last release that room was wanted from
   bool fileFailed_ = false;       ///< told already that the file cannot be read
   std::uint64_t requested_ = 0;

@@ -2,6 +2,7 @@
 
 #include "pointfront/Base/Bounds.h"
 #include "pointfront/Base/Error.h"
+#include "pointfront/Store/MissingRows.h"
 
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
@@ -61,7 +62,7 @@ inline std::uint32_t originalPoints(const Node& node, Refinement refinement)
 enum class RowState : std::uint8_t
 {
   Here,   ///< in memory
-  Coming, ///< not in memory; now being fetched: Hierarchy::arrivals() will change
+  Coming, ///< not in memory, asked for (MissingRows): Hierarchy::arrivals() will change
   Lost    ///< cannot be read, or is damaged
 };
 
@@ -112,9 +113,12 @@ public:
     found = childOf(parent, row, child);
     return RowState::Here;
   }
+  /// What peek() was asked for, of a table that is not in memory as a whole.
+  virtual MissingRows* missingRows() const { return nullptr; }
   /// Grows when rows that were coming are here, or lost.
   virtual std::uint64_t arrivals() const { return 0; }
-  /// Blocks until arrivals() differs from `seen` or nothing is coming.
+  /// Blocks until arrivals() differs from `seen` or nothing is coming. Reads itself what is coming
+  /// if nobody else does (MissingRows).
   virtual void waitForArrival(std::uint64_t seen) const { static_cast<void>(seen); }
   /// The first damage that was met.
   virtual std::optional<Error> fault() const { return std::nullopt; }

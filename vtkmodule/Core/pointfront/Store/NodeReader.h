@@ -3,6 +3,7 @@
 #include "pointfront/Base/Result.h"
 #include "pointfront/Points/QuantisationGrid.h"
 #include "pointfront/Store/Hierarchy.h"
+#include "pointfront/Store/MissingRows.h"
 
 #include <glm/vec3.hpp>
 
@@ -26,6 +27,9 @@ struct NodeColumns
 {
   NodeIndex node = noNode;
   GridPosition origin{ 0 };
+  // As the node's row in the table says: who draws it need not ask a table that may be on a disk.
+  std::uint64_t firstPoint = 0;
+  glm::vec3 halfSize{ 0.0f };
   std::vector<glm::u32vec3> positions;
   ColumnSelection selection;
   std::vector<std::vector<std::byte>> columns;
@@ -63,6 +67,7 @@ struct FetchedNode
   ColumnSelection columns;
   std::vector<RawBytes> runs; ///< their meaning is the reader's
   std::size_t bytesRead = 0;  ///< from the disk
+  Node row{};                 ///< of the node table
 };
 
 /// Where nodes come from: a store, or a made-up one in tests. In two steps, so that the disk serves
@@ -91,12 +96,16 @@ public:
     return decode(*fetched);
   }
 
-  /// Host bytes that the points will need: known before, so that a budget can hold.
-  virtual std::size_t decodedBytes(NodeIndex node, const ColumnSelection& columns) const = 0;
+  /// Host bytes that the node's points will need, `points` as its row says: known before, so that a
+  /// budget can hold. Does not wait.
+  virtual std::size_t decodedBytes(
+    NodeIndex node, std::uint32_t points, const ColumnSelection& columns) const = 0;
   /// Bytes that fetch() reads from the disk.
   virtual std::size_t storedBytes(NodeIndex node, const ColumnSelection& columns) const = 0;
   /// A number that readers on the same disk (file system) share.
   virtual std::uint64_t disk() const { return 0; }
+  /// Rows of its table that are read when somebody asks for them; null where all are in memory.
+  virtual MissingRows* missingRows() const { return nullptr; }
 };
 
 } // namespace pointfront

@@ -5,8 +5,9 @@
 #include <atomic>
 #include <cassert>
 #include <condition_variable>
+#include <map>
 #include <mutex>
-#include <thread>
+#include <new>
 #include <unordered_set>
 #include <utility>
 
@@ -80,7 +81,7 @@ private:
 Node hollowRow() { return Node(); }
 } // namespace
 
-struct PagedNodeTable::Content
+struct PagedNodeTable::Content final : MissingRows
 {
   Content(std::unique_ptr<const NodePageSource> from, std::vector<NodeIndex> rootNodes,
     Refinement kind, std::size_t cacheBytes)
@@ -100,12 +101,18 @@ struct PagedNodeTable::Content
   bool load(std::uint32_t page, NodePage& rows);
   void noteFault(Error error);
   bool linked(NodeIndex parent, const Node& parentRow, NodeIndex child, const Node& row);
+  const Node* rootRow(NodeIndex index) const;
   void want(std::uint32_t page);
-  void fetch();
+
+  bool waiting() const override { return anyWanted; }
+  std::size_t readNext() override;
+  void attach(const void* reader, std::function<void()> tell) override;
+  void detach(const void* reader) override;
 
   const std::unique_ptr<const NodePageSource> source;
   const NodeIndex nodes;
-  const std::vector<NodeIndex> roots;
+  const std::vector<NodeIndex> roots; ///< ascending
+  std::vector<Node> rootRows;         ///< theirs, or none
   const Refinement refinement;
   std::vector<PageSet> sets;
   std::atomic<std::uint64_t> pagesRead{ 0 };
@@ -119,12 +126,12 @@ struct PagedNodeTable::Content
   std::vector<Error> newFaults;
   std::atomic<bool> damaged{ false }; ///< written under the lock
 
-  std::mutex fetchMutex; ///< guards what follows
+  std::mutex wantedMutex; ///< guards what follows
   std::condition_variable changed;
   std::vector<std::uint32_t> wanted; ///< the oldest first
-  std::uint32_t fetching = noPage;
-  bool ending = false;
-  std::thread fetcher;
+  std::vector<std::uint32_t> beingRead;
+  std::map<const void*, std::function<void()>> readers;
+  std::atomic<bool> anyWanted{ false }; ///< !wanted.empty(); written under the lock
 };
 
 bool PagedNodeTable::Content::isLost(std::uint32_t page)
@@ -150,10 +157,17 @@ bool PagedNodeTable::Content::load(std::uint32_t page, NodePage& rows)
 {
   Result<void> done = source->read(page, rows);
   ++pagesRead;
-  if (done)
+  try
   {
-    pagesHeld += setOf(page).insert(page, rows) ? 1 : 0;
-    return true;
+    if (done)
+    {
+      pagesHeld += setOf(page).insert(page, rows) ? 1 : 0;
+      return true;
+    }
+  }
+  catch (const std::bad_alloc&)
+  {
+    done = makeError(Error::Kind::NoMemory, "no memory for a page of the node table");
   }
   const std::lock_guard<std::mutex> lock(faultMutex);
   if (lost.insert(page).second)
@@ -180,42 +194,69 @@ bool PagedNodeTable::Content::linked(
   return false;
 }
 
+const Node* PagedNodeTable::Content::rootRow(NodeIndex index) const
+{
+  if (rootRows.empty() || index > roots.back())
+  {
+    return nullptr;
+  }
+  const auto root = std::lower_bound(roots.begin(), roots.end(), index);
+  return *root == index ? &rootRows[static_cast<std::size_t>(root - roots.begin())] : nullptr;
+}
+
 void PagedNodeTable::Content::want(std::uint32_t page)
 {
-  const std::lock_guard<std::mutex> lock(fetchMutex);
-  if (page == fetching || wanted.size() == mostWanted ||
-    std::find(wanted.begin(), wanted.end(), page) != wanted.end())
+  const auto among = [page](const std::vector<std::uint32_t>& pages)
+  { return std::find(pages.begin(), pages.end(), page) != pages.end(); };
+  const std::lock_guard<std::mutex> lock(wantedMutex);
+  if (wanted.size() == mostWanted || among(wanted) || among(beingRead))
   {
     return;
   }
   wanted.push_back(page);
-  if (!fetcher.joinable())
+  if (!anyWanted.exchange(true))
   {
-    fetcher = std::thread([this] { fetch(); });
+    for (const auto& [reader, tell] : readers)
+    {
+      tell();
+    }
   }
-  changed.notify_all();
 }
 
-void PagedNodeTable::Content::fetch()
+std::size_t PagedNodeTable::Content::readNext()
 {
-  auto rows = std::make_unique<NodePage>();
-  std::unique_lock<std::mutex> lock(fetchMutex);
-  while (true)
+  std::uint32_t page = noPage;
   {
-    changed.wait(lock, [&] { return ending || !wanted.empty(); });
-    if (ending)
+    const std::lock_guard<std::mutex> lock(wantedMutex);
+    if (wanted.empty())
     {
-      return;
+      return 0;
     }
-    fetching = wanted.front();
+    page = wanted.front();
+    beingRead.push_back(page);
     wanted.erase(wanted.begin());
-    lock.unlock();
-    load(fetching, *rows);
-    lock.lock();
-    fetching = noPage;
-    ++arrivals;
-    changed.notify_all();
+    anyWanted = !wanted.empty();
   }
+  NodePage rows;
+  load(page, rows);
+  const std::lock_guard<std::mutex> lock(wantedMutex);
+  beingRead.erase(std::find(beingRead.begin(), beingRead.end(), page));
+  ++arrivals;
+  changed.notify_all();
+  return nodePageBytes;
+}
+
+void PagedNodeTable::Content::attach(const void* reader, std::function<void()> tell)
+{
+  const std::lock_guard<std::mutex> lock(wantedMutex);
+  readers[reader] = std::move(tell);
+}
+
+void PagedNodeTable::Content::detach(const void* reader)
+{
+  const std::lock_guard<std::mutex> lock(wantedMutex);
+  readers.erase(reader);
+  changed.notify_all();
 }
 
 PagedNodeTable::PagedNodeTable(std::unique_ptr<const NodePageSource> source,
@@ -225,17 +266,16 @@ PagedNodeTable::PagedNodeTable(std::unique_ptr<const NodePageSource> source,
 {
 }
 
-PagedNodeTable::~PagedNodeTable()
+PagedNodeTable::~PagedNodeTable() = default;
+
+void PagedNodeTable::keepRoots()
 {
+  std::vector<Node> rows;
+  for (const NodeIndex root : content_->roots)
   {
-    const std::lock_guard<std::mutex> lock(content_->fetchMutex);
-    content_->ending = true;
-    content_->changed.notify_all();
+    rows.push_back(node(root));
   }
-  if (content_->fetcher.joinable())
-  {
-    content_->fetcher.join();
-  }
+  content_->rootRows = std::move(rows);
 }
 
 NodeIndex PagedNodeTable::nodeCount() const { return content_->nodes; }
@@ -247,6 +287,10 @@ Refinement PagedNodeTable::refinement() const { return content_->refinement; }
 Node PagedNodeTable::node(NodeIndex index) const
 {
   assert(index < content_->nodes);
+  if (const Node* root = content_->rootRow(index))
+  {
+    return *root;
+  }
   const std::uint32_t page = index / nodePageRows;
   Node row;
   if (content_->setOf(page).copyRow(page, index % nodePageRows, row))
@@ -282,6 +326,11 @@ RowState PagedNodeTable::peekChild(
 RowState PagedNodeTable::peek(NodeIndex index, Node& row) const
 {
   assert(index < content_->nodes);
+  if (const Node* root = content_->rootRow(index))
+  {
+    row = *root;
+    return RowState::Here;
+  }
   const std::uint32_t page = index / nodePageRows;
   if (content_->setOf(page).copyRow(page, index % nodePageRows, row))
   {
@@ -300,14 +349,24 @@ std::uint64_t PagedNodeTable::arrivals() const { return content_->arrivals; }
 
 void PagedNodeTable::waitForArrival(std::uint64_t seen) const
 {
-  std::unique_lock<std::mutex> lock(content_->fetchMutex);
-  content_->changed.wait(lock,
-    [&]
+  Content& c = *content_;
+  std::unique_lock<std::mutex> lock(c.wantedMutex);
+  while (c.arrivals == seen && !(c.wanted.empty() && c.beingRead.empty()))
+  {
+    if (c.readers.empty() && !c.wanted.empty())
     {
-      return content_->arrivals != seen ||
-        (content_->wanted.empty() && content_->fetching == noPage);
-    });
+      lock.unlock();
+      c.readNext();
+      lock.lock();
+    }
+    else
+    {
+      c.changed.wait(lock);
+    }
+  }
 }
+
+MissingRows* PagedNodeTable::missingRows() const { return content_.get(); }
 
 std::optional<Error> PagedNodeTable::fault() const
 {

@@ -25,9 +25,9 @@ public:
 /// A node table of any size of which only the pages that were touched last are in memory.
 /// Memory      `cacheBytes` at most, taken page by page as they are touched; then the page of a set
 ///             that was not used for longest makes room (12-way set associative).
-/// peek()      does not wait: a page that is not here is read by a thread of its own, which is
-///             started by the first such miss. At most 1,024 pages wait; who does not get what it
-///             asked for asks again.
+/// peek()      does not wait: a page that is not here is asked for (MissingRows) and read by who
+///             reads for the store. At most 1,024 pages wait; who does not get what it asked for
+///             asks again.
 /// Damage      a page that cannot be read is not tried again; its rows are Lost.
 /// Threads     all functions from any thread. The lock of a set is held for the copy of a row or a
 ///             page only, never while a page is read.
@@ -42,6 +42,10 @@ public:
   PagedNodeTable(const PagedNodeTable&) = delete;
   PagedNodeTable& operator=(const PagedNodeTable&) = delete;
 
+  /// Keeps the rows of the roots in memory from now on, for those who must not wait for them at any
+  /// time. Before the table is shared; may wait for the disk.
+  void keepRoots();
+
   NodeIndex nodeCount() const override;
   Node node(NodeIndex index) const override;
   const std::vector<NodeIndex>& roots() const override;
@@ -50,6 +54,7 @@ public:
   RowState peek(NodeIndex index, Node& row) const override;
   RowState peekChild(
     NodeIndex parent, const Node& row, std::uint8_t child, Node& found) const override;
+  MissingRows* missingRows() const override;
   std::uint64_t arrivals() const override;
   void waitForArrival(std::uint64_t seen) const override;
   std::optional<Error> fault() const override;

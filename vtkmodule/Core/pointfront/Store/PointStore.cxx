@@ -270,11 +270,13 @@ const std::shared_ptr<const Hierarchy>& PointStore::hierarchy() const
   return content_->hierarchy;
 }
 
-std::size_t PointStore::decodedBytes(NodeIndex node, const ColumnSelection& columns) const
+std::size_t PointStore::decodedBytes(
+  NodeIndex, std::uint32_t points, const ColumnSelection& columns) const
 {
-  return decodedBytesOf(
-    content_->hierarchy->node(node).pointCount, columns, content_->description.schema);
+  return decodedBytesOf(points, columns, content_->description.schema);
 }
+
+MissingRows* PointStore::missingRows() const { return content_->hierarchy->missingRows(); }
 
 std::size_t PointStore::storedBytes(NodeIndex node, const ColumnSelection& columns) const
 {
@@ -324,7 +326,7 @@ Result<FetchedNode> PointStore::fetch(NodeIndex node, const ColumnSelection& col
     return payload.error();
   }
   const auto blocks = wantedBlocks(*payload, columns);
-  FetchedNode fetched{ node, columns, {}, record->size };
+  FetchedNode fetched{ node, columns, {}, record->size, row };
   fetched.runs.push_back(std::move(*record));
   for (std::size_t first = 0; first < blocks.size(); first = runEnd(blocks, first))
   {
@@ -355,6 +357,8 @@ Result<NodeColumns> PointStore::decode(const FetchedNode& fetched) const
   const auto blocks = wantedBlocks(*payload, columns);
   NodeColumns result = emptyColumns(node, points, columns, description.schema);
   result.origin = payload->origin;
+  result.firstPoint = fetched.row.firstPoint;
+  result.halfSize = fetched.row.halfSize;
   auto run = fetched.runs.begin() + 1;
   for (std::size_t first = 0; first < blocks.size(); ++run)
   {

@@ -30,7 +30,9 @@ public:
 
   Result<FetchedNode> fetch(NodeIndex node, const ColumnSelection& columns) const override;
   Result<NodeColumns> decode(const FetchedNode& fetched) const override;
-  std::size_t decodedBytes(NodeIndex node, const ColumnSelection& columns) const override;
+  std::size_t decodedBytes(
+    NodeIndex node, std::uint32_t points, const ColumnSelection& columns) const override;
+  MissingRows* missingRows() const override;
   std::size_t storedBytes(NodeIndex node, const ColumnSelection& columns) const override;
   std::uint64_t disk() const override;
 

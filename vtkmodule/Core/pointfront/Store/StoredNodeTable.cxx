@@ -138,6 +138,7 @@ Result<std::shared_ptr<const Hierarchy>> openNodeTable(std::shared_ptr<const Inp
   {
     return corruptStore(file->path(), section.offset, fault);
   }
+  table->keepRoots();
   return std::shared_ptr<const Hierarchy>(std::move(table));
 }
 

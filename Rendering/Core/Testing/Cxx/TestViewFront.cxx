@@ -1,0 +1,204 @@
+// The front of a view and what it shares with those of other clouds, without a window.
+
+#include "TerrainReader.h"
+#include "ViewFront.h"
+
+#include "pointfront/Residency/LoadScheduler.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <memory>
+#include <thread>
+#include <vector>
+
+using namespace pointfront;
+using pointfront::test::Terrain;
+using pointfront::test::TerrainReader;
+using pointfront::test::Traffic;
+using std::chrono::milliseconds;
+
+namespace
+{
+
+View overview()
+{
+  const double s = Terrain::sizeMetres;
+  return View::perspective(
+    {0.5 * s, 0.5 * s, s}, {0.5 * s, 0.51 * s, 0}, {0, 0, 1}, 0.9, 1.0, 1e7, 800, 600);
+}
+
+/// 13.6 million points, all of which the view wants.
+FrameDemand everything()
+{
+  FrameDemand demand;
+  demand.view = overview();
+  demand.targetErrorPx = 0.01;
+  return demand;
+}
+
+/// A cloud in a window whose machine takes the same for each point.
+struct Cloud
+{
+  Cloud(const std::shared_ptr<LoadScheduler>& scheduler,
+    const std::shared_ptr<const WindowDemand>& window, std::uint64_t disk = 0)
+      : reader(std::make_shared<TerrainReader>(std::make_shared<Traffic>(), disk)),
+        share(reader, reader->table->nodeCount(), scheduler, Terrain::pointsOfNode),
+        front(std::make_shared<HierarchyPiece>(reader->table, 0, 1), share, schema, window)
+  {
+  }
+  void frame(const FrameDemand& demand)
+  {
+    const FrontDelta& delta = front.update(demand);
+    front.recordFrame(
+      delta.pointsDrawn, delta.moves, millisecondsPerPoint * double(delta.pointsDrawn));
+  }
+  std::uint64_t drawn() const { return front.last().pointsDrawn; }
+
+  static constexpr double millisecondsPerPoint = 1e-4;
+  std::shared_ptr<TerrainReader> reader;
+  AttributeSchema schema;
+  ResidencyShare share;
+  ViewFront front;
+};
+
+struct Window
+{
+  explicit Window(int clouds)
+  {
+    for (int c = 0; c < clouds; ++c)
+    {
+      all.push_back(std::make_unique<Cloud>(scheduler, demand, std::uint64_t(c)));
+    }
+    FrameDemand complete = everything();
+    complete.complete = true;
+    frames(1, complete);
+  }
+  void frames(int count, const FrameDemand& wanted)
+  {
+    for (int frame = 0; frame < count; ++frame)
+    {
+      for (const auto& cloud : all)
+      {
+        cloud->frame(wanted);
+      }
+    }
+  }
+  std::uint64_t drawn() const
+  {
+    std::uint64_t sum = 0;
+    for (const auto& cloud : all)
+    {
+      sum += cloud->drawn();
+    }
+    return sum;
+  }
+
+  std::shared_ptr<LoadScheduler> scheduler =
+    std::make_shared<LoadScheduler>(LoadSchedulerOptions());
+  std::shared_ptr<WindowDemand> demand = std::make_shared<WindowDemand>();
+  std::vector<std::unique_ptr<Cloud>> all;
+};
+
+constexpr std::uint64_t wholeTerrain = 13650000;
+
+} // namespace
+
+// 50 ms at 0.1 us a point: half a million points, however many clouds there are.
+TEST(ViewFront, AFrameTimeIsSharedByTheCloudsOfAWindow)
+{
+  FrameDemand motion = everything();
+  motion.interacting = true;
+  motion.frameMs = 50.0;
+  for (const int clouds : {1, 2, 5})
+  {
+    Window window(clouds);
+    EXPECT_EQ(window.drawn(), wholeTerrain * std::uint64_t(clouds));
+    window.frames(60, motion);
+    EXPECT_LE(window.drawn(), 550000u) << clouds;
+    EXPECT_GE(window.drawn(), 250000u) << clouds;
+    std::uint64_t least = wholeTerrain;
+    for (const auto& cloud : window.all)
+    {
+      least = std::min(least, cloud->drawn());
+    }
+    EXPECT_GT(least, window.drawn() / std::uint64_t(2 * clouds)) << "at one error";
+    // Half the time, half the points; and at rest time is no limit.
+    const std::uint64_t before = window.drawn();
+    FrameDemand faster = motion;
+    faster.frameMs = 25.0;
+    window.frames(60, faster);
+    EXPECT_LT(window.drawn(), before * 7 / 10);
+    window.frames(60, everything());
+    EXPECT_EQ(window.drawn(), wholeTerrain * std::uint64_t(clouds));
+  }
+}
+
+// VTK divides a frame's time among its actors: each has its part, and together they have the whole.
+TEST(ViewFront, TheTimesOfTheCloudsAreAddedUpWhereTheFrameHasNone)
+{
+  Window window(4);
+  FrameDemand motion = everything();
+  motion.interacting = true;
+  motion.cloudMs = 12.5;
+  window.frames(60, motion);
+  EXPECT_LE(window.drawn(), 550000u);
+  EXPECT_GE(window.drawn(), 250000u);
+  // What one leaves the others have.
+  window.all[0]->front.leave();
+  window.all[1]->front.leave();
+  for (int frame = 0; frame < 60; ++frame)
+  {
+    window.all[2]->frame(motion);
+    window.all[3]->frame(motion);
+  }
+  const std::uint64_t two = window.all[2]->drawn() + window.all[3]->drawn();
+  EXPECT_LE(two, 550000u);
+  EXPECT_GE(two, 250000u);
+}
+
+TEST(ViewFront, TheBudgetOfPointsHoldsInMotionToo)
+{
+  Window window(2);
+  FrameDemand motion = everything();
+  motion.interacting = true;
+  motion.frameMs = 1000.0; // ten million
+  motion.pointBudget = 300000;
+  for (int frame = 0; frame < 30; ++frame)
+  {
+    window.frames(1, motion);
+    EXPECT_LE(window.drawn(), 300000u) << frame;
+  }
+  EXPECT_GT(window.drawn(), 200000u);
+}
+
+// Every call is made while the disk hangs: one that waited for it would not return.
+TEST(ViewFront, AFrameDoesNotWaitForAPageOfTheTable)
+{
+  LoadSchedulerOptions options;
+  options.overdueAfter = milliseconds(30);
+  const auto scheduler = std::make_shared<LoadScheduler>(options);
+  Cloud cloud(scheduler, std::make_shared<WindowDemand>());
+  cloud.reader->pages->open(false);
+  FrameDemand demand = everything();
+  for (int frame = 0; frame < 60; ++frame)
+  {
+    demand.interacting = frame % 2 == 0;
+    demand.view.position.z -= 10.0; // so that the margin ahead looks, too
+    cloud.frame(demand);
+    EXPECT_GT(cloud.drawn(), 0u) << "of the root at least";
+    EXPECT_LE(cloud.drawn(), nodePageRows * Terrain::pointsOfNode);
+    cloud.front.wantsUpdate();
+    cloud.front.expectsMore();
+    std::this_thread::sleep_for(milliseconds(1));
+  }
+  EXPECT_EQ(scheduler->statistics().overdueReads, 1u);
+  EXPECT_TRUE(cloud.front.last().rowsComing);
+  EXPECT_FALSE(cloud.front.wantsUpdate()) << "nothing arrived: no busy loop";
+  cloud.reader->pages->open(true);
+  demand.interacting = false;
+  demand.complete = true;
+  cloud.frame(demand);
+  EXPECT_TRUE(cloud.front.last().complete);
+  EXPECT_GT(cloud.drawn(), wholeTerrain / 2);
+}

@@ -1,11 +1,14 @@
 #include "StoreScene.h"
 
 #include "ColourChoice.h"
+#include "ErrorListener.h"
+#include "MapperColour.h"
 #include "PeakMemory.h"
 #include "PointSize.h"
 #include "ShownClasses.h"
 #include "ThreadReads.h"
 #include "WholeFile.h"
+#include "XConnection.h"
 
 #include "pointfront/Front/View.h"
 #include "pointfront/Residency/LoadScheduler.h"
@@ -18,10 +21,8 @@
 #include "vtkPointFrontStore.h"
 
 #include <vtkActor.h>
-#include <vtkCallbackCommand.h>
 #include <vtkCamera.h>
 #include <vtkEDLShading.h>
-#include <vtkLookupTable.h>
 #include <vtkMatrix4x4.h>
 #include <vtkNew.h>
 #include <vtkOpenGLRenderer.h>
@@ -34,11 +35,8 @@
 #include <vtkUnsignedCharArray.h>
 #include <vtkWindowToImageFilter.h>
 
-#include <X11/Xlib.h>
-
 #include <algorithm>
 #include <chrono>
-#include <cstdlib>
 #include <set>
 
 namespace pointfront
@@ -54,87 +52,6 @@ constexpr double stillRate = 0.0001;      // frames a second: VTK's value for a 
 constexpr double interactiveRate = 15.0;  // VTK's value for a view in motion
 constexpr int emptyFrames = 3;            // until a window has all that it ever makes by itself
 
-/// A connection of our own to the X server. VTK ends the process when its window finds none, so it
-/// is asked before; and it stays open as long as the window, because a server without -noreset
-/// begins anew when its last client goes, and refuses others meanwhile.
-class XConnection
-{
-public:
-  ~XConnection()
-  {
-    if (display_ != nullptr)
-    {
-      XCloseDisplay(display_);
-    }
-  }
-  XConnection() = default;
-  XConnection(const XConnection&) = delete;
-  XConnection& operator=(const XConnection&) = delete;
-
-  Result<void> open()
-  {
-    const char* const name = std::getenv("DISPLAY");
-    const std::string hint = "; run it under xvfb-run -a";
-    if (name == nullptr || *name == '\0')
-    {
-      return makeError(
-        Error::Kind::Unsupported, "drawing needs an X server and DISPLAY is not set" + hint);
-    }
-    display_ = XOpenDisplay(nullptr);
-    if (display_ == nullptr)
-    {
-      return makeError(
-        Error::Kind::Unsupported, std::string("no X server answers at DISPLAY=") + name + hint);
-    }
-    return {};
-  }
-
-private:
-  Display* display_ = nullptr;
-};
-
-/// Keeps the first error that any of the observed objects reports; VTK then prints none.
-class ErrorListener
-{
-public:
-  ErrorListener()
-  {
-    command_->SetClientData(this);
-    command_->SetCallback(
-      [](vtkObject*, unsigned long, void* self, void* text)
-      { static_cast<ErrorListener*>(self)->hear(static_cast<const char*>(text)); });
-  }
-  ~ErrorListener() { command_->SetClientData(nullptr); }
-  ErrorListener(const ErrorListener&) = delete;
-  ErrorListener& operator=(const ErrorListener&) = delete;
-
-  void observe(vtkObject* object) { object->AddObserver(vtkCommand::ErrorEvent, command_); }
-  Result<void> outcome() const
-  {
-    return first_.empty() ? Result<void>() : makeError(Error::Kind::Corrupt, first_);
-  }
-
-private:
-  /// VTK's text: "ERROR: In FILE, line N\nCLASS (ADDRESS): WHAT\n\n". Users want WHAT.
-  void hear(const char* text)
-  {
-    if (!first_.empty() || text == nullptr)
-    {
-      return;
-    }
-    first_ = text;
-    const std::string::size_type begin = first_.find("): ");
-    if (first_.compare(0, 6, "ERROR:") == 0 && begin != std::string::npos)
-    {
-      first_.erase(0, begin + 3);
-    }
-    first_.erase(first_.find_last_not_of("\n ") + 1);
-  }
-
-  vtkNew<vtkCallbackCommand> command_;
-  std::string first_;
-};
-
 /// One store with what draws it.
 struct DrawnStore
 {
@@ -143,33 +60,6 @@ struct DrawnStore
   vtkNew<vtkPointFrontMapper> mapper;
   vtkNew<vtkActor> actor;
 };
-
-void applyColour(const ColourChoice& colour, vtkPointFrontMapper* mapper)
-{
-  mapper->ScalarVisibilityOn();
-  mapper->SetScalarModeToUsePointFieldData();
-  mapper->SelectColorArray(colour.attribute.c_str());
-  if (colour.direct)
-  {
-    mapper->SetColorModeToDefault();
-    return;
-  }
-  vtkNew<vtkLookupTable> table;
-  if (colour.vector)
-  {
-    table->SetVectorModeToRGBColors();
-  }
-  table->SetNumberOfTableValues(static_cast<vtkIdType>(colour.table.size()));
-  for (std::size_t i = 0; i < colour.table.size(); ++i)
-  {
-    table->SetTableValue(static_cast<vtkIdType>(i), colour.table[i][0] / 255.0,
-      colour.table[i][1] / 255.0, colour.table[i][2] / 255.0, 1.0);
-  }
-  table->SetTableRange(colour.range[0], colour.range[1]);
-  mapper->SetColorModeToMapScalars();
-  mapper->SetLookupTable(table);
-  mapper->UseLookupTableScalarRangeOn();
-}
 
 class OffscreenScene final : public StoreScene
 {

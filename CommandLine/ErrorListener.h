@@ -1,0 +1,57 @@
+#pragma once
+
+#include "pointfront/Base/Result.h"
+
+#include <vtkCallbackCommand.h>
+#include <vtkCommand.h>
+#include <vtkNew.h>
+#include <vtkObject.h>
+
+#include <string>
+
+namespace pointfront
+{
+
+/// Keeps the first error that any of the observed objects reports; VTK then prints none.
+class ErrorListener
+{
+public:
+  ErrorListener()
+  {
+    command_->SetClientData(this);
+    command_->SetCallback(
+      [](vtkObject*, unsigned long, void* self, void* text)
+      { static_cast<ErrorListener*>(self)->hear(static_cast<const char*>(text)); });
+  }
+  ~ErrorListener() { command_->SetClientData(nullptr); }
+  ErrorListener(const ErrorListener&) = delete;
+  ErrorListener& operator=(const ErrorListener&) = delete;
+
+  void observe(vtkObject* object) { object->AddObserver(vtkCommand::ErrorEvent, command_); }
+  Result<void> outcome() const
+  {
+    return first_.empty() ? Result<void>() : makeError(Error::Kind::Corrupt, first_);
+  }
+
+private:
+  /// VTK's text: "ERROR: In FILE, line N\nCLASS (ADDRESS): WHAT\n\n". Users want WHAT.
+  void hear(const char* text)
+  {
+    if (!first_.empty() || text == nullptr)
+    {
+      return;
+    }
+    first_ = text;
+    const std::string::size_type begin = first_.find("): ");
+    if (first_.compare(0, 6, "ERROR:") == 0 && begin != std::string::npos)
+    {
+      first_.erase(0, begin + 3);
+    }
+    first_.erase(first_.find_last_not_of("\n ") + 1);
+  }
+
+  vtkNew<vtkCallbackCommand> command_;
+  std::string first_;
+};
+
+} // namespace pointfront

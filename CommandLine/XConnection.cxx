@@ -1,0 +1,37 @@
+#include "XConnection.h"
+
+#include <X11/Xlib.h>
+
+#include <cstdlib>
+#include <string>
+
+namespace pointfront
+{
+
+XConnection::~XConnection()
+{
+  if (display_ != nullptr)
+  {
+    XCloseDisplay(display_);
+  }
+}
+
+Result<void> XConnection::open()
+{
+  const char* const name = std::getenv("DISPLAY");
+  const std::string hint = "; run it under xvfb-run -a";
+  if (name == nullptr || *name == '\0')
+  {
+    return makeError(
+      Error::Kind::Unsupported, "drawing needs an X server and DISPLAY is not set" + hint);
+  }
+  display_ = XOpenDisplay(nullptr);
+  if (display_ == nullptr)
+  {
+    return makeError(
+      Error::Kind::Unsupported, std::string("no X server answers at DISPLAY=") + name + hint);
+  }
+  return {};
+}
+
+} // namespace pointfront

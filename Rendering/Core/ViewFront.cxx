@@ -71,6 +71,7 @@ void ViewFront::enterWindow(std::shared_ptr<const WindowDemand> window)
 {
   window_ = std::make_unique<WindowClaims>(std::move(window));
   sharedSeen_ = 0;
+  told_ = 0;
 }
 
 void ViewFront::leave()
@@ -80,6 +81,7 @@ void ViewFront::leave()
   window_->points.set(nothing);
   window_->slots.set(nothing);
   sharedSeen_ = 0;
+  told_ = 0;
   wish_->request({}, [](NodeIndex) { return 1u; });
 }
 
@@ -92,11 +94,13 @@ const FrontDelta& ViewFront::update(const FrameDemand& demand)
 {
   wish_->setColumns(demand.columns);
   columns_ = demand.columns;
-  pointBytes_ = sizeof(glm::u32vec3);
+  std::size_t pointBytes = sizeof(glm::u32vec3);
   for (const std::uint32_t column : share_.residency().columns())
   {
-    pointBytes_ += schema_[column].bytes();
+    pointBytes += schema_[column].bytes();
   }
+  told_ = pointBytes == pointBytes_ ? told_ : 0;
+  pointBytes_ = pointBytes;
   choose(demand.method);
   if (!begun_)
   {
@@ -131,6 +135,7 @@ void ViewFront::choose(DetailMethod method)
     return;
   }
   method_ = method;
+  told_ = 0;
   // The wish's distance function asks the selection that is there when it is called.
   if (method == DetailMethod::ViewSpecific)
   {
@@ -185,6 +190,7 @@ void ViewFront::readShares(const FrameDemand& demand)
   if (revision != sharedSeen_ || otherBudgets)
   {
     sharedSeen_ = revision;
+    told_ = otherBudgets ? 0 : told_;
     pointBudgetSeen_ = demand.pointBudget;
     gpuBytesSeen_ = demand.gpuBytes;
     window_->points.elsewhere(elsewhere_.drawn, demand.pointBudget);
@@ -253,13 +259,22 @@ void ViewFront::setLimits(const FrameDemand& demand)
   readShares(demand);
 }
 
+/// Where nothing has changed nothing is told nor asked for: a still view costs next to nothing,
+/// however many there are.
 void ViewFront::step(const FrameDemand& demand)
 {
   thresholdBefore_ = delta_.thresholdPx;
   arrivalsSeen_ = share_.residency().arrivals();
   rowsSeen_ = piece_->hierarchy()->arrivals();
   setLimits(demand);
-  delta_ = selection_->update(demand.view, *residents_, limits_);
+  const FrontDelta& made = selection_->update(demand.view, *residents_, limits_);
+  if (made.number == told_ && !demand.interacting)
+  {
+    delta_.complete = made.complete;
+    return;
+  }
+  told_ = demand.interacting ? 0 : made.number; // in motion it has a margin that goes at rest
+  delta_ = made;
   tellDemand(demand);
   addMargin(demand);
   wish_->request(

@@ -118,6 +118,7 @@ private:
   std::uint64_t sharedSeen_ = 0;
   std::uint64_t pointBudgetSeen_ = 0;
   std::int64_t gpuBytesSeen_ = 0;
+  std::uint64_t told_ = 0; ///< number of the delta that was told and asked for; 0: none
   ColumnSelection columns_;
   std::size_t pointBytes_ = 0; ///< of a decoded point with columns_
   std::uint64_t arrivalsSeen_ = 0;

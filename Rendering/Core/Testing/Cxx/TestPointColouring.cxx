@@ -206,7 +206,10 @@ public:
   const std::shared_ptr<const Hierarchy>& hierarchy() const override { return hierarchy_; }
   Result<VerifyReport> verify(const ProgressFunction&) const override { return VerifyReport(); }
   Result<NodeColumns> decode(const FetchedNode&) const override { return NodeColumns(); }
-  std::size_t decodedBytes(NodeIndex, const ColumnSelection&) const override { return 0; }
+  std::size_t decodedBytes(NodeIndex, std::uint32_t, const ColumnSelection&) const override
+  {
+    return 0;
+  }
   std::size_t storedBytes(NodeIndex, const ColumnSelection&) const override { return 0; }
 
 private:

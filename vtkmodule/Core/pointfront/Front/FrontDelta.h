@@ -109,6 +109,8 @@ struct LoadRequest
 /// What one update decided. Owned by the front, valid until its next update.
 struct FrontDelta
 {
+  /// Of the update that made it, from 1 on: the same again means that nothing has changed.
+  std::uint64_t number = 0;
   std::vector<DrawItem> draw;        ///< near to far, ties by node: two runs give the same list
   /// All that is wanted now: optional ones last, highest priority first, ties by node.
   std::vector<LoadRequest> requests;

@@ -235,6 +235,7 @@ void RenderFront::State::finish(const ResidencyView& residency)
     residency.exhausted() && residency.revision() == revision;
   const bool held = bound && !threshold.atTarget();
   const auto heldBy = [&](FrontBudget budget) { return held && threshold.boundBy() == budget; };
+  delta.number = update;
   delta.frontLength = tree.frontLength();
   delta.rowsComing = rowsComing;
   delta.thresholdPx = threshold.largestPx(tree);

@@ -61,6 +61,7 @@ bool ViewDetail::State::unchanged(
 
 void ViewDetail::State::finish(const ResidencyView& from, bool sameInput, bool sameRevision)
 {
+  ++delta.number;
   delta.frontLength = static_cast<std::uint32_t>(walk.needed().size());
   // As an error: what the frustum's points come to, spread over its pixels.
   delta.thresholdPx = levels.errorAt(levels.lowest());

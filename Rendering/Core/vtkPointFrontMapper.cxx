@@ -276,10 +276,13 @@ pointfront::FrameDemand vtkPointFrontMapper::GetDemand(vtkRenderer* renderer, vt
   demand.method = this->DetailSelection == VIEW_SPECIFIC
                     ? pointfront::DetailMethod::ViewSpecific
                     : pointfront::DetailMethod::RenderingFront;
-  demand.overviewPoints =
-    pointfront::overviewShare(static_cast<std::uint64_t>(this->OverviewPoints),
-      static_cast<std::uint64_t>(this->GetStore()->GetNumberOfPoints()),
-      static_cast<std::uint64_t>(vtkPointFrontStore::GetNumberOfPointsOfAllStores()));
+  if (this->DetailSelection == VIEW_SPECIFIC) // it looks at every open store
+  {
+    demand.overviewPoints =
+      pointfront::overviewShare(static_cast<std::uint64_t>(this->OverviewPoints),
+        static_cast<std::uint64_t>(this->GetStore()->GetNumberOfPoints()),
+        static_cast<std::uint64_t>(vtkPointFrontStore::GetNumberOfPointsOfAllStores()));
+  }
   demand.interacting = IsInteracting(renderer);
   demand.frameMs = this->TargetFrameTime;
   demand.cloudMs = 1000.0 * actor->GetAllocatedRenderTime();

@@ -26,7 +26,9 @@ ClassHeights::ClassHeights(std::shared_ptr<const StoredCloud> store)
 void ClassHeights::append(const NodeColumns& node, std::uint32_t first, std::uint32_t count,
   std::vector<float>& heights) const
 {
-  const std::size_t layer = store_->hierarchy()->node(node.node).layer;
+  // The row was read with the points a moment ago; a store of one layer is not asked at all.
+  const std::size_t layer =
+    ranges_.size() > 1 ? store_->hierarchy()->node(node.node).layer : std::size_t(0);
   if (layer >= ranges_.size() || !(ranges_[layer][0] < ranges_[layer][1]))
   {
     heights.insert(heights.end(), count, 0.5f);

@@ -62,6 +62,26 @@ TEST(MemoryMap, ReleasedPagesNoLongerCountAndStayReadable)
   ::unlink(path.c_str());
 }
 
+TEST(MemoryMap, PiecesThatAreReadAndReleasedOneByOneLeaveNothing)
+{
+  const std::string path = sampleFile();
+  const auto map = MemoryMap::open(path);
+  ASSERT_TRUE(map.ok());
+  const std::size_t before = sharedBytes();
+  const std::size_t piece = 300001;
+  unsigned long sum = 0;
+  for (std::size_t begin = 0; begin < fileBytes; begin += piece)
+  {
+    const std::size_t bytes = std::min(piece, fileBytes - begin);
+    sum = std::accumulate(map->data() + begin, map->data() + begin + bytes, sum,
+      [](unsigned long s, std::byte b) { return s + static_cast<unsigned long>(b); });
+    map->release(begin, bytes);
+  }
+  EXPECT_GT(sum, 0u);
+  EXPECT_LT(sharedBytes(), before + (1u << 20)); // 224 borders of 64 KiB would be 14 MiB
+  ::unlink(path.c_str());
+}
+
 TEST(MemoryMap, SaysWhatIsWrong)
 {
   EXPECT_EQ(MemoryMap::open("no/such/file").error().kind, Error::Kind::NotFound);

@@ -1,5 +1,6 @@
 #include "pointfront/Base/MemoryMap.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <fcntl.h>
 #include <sys/mman.h>
@@ -12,6 +13,11 @@ namespace pointfront
 {
 namespace
 {
+/// A touched page brings its neighbours with it, as far as the system holds them in one piece: what
+/// was released at the border of two ranges comes back with the first byte of the second one.
+/// Linux maps 64 KiB around a fault, or a whole folio, up to 2 MiB.
+constexpr std::size_t mappedAround = std::size_t(2) << 20;
+
 Error systemError(const std::string& path, int code)
 {
   const bool missing = code == ENOENT || code == ENOTDIR;
@@ -75,9 +81,10 @@ void MemoryMap::release(std::size_t offset, std::size_t bytes) const
     return;
   }
   const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
-  const std::size_t begin = offset / page * page;
+  const std::size_t begin = (offset - std::min(offset, mappedAround)) / page * page;
+  const std::size_t end = std::min(size_, offset + bytes + mappedAround);
   // Advice only, as above. The mapping is read-only: no page of it can hold what the file does not.
-  ::madvise(const_cast<std::byte*>(data_) + begin, offset + bytes - begin, MADV_DONTNEED);
+  ::madvise(const_cast<std::byte*>(data_) + begin, end - begin, MADV_DONTNEED);
 }
 
 MemoryMap::MemoryMap(MemoryMap&& other) noexcept

@@ -36,7 +36,8 @@ public:
 
   /// Gives the pages that these bytes touch back to the system: they no longer count as memory of
   /// this process, so that reading a file of any size stays inside a memory limit. They stay
-  /// valid: who touches one again gets it from the disk cache. Any thread, any range of the map.
+  /// valid: who touches one again gets it from the disk cache. So do 2 MiB on both sides: pages
+  /// come back with their neighbours. Any thread, any range of the map.
   void release(std::size_t offset, std::size_t bytes) const;
 
 private:

@@ -194,20 +194,24 @@ int main(int argc, char** argv)
   renderer->GetActiveCamera()->Zoom(1.5);
 
   nlohmann::ordered_json result;
-  for (int round = 0; round <= rounds; ++round) // the first one uploads, and does not count
+  vtkIdType drawn[] = { 0, 0, 0 };
+  for (int round = 0; round < rounds; ++round)
   {
-    renderer->GetActiveCamera()->Azimuth(2.0);
-    renderer->ResetCameraClippingRange(frontMapper->GetBounds());
-    for (Contestant* contestant : contestants)
+    for (std::size_t c = 0; c < 3; ++c)
     {
-      contestant->actor->VisibilityOn();
-      const double ms = frameMs(window);
-      contestant->actor->VisibilityOff();
-      if (round > 0)
-      {
-        contestant->milliseconds.push_back(ms);
-      }
+      // A cloud out of sight gives back its GPU memory: the frame before brings it there, and
+      // looks at another view, so that no frame is the one before once more.
+      contestants[c]->actor->VisibilityOn();
+      frameMs(window);
+      renderer->GetActiveCamera()->Azimuth(2.0);
+      renderer->ResetCameraClippingRange(frontMapper->GetBounds());
+      contestants[c]->milliseconds.push_back(frameMs(window));
+      auto* const ours = vtkPointFrontMapper::SafeDownCast(contestants[c]->actor->GetMapper());
+      drawn[c] = ours ? ours->GetLastPointsDrawn() : 0;
+      renderer->GetActiveCamera()->Azimuth(-2.0);
+      contestants[c]->actor->VisibilityOff();
     }
+    renderer->GetActiveCamera()->Azimuth(2.0);
   }
   result["points"] = reader->GetStore()->GetNumberOfPoints();
   result["rounds"] = rounds;
@@ -215,8 +219,8 @@ int main(int argc, char** argv)
   {
     result[contestant->name] = summary(*contestant);
   }
-  result["points drawn, all points"] = allMapper->GetLastPointsDrawn();
-  result["points drawn, error 1 px"] = frontMapper->GetLastPointsDrawn();
+  result["points drawn, all points"] = drawn[1];
+  result["points drawn, error 1 px"] = drawn[2];
   std::printf("%s\n", result.dump(2).c_str());
   return 0;
 }

@@ -11,7 +11,7 @@ namespace
 {
 
 /// Points of a batch: enough for both sides of a rasteriser's pipeline to be busy. A frame of all
-/// of a million points takes 1.44 times vtkPolyDataMapper's time in batches of 2^13, 1.11 of 2^16 and
+/// of a million points takes 1.44 times vtkPolyDataMapper's time in batches of 2^13, 1.11 of 2^16,
 /// 0.99 without any; the last one keeps 175 MiB beside all budgets, 2^16 some 20.
 constexpr int batchPoints = 1 << 16;
 /// Batches that are handed over and not drawn, while the next is made ready.

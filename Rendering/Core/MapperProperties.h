@@ -1,6 +1,6 @@
 #pragma once
 
-#include "PointColouring.h"
+#include "pointfront/Style/PointColouring.h"
 
 #include "pointfront/Front/View.h"
 

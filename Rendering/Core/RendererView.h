@@ -1,6 +1,6 @@
 #pragma once
 
-#include "ViewFront.h"
+#include "pointfront/Views/ViewFront.h"
 
 #include <vtkRenderer.h>
 #include <vtkWeakPointer.h>

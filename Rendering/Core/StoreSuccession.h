@@ -1,7 +1,7 @@
 #pragma once
 
-#include "HierarchyPiece.h"
-#include "ViewFront.h"
+#include "pointfront/Views/HierarchyPiece.h"
+#include "pointfront/Views/ViewFront.h"
 #include "vtkPointFrontStore.h"
 
 #include "pointfrontRenderingCoreModule.h" // for the export macro

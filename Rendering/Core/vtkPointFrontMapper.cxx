@@ -2,12 +2,12 @@
 
 #include "MapperProperties.h"
 #include "PerWindow.h"
-#include "ClassHeights.h"
-#include "PointColouring.h"
+#include "pointfront/Style/ClassHeights.h"
+#include "pointfront/Style/PointColouring.h"
 #include "RenderTimer.h"
 #include "RendererView.h"
 #include "StoreSuccession.h"
-#include "ViewFront.h"
+#include "pointfront/Views/ViewFront.h"
 
 #include "pointfront/Front/DetailLevel.h"
 #include "vtkPointFrontStore.h"

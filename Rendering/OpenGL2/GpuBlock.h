@@ -1,6 +1,6 @@
 #pragma once
 
-#include "GpuSlotBytes.h"
+#include "pointfront/Views/GpuSlotBytes.h"
 
 #include <cstdint>
 

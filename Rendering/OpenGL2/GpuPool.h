@@ -1,7 +1,7 @@
 #pragma once
 
 #include "GpuBlock.h"
-#include "PointColouring.h"
+#include "pointfront/Style/PointColouring.h"
 
 #include "pointfront/Front/RenderFront.h"
 #include "pointfront/Store/NodeReader.h"

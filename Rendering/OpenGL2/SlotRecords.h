@@ -1,6 +1,6 @@
 #pragma once
 
-#include "SlotOrigin.h"
+#include "pointfront/Plan/SlotOrigin.h"
 
 #include <vtkNew.h>
 

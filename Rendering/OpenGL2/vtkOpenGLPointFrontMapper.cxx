@@ -5,7 +5,7 @@
 #include "GpuPool.h"
 #include "PerWindow.h"
 #include "SlotRecords.h"
-#include "ViewFront.h"
+#include "pointfront/Views/ViewFront.h"
 
 #include "pointfront/Store/StoredCloud.h"
 #include "vtkOpenGLPointFrontPass.h"

@@ -11,7 +11,7 @@
 #define vtkOpenGLPointFrontPass_h
 
 #include "DrawRuns.h"       // for the draw list
-#include "PointColouring.h" // for the colouring
+#include "pointfront/Style/PointColouring.h" // for the colouring
 #include "vtkOpenGLPolyDataMapper.h"
 
 #include <glm/vec3.hpp> // for the reference point

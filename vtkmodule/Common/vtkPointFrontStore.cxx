@@ -1,6 +1,6 @@
 #include "vtkPointFrontStore.h"
 
-#include "ResidencyShare.h"
+#include "pointfront/Residency/ResidencyShare.h"
 
 #include "pointfront/Residency/LoadScheduler.h"
 #include "pointfront/Store/PreviewRecord.h"

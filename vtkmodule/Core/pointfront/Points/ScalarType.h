@@ -32,4 +32,35 @@ std::optional<ScalarType> scalarTypeOf(std::string_view name);
 /// The type of that number in a store, or nothing.
 std::optional<ScalarType> scalarTypeOf(std::uint8_t number);
 
+/// Calls `function` with a zero of the C++ type that stands for `type`, and returns what it returns:
+/// the switch over types is written once, and loops over points are made for one type.
+template <typename Function>
+decltype(auto) visitScalar(ScalarType type, Function&& function)
+{
+  switch (type)
+  {
+    case ScalarType::Int8:
+      return function(std::int8_t(0));
+    case ScalarType::UInt8:
+      return function(std::uint8_t(0));
+    case ScalarType::Int16:
+      return function(std::int16_t(0));
+    case ScalarType::UInt16:
+      return function(std::uint16_t(0));
+    case ScalarType::Int32:
+      return function(std::int32_t(0));
+    case ScalarType::UInt32:
+      return function(std::uint32_t(0));
+    case ScalarType::Int64:
+      return function(std::int64_t(0));
+    case ScalarType::UInt64:
+      return function(std::uint64_t(0));
+    case ScalarType::Float32:
+      return function(0.0f);
+    case ScalarType::Float64:
+      break;
+  }
+  return function(0.0);
+}
+
 } // namespace pointfront

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "pointfront/Residency/Residency.h"
-#include "pointfrontCommonModule.h" // for the export macro
 
 #include <cstdint>
 #include <functional>
@@ -19,14 +18,14 @@ namespace pointfront
 ///             union of their columns; and keeps what any of them needs (the smallest distance
 ///             under any front counts).
 /// Threads     one thread (the renderer's), as Residency.
-class POINTFRONTCOMMON_EXPORT ResidencyShare
+class ResidencyShare
 {
 public:
   /// Levels that a node lies below a front; 0: the front needs it.
   using Distance = std::function<std::uint32_t(NodeIndex)>;
 
   /// What one front wants now. Destruction withdraws it.
-  class POINTFRONTCOMMON_EXPORT Wish
+  class Wish
   {
   public:
     ~Wish();

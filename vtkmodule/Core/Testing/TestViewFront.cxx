@@ -1,7 +1,7 @@
 // The front of a view and what it shares with those of other clouds, without a window.
 
 #include "TerrainReader.h"
-#include "ViewFront.h"
+#include "pointfront/Views/ViewFront.h"
 
 #include "pointfront/Residency/LoadScheduler.h"
 

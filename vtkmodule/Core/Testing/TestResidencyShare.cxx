@@ -1,4 +1,4 @@
-#include "ResidencyShare.h"
+#include "pointfront/Residency/ResidencyShare.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "ClassHeights.h"
+#include "pointfront/Style/ClassHeights.h"
 
 #include <algorithm>
 #include <limits>

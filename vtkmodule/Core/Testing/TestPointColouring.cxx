@@ -1,5 +1,5 @@
-#include "ClassHeights.h"
-#include "PointColouring.h"
+#include "pointfront/Style/ClassHeights.h"
+#include "pointfront/Style/PointColouring.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,6 @@
 
 #include "pointfront/Store/NodeReader.h"
 #include "pointfront/Store/StoredCloud.h"
-#include "pointfrontRenderingCoreModule.h" // for the export macro
 
 #include <array>
 #include <cstdint>
@@ -41,7 +40,7 @@ struct ColourRequest
 ///          "normal", 1 on a flat roof and 0 on a wall; "global_height" is ClassHeights.
 /// Source   the last two: Richter, Discher & Doellner 2015, section 3.1.
 /// Threads  a value; const functions from any thread.
-struct POINTFRONTRENDERINGCORE_EXPORT PointColouring
+struct PointColouring
 {
   enum class Kind
   {

@@ -1,4 +1,4 @@
-#include "HierarchyPiece.h"
+#include "pointfront/Views/HierarchyPiece.h"
 
 #include <algorithm>
 #include <cassert>

@@ -1,15 +1,14 @@
 #pragma once
 
-#include "HierarchyPiece.h"
-#include "ResidencyShare.h"
-#include "WindowDemand.h"
+#include "pointfront/Views/HierarchyPiece.h"
+#include "pointfront/Residency/ResidencyShare.h"
+#include "pointfront/Views/WindowDemand.h"
 
 #include "pointfront/Front/DetailSelection.h"
 #include "pointfront/Front/FrameCostModel.h"
 #include "pointfront/Front/MotionMargin.h"
 #include "pointfront/Front/View.h"
 #include "pointfront/Points/AttributeSchema.h"
-#include "pointfrontRenderingCoreModule.h" // for the export macro
 
 #include <cstdint>
 #include <memory>
@@ -48,7 +47,7 @@ struct FrameDemand
 ///             update for the roots (one node a layer), half a second at most, so that no first
 ///             frame is empty unless the disk hangs.
 /// Threads     one thread (the renderer's).
-class POINTFRONTRENDERINGCORE_EXPORT ViewFront
+class ViewFront
 {
 public:
   /// `schema` outlives the front: the store's. `window`: all clouds that are drawn in the same one.

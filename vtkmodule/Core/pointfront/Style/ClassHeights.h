@@ -1,7 +1,6 @@
 #pragma once
 
 #include "pointfront/Store/StoredCloud.h"
-#include "pointfrontRenderingCoreModule.h" // for the export macro
 
 #include <array>
 #include <memory>
@@ -15,7 +14,7 @@ namespace pointfront
 /// store without layers all points are one class.
 /// Cost     nothing is stored: it is computed from z when a point goes to the GPU.
 /// Threads  const functions from any thread.
-class POINTFRONTRENDERINGCORE_EXPORT ClassHeights
+class ClassHeights
 {
 public:
   explicit ClassHeights(std::shared_ptr<const StoredCloud> store);

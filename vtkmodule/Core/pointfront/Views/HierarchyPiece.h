@@ -1,7 +1,6 @@
 #pragma once
 
 #include "pointfront/Store/Hierarchy.h"
-#include "pointfrontRenderingCoreModule.h" // for the export macro
 
 #include <memory>
 
@@ -19,7 +18,7 @@ namespace pointfront
 /// Guarantees  the pieces together have every point of the input once. Piece 0 of 1 is the
 ///             hierarchy itself. Takes time and memory for the changed rows only, whatever the
 ///             size of the table.
-class POINTFRONTRENDERINGCORE_EXPORT HierarchyPiece
+class HierarchyPiece
 {
 public:
   HierarchyPiece(std::shared_ptr<const Hierarchy> whole, int piece, int pieces);

@@ -1,6 +1,6 @@
-#include "ViewFront.h"
+#include "pointfront/Views/ViewFront.h"
 
-#include "GpuSlotBytes.h"
+#include "pointfront/Views/GpuSlotBytes.h"
 
 #include "pointfront/Front/RenderFront.h"
 #include "pointfront/Front/ViewDetail.h"

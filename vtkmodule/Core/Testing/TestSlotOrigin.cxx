@@ -1,4 +1,4 @@
-#include "SlotOrigin.h"
+#include "pointfront/Plan/SlotOrigin.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
-#include "PointColouring.h"
+#include "pointfront/Style/PointColouring.h"
 
-#include "ClassHeights.h"
+#include "pointfront/Style/ClassHeights.h"
 
 #include <algorithm>
 #include <array>

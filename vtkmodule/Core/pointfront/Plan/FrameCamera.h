@@ -1,0 +1,40 @@
+#pragma once
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+
+namespace pointfront
+{
+
+/// The camera of one frame in double, as back ends use it. The front's View says what is in sight;
+/// this says where each point lands.
+/// Spaces  store: the store's world coordinates. View: the eye at 0, looking along -z, x to the
+///         right, y up, world units. Clip: as OpenGL, z in [-w, w].
+/// Pixels  (0, 0) is the lower left corner of the viewport, pixel centres at + 0.5.
+struct FrameCamera
+{
+  glm::dmat4 storeToView{ 1.0 }; ///< affine; an actor's matrix is part of it
+  glm::dmat4 viewToClip{ 1.0 };  ///< any frustum: off-axis and sheared ones too
+  /// Store coordinates that positions are taken relative to before they become floats: the eye, in
+  /// a parallel view the focal point (docs/adr/0004).
+  glm::dvec3 reference{ 0.0 };
+  /// Where it lies in the view: exactly 0 when it is the eye, so that no rounding noise of two large
+  /// terms comes in.
+  glm::dvec3 referenceInView{ 0.0 };
+  bool parallel = false;
+  int width = 1; ///< of the viewport, pixels
+  int height = 1;
+
+  /// A symmetric view for tools and tests; `verticalAngle` in radians, square pixels.
+  static FrameCamera perspective(const glm::dvec3& position, const glm::dvec3& focalPoint,
+    const glm::dvec3& up, double verticalAngle, double nearDistance, double farDistance, int width,
+    int height);
+  /// The same without perspective; `halfHeight`: world units from the middle to the upper edge.
+  static FrameCamera parallelView(const glm::dvec3& position, const glm::dvec3& focalPoint,
+    const glm::dvec3& up, double halfHeight, double nearDistance, double farDistance, int width,
+    int height);
+
+  glm::dmat4 storeToClip() const { return viewToClip * storeToView; }
+};
+
+} // namespace pointfront

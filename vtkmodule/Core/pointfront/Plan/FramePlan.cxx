@@ -1,0 +1,49 @@
+#include "pointfront/Plan/FramePlan.h"
+
+#include <ostream>
+
+namespace pointfront
+{
+
+std::uint64_t FramePlan::pointCount() const
+{
+  std::uint64_t points = 0;
+  for (const DrawBatch& batch : batches)
+  {
+    for (const PlanItem& item : batch.items)
+    {
+      points += item.last - item.first;
+    }
+  }
+  return points;
+}
+
+std::size_t FramePlan::nodeCount() const
+{
+  std::size_t nodes = 0;
+  for (const DrawBatch& batch : batches)
+  {
+    nodes += batch.items.size();
+  }
+  return nodes;
+}
+
+std::ostream& operator<<(std::ostream& out, const FramePlan& plan)
+{
+  out << "frame " << plan.camera.width << " x " << plan.camera.height
+      << (plan.camera.parallel ? ", parallel" : ", perspective") << ", "
+      << plan.clippingPlanes.size() << " clipping planes\n";
+  for (const DrawBatch& batch : plan.batches)
+  {
+    out << "layer " << batch.layer << ", technique "
+        << static_cast<int>(batch.style->technique) << ", " << batch.items.size() << " nodes\n";
+    for (const PlanItem& item : batch.items)
+    {
+      out << "  node " << item.node->node << " [" << item.first << ", " << item.last << ") fade "
+          << item.fade << " spacing " << item.spacing << "\n";
+    }
+  }
+  return out;
+}
+
+} // namespace pointfront

@@ -1,0 +1,63 @@
+#pragma once
+
+#include "pointfront/Plan/FrameCamera.h"
+#include "pointfront/Points/AttributeSchema.h"
+#include "pointfront/Points/QuantisationGrid.h"
+#include "pointfront/Store/NodeReader.h"
+#include "pointfront/Style/FrameShading.h"
+#include "pointfront/Style/ResolvedStyle.h"
+
+#include <glm/vec4.hpp>
+
+#include <cstdint>
+#include <iosfwd>
+#include <memory>
+#include <vector>
+
+namespace pointfront
+{
+
+/// Points [first, last) of one node. The node is looked up once a frame and pinned: back ends never
+/// ask a residency or a table.
+struct PlanItem
+{
+  std::shared_ptr<const NodeColumns> node;
+  std::uint32_t first = 0;
+  std::uint32_t last = 0;
+  float fade = 1.0f; ///< 0 to 1: how much of the node is there yet
+  /// World units between the points on screen when this prefix and all nodes above it are drawn, by
+  /// the tree's levels.
+  float spacing = 0.0f;
+};
+
+/// What is drawn in one way: the nodes of one layer.
+struct DrawBatch
+{
+  std::uint16_t layer = 0;
+  std::shared_ptr<const ResolvedStyle> style; ///< never null
+  std::vector<PlanItem> items;                ///< near to far, ties by node
+};
+
+/// One frame of one store, between the front and a back end: plain values, the same on every
+/// machine for the same view and the same nodes in memory.
+/// Order    a back end's picture does not depend on the order of batches, items or threads.
+/// Threads  a value.
+struct FramePlan
+{
+  FrameCamera camera;
+  /// (n, d) in store coordinates: points with n . p + d < 0 for any of them are not drawn.
+  std::vector<glm::dvec4> clippingPlanes;
+  QuantisationGrid grid;
+  std::shared_ptr<const AttributeSchema> schema; ///< of the nodes' columns; never null
+  double splatRadiusBase = 0.0;                  ///< of the store's radii (SplatRadius.h); 0: none
+  FrameShading shading;
+  std::vector<DrawBatch> batches;
+
+  std::uint64_t pointCount() const;
+  std::size_t nodeCount() const;
+};
+
+/// One line a batch and an item: for tests and for looking at a frame.
+std::ostream& operator<<(std::ostream& out, const FramePlan& plan);
+
+} // namespace pointfront

@@ -1,0 +1,38 @@
+#include "pointfront/Style/ColourMap.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pointfront
+{
+
+Rgba8 ColourMap::at(double value) const
+{
+  if (std::isnan(value))
+  {
+    return missing;
+  }
+  const auto last = static_cast<double>(entries.size() - 1);
+  if (indexed)
+  {
+    const double place = value - range[0];
+    const bool known = place >= 0.0 && place <= last && place == std::floor(place);
+    return known ? entries[static_cast<std::size_t>(place)] : missing;
+  }
+  if (value < range[0] && usesBelow)
+  {
+    return below;
+  }
+  if (value > range[1] && usesAbove)
+  {
+    return above;
+  }
+  const auto scaled = [this](double v) { return logarithmic ? std::log10(v) : v; };
+  const double width = scaled(range[1]) - scaled(range[0]);
+  const double clamped = std::clamp(value, range[0], std::max(range[0], range[1]));
+  const double share = width > 0.0 ? (scaled(clamped) - scaled(range[0])) / width : 0.0;
+  const double place = std::floor(share * static_cast<double>(entries.size()));
+  return entries[static_cast<std::size_t>(std::clamp(place, 0.0, last))];
+}
+
+} // namespace pointfront

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include <vector>
+
+namespace pointfront
+{
+
+/// A light as deferred lighting uses it.
+struct FrameLight
+{
+  glm::vec3 towards{ 0.0f, 0.0f, 1.0f }; ///< unit, view space, from the surface to the light
+  glm::vec3 colour{ 1.0f };              ///< intensity included
+
+  friend bool operator==(const FrameLight& a, const FrameLight& b)
+  {
+    return a.towards == b.towards && a.colour == b.colour;
+  }
+};
+
+/// What is done with a frame's pixels after the points are in.
+struct FrameShading
+{
+  /// Diffuse light on what has a normal (two-sided); what has none keeps its colour.
+  bool lit = false;
+  float ambient = 0.3f;
+  float diffuse = 0.7f;
+  std::vector<FrameLight> lights; ///< empty: one at the eye
+  /// Eye-dome lighting on log2 of depth (Boucheny 2009): 0 is off. Pixels darken by exp(-strength *
+  /// response), where the response is the mean over eight neighbours of how far, in octaves of
+  /// depth, the neighbour is nearer.
+  float eyeDomeStrength = 0.0f;
+  float eyeDomeRadiusPx = 1.0f;
+  /// Pull-push over depth and colour: pixels that no point covers, and those through which a farther
+  /// surface shows, take their neighbours' colour where these agree in depth.
+  bool fillHoles = false;
+
+  friend bool operator==(const FrameShading& a, const FrameShading& b)
+  {
+    return a.lit == b.lit && a.ambient == b.ambient && a.diffuse == b.diffuse &&
+      a.lights == b.lights && a.eyeDomeStrength == b.eyeDomeStrength &&
+      a.eyeDomeRadiusPx == b.eyeDomeRadiusPx && a.fillHoles == b.fillHoles;
+  }
+};
+
+} // namespace pointfront

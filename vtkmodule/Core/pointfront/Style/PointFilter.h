@@ -1,0 +1,58 @@
+#pragma once
+
+#include "pointfront/Points/AttributeSchema.h"
+#include "pointfront/Store/NodeReader.h"
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace pointfront
+{
+
+/// One condition on one attribute of a store: within a range, or one of some values.
+/// Units  world values: stored * scale + offset.
+struct AttributeCondition
+{
+  std::uint32_t column = 0;
+  int component = 0;
+  std::array<double, 2> range{ -std::numeric_limits<double>::infinity(),
+    std::numeric_limits<double>::infinity() };
+  bool lowOpen = false;  ///< range[0] itself does not pass
+  bool highOpen = false; ///< range[1] itself does not pass
+  std::vector<double> values; ///< ascending; not empty: one of these, whatever the range
+  bool inverted = false;      ///< what would pass does not, and the other way round; NaN never passes
+
+  bool passes(double value) const;
+  /// False when no value of [low, high] passes: a node of that range need not be read.
+  bool mayPass(double low, double high) const;
+  friend bool operator==(const AttributeCondition& a, const AttributeCondition& b)
+  {
+    return a.column == b.column && a.component == b.component && a.range == b.range &&
+      a.lowOpen == b.lowOpen && a.highOpen == b.highOpen && a.values == b.values &&
+      a.inverted == b.inverted;
+  }
+};
+
+/// Which points are drawn: those that meet all conditions.
+/// Threads  a value; const functions from any thread.
+struct PointFilter
+{
+  std::vector<AttributeCondition> conditions;
+
+  bool empty() const { return conditions.empty(); }
+  /// What has to be read for it, ascending.
+  ColumnSelection columns() const;
+  /// keep[i] = 1 for points of [first, first + count) of the node that pass, else 0. The node has
+  /// the columns.
+  void evaluate(const NodeColumns& node, const AttributeSchema& schema, std::uint32_t first,
+    std::uint32_t count, std::uint8_t* keep) const;
+
+  friend bool operator==(const PointFilter& a, const PointFilter& b)
+  {
+    return a.conditions == b.conditions;
+  }
+};
+
+} // namespace pointfront

@@ -38,9 +38,9 @@ public:
   PNGWriter& operator=(const PNGWriter&) = delete;
 
   /// The next `count` rows, from the top of the picture down.
-  /// strideBytes  from one row to the next; negative where `rows` lie bottom up in memory, and
-  ///              `firstRow` is then the last of them.
-  Result<void> append(const std::uint8_t* firstRow, std::uint32_t count, std::ptrdiff_t strideBytes);
+  /// strideBytes  from one row to the next; negative where the rows lie bottom up in memory.
+  Result<void> append(
+    const std::uint8_t* firstRow, std::uint32_t count, std::ptrdiff_t strideBytes);
   /// To be called after the last row: writes the end and gives the file its name.
   Result<void> finish();
 

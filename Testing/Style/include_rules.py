@@ -15,6 +15,7 @@ FOREIGN = (  # header, library, the one module that may include it
     (re.compile(r"^laszip/"), "LASzip", "IO/LAS"),
     (re.compile(r"^(pcl|flann)/"), "PCL and FLANN", "Filters/Normals"),
     (re.compile(r"^proj(_experimental)?\.h$"), "PROJ", "Filters/Projection"),
+    (re.compile(r"^png\.h$"), "libpng", "IO/PNG"),
     (re.compile(r"^tiffio\.h$"), "libtiff", "Filters/ImageColor"),
     (re.compile(r"^OpenImageIO/"), "OpenImageIO", "Filters/ImageColor"),
     (re.compile(r"^(GL|GLES\d?|EGL)/|^vtk_glew\.h$|^glad/"), "OpenGL", "Rendering/OpenGL2"),

@@ -9,6 +9,7 @@ find_package(CLI11 CONFIG REQUIRED)
 find_package(LASzip REQUIRED)                # LASzip::LASzip
 find_package(PROJ CONFIG REQUIRED)           # PROJ::proj
 find_package(TIFF REQUIRED)                  # TIFF::TIFF
+find_package(PNG REQUIRED)                   # PNG::PNG
 find_package(OpenImageIO CONFIG REQUIRED)    # OpenImageIO::OpenImageIO
 # Debian's targets name a folder that is not there, which CMake refuses.
 foreach (target IN ITEMS OpenImageIO::OpenImageIO OpenImageIO::OpenImageIO_Util)

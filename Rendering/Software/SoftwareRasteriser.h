@@ -1,0 +1,72 @@
+#pragma once
+
+#include "SoftwareTarget.h"
+
+#include "pointfront/Plan/FramePlan.h"
+
+#include <cstdint>
+#include <memory>
+
+namespace pointfront
+{
+
+/// Rows [bottom, top) of the viewport that are drawn: a large picture is drawn in bands, each with
+/// the splat sizes of the whole.
+struct RasterBand
+{
+  int bottom = 0;
+  int top = 0;
+};
+
+/// What a drawing came to.
+struct RasterStatistics
+{
+  std::uint64_t points = 0;  ///< of the plan, that were looked at
+  std::uint64_t reused = 0;  ///< of the plan, that the last picture already had
+  double milliseconds = 0.0; ///< wall time
+};
+
+/// Draws plans without GL, driver or VTK: the back end for machines without a GPU, and the reference
+/// that shaders are compared with.
+/// Determinism  the same plan gives the same bits for any number of threads, any order of batches
+///              and items, on each instruction set, and in one go or by and by (a plan that only
+///              adds points to the one before adds them to what is there).
+/// Memory       some buffers of the size of the viewport, kept from frame to frame; one more for
+///              each further thread.
+/// Threads      one thread at a time; draws with those of ThreadCrew::ofProcess().
+/// Source       drawing.md sections 4 to 7; docs/adr/0016.
+class SoftwareRasteriser
+{
+public:
+  SoftwareRasteriser();
+  ~SoftwareRasteriser();
+  SoftwareRasteriser(const SoftwareRasteriser&) = delete;
+  SoftwareRasteriser& operator=(const SoftwareRasteriser&) = delete;
+
+  /// Draws the plan into the target where it is nearer than what is there; ties leave what is there.
+  /// The target has the size of the camera's viewport. `store` becomes PixelPoint::store.
+  RasterStatistics draw(const FramePlan& plan, SoftwareTarget& target, std::uint16_t store = 0);
+  /// The same for rows of the viewport: the target has the band's rows only.
+  RasterStatistics draw(const FramePlan& plan, const RasterBand& band, SoftwareTarget& target,
+    std::uint16_t store = 0);
+
+  /// In motion: points of the last picture that are still in sight are drawn as well, even where the
+  /// plan has their nodes no more (SMOOTH-7). Off by default.
+  void setKeepsVisible(bool keeps);
+
+  /// Forgets the last picture and gives its memory back.
+  void release();
+
+  /// The instruction set in use: "AVX-512", "AVX2" or "portable".
+  static const char* instructionSet();
+
+private:
+  struct Content;
+  std::unique_ptr<Content> content_;
+};
+
+/// Deferred light, eye-dome lighting and the hole filler on what was drawn, by the plan's shading;
+/// once, after all stores. Pixels of nothing stay so unless a hole is filled.
+void shade(const FrameCamera& camera, const FrameShading& shading, SoftwareTarget& target);
+
+} // namespace pointfront

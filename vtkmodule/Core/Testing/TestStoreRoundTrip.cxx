@@ -27,6 +27,12 @@ TEST_P(StoreRoundTrip, GivesBackEveryBit)
     const auto points = store.read(i, columns);
     ASSERT_TRUE(points) << points.error().what;
     EXPECT_EQ(points->node, i);
+    const Node& row = sample.nodes[i];
+    EXPECT_EQ(points->halfSize, row.halfSize);
+    EXPECT_EQ(points->spacing, row.spacing);
+    EXPECT_EQ(points->splatRadius, row.splatRadius);
+    EXPECT_EQ(points->layer, row.layer);
+    EXPECT_EQ(points->firstPoint, store.hierarchy()->node(i).firstPoint);
     EXPECT_EQ(points->origin, sample.points[i].origin);
     EXPECT_EQ(points->positions, sample.points[i].positions);
     EXPECT_EQ(points->columns, sample.points[i].columns);

@@ -249,8 +249,7 @@ Result<NodeColumns> IndexedLASFile::decode(const FetchedNode& fetched) const
   records.count = points.size();
   NodeColumns result =
     emptyColumns(fetched.node, points.size(), fetched.columns, description_.schema);
-  result.firstPoint = fetched.row.firstPoint;
-  result.halfSize = fetched.row.halfSize;
+  result.describe(fetched.row);
   decodeSteps(records, side_->content().table.rows[fetched.node].low, result);
   for (std::size_t c = 0; c < fetched.columns.size(); ++c)
   {

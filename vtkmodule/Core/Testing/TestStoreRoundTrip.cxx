@@ -27,6 +27,12 @@ TEST_P(StoreRoundTrip, GivesBackEveryBit)
     const auto points = store.read(i, columns);
     ASSERT_TRUE(points) << points.error().what;
     EXPECT_EQ(points->node, i);
+    const Node& row = sample.nodes[i];
+    EXPECT_EQ(points->halfSize, row.halfSize);
+    EXPECT_EQ(points->spacing, row.spacing);
+    EXPECT_EQ(points->splatRadius, row.splatRadius);
+    EXPECT_EQ(points->layer, row.layer);
+    EXPECT_EQ(points->firstPoint, store.hierarchy()->node(i).firstPoint);
     EXPECT_EQ(points->origin, sample.points[i].origin);
     EXPECT_EQ(points->positions, sample.points[i].positions);
     EXPECT_EQ(points->columns, sample.points[i].columns);
@@ -52,7 +58,8 @@ TEST(Store, DescribesWhatWasWritten)
   ASSERT_TRUE(opened) << opened.error().what;
   const StoreDescription& d = (*opened)->description();
   EXPECT_EQ(d.path, path);
-  EXPECT_EQ(d.version, 2u);
+  EXPECT_EQ(d.version, 3u);
+  EXPECT_EQ(d.splatRadiusBase, 0.25);
   EXPECT_EQ(d.fileBytes, fileBytes(path).size());
   EXPECT_EQ(d.pointCount, 600u);
   EXPECT_EQ(d.grid, sample.description.grid);

@@ -27,6 +27,9 @@ struct Node
   glm::vec3 halfSize{ 0.0f };  ///< of the box of this node's points and all below; rounded up
   float radius = 0.0f;         ///< of the sphere around `centre` with all those points; rounded up
   float spacing = 0.0f;        ///< between points when this node and all above it are drawn
+  /// Of discs that close the surface when all points of this node and of those above it are drawn;
+  /// 0 where it was not measured.
+  float splatRadius = 0.0f;
   std::uint32_t pointCount = 0; ///< the node's own points; may be 0 for an inner node
   /// Points of the input in this node and all its descendants: representatives do not count.
   std::uint64_t pointsBelow = 0;

@@ -30,10 +30,21 @@ struct NodeColumns
   // As the node's row in the table says: who draws it need not ask a table that may be on a disk.
   std::uint64_t firstPoint = 0;
   glm::vec3 halfSize{ 0.0f };
+  float spacing = 0.0f;
+  float splatRadius = 0.0f; ///< world units; 0 where it was not measured
+  std::uint16_t layer = 0;
   std::vector<glm::u32vec3> positions;
   ColumnSelection selection;
   std::vector<std::vector<std::byte>> columns;
 
+  void describe(const Node& row)
+  {
+    firstPoint = row.firstPoint;
+    halfSize = row.halfSize;
+    spacing = row.spacing;
+    splatRadius = row.splatRadius;
+    layer = row.layer;
+  }
   std::size_t size() const { return positions.size(); }
   /// Host memory held, for budgets.
   std::size_t bytes() const

@@ -357,8 +357,7 @@ Result<NodeColumns> PointStore::decode(const FetchedNode& fetched) const
   const auto blocks = wantedBlocks(*payload, columns);
   NodeColumns result = emptyColumns(node, points, columns, description.schema);
   result.origin = payload->origin;
-  result.firstPoint = fetched.row.firstPoint;
-  result.halfSize = fetched.row.halfSize;
+  result.describe(fetched.row);
   auto run = fetched.runs.begin() + 1;
   for (std::size_t first = 0; first < blocks.size(); ++run)
   {

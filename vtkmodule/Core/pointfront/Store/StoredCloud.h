@@ -51,6 +51,9 @@ struct StoreDescription
   std::vector<Layer> layers;
   std::vector<MetadataRecord> metadata;
   std::string generator; ///< "pointfront 0.1.0"
+  /// Of the codes in the column `splat_radius` (SplatRadius.h), world units; 0 where the store has
+  /// none.
+  double splatRadiusBase = 0.0;
 };
 
 struct VerifyReport

@@ -310,8 +310,8 @@ void DetailWalk::draw(const Visit& at, std::uint32_t count, double distance)
   if (residency_ && count > 0)
   {
     const double projectedPx = projectedSpacing(*view_, at.row.spacing, distance);
-    delta_->draw.push_back(
-      { at.index, count, static_cast<float>(projectedPx), static_cast<float>(distance) });
+    delta_->draw.push_back({ at.index, count, static_cast<float>(projectedPx),
+      static_cast<float>(distance), static_cast<float>(std::clamp(at.ratio, 0.0, 1.0)) });
   }
 }
 

@@ -95,6 +95,7 @@ struct DrawItem
   std::uint32_t pointCount = 0; ///< a prefix of the node's points (PointPrefix.h), at least 1
   float errorPx = 0.0f;         ///< projected spacing of this node, whatever its layer's factor
   float distance = 0.0f;        ///< from the eye to its sphere
+  float spacingRatio = 0.0f;    ///< its spacing to its parent's (PointPrefix.h); 0 for a root
 };
 
 struct LoadRequest

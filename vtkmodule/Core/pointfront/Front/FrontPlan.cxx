@@ -187,7 +187,8 @@ void FrontPlan::draw(const ActiveNode& node, std::uint32_t points)
   if (points > 0)
   {
     const float projectedPx = node.errorPx / node.errorWeight;
-    delta_->draw.push_back({ node.node, points, projectedPx, node.distance });
+    delta_->draw.push_back(
+      { node.node, points, projectedPx, node.distance, node.spacingRatio });
     delta_->pointsDrawn += points;
     delta_->slotsDrawn += gpuSlotsOf(points);
   }

@@ -1,0 +1,12 @@
+#include "LanesAVX512.h"
+
+#include "ProjectionLoops.h"
+#include "SplatLoops.h"
+
+namespace pointfront
+{
+
+extern const RasterKernels kernelsAVX512;
+const RasterKernels kernelsAVX512 = { "AVX-512", project, drawSquares, setUp, drawSplats, addSplats };
+
+} // namespace pointfront

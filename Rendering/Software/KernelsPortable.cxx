@@ -1,0 +1,12 @@
+#include "LanesPortable.h"
+
+#include "ProjectionLoops.h"
+#include "SplatLoops.h"
+
+namespace pointfront
+{
+
+extern const RasterKernels kernelsPortable;
+const RasterKernels kernelsPortable = { "portable", project, drawSquares, setUp, drawSplats, addSplats };
+
+} // namespace pointfront

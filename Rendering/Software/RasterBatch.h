@@ -1,0 +1,109 @@
+#pragma once
+
+#include <cstdint>
+
+namespace pointfront
+{
+
+/// Points that go through the rasteriser together: what is known of each, one array a quantity, so
+/// that loops over points become vector instructions. Scratch of one thread.
+/// Spaces  Camera space: x to the right, y up, z along the line of sight (positive in front), world
+///         units. Pixels: the viewport's, y up.
+struct RasterBatch
+{
+  static constexpr int size = 512;
+  /// How large a splat is on screen, by half its larger edge: which kernel draws it.
+  enum Extent : std::int32_t
+  {
+    Culled = 0,
+    Within4 = 1,  ///< 4 x 4 pixels
+    Within8 = 2,  ///< 8 pixels wide
+    Within16 = 3, ///< 16 pixels wide
+    Wide = 4,     ///< within the buffers' margin: rows of any length
+    Clipped = 5   ///< anything larger: its rows are clipped
+  };
+
+  alignas(64) float screenX[size]; ///< pixels
+  alignas(64) float screenY[size];
+  alignas(64) float depth[size];   ///< camera z; negative: culled
+  alignas(64) float radius[size];  ///< world units; after the set-up: at least what a pixel needs
+  alignas(64) float normalX[size]; ///< camera space, any length
+  alignas(64) float normalY[size];
+  alignas(64) float normalZ[size];
+
+  // Made by the set-up of a shape:
+  alignas(64) float inverseRadius2[size]; ///< of pixels for discs, of world units where rays are cast
+  alignas(64) float quadraticXX[size];    ///< ellipses: q = XX dx^2 + XY dx dy + YY dy^2
+  alignas(64) float quadraticXY[size];
+  alignas(64) float quadraticYY[size];
+  alignas(64) float slopeX[size];         ///< ellipses: depth per pixel
+  alignas(64) float slopeY[size];
+  alignas(64) float halfX[size];          ///< pixels, half of the bounding rectangle
+  alignas(64) float halfY[size];
+  alignas(64) float middleX[size];        ///< pixels, of the bounding rectangle
+  alignas(64) float middleY[size];
+  alignas(64) float firstX[size];         ///< first pixel centre of the rectangle less the centre
+  alignas(64) float firstY[size];
+  alignas(64) std::int32_t offset[size];  ///< of the rectangle's first pixel in the buffers
+  alignas(64) std::int32_t rows[size];
+  alignas(64) std::int32_t columns[size];
+  alignas(64) std::int32_t extent[size];
+  alignas(64) std::uint32_t colour[size]; ///< bytes r, g, b, a in memory order
+  alignas(64) std::uint8_t keep[size];    ///< 0: filtered out
+  alignas(64) std::int32_t list[size + 16];
+};
+
+/// Depth and index in one number: the smallest is the nearest, and of equals the first.
+using RasterKey = std::int64_t;
+constexpr RasterKey emptyKey = INT64_MAX;
+
+/// Buffers have this many pixels around the picture, so that a splat that reaches over its edge
+/// needs no clipping.
+constexpr int rasterMargin = 64;
+/// Largest half edge of a splat that fits in the margin.
+constexpr float largestUnclipped = 62.0f;
+
+/// Where points land, in single precision: all that is large was taken off in double before.
+struct RasterCamera
+{
+  /// Camera space from steps: z is along the line of sight.
+  float matrix[3][4] = {};
+  float scaleX = 1.0f;  ///< pixels per unit at depth 1; parallel: at any depth
+  float scaleY = 1.0f;
+  float centreX = 0.0f; ///< pixels
+  float centreY = 0.0f;
+  float nearDepth = 0.0f;
+  float farDepth = 0.0f;
+  bool parallel = false;
+};
+
+/// The rows of the viewport that are drawn, and how buffers of them are laid out.
+struct RasterWindow
+{
+  int width = 0;
+  int bottom = 0;      ///< first row of the viewport
+  int height = 0;      ///< rows
+  std::int32_t stride = 0; ///< pixels from a row to the next in a buffer with margins
+
+  std::int32_t at(int x, int y) const ///< y counts from `bottom`
+  {
+    return (y + rasterMargin) * stride + x + rasterMargin;
+  }
+  std::int64_t pixels() const ///< of a buffer
+  {
+    return std::int64_t(stride) * (height + 2 * rasterMargin) + 16;
+  }
+};
+
+/// Points of one node as they lie in memory.
+struct RasterPositions
+{
+  const std::uint32_t* xyz = nullptr; ///< of the batch's first point: three a point
+  std::uint32_t shift = 0;            ///< SlotOrigin
+  std::int32_t steps[3] = {};
+  float clipping[6][4] = {};          ///< camera space planes: n . p + d >= 0 is drawn
+  int clippingPlanes = 0;
+  bool filtered = false;              ///< RasterBatch::keep says which points are drawn
+};
+
+} // namespace pointfront

@@ -1,0 +1,59 @@
+#pragma once
+
+#include "RasterBatch.h"
+
+namespace pointfront
+{
+
+/// What a splat is made of, for the loops that put it into the buffers.
+enum class SplatShape : std::int32_t
+{
+  Disc,         ///< faces the eye
+  Ellipse,      ///< affine image of a disc with a normal, depth by its plane (EWA-5)
+  ExactEllipse, ///< ray and disc in each pixel
+  Sphere        ///< ray and hemisphere in each pixel (LAYERS-5)
+};
+
+/// Constants of a pass over splats.
+struct SplatPass
+{
+  SplatShape shape = SplatShape::Disc;
+  /// Added to the depth: that many radii at the rim, falling with q to nothing at the centre. Of
+  /// splats that overlap the one with the nearest centre wins (drawing.md 9).
+  float paraboloid = 0.0f;
+  float leastRadius = 0.71f; ///< pixels; a disc of 0.71 reaches a pixel's centre wherever it lies
+  float lowPass = 0.0f;      ///< ellipses: radius of a screen-space low-pass, pixels; 0: none
+  float slackRadii = 1.0f;   ///< second pass: adds up to that far behind the nearest, in radii
+  float slackPixels = 2.0f;  ///< and that many pixels' size at its depth
+};
+
+/// The inner loops, made for one instruction set. All sets give the same bits: only operations that
+/// IEEE 754 rounds exactly, no contraction.
+struct RasterKernels
+{
+  const char* instructionSet;
+
+  /// Fills screenX, screenY and depth.
+  void (*project)(const RasterCamera&, const RasterPositions&, int count, RasterBatch&);
+  /// Squares of `size` x `size` pixels, 1 to 255. `index` is that of the batch's first point.
+  void (*drawSquares)(const RasterWindow&, RasterBatch&, int count, int size, std::uint32_t index,
+    RasterKey* keys);
+  /// Fills what the shape needs, from radius and normal, and sorts by extent.
+  void (*setUp)(
+    const RasterCamera&, const RasterWindow&, const SplatPass&, int count, RasterBatch&);
+  /// Nearest depth and index into `keys`.
+  void (*drawSplats)(const RasterCamera&, const RasterWindow&, const SplatPass&, RasterBatch&,
+    int count, std::uint32_t index, RasterKey* keys);
+  /// Adds weight * colour (r, g, b) and weight, four sums a pixel, where the splat is not behind the
+  /// slack. `nearest` is the first pass's depth, infinite negative where nothing is.
+  void (*addSplats)(const RasterCamera&, const RasterWindow&, const SplatPass&, RasterBatch&,
+    int count, const float* nearest, std::uint32_t* sums);
+};
+
+/// The best that this processor can, unless POINTFRONT_INSTRUCTIONS is "portable" or "AVX2".
+const RasterKernels& rasterKernels();
+
+/// By name, for tests; null if this build or processor has it not.
+const RasterKernels* rasterKernelsOf(const char* instructionSet);
+
+} // namespace pointfront

@@ -1,0 +1,254 @@
+#pragma once
+
+#include "RasterBatch.h"
+#include "RasterKernels.h"
+
+namespace pointfront
+{
+namespace
+{
+
+// From radius and normal to what the loops over pixels need. X and Y are the centre's direction: its
+// place in camera space divided by its depth (perspective), 0 where rays are parallel.
+
+/// Discs are not drawn more edge on than that cosine: what the affine map makes of them then has
+/// nothing to do with them (EWA-5).
+constexpr float leastCosine = 0.05f;
+/// Larger than any viewport, small enough for all that is computed with it.
+constexpr float mostPixels = 1.0e5f;
+
+struct Direction
+{
+  float x;
+  float y;
+};
+inline Direction directionOf(const RasterCamera& camera, const RasterBatch& batch, int j)
+{
+  const float perspective = camera.parallel ? 0.0f : 1.0f;
+  return { (batch.screenX[j] - camera.centreX) * (perspective / camera.scaleX),
+    (batch.screenY[j] - camera.centreY) * (perspective / camera.scaleY) };
+}
+
+/// A radius in world units becomes what covers at least a pixel.
+inline void widen(const RasterCamera& camera, float leastPixels, int count, RasterBatch& batch)
+{
+  const float scale = camera.scaleY;
+  const float inverseScale = 1.0f / scale;
+  for (int j = 0; j < count; ++j)
+  {
+    const float reach = camera.parallel ? 1.0f : batch.depth[j];
+    float pixels = batch.radius[j] * scale / reach;
+    pixels = pixels > leastPixels ? pixels : leastPixels;
+    pixels = pixels < mostPixels ? pixels : mostPixels;
+    batch.halfX[j] = pixels;
+    batch.radius[j] = pixels * reach * inverseScale;
+  }
+}
+
+inline void setUpDiscs(int count, RasterBatch& batch)
+{
+  for (int j = 0; j < count; ++j)
+  {
+    const float pixels = batch.halfX[j];
+    batch.halfY[j] = pixels;
+    batch.inverseRadius2[j] = 1.0f / (pixels * pixels);
+    batch.middleX[j] = batch.screenX[j];
+    batch.middleY[j] = batch.screenY[j];
+  }
+}
+
+/// A point without a normal faces the eye.
+inline void completeNormals(const RasterCamera& camera, int count, RasterBatch& batch)
+{
+  for (int j = 0; j < count; ++j)
+  {
+    const Direction to = directionOf(camera, batch, j);
+    const float x = batch.normalX[j], y = batch.normalY[j], z = batch.normalZ[j];
+    const float square = x * x + y * y + z * z;
+    const int known = (square > 1e-12f) & (square < 1e12f);
+    const float length2 = known ? square : 1.0f + to.x * to.x + to.y * to.y;
+    const float inverse = 1.0f / __builtin_sqrtf(length2);
+    batch.normalX[j] = (known ? x : to.x) * inverse;
+    batch.normalY[j] = (known ? y : to.y) * inverse;
+    batch.normalZ[j] = (known ? z : 1.0f) * inverse;
+  }
+}
+
+/// Source  Kovac 2009, 4.1 and 4.2, with the sign of the errata; the affine map's inverse variance
+///         with a low-pass added, as in splat-study.md.
+inline void setUpEllipses(
+  const RasterCamera& camera, float lowPass, int count, RasterBatch& batch)
+{
+  const float filter = lowPass * lowPass;
+  const float widthX = 1.0f / camera.scaleX;
+  const float widthY = 1.0f / camera.scaleY;
+  for (int j = 0; j < count; ++j)
+  {
+    const Direction to = directionOf(camera, batch, j);
+    const float nx = batch.normalX[j], ny = batch.normalY[j], nz = batch.normalZ[j];
+    const float reach = camera.parallel ? 1.0f : batch.depth[j];
+    float facing = nx * to.x + ny * to.y + nz;
+    const float side = facing < 0.0f ? -1.0f : 1.0f;
+    const float least =
+      leastCosine * __builtin_sqrtf(1.0f + to.x * to.x + to.y * to.y);
+    facing = facing * side;
+    facing = facing > least ? facing : least;
+    const float pixelX = reach * widthX, pixelY = reach * widthY; // world units at its depth
+    const float slope = -side / facing;
+    const float gx = nx * slope * pixelX, gy = ny * slope * pixelY;
+    const float ax = pixelX + to.x * gx, ay = to.y * gx;
+    const float bx = to.x * gy, by = pixelY + to.y * gy;
+    const float inverse = 1.0f / (batch.radius[j] * batch.radius[j]);
+    const float xx = (ax * ax + ay * ay + gx * gx) * inverse;
+    const float xy = (ax * bx + ay * by + gx * gy) * inverse;
+    const float yy = (bx * bx + by * by + gy * gy) * inverse;
+    const float area = 1.0f / (xx * yy - xy * xy);
+    const float varianceX = yy * area + filter;
+    const float covariance = -xy * area;
+    const float varianceY = xx * area + filter;
+    const float back = 1.0f / (varianceX * varianceY - covariance * covariance);
+    batch.quadraticXX[j] = varianceY * back;
+    batch.quadraticXY[j] = -2.0f * covariance * back;
+    batch.quadraticYY[j] = varianceX * back;
+    batch.slopeX[j] = gx;
+    batch.slopeY[j] = gy;
+    const float halfX = __builtin_sqrtf(varianceX), halfY = __builtin_sqrtf(varianceY);
+    batch.halfX[j] = halfX > 0.5f ? halfX : 0.5f;
+    batch.halfY[j] = halfY > 0.5f ? halfY : 0.5f;
+    batch.middleX[j] = batch.screenX[j];
+    batch.middleY[j] = batch.screenY[j];
+  }
+}
+
+/// Where a conic is on screen: centre and half width along one axis, in units of the direction, from
+/// three entries of its dual, taken relative to the centre's direction so that nothing cancels.
+/// A conic that comes near the eye's plane is everywhere.
+struct ConicExtent
+{
+  float middle;
+  float half;
+};
+inline ConicExtent conicExtent(float a00, float a02, float a22, float depth)
+{
+  const float root2 = a02 * a02 - a00 * a22;
+  const float root = __builtin_sqrtf(root2 > 0.0f ? root2 : 0.0f);
+  const int bounded = a22 < -1.0e-3f * depth * depth;
+  const float inverse = 1.0f / (bounded ? a22 : -1.0f);
+  return { bounded ? a02 * inverse : 0.0f, bounded ? -root * inverse : mostPixels };
+}
+
+/// The dual conic of the disc r (cos t u + sin t v) + c is r^2 (I - n n^T) - c c^T.
+inline void setUpExact(const RasterCamera& camera, float lowPass, int count, RasterBatch& batch)
+{
+  for (int j = 0; j < count; ++j)
+  {
+    const Direction to = directionOf(camera, batch, j);
+    const float nx = batch.normalX[j], ny = batch.normalY[j], nz = batch.normalZ[j];
+    const float depth = batch.depth[j];
+    const float square = batch.radius[j] * batch.radius[j];
+    const float tiltX = nx - to.x * nz, tiltY = ny - to.y * nz;
+    const float a22 = square * (1.0f - nz * nz) - depth * depth;
+    const ConicExtent x = conicExtent(square * (1.0f + to.x * to.x - tiltX * tiltX),
+      square * (-to.x - tiltX * nz), a22, depth);
+    const ConicExtent y = conicExtent(square * (1.0f + to.y * to.y - tiltY * tiltY),
+      square * (-to.y - tiltY * nz), a22, depth);
+    const float flatX = 1.0f - nx * nx, flatY = 1.0f - ny * ny;
+    const float parallelX = batch.radius[j] * __builtin_sqrtf(flatX > 0.0f ? flatX : 0.0f);
+    const float parallelY = batch.radius[j] * __builtin_sqrtf(flatY > 0.0f ? flatY : 0.0f);
+    const float halfX = (camera.parallel ? parallelX : x.half) * camera.scaleX;
+    const float halfY = (camera.parallel ? parallelY : y.half) * camera.scaleY;
+    const float least = lowPass > 0.5f ? lowPass : 0.5f;
+    // The low-pass lies around the centre, which the conic's middle need not be near.
+    const float moveX = camera.parallel ? 0.0f : x.middle * camera.scaleX;
+    const float moveY = camera.parallel ? 0.0f : y.middle * camera.scaleY;
+    const float sideX = moveX < 0.0f ? -moveX : moveX, sideY = moveY < 0.0f ? -moveY : moveY;
+    batch.halfX[j] = halfX > least + sideX ? halfX : least + sideX;
+    batch.halfY[j] = halfY > least + sideY ? halfY : least + sideY;
+    batch.middleX[j] = batch.screenX[j] + moveX;
+    batch.middleY[j] = batch.screenY[j] + moveY;
+    batch.inverseRadius2[j] = 1.0f / square;
+  }
+}
+
+/// The dual conic of a sphere's outline is r^2 I - c c^T. A sphere around the eye shows nothing: its
+/// near side is behind.
+inline void setUpSpheres(const RasterCamera& camera, int count, RasterBatch& batch)
+{
+  for (int j = 0; j < count; ++j)
+  {
+    const Direction to = directionOf(camera, batch, j);
+    const float depth = batch.depth[j];
+    const float square = batch.radius[j] * batch.radius[j];
+    const float a22 = square - depth * depth;
+    const ConicExtent x =
+      conicExtent(square * (1.0f + to.x * to.x), -square * to.x, a22, depth);
+    const ConicExtent y =
+      conicExtent(square * (1.0f + to.y * to.y), -square * to.y, a22, depth);
+    const float flat = batch.radius[j];
+    batch.halfX[j] = (camera.parallel ? flat : x.half) * camera.scaleX;
+    batch.halfY[j] = (camera.parallel ? flat : y.half) * camera.scaleY;
+    batch.middleX[j] = batch.screenX[j] + (camera.parallel ? 0.0f : x.middle * camera.scaleX);
+    batch.middleY[j] = batch.screenY[j] + (camera.parallel ? 0.0f : y.middle * camera.scaleY);
+    batch.inverseRadius2[j] = 1.0f / square;
+    const float distance2 = depth * depth * (1.0f + to.x * to.x + to.y * to.y);
+    const int outside = camera.parallel | (distance2 > square);
+    batch.depth[j] = outside ? depth : -1.0f;
+  }
+}
+
+/// Bounding rectangles in pixels, and which loop draws them.
+inline void sortByExtent(const RasterWindow& window, int count, RasterBatch& batch)
+{
+  const auto width = static_cast<float>(window.width);
+  const auto bottom = static_cast<float>(window.bottom);
+  const auto top = static_cast<float>(window.bottom + window.height);
+  const std::int32_t stride = window.stride;
+  const std::int32_t corner = window.at(0, -window.bottom);
+  for (int j = 0; j < count; ++j)
+  {
+    const float hx = batch.halfX[j], hy = batch.halfY[j];
+    const float mx = batch.middleX[j], my = batch.middleY[j];
+    const float larger = hx > hy ? hx : hy;
+    const float x0 = __builtin_ceilf(mx - hx - 0.5f), y0 = __builtin_ceilf(my - hy - 0.5f);
+    const float x1 = __builtin_floorf(mx + hx - 0.5f), y1 = __builtin_floorf(my + hy - 0.5f);
+    const int seen = (batch.depth[j] >= 0.0f) & (x1 >= 0.0f) & (x0 < width) & (y1 >= bottom) &
+      (y0 < top);
+    const int fits = seen & (larger <= largestUnclipped);
+    const int extent = 1 + (larger > 2.0f) + (larger > 4.0f) + (larger > 8.0f);
+    batch.extent[j] = fits ? extent : seen * static_cast<int>(RasterBatch::Clipped);
+    const float left = fits ? x0 : 0.0f, low = fits ? y0 : 0.0f;
+    batch.firstX[j] = left + 0.5f - batch.screenX[j];
+    batch.firstY[j] = low + 0.5f - batch.screenY[j];
+    batch.offset[j] =
+      corner + static_cast<std::int32_t>(low) * stride + static_cast<std::int32_t>(left);
+    batch.rows[j] = static_cast<std::int32_t>(fits ? y1 - y0 + 1.0f : 0.0f);
+    batch.columns[j] = static_cast<std::int32_t>(fits ? x1 - x0 + 1.0f : 0.0f);
+  }
+}
+
+inline void setUp(const RasterCamera& camera, const RasterWindow& window, const SplatPass& pass,
+  int count, RasterBatch& batch)
+{
+  widen(camera, pass.leastRadius, count, batch);
+  switch (pass.shape)
+  {
+    case SplatShape::Disc:
+      setUpDiscs(count, batch);
+      break;
+    case SplatShape::Ellipse:
+      completeNormals(camera, count, batch);
+      setUpEllipses(camera, pass.lowPass, count, batch);
+      break;
+    case SplatShape::ExactEllipse:
+      completeNormals(camera, count, batch);
+      setUpExact(camera, pass.lowPass, count, batch);
+      break;
+    case SplatShape::Sphere:
+      setUpSpheres(camera, count, batch);
+      break;
+  }
+  sortByExtent(window, count, batch);
+}
+
+} // namespace
+} // namespace pointfront

@@ -1,0 +1,265 @@
+// From the front to the plan: nodes pinned and grouped, without files and without a back end.
+
+#include "pointfront/Plan/FramePlanner.h"
+#include "pointfront/Plan/FrameStatistics.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <sstream>
+#include <vector>
+
+using namespace pointfront;
+
+namespace
+{
+
+constexpr std::uint32_t pointsOfNode = 1000;
+
+//   layer 0        layer 1        layer 2
+//      0              1              2       spacing 8
+//    3   4            5                      spacing 4
+std::vector<Node> rows()
+{
+  std::vector<Node> rows(6);
+  for (NodeIndex n = 0; n < 6; ++n)
+  {
+    Node& row = rows[n];
+    row.centre = { n < 3 ? 0.0 : (n == 4 ? 50.0 : -50.0), 0.0, 0.0 };
+    row.halfSize = glm::vec3(n < 3 ? 100.0f : 50.0f);
+    row.radius = n < 3 ? 180.0f : 90.0f;
+    row.spacing = n < 3 ? 8.0f : 4.0f;
+    row.pointCount = pointsOfNode;
+    row.pointsBelow = n == 0 ? 3000 : n == 1 ? 2000 : 1000;
+    row.parent = n < 3 ? noNode : n < 5 ? 0 : 1;
+    row.level = n < 3 ? 0 : 1;
+    row.layer = std::uint16_t(n < 3 ? n : row.parent);
+  }
+  rows[0].firstChild = 3;
+  rows[0].childCount = 2;
+  rows[1].firstChild = 5;
+  rows[1].childCount = 1;
+  return rows;
+}
+
+class LayeredReader final : public NodeReader
+{
+public:
+  Result<NodeColumns> decode(const FetchedNode& fetched) const override
+  {
+    NodeColumns node;
+    node.node = fetched.node;
+    node.describe(table->node(fetched.node));
+    node.positions.resize(pointsOfNode);
+    node.selection = fetched.columns;
+    node.columns.resize(fetched.columns.size(), std::vector<std::byte>(pointsOfNode));
+    return node;
+  }
+  std::size_t decodedBytes(NodeIndex, std::uint32_t, const ColumnSelection& columns) const override
+  {
+    return sizeof(NodeColumns) +
+      pointsOfNode * (sizeof(glm::u32vec3) + columns.size()) +
+      columns.size() * sizeof(std::vector<std::byte>);
+  }
+  std::size_t storedBytes(NodeIndex, const ColumnSelection&) const override { return 1; }
+
+  std::shared_ptr<const Hierarchy> table =
+    std::make_shared<HierarchyTable>(rows(), std::vector<NodeIndex>{ 0, 1, 2 }, Refinement::Add);
+};
+
+std::shared_ptr<const ResolvedStyle> flatStyle()
+{
+  return std::make_shared<const ResolvedStyle>();
+}
+
+struct Scene
+{
+  Scene()
+  {
+    description.schema = schema;
+    description.splatRadiusBase = 0.25;
+    description.grid.scale = glm::dvec3(0.01);
+    demand.view = View::perspective(
+      { 0, 0, 1000 }, { 0, 0, 0 }, { 0, 1, 0 }, 0.9, 1.0, 1e5, 1000, 1000);
+    demand.complete = true;
+    request.styles = { flatStyle(), flatStyle(), flatStyle() };
+  }
+  static AttributeSchema oneColumn()
+  {
+    AttributeSchema schema;
+    Attribute value;
+    value.name = "value";
+    value.type = ScalarType::UInt8;
+    schema.add(value);
+    return schema;
+  }
+  FramePlan plan(double errorPx)
+  {
+    demand.targetErrorPx = errorPx;
+    front.update(demand);
+    return planFrame(front, description, request);
+  }
+
+  AttributeSchema schema = oneColumn();
+  std::shared_ptr<LayeredReader> reader = std::make_shared<LayeredReader>();
+  ResidencyShare share{ reader, 6, ResidencyOptions() };
+  ViewFront front{ std::make_shared<HierarchyPiece>(reader->table, 0, 1), share, schema,
+    std::make_shared<WindowDemand>() };
+  StoreDescription description;
+  FrameDemand demand;
+  PlanRequest request;
+};
+
+} // namespace
+
+TEST(FramePlanner, GroupsAllThatTheFrontDrawsByLayer)
+{
+  Scene scene;
+  const FramePlan plan = scene.plan(0.01);
+  ASSERT_EQ(plan.batches.size(), 3u);
+  EXPECT_EQ(plan.pointCount(), 6u * pointsOfNode);
+  EXPECT_EQ(plan.nodeCount(), 6u);
+  const std::size_t items[] = { 3, 2, 1 };
+  for (std::uint16_t layer = 0; layer < 3; ++layer)
+  {
+    EXPECT_EQ(plan.batches[layer].layer, layer);
+    EXPECT_EQ(plan.batches[layer].style, scene.request.styles[layer]);
+    ASSERT_EQ(plan.batches[layer].items.size(), items[layer]);
+    for (const PlanItem& item : plan.batches[layer].items)
+    {
+      EXPECT_EQ(item.node->layer, layer);
+      EXPECT_EQ(item.first, 0u);
+      EXPECT_EQ(item.last, pointsOfNode);
+      EXPECT_EQ(item.fade, 1.0f);
+      EXPECT_EQ(item.spacing, item.node->spacing) << "all of it: the tree's own";
+    }
+  }
+  EXPECT_EQ(plan.splatRadiusBase, 0.25);
+  EXPECT_EQ(plan.grid.scale, glm::dvec3(0.01));
+  EXPECT_EQ(plan.schema->size(), 1u);
+}
+
+TEST(FramePlanner, ItemsKeepTheOrderOfTheFront)
+{
+  Scene scene;
+  const FramePlan plan = scene.plan(0.01);
+  std::vector<NodeIndex> drawn;
+  for (const DrawItem& item : scene.front.last().draw)
+  {
+    if (item.node == 0 || item.node == 3 || item.node == 4)
+    {
+      drawn.push_back(item.node);
+    }
+  }
+  std::vector<NodeIndex> planned;
+  for (const PlanItem& item : plan.batches.front().items)
+  {
+    planned.push_back(item.node->node);
+  }
+  EXPECT_EQ(planned, drawn);
+}
+
+TEST(FramePlanner, LayersWithoutAStyleAreNotThere)
+{
+  Scene scene;
+  scene.request.styles[1] = nullptr;
+  scene.request.styles.pop_back(); // layer 2 is beyond the list
+  const FramePlan plan = scene.plan(0.01);
+  ASSERT_EQ(plan.batches.size(), 1u);
+  EXPECT_EQ(plan.batches[0].layer, 0u);
+  EXPECT_EQ(plan.batches[0].items.size(), 3u);
+}
+
+// Pixels that a world unit has at distance 1000: 1000 / (2 tan 0.45 * 1000).
+TEST(FramePlanner, ThePrefixOfARootHasTheSpacingThatTheThresholdAskedFor)
+{
+  Scene scene;
+  const double pixel = 1.0 / (2.0 * std::tan(0.45));
+  const double errorPx = 20.0;
+  const FramePlan plan = scene.plan(errorPx);
+  ASSERT_EQ(plan.batches.size(), 3u);
+  const PlanItem& item = plan.batches[2].items.front();
+  EXPECT_LT(item.last, pointsOfNode / 2);
+  EXPECT_NEAR(item.spacing,
+    8.0 * std::sqrt(double(pointsOfNode) / item.last), 1e-4); // s * sqrt(N / n)
+  // The front measures at the sphere's near side, 180 nearer than its centre.
+  EXPECT_NEAR(item.spacing * pixel * 1000.0 / 820.0, errorPx, 0.02 * errorPx);
+}
+
+TEST(FramePlanner, SpacingFallsFromTheParentsToTheNodesOwn)
+{
+  NodeColumns node;
+  node.positions.resize(100000);
+  node.spacing = 4.0f;
+  EXPECT_NEAR(prefixSpacing(node, 1, 0.5f), 8.0, 1e-3);
+  EXPECT_EQ(prefixSpacing(node, 100000, 0.5f), 4.0f);
+  EXPECT_NEAR(prefixSpacing(node, 50000, 0.5f), 4.0 / std::sqrt(0.625), 1e-5);
+  float before = 8.0f;
+  for (std::uint32_t drawn = 1000; drawn <= 100000; drawn += 1000)
+  {
+    EXPECT_LT(prefixSpacing(node, drawn, 0.5f), before);
+    before = prefixSpacing(node, drawn, 0.5f);
+  }
+  node.spacing = 0.0f;
+  EXPECT_EQ(prefixSpacing(node, 1000, 0.5f), 0.0f) << "not known";
+}
+
+TEST(FramePlanner, APlanPinsItsNodesUntilItIsGone)
+{
+  Scene scene;
+  FramePlan plan = scene.plan(0.01);
+  const std::size_t held = scene.share.residency().statistics().residentBytes;
+  EXPECT_GT(held, 6u * pointsOfNode * sizeof(glm::u32vec3));
+  scene.front.leave();
+  scene.share.setBudgetBytes(1);
+  scene.share.residency().request({ { 0, 1.0, false, pointsOfNode } });
+  scene.share.residency().release([](NodeIndex) { return 5u; });
+  EXPECT_EQ(scene.share.residency().find(3), nullptr);
+  EXPECT_EQ(plan.batches[0].items[2].node->size(), pointsOfNode) << "still there";
+  EXPECT_EQ(scene.share.residency().statistics().residentBytes, held) << "and on the account";
+  plan = FramePlan();
+  EXPECT_EQ(scene.share.residency().statistics().residentBytes, 0u);
+}
+
+TEST(FramePlanner, NodesThatLackAColumnAreThereUntilTheyAreReadAgain)
+{
+  Scene scene;
+  scene.plan(0.01);
+  auto style = std::make_shared<ResolvedStyle>();
+  style->colouring.kind = PointColouring::Kind::Table;
+  scene.request.styles[0] = style;
+  scene.demand.columns = style->columns();
+  ASSERT_EQ(scene.demand.columns, ColumnSelection{ 0 });
+  // Before the next update, as a frame in the middle of the re-reading sees it.
+  const FramePlan before = planFrame(scene.front, scene.description, scene.request);
+  EXPECT_EQ(before.pointCount(), 6u * pointsOfNode);
+  EXPECT_TRUE(before.batches[0].items[0].node->selection.empty());
+  EXPECT_FALSE(style->colouring.coveredBy(*before.batches[0].items[0].node));
+  const FramePlan after = scene.plan(0.01); // waits for the columns
+  EXPECT_EQ(after.pointCount(), 6u * pointsOfNode);
+  EXPECT_TRUE(style->colouring.coveredBy(*after.batches[0].items[0].node));
+}
+
+TEST(FramePlanner, PrintsALineForEachBatchAndItem)
+{
+  Scene scene;
+  std::ostringstream text;
+  text << scene.plan(0.01);
+  EXPECT_NE(text.str().find("layer 1, technique 0, 2 nodes\n"), std::string::npos) << text.str();
+  EXPECT_NE(text.str().find("  node 5 [0, 1000) fade 1 spacing 4\n"), std::string::npos);
+}
+
+TEST(FrameStatistics, TakesWhatTheFrontSays)
+{
+  Scene scene;
+  scene.plan(0.01);
+  FrameStatistics statistics;
+  statistics.take(scene.front.last());
+  EXPECT_EQ(statistics.points, 6u * pointsOfNode);
+  EXPECT_EQ(statistics.nodes, 6u);
+  EXPECT_EQ(statistics.frontLength, 4u) << "nodes 3, 4, 5 and the root 2";
+  EXPECT_EQ(statistics.failedNodes, 0u);
+  EXPECT_EQ(statistics.errorPx, 0.0);
+  EXPECT_FALSE(statistics.limitedByPoints);
+}

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "pointfront/Plan/FramePlan.h"
+#include "pointfront/Store/StoredCloud.h"
+#include "pointfront/Views/ViewFront.h"
+
+#include <memory>
+#include <vector>
+
+namespace pointfront
+{
+
+/// What a view asks of a frame beside what its front draws.
+struct PlanRequest
+{
+  FrameCamera camera;
+  std::vector<glm::dvec4> clippingPlanes; ///< (n, d), store coordinates; as FramePlan's
+  FrameShading shading;
+  /// By number of the store's layer. What has none is not drawn: a hidden layer, and one beyond the
+  /// list.
+  std::vector<std::shared_ptr<const ResolvedStyle>> styles;
+};
+
+/// The plan of what the front draws since its last update: a batch for each layer that shows
+/// anything, in the order of their numbers.
+/// Nodes     each is looked up once and pinned until the plan is gone. One that is no longer in
+///           memory is left out.
+/// Columns   a node may lack columns that its style reads, while it is being read again: it is in
+///           the plan all the same, and back ends draw what they can of it: without the colouring's
+///           column in the flat colour, without a normal as a paraboloid, without a filter's column
+///           all of its points (NodeColumns::selection says what is there).
+/// Threads   the renderer's, as ViewFront.
+FramePlan planFrame(
+  const ViewFront& front, const StoreDescription& description, PlanRequest request);
+
+/// World units between the points on screen when the first `drawn` points of a node and all nodes
+/// above it are drawn; `spacingRatio` as in DrawItem. 0 where the node's spacing is not known.
+float prefixSpacing(const NodeColumns& node, std::uint32_t drawn, float spacingRatio);
+
+} // namespace pointfront

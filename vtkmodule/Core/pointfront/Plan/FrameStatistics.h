@@ -1,0 +1,48 @@
+#pragma once
+
+#include "pointfront/Front/FrontDelta.h"
+
+#include <cstdint>
+
+namespace pointfront
+{
+
+/// What one frame of one cloud came to: for properties, tables and log lines.
+struct FrameStatistics
+{
+  std::uint64_t points = 0; ///< drawn
+  std::uint64_t nodes = 0;  ///< that they are of
+  std::uint32_t frontLength = 0;
+  std::uint32_t moves = 0;
+  std::uint64_t requests = 0;
+  double errorPx = 0.0;     ///< as FrontDelta::errorPx
+  double thresholdPx = 0.0; ///< that the front worked with
+  double frontMilliseconds = 0.0;
+  std::int64_t gpuBytes = 0;
+  std::int64_t windowGpuBytes = 0; ///< of all clouds of the window
+  /// Nothing is missing: no further frame of the same view differs.
+  bool complete = false;
+  bool limitedByPoints = false;    ///< the budget of points, or a frame's time
+  bool limitedByGpuMemory = false;
+  bool limitedByMemory = false;    ///< of the host
+  std::uint32_t failedNodes = 0;   ///< that could not be read
+
+  /// What an update of the front says. Points and nodes are those that it names; `complete` and GPU
+  /// memory are the back end's to say.
+  void take(const FrontDelta& delta)
+  {
+    points = delta.pointsDrawn;
+    nodes = delta.draw.size();
+    frontLength = delta.frontLength;
+    moves = delta.moves;
+    requests = delta.requests.size();
+    errorPx = delta.errorPx;
+    thresholdPx = delta.thresholdPx;
+    limitedByPoints = delta.limitedByBudget;
+    limitedByGpuMemory = delta.limitedByGpu;
+    limitedByMemory = delta.limitedByMemory;
+    failedNodes = delta.failedNodes;
+  }
+};
+
+} // namespace pointfront

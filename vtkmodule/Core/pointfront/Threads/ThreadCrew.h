@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+
+namespace pointfront
+{
+
+/// Threads that wait for work and do it together: for work that is cut into many pieces and is over
+/// within a frame.
+/// Order       pieces are handed out in ascending order, to whichever thread is free. Results must
+///             not depend on which thread does which.
+/// Errors      an exception of a piece stops the handing out and comes out of run(), the first one
+///             if there are several.
+/// Threads     run() from one thread at a time; a second caller waits. A piece must not call run().
+class ThreadCrew
+{
+public:
+  /// The one that the process shares: as many threads as processors, the caller's included; with
+  /// POINTFRONT_THREADS in the environment that many.
+  static ThreadCrew& ofProcess();
+
+  /// `threads` with the caller's; 0 is taken as 1.
+  explicit ThreadCrew(unsigned threads);
+  ~ThreadCrew();
+  ThreadCrew(const ThreadCrew&) = delete;
+  ThreadCrew& operator=(const ThreadCrew&) = delete;
+
+  unsigned threads() const;
+
+  /// Calls work(piece, thread) for each piece in [0, pieces), thread in [0, threads()), and returns
+  /// when all are done. The caller's thread works too. At most `most` threads take part; 0: all.
+  void run(std::size_t pieces, const std::function<void(std::size_t, unsigned)>& work,
+    unsigned most = 0);
+
+private:
+  struct Content;
+  std::unique_ptr<Content> content_;
+};
+
+} // namespace pointfront

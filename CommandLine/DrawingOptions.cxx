@@ -1,5 +1,6 @@
 #include "DrawingOptions.h"
 
+#include "StyleOptions.h"
 #include "Unavailable.h"
 #include "Values.h"
 
@@ -46,13 +47,6 @@ void declareColour(CLI::App& app, DrawingOptions& options)
     ->expected(1);
 }
 
-void declareUnavailableDrawing(CLI::App& app)
-{
-  app.add_option("--technique", "points (others are not available yet)")
-    ->check(availableValues(
-      { "points" }, { "splats", "spheres", "silhouettes", "solid", "ewa" }));
-  declareUnavailable(app, "--style", "classes have no styles of their own");
-}
 } // namespace
 
 std::optional<std::array<double, 3>> parseColour(const std::string& text)
@@ -122,7 +116,7 @@ void DrawingOptions::declare(CLI::App& app)
   app.add_option("--classes", shown, "Only these classes (stores built with --layers class)")
     ->type_name("LIST")
     ->expected(1);
-  declareUnavailableDrawing(app);
+  declareStyle(app, *this);
 }
 
 } // namespace pointfront

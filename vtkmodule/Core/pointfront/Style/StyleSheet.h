@@ -15,6 +15,9 @@
 namespace pointfront
 {
 
+/// FrameShading::eyeDomeStrength of eye-dome lighting that is asked for without a number.
+constexpr float usualEyeDomeStrength = 0.4f;
+
 /// How one layer of a store is drawn.
 struct LayerStyling
 {

@@ -51,6 +51,7 @@ public:
     node.halfSize = glm::vec3(float(0.5 * size), float(0.5 * size), float(0.05 * size));
     node.radius = float(0.71 * size);
     node.spacing = float(size / 100.0);
+    node.splatRadius = 0.8f * node.spacing;
     node.pointCount = pointsOfNode;
     node.firstPoint = std::uint64_t(index) * pointsOfNode;
     node.level = level;

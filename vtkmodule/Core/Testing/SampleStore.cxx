@@ -122,6 +122,7 @@ void measure(SampleStore& sample)
     }
     node.radius = roundedUp(glm::length(half));
     node.spacing = 4.0f / static_cast<float>(1 << node.level);
+    node.splatRadius = i == 3 ? 0.0f : 0.8f * node.spacing;
   }
 }
 
@@ -152,6 +153,7 @@ SampleStore makeSample(std::uint32_t pointsPerNode, std::uint64_t seed)
   d.schema = sampleSchema();
   d.layers = { { 2, "ground", 0, 0 }, { 6, "building", 0, 0 } };
   d.generator = "sample";
+  d.splatRadiusBase = 0.25;
   d.metadata = { { "LASF_Projection", 2112, "OGC WKT", { std::byte(1), std::byte(0) } },
     { "empty", 7, "", {} } };
   std::mt19937_64 random(seed);

@@ -305,3 +305,18 @@ TEST(FrameStatistics, TakesWhatTheFrontSays)
   EXPECT_EQ(statistics.errorPx, 0.0);
   EXPECT_FALSE(statistics.limitedByPoints);
 }
+
+TEST(FramePlanner, ANodeAmongFinerOnesHasSplatsOfTheirSize)
+{
+  Scene scene;
+  const FramePlan all = scene.plan(0.01);
+  // Nothing was measured here: the spacing closes the surface. Node 0 has 3 and 4 among its points.
+  ASSERT_EQ(all.batches.size(), 3u);
+  for (const PlanItem& item : all.batches[0].items)
+  {
+    EXPECT_EQ(item.refined, item.node->node == 0) << all;
+    EXPECT_FLOAT_EQ(item.closingRadius, 4.0f) << all;
+  }
+  EXPECT_FALSE(all.batches[2].items.front().refined);
+  EXPECT_FLOAT_EQ(all.batches[2].items.front().closingRadius, 8.0f);
+}

@@ -30,8 +30,8 @@ constexpr std::size_t smallCache = 12 * sizeof(NodePage);
 bool sameRow(const Node& a, const Node& b)
 {
   return a.centre == b.centre && a.halfSize == b.halfSize && a.radius == b.radius &&
-    a.spacing == b.spacing && a.pointCount == b.pointCount && a.pointsBelow == b.pointsBelow &&
-    a.firstPoint == b.firstPoint && a.parent == b.parent && a.firstChild == b.firstChild &&
+    a.spacing == b.spacing && a.splatRadius == b.splatRadius && a.pointCount == b.pointCount &&
+    a.pointsBelow == b.pointsBelow && a.firstPoint == b.firstPoint && a.parent == b.parent && a.firstChild == b.firstChild &&
     a.childCount == b.childCount && a.level == b.level && a.layer == b.layer;
 }
 
@@ -275,7 +275,7 @@ TEST(PagedNodeTable, TheFrontDrawsTheParentOfALostPage)
   for (const Refinement refinement : { Refinement::Add, Refinement::Replace })
   {
     auto source = std::make_unique<TrickyPages>(6);
-    source->damaged = 1; // nodes 60 to 119, of level 3: children of 14 (one of them) to 29
+    source->damaged = 1; // nodes 56 to 111, of level 3: children of 13 (one of them) to 27
     const auto table = std::make_shared<PagedNodeTable>(
       std::move(source), std::vector<NodeIndex>{ 0 }, refinement);
     RenderFront front(table);
@@ -298,7 +298,7 @@ TEST(PagedNodeTable, TheFrontDrawsTheParentOfALostPage)
     std::size_t parents = 0;
     for (const DrawItem& item : delta->draw)
     {
-      EXPECT_TRUE(item.node < 60 || item.node >= 120);
+      EXPECT_TRUE(item.node < nodePageRows || item.node >= 2 * nodePageRows);
       parents += item.node >= 15 && item.node <= 20 ? 1 : 0;
     }
     EXPECT_EQ(parents, 6u) << "all of their children are lost";
@@ -379,7 +379,7 @@ TEST(PagedNodeTable, AStoreWithADamagedPageOpensAndIsReadableElsewhere)
   ASSERT_TRUE(opened) << opened.error().what;
   const PointStore& store = **opened;
   EXPECT_TRUE(store.read(0, {}));
-  EXPECT_TRUE(store.read(119, {}));
+  EXPECT_TRUE(store.read(111, {}));
   const auto lost = store.read(121, {});
   ASSERT_FALSE(lost);
   EXPECT_EQ(lost.error().kind, Error::Kind::Corrupt);
@@ -388,7 +388,7 @@ TEST(PagedNodeTable, AStoreWithADamagedPageOpensAndIsReadableElsewhere)
   const auto report = store.verify();
   ASSERT_TRUE(report);
   EXPECT_FALSE(report->ok);
-  EXPECT_NE(report->firstError.find("node 120 to node 179"), std::string::npos)
+  EXPECT_NE(report->firstError.find("node 112 to node 167"), std::string::npos)
     << report->firstError;
   EXPECT_NE(report->firstError.find("(byte " + std::to_string(page) + ")"), std::string::npos)
     << report->firstError;

@@ -220,7 +220,7 @@ TEST(SideFile, ANewerVersionIsRefusedWithAdvice)
 {
   const MadeUpRecords records = MadeUpRecords::strips(1000, 7);
   std::vector<std::byte> bytes = fileBytes(index(records, "whole.pfindex").path);
-  bytes[8] = std::byte(2);
+  bytes[8] = std::byte(sideFileVersion + 1);
   const std::uint32_t checksum = checksumOf(bytes.data(), 60);
   std::memcpy(bytes.data() + 60, &checksum, sizeof checksum);
   const std::string path = temporaryPath("newer.pfindex");
@@ -228,7 +228,7 @@ TEST(SideFile, ANewerVersionIsRefusedWithAdvice)
   const auto side = SideFile::open(path);
   ASSERT_FALSE(side);
   EXPECT_EQ(side.error().kind, Error::Kind::Unsupported);
-  EXPECT_NE(side.error().what.find("version 2"), std::string::npos);
+  EXPECT_NE(side.error().what.find("version 3"), std::string::npos);
   EXPECT_NE(side.error().what.find("update PointFront"), std::string::npos);
 }
 

@@ -160,11 +160,11 @@ TEST(StoreDamage, NewerVersionsAreNamed)
 {
   ForgedStore forged(soundStore());
   const std::string path = temporaryPath("newer.pfront");
-  forged.header.version = 3;
+  forged.header.version = 4;
   forged.write(path);
   const Error newer = openFails(path);
   EXPECT_EQ(newer.kind, Error::Kind::Unsupported);
-  EXPECT_TRUE(mentions(newer, "version 3") && mentions(newer, "up to version 2") &&
+  EXPECT_TRUE(mentions(newer, "version 4") && mentions(newer, "up to version 3") &&
     mentions(newer, "update"))
     << newer.what;
   EXPECT_TRUE(PointStore::looksLikeStore(path));
@@ -282,12 +282,13 @@ TEST(StoreDamage, HugeClaimsOfVersion1AreRefused)
     [](ForgedStore& f)
     {
       std::vector<Node> nodes =
-        decodeNodeTable(f.section(SectionKind::NodeTable).data(), f.footer.nodeCount);
+        decodeNodeTable(
+          f.section(SectionKind::NodeTable).data(), f.footer.nodeCount, NodeRowForm::Plain);
       nodes[4].pointCount = 0xffffffffu;
       f.footer.pointCount += nodes[4].pointCount - nodes[4].pointsBelow;
       nodes[4].pointsBelow = nodes[4].pointCount;
       nodes[1].pointsBelow = nodes[4].pointCount;
-      f.replaceSection(SectionKind::NodeTable, encodeNodeTable(nodes));
+      f.replaceSection(SectionKind::NodeTable, encodeNodeTable(nodes, NodeRowForm::Plain));
     });
   refused("payload offset",
     [](ForgedStore& f)

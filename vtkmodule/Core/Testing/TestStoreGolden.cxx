@@ -12,18 +12,22 @@ namespace
 {
 // Two stores of each version, kept for ever. A change of the format gets a new version and new
 // files; these stay, and stay readable. (POINTFRONT_WRITE_GOLDEN=FOLDER writes the newest there.)
-const std::string small = "/version2.pfront";
-const std::string large = "/version2-all-codecs.pfront";
+const std::string small = "/version3.pfront";
+const std::string large = "/version3-all-codecs.pfront";
 constexpr std::uint32_t smallPoints = 3;
 constexpr std::uint32_t largePoints = 260;
 
 std::string golden(const std::string& name) { return POINTFRONT_CORE_TEST_DATA + name; }
 
-void expectSample(const std::string& path, const SampleStore& sample)
+void expectSample(const std::string& path, const SampleStore& sample, std::uint32_t version)
 {
   const auto opened = PointStore::open(path);
   ASSERT_TRUE(opened) << opened.error().what;
   const PointStore& store = **opened;
+  ASSERT_EQ(store.description().version, version);
+  // Older ones know nothing of splats.
+  ASSERT_EQ(store.description().splatRadiusBase,
+    version < 3 ? 0.0 : sample.description.splatRadiusBase);
   ASSERT_EQ(store.description().levels, 3u);
   ASSERT_EQ(store.description().layers[0].nodeCount, 5u);
   ASSERT_EQ(store.description().layers[1].pointCount, sample.nodes[4].pointCount);
@@ -38,6 +42,9 @@ void expectSample(const std::string& path, const SampleStore& sample)
     rank += sample.nodes[i].pointCount;
     const auto points = store.read(i, everyColumn(sample.description.schema));
     ASSERT_TRUE(points) << points.error().what;
+    ASSERT_EQ(points->splatRadius, version < 3 ? 0.0f : sample.nodes[i].splatRadius);
+    ASSERT_EQ(points->spacing, sample.nodes[i].spacing);
+    ASSERT_EQ(points->layer, sample.nodes[i].layer);
     ASSERT_EQ(points->origin, sample.points[i].origin);
     ASSERT_EQ(points->positions, sample.points[i].positions);
     ASSERT_EQ(points->columns, sample.points[i].columns);
@@ -50,10 +57,12 @@ void expectSample(const std::string& path, const SampleStore& sample)
 
 TEST(StoreGolden, EveryVersionStaysReadable)
 {
-  expectSample(golden("/version1.pfront"), makeSample(smallPoints));
-  expectSample(golden("/version1-all-codecs.pfront"), makeSample(largePoints));
-  expectSample(golden(small), makeSample(smallPoints));
-  expectSample(golden(large), makeSample(largePoints));
+  expectSample(golden("/version1.pfront"), makeSample(smallPoints), 1);
+  expectSample(golden("/version1-all-codecs.pfront"), makeSample(largePoints), 1);
+  expectSample(golden("/version2.pfront"), makeSample(smallPoints), 2);
+  expectSample(golden("/version2-all-codecs.pfront"), makeSample(largePoints), 2);
+  expectSample(golden(small), makeSample(smallPoints), 3);
+  expectSample(golden(large), makeSample(largePoints), 3);
 }
 
 TEST(StoreGolden, TheLargeOneHasEveryCodec)
@@ -78,7 +87,7 @@ TEST(StoreGolden, TheFormatHasNotChanged)
   const std::string path = temporaryPath("a.pfront");
   writeSample(makeSample(smallPoints), path);
   EXPECT_TRUE(fileBytes(path) == fileBytes(golden(small)))
-    << "what is written now differs from version 2: give the format a new version";
+    << "what is written now differs from version 3: give the format a new version";
   if (const char* folder = std::getenv("POINTFRONT_WRITE_GOLDEN"))
   {
     writeSample(makeSample(smallPoints), folder + small);

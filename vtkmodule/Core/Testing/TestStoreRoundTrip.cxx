@@ -58,7 +58,8 @@ TEST(Store, DescribesWhatWasWritten)
   ASSERT_TRUE(opened) << opened.error().what;
   const StoreDescription& d = (*opened)->description();
   EXPECT_EQ(d.path, path);
-  EXPECT_EQ(d.version, 2u);
+  EXPECT_EQ(d.version, 3u);
+  EXPECT_EQ(d.splatRadiusBase, 0.25);
   EXPECT_EQ(d.fileBytes, fileBytes(path).size());
   EXPECT_EQ(d.pointCount, 600u);
   EXPECT_EQ(d.grid, sample.description.grid);

@@ -185,6 +185,11 @@ TEST(NodeTable, NamesWhatIsWrong)
   const float nan = std::numeric_limits<float>::quiet_NaN();
   EXPECT_TRUE(contains(faultAfter([&](Nodes& n) { n[2].radius = nan; }), "node 2"));
   EXPECT_TRUE(contains(faultAfter([&](Nodes& n) { n[2].halfSize.y = -1.0f; }), "node 2"));
+  const float infinite = std::numeric_limits<float>::infinity();
+  for (const float radius : { nan, -1.0f, infinite })
+  {
+    EXPECT_TRUE(contains(faultAfter([&](Nodes& n) { n[3].splatRadius = radius; }), "node 3"));
+  }
   EXPECT_TRUE(contains(faultAfter([&](Nodes& n) { n[6].centre.z = nan; }), "node 6"));
   EXPECT_TRUE(contains(faultAfter([](Nodes& n) { n[2].parent = 2; }), "another parent"));
   EXPECT_TRUE(contains(faultAfter([](Nodes& n) { n[0].parent = 2; }), "come before"));

@@ -102,7 +102,7 @@ std::vector<std::byte> encodeTable(const SideFileContent& content)
   out.put(static_cast<std::uint64_t>(description.size()));
   out.putBytes(description.data(), description.size());
   out.put(static_cast<std::uint32_t>(content.table.nodes.size()));
-  const std::vector<std::byte> nodes = encodeNodeTable(content.table.nodes);
+  const std::vector<std::byte> nodes = encodeNodeTable(content.table.nodes, NodeRowForm::WithSplatRadius);
   out.putBytes(nodes.data(), nodes.size());
   for (const InPlaceRow& row : content.table.rows)
   {
@@ -124,9 +124,11 @@ std::string rowFault(const InPlaceTable& table, NodeIndex i, std::uint64_t paylo
 }
 
 /// What is wrong with the table's bytes, or an empty text with `content` filled.
-std::string tableFault(
-  const std::byte* data, std::size_t size, std::uint64_t payloadEnd, SideFileContent& content)
+std::string tableFault(const std::byte* data, std::size_t size, const Header& header,
+  SideFileContent& content)
 {
+  const NodeRowForm form =
+    header.version < 2 ? NodeRowForm::Plain : NodeRowForm::WithSplatRadius;
   ByteReader in(data, size);
   IndexedFile& file = content.indexed;
   file.name = in.getText();
@@ -152,18 +154,18 @@ std::string tableFault(
   content.stored = std::move(*stored);
   ByteReader rest(data + in.position() + described, in.remaining() - described);
   const std::uint64_t nodes = rest.get<std::uint32_t>();
-  if (!rest.ok() || rest.remaining() != nodes * (nodeRowBytes + rowBytes))
+  if (!rest.ok() || rest.remaining() != nodes * (nodeRowBytes(form) + rowBytes))
   {
     return "the node table's size is wrong";
   }
   const std::byte* const rows = data + size - rest.remaining();
-  content.table.nodes = decodeNodeTable(rows, static_cast<std::uint32_t>(nodes));
+  content.table.nodes = decodeNodeTable(rows, static_cast<std::uint32_t>(nodes), form);
   std::string fault = nodeTableFault(content.table.nodes, 1, file.points);
-  ByteReader inPlace(rows + nodes * nodeRowBytes, nodes * rowBytes);
+  ByteReader inPlace(rows + nodes * nodeRowBytes(form), nodes * rowBytes);
   for (NodeIndex i = 0; i < nodes && fault.empty(); ++i)
   {
     content.table.rows.push_back(getRow(inPlace));
-    const std::string row = rowFault(content.table, i, payloadEnd);
+    const std::string row = rowFault(content.table, i, header.tableOffset);
     fault = row.empty() ? "" : "node " + std::to_string(i) + ": " + row;
   }
   return fault;
@@ -316,7 +318,7 @@ Result<std::unique_ptr<const SideFile>> SideFile::open(const std::string& path)
   }
   std::unique_ptr<SideFile> side(new SideFile);
   const std::string fault =
-    tableFault(table.data(), table.size(), header->tableOffset, side->content_);
+    tableFault(table.data(), table.size(), *header, side->content_);
   if (!fault.empty())
   {
     return corrupt(path, header->tableOffset, fault);

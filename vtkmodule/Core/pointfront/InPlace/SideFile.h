@@ -16,7 +16,7 @@
 namespace pointfront
 {
 
-constexpr std::uint32_t sideFileVersion = 1; ///< written by this program, and the newest it reads
+constexpr std::uint32_t sideFileVersion = 2; ///< written by this program, and the newest it reads
 constexpr std::array<unsigned char, 8> sideFileMagic{ 0x89, 'P', 'F', 'I', 'D', 'X', 0x0d, 0x0a };
 
 /// The file that an index is of, and how to see that it is still the same.

@@ -161,6 +161,14 @@ bool getTableSummary(ByteReader& in, StoredDescription& stored)
   return in.ok();
 }
 
+/// Since version 3.
+bool getSplatBase(ByteReader& in, StoreDescription& description)
+{
+  description.splatRadiusBase = in.get<double>();
+  return in.ok() && std::isfinite(description.splatRadiusBase) &&
+    description.splatRadiusBase >= 0.0;
+}
+
 bool soundGrid(const QuantisationGrid& grid)
 {
   for (int axis = 0; axis < 3; ++axis)
@@ -212,6 +220,10 @@ std::vector<std::byte> encodeDescription(
   {
     putTableSummary(out, stored);
   }
+  if (version >= 3)
+  {
+    out.put(d.splatRadiusBase);
+  }
   return out.bytes();
 }
 
@@ -231,7 +243,8 @@ std::optional<StoredDescription> decodeDescription(
   d.crsWkt = in.getText();
   if (!in.ok() || !soundGrid(d.grid) || refinement < 1 || refinement > 2 ||
     !getColumns(in, d) || !getLayers(in, d) || !getMetadata(in, d) ||
-    (version >= 2 && !getTableSummary(in, stored)) || in.remaining() != 0)
+    (version >= 2 && !getTableSummary(in, stored)) || (version >= 3 && !getSplatBase(in, d)) ||
+    in.remaining() != 0)
   {
     return std::nullopt;
   }

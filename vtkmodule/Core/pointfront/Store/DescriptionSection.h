@@ -22,7 +22,8 @@ struct StoredDescription
 
 /// The description section's bytes. Path, version, sizes and the store's counts are not in it: they
 /// stand in header and footer. Since version 2 it has what an open store must know of its node
-/// table without reading it: levels, counts of the layers, roots.
+/// table without reading it: levels, counts of the layers, roots. Since version 3
+/// it ends with the base of splat radii.
 std::vector<std::byte> encodeDescription(
   const StoredDescription& stored, std::uint32_t version = storeVersion);
 

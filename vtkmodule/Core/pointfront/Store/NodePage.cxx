@@ -2,7 +2,6 @@
 
 #include "pointfront/Store/ByteStream.h"
 #include "pointfront/Store/Checksum.h"
-#include "pointfront/Store/NodeTableSection.h"
 #include "pointfront/Store/StoreFormat.h"
 
 #include <algorithm>
@@ -15,7 +14,13 @@ namespace pointfront
 namespace
 {
 constexpr std::size_t checksumAt = nodePageBytes - 4;
-static_assert(nodePageRows * nodeRowBytes + 8 + 4 == checksumAt);
+constexpr std::size_t rankAt = checksumAt - 8 - 4;
+
+constexpr bool fits(NodeRowForm form)
+{
+  return nodePageRowsOf(form) * nodeRowBytes(form) <= rankAt;
+}
+static_assert(fits(NodeRowForm::Plain) && fits(NodeRowForm::WithSplatRadius));
 
 bool notNegative(float value) { return std::isfinite(value) && value >= 0.0f; }
 
@@ -28,9 +33,9 @@ std::string sizeFault(const Node& row)
   }
   const glm::vec3& h = row.halfSize;
   if (!notNegative(h.x) || !notNegative(h.y) || !notNegative(h.z) || !notNegative(row.radius) ||
-    !notNegative(row.spacing))
+    !notNegative(row.spacing) || !notNegative(row.splatRadius))
   {
-    return "its size, radius or spacing is not a positive number";
+    return "its size, radius, spacing or splat radius is not a positive number";
   }
   return {};
 }
@@ -83,26 +88,26 @@ void encodeNodePage(const Node* rows, std::uint32_t count, std::uint32_t page, s
   ByteWriter out;
   for (std::uint32_t r = 0; r < count; ++r)
   {
-    encodeNodeRow(rows[r], out);
+    encodeNodeRow(rows[r], NodeRowForm::WithSplatRadius, out);
   }
   std::memset(target, 0, nodePageBytes);
   std::memcpy(target, out.bytes().data(), out.size());
   ByteWriter end;
   end.put(rows[0].firstPoint);
   end.put(page);
-  std::memcpy(target + nodePageRows * nodeRowBytes, end.bytes().data(), end.size());
+  std::memcpy(target + rankAt, end.bytes().data(), end.size());
   const std::uint32_t checksum = checksumOf(target, checksumAt);
   std::memcpy(target + checksumAt, &checksum, sizeof(checksum));
 }
 
-std::string decodeNodePage(
-  const std::byte* data, std::uint32_t page, const TableLimits& limits, NodePage& rows)
+std::string decodeNodePage(const std::byte* data, std::uint32_t page, const TableLimits& limits,
+  NodePage& rows, NodeRowForm form)
 {
-  const std::uint32_t count = nodePageLength(limits.nodes, page);
-  const NodeIndex first = page * nodePageRows;
+  const std::uint32_t count = nodePageLength(limits.nodes, page, nodePageRowsOf(form));
+  const NodeIndex first = page * nodePageRowsOf(form);
   const std::string name = "node table, node " + std::to_string(first) + " to node " +
     std::to_string(first + count - 1) + ": ";
-  ByteReader end(data + nodePageRows * nodeRowBytes, 16);
+  ByteReader end(data + rankAt, 16);
   auto rank = end.get<std::uint64_t>();
   const auto number = end.get<std::uint32_t>();
   if (!matchesChecksum(data, checksumAt, end.get<std::uint32_t>()))
@@ -114,10 +119,10 @@ std::string decodeNodePage(
     return name + "the page is number " + std::to_string(number) + " instead of " +
       std::to_string(page);
   }
-  ByteReader in(data, nodePageRows * nodeRowBytes);
+  ByteReader in(data, rankAt);
   for (std::uint32_t r = 0; r < count; ++r)
   {
-    rows[r] = decodeNodeRow(in);
+    rows[r] = decodeNodeRow(form, in);
     rows[r].firstPoint = rank;
     rank += rows[r].pointCount;
     if (const std::string fault = rowFault(rows[r], first + r, limits); !fault.empty())

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "pointfront/Store/Hierarchy.h"
+#include "pointfront/Store/NodeTableSection.h"
 
 #include <array>
 #include <cstddef>
@@ -11,22 +12,31 @@
 namespace pointfront
 {
 
-/// Bytes of one page of a node table, and the rows in it. The last page may have fewer.
+/// Bytes of one page of a node table.
 constexpr std::size_t nodePageBytes = 4096;
-constexpr std::uint32_t nodePageRows = 60;
 
-using NodePage = std::array<Node, nodePageRows>;
+/// Rows in a page; the last page may have fewer. As many as fit, of either form.
+constexpr std::uint32_t nodePageRowsOf(NodeRowForm form)
+{
+  return form == NodeRowForm::Plain ? 60 : 56;
+}
+/// Of the tables that are written.
+constexpr std::uint32_t nodePageRows = nodePageRowsOf(NodeRowForm::WithSplatRadius);
+
+/// Room for a page of either form.
+using NodePage = std::array<Node, nodePageRowsOf(NodeRowForm::Plain)>;
 
 /// Pages of a table of so many nodes.
-constexpr std::uint32_t nodePageCount(NodeIndex nodes)
+constexpr std::uint32_t nodePageCount(NodeIndex nodes, std::uint32_t pageRows = nodePageRows)
 {
-  return nodes / nodePageRows + (nodes % nodePageRows != 0 ? 1u : 0u);
+  return nodes / pageRows + (nodes % pageRows != 0 ? 1u : 0u);
 }
 /// Rows of one of them.
-constexpr std::uint32_t nodePageLength(NodeIndex nodes, std::uint32_t page)
+constexpr std::uint32_t nodePageLength(
+  NodeIndex nodes, std::uint32_t page, std::uint32_t pageRows = nodePageRows)
 {
-  const NodeIndex left = nodes - page * nodePageRows;
-  return left < nodePageRows ? left : nodePageRows;
+  const NodeIndex left = nodes - page * pageRows;
+  return left < pageRows ? left : pageRows;
 }
 
 /// What every row must agree with, whatever is in other pages.
@@ -42,8 +52,8 @@ void encodeNodePage(const Node* rows, std::uint32_t count, std::uint32_t page, s
 
 /// Fills the page's rows (those behind the last are left alone). What is wrong, or an empty text:
 /// checksum, page number, and each row on its own (rowFault).
-std::string decodeNodePage(
-  const std::byte* data, std::uint32_t page, const TableLimits& limits, NodePage& rows);
+std::string decodeNodePage(const std::byte* data, std::uint32_t page, const TableLimits& limits,
+  NodePage& rows, NodeRowForm form = NodeRowForm::WithSplatRadius);
 
 /// What is wrong with a row by itself, or an empty text: sizes finite and not negative, parent
 /// before it, children behind it and inside the table, layer and counts in range.

@@ -76,7 +76,7 @@ BorrowedTable::BorrowedTable(const std::vector<Node>& nodes, Refinement refineme
 {
 }
 
-void encodeNodeRow(const Node& node, ByteWriter& out)
+void encodeNodeRow(const Node& node, NodeRowForm form, ByteWriter& out)
 {
   for (int axis = 0; axis < 3; ++axis)
   {
@@ -95,9 +95,13 @@ void encodeNodeRow(const Node& node, ByteWriter& out)
   out.put(node.childCount);
   out.put(node.level);
   out.put(node.layer);
+  if (form == NodeRowForm::WithSplatRadius)
+  {
+    out.put(node.splatRadius);
+  }
 }
 
-Node decodeNodeRow(ByteReader& in)
+Node decodeNodeRow(NodeRowForm form, ByteReader& in)
 {
   Node node;
   for (int axis = 0; axis < 3; ++axis)
@@ -117,27 +121,32 @@ Node decodeNodeRow(ByteReader& in)
   node.childCount = in.get<std::uint8_t>();
   node.level = in.get<std::uint8_t>();
   node.layer = in.get<std::uint16_t>();
+  if (form == NodeRowForm::WithSplatRadius)
+  {
+    node.splatRadius = in.get<float>();
+  }
   return node;
 }
 
-std::vector<std::byte> encodeNodeTable(const std::vector<Node>& nodes)
+std::vector<std::byte> encodeNodeTable(const std::vector<Node>& nodes, NodeRowForm form)
 {
   ByteWriter out;
   for (const Node& node : nodes)
   {
-    encodeNodeRow(node, out);
+    encodeNodeRow(node, form, out);
   }
-  assert(out.size() == nodes.size() * nodeRowBytes);
+  assert(out.size() == nodes.size() * nodeRowBytes(form));
   return out.bytes();
 }
 
-std::vector<Node> decodeNodeTable(const std::byte* data, std::uint32_t nodeCount)
+std::vector<Node> decodeNodeTable(
+  const std::byte* data, std::uint32_t nodeCount, NodeRowForm form)
 {
-  ByteReader in(data, std::size_t(nodeCount) * nodeRowBytes);
+  ByteReader in(data, std::size_t(nodeCount) * nodeRowBytes(form));
   std::vector<Node> nodes(nodeCount);
   for (Node& node : nodes)
   {
-    node = decodeNodeRow(in);
+    node = decodeNodeRow(form, in);
   }
   return nodes;
 }

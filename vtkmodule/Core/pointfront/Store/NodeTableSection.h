@@ -15,17 +15,29 @@ class ByteReader;
 class ByteWriter;
 struct StoreDescription;
 
+/// What a row of a table has: stores since version 3 and side files since version 2 say how large
+/// splats are.
+enum class NodeRowForm : std::uint8_t
+{
+  Plain,
+  WithSplatRadius
+};
+
 /// Bytes of one node in a table, in pages (NodePage.h) or one after another.
-constexpr std::size_t nodeRowBytes = 68;
+constexpr std::size_t nodeRowBytes(NodeRowForm form)
+{
+  return form == NodeRowForm::Plain ? 68 : 72;
+}
 
-void encodeNodeRow(const Node& node, ByteWriter& out);
-Node decodeNodeRow(ByteReader& in);
+void encodeNodeRow(const Node& node, NodeRowForm form, ByteWriter& out);
+Node decodeNodeRow(NodeRowForm form, ByteReader& in);
 
-/// The node table as bytes: one row of 68 bytes for each node. Side files, and stores of version 1.
-std::vector<std::byte> encodeNodeTable(const std::vector<Node>& nodes);
+/// The node table as bytes, one row after another: side files, and stores of version 1.
+std::vector<std::byte> encodeNodeTable(const std::vector<Node>& nodes, NodeRowForm form);
 
-/// `size` must be nodeCount * nodeRowBytes (the caller has checked it against the file).
-std::vector<Node> decodeNodeTable(const std::byte* data, std::uint32_t nodeCount);
+/// `data` must have nodeCount rows (the caller has checked it against the file).
+std::vector<Node> decodeNodeTable(
+  const std::byte* data, std::uint32_t nodeCount, NodeRowForm form);
 
 /// A table whose rows somebody else holds, for the length of a check.
 class BorrowedTable final : public Hierarchy

@@ -87,11 +87,12 @@ struct PagedNodeTable::Content final : MissingRows
     Refinement kind, std::size_t cacheBytes)
     : source(std::move(from))
     , nodes(source->nodeCount())
+    , pageRows(source->pageRows())
     , roots(std::move(rootNodes))
     , refinement(kind)
     , sets(std::max<std::size_t>(
         1, std::min<std::size_t>(cacheBytes / (waysPerSet * sizeof(NodePage)),
-             nodePageCount(nodes) / waysPerSet + 1)))
+             nodePageCount(nodes, pageRows) / waysPerSet + 1)))
   {
     wanted.reserve(mostWanted);
   }
@@ -111,6 +112,7 @@ struct PagedNodeTable::Content final : MissingRows
 
   const std::unique_ptr<const NodePageSource> source;
   const NodeIndex nodes;
+  const std::uint32_t pageRows;
   const std::vector<NodeIndex> roots; ///< ascending
   std::vector<Node> rootRows;         ///< theirs, or none
   const Refinement refinement;
@@ -291,22 +293,22 @@ Node PagedNodeTable::node(NodeIndex index) const
   {
     return *root;
   }
-  const std::uint32_t page = index / nodePageRows;
+  const std::uint32_t page = index / content_->pageRows;
   Node row;
-  if (content_->setOf(page).copyRow(page, index % nodePageRows, row))
+  if (content_->setOf(page).copyRow(page, index % content_->pageRows, row))
   {
     return row;
   }
   NodePage rows;
   const bool sound = !content_->isLost(page) && content_->load(page, rows);
-  return sound ? rows[index % nodePageRows] : hollowRow();
+  return sound ? rows[index % content_->pageRows] : hollowRow();
 }
 
 Node PagedNodeTable::childOf(NodeIndex parent, const Node& row, std::uint8_t child) const
 {
   const NodeIndex index = row.firstChild + child;
   const Node found = node(index);
-  const bool lost = content_->isLost(index / nodePageRows);
+  const bool lost = content_->isLost(index / content_->pageRows);
   return !lost && content_->linked(parent, row, index, found) ? found : hollowRow();
 }
 
@@ -331,8 +333,8 @@ RowState PagedNodeTable::peek(NodeIndex index, Node& row) const
     row = *root;
     return RowState::Here;
   }
-  const std::uint32_t page = index / nodePageRows;
-  if (content_->setOf(page).copyRow(page, index % nodePageRows, row))
+  const std::uint32_t page = index / content_->pageRows;
+  if (content_->setOf(page).copyRow(page, index % content_->pageRows, row))
   {
     return RowState::Here;
   }

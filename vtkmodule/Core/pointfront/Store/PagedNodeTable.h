@@ -18,6 +18,8 @@ class NodePageSource
 public:
   virtual ~NodePageSource() = default;
   virtual NodeIndex nodeCount() const = 0;
+  /// Rows of each page but the last: at most those of a NodePage.
+  virtual std::uint32_t pageRows() const { return nodePageRows; }
   /// Fills the page's rows, each of them sound by itself (rowFault). May wait for the disk.
   virtual Result<void> read(std::uint32_t page, NodePage& rows) const = 0;
 };

@@ -15,7 +15,7 @@ namespace pointfront
 // The frame of a store file: header, payload, sections, footer. docs/formats/pfront.md has every
 // byte; what stands here must agree with it.
 
-constexpr std::uint32_t storeVersion = 2; ///< written by this program, and the newest it reads
+constexpr std::uint32_t storeVersion = 3; ///< written by this program, and the newest it reads
 constexpr std::size_t storeHeaderBytes = 64;
 constexpr std::array<unsigned char, 8> storeMagic{ 0x89, 'P', 'F', 'R', 'O', 'N', 'T', 0x0a };
 

@@ -18,13 +18,16 @@ namespace
 class NodePageFile final : public NodePageSource
 {
 public:
-  NodePageFile(std::shared_ptr<const InputFile> file, std::uint64_t offset, TableLimits limits)
+  NodePageFile(std::shared_ptr<const InputFile> file, std::uint64_t offset, TableLimits limits,
+    NodeRowForm form)
     : file_(std::move(file))
     , offset_(offset)
     , limits_(limits)
+    , form_(form)
   {
   }
   NodeIndex nodeCount() const override { return limits_.nodes; }
+  std::uint32_t pageRows() const override { return nodePageRowsOf(form_); }
   Result<void> read(std::uint32_t page, NodePage& rows) const override
   {
     std::array<std::byte, nodePageBytes> bytes;
@@ -33,7 +36,7 @@ public:
     {
       return done;
     }
-    const std::string fault = decodeNodePage(bytes.data(), page, limits_, rows);
+    const std::string fault = decodeNodePage(bytes.data(), page, limits_, rows, form_);
     return fault.empty() ? Result<void>() : corruptStore(file_->path(), at, fault);
   }
 
@@ -41,6 +44,7 @@ private:
   std::shared_ptr<const InputFile> file_;
   std::uint64_t offset_;
   TableLimits limits_;
+  NodeRowForm form_;
 };
 
 Result<std::shared_ptr<const Hierarchy>> readWhole(
@@ -57,7 +61,7 @@ Result<std::shared_ptr<const Hierarchy>> readWhole(
     return corruptStore(
       file.path(), section.offset, "the node table's checksum does not match");
   }
-  std::vector<Node> nodes = decodeNodeTable(bytes.data(), footer.nodeCount);
+  std::vector<Node> nodes = decodeNodeTable(bytes.data(), footer.nodeCount, NodeRowForm::Plain);
   const std::string fault = nodeTableFault(
     nodes, description.layers.size(), footer.pointCount, description.refinement);
   if (!fault.empty())
@@ -113,9 +117,10 @@ Result<std::shared_ptr<const Hierarchy>> openNodeTable(std::shared_ptr<const Inp
   std::uint32_t version, const StoreFooter& footer, StoredDescription& stored)
 {
   const SectionEntry& section = *footer.find(SectionKind::NodeTable);
+  const NodeRowForm form = version < 3 ? NodeRowForm::Plain : NodeRowForm::WithSplatRadius;
   const std::uint64_t expected = version == 1
-    ? std::uint64_t(footer.nodeCount) * nodeRowBytes
-    : std::uint64_t(nodePageCount(footer.nodeCount)) * nodePageBytes;
+    ? std::uint64_t(footer.nodeCount) * nodeRowBytes(form)
+    : std::uint64_t(nodePageCount(footer.nodeCount, nodePageRowsOf(form))) * nodePageBytes;
   if (section.bytes != expected)
   {
     return corruptStore(file->path(), section.offset, "the node table's size is wrong");
@@ -127,7 +132,7 @@ Result<std::shared_ptr<const Hierarchy>> openNodeTable(std::shared_ptr<const Inp
   const TableLimits limits{ footer.nodeCount,
     static_cast<std::uint32_t>(stored.description.layers.size()) };
   auto table = std::make_shared<PagedNodeTable>(
-    std::make_unique<NodePageFile>(file, section.offset, limits), stored.roots,
+    std::make_unique<NodePageFile>(file, section.offset, limits, form), stored.roots,
     stored.description.refinement);
   const std::string fault = summaryFault(*table, footer, stored.description);
   if (const std::optional<Error> damage = table->fault())

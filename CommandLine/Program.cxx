@@ -1,6 +1,7 @@
 #include "Program.h"
 
 #include "BuildCommand.h"
+#include "CompareCommand.h"
 #include "ExportCommand.h"
 #include "GenerateCommand.h"
 #include "IndexCommand.h"
@@ -35,6 +36,7 @@ Program::Program()
   commands_.push_back(std::make_unique<RenderCommand>());
   commands_.push_back(std::make_unique<BenchCommand>());
 #endif
+  commands_.push_back(std::make_unique<CompareCommand>());
   for (const auto& command : commands_)
   {
     command->declare(app_);

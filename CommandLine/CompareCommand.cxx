@@ -14,7 +14,7 @@ namespace pointfront
 
 namespace
 {
-nlohmann::ordered_json orNull(const std::optional<double>& value)
+nlohmann::ordered_json numberOrNull(const std::optional<double>& value)
 {
   return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json();
 }
@@ -96,8 +96,8 @@ std::string comparisonJson(const PictureComparison& comparison)
     : nlohmann::ordered_json(comparison.psnrDecibels);
   object["ssim"] = comparison.ssim;
   object["share_over_8"] = comparison.shareOver8;
-  object["holes"] = orNull(comparison.holes);
-  object["bloat"] = orNull(comparison.bloat);
+  object["holes"] = numberOrNull(comparison.holes);
+  object["bloat"] = numberOrNull(comparison.bloat);
   object["background"] = comparison.background ? nlohmann::ordered_json(*comparison.background)
                                                : nlohmann::ordered_json();
   return object.dump(2);

@@ -10,12 +10,12 @@
 #include "pointfront/Build/RecordColumns.h"
 #include "pointfront/Build/ReferenceSystem.h"
 #include "pointfront/Build/SampleRecords.h"
-#include "pointfront/Build/SampleRecords.h"
 #include "pointfront/Build/StoredColours.h"
 #include "pointfront/Build/TreeAssembly.h"
 #include "pointfront/Build/TreeConstruction.h"
 #include "pointfront/Points/EnclosingRadius.h"
 #include "pointfront/Points/ObjectClass.h"
+#include "pointfront/Points/SplatRadius.h"
 
 #include <algorithm>
 #include <cmath>
@@ -217,7 +217,9 @@ ColumnGuess StoreBuild::columnGuess() const
     const bool mean =
       options_.refinement == Refinement::Replace && hasMean(common_.schema[c]) &&
       (common_.schema[c].type == ScalarType::Float64 || common_.schema[c].components > 1);
-    const bool radius = common_.schema[c].name == enclosingRadiusName;
+    const bool radius = common_.schema[c].name == enclosingRadiusName ||
+      (options_.refinement == Refinement::Replace &&
+        common_.schema[c].name == splatRadiusAttribute); // representatives have none
     guess.mayBeConstant.push_back(c != classColumn_ && c != colour && !mean && !radius);
   }
   return guess;
@@ -449,6 +451,8 @@ StoreDescription StoreBuild::description() const
   description.schema = stored_;
   description.metadata = reference_.metadata;
   description.generator = "pointfront " POINTFRONT_VERSION;
+  description.splatRadiusBase =
+    stored_.find(splatRadiusAttribute) ? commonSplatRadiusBase(sources_) : 0.0;
   for (const std::uint8_t objectClass : layers_.classes())
   {
     const std::string name = layers_.byClass() ? objectClassName(objectClass) : "all";

@@ -46,6 +46,8 @@ struct SourceDescription
   /// Where the scanner stood, if the source says so (PCD VIEWPOINT, the scans of a PTX); by chunk.
   std::vector<ScannerPlace> scanners;
   std::vector<MetadataRecord> metadata; ///< CRS records kept as they are (LASF_Projection ...)
+  /// Of the codes in the attribute `splat_radius` (SplatRadius.h); 0: not known, or there is none.
+  double splatRadiusBase = 0.0;
   /// What was wrong and survived: each a full sentence that counts what was lost.
   std::vector<std::string> warnings;
 

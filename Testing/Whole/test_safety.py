@@ -66,7 +66,7 @@ class Signals(ToolTest):
         store = self.build(LARGE)
         earlier = self.folder / "points.xyz"
         earlier.write_text("1 2 3\n")
-        self.stopped("export", store, "-o", earlier)
+        self.stopped("export", store, "-o", earlier, "--force")
         self.assertEqual(earlier.read_text(), "1 2 3\n")
 
     @unittest.skipUnless(WITH_VTK and WITH_DISPLAY, "render and bench need VTK and an X server")

@@ -13,13 +13,13 @@
 #include "pointfront/Build/StoredColours.h"
 #include "pointfront/Build/TreeAssembly.h"
 #include "pointfront/Build/TreeConstruction.h"
+#include "pointfront/Export/OutputTarget.h"
 #include "pointfront/Points/EnclosingRadius.h"
 #include "pointfront/Points/ObjectClass.h"
 #include "pointfront/Points/SplatRadius.h"
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <new>
 
 namespace pointfront
@@ -52,13 +52,8 @@ Result<void> checkOptions(const Sources& sources, const BuildOptions& options)
       "a kd-tree holds each point once and has no representatives: use refinement add, or an "
       "octree");
   }
-  std::error_code ignored;
-  if (!options.overwrite && std::filesystem::exists(options.outputPath, ignored))
-  {
-    return makeError(Error::Kind::Unwritable,
-      "'" + options.outputPath + "' exists already; allow overwriting or choose another name");
-  }
-  return {};
+  return checkOutputTarget(
+    {options.outputPath, FileKind::Store, options.overwrite}, pathsOf(sources));
 }
 
 /// One build, from what is common to all sources to the committed store.

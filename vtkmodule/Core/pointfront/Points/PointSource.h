@@ -86,6 +86,17 @@ public:
   }
 };
 
+/// The files that some sources read.
+inline std::vector<std::string> pathsOf(const std::vector<std::unique_ptr<PointSource>>& sources)
+{
+  std::vector<std::string> paths;
+  for (const auto& source : sources)
+  {
+    paths.push_back(source->description().path);
+  }
+  return paths;
+}
+
 /// Opens files of one family. Registered by the program at the top (IO modules do not know each
 /// other), asked in turn.
 class PointSourceFormat

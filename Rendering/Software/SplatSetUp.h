@@ -117,8 +117,15 @@ inline void setUpEllipses(RasterCamera camera, float lowPass, int count, RasterB
     batch.slopeX[j] = gx;
     batch.slopeY[j] = gy;
     const float halfX = __builtin_sqrtf(varianceX), halfY = __builtin_sqrtf(varianceY);
-    batch.halfX[j] = halfX > 0.5f ? halfX : 0.5f;
-    batch.halfY[j] = halfY > 0.5f ? halfY : 0.5f;
+    // The disc is inside its sphere; its affine image need not be, far from the middle of the view.
+    const float size = batch.radius[j] / reach;
+    const float bent = 1.0f / (1.0f - (Parallel ? 0.0f : (size < 0.9f ? size * size : 0.81f)));
+    const float mostX = size * camera.scaleX * __builtin_sqrtf(1.0f + to.x * to.x) * bent + 1.0f;
+    const float mostY = size * camera.scaleY * __builtin_sqrtf(1.0f + to.y * to.y) * bent + 1.0f;
+    const float withinX = halfX < mostX ? halfX : mostX;
+    const float withinY = halfY < mostY ? halfY : mostY;
+    batch.halfX[j] = withinX > 0.5f ? withinX : 0.5f;
+    batch.halfY[j] = withinY > 0.5f ? withinY : 0.5f;
     batch.middleX[j] = batch.screenX[j];
     batch.middleY[j] = batch.screenY[j];
   }
@@ -202,6 +209,35 @@ inline void setUpSpheres(RasterCamera camera, int count, RasterBatch& batch)
   }
 }
 
+/// Splats whose spheres are outside the pyramid through the window are culled: rectangles of what
+/// reaches behind the eye say nothing.
+inline void cullBesidePyramid(
+  RasterCamera camera, RasterWindow window, int count, RasterBatch& batch)
+{
+  const float right = (static_cast<float>(window.width) - camera.centreX) / camera.scaleX;
+  const float left = camera.centreX / camera.scaleX;
+  const float up =
+    (static_cast<float>(window.bottom + window.height) - camera.centreY) / camera.scaleY;
+  const float down = (camera.centreY - static_cast<float>(window.bottom)) / camera.scaleY;
+  const float lengthRight = __builtin_sqrtf(1.0f + right * right);
+  const float lengthLeft = __builtin_sqrtf(1.0f + left * left);
+  const float lengthUp = __builtin_sqrtf(1.0f + up * up);
+  const float lengthDown = __builtin_sqrtf(1.0f + down * down);
+  const float widthX = 1.0f / camera.scaleX, widthY = 1.0f / camera.scaleY;
+  for (int j = 0; j < count; ++j)
+  {
+    const float depth = batch.depth[j];
+    const float x = (batch.screenX[j] - camera.centreX) * widthX;
+    const float y = (batch.screenY[j] - camera.centreY) * widthY;
+    // A little more than the radius: what covers its centre's pixel reaches over the edge.
+    const float reach = batch.radius[j] * 1.01f + depth * widthX;
+    const int seen = ((x - right) * depth <= reach * lengthRight) &
+      ((-left - x) * depth <= reach * lengthLeft) & ((y - up) * depth <= reach * lengthUp) &
+      ((-down - y) * depth <= reach * lengthDown);
+    batch.depth[j] = seen ? depth : -1.0f;
+  }
+}
+
 /// Bounding rectangles in pixels, and which loop draws them.
 inline void sortByExtent(const RasterWindow& window, int count, RasterBatch& batch)
 {
@@ -260,6 +296,10 @@ inline void setUp(const RasterCamera& camera, const RasterWindow& window, const 
 {
   camera.parallel ? setUpOf<true>(camera, pass, count, batch)
                   : setUpOf<false>(camera, pass, count, batch);
+  if (!camera.parallel)
+  {
+    cullBesidePyramid(camera, window, count, batch);
+  }
   sortByExtent(window, count, batch);
 }
 

@@ -63,7 +63,7 @@ class Signals(ToolTest):
         store = self.build(LARGE)
         earlier = self.folder / "points.xyz"
         earlier.write_text("1 2 3\n")
-        self.stopped("export", store, "-o", earlier)
+        self.stopped("export", store, "-o", earlier, "--force")
         self.assertEqual(earlier.read_text(), "1 2 3\n")
 
     def test_render_and_bench(self):

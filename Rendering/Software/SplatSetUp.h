@@ -246,6 +246,10 @@ inline void sortByExtent(const RasterWindow& window, int count, RasterBatch& bat
   const auto top = static_cast<float>(window.bottom + window.height);
   const std::int32_t stride = window.stride;
   const std::int32_t corner = window.at(0, -window.bottom);
+  // Loops draw up to seven pixels more than a rectangle has.
+  constexpr auto margin = static_cast<float>(rasterMargin);
+  const float leftmost = -margin, rightmost = width + margin - 8.0f;
+  const float lowest = bottom - margin, highest = top + margin - 8.0f;
   for (int j = 0; j < count; ++j)
   {
     const float hx = batch.halfX[j], hy = batch.halfY[j];
@@ -255,7 +259,9 @@ inline void sortByExtent(const RasterWindow& window, int count, RasterBatch& bat
     const float x1 = __builtin_floorf(mx + hx - 0.5f), y1 = __builtin_floorf(my + hy - 0.5f);
     const int seen = (batch.depth[j] >= 0.0f) & (x1 >= 0.0f) & (x0 < width) & (y1 >= bottom) &
       (y0 < top);
-    const int fits = seen & (larger <= largestUnclipped);
+    // A splat may be small and yet reach over the margin: its centre is beyond the edge.
+    const int inMargin = (x0 >= leftmost) & (x1 < rightmost) & (y0 >= lowest) & (y1 < highest);
+    const int fits = seen & inMargin & (larger <= largestUnclipped);
     const int extent = 1 + (larger > 2.0f) + (larger > 4.0f) + (larger > 8.0f);
     batch.extent[j] = fits ? extent : seen * static_cast<int>(RasterBatch::Clipped);
     const float left = fits ? x0 : 0.0f, low = fits ? y0 : 0.0f;

@@ -51,11 +51,7 @@ class Usage(ToolTest):
         self.assertEqual(self.entries(), [])
 
     def test_render_flags(self):
-        refused = [
-            ("--technique", "splats"), ("--technique", "spheres"), ("--technique", "silhouettes"),
-            ("--technique", "solid"), ("--technique", "ewa"), ("--style", "s.json"),
-        ]
-        for flag in refused:
+        for flag in (("--technique", "silhouettes"), ("--technique", "solid")):
             outcome = self.refuse(2, "render", "s.pfront", "-o", self.folder / "x.png", *flag)
             self.assertIn("not available", outcome.err)
         wrong = [
@@ -63,7 +59,8 @@ class Usage(ToolTest):
             ("--background", "red"), ("--frames", "0"), ("--frames", "3", "--complete"),
             ("--view", "top", "--camera", "c.json"), ("--point-budget", "0"), ("--detail", "both"),
             ("--classes", "300"), ("--classes", "ground"), ("--backend", "vulkan"),
-            ("--size", "65536x10"),
+            ("--size", "65536x10"), ("--technique", "dots"), ("--style", "no/such.json"),
+            ("--where", "z = 3"),
         ]
         for flag in wrong:
             self.refuse(2, "render", "s.pfront", "-o", self.folder / "x.png", *flag)

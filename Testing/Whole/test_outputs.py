@@ -8,8 +8,6 @@ from tool import DATA, ToolTest
 
 SMALL = DATA / "las/real/1.2-with-color.las"
 POINTS = 1065
-WITH_VTK = os.environ["POINTFRONT_WITH_VTK"] == "1"
-WITH_DISPLAY = bool(os.environ.get("DISPLAY"))
 
 
 class Outputs(ToolTest):
@@ -110,7 +108,6 @@ class Outputs(ToolTest):
         reserved.touch()
         self.succeed("export", store, "-o", reserved, "--force")
 
-    @unittest.skipUnless(WITH_VTK and WITH_DISPLAY, "render and bench need VTK and an X server")
     def test_pictures_and_statistics(self):
         las = self.copy()
         store = self.build(las)

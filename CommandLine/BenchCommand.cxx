@@ -1,6 +1,7 @@
 #include "BenchCommand.h"
 
 #include "CancelSignal.h"
+#include "DrawnFiles.h"
 #include "PeakMemory.h"
 #include "Percentiles.h"
 #include "Settling.h"
@@ -67,9 +68,9 @@ void BenchCommand::declare(CLI::App& program)
     ->check(CLI::Range(1, 1000000))
     ->type_name("N");
   app_->add_flag("--interactive", interactive_,
-    "While the camera moves the fronts hold VTK's frame time for a moving view");
+    "While the camera moves the fronts hold the frame time of a moving view");
   app_->add_option("--frame-ms", drawing_.frameMs,
-         "--interactive: time that a frame may take (that of VTK for a moving view)")
+         "--interactive: time that a frame may take (66.7, VTK's for a moving view)")
     ->check(CLI::Range(1.0, 10000.0))
     ->type_name("MS");
   app_->add_flag("--settle", settles_,
@@ -85,7 +86,12 @@ Result<CameraPath> BenchCommand::path(const StoreScene& scene) const
 {
   const int defaultFrames = 100;
   const int frames = frames_ > 0 ? frames_ : defaultFrames;
-  const PathSubject subject{ scene.bounds(), scene.ground(),
+  const Result<double> ground = scene.ground();
+  if (!ground)
+  {
+    return ground.error();
+  }
+  const PathSubject subject{ scene.bounds(), *ground,
     static_cast<double>(drawing_.size[0]) / drawing_.size[1] };
   if (path_ == "orbit")
   {
@@ -105,12 +111,12 @@ Result<CameraPath> BenchCommand::path(const StoreScene& scene) const
 Result<void> BenchCommand::run()
 {
   const CancelSignal signal(CancelSignal::Mode::Leave);
-  for (const std::string& file : { statisticsPath_, framesPath_, picturePath_ })
+  Result<void> free = checkDrawnFiles({ { statisticsPath_, FileKind::Statistics },
+    { framesPath_, FileKind::FrameTable }, { picturePath_, FileKind::Picture } }, drawing_.stores,
+    { path_ });
+  if (!free)
   {
-    if (Result<void> writable = file.empty() ? Result<void>() : checkWritable(file); !writable)
-    {
-      return writable;
-    }
+    return free;
   }
   drawing_.measureEmptyScene = true;
   Result<std::unique_ptr<StoreScene>> scene = StoreScene::open(drawing_);
@@ -129,6 +135,7 @@ Result<void> BenchCommand::run()
     return frames.error();
   }
   nlohmann::ordered_json statistics = benchStatistics(frames.value());
+  statistics["backend"] = (*scene)->backend();
   if (settles_)
   {
     (*scene)->setInteractive(false);
@@ -148,6 +155,7 @@ Result<void> BenchCommand::run()
   statistics["gpu_bytes_max"] = gpuBytesMax(frames.value());
   statistics["budget_bytes"] = (*scene)->budgetBytes();
   statistics["gpu_budget_bytes"] = drawing_.gpuBytes;
+  statistics["picture_bytes"] = (*scene)->pictureBytes();
   statistics["bytes_read"] = frames->empty() ? 0 : frames->back().bytesRead;
   statistics["empty_scene_rss_bytes"] = (*scene)->emptySceneBytes();
   statistics["peak_rss_bytes"] = peakResidentBytes();
@@ -184,12 +192,17 @@ nlohmann::ordered_json benchStatistics(const std::vector<FrameRecord>& frames)
 {
   std::vector<double> milliseconds;
   std::vector<double> frontMilliseconds;
+  std::vector<double> rasteriseMilliseconds;
   std::vector<double> points;
   int reading = 0;
   for (const FrameRecord& frame : frames)
   {
     milliseconds.push_back(frame.milliseconds);
     frontMilliseconds.push_back(frame.frontMilliseconds);
+    if (frame.rasteriseMilliseconds)
+    {
+      rasteriseMilliseconds.push_back(*frame.rasteriseMilliseconds);
+    }
     points.push_back(static_cast<double>(frame.points));
     // The first frame waits for the roots.
     reading += &frame != &frames.front() && frame.threadReadBytes > 0 ? 1 : 0;
@@ -199,6 +212,9 @@ nlohmann::ordered_json benchStatistics(const std::vector<FrameRecord>& frames)
   object["frames"] = frames.size();
   object["frame_ms"] = percentilesJson(milliseconds);
   object["front_update_ms"] = percentilesJson(frontMilliseconds);
+  object["rasterise_ms"] = rasteriseMilliseconds.empty()
+    ? nlohmann::ordered_json()
+    : percentilesJson(rasteriseMilliseconds);
   object["points_drawn"] = { { "p50", static_cast<std::int64_t>(drawn.p50) },
     { "max", static_cast<std::int64_t>(drawn.max) } };
   object["frames_that_read_files"] = reading;
@@ -209,7 +225,7 @@ std::string benchTable(const std::vector<FrameRecord>& frames)
 {
   std::ostringstream table;
   table << "frame,ms,points,front_length,threshold_px,moves,requests,cancelled,resident_bytes,"
-           "front_ms,error_px,gpu_bytes,thread_read_bytes\n";
+           "front_ms,error_px,gpu_bytes,thread_read_bytes,rasterise_ms\n";
   std::uint64_t cancelledBefore = 0;
   for (std::size_t i = 0; i < frames.size(); ++i)
   {
@@ -218,7 +234,12 @@ std::string benchTable(const std::vector<FrameRecord>& frames)
           << ',' << frame.thresholdPx << ',' << frame.moves << ',' << frame.requests << ','
           << frame.cancelled - cancelledBefore << ',' << frame.residentBytes << ','
           << frame.frontMilliseconds << ',' << frame.errorPx << ',' << frame.gpuBytes << ','
-          << frame.threadReadBytes << '\n';
+          << frame.threadReadBytes << ',';
+    if (frame.rasteriseMilliseconds)
+    {
+      table << *frame.rasteriseMilliseconds;
+    }
+    table << '\n';
     cancelledBefore = frame.cancelled;
   }
   return table.str();

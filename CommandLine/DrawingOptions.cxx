@@ -5,6 +5,7 @@
 #include "Values.h"
 
 #include <algorithm>
+#include <map>
 
 namespace pointfront
 {
@@ -47,6 +48,22 @@ void declareColour(CLI::App& app, DrawingOptions& options)
     ->expected(1);
 }
 
+void declareBackend(CLI::App& app, DrawingOptions& options)
+{
+  const std::map<std::string, DrawingBackend> backends{ { "auto", DrawingBackend::Auto },
+    { "opengl", DrawingBackend::OpenGL }, { "software", DrawingBackend::Software } };
+  const auto backend = word("--backend", "a back end: use auto, opengl, software",
+    [&options, backends](const std::string& text)
+    {
+      const auto found = backends.find(text);
+      options.backend = found != backends.end() ? found->second : options.backend;
+      return found != backends.end();
+    });
+  app.add_option("--backend", backend,
+       "software: no display and no GL needed; opengl: VTK, on an X server (auto: software)")
+    ->type_name("auto|opengl|software")
+    ->expected(1);
+}
 } // namespace
 
 std::optional<std::array<double, 3>> parseColour(const std::string& text)
@@ -72,6 +89,7 @@ std::optional<std::array<double, 3>> parseColour(const std::string& text)
 void DrawingOptions::declare(CLI::App& app)
 {
   app.add_option("stores", stores, "Stores, drawn together")->required()->type_name("STORE...");
+  declareBackend(app, *this);
   const auto imageSize = word("--size", "a size in pixels: write 1280x720",
     [this](const std::string& text)
     {
@@ -101,11 +119,12 @@ void DrawingOptions::declare(CLI::App& app)
   app.add_option("--point-budget", pointBudget, "Most points drawn at a time")
     ->check(CLI::Range(std::int64_t(1), std::int64_t(1) << 40))
     ->type_name("N");
-  addByteSize(app, "--gpu-memory", gpuBytes, "Most GPU memory for points (as the points need)");
+  addByteSize(app, "--gpu-memory", gpuBytes,
+    "Most GPU memory for points (as the points need; software takes none)");
   app.add_option("--detail", detail,
       "front: each part as fine as it projects; view: one level that fills the view (front)")
     ->check(availableValues({ "front", "view" }, {}));
-  addByteSize(app, "--memory", memoryBytes, "Most memory for decoded points (1G)");
+  addByteSize(app, "--memory", memoryBytes, "Most memory for decoded points and the picture (1G)");
   const auto shown = word("--classes", "a list of class codes: write 2,6",
     [this](const std::string& text)
     {

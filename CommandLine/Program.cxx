@@ -1,15 +1,14 @@
 #include "Program.h"
 
+#include "BenchCommand.h"
 #include "BuildCommand.h"
+#include "CompareCommand.h"
 #include "ExportCommand.h"
 #include "GenerateCommand.h"
 #include "IndexCommand.h"
 #include "IndexedLASFile.h"
 #include "InfoCommand.h"
-#ifdef POINTFRONT_WITH_VTK
-#include "BenchCommand.h"
 #include "RenderCommand.h"
-#endif
 #include "Unavailable.h"
 #include "VerifyCommand.h"
 
@@ -31,10 +30,9 @@ Program::Program()
   commands_.push_back(std::make_unique<VerifyCommand>());
   commands_.push_back(std::make_unique<ExportCommand>());
   commands_.push_back(std::make_unique<GenerateCommand>());
-#ifdef POINTFRONT_WITH_VTK
   commands_.push_back(std::make_unique<RenderCommand>());
   commands_.push_back(std::make_unique<BenchCommand>());
-#endif
+  commands_.push_back(std::make_unique<CompareCommand>());
   for (const auto& command : commands_)
   {
     command->declare(app_);
@@ -44,10 +42,6 @@ Program::Program()
 
 void Program::declareUnavailableCommands()
 {
-#ifndef POINTFRONT_WITH_VTK
-  declareUnavailableCommand(app_, "render", "this tool was built without VTK");
-  declareUnavailableCommand(app_, "bench", "this tool was built without VTK");
-#endif
   declareUnavailableCommand(app_, "view", "there is no window; use render, or ParaView");
 }
 

@@ -1,6 +1,7 @@
 #include "RenderCommand.h"
 
 #include "CancelSignal.h"
+#include "DrawnFiles.h"
 #include "PeakMemory.h"
 #include "Unavailable.h"
 #include "WholeFile.h"
@@ -95,10 +96,14 @@ Result<FrameRecord> RenderCommand::drawComplete(StoreScene& scene)
 
 Result<FrameRecord> RenderCommand::draw(StoreScene& scene)
 {
-  Result<FrameRecord> frame = frames_ > 0 ? drawFrames(scene) : drawComplete(scene);
+  const bool inBands = frames_ == 0 && scene.needsBands();
+  Result<FrameRecord> frame = frames_ > 0 ? drawFrames(scene)
+    : inBands                             ? scene.renderInBands(outputPath_)
+                                          : drawComplete(scene);
   if (frame)
   {
     note(*frame);
+    written_ = inBands;
   }
   return frame;
 }
@@ -107,12 +112,11 @@ Result<void> RenderCommand::run()
 {
   const CancelSignal signal(CancelSignal::Mode::Leave);
   begin_ = Clock::now();
-  for (const std::string& path : { outputPath_, statisticsPath_ })
+  Result<void> free = checkDrawnFiles({ { outputPath_, FileKind::Picture },
+    { statisticsPath_, FileKind::Statistics } }, drawing_.stores, { cameraPath_ });
+  if (!free)
   {
-    if (Result<void> writable = path.empty() ? Result<void>() : checkWritable(path); !writable)
-    {
-      return writable;
-    }
+    return free;
   }
   Result<std::unique_ptr<StoreScene>> scene = StoreScene::open(drawing_);
   if (!scene)
@@ -143,7 +147,8 @@ Result<void> RenderCommand::run()
   }
   // From here on there are files to finish: a signal is seen when they are whole.
   const CancelSignal finishing(CancelSignal::Mode::Finish);
-  if (Result<void> written = (*scene)->writePicture(outputPath_); !written)
+  if (Result<void> written = written_ ? Result<void>() : (*scene)->writePicture(outputPath_);
+      !written)
   {
     return written;
   }
@@ -165,6 +170,7 @@ std::string RenderCommand::statistics(const StoreScene& scene, const FrameRecord
   const auto orNull = [](const std::optional<double>& ms)
   { return ms ? nlohmann::ordered_json(*ms) : nlohmann::ordered_json(); };
   nlohmann::ordered_json object;
+  object["backend"] = scene.backend();
   object["complete"] = last.complete;
   object["time_to_first_image_ms"] = orNull(firstImageMs_);
   object["time_to_complete_ms"] = orNull(completeMs_);
@@ -188,6 +194,7 @@ std::string RenderCommand::statistics(const StoreScene& scene, const FrameRecord
   object["peak_rss_bytes"] = peakResidentBytes();
   object["resident_bytes"] = last.residentBytes;
   object["gpu_bytes"] = last.gpuBytes;
+  object["picture_bytes"] = scene.pictureBytes();
   object["bytes_read"] = last.bytesRead;
   object["attributes_read"] = scene.attributesRead();
   return object.dump(2);

@@ -22,7 +22,7 @@ private:
   using Clock = std::chrono::steady_clock;
 
   Result<Camera> camera(const StoreScene& scene) const;
-  /// The frames that were asked for; notes the times.
+  /// The frames that were asked for; notes the times. A picture in bands is written as well.
   Result<FrameRecord> draw(StoreScene& scene);
   Result<FrameRecord> drawComplete(StoreScene& scene);
   Result<FrameRecord> drawFrames(StoreScene& scene);
@@ -35,6 +35,7 @@ private:
   std::string cameraPath_;
   std::string statisticsPath_;
   int frames_ = 0; ///< 0: complete
+  bool written_ = false; ///< the picture is
   Clock::time_point begin_;
   std::optional<double> firstImageMs_; ///< since begin_: the first frame with a point in it
   std::optional<double> completeMs_;

@@ -1,21 +1,29 @@
 #pragma once
 
 #include "pointfront/Base/Result.h"
+#include "pointfront/Front/LayerLimits.h"
 
 #include <cstdint>
 #include <vector>
-
-class vtkPointFrontMapper;
 
 namespace pointfront
 {
 
 struct StoreDescription;
 
-/// Hides every class of a layered store that is not in `shown`, sorted codes 0 to 255; hidden
-/// classes are neither loaded nor drawn (LAYERS-11). Gives the number of points of the shown ones.
-/// BadArgument for a store that keeps no tree a class.
-Result<std::uint64_t> showOnly(const std::vector<std::uint8_t>& shown,
-  const StoreDescription& store, vtkPointFrontMapper* mapper);
+/// Which of a store's layers are drawn; the others are neither loaded nor drawn (LAYERS-11).
+struct ShownClasses
+{
+  std::vector<LayerLimits> layers; ///< by number of the store's layer
+  std::uint64_t points = 0;        ///< of those that are drawn
+
+  /// `codes`: sorted codes 0 to 255; empty: all that the store has.
+  /// Errors  BadArgument: the store keeps no tree a class.
+  static Result<ShownClasses> choose(
+    const std::vector<std::uint8_t>& codes, const StoreDescription& store);
+};
+
+/// --classes names none that any of the stores has.
+Error noClassShown();
 
 } // namespace pointfront

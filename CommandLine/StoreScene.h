@@ -9,6 +9,7 @@
 #include <chrono>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,8 @@ struct FrameRecord
 {
   double milliseconds = 0.0;      ///< of the whole frame, drawing finished
   double frontMilliseconds = 0.0; ///< of the fronts' updates
+  /// From the plans to the pixels, the points alone; nothing where a driver draws beside the rest.
+  std::optional<double> rasteriseMilliseconds;
   std::int64_t points = 0;
   std::int64_t nodes = 0;
   std::int64_t frontLength = 0;
@@ -37,6 +40,10 @@ struct FrameRecord
   std::uint64_t threadReadBytes = 0; ///< that the rendering thread read from files in this frame
   std::uint64_t bytesRead = 0;    ///< from the disk, ever
   std::uint64_t cancelled = 0;    ///< requests withdrawn, ever
+
+  /// One part of a picture more, drawn after this one: what it took and asked adds up, the worst
+  /// error counts, and what is in memory is what is now.
+  void add(const FrameRecord& part);
 };
 
 /// What all the loading of a scene came to so far.
@@ -49,19 +56,22 @@ struct LoadingRecord
   std::chrono::steady_clock::time_point last; ///< when the last of it was there
 };
 
-/// Stores in an offscreen window, drawn as any VTK program would draw them: a reader, a mapper and
-/// an actor each. Errors that VTK objects report while rendering become Errors here.
+/// Stores and a camera, drawn into a picture that no screen shows: by the software rasteriser, or
+/// by VTK through OpenGL (DrawingOptions::backend). What is drawn, when it is complete and what a
+/// FrameRecord means is the same for both.
 /// Threads  one thread.
 class StoreScene
 {
 public:
-  /// Errors  of the stores; Unsupported without an X server; BadArgument for a colour that no
-  ///         store has.
+  /// Errors  of the stores; BadArgument for a colour that no store has; Unsupported where the back
+  ///         end lacks what it needs.
   static Result<std::unique_ptr<StoreScene>> open(const DrawingOptions& options);
   virtual ~StoreScene() = default;
 
+  virtual const char* backend() const = 0; ///< "software" or "opengl"
   virtual const Bounds& bounds() const = 0;
-  virtual double ground() const = 0; ///< median z of a sample of the points
+  /// Median z of a sample of the first store's points.
+  virtual Result<double> ground() const = 0;
   virtual void setCamera(const Camera& camera) = 0;
   /// In motion the fronts hold the frame time that VTK allots to a moving view.
   virtual void setInteractive(bool interactive) = 0;
@@ -70,6 +80,18 @@ public:
   virtual Result<FrameRecord> renderFrame() = 0;
   /// Waits for all that the error and the budgets allow.
   virtual Result<FrameRecord> renderComplete() = 0;
+  /// The picture would take more than its part of the memory: instead of renderComplete() and
+  /// writePicture() renderInBands() is to be called.
+  virtual bool needsBands() const { return false; }
+  /// The complete picture, drawn and written a band of rows at a time, each with all that the error
+  /// and the budgets allow for it; whole or absent.
+  /// Errors  also Cancelled, when a signal came.
+  virtual Result<FrameRecord> renderInBands(const std::string& path)
+  {
+    const Result<FrameRecord> frame = renderComplete();
+    const Result<void> written = frame ? writePicture(path) : frame.error();
+    return written ? frame : written.error();
+  }
   /// Blocks until something arrives that the last frame did not have, or nothing is on its way;
   /// false for the latter.
   virtual bool waitForArrival() = 0;
@@ -78,9 +100,11 @@ public:
   virtual std::vector<std::string> attributesRead() const = 0;
   virtual std::uint64_t budgetBytes() const = 0;
   virtual std::uint64_t residentBytesMax() const = 0;
+  /// Memory of the picture and of what it is drawn with; 0 where a driver has it.
+  virtual std::uint64_t pictureBytes() const { return 0; }
   virtual LoadingRecord loading() const = 0;
-  /// Resident set of the process when the window had drawn nothing yet but its background, and no
-  /// store was open.
+  /// Resident set of the process when nothing was drawn yet but an empty picture, and no store was
+  /// open; 0 unless DrawingOptions::measureEmptyScene.
   virtual std::uint64_t emptySceneBytes() const = 0;
 
   /// The last frame as PNG; whole or absent.

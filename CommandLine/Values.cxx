@@ -11,7 +11,7 @@ namespace pointfront
 
 namespace
 {
-constexpr int largestImageEdge = 16384;
+constexpr int largestImageEdge = 65535;
 
 std::optional<double> parseNumber(const std::string& text)
 {

@@ -11,6 +11,8 @@
 #include <vtkScalarsToColors.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace pointfront
 {
@@ -65,6 +67,86 @@ ColourRequest colourRequestOf(vtkPolyDataMapper& mapper, const StoreDescription&
   return request;
 }
 
+namespace
+{
+
+glm::dmat4 columnsOf(vtkMatrix4x4* rows)
+{
+  glm::dmat4 matrix;
+  for (int row = 0; row < 4; ++row)
+  {
+    for (int column = 0; column < 4; ++column)
+    {
+      matrix[column][row] = rows->GetElement(row, column);
+    }
+  }
+  return matrix;
+}
+
+/// World to view without what VTK's matrix lost: the eye is the origin, but comes out as rounding
+/// noise of two large terms. What is below that noise is zero.
+glm::dvec3 withoutNoise(const glm::dmat4& worldToView, const glm::dvec3& point)
+{
+  glm::dvec3 view;
+  for (int row = 0; row < 3; ++row)
+  {
+    double sum = worldToView[3][row];
+    double size = std::abs(sum);
+    for (int column = 0; column < 3; ++column)
+    {
+      const double term = worldToView[column][row] * point[column];
+      sum += term;
+      size = std::max(size, std::abs(term));
+    }
+    view[row] = std::abs(sum) <= 16.0 * std::numeric_limits<double>::epsilon() * size ? 0.0 : sum;
+  }
+  return view;
+}
+
+} // namespace
+
+FrameCamera cameraOf(vtkRenderer* renderer, vtkActor* actor)
+{
+  vtkCamera* camera = renderer->GetActiveCamera();
+  FrameCamera frame;
+  int origin[2];
+  renderer->GetTiledSizeAndOrigin(&frame.width, &frame.height, &origin[0], &origin[1]);
+  frame.width = std::max(1, frame.width);
+  frame.height = std::max(1, frame.height);
+  frame.parallel = camera->GetParallelProjection() != 0;
+  const double* point = frame.parallel ? camera->GetFocalPoint() : camera->GetPosition();
+  const glm::dvec3 world(point[0], point[1], point[2]);
+  const glm::dmat4 worldToView = columnsOf(camera->GetModelViewTransformMatrix());
+  frame.viewToClip = columnsOf(
+    camera->GetProjectionTransformMatrix(renderer->GetTiledAspectRatio(), -1.0, 1.0));
+  frame.referenceInView = withoutNoise(worldToView, world);
+  frame.storeToView = worldToView;
+  frame.reference = world;
+  if (!actor->GetIsIdentity())
+  {
+    frame.storeToView = worldToView * columnsOf(actor->GetMatrix());
+    vtkNew<vtkMatrix4x4> toStore;
+    vtkMatrix4x4::Invert(actor->GetMatrix(), toStore);
+    const double in[4] = {world.x, world.y, world.z, 1.0};
+    double out[4];
+    toStore->MultiplyPoint(in, out);
+    frame.reference = {out[0] / out[3], out[1] / out[3], out[2] / out[3]};
+  }
+  return frame;
+}
+
+std::vector<glm::dvec4> clippingPlanesOf(vtkPolyDataMapper& mapper, vtkActor* actor)
+{
+  std::vector<glm::dvec4> planes;
+  for (int i = 0; i < mapper.GetNumberOfClippingPlanes(); ++i)
+  {
+    double plane[4];
+    mapper.GetClippingPlaneInDataCoords(actor->GetMatrix(), i, plane);
+    planes.emplace_back(plane[0], plane[1], plane[2], plane[3]);
+  }
+  return planes;
+}
+
 View viewOf(vtkRenderer* renderer, vtkActor* actor)
 {
   int size[2];
@@ -74,15 +156,7 @@ View viewOf(vtkRenderer* renderer, vtkActor* actor)
     renderer->GetTiledAspectRatio(), -1.0, 1.0);
   vtkNew<vtkMatrix4x4> storeToClip;
   vtkMatrix4x4::Multiply4x4(toClip, actor->GetMatrix(), storeToClip);
-  glm::dmat4 matrix;
-  for (int row = 0; row < 4; ++row)
-  {
-    for (int column = 0; column < 4; ++column)
-    {
-      matrix[column][row] = storeToClip->GetElement(row, column);
-    }
-  }
-  return View::fromMatrix(matrix, std::max(1, size[0]), std::max(1, size[1]));
+  return View::fromMatrix(columnsOf(storeToClip), std::max(1, size[0]), std::max(1, size[1]));
 }
 
 } // namespace pointfront

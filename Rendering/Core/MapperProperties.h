@@ -1,8 +1,10 @@
 #pragma once
 
+#include "pointfront/Front/View.h"
+#include "pointfront/Plan/FrameCamera.h"
 #include "pointfront/Style/PointColouring.h"
 
-#include "pointfront/Front/View.h"
+#include <vector>
 
 class vtkActor;
 class vtkPolyDataMapper;
@@ -20,5 +22,11 @@ ColourRequest colourRequestOf(vtkPolyDataMapper& mapper, const StoreDescription&
 
 /// A renderer's camera in the coordinates of an actor's data, also in tiled windows.
 View viewOf(vtkRenderer* renderer, vtkActor* actor);
+/// The same for back ends: positions are taken relative to the eye, in a parallel view to the focal
+/// point, and what rounding of large coordinates left of that point in the view is zero.
+FrameCamera cameraOf(vtkRenderer* renderer, vtkActor* actor);
+
+/// A mapper's planes as a plan has them: (n, d) in the coordinates of the actor's data.
+std::vector<glm::dvec4> clippingPlanesOf(vtkPolyDataMapper& mapper, vtkActor* actor);
 
 } // namespace pointfront

@@ -44,6 +44,7 @@ RendererView::~RendererView()
 /// A frame that was broken off, or that is drawn for a selection, says nothing.
 void RendererView::EndFrame()
 {
+  this->Plan.reset();
   vtkRenderWindow* window = this->Renderer->GetRenderWindow();
   if (this->Renderer->GetSelector() || (window && window->GetAbortRender()))
   {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "pointfront/Plan/FramePlan.h"
 #include "pointfront/Views/ViewFront.h"
 
 #include <vtkRenderer.h>
@@ -8,6 +9,7 @@
 #include <chrono>
 #include <functional>
 #include <memory>
+#include <optional>
 
 namespace pointfront
 {
@@ -20,6 +22,8 @@ struct RendererView
 
   vtkWeakPointer<vtkRenderer> Renderer;
   std::unique_ptr<ViewFront> Front;
+  /// Of the frame that is being drawn. It pins its nodes, so it goes with the frame.
+  std::optional<FramePlan> Plan;
   bool NewFrame = true; ///< the renderer began a frame, and this mapper has not been drawn in it
   bool Seen = true;     ///< the mapper was drawn in the renderer's last frame
   bool FirstDrawing = false;

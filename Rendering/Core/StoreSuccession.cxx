@@ -24,9 +24,12 @@ void StoreSuccession::advance(vtkRenderer* renderer, FrameDemand demand)
     front = std::make_unique<ViewFront>(piece_, store_->GetResidencyShare(), schema,
       std::make_shared<WindowDemand>()); // not in the window yet: it takes nothing from the others
   }
-  const auto unknown = std::remove_if(demand.columns.begin(), demand.columns.end(),
+  // Its layers may be others: each gets what any of the preview's has.
+  ColumnSelection columns = demand.columns.any();
+  const auto unknown = std::remove_if(columns.begin(), columns.end(),
     [&](std::uint32_t column) { return column >= schema.size(); });
-  demand.columns.erase(unknown, demand.columns.end());
+  columns.erase(unknown, columns.end());
+  demand.columns = columns;
   front->update(demand);
 }
 

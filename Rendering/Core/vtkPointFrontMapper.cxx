@@ -1,16 +1,14 @@
 #include "vtkPointFrontMapper.h"
 
+#include "ClassLimits.h"
 #include "MapperProperties.h"
-#include "PerWindow.h"
-#include "pointfront/Style/ClassHeights.h"
-#include "pointfront/Style/PointColouring.h"
+#include "MapperStyle.h"
+#include "MapperViews.h"
 #include "RenderTimer.h"
-#include "RendererView.h"
-#include "StoreSuccession.h"
-#include "pointfront/Views/ViewFront.h"
 
 #include "pointfront/Front/DetailLevel.h"
-#include "vtkPointFrontStore.h"
+#include "pointfront/Plan/FramePlanner.h"
+#include "pointfront/Plan/FrameStatistics.h"
 
 #include <vtkActor.h>
 #include <vtkCommand.h>
@@ -19,13 +17,10 @@
 #include <vtkPolyData.h>
 #include <vtkRenderer.h>
 #include <vtkRenderWindow.h>
-#include <vtkRenderWindowInteractor.h>
 #include <vtkScalarsToColors.h>
-#include <vtkWeakPointer.h>
 
 #include <algorithm>
 #include <chrono>
-#include <map>
 #include <string>
 
 vtkAbstractObjectFactoryNewMacro(vtkPointFrontMapper);
@@ -43,86 +38,22 @@ double millisecondsSince(Clock::time_point begin)
   return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
 }
 
-pointfront::LayerLimits limitsOf(
-  const std::map<int, pointfront::LayerLimits>& all, int objectClass)
-{
-  const auto found = all.find(objectClass);
-  return found != all.end() ? found->second : pointfront::LayerLimits();
-}
-
 } // namespace
 
 struct vtkPointFrontMapper::Content
 {
   explicit Content(vtkPointFrontMapper* owner)
-      : Owner(owner), Timer([owner] { return owner->Announce(); })
+      : Views([owner] { owner->LeaveScreen(); }), Timer([owner] { return owner->Announce(); })
   {
   }
 
-  vtkPointFrontMapper* Owner;
-  vtkSmartPointer<vtkPointFrontStore> Store; // before the views: their fronts refer to it
   std::string StoreName;
   vtkMTimeType InputTime = 0;
-  std::shared_ptr<const pointfront::HierarchyPiece> Piece;
-  int PieceNumber = 0;
-  int Pieces = 1;
-  std::map<vtkRenderer*, pointfront::RendererView> Views;
-  std::map<int, pointfront::LayerLimits> ClassLimits;
-  std::unique_ptr<pointfront::StoreSuccession> Succession; ///< from Store, while it is a preview
-  std::string UnknownArray; ///< that has been warned of
-  std::shared_ptr<const pointfront::ClassHeights> Heights; ///< once they were asked for
-
+  pointfront::MapperViews Views;
+  pointfront::ClassLimits Limits;
+  pointfront::MapperStyle Style;
+  pointfront::FrameStatistics Statistics;
   pointfront::RenderTimer Timer;
-
-  std::shared_ptr<const pointfront::ClassHeights> HeightsOf(
-    const std::shared_ptr<const pointfront::StoredCloud>& store)
-  {
-    if (!this->Heights || this->Heights->store() != store)
-    {
-      this->Heights = std::make_shared<pointfront::ClassHeights>(store);
-    }
-    return this->Heights;
-  }
-
-  pointfront::RendererView& ViewOf(vtkRenderer* renderer)
-  {
-    for (auto view = this->Views.begin(); view != this->Views.end();)
-    {
-      view = view->second.Renderer ? std::next(view) : this->Views.erase(view);
-    }
-    const auto found = this->Views.find(renderer);
-    if (found != this->Views.end())
-    {
-      return found->second;
-    }
-    // A map's elements stay where they are.
-    return this->Views.try_emplace(renderer, renderer, [this] { this->LeaveScreen(); })
-      .first->second;
-  }
-
-  bool IsSeen() const
-  {
-    return std::any_of(this->Views.begin(), this->Views.end(),
-      [](const auto& view) { return view.second.Renderer && view.second.Seen; });
-  }
-  void LeaveScreen()
-  {
-    if (!this->IsSeen())
-    {
-      this->Owner->LeaveScreen();
-    }
-  }
-
-  std::vector<pointfront::LayerLimits> LayersOf(vtkPointFrontStore& store) const
-  {
-    std::vector<pointfront::LayerLimits> limits;
-    const int classes = this->ClassLimits.empty() ? 0 : store.GetNumberOfObjectClasses();
-    for (int i = 0; i < classes; ++i)
-    {
-      limits.push_back(limitsOf(this->ClassLimits, store.GetObjectClassNumber(i)));
-    }
-    return limits;
-  }
 };
 
 vtkPointFrontMapper::vtkPointFrontMapper() : Internals(new Content(this)) {}
@@ -136,14 +67,14 @@ void vtkPointFrontMapper::SetClassVisibility(int objectClass, bool visible)
 {
   if (visible != this->GetClassVisibility(objectClass))
   {
-    this->Internals->ClassLimits[objectClass].visible = visible;
+    this->Internals->Limits[objectClass].visible = visible;
     this->Modified();
   }
 }
 
 bool vtkPointFrontMapper::GetClassVisibility(int objectClass) const
 {
-  return limitsOf(this->Internals->ClassLimits, objectClass).visible;
+  return this->Internals->Limits.of(objectClass).visible;
 }
 
 void vtkPointFrontMapper::SetClassTargetErrorFactor(int objectClass, double factor)
@@ -151,14 +82,14 @@ void vtkPointFrontMapper::SetClassTargetErrorFactor(int objectClass, double fact
   const double kept = std::clamp(factor, 0.01, 100.0);
   if (kept != this->GetClassTargetErrorFactor(objectClass))
   {
-    this->Internals->ClassLimits[objectClass].errorFactor = kept;
+    this->Internals->Limits[objectClass].errorFactor = kept;
     this->Modified();
   }
 }
 
 double vtkPointFrontMapper::GetClassTargetErrorFactor(int objectClass) const
 {
-  return limitsOf(this->Internals->ClassLimits, objectClass).errorFactor;
+  return this->Internals->Limits.of(objectClass).errorFactor;
 }
 
 void vtkPointFrontMapper::SetClassBudgetShare(int objectClass, double share)
@@ -166,21 +97,21 @@ void vtkPointFrontMapper::SetClassBudgetShare(int objectClass, double share)
   const double kept = std::clamp(share, 0.0, 1.0);
   if (kept != this->GetClassBudgetShare(objectClass))
   {
-    this->Internals->ClassLimits[objectClass].share = kept;
+    this->Internals->Limits[objectClass].share = kept;
     this->Modified();
   }
 }
 
 double vtkPointFrontMapper::GetClassBudgetShare(int objectClass) const
 {
-  return limitsOf(this->Internals->ClassLimits, objectClass).share;
+  return this->Internals->Limits.of(objectClass).share;
 }
 
 void vtkPointFrontMapper::ClearClassLimits()
 {
-  if (!this->Internals->ClassLimits.empty())
+  if (!this->Internals->Limits.empty())
   {
-    this->Internals->ClassLimits.clear();
+    this->Internals->Limits.clear();
     this->Modified();
   }
 }
@@ -193,7 +124,7 @@ vtkPointFrontStore* vtkPointFrontMapper::GetStore()
   const vtkMTimeType inputTime = input ? input->GetMTime() : 0;
   if (name == content.StoreName && (inputTime == content.InputTime || name.empty()))
   {
-    return content.Store;
+    return content.Views.store();
   }
   content.StoreName = name;
   content.InputTime = inputTime;
@@ -203,14 +134,8 @@ vtkPointFrontStore* vtkPointFrontMapper::GetStore()
   {
     vtkErrorMacro(<< reason);
   }
-  if (store != content.Store)
-  {
-    content.Succession.reset();
-    content.Views.clear();
-    content.Piece.reset();
-    content.Store = store;
-  }
-  return content.Store;
+  content.Views.setStore(store);
+  return content.Views.store();
 }
 
 double* vtkPointFrontMapper::GetBounds()
@@ -229,35 +154,12 @@ bool vtkPointFrontMapper::IsInteracting(vtkRenderer* renderer)
   return window && window->GetDesiredUpdateRate() > interactiveRate;
 }
 
-pointfront::PointColouring vtkPointFrontMapper::GetColouring()
-{
-  vtkPointFrontStore* store = this->GetStore();
-  if (!store || !this->ScalarVisibility)
-  {
-    return {};
-  }
-  const pointfront::StoreDescription& description = store->GetStore()->description();
-  const pointfront::ColourRequest request = pointfront::colourRequestOf(*this, description);
-  std::shared_ptr<const pointfront::ClassHeights> heights;
-  if (pointfront::PointColouring::wantsHeights(description, request))
-  {
-    heights = this->Internals->HeightsOf(store->GetStore());
-  }
-  const auto colouring = pointfront::PointColouring::choose(description, request, heights);
-  if (!colouring && this->Internals->UnknownArray != request.name)
-  {
-    this->Internals->UnknownArray = request.name;
-    vtkWarningMacro(<< "the store " << store->GetFileName() << " has no attribute \""
-                    << request.name << "\"; its points are drawn in the property's colour");
-  }
-  return colouring.value_or(pointfront::PointColouring{});
-}
-
 bool vtkPointFrontMapper::HasTranslucentPolygonalGeometry()
 {
-  const pointfront::PointColouring colouring = this->GetColouring();
+  vtkPointFrontStore* store = this->GetStore();
   vtkScalarsToColors* table = this->GetLookupTable();
-  if (!colouring.usesTable() || !table)
+  if (!store || !table ||
+    !this->Internals->Style.colouringOf(*this, store->GetStore()).usesTable())
   {
     return false;
   }
@@ -265,14 +167,46 @@ bool vtkPointFrontMapper::HasTranslucentPolygonalGeometry()
   return table->IsOpaque() == 0;
 }
 
+/// What the style and the table of colours have to say.
+void vtkPointFrontMapper::Warn()
+{
+  const std::string warning = this->Internals->Style.takeWarning();
+  if (!warning.empty())
+  {
+    vtkWarningMacro(<< warning);
+  }
+}
+
+pointfront::PlanRequest vtkPointFrontMapper::GetRequest(vtkRenderer* renderer, vtkActor* actor)
+{
+  vtkPointFrontStore* store = this->GetStore();
+  pointfront::PlanRequest request;
+  request.camera = pointfront::cameraOf(renderer, actor);
+  request.clippingPlanes = pointfront::clippingPlanesOf(*this, actor);
+  const auto style =
+    this->Internals->Style.update(*this, actor, this->PointSize, store->GetStore());
+  const std::size_t layers = store->GetStore()->description().layers.size();
+  request.styles.assign(std::max<std::size_t>(1, layers), style);
+  const auto limits = this->Internals->Limits.layersOf(*store);
+  for (std::size_t layer = 0; layer < limits.size() && layer < layers; ++layer)
+  {
+    request.styles[layer] = limits[layer].visible ? style : nullptr;
+  }
+  this->Warn();
+  return request;
+}
+
 pointfront::FrameDemand vtkPointFrontMapper::GetDemand(vtkRenderer* renderer, vtkActor* actor)
 {
   pointfront::FrameDemand demand;
   demand.view = pointfront::viewOf(renderer, actor);
-  demand.columns = this->GetColouring().columns();
+  for (const auto& style : this->GetRequest(renderer, actor).styles)
+  {
+    demand.columns.layers.push_back(style ? style->columns() : pointfront::ColumnSelection());
+  }
   demand.targetErrorPx = this->TargetError;
   demand.pointBudget = static_cast<std::uint64_t>(this->PointBudget);
-  demand.gpuBytes = this->GPUMemoryBudget;
+  demand.gpuBytes = this->DrawsFromHostMemory(renderer) ? 0 : this->GPUMemoryBudget;
   demand.method = this->DetailSelection == VIEW_SPECIFIC
                     ? pointfront::DetailMethod::ViewSpecific
                     : pointfront::DetailMethod::RenderingFront;
@@ -287,120 +221,32 @@ pointfront::FrameDemand vtkPointFrontMapper::GetDemand(vtkRenderer* renderer, vt
   demand.frameMs = this->TargetFrameTime;
   demand.cloudMs = 1000.0 * actor->GetAllocatedRenderTime();
   demand.complete = this->Complete && !demand.interacting;
-  demand.layers = this->Internals->LayersOf(*this->GetStore());
+  demand.layers = this->Internals->Limits.layersOf(*this->GetStore());
   return demand;
 }
 
-void vtkPointFrontMapper::FollowPreview(vtkRenderer* renderer, vtkActor* actor)
+/// Once a frame. True when it did.
+bool vtkPointFrontMapper::MoveFront(vtkRenderer* renderer, vtkActor* actor)
 {
   Content& content = *this->Internals;
   vtkPointFrontStore* store = this->GetStore();
-  // Between frames only: the fronts of a frame refer to their store. At rest only: a frame in
-  // motion has no time for a second front, nor for bringing all points to the GPU again.
-  if (!store || !store->IsPreview() || !content.ViewOf(renderer).NewFrame ||
-    renderer->GetSelector() || IsInteracting(renderer))
+  content.Views.setPiece(this->StorePiece, this->NumberOfStorePieces);
+  pointfront::RendererView& view = content.Views.of(renderer);
+  if (!content.Views.openFront(renderer, view) && (!view.NewFrame || renderer->GetSelector()))
   {
-    return;
-  }
-  if (!content.Succession)
-  {
-    auto next = store->GetSuccessor();
-    if (!next)
-    {
-      return;
-    }
-    const int piece = std::clamp(this->StorePiece, 0, this->NumberOfStorePieces - 1);
-    content.Succession = std::make_unique<pointfront::StoreSuccession>(
-      next, *store, piece, this->NumberOfStorePieces);
-  }
-  pointfront::StoreSuccession& succession = *content.Succession;
-  for (auto& [viewing, view] : content.Views) // others may not be rendered for a while
-  {
-    if (view.Front || viewing == renderer)
-    {
-      pointfront::FrameDemand demand =
-        viewing == renderer ? this->GetDemand(renderer, actor) : view.Demand;
-      demand.layers = content.LayersOf(*succession.store());
-      succession.advance(viewing, std::move(demand));
-    }
-  }
-  const auto shown = [&](const auto& view)
-  { return !view.second.Front || !view.second.Renderer || succession.ready(view.first); };
-  if (std::all_of(content.Views.begin(), content.Views.end(), shown))
-  {
-    this->TakeSuccessor();
-  }
-}
-
-void vtkPointFrontMapper::TakeSuccessor()
-{
-  Content& content = *this->Internals;
-  const std::unique_ptr<pointfront::StoreSuccession> succession = std::move(content.Succession);
-  for (auto& [renderer, view] : content.Views)
-  {
-    view.Front = succession->take(renderer);
-    view.Announced = false;
-    if (view.Front && view.Renderer)
-    {
-      view.Front->enterWindow(
-        pointfront::perWindow<pointfront::WindowDemand>(view.Renderer->GetRenderWindow()));
-    }
-  }
-  content.Piece = succession->piece();
-  content.Store = succession->store();
-  this->Modified();
-}
-
-pointfront::ViewFront* vtkPointFrontMapper::PrepareFrame(vtkRenderer* renderer, vtkActor* actor)
-{
-  this->FollowPreview(renderer, actor);
-  vtkPointFrontStore* store = this->GetStore();
-  if (!store)
-  {
-    if (this->Internals->StoreName.empty())
-    {
-      vtkErrorMacro("the input names no store (field data \""
-                    << vtkPointFrontStore::FieldName() << "\"); connect a vtkPointFrontReader");
-    }
-    return nullptr;
-  }
-  Content& content = *this->Internals;
-  if (!content.Piece || content.PieceNumber != this->StorePiece ||
-      content.Pieces != this->NumberOfStorePieces)
-  {
-    content.Succession.reset();
-    content.Views.clear();
-    content.PieceNumber = this->StorePiece;
-    content.Pieces = this->NumberOfStorePieces;
-    const int piece = std::clamp(this->StorePiece, 0, this->NumberOfStorePieces - 1);
-    content.Piece = std::make_shared<pointfront::HierarchyPiece>(
-      store->GetStore()->hierarchy(), piece, this->NumberOfStorePieces);
-  }
-  pointfront::RendererView& view = content.ViewOf(renderer);
-  if (!view.Front)
-  {
-    view.Front = std::make_unique<pointfront::ViewFront>(
-      content.Piece, store->GetResidencyShare(), store->GetStore()->description().schema,
-      pointfront::perWindow<pointfront::WindowDemand>(renderer->GetRenderWindow()));
-  }
-  else if (!view.NewFrame || renderer->GetSelector())
-  {
-    return view.Front.get(); // a further drawing of the same frame
+    return false; // a further drawing of the same frame
   }
   view.NewFrame = false;
   view.FirstDrawing = true;
+  view.Plan.reset(); // what it pins may be released
 
   const auto begin = Clock::now();
   const pointfront::FrameDemand demand = this->GetDemand(renderer, actor);
   view.Announced = view.Announced && view.Demand.view == demand.view;
   view.Demand = demand;
   const pointfront::FrontDelta& delta = view.Front->update(demand);
-  this->LastFrontTime = millisecondsSince(begin);
-  this->LastFrontLength = delta.frontLength;
-  this->LastMoves = delta.moves;
-  this->LastRequests = static_cast<vtkIdType>(delta.requests.size());
-  this->LastError = delta.errorPx;
-  this->LastThreshold = delta.thresholdPx;
+  content.Statistics.take(delta);
+  content.Statistics.frontMilliseconds = millisecondsSince(begin);
   for (const pointfront::Error& error : store->GetResidency().takeErrors())
   {
     vtkErrorMacro(<< error.what);
@@ -409,19 +255,60 @@ pointfront::ViewFront* vtkPointFrontMapper::PrepareFrame(vtkRenderer* renderer, 
   {
     vtkErrorMacro(<< error.what);
   }
-  return view.Front.get();
+  return true;
+}
+
+const pointfront::FramePlan* vtkPointFrontMapper::PlanFrame(
+  vtkRenderer* renderer, vtkActor* actor)
+{
+  Content& content = *this->Internals;
+  if (!this->GetStore())
+  {
+    if (content.StoreName.empty())
+    {
+      vtkErrorMacro("the input names no store (field data \""
+                    << vtkPointFrontStore::FieldName() << "\"); connect a vtkPointFrontReader");
+    }
+    return nullptr;
+  }
+  // A frame in motion has no time for a second front, nor for bringing all points to the GPU again.
+  if (!renderer->GetSelector() && !IsInteracting(renderer) &&
+    content.Views.follow(
+      renderer, [&] { return this->GetDemand(renderer, actor); },
+      [&](vtkPointFrontStore& next) { return content.Limits.layersOf(next); }))
+  {
+    this->Modified();
+  }
+  const bool moved = this->MoveFront(renderer, actor);
+  pointfront::RendererView& view = content.Views.of(renderer);
+  pointfront::PlanRequest request = this->GetRequest(renderer, actor);
+  if (moved || !view.Plan)
+  {
+    view.Plan = pointfront::planFrame(
+      *view.Front, this->GetStore()->GetStore()->description(), std::move(request));
+    return &*view.Plan;
+  }
+  // The same nodes, as another actor, eye or pass sees them.
+  view.Plan->camera = request.camera;
+  view.Plan->clippingPlanes = std::move(request.clippingPlanes);
+  for (pointfront::DrawBatch& batch : view.Plan->batches)
+  {
+    const auto& style = request.styles[batch.layer];
+    batch.style = style ? style : batch.style;
+  }
+  return &*view.Plan;
 }
 
 bool vtkPointFrontMapper::IsFirstDrawing(vtkRenderer* renderer) const
 {
-  const auto view = this->Internals->Views.find(renderer);
-  return view != this->Internals->Views.end() && view->second.FirstDrawing;
+  const pointfront::RendererView* view = this->Internals->Views.find(renderer);
+  return view && view->FirstDrawing;
 }
 
 void vtkPointFrontMapper::FinishFrame(
   vtkRenderer* renderer, vtkIdType points, bool uploadsLeft)
 {
-  pointfront::RendererView& view = this->Internals->ViewOf(renderer);
+  pointfront::RendererView& view = this->Internals->Views.of(renderer);
   const pointfront::FrontDelta& delta = view.Front->last();
   view.FirstDrawing = false;
   view.Ahead = false;
@@ -431,13 +318,12 @@ void vtkPointFrontMapper::FinishFrame(
   // In motion the frame time limits the front: at rest the same view may show more.
   view.Complete = delta.complete && !uploadsLeft &&
                   (!IsInteracting(renderer) || delta.errorPx <= this->TargetError);
-  this->LastPointsDrawn = points;
-  this->LastNodesDrawn = static_cast<vtkIdType>(delta.draw.size());
-  this->LastComplete = view.Complete;
-  this->LastLimitedByPoints = delta.limitedByBudget;
-  this->LastLimitedByGPUMemory = delta.limitedByGpu;
-  this->LastLimitedByMemory = delta.limitedByMemory;
-  this->LastFailedNodes = static_cast<vtkIdType>(delta.failedNodes);
+  pointfront::FrameStatistics& statistics = this->GetStatistics();
+  const double frontMilliseconds = statistics.frontMilliseconds;
+  statistics.take(delta);
+  statistics.frontMilliseconds = frontMilliseconds;
+  statistics.points = static_cast<std::uint64_t>(points);
+  statistics.complete = view.Complete;
   const bool announce = view.Complete && !view.Announced;
   view.Announced = view.Complete;
   if (announce)
@@ -449,11 +335,11 @@ void vtkPointFrontMapper::FinishFrame(
 void vtkPointFrontMapper::RecordFrame(
   vtkRenderer* renderer, vtkIdType points, vtkIdType moves, double milliseconds)
 {
-  const auto view = this->Internals->Views.find(renderer);
-  if (view != this->Internals->Views.end() && view->second.Front)
+  pointfront::RendererView* view = this->Internals->Views.find(renderer);
+  if (view && view->Front)
   {
-    view->second.DrawingMs = milliseconds;
-    view->second.Front->recordFrame(static_cast<std::uint64_t>(points),
+    view->DrawingMs = milliseconds;
+    view->Front->recordFrame(static_cast<std::uint64_t>(points),
       static_cast<std::uint32_t>(moves), milliseconds);
   }
 }
@@ -461,61 +347,34 @@ void vtkPointFrontMapper::RecordFrame(
 /// The last frame showed nothing of it, and that is all there is to show.
 void vtkPointFrontMapper::LeaveScreen()
 {
-  this->LastPointsDrawn = 0;
-  this->LastNodesDrawn = 0;
-  this->LastMoves = 0;
-  this->LastRequests = 0;
-  this->LastError = 0.0;
-  this->LastFrontTime = 0.0;
-  this->LastComplete = true;
-  this->LastLimitedByPoints = false;
-  this->LastLimitedByGPUMemory = false;
-  this->LastLimitedByMemory = false;
-  this->LastFailedNodes = 0;
+  pointfront::FrameStatistics left;
+  left.frontLength = this->GetStatistics().frontLength;
+  left.thresholdPx = this->GetStatistics().thresholdPx;
+  left.complete = true;
+  this->GetStatistics() = left;
 }
 
-vtkIdType vtkPointFrontMapper::GetPointsOnGPU() const
+vtkIdType vtkPointFrontMapper::GetPointsOnGPU(vtkWindow* window) const
 {
-  std::uint64_t points = 0;
-  for (const auto& [renderer, view] : this->Internals->Views)
-  {
-    points += view.Front && this->PointBudget > 0
-      ? view.Front->pointsOnGpu(static_cast<std::uint64_t>(this->PointBudget))
-      : 0;
-  }
-  return this->PointBudget > 0 ? std::max<vtkIdType>(1, static_cast<vtkIdType>(points)) : 0;
+  const auto budget = static_cast<std::uint64_t>(this->PointBudget);
+  return budget == 0
+    ? 0
+    : std::max<vtkIdType>(
+        1, static_cast<vtkIdType>(this->Internals->Views.pointsOnGpu(window, budget)));
 }
 
-std::uint32_t vtkPointFrontMapper::GetNumberOfViews() const
+std::uint32_t vtkPointFrontMapper::GetNumberOfViews(vtkWindow* window) const
 {
-  return static_cast<std::uint32_t>(this->Internals->Views.size());
+  return this->Internals->Views.countIn(window);
 }
 
 bool vtkPointFrontMapper::IsAheadOfFrame(vtkRenderer* renderer) const
 {
-  const auto view = this->Internals->Views.find(renderer);
-  return view != this->Internals->Views.end() && view->second.Ahead;
+  const pointfront::RendererView* view = this->Internals->Views.find(renderer);
+  return view && view->Ahead;
 }
 
-bool vtkPointFrontMapper::NeedsRender()
-{
-  if (!this->Internals->Views.empty() && !this->Internals->IsSeen())
-  {
-    return false;
-  }
-  const std::unique_ptr<pointfront::StoreSuccession>& succession = this->Internals->Succession;
-  if (succession ? succession->wantsUpdate()
-                 : this->Internals->Store && this->Internals->Store->HasSuccessor())
-  {
-    return true;
-  }
-  bool needed = false;
-  for (auto& [renderer, view] : this->Internals->Views)
-  {
-    needed = (view.Renderer && view.NeedsRender()) || needed;
-  }
-  return needed;
-}
+bool vtkPointFrontMapper::NeedsRender() { return this->Internals->Views.needsRender(); }
 
 void vtkPointFrontMapper::RenderWhenDataArrives(vtkRenderWindowInteractor* interactor)
 {
@@ -537,6 +396,33 @@ bool vtkPointFrontMapper::Announce()
   return due;
 }
 
+pointfront::FrameStatistics& vtkPointFrontMapper::GetStatistics() const
+{
+  return this->Internals->Statistics;
+}
+
+#define pointfrontGetLast(Name, Type, field)                                                       \
+  Type vtkPointFrontMapper::GetLast##Name() const                                                  \
+  {                                                                                                \
+    return static_cast<Type>(this->GetStatistics().field);                                         \
+  }
+pointfrontGetLast(PointsDrawn, vtkIdType, points)
+pointfrontGetLast(NodesDrawn, vtkIdType, nodes)
+pointfrontGetLast(FrontLength, vtkIdType, frontLength)
+pointfrontGetLast(Moves, vtkIdType, moves)
+pointfrontGetLast(Requests, vtkIdType, requests)
+pointfrontGetLast(Error, double, errorPx)
+pointfrontGetLast(Threshold, double, thresholdPx)
+pointfrontGetLast(FrontTime, double, frontMilliseconds)
+pointfrontGetLast(GPUBytes, vtkTypeInt64, gpuBytes)
+pointfrontGetLast(WindowGPUBytes, vtkTypeInt64, windowGpuBytes)
+pointfrontGetLast(Complete, bool, complete)
+pointfrontGetLast(LimitedByPoints, bool, limitedByPoints)
+pointfrontGetLast(LimitedByGPUMemory, bool, limitedByGpuMemory)
+pointfrontGetLast(LimitedByMemory, bool, limitedByMemory)
+pointfrontGetLast(FailedNodes, vtkIdType, failedNodes)
+#undef pointfrontGetLast
+
 void vtkPointFrontMapper::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
@@ -546,15 +432,17 @@ void vtkPointFrontMapper::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "DetailSelection: " << this->DetailSelection << "\n";
   os << indent << "OverviewPoints: " << this->OverviewPoints << "\n";
   os << indent << "PointSize: " << this->PointSize << "\n";
+  os << indent << "Backend: " << this->Backend << "\n";
   os << indent << "Complete: " << this->Complete << "\n";
   os << indent << "TargetFrameTime: " << this->TargetFrameTime << "\n";
   os << indent << "UploadLimit: " << this->UploadLimit << "\n";
   os << indent << "StorePiece: " << this->StorePiece << " of " << this->NumberOfStorePieces << "\n";
-  os << indent << "LastPointsDrawn: " << this->LastPointsDrawn << "\n";
-  os << indent << "LastError: " << this->LastError << "\n";
-  os << indent << "LastComplete: " << this->LastComplete << "\n";
-  os << indent << "LastLimitedByPoints: " << this->LastLimitedByPoints << "\n";
-  os << indent << "LastLimitedByGPUMemory: " << this->LastLimitedByGPUMemory << "\n";
-  os << indent << "LastLimitedByMemory: " << this->LastLimitedByMemory << "\n";
-  os << indent << "LastFailedNodes: " << this->LastFailedNodes << "\n";
+  const pointfront::FrameStatistics& last = this->GetStatistics();
+  os << indent << "LastPointsDrawn: " << last.points << "\n";
+  os << indent << "LastError: " << last.errorPx << "\n";
+  os << indent << "LastComplete: " << last.complete << "\n";
+  os << indent << "LastLimitedByPoints: " << last.limitedByPoints << "\n";
+  os << indent << "LastLimitedByGPUMemory: " << last.limitedByGpuMemory << "\n";
+  os << indent << "LastLimitedByMemory: " << last.limitedByMemory << "\n";
+  os << indent << "LastFailedNodes: " << last.failedNodes << "\n";
 }

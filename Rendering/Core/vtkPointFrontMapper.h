@@ -28,15 +28,17 @@
 #include "vtkSmartPointer.h" // for the store
 
 #include <cstdint> // for counts
-#include <memory>  // for the front
+#include <memory>  // for the views
 
 class vtkPointFrontStore;
 class vtkRenderWindowInteractor;
+class vtkWindow;
 namespace pointfront
 {
-class ViewFront;
 struct FrameDemand;
-struct PointColouring;
+struct FramePlan;
+struct FrameStatistics;
+struct PlanRequest;
 } // namespace pointfront
 
 class POINTFRONTRENDERINGCORE_EXPORT vtkPointFrontMapper : public vtkPolyDataMapper
@@ -112,6 +114,28 @@ public:
   vtkGetMacro(PointSize, double);
   ///@}
 
+  enum Backends
+  {
+    AUTOMATIC = 0,
+    OPENGL = 1,
+    SOFTWARE = 2
+  };
+  ///@{
+  /**
+   * Who turns points into pixels. OPENGL: the window's GL. SOFTWARE: threads of this process, from
+   * the points where they are in host memory; colour and depth enter the window's picture in the
+   * opaque pass, where other actors, passes and selections see them as any other geometry's.
+   * AUTOMATIC (default): SOFTWARE where the window's GL is itself a program (GL_RENDERER llvmpipe,
+   * softpipe), else OPENGL. What SOFTWARE does not draw (translucent points) OPENGL does, and a
+   * warning says so once.
+   */
+  vtkSetClampMacro(Backend, int, AUTOMATIC, SOFTWARE);
+  vtkGetMacro(Backend, int);
+  void SetBackendToAutomatic() { this->SetBackend(AUTOMATIC); }
+  void SetBackendToOpenGL() { this->SetBackend(OPENGL); }
+  void SetBackendToSoftware() { this->SetBackend(SOFTWARE); }
+  ///@}
+
   ///@{
   /**
    * On: a still render (desired update rate below 0.01... as VTK and ParaView set it) loads and
@@ -183,28 +207,28 @@ public:
 
   /// Of the last frame. Error in pixels; Threshold is what the front worked with.
   ///@{
-  vtkGetMacro(LastPointsDrawn, vtkIdType);
-  vtkGetMacro(LastNodesDrawn, vtkIdType);
-  vtkGetMacro(LastFrontLength, vtkIdType);
-  vtkGetMacro(LastMoves, vtkIdType);
-  vtkGetMacro(LastRequests, vtkIdType);
-  vtkGetMacro(LastError, double);
-  vtkGetMacro(LastThreshold, double);
-  vtkGetMacro(LastFrontTime, double); ///< milliseconds of the front's update
-  vtkGetMacro(LastGPUBytes, vtkTypeInt64);
+  vtkIdType GetLastPointsDrawn() const;
+  vtkIdType GetLastNodesDrawn() const;
+  vtkIdType GetLastFrontLength() const;
+  vtkIdType GetLastMoves() const;
+  vtkIdType GetLastRequests() const;
+  double GetLastError() const;
+  double GetLastThreshold() const;
+  double GetLastFrontTime() const; ///< milliseconds of the front's update
+  vtkTypeInt64 GetLastGPUBytes() const;
   /// As LastGPUBytes, of all clouds of the window together.
-  vtkGetMacro(LastWindowGPUBytes, vtkTypeInt64);
+  vtkTypeInt64 GetLastWindowGPUBytes() const;
   /// True when the last frame showed all that TargetError and the budgets allow: no further render
   /// will change the picture.
-  vtkGetMacro(LastComplete, bool);
+  bool GetLastComplete() const;
   /// True when PointBudget, or the time of a frame in motion, kept the error above TargetError.
-  vtkGetMacro(LastLimitedByPoints, bool);
+  bool GetLastLimitedByPoints() const;
   /// True when GPUMemoryBudget did.
-  vtkGetMacro(LastLimitedByGPUMemory, bool);
+  bool GetLastLimitedByGPUMemory() const;
   /// True when the store's host memory budget did.
-  vtkGetMacro(LastLimitedByMemory, bool);
+  bool GetLastLimitedByMemory() const;
   /// Nodes of this view that could not be read; what lies above them is drawn in their place.
-  vtkGetMacro(LastFailedNodes, vtkIdType);
+  vtkIdType GetLastFailedNodes() const;
   ///@}
 
   enum EventIds
@@ -244,14 +268,13 @@ protected:
 
 #ifndef __VTK_WRAP__
   /**
-   * For the OpenGL side, at each RenderPiece: the front of that renderer. It is moved on the first
-   * call of a frame and returned as it is by all others (peeling, selection and shadow passes draw
-   * one frame several times). Null, and an error once a cause, without a store.
+   * For the OpenGL side, at each RenderPiece: what that renderer draws. The front is moved on the
+   * first call of a frame; all others (peeling, selection and shadow passes draw one frame several
+   * times) get the same nodes. Valid until the next call or the end of the renderer's frame. Null,
+   * and an error once a cause, without a store.
    */
-  pointfront::ViewFront* PrepareFrame(vtkRenderer* renderer, vtkActor* actor);
-  /// How the points are coloured, from the properties of vtkMapper.
-  pointfront::PointColouring GetColouring();
-  /// True from PrepareFrame() to FinishFrame(): the frame's first drawing, which uploads.
+  const pointfront::FramePlan* PlanFrame(vtkRenderer* renderer, vtkActor* actor);
+  /// True from PlanFrame() to FinishFrame(): the frame's first drawing, which uploads.
   bool IsFirstDrawing(vtkRenderer* renderer) const;
   /// True when the front was moved since the renderer's last frame (see NeedsRender()): what a
   /// further drawing of that frame shows may not be on the GPU yet.
@@ -264,12 +287,16 @@ protected:
     vtkRenderer* renderer, vtkIdType points, vtkIdType moves, double milliseconds);
   /// A renderer drew a frame, and none shows this mapper any more: what it has on the GPU is idle.
   virtual void LeaveScreen();
+  /// Points are drawn from host memory: no GPU memory is taken for them.
+  virtual bool DrawsFromHostMemory(vtkRenderer*) { return false; }
   static bool IsInteracting(vtkRenderer* renderer);
-  /// Of PointBudget, what this mapper may have on the GPU beside the other clouds of the window; 0:
-  /// no limit.
-  vtkIdType GetPointsOnGPU() const;
-  /// Renderers that this mapper draws in.
-  std::uint32_t GetNumberOfViews() const;
+  /// Of PointBudget, what this mapper may have on the GPU of a window beside the other clouds of
+  /// it; 0: no limit.
+  vtkIdType GetPointsOnGPU(vtkWindow* window) const;
+  /// Renderers of a window that this mapper draws in.
+  std::uint32_t GetNumberOfViews(vtkWindow* window) const;
+  /// Of the last frame.
+  pointfront::FrameStatistics& GetStatistics() const;
 #endif
 
   double TargetError = 1.0;
@@ -278,35 +305,19 @@ protected:
   int DetailSelection = RENDERING_FRONT;
   vtkIdType OverviewPoints = 2000000;
   double PointSize = 0.0;
+  int Backend = AUTOMATIC;
   bool Complete = false;
   double TargetFrameTime = 0.0;
   vtkTypeInt64 UploadLimit = 16 << 20;
   int StorePiece = 0;
   int NumberOfStorePieces = 1;
 
-  vtkIdType LastPointsDrawn = 0;
-  vtkIdType LastNodesDrawn = 0;
-  vtkIdType LastFrontLength = 0;
-  vtkIdType LastMoves = 0;
-  vtkIdType LastRequests = 0;
-  double LastError = 0.0;
-  double LastThreshold = 0.0;
-  double LastFrontTime = 0.0;
-  vtkTypeInt64 LastGPUBytes = 0;
-  vtkTypeInt64 LastWindowGPUBytes = 0;
-  bool LastComplete = false;
-  bool LastLimitedByPoints = false;
-  bool LastLimitedByGPUMemory = false;
-  bool LastLimitedByMemory = false;
-  vtkIdType LastFailedNodes = 0;
-
 private:
   struct Content;
   pointfront::FrameDemand GetDemand(vtkRenderer* renderer, vtkActor* actor);
-  /// Goes over to the next version of the preview that it draws, or to the finished store, once
-  /// that shows as much of the view.
-  void FollowPreview(vtkRenderer* renderer, vtkActor* actor);
-  void TakeSuccessor();
+  pointfront::PlanRequest GetRequest(vtkRenderer* renderer, vtkActor* actor);
+  bool MoveFront(vtkRenderer* renderer, vtkActor* actor);
+  void Warn();
   bool Announce();
   std::unique_ptr<Content> Internals;
 

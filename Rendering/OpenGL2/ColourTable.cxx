@@ -1,131 +1,61 @@
 #include "ColourTable.h"
 
-#include <vtkDoubleArray.h>
-#include <vtkMath.h>
 #include <vtkOpenGLRenderWindow.h>
-#include <vtkScalarsToColors.h>
 #include <vtkShaderProgram.h>
-#include <vtkSmartPointer.h>
 #include <vtkTextureObject.h>
-#include <vtkUnsignedCharArray.h>
 
-#include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 namespace pointfront
 {
-namespace
-{
-/// Entries of a continuous function: finer than 8-bit colours tell apart, within every GL's limit.
-constexpr int continuousEntries = 8192;
-} // namespace
 
 ColourTable::ColourTable() = default;
 ColourTable::~ColourTable() = default;
 
-void ColourTable::append(vtkScalarsToColors* table, const std::vector<double>& values)
+void ColourTable::update(vtkOpenGLRenderWindow* window, std::shared_ptr<const ColourMap> map)
 {
-  vtkNew<vtkDoubleArray> array;
-  array->SetNumberOfValues(static_cast<vtkIdType>(values.size()));
-  std::copy(values.begin(), values.end(), array->GetPointer(0));
-  const auto colours = vtkSmartPointer<vtkUnsignedCharArray>::Take(
-    table->MapScalars(array, VTK_COLOR_MODE_MAP_SCALARS, 0));
-  const unsigned char* rgba = colours->GetPointer(0);
-  const int components = colours->GetNumberOfComponents();
-  for (std::size_t i = 0; i < values.size(); ++i, rgba += components)
-  {
-    // L, LA, RGB or RGBA, as the table's maker chose.
-    const bool grey = components < 3;
-    const unsigned char alpha = components == 4 ? rgba[3] : (components == 2 ? rgba[1] : 255);
-    texels_.insert(texels_.end(), {rgba[0], rgba[grey ? 0 : 1], rgba[grey ? 0 : 2], alpha});
-  }
-}
-
-void ColourTable::sampleIntegers(vtkScalarsToColors* table, const PointColouring& colouring)
-{
-  const std::int64_t first = (*colouring.integers)[0];
-  const std::int64_t last = (*colouring.integers)[1];
-  std::vector<double> values{static_cast<double>(first) - 1.0};
-  for (std::int64_t value = first; value <= last + 1; ++value)
-  {
-    values.push_back(static_cast<double>(value));
-  }
-  values.push_back(vtkMath::Nan());
-  size_ = static_cast<int>(last - first + 1);
-  low_ = static_cast<double>(first) - 0.5; // an integer lies in the middle of its entry
-  scale_ = 1.0;
-  logSign_ = 0.0;
-  this->append(table, values);
-}
-
-void ColourTable::sampleRange(vtkScalarsToColors* table)
-{
-  const double* range = table->GetRange();
-  double low = range[0];
-  double high = range[1];
-  const bool logarithmic =
-    table->UsingLogScale() != 0 && low != 0.0 && high != 0.0 && (low > 0.0) == (high > 0.0);
-  logSign_ = !logarithmic ? 0.0 : (low > 0.0 ? 1.0 : -1.0);
-  if (logarithmic)
-  {
-    low = std::log10(logSign_ * low);
-    high = std::log10(logSign_ * high);
-  }
-  const vtkIdType available = table->GetNumberOfAvailableColors();
-  size_ = available > 0 && available <= continuousEntries ? static_cast<int>(available)
-                                                          : continuousEntries;
-  const double width = (high - low) / size_;
-  std::vector<double> values;
-  for (int entry = -1; entry <= size_; ++entry)
-  {
-    const double middle = low + (entry + 0.5) * width;
-    values.push_back(logarithmic ? logSign_ * std::pow(10.0, middle) : middle);
-  }
-  values.push_back(vtkMath::Nan());
-  low_ = logarithmic ? 0.0 : low;
-  logLow_ = low;
-  scale_ = width != 0.0 ? 1.0 / width : 0.0;
-  this->append(table, values);
-}
-
-void ColourTable::update(vtkOpenGLRenderWindow* window, vtkScalarsToColors* table,
-  const PointColouring& colouring, vtkMTimeType tableTime)
-{
-  if (texture_->GetHandle() != 0 && tableTime <= time_ && colouring == colouring_)
+  if (map == map_)
   {
     return;
   }
-  time_ = tableTime;
-  colouring_ = colouring;
-  texels_.clear();
-  if (colouring.integers)
-  {
-    this->sampleIntegers(table, colouring);
-  }
-  else
-  {
-    this->sampleRange(table);
-  }
+  map_ = std::move(map);
+  std::vector<Rgba8> texels{map_->usesBelow ? map_->below : map_->entries.front()};
+  texels.insert(texels.end(), map_->entries.begin(), map_->entries.end());
+  texels.push_back(map_->usesAbove ? map_->above : map_->entries.back());
+  texels.push_back(map_->missing);
   texture_->ReleaseGraphicsResources(window);
   texture_->SetContext(window);
   texture_->SetMinificationFilter(vtkTextureObject::Nearest);
   texture_->SetMagnificationFilter(vtkTextureObject::Nearest);
   texture_->Create2DFromRaw(
-    static_cast<unsigned int>(size_ + 3), 1, 4, VTK_UNSIGNED_CHAR, texels_.data());
+    static_cast<unsigned int>(texels.size()), 1, 4, VTK_UNSIGNED_CHAR, texels.data());
 }
 
 void ColourTable::activate(
   vtkShaderProgram* program, const PointColouring& colouring, double referenceZ)
 {
   texture_->Activate();
+  const auto entries = static_cast<double>(map_->entries.size());
+  double low = map_->range[0];
+  double high = map_->range[1];
+  if (map_->indexed)
+  {
+    low -= 0.5; // a whole number lies in the middle of its entry
+    high = low + entries;
+  }
+  const double logLow = map_->logarithmic ? std::log10(low) : 0.0;
+  const double width = map_->logarithmic ? std::log10(high) - logLow : high - low;
+  const double scale = width != 0.0 ? entries / width : 0.0;
   const double base =
     colouring.kind == PointColouring::Kind::Elevation ? referenceZ : colouring.base;
   program->SetUniformi("colourTable", texture_->GetTextureUnit());
-  program->SetUniformi("tableSize", size_);
-  program->SetUniformf("tableShift", static_cast<float>(base - low_));
-  program->SetUniformf("tableScale", static_cast<float>(scale_));
-  program->SetUniformf("tableLogLow", static_cast<float>(logLow_));
-  program->SetUniformf("tableLogSign", static_cast<float>(logSign_));
+  program->SetUniformi("tableSize", static_cast<int>(map_->entries.size()));
+  program->SetUniformf("tableShift", static_cast<float>(map_->logarithmic ? base : base - low));
+  program->SetUniformf("tableScale", static_cast<float>(scale));
+  program->SetUniformf("tableLogLow", static_cast<float>(logLow));
+  program->SetUniformi("tableLogarithmic", map_->logarithmic ? 1 : 0);
 }
 
 void ColourTable::deactivate()
@@ -139,7 +69,7 @@ void ColourTable::deactivate()
 void ColourTable::release(vtkWindow* window)
 {
   texture_->ReleaseGraphicsResources(window);
-  time_ = 0;
+  map_.reset();
 }
 
 } // namespace pointfront

@@ -83,20 +83,30 @@ bool GpuPool::tooMuch(std::int64_t more) const
   return limits_.bytes > 0 && account_->bytes() + more > limits_.bytes;
 }
 
-void GpuPool::setColouring(const PointColouring& colouring)
+const PointColouring& GpuPool::colouringOf(std::uint16_t layer) const
 {
-  if (colouring == colouring_)
+  static const PointColouring flat;
+  return layer < colourings_.size() ? colourings_[layer] : flat;
+}
+
+void GpuPool::setColourings(std::vector<PointColouring> byLayer)
+{
+  if (byLayer == colourings_)
   {
     return;
   }
-  colouring_ = colouring;
+  std::swap(colourings_, byLayer); // byLayer: those before
   for (auto& [node, entry] : entries_)
   {
-    entry.values = 0;
+    const bool same = entry.layer < byLayer.size() && entry.layer < colourings_.size() &&
+      byLayer[entry.layer] == colourings_[entry.layer];
+    entry.values = same ? entry.values : 0;
   }
+  hasValues_ = std::any_of(colourings_.begin(), colourings_.end(),
+    [](const PointColouring& colouring) { return colouring.hasValues(); });
   for (GpuBlock& block : blocks_)
   {
-    if (!colouring_.hasValues() && block.valueBuffer() != 0)
+    if (!hasValues_ && block.valueBuffer() != 0)
     {
       charge(-block.bytes());
       block.dropValues();
@@ -120,7 +130,7 @@ void GpuPool::beginFrame(const Limits& limits)
 
 void GpuPool::leaveScreen() { frame_ += limits_.views; }
 
-bool GpuPool::makeRoom(const std::vector<DrawItem>& draw)
+bool GpuPool::makeRoom(const DrawList& draw)
 {
   if (lowered_)
   {
@@ -130,10 +140,10 @@ bool GpuPool::makeRoom(const std::vector<DrawItem>& draw)
   keepWithin(draw);
   addValues();
   std::uint64_t missing = 0;
-  for (const DrawItem& item : draw)
+  for (const PlanItem* item : draw)
   {
-    const std::uint64_t wanted = gpuSlotsOf(item.pointCount);
-    const auto found = entries_.find(item.node);
+    const std::uint64_t wanted = gpuSlotsOf(item->last);
+    const auto found = entries_.find(item->node->node);
     const std::uint64_t there = found == entries_.end() ? 0 : found->second.slots.size();
     missing += wanted - std::min(wanted, there);
   }
@@ -141,22 +151,22 @@ bool GpuPool::makeRoom(const std::vector<DrawItem>& draw)
 }
 
 /// What this frame draws is on the screen.
-void GpuPool::mark(const std::vector<DrawItem>& draw)
+void GpuPool::mark(const DrawList& draw)
 {
-  for (const DrawItem& item : draw)
+  for (const PlanItem* item : draw)
   {
-    const auto found = entries_.find(item.node);
+    const auto found = entries_.find(item->node->node);
     if (found != entries_.end())
     {
       Entry& entry = found->second;
       const bool others = entry.frame + limits_.views > frame_; // another view draws it as well
-      entry.wanted = others ? std::max(entry.wanted, item.pointCount) : item.pointCount;
+      entry.wanted = others ? std::max(entry.wanted, item->last) : item->last;
       entry.frame = frame_;
     }
   }
 }
 
-void GpuPool::keepWithin(const std::vector<DrawItem>& draw)
+void GpuPool::keepWithin(const DrawList& draw)
 {
   if (slotLimit_ != 0 && slotCount() / 2 > std::max(slotLimit_, fewestSlots))
   {
@@ -175,7 +185,7 @@ void GpuPool::keepWithin(const std::vector<DrawItem>& draw)
   // The frame draws more than there may be: a front comes down by some moves a frame in motion.
   for (auto item = draw.rbegin(); item != draw.rend() && bytes_ > limits_.bytes; ++item)
   {
-    const auto farthest = entries_.find(item->node);
+    const auto farthest = entries_.find((*item)->node->node);
     if (farthest != entries_.end())
     {
       free_.insert(
@@ -197,7 +207,7 @@ void GpuPool::addValues()
   {
     more += block.valueBuffer() == 0 ? block.slots() * slotPoints * GpuSlotBytes::value : 0;
   }
-  if (!colouring_.hasValues() || more == 0)
+  if (!hasValues_ || more == 0)
   {
     return;
   }
@@ -301,7 +311,7 @@ bool GpuPool::trim()
 /// By a block, towards `slots` more; false if the budget of bytes has no room for a slot.
 bool GpuPool::grow(std::uint64_t slots)
 {
-  const std::int64_t slotBytes = GpuSlotBytes::of(colouring_.hasValues());
+  const std::int64_t slotBytes = GpuSlotBytes::of(hasValues_);
   const std::uint64_t wanted =
     std::max<std::uint64_t>(slotCount() / growthShare, std::min(slots, mostSmallSlots));
   auto size = static_cast<std::int64_t>(powerBelow(std::min(wanted, mostBlockSlots)));
@@ -315,7 +325,7 @@ bool GpuPool::grow(std::uint64_t slots)
     return false;
   }
   blocks_.emplace_back(
-    slotCount(), static_cast<std::uint32_t>(size), colouring_.hasValues());
+    slotCount(), static_cast<std::uint32_t>(size), hasValues_);
   charge(blocks_.back().bytes());
   for (std::uint32_t slot = blocks_.back().end(); slot-- > blocks_.back().first();)
   {
@@ -384,6 +394,8 @@ const GpuPool::Entry* GpuPool::bring(const NodeColumns& node, std::uint32_t coun
 {
   Entry& entry = entries_[node.node];
   entry.frame = frame_;
+  entry.layer = node.layer;
+  const PointColouring& colouring = colouringOf(node.layer);
   const auto wanted = std::min(count, static_cast<std::uint32_t>(node.size()));
   entry.wanted = std::max(entry.wanted, wanted);
   if (entry.points < wanted && bytesLeft > 0)
@@ -393,8 +405,8 @@ const GpuPool::Entry* GpuPool::bring(const NodeColumns& node, std::uint32_t coun
     uploadPositions(node, entry, std::min(wanted, entry.points + affordable));
     bytesLeft -= static_cast<std::int64_t>(affordable) * GpuSlotBytes::position;
   }
-  if (colouring_.hasValues() && entry.values < std::min(wanted, entry.points) && bytesLeft > 0 &&
-      colouring_.coveredBy(node))
+  if (colouring.hasValues() && entry.values < std::min(wanted, entry.points) && bytesLeft > 0 &&
+      colouring.coveredBy(node))
   {
     const std::uint32_t end = std::min(wanted, entry.points);
     bytesLeft -= static_cast<std::int64_t>(end - entry.values) * GpuSlotBytes::value;
@@ -424,7 +436,7 @@ void GpuPool::uploadValues(
   const NodeColumns& node, const AttributeSchema& schema, Entry& entry, std::uint32_t end)
 {
   staging_.clear();
-  colouring_.encode(node, schema, entry.values, end - entry.values, staging_);
+  colouringOf(node.layer).encode(node, schema, entry.values, end - entry.values, staging_);
   forSlots(entry.slots, entry.values, end,
     [&](std::uint32_t slot, std::uint32_t offset, std::uint32_t first, std::uint32_t points)
     {

@@ -3,7 +3,7 @@
 #include "GpuBlock.h"
 #include "pointfront/Style/PointColouring.h"
 
-#include "pointfront/Front/RenderFront.h"
+#include "pointfront/Plan/FramePlan.h"
 #include "pointfront/Store/NodeReader.h"
 
 #include <cstdint>
@@ -34,12 +34,15 @@ class GpuPool
 {
 public:
   static constexpr std::uint32_t slotPoints = gpuSlotPoints;
+  /// Items of a plan, near to far: what a frame draws.
+  using DrawList = std::vector<const PlanItem*>;
 
   struct Entry
   {
     std::vector<std::uint32_t> slots;
     std::uint32_t points = 0; ///< uploaded positions: a prefix of the node
-    std::uint32_t values = 0; ///< uploaded values of the pool's colouring: a prefix
+    std::uint32_t values = 0; ///< uploaded values of its layer's colouring: a prefix
+    std::uint16_t layer = 0;
     std::uint32_t wanted = 0; ///< most points that a view draws of it
     std::uint64_t frame = 0;  ///< last drawn
   };
@@ -58,14 +61,16 @@ public:
 
   /// Before anything else in a context: the account of its window.
   void enter(std::shared_ptr<GpuAccount> account);
-  /// Values of another colouring are worth nothing: they are uploaded again as nodes are drawn.
-  void setColouring(const PointColouring& colouring);
+  /// Of each layer by its number; what has none is flat. Values are a stream of their own beside the
+  /// positions: those of another colouring are worth nothing and are uploaded again as nodes are
+  /// drawn, positions stay where they are.
+  void setColourings(std::vector<PointColouring> byLayer);
   void beginFrame(const Limits& limits);
   /// This frame's limit of bytes is lower than that of the frame before, and was exceeded.
   bool lowered() const { return lowered_; }
   /// Before a frame's first bring(): what it draws. False if the budget of bytes does not hold all
   /// of it: bring() then brings what there is room for.
-  bool makeRoom(const std::vector<DrawItem>& draw);
+  bool makeRoom(const DrawList& draw);
 
   /// Nothing of it is drawn until the next frame: all of it may be given back.
   void leaveScreen();
@@ -94,8 +99,9 @@ public:
   void release();
 
 private:
-  void mark(const std::vector<DrawItem>& draw);
-  void keepWithin(const std::vector<DrawItem>& draw);
+  const PointColouring& colouringOf(std::uint16_t layer) const;
+  void mark(const DrawList& draw);
+  void keepWithin(const DrawList& draw);
   void addValues();
   bool makeFree(std::uint64_t slots);
   bool isIdle(const Entry& entry) const;
@@ -112,7 +118,8 @@ private:
     const NodeColumns& node, const AttributeSchema& schema, Entry& entry, std::uint32_t end);
 
   std::shared_ptr<GpuAccount> account_;
-  PointColouring colouring_;
+  std::vector<PointColouring> colourings_; ///< by layer
+  bool hasValues_ = false;                 ///< one of them has
   std::vector<GpuBlock> blocks_; ///< each goes on where the one before ends
   std::unordered_map<NodeIndex, Entry> entries_;
   std::vector<std::uint32_t> free_; ///< slots

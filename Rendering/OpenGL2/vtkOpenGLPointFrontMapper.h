@@ -3,9 +3,10 @@
  * @brief the OpenGL side of vtkPointFrontMapper: uploads what the front draws and draws it as
  * points
  *
- * Comes from vtkPointFrontMapper::New() by the object factory. Host nodes become slots of a GpuPool
- * (bounded bytes a frame while interacting), the slots one drawing of
- * vtkOpenGLPointFrontPass. Hardware selection gives ids that are ranks in the store: (node,
+ * Comes from vtkPointFrontMapper::New() by the object factory. It draws plans (FramePlan) and asks
+ * neither residency nor table. Host nodes become slots of a GpuPool (bounded bytes a frame while
+ * interacting), the slots drawings of vtkOpenGLPointFrontPass; each window has its own
+ * (WindowDrawing). Hardware selection gives ids that are ranks in the store: (node,
  * position in the node), 48 bits.
  */
 #ifndef vtkOpenGLPointFrontMapper_h
@@ -14,9 +15,12 @@
 #include "pointfrontRenderingOpenGL2Module.h" // for the export macro
 #include "vtkPointFrontMapper.h"
 
-#include <memory> // for the pool
+#include <memory> // for what each window has
 
-class vtkOpenGLRenderWindow;
+namespace pointfront
+{
+class FrameTimer;
+}
 
 class POINTFRONTRENDERINGOPENGL2_EXPORT vtkOpenGLPointFrontMapper : public vtkPointFrontMapper
 {
@@ -41,8 +45,7 @@ private:
   vtkOpenGLPointFrontMapper(const vtkOpenGLPointFrontMapper&) = delete;
   void operator=(const vtkOpenGLPointFrontMapper&) = delete;
 
-  void EnterContext(vtkOpenGLRenderWindow* window);
-  void ReadTimer(vtkRenderer* renderer);
+  void ReadTimer(vtkRenderer* renderer, pointfront::FrameTimer& timer);
 
   struct Content;
   std::unique_ptr<Content> Internals;

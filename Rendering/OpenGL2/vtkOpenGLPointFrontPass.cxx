@@ -89,23 +89,6 @@ void vtkOpenGLPointFrontPass::CopyState(vtkMapper* owner)
   }
 }
 
-glm::dvec3 vtkOpenGLPointFrontPass::GetReference(vtkRenderer* renderer, vtkActor* actor)
-{
-  vtkCamera* camera = renderer->GetActiveCamera();
-  const double* point =
-    camera->GetParallelProjection() ? camera->GetFocalPoint() : camera->GetPosition();
-  if (actor->GetIsIdentity())
-  {
-    return {point[0], point[1], point[2]};
-  }
-  vtkNew<vtkMatrix4x4> toStore;
-  vtkMatrix4x4::Invert(actor->GetMatrix(), toStore);
-  const double world[4] = {point[0], point[1], point[2], 1.0};
-  double store[4];
-  toStore->MultiplyPoint(world, store);
-  return {store[0] / store[3], store[1] / store[3], store[2] / store[3]};
-}
-
 void vtkOpenGLPointFrontPass::Draw(
   vtkRenderer* renderer, vtkActor* actor, const pointfront::PointDrawing& drawing)
 {
@@ -187,6 +170,10 @@ void vtkOpenGLPointFrontPass::SetMapperShaderParameters(
   const float stepSize[3] = {static_cast<float>(drawing.stepSize.x),
     static_cast<float>(drawing.stepSize.y), static_cast<float>(drawing.stepSize.z)};
   cellBO.Program->SetUniform3f("stepSize", stepSize);
+  float flat[4];
+  std::transform(drawing.flat.begin(), drawing.flat.end(), flat,
+    [](std::uint8_t value) { return static_cast<float>(value) / 255.0f; });
+  cellBO.Program->SetUniform4f("flatColour", flat);
   if (drawing.table)
   {
     drawing.table->activate(cellBO.Program, drawing.colouring, drawing.reference.z);
@@ -290,7 +277,7 @@ void vtkOpenGLPointFrontPass::DrawBlocks(vtkOpenGLHelper& cellBO)
     }
   };
   pointfront::DrawBatches batches;
-  const pointfront::DrawRuns& runs = this->Drawing->runs;
+  const pointfront::DrawRuns& runs = *this->Drawing->runs;
   for (const pointfront::DrawRuns::Stretch& stretch : runs.stretches())
   {
     const pointfront::GpuBlock& block = this->Drawing->pool->blocks()[stretch.block];

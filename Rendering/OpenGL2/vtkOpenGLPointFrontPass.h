@@ -10,7 +10,8 @@
 #ifndef vtkOpenGLPointFrontPass_h
 #define vtkOpenGLPointFrontPass_h
 
-#include "DrawRuns.h"       // for the draw list
+#include "DrawRuns.h"                        // for the draw list
+#include "pointfront/Style/ColourMap.h"      // for colours
 #include "pointfront/Style/PointColouring.h" // for the colouring
 #include "vtkOpenGLPolyDataMapper.h"
 
@@ -34,7 +35,8 @@ struct PointDrawing
   glm::dvec3 stepSize{1.0};  ///< store units of a grid step
   double pointSize = 0.0;    ///< pixels; 0: the property's
   vtkIdType storePoints = 0; ///< ids are below it
-  DrawRuns runs;
+  const DrawRuns* runs = nullptr;
+  Rgba8 flat{255, 255, 255, 255}; ///< of points without a value
 };
 } // namespace pointfront
 
@@ -48,10 +50,6 @@ public:
   void CopyState(vtkMapper* owner);
   /// Draws into what is bound. `drawing` is used until it returns.
   void Draw(vtkRenderer* renderer, vtkActor* actor, const pointfront::PointDrawing& drawing);
-
-  /// The point that positions are taken relative to, in store coordinates: the eye, for a parallel
-  /// view the focal point.
-  static glm::dvec3 GetReference(vtkRenderer* renderer, vtkActor* actor);
 
   void RenderPiece(vtkRenderer*, vtkActor*) override {}
 

@@ -9,6 +9,7 @@
 
 namespace pointfront
 {
+class ThreadCrew;
 
 /// Rows [bottom, top) of the viewport that are drawn: a large picture is drawn in bands, each with
 /// the splat sizes of the whole.
@@ -33,12 +34,13 @@ struct RasterStatistics
 ///              adds points to the one before adds them to what is there).
 /// Memory       some buffers of the size of the viewport, kept from frame to frame; one more for
 ///              each further thread.
-/// Threads      one thread at a time; draws with those of ThreadCrew::ofProcess().
+/// Threads      one thread at a time; draws with those of a crew.
 /// Source       drawing.md sections 4 to 7; docs/adr/0016.
 class SoftwareRasteriser
 {
 public:
-  SoftwareRasteriser();
+  /// Draws with the process's crew, unless another is given; it outlives this object.
+  explicit SoftwareRasteriser(ThreadCrew* crew = nullptr);
   ~SoftwareRasteriser();
   SoftwareRasteriser(const SoftwareRasteriser&) = delete;
   SoftwareRasteriser& operator=(const SoftwareRasteriser&) = delete;
@@ -57,8 +59,11 @@ public:
   /// Forgets the last picture and gives its memory back.
   void release();
 
-  /// The instruction set in use: "AVX-512", "AVX2" or "portable".
-  static const char* instructionSet();
+  /// The instruction set in use: "AVX-512", "AVX2" or "portable". The best that the processor has,
+  /// unless POINTFRONT_INSTRUCTIONS in the environment names another.
+  const char* instructionSet() const;
+  /// For tests and measurements; false, and nothing changes, if it cannot be had here.
+  bool setInstructionSet(const char* name);
 
 private:
   struct Content;

@@ -1,19 +1,19 @@
-// A lookup table as a row of texels: [0] below the range, [1 .. n] the table, [n + 1] above the
-// range, [n + 2] not a number. Editing the table changes this texture and no point.
+// A colour map as a row of texels: [0] below the range, [1 .. n] the map, [n + 1] above the range,
+// [n + 2] not a number. Editing the map changes this texture and no point.
 uniform sampler2D colourTable;
-uniform int tableSize;      // n
-uniform float tableShift;   // added to a value: to the low end of the range (linear) or to 0 (log)
-uniform float tableScale;   // entries per unit (linear) or per decade (log)
-uniform float tableLogLow;  // log10 of the low end; used when tableLogSign is not 0
-uniform float tableLogSign; // 0: linear; -1 or 1: the sign of the range
+uniform int tableSize;        // n
+uniform float tableShift;     // added to a value: to the low end of the range (linear) or to 0 (log)
+uniform float tableScale;     // entries per unit (linear) or per decade (log)
+uniform float tableLogLow;    // log10 of the low end
+uniform int tableLogarithmic; // 0: linear
 
-/// Colour of a value. Twin: VTK's vtkLookupTable::GetIndex.
+/// Colour of a value. Twin: pointfront::ColourMap::at.
 vec4 tableColour(float value)
 {
   float entry = (value + tableShift) * tableScale;
-  if (tableLogSign != 0.0)
+  if (tableLogarithmic != 0)
   {
-    float positive = tableLogSign * (value + tableShift);
+    float positive = value + tableShift;
     entry = positive > 0.0 ? (log(positive) / log(10.0) - tableLogLow) * tableScale : -1.0;
   }
   float n = float(tableSize);

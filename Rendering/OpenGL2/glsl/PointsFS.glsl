@@ -7,14 +7,12 @@
 
 uniform int PrimitiveIDOffset;
 
-in vec4 vertexColorVSOutput; // a < 0: the property's colour
+in vec4 vertexColorVSOutput;
 uniform float ambientIntensity;
 uniform float diffuseIntensity;
 uniform float specularIntensity;
 uniform float specularPowerUniform;
 uniform float opacityUniform;
-uniform vec3 ambientColorUniform;
-uniform vec3 diffuseColorUniform;
 uniform vec3 specularColorUniform;
 #if POINTFRONT_PICKING
 flat in ivec2 pointIdVSOutput; // low and high 24 bits
@@ -47,12 +45,11 @@ void main()
   //VTK::Clip::Impl
   //VTK::ValuePass::Impl
 
-  bool coloured = vertexColorVSOutput.a >= 0.0;
-  vec3 ambientColor = ambientIntensity * (coloured ? vertexColorVSOutput.rgb : ambientColorUniform);
-  vec3 diffuseColor = diffuseIntensity * (coloured ? vertexColorVSOutput.rgb : diffuseColorUniform);
+  vec3 ambientColor = ambientIntensity * vertexColorVSOutput.rgb;
+  vec3 diffuseColor = diffuseIntensity * vertexColorVSOutput.rgb;
   vec3 specularColor = specularIntensity * specularColorUniform;
   float specularPower = specularPowerUniform;
-  float opacity = opacityUniform * (coloured ? vertexColorVSOutput.a : 1.0);
+  float opacity = opacityUniform * vertexColorVSOutput.a;
   //VTK::Color::Impl
   //VTK::Edges::Impl
   //VTK::Normal::Impl

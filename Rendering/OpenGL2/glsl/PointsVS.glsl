@@ -2,7 +2,7 @@
 // The points of a store's nodes. Positions are integers; see docs/adr/0004.
 //   MC   the store's coordinates (before the actor's matrix), relative to the frame's reference
 //        point (the eye; for a parallel view the focal point): float is enough near it.
-// POINTFRONT_COLOUR  0 the property's colour, 1 colours, 2 values for the table, 3 elevation
+// POINTFRONT_COLOUR  0 one colour, 1 colours, 2 values for the table, 3 elevation
 // POINTFRONT_PICKING 1 in passes that draw point ids
 //POINTFRONT::Define::Dec
 #ifndef POINTFRONT_COLOUR
@@ -25,7 +25,9 @@ uniform isamplerBuffer slotSteps;  // xyz: the reference in the node's steps; w:
 uniform samplerBuffer slotBase;    // xyz: what rounding of the reference left over, MC
 uniform vec3 stepSize;             // MC units of a grid step
 
-out vec4 vertexColorVSOutput;      // a < 0: the property's colour
+uniform vec4 flatColour;           // of points without a value
+
+out vec4 vertexColorVSOutput;
 
 #if POINTFRONT_PICKING
 uniform isamplerBuffer slotIds;    // x, y: low and high 24 bits of the id of the slot's first point
@@ -63,7 +65,7 @@ void main()
   ivec4 steps = texelFetch(slotSteps, slot);
   vec4 vertexMC = vec4(positionMC(steps, texelFetch(slotBase, slot).xyz), 1.0);
 
-  vertexColorVSOutput = vec4(0.0, 0.0, 0.0, -1.0);
+  vertexColorVSOutput = flatColour;
 #if POINTFRONT_COLOUR == 3
   vertexColorVSOutput = tableColour(vertexMC.z);
 #elif POINTFRONT_COLOUR > 0

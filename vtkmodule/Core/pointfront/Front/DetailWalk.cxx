@@ -144,7 +144,7 @@ void DetailWalk::enter(std::size_t root, const Shown& shown)
     std::min(below, below * shown.detail / factor) };
   if (hierarchy_.refinement() == Refinement::Replace)
   {
-    const auto state = require(at.index, at.row.pointCount, overviewPriority);
+    const auto state = require(at.index, at.row, overviewPriority);
     at.drawable = state != ResidencyView::State::Absent;
     at.standIn = state == ResidencyView::State::Resident;
   }
@@ -189,8 +189,7 @@ void DetailWalk::visitAdd(const Visit& at, bool inSight, double distance, bool o
   if (wantedPoints > 0)
   {
     const bool overview = prefixOf(quota.overview, row.pointCount) > 0;
-    state = require(
-      at.index, row.pointCount, overview ? overviewPriority : priorityOf(at, distance));
+    state = require(at.index, row, overview ? overviewPriority : priorityOf(at, distance));
   }
   const bool here = at.drawable && state == ResidencyView::State::Resident;
   if (inSight && here)
@@ -240,7 +239,7 @@ bool DetailWalk::childrenReady(const Visit& at, double priority)
     const RowState state = hierarchy_.peekChild(at.index, at.row, c, child);
     noteRow(state, true);
     ready = state == RowState::Here &&
-      require(at.row.firstChild + c, child.pointCount, priority) ==
+      require(at.row.firstChild + c, child, priority) ==
         ResidencyView::State::Resident &&
       ready;
   }
@@ -274,13 +273,13 @@ void DetailWalk::descend(const Visit& at, const Quota& left, const Descent& desc
 }
 
 ResidencyView::State DetailWalk::require(
-  NodeIndex node, std::uint32_t count, double priority)
+  NodeIndex node, const Node& row, double priority)
 {
-  if (count == 0)
+  if (row.pointCount == 0)
   {
     return ResidencyView::State::Resident;
   }
-  sum_.held += count;
+  sum_.held += row.pointCount;
   if (!residency_)
   {
     return ResidencyView::State::Resident;
@@ -294,7 +293,7 @@ ResidencyView::State DetailWalk::require(
   else if (state == ResidencyView::State::Absent)
   {
     ++missing_;
-    wanted_.push_back({ node, priority, false, count });
+    wanted_.push_back({ node, priority, false, row.pointCount, row.layer });
   }
   return state;
 }

@@ -70,7 +70,7 @@ private:
   void visitReplace(const Visit& at, bool inSight, double distance, bool onPixel);
   void descend(const Visit& at, const Quota& left, const Descent& descent);
   bool childrenReady(const Visit& at, double priority);
-  ResidencyView::State require(NodeIndex node, std::uint32_t count, double priority);
+  ResidencyView::State require(NodeIndex node, const Node& row, double priority);
   void draw(const Visit& at, std::uint32_t count, double distance);
   void noteError(const Visit& at, std::uint32_t shown, double distance, bool refined);
   double errorOf(const Visit& at, double distance) const;

@@ -105,6 +105,7 @@ struct LoadRequest
   bool optional = false; ///< not needed for this view: after all others, into free memory only
   /// The node's own, all of them: who loads it must know what it takes without reading the table.
   std::uint32_t pointCount = 0;
+  std::uint16_t layer = 0; ///< likewise: which columns it is wanted with
 };
 
 /// What one update decided. Owned by the front, valid until its next update.

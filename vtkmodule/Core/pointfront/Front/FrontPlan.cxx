@@ -167,7 +167,7 @@ FrontPlan::Presence FrontPlan::require(ActiveNode& node, double priority)
       break;
   }
   ++missing_;
-  wanted_.push_back({ node.node, priority, false, node.pointCount });
+  wanted_.push_back({ node.node, priority, false, node.pointCount, node.layer });
   return Presence::Missing;
 }
 
@@ -175,7 +175,7 @@ void FrontPlan::prefetch(const ActiveNode& node, double priority)
 {
   if (node.pointCount > 0 && residency_->state(node.node) == ResidencyView::State::Absent)
   {
-    wanted_.push_back({ node.node, priority, true, node.pointCount });
+    wanted_.push_back({ node.node, priority, true, node.pointCount, node.layer });
   }
 }
 

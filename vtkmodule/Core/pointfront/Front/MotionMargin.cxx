@@ -106,7 +106,7 @@ void MotionMargin::visit(NodeIndex index, const View& ahead, const LayerLimits& 
   const double errorPx = screenError(ahead, node) / layer.errorFactor;
   if (node.pointCount > 0 && residency.state(index) == ResidencyView::State::Absent)
   {
-    requests_.push_back({ index, errorPx, true, node.pointCount });
+    requests_.push_back({ index, errorPx, true, node.pointCount, node.layer });
   }
   for (std::uint8_t c = 0; errorPx > thresholdPx && c < node.childCount; ++c)
   {

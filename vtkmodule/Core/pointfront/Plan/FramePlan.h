@@ -28,6 +28,15 @@ struct PlanItem
   /// World units between the points on screen when this prefix and all nodes above it are drawn, by
   /// the tree's levels.
   float spacing = 0.0f;
+  // How large splats close the surface (drawing.md 3); a back end takes the largest of what applies,
+  // and FramePlan::spacingPx.
+  /// A point's own radius counts that many times: more than 1 for a prefix.
+  float radiusScale = 1.0f;
+  /// World units, for points without a radius of their own.
+  float closingRadius = 0.0f;
+  /// Finer nodes are drawn among this one's points: how far these are apart does not say how large
+  /// their splats must be.
+  bool refined = false;
 };
 
 /// What is drawn in one way: the nodes of one layer.
@@ -50,6 +59,10 @@ struct FramePlan
   QuantisationGrid grid;
   std::shared_ptr<const AttributeSchema> schema; ///< of the nodes' columns; never null
   double splatRadiusBase = 0.0;                  ///< of the store's radii (SplatRadius.h); 0: none
+  /// Pixels between the points on screen wherever the store has more than is drawn: the front's
+  /// threshold. No splat need be smaller, whatever was measured; by it a point looks the same
+  /// whether its parent or its leaf is drawn.
+  float spacingPx = 0.0f;
   FrameShading shading;
   std::vector<DrawBatch> batches;
 

@@ -28,7 +28,7 @@ struct PlanRequest
 /// Columns   a node may lack columns that its style reads, while it is being read again: it is in
 ///           the plan all the same, and back ends draw what they can of it: without the colouring's
 ///           column in the flat colour, without a normal as a paraboloid, without a filter's column
-///           all of its points (NodeColumns::selection says what is there).
+///           not at all (NodeColumns::selection says what is there).
 /// Threads   the renderer's, as ViewFront.
 FramePlan planFrame(
   const ViewFront& front, const StoreDescription& description, PlanRequest request);

@@ -54,7 +54,7 @@ Residency::Residency(
 
 Residency::~Residency() { scheduler_->leave(nodes_); }
 
-void Residency::setColumns(const ColumnSelection& columns)
+void Residency::setLayerColumns(const LayerColumns& columns)
 {
   if (nodes_->setColumns(columns))
   {
@@ -62,7 +62,7 @@ void Residency::setColumns(const ColumnSelection& columns)
   }
 }
 
-ColumnSelection Residency::columns() const { return nodes_->columns(); }
+LayerColumns Residency::layerColumns() const { return nodes_->columns(); }
 
 void Residency::request(const std::vector<LoadRequest>& requests)
 {

@@ -2,6 +2,7 @@
 
 #include "pointfront/Base/Error.h"
 #include "pointfront/Front/RenderFront.h"
+#include "pointfront/Store/LayerColumns.h"
 #include "pointfront/Store/NodeReader.h"
 
 #include <chrono>
@@ -70,8 +71,11 @@ public:
 
   /// Columns that every node must have from now on. Nodes that lack one are read again; they stay
   /// until their replacement is there, unless the budget has room for one of the two only.
-  void setColumns(const ColumnSelection& columns);
-  ColumnSelection columns() const;
+  void setColumns(const ColumnSelection& columns) { setLayerColumns(columns); }
+  /// The same for each layer: nodes of one are read with its columns only.
+  void setLayerColumns(const LayerColumns& columns);
+  LayerColumns layerColumns() const;
+  ColumnSelection columns() const { return layerColumns().any(); }
 
   /// Replaces the wish list: what is not in it and not yet begun is cancelled.
   void request(const std::vector<LoadRequest>& requests);

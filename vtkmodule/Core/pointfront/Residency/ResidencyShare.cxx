@@ -16,7 +16,7 @@ ResidencyShare::Wish::~Wish()
   share_.updateRequests();
 }
 
-void ResidencyShare::Wish::setColumns(const ColumnSelection& columns)
+void ResidencyShare::Wish::setLayerColumns(const LayerColumns& columns)
 {
   if (columns != columns_)
   {
@@ -55,17 +55,15 @@ std::unique_ptr<ResidencyShare::Wish> ResidencyShare::join()
 
 void ResidencyShare::updateColumns()
 {
-  ColumnSelection all;
+  LayerColumns all;
   for (const Wish* wish : wishes_)
   {
-    all.insert(all.end(), wish->columns_.begin(), wish->columns_.end());
+    all.add(wish->columns_);
   }
-  std::sort(all.begin(), all.end());
-  all.erase(std::unique(all.begin(), all.end()), all.end());
   // Without any front left nothing changes: what is loaded may be drawn again.
-  if (!wishes_.empty() && all != residency_.columns())
+  if (!wishes_.empty() && all != residency_.layerColumns())
   {
-    residency_.setColumns(all);
+    residency_.setLayerColumns(all);
   }
 }
 

@@ -33,7 +33,8 @@ public:
     Wish& operator=(const Wish&) = delete;
 
     /// Columns that this front draws with; the residency reads them from now on.
-    void setColumns(const ColumnSelection& columns);
+    void setColumns(const ColumnSelection& columns) { setLayerColumns(columns); }
+    void setLayerColumns(const LayerColumns& columns);
     /// `distance` is asked until the wish is changed or withdrawn.
     void request(const std::vector<LoadRequest>& requests, Distance distance);
 
@@ -41,7 +42,7 @@ public:
     friend class ResidencyShare;
     explicit Wish(ResidencyShare& share);
     ResidencyShare& share_;
-    ColumnSelection columns_;
+    LayerColumns columns_;
     std::vector<LoadRequest> requests_;
     Distance distance_;
   };

@@ -51,7 +51,8 @@ std::size_t StoreNodes::need(const LoadRequest& request) const
   const auto known = needs_.find(request.node);
   return known != needs_.end()
     ? known->second
-    : reader_->decodedBytes(request.node, request.pointCount, columns_);
+    : reader_->decodedBytes(
+        request.node, request.pointCount, columns_.of(request.layer));
 }
 
 bool StoreNodes::rowsNext(const std::optional<Choice>& choice) const
@@ -130,7 +131,7 @@ std::optional<StoreNodes::Task> StoreNodes::begin()
     return std::nullopt;
   }
   const NodeIndex node = choice->request.node;
-  Task task{ node, columns_, need(choice->request), choice->reread };
+  Task task{ node, columns_.of(choice->request.layer), need(choice->request), choice->reread };
   if (choice->inPlaceOfOld)
   {
     cache_.remove(node);
@@ -214,6 +215,12 @@ void StoreNodes::refuseTooLarge(const std::vector<LoadRequest>& requests)
   }
 }
 
+/// A request for what is in memory with other columns.
+LoadRequest StoreNodes::again(NodeIndex node, const NodeColumns& points, double priority)
+{
+  return { node, priority, false, static_cast<std::uint32_t>(points.size()), points.layer };
+}
+
 /// False when decodedBytes() had said too little and the rest does not fit: the node waits again.
 bool StoreNodes::store(const Task& task, NodeColumns points)
 {
@@ -229,16 +236,16 @@ bool StoreNodes::store(const Task& task, NodeColumns points)
   {
     budget_->giveBack(task.bytes - bytes);
   }
-  const bool complete = hasAll(points.selection, columns_);
-  const LoadRequest again{ task.node, 0.0, false, static_cast<std::uint32_t>(points.size()) };
+  const bool complete = hasAll(points.selection, columns_.of(points.layer));
+  const LoadRequest other = again(task.node, points, 0.0);
   cache_.insert(task.node, std::move(points), bytes);
   if (!complete)
   {
     // Other columns were asked for while it was read.
     cache_[task.node].stale = true;
-    rereads_.add(again);
+    rereads_.add(other);
     waitingKnown_ = false;
-    leastNeed_ = std::min(leastNeed_, need(again));
+    leastNeed_ = std::min(leastNeed_, need(other));
   }
   return true;
 }
@@ -358,7 +365,7 @@ bool StoreNodes::noteRelease(bool nothingFound)
   return std::exchange(nothingToRelease_, nothingFound) != nothingFound;
 }
 
-bool StoreNodes::setColumns(const ColumnSelection& columns)
+bool StoreNodes::setColumns(const LayerColumns& columns)
 {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (columns == columns_)
@@ -377,11 +384,10 @@ bool StoreNodes::setColumns(const ColumnSelection& columns)
       cached.tooLarge = false;
       cached.drawn = false;
       cached.stale = !cached.loading && cached.points != nullptr &&
-        !hasAll(cached.points->selection, columns);
+        !hasAll(cached.points->selection, columns.of(cached.points->layer));
       if (cached.stale)
       {
-        const auto points = static_cast<std::uint32_t>(cached.points->size());
-        lacking.push_back({ node, 0.0, false, points });
+        lacking.push_back(again(node, *cached.points, 0.0));
       }
     });
   rereads_.replace(lacking);
@@ -403,7 +409,7 @@ void StoreNodes::noteLeastNeed()
   }
 }
 
-ColumnSelection StoreNodes::columns() const
+LayerColumns StoreNodes::columns() const
 {
   const std::lock_guard<std::mutex> lock(mutex_);
   return columns_;
@@ -452,8 +458,7 @@ std::shared_ptr<const NodeColumns> StoreNodes::find(NodeIndex node)
   if (cached->stale && !cached->drawn)
   {
     cached->drawn = true;
-    const auto points = static_cast<std::uint32_t>(cached->points->size());
-    rereads_.add({ node, drawnNow, false, points });
+    rereads_.add(again(node, *cached->points, drawnNow));
   }
   return cached->points;
 }

@@ -56,8 +56,8 @@ public:
   MemoryBudget& budget() const { return *budget_; }
 
   // What Residency does.
-  bool setColumns(const ColumnSelection& columns); ///< false: no change
-  ColumnSelection columns() const;
+  bool setColumns(const LayerColumns& columns); ///< false: no change
+  LayerColumns columns() const;
   bool request(const std::vector<LoadRequest>& requests); ///< false: no change
   std::shared_ptr<const NodeColumns> find(NodeIndex node);
   ResidencyView::State state(NodeIndex node) const;
@@ -109,6 +109,7 @@ private:
   void report(Error error);
   void refuseTooLarge(const std::vector<LoadRequest>& requests);
   bool store(const Task& task, NodeColumns points);
+  static LoadRequest again(NodeIndex node, const NodeColumns& points, double priority);
 
   const std::shared_ptr<const NodeReader> reader_;
   MissingRows* const rows_; ///< the reader's, or null
@@ -120,7 +121,7 @@ private:
   NodeCache cache_;
   RequestQueue queue_;
   RequestQueue rereads_;
-  ColumnSelection columns_;
+  LayerColumns columns_;
   std::vector<Error> errors_;
   /// Bytes of nodes of which decodedBytes() said too little, and of those that are too large.
   std::unordered_map<NodeIndex, std::size_t> needs_;

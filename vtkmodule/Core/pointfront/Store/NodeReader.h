@@ -33,6 +33,8 @@ struct NodeColumns
   float spacing = 0.0f;
   float splatRadius = 0.0f; ///< world units; 0 where it was not measured
   std::uint16_t layer = 0;
+  NodeIndex parent = noNode;
+  bool leaf = false;
   std::vector<glm::u32vec3> positions;
   ColumnSelection selection;
   std::vector<std::vector<std::byte>> columns;
@@ -44,6 +46,8 @@ struct NodeColumns
     spacing = row.spacing;
     splatRadius = row.splatRadius;
     layer = row.layer;
+    parent = row.parent;
+    leaf = row.leaf();
   }
   std::size_t size() const { return positions.size(); }
   /// Host memory held, for budgets.

@@ -74,6 +74,8 @@ class StoredCloud : public NodeReader
 public:
   virtual const StoreDescription& description() const = 0;
   virtual const std::shared_ptr<const Hierarchy>& hierarchy() const = 0;
+  /// Paths of the files whose bytes it is: itself, and what it refers to.
+  virtual std::vector<std::string> files() const { return { description().path }; }
 
   /// Ranges of one component (rangeComponent) in the first `most` nodes of the table or more, or in
   /// all. Null where the cloud does not know them. May wait for the disk.

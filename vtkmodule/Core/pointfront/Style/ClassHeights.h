@@ -24,6 +24,8 @@ public:
   /// only.
   void append(const NodeColumns& node, std::uint32_t first, std::uint32_t count,
     std::vector<float>& heights) const;
+  /// Of one point.
+  double at(const NodeColumns& node, std::uint32_t point) const;
 
 private:
   std::shared_ptr<const StoredCloud> store_;

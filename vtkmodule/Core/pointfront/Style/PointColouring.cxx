@@ -83,28 +83,6 @@ std::uint32_t packed(float number)
   return value;
 }
 
-/// From a stored component to 0..255.
-struct ToByte
-{
-  double factor = 1.0;
-  double offset = 0.0;
-
-  ToByte(const Attribute& attribute, bool wide, const std::array<double, 2>& range)
-  {
-    if (isInteger(attribute.type) && attribute.scale == 1.0 && attribute.offset == 0.0)
-    {
-      const double most = std::ldexp(1.0, static_cast<int>(8 * sizeOf(attribute.type)));
-      factor = wide ? 256.0 / most : 1.0;
-      return;
-    }
-    // VTK's convention: what is no integer is a colour from 0 to 1, or over the table's range.
-    const double width = range[1] - range[0];
-    const double full = width != 0.0 ? 255.0 / width : 0.0;
-    factor = attribute.scale * full;
-    offset = (attribute.offset - range[0]) * full;
-  }
-};
-
 bool isColour(const Attribute& attribute, ColourRequest::Mode mode)
 {
   if (mode == ColourRequest::Mode::Table ||
@@ -117,6 +95,22 @@ bool isColour(const Attribute& attribute, ColourRequest::Mode mode)
 }
 
 } // namespace
+
+ColourScale::ColourScale(
+  const Attribute& attribute, bool wide, const std::array<double, 2>& range)
+{
+  if (isInteger(attribute.type) && attribute.scale == 1.0 && attribute.offset == 0.0)
+  {
+    const double most = std::ldexp(1.0, static_cast<int>(8 * sizeOf(attribute.type)));
+    factor = wide ? 256.0 / most : 1.0;
+    return;
+  }
+  // VTK's convention: what is no integer is a colour from 0 to 1, or over the table's range.
+  const double width = range[1] - range[0];
+  const double full = width != 0.0 ? 255.0 / width : 0.0;
+  factor = attribute.scale * full;
+  offset = (attribute.offset - range[0]) * full;
+}
 
 bool PointColouring::wantsHeights(
   const StoreDescription& description, const ColourRequest& request)
@@ -236,7 +230,7 @@ void PointColouring::encodeColours(const std::byte* point, const Attribute& attr
 {
   const Reading reading = readingOf(attribute.type);
   const std::size_t width = sizeOf(attribute.type);
-  const ToByte toByte(attribute, wide, colourRange);
+  const ColourScale toByte(attribute, wide, colourRange);
   for (std::uint32_t i = 0; i < count; ++i, point += attribute.bytes())
   {
     std::array<std::uint8_t, 4> rgba{255, 255, 255, 255};

@@ -32,6 +32,16 @@ struct ColourRequest
   std::array<double, 2> colourRange{0.0, 1.0};
 };
 
+/// From a stored component to 0..255: byte = stored * factor + offset, clamped.
+struct ColourScale
+{
+  double factor = 1.0;
+  double offset = 0.0;
+
+  /// `wide`: integer components use all bits of their type. `range`: as ColourRequest::colourRange.
+  ColourScale(const Attribute& attribute, bool wide, const std::array<double, 2>& range);
+};
+
 /// What colours the points: which column is read, and how a point's bytes become the one 32-bit
 /// value that it has on the GPU. "Model only what a scene requires": flat colour and elevation need
 /// no column and no value.

@@ -92,13 +92,9 @@ std::shared_ptr<const NodeColumns> ViewFront::find(NodeIndex node) const
 
 const FrontDelta& ViewFront::update(const FrameDemand& demand)
 {
-  wish_->setColumns(demand.columns);
+  wish_->setLayerColumns(demand.columns);
   columns_ = demand.columns;
-  std::size_t pointBytes = sizeof(glm::u32vec3);
-  for (const std::uint32_t column : share_.residency().columns())
-  {
-    pointBytes += schema_[column].bytes();
-  }
+  const std::size_t pointBytes = largestPoint(share_.residency().layerColumns());
   told_ = pointBytes == pointBytes_ ? told_ : 0;
   pointBytes_ = pointBytes;
   choose(demand.method);
@@ -125,6 +121,27 @@ const FrontDelta& ViewFront::update(const FrameDemand& demand)
     }
   }
   return delta_;
+}
+
+/// Bytes of a decoded point of the layer that has most of them: whichever layers the view shows,
+/// what is counted with it fits.
+std::size_t ViewFront::largestPoint(const LayerColumns& columns) const
+{
+  const auto bytes = [&](const ColumnSelection& selection)
+  {
+    std::size_t sum = sizeof(glm::u32vec3);
+    for (const std::uint32_t column : selection)
+    {
+      sum += schema_[column].bytes();
+    }
+    return sum;
+  };
+  std::size_t most = columns.layers.empty() ? bytes(columns.others) : 0;
+  for (const ColumnSelection& layer : columns.layers)
+  {
+    most = std::max(most, bytes(layer));
+  }
+  return most;
 }
 
 /// Nothing that is loaded is lost by it: what the other needs as well stays.
@@ -158,10 +175,11 @@ void ViewFront::loadRoots()
   std::vector<LoadRequest> roots;
   for (const NodeIndex root : piece_->hierarchy()->roots())
   {
-    const std::uint32_t points = piece_->hierarchy()->node(root).pointCount; // roots stay in memory
+    const Node row = piece_->hierarchy()->node(root); // roots stay in memory
+    const std::uint32_t points = row.pointCount;
     if (points > 0)
     {
-      roots.push_back({root, 1e9, false, points});
+      roots.push_back({root, 1e9, false, points, row.layer});
     }
   }
   const auto missing = [&](const LoadRequest& r)
@@ -302,7 +320,7 @@ bool ViewFront::allCovered() const
     [&](const DrawItem& item)
     {
       const auto node = share_.residency().find(item.node);
-      return node && covers(*node, columns_);
+      return node && covers(*node, columns_.of(node->layer));
     });
 }
 

@@ -29,8 +29,8 @@ struct FrameDemand
 {
   DetailMethod method = DetailMethod::RenderingFront;
   std::uint64_t overviewPoints = 0; ///< ViewSpecific: this store's share of the overview
-  View view;               ///< in the store's coordinates
-  ColumnSelection columns; ///< that the points are drawn with
+  View view;            ///< in the store's coordinates
+  LayerColumns columns; ///< that the points are drawn with
   double targetErrorPx = 1.0;
   std::uint64_t pointBudget = 0; ///< 0: no limit; over all clouds of the window
   std::int64_t gpuBytes = 0;     ///< likewise, of GPU memory
@@ -91,6 +91,7 @@ private:
   void step(const FrameDemand& demand);
   void addMargin(const FrameDemand& demand);
   bool allCovered() const;
+  std::size_t largestPoint(const LayerColumns& columns) const;
   bool movedOn() const;
   void complete(const FrameDemand& demand);
   void loadRoots();
@@ -118,7 +119,7 @@ private:
   std::uint64_t pointBudgetSeen_ = 0;
   std::int64_t gpuBytesSeen_ = 0;
   std::uint64_t told_ = 0; ///< number of the delta that was told and asked for; 0: none
-  ColumnSelection columns_;
+  LayerColumns columns_;
   std::size_t pointBytes_ = 0; ///< of a decoded point with columns_
   std::uint64_t arrivalsSeen_ = 0;
   std::uint64_t rowsSeen_ = 0; ///< arrivals of the table's rows

@@ -1,0 +1,77 @@
+#pragma once
+
+#include "ColourChoice.h"
+#include "DrawingOptions.h"
+
+#include "pointfront/Plan/FramePlanner.h"
+#include "pointfront/Residency/ResidencyShare.h"
+#include "pointfront/Store/StoredCloud.h"
+#include "pointfront/Views/ViewFront.h"
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace pointfront
+{
+
+/// One store of a scene that is drawn without VTK: what is in memory of it, the front of the one
+/// view, and how its points look.
+/// Threads  one thread.
+class DrawnStore
+{
+public:
+  /// `classes`: as --classes.
+  /// Errors   of the store; BadArgument as ShownClasses.
+  static Result<std::unique_ptr<DrawnStore>> open(
+    const std::string& path, const std::vector<std::uint8_t>& classes);
+
+  const std::shared_ptr<const StoredCloud>& cloud() const { return cloud_; }
+  std::uint64_t pointsShown() const { return pointsShown_; }
+  void setStyle(std::shared_ptr<const ResolvedStyle> style);
+  const ResolvedStyle& style() const { return *style_; }
+  /// Of points that have a size in pixels.
+  void setPointSize(double pixels);
+  /// From then on it is drawn, beside others of the same window.
+  void enterWindow(std::shared_ptr<const WindowDemand> window);
+
+  /// Moves the front on; `demand` lacks what is the store's own: its columns and layers.
+  const FrontDelta& update(FrameDemand demand);
+  const FrontDelta& last() const { return front_->last(); }
+  /// What the last update draws.
+  FramePlan plan(const FrameCamera& camera, const FrameShading& shading) const;
+  /// The frame with that plan took so long, of what it has to itself.
+  void noteFrame(std::uint64_t points, double milliseconds);
+
+  /// A frame is due: something is there that the last one did not have. While a view at rest is
+  /// being loaded it is drawn a quarter of the time at most; until the next frame is due its front
+  /// is moved here, so that what it asks for next does not wait for a drawing.
+  bool needsFrame();
+  /// Another update would come to something else.
+  bool wantsUpdate() const { return front_->wantsUpdate(); }
+  /// Something is on its way.
+  bool loads() const;
+  /// What went wrong since the last call: nodes and rows that could not be read.
+  Result<void> outcome();
+
+  const Residency& residency() const { return share_->residency(); }
+
+private:
+  using Clock = std::chrono::steady_clock;
+  DrawnStore() = default;
+
+  std::shared_ptr<const StoredCloud> cloud_;
+  std::unique_ptr<ResidencyShare> share_; // before the front, which refers to it
+  std::unique_ptr<ViewFront> front_;
+  std::shared_ptr<const ResolvedStyle> style_;
+  std::vector<LayerLimits> layers_;
+  std::uint64_t pointsShown_ = 0;
+  FrameDemand demand_;       ///< of the last update
+  Clock::time_point drawnAt_; ///< end of the last frame
+  double frameMs_ = 0.0;     ///< what it took
+  bool ahead_ = false;       ///< the front was moved since
+  bool due_ = true;          ///< needsFrame() said so, and no frame was drawn since
+};
+
+} // namespace pointfront

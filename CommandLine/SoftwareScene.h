@@ -1,0 +1,77 @@
+#pragma once
+
+#include "DrawnStore.h"
+#include "PictureMemory.h"
+#include "StoreScene.h"
+#include "ThreadReads.h"
+
+#include "SoftwareRasteriser.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pointfront
+{
+
+/// A scene that the software rasteriser draws: no X, no EGL, no GL, no VTK.
+/// Memory   --memory is for decoded points and the picture together; a complete picture that would
+///          take more than half of it is drawn in bands.
+/// Source   docs/adr/0020.
+class SoftwareScene final : public StoreScene
+{
+public:
+  static Result<std::unique_ptr<StoreScene>> open(const DrawingOptions& options);
+
+  const char* backend() const override { return "software"; }
+  const Bounds& bounds() const override { return bounds_; }
+  Result<double> ground() const override;
+  void setCamera(const Camera& camera) override;
+  void setInteractive(bool interactive) override { interactive_ = interactive; }
+  Result<FrameRecord> renderFrame() override { return render(false); }
+  Result<FrameRecord> renderComplete() override { return render(true); }
+  bool needsBands() const override { return memory_->needsBands(); }
+  Result<FrameRecord> renderInBands(const std::string& path) override;
+  bool waitForArrival() override;
+  std::vector<std::string> attributesRead() const override;
+  std::uint64_t budgetBytes() const override { return memory_->budgetBytes(); }
+  std::uint64_t residentBytesMax() const override;
+  LoadingRecord loading() const override;
+  std::uint64_t emptySceneBytes() const override { return emptySceneBytes_; }
+  std::uint64_t pictureBytes() const override;
+  Result<void> writePicture(const std::string& path) override;
+
+private:
+  struct DrawnNodes;
+  explicit SoftwareScene(const DrawingOptions& options);
+  Result<void> openStores();
+  Result<void> chooseStyles();
+  Result<void> shareMemory();
+  FrameDemand demand(const View& view, bool complete) const;
+  void updateFronts(const View& view, bool complete);
+  FrameRecord record(bool complete) const;
+  void drawRows(SoftwareRasteriser& rasteriser, const RasterBand& rows, FrameRecord& frame);
+  Result<FrameRecord> render(bool complete);
+  Result<FrameRecord> renderBand(
+    SoftwareRasteriser& rasteriser, const RasterBand& rows, DrawnNodes& drawn);
+  double reachRows() const;
+  bool needsFrame();
+  Result<void> outcome();
+
+  DrawingOptions options_;
+  std::optional<PictureMemory> memory_; ///< once it is open
+  Bounds bounds_;
+  FrameShading shading_;
+  FrameCamera camera_;
+  bool interactive_ = false;
+  std::uint64_t emptySceneBytes_ = 0;
+  std::uint64_t allPoints_ = 0; ///< of all stores
+  std::vector<double> ownMs_;   ///< of the frame in work, what each store took
+  ThreadReads reads_;
+  std::vector<std::unique_ptr<DrawnStore>> stores_;
+  SoftwareRasteriser rasteriser_;
+  SoftwareTarget target_;
+};
+
+} // namespace pointfront

@@ -1,0 +1,185 @@
+#include "MapperStyle.h"
+
+#include "MapperProperties.h"
+#include "pointfront/Style/ClassHeights.h"
+
+#include <vtkActor.h>
+#include <vtkDoubleArray.h>
+#include <vtkMath.h>
+#include <vtkNew.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
+#include <vtkScalarsToColors.h>
+#include <vtkSmartPointer.h>
+#include <vtkUnsignedCharArray.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace pointfront
+{
+namespace
+{
+
+/// Entries of a continuous function: finer than 8-bit colours tell apart, within every GL's limit.
+constexpr int continuousEntries = 8192;
+
+/// The colours of some values; L, LA, RGB or RGBA, as the table's maker chose.
+std::vector<Rgba8> coloursOf(vtkScalarsToColors& table, const std::vector<double>& values)
+{
+  vtkNew<vtkDoubleArray> array;
+  array->SetNumberOfValues(static_cast<vtkIdType>(values.size()));
+  std::copy(values.begin(), values.end(), array->GetPointer(0));
+  const auto mapped = vtkSmartPointer<vtkUnsignedCharArray>::Take(
+    table.MapScalars(array, VTK_COLOR_MODE_MAP_SCALARS, 0));
+  const unsigned char* colour = mapped->GetPointer(0);
+  const int components = mapped->GetNumberOfComponents();
+  const bool grey = components < 3;
+  std::vector<Rgba8> colours;
+  for (std::size_t i = 0; i < values.size(); ++i, colour += components)
+  {
+    const unsigned char alpha = components == 4 ? colour[3] : (components == 2 ? colour[1] : 255);
+    colours.push_back({colour[0], colour[grey ? 0 : 1], colour[grey ? 0 : 2], alpha});
+  }
+  return colours;
+}
+
+/// `values`: one below the range, one in the middle of each entry, one above.
+ColourMap filled(ColourMap map, vtkScalarsToColors& table, std::vector<double> values)
+{
+  values.push_back(vtkMath::Nan());
+  const std::vector<Rgba8> colours = coloursOf(table, values);
+  map.below = colours.front();
+  map.above = colours[colours.size() - 2];
+  map.missing = colours.back();
+  map.usesBelow = map.usesAbove = true;
+  map.entries.assign(colours.begin() + 1, colours.end() - 2);
+  return map;
+}
+
+ColourMap sampleIntegers(vtkScalarsToColors& table, const std::array<std::int64_t, 2>& integers)
+{
+  ColourMap map;
+  map.indexed = true;
+  map.range = {static_cast<double>(integers[0]), static_cast<double>(integers[1])};
+  std::vector<double> values;
+  for (std::int64_t value = integers[0] - 1; value <= integers[1] + 1; ++value)
+  {
+    values.push_back(static_cast<double>(value));
+  }
+  return filled(std::move(map), table, std::move(values));
+}
+
+ColourMap sampleRange(vtkScalarsToColors& table)
+{
+  ColourMap map;
+  map.range = {table.GetRange()[0], table.GetRange()[1]};
+  map.logarithmic = table.UsingLogScale() != 0 && map.range[0] > 0.0 && map.range[1] > 0.0;
+  const double low = map.logarithmic ? std::log10(map.range[0]) : map.range[0];
+  const double high = map.logarithmic ? std::log10(map.range[1]) : map.range[1];
+  const vtkIdType available = table.GetNumberOfAvailableColors();
+  const bool uneven = table.UsingLogScale() != 0 && !map.logarithmic;
+  const int size = !uneven && available > 0 && available <= continuousEntries
+    ? static_cast<int>(available)
+    : continuousEntries;
+  std::vector<double> values;
+  for (int entry = -1; entry <= size; ++entry)
+  {
+    const double middle = low + (entry + 0.5) * (high - low) / size;
+    values.push_back(map.logarithmic ? std::pow(10.0, middle) : middle);
+  }
+  return filled(std::move(map), table, std::move(values));
+}
+
+Rgba8 flatColour(vtkActor* actor)
+{
+  const double* colour = actor->GetProperty()->GetColor();
+  Rgba8 flat{0, 0, 0, 255};
+  for (std::size_t c = 0; c < 3; ++c)
+  {
+    flat[c] = static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(colour[c], 0.0, 1.0)));
+  }
+  return flat;
+}
+
+} // namespace
+
+ColourMap sampleColours(vtkScalarsToColors& table, const PointColouring& colouring)
+{
+  return colouring.integers ? sampleIntegers(table, *colouring.integers) : sampleRange(table);
+}
+
+PointColouring MapperStyle::colouringOf(
+  vtkPolyDataMapper& mapper, const std::shared_ptr<const StoredCloud>& store)
+{
+  if (!mapper.GetScalarVisibility())
+  {
+    return {};
+  }
+  const StoreDescription& description = store->description();
+  const ColourRequest request = colourRequestOf(mapper, description);
+  if (PointColouring::wantsHeights(description, request) &&
+      (!heights_ || heights_->store() != store))
+  {
+    heights_ = std::make_shared<ClassHeights>(store);
+  }
+  const bool heights = heights_ && heights_->store() == store;
+  const auto colouring =
+    PointColouring::choose(description, request, heights ? heights_ : nullptr);
+  if (!colouring && unknownArray_ != request.name)
+  {
+    unknownArray_ = request.name;
+    warning_ = "the store " + description.path + " has no attribute \"" + request.name +
+      "\"; its points are drawn in the property's colour";
+  }
+  return colouring.value_or(PointColouring{});
+}
+
+std::shared_ptr<const ColourMap> MapperStyle::mapOf(
+  vtkPolyDataMapper& mapper, const PointColouring& colouring)
+{
+  if (!colouring.usesTable())
+  {
+    return nullptr;
+  }
+  vtkScalarsToColors* table = mapper.GetLookupTable(); // makes one if there is none
+  table->Build();
+  if (!mapper.GetUseLookupTableScalarRange())
+  {
+    table->SetRange(mapper.GetScalarRange());
+  }
+  if (table->GetIndexedLookup() && !colouring.integers && !indexedWarned_)
+  {
+    indexedWarned_ = true;
+    warning_ = "an indexed lookup table needs an attribute of whole numbers with less than "
+               "8192 different values; this one is drawn in the table's NaN colour";
+  }
+  if (!map_ || mapTable_ != table || mapTime_ != table->GetMTime() || mapColouring_ != colouring)
+  {
+    mapTable_ = table;
+    mapTime_ = table->GetMTime();
+    mapColouring_ = colouring;
+    map_ = std::make_shared<const ColourMap>(sampleColours(*table, colouring));
+  }
+  return map_;
+}
+
+std::shared_ptr<const ResolvedStyle> MapperStyle::update(vtkPolyDataMapper& mapper,
+  vtkActor* actor, double pointSizePx, const std::shared_ptr<const StoredCloud>& store)
+{
+  ResolvedStyle style;
+  style.colouring = colouringOf(mapper, store);
+  style.map = mapOf(mapper, style.colouring);
+  style.flat = flatColour(actor);
+  style.opacity = actor->GetProperty()->GetOpacity();
+  style.size.mode = SplatSize::Mode::Pixels;
+  style.size.value = pointSizePx > 0.0 ? pointSizePx : actor->GetProperty()->GetPointSize();
+  if (!style_ || *style_ != style)
+  {
+    style_ = std::make_shared<const ResolvedStyle>(std::move(style));
+  }
+  return style_;
+}
+
+} // namespace pointfront

@@ -1,0 +1,297 @@
+#include "WindowDrawing.h"
+
+#include "GpuAccount.h"
+#include "PerWindow.h"
+
+#include "pointfront/Plan/SlotOrigin.h"
+
+#include <vtkOpenGLRenderWindow.h>
+#include <vtkRenderer.h>
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <utility>
+
+namespace pointfront
+{
+namespace
+{
+
+/// From the reference point to the box of a node, as far as its sphere says.
+float distanceTo(const PlanItem& item, const FramePlan& plan)
+{
+  const NodeColumns& node = *item.node;
+  const SlotOrigin origin =
+    SlotOrigin::of(plan.grid, node.halfSize, node.origin, plan.camera.reference);
+  const glm::vec3 centre =
+    origin.relative(glm::u32vec3(0), glm::vec3(plan.grid.scale)) + node.halfSize;
+  return std::max(0.0f, glm::length(centre) - glm::length(node.halfSize));
+}
+
+} // namespace
+
+bool FrameTimer::begin(double cpuMilliseconds, std::int64_t points, std::int64_t moves)
+{
+  if (gpu_.Started())
+  {
+    return false;
+  }
+  frame_ = {points, moves, 0.0};
+  cpuMs_ = cpuMilliseconds;
+  gpu_.Start();
+  return true;
+}
+
+void FrameTimer::end(double drawingMilliseconds)
+{
+  gpu_.Stop();
+  drawingMs_ = drawingMilliseconds;
+}
+
+std::optional<FrameTimer::Frame> FrameTimer::take()
+{
+  if (!gpu_.Started() || !gpu_.Stopped() || !gpu_.Ready())
+  {
+    return std::nullopt;
+  }
+  frame_.milliseconds =
+    cpuMs_ + std::max<double>(drawingMs_, gpu_.GetElapsedMilliseconds());
+  gpu_.Reset();
+  return frame_;
+}
+
+WindowDrawing::WindowDrawing(vtkOpenGLRenderWindow* window) : window_(window)
+{
+  resources_->SetReleaseFunction([this] { this->release(); });
+}
+
+WindowDrawing::~WindowDrawing()
+{
+  release();
+  resources_->SetReleaseFunction(nullptr);
+}
+
+void WindowDrawing::enter(vtkRenderer* renderer, vtkActor* actor)
+{
+  resources_->Enter(renderer, actor);
+  pool_.enter(perWindow<GpuAccount>(window_));
+}
+
+void WindowDrawing::release()
+{
+  if (!window_)
+  {
+    return; // its context is gone, and has told before
+  }
+  window_->PushContext();
+  pool_.release();
+  records_.release(window_);
+  for (const auto& table : tables_)
+  {
+    table->release(window_);
+  }
+  tables_.clear();
+  for (auto& pass : passes_)
+  {
+    if (pass)
+    {
+      pass->ReleaseGraphicsResources(window_);
+    }
+    pass = nullptr;
+  }
+  for (auto& [renderer, timer] : timers_)
+  {
+    timer.release();
+  }
+  timers_.clear();
+  window_->PopContext();
+}
+
+void WindowDrawing::setStore(const void* store)
+{
+  if (store_ != store)
+  {
+    pool_.release();
+    colourings_.clear();
+    store_ = store;
+  }
+}
+
+/// Batches have their items near to far each; those of several are put together by distance.
+void WindowDrawing::order(const FramePlan& plan)
+{
+  struct Place
+  {
+    float distance;
+    const PlanItem* item;
+    const ResolvedStyle* style;
+  };
+  std::vector<Place> places;
+  for (const DrawBatch& batch : plan.batches)
+  {
+    for (const PlanItem& item : batch.items)
+    {
+      const float distance = plan.batches.size() > 1 ? distanceTo(item, plan) : 0.0f;
+      places.push_back({distance, &item, batch.style.get()});
+    }
+  }
+  if (plan.batches.size() > 1)
+  {
+    std::sort(places.begin(), places.end(),
+      [](const Place& a, const Place& b)
+      {
+        return a.distance != b.distance ? a.distance < b.distance
+                                        : a.item->node->node < b.item->node->node;
+      });
+  }
+  order_.clear();
+  styles_.clear();
+  for (const Place& place : places)
+  {
+    order_.push_back(place.item);
+    styles_.push_back(place.style);
+  }
+}
+
+bool WindowDrawing::upload(const FramePlan& plan, std::int64_t bytes)
+{
+  this->order(plan);
+  // A layer that shows nothing in this frame keeps its values.
+  for (const DrawBatch& batch : plan.batches)
+  {
+    colourings_.resize(std::max<std::size_t>(colourings_.size(), batch.layer + 1u));
+    colourings_[batch.layer] = batch.style->colouring;
+  }
+  pool_.setColourings(colourings_);
+  const bool room = pool_.makeRoom(order_);
+  bool left = false;
+  for (std::size_t i = 0; i < order_.size(); ++i)
+  {
+    const PlanItem& item = *order_[i];
+    const auto* entry = pool_.bring(*item.node, item.last, *plan.schema, bytes);
+    left = left || !entry || entry->points < item.last ||
+      (styles_[i]->colouring.hasValues() && entry->values < item.last);
+  }
+  // What has no room does not come with another frame, unless clouds that are drawn after this one
+  // have yet to come down to a budget that was lowered.
+  return left && (room || bytes <= 0 || pool_.lowered());
+}
+
+DrawRuns& WindowDrawing::runsOf(const std::shared_ptr<const ResolvedStyle>& style)
+{
+  const auto found = std::find_if(groups_.begin(), groups_.end(),
+    [&](const StyleGroup& group) { return group.style == style; });
+  if (found != groups_.end())
+  {
+    return found->runs;
+  }
+  groups_.push_back({style, {}});
+  return groups_.back().runs;
+}
+
+std::int64_t WindowDrawing::list(const FramePlan& plan)
+{
+  this->order(plan);
+  groups_.clear();
+  for (const DrawBatch& batch : plan.batches)
+  {
+    this->runsOf(batch.style); // in the order of the batches
+  }
+  constexpr std::uint32_t slotPoints = GpuPool::slotPoints;
+  records_.begin(pool_.slotCount());
+  std::int64_t drawn = 0;
+  for (std::size_t i = 0; i < order_.size(); ++i)
+  {
+    const PlanItem& item = *order_[i];
+    const NodeColumns& node = *item.node;
+    const auto* entry = pool_.find(node.node);
+    const std::uint32_t end = entry ? std::min(item.last, entry->points) : 0;
+    if (end <= item.first)
+    {
+      continue;
+    }
+    records_.set(entry->slots,
+      SlotOrigin::of(plan.grid, node.halfSize, node.origin, plan.camera.reference),
+      styles_[i]->colouring.hasValues() && entry->values >= end, node.firstPoint);
+    const auto group = std::find_if(groups_.begin(), groups_.end(),
+      [&](const StyleGroup& each) { return each.style.get() == styles_[i]; });
+    for (std::uint32_t first = item.first; first < end;)
+    {
+      const std::uint32_t next = std::min(end, (first / slotPoints + 1) * slotPoints);
+      const std::uint32_t slot = entry->slots[first / slotPoints];
+      const std::size_t block = pool_.blockOf(slot);
+      const std::uint32_t inBlock = slot - pool_.blocks()[block].first();
+      group->runs.add(block, static_cast<int>(inBlock * slotPoints + first % slotPoints),
+        static_cast<int>(next - first));
+      first = next;
+    }
+    drawn += end - item.first;
+  }
+  return drawn;
+}
+
+ColourTable* WindowDrawing::tableOf(const std::shared_ptr<const ColourMap>& map)
+{
+  for (const auto& table : tables_)
+  {
+    if (table->map() == map)
+    {
+      return table.get();
+    }
+  }
+  tables_.push_back(std::make_unique<ColourTable>());
+  tables_.back()->update(window_, map);
+  return tables_.back().get();
+}
+
+vtkOpenGLPointFrontPass& WindowDrawing::passOf(PointColouring::Kind kind)
+{
+  auto& pass = passes_[static_cast<std::size_t>(kind)];
+  if (!pass)
+  {
+    pass = vtkSmartPointer<vtkOpenGLPointFrontPass>::New();
+  }
+  return *pass;
+}
+
+void WindowDrawing::draw(vtkRenderer* renderer, vtkActor* actor, vtkMapper* owner,
+  const FramePlan& plan, std::int64_t storePoints)
+{
+  const auto unused = [&](const std::unique_ptr<ColourTable>& table)
+  {
+    const bool used = std::any_of(groups_.begin(), groups_.end(),
+      [&](const StyleGroup& group) { return group.style->map == table->map(); });
+    if (!used)
+    {
+      table->release(window_);
+    }
+    return !used;
+  };
+  tables_.erase(std::remove_if(tables_.begin(), tables_.end(), unused), tables_.end());
+  records_.upload(window_);
+  PointDrawing drawing;
+  drawing.pool = &pool_;
+  drawing.records = &records_;
+  drawing.stepSize = plan.grid.scale;
+  drawing.storePoints = storePoints;
+  drawing.reference = plan.camera.reference;
+  for (StyleGroup& group : groups_)
+  {
+    if (group.runs.stretches().empty())
+    {
+      continue;
+    }
+    const ResolvedStyle& style = *group.style;
+    drawing.colouring = style.colouring;
+    drawing.table = style.map ? this->tableOf(style.map) : nullptr;
+    drawing.flat = style.flat;
+    drawing.pointSize = style.size.mode == SplatSize::Mode::Pixels ? style.size.value : 0.0;
+    drawing.runs = &group.runs;
+    vtkOpenGLPointFrontPass& pass = this->passOf(style.colouring.kind);
+    pass.CopyState(owner);
+    pass.Draw(renderer, actor, drawing);
+  }
+}
+
+} // namespace pointfront

@@ -1,0 +1,199 @@
+#include "HoleFiller.h"
+
+#include "pointfront/Threads/ThreadCrew.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <limits>
+
+namespace pointfront
+{
+namespace
+{
+
+constexpr float nothing = std::numeric_limits<float>::infinity();
+/// Holes of up to 2^levels pixels.
+constexpr int levels = 3;
+/// Depths agree within that many pixels' size.
+constexpr float agreePixels = 3.0f;
+/// Of 16 parts of bilinear weight, those that have to agree.
+constexpr std::uint32_t leastParts = 10;
+
+struct Level
+{
+  int width = 0;
+  int height = 0;
+  std::vector<float> depth;
+  std::vector<std::uint32_t> rgba;
+
+  std::size_t at(int x, int y) const
+  {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+      static_cast<std::size_t>(x);
+  }
+};
+
+using Channels = std::array<std::uint32_t, 3>;
+
+void add(Channels& sum, std::uint32_t rgba, std::uint32_t weight)
+{
+  std::uint8_t bytes[4];
+  std::memcpy(bytes, &rgba, 4);
+  for (std::size_t c = 0; c < 3; ++c)
+  {
+    sum[c] += weight * bytes[c];
+  }
+}
+
+std::uint32_t mean(const Channels& sum, std::uint32_t weight)
+{
+  std::uint8_t bytes[4] = { 0, 0, 0, 255 };
+  for (std::size_t c = 0; c < 3; ++c)
+  {
+    bytes[c] = static_cast<std::uint8_t>((sum[c] + weight / 2) / weight);
+  }
+  std::uint32_t rgba;
+  std::memcpy(&rgba, bytes, 4);
+  return rgba;
+}
+
+/// How far two depths may differ at a level.
+struct Agreement
+{
+  float perDepth = 0.0f;
+  float always = 0.0f;
+  float at(float depth, int factor) const
+  {
+    return depth + (perDepth * depth + always) * static_cast<float>(factor);
+  }
+};
+
+void eachRow(int rows, const std::function<void(int)>& work)
+{
+  ThreadCrew::ofProcess().run(
+    static_cast<std::size_t>(rows), [&](std::size_t y, unsigned) { work(static_cast<int>(y)); });
+}
+
+void pull(const Level& fine, Level& coarse, const Agreement& agreement, int factor)
+{
+  eachRow(coarse.height,
+    [&](int y)
+    {
+      for (int x = 0; x < coarse.width; ++x)
+      {
+        std::size_t places[4];
+        int count = 0;
+        float least = nothing;
+        for (int k = 0; k < 4; ++k)
+        {
+          const int fx = 2 * x + (k & 1), fy = 2 * y + (k >> 1);
+          if (fx < fine.width && fy < fine.height)
+          {
+            places[count] = fine.at(fx, fy);
+            least = std::min(least, fine.depth[places[count]]);
+            ++count;
+          }
+        }
+        const std::size_t place = coarse.at(x, y);
+        coarse.depth[place] = least;
+        if (least == nothing)
+        {
+          continue;
+        }
+        const float most = agreement.at(least, factor);
+        Channels sum{};
+        std::uint32_t parts = 0;
+        for (int k = 0; k < count; ++k)
+        {
+          if (fine.depth[places[k]] <= most)
+          {
+            add(sum, fine.rgba[places[k]], 1);
+            ++parts;
+          }
+        }
+        coarse.rgba[place] = mean(sum, parts);
+      }
+    });
+}
+
+void push(Level& fine, const Level& coarse, const Agreement& agreement, int factor)
+{
+  eachRow(fine.height,
+    [&](int y)
+    {
+      const int cy = std::min(y / 2, coarse.height - 1);
+      const int ny = std::clamp(cy + (y % 2 ? 1 : -1), 0, coarse.height - 1);
+      for (int x = 0; x < fine.width; ++x)
+      {
+        const int cx = std::min(x / 2, coarse.width - 1);
+        const int nx = std::clamp(cx + (x % 2 ? 1 : -1), 0, coarse.width - 1);
+        const std::size_t corners[4] = { coarse.at(cx, cy), coarse.at(nx, cy), coarse.at(cx, ny),
+          coarse.at(nx, ny) };
+        constexpr std::uint32_t weights[4] = { 9, 3, 3, 1 };
+        float least = nothing;
+        for (const std::size_t corner : corners)
+        {
+          least = std::min(least, coarse.depth[corner]);
+        }
+        const std::size_t place = fine.at(x, y);
+        const float most = agreement.at(least, 4 * factor);
+        if (least == nothing || fine.depth[place] <= most)
+        {
+          continue;
+        }
+        Channels sum{};
+        std::uint32_t parts = 0;
+        for (int k = 0; k < 4; ++k)
+        {
+          if (coarse.depth[corners[k]] <= most)
+          {
+            add(sum, coarse.rgba[corners[k]], weights[k]);
+            parts += weights[k];
+          }
+        }
+        if (parts >= leastParts)
+        {
+          fine.depth[place] = least;
+          fine.rgba[place] = mean(sum, parts);
+        }
+      }
+    });
+}
+
+} // namespace
+
+void fillHoles(const FrameCamera& camera, SoftwareTarget& target)
+{
+  const double scale = 0.5 * camera.height * camera.viewToClip[1][1];
+  const auto size = static_cast<float>(agreePixels / scale);
+  Agreement agreement;
+  (camera.parallel ? agreement.always : agreement.perDepth) = size;
+  std::array<Level, levels + 1> pyramid;
+  pyramid[0].width = target.width;
+  pyramid[0].height = target.height;
+  pyramid[0].depth.swap(target.depth);
+  pyramid[0].rgba.swap(target.rgba);
+  for (int level = 1; level <= levels; ++level)
+  {
+    const Level& fine = pyramid[static_cast<std::size_t>(level - 1)];
+    Level& coarse = pyramid[static_cast<std::size_t>(level)];
+    coarse.width = (fine.width + 1) / 2;
+    coarse.height = (fine.height + 1) / 2;
+    const std::size_t pixels = coarse.at(0, coarse.height);
+    coarse.depth.resize(pixels);
+    coarse.rgba.resize(pixels);
+    pull(fine, coarse, agreement, 1 << level);
+  }
+  for (int level = levels - 1; level >= 0; --level)
+  {
+    push(pyramid[static_cast<std::size_t>(level)], pyramid[static_cast<std::size_t>(level + 1)],
+      agreement, 1 << level);
+  }
+  pyramid[0].depth.swap(target.depth);
+  pyramid[0].rgba.swap(target.rgba);
+}
+
+} // namespace pointfront

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "SoftwareTarget.h"
+
+#include "pointfront/Plan/FrameCamera.h"
+
+namespace pointfront
+{
+
+/// Fills pixels that no splat covers, and those through which a farther surface shows, from the
+/// nearest of their surroundings: a pyramid of means over what agrees in depth, then back down
+/// (pull-push). A pixel is filled when most of what surrounds it agrees; the farther surface beside
+/// an object stays.
+/// Threads  one; works with those of ThreadCrew::ofProcess().
+void fillHoles(const FrameCamera& camera, SoftwareTarget& target);
+
+} // namespace pointfront

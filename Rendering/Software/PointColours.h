@@ -1,0 +1,72 @@
+#pragma once
+
+#include "pointfront/Plan/FramePlan.h"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace pointfront
+{
+
+/// The colours that a style gives to values of few bits, made once for all points: an entry for each
+/// stored number of an attribute of 8 or 16 bits.
+/// Threads  a value; const functions from any thread.
+class ValueColours
+{
+public:
+  ValueColours(const ResolvedStyle& style, const AttributeSchema& schema);
+  bool empty() const { return table_.empty(); }
+  const std::uint32_t* data() const { return table_.data(); }
+
+private:
+  std::vector<std::uint32_t> table_; ///< by the stored bits
+};
+
+/// What colours the points of one node: where their values lie and what is made of them.
+/// Shapes   colours are bytes r, g, b, a in memory order, a = 255.
+/// Meaning  as PointColouring::encode and a lookup in ColourMap; the flat colour where the node was
+///          read without the column.
+/// Threads  const functions from any thread; the node, the style and the table outlive it.
+class PointColours
+{
+public:
+  PointColours(const FramePlan& plan, const ResolvedStyle& style, const ValueColours& table,
+    const NodeColumns& node);
+
+  std::uint32_t at(std::uint32_t point) const { return one_(*this, point); }
+  /// Of points [first, first + count).
+  void fill(std::uint32_t first, int count, std::uint32_t* colours) const
+  {
+    many_(*this, first, count, colours);
+  }
+
+private:
+  template <typename Reading>
+  void readBy();
+  void readColours(const Attribute& attribute);
+  void readValues(const Attribute& attribute);
+  double valueAt(std::uint32_t point) const;
+  struct Flat;
+  struct Narrow;
+  struct Wide;
+  struct Converted;
+  struct Tabled8;
+  struct Tabled16;
+  struct Looked;
+
+  std::uint32_t (*one_)(const PointColours&, std::uint32_t) = nullptr;
+  void (*many_)(const PointColours&, std::uint32_t, int, std::uint32_t*) = nullptr;
+  const ResolvedStyle& style_;
+  const NodeColumns& node_;
+  const QuantisationGrid& grid_;
+  const Attribute* attribute_ = nullptr;
+  const std::byte* column_ = nullptr;
+  const std::uint32_t* table_ = nullptr;
+  std::size_t stride_ = 0;
+  std::uint32_t flat_ = 0;
+  double factor_ = 1.0; ///< from a stored component to 0..255
+  double offset_ = 0.0;
+};
+
+} // namespace pointfront

@@ -1,0 +1,330 @@
+#include "RasterItems.h"
+
+#include "pointfront/Plan/SlotOrigin.h"
+#include "pointfront/Points/SplatRadius.h"
+
+#include <glm/gtc/matrix_inverse.hpp>
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+namespace pointfront
+{
+namespace
+{
+
+const std::byte* columnOf(const NodeColumns& node, std::optional<std::uint32_t> column)
+{
+  if (!column)
+  {
+    return nullptr;
+  }
+  const auto place = std::find(node.selection.begin(), node.selection.end(), *column);
+  return place == node.selection.end()
+    ? nullptr
+    : node.columns[static_cast<std::size_t>(place - node.selection.begin())].data();
+}
+
+/// Rows x, y and the line of sight: view space looks along -z.
+glm::dmat3 cameraAxes(const FrameCamera& camera)
+{
+  glm::dmat3 axes(camera.storeToView);
+  for (int column = 0; column < 3; ++column)
+  {
+    axes[column][2] = -axes[column][2];
+  }
+  return axes;
+}
+
+/// What every item's camera has in common: the projection.
+RasterCamera projectionOf(const FrameCamera& camera)
+{
+  const glm::dmat4& clip = camera.viewToClip;
+  RasterCamera result;
+  result.parallel = camera.parallel;
+  const double halfWidth = 0.5 * camera.width, halfHeight = 0.5 * camera.height;
+  // Perspective: clip w is k times the depth. What of x and y falls on w's axis moves the centre.
+  const double k = camera.parallel ? clip[3][3] : -clip[2][3];
+  result.scaleX = static_cast<float>(halfWidth * clip[0][0] / k);
+  result.scaleY = static_cast<float>(halfHeight * clip[1][1] / k);
+  const double offX = camera.parallel ? clip[3][0] : -clip[2][0];
+  const double offY = camera.parallel ? clip[3][1] : -clip[2][1];
+  result.centreX = static_cast<float>(halfWidth * (1.0 + offX / k));
+  result.centreY = static_cast<float>(halfHeight * (1.0 + offY / k));
+  return result;
+}
+
+/// Depths where clip z is -w and w.
+std::array<double, 2> depthRange(const FrameCamera& camera)
+{
+  const glm::dmat4& clip = camera.viewToClip;
+  // z = a v + b, w = c v + d with v = -depth
+  const double a = clip[2][2], b = clip[3][2], c = clip[2][3], d = clip[3][3];
+  const double nearDepth = (b + d) / (a + c);
+  const double farDepth = (b - d) / (a - c);
+  const bool bounded = std::isfinite(farDepth) && farDepth > nearDepth;
+  return { nearDepth, bounded ? farDepth : std::numeric_limits<double>::max() };
+}
+
+} // namespace
+
+RasterItems::RasterItems(const FramePlan& plan, std::size_t from)
+  : plan_(plan)
+{
+  for (const DrawBatch& batch : plan.batches)
+  {
+    for (const PlanItem& item : batch.items)
+    {
+      ordered_.push_back({ &item, &batch });
+    }
+  }
+  std::stable_sort(ordered_.begin(), ordered_.end(), [](const Place& a, const Place& b)
+    { return a.item->node->node < b.item->node->node; });
+  const double volume = std::abs(glm::determinant(glm::dmat3(plan.camera.storeToView)));
+  radiusFactor_ = static_cast<float>(std::cbrt(volume));
+  for (std::size_t code = 0; code < radii_.size(); ++code)
+  {
+    radii_[code] =
+      decodeSplatRadius(static_cast<std::uint8_t>(code), plan.splatRadiusBase) * radiusFactor_;
+  }
+  normalToCamera_ = glm::mat3(glm::inverseTranspose(cameraAxes(plan.camera)));
+  std::uint64_t base = 0;
+  constexpr std::uint64_t most = std::numeric_limits<std::uint32_t>::max();
+  for (end_ = from; end_ < ordered_.size(); ++end_)
+  {
+    const std::uint64_t points = ordered_[end_].item->node->size();
+    if (base + points > most && end_ > from)
+    {
+      break;
+    }
+    add(ordered_[end_], static_cast<std::uint32_t>(base));
+    base += points;
+  }
+  number();
+}
+
+void RasterItems::add(const Place& place, std::uint32_t base)
+{
+  const NodeColumns& node = *place.item->node;
+  const ResolvedStyle& style = *place.batch->style;
+  auto table = std::find_if(
+    tables_.begin(), tables_.end(), [&](const auto& known) { return known.first == &style; });
+  if (table == tables_.end())
+  {
+    tables_.emplace_back(&style, std::make_unique<ValueColours>(style, *plan_.schema));
+    table = tables_.end() - 1;
+  }
+  RasterItem item;
+  item.item = place.item;
+  item.style = &style;
+  item.base = base;
+  item.colours = std::make_unique<PointColours>(plan_, style, *table->second, node);
+  const bool facesEye = style.orientation == SplatOrientation::View;
+  item.normals = facesEye ? nullptr : columnOf(node, style.normalColumn);
+  item.normalAttribute = item.normals ? &(*plan_.schema)[*style.normalColumn] : nullptr;
+  const bool oriented = item.normals || style.orientation == SplatOrientation::Fixed;
+  item.passes = passesOf(style, oriented, plan_.spacingPx);
+  const std::byte* const codes = columnOf(node, style.radiusColumn);
+  item.radiusCodes = reinterpret_cast<const std::uint8_t*>(codes);
+  const auto value = static_cast<float>(style.size.value) * radiusFactor_;
+  const bool spacing = style.size.mode == SplatSize::Mode::Spacing;
+  item.radiusScale = place.item->radiusScale * static_cast<float>(style.size.value);
+  item.radius = spacing ? place.item->closingRadius * value : 0.5f * value;
+  if (style.size.mode == SplatSize::Mode::Attribute)
+  {
+    item.sizes = columnOf(node, style.size.column);
+    item.sizeAttribute = item.sizes ? &(*plan_.schema)[style.size.column] : nullptr;
+    item.radius = place.item->closingRadius * value;
+  }
+  blended_ = blended_ || item.passes.blended;
+
+  const FrameCamera& camera = plan_.camera;
+  const SlotOrigin origin =
+    SlotOrigin::of(plan_.grid, node.halfSize, node.origin, camera.reference);
+  const glm::dmat3 axes = cameraAxes(camera);
+  const glm::dvec3 reference(
+    camera.referenceInView.x, camera.referenceInView.y, -camera.referenceInView.z);
+  const glm::dvec3 start = axes * glm::dvec3(origin.base) + reference;
+  const std::array<double, 2> range = depthRange(camera);
+  item.camera = projectionOf(camera);
+  // Depths in a parallel view count from its near plane: keys have no negative ones.
+  const double shift = camera.parallel ? range[0] : 0.0;
+  for (int row = 0; row < 3; ++row)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      item.camera.matrix[row][axis] =
+        static_cast<float>(axes[axis][row] * std::ldexp(plan_.grid.scale[axis], origin.shift));
+    }
+    item.camera.matrix[row][3] = static_cast<float>(row == 2 ? start[row] - shift : start[row]);
+  }
+  item.camera.nearDepth = static_cast<float>(std::max(range[0] - shift, 0.0));
+  item.camera.farDepth = static_cast<float>(
+    std::min(range[1] - shift, double(std::numeric_limits<float>::max())));
+  item.positions.xyz = reinterpret_cast<const std::uint32_t*>(node.positions.data());
+  item.positions.shift = static_cast<std::uint32_t>(origin.shift);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    item.positions.steps[axis] = origin.steps[axis];
+  }
+  // Planes are taken at the reference point first: both terms are large, their sum is not.
+  const glm::dmat3 normalMatrix = glm::inverseTranspose(axes);
+  item.positions.clippingPlanes =
+    static_cast<int>(std::min<std::size_t>(plan_.clippingPlanes.size(), 6));
+  for (int plane = 0; plane < item.positions.clippingPlanes; ++plane)
+  {
+    const glm::dvec4& given = plan_.clippingPlanes[static_cast<std::size_t>(plane)];
+    const glm::dvec3 normal = normalMatrix * glm::dvec3(given);
+    const double atReference =
+      given.w + given.x * camera.reference.x + given.y * camera.reference.y +
+      given.z * camera.reference.z;
+    const double distance = atReference - glm::dot(normal, reference) + normal.z * shift;
+    const double values[4] = { normal.x, normal.y, normal.z, distance };
+    for (int i = 0; i < 4; ++i)
+    {
+      item.positions.clipping[plane][i] = static_cast<float>(values[i]);
+    }
+  }
+  item.positions.filtered = !style.filter.empty();
+  items_.push_back(std::move(item));
+}
+
+void RasterItems::number()
+{
+  for (std::size_t i = 0; i < items_.size(); ++i)
+  {
+    const std::uint64_t end = std::uint64_t(items_[i].base) + items_[i].node().size();
+    while ((std::uint64_t(pages_.size()) << pageBits) < end)
+    {
+      pages_.push_back(static_cast<std::uint32_t>(i));
+    }
+  }
+}
+
+bool RasterItems::filter(const FramePlan& plan, const RasterItem& item, std::uint32_t first,
+  int count, RasterBatch& batch)
+{
+  if (!item.positions.filtered)
+  {
+    return false;
+  }
+  const NodeColumns& node = item.node();
+  const ColumnSelection columns = item.style->filter.columns();
+  if (!std::includes(
+        node.selection.begin(), node.selection.end(), columns.begin(), columns.end()))
+  {
+    std::fill(batch.keep, batch.keep + count, std::uint8_t(0)); // being read: not shown unasked
+    return true;
+  }
+  item.style->filter.evaluate(
+    node, *plan.schema, first, static_cast<std::uint32_t>(count), batch.keep);
+  return true;
+}
+
+namespace
+{
+
+template <typename T, typename PointAt>
+void loadNormals(const std::byte* column, const PointAt& pointAt, int count,
+  const glm::mat3& toCamera, RasterBatch& batch)
+{
+  for (int j = 0; j < count; ++j)
+  {
+    T stored[3];
+    std::memcpy(stored, column + std::size_t(pointAt(j)) * sizeof(stored), sizeof(stored));
+    const auto x = static_cast<float>(stored[0]);
+    const auto y = static_cast<float>(stored[1]);
+    const auto z = static_cast<float>(stored[2]);
+    batch.normalX[j] = toCamera[0][0] * x + toCamera[1][0] * y + toCamera[2][0] * z;
+    batch.normalY[j] = toCamera[0][1] * x + toCamera[1][1] * y + toCamera[2][1] * z;
+    batch.normalZ[j] = toCamera[0][2] * x + toCamera[1][2] * y + toCamera[2][2] * z;
+  }
+}
+
+template <typename PointAt>
+void loadRadii(const std::byte* column, const Attribute& attribute, const PointAt& pointAt,
+  int count, float factor, RasterBatch& batch)
+{
+  visitScalar(attribute.type,
+    [&](auto zero)
+    {
+      for (int j = 0; j < count; ++j)
+      {
+        decltype(zero) stored;
+        std::memcpy(&stored, column + pointAt(j) * attribute.bytes(), sizeof(stored));
+        const double radius = static_cast<double>(stored) * attribute.scale + attribute.offset;
+        batch.radius[j] = radius > 0.0 ? static_cast<float>(radius) * factor : 0.0f;
+      }
+    });
+}
+
+} // namespace
+
+template <typename PointAt>
+void RasterItems::fill(const RasterItem& item, const PointAt& pointAt, int count, float share,
+  RasterBatch& batch) const
+{
+  if (item.style->size.mode == SplatSize::Mode::Pixels)
+  {
+    const float pixels =
+      static_cast<float>(0.5 * item.style->size.value) * share / item.camera.scaleY;
+    for (int j = 0; j < count; ++j)
+    {
+      batch.radius[j] = pixels * (item.camera.parallel ? 1.0f : batch.depth[j]);
+    }
+  }
+  else if (item.sizes)
+  {
+    const auto factor = static_cast<float>(item.style->size.value) * radiusFactor_ * share;
+    loadRadii(item.sizes, *item.sizeAttribute, pointAt, count, factor, batch);
+  }
+  else if (item.radiusCodes)
+  {
+    // Its own radius is for all points: too small where finer nodes are there and not drawn.
+    const bool finest = item.item->refined || item.node().leaf;
+    const float least = finest ? 0.0f : item.radius * share;
+    const float scale = item.radiusScale * share;
+    const float unknown = item.radius * share;
+    for (int j = 0; j < count; ++j)
+    {
+      const float own = radii_[item.radiusCodes[pointAt(j)]] * scale;
+      batch.radius[j] = std::max(own > 0.0f ? own : unknown, least);
+    }
+  }
+  else
+  {
+    std::fill(batch.radius, batch.radius + count, item.radius * share);
+  }
+  if (item.normals)
+  {
+    item.normalAttribute->type == ScalarType::Int16
+      ? loadNormals<std::int16_t>(item.normals, pointAt, count, normalToCamera_, batch)
+      : loadNormals<float>(item.normals, pointAt, count, normalToCamera_, batch);
+    return;
+  }
+  const glm::vec3 fixed = item.style->orientation == SplatOrientation::Fixed
+    ? normalToCamera_ * item.style->fixedNormal
+    : glm::vec3(0.0f);
+  std::fill(batch.normalX, batch.normalX + count, fixed.x);
+  std::fill(batch.normalY, batch.normalY + count, fixed.y);
+  std::fill(batch.normalZ, batch.normalZ + count, fixed.z);
+}
+
+void RasterItems::fillShape(const RasterItem& item, std::uint32_t first, int count, float share,
+  RasterBatch& batch) const
+{
+  fill(
+    item, [first](int j) { return first + static_cast<std::uint32_t>(j); }, count, share, batch);
+}
+
+void RasterItems::fillShape(const RasterItem& item, const std::uint32_t* points, int count,
+  float share, RasterBatch& batch) const
+{
+  fill(
+    item, [points](int j) { return points[j]; }, count, share, batch);
+}
+
+} // namespace pointfront

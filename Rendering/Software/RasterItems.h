@@ -1,0 +1,104 @@
+#pragma once
+
+#include "PointColours.h"
+#include "RasterBatch.h"
+#include "TechniquePasses.h"
+
+#include "pointfront/Plan/FramePlan.h"
+
+#include <glm/mat3x3.hpp>
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace pointfront
+{
+
+/// One node of a plan as the loops want it.
+struct RasterItem
+{
+  const PlanItem* item = nullptr;
+  const ResolvedStyle* style = nullptr;
+  std::uint32_t base = 0; ///< index of the node's first point in keys
+  RasterCamera camera;
+  RasterPositions positions; ///< of the node's first point
+  TechniquePasses passes;
+  std::unique_ptr<PointColours> colours;
+  float radius = 0.0f;       ///< world units, of all points without one of their own
+  float radiusScale = 1.0f;  ///< times a point's own
+  const std::uint8_t* radiusCodes = nullptr;
+  const std::byte* sizes = nullptr; ///< a column of radii
+  const Attribute* sizeAttribute = nullptr;
+  const std::byte* normals = nullptr;
+  const Attribute* normalAttribute = nullptr;
+
+  const NodeColumns& node() const { return *item->node; }
+};
+
+/// A plan's items in the order of their nodes, with numbers for their points: a key's 32 bits name a
+/// point of the frame, and of two points at one depth the same one wins whatever was drawn first.
+class RasterItems
+{
+public:
+  /// Of the plan's items, in the order of their nodes, those from `from` on that fit into 32 bits.
+  /// The plan outlives this object.
+  RasterItems(const FramePlan& plan, std::size_t from);
+
+  /// Of the plan's items, how many are in this or earlier rounds.
+  std::size_t end() const { return end_; }
+  bool last() const { return end_ == ordered_.size(); }
+  const std::vector<RasterItem>& items() const { return items_; }
+  bool blended() const { return blended_; }
+  /// The one that a point of that index belongs to.
+  const RasterItem& find(std::uint32_t index) const
+  {
+    const RasterItem* item = &items_[pages_[index >> pageBits]];
+    while (index - item->base >= item->node().size())
+    {
+      ++item;
+    }
+    return *item;
+  }
+  /// Radius of a point's code, world units; 0 where it has none.
+  const std::array<float, 256>& radii() const { return radii_; }
+  const FramePlan& plan() const { return plan_; }
+
+  /// Fills RasterBatch::keep of points [first, first + count); false: nothing is filtered.
+  static bool filter(const FramePlan& plan, const RasterItem& item, std::uint32_t first, int count,
+    RasterBatch& batch);
+  /// Fills radius (world units, times `share`) and normals of projected points: of [first, first +
+  /// count), or of those in a list.
+  void fillShape(const RasterItem& item, std::uint32_t first, int count, float share,
+    RasterBatch& batch) const;
+  void fillShape(const RasterItem& item, const std::uint32_t* points, int count, float share,
+    RasterBatch& batch) const;
+
+private:
+  struct Place
+  {
+    const PlanItem* item;
+    const DrawBatch* batch;
+  };
+  static constexpr unsigned pageBits = 12;
+  template <typename PointAt>
+  void fill(const RasterItem& item, const PointAt& pointAt, int count, float share,
+    RasterBatch& batch) const;
+  void add(const Place& place, std::uint32_t base);
+  void number();
+
+  const FramePlan& plan_;
+  std::vector<Place> ordered_;
+  std::vector<RasterItem> items_;
+  std::vector<std::uint32_t> pages_; ///< the item that has a page's first index
+  std::vector<std::pair<const ResolvedStyle*, std::unique_ptr<ValueColours>>> tables_;
+  std::array<float, 256> radii_{};
+  float radiusFactor_ = 1.0f; ///< view units of a store unit
+  glm::mat3 normalToCamera_{ 1.0f };
+  std::size_t end_ = 0;
+  bool blended_ = false;
+};
+
+} // namespace pointfront

@@ -1,0 +1,147 @@
+#include "HoleFiller.h"
+#include "SoftwareRasteriser.h"
+
+#include "pointfront/Threads/ThreadCrew.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+namespace pointfront
+{
+namespace
+{
+
+/// What a strength of 1 means: with 0.4, the usual one, a step of 1 % in depth darkens by a third.
+constexpr float eyeDomeGain = 300.0f;
+
+/// Changes the colour of each pixel that shows something by `factors(pixel, x, y)`.
+template <typename Factors>
+void scaleColours(SoftwareTarget& target, const Factors& factors)
+{
+  ThreadCrew::ofProcess().run(static_cast<std::size_t>(target.height),
+    [&](std::size_t y, unsigned)
+    {
+      for (int x = 0; x < target.width; ++x)
+      {
+        const std::size_t pixel =
+          y * static_cast<std::size_t>(target.width) + static_cast<std::size_t>(x);
+        if (target.depth[pixel] == std::numeric_limits<float>::infinity())
+        {
+          continue;
+        }
+        const glm::vec3 factor = factors(pixel, x, static_cast<int>(y));
+        std::uint8_t bytes[4];
+        std::memcpy(bytes, &target.rgba[pixel], 4);
+        for (int c = 0; c < 3; ++c)
+        {
+          const float scaled = static_cast<float>(bytes[c]) * factor[c] + 0.5f;
+          bytes[c] = static_cast<std::uint8_t>(std::clamp(scaled, 0.0f, 255.0f));
+        }
+        std::memcpy(&target.rgba[pixel], bytes, 4);
+      }
+    });
+}
+
+void light(const FrameShading& shading, SoftwareTarget& target)
+{
+  std::vector<FrameLight> lights = shading.lights;
+  if (lights.empty())
+  {
+    lights.emplace_back(); // at the eye
+  }
+  scaleColours(target,
+    [&](std::size_t pixel, int, int)
+    {
+      const float* const n = &target.normals[3 * pixel];
+      if (n[0] == 0.0f && n[1] == 0.0f && n[2] == 0.0f)
+      {
+        return glm::vec3(1.0f);
+      }
+      glm::vec3 sum(shading.ambient);
+      for (const FrameLight& one : lights)
+      {
+        const float facing = n[0] * one.towards.x + n[1] * one.towards.y + n[2] * one.towards.z;
+        sum += one.colour * (shading.diffuse * std::max(facing, 0.0f));
+      }
+      return sum;
+    });
+}
+
+/// Depths as logarithms; a parallel view's count from its near plane plus the height of what it
+/// shows, since where its eye lies says nothing.
+std::vector<float> octavesOf(const FrameCamera& camera, const SoftwareTarget& target)
+{
+  const glm::dmat4& clip = camera.viewToClip;
+  const double nearDepth = (clip[3][2] + clip[3][3]) / (clip[2][2] + clip[2][3]);
+  const auto offset =
+    static_cast<float>(camera.parallel ? 2.0 / clip[1][1] - nearDepth : 0.0);
+  std::vector<float> octaves(target.depth.size());
+  ThreadCrew::ofProcess().run(static_cast<std::size_t>(target.height),
+    [&](std::size_t y, unsigned)
+    {
+      const std::size_t begin = y * static_cast<std::size_t>(target.width);
+      for (std::size_t p = begin; p < begin + static_cast<std::size_t>(target.width); ++p)
+      {
+        octaves[p] = std::log2(std::max(target.depth[p] + offset, 1e-30f));
+      }
+    });
+  return octaves;
+}
+
+/// A pixel darkens by how far it lies behind the mean of two neighbours that face each other across
+/// it: nothing on a plane, however it is tilted; behind edges and in creases much.
+void eyeDome(const FrameCamera& camera, const FrameShading& shading, SoftwareTarget& target)
+{
+  const std::vector<float> octaves = octavesOf(camera, target);
+  const int reach = std::max(1, static_cast<int>(std::lround(shading.eyeDomeRadiusPx)));
+  const int pairs[4][2] = { { reach, 0 }, { 0, reach }, { reach, reach }, { reach, -reach } };
+  const auto octaveAt = [&](int x, int y, float own)
+  {
+    if (x < 0 || y < 0 || x >= target.width || y >= target.height)
+    {
+      return own;
+    }
+    const float found = octaves[static_cast<std::size_t>(y) * static_cast<std::size_t>(target.width) +
+      static_cast<std::size_t>(x)];
+    return std::isinf(found) ? own : found;
+  };
+  scaleColours(target,
+    [&](std::size_t pixel, int x, int y)
+    {
+      const float own = octaves[pixel];
+      float response = 0.0f;
+      for (const auto& pair : pairs)
+      {
+        const float between = octaveAt(x + pair[0], y + pair[1], own) +
+          octaveAt(x - pair[0], y - pair[1], own);
+        response += std::max(0.0f, own - 0.5f * between);
+      }
+      return glm::vec3(std::exp(-eyeDomeGain * shading.eyeDomeStrength * 0.25f * response));
+    });
+}
+
+} // namespace
+
+void shade(const FrameCamera& camera, const FrameShading& shading, SoftwareTarget& target)
+{
+  if (target.width == 0 || target.height == 0)
+  {
+    return;
+  }
+  if (shading.fillHoles)
+  {
+    fillHoles(camera, target);
+  }
+  if (shading.lit && !target.normals.empty())
+  {
+    light(shading, target);
+  }
+  if (shading.eyeDomeStrength > 0.0f)
+  {
+    eyeDome(camera, shading, target);
+  }
+}
+
+} // namespace pointfront

@@ -134,6 +134,20 @@ TEST(NodeRanges, ManyValuesAreRoundedOutwards)
   EXPECT_TRUE(ranges->own(0).empty());
 }
 
+TEST(NodeRanges, MoreNodesThanAreSampledAreRoundedOutwardsToo)
+{
+  constexpr NodeIndex leaves = 600000;
+  const auto valueOf = [](NodeIndex i) { return double(i % 2) * 1e6 + double(i % 977); };
+  const auto ranges = rangesOfLeaves(leaves, valueOf, temporaryPath("sampled"));
+  ASSERT_TRUE(ranges);
+  for (NodeIndex i = 0; i < leaves; ++i)
+  {
+    const ValueRange own = ranges->own(i + 1);
+    ASSERT_TRUE(within({ valueOf(i), valueOf(i) }, own)) << i;
+    ASSERT_LT(own.high - own.low, 40.0) << i;
+  }
+}
+
 TEST(NodeRanges, OneValueEverywhereTakesNoCodes)
 {
   const auto ranges =

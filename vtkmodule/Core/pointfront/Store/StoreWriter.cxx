@@ -251,15 +251,15 @@ Result<void> FileStoreWriter::commit(const StoreDescription& description,
   {
     done = putParts(SectionKind::BlockDirectory, encodePayloadRecords(directory), footer);
   }
-  if (done && nameElsewhere_.empty())
-  {
-    done = putParts(SectionKind::NodeRanges, nodeRanges_.encode(nodes, payloads), footer);
-  }
   if (done)
   {
     done = putWhole(SectionKind::Description, encodeDescription(stored), footer);
   }
-  if (done && !nameElsewhere_.empty())
+  if (done && nameElsewhere_.empty())
+  {
+    done = putParts(SectionKind::NodeRanges, nodeRanges_.encode(nodes, payloads), footer);
+  }
+  else if (done)
   {
     const PayloadElsewhere elsewhere =
       describeElsewhere(nameElsewhere_, bytesElsewhere_, directory);

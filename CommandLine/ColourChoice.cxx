@@ -33,18 +33,6 @@ double inWorldUnits(const Attribute& attribute, double stored)
   return stored * attribute.scale + attribute.offset;
 }
 
-bool varies(const StoreDescription& store, const char* attribute)
-{
-  const std::optional<std::size_t> column = store.schema.find(attribute);
-  return column && storedRange(store, *column)[0] < storedRange(store, *column)[1];
-}
-
-bool hasColour(const StoreDescription& store)
-{
-  const std::optional<std::size_t> column = store.schema.find("rgb");
-  return column && storedRange(store, *column)[1] > 0.0;
-}
-
 struct TwoRanges
 {
   std::array<double, 2> robust{ std::numeric_limits<double>::infinity(),
@@ -147,22 +135,6 @@ Error missing(const std::string& attribute)
       std::string(name == "horizontality" ? "normal" : attribute) + "'" + hint);
 }
 } // namespace
-
-std::string defaultColourAttribute(const StoreDescription& store)
-{
-  if (hasColour(store))
-  {
-    return "rgb";
-  }
-  for (const char* attribute : { "classification", "intensity" })
-  {
-    if (varies(store, attribute))
-    {
-      return attribute;
-    }
-  }
-  return "elevation";
-}
 
 Result<ColourChoice> chooseColour(
   const std::string& attribute, const std::vector<std::shared_ptr<const StoredCloud>>& stores)

@@ -4,6 +4,7 @@
 
 #include "pointfront/Base/Result.h"
 #include "pointfront/Store/StoredCloud.h"
+#include "pointfront/Style/ColourSource.h"
 
 #include <array>
 #include <memory>
@@ -22,10 +23,6 @@ struct ColourChoice
   ColourTable table = {};            ///< else: from range[0] to range[1]
   std::array<double, 2> range{ 0.0, 1.0 }; ///< world units
 };
-
-/// What is drawn when the user does not say: rgb if the store has any colour, else classification
-/// if there are several classes, else intensity if it varies, else elevation.
-std::string defaultColourAttribute(const StoreDescription& store);
 
 /// Table and range for an attribute over all stores of a picture.
 /// Names   an attribute's, "elevation", or what is made of others at run time: horizontality (of

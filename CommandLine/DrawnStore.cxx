@@ -1,7 +1,5 @@
 #include "DrawnStore.h"
 
-#include "ShownClasses.h"
-
 #include "pointfront/Residency/LoadScheduler.h"
 #include "pointfront/Store/StoredCloudFormats.h"
 
@@ -16,43 +14,45 @@ namespace
 constexpr double pauseOfFrames = 3.0;
 } // namespace
 
-Result<std::unique_ptr<DrawnStore>> DrawnStore::open(
-  const std::string& path, const std::vector<std::uint8_t>& classes)
+Result<std::unique_ptr<DrawnStore>> DrawnStore::open(const std::string& path)
 {
   Result<std::shared_ptr<const StoredCloud>> cloud = StoredCloudFormats::ofProcess().open(path);
   if (!cloud)
   {
     return cloud.error();
   }
-  Result<ShownClasses> shown = ShownClasses::choose(classes, cloud.value()->description());
-  if (!shown)
-  {
-    return shown.error();
-  }
   std::unique_ptr<DrawnStore> store(new DrawnStore);
   store->cloud_ = std::move(cloud).value();
   store->share_ = std::make_unique<ResidencyShare>(store->cloud_,
     store->cloud_->hierarchy()->nodeCount(), LoadScheduler::ofProcess(),
     store->cloud_->description().pointCount);
-  store->layers_ = std::move(shown->layers);
-  store->pointsShown_ = shown->points;
   return store;
 }
 
-void DrawnStore::setStyle(std::shared_ptr<const ResolvedStyle> style)
+void DrawnStore::setStyles(std::vector<LayerStyling> layers)
 {
-  style_ = std::move(style);
+  styles_ = std::move(layers);
+  columns_ = {};
+  limits_.clear();
+  for (const LayerStyling& layer : styles_)
+  {
+    LayerLimits limits;
+    limits.visible = layer.visible();
+    limits.errorFactor = layer.errorFactor;
+    limits_.push_back(limits);
+    columns_.layers.push_back(layer.columns());
+  }
 }
 
-void DrawnStore::setPointSize(double pixels)
+std::uint64_t DrawnStore::pointsShown() const
 {
-  const SplatSize size{ SplatSize::Mode::Pixels, pixels, 0 };
-  if (!(style_->size == size))
+  std::uint64_t points = 0;
+  const std::vector<Layer>& layers = cloud_->description().layers;
+  for (std::size_t i = 0; i < layers.size(); ++i)
   {
-    auto style = std::make_shared<ResolvedStyle>(*style_);
-    style->size = size;
-    style_ = std::move(style);
+    points += styles_[i].visible() ? layers[i].pointCount : 0;
   }
+  return points;
 }
 
 void DrawnStore::enterWindow(std::shared_ptr<const WindowDemand> window)
@@ -64,8 +64,8 @@ void DrawnStore::enterWindow(std::shared_ptr<const WindowDemand> window)
 
 const FrontDelta& DrawnStore::update(FrameDemand demand)
 {
-  demand.columns = style_->columns();
-  demand.layers = layers_;
+  demand.columns = columns_;
+  demand.layers = limits_;
   demand_ = std::move(demand);
   return front_->update(demand_);
 }
@@ -75,11 +75,24 @@ FramePlan DrawnStore::plan(const FrameCamera& camera, const FrameShading& shadin
   PlanRequest request;
   request.camera = camera;
   request.shading = shading;
-  for (const LayerLimits& layer : layers_)
+  for (const LayerStyling& layer : styles_)
   {
-    request.styles.push_back(layer.visible ? style_ : nullptr);
+    request.styles.push_back(layer.visible() ? layer.styles.front() : nullptr);
   }
-  return planFrame(*front_, cloud_->description(), std::move(request));
+  FramePlan plan = planFrame(*front_, cloud_->description(), std::move(request));
+  // A tree of all classes: each style's filter lets its own points through.
+  const std::size_t ofLayers = plan.batches.size();
+  for (std::size_t i = 0; i < ofLayers; ++i)
+  {
+    const LayerStyling& layer = styles_[plan.batches[i].layer];
+    for (std::size_t further = 1; further < layer.styles.size(); ++further)
+    {
+      DrawBatch batch = plan.batches[i];
+      batch.style = layer.styles[further];
+      plan.batches.push_back(std::move(batch));
+    }
+  }
+  return plan;
 }
 
 void DrawnStore::noteFrame(std::uint64_t points, double milliseconds)

@@ -1,16 +1,15 @@
 #pragma once
 
-#include "ColourChoice.h"
-#include "DrawingOptions.h"
-
 #include "pointfront/Plan/FramePlanner.h"
 #include "pointfront/Residency/ResidencyShare.h"
 #include "pointfront/Store/StoredCloud.h"
+#include "pointfront/Style/StyleSheet.h"
 #include "pointfront/Views/ViewFront.h"
 
 #include <chrono>
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace pointfront
@@ -22,18 +21,16 @@ namespace pointfront
 class DrawnStore
 {
 public:
-  /// `classes`: as --classes.
-  /// Errors   of the store; BadArgument as ShownClasses.
-  static Result<std::unique_ptr<DrawnStore>> open(
-    const std::string& path, const std::vector<std::uint8_t>& classes);
+  /// Errors  of the store.
+  static Result<std::unique_ptr<DrawnStore>> open(const std::string& path);
 
   const std::shared_ptr<const StoredCloud>& cloud() const { return cloud_; }
-  std::uint64_t pointsShown() const { return pointsShown_; }
-  void setStyle(std::shared_ptr<const ResolvedStyle> style);
-  const ResolvedStyle& style() const { return *style_; }
-  /// Of points that have a size in pixels.
-  void setPointSize(double pixels);
-  /// From then on it is drawn, beside others of the same window.
+  /// One for each layer of the store.
+  void setStyles(std::vector<LayerStyling> layers);
+  const std::vector<LayerStyling>& styles() const { return styles_; }
+  /// Of the layers that their styles show.
+  std::uint64_t pointsShown() const;
+  /// From then on it is drawn, beside others of the same window. Styles first.
   void enterWindow(std::shared_ptr<const WindowDemand> window);
 
   /// Moves the front on; `demand` lacks what is the store's own: its columns and layers.
@@ -64,9 +61,9 @@ private:
   std::shared_ptr<const StoredCloud> cloud_;
   std::unique_ptr<ResidencyShare> share_; // before the front, which refers to it
   std::unique_ptr<ViewFront> front_;
-  std::shared_ptr<const ResolvedStyle> style_;
-  std::vector<LayerLimits> layers_;
-  std::uint64_t pointsShown_ = 0;
+  std::vector<LayerStyling> styles_;
+  LayerColumns columns_;            ///< that the styles read
+  std::vector<LayerLimits> limits_; ///< that they set
   FrameDemand demand_;       ///< of the last update
   Clock::time_point drawnAt_; ///< end of the last frame
   double frameMs_ = 0.0;     ///< what it took

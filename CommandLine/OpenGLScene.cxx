@@ -56,6 +56,35 @@ constexpr double interactiveRate = 15.0;  // VTK's value for a view in motion
 constexpr int largestEdge = 16384;        // pixels, of what OpenGL's drivers draw into
 constexpr int emptyFrames = 3;            // until a window has all that it ever makes by itself
 
+/// Nothing in the sheet that the mapper's own properties cannot say.
+bool isPlain(const DrawingOptions& options)
+{
+  StyleSheet rest = options.style;
+  LayerStyle& style = rest.standard;
+  const StyleSize pixels{ SplatSize::Mode::Pixels, options.pointSizePx, "" };
+  if (style.technique == Technique::Points)
+  {
+    style.technique.reset();
+  }
+  if (style.colour == ColourSource::ofAttribute(options.colourBy))
+  {
+    style.colour.reset();
+  }
+  if (style.size == pixels || style.size == StyleSize())
+  {
+    style.size.reset();
+  }
+  if (rest.shownClasses == options.classes)
+  {
+    rest.shownClasses.reset();
+  }
+  if (options.eyeDomeLighting)
+  {
+    rest.shading.eyeDomeStrength = 0.0f;
+  }
+  return rest == StyleSheet();
+}
+
 /// One store with what draws it.
 struct DrawnStore
 {
@@ -399,6 +428,12 @@ Result<void> OffscreenScene::writePicture(const std::string& path)
 
 Result<std::unique_ptr<StoreScene>> openScene(const DrawingOptions& options)
 {
+  if (!isPlain(options))
+  {
+    return makeError(Error::Kind::Unsupported,
+      "--backend opengl draws points in one style in this version; --style, --where and other "
+      "techniques need --backend software");
+  }
   auto scene = std::make_unique<OffscreenScene>(options);
   // The window first where it is measured; else what is wrong with a store is told without one.
   if (Result<void> opened = options.measureEmptyScene ? scene->openWindow(true) : Result<void>();

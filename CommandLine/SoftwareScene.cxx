@@ -1,11 +1,9 @@
 #include "SoftwareScene.h"
 
 #include "CancelSignal.h"
-#include "ChosenStyle.h"
 #include "Frustum.h"
 #include "Ground.h"
 #include "PeakMemory.h"
-#include "PointSize.h"
 #include "ShownClasses.h"
 
 #include "PNGWriter.h"
@@ -13,6 +11,8 @@
 
 #include "pointfront/Front/DetailLevel.h"
 #include "pointfront/Residency/LoadScheduler.h"
+#include "pointfront/Style/ClassHeights.h"
+#include "pointfront/Style/TechniqueNames.h"
 #include "pointfront/Threads/ThreadCrew.h"
 
 #include <algorithm>
@@ -33,7 +33,6 @@ constexpr int mostRounds = 64;                   // of the fronts of a complete 
 constexpr double frameMsInMotion = 1000.0 / 15;  // that VTK allots to a moving view
 constexpr std::uint64_t framePointBudget = 5000000; // as vtkPointFrontMapper's
 constexpr std::uint64_t overviewPoints = 2000000;   // likewise
-constexpr double eyeDomeStrength = 0.4;
 constexpr int filledRows = 64; ///< of a neighbour, that a hole may be filled from
 /// How far a splat reaches beyond the rows that its centre lies in, where its size is no number of
 /// pixels.
@@ -115,8 +114,8 @@ struct SoftwareScene::DrawnNodes
 
 SoftwareScene::SoftwareScene(const DrawingOptions& options)
   : options_(options)
+  , shading_(options.style.shading)
 {
-  shading_.eyeDomeStrength = options.eyeDomeLighting ? static_cast<float>(eyeDomeStrength) : 0.0f;
 }
 
 Result<std::unique_ptr<StoreScene>> SoftwareScene::open(const DrawingOptions& options)
@@ -140,27 +139,16 @@ Result<std::unique_ptr<StoreScene>> SoftwareScene::open(const DrawingOptions& op
 
 Result<void> SoftwareScene::openStores()
 {
-  std::uint64_t shown = 0;
   for (const std::string& path : options_.stores)
   {
-    Result<std::unique_ptr<DrawnStore>> store = DrawnStore::open(path, options_.classes);
+    Result<std::unique_ptr<DrawnStore>> store = DrawnStore::open(path);
     if (!store)
     {
       return store.error();
     }
     bounds_.add(store.value()->cloud()->description().bounds);
-    shown += store.value()->pointsShown();
     allPoints_ += store.value()->cloud()->description().pointCount;
     stores_.push_back(std::move(store).value());
-  }
-  if (!options_.classes.empty() && shown == 0)
-  {
-    return noClassShown();
-  }
-  const auto window = std::make_shared<const WindowDemand>();
-  for (const auto& store : stores_)
-  {
-    store->enterWindow(window);
   }
   return {};
 }
@@ -172,27 +160,74 @@ Result<void> SoftwareScene::chooseStyles()
   {
     clouds.push_back(store->cloud());
   }
-  const Result<ColourChoice> colour = chooseColour(options_.colourBy.empty()
-      ? defaultColourAttribute(clouds.front()->description())
-      : options_.colourBy,
-    clouds);
-  if (!colour)
+  const AttributeRanges ranges(clouds);
+  StyleSheet sheet = options_.style;
+  if (!sheet.standard.colour) // the first store decides for all
   {
-    return colour.error();
+    sheet.standard.colour =
+      ColourSource::ofAttribute(defaultColourAttribute(clouds.front()->description()));
   }
+  const auto window = std::make_shared<const WindowDemand>();
+  std::uint64_t shown = 0;
   for (const auto& store : stores_)
   {
-    store->setStyle(chosenStyle(colour.value(), store->cloud()));
+    const StoreDescription& description = store->cloud()->description();
+    StoreSurroundings surroundings;
+    surroundings.ranges = &ranges;
+    if (sheet.wantsHeights(description))
+    {
+      surroundings.heights = std::make_shared<const ClassHeights>(store->cloud());
+    }
+    Result<std::vector<LayerStyling>> layers = sheet.resolveAll(description, surroundings);
+    if (!layers)
+    {
+      return layers.error();
+    }
+    store->setStyles(std::move(layers).value());
+    store->enterWindow(window);
+    shown += store->pointsShown();
   }
-  return {};
+  if (sheet.shownClasses && shown == 0)
+  {
+    return noClassShown();
+  }
+  return techniquesAreAvailable();
+}
+
+/// Of all that is drawn in one way.
+template <typename Visit>
+void SoftwareScene::forEachStyle(const Visit& visit) const
+{
+  for (const auto& store : stores_)
+  {
+    for (const LayerStyling& layer : store->styles())
+    {
+      std::for_each(layer.styles.begin(), layer.styles.end(),
+        [&visit](const auto& style) { visit(*style); });
+    }
+  }
+}
+
+Result<void> SoftwareScene::techniquesAreAvailable() const
+{
+  Result<void> available;
+  forEachStyle([&available](const ResolvedStyle& style) {
+    if (!techniqueIsAvailable(style.technique, Backend::Software))
+    {
+      available = makeError(Error::Kind::Unsupported,
+        std::string("the technique ") + traitsOf(style.technique).name +
+          " is not drawn in software in this version");
+    }
+  });
+  return available;
 }
 
 /// Before anything is loaded.
 Result<void> SoftwareScene::shareMemory()
 {
-  const bool blends = std::any_of(stores_.begin(), stores_.end(),
-    [](const auto& store)
-    { return store->style().blended || store->style().technique == Technique::Ewa; });
+  bool blends = false;
+  forEachStyle([&blends](const ResolvedStyle& style)
+    { blends = blends || style.blended || style.technique == Technique::Ewa; });
   PictureCost cost;
   cost.pixelBytes = sizeof(std::uint32_t) + sizeof(float);     // colour and depth
   cost.pixelBytes += shading_.lit ? 3 * sizeof(float) : 0;     // normals
@@ -225,13 +260,6 @@ Result<double> SoftwareScene::ground() const
 void SoftwareScene::setCamera(const Camera& camera)
 {
   camera_ = frameCameraOf(camera, bounds_, options_.size[0], options_.size[1]);
-  const View view = viewOf(camera_);
-  for (const auto& store : stores_)
-  {
-    store->setPointSize(options_.pointSizePx > 0.0
-        ? options_.pointSizePx
-        : closingPointSize(*store->cloud()->hierarchy(), view, options_.errorPx));
-  }
 }
 
 /// But for what each store adds of its own.
@@ -440,12 +468,10 @@ Result<FrameRecord> SoftwareScene::renderBand(
 double SoftwareScene::reachRows() const
 {
   double reach = 0.0;
-  for (const auto& store : stores_)
-  {
-    const SplatSize& size = store->style().size;
-    reach = std::max<double>(
-      reach, size.mode == SplatSize::Mode::Pixels ? 0.5 * size.value + 1.0 : splatReachRows);
-  }
+  forEachStyle([&reach](const ResolvedStyle& style) {
+    const bool pixels = style.size.mode == SplatSize::Mode::Pixels;
+    reach = std::max<double>(reach, pixels ? 0.5 * style.size.value + 1.0 : splatReachRows);
+  });
   return reach;
 }
 

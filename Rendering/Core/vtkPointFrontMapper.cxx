@@ -206,7 +206,7 @@ pointfront::FrameDemand vtkPointFrontMapper::GetDemand(vtkRenderer* renderer, vt
   }
   demand.targetErrorPx = this->TargetError;
   demand.pointBudget = static_cast<std::uint64_t>(this->PointBudget);
-  demand.gpuBytes = this->DrawsFromHostMemory(renderer) ? 0 : this->GPUMemoryBudget;
+  demand.gpuBytes = this->DrawsFromHostMemory(actor) ? 0 : this->GPUMemoryBudget;
   demand.method = this->DetailSelection == VIEW_SPECIFIC
                     ? pointfront::DetailMethod::ViewSpecific
                     : pointfront::DetailMethod::RenderingFront;
@@ -258,8 +258,7 @@ bool vtkPointFrontMapper::MoveFront(vtkRenderer* renderer, vtkActor* actor)
   return true;
 }
 
-const pointfront::FramePlan* vtkPointFrontMapper::PlanFrame(
-  vtkRenderer* renderer, vtkActor* actor)
+pointfront::FramePlan* vtkPointFrontMapper::PlanFrame(vtkRenderer* renderer, vtkActor* actor)
 {
   Content& content = *this->Internals;
   if (!this->GetStore())

@@ -126,8 +126,8 @@ public:
    * the points where they are in host memory; colour and depth enter the window's picture in the
    * opaque pass, where other actors, passes and selections see them as any other geometry's.
    * AUTOMATIC (default): SOFTWARE where the window's GL is itself a program (GL_RENDERER llvmpipe,
-   * softpipe), else OPENGL. What SOFTWARE does not draw (translucent points) OPENGL does, and a
-   * warning says so once.
+   * softpipe), else OPENGL. What SOFTWARE does not draw (translucent points, an actor's own
+   * shader code) OPENGL does, and a warning says so once.
    */
   vtkSetClampMacro(Backend, int, AUTOMATIC, SOFTWARE);
   vtkGetMacro(Backend, int);
@@ -273,7 +273,7 @@ protected:
    * times) get the same nodes. Valid until the next call or the end of the renderer's frame. Null,
    * and an error once a cause, without a store.
    */
-  const pointfront::FramePlan* PlanFrame(vtkRenderer* renderer, vtkActor* actor);
+  pointfront::FramePlan* PlanFrame(vtkRenderer* renderer, vtkActor* actor);
   /// True from PlanFrame() to FinishFrame(): the frame's first drawing, which uploads.
   bool IsFirstDrawing(vtkRenderer* renderer) const;
   /// True when the front was moved since the renderer's last frame (see NeedsRender()): what a
@@ -288,7 +288,7 @@ protected:
   /// A renderer drew a frame, and none shows this mapper any more: what it has on the GPU is idle.
   virtual void LeaveScreen();
   /// Points are drawn from host memory: no GPU memory is taken for them.
-  virtual bool DrawsFromHostMemory(vtkRenderer*) { return false; }
+  virtual bool DrawsFromHostMemory(vtkActor*) { return false; }
   static bool IsInteracting(vtkRenderer* renderer);
   /// Of PointBudget, what this mapper may have on the GPU of a window beside the other clouds of
   /// it; 0: no limit.

@@ -1,6 +1,7 @@
 #include "BenchCommand.h"
 
 #include "CancelSignal.h"
+#include "DrawnFiles.h"
 #include "PeakMemory.h"
 #include "Percentiles.h"
 #include "Settling.h"
@@ -110,12 +111,12 @@ Result<CameraPath> BenchCommand::path(const StoreScene& scene) const
 Result<void> BenchCommand::run()
 {
   const CancelSignal signal(CancelSignal::Mode::Leave);
-  for (const std::string& file : { statisticsPath_, framesPath_, picturePath_ })
+  Result<void> free = checkDrawnFiles({ { statisticsPath_, FileKind::Statistics },
+    { framesPath_, FileKind::FrameTable }, { picturePath_, FileKind::Picture } }, drawing_.stores,
+    { path_ });
+  if (!free)
   {
-    if (Result<void> writable = file.empty() ? Result<void>() : checkWritable(file); !writable)
-    {
-      return writable;
-    }
+    return free;
   }
   drawing_.measureEmptyScene = true;
   Result<std::unique_ptr<StoreScene>> scene = StoreScene::open(drawing_);

@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 #include <set>
 
 namespace pointfront
@@ -98,28 +97,6 @@ Result<PointSources> BuildCommand::openSources() const
   return sources;
 }
 
-Result<void> BuildCommand::checkOutput(
-  const PointSources& sources) const
-{
-  std::error_code failure;
-  if (!options_.overwrite && std::filesystem::exists(options_.outputPath, failure))
-  {
-    return makeError(Error::Kind::BadArgument,
-      options_.outputPath + ": exists already; use --force to replace it, or another name");
-  }
-  for (const std::unique_ptr<PointSource>& source : sources)
-  {
-    std::error_code notThere;
-    const std::string& input = source->description().path;
-    if (std::filesystem::equivalent(input, options_.outputPath, notThere) && !notThere)
-    {
-      return makeError(Error::Kind::BadArgument,
-        options_.outputPath + ": is an input of this build; give the store another name");
-    }
-  }
-  return {};
-}
-
 void BuildCommand::warnOfBuild(
   const PointSources& sources, const BuildReport& report) const
 {
@@ -169,10 +146,6 @@ Result<void> BuildCommand::run()
   if (!sources)
   {
     return sources.error();
-  }
-  if (Result<void> checked = checkOutput(*sources); !checked)
-  {
-    return checked;
   }
   const Result<AttributePasses> passes = passes_.passes();
   if (!passes)

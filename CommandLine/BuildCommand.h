@@ -30,8 +30,6 @@ private:
   /// Tells what the build itself found; what the sources said has been told, with their paths.
   void warnOfBuild(const PointSources& sources,
     const BuildReport& report) const;
-  /// --force replaces an earlier store, never the points it is built from.
-  Result<void> checkOutput(const PointSources& sources) const;
 
   std::vector<std::string> inputs_;
   BuildOptions options_;

@@ -24,6 +24,8 @@ void BuildPasses::declare(CLI::App& app)
     ->expected(1, -1);
 
   normals_.declare(app);
+  app.add_flag("--splat-radius", choice_.splatRadius,
+    "Measure around each point how large it must be drawn; comes with --normals pca");
   heights_.declare(app);
   app.parse_complete_callback([this]() { normals_.check(); });
 }

@@ -67,6 +67,12 @@ Result<void> check(const PassChoice& choice)
   return sound ? within(choice.groundCell, 1e-3, 1e6, "a cell of ground") : sound;
 }
 
+/// Radii that do not come with the normals.
+bool radiiApart(const PassChoice& choice)
+{
+  return choice.splatRadius &&
+    (choice.normals != PassChoice::Normals::PCA || choice.normalsClasses);
+}
 std::unique_ptr<AttributePass> normalsPass(const PassChoice& choice)
 {
   if (choice.normals == PassChoice::Normals::ScanLine)
@@ -79,8 +85,10 @@ std::unique_ptr<AttributePass> normalsPass(const PassChoice& choice)
   options.radius = choice.normalsRadius;
   options.eps = choice.normalsEps;
   options.curvature = choice.curvature;
+  options.splatRadius = !radiiApart(choice);
   return std::make_unique<NormalsPass>(options);
 }
+
 } // namespace
 
 Result<AttributePasses> ChosenPasses::passes(const PassChoice& choice) const
@@ -112,6 +120,12 @@ Result<AttributePasses> ChosenPasses::passes(const PassChoice& choice) const
   if (choice.normals != PassChoice::Normals::None)
   {
     passes.push_back(normalsPass(choice));
+  }
+  if (radiiApart(choice))
+  {
+    NormalsOptions options;
+    options.normals = false;
+    passes.push_back(std::make_unique<NormalsPass>(options));
   }
   if (choice.localHeight)
   {

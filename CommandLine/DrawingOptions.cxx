@@ -1,5 +1,6 @@
 #include "DrawingOptions.h"
 
+#include "StyleOptions.h"
 #include "Unavailable.h"
 #include "Values.h"
 
@@ -62,14 +63,6 @@ void declareBackend(CLI::App& app, DrawingOptions& options)
        "software: no display and no GL needed; opengl: VTK, on an X server (auto: software)")
     ->type_name("auto|opengl|software")
     ->expected(1);
-}
-
-void declareUnavailableDrawing(CLI::App& app)
-{
-  app.add_option("--technique", "points (others are not available yet)")
-    ->check(availableValues(
-      { "points" }, { "splats", "spheres", "silhouettes", "solid", "ewa" }));
-  declareUnavailable(app, "--style", "classes have no styles of their own");
 }
 } // namespace
 
@@ -142,7 +135,7 @@ void DrawingOptions::declare(CLI::App& app)
   app.add_option("--classes", shown, "Only these classes (stores built with --layers class)")
     ->type_name("LIST")
     ->expected(1);
-  declareUnavailableDrawing(app);
+  declareStyle(app, *this);
 }
 
 } // namespace pointfront

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "pointfront/Style/StyleSheet.h"
+
 #include <CLI/CLI.hpp>
 
 #include <array>
@@ -36,6 +38,9 @@ struct DrawingOptions
   bool measureEmptyScene = false; ///< see StoreScene::emptySceneBytes()
   std::vector<std::uint8_t> classes; ///< sorted codes of what is drawn; empty: all
   bool eyeDomeLighting = false;
+  /// Of --style, and over it --technique, --color-by, --point-size, --where, --classes and --edl.
+  /// Complete when parsing is.
+  StyleSheet style;
   std::string detail = "front"; ///< or "view": how the detail of a view is chosen
 
   /// Adds the options to a command; this object must outlive the parsing.

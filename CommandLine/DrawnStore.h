@@ -16,8 +16,8 @@
 namespace pointfront
 {
 
-/// One store of a scene that is drawn without VTK: what is in memory of it, the front of the scene's
-/// one view, and how its points look.
+/// One store of a scene that is drawn without VTK: what is in memory of it, the front of the one
+/// view, and how its points look.
 /// Threads  one thread.
 class DrawnStore
 {

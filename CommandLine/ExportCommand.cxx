@@ -18,7 +18,7 @@ void ExportCommand::declare(CLI::App& program)
 {
   app_ = program.add_subcommand("export", "Write points of a store to a point file");
   app_->add_option("store", storePath_, "The store")->required()->type_name("STORE");
-  app_->add_option("-o,--output", outputPath_, "The file to write; replaced if it is there")
+  app_->add_option("-o,--output", outputPath_, "The file to write")
     ->required()
     ->check(sinkExtension());
   const auto box = [this](const CLI::results_t& words)
@@ -55,6 +55,7 @@ void ExportCommand::declare(CLI::App& program)
         "Thin out: levels until the points are at least this dense")
     ->check(CLI::PositiveNumber)
     ->type_name("METRES");
+  app_->add_flag("--force", replace_, "Replace an existing file of the same kind");
   app_->add_option("--progress", progress_, "On stderr: auto, plain, json or none (auto)")
     ->check(availableValues({ "auto", "plain", "json", "none" }, {}));
 }
@@ -67,6 +68,12 @@ Result<void> ExportCommand::run()
   if (!store)
   {
     return store.error();
+  }
+  Result<void> checked =
+    checkOutputTarget({ outputPath_, sinkKind(outputPath_), replace_ }, (*store)->files());
+  if (!checked)
+  {
+    return checked;
   }
   const std::unique_ptr<PointSink> sink = makeSink(outputPath_);
   ExportReport report;

@@ -20,6 +20,7 @@ private:
   std::string storePath_;
   std::string outputPath_;
   ExportSelection selection_;
+  bool replace_ = false;
   std::string progress_ = "auto";
 };
 

@@ -21,10 +21,11 @@ void GenerateCommand::declare(CLI::App& program)
     ->required()
     ->check(CLI::Range(std::uint64_t(1), most))
     ->type_name("N");
-  app_->add_option("-o,--output", outputPath_, "The file to write; replaced if it is there")
+  app_->add_option("-o,--output", outputPath_, "The file to write")
     ->required()
     ->check(sinkExtension());
   app_->add_option("--seed", seed_, "Another landscape for another number (1)")->type_name("S");
+  app_->add_flag("--force", replace_, "Replace an existing file of the same kind");
   app_->add_option("--progress", progress_, "On stderr: auto, plain, json or none (auto)")
     ->check(availableValues({ "auto", "plain", "json", "none" }, {}));
 }
@@ -32,6 +33,12 @@ void GenerateCommand::declare(CLI::App& program)
 Result<void> GenerateCommand::run()
 {
   const CancelSignal signal(CancelSignal::Mode::Finish);
+  Result<void> checked =
+    checkOutputTarget({ outputPath_, sinkKind(outputPath_), replace_ });
+  if (!checked)
+  {
+    return checked;
+  }
   const TerrainSource survey(points_, seed_);
   const std::unique_ptr<PointSink> sink = makeSink(outputPath_);
   std::uint64_t written = 0;

@@ -20,6 +20,7 @@ private:
   std::string outputPath_;
   std::uint64_t points_ = 0;
   std::uint64_t seed_ = 1;
+  bool replace_ = false;
   std::string progress_ = "auto";
 };
 

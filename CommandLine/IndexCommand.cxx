@@ -30,8 +30,7 @@ void IndexCommand::declare(CLI::App& program)
     ->required()
     ->type_name("IN.las");
   app_->add_option("-o,--output", sidePath_,
-        std::string("The side file; an index that is there is replaced (IN.las") +
-          lasIndexSuffix + ")")
+        std::string("The side file (IN.las") + lasIndexSuffix + ")")
     ->type_name("SIDE");
   app_->add_option("--node-points", options_.leafPoints, "Most points of a leaf (16384)")
     ->check(CLI::Range(256u, 1u << 20))
@@ -44,6 +43,7 @@ void IndexCommand::declare(CLI::App& program)
   app_->add_option("--temp", options_.temporaryFolder, "Folder for spill files (the side file's)")
     ->check(CLI::ExistingDirectory)
     ->type_name("DIR");
+  app_->add_flag("--force", options_.overwrite, "Replace an existing index");
   app_->add_option("--progress", progress_, "On stderr: auto, plain, json or none (auto)")
     ->check(availableValues({ "auto", "plain", "json", "none" }, {}));
   app_->add_flag("--json", json_, "Print the report as one JSON object");

@@ -2,10 +2,11 @@
 
 #include "ByteSize.h"
 
-#include "pointfront/Store/StoredCloudFormats.h"
 #include "CancelSignal.h"
 
+#include "pointfront/Points/SplatRadius.h"
 #include "pointfront/Store/PreviewRecord.h"
+#include "pointfront/Store/StoredCloudFormats.h"
 
 #include <nlohmann/json.hpp>
 
@@ -27,6 +28,38 @@ const char* refinementName(Refinement refinement)
 double precisionOf(const QuantisationGrid& grid)
 {
   return std::max({ grid.scale.x, grid.scale.y, grid.scale.z });
+}
+
+enum class SplatMeasure : std::uint8_t
+{
+  None,
+  PerNode,
+  PerPoint ///< and per node
+};
+
+SplatMeasure splatMeasure(const StoreDescription& store, const Hierarchy& hierarchy)
+{
+  if (store.splatRadiusBase > 0.0 && store.schema.find(splatRadiusAttribute))
+  {
+    return SplatMeasure::PerPoint;
+  }
+  const std::vector<NodeIndex>& roots = hierarchy.roots();
+  const bool byNode = std::any_of(roots.begin(), roots.end(),
+    [&](NodeIndex root) { return hierarchy.node(root).splatRadius > 0.0f; });
+  return byNode ? SplatMeasure::PerNode : SplatMeasure::None;
+}
+
+/// Versions of stores and of side files.
+bool olderThanSplats(const StoreDescription& store)
+{
+  return store.version < (store.structure == "inplace" ? 2u : 3u);
+}
+
+const char* nameOf(SplatMeasure measure)
+{
+  return measure == SplatMeasure::PerPoint ? "per point"
+    : measure == SplatMeasure::PerNode     ? "per node"
+                                           : "none";
 }
 
 nlohmann::ordered_json boundsJson(const Bounds& b)
@@ -54,13 +87,14 @@ Result<void> InfoCommand::run()
     return store.error();
   }
   const StoreDescription& description = (*store)->description();
-  const std::uint64_t nodes = (*store)->hierarchy()->nodeCount();
-  const std::string text = json_ ? storeJson(description, nodes) : storeText(description, nodes);
+  const Hierarchy& hierarchy = *(*store)->hierarchy();
+  const std::string text =
+    json_ ? storeJson(description, hierarchy) : storeText(description, hierarchy);
   std::printf("%s\n", text.c_str());
   return {};
 }
 
-std::string storeJson(const StoreDescription& store, std::uint64_t nodes)
+std::string storeJson(const StoreDescription& store, const Hierarchy& hierarchy)
 {
   nlohmann::ordered_json object;
   object["points"] = store.pointCount;
@@ -70,7 +104,7 @@ std::string storeJson(const StoreDescription& store, std::uint64_t nodes)
     store.crsWkt.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(store.crsWkt);
   object["structure"] = store.structure;
   object["refinement"] = refinementName(store.refinement);
-  object["nodes"] = nodes;
+  object["nodes"] = hierarchy.nodeCount();
   object["levels"] = store.levels;
   object["bytes"] = store.fileBytes;
   object["attributes"] = nlohmann::ordered_json::array();
@@ -85,6 +119,7 @@ std::string storeJson(const StoreDescription& store, std::uint64_t nodes)
     object["layers"].push_back({ { "class", layer.objectClass }, { "name", layer.name },
       { "points", layer.pointCount }, { "nodes", layer.nodeCount } });
   }
+  object["splat_radius"] = nameOf(splatMeasure(store, hierarchy));
   object["version"] = store.version;
   if (const auto preview = previewRecordOf(store.metadata))
   {
@@ -98,7 +133,7 @@ std::string storeJson(const StoreDescription& store, std::uint64_t nodes)
   return object.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
-std::string storeText(const StoreDescription& store, std::uint64_t nodes)
+std::string storeText(const StoreDescription& store, const Hierarchy& hierarchy)
 {
   std::ostringstream text;
   text.precision(15);
@@ -124,10 +159,16 @@ std::string storeText(const StoreDescription& store, std::uint64_t nodes)
   text << "\n  precision   " << store.grid.scale.x << ' ' << store.grid.scale.y << ' '
        << store.grid.scale.z << "\n  crs         "
        << (store.crsWkt.empty() ? "not known" : store.crsWkt) << "\n  hierarchy   "
-       << store.structure << ", refinement " << refinementName(store.refinement) << ", " << nodes
-       << " nodes in " << store.levels << " levels\n  file        "
+       << store.structure << ", refinement " << refinementName(store.refinement) << ", "
+       << hierarchy.nodeCount() << " nodes in " << store.levels << " levels\n  file        "
        << byteSizeText(store.fileBytes) << " (" << store.fileBytes << " bytes), version "
-       << store.version << ", by " << store.generator << "\n  attributes ";
+       << store.version << ", by " << store.generator << "\n  splat sizes ";
+  const SplatMeasure measure = splatMeasure(store, hierarchy);
+  text << (measure == SplatMeasure::PerPoint ? "measured per point"
+      : measure == SplatMeasure::PerNode     ? "measured per node"
+      : olderThanSplats(store)               ? "not measured (built by an older version)"
+                                             : "not measured (no two places)");
+  text << "\n  attributes ";
   for (const Attribute& attribute : store.schema)
   {
     text << ' ' << attribute.name << ':' << nameOf(attribute.type);

@@ -21,9 +21,9 @@ private:
   bool json_ = false;
 };
 
-/// The keys of `info --json`. `nodes` is the hierarchy's.
-std::string storeJson(const StoreDescription& store, std::uint64_t nodes);
+/// The keys of `info --json`.
+std::string storeJson(const StoreDescription& store, const Hierarchy& hierarchy);
 /// For people: one line a fact.
-std::string storeText(const StoreDescription& store, std::uint64_t nodes);
+std::string storeText(const StoreDescription& store, const Hierarchy& hierarchy);
 
 } // namespace pointfront

@@ -6,41 +6,69 @@
 namespace pointfront
 {
 
-Result<PictureMemory> PictureMemory::share(std::array<int, 2> size, std::uint64_t budgetBytes,
-  std::uint64_t pixelBytes, int overlapRows)
+namespace
+{
+/// Fewer rows than the margins have cost more than they draw: rather fewer threads.
+constexpr int leastRowsOfSeveral = 128;
+} // namespace
+
+std::uint64_t PictureMemory::bytesOfRows(int rows, unsigned threads) const
+{
+  const auto width = static_cast<std::uint64_t>(size_[0]);
+  const auto height = static_cast<std::uint64_t>(rows);
+  const auto margins = 2 * static_cast<std::uint64_t>(cost_.marginPixels);
+  return cost_.pixelBytes * width * height +
+    threads * cost_.threadPixelBytes * (width + margins) * (height + margins);
+}
+
+std::int64_t PictureMemory::rowsThatFit(unsigned threads) const
+{
+  const std::uint64_t margins = bytesOfRows(0, threads);
+  const std::uint64_t row = bytesOfRows(1, threads) - margins;
+  const std::uint64_t half = budgetBytes_ / 2;
+  const std::uint64_t drawn = half > margins ? (half - margins) / row : 0;
+  return static_cast<std::int64_t>(drawn) - 2 * cost_.overlapRows;
+}
+
+Result<PictureMemory> PictureMemory::share(
+  std::array<int, 2> size, std::uint64_t budgetBytes, const PictureCost& cost)
 {
   PictureMemory memory;
+  memory.size_ = size;
   memory.budgetBytes_ = budgetBytes;
-  memory.rowBytes_ = pixelBytes * static_cast<std::uint64_t>(size[0]);
-  memory.rows_ = size[1];
+  memory.cost_ = cost;
+  memory.bandThreads_ = cost.threads;
   memory.bandRows_ = size[1];
-  memory.overlapRows_ = overlapRows;
-  if (memory.bytesOfRows(size[1]) > budgetBytes / 2)
+  if (memory.frameBytes() <= budgetBytes / 2)
   {
-    const auto rows = static_cast<std::int64_t>(budgetBytes / 4 / memory.rowBytes_);
-    const std::int64_t own = rows - 2 * overlapRows;
-    memory.bandRows_ = static_cast<int>(std::clamp<std::int64_t>(own, 1, size[1]));
+    return memory;
   }
-  const int drawnRows = std::min(memory.bandRows_ + 2 * overlapRows, size[1]);
-  if (memory.bytesOfRows(drawnRows) > budgetBytes / 2)
+  unsigned& threads = memory.bandThreads_;
+  while (threads > 1 && memory.rowsThatFit(threads) < std::min(leastRowsOfSeveral, size[1]))
   {
+    threads /= 2;
+  }
+  const std::int64_t rows = memory.rowsThatFit(threads);
+  if (rows < 1)
+  {
+    const int least = std::min(1 + 2 * cost.overlapRows, size[1]);
     return makeError(Error::Kind::NoMemory,
-      "--memory " + std::to_string(budgetBytes) + " is too small for a picture of " +
-        std::to_string(size[0]) + " pixels across: " + std::to_string(drawnRows) +
-        " rows of it take " + std::to_string(memory.bytesOfRows(drawnRows)) + " bytes; give twice "
-        "that");
+      "a picture of " + std::to_string(size[0]) + " pixels across takes --memory " +
+        std::to_string(2 * memory.bytesOfRows(least, 1)) + " at least, and it is " +
+        std::to_string(budgetBytes));
   }
+  memory.bandRows_ = static_cast<int>(std::min<std::int64_t>(rows, size[1]));
   return memory;
+}
+
+std::uint64_t PictureMemory::bandBytes() const
+{
+  return bytesOfRows(std::min(bandRows_ + 2 * cost_.overlapRows, size_[1]), bandThreads_);
 }
 
 std::uint64_t PictureMemory::pointBytesOfFrames() const
 {
-  return budgetBytes_ - std::min(bytesOfRows(rows_), budgetBytes_ / 2);
-}
-
-std::uint64_t PictureMemory::pointBytesOfBands() const
-{
-  return budgetBytes_ - bytesOfRows(std::min(bandRows_ + 2 * overlapRows_, rows_));
+  return budgetBytes_ - std::min(frameBytes(), budgetBytes_ / 2);
 }
 
 } // namespace pointfront

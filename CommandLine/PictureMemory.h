@@ -8,36 +8,53 @@
 namespace pointfront
 {
 
+/// What drawing takes, of each pixel and of each thread.
+struct PictureCost
+{
+  std::uint64_t pixelBytes = 0;       ///< of the picture, whatever threads there are
+  std::uint64_t threadPixelBytes = 0; ///< of each thread's buffers
+  int marginPixels = 0; ///< of each thread's buffers, on all sides of what is drawn
+  int overlapRows = 0;  ///< of a band, that it draws of its neighbours on each side
+  unsigned threads = 1; ///< that draw, at most
+};
+
 /// How one limit of memory is shared between the picture, with all that drawing it needs, and the
-/// decoded points: a complete picture that would take more than half is drawn in bands that take a
-/// quarter. Frames that follow each other are whole, whatever they take; the points then have half.
+/// decoded points: a complete picture that would take more than half is drawn in bands that do not,
+/// by so many threads that their buffers leave room for rows. Frames that follow each other are
+/// whole, whatever they take; the points then have half.
 /// Threads  a value.
 class PictureMemory
 {
 public:
-  /// `budgetBytes`: for both. `pixelBytes`: that a pixel takes while it is drawn. `overlapRows`:
-  /// that a band needs of its neighbours on each side.
+  /// `budgetBytes`: for both.
   /// Errors  NoMemory: not even a band of one row fits.
-  static Result<PictureMemory> share(std::array<int, 2> size, std::uint64_t budgetBytes,
-    std::uint64_t pixelBytes, int overlapRows);
+  static Result<PictureMemory> share(
+    std::array<int, 2> size, std::uint64_t budgetBytes, const PictureCost& cost);
 
   std::uint64_t budgetBytes() const { return budgetBytes_; }
   /// Rows of a band of a complete picture, without its overlap; all where the picture fits.
   int bandRows() const { return bandRows_; }
-  int overlapRows() const { return overlapRows_; }
-  std::uint64_t bytesOfRows(int rows) const { return rowBytes_ * static_cast<std::uint64_t>(rows); }
+  bool needsBands() const { return bandRows_ < size_[1]; }
+  /// That draw a band.
+  unsigned bandThreads() const { return bandThreads_; }
+  int overlapRows() const { return cost_.overlapRows; }
+  std::uint64_t frameBytes() const { return bytesOfRows(size_[1], cost_.threads); }
+  std::uint64_t bandBytes() const;
   /// For points beside a whole picture; beside a band.
   std::uint64_t pointBytesOfFrames() const;
-  std::uint64_t pointBytesOfBands() const;
+  std::uint64_t pointBytesOfBands() const { return budgetBytes_ - bandBytes(); }
 
 private:
   PictureMemory() = default;
+  std::uint64_t bytesOfRows(int rows, unsigned threads) const;
+  /// Most rows that take no more than half of the budget; 0 or less: none.
+  std::int64_t rowsThatFit(unsigned threads) const;
 
+  std::array<int, 2> size_{};
   std::uint64_t budgetBytes_ = 0;
-  std::uint64_t rowBytes_ = 0;
-  int rows_ = 0;
+  PictureCost cost_;
   int bandRows_ = 0;
-  int overlapRows_ = 0;
+  unsigned bandThreads_ = 1;
 };
 
 } // namespace pointfront

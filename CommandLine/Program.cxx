@@ -2,6 +2,7 @@
 
 #include "BenchCommand.h"
 #include "BuildCommand.h"
+#include "CompareCommand.h"
 #include "ExportCommand.h"
 #include "GenerateCommand.h"
 #include "IndexCommand.h"
@@ -31,6 +32,7 @@ Program::Program()
   commands_.push_back(std::make_unique<GenerateCommand>());
   commands_.push_back(std::make_unique<RenderCommand>());
   commands_.push_back(std::make_unique<BenchCommand>());
+  commands_.push_back(std::make_unique<CompareCommand>());
   for (const auto& command : commands_)
   {
     command->declare(app_);

@@ -1,6 +1,7 @@
 #include "RenderCommand.h"
 
 #include "CancelSignal.h"
+#include "DrawnFiles.h"
 #include "PeakMemory.h"
 #include "Unavailable.h"
 #include "WholeFile.h"
@@ -111,12 +112,11 @@ Result<void> RenderCommand::run()
 {
   const CancelSignal signal(CancelSignal::Mode::Leave);
   begin_ = Clock::now();
-  for (const std::string& path : { outputPath_, statisticsPath_ })
+  Result<void> free = checkDrawnFiles({ { outputPath_, FileKind::Picture },
+    { statisticsPath_, FileKind::Statistics } }, drawing_.stores, { cameraPath_ });
+  if (!free)
   {
-    if (Result<void> writable = path.empty() ? Result<void>() : checkWritable(path); !writable)
-    {
-      return writable;
-    }
+    return free;
   }
   Result<std::unique_ptr<StoreScene>> scene = StoreScene::open(drawing_);
   if (!scene)

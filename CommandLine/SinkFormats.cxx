@@ -50,6 +50,15 @@ std::unique_ptr<PointSink> makeSink(const std::string& path)
     path, extension == ".laz" ? LASWriter::Encoding::Laz : LASWriter::Encoding::Las);
 }
 
+FileKind sinkKind(const std::string& path)
+{
+  const std::string extension = extensionOf(path);
+  return extension == ".xyz" ? FileKind::Text
+    : extension == ".ply"    ? FileKind::PLY
+    : extension == ".pcd"    ? FileKind::PCD
+                             : FileKind::LAS;
+}
+
 CLI::Validator sinkExtension()
 {
   return CLI::Validator(checkExtension, "OUT.las|.laz|.xyz|.ply|.pcd");

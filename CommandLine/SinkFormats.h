@@ -1,5 +1,6 @@
 #pragma once
 
+#include "pointfront/Export/OutputTarget.h"
 #include "pointfront/Points/PointSink.h"
 
 #include <CLI/CLI.hpp>
@@ -14,6 +15,8 @@ namespace pointfront
 
 /// What writes a file of that name; the extension has passed the check.
 std::unique_ptr<PointSink> makeSink(const std::string& path);
+/// What such a file is, for checkOutputTarget().
+FileKind sinkKind(const std::string& path);
 /// Check for an option that names such a file.
 CLI::Validator sinkExtension();
 

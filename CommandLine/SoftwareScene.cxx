@@ -9,14 +9,15 @@
 #include "ShownClasses.h"
 
 #include "PNGWriter.h"
+#include "RasterBatch.h"
 
 #include "pointfront/Front/DetailLevel.h"
 #include "pointfront/Residency/LoadScheduler.h"
+#include "pointfront/Threads/ThreadCrew.h"
 
 #include <algorithm>
 #include <cmath>
 #include <set>
-#include <thread>
 #include <unordered_map>
 
 namespace pointfront
@@ -33,6 +34,7 @@ constexpr double frameMsInMotion = 1000.0 / 15;  // that VTK allots to a moving 
 constexpr std::uint64_t framePointBudget = 5000000; // as vtkPointFrontMapper's
 constexpr std::uint64_t overviewPoints = 2000000;   // likewise
 constexpr double eyeDomeStrength = 0.4;
+constexpr int filledRows = 64; ///< of a neighbour, that a hole may be filled from
 /// How far a splat reaches beyond the rows that its centre lies in, where its size is no number of
 /// pixels.
 constexpr int splatReachRows = 64;
@@ -40,13 +42,6 @@ constexpr int splatReachRows = 64;
 double millisecondsSince(Clock::time_point begin)
 {
   return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
-}
-
-/// That a pixel takes: colour and depth of the target; a key a thread, and the sums of blending.
-std::uint64_t bytesOfPixel()
-{
-  const std::uint64_t threads = std::max(1u, std::thread::hardware_concurrency());
-  return 8 + 8 * threads + 24;
 }
 
 std::uint32_t packed(const std::array<double, 3>& colour)
@@ -118,38 +113,27 @@ struct SoftwareScene::DrawnNodes
   }
 };
 
-SoftwareScene::SoftwareScene(const DrawingOptions& options, const PictureMemory& memory)
+SoftwareScene::SoftwareScene(const DrawingOptions& options)
   : options_(options)
-  , memory_(memory)
 {
   shading_.eyeDomeStrength = options.eyeDomeLighting ? static_cast<float>(eyeDomeStrength) : 0.0f;
 }
 
 Result<std::unique_ptr<StoreScene>> SoftwareScene::open(const DrawingOptions& options)
 {
-  const std::uint64_t budget =
-    options.memoryBytes > 0 ? options.memoryBytes : LoadScheduler::processBudgetBytes();
-  const int overlapRows = options.eyeDomeLighting ? 2 : 0;
-  const Result<PictureMemory> memory =
-    PictureMemory::share(options.size, budget, bytesOfPixel(), overlapRows);
-  if (!memory)
-  {
-    return memory.error();
-  }
-  std::unique_ptr<SoftwareScene> scene(new SoftwareScene(options, *memory));
+  std::unique_ptr<SoftwareScene> scene(new SoftwareScene(options));
   if (options.measureEmptyScene)
   {
     scene->target_.reset(options.size[0], options.size[1]);
     scene->emptySceneBytes_ = residentBytesNow();
   }
-  LoadScheduler::setProcessBudgetBytes(memory->pointBytesOfFrames());
-  if (Result<void> opened = scene->openStores(); !opened)
+  for (const auto step : { &SoftwareScene::openStores, &SoftwareScene::chooseStyles,
+         &SoftwareScene::shareMemory })
   {
-    return opened.error();
-  }
-  if (Result<void> chosen = scene->chooseStyles(); !chosen)
-  {
-    return chosen.error();
+    if (Result<void> done = (scene.get()->*step)(); !done)
+    {
+      return done.error();
+    }
   }
   return std::unique_ptr<StoreScene>(std::move(scene));
 }
@@ -200,6 +184,36 @@ Result<void> SoftwareScene::chooseStyles()
   {
     store->setStyle(chosenStyle(colour.value(), store->cloud()));
   }
+  return {};
+}
+
+/// Before anything is loaded.
+Result<void> SoftwareScene::shareMemory()
+{
+  const bool blends = std::any_of(stores_.begin(), stores_.end(),
+    [](const auto& store)
+    { return store->style().blended || store->style().technique == Technique::Ewa; });
+  PictureCost cost;
+  cost.pixelBytes = sizeof(std::uint32_t) + sizeof(float);     // colour and depth
+  cost.pixelBytes += shading_.lit ? 3 * sizeof(float) : 0;     // normals
+  cost.pixelBytes += shading_.eyeDomeStrength > 0.0f ? sizeof(float) : 0; // logarithms of depth
+  cost.pixelBytes += blends ? sizeof(float) : 0;               // the nearest depth
+  cost.threadPixelBytes = sizeof(RasterKey) + (blends ? 4 * sizeof(std::uint32_t) : 0);
+  cost.marginPixels = rasterMargin;
+  cost.threads = ThreadCrew::ofProcess().threads();
+  cost.overlapRows = shading_.eyeDomeStrength > 0.0f
+    ? static_cast<int>(std::ceil(shading_.eyeDomeRadiusPx)) + 1
+    : 0;
+  cost.overlapRows = shading_.fillHoles ? std::max(cost.overlapRows, filledRows) : cost.overlapRows;
+  const std::uint64_t budget =
+    options_.memoryBytes > 0 ? options_.memoryBytes : LoadScheduler::processBudgetBytes();
+  const Result<PictureMemory> memory = PictureMemory::share(options_.size, budget, cost);
+  if (!memory)
+  {
+    return memory.error();
+  }
+  memory_ = *memory;
+  LoadScheduler::setProcessBudgetBytes(memory_->pointBytesOfFrames());
   return {};
 }
 
@@ -293,7 +307,8 @@ FrameRecord SoftwareScene::record(bool complete) const
 
 /// Rows of the viewport into the target, which has these rows only. Points drawn and the
 /// milliseconds of it go into `frame`.
-void SoftwareScene::drawRows(const RasterBand& rows, FrameRecord& frame)
+void SoftwareScene::drawRows(
+  SoftwareRasteriser& rasteriser, const RasterBand& rows, FrameRecord& frame)
 {
   const auto begin = Clock::now();
   target_.reset(camera_.width, rows.top - rows.bottom);
@@ -305,7 +320,7 @@ void SoftwareScene::drawRows(const RasterBand& rows, FrameRecord& frame)
     const auto beginOfStore = Clock::now();
     const FramePlan plan = stores_[i]->plan(camera_, shading_);
     *frame.rasteriseMilliseconds +=
-      rasteriser_.draw(plan, rows, target_, static_cast<std::uint16_t>(i)).milliseconds;
+      rasteriser.draw(plan, rows, target_, static_cast<std::uint16_t>(i)).milliseconds;
     points[i] = plan.pointCount();
     frame.points += static_cast<std::int64_t>(points[i]);
     ownMs_[i] += millisecondsSince(beginOfStore);
@@ -315,8 +330,7 @@ void SoftwareScene::drawRows(const RasterBand& rows, FrameRecord& frame)
   const std::uint32_t background = packed(options_.background);
   std::replace(target_.rgba.begin(), target_.rgba.end(), std::uint32_t(0), background);
   // What no store has to itself is shared out, or frames of a given time would be longer.
-  const double shared =
-    (millisecondsSince(begin) - own) / static_cast<double>(std::max<std::size_t>(1, stores_.size()));
+  const double shared = (millisecondsSince(begin) - own) / static_cast<double>(stores_.size());
   for (std::size_t i = 0; i < stores_.size(); ++i)
   {
     stores_[i]->noteFrame(points[i], ownMs_[i] + shared);
@@ -341,7 +355,7 @@ Result<FrameRecord> SoftwareScene::render(bool complete)
   const auto begin = Clock::now();
   updateFronts(viewOf(camera_), complete);
   FrameRecord frame = record(complete);
-  drawRows({ 0, camera_.height }, frame);
+  drawRows(rasteriser_, { 0, camera_.height }, frame);
   if (const Result<void> fine = outcome(); !fine)
   {
     return fine.error();
@@ -360,19 +374,22 @@ Result<FrameRecord> SoftwareScene::renderInBands(const std::string& path)
   {
     return png.error();
   }
-  stores_.front()->residency().scheduler().setBudgetBytes(memory_.pointBytesOfBands());
+  stores_.front()->residency().scheduler().setBudgetBytes(memory_->pointBytesOfBands());
+  ThreadCrew crew(memory_->bandThreads());
+  SoftwareRasteriser rasteriser(&crew);
+  rasteriser_.release();
   FrameRecord whole;
   whole.complete = true;
   whole.rasteriseMilliseconds = 0.0;
   DrawnNodes drawn;
   drawn.points.resize(stores_.size());
   reads_.since();
-  for (int top = camera_.height; top > 0; top -= memory_.bandRows())
+  for (int top = camera_.height; top > 0; top -= memory_->bandRows())
   {
-    const int bottom = std::max(0, top - memory_.bandRows());
-    const RasterBand rows{ std::max(0, bottom - memory_.overlapRows()),
-      std::min(camera_.height, top + memory_.overlapRows()) };
-    const Result<FrameRecord> band = renderBand(rows, drawn);
+    const int bottom = std::max(0, top - memory_->bandRows());
+    const RasterBand rows{ std::max(0, bottom - memory_->overlapRows()),
+      std::min(camera_.height, top + memory_->overlapRows()) };
+    const Result<FrameRecord> band = renderBand(rasteriser, rows, drawn);
     if (!band)
     {
       return band;
@@ -388,7 +405,6 @@ Result<FrameRecord> SoftwareScene::renderInBands(const std::string& path)
       return fine.error();
     }
   }
-  rasteriser_.release();
   if (Result<void> written = (*png)->finish(); !written)
   {
     return written.error();
@@ -399,7 +415,8 @@ Result<FrameRecord> SoftwareScene::renderInBands(const std::string& path)
   return whole;
 }
 
-Result<FrameRecord> SoftwareScene::renderBand(const RasterBand& rows, DrawnNodes& drawn)
+Result<FrameRecord> SoftwareScene::renderBand(
+  SoftwareRasteriser& rasteriser, const RasterBand& rows, DrawnNodes& drawn)
 {
   // Points outside the rows may reach into them.
   const int reach = static_cast<int>(std::ceil(reachRows()));
@@ -407,7 +424,8 @@ Result<FrameRecord> SoftwareScene::renderBand(const RasterBand& rows, DrawnNodes
   const int top = std::min(camera_.height, rows.top + reach);
   updateFronts(viewOfRows(camera_, bottom, top), true);
   FrameRecord frame = record(true);
-  drawRows(rows, frame);
+  drawRows(rasteriser, rows, frame);
+  rasteriser.release(); // it holds what it has drawn, and the next band needs the memory
   for (std::size_t i = 0; i < stores_.size(); ++i)
   {
     drawn.add(i, stores_[i]->last());
@@ -477,7 +495,7 @@ std::uint64_t SoftwareScene::residentBytesMax() const
 
 std::uint64_t SoftwareScene::pictureBytes() const
 {
-  return memory_.bytesOfRows(target_.height);
+  return target_.height == options_.size[1] ? memory_->frameBytes() : memory_->bandBytes();
 }
 
 LoadingRecord SoftwareScene::loading() const

@@ -8,6 +8,7 @@
 #include "SoftwareRasteriser.h"
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,11 +31,11 @@ public:
   void setInteractive(bool interactive) override { interactive_ = interactive; }
   Result<FrameRecord> renderFrame() override { return render(false); }
   Result<FrameRecord> renderComplete() override { return render(true); }
-  bool needsBands() const override { return memory_.bandRows() < options_.size[1]; }
+  bool needsBands() const override { return memory_->needsBands(); }
   Result<FrameRecord> renderInBands(const std::string& path) override;
   bool waitForArrival() override;
   std::vector<std::string> attributesRead() const override;
-  std::uint64_t budgetBytes() const override { return memory_.budgetBytes(); }
+  std::uint64_t budgetBytes() const override { return memory_->budgetBytes(); }
   std::uint64_t residentBytesMax() const override;
   LoadingRecord loading() const override;
   std::uint64_t emptySceneBytes() const override { return emptySceneBytes_; }
@@ -43,21 +44,23 @@ public:
 
 private:
   struct DrawnNodes;
-  SoftwareScene(const DrawingOptions& options, const PictureMemory& memory);
+  explicit SoftwareScene(const DrawingOptions& options);
   Result<void> openStores();
   Result<void> chooseStyles();
+  Result<void> shareMemory();
   FrameDemand demand(const View& view, bool complete) const;
   void updateFronts(const View& view, bool complete);
   FrameRecord record(bool complete) const;
-  void drawRows(const RasterBand& rows, FrameRecord& frame);
+  void drawRows(SoftwareRasteriser& rasteriser, const RasterBand& rows, FrameRecord& frame);
   Result<FrameRecord> render(bool complete);
-  Result<FrameRecord> renderBand(const RasterBand& rows, DrawnNodes& drawn);
+  Result<FrameRecord> renderBand(
+    SoftwareRasteriser& rasteriser, const RasterBand& rows, DrawnNodes& drawn);
   double reachRows() const;
   bool needsFrame();
   Result<void> outcome();
 
   DrawingOptions options_;
-  PictureMemory memory_;
+  std::optional<PictureMemory> memory_; ///< once it is open
   Bounds bounds_;
   FrameShading shading_;
   FrameCamera camera_;

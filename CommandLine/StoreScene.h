@@ -21,7 +21,7 @@ struct FrameRecord
 {
   double milliseconds = 0.0;      ///< of the whole frame, drawing finished
   double frontMilliseconds = 0.0; ///< of the fronts' updates
-  /// From the plans to the pixels, the points alone; nothing where a driver draws while others work.
+  /// From the plans to the pixels, the points alone; nothing where a driver draws beside the rest.
   std::optional<double> rasteriseMilliseconds;
   std::int64_t points = 0;
   std::int64_t nodes = 0;
@@ -56,8 +56,8 @@ struct LoadingRecord
   std::chrono::steady_clock::time_point last; ///< when the last of it was there
 };
 
-/// Stores and a camera, drawn into a picture that no screen shows: by the software rasteriser, or by
-/// VTK through OpenGL (DrawingOptions::backend). What is drawn, when it is complete and what a
+/// Stores and a camera, drawn into a picture that no screen shows: by the software rasteriser, or
+/// by VTK through OpenGL (DrawingOptions::backend). What is drawn, when it is complete and what a
 /// FrameRecord means is the same for both.
 /// Threads  one thread.
 class StoreScene

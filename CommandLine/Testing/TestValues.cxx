@@ -36,7 +36,8 @@ TEST(Values, ClassesAreSortedCodesOfOneByte)
 TEST(Values, ImageSizeIsTwoEdgesInPixels)
 {
   EXPECT_EQ(parseImageSize("1280x720"), (std::array<int, 2>{ 1280, 720 }));
-  for (const char* text : { "1280", "1280x", "x720", "0x10", "20000x10", "-5x5", "1280x720x3" })
+  EXPECT_EQ(parseImageSize("65535x1"), (std::array<int, 2>{ 65535, 1 }));
+  for (const char* text : { "1280", "1280x", "x720", "0x10", "65536x10", "-5x5", "1280x720x3" })
   {
     EXPECT_FALSE(parseImageSize(text)) << text;
   }

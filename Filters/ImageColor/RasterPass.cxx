@@ -213,6 +213,16 @@ std::uint64_t RasterPass::tilesRead() const
   return images_ ? images_->tiles.tilesRead() : 0;
 }
 
+std::vector<std::string> RasterPass::filesRead() const
+{
+  std::vector<std::string> files;
+  for (const RasterInput& input : inputs_)
+  {
+    files.insert(files.end(), input.images.begin(), input.images.end());
+  }
+  return files;
+}
+
 std::vector<std::string> RasterPass::findings() const
 {
   if (!images_)

@@ -2,9 +2,11 @@
 
 #include "ClassChoice.h"
 #include "FlannIndex.h"
+#include "SplatCodes.h"
 #include "SurfaceFit.h"
 
 #include "pointfront/Neighbourhood/NearestNeighbours.h"
+#include "pointfront/Neighbourhood/SplatCell.h"
 #include "pointfront/Points/NormalAttribute.h"
 
 #include <algorithm>
@@ -23,45 +25,79 @@ Attribute curvatureAttribute()
     "smallest eigenvalue of the neighbours' covariance over the sum of all" };
 }
 
-/// Normal, then curvature if asked.
+/// What of a neighbourhood is wanted, in this order.
+struct SurfaceValues
+{
+  bool normal = true;
+  bool curvature = false;
+  bool radius = true;
+
+  std::size_t curvatureAt() const { return normal ? sizeof(PackedNormal) : 0; }
+  std::size_t radiusAt() const { return curvatureAt() + (curvature ? sizeof(std::uint16_t) : 0); }
+  /// While the base of radii is not known.
+  std::size_t waitingBytes() const { return radiusAt() + (radius ? sizeof(WaitingRadius) : 0); }
+  std::size_t bytes() const { return radiusAt() + (radius ? 1 : 0); }
+};
+
 class SurfaceFeature final : public NeighbourhoodFeature
 {
 public:
   /// Of so many neighbours; 0: those within a radius.
-  SurfaceFeature(
-    std::uint32_t neighbours, bool curvature, std::atomic<std::uint64_t>& without)
+  SurfaceFeature(std::uint32_t neighbours, SurfaceValues values,
+    std::atomic<std::uint64_t>& without, SplatCodes& radii)
     : neighbours_(neighbours)
-    , curvature_(curvature)
+    , values_(values)
     , without_(without)
+    , radii_(radii)
   {
   }
-  std::size_t bytes() const override
-  {
-    return sizeof(PackedNormal) + (curvature_ ? sizeof(std::uint16_t) : 0);
-  }
+  std::size_t bytes() const override { return values_.waitingBytes(); }
   bool orderFree() const override { return neighbours_ <= mostExactlySummed; }
   void compute(const glm::dvec3& position, const std::vector<NearPoint>& near,
     std::byte* value) const override
   {
     const std::optional<SurfaceFit> fit = fitSurface(position, near);
-    if (!fit)
+    if (values_.normal)
     {
-      ++without_; // not touched for each point: all threads share it
+      if (!fit)
+      {
+        ++without_; // not touched for each point: all threads share it
+      }
+      const PackedNormal normal = facingUp(packNormal(fit ? fit->normal : glm::dvec3(0.0)));
+      std::memcpy(value, &normal, sizeof normal);
     }
-    const PackedNormal normal = facingUp(packNormal(fit ? fit->normal : glm::dvec3(0.0)));
-    std::memcpy(value, &normal, sizeof normal);
-    if (curvature_)
+    if (values_.curvature)
     {
       const double steps = std::min(65535.0, (fit ? fit->curvature : 0.0) * curvatureSteps);
       const auto curvature = static_cast<std::uint16_t>(std::lround(steps));
-      std::memcpy(value + sizeof normal, &curvature, sizeof curvature);
+      std::memcpy(value + values_.curvatureAt(), &curvature, sizeof curvature);
+    }
+    if (values_.radius)
+    {
+      const WaitingRadius radius = waitingRadius(radiusOf(position, near, fit));
+      radii_.count(radius);
+      std::memcpy(value + values_.radiusAt(), &radius, sizeof radius);
     }
   }
 
 private:
+  static double radiusOf(const glm::dvec3& position, const std::vector<NearPoint>& near,
+    const std::optional<SurfaceFit>& fit)
+  {
+    NearOffsets offsets;
+    for (const NearPoint& point : near)
+    {
+      offsets.add(point.position - position);
+    }
+    const NeighbourPlane plane =
+      fit ? NeighbourPlane{ fit->normal, fit->curvature, fit->width } : NeighbourPlane();
+    return splatRadius(offsets, plane);
+  }
+
   std::uint32_t neighbours_;
-  bool curvature_;
+  SurfaceValues values_;
   std::atomic<std::uint64_t>& without_;
+  SplatCodes& radii_;
 };
 
 std::vector<SourceDescription> descriptionsOf(const PointSources& sources)
@@ -93,6 +129,45 @@ ValueSource facingTheScanner(
     return done;
   };
 }
+
+/// The values of a column whose radii still wait for their base.
+ValueSource withRadiusCodes(const ValueSource& values, SurfaceValues kept, double base)
+{
+  return [values, kept, base](
+           const SourceChunk& chunk, const PointBatch& batch, std::byte* out) -> Result<void>
+  {
+    std::vector<std::byte> waiting(batch.size() * kept.waitingBytes());
+    Result<void> done = values(chunk, batch, waiting.data());
+    for (std::size_t i = 0; done && i < batch.size(); ++i)
+    {
+      const std::byte* const from = waiting.data() + i * kept.waitingBytes();
+      std::byte* const to = out + i * kept.bytes();
+      std::copy(from, from + kept.radiusAt(), to);
+      WaitingRadius radius = 0;
+      std::memcpy(&radius, from + kept.radiusAt(), sizeof radius);
+      to[kept.radiusAt()] = std::byte(splatCode(radius, base));
+    }
+    return done;
+  };
+}
+
+std::vector<Attribute> attributesOf(const SurfaceValues& values)
+{
+  std::vector<Attribute> attributes;
+  if (values.normal)
+  {
+    attributes.push_back(normalAttribute());
+  }
+  if (values.curvature)
+  {
+    attributes.push_back(curvatureAttribute());
+  }
+  if (values.radius)
+  {
+    attributes.push_back(splatRadiusColumn());
+  }
+  return attributes;
+}
 } // namespace
 
 Result<PointSources> NormalsPass::apply(
@@ -103,7 +178,7 @@ Result<PointSources> NormalsPass::apply(
   search.neighbours = options_.radius > 0.0 ? 0 : options_.neighbours;
   search.radius = options_.radius;
   search.tilePoints = options_.tilePoints;
-  search.phase = "normals";
+  search.phase = options_.normals ? "normals" : "splat sizes";
   const Result<ClassSet> classes = chosenClasses(sources, options_.classes);
   if (!classes)
   {
@@ -112,7 +187,9 @@ Result<PointSources> NormalsPass::apply(
   search.participants = { *classes, *classes };
   const auto eps = static_cast<float>(options_.eps);
   without_ = 0;
-  const SurfaceFeature feature(search.neighbours, options_.curvature, without_);
+  const SurfaceValues kept{ options_.normals, options_.curvature, options_.splatRadius };
+  const auto radii = std::make_unique<SplatCodes>();
+  const SurfaceFeature feature(search.neighbours, kept, without_, *radii);
   Result<std::unique_ptr<PointColumn>> column = computeFromNeighbours(
     sources, order, search,
     [eps](const PositionSet& set) { return std::make_unique<FlannIndex>(set, eps); }, feature,
@@ -121,14 +198,19 @@ Result<PointSources> NormalsPass::apply(
   {
     return column.error();
   }
-  std::vector<Attribute> attributes{ normalAttribute() };
-  if (options_.curvature)
+  ValueSource values = valuesOf(std::move(*column), order);
+  const double base = radii->base();
+  if (kept.radius)
   {
-    attributes.push_back(curvatureAttribute());
+    values = withRadiusCodes(values, kept, base);
   }
-  const ValueSource values = facingTheScanner(
-    valuesOf(std::move(*column), order), descriptionsOf(sources), feature.bytes());
-  return withAttributes(std::move(sources), attributes, values);
+  if (kept.normal)
+  {
+    values = facingTheScanner(values, descriptionsOf(sources), kept.bytes());
+  }
+  return withAttributes(std::move(sources), attributesOf(kept), values,
+    [&](SourceDescription& description)
+    { description.splatRadiusBase = kept.radius ? base : description.splatRadiusBase; });
 }
 
 std::vector<std::string> NormalsPass::findings() const

@@ -19,6 +19,8 @@ struct NormalsOptions
   double radius = 0.0;           ///< if > 0: instead all points within, world units
   double eps = 0.0;              ///< of FLANN's approximate search, 0: exact
   bool curvature = false;        ///< also give attribute "curvature"
+  bool normals = true;           ///< false: only the radius of splats, from 16 neighbours
+  bool splatRadius = true;       ///< also give attribute "splat_radius" (SplatRadius.h)
   /// These classes only: others get no normal and are nobody's neighbours.
   std::optional<std::vector<std::uint8_t>> classes;
   std::uint64_t tilePoints = 1u << 17; ///< only approximate results depend on it
@@ -26,8 +28,10 @@ struct NormalsOptions
 
 /// Attribute "normal" (NormalAttribute.h) of each point from the plane through its nearest points
 /// (PCA; LAYERS 3.1, after Mitra and Nguyen 2003), and "curvature" if asked: smallest eigenvalue
-/// over the sum of all.
+/// over the sum of all; and "splat_radius" (SplatCell.h) from the nearest 15 of the same
+/// neighbours, or of as many as there are.
 /// Sign     towards the scanner where a source tells where it stood, else up.
+/// Base     of the radii: chosen when all are known, in each source's description.
 /// Zero     where there is no plane: fewer than three neighbours, or all on one line; for the other
 ///          classes; for positions that the build rejects.
 /// Exact    does not depend on parts, memory or threads (NearestNeighbours.h).

@@ -149,6 +149,7 @@ std::optional<SurfaceFit> fitSurface(
   SurfaceFit fit;
   fit.normal = { normal[0], normal[1], normal[2] };
   fit.curvature = std::max(0.0, eigenvalues[0]); // the trace is 1
+  fit.width = eigenvalues[1] / eigenvalues[2];
   fit.centre = origin + mean;
   return fit;
 }

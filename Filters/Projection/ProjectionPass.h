@@ -38,6 +38,11 @@ public:
   Result<PointSources> apply(
     PointSources sources, const PassResources& resources) const override;
   std::vector<std::string> findings() const override { return findings_; }
+  /// What names a system may be a file.
+  std::vector<std::string> filesRead() const override
+  {
+    return { options_.target, options_.assumed };
+  }
   bool readsPoints() const override { return false; }
 
 private:

@@ -130,13 +130,13 @@ Result<void> IndexedLASFile::checkIdentity(const std::string& sidePath) const
   {
     return makeError(Error::Kind::Corrupt,
       "'" + sidePath + "' is not an index of '" + file_.description.path +
-        "' as it is now: " + difference + "; index the file again: pointfront index");
+        "' as it is now: " + difference + "; index the file again: pointfront index --force");
   }
   if (!(file_.layout.schema == side_->content().stored.description.schema))
   {
     return makeError(Error::Kind::Corrupt,
       "'" + sidePath + "' describes other attributes than '" + file_.description.path +
-        "' has; index the file again: pointfront index");
+        "' has; index the file again: pointfront index --force");
   }
   return {};
 }

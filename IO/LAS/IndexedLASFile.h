@@ -27,6 +27,10 @@ public:
 
   const StoreDescription& description() const override { return description_; }
   const std::shared_ptr<const Hierarchy>& hierarchy() const override { return hierarchy_; }
+  std::vector<std::string> files() const override
+  {
+    return { description_.path, file_.description.path };
+  }
   Result<FetchedNode> fetch(NodeIndex node, const ColumnSelection& columns) const override;
   Result<NodeColumns> decode(const FetchedNode& fetched) const override;
   std::size_t decodedBytes(

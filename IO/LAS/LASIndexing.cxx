@@ -2,6 +2,7 @@
 
 #include "LASPointDecoder.h"
 
+#include "pointfront/Export/OutputTarget.h"
 #include "pointfront/Store/Checksum.h"
 #include "pointfront/Store/ColumnStatistics.h"
 #include "pointfront/Store/GridBounds.h"
@@ -113,22 +114,6 @@ StoredDescription describe(const LASFile& file, Survey survey)
     stored.gridBounds = { GridPosition(survey.box.low), GridPosition(survey.box.high) };
   }
   return stored;
-}
-
-Result<void> checkSide(const std::string& lasPath, const std::string& sidePath)
-{
-  std::error_code failure;
-  if (!std::filesystem::exists(sidePath, failure))
-  {
-    return {};
-  }
-  if (std::filesystem::equivalent(lasPath, sidePath, failure) || failure ||
-    !SideFile::looksLikeSideFile(sidePath))
-  {
-    return makeError(Error::Kind::BadArgument,
-      sidePath + ": is there and is not an index; give another name (-o)");
-  }
-  return {};
 }
 
 /// Path of the LAS file as seen from the side file's folder.
@@ -262,7 +247,9 @@ Result<LASIndexReport> indexLASFile(const std::string& lasPath, const std::strin
   {
     return file.error();
   }
-  if (Result<void> checked = checkSide(lasPath, sidePath); !checked)
+  Result<void> checked = checkOutputTarget(
+    { sidePath, FileKind::SideFile, options.overwrite }, { lasPath });
+  if (!checked)
   {
     return checked.error();
   }

@@ -22,6 +22,7 @@ struct LASIndexOptions
   std::uint64_t memoryBytes = 0;   ///< 0: 256 MiB
   unsigned threads = 0;            ///< 0: one a core
   std::string temporaryFolder;     ///< empty: the side file's
+  bool overwrite = false;          ///< false: an index that is there is an Error
 };
 
 struct LASIndexReport
@@ -38,7 +39,7 @@ struct LASIndexReport
 /// Makes the in-place quadtree of a LAS file: a side file that tells which runs of its points lie
 /// where. The LAS file is read, never written; nothing of it is copied.
 /// Errors   of LASFile::open; Unsupported for LAZ (its points have no places of their own);
-///          BadArgument if `sidePath` is there and is no index; Corrupt if the file changes
+///          those of checkOutputTarget(); Corrupt if the file changes
 ///          meanwhile; Unwritable; Cancelled. Nothing is left behind then.
 /// Source   Kovac 2009, sections 2 and 3.1.
 Result<LASIndexReport> indexLASFile(const std::string& lasPath, const std::string& sidePath,

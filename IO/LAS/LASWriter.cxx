@@ -58,6 +58,11 @@ LASWriter::LASWriter(std::string path, Encoding encoding)
 
 LASWriter::~LASWriter() = default;
 
+std::string LASWriter::path() const
+{
+  return state_->path;
+}
+
 Result<void> LASWriter::begin(const SinkDescription& description)
 {
   State& state = *state_;

@@ -31,6 +31,7 @@ public:
   LASWriter(const LASWriter&) = delete;
   LASWriter& operator=(const LASWriter&) = delete;
 
+  std::string path() const override;
   Result<void> begin(const SinkDescription& description) override;
   Result<void> append(const PointBatch& batch) override;
   Result<void> finish() override;

@@ -13,8 +13,8 @@ namespace pointfront
 namespace
 {
 /// Of zlib, and no filter: pictures of points have few neighbours alike but many colours again.
-/// 50 to 150 MB/s here; what libpng chooses by itself takes 10 to 42, for files between 19 % smaller
-/// and 87 % larger.
+/// 50 to 150 MB/s here; what libpng chooses by itself takes 10 to 42, for files between 19 %
+/// smaller and 87 % larger.
 constexpr int compressionLevel = 3;
 constexpr int rowFilters = PNG_FILTER_NONE;
 

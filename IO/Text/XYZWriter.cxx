@@ -70,6 +70,11 @@ XYZWriter::XYZWriter(std::string path)
 
 XYZWriter::~XYZWriter() = default;
 
+std::string XYZWriter::path() const
+{
+  return state_->path;
+}
+
 Result<void> XYZWriter::begin(const SinkDescription& description)
 {
   assert(!state_->file);

@@ -24,6 +24,7 @@ public:
   XYZWriter(const XYZWriter&) = delete;
   XYZWriter& operator=(const XYZWriter&) = delete;
 
+  std::string path() const override;
   Result<void> begin(const SinkDescription& description) override;
   Result<void> append(const PointBatch& batch) override;
   Result<void> finish() override;

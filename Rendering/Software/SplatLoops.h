@@ -91,7 +91,7 @@ struct SplatAt<SplatShape::ExactEllipse, Parallel>
     , filter(all(pass.lowPass > 0.0f ? 1.0f / (pass.lowPass * pass.lowPass) : 0.0f))
     , filtered(pass.lowPass > 0.0f)
   {
-    const Direction to = directionOf(camera, batch, j);
+    const Direction to = directionOf<Parallel>(camera, batch, j);
     toX = all(to.x);
     toY = all(to.y);
     facing = all(batch.normalX[j] * to.x + batch.normalY[j] * to.y + batch.normalZ[j]);
@@ -133,7 +133,7 @@ struct SplatAt<SplatShape::Sphere, Parallel>
     , widthX(all(1.0f / camera.scaleX))
     , widthY(all(1.0f / camera.scaleY))
   {
-    const Direction to = directionOf(camera, batch, j);
+    const Direction to = directionOf<Parallel>(camera, batch, j);
     toX = all(to.x);
     toY = all(to.y);
     length2 = all(1.0f + to.x * to.x + to.y * to.y);
@@ -161,78 +161,119 @@ struct SplatAt<SplatShape::Sphere, Parallel>
   Lanes inverse, square, depth, widthX, widthY, toX, toY, length2;
 };
 
-/// Calls `take` for eight pixels each: offset in the buffers, sample; `four` where these are two
-/// rows of four.
-template <typename Splat, typename Take8, typename Take4>
-inline void visitSplat(const RasterWindow& window, const RasterBatch& batch, int j,
-  const Splat& splat, const Take8& take8, const Take4& take4)
+/// Calls `take` with two rows of four pixels: offsets in the buffers, sample.
+template <typename Splat, typename Take>
+inline void visitSmall(const RasterWindow& window, const RasterBatch& batch, int j,
+  const Splat& splat, const Take& take)
 {
   const std::int32_t stride = window.stride;
-  std::int32_t offset = batch.offset[j];
-  if (batch.extent[j] == RasterBatch::Within4)
-  {
-    const Lanes dx = all(batch.firstX[j]) + load8(laneX4);
-    Lanes dy = all(batch.firstY[j]) + load8(laneY4);
-    take4(offset, offset + stride, splat.at(dx, dy));
-    dy = dy + all(2.0f);
-    take4(offset + 2 * stride, offset + 3 * stride, splat.at(dx, dy));
-    return;
-  }
-  float left = batch.firstX[j];
-  float dy = batch.firstY[j];
-  int rows = batch.rows[j];
-  int columns = batch.columns[j];
+  const std::int32_t offset = batch.offset[j];
+  const Lanes dx = all(batch.firstX[j]) + load8(laneX4);
+  const Lanes dy = all(batch.firstY[j]) + load8(laneY4);
+  take(offset, offset + stride, splat.at(dx, dy));
+  take(offset + 2 * stride, offset + 3 * stride, splat.at(dx, dy + all(2.0f)));
+}
+
+/// Of a splat that may be larger than the margin: its rectangle inside the window.
+struct SplatRectangle
+{
+  std::int32_t offset;
+  float left; ///< first pixel's centre less the splat's
+  float low;
+  int rows;
+  int columns;
+};
+inline SplatRectangle clippedRectangle(
+  const RasterWindow& window, const RasterBatch& batch, int j)
+{
+  const auto clamped = [](float x, float least, float most)
+  { return x > least ? (x < most ? x : most) : least; };
+  const auto right = static_cast<float>(window.width - 1);
+  const auto bottom = static_cast<float>(window.bottom);
+  const auto top = static_cast<float>(window.bottom + window.height - 1);
+  const float hx = batch.halfX[j] + 0.5f, hy = batch.halfY[j] + 0.5f;
+  const float x0 = clamped(__builtin_ceilf(batch.middleX[j] - hx), 0.0f, right);
+  const float x1 = clamped(__builtin_floorf(batch.middleX[j] + hx - 1.0f), 0.0f, right);
+  const float y0 = clamped(__builtin_ceilf(batch.middleY[j] - hy), bottom, top);
+  const float y1 = clamped(__builtin_floorf(batch.middleY[j] + hy - 1.0f), bottom, top);
+  return { window.at(static_cast<int>(x0), static_cast<int>(y0) - window.bottom),
+    x0 + 0.5f - batch.screenX[j], y0 + 0.5f - batch.screenY[j], static_cast<int>(y1 - y0) + 1,
+    static_cast<int>(x1 - x0) + 1 };
+}
+
+/// Calls `take` with eight pixels of a row each: offset in the buffers, sample.
+template <typename Splat, typename Take>
+inline void visitLarge(const RasterWindow& window, const RasterBatch& batch, int j,
+  const Splat& splat, const Take& take)
+{
+  SplatRectangle rectangle{ batch.offset[j], batch.firstX[j], batch.firstY[j], batch.rows[j],
+    batch.columns[j] };
   if (batch.extent[j] == RasterBatch::Clipped)
   {
-    const auto clamped = [](float x, float least, float most)
-    { return x > least ? (x < most ? x : most) : least; };
-    const auto bottom = static_cast<float>(window.bottom);
-    const auto top = static_cast<float>(window.bottom + window.height - 1);
-    const float x0 = clamped(__builtin_ceilf(batch.middleX[j] - batch.halfX[j] - 0.5f), 0.0f,
-      static_cast<float>(window.width - 1));
-    const float x1 = clamped(__builtin_floorf(batch.middleX[j] + batch.halfX[j] - 0.5f), 0.0f,
-      static_cast<float>(window.width - 1));
-    const float y0 =
-      clamped(__builtin_ceilf(batch.middleY[j] - batch.halfY[j] - 0.5f), bottom, top);
-    const float y1 =
-      clamped(__builtin_floorf(batch.middleY[j] + batch.halfY[j] - 0.5f), bottom, top);
-    left = x0 + 0.5f - batch.screenX[j];
-    dy = y0 + 0.5f - batch.screenY[j];
-    rows = static_cast<int>(y1 - y0) + 1;
-    columns = static_cast<int>(x1 - x0) + 1;
-    offset = window.at(static_cast<int>(x0), static_cast<int>(y0) - window.bottom);
+    rectangle = clippedRectangle(window, batch, j);
   }
-  const Lanes first = all(left) + load8(laneX);
-  for (int row = 0; row < rows; ++row, offset += stride, dy += 1.0f)
+  const Lanes first = all(rectangle.left) + load8(laneX);
+  std::int32_t offset = rectangle.offset;
+  float dy = rectangle.low;
+  for (int row = 0; row < rectangle.rows; ++row, offset += window.stride, dy += 1.0f)
   {
     Lanes dx = first;
-    for (int column = 0; column < columns; column += 8)
+    for (int column = 0; column < rectangle.columns; column += 8)
     {
-      take8(offset + column, splat.at(dx, all(dy)));
+      take(offset + column, splat.at(dx, all(dy)));
       dx = dx + all(8.0f);
     }
   }
+}
+
+/// The points of the batch that are small, or larger, in a list: loops over one kind have no branch
+/// that cannot be foreseen.
+inline int listSmall(RasterBatch& batch, int count)
+{
+  int listed = 0;
+  for (int j = 0; j < count; ++j)
+  {
+    batch.list[listed] = j;
+    listed += batch.extent[j] == RasterBatch::Within4;
+  }
+  return listed;
+}
+inline int listLarge(RasterBatch& batch, int count)
+{
+  int listed = 0;
+  for (int j = 0; j < count; ++j)
+  {
+    batch.list[listed] = j;
+    listed += batch.extent[j] > RasterBatch::Within4;
+  }
+  return listed;
 }
 
 template <SplatShape Shape, bool Parallel>
 void drawShape(const RasterCamera& camera, const RasterWindow& window, const SplatPass& pass,
   RasterBatch& batch, int count, std::uint32_t index, RasterKey* keys)
 {
-  for (int j = 0; j < count; ++j)
+  const int small = listSmall(batch, count);
+  for (int i = 0; i < small; ++i)
   {
-    if (batch.extent[j] == RasterBatch::Culled)
-    {
-      continue;
-    }
+    const int j = batch.list[i];
     const SplatAt<Shape, Parallel> splat(camera, pass, batch, j);
     const Lanes rim = all(pass.paraboloid * batch.radius[j]);
     const std::uint32_t id = index + static_cast<std::uint32_t>(j);
-    visitSplat(
-      window, batch, j, splat,
-      [&](std::int32_t offset, const SplatSample& s)
-      { keepNearest8(keys + offset, s.depth + rim * s.q, id, s.covered); },
+    visitSmall(window, batch, j, splat,
       [&](std::int32_t lower, std::int32_t upper, const SplatSample& s)
       { keepNearest4x2(keys + lower, keys + upper, s.depth + rim * s.q, id, s.covered); });
+  }
+  const int large = listLarge(batch, count);
+  for (int i = 0; i < large; ++i)
+  {
+    const int j = batch.list[i];
+    const SplatAt<Shape, Parallel> splat(camera, pass, batch, j);
+    const Lanes rim = all(pass.paraboloid * batch.radius[j]);
+    const std::uint32_t id = index + static_cast<std::uint32_t>(j);
+    visitLarge(window, batch, j, splat,
+      [&](std::int32_t offset, const SplatSample& s)
+      { keepNearest8(keys + offset, s.depth + rim * s.q, id, s.covered); });
   }
 }
 
@@ -248,28 +289,19 @@ void addShape(const RasterCamera& camera, const RasterWindow& window, const Spla
   RasterBatch& batch, int count, const float* nearest, std::uint32_t* sums)
 {
   const float pixelSize = pass.slackPixels / camera.scaleY;
-  for (int j = 0; j < count; ++j)
+  const auto slackOf = [&](int j)
   {
-    if (batch.extent[j] == RasterBatch::Culled)
-    {
-      continue;
-    }
+    return all(
+      pass.slackRadii * batch.radius[j] + pixelSize * (Parallel ? 1.0f : batch.depth[j]));
+  };
+  const int small = listSmall(batch, count);
+  for (int i = 0; i < small; ++i)
+  {
+    const int j = batch.list[i];
     const SplatAt<Shape, Parallel> splat(camera, pass, batch, j);
-    const Lanes rim = all(pass.paraboloid * batch.radius[j]);
-    const Lanes slack = all(pass.slackRadii * batch.radius[j] +
-      pixelSize * (Parallel ? 1.0f : batch.depth[j]));
+    const Lanes rim = all(pass.paraboloid * batch.radius[j]), slack = slackOf(j);
     const LaneColour colour = colourOf(batch.colour[j]);
-    visitSplat(
-      window, batch, j, splat,
-      [&](std::int32_t offset, const SplatSample& s)
-      {
-        const LaneMask added =
-          s.covered & (s.depth + rim * s.q - slack <= load8(nearest + offset));
-        if (any(added))
-        {
-          addSums8(sums + 4 * std::int64_t(offset), weightsOf(s, added), colour);
-        }
-      },
+    visitSmall(window, batch, j, splat,
       [&](std::int32_t lower, std::int32_t upper, const SplatSample& s)
       {
         const LaneMask added =
@@ -278,6 +310,24 @@ void addShape(const RasterCamera& camera, const RasterWindow& window, const Spla
         {
           addSums4x2(sums + 4 * std::int64_t(lower), sums + 4 * std::int64_t(upper),
             weightsOf(s, added), colour);
+        }
+      });
+  }
+  const int large = listLarge(batch, count);
+  for (int i = 0; i < large; ++i)
+  {
+    const int j = batch.list[i];
+    const SplatAt<Shape, Parallel> splat(camera, pass, batch, j);
+    const Lanes rim = all(pass.paraboloid * batch.radius[j]), slack = slackOf(j);
+    const LaneColour colour = colourOf(batch.colour[j]);
+    visitLarge(window, batch, j, splat,
+      [&](std::int32_t offset, const SplatSample& s)
+      {
+        const LaneMask added =
+          s.covered & (s.depth + rim * s.q - slack <= load8(nearest + offset));
+        if (any(added))
+        {
+          addSums8(sums + 4 * std::int64_t(offset), weightsOf(s, added), colour);
         }
       });
   }

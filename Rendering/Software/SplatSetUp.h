@@ -9,7 +9,8 @@ namespace
 {
 
 // From radius and normal to what the loops over pixels need. X and Y are the centre's direction: its
-// place in camera space divided by its depth (perspective), 0 where rays are parallel.
+// place in camera space divided by its depth (perspective), 0 where rays are parallel. Cameras come by
+// value: what might change with each store to the batch keeps compilers from vectorising.
 
 /// Discs are not drawn more edge on than that cosine: what the affine map makes of them then has
 /// nothing to do with them (EWA-5).
@@ -22,21 +23,23 @@ struct Direction
   float x;
   float y;
 };
+template <bool Parallel>
 inline Direction directionOf(const RasterCamera& camera, const RasterBatch& batch, int j)
 {
-  const float perspective = camera.parallel ? 0.0f : 1.0f;
+  const float perspective = Parallel ? 0.0f : 1.0f;
   return { (batch.screenX[j] - camera.centreX) * (perspective / camera.scaleX),
     (batch.screenY[j] - camera.centreY) * (perspective / camera.scaleY) };
 }
 
 /// A radius in world units becomes what covers at least a pixel.
-inline void widen(const RasterCamera& camera, float leastPixels, int count, RasterBatch& batch)
+template <bool Parallel>
+inline void widen(RasterCamera camera, float leastPixels, int count, RasterBatch& batch)
 {
   const float scale = camera.scaleY;
   const float inverseScale = 1.0f / scale;
   for (int j = 0; j < count; ++j)
   {
-    const float reach = camera.parallel ? 1.0f : batch.depth[j];
+    const float reach = Parallel ? 1.0f : batch.depth[j];
     float pixels = batch.radius[j] * scale / reach;
     pixels = pixels > leastPixels ? pixels : leastPixels;
     pixels = pixels < mostPixels ? pixels : mostPixels;
@@ -58,11 +61,12 @@ inline void setUpDiscs(int count, RasterBatch& batch)
 }
 
 /// A point without a normal faces the eye.
-inline void completeNormals(const RasterCamera& camera, int count, RasterBatch& batch)
+template <bool Parallel>
+inline void completeNormals(RasterCamera camera, int count, RasterBatch& batch)
 {
   for (int j = 0; j < count; ++j)
   {
-    const Direction to = directionOf(camera, batch, j);
+    const Direction to = directionOf<Parallel>(camera, batch, j);
     const float x = batch.normalX[j], y = batch.normalY[j], z = batch.normalZ[j];
     const float square = x * x + y * y + z * z;
     const int known = (square > 1e-12f) & (square < 1e12f);
@@ -76,17 +80,17 @@ inline void completeNormals(const RasterCamera& camera, int count, RasterBatch& 
 
 /// Source  Kovac 2009, 4.1 and 4.2, with the sign of the errata; the affine map's inverse variance
 ///         with a low-pass added, as in splat-study.md.
-inline void setUpEllipses(
-  const RasterCamera& camera, float lowPass, int count, RasterBatch& batch)
+template <bool Parallel>
+inline void setUpEllipses(RasterCamera camera, float lowPass, int count, RasterBatch& batch)
 {
   const float filter = lowPass * lowPass;
   const float widthX = 1.0f / camera.scaleX;
   const float widthY = 1.0f / camera.scaleY;
   for (int j = 0; j < count; ++j)
   {
-    const Direction to = directionOf(camera, batch, j);
+    const Direction to = directionOf<Parallel>(camera, batch, j);
     const float nx = batch.normalX[j], ny = batch.normalY[j], nz = batch.normalZ[j];
-    const float reach = camera.parallel ? 1.0f : batch.depth[j];
+    const float reach = Parallel ? 1.0f : batch.depth[j];
     float facing = nx * to.x + ny * to.y + nz;
     const float side = facing < 0.0f ? -1.0f : 1.0f;
     const float least =
@@ -138,11 +142,12 @@ inline ConicExtent conicExtent(float a00, float a02, float a22, float depth)
 }
 
 /// The dual conic of the disc r (cos t u + sin t v) + c is r^2 (I - n n^T) - c c^T.
-inline void setUpExact(const RasterCamera& camera, float lowPass, int count, RasterBatch& batch)
+template <bool Parallel>
+inline void setUpExact(RasterCamera camera, float lowPass, int count, RasterBatch& batch)
 {
   for (int j = 0; j < count; ++j)
   {
-    const Direction to = directionOf(camera, batch, j);
+    const Direction to = directionOf<Parallel>(camera, batch, j);
     const float nx = batch.normalX[j], ny = batch.normalY[j], nz = batch.normalZ[j];
     const float depth = batch.depth[j];
     const float square = batch.radius[j] * batch.radius[j];
@@ -155,12 +160,12 @@ inline void setUpExact(const RasterCamera& camera, float lowPass, int count, Ras
     const float flatX = 1.0f - nx * nx, flatY = 1.0f - ny * ny;
     const float parallelX = batch.radius[j] * __builtin_sqrtf(flatX > 0.0f ? flatX : 0.0f);
     const float parallelY = batch.radius[j] * __builtin_sqrtf(flatY > 0.0f ? flatY : 0.0f);
-    const float halfX = (camera.parallel ? parallelX : x.half) * camera.scaleX;
-    const float halfY = (camera.parallel ? parallelY : y.half) * camera.scaleY;
+    const float halfX = (Parallel ? parallelX : x.half) * camera.scaleX;
+    const float halfY = (Parallel ? parallelY : y.half) * camera.scaleY;
     const float least = lowPass > 0.5f ? lowPass : 0.5f;
     // The low-pass lies around the centre, which the conic's middle need not be near.
-    const float moveX = camera.parallel ? 0.0f : x.middle * camera.scaleX;
-    const float moveY = camera.parallel ? 0.0f : y.middle * camera.scaleY;
+    const float moveX = Parallel ? 0.0f : x.middle * camera.scaleX;
+    const float moveY = Parallel ? 0.0f : y.middle * camera.scaleY;
     const float sideX = moveX < 0.0f ? -moveX : moveX, sideY = moveY < 0.0f ? -moveY : moveY;
     batch.halfX[j] = halfX > least + sideX ? halfX : least + sideX;
     batch.halfY[j] = halfY > least + sideY ? halfY : least + sideY;
@@ -172,11 +177,12 @@ inline void setUpExact(const RasterCamera& camera, float lowPass, int count, Ras
 
 /// The dual conic of a sphere's outline is r^2 I - c c^T. A sphere around the eye shows nothing: its
 /// near side is behind.
-inline void setUpSpheres(const RasterCamera& camera, int count, RasterBatch& batch)
+template <bool Parallel>
+inline void setUpSpheres(RasterCamera camera, int count, RasterBatch& batch)
 {
   for (int j = 0; j < count; ++j)
   {
-    const Direction to = directionOf(camera, batch, j);
+    const Direction to = directionOf<Parallel>(camera, batch, j);
     const float depth = batch.depth[j];
     const float square = batch.radius[j] * batch.radius[j];
     const float a22 = square - depth * depth;
@@ -185,13 +191,13 @@ inline void setUpSpheres(const RasterCamera& camera, int count, RasterBatch& bat
     const ConicExtent y =
       conicExtent(square * (1.0f + to.y * to.y), -square * to.y, a22, depth);
     const float flat = batch.radius[j];
-    batch.halfX[j] = (camera.parallel ? flat : x.half) * camera.scaleX;
-    batch.halfY[j] = (camera.parallel ? flat : y.half) * camera.scaleY;
-    batch.middleX[j] = batch.screenX[j] + (camera.parallel ? 0.0f : x.middle * camera.scaleX);
-    batch.middleY[j] = batch.screenY[j] + (camera.parallel ? 0.0f : y.middle * camera.scaleY);
+    batch.halfX[j] = (Parallel ? flat : x.half) * camera.scaleX;
+    batch.halfY[j] = (Parallel ? flat : y.half) * camera.scaleY;
+    batch.middleX[j] = batch.screenX[j] + (Parallel ? 0.0f : x.middle * camera.scaleX);
+    batch.middleY[j] = batch.screenY[j] + (Parallel ? 0.0f : y.middle * camera.scaleY);
     batch.inverseRadius2[j] = 1.0f / square;
     const float distance2 = depth * depth * (1.0f + to.x * to.x + to.y * to.y);
-    const int outside = camera.parallel | (distance2 > square);
+    const int outside = Parallel | (distance2 > square);
     batch.depth[j] = outside ? depth : -1.0f;
   }
 }
@@ -226,27 +232,34 @@ inline void sortByExtent(const RasterWindow& window, int count, RasterBatch& bat
   }
 }
 
-inline void setUp(const RasterCamera& camera, const RasterWindow& window, const SplatPass& pass,
-  int count, RasterBatch& batch)
+template <bool Parallel>
+void setUpOf(const RasterCamera& camera, const SplatPass& pass, int count, RasterBatch& batch)
 {
-  widen(camera, pass.leastRadius, count, batch);
+  widen<Parallel>(camera, pass.leastRadius, count, batch);
   switch (pass.shape)
   {
     case SplatShape::Disc:
       setUpDiscs(count, batch);
       break;
     case SplatShape::Ellipse:
-      completeNormals(camera, count, batch);
-      setUpEllipses(camera, pass.lowPass, count, batch);
+      completeNormals<Parallel>(camera, count, batch);
+      setUpEllipses<Parallel>(camera, pass.lowPass, count, batch);
       break;
     case SplatShape::ExactEllipse:
-      completeNormals(camera, count, batch);
-      setUpExact(camera, pass.lowPass, count, batch);
+      completeNormals<Parallel>(camera, count, batch);
+      setUpExact<Parallel>(camera, pass.lowPass, count, batch);
       break;
     case SplatShape::Sphere:
-      setUpSpheres(camera, count, batch);
+      setUpSpheres<Parallel>(camera, count, batch);
       break;
   }
+}
+
+inline void setUp(const RasterCamera& camera, const RasterWindow& window, const SplatPass& pass,
+  int count, RasterBatch& batch)
+{
+  camera.parallel ? setUpOf<true>(camera, pass, count, batch)
+                  : setUpOf<false>(camera, pass, count, batch);
   sortByExtent(window, count, batch);
 }
 

@@ -48,7 +48,7 @@ def main():
     work = pathlib.Path(sys.argv[3] if len(sys.argv) > 3 else tempfile.mkdtemp())
     work.mkdir(parents=True, exist_ok=True)
     source, store, back = work / "terrain.las", work / "terrain.pfront", work / "back.las"
-    run(tool, "generate", "--points", points, "-o", source)
+    run(tool, "generate", "--points", points, "-o", source, "--force")
     exact, key = read_las(source)
     print("| precision | all attributes, bytes a point | positions and intensity "
           "| largest error, mm |")
@@ -59,7 +59,7 @@ def main():
             run(tool, "build", source, "-o", store, "--force", "--attributes", attributes, *option)
             if attributes == "all":
                 described = json.loads(run(tool, "info", store, "--json"))
-                run(tool, "export", store, "-o", back)
+                run(tool, "export", store, "-o", back, "--force")
                 got, got_key = read_las(back)
                 assert (got_key == key).all()
                 error = numpy.abs(got - exact).max()

@@ -46,7 +46,7 @@ def may_know(room, other):
     if room == "vtkmodule/Core":
         return False
     if room == "vtkmodule/Common":
-        return other == "vtkmodule/Core"
+        return other in ("vtkmodule/Core", "IO/StyleJSON")  # plain C++: the text of a style
     if room.split("/")[0] in LAYERS:
         return other.startswith("vtkmodule/") or (
             room == "Rendering/OpenGL2" and other in ("Rendering/Core", "Rendering/Software"))

@@ -1,7 +1,6 @@
 """Names, exit codes and JSON keys that scripts rely on."""
 
 import json
-import os
 import signal
 import subprocess
 import unittest
@@ -10,7 +9,6 @@ from tool import DATA, TOOL, ToolTest, pointfront
 
 SMALL = DATA / "las/version_x_format/las1.2_pf3_10pts.las"
 LARGE = DATA / "large/autzen_10653336_rgb_intensity.laz"
-WITH_VTK = os.environ["POINTFRONT_WITH_VTK"] == "1"
 
 
 class Usage(ToolTest):
@@ -34,10 +32,8 @@ class Usage(ToolTest):
         self.refuse(2, "build", SMALL)
 
     def test_commands_of_the_contract_that_are_not_there_say_so(self):
-        missing = ["view"] + ([] if WITH_VTK else ["render", "bench"])
-        for command in missing:
-            outcome = self.refuse(2, command, "a", "-o", "b", "--points", "3")
-            self.assertIn("not available", outcome.err)
+        outcome = self.refuse(2, "view", "a", "-o", "b", "--points", "3")
+        self.assertIn("not available", outcome.err)
 
     def test_wrong_values_are_wrong_usage(self):
         wrong = [
@@ -54,7 +50,6 @@ class Usage(ToolTest):
             self.refuse(2, "export", "store.pfront", "-o", self.folder / name)
         self.assertEqual(self.entries(), [])
 
-    @unittest.skipUnless(WITH_VTK, "render is not part of this build")
     def test_render_flags(self):
         refused = [
             ("--technique", "splats"), ("--technique", "spheres"), ("--technique", "silhouettes"),
@@ -67,7 +62,8 @@ class Usage(ToolTest):
             ("--size", "big"), ("--view", "below"), ("--error", "0"), ("--point-size", "0"),
             ("--background", "red"), ("--frames", "0"), ("--frames", "3", "--complete"),
             ("--view", "top", "--camera", "c.json"), ("--point-budget", "0"), ("--detail", "both"),
-            ("--classes", "300"), ("--classes", "ground"),
+            ("--classes", "300"), ("--classes", "ground"), ("--backend", "vulkan"),
+            ("--size", "65536x10"),
         ]
         for flag in wrong:
             self.refuse(2, "render", "s.pfront", "-o", self.folder / "x.png", *flag)

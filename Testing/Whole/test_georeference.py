@@ -19,7 +19,7 @@ class Georeference(ToolTest):
     def rows(self, store):
         """The points of a store, as dictionaries of numbers."""
         out = self.folder / "a.xyz"
-        outcome = pointfront("export", store, "-o", out)
+        outcome = pointfront("export", store, "-o", out, "--force")
         self.assertEqual(outcome.status, 0, outcome)
         with open(out, encoding="ascii") as file:
             names = file.readline().lstrip("# ").split()

@@ -58,7 +58,7 @@ class Index(ToolTest):
     def test_an_index_is_replaced_and_nothing_else(self):
         las = self.copy()
         self.succeed("index", las)
-        self.succeed("index", las)
+        self.succeed("index", las, "--force")
         other = self.folder / "notes.txt"
         other.write_text("mine")
         self.refuse(1, "index", las, "-o", other)

@@ -1,155 +1,14 @@
-"""What render draws is what is in the store: compared with VTK's own drawing of all points, with
-clouds whose picture is known, and with itself."""
+"""Both back ends draw what VTK's own mapper draws of all points, and what each needs of a machine."""
 
-import csv
 import json
 import os
-import shutil
 import unittest
 
-import numpy
-
 from pictures import read_png, share_alike
-from tool import DATA, ToolTest, run, write_las
+from scenes import SIZE, TRIM, SceneTest
+from tool import DATA, run
 
 REFERENCE = os.environ["POINTFRONT_REFERENCE_PICTURE"]
-TRIM = DATA / "las/real/autzen_trim.las"
-SIZE = (640, 480)
-RED, GREEN, BLUE, WHITE = (255, 0, 0), (0, 255, 0), (0, 0, 255), (255, 255, 255)
-
-
-def quadrants():
-    """A plane at z = 0, 100 x 100, one point every 0.25: south-west red, south-east green,
-    north-west blue, north-east white."""
-    points = []
-    for j in range(400):
-        for i in range(400):
-            colour = ((RED, GREEN), (BLUE, WHITE))[j // 200][i // 200]
-            points.append((i * 0.25, j * 0.25, 0.0, *(257 * c for c in colour)))
-    return points
-
-
-class SceneTest(ToolTest):
-    def picture(self, *arguments):
-        path = self.folder / "picture.png"
-        self.succeed("render", *arguments, "-o", path, "--size", f"{SIZE[0]}x{SIZE[1]}")
-        return read_png(path)
-
-    def statistics(self, *arguments):
-        path = self.folder / "stats.json"
-        picture = self.picture(*arguments, "--stats", path)
-        return picture, json.loads(path.read_text())
-
-
-class KnownPictures(SceneTest):
-    def setUp(self):
-        super().setUp()
-        self.store = self.build(write_las(self.folder / "plane.las", quadrants()))
-
-    def colour_at(self, picture, x, y):
-        """At a share of width from the left and of height from the top."""
-        return tuple(picture[int(y * SIZE[1]), int(x * SIZE[0])].tolist())
-
-    def test_top_view_has_north_up_and_east_right(self):
-        picture = self.picture(self.store, "--view", "top", "--background", "0,0,0")
-        self.assertEqual(self.colour_at(picture, 0.4, 0.7), RED)
-        self.assertEqual(self.colour_at(picture, 0.6, 0.7), GREEN)
-        self.assertEqual(self.colour_at(picture, 0.4, 0.3), BLUE)
-        self.assertEqual(self.colour_at(picture, 0.6, 0.3), WHITE)
-        self.assertEqual(self.colour_at(picture, 0.01, 0.5), (0, 0, 0))
-
-    def test_no_hole_in_a_plane(self):
-        picture = self.picture(self.store, "--view", "top", "--background", "0,0,0")
-        inside = picture[40:440, 150:490].max(axis=2)
-        self.assertEqual(int((inside == 0).sum()), 0)
-
-    def test_views_from_the_sides_see_an_edge(self):
-        for view in ("front", "back", "left", "right"):
-            picture = self.picture(self.store, "--view", view, "--background", "0,0,0")
-            rows = picture.max(axis=2).max(axis=1).nonzero()[0]
-            self.assertGreater(len(rows), 0, view)
-            self.assertLess(rows.max() - rows.min(), 30, view)
-        front = self.picture(self.store, "--view", "front", "--background", "0,0,0")
-        row = front[:, 200].max(axis=1).argmax()
-        self.assertEqual(tuple(front[row, 200].tolist()), RED) # west is left, south is near
-
-    def test_camera_file_in_world_coordinates(self):
-        camera = {"position": [25, 25, 50], "focal_point": [25, 25, 0], "view_up": [0, 1, 0],
-                  "parallel_scale": 10}
-        path = self.folder / "camera.json"
-        path.write_text(json.dumps(camera))
-        picture = self.picture(self.store, "--camera", path)
-        self.assertEqual(len(set(map(tuple, picture.reshape(-1, 3).tolist()))), 1)
-        self.assertEqual(self.colour_at(picture, 0.5, 0.5), RED)
-
-    def test_background(self):
-        picture = self.picture(self.store, "--view", "top", "--background", "10,200,30")
-        self.assertEqual(self.colour_at(picture, 0.01, 0.01), (10, 200, 30))
-
-    def test_eye_dome_lighting_darkens_and_keeps_colours(self):
-        plain = self.picture(self.store, "--view", "iso", "--background", "0,0,0")
-        shaded = self.picture(self.store, "--view", "iso", "--background", "0,0,0", "--edl")
-        self.assertEqual(plain.shape, shaded.shape)
-        self.assertLess(int(shaded.sum()), int(plain.sum()))
-        self.assertGreater(int(shaded.sum()), int(plain.sum()) // 3)
-        self.assertFalse((shaded == plain).all())
-
-
-class InPlace(SceneTest):
-    def test_an_indexed_file_looks_like_its_store(self):
-        las = self.folder / "points.las"
-        shutil.copyfile(TRIM, las)
-        self.succeed("index", las, "--node-points", "2000")
-        store = self.build(las)
-        for view in ("iso", "top"):
-            common = ("--view", view, "--background", "0,0,0", "--point-size", "2")
-            all_of = (*common, "--error", "0.01")
-            ours, statistics = self.statistics(self.folder / "points.las.pfindex", *all_of)
-            self.assertTrue(statistics["complete"])
-            self.assertEqual(statistics["points_drawn"], 110000)
-            # Equal depths may be drawn in another order; nothing else can differ.
-            self.assertGreater(share_alike(ours, self.picture(store, *all_of)), 0.995, view)
-            coarse, statistics = self.statistics(
-                self.folder / "points.las.pfindex", *common, "--error", "4")
-            self.assertTrue(statistics["complete"])
-            self.assertLess(statistics["points_drawn"], 60000)
-            self.assertGreater(share_alike(coarse, ours), 0.5, view)
-
-
-class ChosenClasses(SceneTest):
-    def setUp(self):
-        super().setUp()
-        self.store = self.folder / "layers.pfront"
-        self.succeed("build", TRIM, "-o", self.store, "--layers", "class")
-
-    def drawn(self, *arguments):
-        picture, statistics = self.statistics(
-            self.store, "--view", "top", "--error", "0.01", "--background", "0,0,0",
-            "--color-by", "classification", *arguments)
-        self.assertTrue(statistics["complete"])
-        return picture, statistics["points_drawn"]
-
-    def test_only_their_points_are_drawn(self):
-        everything, count = self.drawn()
-        self.assertEqual(count, 110000)
-        self.assertEqual(self.drawn("--classes", "1,2")[1], 110000)
-        for classes, points in (("1", 83893), ("2", 26107), ("2,6", 26107)):
-            picture, count = self.drawn("--classes", classes)
-            self.assertEqual(count, points)
-            colours = {tuple(c) for c in picture.reshape(-1, 3).tolist()} - {(0, 0, 0)}
-            self.assertEqual(len(colours), 1, classes)
-            self.assertLess(int((picture.max(axis=2) > 0).sum()),
-                            int((everything.max(axis=2) > 0).sum()))
-
-    def test_what_cannot_be_chosen_is_told(self):
-        picture = self.folder / "x.png"
-        outcome = self.refuse(1, "render", self.store, "-o", picture, "--classes", "9")
-        self.assertIn("no store here has a point of these classes", outcome.err)
-        plain = self.folder / "plain.pfront"
-        self.succeed("build", TRIM, "-o", plain, "--layers", "none")
-        outcome = self.refuse(1, "render", plain, "-o", picture, "--classes", "2")
-        self.assertIn("--layers class", outcome.err)
-        self.assertFalse(picture.exists())
 
 
 class AgainstAllPoints(SceneTest):
@@ -174,14 +33,17 @@ class AgainstAllPoints(SceneTest):
                 reference = self.folder / "reference.png"
                 drawn = run(REFERENCE, cloud, camera, *SIZE, point_size, reference)
                 self.assertEqual(drawn.status, 0, drawn)
-                ours, statistics = self.statistics(
-                    store, "--camera", camera, "--complete", "--error", "0.01", "--color-by",
-                    "rgb", "--point-size", point_size, "--background", "0,0,0")
-                self.assertTrue(statistics["complete"])
                 theirs = read_png(reference)
                 covered = float((theirs.max(axis=2) > 0).mean())
                 self.assertGreater(covered, 0.15, "the view shows too little to compare")
-                self.assertGreaterEqual(share_alike(ours, theirs), 0.995)
+                for backend in ("software", "opengl"):
+                    ours, statistics = self.statistics(
+                        store, "--camera", camera, "--complete", "--error", "0.01", "--color-by",
+                        "rgb", "--point-size", point_size, "--background", "0,0,0", "--backend",
+                        backend)
+                    self.assertTrue(statistics["complete"])
+                    self.assertEqual(statistics["backend"], backend)
+                    self.assertGreaterEqual(share_alike(ours, theirs), 0.995, backend)
 
     def test_eight_bit_colours(self):
         self.compare(TRIM, 2)
@@ -190,181 +52,47 @@ class AgainstAllPoints(SceneTest):
         self.compare(DATA / "classified/lidarhd_rgb_nir_698k.laz", 1)
 
 
-class Refinement(SceneTest):
-    def setUp(self):
-        super().setUp()
-        self.store = self.build(DATA / "classified/lidarhd_rgb_nir_698k.laz")
+class BackEnds(SceneTest):
+    """One picture, whoever draws it."""
 
-    def test_statistics(self):
-        _, statistics = self.statistics(self.store)
-        self.assertEqual(set(statistics), {
-            "complete", "time_to_first_image_ms", "time_to_complete_ms", "points_drawn",
-            "nodes_drawn", "error_px", "peak_rss_bytes", "resident_bytes", "gpu_bytes",
-            "bytes_read", "attributes_read", "limited_by", "failed_nodes"})
-        self.assertIs(statistics["complete"], True)
-        self.assertLessEqual(statistics["error_px"], 1.01)
-        self.assertLessEqual(
-            statistics["time_to_first_image_ms"], statistics["time_to_complete_ms"])
-        self.assertEqual(statistics["attributes_read"], ["rgb"]) # only what the picture needs
-        for key in ("points_drawn", "nodes_drawn", "gpu_bytes", "bytes_read", "resident_bytes"):
-            self.assertGreater(statistics[key], 0, key)
-
-    def test_two_runs_give_the_same_picture(self):
-        one, other = (self.picture(self.store) for _ in range(2))
-        self.assertTrue((one == other).all())
-
-    def test_smaller_error_draws_more(self):
-        points = [self.statistics(self.store, "--error", error)[1]["points_drawn"]
-                  for error in (8, 2, 0.5)]
-        self.assertLess(points[0], points[1])
-        self.assertLess(points[1], points[2])
-
-    def test_frames_refine_towards_the_complete_picture(self):
-        complete, all_statistics = self.statistics(self.store)
-        points, alike = [], []
-        for frames in (1, 4, 16, 64):
-            picture, statistics = self.statistics(self.store, "--frames", frames)
-            points.append(statistics["points_drawn"])
-            alike.append(share_alike(picture, complete))
-        self.assertEqual(points, sorted(points), points)
-        self.assertLess(points[0], points[-1])
-        self.assertLessEqual(points[-1], all_statistics["points_drawn"])
-        self.assertGreater(alike[-1], alike[0])
-
-    def test_colours(self):
-        pictures = [self.picture(self.store, "--color-by", name) for name in
-                    ("rgb", "classification", "intensity", "elevation", "return_number")]
-        for i, one in enumerate(pictures):
-            self.assertGreater(one.std(), 5.0)
-            for other in pictures[:i]:
-                self.assertLess(share_alike(one, other), 0.9)
-        self.refuse(1, "render", self.store, "-o", self.folder / "x.png", "--color-by", "weight")
-
-    def test_colours_of_normals_and_heights(self):
-        outcome = self.refuse(
-            1, "render", self.store, "-o", self.folder / "x.png", "--color-by", "horizontality")
-        self.assertIn("--normals", outcome.err)
+    def test_colours_and_views(self):
         store = self.folder / "shapes.pfront"
         self.succeed("build", TRIM, "-o", store, "--normals", "pca", "--local-height",
                      "--layers", "class")
-        by_name = {name: self.picture(store, "--color-by", name) for name in
-                   ("normal", "horizontality", "global-height", "local-height", "elevation")}
-        pictures = list(by_name.values())
-        for i, one in enumerate(pictures):
-            self.assertGreater(one.std(), 5.0)
-            for other in pictures[:i]:
-                self.assertLess(share_alike(one, other), 0.95)
-        # Airborne ground is flat: its normals point up, which is blue, and it is fully horizontal,
-        # which is the end of the table.
-        drawn = numpy.any(by_name["horizontality"] != by_name["horizontality"][0, 0], axis=2)
-        blue = by_name["normal"][drawn]
-        self.assertGreater(numpy.median(blue[:, 2]), 200)
-        self.assertLess(abs(numpy.median(blue[:, 0]) - 127), 40)
-        yellow = numpy.median(by_name["horizontality"][drawn], axis=0)
-        self.assertGreater(yellow[0], 200)
-        self.assertLess(yellow[2], 80)
-
-    def test_point_budget_is_held_and_told(self):
-        path = self.folder / "x.png"
-        stats = self.folder / "stats.json"
-        outcome = self.succeed("render", self.store, "-o", path, "--point-budget", 50000,
-                               "--stats", stats)
-        statistics = json.loads(stats.read_text())
-        self.assertLessEqual(statistics["points_drawn"], 50000)
-        self.assertIn("--point-budget", outcome.err)
-        self.assertNotIn("--memory", outcome.err)
-        self.assertEqual(statistics["limited_by"], ["points"])
-        self.assertEqual(statistics["failed_nodes"], 0)
-
-    def test_gpu_memory_is_held_and_told(self):
-        path = self.folder / "x.png"
-        stats = self.folder / "stats.json"
-        outcome = self.succeed("render", self.store, "-o", path, "--gpu-memory", "4M",
-                               "--stats", stats)
-        statistics = json.loads(stats.read_text())
-        self.assertLessEqual(statistics["gpu_bytes"], 4 << 20)
-        self.assertGreater(statistics["gpu_bytes"], 2 << 20)
-        self.assertIn("raise --gpu-memory", outcome.err)
-        self.assertEqual(statistics["limited_by"], ["gpu-memory"])
-        self.succeed("bench", self.store, "--path", "zoom", "--frames", 12, "--interactive",
-                     "--gpu-memory", "4M", "--settle", "--stats", stats, "--size", "320x240")
-        result = json.loads(stats.read_text())
-        self.assertLessEqual(result["gpu_bytes_max"], 4 << 20)
-        self.assertEqual(result["gpu_budget_bytes"], 4 << 20)
-        self.assertTrue(result["settle"]["complete"])
-
-    def test_bench(self):
-        stats, table = self.folder / "bench.json", self.folder / "frames.csv"
-        for path in ("orbit", "zoom", "flight"):
-            self.succeed("bench", self.store, "--path", path, "--frames", 6, "--interactive",
-                         "--memory", "64M", "--stats", stats, "--frames-csv", table,
-                         "--size", "320x240")
-            result = json.loads(stats.read_text())
-            self.assertEqual(set(result), {
-                "frames", "frame_ms", "front_update_ms", "points_drawn", "resident_bytes_max",
-                "gpu_bytes_max", "gpu_budget_bytes", "budget_bytes", "bytes_read",
-                "frames_that_read_files", "loading",
-                "empty_scene_rss_bytes", "peak_rss_bytes"})
-            self.assertGreater(result["peak_rss_bytes"], result["empty_scene_rss_bytes"])
-            self.assertEqual(result["frames"], 6)
-            self.assertEqual(result["budget_bytes"], 64 << 20)
-            self.assertLessEqual(result["resident_bytes_max"], result["budget_bytes"])
-            for key in ("frame_ms", "front_update_ms"):
-                values = [result[key][p] for p in ("p50", "p95", "p99", "max")]
-                self.assertEqual(values, sorted(values))
-                self.assertGreater(values[-1], 0.0)
-            rows = list(csv.DictReader(table.read_text().splitlines()))
-            self.assertEqual(list(rows[0]), [
-                "frame", "ms", "points", "front_length", "threshold_px", "moves", "requests",
-                "cancelled", "resident_bytes", "front_ms", "error_px", "gpu_bytes",
-                "thread_read_bytes"])
-            self.assertEqual(len(rows), 6)
-
-    def test_bench_settles(self):
-        stats, table = self.folder / "settle.json", self.folder / "settle.csv"
-        picture = self.folder / "settle.png"
-        self.succeed("bench", self.store, "--path", "orbit", "--frames", 4, "--interactive",
-                     "--frame-ms", 5, "--settle", "--picture", picture, "--stats", stats,
-                     "--frames-csv", table, "--size", "320x240")
-        result = json.loads(stats.read_text())
-        settle = result["settle"]
-        self.assertTrue(settle["complete"])
-        self.assertGreaterEqual(settle["frames"], 1)
-        self.assertGreaterEqual(settle["ms"], settle["drawing_ms"])
-        self.assertGreaterEqual(settle["ms"], settle["loaded_ms"])
-        self.assertLessEqual(settle["error_px"], 1.01)
-        self.assertLessEqual(settle["bytes_decoded"], result["loading"]["bytes_decoded"])
-        rows = list(csv.DictReader(table.read_text().splitlines()))
-        self.assertEqual(len(rows), 4 + settle["frames"])
-        self.assertEqual(int(rows[-1]["points"]), settle["points_drawn"])
-        self.assertTrue(picture.read_bytes().startswith(b"\x89PNG"))
+        camera = self.folder / "camera.json"
+        bounds = self.succeed("info", store, "--json").json["bounds"]
+        middle = [(a + b) / 2 for a, b in zip(bounds[:3], bounds[3:])]
+        camera.write_text(json.dumps({
+            "position": [middle[0] - 300, middle[1] - 200, middle[2] + 400],
+            "focal_point": middle, "view_up": [0, 0, 1], "parallel_scale": 150}))
+        kinds = [("--color-by", name) for name in
+                 ("rgb", "classification", "intensity", "elevation", "normal", "horizontality",
+                  "global-height", "local-height", "return_number")]
+        kinds += [("--view", "left"), ("--camera", camera), ("--classes", "2"), ("--error", "6"),
+                  ("--view", "top", "--point-size", "1"), ("--detail", "view")]
+        for kind in kinds:
+            software, counts = self.statistics(store, *kind, "--backend", "software")
+            opengl, other = self.statistics(store, *kind, "--backend", "opengl")
+            # Equal depths may be drawn in another order.
+            self.assertGreater(share_alike(software, opengl), 0.985, kind)
+            self.assertEqual(counts["points_drawn"], other["points_drawn"], kind)
 
 
-class Trouble(SceneTest):
+class Machine(SceneTest):
     def test_without_an_x_server(self):
         store = self.build(TRIM)
         bare = {k: v for k, v in os.environ.items() if k != "DISPLAY"}
         for environment in (bare, {**bare, "DISPLAY": ":4711"}):
-            outcome = self.refuse(1, "render", store, "-o", self.folder / "x.png",
-                                  environment=environment)
+            outcome = self.refuse(1, "render", store, "-o", self.folder / "x.png", "--backend",
+                                  "opengl", environment=environment)
             self.assertIn("xvfb-run", outcome.err)
         self.assertEqual(self.entries(), ["cloud.pfront"])
 
-    def test_broken_node(self):
-        store = self.build(TRIM)
-        data = bytearray(store.read_bytes())
-        for at in range(len(data) // 4, len(data) // 2, 997):
-            data[at] ^= 0x55
-        store.write_bytes(data)
-        outcome = self.refuse(1, "render", store, "-o", self.folder / "x.png")
-        self.assertIn("node", outcome.err)
+    def test_opengl_has_a_largest_picture(self):
+        outcome = self.refuse(1, "render", self.build(TRIM), "-o", self.folder / "x.png", "--size",
+                              "20000x10", "--backend", "opengl")
+        self.assertIn("--backend software", outcome.err)
         self.assertEqual(self.entries(), ["cloud.pfront"])
-
-    def test_picture_that_cannot_be_written(self):
-        store = self.build(TRIM)
-        self.refuse(1, "render", store, "-o", "/proc/x.png")
-        self.refuse(1, "render", store, "-o", self.folder / "x.png", "--camera", "no/such.json")
-        self.refuse(1, "render", "no/such.pfront", "-o", self.folder / "x.png")
 
 
 if __name__ == "__main__":

@@ -61,7 +61,7 @@ class Exports(ToolTest):
                     "build", DATA / name, "-o", store, "--force", "--json").json["points_stored"]
                 for kind in ("las", "laz"):
                     out = self.folder / f"out.{kind}"
-                    self.succeed("export", store, "-o", out)
+                    self.succeed("export", store, "-o", out, "--force")
                     self.assertEqual(self.compare(DATA / name, out, *attributes), points)
 
     def test_text_has_every_point(self):
@@ -80,7 +80,7 @@ class Exports(ToolTest):
 
         def count(*filters):
             out = self.folder / "out.xyz"
-            self.succeed("export", store, "-o", out, *filters)
+            self.succeed("export", store, "-o", out, "--force", *filters)
             rows = [line.split() for line in out.read_text().splitlines()[1:]]
             return len(rows), rows
 

@@ -45,6 +45,7 @@ bool vtkPointFrontLASIndexer::Index()
     : std::string(this->FileName) + pointfront::lasIndexSuffix;
   pointfront::LASIndexOptions options;
   options.leafPoints = static_cast<std::uint32_t>(this->NodePoints);
+  options.overwrite = this->Overwrite;
   // Observers are called in the caller's thread only: what other threads report is left out.
   const std::thread::id caller = std::this_thread::get_id();
   const auto report = pointfront::indexLASFile(this->FileName, side, options,
@@ -80,6 +81,7 @@ void vtkPointFrontLASIndexer::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << "\n";
   os << indent << "IndexFileName: " << (this->IndexFileName ? this->IndexFileName : "(none)")
      << "\n";
+  os << indent << "Overwrite: " << this->Overwrite << "\n";
   os << indent << "NodePoints: " << this->NodePoints << "\n";
   os << indent << "Abort: " << this->Abort << "\n";
   os << indent << "NumberOfPoints: " << this->NumberOfPoints << "\n";

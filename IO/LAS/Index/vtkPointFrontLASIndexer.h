@@ -32,10 +32,16 @@ public:
   vtkGetFilePathMacro(FileName);
 
   ///@{
-  /// The side file. Not set or empty: FileName with ".pfindex" behind. An index that is there is
-  /// replaced; any other file is refused.
+  /// The side file. Not set or empty: FileName with ".pfindex" behind.
   vtkSetFilePathMacro(IndexFileName);
   vtkGetFilePathMacro(IndexFileName);
+  ///@}
+
+  ///@{
+  /// Whether an index that is there may be replaced; any other file is refused. Default off.
+  vtkSetMacro(Overwrite, bool);
+  vtkGetMacro(Overwrite, bool);
+  vtkBooleanMacro(Overwrite, bool);
   ///@}
 
   ///@{
@@ -70,6 +76,7 @@ private:
 
   char* FileName = nullptr;
   char* IndexFileName = nullptr;
+  bool Overwrite = false;
   int NodePoints = 16384;
   bool Abort = false;
   vtkIdType NumberOfPoints = 0;

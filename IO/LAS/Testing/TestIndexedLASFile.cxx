@@ -36,6 +36,7 @@ LASIndexReport indexOrFail(const std::string& las, const std::string& side)
   LASIndexOptions options;
   options.leafPoints = 1000;
   options.threads = 2;
+  options.overwrite = true;
   Result<LASIndexReport> report = indexLASFile(las, side, options);
   EXPECT_TRUE(report) << report.error().what;
   return report ? *report : LASIndexReport{};

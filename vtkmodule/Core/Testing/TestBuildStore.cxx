@@ -306,11 +306,17 @@ TEST_F(StoreBuild, KeepsAnExistingOutputUnlessAllowed)
   options_.overwrite = false;
   const auto refused = buildStore(one(hills(1000, 1000.0)), options_);
   ASSERT_FALSE(refused);
-  EXPECT_NE(refused.error().what.find("exists already"), std::string::npos);
+  EXPECT_NE(refused.error().what.find("is there already"), std::string::npos);
   EXPECT_EQ(bytes(), "precious");
-  options_.overwrite = true;
-  EXPECT_TRUE(buildStore(one(hills(1000, 1000.0)), options_));
-  EXPECT_TRUE(PointStore::open(options_.outputPath));
+  options_.overwrite = true; // stores only
+  EXPECT_FALSE(buildStore(one(hills(1000, 1000.0)), options_));
+  EXPECT_EQ(bytes(), "precious");
+  std::filesystem::remove(options_.outputPath);
+  for (int i = 0; i < 2; ++i)
+  {
+    EXPECT_TRUE(buildStore(one(hills(1000, 1000.0)), options_));
+    EXPECT_TRUE(PointStore::open(options_.outputPath));
+  }
 }
 
 TEST_F(StoreBuild, SaysThatAFolderCannotBeWritten)

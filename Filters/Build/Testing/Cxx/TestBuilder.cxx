@@ -129,13 +129,33 @@ TEST_F(Builder, NamesWhatIsWrong)
   EXPECT_EQ(builder->GetErrorCode(), static_cast<unsigned long>(vtkErrorCode::NoFileNameError));
   EXPECT_TRUE(errors->GetError());
 
-  std::ofstream(builder->GetOutputFileName()) << "mine";
   builder->AddFileName(stadium.c_str());
+  EXPECT_EQ(builder->Write(), 1);
   errors->Clear();
   EXPECT_EQ(builder->Write(), 0);
   EXPECT_EQ(errors->CheckErrorMessage("exists already"), 0);
   builder->OverwriteOn();
   EXPECT_EQ(builder->Write(), 1);
+}
+
+TEST_F(Builder, ReplacesStoresOnlyAndNeverWhatItReads)
+{
+  vtkNew<vtkTest::ErrorObserver> errors;
+  builder->AddObserver(vtkCommand::ErrorEvent, errors);
+  builder->OverwriteOn();
+  std::ofstream(builder->GetOutputFileName()) << "mine";
+  EXPECT_EQ(builder->Write(), 0);
+  EXPECT_EQ(errors->CheckErrorMessage("text file"), 0);
+  const fs::path copy = folder / "copy.laz";
+  fs::copy_file(stadium, copy);
+  fs::remove(builder->GetOutputFileName());
+  fs::create_hard_link(copy, builder->GetOutputFileName());
+  builder->ClearFileNames();
+  builder->AddFileName(copy.c_str());
+  errors->Clear();
+  EXPECT_EQ(builder->Write(), 0);
+  EXPECT_EQ(errors->CheckErrorMessage("which is read"), 0);
+  EXPECT_EQ(fs::file_size(copy), fs::file_size(stadium));
 }
 
 TEST_F(Builder, GivesTheStoreTheShapeAndTheAttributesThatAreAskedFor)

@@ -1,5 +1,8 @@
 #include "pointfront/Build/BuildRun.h"
 
+#include "pointfront/Export/OutputTarget.h"
+#include "pointfront/Store/PreviewRecord.h"
+
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
@@ -11,6 +14,10 @@ Result<BuildReport> BuildRun::run(
   PointSources& sources, const AttributePasses& passes, const ProgressFunction& progress)
 {
   const auto begin = std::chrono::steady_clock::now();
+  if (Result<void> free = checkOutput(sources, passes); !free)
+  {
+    return free.error();
+  }
   const auto preview = BuildPreview::create(sources, options_, preview_);
   if (!preview)
   {
@@ -35,6 +42,24 @@ Result<BuildReport> BuildRun::run(
     report->seconds = std::chrono::duration<double>(end - begin).count(); // passes and overview too
   }
   return report;
+}
+
+/// Before the preview takes its place, and with what only the passes read.
+Result<void> BuildRun::checkOutput(
+  const PointSources& sources, const AttributePasses& passes) const
+{
+  std::vector<std::string> reads = pathsOf(sources);
+  for (const std::unique_ptr<AttributePass>& pass : passes)
+  {
+    const std::vector<std::string> more = pass->filesRead();
+    reads.insert(reads.end(), more.begin(), more.end());
+  }
+  if (Result<void> apart = checkApart(previewPathOf(options_.outputPath), reads);
+      preview_.wanted && !apart)
+  {
+    return apart;
+  }
+  return checkOutputTarget({options_.outputPath, FileKind::Store, options_.overwrite}, reads);
 }
 
 /// Shows an overview before the first pass that takes long; the build gets the memory that they

@@ -27,11 +27,12 @@ public:
   }
 
   /// `sources` becomes what the passes made of them. The report's seconds are those of all.
-  /// Errors  those of the passes, of PreviewFile::claim() and of buildStore().
+  /// Errors  of checkOutputTarget(), with the files of the passes too; those of the passes, of PreviewFile::claim() and of buildStore().
   Result<BuildReport> run(PointSources& sources, const AttributePasses& passes,
     const ProgressFunction& progress = {});
 
 private:
+  Result<void> checkOutput(const PointSources& sources, const AttributePasses& passes) const;
   Result<PointSources> apply(PointSources sources, const AttributePasses& passes,
     BuildPreview& preview, const ProgressFunction& progress);
   void tellFindings(const AttributePasses& passes);

@@ -1,5 +1,7 @@
 #include "pointfront/Build/CommonSchema.h"
 
+#include "pointfront/Points/SplatRadius.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -252,6 +254,24 @@ Result<CommonSchema> commonSchema(
     common.mappings.push_back(mappingOf(source->description(), common.schema, common.warnings));
   }
   return common;
+}
+
+double commonSplatRadiusBase(const std::vector<std::unique_ptr<PointSource>>& sources)
+{
+  std::optional<double> base;
+  for (const auto& source : sources)
+  {
+    const SourceDescription& description = source->description();
+    const auto column = description.schema.find(splatRadiusAttribute);
+    if (!column)
+    {
+      continue;
+    }
+    const bool codes = description.schema[*column].bytes() == 1;
+    const double own = codes ? description.splatRadiusBase : 0.0;
+    base = !base || *base == own ? own : 0.0;
+  }
+  return base.value_or(0.0);
 }
 
 void convertColumn(const Attribute& from, const std::byte* in, const Attribute& to, std::byte* out,

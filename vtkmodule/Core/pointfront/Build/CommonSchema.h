@@ -37,6 +37,10 @@ struct CommonSchema
 Result<CommonSchema> commonSchema(const std::vector<std::unique_ptr<PointSource>>& sources,
   const std::optional<std::vector<std::string>>& wanted);
 
+/// What the codes in the column `splat_radius` of the sources are multiples of; 0 where there is no
+/// such column, where sources that have it do not say, or say different things.
+double commonSplatRadiusBase(const std::vector<std::unique_ptr<PointSource>>& sources);
+
 /// `count` values of `from` (packed) as `to`; components are equal in number.
 void convertColumn(const Attribute& from, const std::byte* in, const Attribute& to, std::byte* out,
   std::size_t count);

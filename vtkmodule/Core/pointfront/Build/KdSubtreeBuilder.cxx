@@ -139,6 +139,15 @@ double KdSubtreeBuilder::spacing(double drawn) const
          emitter_.space().stepLength();
 }
 
+/// Measured among a node's own points, which are some of those drawn there, evenly spread: discs
+/// shrink as the square root of their number grows.
+float KdSubtreeBuilder::splatRadius(const std::vector<std::uint32_t>& own, double drawn)
+{
+  const CpuStopwatch watch(seconds_.sample);
+  const double share = std::sqrt(static_cast<double>(own.size()) / drawn);
+  return static_cast<float>(splat_.measure(viewOf(positions_), own) * share);
+}
+
 std::unique_ptr<BuiltNode> KdSubtreeBuilder::node(const RecordView& records, Region region)
 {
   auto built = std::make_unique<BuiltNode>();
@@ -148,6 +157,7 @@ std::unique_ptr<BuiltNode> KdSubtreeBuilder::node(const RecordView& records, Reg
   built->row.spacing = static_cast<float>(spacing(drawn));
   const std::vector<std::uint32_t> own = std::move(held_);
   held_ = {};
+  built->row.splatRadius = splatRadius(own, drawn);
   if (region.end > region.begin)
   {
     const double left = static_cast<double>(region.end - region.begin);
@@ -293,6 +303,7 @@ OpenSubtree KdSubtreeBuilder::join(std::vector<OpenSubtree> children, std::uint3
     drawn += static_cast<double>(share.points);
   }
   joined.root->row.spacing = static_cast<float>(spacing(drawn));
+  joined.root->row.splatRadius = splatRadius(points_, drawn);
   emit(*joined.root, records, points_);
   return joined;
 }

@@ -3,6 +3,7 @@
 #include "pointfront/Build/ExactSampler.h"
 #include "pointfront/Build/KdCut.h"
 #include "pointfront/Build/NodeEmitter.h"
+#include "pointfront/Build/NodeSplat.h"
 #include "pointfront/Build/TreeBuilder.h"
 
 #include <cstdint>
@@ -31,7 +32,8 @@ public:
   /// `tree` and `shares`: the upper tree, and what each of its nodes owes (KdCut.h).
   KdSubtreeBuilder(const NodeEmitter& emitter, const KdRule& rule, std::size_t recordBytes,
     const std::vector<PartNode>& tree, const std::vector<std::vector<KdShare>>& shares)
-      : emitter_(emitter), rule_(rule), recordBytes_(recordBytes), tree_(tree), shares_(shares)
+      : emitter_(emitter), rule_(rule), recordBytes_(recordBytes), tree_(tree), shares_(shares),
+        splat_(emitter.space())
   {
   }
 
@@ -61,6 +63,7 @@ private:
   std::size_t divide(const Region& region);
   unsigned longestAxis(const Region& region, std::uint32_t& low, std::uint32_t& high) const;
   double spacing(double drawn) const;
+  float splatRadius(const std::vector<std::uint32_t>& own, double drawn);
   void emit(BuiltNode& node, const RecordView& records, const std::vector<std::uint32_t>& points);
 
   const NodeEmitter& emitter_;
@@ -69,6 +72,7 @@ private:
   const std::vector<PartNode>& tree_;
   const std::vector<std::vector<KdShare>>& shares_;
   ExactSampler sampler_;
+  NodeSplat splat_;
   // Reused from part to part: fresh memory costs more than what is done with it.
   std::vector<std::byte> sorted_;       // records of the part
   std::vector<TreePosition> positions_; // of the sorted records

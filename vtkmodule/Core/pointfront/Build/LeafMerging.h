@@ -9,6 +9,22 @@
 namespace pointfront
 {
 
+/// Weighted by points, in squares, as discs cover; what was not measured does not count.
+template <typename Branch>
+float mergedSplatRadius(const Branch& a, const Branch& b)
+{
+  double sum = 0.0;
+  double points = 0.0;
+  for (const Branch* branch : { &a, &b })
+  {
+    const double radius = branch->node->row.splatRadius;
+    const double count = radius > 0.0 ? double(branch->held.size()) : 0.0;
+    sum += count * radius * radius;
+    points += count;
+  }
+  return points > 0.0 ? static_cast<float>(std::sqrt(sum / points)) : 0.0f;
+}
+
 /// Leaves of one parent grow together as long as one node holds their points: an octree over a
 /// surface has many slivers, and a node of some hundred points costs the front, the disk and the
 /// GPU as much as a full one. A leaf without points of its own goes away.
@@ -38,6 +54,7 @@ void mergeLeaves(std::vector<Branch>& children, std::uint32_t nodePoints)
     const auto area = [](const Branch& b)
     { return double(b.node->row.spacing) * b.node->row.spacing * double(b.held.size()); };
     const double all = area(into) + area(child);
+    into.node->row.splatRadius = mergedSplatRadius(into, child);
     into.held.insert(into.held.end(), child.held.begin(), child.held.end());
     into.node->row.spacing = static_cast<float>(std::sqrt(all / double(into.held.size())));
   }

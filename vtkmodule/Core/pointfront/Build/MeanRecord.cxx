@@ -1,6 +1,7 @@
 #include "pointfront/Build/MeanRecord.h"
 
 #include "pointfront/Build/BuiltTree.h"
+#include "pointfront/Points/SplatRadius.h"
 
 #include <glm/geometric.hpp>
 
@@ -124,6 +125,10 @@ MeanRecord::MeanRecord(const TreeSpace& space, const AttributeSchema& pooled)
   for (std::size_t c = 0; c + 1 < pooled.size(); ++c)
   {
     const Attribute& attribute = pooled[c];
+    if (attribute.name == splatRadiusAttribute && attribute.bytes() == 1)
+    {
+      splatOffset_ = layout.offset(c);
+    }
     for (std::size_t k = 0; hasMean(attribute) && k < attribute.components; ++k)
     {
       Mean mean;
@@ -248,6 +253,10 @@ void MeanRecord::summarise(
   }
   copyRecord(out, kept, recordBytes_);
   setPosition(out, stored);
+  if (splatOffset_ && (end - begin > 1 || !inputs[begin].original))
+  {
+    out[*splatOffset_] = std::byte(unknownSplatRadius);
+  }
   setValue(out + radiusOffset_, roundedUp(radius));
   setValue(out + recordBytes_, weight);
   setValue(out + recordBytes_ + centreOffset, centre);

@@ -8,6 +8,7 @@
 #include <glm/vec3.hpp>
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace pointfront
@@ -31,6 +32,7 @@ struct MeanInput
 /// Position  the mean of all points of the input below, rounded to the grid.
 /// Columns   the mean of the same points where there is one (hasMean(); NaN does not count, normals
 ///           get length 1), else the value of whatever was summarised nearest to the mean.
+/// Splats    a representative of several has no splat radius (SplatRadius.h): 0, unknown.
 /// Radius    of the sphere around the stored position that holds all those points; it also holds
 ///           the spheres of the representatives below. Rounded up.
 /// Threads   one instance a thread.
@@ -70,6 +72,7 @@ private:
   TreePosition gridStep_; ///< tree steps between positions that can be stored
   std::size_t recordBytes_;
   std::size_t radiusOffset_;
+  std::optional<std::size_t> splatOffset_; ///< of the byte, if there is one
   std::size_t meansOffset_; ///< behind weight and mean position
   std::vector<Mean> means_;
 };

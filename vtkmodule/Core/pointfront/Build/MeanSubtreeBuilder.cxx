@@ -80,6 +80,7 @@ MeanSubtreeBuilder::Branch MeanSubtreeBuilder::leaf(
   branch.occupancy = cellOccupancy(records, branch.held);
   const double steps = surfaceSpacing(*branch.occupancy, branch.held.size(), side);
   branch.node->row.spacing = static_cast<float>(steps * emitter_.space().stepLength());
+  branch.node->row.splatRadius = splat_.measure(records, branch.held);
   return branch;
 }
 
@@ -133,6 +134,7 @@ void MeanSubtreeBuilder::represent(
     form_.summarise(inputs_, begin, end, out);
     begin = end;
   }
+  joined.node->row.splatRadius = splat_.measure(joined.view, joined.held);
 }
 
 MeanSubtreeBuilder::Branch MeanSubtreeBuilder::joinBranches(

@@ -2,6 +2,7 @@
 
 #include "pointfront/Build/MeanRecord.h"
 #include "pointfront/Build/NodeEmitter.h"
+#include "pointfront/Build/NodeSplat.h"
 #include "pointfront/Build/Partition.h"
 #include "pointfront/Build/Sampler.h"
 #include "pointfront/Build/TreeBuilder.h"
@@ -29,7 +30,7 @@ public:
   MeanSubtreeBuilder(const NodeEmitter& emitter, const SamplingRule& rule, MeanRecord form,
     std::size_t recordBytes, const Partition& partition)
       : emitter_(emitter), rule_(rule), form_(std::move(form)), recordBytes_(recordBytes),
-        partition_(partition)
+        partition_(partition), splat_(emitter.space())
   {
   }
 
@@ -61,6 +62,7 @@ private:
   MeanRecord form_;
   std::size_t recordBytes_;
   const Partition& partition_;
+  NodeSplat splat_;
   // Reused from part to part: fresh memory costs more than what is done with it.
   std::vector<std::byte> sorted_;         // records of the part
   std::vector<MeanInput> inputs_;         // of the node at hand

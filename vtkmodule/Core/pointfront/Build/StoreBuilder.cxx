@@ -10,16 +10,16 @@
 #include "pointfront/Build/RecordColumns.h"
 #include "pointfront/Build/ReferenceSystem.h"
 #include "pointfront/Build/SampleRecords.h"
-#include "pointfront/Build/SampleRecords.h"
 #include "pointfront/Build/StoredColours.h"
 #include "pointfront/Build/TreeAssembly.h"
 #include "pointfront/Build/TreeConstruction.h"
+#include "pointfront/Export/OutputTarget.h"
 #include "pointfront/Points/EnclosingRadius.h"
 #include "pointfront/Points/ObjectClass.h"
+#include "pointfront/Points/SplatRadius.h"
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <new>
 
 namespace pointfront
@@ -52,13 +52,8 @@ Result<void> checkOptions(const Sources& sources, const BuildOptions& options)
       "a kd-tree holds each point once and has no representatives: use refinement add, or an "
       "octree");
   }
-  std::error_code ignored;
-  if (!options.overwrite && std::filesystem::exists(options.outputPath, ignored))
-  {
-    return makeError(Error::Kind::Unwritable,
-      "'" + options.outputPath + "' exists already; allow overwriting or choose another name");
-  }
-  return {};
+  return checkOutputTarget(
+    {options.outputPath, FileKind::Store, options.overwrite}, pathsOf(sources));
 }
 
 /// One build, from what is common to all sources to the committed store.
@@ -217,7 +212,9 @@ ColumnGuess StoreBuild::columnGuess() const
     const bool mean =
       options_.refinement == Refinement::Replace && hasMean(common_.schema[c]) &&
       (common_.schema[c].type == ScalarType::Float64 || common_.schema[c].components > 1);
-    const bool radius = common_.schema[c].name == enclosingRadiusName;
+    const bool radius = common_.schema[c].name == enclosingRadiusName ||
+      (options_.refinement == Refinement::Replace &&
+        common_.schema[c].name == splatRadiusAttribute); // representatives have none
     guess.mayBeConstant.push_back(c != classColumn_ && c != colour && !mean && !radius);
   }
   return guess;
@@ -449,6 +446,8 @@ StoreDescription StoreBuild::description() const
   description.schema = stored_;
   description.metadata = reference_.metadata;
   description.generator = "pointfront " POINTFRONT_VERSION;
+  description.splatRadiusBase =
+    stored_.find(splatRadiusAttribute) ? commonSplatRadiusBase(sources_) : 0.0;
   for (const std::uint8_t objectClass : layers_.classes())
   {
     const std::string name = layers_.byClass() ? objectClassName(objectClass) : "all";

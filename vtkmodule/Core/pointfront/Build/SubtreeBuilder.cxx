@@ -79,6 +79,7 @@ SubtreeBuilder::Branch SubtreeBuilder::leaf(
   branch.occupancy = cellOccupancy(points.positions, branch.held);
   const double steps = surfaceSpacing(*branch.occupancy, branch.held.size(), side);
   branch.node->row.spacing = static_cast<float>(steps * emitter_.space().stepLength());
+  branch.node->row.splatRadius = splat_.measure(points.positions, branch.held);
   return branch;
 }
 
@@ -120,6 +121,7 @@ SubtreeBuilder::Branch SubtreeBuilder::joinBranches(
       child.held.erase(std::copy(from, child.held.end(), left), child.held.end());
       first = end;
     }
+    joined.node->row.splatRadius = splat_.measure(points.positions, joined.held);
   }
   mergeLeaves(children, rule_.nodePoints);
   for (Branch& child : children)

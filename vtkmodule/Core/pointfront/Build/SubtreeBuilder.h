@@ -1,6 +1,7 @@
 #pragma once
 
 #include "pointfront/Build/NodeEmitter.h"
+#include "pointfront/Build/NodeSplat.h"
 #include "pointfront/Build/Sampler.h"
 #include "pointfront/Build/TreeBuilder.h"
 
@@ -27,13 +28,15 @@ namespace pointfront
 ///           a distance of its own (Sampler.h); what it leaves is theirs. What a node ends up with
 ///           depends on the points inside its parent only: not on where the cloud was cut into
 ///           parts, nor on their order.
+/// Splats    are measured when a node still has all points that are drawn of its cell: before those
+///           above take their share of them.
 /// Order     join() emits the children: siblings are neighbours in the file, below them all
 ///           that they contain. A subtree's root is emitted by its parent or by close().
 class SubtreeBuilder final : public TreeBuilder
 {
 public:
   SubtreeBuilder(const NodeEmitter& emitter, const SamplingRule& rule, std::size_t recordBytes)
-      : emitter_(emitter), rule_(rule), recordBytes_(recordBytes)
+      : emitter_(emitter), rule_(rule), recordBytes_(recordBytes), splat_(emitter.space())
   {
   }
 
@@ -71,6 +74,7 @@ private:
   SamplingRule rule_;
   std::size_t recordBytes_;
   SubsetSampler sampler_;
+  NodeSplat splat_;
   // Reused from part to part: fresh memory costs more than what is done with it.
   std::vector<std::byte> sorted_;       // records
   std::vector<TreePosition> positions_; // of the sorted points

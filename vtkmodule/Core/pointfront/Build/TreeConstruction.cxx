@@ -111,6 +111,7 @@ public:
     constexpr float coarser = 1.5f; // than its child, like any node
     auto above = std::make_unique<BuiltNode>();
     above->row.spacing = coarser * finished.root->row.spacing;
+    above->row.splatRadius = coarser * finished.root->row.splatRadius;
     above->children.push_back(std::move(finished.root));
     return {std::move(above), std::move(finished.records)};
   }

@@ -1,6 +1,7 @@
 #include "pointfront/Export/SourceExport.h"
 
 #include "pointfront/Export/ExportClock.h"
+#include "pointfront/Export/OutputTarget.h"
 
 #include <future>
 #include <utility>
@@ -36,6 +37,10 @@ Result<std::uint64_t> exportSource(
   {
     return makeError(Error::Kind::BadArgument,
       from.path + ": its coordinates are on no grid of integers that a file could keep");
+  }
+  if (Result<void> apart = checkApart(sink.path(), { from.path }); !apart)
+  {
+    return apart.error();
   }
   SinkDescription to;
   to.schema = from.schema;

@@ -1,6 +1,7 @@
 #include "pointfront/Export/StoreExport.h"
 
 #include "pointfront/Export/ExportClock.h"
+#include "pointfront/Export/OutputTarget.h"
 #include "pointfront/Points/EnclosingRadius.h"
 
 #include <algorithm>
@@ -310,6 +311,10 @@ Result<ExportReport> exportPoints(const StoreDescription& store, const Hierarchy
 Result<ExportReport> exportStore(const StoredCloud& store, const ExportSelection& selection,
   PointSink& sink, const ProgressFunction& progress)
 {
+  if (Result<void> apart = checkApart(sink.path(), store.files()); !apart)
+  {
+    return apart.error();
+  }
   return exportPoints(
     store.description(), *store.hierarchy(), store, selection, sink, progress);
 }

@@ -41,7 +41,8 @@ struct ExportReport
 /// Exactness  coordinates come out on the store's grid; attributes as they are stored.
 /// Memory     two nodes: one is decoded while the other is written.
 /// Errors     of the reader and of the sink; BadArgument when classes are asked of a store without
-///            `classification`; Cancelled. The sink then never finishes, and leaves nothing.
+///            `classification`, or when the sink would write over a file that the store reads;
+///            Cancelled. The sink then never finishes, and leaves nothing.
 /// Threads    called from one thread; decodes on one of its own.
 Result<ExportReport> exportPoints(const StoreDescription& store, const Hierarchy& hierarchy,
   const NodeReader& reader, const ExportSelection& selection, PointSink& sink,

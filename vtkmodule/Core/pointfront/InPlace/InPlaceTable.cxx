@@ -1,6 +1,7 @@
 #include "pointfront/InPlace/InPlaceTable.h"
 
 #include "pointfront/Build/BuiltTree.h"
+#include "pointfront/InPlace/LeafSplats.h"
 #include "pointfront/InPlace/RunLedger.h"
 #include "pointfront/Store/Checksum.h"
 #include "pointfront/Store/GridBounds.h"
@@ -251,6 +252,7 @@ Result<InPlaceTable> indexInPlace(const GridRecords& records, const RecordBox& b
     return sound.error();
   }
   InPlaceTable table = tableOf(tree, ledger, grid);
+  LeafSplats splats(tree, records, grid);
   Result<void> written = ledger.write(
     [&](NodeIndex i, const std::vector<std::byte>& list) -> Result<void>
     {
@@ -263,6 +265,7 @@ Result<InPlaceTable> indexInPlace(const GridRecords& records, const RecordBox& b
       {
         return offset.error();
       }
+      splats.look(i, list);
       table.rows[i].offset = *offset;
       table.rows[i].bytes = static_cast<std::uint32_t>(list.size());
       table.rows[i].checksum = checksumOf(list.data(), list.size());
@@ -273,6 +276,7 @@ Result<InPlaceTable> indexInPlace(const GridRecords& records, const RecordBox& b
   {
     return written.error();
   }
+  splats.fill(table.nodes);
   return table;
 }
 

@@ -15,7 +15,7 @@ constexpr std::size_t headerBytes = 64;
 constexpr std::size_t headerChecksumAt = headerBytes - 4;
 constexpr std::size_t rowBytes = 40;
 constexpr unsigned largestLogStep = 40;
-constexpr const char* again = "; index the file again: pointfront index";
+constexpr const char* again = "; index the file again: pointfront index --force";
 
 struct Header
 {

@@ -12,7 +12,8 @@ class AttributedSource final : public PointSource
 {
 public:
   AttributedSource(std::unique_ptr<PointSource> source, std::size_t number,
-    const std::vector<Attribute>& attributes, ValueSource values)
+    const std::vector<Attribute>& attributes, ValueSource values,
+    const std::function<void(SourceDescription&)>& describe)
     : source_(std::move(source))
     , number_(number)
     , values_(std::move(values))
@@ -36,6 +37,10 @@ public:
       valueBytes_ += added.bytes();
     }
     description_.schema = std::move(schema);
+    if (describe)
+    {
+      describe(description_);
+    }
   }
 
   const SourceDescription& description() const override { return description_; }
@@ -130,14 +135,14 @@ Result<void> PointColumn::read(std::uint64_t first, std::uint64_t count, std::by
   return file_->read(first * valueBytes_, values, count * valueBytes_);
 }
 
-PointSources withAttributes(
-  PointSources sources, const std::vector<Attribute>& attributes, const ValueSource& values)
+PointSources withAttributes(PointSources sources, const std::vector<Attribute>& attributes,
+  const ValueSource& values, const std::function<void(SourceDescription&)>& describe)
 {
   PointSources result;
   for (std::size_t s = 0; s < sources.size(); ++s)
   {
     result.push_back(
-      std::make_unique<AttributedSource>(std::move(sources[s]), s, attributes, values));
+      std::make_unique<AttributedSource>(std::move(sources[s]), s, attributes, values, describe));
   }
   return result;
 }

@@ -45,8 +45,9 @@ using ValueSource =
 
 /// Sources that give what the originals give, and the new attributes: behind the others, or in the
 /// place of one with the same name.
-PointSources withAttributes(
-  PointSources sources, const std::vector<Attribute>& attributes, const ValueSource& values);
+/// `describe`: what else changes in their descriptions.
+PointSources withAttributes(PointSources sources, const std::vector<Attribute>& attributes,
+  const ValueSource& values, const std::function<void(SourceDescription&)>& describe = {});
 
 /// A ValueSource that reads a column.
 ValueSource valuesOf(std::shared_ptr<const PointColumn> column, InputOrder order);

@@ -52,6 +52,8 @@ public:
     (void)resources;
     return 0;
   }
+  /// Files that it reads besides the sources: none of them may be written over.
+  virtual std::vector<std::string> filesRead() const { return {}; }
   /// What it met and survived, full sentences that count what was lost. Asked after apply(), and
   /// again after the sources have been read: what was said the first time is told once.
   virtual std::vector<std::string> findings() const { return {}; }

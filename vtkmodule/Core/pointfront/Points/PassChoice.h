@@ -36,6 +36,10 @@ struct PassChoice
   /// Classes that get normals; nothing: all.
   std::optional<std::vector<std::uint8_t>> normalsClasses;
 
+  /// Attribute "splat_radius"; with normals by PCA it comes with them, for the classes that have
+  /// them. Of all points if asked for.
+  bool splatRadius = false;
+
   bool localHeight = false;
   double localHeightRadius = 5.0; ///< 1e-3 to 1e6
   bool heightAboveGround = false;

@@ -44,6 +44,8 @@ class PointSink
 {
 public:
   virtual ~PointSink() = default;
+  /// The file that finish() puts there; empty for a sink that is none.
+  virtual std::string path() const { return {}; }
   virtual Result<void> begin(const SinkDescription& description) = 0;
   virtual Result<void> append(const PointBatch& batch) = 0;
   virtual Result<void> finish() = 0;

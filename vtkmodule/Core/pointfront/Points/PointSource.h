@@ -46,6 +46,8 @@ struct SourceDescription
   /// Where the scanner stood, if the source says so (PCD VIEWPOINT, the scans of a PTX); by chunk.
   std::vector<ScannerPlace> scanners;
   std::vector<MetadataRecord> metadata; ///< CRS records kept as they are (LASF_Projection ...)
+  /// Of the codes in the attribute `splat_radius` (SplatRadius.h); 0: not known, or there is none.
+  double splatRadiusBase = 0.0;
   /// What was wrong and survived: each a full sentence that counts what was lost.
   std::vector<std::string> warnings;
 
@@ -83,6 +85,17 @@ public:
     return read(chunk, batch);
   }
 };
+
+/// The files that some sources read.
+inline std::vector<std::string> pathsOf(const std::vector<std::unique_ptr<PointSource>>& sources)
+{
+  std::vector<std::string> paths;
+  for (const auto& source : sources)
+  {
+    paths.push_back(source->description().path);
+  }
+  return paths;
+}
 
 /// Opens files of one family. Registered by the program at the top (IO modules do not know each
 /// other), asked in turn.

@@ -73,6 +73,8 @@ class StoredCloud : public NodeReader
 public:
   virtual const StoreDescription& description() const = 0;
   virtual const std::shared_ptr<const Hierarchy>& hierarchy() const = 0;
+  /// Paths of the files whose bytes it is: itself, and what it refers to.
+  virtual std::vector<std::string> files() const { return { description().path }; }
 
   /// Every checksum, count and invariant (tree shape, boxes enclose their points and children,
   /// sums of counts). Stops at the first broken one. Cancelled is the only Error.

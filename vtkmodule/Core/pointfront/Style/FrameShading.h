@@ -32,8 +32,8 @@ struct FrameShading
   /// of two neighbours on opposite sides, over four such pairs: 0 on planes.
   float eyeDomeStrength = 0.0f;
   float eyeDomeRadiusPx = 1.0f;
-  /// Pull-push over depth and colour: pixels that no point covers, and those through which a farther
-  /// surface shows, take their neighbours' colour where these agree in depth.
+  /// Pull-push over depth and colour: pixels that no point covers, and those through which a
+  /// farther surface shows, take their neighbours' colour where these agree in depth.
   bool fillHoles = false;
 
   friend bool operator==(const FrameShading& a, const FrameShading& b)

@@ -11,25 +11,33 @@
 namespace pointfront
 {
 
-/// One condition on one attribute of a store: within a range, or one of some values.
+/// One condition on one attribute of a store, or on a coordinate: within a range, or one of some
+/// values.
 /// Units  world values: stored * scale + offset.
 struct AttributeCondition
 {
   std::uint32_t column = 0;
   int component = 0;
+  int axis = -1;           ///< 0 x, 1 y, 2 z: of the position, which needs no column
+  double axisScale = 1.0;  ///< of the store's grid, along `axis`
+  double axisOffset = 0.0;
   std::array<double, 2> range{ -std::numeric_limits<double>::infinity(),
     std::numeric_limits<double>::infinity() };
   bool lowOpen = false;  ///< range[0] itself does not pass
   bool highOpen = false; ///< range[1] itself does not pass
   std::vector<double> values; ///< ascending; not empty: one of these, whatever the range
-  bool inverted = false;      ///< what would pass does not, and the other way round; NaN never passes
+  bool inverted = false;      ///< what would pass does not, and the other way round; NaN never does
 
   bool passes(double value) const;
   /// False when no value of [low, high] passes: a node of that range need not be read.
   bool mayPass(double low, double high) const;
+  bool usesColumn() const { return axis < 0; }
+  /// The range with both ends closed: the same doubles pass.
+  std::array<double, 2> closedRange() const;
   friend bool operator==(const AttributeCondition& a, const AttributeCondition& b)
   {
-    return a.column == b.column && a.component == b.component && a.range == b.range &&
+    return a.column == b.column && a.component == b.component && a.axis == b.axis &&
+      a.axisScale == b.axisScale && a.axisOffset == b.axisOffset && a.range == b.range &&
       a.lowOpen == b.lowOpen && a.highOpen == b.highOpen && a.values == b.values &&
       a.inverted == b.inverted;
   }
@@ -45,7 +53,8 @@ struct PointFilter
   /// What has to be read for it, ascending.
   ColumnSelection columns() const;
   /// keep[i] = 1 for points of [first, first + count) of the node that pass, else 0. The node has
-  /// the columns.
+  /// the columns. Exactly AttributeCondition::passes() of each point's world values.
+  /// Cost  0.1 to 2 ns a point and condition; sets of more than one double take a few more.
   void evaluate(const NodeColumns& node, const AttributeSchema& schema, std::uint32_t first,
     std::uint32_t count, std::uint8_t* keep) const;
 

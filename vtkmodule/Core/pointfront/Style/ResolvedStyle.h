@@ -1,6 +1,7 @@
 #pragma once
 
 #include "pointfront/Store/NodeReader.h"
+#include "pointfront/Style/ColourCombination.h"
 #include "pointfront/Style/ColourMap.h"
 #include "pointfront/Style/PointColouring.h"
 #include "pointfront/Style/PointFilter.h"
@@ -61,6 +62,18 @@ enum class SplatOrientation : std::uint8_t
   Fixed   ///< one vector for all
 };
 
+/// The second colour of a point, and what is done with both.
+struct SecondColour
+{
+  ColourCombination combination = ColourCombination::None; ///< None: the rest means nothing
+  std::uint32_t share256 = 128;         ///< Mix
+  PointColouring colouring;
+  std::shared_ptr<const ColourMap> map; ///< where the colouring uses a table; else null
+  Rgba8 flat{ 255, 255, 255, 255 };     ///< where it is Flat
+};
+
+bool operator==(const SecondColour& a, const SecondColour& b);
+
 /// A layer's style with a store's columns looked up: all that a back end needs to know to draw a
 /// batch. Made by StyleSheet; compared to know whether anything has to be drawn anew.
 struct ResolvedStyle
@@ -77,7 +90,9 @@ struct ResolvedStyle
   PointColouring colouring;
   std::shared_ptr<const ColourMap> map; ///< where the colouring uses a table; else null
   Rgba8 flat{ 255, 255, 255, 255 };     ///< where it is Flat
+  SecondColour second;
   Rgba8 rim{ 0, 0, 0, 255 };            ///< Silhouettes; Solid: the wall's lower end
+  Rgba8 wallTop{ 0, 0, 0, 255 };        ///< Solid: the wall's upper end
   double opacity = 1.0;                 ///< 0 to 1
   PointFilter filter;                   ///< points that do not pass are not drawn
 

@@ -17,6 +17,7 @@ namespace pointfront
 class RecordWriter : public PointSink
 {
 public:
+  std::string path() const final { return path_; }
   Result<void> begin(const SinkDescription& description) final;
   Result<void> append(const PointBatch& batch) final;
   Result<void> finish() final;

@@ -64,6 +64,21 @@ TEST_F(LASIndexer, WhatItWritesIsReadAsAStore)
   }
 }
 
+TEST_F(LASIndexer, ReplacesAnIndexOnlyWhenItMay)
+{
+  ASSERT_TRUE(indexer_->Index());
+  vtkNew<vtkCallbackCommand> silent; // or errors go to the window
+  silent->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
+  indexer_->AddObserver(vtkCommand::ErrorEvent, silent);
+  EXPECT_FALSE(indexer_->Index());
+  indexer_->OverwriteOn();
+  EXPECT_TRUE(indexer_->Index());
+  indexer_->SetIndexFileName(las_.c_str());
+  const auto bytes = fs::file_size(las_);
+  EXPECT_FALSE(indexer_->Index());
+  EXPECT_EQ(fs::file_size(las_), bytes);
+}
+
 TEST_F(LASIndexer, WritesWhereItIsTold)
 {
   const std::string side = folder_ + "/other.pfindex";

@@ -1,0 +1,119 @@
+#include "StyleOptions.h"
+
+#include "DrawingOptions.h"
+#include "Unavailable.h"
+
+#include "StyleJSON.h"
+
+#include "pointfront/Style/TechniqueNames.h"
+
+#include <fstream>
+#include <memory>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace pointfront
+{
+
+namespace
+{
+CLI::ParseError wrong(const std::string& option, const std::string& why)
+{
+  return CLI::ParseError(option + ": " + why, 2);
+}
+
+struct StyleArguments
+{
+  std::string file;
+  std::string technique;
+  std::string where;
+};
+
+StyleSheet readStyle(const std::string& path)
+{
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  if (!file || !(text << file.rdbuf()))
+  {
+    throw wrong("--style", path + ": cannot read the file");
+  }
+  Result<StyleSheet> sheet = parseStyleSheet(text.str());
+  if (!sheet)
+  {
+    throw wrong("--style", path + ": " + sheet.error().what);
+  }
+  return std::move(*sheet);
+}
+
+/// Both conditions hold.
+FilterExpression joined(const FilterExpression& file, const FilterExpression& option)
+{
+  if (file.empty() || option.empty())
+  {
+    return file.empty() ? option : file;
+  }
+  return FilterExpression::parse(file.text + " and " + option.text).value();
+}
+
+StyleSheet makeStyle(const CLI::App& app, const StyleArguments& arguments,
+  const DrawingOptions& options)
+{
+  StyleSheet sheet = arguments.file.empty() ? StyleSheet() : readStyle(arguments.file);
+  if (!arguments.technique.empty())
+  {
+    sheet.standard.technique = techniqueOf(arguments.technique);
+  }
+  if (!options.colourBy.empty())
+  {
+    sheet.standard.colour = ColourSource::ofAttribute(options.colourBy);
+  }
+  if (app.count("--point-size") > 0)
+  {
+    sheet.standard.size = options.pointSizePx > 0.0
+      ? StyleSize{ SplatSize::Mode::Pixels, options.pointSizePx, "" }
+      : StyleSize();
+  }
+  if (!options.classes.empty())
+  {
+    sheet.shownClasses = options.classes;
+  }
+  if (options.eyeDomeLighting && !(sheet.shading.eyeDomeStrength > 0.0f))
+  {
+    sheet.shading.eyeDomeStrength = usualEyeDomeStrength;
+  }
+  const Result<FilterExpression> where = FilterExpression::parse(arguments.where);
+  if (!where)
+  {
+    throw wrong("--where", where.error().what);
+  }
+  sheet.where = joined(sheet.where, *where);
+  return sheet;
+}
+} // namespace
+
+void declareStyle(CLI::App& app, DrawingOptions& options)
+{
+  const auto arguments = std::make_shared<StyleArguments>();
+  std::vector<std::string> available;
+  std::vector<std::string> planned;
+  for (const TechniqueTraits& traits : techniqueTraits)
+  {
+    (techniqueIsAvailable(traits.technique) ? available : planned).emplace_back(traits.name);
+  }
+  app.add_option("--style", arguments->file,
+       "How each class is drawn, as JSON (docs/user/styles.md); the options below change its default")
+    ->type_name("FILE.json")
+    ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+  app.add_option("--technique", arguments->technique, "How points become pixels (points)")
+    ->check(availableValues(available, planned))
+    ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+  app.add_option("--where", arguments->where,
+       "Only points that meet it: 'ATTRIBUTE in [a, b]', 'in {1, 2}', ==, !=, <, <=, >, >=, and")
+    ->type_name("CONDITION")
+    ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+  app.parse_complete_callback([&app, &options, arguments]()
+    { options.style = makeStyle(app, *arguments, options); });
+}
+
+} // namespace pointfront

@@ -1,0 +1,92 @@
+#include "PictureMemory.h"
+
+#include <gtest/gtest.h>
+
+namespace pointfront
+{
+
+namespace
+{
+constexpr std::uint64_t MiB = std::uint64_t(1) << 20;
+
+PictureCost plainCost(std::uint64_t pixelBytes)
+{
+  PictureCost cost;
+  cost.pixelBytes = pixelBytes;
+  return cost;
+}
+} // namespace
+
+TEST(PictureMemory, APictureOfHalfTheMemoryIsWhole)
+{
+  const auto memory = PictureMemory::share({ 1024, 1024 }, 64 * MiB, plainCost(32));
+  ASSERT_TRUE(memory);
+  EXPECT_FALSE(memory->needsBands());
+  EXPECT_EQ(memory->frameBytes(), 32 * MiB);
+  EXPECT_EQ(memory->pointBytesOfFrames(), 32 * MiB);
+  EXPECT_EQ(memory->budgetBytes(), 64 * MiB);
+}
+
+TEST(PictureMemory, ALargerOneIsDrawnInBandsOfHalf)
+{
+  PictureCost cost = plainCost(32);
+  cost.overlapRows = 2;
+  const auto memory = PictureMemory::share({ 1024, 4096 }, 64 * MiB, cost);
+  ASSERT_TRUE(memory);
+  EXPECT_TRUE(memory->needsBands());
+  EXPECT_EQ(memory->bandRows(), 1024 - 4); // with two rows of each neighbour
+  EXPECT_EQ(memory->bandBytes(), 32 * MiB);
+  EXPECT_EQ(memory->pointBytesOfBands(), 32 * MiB);
+  EXPECT_EQ(memory->pointBytesOfFrames(), 32 * MiB); // frames are whole whatever they take
+}
+
+TEST(PictureMemory, ThreadsHaveBuffersWithMargins)
+{
+  PictureCost cost = plainCost(8);
+  cost.threadPixelBytes = 8;
+  cost.marginPixels = 64;
+  cost.threads = 4;
+  const auto memory = PictureMemory::share({ 1000, 500 }, 1024 * MiB, cost);
+  ASSERT_TRUE(memory);
+  EXPECT_EQ(memory->frameBytes(), 8u * 1000 * 500 + 4u * 8 * 1128 * 628);
+}
+
+TEST(PictureMemory, FewerThreadsRatherThanFewRows)
+{
+  PictureCost cost = plainCost(8);
+  cost.threadPixelBytes = 8;
+  cost.marginPixels = 64;
+  cost.threads = 16;
+  for (const std::uint64_t budget : { 24 * MiB, 64 * MiB, 256 * MiB, 1024 * MiB })
+  {
+    const auto memory = PictureMemory::share({ 6000, 20000 }, budget, cost);
+    ASSERT_TRUE(memory);
+    EXPECT_TRUE(memory->needsBands());
+    EXPECT_TRUE(memory->bandRows() >= 128 || memory->bandThreads() == 1);
+    EXPECT_LE(memory->bandBytes(), budget / 2);
+    EXPECT_GE(memory->bandThreads(), 1u);
+  }
+  EXPECT_EQ(PictureMemory::share({ 6000, 20000 }, 24 * MiB, cost)->bandThreads(), 1u);
+  EXPECT_EQ(PictureMemory::share({ 6000, 20000 }, 1024 * MiB, cost)->bandThreads(), 16u);
+}
+
+TEST(PictureMemory, NothingOverflows)
+{
+  const auto memory = PictureMemory::share({ 65535, 65535 }, 1024 * MiB, plainCost(64));
+  ASSERT_TRUE(memory);
+  EXPECT_EQ(memory->frameBytes(), std::uint64_t(64) * 65535 * 65535);
+  EXPECT_EQ(memory->bandRows(), 128);
+}
+
+TEST(PictureMemory, ABandHasARowAtLeast)
+{
+  const auto memory = PictureMemory::share({ 1000, 100 }, 1000 * 32 * 2, plainCost(32));
+  ASSERT_TRUE(memory);
+  EXPECT_EQ(memory->bandRows(), 1);
+  const auto none = PictureMemory::share({ 1000, 100 }, 1000 * 32, plainCost(32));
+  ASSERT_FALSE(none);
+  EXPECT_EQ(none.error().kind, Error::Kind::NoMemory);
+  EXPECT_NE(none.error().what.find("--memory 64000 at least"), std::string::npos);
+}
+
+} // namespace pointfront

@@ -1,0 +1,95 @@
+#include "DrawingOptions.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+namespace pointfront
+{
+
+namespace
+{
+/// As one command among others parses them.
+DrawingOptions parsed(std::vector<std::string> words)
+{
+  CLI::App program;
+  CLI::App* const command = program.add_subcommand("render");
+  DrawingOptions options;
+  options.declare(*command);
+  words.insert(words.begin(), { "render", "a.pfront" });
+  std::reverse(words.begin(), words.end());
+  program.parse(words);
+  return options;
+}
+
+std::string refusal(const std::vector<std::string>& words)
+{
+  try
+  {
+    parsed(words);
+  }
+  catch (const CLI::ParseError& wrong)
+  {
+    return wrong.what();
+  }
+  return "";
+}
+
+std::string styleFile(const std::string& name, const std::string& text)
+{
+  const std::string path = testing::TempDir() + "/pointfront-style-" + name + ".json";
+  std::ofstream(path) << text;
+  return path;
+}
+} // namespace
+
+TEST(StyleOptions, NothingSaidIsAnEmptySheet)
+{
+  EXPECT_EQ(parsed({}).style, StyleSheet());
+}
+
+TEST(StyleOptions, OptionsBecomeTheDefault)
+{
+  const StyleSheet sheet = parsed({ "--technique", "ewa", "--color-by", "intensity",
+    "--point-size", "3", "--where", "return_number == 1", "--classes", "6,2", "--edl" }).style;
+  EXPECT_EQ(sheet.standard.technique, Technique::Ewa);
+  EXPECT_EQ(sheet.standard.colour, ColourSource::ofAttribute("intensity"));
+  EXPECT_EQ(sheet.standard.size, (StyleSize{ SplatSize::Mode::Pixels, 3.0, "" }));
+  EXPECT_EQ(sheet.where.text, "return_number == 1");
+  EXPECT_EQ(*sheet.shownClasses, (std::vector<std::uint8_t>{ 2, 6 }));
+  EXPECT_EQ(sheet.shading.eyeDomeStrength, usualEyeDomeStrength);
+  EXPECT_EQ(parsed({ "--point-size", "auto" }).style.standard.size, StyleSize());
+}
+
+TEST(StyleOptions, OptionsChangeTheDefaultOfTheFile)
+{
+  const std::string path = styleFile("over", R"({"default": {"technique": "spheres",
+    "color": "rgb"}, "classes": {"6": {"technique": "splats"}}, "where": "intensity > 2",
+    "shading": {"mode": "edl", "strength": 0.8}})");
+  const StyleSheet file = parsed({ "--style", path }).style;
+  EXPECT_EQ(file.standard.technique, Technique::Spheres);
+  const StyleSheet sheet =
+    parsed({ "--where", "z < 9", "--edl", "--technique", "points", "--style", path }).style;
+  EXPECT_EQ(sheet.standard.technique, Technique::Points);
+  EXPECT_EQ(sheet.standard.colour, ColourSource::ofAttribute("rgb"));
+  EXPECT_EQ(sheet.classes.at(6).technique, Technique::Splats);
+  EXPECT_EQ(sheet.where.text, "intensity > 2 and z < 9");
+  EXPECT_EQ(sheet.where.terms.size(), 2u);
+  EXPECT_EQ(sheet.shading.eyeDomeStrength, 0.8f);
+}
+
+TEST(StyleOptions, WhatIsWrongIsNamed)
+{
+  EXPECT_EQ(refusal({ "--where", "z = 3" }),
+    "--where: 'z = 3', character 3: expected 'in', ==, !=, <, <=, > or >=, not '= 3'");
+  EXPECT_NE(refusal({ "--technique", "solid" }).find("not available in this version"),
+    std::string::npos);
+  EXPECT_NE(refusal({ "--technique", "dots" }).find("'dots' is unknown"), std::string::npos);
+  const std::string path = styleFile("wrong", R"({"classes": {"6": {"size": {"mode": "big"}}}})");
+  EXPECT_EQ(refusal({ "--style", path }), "--style: " + path +
+      ": classes.6.size.mode: 'big' is unknown: use fixed, spacing, attribute");
+  EXPECT_EQ(refusal({ "--style", "/nowhere.json" }),
+    "--style: /nowhere.json: cannot read the file");
+}
+
+} // namespace pointfront

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "pointfront/Base/Result.h"
+#include "pointfront/Style/StyleSheet.h"
+
+#include <string>
+#include <string_view>
+
+namespace pointfront
+{
+
+/// A style sheet from the text of docs/user/styles.md.
+/// Strict   a key that does not exist or stands there twice, a class that is none, a value of the
+///          wrong type or outside its range is an Error of kind BadArgument that begins with its
+///          place: "classes.6.size.mode: ...". Nothing is ignored.
+/// Later    lenses, highlights and techniques that no back end draws are recognised and refused as
+///          not available.
+Result<StyleSheet> parseStyleSheet(std::string_view json);
+
+/// The text that parseStyleSheet() reads back as an equal sheet; lights are not part of it.
+std::string writeStyleSheet(const StyleSheet& sheet);
+
+} // namespace pointfront

@@ -1,0 +1,159 @@
+#include "StyleJSON.h"
+
+#include <gtest/gtest.h>
+
+using namespace pointfront;
+
+namespace
+{
+
+StyleSheet parsed(const std::string& text)
+{
+  const auto sheet = parseStyleSheet(text);
+  EXPECT_TRUE(sheet) << text << ": " << (sheet ? "" : sheet.error().what);
+  return sheet ? *sheet : StyleSheet();
+}
+
+std::string refusal(const std::string& text)
+{
+  const auto sheet = parseStyleSheet(text);
+  EXPECT_FALSE(sheet) << text;
+  return sheet ? "" : sheet.error().what;
+}
+
+} // namespace
+
+TEST(StyleJSON, EveryKeyIsUnderstood)
+{
+  const StyleSheet sheet = parsed(R"({
+    "default": { "technique": "splats", "color": "rgb", "size": {"mode": "spacing", "factor": 1.5},
+                 "orientation": "view", "opacity": 0.5, "visible": true, "error_factor": 2,
+                 "blended": true, "accuracy": "exact", "where": "intensity > 3" },
+    "classes": { "5": { "technique": "spheres",
+                        "color": {"attribute": "local-height", "map": "viridis", "range": [0, 20]},
+                        "size": {"mode": "fixed", "metres": 0.25}, "orientation": [0, 0, 2] },
+                 "9": { "visible": false, "rim_color": "#ff0000", "wall_color": ["#808080", "#404040"],
+                        "size": {"mode": "attribute"} } },
+    "show_classes": [9, 2, 5], "where": "gps_time in [1, 2]",
+    "shading": { "mode": ["lit", "edl"], "strength": 0.7, "radius_px": 2, "ambient": 0.1,
+                 "diffuse": 0.9, "fill_holes": true } })");
+  EXPECT_EQ(sheet.standard.technique, Technique::Splats);
+  EXPECT_EQ(sheet.standard.colour, ColourSource::ofAttribute("rgb"));
+  EXPECT_EQ(sheet.standard.size, (StyleSize{ SplatSize::Mode::Spacing, 1.5, "" }));
+  EXPECT_EQ(sheet.standard.orientation->mode, SplatOrientation::View);
+  EXPECT_EQ(sheet.standard.opacity, 0.5);
+  EXPECT_EQ(sheet.standard.visible, true);
+  EXPECT_EQ(sheet.standard.errorFactor, 2.0);
+  EXPECT_EQ(sheet.standard.blended, true);
+  EXPECT_EQ(sheet.standard.accuracy, SplatAccuracy::Exact);
+  EXPECT_EQ(sheet.standard.where->text, "intensity > 3");
+  ASSERT_EQ(sheet.classes.size(), 2u);
+  const LayerStyle& five = sheet.classes.at(5);
+  EXPECT_EQ(five.colour->map.kind, ColourMapChoice::Kind::Viridis);
+  EXPECT_EQ(*five.colour->map.range, (std::array<double, 2>{ 0.0, 20.0 }));
+  EXPECT_EQ(five.size, (StyleSize{ SplatSize::Mode::World, 0.25, "" }));
+  EXPECT_EQ(five.orientation->direction, glm::dvec3(0, 0, 2));
+  EXPECT_FALSE(five.opacity);
+  const LayerStyle& nine = sheet.classes.at(9);
+  EXPECT_EQ(nine.visible, false);
+  EXPECT_EQ(nine.rim, (Rgba8{ 255, 0, 0, 255 }));
+  EXPECT_EQ((*nine.wall)[1], (Rgba8{ 64, 64, 64, 255 }));
+  EXPECT_EQ(nine.size, (StyleSize{ SplatSize::Mode::Attribute, 1.0, "" }));
+  EXPECT_EQ(*sheet.shownClasses, (std::vector<std::uint8_t>{ 2, 5, 9 }));
+  EXPECT_EQ(sheet.where.text, "gps_time in [1, 2]");
+  EXPECT_TRUE(sheet.shading.lit);
+  EXPECT_EQ(sheet.shading.eyeDomeStrength, 0.7f);
+  EXPECT_EQ(sheet.shading.eyeDomeRadiusPx, 2.0f);
+  EXPECT_EQ(sheet.shading.ambient, 0.1f);
+  EXPECT_TRUE(sheet.shading.fillHoles);
+  EXPECT_TRUE(parseStyleSheet(writeStyleSheet(sheet)));
+  EXPECT_EQ(parsed(writeStyleSheet(sheet)), sheet) << writeStyleSheet(sheet);
+}
+
+TEST(StyleJSON, ColoursAreNamesConstantsMapsOrTwo)
+{
+  const auto colour = [](const std::string& text)
+  {
+    const StyleSheet sheet = parsed(R"({"default": {"color": )" + text + "}}");
+    EXPECT_EQ(parsed(writeStyleSheet(sheet)), sheet) << writeStyleSheet(sheet);
+    return *sheet.standard.colour;
+  };
+  EXPECT_EQ(colour(R"("auto")"), ColourSource());
+  EXPECT_EQ(colour(R"("#102030")"), ColourSource::ofConstant({ 16, 32, 48, 255 }));
+  EXPECT_EQ(colour(R"({"attribute": "auto"})"), ColourSource::ofAttribute("auto"));
+  const ColourSource list = colour(
+    R"({"attribute": "rgb[1]", "map": ["#000000", "#ff0000"], "range": [1, 2], "logarithmic": true})");
+  EXPECT_EQ(list.map.colours.size(), 2u);
+  EXPECT_TRUE(list.map.logarithmic);
+  EXPECT_FALSE(colour(R"({"attribute": "intensity", "map": "grey", "range": "auto"})").map.range);
+  const ColourSource mixed = colour(R"({"mix": ["rgb", "#ffffff"], "share": 0.25})");
+  EXPECT_EQ(mixed.combination, ColourCombination::Mix);
+  EXPECT_EQ(mixed.share, 0.25);
+  EXPECT_EQ(colour(R"({"multiply": ["rgb", "intensity"]})").parts.size(), 2u);
+  EXPECT_EQ(colour(R"({"hue": "classification", "value": "intensity"})").combination,
+    ColourCombination::HueValue);
+}
+
+TEST(StyleJSON, NothingSaidIsAnEmptySheet)
+{
+  EXPECT_EQ(parsed("{}"), StyleSheet());
+  EXPECT_EQ(writeStyleSheet({}), "{}");
+  EXPECT_EQ(parsed(R"({"default": {}, "shading": {"mode": "none"}})"), StyleSheet());
+}
+
+TEST(StyleJSON, RefusalsBeginWithTheirPlace)
+{
+  const auto expect = [](const char* text, const char* what)
+  { EXPECT_EQ(refusal(text), what) << text; };
+  expect(R"({"classes": {"6": {"size": {"mode": "big"}}}})",
+    "classes.6.size.mode: 'big' is unknown: use fixed, spacing, attribute");
+  expect(R"({"classes": {"6": {"colour": "rgb"}}})",
+    "classes.6.colour: there is no such key; use technique, color, size, orientation, opacity, "
+    "visible, error_factor, blended, accuracy, rim_color, wall_color, where");
+  expect(R"({"classes": {"256": {}}})", "classes.256: a class is a code from 0 to 255");
+  expect(R"({"classes": {"06": {}}})", "classes.06: a class is a code from 0 to 255");
+  expect(R"({"classes": {"ground": {}}})", "classes.ground: a class is a code from 0 to 255");
+  expect(R"({"default": {"opacity": 2}})",
+    "default.opacity: expected a number from 0.0 to 1.0, not 2");
+  expect(R"({"default": {"visible": 1}})", "default.visible: expected true or false, not 1");
+  expect(R"({"default": {"technique": "dots"}})",
+    "default.technique: 'dots' is unknown: use points, splats, spheres, ewa");
+  expect(R"({"classes": {"6": {"technique": "solid"}}})",
+    "classes.6.technique: 'solid' is not available in this version: use points, splats, spheres, "
+    "ewa");
+  expect(R"({"lenses": []})", "lenses: not available in this version; leave the key out");
+  expect(R"({"highlight": []})", "highlight: not available in this version; leave the key out");
+  expect(R"({"default": {"where": "intensity = 3"}})",
+    "default.where: 'intensity = 3', character 11: expected 'in', ==, !=, <, <=, > or >=, not '= "
+    "3'");
+  expect(R"({"default": {"opacity": 1, "opacity": 0}})",
+    "the key \"opacity\" stands twice in one object");
+  expect("[]", "the file: expected an object, not []");
+  expect(R"({"default": 3})", "default: expected an object, not 3");
+  expect(R"({"default": {"size": {"mode": "fixed", "px": 2, "metres": 3}}})",
+    "default.size: a fixed size has either px or metres");
+  expect(R"({"default": {"size": {"mode": "spacing", "px": 2}}})",
+    "default.size.px: there is no such key; use mode, factor");
+  expect(R"({"default": {"size": {"mode": "fixed", "px": 0}}})",
+    "default.size.px: expected a number above 0, not 0");
+  expect(R"({"default": {"color": {"attribute": "z", "range": [2, 1]}}})",
+    "default.color.range: expected the smaller number first, not [2,1]");
+  expect(R"({"default": {"color": {"mix": ["rgb", {"mix": ["rgb", "rgb"]}]}}})",
+    "default.color.mix[1]: a combination is of two colours that are none themselves");
+  expect(R"({"shading": {"strength": 1}})",
+    "shading.strength: means something with the mode edl only");
+  for (const char* text : { "", "{", R"({"default")", "{\"a\": 1e999}", "nan", "\xff" })
+  {
+    EXPECT_EQ(refusal(text).rfind("not JSON", 0), 0u) << text << ": " << refusal(text);
+  }
+  for (const char* text : { R"({"default": {"color": "#12"}})", R"({"default": {"color": 3}})",
+         R"({"default": {"color": {"map": "grey"}}})", R"({"default": {"orientation": [0, 0, 0]}})",
+         R"({"default": {"color": {"attribute": "a", "map": []}}})",
+         R"({"default": {"color": {"attribute": "a", "map": "jet"}}})",
+         R"({"default": {"wall_color": ["#000000"]}})", R"({"show_classes": [2, 300]})",
+         R"({"show_classes": 2})", R"({"shading": {"mode": "dark"}})", R"({"classes": []})",
+         R"({"default": {"error_factor": 0}})", R"({"default": {"accuracy": "best"}})" })
+  {
+    EXPECT_NE(refusal(text).find(": "), std::string::npos) << text;
+  }
+}

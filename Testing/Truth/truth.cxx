@@ -1,0 +1,99 @@
+// Makes points of a scene whose true picture is known, and that picture: for tables of techniques.
+//   truth town|knot --view far|mid|close|graze --spacing-px S --sampling blue|scan -o DIR
+// Writes into DIR: points.ply, camera.json, truth.png, mask.png (white where the surface covers the
+// whole pixel), depth.f32 (see TruthFiles.h), truth.json (spacing, background ...) and, with
+// --oracle, oracle.png.
+#include "OraclePicture.h"
+#include "TruthFiles.h"
+
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+#include <filesystem>
+
+namespace
+{
+using namespace pointfront;
+
+struct Options
+{
+  std::string scene;
+  std::string view = "far";
+  std::string sampling = "blue";
+  std::string folder;
+  double spacingPx = 1.0;
+  std::uint32_t width = 800;
+  std::uint32_t height = 600;
+  unsigned samples = 8;
+  std::uint64_t seed = 11;
+  bool oracle = false;
+};
+
+void declare(CLI::App& app, Options& options)
+{
+  app.add_option("scene", options.scene, "town or knot")
+    ->required()
+    ->check(CLI::IsMember({ "town", "knot" }));
+  app.add_option("--view", options.view, "far, mid, close or graze (far)")
+    ->check(CLI::IsMember({ "far", "mid", "close", "graze" }));
+  app.add_option("--sampling", options.sampling, "blue or scan (blue)")
+    ->check(CLI::IsMember({ "blue", "scan" }));
+  app.add_option("--spacing-px", options.spacingPx, "Spacing of the points on the screen (1)")
+    ->check(CLI::Range(0.05, 100.0));
+  app.add_option("--width", options.width, "Pixels (800)")->check(CLI::Range(16, 8192));
+  app.add_option("--height", options.height, "Pixels (600)")->check(CLI::Range(16, 8192));
+  app.add_option("--samples", options.samples, "Rays a pixel and axis (8)")
+    ->check(CLI::Range(1, 64));
+  app.add_option("--seed", options.seed, "Other points for another number (11)");
+  app.add_flag("--oracle", options.oracle, "Draw what a painter could who knows the surface");
+  app.add_option("-o,--output", options.folder, "Folder to write into")->required();
+}
+
+Result<void> run(const Options& options)
+{
+  const truth::TruthScene scene = *truth::makeScene(options.scene);
+  const truth::TruthView& view = *scene.view(options.view);
+  const truth::RayCaster rays(scene.mesh);
+  const truth::PixelRays pixels(view.camera, options.width, options.height);
+  const truth::TruthPicture picture = truth::drawTruth(rays, pixels, options.samples);
+
+  truth::SpacingGrade grade;
+  grade.medianDepth =
+    truth::medianDepth(rays, view.camera, double(options.width) / options.height);
+  grade.spacing = options.spacingPx * grade.medianDepth / pixels.focalPx();
+  grade.graded = view.graded;
+  const truth::SamplingRegion region{ rays, pixels, grade };
+  const truth::TruthPoints points = options.sampling == "blue"
+    ? truth::sampleBlueNoise(region, options.seed)
+    : truth::sampleByScanner(region, options.scene == "town", options.seed);
+
+  const std::string folder = options.folder + "/";
+  std::filesystem::create_directories(folder);
+  Result<void> done = truth::writePoints(folder + "points.ply", points);
+  done = done ? truth::writeCamera(folder + "camera.json", view.camera) : done;
+  done = done ? truth::writePicture(folder + "truth.png", picture.colours) : done;
+  done = done ? truth::writePicture(folder + "mask.png", picture.mask()) : done;
+  done = done ? truth::writeDepth(folder + "depth.f32", picture.depth) : done;
+  if (done && options.oracle)
+  {
+    done = truth::writePicture(
+      folder + "oracle.png", truth::drawOracle(picture, pixels, grade, points));
+  }
+  return done ? truth::writeFacts(folder + "truth.json", pixels, grade, points) : done;
+}
+} // namespace
+
+int main(int argc, char** argv)
+{
+  CLI::App app("Points of a scene whose true picture is known", "truth");
+  Options options;
+  declare(app, options);
+  CLI11_PARSE(app, argc, argv);
+  const Result<void> done = run(options);
+  if (!done)
+  {
+    std::fprintf(stderr, "truth: %s\n", done.error().what.c_str());
+    return 1;
+  }
+  return 0;
+}

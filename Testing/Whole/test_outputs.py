@@ -1,0 +1,143 @@
+"""What is written over, and what never is."""
+
+import os
+import shutil
+import unittest
+
+from tool import DATA, ToolTest
+
+SMALL = DATA / "las/real/1.2-with-color.las"
+POINTS = 1065
+WITH_VTK = os.environ["POINTFRONT_WITH_VTK"] == "1"
+WITH_DISPLAY = bool(os.environ.get("DISPLAY"))
+
+
+class Outputs(ToolTest):
+    def copy(self, name="a.las"):
+        path = self.folder / name
+        shutil.copyfile(SMALL, path)
+        return path
+
+    def kept(self, paths, *arguments):
+        """The run is refused, also with --force, and no byte of these files is another."""
+        before = [path.read_bytes() for path in paths]
+        for force in ([], ["--force"]):
+            if force and arguments[0] in ("render", "bench"):
+                continue
+            self.refuse(1, *arguments, *force)
+            self.assertEqual([path.read_bytes() for path in paths], before, arguments)
+
+    def aliases(self, path):
+        """The path itself, by another spelling, a symbolic and a hard link."""
+        folder = self.folder / "sub"
+        folder.mkdir(exist_ok=True)
+        soft, hard = folder / f"soft{path.suffix}", folder / f"hard{path.suffix}"
+        soft.symlink_to(path)
+        os.link(path, hard)
+        return [path, folder / ".." / path.name, soft, hard]
+
+    def test_an_export_keeps_the_file_behind_its_index(self):
+        las = self.copy()
+        self.succeed("index", las)
+        side = self.folder / "a.las.pfindex"
+        for target in self.aliases(las):
+            self.kept([las, side], "export", side, "-o", target, "--classes", "2")
+        half_written = self.copy("b.las.tmp")
+        self.succeed("index", half_written)
+        self.kept([half_written], "export", f"{half_written}.pfindex", "-o",
+                  self.folder / "b.las")
+        self.assertEqual(self.succeed("info", side, "--json").json["points"], POINTS)
+
+    def test_a_build_keeps_its_inputs(self):
+        las = self.copy()
+        for target in self.aliases(las):
+            self.kept([las], "build", las, "-o", target)
+        system = self.folder / "system.wkt"
+        system.write_text("EPSG:25832")
+        self.kept([las, system], "build", las, "-o", system, "--crs", system,
+                  "--assume-crs", "EPSG:25832")
+        half_written = self.copy("b.pfront.tmp")
+        self.kept([half_written], "build", half_written, "-o", self.folder / "b.pfront")
+
+    def test_an_index_keeps_its_input(self):
+        las = self.copy()
+        for target in self.aliases(las):
+            self.kept([las], "index", las, "-o", target)
+
+    def test_a_target_of_another_kind_is_kept(self):
+        las = self.copy()
+        store = self.build(las)
+        self.succeed("index", las)
+        side = self.folder / "a.las.pfindex"
+        text = self.folder / "notes.txt"
+        text.write_text("my notes\n")
+        camera = self.folder / "camera.json"
+        camera.write_text('{"position": [0, 0, 0]}')
+        other = self.copy("other.las")
+        for target in (other, side, text, camera):
+            self.kept([target], "build", las, "-o", target)
+        for target in (other, store, text, camera):
+            self.kept([target], "index", las, "-o", target)
+        for kind in ("las", "laz", "xyz", "ply", "pcd"):
+            for there in (store, side, camera):
+                target = self.folder / f"there.{kind}"
+                shutil.copyfile(there, target)
+                self.kept([target], "export", store, "-o", target)
+                self.kept([target], "generate", "--points", 10, "-o", target)
+        wrong = self.folder / "las.xyz"
+        shutil.copyfile(las, wrong)
+        self.kept([wrong], "export", store, "-o", wrong)
+        folder = self.folder / "folder.las"
+        folder.mkdir()
+        self.assertIn("folder", self.refuse(1, "export", store, "-o", folder, "--force").err)
+
+    def test_force_replaces_what_is_of_the_same_kind(self):
+        las = self.copy()
+        store = self.build(las)
+        self.assertIn("--force", self.refuse(1, "build", las, "-o", store).err)
+        self.succeed("build", las, "-o", store, "--force")
+        self.succeed("index", las)
+        self.assertIn("--force", self.refuse(1, "index", las).err)
+        self.succeed("index", las, "--force")
+        for kind in ("las", "laz", "xyz", "ply", "pcd"):
+            out = self.folder / f"out.{kind}"
+            for command in (["export", store], ["generate", "--points", 10]):
+                self.succeed(*command, "-o", out, "--force")
+                before = out.read_bytes()
+                self.assertIn("--force", self.refuse(1, *command, "-o", out).err)
+                self.assertEqual(out.read_bytes(), before)
+        reserved = self.folder / "reserved.las"  # as mktemp makes it
+        reserved.touch()
+        self.succeed("export", store, "-o", reserved, "--force")
+
+    @unittest.skipUnless(WITH_VTK and WITH_DISPLAY, "render and bench need VTK and an X server")
+    def test_pictures_and_statistics(self):
+        las = self.copy()
+        store = self.build(las)
+        self.succeed("index", las)
+        side = self.folder / "a.las.pfindex"
+        png, stats = self.folder / "x.png", self.folder / "x.json"
+        draw = ["render", side, "--size", "64x64"]
+        for _ in range(2):  # the second time over the first
+            self.succeed(*draw, "-o", png, "--stats", stats)
+        camera = self.folder / "camera.json"
+        camera.write_text('{"position":[0,0,9],"focal_point":[0,0,0],"view_up":[0,1,0],'
+                          '"view_angle":30}')
+        mine = [las, store, side, camera]
+        for target in mine:
+            self.kept(mine, *draw, "-o", png, "--stats", target)
+            self.kept(mine, *draw, "-o", target, "--stats", stats)
+            self.kept(mine, "bench", side, "--frames", 2, "--stats", target)
+            self.kept(mine, "bench", side, "--frames", 2, "--stats", stats, "--frames-csv", target)
+            self.kept(mine, "bench", side, "--frames", 2, "--stats", stats, "--picture", target)
+        self.kept([png, stats], *draw, "-o", stats)
+        self.kept([png, stats], *draw, "-o", png, "--stats", png)
+        self.refuse(1, *draw, "-o", self.folder / "y", "--stats", self.folder / "y")
+        frames = self.folder / "frames.csv"
+        for _ in range(2):
+            self.succeed("bench", store, "--frames", 2, "--size", "64x64", "--stats", stats,
+                         "--frames-csv", frames, "--picture", png)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

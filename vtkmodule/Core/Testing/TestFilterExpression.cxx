@@ -1,0 +1,139 @@
+#include "StyledStore.h"
+
+#include "pointfront/Style/FilterExpression.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+using namespace pointfront;
+using namespace pointfront::test;
+
+namespace
+{
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+AttributeCondition only(const std::string& text)
+{
+  const auto filter = FilterExpression::parse(text);
+  EXPECT_TRUE(filter) << text << ": " << (filter ? "" : filter.error().what);
+  if (!filter || filter->terms.size() != 1)
+  {
+    ADD_FAILURE() << text;
+    return {};
+  }
+  return filter->terms.front().passing;
+}
+
+std::string failure(const std::string& text)
+{
+  const auto filter = FilterExpression::parse(text);
+  EXPECT_FALSE(filter) << text;
+  return filter ? "" : filter.error().what;
+}
+
+} // namespace
+
+TEST(FilterExpression, RangesHaveOpenAndClosedEnds)
+{
+  const AttributeCondition closed = only("gps_time in [1.5, 2e3]");
+  EXPECT_EQ(closed.range, (std::array<double, 2>{ 1.5, 2000.0 }));
+  EXPECT_FALSE(closed.lowOpen || closed.highOpen || closed.inverted);
+  const AttributeCondition halfOpen = only("t in [-1,+2)");
+  EXPECT_EQ(halfOpen.range, (std::array<double, 2>{ -1.0, 2.0 }));
+  EXPECT_TRUE(!halfOpen.lowOpen && halfOpen.highOpen);
+  const AttributeCondition open = only("t in(-inf , 3]");
+  EXPECT_EQ(open.range, (std::array<double, 2>{ -infinity, 3.0 }));
+  EXPECT_TRUE(open.lowOpen && !open.highOpen);
+}
+
+TEST(FilterExpression, SetsAreSortedAndComparisonsAreRanges)
+{
+  EXPECT_EQ(only("a in {7, 3,3}").values, (std::vector<double>{ 3.0, 7.0 }));
+  EXPECT_TRUE(only("a not in {7}").inverted);
+  EXPECT_EQ(only("a==1").values, std::vector<double>{ 1.0 });
+  EXPECT_TRUE(only("a != 1").inverted);
+  EXPECT_EQ(only("a < 1").range, (std::array<double, 2>{ -infinity, 1.0 }));
+  EXPECT_TRUE(only("a < 1").highOpen);
+  EXPECT_FALSE(only("a <= 1").highOpen);
+  EXPECT_EQ(only("a > 1").range, (std::array<double, 2>{ 1.0, infinity }));
+  EXPECT_TRUE(only("a > 1").lowOpen);
+  EXPECT_FALSE(only("a >= 1").lowOpen);
+}
+
+TEST(FilterExpression, ConditionsAreJoinedByAnd)
+{
+  const auto filter =
+    FilterExpression::parse("return_number == 1 AND \"my value\" in [0, 1] and android < 3");
+  ASSERT_TRUE(filter) << filter.error().what;
+  ASSERT_EQ(filter->terms.size(), 3u);
+  EXPECT_EQ(filter->terms[1].name, "my value");
+  EXPECT_EQ(filter->terms[2].name, "android");
+  EXPECT_TRUE(FilterExpression::parse("  ")->empty());
+}
+
+TEST(FilterExpression, MistakesAreNamedWithTheirPlace)
+{
+  EXPECT_EQ(failure("intensity = 3"),
+    "'intensity = 3', character 11: expected 'in', ==, !=, <, <=, > or >=, not '= 3'");
+  EXPECT_EQ(failure("a in [1, 2"), "'a in [1, 2', character 11: expected ']' or ')', not the end");
+  EXPECT_EQ(failure("a in [2, 1]"),
+    "'a in [2, 1]', character 7: expected a range that holds a number, not '2, 1]'");
+  EXPECT_EQ(failure("a == 1 or b == 2"),
+    "'a == 1 or b == 2', character 8: expected 'and' or the end, not 'or b == 2'");
+  EXPECT_EQ(failure("a in {}"), "'a in {}', character 7: expected a number, not '}'");
+  for (const char* text : { "== 3", "a", "a in", "a in 3", "a in {1;2}", "a < x", "a < nan",
+         "a < 1 and", "a not 3", "a < 3m", "a in (1, 1]", "\"a < 3", "and and == 3" })
+  {
+    EXPECT_NE(failure(text).find("character"), std::string::npos) << text;
+  }
+}
+
+TEST(FilterExpression, NamesMeanAttributesComponentsOrCoordinates)
+{
+  const StoreDescription store = styledStore({});
+  const auto filter = FilterExpression::parse(
+    "GPS-Time > 1 and rgb[1] > 2 and normal.z > 0 and rgb.b < 9 and X > 1000 and elevation < 80");
+  ASSERT_TRUE(filter) << filter.error().what;
+  const auto resolved = filter->resolve(store);
+  ASSERT_TRUE(resolved) << resolved.error().what;
+  const auto& c = resolved->conditions;
+  ASSERT_EQ(c.size(), 6u);
+  EXPECT_EQ(c[0].column, timeColumn);
+  EXPECT_EQ(c[1].column, rgbColumn);
+  EXPECT_EQ(c[1].component, 1);
+  EXPECT_EQ(c[2].column, normalsColumn);
+  EXPECT_EQ(c[2].component, 2);
+  EXPECT_EQ(c[3].component, 2);
+  EXPECT_EQ(c[4].axis, 0);
+  EXPECT_EQ(c[4].axisOffset, 1000.0);
+  EXPECT_EQ(c[5].axis, 2);
+  EXPECT_EQ(resolved->columns(), (ColumnSelection{ rgbColumn, timeColumn, normalsColumn }));
+}
+
+TEST(FilterExpression, AnAttributeGoesBeforeACoordinateOfItsName)
+{
+  StoreDescription store = styledStore({});
+  addColumn(store, { "x", ScalarType::Float32, 1 }, 0.0, 1.0);
+  const auto resolved = FilterExpression::parse("x > 0.5")->resolve(store);
+  ASSERT_TRUE(resolved);
+  EXPECT_EQ(resolved->conditions.front().axis, -1);
+  EXPECT_EQ(resolved->conditions.front().column, store.schema.size() - 1);
+}
+
+TEST(FilterExpression, WhatAStoreHasNotIsRefused)
+{
+  const StoreDescription store = styledStore({});
+  const auto resolve = [&](const char* text)
+  {
+    const auto resolved = FilterExpression::parse(text)->resolve(store);
+    EXPECT_FALSE(resolved) << text;
+    return resolved ? std::string() : resolved.error().what;
+  };
+  EXPECT_EQ(resolve("x > 1 and weight < 3"),
+    "'x > 1 and weight < 3', character 11: town.pfront has no attribute 'weight' (info lists "
+    "them)");
+  EXPECT_NE(resolve("rgb > 3").find("write one of them, rgb[0]"), std::string::npos);
+  EXPECT_NE(resolve("rgb[3] > 3").find("no attribute 'rgb[3]'"), std::string::npos);
+}

@@ -1,0 +1,51 @@
+#pragma once
+
+#include "pointfront/Base/Result.h"
+
+#include <string>
+#include <vector>
+
+namespace pointfront
+{
+
+/// What a file is that this project writes, told by its first bytes. A file of no bytes is of every
+/// kind: somebody reserved the name.
+enum class FileKind
+{
+  Store,
+  SideFile,
+  LAS, ///< LAZ too
+  PLY,
+  PCD,
+  Text,       ///< rows of numbers, as far as anyone can tell: text that is none of the others
+  Picture,    ///< PNG, JPEG, TIFF, BMP
+  Statistics, ///< JSON that `render` and `bench` wrote
+  FrameTable, ///< CSV that `bench` wrote
+  Other
+};
+
+/// A file that is about to be written.
+struct OutputTarget
+{
+  std::string path;
+  FileKind kind = FileKind::Other;
+  bool replace = false; ///< a file of that kind that is there already
+};
+
+/// True if both names lead to one file: the same name, a symbolic or a hard link. A name of nothing
+/// is no file.
+bool sameFile(const std::string& one, const std::string& other);
+
+/// Whether `path`, and what is written under a name of its own until the target is whole
+/// (OutputFile), is none of `reads`. BadArgument if it is; an empty path is none.
+Result<void> checkApart(const std::string& path, const std::vector<std::string>& reads);
+
+/// Asked before anything is written and before hours of work. The kernel asks it where it knows
+/// what is read (buildStore, exportStore, indexLASFile); a program also where it knows more.
+/// `reads`  files that the same work reads: checkApart().
+/// Errors   BadArgument: the target is one of `reads`, is a folder or a device, or is a file of
+///          another kind, which is never replaced. Unwritable: it is there and `replace` is false.
+Result<void> checkOutputTarget(
+  const OutputTarget& target, const std::vector<std::string>& reads = {});
+
+} // namespace pointfront

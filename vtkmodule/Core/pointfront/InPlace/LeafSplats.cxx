@@ -1,0 +1,116 @@
+#include "pointfront/InPlace/LeafSplats.h"
+
+#include "pointfront/Build/BuiltTree.h"
+#include "pointfront/InPlace/RunList.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace pointfront
+{
+namespace
+{
+/// Of radius and spacing of points that are chosen at random: the quantile that NodeSplat takes, of
+/// a white noise on a plane (docs/adr/0017).
+constexpr double randomRatio = 1.58;
+/// A leaf of more points is one of many slices of a place: its points lie over one another.
+constexpr std::uint64_t mostPoints = std::uint64_t(1) << 20;
+
+TreeSpace spaceOf(const QuantisationGrid& grid)
+{
+  TreeSpace space;
+  space.grid = grid;
+  return space;
+}
+
+float toFloat(double radius)
+{
+  return radius < std::numeric_limits<float>::max() ? roundedUp(radius) : 0.0f;
+}
+} // namespace
+
+LeafSplats::LeafSplats(
+  const QuadTree& tree, const GridRecords& records, const QuantisationGrid& grid)
+  : tree_(tree)
+  , records_(records)
+  , stepArea_(grid.scale.x * grid.scale.y)
+  , splat_(spaceOf(grid))
+{
+  const std::vector<QuadNode>& nodes = tree.nodes();
+  std::vector<NodeIndex> leaves;
+  for (NodeIndex i = 0; i < nodes.size(); ++i)
+  {
+    const bool apart = nodes[i].parent == noNode || !nodes[nodes[i].parent].sliced;
+    if (nodes[i].leaf() && apart && nodes[i].points <= mostPoints)
+    {
+      leaves.push_back(i);
+    }
+  }
+  const std::size_t count = std::min(mostMeasured, leaves.size());
+  for (std::size_t m = 0; m < count; ++m)
+  {
+    measured_.push_back(leaves[(2 * m + 1) * leaves.size() / (2 * count)]);
+  }
+  ratios_.resize(count, 0.0);
+}
+
+double LeafSplats::spacing(NodeIndex node) const
+{
+  const QuadNode& from = tree_.nodes()[node];
+  const double drawn = std::ldexp(static_cast<double>(from.points), -from.logStep);
+  return std::sqrt(from.area * stepArea_ / drawn);
+}
+
+void LeafSplats::look(NodeIndex node, const std::vector<std::byte>& list)
+{
+  const auto found = std::lower_bound(measured_.begin(), measured_.end(), node);
+  if (found == measured_.end() || *found != node)
+  {
+    return;
+  }
+  std::vector<TreePosition> positions;
+  RunListReader runs(list.data(), list.size());
+  for (Run run; runs.next(run);)
+  {
+    for (std::uint64_t i = run.first; i < run.first + run.count; ++i)
+    {
+      // The order of whole numbers, without their sign.
+      positions.push_back(TreePosition(records_.position(i)) + TreePosition(1u << 31));
+    }
+  }
+  const RecordView view{ reinterpret_cast<const std::byte*>(positions.data()),
+    sizeof(TreePosition) };
+  const float radius = splat_.measure(view, mortonOrder(view, positions.size()));
+  ratios_[static_cast<std::size_t>(found - measured_.begin())] = radius / spacing(node);
+}
+
+void LeafSplats::fill(std::vector<Node>& nodes) const
+{
+  for (NodeIndex i = 0; i < nodes.size(); ++i)
+  {
+    if (!nodes[i].leaf())
+    {
+      nodes[i].splatRadius = toFloat(randomRatio * spacing(i));
+      continue;
+    }
+    // Of the measured leaf before and the one behind.
+    const auto behind = static_cast<std::size_t>(
+      std::lower_bound(measured_.begin(), measured_.end(), i) - measured_.begin());
+    double sum = 0.0;
+    int count = 0;
+    for (std::size_t m = behind - std::min<std::size_t>(behind, 1);
+         m < std::min(behind + 1, ratios_.size()); ++m)
+    {
+      const bool itself = behind < measured_.size() && measured_[behind] == i;
+      if (ratios_[m] > 0.0 && (!itself || m == behind))
+      {
+        sum += ratios_[m];
+        ++count;
+      }
+    }
+    nodes[i].splatRadius = count > 0 ? toFloat(sum / count * spacing(i)) : 0.0f;
+  }
+}
+
+} // namespace pointfront

@@ -1,0 +1,44 @@
+#pragma once
+
+#include "pointfront/Build/NodeSplat.h"
+#include "pointfront/InPlace/GridRecords.h"
+#include "pointfront/InPlace/QuadTree.h"
+#include "pointfront/Points/QuantisationGrid.h"
+#include "pointfront/Store/Hierarchy.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace pointfront
+{
+
+/// How large splats of an in-place tree must be.
+/// Leaves  some, evenly over the table, are measured (NodeSplat.h): the ratio of radius and spacing
+///         is a trait of how a scanner works. The others have the ratio of those beside them.
+/// Inner   nodes draw points at random: a constant ratio.
+/// Cost    that of at most `mostMeasured` leaves, whatever the file holds.
+/// Threads one.
+class LeafSplats
+{
+public:
+  static constexpr std::size_t mostMeasured = 96;
+
+  LeafSplats(const QuadTree& tree, const GridRecords& records, const QuantisationGrid& grid);
+  /// Called with the list of each node, in any order.
+  void look(NodeIndex node, const std::vector<std::byte>& list);
+  /// When all were seen.
+  void fill(std::vector<Node>& nodes) const;
+
+private:
+  double spacing(NodeIndex node) const;
+
+  const QuadTree& tree_;
+  const GridRecords& records_;
+  double stepArea_; ///< of a step by a step of the grid, world units
+  NodeSplat splat_;
+  std::vector<NodeIndex> measured_; ///< leaves, ascending
+  std::vector<double> ratios_;      ///< theirs; 0: none was found
+};
+
+} // namespace pointfront

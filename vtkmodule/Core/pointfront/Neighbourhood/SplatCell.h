@@ -1,0 +1,60 @@
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace pointfront
+{
+
+/// What is around a point: places, as seen from it, nearest first, each once, without its own.
+/// Order    by distance, then by the offsets: the same whatever order they came in.
+/// Threads  one a thread; begin() keeps nothing.
+class NearOffsets
+{
+public:
+  static constexpr std::size_t most = 15;
+
+  void begin() { count_ = 0; }
+  /// Keeps the nearest `most` of all that are added. The point's own place (0) is left out.
+  void add(const glm::dvec3& offset);
+  /// Only what is nearer can still be kept.
+  double squaredBound() const;
+
+  std::size_t size() const { return count_; }
+  const glm::dvec3& operator[](std::size_t i) const { return entries_[i].offset; }
+  double squaredDistance(std::size_t i) const { return entries_[i].squared; }
+
+private:
+  struct Entry
+  {
+    glm::dvec3 offset;
+    double squared;
+  };
+  std::array<Entry, most> entries_;
+  std::size_t count_ = 0;
+};
+
+/// The plane of a neighbourhood, and how far it is one. Eigenvalues are of the covariance.
+struct NeighbourPlane
+{
+  glm::dvec3 normal{ 0.0, 0.0, 1.0 }; ///< of length 1; its sign has no meaning
+  double flatness = 1.0; ///< smallest eigenvalue over the sum: 0 a plane, 1/3 a ball
+  double width = 0.0;    ///< middle eigenvalue over the largest: 0 a line
+};
+
+/// Of the point and its neighbours.
+NeighbourPlane neighbourPlane(const NearOffsets& near);
+
+/// How large a disc at a point must be for the surface to close, from its nearest places:
+/// 1.25 times the distance to the farthest vertex of its Voronoi cell among them in the plane,
+/// within bounds; less on lines and in volumes.
+/// Bounds   are multiples of the local scale, which is the median distance to the neighbours times
+///          a constant: it depends on them only, not on where a cloud is cut into parts.
+/// Result   finite, > 0; 0 without a neighbour. Units of the offsets.
+/// Source   splat rule and constants: docs/adr/0017-splat-radius.md.
+double splatRadius(const NearOffsets& near, const NeighbourPlane& plane);
+
+} // namespace pointfront

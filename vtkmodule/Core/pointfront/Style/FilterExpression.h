@@ -1,0 +1,54 @@
+#pragma once
+
+#include "pointfront/Base/Result.h"
+#include "pointfront/Store/StoredCloud.h"
+#include "pointfront/Style/PointFilter.h"
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace pointfront
+{
+
+/// One condition as the user wrote it, before any store is known.
+struct FilterTerm
+{
+  std::string name;           ///< attribute, component or coordinate
+  std::size_t position = 0;   ///< of the name in the text, bytes
+  AttributeCondition passing; ///< column, component and axis are not set
+};
+
+/// Which points are drawn, by name: what `--where` and a style's "where" say.
+///
+///     where     = condition { "and" condition }
+///     condition = name "in" range | name ["not"] "in" set | name comparison number
+///     range     = ("[" | "(") number "," number ("]" | ")")       "(" and ")" leave the end out
+///     set       = "{" number { "," number } "}"
+///     comparison = "==" | "!=" | "<" | "<=" | ">" | ">="
+///
+/// Names    of attributes without regard to case, "-" for "_"; a component as rgb[0] or normal.z;
+///          x, y, z and elevation are coordinates unless the store has an attribute of that name.
+///          Names with spaces stand in "double quotes".
+/// Units    world values: after the attribute's scale and offset, metres of the store's system.
+/// Numbers  as in C, without regard to the locale; inf and -inf too. NaN never passes.
+/// Threads  a value.
+struct FilterExpression
+{
+  std::string text; ///< as it was written; empty: all points pass
+  std::vector<FilterTerm> terms;
+
+  bool empty() const { return terms.empty(); }
+  /// BadArgument: what is wrong, and where in the text. An empty text lets all points pass.
+  static Result<FilterExpression> parse(std::string_view text);
+  /// With the columns of a store; BadArgument names what it has not.
+  Result<PointFilter> resolve(const StoreDescription& store) const;
+
+  friend bool operator==(const FilterExpression& a, const FilterExpression& b)
+  {
+    return a.text == b.text;
+  }
+};
+
+} // namespace pointfront

@@ -1,0 +1,78 @@
+#pragma once
+
+#include "pointfront/Style/ColourMap.h"
+#include "pointfront/Style/ColourSource.h"
+#include "pointfront/Style/FilterExpression.h"
+#include "pointfront/Style/ResolvedStyle.h"
+
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <optional>
+#include <string>
+
+namespace pointfront
+{
+
+/// How large a splat is, by name (SplatSize has the meaning).
+struct StyleSize
+{
+  SplatSize::Mode mode = SplatSize::Mode::Spacing;
+  double value = 1.0;    ///< > 0: pixels, world units, or a factor
+  std::string attribute; ///< Attribute: of one component; empty: enclosing_radius
+
+  friend bool operator==(const StyleSize& a, const StyleSize& b)
+  {
+    return a.mode == b.mode && a.value == b.value && a.attribute == b.attribute;
+  }
+};
+
+/// Which way discs face.
+struct StyleOrientation
+{
+  SplatOrientation mode = SplatOrientation::Normal;
+  glm::dvec3 direction{ 0.0, 0.0, 1.0 }; ///< Fixed: not 0, world axes
+
+  friend bool operator==(const StyleOrientation& a, const StyleOrientation& b)
+  {
+    return a.mode == b.mode && a.direction == b.direction;
+  }
+};
+
+/// How one object class is drawn, before any store is known. What is not set is as in the style
+/// below it: a class's below is the sheet's default, whose below is standardStyle().
+/// Threads  a value.
+struct LayerStyle
+{
+  std::optional<Technique> technique;
+  std::optional<ColourSource> colour;
+  std::optional<StyleSize> size;
+  std::optional<StyleOrientation> orientation;
+  std::optional<double> opacity;     ///< 0 to 1
+  std::optional<bool> visible;       ///< false: neither loaded nor drawn
+  std::optional<double> errorFactor; ///< > 0: 2 draws half as fine (LayerLimits)
+  std::optional<bool> blended;       ///< splats: two passes with weights
+  std::optional<SplatAccuracy> accuracy;
+  std::optional<Rgba8> rim;                  ///< silhouettes
+  std::optional<std::array<Rgba8, 2>> wall;  ///< solid: upper and lower end; else as the points
+  std::optional<FilterExpression> where;     ///< in the place of the default's
+
+  /// With what it leaves open filled from `below`.
+  LayerStyle over(const LayerStyle& below) const;
+  bool empty() const { return *this == LayerStyle(); }
+
+  friend bool operator==(const LayerStyle& a, const LayerStyle& b)
+  {
+    return a.technique == b.technique && a.colour == b.colour && a.size == b.size &&
+      a.orientation == b.orientation && a.opacity == b.opacity && a.visible == b.visible &&
+      a.errorFactor == b.errorFactor && a.blended == b.blended && a.accuracy == b.accuracy &&
+      a.rim == b.rim && a.wall == b.wall && a.where == b.where;
+  }
+  friend bool operator!=(const LayerStyle& a, const LayerStyle& b) { return !(a == b); }
+};
+
+/// What is drawn where nothing is said: points that close the surface, in the colour that says
+/// most. All but `wall` is set.
+LayerStyle standardStyle();
+
+} // namespace pointfront

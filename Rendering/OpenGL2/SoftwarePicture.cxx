@@ -68,9 +68,8 @@ void SoftwarePicture::numberPoints(const FramePlan& plan)
   for (const PixelPoint& point : last_->points)
   {
     const auto first = firstPoints.find(point.node);
-    const std::uint64_t id =
-      point.store == PixelPoint::nothing || first == firstPoints.end() ? 0
-                                                                       : first->second + point.index;
+    const bool known = point.store != PixelPoint::nothing && first != firstPoints.end();
+    const std::uint64_t id = known ? first->second + point.index : 0;
     ids_.push_back(static_cast<float>(id & 0xffffffu));
     ids_.push_back(static_cast<float>(id >> 24 & 0xffffffu));
   }

@@ -111,14 +111,10 @@ struct Sheet : Scene
 
 TEST(SoftwareBackend, IsAutomaticWhereGlIsAProgram)
 {
-  Sheet scene;
-  scene.draw();
-  const std::string gl = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
-  if (gl.find("llvmpipe") == std::string::npos)
-  {
-    GTEST_SKIP() << gl;
-  }
   Sheet automatic;
+  automatic.draw();
+  const std::string gl = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+  const bool program = gl.find("llvmpipe") != std::string::npos;
   auto mapper = vtkSmartPointer<vtkPointFrontMapper>::New();
   EXPECT_EQ(mapper->GetBackend(), vtkPointFrontMapper::AUTOMATIC);
   mapper->SetInputConnection(automatic.reader->GetOutputPort());
@@ -126,8 +122,9 @@ TEST(SoftwareBackend, IsAutomaticWhereGlIsAProgram)
   automatic.mapper = mapper;
   automatic.actor->SetMapper(mapper);
   EXPECT_GT(automatic.draw().lit(), 2000);
-  EXPECT_EQ(vtkOpenGLPointFrontMapper::SafeDownCast(mapper)->GetUploadedBytes(), 0);
-  EXPECT_EQ(mapper->GetLastGPUBytes(), 0);
+  auto* drawn = vtkOpenGLPointFrontMapper::SafeDownCast(mapper);
+  EXPECT_EQ(drawn->GetUploadedBytes() == 0, program) << gl;
+  EXPECT_EQ(mapper->GetLastGPUBytes() == 0, program) << gl;
   EXPECT_TRUE(mapper->GetLastComplete());
 }
 

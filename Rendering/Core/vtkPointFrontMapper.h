@@ -29,6 +29,7 @@
 
 #include <cstdint> // for counts
 #include <memory>  // for the views
+#include <vector>  // for layers
 
 class vtkPointFrontStore;
 class vtkRenderWindowInteractor;
@@ -38,7 +39,9 @@ namespace pointfront
 struct FrameDemand;
 struct FramePlan;
 struct FrameStatistics;
+struct LayerStyling;
 struct PlanRequest;
+struct StyleSheet;
 } // namespace pointfront
 
 class POINTFRONTRENDERINGCORE_EXPORT vtkPointFrontMapper : public vtkPolyDataMapper
@@ -127,7 +130,8 @@ public:
    * opaque pass, where other actors, passes and selections see them as any other geometry's.
    * AUTOMATIC (default): SOFTWARE where the window's GL is itself a program (GL_RENDERER llvmpipe,
    * softpipe), else OPENGL. What SOFTWARE does not draw (translucent points, an actor's own
-   * shader code) OPENGL does, and a warning says so once.
+   * shader code) OPENGL does, what OPENGL does not draw (all but plain points of some pixels)
+   * SOFTWARE does; a warning says so once where another one was asked for.
    */
   vtkSetClampMacro(Backend, int, AUTOMATIC, SOFTWARE);
   vtkGetMacro(Backend, int);
@@ -200,6 +204,17 @@ public:
   double GetClassBudgetShare(int objectClass) const;
   void ClearClassLimits();
   ///@}
+
+#ifndef __VTK_WRAP__
+  /**
+   * Draws by a style sheet: techniques, colours, sizes, visibility and filters of each object class,
+   * and shading. PointSize and the properties of vtkMapper that choose colours do not count then.
+   * Null (default): they do. Where the store has not what the sheet asks for, an error says so and
+   * they count as well.
+   */
+  void SetStyleSheet(std::shared_ptr<const pointfront::StyleSheet> sheet);
+  const std::shared_ptr<const pointfront::StyleSheet>& GetStyleSheet() const;
+#endif
 
   /// The store being drawn: named by the input's field data. Null until the input is there or if it
   /// cannot be opened.
@@ -289,6 +304,8 @@ protected:
   virtual void LeaveScreen();
   /// Points are drawn from host memory: no GPU memory is taken for them.
   virtual bool DrawsFromHostMemory(vtkActor*) { return false; }
+  /// Points of some pixels, in one colour each, all of them, and nothing done to the picture.
+  bool HasPlainPointsOnly(vtkActor* actor);
   static bool IsInteracting(vtkRenderer* renderer);
   /// Of PointBudget, what this mapper may have on the GPU of a window beside the other clouds of
   /// it; 0: no limit.
@@ -315,9 +332,9 @@ protected:
 private:
   struct Content;
   pointfront::FrameDemand GetDemand(vtkRenderer* renderer, vtkActor* actor);
+  std::vector<pointfront::LayerStyling> GetStyling(vtkActor* actor);
   pointfront::PlanRequest GetRequest(vtkRenderer* renderer, vtkActor* actor);
   bool MoveFront(vtkRenderer* renderer, vtkActor* actor);
-  void Warn();
   bool Announce();
   std::unique_ptr<Content> Internals;
 

@@ -20,6 +20,7 @@
 #include <chrono>
 #include <limits>
 #include <map>
+#include <utility>
 
 vtkStandardNewMacro(vtkOpenGLPointFrontMapper);
 
@@ -148,25 +149,38 @@ bool vtkOpenGLPointFrontMapper::Upload(vtkRenderer* renderer, pointfront::Window
   return drawing.upload(plan, IsInteracting(renderer) ? this->UploadLimit : noLimit);
 }
 
+/// Says once what another back end draws than the one that was asked for.
+void vtkOpenGLPointFrontMapper::TellFallBack(const char* what)
+{
+  if (this->Backend != AUTOMATIC && !std::exchange(this->Internals->FallBackTold, true))
+  {
+    vtkWarningMacro(<< what);
+  }
+}
+
 /// Asked while the window's context is current.
 bool vtkOpenGLPointFrontMapper::DrawsFromHostMemory(vtkActor* actor)
 {
-  if (this->Backend == OPENGL || (this->Backend == AUTOMATIC && !pointfront::glIsAProgram()))
-  {
-    return false;
-  }
   vtkShaderProperty* shaders = actor->GetShaderProperty();
-  const bool translucent = actor->HasTranslucentPolygonalGeometry() != 0;
   const bool ownShaders = shaders->HasVertexShaderCode() || shaders->HasFragmentShaderCode() ||
     shaders->HasGeometryShaderCode() || shaders->GetNumberOfShaderReplacements() > 0;
-  if ((translucent || ownShaders) && this->Backend == SOFTWARE && !this->Internals->FallBackTold)
+  const bool onlyOpenGL = ownShaders || actor->HasTranslucentPolygonalGeometry() != 0;
+  const bool asked =
+    this->Backend == SOFTWARE || (this->Backend == AUTOMATIC && pointfront::glIsAProgram());
+  if (asked && onlyOpenGL)
   {
-    this->Internals->FallBackTold = true;
-    vtkWarningMacro(<< "the software back end does not draw "
-                    << (translucent ? "translucent points" : "with an actor's own shader code")
-                    << ": OpenGL does");
+    this->TellFallBack(ownShaders
+        ? "the software back end does not draw with an actor's own shader code: OpenGL does"
+        : "the software back end does not draw translucent points: OpenGL does");
+    return false;
   }
-  return !translucent && !ownShaders;
+  if (!asked && !onlyOpenGL && !this->HasPlainPointsOnly(actor))
+  {
+    this->TellFallBack("OpenGL draws points of some pixels, in one colour each, and without "
+                       "filters: this style is drawn by the software back end");
+    return true;
+  }
+  return asked;
 }
 
 void vtkOpenGLPointFrontMapper::LeaveScreen()

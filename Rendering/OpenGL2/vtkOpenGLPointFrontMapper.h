@@ -47,6 +47,7 @@ private:
   vtkOpenGLPointFrontMapper(const vtkOpenGLPointFrontMapper&) = delete;
   void operator=(const vtkOpenGLPointFrontMapper&) = delete;
 
+  void TellFallBack(const char* what);
   bool Upload(vtkRenderer* renderer, pointfront::WindowDrawing& drawing,
     const pointfront::FramePlan& plan);
   void ReadTimer(vtkRenderer* renderer, pointfront::FrameTimer& timer);

@@ -3,6 +3,8 @@
 
 #include "Scene.h"
 
+#include "pointfront/Style/StyleSheet.h"
+
 #include <vtkCallbackCommand.h>
 #include <vtkCellArray.h>
 #include <vtkCommand.h>
@@ -387,6 +389,63 @@ TEST(SoftwareBackend, WhatItDoesNotDrawOpenGLDoes)
   scene.mapper->SetBackendToAutomatic();
   EXPECT_EQ(differing(gl, scene.draw()), 0) << "and silently where nobody asked for it";
   EXPECT_EQ(warnings, 1);
+}
+
+/// A sheet's words are in the kernel's terms here; docs/user/styles.md has those of users.
+TEST(SoftwareBackend, DrawsByStyleSheets)
+{
+  Sheet scene;
+  const Picture points = scene.with(vtkPointFrontMapper::SOFTWARE);
+  auto sheet = std::make_shared<StyleSheet>();
+  sheet->standard.technique = Technique::Splats;
+  scene.mapper->SetStyleSheet(sheet);
+  const Picture splats = scene.draw();
+  EXPECT_GT(splats.lit(), points.lit()) << "a closed surface";
+  // A class less: its points are not drawn, whichever layer they are in.
+  auto half = std::make_shared<StyleSheet>(*sheet);
+  half->classes[2].visible = false;
+  scene.mapper->SetStyleSheet(half);
+  const Picture left = scene.draw();
+  EXPECT_LT(left.lit(), splats.lit() * 3 / 4);
+  EXPECT_GT(left.lit(), splats.lit() / 4);
+  scene.mapper->SetStyleSheet(nullptr);
+  EXPECT_EQ(differing(points, scene.draw()), 0);
+}
+
+TEST(SoftwareBackend, DrawsWhatOpenGLDoesNotAndSaysSo)
+{
+  Sheet scene;
+  auto sheet = std::make_shared<StyleSheet>();
+  sheet->standard.technique = Technique::Splats;
+  scene.mapper->SetStyleSheet(sheet);
+  const Picture splats = scene.with(vtkPointFrontMapper::SOFTWARE);
+  int warnings = 0;
+  vtkNew<vtkCallbackCommand> count;
+  count->SetClientData(&warnings);
+  count->SetCallback(
+    [](vtkObject*, unsigned long, void* data, void*) { ++*static_cast<int*>(data); });
+  scene.mapper->AddObserver(vtkCommand::WarningEvent, count);
+  EXPECT_EQ(differing(splats, scene.with(vtkPointFrontMapper::OPENGL)), 0);
+  scene.draw();
+  EXPECT_EQ(warnings, 1);
+}
+
+TEST(SoftwareBackend, ASheetThatAsksForWhatIsNotThereIsAnError)
+{
+  Sheet scene;
+  const Picture points = scene.with(vtkPointFrontMapper::SOFTWARE);
+  auto sheet = std::make_shared<StyleSheet>();
+  sheet->standard.colour = ColourSource::ofAttribute("no_such_thing");
+  scene.mapper->SetStyleSheet(sheet);
+  int errors = 0;
+  vtkNew<vtkCallbackCommand> count;
+  count->SetClientData(&errors);
+  count->SetCallback(
+    [](vtkObject*, unsigned long, void* data, void*) { ++*static_cast<int*>(data); });
+  scene.mapper->AddObserver(vtkCommand::ErrorEvent, count);
+  EXPECT_EQ(differing(points, scene.draw()), 0) << "as the properties say";
+  scene.draw();
+  EXPECT_EQ(errors, 1) << "once";
 }
 
 TEST(SoftwareBackend, TakesNoGpuMemoryAndNoGpuBudget)

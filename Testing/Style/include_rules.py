@@ -48,10 +48,8 @@ def may_know(room, other):
     if room == "vtkmodule/Common":
         return other in ("vtkmodule/Core", "IO/StyleJSON")  # plain C++: the text of a style
     if room.split("/")[0] in LAYERS:
-        return other.startswith("vtkmodule/") or (room, other) == (
-            "Rendering/OpenGL2",
-            "Rendering/Core",
-        )
+        return other.startswith("vtkmodule/") or (
+            room == "Rendering/OpenGL2" and other in ("Rendering/Core", "Rendering/Software"))
     return True  # paraview-plugin
 
 

@@ -20,6 +20,10 @@ foreach (filter IN ITEMS Attributes Normals Projection ImageColor)
     DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/pointfront/Filters" COMPONENT Development
     FILES_MATCHING PATTERN "*.h" PATTERN "Testing" EXCLUDE)
 endforeach ()
+list(APPEND pointfront_kernel_libraries pointfrontSoftware)
+install(FILES "${CMAKE_CURRENT_SOURCE_DIR}/Rendering/Software/SoftwareRasteriser.h"
+    "${CMAKE_CURRENT_SOURCE_DIR}/Rendering/Software/SoftwareTarget.h"
+  DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/pointfront" COMPONENT Development)
 install(TARGETS ${pointfront_kernel_libraries} EXPORT PointFrontKernel
   RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT Runtime
   LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT Runtime NAMELINK_COMPONENT Development

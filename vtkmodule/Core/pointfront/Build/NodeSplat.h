@@ -28,11 +28,13 @@ public:
   float radius();
 
 private:
+  void nearOf(const std::vector<glm::dvec3>& around, const glm::dvec3& from, double bound);
+
   std::vector<double> radii_;
   NearOffsets near_;
 };
 
-/// The cheap measure of how large splats of a node must be: a hundred of its points are looked at,
+/// The cheap measure of how large splats of a node must be: at most some fifty of its points are looked at,
 /// in some compact groups along the Morton curve, whose neighbours the curve gives without an
 /// index.
 /// Order    depends on the positions only.
@@ -60,7 +62,7 @@ private:
     std::size_t begin = 0;
     std::size_t end = 0;
   };
-  static Range inCell(const Points& points, const OctreeCell& cell);
+  static Range inCell(const Points& points, std::size_t near, const OctreeCell& cell);
   static unsigned likelySide(const Points& points, std::size_t from);
   std::size_t cellsAround(const Points& points, std::size_t from, unsigned log2Side);
   void lookAround(const Points& points, std::size_t from);

@@ -89,10 +89,11 @@ void SplatQuantile::add(
       nearOf(around, around[i], infinity);
     }
     likely = likelyFarther * near_.squaredBound();
-    const double radius = splatRadius(near_, neighbourPlane(near_));
+    bool rim = false;
+    const double radius = splatRadius(near_, neighbourPlane(near_), &rim);
     if (radius > 0.0)
     {
-      radii_.push_back(radius);
+      (rim ? rims_ : radii_).push_back(radius);
     }
   }
 }
@@ -114,6 +115,10 @@ void SplatQuantile::nearOf(
 
 float SplatQuantile::radius()
 {
+  if (radii_.empty())
+  {
+    radii_ = rims_;
+  }
   if (radii_.empty())
   {
     return 0.0f;

@@ -26,6 +26,7 @@ constexpr double planeFlatness = 0.05;  ///< thicker is a volume
 constexpr double volumeFourth = 0.6;    ///< of the distance to the fourth neighbour
 constexpr double noVertexFourth = 0.55; ///< likewise, of a cell without a vertex
 constexpr std::size_t lineNeighbours = 8;
+constexpr std::size_t firstCheck = 6; ///< of whether more neighbours can cut a cell
 
 bool offsetLess(const glm::dvec3& a, const glm::dvec3& b)
 {
@@ -142,6 +143,19 @@ public:
       x_[f] = keptX[f];
       y_[f] = keptY[f];
     }
+  }
+
+  /// Of the farthest vertex.
+  double squaredExtent() const
+  {
+    float squared = 0.0f;
+    for (std::size_t i = 0; i < count_; ++i)
+    {
+      const float x = x_[i / 4][i % 4];
+      const float y = y_[i / 4][i % 4];
+      squared = std::max(squared, x * x + y * y);
+    }
+    return static_cast<double>(squared);
   }
 
   struct Reach
@@ -344,8 +358,12 @@ NeighbourPlane neighbourPlane(const NearOffsets& near)
   return plane;
 }
 
-double splatRadius(const NearOffsets& near, const NeighbourPlane& plane)
+double splatRadius(const NearOffsets& near, const NeighbourPlane& plane, bool* rim)
 {
+  if (rim != nullptr)
+  {
+    *rim = false;
+  }
   const std::size_t count = near.size();
   if (count == 0)
   {
@@ -370,10 +388,19 @@ double splatRadius(const NearOffsets& near, const NeighbourPlane& plane)
   CellPolygon cell;
   for (std::size_t i = 0; i < count; ++i)
   {
+    const bool check = i >= firstCheck && i % 2 == 0;
+    if (check && near.squaredDistance(i) * share * share > 4.0 * cell.squaredExtent())
+    {
+      break; // half way to it and to all behind it is beyond every vertex
+    }
     cell.cut(static_cast<float>(glm::dot(near[i], first)),
       static_cast<float>(glm::dot(near[i], second)));
   }
   const CellPolygon::Reach found = cell.reach();
+  if (rim != nullptr)
+  {
+    *rim = found.open;
+  }
   const double vertex = length * std::sqrt(static_cast<double>(found.squared));
   const double reach =
     vertex > 0.0 ? std::min(vertex, length) : noVertexFourth * distance(4);

@@ -59,6 +59,8 @@ NeighbourPlane neighbourPlane(const NearOffsets& near);
 ///          a constant: it depends on them only, not on where a cloud is cut into parts.
 /// Result   finite, > 0; 0 without a neighbour. Units of the offsets.
 /// Source   splat rule and constants: docs/adr/0017-splat-radius.md.
-double splatRadius(const NearOffsets& near, const NeighbourPlane& plane);
+/// `rim`, if it is asked for: whether the cell is open, so that the radius is a guess.
+double splatRadius(
+  const NearOffsets& near, const NeighbourPlane& plane, bool* rim = nullptr);
 
 } // namespace pointfront

@@ -70,7 +70,9 @@ Result<void> run(const Options& options)
     done = truth::writePicture(folder + "oracle.png",
       truth::drawOracle(picture, seen.pixels(), seen.grade(), points));
   }
-  return done ? truth::writeFacts(folder + "truth.json", seen.pixels(), seen.grade(), points) : done;
+  return done
+    ? truth::writeFacts(folder + "truth.json", seen.pixels(), seen.grade(), points)
+    : done;
 }
 } // namespace
 

@@ -2,6 +2,10 @@
 
 #include "ChosenPasses.h"
 
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+
 namespace pointfront
 {
 
@@ -26,6 +30,29 @@ void BuildPasses::declare(CLI::App& app)
   normals_.declare(app);
   heights_.declare(app);
   app.parse_complete_callback([this]() { normals_.check(); });
+}
+
+std::vector<std::string> BuildPasses::inputsAmongImages(
+  const std::vector<std::string>& pointExtensions)
+{
+  std::vector<std::string> inputs;
+  for (std::vector<std::string>* words : { &choice_.colourFrom, &choice_.attributeFrom })
+  {
+    const auto isPoints = [&pointExtensions](const std::string& word)
+    {
+      std::string extension = std::filesystem::path(word).extension().string();
+      std::transform(extension.begin(), extension.end(), extension.begin(),
+        [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+      return word.find('=') == std::string::npos && !extension.empty() &&
+        std::find(pointExtensions.begin(), pointExtensions.end(), extension.substr(1)) !=
+        pointExtensions.end();
+    };
+    const auto images = std::stable_partition(words->begin(), words->end(),
+      [&isPoints](const std::string& word) { return !isPoints(word); });
+    inputs.insert(inputs.end(), images, words->end());
+    words->erase(images, words->end());
+  }
+  return inputs;
 }
 
 Result<AttributePasses> BuildPasses::passes() const

@@ -47,7 +47,12 @@ std::vector<std::string> BuildPasses::inputsAmongImages(
         std::find(pointExtensions.begin(), pointExtensions.end(), extension.substr(1)) !=
         pointExtensions.end();
     };
-    const auto images = std::stable_partition(words->begin(), words->end(),
+    if (words->empty())
+    {
+      continue;
+    }
+    // The first is what the option is about, whatever it is called.
+    const auto images = std::stable_partition(words->begin() + 1, words->end(),
       [&isPoints](const std::string& word) { return !isPoints(word); });
     inputs.insert(inputs.end(), images, words->end());
     words->erase(images, words->end());

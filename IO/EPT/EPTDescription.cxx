@@ -212,6 +212,11 @@ Result<EPTDescription> EPTDescription::parse(std::string_view text, const std::s
   if (const auto srs = json.find("srs"); srs != json.end() && srs->is_object())
   {
     description.wkt = textOf(*srs, "wkt");
+    const bool projString = description.wkt.rfind("+proj", 0) == 0;
+    if (projString && description.wkt.find("+type=crs") == std::string::npos)
+    {
+      description.wkt += " +type=crs"; // or it names a step of a calculation
+    }
     const std::string code = textOf(*srs, "horizontal");
     if (description.wkt.empty() && !code.empty())
     {

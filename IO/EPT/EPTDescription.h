@@ -40,7 +40,7 @@ struct EPTDescription
   std::vector<EPTDimension> dimensions;
   Bounds bounds; ///< of the points, as the file says
   std::uint64_t points = 0;
-  std::string wkt; ///< empty: not known
+  std::string wkt; ///< or a code, or a PROJ string; empty: not known
   std::string version;
 
   std::size_t recordBytes() const;

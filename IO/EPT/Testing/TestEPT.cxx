@@ -189,6 +189,7 @@ TEST(RealTree, OfBinaryTellsThatItsCountLies)
   ASSERT_TRUE(source);
   EXPECT_EQ(source->description().pointCount, 5u);
   EXPECT_EQ(source->description().warnings.size(), 1u); // it promises 10
+  EXPECT_EQ(source->description().crsWkt, "+proj=geocent +R=1000 +units=m +no_defs +type=crs");
   EXPECT_EQ(readPoints(*source).positions[0], glm::dvec3(1.0, 1.0, 999.0));
 }
 } // namespace

@@ -1,4 +1,4 @@
-"""What is exported comes back as it was, and is what its readers expect; messages say what is so."""
+"""What is exported comes back as it was and as its readers expect it; messages say what is so."""
 
 import datetime
 import struct
@@ -57,7 +57,8 @@ class Exports(ToolTest):
         out, _ = self.export(store, "x.las")
         day, year = struct.unpack_from("<2H", out.read_bytes(), 90)
         written = datetime.date(year, 1, 1) + datetime.timedelta(day - 1)
-        self.assertLess(abs((datetime.datetime.now(datetime.timezone.utc).date() - written).days), 2)
+        today = datetime.datetime.now(datetime.timezone.utc).date()
+        self.assertLess(abs((today - written).days), 2)
         out, outcome = self.export(store, "none.las", "--box", "0,0,0,1,1,1")
         self.assertIn("no point", outcome.err)
         self.assertIn("0 points", outcome.out)

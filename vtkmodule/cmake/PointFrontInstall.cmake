@@ -6,7 +6,7 @@ set(pointfront_package_folder "${CMAKE_INSTALL_LIBDIR}/cmake/PointFront")
 install(DIRECTORY "${CMAKE_CURRENT_SOURCE_DIR}/vtkmodule/Core/pointfront"
   DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" COMPONENT Development FILES_MATCHING PATTERN "*.h")
 set(pointfront_kernel_libraries pointfrontCore pointfrontSourceFormats pointfrontAttributePasses)
-foreach (family IN ITEMS LAS PCD PLY PNG StyleJSON Text)
+foreach (family IN ITEMS EPT LAS PCD PLY PNG StyleJSON Text)
   if (TARGET pointfrontIO${family})
     list(APPEND pointfront_kernel_libraries pointfrontIO${family})
     install(DIRECTORY "${CMAKE_CURRENT_SOURCE_DIR}/IO/${family}/"

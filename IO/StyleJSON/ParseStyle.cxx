@@ -192,7 +192,8 @@ ColourSource colourAt(const JSONPlace& place)
   }
   if (!place.has("attribute"))
   {
-    place.refuse("expected \"#rrggbb\", an attribute's name, or an object with attribute, multiply, "
+    place.refuse("expected \"#rrggbb\", an attribute's name, or an object with attribute, "
+                 "multiply, "
                  "mix or hue, not " + place.shown());
   }
   place.expectKeys({ "attribute", "map", "range", "logarithmic" });

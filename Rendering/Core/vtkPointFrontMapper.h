@@ -207,10 +207,10 @@ public:
 
 #ifndef __VTK_WRAP__
   /**
-   * Draws by a style sheet: techniques, colours, sizes, visibility and filters of each object class,
-   * and shading. PointSize and the properties of vtkMapper that choose colours do not count then.
-   * Null (default): they do. Where the store has not what the sheet asks for, an error says so and
-   * they count as well.
+   * Draws by a style sheet: techniques, colours, sizes, visibility and filters of each object
+   * class, and shading. PointSize and the properties of vtkMapper that choose colours do not count
+   * then. Null (default): they do. Where the store has not what the sheet asks for, an error says
+   * so and they count as well.
    */
   void SetStyleSheet(std::shared_ptr<const pointfront::StyleSheet> sheet);
   const std::shared_ptr<const pointfront::StyleSheet>& GetStyleSheet() const;

@@ -28,8 +28,8 @@ const std::byte* columnOf(const NodeColumns& node, std::optional<std::uint32_t> 
     : node.columns[static_cast<std::size_t>(place - node.selection.begin())].data();
 }
 
-/// A point's own radius counts up to that many times what closes its node: a stray point far from all
-/// others is no surface.
+/// A point's own radius counts up to that many times what closes its node: a stray point far from
+/// all others is no surface.
 constexpr float mostOfClosing = 2.0f;
 
 /// Rows x, y and the line of sight: view space looks along -z.

@@ -8,9 +8,9 @@ namespace pointfront
 namespace
 {
 
-// From radius and normal to what the loops over pixels need. X and Y are the centre's direction: its
-// place in camera space divided by its depth (perspective), 0 where rays are parallel. Cameras come by
-// value: what might change with each store to the batch keeps compilers from vectorising.
+// From radius and normal to what the loops over pixels need. X and Y are the centre's direction:
+// its place in camera space divided by its depth (perspective), 0 where rays are parallel. Cameras
+// come by value: what might change with each store to the batch keeps compilers from vectorising.
 
 /// Discs are not drawn more edge on than that cosine: what the affine map makes of them then has
 /// nothing to do with them (EWA-5).
@@ -131,9 +131,9 @@ inline void setUpEllipses(RasterCamera camera, float lowPass, int count, RasterB
   }
 }
 
-/// Where a conic is on screen: centre and half width along one axis, in units of the direction, from
-/// three entries of its dual, taken relative to the centre's direction so that nothing cancels.
-/// A conic that comes near the eye's plane is everywhere.
+/// Where a conic is on screen: centre and half width along one axis, in units of the direction,
+/// from three entries of its dual, taken relative to the centre's direction so that nothing
+/// cancels. A conic that comes near the eye's plane is everywhere.
 struct ConicExtent
 {
   float middle;
@@ -182,8 +182,8 @@ inline void setUpExact(RasterCamera camera, float lowPass, int count, RasterBatc
   }
 }
 
-/// The dual conic of a sphere's outline is r^2 I - c c^T. A sphere around the eye shows nothing: its
-/// near side is behind.
+/// The dual conic of a sphere's outline is r^2 I - c c^T. A sphere around the eye shows nothing:
+/// its near side is behind.
 template <bool Parallel>
 inline void setUpSpheres(RasterCamera camera, int count, RasterBatch& batch)
 {

@@ -78,7 +78,7 @@ std::optional<std::array<double, 3>> parseColour(const std::string& text)
 void DrawingOptions::declare(CLI::App& app)
 {
   app.add_option("stores", stores, "Stores, drawn together")->required()->type_name("STORE...");
-  const auto imageSize = word("--size", "a size in pixels: write 1280x720",
+  const auto imageSize = word("--size", "a size of 1 to 16384 pixels each way: write 1280x720",
     [this](const std::string& text)
     {
       const auto edges = parseImageSize(text);

@@ -39,7 +39,7 @@ void BuildCommand::declare(CLI::App& program)
     ->type_name("N");
   app_->add_option("--precision", precision_,
         "Step of the stored coordinates (the inputs' own: lossless)")
-    ->check(CLI::PositiveNumber)
+    ->check(positiveNumber())
     ->type_name("METRES");
   app_->add_option("--attributes", attributes_, "Attributes to store: all, or names (all)")
     ->type_name("all|LIST");

@@ -64,8 +64,11 @@ bool inRange(double bytes)
 
 bool isByteSizeOutOfRange(const std::string& text)
 {
+  char* end = nullptr;
+  const double plain = std::strtod(text.c_str(), &end); // 1e300
+  const bool beyond = !text.empty() && *end == '\0' && plain >= 9.2e18;
   const std::optional<double> bytes = readByteSize(text);
-  return bytes && !inRange(*bytes);
+  return beyond || (bytes && !inRange(*bytes));
 }
 
 std::optional<std::uint64_t> parseByteSize(const std::string& text)

@@ -53,7 +53,7 @@ void ExportCommand::declare(CLI::App& program)
     ->expected(1);
   app_->add_option("--spacing", selection_.spacing,
         "Thin out: levels until the points are at least this dense")
-    ->check(CLI::PositiveNumber)
+    ->check(positiveNumber())
     ->type_name("METRES");
   app_->add_option("--crs", sinkChoice_.crs,
         "Transform into this coordinate reference system (the store's own)")

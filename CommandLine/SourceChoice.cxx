@@ -47,6 +47,7 @@ void SourceChoice::declare(CLI::App& app)
     ->check(availableValues(
       { "comma", "semicolon", "tab", "blank", ",", ";", " ", "\t", "\\t" }, {}));
   app.add_option("--skip", text_.skip, "Lines at the beginning of text files to pass over (0)")
+    ->check(wholeNumber())
     ->type_name("N");
   app.add_option("--color-depth", colourDepth_,
        "Bits of 16-bit colours: by each file's largest (auto), 8 or 16")

@@ -23,6 +23,11 @@ std::optional<std::vector<std::uint8_t>> parseClasses(const std::string& text);
 /// "1280x720" -> width and height, 1 to 16384 pixels.
 std::optional<std::array<int, 2>> parseImageSize(const std::string& text);
 
+/// Check for an option that is a length or the like: finite, above 0.
+CLI::Validator positiveNumber();
+/// Check for an option that counts: decimal digits only, at most 15.
+CLI::Validator wholeNumber();
+
 /// An option of bytes: "512M", "4G". Wrong text is wrong usage.
 CLI::Option* addByteSize(
   CLI::App& app, const std::string& option, std::uint64_t& bytes, const std::string& description);

@@ -95,7 +95,10 @@ class Messages(ToolTest):
     def test_numbers_out_of_range_are_short(self):
         out = ("-o", self.folder / "x.pfront")
         for option, value in (("--memory", "99999999999999G"), ("--memory", "0"),
-                              ("--precision", "1e300"), ("--local-height-radius", "1e300")):
+                              ("--memory", "1e300"), ("--precision", "1e300"),
+                              ("--precision", "1e309"),
+                              ("--precision", "nan"), ("--skip", "-1"), ("--skip", "1e3"),
+                              ("--local-height-radius", "1e300")):
             outcome = pointfront("build", SMALL, *out, "--local-height", option, value)
             self.assertIn(outcome.status, (1, 2))
             last = outcome.err.splitlines()[-1]

@@ -51,11 +51,7 @@ class Usage(ToolTest):
         self.assertEqual(self.entries(), [])
 
     def test_render_flags(self):
-        refused = [
-            ("--technique", "splats"), ("--technique", "spheres"), ("--technique", "silhouettes"),
-            ("--technique", "solid"), ("--technique", "ewa"), ("--style", "s.json"),
-        ]
-        for flag in refused:
+        for flag in (("--technique", "silhouettes"), ("--technique", "solid")):
             outcome = self.refuse(2, "render", "s.pfront", "-o", self.folder / "x.png", *flag)
             self.assertIn("not available", outcome.err)
         wrong = [
@@ -63,7 +59,8 @@ class Usage(ToolTest):
             ("--background", "red"), ("--frames", "0"), ("--frames", "3", "--complete"),
             ("--view", "top", "--camera", "c.json"), ("--point-budget", "0"), ("--detail", "both"),
             ("--classes", "300"), ("--classes", "ground"), ("--backend", "vulkan"),
-            ("--size", "65536x10"),
+            ("--size", "65536x10"), ("--technique", "dots"), ("--style", "no/such.json"),
+            ("--where", "z = 3"),
         ]
         for flag in wrong:
             self.refuse(2, "render", "s.pfront", "-o", self.folder / "x.png", *flag)
@@ -92,12 +89,13 @@ class Reports(ToolTest):
         store = self.build(DATA / "las/real/1.2-with-color.las")
         report = self.succeed("info", store, "--json").json
         keys = {"points", "bounds", "precision", "crs", "structure", "refinement", "nodes",
-                "levels", "bytes", "attributes", "layers", "version"}
+                "levels", "bytes", "attributes", "layers", "version", "splat_radius"}
         self.assertLessEqual(keys, set(report))
         self.assertEqual(report["points"], 1065)
         self.assertEqual(len(report["bounds"]), 6)
         for axis in range(3):
             self.assertLess(report["bounds"][axis], report["bounds"][axis + 3])
+        self.assertEqual(report["splat_radius"], "per node")
         self.assertEqual(report["precision"], 0.01)
         self.assertEqual((report["structure"], report["refinement"]), ("octree", "add"))
         self.assertEqual(report["bytes"], store.stat().st_size)

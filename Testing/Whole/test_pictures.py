@@ -1,4 +1,4 @@
-"""Both back ends draw what VTK's own mapper draws of all points, and what each needs of a machine."""
+"""Both back ends draw what VTK's own mapper draws of all points, and what each needs."""
 
 import json
 import os
@@ -65,11 +65,14 @@ class BackEnds(SceneTest):
         camera.write_text(json.dumps({
             "position": [middle[0] - 300, middle[1] - 200, middle[2] + 400],
             "focal_point": middle, "view_up": [0, 0, 1], "parallel_scale": 150}))
-        kinds = [("--color-by", name) for name in
+        size = ("--point-size", 2) # "auto" is each back end's own
+        kinds = [("--color-by", name, *size) for name in
                  ("rgb", "classification", "intensity", "elevation", "normal", "horizontality",
                   "global-height", "local-height", "return_number")]
-        kinds += [("--view", "left"), ("--camera", camera), ("--classes", "2"), ("--error", "6"),
-                  ("--view", "top", "--point-size", "1"), ("--detail", "view")]
+        kinds += [(*kind, *size) for kind in
+                  (("--view", "left"), ("--camera", camera), ("--classes", "2"),
+                   ("--error", "6"), ("--detail", "view"))]
+        kinds += [("--view", "top", "--point-size", "1")]
         for kind in kinds:
             software, counts = self.statistics(store, *kind, "--backend", "software")
             opengl, other = self.statistics(store, *kind, "--backend", "opengl")

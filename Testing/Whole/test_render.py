@@ -136,11 +136,83 @@ class ChosenClasses(SceneTest):
         picture = self.folder / "x.png"
         outcome = self.refuse(1, "render", self.store, "-o", picture, "--classes", "9")
         self.assertIn("no store here has a point of these classes", outcome.err)
-        plain = self.folder / "plain.pfront"
+        self.assertFalse(picture.exists())
+
+    @unittest.skipIf(SOFTWARE, "draws them all the same")
+    def test_opengl_needs_a_tree_for_each_class(self):
+        plain, picture = self.folder / "plain.pfront", self.folder / "x.png"
         self.succeed("build", TRIM, "-o", plain, "--layers", "none")
         outcome = self.refuse(1, "render", plain, "-o", picture, "--classes", "2")
         self.assertIn("--layers class", outcome.err)
         self.assertFalse(picture.exists())
+
+    @unittest.skipUnless(SOFTWARE, "needs a tree for each class")
+    def test_one_tree_shows_them_too(self):
+        plain = self.folder / "plain.pfront"
+        self.succeed("build", TRIM, "-o", plain, "--layers", "none")
+        words = ("--view", "top", "--error", "0.01", "--background", "0,0,0", "--color-by",
+                 "classification", "--classes", "2", "--point-size", "1")
+        self.assertTrue((self.picture(plain, *words) == self.picture(self.store, *words)).all())
+
+
+@unittest.skipUnless(SOFTWARE, "draws points in one style")
+class Styles(SceneTest):
+    """What the options become; how a sheet is read and resolved is tested beside it."""
+
+    def setUp(self):
+        super().setUp()
+        self.store = self.build(write_las(self.folder / "plane.las", quadrants()))
+        camera = {"position": [50, 50, 40], "focal_point": [52, 49, 0], "view_up": [0, 1, 0],
+                  "view_angle": 30}
+        self.camera = self.folder / "camera.json"
+        self.camera.write_text(json.dumps(camera))
+        self.near = (self.store, "--camera", self.camera, "--background", "0,0,0")
+
+    def test_techniques_close_the_surface(self):
+        # Points stand 5 pixels apart.
+        points = self.picture(*self.near, "--point-size", 1)
+        self.assertGreater(int((points.max(axis=2) == 0).sum()), SIZE[0] * SIZE[1] // 2)
+        pictures = []
+        for technique in ("points", "splats", "spheres", "ewa"):
+            picture = self.picture(*self.near, "--technique", technique)
+            self.assertEqual(int((picture.max(axis=2) == 0).sum()), 0, technique)
+            corners = picture[[-5, -5, 5, 5], [5, -5, 5, -5]].tolist()
+            self.assertEqual(list(map(tuple, corners)), [RED, GREEN, BLUE, WHITE], technique)
+            pictures.append(picture)
+        # Splats that are blended mix colours where they meet.
+        self.assertEqual(len(numpy.unique(pictures[1].reshape(-1, 3), axis=0)), 4)
+        self.assertGreater(len(numpy.unique(pictures[3].reshape(-1, 3), axis=0)), 20)
+
+    def test_bands_of_splats_look_like_the_picture(self):
+        # How large a splat of a coarse node is follows from the finer ones in sight, which a band
+        # has fewer of.
+        store = self.folder / "trim.pfront"
+        self.succeed("build", TRIM, "-o", store)
+        for technique in ("points", "splats", "spheres", "ewa"):
+            words = (store, "--view", "top", "--technique", technique)
+            whole = self.picture(*words, size=(1200, 900))
+            banded, statistics = self.statistics(*words, "--memory", "32M", size=(1200, 900))
+            self.assertLessEqual(statistics["picture_bytes"], 16 << 20)
+            self.assertGreater(share_alike(whole, banded, 0), 0.999, technique)
+
+    def test_where(self):
+        words = (self.store, "--view", "top", "--background", "0,0,0")
+        colours = self.picture(*words, "--where", "rgb[2] > 40000").reshape(-1, 3)
+        self.assertLessEqual(set(map(tuple, colours.tolist())), {(0, 0, 0), BLUE, WHITE})
+        self.assertIn(WHITE, set(map(tuple, colours.tolist())))
+        outcome = self.refuse(1, "render", *words, "-o", self.folder / "x.png", "--where",
+                              "weight > 2")
+        self.assertIn("weight", outcome.err)
+
+    def test_style_file(self):
+        style = self.folder / "style.json"
+        style.write_text(json.dumps({"default": {"color": "#20ff40", "technique": "splats"}}))
+        picture, statistics = self.statistics(*self.near, "--style", style)
+        self.assertEqual(set(map(tuple, picture.reshape(-1, 3).tolist())), {(32, 255, 64)})
+        self.assertEqual(statistics["attributes_read"], [])
+        outcome = self.refuse(1, "render", self.store, "-o", self.folder / "x.png", "--style",
+                              style, "--backend", "opengl")
+        self.assertIn("software", outcome.err)
 
 
 class Refinement(SceneTest):
@@ -317,8 +389,10 @@ class Bands(SceneTest):
         return path.read_bytes(), json.loads(stats.read_text())
 
     def test_bands_are_the_picture(self):
-        for view in (("--view", "iso"), ("--view", "top", "--edl"),
-                     ("--view", "iso", "--point-size", "31"), ("--error", "4")):
+        for view in (("--view", "iso", "--point-size", "3"),
+                     ("--view", "top", "--edl", "--point-size", "6"),
+                     ("--view", "iso", "--point-size", "31"),
+                     ("--error", "4", "--point-size", "9")):
             whole, statistics = self.drawn("1G", "1600x1200", *view)
             banded, of_bands = self.drawn("24M", "1600x1200", *view)
             self.assertLessEqual(of_bands["picture_bytes"], 12 << 20)

@@ -20,7 +20,7 @@ template <std::size_t N>
 std::optional<std::array<double, N>> parseNumbers(const std::string& text);
 /// "2,6" -> class codes from 0 to 255, sorted, once each.
 std::optional<std::vector<std::uint8_t>> parseClasses(const std::string& text);
-/// "1280x720" -> width and height, 1 to 16384 pixels.
+/// "1280x720" -> width and height, 1 to 65535 pixels.
 std::optional<std::array<int, 2>> parseImageSize(const std::string& text);
 
 /// Check for an option that is a length or the like: finite, above 0.

@@ -51,7 +51,7 @@ std::string quoted(const std::string& text)
 } // namespace
 
 vtkPointFrontStyle::vtkPointFrontStyle()
-  : Sheet(std::make_unique<pointfront::StyleSheet>())
+  : Sheet(std::make_shared<const pointfront::StyleSheet>())
 {
 }
 
@@ -96,6 +96,14 @@ bool vtkPointFrontStyle::ChangeByJSON(
   if (!parsed)
   {
     vtkErrorMacro(<< placeOf(objectClass) << ": " << parsed.error().what);
+    return false;
+  }
+  pointfront::LayerStyle others = parsed->standard;
+  (key == "color" ? others.colour.reset() : key == "where" ? others.where.reset()
+                                                           : others.technique.reset());
+  if (!others.empty())
+  {
+    vtkErrorMacro(<< placeOf(objectClass) << ": expected a value for " << key << " alone");
     return false;
   }
   return this->ChangeStyle(objectClass,
@@ -330,7 +338,7 @@ bool vtkPointFrontStyle::SetStyleSheet(const pointfront::StyleSheet& sheet)
 {
   if (sheet != *this->Sheet)
   {
-    *this->Sheet = sheet;
+    this->Sheet = std::make_shared<const pointfront::StyleSheet>(sheet);
     this->Modified();
   }
   return true;

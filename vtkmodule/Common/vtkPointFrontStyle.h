@@ -139,9 +139,11 @@ public:
 #ifndef __VTK_WRAP__
   ///@{
   /**
-   * For mappers and C++ programs.
+   * For mappers and C++ programs. The sheet itself never changes: another one takes its place, so
+   * who keeps it can tell by the pointer that there is something new.
    */
   const pointfront::StyleSheet& GetStyleSheet() const;
+  std::shared_ptr<const pointfront::StyleSheet> GetSharedStyleSheet() const { return this->Sheet; }
   bool SetStyleSheet(const pointfront::StyleSheet& sheet);
   ///@}
 #endif
@@ -160,7 +162,7 @@ private:
   bool IsClass(int objectClass);
   pointfront::LayerStyle StyleOf(int objectClass) const;
 
-  std::unique_ptr<pointfront::StyleSheet> Sheet;
+  std::shared_ptr<const pointfront::StyleSheet> Sheet;
 };
 
 #endif

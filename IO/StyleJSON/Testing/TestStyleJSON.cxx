@@ -33,8 +33,7 @@ TEST(StyleJSON, EveryKeyIsUnderstood)
                         "color": {"attribute": "local-height", "map": "viridis", "range": [0, 20]},
                         "size": {"mode": "fixed", "metres": 0.25}, "orientation": [0, 0, 2] },
                  "9": { "visible": false, "rim_color": "#ff0000",
-                        "wall_color": ["#808080", "#404040"],
-                        "size": {"mode": "attribute"} } },
+                        "wall_color": ["#808080", "#404040"], "size": {"mode": "attribute"} } },
     "show_classes": [9, 2, 5], "where": "gps_time in [1, 2]",
     "shading": { "mode": ["lit", "edl"], "strength": 0.7, "radius_px": 2, "ambient": 0.1,
                  "diffuse": 0.9, "fill_holes": true } })");

@@ -40,8 +40,8 @@ TEST(FilterPruning, NodesWithoutAPointThatPassesAreLeftOut)
   std::size_t out = 0;
   for (const char* text : { "classification == 6", "classification != 2", "x > 900",
          "identity < 3e17", "shift[0] > 5.4", "gps_time in {100000}",
-         "classification == 6 and x < 0",
-         "small < -32700", "small not in [-32000, 32700]", "z > 1e9", "rgb.g in [100, 100]" })
+         "classification == 6 and x < 0", "small < -32700", "small not in [-32000, 32700]",
+         "z > 1e9", "rgb.g in [100, 100]" })
   {
     SCOPED_TRACE(text);
     StyleSheet sheet;

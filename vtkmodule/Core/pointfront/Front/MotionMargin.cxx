@@ -109,8 +109,8 @@ void MotionMargin::visit(NodeIndex index, const View& ahead, const LayerLimits& 
     return;
   }
   const double errorPx = screenError(ahead, node) / layer.errorFactor;
-  const bool drawn = verdict == NodePruning::Verdict::Draw && node.pointCount > 0;
-  if (drawn && residency.state(index) == ResidencyView::State::Absent)
+  if (verdict == NodePruning::Verdict::Draw && node.pointCount > 0 &&
+    residency.state(index) == ResidencyView::State::Absent)
   {
     requests_.push_back({ index, errorPx, true, node.pointCount, node.layer });
   }

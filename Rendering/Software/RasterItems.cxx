@@ -30,7 +30,7 @@ const std::byte* columnOf(const NodeColumns& node, std::optional<std::uint32_t> 
 
 /// A point's own radius counts up to that many times what closes its node: a stray point far from
 /// all others is no surface.
-constexpr float mostOfClosing = 2.0f;
+constexpr float mostOfClosing = 4.0f;
 
 /// Rows x, y and the line of sight: view space looks along -z.
 glm::dmat3 cameraAxes(const FrameCamera& camera)

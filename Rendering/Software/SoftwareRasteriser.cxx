@@ -74,7 +74,6 @@ struct SoftwareRasteriser::Content
   RasterWindow window;
   std::vector<DrawnItem> drawn;
   std::vector<std::shared_ptr<const ResolvedStyle>> styles; ///< alive, as the nodes
-  bool keepsVisible = false;
 
   std::uint64_t goOn(const RasterItems& items, const RasterWindow& now, std::vector<Piece>& pieces);
   bool renumber(const RasterItems& items, std::vector<std::uint32_t>& drawnUpTo);
@@ -428,16 +427,10 @@ RasterStatistics SoftwareRasteriser::draw(const FramePlan& plan, const RasterBan
   return statistics;
 }
 
-void SoftwareRasteriser::setKeepsVisible(bool keeps)
-{
-  content_->keepsVisible = keeps;
-}
-
 void SoftwareRasteriser::release()
 {
   auto fresh = std::make_unique<Content>(content_->crew);
   fresh->loops = content_->loops;
-  fresh->keepsVisible = content_->keepsVisible;
   content_ = std::move(fresh);
 }
 

@@ -52,10 +52,6 @@ public:
   RasterStatistics draw(const FramePlan& plan, const RasterBand& band, SoftwareTarget& target,
     std::uint16_t store = 0);
 
-  /// In motion: points of the last picture that are still in sight are drawn as well, even where
-  /// the plan has their nodes no more (SMOOTH-7). Off by default.
-  void setKeepsVisible(bool keeps);
-
   /// Forgets the last picture and gives its memory back.
   void release();
 

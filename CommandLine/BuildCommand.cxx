@@ -2,6 +2,7 @@
 
 #include "ByteSize.h"
 #include "CancelSignal.h"
+#include "InputFaults.h"
 #include "InputFiles.h"
 #include "PeakMemory.h"
 #include "ProgressDisplay.h"
@@ -22,7 +23,6 @@ void BuildCommand::declare(CLI::App& program)
 {
   app_ = program.add_subcommand("build", "Build a store from point files");
   app_->add_option("inputs", inputs_, "Files, glob patterns, folders; any mix")
-    ->required()
     ->type_name("IN...");
   app_->add_option("-o,--output", options_.outputPath, "The store to write")
     ->required()
@@ -39,7 +39,7 @@ void BuildCommand::declare(CLI::App& program)
     ->type_name("N");
   app_->add_option("--precision", precision_,
         "Step of the stored coordinates (the inputs' own: lossless)")
-    ->check(CLI::PositiveNumber)
+    ->check(positiveNumber())
     ->type_name("METRES");
   app_->add_option("--attributes", attributes_, "Attributes to store: all, or names (all)")
     ->type_name("all|LIST");
@@ -58,16 +58,31 @@ void BuildCommand::declare(CLI::App& program)
         "A small store beside the output, to look at while it is built: auto or none (auto)")
     ->check(availableValues({ "auto", "none" }, {}));
   app_->add_flag("--json", json_, "Print the report as one JSON object");
+  addOnError(*app_, options_.onFault);
   sourceChoice_.declare(*app_);
   passes_.declare(*app_);
+  app_->final_callback(
+    [this]
+    {
+      const std::vector<std::string> more =
+        passes_.inputsAmongImages(SourceFormats().extensions());
+      inputs_.insert(inputs_.end(), more.begin(), more.end());
+      if (inputs_.empty())
+      {
+        throw CLI::RequiredError("inputs");
+      }
+    });
 }
 
-Result<PointSources> BuildCommand::openSources() const
+Result<OpenedInputs> BuildCommand::openSources() const
 {
-  const SourceFormats formats(sourceChoice_.options(options_));
+  const SourceOptions options = sourceChoice_.options(options_);
+  const SourceFormats formats(options);
   const auto holdsPoints = [&formats](const std::string& path)
   { return formats.mayHoldPoints(path); };
-  Result<InputFileList> files = findInputFiles(inputs_, formats.extensions(), holdsPoints);
+  std::vector<InputFault> absent;
+  Result<InputFileList> files =
+    findInputFiles(inputs_, formats.extensions(), holdsPoints, &absent);
   if (!files)
   {
     return files.error();
@@ -76,25 +91,21 @@ Result<PointSources> BuildCommand::openSources() const
   {
     warn(name(), warning);
   }
-  PointSources sources;
-  for (const std::string& path : files->paths)
+  Result<OpenedInputs> inputs =
+    openInputs(files->paths, formats, options_.onFault, options.survey, absent);
+  if (!inputs)
   {
-    Result<std::unique_ptr<PointSource>> source = formats.open(path);
-    if (!source)
-    {
-      return source.error();
-    }
-    if (CancelSignal::requested())
-    {
-      return makeError(Error::Kind::Cancelled, "cancelled");
-    }
-    for (const std::string& warning : (*source)->description().warnings)
-    {
-      warn(name(), path + ": " + warning);
-    }
-    sources.push_back(std::move(*source));
+    return inputs;
   }
-  return sources;
+  for (const std::unique_ptr<PointSource>& source : inputs->sources)
+  {
+    const SourceDescription& description = source->description();
+    for (const std::string& warning : description.warnings)
+    {
+      warn(name(), description.path + ": " + warning);
+    }
+  }
+  return inputs;
 }
 
 void BuildCommand::warnOfBuild(
@@ -142,37 +153,45 @@ Result<void> BuildCommand::run()
   {
     options_.attributes = splitList(attributes_);
   }
-  Result<PointSources> sources = openSources();
-  if (!sources)
+  Result<OpenedInputs> inputs = openSources();
+  if (!inputs)
   {
-    return sources.error();
+    return inputs.error();
   }
+  PointSources& sources = inputs->sources;
   const Result<AttributePasses> passes = passes_.passes();
   if (!passes)
   {
     return passes.error();
   }
-  const Result<BuildReport> built = buildFrom(*sources, *passes);
+  Result<BuildReport> built = buildFrom(sources, *passes);
   if (!built)
   {
     return built.error();
   }
-  const BuildReport* report = &built.value();
-  warnOfBuild(*sources, *report);
+  BuildReport* report = &built.value();
+  report->inputsSkipped.insert(
+    report->inputsSkipped.begin(), inputs->skipped.begin(), inputs->skipped.end());
+  warnOfBuild(sources, *report);
+  const bool skips = options_.onFault == OnFault::Skip;
   if (json_)
   {
-    std::printf("%s\n", buildReportJson(*report, peakResidentBytes()).c_str());
+    std::printf("%s\n", buildReportJson(*report, peakResidentBytes(), skips).c_str());
     return {};
   }
-  std::printf("%s: %llu points in %llu nodes, %s, %.1f s (%.2f M points/s)\n",
+  const std::string rejected = rejectionText(*report);
+  const std::string leftOut = (rejected.empty() ? "" : "; left out: " + rejected) +
+    skippedText(report->inputsSkipped);
+  std::printf("%s: %llu points in %llu nodes, %s, %.1f s (%.2f M points/s)%s\n",
     options_.outputPath.c_str(), static_cast<unsigned long long>(report->pointsStored),
     static_cast<unsigned long long>(report->nodes), byteSizeText(report->bytesWritten).c_str(),
     report->seconds, report->seconds > 0.0
-      ? static_cast<double>(report->pointsStored) / report->seconds * 1e-6 : 0.0);
+      ? static_cast<double>(report->pointsStored) / report->seconds * 1e-6 : 0.0,
+    leftOut.c_str());
   return {};
 }
 
-std::string buildReportJson(const BuildReport& report, std::uint64_t peakBytes)
+std::string buildReportJson(const BuildReport& report, std::uint64_t peakBytes, bool skips)
 {
   nlohmann::ordered_json object;
   object["points_read"] = report.pointsRead;
@@ -181,6 +200,10 @@ std::string buildReportJson(const BuildReport& report, std::uint64_t peakBytes)
   for (const auto& [reason, count] : report.pointsRejected)
   {
     object["points_rejected"][reason] = count;
+  }
+  if (skips)
+  {
+    object["inputs_skipped"] = skippedJson(report.inputsSkipped);
   }
   object["seconds"] = report.seconds;
   object["points_per_second"] = report.seconds > 0.0
@@ -191,7 +214,7 @@ std::string buildReportJson(const BuildReport& report, std::uint64_t peakBytes)
   object["spilled_bytes"] = report.spilledBytes;
   object["cpu_seconds"] = report.phaseSeconds;
   object["cpu_seconds"]["total"] = report.cpuSeconds;
-  return object.dump(2);
+  return object.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
 } // namespace pointfront

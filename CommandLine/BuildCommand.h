@@ -23,8 +23,8 @@ public:
   Result<void> run() override;
 
 private:
-  /// Opens every input; warns of what was wrong and survived.
-  Result<PointSources> openSources() const;
+  /// Opens every input, but for those to skip; warns of what was wrong and survived.
+  Result<OpenedInputs> openSources() const;
   /// Passes, preview and build, with progress on stderr. `sources` becomes what the passes gave.
   Result<BuildReport> buildFrom(PointSources& sources, const AttributePasses& passes);
   /// Tells what the build itself found; what the sources said has been told, with their paths.
@@ -45,7 +45,7 @@ private:
   bool json_ = false;
 };
 
-/// The keys of `build --json`.
-std::string buildReportJson(const BuildReport& report, std::uint64_t peakBytes);
+/// The keys of `build --json`; with `skips` also those of inputs that were left out.
+std::string buildReportJson(const BuildReport& report, std::uint64_t peakBytes, bool skips);
 
 } // namespace pointfront

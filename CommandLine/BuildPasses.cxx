@@ -2,6 +2,10 @@
 
 #include "ChosenPasses.h"
 
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+
 namespace pointfront
 {
 
@@ -28,6 +32,34 @@ void BuildPasses::declare(CLI::App& app)
     "Measure around each point how large it must be drawn; comes with --normals pca");
   heights_.declare(app);
   app.parse_complete_callback([this]() { normals_.check(); });
+}
+
+std::vector<std::string> BuildPasses::inputsAmongImages(
+  const std::vector<std::string>& pointExtensions)
+{
+  std::vector<std::string> inputs;
+  for (std::vector<std::string>* words : { &choice_.colourFrom, &choice_.attributeFrom })
+  {
+    const auto isPoints = [&pointExtensions](const std::string& word)
+    {
+      std::string extension = std::filesystem::path(word).extension().string();
+      std::transform(extension.begin(), extension.end(), extension.begin(),
+        [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+      return word.find('=') == std::string::npos && !extension.empty() &&
+        std::find(pointExtensions.begin(), pointExtensions.end(), extension.substr(1)) !=
+        pointExtensions.end();
+    };
+    if (words->empty())
+    {
+      continue;
+    }
+    // The first is what the option is about, whatever it is called.
+    const auto images = std::stable_partition(words->begin() + 1, words->end(),
+      [&isPoints](const std::string& word) { return !isPoints(word); });
+    inputs.insert(inputs.end(), images, words->end());
+    words->erase(images, words->end());
+  }
+  return inputs;
 }
 
 Result<AttributePasses> BuildPasses::passes() const

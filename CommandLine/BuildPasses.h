@@ -7,6 +7,9 @@
 
 #include <CLI/CLI.hpp>
 
+#include <string>
+#include <vector>
+
 namespace pointfront
 {
 
@@ -17,6 +20,9 @@ class BuildPasses
 {
 public:
   void declare(CLI::App& app);
+  /// Takes what is a point file by its extension back from the options that take all names behind
+  /// them: `build --color-from ortho.tif survey.laz` means an image and an input.
+  std::vector<std::string> inputsAmongImages(const std::vector<std::string>& pointExtensions);
   /// Errors  those of AttributePassMaker::passes().
   Result<AttributePasses> passes() const;
 

@@ -26,7 +26,10 @@ std::optional<double> unitFactor(const std::string& unit)
 }
 } // namespace
 
-std::optional<std::uint64_t> parseByteSize(const std::string& text)
+namespace
+{
+/// Bytes, whatever their number; nothing for text that is no size.
+std::optional<double> readByteSize(const std::string& text)
 {
   std::string::size_type end = 0;
   int dots = 0;
@@ -49,16 +52,30 @@ std::optional<std::uint64_t> parseByteSize(const std::string& text)
     c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   }
   const std::optional<double> factor = unitFactor(unit);
-  if (!factor)
-  {
-    return std::nullopt;
-  }
-  const double bytes = std::floor(std::strtod(text.c_str(), nullptr) * *factor);
-  if (!(bytes >= 1.0) || bytes >= 9.2e18)
-  {
-    return std::nullopt;
-  }
-  return static_cast<std::uint64_t>(bytes);
+  return factor ? std::optional<double>(std::floor(std::strtod(text.c_str(), nullptr) * *factor))
+                : std::nullopt;
+}
+
+bool inRange(double bytes)
+{
+  return bytes >= 1.0 && bytes < 9.2e18;
+}
+} // namespace
+
+bool isByteSizeOutOfRange(const std::string& text)
+{
+  char* end = nullptr;
+  const double plain = std::strtod(text.c_str(), &end); // 1e300
+  const bool beyond = !text.empty() && *end == '\0' && plain >= 9.2e18;
+  const std::optional<double> bytes = readByteSize(text);
+  return beyond || (bytes && !inRange(*bytes));
+}
+
+std::optional<std::uint64_t> parseByteSize(const std::string& text)
+{
+  const std::optional<double> bytes = readByteSize(text);
+  return bytes && inRange(*bytes) ? std::optional<std::uint64_t>(static_cast<std::uint64_t>(*bytes))
+                                  : std::nullopt;
 }
 
 std::string byteSizeText(std::uint64_t bytes)

@@ -7,6 +7,7 @@
 #include "RasterModule.h"
 #include "ScanNormalsPass.h"
 
+#include <cstdio>
 #include <string>
 
 namespace pointfront
@@ -31,8 +32,10 @@ Result<void> within(double value, double least, double most, const char* name)
   {
     return {};
   }
-  return wrong(std::string(name) + " of " + std::to_string(value) + " is not possible; choose " +
-    std::to_string(least) + " to " + std::to_string(most));
+  char text[200];
+  std::snprintf(text, sizeof text, "%s of %g is not possible; choose %g to %g", name, value, least,
+    most);
+  return wrong(text);
 }
 
 Result<void> checkNormals(const PassChoice& choice)

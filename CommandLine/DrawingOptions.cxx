@@ -90,7 +90,7 @@ void DrawingOptions::declare(CLI::App& app)
 {
   app.add_option("stores", stores, "Stores, drawn together")->required()->type_name("STORE...");
   declareBackend(app, *this);
-  const auto imageSize = word("--size", "a size in pixels: write 1280x720",
+  const auto imageSize = word("--size", "a size of 1 to 65535 pixels each way: write 1280x720",
     [this](const std::string& text)
     {
       const auto edges = parseImageSize(text);

@@ -2,6 +2,7 @@
 
 #include "pointfront/Residency/LoadScheduler.h"
 #include "pointfront/Store/StoredCloudFormats.h"
+#include "pointfront/Style/FilterPruning.h"
 
 #include <utility>
 
@@ -29,8 +30,13 @@ Result<std::unique_ptr<DrawnStore>> DrawnStore::open(const std::string& path)
   return store;
 }
 
-void DrawnStore::setStyles(std::vector<LayerStyling> layers)
+Result<void> DrawnStore::setStyles(std::vector<LayerStyling> layers)
 {
+  const auto pruning = pruningOf(*cloud_, layers);
+  if (!pruning)
+  {
+    return pruning.error();
+  }
   styles_ = std::move(layers);
   columns_ = {};
   limits_.clear();
@@ -39,9 +45,11 @@ void DrawnStore::setStyles(std::vector<LayerStyling> layers)
     LayerLimits limits;
     limits.visible = layer.visible();
     limits.errorFactor = layer.errorFactor;
+    limits.pruning = (*pruning)[limits_.size()];
     limits_.push_back(limits);
     columns_.layers.push_back(layer.columns());
   }
+  return {};
 }
 
 std::uint64_t DrawnStore::pointsShown() const

@@ -25,8 +25,8 @@ public:
   static Result<std::unique_ptr<DrawnStore>> open(const std::string& path);
 
   const std::shared_ptr<const StoredCloud>& cloud() const { return cloud_; }
-  /// One for each layer of the store.
-  void setStyles(std::vector<LayerStyling> layers);
+  /// One for each layer of the store. Errors of reading which nodes their filters leave out.
+  Result<void> setStyles(std::vector<LayerStyling> layers);
   const std::vector<LayerStyling>& styles() const { return styles_; }
   /// Of the layers that their styles show.
   std::uint64_t pointsShown() const;

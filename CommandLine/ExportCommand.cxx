@@ -53,8 +53,13 @@ void ExportCommand::declare(CLI::App& program)
     ->expected(1);
   app_->add_option("--spacing", selection_.spacing,
         "Thin out: levels until the points are at least this dense")
-    ->check(CLI::PositiveNumber)
+    ->check(positiveNumber())
     ->type_name("METRES");
+  app_->add_option("--crs", sinkChoice_.crs,
+        "Transform into this coordinate reference system (the store's own)")
+    ->type_name("EPSG:N|WKTFILE");
+  app_->add_flag("--double", sinkChoice_.doubleCoordinates,
+    "PCD: coordinates as float64, which PCL's readers of points do not take");
   app_->add_flag("--force", replace_, "Replace an existing file of the same kind");
   app_->add_option("--progress", progress_, "On stderr: auto, plain, json or none (auto)")
     ->check(availableValues({ "auto", "plain", "json", "none" }, {}));
@@ -69,13 +74,15 @@ Result<void> ExportCommand::run()
   {
     return store.error();
   }
+  std::vector<std::string> reads = (*store)->files();
+  reads.push_back(sinkChoice_.crs); // may be a file
   Result<void> checked =
-    checkOutputTarget({ outputPath_, sinkKind(outputPath_), replace_ }, (*store)->files());
+    checkOutputTarget({ outputPath_, sinkKind(outputPath_), replace_ }, reads);
   if (!checked)
   {
     return checked;
   }
-  const std::unique_ptr<PointSink> sink = makeSink(outputPath_);
+  const std::unique_ptr<PointSink> sink = makeSink(outputPath_, sinkChoice_);
   ExportReport report;
   {
     ProgressDisplay display(*ProgressDisplay::styleOf(progress_));
@@ -85,6 +92,14 @@ Result<void> ExportCommand::run()
       return exported.error();
     }
     report = *exported;
+  }
+  for (const std::string& finding : sink->findings())
+  {
+    warn(name(), outputPath_ + ": " + finding);
+  }
+  if (report.pointsWritten == 0)
+  {
+    warn(name(), outputPath_ + ": no point of the store is selected; the file holds none");
   }
   std::printf("%s: %llu points\n", outputPath_.c_str(),
     static_cast<unsigned long long>(report.pointsWritten));

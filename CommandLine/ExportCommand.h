@@ -1,6 +1,7 @@
 #pragma once
 
 #include "Command.h"
+#include "SinkFormats.h"
 
 #include "pointfront/Export/StoreExport.h"
 
@@ -20,6 +21,7 @@ private:
   std::string storePath_;
   std::string outputPath_;
   ExportSelection selection_;
+  SinkChoice sinkChoice_;
   bool replace_ = false;
   std::string progress_ = "auto";
 };

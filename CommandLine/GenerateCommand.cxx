@@ -40,7 +40,9 @@ Result<void> GenerateCommand::run()
     return checked;
   }
   const TerrainSource survey(points_, seed_);
-  const std::unique_ptr<PointSink> sink = makeSink(outputPath_);
+  SinkChoice choice;
+  choice.dated = false; // the same numbers give the same file
+  const std::unique_ptr<PointSink> sink = makeSink(outputPath_, choice);
   std::uint64_t written = 0;
   {
     ProgressDisplay display(*ProgressDisplay::styleOf(progress_));

@@ -2,6 +2,8 @@
 
 #include "ByteSize.h"
 #include "CancelSignal.h"
+#include "InputFaults.h"
+#include "InputFiles.h"
 #include "PeakMemory.h"
 #include "ProgressDisplay.h"
 #include "Unavailable.h"
@@ -21,14 +23,32 @@ double perSecond(const LASIndexReport& report)
 {
   return report.seconds > 0.0 ? static_cast<double>(report.points) / report.seconds : 0.0;
 }
+/// Adds up the reports of several files.
+void add(const LASIndexReport& report, LASIndexReport& all)
+{
+  all.points += report.points;
+  all.nodes += report.nodes;
+  all.runs += report.runs;
+  all.bytesWritten += report.bytesWritten;
+  all.spilledBytes += report.spilledBytes;
+  all.seconds += report.seconds;
+}
+
+void printReport(const std::string& side, const LASIndexReport& report)
+{
+  std::printf("%s: %llu points in %llu nodes by %llu runs, %s, %.1f s (%.2f M points/s)\n",
+    side.c_str(), static_cast<unsigned long long>(report.points),
+    static_cast<unsigned long long>(report.nodes), static_cast<unsigned long long>(report.runs),
+    byteSizeText(report.bytesWritten).c_str(), report.seconds, perSecond(report) * 1e-6);
+}
 } // namespace
 
 void IndexCommand::declare(CLI::App& program)
 {
   app_ = program.add_subcommand("index", "Make a LAS file drawable in place: a side file only");
-  app_->add_option("input", inputPath_, "The LAS file; it is not changed")
+  app_->add_option("inputs", inputs_, "LAS files, patterns, folders; they are not changed")
     ->required()
-    ->type_name("IN.las");
+    ->type_name("IN.las...");
   app_->add_option("-o,--output", sidePath_,
         std::string("The side file (IN.las") + lasIndexSuffix + ")")
     ->type_name("SIDE");
@@ -43,48 +63,115 @@ void IndexCommand::declare(CLI::App& program)
   app_->add_option("--temp", options_.temporaryFolder, "Folder for spill files (the side file's)")
     ->check(CLI::ExistingDirectory)
     ->type_name("DIR");
+  addOnError(*app_, onFault_);
   app_->add_flag("--force", options_.overwrite, "Replace an existing index");
   app_->add_option("--progress", progress_, "On stderr: auto, plain, json or none (auto)")
     ->check(availableValues({ "auto", "plain", "json", "none" }, {}));
   app_->add_flag("--json", json_, "Print the report as one JSON object");
 }
 
+/// Of files that are no point files at all the family is not asked for first: a LAS file may have
+/// any name.
+Result<std::vector<std::string>> IndexCommand::findFiles(std::vector<InputFault>& skipped) const
+{
+  const bool skip = onFault_ == OnFault::Skip;
+  Result<InputFileList> files =
+    findInputFiles(inputs_, { "las" }, {}, &skipped);
+  if (!files)
+  {
+    return files.error();
+  }
+  if (!sidePath_.empty() && files->paths.size() > 1)
+  {
+    return makeError(Error::Kind::BadArgument,
+      "-o names one side file, but there are " + std::to_string(files->paths.size()) +
+        " inputs; leave it out");
+  }
+  std::vector<Error> faults;
+  for (const InputFault& absent : skipped)
+  {
+    faults.push_back(errorOf(absent));
+  }
+  const std::size_t named = files->paths.size() + faults.size();
+  std::vector<std::string> sound;
+  for (const std::string& path : files->paths)
+  {
+    if (Result<void> can = checkIndexable(path); !can)
+    {
+      faults.push_back(can.error());
+      skipped.push_back(inputFault(path, can.error()));
+      continue;
+    }
+    sound.push_back(path);
+  }
+  if (!faults.empty() && (!skip || sound.empty()))
+  {
+    return faultyInputs(faults, named);
+  }
+  return sound;
+}
+
 Result<void> IndexCommand::run()
 {
   const CancelSignal signal(CancelSignal::Mode::Finish);
-  const std::string side = sidePath_.empty() ? inputPath_ + lasIndexSuffix : sidePath_;
-  LASIndexReport report;
+  std::vector<InputFault> skipped;
+  const Result<std::vector<std::string>> files = findFiles(skipped);
+  if (!files)
   {
-    ProgressDisplay display(*ProgressDisplay::styleOf(progress_));
-    Result<LASIndexReport> indexed =
-      indexLASFile(inputPath_, side, options_, display.function());
-    if (!indexed)
-    {
-      return indexed.error();
-    }
-    report = std::move(*indexed);
+    return files.error();
   }
-  for (const std::string& warning : report.warnings)
+  LASIndexReport all;
+  std::size_t indexed = 0;
+  for (const std::string& path : files.value())
   {
-    warn(name(), inputPath_ + ": " + warning);
+    const std::string side = sidePath_.empty() ? path + lasIndexSuffix : sidePath_;
+    Result<LASIndexReport> report = makeError(Error::Kind::Cancelled, "cancelled");
+    {
+      ProgressDisplay display(*ProgressDisplay::styleOf(progress_));
+      report = indexLASFile(path, side, options_, display.function());
+    }
+    if (!report)
+    {
+      if (onFault_ == OnFault::Stop || report.error().kind == Error::Kind::Cancelled)
+      {
+        return report.error();
+      }
+      skipped.push_back(inputFault(path, report.error()));
+      continue;
+    }
+    for (const std::string& warning : report->warnings)
+    {
+      warn(name(), path + ": " + warning);
+    }
+    add(*report, all);
+    ++indexed;
+    if (!json_)
+    {
+      printReport(side, *report);
+    }
   }
   if (json_)
   {
-    std::printf("%s\n", indexReportJson(report, peakResidentBytes()).c_str());
-    return {};
+    const auto* const told = onFault_ == OnFault::Skip ? &skipped : nullptr;
+    std::printf("%s\n", indexReportJson(all, told, peakResidentBytes()).c_str());
   }
-  std::printf("%s: %llu points in %llu nodes by %llu runs, %s, %.1f s (%.2f M points/s)\n",
-    side.c_str(), static_cast<unsigned long long>(report.points),
-    static_cast<unsigned long long>(report.nodes), static_cast<unsigned long long>(report.runs),
-    byteSizeText(report.bytesWritten).c_str(), report.seconds, perSecond(report) * 1e-6);
+  else if (!skipped.empty())
+  {
+    std::printf("%zu files indexed%s\n", indexed, skippedText(skipped).c_str());
+  }
   return {};
 }
 
-std::string indexReportJson(const LASIndexReport& report, std::uint64_t peakBytes)
+std::string indexReportJson(const LASIndexReport& report, const std::vector<InputFault>* skipped,
+  std::uint64_t peakBytes)
 {
   nlohmann::ordered_json object;
   object["points_read"] = report.points;
   object["points_indexed"] = report.points;
+  if (skipped != nullptr)
+  {
+    object["inputs_skipped"] = skippedJson(*skipped);
+  }
   object["nodes"] = report.nodes;
   object["runs"] = report.runs;
   object["seconds"] = report.seconds;
@@ -92,7 +179,7 @@ std::string indexReportJson(const LASIndexReport& report, std::uint64_t peakByte
   object["peak_rss_bytes"] = peakBytes;
   object["bytes_written"] = report.bytesWritten;
   object["spilled_bytes"] = report.spilledBytes;
-  return object.dump(2);
+  return object.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
 } // namespace pointfront

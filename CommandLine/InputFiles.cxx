@@ -44,6 +44,11 @@ Result<std::vector<std::string>> filesBelow(const std::string& folder, const Fol
 {
   std::vector<std::string> files;
   std::error_code failure;
+  if (const fs::path tree = fs::path(folder) / "ept.json";
+      fs::is_regular_file(tree, failure) && rule.isPointFile)
+  {
+    return std::vector<std::string>{ tree.string() }; // not the files of its nodes one by one
+  }
   fs::recursive_directory_iterator entry(folder, failure);
   for (; !failure && entry != fs::recursive_directory_iterator(); entry.increment(failure))
   {
@@ -126,18 +131,28 @@ Result<std::vector<std::string>> expand(
 
 Result<InputFileList> findInputFiles(
   const std::vector<std::string>& arguments, const std::vector<std::string>& extensions,
-  const PointFileTest& isPointFile)
+  const PointFileTest& isPointFile, std::vector<InputFault>* faults)
 {
   const FolderRule rule{ extensions, isPointFile };
   InputFileList list;
+  std::vector<Error> wrong;
   for (const std::string& argument : arguments)
   {
     Result<std::vector<std::string>> files = expand(argument, rule);
     if (!files)
     {
-      return files.error();
+      wrong.push_back(files.error());
+      if (faults != nullptr)
+      {
+        faults->push_back(inputFault(argument, files.error()));
+      }
+      continue;
     }
     list.paths.insert(list.paths.end(), files->begin(), files->end());
+  }
+  if (!wrong.empty() && (faults == nullptr || list.paths.empty()))
+  {
+    return faultyInputs(wrong, arguments.size());
   }
   std::sort(list.paths.begin(), list.paths.end());
 

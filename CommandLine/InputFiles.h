@@ -1,6 +1,7 @@
 #pragma once
 
 #include "pointfront/Base/Result.h"
+#include "pointfront/Build/OpenedInputs.h"
 
 #include <functional>
 #include <string>
@@ -22,9 +23,10 @@ using PointFileTest = std::function<bool(const std::string&)>;
 /// Turns files, glob patterns (*, ?, [...], for programs that call without a shell) and folders
 /// (every file below it whose extension is one of `extensions`, lower case without the dot, and
 /// that passes `isPointFile`) into a list of files.
-/// Errors  NotFound: no such file, a pattern that matches nothing, a folder without a point file.
+/// Errors  NotFound: no such file, a pattern that matches nothing, a folder without a point file;
+///         of several each is named. With `faults` they are added there instead.
 Result<InputFileList> findInputFiles(
   const std::vector<std::string>& arguments, const std::vector<std::string>& extensions,
-  const PointFileTest& isPointFile = {});
+  const PointFileTest& isPointFile = {}, std::vector<InputFault>* faults = nullptr);
 
 } // namespace pointfront

@@ -244,6 +244,7 @@ Result<void> OffscreenScene::setUpDrawing()
   }
   for (const auto& drawn : stores_)
   {
+    drawn->mapper->SetBackendToOpenGL();
     applyColour(colour.value(), drawn->mapper);
     drawn->mapper->SetTargetError(options_.errorPx);
     drawn->mapper->SetDetailSelection(options_.detail == "view"

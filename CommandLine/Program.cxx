@@ -12,6 +12,8 @@
 #include "Unavailable.h"
 #include "VerifyCommand.h"
 
+#include "Suggestion.h"
+
 #include "pointfront/Store/StoredCloudFormats.h"
 
 #include <cstdio>
@@ -59,14 +61,47 @@ std::string Program::commandNamed(int argc, char** argv) const
   return {};
 }
 
-std::string Program::commandsText() const
+std::string Program::commandsText(int argc, char** argv) const
 {
+  std::vector<std::string> known;
+  for (const auto& command : commands_)
+  {
+    known.push_back(command->name());
+  }
+  if (const std::string meant = argc > 1 ? suggestionFor(argv[1], known) : ""; !meant.empty())
+  {
+    return std::string("there is no command '") + argv[1] + "'; did you mean '" + meant + "'?";
+  }
   std::string names;
   for (const auto& command : commands_)
   {
     names += (names.empty() ? "" : ", ") + command->name();
   }
   return "the first word is a command: " + names + " (COMMAND --help tells more)";
+}
+
+std::string Program::usageText(const std::string& command, const CLI::ParseError& wrong) const
+{
+  constexpr std::size_t longest = 500;
+  std::string text = wrong.what();
+  std::vector<std::string> known;
+  const CLI::App* const app = app_.get_subcommand(command);
+  for (const CLI::Option* option : app->get_options())
+  {
+    for (const std::string& name : option->get_lnames())
+    {
+      known.push_back("--" + name);
+    }
+  }
+  for (const std::string& word : app->remaining())
+  {
+    const std::string name = word.substr(0, word.find('='));
+    if (const std::string meant = suggestionFor(name, known); name[0] == '-' && !meant.empty())
+    {
+      return "there is no option " + name + "; did you mean " + meant + "?";
+    }
+  }
+  return text.size() > longest ? text.substr(0, longest) + "..." : text;
 }
 
 int Program::run(int argc, char** argv)
@@ -82,7 +117,7 @@ int Program::run(int argc, char** argv)
   catch (const CLI::ParseError& wrong)
   {
     const std::string command = commandNamed(argc, argv);
-    complain(command, command.empty() ? commandsText() : wrong.what());
+    complain(command, command.empty() ? commandsText(argc, argv) : usageText(command, wrong));
     return ExitStatus::WrongUsage;
   }
   for (const auto& command : commands_)
@@ -100,7 +135,7 @@ int Program::run(int argc, char** argv)
     return outcome.error().kind == Error::Kind::Cancelled ? ExitStatus::Interrupted
                                                           : ExitStatus::Failed;
   }
-  complain("", commandsText());
+  complain("", commandsText(argc, argv));
   return ExitStatus::WrongUsage;
 }
 

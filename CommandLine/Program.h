@@ -22,7 +22,9 @@ private:
   /// The command that the words name, for messages about the rest of them; may be empty.
   std::string commandNamed(int argc, char** argv) const;
 
-  std::string commandsText() const;
+  std::string commandsText(int argc, char** argv) const;
+  /// What is wrong, with the option that may have been meant.
+  std::string usageText(const std::string& command, const CLI::ParseError& wrong) const;
 
   CLI::App app_;
   std::vector<std::unique_ptr<Command>> commands_;

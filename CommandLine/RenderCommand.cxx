@@ -3,6 +3,7 @@
 #include "CancelSignal.h"
 #include "DrawnFiles.h"
 #include "PeakMemory.h"
+#include "StoreCompany.h"
 #include "Unavailable.h"
 #include "WholeFile.h"
 
@@ -108,6 +109,31 @@ Result<FrameRecord> RenderCommand::draw(StoreScene& scene)
   return frame;
 }
 
+/// What the last frame lacks; one without a point is no picture of a cloud.
+Result<void> RenderCommand::judge(const FrameRecord& last) const
+{
+  if (frames_ == 0 && last.points == 0)
+  {
+    return makeError(Error::Kind::BadArgument, "no point is in the picture, which is not written; "
+      "look elsewhere (--camera, --view), or choose other points");
+  }
+  std::string raise;
+  const auto add = [&raise](bool limited, const char* option)
+  { raise += limited ? (raise.empty() ? "" : " and ") + std::string(option) : ""; };
+  add(last.limitedByMemory, "--memory");
+  add(last.limitedByGpu, "--gpu-memory");
+  add(last.limitedByPoints, "--point-budget");
+  if (frames_ == 0 && !raise.empty())
+  {
+    warn(name(), "the picture is coarser than --error asks; raise " + raise);
+  }
+  if (frames_ == 0 && last.failedNodes > 0)
+  {
+    warn(name(), std::to_string(last.failedNodes) + " nodes could not be read: points are missing");
+  }
+  return {};
+}
+
 Result<void> RenderCommand::run()
 {
   const CancelSignal signal(CancelSignal::Mode::Leave);
@@ -117,6 +143,10 @@ Result<void> RenderCommand::run()
   if (!free)
   {
     return free;
+  }
+  for (const std::string& doubt : doubtsOfCompany(drawing_.stores))
+  {
+    warn(name(), doubt);
   }
   Result<std::unique_ptr<StoreScene>> scene = StoreScene::open(drawing_);
   if (!scene)
@@ -134,16 +164,9 @@ Result<void> RenderCommand::run()
   {
     return last.error();
   }
-  const double roundingOfPrefixes = 1.01;
-  if (frames_ == 0 && (!last->complete || last->errorPx > drawing_.errorPx * roundingOfPrefixes))
+  if (Result<void> told = judge(*last); !told)
   {
-    std::string raise;
-    const auto add = [&](bool limited, const char* option)
-    { raise += limited ? (raise.empty() ? "" : " and ") + std::string(option) : ""; };
-    add(last->limitedByMemory, "--memory");
-    add(last->limitedByGpu, "--gpu-memory");
-    add(last->limitedByPoints || raise.empty(), "--point-budget");
-    warn(name(), "the picture is coarser than --error asks; raise " + raise);
+    return told;
   }
   // From here on there are files to finish: a signal is seen when they are whole.
   const CancelSignal finishing(CancelSignal::Mode::Finish);

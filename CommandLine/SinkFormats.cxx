@@ -3,6 +3,7 @@
 #include "LASWriter.h"
 #include "PCDWriter.h"
 #include "PLYWriter.h"
+#include "ProjectedSink.h"
 #include "Unavailable.h"
 #include "XYZWriter.h"
 
@@ -25,18 +26,22 @@ std::string extensionOf(const std::string& path)
 
 std::string checkExtension(std::string& path)
 {
-  const CLI::Validator check = availableValues({ ".las", ".laz", ".xyz", ".ply", ".pcd" }, {});
+  const CLI::Validator check =
+    availableValues({ ".las", ".laz", ".xyz", ".csv", ".ply", ".pcd" }, {});
   std::string extension = extensionOf(path);
   return check(extension);
 }
 } // namespace
 
-std::unique_ptr<PointSink> makeSink(const std::string& path)
+namespace
+{
+std::unique_ptr<PointSink> makeFile(const std::string& path, const SinkChoice& choice)
 {
   const std::string extension = extensionOf(path);
-  if (extension == ".xyz")
+  if (extension == ".xyz" || extension == ".csv")
   {
-    return std::make_unique<XYZWriter>(path);
+    return std::make_unique<XYZWriter>(
+      path, extension == ".csv" ? XYZWriter::Style::CSV : XYZWriter::Style::Blanks);
   }
   if (extension == ".ply")
   {
@@ -44,16 +49,26 @@ std::unique_ptr<PointSink> makeSink(const std::string& path)
   }
   if (extension == ".pcd")
   {
-    return std::make_unique<PCDWriter>(path);
+    return std::make_unique<PCDWriter>(path,
+      choice.doubleCoordinates ? PCDWriter::Coordinates::Float64 : PCDWriter::Coordinates::Float32);
   }
-  return std::make_unique<LASWriter>(
-    path, extension == ".laz" ? LASWriter::Encoding::Laz : LASWriter::Encoding::Las);
+  return std::make_unique<LASWriter>(path,
+    extension == ".laz" ? LASWriter::Encoding::Laz : LASWriter::Encoding::Las,
+    choice.dated ? LASDate::today() : LASDate());
+}
+} // namespace
+
+std::unique_ptr<PointSink> makeSink(const std::string& path, const SinkChoice& choice)
+{
+  std::unique_ptr<PointSink> file = makeFile(path, choice);
+  return choice.crs.empty() ? std::move(file)
+                            : std::make_unique<ProjectedSink>(std::move(file), choice.crs);
 }
 
 FileKind sinkKind(const std::string& path)
 {
   const std::string extension = extensionOf(path);
-  return extension == ".xyz" ? FileKind::Text
+  return extension == ".xyz" || extension == ".csv" ? FileKind::Text
     : extension == ".ply"    ? FileKind::PLY
     : extension == ".pcd"    ? FileKind::PCD
                              : FileKind::LAS;
@@ -61,7 +76,7 @@ FileKind sinkKind(const std::string& path)
 
 CLI::Validator sinkExtension()
 {
-  return CLI::Validator(checkExtension, "OUT.las|.laz|.xyz|.ply|.pcd");
+  return CLI::Validator(checkExtension, "OUT.las|.laz|.xyz|.csv|.ply|.pcd");
 }
 
 } // namespace pointfront

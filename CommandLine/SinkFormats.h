@@ -13,8 +13,16 @@ namespace pointfront
 
 /// The kinds of point files that this program writes, named by their extension.
 
+/// What may be asked of a file that is written.
+struct SinkChoice
+{
+  bool doubleCoordinates = false; ///< PCD
+  bool dated = true;              ///< LAS: its header tells the day
+  std::string crs;                ///< the system to transform into; empty: as they are
+};
+
 /// What writes a file of that name; the extension has passed the check.
-std::unique_ptr<PointSink> makeSink(const std::string& path);
+std::unique_ptr<PointSink> makeSink(const std::string& path, const SinkChoice& choice);
 /// What such a file is, for checkOutputTarget().
 FileKind sinkKind(const std::string& path);
 /// Check for an option that names such a file.

@@ -183,7 +183,10 @@ Result<void> SoftwareScene::chooseStyles()
     {
       return layers.error();
     }
-    store->setStyles(std::move(layers).value());
+    if (const Result<void> set = store->setStyles(std::move(layers).value()); !set)
+    {
+      return set;
+    }
     store->enterWindow(window);
     shown += store->pointsShown();
   }

@@ -23,6 +23,32 @@ void SourceChoice::declare(CLI::App& app)
        "Columns of text files: x,y,z,intensity,r,g,b,- (their headers, or a guess)")
     ->type_name("LIST")
     ->expected(1);
+  const auto decimal = [this](const CLI::results_t& words)
+  {
+    text_.decimalPoint = words.back() == "comma" || words.back() == "," ? ',' : '.';
+    return true;
+  };
+  app.add_option("--decimal", decimal, "Decimal mark of text files: point or comma (by their rows)")
+    ->expected(1)
+    ->check(availableValues({ "point", "comma", ".", "," }, {}));
+  const auto separator = [this](const CLI::results_t& words)
+  {
+    const std::string& word = words.back();
+    text_.separator = word == "comma" ? ','
+      : word == "semicolon"           ? ';'
+      : word == "tab" || word == "\\t" ? '\t'
+      : word == "blank"               ? ' '
+                                      : word[0];
+    return true;
+  };
+  app.add_option("--separator", separator,
+       "Between columns of text files: comma, semicolon, tab or blank (by their rows)")
+    ->expected(1)
+    ->check(availableValues(
+      { "comma", "semicolon", "tab", "blank", ",", ";", " ", "\t", "\\t" }, {}));
+  app.add_option("--skip", text_.skip, "Lines at the beginning of text files to pass over (0)")
+    ->check(wholeNumber())
+    ->type_name("N");
   app.add_option("--color-depth", colourDepth_,
        "Bits of 16-bit colours: by each file's largest (auto), 8 or 16")
     ->check(availableValues({ "auto", "8", "16" }, {}));
@@ -39,6 +65,7 @@ SourceOptions SourceChoice::options(const BuildOptions& build) const
 {
   SourceOptions options;
   options.columns = columns_;
+  options.text = text_;
   options.survey.threads = build.threads;
   options.survey.cancelled = [] { return CancelSignal::requested(); };
   options.temporaryFolder = build.temporaryFolder;

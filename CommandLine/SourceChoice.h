@@ -25,6 +25,7 @@ public:
 private:
   std::vector<std::string> columns_;
   std::string colourDepth_ = "auto";
+  TextChoice text_;
 };
 
 } // namespace pointfront

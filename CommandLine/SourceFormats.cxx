@@ -1,5 +1,6 @@
 #include "SourceFormats.h"
 
+#include "EPTFormat.h"
 #include "LASFormat.h"
 #include "PCDFormat.h"
 #include "PLYFormat.h"
@@ -33,12 +34,11 @@ SourceFormats::SourceFormats(const SourceOptions& options)
     std::vector<std::string>{ "e57" }, RefusedFormat::Mark{ "ASTM-E57", "" },
     "E57 files are not read: no E57 library comes with the system; convert it to LAS, LAZ or PLY "
     "(with CloudCompare, or PDAL's readers.e57)"));
-  formats_.push_back(std::make_unique<RefusedFormat>("EPT (refused)", std::vector<std::string>(),
-    RefusedFormat::Mark{ "", "ept.json" },
-    "an Entwine tree is not read by its ept.json: give the folder that holds its LAZ files "
-    "(ept-data); trees of other encodings: convert them to LAZ"));
+  formats_.push_back(std::make_unique<EPTFormat>(
+    [](const std::string& path) { return LASFormat().open(path); }, options.survey));
   // Last: any text with numbers in it is accepted.
-  formats_.push_back(std::make_unique<TextFormat>(options.columns, options.survey));
+  formats_.push_back(std::make_unique<TextFormat>(
+    options.columns, options.survey, options.text, options.temporaryFolder));
 }
 
 std::vector<std::string> SourceFormats::extensions() const
@@ -55,7 +55,8 @@ std::vector<std::string> SourceFormats::extensions() const
 bool SourceFormats::mayHoldPoints(const std::string& path) const
 {
   const std::string extension = std::filesystem::path(path).extension().string();
-  if (extension != ".txt" && extension != ".csv" && extension != ".asc")
+  if (extension != ".txt" && extension != ".csv" && extension != ".asc" && extension != ".tsv" &&
+    extension != ".gz")
   {
     return true;
   }
@@ -85,6 +86,11 @@ Result<std::unique_ptr<PointSource>> SourceFormats::open(const std::string& path
   if (!std::filesystem::exists(path, failure))
   {
     return makeError(Error::Kind::NotFound, path + ": no such file");
+  }
+  if (std::filesystem::is_regular_file(path, failure) &&
+    std::filesystem::file_size(path, failure) == 0 && !failure)
+  {
+    return makeError(Error::Kind::BadFormat, path + ": the file is empty (0 bytes)");
   }
   const PointSourceFormat* const byName = named(path);
   const PointSourceFormat* const anyText = formats_.back().get();

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "TextFormat.h"
+
 #include "pointfront/Points/PointFileOpener.h"
 #include "pointfront/Table/ParallelChunks.h"
 
@@ -14,6 +16,7 @@ namespace pointfront
 struct SourceOptions
 {
   std::vector<std::string> columns; ///< of text files; empty: by header or guess
+  TextChoice text;                  ///< of text files
   SurveyOptions survey;        ///< of files that are looked through when they are opened
   std::string temporaryFolder; ///< for what must be unpacked; empty: the system's
 };
@@ -30,8 +33,8 @@ public:
   /// Lower case, without the dot.
   std::vector<std::string> extensions() const override;
 
-  /// False for a file whose extension stands for all kinds of text (.txt, .csv, .asc) and in which
-  /// no row of numbers is found: a note beside the points.
+  /// False for a file whose extension stands for all kinds of text (.txt, .csv, .gz ...) and in
+  /// which no row of numbers is found: a note beside the points.
   bool mayHoldPoints(const std::string& path) const;
 
   /// Opens with the first format that accepts the file's content; as text only what no other

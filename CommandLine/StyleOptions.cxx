@@ -102,7 +102,7 @@ void declareStyle(CLI::App& app, DrawingOptions& options)
     (techniqueIsAvailable(traits.technique) ? available : planned).emplace_back(traits.name);
   }
   app.add_option("--style", arguments->file,
-       "How each class is drawn, as JSON (docs/user/styles.md); the options below change its default")
+       "How each class is drawn, as JSON (docs/user/styles.md); other options change its default")
     ->type_name("FILE.json")
     ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
   app.add_option("--technique", arguments->technique, "How points become pixels (points)")

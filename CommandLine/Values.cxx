@@ -108,6 +108,30 @@ std::optional<std::array<int, 2>> parseImageSize(const std::string& text)
   return std::array<int, 2>{ static_cast<int>(*width), static_cast<int>(*height) };
 }
 
+CLI::Validator positiveNumber()
+{
+  const auto check = [](std::string& text) -> std::string
+  {
+    const auto number = parseNumbers<1>(text);
+    return number && (*number)[0] > 0.0
+      ? std::string()
+      : "'" + text.substr(0, 40) + "' is not a number above 0 that has an end";
+  };
+  return CLI::Validator(check, "POSITIVE");
+}
+
+CLI::Validator wholeNumber()
+{
+  const auto check = [](std::string& text) -> std::string
+  {
+    constexpr std::size_t mostDigits = 15;
+    const bool digits = !text.empty() && text.size() <= mostDigits &&
+      text.find_first_not_of("0123456789") == std::string::npos;
+    return digits ? std::string() : "'" + text.substr(0, 40) + "' is not a count: 0, 1, 2 ...";
+  };
+  return CLI::Validator(check, "COUNT");
+}
+
 CLI::Option* addByteSize(
   CLI::App& app, const std::string& option, std::uint64_t& bytes, const std::string& description)
 {
@@ -116,8 +140,10 @@ CLI::Option* addByteSize(
     const std::optional<std::uint64_t> size = parseByteSize(words.back());
     if (!size)
     {
-      throw CLI::ParseError(
-        option + ": '" + words.back() + "' is not a size in bytes: write 512M or 4G", 2);
+      const std::string shown = words.back().substr(0, 40);
+      throw CLI::ParseError(isByteSizeOutOfRange(words.back())
+          ? option + ": '" + shown + "' is out of range: 1 byte to 8E"
+          : option + ": '" + shown + "' is not a size in bytes: write 512M or 4G", 2);
     }
     bytes = *size;
     return true;

@@ -20,8 +20,13 @@ template <std::size_t N>
 std::optional<std::array<double, N>> parseNumbers(const std::string& text);
 /// "2,6" -> class codes from 0 to 255, sorted, once each.
 std::optional<std::vector<std::uint8_t>> parseClasses(const std::string& text);
-/// "1280x720" -> width and height, 1 to 16384 pixels.
+/// "1280x720" -> width and height, 1 to 65535 pixels.
 std::optional<std::array<int, 2>> parseImageSize(const std::string& text);
+
+/// Check for an option that is a length or the like: finite, above 0.
+CLI::Validator positiveNumber();
+/// Check for an option that counts: decimal digits only, at most 15.
+CLI::Validator wholeNumber();
 
 /// An option of bytes: "512M", "4G". Wrong text is wrong usage.
 CLI::Option* addByteSize(

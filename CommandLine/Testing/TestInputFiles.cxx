@@ -88,4 +88,21 @@ TEST_F(InputFiles, NothingFoundIsAnErrorThatNamesTheArgument)
   }
 }
 
+TEST_F(InputFiles, AllThatAreNotFoundAreNamed)
+{
+  const auto none = findInputFiles({ at("none.las"), at("b.las"), at("*.ply") }, extensions_);
+  ASSERT_FALSE(none);
+  EXPECT_NE(none.error().what.find("2 of 3 inputs"), std::string::npos) << none.error().what;
+  EXPECT_NE(none.error().what.find(at("none.las")), std::string::npos);
+  EXPECT_NE(none.error().what.find(at("*.ply")), std::string::npos);
+  std::vector<InputFault> faults;
+  const auto some =
+    findInputFiles({ at("none.las"), at("b.las"), at("*.ply") }, extensions_, {}, &faults);
+  ASSERT_TRUE(some);
+  EXPECT_EQ(some->paths, std::vector<std::string>{ at("b.las") });
+  ASSERT_EQ(faults.size(), 2u);
+  EXPECT_EQ(faults[0].path, at("none.las"));
+  EXPECT_EQ(faults[0].why, "no such file or folder");
+}
+
 } // namespace pointfront

@@ -11,7 +11,7 @@ namespace pointfront
 
 namespace
 {
-Result<PointSources> openFiles(const std::vector<std::string>& files)
+Result<OpenedInputs> openFiles(const std::vector<std::string>& files, OnFault onFault)
 {
   const auto opener = PointFileOpener::ofProcess();
   if (!opener)
@@ -19,17 +19,7 @@ Result<PointSources> openFiles(const std::vector<std::string>& files)
     return makeError(Error::Kind::Unsupported,
       "this program carries no readers of point files; link PointFront::SourceFormats");
   }
-  PointSources sources;
-  for (const std::string& file : files)
-  {
-    auto source = opener->open(file);
-    if (!source)
-    {
-      return source.error();
-    }
-    sources.push_back(std::move(*source));
-  }
-  return sources;
+  return openInputs(files, *opener, onFault);
 }
 } // namespace
 
@@ -56,10 +46,10 @@ Result<BuildReport> BuildThread::build(const Order& order)
   {
     return passes.error();
   }
-  Result<PointSources> sources = openFiles(order.files);
-  if (!sources)
+  Result<OpenedInputs> inputs = openFiles(order.files, order.options.onFault);
+  if (!inputs)
   {
-    return sources.error();
+    return inputs.error();
   }
   PreviewOptions preview = order.preview;
   preview.shown = [this](const std::string&)
@@ -71,9 +61,11 @@ Result<BuildReport> BuildThread::build(const Order& order)
   BuildRun run(order.options, preview,
     [&findings](const std::string& finding) { findings.push_back(finding); });
   Result<BuildReport> built =
-    run.run(*sources, *passes, [this](const Progress& state) { return report(state); });
+    run.run(inputs->sources, *passes, [this](const Progress& state) { return report(state); });
   if (built)
   {
+    std::vector<InputFault>& skipped = built->inputsSkipped;
+    skipped.insert(skipped.begin(), inputs->skipped.begin(), inputs->skipped.end());
     built->warnings.insert(built->warnings.end(), findings.begin(), findings.end());
   }
   return built;

@@ -74,6 +74,8 @@ pointfront::BuildThread::Order vtkPointFrontBuilder::Content::Order(
   options.outputPath = builder.OutputFileName;
   options.temporaryFolder = builder.TemporaryFolder ? builder.TemporaryFolder : "";
   options.overwrite = builder.Overwrite;
+  options.onFault =
+    builder.SkipFaultyFiles ? pointfront::OnFault::Skip : pointfront::OnFault::Stop;
   options.memoryBytes = static_cast<std::uint64_t>(builder.MemoryLimit);
   options.threads = static_cast<unsigned>(builder.NumberOfThreads);
   options.nodePoints = static_cast<std::uint32_t>(builder.NodePoints);
@@ -157,6 +159,13 @@ void vtkPointFrontBuilder::Content::Report(
   {
     vtkWarningWithObjectMacro(&builder, << warning);
   }
+  for (const pointfront::InputFault& skipped : built.inputsSkipped)
+  {
+    vtkWarningWithObjectMacro(&builder, << skipped.path << " is skipped: " << skipped.why);
+  }
+  builder.NumberOfFilesSkipped = static_cast<int>(built.inputsSkipped.size());
+  builder.NumberOfPointsRejected =
+    static_cast<vtkIdType>(built.pointsRead - built.pointsStored);
   builder.NumberOfPointsRead = static_cast<vtkIdType>(built.pointsRead);
   builder.NumberOfPointsStored = static_cast<vtkIdType>(built.pointsStored);
   builder.NumberOfNodes = static_cast<vtkIdType>(built.nodes);
@@ -336,6 +345,7 @@ void vtkPointFrontBuilder::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "OutputFileName: " << (this->OutputFileName ? this->OutputFileName : "(none)")
      << "\n";
   os << indent << "Overwrite: " << this->Overwrite << "\n";
+  os << indent << "SkipFaultyFiles: " << this->SkipFaultyFiles << "\n";
   os << indent << "MemoryLimit: " << this->MemoryLimit << "\n";
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
   os << indent << "NodePoints: " << this->NodePoints << "\n";

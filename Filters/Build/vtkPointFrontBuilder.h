@@ -46,10 +46,20 @@ public:
   ///@}
 
   ///@{
-  /// Replace an existing store. Off by default: one that is there is an error.
+  /// Replace an existing store. Off by default: one that is there is an error. A file of another
+  /// kind is never replaced, nor one that is read.
   vtkSetMacro(Overwrite, bool);
   vtkGetMacro(Overwrite, bool);
   vtkBooleanMacro(Overwrite, bool);
+  ///@}
+
+  ///@{
+  /// Leave out files that are no point files, are damaged or hold no position; each is a warning,
+  /// and counted. All are then read twice. Off by default: they are an error that names all of
+  /// them.
+  vtkSetMacro(SkipFaultyFiles, bool);
+  vtkGetMacro(SkipFaultyFiles, bool);
+  vtkBooleanMacro(SkipFaultyFiles, bool);
   ///@}
 
   ///@{
@@ -244,6 +254,8 @@ public:
   /// Of the last Write() that succeeded.
   vtkGetMacro(NumberOfPointsRead, vtkIdType);
   vtkGetMacro(NumberOfPointsStored, vtkIdType);
+  vtkGetMacro(NumberOfPointsRejected, vtkIdType); ///< a warning counts them by reason
+  vtkGetMacro(NumberOfFilesSkipped, int);
   vtkGetMacro(NumberOfNodes, vtkIdType);
   vtkGetMacro(BytesWritten, vtkTypeInt64);
   vtkGetMacro(BytesSpilled, vtkTypeInt64);
@@ -271,6 +283,7 @@ protected:
   bool HeightAboveGround = false;
   double GroundCell = 10.0;
   bool Overwrite = false;
+  bool SkipFaultyFiles = false;
   bool Preview = true;
   vtkIdType PreviewPoints = 4000000;
   vtkTypeInt64 MemoryLimit = 0;
@@ -283,6 +296,8 @@ protected:
   double SecondsRemaining = -1.0;
   vtkIdType NumberOfPointsRead = 0;
   vtkIdType NumberOfPointsStored = 0;
+  vtkIdType NumberOfPointsRejected = 0;
+  int NumberOfFilesSkipped = 0;
   vtkIdType NumberOfNodes = 0;
   vtkTypeInt64 BytesWritten = 0;
   vtkTypeInt64 BytesSpilled = 0;

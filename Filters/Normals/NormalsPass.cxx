@@ -10,6 +10,7 @@
 #include "pointfront/Points/NormalAttribute.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 
@@ -84,10 +85,17 @@ private:
   static double radiusOf(const glm::dvec3& position, const std::vector<NearPoint>& near,
     const std::optional<SurfaceFit>& fit)
   {
+    constexpr std::size_t usual = NearOffsets::most + 1;
     NearOffsets offsets;
-    for (const NearPoint& point : near)
+    std::array<glm::dvec3, usual> few;
+    for (std::size_t i = 0; i < std::min(near.size(), usual); ++i)
     {
-      offsets.add(point.position - position);
+      few[i] = near[i].position - position;
+    }
+    offsets.assign(few.data(), std::min(near.size(), usual));
+    for (std::size_t i = usual; i < near.size(); ++i)
+    {
+      offsets.add(near[i].position - position);
     }
     const NeighbourPlane plane =
       fit ? NeighbourPlane{ fit->normal, fit->curvature, fit->width } : NeighbourPlane();

@@ -25,7 +25,8 @@ void dropProjectionRecords(std::vector<MetadataRecord>& records)
 }
 
 /// Angles in a file that does not say so: inside the globe, far from the origin for their extent,
-/// on a grid no one uses for metres or with heights that dwarf it.
+/// with heights that dwarf it, or whose steps are far coarser. A scanned object of some metres is
+/// none.
 bool looksLikeDegrees(const SourceDescription& source)
 {
   const Bounds& b = source.declaredBounds;
@@ -33,14 +34,19 @@ bool looksLikeDegrees(const SourceDescription& source)
   {
     return false;
   }
+  const double extent = std::max(b.size().x, b.size().y);
+  if (std::abs(b.centre().x) + std::abs(b.centre().y) <= 10.0 * extent)
+  {
+    return false;
+  }
+  const bool dwarfed = b.size().z > 10.0 * extent;
   if (source.grid)
   {
     constexpr double micrometre = 1e-6;
-    return source.grid->scale.x <= micrometre;
+    const glm::dvec3& scale = source.grid->scale;
+    return scale.x <= micrometre && (scale.z >= 10.0 * scale.x || dwarfed);
   }
-  const double extent = std::max(b.size().x, b.size().y);
-  return extent < 1.0 && b.size().z > 10.0 * extent &&
-    std::abs(b.centre().x) + std::abs(b.centre().y) > 10.0 * extent;
+  return extent < 1.0 && dwarfed;
 }
 } // namespace
 

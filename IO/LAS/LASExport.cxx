@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <ctime>
 #include <limits>
 
 namespace pointfront
@@ -269,6 +271,22 @@ void storeCounts(const LASTotals& totals, const LASExport& plan, std::byte* to)
 }
 } // namespace
 
+LASDate LASDate::today()
+{
+  std::time_t now = std::time(nullptr);
+  if (const char* const fixed = std::getenv("SOURCE_DATE_EPOCH"))
+  {
+    now = static_cast<std::time_t>(std::strtoll(fixed, nullptr, 10));
+  }
+  std::tm day = {};
+  if (::gmtime_r(&now, &day) == nullptr)
+  {
+    return {};
+  }
+  return { static_cast<std::uint16_t>(day.tm_yday + 1),
+    static_cast<std::uint16_t>(day.tm_year + 1900) };
+}
+
 std::size_t LASExport::headerBytes() const
 {
   return versionMinor >= 4 ? lasHeaderBytes14
@@ -306,6 +324,8 @@ std::vector<std::byte> LASExport::header(const LASTotals& totals, std::uint32_t 
   storeNumber(to + 25, static_cast<std::uint8_t>(versionMinor));
   storeText(to + 26, 32, "EXPORT");
   storeText(to + 58, 32, "PointFront");
+  storeNumber(to + 90, created.dayOfYear);
+  storeNumber(to + 92, created.year);
   storeNumber(to + 94, static_cast<std::uint16_t>(headerBytes()));
   storeNumber(to + 96, pointOffset);
   storeNumber(to + 100, recordCount);

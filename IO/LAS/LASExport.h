@@ -23,6 +23,17 @@ struct LASTotals
   GridPosition high{ 0 };
 };
 
+/// A day as LAS headers have it.
+struct LASDate
+{
+  std::uint16_t dayOfYear = 0; ///< from 1; 0: not known
+  std::uint16_t year = 0;
+
+  /// In UTC; that of SOURCE_DATE_EPOCH (seconds since 1970) where the environment has it, so that
+  /// files can be made again byte by byte.
+  static LASDate today();
+};
+
 /// How points of a schema become a LAS file: decided before the first point.
 /// Which format and version: see LASWriter.
 struct LASExport
@@ -40,6 +51,7 @@ struct LASExport
   std::vector<std::optional<Origin>> origins; ///< one for each column of `layout`
   QuantisationGrid grid;                      ///< every coordinate fits into 32 bits
   std::uint16_t globalEncoding = 0;
+  LASDate created;
   std::vector<MetadataRecord> records;         ///< written before the points
   std::vector<MetadataRecord> extendedRecords; ///< payloads above 65,535 bytes, behind them
 

@@ -127,15 +127,33 @@ void readCounts(const std::byte* bytes, LASHeader& header, std::vector<std::stri
   header.extendedRecordCount = loadNumber<std::uint32_t>(bytes + ExtendedRecordCount);
 }
 
+/// LAS 1.5: GPS times may count from another second than 10^9. Values are kept as they stand.
+void readTimeOffset(
+  const std::byte* bytes, const LASHeader& header, std::vector<std::string>& warnings)
+{
+  constexpr std::size_t timeOffset = 391; // millions of seconds
+  constexpr std::uint16_t offsetTimeBit = 64;
+  constexpr int usual = 1000;
+  const bool has = header.versionMinor >= 5 && header.headerBytes >= timeOffset + 2 &&
+    (header.globalEncoding & offsetTimeBit) != 0;
+  const int millions = has ? loadNumber<std::int16_t>(bytes + timeOffset) : usual;
+  if (millions != usual)
+  {
+    warnings.push_back("Its GPS times count from second " + std::to_string(millions) +
+      " million of GPS time, not from 1000 million as those of other files: they are kept as they "
+      "stand.");
+  }
+}
+
 Result<void> checkVersion(const std::byte* bytes, const std::string& path, LASHeader& header)
 {
   const auto major = loadNumber<std::uint8_t>(bytes + VersionMajor);
   const auto minor = loadNumber<std::uint8_t>(bytes + VersionMinor);
-  if (major != 1 || minor > 4)
+  if (major != 1 || minor > 5)
   {
     return makeError(Error::Kind::Unsupported,
       path + ": LAS version " + std::to_string(major) + "." + std::to_string(minor) +
-        at(VersionMajor) + " is not one of 1.0 to 1.4");
+        at(VersionMajor) + " is not one of 1.0 to 1.5");
   }
   header.versionMinor = minor;
   return {};
@@ -210,6 +228,10 @@ Result<void> readSizes(ByteView file, const std::string& path, LASHeader& header
 Result<LASHeader> parseLASHeader(
   ByteView file, const std::string& path, std::vector<std::string>& warnings)
 {
+  if (file.size == 0)
+  {
+    return makeError(Error::Kind::BadFormat, path + ": the file is empty (0 bytes)");
+  }
   if (file.size < 4 || std::memcmp(file.data, "LASF", 4) != 0)
   {
     return makeError(
@@ -240,6 +262,7 @@ Result<LASHeader> parseLASHeader(
     return done.error();
   }
   readCounts(file.data, header, warnings);
+  readTimeOffset(file.data, header, warnings);
   readBounds(file.data, header, warnings);
   return header;
 }

@@ -211,6 +211,12 @@ Result<SideFileContent> indexPoints(const LASFile& file, const LASIndexOptions& 
 }
 } // namespace
 
+Result<void> checkIndexable(const std::string& lasPath)
+{
+  const Result<LASFile> file = openToIndex(lasPath);
+  return file ? Result<void>() : file.error();
+}
+
 GridRecords recordsOf(const LASFile& file)
 {
   GridRecords records;

@@ -45,6 +45,9 @@ struct LASIndexReport
 Result<LASIndexReport> indexLASFile(const std::string& lasPath, const std::string& sidePath,
   const LASIndexOptions& options, const ProgressFunction& progress = {});
 
+/// The Error that indexLASFile() would begin with, if the file is none that can be indexed.
+Result<void> checkIndexable(const std::string& lasPath);
+
 /// The records of an open, uncompressed LAS file whose records were counted.
 GridRecords recordsOf(const LASFile& file);
 /// How a side file knows `file` again; its name is left empty.

@@ -24,6 +24,7 @@ struct LASWriter::State
 {
   std::string path;
   Encoding encoding;
+  LASDate created;
   LASExport plan;
   LASTotals totals;
   std::unique_ptr<OutputFile> file;
@@ -49,11 +50,12 @@ struct LASWriter::State
   Result<void> appendBlock(const PointBatch& batch, std::size_t first, std::size_t count);
 };
 
-LASWriter::LASWriter(std::string path, Encoding encoding)
+LASWriter::LASWriter(std::string path, Encoding encoding, LASDate created)
   : state_(std::make_unique<State>())
 {
   state_->path = std::move(path);
   state_->encoding = encoding;
+  state_->created = created;
 }
 
 LASWriter::~LASWriter() = default;
@@ -73,6 +75,7 @@ Result<void> LASWriter::begin(const SinkDescription& description)
     return plan.error();
   }
   state.plan = std::move(*plan);
+  state.plan.created = state.created;
   Result<std::unique_ptr<OutputFile>> file = OutputFile::create(state.path);
   if (!file)
   {

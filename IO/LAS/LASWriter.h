@@ -1,5 +1,7 @@
 #pragma once
 
+#include "LASExport.h"
+
 #include "pointfront/Points/PointSink.h"
 
 #include <memory>
@@ -26,7 +28,9 @@ public:
     Laz
   };
 
-  explicit LASWriter(std::string path, Encoding encoding = Encoding::Las);
+  /// `created`: what the header says of the day; today by default.
+  explicit LASWriter(std::string path, Encoding encoding = Encoding::Las,
+    LASDate created = LASDate::today());
   ~LASWriter() override;
   LASWriter(const LASWriter&) = delete;
   LASWriter& operator=(const LASWriter&) = delete;

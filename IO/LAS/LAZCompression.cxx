@@ -200,6 +200,10 @@ Result<LAZCompression> LAZCompression::of(const LASFile& file)
   {
     return done.error();
   }
+  if (compression.scheme == Scheme::Layered && compression.chunkPoints == 0)
+  {
+    compression.chunkPoints = variableChunks; // COPC writers say so: the chunk table knows
+  }
   if (compression.scheme != Scheme::Pointwise && compression.chunkPoints == 0)
   {
     return makeError(

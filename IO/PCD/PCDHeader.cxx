@@ -1,5 +1,7 @@
 #include "PCDHeader.h"
 
+#include "pointfront/Table/DecimalNumber.h"
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -102,6 +104,7 @@ private:
     return makeError(kind, path_ + ": line " + std::to_string(header_.lines) + ": " + what);
   }
   Result<void> take(const Words& words);
+  void takeOrigin(const Words& words);
   Result<void> takeData(const Words& words);
   Result<void> assembleFields();
   Result<void> checkCounts();
@@ -261,6 +264,28 @@ Result<void> HeaderReader::checkCounts()
   return {};
 }
 
+/// A comment that is none of ours says nothing.
+void HeaderReader::takeOrigin(const Words& words)
+{
+  if (words.size() != 5 || words[0] != "#" || words[1] != "ORIGIN")
+  {
+    return;
+  }
+  glm::dvec3 origin(0.0);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const std::string_view word = words[static_cast<std::size_t>(axis) + 2];
+    DecimalNumber number;
+    const char* const end = word.data() + word.size();
+    if (readDecimal(word.data(), end, '.', number) != end || !std::isfinite(number.value))
+    {
+      return;
+    }
+    origin[axis] = number.value;
+  }
+  header_.origin = origin;
+}
+
 Result<PCDHeader> HeaderReader::read()
 {
   while (!dataSeen_ && nextLine())
@@ -268,6 +293,7 @@ Result<PCDHeader> HeaderReader::read()
     const Words words = wordsOf(line_);
     if (words.empty() || words[0].front() == '#')
     {
+      takeOrigin(words);
       continue;
     }
     if (Result<void> taken = take(words); !taken)

@@ -50,6 +50,8 @@ struct PCDHeader
   /// four, moves nothing.
   std::optional<glm::dvec3> viewpoint;
   bool viewpointDamaged = false; ///< there is such a line, but without seven numbers
+  /// What the coordinates are relative to: a comment "# ORIGIN x y z", which PCDWriter writes.
+  std::optional<glm::dvec3> origin;
   std::uint64_t lines = 0; ///< of the header
 
   std::size_t pointBytes() const; ///< of one point in a binary file

@@ -29,6 +29,7 @@ public:
   Result<void> read(
     std::uint64_t chunk, const std::vector<bool>& wanted, TableBlock& block) const override;
   std::vector<FieldStatistics> statistics() const override;
+  glm::dvec3 origin() const override { return file_.header.origin.value_or(glm::dvec3(0.0)); }
   std::vector<ScannerPlace> scanners(const Bounds& positions) const override
   {
     return file_.scanners(positions);

@@ -1,5 +1,10 @@
 #include "PCDWriter.h"
 
+#include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
+
+#include <cstdio>
+#include <optional>
 #include <utility>
 
 namespace pointfront
@@ -60,14 +65,18 @@ void addAttribute(
       encoder.add(column, k);
     }
     encoder.addByte(opaque);
-    lines.add("rgb", ScalarType::UInt32);
+    lines.add("rgb", ScalarType::Float32); // so PCL matches it; only its bits count
     return;
   }
   const bool normal = attribute.name == "normal" && attribute.components == 3;
+  const bool exact = attribute.scale == 1.0 && attribute.offset == 0.0 &&
+    sizeOf(attribute.type) <= 2;
+  const bool single = normal || (attribute.name == "intensity" && exact);
   ScalarType type = attribute.type;
   for (std::size_t k = 0; k < attribute.components; ++k)
   {
-    type = encoder.add(column, k);
+    type = encoder.add(
+      column, k, single ? std::make_optional(ScalarType::Float32) : std::nullopt);
     if (colour || normal)
     {
       lines.add((colour ? colours : normals)[k], type);
@@ -80,10 +89,62 @@ void addAttribute(
 }
 } // namespace
 
-PCDWriter::PCDWriter(std::string path)
+PCDWriter::PCDWriter(std::string path, Coordinates coordinates)
   : RecordWriter(std::move(path))
+  , coordinates_(coordinates)
 {
 }
+
+CoordinateCoding PCDWriter::coordinates(const SinkDescription& description)
+{
+  if (coordinates_ == Coordinates::Float64)
+  {
+    return {};
+  }
+  CoordinateCoding coding{ ScalarType::Float32, {} };
+  const Bounds& bounds = description.bounds;
+  if (bounds.empty())
+  {
+    return coding;
+  }
+  constexpr double half = 0x1p-24; // of a float32's last place, as a share of the number
+  const auto rounding = [&](const glm::dvec3& origin)
+  { return half * glm::max(glm::abs(bounds.low - origin), glm::abs(bounds.high - origin)); };
+  const auto tellsApart = [&](const glm::dvec3& by)
+  { return glm::all(glm::lessThan(by, 0.499 * description.grid.scale)); };
+  if (tellsApart(rounding(coding.origin)))
+  {
+    return coding;
+  }
+  coding.origin = glm::round(bounds.centre());
+  char text[256];
+  std::snprintf(text, sizeof text,
+    "Its coordinates are relative to %.17g %.17g %.17g, as a comment of its header says; --double "
+    "keeps them as they are.",
+    coding.origin.x, coding.origin.y, coding.origin.z);
+  findings_.emplace_back(text);
+  if (const glm::dvec3 by = rounding(coding.origin); !tellsApart(by))
+  {
+    std::snprintf(text, sizeof text,
+      "Its coordinates are float32, which rounds them by up to %.3g, %.3g and %.3g units in x, y, "
+      "z; --double keeps all digits, but PCL reads no points from it.",
+      by.x, by.y, by.z);
+    findings_.emplace_back(text);
+  }
+  return coding;
+}
+
+namespace
+{
+/// A line of the header for coordinates that are not relative to zero.
+std::string originLine(const glm::dvec3& origin)
+{
+  char text[128];
+  std::snprintf(
+    text, sizeof text, "# ORIGIN %.17g %.17g %.17g\n", origin.x, origin.y, origin.z);
+  return origin == glm::dvec3(0.0) ? std::string() : text;
+}
+} // namespace
 
 RecordFile::Header PCDWriter::describe(
   const AttributeSchema& schema, RecordEncoder& encoder) const
@@ -91,17 +152,18 @@ RecordFile::Header PCDWriter::describe(
   FieldLines lines;
   for (const char* axis : { "x", "y", "z" })
   {
-    lines.add(axis, ScalarType::Float64);
+    lines.add(axis, encoder.coordinates().type);
   }
   for (std::size_t c = 0; c < schema.size(); ++c)
   {
     addAttribute(c, schema[c], encoder, lines);
   }
-  const std::string fields = lines.text();
+  const std::string fields = originLine(encoder.coordinates().origin) + "VERSION 0.7\n" +
+    lines.text();
   return [fields](std::uint64_t points)
   {
     const std::string count = paddedCount(points);
-    return "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\n" + fields + "WIDTH " + count +
+    return "# .PCD v0.7 - Point Cloud Data file format\n" + fields + "WIDTH " + count +
       "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + count + "\nDATA binary\n";
   };
 }

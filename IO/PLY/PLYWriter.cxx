@@ -64,7 +64,8 @@ RecordFile::Header PLYWriter::describe(
       schema[c].type == ScalarType::Int64 || schema[c].type == ScalarType::UInt64;
     for (std::size_t k = 0; k < schema[c].components; ++k)
     {
-      const ScalarType type = encoder.add(c, k, wide);
+      const ScalarType type =
+        encoder.add(c, k, wide ? std::make_optional(ScalarType::Float64) : std::nullopt);
       properties += std::string("property ") + typeName(type) + " " +
         propertyName(schema[c], k) + "\n";
     }

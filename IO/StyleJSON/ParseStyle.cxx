@@ -192,8 +192,8 @@ ColourSource colourAt(const JSONPlace& place)
   }
   if (!place.has("attribute"))
   {
-    place.refuse("expected \"#rrggbb\", an attribute's name, or an object with attribute, multiply, "
-                 "mix or hue, not " + place.shown());
+    place.refuse("expected \"#rrggbb\", an attribute's name, or an object with attribute, "
+                 "multiply, mix or hue, not " + place.shown());
   }
   place.expectKeys({ "attribute", "map", "range", "logarithmic" });
   const std::string name = place.at("attribute").text("an attribute's name");

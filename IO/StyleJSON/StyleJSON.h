@@ -19,5 +19,8 @@ Result<StyleSheet> parseStyleSheet(std::string_view json);
 
 /// The text that parseStyleSheet() reads back as an equal sheet; lights are not part of it.
 std::string writeStyleSheet(const StyleSheet& sheet);
+/// The values of the keys "color" and "size", on one line.
+std::string writeColour(const ColourSource& source);
+std::string writeSize(const StyleSize& size);
 
 } // namespace pointfront

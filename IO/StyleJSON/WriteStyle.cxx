@@ -199,6 +199,16 @@ Json shading(const FrameShading& shading)
 
 } // namespace
 
+std::string writeColour(const ColourSource& source)
+{
+  return colour(source).dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string writeSize(const StyleSize& wanted)
+{
+  return size(wanted).dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
 std::string writeStyleSheet(const StyleSheet& sheet)
 {
   Json result = Json::object();

@@ -30,8 +30,14 @@ std::vector<std::string_view> cellsOf(std::string_view line, char separator)
   line = line.substr(0, line.find_last_not_of(blanks) + 1);
   for (std::size_t begin = line.find_first_not_of(blanks); begin < line.size();)
   {
+    std::size_t from = begin;
+    if (line[begin] == '"') // what is quoted may hold separators
+    {
+      const std::size_t close = line.find('"', begin + 1);
+      from = close == std::string_view::npos ? begin : close;
+    }
     const std::size_t found =
-      separator == ' ' ? line.find_first_of(blanks, begin) : line.find(separator, begin);
+      separator == ' ' ? line.find_first_of(blanks, from) : line.find(separator, from);
     const std::size_t end = std::min(found, line.size());
     cells.push_back(trimmed(line.substr(begin, end - begin)));
     begin = separator == ' ' ? line.find_first_not_of(blanks, end) : end + 1;

@@ -1,5 +1,6 @@
 #include "TextColumns.h"
 
+#include "TextBytes.h"
 #include "TextCells.h"
 #include "TextGuess.h"
 
@@ -8,7 +9,11 @@
 #include "pointfront/Table/TextLine.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
 #include <limits>
+#include <map>
 #include <optional>
 
 namespace pointfront
@@ -37,22 +42,6 @@ bool isRow(std::string_view line, const Dialect& dialect)
   return numbers >= 2 && numbers * 2 >= cells.size();
 }
 
-std::optional<Dialect> dialectOf(std::string_view line)
-{
-  static constexpr Dialect dialects[] = { { ';', '.' }, { ';', ',' }, { ',', '.' }, { '\t', '.' },
-    { '\t', ',' }, { ' ', '.' }, { ' ', ',' } };
-  for (const Dialect& dialect : dialects)
-  {
-    const bool separated =
-      dialect.separator == ' ' || line.find(dialect.separator) != std::string_view::npos;
-    if (separated && isRow(line, dialect))
-    {
-      return dialect;
-    }
-  }
-  return std::nullopt;
-}
-
 bool isCommentText(std::string_view line)
 {
   return isCommentLine(line.data(), line.data() + line.size());
@@ -69,6 +58,58 @@ bool isCountText(std::string_view line)
   return cells.size() == 1 && cells[0].find_first_not_of("0123456789") == std::string_view::npos;
 }
 
+/// What share of the cells are numbers; 0 for a line that is no row.
+double numericShare(std::string_view line, const Dialect& dialect)
+{
+  if (!isRow(line, dialect))
+  {
+    return 0.0;
+  }
+  const std::vector<std::string_view> cells = cellsOf(line, dialect.separator);
+  double numbers = 0.0;
+  for (const std::string_view cell : cells)
+  {
+    numbers += isNumber(cell, dialect.decimalPoint) ? 1.0 : 0.0;
+  }
+  return numbers / static_cast<double>(cells.size());
+}
+
+/// The dialect with which most cells of the first lines are numbers; of equals the first here.
+std::optional<Dialect> dialectOf(
+  std::string_view text, const TextColumns& columns, const TextChoice& choice)
+{
+  static constexpr Dialect dialects[] = { { ';', '.' }, { ';', ',' }, { ',', '.' }, { '\t', '.' },
+    { '\t', ',' }, { ' ', '.' }, { ' ', ',' }, { ',', ',' } };
+  constexpr std::size_t lines = 200;
+  std::array<double, std::size(dialects)> shares{};
+  std::size_t next = 0;
+  std::size_t seen = 0;
+  for (std::size_t begin = columns.dataBegin; begin < text.size() && seen < lines; begin = next)
+  {
+    const std::string_view line = lineAt(text, begin, columns.lineEnd, next);
+    if (isBlankText(line) || isCommentText(line) || isCountText(line))
+    {
+      continue;
+    }
+    ++seen;
+    for (std::size_t d = 0; d < shares.size(); ++d)
+    {
+      const Dialect& dialect = dialects[d];
+      const bool separated =
+        dialect.separator == ' ' || line.find(dialect.separator) != std::string_view::npos;
+      shares[d] += separated ? numericShare(line, dialect) : 0.0;
+    }
+  }
+  std::optional<std::size_t> best;
+  for (std::size_t d = 0; d < shares.size(); ++d)
+  {
+    const bool may = (choice.separator == '\0' || choice.separator == dialects[d].separator) &&
+      (choice.decimalPoint == '\0' || choice.decimalPoint == dialects[d].decimalPoint);
+    best = may && shares[d] > (best ? shares[*best] : 0.0) ? d : best;
+  }
+  return best ? std::make_optional(dialects[*best]) : std::nullopt;
+}
+
 std::vector<std::string> namesIn(std::string_view line, char separator)
 {
   while (!line.empty() && (line.front() == '#' || line.front() == '/' || line.front() == '%'))
@@ -81,34 +122,70 @@ std::vector<std::string> namesIn(std::string_view line, char separator)
   return { cells.begin(), cells.end() };
 }
 
-bool nameXAndY(const std::vector<std::string>& names)
+/// Bits of the coordinates that are named.
+unsigned namedAxes(const std::vector<std::string>& names)
 {
   unsigned found = 0;
+  for (const FieldRole& role : rolesOf(names))
+  {
+    found |= role.kind == FieldRole::Kind::Position ? 1u << role.component : 0u;
+  }
+  return found;
+}
+
+bool nameXAndY(const std::vector<std::string>& names)
+{
+  return (namedAxes(names) & 3u) == 3u;
+}
+
+/// A header that names x and y, and no z, although a column whose name says nothing may be it.
+Result<void> checkHeight(const std::vector<std::string>& names, const std::string& path)
+{
+  if (namedAxes(names) != 3u)
+  {
+    return {};
+  }
   for (const std::string& name : names)
   {
     const FieldRole role = roleOf(name);
-    found |= role.kind == FieldRole::Kind::Position ? 1u << role.component : 0u;
+    if (role.kind == FieldRole::Kind::Attribute && !role.type)
+    {
+      return makeError(Error::Kind::BadFormat, path + ": its header names no z, unless it is '" +
+          toUtf8(name) + "'; name the columns with --columns (x,y,z or, if it is flat, x,y,-)");
+    }
   }
-  return (found & 3u) == 3u;
+  return {};
 }
 
 /// What stands in front of the first row.
 struct Beginning
 {
   std::optional<Dialect> dialect;
-  std::string_view row;     ///< the first
   std::string_view comment; ///< the last before it
   std::string_view header;  ///< the last line of words before it
 };
 
-/// Looks for the first row; places dataBegin, dataLine and countLines.
-Beginning findRow(std::string_view text, TextColumns& columns)
+/// Passes the mark of UTF-8 and the lines to skip.
+void begin(std::string_view text, std::uint64_t skip, TextColumns& columns)
+{
+  columns.dataBegin = markBytes(text);
+  for (; skip > 0 && columns.dataBegin < text.size(); --skip, ++columns.dataLine)
+  {
+    std::size_t next = 0;
+    lineAt(text, columns.dataBegin, columns.lineEnd, next);
+    columns.dataBegin = next;
+  }
+}
+
+/// Looks for the first row from dataBegin on; places dataBegin, dataLine and countLines.
+Beginning findRow(std::string_view text, const TextChoice& choice, TextColumns& columns)
 {
   Beginning beginning;
+  const std::optional<Dialect> dialect = dialectOf(text, columns, choice);
   bool counted = false;
   std::size_t next = 0;
-  std::uint64_t number = 1;
-  for (std::size_t begin = 0; begin < text.size(); begin = next, ++number)
+  std::uint64_t number = columns.dataLine;
+  for (std::size_t begin = columns.dataBegin; begin < text.size(); begin = next, ++number)
   {
     const std::string_view line = lineAt(text, begin, columns.lineEnd, next);
     if (isBlankText(line))
@@ -121,7 +198,7 @@ Beginning findRow(std::string_view text, TextColumns& columns)
       continue;
     }
     const bool count = isCountText(line);
-    beginning.dialect = count ? std::nullopt : dialectOf(line);
+    beginning.dialect = !count && dialect && isRow(line, *dialect) ? dialect : std::nullopt;
     if (!counted)
     {
       columns.dataBegin = begin;
@@ -129,7 +206,6 @@ Beginning findRow(std::string_view text, TextColumns& columns)
     }
     if (beginning.dialect)
     {
-      beginning.row = line;
       break;
     }
     counted = count;
@@ -160,11 +236,28 @@ std::vector<std::vector<double>> firstRows(std::string_view text, const TextColu
       {
         readDecimal(cell.data(), cell.data() + cell.size(), columns.decimalPoint, number);
       }
-      row.push_back(is ? number.value : std::numeric_limits<double>::quiet_NaN());
+      const double value = std::isfinite(number.value) ? number.value : 0.0; // "nan" is a number
+      row.push_back(is ? value : std::numeric_limits<double>::quiet_NaN());
     }
     rows.push_back(std::move(row));
   }
   return rows;
+}
+
+/// How many cells most rows have.
+std::size_t usualCells(const std::vector<std::vector<double>>& rows)
+{
+  std::map<std::size_t, std::size_t> counts;
+  for (const std::vector<double>& row : rows)
+  {
+    ++counts[row.size()];
+  }
+  std::size_t usual = 0;
+  for (const auto& [cells, count] : counts)
+  {
+    usual = usual == 0 || count > counts[usual] ? cells : usual;
+  }
+  return usual;
 }
 
 Result<void> checkWanted(
@@ -177,7 +270,7 @@ Result<void> checkWanted(
   if (wanted.size() > there)
   {
     return makeError(Error::Kind::BadArgument,
-      path + ": " + std::to_string(wanted.size()) + " columns were given, its first row has " +
+      path + ": " + std::to_string(wanted.size()) + " columns were given, its rows have " +
         std::to_string(there));
   }
   return {};
@@ -205,12 +298,14 @@ Result<void> checkTwice(const std::vector<std::string>& names, const std::string
 } // namespace
 
 Result<TextColumns> TextColumns::find(
-  std::string_view text, const std::vector<std::string>& wanted, const std::string& path)
+  std::string_view text, const std::vector<std::string>& wanted, const std::string& path,
+  const TextChoice& choice)
 {
   TextColumns columns;
   const bool unixLines = text.find('\n') != std::string_view::npos;
   columns.lineEnd = unixLines || text.find('\r') == std::string_view::npos ? '\n' : '\r';
-  const Beginning beginning = findRow(text, columns);
+  begin(text, choice.skip, columns);
+  const Beginning beginning = findRow(text, choice, columns);
   if (!beginning.dialect)
   {
     return makeError(Error::Kind::BadFormat,
@@ -218,7 +313,8 @@ Result<TextColumns> TextColumns::find(
   }
   columns.separator = beginning.dialect->separator;
   columns.decimalPoint = beginning.dialect->decimalPoint;
-  const std::size_t there = cellsOf(beginning.row, columns.separator).size();
+  const std::vector<std::vector<double>> rows = firstRows(text, columns);
+  const std::size_t there = usualCells(rows);
   if (there > mostColumns)
   {
     return makeError(Error::Kind::Unsupported,
@@ -244,8 +340,15 @@ Result<TextColumns> TextColumns::find(
   }
   else
   {
-    columns.names = guessColumns(firstRows(text, columns));
+    columns.names = guessColumns(rows, there);
     columns.guessed = true;
+  }
+  if (wanted.empty() && !columns.guessed)
+  {
+    if (Result<void> checked = checkHeight(columns.names, path); !checked)
+    {
+      return checked.error();
+    }
   }
   if (Result<void> checked = checkTwice(columns.names, path); !checked)
   {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "TextFormat.h"
+
 #include "pointfront/Base/Result.h"
 
 #include <string>
@@ -27,10 +29,12 @@ struct TextColumns
   /// Guess    without a header: x, y, z; then by what the first rows hold: colours are three
   ///          columns of integers, or of fractions, from 0 on; normals are three of length 1; one
   ///          more beside them (or alone) is the intensity; what is left is "column_7".
-  /// Errors   BadFormat: no row of numbers in `text`, columns of one name; BadArgument: `wanted`
-  ///          names no x and y, or more columns than there are.
-  static Result<TextColumns> find(
-    std::string_view text, const std::vector<std::string>& wanted, const std::string& path);
+  /// Dialect  separator and decimal point with which most cells of the first lines are numbers.
+  /// Errors   BadFormat: no row of numbers in `text`, columns of one name, a header that names x
+  ///          and y, no z, and something unknown that may be it; BadArgument: `wanted` names no x
+  ///          and y, or more columns than there are.
+  static Result<TextColumns> find(std::string_view text, const std::vector<std::string>& wanted,
+    const std::string& path, const TextChoice& choice = {});
 };
 
 } // namespace pointfront

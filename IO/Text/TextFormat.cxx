@@ -1,10 +1,10 @@
 #include "TextFormat.h"
 
 #include "PTXTable.h"
+#include "TextBytes.h"
 #include "TextColumns.h"
 #include "TextTable.h"
 
-#include "pointfront/Base/MemoryMap.h"
 #include "pointfront/Table/TableSource.h"
 
 #include <utility>
@@ -14,19 +14,14 @@ namespace pointfront
 
 bool TextFormat::accepts(const std::string& path) const
 {
-  const Result<MemoryMap> map = MemoryMap::open(path);
-  if (!map || map->size() == 0)
-  {
-    return false;
-  }
-  const std::string_view text = beginningOf(*map);
-  return text.find('\0') == std::string_view::npos &&
-    (PTXTable::accepts(text) || TextColumns::find(text, {}, path).ok());
+  const std::string text = beginningOfText(path);
+  return !text.empty() && text.find('\0') == std::string::npos &&
+    (PTXTable::accepts(text) || TextColumns::find(text, {}, path, choice_).ok());
 }
 
 Result<std::unique_ptr<PointSource>> TextFormat::open(const std::string& path) const
 {
-  Result<MemoryMap> map = MemoryMap::open(path);
+  Result<MemoryMap> map = mapText(path, temporaryFolder_);
   if (!map)
   {
     return map.error();
@@ -38,7 +33,7 @@ Result<std::unique_ptr<PointSource>> TextFormat::open(const std::string& path) c
   const bool ptx = PTXTable::accepts(beginningOf(*map));
   Result<std::unique_ptr<PointTable>> table = ptx
     ? PTXTable::open(path, std::move(*map), survey_)
-    : TextTable::open(path, std::move(*map), columns_, survey_);
+    : TextTable::open(path, std::move(*map), { columns_, choice_ }, survey_);
   if (!table)
   {
     return table.error();

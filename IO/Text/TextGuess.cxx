@@ -14,13 +14,21 @@ constexpr double mostOfUnit = 0.02; // how far normals printed with two digits a
 class Guess
 {
 public:
-  explicit Guess(const std::vector<std::vector<double>>& rows)
+  Guess(const std::vector<std::vector<double>>& rows, std::size_t columns)
     : rows_(rows)
   {
-    for (std::size_t c = 0; c < rows.front().size(); ++c)
+    for (std::size_t c = 0; c < columns; ++c)
     {
-      names_.push_back(std::isnan(rows.front()[c]) ? "-" : "column_" + std::to_string(c + 1));
-      if (!std::isnan(rows.front()[c]))
+      std::size_t numbers = 0;
+      std::size_t cells = 0;
+      for (const std::vector<double>& row : rows)
+      {
+        cells += c < row.size() ? 1 : 0;
+        numbers += c < row.size() && !std::isnan(row[c]) ? 1 : 0;
+      }
+      const bool numeric = numbers > 0 && numbers * 2 >= cells;
+      names_.push_back(numeric ? "column_" + std::to_string(c + 1) : "-");
+      if (numeric)
       {
         numeric_.push_back(c);
       }
@@ -132,9 +140,10 @@ std::vector<std::string> Guess::names()
 }
 } // namespace
 
-std::vector<std::string> guessColumns(const std::vector<std::vector<double>>& rows)
+std::vector<std::string> guessColumns(
+  const std::vector<std::vector<double>>& rows, std::size_t columns)
 {
-  return rows.empty() ? std::vector<std::string>() : Guess(rows).names();
+  return rows.empty() ? std::vector<std::string>() : Guess(rows, columns).names();
 }
 
 } // namespace pointfront

@@ -1,5 +1,7 @@
 #include "TextTable.h"
 
+#include "TextBytes.h"
+
 #include "pointfront/Table/FieldRole.h"
 
 #include <utility>
@@ -24,7 +26,7 @@ TextLayout layoutOf(const TextColumns& columns, std::vector<TableField>& fields)
     if (roleOf(name).kind != FieldRole::Kind::Padding)
     {
       cell.field = fields.size();
-      fields.push_back({ name, std::nullopt });
+      fields.push_back({ toUtf8(name), std::nullopt });
       used = layout.cells.size() + 1;
     }
     layout.cells.push_back(cell);
@@ -62,11 +64,11 @@ Result<void> TextTable::index(const TextColumns& columns, const SurveyOptions& s
     return rows.error();
   }
   rows_.emplace(std::move(*rows));
-  if (rows_->badRows() == rows_->rows())
+  if (rows_->badRows() * 2 > rows_->rows() || rows_->rows() == 0)
   {
-    return makeError(Error::Kind::BadFormat,
-      path_ + ": not one line is a point; name its columns with --columns. " +
-        rows_->complaint());
+    return makeError(Error::Kind::BadFormat, path_ +
+        ": its lines are no points; say how it is written (--columns, --separator, --decimal, "
+        "--skip). " + rows_->complaint());
   }
   warn(columns);
   return {};
@@ -96,9 +98,10 @@ void TextTable::warn(const TextColumns& columns)
 }
 
 Result<std::unique_ptr<PointTable>> TextTable::open(const std::string& path, MemoryMap map,
-  const std::vector<std::string>& wanted, const SurveyOptions& survey)
+  const TextWishes& wishes, const SurveyOptions& survey)
 {
-  const Result<TextColumns> columns = TextColumns::find(beginningOf(map), wanted, path);
+  const Result<TextColumns> columns =
+    TextColumns::find(beginningOf(map), wishes.columns, path, wishes.choice);
   if (!columns)
   {
     return columns.error();

@@ -14,13 +14,20 @@
 namespace pointfront
 {
 
+/// What the user says of a text file.
+struct TextWishes
+{
+  const std::vector<std::string>& columns;
+  const TextChoice& choice;
+};
+
 /// The rows of a text file of points.
 class TextTable final : public PointTable
 {
 public:
-  /// Errors  of TextColumns::find; BadFormat: not one line is a point; Cancelled.
+  /// Errors  of TextColumns::find; BadFormat: more lines are no points than are; Cancelled.
   static Result<std::unique_ptr<PointTable>> open(const std::string& path, MemoryMap map,
-    const std::vector<std::string>& wanted, const SurveyOptions& survey);
+    const TextWishes& wishes, const SurveyOptions& survey);
 
   const std::string& path() const override { return path_; }
   const std::string& format() const override { return format_; }

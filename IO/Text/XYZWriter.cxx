@@ -14,16 +14,18 @@ namespace
 {
 constexpr std::size_t flushBytes = 1 << 20;
 
-/// Columns are separated by blanks, so names have none.
+/// Columns are separated by blanks or commas, so names have none.
 std::string columnName(const Attribute& attribute, std::size_t component)
 {
   static const char* const colours[3] = { "red", "green", "blue" };
-  if (attribute.name == "rgb" && attribute.components == 3)
+  static const char* const normals[3] = { "nx", "ny", "nz" };
+  if (attribute.components == 3 && (attribute.name == "rgb" || attribute.name == "normal"))
   {
-    return colours[component];
+    return (attribute.name == "rgb" ? colours : normals)[component];
   }
   std::string name = attribute.name;
-  std::replace(name.begin(), name.end(), ' ', '_');
+  std::replace_if(
+    name.begin(), name.end(), [](char c) { return c == ' ' || c == ',' || c == '"'; }, '_');
   return attribute.components == 1 ? name : name + "[" + std::to_string(component) + "]";
 }
 
@@ -46,6 +48,7 @@ struct XYZWriter::State
   };
 
   std::string path;
+  char separator = ' ';
   std::unique_ptr<OutputFile> file;
   std::vector<Column> columns;
   int decimals[3] = { 0, 0, 0 }; ///< of x, y and z
@@ -62,9 +65,10 @@ struct XYZWriter::State
   void appendPoint(const PointBatch& batch, std::size_t point);
 };
 
-XYZWriter::XYZWriter(std::string path)
+XYZWriter::XYZWriter(std::string path, Style style)
   : state_(std::make_unique<State>())
 {
+  state_->separator = style == Style::CSV ? ',' : ' ';
   state_->path = std::move(path);
 }
 
@@ -89,7 +93,8 @@ Result<void> XYZWriter::begin(const SinkDescription& description)
     state_->decimals[axis] =
       decimalsOf(description.grid.scale[axis], description.grid.offset[axis]);
   }
-  state_->text = "# x y z";
+  const std::string separator(1, state_->separator);
+  state_->text = (separator == "," ? "x" : "# x") + separator + "y" + separator + "z";
   for (const Attribute& attribute : description.schema)
   {
     const bool fixed = isScaledInteger(attribute);
@@ -97,7 +102,7 @@ Result<void> XYZWriter::begin(const SinkDescription& description)
       { attribute, fixed, fixed ? decimalsOf(attribute.scale, attribute.offset) : 0 });
     for (std::size_t k = 0; k < attribute.components; ++k)
     {
-      state_->text += " " + columnName(attribute, k);
+      state_->text += separator + columnName(attribute, k);
     }
   }
   state_->text += "\n";
@@ -109,7 +114,7 @@ void XYZWriter::State::appendPoint(const PointBatch& batch, std::size_t point)
   const glm::dvec3& p = batch.positions[point];
   for (int axis = 0; axis < 3; ++axis)
   {
-    text.append(axis == 0 ? 0 : 1, ' ');
+    text.append(axis == 0 ? 0 : 1, separator);
     appendFixed(text, p[axis], decimals[axis]);
   }
   for (std::size_t c = 0; c < columns.size(); ++c)
@@ -118,7 +123,7 @@ void XYZWriter::State::appendPoint(const PointBatch& batch, std::size_t point)
     const std::byte* from = batch.columns[c].data() + point * attribute.bytes();
     for (std::size_t k = 0; k < attribute.components; ++k, from += sizeOf(attribute.type))
     {
-      text += ' ';
+      text += separator;
       if (columns[c].fixed)
       {
         const double value = scalarValue(attribute.type, from);

@@ -103,6 +103,19 @@ glm::dvec3 withoutNoise(const glm::dmat4& worldToView, const glm::dvec3& point)
   return view;
 }
 
+/// An eye of a stereo pair stands beside the camera, which VTK makes a part of the projection: from
+/// there positions are taken.
+void centre(FrameCamera& frame)
+{
+  for (int axis = 0; axis < 2 && !frame.parallel; ++axis)
+  {
+    const double aside = frame.viewToClip[3][axis] / frame.viewToClip[axis][axis];
+    frame.viewToClip[3][axis] = 0.0;
+    frame.storeToView[3][axis] += aside;
+    frame.referenceInView[axis] += aside;
+  }
+}
+
 } // namespace
 
 FrameCamera cameraOf(vtkRenderer* renderer, vtkActor* actor)
@@ -122,9 +135,10 @@ FrameCamera cameraOf(vtkRenderer* renderer, vtkActor* actor)
   frame.referenceInView = withoutNoise(worldToView, world);
   frame.storeToView = worldToView;
   frame.reference = world;
+  centre(frame);
   if (!actor->GetIsIdentity())
   {
-    frame.storeToView = worldToView * columnsOf(actor->GetMatrix());
+    frame.storeToView = frame.storeToView * columnsOf(actor->GetMatrix());
     vtkNew<vtkMatrix4x4> toStore;
     vtkMatrix4x4::Invert(actor->GetMatrix(), toStore);
     const double in[4] = {world.x, world.y, world.z, 1.0};

@@ -110,6 +110,42 @@ ColourMap sampleColours(vtkScalarsToColors& table, const PointColouring& colouri
   return colouring.integers ? sampleIntegers(table, *colouring.integers) : sampleRange(table);
 }
 
+void MapperStyle::wantHeights(const std::shared_ptr<const StoredCloud>& store)
+{
+  if (!heights_ || heights_->store() != store)
+  {
+    heights_ = std::make_shared<ClassHeights>(store);
+  }
+}
+
+std::optional<std::vector<LayerStyling>> MapperStyle::resolve(
+  const StyleSheet& sheet, const std::shared_ptr<const StoredCloud>& store)
+{
+  if (sheetStore_ == store && sheet_ == sheet)
+  {
+    return layers_;
+  }
+  sheet_ = sheet;
+  sheetStore_ = store;
+  StoreSurroundings surroundings;
+  if (sheet.wantsHeights(store->description()))
+  {
+    wantHeights(store);
+    surroundings.heights = heights_;
+  }
+  auto resolved = sheet.resolveAll(store->description(), surroundings);
+  layers_.reset();
+  if (resolved)
+  {
+    layers_ = std::move(resolved).value();
+  }
+  else
+  {
+    error_ = resolved.error().what;
+  }
+  return layers_;
+}
+
 PointColouring MapperStyle::colouringOf(
   vtkPolyDataMapper& mapper, const std::shared_ptr<const StoredCloud>& store)
 {
@@ -119,10 +155,9 @@ PointColouring MapperStyle::colouringOf(
   }
   const StoreDescription& description = store->description();
   const ColourRequest request = colourRequestOf(mapper, description);
-  if (PointColouring::wantsHeights(description, request) &&
-      (!heights_ || heights_->store() != store))
+  if (PointColouring::wantsHeights(description, request))
   {
-    heights_ = std::make_shared<ClassHeights>(store);
+    wantHeights(store);
   }
   const bool heights = heights_ && heights_->store() == store;
   const auto colouring =

@@ -1,12 +1,15 @@
 #pragma once
 
 #include "pointfront/Style/ResolvedStyle.h"
+#include "pointfront/Style/StyleSheet.h"
 
 #include <vtkType.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 class vtkActor;
 class vtkPolyDataMapper;
@@ -33,6 +36,13 @@ public:
   std::shared_ptr<const ResolvedStyle> update(vtkPolyDataMapper& mapper, vtkActor* actor,
     double pointSizePx, const std::shared_ptr<const StoredCloud>& store);
 
+  /// By a sheet in the place of the properties. Nothing, and an error to take, where the store does
+  /// not have what it asks for.
+  std::optional<std::vector<LayerStyling>> resolve(
+    const StyleSheet& sheet, const std::shared_ptr<const StoredCloud>& store);
+  /// Why a sheet could not be resolved, once for a sheet and a store; empty: nothing.
+  std::string takeError() { return std::exchange(error_, {}); }
+
   PointColouring colouringOf(
     vtkPolyDataMapper& mapper, const std::shared_ptr<const StoredCloud>& store);
   /// What the user should know, once each; empty: nothing.
@@ -42,7 +52,13 @@ private:
   std::shared_ptr<const ColourMap> mapOf(
     vtkPolyDataMapper& mapper, const PointColouring& colouring);
 
+  void wantHeights(const std::shared_ptr<const StoredCloud>& store);
+
   std::shared_ptr<const ResolvedStyle> style_;
+  std::optional<StyleSheet> sheet_; ///< that layers_ are of
+  std::shared_ptr<const StoredCloud> sheetStore_;
+  std::optional<std::vector<LayerStyling>> layers_;
+  std::string error_;
   std::shared_ptr<const ColourMap> map_;
   PointColouring mapColouring_; ///< that map_ is for
   vtkScalarsToColors* mapTable_ = nullptr; ///< that it was sampled from; compared, not used

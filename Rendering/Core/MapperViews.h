@@ -46,8 +46,8 @@ public:
   bool needsRender();
 
   using LayersOf = std::function<std::vector<LayerLimits>(vtkPointFrontStore&)>;
-  /// Goes over to the next version of the preview that is drawn, or to the finished store, once that
-  /// shows as much of all views. For a frame at rest. True when it did.
+  /// Goes over to the next version of the preview that is drawn, or to the finished store, once
+  /// that shows as much of all views. For a frame at rest. True when it did.
   bool follow(vtkRenderer* renderer, const std::function<FrameDemand()>& demand,
     const LayersOf& layersOf);
 

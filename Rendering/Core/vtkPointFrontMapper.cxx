@@ -21,7 +21,11 @@
 
 #include <algorithm>
 #include <chrono>
+#include <map>
+#include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 vtkAbstractObjectFactoryNewMacro(vtkPointFrontMapper);
 
@@ -52,6 +56,7 @@ struct vtkPointFrontMapper::Content
   pointfront::MapperViews Views;
   pointfront::ClassLimits Limits;
   pointfront::MapperStyle Style;
+  std::shared_ptr<const pointfront::StyleSheet> Sheet;
   pointfront::FrameStatistics Statistics;
   pointfront::RenderTimer Timer;
 };
@@ -167,32 +172,92 @@ bool vtkPointFrontMapper::HasTranslucentPolygonalGeometry()
   return table->IsOpaque() == 0;
 }
 
-/// What the style and the table of colours have to say.
-void vtkPointFrontMapper::Warn()
+void vtkPointFrontMapper::SetStyleSheet(std::shared_ptr<const pointfront::StyleSheet> sheet)
 {
-  const std::string warning = this->Internals->Style.takeWarning();
-  if (!warning.empty())
+  if (sheet != this->Internals->Sheet)
   {
-    vtkWarningMacro(<< warning);
+    this->Internals->Sheet = std::move(sheet);
+    this->Modified();
   }
+}
+
+const std::shared_ptr<const pointfront::StyleSheet>& vtkPointFrontMapper::GetStyleSheet() const
+{
+  return this->Internals->Sheet;
+}
+
+/// How the store's layers are drawn: by the sheet, or else by the properties.
+std::vector<pointfront::LayerStyling> vtkPointFrontMapper::GetStyling(vtkActor* actor)
+{
+  Content& content = *this->Internals;
+  const auto& store = this->GetStore()->GetStore();
+  std::optional<std::vector<pointfront::LayerStyling>> layers;
+  if (content.Sheet)
+  {
+    layers = content.Style.resolve(*content.Sheet, store);
+    const std::string error = content.Style.takeError();
+    if (!error.empty())
+    {
+      vtkErrorMacro(<< error);
+    }
+  }
+  if (!layers)
+  {
+    const auto style = content.Style.update(*this, actor, this->PointSize, store);
+    const std::size_t count = std::max<std::size_t>(1, store->description().layers.size());
+    layers.emplace(count, pointfront::LayerStyling{{style}, 1.0});
+    const std::string warning = content.Style.takeWarning();
+    if (!warning.empty())
+    {
+      vtkWarningMacro(<< warning);
+    }
+  }
+  const auto limits = content.Limits.layersOf(*this->GetStore());
+  for (std::size_t layer = 0; layer < limits.size() && layer < layers->size(); ++layer)
+  {
+    if (!limits[layer].visible)
+    {
+      (*layers)[layer].styles.clear();
+    }
+  }
+  return *std::move(layers);
+}
+
+bool vtkPointFrontMapper::HasPlainPointsOnly(vtkActor* actor)
+{
+  const auto& sheet = this->Internals->Sheet;
+  if (!sheet)
+  {
+    return true;
+  }
+  const auto plain = [](const std::shared_ptr<const pointfront::ResolvedStyle>& style)
+  {
+    return style->technique == pointfront::Technique::Points && style->filter.empty() &&
+      style->size.mode == pointfront::SplatSize::Mode::Pixels &&
+      style->second.combination == pointfront::ColourCombination::None;
+  };
+  const pointfront::FrameShading& shading = sheet->shading;
+  const auto styling = this->GetStyling(actor);
+  return !shading.lit && shading.eyeDomeStrength == 0.0f && !shading.fillHoles &&
+    std::all_of(styling.begin(), styling.end(),
+      [&](const pointfront::LayerStyling& layer)
+      { return std::all_of(layer.styles.begin(), layer.styles.end(), plain); });
 }
 
 pointfront::PlanRequest vtkPointFrontMapper::GetRequest(vtkRenderer* renderer, vtkActor* actor)
 {
-  vtkPointFrontStore* store = this->GetStore();
   pointfront::PlanRequest request;
   request.camera = pointfront::cameraOf(renderer, actor);
   request.clippingPlanes = pointfront::clippingPlanesOf(*this, actor);
-  const auto style =
-    this->Internals->Style.update(*this, actor, this->PointSize, store->GetStore());
-  const std::size_t layers = store->GetStore()->description().layers.size();
-  request.styles.assign(std::max<std::size_t>(1, layers), style);
-  const auto limits = this->Internals->Limits.layersOf(*store);
-  for (std::size_t layer = 0; layer < limits.size() && layer < layers; ++layer)
+  if (this->Internals->Sheet)
   {
-    request.styles[layer] = limits[layer].visible ? style : nullptr;
+    request.shading = this->Internals->Sheet->shading;
   }
-  this->Warn();
+  for (const pointfront::LayerStyling& layer : this->GetStyling(actor))
+  {
+    request.styles.emplace_back();
+    request.styles.back().assign(layer.styles.begin(), layer.styles.end());
+  }
   return request;
 }
 
@@ -200,13 +265,24 @@ pointfront::FrameDemand vtkPointFrontMapper::GetDemand(vtkRenderer* renderer, vt
 {
   pointfront::FrameDemand demand;
   demand.view = pointfront::viewOf(renderer, actor);
-  for (const auto& style : this->GetRequest(renderer, actor).styles)
+  demand.layers = this->Internals->Limits.layersOf(*this->GetStore());
+  const auto styling = this->GetStyling(actor);
+  demand.layers.resize(styling.size());
+  for (std::size_t layer = 0; layer < styling.size(); ++layer)
   {
-    demand.columns.layers.push_back(style ? style->columns() : pointfront::ColumnSelection());
+    demand.columns.layers.push_back(styling[layer].columns());
+    demand.layers[layer].visible = styling[layer].visible();
+    demand.layers[layer].errorFactor *= styling[layer].errorFactor;
+  }
+  const auto usual = [](const pointfront::LayerLimits& limits)
+  { return limits == pointfront::LayerLimits(); };
+  if (std::all_of(demand.layers.begin(), demand.layers.end(), usual))
+  {
+    demand.layers.clear();
   }
   demand.targetErrorPx = this->TargetError;
   demand.pointBudget = static_cast<std::uint64_t>(this->PointBudget);
-  demand.gpuBytes = this->DrawsFromHostMemory(renderer) ? 0 : this->GPUMemoryBudget;
+  demand.gpuBytes = this->DrawsFromHostMemory(actor) ? 0 : this->GPUMemoryBudget;
   demand.method = this->DetailSelection == VIEW_SPECIFIC
                     ? pointfront::DetailMethod::ViewSpecific
                     : pointfront::DetailMethod::RenderingFront;
@@ -221,7 +297,6 @@ pointfront::FrameDemand vtkPointFrontMapper::GetDemand(vtkRenderer* renderer, vt
   demand.frameMs = this->TargetFrameTime;
   demand.cloudMs = 1000.0 * actor->GetAllocatedRenderTime();
   demand.complete = this->Complete && !demand.interacting;
-  demand.layers = this->Internals->Limits.layersOf(*this->GetStore());
   return demand;
 }
 
@@ -258,8 +333,7 @@ bool vtkPointFrontMapper::MoveFront(vtkRenderer* renderer, vtkActor* actor)
   return true;
 }
 
-const pointfront::FramePlan* vtkPointFrontMapper::PlanFrame(
-  vtkRenderer* renderer, vtkActor* actor)
+pointfront::FramePlan* vtkPointFrontMapper::PlanFrame(vtkRenderer* renderer, vtkActor* actor)
 {
   Content& content = *this->Internals;
   if (!this->GetStore())
@@ -291,10 +365,12 @@ const pointfront::FramePlan* vtkPointFrontMapper::PlanFrame(
   // The same nodes, as another actor, eye or pass sees them.
   view.Plan->camera = request.camera;
   view.Plan->clippingPlanes = std::move(request.clippingPlanes);
+  std::map<std::uint16_t, std::size_t> styleOf; // the next of a layer's
   for (pointfront::DrawBatch& batch : view.Plan->batches)
   {
-    const auto& style = request.styles[batch.layer];
-    batch.style = style ? style : batch.style;
+    const pointfront::LayerStyles& styles = request.styles[batch.layer];
+    const std::size_t number = styleOf[batch.layer]++;
+    batch.style = number < styles.size() ? styles[number] : batch.style;
   }
   return &*view.Plan;
 }

@@ -29,6 +29,7 @@
 
 #include <cstdint> // for counts
 #include <memory>  // for the views
+#include <vector>  // for layers
 
 class vtkPointFrontStore;
 class vtkRenderWindowInteractor;
@@ -38,7 +39,9 @@ namespace pointfront
 struct FrameDemand;
 struct FramePlan;
 struct FrameStatistics;
+struct LayerStyling;
 struct PlanRequest;
+struct StyleSheet;
 } // namespace pointfront
 
 class POINTFRONTRENDERINGCORE_EXPORT vtkPointFrontMapper : public vtkPolyDataMapper
@@ -126,8 +129,9 @@ public:
    * the points where they are in host memory; colour and depth enter the window's picture in the
    * opaque pass, where other actors, passes and selections see them as any other geometry's.
    * AUTOMATIC (default): SOFTWARE where the window's GL is itself a program (GL_RENDERER llvmpipe,
-   * softpipe), else OPENGL. What SOFTWARE does not draw (translucent points) OPENGL does, and a
-   * warning says so once.
+   * softpipe), else OPENGL. What SOFTWARE does not draw (translucent points, an actor's own
+   * shader code) OPENGL does, what OPENGL does not draw (all but plain points of some pixels)
+   * SOFTWARE does; a warning says so once where another one was asked for.
    */
   vtkSetClampMacro(Backend, int, AUTOMATIC, SOFTWARE);
   vtkGetMacro(Backend, int);
@@ -201,6 +205,17 @@ public:
   void ClearClassLimits();
   ///@}
 
+#ifndef __VTK_WRAP__
+  /**
+   * Draws by a style sheet: techniques, colours, sizes, visibility and filters of each object
+   * class, and shading. PointSize and the properties of vtkMapper that choose colours do not count
+   * then. Null (default): they do. Where the store has not what the sheet asks for, an error says
+   * so and they count as well.
+   */
+  void SetStyleSheet(std::shared_ptr<const pointfront::StyleSheet> sheet);
+  const std::shared_ptr<const pointfront::StyleSheet>& GetStyleSheet() const;
+#endif
+
   /// The store being drawn: named by the input's field data. Null until the input is there or if it
   /// cannot be opened.
   vtkPointFrontStore* GetStore();
@@ -273,7 +288,7 @@ protected:
    * times) get the same nodes. Valid until the next call or the end of the renderer's frame. Null,
    * and an error once a cause, without a store.
    */
-  const pointfront::FramePlan* PlanFrame(vtkRenderer* renderer, vtkActor* actor);
+  pointfront::FramePlan* PlanFrame(vtkRenderer* renderer, vtkActor* actor);
   /// True from PlanFrame() to FinishFrame(): the frame's first drawing, which uploads.
   bool IsFirstDrawing(vtkRenderer* renderer) const;
   /// True when the front was moved since the renderer's last frame (see NeedsRender()): what a
@@ -288,7 +303,9 @@ protected:
   /// A renderer drew a frame, and none shows this mapper any more: what it has on the GPU is idle.
   virtual void LeaveScreen();
   /// Points are drawn from host memory: no GPU memory is taken for them.
-  virtual bool DrawsFromHostMemory(vtkRenderer*) { return false; }
+  virtual bool DrawsFromHostMemory(vtkActor*) { return false; }
+  /// Points of some pixels, in one colour each, all of them, and nothing done to the picture.
+  bool HasPlainPointsOnly(vtkActor* actor);
   static bool IsInteracting(vtkRenderer* renderer);
   /// Of PointBudget, what this mapper may have on the GPU of a window beside the other clouds of
   /// it; 0: no limit.
@@ -315,9 +332,9 @@ protected:
 private:
   struct Content;
   pointfront::FrameDemand GetDemand(vtkRenderer* renderer, vtkActor* actor);
+  std::vector<pointfront::LayerStyling> GetStyling(vtkActor* actor);
   pointfront::PlanRequest GetRequest(vtkRenderer* renderer, vtkActor* actor);
   bool MoveFront(vtkRenderer* renderer, vtkActor* actor);
-  void Warn();
   bool Announce();
   std::unique_ptr<Content> Internals;
 

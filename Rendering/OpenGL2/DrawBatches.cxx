@@ -17,14 +17,14 @@ constexpr int batchPoints = 1 << 16;
 /// Batches that are handed over and not drawn, while the next is made ready.
 constexpr std::size_t mostUnderWay = 1;
 
-bool drawnByProgram()
+} // namespace
+
+bool glIsAProgram()
 {
   const GLubyte* const text = glGetString(GL_RENDERER);
   const std::string name = text ? reinterpret_cast<const char*>(text) : "";
   return name.find("llvmpipe") != std::string::npos || name.find("softpipe") != std::string::npos;
 }
-
-} // namespace
 
 DrawBatches::~DrawBatches()
 {
@@ -34,7 +34,7 @@ DrawBatches::~DrawBatches()
   }
 }
 
-DrawBatches::DrawBatches() : inTurn_(drawnByProgram()) {}
+DrawBatches::DrawBatches() : inTurn_(glIsAProgram()) {}
 
 void DrawBatches::draw(const int* firsts, const int* counts, std::size_t runs)
 {

@@ -6,6 +6,9 @@
 namespace pointfront
 {
 
+/// Whether the GL of the current context is itself a program (GL_RENDERER llvmpipe, softpipe).
+bool glIsAProgram();
+
 /// Draws runs of vertices as GL points. On a rasteriser that is a program (Mesa's llvmpipe) it
 /// hands over some at a time and goes on when those before are drawn: such a driver keeps every
 /// primitive that is not drawn yet in host memory, some hundred bytes for a point of 16, and does

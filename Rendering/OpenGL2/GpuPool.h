@@ -61,9 +61,9 @@ public:
 
   /// Before anything else in a context: the account of its window.
   void enter(std::shared_ptr<GpuAccount> account);
-  /// Of each layer by its number; what has none is flat. Values are a stream of their own beside the
-  /// positions: those of another colouring are worth nothing and are uploaded again as nodes are
-  /// drawn, positions stay where they are.
+  /// Of each layer by its number; what has none is flat. Values are a stream of their own beside
+  /// the positions: those of another colouring are worth nothing and are uploaded again as nodes
+  /// are drawn, positions stay where they are.
   void setColourings(std::vector<PointColouring> byLayer);
   void beginFrame(const Limits& limits);
   /// This frame's limit of bytes is lower than that of the frame before, and was exceeded.

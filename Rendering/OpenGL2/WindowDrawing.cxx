@@ -100,12 +100,19 @@ void WindowDrawing::release()
     }
     pass = nullptr;
   }
+  picture_.release(window_);
   for (auto& [renderer, timer] : timers_)
   {
     timer.release();
   }
   timers_.clear();
   window_->PopContext();
+}
+
+void WindowDrawing::leaveScreen()
+{
+  pool_.leaveScreen();
+  picture_.leaveScreen();
 }
 
 void WindowDrawing::setStore(const void* store)

@@ -4,6 +4,7 @@
 #include "DrawRuns.h"
 #include "GpuPool.h"
 #include "SlotRecords.h"
+#include "SoftwarePicture.h"
 #include "vtkOpenGLPointFrontPass.h"
 #include "vtkWindowResources.h"
 
@@ -58,7 +59,7 @@ private:
 /// so that a mapper in two windows has what it needs in each, and names go where they belong.
 /// Releasing  by release() or destruction, whichever context is current then (it is current again
 ///            after it), and by itself when the window's context goes.
-/// Threads    the renderers'; the window's context is current in enter(), upload() and draw().
+/// Threads    the renderers'; the window's context is current in enter() and whatever draws.
 class WindowDrawing
 {
 public:
@@ -81,6 +82,15 @@ public:
   /// Draws what was listed.
   void draw(vtkRenderer* renderer, vtkActor* actor, vtkMapper* owner, const FramePlan& plan,
     std::int64_t storePoints);
+
+  /// In the place of these three: by threads of this process, from host memory. Points that are on
+  /// the GPU are given back.
+  SoftwarePicture& softwarePicture()
+  {
+    pool_.release();
+    return picture_;
+  }
+  void leaveScreen();
 
   GpuPool& pool() { return pool_; }
   FrameTimer& timerOf(vtkRenderer* renderer) { return timers_[renderer]; }
@@ -105,6 +115,7 @@ private:
   std::vector<PointColouring> colourings_; ///< by layer
   std::vector<std::unique_ptr<ColourTable>> tables_; ///< of the maps of the last frame
   std::array<vtkSmartPointer<vtkOpenGLPointFrontPass>, 4> passes_; ///< by kind of colouring
+  SoftwarePicture picture_;
   std::map<vtkRenderer*, FrameTimer> timers_;
   GpuPool::DrawList order_;                  ///< of the plan, near to far
   std::vector<const ResolvedStyle*> styles_; ///< of the items of order_

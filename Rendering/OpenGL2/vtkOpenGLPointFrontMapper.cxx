@@ -1,5 +1,6 @@
 #include "vtkOpenGLPointFrontMapper.h"
 
+#include "DrawBatches.h"
 #include "WindowDrawing.h"
 
 #include "pointfront/Plan/FramePlan.h"
@@ -13,11 +14,13 @@
 #include <vtkObjectFactory.h>
 #include <vtkOpenGLRenderWindow.h>
 #include <vtkRenderer.h>
+#include <vtkShaderProperty.h>
 #include <vtkWindow.h>
 
 #include <chrono>
 #include <limits>
 #include <map>
+#include <utility>
 
 vtkStandardNewMacro(vtkOpenGLPointFrontMapper);
 
@@ -37,6 +40,7 @@ struct vtkOpenGLPointFrontMapper::Content
 {
   std::map<vtkWindow*, std::unique_ptr<pointfront::WindowDrawing>> Windows;
   std::uint64_t UploadedBefore = 0; ///< by drawings that are gone
+  bool FallBackTold = false;
 
   pointfront::WindowDrawing& Of(vtkOpenGLRenderWindow* window)
   {
@@ -81,37 +85,41 @@ void vtkOpenGLPointFrontMapper::RenderPiece(vtkRenderer* renderer, vtkActor* act
   drawing.enter(renderer, actor);
   const auto begin = Clock::now();
   this->ReadTimer(renderer, drawing.timerOf(renderer));
-  const pointfront::FramePlan* plan = this->PlanFrame(renderer, actor);
+  pointfront::FramePlan* plan = this->PlanFrame(renderer, actor);
   if (!plan)
   {
     return;
   }
-  const bool first = this->IsFirstDrawing(renderer);
   drawing.setStore(this->GetStore());
+  const bool host = this->DrawsFromHostMemory(actor);
+  const bool first = this->IsFirstDrawing(renderer);
   bool uploadsLeft = false;
-  if (first)
+  if (host)
   {
-    drawing.pool().beginFrame({static_cast<std::uint64_t>(this->GetPointsOnGPU(window)),
-      this->GPUMemoryBudget, this->GetNumberOfViews(window)});
-    uploadsLeft = drawing.upload(*plan,
-      IsInteracting(renderer) ? this->UploadLimit : std::numeric_limits<std::int64_t>::max());
+    drawing.softwarePicture().draw(window, renderer, *plan, renderer->GetSelector() != nullptr);
   }
-  else if (this->IsAheadOfFrame(renderer))
+  else
   {
-    drawing.upload(*plan, std::numeric_limits<std::int64_t>::max());
+    uploadsLeft = this->Upload(renderer, drawing, *plan);
   }
-  const vtkIdType points = drawing.list(*plan);
+  const auto points =
+    host ? static_cast<std::int64_t>(plan->pointCount()) : drawing.list(*plan);
   pointfront::FrameTimer& timer = drawing.timerOf(renderer);
   const bool timed =
     first && points > 0 && timer.begin(millisecondsSince(begin), points, this->GetLastMoves());
-  if (points > 0)
+  const auto drawn = Clock::now();
+  if (points > 0 && host)
   {
-    const auto drawn = Clock::now();
+    drawing.softwarePicture().handOver(
+      window, renderer, actor, *plan, this->GetStore()->GetNumberOfPoints());
+  }
+  else if (points > 0)
+  {
     drawing.draw(renderer, actor, this, *plan, this->GetStore()->GetNumberOfPoints());
-    if (timed)
-    {
-      timer.end(millisecondsSince(drawn));
-    }
+  }
+  if (timed)
+  {
+    timer.end(millisecondsSince(drawn));
   }
   if (first)
   {
@@ -122,12 +130,65 @@ void vtkOpenGLPointFrontMapper::RenderPiece(vtkRenderer* renderer, vtkActor* act
   this->UpdateProgress(1.0);
 }
 
+/// What a frame's first drawing brings to the GPU. True when something is left over.
+bool vtkOpenGLPointFrontMapper::Upload(vtkRenderer* renderer, pointfront::WindowDrawing& drawing,
+  const pointfront::FramePlan& plan)
+{
+  constexpr std::int64_t noLimit = std::numeric_limits<std::int64_t>::max();
+  if (!this->IsFirstDrawing(renderer))
+  {
+    if (this->IsAheadOfFrame(renderer))
+    {
+      drawing.upload(plan, noLimit);
+    }
+    return false;
+  }
+  vtkWindow* window = renderer->GetRenderWindow();
+  drawing.pool().beginFrame({static_cast<std::uint64_t>(this->GetPointsOnGPU(window)),
+    this->GPUMemoryBudget, this->GetNumberOfViews(window)});
+  return drawing.upload(plan, IsInteracting(renderer) ? this->UploadLimit : noLimit);
+}
+
+/// Says once what another back end draws than the one that was asked for.
+void vtkOpenGLPointFrontMapper::TellFallBack(const char* what)
+{
+  if (this->Backend != AUTOMATIC && !std::exchange(this->Internals->FallBackTold, true))
+  {
+    vtkWarningMacro(<< what);
+  }
+}
+
+/// Asked while the window's context is current.
+bool vtkOpenGLPointFrontMapper::DrawsFromHostMemory(vtkActor* actor)
+{
+  vtkShaderProperty* shaders = actor->GetShaderProperty();
+  const bool ownShaders = shaders->HasVertexShaderCode() || shaders->HasFragmentShaderCode() ||
+    shaders->HasGeometryShaderCode() || shaders->GetNumberOfShaderReplacements() > 0;
+  const bool onlyOpenGL = ownShaders || actor->HasTranslucentPolygonalGeometry() != 0;
+  const bool asked =
+    this->Backend == SOFTWARE || (this->Backend == AUTOMATIC && pointfront::glIsAProgram());
+  if (asked && onlyOpenGL)
+  {
+    this->TellFallBack(ownShaders
+        ? "the software back end does not draw with an actor's own shader code: OpenGL does"
+        : "the software back end does not draw translucent points: OpenGL does");
+    return false;
+  }
+  if (!asked && !onlyOpenGL && !this->HasPlainPointsOnly(actor))
+  {
+    this->TellFallBack("OpenGL draws points of some pixels, in one colour each, and without "
+                       "filters: this style is drawn by the software back end");
+    return true;
+  }
+  return asked;
+}
+
 void vtkOpenGLPointFrontMapper::LeaveScreen()
 {
   this->Superclass::LeaveScreen();
   for (const auto& [window, drawing] : this->Internals->Windows)
   {
-    drawing->pool().leaveScreen();
+    drawing->leaveScreen();
     this->GetStatistics().gpuBytes = drawing->pool().bytes();
     this->GetStatistics().windowGpuBytes = drawing->pool().windowBytes();
   }

@@ -20,6 +20,7 @@
 namespace pointfront
 {
 class FrameTimer;
+class WindowDrawing;
 }
 
 class POINTFRONTRENDERINGOPENGL2_EXPORT vtkOpenGLPointFrontMapper : public vtkPointFrontMapper
@@ -40,11 +41,15 @@ protected:
   vtkOpenGLPointFrontMapper();
   ~vtkOpenGLPointFrontMapper() override;
   void LeaveScreen() override;
+  bool DrawsFromHostMemory(vtkActor* actor) override;
 
 private:
   vtkOpenGLPointFrontMapper(const vtkOpenGLPointFrontMapper&) = delete;
   void operator=(const vtkOpenGLPointFrontMapper&) = delete;
 
+  void TellFallBack(const char* what);
+  bool Upload(vtkRenderer* renderer, pointfront::WindowDrawing& drawing,
+    const pointfront::FramePlan& plan);
   void ReadTimer(vtkRenderer* renderer, pointfront::FrameTimer& timer);
 
   struct Content;

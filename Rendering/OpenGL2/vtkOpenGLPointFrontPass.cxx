@@ -3,6 +3,7 @@
 #include "ColourTable.h"
 #include "DrawBatches.h"
 #include "GpuPool.h"
+#include "SelectionIds.h"
 #include "SlotRecords.h"
 
 #include "ColourTableGLSL.h"
@@ -109,8 +110,7 @@ void vtkOpenGLPointFrontPass::Draw(
 
 bool vtkOpenGLPointFrontPass::IsDrawingIds() const
 {
-  return this->LastSelectionState >= vtkHardwareSelector::POINT_ID_LOW24 &&
-         this->LastSelectionState != vtkHardwareSelector::PROCESS_PASS;
+  return pointfront::drawsIds(this->LastSelectionState);
 }
 
 void vtkOpenGLPointFrontPass::GetShaderTemplate(
@@ -150,14 +150,7 @@ void vtkOpenGLPointFrontPass::ReplaceShaderPicking(
     this->Superclass::ReplaceShaderPicking(shaders, ren, act);
     return;
   }
-  const bool high = this->LastSelectionState == vtkHardwareSelector::POINT_ID_HIGH24 ||
-                    this->LastSelectionState == vtkHardwareSelector::CELL_ID_HIGH24;
-  std::string source = shaders[vtkShader::Fragment]->GetSource();
-  vtkShaderProgram::Substitute(source, "//VTK::Picking::Impl",
-    std::string("  ivec3 idBytes = (ivec3(pointIdVSOutput.") + (high ? "y" : "x") +
-      ") >> ivec3(0, 8, 16)) & 255;\n"
-      "  gl_FragData[0] = vec4(vec3(idBytes) / 255.0, 1.0);\n");
-  shaders[vtkShader::Fragment]->SetSource(source);
+  pointfront::replacePicking(shaders, this->LastSelectionState, "pointIdVSOutput");
 }
 
 void vtkOpenGLPointFrontPass::SetMapperShaderParameters(

@@ -121,8 +121,8 @@ struct LaneColour
 inline LaneColour colourOf(std::uint32_t rgba)
 {
   const __m128i bytes = _mm_cvtepu8_epi32(_mm_cvtsi32_si128(static_cast<int>(rgba)));
-  const __m128i withOne =
-    _mm_or_si128(_mm_and_si128(bytes, _mm_setr_epi32(255, 255, 255, 0)), _mm_setr_epi32(0, 0, 0, 1));
+  const __m128i three = _mm_and_si128(bytes, _mm_setr_epi32(255, 255, 255, 0));
+  const __m128i withOne = _mm_or_si128(three, _mm_setr_epi32(0, 0, 0, 1));
   return { _mm256_broadcastsi128_si256(withOne) };
 }
 inline void addTwo(std::uint32_t* sums, __m256i w, __m256i places, __m256i colour)

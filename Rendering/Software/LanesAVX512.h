@@ -121,8 +121,8 @@ struct LaneColour
 inline LaneColour colourOf(std::uint32_t rgba)
 {
   const __m128i bytes = _mm_cvtepu8_epi32(_mm_cvtsi32_si128(static_cast<int>(rgba)));
-  const __m128i withOne =
-    _mm_or_si128(_mm_and_si128(bytes, _mm_setr_epi32(255, 255, 255, 0)), _mm_setr_epi32(0, 0, 0, 1));
+  const __m128i three = _mm_and_si128(bytes, _mm_setr_epi32(255, 255, 255, 0));
+  const __m128i withOne = _mm_or_si128(three, _mm_setr_epi32(0, 0, 0, 1));
   return { _mm512_broadcast_i32x4(withOne) };
 }
 inline void addFour(std::uint32_t* sums, LaneWeights w, __m512i places, LaneColour colour)

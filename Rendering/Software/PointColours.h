@@ -9,8 +9,8 @@
 namespace pointfront
 {
 
-/// The colours that a style gives to values of few bits, made once for all points: an entry for each
-/// stored number of an attribute of 8 or 16 bits.
+/// The colours that a style gives to values of few bits, made once for all points: an entry for
+/// each stored number of an attribute of 8 or 16 bits.
 /// Threads  a value; const functions from any thread.
 class ValueColours
 {

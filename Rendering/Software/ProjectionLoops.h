@@ -80,7 +80,8 @@ inline void project(
   }
 }
 
-/// What is culled is drawn too, into a pixel of the margin that nobody looks at: a branch costs more.
+/// What is culled is drawn too, into a pixel of the margin that nobody looks at: a branch costs
+/// more.
 inline void drawPixels(const RasterWindow& window, RasterBatch& batch, int count,
   std::uint32_t index, RasterKey* keys)
 {

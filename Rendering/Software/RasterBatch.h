@@ -32,7 +32,8 @@ struct RasterBatch
   alignas(64) float normalZ[size];
 
   // Made by the set-up of a shape:
-  alignas(64) float inverseRadius2[size]; ///< of pixels for discs, of world units where rays are cast
+  /// of pixels for discs, of world units where rays are cast
+  alignas(64) float inverseRadius2[size];
   alignas(64) float quadraticXX[size];    ///< ellipses: q = XX dx^2 + XY dx dy + YY dy^2
   alignas(64) float quadraticXY[size];
   alignas(64) float quadraticYY[size];

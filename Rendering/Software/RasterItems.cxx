@@ -28,6 +28,10 @@ const std::byte* columnOf(const NodeColumns& node, std::optional<std::uint32_t> 
     : node.columns[static_cast<std::size_t>(place - node.selection.begin())].data();
 }
 
+/// A point's own radius counts up to that many times what closes its node: a stray point far from
+/// all others is no surface.
+constexpr float mostOfClosing = 2.0f;
+
 /// Rows x, y and the line of sight: view space looks along -z.
 glm::dmat3 cameraAxes(const FrameCamera& camera)
 {
@@ -288,10 +292,11 @@ void RasterItems::fill(const RasterItem& item, const PointAt& pointAt, int count
     const float least = finest ? 0.0f : item.radius * share;
     const float scale = item.radiusScale * share;
     const float unknown = item.radius * share;
+    const float most = mostOfClosing * item.radius * share;
     for (int j = 0; j < count; ++j)
     {
       const float own = radii_[item.radiusCodes[pointAt(j)]] * scale;
-      batch.radius[j] = std::max(own > 0.0f ? own : unknown, least);
+      batch.radius[j] = std::max(own > 0.0f ? std::min(own, most) : unknown, least);
     }
   }
   else

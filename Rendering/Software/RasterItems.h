@@ -38,8 +38,8 @@ struct RasterItem
   const NodeColumns& node() const { return *item->node; }
 };
 
-/// A plan's items in the order of their nodes, with numbers for their points: a key's 32 bits name a
-/// point of the frame, and of two points at one depth the same one wins whatever was drawn first.
+/// A plan's items in the order of their nodes, with numbers for their points: a key's 32 bits name
+/// a point of the frame, and of two points at one depth the same one wins whatever was drawn first.
 class RasterItems
 {
 public:

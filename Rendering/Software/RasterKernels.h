@@ -44,8 +44,8 @@ struct RasterKernels
   /// Nearest depth and index into `keys`.
   void (*drawSplats)(const RasterCamera&, const RasterWindow&, const SplatPass&, RasterBatch&,
     int count, std::uint32_t index, RasterKey* keys);
-  /// Adds weight * colour (r, g, b) and weight, four sums a pixel, where the splat is not behind the
-  /// slack. `nearest` is the first pass's depth, infinite negative where nothing is.
+  /// Adds weight * colour (r, g, b) and weight, four sums a pixel, where the splat is not behind
+  /// the slack. `nearest` is the first pass's depth, infinite negative where nothing is.
   void (*addSplats)(const RasterCamera&, const RasterWindow&, const SplatPass&, RasterBatch&,
     int count, const float* nearest, std::uint32_t* sums);
 };

@@ -103,8 +103,8 @@ void eyeDome(const FrameCamera& camera, const FrameShading& shading, SoftwareTar
     {
       return own;
     }
-    const float found = octaves[static_cast<std::size_t>(y) * static_cast<std::size_t>(target.width) +
-      static_cast<std::size_t>(x)];
+    const std::int64_t pixel = std::int64_t(y) * target.width + x;
+    const float found = octaves[static_cast<std::size_t>(pixel)];
     return std::isinf(found) ? own : found;
   };
   scaleColours(target,

@@ -390,7 +390,8 @@ RasterStatistics SoftwareRasteriser::draw(const FramePlan& plan, const RasterBan
   while (!last) // once, unless the points are more than 32 bits can count
   {
     const RasterItems items(plan, from);
-    const std::int64_t pixelBytes = std::int64_t(content.crew.threads()) * (items.blended() ? 24 : 8) + 4;
+    const std::int64_t threads = content.crew.threads();
+    const std::int64_t pixelBytes = threads * (items.blended() ? 24 : 8) + 4;
     const std::int64_t rowBytes = pixelBytes * whole.stride;
     const int rows = static_cast<int>(std::clamp<std::int64_t>(
       mostBytes / rowBytes - 2 * rasterMargin, leastRows, band.top - band.bottom));

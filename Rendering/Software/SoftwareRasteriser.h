@@ -27,8 +27,8 @@ struct RasterStatistics
   double milliseconds = 0.0; ///< wall time
 };
 
-/// Draws plans without GL, driver or VTK: the back end for machines without a GPU, and the reference
-/// that shaders are compared with.
+/// Draws plans without GL, driver or VTK: the back end for machines without a GPU, and the
+/// reference that shaders are compared with.
 /// Determinism  the same plan gives the same bits for any number of threads, any order of batches
 ///              and items, on each instruction set, and in one go or by and by (a plan that only
 ///              adds points to the one before adds them to what is there).
@@ -45,15 +45,15 @@ public:
   SoftwareRasteriser(const SoftwareRasteriser&) = delete;
   SoftwareRasteriser& operator=(const SoftwareRasteriser&) = delete;
 
-  /// Draws the plan into the target where it is nearer than what is there; ties leave what is there.
-  /// The target has the size of the camera's viewport. `store` becomes PixelPoint::store.
+  /// Draws the plan into the target where it is nearer than what is there; ties leave what is
+  /// there. The target has the size of the camera's viewport. `store` becomes PixelPoint::store.
   RasterStatistics draw(const FramePlan& plan, SoftwareTarget& target, std::uint16_t store = 0);
   /// The same for rows of the viewport: the target has the band's rows only.
   RasterStatistics draw(const FramePlan& plan, const RasterBand& band, SoftwareTarget& target,
     std::uint16_t store = 0);
 
-  /// In motion: points of the last picture that are still in sight are drawn as well, even where the
-  /// plan has their nodes no more (SMOOTH-7). Off by default.
+  /// In motion: points of the last picture that are still in sight are drawn as well, even where
+  /// the plan has their nodes no more (SMOOTH-7). Off by default.
   void setKeepsVisible(bool keeps);
 
   /// Forgets the last picture and gives its memory back.

@@ -8,9 +8,9 @@ namespace pointfront
 namespace
 {
 
-// From radius and normal to what the loops over pixels need. X and Y are the centre's direction: its
-// place in camera space divided by its depth (perspective), 0 where rays are parallel. Cameras come by
-// value: what might change with each store to the batch keeps compilers from vectorising.
+// From radius and normal to what the loops over pixels need. X and Y are the centre's direction:
+// its place in camera space divided by its depth (perspective), 0 where rays are parallel. Cameras
+// come by value: what might change with each store to the batch keeps compilers from vectorising.
 
 /// Discs are not drawn more edge on than that cosine: what the affine map makes of them then has
 /// nothing to do with them (EWA-5).
@@ -117,16 +117,23 @@ inline void setUpEllipses(RasterCamera camera, float lowPass, int count, RasterB
     batch.slopeX[j] = gx;
     batch.slopeY[j] = gy;
     const float halfX = __builtin_sqrtf(varianceX), halfY = __builtin_sqrtf(varianceY);
-    batch.halfX[j] = halfX > 0.5f ? halfX : 0.5f;
-    batch.halfY[j] = halfY > 0.5f ? halfY : 0.5f;
+    // The disc is inside its sphere; its affine image need not be, far from the middle of the view.
+    const float size = batch.radius[j] / reach;
+    const float bent = 1.0f / (1.0f - (Parallel ? 0.0f : (size < 0.9f ? size * size : 0.81f)));
+    const float mostX = size * camera.scaleX * __builtin_sqrtf(1.0f + to.x * to.x) * bent + 1.0f;
+    const float mostY = size * camera.scaleY * __builtin_sqrtf(1.0f + to.y * to.y) * bent + 1.0f;
+    const float withinX = halfX < mostX ? halfX : mostX;
+    const float withinY = halfY < mostY ? halfY : mostY;
+    batch.halfX[j] = withinX > 0.5f ? withinX : 0.5f;
+    batch.halfY[j] = withinY > 0.5f ? withinY : 0.5f;
     batch.middleX[j] = batch.screenX[j];
     batch.middleY[j] = batch.screenY[j];
   }
 }
 
-/// Where a conic is on screen: centre and half width along one axis, in units of the direction, from
-/// three entries of its dual, taken relative to the centre's direction so that nothing cancels.
-/// A conic that comes near the eye's plane is everywhere.
+/// Where a conic is on screen: centre and half width along one axis, in units of the direction,
+/// from three entries of its dual, taken relative to the centre's direction so that nothing
+/// cancels. A conic that comes near the eye's plane is everywhere.
 struct ConicExtent
 {
   float middle;
@@ -175,8 +182,8 @@ inline void setUpExact(RasterCamera camera, float lowPass, int count, RasterBatc
   }
 }
 
-/// The dual conic of a sphere's outline is r^2 I - c c^T. A sphere around the eye shows nothing: its
-/// near side is behind.
+/// The dual conic of a sphere's outline is r^2 I - c c^T. A sphere around the eye shows nothing:
+/// its near side is behind.
 template <bool Parallel>
 inline void setUpSpheres(RasterCamera camera, int count, RasterBatch& batch)
 {
@@ -199,6 +206,35 @@ inline void setUpSpheres(RasterCamera camera, int count, RasterBatch& batch)
     const float distance2 = depth * depth * (1.0f + to.x * to.x + to.y * to.y);
     const int outside = Parallel | (distance2 > square);
     batch.depth[j] = outside ? depth : -1.0f;
+  }
+}
+
+/// Splats whose spheres are outside the pyramid through the window are culled: rectangles of what
+/// reaches behind the eye say nothing.
+inline void cullBesidePyramid(
+  RasterCamera camera, RasterWindow window, int count, RasterBatch& batch)
+{
+  const float right = (static_cast<float>(window.width) - camera.centreX) / camera.scaleX;
+  const float left = camera.centreX / camera.scaleX;
+  const float up =
+    (static_cast<float>(window.bottom + window.height) - camera.centreY) / camera.scaleY;
+  const float down = (camera.centreY - static_cast<float>(window.bottom)) / camera.scaleY;
+  const float lengthRight = __builtin_sqrtf(1.0f + right * right);
+  const float lengthLeft = __builtin_sqrtf(1.0f + left * left);
+  const float lengthUp = __builtin_sqrtf(1.0f + up * up);
+  const float lengthDown = __builtin_sqrtf(1.0f + down * down);
+  const float widthX = 1.0f / camera.scaleX, widthY = 1.0f / camera.scaleY;
+  for (int j = 0; j < count; ++j)
+  {
+    const float depth = batch.depth[j];
+    const float x = (batch.screenX[j] - camera.centreX) * widthX;
+    const float y = (batch.screenY[j] - camera.centreY) * widthY;
+    // A little more than the radius: what covers its centre's pixel reaches over the edge.
+    const float reach = batch.radius[j] * 1.01f + depth * widthX;
+    const int seen = ((x - right) * depth <= reach * lengthRight) &
+      ((-left - x) * depth <= reach * lengthLeft) & ((y - up) * depth <= reach * lengthUp) &
+      ((-down - y) * depth <= reach * lengthDown);
+    batch.depth[j] = seen ? depth : -1.0f;
   }
 }
 
@@ -266,6 +302,10 @@ inline void setUp(const RasterCamera& camera, const RasterWindow& window, const 
 {
   camera.parallel ? setUpOf<true>(camera, pass, count, batch)
                   : setUpOf<false>(camera, pass, count, batch);
+  if (!camera.parallel)
+  {
+    cullBesidePyramid(camera, window, count, batch);
+  }
   sortByExtent(window, count, batch);
 }
 

@@ -20,7 +20,8 @@ float depthOf(RasterKey key)
   return depth;
 }
 
-/// The target's depths count from the eye's plane; a parallel view's keys count from the near plane.
+/// The target's depths count from the eye's plane; a parallel view's keys count from the near
+/// plane.
 float fromEye(const RasterItems& items, float depth)
 {
   const FrameCamera& camera = items.plan().camera;
@@ -67,8 +68,7 @@ void WinnerResolve::take(int y, int x, RasterKey key, SoftwareTarget& target, in
   if (item.passes.depthInKey() && !source_.normals)
   {
     item_ = waiting_.empty() ? &item : item_;
-    const auto pixel = static_cast<std::size_t>(targetRow) * static_cast<std::size_t>(target.width) +
-      static_cast<std::size_t>(x);
+    const auto pixel = static_cast<std::size_t>(std::int64_t(targetRow) * target.width + x);
     put(item, winner, fromEye(*source_.items, winner.keyDepth), y, target, pixel);
     return;
   }
@@ -215,8 +215,7 @@ void WinnerResolve::flush(int y, SoftwareTarget& target, int targetRow)
     const Winner& winner = waiting_[static_cast<std::size_t>(j)];
     const float depth =
       item.passes.depthInKey() ? winner.keyDepth : planeDepth(item, j, winner.x, y);
-    const auto pixel = static_cast<std::size_t>(targetRow) * static_cast<std::size_t>(target.width) +
-      static_cast<std::size_t>(winner.x);
+    const auto pixel = static_cast<std::size_t>(std::int64_t(targetRow) * target.width + winner.x);
     const float eyeDepth = fromEye(*source_.items, depth);
     const bool nearer = eyeDepth < target.depth[pixel];
     put(item, winner, eyeDepth, y, target, pixel);

@@ -30,7 +30,7 @@ constexpr int frames = 7;
 constexpr int width = 1280;
 constexpr int height = 720;
 
-struct Technique_
+struct MeasuredTechnique
 {
   const char* name;
   Technique technique;
@@ -43,7 +43,7 @@ struct Technique_
 const SplatSize onePixel{ SplatSize::Mode::Pixels, 1.0, 0 };
 const SplatSize spacing{ SplatSize::Mode::Spacing, 1.0, 0 };
 
-const Technique_ techniques[] = {
+const MeasuredTechnique techniques[] = {
   { "points_1px", Technique::Points, false, false, SplatAccuracy::Affine, onePixel },
   { "points_3px", Technique::Points, false, false, SplatAccuracy::Affine,
     { SplatSize::Mode::Pixels, 3.0, 0 } },
@@ -126,39 +126,10 @@ Measured measure(const FramePlan& plan, unsigned threads, SoftwareTarget& target
   return measured;
 }
 
-} // namespace
-
-int main(int argc, char** argv)
+/// All points of all nodes, as if nothing were finer: what closes a leaf closes all above it.
+FramePlan planOfAll(const StoreDescription& description,
+  const std::vector<std::shared_ptr<const NodeColumns>>& nodes, int argc, char** argv)
 {
-  if (argc != 2 && argc != 3 && argc != 10)
-  {
-    fail("usage: pointfrontRasterBenchmark STORE [PICTURE_FOLDER [X Y Z FX FY FZ ANGLE]]");
-  }
-  const Result<std::shared_ptr<const PointStore>> opened = PointStore::open(argv[1]);
-  if (!opened)
-  {
-    fail(opened.error().what);
-  }
-  const PointStore& store = **opened;
-  const StoreDescription& description = store.description();
-  const auto column = [&](const char* name) -> std::optional<std::uint32_t>
-  {
-    const auto found = description.schema.find(name);
-    return found ? std::optional<std::uint32_t>(static_cast<std::uint32_t>(*found))
-                 : std::nullopt;
-  };
-  const auto rgb = column("rgb"), normal = column("normal"), radius = column(splatRadiusAttribute);
-  ColumnSelection columns;
-  for (const auto& one : { rgb, normal, radius })
-  {
-    if (one)
-    {
-      columns.push_back(*one);
-    }
-  }
-  std::sort(columns.begin(), columns.end());
-  const auto nodes = readAll(store, columns);
-
   FramePlan plan;
   const Bounds& box = description.bounds;
   const glm::dvec3 middle = 0.5 * (box.low + box.high);
@@ -195,12 +166,50 @@ int main(int argc, char** argv)
     item.closingRadius = node->leaf && node->splatRadius > 0.0f ? node->splatRadius : finest;
     plan.batches[0].items.push_back(std::move(item));
   }
+  return plan;
+}
+
+std::optional<std::uint32_t> columnOf(const StoreDescription& description, const char* name)
+{
+  const auto found = description.schema.find(name);
+  return found ? std::optional<std::uint32_t>(static_cast<std::uint32_t>(*found)) : std::nullopt;
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+  if (argc != 2 && argc != 3 && argc != 10)
+  {
+    fail("usage: pointfrontRasterBenchmark STORE [PICTURE_FOLDER [X Y Z FX FY FZ ANGLE]]");
+  }
+  const Result<std::shared_ptr<const PointStore>> opened = PointStore::open(argv[1]);
+  if (!opened)
+  {
+    fail(opened.error().what);
+  }
+  const PointStore& store = **opened;
+  const StoreDescription& description = store.description();
+  const auto rgb = columnOf(description, "rgb"), normal = columnOf(description, "normal");
+  const auto radius = columnOf(description, splatRadiusAttribute);
+  ColumnSelection columns;
+  for (const auto& one : { rgb, normal, radius })
+  {
+    if (one)
+    {
+      columns.push_back(*one);
+    }
+  }
+  std::sort(columns.begin(), columns.end());
+  const auto nodes = readAll(store, columns);
+
+  FramePlan plan = planOfAll(description, nodes, argc, argv);
   const auto points = static_cast<double>(plan.pointCount());
   std::printf("%.0f points, %zu nodes, %s\n", points, nodes.size(),
     SoftwareRasteriser().instructionSet());
-  std::printf("| technique | CPU ns a point, 1 thread | 2 threads | ms, 1 thread | 2 threads | speed-up |\n"
-              "| --- | --- | --- | --- | --- | --- |\n");
-  for (const Technique_& one : techniques)
+  std::printf("| technique | CPU ns a point, 1 thread | 2 threads "
+              "| ms, 1 thread | 2 threads | speed-up |\n| --- | --- | --- | --- | --- | --- |\n");
+  for (const MeasuredTechnique& one : techniques)
   {
     if (one.normals && !normal)
     {

@@ -7,7 +7,8 @@ points    vtkPolyDataMapper, SIZE pixels wide
 gaussian  vtkPointGaussianMapper as it comes, not emissive; sigma of SIZE spacings
 discs     vtkPointGaussianMapper with opaque discs of a radius of SIZE spacings
 
-The spacing is that of each point: in a graded view it grows with depth. Needs an X server (xvfb-run).
+The spacing is that of each point: in a graded view it grows with depth. Needs an X server
+(xvfb-run).
 """
 
 import json

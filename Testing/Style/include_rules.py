@@ -14,6 +14,7 @@ INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 FOREIGN = (  # header, library, the one module that may include it
     (re.compile(r"^laszip/"), "LASzip", "IO/LAS"),
     (re.compile(r"^(pcl|flann)/"), "PCL and FLANN", "Filters/Normals"),
+    (re.compile(r"^zlib\.h$"), "zlib", "IO/Text"),
     (re.compile(r"^proj(_experimental)?\.h$"), "PROJ", "Filters/Projection"),
     (re.compile(r"^png\.h$"), "libpng", "IO/PNG"),
     (re.compile(r"^tiffio\.h$"), "libtiff", "Filters/ImageColor"),
@@ -48,10 +49,8 @@ def may_know(room, other):
     if room == "vtkmodule/Common":
         return other in ("vtkmodule/Core", "IO/StyleJSON")  # plain C++: the text of a style
     if room.split("/")[0] in LAYERS:
-        return other.startswith("vtkmodule/") or (room, other) == (
-            "Rendering/OpenGL2",
-            "Rendering/Core",
-        )
+        return other.startswith("vtkmodule/") or (
+            room == "Rendering/OpenGL2" and other in ("Rendering/Core", "Rendering/Software"))
     return True  # paraview-plugin
 
 

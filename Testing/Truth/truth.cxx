@@ -4,6 +4,7 @@
 // whole pixel), depth.f32 (see TruthFiles.h), truth.json (spacing, background ...) and, with
 // --oracle, oracle.png.
 #include "OraclePicture.h"
+#include "TruthCase.h"
 #include "TruthFiles.h"
 
 #include <CLI/CLI.hpp>
@@ -51,35 +52,27 @@ void declare(CLI::App& app, Options& options)
 
 Result<void> run(const Options& options)
 {
-  const truth::TruthScene scene = *truth::makeScene(options.scene);
-  const truth::TruthView& view = *scene.view(options.view);
-  const truth::RayCaster rays(scene.mesh);
-  const truth::PixelRays pixels(view.camera, options.width, options.height);
-  const truth::TruthPicture picture = truth::drawTruth(rays, pixels, options.samples);
-
-  truth::SpacingGrade grade;
-  grade.medianDepth =
-    truth::medianDepth(rays, view.camera, double(options.width) / options.height);
-  grade.spacing = options.spacingPx * grade.medianDepth / pixels.focalPx();
-  grade.graded = view.graded;
-  const truth::SamplingRegion region{ rays, pixels, grade };
-  const truth::TruthPoints points = options.sampling == "blue"
-    ? truth::sampleBlueNoise(region, options.seed)
-    : truth::sampleByScanner(region, options.scene == "town", options.seed);
+  const truth::TruthCase seen(*truth::makeScene(options.scene),
+    { options.view, options.spacingPx, options.width, options.height });
+  const truth::TruthPicture picture = seen.draw(options.samples);
+  const truth::TruthPoints points =
+    options.sampling == "blue" ? seen.blueNoise(options.seed) : seen.scan(options.seed);
 
   const std::string folder = options.folder + "/";
   std::filesystem::create_directories(folder);
   Result<void> done = truth::writePoints(folder + "points.ply", points);
-  done = done ? truth::writeCamera(folder + "camera.json", view.camera) : done;
+  done = done ? truth::writeCamera(folder + "camera.json", seen.camera()) : done;
   done = done ? truth::writePicture(folder + "truth.png", picture.colours) : done;
   done = done ? truth::writePicture(folder + "mask.png", picture.mask()) : done;
   done = done ? truth::writeDepth(folder + "depth.f32", picture.depth) : done;
   if (done && options.oracle)
   {
-    done = truth::writePicture(
-      folder + "oracle.png", truth::drawOracle(picture, pixels, grade, points));
+    done = truth::writePicture(folder + "oracle.png",
+      truth::drawOracle(picture, seen.pixels(), seen.grade(), points));
   }
-  return done ? truth::writeFacts(folder + "truth.json", pixels, grade, points) : done;
+  return done
+    ? truth::writeFacts(folder + "truth.json", seen.pixels(), seen.grade(), points)
+    : done;
 }
 } // namespace
 

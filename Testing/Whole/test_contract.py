@@ -89,12 +89,13 @@ class Reports(ToolTest):
         store = self.build(DATA / "las/real/1.2-with-color.las")
         report = self.succeed("info", store, "--json").json
         keys = {"points", "bounds", "precision", "crs", "structure", "refinement", "nodes",
-                "levels", "bytes", "attributes", "layers", "version"}
+                "levels", "bytes", "attributes", "layers", "version", "splat_radius"}
         self.assertLessEqual(keys, set(report))
         self.assertEqual(report["points"], 1065)
         self.assertEqual(len(report["bounds"]), 6)
         for axis in range(3):
             self.assertLess(report["bounds"][axis], report["bounds"][axis + 3])
+        self.assertEqual(report["splat_radius"], "per node")
         self.assertEqual(report["precision"], 0.01)
         self.assertEqual((report["structure"], report["refinement"]), ("octree", "add"))
         self.assertEqual(report["bytes"], store.stat().st_size)

@@ -127,12 +127,19 @@ class RealFiles(ToolTest):
             self.assertIn(reason, outcome.err)
 
     def test_kinds_that_are_not_read_say_what_to_do(self):
-        for name, advice in (("e57/bunnyInt32.e57", "convert it"),
-                             ("ept/lone-star-laszip/ept.json", "ept-data")):
-            outcome = self.refuse(1, "build", DATA / name, "-o", self.folder / "x.pfront")
-            self.assertIn(advice, outcome.err)
-        folder = self.build(DATA / "ept/lone-star-laszip")
-        self.assertEqual(self.succeed("info", folder, "--json").json["points"], 518862)
+        outcome = self.refuse(
+            1, "build", DATA / "e57/bunnyInt32.e57", "-o", self.folder / "x.pfront")
+        self.assertIn("convert it", outcome.err)
+
+    def test_a_tree_by_its_description_its_folder_and_its_files(self):
+        tree = DATA / "ept/lone-star-laszip"
+        stores = [self.build(given, name=f"{number}.pfront") for number, given in
+                  enumerate((tree / "ept.json", tree, tree / "ept-data"))]
+        infos = [self.succeed("info", store, "--json").json for store in stores]
+        for info in infos:
+            self.assertEqual(info["points"], 518862)
+            self.assertEqual(info["bounds"], infos[2]["bounds"])
+            self.assertEqual(info["attributes"], infos[2]["attributes"])
 
 
 class BrokenFiles(ToolTest):

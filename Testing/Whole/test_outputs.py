@@ -4,7 +4,7 @@ import os
 import shutil
 import unittest
 
-from tool import DATA, ToolTest
+from tool import DATA, ToolTest, pointfront, write_las
 
 SMALL = DATA / "las/real/1.2-with-color.las"
 POINTS = 1065
@@ -122,18 +122,51 @@ class Outputs(ToolTest):
                           '"view_angle":30}')
         mine = [las, store, side, camera]
         for target in mine:
+            picture = self.folder / f"{target.name}.png"  # pictures must be called so
+            os.link(target, picture)
             self.kept(mine, *draw, "-o", png, "--stats", target)
-            self.kept(mine, *draw, "-o", target, "--stats", stats)
+            self.kept(mine, *draw, "-o", picture, "--stats", stats)
             self.kept(mine, "bench", side, "--frames", 2, "--stats", target)
             self.kept(mine, "bench", side, "--frames", 2, "--stats", stats, "--frames-csv", target)
-            self.kept(mine, "bench", side, "--frames", 2, "--stats", stats, "--picture", target)
-        self.kept([png, stats], *draw, "-o", stats)
+            self.kept(mine, "bench", side, "--frames", 2, "--stats", stats, "--picture", picture)
         self.kept([png, stats], *draw, "-o", png, "--stats", png)
-        self.refuse(1, *draw, "-o", self.folder / "y", "--stats", self.folder / "y")
+        both = self.folder / "y.png"
+        self.refuse(1, *draw, "-o", both, "--stats", both)
         frames = self.folder / "frames.csv"
         for _ in range(2):
             self.succeed("bench", store, "--frames", 2, "--size", "64x64", "--stats", stats,
                          "--frames-csv", frames, "--picture", png)
+
+    @unittest.skipUnless(WITH_VTK and WITH_DISPLAY, "render and bench need VTK and an X server")
+    def test_pictures_without_points_and_strange_company(self):
+        store = self.build(self.copy())
+        png = self.folder / "x.png"
+        away = self.folder / "away.json"
+        away.write_text('{"position":[0,0,0],"focal_point":[0,0,9],"view_up":[0,1,0],'
+                        '"view_angle":30}')
+        draw = ("--size", "64x64", "-o", png)
+        self.assertIn("no point", self.refuse(1, "render", store, "--camera", away, *draw).err)
+        self.assertFalse(png.exists())
+        near = self.folder / "near.json"  # closer than the points to each other: all are drawn
+        near.write_text('{"position":[637000,851000,460],"focal_point":[637001,851100,430],'
+                        '"view_up":[0,0,1],"view_angle":80}')
+        outcome = self.succeed("render", store, "--camera", near, *draw)
+        self.assertEqual(outcome.err, "")
+
+        def placed(name, x, *options):
+            las = write_las(self.folder / f"{name}.las", [
+                (x + i, 5600000.0 + i % 7, 100.0, 0, 0, 0) for i in range(100)])
+            self.succeed("build", las, "-o", self.folder / f"{name}.pfront", *options)
+            return self.folder / f"{name}.pfront"
+
+        here = placed("here", 500000.0, "--assume-crs", "EPSG:25832")
+        far = placed("far", 600000.0, "--assume-crs", "EPSG:25832")
+        other = placed("other", 500010.0, "--assume-crs", "EPSG:32633")
+        beside = placed("beside", 500110.0, "--assume-crs", "EPSG:25832")
+        # Too far to see anything: no picture, and the reason before.
+        self.assertIn("far.pfront lies", pointfront("render", here, far, *draw).err)
+        self.assertIn("other.pfront is in another", self.succeed("render", here, other, *draw).err)
+        self.assertEqual(self.succeed("render", here, beside, *draw).err, "")
 
 
 if __name__ == "__main__":

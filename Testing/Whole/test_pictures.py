@@ -1,4 +1,4 @@
-"""Both back ends draw what VTK's own mapper draws of all points, and what each needs of a machine."""
+"""Both back ends draw what VTK's own mapper draws of all points, and what each needs."""
 
 import json
 import os

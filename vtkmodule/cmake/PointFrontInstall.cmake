@@ -6,7 +6,7 @@ set(pointfront_package_folder "${CMAKE_INSTALL_LIBDIR}/cmake/PointFront")
 install(DIRECTORY "${CMAKE_CURRENT_SOURCE_DIR}/vtkmodule/Core/pointfront"
   DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" COMPONENT Development FILES_MATCHING PATTERN "*.h")
 set(pointfront_kernel_libraries pointfrontCore pointfrontSourceFormats pointfrontAttributePasses)
-foreach (family IN ITEMS LAS PCD PLY PNG StyleJSON Text)
+foreach (family IN ITEMS EPT LAS PCD PLY PNG StyleJSON Text)
   if (TARGET pointfrontIO${family})
     list(APPEND pointfront_kernel_libraries pointfrontIO${family})
     install(DIRECTORY "${CMAKE_CURRENT_SOURCE_DIR}/IO/${family}/"
@@ -20,6 +20,10 @@ foreach (filter IN ITEMS Attributes Normals Projection ImageColor)
     DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/pointfront/Filters" COMPONENT Development
     FILES_MATCHING PATTERN "*.h" PATTERN "Testing" EXCLUDE)
 endforeach ()
+list(APPEND pointfront_kernel_libraries pointfrontSoftware)
+install(FILES "${CMAKE_CURRENT_SOURCE_DIR}/Rendering/Software/SoftwareRasteriser.h"
+    "${CMAKE_CURRENT_SOURCE_DIR}/Rendering/Software/SoftwareTarget.h"
+  DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/pointfront" COMPONENT Development)
 install(TARGETS ${pointfront_kernel_libraries} EXPORT PointFrontKernel
   RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT Runtime
   LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT Runtime NAMELINK_COMPONENT Development

@@ -274,7 +274,9 @@ TEST(LASIndexing, CancelledLeavesWhatWasThere)
   const std::string side = las + lasIndexSuffix;
   indexOrFail(las, side);
   const auto written = fs::last_write_time(side);
-  const auto cancelled = indexLASFile(las, side, {}, [](const Progress&) { return false; });
+  LASIndexOptions options;
+  options.overwrite = true;
+  const auto cancelled = indexLASFile(las, side, options, [](const Progress&) { return false; });
   ASSERT_FALSE(cancelled);
   EXPECT_EQ(cancelled.error().kind, Error::Kind::Cancelled);
   EXPECT_EQ(fs::last_write_time(side), written);

@@ -32,8 +32,8 @@ TEST(StyleJSON, EveryKeyIsUnderstood)
     "classes": { "5": { "technique": "spheres",
                         "color": {"attribute": "local-height", "map": "viridis", "range": [0, 20]},
                         "size": {"mode": "fixed", "metres": 0.25}, "orientation": [0, 0, 2] },
-                 "9": { "visible": false, "rim_color": "#ff0000", "wall_color": ["#808080", "#404040"],
-                        "size": {"mode": "attribute"} } },
+                 "9": { "visible": false, "rim_color": "#ff0000",
+                        "wall_color": ["#808080", "#404040"], "size": {"mode": "attribute"} } },
     "show_classes": [9, 2, 5], "where": "gps_time in [1, 2]",
     "shading": { "mode": ["lit", "edl"], "strength": 0.7, "radius_px": 2, "ambient": 0.1,
                  "diffuse": 0.9, "fill_holes": true } })");
@@ -82,7 +82,8 @@ TEST(StyleJSON, ColoursAreNamesConstantsMapsOrTwo)
   EXPECT_EQ(colour(R"("#102030")"), ColourSource::ofConstant({ 16, 32, 48, 255 }));
   EXPECT_EQ(colour(R"({"attribute": "auto"})"), ColourSource::ofAttribute("auto"));
   const ColourSource list = colour(
-    R"({"attribute": "rgb[1]", "map": ["#000000", "#ff0000"], "range": [1, 2], "logarithmic": true})");
+    R"({"attribute": "rgb[1]", "map": ["#000000", "#ff0000"], "range": [1, 2],
+        "logarithmic": true})");
   EXPECT_EQ(list.map.colours.size(), 2u);
   EXPECT_TRUE(list.map.logarithmic);
   EXPECT_FALSE(colour(R"({"attribute": "intensity", "map": "grey", "range": "auto"})").map.range);

@@ -2,7 +2,7 @@
 // [n + 2] not a number. Editing the map changes this texture and no point.
 uniform sampler2D colourTable;
 uniform int tableSize;        // n
-uniform float tableShift;     // added to a value: to the low end of the range (linear) or to 0 (log)
+uniform float tableShift;     // added to a value: to the range's low end (linear) or to 0 (log)
 uniform float tableScale;     // entries per unit (linear) or per decade (log)
 uniform float tableLogLow;    // log10 of the low end
 uniform int tableLogarithmic; // 0: linear

@@ -22,7 +22,8 @@ struct TestPoint
   glm::vec3 normal{ 0.0f }; ///< unit, or 0
 };
 
-/// Plans of made-up nodes: columns 0 rgb (u8 x 3), 1 normal (f32 x 3), 2 splat_radius, 3 class (u8).
+/// Plans of made-up nodes: columns 0 rgb (u8 x 3), 1 normal (f32 x 3), 2 splat_radius, 3 class
+/// (u8).
 class PlanOfPoints
 {
 public:

@@ -1,7 +1,6 @@
 #include "PoissonOrder.h"
 #include "RandomStream.h"
-#include "TruthPicture.h"
-#include "TruthPoints.h"
+#include "TruthCase.h"
 
 #include <gtest/gtest.h>
 
@@ -59,25 +58,6 @@ TEST(PoissonOrder, EachPrefixKeepsItsDistanceAndNothingIsLeftOut)
   EXPECT_TRUE(poissonOrder({}, {}, 1).empty());
 }
 
-/// Views of the scenes as small pictures.
-struct Sampled
-{
-  explicit Sampled(TruthScene made, const char* view, double spacingPx)
-    : scene(std::move(made))
-    , rays(scene.mesh)
-    , pixels(scene.view(view)->camera, 160, 120)
-  {
-    region.grade.medianDepth = medianDepth(rays, scene.view(view)->camera, 4.0 / 3.0);
-    region.grade.spacing = spacingPx * region.grade.medianDepth / pixels.focalPx();
-    region.grade.graded = scene.view(view)->graded;
-  }
-
-  TruthScene scene;
-  RayCaster rays;
-  PixelRays pixels;
-  SamplingRegion region{ rays, pixels, {} };
-};
-
 double areaOf(const TriangleMesh& mesh)
 {
   double area = 0.0;
@@ -90,10 +70,10 @@ double areaOf(const TriangleMesh& mesh)
 
 TEST(BlueNoise, HasOnePointForEachSquareOfTheSpacing)
 {
-  const Sampled knot(makeKnot(), "far", 1.0); // all of it is in view
-  const TruthPoints points = sampleBlueNoise(knot.region, 1);
-  const double h = knot.region.grade.spacing;
-  EXPECT_NEAR(double(points.size()) * h * h / areaOf(knot.scene.mesh), 1.0, 0.03);
+  const TruthCase knot(makeKnot(), { "far", 1.0, 160, 120 }); // all of it is in view
+  const TruthPoints points = knot.blueNoise(1);
+  const double h = knot.grade().spacing;
+  EXPECT_NEAR(double(points.size()) * h * h / areaOf(knot.scene().mesh), 1.0, 0.03);
   ASSERT_GT(points.size(), 2000u);
   EXPECT_GE(smallestDistance(points.positions, 2000), 0.713 * h * (1.0 - 1e-9));
   for (std::size_t i = 0; i < points.size(); i += 37)
@@ -101,29 +81,29 @@ TEST(BlueNoise, HasOnePointForEachSquareOfTheSpacing)
     EXPECT_NEAR(glm::length(points.normals[i]), 1.0f, 1e-5f);
     // On the surface: a ray along the normal from just above it meets it at once.
     const glm::dvec3 normal(points.normals[i]);
-    const Hit hit = knot.rays.cast(points.positions[i] + 0.02 * normal, -normal);
+    const Hit hit = knot.rays().cast(points.positions[i] + 0.02 * normal, -normal);
     ASSERT_TRUE(hit);
     EXPECT_NEAR(hit.distance, 0.02, 1e-3);
   }
-  const TruthPoints again = sampleBlueNoise(knot.region, 1);
+  const TruthPoints again = knot.blueNoise(1);
   EXPECT_EQ(points.positions, again.positions);
   EXPECT_EQ(points.colours, again.colours);
 }
 
 TEST(BlueNoise, AGradedViewHasItsSpacingOnTheScreenNearAndFar)
 {
-  const Sampled town(makeTown(), "close", 4.0);
-  const TruthPoints points = sampleBlueNoise(town.region, 1);
-  const SpacingGrade& grade = town.region.grade;
+  const TruthCase town(makeTown(), { "close", 4.0, 160, 120 });
+  const TruthPoints points = town.blueNoise(1);
+  const SpacingGrade& grade = town.grade();
   ASSERT_TRUE(grade.graded);
   std::size_t levels[24] = {};
   std::vector<double> depths;
   for (const glm::dvec3& place : points.positions)
   {
-    ASSERT_TRUE(town.region.contains(place));
-    depths.push_back(town.pixels.project(place).z);
+    ASSERT_TRUE(town.region().contains(place));
+    depths.push_back(town.pixels().project(place).z);
     ++levels[std::size_t(grade.level(depths.back()) + 12)];
-    const double px = grade.at(depths.back()) * town.pixels.focalPx() / depths.back();
+    const double px = grade.at(depths.back()) * town.pixels().focalPx() / depths.back();
     ASSERT_GT(px, 4.0 / 1.42);
     ASSERT_LT(px, 4.0 * 1.42);
   }
@@ -143,17 +123,17 @@ TEST(BlueNoise, AGradedViewHasItsSpacingOnTheScreenNearAndFar)
 
 TEST(Scanner, HasLinesTwiceAsFarApartAsPointsAndTheNoiseItSays)
 {
-  // Level ground below the one flight of a single object that looks straight down.
+  // Level ground below the five flights over a town.
   MeshBuilder builder;
   builder.quad({ -50, -50, 0 }, { 50, -50, 0 }, { 50, 50, 0 }, { -50, 50, 0 }, Material::Metal);
-  TruthScene flat{ "flat", builder.take(), {} };
+  TruthScene flat{ "town", builder.take(), {} };
   TruthCamera camera;
   camera.position = { 0, 0, 100 };
   camera.viewUp = { 0, 1, 0 };
   flat.views.push_back({ "above", camera, false });
-  const Sampled ground(std::move(flat), "above", 1.0);
-  const double h = ground.region.grade.spacing;
-  const TruthPoints points = sampleByScanner(ground.region, true, 5);
+  const TruthCase ground(std::move(flat), { "above", 1.0, 160, 120 });
+  const double h = ground.grade().spacing;
+  const TruthPoints points = ground.scan(5);
   ASSERT_GT(points.size(), 5000u);
   // The nadir flight at 1.22 h x h and four at 2.44 h x h make about one and a third a square.
   std::size_t inside = 0;
@@ -176,15 +156,15 @@ TEST(Scanner, HasLinesTwiceAsFarApartAsPointsAndTheNoiseItSays)
   EXPECT_LT(deviation, 0.103 * h);
   // 1 % are off by h: 62 % of these by more than half of it.
   EXPECT_NEAR(double(outliers) / double(points.size()), 0.006, 0.002);
-  EXPECT_EQ(points.positions, sampleByScanner(ground.region, true, 5).positions);
+  EXPECT_EQ(points.positions, ground.scan(5).positions);
 }
 
 TEST(Scanner, SeesAnObjectFromAllSidesAndColoursItAsTheTextureIs)
 {
-  const Sampled knot(makeKnot(), "far", 1.0);
-  const TruthPoints points = sampleByScanner(knot.region, false, 5);
-  const double h = knot.region.grade.spacing;
-  const double perSquare = double(points.size()) * h * h / areaOf(knot.scene.mesh);
+  const TruthCase knot(makeKnot(), { "far", 1.0, 160, 120 });
+  const TruthPoints points = knot.scan(5);
+  const double h = knot.grade().spacing;
+  const double perSquare = double(points.size()) * h * h / areaOf(knot.scene().mesh);
   EXPECT_GT(perSquare, 0.7);
   EXPECT_LT(perSquare, 2.0);
   int sides[6] = {};

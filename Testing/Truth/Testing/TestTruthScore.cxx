@@ -1,4 +1,5 @@
 #include "OraclePicture.h"
+#include "TruthCase.h"
 #include "TruthFiles.h"
 #include "TruthScore.h"
 
@@ -23,15 +24,9 @@ constexpr float nothing = std::numeric_limits<float>::infinity();
 class KnotScore : public testing::Test
 {
 protected:
-  KnotScore()
-  {
-    grade_.medianDepth = medianDepth(rays_, scene_.view("far")->camera, 4.0 / 3.0);
-    grade_.spacing = 2.0 * grade_.medianDepth / pixels_.focalPx();
-  }
-
   TruthScore score(const Picture& drawn, const std::vector<float>& depth) const
   {
-    const auto result = scoreAgainst(truth_, pixels_, grade_, drawn, depth);
+    const auto result = scoreAgainst(truth_, case_.pixels(), case_.grade(), drawn, depth);
     EXPECT_TRUE(result) << result.error().what;
     return result ? *result : TruthScore{};
   }
@@ -41,11 +36,8 @@ protected:
       [&](int c) { return c >= atLeast && c <= atMost; }));
   }
 
-  const TruthScene scene_ = makeKnot();
-  const RayCaster rays_{ scene_.mesh };
-  const PixelRays pixels_{ scene_.view("far")->camera, 160, 120 };
-  const TruthPicture truth_ = drawTruth(rays_, pixels_, 4);
-  SpacingGrade grade_;
+  const TruthCase case_{ makeKnot(), { "far", 2.0, 160, 120 } };
+  const TruthPicture truth_ = case_.draw(4);
 };
 
 TEST_F(KnotScore, TheTruthItselfIsRight)
@@ -76,14 +68,14 @@ TEST_F(KnotScore, EachFaultIsCountedWhereItIs)
   std::vector<float> behind = truth_.depth;
   for (float& depth : behind)
   {
-    depth += float(grade_.spacing);
+    depth += float(case_.grade().spacing);
   }
   const TruthScore off = score(truth_.colours, behind);
   EXPECT_EQ(off.holes, 0.0);
   EXPECT_NEAR(off.depthError, 1.0, 1e-4);
   for (float& depth : behind)
   {
-    depth += 1.5f * float(grade_.spacing);
+    depth += 1.5f * float(case_.grade().spacing);
   }
   EXPECT_GT(score(truth_.colours, behind).holes, 10.0);
   EXPECT_LT(score(truth_.colours, behind).holes, 90.0);
@@ -94,10 +86,11 @@ TEST_F(KnotScore, TheOracleIsCloserTheMorePointsThereAre)
   double before = 0.0;
   for (double spacingPx : { 8.0, 2.0, 0.7 })
   {
-    grade_.spacing = spacingPx * grade_.medianDepth / pixels_.focalPx();
-    const TruthPoints points = sampleBlueNoise({ rays_, pixels_, grade_ }, 3);
+    SpacingGrade grade = case_.grade();
+    grade.spacing *= 0.5 * spacingPx;
+    const TruthPoints points = sampleBlueNoise({ case_.rays(), case_.pixels(), grade }, 3);
     const TruthScore result =
-      score(drawOracle(truth_, pixels_, grade_, points), truth_.depth);
+      score(drawOracle(truth_, case_.pixels(), grade, points), truth_.depth);
     EXPECT_GT(result.psnr, before + 1.0) << spacingPx;
     EXPECT_EQ(result.holes, 0.0);
     before = result.psnr;
@@ -111,8 +104,7 @@ TEST_F(KnotScore, FilesHoldWhatTheyWereGiven)
   const fs::path folder = fs::path(testing::TempDir()) / "KnotScore.Files";
   fs::remove_all(folder);
   fs::create_directories(folder);
-  grade_.spacing = 8.0 * grade_.medianDepth / pixels_.focalPx();
-  const TruthPoints points = sampleBlueNoise({ rays_, pixels_, grade_ }, 3);
+  const TruthPoints points = case_.blueNoise(3);
   ASSERT_TRUE(writePoints((folder / "points.ply").string(), points));
   ASSERT_TRUE(writePicture((folder / "truth.png").string(), truth_.colours));
   ASSERT_TRUE(writeDepth((folder / "depth.f32").string(), truth_.depth));

@@ -74,6 +74,57 @@ TEST(GridChoice, GivesFloatingPointAMillionthOfItsExtent)
   EXPECT_EQ(choice->warnings.size(), 1u);
 }
 
+std::unique_ptr<CloudSource> floatingSource(const std::vector<glm::dvec3>& points)
+{
+  auto cloud = std::make_unique<CloudSource>("scan", AttributeSchema{}, std::nullopt);
+  for (const glm::dvec3& point : points)
+  {
+    cloud->addPosition(point);
+  }
+  return cloud;
+}
+
+TEST(GridChoice, GivesTheHeightsOverDegreesAStepOfTheirOwn)
+{
+  Sources sources;
+  sources.push_back(floatingSource({{7.0, 50.0, 0.0}, {7.02, 50.01, 450.0}, {7.01, 50.0, 99.0}}));
+  const auto choice = chooseGrid(sources, std::nullopt);
+  ASSERT_TRUE(choice);
+  EXPECT_DOUBLE_EQ(choice->grid.scale.x, 1e-8);
+  EXPECT_DOUBLE_EQ(choice->grid.scale.y, 1e-8);
+  EXPECT_DOUBLE_EQ(choice->grid.scale.z, 1e-4);
+}
+
+TEST(GridChoice, RefusesToLetPointsCollapseForOneFarAway)
+{
+  std::vector<glm::dvec3> points;
+  for (int i = 0; i < 1000; ++i)
+  {
+    points.emplace_back(0.001 * i, 0.001 * (i % 7), 0.0);
+  }
+  points.emplace_back(1e6, 0.0, 0.0); // a thousandth can still be told from the next
+  Sources far;
+  far.push_back(floatingSource(points));
+  const auto held = chooseGrid(far, std::nullopt);
+  ASSERT_FALSE(held);
+  EXPECT_NE(held.error().what.find("0.001 fits"), std::string::npos) << held.error().what;
+  EXPECT_TRUE(chooseGrid(far, 0.001));
+  points.back().x = 1e4;
+  Sources near;
+  near.push_back(floatingSource(points));
+  const auto choice = chooseGrid(near, std::nullopt);
+  ASSERT_TRUE(choice) << choice.error().what;
+  EXPECT_DOUBLE_EQ(choice->grid.scale.x, 1e-5);
+}
+
+TEST(GridChoice, RefusesWhatNoCoordinatesAreOn)
+{
+  Sources sources;
+  sources.push_back(gridSource("a", 0.001, 1e300));
+  EXPECT_FALSE(chooseGrid(sources, std::nullopt));
+  EXPECT_FALSE(chooseGrid(sources, 1e300));
+}
+
 std::unique_ptr<CloudSource> schemaSource(
   const std::string& path, const std::vector<Attribute>& attributes)
 {

@@ -219,6 +219,58 @@ TEST_F(StoreBuild, KeepsCubesOnAnisotropicGrids)
   expectSoundStore(hills(20000, 50000.0, grid), options_);
 }
 
+TEST_F(StoreBuild, KeepsAxesWhoseStepsAreTheirExtentDividedBy31Bits)
+{
+  const glm::dvec3 extent(1000.0, 700.0, 90.0);
+  const QuantisationGrid grid{extent / 2147483647.0, glm::dvec3(500000.0, 4000000.0, 100.0)};
+  const auto cloud = [&]
+  {
+    return cloudOf(20000, grid, [](std::size_t i)
+      { // the corners, and points all over
+        const auto n = static_cast<std::int64_t>(i);
+        return i == 0 ? GridPosition(0)
+          : i == 1    ? GridPosition(2147483647)
+                      : GridPosition(n * 104729 % 2147483647, n * 1299709 % 2147483647,
+                          n * 15485863 % 2147483647);
+      });
+  };
+  expectSoundStore(cloud(), options_);
+  auto lying = cloud(); // bounds that say nothing: known only when all points are read
+  lying->editDescription().declaredBounds = Bounds{};
+  expectSoundStore(std::move(lying), options_);
+}
+
+TEST_F(StoreBuild, TellsHowManyPointsAreLeftOutAndRefusesInputsWithNoneLeft)
+{
+  const auto none = []
+  {
+    auto cloud = std::make_unique<CloudSource>("nothing", AttributeSchema{}, std::nullopt);
+    cloud->addPosition(glm::dvec3(std::nan("")));
+    cloud->addPosition(glm::dvec3(1e300, 2.0, 3.0));
+    return cloud;
+  };
+  const auto refused = buildStore(one(none()), options_);
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().what.find("none of its 2 points"), std::string::npos)
+    << refused.error().what;
+  EXPECT_EQ(filesLeft(), 0u);
+
+  std::vector<std::unique_ptr<PointSource>> sources;
+  sources.push_back(hills(1000, 1000.0));
+  sources.push_back(none());
+  EXPECT_FALSE(buildStore(sources, options_));
+  options_.onFault = OnFault::Skip;
+  const auto report = buildStore(sources, options_);
+  ASSERT_TRUE(report) << report.error().what;
+  EXPECT_EQ(report->pointsStored, 1000u);
+  ASSERT_EQ(report->inputsSkipped.size(), 1u);
+  EXPECT_EQ(report->inputsSkipped[0].path, "nothing");
+  const auto& warnings = report->warnings;
+  EXPECT_NE(std::find(warnings.begin(), warnings.end(),
+              "2 of 1002 points are left out: 1 not a number, 1 outside the grid's range."),
+    warnings.end());
+}
+
 TEST_F(StoreBuild, RefusesAnExtentBeyondTheGridAndSaysWhatFits)
 {
   const auto sources = one(cloudOf(

@@ -127,7 +127,7 @@ TEST(FramePlanner, GroupsAllThatTheFrontDrawsByLayer)
   for (std::uint16_t layer = 0; layer < 3; ++layer)
   {
     EXPECT_EQ(plan.batches[layer].layer, layer);
-    EXPECT_EQ(plan.batches[layer].style, scene.request.styles[layer]);
+    EXPECT_EQ(plan.batches[layer].style, scene.request.styles[layer].front());
     ASSERT_EQ(plan.batches[layer].items.size(), items[layer]);
     for (const PlanItem& item : plan.batches[layer].items)
     {
@@ -166,12 +166,27 @@ TEST(FramePlanner, ItemsKeepTheOrderOfTheFront)
 TEST(FramePlanner, LayersWithoutAStyleAreNotThere)
 {
   Scene scene;
-  scene.request.styles[1] = nullptr;
+  scene.request.styles[1].clear();
   scene.request.styles.pop_back(); // layer 2 is beyond the list
   const FramePlan plan = scene.plan(0.01);
   ASSERT_EQ(plan.batches.size(), 1u);
   EXPECT_EQ(plan.batches[0].layer, 0u);
   EXPECT_EQ(plan.batches[0].items.size(), 3u);
+}
+
+TEST(FramePlanner, ALayerOfSeveralStylesIsABatchOfEach)
+{
+  Scene scene;
+  scene.request.styles[0].push_back(flatStyle());
+  const FramePlan plan = scene.plan(0.01);
+  ASSERT_EQ(plan.batches.size(), 4u);
+  for (std::size_t batch = 0; batch < 2; ++batch)
+  {
+    EXPECT_EQ(plan.batches[batch].layer, 0u);
+    EXPECT_EQ(plan.batches[batch].style, scene.request.styles[0][batch]);
+    EXPECT_EQ(plan.batches[batch].items.size(), 3u);
+  }
+  EXPECT_EQ(plan.batches[0].items[1].closingRadius, plan.batches[1].items[1].closingRadius);
 }
 
 // Pixels that a world unit has at distance 1000: 1000 / (2 tan 0.45 * 1000).

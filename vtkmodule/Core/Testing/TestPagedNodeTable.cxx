@@ -31,8 +31,9 @@ bool sameRow(const Node& a, const Node& b)
 {
   return a.centre == b.centre && a.halfSize == b.halfSize && a.radius == b.radius &&
     a.spacing == b.spacing && a.splatRadius == b.splatRadius && a.pointCount == b.pointCount &&
-    a.pointsBelow == b.pointsBelow && a.firstPoint == b.firstPoint && a.parent == b.parent && a.firstChild == b.firstChild &&
-    a.childCount == b.childCount && a.level == b.level && a.layer == b.layer;
+    a.pointsBelow == b.pointsBelow && a.firstPoint == b.firstPoint && a.parent == b.parent &&
+    a.firstChild == b.firstChild && a.childCount == b.childCount && a.level == b.level &&
+    a.layer == b.layer;
 }
 
 /// Pages of a terrain, some of which cannot be read, or only when the test says so.

@@ -141,6 +141,8 @@ TEST(Partition, PlacesTheRootAroundAnyGridPositions)
   }
   EXPECT_FALSE(placeRoot(space, GridPosition(0), GridPosition(std::int64_t(1) << 33, 0, 0)));
   EXPECT_EQ(axisShifts({0.01, 0.01, 0.001}), (std::array<unsigned, 3>{3, 3, 0}));
+  const GridPosition end(std::int64_t(1) << 31, 1000, 1 << 30);
+  EXPECT_EQ(fittingShifts({3, 3, 0}, GridPosition(0), end), (std::array<unsigned, 3>{0, 3, 0}));
   EXPECT_EQ(axisShifts({1e-7, 1e-7, 0.01}), (std::array<unsigned, 3>{0, 0, 0}));
 }
 

@@ -2,6 +2,7 @@
 
 #include "MadeUpRecords.h"
 #include "SampleStore.h"
+#include "SplatPatterns.h"
 
 #include "pointfront/InPlace/SampleStream.h"
 #include "pointfront/Store/Checksum.h"
@@ -93,6 +94,42 @@ TEST(InPlaceTable, FlightStripsAreWholeAndCostLittle)
   const Made made = index(records, "strips.pfindex");
   expectWhole(records, made.path);
   EXPECT_LT(made.bytes, 100000u); // below a byte a point
+}
+
+// Flight lines 1 : 2; the leaves' discs close them.
+TEST(InPlaceTable, EveryNodeSaysHowLargeSplatsAre)
+{
+  test::SplatPatterns patterns(1);
+  const std::vector<glm::dvec3> plane = patterns.scanLines(40000, 2.0);
+  MadeUpRecords records;
+  for (const glm::dvec3& p : plane)
+  {
+    const glm::dvec3 steps = p * 1e6;
+    records.add(static_cast<int>(steps.x), static_cast<int>(steps.y), 0);
+  }
+  const double h = 1e6 / std::sqrt(double(plane.size())) * grid.scale.x;
+  std::vector<float> first;
+  for (const unsigned threads : { 1u, 4u })
+  {
+    const auto side =
+      SideFile::open(index(records, "lines.pfindex", threads, std::uint64_t(64) << 20, 2000).path);
+    ASSERT_TRUE(side);
+    std::vector<float> radii;
+    for (const Node& node : (*side)->content().table.nodes)
+    {
+      radii.push_back(node.splatRadius);
+      if (node.leaf())
+      {
+        EXPECT_NEAR(node.splatRadius, 1.03 * h, 0.15 * h);
+      }
+      else
+      {
+        EXPECT_GT(node.splatRadius, 1.3 * h);
+      }
+    }
+    first = first.empty() ? radii : first;
+    EXPECT_EQ(radii, first) << threads;
+  }
 }
 
 TEST(InPlaceTable, NoOrderIsWholeAndBounded)
@@ -214,6 +251,27 @@ TEST(SideFile, DamageIsTold)
     flipped[at] ^= std::byte(4);
     EXPECT_EQ(kindOf(flipped), kind(Error::Kind::Corrupt)) << at;
   }
+}
+
+// Kept for ever: written by the program before rows said how large splats are.
+TEST(SideFile, Version1StaysReadable)
+{
+  const auto side = SideFile::open(POINTFRONT_CORE_TEST_DATA "/version1.pfindex");
+  ASSERT_TRUE(side) << side.error().what;
+  const SideFileContent& content = (*side)->content();
+  EXPECT_EQ(content.stored.description.version, 1u);
+  EXPECT_EQ(content.indexed.points, 2000u);
+  EXPECT_GT(content.table.nodes.size(), 5u);
+  std::uint64_t points = 0;
+  for (NodeIndex i = 0; i < content.table.nodes.size(); ++i)
+  {
+    EXPECT_EQ(content.table.nodes[i].splatRadius, 0.0f);
+    EXPECT_GT(content.table.nodes[i].spacing, 0.0f);
+    const auto own = (*side)->pointsOf(i);
+    ASSERT_TRUE(own) << own.error().what;
+    points += own->size();
+  }
+  EXPECT_EQ(points, 2000u);
 }
 
 TEST(SideFile, ANewerVersionIsRefusedWithAdvice)

@@ -138,6 +138,32 @@ TEST_F(Builder, NamesWhatIsWrong)
   EXPECT_EQ(builder->Write(), 1);
 }
 
+TEST_F(Builder, TellsOfPointsAndFilesThatAreLeftOut)
+{
+  const fs::path text = folder / "some.xyz";
+  std::ofstream(text) << "1 2 3\nnan 2 3\n4 5 6\ninf 0 0\n7 8 9\n";
+  const fs::path none = folder / "none.xyz";
+  std::ofstream(none) << "nan nan nan\nnan nan nan\n";
+  const fs::path broken = folder / "broken.las";
+  std::ofstream(broken) << "LASF and no more";
+  builder->ClearFileNames();
+  for (const fs::path& file : { text, none, broken })
+  {
+    builder->AddFileName(file.c_str());
+  }
+  vtkNew<vtkTest::ErrorObserver> said;
+  builder->AddObserver(vtkCommand::ErrorEvent, said);
+  builder->AddObserver(vtkCommand::WarningEvent, said);
+  EXPECT_EQ(builder->Write(), 0);
+  EXPECT_NE(said->GetErrorMessage().find("broken.las"), std::string::npos);
+  builder->SkipFaultyFilesOn();
+  EXPECT_EQ(builder->Write(), 1);
+  EXPECT_EQ(builder->GetNumberOfPointsRead(), 7);
+  EXPECT_EQ(builder->GetNumberOfPointsStored(), 3);
+  EXPECT_EQ(builder->GetNumberOfPointsRejected(), 4);
+  EXPECT_EQ(builder->GetNumberOfFilesSkipped(), 2);
+}
+
 TEST_F(Builder, ReplacesStoresOnlyAndNeverWhatItReads)
 {
   vtkNew<vtkTest::ErrorObserver> errors;

@@ -40,6 +40,7 @@ struct Clouds
     readers.back()->SetFileName(store(number).c_str());
     mappers.push_back(vtkSmartPointer<vtkPointFrontMapper>::New());
     mappers.back()->SetInputConnection(readers.back()->GetOutputPort());
+    mappers.back()->SetBackendToOpenGL();
     mappers.back()->CompleteOn();
     mappers.back()->SetTargetError(0.02);
     actors.push_back(vtkSmartPointer<vtkActor>::New());

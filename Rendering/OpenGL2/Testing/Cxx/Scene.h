@@ -143,6 +143,7 @@ struct Scene
   {
     reader->SetFileName(store.c_str());
     mapper->SetInputConnection(reader->GetOutputPort());
+    mapper->SetBackendToOpenGL();
     mapper->CompleteOn();
     mapper->SetTargetError(0.05);
     actor->SetMapper(mapper);

@@ -27,7 +27,8 @@ public:
   }
 
   /// `sources` becomes what the passes made of them. The report's seconds are those of all.
-  /// Errors  of checkOutputTarget(), with the files of the passes too; those of the passes, of PreviewFile::claim() and of buildStore().
+  /// Errors  of checkOutputTarget(), with the files of the passes too; those of the passes, of
+  ///         PreviewFile::claim() and of buildStore().
   Result<BuildReport> run(PointSources& sources, const AttributePasses& passes,
     const ProgressFunction& progress = {});
 

@@ -253,14 +253,18 @@ void MeanRecord::summarise(
   }
   copyRecord(out, kept, recordBytes_);
   setPosition(out, stored);
-  if (splatOffset_ && (end - begin > 1 || !inputs[begin].original))
-  {
-    out[*splatOffset_] = std::byte(unknownSplatRadius);
-  }
   setValue(out + radiusOffset_, roundedUp(radius));
   setValue(out + recordBytes_, weight);
   setValue(out + recordBytes_ + centreOffset, centre);
   writeMeans(out);
+}
+
+void MeanRecord::forgetSplat(std::byte* record) const
+{
+  if (splatOffset_)
+  {
+    record[*splatOffset_] = std::byte(unknownSplatRadius);
+  }
 }
 
 } // namespace pointfront

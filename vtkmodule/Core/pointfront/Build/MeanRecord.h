@@ -32,7 +32,6 @@ struct MeanInput
 /// Position  the mean of all points of the input below, rounded to the grid.
 /// Columns   the mean of the same points where there is one (hasMean(); NaN does not count, normals
 ///           get length 1), else the value of whatever was summarised nearest to the mean.
-/// Splats    a representative of several has no splat radius (SplatRadius.h): 0, unknown.
 /// Radius    of the sphere around the stored position that holds all those points; it also holds
 ///           the spheres of the representatives below. Rounded up.
 /// Threads   one instance a thread.
@@ -49,6 +48,8 @@ public:
   /// Writes bytes() to `out`. All inputs lie in one cell of the tree, and so does the result.
   void summarise(
     const std::vector<MeanInput>& inputs, std::size_t begin, std::size_t end, std::byte* out);
+  /// What was measured around a point does not hold for what stands in for its cell, even alone.
+  void forgetSplat(std::byte* record) const;
 
 private:
   struct Mean

@@ -132,6 +132,7 @@ void MeanSubtreeBuilder::represent(
       ++end;
     }
     form_.summarise(inputs_, begin, end, out);
+    form_.forgetSplat(out);
     begin = end;
   }
   joined.node->row.splatRadius = splat_.measure(joined.view, joined.held);

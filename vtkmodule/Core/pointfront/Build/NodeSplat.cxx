@@ -1,5 +1,6 @@
 #include "pointfront/Build/NodeSplat.h"
 
+#include "pointfront/Base/Infinity.h"
 #include "pointfront/Build/BuiltTree.h"
 
 #include <algorithm>
@@ -13,8 +14,13 @@ namespace
 {
 /// Larger leaves more bloat, smaller more holes where points are unevenly dense (docs/adr/0017).
 constexpr double quantile = 0.85;
-constexpr std::size_t groups = 14;
-constexpr std::size_t askedOfGroup = 8;
+/// A leaf that grows together with others is measured before: less for fewer points.
+constexpr std::size_t pointsOfGroup = 1536;
+constexpr std::size_t fewestGroups = 2;
+constexpr std::size_t mostGroups = 8;
+constexpr std::size_t askedOfGroup = 6;
+/// Squared: the last neighbour is hardly farther than that of a point near by.
+constexpr double likelyFarther = 1.7;
 /// Points of a cell around which neighbours are looked for in the cells beside it: on a surface as
 /// in a volume, the nearest 15 are not farther than its side.
 constexpr std::size_t pointsOfCell = 12;
@@ -35,34 +41,84 @@ glm::dvec3 lengthsOf(const TreeSpace& space)
   return lengths;
 }
 
+/// The first number from which on `before` is not true, looked for from `near` on in steps that
+/// double: cells side by side are mostly not far apart on the curve.
+template <typename Before>
+std::size_t firstNot(std::size_t size, std::size_t near, const Before& before)
+{
+  std::size_t begin = near;
+  std::size_t end = near;
+  for (std::size_t step = 1; end < size && before(end); step *= 2)
+  {
+    begin = end + 1;
+    end = std::min(size, end + step);
+  }
+  if (end == near)
+  {
+    for (std::size_t step = 1; begin > 0 && !before(begin - 1); step *= 2)
+    {
+      end = begin - 1;
+      begin -= std::min(begin, step);
+    }
+  }
+  while (begin < end)
+  {
+    const std::size_t middle = begin + (end - begin) / 2;
+    if (before(middle))
+    {
+      begin = middle + 1;
+    }
+    else
+    {
+      end = middle;
+    }
+  }
+  return begin;
+}
 } // namespace
 
 void SplatQuantile::add(
   const std::vector<glm::dvec3>& around, const std::vector<std::uint32_t>& asked)
 {
+  double likely = infinity;
   for (const std::uint32_t i : asked)
   {
-    near_.begin();
-    double bound = near_.squaredBound();
-    for (const glm::dvec3& other : around)
+    nearOf(around, around[i], likely);
+    if (near_.size() < NearOffsets::most && likely < infinity)
     {
-      const glm::dvec3 d = other - around[i];
-      if (d.x * d.x + d.y * d.y + d.z * d.z <= bound)
-      {
-        near_.add(d);
-        bound = near_.squaredBound();
-      }
+      nearOf(around, around[i], infinity);
     }
-    const double radius = splatRadius(near_, neighbourPlane(near_));
+    likely = likelyFarther * near_.squaredBound();
+    bool rim = false;
+    const double radius = splatRadius(near_, neighbourPlane(near_), &rim);
     if (radius > 0.0)
     {
-      radii_.push_back(radius);
+      (rim ? rims_ : radii_).push_back(radius);
+    }
+  }
+}
+
+void SplatQuantile::nearOf(
+  const std::vector<glm::dvec3>& around, const glm::dvec3& from, double bound)
+{
+  near_.begin();
+  for (const glm::dvec3& other : around)
+  {
+    const glm::dvec3 d = other - from;
+    if (d.x * d.x + d.y * d.y + d.z * d.z <= bound)
+    {
+      near_.add(d);
+      bound = std::min(bound, near_.squaredBound());
     }
   }
 }
 
 float SplatQuantile::radius()
 {
+  if (radii_.empty())
+  {
+    radii_ = rims_;
+  }
   if (radii_.empty())
   {
     return 0.0f;
@@ -78,28 +134,18 @@ NodeSplat::NodeSplat(const TreeSpace& space)
 {
 }
 
-NodeSplat::Range NodeSplat::inCell(const Points& points, const OctreeCell& cell)
+NodeSplat::Range NodeSplat::inCell(
+  const Points& points, std::size_t near, const OctreeCell& cell)
 {
-  const std::uint32_t side = (1u << cell.log2Side) - 1u;
-  const TreePosition last = cell.origin + TreePosition(side);
-  const auto firstNotLess = [&](const TreePosition& p, std::size_t begin, bool orEqual)
-  {
-    std::size_t end = points.size();
-    while (begin < end)
-    {
-      const std::size_t middle = begin + (end - begin) / 2;
-      const bool before =
-        orEqual ? !mortonLess(p, points[middle]) : mortonLess(points[middle], p);
-      (before ? begin : end) = before ? middle + 1 : middle;
-    }
-    return begin;
-  };
-  const std::size_t begin = firstNotLess(cell.origin, 0, false);
+  const TreePosition last = cell.origin + TreePosition((1u << cell.log2Side) - 1u);
+  const std::size_t begin = firstNot(points.size(), near,
+    [&](std::size_t i) { return mortonLess(points[i], cell.origin); });
   if (begin == points.size() || differingBits(points[begin], cell.origin) > cell.log2Side)
   {
     return {};
   }
-  return { begin, firstNotLess(last, begin, true) };
+  return { begin,
+    firstNot(points.size(), begin, [&](std::size_t i) { return !mortonLess(last, points[i]); }) };
 }
 
 /// Fills the cells around a point; how many points they have together.
@@ -119,7 +165,7 @@ std::size_t NodeSplat::cellsAround(const Points& points, std::size_t from, unsig
       inside = inside && !(below && own[axis] == 0) && !(above && own[axis] + side == 0);
       origin[axis] += above ? side : below ? 0u - side : 0u;
     }
-    cells_[c] = inside ? inCell(points, { origin, log2Side }) : Range{};
+    cells_[c] = inside ? inCell(points, from, { origin, log2Side }) : Range{};
     total += cells_[c].end - cells_[c].begin;
   }
   return total;
@@ -174,7 +220,8 @@ float NodeSplat::measure(const RecordView& positions, const std::vector<std::uin
 {
   const Points points{ positions, numbers };
   quantile_.begin();
-  const std::size_t count = std::min(groups, (numbers.size() + askedOfGroup - 1) / askedOfGroup);
+  const std::size_t count = std::min(numbers.size(),
+    std::clamp(numbers.size() / pointsOfGroup, fewestGroups, mostGroups));
   for (std::size_t group = 0; group < count; ++group)
   {
     lookAround(points, (2 * group + 1) * numbers.size() / (2 * count));

@@ -16,24 +16,31 @@ namespace pointfront
 {
 
 /// Collects what splatRadius() says of some points of a node, and gives one radius for all.
-/// Quantile  discs of that size close the surface around most points, and do not follow the few that
-///           are far from all others.
+/// Quantile  discs of that size close the surface around most points, and do not follow the few
+///           that are far from all others.
 class SplatQuantile
 {
 public:
-  void begin() { radii_.clear(); }
+  void begin()
+  {
+    radii_.clear();
+    rims_.clear();
+  }
   /// `around`: all points near those `asked`, which are numbers in it.
   void add(const std::vector<glm::dvec3>& around, const std::vector<std::uint32_t>& asked);
   /// 0: no point had a neighbour.
   float radius();
 
 private:
+  void nearOf(const std::vector<glm::dvec3>& around, const glm::dvec3& from, double bound);
+
   std::vector<double> radii_;
+  std::vector<double> rims_; ///< of points at the rim of what is known, for want of others
   NearOffsets near_;
 };
 
-/// The cheap measure of how large splats of a node must be: a hundred of its points are looked at,
-/// in some compact groups along the Morton curve, whose neighbours the curve gives without an
+/// The cheap measure of how large splats of a node must be: at most some fifty of its points are
+/// looked at, in compact groups along the Morton curve, which gives their neighbours without an
 /// index.
 /// Order    depends on the positions only.
 /// Threads  one a thread.
@@ -60,7 +67,7 @@ private:
     std::size_t begin = 0;
     std::size_t end = 0;
   };
-  static Range inCell(const Points& points, const OctreeCell& cell);
+  static Range inCell(const Points& points, std::size_t near, const OctreeCell& cell);
   static unsigned likelySide(const Points& points, std::size_t from);
   std::size_t cellsAround(const Points& points, std::size_t from, unsigned log2Side);
   void lookAround(const Points& points, std::size_t from);

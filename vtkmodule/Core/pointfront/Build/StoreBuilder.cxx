@@ -75,6 +75,8 @@ private:
   Result<void> reserve();
   Result<void> read();
   Result<void> readAll();
+  bool narrowShifts();
+  Result<void> findEmptySources();
   void takeLayers();
   Result<void> cutIntoParts();
   Result<void> assemble();
@@ -184,7 +186,7 @@ Result<void> StoreBuild::prepare()
     return ready;
   }
   space_.grid = grid->grid;
-  space_.shift = axisShifts(space_.grid.scale);
+  space_.shift = fittingShifts(axisShifts(space_.grid.scale), grid->low, grid->high);
 
   // A place that cannot be written is known before hours of reading.
   if (auto writable = StoreWriter::create(options_.outputPath, common_.schema); !writable)
@@ -258,17 +260,57 @@ Result<void> StoreBuild::readAll()
     points->readSeconds += points_.readSeconds;
     points->quantiseSeconds += points_.quantiseSeconds;
     points_ = std::move(*points);
-    if (!points_.guessedWrong)
+    if (!points_.guessedWrong && !narrowShifts())
     {
       return {};
     }
-    columns_ = columns_.carrying(common_.schema, points_.wrong);
+    if (points_.guessedWrong)
+    {
+      columns_ = columns_.carrying(common_.schema, points_.wrong);
+    }
     if (Result<void> ready = reserve(); !ready)
     {
       return ready;
     }
     crew_.repeatPhase();
   }
+}
+
+/// True if the points reach farther than was declared and fit with other shifts: to be read again.
+bool StoreBuild::narrowShifts()
+{
+  TreeSpace placed = space_;
+  if (points_.kept == 0 || placeRoot(placed, points_.low, points_.high))
+  {
+    return false;
+  }
+  space_.shift = fittingShifts(space_.shift, points_.low, points_.high);
+  return space_.shift != placed.shift;
+}
+
+/// Inputs that have points, none of which can be stored.
+Result<void> StoreBuild::findEmptySources()
+{
+  std::vector<Error> faults;
+  for (std::size_t s = 0; s < sources_.size(); ++s)
+  {
+    const SourceDescription& source = sources_[s]->description();
+    const std::uint64_t before = s > 0 ? points_.sourceEnd[s - 1] : 0;
+    if (source.pointCount == 0 || points_.sourceEnd[s] > before)
+    {
+      continue;
+    }
+    std::string why = "none of its " + std::to_string(source.pointCount) + " points can be stored";
+    if (sources_.size() == 1)
+    {
+      why += ": " + rejectionText(report_);
+    }
+    faults.push_back(makeError(Error::Kind::BadFormat, source.path + ": " + why));
+    report_.inputsSkipped.push_back({source.path, why});
+  }
+  const bool stop = options_.onFault == OnFault::Stop || points_.kept == 0;
+  return !faults.empty() && stop ? Result<void>(faultyInputs(faults, sources_.size()))
+                                 : Result<void>();
 }
 
 Result<void> StoreBuild::read()
@@ -279,6 +321,15 @@ Result<void> StoreBuild::read()
   }
   report_.pointsRead = points_.read;
   report_.pointsRejected = points_.rejected;
+  if (Result<void> some = findEmptySources(); !some)
+  {
+    return some;
+  }
+  if (!points_.rejected.empty())
+  {
+    report_.warnings.push_back(std::to_string(points_.read - points_.kept) + " of " +
+      std::to_string(points_.read) + " points are left out: " + rejectionText(report_) + ".");
+  }
   report_.phaseSeconds["read"] = points_.readSeconds;
   report_.phaseSeconds["quantise and count"] = points_.quantiseSeconds;
   report_.spilledBytes =
@@ -496,6 +547,16 @@ Result<BuildReport> StoreBuild::run()
   return std::move(report_);
 }
 } // namespace
+
+std::string rejectionText(const BuildReport& report)
+{
+  std::string text;
+  for (const auto& [reason, count] : report.pointsRejected)
+  {
+    text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + reason;
+  }
+  return text;
+}
 
 Result<BuildReport> buildStore(const std::vector<std::unique_ptr<PointSource>>& sources,
   const BuildOptions& options, const ProgressFunction& progress, BuildWatch* watch)

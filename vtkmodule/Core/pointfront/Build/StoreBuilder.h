@@ -2,6 +2,7 @@
 
 #include "pointfront/Base/Progress.h"
 #include "pointfront/Base/Result.h"
+#include "pointfront/Build/OpenedInputs.h"
 #include "pointfront/Points/PointSource.h"
 #include "pointfront/Store/Hierarchy.h"
 
@@ -55,13 +56,16 @@ struct BuildOptions
   std::optional<std::vector<std::string>> attributes;
   ColourDepth colourDepth = ColourDepth::ByFile;
   bool overwrite = false; ///< false: an existing output is an Error
+  /// Of an input that has points of which none can be stored.
+  OnFault onFault = OnFault::Stop;
 };
 
 struct BuildReport
 {
   std::uint64_t pointsRead = 0;
   std::uint64_t pointsStored = 0;
-  std::map<std::string, std::uint64_t> pointsRejected; ///< reason -> count
+  std::map<std::string, std::uint64_t> pointsRejected; ///< reason -> count; a warning tells it too
+  std::vector<InputFault> inputsSkipped; ///< of which no point could be stored (OnFault::Skip)
   double seconds = 0.0;
   std::uint64_t bytesWritten = 0;
   std::uint64_t spilledBytes = 0;
@@ -71,13 +75,16 @@ struct BuildReport
   double cpuSeconds = 0.0; ///< of the process while it built: the phases and what is between them
 };
 
+/// "68125 not a number, 3 infinite"; empty if no point was rejected.
+std::string rejectionText(const BuildReport& report);
+
 /// Builds a store from any number of sources; with an octree or a kd-tree, for all points or one
 /// for each object class.
 /// Guarantees  every point that is read is stored once, or counted in pointsRejected with its
 ///             reason (NaN, infinite, outside the grid's range); read = stored + rejected is
-///             checked at the end. Same input, same bytes out: for any number of threads and any
-///             memory budget. A build that fails or is cancelled leaves no output and no spill
-///             files.
+///             checked at the end. An input of which nothing is left is an Error, or is skipped.
+///             Same input, same bytes out: for any number of threads and any memory budget. A build
+///             that fails or is cancelled leaves no output and no spill files.
 /// Memory      points, columns and buffers stay under memoryBytes; with less than needed the
 ///             points are spilled to disk (a fixed number of files).
 /// Threads     called from one thread; runs its own.

@@ -22,6 +22,23 @@ std::array<unsigned, 3> axisShifts(const glm::dvec3& scale)
   return shift;
 }
 
+std::array<unsigned, 3> fittingShifts(
+  std::array<unsigned, 3> shift, const GridPosition& low, const GridPosition& high)
+{
+  // Of 2^32, what is lost when the origin is rounded down to a cell.
+  constexpr double room = 4294967296.0 * (1.0 - 1.0 / (1u << rootCellsLog2));
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const double steps = static_cast<double>(high[axis]) - static_cast<double>(low[axis]);
+    unsigned& bits = shift[static_cast<std::size_t>(axis)];
+    while (bits > 0 && std::ldexp(steps, static_cast<int>(bits)) >= room)
+    {
+      --bits;
+    }
+  }
+  return shift;
+}
+
 std::optional<unsigned> placeRoot(
   TreeSpace& space, const GridPosition& low, const GridPosition& high)
 {

@@ -59,6 +59,11 @@ struct TreeSpace
 /// do not have the same unit (degrees and metres).
 std::array<unsigned, 3> axisShifts(const glm::dvec3& scale);
 
+/// Those shifts, made less where the grid positions low to high would need more than 32 bits: cells
+/// are then longer on some axes. Files whose steps are their extent divided by 2^31 need that.
+std::array<unsigned, 3> fittingShifts(
+  std::array<unsigned, 3> shift, const GridPosition& low, const GridPosition& high);
+
 /// A root cube has 2^rootCellsLog2 cells an edge; its origin is a multiple of their side.
 constexpr unsigned rootCellsLog2 = 6;
 

@@ -21,6 +21,7 @@ ActiveNode activeNode(const Node& entry, NodeIndex index)
   node.centre = entry.centre;
   node.radius = entry.radius;
   node.spacing = entry.spacing;
+  node.storedPoints = entry.pointCount;
   node.pointCount = entry.pointCount;
   node.node = index;
   node.firstChild = entry.firstChild;
@@ -63,9 +64,13 @@ void ActiveTree::reset()
 
 void ActiveTree::applyLayer(ActiveNode& node) const
 {
-  const LayerLimits limits = node.layer < layers_.size() ? layers_[node.layer] : LayerLimits();
+  static const LayerLimits byDefault;
+  const LayerLimits& limits = node.layer < layers_.size() ? layers_[node.layer] : byDefault;
   assert(limits.errorFactor > 0.0 && limits.share >= 0.0);
-  node.hidden = !limits.visible;
+  const auto verdict =
+    limits.pruning ? limits.pruning->of(node.node) : NodePruning::Verdict::Draw;
+  node.hidden = !limits.visible || verdict == NodePruning::Verdict::Skip;
+  node.pointCount = verdict == NodePruning::Verdict::Draw ? node.storedPoints : 0;
   node.errorWeight = static_cast<float>(1.0 / limits.errorFactor);
 }
 
@@ -78,7 +83,10 @@ void ActiveTree::setLayers(const std::vector<LayerLimits>& layers)
   layers_ = layers;
   for (ActiveNode& node : slots_)
   {
-    applyLayer(node);
+    if (node.node != noNode)
+    {
+      applyLayer(node);
+    }
   }
 }
 
@@ -109,8 +117,7 @@ bool ActiveTree::childOf(const ActiveNode& parent, std::uint8_t child, ActiveNod
     node.spacing = 0.5f * parent.spacing;
   }
   node.spacingRatio = node.spacing / parent.spacing;
-  node.hidden = parent.hidden;
-  node.errorWeight = parent.errorWeight;
+  applyLayer(node);
   return true;
 }
 

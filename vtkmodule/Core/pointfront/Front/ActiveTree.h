@@ -24,7 +24,8 @@ struct ActiveNode
   float radius = 0.0f;
   float spacing = 0.0f;      ///< > 0: half the parent's where the table has none
   float spacingRatio = 0.0f; ///< to the parent's spacing; 0 for a root
-  std::uint32_t pointCount = 0;
+  std::uint32_t storedPoints = 0; ///< in the table
+  std::uint32_t pointCount = 0;   ///< of these, 0 where none would be drawn (NodePruning)
   NodeIndex node = noNode;   ///< noNode: the slot is free
   NodeIndex firstChild = noNode;
   SlotIndex parent = noSlot;
@@ -32,7 +33,7 @@ struct ActiveNode
   std::uint8_t childCount = 0; ///< in the table
   std::uint8_t level = 0;
   std::uint16_t layer = 0;
-  bool hidden = false;         ///< its layer is
+  bool hidden = false;         ///< its layer is, or no point of its subtree would be drawn
   float errorWeight = 1.0f;    ///< LAYERS-11: 1 / the layer's errorFactor
 
   bool lost = false; ///< its row cannot be read: a leaf without points in its parent's place

@@ -43,6 +43,7 @@ struct DetailWalk::Visit
 {
   NodeIndex index = noNode;
   Node row;
+  std::uint32_t points = 0;     ///< of its own, 0 where none would be drawn (NodePruning)
   Quota quota;
   double ratio = 0.0;           ///< of its spacing to its parent's
   double errorWeight = 1.0;     ///< of its layer
@@ -80,6 +81,18 @@ const LayerLimits& DetailWalk::limitsOf(std::size_t layer) const
 {
   static const LayerLimits byDefault;
   return layer < limits_->layers.size() ? limits_->layers[layer] : byDefault;
+}
+
+/// Own points of a node that may be drawn; nothing where the whole subtree has none.
+std::optional<std::uint32_t> DetailWalk::drawablePoints(NodeIndex node, const Node& row) const
+{
+  const LayerLimits& layer = limitsOf(row.layer);
+  const auto verdict = layer.pruning ? layer.pruning->of(node) : NodePruning::Verdict::Draw;
+  if (verdict == NodePruning::Verdict::Skip)
+  {
+    return std::nullopt;
+  }
+  return verdict == NodePruning::Verdict::Draw ? row.pointCount : 0;
 }
 
 Demand DetailWalk::demand(std::size_t layer, const Shown& shown)
@@ -136,6 +149,12 @@ void DetailWalk::enter(std::size_t root, const Shown& shown)
   Visit at;
   at.index = hierarchy_.roots()[root];
   at.row = rootRows_[root];
+  const std::optional<std::uint32_t> points = drawablePoints(at.index, at.row);
+  if (!points)
+  {
+    return;
+  }
+  at.points = *points;
   const LayerLimits& layer = limitsOf(at.row.layer);
   const double below = static_cast<double>(at.row.pointsBelow);
   const double factor = layer.errorFactor * layer.errorFactor;
@@ -184,7 +203,7 @@ void DetailWalk::visitAdd(const Visit& at, bool inSight, double distance, bool o
   const Node& row = at.row;
   const bool detailed = inSight && !onPixel;
   const Quota quota{ at.quota.overview, detailed ? at.quota.detail : 0.0 };
-  const std::uint32_t wantedPoints = prefixOf(quota.most(), row.pointCount);
+  const std::uint32_t wantedPoints = prefixOf(quota.most(), at.points);
   auto state = ResidencyView::State::Resident;
   if (wantedPoints > 0)
   {
@@ -220,8 +239,8 @@ void DetailWalk::visitReplace(const Visit& at, bool inSight, double distance, bo
     refine && childrenReady(at, overview ? overviewPriority : priorityOf(at, distance));
   if (inSight && at.drawable && at.standIn && !ready)
   {
-    draw(at, row.pointCount, distance);
-    noteError(at, row.pointCount, distance, false);
+    draw(at, at.points, distance);
+    noteError(at, at.points, distance, false);
   }
   if (refine)
   {
@@ -261,6 +280,12 @@ void DetailWalk::descend(const Visit& at, const Quota& left, const Descent& desc
       noteRow(state, hierarchy_.refinement() == Refinement::Add); // else by childrenReady()
       continue;
     }
+    const std::optional<std::uint32_t> points = drawablePoints(child.index, child.row);
+    if (!points)
+    {
+      continue;
+    }
+    child.points = *points;
     const double share = static_cast<double>(child.row.pointsBelow) / below;
     child.quota = { left.overview * share, left.detail * share };
     child.ratio = at.row.spacing > 0.0f ? double(child.row.spacing) / at.row.spacing : 0.5;
@@ -275,11 +300,12 @@ void DetailWalk::descend(const Visit& at, const Quota& left, const Descent& desc
 ResidencyView::State DetailWalk::require(
   NodeIndex node, const Node& row, double priority)
 {
-  if (row.pointCount == 0)
+  const std::uint32_t points = drawablePoints(node, row).value_or(0);
+  if (points == 0)
   {
     return ResidencyView::State::Resident;
   }
-  sum_.held += row.pointCount;
+  sum_.held += points;
   if (!residency_)
   {
     return ResidencyView::State::Resident;
@@ -293,7 +319,7 @@ ResidencyView::State DetailWalk::require(
   else if (state == ResidencyView::State::Absent)
   {
     ++missing_;
-    wanted_.push_back({ node, priority, false, row.pointCount, row.layer });
+    wanted_.push_back({ node, priority, false, points, row.layer });
   }
   return state;
 }
@@ -330,12 +356,12 @@ double DetailWalk::priorityOf(const Visit& at, double distance) const
 void DetailWalk::noteError(
   const Visit& at, std::uint32_t shown, double distance, bool refined)
 {
-  const bool everything = at.row.leaf() && shown == at.row.pointCount;
+  const bool everything = at.row.leaf() && shown == at.points;
   if (residency_ && !refined && !everything)
   {
     const double ratio = std::clamp(at.ratio, 0.0, 1.0);
     delta_->errorPx = std::max(delta_->errorPx,
-      prefixErrorPx(at.row.pointCount, shown, errorOf(at, distance), ratio));
+      prefixErrorPx(at.points, shown, errorOf(at, distance), ratio));
   }
 }
 

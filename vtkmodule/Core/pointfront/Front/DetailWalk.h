@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace pointfront
@@ -64,6 +65,7 @@ private:
   struct Descent;
 
   const LayerLimits& limitsOf(std::size_t layer) const;
+  std::optional<std::uint32_t> drawablePoints(NodeIndex node, const Node& row) const;
   void enter(std::size_t root, const Shown& shown);
   void visit(const Visit& at);
   void visitAdd(const Visit& at, bool inSight, double distance, bool onPixel);

@@ -80,7 +80,7 @@ void FrontPlan::visitAdd(SlotIndex slot, Visit visit)
   {
     presence = require(node, visit.errorAbovePx);
   }
-  if (points > 0 || node.pointCount == 0)
+  if (points > 0 || node.storedPoints == 0)
   {
     node.needed = update_;
   }

@@ -1,5 +1,9 @@
 #pragma once
 
+#include "pointfront/Front/NodePruning.h"
+
+#include <memory>
+
 namespace pointfront
 {
 
@@ -17,11 +21,15 @@ struct LayerLimits
   /// taken back at the next update that needs it. 0: it takes from what is left. Shares that come
   /// to more than 1 over the visible layers are cut down in proportion.
   double share = 0.0;
+  /// Nodes of the layer that its filter leaves out: neither asked for nor drawn, as if they had no
+  /// points; nor is anything below those that are skipped. Null: there is none. Compared by object.
+  std::shared_ptr<const NodePruning> pruning = nullptr;
 };
 
 inline bool operator==(const LayerLimits& a, const LayerLimits& b)
 {
-  return a.visible == b.visible && a.errorFactor == b.errorFactor && a.share == b.share;
+  return a.visible == b.visible && a.errorFactor == b.errorFactor && a.share == b.share &&
+    a.pruning == b.pruning;
 }
 
 } // namespace pointfront

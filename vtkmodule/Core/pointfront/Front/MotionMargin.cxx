@@ -103,8 +103,14 @@ void MotionMargin::visit(NodeIndex index, const View& ahead, const LayerLimits& 
   {
     return;
   }
+  const auto verdict = layer.pruning ? layer.pruning->of(index) : NodePruning::Verdict::Draw;
+  if (verdict == NodePruning::Verdict::Skip)
+  {
+    return;
+  }
   const double errorPx = screenError(ahead, node) / layer.errorFactor;
-  if (node.pointCount > 0 && residency.state(index) == ResidencyView::State::Absent)
+  if (verdict == NodePruning::Verdict::Draw && node.pointCount > 0 &&
+    residency.state(index) == ResidencyView::State::Absent)
   {
     requests_.push_back({ index, errorPx, true, node.pointCount, node.layer });
   }

@@ -102,7 +102,8 @@ std::vector<std::byte> encodeTable(const SideFileContent& content)
   out.put(static_cast<std::uint64_t>(description.size()));
   out.putBytes(description.data(), description.size());
   out.put(static_cast<std::uint32_t>(content.table.nodes.size()));
-  const std::vector<std::byte> nodes = encodeNodeTable(content.table.nodes, NodeRowForm::WithSplatRadius);
+  const std::vector<std::byte> nodes =
+    encodeNodeTable(content.table.nodes, NodeRowForm::WithSplatRadius);
   out.putBytes(nodes.data(), nodes.size());
   for (const InPlaceRow& row : content.table.rows)
   {

@@ -1,11 +1,13 @@
 #include "pointfront/Neighbourhood/SplatCell.h"
 
 #include "pointfront/Base/Infinity.h"
+#include "pointfront/Neighbourhood/FourLanes.h"
 
 #include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 namespace pointfront
@@ -24,7 +26,7 @@ constexpr double planeFlatness = 0.05;  ///< thicker is a volume
 constexpr double volumeFourth = 0.6;    ///< of the distance to the fourth neighbour
 constexpr double noVertexFourth = 0.55; ///< likewise, of a cell without a vertex
 constexpr std::size_t lineNeighbours = 8;
-constexpr std::size_t mostVertices = 4 + NearOffsets::most + 1;
+constexpr std::size_t firstCheck = 6; ///< of whether more neighbours can cut a cell
 
 bool offsetLess(const glm::dvec3& a, const glm::dvec3& b)
 {
@@ -45,9 +47,10 @@ Covariance covarianceOf(const NearOffsets& near, std::size_t count, double lengt
 {
   glm::dvec3 sum(0.0);
   Covariance c;
+  const double share = 1.0 / length;
   for (std::size_t i = 0; i < count; ++i)
   {
-    const glm::dvec3 v = near[i] / length;
+    const glm::dvec3 v = near[i] * share;
     sum += v;
     c.squares += v * v;
     c.products += glm::dvec3(v.x * v.y, v.x * v.z, v.y * v.z);
@@ -73,89 +76,114 @@ bool onLine(const NearOffsets& near)
   return !(minors >= least * trace * trace);
 }
 
-struct Vertex
-{
-  double x = 0.0;
-  double y = 0.0;
-  bool rim = false; ///< on the square that bounds the cell, not between three points
-};
-
-/// A point's Voronoi cell in its plane, cut from a square by its neighbours one after another.
+/// A point's Voronoi cell in its plane, cut from a square of 2 x 2 by its neighbours one after
+/// another. In float: 16 codes of a radius are a doubling.
 class CellPolygon
 {
 public:
-  explicit CellPolygon(double halfSide)
-    : rimAt_(0.999 * halfSide)
-    , farthest_(2.0 * halfSide * halfSide)
+  CellPolygon()
   {
-    vertices_[0] = { -halfSide, -halfSide, true };
-    vertices_[1] = { halfSide, -halfSide, true };
-    vertices_[2] = { halfSide, halfSide, true };
-    vertices_[3] = { -halfSide, halfSide, true };
+    x_[0] = FourFloats{ -halfSide, halfSide, halfSide, -halfSide };
+    y_[0] = FourFloats{ -halfSide, -halfSide, halfSide, halfSide };
   }
 
-  void cut(double x, double y)
+  /// By the line half way to a neighbour.
+  void cut(float x, float y)
   {
-    const double squared = x * x + y * y;
-    if (!(squared > 0.0) || squared > 4.0 * farthest_) // half way is beyond every vertex
+    const float half = 0.5f * (x * x + y * y);
+    if (!(half > 0.0f) || count_ > mostVertices - 2)
     {
       return;
     }
-    const double half = 0.5 * squared;
-    std::array<Vertex, mostVertices> kept;
-    std::size_t count = 0;
-    farthest_ = 0.0;
-    const auto keep = [&](const Vertex& v)
+    std::array<FourFloats, fours> side; // > 0: nearer to the neighbour
+    std::uint32_t beyond = 0;
+    for (std::size_t f = 0; 4 * f < count_; ++f)
     {
-      kept[count++] = v;
-      farthest_ = std::max(farthest_, v.x * v.x + v.y * v.y);
-    };
-    const Vertex* from = &vertices_[count_ - 1];
-    double fromSide = from->x * x + from->y * y - half;
-    for (std::size_t i = 0; i < count_ && count + 2 <= mostVertices; ++i)
-    {
-      const Vertex& to = vertices_[i];
-      const double toSide = to.x * x + to.y * y - half;
-      if ((fromSide <= 0.0) != (toSide <= 0.0))
-      {
-        const double share = fromSide / (fromSide - toSide);
-        Vertex v{ from->x + share * (to.x - from->x), from->y + share * (to.y - from->y), false };
-        v.rim = std::abs(v.x) > rimAt_ || std::abs(v.y) > rimAt_;
-        keep(v);
-      }
-      if (toSide <= 0.0)
-      {
-        keep(to);
-      }
-      from = &to;
-      fromSide = toSide;
+      side[f] = x_[f] * x + y_[f] * y - half;
+      beyond |= static_cast<std::uint32_t>(bitsOf(side[f] > 0.0f)) << (4 * f);
     }
-    vertices_ = kept;
+    const std::uint32_t all = (1u << count_) - 1u;
+    beyond &= all;
+    if (beyond == 0 || beyond == all)
+    {
+      return;
+    }
+    // The polygon is convex: those beyond follow one another, round the end.
+    const std::uint32_t before = (beyond << 1 | beyond >> (count_ - 1)) & all; // one has it before
+    const auto begin = static_cast<std::size_t>(__builtin_ctz(~beyond & before & all)); // kept
+    const auto end = static_cast<std::size_t>(__builtin_ctz(beyond & ~before & all));   // not
+    std::array<FourFloats, fours> keptX;
+    std::array<FourFloats, fours> keptY;
+    std::size_t count = 0;
+    const auto keep = [&](float vx, float vy)
+    {
+      keptX[count / 4][count % 4] = vx;
+      keptY[count / 4][count % 4] = vy;
+      ++count;
+    };
+    const auto at = [](const std::array<FourFloats, fours>& v, std::size_t i)
+    { return v[i / 4][i % 4]; };
+    const auto meet = [&](std::size_t from, std::size_t to)
+    {
+      const float share = at(side, from) / (at(side, from) - at(side, to));
+      keep(at(x_, from) + share * (at(x_, to) - at(x_, from)),
+        at(y_, from) + share * (at(y_, to) - at(y_, from)));
+    };
+    meet(begin == 0 ? count_ - 1 : begin - 1, begin);
+    std::size_t last = begin;
+    for (std::size_t i = begin; i != end; i = i + 1 == count_ ? 0 : i + 1)
+    {
+      keep(at(x_, i), at(y_, i));
+      last = i;
+    }
+    meet(last, end);
     count_ = count;
+    for (std::size_t f = 0; 4 * f < count_; ++f)
+    {
+      x_[f] = keptX[f];
+      y_[f] = keptY[f];
+    }
   }
 
-  bool open() const
+  /// Of the farthest vertex.
+  double squaredExtent() const
   {
-    return std::any_of(vertices_.begin(), vertices_.begin() + static_cast<std::ptrdiff_t>(count_),
-      [](const Vertex& v) { return v.rim; });
-  }
-  /// Squared distance of the farthest vertex between points; 0: there is none.
-  double squaredReach() const
-  {
-    double squared = 0.0;
+    float squared = 0.0f;
     for (std::size_t i = 0; i < count_; ++i)
     {
-      const Vertex& v = vertices_[i];
-      squared = v.rim ? squared : std::max(squared, v.x * v.x + v.y * v.y);
+      const float x = x_[i / 4][i % 4];
+      const float y = y_[i / 4][i % 4];
+      squared = std::max(squared, x * x + y * y);
     }
-    return squared;
+    return static_cast<double>(squared);
+  }
+
+  struct Reach
+  {
+    float squared = 0.0f; ///< distance of the farthest vertex between points; 0: there is none
+    bool open = false;    ///< the cell reaches the square
+  };
+  Reach reach() const
+  {
+    Reach result;
+    for (std::size_t i = 0; i < count_; ++i)
+    {
+      const float x = x_[i / 4][i % 4];
+      const float y = y_[i / 4][i % 4];
+      const bool rim = std::max(std::abs(x), std::abs(y)) > 0.999f * halfSide;
+      result.open = result.open || rim;
+      result.squared = rim ? result.squared : std::max(result.squared, x * x + y * y);
+    }
+    return result;
   }
 
 private:
-  std::array<Vertex, mostVertices> vertices_;
+  static constexpr float halfSide = 2.0f;
+  static constexpr std::size_t mostVertices = 4 + NearOffsets::most + 1;
+  static constexpr std::size_t fours = (mostVertices + 3) / 4;
+  std::array<FourFloats, fours> x_; ///< of the vertices, counter-clockwise
+  std::array<FourFloats, fours> y_;
   std::size_t count_ = 4;
-  double rimAt_;
-  double farthest_;
 };
 
 /// Two directions of length 1 in the plane, square to one another.
@@ -170,7 +198,8 @@ void planeAxes(const glm::dvec3& normal, glm::dvec3& first, glm::dvec3& second)
 /// One step of Jacobi's method: makes matrix[p][q] zero.
 void rotate(double (&matrix)[3][3], double (&vectors)[3][3], int p, int q)
 {
-  if (matrix[p][q] == 0.0)
+  constexpr double converged = 1e-16;
+  if (std::abs(matrix[p][q]) <= converged * (matrix[p][p] + matrix[q][q]))
   {
     return;
   }
@@ -229,6 +258,73 @@ void NearOffsets::add(const glm::dvec3& offset)
   entries_[place] = { offset, squared };
 }
 
+bool NearOffsets::assignSorted(const glm::dvec3* offsets, std::size_t count)
+{
+  constexpr std::size_t room = most + 1;
+  if (count > room)
+  {
+    return false;
+  }
+  std::array<double, room> squared{};
+  double largest = 0.0;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    squared[i] = squaredLength(offsets[i]);
+    largest = std::max(largest, squared[i]);
+  }
+  // Keys of 27 bits of distance and 4 of number; each one's place is how many are less.
+  const double scale = largest > 1e-290 ? double(1 << 27) * (1.0 - 1e-9) / largest : 0.0;
+  alignas(16) std::array<std::int32_t, room> keys;
+  keys.fill(std::numeric_limits<std::int32_t>::max());
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    keys[i] = static_cast<std::int32_t>(squared[i] * scale) << 4 | static_cast<std::int32_t>(i);
+  }
+  std::array<FourLanes, room / 4> places{};
+  std::array<FourLanes, room / 4> fours;
+  std::memcpy(fours.data(), keys.data(), sizeof fours);
+  for (const std::int32_t key : keys)
+  {
+    const FourLanes other{ key, key, key, key };
+    for (std::size_t f = 0; f < fours.size(); ++f)
+    {
+      places[f] -= other < fours[f]; // true is -1
+    }
+  }
+  std::array<std::int32_t, room> order{};
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    order[static_cast<std::size_t>(places[i / 4][i % 4])] = keys[i];
+  }
+  count_ = 0;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const auto from = static_cast<std::size_t>(order[i] & 15);
+    if (i > 0 && order[i] >> 4 == order[i - 1] >> 4)
+    {
+      return false;
+    }
+    if (squared[from] > 0.0 && count_ < most)
+    {
+      entries_[count_++] = { offsets[from], squared[from] };
+    }
+  }
+  return true;
+}
+
+void NearOffsets::assign(const glm::dvec3* offsets, std::size_t count)
+{
+  if (assignSorted(offsets, count))
+  {
+    return;
+  }
+  begin();
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    add(offsets[i]);
+  }
+}
+
 NeighbourPlane neighbourPlane(const NearOffsets& near)
 {
   NeighbourPlane plane;
@@ -262,8 +358,12 @@ NeighbourPlane neighbourPlane(const NearOffsets& near)
   return plane;
 }
 
-double splatRadius(const NearOffsets& near, const NeighbourPlane& plane)
+double splatRadius(const NearOffsets& near, const NeighbourPlane& plane, bool* rim)
 {
+  if (rim != nullptr)
+  {
+    *rim = false;
+  }
   const std::size_t count = near.size();
   if (count == 0)
   {
@@ -282,17 +382,31 @@ double splatRadius(const NearOffsets& near, const NeighbourPlane& plane)
   glm::dvec3 second;
   planeAxes(plane.normal, first, second);
   const double length = distance(8);
-  CellPolygon cell(2.0);
+  const double share = 1.0 / length;
+  first *= share;
+  second *= share;
+  CellPolygon cell;
   for (std::size_t i = 0; i < count; ++i)
   {
-    cell.cut(glm::dot(near[i], first) / length, glm::dot(near[i], second) / length);
+    const bool check = i >= firstCheck && i % 2 == 0;
+    if (check && near.squaredDistance(i) * share * share > 4.0 * cell.squaredExtent())
+    {
+      break; // half way to it and to all behind it is beyond every vertex
+    }
+    cell.cut(static_cast<float>(glm::dot(near[i], first)),
+      static_cast<float>(glm::dot(near[i], second)));
   }
-  const double vertex = length * std::sqrt(cell.squaredReach());
+  const CellPolygon::Reach found = cell.reach();
+  if (rim != nullptr)
+  {
+    *rim = found.open;
+  }
+  const double vertex = length * std::sqrt(static_cast<double>(found.squared));
   const double reach =
     vertex > 0.0 ? std::min(vertex, length) : noVertexFourth * distance(4);
   if (plane.flatness < planeFlatness)
   {
-    return margin * (cell.open() ? openScales * scale : std::min(reach, mostScales * scale));
+    return margin * (found.open ? openScales * scale : std::min(reach, mostScales * scale));
   }
   return margin * std::min({ reach, volumeFourth * distance(4), scale });
 }

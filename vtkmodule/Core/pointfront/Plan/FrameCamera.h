@@ -18,8 +18,8 @@ struct FrameCamera
   /// Store coordinates that positions are taken relative to before they become floats: the eye, in
   /// a parallel view the focal point (docs/adr/0004).
   glm::dvec3 reference{ 0.0 };
-  /// Where it lies in the view: exactly 0 when it is the eye, so that no rounding noise of two large
-  /// terms comes in.
+  /// Where it lies in the view: exactly 0 when it is the eye, so that no rounding noise of two
+  /// large terms comes in.
   glm::dvec3 referenceInView{ 0.0 };
   bool parallel = false;
   int width = 1; ///< of the viewport, pixels

@@ -28,8 +28,8 @@ struct PlanItem
   /// World units between the points on screen when this prefix and all nodes above it are drawn, by
   /// the tree's levels.
   float spacing = 0.0f;
-  // How large splats close the surface (drawing.md 3); a back end takes the largest of what applies,
-  // and FramePlan::spacingPx.
+  // How large splats close the surface (drawing.md 3); a back end takes the largest of what
+  // applies, and FramePlan::spacingPx.
   /// A point's own radius counts that many times: more than 1 for a prefix.
   float radiusScale = 1.0f;
   /// World units, for points without a radius of their own.

@@ -10,23 +10,29 @@ namespace pointfront
 namespace
 {
 
-constexpr std::size_t noBatch = ~std::size_t(0);
-
-/// Batches of the layers that have a style, and which of them is a layer's.
-std::vector<std::size_t> openBatches(
-  const std::vector<std::shared_ptr<const ResolvedStyle>>& styles,
-  std::vector<DrawBatch>& batches)
+/// The items of each layer that has a style, near to far.
+std::vector<std::vector<PlanItem>> itemsByLayer(
+  const ViewFront& front, const std::vector<LayerStyles>& styles)
 {
-  std::vector<std::size_t> batchOf(styles.size(), noBatch);
-  for (std::size_t layer = 0; layer < styles.size(); ++layer)
+  std::vector<std::vector<PlanItem>> items(styles.size());
+  for (const DrawItem& item : front.last().draw)
   {
-    if (styles[layer])
+    std::shared_ptr<const NodeColumns> node = front.find(item.node);
+    if (!node || node->layer >= styles.size() || styles[node->layer].empty())
     {
-      batchOf[layer] = batches.size();
-      batches.push_back({ static_cast<std::uint16_t>(layer), styles[layer], {} });
+      continue;
     }
+    const auto last = std::min(item.pointCount, static_cast<std::uint32_t>(node->size()));
+    const float spacing = prefixSpacing(*node, last, item.spacingRatio);
+    PlanItem planned{ std::move(node), 0, last, 1.0f, spacing };
+    const NodeColumns& columns = *planned.node;
+    planned.radiusScale =
+      columns.spacing > 0.0f ? std::max(1.0f, spacing / columns.spacing) : 1.0f;
+    planned.closingRadius =
+      columns.splatRadius > 0.0f ? columns.splatRadius * planned.radiusScale : spacing;
+    items[columns.layer].push_back(std::move(planned));
   }
-  return batchOf;
+  return items;
 }
 
 /// Splats of a node are as large as those of the finer nodes drawn among them.
@@ -79,27 +85,17 @@ FramePlan planFrame(
   plan.splatRadiusBase = description.splatRadiusBase;
   plan.spacingPx = static_cast<float>(front.last().thresholdPx);
   plan.shading = std::move(request.shading);
-  const std::vector<std::size_t> batchOf = openBatches(request.styles, plan.batches);
-  for (const DrawItem& item : front.last().draw)
+  std::vector<std::vector<PlanItem>> items = itemsByLayer(front, request.styles);
+  for (std::size_t layer = 0; layer < items.size(); ++layer)
   {
-    std::shared_ptr<const NodeColumns> node = front.find(item.node);
-    if (!node || node->layer >= batchOf.size() || batchOf[node->layer] == noBatch)
+    for (const std::shared_ptr<const ResolvedStyle>& style : request.styles[layer])
     {
-      continue;
+      if (!items[layer].empty())
+      {
+        plan.batches.push_back({ static_cast<std::uint16_t>(layer), style, items[layer] });
+      }
     }
-    const auto last = std::min(item.pointCount, static_cast<std::uint32_t>(node->size()));
-    const float spacing = prefixSpacing(*node, last, item.spacingRatio);
-    PlanItem planned{ std::move(node), 0, last, 1.0f, spacing };
-    const NodeColumns& columns = *planned.node;
-    planned.radiusScale =
-      columns.spacing > 0.0f ? std::max(1.0f, spacing / columns.spacing) : 1.0f;
-    planned.closingRadius =
-      columns.splatRadius > 0.0f ? columns.splatRadius * planned.radiusScale : spacing;
-    plan.batches[batchOf[columns.layer]].items.push_back(std::move(planned));
   }
-  plan.batches.erase(std::remove_if(plan.batches.begin(), plan.batches.end(),
-                       [](const DrawBatch& batch) { return batch.items.empty(); }),
-    plan.batches.end());
   refineRadii(plan.batches);
   return plan;
 }

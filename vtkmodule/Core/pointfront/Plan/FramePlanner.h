@@ -5,10 +5,25 @@
 #include "pointfront/Views/ViewFront.h"
 
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace pointfront
 {
+
+/// The styles of one layer: usually one; several for a tree of all classes, where each style's
+/// filter lets its own points through; none: the layer is hidden.
+struct LayerStyles : std::vector<std::shared_ptr<const ResolvedStyle>>
+{
+  using vector::vector;
+  LayerStyles(std::shared_ptr<const ResolvedStyle> only)
+  {
+    if (only)
+    {
+      push_back(std::move(only));
+    }
+  }
+};
 
 /// What a view asks of a frame beside what its front draws.
 struct PlanRequest
@@ -16,13 +31,11 @@ struct PlanRequest
   FrameCamera camera;
   std::vector<glm::dvec4> clippingPlanes; ///< (n, d), store coordinates; as FramePlan's
   FrameShading shading;
-  /// By number of the store's layer. What has none is not drawn: a hidden layer, and one beyond the
-  /// list.
-  std::vector<std::shared_ptr<const ResolvedStyle>> styles;
+  std::vector<LayerStyles> styles; ///< by number of the store's layer; beyond the list: hidden
 };
 
 /// The plan of what the front draws since its last update: a batch for each layer that shows
-/// anything, in the order of their numbers.
+/// anything, in the order of their numbers; one for each style of a layer that has several.
 /// Nodes     each is looked up once and pinned until the plan is gone. One that is no longer in
 ///           memory is left out.
 /// Columns   a node may lack columns that its style reads, while it is being read again: it is in

@@ -49,6 +49,8 @@ public:
   virtual Result<void> begin(const SinkDescription& description) = 0;
   virtual Result<void> append(const PointBatch& batch) = 0;
   virtual Result<void> finish() = 0;
+  /// What its readers should know, and what it could not keep: full sentences, after finish().
+  virtual std::vector<std::string> findings() const { return {}; }
 };
 
 } // namespace pointfront

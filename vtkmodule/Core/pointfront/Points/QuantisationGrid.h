@@ -10,6 +10,10 @@ namespace pointfront
 
 using GridPosition = glm::vec<3, std::int64_t, glm::defaultp>;
 
+/// World units from the origin beyond which nothing is a position: a double there resolves steps of
+/// an eighth at best.
+constexpr double farthestCoordinate = 1e15;
+
 /// The integer grid that coordinates live on: world = offset + scale * grid, for each axis.
 /// Exactness  toGrid(toWorld(g)) == g while |world| / scale < 2^51: rounding to nearest undoes the
 ///            two roundings of toWorld. This is why double world coordinates lose nothing on

@@ -259,6 +259,11 @@ Result<std::shared_ptr<PointStore>> PointStore::openTables(const std::string& pa
   content.hierarchy = std::move(*table);
   content.directory = std::move(*directory);
   content.elsewhere = *elsewhere;
+  if (const SectionEntry* ranges = footer->find(SectionKind::NodeRanges))
+  {
+    content.ranges.emplace(
+      shared, *ranges, footer->nodeCount, rangeComponents(content.description.schema));
+  }
   content.file = shared;
   return store;
 }
@@ -383,6 +388,13 @@ Result<NodeColumns> PointStore::decode(const FetchedNode& fetched) const
     first = end;
   }
   return result;
+}
+
+Result<std::shared_ptr<const NodeRanges>> PointStore::nodeRanges(
+  std::uint32_t component, NodeIndex most) const
+{
+  return content_->ranges ? content_->ranges->read(component, most)
+                          : Result<std::shared_ptr<const NodeRanges>>(nullptr);
 }
 
 Result<VerifyReport> PointStore::verify(const ProgressFunction& progress) const

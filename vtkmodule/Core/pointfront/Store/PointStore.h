@@ -36,6 +36,9 @@ public:
   std::size_t storedBytes(NodeIndex node, const ColumnSelection& columns) const override;
   std::uint64_t disk() const override;
 
+  Result<std::shared_ptr<const NodeRanges>> nodeRanges(
+    std::uint32_t component, NodeIndex most = noNode) const override;
+
   Result<VerifyReport> verify(const ProgressFunction& progress = {}) const override;
 
 private:

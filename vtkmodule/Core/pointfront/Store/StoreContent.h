@@ -2,6 +2,7 @@
 
 #include "pointfront/Store/DescriptionSection.h"
 #include "pointfront/Store/InputFile.h"
+#include "pointfront/Store/NodeRangesSection.h"
 #include "pointfront/Store/PayloadDirectory.h"
 #include "pointfront/Store/PayloadElsewhere.h"
 #include "pointfront/Store/PointStore.h"
@@ -21,6 +22,7 @@ struct PointStore::Content
   GridBounds gridBounds;
   std::shared_ptr<const Hierarchy> hierarchy;
   std::unique_ptr<const PayloadDirectory> directory; ///< reads from `file`
+  std::optional<NodeRangesFile> ranges;
   std::optional<PayloadElsewhere> elsewhere;
   std::unique_ptr<const InputFile> fileElsewhere; ///< with `elsewhere`, unless only looked at
 

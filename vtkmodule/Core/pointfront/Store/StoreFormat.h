@@ -29,7 +29,8 @@ enum class SectionKind : std::uint32_t
   Description = 1,
   NodeTable = 2,
   BlockDirectory = 3,
-  Elsewhere = 4 ///< only with payloadElsewhere
+  Elsewhere = 4, ///< only with payloadElsewhere
+  NodeRanges = 5 ///< may be missing: nobody knows then which nodes a filter leaves out
 };
 
 /// Required feature: the payload of some nodes lies in another file (see NodePayload::elsewhere).

@@ -149,7 +149,9 @@ SeenPoints StoreVerification::nothingSeen() const
 Result<VerifyReport> StoreVerification::run(const ProgressFunction& progress)
 {
   // Header, footer and description were checked by open().
-  if (std::string fault = tableFault(); !fault.empty())
+  std::string fault = tableFault();
+  fault = fault.empty() ? readNodeRanges() : fault;
+  if (!fault.empty())
   {
     VerifyReport report;
     report.ok = false;
@@ -226,6 +228,53 @@ std::string StoreVerification::tableFault() const
     : "'" + description_.path + "': the number of levels is not that of the nodes";
 }
 
+std::string StoreVerification::readNodeRanges()
+{
+  for (std::uint32_t c = 0; c < rangeComponents(description_.schema); ++c)
+  {
+    const auto ranges = cloud_.nodeRanges(c);
+    if (!ranges)
+    {
+      return ranges.error().what;
+    }
+    if (!*ranges)
+    {
+      nodeRanges_.clear();
+      break;
+    }
+    nodeRanges_.push_back(*ranges);
+  }
+  return {};
+}
+
+/// What nodes are said to have below them holds what they and their children are said to have.
+std::string StoreVerification::rangesFault(NodeIndex index, const Node& node) const
+{
+  const auto holds = [](const ValueRange& outer, const ValueRange& inner)
+  { return inner.empty() || (outer.low <= inner.low && inner.high <= outer.high); };
+  for (const std::shared_ptr<const NodeRanges>& ranges : nodeRanges_)
+  {
+    const ValueRange below = ranges->below(index);
+    const bool inParent = node.parent == noNode || holds(ranges->below(node.parent), below);
+    if (!holds(below, ranges->own(index)) || !inParent)
+    {
+      return "its ranges are not within those of the nodes above it";
+    }
+  }
+  return {};
+}
+
+bool StoreVerification::knownToHave(
+  NodeIndex index, std::uint32_t component, const ValueRange& values) const
+{
+  if (nodeRanges_.empty() || values.empty())
+  {
+    return true;
+  }
+  const ValueRange own = nodeRanges_[component]->own(index);
+  return own.low <= values.low && values.high <= own.high;
+}
+
 void StoreVerification::work(Walk& walk) const
 {
   SeenPoints own = nothingSeen();
@@ -265,7 +314,8 @@ std::string StoreVerification::nodeFault(NodeIndex index, SeenPoints& seen) cons
   {
     return points.error().what;
   }
-  const std::string fault = pointsFault(index, *points, seen);
+  std::string fault = rangesFault(index, node);
+  fault = fault.empty() ? pointsFault(index, *points, seen) : fault;
   if (!fault.empty())
   {
     return "'" + description_.path + "', node " + std::to_string(index) + ": " + fault;
@@ -295,6 +345,15 @@ std::string StoreVerification::pointsFault(
   {
     return "points lie outside its box";
   }
+  std::uint32_t component = 0;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    if (!knownToHave(index, component++,
+          { static_cast<double>(bounds.low[axis]), static_cast<double>(bounds.high[axis]) }))
+    {
+      return "points lie outside the node's ranges";
+    }
+  }
   seen.bounds.add(bounds);
   for (std::size_t c = 0; c < everyColumn_.size(); ++c)
   {
@@ -303,6 +362,13 @@ std::string StoreVerification::pointsFault(
     if (!encloses(description_.ranges[c], range))
     {
       return "attribute '" + attribute.name + "' has values outside the store's range";
+    }
+    for (const std::array<double, 2>& values : range.components)
+    {
+      if (!knownToHave(index, component++, { values[0], values[1] }))
+      {
+        return "attribute '" + attribute.name + "' has values outside the node's range";
+      }
     }
     addRange(seen.ranges[c], range);
   }

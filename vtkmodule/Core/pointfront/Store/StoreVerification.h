@@ -3,6 +3,7 @@
 #include "pointfront/Store/GridBounds.h"
 #include "pointfront/Store/StoredCloud.h"
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,9 @@ private:
   struct Walk;
   SeenPoints nothingSeen() const;
   std::string tableFault() const;
+  std::string readNodeRanges();
+  std::string rangesFault(NodeIndex index, const Node& node) const;
+  bool knownToHave(NodeIndex index, std::uint32_t component, const ValueRange& values) const;
   void work(Walk& walk) const;
   std::string nodeFault(NodeIndex index, SeenPoints& seen) const;
   std::string pointsFault(NodeIndex index, const NodeColumns& points, SeenPoints& seen) const;
@@ -46,6 +50,7 @@ private:
   const GridBounds& gridBounds_;
   const Hierarchy& hierarchy_;
   ColumnSelection everyColumn_;
+  std::vector<std::shared_ptr<const NodeRanges>> nodeRanges_; ///< by component; empty: not stored
 };
 
 } // namespace pointfront

@@ -5,6 +5,7 @@
 #include "pointfront/Store/ColumnStatistics.h"
 #include "pointfront/Store/DescriptionSection.h"
 #include "pointfront/Store/NodePage.h"
+#include "pointfront/Store/NodeRangesSection.h"
 #include "pointfront/Store/NodeTableSection.h"
 #include "pointfront/Store/PayloadDirectory.h"
 #include "pointfront/Store/PayloadElsewhere.h"
@@ -36,6 +37,7 @@ public:
     : file_(std::move(file))
     , schema_(schema)
     , payloads_(static_cast<std::uint32_t>(1 + schema.size()))
+    , nodeRanges_(schema)
   {
     buffer_.reserve(writeBufferBytes);
     if (elsewhere)
@@ -75,6 +77,7 @@ private:
   AttributeSchema schema_;
   BlockDirectory payloads_; // by PayloadId
   std::vector<std::uint32_t> pointCounts_; // likewise
+  NodeRangesWriter nodeRanges_; // likewise; not of payloads that are elsewhere
   GridBounds bounds_;
   std::vector<ColumnRange> ranges_;
   std::vector<std::byte> buffer_;
@@ -168,6 +171,7 @@ Result<StoreWriter::PayloadId> FileStoreWriter::append(const EncodedNode& node)
     addRange(ranges_[c], node.ranges[c]);
   }
   pointCounts_.push_back(node.pointCount);
+  nodeRanges_.add(node);
   bounds_.add(node.bounds);
   return id;
 }
@@ -251,7 +255,11 @@ Result<void> FileStoreWriter::commit(const StoreDescription& description,
   {
     done = putWhole(SectionKind::Description, encodeDescription(stored), footer);
   }
-  if (done && !nameElsewhere_.empty())
+  if (done && nameElsewhere_.empty())
+  {
+    done = putParts(SectionKind::NodeRanges, nodeRanges_.encode(nodes, payloads), footer);
+  }
+  else if (done)
   {
     const PayloadElsewhere elsewhere =
       describeElsewhere(nameElsewhere_, bytesElsewhere_, directory);

@@ -7,6 +7,7 @@
 #include "pointfront/Points/PointSource.h"
 #include "pointfront/Points/QuantisationGrid.h"
 #include "pointfront/Store/Hierarchy.h"
+#include "pointfront/Store/NodeRanges.h"
 #include "pointfront/Store/NodeReader.h"
 
 #include <array>
@@ -75,6 +76,16 @@ public:
   virtual const std::shared_ptr<const Hierarchy>& hierarchy() const = 0;
   /// Paths of the files whose bytes it is: itself, and what it refers to.
   virtual std::vector<std::string> files() const { return { description().path }; }
+
+  /// Ranges of one component (rangeComponent) in the first `most` nodes of the table or more, or in
+  /// all. Null where the cloud does not know them. May wait for the disk.
+  virtual Result<std::shared_ptr<const NodeRanges>> nodeRanges(
+    std::uint32_t component, NodeIndex most = noNode) const
+  {
+    static_cast<void>(component);
+    static_cast<void>(most);
+    return std::shared_ptr<const NodeRanges>();
+  }
 
   /// Every checksum, count and invariant (tree shape, boxes enclose their points and children,
   /// sums of counts). Stops at the first broken one. Cancelled is the only Error.

@@ -27,9 +27,9 @@ struct FrameShading
   float ambient = 0.3f;
   float diffuse = 0.7f;
   std::vector<FrameLight> lights; ///< empty: one at the eye
-  /// Eye-dome lighting on log2 of depth (after Boucheny 2009): 0 is off. Pixels darken by exp(-300 *
-  /// strength * response): the response is how far, in octaves of depth, a pixel lies behind the mean
-  /// of two neighbours on opposite sides, over four such pairs: 0 on planes.
+  /// Eye-dome lighting on log2 of depth (after Boucheny 2009): 0 is off. Pixels darken by exp(-300
+  /// * strength * response): the response is how far, in octaves of depth, a pixel lies behind the
+  /// mean of two neighbours on opposite sides, over four such pairs: 0 on planes.
   float eyeDomeStrength = 0.0f;
   float eyeDomeRadiusPx = 1.0f;
   /// Pull-push over depth and colour: pixels that no point covers, and those through which a

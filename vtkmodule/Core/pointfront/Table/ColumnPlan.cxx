@@ -146,10 +146,12 @@ public:
     , path_(path)
     , used_(fields.size(), false)
   {
+    std::vector<std::string> names;
     for (const TableField& field : fields)
     {
-      roles_.push_back(roleOf(field.name));
+      names.push_back(field.name);
     }
+    roles_ = rolesOf(names);
   }
 
   Result<ColumnPlan> plan();
@@ -176,27 +178,23 @@ private:
 
 Result<void> Planner::findPosition()
 {
-  for (const bool byLetter : { true, false })
+  for (std::size_t f = 0; f < fields_.size(); ++f)
   {
-    for (std::size_t f = 0; f < fields_.size(); ++f)
+    const FieldRole& role = roles_[f];
+    if (role.kind != FieldRole::Kind::Position)
     {
-      const FieldRole& role = roles_[f];
-      const bool letter = fields_[f].name.size() <= 3; // x, "x"
-      if (role.kind != FieldRole::Kind::Position || letter != byLetter)
-      {
-        continue;
-      }
-      std::optional<std::size_t>& axis = plan_.position[role.component];
-      if (axis && byLetter)
-      {
-        return makeError(Error::Kind::BadFormat,
-          path_ + ": '" + fields_[f].name + "' is there twice; name the columns otherwise");
-      }
-      if (!axis)
-      {
-        axis = f;
-        used_[f] = true;
-      }
+      continue;
+    }
+    std::optional<std::size_t>& axis = plan_.position[role.component];
+    if (axis && role.rank == 0)
+    {
+      return makeError(Error::Kind::BadFormat,
+        path_ + ": '" + fields_[f].name + "' is there twice; name the columns otherwise");
+    }
+    if (!axis)
+    {
+      axis = f;
+      used_[f] = true;
     }
   }
   if (!plan_.position[0] || !plan_.position[1])

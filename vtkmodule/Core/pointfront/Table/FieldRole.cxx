@@ -1,5 +1,7 @@
 #include "pointfront/Table/FieldRole.h"
 
+#include <algorithm>
+#include <array>
 #include <cctype>
 
 namespace pointfront
@@ -31,15 +33,32 @@ struct ComponentName
   FieldRole::Kind kind;
   std::string_view attribute;
   unsigned component;
+  unsigned rank = 0;
 };
 
 constexpr auto position = FieldRole::Kind::Position;
 constexpr auto vector = FieldRole::Kind::Vector;
 constexpr ComponentName componentNames[] = {
   { "x", position, "", 0 }, { "y", position, "", 1 }, { "z", position, "", 2 },
-  { "easting", position, "", 0 }, { "northing", position, "", 1 },
-  { "elevation", position, "", 2 }, { "longitude", position, "", 0 },
-  { "latitude", position, "", 1 }, { "altitude", position, "", 2 },
+  { "easting", position, "", 0, 1 }, { "northing", position, "", 1, 1 },
+  { "elevation", position, "", 2, 1 }, { "longitude", position, "", 0, 1 },
+  { "latitude", position, "", 1, 1 }, { "altitude", position, "", 2, 1 },
+  { "lon", position, "", 0, 1 }, { "lat", position, "", 1, 1 }, { "alt", position, "", 2, 1 },
+  { "long", position, "", 0, 1 }, { "lng", position, "", 0, 1 }, { "elev", position, "", 2, 1 },
+  { "east", position, "", 0, 1 }, { "north", position, "", 1, 1 },
+  { "rechtswert", position, "", 0, 1 }, { "hochwert", position, "", 1, 1 },
+  { "pointx", position, "", 0, 1 }, { "pointy", position, "", 1, 1 },
+  { "pointz", position, "", 2, 1 }, { "points:0", position, "", 0, 1 },
+  { "points:1", position, "", 1, 1 }, { "points:2", position, "", 2, 1 },
+  { "xcoord", position, "", 0, 1 }, { "ycoord", position, "", 1, 1 },
+  { "zcoord", position, "", 2, 1 }, { "xcoordinate", position, "", 0, 1 },
+  { "ycoordinate", position, "", 1, 1 }, { "zcoordinate", position, "", 2, 1 },
+  { "coordx", position, "", 0, 1 }, { "coordy", position, "", 1, 1 },
+  { "coordz", position, "", 2, 1 },
+  { "e", position, "", 0, 2 }, { "n", position, "", 1, 2 }, { "h", position, "", 2, 2 },
+  { "height", position, "", 2, 2 },
+  { "normals:0", vector, "normal", 0 }, { "normals:1", vector, "normal", 1 },
+  { "normals:2", vector, "normal", 2 },
   { "red", vector, "rgb", 0 }, { "green", vector, "rgb", 1 }, { "blue", vector, "rgb", 2 },
   { "r", vector, "rgb", 0 }, { "g", vector, "rgb", 1 }, { "b", vector, "rgb", 2 },
   { "diffusered", vector, "rgb", 0 }, { "diffusegreen", vector, "rgb", 1 },
@@ -50,6 +69,32 @@ constexpr ComponentName componentNames[] = {
   { "normal[0]", vector, "normal", 0 }, { "normal[1]", vector, "normal", 1 },
   { "normal[2]", vector, "normal", 2 },
 };
+
+/// A name without the unit behind it; the same if there is none.
+std::string_view withoutUnit(std::string_view name)
+{
+  static constexpr std::string_view units[] = { "m", "ft", "us-ft", "usft", "feet", "foot",
+    "metre", "metres", "meter", "meters", "deg", "degree", "degrees", "dd", "mm", "cm", "km" };
+  while (!name.empty() && (name.back() == ' ' || name.back() == '"'))
+  {
+    name.remove_suffix(1);
+  }
+  const bool bracket = !name.empty() && (name.back() == ')' || name.back() == ']');
+  const std::size_t at = bracket ? name.find_last_of("([") : name.find_last_of(" _");
+  if (at == std::string_view::npos || at == 0)
+  {
+    return name;
+  }
+  const std::string unit = folded(name.substr(at + 1, name.size() - at - (bracket ? 2 : 1)));
+  for (const std::string_view known : units)
+  {
+    if (unit == folded(known))
+    {
+      return name.substr(0, at);
+    }
+  }
+  return name;
+}
 
 struct AttributeName
 {
@@ -100,11 +145,12 @@ FieldRole roleOf(std::string_view name)
   {
     return { FieldRole::Kind::Padding, {}, 0, {} };
   }
+  const std::string bare = folded(withoutUnit(name));
   for (const ComponentName& row : componentNames)
   {
-    if (row.name == key)
+    if (row.name == key || (row.kind == position && row.name == bare))
     {
-      return { row.kind, std::string(row.attribute), row.component, {} };
+      return { row.kind, std::string(row.attribute), row.component, {}, row.rank };
     }
   }
   for (const AttributeName& row : attributeNames)
@@ -115,6 +161,37 @@ FieldRole roleOf(std::string_view name)
     }
   }
   return { FieldRole::Kind::Attribute, keptName(name), 0, {} };
+}
+
+std::vector<FieldRole> rolesOf(const std::vector<std::string>& names)
+{
+  constexpr unsigned leastSure = 2;
+  constexpr unsigned none = leastSure + 1;
+  std::vector<FieldRole> roles;
+  std::array<unsigned, 3> best{ none, none, none };
+  for (const std::string& name : names)
+  {
+    roles.push_back(roleOf(name));
+    const FieldRole& role = roles.back();
+    if (role.kind == position)
+    {
+      best[role.component] = std::min(best[role.component], role.rank);
+    }
+  }
+  if (best[0] == none || best[1] == none)
+  {
+    best[0] = best[0] == leastSure ? none : best[0];
+    best[1] = best[1] == leastSure ? none : best[1];
+  }
+  for (std::size_t f = 0; f < names.size(); ++f)
+  {
+    FieldRole& role = roles[f];
+    if (role.kind == position && role.rank != best[role.component])
+    {
+      role = { FieldRole::Kind::Attribute, keptName(names[f]), 0, {} };
+    }
+  }
+  return roles;
 }
 
 } // namespace pointfront

@@ -5,13 +5,15 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace pointfront
 {
 
 /// What a field of that name is of a point. The one place that knows how others call things.
 /// Spelling   case, blanks, '_' and '-' do not matter; a leading "scalar_" (CloudCompare) is
-///            dropped. "Intensity", "scalar_Intensity" and "i" are the attribute "intensity";
+///            dropped, and so is a unit behind a coordinate: "X (m)", "lat[deg]", "Easting_ft".
+///            "Intensity", "scalar_Intensity" and "i" are the attribute "intensity";
 ///            "red", "R" and "diffuse_red" are component 0 of "rgb"; "nx", "normal_x" of "normal".
 struct FieldRole
 {
@@ -26,8 +28,15 @@ struct FieldRole
   std::string attribute;
   unsigned component = 0;
   std::optional<ScalarType> type = {}; ///< the type of a well-known attribute
+  /// Of a position, how sure the name is: 0 x, y, z; 1 easting, longitude, Points:0 ...; 2 names
+  /// that also stand for other things: e, n, h, height.
+  unsigned rank = 0;
 };
 
 FieldRole roleOf(std::string_view name);
+
+/// The roles of fields that stand together. A coordinate is the field with the surest name; others
+/// of that coordinate are attributes of their own names. e and n count only together.
+std::vector<FieldRole> rolesOf(const std::vector<std::string>& names);
 
 } // namespace pointfront

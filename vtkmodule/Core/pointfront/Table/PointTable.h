@@ -60,6 +60,10 @@ public:
     std::uint64_t chunk, const std::vector<bool>& wanted, TableBlock& block) const = 0;
   /// One for each field if the table had to look at every value anyway (text); else empty.
   virtual std::vector<FieldStatistics> statistics() const { return {}; }
+  /// The grid that all positions lie on, if the file says so; else their digits decide.
+  virtual std::optional<QuantisationGrid> grid() const { return std::nullopt; }
+  /// What its coordinates are relative to: added to every position.
+  virtual glm::dvec3 origin() const { return glm::dvec3(0.0); }
   /// SourceDescription::scanners; `positions` is where the points are, as far as that is known.
   virtual std::vector<ScannerPlace> scanners(const Bounds& positions) const
   {

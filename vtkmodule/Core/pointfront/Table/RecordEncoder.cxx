@@ -18,18 +18,31 @@ void put(const void* from, std::size_t bytes, std::byte* to)
     std::reverse(to, to + bytes);
   }
 }
+
+void putFloating(double value, ScalarType type, std::byte* to)
+{
+  if (type == ScalarType::Float64)
+  {
+    put(&value, sizeof value, to);
+    return;
+  }
+  const auto narrow = static_cast<float>(value);
+  put(&narrow, sizeof narrow, to);
+}
 } // namespace
 
-ScalarType RecordEncoder::add(std::size_t column, std::size_t component, bool widened)
+ScalarType RecordEncoder::add(
+  std::size_t column, std::size_t component, std::optional<ScalarType> as)
 {
   const Attribute& attribute = schema_[column];
   Part part;
   part.column = column;
   part.component = component;
-  part.widened = widened || attribute.scale != 1.0 || attribute.offset != 0.0;
+  const bool scaled = attribute.scale != 1.0 || attribute.offset != 0.0;
+  part.as = !as && scaled ? ScalarType::Float64 : as;
   part.offset = recordBytes_;
   parts_.push_back(part);
-  const ScalarType type = part.widened ? ScalarType::Float64 : attribute.type;
+  const ScalarType type = part.as.value_or(attribute.type);
   recordBytes_ += sizeOf(type);
   return type;
 }
@@ -57,7 +70,7 @@ void RecordEncoder::encodePart(
   const Attribute& attribute = schema_[*part.column];
   const std::size_t bytes = sizeOf(attribute.type);
   const std::byte* from = batch.columns[*part.column].data() + part.component * bytes;
-  if (!part.widened)
+  if (!part.as)
   {
     for (std::size_t i = 0; i < batch.size(); ++i, to += recordBytes_)
     {
@@ -69,8 +82,7 @@ void RecordEncoder::encodePart(
   gatherNumbers({ from, attribute.bytes(), attribute.type, false }, values.size(), values.data());
   for (std::size_t i = 0; i < values.size(); ++i, to += recordBytes_)
   {
-    const double world = values[i] * attribute.scale + attribute.offset;
-    put(&world, sizeof world, to);
+    putFloating(values[i] * attribute.scale + attribute.offset, *part.as, to);
   }
 }
 
@@ -80,12 +92,13 @@ void RecordEncoder::encode(const PointBatch& batch, std::vector<std::byte>& reco
   records.resize(begin + batch.size() * recordBytes_);
   std::byte* const first = records.data() + begin;
   std::byte* to = first;
+  const std::size_t bytes = sizeOf(coordinates_.type);
   for (const glm::dvec3& p : batch.positions)
   {
     for (int axis = 0; axis < 3; ++axis)
     {
-      const double value = p[axis];
-      put(&value, sizeof value, to + sizeof value * static_cast<std::size_t>(axis));
+      putFloating(p[axis] - coordinates_.origin[axis], coordinates_.type,
+        to + bytes * static_cast<std::size_t>(axis));
     }
     to += recordBytes_;
   }

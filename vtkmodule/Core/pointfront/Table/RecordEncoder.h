@@ -3,6 +3,8 @@
 #include "pointfront/Points/AttributeSchema.h"
 #include "pointfront/Points/PointBatch.h"
 
+#include <glm/vec3.hpp>
+
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -11,21 +13,33 @@
 namespace pointfront
 {
 
-/// Turns points into records of a binary file, little endian and packed: x, y, z as float64, then
-/// the parts in the order in which they were added.
+/// How coordinates are written.
+struct CoordinateCoding
+{
+  ScalarType type = ScalarType::Float64; ///< or Float32
+  glm::dvec3 origin{ 0.0 };              ///< is taken from them
+};
+
+/// Turns points into records of a binary file, little endian and packed: x, y, z, then the parts in
+/// the order in which they were added.
 /// Exactness  float64 holds every coordinate of a grid exactly as the store gives it. A component
 ///            is copied; one with a scale or an offset becomes its world value as float64.
 /// Threads    one thread.
 class RecordEncoder
 {
 public:
-  explicit RecordEncoder(AttributeSchema schema)
+  explicit RecordEncoder(AttributeSchema schema, CoordinateCoding coordinates = {})
     : schema_(std::move(schema))
+    , coordinates_(coordinates)
+    , recordBytes_(3 * sizeOf(coordinates.type))
   {
   }
 
-  /// Adds one component of a column; gives the type it is written with. `widened`: as float64.
-  ScalarType add(std::size_t column, std::size_t component, bool widened = false);
+  const CoordinateCoding& coordinates() const { return coordinates_; }
+  /// Adds one component of a column; gives the type it is written with. `as`: Float32 or Float64,
+  /// whatever the column's is.
+  ScalarType add(
+    std::size_t column, std::size_t component, std::optional<ScalarType> as = std::nullopt);
   /// Adds a byte that is the same for every point.
   void addByte(std::uint8_t value);
 
@@ -38,15 +52,16 @@ private:
   {
     std::optional<std::size_t> column; ///< nothing: `value`
     std::size_t component = 0;
-    bool widened = false;
+    std::optional<ScalarType> as; ///< nothing: copied
     std::uint8_t value = 0;
     std::size_t offset = 0; ///< in the record
   };
   void encodePart(const Part& part, const PointBatch& batch, std::byte* records) const;
 
   AttributeSchema schema_;
+  CoordinateCoding coordinates_;
   std::vector<Part> parts_;
-  std::size_t recordBytes_ = 3 * sizeof(double);
+  std::size_t recordBytes_;
 };
 
 } // namespace pointfront

@@ -14,7 +14,7 @@ RecordWriter::RecordWriter(std::string path)
 Result<void> RecordWriter::begin(const SinkDescription& description)
 {
   assert(!file_);
-  RecordEncoder encoder(description.schema);
+  RecordEncoder encoder(description.schema, coordinates(description));
   RecordFile::Header header = describe(description.schema, encoder);
   Result<std::unique_ptr<RecordFile>> file =
     RecordFile::create(path_, std::move(encoder), std::move(header));

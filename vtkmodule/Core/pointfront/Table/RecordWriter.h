@@ -10,7 +10,7 @@ namespace pointfront
 {
 
 /// Writes points as one record each behind a text header, as PLY and PCD have it. What the header
-/// says, and what a record holds behind x, y and z as double, is the format's.
+/// says, how x, y and z are written, and what a record holds behind them, is the format's.
 /// CRS         such formats have no place for it: it is lost.
 /// Errors      as in PointSink.
 /// Threads     one thread.
@@ -26,6 +26,12 @@ protected:
   explicit RecordWriter(std::string path);
 
 private:
+  /// Called once, in begin().
+  virtual CoordinateCoding coordinates(const SinkDescription& description)
+  {
+    static_cast<void>(description);
+    return {};
+  }
   /// Adds the attributes to the encoder, in the order of the file, and gives the header that
   /// announces them.
   virtual RecordFile::Header describe(

@@ -4,6 +4,7 @@
 #include "pointfront/Table/FieldRole.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -49,10 +50,15 @@ struct Survey
 
 std::vector<bool> positionFields(const std::vector<TableField>& fields)
 {
-  std::vector<bool> positions;
+  std::vector<std::string> names;
   for (const TableField& field : fields)
   {
-    positions.push_back(roleOf(field.name).kind == FieldRole::Kind::Position);
+    names.push_back(field.name);
+  }
+  std::vector<bool> positions;
+  for (const FieldRole& role : rolesOf(names))
+  {
+    positions.push_back(role.kind == FieldRole::Kind::Position);
   }
   return positions;
 }
@@ -79,6 +85,10 @@ Result<Survey> look(const PointTable& table, const SurveyOptions& options,
     {
       for (const double value : block.columns[f])
       {
+        if (positions[f] && std::abs(value) > farthestCoordinate)
+        {
+          continue; // no position: the build rejects it
+        }
         own.statistics[f].add(value);
         if (positions[f])
         {
@@ -117,6 +127,37 @@ bool decimalPositions(const PointTable& table, const Survey& survey)
   return some;
 }
 
+/// Positions that are none must not decide on bounds and step of the others.
+Result<void> leaveOutFar(const PointTable& table, const SurveyOptions& options, Survey& survey)
+{
+  const std::vector<bool> positions = positionFields(table.fields());
+  bool far = false;
+  for (std::size_t f = 0; f < positions.size(); ++f)
+  {
+    const FieldStatistics& values = survey.statistics[f];
+    far = far || (positions[f] && !values.empty() &&
+      std::max(std::abs(values.low), std::abs(values.high)) > farthestCoordinate);
+  }
+  if (!far)
+  {
+    return {};
+  }
+  const Result<Survey> near = look(table, options, positions, table.chunkCount());
+  if (!near)
+  {
+    return near.error();
+  }
+  for (std::size_t f = 0; f < positions.size(); ++f)
+  {
+    if (positions[f])
+    {
+      survey.statistics[f].low = near->statistics[f].low;
+      survey.statistics[f].high = near->statistics[f].high;
+    }
+  }
+  return {};
+}
+
 /// Looks through the table: all of it if some field is undecided, else a sample. If that seems to
 /// have decimal positions, all positions: a grid on which one of them does not lie would round it.
 Result<Survey> surveyed(const PointTable& table, const SurveyOptions& options)
@@ -125,6 +166,10 @@ Result<Survey> surveyed(const PointTable& table, const SurveyOptions& options)
   {
     Survey survey(table.fields());
     survey.statistics = std::move(known);
+    if (Result<void> done = leaveOutFar(table, options, survey); !done)
+    {
+      return done.error();
+    }
     return survey;
   }
   std::vector<bool> looked = undecidedFields(table.fields());
@@ -150,12 +195,35 @@ struct Extent
   std::optional<QuantisationGrid> grid;
 };
 
+/// A decimal grid of so many places on each axis; nothing where the extent has too many steps.
+std::optional<QuantisationGrid> decimalGrid(
+  const std::array<int, 3>& decimals, const glm::dvec3& low, const glm::dvec3& high)
+{
+  QuantisationGrid grid;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const int places = decimals[static_cast<std::size_t>(axis)];
+    const double step = std::pow(10.0, -places);
+    if (places > mostDecimals || !((high[axis] - low[axis]) / step < mostSteps))
+    {
+      return std::nullopt;
+    }
+    // Written as a quotient: the nearest double to the decimal step.
+    grid.scale[axis] = 1.0 / std::pow(10.0, places);
+    const double reach = std::max(std::abs(low[axis]), std::abs(high[axis]));
+    grid.offset[axis] =
+      reach / step < mostSteps ? 0.0 : std::round(0.5 * (low[axis] + high[axis]));
+  }
+  return grid;
+}
+
 /// Whether the coordinates lie on a decimal grid that a store can hold, see TableSource.
+/// `origin` is to be added to them; one of whole units changes nothing about their decimals.
 Extent extentOf(const ColumnPlan& plan, const std::vector<TableField>& fields,
-  const Survey& survey)
+  const Survey& survey, const glm::dvec3& origin)
 {
   Extent extent;
-  int decimals = 0;
+  std::array<int, 3> decimals{};
   bool exact = true;
   glm::dvec3 low(0.0);
   glm::dvec3 high(0.0);
@@ -178,26 +246,20 @@ Extent extentOf(const ColumnPlan& plan, const std::vector<TableField>& fields,
       ? values.decimals
       : survey.whole ? survey.steps[*field].decimals() : std::nullopt;
     exact = exact && step;
-    decimals = std::max(decimals, step.value_or(0));
+    decimals[static_cast<std::size_t>(axis)] = step.value_or(0);
   }
+  low += origin;
+  high += origin;
   extent.bounds.add(low);
   extent.bounds.add(high);
-  const double step = std::pow(10.0, -decimals);
-  const glm::dvec3 size = (high - low) / step;
-  if (!exact || decimals > mostDecimals || !(std::max({ size.x, size.y, size.z }) < mostSteps))
+  if (exact && origin == glm::round(origin))
   {
-    return extent;
+    // One step for all axes where they have it; heights in metres over degrees have not.
+    std::array<int, 3> most{};
+    most.fill(*std::max_element(decimals.begin(), decimals.end()));
+    extent.grid = decimalGrid(most, low, high);
+    extent.grid = extent.grid ? extent.grid : decimalGrid(decimals, low, high);
   }
-  QuantisationGrid grid;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    // Written as a quotient: the nearest double to the decimal step.
-    grid.scale[axis] = 1.0 / std::pow(10.0, decimals);
-    const double reach = std::max(std::abs(low[axis]), std::abs(high[axis]));
-    grid.offset[axis] =
-      reach / step < mostSteps ? 0.0 : std::round(0.5 * (low[axis] + high[axis]));
-  }
-  extent.grid = grid;
   return extent;
 }
 
@@ -273,7 +335,7 @@ Result<std::unique_ptr<PointSource>> TableSource::open(
   {
     return plan.error();
   }
-  const Extent extent = extentOf(*plan, fields, *survey);
+  const Extent extent = extentOf(*plan, fields, *survey, table->origin());
   auto source =
     std::unique_ptr<TableSource>(new TableSource(std::move(table), std::move(*plan)));
   SourceDescription& description = source->description_;
@@ -284,7 +346,8 @@ Result<std::unique_ptr<PointSource>> TableSource::open(
     description.pointCount += source->chunkPoints(chunk);
   }
   description.declaredBounds = extent.bounds;
-  description.grid = extent.grid;
+  const std::optional<QuantisationGrid> stated = source->table_->grid();
+  description.grid = stated ? stated : extent.grid;
   description.scanners = source->table_->scanners(extent.bounds);
   description.schema = source->plan_.schema;
   description.warnings = source->table_->warnings();
@@ -302,12 +365,13 @@ Result<void> TableSource::read(std::uint64_t chunk, PointBatch& batch) const
   }
   const auto count = static_cast<std::size_t>(chunkPoints(chunk));
   batch.resize(count, description_.schema);
+  const glm::dvec3 origin = table_->origin();
   for (int axis = 0; axis < 3; ++axis)
   {
     const auto& field = plan_.position[static_cast<std::size_t>(axis)];
     for (std::size_t i = 0; i < count; ++i)
     {
-      batch.positions[i][axis] = field ? block.columns[*field][i] : 0.0;
+      batch.positions[i][axis] = origin[axis] + (field ? block.columns[*field][i] : 0.0);
     }
   }
   for (std::size_t c = 0; c < plan_.columns.size(); ++c)

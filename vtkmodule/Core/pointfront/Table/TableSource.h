@@ -16,8 +16,9 @@ namespace pointfront
 ///            if these lie on decimal steps.
 /// Grid       text whose coordinates have so few decimals that the extent fits into 2^31 steps,
 ///            floating point whose coordinates all lie on decimal steps (DecimalStep), and
-///            coordinates that are integers, have a grid of their own: nothing is rounded, but for
-///            what floating point had rounded off a decimal number.
+///            coordinates that are integers, have a grid of their own, with a step for each axis
+///            where one for all is too fine: nothing is rounded, but for what floating point had
+///            rounded off a decimal number.
 ///            Other floating point has none: the build chooses one and says so.
 /// Positions  NaN and infinities go through: the build counts them as rejected.
 class TableSource final : public PointSource

@@ -1,0 +1,296 @@
+#include "EPTDescription.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <set>
+
+namespace pointfront
+{
+namespace
+{
+using Json = nlohmann::json;
+
+constexpr std::int64_t mostNodePoints = 1 << 26; // a node has some ten thousand
+constexpr std::size_t mostDimensions = 1000;
+
+Error bad(const std::string& path, const std::string& what)
+{
+  return makeError(Error::Kind::BadFormat, path + ": " + what);
+}
+
+std::optional<ScalarType> typeOf(const std::string& kind, std::int64_t bytes)
+{
+  if (kind == "float")
+  {
+    return bytes == 4 ? std::optional<ScalarType>(ScalarType::Float32)
+      : bytes == 8    ? std::optional<ScalarType>(ScalarType::Float64)
+                      : std::nullopt;
+  }
+  const bool isSigned = kind == "signed";
+  if (!isSigned && kind != "unsigned")
+  {
+    return std::nullopt;
+  }
+  switch (bytes)
+  {
+    case 1:
+      return isSigned ? ScalarType::Int8 : ScalarType::UInt8;
+    case 2:
+      return isSigned ? ScalarType::Int16 : ScalarType::UInt16;
+    case 4:
+      return isSigned ? ScalarType::Int32 : ScalarType::UInt32;
+    case 8:
+      return isSigned ? ScalarType::Int64 : ScalarType::UInt64;
+    default:
+      return std::nullopt;
+  }
+}
+
+double numberOf(const Json& object, const char* key, double otherwise)
+{
+  const auto found = object.find(key);
+  return found != object.end() && found->is_number() ? found->get<double>() : otherwise;
+}
+
+std::string textOf(const Json& object, const char* key)
+{
+  const auto found = object.find(key);
+  return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
+}
+
+Result<std::vector<EPTDimension>> dimensionsOf(const Json& schema, const std::string& path)
+{
+  if (!schema.is_array() || schema.empty() || schema.size() > mostDimensions)
+  {
+    return bad(path, "its \"schema\" is no list of dimensions");
+  }
+  std::vector<EPTDimension> dimensions;
+  for (const Json& entry : schema)
+  {
+    if (!entry.is_object())
+    {
+      return bad(path, "its \"schema\" is no list of dimensions");
+    }
+    EPTDimension dimension;
+    dimension.name = textOf(entry, "name");
+    const auto size = static_cast<std::int64_t>(
+      std::clamp(numberOf(entry, "size", 0.0), 0.0, 1000.0));
+    const std::optional<ScalarType> type = typeOf(textOf(entry, "type"), size);
+    dimension.scale = numberOf(entry, "scale", 1.0);
+    dimension.offset = numberOf(entry, "offset", 0.0);
+    if (dimension.name.empty() || !type || !(std::abs(dimension.scale) > 0.0) ||
+      !std::isfinite(dimension.scale) || !std::isfinite(dimension.offset))
+    {
+      return bad(
+        path, "its dimension '" + dimension.name + "' has no sound name, type, size or scale");
+    }
+    dimension.type = *type;
+    dimensions.push_back(std::move(dimension));
+  }
+  return dimensions;
+}
+
+Bounds boundsOf(const Json& description)
+{
+  for (const char* key : { "boundsConforming", "bounds" })
+  {
+    const auto found = description.find(key);
+    const bool six = found != description.end() && found->is_array() && found->size() == 6 &&
+      std::all_of(found->begin(), found->end(), [](const Json& n) { return n.is_number(); });
+    if (six)
+    {
+      Bounds bounds;
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        const auto a = static_cast<std::size_t>(axis);
+        bounds.low[axis] = (*found)[a].get<double>();
+        bounds.high[axis] = (*found)[a + 3].get<double>();
+      }
+      return bounds;
+    }
+  }
+  return {};
+}
+
+bool isKey(const std::string& key)
+{
+  std::size_t numbers = 0;
+  std::size_t digits = 0;
+  for (const char c : key + "-")
+  {
+    if (c == '-')
+    {
+      numbers += digits > 0 && digits < 20 ? 1 : 5;
+      digits = 0;
+      continue;
+    }
+    if (c < '0' || c > '9')
+    {
+      return false;
+    }
+    ++digits;
+  }
+  return numbers == 4;
+}
+
+Result<std::string> contentOf(const std::string& path)
+{
+  std::ifstream file(path, std::ios::binary);
+  if (!file)
+  {
+    return makeError(Error::Kind::NotFound, path + ": cannot be read, but the tree refers to it");
+  }
+  return std::string(std::istreambuf_iterator<char>(file), {});
+}
+} // namespace
+
+std::size_t EPTDescription::recordBytes() const
+{
+  std::size_t bytes = 0;
+  for (const EPTDimension& dimension : dimensions)
+  {
+    bytes += sizeOf(dimension.type);
+  }
+  return bytes;
+}
+
+std::optional<QuantisationGrid> EPTDescription::grid() const
+{
+  static const char* const names[3] = { "X", "Y", "Z" };
+  QuantisationGrid grid;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const auto found = std::find_if(dimensions.begin(), dimensions.end(),
+      [&](const EPTDimension& d) { return d.name == names[axis]; });
+    if (found == dimensions.end() || found->type == ScalarType::Float32 ||
+      found->type == ScalarType::Float64 || found->scale < 0.0)
+    {
+      return std::nullopt;
+    }
+    grid.scale[axis] = found->scale;
+    grid.offset[axis] = found->offset;
+  }
+  return grid;
+}
+
+Result<EPTDescription> EPTDescription::parse(std::string_view text, const std::string& path)
+{
+  const Json json = Json::parse(text.begin(), text.end(), nullptr, false);
+  if (!json.is_object() || json.find("schema") == json.end())
+  {
+    return bad(path, "is no description of an Entwine tree (JSON with a \"schema\")");
+  }
+  EPTDescription description;
+  const std::string encoding = textOf(json, "dataType");
+  if (encoding != "laszip" && encoding != "binary" && encoding != "zstandard")
+  {
+    return makeError(Error::Kind::Unsupported, path + ": its nodes are of the kind '" + encoding +
+        "', not laszip, binary or zstandard");
+  }
+  if (const std::string kind = textOf(json, "hierarchyType"); !kind.empty() && kind != "json")
+  {
+    return makeError(
+      Error::Kind::Unsupported, path + ": its hierarchy is of the kind '" + kind + "', not json");
+  }
+  description.encoding = encoding == "laszip" ? EPTEncoding::Laszip
+    : encoding == "binary"                    ? EPTEncoding::Binary
+                                              : EPTEncoding::Zstandard;
+  Result<std::vector<EPTDimension>> dimensions = dimensionsOf(json["schema"], path);
+  if (!dimensions)
+  {
+    return dimensions.error();
+  }
+  description.dimensions = std::move(*dimensions);
+  description.bounds = boundsOf(json);
+  description.points =
+    static_cast<std::uint64_t>(std::clamp(numberOf(json, "points", 0.0), 0.0, 1e18));
+  description.version = textOf(json, "version");
+  if (const auto srs = json.find("srs"); srs != json.end() && srs->is_object())
+  {
+    description.wkt = textOf(*srs, "wkt");
+    const bool projString = description.wkt.rfind("+proj", 0) == 0;
+    if (projString && description.wkt.find("+type=crs") == std::string::npos)
+    {
+      description.wkt += " +type=crs"; // or it names a step of a calculation
+    }
+    const std::string code = textOf(*srs, "horizontal");
+    if (description.wkt.empty() && !code.empty())
+    {
+      description.wkt = textOf(*srs, "authority") + ":" + code;
+    }
+  }
+  return description;
+}
+
+Result<EPTPage> parseEPTPage(std::string_view text, const std::string& path)
+{
+  const Json json = Json::parse(text.begin(), text.end(), nullptr, false);
+  if (!json.is_object())
+  {
+    return bad(path, "is no page of a hierarchy (JSON of nodes and their points)");
+  }
+  EPTPage page;
+  for (const auto& [key, count] : json.items())
+  {
+    if (!isKey(key) || !count.is_number_integer() || count.get<std::int64_t>() < -1 ||
+      count.get<std::int64_t>() > mostNodePoints)
+    {
+      return bad(path, "its node '" + key.substr(0, 60) + "' has no sound key or number of points");
+    }
+    page.emplace(key, count.get<std::int64_t>());
+  }
+  return page;
+}
+
+Result<std::vector<EPTNode>> readEPTHierarchy(const std::string& folder)
+{
+  std::map<std::string, std::uint32_t> nodes;
+  std::set<std::string> seen{ "0-0-0-0" };
+  std::vector<std::string> open{ "0-0-0-0" };
+  while (!open.empty())
+  {
+    const std::string pageKey = open.back();
+    open.pop_back();
+    const std::string path = folder + "/ept-hierarchy/" + pageKey + ".json";
+    const Result<std::string> text = contentOf(path);
+    if (!text)
+    {
+      return text.error();
+    }
+    const Result<EPTPage> page = parseEPTPage(*text, path);
+    if (!page)
+    {
+      return page.error();
+    }
+    for (const auto& [key, count] : page.value())
+    {
+      if (count >= 0)
+      {
+        nodes[key] = static_cast<std::uint32_t>(count);
+      }
+      else if (!seen.insert(key).second)
+      {
+        return bad(path, "the page '" + key + "' is referred to twice");
+      }
+      else
+      {
+        open.push_back(key);
+      }
+    }
+  }
+  std::vector<EPTNode> list;
+  for (const auto& [key, count] : nodes)
+  {
+    if (count > 0)
+    {
+      list.push_back({ key, count });
+    }
+  }
+  return list;
+}
+
+} // namespace pointfront

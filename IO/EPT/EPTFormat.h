@@ -1,0 +1,36 @@
+#pragma once
+
+#include "pointfront/Points/PointSource.h"
+#include "pointfront/Table/ParallelChunks.h"
+
+#include <functional>
+#include <string>
+#include <utility>
+
+namespace pointfront
+{
+
+/// Entwine trees, by their ept.json: nodes of laszip, binary or zstandard. Every point of every
+/// node is read; the tree's own hierarchy counts for nothing else.
+class EPTFormat final : public PointSourceFormat
+{
+public:
+  using Opener = std::function<Result<std::unique_ptr<PointSource>>(const std::string&)>;
+  /// `openNode` opens LAZ files: readers do not know each other.
+  explicit EPTFormat(Opener openNode, SurveyOptions survey = {})
+    : openNode_(std::move(openNode))
+    , survey_(std::move(survey))
+  {
+  }
+  std::string name() const override { return "EPT"; }
+  std::vector<std::string> extensions() const override { return {}; }
+  /// By the name "ept.json".
+  bool accepts(const std::string& path) const override;
+  Result<std::unique_ptr<PointSource>> open(const std::string& path) const override;
+
+private:
+  Opener openNode_;
+  SurveyOptions survey_;
+};
+
+} // namespace pointfront

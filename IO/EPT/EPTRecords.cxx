@@ -1,0 +1,132 @@
+#include "EPTRecords.h"
+
+#include "pointfront/Base/MemoryMap.h"
+#include "pointfront/Table/RecordNumbers.h"
+
+#include <cstring>
+#include <filesystem>
+#include <utility>
+#include <zstd.h>
+
+namespace pointfront
+{
+
+Result<std::vector<std::byte>> eptRecords(
+  std::string_view file, EPTEncoding encoding, std::size_t expected, const std::string& path)
+{
+  std::vector<std::byte> records(expected);
+  if (encoding == EPTEncoding::Binary)
+  {
+    if (file.size() != expected)
+    {
+      return makeError(Error::Kind::Truncated, path + ": has " + std::to_string(file.size()) +
+          " bytes, its points " + std::to_string(expected) + "; get a whole copy");
+    }
+    std::memcpy(records.data(), file.data(), expected);
+    return records;
+  }
+  const std::size_t size =
+    ::ZSTD_decompress(records.data(), records.size(), file.data(), file.size());
+  if (::ZSTD_isError(size) != 0)
+  {
+    return makeError(Error::Kind::BadFormat,
+      path + ": damaged zstandard data: " + ::ZSTD_getErrorName(size));
+  }
+  if (size != expected)
+  {
+    return makeError(Error::Kind::Truncated, path + ": unpacks to " + std::to_string(size) +
+        " bytes, its points have " + std::to_string(expected) + "; get a whole copy");
+  }
+  return records;
+}
+
+std::string EPTRecords::fileOf(const EPTNode& node) const
+{
+  return folder_ + "/ept-data/" + node.key +
+    (tree_.encoding == EPTEncoding::Binary ? ".bin" : ".zst");
+}
+
+/// Before hours of reading.
+Result<void> EPTRecords::checkFiles() const
+{
+  for (const EPTNode& node : nodes_)
+  {
+    const std::string file = fileOf(node);
+    std::error_code failure;
+    const std::uintmax_t bytes = std::filesystem::file_size(file, failure);
+    if (failure)
+    {
+      return makeError(
+        Error::Kind::NotFound, file + ": cannot be read, but the hierarchy has it");
+    }
+    const std::uintmax_t expected = std::uintmax_t(node.points) * tree_.recordBytes();
+    if (tree_.encoding == EPTEncoding::Binary && bytes != expected)
+    {
+      return makeError(Error::Kind::Truncated, file + ": has " + std::to_string(bytes) +
+          " bytes, its " + std::to_string(node.points) + " points " + std::to_string(expected) +
+          "; get a whole copy");
+    }
+  }
+  return {};
+}
+
+Result<std::unique_ptr<PointTable>> EPTRecords::open(const std::string& path,
+  const std::string& folder, const EPTDescription& tree, std::vector<EPTNode> nodes)
+{
+  std::unique_ptr<EPTRecords> table(new EPTRecords);
+  table->path_ = path;
+  table->folder_ = folder;
+  table->tree_ = tree;
+  table->nodes_ = std::move(nodes);
+  table->format_ = tree.encoding == EPTEncoding::Binary ? "EPT binary" : "EPT zstandard";
+  for (const EPTDimension& dimension : tree.dimensions)
+  {
+    const bool world = dimension.scale != 1.0 || dimension.offset != 0.0;
+    table->fields_.push_back({ dimension.name, world ? ScalarType::Float64 : dimension.type });
+  }
+  if (Result<void> there = table->checkFiles(); !there)
+  {
+    return there.error();
+  }
+  return std::unique_ptr<PointTable>(std::move(table));
+}
+
+Result<void> EPTRecords::read(
+  std::uint64_t chunk, const std::vector<bool>& wanted, TableBlock& block) const
+{
+  const EPTNode& node = nodes_[static_cast<std::size_t>(chunk)];
+  const std::string path = fileOf(node);
+  const Result<MemoryMap> map = MemoryMap::open(path);
+  if (!map)
+  {
+    return map.error();
+  }
+  const std::string_view bytes(reinterpret_cast<const char*>(map->data()), map->size());
+  const std::size_t stride = tree_.recordBytes();
+  const Result<std::vector<std::byte>> records =
+    eptRecords(bytes, tree_.encoding, node.points * stride, path);
+  if (!records)
+  {
+    return records.error();
+  }
+  block.resize(node.points, wanted);
+  const std::byte* first = records->data();
+  for (std::size_t d = 0; d < tree_.dimensions.size(); ++d)
+  {
+    const EPTDimension& dimension = tree_.dimensions[d];
+    if (wanted[d])
+    {
+      std::vector<double>& column = block.columns[d];
+      gatherNumbers({ first, stride, dimension.type, !machineIsLittleEndian() }, column.size(),
+        column.data());
+      for (double& value : column)
+      {
+        value = dimension.offset + dimension.scale * value;
+      }
+    }
+    first += sizeOf(dimension.type);
+  }
+  return {};
+}
+
+} // namespace pointfront

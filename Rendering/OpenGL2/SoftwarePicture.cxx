@@ -1,0 +1,122 @@
+#include "SoftwarePicture.h"
+
+#include "vtkOpenGLPointFrontPicture.h"
+
+#include <vtk_glew.h>
+
+#include <vtkOpenGLRenderWindow.h>
+#include <vtkOpenGLState.h>
+#include <vtkTextureObject.h>
+
+#include <algorithm>
+#include <unordered_map>
+
+namespace pointfront
+{
+namespace
+{
+
+void load(vtkOpenGLRenderWindow* window, vtkTextureObject* texture, const SoftwareTarget& target,
+  int components, int type, const void* data)
+{
+  texture->SetContext(window);
+  texture->SetMinificationFilter(vtkTextureObject::Nearest);
+  texture->SetMagnificationFilter(vtkTextureObject::Nearest);
+  texture->Create2DFromRaw(static_cast<unsigned int>(target.width),
+    static_cast<unsigned int>(target.height), components, type, const_cast<void*>(data));
+}
+
+} // namespace
+
+SoftwarePicture::SoftwarePicture() = default;
+SoftwarePicture::~SoftwarePicture() = default;
+
+void SoftwarePicture::draw(
+  vtkOpenGLRenderWindow* window, vtkRenderer* renderer, FramePlan& plan, bool ids)
+{
+  int viewport[4];
+  window->GetState()->vtkglGetIntegerv(GL_VIEWPORT, viewport);
+  originPx_[0] = viewport[0];
+  originPx_[1] = viewport[1];
+  plan.camera.width = std::max(1, viewport[2]);
+  plan.camera.height = std::max(1, viewport[3]);
+  Picture& picture = pictures_[renderer];
+  picture.target.keepPoints = ids;
+  picture.target.reset(plan.camera.width, plan.camera.height);
+  picture.rasteriser.draw(plan, picture.target);
+  shade(plan.camera, plan.shading, picture.target);
+  last_ = &picture.target;
+  ids_.clear();
+  if (ids)
+  {
+    numberPoints(plan);
+  }
+}
+
+/// Ranks in the store: the same ids as points have that GL draws.
+void SoftwarePicture::numberPoints(const FramePlan& plan)
+{
+  std::unordered_map<NodeIndex, std::uint64_t> firstPoints;
+  for (const DrawBatch& batch : plan.batches)
+  {
+    for (const PlanItem& item : batch.items)
+    {
+      firstPoints[item.node->node] = item.node->firstPoint;
+    }
+  }
+  ids_.reserve(2 * last_->points.size());
+  for (const PixelPoint& point : last_->points)
+  {
+    const auto first = firstPoints.find(point.node);
+    const bool known = point.store != PixelPoint::nothing && first != firstPoints.end();
+    const std::uint64_t id = known ? first->second + point.index : 0;
+    ids_.push_back(static_cast<float>(id & 0xffffffu));
+    ids_.push_back(static_cast<float>(id >> 24 & 0xffffffu));
+  }
+}
+
+void SoftwarePicture::handOver(vtkOpenGLRenderWindow* window, vtkRenderer* renderer,
+  vtkActor* actor, const FramePlan& plan, std::int64_t storePoints)
+{
+  load(window, colour_, *last_, 4, VTK_UNSIGNED_CHAR, last_->rgba.data());
+  load(window, depth_, *last_, 1, VTK_FLOAT, last_->depth.data());
+  if (!ids_.empty())
+  {
+    load(window, idTexture_, *last_, 2, VTK_FLOAT, ids_.data());
+  }
+  if (!mapper_)
+  {
+    mapper_ = vtkSmartPointer<vtkOpenGLPointFrontPicture>::New();
+  }
+  PictureDrawing drawing;
+  drawing.colour = colour_;
+  drawing.depth = depth_;
+  drawing.ids = ids_.empty() ? nullptr : idTexture_.GetPointer();
+  drawing.camera = &plan.camera;
+  std::copy(originPx_, originPx_ + 2, drawing.originPx);
+  drawing.storePoints = storePoints;
+  mapper_->Draw(renderer, actor, drawing);
+}
+
+void SoftwarePicture::leaveScreen()
+{
+  pictures_.clear();
+  last_ = nullptr;
+}
+
+void SoftwarePicture::release(vtkOpenGLRenderWindow* window)
+{
+  for (vtkTextureObject* texture :
+    {colour_.GetPointer(), depth_.GetPointer(), idTexture_.GetPointer()})
+  {
+    texture->ReleaseGraphicsResources(window);
+  }
+  if (mapper_)
+  {
+    mapper_->ReleaseGraphicsResources(window);
+  }
+  mapper_ = nullptr;
+  leaveScreen();
+}
+
+} // namespace pointfront

@@ -1,0 +1,61 @@
+#pragma once
+
+#include "SoftwareRasteriser.h"
+
+#include "pointfront/Plan/FramePlan.h"
+
+#include <vtkNew.h>
+#include <vtkSmartPointer.h>
+
+#include <cstdint>
+#include <map>
+#include <vector>
+
+class vtkActor;
+class vtkOpenGLPointFrontPicture;
+class vtkOpenGLRenderWindow;
+class vtkRenderer;
+class vtkTextureObject;
+
+namespace pointfront
+{
+
+/// Plans drawn by threads of this process, and handed over to a window's framebuffer.
+/// Viewport  the one that GL has at that moment: that of a tile, of a part of the window, or of a
+///           pass's own framebuffer; the plan's camera gets its size.
+/// Threads   that of the GL context, current in handOver() and release().
+class SoftwarePicture
+{
+public:
+  SoftwarePicture();
+  ~SoftwarePicture();
+
+  /// With threads. `ids`: for a selection, who is in each pixel.
+  void draw(vtkOpenGLRenderWindow* window, vtkRenderer* renderer, FramePlan& plan, bool ids);
+  /// What was drawn last, as if it were geometry of the actor.
+  void handOver(vtkOpenGLRenderWindow* window, vtkRenderer* renderer, vtkActor* actor,
+    const FramePlan& plan, std::int64_t storePoints);
+  void release(vtkOpenGLRenderWindow* window);
+  /// Nothing is shown of it: memory of pictures goes.
+  void leaveScreen();
+
+private:
+  struct Picture
+  {
+    SoftwareRasteriser rasteriser; ///< goes on from its last picture
+    SoftwareTarget target;
+  };
+
+  void numberPoints(const FramePlan& plan);
+
+  std::map<vtkRenderer*, Picture> pictures_;
+  const SoftwareTarget* last_ = nullptr;
+  int originPx_[2] = {0, 0};
+  std::vector<float> ids_; ///< 2 a pixel: low and high 24 bits
+  vtkNew<vtkTextureObject> colour_;
+  vtkNew<vtkTextureObject> depth_;
+  vtkNew<vtkTextureObject> idTexture_;
+  vtkSmartPointer<vtkOpenGLPointFrontPicture> mapper_;
+};
+
+} // namespace pointfront

@@ -1,0 +1,151 @@
+#include "vtkOpenGLPointFrontPicture.h"
+
+#include "SelectionIds.h"
+
+#include "pointfront/Plan/FrameCamera.h"
+
+#include "PictureFSGLSL.h"
+#include "PictureVSGLSL.h"
+
+#include <vtk_glew.h>
+
+#include <vtkActor.h>
+#include <vtkHardwareSelector.h>
+#include <vtkMatrix4x4.h>
+#include <vtkObjectFactory.h>
+#include <vtkOpenGLError.h>
+#include <vtkOpenGLVertexArrayObject.h>
+#include <vtkPolyData.h>
+#include <vtkRenderer.h>
+#include <vtkShaderProgram.h>
+#include <vtkTextureObject.h>
+
+#include <algorithm>
+#include <string>
+
+vtkStandardNewMacro(vtkOpenGLPointFrontPicture);
+
+vtkOpenGLPointFrontPicture::vtkOpenGLPointFrontPicture()
+{
+  this->SetPopulateSelectionSettings(1);
+  this->SetInputData(this->NoInput);
+}
+
+vtkOpenGLPointFrontPicture::~vtkOpenGLPointFrontPicture() = default;
+
+void vtkOpenGLPointFrontPicture::Draw(
+  vtkRenderer* renderer, vtkActor* actor, const pointfront::PictureDrawing& drawing)
+{
+  this->Drawing = &drawing;
+  // Without points in its input the superclass only registers its resources with the window.
+  this->Superclass::RenderPiece(renderer, actor);
+  this->RenderPieceStart(renderer, actor);
+  this->RenderPieceDraw(renderer, actor);
+  this->RenderPieceFinish(renderer, actor);
+  this->Drawing = nullptr;
+}
+
+bool vtkOpenGLPointFrontPicture::IsDrawingIds() const
+{
+  return pointfront::drawsIds(this->LastSelectionState);
+}
+
+void vtkOpenGLPointFrontPicture::GetShaderTemplate(
+  std::map<vtkShader::Type, vtkShader*> shaders, vtkRenderer*, vtkActor*)
+{
+  std::string source = PictureFSGLSL;
+  vtkShaderProgram::Substitute(source, "//POINTFRONT::Define::Dec",
+    std::string("#define POINTFRONT_PICKING ") + (this->IsDrawingIds() ? "1\n" : "0\n"));
+  shaders[vtkShader::Vertex]->SetSource(PictureVSGLSL);
+  shaders[vtkShader::Fragment]->SetSource(source);
+  shaders[vtkShader::Geometry]->SetSource("");
+}
+
+/// Points have no normals to be lit by, or were lit where they were drawn.
+void vtkOpenGLPointFrontPicture::ReplaceShaderLight(
+  std::map<vtkShader::Type, vtkShader*> shaders, vtkRenderer*, vtkActor*)
+{
+  std::string source = shaders[vtkShader::Fragment]->GetSource();
+  vtkShaderProgram::Substitute(
+    source, "//VTK::Light::Impl", "gl_FragData[0] = vec4(colour, opacity);\n");
+  shaders[vtkShader::Fragment]->SetSource(source);
+}
+
+void vtkOpenGLPointFrontPicture::ReplaceShaderPicking(
+  std::map<vtkShader::Type, vtkShader*> shaders, vtkRenderer* ren, vtkActor* act)
+{
+  if (!this->IsDrawingIds())
+  {
+    this->Superclass::ReplaceShaderPicking(shaders, ren, act);
+    return;
+  }
+  pointfront::replacePicking(
+    shaders, this->LastSelectionState, "ivec2(texelFetch(pictureIds, texel, 0).xy)");
+}
+
+void vtkOpenGLPointFrontPicture::SetMapperShaderParameters(
+  vtkOpenGLHelper& cellBO, vtkRenderer* ren, vtkActor* act)
+{
+  this->Superclass::SetMapperShaderParameters(cellBO, ren, act);
+  cellBO.AttributeUpdateTime.Modified();
+  const pointfront::PictureDrawing& drawing = *this->Drawing;
+  vtkShaderProgram* program = cellBO.Program;
+  program->SetUniformi("pictureColour", drawing.colour->GetTextureUnit());
+  program->SetUniformi("pictureDepth", drawing.depth->GetTextureUnit());
+  if (drawing.ids && program->IsUniformUsed("pictureIds"))
+  {
+    program->SetUniformi("pictureIds", drawing.ids->GetTextureUnit());
+  }
+  program->SetUniform2i("pictureOrigin", drawing.originPx);
+  const float size[2] = {
+    static_cast<float>(drawing.camera->width), static_cast<float>(drawing.camera->height)};
+  program->SetUniform2f("pictureSize", size);
+  vtkNew<vtkMatrix4x4> viewToClip; // stored as GL wants it: columns
+  for (int column = 0; column < 4; ++column)
+  {
+    for (int row = 0; row < 4; ++row)
+    {
+      viewToClip->SetElement(column, row, drawing.camera->viewToClip[column][row]);
+    }
+  }
+  program->SetUniformMatrix("pictureViewToClip", viewToClip);
+}
+
+void vtkOpenGLPointFrontPicture::UpdateMaximumPointCellIds(vtkRenderer* ren, vtkActor*)
+{
+  vtkHardwareSelector* selector = ren->GetSelector();
+  const vtkIdType last = std::max<vtkIdType>(0, this->Drawing->storePoints - 1);
+  selector->UpdateMaximumPointId(last);
+  selector->UpdateMaximumCellId(last);
+}
+
+void vtkOpenGLPointFrontPicture::RenderPieceDraw(vtkRenderer* ren, vtkActor* act)
+{
+  this->DrawingVertices = false;
+  this->DrawingSelection = false;
+  vtkTextureObject* const textures[] = {
+    this->Drawing->colour, this->Drawing->depth, this->Drawing->ids};
+  for (vtkTextureObject* texture : textures)
+  {
+    if (texture)
+    {
+      texture->Activate();
+    }
+  }
+  vtkOpenGLHelper& triangle = this->Primitives[PrimitiveTris];
+  triangle.PrimitiveType = PrimitiveTris;
+  this->UpdateShaders(triangle, ren, act);
+  if (triangle.Program)
+  {
+    triangle.VAO->Bind();
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    vtkOpenGLCheckErrorMacro("failed after drawing a picture");
+  }
+  for (vtkTextureObject* texture : textures)
+  {
+    if (texture)
+    {
+      texture->Deactivate();
+    }
+  }
+}

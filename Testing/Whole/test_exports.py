@@ -1,0 +1,133 @@
+"""What is exported comes back as it was and as its readers expect it; messages say what is so."""
+
+import datetime
+import struct
+import unittest
+
+from test_left_out import las_steps
+from tool import DATA, ToolTest, pointfront, write_las
+
+SMALL = DATA / "las/real/1.2-with-color.las"
+POINTS = 1065
+KINDS = ("las", "laz", "xyz", "csv", "ply", "pcd")
+
+
+class Exports(ToolTest):
+    def export(self, store, name, *options):
+        out = self.folder / name
+        return out, self.succeed("export", store, "-o", out, "--force", *options)
+
+    def test_every_pair_of_formats_keeps_the_integers(self):
+        expected = las_steps(SMALL)
+        first = self.build(SMALL)
+        for one in KINDS:
+            middle, _ = self.export(first, f"one.{one}")
+            self.succeed("build", middle, "-o", self.folder / "two.pfront", "--force")
+            for other in KINDS:
+                last, _ = self.export(self.folder / "two.pfront", f"two.{other}")
+                self.succeed("build", last, "-o", self.folder / "three.pfront", "--force")
+                back, _ = self.export(self.folder / "three.pfront", "back.las")
+                scale = struct.unpack_from("<3d", back.read_bytes(), 131)
+                offset = struct.unpack_from("<3d", back.read_bytes(), 155)
+                got = sorted(tuple(round((p[a] * scale[a] + offset[a]) * 100) for a in range(3))
+                             for p in las_steps(back))
+                self.assertEqual(got, expected, (one, other))
+
+    def test_pcd_is_what_pcl_reads(self):
+        store = self.build(SMALL)
+        out, outcome = self.export(store, "x.pcd")
+        header = out.read_bytes()[:600].decode("ascii", "replace")
+        self.assertIn("FIELDS x y z intensity", header)
+        self.assertIn("\nSIZE 4 4 4 4", header)
+        self.assertIn("\nTYPE F F F F", header)
+        origin = header.split("# ORIGIN ")[1].split("\n")[0]
+        self.assertIn(origin, outcome.err)
+        out, outcome = self.export(store, "x.pcd", "--double")
+        self.assertIn("SIZE 8 8 8", out.read_bytes()[:600].decode("ascii", "replace"))
+        self.assertEqual(outcome.err, "")
+
+    def test_names_dates_and_nothing(self):
+        store = self.build(SMALL, name="a.pfront")
+        self.succeed("build", SMALL, "-o", self.folder / "n.pfront", "--normals", "pca")
+        for kind, separator in (("xyz", " "), ("csv", ",")):
+            out, _ = self.export(self.folder / "n.pfront", f"n.{kind}")
+            self.assertIn(separator.join(("nx", "ny", "nz")), out.read_text().splitlines()[0])
+        out, _ = self.export(self.folder / "n.pfront", "n.ply")
+        self.assertIn(b" nx\n", out.read_bytes()[:2000])
+        out, _ = self.export(store, "x.las")
+        day, year = struct.unpack_from("<2H", out.read_bytes(), 90)
+        written = datetime.date(year, 1, 1) + datetime.timedelta(day - 1)
+        today = datetime.datetime.now(datetime.timezone.utc).date()
+        self.assertLess(abs((today - written).days), 2)
+        out, outcome = self.export(store, "none.las", "--box", "0,0,0,1,1,1")
+        self.assertIn("no point", outcome.err)
+        self.assertIn("0 points", outcome.out)
+
+    def test_coordinates_are_transformed(self):
+        las = write_las(self.folder / "a.las", [(500000.0, 5600000.0, 100.0, 0, 0, 0),
+                                                (500010.0, 5600010.0, 110.0, 0, 0, 0)])
+        store = self.folder / "a.pfront"
+        self.succeed("build", las, "-o", store, "--assume-crs", "EPSG:25832")
+        out, _ = self.export(store, "wgs.csv", "--crs", "EPSG:4326")
+        rows = sorted(tuple(map(float, line.split(",")[:3]))
+                      for line in out.read_text().splitlines()[1:])
+        self.assertAlmostEqual(rows[0][0], 9.0, places=6)  # the middle of zone 32
+        self.assertAlmostEqual(rows[0][1], 50.55, delta=0.05)
+        self.assertEqual(rows[0][2], 100.0)
+        bare = self.build(las, name="bare.pfront")
+        self.assertIn("--assume-crs", self.refuse(
+            1, "export", bare, "-o", self.folder / "b.las", "--crs", "EPSG:4326").err)
+        self.refuse(1, "export", store, "-o", self.folder / "b.las", "--crs", "EPSG:nothing")
+
+
+class Messages(ToolTest):
+    def usage(self, *arguments):
+        return self.refuse(2, *arguments).err
+
+    def test_mistyped_words_are_answered_with_what_was_meant(self):
+        out = ("-o", self.folder / "x.pfront")
+        self.assertIn("--structure", self.usage("build", SMALL, *out, "--structur", "octree"))
+        self.assertIn("--threads", self.usage("build", SMALL, *out, "--treads", "2"))
+        outcome = pointfront("biuld", SMALL)
+        self.assertEqual(outcome.status, 2)
+        self.assertIn("'build'", outcome.err)
+
+    def test_numbers_out_of_range_are_short(self):
+        out = ("-o", self.folder / "x.pfront")
+        for option, value in (("--memory", "99999999999999G"), ("--memory", "0"),
+                              ("--memory", "1e300"), ("--precision", "1e300"),
+                              ("--precision", "1e309"),
+                              ("--precision", "nan"), ("--skip", "-1"), ("--skip", "1e3"),
+                              ("--local-height-radius", "1e300")):
+            outcome = pointfront("build", SMALL, *out, "--local-height", option, value)
+            self.assertIn(outcome.status, (1, 2))
+            last = outcome.err.splitlines()[-1]
+            self.assertLess(len(last), 300, last)
+            self.assertNotIn("is not a size", last)
+            self.assertFalse((self.folder / "x.pfront").exists())
+
+    def test_files_that_are_nothing(self):
+        for name in ("x.las", "x.laz", "x.ply", "x.pcd", "x.xyz"):
+            path = self.folder / name
+            path.touch()
+            self.assertIn("empty", self.refuse(
+                1, "build", path, "-o", self.folder / "x.pfront").err)
+        self.assertIn("empty", self.refuse(1, "index", self.folder / "x.las").err)
+
+    def test_options_with_many_names_leave_the_inputs_alone(self):
+        ortho = DATA / "ortho/autzen/autzen.jpg"
+        outcome = self.succeed("build", "-o", self.folder / "x.pfront", "--color-from", ortho,
+                               DATA / "las/real/autzen_trim.las")
+        self.assertIn("110000 points", outcome.out)
+        self.refuse(2, "build", "-o", self.folder / "y.pfront", "--color-from", ortho)
+
+    def test_a_scanned_turtle_is_not_on_the_globe(self):
+        path = self.folder / "turtle.xyz"
+        path.write_text("".join(f"{10 + i * 1e-6:.6f} {20 + i % 997 * 3e-3:.6f} {i % 13:.6f}\n"
+                                for i in range(3000)))
+        outcome = self.succeed("build", path, "-o", self.folder / "x.pfront")
+        self.assertNotIn("longitude", outcome.err)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

@@ -1,0 +1,130 @@
+#include "pointfront/Style/StyleSheet.h"
+#include "vtkPointFrontStyle.h"
+
+#include <vtkCallbackCommand.h>
+#include <vtkCommand.h>
+#include <vtkNew.h>
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+#include <string>
+
+using namespace pointfront;
+
+namespace
+{
+
+/// Counts what a style tells its observers, and keeps the last error.
+struct Observed
+{
+  Observed()
+  {
+    this->Callback->SetClientData(this);
+    this->Callback->SetCallback(
+      [](vtkObject*, unsigned long event, void* client, void* data)
+      {
+        auto* const self = static_cast<Observed*>(client);
+        self->Changes += event == vtkCommand::ModifiedEvent ? 1 : 0;
+        if (event == vtkCommand::ErrorEvent)
+        {
+          self->Error = static_cast<const char*>(data);
+        }
+      });
+    this->Style->AddObserver(vtkCommand::ModifiedEvent, this->Callback);
+    this->Style->AddObserver(vtkCommand::ErrorEvent, this->Callback);
+  }
+
+  vtkNew<vtkPointFrontStyle> Style;
+  vtkNew<vtkCallbackCommand> Callback;
+  int Changes = 0;
+  std::string Error;
+};
+
+} // namespace
+
+TEST(Style, ChangesAreToldOnceAndOnlyWhereSomethingChanges)
+{
+  Observed o;
+  const auto before = o.Style->GetSharedStyleSheet();
+  EXPECT_TRUE(o.Style->SetTechnique("splats"));
+  EXPECT_EQ(o.Changes, 1);
+  EXPECT_NE(o.Style->GetSharedStyleSheet(), before);
+  EXPECT_FALSE(before->standard.technique) << "who keeps a sheet sees it unchanged";
+  const auto after = o.Style->GetSharedStyleSheet();
+  EXPECT_TRUE(o.Style->SetTechnique("splats"));
+  EXPECT_EQ(o.Changes, 1);
+  EXPECT_EQ(o.Style->GetSharedStyleSheet(), after);
+}
+
+TEST(Style, ClassesInheritWhatTheyDoNotSay)
+{
+  vtkNew<vtkPointFrontStyle> style;
+  EXPECT_EQ(style->GetTechnique(), "points");
+  EXPECT_EQ(style->GetColor(), "\"auto\"");
+  style->SetTechnique("spheres");
+  style->SetTechnique("ewa", 6);
+  style->SetColor("intensity");
+  style->SetColor(R"({"attribute": "local_height", "map": "viridis", "range": [0, 20]})", 5);
+  style->SetOpacity(0.5);
+  style->SetVisibility(false, 9);
+  style->SetFilter("\"my value\" < 5");
+  style->SetFilter("z < 50", 6);
+  style->SetSizePixels(3.0, 6);
+  EXPECT_EQ(style->GetTechnique(5), "spheres");
+  EXPECT_EQ(style->GetTechnique(6), "ewa");
+  EXPECT_EQ(style->GetColor(6), "\"intensity\"");
+  EXPECT_EQ(
+    style->GetColor(5), R"({"attribute":"local_height","map":"viridis","range":[0.0,20.0]})");
+  EXPECT_EQ(style->GetOpacity(6), 0.5);
+  EXPECT_TRUE(style->GetVisibility());
+  EXPECT_FALSE(style->GetVisibility(9));
+  EXPECT_EQ(style->GetFilter(6), "z < 50");
+  EXPECT_EQ(style->GetSize(6), R"({"mode":"fixed","px":3.0})");
+  style->ResetClass(6);
+  EXPECT_EQ(style->GetTechnique(6), "spheres");
+  style->Reset();
+  EXPECT_EQ(style->SaveJSON(), "{}");
+}
+
+TEST(Style, WhatIsWrongIsAnErrorAndChangesNothing)
+{
+  Observed o;
+  EXPECT_FALSE(o.Style->SetTechnique("dots"));
+  EXPECT_NE(o.Error.find("'dots' is unknown: use points"), std::string::npos) << o.Error;
+  EXPECT_FALSE(o.Style->SetTechnique("solid", 6));
+  EXPECT_NE(o.Error.find("class 6"), std::string::npos) << o.Error;
+  EXPECT_NE(o.Error.find("not available"), std::string::npos) << o.Error;
+  EXPECT_FALSE(o.Style->SetColor("#12"));
+  EXPECT_FALSE(o.Style->SetColor("{\"attribute\": 3}"));
+  EXPECT_FALSE(o.Style->SetColor("{\"attribute\": \"a\"}, \"opacity\": 0"));
+  EXPECT_FALSE(o.Style->SetOpacity(1.5));
+  EXPECT_FALSE(o.Style->SetSizeWorld(-1.0));
+  EXPECT_FALSE(o.Style->SetVisibility(false, 256));
+  EXPECT_FALSE(o.Style->SetFilter("z = 3"));
+  EXPECT_NE(o.Error.find("character 3"), std::string::npos) << o.Error;
+  EXPECT_FALSE(o.Style->SetCommonFilter("z <"));
+  EXPECT_FALSE(o.Style->SetEyeDomeStrength(-1.0));
+  EXPECT_FALSE(o.Style->LoadJSON(R"({"classes": {"6": {"size": {"mode": "big"}}}})"));
+  EXPECT_NE(o.Error.find("classes.6.size.mode"), std::string::npos) << o.Error;
+  EXPECT_EQ(o.Changes, 0);
+  EXPECT_EQ(o.Style->GetStyleSheet(), StyleSheet());
+}
+
+TEST(Style, TextGoesInAndComesOut)
+{
+  Observed o;
+  ASSERT_TRUE(o.Style->LoadJSON(
+    R"({"default": {"technique": "splats"}, "classes": {"9": {"visible": false}},
+        "where": "z < 3", "shading": {"mode": ["lit", "edl"], "strength": 0.7}})"));
+  EXPECT_EQ(o.Changes, 1);
+  EXPECT_EQ(o.Style->GetCommonFilter(), "z < 3");
+  EXPECT_TRUE(o.Style->GetLit());
+  EXPECT_FLOAT_EQ(static_cast<float>(o.Style->GetEyeDomeStrength()), 0.7f);
+  vtkNew<vtkPointFrontStyle> other;
+  ASSERT_TRUE(other->LoadJSON(o.Style->SaveJSON()));
+  EXPECT_EQ(other->GetStyleSheet(), o.Style->GetStyleSheet());
+  std::ostringstream printed;
+  other->Print(printed);
+  EXPECT_NE(printed.str().find("\"technique\": \"splats\""), std::string::npos);
+}

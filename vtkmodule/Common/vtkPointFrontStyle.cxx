@@ -1,0 +1,351 @@
+#include "vtkPointFrontStyle.h"
+
+#include "StyleJSON.h"
+
+#include "pointfront/Style/StyleSheet.h"
+#include "pointfront/Style/TechniqueNames.h"
+
+#include <vtkIndent.h>
+#include <vtkObjectFactory.h>
+
+#include <sstream>
+
+vtkStandardNewMacro(vtkPointFrontStyle);
+
+namespace
+{
+
+std::string placeOf(int objectClass)
+{
+  return objectClass == vtkPointFrontStyle::DEFAULT_CLASS
+    ? "default"
+    : "class " + std::to_string(objectClass);
+}
+
+/// A text as JSON has it.
+std::string quoted(const std::string& text)
+{
+  std::ostringstream out;
+  out << '"';
+  for (const char c : text)
+  {
+    const auto code = static_cast<unsigned char>(c);
+    if (c == '"' || c == '\\')
+    {
+      out << '\\' << c;
+    }
+    else if (code < 0x20)
+    {
+      constexpr const char* digits = "0123456789abcdef";
+      out << "\\u00" << digits[code / 16] << digits[code % 16];
+    }
+    else
+    {
+      out << c;
+    }
+  }
+  out << '"';
+  return out.str();
+}
+
+} // namespace
+
+vtkPointFrontStyle::vtkPointFrontStyle()
+  : Sheet(std::make_shared<const pointfront::StyleSheet>())
+{
+}
+
+vtkPointFrontStyle::~vtkPointFrontStyle() = default;
+
+bool vtkPointFrontStyle::IsClass(int objectClass)
+{
+  if (objectClass < DEFAULT_CLASS || objectClass > 255)
+  {
+    vtkErrorMacro("a class is a code from 0 to 255, not " << objectClass);
+    return false;
+  }
+  return true;
+}
+
+pointfront::LayerStyle vtkPointFrontStyle::StyleOf(int objectClass) const
+{
+  return objectClass >= 0 && objectClass <= 255
+    ? this->Sheet->styleOf(static_cast<std::uint8_t>(objectClass))
+    : this->Sheet->standard.over(pointfront::standardStyle());
+}
+
+template <typename Change>
+bool vtkPointFrontStyle::ChangeStyle(int objectClass, const Change& change)
+{
+  if (!this->IsClass(objectClass))
+  {
+    return false;
+  }
+  pointfront::StyleSheet sheet = *this->Sheet;
+  change(objectClass == DEFAULT_CLASS ? sheet.standard
+                                      : sheet.classes[static_cast<std::uint8_t>(objectClass)]);
+  return this->SetStyleSheet(sheet);
+}
+
+/// Through the reader of styles, which knows what is right and says what is wrong.
+bool vtkPointFrontStyle::ChangeByJSON(
+  int objectClass, const std::string& key, const std::string& json)
+{
+  const auto parsed =
+    pointfront::parseStyleSheet("{\"default\": {" + quoted(key) + ": " + json + "}}");
+  if (!parsed)
+  {
+    vtkErrorMacro(<< placeOf(objectClass) << ": " << parsed.error().what);
+    return false;
+  }
+  pointfront::LayerStyle others = parsed->standard;
+  (key == "color" ? others.colour.reset() : key == "where" ? others.where.reset()
+                                                           : others.technique.reset());
+  if (!others.empty())
+  {
+    vtkErrorMacro(<< placeOf(objectClass) << ": expected a value for " << key << " alone");
+    return false;
+  }
+  return this->ChangeStyle(objectClass,
+    [&parsed](pointfront::LayerStyle& style) { style = parsed->standard.over(style); });
+}
+
+bool vtkPointFrontStyle::SetTechnique(const std::string& name, int objectClass)
+{
+  return this->ChangeByJSON(objectClass, "technique", quoted(name));
+}
+
+std::string vtkPointFrontStyle::GetTechnique(int objectClass) const
+{
+  return pointfront::traitsOf(*this->StyleOf(objectClass).technique).name;
+}
+
+bool vtkPointFrontStyle::SetColor(const std::string& color, int objectClass)
+{
+  const std::size_t first = color.find_first_not_of(" \t\r\n");
+  const bool object = first != std::string::npos && color[first] == '{';
+  return this->ChangeByJSON(objectClass, "color", object ? color : quoted(color));
+}
+
+std::string vtkPointFrontStyle::GetColor(int objectClass) const
+{
+  return pointfront::writeColour(*this->StyleOf(objectClass).colour);
+}
+
+namespace
+{
+auto sizeSetter(pointfront::SplatSize::Mode mode, double value, const std::string& attribute = "")
+{
+  return [=](pointfront::LayerStyle& style)
+  { style.size = pointfront::StyleSize{ mode, value, attribute }; };
+}
+} // namespace
+
+bool vtkPointFrontStyle::SetSizePixels(double diameter, int objectClass)
+{
+  if (!(diameter > 0.0))
+  {
+    vtkErrorMacro(<< placeOf(objectClass) << ": a size is a number above 0, not " << diameter);
+    return false;
+  }
+  return this->ChangeStyle(
+    objectClass, sizeSetter(pointfront::SplatSize::Mode::Pixels, diameter));
+}
+
+bool vtkPointFrontStyle::SetSizeWorld(double diameter, int objectClass)
+{
+  if (!(diameter > 0.0))
+  {
+    vtkErrorMacro(<< placeOf(objectClass) << ": a size is a number above 0, not " << diameter);
+    return false;
+  }
+  return this->ChangeStyle(objectClass, sizeSetter(pointfront::SplatSize::Mode::World, diameter));
+}
+
+bool vtkPointFrontStyle::SetSizeSpacing(double factor, int objectClass)
+{
+  if (!(factor > 0.0))
+  {
+    vtkErrorMacro(<< placeOf(objectClass) << ": a factor is a number above 0, not " << factor);
+    return false;
+  }
+  return this->ChangeStyle(objectClass, sizeSetter(pointfront::SplatSize::Mode::Spacing, factor));
+}
+
+bool vtkPointFrontStyle::SetSizeAttribute(
+  const std::string& attribute, double factor, int objectClass)
+{
+  if (!(factor > 0.0))
+  {
+    vtkErrorMacro(<< placeOf(objectClass) << ": a factor is a number above 0, not " << factor);
+    return false;
+  }
+  return this->ChangeStyle(
+    objectClass, sizeSetter(pointfront::SplatSize::Mode::Attribute, factor, attribute));
+}
+
+std::string vtkPointFrontStyle::GetSize(int objectClass) const
+{
+  return pointfront::writeSize(*this->StyleOf(objectClass).size);
+}
+
+bool vtkPointFrontStyle::SetVisibility(bool visible, int objectClass)
+{
+  return this->ChangeStyle(
+    objectClass, [visible](pointfront::LayerStyle& style) { style.visible = visible; });
+}
+
+bool vtkPointFrontStyle::GetVisibility(int objectClass) const
+{
+  return *this->StyleOf(objectClass).visible;
+}
+
+bool vtkPointFrontStyle::SetOpacity(double opacity, int objectClass)
+{
+  if (!(opacity >= 0.0 && opacity <= 1.0))
+  {
+    vtkErrorMacro(<< placeOf(objectClass) << ": an opacity is from 0 to 1, not " << opacity);
+    return false;
+  }
+  return this->ChangeStyle(
+    objectClass, [opacity](pointfront::LayerStyle& style) { style.opacity = opacity; });
+}
+
+double vtkPointFrontStyle::GetOpacity(int objectClass) const
+{
+  return *this->StyleOf(objectClass).opacity;
+}
+
+bool vtkPointFrontStyle::SetBlended(bool blended, int objectClass)
+{
+  return this->ChangeStyle(
+    objectClass, [blended](pointfront::LayerStyle& style) { style.blended = blended; });
+}
+
+bool vtkPointFrontStyle::GetBlended(int objectClass) const
+{
+  return *this->StyleOf(objectClass).blended;
+}
+
+bool vtkPointFrontStyle::SetFilter(const std::string& where, int objectClass)
+{
+  return this->ChangeByJSON(objectClass, "where", quoted(where));
+}
+
+std::string vtkPointFrontStyle::GetFilter(int objectClass) const
+{
+  return this->StyleOf(objectClass).where->text;
+}
+
+bool vtkPointFrontStyle::SetCommonFilter(const std::string& where)
+{
+  const auto filter = pointfront::FilterExpression::parse(where);
+  if (!filter)
+  {
+    vtkErrorMacro(<< filter.error().what);
+    return false;
+  }
+  pointfront::StyleSheet sheet = *this->Sheet;
+  sheet.where = *filter;
+  return this->SetStyleSheet(sheet);
+}
+
+std::string vtkPointFrontStyle::GetCommonFilter() const
+{
+  return this->Sheet->where.text;
+}
+
+bool vtkPointFrontStyle::SetLit(bool lit)
+{
+  pointfront::StyleSheet sheet = *this->Sheet;
+  sheet.shading.lit = lit;
+  return this->SetStyleSheet(sheet);
+}
+
+bool vtkPointFrontStyle::GetLit() const
+{
+  return this->Sheet->shading.lit;
+}
+
+bool vtkPointFrontStyle::SetEyeDomeStrength(double strength)
+{
+  constexpr double most = 100.0;
+  if (!(strength >= 0.0 && strength <= most))
+  {
+    vtkErrorMacro("a strength is from 0 to " << most << ", not " << strength);
+    return false;
+  }
+  pointfront::StyleSheet sheet = *this->Sheet;
+  sheet.shading.eyeDomeStrength = static_cast<float>(strength);
+  return this->SetStyleSheet(sheet);
+}
+
+double vtkPointFrontStyle::GetEyeDomeStrength() const
+{
+  return this->Sheet->shading.eyeDomeStrength;
+}
+
+bool vtkPointFrontStyle::SetFillHoles(bool fill)
+{
+  pointfront::StyleSheet sheet = *this->Sheet;
+  sheet.shading.fillHoles = fill;
+  return this->SetStyleSheet(sheet);
+}
+
+bool vtkPointFrontStyle::GetFillHoles() const
+{
+  return this->Sheet->shading.fillHoles;
+}
+
+void vtkPointFrontStyle::ResetClass(int objectClass)
+{
+  if (objectClass == DEFAULT_CLASS || !this->IsClass(objectClass))
+  {
+    return;
+  }
+  pointfront::StyleSheet sheet = *this->Sheet;
+  sheet.classes.erase(static_cast<std::uint8_t>(objectClass));
+  this->SetStyleSheet(sheet);
+}
+
+void vtkPointFrontStyle::Reset()
+{
+  this->SetStyleSheet(pointfront::StyleSheet());
+}
+
+bool vtkPointFrontStyle::LoadJSON(const std::string& text)
+{
+  const auto sheet = pointfront::parseStyleSheet(text);
+  if (!sheet)
+  {
+    vtkErrorMacro(<< sheet.error().what);
+    return false;
+  }
+  return this->SetStyleSheet(*sheet);
+}
+
+std::string vtkPointFrontStyle::SaveJSON() const
+{
+  return pointfront::writeStyleSheet(*this->Sheet);
+}
+
+const pointfront::StyleSheet& vtkPointFrontStyle::GetStyleSheet() const
+{
+  return *this->Sheet;
+}
+
+bool vtkPointFrontStyle::SetStyleSheet(const pointfront::StyleSheet& sheet)
+{
+  if (sheet != *this->Sheet)
+  {
+    this->Sheet = std::make_shared<const pointfront::StyleSheet>(sheet);
+    this->Modified();
+  }
+  return true;
+}
+
+void vtkPointFrontStyle::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Style: " << this->SaveJSON() << "\n";
+}

@@ -1,0 +1,168 @@
+/**
+ * @class vtkPointFrontStyle
+ * @brief how a point cloud is drawn: a default, what differs for each object class, and shading
+ *
+ * What is not set for a class is as the default says; what the default does not say is usual:
+ * points that close the surface, in the colour that says most of the store. Every change calls
+ * Modified(), shows in the next frame of a mapper that draws by the style, and rebuilds no
+ * positions. One style can serve several mappers. docs/user/styles.md has the words.
+ *
+ * Setters that are given something wrong report it with vtkErrorMacro, return false and change
+ * nothing. `objectClass` is a code from 0 to 255, or DEFAULT_CLASS.
+ */
+#ifndef vtkPointFrontStyle_h
+#define vtkPointFrontStyle_h
+
+#include "pointfrontCommonModule.h" // for the export macro
+#include "vtkObject.h"
+
+#include <memory> // for the sheet
+#include <string> // for texts
+
+namespace pointfront
+{
+struct LayerStyle;
+struct StyleSheet;
+} // namespace pointfront
+
+class POINTFRONTCOMMON_EXPORT vtkPointFrontStyle : public vtkObject
+{
+public:
+  static vtkPointFrontStyle* New();
+  vtkTypeMacro(vtkPointFrontStyle, vtkObject);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /**
+   * In the place of a class: the default of all.
+   */
+  static constexpr int DEFAULT_CLASS = -1;
+
+  ///@{
+  /**
+   * "points", "splats", "spheres" or "ewa".
+   */
+  bool SetTechnique(const std::string& name, int objectClass = -1);
+  std::string GetTechnique(int objectClass = -1) const;
+  ///@}
+
+  ///@{
+  /**
+   * An attribute's name, "#rrggbb", "auto", or a colour as in JSON: {"attribute": "local_height",
+   * "map": "viridis", "range": [0, 20]}. GetColor gives JSON.
+   */
+  bool SetColor(const std::string& color, int objectClass = -1);
+  std::string GetColor(int objectClass = -1) const;
+  ///@}
+
+  ///@{
+  /**
+   * Diameter in pixels, diameter in the store's units, a factor of the radius that closes the
+   * surface, or a factor of a radius that an attribute holds. GetSize gives JSON.
+   */
+  bool SetSizePixels(double diameter, int objectClass = -1);
+  bool SetSizeWorld(double diameter, int objectClass = -1);
+  bool SetSizeSpacing(double factor, int objectClass = -1);
+  bool SetSizeAttribute(const std::string& attribute, double factor = 1.0, int objectClass = -1);
+  std::string GetSize(int objectClass = -1) const;
+  ///@}
+
+  ///@{
+  /**
+   * A class that is not visible is neither loaded nor drawn.
+   */
+  bool SetVisibility(bool visible, int objectClass = -1);
+  bool GetVisibility(int objectClass = -1) const;
+  ///@}
+
+  ///@{
+  /**
+   * From 0 to 1.
+   */
+  bool SetOpacity(double opacity, int objectClass = -1);
+  double GetOpacity(int objectClass = -1) const;
+  ///@}
+
+  ///@{
+  /**
+   * Splats are blended in two passes.
+   */
+  bool SetBlended(bool blended, int objectClass = -1);
+  bool GetBlended(int objectClass = -1) const;
+  ///@}
+
+  ///@{
+  /**
+   * Which points are drawn, of a class or of all that have none of their own: "return_number == 1
+   * and z < 50". Empty: all.
+   */
+  bool SetFilter(const std::string& where, int objectClass = -1);
+  std::string GetFilter(int objectClass = -1) const;
+  ///@}
+
+  ///@{
+  /**
+   * A condition that holds besides, whatever the class.
+   */
+  bool SetCommonFilter(const std::string& where);
+  std::string GetCommonFilter() const;
+  ///@}
+
+  ///@{
+  /**
+   * Light on points that have a normal; eye-dome lighting, 0 to turn it off, 0.4 is usual; filling
+   * of holes that points leave. Off by default.
+   */
+  bool SetLit(bool lit);
+  bool GetLit() const;
+  bool SetEyeDomeStrength(double strength);
+  double GetEyeDomeStrength() const;
+  bool SetFillHoles(bool fill);
+  bool GetFillHoles() const;
+  ///@}
+
+  ///@{
+  /**
+   * The class is drawn as the default says again; all of them are.
+   */
+  void ResetClass(int objectClass);
+  void Reset();
+  ///@}
+
+  ///@{
+  /**
+   * The whole style as text. LoadJSON replaces it, or changes nothing where the text is wrong.
+   */
+  bool LoadJSON(const std::string& text);
+  std::string SaveJSON() const;
+  ///@}
+
+#ifndef __VTK_WRAP__
+  ///@{
+  /**
+   * For mappers and C++ programs. The sheet itself never changes: another one takes its place, so
+   * who keeps it can tell by the pointer that there is something new.
+   */
+  const pointfront::StyleSheet& GetStyleSheet() const;
+  std::shared_ptr<const pointfront::StyleSheet> GetSharedStyleSheet() const { return this->Sheet; }
+  bool SetStyleSheet(const pointfront::StyleSheet& sheet);
+  ///@}
+#endif
+
+protected:
+  vtkPointFrontStyle();
+  ~vtkPointFrontStyle() override;
+
+private:
+  vtkPointFrontStyle(const vtkPointFrontStyle&) = delete;
+  void operator=(const vtkPointFrontStyle&) = delete;
+
+  template <typename Change>
+  bool ChangeStyle(int objectClass, const Change& change);
+  bool ChangeByJSON(int objectClass, const std::string& key, const std::string& json);
+  bool IsClass(int objectClass);
+  pointfront::LayerStyle StyleOf(int objectClass) const;
+
+  std::shared_ptr<const pointfront::StyleSheet> Sheet;
+};
+
+#endif

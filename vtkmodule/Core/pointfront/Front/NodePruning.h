@@ -1,0 +1,43 @@
+#pragma once
+
+#include "pointfront/Store/Hierarchy.h"
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace pointfront
+{
+
+/// Nodes that need not be read because no point of theirs would be drawn: what a filter comes to
+/// for the node table (docs/user/styles.md).
+/// Numbers  the store's, for its first nodes; of others nothing is known.
+/// Size     one byte a node.
+/// Threads  const functions from any thread.
+class NodePruning
+{
+public:
+  enum class Verdict : std::uint8_t
+  {
+    Draw,    ///< some of its points may be drawn
+    Descend, ///< none of its own, but some of those below it
+    Skip     ///< none of its own and none below it
+  };
+
+  explicit NodePruning(std::vector<Verdict> verdicts)
+    : verdicts_(std::move(verdicts))
+  {
+  }
+
+  Verdict of(NodeIndex node) const
+  {
+    return node < verdicts_.size() ? verdicts_[node] : Verdict::Draw;
+  }
+  /// For how many nodes something is known.
+  std::size_t size() const { return verdicts_.size(); }
+
+private:
+  std::vector<Verdict> verdicts_;
+};
+
+} // namespace pointfront

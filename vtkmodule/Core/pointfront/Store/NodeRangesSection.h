@@ -1,0 +1,72 @@
+#pragma once
+
+#include "pointfront/Base/Result.h"
+#include "pointfront/Store/InputFile.h"
+#include "pointfront/Store/NodeRanges.h"
+#include "pointfront/Store/StoreFormat.h"
+#include "pointfront/Store/StoreWriter.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace pointfront
+{
+
+/// Collects the ranges of payloads while they are written, and makes the section of them.
+/// Memory   8 bytes a node and component, 16 for those of more than 16 bits that are not float32.
+/// Threads  one.
+class NodeRangesWriter
+{
+public:
+  explicit NodeRangesWriter(const AttributeSchema& schema);
+
+  /// Of the next payload.
+  void add(const EncodedNode& node);
+  /// The section of a sound table; payloads[i] belongs to nodes[i].
+  std::vector<std::byte> encode(
+    const std::vector<Node>& nodes, const std::vector<std::uint32_t>& payloads) const;
+
+private:
+  /// Low and high of each payload in turn; floats where they hold every value of the type.
+  struct Values
+  {
+    bool narrow = false;
+    std::vector<float> floats;
+    std::vector<double> doubles;
+
+    void add(const ValueRange& range);
+    ValueRange at(std::uint32_t payload) const;
+  };
+  std::vector<Values> components_;
+};
+
+/// The section in a file: nothing of it is read before somebody asks.
+/// Threads  const functions from any thread; they wait for the disk.
+class NodeRangesFile
+{
+public:
+  NodeRangesFile(std::shared_ptr<const InputFile> file, const SectionEntry& section,
+    NodeIndex nodes, std::uint32_t components)
+    : file_(std::move(file))
+    , section_(section)
+    , nodes_(nodes)
+    , components_(components)
+  {
+  }
+
+  /// Of the first `most` nodes, or of all. Errors: Unreadable, Corrupt.
+  Result<std::shared_ptr<const NodeRanges>> read(std::uint32_t component, NodeIndex most) const;
+
+private:
+  struct Part;
+  Result<Part> find(std::uint32_t component) const;
+
+  std::shared_ptr<const InputFile> file_;
+  SectionEntry section_;
+  NodeIndex nodes_;
+  std::uint32_t components_;
+};
+
+} // namespace pointfront

@@ -2,6 +2,7 @@
 
 #include "MapperProperties.h"
 #include "pointfront/Style/ClassHeights.h"
+#include "pointfront/Style/FilterPruning.h"
 
 #include <vtkActor.h>
 #include <vtkDoubleArray.h>
@@ -135,13 +136,21 @@ std::optional<std::vector<LayerStyling>> MapperStyle::resolve(
   }
   auto resolved = sheet.resolveAll(store->description(), surroundings);
   layers_.reset();
-  if (resolved)
+  pruning_.clear();
+  if (!resolved)
   {
-    layers_ = std::move(resolved).value();
+    error_ = resolved.error().what;
+    return layers_;
+  }
+  layers_ = std::move(resolved).value();
+  auto pruning = pruningOf(*store, *layers_);
+  if (pruning)
+  {
+    pruning_ = std::move(pruning).value();
   }
   else
   {
-    error_ = resolved.error().what;
+    error_ = pruning.error().what; // all nodes are drawn, and each point is judged
   }
   return layers_;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "pointfront/Front/NodePruning.h"
 #include "pointfront/Style/ResolvedStyle.h"
 #include "pointfront/Style/StyleSheet.h"
 
@@ -40,6 +41,8 @@ public:
   /// not have what it asks for.
   std::optional<std::vector<LayerStyling>> resolve(
     const StyleSheet& sheet, const std::shared_ptr<const StoredCloud>& store);
+  /// For each layer the nodes that its filters leave out (FilterPruning.h), of what was resolved.
+  const std::vector<std::shared_ptr<const NodePruning>>& pruning() const { return pruning_; }
   /// Why a sheet could not be resolved, once for a sheet and a store; empty: nothing.
   std::string takeError() { return std::exchange(error_, {}); }
 
@@ -58,6 +61,7 @@ private:
   std::optional<StyleSheet> sheet_; ///< that layers_ are of
   std::shared_ptr<const StoredCloud> sheetStore_;
   std::optional<std::vector<LayerStyling>> layers_;
+  std::vector<std::shared_ptr<const NodePruning>> pruning_; ///< of layers_
   std::string error_;
   std::shared_ptr<const ColourMap> map_;
   PointColouring mapColouring_; ///< that map_ is for

@@ -9,6 +9,7 @@
 #include "pointfront/Front/DetailLevel.h"
 #include "pointfront/Plan/FramePlanner.h"
 #include "pointfront/Plan/FrameStatistics.h"
+#include "vtkPointFrontStyle.h"
 
 #include <vtkActor.h>
 #include <vtkCommand.h>
@@ -18,6 +19,7 @@
 #include <vtkRenderer.h>
 #include <vtkRenderWindow.h>
 #include <vtkScalarsToColors.h>
+#include <vtkSmartPointer.h>
 
 #include <algorithm>
 #include <chrono>
@@ -57,6 +59,7 @@ struct vtkPointFrontMapper::Content
   pointfront::ClassLimits Limits;
   pointfront::MapperStyle Style;
   std::shared_ptr<const pointfront::StyleSheet> Sheet;
+  vtkSmartPointer<vtkPointFrontStyle> VTKStyle; ///< goes before Sheet
   pointfront::FrameStatistics Statistics;
   pointfront::RenderTimer Timer;
 };
@@ -181,9 +184,30 @@ void vtkPointFrontMapper::SetStyleSheet(std::shared_ptr<const pointfront::StyleS
   }
 }
 
-const std::shared_ptr<const pointfront::StyleSheet>& vtkPointFrontMapper::GetStyleSheet() const
+std::shared_ptr<const pointfront::StyleSheet> vtkPointFrontMapper::GetStyleSheet() const
 {
-  return this->Internals->Sheet;
+  const Content& content = *this->Internals;
+  return content.VTKStyle ? content.VTKStyle->GetSharedStyleSheet() : content.Sheet;
+}
+
+void vtkPointFrontMapper::SetStyle(vtkPointFrontStyle* style)
+{
+  if (style != this->Internals->VTKStyle)
+  {
+    this->Internals->VTKStyle = style;
+    this->Modified();
+  }
+}
+
+vtkPointFrontStyle* vtkPointFrontMapper::GetStyle() const
+{
+  return this->Internals->VTKStyle;
+}
+
+vtkMTimeType vtkPointFrontMapper::GetMTime()
+{
+  vtkPointFrontStyle* const style = this->GetStyle();
+  return std::max(this->Superclass::GetMTime(), style ? style->GetMTime() : 0);
 }
 
 /// How the store's layers are drawn: by the sheet, or else by the properties.
@@ -192,9 +216,9 @@ std::vector<pointfront::LayerStyling> vtkPointFrontMapper::GetStyling(vtkActor* 
   Content& content = *this->Internals;
   const auto& store = this->GetStore()->GetStore();
   std::optional<std::vector<pointfront::LayerStyling>> layers;
-  if (content.Sheet)
+  if (const auto sheet = this->GetStyleSheet())
   {
-    layers = content.Style.resolve(*content.Sheet, store);
+    layers = content.Style.resolve(*sheet, store);
     const std::string error = content.Style.takeError();
     if (!error.empty())
     {
@@ -225,7 +249,7 @@ std::vector<pointfront::LayerStyling> vtkPointFrontMapper::GetStyling(vtkActor* 
 
 bool vtkPointFrontMapper::HasPlainPointsOnly(vtkActor* actor)
 {
-  const auto& sheet = this->Internals->Sheet;
+  const auto sheet = this->GetStyleSheet();
   if (!sheet)
   {
     return true;
@@ -249,9 +273,9 @@ pointfront::PlanRequest vtkPointFrontMapper::GetRequest(vtkRenderer* renderer, v
   pointfront::PlanRequest request;
   request.camera = pointfront::cameraOf(renderer, actor);
   request.clippingPlanes = pointfront::clippingPlanesOf(*this, actor);
-  if (this->Internals->Sheet)
+  if (const auto sheet = this->GetStyleSheet())
   {
-    request.shading = this->Internals->Sheet->shading;
+    request.shading = sheet->shading;
   }
   for (const pointfront::LayerStyling& layer : this->GetStyling(actor))
   {
@@ -273,6 +297,11 @@ pointfront::FrameDemand vtkPointFrontMapper::GetDemand(vtkRenderer* renderer, vt
     demand.columns.layers.push_back(styling[layer].columns());
     demand.layers[layer].visible = styling[layer].visible();
     demand.layers[layer].errorFactor *= styling[layer].errorFactor;
+    const auto& pruning = this->Internals->Style.pruning();
+    if (this->GetStyleSheet() && layer < pruning.size())
+    {
+      demand.layers[layer].pruning = pruning[layer];
+    }
   }
   const auto usual = [](const pointfront::LayerLimits& limits)
   { return limits == pointfront::LayerLimits(); };

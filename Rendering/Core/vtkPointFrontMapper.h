@@ -32,6 +32,7 @@
 #include <vector>  // for layers
 
 class vtkPointFrontStore;
+class vtkPointFrontStyle;
 class vtkRenderWindowInteractor;
 class vtkWindow;
 namespace pointfront
@@ -205,6 +206,16 @@ public:
   void ClearClassLimits();
   ///@}
 
+  ///@{
+  /**
+   * Draws by a style: its changes show in the next frame. PointSize and the properties of vtkMapper
+   * that choose colours do not count then. Null (default): they do.
+   */
+  void SetStyle(vtkPointFrontStyle* style);
+  vtkPointFrontStyle* GetStyle() const;
+  ///@}
+  vtkMTimeType GetMTime() override; ///< the style's too
+
 #ifndef __VTK_WRAP__
   /**
    * Draws by a style sheet: techniques, colours, sizes, visibility and filters of each object
@@ -213,7 +224,8 @@ public:
    * so and they count as well.
    */
   void SetStyleSheet(std::shared_ptr<const pointfront::StyleSheet> sheet);
-  const std::shared_ptr<const pointfront::StyleSheet>& GetStyleSheet() const;
+  /// The style's sheet where there is a style, else what was set.
+  std::shared_ptr<const pointfront::StyleSheet> GetStyleSheet() const;
 #endif
 
   /// The store being drawn: named by the input's field data. Null until the input is there or if it

@@ -4,6 +4,7 @@
 #include "Scene.h"
 
 #include "pointfront/Style/StyleSheet.h"
+#include "vtkPointFrontStyle.h"
 
 #include <vtkCallbackCommand.h>
 #include <vtkCellArray.h>
@@ -409,6 +410,24 @@ TEST(SoftwareBackend, DrawsByStyleSheets)
   EXPECT_LT(left.lit(), splats.lit() * 3 / 4);
   EXPECT_GT(left.lit(), splats.lit() / 4);
   scene.mapper->SetStyleSheet(nullptr);
+  EXPECT_EQ(differing(points, scene.draw()), 0);
+}
+
+TEST(SoftwareBackend, AStyleMayChangeBetweenTwoFrames)
+{
+  Sheet scene;
+  const Picture points = scene.with(vtkPointFrontMapper::SOFTWARE);
+  vtkNew<vtkPointFrontStyle> style;
+  scene.mapper->SetStyle(style);
+  style->SetTechnique("splats");
+  const Picture splats = scene.draw();
+  EXPECT_GT(splats.lit(), points.lit());
+  style->SetFilter("x > 1e12");
+  EXPECT_EQ(scene.draw().lit(), 0);
+  EXPECT_EQ(scene.mapper->GetLastPointsDrawn(), 0) << "their nodes are not drawn at all";
+  style->SetFilter("");
+  EXPECT_EQ(differing(splats, scene.draw()), 0);
+  scene.mapper->SetStyle(nullptr);
   EXPECT_EQ(differing(points, scene.draw()), 0);
 }
 

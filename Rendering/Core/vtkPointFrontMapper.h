@@ -207,8 +207,9 @@ public:
 
 #ifndef __VTK_WRAP__
   /**
-   * Draws by a style sheet: techniques, colours, sizes, visibility and filters of each object class,
-   * and shading. PointSize and the properties of vtkMapper that choose colours do not count then.
+   * Draws by a style sheet: techniques, colours, sizes, visibility and filters of each object
+   * class, and shading. PointSize and the properties of vtkMapper that choose colours do not count
+   * then.
    * Null (default): they do. Where the store has not what the sheet asks for, an error says so and
    * they count as well.
    */

@@ -11,8 +11,8 @@
 namespace pointfront
 {
 
-/// The styles of one layer: usually one; several for a tree of all classes, where each style's filter
-/// lets its own points through; none: the layer is hidden.
+/// The styles of one layer: usually one; several for a tree of all classes, where each style's
+/// filter lets its own points through; none: the layer is hidden.
 struct LayerStyles : std::vector<std::shared_ptr<const ResolvedStyle>>
 {
   using vector::vector;

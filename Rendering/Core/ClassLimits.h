@@ -1,9 +1,14 @@
 #pragma once
 
 #include "pointfront/Front/LayerLimits.h"
+#include "pointfront/Front/NodePruning.h"
+#include "pointfront/Style/StyleSheet.h"
 #include "vtkPointFrontStore.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <map>
+#include <memory>
 #include <vector>
 
 namespace pointfront
@@ -32,6 +37,36 @@ public:
       layers.push_back(of(store.GetObjectClassNumber(i)));
     }
     return layers;
+  }
+
+  /// The same with what the layers' styles say, and the nodes that their filters leave out; none
+  /// where all is usual.
+  std::vector<LayerLimits> layersOf(vtkPointFrontStore& store,
+    const std::vector<LayerStyling>& styling,
+    const std::vector<std::shared_ptr<const NodePruning>>& pruning) const
+  {
+    std::vector<LayerLimits> layers = layersOf(store);
+    layers.resize(styling.size());
+    for (std::size_t layer = 0; layer < styling.size(); ++layer)
+    {
+      layers[layer].visible = styling[layer].visible();
+      layers[layer].errorFactor *= styling[layer].errorFactor;
+      layers[layer].pruning = layer < pruning.size() ? pruning[layer] : nullptr;
+    }
+    const auto usual = [](const LayerLimits& limits) { return limits == LayerLimits(); };
+    return std::all_of(layers.begin(), layers.end(), usual) ? std::vector<LayerLimits>() : layers;
+  }
+  /// Takes the styles of classes that are switched off.
+  void hide(vtkPointFrontStore& store, std::vector<LayerStyling>& styling) const
+  {
+    const std::vector<LayerLimits> layers = layersOf(store);
+    for (std::size_t layer = 0; layer < layers.size() && layer < styling.size(); ++layer)
+    {
+      if (!layers[layer].visible)
+      {
+        styling[layer].styles.clear();
+      }
+    }
   }
 
 private:

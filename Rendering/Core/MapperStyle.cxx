@@ -106,6 +106,20 @@ Rgba8 flatColour(vtkActor* actor)
 
 } // namespace
 
+bool hasPlainPointsOnly(const FrameShading& shading, const std::vector<LayerStyling>& layers)
+{
+  const auto plain = [](const std::shared_ptr<const ResolvedStyle>& style)
+  {
+    return style->technique == Technique::Points && style->filter.empty() &&
+      style->size.mode == SplatSize::Mode::Pixels &&
+      style->second.combination == ColourCombination::None;
+  };
+  return !shading.lit && shading.eyeDomeStrength == 0.0f && !shading.fillHoles &&
+    std::all_of(layers.begin(), layers.end(),
+      [&](const LayerStyling& layer)
+      { return std::all_of(layer.styles.begin(), layer.styles.end(), plain); });
+}
+
 ColourMap sampleColours(vtkScalarsToColors& table, const PointColouring& colouring)
 {
   return colouring.integers ? sampleIntegers(table, *colouring.integers) : sampleRange(table);
@@ -153,6 +167,17 @@ std::optional<std::vector<LayerStyling>> MapperStyle::resolve(
     error_ = pruning.error().what; // all nodes are drawn, and each point is judged
   }
   return layers_;
+}
+
+std::vector<LayerStyling> MapperStyle::layersOf(vtkPolyDataMapper& mapper, vtkActor* actor,
+  double pointSizePx, const StyleSheet* sheet, const std::shared_ptr<const StoredCloud>& store)
+{
+  if (const auto layers = sheet ? resolve(*sheet, store) : std::nullopt)
+  {
+    return *layers;
+  }
+  const std::size_t count = std::max<std::size_t>(1, store->description().layers.size());
+  return {count, LayerStyling{{update(mapper, actor, pointSizePx, store)}, 1.0}};
 }
 
 PointColouring MapperStyle::colouringOf(

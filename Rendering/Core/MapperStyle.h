@@ -26,6 +26,9 @@ namespace pointfront
 ///          logarithmic table of negative values is sampled in equal steps.
 ColourMap sampleColours(vtkScalarsToColors& table, const PointColouring& colouring);
 
+/// Points of some pixels, in one colour each, all of them, and nothing done to the picture.
+bool hasPlainPointsOnly(const FrameShading& shading, const std::vector<LayerStyling>& layers);
+
 /// The style that the properties of a mapper and of its actor come to: points of some pixels,
 /// coloured as any vtkMapper's are.
 /// Threads  the renderer's.
@@ -37,6 +40,11 @@ public:
   std::shared_ptr<const ResolvedStyle> update(vtkPolyDataMapper& mapper, vtkActor* actor,
     double pointSizePx, const std::shared_ptr<const StoredCloud>& store);
 
+  /// How a store's layers are drawn: by the sheet, or where that is null or asks for what the store
+  /// has not, by the properties.
+  std::vector<LayerStyling> layersOf(vtkPolyDataMapper& mapper, vtkActor* actor,
+    double pointSizePx, const StyleSheet* sheet,
+    const std::shared_ptr<const StoredCloud>& store);
   /// By a sheet in the place of the properties. Nothing, and an error to take, where the store does
   /// not have what it asks for.
   std::optional<std::vector<LayerStyling>> resolve(

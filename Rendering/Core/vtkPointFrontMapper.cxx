@@ -24,7 +24,6 @@
 #include <algorithm>
 #include <chrono>
 #include <map>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -210,62 +209,30 @@ vtkMTimeType vtkPointFrontMapper::GetMTime()
   return std::max(this->Superclass::GetMTime(), style ? style->GetMTime() : 0);
 }
 
-/// How the store's layers are drawn: by the sheet, or else by the properties.
 std::vector<pointfront::LayerStyling> vtkPointFrontMapper::GetStyling(vtkActor* actor)
 {
   Content& content = *this->Internals;
-  const auto& store = this->GetStore()->GetStore();
-  std::optional<std::vector<pointfront::LayerStyling>> layers;
-  if (const auto sheet = this->GetStyleSheet())
+  const auto sheet = this->GetStyleSheet();
+  auto layers = content.Style.layersOf(
+    *this, actor, this->PointSize, sheet.get(), this->GetStore()->GetStore());
+  const std::string error = content.Style.takeError();
+  if (!error.empty())
   {
-    layers = content.Style.resolve(*sheet, store);
-    const std::string error = content.Style.takeError();
-    if (!error.empty())
-    {
-      vtkErrorMacro(<< error);
-    }
+    vtkErrorMacro(<< error);
   }
-  if (!layers)
+  const std::string warning = content.Style.takeWarning();
+  if (!warning.empty())
   {
-    const auto style = content.Style.update(*this, actor, this->PointSize, store);
-    const std::size_t count = std::max<std::size_t>(1, store->description().layers.size());
-    layers.emplace(count, pointfront::LayerStyling{{style}, 1.0});
-    const std::string warning = content.Style.takeWarning();
-    if (!warning.empty())
-    {
-      vtkWarningMacro(<< warning);
-    }
+    vtkWarningMacro(<< warning);
   }
-  const auto limits = content.Limits.layersOf(*this->GetStore());
-  for (std::size_t layer = 0; layer < limits.size() && layer < layers->size(); ++layer)
-  {
-    if (!limits[layer].visible)
-    {
-      (*layers)[layer].styles.clear();
-    }
-  }
-  return *std::move(layers);
+  content.Limits.hide(*this->GetStore(), layers);
+  return layers;
 }
 
 bool vtkPointFrontMapper::HasPlainPointsOnly(vtkActor* actor)
 {
   const auto sheet = this->GetStyleSheet();
-  if (!sheet)
-  {
-    return true;
-  }
-  const auto plain = [](const std::shared_ptr<const pointfront::ResolvedStyle>& style)
-  {
-    return style->technique == pointfront::Technique::Points && style->filter.empty() &&
-      style->size.mode == pointfront::SplatSize::Mode::Pixels &&
-      style->second.combination == pointfront::ColourCombination::None;
-  };
-  const pointfront::FrameShading& shading = sheet->shading;
-  const auto styling = this->GetStyling(actor);
-  return !shading.lit && shading.eyeDomeStrength == 0.0f && !shading.fillHoles &&
-    std::all_of(styling.begin(), styling.end(),
-      [&](const pointfront::LayerStyling& layer)
-      { return std::all_of(layer.styles.begin(), layer.styles.end(), plain); });
+  return !sheet || pointfront::hasPlainPointsOnly(sheet->shading, this->GetStyling(actor));
 }
 
 pointfront::PlanRequest vtkPointFrontMapper::GetRequest(vtkRenderer* renderer, vtkActor* actor)
@@ -289,25 +256,13 @@ pointfront::FrameDemand vtkPointFrontMapper::GetDemand(vtkRenderer* renderer, vt
 {
   pointfront::FrameDemand demand;
   demand.view = pointfront::viewOf(renderer, actor);
-  demand.layers = this->Internals->Limits.layersOf(*this->GetStore());
   const auto styling = this->GetStyling(actor);
-  demand.layers.resize(styling.size());
-  for (std::size_t layer = 0; layer < styling.size(); ++layer)
+  demand.layers = this->Internals->Limits.layersOf(*this->GetStore(), styling,
+    this->GetStyleSheet() ? this->Internals->Style.pruning()
+                          : std::vector<std::shared_ptr<const pointfront::NodePruning>>());
+  for (const pointfront::LayerStyling& layer : styling)
   {
-    demand.columns.layers.push_back(styling[layer].columns());
-    demand.layers[layer].visible = styling[layer].visible();
-    demand.layers[layer].errorFactor *= styling[layer].errorFactor;
-    const auto& pruning = this->Internals->Style.pruning();
-    if (this->GetStyleSheet() && layer < pruning.size())
-    {
-      demand.layers[layer].pruning = pruning[layer];
-    }
-  }
-  const auto usual = [](const pointfront::LayerLimits& limits)
-  { return limits == pointfront::LayerLimits(); };
-  if (std::all_of(demand.layers.begin(), demand.layers.end(), usual))
-  {
-    demand.layers.clear();
+    demand.columns.layers.push_back(layer.columns());
   }
   demand.targetErrorPx = this->TargetError;
   demand.pointBudget = static_cast<std::uint64_t>(this->PointBudget);

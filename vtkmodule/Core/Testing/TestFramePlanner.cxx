@@ -246,7 +246,7 @@ TEST(FramePlanner, NodesThatLackAColumnAreThereUntilTheyAreReadAgain)
   scene.plan(0.01);
   auto style = std::make_shared<ResolvedStyle>();
   style->colouring.kind = PointColouring::Kind::Table;
-  scene.request.styles[0] = style;
+  scene.request.styles[0] = LayerStyles{ style };
   scene.demand.columns = style->columns();
   ASSERT_EQ(style->columns(), ColumnSelection{ 0 });
   // Before the next update, as a frame in the middle of the re-reading sees it.

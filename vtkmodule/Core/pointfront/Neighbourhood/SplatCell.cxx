@@ -16,7 +16,7 @@ namespace
 {
 /// Larger than what is needed at the point, because discs are drawn smaller where depth is decided,
 /// and neighbours' cells differ.
-constexpr double margin = 1.25;
+constexpr double overReach = 1.25;
 /// Farthest Voronoi vertex over the median distance to 15 neighbours: median over a surface.
 constexpr double vertexOfMedianDistance = 0.5;
 constexpr double mostScales = 4.0;      ///< of a closed cell on a surface
@@ -376,7 +376,7 @@ double splatRadius(const NearOffsets& near, const NeighbourPlane& plane, bool* r
   // Two have no plane, and a point between its neighbours on a line touches both.
   if (count < 3 || plane.width < lineWidth || onLine(near))
   {
-    return margin * (count < 3 ? 0.5 * distance(2) : std::min(0.5 * distance(2), scale));
+    return overReach * (count < 3 ? 0.5 * distance(2) : std::min(0.5 * distance(2), scale));
   }
   glm::dvec3 first;
   glm::dvec3 second;
@@ -406,9 +406,9 @@ double splatRadius(const NearOffsets& near, const NeighbourPlane& plane, bool* r
     vertex > 0.0 ? std::min(vertex, length) : noVertexFourth * distance(4);
   if (plane.flatness < planeFlatness)
   {
-    return margin * (found.open ? openScales * scale : std::min(reach, mostScales * scale));
+    return overReach * (found.open ? openScales * scale : std::min(reach, mostScales * scale));
   }
-  return margin * std::min({ reach, volumeFourth * distance(4), scale });
+  return overReach * std::min({ reach, volumeFourth * distance(4), scale });
 }
 
 } // namespace pointfront

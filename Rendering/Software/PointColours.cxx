@@ -59,10 +59,10 @@ double worldValue(const PointColouring& colouring, const Attribute& attribute,
   return std::sqrt(sum);
 }
 
-bool ofFewBits(const ResolvedStyle& style, const AttributeSchema& schema)
+bool ofFewBits(
+  const PointColouring& colouring, const ColourMap* map, const AttributeSchema& schema)
 {
-  const PointColouring& colouring = style.colouring;
-  if (colouring.kind != PointColouring::Kind::Table || !colouring.usesColumn() || !style.map)
+  if (colouring.kind != PointColouring::Kind::Table || !colouring.usesColumn() || !map)
   {
     return false;
   }
@@ -74,16 +74,17 @@ bool ofFewBits(const ResolvedStyle& style, const AttributeSchema& schema)
 
 } // namespace
 
-ValueColours::ValueColours(const ResolvedStyle& style, const AttributeSchema& schema)
+ValueColours::ValueColours(
+  const PointColouring& colouring, const ColourMap* map, const AttributeSchema& schema)
 {
-  if (!ofFewBits(style, schema))
+  if (!ofFewBits(colouring, map, schema))
   {
     return;
   }
-  const Attribute& attribute = schema[style.colouring.column];
+  const Attribute& attribute = schema[colouring.column];
   Attribute one = attribute;
   one.components = 1;
-  PointColouring first = style.colouring;
+  PointColouring first = colouring;
   first.component = 0;
   table_.resize(std::size_t(1) << (8 * sizeOf(attribute.type)));
   for (std::size_t bits = 0; bits < table_.size(); ++bits)
@@ -91,7 +92,7 @@ ValueColours::ValueColours(const ResolvedStyle& style, const AttributeSchema& sc
     const auto stored = static_cast<std::uint16_t>(bits);
     std::byte bytes[2];
     std::memcpy(bytes, &stored, 2);
-    table_[bits] = packed(style.map->at(worldValue(first, one, bytes)));
+    table_[bits] = packed(map->at(worldValue(first, one, bytes)));
   }
 }
 
@@ -160,13 +161,24 @@ struct PointColours::Looked
 {
   static std::uint32_t read(const PointColours& c, std::uint32_t point)
   {
-    return packed(c.style_.map->at(c.valueAt(point)));
+    return packed(c.map_->at(c.valueAt(point)));
+  }
+};
+
+struct PointColours::Combined
+{
+  static std::uint32_t read(const PointColours& c, std::uint32_t point)
+  {
+    const std::uint32_t colours[2] = { c.first_(c, point), c.second_->at(point) };
+    Rgba8 both[2];
+    std::memcpy(both, colours, sizeof(colours));
+    return packed(combined(c.combination_, c.share256_, both[0], both[1]));
   }
 };
 
 double PointColours::valueAt(std::uint32_t point) const
 {
-  const PointColouring& colouring = style_.colouring;
+  const PointColouring& colouring = colouring_;
   if (colouring.kind == PointColouring::Kind::Elevation)
   {
     const double steps =
@@ -201,12 +213,12 @@ void PointColours::readColours(const Attribute& attribute)
     readBy<Narrow>();
     return;
   }
-  if (plain && attribute.type == ScalarType::UInt16 && style_.colouring.wide)
+  if (plain && attribute.type == ScalarType::UInt16 && colouring_.wide)
   {
     readBy<Wide>();
     return;
   }
-  const ColourScale scale(attribute, style_.colouring.wide, style_.colouring.colourRange);
+  const ColourScale scale(attribute, colouring_.wide, colouring_.colourRange);
   factor_ = scale.factor;
   offset_ = scale.offset;
   readBy<Converted>();
@@ -216,7 +228,7 @@ void PointColours::readValues(const Attribute& attribute)
 {
   if (table_)
   {
-    column_ += static_cast<std::size_t>(style_.colouring.component) * sizeOf(attribute.type);
+    column_ += static_cast<std::size_t>(colouring_.component) * sizeOf(attribute.type);
     sizeOf(attribute.type) == 1 ? readBy<Tabled8>() : readBy<Tabled16>();
     return;
   }
@@ -224,17 +236,34 @@ void PointColours::readValues(const Attribute& attribute)
 }
 
 PointColours::PointColours(const FramePlan& plan, const ResolvedStyle& style,
-  const ValueColours& table, const NodeColumns& node)
-  : style_(style)
+  const StyleColours& tables, const NodeColumns& node)
+  : PointColours(plan, style.colouring, style.map.get(), style.flat, tables.first, node)
+{
+  const SecondColour& second = style.second;
+  if (second.combination == ColourCombination::None)
+  {
+    return;
+  }
+  second_.reset(new PointColours(
+    plan, second.colouring, second.map.get(), second.flat, tables.second, node));
+  combination_ = second.combination;
+  share256_ = second.share256;
+  first_ = one_;
+  readBy<Combined>();
+}
+
+PointColours::PointColours(const FramePlan& plan, const PointColouring& colouring,
+  const ColourMap* map, const Rgba8& flat, const ValueColours& table, const NodeColumns& node)
+  : colouring_(colouring)
+  , map_(map)
   , node_(node)
   , grid_(plan.grid)
-  , flat_(packed(style.flat))
+  , flat_(packed(flat))
 {
-  const PointColouring& colouring = style.colouring;
   const bool needsMap = colouring.usesTable();
   readBy<Flat>();
   if (colouring.kind == PointColouring::Kind::Flat || !colouring.coveredBy(node) ||
-    (needsMap && !style.map))
+    (needsMap && !map))
   {
     return;
   }

@@ -15,7 +15,8 @@ namespace pointfront
 class ValueColours
 {
 public:
-  ValueColours(const ResolvedStyle& style, const AttributeSchema& schema);
+  ValueColours(
+    const PointColouring& colouring, const ColourMap* map, const AttributeSchema& schema);
   bool empty() const { return table_.empty(); }
   const std::uint32_t* data() const { return table_.data(); }
 
@@ -23,15 +24,27 @@ private:
   std::vector<std::uint32_t> table_; ///< by the stored bits
 };
 
+/// The tables of a style: of its colour, and of the second one that it is combined with.
+struct StyleColours
+{
+  StyleColours(const ResolvedStyle& style, const AttributeSchema& schema)
+    : first(style.colouring, style.map.get(), schema)
+    , second(style.second.colouring, style.second.map.get(), schema)
+  {
+  }
+  ValueColours first;
+  ValueColours second;
+};
+
 /// What colours the points of one node: where their values lie and what is made of them.
 /// Shapes   colours are bytes r, g, b, a in memory order, a = 255.
-/// Meaning  as PointColouring::encode and a lookup in ColourMap; the flat colour where the node was
-///          read without the column.
+/// Meaning  as appendColours() of the kernel; the flat colour where the node was read without the
+///          column.
 /// Threads  const functions from any thread; the node, the style and the table outlive it.
 class PointColours
 {
 public:
-  PointColours(const FramePlan& plan, const ResolvedStyle& style, const ValueColours& table,
+  PointColours(const FramePlan& plan, const ResolvedStyle& style, const StyleColours& tables,
     const NodeColumns& node);
 
   std::uint32_t at(std::uint32_t point) const { return one_(*this, point); }
@@ -42,6 +55,8 @@ public:
   }
 
 private:
+  PointColours(const FramePlan& plan, const PointColouring& colouring, const ColourMap* map,
+    const Rgba8& flat, const ValueColours& table, const NodeColumns& node);
   template <typename Reading>
   void readBy();
   void readColours(const Attribute& attribute);
@@ -54,10 +69,12 @@ private:
   struct Tabled8;
   struct Tabled16;
   struct Looked;
+  struct Combined;
 
   std::uint32_t (*one_)(const PointColours&, std::uint32_t) = nullptr;
   void (*many_)(const PointColours&, std::uint32_t, int, std::uint32_t*) = nullptr;
-  const ResolvedStyle& style_;
+  const PointColouring& colouring_;
+  const ColourMap* map_;
   const NodeColumns& node_;
   const QuantisationGrid& grid_;
   const Attribute* attribute_ = nullptr;
@@ -67,6 +84,11 @@ private:
   std::uint32_t flat_ = 0;
   double factor_ = 1.0; ///< from a stored component to 0..255
   double offset_ = 0.0;
+  // Where two colours are combined:
+  std::unique_ptr<PointColours> second_;
+  std::uint32_t (*first_)(const PointColours&, std::uint32_t) = nullptr;
+  ColourCombination combination_ = ColourCombination::None;
+  std::uint32_t share256_ = 0;
 };
 
 } // namespace pointfront

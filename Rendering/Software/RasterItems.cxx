@@ -118,7 +118,7 @@ void RasterItems::add(const Place& place, std::uint32_t base)
     tables_.begin(), tables_.end(), [&](const auto& known) { return known.first == &style; });
   if (table == tables_.end())
   {
-    tables_.emplace_back(&style, std::make_unique<ValueColours>(style, *plan_.schema));
+    tables_.emplace_back(&style, std::make_unique<StyleColours>(style, *plan_.schema));
     table = tables_.end() - 1;
   }
   RasterItem item;

@@ -93,7 +93,7 @@ private:
   std::vector<Place> ordered_;
   std::vector<RasterItem> items_;
   std::vector<std::uint32_t> pages_; ///< the item that has a page's first index
-  std::vector<std::pair<const ResolvedStyle*, std::unique_ptr<ValueColours>>> tables_;
+  std::vector<std::pair<const ResolvedStyle*, std::unique_ptr<StyleColours>>> tables_;
   std::array<float, 256> radii_{};
   float radiusFactor_ = 1.0f; ///< view units of a store unit
   glm::mat3 normalToCamera_{ 1.0f };

@@ -127,7 +127,9 @@ TEST(RasterExtremes, DepthsFromAMillimetreToTenThousandKilometres)
       scene.add({ { { 0.0, depth, 0.0 } } });
       const SoftwareTarget target = scene.draw();
       EXPECT_GE(covered(target), 1u) << depth;
-      EXPECT_NEAR(target.depth[16 * 33 + 16] / depth, 1.0, 1e-6);
+      // A sphere is drawn a pixel wide, and shows its near side.
+      const bool sphere = style.technique == Technique::Spheres;
+      EXPECT_NEAR(target.depth[16 * 33 + 16] / depth, 1.0, sphere ? 0.025 : 1e-6);
     }
   }
 }

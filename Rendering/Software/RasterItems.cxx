@@ -130,7 +130,7 @@ void RasterItems::add(const Place& place, std::uint32_t base)
   item.normals = facesEye ? nullptr : columnOf(node, style.normalColumn);
   item.normalAttribute = item.normals ? &(*plan_.schema)[*style.normalColumn] : nullptr;
   const bool oriented = item.normals || style.orientation == SplatOrientation::Fixed;
-  item.passes = passesOf(style, oriented, plan_.spacingPx);
+  item.passes = passesOf(style, oriented, plan_.spacingPx, plan_.camera.height);
   const std::byte* const codes = columnOf(node, style.radiusColumn);
   item.radiusCodes = reinterpret_cast<const std::uint8_t*>(codes);
   const auto value = static_cast<float>(style.size.value) * radiusFactor_;

@@ -22,6 +22,7 @@ struct SplatPass
   /// splats that overlap the one with the nearest centre wins (drawing.md 9).
   float paraboloid = 0.0f;
   float leastRadius = 0.71f; ///< pixels; a disc of 0.71 reaches a pixel's centre wherever it lies
+  float mostRadius = 1.0e5f; ///< pixels
   float lowPass = 0.0f;      ///< ellipses: radius of a screen-space low-pass, pixels; 0: none
   float slackRadii = 1.0f;   ///< second pass: adds up to that far behind the nearest, in radii
   float slackPixels = 2.0f;  ///< and that many pixels' size at its depth

@@ -15,8 +15,8 @@ namespace
 /// Discs are not drawn more edge on than that cosine: what the affine map makes of them then has
 /// nothing to do with them (EWA-5).
 constexpr float leastCosine = 0.05f;
-/// Larger than any viewport, small enough for all that is computed with it.
-constexpr float mostPixels = 1.0e5f;
+/// Of a splat that is everywhere: larger than any viewport.
+constexpr float everywhere = 1.0e5f;
 
 struct Direction
 {
@@ -33,7 +33,8 @@ inline Direction directionOf(const RasterCamera& camera, const RasterBatch& batc
 
 /// A radius in world units becomes what covers at least a pixel.
 template <bool Parallel>
-inline void widen(RasterCamera camera, float leastPixels, int count, RasterBatch& batch)
+inline void widen(
+  RasterCamera camera, float leastPixels, float mostPixels, int count, RasterBatch& batch)
 {
   const float scale = camera.scaleY;
   const float inverseScale = 1.0f / scale;
@@ -145,7 +146,7 @@ inline ConicExtent conicExtent(float a00, float a02, float a22, float depth)
   const float root = __builtin_sqrtf(root2 > 0.0f ? root2 : 0.0f);
   const int bounded = a22 < -1.0e-3f * depth * depth;
   const float inverse = 1.0f / (bounded ? a22 : -1.0f);
-  return { bounded ? a02 * inverse : 0.0f, bounded ? -root * inverse : mostPixels };
+  return { bounded ? a02 * inverse : 0.0f, bounded ? -root * inverse : everywhere };
 }
 
 /// The dual conic of the disc r (cos t u + sin t v) + c is r^2 (I - n n^T) - c c^T.
@@ -277,7 +278,7 @@ inline void sortByExtent(const RasterWindow& window, int count, RasterBatch& bat
 template <bool Parallel>
 void setUpOf(const RasterCamera& camera, const SplatPass& pass, int count, RasterBatch& batch)
 {
-  widen<Parallel>(camera, pass.leastRadius, count, batch);
+  widen<Parallel>(camera, pass.leastRadius, pass.mostRadius, count, batch);
   switch (pass.shape)
   {
     case SplatShape::Disc:

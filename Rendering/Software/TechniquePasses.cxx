@@ -19,6 +19,9 @@ constexpr float opaqueParaboloid = 8.0f; ///< radii at the rim
 constexpr float blendedParaboloid = 4.0f;
 constexpr float slackPixels = 2.0f;
 constexpr int mostSquare = 255;
+/// What closes a surface is drawn no larger than that, of the viewport's height: nearer to the eye
+/// there is no surface to be seen.
+constexpr float mostOfHeight = 0.125f;
 
 SplatPass ellipsePass(SplatAccuracy accuracy)
 {
@@ -54,7 +57,8 @@ void blend(TechniquePasses& passes, float slackRadii)
 
 } // namespace
 
-TechniquePasses passesOf(const ResolvedStyle& style, bool hasNormals, float spacingPx)
+TechniquePasses passesOf(
+  const ResolvedStyle& style, bool hasNormals, float spacingPx, int heightPx)
 {
   TechniquePasses passes;
   const bool pixels = style.size.mode == SplatSize::Mode::Pixels;
@@ -89,6 +93,8 @@ TechniquePasses passesOf(const ResolvedStyle& style, bool hasNormals, float spac
     const float closing =
       visibleShare * spacingPx * static_cast<float>(std::max(style.size.value, 0.0));
     passes.first.leastRadius = std::max(passes.first.leastRadius, closing);
+    passes.first.mostRadius =
+      std::max(passes.first.leastRadius, mostOfHeight * static_cast<float>(heightPx));
   }
   if (twice)
   {
@@ -102,7 +108,7 @@ bool operator==(const TechniquePasses& a, const TechniquePasses& b)
   const auto same = [](const SplatPass& x, const SplatPass& y)
   {
     return x.shape == y.shape && x.paraboloid == y.paraboloid &&
-      x.leastRadius == y.leastRadius && x.lowPass == y.lowPass &&
+      x.leastRadius == y.leastRadius && x.mostRadius == y.mostRadius && x.lowPass == y.lowPass &&
       x.slackRadii == y.slackRadii && x.slackPixels == y.slackPixels;
   };
   return a.squares == b.squares && a.squareSize == b.squareSize && same(a.first, b.first) &&

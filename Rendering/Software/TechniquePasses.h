@@ -22,9 +22,10 @@ struct TechniquePasses
   bool depthInKey() const { return squares || first.paraboloid == 0.0f; }
 };
 
-/// `hasNormals`: of the node that is drawn. `spacingPx`: FramePlan's.
+/// `hasNormals`: of the node that is drawn. `spacingPx`: FramePlan's. `heightPx`: of the viewport.
 /// Constants  as measured against ground truth: docs/adr/0016.
-TechniquePasses passesOf(const ResolvedStyle& style, bool hasNormals, float spacingPx);
+TechniquePasses passesOf(
+  const ResolvedStyle& style, bool hasNormals, float spacingPx, int heightPx);
 
 bool operator==(const TechniquePasses& a, const TechniquePasses& b);
 

@@ -137,7 +137,6 @@ class Outputs(ToolTest):
             self.succeed("bench", store, "--frames", 2, "--size", "64x64", "--stats", stats,
                          "--frames-csv", frames, "--picture", png)
 
-    @unittest.skipUnless(WITH_VTK and WITH_DISPLAY, "render and bench need VTK and an X server")
     def test_pictures_without_points_and_strange_company(self):
         store = self.build(self.copy())
         png = self.folder / "x.png"

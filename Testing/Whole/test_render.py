@@ -415,10 +415,10 @@ class Bands(SceneTest):
             self.assertLess(statistics["peak_rss_bytes"], program + limit)
 
     def test_long_edges(self):
-        for size in ((65535, 7), (7, 65535), (1, 1)):
+        for size in ((65535, 7), (7, 65535)):
             picture = self.picture(self.store, "--view", "top", "--memory", "256M", size=size)
             self.assertEqual(picture.shape, (size[1], size[0], 3))
-            self.assertGreater(len(numpy.unique(picture)), 3 if size != (1, 1) else 0)
+            self.assertGreater(len(numpy.unique(picture)), 3)
         self.refuse(2, "render", self.store, "-o", self.folder / "x.png", "--size", "65536x7")
 
     def test_too_little_memory_for_a_row(self):

@@ -1,5 +1,6 @@
 // From the front to the plan: nodes pinned and grouped, without files and without a back end.
 
+#include "pointfront/Plan/ClosingRadii.h"
 #include "pointfront/Plan/FramePlanner.h"
 #include "pointfront/Plan/FrameStatistics.h"
 
@@ -334,4 +335,33 @@ TEST(FramePlanner, ANodeAmongFinerOnesHasSplatsOfTheirSize)
   }
   EXPECT_FALSE(all.batches[2].items.front().refined);
   EXPECT_FLOAT_EQ(all.batches[2].items.front().closingRadius, 8.0f);
+}
+
+TEST(FramePlanner, AFewPointsOfAClassAmongManyOfAnotherHaveSplatsLikeTheirs)
+{
+  std::vector<DrawBatch> batches(2);
+  QuantisationGrid grid;
+  const auto add = [&](std::uint16_t layer, NodeIndex number, float radius, std::uint32_t points,
+                     double x)
+  {
+    auto node = std::make_shared<NodeColumns>();
+    node->node = number;
+    node->origin = grid.toGrid({ x, 0.0, 0.0 });
+    node->halfSize = { 50.0f, 50.0f, 5.0f };
+    PlanItem item;
+    item.node = node;
+    item.last = points;
+    item.closingRadius = radius;
+    batches[layer].layer = layer;
+    batches[layer].items.push_back(item);
+  };
+  add(0, 0, 0.5f, 10000, 0.0);
+  add(0, 1, 0.4f, 10000, 100.0);
+  add(1, 2, 6.0f, 100, 0.0);    // among the first
+  add(1, 3, 6.0f, 100, 5000.0); // alone
+  matchNeighbours(batches, grid);
+  EXPECT_FLOAT_EQ(batches[0].items[0].closingRadius, 0.5f);
+  EXPECT_FLOAT_EQ(batches[0].items[1].closingRadius, 0.4f);
+  EXPECT_FLOAT_EQ(batches[1].items[0].closingRadius, 1.0f);
+  EXPECT_FLOAT_EQ(batches[1].items[1].closingRadius, 6.0f);
 }

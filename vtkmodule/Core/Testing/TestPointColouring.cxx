@@ -240,6 +240,7 @@ TEST(PointColouring, GlobalHeightIsAmongThePointsOfAClass)
   EXPECT_FLOAT_EQ(number(values[2]), 1.0f);
   EXPECT_FLOAT_EQ(number(values[3]), 1.0f);
   node.node = 1;
+  node.layer = 1;
   colouring.encode(node, store->description().schema, 0, 1, values);
   EXPECT_FLOAT_EQ(number(values[4]), 0.5f);
   StoreDescription own;

@@ -1,6 +1,7 @@
 #include "pointfront/Plan/FramePlanner.h"
 
 #include "pointfront/Front/PointPrefix.h"
+#include "pointfront/Plan/ClosingRadii.h"
 
 #include <algorithm>
 #include <utility>
@@ -9,6 +10,11 @@ namespace pointfront
 {
 namespace
 {
+
+/// A node whose few points stand farther apart than its level can see has strays in it, no surface.
+constexpr float mostSpacings = 2.0f;
+/// A whole layer of fewer points is no surface: its points are as small as can be.
+constexpr std::size_t fewestOfSurface = 64;
 
 /// The items of each layer that has a style, near to far.
 std::vector<std::vector<PlanItem>> itemsByLayer(
@@ -28,42 +34,13 @@ std::vector<std::vector<PlanItem>> itemsByLayer(
     const NodeColumns& columns = *planned.node;
     planned.radiusScale =
       columns.spacing > 0.0f ? std::max(1.0f, spacing / columns.spacing) : 1.0f;
+    const float measured = std::min(columns.splatRadius, mostSpacings * columns.spacing);
+    const bool strays = columns.parent == noNode && columns.size() < fewestOfSurface;
     planned.closingRadius =
-      columns.splatRadius > 0.0f ? columns.splatRadius * planned.radiusScale : spacing;
+      strays ? 0.0f : measured > 0.0f ? measured * planned.radiusScale : spacing;
     items[columns.layer].push_back(std::move(planned));
   }
   return items;
-}
-
-/// Splats of a node are as large as those of the finer nodes drawn among them.
-void refineRadii(std::vector<DrawBatch>& batches)
-{
-  std::vector<PlanItem*> items;
-  for (DrawBatch& batch : batches)
-  {
-    for (PlanItem& item : batch.items)
-    {
-      items.push_back(&item);
-    }
-  }
-  const auto before = [](const PlanItem* a, const PlanItem* b)
-  { return a->node->node < b->node->node; };
-  std::sort(items.begin(), items.end(), before);
-  // Children stand behind their parents in every table: each is finished when it is passed on.
-  for (auto child = items.rbegin(); child != items.rend(); ++child)
-  {
-    const NodeIndex parent = (*child)->node->parent;
-    auto place = std::lower_bound(items.begin(), items.end(), parent,
-      [](const PlanItem* item, NodeIndex node) { return item->node->node < node; });
-    for (; place != items.end() && (*place)->node->node == parent; ++place)
-    {
-      PlanItem& above = **place;
-      above.closingRadius = above.refined
-        ? std::max(above.closingRadius, (*child)->closingRadius)
-        : (*child)->closingRadius;
-      above.refined = true;
-    }
-  }
 }
 
 } // namespace
@@ -96,7 +73,7 @@ FramePlan planFrame(
       }
     }
   }
-  refineRadii(plan.batches);
+  matchNeighbours(plan.batches, plan.grid);
   return plan;
 }
 

@@ -1,5 +1,7 @@
 #include "pointfront/Style/AttributeRanges.h"
 
+#include "pointfront/Base/Infinity.h"
+
 #include "pointfront/Store/StoreSample.h"
 #include "pointfront/Style/ComponentName.h"
 
@@ -14,7 +16,6 @@ namespace
 
 constexpr double lowShare = 0.02;
 constexpr double highShare = 0.98;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 using Range = std::array<double, 2>;
 

@@ -1,5 +1,7 @@
 #include "pointfront/Style/ColourSource.h"
 
+#include "pointfront/Base/Infinity.h"
+
 #include "pointfront/Style/ColourTables.h"
 #include "pointfront/Style/ComponentName.h"
 
@@ -12,7 +14,6 @@ namespace pointfront
 namespace
 {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Smallest and largest stored value over all components; {0, 0} if it is not known.
 std::array<double, 2> storedRange(const StoreDescription& store, std::size_t column)

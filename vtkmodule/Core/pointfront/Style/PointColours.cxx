@@ -7,14 +7,14 @@ namespace pointfront
 namespace
 {
 
-std::uint32_t packed(const Rgba8& colour)
+std::uint32_t asBytes(const Rgba8& colour)
 {
   std::uint32_t value;
   std::memcpy(&value, colour.data(), 4);
   return value;
 }
 
-Rgba8 unpacked(std::uint32_t value)
+Rgba8 fromBytes(std::uint32_t value)
 {
   Rgba8 colour;
   std::memcpy(colour.data(), &value, 4);
@@ -29,7 +29,7 @@ void appendOne(const PointColouring& colouring, const ColourMap* map, const Rgba
   switch (colouring.kind)
   {
     case PointColouring::Kind::Flat:
-      colours.resize(begin + count, packed(flat));
+      colours.resize(begin + count, asBytes(flat));
       return;
     case PointColouring::Kind::Direct:
       colouring.encode(node, schema, first, count, colours);
@@ -38,7 +38,7 @@ void appendOne(const PointColouring& colouring, const ColourMap* map, const Rgba
       for (std::uint32_t i = first; i < first + count; ++i)
       {
         const auto steps = static_cast<double>(node.origin.z + node.positions[i].z);
-        colours.push_back(packed(map->at(grid.offset.z + grid.scale.z * steps)));
+        colours.push_back(asBytes(map->at(grid.offset.z + grid.scale.z * steps)));
       }
       return;
     case PointColouring::Kind::Table:
@@ -47,7 +47,7 @@ void appendOne(const PointColouring& colouring, const ColourMap* map, const Rgba
       {
         float number;
         std::memcpy(&number, &colours[i], 4);
-        colours[i] = packed(map->at(static_cast<double>(number) + colouring.base));
+        colours[i] = asBytes(map->at(static_cast<double>(number) + colouring.base));
       }
       return;
   }
@@ -71,8 +71,8 @@ void appendColours(const ResolvedStyle& style, const NodeColumns& node,
     first, count, others);
   for (std::size_t i = 0; i < others.size(); ++i)
   {
-    colours[begin + i] = packed(combined(style.second.combination, style.second.share256,
-      unpacked(colours[begin + i]), unpacked(others[i])));
+    colours[begin + i] = asBytes(combined(style.second.combination, style.second.share256,
+      fromBytes(colours[begin + i]), fromBytes(others[i])));
   }
 }
 

@@ -252,7 +252,7 @@ Result<InPlaceTable> indexInPlace(const GridRecords& records, const RecordBox& b
     return sound.error();
   }
   InPlaceTable table = tableOf(tree, ledger, grid);
-  LeafSplats splats(tree, records, grid);
+  LeafSplats splats(tree, records, grid, released);
   Result<void> written = ledger.write(
     [&](NodeIndex i, const std::vector<std::byte>& list) -> Result<void>
     {

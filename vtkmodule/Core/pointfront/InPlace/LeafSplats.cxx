@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace pointfront
 {
@@ -31,9 +32,11 @@ float toFloat(double radius)
 } // namespace
 
 LeafSplats::LeafSplats(
-  const QuadTree& tree, const GridRecords& records, const QuantisationGrid& grid)
+  const QuadTree& tree, const GridRecords& records, const QuantisationGrid& grid,
+  std::function<void(std::uint64_t, std::uint64_t)> released)
   : tree_(tree)
   , records_(records)
+  , released_(std::move(released))
   , stepArea_(grid.scale.x * grid.scale.y)
   , splat_(spaceOf(grid))
 {
@@ -78,6 +81,7 @@ void LeafSplats::look(NodeIndex node, const std::vector<std::byte>& list)
       // The order of whole numbers, without their sign.
       positions.push_back(TreePosition(records_.position(i)) + TreePosition(1u << 31));
     }
+    released_(run.first, run.first + run.count);
   }
   const RecordView view{ reinterpret_cast<const std::byte*>(positions.data()),
     sizeof(TreePosition) };

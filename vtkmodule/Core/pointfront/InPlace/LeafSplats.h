@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace pointfront
@@ -24,7 +25,9 @@ class LeafSplats
 public:
   static constexpr std::size_t mostMeasured = 96;
 
-  LeafSplats(const QuadTree& tree, const GridRecords& records, const QuantisationGrid& grid);
+  /// `released` is told of records [begin, end) that were looked at: their pages need not stay.
+  LeafSplats(const QuadTree& tree, const GridRecords& records, const QuantisationGrid& grid,
+    std::function<void(std::uint64_t, std::uint64_t)> released);
   /// Called with the list of each node, in any order.
   void look(NodeIndex node, const std::vector<std::byte>& list);
   /// When all were seen.
@@ -35,6 +38,7 @@ private:
 
   const QuadTree& tree_;
   const GridRecords& records_;
+  std::function<void(std::uint64_t, std::uint64_t)> released_;
   double stepArea_; ///< of a step by a step of the grid, world units
   NodeSplat splat_;
   std::vector<NodeIndex> measured_; ///< leaves, ascending

@@ -10,7 +10,7 @@ namespace pointfront
 {
 namespace
 {
-constexpr std::size_t beginningBytes = 1 << 18;
+constexpr std::size_t sampleBytes = 1 << 18;
 
 TextLayout layoutOf(const TextColumns& columns, std::vector<TableField>& fields)
 {
@@ -40,11 +40,11 @@ TextLayout layoutOf(const TextColumns& columns, std::vector<TableField>& fields)
 std::string_view beginningOf(const MemoryMap& map)
 {
   const std::string_view text(reinterpret_cast<const char*>(map.data()), map.size());
-  if (text.size() <= beginningBytes)
+  if (text.size() <= sampleBytes)
   {
     return text;
   }
-  const std::string_view start = text.substr(0, beginningBytes);
+  const std::string_view start = text.substr(0, sampleBytes);
   const std::size_t lastLine = start.find_last_of("\n\r");
   return lastLine == std::string_view::npos ? start : start.substr(0, lastLine + 1);
 }

@@ -41,7 +41,7 @@ struct SlotOrigin
       const double rounded = std::clamp(std::round(-ahead / step), -most, most);
       result.steps[axis] = static_cast<int>(rounded);
       const auto whole =
-        origin[axis] + (static_cast<std::int64_t>(result.steps[axis]) << result.shift);
+        origin[axis] + static_cast<std::int64_t>(result.steps[axis]) * (std::int64_t(1) << result.shift);
       result.base[axis] =
         static_cast<float>(fromOffset + grid.scale[axis] * static_cast<double>(whole));
     }

@@ -40,8 +40,8 @@ struct SlotOrigin
       const double ahead = fromOffset + grid.scale[axis] * static_cast<double>(origin[axis]);
       const double rounded = std::clamp(std::round(-ahead / step), -most, most);
       result.steps[axis] = static_cast<int>(rounded);
-      const auto whole =
-        origin[axis] + static_cast<std::int64_t>(result.steps[axis]) * (std::int64_t(1) << result.shift);
+      const std::int64_t width = std::int64_t(1) << result.shift;
+      const std::int64_t whole = origin[axis] + width * result.steps[axis];
       result.base[axis] =
         static_cast<float>(fromOffset + grid.scale[axis] * static_cast<double>(whole));
     }

@@ -27,6 +27,9 @@ LIMIT = 240
 # most, 0.004 %.
 CHANNEL = 8
 SHARE = 0.001
+# Against ParaView's own points, which Mesa draws: it rounds places to 1/256 of a pixel, the software
+# back end does not, so points near a pixel's edge go to the one or the other side. Found: 0.13 %.
+STOCK_SHARE = 0.0025
 
 
 def tool(*arguments):
@@ -118,9 +121,9 @@ def batch(programs):
     make_large()
     programs.run(os.environ["POINTFRONT_PVBATCH"], os.path.join(HERE, "batch.py"), "batch", "alone")
     compare("batch", "tool")
-    compare("batch", "batch-stock")
+    compare("batch", "batch-stock", STOCK_SHARE)
     compare("batch", "batch-moved")
-    compare("batch-intensity", "batch-stock-intensity")
+    compare("batch-intensity", "batch-stock-intensity", STOCK_SHARE)
 
 
 def classes(programs):

@@ -145,6 +145,15 @@ void RasterItems::add(const Place& place, std::uint32_t base)
   }
   blended_ = blended_ || item.passes.blended;
 
+  setPlace(item);
+  item.positions.filtered = !style.filter.empty();
+  items_.push_back(std::move(item));
+}
+
+/// Where the node's points land: all that is large is taken off in double.
+void RasterItems::setPlace(RasterItem& item) const
+{
+  const NodeColumns& node = item.node();
   const FrameCamera& camera = plan_.camera;
   const SlotOrigin origin =
     SlotOrigin::of(plan_.grid, node.halfSize, node.origin, camera.reference);
@@ -174,26 +183,30 @@ void RasterItems::add(const Place& place, std::uint32_t base)
   {
     item.positions.steps[axis] = origin.steps[axis];
   }
+  setClipping(axes, reference, shift, item.positions);
+}
+
+void RasterItems::setClipping(const glm::dmat3& axes, const glm::dvec3& reference, double shift,
+  RasterPositions& positions) const
+{
   // Planes are taken at the reference point first: both terms are large, their sum is not.
   const glm::dmat3 normalMatrix = glm::inverseTranspose(axes);
-  item.positions.clippingPlanes =
+  positions.clippingPlanes =
     static_cast<int>(std::min<std::size_t>(plan_.clippingPlanes.size(), 6));
-  for (int plane = 0; plane < item.positions.clippingPlanes; ++plane)
+  for (int plane = 0; plane < positions.clippingPlanes; ++plane)
   {
     const glm::dvec4& given = plan_.clippingPlanes[static_cast<std::size_t>(plane)];
     const glm::dvec3 normal = normalMatrix * glm::dvec3(given);
     const double atReference =
-      given.w + given.x * camera.reference.x + given.y * camera.reference.y +
-      given.z * camera.reference.z;
+      given.w + given.x * plan_.camera.reference.x + given.y * plan_.camera.reference.y +
+      given.z * plan_.camera.reference.z;
     const double distance = atReference - glm::dot(normal, reference) + normal.z * shift;
     const double values[4] = { normal.x, normal.y, normal.z, distance };
     for (int i = 0; i < 4; ++i)
     {
-      item.positions.clipping[plane][i] = static_cast<float>(values[i]);
+      positions.clipping[plane][i] = static_cast<float>(values[i]);
     }
   }
-  item.positions.filtered = !style.filter.empty();
-  items_.push_back(std::move(item));
 }
 
 void RasterItems::number()

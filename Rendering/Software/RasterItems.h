@@ -7,6 +7,7 @@
 #include "pointfront/Plan/FramePlan.h"
 
 #include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
 
 #include <array>
 #include <cstdint>
@@ -87,6 +88,10 @@ private:
   void fill(const RasterItem& item, const PointAt& pointAt, int count, float share,
     RasterBatch& batch) const;
   void add(const Place& place, std::uint32_t base);
+  void setPlace(RasterItem& item) const;
+  /// `reference` in camera space; `shift`: what depths of a parallel view count from.
+  void setClipping(const glm::dmat3& axes, const glm::dvec3& reference, double shift,
+    RasterPositions& positions) const;
   void number();
 
   const FramePlan& plan_;

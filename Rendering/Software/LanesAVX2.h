@@ -1,8 +1,6 @@
 #pragma once
 
-#include "RasterBatch.h"
-
-#include <immintrin.h>
+#include "LanesX86.h"
 
 namespace pointfront
 {
@@ -11,59 +9,11 @@ namespace
 
 // LanesPortable.h with AVX2.
 
-struct Lanes
-{
-  __m256 v;
-};
 struct LaneMask
 {
   __m256 v;
 };
-struct LaneWeights
-{
-  __m256i v;
-};
 
-inline Lanes all(float x)
-{
-  return { _mm256_set1_ps(x) };
-}
-inline Lanes load8(const float* p)
-{
-  return { _mm256_loadu_ps(p) };
-}
-inline Lanes load4x2(const float* p, const float* q)
-{
-  return { _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(p)), _mm_loadu_ps(q), 1) };
-}
-inline Lanes operator+(Lanes a, Lanes b)
-{
-  return { _mm256_add_ps(a.v, b.v) };
-}
-inline Lanes operator-(Lanes a, Lanes b)
-{
-  return { _mm256_sub_ps(a.v, b.v) };
-}
-inline Lanes operator*(Lanes a, Lanes b)
-{
-  return { _mm256_mul_ps(a.v, b.v) };
-}
-inline Lanes operator/(Lanes a, Lanes b)
-{
-  return { _mm256_div_ps(a.v, b.v) };
-}
-inline Lanes smaller(Lanes a, Lanes b)
-{
-  return { _mm256_min_ps(a.v, b.v) };
-}
-inline Lanes larger(Lanes a, Lanes b)
-{
-  return { _mm256_max_ps(a.v, b.v) };
-}
-inline Lanes rootOf(Lanes a)
-{
-  return { _mm256_sqrt_ps(a.v) };
-}
 inline LaneMask operator<=(Lanes a, Lanes b)
 {
   return { _mm256_cmp_ps(a.v, b.v, _CMP_LE_OQ) };

@@ -46,7 +46,9 @@ endif ()
 if (POINTFRONT_SANITIZE)
   add_compile_options(-fsanitize=${POINTFRONT_SANITIZE}
     -fno-omit-frame-pointer -fno-sanitize-recover=all)
-  add_link_options(-fsanitize=${POINTFRONT_SANITIZE})
+  # The sanitizers call dlopen() in the program's place, and RUNPATH counts for the caller's own
+  # calls only. RPATH counts for every call, so the libraries that the tool opens are found.
+  add_link_options(-fsanitize=${POINTFRONT_SANITIZE} -Wl,--disable-new-dtags)
 endif ()
 
 # For libraries whose inner loops call their own functions: nobody replaces these at run time, so

@@ -59,6 +59,58 @@ inline void keepNearest8(RasterKey* keys, Lanes depth, std::uint32_t index, Lane
   keepNearest4x2(keys, keys + 4, depth, index, m);
 }
 
+/// `count` pixels of a row, at most four: the others get what they have.
+inline void keepRow4(RasterKey* keys, float depth, std::uint32_t index, int count)
+{
+  const __m128i bits = _mm_castps_si128(_mm_set1_ps(depth));
+  const __m128i m = _mm_cmplt_epi32(_mm_setr_epi32(0, 1, 2, 3), _mm_set1_epi32(count));
+  keepNearest4(keys, bits, _mm256_set1_epi64x(static_cast<long long>(index)), m);
+}
+inline LaneMask equal8(const std::int32_t* values, std::int32_t wanted)
+{
+  const __m256i eight = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(values));
+  return { _mm256_castsi256_ps(_mm256_cmpeq_epi32(eight, _mm256_set1_epi32(wanted))) };
+}
+
+/// For each mask of eight lanes: its lanes, one after the other, a byte each.
+struct LanesOfMask
+{
+  constexpr LanesOfMask()
+    : packed()
+  {
+    for (unsigned mask = 0; mask < 256; ++mask)
+    {
+      unsigned place = 0;
+      for (unsigned lane = 0; lane < 8; ++lane)
+      {
+        if ((mask >> lane & 1u) != 0)
+        {
+          packed[mask] |= std::uint64_t(lane) << (8 * place++);
+        }
+      }
+    }
+  }
+  std::uint64_t packed[256];
+};
+constexpr LanesOfMask lanesOfMask;
+
+inline int listFragments(RasterBatch& batch, int listed, const std::int32_t* offsets,
+  std::int32_t further, Lanes depth, std::uint32_t index, LaneMask m)
+{
+  const auto mask = static_cast<unsigned>(_mm256_movemask_ps(m.v));
+  const __m256i lanes = _mm256_cvtepu8_epi32(
+    _mm_loadl_epi64(reinterpret_cast<const __m128i*>(lanesOfMask.packed + mask)));
+  const __m256i offset = _mm256_add_epi32(
+    _mm256_loadu_si256(reinterpret_cast<const __m256i*>(offsets)), _mm256_set1_epi32(further));
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(batch.fragmentOffset + listed),
+    _mm256_permutevar8x32_epi32(offset, lanes));
+  _mm256_storeu_ps(
+    batch.fragmentDepth + listed, _mm256_permutevar8x32_ps(depth.v, lanes));
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(batch.fragmentIndex + listed),
+    _mm256_add_epi32(lanes, _mm256_set1_epi32(static_cast<int>(index))));
+  return listed + __builtin_popcount(mask);
+}
+
 inline LaneWeights weights(Lanes x, LaneMask m)
 {
   return { _mm256_and_si256(_mm256_cvttps_epi32(x.v), _mm256_castps_si256(m.v)) };
@@ -92,6 +144,31 @@ inline void addSums4x2(std::uint32_t* lower, std::uint32_t* upper, LaneWeights w
 inline void addSums8(std::uint32_t* sums, LaneWeights w, LaneColour colour)
 {
   addSums4x2(sums, sums + 16, w, colour);
+}
+inline void addSums2(std::uint32_t* sums, const float* nearest, const float* depths,
+  const std::int32_t* w, LaneColour colour)
+{
+  auto* const p = reinterpret_cast<__m256i*>(sums);
+  const __m256i added = _mm256_madd_epi16(twoWeights(nearest, depths, w), colour.v);
+  _mm256_storeu_si256(p, _mm256_add_epi32(_mm256_loadu_si256(p), added));
+}
+
+inline int listEqual(const std::int32_t* values, int count, std::int32_t wanted, std::int32_t* list)
+{
+  const __m256i all = _mm256_set1_epi32(wanted);
+  int listed = 0;
+  for (int first = 0; first < count; first += 8)
+  {
+    const __m256i eight = _mm256_load_si256(reinterpret_cast<const __m256i*>(values + first));
+    auto found = static_cast<unsigned>(
+      _mm256_movemask_ps(_mm256_castsi256_ps(_mm256_cmpeq_epi32(eight, all))));
+    found &= count - first >= 8 ? 255u : (1u << (count - first)) - 1u;
+    for (; found != 0; found &= found - 1)
+    {
+      list[listed++] = first + __builtin_ctz(found);
+    }
+  }
+  return listed;
 }
 
 } // namespace

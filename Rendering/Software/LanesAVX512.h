@@ -59,6 +59,34 @@ inline void keepNearest4x2(
   keepNearest4(upper, _mm512_extracti64x4_epi64(key, 1), static_cast<unsigned>(m.v) >> 4);
 }
 
+/// `count` pixels of a row, at most four.
+inline void keepRow4(RasterKey* keys, float depth, std::uint32_t index, int count)
+{
+  std::uint32_t bits;
+  __builtin_memcpy(&bits, &depth, 4);
+  const __m256i key = _mm256_set1_epi64x(static_cast<long long>(std::uint64_t(bits) << 32 | index));
+  keepNearest4(keys, key, (1u << count) - 1u);
+}
+inline LaneMask equal8(const std::int32_t* values, std::int32_t wanted)
+{
+  const __m256i eight = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(values));
+  return { _mm256_cmpeq_epi32_mask(eight, _mm256_set1_epi32(wanted)) };
+}
+inline int listFragments(RasterBatch& batch, int listed, const std::int32_t* offsets,
+  std::int32_t further, Lanes depth, std::uint32_t index, LaneMask m)
+{
+  const __m256i offset = _mm256_add_epi32(
+    _mm256_loadu_si256(reinterpret_cast<const __m256i*>(offsets)), _mm256_set1_epi32(further));
+  const __m256i indices = _mm256_add_epi32(
+    _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7), _mm256_set1_epi32(static_cast<int>(index)));
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(batch.fragmentOffset + listed),
+    _mm256_maskz_compress_epi32(m.v, offset));
+  _mm256_storeu_ps(batch.fragmentDepth + listed, _mm256_maskz_compress_ps(m.v, depth.v));
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(batch.fragmentIndex + listed),
+    _mm256_maskz_compress_epi32(m.v, indices));
+  return listed + __builtin_popcount(m.v);
+}
+
 inline LaneWeights weights(Lanes x, LaneMask m)
 {
   return { _mm256_maskz_cvttps_epi32(m.v, x.v) };
@@ -90,6 +118,31 @@ inline void addSums4x2(std::uint32_t* lower, std::uint32_t* upper, LaneWeights w
 inline void addSums8(std::uint32_t* sums, LaneWeights w, LaneColour colour)
 {
   addSums4x2(sums, sums + 16, w, colour);
+}
+inline void addSums2(std::uint32_t* sums, const float* nearest, const float* depths,
+  const std::int32_t* w, LaneColour colour)
+{
+  auto* const p = reinterpret_cast<__m256i*>(sums);
+  const __m256i added =
+    _mm256_madd_epi16(twoWeights(nearest, depths, w), _mm512_castsi512_si256(colour.v));
+  _mm256_storeu_si256(p, _mm256_add_epi32(_mm256_loadu_si256(p), added));
+}
+
+inline int listEqual(const std::int32_t* values, int count, std::int32_t wanted, std::int32_t* list)
+{
+  const __m512i all = _mm512_set1_epi32(wanted);
+  __m512i places = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+  int listed = 0;
+  for (int first = 0; first < count; first += 16)
+  {
+    const unsigned inside = count - first >= 16 ? 0xffffu : (1u << (count - first)) - 1u;
+    const __mmask16 found = _mm512_mask_cmpeq_epi32_mask(
+      static_cast<__mmask16>(inside), _mm512_load_si512(values + first), all);
+    _mm512_storeu_si512(list + listed, _mm512_maskz_compress_epi32(found, places));
+    listed += __builtin_popcount(found);
+    places = _mm512_add_epi32(places, _mm512_set1_epi32(16));
+  }
+  return listed;
 }
 
 } // namespace

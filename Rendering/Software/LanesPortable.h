@@ -147,6 +147,65 @@ inline void keepNearest4x2(RasterKey* lower, RasterKey* upper, const Lanes& dept
   keepNearest(upper, depth, index, m, 4, 4);
 }
 
+/// What is not drawn: a NaN whose sign is set.
+inline float notDrawn()
+{
+  const std::uint32_t bits = ~0u;
+  float value;
+  __builtin_memcpy(&value, &bits, 4);
+  return value;
+}
+/// a0, b0, a1, b1 ... a7, b7
+inline void storePairs(float* p, const Lanes& a, const Lanes& b)
+{
+  for (int i = 0; i < 8; ++i)
+  {
+    p[2 * i] = a.v[i];
+    p[2 * i + 1] = b.v[i];
+  }
+}
+inline void storePairs(std::int32_t* p, const LaneWeights& a, const LaneWeights& b)
+{
+  for (int i = 0; i < 8; ++i)
+  {
+    p[2 * i] = a.v[i];
+    p[2 * i + 1] = b.v[i];
+  }
+}
+/// `count` pixels of a row, at most four.
+inline void keepRow4(RasterKey* keys, float depth, std::uint32_t index, int count)
+{
+  const RasterKey key = keyOf(depth, index);
+  for (int i = 0; i < count; ++i)
+  {
+    keys[i] = key < keys[i] ? key : keys[i];
+  }
+}
+/// Which of eight are `wanted`.
+inline LaneMask equal8(const std::int32_t* values, std::int32_t wanted)
+{
+  LaneMask m;
+  for (int i = 0; i < 8; ++i)
+  {
+    m.v[i] = values[i] == wanted ? -1 : 0;
+  }
+  return m;
+}
+/// Of eight splats, numbered from `index`, one pixel each, those in the mask: behind the first
+/// `listed` of the batch's fragments. Gives how many there are then.
+inline int listFragments(RasterBatch& batch, int listed, const std::int32_t* offsets,
+  std::int32_t further, const Lanes& depth, std::uint32_t index, const LaneMask& m)
+{
+  for (int i = 0; i < 8; ++i)
+  {
+    batch.fragmentOffset[listed] = offsets[i] + further;
+    batch.fragmentDepth[listed] = depth.v[i];
+    batch.fragmentIndex[listed] = index + static_cast<std::uint32_t>(i);
+    listed += m.v[i] ? 1 : 0;
+  }
+  return listed;
+}
+
 /// Towards zero; 0 where the mask is.
 inline LaneWeights weights(const Lanes& x, const LaneMask& m)
 {
@@ -186,6 +245,33 @@ inline void addSums4x2(std::uint32_t* lower, std::uint32_t* upper, const LaneWei
 {
   addFour(lower, w.v, colour);
   addFour(upper, w.v + 4, colour);
+}
+
+/// Two pixels of a row: what is not behind `nearest` is added.
+inline void addSums2(std::uint32_t* sums, const float* nearest, const float* depths,
+  const std::int32_t* w, const LaneColour& colour)
+{
+  for (int i = 0; i < 2; ++i)
+  {
+    const std::uint32_t weight =
+      depths[i] <= nearest[i] ? static_cast<std::uint32_t>(w[i]) : 0u;
+    for (int c = 0; c < 4; ++c)
+    {
+      sums[4 * i + c] += weight * colour.v[c];
+    }
+  }
+}
+
+/// Which of the first `count` are `wanted`, in their order; how many.
+inline int listEqual(const std::int32_t* values, int count, std::int32_t wanted, std::int32_t* list)
+{
+  int listed = 0;
+  for (int j = 0; j < count; ++j)
+  {
+    list[listed] = j;
+    listed += values[j] == wanted;
+  }
+  return listed;
 }
 
 } // namespace

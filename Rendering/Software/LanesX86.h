@@ -61,5 +61,36 @@ inline Lanes rootOf(Lanes a)
   return { _mm256_sqrt_ps(a.v) };
 }
 
+inline float notDrawn()
+{
+  return _mm_cvtss_f32(_mm_castsi128_ps(_mm_set1_epi32(-1)));
+}
+inline void storePairs(float* p, Lanes a, Lanes b)
+{
+  const __m256 low = _mm256_unpacklo_ps(a.v, b.v), high = _mm256_unpackhi_ps(a.v, b.v);
+  _mm256_storeu_ps(p, _mm256_permute2f128_ps(low, high, 0x20));
+  _mm256_storeu_ps(p + 8, _mm256_permute2f128_ps(low, high, 0x31));
+}
+inline void storePairs(std::int32_t* p, LaneWeights a, LaneWeights b)
+{
+  const __m256i low = _mm256_unpacklo_epi32(a.v, b.v), high = _mm256_unpackhi_epi32(a.v, b.v);
+  _mm256_storeu_si256(
+    reinterpret_cast<__m256i*>(p), _mm256_permute2x128_si256(low, high, 0x20));
+  _mm256_storeu_si256(
+    reinterpret_cast<__m256i*>(p + 8), _mm256_permute2x128_si256(low, high, 0x31));
+}
+
+/// Two weights, 0 where the splat is behind; each four times.
+inline __m256i twoWeights(const float* nearest, const float* depths, const std::int32_t* w)
+{
+  const __m128 front = _mm_castpd_ps(_mm_load_sd(reinterpret_cast<const double*>(depths)));
+  const __m128 known = _mm_castpd_ps(_mm_load_sd(reinterpret_cast<const double*>(nearest)));
+  const __m128i drawn = _mm_castps_si128(_mm_cmple_ps(front, known));
+  const __m128i weights = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(w));
+  return _mm256_permutevar8x32_epi32(
+    _mm256_castsi128_si256(_mm_and_si128(weights, drawn)),
+    _mm256_setr_epi32(0, 0, 0, 0, 1, 1, 1, 1));
+}
+
 } // namespace
 } // namespace pointfront

@@ -47,6 +47,14 @@ public:
   PointColours(const FramePlan& plan, const ResolvedStyle& style, const StyleColours& tables,
     const NodeColumns& node);
 
+  /// Asks for the memory that holds a point's value.
+  void fetchAhead(std::uint32_t point) const
+  {
+    if (column_)
+    {
+      __builtin_prefetch(column_ + point * stride_);
+    }
+  }
   std::uint32_t at(std::uint32_t point) const { return one_(*this, point); }
   /// Of points [first, first + count).
   void fill(std::uint32_t first, int count, std::uint32_t* colours) const

@@ -37,6 +37,7 @@ void projectInto(
     const float up = m10 * x + m11 * y + m12 * z + m13;
     const float ahead = m20 * x + m21 * y + m22 * z + m23;
     const float inverse = Parallel ? 1.0f : 1.0f / ahead;
+    batch.inverseReach[j] = inverse;
     batch.screenX[j] = centreX + right * inverse * scaleX;
     batch.screenY[j] = centreY + up * inverse * scaleY;
     const int drawn = (ahead >= nearDepth) & (ahead <= farDepth);
@@ -80,6 +81,44 @@ inline void project(
   }
 }
 
+inline void loadRadii(const RadiusCodes& stored, int count, RasterBatch& batch)
+{
+  const std::uint8_t* const __restrict__ codes = stored.codes;
+  const float* const __restrict__ radii = stored.radii;
+  float* const __restrict__ radius = batch.radius;
+  const float scale = stored.scale, unknown = stored.unknown;
+  const float least = stored.least, most = stored.most;
+  for (int j = 0; j < count; ++j)
+  {
+    radius[j] = radii[codes[j]];
+  }
+  for (int j = 0; j < count; ++j)
+  {
+    const float own = radius[j] * scale;
+    const float bounded = own < most ? own : most;
+    const float known = own > 0.0f ? bounded : unknown;
+    radius[j] = known > least ? known : least;
+  }
+}
+
+inline void loadNormals(const StoredNormals& stored, int count, RasterBatch& batch)
+{
+  const std::int16_t* const __restrict__ xyz = stored.xyz;
+  const auto& m = stored.matrix;
+  const float m00 = m[0][0], m01 = m[0][1], m02 = m[0][2];
+  const float m10 = m[1][0], m11 = m[1][1], m12 = m[1][2];
+  const float m20 = m[2][0], m21 = m[2][1], m22 = m[2][2];
+  for (int j = 0; j < count; ++j)
+  {
+    const auto x = static_cast<float>(xyz[3 * j]);
+    const auto y = static_cast<float>(xyz[3 * j + 1]);
+    const auto z = static_cast<float>(xyz[3 * j + 2]);
+    batch.normalX[j] = m00 * x + m01 * y + m02 * z;
+    batch.normalY[j] = m10 * x + m11 * y + m12 * z;
+    batch.normalZ[j] = m20 * x + m21 * y + m22 * z;
+  }
+}
+
 /// What is culled is drawn too, into a pixel of the margin that nobody looks at: a branch costs
 /// more.
 inline void drawPixels(const RasterWindow& window, RasterBatch& batch, int count,
@@ -112,14 +151,54 @@ inline void drawPixels(const RasterWindow& window, RasterBatch& batch, int count
   }
 }
 
-inline void drawSquares(const RasterWindow& window, RasterBatch& batch, int count, int size,
+/// Squares that fit in the margin: rows are drawn whole, four or eight pixels at a time.
+template <bool Four>
+inline void drawBlocks(const RasterWindow& window, RasterBatch& batch, int count, int size,
   std::uint32_t index, RasterKey* keys)
 {
-  if (size <= 1)
+  const float back = 0.5f * static_cast<float>(size - 1);
+  const auto reach = static_cast<float>(size);
+  const auto width = static_cast<float>(window.width);
+  const auto height = static_cast<float>(window.height);
+  const auto bottom = static_cast<float>(window.bottom);
+  const std::int32_t stride = window.stride;
+  const std::int32_t corner = window.at(0, 0);
+  for (int j = 0; j < count; ++j)
   {
-    drawPixels(window, batch, count, index, keys);
-    return;
+    const float x = __builtin_floorf(batch.screenX[j] - back);
+    const float y = __builtin_floorf(batch.screenY[j] - back) - bottom;
+    const int seen = (x > -reach) & (x < width) & (y > -reach) & (y < height) &
+      (batch.depth[j] >= 0.0f);
+    const auto column = static_cast<std::int32_t>(seen ? x : 0.0f);
+    const auto row = static_cast<std::int32_t>(seen ? y : 0.0f);
+    batch.offset[j] = seen ? corner + row * stride + column : 0;
   }
+  for (int j = 0; j < count; ++j)
+  {
+    RasterKey* row = keys + batch.offset[j];
+    const float depth = batch.depth[j] >= 0.0f ? batch.depth[j] : 0.0f;
+    const std::uint32_t id = index + static_cast<std::uint32_t>(j);
+    for (int y = 0; y < size; ++y, row += stride)
+    {
+      if (Four)
+      {
+        keepRow4(row, depth, id, size);
+        continue;
+      }
+      int x = 0;
+      for (; x + 4 < size; x += 4)
+      {
+        keepRow4(row + x, depth, id, 4);
+      }
+      keepRow4(row + x, depth, id, size - x);
+    }
+  }
+}
+
+/// Squares that may be larger than the margin.
+inline void drawLargeSquares(const RasterWindow& window, RasterBatch& batch, int count, int size,
+  std::uint32_t index, RasterKey* keys)
+{
   const float back = 0.5f * static_cast<float>(size - 1);
   const auto most = static_cast<float>(1 << 24);
   for (int j = 0; j < count; ++j)
@@ -147,6 +226,27 @@ inline void drawSquares(const RasterWindow& window, RasterBatch& batch, int coun
         pixels[column] = key < pixels[column] ? key : pixels[column];
       }
     }
+  }
+}
+
+inline void drawSquares(const RasterWindow& window, RasterBatch& batch, int count, int size,
+  std::uint32_t index, RasterKey* keys)
+{
+  if (size <= 1)
+  {
+    drawPixels(window, batch, count, index, keys);
+  }
+  else if (size <= 4)
+  {
+    drawBlocks<true>(window, batch, count, size, index, keys);
+  }
+  else if (size < rasterMargin)
+  {
+    drawBlocks<false>(window, batch, count, size, index, keys);
+  }
+  else
+  {
+    drawLargeSquares(window, batch, count, size, index, keys);
   }
 }
 

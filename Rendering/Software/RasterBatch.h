@@ -16,16 +16,16 @@ struct RasterBatch
   enum Extent : std::int32_t
   {
     Culled = 0,
-    Within4 = 1,  ///< 4 x 4 pixels
-    Within8 = 2,  ///< 8 pixels wide
-    Within16 = 3, ///< 16 pixels wide
-    Wide = 4,     ///< within the buffers' margin: rows of any length
-    Clipped = 5   ///< anything larger: its rows are clipped
+    Within2 = 1, ///< 2 x 2 pixels
+    Within4 = 2, ///< 4 x 4 pixels
+    Wide = 3,    ///< within the buffers' margin: rows of any length
+    Clipped = 4  ///< anything larger: its rows are clipped
   };
 
   alignas(64) float screenX[size]; ///< pixels
   alignas(64) float screenY[size];
   alignas(64) float depth[size];   ///< camera z; negative: culled
+  alignas(64) float inverseReach[size]; ///< 1 / depth; parallel: 1
   alignas(64) float radius[size];  ///< world units; after the set-up: at least what a pixel needs
   alignas(64) float normalX[size]; ///< camera space, any length
   alignas(64) float normalY[size];
@@ -51,7 +51,17 @@ struct RasterBatch
   alignas(64) std::int32_t extent[size];
   alignas(64) std::uint32_t colour[size]; ///< bytes r, g, b, a in memory order
   alignas(64) std::uint8_t keep[size];    ///< 0: filtered out
-  alignas(64) std::int32_t list[size + 16];
+  alignas(64) std::int32_t list[size + 16]; ///< and what a vector writes behind it
+
+  // Of splats within 2 x 2 pixels, the pixels that they cover:
+  alignas(64) std::int32_t fragmentOffset[4 * size + 16];
+  alignas(64) float fragmentDepth[4 * size + 16];
+  alignas(64) std::uint32_t fragmentIndex[4 * size + 16];
+  // and all of them, two of a row beside one another:
+  alignas(64) float lowerDepth[2 * size];
+  alignas(64) float upperDepth[2 * size];
+  alignas(64) std::int32_t lowerWeight[2 * size];
+  alignas(64) std::int32_t upperWeight[2 * size];
 };
 
 /// Depth and index in one number: the smallest is the nearest, and of equals the first.

@@ -38,12 +38,32 @@ private:
   std::size_t size_ = 0;
 };
 
+/// A pixel and the point that won it.
+struct Winner
+{
+  std::int32_t x; ///< in the window
+  std::int32_t y;
+  std::uint32_t index; ///< in its node
+  float keyDepth;
+};
+
+/// Winners of some rows, put in the order of their items: scratch of one thread.
+struct WinnerLists
+{
+  std::vector<Winner> found;          ///< as they lie in the picture
+  std::vector<std::uint32_t> item;    ///< of each that was found
+  std::vector<Winner> sorted;         ///< by item
+  std::vector<std::uint32_t> places;  ///< of each item: how many, then where; 0 between uses
+  std::vector<std::uint32_t> touched; ///< items with a winner, in the order they were found
+};
+
 /// What one thread draws into.
 struct ThreadBuffers
 {
   RasterBuffer<RasterKey> keys;
   RasterBuffer<std::uint32_t> sums; ///< weight * r, g, b and weight of each pixel
   std::unique_ptr<RasterBatch> batch;
+  WinnerLists winners;
   bool keysDrawn = false; ///< cleared, and maybe drawn into, in this picture
   bool sumsDrawn = false;
 

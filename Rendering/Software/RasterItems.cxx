@@ -28,10 +28,6 @@ const std::byte* columnOf(const NodeColumns& node, std::optional<std::uint32_t> 
     : node.columns[static_cast<std::size_t>(place - node.selection.begin())].data();
 }
 
-/// A point's own radius counts up to that many times what closes its node: a stray point far from
-/// all others is no surface.
-constexpr float mostOfClosing = 4.0f;
-
 /// Rows x, y and the line of sight: view space looks along -z.
 glm::dmat3 cameraAxes(const FrameCamera& camera)
 {
@@ -239,110 +235,6 @@ bool RasterItems::filter(const FramePlan& plan, const RasterItem& item, std::uin
   item.style->filter.evaluate(
     node, *plan.schema, first, static_cast<std::uint32_t>(count), batch.keep);
   return true;
-}
-
-namespace
-{
-
-template <typename T, typename PointAt>
-void loadNormals(const std::byte* column, const PointAt& pointAt, int count,
-  const glm::mat3& toCamera, RasterBatch& batch)
-{
-  for (int j = 0; j < count; ++j)
-  {
-    T stored[3];
-    std::memcpy(stored, column + std::size_t(pointAt(j)) * sizeof(stored), sizeof(stored));
-    const auto x = static_cast<float>(stored[0]);
-    const auto y = static_cast<float>(stored[1]);
-    const auto z = static_cast<float>(stored[2]);
-    batch.normalX[j] = toCamera[0][0] * x + toCamera[1][0] * y + toCamera[2][0] * z;
-    batch.normalY[j] = toCamera[0][1] * x + toCamera[1][1] * y + toCamera[2][1] * z;
-    batch.normalZ[j] = toCamera[0][2] * x + toCamera[1][2] * y + toCamera[2][2] * z;
-  }
-}
-
-template <typename PointAt>
-void loadRadii(const std::byte* column, const Attribute& attribute, const PointAt& pointAt,
-  int count, float factor, RasterBatch& batch)
-{
-  visitScalar(attribute.type,
-    [&](auto zero)
-    {
-      for (int j = 0; j < count; ++j)
-      {
-        decltype(zero) stored;
-        std::memcpy(&stored, column + pointAt(j) * attribute.bytes(), sizeof(stored));
-        const double radius = static_cast<double>(stored) * attribute.scale + attribute.offset;
-        batch.radius[j] = radius > 0.0 ? static_cast<float>(radius) * factor : 0.0f;
-      }
-    });
-}
-
-} // namespace
-
-template <typename PointAt>
-void RasterItems::fill(const RasterItem& item, const PointAt& pointAt, int count, float share,
-  RasterBatch& batch) const
-{
-  if (item.style->size.mode == SplatSize::Mode::Pixels)
-  {
-    const float pixels =
-      static_cast<float>(0.5 * item.style->size.value) * share / item.camera.scaleY;
-    for (int j = 0; j < count; ++j)
-    {
-      batch.radius[j] = pixels * (item.camera.parallel ? 1.0f : batch.depth[j]);
-    }
-  }
-  else if (item.sizes)
-  {
-    const auto factor = static_cast<float>(item.style->size.value) * radiusFactor_ * share;
-    loadRadii(item.sizes, *item.sizeAttribute, pointAt, count, factor, batch);
-  }
-  else if (item.radiusCodes)
-  {
-    // Its own radius is for all points: too small where finer nodes are there and not drawn.
-    const bool finest = item.item->refined || item.node().leaf;
-    const float least = finest ? 0.0f : item.radius * share;
-    const float scale = item.radiusScale * share;
-    const float unknown = item.radius * share;
-    const float most = mostOfClosing * item.radius * share;
-    for (int j = 0; j < count; ++j)
-    {
-      const float own = radii_[item.radiusCodes[pointAt(j)]] * scale;
-      batch.radius[j] = std::max(own > 0.0f ? std::min(own, most) : unknown, least);
-    }
-  }
-  else
-  {
-    std::fill(batch.radius, batch.radius + count, item.radius * share);
-  }
-  if (item.normals)
-  {
-    item.normalAttribute->type == ScalarType::Int16
-      ? loadNormals<std::int16_t>(item.normals, pointAt, count, normalToCamera_, batch)
-      : loadNormals<float>(item.normals, pointAt, count, normalToCamera_, batch);
-    return;
-  }
-  const glm::vec3 fixed = item.style->orientation == SplatOrientation::Fixed
-    ? normalToCamera_ * item.style->fixedNormal
-    : glm::vec3(0.0f);
-  std::fill(batch.normalX, batch.normalX + count, fixed.x);
-  std::fill(batch.normalY, batch.normalY + count, fixed.y);
-  std::fill(batch.normalZ, batch.normalZ + count, fixed.z);
-}
-
-void RasterItems::fillShape(const RasterItem& item, std::uint32_t first, int count, float share,
-  RasterBatch& batch) const
-{
-  fill(
-    item, [first](int j) { return first + static_cast<std::uint32_t>(j); }, count, share, batch);
-}
-
-void RasterItems::fillShape(const RasterItem& item, const std::uint32_t* points, int count,
-  float share, RasterBatch& batch) const
-{
-  fill(
-    item, [points](int j) { return points[j]; }, count, share, batch);
 }
 
 } // namespace pointfront

@@ -37,6 +37,26 @@ struct RasterItem
   const Attribute* normalAttribute = nullptr;
 
   const NodeColumns& node() const { return *item->node; }
+  /// Asks for the memory that holds what a winner is resolved by.
+  void fetchAhead(std::uint32_t point) const
+  {
+    if (!passes.depthInKey() || normals)
+    {
+      __builtin_prefetch(positions.xyz + 3 * std::size_t(point));
+    }
+    if (radiusCodes && !passes.depthInKey())
+    {
+      __builtin_prefetch(radiusCodes + point);
+    }
+    if (normals)
+    {
+      __builtin_prefetch(normals + std::size_t(point) * normalAttribute->bytes());
+    }
+    if (!passes.blended)
+    {
+      colours->fetchAhead(point);
+    }
+  }
 };
 
 /// A plan's items in the order of their nodes, with numbers for their points: a key's 32 bits name
@@ -65,17 +85,14 @@ public:
   }
   /// Radius of a point's code, world units; 0 where it has none.
   const std::array<float, 256>& radii() const { return radii_; }
+  /// View units of a store unit.
+  float radiusFactor() const { return radiusFactor_; }
+  const glm::mat3& normalToCamera() const { return normalToCamera_; }
   const FramePlan& plan() const { return plan_; }
 
   /// Fills RasterBatch::keep of points [first, first + count); false: nothing is filtered.
   static bool filter(const FramePlan& plan, const RasterItem& item, std::uint32_t first, int count,
     RasterBatch& batch);
-  /// Fills radius (world units, times `share`) and normals of projected points: of [first, first +
-  /// count), or of those in a list.
-  void fillShape(const RasterItem& item, std::uint32_t first, int count, float share,
-    RasterBatch& batch) const;
-  void fillShape(const RasterItem& item, const std::uint32_t* points, int count, float share,
-    RasterBatch& batch) const;
 
 private:
   struct Place
@@ -84,9 +101,6 @@ private:
     const DrawBatch* batch;
   };
   static constexpr unsigned pageBits = 12;
-  template <typename PointAt>
-  void fill(const RasterItem& item, const PointAt& pointAt, int count, float share,
-    RasterBatch& batch) const;
   void add(const Place& place, std::uint32_t base);
   void setPlace(RasterItem& item) const;
   /// `reference` in camera space; `shift`: what depths of a parallel view count from.
@@ -100,7 +114,7 @@ private:
   std::vector<std::uint32_t> pages_; ///< the item that has a page's first index
   std::vector<std::pair<const ResolvedStyle*, std::unique_ptr<StyleColours>>> tables_;
   std::array<float, 256> radii_{};
-  float radiusFactor_ = 1.0f; ///< view units of a store unit
+  float radiusFactor_ = 1.0f;
   glm::mat3 normalToCamera_{ 1.0f };
   std::size_t end_ = 0;
   bool blended_ = false;

@@ -28,6 +28,24 @@ struct SplatPass
   float slackPixels = 2.0f;  ///< and that many pixels' size at its depth
 };
 
+/// Radii as codes of a byte (drawing.md 3), and what they come to.
+struct RadiusCodes
+{
+  const std::uint8_t* codes = nullptr; ///< of the batch's first point
+  const float* radii = nullptr;        ///< 256; 0: not known
+  float scale = 1.0f;
+  float unknown = 0.0f;                ///< taken where it is not known; all are after `scale`
+  float least = 0.0f;
+  float most = 0.0f;
+};
+
+/// Normals of three 16-bit numbers, and the matrix that turns them into camera space.
+struct StoredNormals
+{
+  const std::int16_t* xyz = nullptr; ///< of the batch's first point
+  float matrix[3][3] = {};           ///< rows
+};
+
 /// The inner loops, made for one instruction set. All sets give the same bits: only operations that
 /// IEEE 754 rounds exactly, no contraction.
 struct RasterKernels
@@ -39,6 +57,9 @@ struct RasterKernels
   /// Squares of `size` x `size` pixels, 1 to 255. `index` is that of the batch's first point.
   void (*drawSquares)(const RasterWindow&, RasterBatch&, int count, int size, std::uint32_t index,
     RasterKey* keys);
+  /// Fills radius; normalX, normalY, normalZ.
+  void (*loadRadii)(const RadiusCodes&, int count, RasterBatch&);
+  void (*loadNormals)(const StoredNormals&, int count, RasterBatch&);
   /// Fills what the shape needs, from radius and normal, and sorts by extent.
   void (*setUp)(
     const RasterCamera&, const RasterWindow&, const SplatPass&, int count, RasterBatch&);

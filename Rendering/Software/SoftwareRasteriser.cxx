@@ -1,5 +1,6 @@
 #include "SoftwareRasteriser.h"
 
+#include "PointShapes.h"
 #include "RasterBuffers.h"
 #include "RasterItems.h"
 #include "RasterKernels.h"
@@ -218,6 +219,7 @@ void SoftwareRasteriser::Content::drawKeys(const RasterItems& items, const Raste
   const std::vector<Piece>& pieces, bool goingOn)
 {
   const RasterKernels& kernels = *loops;
+  const PointShapes shapes(items, kernels);
   for (std::size_t thread = 0; thread < buffers.size(); ++thread)
   {
     buffers[thread].keysDrawn = thread == 0 && goingOn;
@@ -255,7 +257,7 @@ void SoftwareRasteriser::Content::drawKeys(const RasterItems& items, const Raste
             now, batch, count, item.passes.squareSize, item.base + first, keys);
           continue;
         }
-        items.fillShape(item, first, count, item.passes.firstRadius, batch);
+        shapes.fill(item, first, count, item.passes.firstRadius, batch);
         kernels.setUp(item.camera, now, item.passes.first, count, batch);
         kernels.drawSplats(
           item.camera, now, item.passes.first, batch, count, item.base + first, keys);
@@ -289,6 +291,7 @@ void SoftwareRasteriser::Content::addColours(
     one.sumsDrawn = false;
   }
   const RasterKernels& kernels = *loops;
+  const PointShapes shapes(items, kernels);
   crew.run(pieces.size(),
     [&](std::size_t number, unsigned thread)
     {
@@ -314,7 +317,7 @@ void SoftwareRasteriser::Content::addColours(
         positions.xyz = item.positions.xyz + 3 * std::size_t(first);
         positions.filtered = RasterItems::filter(items.plan(), item, first, count, batch);
         kernels.project(item.camera, positions, count, batch);
-        items.fillShape(item, first, count, item.passes.secondRadius, batch);
+        shapes.fill(item, first, count, item.passes.secondRadius, batch);
         kernels.setUp(item.camera, now, item.passes.second, count, batch);
         item.colours->fill(first, count, batch.colour);
         kernels.addSplats(item.camera, now, item.passes.second, batch, count, depths, sums);
@@ -347,13 +350,9 @@ void SoftwareRasteriser::Content::resolve(const RasterItems& items, const Raster
   crew.run(pieces,
     [&](std::size_t piece, unsigned thread)
     {
-      WinnerResolve resolve(source, buffers[thread].scratch());
       const int begin = static_cast<int>(piece) * rowsOfPiece;
-      const int end = std::min(begin + rowsOfPiece, now.height);
-      for (int y = begin; y < end; ++y)
-      {
-        resolve.row(y, target, firstRow + y);
-      }
+      WinnerResolve(source, buffers[thread])
+        .rows(begin, std::min(begin + rowsOfPiece, now.height), target, firstRow);
     });
 }
 

@@ -41,7 +41,7 @@ inline void widen(
   for (int j = 0; j < count; ++j)
   {
     const float reach = Parallel ? 1.0f : batch.depth[j];
-    float pixels = batch.radius[j] * scale / reach;
+    float pixels = batch.radius[j] * scale * batch.inverseReach[j];
     pixels = pixels > leastPixels ? pixels : leastPixels;
     pixels = pixels < mostPixels ? pixels : mostPixels;
     batch.halfX[j] = pixels;
@@ -61,7 +61,7 @@ inline void setUpDiscs(int count, RasterBatch& batch)
   }
 }
 
-/// A point without a normal faces the eye.
+/// A point without a normal faces the eye. Of any length.
 template <bool Parallel>
 inline void completeNormals(RasterCamera camera, int count, RasterBatch& batch)
 {
@@ -71,16 +71,27 @@ inline void completeNormals(RasterCamera camera, int count, RasterBatch& batch)
     const float x = batch.normalX[j], y = batch.normalY[j], z = batch.normalZ[j];
     const float square = x * x + y * y + z * z;
     const int known = (square > 1e-12f) & (square < 1e12f);
-    const float length2 = known ? square : 1.0f + to.x * to.x + to.y * to.y;
-    const float inverse = 1.0f / __builtin_sqrtf(length2);
-    batch.normalX[j] = (known ? x : to.x) * inverse;
-    batch.normalY[j] = (known ? y : to.y) * inverse;
-    batch.normalZ[j] = (known ? z : 1.0f) * inverse;
+    batch.normalX[j] = known ? x : to.x;
+    batch.normalY[j] = known ? y : to.y;
+    batch.normalZ[j] = known ? z : 1.0f;
+  }
+}
+
+inline void normalise(int count, RasterBatch& batch)
+{
+  for (int j = 0; j < count; ++j)
+  {
+    const float x = batch.normalX[j], y = batch.normalY[j], z = batch.normalZ[j];
+    const float inverse = 1.0f / __builtin_sqrtf(x * x + y * y + z * z);
+    batch.normalX[j] = x * inverse;
+    batch.normalY[j] = y * inverse;
+    batch.normalZ[j] = z * inverse;
   }
 }
 
 /// Source  Kovac 2009, 4.1 and 4.2, with the sign of the errata; the affine map's inverse variance
-///         with a low-pass added, as in splat-study.md.
+///         with a low-pass added, as in splat-study.md. Roots and divisions are what this costs:
+///         bounds that need not be sharp do without.
 template <bool Parallel>
 inline void setUpEllipses(RasterCamera camera, float lowPass, int count, RasterBatch& batch)
 {
@@ -94,8 +105,9 @@ inline void setUpEllipses(RasterCamera camera, float lowPass, int count, RasterB
     const float reach = Parallel ? 1.0f : batch.depth[j];
     float facing = nx * to.x + ny * to.y + nz;
     const float side = facing < 0.0f ? -1.0f : 1.0f;
+    const float aside2 = to.x * to.x + to.y * to.y;
     const float least =
-      leastCosine * __builtin_sqrtf(1.0f + to.x * to.x + to.y * to.y);
+      leastCosine * __builtin_sqrtf((nx * nx + ny * ny + nz * nz) * (1.0f + aside2));
     facing = facing * side;
     facing = facing > least ? facing : least;
     const float pixelX = reach * widthX, pixelY = reach * widthY; // world units at its depth
@@ -103,11 +115,10 @@ inline void setUpEllipses(RasterCamera camera, float lowPass, int count, RasterB
     const float gx = nx * slope * pixelX, gy = ny * slope * pixelY;
     const float ax = pixelX + to.x * gx, ay = to.y * gx;
     const float bx = to.x * gy, by = pixelY + to.y * gy;
-    const float inverse = 1.0f / (batch.radius[j] * batch.radius[j]);
-    const float xx = (ax * ax + ay * ay + gx * gx) * inverse;
-    const float xy = (ax * bx + ay * by + gx * gy) * inverse;
-    const float yy = (bx * bx + by * by + gy * gy) * inverse;
-    const float area = 1.0f / (xx * yy - xy * xy);
+    const float xx = ax * ax + ay * ay + gx * gx; // q = (xx dx^2 + 2 xy dx dy + yy dy^2) / r^2
+    const float xy = ax * bx + ay * by + gx * gy;
+    const float yy = bx * bx + by * by + gy * gy;
+    const float area = batch.radius[j] * batch.radius[j] / (xx * yy - xy * xy);
     const float varianceX = yy * area + filter;
     const float covariance = -xy * area;
     const float varianceY = xx * area + filter;
@@ -119,10 +130,12 @@ inline void setUpEllipses(RasterCamera camera, float lowPass, int count, RasterB
     batch.slopeY[j] = gy;
     const float halfX = __builtin_sqrtf(varianceX), halfY = __builtin_sqrtf(varianceY);
     // The disc is inside its sphere; its affine image need not be, far from the middle of the view.
-    const float size = batch.radius[j] / reach;
-    const float bent = 1.0f / (1.0f - (Parallel ? 0.0f : (size < 0.9f ? size * size : 0.81f)));
-    const float mostX = size * camera.scaleX * __builtin_sqrtf(1.0f + to.x * to.x) * bent + 1.0f;
-    const float mostY = size * camera.scaleY * __builtin_sqrtf(1.0f + to.y * to.y) * bent + 1.0f;
+    // Of a sphere of angular size s: s sqrt(1 + x^2) / (1 - s^2), from above.
+    const float size = batch.halfX[j] * widthY;
+    const float size2 = size * size;
+    const float bent = Parallel ? 1.0f : 1.0f + 5.27f * (size2 < 0.81f ? size2 : 0.81f);
+    const float mostX = size * camera.scaleX * (1.0f + 0.5f * to.x * to.x) * bent + 1.0f;
+    const float mostY = size * camera.scaleY * (1.0f + 0.5f * to.y * to.y) * bent + 1.0f;
     const float withinX = halfX < mostX ? halfX : mostX;
     const float withinY = halfY < mostY ? halfY : mostY;
     batch.halfX[j] = withinX > 0.5f ? withinX : 0.5f;
@@ -263,7 +276,8 @@ inline void sortByExtent(const RasterWindow& window, int count, RasterBatch& bat
     // A splat may be small and yet reach over the margin: its centre is beyond the edge.
     const int inMargin = (x0 >= leftmost) & (x1 < rightmost) & (y0 >= lowest) & (y1 < highest);
     const int fits = seen & inMargin & (larger <= largestUnclipped);
-    const int extent = 1 + (larger > 2.0f) + (larger > 4.0f) + (larger > 8.0f);
+    const float across = x1 - x0 > y1 - y0 ? x1 - x0 : y1 - y0;
+    const int extent = RasterBatch::Within2 + (across > 1.0f) + (larger > 2.0f);
     batch.extent[j] = fits ? extent : seen * static_cast<int>(RasterBatch::Clipped);
     const float left = fits ? x0 : 0.0f, low = fits ? y0 : 0.0f;
     batch.firstX[j] = left + 0.5f - batch.screenX[j];
@@ -272,6 +286,10 @@ inline void sortByExtent(const RasterWindow& window, int count, RasterBatch& bat
       corner + static_cast<std::int32_t>(low) * stride + static_cast<std::int32_t>(left);
     batch.rows[j] = static_cast<std::int32_t>(fits ? y1 - y0 + 1.0f : 0.0f);
     batch.columns[j] = static_cast<std::int32_t>(fits ? x1 - x0 + 1.0f : 0.0f);
+  }
+  for (int j = count; j < RasterBatch::size && j % 8 != 0; ++j)
+  {
+    batch.extent[j] = RasterBatch::Culled; // lanes behind the last splat
   }
 }
 
@@ -290,6 +308,7 @@ void setUpOf(const RasterCamera& camera, const SplatPass& pass, int count, Raste
       break;
     case SplatShape::ExactEllipse:
       completeNormals<Parallel>(camera, count, batch);
+      normalise(count, batch);
       setUpExact<Parallel>(camera, pass.lowPass, count, batch);
       break;
     case SplatShape::Sphere:

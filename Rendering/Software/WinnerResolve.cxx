@@ -1,5 +1,7 @@
 #include "WinnerResolve.h"
 
+#include "PointShapes.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -11,6 +13,9 @@ namespace
 
 /// Beyond that a sum of weighted colours may have overflowed: 2^32 / 255.
 constexpr std::uint32_t mostWeight = 16843009u;
+
+/// Winners that are found before they are resolved: what is fetched for them fits in a cache.
+constexpr std::size_t winnersAtOnce = 4096;
 
 float depthOf(RasterKey key)
 {
@@ -35,8 +40,7 @@ float fromEye(const RasterItems& items, float depth)
 
 } // namespace
 
-/// Where pixels of one node follow each other they are worked on together.
-void WinnerResolve::row(int y, SoftwareTarget& target, int targetRow)
+void WinnerResolve::merge(int y)
 {
   const std::int32_t begin = source_.window.at(0, y);
   RasterKey* const merged = source_.merged + begin;
@@ -49,40 +53,90 @@ void WinnerResolve::row(int y, SoftwareTarget& target, int targetRow)
       merged[x] = keys[x] < merged[x] ? keys[x] : merged[x];
     }
   }
-  for (int x = 0; x < width; ++x)
+}
+
+void WinnerResolve::find(int y)
+{
+  const RasterKey* const merged = source_.merged + source_.window.at(0, y);
+  const RasterItem* const items = source_.items->items().data();
+  const RasterItem* last = items;
+  for (int x = 0; x < source_.window.width; ++x)
   {
-    if (merged[x] != emptyKey)
+    const RasterKey key = merged[x];
+    if (key == emptyKey)
     {
-      take(y, x, merged[x], target, targetRow);
+      continue;
+    }
+    const auto index = static_cast<std::uint32_t>(key);
+    const RasterItem& item =
+      index - last->base < last->node().size() ? *last : source_.items->find(index);
+    last = &item;
+    const std::uint32_t point = index - item.base;
+    item.fetchAhead(point);
+    const auto number = static_cast<std::uint32_t>(&item - items);
+    if (winners_.places[number]++ == 0)
+    {
+      winners_.touched.push_back(number);
+    }
+    winners_.found.push_back({ x, y, point, depthOf(key) });
+    winners_.item.push_back(number);
+  }
+}
+
+void WinnerResolve::sortByItem()
+{
+  winners_.sorted.resize(winners_.found.size());
+  std::uint32_t next = 0;
+  for (const std::uint32_t number : winners_.touched)
+  {
+    const std::uint32_t count = winners_.places[number];
+    winners_.places[number] = next;
+    next += count;
+  }
+  for (std::size_t i = 0; i < winners_.found.size(); ++i)
+  {
+    winners_.sorted[winners_.places[winners_.item[i]]++] = winners_.found[i];
+  }
+}
+
+void WinnerResolve::resolveFound(SoftwareTarget& target, int firstRow)
+{
+  sortByItem();
+  const std::vector<RasterItem>& items = source_.items->items();
+  std::uint32_t begin = 0;
+  for (const std::uint32_t number : winners_.touched)
+  {
+    const std::uint32_t end = winners_.places[number];
+    for (; begin < end; begin += std::min<std::uint32_t>(RasterBatch::size, end - begin))
+    {
+      const auto count =
+        static_cast<int>(std::min<std::uint32_t>(RasterBatch::size, end - begin));
+      resolve(items[number], winners_.sorted.data() + begin, count, target, firstRow);
+    }
+    winners_.places[number] = 0;
+  }
+  winners_.found.clear();
+  winners_.item.clear();
+  winners_.touched.clear();
+}
+
+void WinnerResolve::rows(int begin, int end, SoftwareTarget& target, int firstRow)
+{
+  winners_.places.resize(source_.items->items().size(), 0u);
+  for (int y = begin; y < end; ++y)
+  {
+    merge(y);
+    find(y);
+    if (winners_.found.size() >= winnersAtOnce || y + 1 == end)
+    {
+      resolveFound(target, firstRow);
     }
   }
-  flush(y, target, targetRow);
 }
 
-void WinnerResolve::take(int y, int x, RasterKey key, SoftwareTarget& target, int targetRow)
+bool WinnerResolve::blendedColour(const Winner& winner, std::uint32_t& rgba) const
 {
-  const auto index = static_cast<std::uint32_t>(key);
-  const bool same = item_ && index - item_->base < item_->node().size();
-  const RasterItem& item = same ? *item_ : source_.items->find(index);
-  const Winner winner{ x, index - item.base, depthOf(key) };
-  if (item.passes.depthInKey() && !source_.normals)
-  {
-    item_ = waiting_.empty() ? &item : item_;
-    const auto pixel = static_cast<std::size_t>(std::int64_t(targetRow) * target.width + x);
-    put(item, winner, fromEye(*source_.items, winner.keyDepth), y, target, pixel);
-    return;
-  }
-  if (&item != item_ || waiting_.size() == static_cast<std::size_t>(RasterBatch::size))
-  {
-    flush(y, target, targetRow);
-  }
-  item_ = &item;
-  waiting_.push_back(winner);
-}
-
-bool WinnerResolve::blendedColour(int y, int x, std::uint32_t& rgba) const
-{
-  const std::int64_t place = 4 * std::int64_t(source_.window.at(x, y));
+  const std::int64_t place = 4 * std::int64_t(source_.window.at(winner.x, winner.y));
   std::uint32_t total[4] = { 0, 0, 0, 0 };
   for (const std::uint32_t* const sums : source_.sums)
   {
@@ -104,7 +158,7 @@ bool WinnerResolve::blendedColour(int y, int x, std::uint32_t& rgba) const
   return true;
 }
 
-void WinnerResolve::put(const RasterItem& item, const Winner& winner, float depth, int y,
+void WinnerResolve::put(const RasterItem& item, const Winner& winner, float depth,
   SoftwareTarget& target, std::size_t pixel)
 {
   if (!(depth < target.depth[pixel]))
@@ -113,7 +167,7 @@ void WinnerResolve::put(const RasterItem& item, const Winner& winner, float dept
   }
   target.depth[pixel] = depth;
   std::uint32_t rgba = 0;
-  const bool blended = item.passes.blended && blendedColour(y, winner.x, rgba);
+  const bool blended = item.passes.blended && blendedColour(winner, rgba);
   target.rgba[pixel] = blended ? rgba : item.colours->at(winner.index);
   if (target.keepPoints)
   {
@@ -123,11 +177,11 @@ void WinnerResolve::put(const RasterItem& item, const Winner& winner, float dept
 
 /// The depth of the splat's plane in that pixel; where the key's was pushed back, or light asks for
 /// more than a depth.
-float WinnerResolve::planeDepth(const RasterItem& item, int j, int x, int y) const
+float WinnerResolve::planeDepth(const RasterItem& item, int j, const Winner& winner) const
 {
   const SplatPass& pass = item.passes.first;
-  const float dx = static_cast<float>(x) + 0.5f - batch_.screenX[j];
-  const float dy = static_cast<float>(y + source_.window.bottom) + 0.5f - batch_.screenY[j];
+  const float dx = static_cast<float>(winner.x) + 0.5f - batch_.screenX[j];
+  const float dy = static_cast<float>(winner.y + source_.window.bottom) + 0.5f - batch_.screenY[j];
   if (pass.shape == SplatShape::Ellipse)
   {
     const float rise = batch_.slopeX[j] * dx + batch_.slopeY[j] * dy;
@@ -155,7 +209,7 @@ float WinnerResolve::planeDepth(const RasterItem& item, int j, int x, int y) con
 
 /// View space, towards the eye.
 void WinnerResolve::putNormal(
-  const RasterItem& item, int j, int x, int y, float depth, float* normal) const
+  const RasterItem& item, int j, const Winner& winner, float depth, float* normal) const
 {
   glm::vec3 n(batch_.normalX[j], batch_.normalY[j], -batch_.normalZ[j]);
   if (item.passes.first.shape == SplatShape::Sphere && !item.passes.squares)
@@ -166,8 +220,8 @@ void WinnerResolve::putNormal(
       return glm::vec3((px - item.camera.centreX) * reach / item.camera.scaleX,
         (py - item.camera.centreY) * reach / item.camera.scaleY, -d);
     };
-    n = place(static_cast<float>(x) + 0.5f,
-          static_cast<float>(y + source_.window.bottom) + 0.5f, depth) -
+    n = place(static_cast<float>(winner.x) + 0.5f,
+          static_cast<float>(winner.y + source_.window.bottom) + 0.5f, depth) -
       place(batch_.screenX[j], batch_.screenY[j], batch_.depth[j]);
   }
   else if (!item.normals && item.style->orientation != SplatOrientation::Fixed)
@@ -182,50 +236,47 @@ void WinnerResolve::putNormal(
   normal[2] = n.z;
 }
 
-void WinnerResolve::flush(int y, SoftwareTarget& target, int targetRow)
+void WinnerResolve::resolve(const RasterItem& item, const Winner* winners, int count,
+  SoftwareTarget& target, int firstRow)
 {
-  if (waiting_.empty())
-  {
-    item_ = nullptr;
-    return;
-  }
-  const RasterItem& item = *item_;
-  const int count = static_cast<int>(waiting_.size());
-  RasterPositions positions = item.positions;
-  positions.clippingPlanes = 0; // who won was not clipped
-  positions.filtered = false;
-  std::uint32_t gathered[3 * RasterBatch::size];
-  std::uint32_t points[RasterBatch::size];
-  for (int j = 0; j < count; ++j)
-  {
-    points[j] = waiting_[static_cast<std::size_t>(j)].index;
-    std::memcpy(gathered + 3 * j, item.positions.xyz + 3 * std::size_t(points[j]), 12);
-  }
-  positions.xyz = gathered;
-  const RasterKernels& kernels = *source_.kernels;
-  kernels.project(item.camera, positions, count, batch_);
+  const bool keyIsDepth = item.passes.depthInKey();
   const bool discs = item.passes.squares || item.passes.first.shape == SplatShape::Disc;
-  if (!discs || source_.normals)
+  if (!keyIsDepth || source_.normals)
   {
-    source_.items->fillShape(item, points, count, item.passes.firstRadius, batch_);
-    kernels.setUp(item.camera, source_.window, item.passes.first, count, batch_);
-  }
-  for (int j = 0; j < count; ++j)
-  {
-    const Winner& winner = waiting_[static_cast<std::size_t>(j)];
-    const float depth =
-      item.passes.depthInKey() ? winner.keyDepth : planeDepth(item, j, winner.x, y);
-    const auto pixel = static_cast<std::size_t>(std::int64_t(targetRow) * target.width + winner.x);
-    const float eyeDepth = fromEye(*source_.items, depth);
-    const bool nearer = eyeDepth < target.depth[pixel];
-    put(item, winner, eyeDepth, y, target, pixel);
-    if (nearer && source_.normals)
+    std::uint32_t gathered[3 * RasterBatch::size];
+    std::uint32_t points[RasterBatch::size];
+    for (int j = 0; j < count; ++j)
     {
-      putNormal(item, j, winner.x, y, depth, &target.normals[3 * pixel]);
+      points[j] = winners[j].index;
+      std::memcpy(gathered + 3 * j, item.positions.xyz + 3 * std::size_t(points[j]), 12);
+    }
+    RasterPositions positions = item.positions;
+    positions.clippingPlanes = 0; // who won was not clipped
+    positions.filtered = false;
+    positions.xyz = gathered;
+    const RasterKernels& kernels = *source_.kernels;
+    kernels.project(item.camera, positions, count, batch_);
+    if (!discs || source_.normals)
+    {
+      PointShapes(*source_.items, kernels)
+        .fill(item, points, count, item.passes.firstRadius, batch_);
+      kernels.setUp(item.camera, source_.window, item.passes.first, count, batch_);
     }
   }
-  waiting_.clear();
-  item_ = nullptr;
+  for (int j = 0; j < count; ++j)
+  {
+    const Winner& winner = winners[j];
+    const float depth = keyIsDepth ? winner.keyDepth : planeDepth(item, j, winner);
+    const auto pixel = static_cast<std::size_t>(
+      std::int64_t(firstRow + winner.y) * target.width + winner.x);
+    const float eyeDepth = fromEye(*source_.items, depth);
+    const bool nearer = eyeDepth < target.depth[pixel];
+    put(item, winner, eyeDepth, target, pixel);
+    if (nearer && source_.normals)
+    {
+      putNormal(item, j, winner, depth, &target.normals[3 * pixel]);
+    }
+  }
 }
 
 } // namespace pointfront

@@ -11,6 +11,8 @@ namespace pointfront
 {
 
 /// From keys and sums to the picture: attributes are fetched for the points that are seen only.
+/// Winners of a few thousand pixels are found first, while the memory that holds their attributes
+/// is fetched ahead; then they are worked on node by node.
 /// Threads  one object a thread; rows are independent.
 class WinnerResolve
 {
@@ -27,33 +29,32 @@ public:
     bool normals = false; ///< the target has them
   };
 
-  WinnerResolve(const Source& source, RasterBatch& batch)
+  WinnerResolve(const Source& source, ThreadBuffers& buffers)
     : source_(source)
-    , batch_(batch)
+    , batch_(buffers.scratch())
+    , winners_(buffers.winners)
   {
   }
-  /// One row of the window into the target's row `targetRow`.
-  void row(int y, SoftwareTarget& target, int targetRow);
+  /// Rows [begin, end) of the window; the window's first row is the target's row `firstRow`.
+  void rows(int begin, int end, SoftwareTarget& target, int firstRow);
 
 private:
-  struct Winner
-  {
-    std::int32_t x;
-    std::uint32_t index; ///< in its node
-    float keyDepth;
-  };
-  void take(int y, int x, RasterKey key, SoftwareTarget& target, int targetRow);
-  void flush(int y, SoftwareTarget& target, int targetRow);
-  void put(const RasterItem& item, const Winner& winner, float depth, int y,
-    SoftwareTarget& target, std::size_t pixel);
-  bool blendedColour(int y, int x, std::uint32_t& rgba) const;
-  float planeDepth(const RasterItem& item, int j, int x, int y) const;
-  void putNormal(const RasterItem& item, int j, int x, int y, float depth, float* normal) const;
+  void merge(int y);
+  void find(int y);
+  void resolveFound(SoftwareTarget& target, int firstRow);
+  void sortByItem();
+  void resolve(const RasterItem& item, const Winner* winners, int count, SoftwareTarget& target,
+    int firstRow);
+  void put(const RasterItem& item, const Winner& winner, float depth, SoftwareTarget& target,
+    std::size_t pixel);
+  bool blendedColour(const Winner& winner, std::uint32_t& rgba) const;
+  float planeDepth(const RasterItem& item, int j, const Winner& winner) const;
+  void putNormal(
+    const RasterItem& item, int j, const Winner& winner, float depth, float* normal) const;
 
   const Source& source_;
   RasterBatch& batch_;
-  const RasterItem* item_ = nullptr; ///< of the winners that wait
-  std::vector<Winner> waiting_;
+  WinnerLists& winners_;
 };
 
 } // namespace pointfront

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "RasterItems.h"
+#include "RasterKernels.h"
+
+#include <cstdint>
+
+namespace pointfront
+{
+
+/// Radii and normals of points, from the columns of their node, as the loops want them.
+/// Threads  a value; const functions from any thread.
+class PointShapes
+{
+public:
+  PointShapes(const RasterItems& items, const RasterKernels& kernels)
+    : items_(items)
+    , kernels_(kernels)
+  {
+  }
+  /// Fills radius (world units, times `share`) and normals of projected points: of [first, first +
+  /// count), or of those in a list.
+  void fill(const RasterItem& item, std::uint32_t first, int count, float share,
+    RasterBatch& batch) const;
+  void fill(const RasterItem& item, const std::uint32_t* points, int count, float share,
+    RasterBatch& batch) const;
+
+private:
+  template <typename Points>
+  void fillBy(const RasterItem& item, const Points& points, int count, float share,
+    RasterBatch& batch) const;
+  template <typename Points>
+  void fillNormals(
+    const RasterItem& item, const Points& points, int count, RasterBatch& batch) const;
+
+  const RasterItems& items_;
+  const RasterKernels& kernels_;
+};
+
+} // namespace pointfront

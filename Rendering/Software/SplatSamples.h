@@ -1,0 +1,192 @@
+#pragma once
+
+#include "RasterBatch.h"
+#include "RasterKernels.h"
+
+namespace pointfront
+{
+namespace
+{
+
+// What a splat is at a pixel, for eight pixels or eight splats at a time, on the Lanes that were
+// included before.
+
+/// Splats at pixels, in eight lanes.
+struct SplatSample
+{
+  Lanes q;          ///< 0 at the centre, 1 at the rim
+  Lanes depth;
+  LaneMask covered;
+};
+
+/// A splat that is smaller than the distance of pixels covers the one it lies in.
+inline LaneMask inCentrePixel(Lanes dx, Lanes dy)
+{
+  const Lanes half = all(0.5f), minusHalf = all(-0.5f);
+  return (dx <= half) & (minusHalf <= dx) & (dy <= half) & (minusHalf <= dy);
+}
+
+/// One splat in all lanes, or eight splats that lie one after the other in a batch, one in each.
+struct OneSplat
+{
+  int j;
+  Lanes operator()(const float* quantity) const { return all(quantity[j]); }
+};
+struct EightSplats
+{
+  int first;
+  Lanes operator()(const float* quantity) const { return load8(quantity + first); }
+};
+
+/// A splat's shape, to be asked at pixels.
+template <SplatShape Shape, bool Parallel>
+struct SplatAt;
+
+/// The centre's direction, as directionOf().
+struct LaneDirection
+{
+  Lanes x;
+  Lanes y;
+};
+template <bool Parallel, typename Points>
+inline LaneDirection laneDirection(
+  const RasterCamera& camera, const RasterBatch& batch, Points points)
+{
+  const float perspective = Parallel ? 0.0f : 1.0f;
+  return { (points(batch.screenX) - all(camera.centreX)) * all(perspective / camera.scaleX),
+    (points(batch.screenY) - all(camera.centreY)) * all(perspective / camera.scaleY) };
+}
+
+template <bool Parallel>
+struct SplatAt<SplatShape::Disc, Parallel>
+{
+  template <typename Points>
+  SplatAt(const RasterCamera&, const SplatPass&, const RasterBatch& batch, Points points)
+    : inverse(points(batch.inverseRadius2))
+    , depth(points(batch.depth))
+  {
+  }
+  SplatSample at(Lanes dx, Lanes dy) const
+  {
+    const Lanes q = inverse * (dx * dx + dy * dy);
+    return { q, depth, q <= all(1.0f) };
+  }
+  Lanes inverse;
+  Lanes depth;
+};
+
+template <bool Parallel>
+struct SplatAt<SplatShape::Ellipse, Parallel>
+{
+  template <typename Points>
+  SplatAt(const RasterCamera&, const SplatPass&, const RasterBatch& batch, Points points)
+    : xx(points(batch.quadraticXX))
+    , xy(points(batch.quadraticXY))
+    , yy(points(batch.quadraticYY))
+    , slopeX(points(batch.slopeX))
+    , slopeY(points(batch.slopeY))
+    , radius(points(batch.radius))
+    , depth(points(batch.depth))
+  {
+  }
+  SplatSample at(Lanes dx, Lanes dy) const
+  {
+    const Lanes form = (xx * dx + xy * dy) * dx + yy * dy * dy;
+    const Lanes q = choose(inCentrePixel(dx, dy), smaller(form, all(0.999f)), form);
+    const Lanes rise = slopeX * dx + slopeY * dy;
+    const Lanes bounded = larger(smaller(rise, radius), all(0.0f) - radius);
+    return { q, depth + bounded, q <= all(1.0f) };
+  }
+  Lanes xx, xy, yy, slopeX, slopeY, radius, depth;
+};
+
+/// The ray through the pixel is the centre's plus a small offset: all is computed from that offset,
+/// so that nothing cancels. t is the depth where the ray meets the disc's plane, u the way from the
+/// centre to there.
+template <bool Parallel>
+struct SplatAt<SplatShape::ExactEllipse, Parallel>
+{
+  template <typename Points>
+  SplatAt(const RasterCamera& camera, const SplatPass& pass, const RasterBatch& batch, Points points)
+    : nx(points(batch.normalX))
+    , ny(points(batch.normalY))
+    , inverse(points(batch.inverseRadius2))
+    , depth(points(batch.depth))
+    , widthX(all(1.0f / camera.scaleX))
+    , widthY(all(1.0f / camera.scaleY))
+    , filter(all(pass.lowPass > 0.0f ? 1.0f / (pass.lowPass * pass.lowPass) : 0.0f))
+    , filtered(pass.lowPass > 0.0f)
+  {
+    const LaneDirection to = laneDirection<Parallel>(camera, batch, points);
+    toX = to.x;
+    toY = to.y;
+    facing = nx * to.x + ny * to.y + points(batch.normalZ);
+  }
+  SplatSample at(Lanes dx, Lanes dy) const
+  {
+    const Lanes x = dx * widthX, y = dy * widthY;
+    const Lanes turned = nx * x + ny * y;
+    const Lanes further =
+      Parallel ? all(0.0f) - turned / facing : all(0.0f) - depth * turned / (facing + turned);
+    const Lanes t = depth + further;
+    const Lanes ux = Parallel ? x : further * toX + t * x;
+    const Lanes uy = Parallel ? y : further * toY + t * y;
+    const Lanes q = (ux * ux + uy * uy + further * further) * inverse;
+    const LaneMask onDisc = (q <= all(1.0f)) & (all(1.0e-30f) <= t);
+    const LaneMask centre = inCentrePixel(dx, dy);
+    const Lanes distance = filtered ? (dx * dx + dy * dy) * filter : all(2.0f);
+    const Lanes near = choose(centre, smaller(distance, all(0.999f)), distance);
+    SplatSample sample;
+    sample.q = choose(onDisc, smaller(q, near), near);
+    sample.depth = choose(onDisc, t, depth);
+    sample.covered = onDisc | (near <= all(1.0f));
+    return sample;
+  }
+  Lanes nx, ny, inverse, depth, widthX, widthY, filter;
+  Lanes toX, toY, facing;
+  bool filtered;
+};
+
+/// As above; p is the way from the sphere's centre to the ray's nearest point, `half` from there to
+/// the surface.
+template <bool Parallel>
+struct SplatAt<SplatShape::Sphere, Parallel>
+{
+  template <typename Points>
+  SplatAt(const RasterCamera& camera, const SplatPass&, const RasterBatch& batch, Points points)
+    : inverse(points(batch.inverseRadius2))
+    , square(points(batch.radius) * points(batch.radius))
+    , depth(points(batch.depth))
+    , widthX(all(1.0f / camera.scaleX))
+    , widthY(all(1.0f / camera.scaleY))
+  {
+    const LaneDirection to = laneDirection<Parallel>(camera, batch, points);
+    toX = to.x;
+    toY = to.y;
+    length2 = all(1.0f) + to.x * to.x + to.y * to.y;
+  }
+  SplatSample at(Lanes dx, Lanes dy) const
+  {
+    const Lanes x = dx * widthX, y = dy * widthY;
+    const Lanes aside = toX * x + toY * y;
+    const Lanes offset2 = x * x + y * y;
+    const Lanes ray2 = Parallel ? all(1.0f) : length2 + aside + aside + offset2;
+    const Lanes nearest = Parallel ? all(0.0f) : all(0.0f) - depth * (aside + offset2) / ray2;
+    const Lanes t = depth + nearest;
+    const Lanes px = Parallel ? x : nearest * toX + t * x;
+    const Lanes py = Parallel ? y : nearest * toY + t * y;
+    const Lanes distance2 = px * px + py * py + nearest * nearest;
+    const Lanes within = larger(square - distance2, all(0.0f));
+    const Lanes front = t - rootOf(within / ray2);
+    const LaneMask centre = inCentrePixel(dx, dy);
+    SplatSample sample;
+    sample.q = distance2 * inverse;
+    sample.depth = front;
+    sample.covered = ((distance2 <= square) | centre) & (all(1.0e-30f) <= front);
+    return sample;
+  }
+  Lanes inverse, square, depth, widthX, widthY, toX, toY, length2;
+};
+
+} // namespace
+} // namespace pointfront

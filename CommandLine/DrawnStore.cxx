@@ -83,6 +83,7 @@ FramePlan DrawnStore::plan(const FrameCamera& camera, const FrameShading& shadin
   PlanRequest request;
   request.camera = camera;
   request.shading = shading;
+  request.keepsVisible = leavesOut(front_->last(), demand_);
   for (const LayerStyling& layer : styles_)
   {
     request.styles.push_back(layer.visible() ? layer.styles.front() : nullptr);
@@ -103,9 +104,11 @@ FramePlan DrawnStore::plan(const FrameCamera& camera, const FrameShading& shadin
   return plan;
 }
 
-void DrawnStore::noteFrame(std::uint64_t points, double milliseconds)
+void DrawnStore::noteFrame(
+  std::uint64_t points, std::uint64_t keptPoints, double milliseconds)
 {
-  front_->recordFrame(points, front_->last().moves, milliseconds);
+  front_->drewBeside(keptPoints);
+  front_->recordFrame(points + keptPoints, front_->last().moves, milliseconds);
   frameMs_ = milliseconds;
   drawnAt_ = Clock::now();
   ahead_ = false;

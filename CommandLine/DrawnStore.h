@@ -39,7 +39,7 @@ public:
   /// What the last update draws.
   FramePlan plan(const FrameCamera& camera, const FrameShading& shading) const;
   /// The frame with that plan took so long, of what it has to itself.
-  void noteFrame(std::uint64_t points, double milliseconds);
+  void noteFrame(std::uint64_t points, std::uint64_t keptPoints, double milliseconds);
 
   /// A frame is due: something is there that the last one did not have. While a view at rest is
   /// being loaded it is drawn a quarter of the time at most; until the next frame is due its front

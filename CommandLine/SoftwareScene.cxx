@@ -344,14 +344,16 @@ void SoftwareScene::drawRows(
   const auto begin = Clock::now();
   target_.reset(camera_.width, rows.top - rows.bottom);
   frame.rasteriseMilliseconds = 0.0;
-  std::vector<std::uint64_t> points(stores_.size());
+  std::vector<std::uint64_t> points(stores_.size()), kept(stores_.size());
   double own = 0.0;
   for (std::size_t i = 0; i < stores_.size(); ++i)
   {
     const auto beginOfStore = Clock::now();
     const FramePlan plan = stores_[i]->plan(camera_, shading_);
-    *frame.rasteriseMilliseconds +=
-      rasteriser.draw(plan, rows, target_, static_cast<std::uint16_t>(i)).milliseconds;
+    const RasterStatistics drawn =
+      rasteriser.draw(plan, rows, target_, static_cast<std::uint16_t>(i));
+    *frame.rasteriseMilliseconds += drawn.milliseconds;
+    kept[i] = drawn.keptVisible;
     points[i] = plan.pointCount();
     frame.points += static_cast<std::int64_t>(points[i]);
     ownMs_[i] += millisecondsSince(beginOfStore);
@@ -364,7 +366,7 @@ void SoftwareScene::drawRows(
   const double shared = (millisecondsSince(begin) - own) / static_cast<double>(stores_.size());
   for (std::size_t i = 0; i < stores_.size(); ++i)
   {
-    stores_[i]->noteFrame(points[i], ownMs_[i] + shared);
+    stores_[i]->noteFrame(points[i], kept[i], ownMs_[i] + shared);
   }
 }
 

@@ -342,6 +342,7 @@ pointfront::FramePlan* vtkPointFrontMapper::PlanFrame(vtkRenderer* renderer, vtk
   pointfront::PlanRequest request = this->GetRequest(renderer, actor);
   if (moved || !view.Plan)
   {
+    request.keepsVisible = pointfront::leavesOut(view.Front->last(), view.Demand);
     view.Plan = pointfront::planFrame(
       *view.Front, this->GetStore()->GetStore()->description(), std::move(request));
     return &*view.Plan;
@@ -366,10 +367,11 @@ bool vtkPointFrontMapper::IsFirstDrawing(vtkRenderer* renderer) const
 }
 
 void vtkPointFrontMapper::FinishFrame(
-  vtkRenderer* renderer, vtkIdType points, bool uploadsLeft)
+  vtkRenderer* renderer, vtkIdType points, vtkIdType keptPoints, bool uploadsLeft)
 {
   pointfront::RendererView& view = this->Internals->Views.of(renderer);
   const pointfront::FrontDelta& delta = view.Front->last();
+  view.Front->drewBeside(static_cast<std::uint64_t>(keptPoints));
   view.FirstDrawing = false;
   view.Ahead = false;
   view.Due = false;
@@ -383,6 +385,7 @@ void vtkPointFrontMapper::FinishFrame(
   statistics.take(delta);
   statistics.frontMilliseconds = frontMilliseconds;
   statistics.points = static_cast<std::uint64_t>(points);
+  statistics.keptPoints = static_cast<std::uint64_t>(keptPoints);
   statistics.complete = view.Complete;
   const bool announce = view.Complete && !view.Announced;
   view.Announced = view.Complete;

@@ -306,9 +306,10 @@ protected:
   /// True when the front was moved since the renderer's last frame (see NeedsRender()): what a
   /// further drawing of that frame shows may not be on the GPU yet.
   bool IsAheadOfFrame(vtkRenderer* renderer) const;
-  /// What the first drawing of a frame came to; `uploadsLeft` when not all points of the front are
-  /// on the GPU yet.
-  void FinishFrame(vtkRenderer* renderer, vtkIdType points, bool uploadsLeft);
+  /// What the first drawing of a frame came to; `keptPoints`: drawn beside the front's, as they
+  /// were visible before; `uploadsLeft` when not all points of the front are on the GPU yet.
+  void FinishFrame(
+    vtkRenderer* renderer, vtkIdType points, vtkIdType keptPoints, bool uploadsLeft);
   /// What an earlier frame of that renderer drew and cost, CPU and GPU, as soon as that is known.
   void RecordFrame(
     vtkRenderer* renderer, vtkIdType points, vtkIdType moves, double milliseconds);

@@ -31,7 +31,7 @@ void load(vtkOpenGLRenderWindow* window, vtkTextureObject* texture, const Softwa
 SoftwarePicture::SoftwarePicture() = default;
 SoftwarePicture::~SoftwarePicture() = default;
 
-void SoftwarePicture::draw(
+RasterStatistics SoftwarePicture::draw(
   vtkOpenGLRenderWindow* window, vtkRenderer* renderer, FramePlan& plan, bool ids)
 {
   int viewport[4];
@@ -43,7 +43,7 @@ void SoftwarePicture::draw(
   Picture& picture = pictures_[renderer];
   picture.target.keepPoints = ids;
   picture.target.reset(plan.camera.width, plan.camera.height);
-  picture.rasteriser.draw(plan, picture.target);
+  const RasterStatistics statistics = picture.rasteriser.draw(plan, picture.target);
   shade(plan.camera, plan.shading, picture.target);
   last_ = &picture.target;
   ids_.clear();
@@ -51,6 +51,7 @@ void SoftwarePicture::draw(
   {
     numberPoints(plan);
   }
+  return statistics;
 }
 
 /// Ranks in the store: the same ids as points have that GL draws.

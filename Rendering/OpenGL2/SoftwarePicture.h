@@ -31,7 +31,8 @@ public:
   ~SoftwarePicture();
 
   /// With threads. `ids`: for a selection, who is in each pixel.
-  void draw(vtkOpenGLRenderWindow* window, vtkRenderer* renderer, FramePlan& plan, bool ids);
+  RasterStatistics draw(
+    vtkOpenGLRenderWindow* window, vtkRenderer* renderer, FramePlan& plan, bool ids);
   /// What was drawn last, as if it were geometry of the actor.
   void handOver(vtkOpenGLRenderWindow* window, vtkRenderer* renderer, vtkActor* actor,
     const FramePlan& plan, std::int64_t storePoints);

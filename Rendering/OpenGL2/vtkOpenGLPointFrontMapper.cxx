@@ -94,9 +94,12 @@ void vtkOpenGLPointFrontMapper::RenderPiece(vtkRenderer* renderer, vtkActor* act
   const bool host = this->DrawsFromHostMemory(actor);
   const bool first = this->IsFirstDrawing(renderer);
   bool uploadsLeft = false;
+  std::uint64_t kept = 0;
   if (host)
   {
-    drawing.softwarePicture().draw(window, renderer, *plan, renderer->GetSelector() != nullptr);
+    kept = drawing.softwarePicture()
+             .draw(window, renderer, *plan, renderer->GetSelector() != nullptr)
+             .keptVisible;
   }
   else
   {
@@ -106,7 +109,8 @@ void vtkOpenGLPointFrontMapper::RenderPiece(vtkRenderer* renderer, vtkActor* act
     host ? static_cast<std::int64_t>(plan->pointCount()) : drawing.list(*plan);
   pointfront::FrameTimer& timer = drawing.timerOf(renderer);
   const bool timed =
-    first && points > 0 && timer.begin(millisecondsSince(begin), points, this->GetLastMoves());
+    first && points > 0 && timer.begin(
+    millisecondsSince(begin), points + static_cast<std::int64_t>(kept), this->GetLastMoves());
   const auto drawn = Clock::now();
   if (points > 0 && host)
   {
@@ -125,7 +129,7 @@ void vtkOpenGLPointFrontMapper::RenderPiece(vtkRenderer* renderer, vtkActor* act
   {
     this->GetStatistics().gpuBytes = drawing.pool().bytes();
     this->GetStatistics().windowGpuBytes = drawing.pool().windowBytes();
-    this->FinishFrame(renderer, points, uploadsLeft);
+    this->FinishFrame(renderer, points, static_cast<vtkIdType>(kept), uploadsLeft);
   }
   this->UpdateProgress(1.0);
 }

@@ -101,9 +101,9 @@ RasterItems::RasterItems(const FramePlan& plan, std::size_t from)
       break;
     }
     add(ordered_[end_], static_cast<std::uint32_t>(base));
+    numbers_.append(static_cast<std::uint32_t>(points));
     base += points;
   }
-  number();
 }
 
 void RasterItems::add(const Place& place, std::uint32_t base)
@@ -201,18 +201,6 @@ void RasterItems::setClipping(const glm::dmat3& axes, const glm::dvec3& referenc
     for (int i = 0; i < 4; ++i)
     {
       positions.clipping[plane][i] = static_cast<float>(values[i]);
-    }
-  }
-}
-
-void RasterItems::number()
-{
-  for (std::size_t i = 0; i < items_.size(); ++i)
-  {
-    const std::uint64_t end = std::uint64_t(items_[i].base) + items_[i].node().size();
-    while ((std::uint64_t(pages_.size()) << pageBits) < end)
-    {
-      pages_.push_back(static_cast<std::uint32_t>(i));
     }
   }
 }

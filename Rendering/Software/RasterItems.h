@@ -1,5 +1,6 @@
 #pragma once
 
+#include "ItemNumbers.h"
 #include "PointColours.h"
 #include "RasterBatch.h"
 #include "TechniquePasses.h"
@@ -73,16 +74,8 @@ public:
   bool last() const { return end_ == ordered_.size(); }
   const std::vector<RasterItem>& items() const { return items_; }
   bool blended() const { return blended_; }
-  /// The one that a point of that index belongs to.
-  const RasterItem& find(std::uint32_t index) const
-  {
-    const RasterItem* item = &items_[pages_[index >> pageBits]];
-    while (index - item->base >= item->node().size())
-    {
-      ++item;
-    }
-    return *item;
-  }
+  /// What the keys' indices mean.
+  const ItemNumbers& numbers() const { return numbers_; }
   /// Radius of a point's code, world units; 0 where it has none.
   const std::array<float, 256>& radii() const { return radii_; }
   /// View units of a store unit.
@@ -100,18 +93,16 @@ private:
     const PlanItem* item;
     const DrawBatch* batch;
   };
-  static constexpr unsigned pageBits = 12;
   void add(const Place& place, std::uint32_t base);
   void setPlace(RasterItem& item) const;
   /// `reference` in camera space; `shift`: what depths of a parallel view count from.
   void setClipping(const glm::dmat3& axes, const glm::dvec3& reference, double shift,
     RasterPositions& positions) const;
-  void number();
 
   const FramePlan& plan_;
   std::vector<Place> ordered_;
   std::vector<RasterItem> items_;
-  std::vector<std::uint32_t> pages_; ///< the item that has a page's first index
+  ItemNumbers numbers_;
   std::vector<std::pair<const ResolvedStyle*, std::unique_ptr<StyleColours>>> tables_;
   std::array<float, 256> radii_{};
   float radiusFactor_ = 1.0f;

@@ -4,6 +4,7 @@
 #include "RasterBuffers.h"
 #include "RasterItems.h"
 #include "RasterKernels.h"
+#include "VisiblePoints.h"
 #include "WinnerResolve.h"
 
 #include "pointfront/Threads/ThreadCrew.h"
@@ -43,20 +44,6 @@ float depthBits(RasterKey key)
 
 } // namespace
 
-/// What of an item has been drawn into the keys that are kept.
-struct DrawnItem
-{
-  std::shared_ptr<const NodeColumns> node; ///< kept alive: an address is no identity otherwise
-  const ResolvedStyle* style = nullptr;
-  TechniquePasses passes;
-  std::uint32_t base = 0;
-  std::uint32_t first = 0;
-  std::uint32_t last = 0;
-  float radius = 0.0f;
-  float radiusScale = 1.0f;
-  bool refined = false;
-};
-
 struct SoftwareRasteriser::Content
 {
   explicit Content(ThreadCrew& threads)
@@ -74,11 +61,18 @@ struct SoftwareRasteriser::Content
   std::vector<glm::dvec4> clippingPlanes;
   RasterWindow window;
   std::vector<DrawnItem> drawn;
+  ItemNumbers numbers; ///< of what was drawn
   std::vector<std::shared_ptr<const ResolvedStyle>> styles; ///< alive, as the nodes
+  VisiblePoints visible;
+  std::uint16_t keptStore = 0;
+  QuantisationGrid grid;
+  std::shared_ptr<const AttributeSchema> schema;
+
+  void keepVisible(const FramePlan& plan, std::uint16_t store, bool wanted);
 
   std::uint64_t goOn(const RasterItems& items, const RasterWindow& now, std::vector<Piece>& pieces);
   bool renumber(const RasterItems& items, std::vector<std::uint32_t>& drawnUpTo);
-  void keep(const RasterItems& items, const RasterWindow& now);
+  void keep(const RasterItems& items, const RasterWindow& now, std::uint16_t store);
   void drawKeys(const RasterItems& items, const RasterWindow& now, const std::vector<Piece>& pieces,
     bool goingOn);
   void addColours(
@@ -194,23 +188,46 @@ std::uint64_t SoftwareRasteriser::Content::goOn(
   return reused;
 }
 
-void SoftwareRasteriser::Content::keep(const RasterItems& items, const RasterWindow& now)
+void SoftwareRasteriser::Content::keep(
+  const RasterItems& items, const RasterWindow& now, std::uint16_t store)
 {
   const FramePlan& plan = items.plan();
   kept = true;
   camera = plan.camera;
   clippingPlanes = plan.clippingPlanes;
+  keptStore = store;
+  grid = plan.grid;
+  schema = plan.schema;
   window = now;
+  numbers = items.numbers();
   drawn.clear();
   for (const RasterItem& item : items.items())
   {
     drawn.push_back({ item.item->node, item.style, item.passes, item.base, item.item->first,
-      item.item->last, item.radius, item.radiusScale, item.item->refined });
+      item.item->last, item.radius, item.radiusScale, item.item->refined,
+      item.item->closingRadius, item.item->radiusScale });
   }
   styles.clear();
   for (const DrawBatch& batch : plan.batches)
   {
     styles.push_back(batch.style);
+  }
+}
+
+/// What was visible stays while a view moves or is being completed. From the same camera it is what
+/// it was: the picture goes on from there.
+void SoftwareRasteriser::Content::keepVisible(
+  const FramePlan& plan, std::uint16_t store, bool wanted)
+{
+  const bool follows = wanted && kept && keptStore == store && grid == plan.grid &&
+    *schema == *plan.schema && window.height == plan.camera.height;
+  if (!follows)
+  {
+    visible.clear();
+  }
+  else if (!sameCamera(camera, plan.camera) || clippingPlanes != plan.clippingPlanes)
+  {
+    visible.choose(buffers[0].keys.data(), window, numbers, drawn, plan, crew);
   }
 }
 
@@ -369,20 +386,29 @@ RasterStatistics SoftwareRasteriser::draw(
   return draw(plan, { 0, plan.camera.height }, target, store);
 }
 
-RasterStatistics SoftwareRasteriser::draw(const FramePlan& plan, const RasterBand& band,
+RasterStatistics SoftwareRasteriser::draw(const FramePlan& asked, const RasterBand& band,
   SoftwareTarget& target, std::uint16_t store)
 {
   const auto begin = std::chrono::steady_clock::now();
   Content& content = *content_;
   content.buffers.resize(content.crew.threads());
+  const bool whole = band.bottom == 0 && band.top == asked.camera.height;
+  content.keepVisible(asked, store, asked.keepsVisible && whole && !target.keepPoints);
+  FramePlan extended;
+  if (!content.visible.empty())
+  {
+    extended = asked;
+    content.visible.addTo(extended);
+  }
+  const FramePlan& plan = content.visible.empty() ? asked : extended;
   if (plan.shading.lit && target.normals.empty())
   {
     target.normals.assign(3 * target.depth.size(), 0.0f);
   }
   RasterStatistics statistics;
-  RasterWindow whole;
-  whole.width = plan.camera.width;
-  whole.stride = (plan.camera.width + 2 * rasterMargin + 15) & ~15;
+  RasterWindow viewport;
+  viewport.width = plan.camera.width;
+  viewport.stride = (plan.camera.width + 2 * rasterMargin + 15) & ~15;
   std::size_t from = 0;
   bool last = false;
   while (!last) // once, unless the points are more than 32 bits can count
@@ -390,12 +416,12 @@ RasterStatistics SoftwareRasteriser::draw(const FramePlan& plan, const RasterBan
     const RasterItems items(plan, from);
     const std::int64_t threads = content.crew.threads();
     const std::int64_t pixelBytes = threads * (items.blended() ? 24 : 8) + 4;
-    const std::int64_t rowBytes = pixelBytes * whole.stride;
+    const std::int64_t rowBytes = pixelBytes * viewport.stride;
     const int rows = static_cast<int>(std::clamp<std::int64_t>(
       mostBytes / rowBytes - 2 * rasterMargin, leastRows, band.top - band.bottom));
     for (int bottom = band.bottom; bottom < band.top; bottom += rows)
     {
-      RasterWindow window = whole;
+      RasterWindow window = viewport;
       window.bottom = bottom;
       window.height = std::min(rows, band.top - bottom);
       std::vector<Piece> pieces;
@@ -414,13 +440,14 @@ RasterStatistics SoftwareRasteriser::draw(const FramePlan& plan, const RasterBan
       content.resolve(items, window, store, target, bottom - band.bottom);
       if (window.height == band.top - band.bottom && from == 0 && items.last())
       {
-        content.keep(items, window);
+        content.keep(items, window, store);
       }
     }
     from = items.end();
     last = items.last();
   }
-  statistics.points = plan.pointCount();
+  statistics.points = asked.pointCount();
+  statistics.keptVisible = content.visible.count();
   statistics.milliseconds =
     std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
   return statistics;

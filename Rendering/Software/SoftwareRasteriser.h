@@ -24,6 +24,8 @@ struct RasterStatistics
 {
   std::uint64_t points = 0;  ///< of the plan, that were looked at
   std::uint64_t reused = 0;  ///< of the plan, that the last picture already had
+  /// Drawn beside the plan's, as they were visible before (FramePlan::keepsVisible).
+  std::uint64_t keptVisible = 0;
   double milliseconds = 0.0; ///< wall time
 };
 
@@ -31,7 +33,8 @@ struct RasterStatistics
 /// reference that shaders are compared with.
 /// Determinism  the same plan gives the same bits for any number of threads, any order of batches
 ///              and items, on each instruction set, and in one go or by and by (a plan that only
-///              adds points to the one before adds them to what is there).
+///              adds points to the one before adds them to what is there). Pictures of plans that
+///              keep what was visible depend on the pictures before them.
 /// Memory       some buffers of the size of the viewport, kept from frame to frame; one more for
 ///              each further thread.
 /// Threads      one thread at a time; draws with those of a crew.

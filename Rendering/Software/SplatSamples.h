@@ -107,7 +107,8 @@ template <bool Parallel>
 struct SplatAt<SplatShape::ExactEllipse, Parallel>
 {
   template <typename Points>
-  SplatAt(const RasterCamera& camera, const SplatPass& pass, const RasterBatch& batch, Points points)
+  SplatAt(
+    const RasterCamera& camera, const SplatPass& pass, const RasterBatch& batch, Points points)
     : nx(points(batch.normalX))
     , ny(points(batch.normalY))
     , inverse(points(batch.inverseRadius2))

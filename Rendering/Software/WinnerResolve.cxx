@@ -59,7 +59,8 @@ void WinnerResolve::find(int y)
 {
   const RasterKey* const merged = source_.merged + source_.window.at(0, y);
   const RasterItem* const items = source_.items->items().data();
-  const RasterItem* last = items;
+  const ItemNumbers& numbers = source_.items->numbers();
+  std::uint32_t item = 0, begin = 0, end = 0;
   for (int x = 0; x < source_.window.width; ++x)
   {
     const RasterKey key = merged[x];
@@ -68,18 +69,19 @@ void WinnerResolve::find(int y)
       continue;
     }
     const auto index = static_cast<std::uint32_t>(key);
-    const RasterItem& item =
-      index - last->base < last->node().size() ? *last : source_.items->find(index);
-    last = &item;
-    const std::uint32_t point = index - item.base;
-    item.fetchAhead(point);
-    const auto number = static_cast<std::uint32_t>(&item - items);
-    if (winners_.places[number]++ == 0)
+    if (index < begin || index >= end)
     {
-      winners_.touched.push_back(number);
+      item = numbers.itemOf(index);
+      begin = numbers.beginOf(item);
+      end = numbers.endOf(item);
     }
-    winners_.found.push_back({ x, y, point, depthOf(key) });
-    winners_.item.push_back(number);
+    items[item].fetchAhead(index - begin);
+    if (winners_.places[item]++ == 0)
+    {
+      winners_.touched.push_back(item);
+    }
+    winners_.found.push_back({ x, y, index - begin, depthOf(key) });
+    winners_.item.push_back(item);
   }
 }
 

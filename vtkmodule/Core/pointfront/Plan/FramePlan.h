@@ -63,6 +63,10 @@ struct FramePlan
   /// threshold. No splat need be smaller, whatever was measured; by it a point looks the same
   /// whether its parent or its leaf is drawn.
   float spacingPx = 0.0f;
+  /// The view moves, or more is to come: what the last picture showed and this plan lacks is drawn
+  /// too, by back ends that can (SMOOTH-7). A complete view never keeps anything: its picture is
+  /// the same whatever was seen before.
+  bool keepsVisible = false;
   FrameShading shading;
   std::vector<DrawBatch> batches;
 

@@ -51,6 +51,13 @@ float prefixSpacing(const NodeColumns& node, std::uint32_t drawn, float spacingR
   return static_cast<float>(prefixErrorPx(points, drawn, node.spacing, spacingRatio));
 }
 
+bool leavesOut(const FrontDelta& delta, const FrameDemand& demand)
+{
+  // In motion the frame time limits the front: at rest the same view may show more.
+  const bool limited = demand.interacting && delta.errorPx > demand.targetErrorPx;
+  return !demand.complete && (!delta.complete || limited);
+}
+
 FramePlan planFrame(
   const ViewFront& front, const StoreDescription& description, PlanRequest request)
 {
@@ -61,6 +68,7 @@ FramePlan planFrame(
   plan.schema = std::make_shared<const AttributeSchema>(description.schema);
   plan.splatRadiusBase = description.splatRadiusBase;
   plan.spacingPx = static_cast<float>(front.last().thresholdPx);
+  plan.keepsVisible = request.keepsVisible;
   plan.shading = std::move(request.shading);
   std::vector<std::vector<PlanItem>> items = itemsByLayer(front, request.styles);
   for (std::size_t layer = 0; layer < items.size(); ++layer)

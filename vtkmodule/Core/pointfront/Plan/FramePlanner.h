@@ -31,6 +31,7 @@ struct PlanRequest
   FrameCamera camera;
   std::vector<glm::dvec4> clippingPlanes; ///< (n, d), store coordinates; as FramePlan's
   FrameShading shading;
+  bool keepsVisible = false; ///< as FramePlan's: see leavesOut()
   std::vector<LayerStyles> styles; ///< by number of the store's layer; beyond the list: hidden
 };
 
@@ -45,6 +46,9 @@ struct PlanRequest
 /// Threads   the renderer's, as ViewFront.
 FramePlan planFrame(
   const ViewFront& front, const StoreDescription& description, PlanRequest request);
+
+/// Whether a frame is not all that its view will show: it moves, or more is being loaded.
+bool leavesOut(const FrontDelta& delta, const FrameDemand& demand);
 
 /// World units between the points on screen when the first `drawn` points of a node and all nodes
 /// above it are drawn; `spacingRatio` as in DrawItem. 0 where the node's spacing is not known.

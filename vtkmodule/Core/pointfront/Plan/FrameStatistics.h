@@ -12,6 +12,8 @@ struct FrameStatistics
 {
   std::uint64_t points = 0; ///< drawn
   std::uint64_t nodes = 0;  ///< that they are of
+  /// Drawn beside the front's, as they were visible in the frame before (SMOOTH-7).
+  std::uint64_t keptPoints = 0;
   std::uint32_t frontLength = 0;
   std::uint32_t moves = 0;
   std::uint64_t requests = 0;

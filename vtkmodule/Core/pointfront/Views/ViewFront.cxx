@@ -269,7 +269,9 @@ void ViewFront::setLimits(const FrameDemand& demand)
   if (demand.interacting && frameMs > 0.0)
   {
     // At what a point of this cloud costs; several clouds share them, at one error.
-    const std::uint64_t affordable = cost_.pointsFor(frameMs, fewestPoints);
+    const std::uint64_t all = cost_.pointsFor(frameMs, fewestPoints);
+    const std::uint64_t affordable =
+      std::max<std::uint64_t>(fewestPoints, all - std::min(beside_, 2 * all / 5));
     std::uint64_t& most = clouds > 1.0 ? limits.sharedDrawn.most : limits.pointBudget;
     most = demand.pointBudget == 0 ? affordable : std::min(demand.pointBudget, affordable);
     limits.movesPerFrame = cost_.movesFor(frameMs / clouds, delta_.pointsDrawn);

@@ -79,6 +79,10 @@ public:
     cost_.record(points, moves, milliseconds);
   }
 
+  /// The last frame drew that many points beside the front's: they take of a frame's time, two
+  /// fifths of it at most. recordFrame() gets all of them.
+  void drewBeside(std::uint64_t points) { beside_ = points; }
+
   /// True if something arrived since the last update, that update itself left moves for the
   /// next, or other clouds took or left memory since.
   bool wantsUpdate() const;
@@ -109,6 +113,7 @@ private:
   std::unique_ptr<DetailSelection> selection_;
   MotionMargin margin_;
   FrameCostModel cost_;
+  std::uint64_t beside_ = 0;
   FrontDelta delta_;
   FrontLimits limits_;
   // What this view shares with others: memory (in bytes), and the window's.

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "TechniquePasses.h"
+
+#include "pointfront/Store/NodeReader.h"
+#include "pointfront/Style/ResolvedStyle.h"
+
+#include <cstdint>
+#include <memory>
+
+namespace pointfront
+{
+
+/// What of an item has been drawn into the keys that are kept.
+struct DrawnItem
+{
+  std::shared_ptr<const NodeColumns> node; ///< kept alive: an address is no identity otherwise
+  const ResolvedStyle* style = nullptr;
+  TechniquePasses passes;
+  std::uint32_t base = 0; ///< index of the node's first point in the keys
+  std::uint32_t first = 0;
+  std::uint32_t last = 0;
+  float radius = 0.0f;
+  float radiusScale = 1.0f;
+  bool refined = false;
+  float closingRadius = 0.0f; ///< as PlanItem's
+  float itemRadiusScale = 1.0f;
+};
+
+} // namespace pointfront

@@ -1,0 +1,185 @@
+#include "PlanOfPoints.h"
+
+#include "pointfront/Threads/ThreadCrew.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace pointfront;
+using namespace pointfront::test;
+
+namespace
+{
+
+constexpr int width = 320;
+constexpr int height = 200;
+constexpr double distance = 3.0;
+constexpr double angle = 0.35;
+
+/// A pixel's size at the surface.
+double pixel()
+{
+  return 2.0 * distance * std::tan(0.5 * angle) / height;
+}
+
+/// A surface seen from above, that fills the picture; the camera pans over it.
+class PanOverSurface : public PlanOfPoints
+{
+public:
+  PanOverSurface()
+  {
+    style->technique = Technique::Splats;
+    style->size = { SplatSize::Mode::Spacing, 1.0, 0 };
+    const std::vector<TestPoint> points = wavySurface(150000, 5);
+    all = static_cast<std::uint32_t>(points.size());
+    add(points, 0.014);
+    pan(0.0);
+  }
+
+  void pan(double pixels)
+  {
+    const glm::dvec3 at(pixels * pixel(), 0.0, 0.0);
+    plan.camera = FrameCamera::perspective(at + glm::dvec3(0.0, 0.0, distance), at,
+      { 0.0, 1.0, 0.0 }, angle, 0.01, 100.0, width, height);
+  }
+  void draw(double share, bool keeps, SoftwareRasteriser& with)
+  {
+    plan.batches[0].items[0].last = static_cast<std::uint32_t>(share * all);
+    plan.keepsVisible = keeps;
+    target.reset(width, height);
+    statistics = with.draw(plan, target);
+  }
+  /// Of the first columns of pixels the share in which something was drawn.
+  static double coverage(const SoftwareTarget& picture, int columns)
+  {
+    int covered = 0;
+    for (int y = 0; y < height; ++y)
+    {
+      for (int x = 0; x < columns; ++x)
+      {
+        covered += std::isfinite(picture.depth[static_cast<std::size_t>(y * width + x)]);
+      }
+    }
+    return static_cast<double>(covered) / (height * columns);
+  }
+
+  std::uint32_t all = 0;
+  SoftwareTarget target;
+  RasterStatistics statistics;
+};
+
+} // namespace
+
+/// SMOOTH-7
+TEST(VisiblePoints, APanOfTenPixelsKeepsTheCoverage)
+{
+  PanOverSurface scene;
+  SoftwareRasteriser rasteriser;
+  scene.draw(1.0, true, rasteriser);
+  const double before = PanOverSurface::coverage(scene.target, width);
+  EXPECT_GT(before, 0.99);
+  EXPECT_EQ(scene.statistics.keptVisible, 0u); // nothing was seen before
+
+  scene.pan(10.0);
+  SoftwareRasteriser fresh;
+  scene.draw(0.05, true, fresh);
+  EXPECT_LT(PanOverSurface::coverage(scene.target, width - 10), 0.6);
+  scene.draw(0.05, true, rasteriser);
+  EXPECT_GE(PanOverSurface::coverage(scene.target, width - 10), 0.99 * before);
+  EXPECT_GT(scene.statistics.keptVisible, 0u);
+  EXPECT_LE(scene.statistics.keptVisible, std::uint64_t(width) * height);
+}
+
+TEST(VisiblePoints, AreKeptFromFrameToFrame)
+{
+  PanOverSurface scene;
+  SoftwareRasteriser rasteriser;
+  scene.draw(1.0, true, rasteriser);
+  for (int frame = 1; frame <= 20; ++frame)
+  {
+    scene.pan(frame);
+    scene.draw(0.05, true, rasteriser);
+  }
+  EXPECT_GE(PanOverSurface::coverage(scene.target, width - 20), 0.97);
+}
+
+TEST(VisiblePoints, ACompletePictureShowsWhatItsPlanSays)
+{
+  PanOverSurface scene;
+  SoftwareRasteriser rasteriser;
+  scene.draw(1.0, true, rasteriser);
+  scene.pan(10.0);
+  scene.draw(0.05, true, rasteriser);
+  scene.draw(0.3, true, rasteriser); // at rest, while more is loaded
+  EXPECT_GT(scene.statistics.keptVisible, 0u);
+  EXPECT_GT(scene.statistics.reused, 0u); // it goes on from the last picture
+  scene.draw(0.3, false, rasteriser);
+  EXPECT_EQ(scene.statistics.keptVisible, 0u);
+  const SoftwareTarget shown = scene.target;
+  SoftwareRasteriser fresh;
+  scene.draw(0.3, false, fresh);
+  EXPECT_EQ(shown.rgba, scene.target.rgba);
+  EXPECT_EQ(shown.depth, scene.target.depth);
+}
+
+TEST(VisiblePoints, AreTheSameForAnyNumberOfThreads)
+{
+  std::vector<std::uint32_t> first;
+  for (const unsigned threads : { 1u, 2u, 7u })
+  {
+    PanOverSurface scene;
+    ThreadCrew crew(threads);
+    SoftwareRasteriser rasteriser(&crew);
+    for (int frame = 0; frame < 4; ++frame)
+    {
+      scene.pan(3.3 * frame);
+      scene.draw(frame == 0 ? 1.0 : 0.1, true, rasteriser);
+    }
+    first = first.empty() ? scene.target.rgba : first;
+    EXPECT_EQ(scene.target.rgba, first) << threads;
+  }
+}
+
+TEST(VisiblePoints, FollowStylesAndClipping)
+{
+  PanOverSurface scene;
+  SoftwareRasteriser rasteriser;
+  scene.draw(1.0, true, rasteriser);
+  scene.pan(10.0);
+  scene.plan.clippingPlanes = { { 0.0, 1.0, 0.0, 0.0 } };
+  scene.draw(0.05, true, rasteriser);
+  EXPECT_GT(scene.statistics.keptVisible, 0u);
+  for (int x = 0; x < width; ++x)
+  {
+    EXPECT_FALSE(std::isfinite(scene.target.depth[static_cast<std::size_t>(x)])); // lowest row
+  }
+  scene.plan.clippingPlanes.clear();
+  scene.pan(0.0);
+  scene.draw(1.0, true, rasteriser);
+  scene.pan(10.0);
+  auto other = std::make_shared<ResolvedStyle>(*scene.style);
+  other->technique = Technique::Spheres;
+  scene.plan.batches[0].style = other;
+  scene.draw(0.05, true, rasteriser);
+  EXPECT_EQ(scene.statistics.keptVisible, 0u); // another style is another picture
+}
+
+TEST(VisiblePoints, OfNodesThatAreGoneStay)
+{
+  PanOverSurface scene;
+  scene.add(wavySurface(2000, 9), 0.01);
+  SoftwareRasteriser rasteriser;
+  scene.draw(1.0, true, rasteriser);
+  const double before = PanOverSurface::coverage(scene.target, width);
+  scene.pan(10.0);
+  scene.plan.batches[0].items.erase(scene.plan.batches[0].items.begin());
+  scene.plan.keepsVisible = true;
+  scene.target.reset(width, height);
+  rasteriser.draw(scene.plan, scene.target);
+  EXPECT_GE(PanOverSurface::coverage(scene.target, width - 10), 0.99 * before);
+  SoftwareTarget picked; // who is in a pixel is said of what the plan draws only
+  picked.keepPoints = true;
+  picked.reset(width, height);
+  EXPECT_EQ(rasteriser.draw(scene.plan, picked).keptVisible, 0u);
+}

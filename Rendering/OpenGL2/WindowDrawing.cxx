@@ -120,7 +120,7 @@ void WindowDrawing::setStore(const void* store)
   if (store_ != store)
   {
     pool_.release();
-    softwarePicture_.leaveScreen();
+    picture_.leaveScreen();
     colourings_.clear();
     store_ = store;
   }

@@ -11,12 +11,15 @@ import pathlib
 import shutil
 import struct
 import subprocess
+import sys
 import time
 import unittest
 
 TOOL = os.environ["POINTFRONT_TOOL"]
 DATA = pathlib.Path(os.environ["POINTFRONT_SHARED_DATA"])
-WORK = pathlib.Path(os.environ["POINTFRONT_WORK"])
+# One script may run twice at a time, with another back end.
+WORK = (pathlib.Path(os.environ["POINTFRONT_WORK"]) /
+        (pathlib.Path(sys.argv[0]).stem + os.environ.get("POINTFRONT_BACKEND", "")))
 SLOWNESS = float(os.environ.get("POINTFRONT_SLOWNESS", "1"))
 
 

@@ -1,12 +1,14 @@
 #include "vtkPointFrontReader.h"
 
 #include "Overview.h"
+#include "RankedPoints.h"
 
 #include "pointfront/Store/StoredCloudFormats.h"
 #include "vtkPointFrontStore.h"
 
 #include <vtkDataArraySelection.h>
 #include <vtkErrorCode.h>
+#include <vtkIdTypeArray.h>
 #include <vtkIndent.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
@@ -16,8 +18,30 @@
 #include <vtkVersionMacros.h>
 
 #include <algorithm>
+#include <iterator>
+#include <vector>
 
 vtkStandardNewMacro(vtkPointFrontReader);
+
+namespace
+{
+
+/// Columns of the store that the selection names.
+pointfront::ColumnSelection chosenColumns(
+  const vtkPointFrontStore* store, vtkDataArraySelection* selection)
+{
+  pointfront::ColumnSelection columns;
+  for (int i = 0; i < store->GetNumberOfAttributes(); ++i)
+  {
+    if (selection->ArrayIsEnabled(store->GetAttributeName(i)))
+    {
+      columns.push_back(static_cast<std::uint32_t>(i));
+    }
+  }
+  return columns;
+}
+
+} // namespace
 
 vtkPointFrontReader::vtkPointFrontReader()
 {
@@ -127,14 +151,7 @@ int vtkPointFrontReader::RequestData(
     std::max(1, info->Get(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES()));
 
   const pointfront::StoredCloud& store = *this->Store->GetStore();
-  pointfront::ColumnSelection columns;
-  for (int i = 0; i < this->Store->GetNumberOfAttributes(); ++i)
-  {
-    if (this->PointDataArraySelection->ArrayIsEnabled(this->Store->GetAttributeName(i)))
-    {
-      columns.push_back(static_cast<std::uint32_t>(i));
-    }
-  }
+  const auto columns = chosenColumns(this->Store, this->PointDataArraySelection);
   const auto whole = pointfront::chooseOverview(
     *store.hierarchy(), static_cast<std::uint64_t>(this->OverviewPoints));
   const auto advance = [this](double fraction)
@@ -161,6 +178,37 @@ int vtkPointFrontReader::RequestData(
   vtkPointFrontStore::SetStoreName(output, this->Store->GetFileName());
   this->UpdateProgress(1.0);
   return 1;
+}
+
+bool vtkPointFrontReader::ReadPoints(
+  vtkIdTypeArray* ranks, int piece, int pieces, vtkPolyData* output)
+{
+  if (!this->Store)
+  {
+    vtkErrorMacro("no store is open: call UpdateInformation() first");
+    return false;
+  }
+  const pointfront::StoredCloud& store = *this->Store->GetStore();
+  const vtkIdType* values = ranks->GetPointer(0);
+  std::vector<std::uint64_t> wanted;
+  std::copy_if(values, values + ranks->GetNumberOfValues(), std::back_inserter(wanted),
+    [](vtkIdType rank) { return rank >= 0; });
+  auto points = pointfront::locatePoints(*store.hierarchy(), std::move(wanted),
+    pointfront::chooseOverview(
+      *store.hierarchy(), static_cast<std::uint64_t>(this->OverviewPoints)));
+  if (!points)
+  {
+    vtkErrorMacro(<< points.error().what);
+    return false;
+  }
+  const auto filled = pointfront::fillPoints(store,
+    pointfront::shareOf(std::move(*points), piece, pieces),
+    chosenColumns(this->Store, this->PointDataArraySelection), output);
+  if (!filled)
+  {
+    vtkErrorMacro(<< filled.error().what);
+  }
+  return filled.ok();
 }
 
 void vtkPointFrontReader::PrintSelf(ostream& os, vtkIndent indent)

@@ -26,6 +26,7 @@
 #include "vtkSmartPointer.h" // for the store
 
 class vtkDataArraySelection;
+class vtkIdTypeArray;
 class vtkPointFrontStore;
 
 class POINTFRONTIOSTORE_EXPORT vtkPointFrontReader : public vtkPolyDataAlgorithm
@@ -63,6 +64,14 @@ public:
   int GetPointArrayStatus(const char* name);
   void SetPointArrayStatus(const char* name, int status);
   ///@}
+
+  /**
+   * Points of the store by their ranks (as global point ids and hardware selections have them) that
+   * the overview lacks: `output` is as the overview is, each point once, ranks that the store does
+   * not have left out. Of `pieces` that ask alike each gets its share. After UpdateInformation();
+   * false, and an error, if a node cannot be read.
+   */
+  bool ReadPoints(vtkIdTypeArray* ranks, int piece, int pieces, vtkPolyData* output);
 
   /// The open store, after UpdateInformation(); null before, or if it could not be opened.
   vtkPointFrontStore* GetStore();

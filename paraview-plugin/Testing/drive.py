@@ -1,6 +1,6 @@
 """Runs ParaView in one of its ways on a store and compares its pictures with those of the tool.
 
-usage: drive.py WAY      batch | classes | ranks | server | application, under a display of its own
+usage: drive.py WAY      under a display of its own; one of the ways at the end of this file
 Told by the environment: POINTFRONT_TOOL, POINTFRONT_PLUGIN, POINTFRONT_CLOUD (what to build the
 store from), POINTFRONT_CAMERA, POINTFRONT_PVPYTHONPATH, POINTFRONT_{PVBATCH,PVSERVER,PARAVIEW,
 MPIEXEC}. Writes under the current folder only.
@@ -150,8 +150,8 @@ def ranks(programs):
     compare("pieces", "tool")
 
 
-def server(programs):
-    make_large()
+def with_server(programs, script, *arguments):
+    """A Python client of a server with two ranks."""
     port = free_port()
     with open("server.log", "w") as log:
         running = programs.start(
@@ -161,9 +161,22 @@ def server(programs):
             if running.poll() is not None or time.time() > programs.deadline:
                 raise AssertionError("pvserver does not start:\n" + open("server.log").read())
             time.sleep(0.1)
-        programs.run(sys.executable, os.path.join(HERE, "client.py"), str(port), "server", "2")
+        programs.run(sys.executable, os.path.join(HERE, script), str(port), *arguments)
         programs.finish(running)  # a server ends with its client
+
+
+def server(programs):
+    make_large()
+    with_server(programs, "client.py", "server", "2")
     compare("server", "tool")
+
+
+def selection(programs):
+    programs.run(os.environ["POINTFRONT_PVBATCH"], os.path.join(HERE, "selection.py"))
+
+
+def ranks_selection(programs):
+    with_server(programs, "selection.py")
 
 
 def application(programs):
@@ -199,7 +212,8 @@ def main(way):
          "--camera", os.environ["POINTFRONT_CAMERA"], "--color-by", "rgb", "--point-size", "2",
          "--error", "0.01", "--background", "0,0,0")
     ways = {"batch": batch, "classes": classes, "ranks": ranks, "server": server,
-            "application": application}
+            "application": application, "selection": selection,
+            "ranks-selection": ranks_selection}
     with Programs() as programs:
         ways[way](programs)
 

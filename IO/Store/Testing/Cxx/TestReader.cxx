@@ -19,7 +19,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <fstream>
+#include <map>
 #include <set>
 
 using namespace pointfront;
@@ -156,6 +158,74 @@ TEST(Reader, PiecesHaveEachPointOnce)
     }
   }
   EXPECT_EQ(seen.size(), 20000u);
+}
+
+/// Global point ids of `data`, and that each point has the place and the values that `cloud`, an
+/// overview of everything, has for that id.
+std::set<vtkIdType> idsLikeIn(vtkPolyData* data, vtkPolyData* cloud)
+{
+  std::map<vtkIdType, vtkIdType> rowOf;
+  for (vtkIdType i = 0; i < cloud->GetNumberOfPoints(); ++i)
+  {
+    rowOf[static_cast<vtkIdType>(cloud->GetPointData()->GetGlobalIds()->GetTuple1(i))] = i;
+  }
+  std::set<vtkIdType> ids;
+  for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i)
+  {
+    const auto id = static_cast<vtkIdType>(data->GetPointData()->GetGlobalIds()->GetTuple1(i));
+    EXPECT_TRUE(ids.insert(id).second);
+    const vtkIdType row = rowOf.at(id);
+    std::array<double, 3> one, other;
+    data->GetPoint(i, one.data());
+    cloud->GetPoint(row, other.data());
+    EXPECT_EQ(one, other);
+    for (const char* name : {"id", "height", "rgb"})
+    {
+      EXPECT_EQ(data->GetPointData()->GetArray(name)->GetTuple1(i),
+        cloud->GetPointData()->GetArray(name)->GetTuple1(row));
+    }
+  }
+  return ids;
+}
+
+TEST(Reader, PointsThatTheOverviewLacksAreReadByTheirRanks)
+{
+  const std::string store = storeOf("ranks", 20000);
+  vtkNew<vtkPointFrontReader> all;
+  all->SetFileName(store.c_str());
+  all->Update();
+  vtkNew<vtkPointFrontReader> reader;
+  reader->SetFileName(store.c_str());
+  reader->SetOverviewPoints(3000);
+  reader->Update();
+  const std::set<vtkIdType> overview = idsLikeIn(reader->GetOutput(), all->GetOutput());
+
+  vtkNew<vtkIdTypeArray> ranks;
+  std::set<vtkIdType> wanted;
+  for (vtkIdType rank = 19999; rank >= 0; rank -= 7)
+  {
+    ranks->InsertNextValue(rank);
+    if (overview.count(rank) == 0)
+    {
+      wanted.insert(rank);
+    }
+  }
+  ranks->InsertNextValue(19999);  // twice
+  ranks->InsertNextValue(-1);     // and what there is not
+  ranks->InsertNextValue(20000);
+  ranks->InsertNextValue(VTK_ID_MAX);
+  std::set<vtkIdType> found;
+  for (int piece = 0; piece < 3; ++piece)
+  {
+    vtkNew<vtkPolyData> points;
+    ASSERT_TRUE(reader->ReadPoints(ranks, piece, 3, points));
+    EXPECT_NEAR(
+      static_cast<double>(points->GetNumberOfPoints()), static_cast<double>(wanted.size()) / 3.0, 1.0);
+    EXPECT_EQ(points->GetNumberOfVerts(), points->GetNumberOfPoints());
+    const std::set<vtkIdType> ids = idsLikeIn(points, all->GetOutput());
+    found.insert(ids.begin(), ids.end());
+  }
+  EXPECT_EQ(found, wanted);
 }
 
 TEST(Reader, TheSelectionChoosesTheArraysAndIsPartOfTheTime)

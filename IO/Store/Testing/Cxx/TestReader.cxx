@@ -181,8 +181,8 @@ std::set<vtkIdType> idsLikeIn(vtkPolyData* data, vtkPolyData* cloud)
     EXPECT_EQ(one, other);
     for (const char* name : {"id", "height", "rgb"})
     {
-      EXPECT_EQ(data->GetPointData()->GetArray(name)->GetTuple1(i),
-        cloud->GetPointData()->GetArray(name)->GetTuple1(row));
+      EXPECT_EQ(data->GetPointData()->GetArray(name)->GetComponent(i, 0),
+        cloud->GetPointData()->GetArray(name)->GetComponent(row, 0));
     }
   }
   return ids;

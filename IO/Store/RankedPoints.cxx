@@ -5,6 +5,7 @@
 #include <vtkPolyData.h>
 
 #include <algorithm>
+#include <numeric>
 #include <optional>
 
 namespace pointfront
@@ -73,13 +74,52 @@ Result<std::vector<NodeRows>> locatePoints(const Hierarchy& hierarchy,
   return found;
 }
 
-std::vector<NodeRows> shareOf(std::vector<NodeRows> points, int piece, int pieces)
+Result<std::vector<NodeRows>> pointsOfNodes(const Hierarchy& hierarchy,
+  const std::function<bool(const Bounds&)>& overlaps, const std::vector<OverviewPart>& overview)
+{
+  std::vector<NodeRows> found;
+  std::vector<NodeIndex> left(hierarchy.roots());
+  while (!left.empty())
+  {
+    const NodeIndex index = left.back();
+    left.pop_back();
+    const Node node = hierarchy.node(index);
+    if (!overlaps(node.box()))
+    {
+      continue;
+    }
+    hierarchy.appendChildren(index, node, left);
+    const std::uint32_t points = originalPoints(node, hierarchy.refinement());
+    const std::uint32_t known = std::min(overviewPoints(overview, index), points);
+    if (known < points)
+    {
+      NodeRows rows{index, std::vector<std::uint32_t>(points - known)};
+      std::iota(rows.rows.begin(), rows.rows.end(), known);
+      found.push_back(std::move(rows));
+    }
+  }
+  if (const std::optional<Error> damage = hierarchy.fault())
+  {
+    return *damage;
+  }
+  std::sort(found.begin(), found.end(),
+    [](const NodeRows& a, const NodeRows& b) { return a.node < b.node; });
+  return found;
+}
+
+std::uint64_t countOf(const std::vector<NodeRows>& points)
 {
   std::uint64_t total = 0;
   for (const NodeRows& node : points)
   {
     total += node.rows.size();
   }
+  return total;
+}
+
+std::vector<NodeRows> shareOf(std::vector<NodeRows> points, int piece, int pieces)
+{
+  const std::uint64_t total = countOf(points);
   const auto begins = [&](int number)
   { return total * static_cast<std::uint64_t>(number) / static_cast<std::uint64_t>(pieces); };
   const std::uint64_t first = begins(piece);
@@ -105,12 +145,7 @@ std::vector<NodeRows> shareOf(std::vector<NodeRows> points, int piece, int piece
 Result<void> fillPoints(const StoredCloud& store, const std::vector<NodeRows>& points,
   const ColumnSelection& columns, vtkPolyData* output)
 {
-  std::size_t total = 0;
-  for (const NodeRows& node : points)
-  {
-    total += node.rows.size();
-  }
-  PointArrays arrays(store.description(), columns, total);
+  PointArrays arrays(store.description(), columns, countOf(points));
   for (const NodeRows& node : points)
   {
     const auto read = store.read(node.node, columns);

@@ -3,6 +3,7 @@
 #include "Overview.h"
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace pointfront
@@ -20,6 +21,14 @@ struct NodeRows
 /// Errors  damage of the table that was met.
 Result<std::vector<NodeRows>> locatePoints(const Hierarchy& hierarchy,
   std::vector<std::uint64_t> ranks, const std::vector<OverviewPart>& overview);
+
+/// Points of the input in all nodes whose box satisfies `overlaps`, without those that `overview`
+/// has: no fewer than those in the region that `overlaps` asks about. In table order.
+/// Errors  damage of the table that was met.
+Result<std::vector<NodeRows>> pointsOfNodes(const Hierarchy& hierarchy,
+  const std::function<bool(const Bounds&)>& overlaps, const std::vector<OverviewPart>& overview);
+
+std::uint64_t countOf(const std::vector<NodeRows>& points);
 
 /// Share `piece` of `pieces`: neighbours, about as many points in each; together each point once.
 std::vector<NodeRows> shareOf(std::vector<NodeRows> points, int piece, int pieces);

@@ -41,6 +41,12 @@ pointfront::ColumnSelection chosenColumns(
   return columns;
 }
 
+std::vector<pointfront::OverviewPart> overviewOf(
+  const pointfront::Hierarchy& hierarchy, vtkIdType points)
+{
+  return pointfront::chooseOverview(hierarchy, static_cast<std::uint64_t>(points));
+}
+
 } // namespace
 
 vtkPointFrontReader::vtkPointFrontReader()
@@ -152,8 +158,7 @@ int vtkPointFrontReader::RequestData(
 
   const pointfront::StoredCloud& store = *this->Store->GetStore();
   const auto columns = chosenColumns(this->Store, this->PointDataArraySelection);
-  const auto whole = pointfront::chooseOverview(
-    *store.hierarchy(), static_cast<std::uint64_t>(this->OverviewPoints));
+  const auto whole = overviewOf(*store.hierarchy(), this->OverviewPoints);
   const auto advance = [this](double fraction)
   {
     this->UpdateProgress(fraction);
@@ -180,6 +185,11 @@ int vtkPointFrontReader::RequestData(
   return 1;
 }
 
+struct vtkPointFrontReader::Found
+{
+  pointfront::Result<std::vector<pointfront::NodeRows>> points;
+};
+
 bool vtkPointFrontReader::ReadPoints(
   vtkIdTypeArray* ranks, int piece, int pieces, vtkPolyData* output)
 {
@@ -188,21 +198,53 @@ bool vtkPointFrontReader::ReadPoints(
     vtkErrorMacro("no store is open: call UpdateInformation() first");
     return false;
   }
-  const pointfront::StoredCloud& store = *this->Store->GetStore();
   const vtkIdType* values = ranks->GetPointer(0);
   std::vector<std::uint64_t> wanted;
   std::copy_if(values, values + ranks->GetNumberOfValues(), std::back_inserter(wanted),
     [](vtkIdType rank) { return rank >= 0; });
-  auto points = pointfront::locatePoints(*store.hierarchy(), std::move(wanted),
-    pointfront::chooseOverview(
-      *store.hierarchy(), static_cast<std::uint64_t>(this->OverviewPoints)));
-  if (!points)
+  const pointfront::Hierarchy& hierarchy = *this->Store->GetStore()->hierarchy();
+  return this->Fill({pointfront::locatePoints(hierarchy, std::move(wanted),
+                      overviewOf(hierarchy, this->OverviewPoints))},
+    piece, pieces, output);
+}
+
+bool vtkPointFrontReader::ReadRegion(
+  const std::function<bool(const double bounds[6])>& overlaps, vtkIdType mostPoints, int piece,
+  int pieces, vtkPolyData* output)
+{
+  if (!this->Store)
   {
-    vtkErrorMacro(<< points.error().what);
+    vtkErrorMacro("no store is open: call UpdateInformation() first");
     return false;
   }
-  const auto filled = pointfront::fillPoints(store,
-    pointfront::shareOf(std::move(*points), piece, pieces),
+  const pointfront::Hierarchy& hierarchy = *this->Store->GetStore()->hierarchy();
+  const auto overlapsBox = [&](const pointfront::Bounds& box)
+  {
+    const double bounds[6] = {
+      box.low.x, box.high.x, box.low.y, box.high.y, box.low.z, box.high.z};
+    return overlaps(bounds);
+  };
+  Found found{pointfront::pointsOfNodes(
+    hierarchy, overlapsBox, overviewOf(hierarchy, this->OverviewPoints))};
+  if (found.points && pointfront::countOf(*found.points) > static_cast<std::uint64_t>(mostPoints))
+  {
+    vtkErrorMacro("the region reaches into parts of the cloud with "
+      << pointfront::countOf(*found.points) << " points, and " << mostPoints
+      << " are allowed: choose a smaller one");
+    return false;
+  }
+  return this->Fill(std::move(found), piece, pieces, output);
+}
+
+bool vtkPointFrontReader::Fill(Found&& found, int piece, int pieces, vtkPolyData* output)
+{
+  if (!found.points)
+  {
+    vtkErrorMacro(<< found.points.error().what);
+    return false;
+  }
+  const auto filled = pointfront::fillPoints(*this->Store->GetStore(),
+    pointfront::shareOf(std::move(*found.points), piece, pieces),
     chosenColumns(this->Store, this->PointDataArraySelection), output);
   if (!filled)
   {

@@ -25,6 +25,8 @@
 #include "vtkPolyDataAlgorithm.h"
 #include "vtkSmartPointer.h" // for the store
 
+#include <functional> // for regions
+
 class vtkDataArraySelection;
 class vtkIdTypeArray;
 class vtkPointFrontStore;
@@ -73,6 +75,16 @@ public:
    */
   bool ReadPoints(vtkIdTypeArray* ranks, int piece, int pieces, vtkPolyData* output);
 
+#ifndef __VTK_WRAP__
+  /**
+   * The same for the points in a region: at least those, and others of the nodes that reach into
+   * it. `overlaps` says whether a box does. False, and an error, also if there are more than
+   * `mostPoints`.
+   */
+  bool ReadRegion(const std::function<bool(const double bounds[6])>& overlaps,
+    vtkIdType mostPoints, int piece, int pieces, vtkPolyData* output);
+#endif
+
   /// The open store, after UpdateInformation(); null before, or if it could not be opened.
   vtkPointFrontStore* GetStore();
 
@@ -90,6 +102,9 @@ protected:
   vtkSmartPointer<vtkPointFrontStore> Store;
 
 private:
+  struct Found;
+  bool Fill(Found&& found, int piece, int pieces, vtkPolyData* output);
+
   vtkPointFrontReader(const vtkPointFrontReader&) = delete;
   void operator=(const vtkPointFrontReader&) = delete;
 };

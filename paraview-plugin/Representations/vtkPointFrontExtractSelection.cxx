@@ -2,7 +2,9 @@
 
 #include "UpstreamReader.h"
 
-#include "vtkDataArray.h"
+#include "vtkCellArray.h"
+#include "vtkDoubleArray.h"
+#include "vtkExtractSelectedFrustum.h"
 #include "vtkIdTypeArray.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -17,12 +19,16 @@
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <algorithm>
+#include <array>
 #include <string>
 
 vtkStandardNewMacro(vtkPointFrontExtractSelection);
 
 namespace
 {
+
+/// That a selection through the cloud may read, on all processes together: some GB.
+constexpr vtkIdType MostPoints = 50000000;
 
 /// Ranks of the points that a selection names, whoever's they are.
 void appendNamedPoints(vtkSelection* selection, vtkIdTypeArray* ranks)
@@ -39,6 +45,22 @@ void appendNamedPoints(vtkSelection* selection, vtkIdTypeArray* ranks)
       ranks->InsertTuples(ranks->GetNumberOfTuples(), ids->GetNumberOfTuples(), 0, ids);
     }
   }
+}
+
+/// The view frustum that a selection consists of, if it has one.
+vtkDoubleArray* frustumOf(vtkSelection* selection)
+{
+  for (unsigned int i = 0; i < selection->GetNumberOfNodes(); ++i)
+  {
+    vtkSelectionNode* node = selection->GetNode(i);
+    auto* corners = vtkDoubleArray::SafeDownCast(node->GetSelectionList());
+    if (node->GetContentType() == vtkSelectionNode::FRUSTUM && corners &&
+      corners->GetNumberOfValues() == 32)
+    {
+      return corners;
+    }
+  }
+  return nullptr;
 }
 
 /// The points of `first` and behind them those of `second`, which has the same arrays.
@@ -98,12 +120,7 @@ int vtkPointFrontExtractSelection::RequestData(
   auto* overview = vtkPolyData::GetData(inputVector[0], 0);
   vtkSelection* selection = vtkSelection::GetData(inputVector[1], 0);
   vtkPointFrontReader* reader = pointfront::upstreamReaderOf(this);
-  vtkNew<vtkIdTypeArray> ranks;
-  if (reader && overview && selection)
-  {
-    appendNamedPoints(selection, ranks);
-  }
-  if (ranks->GetNumberOfTuples() == 0)
+  if (!reader || !overview || !selection)
   {
     return this->Superclass::RequestData(request, inputVector, outputVector);
   }
@@ -111,14 +128,33 @@ int vtkPointFrontExtractSelection::RequestData(
   const int piece = output->Get(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER());
   const int pieces =
     std::max(1, output->Get(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES()));
-  vtkNew<vtkPolyData> named;
-  if (!reader->ReadPoints(ranks, piece, pieces, named))
+  vtkNew<vtkIdTypeArray> ranks;
+  appendNamedPoints(selection, ranks);
+  vtkNew<vtkPolyData> further;
+  bool read = true;
+  if (vtkDoubleArray* corners = frustumOf(selection))
+  {
+    vtkNew<vtkExtractSelectedFrustum> frustum;
+    frustum->CreateFrustum(corners->GetPointer(0));
+    const auto overlaps = [&](const double bounds[6])
+    {
+      std::array<double, 6> box;
+      std::copy_n(bounds, 6, box.begin());
+      return frustum->OverallBoundsTest(box.data()) != 0;
+    };
+    read = reader->ReadRegion(overlaps, MostPoints, piece, pieces, further);
+  }
+  else if (ranks->GetNumberOfTuples() > 0)
+  {
+    read = reader->ReadPoints(ranks, piece, pieces, further);
+  }
+  if (!read)
   {
     return 0; // the reader has said why
   }
   vtkInformation* input = inputVector[0]->GetInformationObject(0);
   const vtkSmartPointer<vtkDataObject> kept = overview;
-  input->Set(vtkDataObject::DATA_OBJECT(), joined(overview, named));
+  input->Set(vtkDataObject::DATA_OBJECT(), joined(overview, further));
   const int done = this->Superclass::RequestData(request, inputVector, outputVector);
   input->Set(vtkDataObject::DATA_OBJECT(), kept);
   return done;

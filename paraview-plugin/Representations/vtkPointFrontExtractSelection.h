@@ -9,8 +9,9 @@
  * output lacks; so row numbers of the output keep their meaning. With several processes
  * each reads its share of the named points.
  *
- * Points are named by global ids, which are ranks in the store (vtkPointFrontEncodeSelection), or by
- * values of "point_id".
+ * Points are named by global ids, which are ranks in the store (vtkPointFrontEncodeSelection), by
+ * values of "point_id", or by a frustum, in which they are ("Select Points Through"): an error if
+ * that reaches into parts of the cloud with more than 50 million points.
  */
 #ifndef vtkPointFrontExtractSelection_h
 #define vtkPointFrontExtractSelection_h

@@ -198,6 +198,20 @@ def check_shown_selection():
     require(set(ids.tolist()) == set(found[1]["point_id"].tolist()), "frozen: other points")
 
 
+def check_frustum():
+    """"Select Points Through": every stored point in the rectangle, seen or not."""
+    rectangle = [390, 110, 470, 160]
+    representations, sources = vtkCollection(), vtkCollection()
+    scene.view.SMProxy.SelectFrustumPoints(rectangle, representations, sources, True)
+    require(sources.GetNumberOfItems() == 1, "frustum: %d sources" % sources.GetNumberOfItems())
+    found = extracted(sources.GetItemAsObject(0))
+    check(found, rectangle, "frustum")
+    missing = inside(rectangle, -SLACK)
+    missing[found[1]["point_id"]] = False
+    require(not missing.any(), "%d points of the frustum are not selected" % missing.sum())
+    print("%d points in a frustum" % len(found[0]))
+
+
 def check_filters():
     """A selection has no more to choose from behind a filter than the filter's own points."""
     selection = select([200, 100, 420, 220])
@@ -241,6 +255,7 @@ def check_tooltip():
 
 check_rectangles()
 check_shown_selection()
+check_frustum()
 check_filters()
 check_picks()
 check_tooltip()

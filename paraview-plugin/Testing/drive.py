@@ -171,6 +171,17 @@ def server(programs):
     compare("server", "tool")
 
 
+def filtered(programs):
+    with open("filtered.log", "w") as log:
+        programs.finish(programs.start(
+            os.environ["POINTFRONT_PVBATCH"], os.path.join(HERE, "filtered.py"), output=log))
+    told = open("filtered.log").read()
+    print(told)
+    if "is a filter's output" not in told:
+        raise AssertionError("nobody is told why a filter's output is not drawn")
+    compare("filtered", "tool")
+
+
 def selection(programs):
     programs.run(os.environ["POINTFRONT_PVBATCH"], os.path.join(HERE, "selection.py"))
 
@@ -212,7 +223,7 @@ def main(way):
          "--camera", os.environ["POINTFRONT_CAMERA"], "--color-by", "rgb", "--point-size", "2",
          "--error", "0.01", "--background", "0,0,0")
     ways = {"batch": batch, "classes": classes, "ranks": ranks, "server": server,
-            "application": application, "selection": selection,
+            "application": application, "filtered": filtered, "selection": selection,
             "ranks-selection": ranks_selection}
     with Programs() as programs:
         ways[way](programs)

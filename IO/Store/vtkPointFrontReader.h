@@ -13,7 +13,8 @@
  * without a lookup table. Global point ids ("point_id") are ranks in the store, as hardware
  * selections of vtkPointFrontMapper give them. An aborted update leaves an empty output.
  *
- * RequestInformation gives the bounds and array names of the whole cloud without reading points.
+ * RequestInformation gives the bounds and array names of the whole cloud without reading points: of
+ * several times, the bounds of the first and the arrays of all.
  * Pieces: the overview is cut by nodes. Errors (ErrorCode, vtkErrorMacro): no file name, a missing,
  * truncated or corrupt file, a newer version.
  */
@@ -26,6 +27,8 @@
 #include "vtkSmartPointer.h" // for the store
 
 #include <functional> // for regions
+#include <string>     // for file names
+#include <vector>     // for file names
 
 class vtkDataArraySelection;
 class vtkIdTypeArray;
@@ -39,9 +42,20 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{
-  /// The store's file.
-  vtkSetFilePathMacro(FileName);
-  vtkGetFilePathMacro(FileName);
+  /// The store's file: of several, the first.
+  void SetFileName(VTK_FILEPATH const char* fileName);
+  VTK_FILEPATH const char* GetFileName() const;
+  ///@}
+
+  ///@{
+  /**
+   * Stores of the same cloud at several times, in their order: time steps 0, 1, 2 ... The output is
+   * the overview of the store whose time is asked for. SetFileName() leaves one.
+   */
+  void AddFileName(VTK_FILEPATH const char* fileName);
+  void RemoveAllFileNames();
+  int GetNumberOfFileNames() const;
+  VTK_FILEPATH const char* GetFileName(int time) const;
   ///@}
 
   /// 1 if the file begins like a store. Cheap, by content, silent.
@@ -85,7 +99,8 @@ public:
     vtkIdType mostPoints, int piece, int pieces, vtkPolyData* output);
 #endif
 
-  /// The open store, after UpdateInformation(); null before, or if it could not be opened.
+  /// The open store: the first after UpdateInformation(), that of the output's time after Update();
+  /// null before, or if it could not be opened.
   vtkPointFrontStore* GetStore();
 
   vtkMTimeType GetMTime() override;
@@ -96,12 +111,14 @@ protected:
   int RequestInformation(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
-  char* FileName = nullptr;
+  std::vector<std::string> FileNames;
   vtkIdType OverviewPoints = 200000;
   vtkNew<vtkDataArraySelection> PointDataArraySelection;
   vtkSmartPointer<vtkPointFrontStore> Store;
 
 private:
+  bool OpenStore(std::size_t time);
+
   struct Found;
   bool Fill(Found&& found, int piece, int pieces, vtkPolyData* output);
 

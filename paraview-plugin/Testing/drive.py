@@ -182,6 +182,21 @@ def filtered(programs):
     compare("filtered", "tool")
 
 
+def series(programs):
+    """Three made-up surveys; the second has other attributes."""
+    steps = []
+    for time, points in enumerate((20000, 50000, 30000)):
+        store = os.path.abspath("survey_%d.pfront" % time)
+        tool("generate", "--points", str(points), "--seed", str(time + 1), "-o", "survey.las",
+             "--force")
+        tool("build", "survey.las", "-o", store, "--force",
+             *(["--attributes", "rgb"] if time == 1 else []))
+        steps.append((store, json.loads(tool("info", store, "--json"))["points"]))
+    command = [os.environ["POINTFRONT_PVBATCH"], os.path.join(HERE, "series.py"), json.dumps(steps)]
+    programs.run(*command)
+    programs.run(*mpi(2, *command))
+
+
 def selection(programs):
     programs.run(os.environ["POINTFRONT_PVBATCH"], os.path.join(HERE, "selection.py"))
 
@@ -223,7 +238,7 @@ def main(way):
          "--camera", os.environ["POINTFRONT_CAMERA"], "--color-by", "rgb", "--point-size", "2",
          "--error", "0.01", "--background", "0,0,0")
     ways = {"batch": batch, "classes": classes, "ranks": ranks, "server": server,
-            "application": application, "filtered": filtered, "selection": selection,
+            "application": application, "filtered": filtered, "selection": selection, "series": series,
             "ranks-selection": ranks_selection}
     with Programs() as programs:
         ways[way](programs)

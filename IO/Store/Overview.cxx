@@ -9,67 +9,90 @@
 
 namespace pointfront
 {
+namespace
+{
+
+/// Of a node's own points at most this share is taken where more lie below: finer parts follow the
+/// cloud's density more closely, and more nodes are read.
+constexpr std::uint64_t ownShare = 2;
+
+/// Chooses parts of a subtree: as many points as it is allotted.
+class OverviewChoice
+{
+public:
+  explicit OverviewChoice(const Hierarchy& hierarchy) : hierarchy_(hierarchy) {}
+
+  void allot(NodeIndex index, std::uint64_t points)
+  {
+    const Node node = hierarchy_.node(index);
+    if (points == 0)
+    {
+      return;
+    }
+    if (node.leaf() || (points * ownShare <= node.pointCount && points < node.pointsBelow))
+    {
+      this->take(index, std::min<std::uint64_t>(points, node.pointCount));
+      return;
+    }
+    std::vector<NodeIndex> children;
+    hierarchy_.appendChildren(index, node, children);
+    const std::uint64_t rest = this->allotShares(children, points);
+    // Own points only when those below do not suffice: how they are spread below is not known.
+    this->take(index, std::min<std::uint64_t>(rest, originalPoints(node, hierarchy_.refinement())));
+  }
+
+  /// To each node its share of the points below them all. Returns what they do not have.
+  std::uint64_t allotShares(const std::vector<NodeIndex>& nodes, std::uint64_t points)
+  {
+    std::uint64_t total = 0;
+    for (const NodeIndex node : nodes)
+    {
+      total += hierarchy_.node(node).pointsBelow;
+    }
+    const std::uint64_t given = std::min(points, total);
+    const double share = total > 0 ? static_cast<double>(given) / static_cast<double>(total) : 0.0;
+    const auto upTo = [&](std::uint64_t before)
+    {
+      return before == total ? given
+                             : static_cast<std::uint64_t>(share * static_cast<double>(before));
+    };
+    std::uint64_t before = 0;
+    for (const NodeIndex node : nodes)
+    {
+      const std::uint64_t after = before + hierarchy_.node(node).pointsBelow;
+      this->allot(node, upTo(after) - upTo(before));
+      before = after;
+    }
+    return points - given;
+  }
+
+  std::vector<OverviewPart> parts()
+  {
+    std::sort(parts_.begin(), parts_.end(),
+      [](const OverviewPart& a, const OverviewPart& b) { return a.node < b.node; });
+    return std::move(parts_);
+  }
+
+private:
+  void take(NodeIndex node, std::uint64_t points)
+  {
+    if (points > 0)
+    {
+      parts_.push_back({node, static_cast<std::uint32_t>(points)});
+    }
+  }
+
+  const Hierarchy& hierarchy_;
+  std::vector<OverviewPart> parts_;
+};
+
+} // namespace
 
 std::vector<OverviewPart> chooseOverview(const Hierarchy& hierarchy, std::uint64_t maxPoints)
 {
-  std::vector<OverviewPart> parts;
-  std::vector<NodeIndex> level(hierarchy.roots());
-  std::uint64_t left = maxPoints;
-  while (!level.empty() && left > 0)
-  {
-    std::sort(level.begin(), level.end());
-    std::uint64_t points = 0;
-    for (const NodeIndex node : level)
-    {
-      points += hierarchy.node(node).pointCount;
-    }
-    const bool whole = points <= left;
-    std::vector<NodeIndex> below;
-    for (const NodeIndex index : level)
-    {
-      const Node node = hierarchy.node(index);
-      const std::uint64_t count =
-        whole
-          ? node.pointCount
-          : static_cast<std::uint64_t>(static_cast<double>(node.pointCount) *
-                                       (static_cast<double>(left) / static_cast<double>(points)));
-      if (count > 0)
-      {
-        parts.push_back({index, static_cast<std::uint32_t>(count)});
-      }
-      if (whole)
-      {
-        hierarchy.appendChildren(index, node, below);
-      }
-    }
-    left -= std::min(left, points);
-    // With mean representatives a level stands for all above it but the leaves.
-    if (hierarchy.refinement() == Refinement::Replace && whole && !below.empty())
-    {
-      std::uint64_t next = 0;
-      for (const NodeIndex child : below)
-      {
-        next += hierarchy.node(child).pointCount;
-      }
-      std::uint64_t leaves = 0;
-      for (const OverviewPart& part : parts)
-      {
-        leaves += hierarchy.node(part.node).leaf() ? part.pointCount : 0;
-      }
-      if (leaves + next > maxPoints)
-      {
-        break;
-      }
-      const auto replaced = [&](const OverviewPart& part)
-      { return !hierarchy.node(part.node).leaf(); };
-      parts.erase(std::remove_if(parts.begin(), parts.end(), replaced), parts.end());
-      left = maxPoints - leaves;
-    }
-    level = std::move(below);
-  }
-  std::sort(parts.begin(), parts.end(),
-    [](const OverviewPart& a, const OverviewPart& b) { return a.node < b.node; });
-  return parts;
+  OverviewChoice choice(hierarchy);
+  choice.allotShares(hierarchy.roots(), maxPoints);
+  return choice.parts();
 }
 
 std::vector<OverviewPart> overviewPiece(

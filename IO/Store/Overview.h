@@ -20,10 +20,10 @@ struct OverviewPart
   std::uint32_t pointCount = 0;
 };
 
-/// What an overview of at most `maxPoints` consists of: whole levels from the roots down while they
-/// fit, and of the next level the same share of every node (each prefix of a node is a fair subset
-/// of it), so that the overview is about equally dense everywhere. In table order, which is breadth
-/// first.
+/// What an overview of at most `maxPoints` consists of: of each layer and of each subtree its share
+/// of the cloud's points, so that histograms and statistics of the overview are those of the cloud,
+/// near enough. Below the size of some thousand points a share is spread evenly over the subtree's
+/// box (each prefix of a node is a fair subset of it). In table order, which is breadth first.
 std::vector<OverviewPart> chooseOverview(const Hierarchy& hierarchy, std::uint64_t maxPoints);
 
 /// The parts that piece `piece` of `pieces` consists of: neighbours in the table, about as many

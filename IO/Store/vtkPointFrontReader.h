@@ -3,8 +3,8 @@
  * @brief opens a `.pfront` store: an overview as vtkPolyData, and the store's name for
  * vtkPointFrontMapper
  *
- * The output holds an overview (the hierarchy's first levels, at most OverviewPoints points, about
- * equally dense everywhere; double coordinates, one vertex cell a point, the chosen attributes as
+ * The output holds an overview (at most OverviewPoints points, where and of what the cloud has many,
+ * so has it; double coordinates, one vertex cell a point, the chosen attributes as
  * point data), so every VTK filter works at once, and names the store in its field data (see
  * vtkPointFrontStore), so that vtkPointFrontMapper draws the whole cloud from it.
  *

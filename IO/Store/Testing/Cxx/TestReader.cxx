@@ -141,6 +141,59 @@ TEST(Reader, AnOverviewIsAsLargeAsAskedAndHasNoThinQuarter)
   EXPECT_NE(vtkPointFrontStore::GetStoreName(reader->GetOutput()), "");
 }
 
+/// Three kinds of points: 90 % of them in a hundredth of the area, 9 % elsewhere, and 1 % of another
+/// class, which has a tree of its own if the store has layers.
+std::string unevenStore(const std::string& name, bool layers)
+{
+  AttributeSchema schema;
+  schema.add({"classification", ScalarType::UInt8, 1});
+  auto cloud = std::make_unique<CloudSource>(name, schema, millimetres({0.0, 0.0, 0.0}));
+  Random random(5);
+  for (int i = 0; i < 100000; ++i)
+  {
+    const double side = i % 100 < 90 ? 10.0 : 100.0;
+    cloud->addPosition(
+      glm::dvec3(side * random.uniform(), side * random.uniform(), random.uniform()));
+    cloud->addValue(0, static_cast<std::uint8_t>(i % 100 == 99 ? 5 : 2));
+  }
+  BuildOptions options;
+  options.outputPath = ::testing::TempDir() + name + ".pfront";
+  options.nodePoints = 1000;
+  options.overwrite = true;
+  options.threads = 1;
+  options.layering = layers ? Layering::ObjectClass : Layering::None;
+  EXPECT_TRUE(buildStore(one(std::move(cloud)), options).ok());
+  return options.outputPath;
+}
+
+TEST(Reader, TheOverviewHasItsShareOfEverything)
+{
+  for (const bool layers : {false, true})
+  {
+    vtkNew<vtkPointFrontReader> reader;
+    reader->SetFileName(unevenStore(layers ? "layered" : "uneven", layers).c_str());
+    for (const vtkIdType points : {5000, 20000})
+    {
+      reader->SetOverviewPoints(points);
+      reader->Update();
+      const vtkIdType count = reader->GetOutput()->GetNumberOfPoints();
+      EXPECT_NEAR(static_cast<double>(count), static_cast<double>(points), 10.0);
+      auto* classes = reader->GetOutput()->GetPointData()->GetArray("classification");
+      int dense = 0;
+      int rare = 0;
+      for (vtkIdType i = 0; i < count; ++i)
+      {
+        const double* p = reader->GetOutput()->GetPoint(i);
+        dense += p[0] < 10.0 && p[1] < 10.0 ? 1 : 0;
+        rare += classes->GetTuple1(i) == 5.0 ? 1 : 0;
+      }
+      EXPECT_NEAR(static_cast<double>(dense) / static_cast<double>(count), 0.901, 0.02);
+      EXPECT_NEAR(
+        static_cast<double>(rare) / static_cast<double>(count), 0.01, layers ? 0.001 : 0.005);
+    }
+  }
+}
+
 TEST(Reader, PiecesHaveEachPointOnce)
 {
   vtkNew<vtkPointFrontReader> reader;
@@ -319,6 +372,43 @@ TEST(Reader, ProgressRisesAndAnAbortLeavesNothing)
   reader->Modified();
   reader->Update();
   EXPECT_EQ(reader->GetOutput()->GetNumberOfPoints(), 0);
+}
+
+TEST(Reader, SeveralStoresAreTimeSteps)
+{
+  const std::vector<std::string> stores = {
+    storeOf("first", 1000), storeOf("second", 3000), storeOf("third", 2000)};
+  vtkNew<vtkPointFrontReader> reader;
+  for (const std::string& store : stores)
+  {
+    reader->AddFileName(store.c_str());
+  }
+  reader->UpdateInformation();
+  vtkInformation* info = reader->GetOutputInformation(0);
+  ASSERT_EQ(info->Length(vtkStreamingDemandDrivenPipeline::TIME_STEPS()), 3);
+  EXPECT_EQ(info->Get(vtkStreamingDemandDrivenPipeline::TIME_RANGE())[1], 2.0);
+  const std::array<std::array<double, 3>, 6> asked = {
+    {{0, 1000, 0}, {2, 2000, 2}, {1, 3000, 1}, {1.7, 3000, 1}, {-5, 1000, 0}, {9, 2000, 2}}};
+  for (const auto& [time, points, step] : asked)
+  {
+    reader->UpdateTimeStep(time);
+    EXPECT_EQ(static_cast<double>(reader->GetOutput()->GetNumberOfPoints()), points) << time;
+    EXPECT_EQ(reader->GetOutput()->GetInformation()->Get(vtkDataObject::DATA_TIME_STEP()), step);
+    EXPECT_EQ(vtkPointFrontStore::GetStoreName(reader->GetOutput()),
+      reader->GetStore()->GetFileName());
+  }
+
+  reader->SetFileName(stores[1].c_str());
+  reader->Update();
+  EXPECT_FALSE(info->Has(vtkStreamingDemandDrivenPipeline::TIME_STEPS()));
+  EXPECT_EQ(reader->GetOutput()->GetNumberOfPoints(), 3000);
+
+  vtkNew<vtkTest::ErrorObserver> errors;
+  reader->AddObserver(vtkCommand::ErrorEvent, errors);
+  reader->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, errors);
+  reader->AddFileName((::testing::TempDir() + "gone.pfront").c_str());
+  reader->Update();
+  EXPECT_NE(errors->GetErrorMessage().find("gone.pfront"), std::string::npos);
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 
 #include <vtkCellArray.h>
 #include <vtkDataArray.h>
+#include <vtkDoubleArray.h>
 #include <vtkIdTypeArray.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
@@ -131,6 +132,7 @@ public:
     for (const auto& component : range.components)
     {
       wide_ = wide_ || component[1] > 255.0;
+      varies_ = varies_ || component[0] < component[1];
     }
   }
 
@@ -163,14 +165,17 @@ public:
     }
   }
 
+  /// Whether the store's points have more than one value of it.
+  bool varies() const { return varies_; }
+  const std::string& name() const { return attribute_.name; }
   std::size_t stride() const { return attribute_.components * sizeOf(attribute_.type); }
-  bool isColour() const { return colour_; }
   vtkDataArray* array() const { return array_; }
 
 private:
   Attribute attribute_;
   bool scaled_;
   bool colour_;
+  bool varies_ = false;
   bool wide_ = false; ///< 16-bit colour uses more than its low byte
   vtkSmartPointer<vtkDataArray> array_;
 };
@@ -181,6 +186,8 @@ PointArrays::PointArrays(
 {
   points_->SetDataTypeToDouble();
   points_->SetNumberOfPoints(static_cast<vtkIdType>(points));
+  elevation_->SetName("elevation");
+  elevation_->SetNumberOfValues(static_cast<vtkIdType>(points));
   ids_->SetName("point_id");
   ids_->SetNumberOfValues(static_cast<vtkIdType>(points));
   for (const std::uint32_t column : columns)
@@ -210,6 +217,7 @@ void PointArrays::addRows(const NodeColumns& node, const std::vector<std::uint32
     xyz[3 * at] = p.x;
     xyz[3 * at + 1] = p.y;
     xyz[3 * at + 2] = p.z;
+    elevation_->SetValue(static_cast<vtkIdType>(at), p.z);
     ids_->SetValue(static_cast<vtkIdType>(at), static_cast<vtkIdType>(node.firstPoint + rows[i]));
   }
   for (std::size_t k = 0; k < columns_.size(); ++k)
@@ -220,22 +228,36 @@ void PointArrays::addRows(const NodeColumns& node, const std::vector<std::uint32
   filled_ += rows.size();
 }
 
+const char* PointArrays::defaultColours() const
+{
+  for (const char* name : {"rgb", "classification", "intensity"})
+  {
+    for (const Column& column : columns_)
+    {
+      if (column.name() == name && column.varies())
+      {
+        return name;
+      }
+    }
+  }
+  return "elevation";
+}
+
 void PointArrays::moveTo(vtkPolyData* output)
 {
   output->SetPoints(points_);
   addVertices(output, points_->GetNumberOfPoints());
+  vtkPointData* attributes = output->GetPointData();
   for (const Column& column : columns_)
   {
-    if (column.isColour())
-    {
-      output->GetPointData()->SetScalars(column.array());
-    }
-    else
-    {
-      output->GetPointData()->AddArray(column.array());
-    }
+    attributes->AddArray(column.array());
   }
-  output->GetPointData()->SetGlobalIds(ids_);
+  if (!attributes->HasArray(elevation_->GetName()))
+  {
+    attributes->AddArray(elevation_);
+  }
+  attributes->SetActiveScalars(this->defaultColours());
+  attributes->SetGlobalIds(ids_);
 }
 
 } // namespace pointfront

@@ -11,6 +11,7 @@
 #include <vector>
 
 class vtkDataArray;
+class vtkDoubleArray;
 class vtkIdTypeArray;
 class vtkPoints;
 class vtkPolyData;
@@ -21,8 +22,11 @@ namespace pointfront
 /// Stored points on their way into vtkPolyData: double points, one vertex cell a point (so that
 /// filters that select cells can select points), and the chosen columns as point data.
 /// Values      an attribute with a scale or an offset becomes double with both applied; every other
-///             keeps its type. "rgb" is UInt8 x 3 and the active scalars: 16-bit colour is reduced
-///             to 8 bits, because VTK takes only bytes as colours without a lookup table.
+///             keeps its type. "rgb" is UInt8 x 3: 16-bit colour is reduced to 8 bits,
+///             because VTK takes only bytes as colours without a lookup table.
+/// Elevation   a further array of that name, which the mapper draws by, too: z.
+/// Colours     the active scalars are the first of what was chosen that shows something: rgb (unless
+///             it is the same everywhere), classes (unless there is one), intensity; else elevation.
 /// Identity    global point ids are ranks in the store: (node, position in the node).
 class PointArrays
 {
@@ -40,11 +44,14 @@ public:
 
 private:
   class Column;
+  const char* defaultColours() const;
+
   const StoreDescription& description_;
   std::size_t filled_ = 0;
   std::vector<Column> columns_;
   vtkNew<vtkPoints> points_;
   vtkNew<vtkIdTypeArray> ids_;
+  vtkNew<vtkDoubleArray> elevation_;
 };
 
 } // namespace pointfront

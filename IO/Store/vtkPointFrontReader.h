@@ -9,8 +9,10 @@
  * vtkPointFrontStore), so that vtkPointFrontMapper draws the whole cloud from it.
  *
  * Attributes keep their type; one with a scale or an offset becomes double with both applied. "rgb"
- * is the active scalars, three bytes: 16-bit colour is reduced, for VTK takes only bytes as colours
- * without a lookup table. Global point ids ("point_id") are ranks in the store, as hardware
+ * has three bytes: 16-bit colour is reduced, for VTK takes only bytes as colours without a lookup
+ * table. "elevation" (z) is always there. The active scalars are "rgb" unless it is one
+ * colour everywhere, else "classification" if there are several, else "intensity", else "elevation".
+ * Global point ids ("point_id") are ranks in the store, as hardware
  * selections of vtkPointFrontMapper give them. An aborted update leaves an empty output.
  *
  * RequestInformation gives the bounds and array names of the whole cloud without reading points: of

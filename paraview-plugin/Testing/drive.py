@@ -171,6 +171,26 @@ def server(programs):
     compare("server", "tool")
 
 
+def colours(programs):
+    with open("black.ply", "w") as ply:
+        ply.write("ply\nformat ascii 1.0\nelement vertex 40000\n"
+                  "property double x\nproperty double y\nproperty double z\n"
+                  "property uchar red\nproperty uchar green\nproperty uchar blue\n"
+                  "property ushort intensity\nend_header\n")
+        for i in range(40000):
+            x, y = i % 200, i // 200
+            ply.write("%d %d %g 0 0 0 %d\n" % (x, y, 0.002 * x * y, x + y))
+    store = os.environ["POINTFRONT_STORE"] = os.path.abspath("black.pfront")
+    tool("build", "black.ply", "-o", store, "--force")
+    with open("colours.log", "w") as log:
+        programs.finish(programs.start(
+            os.environ["POINTFRONT_PVBATCH"], os.path.join(HERE, "colours.py"), output=log))
+    told = open("colours.log").read()
+    print(told)
+    if told.count("point_id") != 1:
+        raise AssertionError("nobody is told, or more than once, that ids are no colours")
+
+
 def filtered(programs):
     with open("filtered.log", "w") as log:
         programs.finish(programs.start(
@@ -238,7 +258,7 @@ def main(way):
          "--camera", os.environ["POINTFRONT_CAMERA"], "--color-by", "rgb", "--point-size", "2",
          "--error", "0.01", "--background", "0,0,0")
     ways = {"batch": batch, "classes": classes, "ranks": ranks, "server": server,
-            "application": application, "filtered": filtered, "selection": selection, "series": series,
+            "application": application, "colours": colours, "filtered": filtered, "selection": selection, "series": series,
             "ranks-selection": ranks_selection}
     with Programs() as programs:
         ways[way](programs)

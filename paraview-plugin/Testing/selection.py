@@ -34,6 +34,8 @@ SLACK = 1.5  # pixels: a point is drawn two pixels wide, and its place is rounde
 
 scene = Scene()
 scene.view.ViewSize = SIZE
+simple.Render(scene.view)  # the first one resets the camera
+scene.look()
 # Some seconds pass until all points are there: a client does not wait for them by itself.
 scene.color_by(scene.display, "rgb")
 scene.display.CompleteStillRenders = "Always"
@@ -198,6 +200,19 @@ def check_shown_selection():
     require(set(ids.tolist()) == set(found[1]["point_id"].tolist()), "frozen: other points")
 
 
+def check_script():
+    """As a script selects and extracts: the filter takes the active selection."""
+    rectangle = [250, 120, 300, 150]
+    simple.SetActiveSource(scene.reader)
+    simple.SelectSurfacePoints(Rectangle=rectangle, View=scene.view)
+    extract = simple.ExtractSelection(Input=scene.reader)
+    found = points_of(extract)
+    require(len(found[0]) > 100, "a script selects %d points" % len(found[0]))
+    check(found, rectangle, "a script's selection")
+    simple.Delete(extract)
+    simple.ClearSelection(scene.reader)
+
+
 def check_frustum():
     """"Select Points Through": every stored point in the rectangle, seen or not."""
     rectangle = [390, 110, 470, 160]
@@ -255,6 +270,7 @@ def check_tooltip():
 
 check_rectangles()
 check_shown_selection()
+check_script()
 check_frustum()
 check_filters()
 check_picks()

@@ -221,6 +221,33 @@ def selection(programs):
     programs.run(os.environ["POINTFRONT_PVBATCH"], os.path.join(HERE, "selection.py"))
 
 
+def rubber_band(programs):
+    """A flat square of points seen from above: what the rubber band covers is known."""
+    with open("flat.ply", "w") as ply:
+        ply.write("ply\nformat ascii 1.0\nelement vertex 40000\n"
+                  "property double x\nproperty double y\nproperty double z\nend_header\n")
+        for i in range(40000):
+            ply.write("%d %d 0\n" % (i % 200, i // 200))
+    store = os.environ["POINTFRONT_STORE"] = os.path.abspath("flat.pfront")
+    tool("build", "flat.ply", "-o", store, "--force")
+    script = os.path.join(HERE, "rubber_band")
+    programs.run(os.environ["POINTFRONT_PARAVIEW"], "--dr", "--script=%s.py" % script,
+                 "--test-script=%s.xml" % script, "--exit")
+    with open("rubber_band.json") as file:
+        found = json.load(file)
+    print(found)
+    selected = found["selected"]
+    if found["failure"] or found["extracted"] != selected:
+        raise AssertionError("extracted is not what was selected")
+    low_x, high_x, low_y, high_y = selected["bounds"][:4]
+    # Around the middle, twice as wide as high at most, and no hole in it.
+    if abs(low_x + high_x - 199) > 4 or abs(low_y + high_y - 199) > 4 or high_y - low_y > 100:
+        raise AssertionError("selected is not what the rubber band covers")
+    grid = (high_x - low_x + 1) * (high_y - low_y + 1)
+    if not 1000 < selected["points"] == grid:
+        raise AssertionError("%d points selected, the band covers %d" % (selected["points"], grid))
+
+
 def ranks_selection(programs):
     with_server(programs, "selection.py")
 
@@ -258,7 +285,7 @@ def main(way):
          "--camera", os.environ["POINTFRONT_CAMERA"], "--color-by", "rgb", "--point-size", "2",
          "--error", "0.01", "--background", "0,0,0")
     ways = {"batch": batch, "classes": classes, "ranks": ranks, "server": server,
-            "application": application, "colours": colours, "filtered": filtered, "selection": selection, "series": series,
+            "application": application, "colours": colours, "filtered": filtered, "rubber-band": rubber_band, "selection": selection, "series": series,
             "ranks-selection": ranks_selection}
     with Programs() as programs:
         ways[way](programs)

@@ -22,11 +22,11 @@ namespace pointfront
 /// Stored points on their way into vtkPolyData: double points, one vertex cell a point (so that
 /// filters that select cells can select points), and the chosen columns as point data.
 /// Values      an attribute with a scale or an offset becomes double with both applied; every other
-///             keeps its type. "rgb" is UInt8 x 3: 16-bit colour is reduced to 8 bits,
-///             because VTK takes only bytes as colours without a lookup table.
+///             keeps its type. "rgb" is UInt8 x 3: 16-bit colour is reduced to 8 bits, because VTK
+///             takes only bytes as colours without a lookup table.
 /// Elevation   a further array of that name, which the mapper draws by, too: z.
-/// Colours     the active scalars are the first of what was chosen that shows something: rgb (unless
-///             it is the same everywhere), classes (unless there is one), intensity; else elevation.
+/// Colours     the active scalars are the first of what was chosen that shows something: rgb,
+///             classification, intensity, if it is not the same everywhere; else elevation.
 /// Identity    global point ids are ranks in the store: (node, position in the node).
 class PointArrays
 {

@@ -3,17 +3,17 @@
  * @brief opens a `.pfront` store: an overview as vtkPolyData, and the store's name for
  * vtkPointFrontMapper
  *
- * The output holds an overview (at most OverviewPoints points, where and of what the cloud has many,
- * so has it; double coordinates, one vertex cell a point, the chosen attributes as
- * point data), so every VTK filter works at once, and names the store in its field data (see
+ * The output holds an overview (at most OverviewPoints points, of each class and each place its
+ * share of the cloud's; double coordinates, one vertex cell a point, the chosen attributes as point
+ * data), so every VTK filter works at once, and names the store in its field data (see
  * vtkPointFrontStore), so that vtkPointFrontMapper draws the whole cloud from it.
  *
  * Attributes keep their type; one with a scale or an offset becomes double with both applied. "rgb"
  * has three bytes: 16-bit colour is reduced, for VTK takes only bytes as colours without a lookup
- * table. "elevation" (z) is always there. The active scalars are "rgb" unless it is one
- * colour everywhere, else "classification" if there are several, else "intensity", else "elevation".
- * Global point ids ("point_id") are ranks in the store, as hardware
- * selections of vtkPointFrontMapper give them. An aborted update leaves an empty output.
+ * table. "elevation" (z) is always there. The active scalars are the first of "rgb",
+ * "classification" and "intensity" that is not the same everywhere, else "elevation". Global point
+ * ids ("point_id") are ranks in the store, as hardware selections of vtkPointFrontMapper give them.
+ * An aborted update leaves an empty output.
  *
  * RequestInformation gives the bounds and array names of the whole cloud without reading points: of
  * several times, the bounds of the first and the arrays of all.

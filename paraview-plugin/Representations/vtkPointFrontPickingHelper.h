@@ -2,8 +2,8 @@
  * @class vtkPointFrontPickingHelper
  * @brief where a pick meets what is shown: of a store, the picked point
  *
- * ParaView asks for the point under the mouse (ruler, pick of a centre, placement of widgets) in two
- * steps: what is selected at that pixel, and where the ray meets it. A cloud has no surface
+ * ParaView asks for the point under the mouse (ruler, pick of a centre, placement of widgets) in
+ * two steps: what is selected at that pixel, and where the ray meets it. A cloud has no surface
  * that a ray meets, so the picked point is the answer, snapped or not. Anything but a store
  * is picked as ever.
  */

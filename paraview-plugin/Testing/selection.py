@@ -36,9 +36,8 @@ scene = Scene()
 scene.view.ViewSize = SIZE
 simple.Render(scene.view)  # the first one resets the camera
 scene.look()
-# Some seconds pass until all points are there: a client does not wait for them by itself.
 scene.color_by(scene.display, "rgb")
-scene.display.CompleteStillRenders = "Always"
+scene.display.CompleteStillRenders = "Always"  # a client does not wait by itself
 scene.save_complete("selection")
 
 

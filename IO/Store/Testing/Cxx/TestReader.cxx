@@ -141,8 +141,8 @@ TEST(Reader, AnOverviewIsAsLargeAsAskedAndHasNoThinQuarter)
   EXPECT_NE(vtkPointFrontStore::GetStoreName(reader->GetOutput()), "");
 }
 
-/// Three kinds of points: 90 % of them in a hundredth of the area, 9 % elsewhere, and 1 % of another
-/// class, which has a tree of its own if the store has layers.
+/// Three kinds of points: 90 % of them in a hundredth of the area, 9 % elsewhere, and 1 % of
+/// another class, which has a tree of its own if the store has layers.
 std::string unevenStore(const std::string& name, bool layers)
 {
   AttributeSchema schema;
@@ -272,8 +272,8 @@ TEST(Reader, PointsThatTheOverviewLacksAreReadByTheirRanks)
   {
     vtkNew<vtkPolyData> points;
     ASSERT_TRUE(reader->ReadPoints(ranks, piece, 3, points));
-    EXPECT_NEAR(
-      static_cast<double>(points->GetNumberOfPoints()), static_cast<double>(wanted.size()) / 3.0, 1.0);
+    const double share = static_cast<double>(wanted.size()) / 3.0;
+    EXPECT_NEAR(static_cast<double>(points->GetNumberOfPoints()), share, 1.0);
     EXPECT_EQ(points->GetNumberOfVerts(), points->GetNumberOfPoints());
     const std::set<vtkIdType> ids = idsLikeIn(points, all->GetOutput());
     found.insert(ids.begin(), ids.end());
@@ -388,7 +388,8 @@ std::string activeScalars(const std::set<std::string>& varying)
     cloud->addPosition(glm::dvec3(i % 30, i / 30, 0.001 * i));
     cloud->addValue(0, static_cast<std::uint16_t>(value("intensity")));
     cloud->addValue(1, static_cast<std::uint8_t>(value("classification")));
-    cloud->addValue(2, std::array<std::uint16_t, 3>{0, static_cast<std::uint16_t>(value("rgb")), 0});
+    const auto green = static_cast<std::uint16_t>(value("rgb"));
+    cloud->addValue(2, std::array<std::uint16_t, 3>{0, green, 0});
   }
   BuildOptions options;
   options.outputPath = ::testing::TempDir() + "scalars.pfront";

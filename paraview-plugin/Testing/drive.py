@@ -285,7 +285,8 @@ def main(way):
          "--camera", os.environ["POINTFRONT_CAMERA"], "--color-by", "rgb", "--point-size", "2",
          "--error", "0.01", "--background", "0,0,0")
     ways = {"batch": batch, "classes": classes, "ranks": ranks, "server": server,
-            "application": application, "colours": colours, "filtered": filtered, "rubber-band": rubber_band, "selection": selection, "series": series,
+            "application": application, "colours": colours, "filtered": filtered,
+            "rubber-band": rubber_band, "selection": selection, "series": series,
             "ranks-selection": ranks_selection}
     with Programs() as programs:
         ways[way](programs)

@@ -130,7 +130,8 @@ def batch(programs):
 def classes(programs):
     """A made-up survey, whose points are classified."""
     store = os.environ["POINTFRONT_STORE"] = os.path.abspath("classes.pfront")
-    tool("generate", "--points", "200000", "--seed", "3", "-o", "survey.las")  # has four classes
+    # It has four classes.
+    tool("generate", "--points", "200000", "--seed", "3", "-o", "survey.las", "--force")
     tool("build", "survey.las", "-o", store, "--layers", "class", "--force")
     described = json.loads(tool("info", store, "--json"))
     os.environ["POINTFRONT_POINTS"] = str(described["points"])

@@ -20,10 +20,10 @@ struct OverviewPart
   std::uint32_t pointCount = 0;
 };
 
-/// What an overview of at most `maxPoints` consists of: whole levels from the roots down while they
-/// fit, and of the next level the same share of every node (each prefix of a node is a fair subset
-/// of it), so that the overview is about equally dense everywhere. In table order, which is breadth
-/// first.
+/// What an overview of at most `maxPoints` consists of: of each layer and of each subtree its share
+/// of the cloud's points, so that histograms and statistics of the overview are those of the cloud,
+/// near enough. Below the size of some thousand points a share is spread evenly over the subtree's
+/// box (each prefix of a node is a fair subset of it). In table order, which is breadth first.
 std::vector<OverviewPart> chooseOverview(const Hierarchy& hierarchy, std::uint64_t maxPoints);
 
 /// The parts that piece `piece` of `pieces` consists of: neighbours in the table, about as many
@@ -31,13 +31,8 @@ std::vector<OverviewPart> chooseOverview(const Hierarchy& hierarchy, std::uint64
 std::vector<OverviewPart> overviewPiece(
   const std::vector<OverviewPart>& parts, int piece, int pieces);
 
-/// Fills `output` with those parts: double points, one vertex cell a point (so that filters that
-/// select cells can select points), and the chosen columns as point data.
-/// Values      an attribute with a scale or an offset becomes double with both applied; every other
-///             keeps its type. "rgb" is UInt8 x 3 and the active scalars: 16-bit colour is reduced
-///             to 8 bits, because VTK takes only bytes as colours without a lookup table.
-/// Identity    global point ids are ranks in the store: (node, position in the node).
-/// Errors      those of NodeReader::read; Cancelled when `advance` (fraction done) returns false.
+/// Fills `output` with those parts (PointArrays).
+/// Errors  those of NodeReader::read; Cancelled when `advance` (fraction done) returns false.
 Result<void> fillOverview(const StoredCloud& store, const std::vector<OverviewPart>& parts,
   const ColumnSelection& columns, vtkPolyData* output, const std::function<bool(double)>& advance);
 

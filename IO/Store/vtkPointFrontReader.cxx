@@ -1,12 +1,14 @@
 #include "vtkPointFrontReader.h"
 
 #include "Overview.h"
+#include "RankedPoints.h"
 
 #include "pointfront/Store/StoredCloudFormats.h"
 #include "vtkPointFrontStore.h"
 
 #include <vtkDataArraySelection.h>
 #include <vtkErrorCode.h>
+#include <vtkIdTypeArray.h>
 #include <vtkIndent.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
@@ -16,17 +18,89 @@
 #include <vtkVersionMacros.h>
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numeric>
+#include <vector>
 
 vtkStandardNewMacro(vtkPointFrontReader);
+
+namespace
+{
+
+/// Columns of the store that the selection names.
+pointfront::ColumnSelection chosenColumns(
+  const vtkPointFrontStore* store, vtkDataArraySelection* selection)
+{
+  pointfront::ColumnSelection columns;
+  for (int i = 0; i < store->GetNumberOfAttributes(); ++i)
+  {
+    if (selection->ArrayIsEnabled(store->GetAttributeName(i)))
+    {
+      columns.push_back(static_cast<std::uint32_t>(i));
+    }
+  }
+  return columns;
+}
+
+std::vector<pointfront::OverviewPart> overviewOf(
+  const pointfront::Hierarchy& hierarchy, vtkIdType points)
+{
+  return pointfront::chooseOverview(hierarchy, static_cast<std::uint64_t>(points));
+}
+
+} // namespace
 
 vtkPointFrontReader::vtkPointFrontReader()
 {
   this->SetNumberOfInputPorts(0);
 }
 
-vtkPointFrontReader::~vtkPointFrontReader()
+vtkPointFrontReader::~vtkPointFrontReader() = default;
+
+void vtkPointFrontReader::SetFileName(const char* fileName)
 {
-  this->SetFileName(nullptr);
+  const std::string name = fileName ? fileName : "";
+  const std::size_t count = name.empty() ? 0 : 1;
+  if (this->FileNames.size() != count || (count == 1 && this->FileNames.front() != name))
+  {
+    this->FileNames.assign(count, name);
+    this->Modified();
+  }
+}
+
+const char* vtkPointFrontReader::GetFileName() const
+{
+  return this->GetFileName(0);
+}
+
+void vtkPointFrontReader::AddFileName(const char* fileName)
+{
+  if (fileName && *fileName)
+  {
+    this->FileNames.emplace_back(fileName);
+    this->Modified();
+  }
+}
+
+void vtkPointFrontReader::RemoveAllFileNames()
+{
+  if (!this->FileNames.empty())
+  {
+    this->FileNames.clear();
+    this->Modified();
+  }
+}
+
+int vtkPointFrontReader::GetNumberOfFileNames() const
+{
+  return static_cast<int>(this->FileNames.size());
+}
+
+const char* vtkPointFrontReader::GetFileName(int time) const
+{
+  const bool known = time >= 0 && time < this->GetNumberOfFileNames();
+  return known ? this->FileNames[static_cast<std::size_t>(time)].c_str() : nullptr;
 }
 
 int vtkPointFrontReader::CanReadFile(const char* fileName)
@@ -77,32 +151,46 @@ vtkMTimeType vtkPointFrontReader::GetMTime()
   return std::max(this->Superclass::GetMTime(), this->PointDataArraySelection->GetMTime());
 }
 
+bool vtkPointFrontReader::OpenStore(std::size_t time)
+{
+  const std::string& name = this->FileNames[time];
+  vtkStdString reason;
+  this->Store = vtkPointFrontStore::Open(name.c_str(), reason);
+  if (!this->Store)
+  {
+    this->SetErrorCode(CanReadFile(name.c_str()) ? vtkErrorCode::FileFormatError
+                                                 : vtkErrorCode::CannotOpenFileError);
+    vtkErrorMacro(<< reason);
+    return false;
+  }
+  for (int i = 0; i < this->Store->GetNumberOfAttributes(); ++i)
+  {
+    const char* attribute = this->Store->GetAttributeName(i);
+    if (!this->PointDataArraySelection->ArrayExists(attribute))
+    {
+      this->PointDataArraySelection->AddArray(attribute);
+    }
+  }
+  return true;
+}
+
 int vtkPointFrontReader::RequestInformation(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
 {
   this->Store = nullptr;
   this->SetErrorCode(vtkErrorCode::NoError);
-  if (!this->FileName || !*this->FileName)
+  if (this->FileNames.empty())
   {
     this->SetErrorCode(vtkErrorCode::NoFileNameError);
     vtkErrorMacro("no file name: set FileName to a .pfront store");
     return 0;
   }
-  vtkStdString reason;
-  this->Store = vtkPointFrontStore::Open(this->FileName, reason);
-  if (!this->Store)
+  // The first comes last and stays.
+  for (std::size_t time = this->FileNames.size(); time-- > 0;)
   {
-    this->SetErrorCode(CanReadFile(this->FileName) ? vtkErrorCode::FileFormatError
-                                                   : vtkErrorCode::CannotOpenFileError);
-    vtkErrorMacro(<< reason);
-    return 0;
-  }
-  for (int i = 0; i < this->Store->GetNumberOfAttributes(); ++i)
-  {
-    const char* name = this->Store->GetAttributeName(i);
-    if (!this->PointDataArraySelection->ArrayExists(name))
+    if (!this->OpenStore(time))
     {
-      this->PointDataArraySelection->AddArray(name);
+      return 0;
     }
   }
   vtkInformation* output = outputs->GetInformationObject(0);
@@ -110,6 +198,17 @@ int vtkPointFrontReader::RequestInformation(
   this->Store->GetBounds(bounds);
   output->Set(vtkStreamingDemandDrivenPipeline::BOUNDS(), bounds, 6);
   output->Set(vtkAlgorithm::CAN_HANDLE_PIECE_REQUEST(), 1);
+  output->Remove(vtkStreamingDemandDrivenPipeline::TIME_STEPS());
+  output->Remove(vtkStreamingDemandDrivenPipeline::TIME_RANGE());
+  if (this->FileNames.size() > 1)
+  {
+    std::vector<double> times(this->FileNames.size());
+    std::iota(times.begin(), times.end(), 0.0);
+    const double range[2] = {times.front(), times.back()};
+    output->Set(vtkStreamingDemandDrivenPipeline::TIME_STEPS(), times.data(),
+      static_cast<int>(times.size()));
+    output->Set(vtkStreamingDemandDrivenPipeline::TIME_RANGE(), range, 2);
+  }
   return 1;
 }
 
@@ -125,18 +224,24 @@ int vtkPointFrontReader::RequestData(
   const int piece = info->Get(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER());
   const int pieces =
     std::max(1, info->Get(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES()));
+  const double last = static_cast<double>(this->FileNames.size() - 1);
+  const double asked = info->Has(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP())
+    ? info->Get(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP())
+    : 0.0;
+  // What is there at a time between two steps is the earlier one.
+  const double time = std::clamp(std::floor(asked), 0.0, last);
+  if (!this->OpenStore(static_cast<std::size_t>(time)))
+  {
+    return 0;
+  }
+  if (this->FileNames.size() > 1)
+  {
+    output->GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(), time);
+  }
 
   const pointfront::StoredCloud& store = *this->Store->GetStore();
-  pointfront::ColumnSelection columns;
-  for (int i = 0; i < this->Store->GetNumberOfAttributes(); ++i)
-  {
-    if (this->PointDataArraySelection->ArrayIsEnabled(this->Store->GetAttributeName(i)))
-    {
-      columns.push_back(static_cast<std::uint32_t>(i));
-    }
-  }
-  const auto whole = pointfront::chooseOverview(
-    *store.hierarchy(), static_cast<std::uint64_t>(this->OverviewPoints));
+  const auto columns = chosenColumns(this->Store, this->PointDataArraySelection);
+  const auto whole = overviewOf(*store.hierarchy(), this->OverviewPoints);
   const auto advance = [this](double fraction)
   {
     this->UpdateProgress(fraction);
@@ -163,10 +268,80 @@ int vtkPointFrontReader::RequestData(
   return 1;
 }
 
+struct vtkPointFrontReader::Found
+{
+  pointfront::Result<std::vector<pointfront::NodeRows>> points;
+};
+
+bool vtkPointFrontReader::ReadPoints(
+  vtkIdTypeArray* ranks, int piece, int pieces, vtkPolyData* output)
+{
+  if (!this->Store)
+  {
+    vtkErrorMacro("no store is open: call UpdateInformation() first");
+    return false;
+  }
+  const vtkIdType* values = ranks->GetPointer(0);
+  std::vector<std::uint64_t> wanted;
+  std::copy_if(values, values + ranks->GetNumberOfValues(), std::back_inserter(wanted),
+    [](vtkIdType rank) { return rank >= 0; });
+  const pointfront::Hierarchy& hierarchy = *this->Store->GetStore()->hierarchy();
+  return this->Fill({pointfront::locatePoints(hierarchy, std::move(wanted),
+                      overviewOf(hierarchy, this->OverviewPoints))},
+    piece, pieces, output);
+}
+
+bool vtkPointFrontReader::ReadRegion(
+  const std::function<bool(const double bounds[6])>& overlaps, vtkIdType mostPoints, int piece,
+  int pieces, vtkPolyData* output)
+{
+  if (!this->Store)
+  {
+    vtkErrorMacro("no store is open: call UpdateInformation() first");
+    return false;
+  }
+  const pointfront::Hierarchy& hierarchy = *this->Store->GetStore()->hierarchy();
+  const auto overlapsBox = [&](const pointfront::Bounds& box)
+  {
+    const double bounds[6] = {
+      box.low.x, box.high.x, box.low.y, box.high.y, box.low.z, box.high.z};
+    return overlaps(bounds);
+  };
+  Found found{pointfront::pointsOfNodes(
+    hierarchy, overlapsBox, overviewOf(hierarchy, this->OverviewPoints))};
+  if (found.points && pointfront::countOf(*found.points) > static_cast<std::uint64_t>(mostPoints))
+  {
+    vtkErrorMacro("the region reaches into parts of the cloud with "
+      << pointfront::countOf(*found.points) << " points, and " << mostPoints
+      << " are allowed: choose a smaller one");
+    return false;
+  }
+  return this->Fill(std::move(found), piece, pieces, output);
+}
+
+bool vtkPointFrontReader::Fill(Found&& found, int piece, int pieces, vtkPolyData* output)
+{
+  if (!found.points)
+  {
+    vtkErrorMacro(<< found.points.error().what);
+    return false;
+  }
+  const auto filled = pointfront::fillPoints(*this->Store->GetStore(),
+    pointfront::shareOf(std::move(*found.points), piece, pieces),
+    chosenColumns(this->Store, this->PointDataArraySelection), output);
+  if (!filled)
+  {
+    vtkErrorMacro(<< filled.error().what);
+  }
+  return filled.ok();
+}
+
 void vtkPointFrontReader::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << "\n";
+  os << indent << "FileName: " << (this->FileNames.empty() ? "(none)" : this->FileNames.front())
+     << "\n";
+  os << indent << "NumberOfFileNames: " << this->FileNames.size() << "\n";
   os << indent << "OverviewPoints: " << this->OverviewPoints << "\n";
   os << indent << "PointDataArraySelection:\n";
   this->PointDataArraySelection->PrintSelf(os, indent.GetNextIndent());

@@ -3,17 +3,20 @@
  * @brief opens a `.pfront` store: an overview as vtkPolyData, and the store's name for
  * vtkPointFrontMapper
  *
- * The output holds an overview (the hierarchy's first levels, at most OverviewPoints points, about
- * equally dense everywhere; double coordinates, one vertex cell a point, the chosen attributes as
- * point data), so every VTK filter works at once, and names the store in its field data (see
+ * The output holds an overview (at most OverviewPoints points, of each class and each place its
+ * share of the cloud's; double coordinates, one vertex cell a point, the chosen attributes as point
+ * data), so every VTK filter works at once, and names the store in its field data (see
  * vtkPointFrontStore), so that vtkPointFrontMapper draws the whole cloud from it.
  *
  * Attributes keep their type; one with a scale or an offset becomes double with both applied. "rgb"
- * is the active scalars, three bytes: 16-bit colour is reduced, for VTK takes only bytes as colours
- * without a lookup table. Global point ids ("point_id") are ranks in the store, as hardware
- * selections of vtkPointFrontMapper give them. An aborted update leaves an empty output.
+ * has three bytes: 16-bit colour is reduced, for VTK takes only bytes as colours without a lookup
+ * table. "elevation" (z) is always there. The active scalars are the first of "rgb",
+ * "classification" and "intensity" that is not the same everywhere, else "elevation". Global point
+ * ids ("point_id") are ranks in the store, as hardware selections of vtkPointFrontMapper give them.
+ * An aborted update leaves an empty output.
  *
- * RequestInformation gives the bounds and array names of the whole cloud without reading points.
+ * RequestInformation gives the bounds and array names of the whole cloud without reading points: of
+ * several times, the bounds of the first and the arrays of all.
  * Pieces: the overview is cut by nodes. Errors (ErrorCode, vtkErrorMacro): no file name, a missing,
  * truncated or corrupt file, a newer version.
  */
@@ -25,7 +28,12 @@
 #include "vtkPolyDataAlgorithm.h"
 #include "vtkSmartPointer.h" // for the store
 
+#include <functional> // for regions
+#include <string>     // for file names
+#include <vector>     // for file names
+
 class vtkDataArraySelection;
+class vtkIdTypeArray;
 class vtkPointFrontStore;
 
 class POINTFRONTIOSTORE_EXPORT vtkPointFrontReader : public vtkPolyDataAlgorithm
@@ -36,9 +44,20 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{
-  /// The store's file.
-  vtkSetFilePathMacro(FileName);
-  vtkGetFilePathMacro(FileName);
+  /// The store's file: of several, the first.
+  void SetFileName(VTK_FILEPATH const char* fileName);
+  VTK_FILEPATH const char* GetFileName() const;
+  ///@}
+
+  ///@{
+  /**
+   * Stores of the same cloud at several times, in their order: time steps 0, 1, 2 ... The output is
+   * the overview of the store whose time is asked for. SetFileName() leaves one.
+   */
+  void AddFileName(VTK_FILEPATH const char* fileName);
+  void RemoveAllFileNames();
+  int GetNumberOfFileNames() const;
+  VTK_FILEPATH const char* GetFileName(int time) const;
   ///@}
 
   /// 1 if the file begins like a store. Cheap, by content, silent.
@@ -64,7 +83,26 @@ public:
   void SetPointArrayStatus(const char* name, int status);
   ///@}
 
-  /// The open store, after UpdateInformation(); null before, or if it could not be opened.
+  /**
+   * Points of the store by their ranks (as global point ids and hardware selections have them) that
+   * the overview lacks: `output` is as the overview is, each point once, ranks that the store does
+   * not have left out. Of `pieces` that ask alike each gets its share. After UpdateInformation();
+   * false, and an error, if a node cannot be read.
+   */
+  bool ReadPoints(vtkIdTypeArray* ranks, int piece, int pieces, vtkPolyData* output);
+
+#ifndef __VTK_WRAP__
+  /**
+   * The same for the points in a region: at least those, and others of the nodes that reach into
+   * it. `overlaps` says whether a box does. False, and an error, also if there are more than
+   * `mostPoints`.
+   */
+  bool ReadRegion(const std::function<bool(const double bounds[6])>& overlaps,
+    vtkIdType mostPoints, int piece, int pieces, vtkPolyData* output);
+#endif
+
+  /// The open store: the first after UpdateInformation(), that of the output's time after Update();
+  /// null before, or if it could not be opened.
   vtkPointFrontStore* GetStore();
 
   vtkMTimeType GetMTime() override;
@@ -75,12 +113,17 @@ protected:
   int RequestInformation(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
-  char* FileName = nullptr;
+  std::vector<std::string> FileNames;
   vtkIdType OverviewPoints = 200000;
   vtkNew<vtkDataArraySelection> PointDataArraySelection;
   vtkSmartPointer<vtkPointFrontStore> Store;
 
 private:
+  bool OpenStore(std::size_t time);
+
+  struct Found;
+  bool Fill(Found&& found, int piece, int pieces, vtkPolyData* output);
+
   vtkPointFrontReader(const vtkPointFrontReader&) = delete;
   void operator=(const vtkPointFrontReader&) = delete;
 };

@@ -1,5 +1,7 @@
 #include "vtkPointFrontRepresentation.h"
 
+#include "UpstreamReader.h"
+
 #include "vtkDataObject.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -65,24 +67,30 @@ int vtkPointFrontRepresentation::RequestData(
   this->Store = nullptr;
   if (inputVector[0]->GetNumberOfInformationObjects() == 1)
   {
-    vtkDataObject* input = vtkDataObject::GetData(inputVector[0], 0);
-    const vtkStdString name = vtkPointFrontStore::GetStoreName(input);
-    auto* overview = vtkPolyData::SafeDownCast(input);
-    if (!overview || name.empty())
-    {
-      vtkErrorMacro("Point Front draws what a .pfront reader gives, and this input ("
-                    << (input ? input->GetClassName() : "none")
-                    << ") names no point store. Choose another representation for it.");
-      return 0;
-    }
+    // Without a store nothing is drawn, and one error says why: no failure of the pipeline's.
+    vtkPolyData* overview = vtkPolyData::GetData(inputVector[0], 0);
+    const vtkStdString name = vtkPointFrontStore::GetStoreName(overview);
     vtkStdString error;
-    this->Store = vtkPointFrontStore::Open(name.c_str(), error);
-    if (!this->Store)
+    if (!pointfront::upstreamReaderOf(this) || name.empty())
+    {
+      // A filter passes the store's name on, and its points may be others than the store's.
+      error = name.empty() ? "this input comes from no store" : "this input is a filter's output";
+      error = "Point Front draws the whole cloud of a store, and " + error +
+        ": choose another representation for it. (To move, turn or scale a store, use the "
+        "properties under Transforming.)";
+    }
+    else
+    {
+      this->Store = vtkPointFrontStore::Open(name.c_str(), error);
+    }
+    if (this->Store)
+    {
+      this->Overview->ShallowCopy(overview);
+    }
+    else
     {
       vtkErrorMacro(<< error);
-      return 0;
     }
-    this->Overview->ShallowCopy(overview);
   }
   return this->Superclass::RequestData(request, inputVector, outputVector);
 }

@@ -3,7 +3,8 @@
  * @brief draws a point store in ParaView's render view with vtkPointFrontMapper
  *
  * The data that travels is the reader's overview; its field data names the store
- * (vtkPointFrontStore), and every process that renders opens the store itself. The points stay
+ * (vtkPointFrontStore), and every process that renders opens the store itself. Only the reader's
+ * own output is drawn: a filter passes the name on, and its points may be others. The points stay
  * where the files are: with a server the view is asked for distributed rendering, whatever the size
  * of the overview, and each rank draws and loads only its piece of the store. The pieces together
  * draw each point once; IceT composites them by depth.

@@ -3,6 +3,7 @@
 #include "vtkCommand.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
+#include "vtkPointFrontEncodeSelection.h"
 #include "vtkPointFrontRepresentation.h"
 #include "vtkProcessModule.h"
 #include "vtkPVPointFrontClasses.h"
@@ -33,7 +34,10 @@ constexpr int LongestDelay = 500;
 } // namespace
 
 //------------------------------------------------------------------------------
-vtkSMPointFrontRepresentationProxy::vtkSMPointFrontRepresentationProxy() = default;
+vtkSMPointFrontRepresentationProxy::vtkSMPointFrontRepresentationProxy()
+{
+  vtkPointFrontEncodeSelection::Register();
+}
 
 //------------------------------------------------------------------------------
 vtkSMPointFrontRepresentationProxy::~vtkSMPointFrontRepresentationProxy()

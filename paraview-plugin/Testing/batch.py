@@ -14,7 +14,7 @@ from paraview import simple
 
 simple.LoadPlugin(os.environ["POINTFRONT_PLUGIN"], remote=False, ns=globals())
 
-from scene import POINTS, SIZE, Scene, require
+from scene import POINTS, SIZE, STORE, Scene, require
 
 name = sys.argv[1]
 scene = Scene()
@@ -65,7 +65,7 @@ if "alone" in sys.argv[2:]:
     require(not complete and points > 0, "a render that does not wait: %d points" % points)
     large.Visibility = 0
     scene.look()
-    whole = simple.OpenDataFile(scene.reader.FileName)
+    whole = simple.OpenDataFile(STORE)
     whole.OverviewPoints = POINTS
     display = scene.show(whole)
     display.SetRepresentationType("Points")

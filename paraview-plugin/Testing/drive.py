@@ -1,6 +1,6 @@
 """Runs ParaView in one of its ways on a store and compares its pictures with those of the tool.
 
-usage: drive.py WAY      batch | classes | ranks | server | application, under a display of its own
+usage: drive.py WAY      under a display of its own; one of the ways at the end of this file
 Told by the environment: POINTFRONT_TOOL, POINTFRONT_PLUGIN, POINTFRONT_CLOUD (what to build the
 store from), POINTFRONT_CAMERA, POINTFRONT_PVPYTHONPATH, POINTFRONT_{PVBATCH,PVSERVER,PARAVIEW,
 MPIEXEC}. Writes under the current folder only.
@@ -130,7 +130,8 @@ def batch(programs):
 def classes(programs):
     """A made-up survey, whose points are classified."""
     store = os.environ["POINTFRONT_STORE"] = os.path.abspath("classes.pfront")
-    tool("generate", "--points", "200000", "--seed", "3", "-o", "survey.las")  # has four classes
+    # It has four classes.
+    tool("generate", "--points", "200000", "--seed", "3", "-o", "survey.las", "--force")
     tool("build", "survey.las", "-o", store, "--layers", "class", "--force")
     described = json.loads(tool("info", store, "--json"))
     os.environ["POINTFRONT_POINTS"] = str(described["points"])
@@ -150,8 +151,8 @@ def ranks(programs):
     compare("pieces", "tool")
 
 
-def server(programs):
-    make_large()
+def with_server(programs, script, *arguments):
+    """A Python client of a server with two ranks."""
     port = free_port()
     with open("server.log", "w") as log:
         running = programs.start(
@@ -161,9 +162,95 @@ def server(programs):
             if running.poll() is not None or time.time() > programs.deadline:
                 raise AssertionError("pvserver does not start:\n" + open("server.log").read())
             time.sleep(0.1)
-        programs.run(sys.executable, os.path.join(HERE, "client.py"), str(port), "server", "2")
+        programs.run(sys.executable, os.path.join(HERE, script), str(port), *arguments)
         programs.finish(running)  # a server ends with its client
+
+
+def server(programs):
+    make_large()
+    with_server(programs, "client.py", "server", "2")
     compare("server", "tool")
+
+
+def colours(programs):
+    with open("black.ply", "w") as ply:
+        ply.write("ply\nformat ascii 1.0\nelement vertex 40000\n"
+                  "property double x\nproperty double y\nproperty double z\n"
+                  "property uchar red\nproperty uchar green\nproperty uchar blue\n"
+                  "property ushort intensity\nend_header\n")
+        for i in range(40000):
+            x, y = i % 200, i // 200
+            ply.write("%d %d %g 0 0 0 %d\n" % (x, y, 0.002 * x * y, x + y))
+    store = os.environ["POINTFRONT_STORE"] = os.path.abspath("black.pfront")
+    tool("build", "black.ply", "-o", store, "--force")
+    with open("colours.log", "w") as log:
+        programs.finish(programs.start(
+            os.environ["POINTFRONT_PVBATCH"], os.path.join(HERE, "colours.py"), output=log))
+    told = open("colours.log").read()
+    print(told)
+    if told.count("point_id") != 1:
+        raise AssertionError("nobody is told, or more than once, that ids are no colours")
+
+
+def filtered(programs):
+    with open("filtered.log", "w") as log:
+        programs.finish(programs.start(
+            os.environ["POINTFRONT_PVBATCH"], os.path.join(HERE, "filtered.py"), output=log))
+    told = open("filtered.log").read()
+    print(told)
+    if "is a filter's output" not in told:
+        raise AssertionError("nobody is told why a filter's output is not drawn")
+    compare("filtered", "tool")
+
+
+def series(programs):
+    """Three made-up surveys; the second has other attributes."""
+    steps = []
+    for time, points in enumerate((20000, 50000, 30000)):
+        store = os.path.abspath("survey_%d.pfront" % time)
+        tool("generate", "--points", str(points), "--seed", str(time + 1), "-o", "survey.las",
+             "--force")
+        tool("build", "survey.las", "-o", store, "--force",
+             *(["--attributes", "rgb"] if time == 1 else []))
+        steps.append((store, json.loads(tool("info", store, "--json"))["points"]))
+    command = [os.environ["POINTFRONT_PVBATCH"], os.path.join(HERE, "series.py"), json.dumps(steps)]
+    programs.run(*command)
+    programs.run(*mpi(2, *command))
+
+
+def selection(programs):
+    programs.run(os.environ["POINTFRONT_PVBATCH"], os.path.join(HERE, "selection.py"))
+
+
+def rubber_band(programs):
+    """A flat square of points seen from above: what the rubber band covers is known."""
+    with open("flat.ply", "w") as ply:
+        ply.write("ply\nformat ascii 1.0\nelement vertex 40000\n"
+                  "property double x\nproperty double y\nproperty double z\nend_header\n")
+        for i in range(40000):
+            ply.write("%d %d 0\n" % (i % 200, i // 200))
+    store = os.environ["POINTFRONT_STORE"] = os.path.abspath("flat.pfront")
+    tool("build", "flat.ply", "-o", store, "--force")
+    script = os.path.join(HERE, "rubber_band")
+    programs.run(os.environ["POINTFRONT_PARAVIEW"], "--dr", "--script=%s.py" % script,
+                 "--test-script=%s.xml" % script, "--exit")
+    with open("rubber_band.json") as file:
+        found = json.load(file)
+    print(found)
+    selected = found["selected"]
+    if found["failure"] or found["extracted"] != selected:
+        raise AssertionError("extracted is not what was selected")
+    low_x, high_x, low_y, high_y = selected["bounds"][:4]
+    # Around the middle, twice as wide as high at most, and no hole in it.
+    if abs(low_x + high_x - 199) > 4 or abs(low_y + high_y - 199) > 4 or high_y - low_y > 100:
+        raise AssertionError("selected is not what the rubber band covers")
+    grid = (high_x - low_x + 1) * (high_y - low_y + 1)
+    if not 1000 < selected["points"] == grid:
+        raise AssertionError("%d points selected, the band covers %d" % (selected["points"], grid))
+
+
+def ranks_selection(programs):
+    with_server(programs, "selection.py")
 
 
 def application(programs):
@@ -199,7 +286,9 @@ def main(way):
          "--camera", os.environ["POINTFRONT_CAMERA"], "--color-by", "rgb", "--point-size", "2",
          "--error", "0.01", "--background", "0,0,0")
     ways = {"batch": batch, "classes": classes, "ranks": ranks, "server": server,
-            "application": application}
+            "application": application, "colours": colours, "filtered": filtered,
+            "rubber-band": rubber_band, "selection": selection, "series": series,
+            "ranks-selection": ranks_selection}
     with Programs() as programs:
         ways[way](programs)
 

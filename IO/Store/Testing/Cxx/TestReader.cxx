@@ -19,7 +19,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <fstream>
+#include <map>
 #include <set>
 
 using namespace pointfront;
@@ -139,6 +141,59 @@ TEST(Reader, AnOverviewIsAsLargeAsAskedAndHasNoThinQuarter)
   EXPECT_NE(vtkPointFrontStore::GetStoreName(reader->GetOutput()), "");
 }
 
+/// Three kinds of points: 90 % of them in a hundredth of the area, 9 % elsewhere, and 1 % of
+/// another class, which has a tree of its own if the store has layers.
+std::string unevenStore(const std::string& name, bool layers)
+{
+  AttributeSchema schema;
+  schema.add({"classification", ScalarType::UInt8, 1});
+  auto cloud = std::make_unique<CloudSource>(name, schema, millimetres({0.0, 0.0, 0.0}));
+  Random random(5);
+  for (int i = 0; i < 100000; ++i)
+  {
+    const double side = i % 100 < 90 ? 10.0 : 100.0;
+    cloud->addPosition(
+      glm::dvec3(side * random.uniform(), side * random.uniform(), random.uniform()));
+    cloud->addValue(0, static_cast<std::uint8_t>(i % 100 == 99 ? 5 : 2));
+  }
+  BuildOptions options;
+  options.outputPath = ::testing::TempDir() + name + ".pfront";
+  options.nodePoints = 1000;
+  options.overwrite = true;
+  options.threads = 1;
+  options.layering = layers ? Layering::ObjectClass : Layering::None;
+  EXPECT_TRUE(buildStore(one(std::move(cloud)), options).ok());
+  return options.outputPath;
+}
+
+TEST(Reader, TheOverviewHasItsShareOfEverything)
+{
+  for (const bool layers : {false, true})
+  {
+    vtkNew<vtkPointFrontReader> reader;
+    reader->SetFileName(unevenStore(layers ? "layered" : "uneven", layers).c_str());
+    for (const vtkIdType points : {5000, 20000})
+    {
+      reader->SetOverviewPoints(points);
+      reader->Update();
+      const vtkIdType count = reader->GetOutput()->GetNumberOfPoints();
+      EXPECT_NEAR(static_cast<double>(count), static_cast<double>(points), 10.0);
+      auto* classes = reader->GetOutput()->GetPointData()->GetArray("classification");
+      int dense = 0;
+      int rare = 0;
+      for (vtkIdType i = 0; i < count; ++i)
+      {
+        const double* p = reader->GetOutput()->GetPoint(i);
+        dense += p[0] < 10.0 && p[1] < 10.0 ? 1 : 0;
+        rare += classes->GetTuple1(i) == 5.0 ? 1 : 0;
+      }
+      EXPECT_NEAR(static_cast<double>(dense) / static_cast<double>(count), 0.901, 0.02);
+      EXPECT_NEAR(
+        static_cast<double>(rare) / static_cast<double>(count), 0.01, layers ? 0.001 : 0.005);
+    }
+  }
+}
+
 TEST(Reader, PiecesHaveEachPointOnce)
 {
   vtkNew<vtkPointFrontReader> reader;
@@ -156,6 +211,74 @@ TEST(Reader, PiecesHaveEachPointOnce)
     }
   }
   EXPECT_EQ(seen.size(), 20000u);
+}
+
+/// Global point ids of `data`, and that each point has the place and the values that `cloud`, an
+/// overview of everything, has for that id.
+std::set<vtkIdType> idsLikeIn(vtkPolyData* data, vtkPolyData* cloud)
+{
+  std::map<vtkIdType, vtkIdType> rowOf;
+  for (vtkIdType i = 0; i < cloud->GetNumberOfPoints(); ++i)
+  {
+    rowOf[static_cast<vtkIdType>(cloud->GetPointData()->GetGlobalIds()->GetTuple1(i))] = i;
+  }
+  std::set<vtkIdType> ids;
+  for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i)
+  {
+    const auto id = static_cast<vtkIdType>(data->GetPointData()->GetGlobalIds()->GetTuple1(i));
+    EXPECT_TRUE(ids.insert(id).second);
+    const vtkIdType row = rowOf.at(id);
+    std::array<double, 3> one, other;
+    data->GetPoint(i, one.data());
+    cloud->GetPoint(row, other.data());
+    EXPECT_EQ(one, other);
+    for (const char* name : {"id", "height", "rgb"})
+    {
+      EXPECT_EQ(data->GetPointData()->GetArray(name)->GetComponent(i, 0),
+        cloud->GetPointData()->GetArray(name)->GetComponent(row, 0));
+    }
+  }
+  return ids;
+}
+
+TEST(Reader, PointsThatTheOverviewLacksAreReadByTheirRanks)
+{
+  const std::string store = storeOf("ranks", 20000);
+  vtkNew<vtkPointFrontReader> all;
+  all->SetFileName(store.c_str());
+  all->Update();
+  vtkNew<vtkPointFrontReader> reader;
+  reader->SetFileName(store.c_str());
+  reader->SetOverviewPoints(3000);
+  reader->Update();
+  const std::set<vtkIdType> overview = idsLikeIn(reader->GetOutput(), all->GetOutput());
+
+  vtkNew<vtkIdTypeArray> ranks;
+  std::set<vtkIdType> wanted;
+  for (vtkIdType rank = 19999; rank >= 0; rank -= 7)
+  {
+    ranks->InsertNextValue(rank);
+    if (overview.count(rank) == 0)
+    {
+      wanted.insert(rank);
+    }
+  }
+  ranks->InsertNextValue(19999);  // twice
+  ranks->InsertNextValue(-1);     // and what there is not
+  ranks->InsertNextValue(20000);
+  ranks->InsertNextValue(VTK_ID_MAX);
+  std::set<vtkIdType> found;
+  for (int piece = 0; piece < 3; ++piece)
+  {
+    vtkNew<vtkPolyData> points;
+    ASSERT_TRUE(reader->ReadPoints(ranks, piece, 3, points));
+    const double share = static_cast<double>(wanted.size()) / 3.0;
+    EXPECT_NEAR(static_cast<double>(points->GetNumberOfPoints()), share, 1.0);
+    EXPECT_EQ(points->GetNumberOfVerts(), points->GetNumberOfPoints());
+    const std::set<vtkIdType> ids = idsLikeIn(points, all->GetOutput());
+    found.insert(ids.begin(), ids.end());
+  }
+  EXPECT_EQ(found, wanted);
 }
 
 TEST(Reader, TheSelectionChoosesTheArraysAndIsPartOfTheTime)
@@ -249,6 +372,83 @@ TEST(Reader, ProgressRisesAndAnAbortLeavesNothing)
   reader->Modified();
   reader->Update();
   EXPECT_EQ(reader->GetOutput()->GetNumberOfPoints(), 0);
+}
+
+/// A store whose attributes are the same everywhere but those named.
+std::string activeScalars(const std::set<std::string>& varying)
+{
+  AttributeSchema schema;
+  schema.add({"intensity", ScalarType::UInt16, 1});
+  schema.add({"classification", ScalarType::UInt8, 1});
+  schema.add({"rgb", ScalarType::UInt16, 3});
+  auto cloud = std::make_unique<CloudSource>("scalars", schema, millimetres({0.0, 0.0, 0.0}));
+  for (int i = 0; i < 1000; ++i)
+  {
+    const auto value = [&](const char* name) { return varying.count(name) ? i % 7 : 0; };
+    cloud->addPosition(glm::dvec3(i % 30, i / 30, 0.001 * i));
+    cloud->addValue(0, static_cast<std::uint16_t>(value("intensity")));
+    cloud->addValue(1, static_cast<std::uint8_t>(value("classification")));
+    const auto green = static_cast<std::uint16_t>(value("rgb"));
+    cloud->addValue(2, std::array<std::uint16_t, 3>{0, green, 0});
+  }
+  BuildOptions options;
+  options.outputPath = ::testing::TempDir() + "scalars.pfront";
+  options.overwrite = true;
+  options.threads = 1;
+  EXPECT_TRUE(buildStore(one(std::move(cloud)), options).ok());
+  vtkNew<vtkPointFrontReader> reader;
+  reader->SetFileName(options.outputPath.c_str());
+  reader->Update();
+  vtkPointData* attributes = reader->GetOutput()->GetPointData();
+  auto* elevation = attributes->GetArray("elevation");
+  EXPECT_NEAR(elevation->GetRange()[0], 0.0, 1e-6);
+  EXPECT_NEAR(elevation->GetRange()[1], 0.999, 1e-6);
+  return attributes->GetScalars()->GetName();
+}
+
+TEST(Reader, TheActiveScalarsShowSomething)
+{
+  EXPECT_EQ(activeScalars({"rgb", "classification", "intensity"}), "rgb");
+  EXPECT_EQ(activeScalars({"classification", "intensity"}), "classification");
+  EXPECT_EQ(activeScalars({"intensity"}), "intensity");
+  EXPECT_EQ(activeScalars({}), "elevation");
+}
+
+TEST(Reader, SeveralStoresAreTimeSteps)
+{
+  const std::vector<std::string> stores = {
+    storeOf("first", 1000), storeOf("second", 3000), storeOf("third", 2000)};
+  vtkNew<vtkPointFrontReader> reader;
+  for (const std::string& store : stores)
+  {
+    reader->AddFileName(store.c_str());
+  }
+  reader->UpdateInformation();
+  vtkInformation* info = reader->GetOutputInformation(0);
+  ASSERT_EQ(info->Length(vtkStreamingDemandDrivenPipeline::TIME_STEPS()), 3);
+  EXPECT_EQ(info->Get(vtkStreamingDemandDrivenPipeline::TIME_RANGE())[1], 2.0);
+  const std::array<std::array<double, 3>, 6> asked = {
+    {{0, 1000, 0}, {2, 2000, 2}, {1, 3000, 1}, {1.7, 3000, 1}, {-5, 1000, 0}, {9, 2000, 2}}};
+  for (const auto& [time, points, step] : asked)
+  {
+    reader->UpdateTimeStep(time);
+    EXPECT_EQ(static_cast<double>(reader->GetOutput()->GetNumberOfPoints()), points) << time;
+    EXPECT_EQ(reader->GetOutput()->GetInformation()->Get(vtkDataObject::DATA_TIME_STEP()), step);
+    EXPECT_EQ(vtkPointFrontStore::GetStoreName(reader->GetOutput()),
+      reader->GetStore()->GetFileName());
+  }
+
+  reader->SetFileName(stores[1].c_str());
+  reader->Update();
+  EXPECT_FALSE(info->Has(vtkStreamingDemandDrivenPipeline::TIME_STEPS()));
+  EXPECT_EQ(reader->GetOutput()->GetNumberOfPoints(), 3000);
+
+  vtkNew<vtkTest::ErrorObserver> errors;
+  reader->AddObserver(vtkCommand::ErrorEvent, errors);
+  reader->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, errors);
+  reader->AddFileName((::testing::TempDir() + "gone.pfront").c_str());
+  reader->Update();
+  EXPECT_NE(errors->GetErrorMessage().find("gone.pfront"), std::string::npos);
 }
 
 } // namespace

@@ -1,0 +1,57 @@
+#pragma once
+
+#include "pointfront/Store/NodeReader.h"
+#include "pointfront/Store/StoredCloud.h"
+
+#include <vtkNew.h>
+#include <vtkSmartPointer.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+class vtkDataArray;
+class vtkDoubleArray;
+class vtkIdTypeArray;
+class vtkPoints;
+class vtkPolyData;
+
+namespace pointfront
+{
+
+/// Stored points on their way into vtkPolyData: double points, one vertex cell a point (so that
+/// filters that select cells can select points), and the chosen columns as point data.
+/// Values      an attribute with a scale or an offset becomes double with both applied; every other
+///             keeps its type. "rgb" is UInt8 x 3: 16-bit colour is reduced to 8 bits, because VTK
+///             takes only bytes as colours without a lookup table.
+/// Elevation   a further array of that name, which the mapper draws by, too: z.
+/// Colours     the active scalars are the first of what was chosen that shows something: rgb,
+///             classification, intensity, if it is not the same everywhere; else elevation.
+/// Identity    global point ids are ranks in the store: (node, position in the node).
+class PointArrays
+{
+public:
+  PointArrays(
+    const StoreDescription& description, const ColumnSelection& columns, std::size_t points);
+  ~PointArrays();
+
+  /// The first `count` points of a node, read with the columns of the constructor.
+  void addPrefix(const NodeColumns& node, std::uint32_t count);
+  /// The points of a node at those positions in it.
+  void addRows(const NodeColumns& node, const std::vector<std::uint32_t>& rows);
+  /// Once all points that were promised are there.
+  void moveTo(vtkPolyData* output);
+
+private:
+  class Column;
+  const char* defaultColours() const;
+
+  const StoreDescription& description_;
+  std::size_t filled_ = 0;
+  std::vector<Column> columns_;
+  vtkNew<vtkPoints> points_;
+  vtkNew<vtkIdTypeArray> ids_;
+  vtkNew<vtkDoubleArray> elevation_;
+};
+
+} // namespace pointfront

@@ -1,0 +1,162 @@
+#include "RankedPoints.h"
+
+#include "PointArrays.h"
+
+#include <vtkPolyData.h>
+
+#include <algorithm>
+#include <numeric>
+#include <optional>
+
+namespace pointfront
+{
+namespace
+{
+
+/// The node that holds the point of that rank: the last one whose first point is not behind it.
+NodeIndex nodeOf(const Hierarchy& hierarchy, std::uint64_t rank)
+{
+  NodeIndex low = 0;
+  NodeIndex behind = hierarchy.nodeCount();
+  while (behind - low > 1)
+  {
+    const NodeIndex middle = low + (behind - low) / 2;
+    (hierarchy.node(middle).firstPoint <= rank ? low : behind) = middle;
+  }
+  return low;
+}
+
+/// How many points of a node the overview has: its first ones.
+std::uint32_t overviewPoints(const std::vector<OverviewPart>& overview, NodeIndex node)
+{
+  const auto found = std::lower_bound(overview.begin(), overview.end(), node,
+    [](const OverviewPart& part, NodeIndex index) { return part.node < index; });
+  return found != overview.end() && found->node == node ? found->pointCount : 0;
+}
+
+} // namespace
+
+Result<std::vector<NodeRows>> locatePoints(const Hierarchy& hierarchy,
+  std::vector<std::uint64_t> ranks, const std::vector<OverviewPart>& overview)
+{
+  std::sort(ranks.begin(), ranks.end());
+  ranks.erase(std::unique(ranks.begin(), ranks.end()), ranks.end());
+  std::vector<NodeRows> found;
+  auto rank = ranks.begin();
+  while (rank != ranks.end() && hierarchy.nodeCount() > 0)
+  {
+    const NodeIndex index = nodeOf(hierarchy, *rank);
+    const Node node = hierarchy.node(index);
+    if (*rank < node.firstPoint || *rank >= node.firstPoint + node.pointCount)
+    {
+      ++rank; // behind the last point, or in a damaged page, which fault() tells
+      continue;
+    }
+    const std::uint32_t known = overviewPoints(overview, index);
+    NodeRows rows{index, {}};
+    for (; rank != ranks.end() && *rank < node.firstPoint + node.pointCount; ++rank)
+    {
+      const auto row = static_cast<std::uint32_t>(*rank - node.firstPoint);
+      if (row >= known)
+      {
+        rows.rows.push_back(row);
+      }
+    }
+    if (!rows.rows.empty())
+    {
+      found.push_back(std::move(rows));
+    }
+  }
+  if (const std::optional<Error> damage = hierarchy.fault())
+  {
+    return *damage;
+  }
+  return found;
+}
+
+Result<std::vector<NodeRows>> pointsOfNodes(const Hierarchy& hierarchy,
+  const std::function<bool(const Bounds&)>& overlaps, const std::vector<OverviewPart>& overview)
+{
+  std::vector<NodeRows> found;
+  std::vector<NodeIndex> left(hierarchy.roots());
+  while (!left.empty())
+  {
+    const NodeIndex index = left.back();
+    left.pop_back();
+    const Node node = hierarchy.node(index);
+    if (!overlaps(node.box()))
+    {
+      continue;
+    }
+    hierarchy.appendChildren(index, node, left);
+    const std::uint32_t points = originalPoints(node, hierarchy.refinement());
+    const std::uint32_t known = std::min(overviewPoints(overview, index), points);
+    if (known < points)
+    {
+      NodeRows rows{index, std::vector<std::uint32_t>(points - known)};
+      std::iota(rows.rows.begin(), rows.rows.end(), known);
+      found.push_back(std::move(rows));
+    }
+  }
+  if (const std::optional<Error> damage = hierarchy.fault())
+  {
+    return *damage;
+  }
+  std::sort(found.begin(), found.end(),
+    [](const NodeRows& a, const NodeRows& b) { return a.node < b.node; });
+  return found;
+}
+
+std::uint64_t countOf(const std::vector<NodeRows>& points)
+{
+  std::uint64_t total = 0;
+  for (const NodeRows& node : points)
+  {
+    total += node.rows.size();
+  }
+  return total;
+}
+
+std::vector<NodeRows> shareOf(std::vector<NodeRows> points, int piece, int pieces)
+{
+  const std::uint64_t total = countOf(points);
+  const auto begins = [&](int number)
+  { return total * static_cast<std::uint64_t>(number) / static_cast<std::uint64_t>(pieces); };
+  const std::uint64_t first = begins(piece);
+  const std::uint64_t end = begins(piece + 1);
+  std::vector<NodeRows> share;
+  std::uint64_t before = 0;
+  for (NodeRows& node : points)
+  {
+    const std::uint64_t count = node.rows.size();
+    const std::uint64_t from = std::clamp(first, before, before + count) - before;
+    const std::uint64_t to = std::clamp(end, before, before + count) - before;
+    before += count;
+    if (from < to)
+    {
+      const auto rows = node.rows.begin();
+      share.push_back({node.node, {rows + static_cast<std::ptrdiff_t>(from),
+                                    rows + static_cast<std::ptrdiff_t>(to)}});
+    }
+  }
+  return share;
+}
+
+Result<void> fillPoints(const StoredCloud& store, const std::vector<NodeRows>& points,
+  const ColumnSelection& columns, vtkPolyData* output)
+{
+  PointArrays arrays(store.description(), columns, countOf(points));
+  for (const NodeRows& node : points)
+  {
+    const auto read = store.read(node.node, columns);
+    if (!read)
+    {
+      return read.error();
+    }
+    arrays.addRows(*read, node.rows);
+  }
+  arrays.moveTo(output);
+  return {};
+}
+
+} // namespace pointfront

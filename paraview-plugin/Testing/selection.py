@@ -1,0 +1,278 @@
+"""Selections name the points that are shown: on one process, or as the client of several ranks.
+
+usage: pvbatch selection.py            on one process
+       python3 selection.py PORT       as a client of the server at that port
+The overview has 5,000 of the cloud's points, so nearly all that is selected is not among them.
+"""
+
+import itertools
+import os
+import random
+import sys
+
+import numpy
+from paraview import servermanager, simple
+from paraview.modules.vtkRemotingMisc import vtkSMTooltipSelectionPipeline
+from paraview.modules.vtkRemotingViews import vtkSMSelectionHelper
+from vtkmodules.vtkCommonCore import reference, vtkCollection
+from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkSelectionNode
+from vtkmodules.util.numpy_support import vtk_to_numpy
+
+if len(sys.argv) > 1:
+    simple.Connect("127.0.0.1", int(sys.argv[1]))
+    simple.LoadPlugin(os.environ["POINTFRONT_PLUGIN"], remote=True, ns=globals())
+simple.LoadPlugin(os.environ["POINTFRONT_PLUGIN"], remote=False, ns=globals())
+
+from scene import POINTS, SIZE, STORE, Scene, require
+
+RANKS = servermanager.ActiveConnection.GetNumberOfDataPartitions()
+RECTANGLES = 50
+PICKS = 200 if RANKS == 1 else 50
+COMPARED = 50 if RANKS == 1 else 10  # rectangles in which ParaView draws the points, too
+DIFFERENT = 0.08  # share of points that are selected in one of two pictures only
+SLACK = 1.5  # pixels: a point is drawn two pixels wide, and its place is rounded
+
+scene = Scene()
+scene.view.ViewSize = SIZE
+simple.Render(scene.view)  # the first one resets the camera
+scene.look()
+scene.color_by(scene.display, "rgb")
+scene.display.CompleteStillRenders = "Always"  # a client does not wait by itself
+scene.save_complete("selection")
+
+
+def points_of(source):
+    """Coordinates and attributes of all points of a source, from all ranks.
+
+    One rank at a time: what ParaView 5.11 appends of grids of points on two ranks is one rank's.
+    """
+    places, attributes = [numpy.zeros((0, 3))], {"point_id": [numpy.zeros(0, numpy.int64)]}
+    source.UpdatePipeline()
+    for rank in range(RANKS):
+        data = servermanager.Fetch(source, rank)
+        if data.GetNumberOfPoints() == 0:
+            continue
+        places.append(vtk_to_numpy(data.GetPoints().GetData()))
+        arrays = data.GetPointData()
+        for i in range(arrays.GetNumberOfArrays()):
+            values = vtk_to_numpy(arrays.GetArray(i))
+            attributes.setdefault(arrays.GetArrayName(i), []).append(values)
+    return (numpy.concatenate(places),
+            {name: numpy.concatenate(values) for name, values in attributes.items()})
+
+
+def whole_cloud(whole):
+    """Every point of the store, by its rank."""
+    places, attributes = points_of(whole)
+    require(len(places) == POINTS, "the overview of everything has %d points" % len(places))
+    order = numpy.argsort(attributes["point_id"])
+    return places[order], {name: values[order] for name, values in attributes.items()}
+
+
+# The same cloud with all points in memory, for ParaView's own points and their selections.
+whole = simple.OpenDataFile(STORE)
+whole.OverviewPoints = POINTS
+stock = simple.Show(whole, scene.view)
+stock.SetRepresentationType("Points")
+stock.PointSize = 2
+stock.Visibility = 0
+scene.look()
+cloud, attributes = whole_cloud(whole)
+
+
+def pixels(places):
+    """Where points are on the screen, from its lower left corner."""
+    camera = scene.view.SMProxy.GetActiveCamera()
+    matrix = camera.GetCompositeProjectionTransformMatrix(SIZE[0] / SIZE[1], -1, 1)
+    matrix = numpy.array([[matrix.GetElement(i, j) for j in range(4)] for i in range(4)])
+    clip = numpy.c_[places, numpy.ones(len(places))] @ matrix.T
+    return (clip[:, :2] / clip[:, 3:] + 1) / 2 * SIZE
+
+
+on_screen = pixels(cloud)
+
+
+def select(rectangle, cells=False):
+    """The selection of a rectangle of pixels, as the rubber band makes it; None if it is empty."""
+    representations, sources = vtkCollection(), vtkCollection()
+    view = scene.view.SMProxy
+    way = view.SelectSurfaceCells if cells else view.SelectSurfacePoints
+    way(rectangle, representations, sources, True, 0, False, None)
+    require(sources.GetNumberOfItems() < 2, "selected in %d sources" % sources.GetNumberOfItems())
+    return sources.GetItemAsObject(0)
+
+
+def inside(rectangle, slack):
+    low, high = numpy.array(rectangle[:2]) - slack, numpy.array(rectangle[2:]) + 1 + slack
+    return numpy.all((on_screen >= low) & (on_screen <= high), axis=1)
+
+
+def check(found, rectangle, what):
+    """That extracted points are stored points, whole and each once, and lie in the rectangle."""
+    places, values = found
+    ids = values["point_id"]
+    require(len(set(ids.tolist())) == len(ids), what + ": a point came twice")
+    require(numpy.array_equal(places, cloud[ids]), what + ": not where the store has them")
+    for name, column in attributes.items():
+        require(name in values, "%s: without %s" % (what, name))
+        require(numpy.array_equal(values[name], column[ids]), "%s: other %s" % (what, name))
+    outside = int((~inside(rectangle, SLACK)[ids]).sum())
+    require(outside == 0, "%s: %d of %d outside of the rectangle" % (what, outside, len(ids)))
+
+
+def extracted(selection, source=scene.reader):
+    """What "Extract Selection" makes of it."""
+    extract = simple.ExtractSelection(Input=source,
+                                      Selection=servermanager._getPyProxy(selection))
+    found = points_of(extract)
+    simple.Delete(extract)
+    return found
+
+
+def stock_ids():
+    """For each rectangle, of the points that ParaView selects when it draws them all itself."""
+    scene.display.Visibility, stock.Visibility = 0, 1
+    scene.view.SMProxy.StillRender()
+    ids = []
+    for rectangle in itertools.islice(rectangles(), COMPARED):
+        selection = select(rectangle)
+        found = [] if selection is None else extracted(selection, whole)[1]["point_id"].tolist()
+        ids.append(set(found))
+    scene.display.Visibility, stock.Visibility = 1, 0
+    scene.view.SMProxy.StillRender()
+    return ids
+
+
+def rectangles():
+    generator = random.Random(1)
+    for _ in range(RECTANGLES):
+        left, low = generator.randrange(0, SIZE[0] - 20), generator.randrange(0, SIZE[1] - 20)
+        yield [left, low, min(left + generator.randrange(1, 160), SIZE[0] - 1),
+               min(low + generator.randrange(1, 90), SIZE[1] - 1)]
+
+
+def check_rectangles():
+    ours = theirs = different = 0
+    wanted = stock_ids()
+    for number, rectangle in enumerate(rectangles()):
+        selection = select(rectangle, cells=number % 5 == 4)
+        ids = set()
+        if selection is not None:
+            found = extracted(selection)
+            check(found, rectangle, "rectangle %s" % rectangle)
+            ids = set(found[1]["point_id"].tolist())
+        if number < COMPARED:
+            ours, theirs = ours + len(ids), theirs + len(wanted[number])
+            different += len(ids ^ wanted[number])
+    print("%d points in %d rectangles; ParaView's own points: %d, not in both: %d"
+          % (ours, COMPARED, theirs, different))
+    require(theirs > 5000, "the rectangles show next to nothing")
+    # Mesa rounds places to 1/256 of a pixel, and of points in one pixel the nearer one is shown.
+    require(different < DIFFERENT * theirs, "not all that is shown is selected")
+
+
+def check_shown_selection():
+    """What the view highlights and the spreadsheet lists: the selection set in ParaView."""
+    rectangle = [200, 100, 420, 220]
+    selection = select(rectangle)
+    scene.reader.SMProxy.SetSelectionInput(0, selection, 0)
+    shown = servermanager._getPyProxy(scene.reader.SMProxy.GetSelectionOutput(0))
+    found = points_of(shown)
+    require(len(found[0]) > 1000, "the active selection has %d points" % len(found[0]))
+    check(found, rectangle, "the active selection")
+    scene.save("selection-shown")
+    scene.reader.SMProxy.SetSelectionInput(0, None, 0)
+
+    # Its rows of the reader's output are those rows, for views that mark them there.
+    overview = points_of(scene.reader)[1]["point_id"]
+    if RANKS == 1:
+        rows = found[1]["vtkOriginalPointIds"]
+        known = rows < len(overview)
+        require(0 < known.sum() < len(rows), "%d of %d in the overview" % (known.sum(), len(rows)))
+        require(numpy.array_equal(overview[rows[known]], found[1]["point_id"][known]), "other rows")
+
+    # Frozen, it names the same points.
+    frozen = vtkSMSelectionHelper.ConvertSelectionSource(
+        vtkSelectionNode.INDICES, selection, scene.reader.SMProxy, 0)
+    frozen.UpdateVTKObjects()
+    ids = extracted(frozen)[1]["point_id"]
+    require(set(ids.tolist()) == set(found[1]["point_id"].tolist()), "frozen: other points")
+
+
+def check_script():
+    """As a script selects and extracts: the filter takes the active selection."""
+    rectangle = [250, 120, 300, 150]
+    simple.SetActiveSource(scene.reader)
+    simple.SelectSurfacePoints(Rectangle=rectangle, View=scene.view)
+    extract = simple.ExtractSelection(Input=scene.reader)
+    found = points_of(extract)
+    require(len(found[0]) > 100, "a script selects %d points" % len(found[0]))
+    check(found, rectangle, "a script's selection")
+    simple.Delete(extract)
+    simple.ClearSelection(scene.reader)
+
+
+def check_frustum():
+    """"Select Points Through": every stored point in the rectangle, seen or not."""
+    rectangle = [390, 110, 470, 160]
+    representations, sources = vtkCollection(), vtkCollection()
+    scene.view.SMProxy.SelectFrustumPoints(rectangle, representations, sources, True)
+    require(sources.GetNumberOfItems() == 1, "frustum: %d sources" % sources.GetNumberOfItems())
+    found = extracted(sources.GetItemAsObject(0))
+    check(found, rectangle, "frustum")
+    missing = inside(rectangle, -SLACK)
+    missing[found[1]["point_id"]] = False
+    require(not missing.any(), "%d points of the frustum are not selected" % missing.sum())
+    print("%d points in a frustum" % len(found[0]))
+
+
+def check_filters():
+    """A selection has no more to choose from behind a filter than the filter's own points."""
+    selection = select([200, 100, 420, 220])
+    clip = simple.MaskPoints(Input=scene.reader, OnRatio=3, MaximumNumberofPoints=10 ** 6)
+    kept = set(points_of(clip)[1]["point_id"].tolist())
+    found = set(extracted(selection, clip)[1]["point_id"].tolist())
+    require(found and found <= kept, "points behind a filter that the filter dropped")
+
+
+def check_picks():
+    """A pick gives the point under the mouse, snapped or not."""
+    found = extracted(select([150, 60, 500, 300]))[0]
+    generator = random.Random(2)
+    for number, place in enumerate(generator.sample(found.tolist(), PICKS)):
+        pixel = [int(round(c)) for c in pixels(numpy.array([place]))[0]]
+        point, normal = [0.0] * 3, [0.0] * 3
+        hit = scene.view.SMProxy.ConvertDisplayToPointOnSurface(pixel, point, normal,
+                                                                number % 4 != 0)
+        require(hit, "no point at %s" % pixel)
+        distance = numpy.linalg.norm(cloud - point, axis=1).min()
+        require(distance == 0, "pick at %s: %s is %g from any point" % (pixel, point, distance))
+        off = numpy.abs(pixels(numpy.array([point]))[0] - pixel).max()
+        require(off <= 2.0, "pick at %s: the point is %g pixels away" % (pixel, off))
+
+
+def check_tooltip():
+    """What ParaView shows of the point under the mouse."""
+    found = extracted(select([300, 150, 340, 180]))
+    pixel = [int(round(c)) for c in pixels(found[0][:1])[0]]
+    selection = select(pixel + pixel)
+    require(selection is not None, "nothing at %s" % pixel)
+    picked = extracted(selection)[1]["point_id"]
+    require(len(picked) == 1, "%d points at a pixel" % len(picked))
+    tooltip = vtkSMTooltipSelectionPipeline.GetInstance()
+    tooltip.Show(scene.display.SMProxy, selection, scene.view.SMProxy)
+    text = reference("")
+    require(tooltip.GetTooltipInfo(vtkDataObject.FIELD_ASSOCIATION_POINTS, text), "no tooltip")
+    require("point_id: %d" % picked[0] in str(text), "point %d: %s" % (picked[0], text))
+    tooltip.Hide(scene.view.SMProxy)
+
+
+check_rectangles()
+check_shown_selection()
+check_script()
+check_frustum()
+check_filters()
+check_picks()
+check_tooltip()
+if RANKS > 1:
+    simple.Disconnect()

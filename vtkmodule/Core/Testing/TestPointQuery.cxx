@@ -217,7 +217,7 @@ TEST_F(PointQueries, KeepToTheirMemory)
   options_.nodePoints = 2000;
   const auto store = build(hills(200000, 1e6));
   const QueryPlan plan = QueryPlan::make(*store, {}).value();
-  for (const std::size_t memory : { std::size_t(400000), std::size_t(1) << 20, std::size_t(4) << 20 })
+  for (const std::size_t memory : { 400000u, 1u << 20, 4u << 20 })
   {
     ThreadCrew crew(3);
     QueryOptions options;
@@ -355,7 +355,10 @@ TEST_F(PointQueries, ErrorsAndCancellationEndThem)
   EXPECT_EQ(before.nodes.size(), 40u);
   int calls = 0;
   const auto full = plan.run(*store, {}, [&calls](QueryBatch&) -> Result<void>
-    { return ++calls == 3 ? Result<void>(makeError(Error::Kind::Unwritable, "full")) : Result<void>(); });
+    {
+      return ++calls == 3 ? Result<void>(makeError(Error::Kind::Unwritable, "full"))
+                          : Result<void>();
+    });
   ASSERT_FALSE(full);
   EXPECT_EQ(full.error().what, "full");
   EXPECT_EQ(calls, 3);

@@ -40,7 +40,7 @@ private:
   };
 
   LineCorridor() = default;
-  /// Of the segment against a rectangle of that centre and half diagonal; sure in spite of rounding.
+  /// Of the segment against a rectangle of that centre and half diagonal; sure despite rounding.
   Overlap overlapSegment(
     const Segment& segment, const glm::dvec2& centre, double halfDiagonal) const;
 

@@ -2,6 +2,7 @@
 
 #include <glm/vec2.hpp>
 
+#include <string>
 #include <vector>
 
 namespace pointfront
@@ -15,9 +16,10 @@ struct PlanarPolygon
   std::vector<PlanarLine> rings;
 };
 
-/// Areas and lines on the map, as GIS programs write them (WKT, GeoJSON). World units.
+/// Areas and lines on the map, as GIS programs write them (WKT, GeoJSON).
 struct PlanarGeometry
 {
+  std::string crs; ///< of its coordinates: "EPSG:25832" or a definition; empty: not said
   std::vector<PlanarPolygon> polygons;
   std::vector<PlanarLine> lines;
 };

@@ -47,15 +47,23 @@ std::vector<std::byte> keptValues(
   return to;
 }
 
-Bounds boxOf(const QuantisationGrid& grid, const NodeColumns& node,
-  std::vector<glm::dvec3>& positions)
+std::vector<glm::dvec3> worldPositions(const QuantisationGrid& grid, const NodeColumns& node)
 {
-  Bounds box;
-  positions.resize(node.size());
+  std::vector<glm::dvec3> positions(node.size());
   for (std::size_t i = 0; i < positions.size(); ++i)
   {
     positions[i] = grid.toWorld(node.origin + GridPosition(node.positions[i]));
-    box.add(positions[i]);
+  }
+  return positions;
+}
+
+/// Tight: of a node's own points, not of all below it.
+Bounds boxOf(const std::vector<glm::dvec3>& positions)
+{
+  Bounds box;
+  for (const glm::dvec3& p : positions)
+  {
+    box.add(p);
   }
   return box;
 }
@@ -233,16 +241,17 @@ QueryPlan QueryPlan::piece(unsigned piece, unsigned pieces) const
 }
 
 std::optional<std::vector<std::uint32_t>> QueryPlan::passing(
-  const NodeColumns& node, const std::vector<glm::dvec3>& positions, const Bounds& box) const
+  const NodeColumns& node, const std::vector<glm::dvec3>& positions, bool tested) const
 {
   std::vector<std::uint8_t> keep(node.size());
   filter_.evaluate(
     node, storeSchema_, 0, static_cast<std::uint32_t>(node.size()), keep.data());
-  for (const std::shared_ptr<const Region>& region : regions_)
+  const Bounds box = tested ? boxOf(positions) : Bounds();
+  for (std::size_t r = 0; tested && r < regions_.size(); ++r)
   {
-    if (region->overlap(box) != Overlap::Inside)
+    if (regions_[r]->overlap(box) != Overlap::Inside)
     {
-      region->keepInside(box, positions.data(), positions.size(), keep.data());
+      regions_[r]->keepInside(box, positions.data(), positions.size(), keep.data());
     }
   }
   std::vector<std::uint32_t> kept;
@@ -264,12 +273,11 @@ QueryBatch QueryPlan::choose(std::size_t task, NodeColumns&& node) const
 {
   QueryBatch batch;
   batch.node = node.node;
-  std::vector<glm::dvec3> positions;
-  const Bounds box = boxOf(grid_, node, positions);
+  std::vector<glm::dvec3> positions = worldPositions(grid_, node);
   std::optional<std::vector<std::uint32_t>> kept;
   if (nodes_[task].tested || !filter_.empty())
   {
-    kept = passing(node, positions, box);
+    kept = passing(node, positions, nodes_[task].tested);
   }
   PointBatch& points = batch.points;
   points.columns.resize(out_.size());

@@ -71,7 +71,7 @@ private:
   QueryBatch choose(std::size_t task, NodeColumns&& node) const;
   /// Numbers of the points that pass; none if all do.
   std::optional<std::vector<std::uint32_t>> passing(const NodeColumns& node,
-    const std::vector<glm::dvec3>& positions, const Bounds& box) const;
+    const std::vector<glm::dvec3>& positions, bool tested) const;
   NodeSweep sweep() const;
 
   StoreDescription description_;

@@ -27,7 +27,8 @@ def main(store, area, condition=""):
                   for i in range(data.GetNumberOfArrays())}
     print(f"{len(positions)} points, {extract.GetNumberOfBytesRead()} bytes read")
     for name, values in sorted(attributes.items()):
-        print(f"  {name}: {values.dtype}, {values.min(initial=0)} to {values.max(initial=0)}")
+        span = f", {values.min()} to {values.max()}" if len(values) else ""
+        print(f"  {name}: {values.dtype}{span}")
 
 
 if __name__ == "__main__":

@@ -6,6 +6,8 @@ import sys
 import numpy
 from vtkmodules.numpy_interface import dataset_adapter
 from vtkmodules.vtkCommonCore import vtkCommand
+from vtkmodules.vtkCommonDataModel import vtkPlanes
+from vtkmodules.vtkRenderingCore import vtkCamera
 
 import pointfront
 
@@ -59,6 +61,25 @@ some.AddObjectClass(2)
 assert len(arrays(some)[0]) == 0
 some.ClearObjectClasses()
 some.Update()
+
+# What a camera sees: vtkPlanes as pickers and cameras fill them.
+camera = vtkCamera()
+middle = positions.mean(axis=0)
+camera.SetPosition(*(middle + (300.0, -400.0, 500.0)))
+camera.SetFocalPoint(*middle)
+camera.SetViewAngle(20.0)
+camera.SetClippingRange(10.0, 800.0)
+coefficients = [0.0] * 24
+camera.GetFrustumPlanes(1.5, coefficients)
+planes = vtkPlanes()
+planes.SetFrustumPlanes(coefficients)
+seen = pointfront.vtkPointFrontExtract()
+seen.SetFileName(store)
+seen.SetFrustum(planes)
+inward = numpy.array(coefficients).reshape(6, 4)
+mask = (positions @ inward[:, :3].T + inward[:, 3] >= 0).all(axis=1)
+assert 1000 < mask.sum() < len(mask) / 2, mask.sum()
+assert (arrays(seen)[1]["point_id"] == ids[mask]).all()
 
 # By ids: what a selection names.
 picked = pointfront.vtkPointFrontExtract()

@@ -4,12 +4,16 @@
 #include "ProgressDisplay.h"
 #include "SinkFormats.h"
 #include "Unavailable.h"
-#include "Values.h"
 
+#include "pointfront/Export/StoreExport.h"
 #include "pointfront/Store/StoredCloudFormats.h"
 
 #include <cstdio>
 #include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace pointfront
 {
@@ -21,40 +25,7 @@ void ExportCommand::declare(CLI::App& program)
   app_->add_option("-o,--output", outputPath_, "The file to write")
     ->required()
     ->check(sinkExtension());
-  const auto box = [this](const CLI::results_t& words)
-  {
-    const auto numbers = parseNumbers<6>(words.back());
-    if (!numbers || (*numbers)[0] > (*numbers)[3] || (*numbers)[1] > (*numbers)[4] ||
-      (*numbers)[2] > (*numbers)[5])
-    {
-      throw CLI::ParseError("--box: '" + words.back() +
-          "' is not a box: write x0,y0,z0,x1,y1,z1 with lower before upper corner", 2);
-    }
-    const auto& n = *numbers;
-    selection_.box = Bounds{ { n[0], n[1], n[2] }, { n[3], n[4], n[5] } };
-    return true;
-  };
-  app_->add_option("--box", box, "Only points inside or on this box")
-    ->type_name("x0,y0,z0,x1,y1,z1")
-    ->expected(1);
-  const auto classes = [this](const CLI::results_t& words)
-  {
-    const auto codes = parseClasses(words.back());
-    if (!codes)
-    {
-      throw CLI::ParseError(
-        "--classes: '" + words.back() + "' is not a list of class codes: write 2,6", 2);
-    }
-    selection_.classes = *codes;
-    return true;
-  };
-  app_->add_option("--classes", classes, "Only points of these classes")
-    ->type_name("LIST")
-    ->expected(1);
-  app_->add_option("--spacing", selection_.spacing,
-        "Thin out: levels until the points are at least this dense")
-    ->check(positiveNumber())
-    ->type_name("METRES");
+  arguments_.declare(*app_);
   app_->add_option("--crs", sinkChoice_.crs,
         "Transform into this coordinate reference system (the store's own)")
     ->type_name("EPSG:N|WKTFILE");
@@ -76,17 +47,32 @@ Result<void> ExportCommand::run()
   }
   std::vector<std::string> reads = (*store)->files();
   reads.push_back(sinkChoice_.crs); // may be a file
+  for (const std::string& file : arguments_.files())
+  {
+    reads.push_back(file);
+  }
   Result<void> checked =
     checkOutputTarget({ outputPath_, sinkKind(outputPath_), replace_ }, reads);
   if (!checked)
   {
     return checked;
   }
+  std::vector<std::string> notes;
+  Result<PointQuery> query = arguments_.query((*store)->description(), notes);
+  if (!query)
+  {
+    return query.error();
+  }
+  for (const std::string& note : notes)
+  {
+    warn(name(), note);
+  }
+  const ExportSelection selection{ std::move(*query), std::nullopt };
   const std::unique_ptr<PointSink> sink = makeSink(outputPath_, sinkChoice_);
   ExportReport report;
   {
     ProgressDisplay display(*ProgressDisplay::styleOf(progress_));
-    Result<ExportReport> exported = exportStore(**store, selection_, *sink, display.function());
+    Result<ExportReport> exported = exportStore(**store, selection, *sink, display.function());
     if (!exported)
     {
       return exported.error();

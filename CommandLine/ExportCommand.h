@@ -1,9 +1,8 @@
 #pragma once
 
 #include "Command.h"
+#include "QueryArguments.h"
 #include "SinkFormats.h"
-
-#include "pointfront/Export/StoreExport.h"
 
 #include <string>
 
@@ -20,7 +19,7 @@ public:
 private:
   std::string storePath_;
   std::string outputPath_;
-  ExportSelection selection_;
+  QueryArguments arguments_;
   SinkChoice sinkChoice_;
   bool replace_ = false;
   std::string progress_ = "auto";

@@ -10,6 +10,7 @@ The classes are VTK classes (their C++ headers document them) and go together wi
 
 from .pointfrontCommon import *
 from .pointfrontFiltersBuild import *
+from .pointfrontFiltersExtract import *
 from .pointfrontIOStore import *
 from .pointfrontIOLASIndex import *  # readers and mappers know side files of LAS files by it
 from .pointfrontRenderingCore import *

@@ -74,7 +74,8 @@ endif ()
 
 # Tests of the modules: after all of them, for they link several.
 if (POINTFRONT_BUILD_TESTING)
-  foreach (folder IN ITEMS vtkmodule/Common IO/Store IO/LAS/Index Filters/Build Rendering/OpenGL2)
+  foreach (folder IN ITEMS vtkmodule/Common IO/Store IO/LAS/Index Filters/Build Filters/Extract
+      Rendering/OpenGL2)
     add_subdirectory("${CMAKE_CURRENT_SOURCE_DIR}/${folder}/Testing")
   endforeach ()
 endif ()

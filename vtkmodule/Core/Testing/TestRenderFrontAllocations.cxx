@@ -3,48 +3,15 @@
 #include "pointfront/Front/RenderFront.h"
 #include "pointfront/Front/ViewDetail.h"
 
+#include "AllocationCount.h"
 #include "FrontScene.h"
 #include "TerrainPages.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <cstdlib>
-#include <new>
 #include <utility>
-
-namespace
-{
-
-std::atomic<std::size_t> allocations{ 0 };
-
-void* counted(std::size_t bytes)
-{
-  ++allocations;
-  if (void* memory = std::malloc(bytes > 0 ? bytes : 1))
-  {
-    return memory;
-  }
-  throw std::bad_alloc();
-}
-
-} // namespace
-
-// Never inlined: a compiler that sees free() behind a delete takes it for a mistake. The one that
-// does not throw is replaced too: AddressSanitizer has its own, and would pair it with our delete.
-[[gnu::noinline]] void* operator new(std::size_t bytes) { return counted(bytes); }
-[[gnu::noinline]] void* operator new[](std::size_t bytes) { return counted(bytes); }
-[[gnu::noinline]] void* operator new(std::size_t bytes, const std::nothrow_t&) noexcept
-{
-  ++allocations;
-  return std::malloc(bytes > 0 ? bytes : 1);
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
-[[gnu::noinline]] void operator delete[](void* memory) noexcept { std::free(memory); }
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-[[gnu::noinline]] void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
 
 namespace pointfront
 {
@@ -64,7 +31,7 @@ std::pair<std::uint32_t, std::size_t> allocationsOf(
   std::size_t before = 0;
   for (int u = 0; u < 1800; ++u)
   {
-    before = u == 1500 ? allocations.load() : before;
+    before = u == 1500 ? test::allocationCount() : before;
     const double x = size * (1.0 + 0.004 * std::abs(u % 100 - 50));
     const View view = View::perspective({ x, 0.3 * size, 0.2 * size }, { 0, 0, 0 },
       { 0, 0, 1 }, 0.9, 1e-4 * size, 100.0 * size, 800, 600);
@@ -77,7 +44,7 @@ std::pair<std::uint32_t, std::size_t> allocationsOf(
     }
   }
   EXPECT_GT(before, 0u) << "the counter is in place";
-  return { longest, allocations - before };
+  return { longest, test::allocationCount() - before };
 }
 
 TEST(RenderFront, AllocatesNothingInTheSteadyState)

@@ -9,19 +9,20 @@
 namespace pointfront
 {
 
-/// Sends an export's progress, some ten reports a second. One thread.
+/// Sends the progress of points on their way out, some ten reports a second. One thread.
 class ExportClock
 {
 public:
   /// `function` must outlive this object; `total` in points.
-  ExportClock(const ProgressFunction& function, std::uint64_t total)
+  ExportClock(
+    const ProgressFunction& function, std::uint64_t total, const char* phase = "exporting")
     : function_(function)
   {
-    progress_.phase = "exporting";
+    progress_.phase = phase;
     progress_.total = total;
   }
 
-  /// `done` points are written. False to cancel.
+  /// `done` points are handled. False to cancel.
   bool report(std::uint64_t done)
   {
     using Seconds = std::chrono::duration<double>;

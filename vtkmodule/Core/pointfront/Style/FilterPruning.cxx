@@ -131,6 +131,25 @@ ValueRange inWorldUnits(
   return { std::min(a, b), std::max(a, b) };
 }
 
+Result<std::shared_ptr<const NodePruning>> pruningOf(
+  const StoredCloud& store, const PointFilter& filter, NodeIndex mostNodes)
+{
+  const auto conditions = knownConditions(store, filter, mostNodes);
+  if (!conditions)
+  {
+    return conditions.error();
+  }
+  if (conditions->empty())
+  {
+    return std::shared_ptr<const NodePruning>();
+  }
+  const NodeIndex nodes = std::min(store.hierarchy()->nodeCount(), mostNodes);
+  const std::vector<MayPass> may = judged(*conditions, store.description().schema, nodes);
+  std::vector<Verdict> verdicts(nodes);
+  std::transform(may.begin(), may.end(), verdicts.begin(), verdictOf);
+  return std::make_shared<const NodePruning>(std::move(verdicts));
+}
+
 Result<std::vector<std::shared_ptr<const NodePruning>>> pruningOf(
   const StoredCloud& store, const std::vector<LayerStyling>& layers, NodeIndex mostNodes)
 {

@@ -24,6 +24,10 @@ constexpr NodeIndex mostPrunedNodes = NodeIndex(1) << 20;
 Result<std::vector<std::shared_ptr<const NodePruning>>> pruningOf(const StoredCloud& store,
   const std::vector<LayerStyling>& layers, NodeIndex mostNodes = mostPrunedNodes);
 
+/// The same of one filter, for the whole cloud.
+Result<std::shared_ptr<const NodePruning>> pruningOf(
+  const StoredCloud& store, const PointFilter& filter, NodeIndex mostNodes = mostPrunedNodes);
+
 /// The range of world values that a filter's condition is to be asked with.
 ValueRange inWorldUnits(
   const AttributeCondition& condition, const AttributeSchema& schema, const ValueRange& stored);

@@ -1,0 +1,83 @@
+#include "ExtractionRegions.h"
+
+#include "pointfront/Query/BoxRegion.h"
+#include "pointfront/Query/ConvexRegion.h"
+#include "pointfront/Query/LineCorridor.h"
+#include "pointfront/Query/PolygonPrism.h"
+#include "pointfront/Query/WellKnownText.h"
+
+#include <vtkDataArray.h>
+#include <vtkPlanes.h>
+#include <vtkPoints.h>
+
+#include <vector>
+
+namespace pointfront
+{
+namespace
+{
+
+using AnyRegion = Result<std::shared_ptr<const Region>>;
+
+template <typename T>
+AnyRegion anyRegion(const Result<std::shared_ptr<const T>>& region)
+{
+  return region ? AnyRegion(std::shared_ptr<const Region>(*region)) : AnyRegion(region.error());
+}
+
+} // namespace
+
+AnyRegion regionOfBounds(const double bounds[6])
+{
+  return anyRegion(BoxRegion::make(
+    Bounds{ { bounds[0], bounds[2], bounds[4] }, { bounds[1], bounds[3], bounds[5] } }));
+}
+
+AnyRegion regionOfPlanes(vtkPlanes* planes)
+{
+  vtkPoints* const origins = planes->GetPoints();
+  vtkDataArray* const normals = planes->GetNormals();
+  if (origins == nullptr || normals == nullptr ||
+    origins->GetNumberOfPoints() != normals->GetNumberOfTuples())
+  {
+    return makeError(
+      Error::Kind::BadArgument, "the planes have not as many origins as they have normals");
+  }
+  std::vector<glm::dvec4> inward;
+  for (vtkIdType i = 0; i < origins->GetNumberOfPoints(); ++i)
+  {
+    double origin[3];
+    double normal[3];
+    origins->GetPoint(i, origin);
+    normals->GetTuple(i, normal);
+    inward.emplace_back(-normal[0], -normal[1], -normal[2],
+      normal[0] * origin[0] + normal[1] * origin[1] + normal[2] * origin[2]);
+  }
+  return anyRegion(ConvexRegion::make(std::move(inward)));
+}
+
+AnyRegion regionOfText(const std::string& text, double distance)
+{
+  const Result<PlanarGeometry> geometry = parseWellKnownText(text);
+  if (!geometry)
+  {
+    return geometry.error();
+  }
+  if (!geometry->crs.empty())
+  {
+    return makeError(Error::Kind::BadArgument, "the text names a coordinate reference system (" +
+        geometry->crs + "); give its coordinates in the store's, without an SRID");
+  }
+  if (geometry->lines.empty())
+  {
+    return anyRegion(PolygonPrism::make(geometry->polygons));
+  }
+  if (!geometry->polygons.empty() || !(distance > 0.0))
+  {
+    return makeError(Error::Kind::BadArgument,
+      "lines want a LineDistance above 0, and no areas beside them");
+  }
+  return anyRegion(LineCorridor::make(geometry->lines, distance));
+}
+
+} // namespace pointfront

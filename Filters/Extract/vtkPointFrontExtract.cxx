@@ -1,0 +1,394 @@
+#include "vtkPointFrontExtract.h"
+
+#include "ExtractedPoints.h"
+#include "ExtractionRegions.h"
+
+#include "pointfront/Query/ChosenColumns.h"
+#include "pointfront/Query/PointsById.h"
+#include "pointfront/Query/QueryPlan.h"
+#include "pointfront/Query/SphereRegion.h"
+#include "vtkPointFrontStore.h"
+
+#include <vtkCommand.h>
+#include <vtkDataArraySelection.h>
+#include <vtkErrorCode.h>
+#include <vtkIdTypeArray.h>
+#include <vtkIndent.h>
+#include <vtkInformation.h>
+#include <vtkInformationVector.h>
+#include <vtkObjectFactory.h>
+#include <vtkPlanes.h>
+#include <vtkPolyData.h>
+#include <vtkStreamingDemandDrivenPipeline.h>
+#include <vtkVersionMacros.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+vtkStandardNewMacro(vtkPointFrontExtract);
+
+using pointfront::Error;
+using pointfront::Result;
+
+struct vtkPointFrontExtract::Content
+{
+  std::vector<std::uint8_t> Classes;
+  vtkSmartPointer<vtkPointFrontStore> Store;
+
+  static Result<void> AddRegions(
+    const vtkPointFrontExtract& filter, pointfront::PointQuery& query);
+  Result<pointfront::PointQuery> Query(const vtkPointFrontExtract& filter) const;
+  std::vector<std::string> Attributes(const vtkPointFrontExtract& filter) const;
+  Result<pointfront::QueryReport> Run(vtkPointFrontExtract& filter, unsigned piece,
+    unsigned pieces, vtkPolyData* output) const;
+};
+
+Result<void> vtkPointFrontExtract::Content::AddRegions(
+  const vtkPointFrontExtract& filter, pointfront::PointQuery& query)
+{
+  std::vector<Result<std::shared_ptr<const pointfront::Region>>> regions;
+  if (filter.UseBox)
+  {
+    regions.push_back(pointfront::regionOfBounds(filter.Box));
+  }
+  if (filter.UseSphere)
+  {
+    const double* const c = filter.SphereCenter;
+    const auto sphere = pointfront::SphereRegion::make({ c[0], c[1], c[2] }, filter.SphereRadius);
+    if (!sphere)
+    {
+      return sphere.error();
+    }
+    query.regions.push_back(*sphere);
+  }
+  if (filter.Frustum)
+  {
+    regions.push_back(pointfront::regionOfPlanes(filter.Frustum));
+  }
+  if (filter.WellKnownText && *filter.WellKnownText)
+  {
+    regions.push_back(pointfront::regionOfText(filter.WellKnownText, filter.LineDistance));
+  }
+  for (const auto& region : regions)
+  {
+    if (!region)
+    {
+      return region.error();
+    }
+    query.regions.push_back(*region);
+  }
+  return {};
+}
+
+std::vector<std::string> vtkPointFrontExtract::Content::Attributes(
+  const vtkPointFrontExtract& filter) const
+{
+  std::vector<std::string> names;
+  for (const pointfront::Attribute& attribute : this->Store->GetStore()->description().schema)
+  {
+    vtkDataArraySelection* const chosen = filter.PointDataArraySelection;
+    if (!chosen->ArrayExists(attribute.name.c_str()) ||
+      chosen->ArrayIsEnabled(attribute.name.c_str()))
+    {
+      names.push_back(attribute.name);
+    }
+  }
+  return names;
+}
+
+Result<pointfront::PointQuery> vtkPointFrontExtract::Content::Query(
+  const vtkPointFrontExtract& filter) const
+{
+  pointfront::PointQuery query;
+  if (Result<void> added = AddRegions(filter, query); !added)
+  {
+    return added.error();
+  }
+  auto where = pointfront::FilterExpression::parse(filter.Where ? filter.Where : "");
+  if (!where)
+  {
+    return where.error();
+  }
+  query.where = std::move(*where);
+  query.classes = this->Classes;
+  query.spacing = filter.Spacing;
+  query.attributes = this->Attributes(filter);
+  return query;
+}
+
+Result<pointfront::QueryReport> vtkPointFrontExtract::Content::Run(
+  vtkPointFrontExtract& filter, unsigned piece, unsigned pieces, vtkPolyData* output) const
+{
+  const pointfront::StoredCloud& store = *this->Store->GetStore();
+  pointfront::QueryOptions options;
+  options.memoryBytes = static_cast<std::size_t>(filter.MemoryLimit);
+  options.progress = [&filter](const pointfront::Progress& state)
+  {
+    filter.UpdateProgress(state.fraction);
+#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 2, 20220101)
+    return !filter.CheckAbort();
+#else
+    return filter.GetAbortExecute() == 0;
+#endif
+  };
+  pointfront::ExtractedPoints points(static_cast<std::uint64_t>(filter.MaximumNumberOfPoints));
+  const auto consume = [&points](pointfront::QueryBatch& batch) { return points.add(batch); };
+  if (filter.PointIds)
+  {
+    const auto names = this->Attributes(filter);
+    const auto columns = pointfront::ChosenColumns::make(store.description(), names);
+    if (!columns)
+    {
+      return columns.error();
+    }
+    const auto ids =
+      pointfront::pieceOf(pointfront::ascendingIds(filter.PointIds), piece, pieces);
+    auto report = pointfront::pointsById(store, ids, names, options, consume);
+    report ? points.moveTo(columns->description, output) : void();
+    return report;
+  }
+  const Result<pointfront::PointQuery> query = this->Query(filter);
+  if (!query)
+  {
+    return query.error();
+  }
+  const auto plan = pointfront::QueryPlan::make(store, *query);
+  if (!plan)
+  {
+    return plan.error();
+  }
+  auto report = plan->piece(piece, pieces).run(store, options, consume);
+  report ? points.moveTo(plan->description(), output) : void();
+  return report;
+}
+
+vtkPointFrontExtract::vtkPointFrontExtract()
+  : MaximumNumberOfPoints(VTK_ID_MAX) // no initialiser of a member: vtkWrapHierarchy stumbles
+  , Internals(new Content)
+{
+}
+
+vtkPointFrontExtract::~vtkPointFrontExtract()
+{
+  this->SetFileName(nullptr);
+  this->SetWellKnownText(nullptr);
+  this->SetWhere(nullptr);
+}
+
+void vtkPointFrontExtract::SetFrustum(vtkPlanes* planes)
+{
+  if (this->Frustum != planes)
+  {
+    this->Frustum = planes;
+    this->Modified();
+  }
+}
+
+vtkPlanes* vtkPointFrontExtract::GetFrustum()
+{
+  return this->Frustum;
+}
+
+void vtkPointFrontExtract::SetPointIds(vtkIdTypeArray* ids)
+{
+  if (this->PointIds != ids)
+  {
+    this->PointIds = ids;
+    this->Modified();
+  }
+}
+
+vtkIdTypeArray* vtkPointFrontExtract::GetPointIds()
+{
+  return this->PointIds;
+}
+
+void vtkPointFrontExtract::AddObjectClass(int objectClass)
+{
+  if (objectClass < 0 || objectClass > 255)
+  {
+    vtkErrorMacro("a class " << objectClass << " is none of 0 to 255");
+    return;
+  }
+  this->Internals->Classes.push_back(static_cast<std::uint8_t>(objectClass));
+  this->Modified();
+}
+
+void vtkPointFrontExtract::ClearObjectClasses()
+{
+  this->Internals->Classes.clear();
+  this->Modified();
+}
+
+int vtkPointFrontExtract::GetNumberOfObjectClasses()
+{
+  return static_cast<int>(this->Internals->Classes.size());
+}
+
+int vtkPointFrontExtract::GetObjectClass(int index)
+{
+  return index >= 0 && index < this->GetNumberOfObjectClasses()
+    ? this->Internals->Classes[static_cast<std::size_t>(index)]
+    : -1;
+}
+
+vtkDataArraySelection* vtkPointFrontExtract::GetPointDataArraySelection()
+{
+  return this->PointDataArraySelection;
+}
+
+int vtkPointFrontExtract::GetNumberOfPointArrays()
+{
+  return this->PointDataArraySelection->GetNumberOfArrays();
+}
+
+const char* vtkPointFrontExtract::GetPointArrayName(int index)
+{
+  return this->PointDataArraySelection->GetArrayName(index);
+}
+
+int vtkPointFrontExtract::GetPointArrayStatus(const char* name)
+{
+  return this->PointDataArraySelection->ArrayIsEnabled(name);
+}
+
+void vtkPointFrontExtract::SetPointArrayStatus(const char* name, int status)
+{
+  this->PointDataArraySelection->AddArray(name, status != 0);
+  this->PointDataArraySelection->SetArraySetting(name, status);
+}
+
+vtkMTimeType vtkPointFrontExtract::GetMTime()
+{
+  vtkMTimeType time =
+    std::max(this->Superclass::GetMTime(), this->PointDataArraySelection->GetMTime());
+  time = this->Frustum ? std::max(time, this->Frustum->GetMTime()) : time;
+  return this->PointIds ? std::max(time, this->PointIds->GetMTime()) : time;
+}
+
+int vtkPointFrontExtract::FillInputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataObject");
+  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+  return 1;
+}
+
+bool vtkPointFrontExtract::OpenStore(const char* fileName)
+{
+  this->Internals->Store = nullptr;
+  this->SetErrorCode(vtkErrorCode::NoError);
+  if (!fileName || !*fileName)
+  {
+    this->SetErrorCode(vtkErrorCode::NoFileNameError);
+    vtkErrorMacro("no store: set FileName, or connect a vtkPointFrontReader");
+    return false;
+  }
+  vtkStdString reason;
+  this->Internals->Store = vtkPointFrontStore::Open(fileName, reason);
+  if (!this->Internals->Store)
+  {
+    this->SetErrorCode(vtkErrorCode::CannotOpenFileError);
+    vtkErrorMacro(<< reason);
+    return false;
+  }
+  return true;
+}
+
+int vtkPointFrontExtract::RequestInformation(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
+{
+  vtkInformation* const output = outputs->GetInformationObject(0);
+  output->Set(vtkAlgorithm::CAN_HANDLE_PIECE_REQUEST(), 1);
+  if (!this->FileName && this->GetNumberOfInputConnections(0) > 0)
+  {
+    return 1; // which store it is stands in the data
+  }
+  if (!this->OpenStore(this->FileName))
+  {
+    return 0;
+  }
+  const vtkPointFrontStore& store = *this->Internals->Store;
+  for (int i = 0; i < store.GetNumberOfAttributes(); ++i)
+  {
+    if (!this->PointDataArraySelection->ArrayExists(store.GetAttributeName(i)))
+    {
+      this->PointDataArraySelection->AddArray(store.GetAttributeName(i));
+    }
+  }
+  return 1;
+}
+
+int vtkPointFrontExtract::RequestData(
+  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  if (!this->FileName)
+  {
+    vtkDataObject* const input = vtkDataObject::GetData(inputs[0], 0);
+    const vtkStdString name = input ? vtkPointFrontStore::GetStoreName(input) : vtkStdString();
+    if (!this->OpenStore(name.c_str()))
+    {
+      return 0;
+    }
+  }
+  else if (!this->Internals->Store)
+  {
+    return 0; // RequestInformation has said why
+  }
+  this->SetErrorCode(vtkErrorCode::NoError);
+  vtkInformation* const info = outputs->GetInformationObject(0);
+  vtkPolyData* const output = vtkPolyData::GetData(info);
+  const int piece = info->Get(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER());
+  const int pieces =
+    std::max(1, info->Get(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES()));
+  if (piece < 0 || piece >= pieces)
+  {
+    return 1; // more ranks than pieces
+  }
+  const auto report = this->Internals->Run(
+    *this, static_cast<unsigned>(piece), static_cast<unsigned>(pieces), output);
+  if (!report)
+  {
+    if (report.error().kind == Error::Kind::Cancelled)
+    {
+      return 1; // what the user asked for: an empty output
+    }
+    const bool damaged = report.error().kind == Error::Kind::Corrupt ||
+      report.error().kind == Error::Kind::Truncated;
+    this->SetErrorCode(damaged ? vtkErrorCode::FileFormatError : vtkErrorCode::UnknownError);
+    vtkErrorMacro(<< report.error().what);
+    return 0;
+  }
+  this->NumberOfNodesRead = static_cast<vtkIdType>(report->nodesRead);
+  this->NumberOfPointsRead = static_cast<vtkIdType>(report->pointsRead);
+  this->NumberOfBytesRead = static_cast<vtkTypeInt64>(report->bytesRead);
+  this->UpdateProgress(1.0);
+  return 1;
+}
+
+void vtkPointFrontExtract::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  const auto text = [](const char* value) { return value ? value : "(none)"; };
+  os << indent << "FileName: " << text(this->FileName) << "\n";
+  os << indent << "UseBox: " << this->UseBox << "\n";
+  os << indent << "Box:";
+  for (const double end : this->Box)
+  {
+    os << " " << end;
+  }
+  os << "\n" << indent << "UseSphere: " << this->UseSphere << "\n";
+  os << indent << "SphereCenter: " << this->SphereCenter[0] << " " << this->SphereCenter[1] << " "
+     << this->SphereCenter[2] << "\n";
+  os << indent << "SphereRadius: " << this->SphereRadius << "\n";
+  os << indent << "Frustum: " << (this->Frustum ? "set" : "(none)") << "\n";
+  os << indent << "WellKnownText: " << text(this->WellKnownText) << "\n";
+  os << indent << "LineDistance: " << this->LineDistance << "\n";
+  os << indent << "ObjectClasses: " << this->Internals->Classes.size() << " named\n";
+  os << indent << "Where: " << text(this->Where) << "\n";
+  os << indent << "Spacing: " << this->Spacing << "\n";
+  os << indent << "PointIds: " << (this->PointIds ? this->PointIds->GetNumberOfValues() : 0)
+     << "\n";
+  os << indent << "MaximumNumberOfPoints: " << this->MaximumNumberOfPoints << "\n";
+  os << indent << "MemoryLimit: " << this->MemoryLimit << "\n";
+}

@@ -1,0 +1,208 @@
+/**
+ * @class vtkPointFrontExtract
+ * @brief the exact points of a region, of classes, of ranges of attributes, as vtkPolyData
+ *
+ * Reads from a store (or an index of a LAS file) the points that meet every condition that is set,
+ * and nothing that bounds and stored ranges of its nodes rule out. Without a condition it reads the
+ * whole store: set MaximumNumberOfPoints or Spacing where that may not fit into memory.
+ *
+ * The store is named by FileName, or by the field data of an input (vtkPointFrontReader's output);
+ * FileName goes first. Nothing else of the input is used.
+ *
+ * Output: double points in the store's order, one vertex cell each, the chosen attributes as point
+ * data (as vtkPointFrontReader gives them: "rgb" is the active scalars, three bytes; attributes
+ * with a scale or an offset are doubles with both applied), and ranks in the store as global ids,
+ * the 64-bit array "point_id": the ids of hardware selections.
+ *
+ * Pieces: each reads its own nodes, about as many points each; together they are the whole. Events:
+ * ProgressEvent some ten times a second; an aborted update leaves an empty output. Errors
+ * (ErrorCode, vtkErrorMacro): no store, a damaged one, a condition that is none or asks for what
+ * the store has not, more points than MaximumNumberOfPoints.
+ */
+#ifndef vtkPointFrontExtract_h
+#define vtkPointFrontExtract_h
+
+#include "pointfrontFiltersExtractModule.h" // for the export macro
+#include "vtkNew.h"                         // for the selection
+#include "vtkPolyDataAlgorithm.h"
+#include "vtkSmartPointer.h" // for planes and ids
+
+#include <memory> // for the internals
+
+class vtkDataArraySelection;
+class vtkIdTypeArray;
+class vtkPlanes;
+class vtkPointFrontStore;
+
+class POINTFRONTFILTERSEXTRACT_EXPORT vtkPointFrontExtract : public vtkPolyDataAlgorithm
+{
+public:
+  static vtkPointFrontExtract* New();
+  vtkTypeMacro(vtkPointFrontExtract, vtkPolyDataAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /// The store's file. Null: the input's field data names it.
+  vtkSetFilePathMacro(FileName);
+  vtkGetFilePathMacro(FileName);
+  ///@}
+
+  ///@{
+  /**
+   * Points inside or on a box: xmin, xmax, ymin, ymax, zmin, zmax; ends may be infinite. Off by
+   * default.
+   */
+  vtkSetMacro(UseBox, bool);
+  vtkGetMacro(UseBox, bool);
+  vtkBooleanMacro(UseBox, bool);
+  vtkSetVector6Macro(Box, double);
+  vtkGetVector6Macro(Box, double);
+  ///@}
+
+  ///@{
+  /**
+   * Points inside or on a sphere. Off by default.
+   */
+  vtkSetMacro(UseSphere, bool);
+  vtkGetMacro(UseSphere, bool);
+  vtkBooleanMacro(UseSphere, bool);
+  vtkSetVector3Macro(SphereCenter, double);
+  vtkGetVector3Macro(SphereCenter, double);
+  vtkSetMacro(SphereRadius, double);
+  vtkGetMacro(SphereRadius, double);
+  ///@}
+
+  ///@{
+  /**
+   * Points on the inner side of all planes, whose normals point outwards: a frustum of
+   * vtkPlanes::SetFrustumPlanes or of vtkAreaPicker. Null: none.
+   */
+  virtual void SetFrustum(vtkPlanes* planes);
+  vtkPlanes* GetFrustum();
+  ///@}
+
+  ///@{
+  /**
+   * Points above or below areas, or within LineDistance of lines, on the map: POLYGON,
+   * MULTIPOLYGON, LINESTRING ... as well-known text, in the store's coordinates. Holes are out,
+   * edges are in. Null: none.
+   */
+  vtkSetStringMacro(WellKnownText);
+  vtkGetStringMacro(WellKnownText);
+  vtkSetMacro(LineDistance, double);
+  vtkGetMacro(LineDistance, double);
+  ///@}
+
+  ///@{
+  /**
+   * Object classes (0 to 255) whose points are wanted. None added: of any class.
+   */
+  void AddObjectClass(int objectClass);
+  void ClearObjectClasses();
+  int GetNumberOfObjectClasses();
+  int GetObjectClass(int index);
+  ///@}
+
+  ///@{
+  /**
+   * Conditions on attributes and coordinates, as `--where` of the tool has them:
+   * "intensity in [100, 200] and classification in {2, 6}". Null: none.
+   */
+  vtkSetStringMacro(Where);
+  vtkGetStringMacro(Where);
+  ///@}
+
+  ///@{
+  /**
+   * World units between neighbouring points: a coarser subset, as dense as that or a little denser.
+   * 0, the default: all points.
+   */
+  vtkSetClampMacro(Spacing, double, 0.0, VTK_DOUBLE_MAX);
+  vtkGetMacro(Spacing, double);
+  ///@}
+
+  ///@{
+  /**
+   * Points of these ranks in the store, in any order, instead of all conditions above: what was
+   * picked or selected. Null: none.
+   */
+  virtual void SetPointIds(vtkIdTypeArray* ids);
+  vtkIdTypeArray* GetPointIds();
+  ///@}
+
+  ///@{
+  /**
+   * Which attributes come with the points. All by default. Names are known after
+   * UpdateInformation() where FileName is set; others can be disabled by name before.
+   */
+  vtkDataArraySelection* GetPointDataArraySelection();
+  int GetNumberOfPointArrays();
+  const char* GetPointArrayName(int index);
+  int GetPointArrayStatus(const char* name);
+  void SetPointArrayStatus(const char* name, int status);
+  ///@}
+
+  ///@{
+  /**
+   * More points than this are an error, not a machine without memory. Default: no limit.
+   */
+  vtkSetClampMacro(MaximumNumberOfPoints, vtkIdType, 0, VTK_ID_MAX);
+  vtkGetMacro(MaximumNumberOfPoints, vtkIdType);
+  ///@}
+
+  ///@{
+  /**
+   * Most memory for what is being read, besides the output, bytes. Default 256 MiB.
+   */
+  vtkSetClampMacro(MemoryLimit, vtkTypeInt64, 1, VTK_TYPE_INT64_MAX);
+  vtkGetMacro(MemoryLimit, vtkTypeInt64);
+  ///@}
+
+  ///@{
+  /**
+   * Of the last update: nodes and bytes read from the disk, points decoded.
+   */
+  vtkGetMacro(NumberOfNodesRead, vtkIdType);
+  vtkGetMacro(NumberOfPointsRead, vtkIdType);
+  vtkGetMacro(NumberOfBytesRead, vtkTypeInt64);
+  ///@}
+
+  vtkMTimeType GetMTime() override;
+
+protected:
+  vtkPointFrontExtract();
+  ~vtkPointFrontExtract() override;
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int RequestInformation(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+
+  char* FileName = nullptr;
+  bool UseBox = false;
+  double Box[6] = { 0.0, 1.0, 0.0, 1.0, 0.0, 1.0 };
+  bool UseSphere = false;
+  double SphereCenter[3] = { 0.0, 0.0, 0.0 };
+  double SphereRadius = 1.0;
+  vtkSmartPointer<vtkPlanes> Frustum;
+  char* WellKnownText = nullptr;
+  double LineDistance = 0.0;
+  char* Where = nullptr;
+  double Spacing = 0.0;
+  vtkSmartPointer<vtkIdTypeArray> PointIds;
+  vtkIdType MaximumNumberOfPoints;
+  vtkTypeInt64 MemoryLimit = 268435456;
+  vtkIdType NumberOfNodesRead = 0;
+  vtkIdType NumberOfPointsRead = 0;
+  vtkTypeInt64 NumberOfBytesRead = 0;
+  vtkNew<vtkDataArraySelection> PointDataArraySelection;
+
+private:
+  vtkPointFrontExtract(const vtkPointFrontExtract&) = delete;
+  void operator=(const vtkPointFrontExtract&) = delete;
+
+  bool OpenStore(const char* fileName);
+
+  struct Content;
+  std::unique_ptr<Content> Internals;
+};
+
+#endif

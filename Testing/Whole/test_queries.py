@@ -1,0 +1,147 @@
+"""`export` of regions, classes and conditions: the points that a filter of the whole gives."""
+
+import json
+import math
+import unittest
+
+from tool import DATA, ToolTest, write_las
+
+TRIMMED = DATA / "las/real/autzen_trim.las"
+AREA = [(636500.001, 849000.0), (636700.0, 849050.0), (636650.0, 849250.001), (636520.0, 849180.0)]
+HOLE = [(636580.0, 849080.001), (636620.0, 849080.0), (636620.0, 849140.0), (636580.001, 849140.0)]
+
+
+def inside(ring, x, y):
+    """Even-odd; no point of the cloud lies on an edge of these rings."""
+    result = False
+    for (ax, ay), (bx, by) in zip(ring, ring[1:] + ring[:1]):
+        if (ay > y) != (by > y) and x < ax + (y - ay) / (by - ay) * (bx - ax):
+            result = not result
+    return result
+
+
+def geojson(rings, **members):
+    return json.dumps({"type": "Polygon", **members,
+                       "coordinates": [[list(v) for v in ring + ring[:1]] for ring in rings]})
+
+
+def wkt(rings):
+    return "POLYGON (" + ", ".join(
+        "(" + ", ".join(f"{x} {y}" for x, y in ring + ring[:1]) + ")" for ring in rings) + ")"
+
+
+class Queries(ToolTest):
+    def rows(self, store, *options, name="x.csv"):
+        """Rows of a CSV export as tuples of numbers, sorted; and what was said on stderr."""
+        out = self.folder / name
+        said = self.succeed("export", store, "-o", out, "--force", *options)
+        with open(out, encoding="ascii") as file:
+            self.names = file.readline().strip().split(",")
+            rows = sorted(tuple(map(float, line.split(","))) for line in file)
+        self.assertIn(f"{len(rows)} points", said.out)
+        return rows, said.err
+
+    def write(self, name, text):
+        path = self.folder / name
+        path.write_text(text)
+        return path
+
+    def test_regions_and_conditions_are_filters_of_the_whole(self):
+        for command, *options in (("build",), ("build", "--structure", "kdtree"), ("index",)):
+            store = self.folder / f"{command}{len(options)}.pfront"
+            self.succeed(command, TRIMMED, "-o", store, *options)
+            everything, _ = self.rows(store)
+            self.assertEqual(len(everything), 110000)
+            column = {name: i for i, name in enumerate(self.names)}
+            area = self.write("area.geojson", geojson([AREA, HOLE]))
+            text = self.write("area.wkt", wkt([AREA, HOLE]))
+            line = self.write("line.wkt", "LINESTRING (636500 849000, 636700 849200)")
+            centre = (636600.0, 849100.0, 430.0)
+
+            def near_line(p):
+                along = min(1.0, max(0.0, (p[0] - 636500 + p[1] - 849000) / 400))
+                return math.hypot(p[0] - 636500 - 200 * along, p[1] - 849000 - 200 * along) <= 15
+
+            cases = (
+                (["--polygon", area],
+                 lambda p: inside(AREA, *p[:2]) and not inside(HOLE, *p[:2])),
+                (["--polygon", text],
+                 lambda p: inside(AREA, *p[:2]) and not inside(HOLE, *p[:2])),
+                (["--sphere", "636600,849100,430,60"], lambda p: math.dist(p[:3], centre) <= 60),
+                (["--corridor", line, "--within", "15"], near_line),
+                (["--where", "intensity in [100, 200] and z > 420"],
+                 lambda p: 100 <= p[column["intensity"]] <= 200 and p[2] > 420),
+                (["--box", "636500,849000,0,636700,849200,1000", "--classes", "2",
+                  "--where", "return_number == 1", "--polygon", text],
+                 lambda p: 636500 <= p[0] <= 636700 and 849000 <= p[1] <= 849200 and
+                 p[column["classification"]] == 2 and p[column["return_number"]] == 1 and
+                 inside(AREA, *p[:2]) and not inside(HOLE, *p[:2])),
+            )
+            for chosen, passes in cases:
+                expected = [p for p in everything if passes(p)]
+                got, _ = self.rows(store, *chosen)
+                self.assertGreater(len(expected), 5, chosen)
+                self.assertEqual(got, expected, (command, options, chosen))
+
+    def test_the_files_system_is_heeded(self):
+        corner = (500000.0, 5600000.0)
+        las = write_las(self.folder / "a.las", [(corner[0] + x, corner[1] + y, 100.0, 0, 0, 0)
+                                                for x in range(20) for y in range(20)])
+        store = self.folder / "a.pfront"
+        self.succeed("build", las, "-o", store, "--assume-crs", "EPSG:25832")
+        ring = [(corner[0] + x, corner[1] + y) for x, y in
+                ((4.5, 4.5), (9.5, 4.5), (9.5, 9.5), (4.5, 9.5))]
+        own, said = self.rows(store, "--polygon", self.write("own.geojson", geojson([ring])))
+        self.assertEqual(len(own), 25)
+        self.assertEqual(said, "")
+        degrees = las_to_degrees(self, ring)
+        named = {"type": "name", "properties": {"name": "urn:ogc:def:crs:OGC:1.3:CRS84"}}
+        for text, note in ((geojson([degrees]), "longitudes"), (geojson([degrees], crs=named), ""),
+                           ("SRID=4326;" + wkt([degrees]), "")):
+            got, said = self.rows(store, "--polygon", self.write("x.txt", text))
+            self.assertEqual(got, own)
+            self.assertEqual(note in said and bool(said), bool(note), said)
+        bare = self.build(las, name="bare.pfront")  # knows no system: numbers are numbers
+        got, said = self.rows(bare, "--polygon", self.write("x.txt", geojson([degrees])))
+        self.assertEqual(got, [])
+        self.assertIn("outside of the store", said)
+
+    def test_wrong_ones_are_refused(self):
+        store = self.build(DATA / "las/real/1.2-with-color.las")
+        out = ("-o", self.folder / "x.las")
+        line = self.write("line.wkt", "LINESTRING (0 0, 1 1)")
+        broken = self.write("broken.geojson", '{"type": "Polygon"')
+        for status, word, options in (
+                (1, "missing.wkt", ["--polygon", self.folder / "missing.wkt"]),
+                (1, "not JSON", ["--polygon", broken]), (1, "no area", ["--polygon", line]),
+                (2, "--within", ["--corridor", line]), (2, "--corridor", ["--within", "3"]),
+                (2, "--within", ["--corridor", line, "--within", "-3"]),
+                (2, "--sphere", ["--sphere", "1,2,3"]), (2, "--sphere", ["--sphere", "1,2,3,-1"]),
+                (2, "--sphere", ["--sphere", "1,2,3,nan"]),
+                (2, "--where", ["--where", "intensity >"]),
+                (1, "nonsense", ["--where", "nonsense > 3"])):
+            self.assertIn(word, self.refuse(status, "export", store, *out, *options).err)
+        self.assertNotIn("x.las", self.entries())
+        # Nothing is written over a file that is read, by whatever name.
+        area = self.write("area.csv", wkt([[(0, 0), (1, 0), (1, 1)]]))
+        self.refuse(1, "export", store, "-o", area, "--polygon", area, "--force")
+        self.assertTrue(area.read_text().startswith("POLYGON"))
+
+
+def las_to_degrees(test, ring):
+    """The ring's vertices in WGS 84, by the tool's own transformation of points."""
+    las = write_las(test.folder / "ring.las", [(x, y, 0.0, i, 0, 0)
+                                               for i, (x, y) in enumerate(ring)], 0.001)
+    test.succeed("build", las, "-o", test.folder / "ring.pfront", "--assume-crs", "EPSG:25832",
+                 "--precision", "0.001")
+    out = test.folder / "ring.csv"
+    test.succeed("export", test.folder / "ring.pfront", "-o", out, "--crs", "EPSG:4326")
+    with open(out, encoding="ascii") as file:
+        names = file.readline().strip().split(",")
+        red = names.index("red") if "red" in names else names.index("r")
+        rows = sorted((list(map(float, row.split(","))) for row in file), key=lambda r: r[red])
+    return [(row[0], row[1]) for row in rows]
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "pointfront/Base/Result.h"
+#include "pointfront/Store/NodeReader.h"
+#include "pointfront/Store/StoredCloud.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pointfront
+{
+
+/// Attributes that come with points: columns of the store, and its description with only these.
+struct ChosenColumns
+{
+  ColumnSelection columns;
+  StoreDescription description;
+
+  /// Those of these names in the store's order, each once; nothing: all. BadArgument names what the
+  /// store has not.
+  static Result<ChosenColumns> make(
+    const StoreDescription& store, const std::optional<std::vector<std::string>>& names);
+  /// All but the enclosing radius of representatives, which points of the input have not.
+  static ChosenColumns ofInput(const StoreDescription& store);
+};
+
+} // namespace pointfront

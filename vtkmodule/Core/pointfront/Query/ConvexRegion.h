@@ -1,0 +1,35 @@
+#pragma once
+
+#include "pointfront/Base/Result.h"
+#include "pointfront/Query/Region.h"
+
+#include <glm/vec4.hpp>
+
+#include <memory>
+#include <vector>
+
+namespace pointfront
+{
+
+/// What lies on the inner side of some planes: the frustum of a camera (View::planes), or what
+/// clipping planes leave.
+class ConvexRegion final : public Region
+{
+public:
+  /// Planes (n, d): inside where n.p + d >= 0; n of any length. Without planes it is all of space.
+  /// BadArgument: a number is not finite, or a normal is 0.
+  static Result<std::shared_ptr<const ConvexRegion>> make(std::vector<glm::dvec4> planes);
+
+  bool contains(const glm::dvec3& point) const override;
+  Overlap overlap(const Bounds& box) const override;
+  Bounds bounds() const override; ///< all of space
+
+private:
+  explicit ConvexRegion(std::vector<glm::dvec4> planes)
+    : planes_(std::move(planes))
+  {
+  }
+  std::vector<glm::dvec4> planes_;
+};
+
+} // namespace pointfront

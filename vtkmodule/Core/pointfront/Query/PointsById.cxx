@@ -1,0 +1,132 @@
+#include "pointfront/Query/PointsById.h"
+
+#include "pointfront/Query/ChosenColumns.h"
+#include "pointfront/Query/NodeSweep.h"
+
+#include <algorithm>
+#include <cstring>
+#include <functional>
+#include <utility>
+
+namespace pointfront
+{
+namespace
+{
+
+/// Ids of one node: ids[first, first + count).
+struct NodeIds
+{
+  NodeIndex node = noNode;
+  std::uint32_t points = 0;
+  std::size_t first = 0;
+  std::size_t count = 0;
+};
+
+/// The last node whose first point is `id` or before it: rows ascend by their first points, and
+/// nodes without points share theirs with the next one.
+NodeIndex nodeOf(const Hierarchy& hierarchy, std::uint64_t id)
+{
+  NodeIndex low = 0;
+  NodeIndex high = hierarchy.nodeCount();
+  while (high - low > 1)
+  {
+    const NodeIndex middle = low + (high - low) / 2;
+    (hierarchy.node(middle).firstPoint <= id ? low : high) = middle;
+  }
+  return low;
+}
+
+Error notInCloud(const StoreDescription& store, std::uint64_t id)
+{
+  return makeError(Error::Kind::BadArgument,
+    store.path + ": it has no point of the id " + std::to_string(id));
+}
+
+Result<std::vector<NodeIds>> nodesOf(
+  const StoredCloud& store, const std::vector<std::uint64_t>& ids)
+{
+  const Hierarchy& hierarchy = *store.hierarchy();
+  std::vector<NodeIds> nodes;
+  for (std::size_t i = 0; i < ids.size();)
+  {
+    if (hierarchy.nodeCount() == 0)
+    {
+      return notInCloud(store.description(), ids[i]);
+    }
+    const NodeIndex index = nodeOf(hierarchy, ids[i]);
+    const Node row = hierarchy.node(index);
+    if (std::optional<Error> damage = hierarchy.fault())
+    {
+      return *damage;
+    }
+    const std::uint64_t end = row.firstPoint + row.pointCount;
+    if (ids[i] >= end)
+    {
+      return notInCloud(store.description(), ids[i]);
+    }
+    const auto after = std::lower_bound(
+      ids.begin() + static_cast<std::ptrdiff_t>(i), ids.end(), end);
+    const auto next = static_cast<std::size_t>(after - ids.begin());
+    nodes.push_back({ index, row.pointCount, i, next - i });
+    i = next;
+  }
+  return nodes;
+}
+
+/// The node's points of these ids.
+QueryBatch chosen(const NodeIds& of, const std::vector<std::uint64_t>& ids,
+  const StoreDescription& description, const NodeColumns& node)
+{
+  QueryBatch batch;
+  batch.node = node.node;
+  const auto first = ids.begin() + static_cast<std::ptrdiff_t>(of.first);
+  batch.ids.assign(first, first + static_cast<std::ptrdiff_t>(of.count));
+  batch.points.resize(of.count, description.schema);
+  for (std::size_t i = 0; i < of.count; ++i)
+  {
+    const auto place = static_cast<std::size_t>(batch.ids[i] - node.firstPoint);
+    batch.points.positions[i] =
+      description.grid.toWorld(node.origin + GridPosition(node.positions[place]));
+    for (std::size_t c = 0; c < node.columns.size(); ++c)
+    {
+      const std::size_t bytes = description.schema[c].bytes();
+      std::memcpy(batch.points.columns[c].data() + i * bytes,
+        node.columns[c].data() + place * bytes, bytes);
+    }
+  }
+  return batch;
+}
+
+} // namespace
+
+Result<QueryReport> pointsById(const StoredCloud& store, const std::vector<std::uint64_t>& ids,
+  const std::optional<std::vector<std::string>>& attributes, const QueryOptions& options,
+  const QueryConsumer& consume)
+{
+  if (std::adjacent_find(ids.begin(), ids.end(), std::greater_equal<>()) != ids.end())
+  {
+    return makeError(Error::Kind::BadArgument, "ids of points must ascend, each once");
+  }
+  const Result<ChosenColumns> columns = ChosenColumns::make(store.description(), attributes);
+  if (!columns)
+  {
+    return columns.error();
+  }
+  const Result<std::vector<NodeIds>> nodes = nodesOf(store, ids);
+  if (!nodes)
+  {
+    return nodes.error();
+  }
+  NodeSweep sweep;
+  sweep.count = nodes->size();
+  sweep.columns = columns->columns;
+  sweep.resultBytes =
+    sizeof(std::uint64_t) + sizeof(glm::dvec3) + columns->description.schema.pointBytes();
+  sweep.node = [&nodes](std::size_t i) { return (*nodes)[i].node; };
+  sweep.points = [&nodes](std::size_t i) { return (*nodes)[i].points; };
+  sweep.choose = [&](std::size_t i, NodeColumns&& node)
+  { return chosen((*nodes)[i], ids, columns->description, node); };
+  return sweepNodes(store, sweep, options, consume);
+}
+
+} // namespace pointfront

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace pointfront
@@ -26,18 +27,25 @@ public:
   double squaredBound() const;
 
   std::size_t size() const { return count_; }
-  const glm::dvec3& operator[](std::size_t i) const { return entries_[i].offset; }
-  double squaredDistance(std::size_t i) const { return entries_[i].squared; }
+  glm::dvec3 operator[](std::size_t i) const { return at(order_[i]); }
+  double squaredDistance(std::size_t i) const { return squared_[order_[i]]; }
+
+  /// Where they are in a plane, in any order: `x` along `first`, `y` along `second`; `far` in both
+  /// in the place of those that are not there.
+  void project(const glm::dvec3& first, const glm::dvec3& second, float far,
+    std::array<float, most + 1>& x, std::array<float, most + 1>& y) const;
 
 private:
+  static constexpr std::size_t room = most + 1; ///< the point itself is among those assigned
   /// False for more than 16, and where two are nearly equally far.
   bool assignSorted(const glm::dvec3* offsets, std::size_t count);
-  struct Entry
-  {
-    glm::dvec3 offset;
-    double squared;
-  };
-  std::array<Entry, most> entries_;
+  glm::dvec3 at(std::size_t slot) const { return { x_[slot], y_[slot], z_[slot] }; }
+
+  std::array<double, room> x_{}; ///< by slot
+  std::array<double, room> y_{};
+  std::array<double, room> z_{};
+  std::array<double, room> squared_{};
+  std::array<std::uint8_t, room> order_{}; ///< slots, nearest first
   std::size_t count_ = 0;
 };
 

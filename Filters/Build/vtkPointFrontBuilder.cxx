@@ -118,6 +118,7 @@ void vtkPointFrontBuilder::Content::Choose(
   choice.normalsRadius = builder.NormalsRadius;
   choice.normalsEps = builder.NormalsError;
   choice.curvature = builder.Curvature;
+  choice.splatRadius = builder.SplatRadius;
   if (!this->NormalsClasses.empty())
   {
     choice.normalsClasses.emplace(this->NormalsClasses.begin(), this->NormalsClasses.end());
@@ -362,6 +363,7 @@ void vtkPointFrontBuilder::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "NormalsRadius: " << this->NormalsRadius << "\n";
   os << indent << "NormalsError: " << this->NormalsError << "\n";
   os << indent << "Curvature: " << this->Curvature << "\n";
+  os << indent << "SplatRadius: " << this->SplatRadius << "\n";
   os << indent << "LocalHeight: " << this->LocalHeight << "\n";
   os << indent << "LocalHeightRadius: " << this->LocalHeightRadius << "\n";
   os << indent << "HeightAboveGround: " << this->HeightAboveGround << "\n";

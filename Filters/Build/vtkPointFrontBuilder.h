@@ -197,6 +197,16 @@ public:
   ///@}
 
   ///@{
+  /**
+   * Attribute splat_radius: how large each point must be drawn for surfaces to close, measured
+   * among its neighbours. Off by default; comes with normals by PCA.
+   */
+  vtkSetMacro(SplatRadius, bool);
+  vtkGetMacro(SplatRadius, bool);
+  vtkBooleanMacro(SplatRadius, bool);
+  ///@}
+
+  ///@{
   /// Attribute local_height: above the mean of the same class within LocalHeightRadius (5).
   vtkSetMacro(LocalHeight, bool);
   vtkGetMacro(LocalHeight, bool);
@@ -278,6 +288,7 @@ protected:
   double NormalsRadius = 0.0;
   double NormalsError = 0.0;
   bool Curvature = false;
+  bool SplatRadius = false;
   bool LocalHeight = false;
   double LocalHeightRadius = 5.0;
   bool HeightAboveGround = false;

@@ -18,6 +18,8 @@ namespace pointfront
 {
 namespace
 {
+/// Points that the radius of a splat is from, the point itself included.
+constexpr std::uint32_t ofRadius = NearOffsets::most + 1;
 constexpr double curvatureSteps = 65535.0 * 3.0; // to 1; the largest curvature is 1/3
 
 Attribute curvatureAttribute()
@@ -43,21 +45,26 @@ struct SurfaceValues
 class SurfaceFeature final : public NeighbourhoodFeature
 {
 public:
-  /// Of so many neighbours; 0: those within a radius.
-  SurfaceFeature(std::uint32_t neighbours, SurfaceValues values,
+  /// A plane of the nearest `ofPlane` of so many neighbours; 0: of all within a radius.
+  SurfaceFeature(std::uint32_t ofPlane, std::uint32_t neighbours, SurfaceValues values,
     std::atomic<std::uint64_t>& without, SplatCodes& radii)
-    : neighbours_(neighbours)
+    : ofPlane_(ofPlane)
+    , neighbours_(neighbours)
     , values_(values)
     , without_(without)
     , radii_(radii)
   {
   }
   std::size_t bytes() const override { return values_.waitingBytes(); }
-  bool orderFree() const override { return neighbours_ <= mostExactlySummed; }
+  bool orderFree() const override
+  {
+    return ofPlane_ == neighbours_ && neighbours_ <= mostExactlySummed;
+  }
   void compute(const glm::dvec3& position, const std::vector<NearPoint>& near,
     std::byte* value) const override
   {
-    const std::optional<SurfaceFit> fit = fitSurface(position, near);
+    const std::optional<SurfaceFit> fit = ofPlane_ == neighbours_
+      ? fitSurface(position, near) : fitSurface(position, nearestOf(near, ofPlane_));
     if (values_.normal)
     {
       if (!fit)
@@ -75,17 +82,36 @@ public:
     }
     if (values_.radius)
     {
-      const WaitingRadius radius = waitingRadius(radiusOf(position, near, fit));
+      const WaitingRadius radius = waitingRadius(ofPlane_ == neighbours_
+          ? radiusOf(position, near, fit)
+          : radiusOf(position, near, fitSurface(position, near)));
       radii_.count(radius);
       std::memcpy(value + values_.radiusAt(), &radius, sizeof radius);
     }
   }
 
 private:
+  /// So many points of a list that has the nearest first.
+  static std::vector<NearPoint> nearestOf(const std::vector<NearPoint>& near, std::uint32_t wanted)
+  {
+    std::vector<NearPoint> nearest;
+    for (const NearPoint& point : near)
+    {
+      if (wanted == 0)
+      {
+        break;
+      }
+      nearest.push_back(point);
+      nearest.back().count = std::min(point.count, wanted);
+      wanted -= nearest.back().count;
+    }
+    return nearest;
+  }
+
   static double radiusOf(const glm::dvec3& position, const std::vector<NearPoint>& near,
     const std::optional<SurfaceFit>& fit)
   {
-    constexpr std::size_t usual = NearOffsets::most + 1;
+    constexpr std::size_t usual = ofRadius;
     NearOffsets offsets;
     std::array<glm::dvec3, usual> few;
     for (std::size_t i = 0; i < std::min(near.size(), usual); ++i)
@@ -102,6 +128,7 @@ private:
     return splatRadius(offsets, plane);
   }
 
+  std::uint32_t ofPlane_;
   std::uint32_t neighbours_;
   SurfaceValues values_;
   std::atomic<std::uint64_t>& without_;
@@ -183,7 +210,9 @@ Result<PointSources> NormalsPass::apply(
 {
   const InputOrder order(sources);
   NeighbourhoodOptions search;
-  search.neighbours = options_.radius > 0.0 ? 0 : options_.neighbours;
+  const SurfaceValues kept{ options_.normals, options_.curvature, options_.splatRadius };
+  const std::uint32_t ofPlane = options_.radius > 0.0 ? 0 : options_.neighbours;
+  search.neighbours = kept.radius && ofPlane > 0 ? std::max(ofPlane, ofRadius) : ofPlane;
   search.radius = options_.radius;
   search.tilePoints = options_.tilePoints;
   search.phase = options_.normals ? "normals" : "splat sizes";
@@ -195,9 +224,8 @@ Result<PointSources> NormalsPass::apply(
   search.participants = { *classes, *classes };
   const auto eps = static_cast<float>(options_.eps);
   without_ = 0;
-  const SurfaceValues kept{ options_.normals, options_.curvature, options_.splatRadius };
   const auto radii = std::make_unique<SplatCodes>();
-  const SurfaceFeature feature(search.neighbours, kept, without_, *radii);
+  const SurfaceFeature feature(ofPlane, search.neighbours, kept, without_, *radii);
   Result<std::unique_ptr<PointColumn>> column = computeFromNeighbours(
     sources, order, search,
     [eps](const PositionSet& set) { return std::make_unique<FlannIndex>(set, eps); }, feature,

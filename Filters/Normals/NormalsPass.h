@@ -29,7 +29,7 @@ struct NormalsOptions
 /// Attribute "normal" (NormalAttribute.h) of each point from the plane through its nearest points
 /// (PCA; LAYERS 3.1, after Mitra and Nguyen 2003), and "curvature" if asked: smallest eigenvalue
 /// over the sum of all; and "splat_radius" (SplatCell.h) from the nearest 15 of the same
-/// neighbours, or of as many as there are.
+/// neighbours, or of as many as there are. They are 15 where normals have fewer, too.
 /// Sign     towards the scanner where a source tells where it stood, else up.
 /// Base     of the radii: chosen when all are known, in each source's description.
 /// Zero     where there is no plane: fewer than three neighbours, or all on one line; for the other

@@ -140,9 +140,15 @@ std::optional<std::vector<LayerStyling>> MapperStyle::resolve(
   {
     return layers_;
   }
+  if (sheetStore_ != store || !ranges_)
+  {
+    ranges_ = std::make_shared<AttributeRanges>(
+      std::vector<std::shared_ptr<const StoredCloud>>{store});
+  }
   sheet_ = sheet;
   sheetStore_ = store;
   StoreSurroundings surroundings;
+  surroundings.ranges = ranges_.get();
   if (sheet.wantsHeights(store->description()))
   {
     wantHeights(store);

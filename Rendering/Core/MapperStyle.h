@@ -1,6 +1,7 @@
 #pragma once
 
 #include "pointfront/Front/NodePruning.h"
+#include "pointfront/Style/AttributeRanges.h"
 #include "pointfront/Style/ResolvedStyle.h"
 #include "pointfront/Style/StyleSheet.h"
 
@@ -68,6 +69,7 @@ private:
   std::shared_ptr<const ResolvedStyle> style_;
   std::optional<StyleSheet> sheet_; ///< that layers_ are of
   std::shared_ptr<const StoredCloud> sheetStore_;
+  std::shared_ptr<const AttributeRanges> ranges_; ///< of sheetStore_
   std::optional<std::vector<LayerStyling>> layers_;
   std::vector<std::shared_ptr<const NodePruning>> pruning_; ///< of layers_
   std::string error_;

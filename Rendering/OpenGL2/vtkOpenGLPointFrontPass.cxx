@@ -39,6 +39,16 @@ vtkStandardNewMacro(vtkOpenGLPointFrontPass);
 namespace
 {
 
+/// What vtkOpenGLPolyDataMapper adds to the coincident offset of points in selections.
+constexpr float selectionOffset = -2.0f;
+
+bool selectsPoints(vtkRenderer* renderer)
+{
+  vtkHardwareSelector* selector = renderer->GetSelector();
+  return selector &&
+    selector->GetFieldAssociation() == vtkDataObject::FIELD_ASSOCIATION_POINTS;
+}
+
 std::string definitions(pointfront::PointColouring::Kind kind, bool ids)
 {
   return "#define POINTFRONT_COLOUR " + std::to_string(static_cast<int>(kind)) +
@@ -153,6 +163,20 @@ void vtkOpenGLPointFrontPass::ReplaceShaderPicking(
   pointfront::replacePicking(shaders, this->LastSelectionState, "pointIdVSOutput");
 }
 
+/// Without what VTK moves points by in selections: they would win over what hides them, 30 m behind
+/// it at a distance of 1 km with a near plane at 1 m.
+void vtkOpenGLPointFrontPass::ReplaceShaderCoincidentOffset(
+  std::map<vtkShader::Type, vtkShader*> shaders, vtkRenderer* ren, vtkActor* act)
+{
+  float factor = 0.0f;
+  float offset = 0.0f;
+  this->GetCoincidentParameters(ren, act, factor, offset);
+  if (!selectsPoints(ren) || factor != 0.0f || offset != selectionOffset)
+  {
+    this->Superclass::ReplaceShaderCoincidentOffset(shaders, ren, act);
+  }
+}
+
 void vtkOpenGLPointFrontPass::SetMapperShaderParameters(
   vtkOpenGLHelper& cellBO, vtkRenderer* ren, vtkActor* act)
 {
@@ -197,6 +221,13 @@ void vtkOpenGLPointFrontPass::SetCameraShaderParameters(
   vtkOpenGLHelper& cellBO, vtkRenderer* ren, vtkActor* act)
 {
   this->Superclass::SetCameraShaderParameters(cellBO, ren, act);
+  if (selectsPoints(ren) && cellBO.Program->IsUniformUsed("cOffset"))
+  {
+    float factor = 0.0f;
+    float offset = 0.0f;
+    this->GetCoincidentParameters(ren, act, factor, offset);
+    cellBO.Program->SetUniformf("cOffset", offset - selectionOffset);
+  }
 
   // What the superclass set takes world coordinates; ours are relative to the reference point, and
   // all that is large is folded in here, in double.
@@ -294,19 +325,22 @@ void vtkOpenGLPointFrontPass::RenderPieceDraw(vtkRenderer* ren, vtkActor* act)
   vtkOpenGLState* state = window->GetState();
   this->DrawingVertices = false;
   this->DrawingSelection = false;
+  if (selectsPoints(ren))
+  {
+    // Its points are those of the pixels that show them. VTK would draw squares of two pixels at
+    // least, and without a depth mask the last point near the surface, not the nearest.
+    this->PointPicking = false;
+    state->vtkglDepthMask(GL_TRUE);
+  }
   vtkOpenGLHelper& points = this->Primitives[PrimitivePoints];
   points.PrimitiveType = PrimitivePoints;
   this->UpdateShaders(points, ren, act);
   if (points.Program)
   {
-    if (this->PointPicking)
-    {
-      state->vtkglPointSize(static_cast<float>(std::max<double>(2.0, this->Drawing->pointSize)));
-    }
-    else if (this->Drawing->pointSize > 0.0)
-    {
-      state->vtkglPointSize(static_cast<float>(this->Drawing->pointSize));
-    }
+    const double size = this->Drawing->pointSize > 0.0
+      ? this->Drawing->pointSize
+      : static_cast<double>(act->GetProperty()->GetPointSize());
+    state->vtkglPointSize(static_cast<float>(size));
     points.VAO->Bind();
     this->DrawBlocks(points);
     vtkOpenGLCheckErrorMacro("failed after drawing points");

@@ -54,6 +54,13 @@ class KnownPictures(SceneTest):
         inside = picture[40:440, 150:490].max(axis=2)
         self.assertEqual(int((inside == 0).sum()), 0)
 
+    def test_a_few_pixels_are_a_picture(self):
+        for size in ((1, 1), (1, 2), (5, 1)):
+            for error in ("1", "100"):
+                options = ("--view", "top", "--background", "0,0,0", "--error", error)
+                picture = self.picture(self.store, *options, size=size)
+                self.assertGreater(int(picture.max()), 0, f"{size}, error {error}")
+
     def test_views_from_the_sides_see_an_edge(self):
         for view in ("front", "back", "left", "right"):
             picture = self.picture(self.store, "--view", view, "--background", "0,0,0")

@@ -25,6 +25,15 @@ function (pointfront_add_display_test)
     ENVIRONMENT "LIBGL_ALWAYS_SOFTWARE=1")
 endfunction ()
 
+# pointfront_name_leaks(<executable>)
+# For programs that open a window: LeakSanitizer then knows where the driver's memory belongs.
+function (pointfront_name_leaks executable)
+  if (POINTFRONT_SANITIZE MATCHES "address")
+    target_sources(${executable} PRIVATE
+      "${CMAKE_SOURCE_DIR}/Testing/Support/LibrariesStayOpen.cxx")
+  endif ()
+endfunction ()
+
 # pointfront_add_module_test(<executable> MODULES <module>... [SUITES <suite>...])
 # One executable of all Cxx/*.cxx of the calling folder. With SUITES its tests draw: each is one
 # test on an X server; without, each test is found by itself.
@@ -34,11 +43,13 @@ function (pointfront_add_module_test name)
   include(GoogleTest)
   file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/Cxx/*.cxx")
   add_executable(${name} ${sources})
+  pointfront_compile_by_folder(${name})
   target_include_directories(${name} PRIVATE "${CMAKE_CURRENT_SOURCE_DIR}/Cxx"
     "${CMAKE_SOURCE_DIR}/vtkmodule/Core/Testing")
   target_link_libraries(${name} PRIVATE ${test_MODULES} pointfrontWarnings GTest::gtest_main)
   vtk_module_autoinit(TARGETS ${name} MODULES ${test_MODULES})
   if (test_SUITES)
+    pointfront_name_leaks(${name})
     foreach (suite IN LISTS test_SUITES)
       pointfront_add_display_test(NAME "${name}.${suite}"
         COMMAND "$<TARGET_FILE:${name}>" "--gtest_filter=${suite}.*")

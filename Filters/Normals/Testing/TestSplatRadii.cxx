@@ -86,6 +86,42 @@ TEST(SplatRadii, ComeWithNormalsAndChangeThemNot)
   EXPECT_EQ(attributeOf<std::uint8_t>(*both, splatRadiusAttribute), alone.codes);
 }
 
+TEST(SplatRadii, DoNotDependOnFewNeighboursOfNormals)
+{
+  SplatPatterns patterns(7);
+  Positions points = patterns.scanLines(3000, 2.0);
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    points[i].z = 0.002 * static_cast<double>(i * 7919 % 13);
+  }
+  for (int i = 0; i < 3000; ++i)
+  {
+    points.emplace_back(2.0 + 0.01 * (i % 60), 0.01 * (i / 60), i % 3 == 0 ? 0.005 : 0.0);
+    if (i % 5 == 0)
+    {
+      points.push_back(points.back()); // twice
+    }
+  }
+  const Radii alone = radiiBy(radiiOnly(), sourcesOf(points));
+  for (const std::uint32_t neighbours : { 3u, 8u, 15u })
+  {
+    NormalsOptions with;
+    with.neighbours = neighbours;
+    with.curvature = true;
+    NormalsOptions without = with;
+    without.splatRadius = false;
+    const auto both = NormalsPass(with).apply(sourcesOf(points), testResources());
+    const auto plain = NormalsPass(without).apply(sourcesOf(points), testResources());
+    ASSERT_TRUE(both && plain);
+    EXPECT_EQ(attributeOf<std::uint8_t>(*both, splatRadiusAttribute), alone.codes) << neighbours;
+    EXPECT_EQ(both->front()->description().splatRadiusBase, alone.base) << neighbours;
+    EXPECT_EQ(attributeOf<PackedNormal>(*both, "normal"),
+      attributeOf<PackedNormal>(*plain, "normal")) << neighbours;
+    EXPECT_EQ(attributeOf<std::uint16_t>(*both, "curvature"),
+      attributeOf<std::uint16_t>(*plain, "curvature")) << neighbours;
+  }
+}
+
 // Regular lattices are full of neighbours at the same distance.
 TEST(SplatRadii, DependNeitherOnTilesNorOnThreads)
 {

@@ -28,6 +28,7 @@ uniform vec3 stepSize;             // MC units of a grid step
 uniform vec4 flatColour;           // of points without a value
 
 out vec4 vertexColorVSOutput;
+invariant gl_Position;             // of all variants: passes compare depths of each other
 
 #if POINTFRONT_PICKING
 uniform isamplerBuffer slotIds;    // x, y: low and high 24 bits of the id of the slot's first point

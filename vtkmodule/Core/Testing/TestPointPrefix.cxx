@@ -27,6 +27,14 @@ TEST(PointPrefix, FadesInBetweenTheParentsTurnAndItsOwn)
   EXPECT_NEAR(prefixErrorPx(10000, points, 2.0, 0.5), 3.0, 1e-3);
 }
 
+TEST(PointPrefix, OfARootIsAPointAtLeast)
+{
+  EXPECT_EQ(prefixLength(10000, 0.001, 0.0, 100.0), 1u);
+  EXPECT_EQ(prefixLength(1, 0.001, 0.0, 100.0), 1u);
+  EXPECT_EQ(prefixLength(0, 0.001, 0.0, 100.0), 0u);
+  EXPECT_EQ(prefixLength(10000, 0.001, 0.5, 100.0), 0u); // its parent shows
+}
+
 TEST(ThresholdLadder, HasTheTargetTheInitialThresholdAndSmallSteps)
 {
   const ThresholdLadder ladder(1.3, 60.0);

@@ -214,6 +214,23 @@ TEST_F(Builder, GivesTheStoreTheShapeAndTheAttributesThatAreAskedFor)
   }
 }
 
+TEST_F(Builder, MeasuresRadiiOfSplatsWhereTheyAreAskedFor)
+{
+  EXPECT_FALSE(builder->GetSplatRadius());
+  for (const bool asked : {false, true})
+  {
+    builder->SetSplatRadius(asked);
+    builder->OverwriteOn();
+    ASSERT_EQ(builder->Write(), 1);
+    const auto store = pointfront::PointStore::open(builder->GetOutputFileName());
+    ASSERT_TRUE(store);
+    const pointfront::StoreDescription& description = store.value()->description();
+    EXPECT_EQ(bool(description.schema.find("splat_radius")), asked);
+    EXPECT_EQ(description.splatRadiusBase > 0.0, asked);
+    EXPECT_FALSE(description.schema.find("normal"));
+  }
+}
+
 TEST_F(Builder, BuildsRepresentativesByClass)
 {
   builder->SetRefinementToReplace();

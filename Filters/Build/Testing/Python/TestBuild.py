@@ -61,14 +61,16 @@ shaped.SetStructureToKdTree()
 shaped.SetLayersToNone()
 shaped.SetNormalsToScanLine()
 shaped.LocalHeightOn()
-for name in ("intensity", "normal", "local_height"):
+assert not shaped.GetSplatRadius()
+shaped.SplatRadiusOn()
+for name in ("intensity", "normal", "local_height", "splat_radius"):
     shaped.AddAttribute(name)
 assert shaped.Write() == 1, shaped.GetErrorCode()
 reader.SetFileName(store + ".shaped.pfront")
 reader.Update()
 opened = reader.GetStore()
 names = {opened.GetAttributeName(i) for i in range(opened.GetNumberOfAttributes())}
-assert names == {"intensity", "normal", "local_height"}, names
+assert names == {"intensity", "normal", "local_height", "splat_radius"}, names
 shaped.CurvatureOn()  # of PCA, which is not asked for
 refused = []
 shaped.AddObserver(vtkCommand.ErrorEvent, lambda b, e: refused.append(e))

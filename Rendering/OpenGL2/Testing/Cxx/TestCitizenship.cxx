@@ -87,8 +87,8 @@ TEST(Citizenship, HardwareSelectionGivesTheRankInTheStore)
     ASSERT_GE(index, 0);
     double found[3];
     all->GetPoint(index, found);
-    EXPECT_NEAR(found[0], at.x, 0.05); // two pixels: a selection draws points of two
-    EXPECT_NEAR(found[1], at.y, 0.05);
+    EXPECT_NEAR(found[0], at.x, 0.03); // a pixel
+    EXPECT_NEAR(found[1], at.y, 0.03);
   }
 }
 

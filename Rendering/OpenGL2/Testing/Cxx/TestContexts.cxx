@@ -160,9 +160,12 @@ TEST(Contexts, AnotherColourUploadsNoPosition)
   scene.draw();
   EXPECT_EQ(uploaded(scene) - before, 150 * 150 * 4);
   EXPECT_EQ(liveNames(scene.window), names + 2) << "table of colours, vertex array of its program";
+  const vtkTypeInt64 withTimes = scene.mapper->GetLastGPUBytes();
   scene.mapper->SelectColorArray("elevation");
   scene.draw();
   EXPECT_EQ(uploaded(scene) - before, 150 * 150 * 4) << "of no column";
+  EXPECT_LE(scene.mapper->GetLastGPUBytes(), withTimes - 150 * 150 * 4)
+    << "what no style reads is gone with the next frame";
 }
 
 } // namespace

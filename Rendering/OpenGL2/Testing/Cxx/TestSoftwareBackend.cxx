@@ -3,6 +3,7 @@
 
 #include "Scene.h"
 
+#include "pointfront/Style/AttributeRanges.h"
 #include "pointfront/Style/StyleSheet.h"
 #include "vtkPointFrontStyle.h"
 
@@ -27,6 +28,7 @@
 #include <vtkWindowToImageFilter.h>
 
 #include <array>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -411,6 +413,40 @@ TEST(SoftwareBackend, DrawsByStyleSheets)
   EXPECT_GT(left.lit(), splats.lit() / 4);
   scene.mapper->SetStyleSheet(nullptr);
   EXPECT_EQ(differing(points, scene.draw()), 0);
+}
+
+TEST(SoftwareBackend, FewOutliersDoNotEatTheColours)
+{
+  // Times of 0 to 1 and, of one point in 200, of 1000: colours are those of 2 % to 98 %.
+  Scene scene(storeOf("outliers", 200 * 200,
+    [](std::size_t i)
+    {
+      Sample sample;
+      sample.position = {20 * static_cast<int>(i % 200) - 1990,
+        20 * static_cast<int>(i / 200) - 1990, 0};
+      sample.time = i % 200 == 77 ? 1000.0 : static_cast<double>(i % 200) / 200.0;
+      return sample;
+    }));
+  scene.mapper->SetBackendToSoftware();
+  const auto coloured = [&](std::optional<std::array<double, 2>> range)
+  {
+    auto sheet = std::make_shared<StyleSheet>();
+    ColourMapChoice map;
+    map.range = range;
+    sheet->standard.colour = ColourSource::ofAttribute("gps_time", map);
+    scene.mapper->SetStyleSheet(sheet);
+    return scene.draw();
+  };
+  scene.draw(); // opens the store
+  const AttributeRanges ranges({scene.mapper->GetStore()->GetStore()});
+  const auto sampled = ranges.of("gps_time");
+  ASSERT_TRUE(sampled);
+  EXPECT_NEAR((*sampled)[0], 0.02, 0.01);
+  EXPECT_NEAR((*sampled)[1], 0.98, 0.01);
+  const Picture automatic = coloured(std::nullopt);
+  EXPECT_GT(automatic.lit(), 1000);
+  EXPECT_EQ(differing(automatic, coloured(*sampled)), 0);
+  EXPECT_GT(differing(automatic, coloured(std::array<double, 2>{0.0, 1000.0})), 1000);
 }
 
 TEST(SoftwareBackend, AStyleMayChangeBetweenTwoFrames)

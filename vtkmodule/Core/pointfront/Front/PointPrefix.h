@@ -32,13 +32,18 @@ inline double prefixFraction(double errorPx, double ratio, double thresholdPx)
   return wanted > above ? (wanted - above) / (1.0 - above) : 0.0;
 }
 
-/// The prefix in points, rounded; all of them for a fraction of 1. Falls with the threshold.
+/// The prefix in points, rounded; all of them for a fraction of 1. Falls with the threshold. Of a
+/// root (ratio 0) at least one: what is in view shows, however few pixels there are.
 inline std::uint32_t prefixLength(
   std::uint32_t pointCount, double errorPx, double ratio, double thresholdPx)
 {
-  return errorPx >= thresholdPx
-    ? pointCount
-    : static_cast<std::uint32_t>(pointCount * prefixFraction(errorPx, ratio, thresholdPx) + 0.5);
+  if (errorPx >= thresholdPx)
+  {
+    return pointCount;
+  }
+  const auto rounded =
+    static_cast<std::uint32_t>(pointCount * prefixFraction(errorPx, ratio, thresholdPx) + 0.5);
+  return rounded == 0 && ratio == 0.0 && pointCount > 0 ? 1 : rounded;
 }
 
 /// The density on screen when `drawn` of `pointCount` points are drawn, to that of all of them.

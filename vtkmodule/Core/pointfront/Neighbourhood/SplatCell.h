@@ -1,45 +1,11 @@
 #pragma once
 
-#include <glm/vec3.hpp>
+#include "pointfront/Neighbourhood/NearOffsets.h"
 
-#include <array>
-#include <cstddef>
-#include <vector>
+#include <glm/vec3.hpp>
 
 namespace pointfront
 {
-
-/// What is around a point: places, as seen from it, nearest first, each once, without its own.
-/// Order    by distance, then by the offsets: the same whatever order they came in.
-/// Threads  one a thread; begin() keeps nothing.
-class NearOffsets
-{
-public:
-  static constexpr std::size_t most = 15;
-
-  void begin() { count_ = 0; }
-  /// Keeps the nearest `most` of all that are added. The point's own place (0) is left out.
-  void add(const glm::dvec3& offset);
-  /// begin() and add() of each: much less time for up to 16, unless some are equally far.
-  void assign(const glm::dvec3* offsets, std::size_t count);
-  /// Only what is nearer can still be kept.
-  double squaredBound() const;
-
-  std::size_t size() const { return count_; }
-  const glm::dvec3& operator[](std::size_t i) const { return entries_[i].offset; }
-  double squaredDistance(std::size_t i) const { return entries_[i].squared; }
-
-private:
-  /// False for more than 16, and where two are nearly equally far.
-  bool assignSorted(const glm::dvec3* offsets, std::size_t count);
-  struct Entry
-  {
-    glm::dvec3 offset;
-    double squared;
-  };
-  std::array<Entry, most> entries_;
-  std::size_t count_ = 0;
-};
 
 /// The plane of a neighbourhood, and how far it is one. Eigenvalues are of the covariance.
 struct NeighbourPlane

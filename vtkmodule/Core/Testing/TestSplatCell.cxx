@@ -209,6 +209,45 @@ TEST(SplatCell, TheRimOfASurfaceIsNotInflated)
   EXPECT_LT(*std::max_element(radii.begin(), radii.end()), 3.0 * quantileOf(radii, 0.5));
 }
 
+// Seven neighbours on a wire, eight in the tree beside it: no plane through both.
+TEST(SplatCell, AWireBesideATreeIsAWire)
+{
+  Points points;
+  for (int i = 1; i <= 7; ++i)
+  {
+    points.emplace_back(0.9 * i, 1.2 * i, 0.4 * i);
+  }
+  test::SplatPatterns patterns(9);
+  for (int i = 0; i < 8; ++i)
+  {
+    points.emplace_back(
+      25.0 + 4.0 * patterns.uniform(), -16.0 + 4.0 * patterns.uniform(), -20.0 * patterns.uniform());
+  }
+  EXPECT_LE(radiusAmong(points), margin * std::sqrt(0.81 + 1.44 + 0.16) + 1e-9); // a step
+}
+
+// A bird over a field is no surface that reaches down to it.
+TEST(SplatCell, AStrayIsAsLargeAsWhatIsBesideIt)
+{
+  test::SplatPatterns patterns(8);
+  Points points = patterns.blueNoise(3000);
+  const double usual = quantileOf(radiiOf(points), 0.5);
+  const glm::dvec3 middle = points[1500];
+  for (const double height : { 8.0, 20.0, 100.0 })
+  {
+    for (const glm::dvec3& way : { glm::dvec3(0.0, 0.0, 1.0), glm::dvec3(0.6, 0.0, 0.8) })
+    {
+      Points with = points;
+      with.push_back(middle + height * usual * way);
+      const double alone = radiiOf(with).back();
+      EXPECT_GT(alone, 0.3 * usual) << height;
+      EXPECT_LT(alone, 3.0 * usual) << height; // seen at a slant they lie in a strip
+      with.push_back(with.back() + 0.3 * usual * way); // a pair
+      EXPECT_LT(radiiOf(with).back(), 3.0 * usual) << height;
+    }
+  }
+}
+
 TEST(SplatCell, Extremes)
 {
   EXPECT_EQ(radiusAmong({}), 0.0);

@@ -132,7 +132,7 @@ public:
     for (const auto& component : range.components)
     {
       wide_ = wide_ || component[1] > 255.0;
-      varies_ = varies_ || component[0] < component[1];
+      shows_ = shows_ || component[0] < component[1] || (colour_ && component[1] > 0.0);
     }
   }
 
@@ -165,8 +165,8 @@ public:
     }
   }
 
-  /// Whether the store's points have more than one value of it.
-  bool varies() const { return varies_; }
+  /// Whether the store's points have more than one value of it, or a colour that is not black.
+  bool showsSomething() const { return shows_; }
   const std::string& name() const { return attribute_.name; }
   std::size_t stride() const { return attribute_.components * sizeOf(attribute_.type); }
   vtkDataArray* array() const { return array_; }
@@ -175,7 +175,7 @@ private:
   Attribute attribute_;
   bool scaled_;
   bool colour_;
-  bool varies_ = false;
+  bool shows_ = false;
   bool wide_ = false; ///< 16-bit colour uses more than its low byte
   vtkSmartPointer<vtkDataArray> array_;
 };
@@ -234,13 +234,15 @@ const char* PointArrays::defaultColours() const
   {
     for (const Column& column : columns_)
     {
-      if (column.name() == name && column.varies())
+      if (column.name() == name && column.showsSomething())
       {
         return name;
       }
     }
   }
-  return "elevation";
+  double range[2];
+  elevation_->GetRange(range);
+  return range[0] < range[1] ? "elevation" : nullptr;
 }
 
 void PointArrays::moveTo(vtkPolyData* output)

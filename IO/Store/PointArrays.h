@@ -26,7 +26,8 @@ namespace pointfront
 ///             takes only bytes as colours without a lookup table.
 /// Elevation   a further array of that name, which the mapper draws by, too: z.
 /// Colours     the active scalars are the first of what was chosen that shows something: rgb,
-///             classification, intensity, if it is not the same everywhere; else elevation.
+///             classification, intensity, elevation: rgb unless it is black, the others if they are
+///             not the same everywhere.
 /// Identity    global point ids are ranks in the store: (node, position in the node).
 class PointArrays
 {

@@ -83,8 +83,10 @@ inline void storePairs(std::int32_t* p, LaneWeights a, LaneWeights b)
 /// Two weights, 0 where the splat is behind; each four times.
 inline __m256i twoWeights(const float* nearest, const float* depths, const std::int32_t* w)
 {
-  const __m128 front = _mm_castpd_ps(_mm_load_sd(reinterpret_cast<const double*>(depths)));
-  const __m128 known = _mm_castpd_ps(_mm_load_sd(reinterpret_cast<const double*>(nearest)));
+  const __m128 front =
+    _mm_castsi128_ps(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(depths)));
+  const __m128 known =
+    _mm_castsi128_ps(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(nearest)));
   const __m128i drawn = _mm_castps_si128(_mm_cmple_ps(front, known));
   const __m128i weights = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(w));
   return _mm256_permutevar8x32_epi32(

@@ -1,4 +1,4 @@
-"""`info` of any readable file, and `--stats`: what Python computes from the bytes of the LAS file."""
+"""`info` of any readable file, and `--stats`: what Python computes from the bytes of a LAS file."""
 
 import gzip
 import json
@@ -123,7 +123,8 @@ class Statistics(ToolTest):
 
         for name in ("x.laz", "x.ply", "x.pcd", "x.csv"):
             out = self.folder / name
-            self.succeed("export", stores[0], "-o", out, "--double" if name == "x.pcd" else "--force")
+            double = ["--double"] if name == "x.pcd" else []
+            self.succeed("export", stores[0], "-o", out, *double)
             report = self.succeed("info", out, "--stats", "--json").json
             stats = self.check(report, rows, ["x", "y", "z", "intensity", "gps_time"])
             self.assertEqual({c["class"]: c["points"] for c in stats["classes"]},

@@ -6,8 +6,10 @@
 #include "pointfront/Statistics/ValueSpan.h"
 #include "pointfront/Threads/ThreadCrew.h"
 
+#include <algorithm>
 #include <array>
 #include <memory>
+#include <utility>
 
 namespace pointfront
 {
@@ -116,7 +118,7 @@ struct RangeTally
 
 struct SumTally
 {
-  RejectionCounts rejected{};
+  RejectionCounts rejected{}; ///< as the first reading found them
   GroupTable<SumGroup> groups;
   std::vector<std::int16_t> groupOfPoint; ///< of the batch at hand
 };

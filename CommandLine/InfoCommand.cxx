@@ -1,188 +1,199 @@
 #include "InfoCommand.h"
 
-#include "ByteSize.h"
-
 #include "CancelSignal.h"
+#include "InputFiles.h"
+#include "SourceFormats.h"
+#include "SourceInfo.h"
+#include "StatisticsReport.h"
+#include "StoreInfo.h"
+#include "Values.h"
 
-#include "pointfront/Points/SplatRadius.h"
-#include "pointfront/Store/PreviewRecord.h"
+#include "pointfront/Statistics/StoredPoints.h"
 #include "pointfront/Store/StoredCloudFormats.h"
 
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
 #include <cstdio>
-#include <sstream>
+#include <filesystem>
 
 namespace pointfront
 {
 
 namespace
 {
-const char* refinementName(Refinement refinement)
+/// Says why it does not open as a store even if nothing in it looks like one.
+bool namedLikeStore(const std::string& path)
 {
-  return refinement == Refinement::Add ? "add" : "replace";
+  const std::string extension = std::filesystem::path(path).extension().string();
+  return extension == ".pfront" || extension == ".pfindex";
 }
 
-/// The coarsest axis: no coordinate is farther from the truth than half of it.
-double precisionOf(const QuantisationGrid& grid)
+void print(const std::string& text)
 {
-  return std::max({ grid.scale.x, grid.scale.y, grid.scale.z });
+  std::printf("%s\n", text.c_str());
 }
 
-enum class SplatMeasure : std::uint8_t
+/// What is wrong with some of several inputs; the others were told.
+Error faultsOf(const std::vector<Error>& faults, std::size_t inputs)
 {
-  None,
-  PerNode,
-  PerPoint ///< and per node
-};
-
-SplatMeasure splatMeasure(const StoreDescription& store, const Hierarchy& hierarchy)
-{
-  if (store.splatRadiusBase > 0.0 && store.schema.find(splatRadiusAttribute))
+  if (inputs == 1)
   {
-    return SplatMeasure::PerPoint;
+    return faults.front();
   }
-  const std::vector<NodeIndex>& roots = hierarchy.roots();
-  const bool byNode = std::any_of(roots.begin(), roots.end(),
-    [&](NodeIndex root) { return hierarchy.node(root).splatRadius > 0.0f; });
-  return byNode ? SplatMeasure::PerNode : SplatMeasure::None;
-}
-
-/// Versions of stores and of side files.
-bool olderThanSplats(const StoreDescription& store)
-{
-  return store.version < (store.structure == "inplace" ? 2u : 3u);
-}
-
-const char* nameOf(SplatMeasure measure)
-{
-  return measure == SplatMeasure::PerPoint ? "per point"
-    : measure == SplatMeasure::PerNode     ? "per node"
-                                           : "none";
-}
-
-nlohmann::ordered_json boundsJson(const Bounds& b)
-{
-  return b.empty() ? nlohmann::ordered_json()
-                   : nlohmann::ordered_json{ b.low.x, b.low.y, b.low.z, b.high.x, b.high.y,
-                       b.high.z };
+  std::string what =
+    std::to_string(faults.size()) + " of " + std::to_string(inputs) + " inputs cannot be read";
+  const char* before = ": ";
+  for (const Error& fault : faults)
+  {
+    what += before + fault.what;
+    before = "; ";
+  }
+  return makeError(faults.front().kind, what);
 }
 } // namespace
 
 void InfoCommand::declare(CLI::App& program)
 {
-  app_ = program.add_subcommand("info", "Describe a store");
-  app_->add_option("store", path_, "The store")->required()->type_name("STORE");
+  app_ = program.add_subcommand("info", "Describe stores and point files");
+  app_->add_option("inputs", inputs_, "Stores, point files, glob patterns, folders")
+    ->required()
+    ->type_name("FILE...");
   app_->add_flag("--json", json_, "Print one JSON object");
+  CLI::Option* const statistics = app_->add_flag("--stats", statistics_,
+    "Read all points: ranges, means and histograms of attributes and classes, density");
+  app_->add_option("--bins", options_.bins, "Bins of a histogram (32)")
+    ->check(CLI::Range(1u, 4096u))
+    ->needs(statistics)
+    ->type_name("N");
+  addByteSize(*app_, "--memory", memoryBytes_, "Most memory for points that are read (256M)");
 }
 
 Result<void> InfoCommand::run()
 {
   const CancelSignal signal(CancelSignal::Mode::Leave);
-  Result<std::shared_ptr<const StoredCloud>> store =
-    StoredCloudFormats::ofProcess().open(path_);
+  options_.scan.memoryBytes = static_cast<std::size_t>(memoryBytes_);
+  const SourceFormats formats;
+  std::vector<std::string> extensions = formats.extensions();
+  extensions.insert(extensions.end(), { "pfront", "pfindex" });
+  const auto holdsPoints = [&formats](const std::string& path)
+  { return formats.mayHoldPoints(path); };
+  std::vector<Error> faults;
+  std::size_t inputs = 0;
+  auto reports = nlohmann::ordered_json::array();
+  for (const std::string& input : inputs_) // in the order of the arguments
+  {
+    const Result<InputFileList> files = findInputFiles({ input }, extensions, holdsPoints);
+    if (!files)
+    {
+      ++inputs;
+      faults.push_back(files.error());
+      continue;
+    }
+    for (const std::string& path : files->paths)
+    {
+      ++inputs;
+      if (Result<void> told = tell(path, formats, reports); !told)
+      {
+        faults.push_back(told.error());
+      }
+    }
+  }
+  if (json_ && !reports.empty())
+  {
+    const nlohmann::ordered_json object =
+      inputs == 1 ? reports[0] : nlohmann::ordered_json{ { "files", reports } };
+    // A name from a file need not be UTF-8: what is not becomes the replacement character.
+    print(object.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+  }
+  return faults.empty() ? Result<void>() : faultsOf(faults, inputs);
+}
+
+Result<void> InfoCommand::tell(const std::string& path, const PointFileOpener& opener,
+  nlohmann::ordered_json& reports) const
+{
+  const bool store = StoredCloudFormats::ofProcess().accepts(path) || namedLikeStore(path);
+  return store ? tellStore(path, reports) : tellSource(path, opener, reports);
+}
+
+Result<void> InfoCommand::tellStore(
+  const std::string& path, nlohmann::ordered_json& reports) const
+{
+  Result<std::shared_ptr<const StoredCloud>> store = StoredCloudFormats::ofProcess().open(path);
   if (!store)
   {
     return store.error();
   }
   const StoreDescription& description = (*store)->description();
   const Hierarchy& hierarchy = *(*store)->hierarchy();
-  const std::string text =
-    json_ ? storeJson(description, hierarchy) : storeText(description, hierarchy);
-  std::printf("%s\n", text.c_str());
+  std::optional<PointStatistics> statistics;
+  if (statistics_)
+  {
+    const Result<std::unique_ptr<PointSource>> points = StoredPoints::open(*store);
+    if (!points)
+    {
+      return points.error();
+    }
+    Result<PointStatistics> gathered = gatherStatistics(**points, options_);
+    if (!gathered)
+    {
+      return gathered.error();
+    }
+    statistics = std::move(*gathered);
+  }
+  if (!json_)
+  {
+    print(storeText(description, hierarchy) + (statistics ? statisticsText(*statistics) : ""));
+    return {};
+  }
+  reports.push_back(storeJson(description, hierarchy));
+  reports.back()["path"] = path;
+  if (statistics)
+  {
+    reports.back()["stats"] = statisticsJson(*statistics);
+  }
   return {};
 }
 
-std::string storeJson(const StoreDescription& store, const Hierarchy& hierarchy)
+Result<void> InfoCommand::tellSource(const std::string& path, const PointFileOpener& opener,
+  nlohmann::ordered_json& reports) const
 {
-  nlohmann::ordered_json object;
-  object["points"] = store.pointCount;
-  object["bounds"] = boundsJson(store.bounds);
-  object["precision"] = precisionOf(store.grid);
-  object["crs"] =
-    store.crsWkt.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(store.crsWkt);
-  object["structure"] = store.structure;
-  object["refinement"] = refinementName(store.refinement);
-  object["nodes"] = hierarchy.nodeCount();
-  object["levels"] = store.levels;
-  object["bytes"] = store.fileBytes;
-  object["attributes"] = nlohmann::ordered_json::array();
-  for (const Attribute& attribute : store.schema)
+  const Result<std::unique_ptr<PointSource>> source = opener.open(path);
+  if (!source)
   {
-    object["attributes"].push_back({ { "name", attribute.name },
-      { "type", std::string(nameOf(attribute.type)) }, { "components", attribute.components } });
+    return source.error();
   }
-  object["layers"] = nlohmann::ordered_json::array();
-  for (const Layer& layer : store.layers)
+  std::optional<PointStatistics> statistics;
+  if (statistics_)
   {
-    object["layers"].push_back({ { "class", layer.objectClass }, { "name", layer.name },
-      { "points", layer.pointCount }, { "nodes", layer.nodeCount } });
-  }
-  object["splat_radius"] = nameOf(splatMeasure(store, hierarchy));
-  object["version"] = store.version;
-  if (const auto preview = previewRecordOf(store.metadata))
-  {
-    object["preview"] = { { "of", preview->storeName },
-      { "points_expected", preview->pointsExpected }, { "points_read", preview->pointsRead },
-      { "points_finished", preview->pointsFinished } };
-  }
-  object["grid"] = { { "scale", { store.grid.scale.x, store.grid.scale.y, store.grid.scale.z } },
-    { "offset", { store.grid.offset.x, store.grid.offset.y, store.grid.offset.z } } };
-  // A name from a file need not be UTF-8: what is not becomes the replacement character.
-  return object.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
-}
-
-std::string storeText(const StoreDescription& store, const Hierarchy& hierarchy)
-{
-  std::ostringstream text;
-  text.precision(15);
-  const Bounds& b = store.bounds;
-  text << store.path;
-  if (const auto preview = previewRecordOf(store.metadata))
-  {
-    text << "\n  preview     of " << preview->storeName << ", which is being built from "
-         << preview->pointsExpected << " points; " << preview->pointsRead
-         << " were read when this was written, " << preview->pointsFinished
-         << " of them are shown in full";
-  }
-  text << "\n  points      " << store.pointCount << "\n  bounds      ";
-  if (b.empty())
-  {
-    text << "none";
-  }
-  else
-  {
-    text << b.low.x << ' ' << b.low.y << ' ' << b.low.z << " to " << b.high.x << ' ' << b.high.y
-         << ' ' << b.high.z;
-  }
-  text << "\n  precision   " << store.grid.scale.x << ' ' << store.grid.scale.y << ' '
-       << store.grid.scale.z << "\n  crs         "
-       << (store.crsWkt.empty() ? "not known" : store.crsWkt) << "\n  hierarchy   "
-       << store.structure << ", refinement " << refinementName(store.refinement) << ", "
-       << hierarchy.nodeCount() << " nodes in " << store.levels << " levels\n  file        "
-       << byteSizeText(store.fileBytes) << " (" << store.fileBytes << " bytes), version "
-       << store.version << ", by " << store.generator << "\n  splat sizes ";
-  const SplatMeasure measure = splatMeasure(store, hierarchy);
-  text << (measure == SplatMeasure::PerPoint ? "measured per point"
-      : measure == SplatMeasure::PerNode     ? "measured per node"
-      : olderThanSplats(store)               ? "not measured (built by an older version)"
-                                             : "not measured (no two places)");
-  text << "\n  attributes ";
-  for (const Attribute& attribute : store.schema)
-  {
-    text << ' ' << attribute.name << ':' << nameOf(attribute.type);
-    if (attribute.components > 1)
+    Result<PointStatistics> gathered = gatherStatistics(**source, options_);
+    if (!gathered)
     {
-      text << 'x' << static_cast<int>(attribute.components);
+      return gathered.error();
     }
+    statistics = std::move(*gathered);
   }
-  for (const Layer& layer : store.layers)
+  const Result<SourceInfo> info = statistics
+    ? Result<SourceInfo>(SourceInfo::of(**source, *statistics))
+    : SourceInfo::of(**source, options_.scan);
+  if (!info)
   {
-    text << "\n  layer       " << layer.name << " (class " << layer.objectClass << "): "
-         << layer.pointCount << " points in " << layer.nodeCount << " nodes";
+    return info.error();
   }
-  return text.str();
+  for (const std::string& warning : info->warnings())
+  {
+    warn(name(), path + ": " + warning);
+  }
+  if (!json_)
+  {
+    print(sourceText(*info) + (statistics ? statisticsText(*statistics) : ""));
+    return {};
+  }
+  reports.push_back(sourceJson(*info));
+  if (statistics)
+  {
+    reports.back()["stats"] = statisticsJson(*statistics);
+  }
+  return {};
 }
 
 } // namespace pointfront

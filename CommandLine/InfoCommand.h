@@ -2,14 +2,19 @@
 
 #include "Command.h"
 
-#include "pointfront/Store/StoredCloud.h"
+#include "pointfront/Points/PointFileOpener.h"
+#include "pointfront/Statistics/PointStatistics.h"
+
+#include <nlohmann/json_fwd.hpp>
 
 #include <string>
+#include <vector>
 
 namespace pointfront
 {
 
-/// `pointfront info`: what a store says of itself, without reading points.
+/// `pointfront info`: what stores and point files say of themselves; with --stats what their points
+/// are like.
 class InfoCommand final : public Command
 {
 public:
@@ -17,13 +22,17 @@ public:
   Result<void> run() override;
 
 private:
-  std::string path_;
-  bool json_ = false;
-};
+  Result<void> tell(const std::string& path, const PointFileOpener& opener,
+    nlohmann::ordered_json& reports) const;
+  Result<void> tellStore(const std::string& path, nlohmann::ordered_json& reports) const;
+  Result<void> tellSource(const std::string& path, const PointFileOpener& opener,
+    nlohmann::ordered_json& reports) const;
 
-/// The keys of `info --json`.
-std::string storeJson(const StoreDescription& store, const Hierarchy& hierarchy);
-/// For people: one line a fact.
-std::string storeText(const StoreDescription& store, const Hierarchy& hierarchy);
+  std::vector<std::string> inputs_;
+  bool json_ = false;
+  bool statistics_ = false;
+  std::uint64_t memoryBytes_ = ScanOptions::usualMemoryBytes;
+  StatisticsOptions options_;
+};
 
 } // namespace pointfront

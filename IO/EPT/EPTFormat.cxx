@@ -21,6 +21,8 @@ public:
     , description_(original_->description())
   {
     description_.declaredBounds = tree.bounds;
+    description_.boundsLookedUp = false;
+    description_.headerPointCount = tree.points;
     description_.crsWkt = description_.crsWkt.empty() ? tree.wkt : description_.crsWkt;
     if (tree.points != description_.pointCount)
     {

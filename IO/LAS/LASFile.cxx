@@ -140,6 +140,7 @@ Result<LASFile> LASFile::open(const std::string& path, MemoryMap::Access access)
   description.format = std::string(header.compressed ? "LAZ " : "LAS ") + header.versionText() +
     " format " + std::to_string(header.pointFormat);
   description.pointCount = header.pointCount;
+  description.headerPointCount = header.pointCount;
   description.declaredBounds = header.bounds;
   description.grid = header.grid;
   description.schema = layout.schema;

@@ -28,6 +28,10 @@ public:
   std::uint64_t chunkRows(std::uint64_t chunk) const override;
   Result<void> read(
     std::uint64_t chunk, const std::vector<bool>& wanted, TableBlock& block) const override;
+  std::optional<std::uint64_t> headerPointCount() const override
+  {
+    return file_.pointElement().count;
+  }
 
 private:
   explicit PLYBinaryTable(PLYFile file);

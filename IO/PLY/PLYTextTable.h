@@ -28,6 +28,10 @@ public:
   std::uint64_t chunkRows(std::uint64_t chunk) const override { return rows_->chunkRows(chunk); }
   Result<void> read(
     std::uint64_t chunk, const std::vector<bool>& wanted, TableBlock& block) const override;
+  std::optional<std::uint64_t> headerPointCount() const override
+  {
+    return file_.pointElement().count;
+  }
   std::vector<FieldStatistics> statistics() const override { return rows_->statistics(); }
 
 private:

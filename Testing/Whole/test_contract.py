@@ -199,8 +199,7 @@ class Failures(ToolTest):
         self.assertEqual(copy.read_bytes(), SMALL.read_bytes())
 
     def test_what_is_no_store(self):
-        for command in ("info", "verify"):
-            self.refuse(1, command, SMALL)
+        self.refuse(1, "verify", SMALL)
         report = pointfront("verify", SMALL, "--json").json
         self.assertIs(report["ok"], False)
 

@@ -50,6 +50,11 @@ struct SourceDescription
   double splatRadiusBase = 0.0;
   /// What was wrong and survived: each a full sentence that counts what was lost.
   std::vector<std::string> warnings;
+  /// Points that the header claims; nothing: it claims none, they were counted.
+  std::optional<std::uint64_t> headerPointCount;
+  /// declaredBounds are not from a header, but of points that were looked at when the source was
+  /// opened: all or some.
+  bool boundsLookedUp = false;
 
   /// From where a chunk was seen; none if that is not known.
   const glm::dvec3* scanner(std::uint64_t chunk) const

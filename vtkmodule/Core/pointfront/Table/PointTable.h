@@ -58,6 +58,8 @@ public:
   /// in every column.
   virtual Result<void> read(
     std::uint64_t chunk, const std::vector<bool>& wanted, TableBlock& block) const = 0;
+  /// Points that the file's header claims, if it does.
+  virtual std::optional<std::uint64_t> headerPointCount() const { return std::nullopt; }
   /// One for each field if the table had to look at every value anyway (text); else empty.
   virtual std::vector<FieldStatistics> statistics() const { return {}; }
   /// The grid that all positions lie on, if the file says so; else their digits decide.

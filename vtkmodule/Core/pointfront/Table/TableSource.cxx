@@ -345,7 +345,9 @@ Result<std::unique_ptr<PointSource>> TableSource::open(
   {
     description.pointCount += source->chunkPoints(chunk);
   }
+  description.headerPointCount = source->table_->headerPointCount();
   description.declaredBounds = extent.bounds;
+  description.boundsLookedUp = true;
   const std::optional<QuantisationGrid> stated = source->table_->grid();
   description.grid = stated ? stated : extent.grid;
   description.scanners = source->table_->scanners(extent.bounds);

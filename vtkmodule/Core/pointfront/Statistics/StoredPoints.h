@@ -1,0 +1,37 @@
+#pragma once
+
+#include "pointfront/Points/PointSource.h"
+#include "pointfront/Query/QueryPlan.h"
+#include "pointfront/Store/StoredCloud.h"
+
+#include <memory>
+
+namespace pointfront
+{
+
+/// The points of the input that a stored cloud holds, a chunk for each node: without
+/// representatives. No metadata comes along.
+class StoredPoints final : public PointSource
+{
+public:
+  /// Errors  of the node table.
+  static Result<std::unique_ptr<PointSource>> open(std::shared_ptr<const StoredCloud> cloud);
+
+  const SourceDescription& description() const override { return description_; }
+  std::uint64_t chunkCount() const override { return plan_.nodeCount(); }
+  std::uint64_t chunkPoints(std::uint64_t chunk) const override
+  {
+    return plan_.nodePoints(static_cast<std::size_t>(chunk));
+  }
+  Result<void> read(std::uint64_t chunk, PointBatch& batch) const override;
+
+private:
+  StoredPoints(std::shared_ptr<const StoredCloud> cloud, QueryPlan plan);
+
+  std::shared_ptr<const StoredCloud> cloud_;
+  QueryPlan plan_;
+  ColumnSelection columns_;
+  SourceDescription description_;
+};
+
+} // namespace pointfront

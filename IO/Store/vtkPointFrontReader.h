@@ -10,9 +10,10 @@
  *
  * Attributes keep their type; one with a scale or an offset becomes double with both applied. "rgb"
  * has three bytes: 16-bit colour is reduced, for VTK takes only bytes as colours without a lookup
- * table. "elevation" (z) is always there. The active scalars are the first of "rgb"
- * (unless it is black), "classification", "intensity" and "elevation" (unless they are the same
- * everywhere). Global point ids ("point_id") are ranks in the store, as hardware selections of vtkPointFrontMapper give them.
+ * table. "elevation" (z) is always there. The active scalars are the first of "rgb" (unless it is
+ * black), "classification", "intensity" and "elevation" (unless they are the same everywhere).
+ * Global point ids ("point_id") are ranks in the store, as hardware selections of
+ * vtkPointFrontMapper give them.
  * An aborted update leaves an empty output.
  *
  * RequestInformation gives the bounds and array names of the whole cloud without reading points: of

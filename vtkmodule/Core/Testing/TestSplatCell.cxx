@@ -220,8 +220,8 @@ TEST(SplatCell, AWireBesideATreeIsAWire)
   test::SplatPatterns patterns(9);
   for (int i = 0; i < 8; ++i)
   {
-    points.emplace_back(
-      25.0 + 4.0 * patterns.uniform(), -16.0 + 4.0 * patterns.uniform(), -20.0 * patterns.uniform());
+    points.emplace_back(25.0 + 4.0 * patterns.uniform(), -16.0 + 4.0 * patterns.uniform(),
+      -20.0 * patterns.uniform());
   }
   EXPECT_LE(radiusAmong(points), margin * std::sqrt(0.81 + 1.44 + 0.16) + 1e-9); // a step
 }

@@ -91,9 +91,9 @@ std::size_t countBeforeGap(const NearOffsets& near)
   return count;
 }
 
-/// The local scale of what a stray's neighbours are, if the point is a stray: a bird over a field, or
-/// two. All its neighbours are that way, and nearly as far as each other; the rim and the corner of
-/// a surface and the end of a line have near ones.
+/// The local scale of what a stray's neighbours are, if the point is a stray: a bird over a field,
+/// or two. All its neighbours are that way, and nearly as far as each other; the rim and the corner
+/// of a surface and the end of a line have near ones.
 std::optional<double> scaleBesideStray(const NearOffsets& near)
 {
   const std::size_t count = near.size();

@@ -1,16 +1,17 @@
 #pragma once
 
+#include "AttributeArray.h"
+
 #include "pointfront/Store/NodeReader.h"
 #include "pointfront/Store/StoredCloud.h"
 
 #include <vtkNew.h>
-#include <vtkSmartPointer.h>
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
-class vtkDataArray;
 class vtkDoubleArray;
 class vtkIdTypeArray;
 class vtkPoints;
@@ -21,9 +22,7 @@ namespace pointfront
 
 /// Stored points on their way into vtkPolyData: double points, one vertex cell a point (so that
 /// filters that select cells can select points), and the chosen columns as point data.
-/// Values      an attribute with a scale or an offset becomes double with both applied; every other
-///             keeps its type. "rgb" is UInt8 x 3: 16-bit colour is reduced to 8 bits, because VTK
-///             takes only bytes as colours without a lookup table.
+/// Values      AttributeArray's.
 /// Elevation   a further array of that name, which the mapper draws by, too: z.
 /// Colours     the active scalars are the first of what was chosen that shows something: rgb,
 ///             classification, intensity, elevation: rgb unless it is black, the others if they are
@@ -44,7 +43,13 @@ public:
   void moveTo(vtkPolyData* output);
 
 private:
-  class Column;
+  struct Column
+  {
+    std::string name;
+    std::size_t stride; ///< bytes of a point
+    bool shows;         ///< something: it may colour the points unasked
+    AttributeArray array;
+  };
   const char* defaultColours() const;
 
   const StoreDescription& description_;

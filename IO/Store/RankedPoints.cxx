@@ -2,6 +2,8 @@
 
 #include "PointArrays.h"
 
+#include "pointfront/Query/NodeOfRank.h"
+
 #include <vtkPolyData.h>
 
 #include <algorithm>
@@ -12,19 +14,6 @@ namespace pointfront
 {
 namespace
 {
-
-/// The node that holds the point of that rank: the last one whose first point is not behind it.
-NodeIndex nodeOf(const Hierarchy& hierarchy, std::uint64_t rank)
-{
-  NodeIndex low = 0;
-  NodeIndex behind = hierarchy.nodeCount();
-  while (behind - low > 1)
-  {
-    const NodeIndex middle = low + (behind - low) / 2;
-    (hierarchy.node(middle).firstPoint <= rank ? low : behind) = middle;
-  }
-  return low;
-}
 
 /// How many points of a node the overview has: its first ones.
 std::uint32_t overviewPoints(const std::vector<OverviewPart>& overview, NodeIndex node)
@@ -45,7 +34,7 @@ Result<std::vector<NodeRows>> locatePoints(const Hierarchy& hierarchy,
   auto rank = ranks.begin();
   while (rank != ranks.end() && hierarchy.nodeCount() > 0)
   {
-    const NodeIndex index = nodeOf(hierarchy, *rank);
+    const NodeIndex index = nodeOfRank(hierarchy, *rank);
     const Node node = hierarchy.node(index);
     if (*rank < node.firstPoint || *rank >= node.firstPoint + node.pointCount)
     {

@@ -77,6 +77,7 @@ struct SoftwareRasteriser::Content
     bool goingOn);
   void addColours(
     const RasterItems& items, const RasterWindow& now, const std::vector<Piece>& pieces);
+  std::uint64_t drawPoints(const RasterItems& items, const RasterWindow& now);
   void resolve(const RasterItems& items, const RasterWindow& now, std::uint16_t store,
     SoftwareTarget& target, int firstRow);
 };
@@ -342,6 +343,26 @@ void SoftwareRasteriser::Content::addColours(
     });
 }
 
+/// All passes but the last. Gives how many points the last picture already had.
+std::uint64_t SoftwareRasteriser::Content::drawPoints(
+  const RasterItems& items, const RasterWindow& now)
+{
+  std::vector<Piece> pieces;
+  const std::uint64_t reused = goOn(items, now, pieces);
+  drawKeys(items, now, pieces, kept);
+  kept = false;
+  if (items.blended())
+  {
+    std::vector<Piece> all;
+    for (const RasterItem& item : items.items())
+    {
+      addPieces(item, item.item->first, item.item->last, all);
+    }
+    addColours(items, now, all);
+  }
+  return reused;
+}
+
 void SoftwareRasteriser::Content::resolve(const RasterItems& items, const RasterWindow& now,
   std::uint16_t store, SoftwareTarget& target, int firstRow)
 {
@@ -424,19 +445,7 @@ RasterStatistics SoftwareRasteriser::draw(const FramePlan& asked, const RasterBa
       RasterWindow window = viewport;
       window.bottom = bottom;
       window.height = std::min(rows, band.top - bottom);
-      std::vector<Piece> pieces;
-      statistics.reused += content.goOn(items, window, pieces);
-      content.drawKeys(items, window, pieces, content.kept);
-      content.kept = false;
-      if (items.blended())
-      {
-        std::vector<Piece> all;
-        for (const RasterItem& item : items.items())
-        {
-          addPieces(item, item.item->first, item.item->last, all);
-        }
-        content.addColours(items, window, all);
-      }
+      statistics.reused += content.drawPoints(items, window);
       content.resolve(items, window, store, target, bottom - band.bottom);
       if (window.height == band.top - band.bottom && from == 0 && items.last())
       {

@@ -1,4 +1,4 @@
-// usage: pointfrontFrameBenchmark STORE.pfront [ROUNDS]
+// usage: pointfrontFrameBenchmark STORE.pfront [ROUNDS [automatic|opengl|software]]
 //
 // Milliseconds for a frame of the same cloud from the same cameras, 1280 x 720, 2 px points:
 //   all points in memory, drawn by vtkPolyDataMapper (in the store's order, which is a Morton order
@@ -131,8 +131,12 @@ double frameMs(vtkRenderWindow* window)
     .count();
 }
 
-void dressOurs(vtkPointFrontMapper* mapper, vtkPointFrontReader* reader, double error)
+void dressOurs(vtkPointFrontMapper* mapper, vtkPointFrontReader* reader, double error,
+  const std::string& backend)
 {
+  backend == "opengl"     ? mapper->SetBackendToOpenGL()
+    : backend == "software" ? mapper->SetBackendToSoftware()
+                            : mapper->SetBackendToAutomatic();
   mapper->SetInputConnection(reader->GetOutputPort());
   mapper->SetScalarModeToUsePointFieldData();
   mapper->SelectColorArray("rgb");
@@ -145,11 +149,13 @@ void dressOurs(vtkPointFrontMapper* mapper, vtkPointFrontReader* reader, double 
 
 int main(int argc, char** argv)
 {
-  if (argc < 2 || argc > 3)
+  const std::string backend = argc == 4 ? argv[3] : "automatic";
+  const bool known = backend == "automatic" || backend == "opengl" || backend == "software";
+  if (argc < 2 || argc > 4 || !known)
   {
-    fail("usage: pointfrontFrameBenchmark STORE.pfront [ROUNDS]");
+    fail("usage: pointfrontFrameBenchmark STORE.pfront [ROUNDS [automatic|opengl|software]]");
   }
-  const int rounds = argc == 3 ? std::stoi(argv[2]) : 9;
+  const int rounds = argc >= 3 ? std::stoi(argv[2]) : 9;
   vtkNew<vtkPointFrontReader> reader;
   reader->SetFileName(argv[1]);
   reader->SetOverviewPoints(0);
@@ -168,12 +174,12 @@ int main(int argc, char** argv)
   Contestant all;
   all.name = "vtkPointFrontMapper, all points";
   vtkNew<vtkPointFrontMapper> allMapper;
-  dressOurs(allMapper, reader, 0.01);
+  dressOurs(allMapper, reader, 0.01, backend);
   all.dress(allMapper);
   Contestant front;
   front.name = "vtkPointFrontMapper, error 1 px";
   vtkNew<vtkPointFrontMapper> frontMapper;
-  dressOurs(frontMapper, reader, 1.0);
+  dressOurs(frontMapper, reader, 1.0, backend);
   front.dress(frontMapper);
 
   vtkNew<vtkRenderer> renderer;
@@ -215,6 +221,7 @@ int main(int argc, char** argv)
   }
   result["points"] = reader->GetStore()->GetNumberOfPoints();
   result["rounds"] = rounds;
+  result["backend"] = backend;
   for (Contestant* contestant : contestants)
   {
     result[contestant->name] = summary(*contestant);

@@ -1,6 +1,7 @@
 #include "pointfront/Query/PointsById.h"
 
 #include "pointfront/Query/ChosenColumns.h"
+#include "pointfront/Query/NodeOfRank.h"
 #include "pointfront/Query/NodeSweep.h"
 
 #include <algorithm>
@@ -22,20 +23,6 @@ struct NodeIds
   std::size_t count = 0;
 };
 
-/// The last node whose first point is `id` or before it: rows ascend by their first points, and
-/// nodes without points share theirs with the next one.
-NodeIndex nodeOf(const Hierarchy& hierarchy, std::uint64_t id)
-{
-  NodeIndex low = 0;
-  NodeIndex high = hierarchy.nodeCount();
-  while (high - low > 1)
-  {
-    const NodeIndex middle = low + (high - low) / 2;
-    (hierarchy.node(middle).firstPoint <= id ? low : high) = middle;
-  }
-  return low;
-}
-
 Error notInCloud(const StoreDescription& store, std::uint64_t id)
 {
   return makeError(Error::Kind::BadArgument,
@@ -53,7 +40,7 @@ Result<std::vector<NodeIds>> nodesOf(
     {
       return notInCloud(store.description(), ids[i]);
     }
-    const NodeIndex index = nodeOf(hierarchy, ids[i]);
+    const NodeIndex index = nodeOfRank(hierarchy, ids[i]);
     const Node row = hierarchy.node(index);
     if (std::optional<Error> damage = hierarchy.fault())
     {

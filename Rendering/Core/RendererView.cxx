@@ -14,8 +14,16 @@ namespace
 
 /// From one drawing to the next, in times of a drawing.
 constexpr double pauseOfDrawings = 3.0;
+/// VTK and ParaView set rates of 5 and more in motion, of 0.002 and less at rest.
+constexpr double interactiveRate = 0.01;
 
 } // namespace
+
+bool isInteracting(vtkRenderer* renderer)
+{
+  vtkRenderWindow* const window = renderer->GetRenderWindow();
+  return window && window->GetDesiredUpdateRate() > interactiveRate;
+}
 
 RendererView::RendererView(vtkRenderer* renderer, std::function<void()> unseen)
     : Renderer(renderer), Unseen(std::move(unseen))
@@ -68,6 +76,10 @@ bool RendererView::NeedsRender()
   if (!this->Front || this->UploadsLeft || this->Due)
   {
     return true;
+  }
+  if (this->Demand.interacting && !this->Complete && !isInteracting(this->Renderer))
+  {
+    return true; // the time of a frame in motion limited the picture; at rest the view shows more
   }
   const std::chrono::duration<double, std::milli> passed = Clock::now() - this->DrawnAt;
   const bool paused = !this->NewFrame && !this->Demand.interacting && !this->Demand.complete &&

@@ -14,6 +14,9 @@
 namespace pointfront
 {
 
+/// Whether the user moves the view of the renderer's window: VTK's interactors then ask for a rate.
+bool isInteracting(vtkRenderer* renderer);
+
 /// What one renderer sees of a mapper's store: the front, and how far its frames are.
 /// Threads  the renderer's.
 struct RendererView
@@ -45,7 +48,7 @@ struct RendererView
 
   /// Whether a frame is due. A view at rest that is being loaded is drawn a quarter of the time at
   /// most: till the next frame is due its front is moved here, so that what it asks for next does
-  /// not wait for a slow drawing. Once a frame is due it stays so until it is drawn. Never for what
+  /// not wait for a slow drawing. A view that motion left incomplete is due as soon as it rests. Once a frame is due it stays so until it is drawn. Never for what
   /// the renderer does not show: it would stay due for ever.
   bool NeedsRender();
 

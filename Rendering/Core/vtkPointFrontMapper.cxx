@@ -33,9 +33,6 @@ vtkAbstractObjectFactoryNewMacro(vtkPointFrontMapper);
 namespace
 {
 
-/// VTK and ParaView set rates of 5 and more in motion, of 0.002 and less at rest.
-constexpr double interactiveRate = 0.01;
-
 using Clock = std::chrono::steady_clock;
 
 double millisecondsSince(Clock::time_point begin)
@@ -157,8 +154,7 @@ double* vtkPointFrontMapper::GetBounds()
 
 bool vtkPointFrontMapper::IsInteracting(vtkRenderer* renderer)
 {
-  vtkRenderWindow* window = renderer->GetRenderWindow();
-  return window && window->GetDesiredUpdateRate() > interactiveRate;
+  return pointfront::isInteracting(renderer);
 }
 
 bool vtkPointFrontMapper::HasTranslucentPolygonalGeometry()

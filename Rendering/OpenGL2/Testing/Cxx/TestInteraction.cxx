@@ -141,6 +141,32 @@ TEST(Interaction, AMotionFrameKeepsToTheTimeThatIsAllotted)
   EXPECT_FALSE(scene.mapper->GetLastComplete());
 }
 
+TEST(Interaction, AViewThatMotionLeftIncompleteRefinesOnceItRests)
+{
+  Scene scene(terrain("rest"));
+  scene.draw();
+  const vtkIdType all = scene.mapper->GetLastPointsDrawn();
+  scene.mapper->CompleteOff();
+  scene.mapper->SetPointSize(20.0);
+  scene.mapper->SetTargetFrameTime(1.0);
+  scene.window->SetDesiredUpdateRate(30.0);
+  scene.renderer->GetActiveCamera()->Azimuth(0.5);
+  int frames = 0;
+  do // till the view in motion has all that its time allows
+  {
+    scene.window->Render();
+  } while (++frames < 200 && (frames < 12 || scene.mapper->NeedsRender()));
+  EXPECT_FALSE(scene.mapper->NeedsRender());
+  EXPECT_LT(scene.mapper->GetLastPointsDrawn(), all);
+  EXPECT_FALSE(scene.mapper->GetLastComplete());
+
+  scene.window->SetDesiredUpdateRate(0.0001);
+  EXPECT_TRUE(scene.mapper->NeedsRender());
+  settle(scene);
+  EXPECT_TRUE(scene.mapper->GetLastComplete());
+  EXPECT_EQ(scene.mapper->GetLastPointsDrawn(), all);
+}
+
 TEST(Interaction, TheHostMemoryBudgetHoldsAndSettles)
 {
   Scene scene(terrain("host_budget"));

@@ -9,6 +9,7 @@
 #include "pointfront/Front/DetailLevel.h"
 #include "pointfront/Plan/FramePlanner.h"
 #include "pointfront/Plan/FrameStatistics.h"
+#include "pointfront/Style/GpuStreams.h"
 #include "vtkPointFrontStyle.h"
 
 #include <vtkActor.h>
@@ -256,10 +257,13 @@ pointfront::FrameDemand vtkPointFrontMapper::GetDemand(vtkRenderer* renderer, vt
   demand.layers = this->Internals->Limits.layersOf(*this->GetStore(), styling,
     this->GetStyleSheet() ? this->Internals->Style.pruning()
                           : std::vector<std::shared_ptr<const pointfront::NodePruning>>());
+  pointfront::GpuStreams streams;
   for (const pointfront::LayerStyling& layer : styling)
   {
     demand.columns.layers.push_back(layer.columns());
+    streams.add(pointfront::GpuStreams::of(layer.styles));
   }
+  demand.gpuStreams = streams.count();
   demand.targetErrorPx = this->TargetError;
   demand.pointBudget = static_cast<std::uint64_t>(this->PointBudget);
   demand.gpuBytes = this->DrawsFromHostMemory(actor) ? 0 : this->GPUMemoryBudget;

@@ -319,6 +319,8 @@ protected:
   virtual bool DrawsFromHostMemory(vtkActor*) { return false; }
   /// Points of some pixels, in one colour each, all of them, and nothing done to the picture.
   bool HasPlainPointsOnly(vtkActor* actor);
+  /// How the store's layers are drawn, by their numbers.
+  std::vector<pointfront::LayerStyling> GetStyling(vtkActor* actor);
   static bool IsInteracting(vtkRenderer* renderer);
   /// Of PointBudget, what this mapper may have on the GPU of a window beside the other clouds of
   /// it; 0: no limit.
@@ -345,7 +347,6 @@ protected:
 private:
   struct Content;
   pointfront::FrameDemand GetDemand(vtkRenderer* renderer, vtkActor* actor);
-  std::vector<pointfront::LayerStyling> GetStyling(vtkActor* actor);
   pointfront::PlanRequest GetRequest(vtkRenderer* renderer, vtkActor* actor);
   bool MoveFront(vtkRenderer* renderer, vtkActor* actor);
   bool Announce();

@@ -49,28 +49,58 @@ void copySlot(std::uint32_t from, std::int64_t fromSlot, std::uint32_t to, std::
 
 } // namespace
 
-GpuBlock::GpuBlock(std::uint32_t first, std::uint32_t slots, bool values)
+GpuBlock::GpuBlock(std::uint32_t first, std::uint32_t slots, const GpuStreams& streams)
     : first_(first), slots_(slots),
       positions_(makeBuffer(std::int64_t(slots) * gpuSlotPoints * GpuSlotBytes::position))
 {
-  if (values)
-  {
-    addValues();
-  }
+  setStreams(streams);
 }
 
 void GpuBlock::release()
 {
   deleteBuffer(positions_);
-  deleteBuffer(values_);
+  setStreams({});
 }
 
-void GpuBlock::addValues()
+std::int64_t GpuBlock::bytes() const
 {
-  values_ = makeBuffer(std::int64_t(slots_) * gpuSlotPoints * GpuSlotBytes::value);
+  return slots_ * GpuSlotBytes::of(unwanted({}));
 }
 
-void GpuBlock::dropValues() { deleteBuffer(values_); }
+int GpuBlock::missing(const GpuStreams& wanted) const
+{
+  int count = 0;
+  for (std::size_t stream = 0; stream < gpuStreamCount; ++stream)
+  {
+    count += wanted.wanted[stream] && streams_[stream] == 0;
+  }
+  return count;
+}
+
+int GpuBlock::unwanted(const GpuStreams& wanted) const
+{
+  int count = 0;
+  for (std::size_t stream = 0; stream < gpuStreamCount; ++stream)
+  {
+    count += !wanted.wanted[stream] && streams_[stream] != 0;
+  }
+  return count;
+}
+
+void GpuBlock::setStreams(const GpuStreams& wanted)
+{
+  for (std::size_t stream = 0; stream < gpuStreamCount; ++stream)
+  {
+    if (!wanted.wanted[stream])
+    {
+      deleteBuffer(streams_[stream]);
+    }
+    else if (streams_[stream] == 0)
+    {
+      streams_[stream] = makeBuffer(std::int64_t(slots_) * gpuSlotPoints * GpuSlotBytes::value);
+    }
+  }
+}
 
 void GpuBlock::writePositions(
   std::uint32_t slot, std::uint32_t offset, std::uint32_t count, const void* steps) const
@@ -79,19 +109,23 @@ void GpuBlock::writePositions(
   write(positions_, point * GpuSlotBytes::position, count * GpuSlotBytes::position, steps);
 }
 
-void GpuBlock::writeValues(
-  std::uint32_t slot, std::uint32_t offset, std::uint32_t count, const void* values) const
+void GpuBlock::writeValues(GpuStream stream, std::uint32_t slot, std::uint32_t offset,
+  std::uint32_t count, const void* values) const
 {
   const std::int64_t point = std::int64_t(slot - first_) * gpuSlotPoints + offset;
-  write(values_, point * GpuSlotBytes::value, count * GpuSlotBytes::value, values);
+  write(buffer(stream), point * GpuSlotBytes::value, count * GpuSlotBytes::value, values);
 }
 
 void GpuBlock::copy(const GpuBlock& other, std::uint32_t from, std::uint32_t to) const
 {
-  copySlot(other.positions_, from - other.first_, positions_, to - first_, GpuSlotBytes::position);
-  if (values_ != 0 && other.values_ != 0)
+  const std::uint32_t source = from - other.first_;
+  copySlot(other.positions_, source, positions_, to - first_, GpuSlotBytes::position);
+  for (std::size_t stream = 0; stream < gpuStreamCount; ++stream)
   {
-    copySlot(other.values_, from - other.first_, values_, to - first_, GpuSlotBytes::value);
+    if (streams_[stream] != 0 && other.streams_[stream] != 0)
+    {
+      copySlot(other.streams_[stream], source, streams_[stream], to - first_, GpuSlotBytes::value);
+    }
   }
 }
 

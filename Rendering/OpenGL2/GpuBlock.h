@@ -1,20 +1,22 @@
 #pragma once
 
+#include "pointfront/Style/GpuStreams.h"
 #include "pointfront/Views/GpuSlotBytes.h"
 
+#include <array>
 #include <cstdint>
 
 namespace pointfront
 {
 
-/// Some slots of a GpuPool in vertex buffers of their own: positions, and values where they are
+/// Some slots of a GpuPool in vertex buffers of their own: positions, and those streams that are
 /// wanted.
-/// Units    a vertex is 12 bytes of position (three unsigned grid steps) and 4 bytes of value.
+/// Units    a vertex is 12 bytes of position (three unsigned grid steps) and 4 bytes a stream.
 /// Threads  that of the GL context, which must be current.
 class GpuBlock
 {
 public:
-  GpuBlock(std::uint32_t first, std::uint32_t slots, bool values);
+  GpuBlock(std::uint32_t first, std::uint32_t slots, const GpuStreams& streams);
   /// Gives the buffers back; nothing else does.
   void release();
 
@@ -22,17 +24,24 @@ public:
   std::uint32_t slots() const { return slots_; }
   std::uint32_t end() const { return first_ + slots_; }
   std::uint32_t positionBuffer() const { return positions_; }
-  std::uint32_t valueBuffer() const { return values_; } ///< 0: none
-  std::int64_t bytes() const { return slots_ * GpuSlotBytes::of(values_ != 0); }
+  /// 0: none
+  std::uint32_t buffer(GpuStream stream) const
+  {
+    return streams_[static_cast<std::size_t>(stream)];
+  }
+  std::int64_t bytes() const;
 
-  void addValues();
-  void dropValues();
+  /// Streams that are wanted and not there; those that are there and not wanted.
+  int missing(const GpuStreams& wanted) const;
+  int unwanted(const GpuStreams& wanted) const;
+  /// Makes what is missing, and gives back what is not wanted.
+  void setStreams(const GpuStreams& wanted);
 
   // Of `count` points from point `offset` on of a slot of the pool.
   void writePositions(
     std::uint32_t slot, std::uint32_t offset, std::uint32_t count, const void* steps) const;
-  void writeValues(
-    std::uint32_t slot, std::uint32_t offset, std::uint32_t count, const void* values) const;
+  void writeValues(GpuStream stream, std::uint32_t slot, std::uint32_t offset,
+    std::uint32_t count, const void* values) const;
   /// All of slot `from` of another block into slot `to` of this.
   void copy(const GpuBlock& other, std::uint32_t from, std::uint32_t to) const;
 
@@ -40,7 +49,7 @@ private:
   std::uint32_t first_;
   std::uint32_t slots_;
   std::uint32_t positions_ = 0; ///< GL buffers
-  std::uint32_t values_ = 0;
+  std::array<std::uint32_t, gpuStreamCount> streams_{};
 };
 
 } // namespace pointfront

@@ -83,33 +83,35 @@ bool GpuPool::tooMuch(std::int64_t more) const
   return limits_.bytes > 0 && account_->bytes() + more > limits_.bytes;
 }
 
-const PointColouring& GpuPool::colouringOf(std::uint16_t layer) const
+const LayerStreams& GpuPool::streamsOf(std::uint16_t layer) const
 {
-  static const PointColouring flat;
-  return layer < colourings_.size() ? colourings_[layer] : flat;
+  static const LayerStreams positions;
+  return layer < streams_.size() ? streams_[layer] : positions;
 }
 
-void GpuPool::setColourings(std::vector<PointColouring> byLayer)
+void GpuPool::setStreams(std::vector<LayerStreams> byLayer)
 {
-  if (byLayer == colourings_)
-  {
-    return;
-  }
-  std::swap(colourings_, byLayer); // byLayer: those before
+  std::swap(streams_, byLayer); // byLayer: those before
   for (auto& [node, entry] : entries_)
   {
-    const bool same = entry.layer < byLayer.size() && entry.layer < colourings_.size() &&
-      byLayer[entry.layer] == colourings_[entry.layer];
-    entry.values = same ? entry.values : 0;
+    for (std::size_t stream = 0; stream < gpuStreamCount; ++stream)
+    {
+      const bool same = entry.layer < byLayer.size() &&
+        streamsOf(entry.layer).fillsAs(byLayer[entry.layer], static_cast<GpuStream>(stream));
+      entry.filled[stream] = same ? entry.filled[stream] : 0;
+    }
   }
-  hasValues_ = std::any_of(colourings_.begin(), colourings_.end(),
-    [](const PointColouring& colouring) { return colouring.hasValues(); });
+  wanted_ = {};
+  for (const LayerStreams& layer : streams_)
+  {
+    wanted_.add(layer.streams());
+  }
   for (GpuBlock& block : blocks_)
   {
-    if (!hasValues_ && block.valueBuffer() != 0)
+    if (block.unwanted(wanted_) > 0 && block.missing(wanted_) == 0)
     {
       charge(-block.bytes());
-      block.dropValues();
+      block.setStreams(wanted_);
       charge(block.bytes());
     }
   }
@@ -138,7 +140,7 @@ bool GpuPool::makeRoom(const DrawList& draw)
   }
   mark(draw);
   keepWithin(draw);
-  addValues();
+  addStreams();
   std::uint64_t missing = 0;
   for (const PlanItem* item : draw)
   {
@@ -198,29 +200,26 @@ void GpuPool::keepWithin(const DrawList& draw)
   }
 }
 
-/// Where the colouring wants values and there are none; where they do not fit beside the positions,
-/// all begins anew.
-void GpuPool::addValues()
+/// Where styles want streams and there are none; where they do not fit beside the others, all begins
+/// anew.
+void GpuPool::addStreams()
 {
   std::int64_t more = 0;
   for (const GpuBlock& block : blocks_)
   {
-    more += block.valueBuffer() == 0 ? block.slots() * slotPoints * GpuSlotBytes::value : 0;
+    const int streams = block.missing(wanted_) - block.unwanted(wanted_);
+    more += streams * std::int64_t(block.slots()) * slotPoints * GpuSlotBytes::value;
   }
-  if (!hasValues_ || more == 0)
-  {
-    return;
-  }
-  if (tooMuch(more))
+  if (more > 0 && tooMuch(more))
   {
     release();
   }
   for (GpuBlock& block : blocks_)
   {
-    if (block.valueBuffer() == 0)
+    if (block.missing(wanted_) > 0)
     {
       charge(-block.bytes());
-      block.addValues();
+      block.setStreams(wanted_);
       charge(block.bytes());
     }
   }
@@ -303,7 +302,10 @@ bool GpuPool::trim()
     }
     const auto most = static_cast<std::uint32_t>(entry.slots.size() * slotPoints);
     entry.points = std::min(entry.points, most);
-    entry.values = std::min(entry.values, most);
+    for (std::uint32_t& filled : entry.filled)
+    {
+      filled = std::min(filled, most);
+    }
   }
   return free_.size() > before;
 }
@@ -311,7 +313,7 @@ bool GpuPool::trim()
 /// By a block, towards `slots` more; false if the budget of bytes has no room for a slot.
 bool GpuPool::grow(std::uint64_t slots)
 {
-  const std::int64_t slotBytes = GpuSlotBytes::of(hasValues_);
+  const std::int64_t slotBytes = GpuSlotBytes::of(wanted_.count());
   const std::uint64_t wanted =
     std::max<std::uint64_t>(slotCount() / growthShare, std::min(slots, mostSmallSlots));
   auto size = static_cast<std::int64_t>(powerBelow(std::min(wanted, mostBlockSlots)));
@@ -325,7 +327,7 @@ bool GpuPool::grow(std::uint64_t slots)
     return false;
   }
   blocks_.emplace_back(
-    slotCount(), static_cast<std::uint32_t>(size), hasValues_);
+    slotCount(), static_cast<std::uint32_t>(size), wanted_);
   charge(blocks_.back().bytes());
   for (std::uint32_t slot = blocks_.back().end(); slot-- > blocks_.back().first();)
   {
@@ -390,12 +392,11 @@ const GpuPool::Entry* GpuPool::find(NodeIndex node) const
 }
 
 const GpuPool::Entry* GpuPool::bring(const NodeColumns& node, std::uint32_t count,
-  const AttributeSchema& schema, std::int64_t& bytesLeft)
+  const FramePlan& plan, std::int64_t& bytesLeft)
 {
   Entry& entry = entries_[node.node];
   entry.frame = frame_;
   entry.layer = node.layer;
-  const PointColouring& colouring = colouringOf(node.layer);
   const auto wanted = std::min(count, static_cast<std::uint32_t>(node.size()));
   entry.wanted = std::max(entry.wanted, wanted);
   if (entry.points < wanted && bytesLeft > 0)
@@ -405,14 +406,42 @@ const GpuPool::Entry* GpuPool::bring(const NodeColumns& node, std::uint32_t coun
     uploadPositions(node, entry, std::min(wanted, entry.points + affordable));
     bytesLeft -= static_cast<std::int64_t>(affordable) * GpuSlotBytes::position;
   }
-  if (colouring.hasValues() && entry.values < std::min(wanted, entry.points) && bytesLeft > 0 &&
-      colouring.coveredBy(node))
+  const LayerStreams& layer = streamsOf(node.layer);
+  const std::uint32_t end = std::min(wanted, entry.points);
+  for (std::size_t number = 0; number < gpuStreamCount; ++number)
   {
-    const std::uint32_t end = std::min(wanted, entry.points);
-    bytesLeft -= static_cast<std::int64_t>(end - entry.values) * GpuSlotBytes::value;
-    uploadValues(node, schema, entry, end);
+    const auto stream = static_cast<GpuStream>(number);
+    if (layer.has(stream) && entry.filled[number] < end && bytesLeft > 0 &&
+      layer.coveredBy(node, stream))
+    {
+      bytesLeft -= static_cast<std::int64_t>(end - entry.filled[number]) * GpuSlotBytes::value;
+      uploadStream(stream, node, plan, entry, end);
+    }
   }
   return entry.points == 0 ? nullptr : &entry;
+}
+
+void GpuPool::addRuns(
+  const Entry& entry, std::uint32_t first, std::uint32_t end, DrawRuns& runs) const
+{
+  forSlots(entry.slots, first, end,
+    [&](std::uint32_t slot, std::uint32_t offset, std::uint32_t, std::uint32_t points)
+    {
+      const std::size_t block = blockOf(slot);
+      const std::uint32_t inBlock = slot - blocks_[block].first();
+      runs.add(block, static_cast<int>(inBlock * slotPoints + offset), static_cast<int>(points));
+    });
+}
+
+bool GpuPool::isFilled(const Entry& entry, std::uint32_t count) const
+{
+  const LayerStreams& layer = streamsOf(entry.layer);
+  bool all = entry.points >= count;
+  for (std::size_t stream = 0; stream < gpuStreamCount; ++stream)
+  {
+    all = all && (!layer.has(static_cast<GpuStream>(stream)) || entry.filled[stream] >= count);
+  }
+  return all;
 }
 
 void GpuPool::uploadPositions(const NodeColumns& node, Entry& entry, std::uint32_t end)
@@ -432,19 +461,20 @@ void GpuPool::uploadPositions(const NodeColumns& node, Entry& entry, std::uint32
   entry.points = std::max(entry.points, end);
 }
 
-void GpuPool::uploadValues(
-  const NodeColumns& node, const AttributeSchema& schema, Entry& entry, std::uint32_t end)
+void GpuPool::uploadStream(GpuStream stream, const NodeColumns& node, const FramePlan& plan,
+  Entry& entry, std::uint32_t end)
 {
+  std::uint32_t& filled = entry.filled[static_cast<std::size_t>(stream)];
   staging_.clear();
-  colouringOf(node.layer).encode(node, schema, entry.values, end - entry.values, staging_);
-  forSlots(entry.slots, entry.values, end,
+  streamsOf(node.layer).encode(stream, plan, node, filled, end - filled, staging_);
+  forSlots(entry.slots, filled, end,
     [&](std::uint32_t slot, std::uint32_t offset, std::uint32_t first, std::uint32_t points)
     {
       blocks_[blockOf(slot)].writeValues(
-        slot, offset, points, staging_.data() + (first - entry.values));
+        stream, slot, offset, points, staging_.data() + (first - filled));
       uploaded_ += static_cast<std::uint64_t>(points * GpuSlotBytes::value);
     });
-  entry.values = end;
+  filled = end;
 }
 
 void GpuPool::release()

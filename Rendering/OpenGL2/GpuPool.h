@@ -1,11 +1,13 @@
 #pragma once
 
+#include "DrawRuns.h"
 #include "GpuBlock.h"
-#include "pointfront/Style/PointColouring.h"
+#include "LayerStreams.h"
 
 #include "pointfront/Plan/FramePlan.h"
 #include "pointfront/Store/NodeReader.h"
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <unordered_map>
@@ -41,10 +43,16 @@ public:
   {
     std::vector<std::uint32_t> slots;
     std::uint32_t points = 0; ///< uploaded positions: a prefix of the node
-    std::uint32_t values = 0; ///< uploaded values of its layer's colouring: a prefix
+    /// Uploaded values of each stream of its layer: prefixes.
+    std::array<std::uint32_t, gpuStreamCount> filled{};
     std::uint16_t layer = 0;
     std::uint32_t wanted = 0; ///< most points that a view draws of it
     std::uint64_t frame = 0;  ///< last drawn
+
+    std::uint32_t values(GpuStream stream) const
+    {
+      return filled[static_cast<std::size_t>(stream)];
+    }
   };
   /// What a frame may take.
   struct Limits
@@ -61,10 +69,10 @@ public:
 
   /// Before anything else in a context: the account of its window.
   void enter(std::shared_ptr<GpuAccount> account);
-  /// Of each layer by its number; what has none is flat. Values are a stream of their own beside
-  /// the positions: those of another colouring are worth nothing and are uploaded again as nodes
-  /// are drawn, positions stay where they are.
-  void setColourings(std::vector<PointColouring> byLayer);
+  /// Of each layer by its number; what has none has positions only. Values that a layer's styles
+  /// would fill otherwise now are worth nothing and are uploaded again as nodes are drawn; all else
+  /// stays where it is.
+  void setStreams(std::vector<LayerStreams> byLayer);
   void beginFrame(const Limits& limits);
   /// This frame's limit of bytes is lower than that of the frame before, and was exceeded.
   bool lowered() const { return lowered_; }
@@ -75,11 +83,18 @@ public:
   /// Nothing of it is drawn until the next frame: all of it may be given back.
   void leaveScreen();
 
-  /// Brings the first `count` points of `node` and their values, as far as the node has the
-  /// colouring's column, to the GPU. Positions beyond `bytesLeft` wait for another frame; bytesLeft
-  /// falls by what is uploaded. Null when nothing of the node is there yet.
-  const Entry* bring(const NodeColumns& node, std::uint32_t count, const AttributeSchema& schema,
+  /// Brings the first `count` points of `node` and their streams, as far as the node has the
+  /// columns, to the GPU. Positions beyond `bytesLeft` wait for another frame; bytesLeft falls by
+  /// what is uploaded. Null when nothing of the node is there yet.
+  const Entry* bring(const NodeColumns& node, std::uint32_t count, const FramePlan& plan,
     std::int64_t& bytesLeft);
+  /// Points [first, end) of a node, to be drawn.
+  void addRuns(
+    const Entry& entry, std::uint32_t first, std::uint32_t end, DrawRuns& runs) const;
+  /// Of a layer by its number.
+  const LayerStreams& streamsOf(std::uint16_t layer) const;
+  /// All that a node's layer wants of its first `count` points is there.
+  bool isFilled(const Entry& entry, std::uint32_t count) const;
   /// What is there of a node, or null.
   const Entry* find(NodeIndex node) const;
 
@@ -99,10 +114,9 @@ public:
   void release();
 
 private:
-  const PointColouring& colouringOf(std::uint16_t layer) const;
   void mark(const DrawList& draw);
   void keepWithin(const DrawList& draw);
-  void addValues();
+  void addStreams();
   bool makeFree(std::uint64_t slots);
   bool isIdle(const Entry& entry) const;
   void listIdle();
@@ -114,12 +128,12 @@ private:
   bool tooMuch(std::int64_t more) const;
   void charge(std::int64_t bytes);
   void uploadPositions(const NodeColumns& node, Entry& entry, std::uint32_t end);
-  void uploadValues(
-    const NodeColumns& node, const AttributeSchema& schema, Entry& entry, std::uint32_t end);
+  void uploadStream(GpuStream stream, const NodeColumns& node, const FramePlan& plan, Entry& entry,
+    std::uint32_t end);
 
   std::shared_ptr<GpuAccount> account_;
-  std::vector<PointColouring> colourings_; ///< by layer
-  bool hasValues_ = false;                 ///< one of them has
+  std::vector<LayerStreams> streams_; ///< by layer
+  GpuStreams wanted_;                 ///< by one of them
   std::vector<GpuBlock> blocks_; ///< each goes on where the one before ends
   std::unordered_map<NodeIndex, Entry> entries_;
   std::vector<std::uint32_t> free_; ///< slots

@@ -10,108 +10,118 @@
 #include <vtkTextureObject.h>
 
 #include <algorithm>
+#include <cstring>
 
 namespace pointfront
 {
 namespace
 {
-constexpr std::int32_t colouredFlag = 256; // beside the shift in the low byte; see PointsVS.glsl
+
+// Beside the shift in the low byte; see PointsVS.glsl, SplatVS.glsl.
+constexpr std::int32_t colouredFlag = 256;
+constexpr std::int32_t shapedFlag = 512;
+constexpr std::int32_t sizedFlag = 1024;
+
+struct Name
+{
+  const char* uniform;
+  bool integers;
+};
+constexpr Name names[] = { { "slotSteps", true }, { "slotBase", false }, { "slotIds", true },
+  { "slotPlaces", false }, { "slotRadii", false } };
+
+void put(std::vector<std::int32_t>& values, std::size_t at, const glm::vec4& numbers)
+{
+  std::memcpy(values.data() + at, &numbers.x, sizeof(numbers));
 }
+
+} // namespace
 
 SlotRecords::SlotRecords() = default;
 SlotRecords::~SlotRecords() = default;
 
 void SlotRecords::begin(std::uint32_t slots)
 {
-  const std::size_t values = std::size_t(4) * std::max(1u, slots);
-  steps_.assign(values, 0);
-  bases_.assign(values, 0.0f);
-  ids_.assign(values, 0);
+  for (Column& column : columns_)
+  {
+    column.values.assign(std::size_t(4) * std::max(1u, slots), 0);
+  }
 }
 
-void SlotRecords::set(const std::vector<std::uint32_t>& slots, const SlotOrigin& origin,
-  bool coloured, std::uint64_t firstId)
+void SlotRecords::set(const std::vector<std::uint32_t>& slots, const Record& record)
 {
-  std::uint64_t id = firstId;
+  std::uint64_t id = record.firstId;
+  const SlotOrigin& origin = record.origin;
+  const std::int32_t flags = (record.coloured ? colouredFlag : 0) |
+    (record.shaped ? shapedFlag : 0) | (record.sized ? sizedFlag : 0);
   for (const std::uint32_t slot : slots)
   {
     const std::size_t at = std::size_t(4) * slot;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      steps_[at + axis] = origin.steps[axis];
-      bases_[at + axis] = origin.base[axis];
-    }
-    steps_[at + 3] = origin.shift | (coloured ? colouredFlag : 0);
-    ids_[at] = static_cast<std::int32_t>(id & 0xffffffu);
-    ids_[at + 1] = static_cast<std::int32_t>((id >> 24) & 0xffffffu);
+    std::int32_t* const steps = columns_[0].values.data() + at;
+    std::copy(&origin.steps.x, &origin.steps.x + 3, steps);
+    steps[3] = origin.shift | flags;
+    put(columns_[1].values, at, glm::vec4(origin.base, 0.0f));
+    columns_[2].values[at] = static_cast<std::int32_t>(id & 0xffffffu);
+    columns_[2].values[at + 1] = static_cast<std::int32_t>((id >> 24) & 0xffffffu);
+    put(columns_[3].values, at, record.place);
+    put(columns_[4].values, at, record.radii);
     id += GpuPool::slotPoints;
   }
 }
 
-void SlotRecords::load(vtkOpenGLRenderWindow* window, vtkTextureObject* texture,
-  vtkOpenGLBufferObject* buffer, const void* data, bool integers)
+void SlotRecords::load(vtkOpenGLRenderWindow* window, Column& column, bool integers)
 {
-  const std::size_t values = steps_.size();
-  if (integers)
+  const std::size_t values = column.values.size();
+  column.buffer->Upload(column.values.data(), values, vtkOpenGLBufferObject::TextureBuffer);
+  if (column.texture->GetHandle() == 0)
   {
-    buffer->Upload(static_cast<const int*>(data), values, vtkOpenGLBufferObject::TextureBuffer);
-  }
-  else
-  {
-    buffer->Upload(static_cast<const float*>(data), values, vtkOpenGLBufferObject::TextureBuffer);
-  }
-  if (texture->GetHandle() == 0)
-  {
-    texture->SetContext(window);
-    texture->SetInternalFormat(integers ? GL_RGBA32I : GL_RGBA32F);
-    texture->SetFormat(integers ? GL_RGBA_INTEGER : GL_RGBA);
-    texture->CreateTextureBuffer(
-      static_cast<unsigned int>(values / 4), 4, integers ? VTK_INT : VTK_FLOAT, buffer);
+    column.texture->SetContext(window);
+    column.texture->SetInternalFormat(integers ? GL_RGBA32I : GL_RGBA32F);
+    column.texture->SetFormat(integers ? GL_RGBA_INTEGER : GL_RGBA);
+    column.texture->CreateTextureBuffer(static_cast<unsigned int>(values / 4), 4,
+      integers ? VTK_INT : VTK_FLOAT, column.buffer);
   }
 }
 
 void SlotRecords::upload(vtkOpenGLRenderWindow* window)
 {
-  this->load(window, stepsTexture_, stepsBuffer_, steps_.data(), true);
-  this->load(window, basesTexture_, basesBuffer_, bases_.data(), false);
-  this->load(window, idsTexture_, idsBuffer_, ids_.data(), true);
+  for (std::size_t number = 0; number < count; ++number)
+  {
+    this->load(window, columns_[number], names[number].integers);
+  }
 }
 
 void SlotRecords::activate(vtkShaderProgram* program)
 {
-  stepsTexture_->Activate();
-  basesTexture_->Activate();
-  program->SetUniformi("slotSteps", stepsTexture_->GetTextureUnit());
-  program->SetUniformi("slotBase", basesTexture_->GetTextureUnit());
-  program->SetUniformi("slotPoints", static_cast<int>(GpuPool::slotPoints));
-  if (program->IsUniformUsed("slotIds"))
+  for (std::size_t number = 0; number < count; ++number)
   {
-    idsTexture_->Activate();
-    program->SetUniformi("slotIds", idsTexture_->GetTextureUnit());
+    if (program->IsUniformUsed(names[number].uniform))
+    {
+      columns_[number].texture->Activate();
+      program->SetUniformi(
+        names[number].uniform, columns_[number].texture->GetTextureUnit());
+    }
   }
+  program->SetUniformi("slotPoints", static_cast<int>(GpuPool::slotPoints));
 }
 
 void SlotRecords::deactivate()
 {
-  stepsTexture_->Deactivate();
-  basesTexture_->Deactivate();
-  if (idsTexture_->GetTextureUnit() >= 0)
+  for (Column& column : columns_)
   {
-    idsTexture_->Deactivate();
+    if (column.texture->GetTextureUnit() >= 0)
+    {
+      column.texture->Deactivate();
+    }
   }
 }
 
 void SlotRecords::release(vtkWindow* window)
 {
-  for (vtkTextureObject* texture :
-    {stepsTexture_.GetPointer(), basesTexture_.GetPointer(), idsTexture_.GetPointer()})
+  for (Column& column : columns_)
   {
-    texture->ReleaseGraphicsResources(window);
-  }
-  for (vtkOpenGLBufferObject* buffer :
-    {stepsBuffer_.GetPointer(), basesBuffer_.GetPointer(), idsBuffer_.GetPointer()})
-  {
-    buffer->ReleaseGraphicsResources();
+    column.texture->ReleaseGraphicsResources(window);
+    column.buffer->ReleaseGraphicsResources();
   }
 }
 

@@ -4,6 +4,9 @@
 
 #include <vtkNew.h>
 
+#include <glm/vec4.hpp>
+
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -22,36 +25,43 @@ namespace pointfront
 class SlotRecords
 {
 public:
+  /// Of one node.
+  struct Record
+  {
+    SlotOrigin origin;
+    bool coloured = false;     ///< the slots' values are there
+    bool shaped = false;       ///< normals and codes of radii are there
+    bool sized = false;        ///< radii of their own are there
+    std::uint64_t firstId = 0; ///< 48-bit id of the node's first point
+    glm::vec4 place{ 0.0f };   ///< camera space of the reference's steps; w: 1 where radii are bounded
+    glm::vec4 radii{ 0.0f };   ///< closing radius, scale of a point's own, least share, spare
+  };
+
   SlotRecords();
   ~SlotRecords();
 
   /// A frame begins; `slots` is the pool's number of slots.
   void begin(std::uint32_t slots);
-  /// `coloured`: the slots' values are there. `firstId`: 48-bit id of the node's first point.
-  void set(const std::vector<std::uint32_t>& slots, const SlotOrigin& origin, bool coloured,
-    std::uint64_t firstId);
+  void set(const std::vector<std::uint32_t>& slots, const Record& record);
   /// To the GPU.
   void upload(vtkOpenGLRenderWindow* window);
 
-  /// Binds the textures to units and gives their numbers to `program`.
+  /// Binds the textures that `program` uses to units and gives it their numbers.
   void activate(vtkShaderProgram* program);
   void deactivate();
   void release(vtkWindow* window);
 
 private:
-  struct Column;
-  void load(vtkOpenGLRenderWindow* window, vtkTextureObject* texture, vtkOpenGLBufferObject* buffer,
-    const void* data, bool integers);
+  static constexpr std::size_t count = 5;
+  struct Column
+  {
+    std::vector<std::int32_t> values; ///< 4 a slot; floats as their bits
+    vtkNew<vtkOpenGLBufferObject> buffer;
+    vtkNew<vtkTextureObject> texture;
+  };
+  void load(vtkOpenGLRenderWindow* window, Column& column, bool integers);
 
-  std::vector<std::int32_t> steps_; ///< 4 a slot
-  std::vector<float> bases_;        ///< 4 a slot
-  std::vector<std::int32_t> ids_;   ///< 4 a slot
-  vtkNew<vtkOpenGLBufferObject> stepsBuffer_;
-  vtkNew<vtkOpenGLBufferObject> basesBuffer_;
-  vtkNew<vtkOpenGLBufferObject> idsBuffer_;
-  vtkNew<vtkTextureObject> stepsTexture_;
-  vtkNew<vtkTextureObject> basesTexture_;
-  vtkNew<vtkTextureObject> idsTexture_;
+  std::array<Column, count> columns_;
 };
 
 } // namespace pointfront

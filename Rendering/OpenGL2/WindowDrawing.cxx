@@ -31,21 +31,22 @@ float distanceTo(const PlanItem& item, const FramePlan& plan)
 
 } // namespace
 
-bool FrameTimer::begin(double cpuMilliseconds, std::int64_t points, std::int64_t moves)
+bool FrameTimer::begin(double cpuMilliseconds, std::int64_t moves)
 {
   if (gpu_.Started())
   {
     return false;
   }
-  frame_ = {points, moves, 0.0};
+  frame_ = {0, moves, 0.0};
   cpuMs_ = cpuMilliseconds;
   gpu_.Start();
   return true;
 }
 
-void FrameTimer::end(double drawingMilliseconds)
+void FrameTimer::end(double drawingMilliseconds, std::int64_t points)
 {
   gpu_.Stop();
+  frame_.points = points;
   drawingMs_ = drawingMilliseconds;
 }
 
@@ -101,6 +102,7 @@ void WindowDrawing::release()
     pass = nullptr;
   }
   picture_.release(window_);
+  splats_.release(window_);
   for (auto& [renderer, timer] : timers_)
   {
     timer.release();
@@ -121,7 +123,7 @@ void WindowDrawing::setStore(const void* store)
   {
     pool_.release();
     picture_.leaveScreen();
-    colourings_.clear();
+    streams_.clear();
     store_ = store;
   }
 }
@@ -165,25 +167,36 @@ void WindowDrawing::order(const FramePlan& plan)
 bool WindowDrawing::upload(const FramePlan& plan, std::int64_t bytes)
 {
   this->order(plan);
-  // A layer that shows nothing in this frame keeps its values.
-  for (const DrawBatch& batch : plan.batches)
-  {
-    colourings_.resize(std::max<std::size_t>(colourings_.size(), batch.layer + 1u));
-    colourings_[batch.layer] = batch.style->colouring;
-  }
-  pool_.setColourings(colourings_);
+  this->chooseStreams(plan);
   const bool room = pool_.makeRoom(order_);
   bool left = false;
-  for (std::size_t i = 0; i < order_.size(); ++i)
+  for (const PlanItem* const item : order_)
   {
-    const PlanItem& item = *order_[i];
-    const auto* entry = pool_.bring(*item.node, item.last, *plan.schema, bytes);
-    left = left || !entry || entry->points < item.last ||
-      (styles_[i]->colouring.hasValues() && entry->values < item.last);
+    const auto* entry = pool_.bring(*item->node, item->last, plan, bytes);
+    left = left || !entry || !pool_.isFilled(*entry, item->last);
   }
   // What has no room does not come with another frame, unless clouds that are drawn after this one
   // have yet to come down to a budget that was lowered.
   return left && (room || bytes <= 0 || pool_.lowered());
+}
+
+/// A layer that shows nothing in this frame keeps what it has.
+void WindowDrawing::chooseStreams(const FramePlan& plan)
+{
+  for (auto batch = plan.batches.begin(); batch != plan.batches.end();)
+  {
+    const auto next = std::find_if(batch, plan.batches.end(),
+      [&](const DrawBatch& other) { return other.layer != batch->layer; });
+    LayerStreams::Styles styles;
+    for (auto one = batch; one != next; ++one)
+    {
+      styles.push_back(one->style);
+    }
+    streams_.resize(std::max<std::size_t>(streams_.size(), batch->layer + 1u));
+    streams_[batch->layer] = LayerStreams(std::move(styles));
+    batch = next;
+  }
+  pool_.setStreams(streams_);
 }
 
 DrawRuns& WindowDrawing::runsOf(const std::shared_ptr<const ResolvedStyle>& style)
@@ -206,7 +219,6 @@ std::int64_t WindowDrawing::list(const FramePlan& plan)
   {
     this->runsOf(batch.style); // in the order of the batches
   }
-  constexpr std::uint32_t slotPoints = GpuPool::slotPoints;
   records_.begin(pool_.slotCount());
   std::int64_t drawn = 0;
   for (std::size_t i = 0; i < order_.size(); ++i)
@@ -219,24 +231,44 @@ std::int64_t WindowDrawing::list(const FramePlan& plan)
     {
       continue;
     }
-    records_.set(entry->slots,
-      SlotOrigin::of(plan.grid, node.halfSize, node.origin, plan.camera.reference),
-      styles_[i]->colouring.hasValues() && entry->values >= end, node.firstPoint);
+    SlotRecords::Record record;
+    record.origin =
+      SlotOrigin::of(plan.grid, node.halfSize, node.origin, plan.camera.reference);
+    record.coloured =
+      styles_[i]->colouring.hasValues() && entry->values(GpuStream::Value) >= end;
+    record.firstId = node.firstPoint;
+    records_.set(entry->slots, record);
     const auto group = std::find_if(groups_.begin(), groups_.end(),
       [&](const StyleGroup& each) { return each.style.get() == styles_[i]; });
-    for (std::uint32_t first = item.first; first < end;)
-    {
-      const std::uint32_t next = std::min(end, (first / slotPoints + 1) * slotPoints);
-      const std::uint32_t slot = entry->slots[first / slotPoints];
-      const std::size_t block = pool_.blockOf(slot);
-      const std::uint32_t inBlock = slot - pool_.blocks()[block].first();
-      group->runs.add(block, static_cast<int>(inBlock * slotPoints + first % slotPoints),
-        static_cast<int>(next - first));
-      first = next;
-    }
+    pool_.addRuns(*entry, item.first, end, group->runs);
     drawn += end - item.first;
   }
   return drawn;
+}
+
+void WindowDrawing::dropTables(const FramePlan& plan)
+{
+  const auto unused = [&](const std::unique_ptr<ColourTable>& table)
+  {
+    const bool used = std::any_of(plan.batches.begin(), plan.batches.end(),
+      [&](const DrawBatch& batch) { return batch.style->map == table->map(); });
+    if (!used)
+    {
+      table->release(window_);
+    }
+    return !used;
+  };
+  tables_.erase(std::remove_if(tables_.begin(), tables_.end(), unused), tables_.end());
+}
+
+std::int64_t WindowDrawing::drawSplats(
+  vtkRenderer* renderer, FramePlan& plan, bool ids, bool sameFrame)
+{
+  this->dropTables(plan);
+  return splats_.draw(
+    window_, renderer, plan, pool_,
+    [this](const std::shared_ptr<const ColourMap>& map) { return this->tableOf(map); }, ids,
+    sameFrame);
 }
 
 ColourTable* WindowDrawing::tableOf(const std::shared_ptr<const ColourMap>& map)
@@ -266,17 +298,7 @@ vtkOpenGLPointFrontPass& WindowDrawing::passOf(PointColouring::Kind kind)
 void WindowDrawing::draw(vtkRenderer* renderer, vtkActor* actor, vtkMapper* owner,
   const FramePlan& plan, std::int64_t storePoints)
 {
-  const auto unused = [&](const std::unique_ptr<ColourTable>& table)
-  {
-    const bool used = std::any_of(groups_.begin(), groups_.end(),
-      [&](const StyleGroup& group) { return group.style->map == table->map(); });
-    if (!used)
-    {
-      table->release(window_);
-    }
-    return !used;
-  };
-  tables_.erase(std::remove_if(tables_.begin(), tables_.end(), unused), tables_.end());
+  this->dropTables(plan);
   records_.upload(window_);
   PointDrawing drawing;
   drawing.pool = &pool_;

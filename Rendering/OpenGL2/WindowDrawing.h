@@ -5,6 +5,7 @@
 #include "GpuPool.h"
 #include "SlotRecords.h"
 #include "SoftwarePicture.h"
+#include "SplatPicture.h"
 #include "vtkOpenGLPointFrontPass.h"
 #include "vtkWindowResources.h"
 
@@ -41,9 +42,9 @@ public:
   };
 
   /// False while an earlier frame's time is on its way: this one goes untimed.
-  bool begin(double cpuMilliseconds, std::int64_t points, std::int64_t moves);
+  bool begin(double cpuMilliseconds, std::int64_t moves);
   /// `drawingMilliseconds`: of the CPU since begin(); the GPU draws meanwhile, or after.
-  void end(double drawingMilliseconds);
+  void end(double drawingMilliseconds, std::int64_t points);
   /// Once a timed frame.
   std::optional<Frame> take();
   void release() { gpu_.ReleaseGraphicsResources(); }
@@ -83,7 +84,12 @@ public:
   void draw(vtkRenderer* renderer, vtkActor* actor, vtkMapper* owner, const FramePlan& plan,
     std::int64_t storePoints);
 
-  /// In the place of these three: by threads of this process, from host memory. Points that are on
+  /// In the place of the last two, for splats: into targets of their own. `sameFrame`: a further
+  /// drawing of a frame, which may show what the first one drew. Returns points.
+  std::int64_t drawSplats(vtkRenderer* renderer, FramePlan& plan, bool ids, bool sameFrame);
+  SplatPicture& splats() { return splats_; }
+
+  /// In the place of all these: by threads of this process, from host memory. Points that are on
   /// the GPU are given back.
   SoftwarePicture& softwarePicture()
   {
@@ -103,6 +109,8 @@ private:
   };
 
   void order(const FramePlan& plan);
+  void chooseStreams(const FramePlan& plan);
+  void dropTables(const FramePlan& plan);
   DrawRuns& runsOf(const std::shared_ptr<const ResolvedStyle>& style);
   ColourTable* tableOf(const std::shared_ptr<const ColourMap>& map);
   vtkOpenGLPointFrontPass& passOf(PointColouring::Kind kind);
@@ -112,10 +120,11 @@ private:
   const void* store_ = nullptr; ///< compared, not used
   GpuPool pool_;
   SlotRecords records_;
-  std::vector<PointColouring> colourings_; ///< by layer
+  std::vector<LayerStreams> streams_; ///< by layer
   std::vector<std::unique_ptr<ColourTable>> tables_; ///< of the maps of the last frame
   std::array<vtkSmartPointer<vtkOpenGLPointFrontPass>, 4> passes_; ///< by kind of colouring
   SoftwarePicture picture_;
+  SplatPicture splats_;
   std::map<vtkRenderer*, FrameTimer> timers_;
   GpuPool::DrawList order_;                  ///< of the plan, near to far
   std::vector<const ResolvedStyle*> styles_; ///< of the items of order_

@@ -1,11 +1,13 @@
 #include "vtkOpenGLPointFrontMapper.h"
 
 #include "DrawBatches.h"
+#include "LayerStreams.h"
 #include "WindowDrawing.h"
 
 #include "pointfront/Plan/FramePlan.h"
 #include "pointfront/Plan/FrameStatistics.h"
 #include "pointfront/Store/StoredCloud.h"
+#include "pointfront/Style/StyleSheet.h"
 #include "vtkPointFrontStore.h"
 
 #include <vtkActor.h>
@@ -17,10 +19,12 @@
 #include <vtkShaderProperty.h>
 #include <vtkWindow.h>
 
+#include <algorithm>
 #include <chrono>
 #include <limits>
 #include <map>
 #include <utility>
+#include <vector>
 
 vtkStandardNewMacro(vtkOpenGLPointFrontMapper);
 
@@ -32,6 +36,13 @@ using Clock = std::chrono::steady_clock;
 double millisecondsSince(Clock::time_point begin)
 {
   return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+}
+
+bool hasOwnShaders(vtkActor* actor)
+{
+  vtkShaderProperty* const shaders = actor->GetShaderProperty();
+  return shaders->HasVertexShaderCode() || shaders->HasFragmentShaderCode() ||
+    shaders->HasGeometryShaderCode() || shaders->GetNumberOfShaderReplacements() > 0;
 }
 
 } // namespace
@@ -91,39 +102,24 @@ void vtkOpenGLPointFrontMapper::RenderPiece(vtkRenderer* renderer, vtkActor* act
     return;
   }
   drawing.setStore(this->GetStore());
-  const bool host = this->DrawsFromHostMemory(actor);
   const bool first = this->IsFirstDrawing(renderer);
-  bool uploadsLeft = false;
+  const bool host = this->DrawsFromHostMemory(actor);
+  const bool ids = renderer->GetSelector() != nullptr;
   std::uint64_t kept = 0;
   if (host)
   {
-    kept = drawing.softwarePicture()
-             .draw(window, renderer, *plan, renderer->GetSelector() != nullptr)
-             .keptVisible;
+    kept = drawing.softwarePicture().draw(window, renderer, *plan, ids).keptVisible;
   }
-  else
-  {
-    uploadsLeft = this->Upload(renderer, drawing, *plan);
-  }
-  const auto points =
-    host ? static_cast<std::int64_t>(plan->pointCount()) : drawing.list(*plan);
+  const bool uploadsLeft = !host && this->Upload(renderer, drawing, *plan);
   pointfront::FrameTimer& timer = drawing.timerOf(renderer);
-  const bool timed =
-    first && points > 0 && timer.begin(
-    millisecondsSince(begin), points + static_cast<std::int64_t>(kept), this->GetLastMoves());
+  const bool timed = first && plan->pointCount() > 0 &&
+    timer.begin(millisecondsSince(begin), this->GetLastMoves());
   const auto drawn = Clock::now();
-  if (points > 0 && host)
-  {
-    drawing.softwarePicture().handOver(
-      window, renderer, actor, *plan, this->GetStore()->GetNumberOfPoints());
-  }
-  else if (points > 0)
-  {
-    drawing.draw(renderer, actor, this, *plan, this->GetStore()->GetNumberOfPoints());
-  }
+  const vtkIdType points = host ? this->HandOver(renderer, actor, drawing, *plan)
+                                : this->DrawPoints(renderer, actor, drawing, *plan);
   if (timed)
   {
-    timer.end(millisecondsSince(drawn));
+    timer.end(millisecondsSince(drawn), points + static_cast<std::int64_t>(kept));
   }
   if (first)
   {
@@ -132,6 +128,43 @@ void vtkOpenGLPointFrontMapper::RenderPiece(vtkRenderer* renderer, vtkActor* act
     this->FinishFrame(renderer, points, static_cast<vtkIdType>(kept), uploadsLeft);
   }
   this->UpdateProgress(1.0);
+}
+
+/// What threads have drawn.
+vtkIdType vtkOpenGLPointFrontMapper::HandOver(vtkRenderer* renderer, vtkActor* actor,
+  pointfront::WindowDrawing& drawing, const pointfront::FramePlan& plan)
+{
+  const auto points = static_cast<vtkIdType>(plan.pointCount());
+  if (points > 0)
+  {
+    drawing.softwarePicture().handOver(
+      static_cast<vtkOpenGLRenderWindow*>(renderer->GetRenderWindow()), renderer, actor, plan,
+      this->GetStore()->GetNumberOfPoints());
+  }
+  return points;
+}
+
+/// What is on the GPU of the plan: points in VTK's own pass, splats by targets of their own.
+vtkIdType vtkOpenGLPointFrontMapper::DrawPoints(vtkRenderer* renderer, vtkActor* actor,
+  pointfront::WindowDrawing& drawing, pointfront::FramePlan& plan)
+{
+  const vtkIdType storePoints = this->GetStore()->GetNumberOfPoints();
+  if (hasOwnShaders(actor) || this->HasPlainPointsOnly(actor))
+  {
+    const vtkIdType points = drawing.list(plan);
+    if (points > 0)
+    {
+      drawing.draw(renderer, actor, this, plan, storePoints);
+    }
+    return points;
+  }
+  const vtkIdType points = drawing.drawSplats(
+    renderer, plan, renderer->GetSelector() != nullptr, !this->IsFirstDrawing(renderer));
+  if (points > 0)
+  {
+    drawing.splats().handOver(renderer, actor, plan, storePoints);
+  }
+  return points;
 }
 
 /// What a frame's first drawing brings to the GPU. True when something is left over.
@@ -165,9 +198,7 @@ void vtkOpenGLPointFrontMapper::TellFallBack(const char* what)
 /// Asked while the window's context is current.
 bool vtkOpenGLPointFrontMapper::DrawsFromHostMemory(vtkActor* actor)
 {
-  vtkShaderProperty* shaders = actor->GetShaderProperty();
-  const bool ownShaders = shaders->HasVertexShaderCode() || shaders->HasFragmentShaderCode() ||
-    shaders->HasGeometryShaderCode() || shaders->GetNumberOfShaderReplacements() > 0;
+  const bool ownShaders = hasOwnShaders(actor);
   const bool onlyOpenGL = ownShaders || actor->HasTranslucentPolygonalGeometry() != 0;
   const bool asked =
     this->Backend == SOFTWARE || (this->Backend == AUTOMATIC && pointfront::glIsAProgram());
@@ -178,13 +209,26 @@ bool vtkOpenGLPointFrontMapper::DrawsFromHostMemory(vtkActor* actor)
         : "the software back end does not draw translucent points: OpenGL does");
     return false;
   }
-  if (!asked && !onlyOpenGL && !this->HasPlainPointsOnly(actor))
+  if (!asked && !onlyOpenGL && !this->DrawsByOpenGL(actor))
   {
-    this->TellFallBack("OpenGL draws points of some pixels, in one colour each, and without "
-                       "filters: this style is drawn by the software back end");
+    this->TellFallBack("OpenGL fills no holes, and draws at most 254 styles of a layer with one "
+                       "attribute of sizes: this style is drawn by the software back end");
     return true;
   }
   return asked;
+}
+
+bool vtkOpenGLPointFrontMapper::DrawsByOpenGL(vtkActor* actor)
+{
+  const auto sheet = this->GetStyleSheet();
+  if (!sheet)
+  {
+    return true;
+  }
+  const std::vector<pointfront::LayerStyling> layers = this->GetStyling(actor);
+  return !sheet->shading.fillHoles &&
+    std::all_of(layers.begin(), layers.end(), [](const pointfront::LayerStyling& layer)
+      { return pointfront::LayerStreams::canDraw(layer.styles); });
 }
 
 void vtkOpenGLPointFrontMapper::LeaveScreen()

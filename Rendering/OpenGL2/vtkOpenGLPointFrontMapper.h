@@ -5,8 +5,9 @@
  *
  * Comes from vtkPointFrontMapper::New() by the object factory. It draws plans (FramePlan) and asks
  * neither residency nor table. Host nodes become slots of a GpuPool (bounded bytes a frame while
- * interacting), the slots drawings of vtkOpenGLPointFrontPass; each window has its own
- * (WindowDrawing). Hardware selection gives ids that are ranks in the store: (node,
+ * interacting). Points of some pixels are drawings of vtkOpenGLPointFrontPass, in VTK's own pass;
+ * splats are drawn into targets of their own (SplatPicture) and handed over as one picture. Each
+ * window has its own (WindowDrawing). Hardware selection gives ids that are ranks in the store: (node,
  * position in the node), 48 bits.
  */
 #ifndef vtkOpenGLPointFrontMapper_h
@@ -48,6 +49,11 @@ private:
   void operator=(const vtkOpenGLPointFrontMapper&) = delete;
 
   void TellFallBack(const char* what);
+  bool DrawsByOpenGL(vtkActor* actor);
+  vtkIdType HandOver(vtkRenderer* renderer, vtkActor* actor, pointfront::WindowDrawing& drawing,
+    const pointfront::FramePlan& plan);
+  vtkIdType DrawPoints(vtkRenderer* renderer, vtkActor* actor, pointfront::WindowDrawing& drawing,
+    pointfront::FramePlan& plan);
   bool Upload(vtkRenderer* renderer, pointfront::WindowDrawing& drawing,
     const pointfront::FramePlan& plan);
   void ReadTimer(vtkRenderer* renderer, pointfront::FrameTimer& timer);

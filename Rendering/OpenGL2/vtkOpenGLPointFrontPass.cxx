@@ -310,8 +310,8 @@ void vtkOpenGLPointFrontPass::DrawBlocks(vtkOpenGLHelper& cellBO)
       glBindBuffer(GL_ARRAY_BUFFER, block.positionBuffer());
       glVertexAttribIPointer(static_cast<GLuint>(positions), 3, GL_UNSIGNED_INT, 0, nullptr);
     }
-    attach(colours, block.valueBuffer(), 4, GL_UNSIGNED_BYTE, true);
-    attach(values, block.valueBuffer(), 1, GL_FLOAT, false);
+    attach(colours, block.buffer(pointfront::GpuStream::Value), 4, GL_UNSIGNED_BYTE, true);
+    attach(values, block.buffer(pointfront::GpuStream::Value), 1, GL_FLOAT, false);
     cellBO.Program->SetUniformi("firstSlot", static_cast<int>(block.first()));
     batches.draw(
       runs.firsts() + stretch.begin, runs.counts() + stretch.begin, stretch.end - stretch.begin);

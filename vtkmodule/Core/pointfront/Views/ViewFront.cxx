@@ -253,7 +253,7 @@ void ViewFront::setLimits(const FrameDemand& demand)
   limits.sharedDrawn.most = demand.pointBudget;
   const std::uint64_t claims = window_->points.claims();
   limits.sharedSlots.most = demand.gpuBytes > 0
-    ? GpuSlotBytes::slotsWithin(demand.gpuBytes, !demand.columns.empty(), claims)
+    ? GpuSlotBytes::slotsWithin(demand.gpuBytes, demand.gpuStreams, claims)
     : 0;
   limits.requestLimit = requestsAtOnce;
   limits.interacting = demand.interacting;

@@ -34,6 +34,7 @@ struct FrameDemand
   double targetErrorPx = 1.0;
   std::uint64_t pointBudget = 0; ///< 0: no limit; over all clouds of the window
   std::int64_t gpuBytes = 0;     ///< likewise, of GPU memory
+  int gpuStreams = 1;            ///< that a point has there beside its position (GpuStreams.h)
   bool interacting = false;
   double frameMs = 0.0;  ///< interacting: that a frame may take, with all clouds of the window
   double cloudMs = 0.0;  ///< where frameMs is 0: that this cloud may take

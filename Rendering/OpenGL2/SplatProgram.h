@@ -1,0 +1,72 @@
+#pragma once
+
+#include "TechniquePasses.h"
+
+#include "pointfront/Style/PointColouring.h"
+
+#include <map>
+#include <string>
+#include <tuple>
+
+class vtkOpenGLRenderWindow;
+class vtkShaderProgram;
+
+namespace pointfront
+{
+
+/// Where splats take their radius from (SplatData.glsl).
+enum class RadiusSource : std::uint8_t
+{
+  Pixels,
+  World,
+  Node,
+  Codes,
+  Sizes
+};
+
+/// What a program that draws splats is compiled for.
+struct SplatVariant
+{
+  bool square = false;
+  SplatShape shape = SplatShape::Disc;
+  bool parallel = false;
+  bool second = false; ///< weights and colours of what is not behind
+  PointColouring::Kind colour = PointColouring::Kind::Flat;
+  bool marked = false;
+  bool shaped = false;
+  bool normals = false;
+  RadiusSource radius = RadiusSource::Node;
+  bool lit = false;
+  bool ids = false;
+  bool quads = false; ///< for splats that are larger than points can be
+
+  auto key() const
+  {
+    return std::make_tuple(square, shape, parallel, second, colour, marked, shaped, normals, radius,
+      lit, ids, quads);
+  }
+  friend bool operator<(const SplatVariant& a, const SplatVariant& b) { return a.key() < b.key(); }
+};
+
+/// Programs of splats in one context, each compiled when it is first asked for.
+/// Threads  that of the GL context, which is current.
+class SplatPrograms
+{
+public:
+  /// Bound and ready for uniforms; null where GL does not compile it, which VTK tells.
+  vtkShaderProgram* use(vtkOpenGLRenderWindow* window, const SplatVariant& variant);
+  /// Of the pass that makes a picture of what was drawn.
+  vtkShaderProgram* useResolve(
+    vtkOpenGLRenderWindow* window, bool blended, bool lit, bool eyeDome);
+
+private:
+  struct Sources
+  {
+    std::string vertex;
+    std::string fragment;
+    std::string geometry;
+  };
+  std::map<SplatVariant, Sources> sources_;
+};
+
+} // namespace pointfront

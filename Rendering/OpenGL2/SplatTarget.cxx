@@ -1,0 +1,155 @@
+#include "SplatTarget.h"
+
+#include <vtk_glew.h>
+
+#include <vtkOpenGLFramebufferObject.h>
+#include <vtkOpenGLRenderWindow.h>
+#include <vtkOpenGLState.h>
+#include <vtkTextureObject.h>
+
+namespace pointfront
+{
+namespace
+{
+
+constexpr float nothing[4] = { 0.0f, 0.0f, 0.0f, 0.0f };
+/// Who is seen where nothing is: all is behind it.
+constexpr float nowhere[4] = { -3.4e38f, -3.4e38f, 0.0f, 0.0f };
+
+void allocate(vtkOpenGLRenderWindow* window, vtkTextureObject* texture,
+  const SplatTarget::Parts& parts, int components, int type)
+{
+  texture->SetContext(window);
+  texture->SetMinificationFilter(vtkTextureObject::Nearest);
+  texture->SetMagnificationFilter(vtkTextureObject::Nearest);
+  texture->SetWrapS(vtkTextureObject::ClampToEdge);
+  texture->SetWrapT(vtkTextureObject::ClampToEdge);
+  texture->Allocate2D(static_cast<unsigned int>(parts.width),
+    static_cast<unsigned int>(parts.height), components, type);
+}
+
+/// To all of the first outputs. VTK keeps in mind what it set last for whichever framebuffer is
+/// bound, and may set nothing: what a framebuffer draws to is its own state.
+void bind(vtkOpenGLFramebufferObject* framebuffer, unsigned int outputs)
+{
+  framebuffer->Bind();
+  constexpr GLenum all[] = { GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1, GL_COLOR_ATTACHMENT2,
+    GL_COLOR_ATTACHMENT3 };
+  glDrawBuffers(static_cast<GLsizei>(outputs), all);
+}
+
+} // namespace
+
+SplatTarget::SplatTarget() = default;
+SplatTarget::~SplatTarget() = default;
+
+bool SplatTarget::prepare(vtkOpenGLRenderWindow* window, const Parts& parts)
+{
+  const bool same = ready_ && parts.width == parts_.width && parts.height == parts_.height &&
+    parts.lit == parts_.lit && parts.ids == parts_.ids && parts.blended == parts_.blended;
+  if (same)
+  {
+    return true;
+  }
+  release(window);
+  parts_ = parts;
+  allocate(window, seenColours_, parts, 4, VTK_UNSIGNED_CHAR);
+  allocate(window, seenDepths_, parts, 2, VTK_FLOAT);
+  depthBuffer_->SetContext(window);
+  depthBuffer_->AllocateDepth(static_cast<unsigned int>(parts.width),
+    static_cast<unsigned int>(parts.height), vtkTextureObject::Float32);
+  if (parts.lit)
+  {
+    allocate(window, normals_, parts, 4, VTK_FLOAT);
+  }
+  if (parts.ids)
+  {
+    allocate(window, ids_, parts, 2, VTK_FLOAT);
+  }
+  if (parts.blended)
+  {
+    allocate(window, sums_, parts, 4, VTK_FLOAT);
+  }
+  allocate(window, pictureColour_, parts, 4, VTK_UNSIGNED_CHAR);
+  allocate(window, pictureDepth_, parts, 1, VTK_FLOAT);
+  ready_ = attach(window);
+  return ready_;
+}
+
+bool SplatTarget::attach(vtkOpenGLRenderWindow* window)
+{
+  vtkOpenGLState* const state = window->GetState();
+  state->PushFramebufferBindings();
+  const auto isWhole = [](vtkOpenGLFramebufferObject* framebuffer)
+  { return framebuffer->CheckFrameBufferStatus(GL_FRAMEBUFFER) != 0; };
+  seen_->SetContext(window);
+  seen_->Bind();
+  unsigned int next = 0;
+  seen_->AddColorAttachment(next++, seenColours_);
+  seen_->AddColorAttachment(next++, seenDepths_);
+  if (parts_.lit)
+  {
+    seen_->AddColorAttachment(next++, normals_);
+  }
+  if (parts_.ids)
+  {
+    seen_->AddColorAttachment(next++, ids_);
+  }
+  seen_->AddDepthAttachment(depthBuffer_);
+  bool whole = isWhole(seen_);
+  if (parts_.blended)
+  {
+    summed_->SetContext(window);
+    summed_->Bind();
+    summed_->AddColorAttachment(0, sums_);
+    whole = whole && isWhole(summed_);
+  }
+  picture_->SetContext(window);
+  picture_->Bind();
+  picture_->AddColorAttachment(0, pictureColour_);
+  picture_->AddColorAttachment(1, pictureDepth_);
+  whole = whole && isWhole(picture_);
+  state->PopFramebufferBindings();
+  return whole;
+}
+
+void SplatTarget::beginSeen()
+{
+  const auto outputs = static_cast<unsigned int>(2 + int(parts_.lit) + int(parts_.ids));
+  bind(seen_, outputs);
+  constexpr float farthest = 1.0f;
+  for (unsigned int output = 0; output < outputs; ++output)
+  {
+    glClearBufferfv(GL_COLOR, static_cast<GLint>(output), output == 1 ? nowhere : nothing);
+  }
+  glClearBufferfv(GL_DEPTH, 0, &farthest);
+}
+
+void SplatTarget::beginSums()
+{
+  bind(summed_, 1);
+  glClearBufferfv(GL_COLOR, 0, nothing);
+}
+
+void SplatTarget::beginPicture()
+{
+  bind(picture_, 2);
+}
+
+void SplatTarget::release(vtkOpenGLRenderWindow* window)
+{
+  ready_ = false;
+  for (vtkOpenGLFramebufferObject* framebuffer :
+    { seen_.GetPointer(), summed_.GetPointer(), picture_.GetPointer() })
+  {
+    framebuffer->ReleaseGraphicsResources(window);
+  }
+  for (vtkTextureObject* texture : { seenColours_.GetPointer(), seenDepths_.GetPointer(),
+         depthBuffer_.GetPointer(), normals_.GetPointer(), ids_.GetPointer(), sums_.GetPointer(),
+         pictureColour_.GetPointer(), pictureDepth_.GetPointer() })
+  {
+    texture->ReleaseGraphicsResources(window);
+  }
+}
+
+} // namespace pointfront

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <vtkNew.h>
+
+class vtkOpenGLFramebufferObject;
+class vtkOpenGLRenderWindow;
+class vtkTextureObject;
+
+namespace pointfront
+{
+
+/// The textures that splats are drawn into, and the picture that is made of them.
+/// Bytes    16 a pixel for who is seen; with light 16, with ids 8, with blending 16 more; 8 for the
+///          picture.
+/// Threads  that of the GL context, which is current in all functions but the constructor.
+class SplatTarget
+{
+public:
+  /// What a frame needs of it.
+  struct Parts
+  {
+    int width = 1;
+    int height = 1;
+    bool lit = false;
+    bool ids = false;
+    bool blended = false;
+  };
+
+  SplatTarget();
+  ~SplatTarget();
+
+  /// Makes the textures that are missing or of another size, and gives back what is not needed.
+  /// False where GL has no room for them or cannot draw into them.
+  bool prepare(vtkOpenGLRenderWindow* window, const Parts& parts);
+  void release(vtkOpenGLRenderWindow* window);
+
+  // Framebuffers: bound and empty. The window's state is the caller's to restore.
+  void beginSeen();
+  void beginSums();
+  void beginPicture();
+
+  vtkTextureObject* seenColours() { return seenColours_; }
+  /// r: the depth that decided, g: that of the splat; camera units.
+  vtkTextureObject* seenDepths() { return seenDepths_; }
+  vtkTextureObject* normals() { return normals_; }
+  vtkTextureObject* ids() { return ids_; }
+  vtkTextureObject* sums() { return sums_; }
+  vtkTextureObject* pictureColour() { return pictureColour_; }
+  vtkTextureObject* pictureDepth() { return pictureDepth_; }
+
+private:
+  bool attach(vtkOpenGLRenderWindow* window);
+
+  Parts parts_;
+  bool ready_ = false;
+  vtkNew<vtkTextureObject> seenColours_;
+  vtkNew<vtkTextureObject> seenDepths_;
+  vtkNew<vtkTextureObject> depthBuffer_;
+  vtkNew<vtkTextureObject> normals_;
+  vtkNew<vtkTextureObject> ids_;
+  vtkNew<vtkTextureObject> sums_;
+  vtkNew<vtkTextureObject> pictureColour_;
+  vtkNew<vtkTextureObject> pictureDepth_;
+  vtkNew<vtkOpenGLFramebufferObject> seen_;
+  vtkNew<vtkOpenGLFramebufferObject> summed_;
+  vtkNew<vtkOpenGLFramebufferObject> picture_;
+};
+
+} // namespace pointfront

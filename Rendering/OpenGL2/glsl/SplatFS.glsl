@@ -1,0 +1,131 @@
+//VTK::System::Dec
+// The pixels of a splat. Twin of SplatSamples.h, SplatLoops.h and WinnerResolve.cxx.
+//POINTFRONT::Define::Dec
+//POINTFRONT::SplatData::Dec
+//VTK::Output::Dec
+
+uniform vec2 cameraScale;
+uniform vec2 cameraCentre;
+uniform float lowPass;     // pixels; 0: none
+uniform float paraboloid;  // radii that the rim lies behind the centre
+uniform float depthScale;  // of the depth buffer
+uniform float blendedMark; // alpha of who is seen: 1 where sums are its colour, else 0.5
+#if POINTFRONT_PASS == 2
+uniform sampler2D seenDepths;
+uniform float slackRadii;
+uniform float slackPixels;
+#endif
+
+in SplatData
+{
+//POINTFRONT::SplatMembers::Dec
+} splat;
+
+/// A splat that is smaller than the distance of pixels covers the one it lies in.
+bool inCentrePixel(vec2 d)
+{
+  return all(lessThanEqual(abs(d), vec2(0.5)));
+}
+
+/// q (0 at the centre, 1 at the rim) and depth; q beyond 1: not covered.
+vec2 sampleEllipse(vec2 d)
+{
+  float q = (splat.form.x * d.x + splat.form.y * d.y) * d.x + splat.form.z * d.y * d.y;
+  q = inCentrePixel(d) ? min(q, 0.999) : q;
+  float rise = clamp(dot(splat.slope.xy, d), -splat.centre.w, splat.centre.w);
+  return vec2(q, splat.centre.z + rise);
+}
+
+vec2 sampleExact(vec2 d)
+{
+  vec2 ray = d / cameraScale;
+  float turned = dot(splat.form.xy, ray);
+  float depth = splat.centre.z;
+  float further = POINTFRONT_PARALLEL == 1 ? -turned / splat.form.z
+                                           : -depth * turned / (splat.form.z + turned);
+  float t = depth + further;
+  vec2 u = POINTFRONT_PARALLEL == 1 ? ray : further * splat.slope.xy + t * ray;
+  float q = (dot(u, u) + further * further) * splat.form.w;
+  bool onDisc = q <= 1.0 && t >= 1.0e-30;
+  float near = lowPass > 0.0 ? dot(d, d) / (lowPass * lowPass) : 2.0;
+  near = inCentrePixel(d) ? min(near, 0.999) : near;
+  return onDisc ? vec2(min(q, near), t) : vec2(near, depth);
+}
+
+vec2 sampleSphere(vec2 d)
+{
+  vec2 ray = d / cameraScale;
+  vec2 to = splat.slope.xy;
+  float depth = splat.centre.z;
+  float aside = dot(to, ray), offset2 = dot(ray, ray);
+  float ray2 = POINTFRONT_PARALLEL == 1 ? 1.0 : 1.0 + dot(to, to) + 2.0 * aside + offset2;
+  float nearest = POINTFRONT_PARALLEL == 1 ? 0.0 : -depth * (aside + offset2) / ray2;
+  float t = depth + nearest;
+  vec2 p = POINTFRONT_PARALLEL == 1 ? ray : nearest * to + t * ray;
+  float distance2 = dot(p, p) + nearest * nearest;
+  float within = max(splat.centre.w * splat.centre.w - distance2, 0.0);
+  float front = t - sqrt(within / ray2);
+  float q = distance2 * splat.form.x;
+  q = inCentrePixel(d) ? min(q, 1.0) : q;
+  return vec2(front >= 1.0e-30 ? q : 2.0, front);
+}
+
+/// View space, towards the eye; 0: none.
+vec3 normalAt(float depth)
+{
+#if POINTFRONT_SHAPE == 4
+  vec2 reach = POINTFRONT_PARALLEL == 1 ? vec2(1.0) : vec2(depth, splat.centre.z);
+  vec2 here = (gl_FragCoord.xy - cameraCentre) / cameraScale * reach.x;
+  vec2 centre = (splat.centre.xy - cameraCentre) / cameraScale * reach.y;
+  return normalize(vec3(here - centre, splat.centre.z - depth));
+#else
+  vec3 n = vec3(splat.normal.xy, -splat.normal.z);
+  float size = length(n);
+  n = size > 0.0 ? n / size : n;
+  return n.z < 0.0 ? -n : n;
+#endif
+}
+
+void main()
+{
+  vec2 d = gl_FragCoord.xy - splat.centre.xy;
+#if POINTFRONT_SHAPE == 0
+  vec2 inside = step(splat.rectangle.xy, gl_FragCoord.xy) * step(gl_FragCoord.xy, splat.rectangle.zw);
+  vec2 s = vec2(inside.x * inside.y > 0.0 ? 0.0 : 2.0, splat.centre.z);
+#elif POINTFRONT_SHAPE == 1
+  vec2 s = vec2(splat.form.x * dot(d, d), splat.centre.z);
+#elif POINTFRONT_SHAPE == 2
+  vec2 s = sampleEllipse(d);
+#elif POINTFRONT_SHAPE == 3
+  vec2 s = sampleExact(d);
+#else
+  vec2 s = sampleSphere(d);
+#endif
+  if (!(s.x <= 1.0))
+  {
+    discard;
+  }
+  float key = s.y + paraboloid * splat.centre.w * s.x;
+#if POINTFRONT_PASS == 2
+  float pixel = slackPixels / cameraScale.y * (POINTFRONT_PARALLEL == 1 ? 1.0 : splat.centre.z);
+  if (key - (slackRadii * splat.centre.w + pixel) >
+    texelFetch(seenDepths, ivec2(gl_FragCoord.xy), 0).r)
+  {
+    discard;
+  }
+  float weight = floor((1.0 - s.x) * (1.0 - s.x) * 63.0 + 0.5);
+  gl_FragData[0] = vec4(floor(splat.colour.rgb * 255.0 + 0.5) * weight, weight);
+#else
+  gl_FragDepth = key * depthScale;
+  gl_FragData[0] = vec4(splat.colour.rgb, blendedMark);
+  gl_FragData[1] = vec4(key, s.y, 0.0, 0.0);
+#if POINTFRONT_LIT
+  gl_FragData[2] = vec4(normalAt(s.y), 0.0);
+#if POINTFRONT_PICKING
+  gl_FragData[3] = vec4(splat.id, 0.0, 0.0);
+#endif
+#elif POINTFRONT_PICKING
+  gl_FragData[2] = vec4(splat.id, 0.0, 0.0);
+#endif
+#endif
+}

@@ -16,6 +16,8 @@
 #include "pointfront/Residency/Residency.h"
 #include "pointfront/Store/StoredCloud.h"
 #include "pointfront/Store/StoredCloudFormats.h"
+#include "pointfront/Style/AttributeRanges.h"
+#include "pointfront/Style/StyleSheet.h"
 
 #include "IndexedLASFile.h"
 
@@ -25,12 +27,10 @@
 
 #include <vtkActor.h>
 #include <vtkCamera.h>
-#include <vtkEDLShading.h>
 #include <vtkNew.h>
 #include <vtkOpenGLRenderer.h>
 #include <vtkPNGWriter.h>
 #include <vtkProperty.h>
-#include <vtkRenderStepsPass.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
 #include <vtkSmartPointer.h>
@@ -78,11 +78,52 @@ bool isPlain(const DrawingOptions& options)
   {
     rest.shownClasses.reset();
   }
-  if (options.eyeDomeLighting)
-  {
-    rest.shading.eyeDomeStrength = 0.0f;
-  }
   return rest == StyleSheet();
+}
+
+/// The same colour means the same value in all stores: ranges that the sheet leaves open are taken
+/// over all of them, as the software back end does.
+void setRanges(ColourSource& source, const AttributeRanges& ranges)
+{
+  using Kind = ColourMapChoice::Kind;
+  const bool mapped = source.map.kind != Kind::Classification && source.map.kind != Kind::Direct;
+  if (source.kind == ColourSource::Kind::Attribute && mapped && !source.map.range &&
+    source.attribute != "classification" && ranges.has(source.attribute))
+  {
+    if (const Result<std::array<double, 2>> range = ranges.of(source.attribute); range)
+    {
+      source.map.range = *range;
+    }
+  }
+  for (ColourSource& part : source.parts)
+  {
+    setRanges(part, ranges);
+  }
+}
+
+/// One sheet for all stores; the first one decides what is not said.
+std::shared_ptr<const StyleSheet> sheetOf(
+  const DrawingOptions& options, const std::vector<std::shared_ptr<const StoredCloud>>& stores)
+{
+  auto sheet = std::make_shared<StyleSheet>(options.style);
+  if (!sheet->standard.colour)
+  {
+    sheet->standard.colour =
+      ColourSource::ofAttribute(defaultColourAttribute(stores.front()->description()));
+  }
+  if (stores.size() > 1)
+  {
+    const AttributeRanges ranges(stores);
+    setRanges(*sheet->standard.colour, ranges);
+    for (auto& [code, style] : sheet->classes)
+    {
+      if (style.colour)
+      {
+        setRanges(*style.colour, ranges);
+      }
+    }
+  }
+  return sheet;
 }
 
 /// One store with what draws it.
@@ -242,9 +283,12 @@ Result<void> OffscreenScene::setUpDrawing()
   {
     return colour.error();
   }
+  const bool plain = isPlain(options_);
+  const auto sheet = plain ? nullptr : sheetOf(options_, stores);
   for (const auto& drawn : stores_)
   {
     drawn->mapper->SetBackendToOpenGL();
+    drawn->mapper->SetStyleSheet(sheet);
     applyColour(colour.value(), drawn->mapper);
     drawn->mapper->SetTargetError(options_.errorPx);
     drawn->mapper->SetDetailSelection(options_.detail == "view"
@@ -258,13 +302,6 @@ Result<void> OffscreenScene::setUpDrawing()
     drawn->mapper->SetTargetFrameTime(options_.frameMs);
     drawn->actor->GetProperty()->LightingOff(); // colours are drawn as they are
     renderer_->AddActor(drawn->actor);
-  }
-  if (options_.eyeDomeLighting)
-  {
-    vtkNew<vtkRenderStepsPass> steps;
-    vtkNew<vtkEDLShading> shading;
-    shading->SetDelegatePass(steps);
-    renderer_->SetPass(shading);
   }
   return {};
 }
@@ -429,12 +466,6 @@ Result<void> OffscreenScene::writePicture(const std::string& path)
 
 Result<std::unique_ptr<StoreScene>> openScene(const DrawingOptions& options)
 {
-  if (!isPlain(options))
-  {
-    return makeError(Error::Kind::Unsupported,
-      "--backend opengl draws points in one style in this version; --style, --where and other "
-      "techniques need --backend software");
-  }
   auto scene = std::make_unique<OffscreenScene>(options);
   // The window first where it is measured; else what is wrong with a store is told without one.
   if (Result<void> opened = options.measureEmptyScene ? scene->openWindow(true) : Result<void>();

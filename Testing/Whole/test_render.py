@@ -217,9 +217,6 @@ class Styles(SceneTest):
         picture, statistics = self.statistics(*self.near, "--style", style)
         self.assertEqual(set(map(tuple, picture.reshape(-1, 3).tolist())), {(32, 255, 64)})
         self.assertEqual(statistics["attributes_read"], [])
-        outcome = self.refuse(1, "render", self.store, "-o", self.folder / "x.png", "--style",
-                              style, "--backend", "opengl")
-        self.assertIn("software", outcome.err)
 
 
 class Refinement(SceneTest):

@@ -472,6 +472,7 @@ TEST(SoftwareBackend, DrawsWhatOpenGLDoesNotAndSaysSo)
   Sheet scene;
   auto sheet = std::make_shared<StyleSheet>();
   sheet->standard.technique = Technique::Splats;
+  sheet->shading.fillHoles = true;
   scene.mapper->SetStyleSheet(sheet);
   const Picture splats = scene.with(vtkPointFrontMapper::SOFTWARE);
   int warnings = 0;

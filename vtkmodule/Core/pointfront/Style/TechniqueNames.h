@@ -30,11 +30,11 @@ struct TechniqueTraits
 
 constexpr std::array<TechniqueTraits, 6> techniqueTraits{ {
   { Technique::Points, "points", true, true, false },
-  { Technique::Splats, "splats", false, true, true },
-  { Technique::Spheres, "spheres", false, true, false },
+  { Technique::Splats, "splats", true, true, true },
+  { Technique::Spheres, "spheres", true, true, false },
   { Technique::Silhouettes, "silhouettes", false, false, true },
   { Technique::Solid, "solid", false, false, false },
-  { Technique::Ewa, "ewa", false, true, true },
+  { Technique::Ewa, "ewa", true, true, true },
 } };
 
 constexpr const TechniqueTraits& traitsOf(Technique technique)

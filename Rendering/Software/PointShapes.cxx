@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 
 namespace pointfront
 {
@@ -153,6 +154,15 @@ void PointShapes::fillBy(const RasterItem& item, const Points& points, int count
     std::fill(batch.radius, batch.radius + count, item.radius * share);
   }
   fillNormals(item, points, count, batch);
+}
+
+float PointShapes::largestRadius(const RasterItem& item)
+{
+  if (item.sizes)
+  {
+    return std::numeric_limits<float>::infinity();
+  }
+  return item.radiusCodes ? mostOfClosing * item.radius : item.radius;
 }
 
 void PointShapes::fill(

@@ -73,6 +73,7 @@ std::array<double, 2> depthRange(const FrameCamera& camera)
 
 RasterItems::RasterItems(const FramePlan& plan, std::size_t from)
   : plan_(plan)
+  , first_(from == 0)
 {
   for (const DrawBatch& batch : plan.batches)
   {

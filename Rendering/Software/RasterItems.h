@@ -71,6 +71,7 @@ public:
 
   /// Of the plan's items, how many are in this or earlier rounds.
   std::size_t end() const { return end_; }
+  bool first() const { return first_; }
   bool last() const { return end_ == ordered_.size(); }
   const std::vector<RasterItem>& items() const { return items_; }
   bool blended() const { return blended_; }
@@ -108,6 +109,7 @@ private:
   float radiusFactor_ = 1.0f;
   glm::mat3 normalToCamera_{ 1.0f };
   std::size_t end_ = 0;
+  bool first_ = true;
   bool blended_ = false;
 };
 

@@ -32,7 +32,8 @@ bool continues(const RasterItem& item, const DrawnItem& drawn)
     (item.style == drawn.style || *item.style == *drawn.style) &&
     item.passes == drawn.passes && item.item->first == drawn.first &&
     item.item->last >= drawn.last && item.radius == drawn.radius &&
-    item.radiusScale == drawn.radiusScale && item.item->refined == drawn.refined;
+    item.radiusScale == drawn.radiusScale && item.item->refined == drawn.refined &&
+    item.item->sparsestRadius == drawn.sparsestRadius;
 }
 
 } // namespace
@@ -163,7 +164,8 @@ void LastPicture::note(const RasterItems& items, const RasterWindow& window)
   {
     items_.push_back({ item.item->node, item.style, item.passes, item.base, item.item->first,
       item.item->last, item.radius, item.radiusScale, item.item->refined,
-      item.item->closingRadius, item.item->radiusScale });
+      item.item->unfinished, item.item->closingRadius, item.item->sparsestRadius,
+      item.item->radiusScale });
   }
   styles_.clear();
   for (const DrawBatch& batch : plan.batches)

@@ -30,6 +30,7 @@ struct RasterItem
   TechniquePasses passes;
   std::unique_ptr<PointColours> colours;
   float radius = 0.0f;       ///< world units, of all points without one of their own
+  float sparsestRadius = 0.0f; ///< where the item's points are farthest apart
   float radiusScale = 1.0f;  ///< times a point's own
   const std::uint8_t* radiusCodes = nullptr;
   const std::byte* sizes = nullptr; ///< a column of radii

@@ -235,7 +235,9 @@ void VisiblePoints::gather(const std::vector<Source>& sources, ThreadCrew& crew)
       kept.item.last = static_cast<std::uint32_t>(places.size());
       kept.item.radiusScale = drawn.itemRadiusScale;
       kept.item.closingRadius = drawn.closingRadius;
+      kept.item.sparsestRadius = drawn.sparsestRadius;
       kept.item.refined = drawn.refined;
+      kept.item.unfinished = drawn.unfinished;
     });
   gathered.erase(std::remove_if(gathered.begin(), gathered.end(),
                    [](const Kept& kept) { return kept.indices.empty(); }),

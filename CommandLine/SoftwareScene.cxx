@@ -236,6 +236,9 @@ Result<void> SoftwareScene::shareMemory()
   cost.pixelBytes += shading_.lit ? 3 * sizeof(float) : 0;     // normals
   cost.pixelBytes += shading_.eyeDomeStrength > 0.0f ? sizeof(float) : 0; // logarithms of depth
   cost.pixelBytes += blends ? sizeof(float) : 0;               // the nearest depth
+  cost.pixelBytes += stores_.size() > 1 // keys of their last pictures
+    ? SoftwareRasteriser::keptPictures * sizeof(RasterKey)
+    : 0;
   cost.threadPixelBytes = sizeof(RasterKey) + (blends ? 4 * sizeof(std::uint32_t) : 0);
   cost.marginPixels = rasterMargin;
   cost.threads = ThreadCrew::ofProcess().threads();
@@ -336,13 +339,13 @@ FrameRecord SoftwareScene::record(bool complete) const
   return frame;
 }
 
-/// Rows of the viewport into the target, which has these rows only. Points drawn and the
+/// A part of the viewport into the target, which becomes that part. Points drawn and the
 /// milliseconds of it go into `frame`.
-void SoftwareScene::drawRows(
-  SoftwareRasteriser& rasteriser, const RasterBand& rows, FrameRecord& frame)
+void SoftwareScene::drawPart(
+  SoftwareRasteriser& rasteriser, const PixelRectangle& place, FrameRecord& frame)
 {
   const auto begin = Clock::now();
-  target_.reset(camera_.width, rows.top - rows.bottom);
+  target_.reset(place);
   frame.rasteriseMilliseconds = 0.0;
   std::vector<std::uint64_t> points(stores_.size()), kept(stores_.size());
   double own = 0.0;
@@ -351,7 +354,7 @@ void SoftwareScene::drawRows(
     const auto beginOfStore = Clock::now();
     const FramePlan plan = stores_[i]->plan(camera_, shading_);
     const RasterStatistics drawn =
-      rasteriser.draw(plan, rows, target_, static_cast<std::uint16_t>(i));
+      rasteriser.draw(plan, target_, static_cast<std::uint16_t>(i));
     *frame.rasteriseMilliseconds += drawn.milliseconds;
     kept[i] = drawn.keptVisible;
     points[i] = plan.pointCount();
@@ -388,7 +391,7 @@ Result<FrameRecord> SoftwareScene::render(bool complete)
   const auto begin = Clock::now();
   updateFronts(viewOf(camera_), complete);
   FrameRecord frame = record(complete);
-  drawRows(rasteriser_, { 0, camera_.height }, frame);
+  drawPart(rasteriser_, { 0, 0, camera_.width, camera_.height }, frame);
   if (const Result<void> fine = outcome(); !fine)
   {
     return fine.error();
@@ -420,7 +423,7 @@ Result<FrameRecord> SoftwareScene::renderInBands(const std::string& path)
   for (int top = camera_.height; top > 0; top -= memory_->bandRows())
   {
     const int bottom = std::max(0, top - memory_->bandRows());
-    const RasterBand rows{ std::max(0, bottom - memory_->overlapRows()),
+    const PixelRectangle rows{ 0, std::max(0, bottom - memory_->overlapRows()), camera_.width,
       std::min(camera_.height, top + memory_->overlapRows()) };
     const Result<FrameRecord> band = renderBand(rasteriser, rows, drawn);
     if (!band)
@@ -449,7 +452,7 @@ Result<FrameRecord> SoftwareScene::renderInBands(const std::string& path)
 }
 
 Result<FrameRecord> SoftwareScene::renderBand(
-  SoftwareRasteriser& rasteriser, const RasterBand& rows, DrawnNodes& drawn)
+  SoftwareRasteriser& rasteriser, const PixelRectangle& rows, DrawnNodes& drawn)
 {
   // Points outside the rows may reach into them.
   const int reach = static_cast<int>(std::ceil(reachRows()));
@@ -457,7 +460,7 @@ Result<FrameRecord> SoftwareScene::renderBand(
   const int top = std::min(camera_.height, rows.top + reach);
   updateFronts(viewOfRows(camera_, bottom, top), true);
   FrameRecord frame = record(true);
-  drawRows(rasteriser, rows, frame);
+  drawPart(rasteriser, rows, frame);
   rasteriser.release(); // it holds what it has drawn, and the next band needs the memory
   for (std::size_t i = 0; i < stores_.size(); ++i)
   {

@@ -54,10 +54,11 @@ private:
   FrameDemand demand(const View& view, bool complete) const;
   void updateFronts(const View& view, bool complete);
   FrameRecord record(bool complete) const;
-  void drawRows(SoftwareRasteriser& rasteriser, const RasterBand& rows, FrameRecord& frame);
+  void drawPart(
+    SoftwareRasteriser& rasteriser, const PixelRectangle& place, FrameRecord& frame);
   Result<FrameRecord> render(bool complete);
   Result<FrameRecord> renderBand(
-    SoftwareRasteriser& rasteriser, const RasterBand& rows, DrawnNodes& drawn);
+    SoftwareRasteriser& rasteriser, const PixelRectangle& rows, DrawnNodes& drawn);
   double reachRows() const;
   bool needsFrame();
   Result<void> outcome();

@@ -42,8 +42,7 @@ RasterStatistics SoftwarePicture::draw(
   plan.camera.height = std::max(1, viewport[3]);
   Picture& picture = pictures_[renderer];
   picture.target.keepPoints = ids;
-  picture.target.reset(plan.camera.width, plan.camera.height);
-  const RasterStatistics statistics = picture.rasteriser.draw(plan, picture.target);
+  const RasterStatistics statistics = picture.rasteriser.drawShown(plan, picture.target);
   shade(plan.camera, plan.shading, picture.target);
   last_ = &picture.target;
   ids_.clear();
@@ -79,6 +78,10 @@ void SoftwarePicture::numberPoints(const FramePlan& plan)
 void SoftwarePicture::handOver(vtkOpenGLRenderWindow* window, vtkRenderer* renderer,
   vtkActor* actor, const FramePlan& plan, std::int64_t storePoints)
 {
+  if (last_->rectangle().empty())
+  {
+    return; // beside the view
+  }
   load(window, colour_, *last_, 4, VTK_UNSIGNED_CHAR, last_->rgba.data());
   load(window, depth_, *last_, 1, VTK_FLOAT, last_->depth.data());
   if (!ids_.empty())
@@ -94,6 +97,7 @@ void SoftwarePicture::handOver(vtkOpenGLRenderWindow* window, vtkRenderer* rende
   drawing.depth = depth_;
   drawing.ids = ids_.empty() ? nullptr : idTexture_.GetPointer();
   drawing.camera = &plan.camera;
+  drawing.place = last_->rectangle();
   std::copy(originPx_, originPx_ + 2, drawing.originPx);
   drawing.storePoints = storePoints;
   mapper_->Draw(renderer, actor, drawing);

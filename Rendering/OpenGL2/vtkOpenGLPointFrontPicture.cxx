@@ -100,6 +100,14 @@ void vtkOpenGLPointFrontPicture::SetMapperShaderParameters(
   const float size[2] = {
     static_cast<float>(drawing.camera->width), static_cast<float>(drawing.camera->height)};
   program->SetUniform2f("pictureSize", size);
+  const pointfront::PixelRectangle& place = drawing.place;
+  const int corner[2] = {place.left, place.bottom};
+  program->SetUniform2i("pictureCorner", corner);
+  const float edges[4] = {2.0f * static_cast<float>(place.left) / size[0] - 1.0f,
+    2.0f * static_cast<float>(place.bottom) / size[1] - 1.0f,
+    2.0f * static_cast<float>(place.right) / size[0] - 1.0f,
+    2.0f * static_cast<float>(place.top) / size[1] - 1.0f};
+  program->SetUniform4f("pictureEdges", edges);
   vtkNew<vtkMatrix4x4> viewToClip; // stored as GL wants it: columns
   for (int column = 0; column < 4; ++column)
   {
@@ -138,7 +146,7 @@ void vtkOpenGLPointFrontPicture::RenderPieceDraw(vtkRenderer* ren, vtkActor* act
   if (triangle.Program)
   {
     triangle.VAO->Bind();
-    glDrawArrays(GL_TRIANGLES, 0, 3);
+    glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
     vtkOpenGLCheckErrorMacro("failed after drawing a picture");
   }
   for (vtkTextureObject* texture : textures)

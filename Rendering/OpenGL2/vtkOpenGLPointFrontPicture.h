@@ -11,6 +11,8 @@
 
 #include "vtkOpenGLPolyDataMapper.h"
 
+#include "PixelRectangle.h"
+
 class vtkPolyData;
 class vtkTextureObject;
 
@@ -26,6 +28,7 @@ struct PictureDrawing
   vtkTextureObject* ids = nullptr; ///< in selections
   const FrameCamera* camera = nullptr;
   int originPx[2] = {0, 0}; ///< of the viewport in the framebuffer
+  PixelRectangle place;     ///< of the textures in the viewport
   vtkIdType storePoints = 0; ///< ids are below it
 };
 } // namespace pointfront

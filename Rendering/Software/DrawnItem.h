@@ -23,7 +23,9 @@ struct DrawnItem
   float radius = 0.0f;
   float radiusScale = 1.0f;
   bool refined = false;
-  float closingRadius = 0.0f; ///< as PlanItem's
+  bool unfinished = false;
+  float closingRadius = 0.0f; ///< these as PlanItem's
+  float sparsestRadius = 0.0f;
   float itemRadiusScale = 1.0f;
 };
 

@@ -17,6 +17,7 @@ namespace
 constexpr float nothing = std::numeric_limits<float>::infinity();
 /// Holes of up to 2^levels pixels.
 constexpr int levels = 3;
+static_assert(holeFillerReach == 1 << levels, "a coarsest pixel");
 /// Depths agree within that many pixels' size.
 constexpr float agreePixels = 3.0f;
 /// Of 16 parts of bilinear weight, those that have to agree.

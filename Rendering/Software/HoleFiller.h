@@ -7,6 +7,9 @@
 namespace pointfront
 {
 
+/// A filled pixel depends on its own block of that many pixels a side and on the blocks around.
+constexpr int holeFillerReach = 8;
+
 /// Fills pixels that no splat covers, and those through which a farther surface shows, from the
 /// nearest of their surroundings: a pyramid of means over what agrees in depth, then back down
 /// (pull-push). A pixel is filled when most of what surrounds it agrees; the farther surface beside

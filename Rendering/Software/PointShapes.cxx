@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 
 namespace pointfront
 {
@@ -143,7 +144,7 @@ void PointShapes::fillBy(const RasterItem& item, const Points& points, int count
     stored.radii = items_.radii().data();
     stored.scale = item.radiusScale * share;
     stored.unknown = item.radius * share;
-    stored.most = mostOfClosing * item.radius * share;
+    stored.most = mostOfClosing * item.sparsestRadius * share;
     // Its own radius is for all points: too small where finer nodes are there and not drawn.
     stored.least = item.item->refined || item.node().leaf ? 0.0f : item.radius * share;
     kernels_.loadRadii(stored, count, batch);
@@ -153,6 +154,15 @@ void PointShapes::fillBy(const RasterItem& item, const Points& points, int count
     std::fill(batch.radius, batch.radius + count, item.radius * share);
   }
   fillNormals(item, points, count, batch);
+}
+
+float PointShapes::largestRadius(const RasterItem& item)
+{
+  if (item.sizes)
+  {
+    return std::numeric_limits<float>::infinity();
+  }
+  return item.radiusCodes ? mostOfClosing * item.sparsestRadius : item.radius;
 }
 
 void PointShapes::fill(

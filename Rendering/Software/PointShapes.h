@@ -25,6 +25,10 @@ public:
   void fill(const RasterItem& item, const std::uint32_t* points, int count, float share,
     RasterBatch& batch) const;
 
+  /// No point of the item has a larger radius (world units, before a share); infinite where only
+  /// reading them all would tell.
+  static float largestRadius(const RasterItem& item);
+
 private:
   template <typename Points>
   void fillBy(const RasterItem& item, const Points& points, int count, float share,

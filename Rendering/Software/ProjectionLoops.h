@@ -126,12 +126,13 @@ inline void drawPixels(const RasterWindow& window, RasterBatch& batch, int count
 {
   const auto width = static_cast<float>(window.width);
   const auto height = static_cast<float>(window.height);
+  const auto left = static_cast<float>(window.left);
   const auto bottom = static_cast<float>(window.bottom);
   const std::int32_t stride = window.stride;
   const std::int32_t corner = window.at(0, 0);
   for (int j = 0; j < count; ++j)
   {
-    const float x = batch.screenX[j];
+    const float x = batch.screenX[j] - left;
     const float y = batch.screenY[j] - bottom;
     const int inside =
       (x >= 0.0f) & (x < width) & (y >= 0.0f) & (y < height) & (batch.depth[j] >= 0.0f);
@@ -160,12 +161,13 @@ inline void drawBlocks(const RasterWindow& window, RasterBatch& batch, int count
   const auto reach = static_cast<float>(size);
   const auto width = static_cast<float>(window.width);
   const auto height = static_cast<float>(window.height);
+  const auto left = static_cast<float>(window.left);
   const auto bottom = static_cast<float>(window.bottom);
   const std::int32_t stride = window.stride;
   const std::int32_t corner = window.at(0, 0);
   for (int j = 0; j < count; ++j)
   {
-    const float x = __builtin_floorf(batch.screenX[j] - back);
+    const float x = __builtin_floorf(batch.screenX[j] - back) - left;
     const float y = __builtin_floorf(batch.screenY[j] - back) - bottom;
     const int seen = (x > -reach) & (x < width) & (y > -reach) & (y < height) &
       (batch.depth[j] >= 0.0f);
@@ -209,10 +211,9 @@ inline void drawLargeSquares(const RasterWindow& window, RasterBatch& batch, int
     {
       continue;
     }
-    const int left = static_cast<int>(x) > 0 ? static_cast<int>(x) : 0;
+    const int left = static_cast<int>(x) - window.left;
     const int low = static_cast<int>(y) - window.bottom;
-    const int right =
-      static_cast<int>(x) + size < window.width ? static_cast<int>(x) + size : window.width;
+    const int right = left + size < window.width ? left + size : window.width;
     const int top = low + size < window.height ? low + size : window.height;
     std::uint32_t bits;
     __builtin_memcpy(&bits, &batch.depth[j], 4);
@@ -221,7 +222,7 @@ inline void drawLargeSquares(const RasterWindow& window, RasterBatch& batch, int
     for (int row = low > 0 ? low : 0; row < top; ++row)
     {
       RasterKey* const pixels = keys + window.at(0, row);
-      for (int column = left; column < right; ++column)
+      for (int column = left > 0 ? left : 0; column < right; ++column)
       {
         pixels[column] = key < pixels[column] ? key : pixels[column];
       }

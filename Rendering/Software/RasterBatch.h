@@ -1,5 +1,7 @@
 #pragma once
 
+#include "PixelRectangle.h"
+
 #include <cstdint>
 
 namespace pointfront
@@ -88,15 +90,17 @@ struct RasterCamera
   bool parallel = false;
 };
 
-/// The rows of the viewport that are drawn, and how buffers of them are laid out.
+/// The part of the viewport that is drawn, and how buffers of it are laid out.
 struct RasterWindow
 {
+  int left = 0;        ///< first column of the viewport
   int width = 0;
   int bottom = 0;      ///< first row of the viewport
-  int height = 0;      ///< rows
+  int height = 0;
   std::int32_t stride = 0; ///< pixels from a row to the next in a buffer with margins
 
-  std::int32_t at(int x, int y) const ///< y counts from `bottom`
+  PixelRectangle rectangle() const { return { left, bottom, left + width, bottom + height }; }
+  std::int32_t at(int x, int y) const ///< these count from `left` and `bottom`
   {
     return (y + rasterMargin) * stride + x + rasterMargin;
   }

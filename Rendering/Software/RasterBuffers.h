@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace pointfront
@@ -14,6 +15,19 @@ template <typename T>
 class RasterBuffer
 {
 public:
+  RasterBuffer() = default;
+  RasterBuffer(RasterBuffer&& other) noexcept
+    : data_(std::move(other.data_))
+    , size_(std::exchange(other.size_, 0))
+  {
+  }
+  RasterBuffer& operator=(RasterBuffer&& other) noexcept
+  {
+    data_ = std::move(other.data_);
+    size_ = std::exchange(other.size_, 0);
+    return *this;
+  }
+
   T* ofSize(std::int64_t count)
   {
     const auto wanted = static_cast<std::size_t>(count);

@@ -73,6 +73,7 @@ std::array<double, 2> depthRange(const FrameCamera& camera)
 
 RasterItems::RasterItems(const FramePlan& plan, std::size_t from)
   : plan_(plan)
+  , first_(from == 0)
 {
   for (const DrawBatch& batch : plan.batches)
   {
@@ -126,13 +127,16 @@ void RasterItems::add(const Place& place, std::uint32_t base)
   item.normals = facesEye ? nullptr : columnOf(node, style.normalColumn);
   item.normalAttribute = item.normals ? &(*plan_.schema)[*style.normalColumn] : nullptr;
   const bool oriented = item.normals || style.orientation == SplatOrientation::Fixed;
-  item.passes = passesOf(style, oriented, plan_.spacingPx, plan_.camera.height);
+  const bool thinned = place.item->refined && place.item->unfinished;
+  item.passes = passesOf(style, { oriented, plan_.spacingPx, thinned, plan_.camera.height });
   const std::byte* const codes = columnOf(node, style.radiusColumn);
   item.radiusCodes = reinterpret_cast<const std::uint8_t*>(codes);
   const auto value = static_cast<float>(style.size.value) * radiusFactor_;
   const bool spacing = style.size.mode == SplatSize::Mode::Spacing;
   item.radiusScale = place.item->radiusScale * static_cast<float>(style.size.value);
   item.radius = spacing ? place.item->closingRadius * value : 0.5f * value;
+  item.sparsestRadius =
+    std::max(item.radius, spacing ? place.item->sparsestRadius * value : 0.0f);
   if (style.size.mode == SplatSize::Mode::Attribute)
   {
     item.sizes = columnOf(node, style.size.column);

@@ -30,6 +30,7 @@ struct RasterItem
   TechniquePasses passes;
   std::unique_ptr<PointColours> colours;
   float radius = 0.0f;       ///< world units, of all points without one of their own
+  float sparsestRadius = 0.0f; ///< where the item's points are farthest apart
   float radiusScale = 1.0f;  ///< times a point's own
   const std::uint8_t* radiusCodes = nullptr;
   const std::byte* sizes = nullptr; ///< a column of radii
@@ -71,6 +72,7 @@ public:
 
   /// Of the plan's items, how many are in this or earlier rounds.
   std::size_t end() const { return end_; }
+  bool first() const { return first_; }
   bool last() const { return end_ == ordered_.size(); }
   const std::vector<RasterItem>& items() const { return items_; }
   bool blended() const { return blended_; }
@@ -108,6 +110,7 @@ private:
   float radiusFactor_ = 1.0f;
   glm::mat3 normalToCamera_{ 1.0f };
   std::size_t end_ = 0;
+  bool first_ = true;
   bool blended_ = false;
 };
 

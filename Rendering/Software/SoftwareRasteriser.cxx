@@ -1,10 +1,12 @@
 #include "SoftwareRasteriser.h"
 
+#include "HoleFiller.h"
+#include "LastPicture.h"
 #include "PointShapes.h"
 #include "RasterBuffers.h"
 #include "RasterItems.h"
 #include "RasterKernels.h"
-#include "VisiblePoints.h"
+#include "ShownRectangle.h"
 #include "WinnerResolve.h"
 
 #include "pointfront/Threads/ThreadCrew.h"
@@ -13,26 +15,21 @@
 #include <chrono>
 #include <cstring>
 #include <limits>
+#include <map>
+#include <utility>
+#include <vector>
 
 namespace pointfront
 {
 namespace
 {
 
-/// Points that a thread draws at a time: a node, or a part of a large one.
-constexpr std::uint32_t pointsOfPiece = 1u << 14;
 constexpr int rowsOfPiece = 8;
+/// Keys that stay until the next picture of their store, of all stores.
+constexpr std::int64_t mostKeptPictures = SoftwareRasteriser::keptPictures;
 /// Buffers of a picture take that much at most, over all threads: a larger one is drawn in bands.
 constexpr std::int64_t mostBytes = std::int64_t(768) << 20;
 constexpr int leastRows = 64;
-
-/// Part of an item's points.
-struct Piece
-{
-  const RasterItem* item;
-  std::uint32_t first;
-  std::uint32_t last;
-};
 
 float depthBits(RasterKey key)
 {
@@ -42,10 +39,56 @@ float depthBits(RasterKey key)
   return depth;
 }
 
+RasterWindow windowOf(const PixelRectangle& place)
+{
+  RasterWindow window;
+  window.left = place.left;
+  window.width = place.width();
+  window.bottom = place.bottom;
+  window.height = place.height();
+  window.stride = (window.width + 2 * rasterMargin + 15) & ~15;
+  return window;
+}
+
+std::vector<RasterPiece> piecesOf(const RasterItems& items)
+{
+  std::vector<RasterPiece> pieces;
+  for (const RasterItem& item : items.items())
+  {
+    addPieces(item, item.item->first, pieces);
+  }
+  return pieces;
+}
+
+/// With what shading looks at: holes are filled from blocks of pixels that count from the
+/// viewport's corner, and their neighbours.
+PixelRectangle withSurroundings(const PixelRectangle& place, const FramePlan& plan)
+{
+  if (!plan.shading.fillHoles || place.empty())
+  {
+    return place;
+  }
+  const auto down = [](int x) { return (x - holeFillerReach) & -holeFillerReach; };
+  const auto up = [](int x) { return (x + 2 * holeFillerReach - 1) & -holeFillerReach; };
+  return common({ 0, 0, plan.camera.width, plan.camera.height },
+    { down(place.left), down(place.bottom), up(place.right), up(place.top) });
+}
+
 } // namespace
 
 struct SoftwareRasteriser::Content
 {
+  /// One call of draw().
+  struct Drawing
+  {
+    SoftwareTarget& target;
+    LastPicture& picture;
+    std::uint16_t store = 0;
+    bool whole = false; ///< all of the viewport is wanted
+    bool fits = false;  ///< the target is made as large as what is shown
+    std::uint64_t reused = 0;
+  };
+
   explicit Content(ThreadCrew& threads)
     : crew(threads)
   {
@@ -55,186 +98,26 @@ struct SoftwareRasteriser::Content
   const RasterKernels* loops = &rasterKernels();
   std::vector<ThreadBuffers> buffers;
   RasterBuffer<float> nearest;
-  // Of the last picture, to go on from:
-  bool kept = false;
-  FrameCamera camera;
-  std::vector<glm::dvec4> clippingPlanes;
-  RasterWindow window;
-  std::vector<DrawnItem> drawn;
-  ItemNumbers numbers; ///< of what was drawn
-  std::vector<std::shared_ptr<const ResolvedStyle>> styles; ///< alive, as the nodes
-  VisiblePoints visible;
-  std::uint16_t keptStore = 0;
-  QuantisationGrid grid;
-  std::shared_ptr<const AttributeSchema> schema;
+  std::map<std::uint16_t, LastPicture> last; ///< by store
 
-  void keepVisible(const FramePlan& plan, std::uint16_t store, bool wanted);
-
-  std::uint64_t goOn(const RasterItems& items, const RasterWindow& now, std::vector<Piece>& pieces);
-  bool renumber(const RasterItems& items, std::vector<std::uint32_t>& drawnUpTo);
-  void keep(const RasterItems& items, const RasterWindow& now, std::uint16_t store);
-  void drawKeys(const RasterItems& items, const RasterWindow& now, const std::vector<Piece>& pieces,
-    bool goingOn);
+  RasterStatistics draw(
+    const FramePlan& asked, SoftwareTarget& target, std::uint16_t store, bool fits);
+  void drawRound(const RasterItems& items, Drawing& drawing);
+  void drawAtOnce(const RasterItems& items, RasterWindow window, Drawing& drawing);
+  void keep(const RasterItems& items, const RasterWindow& window, LastPicture& picture);
+  void drawKeys(const RasterItems& items, const RasterWindow& now,
+    const std::vector<RasterPiece>& pieces, bool goingOn);
   void addColours(
-    const RasterItems& items, const RasterWindow& now, const std::vector<Piece>& pieces);
-  std::uint64_t drawPoints(const RasterItems& items, const RasterWindow& now);
+    const RasterItems& items, const RasterWindow& now, const std::vector<RasterPiece>& pieces);
+  void drawPoints(const RasterItems& items, const RasterWindow& now,
+    const std::vector<RasterPiece>& pieces, bool goingOn);
   void resolve(const RasterItems& items, const RasterWindow& now, std::uint16_t store,
-    SoftwareTarget& target, int firstRow);
+    SoftwareTarget& target);
 };
-
-namespace
-{
-
-void addPieces(
-  const RasterItem& item, std::uint32_t first, std::uint32_t last, std::vector<Piece>& pieces)
-{
-  for (; first < last; first += std::min(pointsOfPiece, last - first))
-  {
-    pieces.push_back({ &item, first, first + std::min(pointsOfPiece, last - first) });
-  }
-}
-
-bool sameCamera(const FrameCamera& a, const FrameCamera& b)
-{
-  return a.storeToView == b.storeToView && a.viewToClip == b.viewToClip &&
-    a.reference == b.reference && a.referenceInView == b.referenceInView &&
-    a.parallel == b.parallel && a.width == b.width && a.height == b.height;
-}
-
-bool sameWindow(const RasterWindow& a, const RasterWindow& b)
-{
-  return a.width == b.width && a.bottom == b.bottom && a.height == b.height;
-}
-
-/// The item is what was drawn before, or that and more of its points.
-bool continues(const RasterItem& item, const DrawnItem& drawn)
-{
-  return item.item->node == drawn.node &&
-    (item.style == drawn.style || *item.style == *drawn.style) &&
-    item.passes == drawn.passes && item.item->first == drawn.first &&
-    item.item->last >= drawn.last && item.radius == drawn.radius &&
-    item.radiusScale == drawn.radiusScale && item.item->refined == drawn.refined;
-}
-
-} // namespace
-
-/// Whether all that was drawn is part of the new items; then keys get the new items' numbers, and
-/// `drawnUpTo` says for each item which of its points are there.
-bool SoftwareRasteriser::Content::renumber(
-  const RasterItems& items, std::vector<std::uint32_t>& drawnUpTo)
-{
-  const std::vector<RasterItem>& now = items.items();
-  drawnUpTo.assign(now.size(), 0);
-  std::vector<std::uint32_t> shift(drawn.size());
-  bool moved = false;
-  std::size_t next = 0;
-  for (std::size_t old = 0; old < drawn.size(); ++old, ++next)
-  {
-    while (next < now.size() && !continues(now[next], drawn[old]))
-    {
-      ++next;
-    }
-    if (next == now.size())
-    {
-      return false;
-    }
-    drawnUpTo[next] = drawn[old].last;
-    shift[old] = now[next].base - drawn[old].base;
-    moved = moved || shift[old] != 0;
-  }
-  if (!moved)
-  {
-    return true;
-  }
-  RasterKey* const keys = buffers[0].keys.data();
-  const auto renumbered = [&](RasterKey key)
-  {
-    const auto index = static_cast<std::uint32_t>(key);
-    const auto after = std::upper_bound(drawn.begin(), drawn.end(), index,
-      [](std::uint32_t i, const DrawnItem& item) { return i < item.base; });
-    const std::uint32_t by = shift[static_cast<std::size_t>(after - drawn.begin()) - 1];
-    return static_cast<RasterKey>(
-      (static_cast<std::uint64_t>(key) & 0xffffffff00000000u) | (index + by));
-  };
-  crew.run(static_cast<std::size_t>(window.height),
-    [&](std::size_t y, unsigned)
-    {
-      RasterKey* const row = keys + window.at(0, static_cast<int>(y));
-      for (int x = 0; x < window.width; ++x)
-      {
-        row[x] = row[x] == emptyKey ? emptyKey : renumbered(row[x]);
-      }
-    });
-  return true;
-}
-
-/// The pieces that have to be drawn, and how many points are there already.
-std::uint64_t SoftwareRasteriser::Content::goOn(
-  const RasterItems& items, const RasterWindow& now, std::vector<Piece>& pieces)
-{
-  const FramePlan& plan = items.plan();
-  std::vector<std::uint32_t> drawnUpTo;
-  const bool same = kept && sameWindow(window, now) && sameCamera(camera, plan.camera) &&
-    clippingPlanes == plan.clippingPlanes && renumber(items, drawnUpTo);
-  std::uint64_t reused = 0;
-  for (std::size_t i = 0; i < items.items().size(); ++i)
-  {
-    const RasterItem& item = items.items()[i];
-    const std::uint32_t first = item.item->first;
-    const std::uint32_t from = same ? std::max(first, drawnUpTo[i]) : first;
-    reused += from - first;
-    addPieces(item, from, item.item->last, pieces);
-  }
-  kept = same;
-  return reused;
-}
-
-void SoftwareRasteriser::Content::keep(
-  const RasterItems& items, const RasterWindow& now, std::uint16_t store)
-{
-  const FramePlan& plan = items.plan();
-  kept = true;
-  camera = plan.camera;
-  clippingPlanes = plan.clippingPlanes;
-  keptStore = store;
-  grid = plan.grid;
-  schema = plan.schema;
-  window = now;
-  numbers = items.numbers();
-  drawn.clear();
-  for (const RasterItem& item : items.items())
-  {
-    drawn.push_back({ item.item->node, item.style, item.passes, item.base, item.item->first,
-      item.item->last, item.radius, item.radiusScale, item.item->refined,
-      item.item->closingRadius, item.item->radiusScale });
-  }
-  styles.clear();
-  for (const DrawBatch& batch : plan.batches)
-  {
-    styles.push_back(batch.style);
-  }
-}
-
-/// What was visible stays while a view moves or is being completed. From the same camera it is what
-/// it was: the picture goes on from there.
-void SoftwareRasteriser::Content::keepVisible(
-  const FramePlan& plan, std::uint16_t store, bool wanted)
-{
-  const bool follows = wanted && kept && keptStore == store && grid == plan.grid &&
-    *schema == *plan.schema && window.height == plan.camera.height;
-  if (!follows)
-  {
-    visible.clear();
-  }
-  else if (!sameCamera(camera, plan.camera) || clippingPlanes != plan.clippingPlanes)
-  {
-    visible.choose(buffers[0].keys.data(), window, numbers, drawn, plan, crew);
-  }
-}
 
 /// First pass. The first thread's keys may hold the last picture's.
 void SoftwareRasteriser::Content::drawKeys(const RasterItems& items, const RasterWindow& now,
-  const std::vector<Piece>& pieces, bool goingOn)
+  const std::vector<RasterPiece>& pieces, bool goingOn)
 {
   const RasterKernels& kernels = *loops;
   const PointShapes shapes(items, kernels);
@@ -259,7 +142,7 @@ void SoftwareRasteriser::Content::drawKeys(const RasterItems& items, const Raste
       ThreadBuffers& mine = buffers[thread];
       RasterKey* const keys = drawInto(mine);
       RasterBatch& batch = mine.scratch();
-      const Piece& piece = pieces[number];
+      const RasterPiece& piece = pieces[number];
       const RasterItem& item = *piece.item;
       RasterPositions positions = item.positions;
       for (std::uint32_t first = piece.first; first < piece.last; first += RasterBatch::size)
@@ -285,7 +168,7 @@ void SoftwareRasteriser::Content::drawKeys(const RasterItems& items, const Raste
 
 /// Second pass, of blended items: weights and colours of what is not behind.
 void SoftwareRasteriser::Content::addColours(
-  const RasterItems& items, const RasterWindow& now, const std::vector<Piece>& pieces)
+  const RasterItems& items, const RasterWindow& now, const std::vector<RasterPiece>& pieces)
 {
   float* const depths = nearest.ofSize(now.pixels());
   const int rows = now.height + 2 * rasterMargin;
@@ -313,7 +196,7 @@ void SoftwareRasteriser::Content::addColours(
   crew.run(pieces.size(),
     [&](std::size_t number, unsigned thread)
     {
-      const Piece& piece = pieces[number];
+      const RasterPiece& piece = pieces[number];
       const RasterItem& item = *piece.item;
       if (!item.passes.blended)
       {
@@ -343,29 +226,24 @@ void SoftwareRasteriser::Content::addColours(
     });
 }
 
-/// All passes but the last. Gives how many points the last picture already had.
-std::uint64_t SoftwareRasteriser::Content::drawPoints(
-  const RasterItems& items, const RasterWindow& now)
+/// All passes but the last.
+void SoftwareRasteriser::Content::drawPoints(const RasterItems& items, const RasterWindow& now,
+  const std::vector<RasterPiece>& pieces, bool goingOn)
 {
-  std::vector<Piece> pieces;
-  const std::uint64_t reused = goOn(items, now, pieces);
-  drawKeys(items, now, pieces, kept);
-  kept = false;
+  drawKeys(items, now, pieces, goingOn);
   if (items.blended())
   {
-    std::vector<Piece> all;
-    for (const RasterItem& item : items.items())
-    {
-      addPieces(item, item.item->first, item.item->last, all);
-    }
-    addColours(items, now, all);
+    addColours(items, now, piecesOf(items));
   }
-  return reused;
 }
 
 void SoftwareRasteriser::Content::resolve(const RasterItems& items, const RasterWindow& now,
-  std::uint16_t store, SoftwareTarget& target, int firstRow)
+  std::uint16_t store, SoftwareTarget& target)
 {
+  if (items.plan().shading.lit && target.normals.empty())
+  {
+    target.normals.assign(3 * target.depth.size(), 0.0f);
+  }
   WinnerResolve::Source source;
   source.kernels = loops;
   source.items = &items;
@@ -390,7 +268,7 @@ void SoftwareRasteriser::Content::resolve(const RasterItems& items, const Raster
     {
       const int begin = static_cast<int>(piece) * rowsOfPiece;
       WinnerResolve(source, buffers[thread])
-        .rows(begin, std::min(begin + rowsOfPiece, now.height), target, firstRow);
+        .rows(begin, std::min(begin + rowsOfPiece, now.height), target);
     });
 }
 
@@ -401,65 +279,149 @@ SoftwareRasteriser::SoftwareRasteriser(ThreadCrew* crew)
 
 SoftwareRasteriser::~SoftwareRasteriser() = default;
 
-RasterStatistics SoftwareRasteriser::draw(
-  const FramePlan& plan, SoftwareTarget& target, std::uint16_t store)
+/// The next picture of the store goes on from this one; where the memory that it may take is taken,
+/// from who was visible in it only.
+void SoftwareRasteriser::Content::keep(
+  const RasterItems& items, const RasterWindow& window, LastPicture& picture)
 {
-  return draw(plan, { 0, plan.camera.height }, target, store);
+  const FrameCamera& camera = items.plan().camera;
+  const RasterWindow viewport = windowOf({ 0, 0, camera.width, camera.height });
+  std::int64_t pixels = window.pixels();
+  for (const auto& [store, other] : last)
+  {
+    pixels += other.keyPixels();
+  }
+  if (pixels <= mostKeptPictures * viewport.pixels())
+  {
+    picture.keep(items, window, std::move(buffers[0].keys));
+  }
+  else
+  {
+    picture.keepVisible(items, window, buffers[0].keys.data(), crew);
+  }
 }
 
-RasterStatistics SoftwareRasteriser::draw(const FramePlan& asked, const RasterBand& band,
-  SoftwareTarget& target, std::uint16_t store)
+/// All that the plan shows, in one window.
+void SoftwareRasteriser::Content::drawAtOnce(
+  const RasterItems& items, RasterWindow window, Drawing& drawing)
+{
+  LastPicture& picture = drawing.picture;
+  std::vector<RasterPiece> pieces;
+  const bool goingOn =
+    drawing.whole && picture.goOn(items, window, crew, pieces, drawing.reused);
+  if (!goingOn)
+  {
+    pieces = piecesOf(items);
+  }
+  if (drawing.fits)
+  {
+    drawing.target.reset(window.rectangle());
+  }
+  RasterBuffer<RasterKey> spare;
+  if (picture.hasKeys())
+  {
+    spare = std::exchange(buffers[0].keys, picture.takeKeys());
+  }
+  drawPoints(items, window, pieces, goingOn);
+  resolve(items, window, drawing.store, drawing.target);
+  if (drawing.whole)
+  {
+    keep(items, window, picture);
+  }
+  else
+  {
+    picture.forget();
+  }
+  if (!buffers[0].keys.data())
+  {
+    buffers[0].keys = std::move(spare);
+  }
+}
+
+/// As many of the plan's points as 32 bits can count: all, but for the largest plans.
+void SoftwareRasteriser::Content::drawRound(const RasterItems& items, Drawing& drawing)
+{
+  const FramePlan& plan = items.plan();
+  const PixelRectangle viewport{ 0, 0, plan.camera.width, plan.camera.height };
+  const bool only = items.first() && items.last();
+  PixelRectangle place = shownRectangle(items);
+  if (drawing.fits)
+  {
+    place = only ? withSurroundings(place, plan) : viewport;
+  }
+  else
+  {
+    place = common(place, drawing.target.rectangle());
+  }
+  const std::int64_t pixelBytes =
+    std::int64_t(crew.threads()) * (items.blended() ? 24 : 8) + 4;
+  const std::int64_t rowBytes = pixelBytes * windowOf(place).stride;
+  const auto rows = static_cast<int>(std::max<std::int64_t>(
+    mostBytes / rowBytes - 2 * rasterMargin, leastRows));
+  if (only && !place.empty() && rows >= place.height())
+  {
+    drawAtOnce(items, windowOf(place), drawing);
+    return;
+  }
+  drawing.picture.forget();
+  if (drawing.fits && items.first())
+  {
+    drawing.target.reset(place);
+  }
+  for (int bottom = place.bottom; bottom < place.top && !place.empty(); bottom += rows)
+  {
+    const RasterWindow window = windowOf(
+      { place.left, bottom, place.right, std::min(bottom + rows, place.top) });
+    drawPoints(items, window, piecesOf(items), false);
+    resolve(items, window, drawing.store, drawing.target);
+  }
+}
+
+RasterStatistics SoftwareRasteriser::Content::draw(
+  const FramePlan& asked, SoftwareTarget& target, std::uint16_t store, bool fits)
 {
   const auto begin = std::chrono::steady_clock::now();
-  Content& content = *content_;
-  content.buffers.resize(content.crew.threads());
-  const bool whole = band.bottom == 0 && band.top == asked.camera.height;
-  content.keepVisible(asked, store, asked.keepsVisible && whole && !target.keepPoints);
+  buffers.resize(crew.threads());
+  const PixelRectangle viewport{ 0, 0, asked.camera.width, asked.camera.height };
+  Drawing drawing{ target, last[store], store, fits || target.rectangle().contains(viewport),
+    fits };
+  const bool keeps = asked.keepsVisible && drawing.whole && !target.keepPoints;
+  const VisiblePoints& visible = drawing.picture.visibleFor(asked, keeps, crew);
+  RasterStatistics statistics;
+  statistics.points = asked.pointCount();
+  statistics.keptVisible = visible.count();
   FramePlan extended;
-  if (!content.visible.empty())
+  if (!visible.empty())
   {
     extended = asked;
-    content.visible.addTo(extended);
+    visible.addTo(extended);
   }
-  const FramePlan& plan = content.visible.empty() ? asked : extended;
-  if (plan.shading.lit && target.normals.empty())
-  {
-    target.normals.assign(3 * target.depth.size(), 0.0f);
-  }
-  RasterStatistics statistics;
-  RasterWindow viewport;
-  viewport.width = plan.camera.width;
-  viewport.stride = (plan.camera.width + 2 * rasterMargin + 15) & ~15;
+  const FramePlan& plan = visible.empty() ? asked : extended;
   std::size_t from = 0;
-  bool last = false;
-  while (!last) // once, unless the points are more than 32 bits can count
+  bool done = false;
+  while (!done) // once, unless the points are more than 32 bits can count
   {
     const RasterItems items(plan, from);
-    const std::int64_t threads = content.crew.threads();
-    const std::int64_t pixelBytes = threads * (items.blended() ? 24 : 8) + 4;
-    const std::int64_t rowBytes = pixelBytes * viewport.stride;
-    const int rows = static_cast<int>(std::clamp<std::int64_t>(
-      mostBytes / rowBytes - 2 * rasterMargin, leastRows, band.top - band.bottom));
-    for (int bottom = band.bottom; bottom < band.top; bottom += rows)
-    {
-      RasterWindow window = viewport;
-      window.bottom = bottom;
-      window.height = std::min(rows, band.top - bottom);
-      statistics.reused += content.drawPoints(items, window);
-      content.resolve(items, window, store, target, bottom - band.bottom);
-      if (window.height == band.top - band.bottom && from == 0 && items.last())
-      {
-        content.keep(items, window, store);
-      }
-    }
+    drawRound(items, drawing);
     from = items.end();
-    last = items.last();
+    done = items.last();
   }
-  statistics.points = asked.pointCount();
-  statistics.keptVisible = content.visible.count();
+  statistics.reused = drawing.reused;
   statistics.milliseconds =
     std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
   return statistics;
+}
+
+RasterStatistics SoftwareRasteriser::draw(
+  const FramePlan& plan, SoftwareTarget& target, std::uint16_t store)
+{
+  return content_->draw(plan, target, store, false);
+}
+
+RasterStatistics SoftwareRasteriser::drawShown(
+  const FramePlan& plan, SoftwareTarget& target, std::uint16_t store)
+{
+  return content_->draw(plan, target, store, true);
 }
 
 void SoftwareRasteriser::release()

@@ -11,14 +11,6 @@ namespace pointfront
 {
 class ThreadCrew;
 
-/// Rows [bottom, top) of the viewport that are drawn: a large picture is drawn in bands, each with
-/// the splat sizes of the whole.
-struct RasterBand
-{
-  int bottom = 0;
-  int top = 0;
-};
-
 /// What a drawing came to.
 struct RasterStatistics
 {
@@ -35,13 +27,18 @@ struct RasterStatistics
 ///              and items, on each instruction set, and in one go or by and by (a plan that only
 ///              adds points to the one before adds them to what is there). Pictures of plans that
 ///              keep what was visible depend on the pictures before them.
-/// Memory       some buffers of the size of the viewport, kept from frame to frame; one more for
-///              each further thread.
+/// Memory       some buffers of the size of what a plan shows on the viewport, kept from frame to
+///              frame; one more for each further thread; with several stores, up to `keptPictures`
+///              more.
 /// Threads      one thread at a time; draws with those of a crew.
 /// Source       drawing.md sections 4 to 7; docs/adr/0016.
 class SoftwareRasteriser
 {
 public:
+  /// Keys of so many viewports stay from frame to frame, of all stores; of stores beyond that only
+  /// marks of who was visible do.
+  static constexpr int keptPictures = 2;
+
   /// Draws with the process's crew, unless another is given; it outlives this object.
   explicit SoftwareRasteriser(ThreadCrew* crew = nullptr);
   ~SoftwareRasteriser();
@@ -49,11 +46,14 @@ public:
   SoftwareRasteriser& operator=(const SoftwareRasteriser&) = delete;
 
   /// Draws the plan into the target where it is nearer than what is there; ties leave what is
-  /// there. The target has the size of the camera's viewport. `store` becomes PixelPoint::store.
+  /// there. The target is the camera's viewport or a part of it: a large picture is drawn in bands,
+  /// each with the splat sizes of the whole. `store` becomes PixelPoint::store; each store goes on
+  /// from its own last picture.
   RasterStatistics draw(const FramePlan& plan, SoftwareTarget& target, std::uint16_t store = 0);
-  /// The same for rows of the viewport: the target has the band's rows only.
-  RasterStatistics draw(const FramePlan& plan, const RasterBand& band, SoftwareTarget& target,
-    std::uint16_t store = 0);
+  /// Makes the target that part of the viewport in which the plan can show anything, empty if there
+  /// is none, and draws into it.
+  RasterStatistics drawShown(
+    const FramePlan& plan, SoftwareTarget& target, std::uint16_t store = 0);
 
   /// Forgets the last picture and gives its memory back.
   void release();

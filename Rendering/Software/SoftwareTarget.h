@@ -1,5 +1,7 @@
 #pragma once
 
+#include "PixelRectangle.h"
+
 #include "pointfront/Store/Hierarchy.h"
 
 #include <cstdint>
@@ -20,11 +22,15 @@ struct PixelPoint
 
 /// The picture that software back ends draw into: the nearest of all that was drawn.
 /// Shapes   width * height values, row 0 is the lowest.
+/// Place    its lower left pixel is (left, bottom) of the viewport: a part of it may be all that is
+///          wanted.
 /// Units    rgba: bytes r, g, b, a of a pixel in memory order, opaque where something was drawn, 0
 ///          elsewhere. depth: world units along the line of sight from the eye's plane; infinity
 ///          where nothing was drawn.
 struct SoftwareTarget
 {
+  int left = 0;
+  int bottom = 0;
   int width = 0;
   int height = 0;
   std::vector<std::uint32_t> rgba;
@@ -36,11 +42,15 @@ struct SoftwareTarget
   std::vector<PixelPoint> points;
   bool keepPoints = false;
 
+  PixelRectangle rectangle() const { return { left, bottom, left + width, bottom + height }; }
   /// Makes it that large and empty.
-  void reset(int newWidth, int newHeight)
+  void reset(int newWidth, int newHeight) { reset({ 0, 0, newWidth, newHeight }); }
+  void reset(const PixelRectangle& place)
   {
-    width = newWidth;
-    height = newHeight;
+    left = place.left;
+    bottom = place.bottom;
+    width = place.width();
+    height = place.height();
     const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
     rgba.assign(pixels, 0);
     depth.assign(pixels, std::numeric_limits<float>::infinity());

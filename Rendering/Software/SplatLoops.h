@@ -43,15 +43,16 @@ inline SplatRectangle clippedRectangle(
 {
   const auto clamped = [](float x, float least, float most)
   { return x > least ? (x < most ? x : most) : least; };
-  const auto right = static_cast<float>(window.width - 1);
+  const auto left = static_cast<float>(window.left);
+  const auto right = static_cast<float>(window.left + window.width - 1);
   const auto bottom = static_cast<float>(window.bottom);
   const auto top = static_cast<float>(window.bottom + window.height - 1);
   const float hx = batch.halfX[j] + 0.5f, hy = batch.halfY[j] + 0.5f;
-  const float x0 = clamped(__builtin_ceilf(batch.middleX[j] - hx), 0.0f, right);
-  const float x1 = clamped(__builtin_floorf(batch.middleX[j] + hx - 1.0f), 0.0f, right);
+  const float x0 = clamped(__builtin_ceilf(batch.middleX[j] - hx), left, right);
+  const float x1 = clamped(__builtin_floorf(batch.middleX[j] + hx - 1.0f), left, right);
   const float y0 = clamped(__builtin_ceilf(batch.middleY[j] - hy), bottom, top);
   const float y1 = clamped(__builtin_floorf(batch.middleY[j] + hy - 1.0f), bottom, top);
-  return { window.at(static_cast<int>(x0), static_cast<int>(y0) - window.bottom),
+  return { window.at(static_cast<int>(x0) - window.left, static_cast<int>(y0) - window.bottom),
     x0 + 0.5f - batch.screenX[j], y0 + 0.5f - batch.screenY[j], static_cast<int>(y1 - y0) + 1,
     static_cast<int>(x1 - x0) + 1 };
 }

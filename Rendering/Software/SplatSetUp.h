@@ -228,8 +228,9 @@ inline void setUpSpheres(RasterCamera camera, int count, RasterBatch& batch)
 inline void cullBesidePyramid(
   RasterCamera camera, RasterWindow window, int count, RasterBatch& batch)
 {
-  const float right = (static_cast<float>(window.width) - camera.centreX) / camera.scaleX;
-  const float left = camera.centreX / camera.scaleX;
+  const float right =
+    (static_cast<float>(window.left + window.width) - camera.centreX) / camera.scaleX;
+  const float left = (camera.centreX - static_cast<float>(window.left)) / camera.scaleX;
   const float up =
     (static_cast<float>(window.bottom + window.height) - camera.centreY) / camera.scaleY;
   const float down = (camera.centreY - static_cast<float>(window.bottom)) / camera.scaleY;
@@ -255,14 +256,15 @@ inline void cullBesidePyramid(
 /// Bounding rectangles in pixels, and which loop draws them.
 inline void sortByExtent(const RasterWindow& window, int count, RasterBatch& batch)
 {
-  const auto width = static_cast<float>(window.width);
+  const auto left = static_cast<float>(window.left);
+  const auto right = static_cast<float>(window.left + window.width);
   const auto bottom = static_cast<float>(window.bottom);
   const auto top = static_cast<float>(window.bottom + window.height);
   const std::int32_t stride = window.stride;
-  const std::int32_t corner = window.at(0, -window.bottom);
+  const std::int32_t corner = window.at(-window.left, -window.bottom);
   // Loops draw up to seven pixels more than a rectangle has.
   constexpr auto margin = static_cast<float>(rasterMargin);
-  const float leftmost = -margin, rightmost = width + margin - 8.0f;
+  const float leftmost = left - margin, rightmost = right + margin - 8.0f;
   const float lowest = bottom - margin, highest = top + margin - 8.0f;
   for (int j = 0; j < count; ++j)
   {
@@ -271,7 +273,7 @@ inline void sortByExtent(const RasterWindow& window, int count, RasterBatch& bat
     const float larger = hx > hy ? hx : hy;
     const float x0 = __builtin_ceilf(mx - hx - 0.5f), y0 = __builtin_ceilf(my - hy - 0.5f);
     const float x1 = __builtin_floorf(mx + hx - 0.5f), y1 = __builtin_floorf(my + hy - 0.5f);
-    const int seen = (batch.depth[j] >= 0.0f) & (x1 >= 0.0f) & (x0 < width) & (y1 >= bottom) &
+    const int seen = (batch.depth[j] >= 0.0f) & (x1 >= left) & (x0 < right) & (y1 >= bottom) &
       (y0 < top);
     // A splat may be small and yet reach over the margin: its centre is beyond the edge.
     const int inMargin = (x0 >= leftmost) & (x1 < rightmost) & (y0 >= lowest) & (y1 < highest);
@@ -279,11 +281,11 @@ inline void sortByExtent(const RasterWindow& window, int count, RasterBatch& bat
     const float across = x1 - x0 > y1 - y0 ? x1 - x0 : y1 - y0;
     const int extent = RasterBatch::Within2 + (across > 1.0f) + (larger > 2.0f);
     batch.extent[j] = fits ? extent : seen * static_cast<int>(RasterBatch::Clipped);
-    const float left = fits ? x0 : 0.0f, low = fits ? y0 : 0.0f;
-    batch.firstX[j] = left + 0.5f - batch.screenX[j];
+    const float first = fits ? x0 : 0.0f, low = fits ? y0 : 0.0f;
+    batch.firstX[j] = first + 0.5f - batch.screenX[j];
     batch.firstY[j] = low + 0.5f - batch.screenY[j];
     batch.offset[j] =
-      corner + static_cast<std::int32_t>(low) * stride + static_cast<std::int32_t>(left);
+      corner + static_cast<std::int32_t>(low) * stride + static_cast<std::int32_t>(first);
     batch.rows[j] = static_cast<std::int32_t>(fits ? y1 - y0 + 1.0f : 0.0f);
     batch.columns[j] = static_cast<std::int32_t>(fits ? x1 - x0 + 1.0f : 0.0f);
   }

@@ -18,6 +18,9 @@ constexpr float lowPassPixels = 0.5f;
 constexpr float opaqueParaboloid = 8.0f; ///< radii at the rim
 constexpr float blendedParaboloid = 4.0f;
 constexpr float slackPixels = 2.0f;
+/// What closes an evenly thinned surface, in spacings: half of the inner nodes of Autzen and of
+/// generated ground say less, 1.52 is the middle of ahn3_261k.
+constexpr float thinnedSpacings = 1.4f;
 constexpr int mostSquare = 255;
 /// What closes a surface is drawn no larger than that, of the viewport's height: nearer to the eye
 /// there is no surface to be seen.
@@ -57,9 +60,9 @@ void blend(TechniquePasses& passes, float slackRadii)
 
 } // namespace
 
-TechniquePasses passesOf(
-  const ResolvedStyle& style, bool hasNormals, float spacingPx, int heightPx)
+TechniquePasses passesOf(const ResolvedStyle& style, const PassDemand& demand)
 {
+  const bool hasNormals = demand.hasNormals;
   TechniquePasses passes;
   const bool pixels = style.size.mode == SplatSize::Mode::Pixels;
   const bool spacing = style.size.mode == SplatSize::Mode::Spacing;
@@ -91,10 +94,11 @@ TechniquePasses passesOf(
   if (spacing)
   {
     const float closing =
-      visibleShare * spacingPx * static_cast<float>(std::max(style.size.value, 0.0));
+      visibleShare * demand.spacingPx * static_cast<float>(std::max(style.size.value, 0.0)) *
+      (demand.thinned ? thinnedSpacings : 1.0f);
     passes.first.leastRadius = std::max(passes.first.leastRadius, closing);
     passes.first.mostRadius =
-      std::max(passes.first.leastRadius, mostOfHeight * static_cast<float>(heightPx));
+      std::max(passes.first.leastRadius, mostOfHeight * static_cast<float>(demand.heightPx));
   }
   if (twice)
   {

@@ -22,10 +22,18 @@ struct TechniquePasses
   bool depthInKey() const { return squares || first.paraboloid == 0.0f; }
 };
 
-/// `hasNormals`: of the node that is drawn. `spacingPx`: FramePlan's. `heightPx`: of the viewport.
+/// What of a frame decides about passes, beside a style.
+struct PassDemand
+{
+  bool hasNormals = false; ///< of the node that is drawn
+  float spacingPx = 0.0f;  ///< FramePlan's
+  /// More points are there than are drawn, and the node does not say how far those are apart.
+  bool thinned = false;
+  int heightPx = 1; ///< of the viewport
+};
+
 /// Constants  as measured against ground truth: docs/adr/0016.
-TechniquePasses passesOf(
-  const ResolvedStyle& style, bool hasNormals, float spacingPx, int heightPx);
+TechniquePasses passesOf(const ResolvedStyle& style, const PassDemand& demand);
 
 bool operator==(const TechniquePasses& a, const TechniquePasses& b);
 

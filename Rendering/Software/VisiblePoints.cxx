@@ -61,8 +61,9 @@ struct VisiblePoints::Source
 {
   const DrawnItem* drawn = nullptr;
   const Kept* kept = nullptr;   ///< it is not a node but points of one
+  bool wanted = true;
   std::uint32_t planned = 0;    ///< that many of the node's points are drawn anyway
-  std::unique_ptr<std::atomic<std::uint32_t>[]> visible; ///< null: nothing is wanted of it
+  std::unique_ptr<std::atomic<std::uint32_t>[]> visible; ///< null: nothing is known of it
 
   std::uint32_t indexInNode(std::uint32_t point) const
   {
@@ -70,11 +71,23 @@ struct VisiblePoints::Source
   }
 };
 
-/// What the keys' indices mean, and which of the points a plan lacks.
-std::vector<VisiblePoints::Source> VisiblePoints::sourcesOf(
-  const std::vector<DrawnItem>& drawn, const FramePlan& plan) const
+VisiblePoints::VisiblePoints() = default;
+VisiblePoints::~VisiblePoints() = default;
+
+void VisiblePoints::clear()
 {
-  const std::unordered_map<NodeIndex, std::uint32_t> prefixes = prefixesOf(plan);
+  marked_.clear(); // they are of what is kept
+  kept_.clear();
+}
+
+void VisiblePoints::unmark()
+{
+  marked_.clear();
+}
+
+std::vector<VisiblePoints::Source> VisiblePoints::sourcesOf(
+  const std::vector<DrawnItem>& drawn) const
+{
   std::unordered_map<const NodeColumns*, const Kept*> known;
   for (const Kept& kept : kept_)
   {
@@ -83,47 +96,87 @@ std::vector<VisiblePoints::Source> VisiblePoints::sourcesOf(
   std::vector<Source> sources(drawn.size());
   for (std::size_t i = 0; i < drawn.size(); ++i)
   {
-    Source& source = sources[i];
-    source.drawn = &drawn[i];
+    sources[i].drawn = &drawn[i];
     const auto kept = known.find(drawn[i].node.get());
-    source.kept = kept == known.end() ? nullptr : kept->second;
-    const auto planned = prefixes.find(drawn[i].node->node);
-    source.planned = planned == prefixes.end() ? 0 : planned->second;
-    const bool all = !source.kept && source.planned >= drawn[i].last;
-    if (!all && drawn[i].last > 0 && drawsAlike(plan, drawn[i]))
-    {
-      source.visible.reset(new std::atomic<std::uint32_t>[wordsOf(drawn[i])]());
-    }
+    sources[i].kept = kept == known.end() ? nullptr : kept->second;
   }
   return sources;
 }
 
-void VisiblePoints::choose(const RasterKey* keys, const RasterWindow& window,
-  const ItemNumbers& numbers, const std::vector<DrawnItem>& drawn, const FramePlan& plan,
-  ThreadCrew& crew)
+/// What the plan draws anyway, or in another way; false: it lacks nothing.
+bool VisiblePoints::leaveOutPlanned(const FramePlan& plan, std::vector<Source>& sources)
 {
-  const std::vector<Source> sources = sourcesOf(drawn, plan);
-  const bool any = std::any_of(sources.begin(), sources.end(),
-    [](const Source& source) { return source.visible != nullptr; });
-  if (!any)
+  const std::unordered_map<NodeIndex, std::uint32_t> prefixes = prefixesOf(plan);
+  bool any = false;
+  for (Source& source : sources)
   {
-    kept_.clear();
+    const DrawnItem& drawn = *source.drawn;
+    const auto planned = prefixes.find(drawn.node->node);
+    source.planned = planned == prefixes.end() ? 0 : planned->second;
+    const bool all = !source.kept && source.planned >= drawn.last;
+    source.wanted = !all && drawn.last > 0 && drawsAlike(plan, drawn);
+    any = any || source.wanted;
+  }
+  return any;
+}
+
+void VisiblePoints::choose(const Drawn& drawn, const FramePlan& plan, ThreadCrew& crew)
+{
+  std::vector<Source> sources = sourcesOf(drawn.items);
+  if (!leaveOutPlanned(plan, sources))
+  {
+    clear();
     return;
   }
-  const auto height = static_cast<std::size_t>(window.height);
+  for (Source& source : sources)
+  {
+    if (source.wanted)
+    {
+      source.visible.reset(new std::atomic<std::uint32_t>[wordsOf(*source.drawn)]());
+    }
+  }
+  markVisible(drawn, sources, crew);
+  gather(sources, crew);
+}
+
+void VisiblePoints::mark(const Drawn& drawn, ThreadCrew& crew)
+{
+  marked_ = sourcesOf(drawn.items);
+  for (Source& source : marked_)
+  {
+    source.visible.reset(new std::atomic<std::uint32_t>[wordsOf(*source.drawn)]());
+  }
+  markVisible(drawn, marked_, crew);
+}
+
+void VisiblePoints::chooseMarked(const FramePlan& plan, ThreadCrew& crew)
+{
+  const std::vector<Source> marked = [&]
+  {
+    const bool any = leaveOutPlanned(plan, marked_);
+    return any ? std::move(marked_) : std::vector<Source>();
+  }();
+  marked_.clear();
+  gather(marked, crew);
+}
+
+void VisiblePoints::markVisible(
+  const Drawn& drawn, const std::vector<Source>& sources, ThreadCrew& crew)
+{
+  const auto height = static_cast<std::size_t>(drawn.window.height);
   crew.run((height + rowsOfPiece - 1) / rowsOfPiece,
     [&](std::size_t piece, unsigned)
     {
       const std::size_t end = std::min(height, (piece + 1) * rowsOfPiece);
       for (std::size_t y = piece * rowsOfPiece; y < end; ++y)
       {
-        markVisible(keys + window.at(0, static_cast<int>(y)), window.width, numbers, sources);
+        markRow(drawn.keys + drawn.window.at(0, static_cast<int>(y)), drawn.window.width,
+          drawn.numbers, sources);
       }
     });
-  gather(sources, crew);
 }
 
-void VisiblePoints::markVisible(
+void VisiblePoints::markRow(
   const RasterKey* row, int width, const ItemNumbers& numbers, const std::vector<Source>& sources)
 {
   const Source* source = nullptr;
@@ -156,7 +209,7 @@ void VisiblePoints::gather(const std::vector<Source>& sources, ThreadCrew& crew)
   std::map<NodeIndex, std::vector<const Source*>> byNode;
   for (const Source& source : sources)
   {
-    if (source.visible)
+    if (source.wanted && source.visible)
     {
       byNode[source.drawn->node->node].push_back(&source);
     }
@@ -182,7 +235,9 @@ void VisiblePoints::gather(const std::vector<Source>& sources, ThreadCrew& crew)
       kept.item.last = static_cast<std::uint32_t>(places.size());
       kept.item.radiusScale = drawn.itemRadiusScale;
       kept.item.closingRadius = drawn.closingRadius;
+      kept.item.sparsestRadius = drawn.sparsestRadius;
       kept.item.refined = drawn.refined;
+      kept.item.unfinished = drawn.unfinished;
     });
   gathered.erase(std::remove_if(gathered.begin(), gathered.end(),
                    [](const Kept& kept) { return kept.indices.empty(); }),
@@ -207,7 +262,10 @@ std::vector<VisiblePoints::Place> VisiblePoints::placesOf(const std::vector<cons
       for (std::uint32_t bits = part->visible[word]; bits != 0; bits &= bits - 1)
       {
         const auto point = 32 * word + static_cast<std::uint32_t>(__builtin_ctz(bits));
-        places.push_back({ part->indexInNode(point), point, drawn.node.get() });
+        if (part->indexInNode(point) >= part->planned)
+        {
+          places.push_back({ part->indexInNode(point), point, drawn.node.get() });
+        }
       }
     }
   }

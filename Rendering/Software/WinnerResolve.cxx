@@ -101,7 +101,7 @@ void WinnerResolve::sortByItem()
   }
 }
 
-void WinnerResolve::resolveFound(SoftwareTarget& target, int firstRow)
+void WinnerResolve::resolveFound(SoftwareTarget& target)
 {
   sortByItem();
   const std::vector<RasterItem>& items = source_.items->items();
@@ -113,7 +113,7 @@ void WinnerResolve::resolveFound(SoftwareTarget& target, int firstRow)
     {
       const auto count =
         static_cast<int>(std::min<std::uint32_t>(RasterBatch::size, end - begin));
-      resolve(items[number], winners_.sorted.data() + begin, count, target, firstRow);
+      resolve(items[number], winners_.sorted.data() + begin, count, target);
     }
     winners_.places[number] = 0;
   }
@@ -122,7 +122,7 @@ void WinnerResolve::resolveFound(SoftwareTarget& target, int firstRow)
   winners_.touched.clear();
 }
 
-void WinnerResolve::rows(int begin, int end, SoftwareTarget& target, int firstRow)
+void WinnerResolve::rows(int begin, int end, SoftwareTarget& target)
 {
   winners_.places.resize(source_.items->items().size(), 0u);
   for (int y = begin; y < end; ++y)
@@ -131,7 +131,7 @@ void WinnerResolve::rows(int begin, int end, SoftwareTarget& target, int firstRo
     find(y);
     if (winners_.found.size() >= winnersAtOnce || y + 1 == end)
     {
-      resolveFound(target, firstRow);
+      resolveFound(target);
     }
   }
 }
@@ -182,7 +182,7 @@ void WinnerResolve::put(const RasterItem& item, const Winner& winner, float dept
 float WinnerResolve::planeDepth(const RasterItem& item, int j, const Winner& winner) const
 {
   const SplatPass& pass = item.passes.first;
-  const float dx = static_cast<float>(winner.x) + 0.5f - batch_.screenX[j];
+  const float dx = static_cast<float>(winner.x + source_.window.left) + 0.5f - batch_.screenX[j];
   const float dy = static_cast<float>(winner.y + source_.window.bottom) + 0.5f - batch_.screenY[j];
   if (pass.shape == SplatShape::Ellipse)
   {
@@ -222,7 +222,7 @@ void WinnerResolve::putNormal(
       return glm::vec3((px - item.camera.centreX) * reach / item.camera.scaleX,
         (py - item.camera.centreY) * reach / item.camera.scaleY, -d);
     };
-    n = place(static_cast<float>(winner.x) + 0.5f,
+    n = place(static_cast<float>(winner.x + source_.window.left) + 0.5f,
           static_cast<float>(winner.y + source_.window.bottom) + 0.5f, depth) -
       place(batch_.screenX[j], batch_.screenY[j], batch_.depth[j]);
   }
@@ -238,8 +238,8 @@ void WinnerResolve::putNormal(
   normal[2] = n.z;
 }
 
-void WinnerResolve::resolve(const RasterItem& item, const Winner* winners, int count,
-  SoftwareTarget& target, int firstRow)
+void WinnerResolve::resolve(
+  const RasterItem& item, const Winner* winners, int count, SoftwareTarget& target)
 {
   const bool keyIsDepth = item.passes.depthInKey();
   const bool discs = item.passes.squares || item.passes.first.shape == SplatShape::Disc;
@@ -269,8 +269,9 @@ void WinnerResolve::resolve(const RasterItem& item, const Winner* winners, int c
   {
     const Winner& winner = winners[j];
     const float depth = keyIsDepth ? winner.keyDepth : planeDepth(item, j, winner);
+    const std::int64_t row = winner.y + source_.window.bottom - target.bottom;
     const auto pixel = static_cast<std::size_t>(
-      std::int64_t(firstRow + winner.y) * target.width + winner.x);
+      row * target.width + winner.x + source_.window.left - target.left);
     const float eyeDepth = fromEye(*source_.items, depth);
     const bool nearer = eyeDepth < target.depth[pixel];
     put(item, winner, eyeDepth, target, pixel);

@@ -35,16 +35,16 @@ public:
     , winners_(buffers.winners)
   {
   }
-  /// Rows [begin, end) of the window; the window's first row is the target's row `firstRow`.
-  void rows(int begin, int end, SoftwareTarget& target, int firstRow);
+  /// Rows [begin, end) of the window, which lies in the target's rectangle.
+  void rows(int begin, int end, SoftwareTarget& target);
 
 private:
   void merge(int y);
   void find(int y);
-  void resolveFound(SoftwareTarget& target, int firstRow);
+  void resolveFound(SoftwareTarget& target);
   void sortByItem();
-  void resolve(const RasterItem& item, const Winner* winners, int count, SoftwareTarget& target,
-    int firstRow);
+  void resolve(
+    const RasterItem& item, const Winner* winners, int count, SoftwareTarget& target);
   void put(const RasterItem& item, const Winner& winner, float depth, SoftwareTarget& target,
     std::size_t pixel);
   bool blendedColour(const Winner& winner, std::uint32_t& rgba) const;

@@ -12,6 +12,7 @@ uniform sampler2D pictureDepth;   // world units from the eye's plane; infinite 
 uniform sampler2D pictureIds;     // low and high 24 bits
 #endif
 uniform ivec2 pictureOrigin;      // of the viewport, pixels of the framebuffer
+uniform ivec2 pictureCorner;      // of the textures in the viewport, pixels
 uniform vec2 pictureSize;         // of the viewport, pixels
 uniform mat4 pictureViewToClip;
 
@@ -40,7 +41,7 @@ vec4 viewAt(vec2 windowPx, float depth)
 void main()
 {
   vec2 windowPx = gl_FragCoord.xy - vec2(pictureOrigin);
-  ivec2 texel = ivec2(floor(windowPx));
+  ivec2 texel = ivec2(floor(windowPx)) - pictureCorner;
   float depth = texelFetch(pictureDepth, texel, 0).r;
   if (!(depth < 3.0e38))
   {

@@ -77,6 +77,27 @@ void expectSame(const SoftwareTarget& a, const SoftwareTarget& b, const std::str
   EXPECT_EQ(a.normals, b.normals) << what;
 }
 
+/// The part's pixels are those that the whole has there.
+void expectPart(const SoftwareTarget& part, const SoftwareTarget& whole, const std::string& what)
+{
+  int different = 0;
+  for (int y = 0; y < part.height; ++y)
+  {
+    for (int x = 0; x < part.width; ++x)
+    {
+      const auto mine = static_cast<std::size_t>(y * part.width + x);
+      const auto other =
+        static_cast<std::size_t>((part.bottom + y) * whole.width + part.left + x);
+      different += part.rgba[mine] != whole.rgba[other] || part.depth[mine] != whole.depth[other];
+      for (std::size_t c = 0; !part.normals.empty() && c < 3; ++c)
+      {
+        different += part.normals[3 * mine + c] != whole.normals[3 * other + c];
+      }
+    }
+  }
+  EXPECT_EQ(different, 0) << what;
+}
+
 class SameBits : public testing::TestWithParam<NamedStyle>
 {
 };
@@ -164,20 +185,69 @@ TEST_P(SameBits, ByAndByAndAtOneGo)
   EXPECT_EQ(reused, 2100u + 3100u);
 }
 
-TEST_P(SameBits, InBands)
+TEST_P(SameBits, InParts)
 {
   const PlanOfPoints scene = surface(GetParam());
   const SoftwareTarget reference = scene.draw();
   SoftwareRasteriser rasteriser;
-  SoftwareTarget band;
+  SoftwareTarget part;
   for (int bottom = 0; bottom < 150; bottom += 37)
   {
-    const int rows = std::min(37, 150 - bottom);
-    band.reset(200, rows);
-    rasteriser.draw(scene.plan, { bottom, bottom + rows }, band);
-    const std::size_t first = static_cast<std::size_t>(bottom) * 200;
-    EXPECT_TRUE(std::equal(band.rgba.begin(), band.rgba.end(), reference.rgba.begin() + first));
-    EXPECT_TRUE(std::equal(band.depth.begin(), band.depth.end(), reference.depth.begin() + first));
+    for (int left = 0; left < 200; left += 61)
+    {
+      part.reset({ left, bottom, std::min(left + 61, 200), std::min(bottom + 37, 150) });
+      rasteriser.draw(scene.plan, part);
+      expectPart(part, reference, "part");
+    }
+  }
+}
+
+/// A store that fills a part of the window only: as drawn in all of it.
+TEST_P(SameBits, WhereItShows)
+{
+  struct Look
+  {
+    const char* name;
+    glm::dvec3 from;
+    glm::dvec3 at;
+    double angle;
+    bool whole;
+  };
+  const Look looks[] = {
+    { "far", { 20.0, -40.0, 30.0 }, { 3.0, 1.0, 0.0 }, 0.3, false },
+    { "at the left edge", { 0.0, -9.0, 7.0 }, { 2.6, 0.0, 0.0 }, 0.5, false },
+    { "at the upper right corner", { 0.0, -9.0, 7.0 }, { -3.0, -3.0, 0.0 }, 0.5, false },
+    { "wide", { 0.5, -3.0, 2.0 }, { 3.5, 1.0, 0.0 }, 2.4, false },
+    { "beside the view", { 0.0, -9.0, 7.0 }, { 30.0, 0.0, 0.0 }, 0.5, false },
+    { "behind the eye", { 0.0, -9.0, 7.0 }, { 0.0, -40.0, 7.0 }, 0.5, false },
+    { "near", { 0.2, -0.3, 0.4 }, { 0.0, 0.1, 0.0 }, 1.2, true },
+  };
+  for (const Look& look : looks)
+  {
+    for (const bool parallel : { false, true })
+    {
+      PlanOfPoints scene = surface(GetParam());
+      scene.plan.shading.fillHoles = true;
+      scene.plan.shading.eyeDomeStrength = 0.4f;
+      scene.plan.camera = parallel
+        ? FrameCamera::parallelView(look.from, look.at, { 0.0, 0.0, 1.0 }, 5.0, 0.01, 1e4, 331, 217)
+        : FrameCamera::perspective(
+            look.from, look.at, { 0.0, 0.0, 1.0 }, look.angle, 0.01, 1e4, 331, 217);
+      SoftwareTarget shown;
+      SoftwareRasteriser().drawShown(scene.plan, shown);
+      const bool whole = shown.width == 331 && shown.height == 217;
+      EXPECT_EQ(whole, look.whole && !parallel) << look.name;
+      shade(scene.plan.camera, scene.plan.shading, shown);
+      // The same beside a node that nobody sees but that might be anywhere.
+      const glm::dvec3 ahead = 2.0e4 * glm::normalize(look.at - look.from);
+      scene.add({ { look.from - ahead - 1.0e4 }, { look.from + ahead + 1.0e4 } });
+      SoftwareTarget all = scene.draw();
+      shade(scene.plan.camera, scene.plan.shading, all);
+      expectPart(shown, all, look.name);
+      const auto drawn = [](const SoftwareTarget& target)
+      { return std::count_if(target.rgba.begin(), target.rgba.end(), [](auto c) { return c != 0; }); };
+      EXPECT_EQ(drawn(shown), drawn(all)) << look.name; // nothing is outside
+    }
   }
 }
 

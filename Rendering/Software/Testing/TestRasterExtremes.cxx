@@ -190,9 +190,9 @@ TEST(RasterExtremes, PicturesOfOnePixelAndOfSixteenThousand)
   scene.look({ 0, -3, 0 }, { 0, 0, 0 }, 0.9, 16384, 16384);
   SoftwareTarget band;
   band.keepPoints = true;
-  band.reset(16384, 16);
+  band.reset({ 0, 8184, 16384, 8200 });
   SoftwareRasteriser rasteriser;
-  rasteriser.draw(scene.plan, { 8184, 8200 }, band);
+  rasteriser.draw(scene.plan, band);
   EXPECT_EQ(covered(band), 1u);
   EXPECT_EQ(band.points[8 * 16384 + 8192].node, 0u);
 }

@@ -337,3 +337,30 @@ TEST(RasterReference, HolesAreFilledFromWhatAgreesInDepth)
   EXPECT_EQ(target.rgba[through], 0xff102030u);
   EXPECT_TRUE(std::isinf(target.depth[30 * 64 + 40])) << "background stays background";
 }
+
+/// Among points of finer nodes, of which some are left out, a point's own radius says how far it is
+/// from all that the store has: not from what is drawn, which is a matter of pixels.
+TEST(RasterReference, PointsAmongThinnedOnesCloseTheSurface)
+{
+  const auto covered = [](bool refined, bool unfinished)
+  {
+    PlanOfPoints scene;
+    scene.style->technique = Technique::Splats;
+    scene.style->size = { SplatSize::Mode::Spacing, 1.0, 0 };
+    scene.style->radiusColumn = 2;
+    scene.plan.splatRadiusBase = 1e-3;
+    scene.plan.spacingPx = 20.0f;
+    scene.look({ 0, -3, 0 }, { 0, 0, 0 }, 0.9, 101, 101);
+    PlanItem& item = scene.add({ { { 0.0, 0.0, 0.0 } } }, 1e-3);
+    item.refined = refined;
+    item.unfinished = unfinished;
+    const SoftwareTarget target = scene.draw();
+    return static_cast<double>(std::count_if(
+      target.rgba.begin(), target.rgba.end(), [](std::uint32_t c) { return c != 0; }));
+  };
+  const double pi = 3.14159265358979;
+  const double spacingRadius = 0.85 * 20.0;
+  EXPECT_NEAR(covered(false, false), pi * spacingRadius * spacingRadius, 20.0);
+  EXPECT_NEAR(covered(true, false), covered(false, false), 1e-9);
+  EXPECT_NEAR(covered(true, true), 1.4 * 1.4 * pi * spacingRadius * spacingRadius, 40.0);
+}

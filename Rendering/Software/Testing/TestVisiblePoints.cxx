@@ -183,3 +183,50 @@ TEST(VisiblePoints, OfNodesThatAreGoneStay)
   picked.reset(width, height);
   EXPECT_EQ(rasteriser.draw(scene.plan, picked).keptVisible, 0u);
 }
+
+/// Each of several stores in one window keeps what was visible of it, though there is no memory for
+/// the keys of all.
+TEST(VisiblePoints, OfSeveralStoresAreKept)
+{
+  constexpr int stores = 5;
+  static_assert(stores > SoftwareRasteriser::keptPictures, "some have to do without their keys");
+  PanOverSurface scene;
+  SoftwareRasteriser together;
+  SoftwareTarget window;
+  SoftwareRasteriser alone;
+  for (int frame = 0; frame < 4; ++frame)
+  {
+    scene.pan(5.0 * frame);
+    scene.draw(frame == 0 ? 1.0 : 0.05, true, alone);
+    const std::uint64_t kept = scene.statistics.keptVisible;
+    EXPECT_EQ(kept > 0, frame > 0);
+    window.reset(width, height);
+    for (std::uint16_t store = 0; store < stores; ++store)
+    {
+      EXPECT_EQ(together.draw(scene.plan, window, store).keptVisible, kept) << frame << store;
+    }
+    EXPECT_EQ(window.rgba, scene.target.rgba); // they are all the same
+  }
+}
+
+/// Stores that show in a part of the window each go on from their own last pictures.
+TEST(VisiblePoints, StoresBesideEachOtherDrawNothingTwice)
+{
+  PanOverSurface scene;
+  const double shift = 0.25 * width * pixel();
+  SoftwareRasteriser together;
+  for (const double share : { 0.2, 1.0 })
+  {
+    SoftwareTarget window;
+    window.reset(width, height);
+    for (const int side : { -1, 1 })
+    {
+      FramePlan plan = scene.plan;
+      plan.batches[0].items[0].last = static_cast<std::uint32_t>(share * scene.all);
+      plan.grid.offset.x = 4.0 * side * shift;
+      const RasterStatistics drawn =
+        together.draw(plan, window, static_cast<std::uint16_t>(side + 1));
+      EXPECT_EQ(drawn.reused, share < 1.0 ? 0u : static_cast<std::uint64_t>(0.2 * scene.all));
+    }
+  }
+}

@@ -337,6 +337,52 @@ TEST(FramePlanner, ANodeAmongFinerOnesHasSplatsOfTheirSize)
   EXPECT_FLOAT_EQ(all.batches[2].items.front().closingRadius, 8.0f);
 }
 
+/// Autzen from 40 ft: a point of the root among ground that is all there was as large as what closes
+/// the coarse nodes a mile away, or a few strays.
+TEST(FramePlanner, WhatIsFarAwayMakesNoSplatsNearTheEyeLarge)
+{
+  std::vector<DrawBatch> batches(1);
+  const auto add = [&](NodeIndex number, NodeIndex parent, float radius, std::uint32_t points,
+                     bool unfinished)
+  {
+    auto node = std::make_shared<NodeColumns>();
+    node->node = number;
+    node->parent = parent;
+    PlanItem item;
+    item.node = node;
+    item.last = points;
+    item.closingRadius = radius;
+    item.unfinished = unfinished;
+    batches[0].items.push_back(item);
+  };
+  add(0, noNode, 100.0f, 50, true);
+  add(1, 0, 30.0f, 900, true);  // refined by the next two
+  add(3, 1, 1.0f, 990, false);  // near: all there
+  add(4, 1, 11.0f, 10, false);  // some strays
+  add(2, 0, 40.0f, 900, true);  // far away: coarse
+  matchNeighbours(batches, QuantisationGrid());
+  const std::vector<PlanItem>& items = batches[0].items;
+  for (const std::size_t above : { std::size_t(0), std::size_t(1) })
+  {
+    EXPECT_TRUE(items[above].refined);
+    EXPECT_FLOAT_EQ(items[above].closingRadius, 1.1f);
+  }
+  EXPECT_FLOAT_EQ(items[0].sparsestRadius, 40.0f);
+  EXPECT_FLOAT_EQ(items[1].sparsestRadius, 11.0f);
+  EXPECT_TRUE(items[0].unfinished) << "points are left out far away";
+  EXPECT_FALSE(items[1].unfinished);
+  EXPECT_FLOAT_EQ(items[4].closingRadius, 40.0f);
+
+  batches[0].items.erase(batches[0].items.begin() + 2, batches[0].items.begin() + 4);
+  for (PlanItem& item : batches[0].items)
+  {
+    item.refined = false;
+  }
+  batches[0].items[1].closingRadius = 30.0f;
+  matchNeighbours(batches, QuantisationGrid());
+  EXPECT_FLOAT_EQ(batches[0].items[0].closingRadius, 30.0f) << "the nearer of the two";
+}
+
 TEST(FramePlanner, AFewPointsOfAClassAmongManyOfAnotherHaveSplatsLikeTheirs)
 {
   std::vector<DrawBatch> batches(2);

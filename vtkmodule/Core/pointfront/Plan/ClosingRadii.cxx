@@ -5,6 +5,7 @@
 #include <glm/vec3.hpp>
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <utility>
 
@@ -39,21 +40,63 @@ std::vector<LayeredItem> itemsOf(std::vector<DrawBatch>& batches)
   return items;
 }
 
+/// What closes the surface among finer nodes, from those that are drawn: the mean over the points of
+/// those that are all there. Without such nodes the smallest: how far apart points are where some
+/// are left out is a matter of pixels (FramePlan::spacingPx), and what is far away, where nodes are
+/// coarse, says nothing about what is near.
+struct FinerRadii
+{
+  double points = 0.0; ///< of nodes that are all there
+  double sum = 0.0;    ///< of their radii
+  float leastUnfinished = 0.0f; ///< 0: there is none
+  float sparsest = 0.0f;
+  bool unfinished = false;
+
+  void add(const FinerRadii& other)
+  {
+    points += other.points;
+    sum += other.sum;
+    const bool known = leastUnfinished > 0.0f && other.leastUnfinished > 0.0f;
+    leastUnfinished = known ? std::min(leastUnfinished, other.leastUnfinished)
+                            : std::max(leastUnfinished, other.leastUnfinished);
+    sparsest = std::max(sparsest, other.sparsest);
+    unfinished = unfinished || other.unfinished;
+  }
+  static FinerRadii of(const PlanItem& item)
+  {
+    FinerRadii radii;
+    const double radius = item.closingRadius;
+    radii.sparsest = item.closingRadius;
+    radii.unfinished = item.unfinished;
+    radii.points = item.unfinished || radius == 0.0 ? 0.0 : double(item.last - item.first);
+    radii.sum = radii.points * radius;
+    radii.leastUnfinished = item.unfinished ? item.closingRadius : 0.0f;
+    return radii;
+  }
+  float closing() const
+  {
+    return points > 0.0 ? static_cast<float>(sum / points) : leastUnfinished;
+  }
+};
+
 void refine(const std::vector<LayeredItem>& items)
 {
+  std::vector<FinerRadii> finer(items.size());
   // Children stand behind their parents in every table: each is finished when it is passed on.
-  for (auto child = items.rbegin(); child != items.rend(); ++child)
+  for (std::size_t child = items.size(); child-- > 0;)
   {
-    const NodeIndex parent = child->item->node->parent;
+    PlanItem& item = *items[child].item;
+    const FinerRadii radii = item.refined ? finer[child] : FinerRadii::of(item);
+    item.sparsestRadius = radii.sparsest;
+    item.unfinished = radii.unfinished;
+    item.closingRadius = item.refined ? radii.closing() : item.closingRadius;
+    const NodeIndex parent = item.node->parent;
     auto place = std::lower_bound(items.begin(), items.end(), parent,
-      [](const LayeredItem& item, NodeIndex node) { return item.node() < node; });
+      [](const LayeredItem& other, NodeIndex node) { return other.node() < node; });
     for (; place != items.end() && place->node() == parent; ++place)
     {
-      PlanItem& above = *place->item;
-      above.closingRadius = above.refined
-        ? std::max(above.closingRadius, child->item->closingRadius)
-        : child->item->closingRadius;
-      above.refined = true;
+      place->item->refined = true;
+      finer[static_cast<std::size_t>(place - items.begin())].add(radii);
     }
   }
 }
@@ -122,7 +165,9 @@ void matchLayers(const std::vector<LayeredItem>& items, const QuantisationGrid& 
         densest = radii[j];
       }
     }
-    items[i].item->closingRadius = std::min(radii[i], mostOfDenser * densest);
+    PlanItem& item = *items[i].item;
+    item.closingRadius = std::min(radii[i], mostOfDenser * densest);
+    item.sparsestRadius = std::min(item.sparsestRadius, mostOfDenser * densest);
   }
 }
 

@@ -34,9 +34,14 @@ struct PlanItem
   float radiusScale = 1.0f;
   /// World units, for points without a radius of their own.
   float closingRadius = 0.0f;
+  /// The same of the sparsest finer node that is drawn among its points; its own if there is none.
+  /// A point's own radius is bounded by that: a stray is no surface.
+  float sparsestRadius = 0.0f;
   /// Finer nodes are drawn among this one's points: how far these are apart does not say how large
   /// their splats must be.
   bool refined = false;
+  /// The store has more points there than are drawn.
+  bool unfinished = false;
 };
 
 /// What is drawn in one way: the nodes of one layer.

@@ -36,6 +36,7 @@ std::vector<std::vector<PlanItem>> itemsByLayer(
       columns.spacing > 0.0f ? std::max(1.0f, spacing / columns.spacing) : 1.0f;
     const float measured = std::min(columns.splatRadius, mostSpacings * columns.spacing);
     const bool strays = columns.parent == noNode && columns.size() < fewestOfSurface;
+    planned.unfinished = !columns.leaf || last < columns.size();
     planned.closingRadius =
       strays ? 0.0f : measured > 0.0f ? measured * planned.radiusScale : spacing;
     items[columns.layer].push_back(std::move(planned));

@@ -1,0 +1,202 @@
+#include "LastPicture.h"
+
+#include "pointfront/Threads/ThreadCrew.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace pointfront
+{
+namespace
+{
+
+/// Points that a thread draws at a time: a node, or a part of a large one.
+constexpr std::uint32_t pointsOfPiece = 1u << 14;
+
+bool sameCamera(const FrameCamera& a, const FrameCamera& b)
+{
+  return a.storeToView == b.storeToView && a.viewToClip == b.viewToClip &&
+    a.reference == b.reference && a.referenceInView == b.referenceInView &&
+    a.parallel == b.parallel && a.width == b.width && a.height == b.height;
+}
+
+bool contains(const RasterWindow& window, const RasterWindow& other)
+{
+  return window.rectangle().contains(other.rectangle());
+}
+
+/// The item is what was drawn before, or that and more of its points.
+bool continues(const RasterItem& item, const DrawnItem& drawn)
+{
+  return item.item->node == drawn.node &&
+    (item.style == drawn.style || *item.style == *drawn.style) &&
+    item.passes == drawn.passes && item.item->first == drawn.first &&
+    item.item->last >= drawn.last && item.radius == drawn.radius &&
+    item.radiusScale == drawn.radiusScale && item.item->refined == drawn.refined &&
+    item.item->sparsestRadius == drawn.sparsestRadius;
+}
+
+} // namespace
+
+void addPieces(const RasterItem& item, std::uint32_t first, std::vector<RasterPiece>& pieces)
+{
+  const std::uint32_t last = item.item->last;
+  for (; first < last; first += std::min(pointsOfPiece, last - first))
+  {
+    pieces.push_back({ &item, first, first + std::min(pointsOfPiece, last - first) });
+  }
+}
+
+VisiblePoints::Drawn LastPicture::drawn(const RasterKey* keys) const
+{
+  return { keys, window_, numbers_, items_ };
+}
+
+bool LastPicture::isOf(const FramePlan& plan) const
+{
+  return sameCamera(camera_, plan.camera) && clippingPlanes_ == plan.clippingPlanes;
+}
+
+/// From the same camera it is what it was: the picture goes on from there.
+const VisiblePoints& LastPicture::visibleFor(
+  const FramePlan& plan, bool wanted, ThreadCrew& crew)
+{
+  const bool follows = wanted && known_ && grid_ == plan.grid && *schema_ == *plan.schema;
+  if (!follows)
+  {
+    visible_.clear();
+  }
+  else if (!isOf(plan))
+  {
+    valid_ ? visible_.choose(drawn(keys_.data()), plan, crew) : visible_.chooseMarked(plan, crew);
+  }
+  return visible_;
+}
+
+/// Whether all that was drawn is part of the new items; then keys get the new items' numbers, and
+/// `drawnUpTo` says for each item which of its points are there.
+bool LastPicture::renumber(
+  const RasterItems& items, ThreadCrew& crew, std::vector<std::uint32_t>& drawnUpTo)
+{
+  const std::vector<RasterItem>& now = items.items();
+  drawnUpTo.assign(now.size(), 0);
+  std::vector<std::uint32_t> shift(items_.size());
+  bool moved = false;
+  std::size_t next = 0;
+  for (std::size_t old = 0; old < items_.size(); ++old, ++next)
+  {
+    while (next < now.size() && !continues(now[next], items_[old]))
+    {
+      ++next;
+    }
+    if (next == now.size())
+    {
+      return false;
+    }
+    drawnUpTo[next] = items_[old].last;
+    shift[old] = now[next].base - items_[old].base;
+    moved = moved || shift[old] != 0;
+  }
+  if (!moved)
+  {
+    return true;
+  }
+  RasterKey* const keys = keys_.data();
+  const auto renumbered = [&](RasterKey key)
+  {
+    const auto index = static_cast<std::uint32_t>(key);
+    const auto after = std::upper_bound(items_.begin(), items_.end(), index,
+      [](std::uint32_t i, const DrawnItem& item) { return i < item.base; });
+    const std::uint32_t by = shift[static_cast<std::size_t>(after - items_.begin()) - 1];
+    return static_cast<RasterKey>(
+      (static_cast<std::uint64_t>(key) & 0xffffffff00000000u) | (index + by));
+  };
+  crew.run(static_cast<std::size_t>(window_.height),
+    [&](std::size_t y, unsigned)
+    {
+      RasterKey* const row = keys + window_.at(0, static_cast<int>(y));
+      for (int x = 0; x < window_.width; ++x)
+      {
+        row[x] = row[x] == emptyKey ? emptyKey : renumbered(row[x]);
+      }
+    });
+  return true;
+}
+
+bool LastPicture::goOn(const RasterItems& items, RasterWindow& window, ThreadCrew& crew,
+  std::vector<RasterPiece>& pieces, std::uint64_t& reused)
+{
+  std::vector<std::uint32_t> drawnUpTo;
+  if (!valid_ || !contains(window_, window) || !isOf(items.plan()) ||
+    !renumber(items, crew, drawnUpTo))
+  {
+    return false;
+  }
+  window = window_;
+  for (std::size_t i = 0; i < items.items().size(); ++i)
+  {
+    const RasterItem& item = items.items()[i];
+    const std::uint32_t from = std::max(item.item->first, drawnUpTo[i]);
+    reused += from - item.item->first;
+    addPieces(item, from, pieces);
+  }
+  return true;
+}
+
+RasterBuffer<RasterKey> LastPicture::takeKeys()
+{
+  valid_ = false;
+  return std::exchange(keys_, RasterBuffer<RasterKey>());
+}
+
+void LastPicture::note(const RasterItems& items, const RasterWindow& window)
+{
+  const FramePlan& plan = items.plan();
+  known_ = true;
+  camera_ = plan.camera;
+  clippingPlanes_ = plan.clippingPlanes;
+  grid_ = plan.grid;
+  schema_ = plan.schema;
+  window_ = window;
+  numbers_ = items.numbers();
+  items_.clear();
+  for (const RasterItem& item : items.items())
+  {
+    items_.push_back({ item.item->node, item.style, item.passes, item.base, item.item->first,
+      item.item->last, item.radius, item.radiusScale, item.item->refined,
+      item.item->unfinished, item.item->closingRadius, item.item->sparsestRadius,
+      item.item->radiusScale });
+  }
+  styles_.clear();
+  for (const DrawBatch& batch : plan.batches)
+  {
+    styles_.push_back(batch.style);
+  }
+}
+
+void LastPicture::keep(
+  const RasterItems& items, const RasterWindow& window, RasterBuffer<RasterKey> keys)
+{
+  visible_.unmark();
+  note(items, window);
+  keys_ = std::move(keys);
+  valid_ = true;
+}
+
+void LastPicture::keepVisible(const RasterItems& items, const RasterWindow& window,
+  const RasterKey* keys, ThreadCrew& crew)
+{
+  visible_.unmark();
+  note(items, window);
+  valid_ = false;
+  visible_.mark(drawn(keys), crew);
+}
+
+void LastPicture::forget()
+{
+  known_ = false;
+  valid_ = false;
+  visible_.clear();
+}
+
+} // namespace pointfront

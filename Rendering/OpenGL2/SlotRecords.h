@@ -33,8 +33,10 @@ public:
     bool shaped = false;       ///< normals and codes of radii are there
     bool sized = false;        ///< radii of their own are there
     std::uint64_t firstId = 0; ///< 48-bit id of the node's first point
-    glm::vec4 place{ 0.0f };   ///< camera space of the reference's steps; w: 1 where radii are bounded
-    glm::vec4 radii{ 0.0f };   ///< closing radius, scale of a point's own, least share, spare
+    glm::vec4 place{ 0.0f };   ///< camera space of the reference's steps; w: nothing
+    /// World units: what closes the node, scale of a point's own, 1 where none is below what closes
+    /// it, what closes its sparsest part.
+    glm::vec4 radii{ 0.0f };
   };
 
   SlotRecords();

@@ -97,7 +97,8 @@ void SoftwarePicture::handOver(vtkOpenGLRenderWindow* window, vtkRenderer* rende
   drawing.depth = depth_;
   drawing.ids = ids_.empty() ? nullptr : idTexture_.GetPointer();
   drawing.camera = &plan.camera;
-  drawing.place = last_->rectangle();
+  drawing.textures = last_->rectangle();
+  drawing.place = drawing.textures;
   std::copy(originPx_, originPx_ + 2, drawing.originPx);
   drawing.storePoints = storePoints;
   mapper_->Draw(renderer, actor, drawing);

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "DrawRuns.h"
 #include "SlotRecords.h"
+#include "SplatGroups.h"
 #include "SplatProgram.h"
 #include "SplatTarget.h"
 
@@ -25,8 +25,6 @@ namespace pointfront
 {
 class ColourTable;
 class GpuPool;
-class RasterItems;
-struct RasterItem;
 
 /// Plans whose points are splats, drawn by GL into targets of their own and handed over to a
 /// window's framebuffer: the twin of SoftwareRasteriser and SoftwarePicture.
@@ -41,61 +39,39 @@ class SplatPicture
 public:
   using TableOf = std::function<ColourTable*(const std::shared_ptr<const ColourMap>&)>;
 
+  /// In the place of a number of points: GL has no room for the targets, or cannot draw into them.
+  static constexpr std::int64_t noTarget = -1;
+
   SplatPicture();
   ~SplatPicture();
 
   /// What is on the GPU of the plan; its camera gets the viewport's size. Returns its points.
-  /// `ids`: for a selection. Nothing is drawn again where `sameFrame` and nothing differs.
+  /// `ids`: for a selection. What the last picture has of it is not drawn again.
   std::int64_t draw(vtkOpenGLRenderWindow* window, vtkRenderer* renderer, FramePlan& plan,
-    const GpuPool& pool, const TableOf& tableOf, bool ids, bool sameFrame);
+    const GpuPool& pool, const TableOf& tableOf, bool ids);
   /// What was drawn last, as if it were geometry of the actor.
   void handOver(vtkRenderer* renderer, vtkActor* actor, const FramePlan& plan,
     std::int64_t storePoints);
   void release(vtkOpenGLRenderWindow* window);
 
 private:
-  /// Points that are drawn by one program in one call.
-  struct Group
-  {
-    const RasterItems* items;
-    const RasterItem* first; ///< as all of it: style, passes
-    bool shaped;
-    bool sized;
-    bool quads;
-    int mark;
-    DrawRuns runs;
-  };
-  /// What the target shows.
-  struct Drawn
-  {
-    vtkRenderer* renderer = nullptr;
-    FrameCamera camera;
-    std::vector<glm::dvec4> clippingPlanes;
-    std::vector<std::shared_ptr<const ResolvedStyle>> styles;
-    bool ids = false;
-    std::int64_t points = 0;
-  };
-
-  bool showsAlready(vtkRenderer* renderer, const FramePlan& plan, bool ids) const;
-  void remember(vtkRenderer* renderer, const FramePlan& plan, bool ids, std::int64_t points);
-  std::int64_t list(const FramePlan& plan, const GpuPool& pool);
-  Group& groupOf(const Group& like);
+  void drawInto(vtkOpenGLRenderWindow* window, const FramePlan& plan, const GpuPool& pool,
+    const TableOf& tableOf, bool goesOn);
   void drawGroups(vtkOpenGLRenderWindow* window, const GpuPool& pool, const TableOf& tableOf,
-    bool second);
+    bool second, bool addedOnly);
   void drawGroup(vtkOpenGLRenderWindow* window, const GpuPool& pool, const TableOf& tableOf,
-    const Group& group, bool second);
+    const SplatGroups::Group& group, const DrawRuns& runs, bool second);
   void resolve(vtkOpenGLRenderWindow* window, const FramePlan& plan);
 
-  SplatTarget target_;
+  std::shared_ptr<SplatTarget> target_; ///< all clouds of the window draw into it in turn
   SplatTarget::Parts parts_;
   SplatPrograms programs_;
   SlotRecords records_;
+  SplatGroups groups_;
+  FrameShading shading_; ///< of the last picture
+  vtkRenderer* renderer_ = nullptr; ///< compared, not used
   vtkNew<vtkOpenGLVertexArrayObject> vertices_;
-  std::vector<std::unique_ptr<RasterItems>> rounds_; ///< of the frame that is drawn
-  std::vector<Group> groups_;
-  Drawn drawn_;
   int originPx_[2] = { 0, 0 };
-  float largestPointPx_ = 1.0f;
   vtkSmartPointer<vtkOpenGLPointFrontPicture> mapper_;
 };
 

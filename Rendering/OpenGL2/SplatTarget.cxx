@@ -43,11 +43,15 @@ void bind(vtkOpenGLFramebufferObject* framebuffer, unsigned int outputs)
 SplatTarget::SplatTarget() = default;
 SplatTarget::~SplatTarget() = default;
 
+bool SplatTarget::has(const Parts& parts) const
+{
+  return ready_ && parts.width == parts_.width && parts.height == parts_.height &&
+    parts.lit == parts_.lit && parts.ids == parts_.ids && parts.blended == parts_.blended;
+}
+
 bool SplatTarget::prepare(vtkOpenGLRenderWindow* window, const Parts& parts)
 {
-  const bool same = ready_ && parts.width == parts_.width && parts.height == parts_.height &&
-    parts.lit == parts_.lit && parts.ids == parts_.ids && parts.blended == parts_.blended;
-  if (same)
+  if (has(parts))
   {
     return true;
   }
@@ -113,16 +117,19 @@ bool SplatTarget::attach(vtkOpenGLRenderWindow* window)
   return whole;
 }
 
-void SplatTarget::beginSeen()
+void SplatTarget::beginSeen(bool empty)
 {
   const auto outputs = static_cast<unsigned int>(2 + int(parts_.lit) + int(parts_.ids));
   bind(seen_, outputs);
   constexpr float farthest = 1.0f;
-  for (unsigned int output = 0; output < outputs; ++output)
+  for (unsigned int output = 0; empty && output < outputs; ++output)
   {
     glClearBufferfv(GL_COLOR, static_cast<GLint>(output), output == 1 ? nowhere : nothing);
   }
-  glClearBufferfv(GL_DEPTH, 0, &farthest);
+  if (empty)
+  {
+    glClearBufferfv(GL_DEPTH, 0, &farthest);
+  }
 }
 
 void SplatTarget::beginSums()
@@ -139,6 +146,7 @@ void SplatTarget::beginPicture()
 void SplatTarget::release(vtkOpenGLRenderWindow* window)
 {
   ready_ = false;
+  owner_ = nullptr;
   for (vtkOpenGLFramebufferObject* framebuffer :
     { seen_.GetPointer(), summed_.GetPointer(), picture_.GetPointer() })
   {

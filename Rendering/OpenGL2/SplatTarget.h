@@ -32,10 +32,15 @@ public:
   /// Makes the textures that are missing or of another size, and gives back what is not needed.
   /// False where GL has no room for them or cannot draw into them.
   bool prepare(vtkOpenGLRenderWindow* window, const Parts& parts);
+  /// They are there as a frame needs them.
+  bool has(const Parts& parts) const;
+  /// Who drew into it last; null: nobody since it was made.
+  const void* owner() const { return owner_; }
+  void setOwner(const void* owner) { owner_ = owner; }
   void release(vtkOpenGLRenderWindow* window);
 
   // Framebuffers: bound and empty. The window's state is the caller's to restore.
-  void beginSeen();
+  void beginSeen(bool empty); ///< false: with what is there
   void beginSums();
   void beginPicture();
 
@@ -52,6 +57,7 @@ private:
   bool attach(vtkOpenGLRenderWindow* window);
 
   Parts parts_;
+  const void* owner_ = nullptr;
   bool ready_ = false;
   vtkNew<vtkTextureObject> seenColours_;
   vtkNew<vtkTextureObject> seenDepths_;

@@ -20,7 +20,8 @@ public:
     , blending_(state)
     , blend_(state, GL_BLEND)
     , depthTest_(state, GL_DEPTH_TEST)
-    , scissor_(state, GL_SCISSOR_TEST)
+    , scissor_(state)
+    , scissorTest_(state, GL_SCISSOR_TEST)
     , culling_(state, GL_CULL_FACE)
   {
     state_->PushFramebufferBindings();
@@ -48,7 +49,8 @@ private:
   vtkOpenGLState::ScopedglBlendFuncSeparate blending_;
   vtkOpenGLState::ScopedglEnableDisable blend_;
   vtkOpenGLState::ScopedglEnableDisable depthTest_;
-  vtkOpenGLState::ScopedglEnableDisable scissor_;
+  vtkOpenGLState::ScopedglScissor scissor_;
+  vtkOpenGLState::ScopedglEnableDisable scissorTest_;
   vtkOpenGLState::ScopedglEnableDisable culling_;
 };
 

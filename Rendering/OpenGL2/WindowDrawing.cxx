@@ -262,13 +262,12 @@ void WindowDrawing::dropTables(const FramePlan& plan)
 }
 
 std::int64_t WindowDrawing::drawSplats(
-  vtkRenderer* renderer, FramePlan& plan, bool ids, bool sameFrame)
+  vtkRenderer* renderer, FramePlan& plan, bool ids)
 {
   this->dropTables(plan);
   return splats_.draw(
     window_, renderer, plan, pool_,
-    [this](const std::shared_ptr<const ColourMap>& map) { return this->tableOf(map); }, ids,
-    sameFrame);
+    [this](const std::shared_ptr<const ColourMap>& map) { return this->tableOf(map); }, ids);
 }
 
 ColourTable* WindowDrawing::tableOf(const std::shared_ptr<const ColourMap>& map)

@@ -84,9 +84,8 @@ public:
   void draw(vtkRenderer* renderer, vtkActor* actor, vtkMapper* owner, const FramePlan& plan,
     std::int64_t storePoints);
 
-  /// In the place of the last two, for splats: into targets of their own. `sameFrame`: a further
-  /// drawing of a frame, which may show what the first one drew. Returns points.
-  std::int64_t drawSplats(vtkRenderer* renderer, FramePlan& plan, bool ids, bool sameFrame);
+  /// In the place of the last two, for splats: into targets of their own. Returns points.
+  std::int64_t drawSplats(vtkRenderer* renderer, FramePlan& plan, bool ids);
   SplatPicture& splats() { return splats_; }
 
   /// In the place of all these: by threads of this process, from host memory. Points that are on

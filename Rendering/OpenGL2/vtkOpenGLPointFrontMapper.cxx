@@ -158,8 +158,15 @@ vtkIdType vtkOpenGLPointFrontMapper::DrawPoints(vtkRenderer* renderer, vtkActor*
     }
     return points;
   }
-  const vtkIdType points = drawing.drawSplats(
-    renderer, plan, renderer->GetSelector() != nullptr, !this->IsFirstDrawing(renderer));
+  const vtkIdType points =
+    drawing.drawSplats(renderer, plan, renderer->GetSelector() != nullptr);
+  if (points == pointfront::SplatPicture::noTarget)
+  {
+    vtkErrorMacro("OpenGL cannot draw splats into textures of "
+                  << plan.camera.width << " x " << plan.camera.height
+                  << " pixels (32-bit floats); use a smaller window or the software back end");
+    return 0;
+  }
   if (points > 0)
   {
     drawing.splats().handOver(renderer, actor, plan, storePoints);

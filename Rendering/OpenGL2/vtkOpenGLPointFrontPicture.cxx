@@ -101,7 +101,7 @@ void vtkOpenGLPointFrontPicture::SetMapperShaderParameters(
     static_cast<float>(drawing.camera->width), static_cast<float>(drawing.camera->height)};
   program->SetUniform2f("pictureSize", size);
   const pointfront::PixelRectangle& place = drawing.place;
-  const int corner[2] = {place.left, place.bottom};
+  const int corner[2] = {drawing.textures.left, drawing.textures.bottom};
   program->SetUniform2i("pictureCorner", corner);
   const float edges[4] = {2.0f * static_cast<float>(place.left) / size[0] - 1.0f,
     2.0f * static_cast<float>(place.bottom) / size[1] - 1.0f,

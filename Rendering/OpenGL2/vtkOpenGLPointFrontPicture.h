@@ -28,7 +28,8 @@ struct PictureDrawing
   vtkTextureObject* ids = nullptr; ///< in selections
   const FrameCamera* camera = nullptr;
   int originPx[2] = {0, 0}; ///< of the viewport in the framebuffer
-  PixelRectangle place;     ///< of the textures in the viewport
+  PixelRectangle textures;  ///< where they lie in the viewport
+  PixelRectangle place;     ///< what is handed over of them
   vtkIdType storePoints = 0; ///< ids are below it
 };
 } // namespace pointfront

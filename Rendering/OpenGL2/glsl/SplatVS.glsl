@@ -21,7 +21,7 @@ uniform int slotPoints;            // vertices of a slot
 uniform int firstSlot;             // of the buffers that are drawn from
 uniform isamplerBuffer slotSteps;  // xyz: the reference in the node's steps; w: shift and flags
 uniform samplerBuffer slotPlaces;  // camera space of the reference
-uniform samplerBuffer slotRadii;   // closing radius, scale of a point's own, 1: never below it
+uniform samplerBuffer slotRadii;   // closing radius, scale of own ones, 1: none below, sparsest
 uniform isamplerBuffer slotIds;    // low and high 24 bits of the id of the slot's first point
 #if POINTFRONT_COLOUR == 3
 uniform samplerBuffer slotBase;
@@ -64,7 +64,7 @@ vec4 colourOf(int flags, int slot, vec3 difference, float steps)
 /// Twin of PointShapes::fill.
 float radiusOf(int flags, int slot, float depth)
 {
-  vec3 node = texelFetch(slotRadii, slot).xyz;
+  vec4 node = texelFetch(slotRadii, slot);
   float closing = node.x * radiusFactor;
 #if POINTFRONT_RADIUS == 0
   return radiusFactor / cameraScale.y * (POINTFRONT_PARALLEL == 1 ? 1.0 : depth);
@@ -73,7 +73,8 @@ float radiusOf(int flags, int slot, float depth)
 #elif POINTFRONT_RADIUS == 3
   uint code = (flags & 512) != 0 ? pointShape & 255u : 0u;
   float own = radiusBase * exp2((float(code) - 128.0) / 16.0) * radiusFactor * node.y;
-  float known = code != 0u && radiusBase > 0.0 ? min(own, 4.0 * closing) : closing;
+  float most = 4.0 * max(closing, node.w * radiusFactor);
+  float known = code != 0u && radiusBase > 0.0 ? min(own, most) : closing;
   return max(known, node.z * closing);
 #elif POINTFRONT_RADIUS == 4
   return (flags & 1024) != 0 ? pointSize * radiusFactor : closing;

@@ -147,7 +147,7 @@ TEST(Interaction, AViewThatMotionLeftIncompleteRefinesOnceItRests)
   scene.draw();
   const vtkIdType all = scene.mapper->GetLastPointsDrawn();
   scene.mapper->CompleteOff();
-  scene.mapper->SetPointSize(20.0);
+  scene.mapper->SetPointSize(2.0);
   scene.mapper->SetTargetFrameTime(1.0);
   scene.window->SetDesiredUpdateRate(30.0);
   scene.renderer->GetActiveCamera()->Azimuth(0.5);

@@ -1,0 +1,228 @@
+#include "SplatGroups.h"
+
+#include "GpuPool.h"
+#include "PointShapes.h"
+#include "ShownRectangle.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pointfront
+{
+namespace
+{
+
+/// A sphere or an ellipse may be longer on screen than its radius at its centre says.
+constexpr float mostStretch = 1.6f;
+
+bool sameCamera(const FrameCamera& a, const FrameCamera& b)
+{
+  return a.storeToView == b.storeToView && a.viewToClip == b.viewToClip &&
+    a.reference == b.reference && a.referenceInView == b.referenceInView &&
+    a.parallel == b.parallel && a.width == b.width && a.height == b.height;
+}
+
+/// Diameter in pixels that no splat of the node exceeds.
+float largestSplat(const RasterItem& item, const RasterItems& items)
+{
+  if (item.passes.squares)
+  {
+    return static_cast<float>(item.passes.squareSize);
+  }
+  const RasterCamera& camera = item.camera;
+  const SplatPass& pass = item.passes.blended ? item.passes.second : item.passes.first;
+  const glm::vec3 half = item.node().halfSize * items.radiusFactor();
+  float nearest = camera.nearDepth;
+  if (!camera.parallel)
+  {
+    const NodeColumns& node = item.node();
+    float depth = camera.matrix[2][3];
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const double step = items.plan().grid.scale[axis] *
+        std::ldexp(1.0, static_cast<int>(item.positions.shift));
+      const double steps =
+        static_cast<double>(node.halfSize[axis]) / step - item.positions.steps[axis];
+      depth += camera.matrix[2][axis] * static_cast<float>(steps);
+    }
+    nearest = std::max(nearest, depth - glm::length(half));
+  }
+  const float reach = camera.parallel ? 1.0f : nearest;
+  const float share = item.passes.blended ? item.passes.secondRadius : item.passes.firstRadius;
+  float pixels = PointShapes::largestRadius(item) * share * camera.scaleY / reach;
+  if (item.style->size.mode == SplatSize::Mode::Pixels)
+  {
+    pixels = static_cast<float>(item.style->size.value);
+  }
+  return 2.0f * mostStretch * std::clamp(pixels, pass.leastRadius, pass.mostRadius);
+}
+
+SlotRecords::Record recordOf(const RasterItem& item, const FramePlan& plan)
+{
+  const NodeColumns& node = item.node();
+  SlotRecords::Record record;
+  record.origin = SlotOrigin::of(plan.grid, node.halfSize, node.origin, plan.camera.reference);
+  record.firstId = node.firstPoint;
+  record.place = glm::vec4(
+    item.camera.matrix[0][3], item.camera.matrix[1][3], item.camera.matrix[2][3], 0.0f);
+  const bool bounded = !item.item->refined && !node.leaf;
+  record.radii = glm::vec4(item.item->closingRadius, item.item->radiusScale,
+    bounded ? 1.0f : 0.0f, item.item->sparsestRadius);
+  return record;
+}
+
+} // namespace
+
+SplatGroups::SplatGroups() = default;
+SplatGroups::~SplatGroups() = default;
+
+/// In the order of the nodes: of two points at one depth the first one is seen, as in the software
+/// back end.
+std::int64_t SplatGroups::list(const FramePlan& plan, const GpuPool& pool, float largestPointPx,
+  bool samePicture, SlotRecords& records)
+{
+  groups_.clear();
+  rounds_.clear();
+  listed_.clear();
+  shown_ = {};
+  blended_ = false;
+  records.begin(pool.slotCount());
+  std::int64_t points = 0;
+  do
+  {
+    const std::size_t from = rounds_.empty() ? 0 : rounds_.back()->end();
+    rounds_.push_back(std::make_unique<RasterItems>(plan, from));
+    const RasterItems& items = *rounds_.back();
+    shown_ = around(shown_, shownRectangle(items));
+    for (const RasterItem& item : items.items())
+    {
+      points += add(items, item, pool, largestPointPx, records);
+    }
+  } while (!rounds_.back()->last());
+  goesOn_ = samePicture && continuesLast(plan);
+  addsNothing_ = true;
+  for (const Listed& one : listed_)
+  {
+    Group& group = groupOf(one.group);
+    blended_ = blended_ || one.group.first->passes.blended;
+    const std::uint32_t first = one.group.first->item->first;
+    const std::uint32_t from = goesOn_ ? std::max(first, one.drawnUpTo) : first;
+    pool.addRuns(*one.entry, first, one.end, group.all);
+    if (from < one.end)
+    {
+      pool.addRuns(*one.entry, from, one.end, group.added);
+      addsNothing_ = false;
+    }
+  }
+  return points;
+}
+
+std::int64_t SplatGroups::add(const RasterItems& items, const RasterItem& item,
+  const GpuPool& pool, float largestPointPx, SlotRecords& records)
+{
+  const NodeColumns& node = item.node();
+  const GpuPool::Entry* const entry = pool.find(node.node);
+  const LayerStreams& layer = pool.streamsOf(node.layer);
+  std::uint32_t end = entry ? std::min(item.item->last, entry->points) : 0;
+  // What a mark is missing of is not shown unasked.
+  end = layer.streams().marked && entry ? std::min(end, entry->values(GpuStream::Value)) : end;
+  if (end <= item.item->first)
+  {
+    return 0;
+  }
+  const auto isThere = [&](GpuStream stream)
+  { return layer.has(stream) && entry->values(stream) >= end; };
+  SlotRecords::Record record = recordOf(item, items.plan());
+  record.coloured = isThere(GpuStream::Value);
+  record.shaped = isThere(GpuStream::Shape);
+  record.sized = isThere(GpuStream::Size);
+  records.set(entry->slots, record);
+  const bool quads = largestSplat(item, items) > largestPointPx;
+  const int mark = layer.streams().marked ? layer.markOf(*item.style) : -1;
+  listed_.push_back({ { &items, &item, record.shaped, record.sized, quads, mark, {}, {} }, entry,
+    record, end, 0 });
+  return end - item.item->first;
+}
+
+SplatGroups::Group& SplatGroups::groupOf(const Group& like)
+{
+  const auto found = std::find_if(groups_.begin(), groups_.end(),
+    [&](const Group& group)
+    {
+      return group.items == like.items && group.first->style == like.first->style &&
+        group.shaped == like.shaped && group.sized == like.sized && group.quads == like.quads &&
+        group.mark == like.mark && group.first->passes == like.first->passes;
+    });
+  if (found != groups_.end())
+  {
+    return *found;
+  }
+  groups_.push_back(like);
+  return groups_.back();
+}
+
+/// Whether all that was drawn last is part of what is listed; says for each of these which of its
+/// points are there.
+bool SplatGroups::continuesLast(const FramePlan& plan)
+{
+  if (drawn_.empty() || !sameCamera(camera_, plan.camera) ||
+    clippingPlanes_ != plan.clippingPlanes)
+  {
+    return false;
+  }
+  std::size_t next = 0;
+  for (const Drawn& old : drawn_)
+  {
+    while (next < listed_.size() && !listed_[next].continues(old))
+    {
+      ++next;
+    }
+    if (next == listed_.size())
+    {
+      return false;
+    }
+    listed_[next++].drawnUpTo = old.end;
+  }
+  return true;
+}
+
+bool SplatGroups::Listed::continues(const Drawn& old) const
+{
+  const RasterItem& item = *group.first;
+  return item.item->node == old.node && *item.style == *old.style && item.passes == old.passes &&
+    item.item->first == old.first && end >= old.end && record.radii == old.radii &&
+    record.coloured == old.coloured && record.shaped == old.shaped && record.sized == old.sized;
+}
+
+void SplatGroups::keep(const FramePlan& plan)
+{
+  camera_ = plan.camera;
+  clippingPlanes_ = plan.clippingPlanes;
+  drawn_.clear();
+  std::map<const ResolvedStyle*, std::shared_ptr<const ResolvedStyle>> styles;
+  for (const DrawBatch& batch : plan.batches)
+  {
+    styles[batch.style.get()] = batch.style;
+  }
+  for (const Listed& one : listed_)
+  {
+    const RasterItem& item = *one.group.first;
+    drawn_.push_back({ item.item->node, styles[item.style], item.passes, item.item->first, one.end,
+      one.record.radii, one.record.coloured, one.record.shaped, one.record.sized });
+  }
+  groups_.clear();
+  listed_.clear();
+  rounds_.clear();
+}
+
+void SplatGroups::forget()
+{
+  drawn_.clear();
+  groups_.clear();
+  listed_.clear();
+  rounds_.clear();
+}
+
+} // namespace pointfront

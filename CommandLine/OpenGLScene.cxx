@@ -226,6 +226,11 @@ Result<void> OffscreenScene::hideOtherClasses()
   for (std::size_t i = 0; i < stores_.size() && !options_.classes.empty(); ++i)
   {
     const StoreDescription& store = stores_[i]->store->GetStore()->description();
+    if (!isLayered(store))
+    {
+      points += store.pointCount; // its points are filtered, by the sheet
+      continue;
+    }
     const Result<ShownClasses> shown = ShownClasses::choose(options_.classes, store);
     if (!shown)
     {
@@ -283,7 +288,9 @@ Result<void> OffscreenScene::setUpDrawing()
   {
     return colour.error();
   }
-  const bool plain = isPlain(options_);
+  const bool layered = std::all_of(stores.begin(), stores.end(),
+    [](const auto& store) { return isLayered(store->description()); });
+  const bool plain = isPlain(options_) && (options_.classes.empty() || layered);
   const auto sheet = plain ? nullptr : sheetOf(options_, stores);
   for (const auto& drawn : stores_)
   {

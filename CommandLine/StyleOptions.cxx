@@ -5,6 +5,7 @@
 
 #include "StyleJSON.h"
 
+#include "pointfront/Style/QualityPreset.h"
 #include "pointfront/Style/TechniqueNames.h"
 
 #include <fstream>
@@ -26,6 +27,7 @@ CLI::ParseError wrong(const std::string& option, const std::string& why)
 struct StyleArguments
 {
   std::string file;
+  std::string quality;
   std::string technique;
   std::string where;
 };
@@ -56,10 +58,16 @@ FilterExpression joined(const FilterExpression& file, const FilterExpression& op
   return FilterExpression::parse(file.text + " and " + option.text).value();
 }
 
-StyleSheet makeStyle(const CLI::App& app, const StyleArguments& arguments,
-  const DrawingOptions& options)
+/// An option of its own counts more than the preset.
+StyleSheet makeStyle(
+  const CLI::App& app, const StyleArguments& arguments, DrawingOptions& options)
 {
   StyleSheet sheet = arguments.file.empty() ? StyleSheet() : readStyle(arguments.file);
+  if (const QualityPreset* const preset = qualityPresetOf(arguments.quality))
+  {
+    preset->applyTo(sheet.standard);
+    options.errorPx = app.count("--error") > 0 ? options.errorPx : preset->errorPx;
+  }
   if (!arguments.technique.empty())
   {
     sheet.standard.technique = techniqueOf(arguments.technique);
@@ -104,6 +112,15 @@ void declareStyle(CLI::App& app, DrawingOptions& options)
   app.add_option("--style", arguments->file,
        "How each class is drawn, as JSON (docs/user/styles.md); other options change its default")
     ->type_name("FILE.json")
+    ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+  std::vector<std::string> presets;
+  for (const QualityPreset& preset : qualityPresets)
+  {
+    presets.emplace_back(preset.name);
+  }
+  app.add_option("--quality", arguments->quality,
+       "Technique and --error together, from fast to accurate (none)")
+    ->check(availableValues(presets, {}))
     ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
   app.add_option("--technique", arguments->technique, "How points become pixels (points)")
     ->check(availableValues(available, planned))

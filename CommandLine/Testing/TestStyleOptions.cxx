@@ -78,6 +78,21 @@ TEST(StyleOptions, OptionsChangeTheDefaultOfTheFile)
   EXPECT_EQ(sheet.shading.eyeDomeStrength, 0.8f);
 }
 
+TEST(StyleOptions, AQualityIsTechniqueAndErrorTogether)
+{
+  const DrawingOptions draft = parsed({ "--quality", "draft" });
+  EXPECT_EQ(draft.style.standard.technique, Technique::Splats);
+  EXPECT_EQ(draft.style.standard.blended, false);
+  EXPECT_EQ(draft.errorPx, 2.0);
+  const DrawingOptions exact = parsed({ "--quality", "exact", "--error", "1.5" });
+  EXPECT_EQ(exact.style.standard.technique, Technique::Ewa);
+  EXPECT_EQ(exact.style.standard.accuracy, SplatAccuracy::Full);
+  EXPECT_EQ(exact.errorPx, 1.5) << "an option of its own counts more";
+  EXPECT_EQ(parsed({ "--technique", "spheres", "--quality", "balanced" }).style.standard.technique,
+    Technique::Spheres);
+  EXPECT_NE(refusal({ "--quality", "best" }).find("best"), std::string::npos);
+}
+
 TEST(StyleOptions, WhatIsWrongIsNamed)
 {
   EXPECT_EQ(refusal({ "--where", "z = 3" }),

@@ -48,8 +48,9 @@ struct RendererView
 
   /// Whether a frame is due. A view at rest that is being loaded is drawn a quarter of the time at
   /// most: till the next frame is due its front is moved here, so that what it asks for next does
-  /// not wait for a slow drawing. A view that motion left incomplete is due as soon as it rests. Once a frame is due it stays so until it is drawn. Never for what
-  /// the renderer does not show: it would stay due for ever.
+  /// not wait for a slow drawing. A view that motion left incomplete is due as soon as it rests.
+  /// Once a frame is due it stays so until it is drawn. Never for what the renderer does not show:
+  /// it would stay due for ever.
   bool NeedsRender();
 
 private:

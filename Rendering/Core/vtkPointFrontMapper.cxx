@@ -10,6 +10,7 @@
 #include "pointfront/Plan/FramePlanner.h"
 #include "pointfront/Plan/FrameStatistics.h"
 #include "pointfront/Style/GpuStreams.h"
+#include "pointfront/Style/QualityPreset.h"
 #include "vtkPointFrontStyle.h"
 
 #include <vtkActor.h>
@@ -193,6 +194,23 @@ void vtkPointFrontMapper::SetStyle(vtkPointFrontStyle* style)
     this->Internals->VTKStyle = style;
     this->Modified();
   }
+}
+
+bool vtkPointFrontMapper::SetQuality(const std::string& name)
+{
+  const pointfront::QualityPreset* const preset = pointfront::qualityPresetOf(name);
+  if (!preset)
+  {
+    vtkErrorMacro("'" << name << "' is no quality; use draft, balanced or exact");
+    return false;
+  }
+  if (!this->GetStyle())
+  {
+    vtkNew<vtkPointFrontStyle> style;
+    this->SetStyle(style);
+  }
+  this->SetTargetError(preset->errorPx);
+  return this->GetStyle()->SetQuality(name);
 }
 
 vtkPointFrontStyle* vtkPointFrontMapper::GetStyle() const

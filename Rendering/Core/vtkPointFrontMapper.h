@@ -28,7 +28,9 @@
 #include "vtkSmartPointer.h" // for the store
 
 #include <cstdint> // for counts
-#include <memory>  // for the views
+#include <memory> // for its content
+#include <string> // for names
+  // for the views
 #include <vector>  // for layers
 
 class vtkPointFrontStore;
@@ -130,9 +132,9 @@ public:
    * the points where they are in host memory; colour and depth enter the window's picture in the
    * opaque pass, where other actors, passes and selections see them as any other geometry's.
    * AUTOMATIC (default): SOFTWARE where the window's GL is itself a program (GL_RENDERER llvmpipe,
-   * softpipe), else OPENGL. What SOFTWARE does not draw (translucent points, an actor's own
-   * shader code) OPENGL does, what OPENGL does not draw (all but plain points of some pixels)
-   * SOFTWARE does; a warning says so once where another one was asked for.
+   * softpipe), else OPENGL. Both draw the same pictures but for rounding. What SOFTWARE does not
+   * draw (translucent points, an actor's own shader code) OPENGL does, and the other way round
+   * (holes that are filled); a warning says so once where another one was asked for.
    */
   vtkSetClampMacro(Backend, int, AUTOMATIC, SOFTWARE);
   vtkGetMacro(Backend, int);
@@ -205,6 +207,13 @@ public:
   double GetClassBudgetShare(int objectClass) const;
   void ClearClassLimits();
   ///@}
+
+  /**
+   * "draft", "balanced" or "exact": a place between speed and accuracy. Sets TargetError, and how
+   * the style's points become pixels; without a style the mapper gets one. False, and an error, for
+   * another name.
+   */
+  bool SetQuality(const std::string& name);
 
   ///@{
   /**

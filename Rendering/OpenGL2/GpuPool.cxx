@@ -200,8 +200,8 @@ void GpuPool::keepWithin(const DrawList& draw)
   }
 }
 
-/// Where styles want streams and there are none; where they do not fit beside the others, all begins
-/// anew.
+/// Where styles want streams and there are none; where they do not fit beside the others, all
+/// begins anew.
 void GpuPool::addStreams()
 {
   std::int64_t more = 0;

@@ -28,9 +28,9 @@ class GpuPool;
 
 /// Plans whose points are splats, drawn by GL into targets of their own and handed over to a
 /// window's framebuffer: the twin of SoftwareRasteriser and SoftwarePicture.
-/// Passes    who is seen in each pixel (the nearest; of splats that overlap the one with the nearest
-///           centre), then weights and colours of what is not behind it, then light and eye-dome
-///           lighting.
+/// Passes    who is seen in each pixel (the nearest; of splats that overlap the one with the
+///           nearest centre), then weights and colours of what is not behind it, then light and
+///           eye-dome lighting.
 /// Viewport  as SoftwarePicture's.
 /// Threads   that of the GL context, current in all functions.
 /// Source    drawing.md sections 4 to 6; docs/adr/0016, 0028.

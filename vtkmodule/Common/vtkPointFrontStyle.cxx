@@ -2,6 +2,7 @@
 
 #include "StyleJSON.h"
 
+#include "pointfront/Style/QualityPreset.h"
 #include "pointfront/Style/StyleSheet.h"
 #include "pointfront/Style/TechniqueNames.h"
 
@@ -118,6 +119,18 @@ bool vtkPointFrontStyle::SetTechnique(const std::string& name, int objectClass)
 std::string vtkPointFrontStyle::GetTechnique(int objectClass) const
 {
   return pointfront::traitsOf(*this->StyleOf(objectClass).technique).name;
+}
+
+bool vtkPointFrontStyle::SetQuality(const std::string& name, int objectClass)
+{
+  const pointfront::QualityPreset* const preset = pointfront::qualityPresetOf(name);
+  if (!preset)
+  {
+    vtkErrorMacro("'" << name << "' is no quality; use draft, balanced or exact");
+    return false;
+  }
+  return this->ChangeStyle(
+    objectClass, [preset](pointfront::LayerStyle& style) { preset->applyTo(style); });
 }
 
 bool vtkPointFrontStyle::SetColor(const std::string& color, int objectClass)

@@ -45,6 +45,12 @@ public:
   std::string GetTechnique(int objectClass = -1) const;
   ///@}
 
+  /**
+   * "draft", "balanced" or "exact": technique, blending and accuracy together, from fast to
+   * accurate (vtkPointFrontMapper::SetQuality sets the error that belongs to it as well).
+   */
+  bool SetQuality(const std::string& name, int objectClass = -1);
+
   ///@{
   /**
    * An attribute's name, "#rrggbb", "auto", or a colour as in JSON: {"attribute": "local_height",

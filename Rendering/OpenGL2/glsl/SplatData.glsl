@@ -6,5 +6,5 @@
 // POINTFRONT_COLOUR    0 one colour, 1 colours, 2 values for the table, 3 elevation
 // POINTFRONT_MARKED    alpha of a colour is the number of the style that draws the point
 // POINTFRONT_SHAPED    normals and codes of radii are there; POINTFRONT_NORMALS: normals count
-// POINTFRONT_RADIUS    0 pixels, 1 world units, 2 what closes the node, 3 codes, 4 sizes of a column
+// POINTFRONT_RADIUS    0 pixels, 1 world units, 2 what closes the node, 3 codes, 4 a column's
 // POINTFRONT_LIT, POINTFRONT_PICKING, POINTFRONT_QUADS

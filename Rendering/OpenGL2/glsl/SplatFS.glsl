@@ -90,7 +90,8 @@ void main()
 {
   vec2 d = gl_FragCoord.xy - splat.centre.xy;
 #if POINTFRONT_SHAPE == 0
-  vec2 inside = step(splat.rectangle.xy, gl_FragCoord.xy) * step(gl_FragCoord.xy, splat.rectangle.zw);
+  vec2 at = gl_FragCoord.xy;
+  vec2 inside = step(splat.rectangle.xy, at) * step(at, splat.rectangle.zw);
   vec2 s = vec2(inside.x * inside.y > 0.0 ? 0.0 : 2.0, splat.centre.z);
 #elif POINTFRONT_SHAPE == 1
   vec2 s = vec2(splat.form.x * dot(d, d), splat.centre.z);

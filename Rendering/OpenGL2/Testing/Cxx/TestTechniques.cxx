@@ -406,6 +406,27 @@ TEST(Techniques, CloudsOfAWindowShareItsTarget)
   EXPECT_EQ(differing(gl, scene.draw()), 0);
 }
 
+TEST(Techniques, AQualitySetsErrorAndTechnique)
+{
+  Splats scene(surfaceStore("quality", planeAt));
+  scene.mapper->SetStyle(nullptr);
+  scene.mapper->SetBackendToSoftware();
+  vtkIdType points = 0;
+  for (const char* name : {"draft", "balanced", "exact"})
+  {
+    ASSERT_TRUE(scene.mapper->SetQuality(name));
+    EXPECT_GT(scene.draw().lit(), 4000) << name;
+    EXPECT_GT(scene.mapper->GetLastPointsDrawn(), points) << name;
+    points = scene.mapper->GetLastPointsDrawn();
+  }
+  EXPECT_EQ(scene.mapper->GetTargetError(), 0.5);
+  EXPECT_EQ(scene.mapper->GetStyle()->GetTechnique(), "ewa");
+  vtkObject::GlobalWarningDisplayOff();
+  EXPECT_FALSE(scene.mapper->SetQuality("best"));
+  vtkObject::GlobalWarningDisplayOn();
+  EXPECT_EQ(scene.mapper->GetTargetError(), 0.5) << "nothing changed";
+}
+
 TEST(Techniques, LeaveNoNamesBehind)
 {
   Splats scene(surfaceStore("names", planeAt));

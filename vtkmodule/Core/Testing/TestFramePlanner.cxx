@@ -337,8 +337,8 @@ TEST(FramePlanner, ANodeAmongFinerOnesHasSplatsOfTheirSize)
   EXPECT_FLOAT_EQ(all.batches[2].items.front().closingRadius, 8.0f);
 }
 
-/// Autzen from 40 ft: a point of the root among ground that is all there was as large as what closes
-/// the coarse nodes a mile away, or a few strays.
+/// Autzen from 40 ft: a point of the root, among ground that is all there, was as large as what
+/// closes the coarse nodes a mile away, or a few strays.
 TEST(FramePlanner, WhatIsFarAwayMakesNoSplatsNearTheEyeLarge)
 {
   std::vector<DrawBatch> batches(1);

@@ -40,10 +40,10 @@ std::vector<LayeredItem> itemsOf(std::vector<DrawBatch>& batches)
   return items;
 }
 
-/// What closes the surface among finer nodes, from those that are drawn: the mean over the points of
-/// those that are all there. Without such nodes the smallest: how far apart points are where some
-/// are left out is a matter of pixels (FramePlan::spacingPx), and what is far away, where nodes are
-/// coarse, says nothing about what is near.
+/// What closes the surface among finer nodes, from those that are drawn: the mean over the points
+/// of those that are all there. Without such nodes the smallest: how far apart points are where
+/// some are left out is a matter of pixels (FramePlan::spacingPx), and what is far away, where
+/// nodes are coarse, says nothing about what is near.
 struct FinerRadii
 {
   double points = 0.0; ///< of nodes that are all there

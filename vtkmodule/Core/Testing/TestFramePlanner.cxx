@@ -365,7 +365,7 @@ TEST(FramePlanner, WhatIsFarAwayMakesNoSplatsNearTheEyeLarge)
   for (const std::size_t above : { std::size_t(0), std::size_t(1) })
   {
     EXPECT_TRUE(items[above].refined);
-    EXPECT_FLOAT_EQ(items[above].closingRadius, 1.1f);
+    EXPECT_FLOAT_EQ(items[above].closingRadius, 2.2f) << "twice the mean";
   }
   EXPECT_FLOAT_EQ(items[0].sparsestRadius, 40.0f);
   EXPECT_FLOAT_EQ(items[1].sparsestRadius, 11.0f);

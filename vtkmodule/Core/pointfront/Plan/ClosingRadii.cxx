@@ -42,9 +42,10 @@ std::vector<LayeredItem> itemsOf(std::vector<DrawBatch>& batches)
 }
 
 /// What closes the surface among finer nodes, from those that are drawn: the largest of those that
-/// are all there, but at most twice the mean over their points: a few strays are no surface. Without such nodes the smallest: how far apart points are where
-/// some are left out is a matter of pixels (FramePlan::spacingPx), and what is far away, where
-/// nodes are coarse, says nothing about what is near.
+/// are all there, but at most twice the mean over their points, as a few strays are no surface.
+/// Without such nodes the smallest: how far apart points are where some are left out is a matter of
+/// pixels (FramePlan::spacingPx), and what is far away, where nodes are coarse, says nothing about
+/// what is near.
 struct FinerRadii
 {
   double points = 0.0; ///< of nodes that are all there

@@ -96,6 +96,7 @@ std::string comparisonJson(const PictureComparison& comparison)
     : nlohmann::ordered_json(comparison.psnrDecibels);
   object["ssim"] = comparison.ssim;
   object["share_over_8"] = comparison.shareOver8;
+  object["mean_difference"] = comparison.meanDifference;
   object["holes"] = numberOrNull(comparison.holes);
   object["bloat"] = numberOrNull(comparison.bloat);
   object["background"] = comparison.background ? nlohmann::ordered_json(*comparison.background)
@@ -126,6 +127,7 @@ std::string comparisonText(const PictureComparison& comparison)
   }
   add("\n  SSIM            %.4f", comparison.ssim);
   add("\n  off by over 8   %.3f %%", 100.0 * comparison.shareOver8);
+  add("\n  mean difference %.3f", comparison.meanDifference);
   if (comparison.holes && comparison.bloat)
   {
     add("\n  holes           %.3f %%", *comparison.holes);

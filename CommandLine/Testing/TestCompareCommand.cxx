@@ -15,12 +15,14 @@ TEST(CompareCommand, ReportsWhatWasMeasured)
   comparison.psnrDecibels = 31.25;
   comparison.ssim = 0.875;
   comparison.shareOver8 = 0.125;
+  comparison.meanDifference = 2.75;
   comparison.holes = 1.5;
   comparison.bloat = 0.5;
   comparison.background = { 1, 2, 3 };
   const auto object = nlohmann::json::parse(comparisonJson(comparison));
-  EXPECT_EQ(object.size(), 8u);
+  EXPECT_EQ(object.size(), 9u);
   EXPECT_EQ(object["identical"], false);
+  EXPECT_EQ(object["mean_difference"], 2.75);
   EXPECT_EQ(object["pixels"], 200);
   EXPECT_EQ(object["psnr"], 31.25);
   EXPECT_EQ(object["ssim"], 0.875);

@@ -16,7 +16,9 @@ A technique is one of
 For every scene, sampling, view and spacing the points are sampled (`truth`), built to a store and
 drawn, all of them, by each technique; `pointfront compare` measures each picture over the true
 silhouette. One Markdown table a scene and sampling: means over the views. What the work folder
-holds already is not made again, so techniques can be added one by one; --force draws again. VTK's
+holds already is not made again, so techniques can be added one by one; --force draws again. With
+--flicker each is drawn a second time, a quarter of a pixel to the right: the mean difference of
+the two frames in grey levels, less that of the two true pictures. VTK's
 rows and the OpenGL backend need an X server (xvfb-run -a).
 """
 
@@ -30,6 +32,7 @@ import sys
 HERE = pathlib.Path(__file__).resolve().parent
 PEERS = {"vtk-points": ("points", "1"), "vtk-gaussian": ("gaussian", "0.5"),
          "vtk-discs": ("discs", "0.85")}
+PAN_PX = 0.25  # for --flicker
 LEAST_DRAWN = 0.85  # of the points: some lie beside the picture, in nodes that are not drawn
 
 
@@ -55,6 +58,9 @@ class Case:
     def make(self):
         if not (self.folder / "truth.json").exists():  # written last
             run(self.options.truth, *self.arguments, "-o", self.folder)
+        if self.options.flicker and not (self.folder / "panned/truth.png").exists():
+            run(self.options.truth, *self.arguments, "--pan-px", PAN_PX, "-o",
+                self.folder / "panned")
         self.facts = json.loads((self.folder / "truth.json").read_text())
 
     def store(self):
@@ -66,17 +72,18 @@ class Case:
                 "--progress", "none", *words)
         return store
 
-    def draw(self, technique, out):
+    def draw(self, technique, camera, out):
         name, _, argument = technique.partition(":")
         if name in PEERS:
             kind, size = PEERS[name]
-            run(sys.executable, HERE / "truth_vtk.py", self.folder, kind, argument or size, out)
+            run(sys.executable, HERE / "truth_vtk.py", self.folder, kind, argument or size, out,
+                camera)
             return
         words = shlex.split(technique.partition("=")[2])
         statistics = out.with_suffix(".json")
         size = "x".join(str(self.facts[side]) for side in ("width", "height"))
         run(self.options.tool, "render", self.store(), "-o", out, "--size", size, "--camera",
-            self.folder / "camera.json", "--background", self.background(), "--error", "0.01",
+            camera, "--background", self.background(), "--error", "0.01",
             "--stats", statistics, *words)
         drawn = json.loads(statistics.read_text())["points_drawn"]
         if drawn < LEAST_DRAWN * self.facts["points"]:
@@ -85,19 +92,31 @@ class Case:
     def background(self):
         return ",".join(map(str, self.facts["background"]))
 
-    def measure(self, technique):
+    def picture_of(self, technique, folder):
+        """What the technique draws from the camera of that folder."""
         if technique == "oracle":
-            picture = self.folder / "oracle.png"
-        else:
-            name = "".join(c if c.isalnum() else "_" for c in technique)
-            picture = self.folder / f"drawn_{name}.png"
-            if self.options.force or not picture.exists():
-                self.draw(technique, picture)
-        told = json.loads(run(
-            self.options.compare, "compare", picture, self.folder / "truth.png", "--mask",
-            self.folder / "mask.png", "--background", self.background(), "--json"))
+            return folder / "oracle.png"
+        name = "".join(c if c.isalnum() else "_" for c in technique)
+        picture = folder / f"drawn_{name}.png"
+        if self.options.force or not picture.exists():
+            self.draw(technique, folder / "camera.json", picture)
+        return picture
+
+    def compare(self, one, other):
+        return json.loads(run(
+            self.options.compare, "compare", one, other, "--mask", self.folder / "mask.png",
+            "--background", self.background(), "--json"))
+
+    def measure(self, technique):
+        picture = self.picture_of(technique, self.folder)
+        told = self.compare(picture, self.folder / "truth.png")
         if told["psnr"] is None:
             told["psnr"] = float("inf")
+        if self.options.flicker and technique != "oracle":
+            panned = self.folder / "panned"
+            drawn = self.compare(self.picture_of(technique, panned), picture)
+            true = self.compare(panned / "truth.png", self.folder / "truth.png")
+            told["flicker"] = drawn["mean_difference"] - true["mean_difference"]
         return told
 
 
@@ -116,7 +135,7 @@ def print_table(options, scene, sampling):
     print("| spacing, px | " + " | ".join(f"{s:g}" for s in options.spacings) + " |")
     print("| --- |" + " --- |" * len(options.spacings))
     for technique in options.techniques:
-        quality, faults = [], []
+        quality, faults, flicker = [], [], []
         for spacing in options.spacings:
             told = []
             for view in options.views:
@@ -127,8 +146,12 @@ def print_table(options, scene, sampling):
                       for key in ("psnr", "ssim", "holes", "bloat")}
             quality.append(f"{values['psnr']:.1f}, {values['ssim']:.3f}".replace(" 0.", " ."))
             faults.append(f"{values['holes']:.2g}, {values['bloat']:.2g}")
+            if "flicker" in told[0]:
+                flicker.append(f"{mean([one['flicker'] for one in told]):.2f}")
         print(f"| {label_of(technique)}: PSNR, SSIM | " + " | ".join(quality) + " |")
         print("| ... holes, bloat | " + " | ".join(faults) + " |", flush=True)
+        if flicker:
+            print("| ... flicker | " + " | ".join(flicker) + " |", flush=True)
 
 
 def listed(kind=str):
@@ -151,6 +174,7 @@ def main():
                         default=[800, 600])
     parser.add_argument("--samples", type=int, default=8, help="rays a pixel and axis")
     parser.add_argument("--build-options", default="", help='of the store: "--normals pca"')
+    parser.add_argument("--flicker", action="store_true", help="of a camera that moves")
     parser.add_argument("--force", action="store_true", help="draw again what is there")
     options = parser.parse_args()
     options.truth = options.build / "bin/truth"

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Draws the points of a folder that `truth` wrote with VTK's own mappers: the peers of a table.
 
-    Testing/Benchmarks/truth_vtk.py FOLDER points|gaussian|discs SIZE OUT.png
+    Testing/Benchmarks/truth_vtk.py FOLDER points|gaussian|discs SIZE OUT.png [CAMERA.json]
 
 points    vtkPolyDataMapper, SIZE pixels wide
 gaussian  vtkPointGaussianMapper as it comes, not emissive; sigma of SIZE spacings
@@ -78,7 +78,7 @@ def make_mapper(technique):
     return mapper
 
 
-def draw(folder, technique, size, out):
+def draw(folder, technique, size, out, seen_from=None):
     camera = json.loads((folder / "camera.json").read_text())
     facts = json.loads((folder / "truth.json").read_text())
     vertices = read_ply(folder / "points.ply")
@@ -97,6 +97,7 @@ def draw(folder, technique, size, out):
     window.OffScreenRenderingOn()
     window.SetSize(facts["width"], facts["height"])
     window.AddRenderer(renderer)
+    camera = json.loads(seen_from.read_text()) if seen_from else camera
     view = renderer.GetActiveCamera()
     view.SetPosition(camera["position"])
     view.SetFocalPoint(camera["focal_point"])
@@ -114,4 +115,5 @@ def draw(folder, technique, size, out):
 
 
 if __name__ == "__main__":
-    draw(pathlib.Path(sys.argv[1]), sys.argv[2], float(sys.argv[3]), sys.argv[4])
+    draw(pathlib.Path(sys.argv[1]), sys.argv[2], float(sys.argv[3]), sys.argv[4],
+         pathlib.Path(sys.argv[5]) if len(sys.argv) > 5 else None)

@@ -1,5 +1,7 @@
 #include "TruthCase.h"
 
+#include <glm/geometric.hpp>
+
 #include <cassert>
 #include <utility>
 
@@ -25,6 +27,17 @@ TruthCase::TruthCase(TruthScene scene, const Choice& choice)
   grade.medianDepth = medianDepth(rays_, camera_, double(choice.width) / choice.height);
   grade.spacing = choice.spacingPx * grade.medianDepth / pixels_.focalPx();
   grade.graded = viewOf(scene_, choice.view).graded;
+}
+
+TruthCamera TruthCase::pannedCamera(double px) const
+{
+  const glm::dvec3 towards = camera_.focalPoint - camera_.position;
+  const glm::dvec3 right = glm::normalize(glm::cross(towards, camera_.viewUp));
+  const glm::dvec3 move = right * (px * glm::length(towards) / pixels_.focalPx());
+  TruthCamera moved = camera_;
+  moved.position += move;
+  moved.focalPoint += move;
+  return moved;
 }
 
 } // namespace pointfront::truth

@@ -34,6 +34,9 @@ public:
   const SpacingGrade& grade() const { return region_.grade; }
   const SamplingRegion& region() const { return region_; }
 
+  /// Moved to the right by what is so many pixels wide at the depth of the focal point.
+  TruthCamera pannedCamera(double px) const;
+
   TruthPicture draw(unsigned samples) const { return drawTruth(rays_, pixels_, samples); }
   TruthPoints blueNoise(std::uint64_t seed) const { return sampleBlueNoise(region_, seed); }
   /// The town's flights over everything that is called "town", else those around an object.

@@ -1,5 +1,7 @@
 // Makes points of a scene whose true picture is known, and that picture: for tables of techniques.
 //   truth town|knot --view far|mid|close|graze --spacing-px S --sampling blue|scan -o DIR
+//   truth ... --pan-px D -o DIR   camera.json and truth.png of a camera that stands so many pixels'
+//                                 width to the right: how much of a flicker is the scene's
 // Writes into DIR: points.ply, camera.json, truth.png, mask.png (white where the surface covers the
 // whole pixel), depth.f32 (see TruthFiles.h), truth.json (spacing, background ...) and, with
 // --oracle, oracle.png.
@@ -27,6 +29,7 @@ struct Options
   std::uint32_t height = 600;
   unsigned samples = 8;
   std::uint64_t seed = 11;
+  double panPx = 0.0;
   bool oracle = false;
 };
 
@@ -46,14 +49,33 @@ void declare(CLI::App& app, Options& options)
   app.add_option("--samples", options.samples, "Rays a pixel and axis (8)")
     ->check(CLI::Range(1, 64));
   app.add_option("--seed", options.seed, "Other points for another number (11)");
+  app.add_option("--pan-px", options.panPx, "Only the picture, from so many pixels to the right")
+    ->check(CLI::Range(-100.0, 100.0));
   app.add_flag("--oracle", options.oracle, "Draw what a painter could who knows the surface");
   app.add_option("-o,--output", options.folder, "Folder to write into")->required();
+}
+
+/// The picture from a camera beside the view's.
+Result<void> drawPanned(const truth::TruthCase& seen, const Options& options)
+{
+  const std::string folder = options.folder + "/";
+  std::filesystem::create_directories(folder);
+  const truth::TruthCamera camera = seen.pannedCamera(options.panPx);
+  const truth::PixelRays pixels(camera, options.width, options.height);
+  const Result<void> done = truth::writeCamera(folder + "camera.json", camera);
+  return done ? truth::writePicture(folder + "truth.png",
+                  truth::drawTruth(seen.rays(), pixels, options.samples).colours)
+              : done;
 }
 
 Result<void> run(const Options& options)
 {
   const truth::TruthCase seen(*truth::makeScene(options.scene),
     { options.view, options.spacingPx, options.width, options.height });
+  if (options.panPx != 0.0)
+  {
+    return drawPanned(seen, options);
+  }
   const truth::TruthPicture picture = seen.draw(options.samples);
   const truth::TruthPoints points =
     options.sampling == "blue" ? seen.blueNoise(options.seed) : seen.scan(options.seed);

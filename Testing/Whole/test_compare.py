@@ -8,7 +8,8 @@ import zlib
 from tool import ToolTest
 
 SKY, WALL, BLACK, WHITE = (10, 20, 30), (200, 150, 100), (0, 0, 0), (255, 255, 255)
-KEYS = {"identical", "pixels", "psnr", "ssim", "share_over_8", "holes", "bloat", "background"}
+KEYS = {"identical", "pixels", "psnr", "ssim", "share_over_8", "mean_difference",
+        "holes", "bloat", "background"}
 
 
 def chunk(kind, body):

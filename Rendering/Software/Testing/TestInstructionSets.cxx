@@ -245,7 +245,10 @@ TEST_P(SameBits, WhereItShows)
       shade(scene.plan.camera, scene.plan.shading, all);
       expectPart(shown, all, look.name);
       const auto drawn = [](const SoftwareTarget& target)
-      { return std::count_if(target.rgba.begin(), target.rgba.end(), [](auto c) { return c != 0; }); };
+      {
+        return std::count_if(
+          target.rgba.begin(), target.rgba.end(), [](std::uint32_t c) { return c != 0; });
+      };
       EXPECT_EQ(drawn(shown), drawn(all)) << look.name; // nothing is outside
     }
   }

@@ -337,8 +337,8 @@ TEST(FramePlanner, ANodeAmongFinerOnesHasSplatsOfTheirSize)
   EXPECT_FLOAT_EQ(all.batches[2].items.front().closingRadius, 8.0f);
 }
 
-/// Autzen from 40 ft: a point of the root among ground that is all there was as large as what closes
-/// the coarse nodes a mile away, or a few strays.
+/// Autzen from 40 ft: a point of the root, among ground that is all there, was as large as what
+/// closes the coarse nodes a mile away, or a few strays.
 TEST(FramePlanner, WhatIsFarAwayMakesNoSplatsNearTheEyeLarge)
 {
   std::vector<DrawBatch> batches(1);
@@ -365,7 +365,7 @@ TEST(FramePlanner, WhatIsFarAwayMakesNoSplatsNearTheEyeLarge)
   for (const std::size_t above : { std::size_t(0), std::size_t(1) })
   {
     EXPECT_TRUE(items[above].refined);
-    EXPECT_FLOAT_EQ(items[above].closingRadius, 1.1f);
+    EXPECT_FLOAT_EQ(items[above].closingRadius, 2.2f) << "twice the mean";
   }
   EXPECT_FLOAT_EQ(items[0].sparsestRadius, 40.0f);
   EXPECT_FLOAT_EQ(items[1].sparsestRadius, 11.0f);

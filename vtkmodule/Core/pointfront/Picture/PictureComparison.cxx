@@ -16,6 +16,7 @@ namespace
 {
 using Colour = std::array<std::uint8_t, 3>;
 constexpr int noticeable = 8;
+constexpr int greyThousandths[3] = { 299, 587, 114 };
 constexpr std::uint8_t half = 128;
 constexpr std::uint8_t full = 255;
 
@@ -111,6 +112,7 @@ void compareColours(const Picture& drawn, const Picture& reference,
 {
   std::uint64_t squares = 0; // exact: at most 3 * 255^2 a pixel
   std::uint64_t over = 0;
+  std::uint64_t greys = 0; // thousandths
   result.identical = true;
   for (std::size_t i = 0; i < reference.pixels(); ++i)
   {
@@ -118,9 +120,11 @@ void compareColours(const Picture& drawn, const Picture& reference,
     const std::uint8_t* b = reference.rgba.data() + 4 * i;
     int largest = 0;
     std::uint64_t square = 0;
+    int grey = 0;
     for (std::size_t channel = 0; channel < 3; ++channel)
     {
       const int difference = std::abs(int(a[channel]) - int(b[channel]));
+      grey += greyThousandths[channel] * (int(a[channel]) - int(b[channel]));
       largest = std::max(largest, difference);
       square += std::uint64_t(difference * difference);
     }
@@ -130,6 +134,7 @@ void compareColours(const Picture& drawn, const Picture& reference,
       ++result.pixels;
       squares += square;
       over += largest > noticeable ? 1 : 0;
+      greys += std::uint64_t(std::abs(grey));
     }
   }
   if (result.pixels != 0)
@@ -138,6 +143,7 @@ void compareColours(const Picture& drawn, const Picture& reference,
     result.psnrDecibels = squares == 0 ? std::numeric_limits<double>::infinity()
                                        : 10.0 * std::log10(255.0 * 255.0 / meanSquare);
     result.shareOver8 = double(over) / double(result.pixels);
+    result.meanDifference = 1e-3 * double(greys) / double(result.pixels);
   }
 }
 

@@ -15,6 +15,7 @@ namespace
 {
 
 constexpr float mostOfDenser = 2.0f;
+constexpr double mostOfMean = 2.0;
 /// Of a node's ground, what another has to share to say how dense it is there.
 constexpr double leastShare = 0.25;
 
@@ -40,14 +41,16 @@ std::vector<LayeredItem> itemsOf(std::vector<DrawBatch>& batches)
   return items;
 }
 
-/// What closes the surface among finer nodes, from those that are drawn: the mean over the points of
-/// those that are all there. Without such nodes the smallest: how far apart points are where some
-/// are left out is a matter of pixels (FramePlan::spacingPx), and what is far away, where nodes are
-/// coarse, says nothing about what is near.
+/// What closes the surface among finer nodes, from those that are drawn: the largest of those that
+/// are all there, but at most twice the mean over their points, as a few strays are no surface.
+/// Without such nodes the smallest: how far apart points are where some are left out is a matter of
+/// pixels (FramePlan::spacingPx), and what is far away, where nodes are coarse, says nothing about
+/// what is near.
 struct FinerRadii
 {
   double points = 0.0; ///< of nodes that are all there
   double sum = 0.0;    ///< of their radii
+  float largestFinished = 0.0f;
   float leastUnfinished = 0.0f; ///< 0: there is none
   float sparsest = 0.0f;
   bool unfinished = false;
@@ -59,6 +62,7 @@ struct FinerRadii
     const bool known = leastUnfinished > 0.0f && other.leastUnfinished > 0.0f;
     leastUnfinished = known ? std::min(leastUnfinished, other.leastUnfinished)
                             : std::max(leastUnfinished, other.leastUnfinished);
+    largestFinished = std::max(largestFinished, other.largestFinished);
     sparsest = std::max(sparsest, other.sparsest);
     unfinished = unfinished || other.unfinished;
   }
@@ -70,12 +74,14 @@ struct FinerRadii
     radii.unfinished = item.unfinished;
     radii.points = item.unfinished || radius == 0.0 ? 0.0 : double(item.last - item.first);
     radii.sum = radii.points * radius;
+    radii.largestFinished = item.unfinished ? 0.0f : item.closingRadius;
     radii.leastUnfinished = item.unfinished ? item.closingRadius : 0.0f;
     return radii;
   }
   float closing() const
   {
-    return points > 0.0 ? static_cast<float>(sum / points) : leastUnfinished;
+    const auto bound = static_cast<float>(points > 0.0 ? mostOfMean * sum / points : 0.0);
+    return points > 0.0 ? std::min(largestFinished, bound) : leastUnfinished;
   }
 };
 

@@ -21,7 +21,7 @@ namespace pointfront
 {
 namespace
 {
-constexpr std::uint32_t mostLookedAt = 2000; ///< points of a node, when the tree is opened
+constexpr std::uint32_t mostLookedAt = 1000; ///< points of a node, when the tree is opened
 
 /// Ten bits of a number, two zeros between each and the next.
 std::uint64_t spread(std::uint64_t bits)
@@ -44,19 +44,19 @@ std::vector<std::uint32_t> fairOrder(
   {
     ++shift;
   }
-  std::vector<std::pair<std::uint64_t, std::uint32_t>> along(steps.size());
+  std::vector<std::uint64_t> along(steps.size()); // place on the curve, then in the file
   for (std::size_t i = 0; i < steps.size(); ++i)
   {
     const GridPosition p = steps[i] - low;
-    along[i] = { spread(std::uint64_t(p.x) >> shift) | spread(std::uint64_t(p.y) >> shift) << 1 |
-        spread(std::uint64_t(p.z) >> shift) << 2,
-      static_cast<std::uint32_t>(i) };
+    const std::uint64_t place = spread(std::uint64_t(p.x) >> shift) |
+      spread(std::uint64_t(p.y) >> shift) << 1 | spread(std::uint64_t(p.z) >> shift) << 2;
+    along[i] = place << 32 | i;
   }
   std::sort(along.begin(), along.end());
   std::vector<RankedHash> ranked(steps.size());
   for (std::size_t i = 0; i < along.size(); ++i)
   {
-    const std::uint32_t point = along[i].second;
+    const auto point = static_cast<std::uint32_t>(along[i]);
     ranked[i] = { point, static_cast<std::uint32_t>(SampleStream::mixed(point) >> 32) };
   }
   return prefixBatches(std::move(ranked));
@@ -195,6 +195,7 @@ Result<void> ForeignTree::lookAtFirstPoints()
     {
       continue;
     }
+    first_ = looked == 0 ? i : first_;
     level = row.level;
     ++looked;
     const Result<RawBytes> bytes = reader_->fetch(chunks_[i]);
@@ -259,6 +260,25 @@ Result<FetchedNode> ForeignTree::fetch(NodeIndex node, const ColumnSelection& co
 }
 
 Result<NodeColumns> ForeignTree::decode(const FetchedNode& fetched) const
+{
+  if (fetched.node != first_)
+  {
+    return decodeNow(fetched);
+  }
+  const std::lock_guard<std::mutex> lock(mutex_); // who asks meanwhile asks for the same
+  if (!kept_ || kept_->selection != fetched.columns)
+  {
+    Result<NodeColumns> node = decodeNow(fetched);
+    if (!node)
+    {
+      return node;
+    }
+    kept_ = std::make_unique<const NodeColumns>(std::move(*node));
+  }
+  return *kept_;
+}
+
+Result<NodeColumns> ForeignTree::decodeNow(const FetchedNode& fetched) const
 {
   const std::uint32_t points = fetched.row.pointCount;
   NodeColumns result = emptyColumns(fetched.node, points, fetched.columns, description_.schema);

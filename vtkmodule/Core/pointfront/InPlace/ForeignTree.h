@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -64,7 +65,7 @@ struct ForeignTreeContent
 ///          left it out would have been wrong.
 /// Ranges   of attributes are those of some points of the first level that has any: a guess for
 ///          colours.
-/// Memory   the table is held whole, some 100 bytes a node.
+/// Memory   the table is held whole, some 100 bytes a node, and the first node with points.
 /// Threads  all functions are safe from any thread.
 class ForeignTree final : public StoredCloud
 {
@@ -89,12 +90,18 @@ private:
   ForeignTree() = default;
   void describe(const ForeignTreeContent& content);
   Result<void> lookAtFirstPoints();
+  Result<NodeColumns> decodeNow(const FetchedNode& fetched) const;
   Error damaged(NodeIndex node, const std::string& what) const;
 
   std::shared_ptr<const ForeignNodes> reader_;
   std::vector<std::uint64_t> chunks_; ///< by node
   StoreDescription description_;
   std::shared_ptr<const Hierarchy> hierarchy_;
+  NodeIndex first_ = noNode; ///< with points
+  /// As it was asked for last: colours are chosen from its points before it is drawn, and it takes
+  /// as long as all else of the first picture.
+  mutable std::unique_ptr<const NodeColumns> kept_;
+  mutable std::mutex mutex_; ///< of kept_
 };
 
 } // namespace pointfront

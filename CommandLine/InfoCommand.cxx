@@ -155,7 +155,8 @@ Result<void> InfoCommand::run()
 Result<void> InfoCommand::tell(const std::string& path, const PointFileOpener& opener,
   nlohmann::ordered_json& reports) const
 {
-  return SourceFormats::isStore(path) || namedLikeStore(path) ? tellStore(path, reports) : tellSource(path, opener, reports);
+  const bool store = SourceFormats::isStore(path) || namedLikeStore(path);
+  return store ? tellStore(path, reports) : tellSource(path, opener, reports);
 }
 
 Result<void> InfoCommand::tellStore(
@@ -237,7 +238,8 @@ Result<void> InfoCommand::tellSource(const std::string& path, const PointFileOpe
   }
   if (!json_)
   {
-    print(sourceText(*info) + (tree ? tree->text : "") + (statistics ? statisticsText(*statistics) : ""));
+    print(sourceText(*info) + (tree ? tree->text : "") +
+      (statistics ? statisticsText(*statistics) : ""));
     return {};
   }
   reports.push_back(sourceJson(*info));

@@ -25,8 +25,8 @@ constexpr std::uint32_t pointsPerRead = 1024; ///< decompressed, then decoded fr
 Error corrupt(const LASFile& file, std::uint64_t byte, const std::string& what)
 {
   return makeError(Error::Kind::Corrupt,
-    file.description.path + ": its octree is damaged at byte " + std::to_string(byte) + ": " + what +
-      "; build a store from the file, which does not need it");
+    file.description.path + ": its octree is damaged at byte " + std::to_string(byte) + ": " +
+      what + "; build a store from the file, which does not need it");
 }
 
 /// The chunks of a COPC file. Bytes are read at their places: a disk that goes away gives errors.

@@ -26,8 +26,8 @@ struct LAZChunk
 LAZChunk parseLayeredChunk(const LASFile& file, const LAZCompression& compression,
   std::uint64_t offset, std::uint64_t end);
 
-/// The layered chunk that is all of these bytes, of records of `pointBytes`; zero points if they are
-/// no whole chunk. Its offset is 0.
+/// The layered chunk that is all of these bytes, of records of `pointBytes`; zero points if they
+/// are no whole chunk. Its offset is 0.
 LAZChunk parseLayeredChunk(
   ByteView bytes, std::size_t pointBytes, const LAZCompression& compression);
 

@@ -60,7 +60,8 @@ class InPlace(ToolTest):
             self.assertGreater(png.stat().st_size, 10000)
 
     def test_info_tells_the_tree(self):
-        for file, nodes, levels in ((COPC / "lone-star.copc.laz", 15, 3), (EPT / "ept.json", 13, 4)):
+        for file, nodes, levels in ((COPC / "lone-star.copc.laz", 15, 3),
+                                    (EPT / "ept.json", 13, 4)):
             info = self.succeed("info", file, "--json").json
             self.assertEqual((info["structure"], info["nodes"], info["levels"]),
                              ("octree", nodes, levels))

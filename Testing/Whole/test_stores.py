@@ -2,9 +2,10 @@
 
 import os
 import shutil
+import struct
 import unittest
 
-from tool import DATA, ToolTest, run
+from tool import DATA, SLOWNESS, ToolTest, run
 
 COLOURED = DATA / "las/real/1.2-with-color.las"  # 1,065 points
 TRIM = DATA / "las/real/autzen_trim.las"
@@ -120,6 +121,101 @@ class StoresFromStores(ToolTest):
         out = self.succeed("build", folder, "-o", self.folder / "one.pfront", "--json")
         self.assertEqual(out.json["points_stored"], 1065)
         self.assertNotIn("not read", out.err)
+
+
+def moved(laz, path, x, y):
+    """A copy of a LAZ file whose points lie x and y farther: its header's offsets and box do."""
+    data = bytearray(laz)
+    offsets = struct.unpack_from("<2d", data, 155)
+    struct.pack_into("<2d", data, 155, offsets[0] + x, offsets[1] + y)
+    box = struct.unpack_from("<4d", data, 179)
+    struct.pack_into("<4d", data, 179, box[0] + x, box[1] + x, box[2] + y, box[3] + y)
+    path.write_bytes(data)
+
+
+class Tiles(ToolTest):
+    """Many stores as one cloud."""
+
+    def tiles(self, count, points=3000):
+        folder = self.folder / "laz"
+        folder.mkdir()
+        seed = self.folder / "seed.laz"
+        self.succeed("generate", "--points", points, "-o", seed)
+        laz = seed.read_bytes()
+        side = 1 + round(self.succeed("info", seed, "--json").json["bounds"][3]
+                         - self.succeed("info", seed, "--json").json["bounds"][0])
+        for i in range(count):
+            moved(laz, folder / f"t{i:04d}.laz", side * (i % 32), side * (i // 32))
+        return folder
+
+    def stores(self, count):
+        folder = self.folder / "stores"
+        folder.mkdir()
+        for laz in sorted(self.tiles(count).iterdir()):
+            self.succeed("build", laz, "-o", folder / (laz.stem + ".pfront"))
+        return folder
+
+    def test_a_folder_and_a_list_are_one_cloud(self):
+        folder = self.stores(6)
+        listed = self.folder / "all.pfronts"
+        listed.write_text("# the survey\nstores/*.pfront\n")
+        merged = self.folder / "merged.pfront"
+        self.succeed("build", folder, "-o", merged)
+        whole = self.folder / "merged.las"
+        self.succeed("export", merged, "-o", whole)
+        for name, cloud in (("a", folder), ("b", listed)):
+            info = self.succeed("info", cloud, "--together", "--json").json
+            self.assertEqual((info["points"], info["structure"]), (6 * 3000, "tiles"))
+            self.assertEqual(info["warnings"], [])
+            out = self.folder / f"{name}.las"
+            self.succeed("export", cloud, "-o", out)
+            compared = same_points(whole, out, *NAMES)
+            self.assertEqual((compared.status, compared.out.strip()), (0, str(6 * 3000)), compared)
+            self.assertTrue(self.succeed("verify", cloud, "--json").json["ok"])
+            stats = self.folder / f"{name}.json"
+            self.succeed("render", cloud, "-o", self.folder / f"{name}.png", "--stats", stats)
+            self.succeed("bench", cloud, "--frames", 3, "--stats", self.folder / "bench.json")
+        one, other = ((self.folder / f"{n}.png").read_bytes() for n in "ab")
+        self.assertEqual(one, other)
+        part = self.folder / "part.xyz"
+        self.succeed("export", listed, "-o", part, "--where", "intensity > 100000")
+        self.assertEqual(len(part.read_text().splitlines()), 1)
+        self.assertEqual(len(self.succeed("info", folder, "--json").json["files"]), 6)
+
+    def test_what_differs_is_told(self):
+        folder = self.stores(2)
+        self.succeed("build", TRIM, "-o", folder / "far.pfront", "--attributes", "intensity")
+        out = self.succeed("render", folder, "-o", self.folder / "a.png")
+        self.assertIn("1 of 3 stores lack return_number", out.err)
+        self.assertIn("1 of 3 stores", self.succeed(
+            "export", folder, "-o", self.folder / "a.xyz").err)
+
+    def test_wrong_lists_and_folders(self):
+        listed = self.folder / "all.pfronts"
+        for text, says in (("", "names no store"), ("none.pfront\n", "none.pfront"),
+                           ("*.pfront\n", "nothing matches")):
+            listed.write_text(text)
+            self.assertIn(says, self.refuse(1, "info", listed).err)
+            self.refuse(1, "render", listed, "-o", self.folder / "a.png")
+        (self.folder / "empty").mkdir()
+        self.refuse(1, "render", self.folder / "empty", "-o", self.folder / "a.png")
+
+    def test_outputs_do_not_replace_what_a_list_names(self):
+        folder = self.stores(1)
+        store = next(folder.iterdir())
+        before = store.read_bytes()
+        copy = self.folder / "copy.las"
+        os.link(store, copy)
+        self.refuse(1, "export", folder, "-o", copy, "--force")
+        self.assertEqual(store.read_bytes(), before)
+
+    def test_a_thousand_laz_files_at_a_glance(self):
+        folder = self.tiles(1000)
+        stats = self.folder / "s.json"
+        out = self.succeed("render", folder, "-o", self.folder / "a.png", "--stats", stats)
+        self.assertLess(out.seconds, 5 * SLOWNESS)
+        self.assertIn("1000 of 3000000 points", out.err)
+        self.assertEqual(self.succeed("info", folder, "--together", "--json").json["points"], 1000)
 
 
 if __name__ == "__main__":

@@ -204,9 +204,9 @@ Result<void> ForeignTree::lookAtFirstPoints()
       return bytes.error();
     }
     PointBatch batch;
-    if (Result<void> decoded = reader_->decode(
-          { chunks_[i], row.pointCount, std::min(mostLookedAt, row.pointCount), all }, *bytes, batch);
-        !decoded)
+    const ForeignNodes::Part part{ chunks_[i], row.pointCount,
+      std::min(mostLookedAt, row.pointCount), all };
+    if (Result<void> decoded = reader_->decode(part, *bytes, batch); !decoded)
     {
       return decoded;
     }

@@ -202,6 +202,7 @@ Result<void> TiledCloud::chooseColumns()
   {
     tiles_[t].columns = std::move(common->mappings[t]);
   }
+  std::map<std::size_t, std::string> lacked; // how many stores lack which
   for (std::size_t c = 0; c < description_.schema.size(); ++c)
   {
     const Attribute& attribute = description_.schema[c];
@@ -215,8 +216,8 @@ Result<void> TiledCloud::chooseColumns()
     }
     if (lacking > 0)
     {
-      description_.warnings.push_back(countOf(lacking, tiles_.size()) + " lack the attribute '" +
-        attribute.name + "'; it is 0 for their points.");
+      std::string& names = lacked[lacking];
+      names += (names.empty() ? "" : ", ") + attribute.name;
     }
     if (differing > 0)
     {
@@ -224,6 +225,11 @@ Result<void> TiledCloud::chooseColumns()
         std::string(nameOf(attribute.type)) + ", because its type or scale differs in " +
         countOf(differing, tiles_.size()) + ".");
     }
+  }
+  for (const auto& [lacking, names] : lacked)
+  {
+    description_.warnings.push_back(countOf(lacking, tiles_.size()) + " lack " + names +
+      "; zeros are shown for their points.");
   }
   const auto radius = description_.schema.find(splatRadiusAttribute);
   for (Tile& tile : tiles_)
@@ -314,7 +320,8 @@ void TiledCloud::compareSystems()
   {
     description_.warnings.push_back(countOf(different, tiles_.size()) +
       " name another coordinate reference system than '" + knownOf + "', the first '" + differing +
-      "': unless both mean the same, they do not lie where they should; build them with one --crs.");
+      "': unless both mean the same, they do not lie where they should; build them with one "
+      "--crs.");
   }
   if (silent > 0 && !known.empty())
   {
@@ -481,8 +488,8 @@ Result<void> TiledCloud::place(const Tile& tile, NodeColumns& node) const
   if (std::max({ extent.x, extent.y, extent.z }) > std::numeric_limits<std::uint32_t>::max())
   {
     return makeError(Error::Kind::Unsupported,
-      tile.cloud->description().path + ": a node of it is wider than 32 bits of steps of the finest "
-        "store beside it; build them with one --precision");
+      tile.cloud->description().path + ": a node of it is wider than 32 bits of steps of the "
+        "finest store beside it; build them with one --precision");
   }
   node.origin = low;
   std::transform(steps.begin(), steps.end(), node.positions.begin(),

@@ -53,6 +53,8 @@ class _Messages:
         self.warnings = []
         self._observe(algorithm, vtkCommand.ErrorEvent, self.errors)
         self._observe(algorithm, vtkCommand.WarningEvent, self.warnings)
+        if hasattr(algorithm, "GetExecutive"):  # which says once more that something failed
+            algorithm.GetExecutive().AddObserver(vtkCommand.ErrorEvent, lambda *_: None)
 
     @staticmethod
     def _observe(algorithm, event, texts):

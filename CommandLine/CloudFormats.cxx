@@ -17,12 +17,12 @@ namespace pointfront
 namespace
 {
 /// When the library is loaded.
-const bool registered = (addCloudFormats(), true);
+const bool added = (addCloudFormats(), true);
 } // namespace
 
 void addCloudFormats()
 {
-  static_cast<void>(registered);
+  static_cast<void>(added);
   StoredCloudFormats& formats = StoredCloudFormats::ofProcess();
   formats.add(std::make_shared<LASIndexFormat>());
   formats.add(std::make_shared<COPCFormat>());

@@ -20,7 +20,7 @@ constexpr const char* copcOwner = "copc";
 constexpr std::uint16_t copcInfoRecord = 1;
 constexpr std::size_t infoBytes = 160;
 constexpr std::size_t entryBytes = 32;
-constexpr std::uint32_t pointsPerRead = 1024; ///< decompressed, then decoded from the cache
+constexpr std::uint32_t recordsAtOnce = 1024; ///< decompressed, then decoded from the cache
 
 Error corrupt(const LASFile& file, std::uint64_t byte, const std::string& what)
 {
@@ -84,10 +84,10 @@ public:
     {
       batch.columns[column].resize(part.first * layout.schema[column].bytes());
     }
-    std::vector<std::byte> records(std::size_t{ pointsPerRead } * layout.pointBytes);
+    std::vector<std::byte> records(std::size_t{ recordsAtOnce } * layout.pointBytes);
     for (std::uint32_t done = 0; done < part.first;)
     {
-      const std::uint32_t wanted = std::min(pointsPerRead, part.first - done);
+      const std::uint32_t wanted = std::min(recordsAtOnce, part.first - done);
       if (reader->read(wanted, records.data()) < wanted)
       {
         return corrupt(file_, entry.offset, "the points' bytes end or contradict themselves");

@@ -124,6 +124,10 @@ Result<void> BenchCommand::run()
   {
     return scene.error();
   }
+  for (const std::string& warning : (*scene)->warnings())
+  {
+    warn(name(), warning);
+  }
   const Result<CameraPath> cameras = path(**scene);
   if (!cameras)
   {

@@ -21,7 +21,7 @@ namespace pointfront
 
 void BuildCommand::declare(CLI::App& program)
 {
-  app_ = program.add_subcommand("build", "Build a store from point files");
+  app_ = program.add_subcommand("build", "Build a store from point files and stores");
   app_->add_option("inputs", inputs_, "Files, glob patterns, folders; any mix")
     ->type_name("IN...");
   app_->add_option("-o,--output", options_.outputPath, "The store to write")
@@ -82,7 +82,7 @@ Result<OpenedInputs> BuildCommand::openSources() const
   { return formats.mayHoldPoints(path); };
   std::vector<InputFault> absent;
   Result<InputFileList> files =
-    findInputFiles(inputs_, formats.extensions(), holdsPoints, &absent);
+    findInputFiles(inputs_, formats.extensions(), holdsPoints, &absent, SourceFormats::isStore);
   if (!files)
   {
     return files.error();

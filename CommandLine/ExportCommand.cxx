@@ -45,6 +45,10 @@ Result<void> ExportCommand::run()
   {
     return store.error();
   }
+  for (const std::string& warning : (*store)->description().warnings)
+  {
+    warn(name(), storePath_ + ": " + warning);
+  }
   std::vector<std::string> reads = (*store)->files();
   reads.push_back(sinkChoice_.crs); // may be a file
   for (const std::string& file : arguments_.files())

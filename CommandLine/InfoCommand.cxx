@@ -8,7 +8,7 @@
 #include "StoreInfo.h"
 #include "Values.h"
 
-#include "pointfront/Statistics/StoredPoints.h"
+#include "pointfront/Query/StoredPoints.h"
 #include "pointfront/Store/StoredCloudFormats.h"
 
 #include <nlohmann/json.hpp>
@@ -25,7 +25,40 @@ namespace
 bool namedLikeStore(const std::string& path)
 {
   const std::string extension = std::filesystem::path(path).extension().string();
-  return extension == ".pfront" || extension == ".pfindex";
+  return extension == ".pfront" || extension == ".pfindex" || extension == ".pfronts";
+}
+
+/// The hierarchy of a point file that has one: COPC, EPT.
+struct SourceTree
+{
+  std::string structure;
+  std::uint32_t nodes = 0;
+  std::uint32_t levels = 0;
+  std::string text;
+  std::string fault; ///< why it cannot be used
+};
+
+std::optional<SourceTree> treeOf(const std::string& path)
+{
+  const StoredCloudFormats& formats = StoredCloudFormats::ofProcess();
+  if (!formats.accepts(path))
+  {
+    return std::nullopt;
+  }
+  SourceTree tree;
+  const auto cloud = formats.open(path);
+  if (!cloud)
+  {
+    tree.fault = cloud.error().what;
+    return tree;
+  }
+  const StoreDescription& description = (*cloud)->description();
+  tree.structure = description.structure;
+  tree.nodes = (*cloud)->hierarchy()->nodeCount();
+  tree.levels = description.levels;
+  tree.text = "\n  hierarchy   " + tree.structure + ", " + std::to_string(tree.nodes) +
+    " nodes in " + std::to_string(tree.levels) + " levels";
+  return tree;
 }
 
 void print(const std::string& text)
@@ -59,6 +92,8 @@ void InfoCommand::declare(CLI::App& program)
     ->required()
     ->type_name("FILE...");
   app_->add_flag("--json", json_, "Print one JSON object");
+  app_->add_flag("--together", together_,
+    "Describe what a folder or a list of stores holds as one cloud, not file by file");
   CLI::Option* const statistics = app_->add_flag("--stats", statistics_,
     "Read all points: ranges, means and histograms of attributes and classes, density");
   app_->add_option("--bins", options_.bins, "Bins of a histogram (32)")
@@ -82,6 +117,15 @@ Result<void> InfoCommand::run()
   auto reports = nlohmann::ordered_json::array();
   for (const std::string& input : inputs_) // in the order of the arguments
   {
+    if (together_)
+    {
+      ++inputs;
+      if (Result<void> told = tellStore(input, reports); !told)
+      {
+        faults.push_back(told.error());
+      }
+      continue;
+    }
     const Result<InputFileList> files = findInputFiles({ input }, extensions, holdsPoints);
     if (!files)
     {
@@ -111,7 +155,7 @@ Result<void> InfoCommand::run()
 Result<void> InfoCommand::tell(const std::string& path, const PointFileOpener& opener,
   nlohmann::ordered_json& reports) const
 {
-  const bool store = StoredCloudFormats::ofProcess().accepts(path) || namedLikeStore(path);
+  const bool store = SourceFormats::isStore(path) || namedLikeStore(path);
   return store ? tellStore(path, reports) : tellSource(path, opener, reports);
 }
 
@@ -139,6 +183,10 @@ Result<void> InfoCommand::tellStore(
       return gathered.error();
     }
     statistics = std::move(*gathered);
+  }
+  for (const std::string& warning : description.warnings)
+  {
+    warn(name(), path + ": " + warning);
   }
   if (!json_)
   {
@@ -183,12 +231,25 @@ Result<void> InfoCommand::tellSource(const std::string& path, const PointFileOpe
   {
     warn(name(), path + ": " + warning);
   }
+  const std::optional<SourceTree> tree = treeOf(path);
+  if (tree && !tree->fault.empty())
+  {
+    warn(name(), path + ": its octree cannot be used: " + tree->fault);
+  }
   if (!json_)
   {
-    print(sourceText(*info) + (statistics ? statisticsText(*statistics) : ""));
+    print(sourceText(*info) + (tree ? tree->text : "") +
+      (statistics ? statisticsText(*statistics) : ""));
     return {};
   }
   reports.push_back(sourceJson(*info));
+  if (tree && tree->fault.empty())
+  {
+    reports.back()["structure"] = tree->structure;
+    reports.back()["refinement"] = "add";
+    reports.back()["nodes"] = tree->nodes;
+    reports.back()["levels"] = tree->levels;
+  }
   if (statistics)
   {
     reports.back()["stats"] = statisticsJson(*statistics);

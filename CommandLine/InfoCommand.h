@@ -30,6 +30,7 @@ private:
 
   std::vector<std::string> inputs_;
   bool json_ = false;
+  bool together_ = false;
   bool statistics_ = false;
   std::uint64_t memoryBytes_ = ScanOptions::usualMemoryBytes;
   StatisticsOptions options_;

@@ -33,10 +33,30 @@ struct FolderRule
 {
   const std::vector<std::string>& extensions;
   const PointFileTest& isPointFile;
+  const PointFileTest& isStore;
+  std::vector<std::string>& warnings;
 
   bool takes(const fs::path& path) const
   {
     return hasExtension(path, extensions) && (!isPointFile || isPointFile(path.string()));
+  }
+  /// Point files alone where a folder has both.
+  void leaveOutStores(const std::string& folder, std::vector<std::string>& files) const
+  {
+    if (!isStore)
+    {
+      return;
+    }
+    const auto stores = std::stable_partition(
+      files.begin(), files.end(), [this](const std::string& file) { return !isStore(file); });
+    if (stores == files.begin() || stores == files.end())
+    {
+      return;
+    }
+    warnings.push_back(folder + ": " + std::to_string(files.end() - stores) +
+      " stores or indices in it are not read, because they may hold the points of the other files "
+      "in it; name them to read them");
+    files.erase(stores, files.end());
   }
 };
 
@@ -68,6 +88,7 @@ Result<std::vector<std::string>> filesBelow(const std::string& folder, const Fol
     return makeError(
       Error::Kind::NotFound, folder + ": the folder holds no point file of a known extension");
   }
+  rule.leaveOutStores(folder, files);
   return files;
 }
 
@@ -131,10 +152,10 @@ Result<std::vector<std::string>> expand(
 
 Result<InputFileList> findInputFiles(
   const std::vector<std::string>& arguments, const std::vector<std::string>& extensions,
-  const PointFileTest& isPointFile, std::vector<InputFault>* faults)
+  const PointFileTest& isPointFile, std::vector<InputFault>* faults, const PointFileTest& isStore)
 {
-  const FolderRule rule{ extensions, isPointFile };
   InputFileList list;
+  const FolderRule rule{ extensions, isPointFile, isStore, list.warnings };
   std::vector<Error> wrong;
   for (const std::string& argument : arguments)
   {

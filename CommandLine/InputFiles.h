@@ -25,8 +25,11 @@ using PointFileTest = std::function<bool(const std::string&)>;
 /// that passes `isPointFile`) into a list of files.
 /// Errors  NotFound: no such file, a pattern that matches nothing, a folder without a point file;
 ///         of several each is named. With `faults` they are added there instead.
+/// `isStore`  tells stores and indices: of a folder that holds other point files, too, they are
+///            left out, with a warning, for they may hold the same points. Empty: all are taken.
 Result<InputFileList> findInputFiles(
   const std::vector<std::string>& arguments, const std::vector<std::string>& extensions,
-  const PointFileTest& isPointFile = {}, std::vector<InputFault>* faults = nullptr);
+  const PointFileTest& isPointFile = {}, std::vector<InputFault>* faults = nullptr,
+  const PointFileTest& isStore = {});
 
 } // namespace pointfront

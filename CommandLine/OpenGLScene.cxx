@@ -1,5 +1,6 @@
 #include "OpenGLScene.h"
 
+#include "CloudFormats.h"
 #include "ColourChoice.h"
 #include "ErrorListener.h"
 #include "Frustum.h"
@@ -15,11 +16,8 @@
 #include "pointfront/Residency/LoadScheduler.h"
 #include "pointfront/Residency/Residency.h"
 #include "pointfront/Store/StoredCloud.h"
-#include "pointfront/Store/StoredCloudFormats.h"
 #include "pointfront/Style/AttributeRanges.h"
 #include "pointfront/Style/StyleSheet.h"
-
-#include "IndexedLASFile.h"
 
 #include "vtkPointFrontMapper.h"
 #include "vtkPointFrontReader.h"
@@ -506,7 +504,7 @@ void pointfrontOpenOpenGLScene(
   const DrawingOptions& options, Result<std::unique_ptr<StoreScene>>& scene)
 {
   // Where the kernel is a static library this module has a kernel of its own.
-  StoredCloudFormats::ofProcess().add(std::make_shared<LASIndexFormat>());
+  addCloudFormats();
   scene = openScene(options);
 }
 

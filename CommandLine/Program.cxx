@@ -6,15 +6,13 @@
 #include "ExportCommand.h"
 #include "GenerateCommand.h"
 #include "IndexCommand.h"
-#include "IndexedLASFile.h"
 #include "InfoCommand.h"
 #include "RenderCommand.h"
 #include "Unavailable.h"
 #include "VerifyCommand.h"
 
+#include "CloudFormats.h"
 #include "Suggestion.h"
-
-#include "pointfront/Store/StoredCloudFormats.h"
 
 #include <cstdio>
 
@@ -26,7 +24,7 @@ Program::Program()
 {
   app_.set_version_flag("--version", "pointfront " POINTFRONT_VERSION);
   commands_.push_back(std::make_unique<BuildCommand>());
-  StoredCloudFormats::ofProcess().add(std::make_shared<LASIndexFormat>());
+  addCloudFormats();
   commands_.push_back(std::make_unique<IndexCommand>());
   commands_.push_back(std::make_unique<InfoCommand>());
   commands_.push_back(std::make_unique<VerifyCommand>());

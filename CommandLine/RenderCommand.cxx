@@ -153,6 +153,10 @@ Result<void> RenderCommand::run()
   {
     return scene.error();
   }
+  for (const std::string& warning : (*scene)->warnings())
+  {
+    warn(name(), warning);
+  }
   const Result<Camera> from = camera(**scene);
   if (!from)
   {

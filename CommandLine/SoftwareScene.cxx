@@ -258,6 +258,20 @@ Result<void> SoftwareScene::shareMemory()
   return {};
 }
 
+std::vector<std::string> SoftwareScene::warnings() const
+{
+  std::vector<std::string> all;
+  for (const auto& store : stores_)
+  {
+    const StoreDescription& description = store->cloud()->description();
+    for (const std::string& warning : description.warnings)
+    {
+      all.push_back(description.path + ": " + warning);
+    }
+  }
+  return all;
+}
+
 Result<double> SoftwareScene::ground() const
 {
   return groundOf(*stores_.front()->cloud());

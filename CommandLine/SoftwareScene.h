@@ -26,6 +26,7 @@ public:
 
   const char* backend() const override { return "software"; }
   const Bounds& bounds() const override { return bounds_; }
+  std::vector<std::string> warnings() const override;
   Result<double> ground() const override;
   void setCamera(const Camera& camera) override;
   void setInteractive(bool interactive) override { interactive_ = interactive; }

@@ -5,7 +5,10 @@
 #include "PCDFormat.h"
 #include "PLYFormat.h"
 #include "RefusedFormat.h"
+#include "StoreInputFormat.h"
 #include "TextFormat.h"
+
+#include "pointfront/Store/PointStore.h"
 
 #include <algorithm>
 #include <cctype>
@@ -27,6 +30,7 @@ const bool registered = []
 SourceFormats::SourceFormats(const SourceOptions& options)
 {
   static_cast<void>(registered);
+  formats_.push_back(std::make_unique<StoreInputFormat>());
   formats_.push_back(std::make_unique<LASFormat>());
   formats_.push_back(std::make_unique<PLYFormat>(options.survey));
   formats_.push_back(std::make_unique<PCDFormat>(options.survey, options.temporaryFolder));
@@ -52,8 +56,17 @@ std::vector<std::string> SourceFormats::extensions() const
   return all;
 }
 
+bool SourceFormats::isStore(const std::string& path)
+{
+  return StoreInputFormat().accepts(path);
+}
+
 bool SourceFormats::mayHoldPoints(const std::string& path) const
 {
+  if (PointStore::looksLikePreview(path))
+  {
+    return false;
+  }
   const std::string extension = std::filesystem::path(path).extension().string();
   if (extension != ".txt" && extension != ".csv" && extension != ".asc" && extension != ".tsv" &&
     extension != ".gz")

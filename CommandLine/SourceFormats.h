@@ -33,8 +33,11 @@ public:
   /// Lower case, without the dot.
   std::vector<std::string> extensions() const override;
 
+  /// A store or the index of a point file: what may hold points that lie beside it once more.
+  static bool isStore(const std::string& path);
+
   /// False for a file whose extension stands for all kinds of text (.txt, .csv, .gz ...) and in
-  /// which no row of numbers is found: a note beside the points.
+  /// which no row of numbers is found: a note beside the points; and for the preview of a build.
   bool mayHoldPoints(const std::string& path) const;
 
   /// Opens with the first format that accepts the file's content; as text only what no other

@@ -88,6 +88,7 @@ nlohmann::ordered_json storeJson(const StoreDescription& store, const Hierarchy&
       { "points_expected", preview->pointsExpected }, { "points_read", preview->pointsRead },
       { "points_finished", preview->pointsFinished } };
   }
+  object["warnings"] = store.warnings;
   object["grid"] = { { "scale", { store.grid.scale.x, store.grid.scale.y, store.grid.scale.z } },
     { "offset", { store.grid.offset.x, store.grid.offset.y, store.grid.offset.z } } };
   return object;

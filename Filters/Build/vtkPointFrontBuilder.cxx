@@ -1,6 +1,7 @@
 #include "vtkPointFrontBuilder.h"
 
 #include "BuildThread.h"
+#include "InterpreterPause.h"
 
 #include "pointfront/Store/PreviewRecord.h"
 
@@ -312,18 +313,21 @@ int vtkPointFrontBuilder::Write()
   Content& content = *this->Internals;
   this->SetAbortExecute(0);
   content.Phase.clear();
-  const auto watch = [this, &content](const pointfront::BuildThread::News& news)
+  this->InvokeEvent(vtkCommand::StartEvent);
+  pointfront::InterpreterPause pause;
+  const auto watch = [this, &content, &pause](const pointfront::BuildThread::News& news)
   {
+    const pointfront::InterpreterPause::Resumed resumed(pause);
     content.Show(*this, news.progress);
     if (news.preview)
     {
       this->InvokeEvent(vtkCommand::UpdateDataEvent);
     }
     this->InvokeEvent(vtkCommand::AbortCheckEvent);
-    return this->GetAbortExecute() == 0;
+    return this->GetAbortExecute() == 0 && !resumed.interrupted();
   };
-  this->InvokeEvent(vtkCommand::StartEvent);
   const auto report = pointfront::BuildThread().run(content.Order(*this), watch);
+  const pointfront::InterpreterPause::Resumed resumed(pause);
   this->InvokeEvent(vtkCommand::EndEvent);
   if (!report)
   {

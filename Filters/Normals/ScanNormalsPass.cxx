@@ -72,6 +72,15 @@ ScanNormalsPass::ScanNormalsPass(std::optional<std::vector<std::uint8_t>> classe
 
 Result<PointSources> ScanNormalsPass::apply(PointSources sources, const PassResources&) const
 {
+  for (const auto& source : sources)
+  {
+    if (source->description().inTreeOrder)
+    {
+      return makeError(Error::Kind::BadArgument,
+        source->description().path + ": the points of a store have left the order of the scan, "
+          "which normals from scan lines need; take normals by PCA, or the original files");
+    }
+  }
   const Result<ClassSet> classes = chosenClasses(sources, classes_);
   if (!classes)
   {

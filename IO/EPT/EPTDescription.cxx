@@ -94,9 +94,9 @@ Result<std::vector<EPTDimension>> dimensionsOf(const Json& schema, const std::st
   return dimensions;
 }
 
-Bounds boundsOf(const Json& description)
+Bounds boundsOf(const Json& description, const std::vector<const char*>& keys)
 {
-  for (const char* key : { "boundsConforming", "bounds" })
+  for (const char* key : keys)
   {
     const auto found = description.find(key);
     const bool six = found != description.end() && found->is_array() && found->size() == 6 &&
@@ -205,7 +205,9 @@ Result<EPTDescription> EPTDescription::parse(std::string_view text, const std::s
     return dimensions.error();
   }
   description.dimensions = std::move(*dimensions);
-  description.bounds = boundsOf(json);
+  description.bounds = boundsOf(json, { "boundsConforming", "bounds" });
+  description.cube = boundsOf(json, { "bounds" });
+  description.ticks = numberOf(json, "span", numberOf(json, "ticks", 0.0));
   description.points =
     static_cast<std::uint64_t>(std::clamp(numberOf(json, "points", 0.0), 0.0, 1e18));
   description.version = textOf(json, "version");

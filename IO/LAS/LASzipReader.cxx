@@ -134,6 +134,33 @@ void storeRecord(const laszip_point& point, const LASPointLayout& layout, std::b
 }
 } // namespace
 
+std::uint32_t laszipLayers(
+  const LASPointLayout& layout, const std::vector<std::uint32_t>& columns)
+{
+  const std::size_t extra = lasMinimumPointBytes(layout.pointFormat);
+  const int format = layout.pointFormat;
+  std::uint32_t layers = laszip_DECOMPRESS_SELECTIVE_Z;
+  for (const std::uint32_t column : columns)
+  {
+    const std::size_t at = layout.fields[column].offset;
+    const bool colours = format == 7 || format == 8 || format == 10;
+    layers |= at >= extra          ? laszip_DECOMPRESS_SELECTIVE_EXTRA_BYTES
+      : at >= 38                   ? laszip_DECOMPRESS_SELECTIVE_WAVEPACKET
+      : at >= 36 && colours        ? laszip_DECOMPRESS_SELECTIVE_NIR
+      : at >= 30 && colours        ? laszip_DECOMPRESS_SELECTIVE_RGB
+      : at >= 30                   ? laszip_DECOMPRESS_SELECTIVE_WAVEPACKET
+      : at >= 22                   ? laszip_DECOMPRESS_SELECTIVE_GPS_TIME
+      : at >= 20                   ? laszip_DECOMPRESS_SELECTIVE_POINT_SOURCE
+      : at >= 18                   ? laszip_DECOMPRESS_SELECTIVE_SCAN_ANGLE
+      : at == 17                   ? laszip_DECOMPRESS_SELECTIVE_USER_DATA
+      : at == 16                   ? laszip_DECOMPRESS_SELECTIVE_CLASSIFICATION
+      : at == 15                   ? laszip_DECOMPRESS_SELECTIVE_FLAGS
+      : at >= 14                   ? laszip_DECOMPRESS_SELECTIVE_CHANNEL_RETURNS_XY
+                                   : laszip_DECOMPRESS_SELECTIVE_INTENSITY;
+  }
+  return layers;
+}
+
 struct LASzipReader::Handle
 {
   Handle(std::vector<std::byte> beginning, ByteView chunk, const LASPointLayout& pointLayout)
@@ -173,7 +200,7 @@ LASzipReader& LASzipReader::operator=(LASzipReader&&) noexcept = default;
 LASzipReader::~LASzipReader() = default;
 
 Result<LASzipReader> LASzipReader::open(const LASFile& file, const LAZCompression& compression,
-  ByteView chunk, std::uint32_t points)
+  ByteView chunk, std::uint32_t points, std::uint32_t layers)
 {
   auto handle = std::make_unique<Handle>(
     composeLAZBeginning(file, compression, points), chunk, file.layout);
@@ -181,6 +208,10 @@ Result<LASzipReader> LASzipReader::open(const LASFile& file, const LAZCompressio
   if (laszip_create(&handle->laszip) != 0)
   {
     return makeError(Error::Kind::NoMemory, file.description.path + ": LASzip did not start");
+  }
+  if (layers != laszipAllLayers)
+  {
+    laszip_decompress_selective(handle->laszip, layers);
   }
   handle->opened =
     laszip_open_reader_stream(handle->laszip, handle->stream, &compressed) == 0;

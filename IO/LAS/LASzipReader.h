@@ -7,9 +7,15 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 namespace pointfront
 {
+
+/// Which layers of a layered chunk hold these columns: for LASzipReader::open().
+std::uint32_t laszipLayers(
+  const LASPointLayout& layout, const std::vector<std::uint32_t>& columns);
+constexpr std::uint32_t laszipAllLayers = 0xFFFFFFFFu;
 
 /// Decompresses one LAZ chunk through LASzip, point by point, into plain LAS records.
 /// LASzip sees a file that is made up for it: a clean beginning, then the bytes of the chunk, then
@@ -18,10 +24,10 @@ namespace pointfront
 class LASzipReader
 {
 public:
-  /// `chunk` is inside the file's map and outlives the reader; its codesCanBegin().
+  /// `chunk` outlives the reader; its codesCanBegin(). Columns of other `layers` have any values.
   /// Errors   Unsupported with LASzip's own words.
   static Result<LASzipReader> open(const LASFile& file, const LAZCompression& compression,
-    ByteView chunk, std::uint32_t points);
+    ByteView chunk, std::uint32_t points, std::uint32_t layers = laszipAllLayers);
 
   LASzipReader(LASzipReader&&) noexcept;
   LASzipReader& operator=(LASzipReader&&) noexcept;

@@ -1,7 +1,6 @@
 #include "LAZChunk.h"
 
 #include <algorithm>
-#include <vector>
 
 namespace pointfront
 {
@@ -10,9 +9,9 @@ namespace
 constexpr std::size_t numberBytes = sizeof(std::uint32_t);
 
 /// Bytes of a layered chunk in front of its layers: a point, the number of points, the sizes.
-std::uint64_t layeredHeadBytes(const LASFile& file, const LAZCompression& compression)
+std::size_t layeredHeadBytes(std::size_t pointBytes, const LAZCompression& compression)
 {
-  return file.header.pointBytes + numberBytes * (1 + compression.layers());
+  return pointBytes + numberBytes * (1 + compression.layers());
 }
 
 bool codeCanBegin(const std::byte* code, std::uint64_t bytes)
@@ -21,45 +20,61 @@ bool codeCanBegin(const std::byte* code, std::uint64_t bytes)
 }
 } // namespace
 
-LAZChunk parseLayeredChunk(const LASFile& file, const LAZCompression& compression,
-  std::uint64_t offset, std::uint64_t end)
+LAZChunk parseLayeredChunk(
+  ByteView bytes, std::size_t pointBytes, const LAZCompression& compression)
 {
-  const std::uint64_t head = layeredHeadBytes(file, compression);
-  if (end - offset < head)
+  const std::size_t head = layeredHeadBytes(pointBytes, compression);
+  if (bytes.size < head)
   {
     return {};
   }
-  const std::byte* number = file.bytes().data + offset + file.header.pointBytes;
+  const std::byte* number = bytes.data + pointBytes;
   const auto points = loadNumber<std::uint32_t>(number);
-  std::uint64_t bytes = head;
+  std::uint64_t needed = head;
   for (std::size_t layer = 0; layer < compression.layers(); ++layer)
   {
     number += numberBytes;
-    bytes += loadNumber<std::uint32_t>(number);
+    needed += loadNumber<std::uint32_t>(number);
   }
-  return bytes <= end - offset ? LAZChunk{ offset, bytes, points } : LAZChunk{};
+  return needed <= bytes.size ? LAZChunk{ 0, needed, points } : LAZChunk{};
+}
+
+LAZChunk parseLayeredChunk(const LASFile& file, const LAZCompression& compression,
+  std::uint64_t offset, std::uint64_t end)
+{
+  LAZChunk chunk = parseLayeredChunk(
+    { file.bytes().data + offset, static_cast<std::size_t>(end - offset) },
+    file.header.pointBytes, compression);
+  chunk.offset = chunk.bytes > 0 ? offset : 0;
+  return chunk;
+}
+
+bool codesCanBegin(ByteView bytes, std::size_t pointBytes, const LAZCompression& compression)
+{
+  const std::byte* size = bytes.data + pointBytes + numberBytes;
+  const std::byte* code = bytes.data + layeredHeadBytes(pointBytes, compression);
+  for (std::size_t layer = 0; layer < compression.layers(); ++layer, size += numberBytes)
+  {
+    const auto codeBytes = loadNumber<std::uint32_t>(size);
+    if (!codeCanBegin(code, codeBytes))
+    {
+      return false;
+    }
+    code += codeBytes;
+  }
+  return true;
 }
 
 bool codesCanBegin(const LASFile& file, const LAZCompression& compression, const LAZChunk& chunk)
 {
-  const std::byte* first = file.bytes().data + chunk.offset;
-  if (compression.scheme != LAZCompression::Scheme::Layered)
+  const ByteView bytes{ file.bytes().data + chunk.offset,
+    static_cast<std::size_t>(chunk.bytes) };
+  if (compression.scheme == LAZCompression::Scheme::Layered)
   {
-    const std::uint64_t point = std::min<std::uint64_t>(file.header.pointBytes, chunk.bytes);
-    return codeCanBegin(first + point, chunk.bytes - point);
+    return codesCanBegin(bytes, file.header.pointBytes, compression);
   }
-  const std::byte* size = first + file.header.pointBytes + numberBytes;
-  const std::byte* code = first + layeredHeadBytes(file, compression);
-  for (std::size_t layer = 0; layer < compression.layers(); ++layer, size += numberBytes)
-  {
-    const auto bytes = loadNumber<std::uint32_t>(size);
-    if (!codeCanBegin(code, bytes))
-    {
-      return false;
-    }
-    code += bytes;
-  }
-  return true;
+  const std::size_t point = std::min<std::size_t>(file.header.pointBytes, bytes.size);
+  return codeCanBegin(bytes.data + point, bytes.size - point);
 }
 
 } // namespace pointfront

@@ -193,6 +193,10 @@ int vtkPointFrontReader::RequestInformation(
       return 0;
     }
   }
+  for (const std::string& warning : this->Store->GetStore()->description().warnings)
+  {
+    vtkWarningMacro(<< this->Store->GetFileName() << ": " << warning);
+  }
   vtkInformation* output = outputs->GetInformationObject(0);
   double bounds[6];
   this->Store->GetBounds(bounds);

@@ -16,6 +16,11 @@
  * vtkPointFrontMapper give them.
  * An aborted update leaves an empty output.
  *
+ * Besides stores it opens whatever the process knows as a stored cloud: lists (`.pfronts`) and
+ * folders of stores as one cloud, and, with PointFront::IOLASIndex, indices of LAS files, COPC
+ * files, EPTs (`ept.json`) and folders of LAS and LAZ files at a glance. What differs among the
+ * parts of a cloud, or is left out, is a WarningEvent.
+ *
  * RequestInformation gives the bounds and array names of the whole cloud without reading points: of
  * several times, the bounds of the first and the arrays of all.
  * Pieces: the overview is cut by nodes. Errors (ErrorCode, vtkErrorMacro): no file name, a missing,

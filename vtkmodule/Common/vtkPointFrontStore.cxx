@@ -45,10 +45,12 @@ bool identify(const std::string& fileName, FileIdentity& identity, std::string& 
     error = "cannot open the store " + fileName + ": " + code.message() + "; check the path";
     return false;
   }
-  const auto bytes = std::filesystem::file_size(path, code);
+  const bool folder = std::filesystem::is_directory(path, code); // of tiles: no bytes of its own
+  const auto bytes = folder ? std::uintmax_t(0) : std::filesystem::file_size(path, code);
   if (code)
   {
-    error = "cannot open the store " + path.string() + ": " + code.message() + "; name a file";
+    error = "cannot open the store " + path.string() + ": " + code.message() +
+      "; name a file or a folder";
     return false;
   }
   const auto written = std::filesystem::last_write_time(path, code);

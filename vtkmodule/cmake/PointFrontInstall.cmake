@@ -54,8 +54,22 @@ install(FILES
 
 # The Python package: VTK's wrapping makes one extension module for each VTK module, this the rest.
 if (POINTFRONT_HOST STREQUAL "VTK" AND POINTFRONT_WRAP_PYTHON)
-  set(package "${CMAKE_CURRENT_SOURCE_DIR}/vtkmodule/Python/__init__.py")
-  configure_file("${package}"
-    "${CMAKE_BINARY_DIR}/${pointfront_python_folder}/pointfront/__init__.py" COPYONLY)
-  install(FILES "${package}" DESTINATION "${pointfront_python_folder}/pointfront" COMPONENT Runtime)
+  set(from "${CMAKE_CURRENT_SOURCE_DIR}/vtkmodule/Python")
+  set(to "${CMAKE_BINARY_DIR}/${pointfront_python_folder}/pointfront")
+  set(package_files _version.py)
+  configure_file("${from}/_version.py.in" "${to}/_version.py" @ONLY)
+  foreach (file IN ITEMS __init__.py __init__.pyi _calls.py _clouds.py py.typed)
+    configure_file("${from}/${file}" "${to}/${file}" COPYONLY)
+    list(APPEND package_files "${file}")
+  endforeach ()
+  list(TRANSFORM package_files PREPEND "${to}/")
+  install(FILES ${package_files} DESTINATION "${pointfront_python_folder}/pointfront"
+    COMPONENT Runtime)
+  if (POINTFRONT_BUILD_TESTING)
+    add_test(NAME "${POINTFRONT_TEST_PREFIX}Python.Package"
+      COMMAND "${CMAKE_COMMAND}" -E env
+        "PYTHONPATH=${CMAKE_BINARY_DIR}/${pointfront_python_folder}"
+        "POINTFRONT_SHARED_DATA=${POINTFRONT_SHARED_DATA}"
+        "${Python3_EXECUTABLE}" -B "${from}/Testing/test_package.py")
+  endif ()
 endif ()

@@ -1,7 +1,10 @@
 #include "vtkPointFrontLASIndexer.h"
 
 #include "IndexedLASFile.h"
+#include "COPCFile.h"
+#include "InterpreterPause.h"
 #include "LASIndexing.h"
+#include "LAZGlance.h"
 
 #include "pointfront/Store/StoredCloudFormats.h"
 
@@ -22,7 +25,10 @@ const bool registered = (vtkPointFrontLASIndexer::RegisterFormat(), true);
 
 void vtkPointFrontLASIndexer::RegisterFormat()
 {
-  pointfront::StoredCloudFormats::ofProcess().add(std::make_shared<pointfront::LASIndexFormat>());
+  pointfront::StoredCloudFormats& formats = pointfront::StoredCloudFormats::ofProcess();
+  formats.add(std::make_shared<pointfront::LASIndexFormat>());
+  formats.add(std::make_shared<pointfront::COPCFormat>());
+  formats.add(std::make_shared<pointfront::LAZGlanceFormat>());
 }
 
 vtkPointFrontLASIndexer::~vtkPointFrontLASIndexer()
@@ -48,17 +54,20 @@ bool vtkPointFrontLASIndexer::Index()
   options.overwrite = this->Overwrite;
   // Observers are called in the caller's thread only: what other threads report is left out.
   const std::thread::id caller = std::this_thread::get_id();
+  pointfront::InterpreterPause pause;
   const auto report = pointfront::indexLASFile(this->FileName, side, options,
-    [this, caller](const pointfront::Progress& progress)
+    [this, caller, &pause](const pointfront::Progress& progress)
     {
       if (std::this_thread::get_id() == caller)
       {
+        const pointfront::InterpreterPause::Resumed resumed(pause);
         double fraction = progress.fraction;
         this->InvokeEvent(vtkCommand::ProgressEvent, &fraction);
-        return !this->Abort;
+        return !this->Abort && !resumed.interrupted();
       }
       return true;
     });
+  const pointfront::InterpreterPause::Resumed resumed(pause);
   if (!report)
   {
     if (report.error().kind != pointfront::Error::Kind::Cancelled)

@@ -62,8 +62,8 @@ public:
   /// Points of the file that Index() read last.
   vtkGetMacro(NumberOfPoints, vtkIdType);
 
-  /// Lets every reader and mapper of this process open side files. Done when the module is loaded;
-  /// doing it again changes nothing.
+  /// Lets every reader and mapper of this process open side files, COPC files, and folders of LAS
+  /// and LAZ files at a glance. Done when the module is loaded; doing it again changes nothing.
   static void RegisterFormat();
 
 protected:

@@ -451,4 +451,29 @@ TEST(Reader, SeveralStoresAreTimeSteps)
   EXPECT_NE(errors->GetErrorMessage().find("gone.pfront"), std::string::npos);
 }
 
+TEST(Reader, AListOfStoresIsOneCloud)
+{
+  storeOf("tile_a", 2000);
+  storeOf("tile_b", 3000);
+  const std::string list = ::testing::TempDir() + "tiles.pfronts";
+  std::ofstream(list) << "tile_a.pfront\ntile_b.pfront\n";
+  EXPECT_EQ(vtkPointFrontReader::CanReadFile(list.c_str()), 1);
+  vtkNew<vtkPointFrontReader> reader;
+  reader->SetFileName(list.c_str());
+  reader->SetOverviewPoints(1000000);
+  reader->Update();
+  ASSERT_NE(reader->GetStore(), nullptr);
+  EXPECT_EQ(reader->GetStore()->GetNumberOfPoints(), 5000);
+  ASSERT_EQ(reader->GetOutput()->GetNumberOfPoints(), 5000);
+  std::set<vtkIdType> ranks;
+  auto* ids = vtkIdTypeArray::SafeDownCast(reader->GetOutput()->GetPointData()->GetGlobalIds());
+  ASSERT_NE(ids, nullptr);
+  for (vtkIdType i = 0; i < ids->GetNumberOfValues(); ++i)
+  {
+    ranks.insert(ids->GetValue(i));
+  }
+  EXPECT_EQ(ranks.size(), 5000u);
+  EXPECT_EQ(*ranks.rbegin(), 4999);
+}
+
 } // namespace

@@ -1,5 +1,9 @@
 #include "pointfront/Build/OpenedInputs.h"
 
+#include "pointfront/Export/OutputTarget.h"
+
+#include <algorithm>
+
 namespace pointfront
 {
 namespace
@@ -26,6 +30,28 @@ Result<std::unique_ptr<PointSource>> opened(const std::string& path, const Point
     }
   }
   return source;
+}
+
+/// Sources that refer to a file which another one reads: an index and its LAS file.
+std::vector<Error> readTwice(const PointSources& sources)
+{
+  std::vector<Error> faults;
+  for (const auto& source : sources)
+  {
+    const SourceDescription& description = source->description();
+    const auto reads = [&description](const std::unique_ptr<PointSource>& other)
+    {
+      return other->description().furtherFiles.empty() &&
+        sameFile(other->description().path, description.path);
+    };
+    if (!description.furtherFiles.empty() && std::any_of(sources.begin(), sources.end(), reads))
+    {
+      faults.push_back(makeError(Error::Kind::BadArgument,
+        description.furtherFiles.front() + ": stands for '" + description.path +
+          "', which is an input too; name one of them, or each point is stored twice"));
+    }
+  }
+  return faults;
 }
 } // namespace
 
@@ -87,6 +113,10 @@ Result<OpenedInputs> openInputs(const std::vector<std::string>& paths,
     }
     faults.push_back(source.error());
     inputs.skipped.push_back(inputFault(path, source.error()));
+  }
+  if (const std::vector<Error> twice = readTwice(inputs.sources); !twice.empty())
+  {
+    return faultyInputs(twice, paths.size()); // which one is to skip, nobody can know
   }
   if (!faults.empty() && (onFault == OnFault::Stop || inputs.sources.empty()))
   {

@@ -2,6 +2,7 @@
 
 #include "pointfront/Base/CpuClock.h"
 #include "pointfront/Build/BuildStorage.h"
+#include "pointfront/Build/CommonRadii.h"
 #include "pointfront/Build/CommonSchema.h"
 #include "pointfront/Build/GridChoice.h"
 #include "pointfront/Build/MeanRecord.h"
@@ -207,7 +208,10 @@ ColumnGuess StoreBuild::columnGuess() const
 {
   ColumnGuess guess;
   const auto colour = wideColourColumn(common_.schema);
-  guess.mayBeNarrow = options_.colourDepth != ColourDepth::Sixteen;
+  const bool deep = options_.colourDepth == ColourDepth::ByFile &&
+    std::any_of(sources_.begin(), sources_.end(),
+      [](const auto& source) { return source->description().deepColours; });
+  guess.mayBeNarrow = options_.colourDepth != ColourDepth::Sixteen && !deep;
   for (std::size_t c = 0; c < common_.schema.size(); ++c)
   {
     // Means of equal values are these values, where sums are exact; not of normals.
@@ -455,7 +459,7 @@ try
   std::vector<bool> widened(sources_.size(), false);
   for (std::size_t s = 0; s < sources_.size(); ++s)
   {
-    widened[s] = prepared_.widening && hasNarrowColours(points_, s);
+    widened[s] = prepared_.widening && hasNarrowColours(sources_, points_, s);
   }
   const std::vector<std::byte> sample =
     sampleRecords(watch_->sample(), {common_, columns_, space_}, prepared_.widening, widened);
@@ -565,7 +569,14 @@ Result<BuildReport> buildStore(const std::vector<std::unique_ptr<PointSource>>& 
   {
     return done.error();
   }
-  return StoreBuild(sources, options, progress, watch).run();
+  const CommonRadii radii = commonRadii(sources);
+  const Sources& agreeing = radii.sources.empty() ? sources : radii.sources;
+  Result<BuildReport> report = StoreBuild(agreeing, options, progress, watch).run();
+  if (report)
+  {
+    append(report->warnings, radii.warnings);
+  }
+  return report;
 }
 
 } // namespace pointfront

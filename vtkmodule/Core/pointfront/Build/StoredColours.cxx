@@ -5,9 +5,11 @@
 namespace pointfront
 {
 
-bool hasNarrowColours(const IngestedPoints& points, std::size_t source)
+bool hasNarrowColours(const std::vector<std::unique_ptr<PointSource>>& sources,
+  const IngestedPoints& points, std::size_t source)
 {
-  return points.largestColour[source] > 0 && points.largestColour[source] <= 255;
+  return points.largestColour[source] > 0 && points.largestColour[source] <= 255 &&
+    !sources[source]->description().deepColours;
 }
 
 Result<StoredColours> storedColours(const std::vector<std::unique_ptr<PointSource>>& sources,
@@ -26,8 +28,12 @@ Result<StoredColours> storedColours(const std::vector<std::unique_ptr<PointSourc
   }
   StoredColours stored;
   const auto column = wideColourColumn(common.schema);
-  const bool wide = depth == ColourDepth::Sixteen ||
-                    std::any_of(largest.begin(), largest.end(), [](auto v) { return v > 255; });
+  bool wide = depth == ColourDepth::Sixteen;
+  for (std::size_t s = 0; s < sources.size(); ++s)
+  {
+    wide = wide || largest[s] > 255 ||
+      (depth == ColourDepth::ByFile && sources[s]->description().deepColours && largest[s] > 0);
+  }
   if (!column || wide)
   {
     stored.schema = common.schema;
@@ -51,7 +57,7 @@ Result<StoredColours> storedColours(const std::vector<std::unique_ptr<PointSourc
   std::uint64_t begin = 0;
   for (std::size_t s = 0; s < sources.size(); ++s)
   {
-    if (hasNarrowColours(points, s))
+    if (hasNarrowColours(sources, points, s))
     {
       stored.widening->runs.push_back({begin, points.sourceEnd[s] - begin});
     }

@@ -18,7 +18,8 @@ struct StoredColours
 };
 
 /// Whether the 16-bit colours of a source hold 8 bits.
-bool hasNarrowColours(const IngestedPoints& points, std::size_t source);
+bool hasNarrowColours(const std::vector<std::unique_ptr<PointSource>>& sources,
+  const IngestedPoints& points, std::size_t source);
 
 /// 16-bit colours become 8-bit if all fit; if only those of some files do, these are widened.
 /// Error  BadArgument when 8 bits are asked for and a colour needs more, with the file.

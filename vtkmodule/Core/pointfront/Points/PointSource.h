@@ -55,6 +55,11 @@ struct SourceDescription
   /// declaredBounds are not from a header, but of points that were looked at when the source was
   /// opened: all or some.
   bool boundsLookedUp = false;
+  std::vector<std::string> furtherFiles; ///< that it reads besides `path`
+  /// Points come in the order of a tree, not as they were scanned.
+  bool inTreeOrder = false;
+  /// 16-bit colours have 16 bits, however small the largest is: who stored them has decided that.
+  bool deepColours = false;
 
   /// From where a chunk was seen; none if that is not known.
   const glm::dvec3* scanner(std::uint64_t chunk) const
@@ -97,7 +102,9 @@ inline std::vector<std::string> pathsOf(const std::vector<std::unique_ptr<PointS
   std::vector<std::string> paths;
   for (const auto& source : sources)
   {
-    paths.push_back(source->description().path);
+    const SourceDescription& description = source->description();
+    paths.push_back(description.path);
+    paths.insert(paths.end(), description.furtherFiles.begin(), description.furtherFiles.end());
   }
   return paths;
 }

@@ -83,6 +83,8 @@ struct FetchedNode
   std::vector<RawBytes> runs; ///< their meaning is the reader's
   std::size_t bytesRead = 0;  ///< from the disk
   Node row{};                 ///< of the node table
+  /// Instead of runs: what a cloud that is made of others has fetched from one of them.
+  std::shared_ptr<const FetchedNode> inner = nullptr;
 };
 
 /// Where nodes come from: a store, or a made-up one in tests. In two steps, so that the disk serves

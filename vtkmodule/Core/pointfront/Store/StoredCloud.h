@@ -44,7 +44,7 @@ struct StoreDescription
   Bounds bounds; ///< tight, of the stored points
   QuantisationGrid grid;
   std::string crsWkt;
-  std::string structure;   ///< "octree", "kdtree", "inplace"
+  std::string structure;   ///< "octree", "kdtree", "inplace", "tiles", "sample"
   Refinement refinement = Refinement::Add;
   std::uint32_t levels = 0;
   AttributeSchema schema;
@@ -55,6 +55,9 @@ struct StoreDescription
   /// Of the codes in the column `splat_radius` (SplatRadius.h), world units; 0 where the store has
   /// none.
   double splatRadiusBase = 0.0;
+  /// Of a cloud that is made of others, or is a part of one: what differs or is left out. Full
+  /// sentences.
+  std::vector<std::string> warnings;
 };
 
 struct VerifyReport

@@ -1,6 +1,7 @@
 #include "pointfront/Store/StoredCloudFormats.h"
 
 #include "pointfront/Store/PointStore.h"
+#include "pointfront/Tiles/TileFormat.h"
 
 #include <algorithm>
 #include <mutex>
@@ -35,6 +36,7 @@ StoredCloudFormats& StoredCloudFormats::ofProcess()
 StoredCloudFormats::StoredCloudFormats()
 {
   formats_.push_back(std::make_shared<StoreFile>());
+  formats_.push_back(std::make_shared<TileFormat>());
 }
 
 void StoredCloudFormats::add(std::shared_ptr<const StoredCloudFormat> format)

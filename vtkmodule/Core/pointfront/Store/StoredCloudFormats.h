@@ -17,7 +17,8 @@ namespace pointfront
 class StoredCloudFormats
 {
 public:
-  /// The one of this process. It knows our stores from the beginning.
+  /// The one of this process. It knows our stores, and lists and folders of stored clouds, from
+  /// the beginning.
   static StoredCloudFormats& ofProcess();
 
   StoredCloudFormats();
@@ -37,7 +38,7 @@ private:
   std::shared_ptr<const StoredCloudFormat> formatOf(const std::string& path) const;
 
   mutable std::shared_mutex mutex_;
-  std::vector<std::shared_ptr<const StoredCloudFormat>> formats_; ///< our stores first
+  std::vector<std::shared_ptr<const StoredCloudFormat>> formats_; ///< our own first
 };
 
 } // namespace pointfront

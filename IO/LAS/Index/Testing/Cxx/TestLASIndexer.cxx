@@ -113,4 +113,29 @@ TEST_F(LASIndexer, AnObserverCanAbort)
   EXPECT_FALSE(indexer_->Index());
   EXPECT_FALSE(fs::exists(las_ + ".pfindex"));
 }
+
+TEST_F(LASIndexer, LoadingItOpensTreesOfOthersAndFolders)
+{
+  int warnings = 0;
+  vtkNew<vtkCallbackCommand> counter;
+  counter->SetClientData(&warnings);
+  counter->SetCallback(
+    [](vtkObject*, unsigned long, void* count, void*) { ++*static_cast<int*>(count); });
+  const auto pointsOf = [&](const std::string& path)
+  {
+    EXPECT_EQ(vtkPointFrontReader::CanReadFile(path.c_str()), 1) << path;
+    vtkNew<vtkPointFrontReader> reader;
+    reader->AddObserver(vtkCommand::WarningEvent, counter);
+    reader->SetFileName(path.c_str());
+    reader->SetOverviewPoints(1000);
+    reader->Update();
+    EXPECT_GT(reader->GetOutput()->GetNumberOfPoints(), 0) << path;
+    return reader->GetStore() ? reader->GetStore()->GetNumberOfPoints() : 0;
+  };
+  EXPECT_EQ(pointsOf(POINTFRONT_SHARED_DATA "/copc/1.2-with-color.copc.laz"), 1065);
+  EXPECT_EQ(pointsOf(POINTFRONT_SHARED_DATA "/ept/lone-star-laszip/ept.json"), 518862);
+  EXPECT_EQ(warnings, 0);
+  EXPECT_EQ(pointsOf(folder_), 3); // a LAS file of 110,000 points at a glance
+  EXPECT_EQ(warnings, 1);
+}
 } // namespace

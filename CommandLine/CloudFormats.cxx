@@ -1,0 +1,34 @@
+#include "CloudFormats.h"
+
+#include "COPCFile.h"
+#include "EPTTree.h"
+#include "IndexedLASFile.h"
+#include "LASFormat.h"
+#include "LAZGlance.h"
+
+#include "pointfront/Store/StoredCloudFormats.h"
+
+#include <memory>
+#include <string>
+
+namespace pointfront
+{
+
+namespace
+{
+/// When the library is loaded.
+const bool added = (addCloudFormats(), true);
+} // namespace
+
+void addCloudFormats()
+{
+  static_cast<void>(added);
+  StoredCloudFormats& formats = StoredCloudFormats::ofProcess();
+  formats.add(std::make_shared<LASIndexFormat>());
+  formats.add(std::make_shared<COPCFormat>());
+  formats.add(std::make_shared<EPTTreeFormat>(
+    [](const std::string& path) { return LASFormat().open(path); }));
+  formats.add(std::make_shared<LAZGlanceFormat>()); // last: a folder with nothing better in it
+}
+
+} // namespace pointfront

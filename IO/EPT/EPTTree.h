@@ -1,0 +1,36 @@
+#pragma once
+
+#include "EPTFormat.h"
+
+#include "pointfront/Store/StoredCloud.h"
+
+#include <memory>
+#include <string>
+#include <utility>
+
+namespace pointfront
+{
+
+/// Entwine trees as stored clouds, by their ept.json or its folder: drawn, queried and exported as
+/// they are.
+/// Opening  of laszip nodes reads the hierarchy and one node; of binary and zstandard ones every
+///          node is looked through once for the values of its attributes.
+/// Disk     the file of a node is read by fetch(); decode() opens it once more, from the disk
+///          cache.
+class EPTTreeFormat final : public StoredCloudFormat
+{
+public:
+  explicit EPTTreeFormat(EPTFormat::Opener openNode)
+    : openNode_(std::move(openNode))
+  {
+  }
+  std::string name() const override { return "EPT"; }
+  bool accepts(const std::string& path) const override;
+  /// Errors  those of EPTFormat and ForeignTree; BadFormat: no cube.
+  Result<std::shared_ptr<const StoredCloud>> open(const std::string& path) const override;
+
+private:
+  EPTFormat::Opener openNode_;
+};
+
+} // namespace pointfront

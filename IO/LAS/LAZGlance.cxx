@@ -1,0 +1,327 @@
+#include "LAZGlance.h"
+
+#include "LASFile.h"
+#include "LASPointDecoder.h"
+#include "LAZChunkTable.h"
+#include "LAZCompression.h"
+
+#include "pointfront/Build/CommonSchema.h"
+#include "pointfront/Build/GridChoice.h"
+#include "pointfront/Build/ReferenceSystem.h"
+#include "pointfront/InPlace/ForeignTree.h"
+#include "pointfront/Points/AttributePass.h"
+#include "pointfront/Threads/ThreadCrew.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <filesystem>
+#include <optional>
+#include <utility>
+
+namespace pointfront
+{
+namespace
+{
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t pointsApart = 50000; ///< in LAS files: as the chunks of LAZ
+
+/// What was taken of one file.
+class GlancedFile final : public PointSource
+{
+public:
+  GlancedFile(SourceDescription description, PointBatch points)
+    : description_(std::move(description))
+    , points_(std::move(points))
+  {
+  }
+  const PointBatch& points() const { return points_; }
+  const SourceDescription& description() const override { return description_; }
+  std::uint64_t chunkCount() const override { return 1; }
+  std::uint64_t chunkPoints(std::uint64_t) const override { return points_.size(); }
+  Result<void> read(std::uint64_t, PointBatch& batch) const override
+  {
+    batch = points_;
+    return {};
+  }
+
+private:
+  SourceDescription description_;
+  PointBatch points_;
+};
+
+/// Byte offsets of records that lie in the file as they are.
+Result<std::vector<std::uint64_t>> plainRecords(LASFile& file)
+{
+  std::vector<std::uint64_t> offsets;
+  if (!file.header.compressed)
+  {
+    if (Result<void> counted = file.countRecords(); !counted)
+    {
+      return counted.error();
+    }
+    for (std::uint64_t i = 0; i < file.description.pointCount; i += pointsApart)
+    {
+      offsets.push_back(file.header.pointOffset + i * file.header.pointBytes);
+    }
+    return offsets;
+  }
+  const Result<LAZCompression> compression = LAZCompression::of(file);
+  if (!compression)
+  {
+    return compression.error();
+  }
+  const Result<std::vector<LAZChunk>> chunks =
+    findLAZChunks(file, *compression, file.description.warnings);
+  if (!chunks)
+  {
+    return chunks.error();
+  }
+  for (const LAZChunk& chunk : *chunks)
+  {
+    if (chunk.offset + file.header.pointBytes <= file.map.size())
+    {
+      offsets.push_back(chunk.offset);
+    }
+  }
+  return offsets;
+}
+
+Result<std::unique_ptr<PointSource>> glanceAt(const std::string& path, std::size_t mostPoints)
+{
+  Result<LASFile> file = LASFile::open(path, MemoryMap::Access::Random);
+  if (!file)
+  {
+    return file.error();
+  }
+  const Result<std::vector<std::uint64_t>> offsets = plainRecords(*file);
+  if (!offsets)
+  {
+    return offsets.error();
+  }
+  const std::size_t step = 1 + offsets->size() / std::max<std::size_t>(1, mostPoints);
+  PointBatch points;
+  points.resize((offsets->size() + step - 1) / step, file->layout.schema);
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    decodeLASPoints(file->layout, file->header.grid,
+      file->bytes().data + (*offsets)[i * step], 1, points, i);
+  }
+  SourceDescription description = file->description;
+  description.declaredBounds = Bounds();
+  for (const glm::dvec3& p : points.positions)
+  {
+    description.declaredBounds.add(p);
+  }
+  return std::unique_ptr<PointSource>(
+    std::make_unique<GlancedFile>(std::move(description), std::move(points)));
+}
+
+/// All points in the memory of this process.
+class GlancedPoints final : public ForeignNodes
+{
+public:
+  GlancedPoints(PointBatch points, std::vector<std::string> files)
+    : points_(std::move(points))
+    , files_(std::move(files))
+  {
+  }
+  Result<RawBytes> fetch(std::uint64_t) const override { return RawBytes(0); }
+  std::size_t storedBytes(std::uint64_t) const override { return 0; }
+  Result<void> decode(const Part&, const RawBytes&, PointBatch& batch) const override
+  {
+    batch = points_;
+    return {};
+  }
+  std::vector<std::string> files() const override { return files_; }
+
+private:
+  PointBatch points_;
+  std::vector<std::string> files_;
+};
+
+/// The points of all files in the columns of all.
+PointBatch joined(const PointSources& files, const CommonSchema& common)
+{
+  PointBatch all;
+  all.columns.resize(common.schema.size());
+  for (std::size_t f = 0; f < files.size(); ++f)
+  {
+    const PointBatch& own = static_cast<const GlancedFile&>(*files[f]).points();
+    const AttributeSchema& schema = files[f]->description().schema;
+    all.positions.insert(all.positions.end(), own.positions.begin(), own.positions.end());
+    for (std::size_t c = 0; c < common.schema.size(); ++c)
+    {
+      const Attribute& attribute = common.schema[c];
+      const ColumnMapping& mapping = common.mappings[f][c];
+      std::vector<std::byte> values(own.size() * attribute.bytes());
+      if (mapping.column && mapping.converted)
+      {
+        convertColumn(schema[*mapping.column], own.columns[*mapping.column].data(), attribute,
+          values.data(), own.size());
+      }
+      else if (mapping.column)
+      {
+        values = own.columns[*mapping.column];
+      }
+      all.columns[c].insert(all.columns[c].end(), values.begin(), values.end());
+    }
+  }
+  return all;
+}
+
+Result<PointSources> glanceAtAll(
+  const std::string& path, const std::vector<std::string>& files, std::size_t mostPoints)
+{
+  std::vector<Result<std::unique_ptr<PointSource>>> glances;
+  for (std::size_t i = 0; i < files.size(); ++i)
+  {
+    glances.emplace_back(makeError(Error::Kind::NotFound, files[i]));
+  }
+  const std::size_t each = std::max<std::size_t>(1, mostPoints / files.size());
+  ThreadCrew::ofProcess().run(files.size(),
+    [&](std::size_t i, unsigned) { glances[i] = glanceAt(files[i], each); });
+  PointSources sources;
+  std::size_t faulty = 0;
+  std::optional<Error> first;
+  for (auto& glance : glances)
+  {
+    if (!glance)
+    {
+      ++faulty;
+      first = first ? first : glance.error();
+      continue;
+    }
+    sources.push_back(std::move(*glance));
+  }
+  if (faulty > 0)
+  {
+    return makeError(first->kind, path + ": " + std::to_string(faulty) + " of " +
+        std::to_string(files.size()) + " files cannot be looked at: " + first->what);
+  }
+  return sources;
+}
+
+std::string extensionOf(const fs::path& path)
+{
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+Result<std::vector<std::string>> lasFilesBelow(const std::string& folder)
+{
+  std::vector<std::string> files;
+  std::error_code failure;
+  fs::recursive_directory_iterator entry(folder, failure);
+  for (; !failure && entry != fs::recursive_directory_iterator(); entry.increment(failure))
+  {
+    std::error_code vanished;
+    const std::string extension = extensionOf(entry->path());
+    if ((extension == ".las" || extension == ".laz") && entry->is_regular_file(vanished))
+    {
+      files.push_back(entry->path().string());
+    }
+  }
+  if (failure)
+  {
+    return makeError(
+      Error::Kind::Unreadable, folder + ": cannot list the folder: " + failure.message());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+double spacingOf(const Bounds& bounds, std::size_t points)
+{
+  const glm::dvec3 size = bounds.size();
+  const double area = std::max({ size.x * size.y, size.x * size.z, size.y * size.z });
+  return std::sqrt(area / static_cast<double>(points));
+}
+} // namespace
+
+Result<std::shared_ptr<const StoredCloud>> glanceAtLAS(
+  const std::string& path, const std::vector<std::string>& files, std::size_t mostPoints)
+{
+  if (files.empty())
+  {
+    return makeError(Error::Kind::NotFound, path + ": holds no LAS or LAZ file");
+  }
+  const Result<PointSources> glances = glanceAtAll(path, files, mostPoints);
+  if (!glances)
+  {
+    return glances.error();
+  }
+  const Result<CommonSchema> common = commonSchema(*glances, std::nullopt);
+  const Result<ReferenceSystem> system = commonReferenceSystem(*glances);
+  const Result<GridChoice> grid = chooseGrid(*glances, std::nullopt);
+  if (!common || !grid)
+  {
+    return !common ? common.error() : grid.error();
+  }
+  PointBatch points = joined(*glances, *common);
+  if (points.size() == 0)
+  {
+    return makeError(Error::Kind::NotFound, path + ": its files hold no points");
+  }
+  ForeignTreeContent content;
+  SourceDescription& source = content.source;
+  const SourceDescription& first = glances->front()->description();
+  source.path = path;
+  source.format = "glance at " + first.format;
+  source.grid = grid->grid;
+  source.schema = common->schema;
+  source.crsWkt = first.crsWkt;
+  source.metadata = first.metadata;
+  std::uint64_t all = 0;
+  for (const auto& glance : *glances)
+  {
+    all += glance->description().pointCount;
+  }
+  for (const glm::dvec3& p : points.positions)
+  {
+    source.declaredBounds.add(p);
+  }
+  source.warnings.push_back("A first look: " + std::to_string(points.size()) + " of " +
+    std::to_string(all) + " points, one of each chunk of " + std::to_string(files.size()) +
+    " files; build a store of them to see all.");
+  if (!system)
+  {
+    source.warnings.push_back(system.error().what + ".");
+  }
+  for (const std::string& file : files)
+  {
+    std::error_code failure;
+    const std::uintmax_t bytes = fs::file_size(file, failure);
+    content.fileBytes += failure ? 0 : bytes;
+  }
+  const glm::dvec3 size = source.declaredBounds.size();
+  content.low = source.declaredBounds.low;
+  content.side = std::max(
+    { size.x, size.y, size.z, grid->grid.scale.x, grid->grid.scale.y, grid->grid.scale.z });
+  content.spacing = spacingOf(source.declaredBounds, points.size());
+  content.nodes.push_back({ 0, 0, 0, 0, static_cast<std::uint32_t>(points.size()), 0 });
+  content.reader = std::make_shared<const GlancedPoints>(std::move(points), files);
+  return ForeignTree::make(std::move(content));
+}
+
+bool LAZGlanceFormat::accepts(const std::string& path) const
+{
+  std::error_code failure;
+  if (!fs::is_directory(path, failure) || fs::exists(fs::path(path) / "ept.json", failure))
+  {
+    return false;
+  }
+  const Result<std::vector<std::string>> files = lasFilesBelow(path);
+  return files && !files->empty();
+}
+
+Result<std::shared_ptr<const StoredCloud>> LAZGlanceFormat::open(const std::string& path) const
+{
+  const Result<std::vector<std::string>> files = lasFilesBelow(path);
+  return files ? glanceAtLAS(path, *files) : files.error();
+}
+
+} // namespace pointfront

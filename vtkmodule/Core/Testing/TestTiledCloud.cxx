@@ -1,0 +1,236 @@
+#include "StoreBuildTest.h"
+
+#include "pointfront/Front/NodePruning.h"
+#include "pointfront/Query/BoxRegion.h"
+#include "pointfront/Query/QueryPlan.h"
+#include "pointfront/Store/StoredCloudFormats.h"
+#include "pointfront/Tiles/TileFormat.h"
+#include "pointfront/Tiles/TiledCloud.h"
+
+#include <map>
+#include <set>
+
+namespace pointfront
+{
+namespace
+{
+using namespace pointfront::test;
+namespace fs = std::filesystem;
+
+class Tiled : public StoreBuildTest
+{
+protected:
+  void SetUp() override
+  {
+    StoreBuildTest::SetUp();
+    options_.nodePoints = 64;
+  }
+  std::string at(const std::string& name) const { return (folder_ / name).string(); }
+
+  std::string store(const std::string& name, std::unique_ptr<CloudSource> cloud)
+  {
+    options_.outputPath = at(name);
+    const auto report = buildStore(one(std::move(cloud)), options_);
+    EXPECT_TRUE(report) << report.error().what;
+    return options_.outputPath;
+  }
+  /// 500 points of 16 m by 16 m, whose ids begin with `first`.
+  std::unique_ptr<CloudSource> tile(
+    std::uint32_t first, double x, const QuantisationGrid& grid = millimetres())
+  {
+    auto cloud = std::make_unique<CloudSource>("tile", idSchema(), grid);
+    Random random(first + 1);
+    for (std::uint32_t i = 0; i < 500; ++i)
+    {
+      const glm::dvec3 p{ x + 16.0 * random.uniform(), 16.0 * random.uniform(),
+        random.uniform() };
+      cloud->addPosition(grid.toWorld(grid.toGrid(p)));
+      cloud->addValue(0, first + i);
+      cloud->addValue(1, static_cast<std::uint16_t>(first + i));
+      expected_[first + i] = cloud->positions().back();
+    }
+    return cloud;
+  }
+  std::shared_ptr<const StoredCloud> opened(const std::string& path) const
+  {
+    auto cloud = StoredCloudFormats::ofProcess().open(path);
+    EXPECT_TRUE(cloud) << cloud.error().what;
+    return cloud ? *cloud : nullptr;
+  }
+  std::string list(const std::string& text) const
+  {
+    std::ofstream(at("all.pfronts")) << text;
+    return at("all.pfronts");
+  }
+
+  /// Every point of the query by its id; ranks must be told apart and ascend.
+  std::map<std::uint32_t, glm::dvec3> points(
+    const StoredCloud& cloud, const PointQuery& query = {}) const
+  {
+    std::map<std::uint32_t, glm::dvec3> found;
+    std::uint64_t behind = 0;
+    const auto report = queryPoints(cloud, query, {}, [&](QueryBatch& batch) -> Result<void> {
+      for (std::size_t i = 0; i < batch.size(); ++i)
+      {
+        EXPECT_GE(batch.ids[i], behind);
+        behind = batch.ids[i] + 1;
+        std::uint32_t id = 0;
+        std::memcpy(&id, batch.points.columns[0].data() + 4 * i, 4);
+        EXPECT_TRUE(found.emplace(id, batch.points.positions[i]).second) << id << " twice";
+      }
+      return {};
+    });
+    EXPECT_TRUE(report) << report.error().what;
+    return found;
+  }
+
+  std::map<std::uint32_t, glm::dvec3> expected_;
+};
+
+void expectSoundTable(const Hierarchy& table)
+{
+  std::uint64_t points = 0;
+  std::set<NodeIndex> roots(table.roots().begin(), table.roots().end());
+  for (NodeIndex i = 0; i < table.nodeCount(); ++i)
+  {
+    const Node row = table.node(i);
+    EXPECT_EQ(row.firstPoint, points);
+    points += row.pointCount;
+    EXPECT_EQ(row.parent == noNode, roots.count(i) == 1);
+    for (std::uint8_t c = 0; c < row.childCount; ++c)
+    {
+      const Node child = table.childOf(i, row, c);
+      EXPECT_EQ(child.parent, i);
+      EXPECT_EQ(child.level, row.level + 1);
+      EXPECT_EQ(child.firstPoint, table.node(row.firstChild + c).firstPoint);
+      Node peeked;
+      ASSERT_EQ(table.peekChild(i, row, c, peeked), RowState::Here);
+      EXPECT_EQ(peeked.firstPoint, child.firstPoint);
+    }
+  }
+}
+
+TEST_F(Tiled, ThreeStoresAreOneCloud)
+{
+  store("a.pfront", tile(0, 0.0));
+  store("b.pfront", tile(1000, 16.0));
+  options_.structure = Structure::KdTree;
+  store("c.pfront", tile(2000, 32.0));
+  const auto cloud = opened(list("# tiles\na.pfront\n\n  b.pfront \r\nc.pfront\na.pfront\n"));
+  ASSERT_TRUE(cloud);
+  EXPECT_EQ(cloud->description().pointCount, 1500u);
+  EXPECT_EQ(cloud->description().layers.size(), 1u);
+  EXPECT_TRUE(cloud->description().warnings.empty());
+  EXPECT_EQ(cloud->hierarchy()->roots().size(), 3u);
+  expectSoundTable(*cloud->hierarchy());
+  EXPECT_EQ(points(*cloud), expected_);
+  EXPECT_TRUE(cloud->verify()->ok);
+  EXPECT_EQ(cloud->verify()->pointsChecked, 1500u);
+  EXPECT_EQ(cloud->files().size(), 4u);
+
+  PointQuery query;
+  query.regions = { *BoxRegion::make({ { 10.0, 3.0, -1.0 }, { 40.0, 12.0, 2.0 } }) };
+  query.attributes = { { "id" } };
+  std::map<std::uint32_t, glm::dvec3> inside;
+  for (const auto& [id, p] : expected_)
+  {
+    if (p.x >= 10.0 && p.x <= 40.0 && p.y >= 3.0 && p.y <= 12.0)
+    {
+      inside.emplace(id, p);
+    }
+  }
+  EXPECT_EQ(points(*cloud, query), inside);
+}
+
+TEST_F(Tiled, AFolderIsItsStores)
+{
+  fs::create_directories(folder_ / "deeper");
+  store("b.pfront", tile(0, 0.0));
+  store("deeper/a.pfront", tile(1000, 16.0));
+  std::ofstream(at("notes.txt")) << "notes";
+  const auto cloud = opened(folder_.string());
+  ASSERT_TRUE(cloud);
+  EXPECT_EQ(points(*cloud), expected_);
+  fs::create_directories(folder_ / "empty");
+  EXPECT_FALSE(StoredCloudFormats::ofProcess().open(at("empty")));
+}
+
+TEST_F(Tiled, GridsApartByWholeStepsLoseNothing)
+{
+  store("a.pfront", tile(0, 0.0, millimetres({ 5.0, -7.25, 0.0 })));
+  store("b.pfront", tile(1000, 16.0, { glm::dvec3(0.01), glm::dvec3(0.003) }));
+  const auto cloud = opened(folder_.string());
+  ASSERT_TRUE(cloud);
+  EXPECT_TRUE(cloud->description().warnings.empty());
+  const auto found = points(*cloud);
+  ASSERT_EQ(found.size(), expected_.size());
+  for (const auto& [id, p] : expected_)
+  {
+    EXPECT_LT(glm::length(found.at(id) - p), 1e-9) << id;
+  }
+}
+
+TEST_F(Tiled, OtherGridsAreRoundedAndToldSo)
+{
+  store("a.pfront", tile(0, 0.0));
+  store("b.pfront", tile(1000, 16.0, { glm::dvec3(0.0015), glm::dvec3(0.0) }));
+  const auto cloud = opened(folder_.string());
+  ASSERT_TRUE(cloud);
+  ASSERT_EQ(cloud->description().warnings.size(), 1u);
+  EXPECT_NE(cloud->description().warnings[0].find("1 of 2 stores"), std::string::npos);
+  for (const auto& [id, p] : points(*cloud))
+  {
+    EXPECT_LE(glm::length(p - expected_.at(id)), 0.0005 * 1.7321) << id;
+  }
+}
+
+TEST_F(Tiled, WhatDiffersIsTold)
+{
+  auto withSystem = tile(0, 0.0);
+  withSystem->editDescription().crsWkt = "LOCAL_CS[\"one\"]";
+  store("a.pfront", std::move(withSystem));
+  auto other = tile(1000, 16.0);
+  other->editDescription().crsWkt = "LOCAL_CS[\"other\"]";
+  options_.attributes = { { "id" } };
+  store("b.pfront", std::move(other));
+  const auto cloud = opened(folder_.string());
+  ASSERT_TRUE(cloud);
+  std::string told;
+  for (const std::string& warning : cloud->description().warnings)
+  {
+    told += warning + "\n";
+  }
+  EXPECT_NE(told.find("1 of 2 stores lack intensity"), std::string::npos) << told;
+  EXPECT_NE(told.find("another coordinate reference system"), std::string::npos) << told;
+  PointQuery query;
+  query.where = FilterExpression::parse("intensity > 0").value();
+  EXPECT_EQ(points(*cloud, query).size(), 499u); // the first point has 0, like all of b
+}
+
+TEST_F(Tiled, SubsetsAndRepresentativesDoNotMix)
+{
+  store("a.pfront", tile(0, 0.0));
+  options_.refinement = Refinement::Replace;
+  store("b.pfront", tile(1000, 16.0));
+  const auto cloud = StoredCloudFormats::ofProcess().open(folder_.string());
+  ASSERT_FALSE(cloud);
+  EXPECT_NE(cloud.error().what.find("b.pfront"), std::string::npos) << cloud.error().what;
+}
+
+TEST_F(Tiled, ListsThatCannotBeUsedSayWhy)
+{
+  store("a.pfront", tile(0, 0.0));
+  const auto refusal = [this](const std::string& text)
+  {
+    const auto cloud = StoredCloudFormats::ofProcess().open(list(text));
+    return cloud ? std::string("opened") : cloud.error().what;
+  };
+  EXPECT_NE(refusal("# nothing\n\n").find("names no store"), std::string::npos);
+  EXPECT_NE(refusal("a.pfront\nb.pfront\n").find("b.pfront"), std::string::npos);
+  EXPECT_NE(refusal("x*.pfront\n").find("nothing matches"), std::string::npos);
+  EXPECT_NE(refusal("all.pfronts\n").find("a list"), std::string::npos);
+  EXPECT_NE(refusal(std::string("a\0b\n", 4)).find("line 1"), std::string::npos);
+  EXPECT_EQ(refusal("*.pfront"), "opened");
+}
+} // namespace
+} // namespace pointfront

@@ -1,0 +1,107 @@
+#pragma once
+
+#include "pointfront/Store/StoredCloud.h"
+
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+namespace pointfront
+{
+
+/// A node of an octree that somebody else wrote. Cell x, y, z of 2^level cells along each side of
+/// the root's cube.
+struct ForeignNode
+{
+  std::int32_t level = 0;
+  std::int32_t x = 0;
+  std::int32_t y = 0;
+  std::int32_t z = 0;
+  std::uint32_t points = 0;
+  std::uint64_t chunk = 0; ///< where its points are, for ForeignNodes; of no meaning without points
+};
+
+/// Reads the nodes of such a tree. Threads  all functions from any thread.
+class ForeignNodes
+{
+public:
+  virtual ~ForeignNodes() = default;
+  /// Bytes of a chunk as they lie on the disk.
+  virtual Result<RawBytes> fetch(std::uint64_t chunk) const = 0;
+  virtual std::size_t storedBytes(std::uint64_t chunk) const = 0;
+  /// What is wanted of a chunk.
+  struct Part
+  {
+    std::uint64_t chunk = 0;
+    std::uint32_t points = 0; ///< that the hierarchy says it has
+    std::uint32_t first = 0;  ///< so many of them are enough, those that come first in the file
+    const ColumnSelection& columns;
+  };
+  /// Points in the file's order, as positions or as steps, and the columns that are wanted (others
+  /// too, or empty in their places).
+  virtual Result<void> decode(const Part& part, const RawBytes& bytes, PointBatch& batch) const = 0;
+  virtual std::uint64_t disk() const { return 0; }
+  virtual std::vector<std::string> files() const = 0;
+};
+
+/// What is known of such a tree before its points are read.
+struct ForeignTreeContent
+{
+  SourceDescription source;     ///< with a grid
+  std::uint64_t fileBytes = 0;
+  glm::dvec3 low{ 0.0 };        ///< of the root's cube
+  double side = 0.0;            ///< of it
+  double spacing = 0.0;         ///< between points of the root; not positive: a 128th of the side
+  std::vector<ForeignNode> nodes; ///< in any order
+  std::shared_ptr<const ForeignNodes> reader;
+};
+
+/// An octree of someone else (COPC, EPT), drawn as it is: its own hierarchy, each node's points
+/// brought into an order of which every prefix is a fair subset.
+/// Boxes    are the cells, a step of the grid wider; cut down to the header's box if the points
+///          of the root keep to it. A node with a point outside of its box is Corrupt: a query that
+///          left it out would have been wrong.
+/// Ranges   of attributes are those of some points of the first level that has any: a guess for
+///          colours.
+/// Memory   the table is held whole, some 100 bytes a node, and the first node with points.
+/// Threads  all functions are safe from any thread.
+class ForeignTree final : public StoredCloud
+{
+public:
+  /// Errors  BadFormat: a cube or cells that are none, a cell that is there twice; more points in
+  ///         a node than maxNodePoints. Of the nodes that are read.
+  static Result<std::shared_ptr<const StoredCloud>> make(ForeignTreeContent content);
+
+  const StoreDescription& description() const override { return description_; }
+  const std::shared_ptr<const Hierarchy>& hierarchy() const override { return hierarchy_; }
+  std::vector<std::string> files() const override { return reader_->files(); }
+  Result<FetchedNode> fetch(NodeIndex node, const ColumnSelection& columns) const override;
+  Result<NodeColumns> decode(const FetchedNode& fetched) const override;
+  std::size_t decodedBytes(
+    NodeIndex node, std::uint32_t points, const ColumnSelection& columns) const override;
+  std::size_t storedBytes(NodeIndex node, const ColumnSelection& columns) const override;
+  std::uint64_t disk() const override { return reader_->disk(); }
+  /// Every node is read: its points are as many as the hierarchy says, and lie in its box.
+  Result<VerifyReport> verify(const ProgressFunction& progress = {}) const override;
+
+private:
+  ForeignTree() = default;
+  void describe(const ForeignTreeContent& content);
+  Result<void> lookAtFirstPoints();
+  Result<NodeColumns> decodeNow(const FetchedNode& fetched) const;
+  Error damaged(NodeIndex node, const std::string& what) const;
+
+  std::shared_ptr<const ForeignNodes> reader_;
+  std::vector<std::uint64_t> chunks_; ///< by node
+  StoreDescription description_;
+  std::shared_ptr<const Hierarchy> hierarchy_;
+  NodeIndex first_ = noNode; ///< with points
+  /// As it was asked for last: colours are chosen from its points before it is drawn, and it takes
+  /// as long as all else of the first picture.
+  mutable std::unique_ptr<const NodeColumns> kept_;
+  mutable std::mutex mutex_; ///< of kept_
+};
+
+} // namespace pointfront

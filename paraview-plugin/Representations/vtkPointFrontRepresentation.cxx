@@ -5,6 +5,7 @@
 #include "vtkDataObject.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkLookupTable.h"
 #include "vtkMatrix4x4.h"
 #include "vtkMultiProcessController.h"
 #include "vtkObjectFactory.h"
@@ -200,9 +201,16 @@ void vtkPointFrontRepresentation::PrepareColors()
     this->Mapper->ScalarVisibilityOff();
     return;
   }
+  const bool color = IsColor(array);
+  if (!color && !this->ToldOfNames && this->Mapper->GetStorePiece() == 0)
+  {
+    vtkWarningMacro("\"" << array << "\" names points and is no colour: they are shown by height");
+  }
+  this->ToldOfNames = !color;
+  this->Mapper->SetLookupTable(color ? this->Table.Get() : this->HeightTable());
   this->Mapper->ScalarVisibilityOn();
   this->Mapper->SetScalarModeToUsePointFieldData();
-  this->Mapper->SelectColorArray(array);
+  this->Mapper->SelectColorArray(color ? array : "elevation");
   this->Mapper->UseLookupTableScalarRangeOn();
   if (!this->MapScalars)
   {
@@ -216,6 +224,25 @@ void vtkPointFrontRepresentation::PrepareColors()
   {
     this->Mapper->SetColorModeToMapScalars();
   }
+}
+
+//------------------------------------------------------------------------------
+vtkScalarsToColors* vtkPointFrontRepresentation::HeightTable()
+{
+  vtkPointFrontStore* store = this->Mapper->GetStore();
+  if (store && !this->Heights)
+  {
+    double bounds[6];
+    store->GetBounds(bounds);
+    vtkNew<vtkLookupTable> greys;
+    greys->SetRange(bounds[4], bounds[5]);
+    greys->SetHueRange(0.0, 0.0);
+    greys->SetSaturationRange(0.0, 0.0);
+    greys->SetValueRange(0.2, 1.0);
+    greys->Build();
+    this->Heights = greys;
+  }
+  return this->Heights;
 }
 
 //------------------------------------------------------------------------------
@@ -380,7 +407,7 @@ void vtkPointFrontRepresentation::SetClassBudgetShare(const char* name, double s
 //------------------------------------------------------------------------------
 void vtkPointFrontRepresentation::SetLookupTable(vtkScalarsToColors* table)
 {
-  this->Mapper->SetLookupTable(table);
+  this->Table = table;
 }
 
 //------------------------------------------------------------------------------

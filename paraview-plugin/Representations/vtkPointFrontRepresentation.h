@@ -24,7 +24,7 @@
 #include "pointfrontParaViewRepresentationsModule.h" // for the export macro
 #include "vtkNew.h"                                  // for the members
 #include "vtkPVDataRepresentation.h"
-#include "vtkSmartPointer.h"                         // for the store
+#include "vtkSmartPointer.h"                         // for the store and colour maps
 
 #include <map>
 #include <set>
@@ -99,13 +99,16 @@ public:
   /**
    * Colouring. MapScalars on: every array goes through the lookup table; off: colours are drawn as
    * they are. DirectColors on (default): "rgb" is drawn as it is even if MapScalars is on, other
-   * arrays go through the table.
+   * arrays go through the table. Where an array is chosen that is no colour, the points are grey by
+   * height, and a warning says so.
    */
   void SetLookupTable(vtkScalarsToColors* table);
   vtkSetMacro(MapScalars, bool);
   vtkGetMacro(MapScalars, bool);
   vtkSetMacro(DirectColors, bool);
   vtkGetMacro(DirectColors, bool);
+  /// False for what names points: "point_id".
+  static bool IsColor(const std::string& array) { return array != "point_id"; }
   ///@}
 
   ///@{
@@ -163,6 +166,8 @@ private:
   void PrepareFrame(vtkInformation* inInfo, vtkPVRenderView* view);
   void PrepareClasses();
   void PrepareColors();
+  /// Greys over the heights of the cloud; null without a store.
+  vtkScalarsToColors* HeightTable();
   bool WantsComplete(vtkPVRenderView* view) const;
   /// Whether this process draws points of a store.
   bool IsDrawing();
@@ -180,6 +185,9 @@ private:
   std::map<std::string, double> ClassShares;
   bool MapScalars = true;
   bool DirectColors = true;
+  bool ToldOfNames = false; ///< that they are no colours
+  vtkSmartPointer<vtkScalarsToColors> Table;
+  vtkSmartPointer<vtkScalarsToColors> Heights;
 };
 
 #endif

@@ -1,5 +1,7 @@
 #include "vtkSMPointFrontRepresentationProxy.h"
 
+#include "ColourLegends.h"
+
 #include "vtkCommand.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
@@ -50,10 +52,8 @@ void vtkSMPointFrontRepresentationProxy::ViewUpdated(vtkSMProxy* view)
 {
   this->Superclass::ViewUpdated(view);
   this->GatherClasses();
-  if (vtkProcessModule::GetProcessType() != vtkProcessModule::PROCESS_BATCH)
-  {
-    this->Follow(vtkSMViewProxy::SafeDownCast(view));
-  }
+  this->Follow(vtkSMViewProxy::SafeDownCast(view));
+  this->OnRender(view, vtkCommand::StartEvent, nullptr);
 }
 
 //------------------------------------------------------------------------------
@@ -99,15 +99,21 @@ void vtkSMPointFrontRepresentationProxy::TellClasses()
 //------------------------------------------------------------------------------
 void vtkSMPointFrontRepresentationProxy::Follow(vtkSMViewProxy* view)
 {
-  vtkRenderWindowInteractor* interactor = view ? view->GetInteractor() : nullptr;
+  const bool batch = vtkProcessModule::GetProcessType() == vtkProcessModule::PROCESS_BATCH;
+  vtkRenderWindowInteractor* interactor = view && !batch ? view->GetInteractor() : nullptr;
   if (view == this->View && interactor == this->Interactor)
   {
     return;
   }
   this->Unfollow();
-  if (interactor)
+  if (view)
   {
     this->View = view;
+    this->StartObserver = view->AddObserver(
+      vtkCommand::StartEvent, this, &vtkSMPointFrontRepresentationProxy::OnRender);
+  }
+  if (interactor)
+  {
     this->Interactor = interactor;
     this->RenderObserver = view->AddObserver(
       vtkCommand::EndEvent, this, &vtkSMPointFrontRepresentationProxy::OnRendered);
@@ -122,6 +128,7 @@ void vtkSMPointFrontRepresentationProxy::Unfollow()
   this->StopTimer();
   if (this->View)
   {
+    this->View->RemoveObserver(this->StartObserver);
     this->View->RemoveObserver(this->RenderObserver);
   }
   if (this->Interactor)
@@ -130,6 +137,7 @@ void vtkSMPointFrontRepresentationProxy::Unfollow()
   }
   this->View = nullptr;
   this->Interactor = nullptr;
+  this->RenderObserver = 0;
 }
 
 //------------------------------------------------------------------------------
@@ -166,6 +174,15 @@ void vtkSMPointFrontRepresentationProxy::StopTimer()
     this->Interactor->DestroyTimer(this->Timer);
   }
   this->Timer = 0;
+}
+
+//------------------------------------------------------------------------------
+void vtkSMPointFrontRepresentationProxy::OnRender(vtkObject* view, unsigned long, void*)
+{
+  if (this->IsActive())
+  {
+    pointfront::hideUnusedLegends(vtkSMViewProxy::SafeDownCast(view));
+  }
 }
 
 //------------------------------------------------------------------------------

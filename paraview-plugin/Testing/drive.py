@@ -181,6 +181,7 @@ def colours(programs):
         for i in range(40000):
             x, y = i % 200, i // 200
             ply.write("%d %d %g 0 0 0 %d\n" % (x, y, 0.002 * x * y, x + y))
+    os.environ["POINTFRONT_COLOURED"] = os.environ["POINTFRONT_STORE"]
     store = os.environ["POINTFRONT_STORE"] = os.path.abspath("black.pfront")
     tool("build", "black.ply", "-o", store, "--force")
     with open("colours.log", "w") as log:

@@ -19,6 +19,7 @@
 #include "vtkRenderer.h"
 #include "vtkRenderWindow.h"
 #include "vtkScalarsToColors.h"
+#include "vtkSelectionRepresentation.h"
 #include "vtkStdString.h"
 #include "vtkTransform.h"
 
@@ -35,6 +36,12 @@ constexpr double StillRate = 0.01;
 struct CaptureState : vtkPVView
 {
   static bool Of(vtkPVView* view) { return (view->*&CaptureState::GetInCaptureScreenshot)(); }
+};
+
+/// The same of the one that tells what a selection renders.
+struct SelectionState : vtkPVRenderView
+{
+  static bool Of(vtkPVRenderView* view) { return (view->*&SelectionState::GetMakingSelection)(); }
 };
 } // namespace
 
@@ -100,6 +107,11 @@ int vtkPointFrontRepresentation::RequestData(
 int vtkPointFrontRepresentation::ProcessViewRequest(
   vtkInformationRequestKey* request, vtkInformation* inInfo, vtkInformation* outInfo)
 {
+  auto* view = vtkPVRenderView::SafeDownCast(inInfo->Get(vtkPVView::VIEW()));
+  if (request == vtkPVView::REQUEST_RENDER() && view)
+  {
+    this->PrepareMarks(view);
+  }
   if (!this->Superclass::ProcessViewRequest(request, inInfo, outInfo))
   {
     return 0; // hidden
@@ -113,14 +125,31 @@ int vtkPointFrontRepresentation::ProcessViewRequest(
     vtkPVView::SetPieceLOD(inInfo, this, this->Overview);
     vtkPVRenderView::SetRequiresDistributedRenderingLOD(inInfo, this, true);
   }
-  else if (request == vtkPVView::REQUEST_RENDER())
+  else if (request == vtkPVView::REQUEST_RENDER() && view)
   {
-    if (auto* view = vtkPVRenderView::SafeDownCast(inInfo->Get(vtkPVView::VIEW())))
-    {
-      this->PrepareFrame(inInfo, view);
-    }
+    this->PrepareFrame(inInfo, view);
   }
   return 1;
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::PrepareMarks(vtkPVRenderView* view)
+{
+  for (const auto& mark : this->HiddenMarks)
+  {
+    mark ? mark->SetVisibility(true) : void();
+  }
+  this->HiddenMarks.clear();
+  const bool selecting = SelectionState::Of(view) && this->GetVisibility();
+  for (int i = 0; selecting && i < view->GetNumberOfRepresentations(); ++i)
+  {
+    auto* mark = vtkSelectionRepresentation::SafeDownCast(view->GetRepresentation(i));
+    if (mark && mark->GetVisibility())
+    {
+      mark->SetVisibility(false);
+      this->HiddenMarks.emplace_back(mark);
+    }
+  }
 }
 
 //------------------------------------------------------------------------------

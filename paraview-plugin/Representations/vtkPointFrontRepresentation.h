@@ -24,11 +24,13 @@
 #include "pointfrontParaViewRepresentationsModule.h" // for the export macro
 #include "vtkNew.h"                                  // for the members
 #include "vtkPVDataRepresentation.h"
-#include "vtkSmartPointer.h"                         // for the store and colour maps
+#include "vtkSmartPointer.h" // for the store and colour maps
+#include "vtkWeakPointer.h"  // for marks
 
 #include <map>
 #include <set>
 #include <string>
+#include <vector>
 
 class vtkPVLODActor;
 class vtkPVRenderView;
@@ -37,6 +39,7 @@ class vtkPointFrontStore;
 class vtkPolyData;
 class vtkProperty;
 class vtkScalarsToColors;
+class vtkSelectionRepresentation;
 
 class POINTFRONTPARAVIEWREPRESENTATIONS_EXPORT vtkPointFrontRepresentation
     : public vtkPVDataRepresentation
@@ -169,6 +172,8 @@ private:
   /// Greys over the heights of the cloud; null without a store.
   vtkScalarsToColors* HeightTable();
   bool WantsComplete(vtkPVRenderView* view) const;
+  /// While the view selects: the marks of what is selected hide what is to be deselected.
+  void PrepareMarks(vtkPVRenderView* view);
   /// Whether this process draws points of a store.
   bool IsDrawing();
 
@@ -185,6 +190,7 @@ private:
   std::map<std::string, double> ClassShares;
   bool MapScalars = true;
   bool DirectColors = true;
+  std::vector<vtkWeakPointer<vtkSelectionRepresentation>> HiddenMarks;
   bool ToldOfNames = false; ///< that they are no colours
   vtkSmartPointer<vtkScalarsToColors> Table;
   vtkSmartPointer<vtkScalarsToColors> Heights;

@@ -15,6 +15,7 @@ import subprocess
 import sys
 import time
 
+import numpy
 import pictures
 
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -219,6 +220,53 @@ def series(programs):
     programs.run(*mpi(2, *command))
 
 
+def exported(name, *conditions):
+    """What the tool exports: rows of x, y, z and intensity, in order."""
+    path = os.path.abspath(name + ".csv")
+    tool("export", os.environ["POINTFRONT_STORE"], "-o", path, "--force", *conditions)
+    table = numpy.genfromtxt(path, delimiter=",", names=True)
+    print(name, table.dtype.names, len(table))
+    rows = numpy.stack([table[column] for column in ("x", "y", "z", "intensity")], axis=1)
+    return rows[numpy.lexsort(rows.T[::-1])]
+
+
+def extract(programs):
+    """On 1, 2 and 4 ranks, what the tool exports."""
+    store = os.environ["POINTFRONT_STORE"] = os.path.abspath("small-nodes.pfront")
+    tool("build", os.environ["POINTFRONT_CLOUD"], "-o", store, "--node-points", "1000", "--force")
+    bounds = json.loads(tool("info", store, "--json"))["bounds"]
+    low, high = numpy.array(bounds[:3]), numpy.array(bounds[3:])
+    # Ends that add up exactly in doubles.
+    box = [*numpy.round(low + 0.25 * (high - low)), *numpy.round(low + 0.75 * (high - low))]
+    box[2], box[5] = float(numpy.floor(low[2])), float(numpy.ceil(high[2]))
+    sphere = [*numpy.round(0.5 * (low + high)), 150.0]
+    text = ",".join("%.17g" % end for end in box)
+    wanted = {"box": exported("box", "--box", text),
+              "sphere": exported("sphere", "--sphere", ",".join("%.17g" % x for x in sphere)),
+              "conditions": exported("conditions", "--box", text, "--classes", "0,2", "--where",
+                                     "intensity > 60 and return_number == 1")}
+    wanted["turned"] = wanted["box"]
+    results = {}
+    for count in (1, 2, 4):
+        name = "extract-%d" % count
+        programs.run(*mpi(count, os.environ["POINTFRONT_PVBATCH"],
+                          os.path.join(HERE, "extract.py"), name, json.dumps(box),
+                          json.dumps(sphere)))
+        results[count] = found = numpy.load(name + ".npz")
+        for what, rows in wanted.items():
+            got = found[what][:, :4]
+            got = got[numpy.lexsort(got.T[::-1])]
+            if len(rows) < 100 or got.shape != rows.shape or not numpy.allclose(got, rows, 0, 1e-6):
+                raise AssertionError("%s on %d ranks: %d points, the tool exports %d, or others"
+                                     % (what, count, len(got), len(rows)))
+        if not numpy.array_equal(found["frustum"], results[1]["frustum"]):
+            raise AssertionError("a frustum on %d ranks has other points" % count)
+        print("%d ranks read %s bytes" % (count, found["bytes"]))
+        compare("extract-%d" % count, "extract-1")
+    if max(results[2]["bytes"]) > 0.6 * results[1]["bytes"][0]:
+        raise AssertionError("a rank of two reads as much as one alone")
+
+
 def selection(programs):
     programs.run(os.environ["POINTFRONT_PVBATCH"], os.path.join(HERE, "selection.py"))
 
@@ -289,7 +337,8 @@ def main(way):
     ways = {"batch": batch, "classes": classes, "ranks": ranks, "server": server,
             "application": application, "colours": colours, "filtered": filtered,
             "rubber-band": rubber_band, "selection": selection, "series": series,
-            "ranks-selection": ranks_selection}
+            "ranks-selection": ranks_selection,
+            "extract": extract}
     with Programs() as programs:
         ways[way](programs)
 

@@ -1,5 +1,6 @@
 #include "vtkPointFrontRepresentation.h"
 
+#include "StyleChoice.h"
 #include "UpstreamReader.h"
 
 #include "vtkDataObject.h"
@@ -22,6 +23,8 @@
 #include "vtkSelectionRepresentation.h"
 #include "vtkStdString.h"
 #include "vtkTransform.h"
+
+#include <algorithm>
 
 vtkStandardNewMacro(vtkPointFrontRepresentation);
 
@@ -47,6 +50,7 @@ struct SelectionState : vtkPVRenderView
 
 //------------------------------------------------------------------------------
 vtkPointFrontRepresentation::vtkPointFrontRepresentation()
+  : Choice(new pointfront::StyleChoice)
 {
   this->Property->SetRepresentationToPoints();
   this->Property->LightingOff();
@@ -228,6 +232,7 @@ void vtkPointFrontRepresentation::PrepareColors()
   if (!array || !array[0] || !ofPoints)
   {
     this->Mapper->ScalarVisibilityOff();
+    this->PrepareStyle("", false);
     return;
   }
   const bool color = IsColor(array);
@@ -241,6 +246,7 @@ void vtkPointFrontRepresentation::PrepareColors()
   this->Mapper->SetScalarModeToUsePointFieldData();
   this->Mapper->SelectColorArray(color ? array : "elevation");
   this->Mapper->UseLookupTableScalarRangeOn();
+  const bool direct = !this->MapScalars || (this->DirectColors && array == std::string("rgb"));
   if (!this->MapScalars)
   {
     this->Mapper->SetColorModeToDirectScalars();
@@ -252,6 +258,26 @@ void vtkPointFrontRepresentation::PrepareColors()
   else
   {
     this->Mapper->SetColorModeToMapScalars();
+  }
+  this->PrepareStyle(color ? array : "elevation", direct);
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::PrepareStyle(const std::string& array, bool direct)
+{
+  pointfront::LookColour colour;
+  colour.array = array;
+  colour.direct = direct;
+  colour.table = this->Mapper->GetLookupTable();
+  std::copy_n(this->Property->GetColor(), 3, colour.flat.begin());
+  pointfront::PointLook& look = this->Choice->look;
+  look.size = look.closing ? this->SizeFactor : this->PointSize;
+  look.opacity = this->Property->GetOpacity();
+  std::string error;
+  this->Mapper->SetStyle(this->Choice->style(colour, error));
+  if (!error.empty() && this->Mapper->GetStorePiece() == 0)
+  {
+    vtkErrorMacro(<< error);
   }
 }
 
@@ -442,7 +468,76 @@ void vtkPointFrontRepresentation::SetLookupTable(vtkScalarsToColors* table)
 //------------------------------------------------------------------------------
 void vtkPointFrontRepresentation::SetPointSize(double pixels)
 {
+  this->PointSize = pixels;
   this->Property->SetPointSize(static_cast<float>(pixels));
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetTechnique(const char* name)
+{
+  this->Choice->look.technique = name ? name : "";
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetClosingSize(bool closing)
+{
+  this->Choice->look.closing = closing;
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetSizeFactor(double factor)
+{
+  this->SizeFactor = factor;
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetEyeDomeStrength(double strength)
+{
+  this->Choice->look.eyeDomeStrength = strength;
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetLit(bool lit)
+{
+  this->Choice->look.lit = lit;
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetFillHoles(bool fill)
+{
+  this->Choice->look.fillHoles = fill;
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetWhere(const char* condition)
+{
+  this->Choice->look.where = condition ? condition : "";
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetBackend(int backend)
+{
+  this->Mapper->SetBackend(backend);
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetStyleFile(const char* fileName)
+{
+  this->Choice->setFile(fileName ? fileName : "");
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::ClearClassStyles()
+{
+  this->Choice->clearClasses();
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::AddClassStyle(
+  const char* classCode, const char* technique, const char* color, const char* size)
+{
+  const auto text = [](const char* value) { return std::string(value ? value : ""); };
+  this->Choice->addClass(text(classCode), text(technique), text(color), text(size));
 }
 
 //------------------------------------------------------------------------------

@@ -28,6 +28,7 @@
 #include "vtkWeakPointer.h"  // for marks
 
 #include <map>
+#include <memory>
 #include <set>
 #include <string>
 #include <vector>
@@ -40,6 +41,11 @@ class vtkPolyData;
 class vtkProperty;
 class vtkScalarsToColors;
 class vtkSelectionRepresentation;
+
+namespace pointfront
+{
+class StyleChoice;
+} // namespace pointfront
 
 class POINTFRONTPARAVIEWREPRESENTATIONS_EXPORT vtkPointFrontRepresentation
     : public vtkPVDataRepresentation
@@ -116,6 +122,42 @@ public:
 
   ///@{
   /**
+   * How points look, as style sheets have it (docs/user/styles.md): "points" (default), "splats",
+   * "spheres" or "ewa"; the diameter in pixels (PointSize) or the one that closes the surface times
+   * a factor; eye-dome lighting (0, the default: off); light on points that have a normal; holes
+   * between points filled; a condition for the points that are drawn. Who draws: see
+   * vtkPointFrontMapper::SetBackend.
+   */
+  void SetTechnique(const char* name);
+  void SetClosingSize(bool closing);
+  void SetSizeFactor(double factor);
+  void SetEyeDomeStrength(double strength);
+  void SetLit(bool lit);
+  void SetFillHoles(bool fill);
+  void SetWhere(const char* condition);
+  void SetBackend(int backend);
+  ///@}
+
+  ///@{
+  /**
+   * A style sheet, a JSON file as the server sees it: it says how points look, and what is above
+   * does not count. Null or empty: what is above.
+   */
+  void SetStyleFile(const char* fileName);
+  ///@}
+
+  ///@{
+  /**
+   * What differs for a class, given by its code: technique, "hidden" or "" (as the others); colour,
+   * an attribute or "#rrggbb" or ""; diameter in pixels or "".
+   */
+  void ClearClassStyles();
+  void AddClassStyle(
+    const char* classCode, const char* technique, const char* color, const char* size);
+  ///@}
+
+  ///@{
+  /**
    * Of the property and the actor, as in vtkGeometryRepresentation.
    */
   void SetPointSize(double pixels);
@@ -169,6 +211,8 @@ private:
   void PrepareFrame(vtkInformation* inInfo, vtkPVRenderView* view);
   void PrepareClasses();
   void PrepareColors();
+  /// Hands the mapper a style, if one is needed; `array` is drawn, or none if it is empty.
+  void PrepareStyle(const std::string& array, bool direct);
   /// Greys over the heights of the cloud; null without a store.
   vtkScalarsToColors* HeightTable();
   bool WantsComplete(vtkPVRenderView* view) const;
@@ -192,6 +236,9 @@ private:
   bool DirectColors = true;
   std::vector<vtkWeakPointer<vtkSelectionRepresentation>> HiddenMarks;
   bool ToldOfNames = false; ///< that they are no colours
+  const std::unique_ptr<pointfront::StyleChoice> Choice;
+  double PointSize = 2.0;
+  double SizeFactor = 1.0;
   vtkSmartPointer<vtkScalarsToColors> Table;
   vtkSmartPointer<vtkScalarsToColors> Heights;
 };

@@ -65,6 +65,10 @@ void vtkSMPointFrontRepresentationProxy::CreateVTKObjects()
   {
     vtkNew<vtkSMParaViewPipelineController> controller;
     controller->UpdateSettingsProxies(this->GetSession());
+    // Where users look: ParaView shows it for the representation "Points" only.
+    vtkSMProxy* representation = this->GetTrueParentProxy();
+    vtkSMProperty* size = representation ? representation->GetProperty("PointSize") : nullptr;
+    size ? size->SetPanelVisibility("default") : void();
   }
 }
 

@@ -205,6 +205,20 @@ def filtered(programs):
     compare("filtered", "tool")
 
 
+def looks(programs):
+    with open("looks.log", "w") as log:
+        done = programs.start(
+            os.environ["POINTFRONT_PVBATCH"], os.path.join(HERE, "looks.py"), output=log)
+        try:
+            programs.finish(done)
+        finally:
+            print(open("looks.log").read())
+    told = open("looks.log").read()
+    if told.count("has no attribute") != 1:
+        raise AssertionError("an unknown attribute is told of %d times"
+                             % told.count("has no attribute"))
+
+
 def series(programs):
     """Three made-up surveys; the second has other attributes."""
     steps = []
@@ -338,7 +352,7 @@ def main(way):
             "application": application, "colours": colours, "filtered": filtered,
             "rubber-band": rubber_band, "selection": selection, "series": series,
             "ranks-selection": ranks_selection,
-            "extract": extract}
+            "extract": extract, "looks": looks}
     with Programs() as programs:
         ways[way](programs)
 

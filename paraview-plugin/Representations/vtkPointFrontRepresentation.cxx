@@ -3,6 +3,7 @@
 #include "StyleChoice.h"
 #include "UpstreamReader.h"
 
+#include "vtkCommand.h"
 #include "vtkDataObject.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -157,6 +158,30 @@ void vtkPointFrontRepresentation::PrepareMarks(vtkPVRenderView* view)
 }
 
 //------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SuspendFXAA(vtkPVRenderView* view)
+{
+  this->ResumeFXAA(); // of a frame that was not rendered here
+  if (this->CrispPoints && view->GetUseFXAA())
+  {
+    view->SetUseFXAA(false);
+    this->SuspendedView = view;
+    this->EndObserver = view->GetRenderer()->AddObserver(
+      vtkCommand::EndEvent, this, &vtkPointFrontRepresentation::ResumeFXAA);
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::ResumeFXAA()
+{
+  if (this->SuspendedView)
+  {
+    this->SuspendedView->GetRenderer()->RemoveObserver(this->EndObserver);
+    this->SuspendedView->SetUseFXAA(true);
+    this->SuspendedView = nullptr;
+  }
+}
+
+//------------------------------------------------------------------------------
 void vtkPointFrontRepresentation::ProvideData(vtkInformation* inInfo)
 {
   vtkPVView::SetPiece(inInfo, this, this->Overview);
@@ -197,6 +222,7 @@ void vtkPointFrontRepresentation::PrepareFrame(vtkInformation* inInfo, vtkPVRend
 
   this->PrepareClasses();
   this->PrepareColors();
+  this->SuspendFXAA(view);
 }
 
 //------------------------------------------------------------------------------
@@ -332,6 +358,7 @@ bool vtkPointFrontRepresentation::RemoveFromView(vtkView* view)
   {
     return false;
   }
+  this->ResumeFXAA();
   renderView->GetRenderer()->RemoveActor(this->Actor);
   renderView->UnRegisterPropForHardwareSelection(this, this->Actor);
   return this->Superclass::RemoveFromView(view);

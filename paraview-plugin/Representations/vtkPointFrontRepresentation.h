@@ -140,6 +140,14 @@ public:
 
   ///@{
   /**
+   * FXAA takes single points for noise: on (default), views that show this have none.
+   */
+  vtkSetMacro(CrispPoints, bool);
+  vtkGetMacro(CrispPoints, bool);
+  ///@}
+
+  ///@{
+  /**
    * A style sheet, a JSON file as the server sees it: it says how points look, and what is above
    * does not count. Null or empty: what is above.
    */
@@ -218,6 +226,9 @@ private:
   bool WantsComplete(vtkPVRenderView* view) const;
   /// While the view selects: the marks of what is selected hide what is to be deselected.
   void PrepareMarks(vtkPVRenderView* view);
+  /// Switches the view's FXAA off for the frame that it is about to render, and on again behind it.
+  void SuspendFXAA(vtkPVRenderView* view);
+  void ResumeFXAA();
   /// Whether this process draws points of a store.
   bool IsDrawing();
 
@@ -236,6 +247,9 @@ private:
   bool DirectColors = true;
   std::vector<vtkWeakPointer<vtkSelectionRepresentation>> HiddenMarks;
   bool ToldOfNames = false; ///< that they are no colours
+  bool CrispPoints = true;
+  vtkWeakPointer<vtkPVRenderView> SuspendedView; ///< whose FXAA is off for a frame
+  unsigned long EndObserver = 0;
   const std::unique_ptr<pointfront::StyleChoice> Choice;
   double PointSize = 2.0;
   double SizeFactor = 1.0;

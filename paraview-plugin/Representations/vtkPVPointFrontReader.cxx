@@ -86,6 +86,14 @@ vtkPVPointFrontReader::vtkPVPointFrontReader() = default;
 vtkPVPointFrontReader::~vtkPVPointFrontReader() = default;
 
 //------------------------------------------------------------------------------
+int vtkPVPointFrontReader::RequestInformation(
+  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  this->Superclass::RequestInformation(request, inputs, outputs);
+  return 1;
+}
+
+//------------------------------------------------------------------------------
 int vtkPVPointFrontReader::RequestData(
   vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
@@ -96,7 +104,7 @@ int vtkPVPointFrontReader::RequestData(
   {
     describe(*this->GetStore()->GetStore(), this->GetOverviewPoints(), output);
   }
-  return done;
+  return 1;
 }
 
 //------------------------------------------------------------------------------

@@ -23,6 +23,8 @@ public:
 protected:
   vtkPVPointFrontReader();
   ~vtkPVPointFrontReader() override;
+  /// One error says what is wrong; no failures of the pipeline's besides.
+  int RequestInformation(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
 private:

@@ -1,5 +1,6 @@
 #include "vtkSMPointFrontRepresentationProxy.h"
 
+#include "ClassCategories.h"
 #include "ColourLegends.h"
 
 #include "vtkCommand.h"
@@ -185,6 +186,7 @@ void vtkSMPointFrontRepresentationProxy::OnRender(vtkObject* view, unsigned long
 {
   if (this->IsActive())
   {
+    pointfront::nameClasses(this);
     pointfront::hideUnusedLegends(vtkSMViewProxy::SafeDownCast(view));
   }
 }

@@ -1,6 +1,6 @@
-"""pvbatch on any number of processes: every point, by each back end, and splats.
+"""pvbatch on any number of processes: every point, by each back end.
 
-usage: pvbatch backends.py NAME      saves NAME-opengl.png, NAME-software.png and NAME-splats.png
+usage: pvbatch backends.py NAME      saves NAME-opengl.png and NAME-software.png
 """
 
 import os
@@ -19,5 +19,3 @@ scene.color_by(scene.display, "rgb")
 for backend in ("OpenGL", "Software"):
     scene.display.Backend = backend
     scene.save_complete("%s-%s" % (name, backend.lower()))
-scene.display.Technique, scene.display.ClosingSize = "splats", 1
-scene.save_complete(name + "-splats")

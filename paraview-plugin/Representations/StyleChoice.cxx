@@ -58,8 +58,8 @@ void StyleChoice::addClass(const std::string& code, const std::string& technique
   const bool known = technique.empty() || technique == "hidden" || techniqueOf(technique);
   if (number < 0 || !known || *end != '\0' || (!size.empty() && !(pixels > 0.0)))
   {
-    wrongClass_ = "the class style \"" + code + "\", \"" + technique + "\", \"" + colour + "\", \"" +
-      size + "\" is none: a code of 0 to 255, hidden or one of " + techniqueList(true) +
+    wrongClass_ = "the class style \"" + code + "\", \"" + technique + "\", \"" + colour +
+      "\", \"" + size + "\" is none: a code of 0 to 255, hidden or one of " + techniqueList(true) +
       ", a colour, a size above 0";
     return;
   }

@@ -3,6 +3,7 @@
 #include "StyleChoice.h"
 #include "UpstreamReader.h"
 
+#include "vtkActorCollection.h"
 #include "vtkCommand.h"
 #include "vtkDataObject.h"
 #include "vtkInformation.h"
@@ -21,7 +22,6 @@
 #include "vtkRenderer.h"
 #include "vtkRenderWindow.h"
 #include "vtkScalarsToColors.h"
-#include "vtkSelectionRepresentation.h"
 #include "vtkStdString.h"
 #include "vtkTransform.h"
 
@@ -140,20 +140,29 @@ int vtkPointFrontRepresentation::ProcessViewRequest(
 //------------------------------------------------------------------------------
 void vtkPointFrontRepresentation::PrepareMarks(vtkPVRenderView* view)
 {
+  // Out of the renderer, not invisible: who made them goes on updating them and decides whether
+  // they are shown.
   for (const auto& mark : this->HiddenMarks)
   {
-    mark ? mark->SetVisibility(true) : void();
+    mark ? view->GetRenderer()->AddActor(mark) : void();
   }
   this->HiddenMarks.clear();
-  const bool selecting = SelectionState::Of(view) && this->GetVisibility();
-  for (int i = 0; selecting && i < view->GetNumberOfRepresentations(); ++i)
+  if (!SelectionState::Of(view) || !this->GetVisibility())
   {
-    auto* mark = vtkSelectionRepresentation::SafeDownCast(view->GetRepresentation(i));
-    if (mark && mark->GetVisibility())
+    return;
+  }
+  vtkActorCollection* actors = view->GetRenderer()->GetActors();
+  for (int i = 0; i < actors->GetNumberOfItems(); ++i)
+  {
+    auto* actor = vtkPVLODActor::SafeDownCast(actors->GetItemAsObject(i));
+    if (actor && !actor->GetPickable())
     {
-      mark->SetVisibility(false);
-      this->HiddenMarks.emplace_back(mark);
+      this->HiddenMarks.emplace_back(actor);
     }
+  }
+  for (const auto& mark : this->HiddenMarks)
+  {
+    view->GetRenderer()->RemoveActor(mark);
   }
 }
 

@@ -40,7 +40,6 @@ class vtkPointFrontStore;
 class vtkPolyData;
 class vtkProperty;
 class vtkScalarsToColors;
-class vtkSelectionRepresentation;
 
 namespace pointfront
 {
@@ -224,7 +223,8 @@ private:
   /// Greys over the heights of the cloud; null without a store.
   vtkScalarsToColors* HeightTable();
   bool WantsComplete(vtkPVRenderView* view) const;
-  /// While the view selects: the marks of what is selected hide what is to be deselected.
+  /// While the view selects, what cannot be picked is not drawn: above all the marks of what is
+  /// selected, which hide what is to be deselected.
   void PrepareMarks(vtkPVRenderView* view);
   /// Switches the view's FXAA off for the frame that it is about to render, and on again behind it.
   void SuspendFXAA(vtkPVRenderView* view);
@@ -245,7 +245,7 @@ private:
   std::map<std::string, double> ClassShares;
   bool MapScalars = true;
   bool DirectColors = true;
-  std::vector<vtkWeakPointer<vtkSelectionRepresentation>> HiddenMarks;
+  std::vector<vtkWeakPointer<vtkPVLODActor>> HiddenMarks;
   bool ToldOfNames = false; ///< that they are no colours
   bool CrispPoints = true;
   vtkWeakPointer<vtkPVRenderView> SuspendedView; ///< whose FXAA is off for a frame

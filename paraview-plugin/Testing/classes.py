@@ -79,7 +79,8 @@ require(len(table.Annotations) == 0, "a user's colour map is changed")
 
 # The store is described where users look: in the Information panel, by the field data.
 fields = servermanager.Fetch(scene.reader).GetFieldData()
-told = {fields.GetArrayName(i): fields.GetAbstractArray(i) for i in range(fields.GetNumberOfArrays())}
+told = {fields.GetArrayName(i): fields.GetAbstractArray(i)
+        for i in range(fields.GetNumberOfArrays())}
 require(told["store_points"].GetValue(0) == POINTS, "points of the store")
 require([told["store_classes"].GetValue(i) for i in range(len(names))] == names, "its classes")
 require([told["store_class_points"].GetValue(i) for i in range(len(names))]

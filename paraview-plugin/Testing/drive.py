@@ -6,8 +6,11 @@ store from), POINTFRONT_CAMERA, POINTFRONT_PVPYTHONPATH, POINTFRONT_{PVBATCH,PVS
 MPIEXEC}. Writes under the current folder only.
 """
 
+import glob
 import json
 import os
+import re
+import shlex
 import shutil
 import signal
 import socket
@@ -255,6 +258,35 @@ def state(programs):
     compare("by-state", "state-loaded")
 
 
+def first_hour(programs):
+    """What docs/user/paraview.md says, line by line; alone and on two ranks."""
+    with open(os.path.join(HERE, "..", "..", "docs", "user", "paraview.md")) as file:
+        chapter = file.read().split("## A first hour", 1)[1].split("\n## ", 1)[0]
+    blocks = re.findall(r"```(sh|python)\n(.*?)```", chapter, re.DOTALL)
+    for line in "".join(text for kind, text in blocks if kind == "sh").splitlines():
+        program, *arguments = shlex.split(line)
+        if program != "pointfront":
+            raise AssertionError("not ours to run: " + line)
+        tool(*arguments, "--force")
+    script = "".join(text for kind, text in blocks if kind == "python")
+    with open("hour.py", "w") as file:
+        file.write(script.replace('"PointFront.so"', repr(os.environ["POINTFRONT_PLUGIN"])))
+    wanted = re.findall(r'"(\w+\.(?:png|csv))"', script)
+    # One process comes last: its pictures are those of the documentation.
+    for ranks_, command in ((2, mpi(2, os.environ["POINTFRONT_PVBATCH"])),
+                            (1, [os.environ["POINTFRONT_PVBATCH"]])):
+        for old in glob.glob("flight*.png") + wanted:
+            if os.path.exists(old):
+                os.remove(old)
+        programs.run(*command, "hour.py")
+        for name in wanted:
+            found = glob.glob(name.replace(".", "*."))
+            if not found or min(os.path.getsize(path) for path in found) < 5000:
+                raise AssertionError("%s on %d ranks: %s" % (name, ranks_, found))
+        if len(glob.glob("flight*.png")) != 4:
+            raise AssertionError("frames: %s" % glob.glob("flight*.png"))
+
+
 def looks(programs):
     with open("looks.log", "w") as log:
         done = programs.start(
@@ -403,7 +435,8 @@ def main(way):
             "rubber-band": rubber_band, "selection": selection, "series": series,
             "ranks-selection": ranks_selection,
             "extract": extract, "looks": looks, "views": views,
-            "state": state, "backends": backends}
+            "state": state, "backends": backends,
+            "first-hour": first_hour}
     with Programs() as programs:
         ways[way](programs)
 

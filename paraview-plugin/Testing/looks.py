@@ -1,4 +1,4 @@
-"""pvbatch: how points look, by the representation's properties; each picture is told apart by facts.
+"""pvbatch: how points look, by the representation's properties.
 
 Saves looks-*.png.
 """
@@ -87,7 +87,7 @@ with open(sheet, "w") as file:
                            "size": {"mode": "fixed", "px": 3}}}, file)
 display.StyleFile = sheet
 green = colours(picture("sheet"))
-require(len(green) == 2 and green[-1].tolist() == [0, 255, 0], "not as the sheet has it: %s" % green)
+require(len(green) == 2 and green[-1].tolist() == [0, 255, 0], "not the sheet's: %s" % green)
 display.StyleFile = ""
 
 # Both back ends draw points.

@@ -23,8 +23,9 @@ if len(sys.argv) > 1:
     simple.LoadPlugin(os.environ["POINTFRONT_PLUGIN"], remote=True, ns=globals())
 simple.LoadPlugin(os.environ["POINTFRONT_PLUGIN"], remote=False, ns=globals())
 
+import pictures
 import visible
-from scene import POINTS, SIZE, STORE, Scene, require
+from scene import OUTPUT, POINTS, SIZE, STORE, Scene, require
 
 RANKS = servermanager.ActiveConnection.GetNumberOfDataPartitions()
 RECTANGLES = 50
@@ -36,8 +37,8 @@ DIFFERENT = 0.002
 # Pixels from the lower left corner, where ParaView has its orientation axes: on several ranks it
 # selects nothing of ours there, and 90 % of its own points (docs/adr/0022).
 CORNER = 100
-# As DIFFERENT, for what ParaView itself selects where it draws all points: it also selects points that
-# are hidden by up to 0.000032 of the depth range (docs/adr/0022). Found: 5 %.
+# As DIFFERENT, for what ParaView itself selects where it draws all points: it also selects points
+# that are hidden by up to 0.000032 of the depth range (docs/adr/0022). Found: 5 %.
 STOCK_DIFFERENT = 0.08
 SLACK = 1.5  # pixels: a point is drawn two pixels wide, and its place is rounded
 
@@ -215,8 +216,14 @@ def check_polygon():
     require(len(missed) + len(strangers) <= DIFFERENT * len(ids), "not what the polygon shows")
 
 
+def marked(name):
+    """Pixels of a picture that are marked as selected."""
+    red, green, blue = numpy.moveaxis(pictures.load(os.path.join(OUTPUT, name + ".png")), 2, 0)
+    return numpy.count_nonzero((red > 200) & (green < 60) & (blue > 200))
+
+
 def check_modes():
-    """Selections that are added, subtracted and toggled, as the rubber band does with a key held."""
+    """Selections that are added, subtracted and toggled, as with a key held."""
     rectangles = [200, 100, 320, 200], [280, 150, 400, 240]
     ids = [set(extracted(select(area))[1]["point_id"].tolist()) for area in rectangles]
     for mode, combined in (("ADD", set.union), ("SUBTRACT", set.difference),
@@ -228,6 +235,8 @@ def check_modes():
         wanted = combined(*ids)
         require(len(set(found)) == len(found), mode + ": a point came twice")
         require(set(found) == wanted, "%s: %d points, not %d" % (mode, len(found), len(wanted)))
+        scene.save("selection-" + mode)  # with marks, which were away while the view selected
+        require(marked("selection-" + mode) > 0.9 * len(wanted), mode + ": no marks")
         simple.ClearSelection(scene.reader)
 
 

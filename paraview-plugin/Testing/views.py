@@ -1,4 +1,4 @@
-"""pvbatch: "Point Front" is what a store is shown as in each kind of view, and a damaged one is told of.
+"""pvbatch: a store is shown as "Point Front" in each kind of view; a damaged one is told of once.
 
 usage: pvbatch views.py DAMAGED     a store whose file ends too early
 Saves views-KIND.png. What is written to stderr after the line "damaged" is about that store.

@@ -40,6 +40,7 @@ struct vtkPointFrontExtract::Content
     const vtkPointFrontExtract& filter, pointfront::PointQuery& query);
   Result<pointfront::PointQuery> Query(const vtkPointFrontExtract& filter) const;
   std::vector<std::string> Attributes(const vtkPointFrontExtract& filter) const;
+  static pointfront::QueryOptions Options(vtkPointFrontExtract& filter);
   Result<pointfront::QueryReport> Run(vtkPointFrontExtract& filter, unsigned piece,
     unsigned pieces, vtkPolyData* output) const;
 };
@@ -113,14 +114,13 @@ Result<pointfront::PointQuery> vtkPointFrontExtract::Content::Query(
   query.where = std::move(*where);
   query.classes = this->Classes;
   query.spacing = filter.Spacing;
-  query.attributes = this->Attributes(filter);
+  query.attributes =
+    filter.CountOnly ? std::vector<std::string>() : this->Attributes(filter);
   return query;
 }
 
-Result<pointfront::QueryReport> vtkPointFrontExtract::Content::Run(
-  vtkPointFrontExtract& filter, unsigned piece, unsigned pieces, vtkPolyData* output) const
+pointfront::QueryOptions vtkPointFrontExtract::Content::Options(vtkPointFrontExtract& filter)
 {
-  const pointfront::StoredCloud& store = *this->Store->GetStore();
   pointfront::QueryOptions options;
   options.memoryBytes = static_cast<std::size_t>(filter.MemoryLimit);
   options.progress = [&filter](const pointfront::Progress& state)
@@ -132,8 +132,17 @@ Result<pointfront::QueryReport> vtkPointFrontExtract::Content::Run(
     return filter.GetAbortExecute() == 0;
 #endif
   };
+  return options;
+}
+
+Result<pointfront::QueryReport> vtkPointFrontExtract::Content::Run(
+  vtkPointFrontExtract& filter, unsigned piece, unsigned pieces, vtkPolyData* output) const
+{
+  const pointfront::StoredCloud& store = *this->Store->GetStore();
+  const pointfront::QueryOptions options = Options(filter);
   pointfront::ExtractedPoints points(static_cast<std::uint64_t>(filter.MaximumNumberOfPoints));
-  const auto consume = [&points](pointfront::QueryBatch& batch) { return points.add(batch); };
+  const auto consume = [&](pointfront::QueryBatch& batch)
+  { return filter.CountOnly ? Result<void>() : points.add(batch); };
   if (filter.PointIds)
   {
     const auto names = this->Attributes(filter);
@@ -336,6 +345,7 @@ int vtkPointFrontExtract::RequestData(
     return 0; // RequestInformation has said why
   }
   this->SetErrorCode(vtkErrorCode::NoError);
+  this->NumberOfPointsChosen = 0;
   vtkInformation* const info = outputs->GetInformationObject(0);
   vtkPolyData* const output = vtkPolyData::GetData(info);
   const int piece = info->Get(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER());
@@ -359,6 +369,7 @@ int vtkPointFrontExtract::RequestData(
     vtkErrorMacro(<< report.error().what);
     return 0;
   }
+  this->NumberOfPointsChosen = static_cast<vtkIdType>(report->pointsChosen);
   this->NumberOfNodesRead = static_cast<vtkIdType>(report->nodesRead);
   this->NumberOfPointsRead = static_cast<vtkIdType>(report->pointsRead);
   this->NumberOfBytesRead = static_cast<vtkTypeInt64>(report->bytesRead);
@@ -390,5 +401,6 @@ void vtkPointFrontExtract::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "PointIds: " << (this->PointIds ? this->PointIds->GetNumberOfValues() : 0)
      << "\n";
   os << indent << "MaximumNumberOfPoints: " << this->MaximumNumberOfPoints << "\n";
+  os << indent << "CountOnly: " << this->CountOnly << "\n";
   os << indent << "MemoryLimit: " << this->MemoryLimit << "\n";
 }

@@ -160,6 +160,19 @@ public:
 
   ///@{
   /**
+   * On: the points are counted and none come out, whatever MaximumNumberOfPoints says. Reads what
+   * the extract itself would read, but for the attributes that no condition names. Default off.
+   */
+  vtkSetMacro(CountOnly, bool);
+  vtkGetMacro(CountOnly, bool);
+  vtkBooleanMacro(CountOnly, bool);
+  ///@}
+
+  /// Of the last update and its piece: points that meet all conditions.
+  vtkGetMacro(NumberOfPointsChosen, vtkIdType);
+
+  ///@{
+  /**
    * Of the last update: nodes and bytes read from the disk, points decoded.
    */
   vtkGetMacro(NumberOfNodesRead, vtkIdType);
@@ -190,6 +203,8 @@ protected:
   vtkSmartPointer<vtkIdTypeArray> PointIds;
   vtkIdType MaximumNumberOfPoints;
   vtkTypeInt64 MemoryLimit = 268435456;
+  bool CountOnly = false;
+  vtkIdType NumberOfPointsChosen = 0;
   vtkIdType NumberOfNodesRead = 0;
   vtkIdType NumberOfPointsRead = 0;
   vtkTypeInt64 NumberOfBytesRead = 0;

@@ -12,6 +12,7 @@
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
+#include "vtkPointFrontStore.h"
 #include "vtkPolyData.h"
 #include "vtkSelection.h"
 #include "vtkSelectionNode.h"
@@ -45,6 +46,26 @@ void appendNamedPoints(vtkSelection* selection, vtkIdTypeArray* ranks)
       ranks->InsertTuples(ranks->GetNumberOfTuples(), ids->GetNumberOfTuples(), 0, ids);
     }
   }
+}
+
+/// Whether a selection asks for values that points have: not by their names, nor by a place.
+bool asksForValues(vtkSelection* selection)
+{
+  for (unsigned int i = 0; i < selection->GetNumberOfNodes(); ++i)
+  {
+    vtkSelectionNode* node = selection->GetNode(i);
+    const char* query = node->GetQueryString();
+    const int content = node->GetContentType();
+    vtkAbstractArray* list = node->GetSelectionList();
+    const bool named = list && list->GetName() && std::string(list->GetName()) == "point_id";
+    if ((query && *query) || content == vtkSelectionNode::QUERY ||
+      content == vtkSelectionNode::THRESHOLDS ||
+      (content == vtkSelectionNode::VALUES && !named))
+    {
+      return true;
+    }
+  }
+  return false;
 }
 
 /// The view frustum that a selection consists of, if it has one.
@@ -128,6 +149,14 @@ int vtkPointFrontExtractSelection::RequestData(
   const int piece = output->Get(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER());
   const int pieces =
     std::max(1, output->Get(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES()));
+  const bool partly = asksForValues(selection) && reader->GetStore() &&
+    reader->GetStore()->GetNumberOfPoints() > reader->GetOverviewPoints();
+  if (partly && !this->ToldOfOverview && piece == 0)
+  {
+    vtkWarningMacro("a query selects among the " << reader->GetOverviewPoints() << " points of the "
+      "overview, not among all of the store: for those, use the filter PointFront Extract (Where)");
+  }
+  this->ToldOfOverview = partly;
   vtkNew<vtkIdTypeArray> ranks;
   appendNamedPoints(selection, ranks);
   vtkNew<vtkPolyData> further;

@@ -36,6 +36,8 @@ protected:
 private:
   vtkPointFrontExtractSelection(const vtkPointFrontExtractSelection&) = delete;
   void operator=(const vtkPointFrontExtractSelection&) = delete;
+
+  bool ToldOfOverview = false; ///< that a query has no more to select among
 };
 
 #endif

@@ -1,10 +1,14 @@
 #include "vtkPointFrontRepresentation.h"
 
+#include "StyleChoice.h"
 #include "UpstreamReader.h"
 
+#include "vtkActorCollection.h"
+#include "vtkCommand.h"
 #include "vtkDataObject.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkLookupTable.h"
 #include "vtkMatrix4x4.h"
 #include "vtkMultiProcessController.h"
 #include "vtkObjectFactory.h"
@@ -21,6 +25,8 @@
 #include "vtkStdString.h"
 #include "vtkTransform.h"
 
+#include <algorithm>
+
 vtkStandardNewMacro(vtkPointFrontRepresentation);
 
 namespace
@@ -35,10 +41,17 @@ struct CaptureState : vtkPVView
 {
   static bool Of(vtkPVView* view) { return (view->*&CaptureState::GetInCaptureScreenshot)(); }
 };
+
+/// The same of the one that tells what a selection renders.
+struct SelectionState : vtkPVRenderView
+{
+  static bool Of(vtkPVRenderView* view) { return (view->*&SelectionState::GetMakingSelection)(); }
+};
 } // namespace
 
 //------------------------------------------------------------------------------
 vtkPointFrontRepresentation::vtkPointFrontRepresentation()
+  : Choice(new pointfront::StyleChoice)
 {
   this->Property->SetRepresentationToPoints();
   this->Property->LightingOff();
@@ -87,9 +100,9 @@ int vtkPointFrontRepresentation::RequestData(
     {
       this->Overview->ShallowCopy(overview);
     }
-    else
+    else if (!name.empty() || !pointfront::upstreamReaderOf(this))
     {
-      vtkErrorMacro(<< error);
+      vtkErrorMacro(<< error); // a reader without a store has said why
     }
   }
   return this->Superclass::RequestData(request, inputVector, outputVector);
@@ -99,6 +112,11 @@ int vtkPointFrontRepresentation::RequestData(
 int vtkPointFrontRepresentation::ProcessViewRequest(
   vtkInformationRequestKey* request, vtkInformation* inInfo, vtkInformation* outInfo)
 {
+  auto* view = vtkPVRenderView::SafeDownCast(inInfo->Get(vtkPVView::VIEW()));
+  if (request == vtkPVView::REQUEST_RENDER() && view)
+  {
+    this->PrepareMarks(view);
+  }
   if (!this->Superclass::ProcessViewRequest(request, inInfo, outInfo))
   {
     return 0; // hidden
@@ -112,14 +130,64 @@ int vtkPointFrontRepresentation::ProcessViewRequest(
     vtkPVView::SetPieceLOD(inInfo, this, this->Overview);
     vtkPVRenderView::SetRequiresDistributedRenderingLOD(inInfo, this, true);
   }
-  else if (request == vtkPVView::REQUEST_RENDER())
+  else if (request == vtkPVView::REQUEST_RENDER() && view)
   {
-    if (auto* view = vtkPVRenderView::SafeDownCast(inInfo->Get(vtkPVView::VIEW())))
-    {
-      this->PrepareFrame(inInfo, view);
-    }
+    this->PrepareFrame(inInfo, view);
   }
   return 1;
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::PrepareMarks(vtkPVRenderView* view)
+{
+  // Out of the renderer, not invisible: who made them goes on updating them and decides whether
+  // they are shown.
+  for (const auto& mark : this->HiddenMarks)
+  {
+    mark ? view->GetRenderer()->AddActor(mark) : void();
+  }
+  this->HiddenMarks.clear();
+  if (!SelectionState::Of(view) || !this->GetVisibility())
+  {
+    return;
+  }
+  vtkActorCollection* actors = view->GetRenderer()->GetActors();
+  for (int i = 0; i < actors->GetNumberOfItems(); ++i)
+  {
+    auto* actor = vtkPVLODActor::SafeDownCast(actors->GetItemAsObject(i));
+    if (actor && !actor->GetPickable())
+    {
+      this->HiddenMarks.emplace_back(actor);
+    }
+  }
+  for (const auto& mark : this->HiddenMarks)
+  {
+    view->GetRenderer()->RemoveActor(mark);
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SuspendFXAA(vtkPVRenderView* view)
+{
+  this->ResumeFXAA(); // of a frame that was not rendered here
+  if (this->CrispPoints && view->GetUseFXAA())
+  {
+    view->SetUseFXAA(false);
+    this->SuspendedView = view;
+    this->EndObserver = view->GetRenderer()->AddObserver(
+      vtkCommand::EndEvent, this, &vtkPointFrontRepresentation::ResumeFXAA);
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::ResumeFXAA()
+{
+  if (this->SuspendedView)
+  {
+    this->SuspendedView->GetRenderer()->RemoveObserver(this->EndObserver);
+    this->SuspendedView->SetUseFXAA(true);
+    this->SuspendedView = nullptr;
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -163,6 +231,7 @@ void vtkPointFrontRepresentation::PrepareFrame(vtkInformation* inInfo, vtkPVRend
 
   this->PrepareClasses();
   this->PrepareColors();
+  this->SuspendFXAA(view);
 }
 
 //------------------------------------------------------------------------------
@@ -198,12 +267,21 @@ void vtkPointFrontRepresentation::PrepareColors()
   if (!array || !array[0] || !ofPoints)
   {
     this->Mapper->ScalarVisibilityOff();
+    this->PrepareStyle("", false);
     return;
   }
+  const bool color = IsColor(array);
+  if (!color && !this->ToldOfNames && this->Mapper->GetStorePiece() == 0)
+  {
+    vtkWarningMacro("\"" << array << "\" names points and is no colour: they are shown by height");
+  }
+  this->ToldOfNames = !color;
+  this->Mapper->SetLookupTable(color ? this->Table.Get() : this->HeightTable());
   this->Mapper->ScalarVisibilityOn();
   this->Mapper->SetScalarModeToUsePointFieldData();
-  this->Mapper->SelectColorArray(array);
+  this->Mapper->SelectColorArray(color ? array : "elevation");
   this->Mapper->UseLookupTableScalarRangeOn();
+  const bool direct = !this->MapScalars || (this->DirectColors && array == std::string("rgb"));
   if (!this->MapScalars)
   {
     this->Mapper->SetColorModeToDirectScalars();
@@ -216,6 +294,45 @@ void vtkPointFrontRepresentation::PrepareColors()
   {
     this->Mapper->SetColorModeToMapScalars();
   }
+  this->PrepareStyle(color ? array : "elevation", direct);
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::PrepareStyle(const std::string& array, bool direct)
+{
+  pointfront::LookColour colour;
+  colour.array = array;
+  colour.direct = direct;
+  colour.table = this->Mapper->GetLookupTable();
+  std::copy_n(this->Property->GetColor(), 3, colour.flat.begin());
+  pointfront::PointLook& look = this->Choice->look;
+  look.size = look.closing ? this->SizeFactor : this->PointSize;
+  look.opacity = this->Property->GetOpacity();
+  std::string error;
+  this->Mapper->SetStyle(this->Choice->style(colour, error));
+  if (!error.empty() && this->Mapper->GetStorePiece() == 0)
+  {
+    vtkErrorMacro(<< error);
+  }
+}
+
+//------------------------------------------------------------------------------
+vtkScalarsToColors* vtkPointFrontRepresentation::HeightTable()
+{
+  vtkPointFrontStore* store = this->Mapper->GetStore();
+  if (store && !this->Heights)
+  {
+    double bounds[6];
+    store->GetBounds(bounds);
+    vtkNew<vtkLookupTable> greys;
+    greys->SetRange(bounds[4], bounds[5]);
+    greys->SetHueRange(0.0, 0.0);
+    greys->SetSaturationRange(0.0, 0.0);
+    greys->SetValueRange(0.2, 1.0);
+    greys->Build();
+    this->Heights = greys;
+  }
+  return this->Heights;
 }
 
 //------------------------------------------------------------------------------
@@ -250,6 +367,7 @@ bool vtkPointFrontRepresentation::RemoveFromView(vtkView* view)
   {
     return false;
   }
+  this->ResumeFXAA();
   renderView->GetRenderer()->RemoveActor(this->Actor);
   renderView->UnRegisterPropForHardwareSelection(this, this->Actor);
   return this->Superclass::RemoveFromView(view);
@@ -296,153 +414,6 @@ bool vtkPointFrontRepresentation::GetFrameComplete()
 bool vtkPointFrontRepresentation::GetFrameOutdated()
 {
   return this->IsDrawing() && this->Mapper->NeedsRender();
-}
-
-//------------------------------------------------------------------------------
-void vtkPointFrontRepresentation::SetTargetError(double pixels)
-{
-  this->Mapper->SetTargetError(pixels);
-}
-
-//------------------------------------------------------------------------------
-void vtkPointFrontRepresentation::SetPointBudget(vtkIdType points)
-{
-  this->Mapper->SetPointBudget(points);
-}
-
-//------------------------------------------------------------------------------
-void vtkPointFrontRepresentation::SetGPUMemoryBudget(int mebibytes)
-{
-  this->Mapper->SetGPUMemoryBudget(static_cast<vtkTypeInt64>(mebibytes) << 20);
-}
-
-//------------------------------------------------------------------------------
-void vtkPointFrontRepresentation::SetDetailSelection(int method)
-{
-  this->Mapper->SetDetailSelection(method);
-}
-
-//------------------------------------------------------------------------------
-int vtkPointFrontRepresentation::GetHostMemoryBudget()
-{
-  return static_cast<int>(vtkPointFrontStore::GetProcessMemoryBudget() >> 20);
-}
-
-//------------------------------------------------------------------------------
-int vtkPointFrontRepresentation::GetNumberOfClasses()
-{
-  return this->Store ? this->Store->GetNumberOfObjectClasses() : 0;
-}
-
-//------------------------------------------------------------------------------
-const char* vtkPointFrontRepresentation::GetNameOfClass(int index)
-{
-  return this->Store ? this->Store->GetObjectClassName(index) : nullptr;
-}
-
-//------------------------------------------------------------------------------
-void vtkPointFrontRepresentation::SetClassVisibility(const char* name, int shown)
-{
-  if (shown != 0)
-  {
-    this->HiddenClasses.erase(name);
-  }
-  else
-  {
-    this->HiddenClasses.insert(name);
-  }
-}
-
-//------------------------------------------------------------------------------
-void vtkPointFrontRepresentation::ClearClassTargetErrorFactors()
-{
-  this->ClassFactors.clear();
-}
-
-//------------------------------------------------------------------------------
-void vtkPointFrontRepresentation::SetClassTargetErrorFactor(const char* name, double factor)
-{
-  this->ClassFactors[name] = factor;
-}
-
-//------------------------------------------------------------------------------
-void vtkPointFrontRepresentation::ClearClassBudgetShares()
-{
-  this->ClassShares.clear();
-}
-
-//------------------------------------------------------------------------------
-void vtkPointFrontRepresentation::SetClassBudgetShare(const char* name, double share)
-{
-  this->ClassShares[name] = share;
-}
-
-//------------------------------------------------------------------------------
-void vtkPointFrontRepresentation::SetLookupTable(vtkScalarsToColors* table)
-{
-  this->Mapper->SetLookupTable(table);
-}
-
-//------------------------------------------------------------------------------
-void vtkPointFrontRepresentation::SetPointSize(double pixels)
-{
-  this->Property->SetPointSize(static_cast<float>(pixels));
-}
-
-//------------------------------------------------------------------------------
-void vtkPointFrontRepresentation::SetOpacity(double opacity)
-{
-  this->Property->SetOpacity(opacity);
-}
-
-//------------------------------------------------------------------------------
-void vtkPointFrontRepresentation::SetAmbientColor(double r, double g, double b)
-{
-  this->Property->SetAmbientColor(r, g, b);
-}
-
-//------------------------------------------------------------------------------
-void vtkPointFrontRepresentation::SetDiffuseColor(double r, double g, double b)
-{
-  this->Property->SetDiffuseColor(r, g, b);
-}
-
-//------------------------------------------------------------------------------
-void vtkPointFrontRepresentation::SetPickable(int pickable)
-{
-  this->Actor->SetPickable(pickable);
-}
-
-//------------------------------------------------------------------------------
-void vtkPointFrontRepresentation::SetPosition(double x, double y, double z)
-{
-  this->Actor->SetPosition(x, y, z);
-}
-
-//------------------------------------------------------------------------------
-void vtkPointFrontRepresentation::SetScale(double x, double y, double z)
-{
-  this->Actor->SetScale(x, y, z);
-}
-
-//------------------------------------------------------------------------------
-void vtkPointFrontRepresentation::SetOrientation(double x, double y, double z)
-{
-  this->Actor->SetOrientation(x, y, z);
-}
-
-//------------------------------------------------------------------------------
-void vtkPointFrontRepresentation::SetOrigin(double x, double y, double z)
-{
-  this->Actor->SetOrigin(x, y, z);
-}
-
-//------------------------------------------------------------------------------
-void vtkPointFrontRepresentation::SetUserTransform(const double matrix[16])
-{
-  vtkNew<vtkTransform> transform;
-  transform->SetMatrix(matrix);
-  this->Actor->SetUserTransform(transform);
 }
 
 //------------------------------------------------------------------------------

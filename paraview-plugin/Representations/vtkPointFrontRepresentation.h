@@ -24,11 +24,14 @@
 #include "pointfrontParaViewRepresentationsModule.h" // for the export macro
 #include "vtkNew.h"                                  // for the members
 #include "vtkPVDataRepresentation.h"
-#include "vtkSmartPointer.h"                         // for the store
+#include "vtkSmartPointer.h" // for the store and colour maps
+#include "vtkWeakPointer.h"  // for marks
 
 #include <map>
+#include <memory>
 #include <set>
 #include <string>
+#include <vector>
 
 class vtkPVLODActor;
 class vtkPVRenderView;
@@ -37,6 +40,11 @@ class vtkPointFrontStore;
 class vtkPolyData;
 class vtkProperty;
 class vtkScalarsToColors;
+
+namespace pointfront
+{
+class StyleChoice;
+} // namespace pointfront
 
 class POINTFRONTPARAVIEWREPRESENTATIONS_EXPORT vtkPointFrontRepresentation
     : public vtkPVDataRepresentation
@@ -99,13 +107,60 @@ public:
   /**
    * Colouring. MapScalars on: every array goes through the lookup table; off: colours are drawn as
    * they are. DirectColors on (default): "rgb" is drawn as it is even if MapScalars is on, other
-   * arrays go through the table.
+   * arrays go through the table. Where an array is chosen that is no colour, the points are grey by
+   * height, and a warning says so.
    */
   void SetLookupTable(vtkScalarsToColors* table);
   vtkSetMacro(MapScalars, bool);
   vtkGetMacro(MapScalars, bool);
   vtkSetMacro(DirectColors, bool);
   vtkGetMacro(DirectColors, bool);
+  /// False for what names points: "point_id".
+  static bool IsColor(const std::string& array) { return array != "point_id"; }
+  ///@}
+
+  ///@{
+  /**
+   * How points look, as style sheets have it (docs/user/styles.md): "points" (default), "splats",
+   * "spheres" or "ewa"; the diameter in pixels (PointSize) or the one that closes the surface times
+   * a factor; eye-dome lighting (0, the default: off); light on points that have a normal; holes
+   * between points filled; a condition for the points that are drawn. Who draws: see
+   * vtkPointFrontMapper::SetBackend.
+   */
+  void SetTechnique(const char* name);
+  void SetClosingSize(bool closing);
+  void SetSizeFactor(double factor);
+  void SetEyeDomeStrength(double strength);
+  void SetLit(bool lit);
+  void SetFillHoles(bool fill);
+  void SetWhere(const char* condition);
+  void SetBackend(int backend);
+  ///@}
+
+  ///@{
+  /**
+   * FXAA takes single points for noise: on (default), views that show this have none.
+   */
+  vtkSetMacro(CrispPoints, bool);
+  vtkGetMacro(CrispPoints, bool);
+  ///@}
+
+  ///@{
+  /**
+   * A style sheet, a JSON file as the server sees it: it says how points look, and what is above
+   * does not count. Null or empty: what is above.
+   */
+  void SetStyleFile(const char* fileName);
+  ///@}
+
+  ///@{
+  /**
+   * What differs for a class, given by its code: technique, "hidden" or "" (as the others); colour,
+   * an attribute or "#rrggbb" or ""; diameter in pixels or "".
+   */
+  void ClearClassStyles();
+  void AddClassStyle(
+    const char* classCode, const char* technique, const char* color, const char* size);
   ///@}
 
   ///@{
@@ -163,7 +218,17 @@ private:
   void PrepareFrame(vtkInformation* inInfo, vtkPVRenderView* view);
   void PrepareClasses();
   void PrepareColors();
+  /// Hands the mapper a style, if one is needed; `array` is drawn, or none if it is empty.
+  void PrepareStyle(const std::string& array, bool direct);
+  /// Greys over the heights of the cloud; null without a store.
+  vtkScalarsToColors* HeightTable();
   bool WantsComplete(vtkPVRenderView* view) const;
+  /// While the view selects, what cannot be picked is not drawn: above all the marks of what is
+  /// selected, which hide what is to be deselected.
+  void PrepareMarks(vtkPVRenderView* view);
+  /// Switches the view's FXAA off for the frame that it is about to render, and on again behind it.
+  void SuspendFXAA(vtkPVRenderView* view);
+  void ResumeFXAA();
   /// Whether this process draws points of a store.
   bool IsDrawing();
 
@@ -180,6 +245,16 @@ private:
   std::map<std::string, double> ClassShares;
   bool MapScalars = true;
   bool DirectColors = true;
+  std::vector<vtkWeakPointer<vtkPVLODActor>> HiddenMarks;
+  bool ToldOfNames = false; ///< that they are no colours
+  bool CrispPoints = true;
+  vtkWeakPointer<vtkPVRenderView> SuspendedView; ///< whose FXAA is off for a frame
+  unsigned long EndObserver = 0;
+  const std::unique_ptr<pointfront::StyleChoice> Choice;
+  double PointSize = 2.0;
+  double SizeFactor = 1.0;
+  vtkSmartPointer<vtkScalarsToColors> Table;
+  vtkSmartPointer<vtkScalarsToColors> Heights;
 };
 
 #endif

@@ -1,5 +1,8 @@
 #include "vtkSMPointFrontRepresentationProxy.h"
 
+#include "ClassCategories.h"
+#include "ColourLegends.h"
+
 #include "vtkCommand.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
@@ -50,10 +53,8 @@ void vtkSMPointFrontRepresentationProxy::ViewUpdated(vtkSMProxy* view)
 {
   this->Superclass::ViewUpdated(view);
   this->GatherClasses();
-  if (vtkProcessModule::GetProcessType() != vtkProcessModule::PROCESS_BATCH)
-  {
-    this->Follow(vtkSMViewProxy::SafeDownCast(view));
-  }
+  this->Follow(vtkSMViewProxy::SafeDownCast(view));
+  this->OnRender(view, vtkCommand::StartEvent, nullptr);
 }
 
 //------------------------------------------------------------------------------
@@ -65,6 +66,10 @@ void vtkSMPointFrontRepresentationProxy::CreateVTKObjects()
   {
     vtkNew<vtkSMParaViewPipelineController> controller;
     controller->UpdateSettingsProxies(this->GetSession());
+    // Where users look: ParaView shows it for the representation "Points" only.
+    vtkSMProxy* representation = this->GetTrueParentProxy();
+    vtkSMProperty* size = representation ? representation->GetProperty("PointSize") : nullptr;
+    size ? size->SetPanelVisibility("default") : void();
   }
 }
 
@@ -99,15 +104,21 @@ void vtkSMPointFrontRepresentationProxy::TellClasses()
 //------------------------------------------------------------------------------
 void vtkSMPointFrontRepresentationProxy::Follow(vtkSMViewProxy* view)
 {
-  vtkRenderWindowInteractor* interactor = view ? view->GetInteractor() : nullptr;
+  const bool batch = vtkProcessModule::GetProcessType() == vtkProcessModule::PROCESS_BATCH;
+  vtkRenderWindowInteractor* interactor = view && !batch ? view->GetInteractor() : nullptr;
   if (view == this->View && interactor == this->Interactor)
   {
     return;
   }
   this->Unfollow();
-  if (interactor)
+  if (view)
   {
     this->View = view;
+    this->StartObserver = view->AddObserver(
+      vtkCommand::StartEvent, this, &vtkSMPointFrontRepresentationProxy::OnRender);
+  }
+  if (interactor)
+  {
     this->Interactor = interactor;
     this->RenderObserver = view->AddObserver(
       vtkCommand::EndEvent, this, &vtkSMPointFrontRepresentationProxy::OnRendered);
@@ -122,6 +133,7 @@ void vtkSMPointFrontRepresentationProxy::Unfollow()
   this->StopTimer();
   if (this->View)
   {
+    this->View->RemoveObserver(this->StartObserver);
     this->View->RemoveObserver(this->RenderObserver);
   }
   if (this->Interactor)
@@ -130,6 +142,7 @@ void vtkSMPointFrontRepresentationProxy::Unfollow()
   }
   this->View = nullptr;
   this->Interactor = nullptr;
+  this->RenderObserver = 0;
 }
 
 //------------------------------------------------------------------------------
@@ -166,6 +179,16 @@ void vtkSMPointFrontRepresentationProxy::StopTimer()
     this->Interactor->DestroyTimer(this->Timer);
   }
   this->Timer = 0;
+}
+
+//------------------------------------------------------------------------------
+void vtkSMPointFrontRepresentationProxy::OnRender(vtkObject* view, unsigned long, void*)
+{
+  if (this->IsActive())
+  {
+    pointfront::nameClasses(this);
+    pointfront::hideUnusedLegends(vtkSMViewProxy::SafeDownCast(view));
+  }
 }
 
 //------------------------------------------------------------------------------

@@ -10,7 +10,8 @@
  * which ParaView turns into a still render, or an interactive one while a mouse button is held. It
  * ends when the frame is complete everywhere. Works without Qt: in the ParaView application, and in
  * a Python client with a window (Interact()), with the builtin and with remote servers. In batch
- * there is no event loop and no timer.
+ * there is no event loop and no timer. Before each render it hides the legends of colours that are
+ * drawn as they are.
  *
  * The server manager makes one for every representation of a view, whatever it draws; one that is
  * not the active type stays silent and sends nothing to the server. Client only, main thread.
@@ -65,12 +66,14 @@ private:
   bool IsSessionBusy();
   void StartTimer(int milliseconds);
   void StopTimer();
+  void OnRender(vtkObject* view, unsigned long event, void* interactive);
   void OnRendered(vtkObject* view, unsigned long event, void* interactive);
   void OnTimer(vtkObject* interactor, unsigned long event, void* timer);
 
   std::vector<std::string> Classes; ///< of the store
   vtkWeakPointer<vtkSMViewProxy> View;
   vtkWeakPointer<vtkRenderWindowInteractor> Interactor;
+  unsigned long StartObserver = 0;
   unsigned long RenderObserver = 0;
   unsigned long TimerObserver = 0;
   int Timer = 0; ///< of the interactor; 0: none

@@ -7,7 +7,7 @@ import json
 import os
 import sys
 
-from paraview import simple
+from paraview import servermanager, simple
 
 simple.LoadPlugin(os.environ["POINTFRONT_PLUGIN"], remote=False, ns=globals())
 
@@ -60,6 +60,33 @@ scene.display.ClassBudgetShares = [smallest, "1"]
 require(0 < drawn() <= POINTS // 4, "the budget is broken: %d points" % drawn())
 scene.display.ClassBudgetShares = []
 require(drawn() == without, "without its share it is as before")
+
+# Classes are categories with names and colours; what a user makes of them stays.
+scene.display.ClassTargetErrorFactors = []
+scene.display.TargetError, scene.display.PointBudget = 0.01, 0
+scene.color_by(scene.display, "classification")
+scene.display.SetScalarBarVisibility(scene.view, True)
+scene.save("classes-coloured")
+table = simple.GetColorTransferFunction("classification")
+named = dict(zip(table.Annotations[::2], table.Annotations[1::2]))
+require(table.InterpretValuesAsCategories == 1, "classes are no categories")
+require(named["2"] == "ground" and named["6"] == "building", "named %s" % named)
+require(set(names) <= set(named.values()), "named %s" % named)
+table.InterpretValuesAsCategories = 0
+table.Annotations = []
+scene.save("classes-mapped")
+require(len(table.Annotations) == 0, "a user's colour map is changed")
+
+# The store is described where users look: in the Information panel, by the field data.
+fields = servermanager.Fetch(scene.reader).GetFieldData()
+told = {fields.GetArrayName(i): fields.GetAbstractArray(i)
+        for i in range(fields.GetNumberOfArrays())}
+require(told["store_points"].GetValue(0) == POINTS, "points of the store")
+require([told["store_classes"].GetValue(i) for i in range(len(names))] == names, "its classes")
+require([told["store_class_points"].GetValue(i) for i in range(len(names))]
+        == list(classes.values()), "points of its classes")
+require("octree" in told["store_structure"].GetValue(0), told["store_structure"].GetValue(0))
+require("PointFront Extract" in told["output_is"].GetValue(0), told["output_is"].GetValue(0))
 
 # One host memory for all clouds: a page of the settings, which is there although nobody loaded the
 # plugin through the application's dialog.

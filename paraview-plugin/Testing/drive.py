@@ -6,8 +6,11 @@ store from), POINTFRONT_CAMERA, POINTFRONT_PVPYTHONPATH, POINTFRONT_{PVBATCH,PVS
 MPIEXEC}. Writes under the current folder only.
 """
 
+import glob
 import json
 import os
+import re
+import shlex
 import shutil
 import signal
 import socket
@@ -15,6 +18,7 @@ import subprocess
 import sys
 import time
 
+import numpy
 import pictures
 
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -98,12 +102,12 @@ def free_port():
         return probe.getsockname()[1]
 
 
-def compare(one, other, share=SHARE):
+def compare(one, other, share=SHARE, channel=CHANNEL):
     first, second = pictures.load(one + ".png"), pictures.load(other + ".png")
     covered = pictures.covered(first)
-    found = pictures.differing(first, second, CHANNEL)
+    found = pictures.differing(first, second, channel)
     print("%s, %s: %.3f %% of pixels differ by more than %d (limit %.3f %%), %.1f %% covered"
-          % (one, other, 100 * found, CHANNEL, 100 * share, 100 * covered))
+          % (one, other, 100 * found, channel, 100 * share, 100 * covered))
     # An empty picture agrees with an empty one.
     if covered < 0.1:
         raise AssertionError(one + " shows next to nothing")
@@ -151,6 +155,20 @@ def ranks(programs):
     compare("pieces", "tool")
 
 
+def backends(programs):
+    """Of points the same pictures on 1, 2 and 4 ranks, but for 0.1 % and two levels of 255.
+
+    Splats are not compared: a rank that draws a coarse node does not know which finer ones others
+    draw over it, and its splats are too large.
+    """
+    for count in (1, 2, 4):
+        name = "backends-%d" % count
+        programs.run(*mpi(count, os.environ["POINTFRONT_PVBATCH"],
+                          os.path.join(HERE, "backends.py"), name))
+        for way in ("opengl", "software"):
+            compare("%s-%s" % (name, way), "backends-1-" + way, channel=2)
+
+
 def with_server(programs, script, *arguments):
     """A Python client of a server with two ranks."""
     port = free_port()
@@ -181,6 +199,7 @@ def colours(programs):
         for i in range(40000):
             x, y = i % 200, i // 200
             ply.write("%d %d %g 0 0 0 %d\n" % (x, y, 0.002 * x * y, x + y))
+    os.environ["POINTFRONT_COLOURED"] = os.environ["POINTFRONT_STORE"]
     store = os.environ["POINTFRONT_STORE"] = os.path.abspath("black.pfront")
     tool("build", "black.ply", "-o", store, "--force")
     with open("colours.log", "w") as log:
@@ -200,7 +219,86 @@ def filtered(programs):
     print(told)
     if "is a filter's output" not in told:
         raise AssertionError("nobody is told why a filter's output is not drawn")
+    if "a query selects among the 5000 points of the overview" not in told:
+        raise AssertionError("nobody is told what a query selects among")
     compare("filtered", "tool")
+
+
+def views(programs):
+    whole = open(os.environ["POINTFRONT_STORE"], "rb").read()
+    damaged = os.path.abspath("damaged.pfront")
+    with open(damaged, "wb") as file:
+        file.write(whole[:len(whole) // 2])
+    with open("views.log", "w") as log:
+        done = programs.start(os.environ["POINTFRONT_PVBATCH"], os.path.join(HERE, "views.py"),
+                              damaged, output=log)
+        try:
+            programs.finish(done)
+        finally:
+            print(open("views.log").read())
+    told = open("views.log").read().split("damaged", 1)[1]
+    if told.count("ERR|") != 1:
+        raise AssertionError("%d errors for one damaged store" % told.count("ERR|"))
+
+
+def state(programs):
+    """The state as a file and as a script, and the trace, in a ParaView that knows nothing."""
+    pvbatch, script = os.environ["POINTFRONT_PVBATCH"], os.path.join(HERE, "state.py")
+    programs.run(pvbatch, script, "save")
+    programs.run(pvbatch, script, "load")
+    compare("state-loaded", "state")
+    # A trace of a script has what simple's functions did, and loads the plugin.
+    programs.run(pvbatch, os.path.abspath("saved-trace.py"))
+    # ParaView's states as scripts load no plugins: it is told of ours as of any that it shall load.
+    with open("plugins.xml", "w") as file:
+        file.write('<Plugins><Plugin name="PointFront" filename="%s" auto_load="1"/></Plugins>\n'
+                   % os.environ["POINTFRONT_PLUGIN"])
+    os.environ["PV_PLUGIN_CONFIG_FILE"] = os.path.abspath("plugins.xml")
+    programs.run(pvbatch, os.path.abspath("saved-state.py"))
+    compare("by-state", "state-loaded")
+
+
+def first_hour(programs):
+    """What docs/user/paraview.md says, line by line; alone and on two ranks."""
+    with open(os.path.join(HERE, "..", "..", "docs", "user", "paraview.md")) as file:
+        chapter = file.read().split("## A first hour", 1)[1].split("\n## ", 1)[0]
+    blocks = re.findall(r"```(sh|python)\n(.*?)```", chapter, re.DOTALL)
+    for line in "".join(text for kind, text in blocks if kind == "sh").splitlines():
+        program, *arguments = shlex.split(line)
+        if program != "pointfront":
+            raise AssertionError("not ours to run: " + line)
+        tool(*arguments, "--force")
+    script = "".join(text for kind, text in blocks if kind == "python")
+    with open("hour.py", "w") as file:
+        file.write(script.replace('"PointFront.so"', repr(os.environ["POINTFRONT_PLUGIN"])))
+    wanted = re.findall(r'"(\w+\.(?:png|csv))"', script)
+    # One process comes last: its pictures are those of the documentation.
+    for ranks_, command in ((2, mpi(2, os.environ["POINTFRONT_PVBATCH"])),
+                            (1, [os.environ["POINTFRONT_PVBATCH"]])):
+        for old in glob.glob("flight*.png") + wanted:
+            if os.path.exists(old):
+                os.remove(old)
+        programs.run(*command, "hour.py")
+        for name in wanted:
+            found = glob.glob(name.replace(".", "*."))
+            if not found or min(os.path.getsize(path) for path in found) < 5000:
+                raise AssertionError("%s on %d ranks: %s" % (name, ranks_, found))
+        if len(glob.glob("flight*.png")) != 4:
+            raise AssertionError("frames: %s" % glob.glob("flight*.png"))
+
+
+def looks(programs):
+    with open("looks.log", "w") as log:
+        done = programs.start(
+            os.environ["POINTFRONT_PVBATCH"], os.path.join(HERE, "looks.py"), output=log)
+        try:
+            programs.finish(done)
+        finally:
+            print(open("looks.log").read())
+    told = open("looks.log").read()
+    if told.count("has no attribute") != 1:
+        raise AssertionError("an unknown attribute is told of %d times"
+                             % told.count("has no attribute"))
 
 
 def series(programs):
@@ -216,6 +314,53 @@ def series(programs):
     command = [os.environ["POINTFRONT_PVBATCH"], os.path.join(HERE, "series.py"), json.dumps(steps)]
     programs.run(*command)
     programs.run(*mpi(2, *command))
+
+
+def exported(name, *conditions):
+    """What the tool exports: rows of x, y, z and intensity, in order."""
+    path = os.path.abspath(name + ".csv")
+    tool("export", os.environ["POINTFRONT_STORE"], "-o", path, "--force", *conditions)
+    table = numpy.genfromtxt(path, delimiter=",", names=True)
+    print(name, table.dtype.names, len(table))
+    rows = numpy.stack([table[column] for column in ("x", "y", "z", "intensity")], axis=1)
+    return rows[numpy.lexsort(rows.T[::-1])]
+
+
+def extract(programs):
+    """On 1, 2 and 4 ranks, what the tool exports."""
+    store = os.environ["POINTFRONT_STORE"] = os.path.abspath("small-nodes.pfront")
+    tool("build", os.environ["POINTFRONT_CLOUD"], "-o", store, "--node-points", "1000", "--force")
+    bounds = json.loads(tool("info", store, "--json"))["bounds"]
+    low, high = numpy.array(bounds[:3]), numpy.array(bounds[3:])
+    # Ends that add up exactly in doubles.
+    box = [*numpy.round(low + 0.25 * (high - low)), *numpy.round(low + 0.75 * (high - low))]
+    box[2], box[5] = float(numpy.floor(low[2])), float(numpy.ceil(high[2]))
+    sphere = [*numpy.round(0.5 * (low + high)), 150.0]
+    text = ",".join("%.17g" % end for end in box)
+    wanted = {"box": exported("box", "--box", text),
+              "sphere": exported("sphere", "--sphere", ",".join("%.17g" % x for x in sphere)),
+              "conditions": exported("conditions", "--box", text, "--classes", "0,2", "--where",
+                                     "intensity > 60 and return_number == 1")}
+    wanted["turned"] = wanted["box"]
+    results = {}
+    for count in (1, 2, 4):
+        name = "extract-%d" % count
+        programs.run(*mpi(count, os.environ["POINTFRONT_PVBATCH"],
+                          os.path.join(HERE, "extract.py"), name, json.dumps(box),
+                          json.dumps(sphere)))
+        results[count] = found = numpy.load(name + ".npz")
+        for what, rows in wanted.items():
+            got = found[what][:, :4]
+            got = got[numpy.lexsort(got.T[::-1])]
+            if len(rows) < 100 or got.shape != rows.shape or not numpy.allclose(got, rows, 0, 1e-6):
+                raise AssertionError("%s on %d ranks: %d points, the tool exports %d, or others"
+                                     % (what, count, len(got), len(rows)))
+        if not numpy.array_equal(found["frustum"], results[1]["frustum"]):
+            raise AssertionError("a frustum on %d ranks has other points" % count)
+        print("%d ranks read %s bytes" % (count, found["bytes"]))
+        compare("extract-%d" % count, "extract-1")
+    if max(results[2]["bytes"]) > 0.6 * results[1]["bytes"][0]:
+        raise AssertionError("a rank of two reads as much as one alone")
 
 
 def selection(programs):
@@ -288,7 +433,10 @@ def main(way):
     ways = {"batch": batch, "classes": classes, "ranks": ranks, "server": server,
             "application": application, "colours": colours, "filtered": filtered,
             "rubber-band": rubber_band, "selection": selection, "series": series,
-            "ranks-selection": ranks_selection}
+            "ranks-selection": ranks_selection,
+            "extract": extract, "looks": looks, "views": views,
+            "state": state, "backends": backends,
+            "first-hour": first_hour}
     with Programs() as programs:
         ways[way](programs)
 

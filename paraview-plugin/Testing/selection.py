@@ -23,13 +23,23 @@ if len(sys.argv) > 1:
     simple.LoadPlugin(os.environ["POINTFRONT_PLUGIN"], remote=True, ns=globals())
 simple.LoadPlugin(os.environ["POINTFRONT_PLUGIN"], remote=False, ns=globals())
 
-from scene import POINTS, SIZE, STORE, Scene, require
+import pictures
+import visible
+from scene import OUTPUT, POINTS, SIZE, STORE, Scene, require
 
 RANKS = servermanager.ActiveConnection.GetNumberOfDataPartitions()
 RECTANGLES = 50
 PICKS = 200 if RANKS == 1 else 50
 COMPARED = 50 if RANKS == 1 else 10  # rectangles in which ParaView draws the points, too
-DIFFERENT = 0.08  # share of points that are selected in one of two pictures only
+# Of the points that a picture shows, those that are not selected, or selected and not shown. Found:
+# 0.03 %, of points whose depths or places are equal but for the last bits of a double.
+DIFFERENT = 0.002
+# Pixels from the lower left corner, where ParaView has its orientation axes: on several ranks it
+# selects nothing of ours there, and 90 % of its own points (docs/adr/0022).
+CORNER = 100
+# As DIFFERENT, for what ParaView itself selects where it draws all points: it also selects points
+# that are hidden by up to 0.000032 of the depth range (docs/adr/0022). Found: 5 %.
+STOCK_DIFFERENT = 0.08
 SLACK = 1.5  # pixels: a point is drawn two pixels wide, and its place is rounded
 
 scene = Scene()
@@ -80,16 +90,30 @@ scene.look()
 cloud, attributes = whole_cloud(whole)
 
 
-def pixels(places):
-    """Where points are on the screen, from its lower left corner."""
+def project(places):
+    """Where points are on the screen, in pixels from its lower left corner, and their depths."""
     camera = scene.view.SMProxy.GetActiveCamera()
     matrix = camera.GetCompositeProjectionTransformMatrix(SIZE[0] / SIZE[1], -1, 1)
     matrix = numpy.array([[matrix.GetElement(i, j) for j in range(4)] for i in range(4)])
     clip = numpy.c_[places, numpy.ones(len(places))] @ matrix.T
-    return (clip[:, :2] / clip[:, 3:] + 1) / 2 * SIZE
+    return (clip[:, :2] / clip[:, 3:] + 1) / 2 * SIZE, clip[:, 2] / clip[:, 3]
 
 
-on_screen = pixels(cloud)
+def pixels(places):
+    return project(places)[0]
+
+
+on_screen, depths = project(cloud)
+shown = visible.winners(on_screen, depths, SIZE)
+
+
+def shown_in(chosen):
+    """Points that the chosen pixels show."""
+    return set(shown[chosen].ravel().tolist()) - {-1}
+
+
+def of_rectangle(left, low, right, high):
+    return numpy.s_[low:high + 1, left:right + 1]
 
 
 def select(rectangle, cells=False):
@@ -120,10 +144,10 @@ def check(found, rectangle, what):
     require(outside == 0, "%s: %d of %d outside of the rectangle" % (what, outside, len(ids)))
 
 
-def extracted(selection, source=scene.reader):
-    """What "Extract Selection" makes of it."""
-    extract = simple.ExtractSelection(Input=source,
-                                      Selection=servermanager._getPyProxy(selection))
+def extracted(selection=None, source=scene.reader):
+    """What "Extract Selection" makes of it; of the active selection, if there is no other."""
+    chosen = {"Selection": servermanager._getPyProxy(selection)} if selection else {}
+    extract = simple.ExtractSelection(Input=source, **chosen)
     found = points_of(extract)
     simple.Delete(extract)
     return found
@@ -152,7 +176,7 @@ def rectangles():
 
 
 def check_rectangles():
-    ours = theirs = different = 0
+    total = ours = theirs = different = wrong = 0
     wanted = stock_ids()
     for number, rectangle in enumerate(rectangles()):
         selection = select(rectangle, cells=number % 5 == 4)
@@ -161,14 +185,59 @@ def check_rectangles():
             found = extracted(selection)
             check(found, rectangle, "rectangle %s" % rectangle)
             ids = set(found[1]["point_id"].tolist())
+        if RANKS == 1 or not (rectangle[0] < CORNER and rectangle[1] < CORNER):
+            wrong += len(ids ^ shown_in(of_rectangle(*rectangle)))
+        total += len(ids)
         if number < COMPARED:
             ours, theirs = ours + len(ids), theirs + len(wanted[number])
             different += len(ids ^ wanted[number])
-    print("%d points in %d rectangles; ParaView's own points: %d, not in both: %d"
-          % (ours, COMPARED, theirs, different))
+    print("%d points in %d rectangles, %d wrong; of %d in %d, ParaView's own points: %d, not in "
+          "both: %d" % (total, RECTANGLES, wrong, ours, COMPARED, theirs, different))
     require(theirs > 5000, "the rectangles show next to nothing")
-    # Mesa rounds places to 1/256 of a pixel, and of points in one pixel the nearer one is shown.
-    require(different < DIFFERENT * theirs, "not all that is shown is selected")
+    require(wrong <= DIFFERENT * total, "not what is shown is selected")
+    require(different < STOCK_DIFFERENT * theirs, "other points than ParaView would select")
+
+
+def check_polygon():
+    """A polygon on the screen: what its pixels show, but for those that its edges cross."""
+    corners = [(200, 90), (330, 260), (440, 120), (320, 180)]
+    simple.SetActiveSource(scene.reader)
+    simple.SelectSurfacePoints(Polygon=[c for corner in corners for c in corner], View=scene.view)
+    ids = set(extracted()[1]["point_id"].tolist())
+    simple.ClearSelection(scene.reader)
+    rows, columns = numpy.indices(shown.shape)
+    centres = numpy.stack([columns.ravel() + 0.5, rows.ravel() + 0.5], axis=1)
+    moved = [visible.inside_polygon(centres + [x, y], corners).reshape(shown.shape)
+             for x in (-1.5, 0, 1.5) for y in (-1.5, 0, 1.5)]
+    missed = shown_in(numpy.all(moved, axis=0)) - ids
+    strangers = ids - shown_in(numpy.any(moved, axis=0))
+    print("%d points in a polygon, %d missed, %d outside" % (len(ids), len(missed), len(strangers)))
+    require(len(ids) > 1000, "a polygon selects %d points" % len(ids))
+    require(len(missed) + len(strangers) <= DIFFERENT * len(ids), "not what the polygon shows")
+
+
+def marked(name):
+    """Pixels of a picture that are marked as selected."""
+    red, green, blue = numpy.moveaxis(pictures.load(os.path.join(OUTPUT, name + ".png")), 2, 0)
+    return numpy.count_nonzero((red > 200) & (green < 60) & (blue > 200))
+
+
+def check_modes():
+    """Selections that are added, subtracted and toggled, as with a key held."""
+    rectangles = [200, 100, 320, 200], [280, 150, 400, 240]
+    ids = [set(extracted(select(area))[1]["point_id"].tolist()) for area in rectangles]
+    for mode, combined in (("ADD", set.union), ("SUBTRACT", set.difference),
+                           ("TOGGLE", set.symmetric_difference)):
+        simple.SetActiveSource(scene.reader)
+        simple.SelectSurfacePoints(Rectangle=rectangles[0], View=scene.view)
+        simple.SelectSurfacePoints(Rectangle=rectangles[1], View=scene.view, Modifier=mode)
+        found = extracted()[1]["point_id"].tolist()
+        wanted = combined(*ids)
+        require(len(set(found)) == len(found), mode + ": a point came twice")
+        require(set(found) == wanted, "%s: %d points, not %d" % (mode, len(found), len(wanted)))
+        scene.save("selection-" + mode)  # with marks, which were away while the view selected
+        require(marked("selection-" + mode) > 0.9 * len(wanted), mode + ": no marks")
+        simple.ClearSelection(scene.reader)
 
 
 def check_shown_selection():
@@ -176,8 +245,8 @@ def check_shown_selection():
     rectangle = [200, 100, 420, 220]
     selection = select(rectangle)
     scene.reader.SMProxy.SetSelectionInput(0, selection, 0)
-    shown = servermanager._getPyProxy(scene.reader.SMProxy.GetSelectionOutput(0))
-    found = points_of(shown)
+    active = servermanager._getPyProxy(scene.reader.SMProxy.GetSelectionOutput(0))
+    found = points_of(active)
     require(len(found[0]) > 1000, "the active selection has %d points" % len(found[0]))
     check(found, rectangle, "the active selection")
     scene.save("selection-shown")
@@ -268,6 +337,8 @@ def check_tooltip():
 
 
 check_rectangles()
+check_polygon()
+check_modes()
 check_shown_selection()
 check_script()
 check_frustum()

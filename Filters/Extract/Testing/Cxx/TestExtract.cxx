@@ -176,6 +176,23 @@ TEST_F(Extract, ASpacingThinsOutAndALimitIsKept)
   EXPECT_EQ(updated()->GetNumberOfPoints(), points);
 }
 
+TEST_F(Extract, CountsWithoutGivingPoints)
+{
+  filter->SetWhere("intensity > 100");
+  filter->CountOnlyOn();
+  filter->SetMaximumNumberOfPoints(1);
+  EXPECT_EQ(updated()->GetNumberOfPoints(), 0);
+  const vtkIdType counted = filter->GetNumberOfPointsChosen();
+  const vtkTypeInt64 bytes = filter->GetNumberOfBytesRead();
+  filter->CountOnlyOff();
+  filter->SetMaximumNumberOfPoints(VTK_ID_MAX);
+  EXPECT_EQ(updated()->GetNumberOfPoints(), counted);
+  EXPECT_GT(counted, 0);
+  EXPECT_LT(counted, whole()->GetNumberOfPoints());
+  EXPECT_EQ(filter->GetNumberOfPointsChosen(), counted);
+  EXPECT_LT(bytes, filter->GetNumberOfBytesRead());
+}
+
 TEST_F(Extract, PiecesTogetherAreTheWhole)
 {
   filter->SetWhere("z < 450");

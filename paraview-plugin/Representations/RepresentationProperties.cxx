@@ -1,0 +1,228 @@
+// The properties of vtkPointFrontRepresentation that are handed on as they are.
+#include "vtkPointFrontRepresentation.h"
+
+#include "StyleChoice.h"
+
+#include "vtkNew.h"
+#include "vtkPVLODActor.h"
+#include "vtkPointFrontMapper.h"
+#include "vtkPointFrontStore.h"
+#include "vtkProperty.h"
+#include "vtkScalarsToColors.h"
+#include "vtkTransform.h"
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetTargetError(double pixels)
+{
+  this->Mapper->SetTargetError(pixels);
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetPointBudget(vtkIdType points)
+{
+  this->Mapper->SetPointBudget(points);
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetGPUMemoryBudget(int mebibytes)
+{
+  this->Mapper->SetGPUMemoryBudget(static_cast<vtkTypeInt64>(mebibytes) << 20);
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetDetailSelection(int method)
+{
+  this->Mapper->SetDetailSelection(method);
+}
+
+//------------------------------------------------------------------------------
+int vtkPointFrontRepresentation::GetHostMemoryBudget()
+{
+  return static_cast<int>(vtkPointFrontStore::GetProcessMemoryBudget() >> 20);
+}
+
+//------------------------------------------------------------------------------
+int vtkPointFrontRepresentation::GetNumberOfClasses()
+{
+  return this->Store ? this->Store->GetNumberOfObjectClasses() : 0;
+}
+
+//------------------------------------------------------------------------------
+const char* vtkPointFrontRepresentation::GetNameOfClass(int index)
+{
+  return this->Store ? this->Store->GetObjectClassName(index) : nullptr;
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetClassVisibility(const char* name, int shown)
+{
+  if (shown != 0)
+  {
+    this->HiddenClasses.erase(name);
+  }
+  else
+  {
+    this->HiddenClasses.insert(name);
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::ClearClassTargetErrorFactors()
+{
+  this->ClassFactors.clear();
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetClassTargetErrorFactor(const char* name, double factor)
+{
+  this->ClassFactors[name] = factor;
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::ClearClassBudgetShares()
+{
+  this->ClassShares.clear();
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetClassBudgetShare(const char* name, double share)
+{
+  this->ClassShares[name] = share;
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetLookupTable(vtkScalarsToColors* table)
+{
+  this->Table = table;
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetPointSize(double pixels)
+{
+  this->PointSize = pixels;
+  this->Property->SetPointSize(static_cast<float>(pixels));
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetTechnique(const char* name)
+{
+  this->Choice->look.technique = name ? name : "";
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetClosingSize(bool closing)
+{
+  this->Choice->look.closing = closing;
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetSizeFactor(double factor)
+{
+  this->SizeFactor = factor;
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetEyeDomeStrength(double strength)
+{
+  this->Choice->look.eyeDomeStrength = strength;
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetLit(bool lit)
+{
+  this->Choice->look.lit = lit;
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetFillHoles(bool fill)
+{
+  this->Choice->look.fillHoles = fill;
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetWhere(const char* condition)
+{
+  this->Choice->look.where = condition ? condition : "";
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetBackend(int backend)
+{
+  this->Mapper->SetBackend(backend);
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetStyleFile(const char* fileName)
+{
+  this->Choice->setFile(fileName ? fileName : "");
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::ClearClassStyles()
+{
+  this->Choice->clearClasses();
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::AddClassStyle(
+  const char* classCode, const char* technique, const char* color, const char* size)
+{
+  const auto text = [](const char* value) { return std::string(value ? value : ""); };
+  this->Choice->addClass(text(classCode), text(technique), text(color), text(size));
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetOpacity(double opacity)
+{
+  this->Property->SetOpacity(opacity);
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetAmbientColor(double r, double g, double b)
+{
+  this->Property->SetAmbientColor(r, g, b);
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetDiffuseColor(double r, double g, double b)
+{
+  this->Property->SetDiffuseColor(r, g, b);
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetPickable(int pickable)
+{
+  this->Actor->SetPickable(pickable);
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetPosition(double x, double y, double z)
+{
+  this->Actor->SetPosition(x, y, z);
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetScale(double x, double y, double z)
+{
+  this->Actor->SetScale(x, y, z);
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetOrientation(double x, double y, double z)
+{
+  this->Actor->SetOrientation(x, y, z);
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetOrigin(double x, double y, double z)
+{
+  this->Actor->SetOrigin(x, y, z);
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetUserTransform(const double matrix[16])
+{
+  vtkNew<vtkTransform> transform;
+  transform->SetMatrix(matrix);
+  this->Actor->SetUserTransform(transform);
+}

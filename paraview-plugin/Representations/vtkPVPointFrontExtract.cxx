@@ -1,0 +1,193 @@
+#include "vtkPVPointFrontExtract.h"
+
+#include "RegionPlanes.h"
+#include "UpstreamReader.h"
+
+#include "vtkDataArraySelection.h"
+#include "vtkErrorCode.h"
+#include "vtkFieldData.h"
+#include "vtkIdTypeArray.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPVBox.h"
+#include "vtkPlane.h"
+#include "vtkPlanes.h"
+#include "vtkPointFrontStore.h"
+#include "vtkPolyData.h"
+#include "vtkSelection.h"
+#include "vtkSphere.h"
+
+#include <algorithm>
+
+vtkStandardNewMacro(vtkPVPointFrontExtract);
+
+namespace
+{
+
+/// A box as its ends, if it is not turned; exactly, for a place and lengths that add up exactly.
+bool endsOf(vtkImplicitFunction* region, double bounds[6])
+{
+  auto* box = vtkPVBox::SafeDownCast(region);
+  if (!box || box->GetUseReferenceBounds())
+  {
+    return false;
+  }
+  const double* turn = box->GetRotation();
+  for (int i = 0; i < 3; ++i)
+  {
+    const double ends[2] = {
+      box->GetPosition()[i], box->GetPosition()[i] + box->GetScale()[i]};
+    bounds[2 * i] = std::min(ends[0], ends[1]);
+    bounds[2 * i + 1] = std::max(ends[0], ends[1]);
+  }
+  return turn[0] == 0.0 && turn[1] == 0.0 && turn[2] == 0.0;
+}
+
+void addCount(vtkPolyData* data, const char* name, vtkIdType count)
+{
+  vtkNew<vtkIdTypeArray> array;
+  array->SetName(name);
+  array->InsertNextValue(count);
+  data->GetFieldData()->AddArray(array);
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+vtkPVPointFrontExtract::vtkPVPointFrontExtract()
+{
+  this->SetNumberOfInputPorts(2);
+}
+
+//------------------------------------------------------------------------------
+vtkPVPointFrontExtract::~vtkPVPointFrontExtract() = default;
+
+//------------------------------------------------------------------------------
+void vtkPVPointFrontExtract::SetRegion(vtkImplicitFunction* region)
+{
+  if (this->Region != region)
+  {
+    this->Region = region;
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkPVPointFrontExtract::SetSelectionConnection(vtkAlgorithmOutput* selection)
+{
+  this->SetInputConnection(1, selection);
+}
+
+//------------------------------------------------------------------------------
+vtkMTimeType vtkPVPointFrontExtract::GetMTime()
+{
+  // Not the superclass's settings that RequestData() makes of these.
+  const vtkMTimeType time = this->Superclass::GetMTime();
+  return this->Region ? std::max(time, this->Region->GetMTime()) : time;
+}
+
+//------------------------------------------------------------------------------
+int vtkPVPointFrontExtract::FillInputPortInformation(int port, vtkInformation* info)
+{
+  if (port == 0)
+  {
+    return this->Superclass::FillInputPortInformation(port, info);
+  }
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkSelection");
+  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkPVPointFrontExtract::RequestInformation(
+  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  vtkPointFrontReader* reader = pointfront::upstreamReaderOf(this);
+  vtkPointFrontStore* store = reader ? reader->GetStore() : nullptr;
+  for (int i = 0; store && i < store->GetNumberOfAttributes(); ++i)
+  {
+    this->PointDataArraySelection->AddArray(store->GetAttributeName(i));
+  }
+  return this->Superclass::RequestInformation(request, inputs, outputs);
+}
+
+//------------------------------------------------------------------------------
+bool vtkPVPointFrontExtract::ChooseRegion(vtkSelection* selection)
+{
+  // The settings of the superclass are made anew for each update; they are no changes of a user's.
+  vtkPlane* plane = vtkPlane::SafeDownCast(this->Region);
+  vtkBox* box = vtkBox::SafeDownCast(this->Region);
+  vtkSphere* sphere = vtkSphere::SafeDownCast(this->Region);
+  this->UseBox = this->UseRegion && endsOf(this->Region, this->Box);
+  this->UseSphere = this->UseRegion && sphere;
+  this->Frustum = nullptr;
+  if (this->UseRegion && !plane && !box && !sphere)
+  {
+    vtkErrorMacro("the region is neither a box, nor a sphere, nor a plane: choose one, or switch "
+                  "Use Region off");
+    return false;
+  }
+  if (this->UseSphere)
+  {
+    std::copy_n(sphere->GetCenter(), 3, this->SphereCenter);
+    this->SphereRadius = sphere->GetRadius();
+  }
+  else if (this->UseRegion && !this->UseBox)
+  {
+    this->Frustum = plane ? pointfront::planesOf(plane) : pointfront::planesOf(box);
+  }
+  if (!selection || selection->GetNumberOfNodes() == 0)
+  {
+    return true;
+  }
+  const auto frustum = pointfront::planesOf(selection);
+  if (!frustum)
+  {
+    vtkErrorMacro("the selection names points and is no region: use Extract Selection for it, or "
+                  "Select Points Through (g) for a region");
+    return false;
+  }
+  if (this->Frustum)
+  {
+    vtkErrorMacro("a turned box or a plane cannot be combined with a selection: switch Use Region "
+                  "off, or do without the selection");
+    return false;
+  }
+  this->Frustum = frustum;
+  return true;
+}
+
+//------------------------------------------------------------------------------
+int vtkPVPointFrontExtract::RequestData(
+  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  int done = 0;
+  if (!pointfront::upstreamReaderOf(this))
+  {
+    this->SetErrorCode(vtkErrorCode::NoFileNameError);
+    vtkErrorMacro("PointFront Extract reads from a store: its input is a PointFront Reader itself, "
+                  "and no filter's output");
+  }
+  else if (this->ChooseRegion(vtkSelection::GetData(inputs[1], 0)))
+  {
+    done = this->Superclass::RequestData(request, inputs, outputs);
+  }
+  if (done)
+  {
+    vtkPolyData* output = vtkPolyData::GetData(outputs, 0);
+    addCount(output, "points_chosen", this->GetNumberOfPointsChosen());
+    addCount(output, "points_read", this->GetNumberOfPointsRead());
+    addCount(output, "bytes_read", static_cast<vtkIdType>(this->GetNumberOfBytesRead()));
+  }
+  return 1; // one error says why the output is empty: no failure of the pipeline's besides
+}
+
+//------------------------------------------------------------------------------
+void vtkPVPointFrontExtract::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "UseRegion: " << this->UseRegion << "\n"
+     << indent << "Region: " << (this->Region ? this->Region->GetClassName() : "(none)") << "\n";
+}

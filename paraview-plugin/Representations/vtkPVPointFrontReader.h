@@ -1,0 +1,35 @@
+/**
+ * @class vtkPVPointFrontReader
+ * @brief vtkPointFrontReader as ParaView's source: its output says in field data what the store is
+ *
+ * What the Information panel shows, and what is saved with the overview: "store_points",
+ * "store_bounds" (x, y, z, low and high), "store_crs", "store_structure", "store_classes" and
+ * "store_class_points" (of a store with a tree for each class), "output_is" (what the points of the
+ * output are, and where the exact ones come from). The same on each rank.
+ */
+#ifndef vtkPVPointFrontReader_h
+#define vtkPVPointFrontReader_h
+
+#include "pointfrontParaViewRepresentationsModule.h" // for the export macro
+#include "vtkPointFrontReader.h"
+
+class POINTFRONTPARAVIEWREPRESENTATIONS_EXPORT vtkPVPointFrontReader : public vtkPointFrontReader
+{
+public:
+  static vtkPVPointFrontReader* New();
+  vtkTypeMacro(vtkPVPointFrontReader, vtkPointFrontReader);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+protected:
+  vtkPVPointFrontReader();
+  ~vtkPVPointFrontReader() override;
+  /// One error says what is wrong; no failures of the pipeline's besides.
+  int RequestInformation(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+
+private:
+  vtkPVPointFrontReader(const vtkPVPointFrontReader&) = delete;
+  void operator=(const vtkPVPointFrontReader&) = delete;
+};
+
+#endif

@@ -1,0 +1,123 @@
+"""pvbatch: how points look, by the representation's properties.
+
+Saves looks-*.png.
+"""
+
+import json
+import os
+
+import numpy
+from paraview import simple
+
+simple.LoadPlugin(os.environ["POINTFRONT_PLUGIN"], remote=False, ns=globals())
+
+import pictures
+from scene import OUTPUT, POINTS, SIZE, Scene, require
+
+scene = Scene()
+scene.view.ViewSize = SIZE
+scene.color_by(scene.display, "rgb")
+display = scene.display
+
+
+def picture(name):
+    scene.save("looks-" + name)
+    return pictures.load(os.path.join(OUTPUT, "looks-" + name + ".png"))
+
+
+def colours(image):
+    return numpy.unique(image.reshape(-1, 3), axis=0)
+
+
+plain = picture("points")
+# A style sheet that says the same is the same picture.
+display.Where = "z > -1000000"
+same = picture("same")
+require(pictures.differing(plain, same, 2) < 0.001, "a condition that all meet changes the picture")
+display.Where = "intensity > 100"
+some = picture("where")
+require(0.1 < pictures.covered(some) < 0.9 * pictures.covered(plain), "a condition is not kept")
+display.Where = ""
+
+# Splats close the surface; each technique is another picture.
+display.Technique, display.ClosingSize = "splats", 1
+splats = picture("splats")
+require(pictures.covered(splats) > 1.02 * pictures.covered(plain), "splats close nothing")
+others = []
+for technique in ("spheres", "ewa"):
+    display.Technique = technique
+    others.append(picture(technique))
+    require(pictures.differing(others[-1], splats, 8) > 0.02, technique + " looks like splats")
+display.Technique, display.ClosingSize = "points", 0
+
+# Eye-dome lighting darkens, and only that.
+display.EyeDomeStrength = 0.4
+dark = picture("eye-dome")
+require((dark.sum() < 0.97 * plain.sum()) and (dark <= plain + 2).all(), "no eye-dome lighting")
+display.EyeDomeStrength = 0.0
+
+# Sizes, where users look for them.
+require(display.SMProxy.GetProperty("PointSize").GetPanelVisibility() == "default", "hidden size")
+display.PointSize = 5
+require(pictures.covered(picture("large")) > pictures.covered(plain), "points are not larger")
+display.PointSize = 2
+
+# A colour map of ParaView's goes with techniques, too: the colours of both pictures are the map's.
+scene.color_by(display, "intensity")
+display.RescaleTransferFunctionToDataRange(False)
+mapped = picture("intensity")
+display.Where = "z > -1000000"
+styled = picture("intensity-styled")
+require(pictures.differing(mapped, styled, 4) < 0.005, "a style has other colours")
+display.Where = ""
+
+# Classes: this cloud has one, 0.
+display.ClassStyles = ["0", "spheres", "#0000ff", "3"]
+blue = colours(picture("class"))
+require(len(blue) <= 2 and blue[-1].tolist() == [0, 0, 255], "a class in blue: %s" % blue[:5])
+display.ClassStyles = ["0", "hidden", "", ""]
+scene.view.SMProxy.StillRender()
+require(scene.frame()[0] == 0, "a hidden class is drawn: %d points" % scene.frame()[0])
+display.ClassStyles = []
+
+# A style sheet's file says everything.
+sheet = os.path.join(OUTPUT, "sheet.json")
+with open(sheet, "w") as file:
+    json.dump({"default": {"technique": "points", "color": "#00ff00",
+                           "size": {"mode": "fixed", "px": 3}}}, file)
+display.StyleFile = sheet
+green = colours(picture("sheet"))
+require(len(green) == 2 and green[-1].tolist() == [0, 255, 0], "not the sheet's: %s" % green)
+display.StyleFile = ""
+
+# Both back ends draw points.
+scene.color_by(display, "rgb")
+for backend in ("OpenGL", "Software"):
+    display.Backend = backend
+    found = picture(backend.lower())
+    require(pictures.differing(plain, found, 8) < 0.01, backend + " draws something else")
+display.Backend = "What is faster"
+
+# What is wrong is said once, and points are drawn as if it were not there.
+display.Where = "no_such_attribute > 1"
+picture("wrong")
+picture("wrong")
+display.Where = ""
+require(pictures.differing(plain, picture("again"), 0) == 0, "not as before")
+
+# FXAA, ParaView's default, does not eat points; unless somebody wants it. It is as it was behind.
+display.PointSize = 1
+thin = picture("one-pixel")
+scene.view.UseFXAA = 1
+crisp = picture("one-pixel-crisp")
+require(pictures.differing(thin, crisp, 0) == 0, "FXAA changes points")
+display.CrispPoints = 0
+require(pictures.differing(thin, picture("one-pixel-fxaa"), 30) > 0.01, "no FXAA at all")
+display.CrispPoints = 1
+simple.Hide(scene.reader, scene.view)
+ball = simple.Show(simple.Sphere(Center=[637400.0, 851860.0, 450.0], Radius=100.0), scene.view)
+for use in (0, 1):
+    scene.view.UseFXAA = use
+    scene.save("looks-ball-%d" % use)
+edges = [pictures.load(os.path.join(OUTPUT, "looks-ball-%d.png" % use)) for use in (0, 1)]
+require(pictures.differing(*edges, 5) > 0, "FXAA is gone for what is no point")

@@ -7,7 +7,6 @@
 #include "Ground.h"
 #include "MapperColour.h"
 #include "PeakMemory.h"
-#include "PointSize.h"
 #include "ShownClasses.h"
 #include "ThreadReads.h"
 #include "WholeFile.h"
@@ -68,7 +67,7 @@ bool isPlain(const DrawingOptions& options)
   {
     style.colour.reset();
   }
-  if (style.size == pixels || style.size == StyleSize())
+  if (style.size == pixels)
   {
     style.size.reset();
   }
@@ -76,7 +75,7 @@ bool isPlain(const DrawingOptions& options)
   {
     rest.shownClasses.reset();
   }
-  return rest == StyleSheet();
+  return options.pointSizePx > 0.0 && rest == StyleSheet();
 }
 
 /// The same colour means the same value in all stores: ranges that the sheet leaves open are taken
@@ -294,6 +293,7 @@ Result<void> OffscreenScene::setUpDrawing()
   {
     drawn->mapper->SetBackendToOpenGL();
     drawn->mapper->SetStyleSheet(sheet);
+    drawn->mapper->SetPointSize(options_.pointSizePx); // where there is no sheet
     applyColour(colour.value(), drawn->mapper);
     drawn->mapper->SetTargetError(options_.errorPx);
     drawn->mapper->SetDetailSelection(options_.detail == "view"
@@ -321,14 +321,6 @@ void OffscreenScene::setCamera(const Camera& camera)
   to->SetParallelProjection(camera.parallelScale ? 1 : 0);
   to->SetParallelScale(camera.parallelScale.value_or(1.0));
   to->SetClippingRange(clippingRange(camera, bounds_).data());
-  const View view = viewOf(frameCameraOf(camera, bounds_, options_.size[0], options_.size[1]));
-  for (const auto& drawn : stores_)
-  {
-    const Hierarchy& hierarchy = *drawn->store->GetStore()->hierarchy();
-    drawn->mapper->SetPointSize(options_.pointSizePx > 0.0
-        ? options_.pointSizePx
-        : closingPointSize(hierarchy, view, options_.errorPx));
-  }
 }
 
 FrameRecord OffscreenScene::record() const

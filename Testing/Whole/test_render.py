@@ -145,24 +145,15 @@ class ChosenClasses(SceneTest):
         self.assertIn("no store here has a point of these classes", outcome.err)
         self.assertFalse(picture.exists())
 
-    @unittest.skipIf(SOFTWARE, "draws them all the same")
-    def test_opengl_needs_a_tree_for_each_class(self):
-        plain, picture = self.folder / "plain.pfront", self.folder / "x.png"
-        self.succeed("build", TRIM, "-o", plain, "--layers", "none")
-        outcome = self.refuse(1, "render", plain, "-o", picture, "--classes", "2")
-        self.assertIn("--layers class", outcome.err)
-        self.assertFalse(picture.exists())
-
-    @unittest.skipUnless(SOFTWARE, "needs a tree for each class")
     def test_one_tree_shows_them_too(self):
         plain = self.folder / "plain.pfront"
         self.succeed("build", TRIM, "-o", plain, "--layers", "none")
         words = ("--view", "top", "--error", "0.01", "--background", "0,0,0", "--color-by",
                  "classification", "--classes", "2", "--point-size", "1")
-        self.assertTrue((self.picture(plain, *words) == self.picture(self.store, *words)).all())
+        alike = share_alike(self.picture(plain, *words), self.picture(self.store, *words))
+        self.assertGreaterEqual(alike, 1.0 if SOFTWARE else 0.995)
 
 
-@unittest.skipUnless(SOFTWARE, "draws points in one style")
 class Styles(SceneTest):
     """What the options become; how a sheet is read and resolved is tested beside it."""
 

@@ -2,6 +2,7 @@
 
 #include "GpuPool.h"
 #include "PointShapes.h"
+#include "SameCamera.h"
 #include "ShownRectangle.h"
 
 #include <glm/geometric.hpp>
@@ -16,13 +17,6 @@ namespace
 
 /// A sphere or an ellipse may be longer on screen than its radius at its centre says.
 constexpr float mostStretch = 1.6f;
-
-bool sameCamera(const FrameCamera& a, const FrameCamera& b)
-{
-  return a.storeToView == b.storeToView && a.viewToClip == b.viewToClip &&
-    a.reference == b.reference && a.referenceInView == b.referenceInView &&
-    a.parallel == b.parallel && a.width == b.width && a.height == b.height;
-}
 
 /// Diameter in pixels that no splat of the node exceeds.
 float largestSplat(const RasterItem& item, const RasterItems& items)

@@ -5,6 +5,7 @@
 #include "GpuPool.h"
 #include "PerWindow.h"
 #include "RasterItems.h"
+#include "SoftwareRasteriser.h"
 #include "SplatAttributes.h"
 #include "SplatUniforms.h"
 #include "TargetState.h"
@@ -27,9 +28,29 @@ namespace pointfront
 namespace
 {
 
-/// As in Shading.cxx.
-constexpr float eyeDomeGain = 300.0f;
 constexpr std::size_t mostLights = 8;
+
+SplatVariant variantOf(
+  const SplatGroups::Group& group, const SplatTarget::Parts& parts, bool second)
+{
+  const RasterItem& item = *group.first;
+  const ResolvedStyle& style = *item.style;
+  SplatVariant variant;
+  variant.square = item.passes.squares;
+  variant.shape = second ? item.passes.second.shape : item.passes.first.shape;
+  variant.parallel = item.camera.parallel;
+  variant.second = second;
+  variant.marked = group.mark >= 0;
+  variant.colour = variant.marked ? PointColouring::Kind::Direct : style.colouring.kind;
+  variant.shaped = group.shaped;
+  variant.normals =
+    group.shaped && style.normalColumn && style.orientation == SplatOrientation::Normal;
+  variant.radius = radiusSourceOf(item, group.shaped, group.sized);
+  variant.lit = parts.lit && !second;
+  variant.ids = parts.ids && !second;
+  variant.quads = group.quads;
+  return variant;
+}
 
 void setTexture(vtkShaderProgram* program, const char* name, vtkTextureObject* texture)
 {
@@ -132,20 +153,7 @@ void SplatPicture::drawGroup(vtkOpenGLRenderWindow* window, const GpuPool& pool,
 {
   const RasterItem& item = *group.first;
   const ResolvedStyle& style = *item.style;
-  SplatVariant variant;
-  variant.square = item.passes.squares;
-  variant.shape = second ? item.passes.second.shape : item.passes.first.shape;
-  variant.parallel = item.camera.parallel;
-  variant.second = second;
-  variant.marked = group.mark >= 0;
-  variant.colour = variant.marked ? PointColouring::Kind::Direct : style.colouring.kind;
-  variant.shaped = group.shaped;
-  variant.normals =
-    group.shaped && style.normalColumn && style.orientation == SplatOrientation::Normal;
-  variant.radius = radiusSourceOf(item, group.shaped, group.sized);
-  variant.lit = parts_.lit && !second;
-  variant.ids = parts_.ids && !second;
-  variant.quads = group.quads;
+  const SplatVariant variant = variantOf(group, parts_, second);
   vtkShaderProgram* const program = programs_.use(window, variant);
   if (!program)
   {

@@ -1,5 +1,7 @@
 #include "LastPicture.h"
 
+#include "SameCamera.h"
+
 #include "pointfront/Threads/ThreadCrew.h"
 
 #include <algorithm>
@@ -12,13 +14,6 @@ namespace
 
 /// Points that a thread draws at a time: a node, or a part of a large one.
 constexpr std::uint32_t pointsOfPiece = 1u << 14;
-
-bool sameCamera(const FrameCamera& a, const FrameCamera& b)
-{
-  return a.storeToView == b.storeToView && a.viewToClip == b.viewToClip &&
-    a.reference == b.reference && a.referenceInView == b.referenceInView &&
-    a.parallel == b.parallel && a.width == b.width && a.height == b.height;
-}
 
 bool contains(const RasterWindow& window, const RasterWindow& other)
 {

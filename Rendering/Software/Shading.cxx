@@ -13,9 +13,6 @@ namespace pointfront
 namespace
 {
 
-/// What a strength of 1 means: with 0.4, the usual one, a step of 1 % in depth darkens by a third.
-constexpr float eyeDomeGain = 300.0f;
-
 /// Changes the colour of each pixel that shows something by `factors(pixel, x, y)`.
 template <typename Factors>
 void scaleColours(SoftwareTarget& target, const Factors& factors)

@@ -6,3 +6,12 @@ extern "C" int dlclose(void* /*library*/) noexcept
 {
   return 0;
 }
+
+// The sanitizer watches where the thread-local variables of a library loaded at run time lie. It
+// takes a block that begins 16 bytes into a page for one with glibc 2.19's header, reads its extent
+// from what is no header, and the search for leaks crashes there: in 1 of 20 runs, with all tests
+// passed. Nothing of ours is reachable from such variables of a driver alone.
+extern "C" const char* __asan_default_options() // NOLINT(bugprone-reserved-identifier)
+{
+  return "intercept_tls_get_addr=0";
+}

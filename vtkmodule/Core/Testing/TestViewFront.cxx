@@ -172,6 +172,39 @@ TEST(ViewFront, TheBudgetOfPointsHoldsInMotionToo)
   EXPECT_GT(window.drawn(), 200000u);
 }
 
+// It would be drawn again for nothing, and a test or a user that waits for rest would not see it.
+TEST(ViewFront, WhatArrivesForAnotherLeavesACompleteViewInPeace)
+{
+  const auto scheduler = std::make_shared<LoadScheduler>(LoadSchedulerOptions());
+  Cloud cloud(scheduler, std::make_shared<WindowDemand>());
+  FrameDemand coarse = everything();
+  coarse.targetErrorPx = 1000.0;
+  coarse.complete = true;
+  cloud.frame(coarse);
+  ASSERT_FALSE(cloud.front.wantsUpdate());
+  const NodeIndex notShown = cloud.reader->table->nodeCount() - 1;
+  ASSERT_EQ(cloud.front.find(notShown), nullptr);
+  const std::unique_ptr<ResidencyShare::Wish> another = cloud.share.join();
+  const std::uint64_t before = cloud.share.residency().arrivals();
+  another->request(
+    {{notShown, 1.0, false, Terrain::pointsOfNode, 0}}, [](NodeIndex) { return 0u; });
+  while (cloud.share.residency().arrivals() == before)
+  {
+    cloud.share.residency().waitForArrival(before);
+  }
+  EXPECT_FALSE(cloud.front.wantsUpdate());
+  // A view that misses something goes on with what arrives.
+  cloud.frame(everything());
+  while (!cloud.front.last().complete)
+  {
+    if (cloud.front.wantsUpdate())
+    {
+      cloud.frame(everything());
+    }
+  }
+  EXPECT_EQ(cloud.drawn(), wholeTerrain);
+}
+
 // Every call is made while the disk hangs: one that waited for it would not return.
 TEST(ViewFront, AFrameDoesNotWaitForAPageOfTheTable)
 {

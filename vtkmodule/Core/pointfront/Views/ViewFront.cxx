@@ -370,9 +370,16 @@ bool ViewFront::expectsMore() const
            (now.pending > 0 && !share_.residency().exhausted()));
 }
 
+/// All that this view asks for is there: what arrives now is another's, or was seen before the
+/// update counted it.
+bool ViewFront::isSettled() const
+{
+  return delta_.complete && !delta_.limitedByMemory && !limits_.interacting && allCovered();
+}
+
 bool ViewFront::wantsUpdate() const
 {
-  return !begun_ || share_.residency().arrivals() != arrivalsSeen_ ||
+  return !begun_ || (share_.residency().arrivals() != arrivalsSeen_ && !isSettled()) ||
          sharedRevision() != sharedSeen_ ||
          (delta_.rowsComing && piece_->hierarchy()->arrivals() != rowsSeen_) ||
          (!delta_.complete && movedOn());

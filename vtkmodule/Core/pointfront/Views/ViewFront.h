@@ -96,6 +96,7 @@ private:
   void step(const FrameDemand& demand);
   void addMargin(const FrameDemand& demand);
   bool allCovered() const;
+  bool isSettled() const;
   std::size_t largestPoint(const LayerColumns& columns) const;
   bool movedOn() const;
   void complete(const FrameDemand& demand);

@@ -86,22 +86,10 @@ FramePlan DrawnStore::plan(const FrameCamera& camera, const FrameShading& shadin
   request.keepsVisible = leavesOut(front_->last(), demand_);
   for (const LayerStyling& layer : styles_)
   {
-    request.styles.push_back(layer.visible() ? layer.styles.front() : nullptr);
+    request.styles.emplace_back();
+    request.styles.back().assign(layer.styles.begin(), layer.styles.end());
   }
-  FramePlan plan = planFrame(*front_, cloud_->description(), std::move(request));
-  // A tree of all classes: each style's filter lets its own points through.
-  const std::size_t ofLayers = plan.batches.size();
-  for (std::size_t i = 0; i < ofLayers; ++i)
-  {
-    const LayerStyling& layer = styles_[plan.batches[i].layer];
-    for (std::size_t further = 1; further < layer.styles.size(); ++further)
-    {
-      DrawBatch batch = plan.batches[i];
-      batch.style = layer.styles[further];
-      plan.batches.push_back(std::move(batch));
-    }
-  }
-  return plan;
+  return planFrame(*front_, cloud_->description(), std::move(request));
 }
 
 void DrawnStore::noteFrame(

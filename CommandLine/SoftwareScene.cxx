@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <tuple>
 #include <unordered_map>
 
 namespace pointfront
@@ -43,16 +44,23 @@ double millisecondsSince(Clock::time_point begin)
   return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
 }
 
-std::uint32_t packed(const std::array<double, 3>& colour)
+/// Behind what is drawn.
+void putBackground(const std::array<double, 3>& colour, SoftwareTarget& target)
 {
-  std::uint32_t pixel = 0;
-  auto* const bytes = reinterpret_cast<std::uint8_t*>(&pixel);
-  for (std::size_t channel = 0; channel < 3; ++channel)
+  std::array<int, 3> behind{};
+  std::transform(colour.begin(), colour.end(), behind.begin(),
+    [](double channel) { return static_cast<int>(std::lround(255.0 * channel)); });
+  for (std::uint32_t& pixel : target.rgba)
   {
-    bytes[channel] = static_cast<std::uint8_t>(std::lround(255.0 * colour[channel]));
+    auto* const bytes = reinterpret_cast<std::uint8_t*>(&pixel);
+    const int opacity = bytes[3];
+    for (std::size_t channel = 0; opacity < 255 && channel < 3; ++channel)
+    {
+      const int mixed = opacity * bytes[channel] + (255 - opacity) * behind[channel];
+      bytes[channel] = static_cast<std::uint8_t>((mixed + 127) / 255);
+    }
+    bytes[3] = 255;
   }
-  bytes[3] = 255;
-  return pixel;
 }
 
 /// Rows [bottom, top) of the target, the top one first.
@@ -114,7 +122,7 @@ struct SoftwareScene::DrawnNodes
 
 SoftwareScene::SoftwareScene(const DrawingOptions& options)
   : options_(options)
-  , shading_(options.style.shading)
+  , shading_(options.style.frameShading())
 {
 }
 
@@ -229,11 +237,18 @@ Result<void> SoftwareScene::techniquesAreAvailable() const
 Result<void> SoftwareScene::shareMemory()
 {
   bool blends = false;
-  forEachStyle([&blends](const ResolvedStyle& style)
-    { blends = blends || style.blended || style.technique == Technique::Ewa; });
+  std::set<std::tuple<int, bool, int>> parts; // that have targets of their own
+  forEachStyle([&](const ResolvedStyle& style)
+    {
+      blends = blends || style.blended || style.technique == Technique::Ewa;
+      parts.insert({ style.lens, style.lensMask, style.group });
+    });
+  const std::uint64_t targets = std::max<std::size_t>(1, parts.size());
   PictureCost cost;
   cost.pixelBytes = sizeof(std::uint32_t) + sizeof(float);     // colour and depth
   cost.pixelBytes += shading_.lit ? 3 * sizeof(float) : 0;     // normals
+  cost.pixelBytes += shading_.highlights.empty() ? 0 : 4;      // who stands out, how far that is
+  cost.pixelBytes *= targets;
   cost.pixelBytes += shading_.eyeDomeStrength > 0.0f ? sizeof(float) : 0; // logarithms of depth
   cost.pixelBytes += blends ? sizeof(float) : 0;               // the nearest depth
   cost.pixelBytes += stores_.size() > 1 // keys of their last pictures
@@ -242,9 +257,7 @@ Result<void> SoftwareScene::shareMemory()
   cost.threadPixelBytes = sizeof(RasterKey) + (blends ? 4 * sizeof(std::uint32_t) : 0);
   cost.marginPixels = rasterMargin;
   cost.threads = ThreadCrew::ofProcess().threads();
-  cost.overlapRows = shading_.eyeDomeStrength > 0.0f
-    ? static_cast<int>(std::ceil(shading_.eyeDomeRadiusPx)) + 1
-    : 0;
+  cost.overlapRows = SoftwareComposition::reachPx(shading_);
   cost.overlapRows = shading_.fillHoles ? std::max(cost.overlapRows, filledRows) : cost.overlapRows;
   const std::uint64_t budget =
     options_.memoryBytes > 0 ? options_.memoryBytes : LoadScheduler::processBudgetBytes();
@@ -368,7 +381,7 @@ void SoftwareScene::drawPart(
     const auto beginOfStore = Clock::now();
     const FramePlan plan = stores_[i]->plan(camera_, shading_);
     const RasterStatistics drawn =
-      rasteriser.draw(plan, target_, static_cast<std::uint16_t>(i));
+      composition_.draw(rasteriser, plan, target_, static_cast<std::uint16_t>(i));
     *frame.rasteriseMilliseconds += drawn.milliseconds;
     kept[i] = drawn.keptVisible;
     points[i] = plan.pointCount();
@@ -376,9 +389,8 @@ void SoftwareScene::drawPart(
     ownMs_[i] += millisecondsSince(beginOfStore);
     own += millisecondsSince(beginOfStore);
   }
-  shade(camera_, shading_, target_);
-  const std::uint32_t background = packed(options_.background);
-  std::replace(target_.rgba.begin(), target_.rgba.end(), std::uint32_t(0), background);
+  composition_.finish(camera_, shading_, target_);
+  putBackground(options_.background, target_);
   // What no store has to itself is shared out, or frames of a given time would be longer.
   const double shared = (millisecondsSince(begin) - own) / static_cast<double>(stores_.size());
   for (std::size_t i = 0; i < stores_.size(); ++i)

@@ -5,6 +5,7 @@
 #include "StoreScene.h"
 #include "ThreadReads.h"
 
+#include "SoftwareComposition.h"
 #include "SoftwareRasteriser.h"
 
 #include <memory>
@@ -76,6 +77,7 @@ private:
   ThreadReads reads_;
   std::vector<std::unique_ptr<DrawnStore>> stores_;
   SoftwareRasteriser rasteriser_;
+  SoftwareComposition composition_;
   SoftwareTarget target_;
 };
 

@@ -50,6 +50,16 @@ public:
     return JSONPlace(value_.at(index), path_ + "[" + std::to_string(index) + "]");
   }
 
+  /// Of an object that must have it.
+  JSONPlace required(const char* key) const
+  {
+    if (!has(key))
+    {
+      refuse(std::string("expected the key ") + key);
+    }
+    return at(key);
+  }
+
   /// An object with these keys at most.
   void expectKeys(const std::vector<std::string>& keys) const
   {

@@ -1,6 +1,7 @@
 #include "StyleJSON.h"
 
 #include "JSONPlace.h"
+#include "LayerStyleJSON.h"
 
 #include "pointfront/Style/TechniqueNames.h"
 
@@ -51,22 +52,7 @@ json parseStrictly(std::string_view text)
   }
 }
 
-/// One of some words.
-template <typename T>
-T oneOf(const JSONPlace& place, const std::vector<std::pair<const char*, T>>& words)
-{
-  std::string list;
-  const std::string text = place.text("a word");
-  for (const auto& [word, value] : words)
-  {
-    if (text == word)
-    {
-      return value;
-    }
-    list += (list.empty() ? "" : ", ") + std::string(word);
-  }
-  place.refuse("'" + text + "' is unknown: use " + list);
-}
+} // namespace
 
 Rgba8 colourCodeAt(const JSONPlace& place)
 {
@@ -77,6 +63,9 @@ Rgba8 colourCodeAt(const JSONPlace& place)
   }
   return *colour;
 }
+
+namespace
+{
 
 std::array<double, 2> rangeAt(const JSONPlace& place)
 {
@@ -310,6 +299,8 @@ std::array<Rgba8, 2> wallAt(const JSONPlace& place)
   return { colourCodeAt(place.at(std::size_t(0))), colourCodeAt(place.at(std::size_t(1))) };
 }
 
+} // namespace
+
 LayerStyle layerStyleAt(const JSONPlace& place)
 {
   place.expectKeys({ "technique", "color", "size", "orientation", "opacity", "visible",
@@ -355,6 +346,9 @@ std::uint8_t classCode(const JSONPlace& place, const std::string& text)
   }
   return static_cast<std::uint8_t>(code);
 }
+
+namespace
+{
 
 void addShadingMode(const JSONPlace& place, bool& lit, bool& eyeDome)
 {
@@ -426,13 +420,6 @@ StyleSheet sheetAt(const JSONPlace& place)
 {
   place.expectKeys(
     { "default", "classes", "show_classes", "where", "shading", "lenses", "highlight" });
-  for (const char* key : { "lenses", "highlight" })
-  {
-    if (place.has(key))
-    {
-      place.at(key).refuse("not available in this version; leave the key out");
-    }
-  }
   StyleSheet sheet;
   if (place.has("default"))
   {
@@ -464,10 +451,31 @@ StyleSheet sheetAt(const JSONPlace& place)
   {
     sheet.shading = shadingAt(place.at("shading"));
   }
+  if (place.has("lenses"))
+  {
+    sheet.lenses = lensesAt(place.at("lenses"));
+  }
+  if (place.has("highlight"))
+  {
+    sheet.highlights = highlightsAt(place.at("highlight"));
+  }
   return sheet;
 }
 
 } // namespace
+
+Result<LayerStyle> parseLayerStyle(std::string_view text)
+{
+  try
+  {
+    const json parsed = parseStrictly(text);
+    return layerStyleAt(JSONPlace(parsed, ""));
+  }
+  catch (const JSONRefusal& refusal)
+  {
+    return makeError(Error::Kind::BadArgument, refusal.what);
+  }
+}
 
 Result<StyleSheet> parseStyleSheet(std::string_view text)
 {

@@ -197,11 +197,73 @@ Json shading(const FrameShading& shading)
   return result;
 }
 
+Json pixels(const glm::vec2& pair)
+{
+  return Json::array({ briefly(pair.x), briefly(pair.y) });
+}
+
+Json rowsOf(const LensMask& mask)
+{
+  Json rows = Json::array();
+  for (int row = mask.height - 1; row >= 0; --row)
+  {
+    std::string text;
+    for (int column = 0; column < mask.width; ++column)
+    {
+      text += mask.values[static_cast<std::size_t>(row * mask.width + column)] != 0 ? '#' : '.';
+    }
+    rows.push_back(text);
+  }
+  return rows;
+}
+
+Json lens(const StyleLens& written)
+{
+  Json result = Json::object();
+  const FrameLens& place = written.place;
+  switch (place.shape)
+  {
+    case LensShape::Circle:
+      result["shape"] = "circle";
+      result["center_px"] = pixels(place.centrePx);
+      result["radius_px"] = briefly(place.halfSizePx.x);
+      break;
+    case LensShape::Rectangle:
+      result["shape"] = "rectangle";
+      result["center_px"] = pixels(place.centrePx);
+      result["size_px"] = pixels(2.0f * place.halfSizePx);
+      break;
+    case LensShape::Mask:
+      result["shape"] = "mask";
+      result["mask"] = place.mask ? rowsOf(*place.mask) : Json::array({ "." });
+      break;
+    case LensShape::AroundClass:
+      result["around_class"] = written.aroundClass;
+      result["radius"] = written.aroundRadius;
+      break;
+  }
+  result["inside"] = Json::object();
+  if (!written.standard.empty())
+  {
+    result["inside"]["default"] = layerStyle(written.standard);
+  }
+  for (const auto& [code, style] : written.classes)
+  {
+    result["inside"][std::to_string(code)] = layerStyle(style);
+  }
+  return result;
+}
+
 } // namespace
 
 std::string writeColour(const ColourSource& source)
 {
   return colour(source).dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string writeLayerStyle(const LayerStyle& style)
+{
+  return layerStyle(style).dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 std::string writeSize(const StyleSize& wanted)
@@ -232,6 +294,16 @@ std::string writeStyleSheet(const StyleSheet& sheet)
   if (shade.lit || shade.eyeDomeStrength > 0.0f || shade.fillHoles)
   {
     result["shading"] = shading(shade);
+  }
+  for (const StyleLens& one : sheet.lenses)
+  {
+    result["lenses"].push_back(lens(one));
+  }
+  for (const StyleHighlight& one : sheet.highlights)
+  {
+    result["highlight"].push_back({ { "class", one.objectClass },
+      { "color", colourCode(one.colour) }, { "halo_px", briefly(one.haloPx) },
+      { "tint", briefly(one.tint) } });
   }
   constexpr int indent = 2;
   return result.dump(indent, ' ', false, Json::error_handler_t::replace);

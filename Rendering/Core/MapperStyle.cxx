@@ -110,11 +110,13 @@ bool hasPlainPointsOnly(const FrameShading& shading, const std::vector<LayerStyl
 {
   const auto plain = [](const std::shared_ptr<const ResolvedStyle>& style)
   {
-    return style->technique == Technique::Points && style->filter.empty() &&
+    return style->technique == Technique::Points && style->filter.empty() && style->lens < 0 &&
+      style->group == 0 &&
       style->size.mode == SplatSize::Mode::Pixels &&
       style->second.combination == ColourCombination::None;
   };
   return !shading.lit && shading.eyeDomeStrength == 0.0f && !shading.fillHoles &&
+    shading.lenses.empty() && shading.highlights.empty() &&
     std::all_of(layers.begin(), layers.end(),
       [&](const LayerStyling& layer)
       { return std::all_of(layer.styles.begin(), layer.styles.end(), plain); });
@@ -136,7 +138,7 @@ void MapperStyle::wantHeights(const std::shared_ptr<const StoredCloud>& store)
 std::optional<std::vector<LayerStyling>> MapperStyle::resolve(
   const StyleSheet& sheet, const std::shared_ptr<const StoredCloud>& store)
 {
-  if (sheetStore_ == store && sheet_ == sheet)
+  if (sheetStore_ == store && sheet_ && sheet_->resolvesAs(sheet))
   {
     return layers_;
   }

@@ -247,7 +247,7 @@ std::vector<pointfront::LayerStyling> vtkPointFrontMapper::GetStyling(vtkActor* 
 bool vtkPointFrontMapper::HasPlainPointsOnly(vtkActor* actor)
 {
   const auto sheet = this->GetStyleSheet();
-  return !sheet || pointfront::hasPlainPointsOnly(sheet->shading, this->GetStyling(actor));
+  return !sheet || pointfront::hasPlainPointsOnly(sheet->frameShading(), this->GetStyling(actor));
 }
 
 pointfront::PlanRequest vtkPointFrontMapper::GetRequest(vtkRenderer* renderer, vtkActor* actor)
@@ -257,7 +257,7 @@ pointfront::PlanRequest vtkPointFrontMapper::GetRequest(vtkRenderer* renderer, v
   request.clippingPlanes = pointfront::clippingPlanesOf(*this, actor);
   if (const auto sheet = this->GetStyleSheet())
   {
-    request.shading = sheet->shading;
+    request.shading = sheet->frameShading();
   }
   for (const pointfront::LayerStyling& layer : this->GetStyling(actor))
   {

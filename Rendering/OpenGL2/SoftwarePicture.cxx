@@ -42,8 +42,9 @@ RasterStatistics SoftwarePicture::draw(
   plan.camera.height = std::max(1, viewport[3]);
   Picture& picture = pictures_[renderer];
   picture.target.keepPoints = ids;
-  const RasterStatistics statistics = picture.rasteriser.drawShown(plan, picture.target);
-  shade(plan.camera, plan.shading, picture.target);
+  const RasterStatistics statistics =
+    picture.composition.drawShown(picture.rasteriser, plan, picture.target);
+  picture.composition.finish(plan.camera, plan.shading, picture.target);
   last_ = &picture.target;
   ids_.clear();
   if (ids)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "SoftwareComposition.h"
 #include "SoftwareRasteriser.h"
 
 #include "pointfront/Plan/FramePlan.h"
@@ -44,6 +45,7 @@ private:
   struct Picture
   {
     SoftwareRasteriser rasteriser; ///< goes on from its last picture
+    SoftwareComposition composition;
     SoftwareTarget target;
   };
 

@@ -218,8 +218,9 @@ bool vtkOpenGLPointFrontMapper::DrawsFromHostMemory(vtkActor* actor)
   }
   if (!asked && !onlyOpenGL && !this->DrawsByOpenGL(actor))
   {
-    this->TellFallBack("OpenGL fills no holes, and draws at most 254 styles of a layer with one "
-                       "attribute of sizes: this style is drawn by the software back end");
+    this->TellFallBack("OpenGL fills no holes, has no lenses, highlights or translucent classes, and "
+                       "draws at most 254 styles of a layer with one attribute of sizes: this "
+                       "style is drawn by the software back end");
     return true;
   }
   return asked;
@@ -233,7 +234,11 @@ bool vtkOpenGLPointFrontMapper::DrawsByOpenGL(vtkActor* actor)
     return true;
   }
   const std::vector<pointfront::LayerStyling> layers = this->GetStyling(actor);
-  return !sheet->shading.fillHoles &&
+  const bool composed = !sheet->lenses.empty() || !sheet->highlights.empty() ||
+    std::any_of(layers.begin(), layers.end(), [](const pointfront::LayerStyling& layer)
+      { return std::any_of(layer.styles.begin(), layer.styles.end(),
+          [](const auto& style) { return style->group > 0; }); });
+  return !composed && !sheet->shading.fillHoles &&
     std::all_of(layers.begin(), layers.end(), [](const pointfront::LayerStyling& layer)
       { return pointfront::LayerStreams::canDraw(layer.styles); });
 }

@@ -98,10 +98,10 @@ struct SoftwareRasteriser::Content
   const RasterKernels* loops = &rasterKernels();
   std::vector<ThreadBuffers> buffers;
   RasterBuffer<float> nearest;
-  std::map<std::uint16_t, LastPicture> last; ///< by store
+  std::map<std::uint32_t, LastPicture> last; ///< by part and store
 
-  RasterStatistics draw(
-    const FramePlan& asked, SoftwareTarget& target, std::uint16_t store, bool fits);
+  RasterStatistics draw(const FramePlan& asked, SoftwareTarget& target, std::uint16_t store,
+    std::uint16_t part, bool fits);
   void drawRound(const RasterItems& items, Drawing& drawing);
   void drawAtOnce(const RasterItems& items, RasterWindow window, Drawing& drawing);
   void keep(const RasterItems& items, const RasterWindow& window, LastPicture& picture);
@@ -244,6 +244,10 @@ void SoftwareRasteriser::Content::resolve(const RasterItems& items, const Raster
   {
     target.normals.assign(3 * target.depth.size(), 0.0f);
   }
+  if (!items.plan().shading.highlights.empty() && target.highlights.empty())
+  {
+    target.highlights.assign(target.depth.size(), 0);
+  }
   WinnerResolve::Source source;
   source.kernels = loops;
   source.items = &items;
@@ -377,13 +381,14 @@ void SoftwareRasteriser::Content::drawRound(const RasterItems& items, Drawing& d
   }
 }
 
-RasterStatistics SoftwareRasteriser::Content::draw(
-  const FramePlan& asked, SoftwareTarget& target, std::uint16_t store, bool fits)
+RasterStatistics SoftwareRasteriser::Content::draw(const FramePlan& asked,
+  SoftwareTarget& target, std::uint16_t store, std::uint16_t part, bool fits)
 {
   const auto begin = std::chrono::steady_clock::now();
   buffers.resize(crew.threads());
   const PixelRectangle viewport{ 0, 0, asked.camera.width, asked.camera.height };
-  Drawing drawing{ target, last[store], store, fits || target.rectangle().contains(viewport),
+  const std::uint32_t picture = std::uint32_t(part) << 16 | store;
+  Drawing drawing{ target, last[picture], store, fits || target.rectangle().contains(viewport),
     fits };
   const bool keeps = asked.keepsVisible && drawing.whole && !target.keepPoints;
   const VisiblePoints& visible = drawing.picture.visibleFor(asked, keeps, crew);
@@ -412,16 +417,23 @@ RasterStatistics SoftwareRasteriser::Content::draw(
   return statistics;
 }
 
-RasterStatistics SoftwareRasteriser::draw(
-  const FramePlan& plan, SoftwareTarget& target, std::uint16_t store)
+PixelRectangle shownRectangle(const FramePlan& plan)
 {
-  return content_->draw(plan, target, store, false);
+  const PixelRectangle viewport{ 0, 0, plan.camera.width, plan.camera.height };
+  const RasterItems items(plan, 0);
+  return items.last() ? withSurroundings(shownRectangle(items), plan) : viewport;
+}
+
+RasterStatistics SoftwareRasteriser::draw(
+  const FramePlan& plan, SoftwareTarget& target, std::uint16_t store, std::uint16_t part)
+{
+  return content_->draw(plan, target, store, part, false);
 }
 
 RasterStatistics SoftwareRasteriser::drawShown(
   const FramePlan& plan, SoftwareTarget& target, std::uint16_t store)
 {
-  return content_->draw(plan, target, store, true);
+  return content_->draw(plan, target, store, 0, true);
 }
 
 void SoftwareRasteriser::release()

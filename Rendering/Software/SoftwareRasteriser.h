@@ -48,8 +48,9 @@ public:
   /// Draws the plan into the target where it is nearer than what is there; ties leave what is
   /// there. The target is the camera's viewport or a part of it: a large picture is drawn in bands,
   /// each with the splat sizes of the whole. `store` becomes PixelPoint::store; each store goes on
-  /// from its own last picture.
-  RasterStatistics draw(const FramePlan& plan, SoftwareTarget& target, std::uint16_t store = 0);
+  /// from its own last picture, and so does each `part` of its plans.
+  RasterStatistics draw(const FramePlan& plan, SoftwareTarget& target, std::uint16_t store = 0,
+    std::uint16_t part = 0);
   /// Makes the target that part of the viewport in which the plan can show anything, empty if there
   /// is none, and draws into it.
   RasterStatistics drawShown(
@@ -72,8 +73,12 @@ private:
 /// What a strength of 1 means: with 0.4, the usual one, a step of 1 % in depth darkens by a third.
 constexpr float eyeDomeGain = 300.0f;
 
+/// The part of the viewport in which the plan can show anything.
+PixelRectangle shownRectangle(const FramePlan& plan);
+
 /// Deferred light, eye-dome lighting and the hole filler on what was drawn, by the plan's shading;
-/// once, after all stores. Pixels of nothing stay so unless a hole is filled.
+/// once, after all stores. Pixels of nothing stay so unless a hole is filled. Highlights come after
+/// composition: see highlight().
 void shade(const FrameCamera& camera, const FrameShading& shading, SoftwareTarget& target);
 
 } // namespace pointfront

@@ -25,7 +25,8 @@ struct PixelPoint
 /// Place    its lower left pixel is (left, bottom) of the viewport: a part of it may be all that is
 ///          wanted.
 /// Units    rgba: bytes r, g, b, a of a pixel in memory order, opaque where something was drawn, 0
-///          elsewhere. depth: world units along the line of sight from the eye's plane; infinity
+///          elsewhere; less than opaque where only what is translucent was.
+///          depth: world units along the line of sight from the eye's plane; infinity
 ///          where nothing was drawn.
 struct SoftwareTarget
 {
@@ -38,6 +39,8 @@ struct SoftwareTarget
   /// View-space normal, 3 x float a pixel, 0 where there is none; empty unless a plan asks for
   /// light.
   std::vector<float> normals;
+  /// ResolvedStyle::highlight of who is in each pixel; empty unless a plan has highlights.
+  std::vector<std::uint8_t> highlights;
   /// Who is in each pixel; empty unless `keepPoints`.
   std::vector<PixelPoint> points;
   bool keepPoints = false;
@@ -55,6 +58,7 @@ struct SoftwareTarget
     rgba.assign(pixels, 0);
     depth.assign(pixels, std::numeric_limits<float>::infinity());
     normals.clear();
+    highlights.clear();
     points.assign(keepPoints ? pixels : 0, PixelPoint());
   }
 };

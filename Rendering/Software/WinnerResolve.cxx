@@ -171,6 +171,10 @@ void WinnerResolve::put(const RasterItem& item, const Winner& winner, float dept
   std::uint32_t rgba = 0;
   const bool blended = item.passes.blended && blendedColour(winner, rgba);
   target.rgba[pixel] = blended ? rgba : item.colours->at(winner.index);
+  if (!target.highlights.empty())
+  {
+    target.highlights[pixel] = item.style->highlight;
+  }
   if (target.keepPoints)
   {
     target.points[pixel] = { source_.store, item.node().node, winner.index };

@@ -21,9 +21,13 @@
 
 namespace pointfront
 {
+struct FrameLens;
 struct LayerStyle;
+struct StyleLens;
 struct StyleSheet;
 } // namespace pointfront
+
+class vtkImageData;
 
 class POINTFRONTCOMMON_EXPORT vtkPointFrontStyle : public vtkObject
 {
@@ -82,7 +86,8 @@ public:
 
   ///@{
   /**
-   * From 0 to 1.
+   * From 0 to 1. A class that is translucent is one surface: what is behind its nearest points
+   * shows through, not its own farther ones.
    */
   bool SetOpacity(double opacity, int objectClass = -1);
   double GetOpacity(int objectClass = -1) const;
@@ -128,6 +133,63 @@ public:
 
   ///@{
   /**
+   * A lens that shows what it covers in other styles: a circle or a rectangle, in pixels from the
+   * lower left corner of the viewport (as events give them); a mask that is stretched over the
+   * viewport, one component, not 0 where the lens is; or all that discs of `radius` (the store's
+   * units) around the points of a class cover. Inside it all is drawn as outside until
+   * SetLensStyle() says otherwise. Returns the lens' number, -1 where something is wrong. Where
+   * lenses overlap the later one lies on top.
+   */
+  int AddCircleLens(double x, double y, double radius);
+  int AddRectangleLens(double x, double y, double width, double height);
+  int AddMaskLens(vtkImageData* mask);
+  int AddClassLens(int objectClass, double radius);
+  ///@}
+
+  ///@{
+  /**
+   * What differs inside a lens, of a class or of all that have nothing of their own there: an
+   * object as `default` or a class has in JSON, {"visible": false, "color": "intensity"}. Replaces
+   * what was said before; GetLensStyle gives JSON.
+   */
+  bool SetLensStyle(int lens, const std::string& style, int objectClass = -1);
+  std::string GetLensStyle(int lens, int objectClass = -1) const;
+  ///@}
+
+  ///@{
+  /**
+   * Where a circle or a rectangle lies: its centre. A circle's radius, pixels; 0: it covers
+   * nothing. Moving a lens resolves no styles and draws nothing outside of it anew.
+   */
+  bool SetLensCenter(int lens, double x, double y);
+  double GetLensCenterX(int lens) const;
+  double GetLensCenterY(int lens) const;
+  bool SetLensRadius(int lens, double radius);
+  double GetLensRadius(int lens) const;
+  ///@}
+
+  ///@{
+  /**
+   * Later lenses move up in number.
+   */
+  int GetNumberOfLenses() const;
+  bool RemoveLens(int lens);
+  void RemoveAllLenses();
+  ///@}
+
+  ///@{
+  /**
+   * A class whose points stand out: a rim of `haloPx` pixels in a colour, "#rrggbb", around what is
+   * seen of them, and a share of it in their own colours.
+   */
+  bool SetHighlight(
+    int objectClass, const std::string& color, double haloPx = 2.0, double tint = 0.25);
+  bool HasHighlight(int objectClass) const;
+  bool RemoveHighlight(int objectClass);
+  ///@}
+
+  ///@{
+  /**
    * The class is drawn as the default says again; all of them are.
    */
   void ResetClass(int objectClass);
@@ -166,6 +228,10 @@ private:
   bool ChangeStyle(int objectClass, const Change& change);
   bool ChangeByJSON(int objectClass, const std::string& key, const std::string& json);
   bool IsClass(int objectClass);
+  const pointfront::StyleLens* LensOf(int lens) const;
+  int AddLens(const pointfront::StyleLens& lens);
+  template <typename Change>
+  bool ChangeLens(int lens, const Change& change);
   pointfront::LayerStyle StyleOf(int objectClass) const;
 
   std::shared_ptr<const pointfront::StyleSheet> Sheet;

@@ -102,6 +102,33 @@ TEST(StyleJSON, NothingSaidIsAnEmptySheet)
   EXPECT_EQ(parsed(R"({"default": {}, "shading": {"mode": "none"}})"), StyleSheet());
 }
 
+TEST(StyleJSON, LensesAndHighlightsAreWrittenAsTheyAreRead)
+{
+  const StyleSheet sheet = parsed(R"({
+    "lenses": [
+      {"shape": "circle", "center_px": [640, 360.5], "radius_px": 120,
+       "inside": {"default": {"color": "intensity"}, "5": {"visible": false}}},
+      {"shape": "rectangle", "center_px": [10, 20], "size_px": [30, 41], "inside": {}},
+      {"shape": "mask", "mask": [".#", "#."], "inside": {}},
+      {"around_class": 14, "radius": 10.5, "inside": {"5": {"opacity": 0.5}}}],
+    "highlight": [{"class": 6, "color": "#ff0080", "halo_px": 3, "tint": 0.1}, {"class": 2}]})");
+  ASSERT_EQ(sheet.lenses.size(), 4u);
+  EXPECT_EQ(sheet.lenses[0].place.centrePx, glm::vec2(640.0f, 360.5f));
+  EXPECT_EQ(sheet.lenses[0].place.halfSizePx, glm::vec2(120.0f));
+  EXPECT_EQ(sheet.lenses[0].classes.at(5).visible, false);
+  EXPECT_EQ(sheet.lenses[0].standard.colour, ColourSource::ofAttribute("intensity"));
+  EXPECT_EQ(sheet.lenses[1].place.halfSizePx, glm::vec2(15.0f, 20.5f));
+  EXPECT_EQ(sheet.lenses[2].place.mask->values, (std::vector<std::uint8_t>{ 1, 0, 0, 1 }))
+    << "the lower row first";
+  EXPECT_EQ(sheet.lenses[3].aroundClass, 14);
+  EXPECT_EQ(sheet.lenses[3].aroundRadius, 10.5);
+  ASSERT_EQ(sheet.highlights.size(), 2u);
+  EXPECT_EQ(sheet.highlights[0].colour, (Rgba8{ 255, 0, 128, 255 }));
+  EXPECT_EQ(sheet.highlights[0].haloPx, 3.0f);
+  EXPECT_EQ(sheet.highlights[1].objectClass, 2);
+  EXPECT_EQ(parsed(writeStyleSheet(sheet).c_str()), sheet);
+}
+
 TEST(StyleJSON, RefusalsBeginWithTheirPlace)
 {
   const auto expect = [](const char* text, const char* what)
@@ -122,8 +149,25 @@ TEST(StyleJSON, RefusalsBeginWithTheirPlace)
   expect(R"({"classes": {"6": {"technique": "solid"}}})",
     "classes.6.technique: 'solid' is not available in this version: use points, splats, spheres, "
     "ewa");
-  expect(R"({"lenses": []})", "lenses: not available in this version; leave the key out");
-  expect(R"({"highlight": []})", "highlight: not available in this version; leave the key out");
+  expect(R"({"lenses": {}})", "lenses: expected a list of lenses, not {}");
+  expect(R"({"lenses": [{"inside": {}}]})", "lenses[0]: a lens has a shape, or around_class");
+  expect(R"({"lenses": [{"shape": "circle", "center_px": [1, 2], "inside": {}}]})",
+    "lenses[0]: expected the key radius_px");
+  expect(R"({"lenses": [{"shape": "circle", "center_px": [1, 2], "radius_px": -1, "inside": {}}]})",
+    "lenses[0].radius_px: expected a number from 0.0 to 1000000.0, not -1");
+  expect(R"({"lenses": [{"shape": "mask", "mask": ["##", "#"], "inside": {}}]})",
+    "lenses[0].mask[0]: rows of a mask are of one length, which is not 0");
+  expect(R"({"lenses": [{"around_class": 300, "radius": 1, "inside": {}}]})",
+    "lenses[0].around_class: a class is a code from 0 to 255");
+  expect(R"({"lenses": [{"around_class": 6, "radius": 0, "inside": {}}]})",
+    "lenses[0].radius: expected a number above 0, not 0");
+  expect(
+    R"({"lenses": [{"around_class": 6, "radius": 1, "inside": {"5": {"technique": "dots"}}}]})",
+    "lenses[0].inside.5.technique: 'dots' is unknown: use points, splats, spheres, ewa");
+  expect(R"({"highlight": [{"class": 6}, {"class": 6}]})",
+    "highlight[1].class: a class has one highlight");
+  expect(R"({"highlight": [{"class": 6, "halo_px": 65}]})",
+    "highlight[0].halo_px: expected a number from 0.0 to 64.0, not 65");
   expect(R"({"default": {"where": "intensity = 3"}})",
     "default.where: 'intensity = 3', character 11: expected 'in', ==, !=, <, <=, > or >=, not '= "
     "3'");

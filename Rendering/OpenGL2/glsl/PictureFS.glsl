@@ -56,9 +56,9 @@ void main()
   //VTK::DepthPeeling::PreColor
   //VTK::ValuePass::Impl
 
-  vec3 colour =
-    (ambientIntensity + diffuseIntensity) * texelFetch(pictureColour, texel, 0).rgb;
-  float opacity = opacityUniform;
+  vec4 seen = texelFetch(pictureColour, texel, 0);
+  vec3 colour = (ambientIntensity + diffuseIntensity) * seen.rgb;
+  float opacity = opacityUniform * seen.a; // below 1 where only what is translucent is
   //VTK::Light::Impl
 
   //VTK::DepthPeeling::Impl

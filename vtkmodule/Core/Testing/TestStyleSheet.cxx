@@ -295,6 +295,140 @@ TEST(ColourCombination, KeepsWhatNeutralColoursLeave)
   EXPECT_EQ(hueless, (Rgba8{ 7, 7, 7, 9 }));
 }
 
+namespace
+{
+
+StyleLens circle(float radius = 10.0f)
+{
+  StyleLens lens;
+  lens.place.centrePx = { 20.0f, 20.0f };
+  lens.place.halfSizePx = glm::vec2(radius);
+  return lens;
+}
+
+} // namespace
+
+// Inside: its class, its default, the class outside, the default outside.
+TEST(StyleLenses, WhatIsSaidInsideGoesBeforeWhatIsSaidOutside)
+{
+  StyleSheet sheet;
+  sheet.standard.technique = Technique::Splats;
+  sheet.classes[6].colour = ColourSource::ofConstant({ 1, 1, 1, 255 });
+  sheet.classes[5].opacity = 0.5;
+  StyleLens lens = circle();
+  lens.standard.colour = ColourSource::ofConstant({ 9, 9, 9, 255 });
+  lens.classes[5].visible = false;
+  lens.classes[2].technique = Technique::Spheres;
+  sheet.lenses.push_back(lens);
+  const auto layers = all(sheet, styledStore({ 2, 5, 6 }));
+  ASSERT_EQ(layers.size(), 3u);
+  ASSERT_EQ(layers[0].styles.size(), 2u);
+  EXPECT_EQ(layers[0].styles[0]->lens, -1);
+  EXPECT_EQ(layers[0].styles[0]->technique, Technique::Splats);
+  EXPECT_EQ(layers[0].styles[1]->lens, 0);
+  EXPECT_EQ(layers[0].styles[1]->technique, Technique::Spheres);
+  EXPECT_EQ(layers[0].styles[1]->flat, (Rgba8{ 9, 9, 9, 255 }));
+  ASSERT_EQ(layers[1].styles.size(), 1u) << "hidden inside";
+  EXPECT_EQ(layers[1].styles[0]->group, 6) << "translucent outside";
+  ASSERT_EQ(layers[2].styles.size(), 2u);
+  EXPECT_EQ(layers[2].styles[0]->flat, (Rgba8{ 1, 1, 1, 255 }));
+  EXPECT_EQ(layers[2].styles[1]->flat, (Rgba8{ 9, 9, 9, 255 })) << "the lens' default";
+}
+
+TEST(StyleLenses, OneThatCoversNothingCostsNothing)
+{
+  StyleSheet sheet;
+  sheet.classes[5].visible = false;
+  const auto without = all(sheet, styledStore({ 2, 5, 6 }));
+  StyleLens lens = circle(0.0f);
+  lens.standard.colour = ColourSource::ofAttribute("gps_time");
+  lens.classes[5].visible = true;
+  sheet.lenses.push_back(lens);
+  const auto with = all(sheet, styledStore({ 2, 5, 6 }));
+  for (std::size_t layer = 0; layer < 3; ++layer)
+  {
+    EXPECT_EQ(with[layer].columns(), without[layer].columns());
+    EXPECT_EQ(with[layer].styles.size(), without[layer].styles.size());
+    EXPECT_EQ(with[layer].visible(), layer != 1);
+  }
+}
+
+TEST(StyleLenses, MovingOneResolvesNothingAnew)
+{
+  StyleSheet sheet;
+  sheet.lenses.push_back(circle());
+  StyleSheet moved = sheet;
+  moved.lenses[0].place.centrePx += 5.0f;
+  moved.shading.eyeDomeStrength = 1.0f;
+  EXPECT_TRUE(moved.resolvesAs(sheet));
+  moved.lenses[0].place.halfSizePx = glm::vec2(0.0f);
+  EXPECT_FALSE(moved.resolvesAs(sheet)) << "it covers nothing now";
+  moved = sheet;
+  moved.lenses[0].standard.opacity = 0.5;
+  EXPECT_FALSE(moved.resolvesAs(sheet));
+  moved = sheet;
+  moved.shading.lit = true;
+  EXPECT_FALSE(moved.resolvesAs(sheet)) << "light asks for normals";
+}
+
+TEST(StyleLenses, AroundAClassHaveTheClassesPointsAsTheirMask)
+{
+  StyleSheet sheet;
+  StyleLens lens;
+  lens.place.shape = LensShape::AroundClass;
+  lens.aroundClass = 6;
+  lens.aroundRadius = 4.0;
+  sheet.lenses.push_back(lens);
+  const auto layers = all(sheet, styledStore({ 2, 6 }));
+  EXPECT_EQ(layers[0].styles.size(), 2u);
+  ASSERT_EQ(layers[1].styles.size(), 3u);
+  const ResolvedStyle& mask = *layers[1].styles[2];
+  EXPECT_TRUE(mask.lensMask);
+  EXPECT_EQ(mask.size.value, 8.0) << "a diameter";
+  const auto tree = all(sheet, styledStore({}));
+  ASSERT_EQ(tree[0].styles.size(), 3u);
+  EXPECT_FALSE(tree[0].styles[2]->filter.empty()) << "of one tree, the class alone";
+}
+
+TEST(StyleOpacity, ZeroIsHiddenAndLessThanOneIsAGroup)
+{
+  StyleSheet sheet;
+  sheet.standard.opacity = 0.5;
+  sheet.classes[5].opacity = 0.0;
+  sheet.classes[6].opacity = 1.0;
+  for (const bool layered : { true, false })
+  {
+    const auto layers = all(sheet, layered ? styledStore({ 2, 5, 6, 9 }) : styledStore({}));
+    std::vector<std::uint16_t> groups;
+    for (const LayerStyling& layer : layers)
+    {
+      for (const auto& style : layer.styles)
+      {
+        groups.push_back(style->group);
+      }
+    }
+    const std::vector<std::uint16_t> expected =
+      layered ? std::vector<std::uint16_t>{ 257, 0, 257 } : std::vector<std::uint16_t>{ 257, 0 };
+    EXPECT_EQ(groups, expected) << "one surface of all that have no style of their own";
+  }
+}
+
+TEST(StyleHighlights, AreOfTheirClassAlone)
+{
+  StyleSheet sheet;
+  sheet.highlights.push_back({ 5, {}, 2.0f, 0.5f });
+  sheet.highlights.push_back({ 6, {}, 2.0f, 0.5f });
+  const auto layers = all(sheet, styledStore({ 2, 5, 6 }));
+  EXPECT_EQ(layers[0].styles[0]->highlight, 0);
+  EXPECT_EQ(layers[1].styles[0]->highlight, 1);
+  EXPECT_EQ(layers[2].styles[0]->highlight, 2);
+  const auto tree = all(sheet, styledStore({}));
+  ASSERT_EQ(tree[0].styles.size(), 3u);
+  EXPECT_EQ(tree[0].styles[0]->highlight, 0);
+  EXPECT_EQ(tree[0].styles[1]->highlight, 1);
+  EXPECT_EQ(tree[0].styles[2]->highlight, 2);
+}
+
 TEST(Techniques, NamesAreInTheOrderOfTheEnumeration)
 {
   for (std::size_t i = 0; i < techniqueTraits.size(); ++i)

@@ -3,6 +3,7 @@
 
 #include <vtkCallbackCommand.h>
 #include <vtkCommand.h>
+#include <vtkImageData.h>
 #include <vtkNew.h>
 
 #include <gtest/gtest.h>
@@ -127,4 +128,68 @@ TEST(Style, TextGoesInAndComesOut)
   std::ostringstream printed;
   other->Print(printed);
   EXPECT_NE(printed.str().find("\"technique\": \"splats\""), std::string::npos);
+}
+
+TEST(Style, LensesAreNumberedMovedAndStyled)
+{
+  Observed o;
+  EXPECT_EQ(o.Style->AddCircleLens(100, 50, 30), 0);
+  EXPECT_EQ(o.Style->AddClassLens(6, 2.5), 1);
+  EXPECT_EQ(o.Style->GetNumberOfLenses(), 2);
+  EXPECT_TRUE(o.Style->SetLensStyle(0, R"({"visible": false})", 5));
+  EXPECT_TRUE(o.Style->SetLensStyle(0, R"({"color": "intensity"})"));
+  EXPECT_EQ(o.Style->GetLensStyle(0, 5), R"({"visible":false})");
+  EXPECT_EQ(o.Style->GetLensStyle(0), R"({"color":"intensity"})");
+  EXPECT_EQ(o.Style->GetLensStyle(0, 7), "{}");
+  o.Changes = 0;
+  EXPECT_TRUE(o.Style->SetLensCenter(0, 7, 8));
+  EXPECT_TRUE(o.Style->SetLensCenter(0, 7, 8));
+  EXPECT_EQ(o.Changes, 1);
+  EXPECT_EQ(o.Style->GetLensCenterX(0), 7.0);
+  EXPECT_TRUE(o.Style->SetLensRadius(0, 60));
+  EXPECT_EQ(o.Style->GetLensRadius(0), 60.0);
+  EXPECT_TRUE(o.Error.empty());
+  EXPECT_FALSE(o.Style->SetLensRadius(1, 60)) << "no circle";
+  EXPECT_FALSE(o.Style->SetLensCenter(2, 0, 0));
+  EXPECT_FALSE(o.Style->SetLensStyle(0, R"({"visible": false}, "classes": {})"));
+  EXPECT_FALSE(o.Style->SetLensStyle(0, R"({"visibel": false})"));
+  EXPECT_NE(o.Error.find("visibel"), std::string::npos);
+  EXPECT_EQ(o.Style->AddCircleLens(0, 0, -1), -1);
+  EXPECT_EQ(o.Style->AddClassLens(-1, 2), -1);
+  EXPECT_EQ(o.Style->AddMaskLens(nullptr), -1);
+  EXPECT_TRUE(o.Style->RemoveLens(0));
+  EXPECT_EQ(o.Style->GetStyleSheet().lenses[0].aroundRadius, 2.5);
+  o.Style->RemoveAllLenses();
+  EXPECT_EQ(o.Style->GetNumberOfLenses(), 0);
+}
+
+TEST(Style, AMaskIsAnImage)
+{
+  Observed o;
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(3, 2, 1);
+  image->AllocateScalars(VTK_UNSIGNED_CHAR, 1);
+  for (int i = 0; i < 6; ++i)
+  {
+    image->SetScalarComponentFromDouble(i % 3, i / 3, 0, 0, i == 4 ? 255.0 : 0.0);
+  }
+  EXPECT_EQ(o.Style->AddMaskLens(image), 0);
+  const FrameLens& lens = o.Style->GetStyleSheet().lenses[0].place;
+  EXPECT_TRUE(lens.covers(45, 30, 90, 40)) << "the middle of the upper half";
+  EXPECT_FALSE(lens.covers(45, 10, 90, 40));
+}
+
+TEST(Style, HighlightsAreOneAClass)
+{
+  Observed o;
+  EXPECT_TRUE(o.Style->SetHighlight(6, "#ffcc00"));
+  EXPECT_TRUE(o.Style->SetHighlight(6, "#00ccff", 5, 0));
+  EXPECT_TRUE(o.Style->HasHighlight(6));
+  ASSERT_EQ(o.Style->GetStyleSheet().highlights.size(), 1u);
+  EXPECT_EQ(o.Style->GetStyleSheet().highlights[0].haloPx, 5.0f);
+  EXPECT_FALSE(o.Style->SetHighlight(6, "yellow"));
+  EXPECT_FALSE(o.Style->SetHighlight(6, "#ffcc00", 1000));
+  EXPECT_FALSE(o.Style->SetHighlight(-1, "#ffcc00"));
+  EXPECT_TRUE(o.Style->RemoveHighlight(6));
+  EXPECT_FALSE(o.Style->RemoveHighlight(6));
 }

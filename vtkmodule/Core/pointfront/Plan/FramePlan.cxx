@@ -1,5 +1,6 @@
 #include "pointfront/Plan/FramePlan.h"
 
+#include <map>
 #include <ostream>
 
 namespace pointfront
@@ -8,9 +9,16 @@ namespace pointfront
 std::uint64_t FramePlan::pointCount() const
 {
   std::uint64_t points = 0;
+  // Of a layer's batches the largest: the others are parts of it.
+  std::map<std::uint16_t, const DrawBatch*> largest;
   for (const DrawBatch& batch : batches)
   {
-    for (const PlanItem& item : batch.items)
+    const DrawBatch*& known = largest[batch.layer];
+    known = known && known->items.size() >= batch.items.size() ? known : &batch;
+  }
+  for (const auto& [layer, batch] : largest)
+  {
+    for (const PlanItem& item : batch->items)
     {
       points += item.last - item.first;
     }

@@ -75,8 +75,9 @@ struct FramePlan
   FrameShading shading;
   std::vector<DrawBatch> batches;
 
+  /// Each point once, however many styles of its layer look at it.
   std::uint64_t pointCount() const;
-  std::size_t nodeCount() const;
+  std::size_t nodeCount() const; ///< of all batches
 };
 
 /// One line a batch and an item: for tests and for looking at a frame.

@@ -2,6 +2,7 @@
 
 #include "pointfront/Front/PointPrefix.h"
 #include "pointfront/Plan/ClosingRadii.h"
+#include "pointfront/Plan/LensCulling.h"
 
 #include <algorithm>
 #include <utility>
@@ -15,6 +16,20 @@ namespace
 constexpr float mostSpacings = 2.0f;
 /// A whole layer of fewer points is no surface: its points are as small as can be.
 constexpr std::size_t fewestOfSurface = 64;
+
+/// Of what is seen in a lens only, what can be.
+void keepWhatIsSeen(const FramePlan& plan, DrawBatch& batch)
+{
+  const auto lens = static_cast<std::size_t>(std::max<std::int16_t>(batch.style->lens, 0));
+  if (batch.style->lens < 0 || batch.style->lensMask || lens >= plan.shading.lenses.size())
+  {
+    return;
+  }
+  std::vector<PlanItem>& items = batch.items;
+  items.erase(std::remove_if(items.begin(), items.end(), [&](const PlanItem& item)
+                { return !mayReach(plan, item, *batch.style, plan.shading.lenses[lens]); }),
+    items.end());
+}
 
 /// The items of each layer that has a style, near to far.
 std::vector<std::vector<PlanItem>> itemsByLayer(
@@ -44,6 +59,22 @@ std::vector<std::vector<PlanItem>> itemsByLayer(
   return items;
 }
 
+/// One batch each, without a style; layers of which nothing is in sight have none.
+std::vector<DrawBatch> batchesOfLayers(
+  const ViewFront& front, const std::vector<LayerStyles>& styles)
+{
+  std::vector<std::vector<PlanItem>> items = itemsByLayer(front, styles);
+  std::vector<DrawBatch> batches;
+  for (std::size_t layer = 0; layer < items.size(); ++layer)
+  {
+    if (!items[layer].empty())
+    {
+      batches.push_back({ static_cast<std::uint16_t>(layer), nullptr, std::move(items[layer]) });
+    }
+  }
+  return batches;
+}
+
 } // namespace
 
 float prefixSpacing(const NodeColumns& node, std::uint32_t drawn, float spacingRatio)
@@ -71,18 +102,20 @@ FramePlan planFrame(
   plan.spacingPx = static_cast<float>(front.last().thresholdPx);
   plan.keepsVisible = request.keepsVisible;
   plan.shading = std::move(request.shading);
-  std::vector<std::vector<PlanItem>> items = itemsByLayer(front, request.styles);
-  for (std::size_t layer = 0; layer < items.size(); ++layer)
+  std::vector<DrawBatch> layers = batchesOfLayers(front, request.styles);
+  matchNeighbours(layers, plan.grid);
+  for (const DrawBatch& layer : layers)
   {
-    for (const std::shared_ptr<const ResolvedStyle>& style : request.styles[layer])
+    for (const std::shared_ptr<const ResolvedStyle>& style : request.styles[layer.layer])
     {
-      if (!items[layer].empty())
+      DrawBatch batch{ layer.layer, style, layer.items };
+      keepWhatIsSeen(plan, batch);
+      if (!batch.items.empty())
       {
-        plan.batches.push_back({ static_cast<std::uint16_t>(layer), style, items[layer] });
+        plan.batches.push_back(std::move(batch));
       }
     }
   }
-  matchNeighbours(plan.batches, plan.grid);
   return plan;
 }
 

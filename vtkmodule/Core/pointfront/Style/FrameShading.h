@@ -1,5 +1,7 @@
 #pragma once
 
+#include "pointfront/Style/FrameLens.h"
+
 #include <glm/vec3.hpp>
 
 #include <vector>
@@ -19,6 +21,19 @@ struct FrameLight
   }
 };
 
+/// How pixels of points that stand out are drawn (ResolvedStyle::highlight).
+struct FrameHighlight
+{
+  glm::vec3 colour{ 1.0f };
+  float haloPx = 0.0f; ///< around them, on what lies behind them
+  float tint = 0.0f;   ///< 0 to 1: of their own colour, how much is this one
+
+  friend bool operator==(const FrameHighlight& a, const FrameHighlight& b)
+  {
+    return a.colour == b.colour && a.haloPx == b.haloPx && a.tint == b.tint;
+  }
+};
+
 /// What is done with a frame's pixels after the points are in.
 struct FrameShading
 {
@@ -35,6 +50,9 @@ struct FrameShading
   /// Pull-push over depth and colour: pixels that no point covers, and those through which a
   /// farther surface shows, take their neighbours' colour where these agree in depth.
   bool fillHoles = false;
+  /// Where points of ResolvedStyle::lens are seen in the place of others; a later one lies on top.
+  std::vector<FrameLens> lenses;
+  std::vector<FrameHighlight> highlights; ///< at most mostHighlights
 
   friend bool operator==(const FrameShading& a, const FrameShading& b)
   {

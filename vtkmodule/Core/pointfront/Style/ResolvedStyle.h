@@ -95,6 +95,13 @@ struct ResolvedStyle
   Rgba8 wallTop{ 0, 0, 0, 255 };        ///< Solid: the wall's upper end
   double opacity = 1.0;                 ///< 0 to 1
   PointFilter filter;                   ///< points that do not pass are not drawn
+  // Where in the picture its points are seen (PlanParts.h):
+  std::int16_t lens = -1; ///< of FrameShading::lenses, the one they are seen in; -1: outside all
+  bool lensMask = false;  ///< they are not seen: what they cover is what the lens covers
+  /// 0: opaque, all of them the nearest of each other. Else what is drawn with `opacity` over what
+  /// lies behind it, as one surface: groups have different numbers.
+  std::uint16_t group = 0;
+  std::uint8_t highlight = 0; ///< 1 + number in FrameShading::highlights; 0: none
 
   /// What has to be read for it, ascending.
   ColumnSelection columns() const;

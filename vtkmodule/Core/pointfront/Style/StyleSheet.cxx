@@ -2,6 +2,7 @@
 
 #include "pointfront/Points/EnclosingRadius.h"
 #include "pointfront/Style/ComponentName.h"
+#include "pointfront/Style/StyleResolution.h"
 #include "pointfront/Style/TechniqueNames.h"
 
 #include <algorithm>
@@ -192,95 +193,13 @@ private:
   ResolvedStyle resolved_;
 };
 
-/// Styles of one store: equal ones are one object.
-class DistinctStyles
-{
-public:
-  StylePointer add(ResolvedStyle style)
-  {
-    for (const StylePointer& known : styles_)
-    {
-      if (*known == style)
-      {
-        return known;
-      }
-    }
-    styles_.push_back(std::make_shared<const ResolvedStyle>(std::move(style)));
-    return styles_.back();
-  }
-
-private:
-  std::vector<StylePointer> styles_;
-};
-
-bool isShown(const StyleSheet& sheet, std::uint8_t objectClass)
-{
-  return !sheet.shownClasses ||
-    std::binary_search(sheet.shownClasses->begin(), sheet.shownClasses->end(), objectClass);
-}
-
-std::string placeOf(const StyleSheet& sheet, std::uint8_t objectClass)
-{
-  return sheet.classes.count(objectClass) > 0 ? "classes." + std::to_string(objectClass)
-                                              : "default";
-}
-
-AttributeCondition classIsIn(std::uint32_t column, const std::vector<std::uint8_t>& codes)
-{
-  AttributeCondition condition;
-  condition.column = column;
-  condition.values.assign(codes.begin(), codes.end());
-  return condition;
-}
-
-/// Classes of an unlayered store that are drawn in one way.
-struct ClassGroup
-{
-  LayerStyle style; ///< complete
-  std::string place;
-  std::vector<std::uint8_t> codes; ///< ascending; of the first group, `inverted`, those it has not
-  bool inverted = false;
-};
-
-/// The default's group, if any class is left to it, and those of classes that differ.
-std::vector<ClassGroup> classGroups(const StyleSheet& sheet)
-{
-  ClassGroup others{ sheet.standard.over(standardStyle()), "default", {}, true };
-  std::vector<ClassGroup> groups;
-  const auto join = [&groups](const LayerStyle& style, const std::string& place, std::uint8_t code)
-  {
-    const auto same = std::find_if(groups.begin(), groups.end(),
-      [&style](const ClassGroup& group) { return group.style == style; });
-    if (same != groups.end())
-    {
-      same->codes.push_back(code);
-      return;
-    }
-    groups.push_back({ style, place, { code }, false });
-  };
-  for (int code = 0; code < 256; ++code)
-  {
-    const auto objectClass = static_cast<std::uint8_t>(code);
-    const LayerStyle style = sheet.styleOf(objectClass);
-    const bool shown = isShown(sheet, objectClass) && *style.visible;
-    const bool differs = style != others.style || sheet.shownClasses;
-    if (shown && differs)
-    {
-      join(style, placeOf(sheet, objectClass), objectClass);
-    }
-    if (!shown || differs)
-    {
-      others.codes.push_back(objectClass);
-    }
-  }
-  if (*others.style.visible && others.codes.size() < 256)
-  {
-    groups.insert(groups.begin(), std::move(others));
-  }
-  return groups;
-}
-
 } // namespace
+
+Result<ResolvedStyle> resolveStyle(const StyleSheet& sheet, const LayerStyle& style,
+  const StoreDescription& store, const StoreSurroundings& surroundings, std::string place)
+{
+  return StyleResolution(sheet, style, store, surroundings, std::move(place)).run();
+}
 
 ColumnSelection LayerStyling::columns() const
 {
@@ -321,9 +240,13 @@ bool StyleSheet::wantsHeights(const StoreDescription& store) const
       (asks(*style.colour) ||
         std::any_of(style.colour->parts.begin(), style.colour->parts.end(), asks));
   };
-  return styleAsks(standard) ||
-    std::any_of(classes.begin(), classes.end(),
-      [&](const auto& ofClass) { return styleAsks(ofClass.second); });
+  const auto anyAsks = [&styleAsks](const LayerStyle& one, const auto& ofClasses)
+  {
+    return styleAsks(one) || std::any_of(ofClasses.begin(), ofClasses.end(),
+                               [&](const auto& ofClass) { return styleAsks(ofClass.second); });
+  };
+  return anyAsks(standard, classes) || std::any_of(lenses.begin(), lenses.end(),
+    [&](const StyleLens& lens) { return anyAsks(lens.standard, lens.classes); });
 }
 
 Result<StylePointer> StyleSheet::resolve(const StoreDescription& store, std::size_t layer,
@@ -334,8 +257,9 @@ Result<StylePointer> StyleSheet::resolve(const StoreDescription& store, std::siz
     static_cast<std::uint8_t>(layered ? store.layers[layer].objectClass : 0);
   const LayerStyle style =
     layered ? styleOf(objectClass) : standard.over(standardStyle());
-  Result<ResolvedStyle> resolved = StyleResolution(*this, style, store, surroundings,
-    layered ? placeOf(*this, objectClass) : "default").run();
+  const bool own = layered && classes.count(objectClass) > 0;
+  Result<ResolvedStyle> resolved = resolveStyle(*this, style, store, surroundings,
+    own ? "classes." + std::to_string(objectClass) : "default");
   if (!resolved)
   {
     return resolved.error();
@@ -343,72 +267,56 @@ Result<StylePointer> StyleSheet::resolve(const StoreDescription& store, std::siz
   return StylePointer(std::make_shared<const ResolvedStyle>(std::move(*resolved)));
 }
 
-Result<std::vector<LayerStyling>> StyleSheet::resolveAll(
-  const StoreDescription& store, const StoreSurroundings& surroundings) const
+StyleSheet StyleSheet::inside(const StyleLens& lens) const
 {
-  DistinctStyles distinct;
-  std::vector<LayerStyling> layers;
-  const auto add = [&](LayerStyling& layer, const LayerStyle& style, const std::string& place,
-                     const AttributeCondition* condition) -> Result<void>
+  StyleSheet sheet = *this;
+  sheet.lenses.clear();
+  sheet.standard = lens.standard.over(standard);
+  for (auto& [code, style] : sheet.classes)
   {
-    Result<ResolvedStyle> resolved =
-      StyleResolution(*this, style, store, surroundings, place).run();
-    if (!resolved)
-    {
-      return resolved.error();
-    }
-    if (condition)
-    {
-      resolved->filter.conditions.push_back(*condition);
-    }
-    layer.errorFactor = layer.styles.empty() ? *style.errorFactor
-                                             : std::min(layer.errorFactor, *style.errorFactor);
-    layer.styles.push_back(distinct.add(std::move(*resolved)));
-    return {};
-  };
-  if (isLayered(store))
-  {
-    for (const Layer& of : store.layers)
-    {
-      LayerStyling layer;
-      const auto objectClass = static_cast<std::uint8_t>(of.objectClass);
-      const LayerStyle style = styleOf(objectClass);
-      if (isShown(*this, objectClass) && *style.visible)
-      {
-        if (const auto done = add(layer, style, placeOf(*this, objectClass), nullptr); !done)
-        {
-          return done.error();
-        }
-      }
-      layers.push_back(std::move(layer));
-    }
-    return layers;
+    style = lens.standard.over(style);
   }
+  for (const auto& [code, style] : lens.classes)
+  {
+    const auto own = sheet.classes.find(code);
+    sheet.classes[code] = style.over(own == sheet.classes.end() ? lens.standard : own->second);
+  }
+  return sheet;
+}
 
-  LayerStyling all;
-  const auto column = scalarColumn(store, "classification");
-  if (shownClasses && !column)
+bool StyleSheet::resolvesAs(const StyleSheet& other) const
+{
+  const auto rest = [](const StyleSheet& of)
   {
-    return makeError(Error::Kind::BadArgument,
-      store.path + ": no point has a class here, so none can be shown alone");
-  }
-  for (const ClassGroup& group : classGroups(*this))
+    StyleSheet sheet = of;
+    sheet.shading = FrameShading();
+    sheet.shading.lit = of.shading.lit;
+    for (StyleLens& lens : sheet.lenses)
+    {
+      const float size = lens.place.coversNothing() ? 0.0f : 1.0f;
+      const LensShape shape = lens.place.shape;
+      lens.place = FrameLens();
+      lens.place.shape = shape;
+      lens.place.halfSizePx = glm::vec2(size);
+    }
+    return sheet;
+  };
+  return rest(*this) == rest(other);
+}
+
+FrameShading StyleSheet::frameShading() const
+{
+  FrameShading frame = shading;
+  for (const StyleLens& lens : lenses)
   {
-    AttributeCondition condition = classIsIn(column.value_or(0), group.codes);
-    condition.inverted = group.inverted;
-    const bool everything = group.inverted && group.codes.empty();
-    if (!column && !group.inverted)
-    {
-      continue; // points without a class are drawn by the default
-    }
-    const bool conditional = column && !everything;
-    if (const auto done = add(all, group.style, group.place, conditional ? &condition : nullptr);
-        !done)
-    {
-      return done.error();
-    }
+    frame.lenses.push_back(lens.place);
   }
-  return std::vector<LayerStyling>(std::max<std::size_t>(1, store.layers.size()), all);
+  for (const StyleHighlight& highlight : highlights)
+  {
+    const glm::vec3 colour(highlight.colour[0], highlight.colour[1], highlight.colour[2]);
+    frame.highlights.push_back({ colour / 255.0f, highlight.haloPx, highlight.tint });
+  }
+  return frame;
 }
 
 } // namespace pointfront

@@ -5,6 +5,7 @@
 #include "pointfront/Style/FrameShading.h"
 #include "pointfront/Style/LayerStyle.h"
 #include "pointfront/Style/ResolvedStyle.h"
+#include "pointfront/Style/StyleLens.h"
 
 #include <cstdint>
 #include <map>
@@ -44,10 +45,19 @@ struct StyleSheet
   /// all.
   std::optional<std::vector<std::uint8_t>> shownClasses;
   FilterExpression where; ///< points have to pass it besides their style's own
-  FrameShading shading;   ///< lights are the renderer's
+  FrameShading shading;   ///< lights are the renderer's; lenses and highlights those below
+  std::vector<StyleLens> lenses;
+  std::vector<StyleHighlight> highlights; ///< one for a class at most
 
   /// Complete: of the class, over the default, over standardStyle().
   LayerStyle styleOf(std::uint8_t objectClass) const;
+  /// How it is drawn inside a lens, as a sheet without lenses.
+  StyleSheet inside(const StyleLens& lens) const;
+  /// resolveAll() gives what it gives for the other one: they differ in where lenses lie, and in
+  /// what is done with pixels, at most.
+  bool resolvesAs(const StyleSheet& other) const;
+  /// With its lenses and highlights.
+  FrameShading frameShading() const;
   /// Somewhere a colour asks for ClassHeights of this store.
   bool wantsHeights(const StoreDescription& store) const;
 
@@ -65,7 +75,8 @@ struct StyleSheet
   friend bool operator==(const StyleSheet& a, const StyleSheet& b)
   {
     return a.standard == b.standard && a.classes == b.classes &&
-      a.shownClasses == b.shownClasses && a.where == b.where && a.shading == b.shading;
+      a.shownClasses == b.shownClasses && a.where == b.where && a.shading == b.shading &&
+      a.lenses == b.lenses && a.highlights == b.highlights;
   }
   friend bool operator!=(const StyleSheet& a, const StyleSheet& b) { return !(a == b); }
 };

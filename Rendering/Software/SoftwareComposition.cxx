@@ -1,0 +1,294 @@
+#include "SoftwareComposition.h"
+
+#include "HoleFiller.h"
+#include "PixelRectangle.h"
+
+#include "pointfront/Threads/ThreadCrew.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <vector>
+
+namespace pointfront
+{
+namespace
+{
+
+constexpr float nothingThere = std::numeric_limits<float>::infinity();
+
+std::size_t placeIn(const SoftwareTarget& target, int x, int y)
+{
+  return static_cast<std::size_t>(y - target.bottom) * static_cast<std::size_t>(target.width) +
+    static_cast<std::size_t>(x - target.left);
+}
+
+/// Straight colours; rounded to bytes.
+std::uint32_t over(std::uint32_t front, float opacity, std::uint32_t behind)
+{
+  std::uint8_t near[4], far[4];
+  std::memcpy(near, &front, 4);
+  std::memcpy(far, &behind, 4);
+  const float a = opacity * (static_cast<float>(near[3]) / 255.0f);
+  const float b = (1.0f - a) * (static_cast<float>(far[3]) / 255.0f);
+  const float sum = a + b;
+  for (int c = 0; c < 3 && sum > 0.0f; ++c)
+  {
+    const float mixed = (a * static_cast<float>(near[c]) + b * static_cast<float>(far[c])) / sum;
+    far[c] = static_cast<std::uint8_t>(mixed + 0.5f);
+  }
+  far[3] = static_cast<std::uint8_t>(255.0f * sum + 0.5f);
+  std::uint32_t result;
+  std::memcpy(&result, far, 4);
+  return result;
+}
+
+/// What is in one pixel of a translucent part.
+struct TranslucentPixel
+{
+  float depth;
+  float opacity;
+  std::uint32_t rgba;
+  const SoftwareTarget* target;
+  std::size_t pixel;
+};
+
+void put(const TranslucentPixel& nearest, SoftwareTarget& target, std::size_t pixel)
+{
+  if (target.depth[pixel] == nothingThere)
+  {
+    target.depth[pixel] = nearest.depth;
+  }
+  if (!target.highlights.empty() && !nearest.target->highlights.empty())
+  {
+    target.highlights[pixel] = nearest.target->highlights[nearest.pixel];
+  }
+  if (target.keepPoints)
+  {
+    target.points[pixel] = nearest.target->points[nearest.pixel];
+  }
+}
+
+PixelRectangle wider(const PixelRectangle& place, int by, const FrameCamera& camera)
+{
+  const PixelRectangle larger{ place.left - by, place.bottom - by, place.right + by,
+    place.top + by };
+  return place.empty() ? place : common({ 0, 0, camera.width, camera.height }, larger);
+}
+
+} // namespace
+
+int SoftwareComposition::reachPx(const FrameShading& shading)
+{
+  int reach = shading.eyeDomeStrength > 0.0f
+    ? static_cast<int>(std::ceil(shading.eyeDomeRadiusPx)) + 1
+    : 0;
+  for (const FrameHighlight& one : shading.highlights)
+  {
+    reach = std::max(reach, static_cast<int>(std::ceil(one.haloPx)) + 1);
+  }
+  return shading.fillHoles ? std::max(reach, holeFillerReach) : reach;
+}
+
+/// A lens' holes are filled from blocks of pixels that count from the viewport's corner.
+SoftwareTarget& SoftwareComposition::begin(const PlanPart& part, const FrameShading& shading,
+  const FrameCamera& camera, const SoftwareTarget& whole)
+{
+  Part& own = parts_[{ part.lens, part.mask, part.group }];
+  own.opacity = part.opacity;
+  if (!own.begun)
+  {
+    own.begun = true;
+    PixelRectangle place = whole.rectangle();
+    const auto lens = static_cast<std::size_t>(std::max<std::int16_t>(part.lens, 0));
+    if (part.lens >= 0 && lens < shading.lenses.size())
+    {
+      const std::array<int, 4> e = shading.lenses[lens].extent(camera.width, camera.height);
+      PixelRectangle seen = wider({ e[0], e[1], e[2], e[3] }, reachPx(shading), camera);
+      if (shading.fillHoles)
+      {
+        seen = common({ 0, 0, camera.width, camera.height },
+          { seen.left & -holeFillerReach, seen.bottom & -holeFillerReach,
+            (seen.right + holeFillerReach - 1) & -holeFillerReach,
+            (seen.top + holeFillerReach - 1) & -holeFillerReach });
+      }
+      place = common(place, seen);
+    }
+    own.target.keepPoints = whole.keepPoints;
+    own.target.reset(place);
+  }
+  return own.target;
+}
+
+RasterStatistics SoftwareComposition::draw(SoftwareRasteriser& rasteriser, const FramePlan& plan,
+  SoftwareTarget& target, std::uint16_t store)
+{
+  if (!isComposed(plan))
+  {
+    return rasteriser.draw(plan, target, store);
+  }
+  RasterStatistics all;
+  std::uint16_t number = 0;
+  for (PlanPart& part : partsOf(plan))
+  {
+    const bool whole = part.lens < 0 && part.group == 0;
+    SoftwareTarget& own = whole ? target : begin(part, plan.shading, plan.camera, target);
+    if (part.mask)
+    {
+      part.plan.shading = FrameShading();
+      part.plan.keepsVisible = false;
+    }
+    if (!own.rectangle().empty())
+    {
+      const RasterStatistics drawn = rasteriser.draw(part.plan, own, store, number);
+      all.points += drawn.points;
+      all.reused += drawn.reused;
+      all.keptVisible += drawn.keptVisible;
+      all.milliseconds += drawn.milliseconds;
+    }
+    ++number;
+  }
+  return all;
+}
+
+RasterStatistics SoftwareComposition::drawShown(
+  SoftwareRasteriser& rasteriser, const FramePlan& plan, SoftwareTarget& target)
+{
+  if (!isComposed(plan) && plan.shading.highlights.empty())
+  {
+    return rasteriser.drawShown(plan, target);
+  }
+  target.reset(wider(shownRectangle(plan), reachPx(plan.shading), plan.camera));
+  return target.rectangle().empty() ? RasterStatistics() : draw(rasteriser, plan, target);
+}
+
+/// What is translucent, and not behind what is opaque.
+void SoftwareComposition::blendGroups(std::int16_t lens, SoftwareTarget& target)
+{
+  std::vector<const Part*> groups;
+  for (const auto& [place, part] : parts_)
+  {
+    if (place.lens == lens && place.group > 0 && part.begun)
+    {
+      groups.push_back(&part);
+    }
+  }
+  ThreadCrew::ofProcess().run(groups.empty() ? 0 : static_cast<std::size_t>(target.height),
+    [&](std::size_t row, unsigned)
+    {
+      std::vector<TranslucentPixel> layers;
+      for (int x = target.left; x < target.left + target.width; ++x)
+      {
+        const int y = target.bottom + static_cast<int>(row);
+        const std::size_t pixel = placeIn(target, x, y);
+        layers.clear();
+        for (const Part* group : groups)
+        {
+          const std::size_t own = placeIn(group->target, x, y);
+          const float depth = group->target.depth[own];
+          if (depth < target.depth[pixel])
+          {
+            layers.push_back({ depth, static_cast<float>(group->opacity),
+              group->target.rgba[own], &group->target, own });
+          }
+        }
+        std::stable_sort(layers.begin(), layers.end(),
+          [](const TranslucentPixel& a, const TranslucentPixel& b) { return a.depth > b.depth; });
+        for (const TranslucentPixel& layer : layers)
+        {
+          target.rgba[pixel] = over(layer.rgba, layer.opacity, target.rgba[pixel]);
+        }
+        if (!layers.empty())
+        {
+          put(layers.back(), target, pixel);
+        }
+      }
+    });
+}
+
+void SoftwareComposition::putLens(std::int16_t number, const FrameCamera& camera,
+  const FrameShading& shading, SoftwareTarget& target)
+{
+  const FrameLens& lens = shading.lenses[static_cast<std::size_t>(number)];
+  const auto find = [&](bool mask) -> const SoftwareTarget*
+  {
+    const auto part = parts_.find({ number, mask, 0 });
+    return part != parts_.end() && part->second.begun ? &part->second.target : nullptr;
+  };
+  const SoftwareTarget* const inside = find(false);
+  const SoftwareTarget* const mask = find(true);
+  const std::array<int, 4> e = lens.extent(camera.width, camera.height);
+  const PixelRectangle place = common({ e[0], e[1], e[2], e[3] }, target.rectangle());
+  const auto covers = [&](int x, int y)
+  {
+    return lens.shape != LensShape::AroundClass
+      ? lens.covers(x, y, camera.width, camera.height)
+      : mask && mask->depth[placeIn(*mask, x, y)] != nothingThere;
+  };
+  ThreadCrew::ofProcess().run(
+    place.empty() ? 0 : static_cast<std::size_t>(place.height()),
+    [&](std::size_t row, unsigned)
+    {
+      const int y = place.bottom + static_cast<int>(row);
+      for (int x = place.left; x < place.right; ++x)
+      {
+        if (!covers(x, y))
+        {
+          continue;
+        }
+        const std::size_t pixel = placeIn(target, x, y);
+        const std::size_t from = inside ? placeIn(*inside, x, y) : 0;
+        target.rgba[pixel] = inside ? inside->rgba[from] : 0;
+        target.depth[pixel] = inside ? inside->depth[from] : nothingThere;
+        if (!target.highlights.empty())
+        {
+          target.highlights[pixel] =
+            inside && !inside->highlights.empty() ? inside->highlights[from] : std::uint8_t(0);
+        }
+        if (target.keepPoints)
+        {
+          target.points[pixel] = inside ? inside->points[from] : PixelPoint();
+        }
+      }
+    });
+}
+
+void SoftwareComposition::finish(
+  const FrameCamera& camera, const FrameShading& shading, SoftwareTarget& target)
+{
+  shade(camera, shading, target);
+  for (auto part = parts_.begin(); part != parts_.end();)
+  {
+    part = part->second.begun ? std::next(part) : parts_.erase(part);
+  }
+  for (auto& [place, part] : parts_)
+  {
+    if (!place.mask)
+    {
+      shade(camera, shading, part.target);
+    }
+  }
+  constexpr std::int16_t outside = -1;
+  blendGroups(outside, target);
+  for (std::size_t lens = 0; lens < shading.lenses.size(); ++lens)
+  {
+    const auto number = static_cast<std::int16_t>(lens);
+    const auto inside = parts_.find({ number, false, 0 });
+    if (inside != parts_.end())
+    {
+      blendGroups(number, inside->second.target);
+    }
+    if (!shading.lenses[lens].coversNothing())
+    {
+      putLens(number, camera, shading, target);
+    }
+  }
+  highlight(shading, target);
+  for (auto& [place, part] : parts_)
+  {
+    part.begun = false;
+  }
+}
+
+} // namespace pointfront

@@ -1,0 +1,70 @@
+#pragma once
+
+#include "SoftwareRasteriser.h"
+
+#include "pointfront/Plan/PlanParts.h"
+
+#include <cstdint>
+#include <map>
+
+namespace pointfront
+{
+
+/// Pictures of plans that are more than one opaque surface: translucent classes, lenses and
+/// highlights. Each part of the plans (PlanParts.h) is drawn into a target of its own, that of a
+/// lens is as large as the lens; one pass over the pixels puts them together (LAYERS-9, -10).
+/// A plan of one part is drawn straight into the target.
+/// Depth    of a pixel: what is opaque in it; where there is nothing but what is translucent, the
+///          nearest of that. PixelPoint: the nearest of all.
+/// Memory   targets are kept from picture to picture while plans have such parts.
+/// Threads  as SoftwareRasteriser.
+/// Source   drawing.md section 6; docs/adr/0029.
+class SoftwareComposition
+{
+public:
+  /// As the rasteriser's: of each store of the picture, one after the other.
+  RasterStatistics draw(SoftwareRasteriser& rasteriser, const FramePlan& plan,
+    SoftwareTarget& target, std::uint16_t store = 0);
+  RasterStatistics drawShown(
+    SoftwareRasteriser& rasteriser, const FramePlan& plan, SoftwareTarget& target);
+  /// Shades the parts and puts them together; once, after all stores. The next draw() begins
+  /// another picture.
+  void finish(const FrameCamera& camera, const FrameShading& shading, SoftwareTarget& target);
+
+  /// Pixels around what is wanted that light, highlights and the like look at.
+  static int reachPx(const FrameShading& shading);
+
+private:
+  struct Part
+  {
+    double opacity = 1.0;
+    bool begun = false; ///< in this picture
+    SoftwareTarget target;
+  };
+  /// Where a part belongs: PlanPart without its plan.
+  struct Place
+  {
+    std::int16_t lens;
+    bool mask;
+    std::uint16_t group;
+    friend bool operator<(const Place& a, const Place& b)
+    {
+      return a.lens != b.lens ? a.lens < b.lens
+        : a.mask != b.mask    ? a.mask < b.mask
+                              : a.group < b.group;
+    }
+  };
+
+  SoftwareTarget& begin(const PlanPart& part, const FrameShading& shading,
+    const FrameCamera& camera, const SoftwareTarget& whole);
+  void blendGroups(std::int16_t lens, SoftwareTarget& target);
+  void putLens(std::int16_t number, const FrameCamera& camera, const FrameShading& shading,
+    SoftwareTarget& target);
+
+  std::map<Place, Part> parts_;
+};
+
+/// What stands out: tints its pixels, and draws a rim on what lies behind it.
+void highlight(const FrameShading& shading, SoftwareTarget& target);
+
+} // namespace pointfront

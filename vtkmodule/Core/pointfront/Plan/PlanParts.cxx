@@ -1,0 +1,70 @@
+#include "pointfront/Plan/PlanParts.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace pointfront
+{
+namespace
+{
+
+PlanPart partOf(const ResolvedStyle& style)
+{
+  PlanPart part;
+  part.lens = style.lens;
+  part.mask = style.lensMask;
+  part.group = style.lensMask ? std::uint16_t(0) : style.group;
+  part.opacity = part.group > 0 ? style.opacity : 1.0;
+  return part;
+}
+
+FramePlan withoutBatches(const FramePlan& plan)
+{
+  FramePlan empty;
+  empty.camera = plan.camera;
+  empty.clippingPlanes = plan.clippingPlanes;
+  empty.grid = plan.grid;
+  empty.schema = plan.schema;
+  empty.splatRadiusBase = plan.splatRadiusBase;
+  empty.spacingPx = plan.spacingPx;
+  empty.keepsVisible = plan.keepsVisible;
+  empty.shading = plan.shading;
+  return empty;
+}
+
+} // namespace
+
+bool isComposed(const FramePlan& plan)
+{
+  return std::any_of(plan.batches.begin(), plan.batches.end(), [](const DrawBatch& batch)
+    { return batch.style->lens >= 0 || batch.style->group > 0; });
+}
+
+std::vector<PlanPart> partsOf(const FramePlan& plan)
+{
+  std::vector<PlanPart> parts;
+  const FramePlan empty = withoutBatches(plan);
+  const auto find = [&](PlanPart like) -> PlanPart&
+  {
+    const auto place = std::lower_bound(parts.begin(), parts.end(), like);
+    if (place != parts.end() && !(like < *place))
+    {
+      return *place;
+    }
+    like.plan = empty;
+    return *parts.insert(place, std::move(like));
+  };
+  find(PlanPart());
+  for (const DrawBatch& batch : plan.batches)
+  {
+    PlanPart opaque = partOf(*batch.style);
+    find(opaque).plan.batches.push_back(batch);
+    opaque.mask = false;
+    opaque.group = 0;
+    opaque.opacity = 1.0;
+    find(opaque);
+  }
+  return parts;
+}
+
+} // namespace pointfront

@@ -118,10 +118,7 @@ TEST(StyleJSON, RefusalsBeginWithTheirPlace)
     "default.opacity: expected a number from 0.0 to 1.0, not 2");
   expect(R"({"default": {"visible": 1}})", "default.visible: expected true or false, not 1");
   expect(R"({"default": {"technique": "dots"}})",
-    "default.technique: 'dots' is unknown: use points, splats, spheres, ewa");
-  expect(R"({"classes": {"6": {"technique": "solid"}}})",
-    "classes.6.technique: 'solid' is not available in this version: use points, splats, spheres, "
-    "ewa");
+    "default.technique: 'dots' is unknown: use points, splats, spheres, silhouettes, solid, ewa");
   expect(R"({"lenses": []})", "lenses: not available in this version; leave the key out");
   expect(R"({"highlight": []})", "highlight: not available in this version; leave the key out");
   expect(R"({"default": {"where": "intensity = 3"}})",

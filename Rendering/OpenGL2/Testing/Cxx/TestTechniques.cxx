@@ -75,6 +75,7 @@ std::string surfaceStore(const std::string& name, Surface surface)
   schema.add(normal);
   schema.add(splatRadiusColumn());
   schema.add({"reach", ScalarType::Float32, 1});
+  schema.add({"height_above_ground", ScalarType::Float32, 1});
   const QuantisationGrid grid = millimetres(glm::dvec3(0.0));
   auto cloud = std::make_unique<CloudSource>(name, schema, grid);
   for (int i = 0; i < side * side; ++i)
@@ -95,6 +96,7 @@ std::string surfaceStore(const std::string& name, Surface surface)
     cloud->addValue(2, stored);
     cloud->addValue(3, i % 89 == 0 ? unknownSplatRadius : encodeSplatRadius(0.02 + 0.01 * u, 0.02));
     cloud->addValue(4, static_cast<float>(0.01 + 0.03 * v));
+    cloud->addValue(5, static_cast<float>(i % 7 == 0 ? 0.0 : 0.3 + 0.2 * surfel.position.z));
   }
   cloud->editDescription().splatRadiusBase = 0.02;
   BuildOptions options;
@@ -149,6 +151,17 @@ const std::map<std::string, std::string> techniques = {
   {"paraboloids", R"({"default": {"technique": "splats", "orientation": "view"}})"},
   {"fixed", R"({"default": {"technique": "splats", "orientation": [0.1, 0.2, 1]}})"},
   {"spheres", R"({"default": {"technique": "spheres"}})"},
+  {"silhouettes", R"({"default": {"technique": "silhouettes"}})"},
+  {"facing silhouettes", R"({"default": {"technique": "silhouettes", "orientation": "view",
+     "rim_color": "#8020c0"}, "shading": {"mode": "edl"}})"},
+  {"exact silhouettes", R"({"default": {"technique": "silhouettes", "accuracy": "exact",
+     "size": {"mode": "fixed", "metres": 0.2}}})"},
+  {"solid", R"({"default": {"technique": "solid", "wall_color": ["#f0e0d0", "#103060"]}})"},
+  {"facing solid", R"({"default": {"technique": "solid", "orientation": "view"}})"},
+  {"lit solid", R"({"default": {"technique": "solid", "wall_color": "#a0a0a0"},
+     "shading": {"mode": "lit"}})"},
+  {"solid class", R"({"default": {"technique": "ewa"}, "classes": {"6": {"technique": "solid",
+     "color": "#ff8000"}, "2": {"technique": "silhouettes"}}})"},
   {"ewa", R"({"default": {"technique": "ewa"}})"},
   {"ewa exact", R"({"default": {"technique": "ewa", "accuracy": "exact"}})"},
   {"ewa full", R"({"default": {"technique": "ewa", "accuracy": "full"}})"},
@@ -292,7 +305,7 @@ std::set<vtkIdType> selected(Scene& scene)
 TEST(Techniques, SelectionsFindTheSplatsThatAreSeen)
 {
   Splats scene(surfaceStore("selected", sphereAt));
-  for (const char* name : {"splats", "ewa", "spheres", "classes", "lit"})
+  for (const char* name : {"splats", "ewa", "spheres", "classes", "lit", "silhouettes", "solid"})
   {
     ASSERT_TRUE(scene.style->LoadJSON(techniques.at(name)));
     scene.with(vtkPointFrontMapper::SOFTWARE);
@@ -350,7 +363,7 @@ int primitivesOf(Scene& scene)
 TEST(Techniques, AtRestNothingIsDrawnTwice)
 {
   Splats scene(surfaceStore("rest", sphereAt));
-  for (const char* name : {"metres", "lit ewa"})
+  for (const char* name : {"metres", "lit ewa", "solid"})
   {
     ASSERT_TRUE(scene.style->LoadJSON(techniques.at(name)));
     const Picture first = scene.draw();
@@ -367,7 +380,7 @@ TEST(Techniques, AtRestNothingIsDrawnTwice)
 TEST(Techniques, DetailIsAddedToWhatIsThere)
 {
   const std::string store = surfaceStore("added", stairsAt);
-  for (const char* name : {"metres", "lit", "splats"})
+  for (const char* name : {"metres", "lit", "splats", "silhouettes", "solid"})
   {
     Splats whole(store);
     ASSERT_TRUE(whole.style->LoadJSON(techniques.at(name)));

@@ -219,22 +219,38 @@ TEST(Techniques, ASplatMayBeLargerThanAnyPointOfGL)
 
 TEST(Techniques, FollowActorsClippingPlanesAndPartsOfWindows)
 {
-  Splats scene(surfaceStore("moved", stairsAt));
-  ASSERT_TRUE(scene.style->LoadJSON(techniques.at("ewa")));
-  vtkNew<vtkPlane> plane;
-  plane->SetOrigin(0.3, 0.0, 0.0);
-  plane->SetNormal(-1.0, 0.3, 0.0);
-  scene.mapper->AddClippingPlane(plane);
-  scene.expectAlike("clipped");
-  scene.actor->SetPosition(0.4, -0.3, 0.2);
-  scene.actor->RotateZ(30.0);
-  scene.actor->SetScale(1.2);
-  scene.expectAlike("moved and clipped");
-  scene.window->SetSize(420, 260);
-  scene.renderer->SetViewport(0.1, 0.2, 0.8, 0.9);
-  scene.expectAlike("a part of a window");
-  scene.renderer->GetActiveCamera()->SetWindowCenter(0.3, -0.2);
-  scene.expectAlike("off-axis");
+  const std::string store = surfaceStore("moved", stairsAt);
+  for (const char* name : {"ewa", "silhouettes", "solid"})
+  {
+    const std::string what = std::string(name) + ", ";
+    Splats scene(store);
+    ASSERT_TRUE(scene.style->LoadJSON(techniques.at(name)));
+    vtkNew<vtkPlane> plane;
+    plane->SetOrigin(0.3, 0.0, 0.0);
+    plane->SetNormal(-1.0, 0.3, 0.0);
+    scene.mapper->AddClippingPlane(plane);
+    scene.expectAlike(what + "clipped");
+    scene.actor->SetPosition(0.4, -0.3, 0.2);
+    scene.actor->RotateZ(30.0);
+    scene.actor->RotateX(20.0);
+    scene.actor->SetScale(1.2, 1.2, 1.5);
+    scene.expectAlike(what + "moved and clipped");
+    scene.window->SetSize(420, 260);
+    scene.renderer->SetViewport(0.1, 0.2, 0.8, 0.9);
+    scene.expectAlike(what + "a part of a window");
+    scene.renderer->GetActiveCamera()->SetWindowCenter(0.3, -0.2);
+    scene.expectAlike(what + "off-axis");
+  }
+}
+
+TEST(Techniques, WallsGoDownBehindTheEye)
+{
+  Splats scene(surfaceStore("below", planeAt));
+  ASSERT_TRUE(scene.style->LoadJSON(
+    R"({"default": {"technique": "solid", "wall_color": ["#f0e0d0", "#103060"]}})"));
+  scene.actor->SetScale(1.0, 1.0, 8.0); // walls of some 2.4
+  scene.lookFrom({0.1, -2.2, -1.5}, {0.0, 0.0, 1.0});
+  scene.expectAlike("from below");
 }
 
 TEST(Techniques, OtherActorsIntersectSplats)
@@ -343,6 +359,10 @@ TEST(Techniques, AStyleEditUploadsNoPositionAgain)
     "size": {"mode": "fixed", "px": 2}, "color": "classification"}})"));
   scene.draw();
   EXPECT_EQ(gl->GetUploadedBytes(), first + points * 4) << "squares need no shapes";
+  ASSERT_TRUE(scene.style->LoadJSON(
+    R"({"default": {"technique": "solid", "color": "classification"}})"));
+  scene.draw();
+  EXPECT_EQ(gl->GetUploadedBytes(), first + points * (4 + 4 + 4)) << "heights, shapes again";
 }
 
 /// Points and triangles that a frame hands to GL.

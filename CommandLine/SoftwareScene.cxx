@@ -202,7 +202,7 @@ Result<void> SoftwareScene::chooseStyles()
   {
     return noClassShown();
   }
-  return techniquesAreAvailable();
+  return {};
 }
 
 /// Of all that is drawn in one way.
@@ -217,20 +217,6 @@ void SoftwareScene::forEachStyle(const Visit& visit) const
         [&visit](const auto& style) { visit(*style); });
     }
   }
-}
-
-Result<void> SoftwareScene::techniquesAreAvailable() const
-{
-  Result<void> available;
-  forEachStyle([&available](const ResolvedStyle& style) {
-    if (!techniqueIsAvailable(style.technique, Backend::Software))
-    {
-      available = makeError(Error::Kind::Unsupported,
-        std::string("the technique ") + traitsOf(style.technique).name +
-          " is not drawn in software in this version");
-    }
-  });
-  return available;
 }
 
 /// Before anything is loaded.

@@ -51,7 +51,6 @@ private:
   Result<void> chooseStyles();
   template <typename Visit>
   void forEachStyle(const Visit& visit) const;
-  Result<void> techniquesAreAvailable() const;
   Result<void> shareMemory();
   FrameDemand demand(const View& view, bool complete) const;
   void updateFronts(const View& view, bool complete);

@@ -103,11 +103,10 @@ StyleSheet makeStyle(
 void declareStyle(CLI::App& app, DrawingOptions& options)
 {
   const auto arguments = std::make_shared<StyleArguments>();
-  std::vector<std::string> available;
-  std::vector<std::string> planned;
+  std::vector<std::string> techniques;
   for (const TechniqueTraits& traits : techniqueTraits)
   {
-    (techniqueIsAvailable(traits.technique) ? available : planned).emplace_back(traits.name);
+    techniques.emplace_back(traits.name);
   }
   app.add_option("--style", arguments->file,
        "How each class is drawn, as JSON (docs/user/styles.md); other options change its default")
@@ -123,7 +122,7 @@ void declareStyle(CLI::App& app, DrawingOptions& options)
     ->check(availableValues(presets, {}))
     ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
   app.add_option("--technique", arguments->technique, "How points become pixels (points)")
-    ->check(availableValues(available, planned))
+    ->check(availableValues(techniques, {}))
     ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
   app.add_option("--where", arguments->where,
        "Only points that meet it: 'ATTRIBUTE in [a, b]', 'in {1, 2}', ==, !=, <, <=, >, >=, and")

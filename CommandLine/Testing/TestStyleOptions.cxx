@@ -97,8 +97,6 @@ TEST(StyleOptions, WhatIsWrongIsNamed)
 {
   EXPECT_EQ(refusal({ "--where", "z = 3" }),
     "--where: 'z = 3', character 3: expected 'in', ==, !=, <, <=, > or >=, not '= 3'");
-  EXPECT_NE(refusal({ "--technique", "solid" }).find("not available in this version"),
-    std::string::npos);
   EXPECT_NE(refusal({ "--technique", "dots" }).find("'dots' is unknown"), std::string::npos);
   const std::string path = styleFile("wrong", R"({"classes": {"6": {"size": {"mode": "big"}}}})");
   EXPECT_EQ(refusal({ "--style", path }), "--style: " + path +

@@ -265,12 +265,7 @@ Technique techniqueAt(const JSONPlace& place)
   const std::optional<Technique> technique = techniqueOf(name);
   if (!technique)
   {
-    place.refuse("'" + name + "' is unknown: use " + techniqueList(true));
-  }
-  if (!techniqueIsAvailable(*technique))
-  {
-    place.refuse(
-      "'" + name + "' is not available in this version: use " + techniqueList(true));
+    place.refuse("'" + name + "' is unknown: use " + techniqueList());
   }
   return *technique;
 }

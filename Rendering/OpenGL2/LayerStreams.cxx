@@ -74,6 +74,26 @@ glm::vec3 normalAt(const std::byte* column, const Attribute& attribute, std::uin
     });
 }
 
+/// Above 0, store units; 0 for one that is none.
+void encodeLengths(const std::byte* column, const Attribute& attribute, std::uint32_t first,
+  std::uint32_t count, std::vector<std::uint32_t>& values)
+{
+  visitScalar(attribute.type,
+    [&](auto zero)
+    {
+      for (std::uint32_t point = first; point < first + count; ++point)
+      {
+        decltype(zero) stored;
+        std::memcpy(&stored, column + std::size_t(point) * attribute.bytes(), sizeof(stored));
+        const double length = static_cast<double>(stored) * attribute.scale + attribute.offset;
+        const float value = length > 0.0 ? static_cast<float>(length) : 0.0f;
+        std::uint32_t bits;
+        std::memcpy(&bits, &value, sizeof(bits));
+        values.push_back(bits);
+      }
+    });
+}
+
 } // namespace
 
 LayerStreams::LayerStreams(Styles styles)
@@ -88,6 +108,7 @@ LayerStreams::LayerStreams(Styles styles)
     {
       size_ = style->size.column;
     }
+    height_ = height_ ? height_ : style->heightColumn;
   }
 }
 
@@ -125,6 +146,8 @@ bool LayerStreams::fillsAs(const LayerStreams& other, GpuStream stream) const
       return normal_ == other.normal_ && radius_ == other.radius_;
     case GpuStream::Size:
       return size_ == other.size_;
+    case GpuStream::Height:
+      return height_ == other.height_;
     default:
       break;
   }
@@ -145,6 +168,8 @@ bool LayerStreams::coveredBy(const NodeColumns& node, GpuStream stream) const
       return (!normal_ || columnOf(node, normal_)) && (!radius_ || columnOf(node, radius_));
     case GpuStream::Size:
       return columnOf(node, size_) != nullptr;
+    case GpuStream::Height:
+      return columnOf(node, height_) != nullptr;
     default:
       return streams_.marked ? covers(node, markedColumns(styles_))
                              : styles_[0]->colouring.coveredBy(node);
@@ -160,7 +185,10 @@ void LayerStreams::encode(GpuStream stream, const FramePlan& plan, const NodeCol
       encodeShapes(plan, node, first, count, values);
       break;
     case GpuStream::Size:
-      encodeSizes(plan, node, first, count, values);
+      encodeLengths(columnOf(node, size_), (*plan.schema)[*size_], first, count, values);
+      break;
+    case GpuStream::Height:
+      encodeLengths(columnOf(node, height_), (*plan.schema)[*height_], first, count, values);
       break;
     default:
       streams_.marked
@@ -207,27 +235,6 @@ void LayerStreams::encodeShapes(const FramePlan& plan, const NodeColumns& node,
       normals ? normalAt(normals, (*plan.schema)[*normal_], point) : glm::vec3(0.0f);
     values.push_back(shapeCode::of(normal, radii ? std::uint8_t(radii[point]) : std::uint8_t(0)));
   }
-}
-
-void LayerStreams::encodeSizes(const FramePlan& plan, const NodeColumns& node,
-  std::uint32_t first, std::uint32_t count, std::vector<std::uint32_t>& values) const
-{
-  const std::byte* const column = columnOf(node, size_);
-  const Attribute& attribute = (*plan.schema)[*size_];
-  visitScalar(attribute.type,
-    [&](auto zero)
-    {
-      for (std::uint32_t point = first; point < first + count; ++point)
-      {
-        decltype(zero) stored;
-        std::memcpy(&stored, column + std::size_t(point) * attribute.bytes(), sizeof(stored));
-        const double size = static_cast<double>(stored) * attribute.scale + attribute.offset;
-        const float value = size > 0.0 ? static_cast<float>(size) : 0.0f;
-        std::uint32_t bits;
-        std::memcpy(&bits, &value, sizeof(bits));
-        values.push_back(bits);
-      }
-    });
 }
 
 } // namespace pointfront

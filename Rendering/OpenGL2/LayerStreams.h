@@ -42,14 +42,13 @@ private:
     std::uint32_t count, std::vector<std::uint32_t>& values) const;
   void encodeShapes(const FramePlan& plan, const NodeColumns& node, std::uint32_t first,
     std::uint32_t count, std::vector<std::uint32_t>& values) const;
-  void encodeSizes(const FramePlan& plan, const NodeColumns& node, std::uint32_t first,
-    std::uint32_t count, std::vector<std::uint32_t>& values) const;
 
   Styles styles_;
   GpuStreams streams_;
   std::optional<std::uint32_t> normal_; ///< columns of the store
   std::optional<std::uint32_t> radius_;
   std::optional<std::uint32_t> size_;
+  std::optional<std::uint32_t> height_;
 };
 
 } // namespace pointfront

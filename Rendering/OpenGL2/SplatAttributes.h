@@ -23,12 +23,13 @@ public:
         program, colour == PointColouring::Kind::Direct ? "pointColour" : "pointValue"))
     , shapes_(locationOf(program, "pointShape"))
     , sizes_(locationOf(program, "pointSize"))
+    , heights_(locationOf(program, "pointHeight"))
     , colours_(colour == PointColouring::Kind::Direct)
   {
   }
   ~SplatAttributes()
   {
-    for (const GLint location : { positions_, values_, shapes_, sizes_ })
+    for (const GLint location : { positions_, values_, shapes_, sizes_, heights_ })
     {
       if (location >= 0)
       {
@@ -47,6 +48,7 @@ public:
       block.buffer(GpuStream::Value));
     integers(shapes_, 1, block.buffer(GpuStream::Shape));
     numbers(sizes_, 1, GL_FLOAT, block.buffer(GpuStream::Size));
+    numbers(heights_, 1, GL_FLOAT, block.buffer(GpuStream::Height));
   }
 
 private:
@@ -82,6 +84,7 @@ private:
   GLint values_;
   GLint shapes_;
   GLint sizes_;
+  GLint heights_;
   bool colours_;
 };
 

@@ -133,11 +133,16 @@ std::int64_t SplatGroups::add(const RasterItems& items, const RasterItem& item,
   record.shaped = isThere(GpuStream::Shape);
   record.sized = isThere(GpuStream::Size);
   records.set(entry->slots, record);
-  const bool quads = largestSplat(item, items) > largestPointPx;
+  const bool walls = item.passes.walls();
+  if (walls && !isThere(GpuStream::Height))
+  {
+    return 0; // heights are on their way
+  }
+  const bool quads = walls || largestSplat(item, items) > largestPointPx;
   const int mark = layer.streams().marked ? layer.markOf(*item.style) : -1;
   listed_.push_back({ { &items, &item, record.shaped, record.sized, quads, mark, {}, {} }, entry,
     record, end, 0 });
-  return end - item.item->first;
+  return walls ? 0 : end - item.item->first;
 }
 
 SplatGroups::Group& SplatGroups::groupOf(const Group& like)

@@ -28,7 +28,7 @@ public:
     const RasterItem* first; ///< as all of it: style, passes
     bool shaped;
     bool sized;
-    bool quads; ///< larger than points of GL can be
+    bool quads; ///< larger than points of GL can be, or far from square
     int mark;   ///< GpuStreams; -1: the layer has none
     DrawRuns all;
     DrawRuns added; ///< that the last picture does not have

@@ -43,7 +43,7 @@ SplatVariant variantOf(
   variant.marked = group.mark >= 0;
   variant.colour = variant.marked ? PointColouring::Kind::Direct : style.colouring.kind;
   variant.shaped = group.shaped;
-  variant.normals =
+  variant.normals = !item.passes.walls() &&
     group.shaped && style.normalColumn && style.orientation == SplatOrientation::Normal;
   variant.radius = radiusSourceOf(item, group.shaped, group.sized);
   variant.lit = parts.lit && !second;

@@ -9,6 +9,8 @@
 #include "SplatMembersGLSL.h"
 #include "SplatSetUpGLSL.h"
 #include "SplatVSGLSL.h"
+#include "WallSampleGLSL.h"
+#include "WallSetUpGLSL.h"
 
 #include <vtkOpenGLRenderWindow.h>
 #include <vtkOpenGLShaderCache.h>
@@ -34,7 +36,8 @@ std::string definitions(const SplatVariant& variant)
     define("PICKING", variant.ids) + define("QUADS", variant.quads);
 }
 
-std::string filled(const char* source, const std::string& defines, bool table)
+std::string filled(
+  const char* source, const std::string& defines, bool table, bool walls = false)
 {
   std::string result = source;
   const std::pair<const char*, std::string> parts[] = {
@@ -43,6 +46,8 @@ std::string filled(const char* source, const std::string& defines, bool table)
     { "//POINTFRONT::SplatMembers::Dec", SplatMembersGLSL },
     { "//POINTFRONT::ColourTable::Dec", table ? ColourTableGLSL : "" },
     { "//POINTFRONT::SplatSetUp::Dec", SplatSetUpGLSL },
+    { "//POINTFRONT::WallSetUp::Dec", walls ? WallSetUpGLSL : "" },
+    { "//POINTFRONT::WallSample::Dec", walls ? WallSampleGLSL : "" },
   };
   for (const auto& [mark, text] : parts)
   {
@@ -62,8 +67,9 @@ vtkShaderProgram* SplatPrograms::use(vtkOpenGLRenderWindow* window, const SplatV
     const bool table = variant.colour == PointColouring::Kind::Table ||
       variant.colour == PointColouring::Kind::Elevation;
     Sources sources;
-    sources.vertex = filled(SplatVSGLSL, defines, table);
-    sources.fragment = filled(SplatFSGLSL, defines, false);
+    const bool walls = !variant.square && variant.shape == SplatShape::Wall;
+    sources.vertex = filled(SplatVSGLSL, defines, table, walls);
+    sources.fragment = filled(SplatFSGLSL, defines, false, walls);
     sources.geometry = variant.quads ? filled(SplatGSGLSL, defines, false) : std::string();
     found = sources_.emplace(variant, std::move(sources)).first;
   }

@@ -18,6 +18,13 @@ void setMatrix(vtkShaderProgram* program, const char* name, const glm::mat3& mat
   program->SetUniformMatrix3x3(name, &columns[0][0]);
 }
 
+void setColour(vtkShaderProgram* program, const char* name, const Rgba8& colour)
+{
+  const float rgb[3] = { static_cast<float>(colour[0]) / 255.0f,
+    static_cast<float>(colour[1]) / 255.0f, static_cast<float>(colour[2]) / 255.0f };
+  program->SetUniform3f(name, rgb);
+}
+
 /// Camera space of a step: without what a node of many steps was shifted by.
 glm::mat3 stepsToCamera(const RasterItem& item)
 {
@@ -111,6 +118,19 @@ void setSplatUniforms(
   program->SetUniformf("slackRadii", pass.slackRadii);
   program->SetUniformf("slackPixels", pass.slackPixels);
   program->SetUniformf("blendedMark", item.passes.blended ? 1.0f : 0.5f);
+  program->SetUniformf("rimFrom", pass.rimFrom);
+  program->SetUniformf("rimRadii", pass.rimRadii);
+  program->SetUniformf("mostAtCentre", pass.mostAtCentre());
+  setColour(program, "rimColour", item.style->rim);
+  if (item.passes.walls())
+  {
+    const bool own = !item.style->wall;
+    setColour(program, "wallUpper", own ? Rgba8{} : (*item.style->wall)[0]);
+    setColour(program, "wallLower", own ? Rgba8{} : (*item.style->wall)[1]);
+    program->SetUniformi("wallColoured", own ? 0 : 1);
+    program->SetUniform3f("upwards", item.camera.up);
+    program->SetUniformf("heightFactor", items.upFactor());
+  }
 }
 
 } // namespace pointfront

@@ -132,7 +132,7 @@ bool LastPicture::goOn(const RasterItems& items, RasterWindow& window, ThreadCre
   {
     const RasterItem& item = items.items()[i];
     const std::uint32_t from = std::max(item.item->first, drawnUpTo[i]);
-    reused += from - item.item->first;
+    reused += item.passes.walls() ? 0 : from - item.item->first;
     addPieces(item, from, pieces);
   }
   return true;

@@ -42,9 +42,10 @@ struct Listed
   }
 };
 
+/// Lengths of the store, times `factor`; 0 for one that is none.
 template <typename Points>
-void loadSizes(const std::byte* column, const Attribute& attribute, const Points& points,
-  int count, float factor, RasterBatch& batch)
+void loadLengths(const std::byte* column, const Attribute& attribute, const Points& points,
+  int count, float factor, float* lengths)
 {
   visitScalar(attribute.type,
     [&](auto zero)
@@ -53,8 +54,8 @@ void loadSizes(const std::byte* column, const Attribute& attribute, const Points
       {
         decltype(zero) stored;
         std::memcpy(&stored, column + points(j) * attribute.bytes(), sizeof(stored));
-        const double radius = static_cast<double>(stored) * attribute.scale + attribute.offset;
-        batch.radius[j] = radius > 0.0 ? static_cast<float>(radius) * factor : 0.0f;
+        const double length = static_cast<double>(stored) * attribute.scale + attribute.offset;
+        lengths[j] = length > 0.0 ? static_cast<float>(length) * factor : 0.0f;
       }
     });
 }
@@ -133,7 +134,7 @@ void PointShapes::fillBy(const RasterItem& item, const Points& points, int count
   {
     const auto factor =
       static_cast<float>(item.style->size.value) * items_.radiusFactor() * share;
-    loadSizes(item.sizes, *item.sizeAttribute, points, count, factor, batch);
+    loadLengths(item.sizes, *item.sizeAttribute, points, count, factor, batch.radius);
   }
   else if (item.radiusCodes)
   {
@@ -153,7 +154,16 @@ void PointShapes::fillBy(const RasterItem& item, const Points& points, int count
   {
     std::fill(batch.radius, batch.radius + count, item.radius * share);
   }
-  fillNormals(item, points, count, batch);
+  item.passes.walls() ? fillHeights(item, points, count, batch)
+                      : fillNormals(item, points, count, batch);
+}
+
+template <typename Points>
+void PointShapes::fillHeights(
+  const RasterItem& item, const Points& points, int count, RasterBatch& batch) const
+{
+  loadLengths(
+    item.heights, *item.heightAttribute, points, count, items_.upFactor(), batch.height);
 }
 
 float PointShapes::largestRadius(const RasterItem& item)
@@ -163,6 +173,24 @@ float PointShapes::largestRadius(const RasterItem& item)
     return std::numeric_limits<float>::infinity();
   }
   return item.radiusCodes ? mostOfClosing * item.sparsestRadius : item.radius;
+}
+
+double PointShapes::largestHeight(const RasterItem& item)
+{
+  const Attribute& attribute = *item.heightAttribute;
+  return visitScalar(attribute.type,
+    [&](auto zero)
+    {
+      double most = 0.0;
+      for (std::uint32_t point = item.item->first; point < item.item->last; ++point)
+      {
+        decltype(zero) stored;
+        std::memcpy(&stored, item.heights + point * attribute.bytes(), sizeof(stored));
+        const double height = static_cast<double>(stored) * attribute.scale + attribute.offset;
+        most = height > most ? height : most;
+      }
+      return most;
+    });
 }
 
 void PointShapes::fill(

@@ -18,7 +18,7 @@ public:
     , kernels_(kernels)
   {
   }
-  /// Fills radius (world units, times `share`) and normals of projected points: of [first, first +
+  /// Fills radius (world units, times `share`) and normals, or heights of walls, of projected points: of [first, first +
   /// count), or of those in a list.
   void fill(const RasterItem& item, std::uint32_t first, int count, float share,
     RasterBatch& batch) const;
@@ -28,6 +28,8 @@ public:
   /// No point of the item has a larger radius (world units, before a share); infinite where only
   /// reading them all would tell.
   static float largestRadius(const RasterItem& item);
+  /// The tallest wall of the item, store units.
+  static double largestHeight(const RasterItem& item);
 
 private:
   template <typename Points>
@@ -35,6 +37,10 @@ private:
     RasterBatch& batch) const;
   template <typename Points>
   void fillNormals(
+    const RasterItem& item, const Points& points, int count, RasterBatch& batch) const;
+
+  template <typename Points>
+  void fillHeights(
     const RasterItem& item, const Points& points, int count, RasterBatch& batch) const;
 
   const RasterItems& items_;

@@ -32,11 +32,13 @@ struct RasterBatch
   alignas(64) float normalX[size]; ///< camera space, any length
   alignas(64) float normalY[size];
   alignas(64) float normalZ[size];
+  alignas(64) float height[size];  ///< walls: world units; 0: none
 
   // Made by the set-up of a shape:
   /// of pixels for discs, of world units where rays are cast
   alignas(64) float inverseRadius2[size];
-  alignas(64) float quadraticXX[size];    ///< ellipses: q = XX dx^2 + XY dx dy + YY dy^2
+  /// ellipses: q = XX dx^2 + XY dx dy + YY dy^2; walls: the unit vector to their right
+  alignas(64) float quadraticXX[size];
   alignas(64) float quadraticXY[size];
   alignas(64) float quadraticYY[size];
   alignas(64) float slopeX[size];         ///< ellipses: depth per pixel
@@ -81,6 +83,8 @@ struct RasterCamera
 {
   /// Camera space from steps: z is along the line of sight.
   float matrix[3][4] = {};
+  /// Of the store's z axis, unit.
+  float up[3] = { 0.0f, 1.0f, 0.0f };
   float scaleX = 1.0f;  ///< pixels per unit at depth 1; parallel: at any depth
   float scaleY = 1.0f;
   float centreX = 0.0f; ///< pixels

@@ -3,6 +3,7 @@
 #include "pointfront/Plan/SlotOrigin.h"
 #include "pointfront/Points/SplatRadius.h"
 
+#include <glm/geometric.hpp>
 #include <glm/gtc/matrix_inverse.hpp>
 #include <glm/matrix.hpp>
 
@@ -91,23 +92,37 @@ RasterItems::RasterItems(const FramePlan& plan, std::size_t from)
     radii_[code] =
       decodeSplatRadius(static_cast<std::uint8_t>(code), plan.splatRadiusBase) * radiusFactor_;
   }
+  upFactor_ = static_cast<float>(glm::length(glm::dvec3(plan.camera.storeToView[2])));
   normalToCamera_ = glm::mat3(glm::inverseTranspose(cameraAxes(plan.camera)));
   std::uint64_t base = 0;
   constexpr std::uint64_t most = std::numeric_limits<std::uint32_t>::max();
   for (end_ = from; end_ < ordered_.size(); ++end_)
   {
-    const std::uint64_t points = ordered_[end_].item->node->size();
+    const Place& place = ordered_[end_];
+    const bool twice = columnOf(*place.item->node, place.batch->style->heightColumn) != nullptr;
+    const std::uint64_t points = (twice ? 2 : 1) * place.item->node->size();
     if (base + points > most && end_ > from)
     {
       break;
     }
-    add(ordered_[end_], static_cast<std::uint32_t>(base));
-    numbers_.append(static_cast<std::uint32_t>(points));
+    append(itemOf(place));
+    if (twice)
+    {
+      append(wallsOf(items_.back()));
+    }
     base += points;
   }
 }
 
-void RasterItems::add(const Place& place, std::uint32_t base)
+void RasterItems::append(RasterItem item)
+{
+  item.base = numbers_.end();
+  numbers_.append(static_cast<std::uint32_t>(item.node().size()));
+  blended_ = blended_ || item.passes.blended;
+  items_.push_back(std::move(item));
+}
+
+RasterItem RasterItems::itemOf(const Place& place)
 {
   const NodeColumns& node = *place.item->node;
   const ResolvedStyle& style = *place.batch->style;
@@ -121,14 +136,11 @@ void RasterItems::add(const Place& place, std::uint32_t base)
   RasterItem item;
   item.item = place.item;
   item.style = &style;
-  item.base = base;
-  item.colours = std::make_unique<PointColours>(plan_, style, *table->second, node);
+  item.colours = std::make_shared<PointColours>(plan_, style, *table->second, node);
   const bool facesEye = style.orientation == SplatOrientation::View;
   item.normals = facesEye ? nullptr : columnOf(node, style.normalColumn);
   item.normalAttribute = item.normals ? &(*plan_.schema)[*style.normalColumn] : nullptr;
-  const bool oriented = item.normals || style.orientation == SplatOrientation::Fixed;
-  const bool thinned = place.item->refined && place.item->unfinished;
-  item.passes = passesOf(style, { oriented, plan_.spacingPx, thinned, plan_.camera.height });
+  item.passes = passesOf(style, demandOf(item));
   const std::byte* const codes = columnOf(node, style.radiusColumn);
   item.radiusCodes = reinterpret_cast<const std::uint8_t*>(codes);
   const auto value = static_cast<float>(style.size.value) * radiusFactor_;
@@ -143,11 +155,26 @@ void RasterItems::add(const Place& place, std::uint32_t base)
     item.sizeAttribute = item.sizes ? &(*plan_.schema)[style.size.column] : nullptr;
     item.radius = place.item->closingRadius * value;
   }
-  blended_ = blended_ || item.passes.blended;
-
   setPlace(item);
   item.positions.filtered = !style.filter.empty();
-  items_.push_back(std::move(item));
+  return item;
+}
+
+PassDemand RasterItems::demandOf(const RasterItem& item) const
+{
+  const bool oriented = item.normals || item.style->orientation == SplatOrientation::Fixed;
+  const bool thinned = item.item->refined && item.item->unfinished;
+  return { oriented, plan_.spacingPx, thinned, plan_.camera.height };
+}
+
+RasterItem RasterItems::wallsOf(const RasterItem& item) const
+{
+  RasterItem walls = item;
+  walls.passes = wallPassesOf(*item.style, demandOf(item));
+  walls.normals = nullptr;
+  walls.heights = columnOf(item.node(), item.style->heightColumn);
+  walls.heightAttribute = &(*plan_.schema)[*item.style->heightColumn];
+  return walls;
 }
 
 /// Where the node's points land: all that is large is taken off in double.
@@ -163,6 +190,8 @@ void RasterItems::setPlace(RasterItem& item) const
   const glm::dvec3 start = axes * glm::dvec3(origin.base) + reference;
   const std::array<double, 2> range = depthRange(camera);
   item.camera = projectionOf(camera);
+  const glm::vec3 up(glm::normalize(axes[2]));
+  std::copy_n(&up.x, 3, item.camera.up);
   // Depths in a parallel view count from its near plane: keys have no negative ones.
   const double shift = camera.parallel ? range[0] : 0.0;
   for (int row = 0; row < 3; ++row)

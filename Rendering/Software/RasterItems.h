@@ -19,7 +19,8 @@
 namespace pointfront
 {
 
-/// One node of a plan as the loops want it.
+/// One node of a plan as the loops want it; where its style is solid there is one more, of the
+/// walls below its points.
 struct RasterItem
 {
   const PlanItem* item = nullptr;
@@ -28,7 +29,7 @@ struct RasterItem
   RasterCamera camera;
   RasterPositions positions; ///< of the node's first point
   TechniquePasses passes;
-  std::unique_ptr<PointColours> colours;
+  std::shared_ptr<const PointColours> colours;
   float radius = 0.0f;       ///< world units, of all points without one of their own
   float sparsestRadius = 0.0f; ///< where the item's points are farthest apart
   float radiusScale = 1.0f;  ///< times a point's own
@@ -37,6 +38,8 @@ struct RasterItem
   const Attribute* sizeAttribute = nullptr;
   const std::byte* normals = nullptr;
   const Attribute* normalAttribute = nullptr;
+  const std::byte* heights = nullptr; ///< walls: above the ground
+  const Attribute* heightAttribute = nullptr;
 
   const NodeColumns& node() const { return *item->node; }
   /// Asks for the memory that holds what a winner is resolved by.
@@ -49,6 +52,10 @@ struct RasterItem
     if (radiusCodes && !passes.depthInKey())
     {
       __builtin_prefetch(radiusCodes + point);
+    }
+    if (heights)
+    {
+      __builtin_prefetch(heights + std::size_t(point) * heightAttribute->bytes());
     }
     if (normals)
     {
@@ -82,6 +89,8 @@ public:
   const std::array<float, 256>& radii() const { return radii_; }
   /// View units of a store unit.
   float radiusFactor() const { return radiusFactor_; }
+  /// The same along the store's z axis.
+  float upFactor() const { return upFactor_; }
   const glm::mat3& normalToCamera() const { return normalToCamera_; }
   const FramePlan& plan() const { return plan_; }
 
@@ -95,7 +104,11 @@ private:
     const PlanItem* item;
     const DrawBatch* batch;
   };
-  void add(const Place& place, std::uint32_t base);
+  /// What `place` is drawn as, without its place.
+  RasterItem itemOf(const Place& place);
+  RasterItem wallsOf(const RasterItem& item) const;
+  PassDemand demandOf(const RasterItem& item) const;
+  void append(RasterItem item);
   void setPlace(RasterItem& item) const;
   /// `reference` in camera space; `shift`: what depths of a parallel view count from.
   void setClipping(const glm::dmat3& axes, const glm::dvec3& reference, double shift,
@@ -108,6 +121,7 @@ private:
   std::vector<std::pair<const ResolvedStyle*, std::unique_ptr<StyleColours>>> tables_;
   std::array<float, 256> radii_{};
   float radiusFactor_ = 1.0f;
+  float upFactor_ = 1.0f;
   glm::mat3 normalToCamera_{ 1.0f };
   std::size_t end_ = 0;
   bool first_ = true;

@@ -11,7 +11,8 @@ enum class SplatShape : std::int32_t
   Disc,         ///< faces the eye
   Ellipse,      ///< affine image of a disc with a normal, depth by its plane (EWA-5)
   ExactEllipse, ///< ray and disc in each pixel
-  Sphere        ///< ray and hemisphere in each pixel (LAYERS-5)
+  Sphere,       ///< ray and hemisphere in each pixel (LAYERS-5)
+  Wall          ///< upright rectangle that faces the eye, from the point down (LAYERS-7)
 };
 
 /// Constants of a pass over splats.
@@ -26,6 +27,14 @@ struct SplatPass
   float lowPass = 0.0f;      ///< ellipses: radius of a screen-space low-pass, pixels; 0: none
   float slackRadii = 1.0f;   ///< second pass: adds up to that far behind the nearest, in radii
   float slackPixels = 2.0f;  ///< and that many pixels' size at its depth
+  /// Beyond that q a splat is its rim, drawn that many radii further back (LAYERS-6). Discs and
+  /// ellipses of first passes alone.
+  float rimFrom = 1.0f;
+  float rimRadii = 0.0f;
+
+  bool rimmed() const { return rimRadii > 0.0f; }
+  /// q of an ellipse is at most that in the pixel that its centre lies in: no rim.
+  float mostAtCentre() const { return 0.999f * rimFrom; }
 };
 
 /// Radii as codes of a byte (drawing.md 3), and what they come to.
@@ -57,7 +66,7 @@ struct RasterKernels
   /// Squares of `size` x `size` pixels, 1 to 255. `index` is that of the batch's first point.
   void (*drawSquares)(const RasterWindow&, RasterBatch&, int count, int size, std::uint32_t index,
     RasterKey* keys);
-  /// Fills radius; normalX, normalY, normalZ.
+  /// Fills radius; normalX, normalY, normalZ. Walls have `height` for a normal.
   void (*loadRadii)(const RadiusCodes&, int count, RasterBatch&);
   void (*loadNormals)(const StoredNormals&, int count, RasterBatch&);
   /// Fills what the shape needs, from radius and normal, and sorts by extent.

@@ -28,16 +28,18 @@ struct CornerRange
   double farthest = std::numeric_limits<double>::lowest();
 };
 
+/// Of the box of the node's points; of walls, down to the lowest end of any.
 CornerRange cornersOf(const RasterItem& item, const FramePlan& plan)
 {
   const FrameCamera& camera = plan.camera;
   const NodeColumns& node = item.node();
-  const glm::dvec3 size = 2.0 * (1.0 + boxRounding) * glm::dvec3(node.halfSize);
+  const glm::dvec3 down(0.0, 0.0, item.passes.walls() ? PointShapes::largestHeight(item) : 0.0);
+  const glm::dvec3 size = (1.0 + boxRounding) * (2.0 * glm::dvec3(node.halfSize) + down);
   const glm::dvec3 slack = boxRounding * size + plan.grid.scale;
   const glm::dmat3 turn(camera.storeToView);
   // The offset less the reference first: both are large.
   const glm::dvec3 origin =
-    (plan.grid.offset - camera.reference) + plan.grid.scale * glm::dvec3(node.origin) - slack;
+    (plan.grid.offset - camera.reference) + plan.grid.scale * glm::dvec3(node.origin) - slack - down;
   CornerRange range;
   for (int corner = 0; corner < 8; ++corner)
   {
@@ -73,7 +75,10 @@ glm::dvec2 reachOf(const RasterItem& item, const CornerRange& corners)
   size = camera.parallel ? size : size / corners.nearest;
   const bool ofPixels = item.style->size.mode == SplatSize::Mode::Pixels;
   size = ofPixels ? 0.5 * item.style->size.value * share / camera.scaleY : size;
-  size = std::max(size, least / camera.scaleY);
+  // A wall that is widened at its top may go down towards the eye.
+  const bool nearer = item.passes.walls() && !camera.parallel;
+  size = std::max(
+    size, least / camera.scaleY * (nearer ? corners.farthest / corners.nearest : 1.0));
   const glm::dvec2 scale(camera.scaleX, camera.scaleY);
   if (camera.parallel)
   {

@@ -94,33 +94,42 @@ inline int listLarge(RasterBatch& batch, int count)
   return wide + listEqual(batch.extent, count, RasterBatch::Clipped, batch.list + wide);
 }
 
-template <SplatShape Shape, bool Parallel>
-void drawShape(const RasterCamera& camera, const RasterWindow& window, const SplatPass& pass,
+template <SplatShape Shape, bool Parallel, bool Rimmed>
+void drawShapeBy(const RasterCamera& camera, const RasterWindow& window, const SplatPass& pass,
   RasterBatch& batch, int count, std::uint32_t index, RasterKey* keys)
 {
-  drawTiny<Shape, Parallel>(camera, pass, batch, count, window.stride, index, keys);
+  drawTiny<Shape, Parallel, Rimmed>(camera, pass, batch, count, window.stride, index, keys);
   const int small = listSmall(batch, count);
   for (int i = 0; i < small; ++i)
   {
     const int j = batch.list[i];
     const SplatAt<Shape, Parallel> splat(camera, pass, batch, OneSplat{ j });
-    const Lanes rim = all(pass.paraboloid * batch.radius[j]);
+    const KeyDepth<Rimmed> keyDepth(pass, all(batch.radius[j]));
     const std::uint32_t id = index + static_cast<std::uint32_t>(j);
     visitSmall(window, batch, j, splat,
       [&](std::int32_t lower, std::int32_t upper, const SplatSample& s)
-      { keepNearest4x2(keys + lower, keys + upper, s.depth + rim * s.q, id, s.covered); });
+      { keepNearest4x2(keys + lower, keys + upper, keyDepth(s), id, s.covered); });
   }
   const int large = listLarge(batch, count);
   for (int i = 0; i < large; ++i)
   {
     const int j = batch.list[i];
     const SplatAt<Shape, Parallel> splat(camera, pass, batch, OneSplat{ j });
-    const Lanes rim = all(pass.paraboloid * batch.radius[j]);
+    const KeyDepth<Rimmed> keyDepth(pass, all(batch.radius[j]));
     const std::uint32_t id = index + static_cast<std::uint32_t>(j);
     visitLarge(window, batch, j, splat,
       [&](std::int32_t offset, const SplatSample& s)
-      { keepNearest8(keys + offset, s.depth + rim * s.q, id, s.covered); });
+      { keepNearest8(keys + offset, keyDepth(s), id, s.covered); });
   }
+}
+
+template <SplatShape Shape, bool Parallel>
+void drawShape(const RasterCamera& camera, const RasterWindow& window, const SplatPass& pass,
+  RasterBatch& batch, int count, std::uint32_t index, RasterKey* keys)
+{
+  pass.rimmed()
+    ? drawShapeBy<Shape, Parallel, true>(camera, window, pass, batch, count, index, keys)
+    : drawShapeBy<Shape, Parallel, false>(camera, window, pass, batch, count, index, keys);
 }
 
 template <SplatShape Shape, bool Parallel>
@@ -190,7 +199,12 @@ void drawSplatsOf(const RasterCamera& camera, const RasterWindow& window, const 
         camera, window, pass, batch, count, index, keys);
       break;
     case SplatShape::Sphere:
-      drawShape<SplatShape::Sphere, Parallel>(camera, window, pass, batch, count, index, keys);
+      drawShapeBy<SplatShape::Sphere, Parallel, false>(
+        camera, window, pass, batch, count, index, keys);
+      break;
+    case SplatShape::Wall:
+      drawShapeBy<SplatShape::Wall, Parallel, false>(
+        camera, window, pass, batch, count, index, keys);
       break;
   }
 }
@@ -221,6 +235,8 @@ void addSplatsOf(const RasterCamera& camera, const RasterWindow& window, const S
     case SplatShape::Sphere:
       addShape<SplatShape::Sphere, Parallel>(camera, window, pass, batch, count, nearest, sums);
       break;
+    case SplatShape::Wall:
+      break; // never blended
   }
 }
 

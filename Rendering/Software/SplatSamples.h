@@ -79,7 +79,7 @@ template <bool Parallel>
 struct SplatAt<SplatShape::Ellipse, Parallel>
 {
   template <typename Points>
-  SplatAt(const RasterCamera&, const SplatPass&, const RasterBatch& batch, Points points)
+  SplatAt(const RasterCamera&, const SplatPass& pass, const RasterBatch& batch, Points points)
     : xx(points(batch.quadraticXX))
     , xy(points(batch.quadraticXY))
     , yy(points(batch.quadraticYY))
@@ -87,17 +87,18 @@ struct SplatAt<SplatShape::Ellipse, Parallel>
     , slopeY(points(batch.slopeY))
     , radius(points(batch.radius))
     , depth(points(batch.depth))
+    , mostAtCentre(all(pass.mostAtCentre()))
   {
   }
   SplatSample at(Lanes dx, Lanes dy) const
   {
     const Lanes form = (xx * dx + xy * dy) * dx + yy * dy * dy;
-    const Lanes q = choose(inCentrePixel(dx, dy), smaller(form, all(0.999f)), form);
+    const Lanes q = choose(inCentrePixel(dx, dy), smaller(form, mostAtCentre), form);
     const Lanes rise = slopeX * dx + slopeY * dy;
     const Lanes bounded = larger(smaller(rise, radius), all(0.0f) - radius);
     return { q, depth + bounded, q <= all(1.0f) };
   }
-  Lanes xx, xy, yy, slopeX, slopeY, radius, depth;
+  Lanes xx, xy, yy, slopeX, slopeY, radius, depth, mostAtCentre;
 };
 
 /// The ray through the pixel is the centre's plus a small offset: all is computed from that offset,
@@ -116,6 +117,7 @@ struct SplatAt<SplatShape::ExactEllipse, Parallel>
     , widthX(all(1.0f / camera.scaleX))
     , widthY(all(1.0f / camera.scaleY))
     , filter(all(pass.lowPass > 0.0f ? 1.0f / (pass.lowPass * pass.lowPass) : 0.0f))
+    , mostAtCentre(all(pass.mostAtCentre()))
     , filtered(pass.lowPass > 0.0f)
   {
     const LaneDirection to = laneDirection<Parallel>(camera, batch, points);
@@ -136,14 +138,14 @@ struct SplatAt<SplatShape::ExactEllipse, Parallel>
     const LaneMask onDisc = (q <= all(1.0f)) & (all(1.0e-30f) <= t);
     const LaneMask centre = inCentrePixel(dx, dy);
     const Lanes distance = filtered ? (dx * dx + dy * dy) * filter : all(2.0f);
-    const Lanes near = choose(centre, smaller(distance, all(0.999f)), distance);
+    const Lanes near = choose(centre, smaller(distance, mostAtCentre), distance);
     SplatSample sample;
     sample.q = choose(onDisc, smaller(q, near), near);
     sample.depth = choose(onDisc, t, depth);
     sample.covered = onDisc | (near <= all(1.0f));
     return sample;
   }
-  Lanes nx, ny, inverse, depth, widthX, widthY, filter;
+  Lanes nx, ny, inverse, depth, widthX, widthY, filter, mostAtCentre;
   Lanes toX, toY, facing;
   bool filtered;
 };
@@ -187,6 +189,53 @@ struct SplatAt<SplatShape::Sphere, Parallel>
     return sample;
   }
   Lanes inverse, square, depth, widthX, widthY, toX, toY, length2;
+};
+
+/// The ray meets the wall's plane as a disc's; `aside` and `down` are places on the wall. Everywhere
+/// at its rim: all of it is pushed back by the paraboloid.
+template <bool Parallel>
+struct SplatAt<SplatShape::Wall, Parallel>
+{
+  template <typename Points>
+  SplatAt(const RasterCamera& camera, const SplatPass&, const RasterBatch& batch, Points points)
+    : nx(points(batch.normalX))
+    , ny(points(batch.normalY))
+    , rightX(points(batch.quadraticXX))
+    , rightY(points(batch.quadraticXY))
+    , rightZ(points(batch.quadraticYY))
+    , radius(points(batch.radius))
+    , height(points(batch.height))
+    , depth(points(batch.depth))
+    , upX(all(camera.up[0]))
+    , upY(all(camera.up[1]))
+    , upZ(all(camera.up[2]))
+    , widthX(all(1.0f / camera.scaleX))
+    , widthY(all(1.0f / camera.scaleY))
+    , nearest(all(camera.nearDepth))
+    , farthest(all(camera.farDepth))
+  {
+    const LaneDirection to = laneDirection<Parallel>(camera, batch, points);
+    toX = to.x;
+    toY = to.y;
+    facing = nx * to.x + ny * to.y + points(batch.normalZ);
+  }
+  SplatSample at(Lanes dx, Lanes dy) const
+  {
+    const Lanes x = dx * widthX, y = dy * widthY;
+    const Lanes turned = nx * x + ny * y;
+    const Lanes further =
+      Parallel ? all(0.0f) - turned / facing : all(0.0f) - depth * turned / (facing + turned);
+    const Lanes t = depth + further;
+    const Lanes ux = Parallel ? x : further * toX + t * x;
+    const Lanes uy = Parallel ? y : further * toY + t * y;
+    const Lanes aside = ux * rightX + uy * rightY + further * rightZ;
+    const Lanes down = all(0.0f) - (ux * upX + uy * upY + further * upZ);
+    const LaneMask within = (aside <= radius) & (all(0.0f) - radius <= aside) &
+      (all(0.0f) <= down) & (down <= height);
+    return { all(1.0f), t, within & (nearest <= t) & (t <= farthest) };
+  }
+  Lanes nx, ny, rightX, rightY, rightZ, radius, height, depth, upX, upY, upZ, widthX, widthY;
+  Lanes nearest, farthest, toX, toY, facing;
 };
 
 } // namespace

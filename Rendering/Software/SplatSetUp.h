@@ -223,6 +223,68 @@ inline void setUpSpheres(RasterCamera camera, int count, RasterBatch& batch)
   }
 }
 
+/// Beyond that the eye looks along a wall: nothing of it is seen.
+constexpr float leastWallSine = 1.0e-3f;
+
+/// A wall's plane is upright and turned towards the eye about the point's vertical; its rectangle on
+/// screen is that of its corners. What goes down behind the near plane ends there.
+template <bool Parallel>
+inline void setUpWalls(RasterCamera camera, int count, RasterBatch& batch)
+{
+  const float upX = camera.up[0], upY = camera.up[1], upZ = camera.up[2];
+  const float nearDepth = camera.nearDepth;
+  for (int j = 0; j < count; ++j)
+  {
+    const Direction to = directionOf<Parallel>(camera, batch, j);
+    const float depth = batch.depth[j], radius = batch.radius[j], height = batch.height[j];
+    const float along = to.x * upX + to.y * upY + upZ;
+    const float nx = along * upX - to.x, ny = along * upY - to.y, nz = along * upZ - 1.0f;
+    const float square = nx * nx + ny * ny + nz * nz;
+    const float length2 = 1.0f + to.x * to.x + to.y * to.y;
+    const int seen =
+      (square > leastWallSine * leastWallSine * length2) & (height > 0.0f) & (depth >= 0.0f);
+    const float inverse = 1.0f / __builtin_sqrtf(seen ? square : 1.0f);
+    const float px = nx * inverse, py = ny * inverse, pz = nz * inverse;
+    const float rightX = upY * pz - upZ * py;
+    const float rightY = upZ * px - upX * pz;
+    const float rightZ = upX * py - upY * px;
+    const float ahead = depth - nearDepth;
+    const float most = height * upZ > ahead ? ahead / upZ : height;
+    const float downX = -most * upX, downY = -most * upY, downZ = -most * upZ;
+    const float sideX = radius * rightX, sideY = radius * rightY, sideZ = radius * rightZ;
+    float x0 = 0.0f, x1 = 0.0f, y0 = 0.0f, y1 = 0.0f;
+    for (int corner = 0; corner < 4; ++corner)
+    {
+      const float side = corner % 2 == 0 ? -1.0f : 1.0f;
+      const float down = corner < 2 ? 0.0f : 1.0f;
+      const float z = side * sideZ + down * downZ;
+      const float there = depth + z > nearDepth ? depth + z : nearDepth;
+      const float reach = 1.0f / (Parallel ? 1.0f : (there > 1.0e-30f ? there : 1.0e-30f));
+      const float x = (side * sideX + down * downX - to.x * z) * reach;
+      const float y = (side * sideY + down * downY - to.y * z) * reach;
+      x0 = x < x0 ? x : x0;
+      x1 = x > x1 ? x : x1;
+      y0 = y < y0 ? y : y0;
+      y1 = y > y1 ? y : y1;
+    }
+    x0 = x0 * camera.scaleX > -everywhere ? x0 * camera.scaleX : -everywhere;
+    x1 = x1 * camera.scaleX < everywhere ? x1 * camera.scaleX : everywhere;
+    y0 = y0 * camera.scaleY > -everywhere ? y0 * camera.scaleY : -everywhere;
+    y1 = y1 * camera.scaleY < everywhere ? y1 * camera.scaleY : everywhere;
+    batch.halfX[j] = 0.5f * (x1 - x0);
+    batch.halfY[j] = 0.5f * (y1 - y0);
+    batch.middleX[j] = batch.screenX[j] + 0.5f * (x0 + x1);
+    batch.middleY[j] = batch.screenY[j] + 0.5f * (y0 + y1);
+    batch.normalX[j] = px;
+    batch.normalY[j] = py;
+    batch.normalZ[j] = pz;
+    batch.quadraticXX[j] = rightX;
+    batch.quadraticXY[j] = rightY;
+    batch.quadraticYY[j] = rightZ;
+    batch.depth[j] = seen ? depth : -1.0f;
+  }
+}
+
 /// Splats whose spheres are outside the pyramid through the window are culled: rectangles of what
 /// reaches behind the eye say nothing.
 inline void cullBesidePyramid(
@@ -316,6 +378,9 @@ void setUpOf(const RasterCamera& camera, const SplatPass& pass, int count, Raste
     case SplatShape::Sphere:
       setUpSpheres<Parallel>(camera, count, batch);
       break;
+    case SplatShape::Wall:
+      setUpWalls<Parallel>(camera, count, batch);
+      break;
   }
 }
 
@@ -324,7 +389,7 @@ inline void setUp(const RasterCamera& camera, const RasterWindow& window, const 
 {
   camera.parallel ? setUpOf<true>(camera, pass, count, batch)
                   : setUpOf<false>(camera, pass, count, batch);
-  if (!camera.parallel)
+  if (!camera.parallel && pass.shape != SplatShape::Wall)
   {
     cullBesidePyramid(camera, window, count, batch);
   }

@@ -22,6 +22,15 @@ constexpr float slackPixels = 2.0f;
 /// generated ground say less, 1.52 is the middle of ahn3_261k.
 constexpr float thinnedSpacings = 1.4f;
 constexpr int mostSquare = 255;
+// Silhouettes: the inner part is as large as a splat, its rim goes half as far again. It is pushed
+// back by more than neighbours on a slope of 70 degrees are apart in depth, so that only what is
+// deeper than that gets an outline.
+constexpr float rimReach = 1.5f;
+constexpr float rimRadii = 2.0f;
+constexpr float innerParaboloid = 3.0f; ///< radii of the inner part, of discs that face the eye
+/// Of a solid's discs that face the eye; its walls are pushed back as far, so that the roof that is
+/// in front of them is seen.
+constexpr float solidParaboloid = 2.0f;
 /// What closes a surface is drawn no larger than that, of the viewport's height: nearer to the eye
 /// there is no surface to be seen.
 constexpr float mostOfHeight = 0.125f;
@@ -58,6 +67,37 @@ void blend(TechniquePasses& passes, float slackRadii)
   passes.second.leastRadius = std::max(leastBlended, passes.first.leastRadius);
 }
 
+float shareOf(const ResolvedStyle& style)
+{
+  return style.size.mode == SplatSize::Mode::Spacing ? visibleShare : 1.0f;
+}
+
+/// Around splats that close the surface, which stay as they are.
+void addRim(TechniquePasses& passes)
+{
+  SplatPass& pass = passes.first;
+  pass.rimFrom = 1.0f / (rimReach * rimReach);
+  pass.rimRadii = rimRadii;
+  pass.leastRadius *= rimReach;
+  pass.paraboloid *= rimReach; // to the inner part's rim, in its radii
+  passes.firstRadius *= rimReach;
+}
+
+/// How large what closes the surface is at least and at most, pixels.
+void boundRadius(const ResolvedStyle& style, const PassDemand& demand, float share, SplatPass& pass)
+{
+  if (style.size.mode != SplatSize::Mode::Spacing)
+  {
+    return;
+  }
+  const float closing = share * demand.spacingPx *
+    static_cast<float>(std::max(style.size.value, 0.0)) *
+    (demand.thinned ? thinnedSpacings : 1.0f);
+  pass.leastRadius = std::max(pass.leastRadius, closing);
+  pass.mostRadius =
+    std::max(pass.leastRadius, mostOfHeight * static_cast<float>(demand.heightPx));
+}
+
 } // namespace
 
 TechniquePasses passesOf(const ResolvedStyle& style, const PassDemand& demand)
@@ -65,7 +105,6 @@ TechniquePasses passesOf(const ResolvedStyle& style, const PassDemand& demand)
   const bool hasNormals = demand.hasNormals;
   TechniquePasses passes;
   const bool pixels = style.size.mode == SplatSize::Mode::Pixels;
-  const bool spacing = style.size.mode == SplatSize::Mode::Spacing;
   if (style.technique == Technique::Points && pixels)
   {
     passes.squares = true;
@@ -73,7 +112,7 @@ TechniquePasses passesOf(const ResolvedStyle& style, const PassDemand& demand)
       std::clamp(static_cast<int>(std::lround(style.size.value)), 1, mostSquare);
     return passes;
   }
-  passes.firstRadius = spacing ? visibleShare : 1.0f;
+  passes.firstRadius = shareOf(style);
   const bool twice = style.technique == Technique::Ewa ||
     (style.technique == Technique::Splats && style.blended);
   switch (style.technique)
@@ -87,23 +126,35 @@ TechniquePasses passesOf(const ResolvedStyle& style, const PassDemand& demand)
       passes.first.paraboloid =
         hasNormals ? (twice ? 0.0f : 1.0f) : (twice ? blendedParaboloid : opaqueParaboloid);
       break;
+    case Technique::Silhouettes:
+      passes.first = hasNormals ? ellipsePass(style.accuracy) : discPass(0.0f);
+      passes.first.paraboloid = hasNormals ? 1.0f : innerParaboloid;
+      addRim(passes);
+      break;
+    case Technique::Solid:
+      passes.first = hasNormals ? ellipsePass(style.accuracy) : discPass(0.0f);
+      passes.first.paraboloid = hasNormals ? 1.0f : solidParaboloid;
+      break;
     default: // flat discs
       passes.first = discPass(0.0f);
       break;
   }
-  if (spacing)
-  {
-    const float closing =
-      visibleShare * demand.spacingPx * static_cast<float>(std::max(style.size.value, 0.0)) *
-      (demand.thinned ? thinnedSpacings : 1.0f);
-    passes.first.leastRadius = std::max(passes.first.leastRadius, closing);
-    passes.first.mostRadius =
-      std::max(passes.first.leastRadius, mostOfHeight * static_cast<float>(demand.heightPx));
-  }
+  boundRadius(style, demand, passes.firstRadius, passes.first);
   if (twice)
   {
     blend(passes, hasNormals ? 1.0f : 2.0f);
   }
+  return passes;
+}
+
+TechniquePasses wallPassesOf(const ResolvedStyle& style, const PassDemand& demand)
+{
+  TechniquePasses passes;
+  passes.firstRadius = shareOf(style);
+  passes.first.shape = SplatShape::Wall;
+  passes.first.paraboloid = demand.hasNormals ? 1.0f : solidParaboloid;
+  passes.first.leastRadius = leastDisc;
+  boundRadius(style, demand, passes.firstRadius, passes.first);
   return passes;
 }
 
@@ -113,7 +164,8 @@ bool operator==(const TechniquePasses& a, const TechniquePasses& b)
   {
     return x.shape == y.shape && x.paraboloid == y.paraboloid &&
       x.leastRadius == y.leastRadius && x.mostRadius == y.mostRadius && x.lowPass == y.lowPass &&
-      x.slackRadii == y.slackRadii && x.slackPixels == y.slackPixels;
+      x.slackRadii == y.slackRadii && x.slackPixels == y.slackPixels &&
+      x.rimFrom == y.rimFrom && x.rimRadii == y.rimRadii;
   };
   return a.squares == b.squares && a.squareSize == b.squareSize && same(a.first, b.first) &&
     a.firstRadius == b.firstRadius && a.blended == b.blended && same(a.second, b.second) &&

@@ -18,8 +18,9 @@ struct TechniquePasses
   SplatPass second;
   float secondRadius = 1.0f;
 
+  bool walls() const { return !squares && first.shape == SplatShape::Wall; }
   /// The key's depth is the point's, not one that was pushed back to let nearer centres win.
-  bool depthInKey() const { return squares || first.paraboloid == 0.0f; }
+  bool depthInKey() const { return squares || (first.paraboloid == 0.0f && !first.rimmed()); }
 };
 
 /// What of a frame decides about passes, beside a style.
@@ -34,6 +35,8 @@ struct PassDemand
 
 /// Constants  as measured against ground truth: docs/adr/0016.
 TechniquePasses passesOf(const ResolvedStyle& style, const PassDemand& demand);
+/// Solid: of the walls below the points.
+TechniquePasses wallPassesOf(const ResolvedStyle& style, const PassDemand& demand);
 
 bool operator==(const TechniquePasses& a, const TechniquePasses& b);
 

@@ -17,6 +17,24 @@ inline LaneWeights weightsOf(const SplatSample& s, LaneMask added)
   return weights(fall * fall * all(63.0f) + all(0.5f), added);
 }
 
+/// What decides who is seen.
+template <bool Rimmed>
+struct KeyDepth
+{
+  KeyDepth(const SplatPass& pass, Lanes radius)
+    : back(all(pass.paraboloid) * radius)
+    , rim(all(pass.rimRadii) * radius)
+    , rimFrom(all(pass.rimFrom))
+  {
+  }
+  Lanes operator()(const SplatSample& s) const
+  {
+    const Lanes key = s.depth + back * s.q;
+    return Rimmed ? choose(s.q <= rimFrom, key, key + rim) : key;
+  }
+  Lanes back, rim, rimFrom;
+};
+
 template <SplatShape Shape, bool Parallel, typename Take>
 inline void sampleTiny(const RasterCamera& camera, const SplatPass& pass, const RasterBatch& batch,
   int count, const Take& take)
@@ -45,23 +63,22 @@ inline int listTiny(RasterBatch& batch, int count)
 
 /// The pixels that are covered are listed first, then drawn one after the other: loads of one size
 /// from where a store of that size went do not wait for it.
-template <SplatShape Shape, bool Parallel>
+template <SplatShape Shape, bool Parallel, bool Rimmed>
 void drawTiny(const RasterCamera& camera, const SplatPass& pass, RasterBatch& batch, int count,
   std::int32_t stride, std::uint32_t index, RasterKey* keys)
 {
-  const Lanes paraboloid = all(pass.paraboloid);
   int listed = 0;
   sampleTiny<Shape, Parallel>(camera, pass, batch, count,
     [&](EightSplats eight, LaneMask tiny, const SplatSample (&samples)[4])
     {
-      const Lanes rim = paraboloid * eight(batch.radius);
+      const KeyDepth<Rimmed> keyDepth(pass, eight(batch.radius));
       const std::int32_t further[4] = { 0, 1, stride, stride + 1 };
       const std::uint32_t id = index + static_cast<std::uint32_t>(eight.first);
       for (int corner = 0; corner < 4; ++corner)
       {
         const SplatSample& s = samples[corner];
         listed = listFragments(batch, listed, batch.offset + eight.first, further[corner],
-          s.depth + rim * s.q, id, s.covered & tiny);
+          keyDepth(s), id, s.covered & tiny);
       }
     });
   for (int i = 0; i < listed; ++i)

@@ -38,6 +38,20 @@ float fromEye(const RasterItems& items, float depth)
   return depth + static_cast<float>((clip[3][2] + clip[3][3]) / (clip[2][2] + clip[2][3]));
 }
 
+/// Of a colour and another, that share from the first one; opaque.
+std::uint32_t bytesOf(const Rgba8& from, const Rgba8& to, float share)
+{
+  std::uint8_t bytes[4] = { 0, 0, 0, 255 };
+  for (std::size_t c = 0; c < 3; ++c)
+  {
+    const auto begin = static_cast<float>(from[c]), end = static_cast<float>(to[c]);
+    bytes[c] = static_cast<std::uint8_t>(begin + (end - begin) * share + 0.5f);
+  }
+  std::uint32_t rgba;
+  std::memcpy(&rgba, bytes, 4);
+  return rgba;
+}
+
 } // namespace
 
 void WinnerResolve::merge(int y)
@@ -160,17 +174,16 @@ bool WinnerResolve::blendedColour(const Winner& winner, std::uint32_t& rgba) con
   return true;
 }
 
-void WinnerResolve::put(const RasterItem& item, const Winner& winner, float depth,
+void WinnerResolve::put(const RasterItem& item, int j, const Winner& winner, float depth,
   SoftwareTarget& target, std::size_t pixel)
 {
-  if (!(depth < target.depth[pixel]))
+  const float eyeDepth = fromEye(*source_.items, depth);
+  if (!(eyeDepth < target.depth[pixel]))
   {
     return;
   }
-  target.depth[pixel] = depth;
-  std::uint32_t rgba = 0;
-  const bool blended = item.passes.blended && blendedColour(winner, rgba);
-  target.rgba[pixel] = blended ? rgba : item.colours->at(winner.index);
+  target.depth[pixel] = eyeDepth;
+  target.rgba[pixel] = colourOf(item, j, winner, depth);
   if (!target.highlights.empty())
   {
     target.highlights[pixel] = item.style->highlight;
@@ -179,6 +192,47 @@ void WinnerResolve::put(const RasterItem& item, const Winner& winner, float dept
   {
     target.points[pixel] = { source_.store, item.node().node, winner.index };
   }
+}
+
+std::uint32_t WinnerResolve::colourOf(
+  const RasterItem& item, int j, const Winner& winner, float depth) const
+{
+  const SplatPass& pass = item.passes.first;
+  std::uint32_t rgba = 0;
+  if (item.passes.blended && blendedColour(winner, rgba))
+  {
+    return rgba;
+  }
+  // The key says which part it is: rims are pushed back by far more than depths are rounded.
+  const float inner = (pass.paraboloid * pass.rimFrom + 0.5f * pass.rimRadii);
+  if (pass.rimmed() && winner.keyDepth - depth > inner * batch_.radius[j])
+  {
+    return bytesOf(item.style->rim, item.style->rim, 0.0f);
+  }
+  if (item.passes.walls() && item.style->wall)
+  {
+    const float* const up = item.camera.up;
+    const float down =
+      -glm::dot(fromCentre(item, j, winner, depth), glm::vec3(up[0], up[1], -up[2]));
+    return bytesOf((*item.style->wall)[0], (*item.style->wall)[1],
+      std::clamp(down / batch_.height[j], 0.0f, 1.0f));
+  }
+  return item.colours->at(winner.index);
+}
+
+/// What a pixel shows of a splat, view space, from the splat's centre.
+glm::vec3 WinnerResolve::fromCentre(
+  const RasterItem& item, int j, const Winner& winner, float depth) const
+{
+  const auto place = [&](float px, float py, float d)
+  {
+    const float reach = item.camera.parallel ? 1.0f : d;
+    return glm::vec3((px - item.camera.centreX) * reach / item.camera.scaleX,
+      (py - item.camera.centreY) * reach / item.camera.scaleY, -d);
+  };
+  return place(static_cast<float>(winner.x + source_.window.left) + 0.5f,
+           static_cast<float>(winner.y + source_.window.bottom) + 0.5f, depth) -
+    place(batch_.screenX[j], batch_.screenY[j], batch_.depth[j]);
 }
 
 /// The depth of the splat's plane in that pixel; where the key's was pushed back, or light asks for
@@ -193,7 +247,7 @@ float WinnerResolve::planeDepth(const RasterItem& item, int j, const Winner& win
     const float rise = batch_.slopeX[j] * dx + batch_.slopeY[j] * dy;
     return batch_.depth[j] + std::clamp(rise, -batch_.radius[j], batch_.radius[j]);
   }
-  if (pass.shape == SplatShape::ExactEllipse)
+  if (pass.shape == SplatShape::ExactEllipse || pass.shape == SplatShape::Wall)
   {
     const float perspective = item.camera.parallel ? 0.0f : 1.0f;
     const float toX =
@@ -207,7 +261,7 @@ float WinnerResolve::planeDepth(const RasterItem& item, int j, const Winner& win
     const float further = item.camera.parallel
       ? -turned / facing
       : -batch_.depth[j] * turned / (facing + turned);
-    const bool met = std::abs(further) <= batch_.radius[j];
+    const bool met = item.passes.walls() || std::abs(further) <= batch_.radius[j];
     return met ? batch_.depth[j] + further : batch_.depth[j];
   }
   return batch_.depth[j]; // a disc that faces the eye
@@ -220,17 +274,9 @@ void WinnerResolve::putNormal(
   glm::vec3 n(batch_.normalX[j], batch_.normalY[j], -batch_.normalZ[j]);
   if (item.passes.first.shape == SplatShape::Sphere && !item.passes.squares)
   {
-    const auto place = [&](float px, float py, float d)
-    {
-      const float reach = item.camera.parallel ? 1.0f : d;
-      return glm::vec3((px - item.camera.centreX) * reach / item.camera.scaleX,
-        (py - item.camera.centreY) * reach / item.camera.scaleY, -d);
-    };
-    n = place(static_cast<float>(winner.x + source_.window.left) + 0.5f,
-          static_cast<float>(winner.y + source_.window.bottom) + 0.5f, depth) -
-      place(batch_.screenX[j], batch_.screenY[j], batch_.depth[j]);
+    n = fromCentre(item, j, winner, depth);
   }
-  else if (!item.normals && item.style->orientation != SplatOrientation::Fixed)
+  else if (!item.normals && !item.passes.walls() && item.style->orientation != SplatOrientation::Fixed)
   {
     n = glm::vec3(0.0f);
   }
@@ -246,7 +292,8 @@ void WinnerResolve::resolve(
   const RasterItem& item, const Winner* winners, int count, SoftwareTarget& target)
 {
   const bool keyIsDepth = item.passes.depthInKey();
-  const bool discs = item.passes.squares || item.passes.first.shape == SplatShape::Disc;
+  const bool discs = item.passes.squares ||
+    (item.passes.first.shape == SplatShape::Disc && !item.passes.first.rimmed());
   if (!keyIsDepth || source_.normals)
   {
     std::uint32_t gathered[3 * RasterBatch::size];
@@ -278,7 +325,7 @@ void WinnerResolve::resolve(
       row * target.width + winner.x + source_.window.left - target.left);
     const float eyeDepth = fromEye(*source_.items, depth);
     const bool nearer = eyeDepth < target.depth[pixel];
-    put(item, winner, eyeDepth, target, pixel);
+    put(item, j, winner, depth, target, pixel);
     if (nearer && source_.normals)
     {
       putNormal(item, j, winner, depth, &target.normals[3 * pixel]);

@@ -51,9 +51,6 @@ class Usage(ToolTest):
         self.assertEqual(self.entries(), [])
 
     def test_render_flags(self):
-        for flag in (("--technique", "silhouettes"), ("--technique", "solid")):
-            outcome = self.refuse(2, "render", "s.pfront", "-o", self.folder / "x.png", *flag)
-            self.assertIn("not available", outcome.err)
         wrong = [
             ("--size", "big"), ("--view", "below"), ("--error", "0"), ("--point-size", "0"),
             ("--background", "red"), ("--frames", "0"), ("--frames", "3", "--complete"),

@@ -104,9 +104,9 @@ bool applyLook(
   const PointLook& look, const LookColour& colour, StyleSheet& sheet, std::string& error)
 {
   const auto technique = techniqueOf(look.technique);
-  if (!technique || !techniqueIsAvailable(*technique))
+  if (!technique)
   {
-    error = "\"" + look.technique + "\" is no technique: choose " + techniqueList(true);
+    error = "\"" + look.technique + "\" is no technique: choose " + techniqueList();
     return false;
   }
   auto where = FilterExpression::parse(look.where);

@@ -59,7 +59,7 @@ void StyleChoice::addClass(const std::string& code, const std::string& technique
   if (number < 0 || !known || *end != '\0' || (!size.empty() && !(pixels > 0.0)))
   {
     wrongClass_ = "the class style \"" + code + "\", \"" + technique + "\", \"" + colour +
-      "\", \"" + size + "\" is none: a code of 0 to 255, hidden or one of " + techniqueList(true) +
+      "\", \"" + size + "\" is none: a code of 0 to 255, hidden or one of " + techniqueList() +
       ", a colour, a size above 0";
     return;
   }

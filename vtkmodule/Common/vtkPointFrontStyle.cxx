@@ -202,6 +202,58 @@ std::string vtkPointFrontStyle::GetSize(int objectClass) const
   return pointfront::writeSize(*this->StyleOf(objectClass).size);
 }
 
+bool vtkPointFrontStyle::SetRimColor(const std::string& color, int objectClass)
+{
+  const std::optional<pointfront::Rgba8> rim = pointfront::parseColourCode(color);
+  if (!rim)
+  {
+    vtkErrorMacro(<< placeOf(objectClass) << ": '" << color << "' is no colour; use #rrggbb");
+    return false;
+  }
+  return this->ChangeStyle(
+    objectClass, [&rim](pointfront::LayerStyle& style) { style.rim = *rim; });
+}
+
+std::string vtkPointFrontStyle::GetRimColor(int objectClass) const
+{
+  return pointfront::colourCode(*this->StyleOf(objectClass).rim);
+}
+
+bool vtkPointFrontStyle::SetWallColor(
+  const std::string& upper, const std::string& lower, int objectClass)
+{
+  const std::optional<pointfront::Rgba8> from = pointfront::parseColourCode(upper);
+  const std::optional<pointfront::Rgba8> to = pointfront::parseColourCode(lower);
+  const bool none = upper.empty() && lower.empty();
+  if (!none && (!from || !to))
+  {
+    vtkErrorMacro(<< placeOf(objectClass) << ": '" << (from ? lower : upper)
+                  << "' is no colour; use #rrggbb for both ends of a wall, or nothing");
+    return false;
+  }
+  return this->ChangeStyle(objectClass,
+    [&](pointfront::LayerStyle& style)
+    {
+      style.wall.reset();
+      if (!none)
+      {
+        style.wall = { *from, *to };
+      }
+    });
+}
+
+std::string vtkPointFrontStyle::GetWallColorUpper(int objectClass) const
+{
+  const auto wall = this->StyleOf(objectClass).wall;
+  return wall ? pointfront::colourCode((*wall)[0]) : std::string();
+}
+
+std::string vtkPointFrontStyle::GetWallColorLower(int objectClass) const
+{
+  const auto wall = this->StyleOf(objectClass).wall;
+  return wall ? pointfront::colourCode((*wall)[1]) : std::string();
+}
+
 bool vtkPointFrontStyle::SetVisibility(bool visible, int objectClass)
 {
   return this->ChangeStyle(

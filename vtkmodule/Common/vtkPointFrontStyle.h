@@ -43,7 +43,7 @@ public:
 
   ///@{
   /**
-   * "points", "splats", "spheres" or "ewa".
+   * "points", "splats", "spheres", "silhouettes", "solid" or "ewa".
    */
   bool SetTechnique(const std::string& name, int objectClass = -1);
   std::string GetTechnique(int objectClass = -1) const;
@@ -99,6 +99,18 @@ public:
    */
   bool SetBlended(bool blended, int objectClass = -1);
   bool GetBlended(int objectClass = -1) const;
+  ///@}
+
+  ///@{
+  /**
+   * "#rrggbb": of the outline of silhouettes, black by default; of the upper and the lower end of a
+   * solid's walls. Walls without a color have that of their point: "" for both.
+   */
+  bool SetRimColor(const std::string& color, int objectClass = -1);
+  std::string GetRimColor(int objectClass = -1) const;
+  bool SetWallColor(const std::string& upper, const std::string& lower, int objectClass = -1);
+  std::string GetWallColorUpper(int objectClass = -1) const;
+  std::string GetWallColorLower(int objectClass = -1) const;
   ///@}
 
   ///@{

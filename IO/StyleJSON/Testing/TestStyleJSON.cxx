@@ -145,10 +145,7 @@ TEST(StyleJSON, RefusalsBeginWithTheirPlace)
     "default.opacity: expected a number from 0.0 to 1.0, not 2");
   expect(R"({"default": {"visible": 1}})", "default.visible: expected true or false, not 1");
   expect(R"({"default": {"technique": "dots"}})",
-    "default.technique: 'dots' is unknown: use points, splats, spheres, ewa");
-  expect(R"({"classes": {"6": {"technique": "solid"}}})",
-    "classes.6.technique: 'solid' is not available in this version: use points, splats, spheres, "
-    "ewa");
+    "default.technique: 'dots' is unknown: use points, splats, spheres, silhouettes, solid, ewa");
   expect(R"({"lenses": {}})", "lenses: expected a list of lenses, not {}");
   expect(R"({"lenses": [{"inside": {}}]})", "lenses[0]: a lens has a shape, or around_class");
   expect(R"({"lenses": [{"shape": "circle", "center_px": [1, 2], "inside": {}}]})",
@@ -163,7 +160,8 @@ TEST(StyleJSON, RefusalsBeginWithTheirPlace)
     "lenses[0].radius: expected a number above 0, not 0");
   expect(
     R"({"lenses": [{"around_class": 6, "radius": 1, "inside": {"5": {"technique": "dots"}}}]})",
-    "lenses[0].inside.5.technique: 'dots' is unknown: use points, splats, spheres, ewa");
+    "lenses[0].inside.5.technique: 'dots' is unknown: use points, splats, spheres, silhouettes, "
+    "solid, ewa");
   expect(R"({"highlight": [{"class": 6}, {"class": 6}]})",
     "highlight[1].class: a class has one highlight");
   expect(R"({"highlight": [{"class": 6, "halo_px": 65}]})",

@@ -1,6 +1,6 @@
 // What a splat is, from the vertex to its pixels. Camera space: x to the right, y up, z along the
 // line of sight, world units; pixels: the viewport's, y up. Twin of RasterBatch.
-// POINTFRONT_SHAPE     0 square, 1 disc, 2 affine ellipse, 3 exact ellipse, 4 sphere
+// POINTFRONT_SHAPE     0 square, 1 disc, 2 affine ellipse, 3 exact ellipse, 4 sphere, 5 wall
 // POINTFRONT_PARALLEL  rays are parallel
 // POINTFRONT_PASS      1 who is seen, 2 weights and colours of what is not behind
 // POINTFRONT_COLOUR    0 one colour, 1 colours, 2 values for the table, 3 elevation

@@ -9,6 +9,10 @@ uniform vec2 cameraCentre;
 uniform float lowPass;     // pixels; 0: none
 uniform float paraboloid;  // radii that the rim lies behind the centre
 uniform float depthScale;  // of the depth buffer
+uniform float rimFrom;     // q beyond which a splat is its rim
+uniform float rimRadii;    // that the rim lies further back
+uniform float mostAtCentre;
+uniform vec3 rimColour;
 uniform float blendedMark; // alpha of who is seen: 1 where sums are its colour, else 0.5
 #if POINTFRONT_PASS == 2
 uniform sampler2D seenDepths;
@@ -31,7 +35,7 @@ bool inCentrePixel(vec2 d)
 vec2 sampleEllipse(vec2 d)
 {
   float q = (splat.form.x * d.x + splat.form.y * d.y) * d.x + splat.form.z * d.y * d.y;
-  q = inCentrePixel(d) ? min(q, 0.999) : q;
+  q = inCentrePixel(d) ? min(q, mostAtCentre) : q;
   float rise = clamp(dot(splat.slope.xy, d), -splat.centre.w, splat.centre.w);
   return vec2(q, splat.centre.z + rise);
 }
@@ -48,7 +52,7 @@ vec2 sampleExact(vec2 d)
   float q = (dot(u, u) + further * further) * splat.form.w;
   bool onDisc = q <= 1.0 && t >= 1.0e-30;
   float near = lowPass > 0.0 ? dot(d, d) / (lowPass * lowPass) : 2.0;
-  near = inCentrePixel(d) ? min(near, 0.999) : near;
+  near = inCentrePixel(d) ? min(near, mostAtCentre) : near;
   return onDisc ? vec2(min(q, near), t) : vec2(near, depth);
 }
 
@@ -69,6 +73,8 @@ vec2 sampleSphere(vec2 d)
   q = inCentrePixel(d) ? min(q, 1.0) : q;
   return vec2(front >= 1.0e-30 ? q : 2.0, front);
 }
+
+//POINTFRONT::WallSample::Dec
 
 /// View space, towards the eye; 0: none.
 vec3 normalAt(float depth)
@@ -99,6 +105,9 @@ void main()
   vec2 s = sampleEllipse(d);
 #elif POINTFRONT_SHAPE == 3
   vec2 s = sampleExact(d);
+#elif POINTFRONT_SHAPE == 5
+  float down;
+  vec2 s = sampleWall(d, down);
 #else
   vec2 s = sampleSphere(d);
 #endif
@@ -117,8 +126,17 @@ void main()
   float weight = floor((1.0 - s.x) * (1.0 - s.x) * 63.0 + 0.5);
   gl_FragData[0] = vec4(floor(splat.colour.rgb * 255.0 + 0.5) * weight, weight);
 #else
+  vec3 colour = splat.colour.rgb;
+#if POINTFRONT_SHAPE == 5
+  colour = wallColoured == 1 ? mix(wallUpper, wallLower, down) : colour;
+#endif
+  if (s.x > rimFrom)
+  {
+    key += rimRadii * splat.centre.w;
+    colour = rimRadii > 0.0 ? rimColour : colour;
+  }
   gl_FragDepth = key * depthScale;
-  gl_FragData[0] = vec4(splat.colour.rgb, blendedMark);
+  gl_FragData[0] = vec4(colour, blendedMark);
   gl_FragData[1] = vec4(key, s.y, 0.0, 0.0);
 #if POINTFRONT_LIT
   gl_FragData[2] = vec4(normalAt(s.y), 0.0);

@@ -77,6 +77,8 @@ vec4 setUpSphere(vec2 to, float depth)
   return outside ? vec4(x.y, y.y, x.x, y.x) * cameraScale.xyxy : vec4(-1.0, -1.0, 0.0, 0.0);
 }
 
+//POINTFRONT::WallSetUp::Dec
+
 /// Whether the splat's sphere meets the pyramid through the viewport: rectangles of what reaches
 /// behind the eye say nothing.
 bool meetsView(vec3 camera)
@@ -90,7 +92,7 @@ bool meetsView(vec3 camera)
 }
 
 /// Fills all that the pixels need, and the rectangle of pixels that it may cover.
-void setUp(vec3 camera, float radius)
+void setUp(vec3 camera, float radius, float height)
 {
   float reach = POINTFRONT_PARALLEL == 1 ? 1.0 : camera.z;
   vec2 to = POINTFRONT_PARALLEL == 1 ? vec2(0.0) : camera.xy / camera.z;
@@ -107,7 +109,7 @@ void setUp(vec3 camera, float radius)
 #if POINTFRONT_SHAPE == 1
   splat.form.x = 1.0 / (pixels * pixels);
 #else
-  float square = dot(splat.normal, splat.normal);
+  float square = dot(splat.normal, splat.normal); // a wall has its own instead
   splat.normal = square > 1e-12 && square < 1e12 ? splat.normal : vec3(to, 1.0);
 #endif
 #if POINTFRONT_SHAPE == 2
@@ -116,8 +118,11 @@ void setUp(vec3 camera, float radius)
   extent = setUpExact(to, camera.z);
 #elif POINTFRONT_SHAPE == 4
   extent = setUpSphere(to, camera.z);
+#elif POINTFRONT_SHAPE == 5
+  extent = setUpWall(to, camera.z, height);
 #endif
-  if (extent.x < 0.0 || (POINTFRONT_PARALLEL == 0 && !meetsView(camera)))
+  bool bounded = POINTFRONT_PARALLEL == 1 || POINTFRONT_SHAPE == 5;
+  if (extent.x < 0.0 || (!bounded && !meetsView(camera)))
   {
     return;
   }

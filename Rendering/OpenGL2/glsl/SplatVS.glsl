@@ -126,7 +126,12 @@ void main()
   {
     return;
   }
-  setUp(camera, radiusOf(steps.w, slot, camera.z));
+#if POINTFRONT_SHAPE == 5
+  float height = pointHeight * heightFactor;
+#else
+  const float height = 0.0;
+#endif
+  setUp(camera, radiusOf(steps.w, slot, camera.z), height);
   vec4 r = splat.rectangle;
   r = vec4(max(r.xy, vec2(0.0)), min(r.zw, viewportSize));
   splat.rectangle = r;

@@ -20,10 +20,11 @@ struct TestPoint
   glm::dvec3 position{ 0.0 };
   std::array<std::uint8_t, 3> rgb{ 255, 255, 255 };
   glm::vec3 normal{ 0.0f }; ///< unit, or 0
+  float height = 0.0f;      ///< above the ground
 };
 
 /// Plans of made-up nodes: columns 0 rgb (u8 x 3), 1 normal (f32 x 3), 2 splat_radius, 3 class
-/// (u8).
+/// (u8), 4 height_above_ground (f32).
 class PlanOfPoints
 {
 public:
@@ -34,6 +35,7 @@ public:
     schema->add({ "normal", ScalarType::Float32, 3 });
     schema->add({ "splat_radius", ScalarType::UInt8, 1 });
     schema->add({ "classification", ScalarType::UInt8, 1 });
+    schema->add({ "height_above_ground", ScalarType::Float32, 1 });
     plan.schema = schema;
     plan.grid.scale = glm::dvec3(std::ldexp(1.0, -12));
     plan.batches.resize(1);
@@ -61,8 +63,8 @@ public:
     {
       node->halfSize = glm::vec3(0.5 * glm::dvec3(high - low) * plan.grid.scale);
     }
-    node->selection = { 0, 1, 2, 3 };
-    node->columns.resize(4);
+    node->selection = { 0, 1, 2, 3, 4 };
+    node->columns.resize(5);
     const auto append = [&](std::size_t column, const void* data, std::size_t size)
     {
       const auto* bytes = static_cast<const std::byte*>(data);
@@ -76,6 +78,7 @@ public:
       const std::uint8_t code = 0;
       append(2, &code, 1);
       append(3, &objectClass, 1);
+      append(4, &points[i].height, 4);
     }
     PlanItem item;
     item.last = static_cast<std::uint32_t>(points.size());
@@ -123,6 +126,7 @@ inline std::vector<TestPoint> wavySurface(int count, unsigned seed)
     point.position = { x, y, 0.2 * std::sin(5.0 * x) * std::cos(4.0 * y) };
     point.normal = glm::normalize(glm::vec3(-std::cos(5.0 * x) * std::cos(4.0 * y),
       0.8 * std::sin(5.0 * x) * std::sin(4.0 * y), 1.0));
+    point.height = static_cast<float>(0.4 + point.position.z);
     point.rgb = { static_cast<std::uint8_t>(random()), static_cast<std::uint8_t>(random()),
       static_cast<std::uint8_t>(random()) };
   }

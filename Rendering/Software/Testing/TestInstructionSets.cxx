@@ -36,6 +36,15 @@ const NamedStyle styles[] = {
   { "Spheres", Technique::Spheres, false, true, SplatAccuracy::Affine, SplatSize::Mode::Spacing },
   { "EwaAffine", Technique::Ewa, true, true, SplatAccuracy::Affine, SplatSize::Mode::Spacing },
   { "EwaExact", Technique::Ewa, true, true, SplatAccuracy::Exact, SplatSize::Mode::Spacing },
+  { "FacingSilhouettes", Technique::Silhouettes, false, false, SplatAccuracy::Affine,
+    SplatSize::Mode::Spacing },
+  { "Silhouettes", Technique::Silhouettes, false, true, SplatAccuracy::Affine,
+    SplatSize::Mode::Spacing },
+  { "ExactSilhouettes", Technique::Silhouettes, false, true, SplatAccuracy::Full,
+    SplatSize::Mode::Spacing },
+  { "FacingSolids", Technique::Solid, false, false, SplatAccuracy::Affine,
+    SplatSize::Mode::Spacing },
+  { "Solids", Technique::Solid, false, true, SplatAccuracy::Affine, SplatSize::Mode::Spacing },
   { "EwaFull", Technique::Ewa, true, true, SplatAccuracy::Full, SplatSize::Mode::World },
 };
 
@@ -45,6 +54,11 @@ void apply(const NamedStyle& named, ResolvedStyle& style)
   style.blended = named.blended;
   style.accuracy = named.accuracy;
   style.normalColumn = named.normals ? std::optional<std::uint32_t>(1) : std::nullopt;
+  if (named.technique == Technique::Solid)
+  {
+    style.heightColumn = 4;
+    style.wall = { Rgba8{ 250, 240, 230, 255 }, Rgba8{ 10, 60, 110, 255 } };
+  }
   style.size = { named.size, 1.0, 0 };
   style.size.value = named.size == SplatSize::Mode::World ? 0.06 : 1.0;
 }

@@ -33,7 +33,8 @@ std::vector<ResolvedStyle> allStyles(double size)
 {
   std::vector<ResolvedStyle> styles;
   for (const Technique technique :
-    { Technique::Points, Technique::Splats, Technique::Spheres, Technique::Ewa })
+    { Technique::Points, Technique::Splats, Technique::Spheres, Technique::Silhouettes,
+      Technique::Solid, Technique::Ewa })
   {
     for (const SplatAccuracy accuracy :
       { SplatAccuracy::Affine, SplatAccuracy::Exact, SplatAccuracy::Full })
@@ -46,6 +47,11 @@ std::vector<ResolvedStyle> allStyles(double size)
         style.colouring.kind = PointColouring::Kind::Direct;
         style.size = { SplatSize::Mode::World, size, 0 };
         style.normalColumn = normals ? std::optional<std::uint32_t>(1) : std::nullopt;
+        if (technique == Technique::Solid)
+        {
+          style.heightColumn = 4;
+          style.wall = { Rgba8{ 250, 240, 230, 255 }, Rgba8{ 10, 60, 110, 255 } };
+        }
         styles.push_back(style);
       }
     }

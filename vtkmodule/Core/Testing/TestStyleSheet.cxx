@@ -437,8 +437,6 @@ TEST(Techniques, NamesAreInTheOrderOfTheEnumeration)
     EXPECT_EQ(techniqueOf(techniqueTraits[i].name), techniqueTraits[i].technique);
   }
   EXPECT_FALSE(techniqueOf("Points"));
-  EXPECT_TRUE(techniqueIsAvailable(Technique::Splats));
-  EXPECT_FALSE(techniqueIsAvailable(Technique::Solid));
 }
 
 TEST(ColourCode, IsSixHexadecimalDigits)

@@ -75,6 +75,7 @@ std::string surfaceStore(const std::string& name, Surface surface)
   schema.add(normal);
   schema.add(splatRadiusColumn());
   schema.add({"reach", ScalarType::Float32, 1});
+  schema.add({"height_above_ground", ScalarType::Float32, 1});
   const QuantisationGrid grid = millimetres(glm::dvec3(0.0));
   auto cloud = std::make_unique<CloudSource>(name, schema, grid);
   for (int i = 0; i < side * side; ++i)
@@ -95,6 +96,7 @@ std::string surfaceStore(const std::string& name, Surface surface)
     cloud->addValue(2, stored);
     cloud->addValue(3, i % 89 == 0 ? unknownSplatRadius : encodeSplatRadius(0.02 + 0.01 * u, 0.02));
     cloud->addValue(4, static_cast<float>(0.01 + 0.03 * v));
+    cloud->addValue(5, static_cast<float>(i % 7 == 0 ? 0.0 : 0.3 + 0.2 * surfel.position.z));
   }
   cloud->editDescription().splatRadiusBase = 0.02;
   BuildOptions options;
@@ -149,6 +151,17 @@ const std::map<std::string, std::string> techniques = {
   {"paraboloids", R"({"default": {"technique": "splats", "orientation": "view"}})"},
   {"fixed", R"({"default": {"technique": "splats", "orientation": [0.1, 0.2, 1]}})"},
   {"spheres", R"({"default": {"technique": "spheres"}})"},
+  {"silhouettes", R"({"default": {"technique": "silhouettes"}})"},
+  {"facing silhouettes", R"({"default": {"technique": "silhouettes", "orientation": "view",
+     "rim_color": "#8020c0"}, "shading": {"mode": "edl"}})"},
+  {"exact silhouettes", R"({"default": {"technique": "silhouettes", "accuracy": "exact",
+     "size": {"mode": "fixed", "metres": 0.2}}})"},
+  {"solid", R"({"default": {"technique": "solid", "wall_color": ["#f0e0d0", "#103060"]}})"},
+  {"facing solid", R"({"default": {"technique": "solid", "orientation": "view"}})"},
+  {"lit solid", R"({"default": {"technique": "solid", "wall_color": "#a0a0a0"},
+     "shading": {"mode": "lit"}})"},
+  {"solid class", R"({"default": {"technique": "ewa"}, "classes": {"6": {"technique": "solid",
+     "color": "#ff8000"}, "2": {"technique": "silhouettes"}}})"},
   {"ewa", R"({"default": {"technique": "ewa"}})"},
   {"ewa exact", R"({"default": {"technique": "ewa", "accuracy": "exact"}})"},
   {"ewa full", R"({"default": {"technique": "ewa", "accuracy": "full"}})"},
@@ -206,22 +219,38 @@ TEST(Techniques, ASplatMayBeLargerThanAnyPointOfGL)
 
 TEST(Techniques, FollowActorsClippingPlanesAndPartsOfWindows)
 {
-  Splats scene(surfaceStore("moved", stairsAt));
-  ASSERT_TRUE(scene.style->LoadJSON(techniques.at("ewa")));
-  vtkNew<vtkPlane> plane;
-  plane->SetOrigin(0.3, 0.0, 0.0);
-  plane->SetNormal(-1.0, 0.3, 0.0);
-  scene.mapper->AddClippingPlane(plane);
-  scene.expectAlike("clipped");
-  scene.actor->SetPosition(0.4, -0.3, 0.2);
-  scene.actor->RotateZ(30.0);
-  scene.actor->SetScale(1.2);
-  scene.expectAlike("moved and clipped");
-  scene.window->SetSize(420, 260);
-  scene.renderer->SetViewport(0.1, 0.2, 0.8, 0.9);
-  scene.expectAlike("a part of a window");
-  scene.renderer->GetActiveCamera()->SetWindowCenter(0.3, -0.2);
-  scene.expectAlike("off-axis");
+  const std::string store = surfaceStore("moved", stairsAt);
+  for (const char* name : {"ewa", "silhouettes", "solid"})
+  {
+    const std::string what = std::string(name) + ", ";
+    Splats scene(store);
+    ASSERT_TRUE(scene.style->LoadJSON(techniques.at(name)));
+    vtkNew<vtkPlane> plane;
+    plane->SetOrigin(0.3, 0.0, 0.0);
+    plane->SetNormal(-1.0, 0.3, 0.0);
+    scene.mapper->AddClippingPlane(plane);
+    scene.expectAlike(what + "clipped");
+    scene.actor->SetPosition(0.4, -0.3, 0.2);
+    scene.actor->RotateZ(30.0);
+    scene.actor->RotateX(20.0);
+    scene.actor->SetScale(1.2, 1.2, 1.5);
+    scene.expectAlike(what + "moved and clipped");
+    scene.window->SetSize(420, 260);
+    scene.renderer->SetViewport(0.1, 0.2, 0.8, 0.9);
+    scene.expectAlike(what + "a part of a window");
+    scene.renderer->GetActiveCamera()->SetWindowCenter(0.3, -0.2);
+    scene.expectAlike(what + "off-axis");
+  }
+}
+
+TEST(Techniques, WallsGoDownBehindTheEye)
+{
+  Splats scene(surfaceStore("below", planeAt));
+  ASSERT_TRUE(scene.style->LoadJSON(
+    R"({"default": {"technique": "solid", "wall_color": ["#f0e0d0", "#103060"]}})"));
+  scene.actor->SetScale(1.0, 1.0, 8.0); // walls of some 2.4
+  scene.lookFrom({0.1, -2.2, -1.5}, {0.0, 0.0, 1.0});
+  scene.expectAlike("from below");
 }
 
 TEST(Techniques, OtherActorsIntersectSplats)
@@ -292,7 +321,7 @@ std::set<vtkIdType> selected(Scene& scene)
 TEST(Techniques, SelectionsFindTheSplatsThatAreSeen)
 {
   Splats scene(surfaceStore("selected", sphereAt));
-  for (const char* name : {"splats", "ewa", "spheres", "classes", "lit"})
+  for (const char* name : {"splats", "ewa", "spheres", "classes", "lit", "silhouettes", "solid"})
   {
     ASSERT_TRUE(scene.style->LoadJSON(techniques.at(name)));
     scene.with(vtkPointFrontMapper::SOFTWARE);
@@ -330,6 +359,10 @@ TEST(Techniques, AStyleEditUploadsNoPositionAgain)
     "size": {"mode": "fixed", "px": 2}, "color": "classification"}})"));
   scene.draw();
   EXPECT_EQ(gl->GetUploadedBytes(), first + points * 4) << "squares need no shapes";
+  ASSERT_TRUE(scene.style->LoadJSON(
+    R"({"default": {"technique": "solid", "color": "classification"}})"));
+  scene.draw();
+  EXPECT_EQ(gl->GetUploadedBytes(), first + points * (4 + 4 + 4)) << "heights, shapes again";
 }
 
 /// Points and triangles that a frame hands to GL.
@@ -350,7 +383,7 @@ int primitivesOf(Scene& scene)
 TEST(Techniques, AtRestNothingIsDrawnTwice)
 {
   Splats scene(surfaceStore("rest", sphereAt));
-  for (const char* name : {"metres", "lit ewa"})
+  for (const char* name : {"metres", "lit ewa", "solid"})
   {
     ASSERT_TRUE(scene.style->LoadJSON(techniques.at(name)));
     const Picture first = scene.draw();
@@ -367,7 +400,7 @@ TEST(Techniques, AtRestNothingIsDrawnTwice)
 TEST(Techniques, DetailIsAddedToWhatIsThere)
 {
   const std::string store = surfaceStore("added", stairsAt);
-  for (const char* name : {"metres", "lit", "splats"})
+  for (const char* name : {"metres", "lit", "splats", "silhouettes", "solid"})
   {
     Splats whole(store);
     ASSERT_TRUE(whole.style->LoadJSON(techniques.at(name)));

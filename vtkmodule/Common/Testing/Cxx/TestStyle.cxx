@@ -88,14 +88,37 @@ TEST(Style, ClassesInheritWhatTheyDoNotSay)
   EXPECT_EQ(style->SaveJSON(), "{}");
 }
 
+TEST(Style, OutlinesAndWallsHaveTheirColours)
+{
+  vtkNew<vtkPointFrontStyle> style;
+  EXPECT_EQ(style->GetRimColor(), "#000000");
+  EXPECT_EQ(style->GetWallColorUpper(), "");
+  EXPECT_TRUE(style->SetTechnique("silhouettes"));
+  EXPECT_TRUE(style->SetRimColor("#102030"));
+  EXPECT_TRUE(style->SetTechnique("solid", 6));
+  EXPECT_TRUE(style->SetWallColor("#808080", "#404040", 6));
+  EXPECT_EQ(style->GetRimColor(6), "#102030");
+  EXPECT_EQ(style->GetWallColorUpper(6), "#808080");
+  EXPECT_EQ(style->GetWallColorLower(6), "#404040");
+  vtkNew<vtkPointFrontStyle> other;
+  EXPECT_TRUE(other->LoadJSON(style->SaveJSON()));
+  EXPECT_EQ(other->GetWallColorLower(6), "#404040");
+  EXPECT_EQ(other->GetRimColor(), "#102030");
+  EXPECT_TRUE(style->SetWallColor("", "", 6));
+  EXPECT_EQ(style->GetWallColorLower(6), "");
+}
+
 TEST(Style, WhatIsWrongIsAnErrorAndChangesNothing)
 {
   Observed o;
   EXPECT_FALSE(o.Style->SetTechnique("dots"));
   EXPECT_NE(o.Error.find("'dots' is unknown: use points"), std::string::npos) << o.Error;
-  EXPECT_FALSE(o.Style->SetTechnique("solid", 6));
+  EXPECT_FALSE(o.Style->SetTechnique("facade", 6));
   EXPECT_NE(o.Error.find("class 6"), std::string::npos) << o.Error;
-  EXPECT_NE(o.Error.find("not available"), std::string::npos) << o.Error;
+  EXPECT_FALSE(o.Style->SetRimColor("black"));
+  EXPECT_NE(o.Error.find("'black' is no colour"), std::string::npos) << o.Error;
+  EXPECT_FALSE(o.Style->SetWallColor("#808080", "", 6));
+  EXPECT_NE(o.Error.find("class 6"), std::string::npos) << o.Error;
   EXPECT_FALSE(o.Style->SetColor("#12"));
   EXPECT_FALSE(o.Style->SetColor("{\"attribute\": 3}"));
   EXPECT_FALSE(o.Style->SetColor("{\"attribute\": \"a\"}, \"opacity\": 0"));

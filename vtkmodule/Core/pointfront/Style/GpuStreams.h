@@ -2,6 +2,7 @@
 
 #include "pointfront/Style/ResolvedStyle.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -17,9 +18,10 @@ enum class GpuStream : std::uint8_t
 {
   Value, ///< what its colour is made of
   Shape, ///< its normal and the code of its radius
-  Size   ///< a radius of its own as a float, world units
+  Size,  ///< a radius of its own as a float, world units
+  Height ///< above the ground as a float, world units
 };
-constexpr std::size_t gpuStreamCount = 3;
+constexpr std::size_t gpuStreamCount = 4;
 
 /// Which streams the styles of one layer read.
 /// Marks    Where a layer has filters, several styles or combined colours, a point's value is its
@@ -30,7 +32,10 @@ struct GpuStreams
   bool marked = false;
 
   bool has(GpuStream stream) const { return wanted[static_cast<std::size_t>(stream)]; }
-  int count() const { return int(wanted[0]) + int(wanted[1]) + int(wanted[2]); }
+  int count() const
+  {
+    return static_cast<int>(std::count(wanted.begin(), wanted.end(), true));
+  }
   void add(const GpuStreams& other)
   {
     for (std::size_t stream = 0; stream < gpuStreamCount; ++stream)
@@ -50,6 +55,7 @@ struct GpuStreams
       streams.wanted[0] = streams.wanted[0] || style->colouring.hasValues();
       streams.wanted[1] = streams.wanted[1] || style->normalColumn || style->radiusColumn;
       streams.wanted[2] = streams.wanted[2] || style->size.mode == SplatSize::Mode::Attribute;
+      streams.wanted[3] = streams.wanted[3] || style->heightColumn;
     }
     streams.wanted[0] = streams.wanted[0] || streams.marked;
     return streams;

@@ -56,7 +56,7 @@ bool operator==(const ResolvedStyle& a, const ResolvedStyle& b)
     a.normalColumn == b.normalColumn && a.radiusColumn == b.radiusColumn &&
     a.heightColumn == b.heightColumn && a.colouring == b.colouring &&
     sameMap(a.map, b.map) && a.flat == b.flat && a.second == b.second && a.rim == b.rim &&
-    a.wallTop == b.wallTop && a.opacity == b.opacity && a.filter == b.filter &&
+    a.wall == b.wall && a.opacity == b.opacity && a.filter == b.filter &&
     a.lens == b.lens && a.lensMask == b.lensMask && a.group == b.group &&
     a.highlight == b.highlight;
 }

@@ -8,6 +8,7 @@
 
 #include <glm/vec3.hpp>
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -91,8 +92,8 @@ struct ResolvedStyle
   std::shared_ptr<const ColourMap> map; ///< where the colouring uses a table; else null
   Rgba8 flat{ 255, 255, 255, 255 };     ///< where it is Flat
   SecondColour second;
-  Rgba8 rim{ 0, 0, 0, 255 };            ///< Silhouettes; Solid: the wall's lower end
-  Rgba8 wallTop{ 0, 0, 0, 255 };        ///< Solid: the wall's upper end
+  Rgba8 rim{ 0, 0, 0, 255 };            ///< Silhouettes
+  std::optional<std::array<Rgba8, 2>> wall; ///< Solid: upper and lower end; else as the points
   double opacity = 1.0;                 ///< 0 to 1
   PointFilter filter;                   ///< points that do not pass are not drawn
   // Where in the picture its points are seen (PlanParts.h):

@@ -63,7 +63,10 @@ public:
     resolved_.accuracy = *style_.accuracy;
     resolved_.blended = *style_.blended;
     resolved_.opacity = *style_.opacity;
-    resolved_.rim = *style_.rim;
+    if (resolved_.technique == Technique::Silhouettes)
+    {
+      resolved_.rim = *style_.rim;
+    }
     orient();
     for (const auto step :
       { &StyleResolution::colour, &StyleResolution::size, &StyleResolution::solid,
@@ -149,14 +152,11 @@ private:
 
   Result<void> solid()
   {
-    const Rgba8 own = resolved_.flat;
-    const std::array<Rgba8, 2> wall = style_.wall.value_or(std::array<Rgba8, 2>{ own, own });
     if (resolved_.technique != Technique::Solid)
     {
       return {};
     }
-    resolved_.wallTop = wall[0];
-    resolved_.rim = wall[1];
+    resolved_.wall = style_.wall;
     resolved_.heightColumn = scalarColumn(store_, heightColumnName);
     if (!resolved_.heightColumn)
     {

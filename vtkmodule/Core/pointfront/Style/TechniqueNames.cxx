@@ -15,15 +15,12 @@ std::optional<Technique> techniqueOf(std::string_view name)
   return std::nullopt;
 }
 
-std::string techniqueList(bool availableOnly)
+std::string techniqueList()
 {
   std::string list;
   for (const TechniqueTraits& traits : techniqueTraits)
   {
-    if (!availableOnly || techniqueIsAvailable(traits.technique))
-    {
-      list += (list.empty() ? "" : ", ") + std::string(traits.name);
-    }
+    list += (list.empty() ? "" : ", ") + std::string(traits.name);
   }
   return list;
 }

@@ -51,6 +51,7 @@ void SlotRecords::begin(std::uint32_t slots)
 void SlotRecords::set(const std::vector<std::uint32_t>& slots, const Record& record)
 {
   std::uint64_t id = record.firstId;
+  float first = record.growth.first; // of the slot's first point
   const SlotOrigin& origin = record.origin;
   const std::int32_t flags = (record.coloured ? colouredFlag : 0) |
     (record.shaped ? shapedFlag : 0) | (record.sized ? sizedFlag : 0);
@@ -60,10 +61,11 @@ void SlotRecords::set(const std::vector<std::uint32_t>& slots, const Record& rec
     std::int32_t* const steps = columns_[0].values.data() + at;
     std::copy(&origin.steps.x, &origin.steps.x + 3, steps);
     steps[3] = origin.shift | flags;
-    put(columns_[1].values, at, glm::vec4(origin.base, 0.0f));
+    put(columns_[1].values, at, glm::vec4(origin.base, record.growth.perPoint));
     columns_[2].values[at] = static_cast<std::int32_t>(id & 0xffffffu);
     columns_[2].values[at + 1] = static_cast<std::int32_t>((id >> 24) & 0xffffffu);
-    put(columns_[3].values, at, record.place);
+    put(columns_[3].values, at, glm::vec4(glm::vec3(record.place), first));
+    first -= record.growth.perPoint * static_cast<float>(GpuPool::slotPoints);
     put(columns_[4].values, at, record.radii);
     id += GpuPool::slotPoints;
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "pointfront/Plan/PointGrowth.h"
 #include "pointfront/Plan/SlotOrigin.h"
 
 #include <vtkNew.h>
@@ -33,7 +34,8 @@ public:
     bool shaped = false;       ///< normals and codes of radii are there
     bool sized = false;        ///< radii of their own are there
     std::uint64_t firstId = 0; ///< 48-bit id of the node's first point
-    glm::vec4 place{ 0.0f };   ///< camera space of the reference's steps; w: nothing
+    glm::vec4 place{ 0.0f };   ///< camera space of the reference's steps; w: set() does that
+    PointGrowth growth;
     /// World units: what closes the node, scale of a point's own, 1 where none is below what closes
     /// it, what closes its sparsest part.
     glm::vec4 radii{ 0.0f };

@@ -64,6 +64,7 @@ SlotRecords::Record recordOf(const RasterItem& item, const FramePlan& plan)
   const bool bounded = !item.item->refined && !node.leaf;
   record.radii = glm::vec4(item.item->closingRadius, item.item->radiusScale,
     bounded ? 1.0f : 0.0f, item.item->sparsestRadius);
+  record.growth = item.item->growth;
   return record;
 }
 
@@ -192,7 +193,7 @@ bool SplatGroups::Listed::continues(const Drawn& old) const
   const RasterItem& item = *group.first;
   return item.item->node == old.node && *item.style == *old.style && item.passes == old.passes &&
     item.item->first == old.first && end >= old.end && record.radii == old.radii &&
-    record.coloured == old.coloured && record.shaped == old.shaped && record.sized == old.sized;
+    record.growth == old.growth && record.coloured == old.coloured && record.shaped == old.shaped && record.sized == old.sized;
 }
 
 void SplatGroups::keep(const FramePlan& plan)
@@ -209,7 +210,7 @@ void SplatGroups::keep(const FramePlan& plan)
   {
     const RasterItem& item = *one.group.first;
     drawn_.push_back({ item.item->node, styles[item.style], item.passes, item.item->first, one.end,
-      one.record.radii, one.record.coloured, one.record.shaped, one.record.sized });
+      one.record.radii, one.record.growth, one.record.coloured, one.record.shaped, one.record.sized });
   }
   groups_.clear();
   listed_.clear();

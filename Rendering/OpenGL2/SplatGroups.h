@@ -62,6 +62,7 @@ private:
     std::uint32_t first;
     std::uint32_t end;
     glm::vec4 radii;
+    PointGrowth growth;
     bool coloured;
     bool shaped;
     bool sized;

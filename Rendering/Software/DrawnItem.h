@@ -27,6 +27,7 @@ struct DrawnItem
   float closingRadius = 0.0f; ///< these as PlanItem's
   float sparsestRadius = 0.0f;
   float itemRadiusScale = 1.0f;
+  PointGrowth growth;
 };
 
 } // namespace pointfront

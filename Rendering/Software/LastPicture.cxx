@@ -28,7 +28,7 @@ bool continues(const RasterItem& item, const DrawnItem& drawn)
     item.passes == drawn.passes && item.item->first == drawn.first &&
     item.item->last >= drawn.last && item.radius == drawn.radius &&
     item.radiusScale == drawn.radiusScale && item.item->refined == drawn.refined &&
-    item.item->sparsestRadius == drawn.sparsestRadius;
+    item.item->sparsestRadius == drawn.sparsestRadius && item.item->growth == drawn.growth;
 }
 
 } // namespace
@@ -160,7 +160,7 @@ void LastPicture::note(const RasterItems& items, const RasterWindow& window)
     items_.push_back({ item.item->node, item.style, item.passes, item.base, item.item->first,
       item.item->last, item.radius, item.radiusScale, item.item->refined,
       item.item->unfinished, item.item->closingRadius, item.item->sparsestRadius,
-      item.item->radiusScale });
+      item.item->radiusScale, item.item->growth });
   }
   styles_.clear();
   for (const DrawBatch& batch : plan.batches)

@@ -12,6 +12,8 @@ namespace
 /// A point's own radius counts up to that many times what closes its node: a stray point far from
 /// all others is no surface.
 constexpr float mostOfClosing = 4.0f;
+/// Of a blended splat's centre: six bits.
+constexpr float mostWeight = 63.0f;
 
 /// Points one after the other: columns are read where they lie.
 struct Consecutive
@@ -166,6 +168,17 @@ void PointShapes::fillHeights(
     item.heights, *item.heightAttribute, points, count, items_.upFactor(), batch.height);
 }
 
+template <typename Points>
+void PointShapes::grow(
+  const RasterItem& item, const Points& points, int count, RasterBatch& batch)
+{
+  const PointGrowth& growth = item.item->growth;
+  for (int j = 0; j < count && !growth.whole(); ++j)
+  {
+    batch.radius[j] *= growth.of(points(j));
+  }
+}
+
 float PointShapes::largestRadius(const RasterItem& item)
 {
   if (item.sizes)
@@ -197,12 +210,24 @@ void PointShapes::fill(
   const RasterItem& item, std::uint32_t first, int count, float share, RasterBatch& batch) const
 {
   fillBy(item, Consecutive{ first }, count, share, batch);
+  grow(item, Consecutive{ first }, count, batch);
+}
+
+void PointShapes::fillBlended(
+  const RasterItem& item, std::uint32_t first, int count, float share, RasterBatch& batch) const
+{
+  fillBy(item, Consecutive{ first }, count, share, batch);
+  for (int j = 0; j < count; ++j)
+  {
+    batch.weight[j] = mostWeight * item.item->growth.of(first + static_cast<std::uint32_t>(j));
+  }
 }
 
 void PointShapes::fill(const RasterItem& item, const std::uint32_t* points, int count, float share,
   RasterBatch& batch) const
 {
   fillBy(item, Listed{ points }, count, share, batch);
+  grow(item, Listed{ points }, count, batch);
 }
 
 } // namespace pointfront

@@ -18,11 +18,16 @@ public:
     , kernels_(kernels)
   {
   }
-  /// Fills radius (world units, times `share`) and normals, or heights of walls, of projected points: of [first, first +
-  /// count), or of those in a list.
+  /// Fills radius (world units, times `share`) and normals, or heights of walls, of projected
+  /// points: of [first, first + count), or of those in a list. Points that grow are as large as
+  /// they are yet.
   void fill(const RasterItem& item, std::uint32_t first, int count, float share,
     RasterBatch& batch) const;
   void fill(const RasterItem& item, const std::uint32_t* points, int count, float share,
+    RasterBatch& batch) const;
+
+  /// The same for blending: points that grow have their size, and of their weight what is there yet.
+  void fillBlended(const RasterItem& item, std::uint32_t first, int count, float share,
     RasterBatch& batch) const;
 
   /// No point of the item has a larger radius (world units, before a share); infinite where only
@@ -35,6 +40,8 @@ private:
   template <typename Points>
   void fillBy(const RasterItem& item, const Points& points, int count, float share,
     RasterBatch& batch) const;
+  template <typename Points>
+  static void grow(const RasterItem& item, const Points& points, int count, RasterBatch& batch);
   template <typename Points>
   void fillNormals(
     const RasterItem& item, const Points& points, int count, RasterBatch& batch) const;

@@ -218,7 +218,7 @@ void SoftwareRasteriser::Content::addColours(
         positions.xyz = item.positions.xyz + 3 * std::size_t(first);
         positions.filtered = RasterItems::filter(items.plan(), item, first, count, batch);
         kernels.project(item.camera, positions, count, batch);
-        shapes.fill(item, first, count, item.passes.secondRadius, batch);
+        shapes.fillBlended(item, first, count, item.passes.secondRadius, batch);
         kernels.setUp(item.camera, now, item.passes.second, count, batch);
         item.colours->fill(first, count, batch.colour);
         kernels.addSplats(item.camera, now, item.passes.second, batch, count, depths, sums);

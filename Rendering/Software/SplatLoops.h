@@ -149,6 +149,7 @@ void addShape(const RasterCamera& camera, const RasterWindow& window, const Spla
     const int j = batch.list[i];
     const SplatAt<Shape, Parallel> splat(camera, pass, batch, OneSplat{ j });
     const Lanes rim = all(pass.paraboloid * batch.radius[j]), slack = slackOf(j);
+    const Lanes centre = all(batch.weight[j]);
     const LaneColour colour = colourOf(batch.colour[j]);
     visitSmall(window, batch, j, splat,
       [&](std::int32_t lower, std::int32_t upper, const SplatSample& s)
@@ -158,7 +159,7 @@ void addShape(const RasterCamera& camera, const RasterWindow& window, const Spla
         if (any(added))
         {
           addSums4x2(sums + 4 * std::int64_t(lower), sums + 4 * std::int64_t(upper),
-            weightsOf(s, added), colour);
+            weightsOf(s, centre, added), colour);
         }
       });
   }
@@ -168,6 +169,7 @@ void addShape(const RasterCamera& camera, const RasterWindow& window, const Spla
     const int j = batch.list[i];
     const SplatAt<Shape, Parallel> splat(camera, pass, batch, OneSplat{ j });
     const Lanes rim = all(pass.paraboloid * batch.radius[j]), slack = slackOf(j);
+    const Lanes centre = all(batch.weight[j]);
     const LaneColour colour = colourOf(batch.colour[j]);
     visitLarge(window, batch, j, splat,
       [&](std::int32_t offset, const SplatSample& s)
@@ -176,7 +178,7 @@ void addShape(const RasterCamera& camera, const RasterWindow& window, const Spla
           s.covered & (s.depth + rim * s.q - slack <= load8(nearest + offset));
         if (any(added))
         {
-          addSums8(sums + 4 * std::int64_t(offset), weightsOf(s, added), colour);
+          addSums8(sums + 4 * std::int64_t(offset), weightsOf(s, centre, added), colour);
         }
       });
   }

@@ -11,10 +11,10 @@ namespace
 // their four pixels, then each is put into the buffers.
 
 /// Weights (1 - q)^2 in 6 bits: 267,000 splats on a pixel before a sum could overflow.
-inline LaneWeights weightsOf(const SplatSample& s, LaneMask added)
+inline LaneWeights weightsOf(const SplatSample& s, Lanes centre, LaneMask added)
 {
   const Lanes fall = all(1.0f) - s.q;
-  return weights(fall * fall * all(63.0f) + all(0.5f), added);
+  return weights(fall * fall * centre + all(0.5f), added);
 }
 
 /// What decides who is seen.
@@ -111,7 +111,7 @@ void addTiny(const RasterCamera& camera, const SplatPass& pass, RasterBatch& bat
       const SplatSample& b = samples[1];
       const SplatSample& c = samples[2];
       const SplatSample& d = samples[3];
-      const Lanes radius = eight(batch.radius);
+      const Lanes radius = eight(batch.radius), centre = eight(batch.weight);
       const Lanes rim = all(pass.paraboloid) * radius;
       const Lanes reach = Parallel ? all(1.0f) : eight(batch.depth);
       const Lanes slack = all(pass.slackRadii) * radius + pixelSize * reach;
@@ -119,10 +119,10 @@ void addTiny(const RasterCamera& camera, const SplatPass& pass, RasterBatch& bat
       { return choose(s.covered, s.depth + rim * s.q - slack, nothing); };
       storePairs(batch.lowerDepth + 2 * eight.first, front(a), front(b));
       storePairs(batch.upperDepth + 2 * eight.first, front(c), front(d));
-      storePairs(batch.lowerWeight + 2 * eight.first, weightsOf(a, a.covered),
-        weightsOf(b, b.covered));
-      storePairs(batch.upperWeight + 2 * eight.first, weightsOf(c, c.covered),
-        weightsOf(d, d.covered));
+      storePairs(batch.lowerWeight + 2 * eight.first, weightsOf(a, centre, a.covered),
+        weightsOf(b, centre, b.covered));
+      storePairs(batch.upperWeight + 2 * eight.first, weightsOf(c, centre, c.covered),
+        weightsOf(d, centre, d.covered));
     });
   for (int i = 0; i < tiny; ++i)
   {

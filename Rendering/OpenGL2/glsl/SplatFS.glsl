@@ -123,7 +123,7 @@ void main()
   {
     discard;
   }
-  float weight = floor((1.0 - s.x) * (1.0 - s.x) * 63.0 + 0.5);
+  float weight = floor((1.0 - s.x) * (1.0 - s.x) * (63.0 * splat.colour.a) + 0.5);
   gl_FragData[0] = vec4(floor(splat.colour.rgb * 255.0 + 0.5) * weight, weight);
 #else
   vec3 colour = splat.colour.rgb;

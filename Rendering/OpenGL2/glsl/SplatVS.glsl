@@ -20,11 +20,11 @@ in float pointSize;     // radius, store units
 uniform int slotPoints;            // vertices of a slot
 uniform int firstSlot;             // of the buffers that are drawn from
 uniform isamplerBuffer slotSteps;  // xyz: the reference in the node's steps; w: shift and flags
-uniform samplerBuffer slotPlaces;  // camera space of the reference
+uniform samplerBuffer slotPlaces;  // camera space of the reference; w: size of the first point
 uniform samplerBuffer slotRadii;   // closing radius, scale of own ones, 1: none below, sparsest
 uniform isamplerBuffer slotIds;    // low and high 24 bits of the id of the slot's first point
+uniform samplerBuffer slotBase;    // store units; w: what sizes fall by from a point to the next
 #if POINTFRONT_COLOUR == 3
-uniform samplerBuffer slotBase;
 uniform vec3 stepSize;
 #endif
 uniform mat3 stepsToCamera;
@@ -108,7 +108,10 @@ void main()
   int shift = steps.w & 255;
   vec3 difference = vec3(ivec3(positionSteps >> uint(shift)) - steps.xyz);
   float width = exp2(float(shift));
-  vec3 camera = stepsToCamera * (difference * width) + texelFetch(slotPlaces, slot).xyz;
+  vec4 place = texelFetch(slotPlaces, slot);
+  vec3 camera = stepsToCamera * (difference * width) + place.xyz;
+  float fall = texelFetch(slotBase, slot).w; // twin of PointGrowth.h
+  float grown = clamp(place.w - fall * float(gl_VertexID % slotPoints), 0.0, 1.0);
   bool drawn = camera.z >= depthRange.x && camera.z <= depthRange.y;
   for (int plane = 0; plane < clipCount; ++plane)
   {
@@ -126,12 +129,16 @@ void main()
   {
     return;
   }
+#if POINTFRONT_PASS == 2
+  splat.colour.a = grown; // of its weight
+  grown = 1.0;
+#endif
 #if POINTFRONT_SHAPE == 5
   float height = pointHeight * heightFactor;
 #else
   const float height = 0.0;
 #endif
-  setUp(camera, radiusOf(steps.w, slot, camera.z), height);
+  setUp(camera, radiusOf(steps.w, slot, camera.z) * grown, height);
   vec4 r = splat.rectangle;
   r = vec4(max(r.xy, vec2(0.0)), min(r.zw, viewportSize));
   splat.rectangle = r;

@@ -135,7 +135,7 @@ TEST(FramePlanner, GroupsAllThatTheFrontDrawsByLayer)
       EXPECT_EQ(item.node->layer, layer);
       EXPECT_EQ(item.first, 0u);
       EXPECT_EQ(item.last, pointsOfNode);
-      EXPECT_EQ(item.fade, 1.0f);
+      EXPECT_TRUE(item.growth.whole());
       EXPECT_EQ(item.spacing, item.node->spacing) << "all of it: the tree's own";
     }
   }
@@ -305,7 +305,7 @@ TEST(FramePlanner, PrintsALineForEachBatchAndItem)
   std::ostringstream text;
   text << scene.plan(0.01);
   EXPECT_NE(text.str().find("layer 1, technique 0, 2 nodes\n"), std::string::npos) << text.str();
-  EXPECT_NE(text.str().find("  node 5 [0, 1000) fade 1 spacing 4\n"), std::string::npos);
+  EXPECT_NE(text.str().find("  node 5 [0, 1000) spacing 4\n"), std::string::npos);
 }
 
 TEST(FrameStatistics, TakesWhatTheFrontSays)

@@ -1,5 +1,6 @@
 #include "pointfront/Plan/FramePlan.h"
 
+#include <algorithm>
 #include <map>
 #include <ostream>
 
@@ -47,8 +48,13 @@ std::ostream& operator<<(std::ostream& out, const FramePlan& plan)
         << static_cast<int>(batch.style->technique) << ", " << batch.items.size() << " nodes\n";
     for (const PlanItem& item : batch.items)
     {
-      out << "  node " << item.node->node << " [" << item.first << ", " << item.last << ") fade "
-          << item.fade << " spacing " << item.spacing << "\n";
+      out << "  node " << item.node->node << " [" << item.first << ", " << item.last << ")";
+      if (!item.growth.whole())
+      {
+        out << " growing " << item.growth.of(item.first) << " to "
+            << item.growth.of(std::max(1u, item.last) - 1);
+      }
+      out << " spacing " << item.spacing << "\n";
     }
   }
   return out;

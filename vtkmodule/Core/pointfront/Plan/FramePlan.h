@@ -1,6 +1,7 @@
 #pragma once
 
 #include "pointfront/Plan/FrameCamera.h"
+#include "pointfront/Plan/PointGrowth.h"
 #include "pointfront/Points/AttributeSchema.h"
 #include "pointfront/Points/QuantisationGrid.h"
 #include "pointfront/Store/NodeReader.h"
@@ -24,7 +25,7 @@ struct PlanItem
   std::shared_ptr<const NodeColumns> node;
   std::uint32_t first = 0;
   std::uint32_t last = 0;
-  float fade = 1.0f; ///< 0 to 1: how much of the node is there yet
+  PointGrowth growth; ///< how large its points are yet
   /// World units between the points on screen when this prefix and all nodes above it are drawn, by
   /// the tree's levels.
   float spacing = 0.0f;

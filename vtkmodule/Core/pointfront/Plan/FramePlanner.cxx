@@ -31,39 +31,67 @@ void keepWhatIsSeen(const FramePlan& plan, DrawBatch& batch)
     items.end());
 }
 
-/// The items of each layer that has a style, near to far.
-std::vector<std::vector<PlanItem>> itemsByLayer(
-  const ViewFront& front, const std::vector<LayerStyles>& styles)
+/// Points [0, points) of a node; `spread` of them say how far they are apart.
+PlanItem itemOf(std::shared_ptr<const NodeColumns> node, const DetailGrowth::Shown& shown,
+  float spacingRatio)
 {
+  const NodeColumns& columns = *node;
+  PlanItem item;
+  item.node = std::move(node);
+  item.last = shown.points;
+  item.growth = shown.growth;
+  item.spacing = prefixSpacing(columns, shown.spread, spacingRatio);
+  item.radiusScale =
+    columns.spacing > 0.0f ? std::max(1.0f, item.spacing / columns.spacing) : 1.0f;
+  const float measured = std::min(columns.splatRadius, mostSpacings * columns.spacing);
+  const bool strays = columns.parent == noNode && columns.size() < fewestOfSurface;
+  item.unfinished = !columns.leaf || shown.points < columns.size();
+  item.closingRadius =
+    strays ? 0.0f : measured > 0.0f ? measured * item.radiusScale : item.spacing;
+  return item;
+}
+
+/// The items of each layer that has a style, near to far.
+std::vector<std::vector<PlanItem>> itemsByLayer(const ViewFront& front, const PlanRequest& request)
+{
+  const std::vector<LayerStyles>& styles = request.styles;
+  const auto shows = [&](const std::shared_ptr<const NodeColumns>& node)
+  { return node && node->layer < styles.size() && !styles[node->layer].empty(); };
+  DetailGrowth still; // that of no duration
+  DetailGrowth& growth = request.growth ? *request.growth : still;
+  growth.begin(request.growth ? request.moment : GrowthMoment(),
+    front.refinement() == Refinement::Add);
   std::vector<std::vector<PlanItem>> items(styles.size());
   for (const DrawItem& item : front.last().draw)
   {
     std::shared_ptr<const NodeColumns> node = front.find(item.node);
-    if (!node || node->layer >= styles.size() || styles[node->layer].empty())
+    if (shows(node))
     {
-      continue;
+      const auto points = std::min(item.pointCount, static_cast<std::uint32_t>(node->size()));
+      const DetailGrowth::Shown shown = growth.grow(node, points);
+      const std::uint16_t layer = node->layer;
+      if (shown.points > 0)
+      {
+        items[layer].push_back(itemOf(std::move(node), shown, item.spacingRatio));
+      }
     }
-    const auto last = std::min(item.pointCount, static_cast<std::uint32_t>(node->size()));
-    const float spacing = prefixSpacing(*node, last, item.spacingRatio);
-    PlanItem planned{ std::move(node), 0, last, 1.0f, spacing };
-    const NodeColumns& columns = *planned.node;
-    planned.radiusScale =
-      columns.spacing > 0.0f ? std::max(1.0f, spacing / columns.spacing) : 1.0f;
-    const float measured = std::min(columns.splatRadius, mostSpacings * columns.spacing);
-    const bool strays = columns.parent == noNode && columns.size() < fewestOfSurface;
-    planned.unfinished = !columns.leaf || last < columns.size();
-    planned.closingRadius =
-      strays ? 0.0f : measured > 0.0f ? measured * planned.radiusScale : spacing;
-    items[columns.layer].push_back(std::move(planned));
+  }
+  for (DetailGrowth::Leaving& leaving : growth.finish())
+  {
+    if (shows(leaving.node))
+    {
+      const std::uint16_t layer = leaving.node->layer;
+      items[layer].push_back(itemOf(
+        std::move(leaving.node), { leaving.points, leaving.points, leaving.growth }, 0.0f));
+    }
   }
   return items;
 }
 
 /// One batch each, without a style; layers of which nothing is in sight have none.
-std::vector<DrawBatch> batchesOfLayers(
-  const ViewFront& front, const std::vector<LayerStyles>& styles)
+std::vector<DrawBatch> batchesOfLayers(const ViewFront& front, const PlanRequest& request)
 {
-  std::vector<std::vector<PlanItem>> items = itemsByLayer(front, styles);
+  std::vector<std::vector<PlanItem>> items = itemsByLayer(front, request);
   std::vector<DrawBatch> batches;
   for (std::size_t layer = 0; layer < items.size(); ++layer)
   {
@@ -102,7 +130,7 @@ FramePlan planFrame(
   plan.spacingPx = static_cast<float>(front.last().thresholdPx);
   plan.keepsVisible = request.keepsVisible;
   plan.shading = std::move(request.shading);
-  std::vector<DrawBatch> layers = batchesOfLayers(front, request.styles);
+  std::vector<DrawBatch> layers = batchesOfLayers(front, request);
   matchNeighbours(layers, plan.grid);
   for (const DrawBatch& layer : layers)
   {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "pointfront/Plan/DetailGrowth.h"
 #include "pointfront/Plan/FramePlan.h"
 #include "pointfront/Store/StoredCloud.h"
 #include "pointfront/Views/ViewFront.h"
@@ -32,6 +33,9 @@ struct PlanRequest
   std::vector<glm::dvec4> clippingPlanes; ///< (n, d), store coordinates; as FramePlan's
   FrameShading shading;
   bool keepsVisible = false; ///< as FramePlan's: see leavesOut()
+  /// Not null: detail grows, by what that view showed so far, which becomes what this plan shows.
+  DetailGrowth* growth = nullptr;
+  GrowthMoment moment;
   std::vector<LayerStyles> styles; ///< by number of the store's layer; beyond the list: hidden
 };
 

@@ -71,6 +71,9 @@ public:
   /// beside it: what it draws, and its part of what nobody draws.
   std::uint64_t pointsOnGpu(std::uint64_t windowBudget) const;
 
+  /// Of the store's tree.
+  Refinement refinement() const { return piece_->hierarchy()->refinement(); }
+
   /// The node's points, or null.
   std::shared_ptr<const NodeColumns> find(NodeIndex node) const;
 

@@ -1,0 +1,101 @@
+#pragma once
+
+#include "pointfront/Plan/PointGrowth.h"
+#include "pointfront/Store/NodeReader.h"
+
+#include <cstdint>
+#include <memory>
+#include <unordered_map>
+#include <unordered_set>
+#include <vector>
+
+namespace pointfront
+{
+
+/// When a frame is drawn, and how.
+struct GrowthMoment
+{
+  double seconds = 0.0;  ///< of any clock that does not go back: only differences count
+  double duration = 0.0; ///< seconds that a node takes to grow; 0: all is whole at once
+  bool moving = false;   ///< the view is in motion
+};
+
+/// Lets detail grow from frame to frame, where it would pop up: what one view shows of each node,
+/// between what it showed and what its front wants (SMOOTH-6).
+/// Ordered    (Refinement::Add) a node's prefix grows and falls within `duration`. In motion the
+///            last fifth of a prefix has sizes from full to nothing, so that a point that comes or
+///            goes has none: the picture depends on the view alone where the front's prefixes
+///            change slowly. At rest all become whole.
+/// Unordered  (Refinement::Replace) what replaces others grows as a whole; what it replaces goes on
+///            being drawn meanwhile and shrinks last, so that nothing opens.
+/// At once    what is seen first, and what comes into view with all of its branch, is whole.
+/// At rest    after `duration` nothing is left of it: the plan is the same, bit for bit, as one
+///            that never grew.
+/// Pauses     a frame counts for half of `duration` at most: what changes after a long rest is not
+///            there at once.
+/// Time       is a value; none is read here.
+/// Threads    one.
+/// Source     Futterlieb, Teutsch & Berndt 2016, section 3.2.2, which blends finished pictures at
+///            intervals; drawing.md 7. docs/adr/0025.
+class DetailGrowth
+{
+public:
+  /// What is drawn of a node.
+  struct Shown
+  {
+    std::uint32_t points = 0; ///< a prefix, not longer than asked for
+    /// Of these, those that count when it is asked how far points are apart.
+    std::uint32_t spread = 0;
+    PointGrowth growth;
+  };
+  /// A node that its front no longer draws.
+  struct Leaving
+  {
+    std::shared_ptr<const NodeColumns> node;
+    std::uint32_t points = 0;
+    PointGrowth growth;
+  };
+
+  void begin(const GrowthMoment& moment, bool ordered);
+  /// For each node that the front draws `points` of.
+  Shown grow(const std::shared_ptr<const NodeColumns>& node, std::uint32_t points);
+  /// After all of them: what is drawn beside. Unordered only.
+  std::vector<Leaving> finish();
+
+  /// Some of it is not what the front wants at rest: another frame differs.
+  bool growing() const { return growing_; }
+  /// What is seen next is seen first.
+  void reset();
+
+private:
+  struct State
+  {
+    double shown = 0.0; ///< ordered: points; unordered: 0 to 1
+    std::uint32_t points = 0;
+    NodeIndex parent = noNode;
+    std::weak_ptr<const NodeColumns> node; ///< not pinned from frame to frame
+  };
+  /// What a frame shows, and the parents of it.
+  struct States
+  {
+    std::unordered_map<NodeIndex, State> nodes;
+    std::unordered_set<NodeIndex> parents;
+
+    const State* find(NodeIndex node) const;
+    State& add(NodeIndex node, NodeIndex parent);
+    /// What the node is made from, or what is made from it.
+    bool hasRelatives(NodeIndex node, NodeIndex parent) const;
+  };
+  Shown growOrdered(State& now, const NodeColumns& node);
+  Shown growWhole(State& now, const NodeColumns& node);
+
+  GrowthMoment moment_;
+  bool ordered_ = true;
+  bool begun_ = false;
+  bool growing_ = false;
+  double step_ = 0.0; ///< of `duration`, since the last frame; half of it at most
+  States before_;
+  States now_;
+};
+
+} // namespace pointfront

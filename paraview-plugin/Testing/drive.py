@@ -367,6 +367,11 @@ def selection(programs):
     programs.run(os.environ["POINTFRONT_PVBATCH"], os.path.join(HERE, "selection.py"))
 
 
+def batch_selection(programs):
+    """On a rank that shows what all drew nothing is left of the depths that VTK relies on."""
+    programs.run(*mpi(2, os.environ["POINTFRONT_PVBATCH"], os.path.join(HERE, "selection.py")))
+
+
 def rubber_band(programs):
     """A flat square of points seen from above: what the rubber band covers is known."""
     with open("flat.ply", "w") as ply:
@@ -433,7 +438,7 @@ def main(way):
     ways = {"batch": batch, "classes": classes, "ranks": ranks, "server": server,
             "application": application, "colours": colours, "filtered": filtered,
             "rubber-band": rubber_band, "selection": selection, "series": series,
-            "ranks-selection": ranks_selection,
+            "ranks-selection": ranks_selection, "batch-selection": batch_selection,
             "extract": extract, "looks": looks, "views": views,
             "state": state, "backends": backends,
             "first-hour": first_hour}

@@ -30,8 +30,8 @@ from scene import OUTPUT, POINTS, SIZE, STORE, Scene, require
 RANKS = servermanager.ActiveConnection.GetNumberOfDataPartitions()
 RECTANGLES = 50
 PICKS = 200 if RANKS == 1 else 50
-# Rectangles in which ParaView draws the points, too. On several ranks of pvbatch it selects only the
-# half of its own that lies on other ranks (docs/adr/0022).
+# Rectangles in which ParaView draws the points, too. On several ranks of pvbatch it selects only
+# those of its own that lie on other ranks (docs/adr/0022).
 COMPARED = 50 if RANKS == 1 else 10 if len(sys.argv) > 1 else 0
 # Of the points that a picture shows, those that are not selected, or selected and not shown. Found:
 # 0.03 %, of points whose depths or places are equal but for the last bits of a double.

@@ -72,6 +72,9 @@ struct FramePlan
   /// too, by back ends that can (SMOOTH-7). A complete view never keeps anything: its picture is
   /// the same whatever was seen before.
   bool keepsVisible = false;
+  /// Other processes draw the rest of the cloud, and the nearest of all is shown: the picture's
+  /// depths are those that decide who is seen, which lie behind a splat's plane towards its rim.
+  bool composited = false;
   FrameShading shading;
   std::vector<DrawBatch> batches;
 

@@ -16,6 +16,28 @@ constexpr float mostSpacings = 2.0f;
 /// A whole layer of fewer points is no surface: its points are as small as can be.
 constexpr std::size_t fewestOfSurface = 64;
 
+/// What closes the surface among the first `drawn` points of a node, before its neighbours are
+/// looked at.
+struct MeasuredRadius
+{
+  float spacing = 0.0f;     ///< between the points on screen
+  float radiusScale = 1.0f; ///< as PlanItem's
+  float closing = 0.0f;
+  bool unfinished = false;
+
+  template <typename Row> // Node or NodeColumns
+  MeasuredRadius(
+    const Row& row, std::uint32_t points, std::uint32_t drawn, bool leaf, float spacingRatio)
+    : spacing(static_cast<float>(prefixErrorPx(points, drawn, row.spacing, spacingRatio)))
+    , radiusScale(row.spacing > 0.0f ? std::max(1.0f, spacing / row.spacing) : 1.0f)
+    , unfinished(!leaf || drawn < points)
+  {
+    const float measured = std::min(row.splatRadius, mostSpacings * row.spacing);
+    const bool strays = row.parent == noNode && points < fewestOfSurface;
+    closing = strays ? 0.0f : measured > 0.0f ? measured * radiusScale : spacing;
+  }
+};
+
 /// The items of each layer that has a style, near to far.
 std::vector<std::vector<PlanItem>> itemsByLayer(
   const ViewFront& front, const std::vector<LayerStyles>& styles)
@@ -28,20 +50,35 @@ std::vector<std::vector<PlanItem>> itemsByLayer(
     {
       continue;
     }
-    const auto last = std::min(item.pointCount, static_cast<std::uint32_t>(node->size()));
-    const float spacing = prefixSpacing(*node, last, item.spacingRatio);
-    PlanItem planned{ std::move(node), 0, last, 1.0f, spacing };
-    const NodeColumns& columns = *planned.node;
-    planned.radiusScale =
-      columns.spacing > 0.0f ? std::max(1.0f, spacing / columns.spacing) : 1.0f;
-    const float measured = std::min(columns.splatRadius, mostSpacings * columns.spacing);
-    const bool strays = columns.parent == noNode && columns.size() < fewestOfSurface;
-    planned.unfinished = !columns.leaf || last < columns.size();
-    planned.closingRadius =
-      strays ? 0.0f : measured > 0.0f ? measured * planned.radiusScale : spacing;
-    items[columns.layer].push_back(std::move(planned));
+    const auto points = static_cast<std::uint32_t>(node->size());
+    const auto last = std::min(item.pointCount, points);
+    const MeasuredRadius radius(*node, points, last, node->leaf, item.spacingRatio);
+    PlanItem planned{ std::move(node), 0, last, 1.0f, radius.spacing };
+    planned.radiusScale = radius.radiusScale;
+    planned.unfinished = radius.unfinished;
+    planned.closingRadius = radius.closing;
+    items[planned.node->layer].push_back(std::move(planned));
   }
   return items;
+}
+
+/// What other processes draw of layers that have a style.
+std::vector<NodeElsewhere> nodesElsewhere(
+  const ViewFront& front, const std::vector<LayerStyles>& styles)
+{
+  std::vector<NodeElsewhere> nodes;
+  for (const OtherPieces::Drawn& drawn : front.drawnElsewhere())
+  {
+    const Node& row = drawn.row;
+    if (row.layer < styles.size() && !styles[row.layer].empty())
+    {
+      const MeasuredRadius radius(
+        row, row.pointCount, drawn.item.pointCount, row.leaf(), drawn.item.spacingRatio);
+      nodes.push_back({ drawn.item.node, row.parent, row.layer, drawn.item.pointCount,
+        radius.closing, radius.unfinished, row.box() });
+    }
+  }
+  return nodes;
 }
 
 } // namespace
@@ -70,6 +107,7 @@ FramePlan planFrame(
   plan.splatRadiusBase = description.splatRadiusBase;
   plan.spacingPx = static_cast<float>(front.last().thresholdPx);
   plan.keepsVisible = request.keepsVisible;
+  plan.composited = request.composited;
   plan.shading = std::move(request.shading);
   std::vector<std::vector<PlanItem>> items = itemsByLayer(front, request.styles);
   for (std::size_t layer = 0; layer < items.size(); ++layer)
@@ -82,7 +120,7 @@ FramePlan planFrame(
       }
     }
   }
-  matchNeighbours(plan.batches, plan.grid);
+  matchNeighbours(plan.batches, plan.grid, nodesElsewhere(front, request.styles));
   return plan;
 }
 

@@ -32,6 +32,7 @@ struct PlanRequest
   std::vector<glm::dvec4> clippingPlanes; ///< (n, d), store coordinates; as FramePlan's
   FrameShading shading;
   bool keepsVisible = false; ///< as FramePlan's: see leavesOut()
+  bool composited = false;   ///< as FramePlan's
   std::vector<LayerStyles> styles; ///< by number of the store's layer; beyond the list: hidden
 };
 

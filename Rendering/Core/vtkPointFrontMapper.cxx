@@ -255,6 +255,7 @@ pointfront::PlanRequest vtkPointFrontMapper::GetRequest(vtkRenderer* renderer, v
   pointfront::PlanRequest request;
   request.camera = pointfront::cameraOf(renderer, actor);
   request.clippingPlanes = pointfront::clippingPlanesOf(*this, actor);
+  request.composited = this->NumberOfStorePieces > 1;
   if (const auto sheet = this->GetStyleSheet())
   {
     request.shading = sheet->frameShading();

@@ -9,6 +9,7 @@
 #include <vtkTextureObject.h>
 
 #include <algorithm>
+#include <limits>
 #include <unordered_map>
 
 namespace pointfront
@@ -24,6 +25,16 @@ void load(vtkOpenGLRenderWindow* window, vtkTextureObject* texture, const Softwa
   texture->SetMagnificationFilter(vtkTextureObject::Nearest);
   texture->Create2DFromRaw(static_cast<unsigned int>(target.width),
     static_cast<unsigned int>(target.height), components, type, const_cast<void*>(data));
+}
+
+/// Makes the depths that decided those of the picture, now that it is shaded.
+void handDecided(SoftwareTarget& target)
+{
+  for (std::size_t pixel = 0; pixel < target.decided.size(); ++pixel)
+  {
+    const bool filled = target.decided[pixel] == std::numeric_limits<float>::infinity();
+    target.depth[pixel] = filled ? target.depth[pixel] : target.decided[pixel];
+  }
 }
 
 } // namespace
@@ -42,9 +53,14 @@ RasterStatistics SoftwarePicture::draw(
   plan.camera.height = std::max(1, viewport[3]);
   Picture& picture = pictures_[renderer];
   picture.target.keepPoints = ids;
+  picture.target.keepDecided = plan.composited;
   const RasterStatistics statistics =
     picture.composition.drawShown(picture.rasteriser, plan, picture.target);
   picture.composition.finish(plan.camera, plan.shading, picture.target);
+  if (plan.composited)
+  {
+    handDecided(picture.target);
+  }
   last_ = &picture.target;
   ids_.clear();
   if (ids)

@@ -214,6 +214,7 @@ void SplatPicture::resolve(vtkOpenGLRenderWindow* window, const FramePlan& plan)
   const double nearDepth = (clip[3][2] + clip[3][3]) / (clip[2][2] + clip[2][3]);
   const bool parallel = plan.camera.parallel;
   program->SetUniformf("depthShift", parallel ? static_cast<float>(nearDepth) : 0.0f);
+  program->SetUniformi("composited", plan.composited ? 1 : 0);
   program->SetUniformf(
     "octaveShift", parallel ? static_cast<float>(2.0 / clip[1][1] - nearDepth) : 0.0f);
   program->SetUniformf("eyeDomeStrength", eyeDomeGain * shading.eyeDomeStrength);

@@ -14,6 +14,8 @@
 #include <vtkMatrix4x4.h>
 #include <vtkObjectFactory.h>
 #include <vtkOpenGLError.h>
+#include <vtkOpenGLRenderWindow.h>
+#include <vtkOpenGLState.h>
 #include <vtkOpenGLVertexArrayObject.h>
 #include <vtkPolyData.h>
 #include <vtkRenderer.h>
@@ -139,6 +141,15 @@ void vtkOpenGLPointFrontPicture::RenderPieceDraw(vtkRenderer* ren, vtkActor* act
     {
       texture->Activate();
     }
+  }
+  if (ren->GetSelector())
+  {
+    // VTK selects points without a depth mask: it relies on the depths of the picture before. A
+    // renderer of a layer above clears them in its viewport, ParaView on a rank that shows what all
+    // drew; and what has no depth is nothing to those who composite by it.
+    static_cast<vtkOpenGLRenderWindow*>(ren->GetRenderWindow())
+      ->GetState()
+      ->vtkglDepthMask(GL_TRUE);
   }
   vtkOpenGLHelper& triangle = this->Primitives[PrimitiveTris];
   triangle.PrimitiveType = PrimitiveTris;

@@ -59,6 +59,10 @@ void put(const TranslucentPixel& nearest, SoftwareTarget& target, std::size_t pi
   if (target.depth[pixel] == nothingThere)
   {
     target.depth[pixel] = nearest.depth;
+    if (target.keepDecided)
+    {
+      target.decided[pixel] = nearest.target->decided[nearest.pixel];
+    }
   }
   if (!target.highlights.empty() && !nearest.target->highlights.empty())
   {
@@ -116,6 +120,7 @@ SoftwareTarget& SoftwareComposition::begin(const PlanPart& part, const FrameShad
       place = common(place, seen);
     }
     own.target.keepPoints = whole.keepPoints;
+    own.target.keepDecided = whole.keepDecided;
     own.target.reset(place);
   }
   return own.target;
@@ -241,6 +246,10 @@ void SoftwareComposition::putLens(std::int16_t number, const FrameCamera& camera
         const std::size_t from = inside ? placeIn(*inside, x, y) : 0;
         target.rgba[pixel] = inside ? inside->rgba[from] : 0;
         target.depth[pixel] = inside ? inside->depth[from] : nothingThere;
+        if (target.keepDecided)
+        {
+          target.decided[pixel] = inside ? inside->decided[from] : nothingThere;
+        }
         if (!target.highlights.empty())
         {
           target.highlights[pixel] =

@@ -36,6 +36,9 @@ struct SoftwareTarget
   int height = 0;
   std::vector<std::uint32_t> rgba;
   std::vector<float> depth;
+  /// What decided who is seen, in the units of depth; empty unless `keepDecided`. Pixels that were
+  /// filled later have none: infinity.
+  std::vector<float> decided;
   /// View-space normal, 3 x float a pixel, 0 where there is none; empty unless a plan asks for
   /// light.
   std::vector<float> normals;
@@ -44,6 +47,7 @@ struct SoftwareTarget
   /// Who is in each pixel; empty unless `keepPoints`.
   std::vector<PixelPoint> points;
   bool keepPoints = false;
+  bool keepDecided = false;
 
   PixelRectangle rectangle() const { return { left, bottom, left + width, bottom + height }; }
   /// Makes it that large and empty.
@@ -57,6 +61,7 @@ struct SoftwareTarget
     const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
     rgba.assign(pixels, 0);
     depth.assign(pixels, std::numeric_limits<float>::infinity());
+    decided.assign(keepDecided ? pixels : 0, std::numeric_limits<float>::infinity());
     normals.clear();
     highlights.clear();
     points.assign(keepPoints ? pixels : 0, PixelPoint());

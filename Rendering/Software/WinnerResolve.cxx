@@ -326,6 +326,10 @@ void WinnerResolve::resolve(
     const float eyeDepth = fromEye(*source_.items, depth);
     const bool nearer = eyeDepth < target.depth[pixel];
     put(item, j, winner, depth, target, pixel);
+    if (nearer && target.keepDecided)
+    {
+      target.decided[pixel] = fromEye(*source_.items, winner.keyDepth);
+    }
     if (nearer && source_.normals)
     {
       putNormal(item, j, winner, depth, &target.normals[3 * pixel]);

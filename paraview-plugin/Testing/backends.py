@@ -1,6 +1,6 @@
-"""pvbatch on any number of processes: every point, by each back end.
+"""pvbatch on any number of processes: each technique by each back end, of all points and of some.
 
-usage: pvbatch backends.py NAME      saves NAME-opengl.png and NAME-software.png
+usage: pvbatch backends.py NAME      saves NAME-TECHNIQUE-ERROR-BACKEND.png
 """
 
 import os
@@ -10,7 +10,7 @@ from paraview import simple
 
 simple.LoadPlugin(os.environ["POINTFRONT_PLUGIN"], remote=False, ns=globals())
 
-from scene import SIZE, Scene
+from scene import SIZE, Scene, require
 
 name = sys.argv[1]
 scene = Scene()
@@ -18,4 +18,11 @@ scene.view.ViewSize = SIZE
 scene.color_by(scene.display, "rgb")
 for backend in ("OpenGL", "Software"):
     scene.display.Backend = backend
-    scene.save_complete("%s-%s" % (name, backend.lower()))
+    for technique in ("points", "splats", "spheres", "ewa"):
+        scene.display.Technique = technique
+        scene.display.ClosingSize = technique != "points"
+        for error in (0.01, 2):
+            scene.display.TargetError = error
+            picture = "%s-%s-%g-%s" % (name, technique, error, backend.lower())
+            scene.save(picture)
+            require(scene.frame()[1], picture + " is not complete")

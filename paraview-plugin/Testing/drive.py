@@ -156,17 +156,22 @@ def ranks(programs):
 
 
 def backends(programs):
-    """Of points the same pictures on 1, 2 and 4 ranks, but for 0.1 % and two levels of 255.
+    """Of each technique the same pictures on 1, 2 and 4 ranks, but for 0.1 % and two levels of 255.
 
-    Splats are not compared: a rank that draws a coarse node does not know which finer ones others
-    draw over it, and its splats are too large.
+    But for what is blended: ranks are composited by depth, and their sums are not added up. Found:
+    2.7 % on four ranks.
     """
+    store = os.environ["POINTFRONT_STORE"] = os.path.abspath("small-nodes.pfront")
+    tool("build", os.environ["POINTFRONT_CLOUD"], "-o", store, "--node-points", "1000", "--force")
+    for old in glob.glob("backends-*.png"):
+        os.remove(old)
     for count in (1, 2, 4):
-        name = "backends-%d" % count
         programs.run(*mpi(count, os.environ["POINTFRONT_PVBATCH"],
-                          os.path.join(HERE, "backends.py"), name))
-        for way in ("opengl", "software"):
-            compare("%s-%s" % (name, way), "backends-1-" + way, channel=2)
+                          os.path.join(HERE, "backends.py"), "backends-%d" % count))
+        for picture in sorted(glob.glob("backends-1-*.png")):
+            way = picture[len("backends-1-"):-len(".png")]
+            compare("backends-%d-%s" % (count, way), "backends-1-" + way, channel=2,
+                    share=0.04 if way.startswith("ewa") else SHARE)
 
 
 def with_server(programs, script, *arguments):
@@ -367,6 +372,11 @@ def selection(programs):
     programs.run(os.environ["POINTFRONT_PVBATCH"], os.path.join(HERE, "selection.py"))
 
 
+def batch_selection(programs):
+    """On a rank that shows what all drew nothing is left of the depths that VTK relies on."""
+    programs.run(*mpi(2, os.environ["POINTFRONT_PVBATCH"], os.path.join(HERE, "selection.py")))
+
+
 def rubber_band(programs):
     """A flat square of points seen from above: what the rubber band covers is known."""
     with open("flat.ply", "w") as ply:
@@ -433,7 +443,7 @@ def main(way):
     ways = {"batch": batch, "classes": classes, "ranks": ranks, "server": server,
             "application": application, "colours": colours, "filtered": filtered,
             "rubber-band": rubber_band, "selection": selection, "series": series,
-            "ranks-selection": ranks_selection,
+            "ranks-selection": ranks_selection, "batch-selection": batch_selection,
             "extract": extract, "looks": looks, "views": views,
             "state": state, "backends": backends,
             "first-hour": first_hour}

@@ -17,6 +17,7 @@ uniform vec3 lightTowards[8];
 uniform vec3 lightColours[8];
 #endif
 uniform float depthShift;       // parallel: of the near plane
+uniform bool composited;        // with other processes' pictures, by what decided
 #if POINTFRONT_EYE_DOME
 uniform float eyeDomeStrength;  // with its gain
 uniform int eyeDomeReach;       // pixels
@@ -94,5 +95,6 @@ void main()
   colour = inBytes(colour * eyeDomeShade(at, depth));
 #endif
   gl_FragData[0] = vec4(colour, 1.0);
-  gl_FragData[1] = vec4(depth, 0.0, 0.0, 0.0);
+  float decided = texelFetch(seenDepths, at, 0).r + depthShift;
+  gl_FragData[1] = vec4(composited ? decided : depth, 0.0, 0.0, 0.0);
 }

@@ -8,6 +8,7 @@
 
 #include <atomic>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <sstream>
 #include <vector>
@@ -142,6 +143,44 @@ TEST(FramePlanner, GroupsAllThatTheFrontDrawsByLayer)
   EXPECT_EQ(plan.splatRadiusBase, 0.25);
   EXPECT_EQ(plan.grid.scale, glm::dvec3(0.01));
   EXPECT_EQ(plan.schema->size(), 1u);
+}
+
+TEST(FramePlanner, PiecesCloseTheSurfaceAsTheWholeDoes)
+{
+  Scene scene;
+  for (const double errorPx : { 0.01, 5.0 })
+  {
+    scene.demand.targetErrorPx = errorPx;
+    std::map<NodeIndex, PlanItem> wanted;
+    for (const DrawBatch& batch : scene.plan(errorPx).batches)
+    {
+      for (const PlanItem& item : batch.items)
+      {
+        wanted[item.node->node] = item;
+      }
+    }
+    ASSERT_TRUE(wanted.at(0).refined);
+    std::size_t seen = 0;
+    for (int number = 0; number < 3; ++number) // 0 and 3, 4 and 1, 5 and 2
+    {
+      ViewFront front(std::make_shared<HierarchyPiece>(scene.reader->table, number, 3),
+        scene.share, scene.schema, std::make_shared<WindowDemand>());
+      front.update(scene.demand);
+      for (const DrawBatch& batch : planFrame(front, scene.description, scene.request).batches)
+      {
+        for (const PlanItem& item : batch.items)
+        {
+          const PlanItem& whole = wanted.at(item.node->node);
+          EXPECT_EQ(item.closingRadius, whole.closingRadius) << item.node->node;
+          EXPECT_EQ(item.sparsestRadius, whole.sparsestRadius) << item.node->node;
+          EXPECT_EQ(item.refined, whole.refined) << item.node->node;
+          EXPECT_EQ(item.unfinished, whole.unfinished) << item.node->node;
+          ++seen;
+        }
+      }
+    }
+    EXPECT_EQ(seen, wanted.size());
+  }
 }
 
 TEST(FramePlanner, ItemsKeepTheOrderOfTheFront)

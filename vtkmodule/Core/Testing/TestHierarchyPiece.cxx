@@ -74,6 +74,30 @@ TEST(HierarchyPiece, OneOfOneIsTheHierarchyItself)
   EXPECT_EQ(piece.hierarchy(), whole);
 }
 
+TEST(HierarchyPiece, KnowsWhatItHas)
+{
+  for (const int pieces : { 1, 3, 200 })
+  {
+    const auto whole = fourLevels();
+    for (int number = 0; number < pieces; ++number)
+    {
+      const HierarchyPiece piece(whole, number, pieces);
+      std::set<NodeIndex> met;
+      for (const NodeIndex i : nodesOf(*piece.hierarchy()))
+      {
+        if (piece.hierarchy()->node(i).pointCount > 0)
+        {
+          met.insert(i);
+        }
+      }
+      for (NodeIndex i = 0; i < whole->nodeCount(); ++i)
+      {
+        EXPECT_EQ(piece.has(i), met.count(i) > 0) << i << ", piece " << number << " of " << pieces;
+      }
+    }
+  }
+}
+
 TEST(HierarchyPiece, PiecesHaveEachPointOnceAndAreBalanced)
 {
   const auto whole = fourLevels();

@@ -163,6 +163,38 @@ TEST(Selection, FindsNothingBehindOthers)
   scene.expectWhatIsShown("a wall in the sheet");
 }
 
+TEST(Selection, FindsTheNearestWhereALayerAboveClearsDepths)
+{
+  for (const int backend : {vtkPointFrontMapper::OPENGL, vtkPointFrontMapper::SOFTWARE})
+  {
+    NumberedSheet scene;
+    scene.mapper->SetBackend(backend);
+    vtkNew<vtkRenderer> corner; // as ParaView's orientation axes
+    corner->SetViewport(0.0, 0.0, 0.5, 0.5);
+    corner->SetLayer(1);
+    corner->InteractiveOff();
+    scene.window->SetNumberOfLayers(2);
+    scene.window->AddRenderer(corner);
+    const std::vector<int> expected = scene.shown();
+    vtkNew<vtkPointFrontMapper> behind; // drawn after it
+    behind->SetBackend(backend);
+    behind->SetPointSize(2.0);
+    behind->SetInputConnection(scene.reader->GetOutputPort());
+    vtkNew<vtkActor> second;
+    second->SetMapper(behind);
+    second->SetPosition(0.0, 0.0, -0.5);
+    scene.renderer->AddActor(second);
+    scene.draw();
+    const std::vector<int> found = scene.selected();
+    int lost = 0;
+    for (std::size_t i = 0; i < found.size(); ++i)
+    {
+      lost += expected[i] != 0 && found[i] != expected[i] ? 1 : 0;
+    }
+    EXPECT_EQ(lost, 0) << "back end " << backend;
+  }
+}
+
 TEST(Selection, IsThatOfTheCoincidentOffset)
 {
   const int before = vtkMapper::GetResolveCoincidentTopology();

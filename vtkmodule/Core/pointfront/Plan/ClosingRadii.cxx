@@ -19,26 +19,60 @@ constexpr double mostOfMean = 2.0;
 /// Of a node's ground, what another has to share to say how dense it is there.
 constexpr double leastShare = 0.25;
 
-struct LayeredItem
+/// A node's ground in world units.
+struct Ground
 {
-  PlanItem* item;
-  std::uint16_t layer;
-  NodeIndex node() const { return item->node->node; }
+  glm::dvec2 low;
+  glm::dvec2 high;
 };
 
-std::vector<LayeredItem> itemsOf(std::vector<DrawBatch>& batches)
+/// A node that is drawn, here or elsewhere, once however many styles draw it.
+struct DrawnNode
 {
-  std::vector<LayeredItem> items;
-  for (DrawBatch& batch : batches)
+  NodeIndex node;
+  NodeIndex parent;
+  std::uint16_t layer;
+  std::uint32_t points;
+  float closingRadius;
+  bool unfinished;
+  Ground ground;
+  float sparsestRadius = 0.0f;
+  bool refined = false;
+};
+
+Ground groundOf(const PlanItem& item, const QuantisationGrid& grid)
+{
+  const glm::dvec3 low = grid.toWorld(item.node->origin);
+  const glm::dvec3 size = 2.0 * glm::dvec3(item.node->halfSize);
+  return { { low.x, low.y }, { low.x + size.x, low.y + size.y } };
+}
+
+bool before(const DrawnNode& drawn, NodeIndex node) { return drawn.node < node; }
+
+std::vector<DrawnNode> nodesOf(const std::vector<DrawBatch>& batches,
+  const QuantisationGrid& grid, const std::vector<NodeElsewhere>& elsewhere)
+{
+  std::vector<DrawnNode> nodes;
+  for (const DrawBatch& batch : batches)
   {
-    for (PlanItem& item : batch.items)
+    for (const PlanItem& item : batch.items)
     {
-      items.push_back({ &item, batch.layer });
+      nodes.push_back({ item.node->node, item.node->parent, batch.layer, item.last - item.first,
+        item.closingRadius, item.unfinished, groundOf(item, grid) });
     }
   }
-  std::sort(items.begin(), items.end(),
-    [](const LayeredItem& a, const LayeredItem& b) { return a.node() < b.node(); });
-  return items;
+  for (const NodeElsewhere& other : elsewhere)
+  {
+    nodes.push_back({ other.node, other.parent, other.layer, other.points, other.closingRadius,
+      other.unfinished,
+      { { other.box.low.x, other.box.low.y }, { other.box.high.x, other.box.high.y } } });
+  }
+  std::stable_sort(nodes.begin(), nodes.end(),
+    [](const DrawnNode& a, const DrawnNode& b) { return a.node < b.node; });
+  nodes.erase(std::unique(nodes.begin(), nodes.end(),
+                [](const DrawnNode& a, const DrawnNode& b) { return a.node == b.node; }),
+    nodes.end());
+  return nodes;
 }
 
 /// What closes the surface among finer nodes, from those that are drawn: the largest of those that
@@ -66,16 +100,16 @@ struct FinerRadii
     sparsest = std::max(sparsest, other.sparsest);
     unfinished = unfinished || other.unfinished;
   }
-  static FinerRadii of(const PlanItem& item)
+  static FinerRadii of(const DrawnNode& drawn)
   {
     FinerRadii radii;
-    const double radius = item.closingRadius;
-    radii.sparsest = item.closingRadius;
-    radii.unfinished = item.unfinished;
-    radii.points = item.unfinished || radius == 0.0 ? 0.0 : double(item.last - item.first);
+    const double radius = drawn.closingRadius;
+    radii.sparsest = drawn.closingRadius;
+    radii.unfinished = drawn.unfinished;
+    radii.points = drawn.unfinished || radius == 0.0 ? 0.0 : double(drawn.points);
     radii.sum = radii.points * radius;
-    radii.largestFinished = item.unfinished ? 0.0f : item.closingRadius;
-    radii.leastUnfinished = item.unfinished ? item.closingRadius : 0.0f;
+    radii.largestFinished = drawn.unfinished ? 0.0f : drawn.closingRadius;
+    radii.leastUnfinished = drawn.unfinished ? drawn.closingRadius : 0.0f;
     return radii;
   }
   float closing() const
@@ -85,36 +119,34 @@ struct FinerRadii
   }
 };
 
-void refine(const std::vector<LayeredItem>& items)
+void refine(std::vector<DrawnNode>& nodes)
 {
-  std::vector<FinerRadii> finer(items.size());
+  std::vector<FinerRadii> finer(nodes.size());
   // Children stand behind their parents in every table: each is finished when it is passed on.
-  for (std::size_t child = items.size(); child-- > 0;)
+  for (std::size_t child = nodes.size(); child-- > 0;)
   {
-    PlanItem& item = *items[child].item;
-    const FinerRadii radii = item.refined ? finer[child] : FinerRadii::of(item);
-    item.sparsestRadius = radii.sparsest;
-    item.unfinished = radii.unfinished;
-    item.closingRadius = item.refined ? radii.closing() : item.closingRadius;
-    const NodeIndex parent = item.node->parent;
-    auto place = std::lower_bound(items.begin(), items.end(), parent,
-      [](const LayeredItem& other, NodeIndex node) { return other.node() < node; });
-    for (; place != items.end() && place->node() == parent; ++place)
+    DrawnNode& drawn = nodes[child];
+    const FinerRadii radii = drawn.refined ? finer[child] : FinerRadii::of(drawn);
+    drawn.sparsestRadius = radii.sparsest;
+    drawn.unfinished = radii.unfinished;
+    drawn.closingRadius = drawn.refined ? radii.closing() : drawn.closingRadius;
+    const auto parent = std::lower_bound(nodes.begin(), nodes.end(), drawn.parent, before);
+    if (parent != nodes.end() && parent->node == drawn.parent)
     {
-      place->item->refined = true;
-      finer[static_cast<std::size_t>(place - items.begin())].add(radii);
+      parent->refined = true;
+      finer[static_cast<std::size_t>(parent - nodes.begin())].add(radii);
     }
   }
 }
 
 /// The radius that half of all points have at most.
-float medianRadius(const std::vector<LayeredItem>& items)
+float medianRadius(const std::vector<DrawnNode>& nodes)
 {
   std::vector<std::pair<float, std::uint64_t>> radii;
   std::uint64_t points = 0;
-  for (const LayeredItem& one : items)
+  for (const DrawnNode& drawn : nodes)
   {
-    radii.emplace_back(one.item->closingRadius, one.item->last - one.item->first);
+    radii.emplace_back(drawn.closingRadius, drawn.points);
     points += radii.back().second;
   }
   std::sort(radii.begin(), radii.end());
@@ -130,19 +162,6 @@ float medianRadius(const std::vector<LayeredItem>& items)
   return 0.0f;
 }
 
-/// A node's ground in world units.
-struct Ground
-{
-  glm::dvec2 low;
-  glm::dvec2 high;
-};
-Ground groundOf(const PlanItem& item, const QuantisationGrid& grid)
-{
-  const glm::dvec3 low = grid.toWorld(item.node->origin);
-  const glm::dvec3 size = 2.0 * glm::dvec3(item.node->halfSize);
-  return { { low.x, low.y }, { low.x + size.x, low.y + size.y } };
-}
-
 bool shares(const Ground& mine, const Ground& other)
 {
   const glm::dvec2 common = glm::min(mine.high, other.high) - glm::max(mine.low, other.low);
@@ -150,44 +169,53 @@ bool shares(const Ground& mine, const Ground& other)
   return common.x > 0.0 && common.y > 0.0 && common.x * common.y >= leastShare * own.x * own.y;
 }
 
-void matchLayers(const std::vector<LayeredItem>& items, const QuantisationGrid& grid)
+void matchLayers(std::vector<DrawnNode>& nodes)
 {
-  const float median = medianRadius(items);
-  std::vector<Ground> grounds;
+  const float median = medianRadius(nodes);
   std::vector<float> radii; // as they are before any is changed
-  for (const LayeredItem& one : items)
+  for (const DrawnNode& drawn : nodes)
   {
-    grounds.push_back(groundOf(*one.item, grid));
-    radii.push_back(one.item->closingRadius);
+    radii.push_back(drawn.closingRadius);
   }
-  for (std::size_t i = 0; i < items.size(); ++i)
+  for (std::size_t i = 0; i < nodes.size(); ++i)
   {
     float densest = radii[i];
-    for (std::size_t j = 0; radii[i] > mostOfDenser * median && j < items.size(); ++j)
+    for (std::size_t j = 0; radii[i] > mostOfDenser * median && j < nodes.size(); ++j)
     {
-      if (items[j].layer != items[i].layer && radii[j] > 0.0f && radii[j] < densest &&
-        shares(grounds[i], grounds[j]))
+      if (nodes[j].layer != nodes[i].layer && radii[j] > 0.0f && radii[j] < densest &&
+        shares(nodes[i].ground, nodes[j].ground))
       {
         densest = radii[j];
       }
     }
-    PlanItem& item = *items[i].item;
-    item.closingRadius = std::min(radii[i], mostOfDenser * densest);
-    item.sparsestRadius = std::min(item.sparsestRadius, mostOfDenser * densest);
+    nodes[i].closingRadius = std::min(radii[i], mostOfDenser * densest);
+    nodes[i].sparsestRadius = std::min(nodes[i].sparsestRadius, mostOfDenser * densest);
   }
 }
 
 } // namespace
 
-void matchNeighbours(std::vector<DrawBatch>& batches, const QuantisationGrid& grid)
+void matchNeighbours(std::vector<DrawBatch>& batches, const QuantisationGrid& grid,
+  const std::vector<NodeElsewhere>& elsewhere)
 {
-  const std::vector<LayeredItem> items = itemsOf(batches);
-  refine(items);
-  const bool layered = std::any_of(batches.begin(), batches.end(),
-    [&](const DrawBatch& batch) { return batch.layer != batches.front().layer; });
+  std::vector<DrawnNode> nodes = nodesOf(batches, grid, elsewhere);
+  refine(nodes);
+  const bool layered = std::any_of(nodes.begin(), nodes.end(),
+    [&](const DrawnNode& drawn) { return drawn.layer != nodes.front().layer; });
   if (layered)
   {
-    matchLayers(items, grid);
+    matchLayers(nodes);
+  }
+  for (DrawBatch& batch : batches)
+  {
+    for (PlanItem& item : batch.items)
+    {
+      const auto drawn = std::lower_bound(nodes.begin(), nodes.end(), item.node->node, before);
+      item.closingRadius = drawn->closingRadius;
+      item.sparsestRadius = drawn->sparsestRadius;
+      item.refined = drawn->refined;
+      item.unfinished = drawn->unfinished;
+    }
   }
 }
 

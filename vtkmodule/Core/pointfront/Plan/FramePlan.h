@@ -53,11 +53,8 @@ struct DrawBatch
   std::vector<PlanItem> items;                ///< near to far, ties by node
 };
 
-/// One frame of one store, between the front and a back end: plain values, the same on every
-/// machine for the same view and the same nodes in memory.
-/// Order    a back end's picture does not depend on the order of batches, items or threads.
-/// Threads  a value.
-struct FramePlan
+/// What is true of a whole frame, whatever is drawn in it.
+struct FrameSetting
 {
   FrameCamera camera;
   /// (n, d) in store coordinates: points with n . p + d < 0 for any of them are not drawn.
@@ -73,7 +70,18 @@ struct FramePlan
   /// too, by back ends that can (SMOOTH-7). A complete view never keeps anything: its picture is
   /// the same whatever was seen before.
   bool keepsVisible = false;
+  /// Other processes draw the rest of the cloud, and the nearest of all is shown: the picture's
+  /// depths are those that decide who is seen, which lie behind a splat's plane towards its rim.
+  bool composited = false;
   FrameShading shading;
+};
+
+/// One frame of one store, between the front and a back end: plain values, the same on every
+/// machine for the same view and the same nodes in memory.
+/// Order    a back end's picture does not depend on the order of batches, items or threads.
+/// Threads  a value.
+struct FramePlan : FrameSetting
+{
   std::vector<DrawBatch> batches;
 
   /// Each point once, however many styles of its layer look at it.

@@ -17,6 +17,28 @@ constexpr float mostSpacings = 2.0f;
 /// A whole layer of fewer points is no surface: its points are as small as can be.
 constexpr std::size_t fewestOfSurface = 64;
 
+/// What closes the surface among the first `drawn` points of a node, before its neighbours are
+/// looked at.
+struct MeasuredRadius
+{
+  float spacing = 0.0f;     ///< between the points on screen
+  float radiusScale = 1.0f; ///< as PlanItem's
+  float closing = 0.0f;
+  bool unfinished = false;
+
+  template <typename Row> // Node or NodeColumns
+  MeasuredRadius(
+    const Row& row, std::uint32_t points, std::uint32_t drawn, bool leaf, float spacingRatio)
+    : spacing(static_cast<float>(prefixErrorPx(points, drawn, row.spacing, spacingRatio)))
+    , radiusScale(row.spacing > 0.0f ? std::max(1.0f, spacing / row.spacing) : 1.0f)
+    , unfinished(!leaf || drawn < points)
+  {
+    const float measured = std::min(row.splatRadius, mostSpacings * row.spacing);
+    const bool strays = row.parent == noNode && points < fewestOfSurface;
+    closing = strays ? 0.0f : measured > 0.0f ? measured * radiusScale : spacing;
+  }
+};
+
 /// Of what is seen in a lens only, what can be.
 void keepWhatIsSeen(const FramePlan& plan, DrawBatch& batch)
 {
@@ -40,14 +62,12 @@ PlanItem itemOf(std::shared_ptr<const NodeColumns> node, const DetailGrowth::Sho
   item.node = std::move(node);
   item.last = shown.points;
   item.growth = shown.growth;
-  item.spacing = prefixSpacing(columns, shown.spread, spacingRatio);
-  item.radiusScale =
-    columns.spacing > 0.0f ? std::max(1.0f, item.spacing / columns.spacing) : 1.0f;
-  const float measured = std::min(columns.splatRadius, mostSpacings * columns.spacing);
-  const bool strays = columns.parent == noNode && columns.size() < fewestOfSurface;
-  item.unfinished = !columns.leaf || shown.points < columns.size();
-  item.closingRadius =
-    strays ? 0.0f : measured > 0.0f ? measured * item.radiusScale : item.spacing;
+  const auto points = static_cast<std::uint32_t>(columns.size());
+  const MeasuredRadius radius(columns, points, shown.spread, columns.leaf, spacingRatio);
+  item.spacing = radius.spacing;
+  item.radiusScale = radius.radiusScale;
+  item.unfinished = !columns.leaf || shown.points < points;
+  item.closingRadius = radius.closing;
   return item;
 }
 
@@ -103,6 +123,25 @@ std::vector<DrawBatch> batchesOfLayers(const ViewFront& front, const PlanRequest
   return batches;
 }
 
+/// What other processes draw of layers that have a style.
+std::vector<NodeElsewhere> nodesElsewhere(
+  const ViewFront& front, const std::vector<LayerStyles>& styles)
+{
+  std::vector<NodeElsewhere> nodes;
+  for (const OtherPieces::Drawn& drawn : front.drawnElsewhere())
+  {
+    const Node& row = drawn.row;
+    if (row.layer < styles.size() && !styles[row.layer].empty())
+    {
+      const MeasuredRadius radius(
+        row, row.pointCount, drawn.item.pointCount, row.leaf(), drawn.item.spacingRatio);
+      nodes.push_back({ drawn.item.node, row.parent, row.layer, drawn.item.pointCount,
+        radius.closing, radius.unfinished, row.box() });
+    }
+  }
+  return nodes;
+}
+
 } // namespace
 
 float prefixSpacing(const NodeColumns& node, std::uint32_t drawn, float spacingRatio)
@@ -129,9 +168,10 @@ FramePlan planFrame(
   plan.splatRadiusBase = description.splatRadiusBase;
   plan.spacingPx = static_cast<float>(front.last().thresholdPx);
   plan.keepsVisible = request.keepsVisible;
+  plan.composited = request.composited;
   plan.shading = std::move(request.shading);
   std::vector<DrawBatch> layers = batchesOfLayers(front, request);
-  matchNeighbours(layers, plan.grid);
+  matchNeighbours(layers, plan.grid, nodesElsewhere(front, request.styles));
   for (const DrawBatch& layer : layers)
   {
     for (const std::shared_ptr<const ResolvedStyle>& style : request.styles[layer.layer])

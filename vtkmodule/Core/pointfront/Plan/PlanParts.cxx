@@ -18,20 +18,6 @@ PlanPart partOf(const ResolvedStyle& style)
   return part;
 }
 
-FramePlan withoutBatches(const FramePlan& plan)
-{
-  FramePlan empty;
-  empty.camera = plan.camera;
-  empty.clippingPlanes = plan.clippingPlanes;
-  empty.grid = plan.grid;
-  empty.schema = plan.schema;
-  empty.splatRadiusBase = plan.splatRadiusBase;
-  empty.spacingPx = plan.spacingPx;
-  empty.keepsVisible = plan.keepsVisible;
-  empty.shading = plan.shading;
-  return empty;
-}
-
 } // namespace
 
 bool isComposed(const FramePlan& plan)
@@ -43,7 +29,7 @@ bool isComposed(const FramePlan& plan)
 std::vector<PlanPart> partsOf(const FramePlan& plan)
 {
   std::vector<PlanPart> parts;
-  const FramePlan empty = withoutBatches(plan);
+  const FrameSetting& setting = plan;
   const auto find = [&](PlanPart like) -> PlanPart&
   {
     const auto place = std::lower_bound(parts.begin(), parts.end(), like);
@@ -51,7 +37,7 @@ std::vector<PlanPart> partsOf(const FramePlan& plan)
     {
       return *place;
     }
-    like.plan = empty;
+    static_cast<FrameSetting&>(like.plan) = setting;
     return *parts.insert(place, std::move(like));
   };
   find(PlanPart());

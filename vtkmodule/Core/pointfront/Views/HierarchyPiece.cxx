@@ -16,8 +16,10 @@ constexpr std::uint64_t unitsPerPiece = 8;
 
 using ChangedRows = std::unordered_map<NodeIndex, Node>;
 
+} // namespace
+
 /// A table seen through some changed rows.
-class ChangedTable final : public Hierarchy
+class HierarchyPiece::ChangedTable final : public Hierarchy
 {
 public:
   ChangedTable(
@@ -64,11 +66,41 @@ public:
   std::optional<Error> fault() const override { return whole_->fault(); }
   std::vector<Error> takeFaults() const override { return whole_->takeFaults(); }
 
+  /// Up from a node to the first changed row, or a root: all below is the piece's, or nothing.
+  bool has(NodeIndex index) const
+  {
+    const auto own = changed_.find(index);
+    if (own != changed_.end())
+    {
+      return own->second.pointCount > 0;
+    }
+    Node row;
+    while (whole_->peek(index, row) == RowState::Here)
+    {
+      if (row.parent == noNode)
+      {
+        return std::find(roots_.begin(), roots_.end(), index) != roots_.end();
+      }
+      const auto above = changed_.find(row.parent);
+      if (above != changed_.end())
+      {
+        const Node& kept = above->second;
+        return kept.childCount > 0 && index >= kept.firstChild &&
+          index - kept.firstChild < kept.childCount;
+      }
+      index = row.parent;
+    }
+    return false;
+  }
+
 private:
   std::shared_ptr<const Hierarchy> whole_;
   ChangedRows changed_;
   std::vector<NodeIndex> roots_;
 };
+
+namespace
+{
 
 /// Walks depth first and gives every unit (a small subtree, or the own points of a node above them)
 /// to the piece in which its middle point lies. Pieces follow each other in that order, so those
@@ -156,16 +188,18 @@ private:
 } // namespace
 
 HierarchyPiece::HierarchyPiece(std::shared_ptr<const Hierarchy> whole, int piece, int pieces)
+    : whole_(std::move(whole)), part_(whole_)
 {
   assert(pieces >= 1 && piece >= 0 && piece < pieces);
-  if (pieces == 1)
+  if (pieces > 1)
   {
-    part_ = std::move(whole);
-    return;
+    PieceChoice choice(*whole_, piece, pieces);
+    changed_ = std::make_shared<ChangedTable>(
+      whole_, std::move(choice.rows), std::move(choice.roots));
+    part_ = changed_;
   }
-  PieceChoice choice(*whole, piece, pieces);
-  part_ = std::make_shared<ChangedTable>(
-    std::move(whole), std::move(choice.rows), std::move(choice.roots));
 }
+
+bool HierarchyPiece::has(NodeIndex node) const { return !changed_ || changed_->has(node); }
 
 } // namespace pointfront

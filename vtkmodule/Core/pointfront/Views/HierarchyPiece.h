@@ -24,9 +24,18 @@ public:
   HierarchyPiece(std::shared_ptr<const Hierarchy> whole, int piece, int pieces);
 
   const std::shared_ptr<const Hierarchy>& hierarchy() const { return part_; }
+  const std::shared_ptr<const Hierarchy>& whole() const { return whole_; }
+  bool isWhole() const { return part_ == whole_; }
+
+  /// Whether this piece has points of a node of the whole hierarchy. False while rows between the
+  /// node and its root are not in memory: does not wait.
+  bool has(NodeIndex node) const;
 
 private:
+  class ChangedTable;
+  std::shared_ptr<const Hierarchy> whole_;
   std::shared_ptr<const Hierarchy> part_;
+  std::shared_ptr<const ChangedTable> changed_; ///< null: the whole hierarchy
 };
 
 } // namespace pointfront

@@ -59,7 +59,9 @@ ViewFront::ViewFront(std::shared_ptr<const HierarchyPiece> piece, ResidencyShare
   const AttributeSchema& schema, std::shared_ptr<const WindowDemand> window)
     : piece_(std::move(piece)), share_(share), schema_(schema), wish_(share.join()),
       residents_(std::make_unique<Residents>(share.residency())),
-      selection_(std::make_unique<RenderFront>(piece_->hierarchy())), margin_(piece_->hierarchy()),
+      selection_(std::make_unique<RenderFront>(piece_->hierarchy())),
+      others_(piece_->isWhole() ? nullptr : std::make_unique<OtherPieces>(piece_)),
+      margin_(piece_->hierarchy()),
       memory_(share.residency().scheduler().sharedDemand()),
       window_(std::make_unique<WindowClaims>(std::move(window)))
 {
@@ -120,7 +122,17 @@ const FrontDelta& ViewFront::update(const FrameDemand& demand)
       step(demand);
     }
   }
+  if (others_ && method_ == DetailMethod::RenderingFront)
+  {
+    others_->update(demand.view, limits_, delta_.thresholdPx, demand.complete);
+  }
   return delta_;
+}
+
+const std::vector<OtherPieces::Drawn>& ViewFront::drawnElsewhere() const
+{
+  static const std::vector<OtherPieces::Drawn> nothing;
+  return others_ && method_ == DetailMethod::RenderingFront ? others_->drawn() : nothing;
 }
 
 /// Bytes of a decoded point of the layer that has most of them: whichever layers the view shows,

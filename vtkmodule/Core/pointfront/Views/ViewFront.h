@@ -1,6 +1,7 @@
 #pragma once
 
 #include "pointfront/Views/HierarchyPiece.h"
+#include "pointfront/Views/OtherPieces.h"
 #include "pointfront/Residency/ResidencyShare.h"
 #include "pointfront/Views/WindowDemand.h"
 
@@ -60,6 +61,10 @@ public:
   const FrontDelta& update(const FrameDemand& demand);
   const FrontDelta& last() const { return delta_; }
 
+  /// What other processes draw of the last update's view beside this piece; empty for a whole
+  /// hierarchy, and with DetailMethod::ViewSpecific, whose pieces choose levels of their own.
+  const std::vector<OtherPieces::Drawn>& drawnElsewhere() const;
+
   /// Nobody sees it until the next update: its part of all that is shared goes to the others, what
   /// it has loaded stays as long as nobody wants the memory.
   void leave();
@@ -116,6 +121,7 @@ private:
   std::unique_ptr<Residents> residents_;
   DetailMethod method_ = DetailMethod::RenderingFront;
   std::unique_ptr<DetailSelection> selection_;
+  std::unique_ptr<OtherPieces> others_; ///< null for a whole hierarchy
   MotionMargin margin_;
   FrameCostModel cost_;
   std::uint64_t beside_ = 0;

@@ -94,14 +94,46 @@ void encodeLengths(const std::byte* column, const Attribute& attribute, std::uin
     });
 }
 
+/// Final colours, and in alpha the number of the style that draws the point.
+void encodeMarked(const LayerStreams::Styles& styles, const FramePlan& plan,
+  const NodeColumns& node, std::uint32_t first, std::uint32_t count,
+  std::vector<std::uint32_t>& values)
+{
+  const std::size_t begin = values.size();
+  values.resize(begin + count, hiddenMark << 24);
+  std::vector<std::uint8_t> keep(count);
+  std::vector<std::uint32_t> colours(count);
+  for (std::size_t number = 0; number < styles.size(); ++number)
+  {
+    const ResolvedStyle& style = *styles[number];
+    std::fill(keep.begin(), keep.end(), std::uint8_t(1));
+    if (!style.filter.empty())
+    {
+      style.filter.evaluate(node, *plan.schema, first, count, keep.data());
+    }
+    const StyleColours tables(style, *plan.schema);
+    PointColours(plan, style, tables, node).fill(first, static_cast<int>(count), colours.data());
+    for (std::uint32_t i = 0; i < count; ++i)
+    {
+      const std::uint32_t marked =
+        (colours[i] & 0xffffffu) | static_cast<std::uint32_t>(number) << 24;
+      values[begin + i] = keep[i] != 0 ? marked : values[begin + i];
+    }
+  }
+}
+
 } // namespace
 
 LayerStreams::LayerStreams(Styles styles)
-  : styles_(std::move(styles))
-  , streams_(GpuStreams::of(styles_))
+  : streams_(GpuStreams::of(styles))
 {
-  for (const auto& style : styles_)
+  for (const auto& style : styles)
   {
+    if (style->lens >= static_cast<int>(gpuLenses))
+    {
+      continue;
+    }
+    sets_[valueSetOf(*style)].push_back(style);
     normal_ = normal_ ? normal_ : style->normalColumn;
     radius_ = radius_ ? radius_ : style->radiusColumn;
     if (style->size.mode == SplatSize::Mode::Attribute)
@@ -118,6 +150,7 @@ bool LayerStreams::canDraw(const Styles& styles)
   bool one = styles.size() < hiddenMark;
   for (const auto& style : styles)
   {
+    one = one && style->lens < static_cast<int>(gpuLenses);
     if (style->size.mode == SplatSize::Mode::Attribute)
     {
       one = one && (!size || *size == style->size.column);
@@ -129,9 +162,18 @@ bool LayerStreams::canDraw(const Styles& styles)
 
 int LayerStreams::markOf(const ResolvedStyle& style) const
 {
+  const std::size_t set = valueSetOf(style);
+  const Styles& styles = sets_[set];
   const auto place = std::find_if(
-    styles_.begin(), styles_.end(), [&](const auto& each) { return each.get() == &style; });
-  return static_cast<int>(place - styles_.begin());
+    styles.begin(), styles.end(), [&](const auto& each) { return each.get() == &style; });
+  return streams_.marked[set] ? static_cast<int>(place - styles.begin()) : -1;
+}
+
+const LayerStreams::Styles& LayerStreams::stylesOf(GpuStream stream) const
+{
+  const auto number = static_cast<std::size_t>(stream);
+  const auto lenses = static_cast<std::size_t>(GpuStream::Lenses);
+  return sets_[stream == GpuStream::Value ? 0 : number - lenses + 1];
 }
 
 bool LayerStreams::fillsAs(const LayerStreams& other, GpuStream stream) const
@@ -151,12 +193,19 @@ bool LayerStreams::fillsAs(const LayerStreams& other, GpuStream stream) const
     default:
       break;
   }
-  if (!streams_.marked && !other.streams_.marked)
+  const Styles& mine = stylesOf(stream);
+  const Styles& others = other.stylesOf(stream);
+  if (mine.empty() || others.empty())
   {
-    return styles_.empty() || styles_[0]->colouring == other.styles_[0]->colouring;
+    return mine.empty() && others.empty();
   }
-  return streams_.marked == other.streams_.marked &&
-    std::equal(styles_.begin(), styles_.end(), other.styles_.begin(), other.styles_.end(),
+  const std::size_t set = valueSetOf(*mine.front());
+  if (!streams_.marked[set] && !other.streams_.marked[set])
+  {
+    return mine.front()->colouring == others.front()->colouring;
+  }
+  return streams_.marked[set] == other.streams_.marked[set] &&
+    std::equal(mine.begin(), mine.end(), others.begin(), others.end(),
       [](const auto& a, const auto& b) { return coloursAs(*a, *b); });
 }
 
@@ -171,8 +220,12 @@ bool LayerStreams::coveredBy(const NodeColumns& node, GpuStream stream) const
     case GpuStream::Height:
       return columnOf(node, height_) != nullptr;
     default:
-      return streams_.marked ? covers(node, markedColumns(styles_))
-                             : styles_[0]->colouring.coveredBy(node);
+    {
+      const Styles& styles = stylesOf(stream);
+      return streams_.marked[valueSetOf(*styles.front())]
+        ? covers(node, markedColumns(styles))
+        : styles.front()->colouring.coveredBy(node);
+    }
   }
 }
 
@@ -191,35 +244,12 @@ void LayerStreams::encode(GpuStream stream, const FramePlan& plan, const NodeCol
       encodeLengths(columnOf(node, height_), (*plan.schema)[*height_], first, count, values);
       break;
     default:
-      streams_.marked
-        ? encodeMarked(plan, node, first, count, values)
-        : styles_[0]->colouring.encode(node, *plan.schema, first, count, values);
+    {
+      const Styles& styles = stylesOf(stream);
+      streams_.marked[valueSetOf(*styles.front())]
+        ? encodeMarked(styles, plan, node, first, count, values)
+        : styles.front()->colouring.encode(node, *plan.schema, first, count, values);
       break;
-  }
-}
-
-void LayerStreams::encodeMarked(const FramePlan& plan, const NodeColumns& node,
-  std::uint32_t first, std::uint32_t count, std::vector<std::uint32_t>& values) const
-{
-  const std::size_t begin = values.size();
-  values.resize(begin + count, hiddenMark << 24);
-  std::vector<std::uint8_t> keep(count);
-  std::vector<std::uint32_t> colours(count);
-  for (std::size_t number = 0; number < styles_.size(); ++number)
-  {
-    const ResolvedStyle& style = *styles_[number];
-    std::fill(keep.begin(), keep.end(), std::uint8_t(1));
-    if (!style.filter.empty())
-    {
-      style.filter.evaluate(node, *plan.schema, first, count, keep.data());
-    }
-    const StyleColours tables(style, *plan.schema);
-    PointColours(plan, style, tables, node).fill(first, static_cast<int>(count), colours.data());
-    for (std::uint32_t i = 0; i < count; ++i)
-    {
-      const std::uint32_t marked =
-        (colours[i] & 0xffffffu) | static_cast<std::uint32_t>(number) << 24;
-      values[begin + i] = keep[i] != 0 ? marked : values[begin + i];
     }
   }
 }

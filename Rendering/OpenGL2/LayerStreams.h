@@ -4,6 +4,7 @@
 #include "pointfront/Store/NodeReader.h"
 #include "pointfront/Style/GpuStreams.h"
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -24,7 +25,7 @@ public:
 
   const GpuStreams& streams() const { return streams_; }
   bool has(GpuStream stream) const { return streams_.has(stream); }
-  /// Alpha of the points that this style draws, where the layer has marks (GpuStreams).
+  /// Alpha of the points that this style draws, where its set has marks (GpuStreams); else -1.
   int markOf(const ResolvedStyle& style) const;
   /// What was made for the other one is what this one makes.
   bool fillsAs(const LayerStreams& other, GpuStream stream) const;
@@ -34,16 +35,16 @@ public:
   void encode(GpuStream stream, const FramePlan& plan, const NodeColumns& node,
     std::uint32_t first, std::uint32_t count, std::vector<std::uint32_t>& values) const;
 
-  /// Marks are of 8 bits, and one column of sizes serves all styles of a layer.
+  /// Marks are of 8 bits, one column of sizes serves all styles of a layer, and so many lenses have
+  /// streams.
   static bool canDraw(const Styles& styles);
 
 private:
-  void encodeMarked(const FramePlan& plan, const NodeColumns& node, std::uint32_t first,
-    std::uint32_t count, std::vector<std::uint32_t>& values) const;
+  const Styles& stylesOf(GpuStream stream) const;
   void encodeShapes(const FramePlan& plan, const NodeColumns& node, std::uint32_t first,
     std::uint32_t count, std::vector<std::uint32_t>& values) const;
 
-  Styles styles_;
+  std::array<Styles, gpuValueSets> sets_; ///< valueSetOf()
   GpuStreams streams_;
   std::optional<std::uint32_t> normal_; ///< columns of the store
   std::optional<std::uint32_t> radius_;

@@ -17,7 +17,7 @@ namespace pointfront
 class SplatAttributes
 {
 public:
-  SplatAttributes(vtkShaderProgram* program, PointColouring::Kind colour)
+  SplatAttributes(vtkShaderProgram* program, PointColouring::Kind colour, GpuStream values)
     : positions_(locationOf(program, "positionSteps"))
     , values_(locationOf(
         program, colour == PointColouring::Kind::Direct ? "pointColour" : "pointValue"))
@@ -25,6 +25,7 @@ public:
     , sizes_(locationOf(program, "pointSize"))
     , heights_(locationOf(program, "pointHeight"))
     , colours_(colour == PointColouring::Kind::Direct)
+    , valueStream_(values)
   {
   }
   ~SplatAttributes()
@@ -45,7 +46,7 @@ public:
   {
     integers(positions_, 3, block.positionBuffer());
     numbers(values_, colours_ ? 4 : 1, colours_ ? GL_UNSIGNED_BYTE : GL_FLOAT,
-      block.buffer(GpuStream::Value));
+      block.buffer(valueStream_));
     integers(shapes_, 1, block.buffer(GpuStream::Shape));
     numbers(sizes_, 1, GL_FLOAT, block.buffer(GpuStream::Size));
     numbers(heights_, 1, GL_FLOAT, block.buffer(GpuStream::Height));
@@ -86,6 +87,7 @@ private:
   GLint sizes_;
   GLint heights_;
   bool colours_;
+  GpuStream valueStream_;
 };
 
 } // namespace pointfront

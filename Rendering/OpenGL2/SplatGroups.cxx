@@ -122,7 +122,9 @@ std::int64_t SplatGroups::add(const RasterItems& items, const RasterItem& item,
   const LayerStreams& layer = pool.streamsOf(node.layer);
   std::uint32_t end = entry ? std::min(item.item->last, entry->points) : 0;
   // What a mark is missing of is not shown unasked.
-  end = layer.streams().marked && entry ? std::min(end, entry->values(GpuStream::Value)) : end;
+  const GpuStream values = valueStreamOf(valueSetOf(*item.style));
+  const int mark = layer.markOf(*item.style);
+  end = mark >= 0 && entry ? std::min(end, entry->values(values)) : end;
   if (end <= item.item->first)
   {
     return 0;
@@ -130,7 +132,7 @@ std::int64_t SplatGroups::add(const RasterItems& items, const RasterItem& item,
   const auto isThere = [&](GpuStream stream)
   { return layer.has(stream) && entry->values(stream) >= end; };
   SlotRecords::Record record = recordOf(item, items.plan());
-  record.coloured = isThere(GpuStream::Value);
+  record.coloured = isThere(values);
   record.shaped = isThere(GpuStream::Shape);
   record.sized = isThere(GpuStream::Size);
   records.set(entry->slots, record);
@@ -140,7 +142,6 @@ std::int64_t SplatGroups::add(const RasterItems& items, const RasterItem& item,
     return 0; // heights are on their way
   }
   const bool quads = walls || largestSplat(item, items) > largestPointPx;
-  const int mark = layer.streams().marked ? layer.markOf(*item.style) : -1;
   listed_.push_back({ { &items, &item, record.shaped, record.sized, quads, mark, {}, {} }, entry,
     record, end, 0 });
   return walls ? 0 : end - item.item->first;

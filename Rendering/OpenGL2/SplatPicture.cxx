@@ -1,13 +1,7 @@
 #include "SplatPicture.h"
 
-#include "ColourTable.h"
-#include "DrawBatches.h"
-#include "GpuPool.h"
 #include "PerWindow.h"
-#include "RasterItems.h"
-#include "SoftwareRasteriser.h"
-#include "SplatAttributes.h"
-#include "SplatUniforms.h"
+#include "SoftwareComposition.h"
 #include "TargetState.h"
 #include "vtkOpenGLPointFrontPicture.h"
 
@@ -15,251 +9,190 @@
 
 #include <vtkOpenGLRenderWindow.h>
 #include <vtkOpenGLState.h>
-#include <vtkOpenGLVertexArrayObject.h>
-#include <vtkRenderer.h>
-#include <vtkShaderProgram.h>
-#include <vtkTextureObject.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace pointfront
 {
 namespace
 {
 
-constexpr std::size_t mostLights = 8;
-
-SplatVariant variantOf(
-  const SplatGroups::Group& group, const SplatTarget::Parts& parts, bool second)
+bool isSeveral(const FramePlan& plan)
 {
-  const RasterItem& item = *group.first;
-  const ResolvedStyle& style = *item.style;
-  SplatVariant variant;
-  variant.square = item.passes.squares;
-  variant.shape = second ? item.passes.second.shape : item.passes.first.shape;
-  variant.parallel = item.camera.parallel;
-  variant.second = second;
-  variant.marked = group.mark >= 0;
-  variant.colour = variant.marked ? PointColouring::Kind::Direct : style.colouring.kind;
-  variant.shaped = group.shaped;
-  variant.normals = !item.passes.walls() &&
-    group.shaped && style.normalColumn && style.orientation == SplatOrientation::Normal;
-  variant.radius = radiusSourceOf(item, group.shaped, group.sized);
-  variant.lit = parts.lit && !second;
-  variant.ids = parts.ids && !second;
-  variant.quads = group.quads;
-  return variant;
+  return isComposed(plan) || !plan.shading.lenses.empty() || !plan.shading.highlights.empty();
 }
 
-void setTexture(vtkShaderProgram* program, const char* name, vtkTextureObject* texture)
+/// Pixels of the viewport that a lens can cover, and those around them that light looks at.
+PixelRectangle limitsOf(const PlanPart& part, const FramePlan& plan)
 {
-  if (program->IsUniformUsed(name))
+  const PixelRectangle viewport{ 0, 0, plan.camera.width, plan.camera.height };
+  const auto lens = static_cast<std::size_t>(std::max<std::int16_t>(part.lens, 0));
+  if (part.lens < 0 || lens >= plan.shading.lenses.size())
   {
-    texture->Activate();
-    program->SetUniformi(name, texture->GetTextureUnit());
+    return viewport;
   }
+  const std::array<int, 4> e =
+    plan.shading.lenses[lens].extent(plan.camera.width, plan.camera.height);
+  const int reach = SoftwareComposition::reachPx(plan.shading);
+  return common(viewport, { e[0] - reach, e[1] - reach, e[2] + reach, e[3] + reach });
 }
 
 } // namespace
 
-SplatPicture::SplatPicture() = default;
+SplatPicture::SplatPicture()
+  : main_(tools_)
+{
+}
+
 SplatPicture::~SplatPicture() = default;
 
 std::int64_t SplatPicture::draw(vtkOpenGLRenderWindow* window, vtkRenderer* renderer,
   FramePlan& plan, const GpuPool& pool, const TableOf& tableOf, bool ids)
 {
-  vtkOpenGLState* const state = window->GetState();
   int viewport[4];
-  state->vtkglGetIntegerv(GL_VIEWPORT, viewport);
+  window->GetState()->vtkglGetIntegerv(GL_VIEWPORT, viewport);
   originPx_[0] = viewport[0];
   originPx_[1] = viewport[1];
   plan.camera.width = std::max(1, viewport[2]);
   plan.camera.height = std::max(1, viewport[3]);
-  float sizes[2] = { 1.0f, 1.0f };
-  glGetFloatv(GL_POINT_SIZE_RANGE, sizes);
-  target_ = perWindow<SplatTarget>(window);
-  const bool mine = target_->owner() == this && renderer_ == renderer && parts_.ids == ids &&
-    parts_.lit == plan.shading.lit;
-  const std::int64_t points = groups_.list(plan, pool, sizes[1], mine, records_);
-  parts_ = { plan.camera.width, plan.camera.height, plan.shading.lit, ids, groups_.blended() };
-  if (points == 0 || groups_.shown().empty())
+  const SplatFrame frame{ window, renderer, &pool, tableOf, ids };
+  if (isSeveral(plan))
   {
-    groups_.forget();
-    return points;
+    return drawParts(frame, plan);
   }
-  const bool goesOn = groups_.goesOn() && target_->has(parts_);
-  if (!target_->prepare(window, parts_))
+  if (!further_.empty())
   {
-    groups_.forget();
+    for (FurtherPart& part : further_)
+    {
+      part.part->release(window);
+    }
+    further_.clear();
+    composition_.release(window);
+  }
+  const std::int64_t points = main_.draw(frame, plan, perWindow<SplatTarget>(window), nullptr);
+  shown_ = points > 0 ? main_.shown() : PixelRectangle();
+  picture_ = shown_.empty() ? SplatTextures() : main_.picture();
+  // Each point once, though several styles of a layer may draw it.
+  return std::min(points, static_cast<std::int64_t>(plan.pointCount()));
+}
+
+SplatPicture::FurtherPart& SplatPicture::furtherPart(const PlanPart& like)
+{
+  const auto found = std::find_if(further_.begin(), further_.end(),
+    [&](const FurtherPart& part)
+    { return part.lens == like.lens && part.mask == like.mask && part.group == like.group; });
+  if (found != further_.end())
+  {
+    return *found;
+  }
+  further_.push_back({ like.lens, like.mask, like.group, like.opacity, false,
+    std::make_shared<SplatTarget>(), std::make_unique<SplatPart>(tools_) });
+  return further_.back();
+}
+
+const SplatPicture::FurtherPart* SplatPicture::find(std::int16_t lens, bool mask) const
+{
+  const auto found = std::find_if(further_.begin(), further_.end(),
+    [&](const FurtherPart& part)
+    { return part.drawn && part.lens == lens && part.mask == mask && part.group == 0; });
+  return found == further_.end() ? nullptr : &*found;
+}
+
+std::int64_t SplatPicture::drawParts(const SplatFrame& frame, const FramePlan& plan)
+{
+  for (FurtherPart& part : further_)
+  {
+    part.drawn = false;
+  }
+  const PixelRectangle viewport{ 0, 0, plan.camera.width, plan.camera.height };
+  std::int64_t points = 0;
+  shown_ = {};
+  for (PlanPart& part : partsOf(plan))
+  {
+    const PixelRectangle limits = limitsOf(part, plan);
+    if (part.mask)
+    {
+      part.plan.shading = FrameShading();
+    }
+    part.plan.shading.lenses.clear(); // these are for the whole
+    part.plan.shading.highlights.clear();
+    const bool isMain = part.lens < 0 && part.group == 0;
+    FurtherPart* const further = isMain ? nullptr : &furtherPart(part);
+    if (!isMain && limits.empty())
+    {
+      continue;
+    }
+    SplatPart& drawing = isMain ? main_ : *further->part;
+    const std::int64_t drawn = drawing.draw(
+      frame, part.plan, isMain ? perWindow<SplatTarget>(frame.window) : further->target, &limits);
+    if (drawn == noTarget)
+    {
+      return noTarget;
+    }
+    points += drawn;
+    shown_ = around(shown_, common(drawing.shown(), limits));
+    if (further)
+    {
+      further->drawn = true;
+      further->opacity = part.opacity;
+    }
+  }
+  const int reach = shown_.empty() ? 0 : SoftwareComposition::reachPx(plan.shading);
+  shown_ = common(viewport,
+    { shown_.left - reach, shown_.bottom - reach, shown_.right + reach, shown_.top + reach });
+  if (!composition_.begin(frame.window, viewport.right, viewport.top, frame.ids))
+  {
     return noTarget;
   }
-  target_->setOwner(this);
-  renderer_ = renderer;
-  if (!goesOn || !groups_.addsNothing() || !(shading_ == plan.shading))
-  {
-    records_.upload(window);
-    drawInto(window, plan, pool, tableOf, goesOn);
-    shading_ = plan.shading;
-  }
-  groups_.keep(plan);
-  return points;
+  const TargetState scope(frame.window->GetState());
+  frame.window->GetState()->vtkglViewport(0, 0, viewport.right, viewport.top);
+  frame.window->GetState()->vtkglDisable(GL_DEPTH_TEST);
+  frame.window->GetState()->vtkglDepthMask(GL_FALSE);
+  tools_.vertices->Bind();
+  compose(plan);
+  tools_.vertices->Release();
+  return std::min(points, static_cast<std::int64_t>(plan.pointCount()));
 }
 
-void SplatPicture::drawInto(vtkOpenGLRenderWindow* window, const FramePlan& plan,
-  const GpuPool& pool, const TableOf& tableOf, bool goesOn)
+SplatTextures SplatPicture::blended(std::int16_t lens, const SplatTextures& base)
 {
-  vtkOpenGLState* const state = window->GetState();
-  const TargetState scope(state);
-  state->vtkglViewport(0, 0, parts_.width, parts_.height);
-  vertices_->Bind();
-  target_->beginSeen(!goesOn);
-  state->vtkglEnable(GL_DEPTH_TEST);
-  state->vtkglDepthFunc(GL_LESS);
-  drawGroups(window, pool, tableOf, false, goesOn);
-  state->vtkglDisable(GL_DEPTH_TEST);
-  state->vtkglDepthMask(GL_FALSE);
-  const PixelRectangle shown = groups_.shown();
-  state->vtkglEnable(GL_SCISSOR_TEST);
-  state->vtkglScissor(shown.left, shown.bottom, shown.width(), shown.height());
-  if (parts_.blended)
+  std::vector<SplatComposition::Group> groups;
+  for (const FurtherPart& part : further_)
   {
-    target_->beginSums();
-    state->vtkglEnable(GL_BLEND);
-    state->vtkglBlendFuncSeparate(GL_ONE, GL_ONE, GL_ONE, GL_ONE);
-    drawGroups(window, pool, tableOf, true, false);
-    state->vtkglDisable(GL_BLEND);
-  }
-  target_->beginPicture();
-  resolve(window, plan);
-  vertices_->Release();
-}
-
-void SplatPicture::drawGroups(vtkOpenGLRenderWindow* window, const GpuPool& pool,
-  const TableOf& tableOf, bool second, bool addedOnly)
-{
-  for (const SplatGroups::Group& group : groups_.groups())
-  {
-    const DrawRuns& runs = addedOnly ? group.added : group.all;
-    if (!runs.stretches().empty() && (!second || group.first->passes.blended))
+    if (part.drawn && part.lens == lens && part.group > 0)
     {
-      drawGroup(window, pool, tableOf, group, runs, second);
+      groups.push_back({ part.part->picture(), part.opacity });
     }
   }
+  return composition_.blend(base, groups);
 }
 
-void SplatPicture::drawGroup(vtkOpenGLRenderWindow* window, const GpuPool& pool,
-  const TableOf& tableOf, const SplatGroups::Group& group, const DrawRuns& runs, bool second)
+void SplatPicture::compose(const FramePlan& plan)
 {
-  const RasterItem& item = *group.first;
-  const ResolvedStyle& style = *item.style;
-  const SplatVariant variant = variantOf(group, parts_, second);
-  vtkShaderProgram* const program = programs_.use(window, variant);
-  if (!program)
+  constexpr std::int16_t outside = -1;
+  picture_ = blended(outside, main_.picture());
+  const std::vector<FrameLens>& lenses = plan.shading.lenses;
+  for (std::size_t lens = 0; lens < lenses.size(); ++lens)
   {
-    return;
-  }
-  records_.activate(program);
-  setSplatUniforms(program, *group.items, item, second);
-  program->SetUniformi("styleMark", group.mark);
-  float flat[4];
-  std::transform(style.flat.begin(), style.flat.end(), flat,
-    [](std::uint8_t value) { return static_cast<float>(value) / 255.0f; });
-  program->SetUniform4f("flatColour", flat);
-  const FramePlan& plan = group.items->plan();
-  const float stepSize[3] = { static_cast<float>(plan.grid.scale.x),
-    static_cast<float>(plan.grid.scale.y), static_cast<float>(plan.grid.scale.z) };
-  program->SetUniform3f("stepSize", stepSize);
-  const bool tabled = !variant.marked && style.colouring.usesTable() && style.map;
-  ColourTable* const table = tabled ? tableOf(style.map) : nullptr;
-  if (table)
-  {
-    table->activate(program, style.colouring, plan.camera.reference.z);
-  }
-  setTexture(program, "seenDepths", target_->seenDepths());
-  {
-    const SplatAttributes attributes(program, variant.colour);
-    DrawBatches batches;
-    for (const DrawRuns::Stretch& stretch : runs.stretches())
+    const auto number = static_cast<std::int16_t>(lens);
+    const FurtherPart* const mask = find(number, true);
+    const bool around = lenses[lens].shape == LensShape::AroundClass;
+    if (lenses[lens].coversNothing() || (around && !mask))
     {
-      const GpuBlock& block = pool.blocks()[stretch.block];
-      attributes.read(block);
-      program->SetUniformi("firstSlot", static_cast<int>(block.first()));
-      batches.draw(runs.firsts() + stretch.begin, runs.counts() + stretch.begin,
-        stretch.end - stretch.begin);
+      continue;
     }
+    const FurtherPart* const inside = find(number, false);
+    picture_ = composition_.putLens(picture_,
+      inside ? blended(number, inside->part->picture()) : SplatTextures(), lenses[lens],
+      around ? mask->part->picture().depths : nullptr);
   }
-  if (second)
-  {
-    target_->seenDepths()->Deactivate();
-  }
-  if (table)
-  {
-    table->deactivate();
-  }
-  records_.deactivate();
-}
-
-void SplatPicture::resolve(vtkOpenGLRenderWindow* window, const FramePlan& plan)
-{
-  const FrameShading& shading = plan.shading;
-  const bool eyeDome = shading.eyeDomeStrength > 0.0f;
-  vtkShaderProgram* const program =
-    programs_.useResolve(window, parts_.blended, parts_.lit, eyeDome);
-  if (!program)
-  {
-    return;
-  }
-  const glm::dmat4& clip = plan.camera.viewToClip;
-  const double nearDepth = (clip[3][2] + clip[3][3]) / (clip[2][2] + clip[2][3]);
-  const bool parallel = plan.camera.parallel;
-  program->SetUniformf("depthShift", parallel ? static_cast<float>(nearDepth) : 0.0f);
-  program->SetUniformi("composited", plan.composited ? 1 : 0);
-  program->SetUniformf(
-    "octaveShift", parallel ? static_cast<float>(2.0 / clip[1][1] - nearDepth) : 0.0f);
-  program->SetUniformf("eyeDomeStrength", eyeDomeGain * shading.eyeDomeStrength);
-  program->SetUniformi(
-    "eyeDomeReach", std::max(1, static_cast<int>(std::lround(shading.eyeDomeRadiusPx))));
-  const int size[2] = { parts_.width, parts_.height };
-  program->SetUniform2i("pictureSize", size);
-  std::vector<FrameLight> lights = shading.lights;
-  lights.resize(std::clamp<std::size_t>(lights.size(), 1, mostLights)); // none: one at the eye
-  float towards[mostLights][3];
-  float colours[mostLights][3];
-  for (std::size_t i = 0; i < lights.size(); ++i)
-  {
-    std::copy_n(&lights[i].towards.x, 3, towards[i]);
-    std::copy_n(&lights[i].colour.x, 3, colours[i]);
-  }
-  const auto count = static_cast<int>(lights.size());
-  const float ambientDiffuse[2] = { shading.ambient, shading.diffuse };
-  program->SetUniform2f("ambientDiffuse", ambientDiffuse);
-  program->SetUniformi("lightCount", count);
-  program->SetUniform3fv("lightTowards", count, towards);
-  program->SetUniform3fv("lightColours", count, colours);
-  vtkTextureObject* const textures[] = { target_->seenColours(), target_->seenDepths(),
-    target_->sums(), target_->normals() };
-  const char* const names[] = { "seenColours", "seenDepths", "colourSums", "seenNormals" };
-  for (int i = 0; i < 4; ++i)
-  {
-    setTexture(program, names[i], textures[i]);
-  }
-  const float edges[4] = { -1.0f, -1.0f, 1.0f, 1.0f };
-  program->SetUniform4f("pictureEdges", edges);
-  glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
-  for (vtkTextureObject* texture : textures)
-  {
-    if (texture->GetTextureUnit() >= 0)
-    {
-      texture->Deactivate();
-    }
-  }
+  picture_ = composition_.highlight(picture_, plan.shading.highlights);
 }
 
 void SplatPicture::handOver(
   vtkRenderer* renderer, vtkActor* actor, const FramePlan& plan, std::int64_t storePoints)
 {
-  if (groups_.shown().empty())
+  if (shown_.empty())
   {
     return; // beside the view
   }
@@ -268,12 +201,12 @@ void SplatPicture::handOver(
     mapper_ = vtkSmartPointer<vtkOpenGLPointFrontPicture>::New();
   }
   PictureDrawing drawing;
-  drawing.colour = target_->pictureColour();
-  drawing.depth = target_->pictureDepth();
-  drawing.ids = parts_.ids ? target_->ids() : nullptr;
+  drawing.colour = picture_.colours;
+  drawing.depth = picture_.depths;
+  drawing.ids = picture_.ids;
   drawing.camera = &plan.camera;
-  drawing.textures = { 0, 0, parts_.width, parts_.height };
-  drawing.place = groups_.shown();
+  drawing.textures = { 0, 0, plan.camera.width, plan.camera.height };
+  drawing.place = shown_;
   std::copy(originPx_, originPx_ + 2, drawing.originPx);
   drawing.storePoints = storePoints;
   mapper_->Draw(renderer, actor, drawing);
@@ -281,19 +214,21 @@ void SplatPicture::handOver(
 
 void SplatPicture::release(vtkOpenGLRenderWindow* window)
 {
-  if (target_)
+  main_.release(window);
+  for (FurtherPart& part : further_)
   {
-    target_->release(window);
-    target_ = nullptr;
+    part.part->release(window);
   }
-  records_.release(window);
-  vertices_->ReleaseGraphicsResources();
+  further_.clear();
+  composition_.release(window);
+  tools_.records.release(window);
+  tools_.vertices->ReleaseGraphicsResources();
   if (mapper_)
   {
     mapper_->ReleaseGraphicsResources(window);
   }
   mapper_ = nullptr;
-  groups_.forget();
+  shown_ = {};
 }
 
 } // namespace pointfront

@@ -1,46 +1,35 @@
 #pragma once
 
-#include "SlotRecords.h"
-#include "SplatGroups.h"
-#include "SplatProgram.h"
-#include "SplatTarget.h"
+#include "SplatComposition.h"
+#include "SplatPart.h"
 
 #include "pointfront/Plan/FramePlan.h"
+#include "pointfront/Plan/PlanParts.h"
 
-#include <vtkNew.h>
 #include <vtkSmartPointer.h>
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <vector>
 
 class vtkActor;
 class vtkOpenGLPointFrontPicture;
 class vtkOpenGLRenderWindow;
-class vtkOpenGLVertexArrayObject;
 class vtkRenderer;
 
 namespace pointfront
 {
-class ColourTable;
-class GpuPool;
 
-/// Plans whose points are splats, drawn by GL into targets of their own and handed over to a
-/// window's framebuffer: the twin of SoftwareRasteriser and SoftwarePicture.
-/// Passes    who is seen in each pixel (the nearest; of splats that overlap the one with the
-///           nearest centre), then weights and colours of what is not behind it, then light and
-///           eye-dome lighting.
+/// Plans that are drawn by GL, part by part, composed and handed over to a window's framebuffer: the
+/// twin of SoftwareComposition and SoftwarePicture.
 /// Viewport  as SoftwarePicture's.
 /// Threads   that of the GL context, current in all functions.
-/// Source    drawing.md sections 4 to 6; docs/adr/0016, 0028.
+/// Source    drawing.md section 6; docs/adr/0028, 0029.
 class SplatPicture
 {
 public:
-  using TableOf = std::function<ColourTable*(const std::shared_ptr<const ColourMap>&)>;
-
-  /// In the place of a number of points: GL has no room for the targets, or cannot draw into them.
-  static constexpr std::int64_t noTarget = -1;
+  using TableOf = SplatFrame::TableOf;
+  static constexpr std::int64_t noTarget = SplatPart::noTarget;
 
   SplatPicture();
   ~SplatPicture();
@@ -55,22 +44,30 @@ public:
   void release(vtkOpenGLRenderWindow* window);
 
 private:
-  void drawInto(vtkOpenGLRenderWindow* window, const FramePlan& plan, const GpuPool& pool,
-    const TableOf& tableOf, bool goesOn);
-  void drawGroups(vtkOpenGLRenderWindow* window, const GpuPool& pool, const TableOf& tableOf,
-    bool second, bool addedOnly);
-  void drawGroup(vtkOpenGLRenderWindow* window, const GpuPool& pool, const TableOf& tableOf,
-    const SplatGroups::Group& group, const DrawRuns& runs, bool second);
-  void resolve(vtkOpenGLRenderWindow* window, const FramePlan& plan);
+  /// Beside what is opaque outside of lenses.
+  struct FurtherPart
+  {
+    std::int16_t lens;
+    bool mask;
+    std::uint16_t group;
+    double opacity;
+    bool drawn; ///< in this picture
+    std::shared_ptr<SplatTarget> target;
+    std::unique_ptr<SplatPart> part;
+  };
 
-  std::shared_ptr<SplatTarget> target_; ///< all clouds of the window draw into it in turn
-  SplatTarget::Parts parts_;
-  SplatPrograms programs_;
-  SlotRecords records_;
-  SplatGroups groups_;
-  FrameShading shading_; ///< of the last picture
-  vtkRenderer* renderer_ = nullptr; ///< compared, not used
-  vtkNew<vtkOpenGLVertexArrayObject> vertices_;
+  std::int64_t drawParts(const SplatFrame& frame, const FramePlan& plan);
+  FurtherPart& furtherPart(const PlanPart& like);
+  const FurtherPart* find(std::int16_t lens, bool mask) const;
+  SplatTextures blended(std::int16_t lens, const SplatTextures& base);
+  void compose(const FramePlan& plan);
+
+  SplatTools tools_;
+  SplatPart main_;
+  std::vector<FurtherPart> further_;
+  SplatComposition composition_;
+  SplatTextures picture_;
+  PixelRectangle shown_;
   int originPx_[2] = { 0, 0 };
   vtkSmartPointer<vtkOpenGLPointFrontPicture> mapper_;
 };

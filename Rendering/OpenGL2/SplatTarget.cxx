@@ -75,7 +75,7 @@ bool SplatTarget::prepare(vtkOpenGLRenderWindow* window, const Parts& parts)
     allocate(window, sums_, parts, 4, VTK_FLOAT);
   }
   allocate(window, pictureColour_, parts, 4, VTK_UNSIGNED_CHAR);
-  allocate(window, pictureDepth_, parts, 1, VTK_FLOAT);
+  allocate(window, pictureDepth_, parts, 2, VTK_FLOAT);
   ready_ = attach(window);
   return ready_;
 }

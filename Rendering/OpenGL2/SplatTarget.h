@@ -10,8 +10,8 @@ namespace pointfront
 {
 
 /// The textures that splats are drawn into, and the picture that is made of them.
-/// Bytes    16 a pixel for who is seen; with light 16, with ids 8, with blending 16 more; 8 for the
-///          picture.
+/// Bytes    16 a pixel for who is seen; with light 16, with ids 8, with blending 16 more; 12 for
+///          the picture.
 /// Threads  that of the GL context, which is current in all functions but the constructor.
 class SplatTarget
 {
@@ -51,6 +51,7 @@ public:
   vtkTextureObject* ids() { return ids_; }
   vtkTextureObject* sums() { return sums_; }
   vtkTextureObject* pictureColour() { return pictureColour_; }
+  /// r: depth, g: highlight.
   vtkTextureObject* pictureDepth() { return pictureDepth_; }
 
 private:

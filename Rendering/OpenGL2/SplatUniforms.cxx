@@ -117,7 +117,10 @@ void setSplatUniforms(
   program->SetUniformf("paraboloid", pass.paraboloid);
   program->SetUniformf("slackRadii", pass.slackRadii);
   program->SetUniformf("slackPixels", pass.slackPixels);
-  program->SetUniformf("blendedMark", item.passes.blended ? 1.0f : 0.5f);
+  // In bytes: from 255 down where sums are its colour, from 127 down where they are not; how far
+  // down is its highlight. 0 is nothing.
+  const int mark = (item.passes.blended ? 255 : 127) - item.style->highlight;
+  program->SetUniformf("seenMark", static_cast<float>(mark) / 255.0f);
   program->SetUniformf("rimFrom", pass.rimFrom);
   program->SetUniformf("rimRadii", pass.rimRadii);
   program->SetUniformf("mostAtCentre", pass.mostAtCentre());

@@ -23,6 +23,7 @@
 #include <chrono>
 #include <limits>
 #include <map>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -43,6 +44,24 @@ bool hasOwnShaders(vtkActor* actor)
   vtkShaderProperty* const shaders = actor->GetShaderProperty();
   return shaders->HasVertexShaderCode() || shaders->HasFragmentShaderCode() ||
     shaders->HasGeometryShaderCode() || shaders->GetNumberOfShaderReplacements() > 0;
+}
+
+/// More translucent groups, outside of lenses or in one, than can be composed at once.
+bool hasTooManyGroups(const std::vector<pointfront::LayerStyling>& layers)
+{
+  std::map<int, std::set<std::uint16_t>> groups; // by lens
+  for (const pointfront::LayerStyling& layer : layers)
+  {
+    for (const auto& style : layer.styles)
+    {
+      if (style->group > 0)
+      {
+        groups[style->lens].insert(style->group);
+      }
+    }
+  }
+  return std::any_of(groups.begin(), groups.end(), [](const auto& ofLens)
+    { return ofLens.second.size() > pointfront::SplatComposition::mostGroups; });
 }
 
 } // namespace
@@ -218,9 +237,9 @@ bool vtkOpenGLPointFrontMapper::DrawsFromHostMemory(vtkActor* actor)
   }
   if (!asked && !onlyOpenGL && !this->DrawsByOpenGL(actor))
   {
-    this->TellFallBack("OpenGL fills no holes, has no lenses, highlights or translucent classes, and "
-                       "draws at most 254 styles of a layer with one attribute of sizes: this "
-                       "style is drawn by the software back end");
+    this->TellFallBack("OpenGL fills no holes, has at most 4 lenses and 4 translucent styles, and draws "
+                       "at most 254 styles of a layer with one attribute of sizes: this style is "
+                       "drawn by the software back end");
     return true;
   }
   return asked;
@@ -234,11 +253,7 @@ bool vtkOpenGLPointFrontMapper::DrawsByOpenGL(vtkActor* actor)
     return true;
   }
   const std::vector<pointfront::LayerStyling> layers = this->GetStyling(actor);
-  const bool composed = !sheet->lenses.empty() || !sheet->highlights.empty() ||
-    std::any_of(layers.begin(), layers.end(), [](const pointfront::LayerStyling& layer)
-      { return std::any_of(layer.styles.begin(), layer.styles.end(),
-          [](const auto& style) { return style->group > 0; }); });
-  return !composed && !sheet->shading.fillHoles &&
+  return !sheet->shading.fillHoles && !hasTooManyGroups(layers) &&
     std::all_of(layers.begin(), layers.end(), [](const pointfront::LayerStyling& layer)
       { return pointfront::LayerStreams::canDraw(layer.styles); });
 }

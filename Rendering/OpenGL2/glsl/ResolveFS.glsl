@@ -4,7 +4,7 @@
 //POINTFRONT::Define::Dec
 //VTK::Output::Dec
 
-uniform sampler2D seenColours; // alpha: 1 where sums are the colour, 0.5 where they are not
+uniform sampler2D seenColours; // alpha: 255 or 127 less the highlight, above 127 for sums
 uniform sampler2D seenDepths;  // r: what decided, g: of the splat
 #if POINTFRONT_BLENDED
 uniform sampler2D colourSums;
@@ -73,7 +73,7 @@ void main()
   vec3 colour = seen.rgb;
 #if POINTFRONT_BLENDED
   vec4 sums = texelFetch(colourSums, at, 0);
-  if (seen.a > 0.75 && sums.a > 0.0)
+  if (seen.a > 0.5 && sums.a > 0.0)
   {
     colour = floor((sums.rgb + floor(0.5 * sums.a)) / sums.a) / 255.0;
   }
@@ -96,5 +96,7 @@ void main()
 #endif
   gl_FragData[0] = vec4(colour, 1.0);
   float decided = texelFetch(seenDepths, at, 0).r + depthShift;
-  gl_FragData[1] = vec4(composited ? decided : depth, 0.0, 0.0, 0.0);
+  float mark = floor(seen.a * 255.0 + 0.5);
+  mark = (mark > 127.0 ? 255.0 : 127.0) - mark;
+  gl_FragData[1] = vec4(composited ? decided : depth, mark, 0.0, 0.0);
 }

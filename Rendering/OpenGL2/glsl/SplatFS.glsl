@@ -13,7 +13,7 @@ uniform float rimFrom;     // q beyond which a splat is its rim
 uniform float rimRadii;    // that the rim lies further back
 uniform float mostAtCentre;
 uniform vec3 rimColour;
-uniform float blendedMark; // alpha of who is seen: 1 where sums are its colour, else 0.5
+uniform float seenMark;    // alpha of who is seen: see SplatUniforms.cxx
 #if POINTFRONT_PASS == 2
 uniform sampler2D seenDepths;
 uniform float slackRadii;
@@ -136,7 +136,7 @@ void main()
     colour = rimRadii > 0.0 ? rimColour : colour;
   }
   gl_FragDepth = key * depthScale;
-  gl_FragData[0] = vec4(colour, blendedMark);
+  gl_FragData[0] = vec4(colour, seenMark);
   gl_FragData[1] = vec4(key, s.y, 0.0, 0.0);
 #if POINTFRONT_LIT
   gl_FragData[2] = vec4(normalAt(s.y), 0.0);

@@ -19,17 +19,33 @@ enum class GpuStream : std::uint8_t
   Value, ///< what its colour is made of
   Shape, ///< its normal and the code of its radius
   Size,  ///< a radius of its own as a float, world units
-  Height ///< above the ground as a float, world units
+  Height, ///< above the ground as a float, world units
+  Lenses  ///< and those behind it: as Value, for each set of styles but the first (valueSetOf)
 };
-constexpr std::size_t gpuStreamCount = 4;
+/// So many lenses of a sheet have streams: what is inside them, and who makes their masks.
+constexpr std::size_t gpuLenses = 4;
+constexpr std::size_t gpuValueSets = 1 + 2 * gpuLenses;
+constexpr std::size_t gpuStreamCount = std::size_t(GpuStream::Lenses) + gpuValueSets - 1;
+
+/// Styles that draw each point once at most, and so have one value a point: those outside of
+/// lenses (0), those inside one, those that make the mask of one. `style` is of the first lenses.
+inline std::size_t valueSetOf(const ResolvedStyle& style)
+{
+  return style.lens < 0 ? 0 : 1 + 2 * std::size_t(style.lens) + (style.lensMask ? 1 : 0);
+}
+inline GpuStream valueStreamOf(std::size_t set)
+{
+  return set == 0 ? GpuStream::Value
+                  : static_cast<GpuStream>(std::size_t(GpuStream::Lenses) + set - 1);
+}
 
 /// Which streams the styles of one layer read.
-/// Marks    Where a layer has filters, several styles or combined colours, a point's value is its
-///          final colour, made on the host, and alpha is the number of the style that draws it.
+/// Marks    Where a set of styles has filters, several styles or combined colours, a point's value
+///          is its final colour, made on the host, and alpha is the number of the style in its set.
 struct GpuStreams
 {
   std::array<bool, gpuStreamCount> wanted{};
-  bool marked = false;
+  std::array<bool, gpuValueSets> marked{};
 
   bool has(GpuStream stream) const { return wanted[static_cast<std::size_t>(stream)]; }
   int count() const
@@ -47,17 +63,23 @@ struct GpuStreams
   static GpuStreams of(const std::vector<std::shared_ptr<const ResolvedStyle>>& styles)
   {
     GpuStreams streams;
-    streams.marked = styles.size() > 1;
+    std::array<int, gpuValueSets> counts{};
     for (const auto& style : styles)
     {
+      if (style->lens >= static_cast<int>(gpuLenses))
+      {
+        continue; // is not drawn by OpenGL
+      }
+      const std::size_t set = valueSetOf(*style);
       const bool combined = style->second.combination != ColourCombination::None;
-      streams.marked = streams.marked || combined || !style->filter.empty();
-      streams.wanted[0] = streams.wanted[0] || style->colouring.hasValues();
+      bool& marked = streams.marked[set];
+      bool& values = streams.wanted[std::size_t(valueStreamOf(set))];
+      marked = marked || ++counts[set] > 1 || combined || !style->filter.empty();
+      values = values || marked || style->colouring.hasValues();
       streams.wanted[1] = streams.wanted[1] || style->normalColumn || style->radiusColumn;
       streams.wanted[2] = streams.wanted[2] || style->size.mode == SplatSize::Mode::Attribute;
       streams.wanted[3] = streams.wanted[3] || style->heightColumn;
     }
-    streams.wanted[0] = streams.wanted[0] || streams.marked;
     return streams;
   }
 };

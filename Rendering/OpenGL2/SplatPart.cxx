@@ -1,0 +1,281 @@
+#include "SplatPart.h"
+
+#include "ColourTable.h"
+#include "DrawBatches.h"
+#include "GpuPool.h"
+#include "RasterItems.h"
+#include "SoftwareRasteriser.h"
+#include "SplatAttributes.h"
+#include "SplatUniforms.h"
+#include "TargetState.h"
+
+#include <vtk_glew.h>
+
+#include <vtkOpenGLRenderWindow.h>
+#include <vtkOpenGLState.h>
+#include <vtkOpenGLVertexArrayObject.h>
+#include <vtkRenderer.h>
+#include <vtkShaderProgram.h>
+#include <vtkTextureObject.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pointfront
+{
+namespace
+{
+
+constexpr std::size_t mostLights = 8;
+
+SplatVariant variantOf(
+  const SplatGroups::Group& group, const SplatTarget::Parts& parts, bool second)
+{
+  const RasterItem& item = *group.first;
+  const ResolvedStyle& style = *item.style;
+  SplatVariant variant;
+  variant.square = item.passes.squares;
+  variant.shape = second ? item.passes.second.shape : item.passes.first.shape;
+  variant.parallel = item.camera.parallel;
+  variant.second = second;
+  variant.marked = group.mark >= 0;
+  variant.colour = variant.marked ? PointColouring::Kind::Direct : style.colouring.kind;
+  variant.shaped = group.shaped;
+  variant.normals = !item.passes.walls() &&
+    group.shaped && style.normalColumn && style.orientation == SplatOrientation::Normal;
+  variant.radius = radiusSourceOf(item, group.shaped, group.sized);
+  variant.lit = parts.lit && !second;
+  variant.ids = parts.ids && !second;
+  variant.quads = group.quads;
+  return variant;
+}
+
+void setTexture(vtkShaderProgram* program, const char* name, vtkTextureObject* texture)
+{
+  if (program->IsUniformUsed(name))
+  {
+    texture->Activate();
+    program->SetUniformi(name, texture->GetTextureUnit());
+  }
+}
+
+bool sameRectangle(const PixelRectangle& a, const PixelRectangle& b)
+{
+  return a.contains(b) && b.contains(a);
+}
+
+} // namespace
+
+SplatPart::SplatPart(SplatTools& tools)
+  : tools_(tools)
+{
+}
+
+SplatPart::~SplatPart() = default;
+
+std::int64_t SplatPart::draw(const SplatFrame& frame, const FramePlan& plan,
+  const std::shared_ptr<SplatTarget>& target, const PixelRectangle* limits)
+{
+  vtkOpenGLRenderWindow* const window = frame.window;
+  target_ = target;
+  float sizes[2] = { 1.0f, 1.0f };
+  glGetFloatv(GL_POINT_SIZE_RANGE, sizes);
+  const PixelRectangle whole{ 0, 0, plan.camera.width, plan.camera.height };
+  const PixelRectangle within = limits ? *limits : whole;
+  const bool mine = target_->owner() == this && renderer_ == frame.renderer &&
+    parts_.ids == frame.ids && parts_.lit == plan.shading.lit && sameRectangle(limits_, within);
+  const std::int64_t points =
+    groups_.list(plan, *frame.pool, sizes[1], mine, tools_.records);
+  parts_ = { plan.camera.width, plan.camera.height, plan.shading.lit, frame.ids,
+    groups_.blended() };
+  limits_ = within;
+  shown_ = limits ? within : groups_.shown();
+  if (!limits && (points == 0 || shown_.empty()))
+  {
+    groups_.forget();
+    return points;
+  }
+  const bool goesOn = groups_.goesOn() && target_->has(parts_);
+  if (!target_->prepare(window, parts_))
+  {
+    groups_.forget();
+    return noTarget;
+  }
+  target_->setOwner(this);
+  renderer_ = frame.renderer;
+  if (!goesOn || !groups_.addsNothing() || !(shading_ == plan.shading))
+  {
+    tools_.records.upload(window);
+    drawInto(frame, plan, goesOn);
+    shading_ = plan.shading;
+  }
+  groups_.keep(plan);
+  return points;
+}
+
+void SplatPart::drawInto(const SplatFrame& frame, const FramePlan& plan, bool goesOn)
+{
+  vtkOpenGLState* const state = frame.window->GetState();
+  const TargetState scope(state);
+  state->vtkglViewport(0, 0, parts_.width, parts_.height);
+  tools_.vertices->Bind();
+  target_->beginSeen(!goesOn);
+  state->vtkglEnable(GL_SCISSOR_TEST);
+  state->vtkglScissor(limits_.left, limits_.bottom, limits_.width(), limits_.height());
+  state->vtkglEnable(GL_DEPTH_TEST);
+  state->vtkglDepthFunc(GL_LESS);
+  drawGroups(frame, false, goesOn);
+  state->vtkglDisable(GL_DEPTH_TEST);
+  state->vtkglDepthMask(GL_FALSE);
+  state->vtkglScissor(shown_.left, shown_.bottom, shown_.width(), shown_.height());
+  if (parts_.blended)
+  {
+    target_->beginSums();
+    state->vtkglEnable(GL_BLEND);
+    state->vtkglBlendFuncSeparate(GL_ONE, GL_ONE, GL_ONE, GL_ONE);
+    drawGroups(frame, true, false);
+    state->vtkglDisable(GL_BLEND);
+  }
+  target_->beginPicture();
+  resolve(frame.window, plan);
+  tools_.vertices->Release();
+}
+
+void SplatPart::drawGroups(const SplatFrame& frame, bool second, bool addedOnly)
+{
+  for (const SplatGroups::Group& group : groups_.groups())
+  {
+    const DrawRuns& runs = addedOnly ? group.added : group.all;
+    if (!runs.stretches().empty() && (!second || group.first->passes.blended))
+    {
+      drawGroup(frame, group, runs, second);
+    }
+  }
+}
+
+void SplatPart::drawGroup(const SplatFrame& frame, const SplatGroups::Group& group,
+  const DrawRuns& runs, bool second)
+{
+  const RasterItem& item = *group.first;
+  const ResolvedStyle& style = *item.style;
+  const SplatVariant variant = variantOf(group, parts_, second);
+  vtkShaderProgram* const program = tools_.programs.use(frame.window, variant);
+  if (!program)
+  {
+    return;
+  }
+  tools_.records.activate(program);
+  setSplatUniforms(program, *group.items, item, second);
+  program->SetUniformi("styleMark", group.mark);
+  float flat[4];
+  std::transform(style.flat.begin(), style.flat.end(), flat,
+    [](std::uint8_t value) { return static_cast<float>(value) / 255.0f; });
+  program->SetUniform4f("flatColour", flat);
+  const FramePlan& plan = group.items->plan();
+  const float stepSize[3] = { static_cast<float>(plan.grid.scale.x),
+    static_cast<float>(plan.grid.scale.y), static_cast<float>(plan.grid.scale.z) };
+  program->SetUniform3f("stepSize", stepSize);
+  const bool tabled = !variant.marked && style.colouring.usesTable() && style.map;
+  ColourTable* const table = tabled ? frame.tableOf(style.map) : nullptr;
+  if (table)
+  {
+    table->activate(program, style.colouring, plan.camera.reference.z);
+  }
+  setTexture(program, "seenDepths", target_->seenDepths());
+  {
+    const SplatAttributes attributes(
+      program, variant.colour, valueStreamOf(valueSetOf(style)));
+    DrawBatches batches;
+    for (const DrawRuns::Stretch& stretch : runs.stretches())
+    {
+      const GpuBlock& block = frame.pool->blocks()[stretch.block];
+      attributes.read(block);
+      program->SetUniformi("firstSlot", static_cast<int>(block.first()));
+      batches.draw(runs.firsts() + stretch.begin, runs.counts() + stretch.begin,
+        stretch.end - stretch.begin);
+    }
+  }
+  if (second)
+  {
+    target_->seenDepths()->Deactivate();
+  }
+  if (table)
+  {
+    table->deactivate();
+  }
+  tools_.records.deactivate();
+}
+
+void SplatPart::resolve(vtkOpenGLRenderWindow* window, const FramePlan& plan)
+{
+  const FrameShading& shading = plan.shading;
+  const bool eyeDome = shading.eyeDomeStrength > 0.0f;
+  vtkShaderProgram* const program =
+    tools_.programs.useResolve(window, parts_.blended, parts_.lit, eyeDome);
+  if (!program)
+  {
+    return;
+  }
+  const glm::dmat4& clip = plan.camera.viewToClip;
+  const double nearDepth = (clip[3][2] + clip[3][3]) / (clip[2][2] + clip[2][3]);
+  const bool parallel = plan.camera.parallel;
+  program->SetUniformf("depthShift", parallel ? static_cast<float>(nearDepth) : 0.0f);
+  program->SetUniformi("composited", plan.composited ? 1 : 0);
+  program->SetUniformf(
+    "octaveShift", parallel ? static_cast<float>(2.0 / clip[1][1] - nearDepth) : 0.0f);
+  program->SetUniformf("eyeDomeStrength", eyeDomeGain * shading.eyeDomeStrength);
+  program->SetUniformi(
+    "eyeDomeReach", std::max(1, static_cast<int>(std::lround(shading.eyeDomeRadiusPx))));
+  const int size[2] = { parts_.width, parts_.height };
+  program->SetUniform2i("pictureSize", size);
+  std::vector<FrameLight> lights = shading.lights;
+  lights.resize(std::clamp<std::size_t>(lights.size(), 1, mostLights)); // none: one at the eye
+  float towards[mostLights][3];
+  float colours[mostLights][3];
+  for (std::size_t i = 0; i < lights.size(); ++i)
+  {
+    std::copy_n(&lights[i].towards.x, 3, towards[i]);
+    std::copy_n(&lights[i].colour.x, 3, colours[i]);
+  }
+  const auto count = static_cast<int>(lights.size());
+  const float ambientDiffuse[2] = { shading.ambient, shading.diffuse };
+  program->SetUniform2f("ambientDiffuse", ambientDiffuse);
+  program->SetUniformi("lightCount", count);
+  program->SetUniform3fv("lightTowards", count, towards);
+  program->SetUniform3fv("lightColours", count, colours);
+  vtkTextureObject* const textures[] = { target_->seenColours(), target_->seenDepths(),
+    target_->sums(), target_->normals() };
+  const char* const names[] = { "seenColours", "seenDepths", "colourSums", "seenNormals" };
+  for (int i = 0; i < 4; ++i)
+  {
+    setTexture(program, names[i], textures[i]);
+  }
+  const float edges[4] = { -1.0f, -1.0f, 1.0f, 1.0f };
+  program->SetUniform4f("pictureEdges", edges);
+  glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+  for (vtkTextureObject* texture : textures)
+  {
+    if (texture->GetTextureUnit() >= 0)
+    {
+      texture->Deactivate();
+    }
+  }
+}
+
+SplatTextures SplatPart::picture() const
+{
+  return { target_->pictureColour(), target_->pictureDepth(),
+    parts_.ids ? target_->ids() : nullptr };
+}
+
+void SplatPart::release(vtkOpenGLRenderWindow* window)
+{
+  if (target_)
+  {
+    target_->release(window);
+    target_ = nullptr;
+  }
+  groups_.forget();
+}
+
+} // namespace pointfront

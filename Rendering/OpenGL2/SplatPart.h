@@ -1,0 +1,89 @@
+#pragma once
+
+#include "SlotRecords.h"
+#include "SplatComposition.h"
+#include "SplatGroups.h"
+#include "SplatProgram.h"
+#include "SplatTarget.h"
+
+#include "pointfront/Plan/FramePlan.h"
+
+#include <vtkNew.h>
+#include <vtkOpenGLVertexArrayObject.h>
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+
+class vtkOpenGLRenderWindow;
+class vtkRenderer;
+
+namespace pointfront
+{
+class ColourTable;
+class GpuPool;
+
+/// What all parts of a picture are drawn with.
+struct SplatTools
+{
+  SplatPrograms programs;
+  SlotRecords records;
+  vtkNew<vtkOpenGLVertexArrayObject> vertices;
+};
+
+/// One drawing of a picture.
+struct SplatFrame
+{
+  using TableOf = std::function<ColourTable*(const std::shared_ptr<const ColourMap>&)>;
+
+  vtkOpenGLRenderWindow* window = nullptr;
+  vtkRenderer* renderer = nullptr;
+  const GpuPool* pool = nullptr;
+  TableOf tableOf;
+  bool ids = false; ///< for a selection
+};
+
+/// A plan, or a part of one, drawn by GL into targets of its own: the twin of SoftwareRasteriser.
+/// Passes    who is seen in each pixel (the nearest; of splats that overlap the one with the
+///           nearest centre), then weights and colours of what is not behind it, then light and
+///           eye-dome lighting.
+/// Threads   that of the GL context, current in all functions.
+/// Source    drawing.md sections 4 and 5; docs/adr/0016, 0028.
+class SplatPart
+{
+public:
+  /// In the place of a number of points: GL has no room for the targets, or cannot draw into them.
+  static constexpr std::int64_t noTarget = -1;
+
+  explicit SplatPart(SplatTools& tools);
+  ~SplatPart();
+
+  /// Returns the points that are on the GPU of the plan. What the last picture has of it is not
+  /// drawn again. `limits`: the pixels that are wanted, all of which get a value; null: only those
+  /// of shown() do.
+  std::int64_t draw(const SplatFrame& frame, const FramePlan& plan,
+    const std::shared_ptr<SplatTarget>& target, const PixelRectangle* limits);
+  /// Where the points can show anything.
+  const PixelRectangle& shown() const { return groups_.shown(); }
+  SplatTextures picture() const;
+  /// The target as well; the next drawing begins anew.
+  void release(vtkOpenGLRenderWindow* window);
+
+private:
+  void drawInto(const SplatFrame& frame, const FramePlan& plan, bool goesOn);
+  void drawGroups(const SplatFrame& frame, bool second, bool addedOnly);
+  void drawGroup(const SplatFrame& frame, const SplatGroups::Group& group, const DrawRuns& runs,
+    bool second);
+  void resolve(vtkOpenGLRenderWindow* window, const FramePlan& plan);
+
+  SplatTools& tools_;
+  std::shared_ptr<SplatTarget> target_; ///< all clouds of the window may draw into it in turn
+  SplatTarget::Parts parts_;
+  SplatGroups groups_;
+  FrameShading shading_;            ///< of the last picture
+  vtkRenderer* renderer_ = nullptr; ///< compared, not used
+  PixelRectangle limits_;
+  PixelRectangle shown_;
+};
+
+} // namespace pointfront

@@ -18,8 +18,8 @@ public:
     , kernels_(kernels)
   {
   }
-  /// Fills radius (world units, times `share`) and normals, or heights of walls, of projected points: of [first, first +
-  /// count), or of those in a list.
+  /// Fills radius (world units, times `share`) and normals, or heights of walls, of projected
+  /// points: of [first, first + count), or of those in a list.
   void fill(const RasterItem& item, std::uint32_t first, int count, float share,
     RasterBatch& batch) const;
   void fill(const RasterItem& item, const std::uint32_t* points, int count, float share,

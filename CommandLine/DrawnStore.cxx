@@ -3,6 +3,7 @@
 #include "pointfront/Residency/LoadScheduler.h"
 #include "pointfront/Store/StoredCloudFormats.h"
 #include "pointfront/Style/FilterPruning.h"
+#include "pointfront/Views/WallReach.h"
 
 #include <utility>
 
@@ -38,6 +39,7 @@ Result<void> DrawnStore::setStyles(std::vector<LayerStyling> layers)
     return pruning.error();
   }
   styles_ = std::move(layers);
+  tallestWall_ = tallestWall(cloud_->description(), styles_);
   columns_ = {};
   limits_.clear();
   for (const LayerStyling& layer : styles_)
@@ -74,6 +76,7 @@ const FrontDelta& DrawnStore::update(FrameDemand demand)
 {
   demand.columns = columns_;
   demand.layers = limits_;
+  demand.view = withWallsFromAbove(demand.view, tallestWall_);
   demand_ = std::move(demand);
   return front_->update(demand_);
 }

@@ -62,6 +62,7 @@ private:
   std::unique_ptr<ResidencyShare> share_; // before the front, which refers to it
   std::unique_ptr<ViewFront> front_;
   std::vector<LayerStyling> styles_;
+  double tallestWall_ = 0.0;        ///< of the styles
   LayerColumns columns_;            ///< that the styles read
   std::vector<LayerLimits> limits_; ///< that they set
   FrameDemand demand_;       ///< of the last update

@@ -11,6 +11,7 @@
 #include "pointfront/Plan/FrameStatistics.h"
 #include "pointfront/Style/GpuStreams.h"
 #include "pointfront/Style/QualityPreset.h"
+#include "pointfront/Views/WallReach.h"
 #include "vtkPointFrontStyle.h"
 
 #include <vtkActor.h>
@@ -271,8 +272,9 @@ pointfront::PlanRequest vtkPointFrontMapper::GetRequest(vtkRenderer* renderer, v
 pointfront::FrameDemand vtkPointFrontMapper::GetDemand(vtkRenderer* renderer, vtkActor* actor)
 {
   pointfront::FrameDemand demand;
-  demand.view = pointfront::viewOf(renderer, actor);
   const auto styling = this->GetStyling(actor);
+  demand.view = pointfront::withWallsFromAbove(pointfront::viewOf(renderer, actor),
+    pointfront::tallestWall(this->GetStore()->GetStore()->description(), styling));
   demand.layers = this->Internals->Limits.layersOf(*this->GetStore(), styling,
     this->GetStyleSheet() ? this->Internals->Style.pruning()
                           : std::vector<std::shared_ptr<const pointfront::NodePruning>>());

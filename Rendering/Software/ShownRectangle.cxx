@@ -38,8 +38,8 @@ CornerRange cornersOf(const RasterItem& item, const FramePlan& plan)
   const glm::dvec3 slack = boxRounding * size + plan.grid.scale;
   const glm::dmat3 turn(camera.storeToView);
   // The offset less the reference first: both are large.
-  const glm::dvec3 origin =
-    (plan.grid.offset - camera.reference) + plan.grid.scale * glm::dvec3(node.origin) - slack - down;
+  const glm::dvec3 origin = (plan.grid.offset - camera.reference) +
+    plan.grid.scale * glm::dvec3(node.origin) - slack - down;
   CornerRange range;
   for (int corner = 0; corner < 8; ++corner)
   {

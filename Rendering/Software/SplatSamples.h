@@ -191,8 +191,8 @@ struct SplatAt<SplatShape::Sphere, Parallel>
   Lanes inverse, square, depth, widthX, widthY, toX, toY, length2;
 };
 
-/// The ray meets the wall's plane as a disc's; `aside` and `down` are places on the wall. Everywhere
-/// at its rim: all of it is pushed back by the paraboloid.
+/// The ray meets the wall's plane as a disc's; `aside` and `down` are places on the wall. All of it
+/// is its rim: pushed back by the paraboloid.
 template <bool Parallel>
 struct SplatAt<SplatShape::Wall, Parallel>
 {

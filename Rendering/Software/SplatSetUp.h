@@ -226,8 +226,8 @@ inline void setUpSpheres(RasterCamera camera, int count, RasterBatch& batch)
 /// Beyond that the eye looks along a wall: nothing of it is seen.
 constexpr float leastWallSine = 1.0e-3f;
 
-/// A wall's plane is upright and turned towards the eye about the point's vertical; its rectangle on
-/// screen is that of its corners. What goes down behind the near plane ends there.
+/// A wall's plane is upright and turned towards the eye about the point's vertical; its rectangle
+/// on screen is that of its corners. What goes down behind the near plane ends there.
 template <bool Parallel>
 inline void setUpWalls(RasterCamera camera, int count, RasterBatch& batch)
 {

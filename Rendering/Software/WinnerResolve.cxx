@@ -276,7 +276,8 @@ void WinnerResolve::putNormal(
   {
     n = fromCentre(item, j, winner, depth);
   }
-  else if (!item.normals && !item.passes.walls() && item.style->orientation != SplatOrientation::Fixed)
+  else if (!item.normals && !item.passes.walls() &&
+    item.style->orientation != SplatOrientation::Fixed)
   {
     n = glm::vec3(0.0f);
   }

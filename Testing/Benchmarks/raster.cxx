@@ -51,6 +51,8 @@ const MeasuredTechnique techniques[] = {
   { "paraboloids", Technique::Splats, false, false, SplatAccuracy::Affine, spacing },
   { "ellipses", Technique::Splats, false, true, SplatAccuracy::Affine, spacing },
   { "spheres", Technique::Spheres, false, false, SplatAccuracy::Affine, spacing },
+  { "silhouettes", Technique::Silhouettes, false, true, SplatAccuracy::Affine, spacing },
+  { "solid", Technique::Solid, false, true, SplatAccuracy::Affine, spacing },
   { "blended_paraboloids", Technique::Splats, true, false, SplatAccuracy::Affine, spacing },
   { "ewa_affine", Technique::Ewa, true, true, SplatAccuracy::Affine, spacing },
   { "ewa_exact", Technique::Ewa, true, true, SplatAccuracy::Exact, spacing },
@@ -192,8 +194,9 @@ int main(int argc, char** argv)
   const StoreDescription& description = store.description();
   const auto rgb = columnOf(description, "rgb"), normal = columnOf(description, "normal");
   const auto radius = columnOf(description, splatRadiusAttribute);
+  const auto height = columnOf(description, "height_above_ground");
   ColumnSelection columns;
-  for (const auto& one : { rgb, normal, radius })
+  for (const auto& one : { rgb, normal, radius, height })
   {
     if (one)
     {
@@ -211,7 +214,8 @@ int main(int argc, char** argv)
               "| ms, 1 thread | 2 threads | speed-up |\n| --- | --- | --- | --- | --- | --- |\n");
   for (const MeasuredTechnique& one : techniques)
   {
-    if (one.normals && !normal)
+    const bool solid = one.technique == Technique::Solid;
+    if ((one.normals && !normal) || (solid && !height))
     {
       continue;
     }
@@ -222,6 +226,7 @@ int main(int argc, char** argv)
     style->size = one.size;
     style->normalColumn = one.normals ? normal : std::nullopt;
     style->radiusColumn = radius;
+    style->heightColumn = solid ? height : std::nullopt;
     style->colouring.kind =
       rgb ? PointColouring::Kind::Direct : PointColouring::Kind::Flat;
     style->colouring.column = rgb.value_or(0);

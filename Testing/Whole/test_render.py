@@ -171,7 +171,7 @@ class Styles(SceneTest):
         points = self.picture(*self.near, "--point-size", 1)
         self.assertGreater(int((points.max(axis=2) == 0).sum()), SIZE[0] * SIZE[1] // 2)
         pictures = []
-        for technique in ("points", "splats", "spheres", "ewa"):
+        for technique in ("points", "splats", "spheres", "ewa", "silhouettes"):
             picture = self.picture(*self.near, "--technique", technique)
             self.assertEqual(int((picture.max(axis=2) == 0).sum()), 0, technique)
             corners = picture[[-5, -5, 5, 5], [5, -5, 5, -5]].tolist()
@@ -185,13 +185,40 @@ class Styles(SceneTest):
         # How large a splat of a coarse node is follows from the finer ones in sight, which a band
         # has fewer of.
         store = self.folder / "trim.pfront"
-        self.succeed("build", TRIM, "-o", store)
-        for technique in ("points", "splats", "spheres", "ewa"):
-            words = (store, "--view", "top", "--technique", technique)
+        self.succeed("build", TRIM, "-o", store, "--height-above-ground")
+        for technique, view in (("points", "top"), ("splats", "top"), ("spheres", "top"),
+                                ("ewa", "top"), ("silhouettes", "top"), ("solid", "front")):
+            words = (store, "--view", view, "--technique", technique)
             whole = self.picture(*words, size=(1200, 900))
             banded, statistics = self.statistics(*words, "--memory", "32M", size=(1200, 900))
             self.assertLessEqual(statistics["picture_bytes"], 16 << 20)
             self.assertGreater(share_alike(whole, banded, 0), 0.999, technique)
+
+    def test_walls_come_down_from_above_the_view(self):
+        roof = [(40 + 0.5 * (i % 40), 40 + 0.5 * (i // 40), 60.0, 60.0) for i in range(1600)]
+        ground = [(2.0 * (i % 50), 2.0 * (i // 50), 0.0, 0.0) for i in range(2500)]
+        table = self.folder / "tall.csv"
+        with open(table, "w", encoding="ascii") as file:
+            file.write("x,y,z,height_above_ground\n")
+            file.writelines(",".join(map(str, point)) + "\n" for point in roof + ground)
+        store = self.folder / "tall.pfront"
+        self.succeed("build", table, "-o", store, "--node-points", "256")
+        self.camera.write_text(json.dumps(
+            {"position": [50, -60, 5], "focal_point": [50, 50, 5], "view_up": [0, 0, 1],
+             "view_angle": 12}))
+        style = self.folder / "style.json"
+        style.write_text(json.dumps(
+            {"default": {"technique": "solid", "color": "#00ff00", "wall_color": "#ff00ff"}}))
+        picture, statistics = self.statistics(store, "--camera", self.camera, "--style", style,
+                                              "--background", "0,0,0", "--error", "0.5")
+        self.assertGreater(statistics["points_drawn"], 3500)  # the roof's nodes too
+        upper = picture[:SIZE[1] // 3, SIZE[0] // 2].tolist()
+        self.assertEqual(set(map(tuple, upper)), {(255, 0, 255)})
+
+    def test_solid_takes_heights(self):
+        outcome = self.refuse(1, "render", self.store, "-o", self.folder / "x.png", "--technique",
+                              "solid")
+        self.assertIn("build it with --height-above-ground", outcome.err)
 
     def test_where(self):
         words = (self.store, "--view", "top", "--background", "0,0,0")

@@ -123,9 +123,9 @@ public:
   /**
    * How points look, as style sheets have it (docs/user/styles.md): "points" (default), "splats",
    * "spheres", "silhouettes", "solid" or "ewa"; the diameter in pixels (PointSize) or the one that
-   * closes the surface times a factor; eye-dome lighting (0, the default: off); light on points that have a normal; holes
-   * between points filled; a condition for the points that are drawn. Who draws: see
-   * vtkPointFrontMapper::SetBackend.
+   * closes the surface times a factor; eye-dome lighting (0, the default: off); light on points
+   * that have a normal; holes between points filled; a condition for the points that are drawn. Who
+   * draws: see vtkPointFrontMapper::SetBackend.
    */
   void SetTechnique(const char* name);
   void SetClosingSize(bool closing);

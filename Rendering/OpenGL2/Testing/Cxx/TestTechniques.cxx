@@ -63,6 +63,14 @@ Surfel stairsAt(double u, double v)
     tread ? glm::dvec3(0.0, 0.0, 1.0) : glm::dvec3(-1.0, 0.0, 0.0)};
 }
 
+/// A roof at a height of 40, and the ground; its walls are 8.3 high (surfaceStore).
+Surfel roofAt(double u, double v)
+{
+  const bool roof = u >= 0.5;
+  return {{4.0 * (roof ? 2.0 * u - 1.0 : 2.0 * u) - 2.0, 4.0 * v - 2.0, roof ? 40.0 : 0.0},
+    {0.0, 0.0, 1.0}};
+}
+
 /// 40,000 points with normals, radii, sizes, colours and two classes. One in 97 has no normal.
 std::string surfaceStore(const std::string& name, Surface surface)
 {
@@ -275,6 +283,19 @@ TEST(Techniques, OtherActorsIntersectSplats)
   scene.expectAlike("a wall in the surface");
   actor->GetProperty()->SetOpacity(0.5);
   scene.expectAlike("a translucent wall");
+}
+
+/// Walls of points that are far above the view, whose nodes nobody needs for their points.
+TEST(Techniques, WallsComeDownFromAboveTheView)
+{
+  Splats scene(surfaceStore("above", roofAt));
+  ASSERT_TRUE(scene.style->LoadJSON(
+    R"({"default": {"technique": "solid", "wall_color": ["#f0e0d0", "#103060"]}})"));
+  scene.lookFrom({0.0, -12.0, 33.0}, {0.0, 0.0, 33.0}); // heights from 32.6 to 33.4
+  scene.renderer->GetActiveCamera()->SetViewUp(0.0, 0.0, 1.0);
+  scene.renderer->GetActiveCamera()->SetViewAngle(4.0);
+  scene.expectAlike("from aside");
+  EXPECT_GT(scene.mapper->GetLastPointsDrawn(), 15000) << "all of the roof";
 }
 
 TEST(Techniques, ATranslucentActorIsOneSurface)

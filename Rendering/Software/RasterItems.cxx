@@ -128,7 +128,8 @@ void RasterItems::add(const Place& place, std::uint32_t base)
   item.normalAttribute = item.normals ? &(*plan_.schema)[*style.normalColumn] : nullptr;
   const bool oriented = item.normals || style.orientation == SplatOrientation::Fixed;
   const bool thinned = place.item->refined && place.item->unfinished;
-  item.passes = passesOf(style, { oriented, plan_.spacingPx, thinned, plan_.camera.height });
+  const float spacingPx = std::max(plan_.spacingPx, place.item->growingSpacingPx);
+  item.passes = passesOf(style, { oriented, spacingPx, thinned, plan_.camera.height });
   const std::byte* const codes = columnOf(node, style.radiusColumn);
   item.radiusCodes = reinterpret_cast<const std::uint8_t*>(codes);
   const auto value = static_cast<float>(style.size.value) * radiusFactor_;

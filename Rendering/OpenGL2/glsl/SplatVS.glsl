@@ -133,7 +133,7 @@ void main()
   splat.colour.a = grown; // of its weight
   grown = 1.0;
 #endif
-  setUp(camera, radiusOf(steps.w, slot, camera.z) * grown);
+  setUp(camera, radiusOf(steps.w, slot, camera.z), grown);
   vec4 r = splat.rectangle;
   r = vec4(max(r.xy, vec2(0.0)), min(r.zw, viewportSize));
   splat.rectangle = r;

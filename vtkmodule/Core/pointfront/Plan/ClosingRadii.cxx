@@ -102,6 +102,8 @@ void refine(const std::vector<LayeredItem>& items)
     for (; place != items.end() && place->node() == parent; ++place)
     {
       place->item->refined = true;
+      place->item->growingSpacingPx =
+        std::max(place->item->growingSpacingPx, item.growingSpacingPx);
       finer[static_cast<std::size_t>(place - items.begin())].add(radii);
     }
   }

@@ -4,6 +4,7 @@
 #include "pointfront/Plan/ClosingRadii.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace pointfront
@@ -15,10 +16,19 @@ namespace
 constexpr float mostSpacings = 2.0f;
 /// A whole layer of fewer points is no surface: its points are as small as can be.
 constexpr std::size_t fewestOfSurface = 64;
+/// Of how far points of a node that grows are apart.
+constexpr double stepsAnOctave = 16.0;
+
+/// Of the next step of a ladder: what differs by less is drawn alike, so in one group.
+float inSteps(double spacingPx)
+{
+  return static_cast<float>(
+    std::exp2(std::ceil(stepsAnOctave * std::log2(spacingPx)) / stepsAnOctave));
+}
 
 /// Points [0, points) of a node; `spread` of them say how far they are apart.
 PlanItem itemOf(std::shared_ptr<const NodeColumns> node, const DetailGrowth::Shown& shown,
-  float spacingRatio)
+  float spacingRatio, float errorPx)
 {
   const NodeColumns& columns = *node;
   PlanItem item;
@@ -28,6 +38,10 @@ PlanItem itemOf(std::shared_ptr<const NodeColumns> node, const DetailGrowth::Sho
   item.spacing = prefixSpacing(columns, shown.spread, spacingRatio);
   item.radiusScale =
     columns.spacing > 0.0f ? std::max(1.0f, item.spacing / columns.spacing) : 1.0f;
+  item.growingSpacingPx = shown.growth.whole()
+    ? 0.0f
+    : inSteps(prefixErrorPx(
+        static_cast<std::uint32_t>(columns.size()), shown.spread, errorPx, spacingRatio));
   const float measured = std::min(columns.splatRadius, mostSpacings * columns.spacing);
   const bool strays = columns.parent == noNode && columns.size() < fewestOfSurface;
   item.unfinished = !columns.leaf || shown.points < columns.size();
@@ -57,7 +71,7 @@ std::vector<std::vector<PlanItem>> itemsByLayer(const ViewFront& front, const Pl
       const std::uint16_t layer = node->layer;
       if (shown.points > 0)
       {
-        items[layer].push_back(itemOf(std::move(node), shown, item.spacingRatio));
+        items[layer].push_back(itemOf(std::move(node), shown, item.spacingRatio, item.errorPx));
       }
     }
   }
@@ -67,7 +81,7 @@ std::vector<std::vector<PlanItem>> itemsByLayer(const ViewFront& front, const Pl
     {
       const std::uint16_t layer = leaving.node->layer;
       items[layer].push_back(itemOf(
-        std::move(leaving.node), { leaving.points, leaving.points, leaving.growth }, 0.0f));
+        std::move(leaving.node), { leaving.points, leaving.points, leaving.growth }, 0.0f, 0.0f));
     }
   }
   return items;

@@ -29,7 +29,7 @@ class Backends(SceneTest):
     def cameras(self, store, eye, at, half_height):
         """One in perspective and one parallel; of a cloud without an eye, around all of it."""
         if eye is None:
-            facts = json.loads(self.succeed("info", store, "--json").stdout)
+            facts = self.succeed("info", store, "--json").json
             low, high = (numpy.array(facts["bounds"][axes]) for axes in (slice(3), slice(3, 6)))
             at = ((low + high) / 2).tolist()
             size = float(numpy.linalg.norm(high - low))

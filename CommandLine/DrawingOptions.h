@@ -35,6 +35,7 @@ struct DrawingOptions
   std::int64_t pointBudget = -1; ///< most points drawn; -1: not given
   std::uint64_t gpuBytes = 0;    ///< most GPU memory for points; 0: no limit but the points
   double frameMs = 0.0;          ///< while the camera moves; 0: that VTK allots
+  double growthMs = 250.0;       ///< that detail takes to its size, in frames that follow others
   bool measureEmptyScene = false; ///< see StoreScene::emptySceneBytes()
   std::vector<std::uint8_t> classes; ///< sorted codes of what is drawn; empty: all
   bool eyeDomeLighting = false;

@@ -81,12 +81,17 @@ const FrontDelta& DrawnStore::update(FrameDemand demand)
   return front_->update(demand_);
 }
 
-FramePlan DrawnStore::plan(const FrameCamera& camera, const FrameShading& shading) const
+FramePlan DrawnStore::plan(
+  const FrameCamera& camera, const FrameShading& shading, const GrowthMoment& moment)
 {
   PlanRequest request;
   request.camera = camera;
   request.shading = shading;
   request.keepsVisible = leavesOut(front_->last(), demand_);
+  request.growth = &growth_;
+  request.moment = moment;
+  request.moment.moving = demand_.interacting;
+  request.moment.duration = demand_.complete ? 0.0 : moment.duration;
   for (const LayerStyling& layer : styles_)
   {
     request.styles.emplace_back();
@@ -120,7 +125,8 @@ bool DrawnStore::needsFrame()
     front_->update(demand_);
     ahead_ = true;
   }
-  due_ = (ahead_ || front_->wantsUpdate()) && !(pauses && front_->expectsMore());
+  due_ = (ahead_ || front_->wantsUpdate() || growth_.growing()) &&
+    !(pauses && front_->expectsMore());
   return due_;
 }
 

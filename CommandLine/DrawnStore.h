@@ -36,8 +36,12 @@ public:
   /// Moves the front on; `demand` lacks what is the store's own: its columns and layers.
   const FrontDelta& update(FrameDemand demand);
   const FrontDelta& last() const { return front_->last(); }
-  /// What the last update draws.
-  FramePlan plan(const FrameCamera& camera, const FrameShading& shading) const;
+  /// What the last update draws; `moment`: how it grows. A view that is to be complete at once does
+  /// not.
+  FramePlan plan(
+    const FrameCamera& camera, const FrameShading& shading, const GrowthMoment& moment);
+  /// The last plan had all that its front draws as it will be.
+  bool isGrown() const { return growth_.whole(); }
   /// The frame with that plan took so long, of what it has to itself.
   void noteFrame(std::uint64_t points, std::uint64_t keptPoints, double milliseconds);
 
@@ -61,6 +65,7 @@ private:
   std::shared_ptr<const StoredCloud> cloud_;
   std::unique_ptr<ResidencyShare> share_; // before the front, which refers to it
   std::unique_ptr<ViewFront> front_;
+  DetailGrowth growth_;
   std::vector<LayerStyling> styles_;
   double tallestWall_ = 0.0;        ///< of the styles
   LayerColumns columns_;            ///< that the styles read

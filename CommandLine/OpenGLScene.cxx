@@ -305,6 +305,7 @@ Result<void> OffscreenScene::setUpDrawing()
     }
     drawn->mapper->SetGPUMemoryBudget(static_cast<vtkTypeInt64>(options_.gpuBytes));
     drawn->mapper->SetTargetFrameTime(options_.frameMs);
+    drawn->mapper->SetGrowthTime(options_.growthMs);
     drawn->actor->GetProperty()->LightingOff(); // colours are drawn as they are
     renderer_->AddActor(drawn->actor);
   }

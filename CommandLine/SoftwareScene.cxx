@@ -362,15 +362,19 @@ void SoftwareScene::drawPart(
   frame.rasteriseMilliseconds = 0.0;
   std::vector<std::uint64_t> points(stores_.size()), kept(stores_.size());
   double own = 0.0;
+  GrowthMoment moment;
+  moment.seconds = std::chrono::duration<double>(begin.time_since_epoch()).count();
+  moment.duration = 1e-3 * options_.growthMs;
   for (std::size_t i = 0; i < stores_.size(); ++i)
   {
     const auto beginOfStore = Clock::now();
-    const FramePlan plan = stores_[i]->plan(camera_, shading_);
+    const FramePlan plan = stores_[i]->plan(camera_, shading_, moment);
     const RasterStatistics drawn =
       composition_.draw(rasteriser, plan, target_, static_cast<std::uint16_t>(i));
     *frame.rasteriseMilliseconds += drawn.milliseconds;
     kept[i] = drawn.keptVisible;
     points[i] = plan.pointCount();
+    frame.complete = frame.complete && stores_[i]->isGrown();
     frame.points += static_cast<std::int64_t>(points[i]);
     ownMs_[i] += millisecondsSince(beginOfStore);
     own += millisecondsSince(beginOfStore);

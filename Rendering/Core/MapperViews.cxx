@@ -164,6 +164,7 @@ void MapperViews::takeSuccessor()
   {
     view.Front = succession->take(renderer);
     view.Plan.reset();
+    view.Growth.reset(); // numbers of nodes mean others
     view.Announced = false;
     if (view.Front && view.Renderer)
     {

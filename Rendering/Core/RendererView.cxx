@@ -90,8 +90,18 @@ bool RendererView::NeedsRender()
     this->Ahead = true;
   }
   this->Due =
-    (this->Ahead || this->Front->wantsUpdate()) && !(paused && this->Front->expectsMore());
+    (this->Ahead || this->Front->wantsUpdate() || this->Growth.growing()) &&
+    !(paused && this->Front->expectsMore());
   return this->Due;
+}
+
+GrowthMoment RendererView::MomentOf(double growthMilliseconds) const
+{
+  GrowthMoment moment;
+  moment.seconds = std::chrono::duration<double>(Clock::now().time_since_epoch()).count();
+  moment.duration = this->Demand.complete ? 0.0 : 1e-3 * growthMilliseconds;
+  moment.moving = this->Demand.interacting;
+  return moment;
 }
 
 } // namespace pointfront

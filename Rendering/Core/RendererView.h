@@ -1,5 +1,6 @@
 #pragma once
 
+#include "pointfront/Plan/DetailGrowth.h"
 #include "pointfront/Plan/FramePlan.h"
 #include "pointfront/Views/ViewFront.h"
 
@@ -27,6 +28,7 @@ struct RendererView
   std::unique_ptr<ViewFront> Front;
   /// Of the frame that is being drawn. It pins its nodes, so it goes with the frame.
   std::optional<FramePlan> Plan;
+  DetailGrowth Growth;  ///< what is shown of what the front draws
   bool NewFrame = true; ///< the renderer began a frame, and this mapper has not been drawn in it
   bool Seen = true;     ///< the mapper was drawn in the renderer's last frame
   bool FirstDrawing = false;
@@ -52,6 +54,9 @@ struct RendererView
   /// Once a frame is due it stays so until it is drawn. Never for what the renderer does not show:
   /// it would stay due for ever.
   bool NeedsRender();
+
+  /// Of the frame that is being drawn; a view that is to be complete at once does not grow.
+  GrowthMoment MomentOf(double growthMilliseconds) const;
 
 private:
   void EndFrame();

@@ -364,6 +364,8 @@ pointfront::FramePlan* vtkPointFrontMapper::PlanFrame(vtkRenderer* renderer, vtk
   if (moved || !view.Plan)
   {
     request.keepsVisible = pointfront::leavesOut(view.Front->last(), view.Demand);
+    request.growth = &view.Growth;
+    request.moment = view.MomentOf(this->GrowthTime);
     view.Plan = pointfront::planFrame(
       *view.Front, this->GetStore()->GetStore()->description(), std::move(request));
     return &*view.Plan;
@@ -399,7 +401,7 @@ void vtkPointFrontMapper::FinishFrame(
   view.DrawnAt = Clock::now();
   view.UploadsLeft = uploadsLeft;
   // In motion the frame time limits the front: at rest the same view may show more.
-  view.Complete = delta.complete && !uploadsLeft &&
+  view.Complete = delta.complete && !uploadsLeft && view.Growth.whole() &&
                   (!IsInteracting(renderer) || delta.errorPx <= this->TargetError);
   pointfront::FrameStatistics& statistics = this->GetStatistics();
   const double frontMilliseconds = statistics.frontMilliseconds;
@@ -519,6 +521,7 @@ void vtkPointFrontMapper::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Backend: " << this->Backend << "\n";
   os << indent << "Complete: " << this->Complete << "\n";
   os << indent << "TargetFrameTime: " << this->TargetFrameTime << "\n";
+  os << indent << "GrowthTime: " << this->GrowthTime << "\n";
   os << indent << "UploadLimit: " << this->UploadLimit << "\n";
   os << indent << "StorePiece: " << this->StorePiece << " of " << this->NumberOfStorePieces << "\n";
   const pointfront::FrameStatistics& last = this->GetStatistics();

@@ -166,6 +166,17 @@ public:
 
   ///@{
   /**
+   * Milliseconds in which detail that comes or goes grows from nothing to its size, or shrinks;
+   * while the user interacts the last points of what is shown of a node stay smaller. So nothing
+   * pops up. 0: what is new is there at once. Pictures of views at rest are the same either way.
+   * Points of a fixed number of pixels do not grow: they appear one after the other. Default 250.
+   */
+  vtkSetClampMacro(GrowthTime, double, 0.0, 10000.0);
+  vtkGetMacro(GrowthTime, double);
+  ///@}
+
+  ///@{
+  /**
    * Bytes uploaded to the GPU per frame while interacting. Default 16 MiB.
    */
   vtkSetClampMacro(UploadLimit, vtkTypeInt64, 1 << 16, VTK_TYPE_INT64_MAX);
@@ -349,6 +360,7 @@ protected:
   int Backend = AUTOMATIC;
   bool Complete = false;
   double TargetFrameTime = 0.0;
+  double GrowthTime = 250.0;
   vtkTypeInt64 UploadLimit = 16 << 20;
   int StorePiece = 0;
   int NumberOfStorePieces = 1;

@@ -20,11 +20,13 @@ namespace shapeCode
 constexpr std::uint32_t centre = 2047;   ///< code of 0; -1 is code 0, 1 is code 4094
 constexpr std::uint32_t noNormal = 4095; ///< in the place of the first number
 
-/// `normal` may be of any length; one that is zero or not finite is none.
+/// `normal` may be of any length; one that is zero, not finite, or so far from unit length that it
+/// is none to the software back end (completeNormals() in SplatSetUp.h) is none.
 inline std::uint32_t of(const glm::vec3& normal, std::uint8_t radius)
 {
   const float length = std::abs(normal.x) + std::abs(normal.y) + std::abs(normal.z);
-  if (!(length > 0.0f) || !std::isfinite(length))
+  const float square = normal.x * normal.x + normal.y * normal.y + normal.z * normal.z;
+  if (!(square > 1e-12f && square < 1e12f))
   {
     return noNormal << 8 | radius;
   }

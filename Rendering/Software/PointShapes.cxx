@@ -173,9 +173,14 @@ void PointShapes::grow(
   const RasterItem& item, const Points& points, int count, RasterBatch& batch)
 {
   const PointGrowth& growth = item.item->growth;
-  for (int j = 0; j < count && !growth.whole(); ++j)
+  if (growth.whole())
   {
-    batch.radius[j] *= growth.of(points(j));
+    std::fill(batch.grown, batch.grown + count, 1.0f);
+    return;
+  }
+  for (int j = 0; j < count; ++j)
+  {
+    batch.grown[j] = growth.of(points(j));
   }
 }
 
@@ -217,6 +222,7 @@ void PointShapes::fillBlended(
   const RasterItem& item, std::uint32_t first, int count, float share, RasterBatch& batch) const
 {
   fillBy(item, Consecutive{ first }, count, share, batch);
+  std::fill(batch.grown, batch.grown + count, 1.0f);
   for (int j = 0; j < count; ++j)
   {
     batch.weight[j] = mostWeight * item.item->growth.of(first + static_cast<std::uint32_t>(j));

@@ -19,8 +19,8 @@ public:
   {
   }
   /// Fills radius (world units, times `share`) and normals, or heights of walls, of projected
-  /// points: of [first, first + count), or of those in a list. Points that grow are as large as
-  /// they are yet.
+  /// points: of [first, first + count), or of those in a list; `grown` says how large those are yet
+  /// that grow.
   void fill(const RasterItem& item, std::uint32_t first, int count, float share,
     RasterBatch& batch) const;
   void fill(const RasterItem& item, const std::uint32_t* points, int count, float share,

@@ -29,6 +29,7 @@ struct RasterBatch
   alignas(64) float depth[size];   ///< camera z; negative: culled
   alignas(64) float inverseReach[size]; ///< 1 / depth; parallel: 1
   alignas(64) float radius[size];  ///< world units; after the set-up: at least what a pixel needs
+  alignas(64) float grown[size];   ///< of its radius, once that is at least what a pixel needs
   alignas(64) float weight[size];  ///< of a blended splat's centre, 0 to 63
   alignas(64) float normalX[size]; ///< camera space, any length
   alignas(64) float normalY[size];

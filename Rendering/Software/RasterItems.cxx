@@ -164,7 +164,8 @@ PassDemand RasterItems::demandOf(const RasterItem& item) const
 {
   const bool oriented = item.normals || item.style->orientation == SplatOrientation::Fixed;
   const bool thinned = item.item->refined && item.item->unfinished;
-  return { oriented, plan_.spacingPx, thinned, plan_.camera.height };
+  const float spacingPx = std::max(plan_.spacingPx, item.item->growingSpacingPx);
+  return { oriented, spacingPx, thinned, plan_.camera.height };
 }
 
 RasterItem RasterItems::wallsOf(const RasterItem& item) const

@@ -15,6 +15,8 @@ namespace
 /// Discs are not drawn more edge on than that cosine: what the affine map makes of them then has
 /// nothing to do with them (EWA-5).
 constexpr float leastCosine = 0.05f;
+/// Pixels: what grows from nothing has that radius at least, so that nothing is divided by 0.
+constexpr float leastGrown = 0.05f;
 /// Of a splat that is everywhere: larger than any viewport.
 constexpr float everywhere = 1.0e5f;
 
@@ -31,7 +33,7 @@ inline Direction directionOf(const RasterCamera& camera, const RasterBatch& batc
     (batch.screenY[j] - camera.centreY) * (perspective / camera.scaleY) };
 }
 
-/// A radius in world units becomes what covers at least a pixel.
+/// A radius in world units becomes what covers at least a pixel, and what of that is grown.
 template <bool Parallel>
 inline void widen(
   RasterCamera camera, float leastPixels, float mostPixels, int count, RasterBatch& batch)
@@ -44,6 +46,8 @@ inline void widen(
     float pixels = batch.radius[j] * scale * batch.inverseReach[j];
     pixels = pixels > leastPixels ? pixels : leastPixels;
     pixels = pixels < mostPixels ? pixels : mostPixels;
+    const float grown = pixels * batch.grown[j];
+    pixels = grown > leastGrown ? grown : leastGrown;
     batch.halfX[j] = pixels;
     batch.radius[j] = pixels * reach * inverseScale;
   }

@@ -92,12 +92,14 @@ bool meetsView(vec3 camera)
 }
 
 /// Fills all that the pixels need, and the rectangle of pixels that it may cover.
-void setUp(vec3 camera, float radius, float height)
+/// `grown`: of its radius, once that is at least what a pixel needs.
+void setUp(vec3 camera, float radius, float grown, float height)
 {
   float reach = POINTFRONT_PARALLEL == 1 ? 1.0 : camera.z;
   vec2 to = POINTFRONT_PARALLEL == 1 ? vec2(0.0) : camera.xy / camera.z;
   vec2 screen = cameraCentre + camera.xy / reach * cameraScale;
   float pixels = clamp(radius * cameraScale.y / reach, leastRadius, mostRadius);
+  pixels = max(pixels * grown, 0.05);
   splat.centre = vec4(screen, camera.z, pixels * reach / cameraScale.y);
   splat.form = vec4(0.0);
   splat.slope = vec4(to, 0.0, 0.0);

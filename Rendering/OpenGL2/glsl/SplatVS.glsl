@@ -138,7 +138,7 @@ void main()
 #else
   const float height = 0.0;
 #endif
-  setUp(camera, radiusOf(steps.w, slot, camera.z) * grown, height);
+  setUp(camera, radiusOf(steps.w, slot, camera.z), grown, height);
   vec4 r = splat.rectangle;
   r = vec4(max(r.xy, vec2(0.0)), min(r.zw, viewportSize));
   splat.rectangle = r;

@@ -188,6 +188,9 @@ TEST(DetailGrowth, InMotionTheLastPointsOfAPrefixAreSmall)
     }
     before = std::move(sizes);
   }
+  scene.frame(0.03, { { 0, 305 } }, true);
+  EXPECT_FALSE(scene.growth.growing()); // the same again is the same
+  EXPECT_FALSE(scene.growth.whole());   // and at rest there is more
 }
 
 /// At rest all of it gets its size.
@@ -196,12 +199,15 @@ TEST(DetailGrowth, AtRestNothingIsLeftOfIt)
   Growing scene(true);
   scene.frame(0.0, { { 0, 500 }, { 1, 20 } }, true);
   scene.frame(0.03, { { 0, 480 }, { 1, 18 } }, true);
+  EXPECT_FALSE(scene.growth.whole());
+  scene.frame(0.02, { { 0, 500 }, { 1, 20 } });
   EXPECT_TRUE(scene.growth.growing());
   for (int i = 0; i < 20 && scene.growth.growing(); ++i)
   {
     scene.frame(0.02, { { 0, 500 }, { 1, 20 } });
   }
   EXPECT_FALSE(scene.growth.growing());
+  EXPECT_TRUE(scene.growth.whole());
   EXPECT_TRUE(scene.whole(0, 500));
   EXPECT_TRUE(scene.whole(1, 20));
 }

@@ -118,6 +118,48 @@ struct Scene
 
 } // namespace
 
+/// While children grow among a node's points, its splats close the surface as without them, and
+/// step by step less; at the end the plan is that of a view that never grew.
+TEST(FramePlanner, WhatGrowsLeavesNoHoles)
+{
+  Scene scene;
+  DetailGrowth growth;
+  scene.request.growth = &growth;
+  scene.request.moment.duration = 0.2;
+  scene.plan(16.0);
+  float before = 1e30f;
+  for (int frame = 1; frame <= 12; ++frame)
+  {
+    scene.request.moment.seconds = 0.02 * frame;
+    const FramePlan plan = scene.plan(1.0);
+    for (const PlanItem& item : plan.batches[0].items)
+    {
+      if (item.node->parent != noNode)
+      {
+        EXPECT_EQ(item.growth.whole(), item.growingSpacingPx == 0.0f);
+      }
+      if (item.node->node == 0)
+      {
+        EXPECT_LE(item.growingSpacingPx, before);
+        before = item.growingSpacingPx;
+      }
+    }
+    if (frame == 1)
+    {
+      // Hardly more than what 16 px asked for is there yet.
+      EXPECT_GT(before, 12.0f);
+      EXPECT_LT(before, 16.0f * 1.05f);
+    }
+  }
+  EXPECT_EQ(before, 0.0f);
+  EXPECT_TRUE(growth.whole());
+  std::ostringstream grown, still;
+  grown << scene.plan(1.0);
+  Scene other;
+  still << other.plan(1.0);
+  EXPECT_EQ(grown.str(), still.str());
+}
+
 TEST(FramePlanner, GroupsAllThatTheFrontDrawsByLayer)
 {
   Scene scene;

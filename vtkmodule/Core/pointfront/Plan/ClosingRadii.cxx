@@ -37,6 +37,7 @@ struct DrawnNode
   bool unfinished;
   Ground ground;
   float sparsestRadius = 0.0f;
+  float growingSpacingPx = 0.0f;
   bool refined = false;
 };
 
@@ -58,7 +59,7 @@ std::vector<DrawnNode> nodesOf(const std::vector<DrawBatch>& batches,
     for (const PlanItem& item : batch.items)
     {
       nodes.push_back({ item.node->node, item.node->parent, batch.layer, item.last - item.first,
-        item.closingRadius, item.unfinished, groundOf(item, grid) });
+        item.closingRadius, item.unfinished, groundOf(item, grid), 0.0f, item.growingSpacingPx });
     }
   }
   for (const NodeElsewhere& other : elsewhere)
@@ -134,6 +135,7 @@ void refine(std::vector<DrawnNode>& nodes)
     if (parent != nodes.end() && parent->node == drawn.parent)
     {
       parent->refined = true;
+      parent->growingSpacingPx = std::max(parent->growingSpacingPx, drawn.growingSpacingPx);
       finer[static_cast<std::size_t>(parent - nodes.begin())].add(radii);
     }
   }
@@ -213,6 +215,7 @@ void matchNeighbours(std::vector<DrawBatch>& batches, const QuantisationGrid& gr
       const auto drawn = std::lower_bound(nodes.begin(), nodes.end(), item.node->node, before);
       item.closingRadius = drawn->closingRadius;
       item.sparsestRadius = drawn->sparsestRadius;
+      item.growingSpacingPx = drawn->growingSpacingPx;
       item.refined = drawn->refined;
       item.unfinished = drawn->unfinished;
     }

@@ -50,6 +50,7 @@ void DetailGrowth::begin(const GrowthMoment& moment, bool ordered)
   ordered_ = ordered;
   begun_ = true;
   growing_ = false;
+  whole_ = true;
   step_ = moment.duration > 0.0 ? std::min(longestStep, passed / moment.duration) : 0.0;
 }
 
@@ -57,6 +58,7 @@ void DetailGrowth::reset()
 {
   begun_ = false;
   growing_ = false;
+  whole_ = true;
   before_ = {};
   now_ = {};
 }
@@ -89,11 +91,12 @@ DetailGrowth::Shown DetailGrowth::growOrdered(State& now, const NodeColumns& nod
     const double most = step_ * whole;
     now.shown = last + std::clamp(wanted - last, -most, most);
   }
+  growing_ = growing_ || now.shown != wanted;
   if (now.shown >= whole)
   {
     return { now.points, now.points, {} };
   }
-  growing_ = true;
+  whole_ = false;
   Shown result;
   result.points = 
     std::min(now.points, static_cast<std::uint32_t>(std::ceil(now.shown)));
@@ -113,6 +116,7 @@ DetailGrowth::Shown DetailGrowth::growWhole(State& now, const NodeColumns& node)
     now.shown = std::min(1.0, (before ? before->shown : 0.0) + step_);
   }
   growing_ = growing_ || now.shown < 1.0;
+  whole_ = whole_ && now.shown >= 1.0;
   const PointGrowth growth{ static_cast<float>(std::min(1.0, now.shown / halfway)), 0.0f };
   return { growth.first > 0.0f ? now.points : 0, now.points, growth };
 }
@@ -134,6 +138,7 @@ std::vector<DetailGrowth::Leaving> DetailGrowth::finish()
       state.node = old.node;
       state.shown = shown;
       growing_ = true;
+      whole_ = false;
     }
   }
   before_ = {};

@@ -62,8 +62,10 @@ public:
   /// After all of them: what is drawn beside. Unordered only.
   std::vector<Leaving> finish();
 
-  /// Some of it is not what the front wants at rest: another frame differs.
+  /// Another frame that asks for the same differs.
   bool growing() const { return growing_; }
+  /// What is shown is what the front draws: nothing is left of growth.
+  bool whole() const { return whole_; }
   /// What is seen next is seen first.
   void reset();
 
@@ -93,6 +95,7 @@ private:
   bool ordered_ = true;
   bool begun_ = false;
   bool growing_ = false;
+  bool whole_ = true;
   double step_ = 0.0; ///< of `duration`, since the last frame; half of it at most
   States before_;
   States now_;

@@ -43,6 +43,9 @@ struct PlanItem
   bool refined = false;
   /// The store has more points there than are drawn.
   bool unfinished = false;
+  /// Pixels between the points on screen while this node or finer ones among its points grow, if
+  /// these are more than FramePlan::spacingPx, which counts on what they will be.
+  float growingSpacingPx = 0.0f;
 };
 
 /// What is drawn in one way: the nodes of one layer.

@@ -5,6 +5,7 @@
 #include "pointfront/Plan/LensCulling.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace pointfront
@@ -16,6 +17,15 @@ namespace
 constexpr float mostSpacings = 2.0f;
 /// A whole layer of fewer points is no surface: its points are as small as can be.
 constexpr std::size_t fewestOfSurface = 64;
+/// Of how far points of a node that grows are apart.
+constexpr double stepsAnOctave = 16.0;
+
+/// Of the next step of a ladder: what differs by less is drawn alike, so in one group.
+float inSteps(double spacingPx)
+{
+  return static_cast<float>(
+    std::exp2(std::ceil(stepsAnOctave * std::log2(spacingPx)) / stepsAnOctave));
+}
 
 /// What closes the surface among the first `drawn` points of a node, before its neighbours are
 /// looked at.
@@ -55,7 +65,7 @@ void keepWhatIsSeen(const FramePlan& plan, DrawBatch& batch)
 
 /// Points [0, points) of a node; `spread` of them say how far they are apart.
 PlanItem itemOf(std::shared_ptr<const NodeColumns> node, const DetailGrowth::Shown& shown,
-  float spacingRatio)
+  float spacingRatio, float errorPx)
 {
   const NodeColumns& columns = *node;
   PlanItem item;
@@ -66,6 +76,9 @@ PlanItem itemOf(std::shared_ptr<const NodeColumns> node, const DetailGrowth::Sho
   const MeasuredRadius radius(columns, points, shown.spread, columns.leaf, spacingRatio);
   item.spacing = radius.spacing;
   item.radiusScale = radius.radiusScale;
+  item.growingSpacingPx = shown.growth.whole()
+    ? 0.0f
+    : inSteps(prefixErrorPx(points, shown.spread, errorPx, spacingRatio));
   item.unfinished = !columns.leaf || shown.points < points;
   item.closingRadius = radius.closing;
   return item;
@@ -92,7 +105,7 @@ std::vector<std::vector<PlanItem>> itemsByLayer(const ViewFront& front, const Pl
       const std::uint16_t layer = node->layer;
       if (shown.points > 0)
       {
-        items[layer].push_back(itemOf(std::move(node), shown, item.spacingRatio));
+        items[layer].push_back(itemOf(std::move(node), shown, item.spacingRatio, item.errorPx));
       }
     }
   }
@@ -102,7 +115,7 @@ std::vector<std::vector<PlanItem>> itemsByLayer(const ViewFront& front, const Pl
     {
       const std::uint16_t layer = leaving.node->layer;
       items[layer].push_back(itemOf(
-        std::move(leaving.node), { leaving.points, leaving.points, leaving.growth }, 0.0f));
+        std::move(leaving.node), { leaving.points, leaving.points, leaving.growth }, 0.0f, 0.0f));
     }
   }
   return items;

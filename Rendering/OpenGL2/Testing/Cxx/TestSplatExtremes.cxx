@@ -1,0 +1,319 @@
+// Views and splats at the ends of what numbers can say, through OpenGL; the twins of
+// TestRasterExtremes.cxx, and shapes whose picture is known.
+
+#include "Scene.h"
+
+#include "vtkPointFrontStyle.h"
+
+#include <glm/geometric.hpp>
+
+#include <limits>
+#include <string>
+#include <vector>
+
+using namespace pointfront;
+using namespace pointfront::test;
+
+namespace
+{
+
+const std::vector<std::string> techniqueWords = {R"("technique": "splats")",
+  R"("technique": "splats", "blended": true)", R"("technique": "splats", "orientation": "view")",
+  R"("technique": "spheres")", R"("technique": "ewa")",
+  R"("technique": "ewa", "accuracy": "exact")", R"("technique": "ewa", "accuracy": "full")"};
+
+struct NormalPoint
+{
+  glm::dvec3 position;
+  glm::vec3 normal{0.0f, 0.0f, 1.0f};
+  std::array<std::uint8_t, 3> rgb{255, 255, 255};
+};
+
+std::string storeOfPoints(const std::string& name, const std::vector<NormalPoint>& points,
+  const glm::dvec3& offset = glm::dvec3(0.0))
+{
+  AttributeSchema schema;
+  schema.add({"rgb", ScalarType::UInt8, 3});
+  schema.add({"normal", ScalarType::Float32, 3});
+  const QuantisationGrid grid = millimetres(offset);
+  auto cloud = std::make_unique<CloudSource>(name, schema, grid);
+  for (const NormalPoint& point : points)
+  {
+    cloud->addPosition(point.position + offset);
+    cloud->addValue(0, point.rgb);
+    cloud->addValue(
+      1, std::array<float, 3>{point.normal.x, point.normal.y, point.normal.z});
+  }
+  BuildOptions options;
+  options.outputPath = ::testing::TempDir() + name + ".pfront";
+  options.nodePoints = 2000;
+  options.overwrite = true;
+  options.threads = 1;
+  const auto built = buildStore(one(std::move(cloud)), options);
+  EXPECT_TRUE(built.ok()) << (built.ok() ? "" : built.error().what);
+  return options.outputPath;
+}
+
+struct Extreme : Scene
+{
+  vtkNew<vtkPointFrontStyle> style;
+
+  explicit Extreme(const std::string& store, const glm::dvec3& origin = glm::dvec3(0.0))
+      : Scene(store, origin)
+  {
+    mapper->SetStyle(style);
+  }
+  /// A size in metres, or in pixels where `unit` says so.
+  Picture with(const std::string& technique, double size, const char* unit = "metres")
+  {
+    const std::string json = "{\"default\": {" + technique +
+      ", \"size\": {\"mode\": \"fixed\", \"" + unit + "\": " + std::to_string(size) + "}}}";
+    EXPECT_TRUE(style->LoadJSON(json)) << json;
+    return draw();
+  }
+};
+
+std::vector<NormalPoint> plane(int side, double step)
+{
+  std::vector<NormalPoint> points;
+  for (int i = 0; i < side * side; ++i)
+  {
+    points.push_back({{(i % side - 0.5 * (side - 1)) * step, (i / side - 0.5 * (side - 1)) * step,
+      0.0}});
+  }
+  return points;
+}
+
+} // namespace
+
+TEST(SplatExtremes, AnEyeOnASplatAndPointsBehind)
+{
+  Extreme scene(storeOfPoints("eye", {{{0, 0, 0}, {0, -1, 0}}, {{0, -1, 0}}, {{0, -3, 0.1}}}));
+  scene.renderer->ResetCameraClippingRange();
+  scene.lookFrom({0, 0, 0}, {0, 1, 0});
+  scene.renderer->GetActiveCamera()->SetViewUp(0, 0, 1);
+  scene.renderer->GetActiveCamera()->SetClippingRange(1e-3, 10.0);
+  for (const std::string& technique : techniqueWords)
+  {
+    // The eye is inside the first point's sphere and on its disc; the others are behind.
+    EXPECT_EQ(scene.with(technique, 0.5).lit(), 0) << technique;
+  }
+}
+
+/// Of coordinates of ten thousand kilometres the picture is that of the origin.
+TEST(SplatExtremes, CoordinatesOfTenThousandKilometres)
+{
+  std::vector<NormalPoint> points = plane(30, 0.1);
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    points[i].rgb = {static_cast<std::uint8_t>(37 * i), static_cast<std::uint8_t>(11 * i), 200};
+  }
+  const glm::dvec3 far(10485760.0, -10485760.0, 2621440.0);
+  Extreme near(storeOfPoints("near", points));
+  Extreme moved(storeOfPoints("far", points, far), far);
+  near.lookFrom({0.5, -3.0, 4.0}, {0.0, 0.0, 0.0});
+  moved.lookFrom(far + glm::dvec3(0.5, -3.0, 4.0), far);
+  for (const std::string& technique : techniqueWords)
+  {
+    const Picture there = moved.with(technique, 0.2);
+    EXPECT_GT(there.lit(), 4000) << technique;
+    // Positions are the same bits; the view's matrix is not quite.
+    EXPECT_LE(differing(near.with(technique, 0.2), there, 2), 300) << technique;
+  }
+}
+
+/// A radius of nothing shows each point in its pixel; one of a million pixels fills the picture.
+TEST(SplatExtremes, RadiiOfNothingAndOfAMillionPixels)
+{
+  Extreme scene(storeOfPoints("radii", {{{0, 0, 0}}}));
+  for (const std::string& technique : techniqueWords)
+  {
+    const int lit = scene.with(technique, 1.0e-6).lit();
+    EXPECT_GE(lit, 1) << technique;
+    EXPECT_LE(lit, 9) << technique;
+    if (technique.find("spheres") == std::string::npos) // the eye would be inside
+    {
+      // 10 m away, 37 pixels a metre: 2.7e4 m; bounded by what the technique states.
+      EXPECT_GE(scene.with(technique, 5.4e4).lit(), 20000) << technique;
+    }
+  }
+}
+
+TEST(SplatExtremes, ViewAnglesOfOneAndOf170Degrees)
+{
+  Extreme scene(storeOfPoints("angles", plane(60, 0.05)));
+  for (const double angle : {1.0, 170.0})
+  {
+    for (const std::string& technique : techniqueWords)
+    {
+      scene.lookFrom({0, 0, angle == 1.0 ? 100.0 : 0.5}, {0, 0, 0});
+      scene.renderer->GetActiveCamera()->SetViewAngle(angle);
+      scene.renderer->GetActiveCamera()->SetClippingRange(0.1, 1000.0);
+      scene.mapper->SetBackendToOpenGL();
+      const Picture gl = scene.with(technique, 0.1);
+      scene.mapper->SetBackendToSoftware();
+      const Picture software = scene.draw();
+      EXPECT_GT(gl.lit(), 100) << technique << ", " << angle;
+      EXPECT_LE(differing(gl, software, 2), 300) << technique << ", " << angle;
+    }
+  }
+}
+
+TEST(SplatExtremes, PicturesOfOnePixelAndLargeOnes)
+{
+  Extreme scene(storeOfPoints("sizes", plane(40, 0.25)));
+  for (const std::string& technique : techniqueWords)
+  {
+    scene.window->SetSize(1, 1);
+    EXPECT_EQ(scene.with(technique, 0.5).lit(), 1) << technique;
+  }
+  scene.window->SetSize(3000, 2000);
+  EXPECT_EQ(scene.with(techniqueWords[0], 0.6).lit(), 3000 * 2000);
+}
+
+TEST(SplatExtremes, NormalsThatAreNone)
+{
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const float infinity = std::numeric_limits<float>::infinity();
+  std::vector<NormalPoint> points;
+  for (const glm::vec3& normal :
+    {glm::vec3(0.0f), glm::vec3(nan), glm::vec3(infinity, 0, 0), glm::vec3(1e-20f),
+      glm::vec3(1e20f, 0, 1), glm::vec3(1, 0, 0)})
+  {
+    points.push_back({{0.6 * static_cast<double>(points.size()) - 1.5, 0, 0}, normal});
+  }
+  Extreme scene(storeOfPoints("normals", points));
+  for (const std::string& technique : techniqueWords)
+  {
+    const Picture picture = scene.with(technique, 0.4);
+    EXPECT_GT(picture.lit(), 300) << technique;
+    scene.mapper->SetBackendToSoftware();
+    EXPECT_LE(differing(picture, scene.draw(), 2), 60) << technique;
+    scene.mapper->SetBackendToOpenGL();
+  }
+}
+
+/// Blended, their mean: sums are exact in floats up to a thousand overlaps (docs/adr/0028).
+TEST(SplatExtremes, TenThousandSplatsOnOnePixel)
+{
+  for (const std::size_t count : {std::size_t(1000), std::size_t(10000)})
+  {
+    std::vector<NormalPoint> points(count);
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      points[i].rgb = {100, static_cast<std::uint8_t>(i % 2 == 0 ? 40 : 200), 7};
+      points[i].position = {1e-3 * static_cast<double>(i % 6), 1e-3 * static_cast<double>(i / 6 % 6), 0.0};
+    }
+    Extreme scene(storeOfPoints("heap", points));
+    scene.mapper->SetTargetError(0.01);
+    for (const std::string& technique : techniqueWords)
+    {
+      const Picture picture = scene.with(technique, 0.5);
+      const std::array<int, 3> colour = picture.at(150, 100);
+      const bool blended = technique.find("ewa") != std::string::npos ||
+        technique.find("blended") != std::string::npos;
+      EXPECT_NEAR(colour[0], 100, 1) << technique;
+      EXPECT_NEAR(colour[2], 7, 1) << technique;
+      if (blended)
+      {
+        EXPECT_NEAR(colour[1], 120, count == 1000 ? 1 : 3) << technique;
+      }
+      else
+      {
+        EXPECT_TRUE(colour[1] == 40 || colour[1] == 200) << technique << ": " << colour[1];
+      }
+    }
+  }
+}
+
+/// What is drawn in one colour has it wherever it is drawn.
+TEST(SplatExtremes, AConstantColourStaysWhereSplatsAreBlended)
+{
+  std::vector<NormalPoint> points = plane(100, 0.03);
+  for (NormalPoint& point : points)
+  {
+    point.rgb = {201, 94, 33};
+    point.position.z = 0.05 * std::sin(7.0 * point.position.x);
+  }
+  Extreme scene(storeOfPoints("constant", points));
+  scene.lookFrom({0.5, -3.0, 2.0}, {0.0, 0.0, 0.0});
+  for (const std::string& technique : techniqueWords)
+  {
+    const Picture picture = scene.with(technique, 0.1);
+    EXPECT_GT(picture.lit(), 10000) << technique;
+    for (std::size_t i = 0; i < picture.rgb.size(); i += 3)
+    {
+      const unsigned char* const c = &picture.rgb[i];
+      const bool empty = c[0] + c[1] + c[2] == 0;
+      ASSERT_TRUE(empty || (std::abs(c[0] - 201) <= 1 && std::abs(c[1] - 94) <= 1 &&
+        std::abs(c[2] - 33) <= 1)) << technique;
+    }
+  }
+}
+
+/// A disc, turned away and aside: the pixels whose ray meets it.
+TEST(SplatExtremes, ADiscCoversWhatRaysMeet)
+{
+  constexpr double radius = 0.8;
+  for (const glm::dvec3& facing : {glm::dvec3(0, 0, 1), glm::dvec3(1, 0.3, 1),
+         glm::dvec3(-0.9, 0.9, 0.5), glm::dvec3(0.2, -1, 0.25)})
+  {
+    const glm::dvec3 normal = glm::normalize(facing);
+    const glm::dvec3 centre(1.2, -0.7, 0.0);
+    Extreme scene(storeOfPoints("disc", {{centre, glm::vec3(normal)}}));
+    scene.lookFrom({0, 0, 5}, {0, 0, 0});
+    const Picture picture =
+      scene.with(R"("technique": "ewa", "accuracy": "exact")", 2.0 * radius);
+    const double pixel = 2.0 * std::tan(0.5 * 30.0 * 3.14159265358979 / 180.0) / 200.0;
+    int both = 0, either = 0;
+    for (int y = 0; y < 200; ++y)
+    {
+      for (int x = 0; x < 300; ++x)
+      {
+        const glm::dvec3 ray((x + 0.5 - 150.0) * pixel, (y + 0.5 - 100.0) * pixel, -1.0);
+        const glm::dvec3 eye(0, 0, 5);
+        const double t = glm::dot(centre - eye, normal) / glm::dot(ray, normal);
+        const bool met = t > 0.0 && glm::length(eye + t * ray - centre) <= radius;
+        const std::array<int, 3> c = picture.at(x, y);
+        const bool drawn = c[0] + c[1] + c[2] > 0;
+        both += met && drawn;
+        either += met || drawn;
+      }
+    }
+    EXPECT_GT(either, 300);
+    EXPECT_GE(both, 0.98 * either) << normal.x << " " << normal.y << " " << normal.z;
+  }
+}
+
+/// From a metre to ten kilometres, all of its points.
+TEST(SplatExtremes, ASplattedPlaneHasNoHole)
+{
+  Extreme scene(storeOfPoints("wide", plane(220, 0.05)));
+  scene.mapper->SetTargetError(0.01);
+  for (const std::string& technique :
+    {techniqueWords[0], techniqueWords[1], techniqueWords[2], techniqueWords[4]})
+  {
+    ASSERT_TRUE(scene.style->LoadJSON("{\"default\": {" + technique + "}}"));
+    for (const double away : {1.0, 3.0, 10.0, 30.0, 100.0, 300.0, 1000.0, 3000.0, 10000.0})
+    {
+      scene.lookFrom({0.0, 0.0, away}, {0.0, 0.0, 0.0});
+      scene.renderer->GetActiveCamera()->SetClippingRange(0.5 * away, 2.0 * away);
+      const Picture picture = scene.draw();
+      // Pixels to the edge.
+      const double half = 5.475 / (away * std::tan(0.2617993878)) * 100.0;
+      int holes = 0;
+      for (int y = 0; y < 200; ++y)
+      {
+        for (int x = 0; x < 300; ++x)
+        {
+          const bool inside =
+            std::abs(x + 0.5 - 150.0) < half && std::abs(y + 0.5 - 100.0) < half;
+          const std::array<int, 3> c = picture.at(x, y);
+          holes += inside && c[0] + c[1] + c[2] == 0;
+        }
+      }
+      EXPECT_EQ(holes, 0) << technique << ", from " << away;
+      EXPECT_GT(picture.lit(), 0) << technique << ", from " << away;
+    }
+  }
+}

@@ -257,6 +257,14 @@ def files(programs):
         compare("files-%d" % ranks_, "tool")
 
 
+def written(programs):
+    for ranks_ in (1, 2):
+        name = "written-%d" % ranks_
+        command = [os.environ["POINTFRONT_PVBATCH"], os.path.join(HERE, "written.py"), name]
+        programs.run(*(command if ranks_ == 1 else mpi(ranks_, *command)))
+        compare(name, "tool")
+
+
 def filtered(programs):
     with open("filtered.log", "w") as log:
         programs.finish(programs.start(
@@ -487,7 +495,7 @@ def main(way):
             "ranks-selection": ranks_selection, "batch-selection": batch_selection,
             "extract": extract, "files": files, "looks": looks, "views": views,
             "state": state, "backends": backends,
-            "first-hour": first_hour}
+            "first-hour": first_hour, "written": written}
     with Programs() as programs:
         ways[way](programs)
 

@@ -46,7 +46,8 @@ Result<BuildReport> BuildThread::build(const Order& order)
   {
     return passes.error();
   }
-  Result<OpenedInputs> inputs = openFiles(order.files, order.options.onFault);
+  Result<OpenedInputs> inputs = order.made ? OpenedInputs{order.made(), {}}
+                                           : openFiles(order.files, order.options.onFault);
   if (!inputs)
   {
     return inputs.error();

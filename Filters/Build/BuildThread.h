@@ -1,6 +1,7 @@
 #pragma once
 
 #include "pointfront/Build/BuildRun.h"
+#include "pointfront/Points/AttributePass.h"
 #include "pointfront/Points/PassChoice.h"
 
 #include <atomic>
@@ -32,6 +33,7 @@ public:
   struct Order
   {
     std::vector<std::string> files;
+    std::function<PointSources()> made; ///< instead of files; called once
     BuildOptions options;
     PassChoice passes;
     PreviewOptions preview;

@@ -2,6 +2,7 @@
 
 #include "BuildThread.h"
 #include "InterpreterPause.h"
+#include "PointSetSource.h"
 
 #include "pointfront/Store/PreviewRecord.h"
 
@@ -9,6 +10,8 @@
 #include <vtkErrorCode.h>
 #include <vtkIndent.h>
 #include <vtkObjectFactory.h>
+#include <vtkPointSet.h>
+#include <vtkSmartPointer.h>
 
 #include <algorithm>
 #include <string>
@@ -50,6 +53,7 @@ unsigned long errorCodeOf(pointfront::Error::Kind kind)
 struct vtkPointFrontBuilder::Content
 {
   std::vector<std::string> FileNames;
+  vtkSmartPointer<vtkPointSet> Points;
   std::vector<std::string> Attributes;
   std::vector<int> NormalsClasses;
   std::vector<std::string> ColorImages;
@@ -71,6 +75,15 @@ pointfront::BuildThread::Order vtkPointFrontBuilder::Content::Order(
   pointfront::BuildThread::Order order;
   order.files = this->FileNames;
   std::sort(order.files.begin(), order.files.end());
+  if (this->Points)
+  {
+    order.made = [this]
+    {
+      pointfront::PointSources sources;
+      sources.push_back(std::make_unique<pointfront::PointSetSource>(this->Points));
+      return sources;
+    };
+  }
   pointfront::BuildOptions& options = order.options;
   options.outputPath = builder.OutputFileName;
   options.temporaryFolder = builder.TemporaryFolder ? builder.TemporaryFolder : "";
@@ -204,6 +217,20 @@ void vtkPointFrontBuilder::ClearFileNames()
   this->Modified();
 }
 
+void vtkPointFrontBuilder::SetPoints(vtkPointSet* points)
+{
+  if (this->Internals->Points != points)
+  {
+    this->Internals->Points = points;
+    this->Modified();
+  }
+}
+
+vtkPointSet* vtkPointFrontBuilder::GetPoints()
+{
+  return this->Internals->Points;
+}
+
 int vtkPointFrontBuilder::GetNumberOfFileNames()
 {
   return static_cast<int>(this->Internals->FileNames.size());
@@ -279,7 +306,14 @@ void vtkPointFrontBuilder::ClearImages()
 /// What the kernel's types cannot even express; it checks the rest.
 bool vtkPointFrontBuilder::CheckProperties()
 {
-  if (!this->OutputFileName || !*this->OutputFileName || this->Internals->FileNames.empty())
+  const bool files = !this->Internals->FileNames.empty();
+  if (files && this->Internals->Points)
+  {
+    this->SetErrorCode(vtkErrorCode::UnknownError);
+    vtkErrorMacro("both file names and Points are set: a store is built from the one or the other");
+    return false;
+  }
+  if (!this->OutputFileName || !*this->OutputFileName || (!files && !this->Internals->Points))
   {
     this->SetErrorCode(vtkErrorCode::NoFileNameError);
     vtkErrorMacro("no file names: add the point files to read and set OutputFileName");
@@ -347,6 +381,7 @@ void vtkPointFrontBuilder::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "FileNames: " << this->GetNumberOfFileNames() << "\n";
+  os << indent << "Points: " << (this->GetPoints() ? "set" : "(none)") << "\n";
   os << indent << "OutputFileName: " << (this->OutputFileName ? this->OutputFileName : "(none)")
      << "\n";
   os << indent << "Overwrite: " << this->Overwrite << "\n";

@@ -24,6 +24,8 @@
 
 #include <memory> // for the kernel's side
 
+class vtkPointSet;
+
 class POINTFRONTFILTERSBUILD_EXPORT vtkPointFrontBuilder : public vtkAlgorithm
 {
 public:
@@ -37,6 +39,12 @@ public:
   void ClearFileNames();
   int GetNumberOfFileNames();
   VTK_FILEPATH const char* GetFileName(int index);
+  ///@}
+
+  ///@{
+  /// Points to store instead of those of files: a data set with its point data. Null: none.
+  void SetPoints(vtkPointSet* points);
+  vtkPointSet* GetPoints();
   ///@}
 
   ///@{

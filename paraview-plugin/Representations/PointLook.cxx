@@ -1,5 +1,6 @@
 #include "PointLook.h"
 
+#include "pointfront/Style/QualityPreset.h"
 #include "pointfront/Style/StyleSheet.h"
 #include "pointfront/Style/TechniqueNames.h"
 
@@ -96,7 +97,7 @@ ColourSource sourceOf(const LookColour& colour)
 
 bool PointLook::plain() const
 {
-  return technique == "points" && !closing && eyeDomeStrength == 0.0 && !lit && !fillHoles &&
+  return technique == "points" && !closes() && eyeDomeStrength == 0.0 && !lit && !fillHoles &&
     where.empty();
 }
 
@@ -109,6 +110,12 @@ bool applyLook(
     error = "\"" + look.technique + "\" is no technique: choose " + techniqueList();
     return false;
   }
+  const QualityPreset* preset = look.quality.empty() ? nullptr : qualityPresetOf(look.quality);
+  if (!preset && !look.quality.empty())
+  {
+    error = "\"" + look.quality + "\" is no quality: choose draft, balanced or exact";
+    return false;
+  }
   auto where = FilterExpression::parse(look.where);
   if (!where)
   {
@@ -116,9 +123,13 @@ bool applyLook(
     return false;
   }
   sheet.standard.technique = *technique;
+  if (preset)
+  {
+    preset->applyTo(sheet.standard);
+  }
   sheet.standard.colour = sourceOf(colour);
   StyleSize size;
-  size.mode = look.closing ? SplatSize::Mode::Spacing : SplatSize::Mode::Pixels;
+  size.mode = look.closes() ? SplatSize::Mode::Spacing : SplatSize::Mode::Pixels;
   size.value = std::max(look.size, 0.01);
   sheet.standard.size = size;
   sheet.standard.opacity = std::clamp(look.opacity, 0.0, 1.0);

@@ -18,11 +18,14 @@ struct PointLook
   bool closing = false;             ///< size: what closes the surface times `size`, else pixels
   double size = 2.0;                ///< > 0
   double eyeDomeStrength = 0.0;     ///< 0: off
+  std::string quality; ///< a preset, in the place of technique and closing; empty: none
   bool lit = false;
   bool fillHoles = false;
   double opacity = 1.0;
   std::string where; ///< a condition; empty: all points
 
+  /// The size counts in what closes the surface.
+  bool closes() const { return closing || !quality.empty(); }
   /// Nothing but squares of some pixels: drawn without a style sheet.
   bool plain() const;
 };
@@ -39,7 +42,7 @@ struct LookColour
 /// A look as a style sheet. Of several components the table's vector component; a magnitude is
 /// not known to style sheets, and the array's usual map takes its place.
 /// `sheet` keeps what it has of classes.
-/// Errors  false and why: a condition or a technique that is none.
+/// Errors  false and why: a condition, a technique or a quality that is none.
 bool applyLook(
   const PointLook& look, const LookColour& colour, StyleSheet& sheet, std::string& error);
 

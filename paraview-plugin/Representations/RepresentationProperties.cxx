@@ -12,12 +12,6 @@
 #include "vtkTransform.h"
 
 //------------------------------------------------------------------------------
-void vtkPointFrontRepresentation::SetTargetError(double pixels)
-{
-  this->Mapper->SetTargetError(pixels);
-}
-
-//------------------------------------------------------------------------------
 void vtkPointFrontRepresentation::SetPointBudget(vtkIdType points)
 {
   this->Mapper->SetPointBudget(points);
@@ -107,6 +101,13 @@ void vtkPointFrontRepresentation::SetPointSize(double pixels)
 void vtkPointFrontRepresentation::SetTechnique(const char* name)
 {
   this->Choice->look.technique = name ? name : "";
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetQuality(const char* name)
+{
+  const std::string quality = name ? name : "";
+  this->Choice->look.quality = quality == "custom" ? std::string() : quality;
 }
 
 //------------------------------------------------------------------------------

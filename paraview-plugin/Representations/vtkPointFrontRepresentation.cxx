@@ -3,6 +3,8 @@
 #include "StyleChoice.h"
 #include "UpstreamReader.h"
 
+#include "pointfront/Style/QualityPreset.h"
+
 #include "vtkActorCollection.h"
 #include "vtkCommand.h"
 #include "vtkDataObject.h"
@@ -228,6 +230,8 @@ void vtkPointFrontRepresentation::PrepareFrame(vtkInformation* inInfo, vtkPVRend
   const double frameTime =
     this->TargetFrameTime > 0.0 || !interactive ? this->TargetFrameTime : 1000.0 / rate;
   this->Mapper->SetTargetFrameTime(frameTime);
+  const auto* preset = pointfront::qualityPresetOf(this->Choice->look.quality);
+  this->Mapper->SetTargetError(preset ? preset->errorPx : this->TargetError);
 
   this->PrepareClasses();
   this->PrepareColors();
@@ -306,7 +310,7 @@ void vtkPointFrontRepresentation::PrepareStyle(const std::string& array, bool di
   colour.table = this->Mapper->GetLookupTable();
   std::copy_n(this->Property->GetColor(), 3, colour.flat.begin());
   pointfront::PointLook& look = this->Choice->look;
-  look.size = look.closing ? this->SizeFactor : this->PointSize;
+  look.size = look.closes() ? this->SizeFactor : this->PointSize;
   look.opacity = this->Property->GetOpacity();
   std::string error;
   this->Mapper->SetStyle(this->Choice->style(colour, error));
@@ -421,6 +425,7 @@ void vtkPointFrontRepresentation::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "CompleteStillRenders: " << this->CompleteStillRenders << "\n"
+     << indent << "TargetError: " << this->TargetError << " px\n"
      << indent << "TargetFrameTime: " << this->TargetFrameTime << " ms\n"
      << indent << "HiddenClasses: " << this->HiddenClasses.size() << "\n"
      << indent << "MapScalars: " << this->MapScalars << "\n"

@@ -79,7 +79,8 @@ public:
    * As in vtkPointFrontMapper: pixels; points; milliseconds, where 0 (default) keeps to the view's
    * desired update rate.
    */
-  void SetTargetError(double pixels);
+  vtkSetClampMacro(TargetError, double, 0.01, 1000.0);
+  vtkGetMacro(TargetError, double);
   void SetPointBudget(vtkIdType points);
   void SetGPUMemoryBudget(int mebibytes); ///< 0: no limit
   void SetDetailSelection(int method);
@@ -128,6 +129,10 @@ public:
    * draws: see vtkPointFrontMapper::SetBackend.
    */
   void SetTechnique(const char* name);
+  /// "draft", "balanced" or "exact": technique, size and target error as
+  /// vtkPointFrontMapper::SetQuality has them, whatever is set of these. "custom" (default): what is
+  /// set.
+  void SetQuality(const char* name);
   void SetClosingSize(bool closing);
   void SetSizeFactor(double factor);
   void SetEyeDomeStrength(double strength);
@@ -240,6 +245,7 @@ private:
 
   int CompleteStillRenders = WHEN_UNATTENDED;
   double TargetFrameTime = 0.0;
+  double TargetError = 1.0;
   std::set<std::string> HiddenClasses;
   std::map<std::string, double> ClassFactors;
   std::map<std::string, double> ClassShares;

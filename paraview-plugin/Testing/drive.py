@@ -216,6 +216,55 @@ def colours(programs):
         raise AssertionError("nobody is told, or more than once, that ids are no colours")
 
 
+def files(programs):
+    """Point files of several families, opened on one process and on two."""
+    def places(shift):
+        return [(i % 40, i // 40 + shift, 0.01 * i) for i in range(1000)]
+
+    header = "ply\nformat ascii 1.0\nelement vertex %d\n" + "".join(
+        "property double %s\n" % axis for axis in "xyz") + "%send_header\n"
+    for ranks_ in (1, 2):
+        folder = os.path.abspath("files-of-%d" % ranks_)
+        shutil.rmtree(folder, ignore_errors=True)
+        os.makedirs(folder)
+        shutil.copyfile(os.environ["POINTFRONT_CLOUD"], os.path.join(folder, "stadium.laz"))
+        for name, shift in (("points.xyz", 0), ("part_1.xyz", 0), ("part_2.xyz", 25)):
+            with open(os.path.join(folder, name), "w") as file:
+                file.writelines("%g %g %g\n" % place for place in places(shift))
+        with open(os.path.join(folder, "points.ply"), "w") as file:
+            file.write(header % (1000, ""))
+            file.writelines("%g %g %g\n" % place for place in places(0))
+        with open(os.path.join(folder, "surface.ply"), "w") as file:
+            file.write(header % (3, "element face 1\nproperty list uchar int vertex_indices\n"))
+            file.write("0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")
+        command = [os.environ["POINTFRONT_PVBATCH"], os.path.join(HERE, "files.py"), folder]
+        log = "files-%d.log" % ranks_
+        with open(log, "w") as output:
+            done = programs.start(*(command if ranks_ == 1 else mpi(ranks_, *command)),
+                                  output=output)
+        try:
+            programs.finish(done)
+        finally:
+            told = open(log).read()
+            print(told)
+        steps = dict(part.split("\n", 1) for part in told.split("== ")[1:])
+        for step, words in (("an older store", ["is older than", "Replace Store"]),
+                            ("no place", ["/proc/none/points.pfront", "Store File"]),
+                            ("replaced", []), ("another place", []), ("aborted", [])):
+            if step in steps and (steps[step].count("ERR|") != (1 if words else 0) or
+                                  not all(word in steps[step] for word in words)):
+                raise AssertionError("what is said of %s: %s" % (step, steps[step]))
+        compare("files-%d" % ranks_, "tool")
+
+
+def written(programs):
+    for ranks_ in (1, 2):
+        name = "written-%d" % ranks_
+        command = [os.environ["POINTFRONT_PVBATCH"], os.path.join(HERE, "written.py"), name]
+        programs.run(*(command if ranks_ == 1 else mpi(ranks_, *command)))
+        compare(name, "tool")
+
+
 def filtered(programs):
     with open("filtered.log", "w") as log:
         programs.finish(programs.start(
@@ -444,9 +493,9 @@ def main(way):
             "application": application, "colours": colours, "filtered": filtered,
             "rubber-band": rubber_band, "selection": selection, "series": series,
             "ranks-selection": ranks_selection, "batch-selection": batch_selection,
-            "extract": extract, "looks": looks, "views": views,
+            "extract": extract, "files": files, "looks": looks, "views": views,
             "state": state, "backends": backends,
-            "first-hour": first_hour}
+            "first-hour": first_hour, "written": written}
     with Programs() as programs:
         ways[way](programs)
 

@@ -50,6 +50,22 @@ for technique in ("spheres", "ewa"):
     require(pictures.differing(others[-1], splats, 8) > 0.02, technique + " looks like splats")
 display.Technique, display.ClosingSize = "points", 0
 
+# A quality is what its parts are, whatever is set of them.
+display.Technique, display.ClosingSize, display.TargetError = "splats", 1, 2
+parts = picture("parts")
+display.Technique, display.ClosingSize, display.TargetError = "points", 0, 0.01
+display.Quality = "draft"
+draft = picture("draft")
+require(pictures.differing(draft, parts, 2) < 0.001, "draft is not splats at 2 px")
+display.Quality = "exact"
+exact = picture("exact")
+display.Technique, display.ClosingSize, display.TargetError = "ewa", 1, 0.5
+display.Quality = "custom"
+ewa = picture("ewa-half")
+require(pictures.differing(exact, ewa, 16) < 0.02, "exact is not EWA splats at 0.5 px")
+require(pictures.differing(exact, draft, 8) > 0.02, "exact looks like draft")
+display.Technique, display.ClosingSize, display.TargetError = "points", 0, 0.01
+
 # Eye-dome lighting darkens, and only that.
 display.EyeDomeStrength = 0.4
 dark = picture("eye-dome")

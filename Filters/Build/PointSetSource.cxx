@@ -1,0 +1,194 @@
+#include "PointSetSource.h"
+
+#include <vtkAbstractArray.h>
+#include <vtkDataArray.h>
+#include <vtkDataSetAttributes.h>
+#include <vtkFieldData.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPointSet.h>
+#include <vtkStringArray.h>
+
+#include <algorithm>
+#include <cstring>
+#include <optional>
+#include <string>
+
+namespace pointfront
+{
+namespace
+{
+
+constexpr std::uint64_t pointsOfChunk = 65536;
+constexpr int mostComponents = 16;
+
+std::optional<ScalarType> typeOf(int vtkType)
+{
+  switch (vtkType)
+  {
+    case VTK_CHAR:
+    case VTK_SIGNED_CHAR:
+      return ScalarType::Int8;
+    case VTK_UNSIGNED_CHAR:
+      return ScalarType::UInt8;
+    case VTK_SHORT:
+      return ScalarType::Int16;
+    case VTK_UNSIGNED_SHORT:
+      return ScalarType::UInt16;
+    case VTK_INT:
+      return ScalarType::Int32;
+    case VTK_UNSIGNED_INT:
+      return ScalarType::UInt32;
+    case VTK_LONG:
+    case VTK_LONG_LONG:
+    case VTK_ID_TYPE:
+      return ScalarType::Int64;
+    case VTK_UNSIGNED_LONG:
+    case VTK_UNSIGNED_LONG_LONG:
+      return ScalarType::UInt64;
+    case VTK_FLOAT:
+      return ScalarType::Float32;
+    case VTK_DOUBLE:
+      return ScalarType::Float64;
+    default:
+      return std::nullopt;
+  }
+}
+
+bool isColour(vtkDataArray* array, const std::string& name)
+{
+  const int components = array->GetNumberOfComponents();
+  return array->GetDataType() == VTK_UNSIGNED_CHAR && (components == 3 || components == 4) &&
+    (name == "rgb" || name == "RGB" || name == "RGBA" || name == "Colors");
+}
+
+bool isHeight(vtkDataArray* array, vtkPoints* points)
+{
+  double place[3];
+  for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i)
+  {
+    points->GetPoint(i, place);
+    if (array->GetComponent(i, 0) != place[2])
+    {
+      return false;
+    }
+  }
+  return array->GetNumberOfComponents() == 1;
+}
+
+/// As vtkPointFrontReader's output names it in ParaView.
+std::string referenceSystemOf(vtkPointSet* points)
+{
+  auto* text = vtkStringArray::SafeDownCast(
+    points->GetFieldData()->GetAbstractArray("store_crs"));
+  const std::string wkt = text && text->GetNumberOfValues() == 1 ? text->GetValue(0) : "";
+  return wkt.find('[') != std::string::npos ? wkt : "";
+}
+
+} // namespace
+
+PointSetSource::PointSetSource(vtkPointSet* points)
+    : points_(points->GetPoints())
+{
+  description_.path = "the points of the pipeline";
+  description_.format = points->GetClassName();
+  description_.crsWkt = referenceSystemOf(points);
+  if (!points_)
+  {
+    return;
+  }
+  description_.pointCount = static_cast<std::uint64_t>(points_->GetNumberOfPoints());
+  vtkPointData* attributes = points->GetPointData();
+  for (int i = 0; i < attributes->GetNumberOfArrays(); ++i)
+  {
+    vtkAbstractArray* array = attributes->GetAbstractArray(i);
+    const std::string name = array->GetName() ? array->GetName() : "";
+    auto* numbers = vtkDataArray::SafeDownCast(array);
+    const bool told = name == vtkDataSetAttributes::GhostArrayName() || name == "point_id" ||
+      (name == "elevation" && numbers && isHeight(numbers, points_));
+    if (told)
+    {
+      continue;
+    }
+    if (name.empty() || !numbers || !typeOf(numbers->GetDataType()) ||
+      numbers->GetNumberOfComponents() > mostComponents)
+    {
+      description_.warnings.push_back("The point data \"" + name +
+        "\" are left out: a store holds named numbers of 1 to 16 components.");
+      continue;
+    }
+    this->add(numbers);
+  }
+}
+
+PointSetSource::~PointSetSource() = default;
+
+void PointSetSource::add(vtkDataArray* array)
+{
+  Attribute attribute;
+  attribute.name = array->GetName();
+  attribute.type = *typeOf(array->GetDataType());
+  attribute.components = static_cast<std::uint8_t>(array->GetNumberOfComponents());
+  if (isColour(array, attribute.name))
+  {
+    attribute.name = "rgb";
+    attribute.components = 3;
+  }
+  else if (attribute.name == "Normals" && attribute.type == ScalarType::Float32 &&
+    attribute.components == 3)
+  {
+    attribute.name = "normal";
+  }
+  if (!description_.schema.add(attribute))
+  {
+    description_.warnings.push_back(
+      "The point data \"" + attribute.name + "\" are there twice: the first are stored.");
+    return;
+  }
+  vtkSmartPointer<vtkDataArray> column = array;
+  if (!array->HasStandardMemoryLayout())
+  {
+    column.TakeReference(vtkDataArray::CreateDataArray(array->GetDataType()));
+    column->DeepCopy(array);
+  }
+  columns_.push_back(column);
+}
+
+std::uint64_t PointSetSource::chunkCount() const
+{
+  return (description_.pointCount + pointsOfChunk - 1) / pointsOfChunk;
+}
+
+std::uint64_t PointSetSource::chunkPoints(std::uint64_t chunk) const
+{
+  return std::min(pointsOfChunk, description_.pointCount - chunk * pointsOfChunk);
+}
+
+Result<void> PointSetSource::read(std::uint64_t chunk, PointBatch& batch) const
+{
+  const std::uint64_t first = chunk * pointsOfChunk;
+  const std::uint64_t count = chunkPoints(chunk);
+  batch.resize(count, description_.schema);
+  for (std::uint64_t i = 0; i < count; ++i)
+  {
+    double place[3];
+    points_->GetPoint(static_cast<vtkIdType>(first + i), place);
+    batch.positions[i] = {place[0], place[1], place[2]};
+  }
+  for (std::size_t c = 0; c < columns_.size(); ++c)
+  {
+    // An alpha that a colour may have stays behind.
+    const std::size_t bytes = description_.schema[c].bytes();
+    const auto stride = static_cast<std::size_t>(
+      columns_[c]->GetNumberOfComponents() * columns_[c]->GetDataTypeSize());
+    const auto* from =
+      static_cast<const std::byte*>(columns_[c]->GetVoidPointer(0)) + first * stride;
+    for (std::uint64_t i = 0; i < count; ++i)
+    {
+      std::memcpy(batch.columns[c].data() + i * bytes, from + i * stride, bytes);
+    }
+  }
+  return {};
+}
+
+} // namespace pointfront

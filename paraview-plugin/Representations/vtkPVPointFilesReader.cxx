@@ -1,0 +1,357 @@
+#include "vtkPVPointFilesReader.h"
+
+#include "pointfront/Points/PointFileOpener.h"
+#include "pointfront/Store/StoredCloud.h"
+#include "pointfront/Store/StoredCloudFormats.h"
+
+#include "vtkCommand.h"
+#include "vtkErrorCode.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkMultiProcessController.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointFrontBuilder.h"
+#include "vtkPointFrontStore.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <system_error>
+
+vtkStandardNewMacro(vtkPVPointFilesReader);
+
+namespace
+{
+
+/// What an event says: without the source line and the object that VTK puts before it.
+std::string messageOf(const void* data)
+{
+  std::string text = static_cast<const char*>(data);
+  const std::size_t object = text.find("): ");
+  text = object == std::string::npos ? text : text.substr(object + 3);
+  const std::size_t end = text.find_last_not_of('\n');
+  return text.substr(0, end == std::string::npos ? 0 : end + 1);
+}
+
+/// Hands a builder's progress on, and the wish to end it.
+class BuildObserver final : public vtkCommand
+{
+public:
+  static BuildObserver* New() { return new BuildObserver; }
+  void Execute(vtkObject* caller, unsigned long event, void* data) override
+  {
+    auto* builder = static_cast<vtkPointFrontBuilder*>(caller);
+    if (event == vtkCommand::ErrorEvent)
+    {
+      this->Error = messageOf(data);
+      return;
+    }
+    if (event == vtkCommand::WarningEvent)
+    {
+      vtkWarningWithObjectMacro(this->Reader, << messageOf(data));
+      return;
+    }
+    this->Reader->SetProgressText(builder->GetProgressText());
+    this->Reader->UpdateProgress(*static_cast<double*>(data));
+    // What the application sets while it shows progress.
+    if (this->Reader->CheckAbort() || this->Reader->GetAbortExecute())
+    {
+      builder->AbortExecuteOn();
+    }
+  }
+  vtkPVPointFilesReader* Reader = nullptr;
+  std::string Error;
+};
+
+std::string extensionOf(const std::string& name)
+{
+  std::string extension = std::filesystem::path(name).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension.empty() ? extension : extension.substr(1);
+}
+
+/// Whether a PLY file has faces: then it is a surface, and ParaView's reader is the one for it.
+bool hasFaces(const std::string& name)
+{
+  std::ifstream file(name);
+  std::string line;
+  constexpr int mostHeaderLines = 200;
+  for (int i = 0; i < mostHeaderLines && std::getline(file, line); ++i)
+  {
+    if (line.rfind("element face ", 0) == 0)
+    {
+      return line.find_first_of("123456789") != std::string::npos;
+    }
+    if (line.rfind("end_header", 0) == 0)
+    {
+      break;
+    }
+  }
+  return false;
+}
+
+/// FNV-1a, 32 bits: the same on every machine.
+std::uint32_t checksumOf(const std::vector<std::string>& names)
+{
+  std::uint32_t sum = 2166136261u;
+  for (const std::string& name : names)
+  {
+    for (const char c : name + '\n')
+    {
+      sum = (sum ^ static_cast<unsigned char>(c)) * 16777619u;
+    }
+  }
+  return sum;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+vtkPVPointFilesReader::vtkPVPointFilesReader() = default;
+
+//------------------------------------------------------------------------------
+vtkPVPointFilesReader::~vtkPVPointFilesReader()
+{
+  this->SetStoreFile(nullptr);
+  this->SetAssumedCRS(nullptr);
+}
+
+//------------------------------------------------------------------------------
+void vtkPVPointFilesReader::AddPointFileName(const char* fileName)
+{
+  if (fileName && *fileName)
+  {
+    this->PointFileNames.emplace_back(fileName);
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkPVPointFilesReader::RemoveAllPointFileNames()
+{
+  if (!this->PointFileNames.empty())
+  {
+    this->PointFileNames.clear();
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
+int vtkPVPointFilesReader::CanReadFile(const char* fileName)
+{
+  const auto opener = pointfront::PointFileOpener::ofProcess();
+  if (!opener || !fileName || vtkPointFrontReader::CanReadFile(fileName))
+  {
+    return 0;
+  }
+  const std::vector<std::string> known = opener->extensions();
+  const std::string extension = extensionOf(fileName);
+  const bool ours = std::find(known.begin(), known.end(), extension) != known.end();
+  std::error_code missing;
+  return ours && std::filesystem::is_regular_file(fileName, missing) &&
+      !(extension == "ply" && hasFaces(fileName))
+    ? 1
+    : 0;
+}
+
+//------------------------------------------------------------------------------
+std::string vtkPVPointFilesReader::StorePath() const
+{
+  if (this->StoreFile && *this->StoreFile)
+  {
+    return this->StoreFile;
+  }
+  std::vector<std::string> names = this->PointFileNames;
+  std::sort(names.begin(), names.end());
+  if (names.size() == 1)
+  {
+    return names.front() + ".pfront";
+  }
+  char sum[16];
+  std::snprintf(sum, sizeof(sum), "%08x", static_cast<unsigned int>(checksumOf(names)));
+  return names.front() + "-and-" + std::to_string(names.size() - 1) + "-more-" + sum + ".pfront";
+}
+
+//------------------------------------------------------------------------------
+std::string vtkPVPointFilesReader::Misfit(const std::string& store) const
+{
+  std::error_code failed;
+  const auto built = std::filesystem::last_write_time(store, failed);
+  if (failed)
+  {
+    return "it is not there";
+  }
+  for (const std::string& name : this->PointFileNames)
+  {
+    if (const auto written = std::filesystem::last_write_time(name, failed);
+        !failed && written > built)
+    {
+      return "it is older than " + name;
+    }
+  }
+  const auto opened = pointfront::StoredCloudFormats::ofProcess().open(store);
+  if (!opened)
+  {
+    return opened.error().what;
+  }
+  const pointfront::StoreDescription& about = opened.value()->description();
+  const auto lacks = [&](bool asked, const char* name)
+  { return asked && !about.schema.find(name); };
+  const bool kd = this->Structure == vtkPointFrontBuilder::KDTREE;
+  const bool replaces = this->Refinement == vtkPointFrontBuilder::REPLACE;
+  const bool classes = about.layers.size() > 1;
+  if (lacks(this->Normals != vtkPointFrontBuilder::NO_NORMALS, "normal"))
+  {
+    return "it has no normals";
+  }
+  if (lacks(this->LocalHeight, "local_height"))
+  {
+    return "it has no local_height";
+  }
+  if (lacks(this->HeightAboveGround, "height_above_ground"))
+  {
+    return "it has no height_above_ground";
+  }
+  if ((about.structure == "kdtree") != kd ||
+    (about.refinement == pointfront::Refinement::Replace) != replaces)
+  {
+    return "it has another Structure or Refinement";
+  }
+  if (this->Layers == vtkPointFrontBuilder::NO_LAYERS && classes)
+  {
+    return "it has a tree for each class";
+  }
+  if (this->Precision > 0.0 &&
+    std::abs(about.grid.scale.x - this->Precision) > 1e-9 * this->Precision)
+  {
+    return "it has another Precision";
+  }
+  return this->AssumedCRS && *this->AssumedCRS && about.crsWkt.empty()
+    ? "it names no coordinate reference system"
+    : std::string();
+}
+
+//------------------------------------------------------------------------------
+void vtkPVPointFilesReader::Choose(vtkPointFrontBuilder* builder, const std::string& store) const
+{
+  for (const std::string& name : this->PointFileNames)
+  {
+    builder->AddFileName(name.c_str());
+  }
+  builder->SetOutputFileName(store.c_str());
+  builder->SetOverwrite(this->ReplaceStore);
+  builder->SetStructure(this->Structure);
+  builder->SetRefinement(this->Refinement);
+  builder->SetLayers(this->Layers);
+  builder->SetNormals(this->Normals);
+  builder->SetLocalHeight(this->LocalHeight);
+  builder->SetHeightAboveGround(this->HeightAboveGround);
+  builder->SetPrecision(this->Precision);
+  builder->SetSkipFaultyFiles(this->SkipFaultyFiles);
+  builder->SetAssumedCRS(this->AssumedCRS && *this->AssumedCRS ? this->AssumedCRS : nullptr);
+  builder->SetMemoryLimit(static_cast<vtkTypeInt64>(this->MemoryLimitMiB) << 20);
+  builder->PreviewOff(); // nobody can look at it while the pipeline works
+}
+
+//------------------------------------------------------------------------------
+bool vtkPVPointFilesReader::Build(const std::string& store)
+{
+  std::error_code failed;
+  if (std::filesystem::exists(store, failed) && !this->ReplaceStore)
+  {
+    this->SetErrorCode(vtkErrorCode::FileFormatError);
+    vtkErrorMacro("the store " << store << " does not fit: " << this->Misfit(store)
+      << ". Tick Replace Store to build it again, or name another file in Store File.");
+    return false;
+  }
+  vtkNew<vtkPointFrontBuilder> builder;
+  vtkNew<BuildObserver> observer;
+  observer->Reader = this;
+  for (const unsigned long event :
+    {vtkCommand::ProgressEvent, vtkCommand::ErrorEvent, vtkCommand::WarningEvent})
+  {
+    builder->AddObserver(event, observer);
+  }
+  this->Choose(builder, store);
+  if (builder->Write())
+  {
+    return true;
+  }
+  if (builder->GetErrorCode() != vtkErrorCode::UserError)
+  {
+    this->SetErrorCode(builder->GetErrorCode());
+    vtkErrorMacro(<< observer->Error << " (The store is written to " << store
+                  << ": name another place in Store File if that one is not yours to write.)");
+  }
+  return false;
+}
+
+//------------------------------------------------------------------------------
+int vtkPVPointFilesReader::RequestInformation(
+  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  this->FileNames.clear();
+  if (this->PointFileNames.empty())
+  {
+    this->SetErrorCode(vtkErrorCode::NoFileNameError);
+    vtkErrorMacro("no file names: add the point files to read");
+    return 1;
+  }
+  const std::string store = this->StorePath();
+  if (this->Misfit(store).empty())
+  {
+    this->FileNames.assign(1, store);
+    return this->Superclass::RequestInformation(request, inputs, outputs);
+  }
+  this->Store = nullptr;
+  outputs->GetInformationObject(0)->Set(vtkAlgorithm::CAN_HANDLE_PIECE_REQUEST(), 1);
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkPVPointFilesReader::RequestData(
+  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  if (this->PointFileNames.empty())
+  {
+    return 1; // has been said
+  }
+  // All ranks do the same, whatever each has seen of the disk.
+  auto* controller = vtkMultiProcessController::GetGlobalController();
+  const std::string store = this->StorePath();
+  int usable = 0;
+  if (!controller || controller->GetLocalProcessId() == 0)
+  {
+    usable = this->Misfit(store).empty() || this->Build(store) ? 1 : 0;
+  }
+  if (controller && controller->GetNumberOfProcesses() > 1)
+  {
+    controller->Broadcast(&usable, 1, 0);
+  }
+  if (!usable)
+  {
+    return 1; // aborted, or the first rank has said why
+  }
+  if (this->FileNames.empty() || !this->Store)
+  {
+    this->FileNames.assign(1, store);
+    this->Superclass::RequestInformation(request, inputs, outputs);
+  }
+  return this->Superclass::RequestData(request, inputs, outputs);
+}
+
+//------------------------------------------------------------------------------
+void vtkPVPointFilesReader::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "PointFileNames: " << this->PointFileNames.size() << "\n"
+     << indent << "StoreFile: " << (this->StoreFile ? this->StoreFile : "(beside the first file)")
+     << "\n"
+     << indent << "ReplaceStore: " << this->ReplaceStore << "\n";
+}

@@ -1,0 +1,59 @@
+"""Data of the pipeline saved as a store, and what is saved of a store: on any number of ranks.
+
+usage: pvbatch written.py NAME
+"""
+
+import os
+import sys
+
+from paraview import simple
+
+simple.LoadPlugin(os.environ["POINTFRONT_PLUGIN"], remote=False, ns=globals())
+
+from scene import OUTPUT, POINTS, SIZE, Scene, require
+
+name = sys.argv[1]
+scene = Scene()
+scene.view.ViewSize = SIZE
+scene.display.Visibility = 0
+
+
+def points_of(source):
+    source.UpdatePipeline()
+    return source.GetDataInformation().GetNumberOfPoints()
+
+
+def saved(source, what, **options):
+    path = os.path.join(OUTPUT, "%s-%s.pfront" % (name, what))
+    if os.path.exists(path):
+        os.remove(path)
+    simple.SaveData(path, proxy=source, **options)
+    require(os.path.exists(path), "not saved: " + path)
+    reader = simple.OpenDataFile(path)
+    reader.OverviewPoints = 10 ** 9
+    return reader
+
+
+# A surface of ParaView's own, with a value.
+surface = simple.Contour(Input=simple.Wavelet(), ContourBy=["POINTS", "RTData"],
+                         Isosurfaces=[150.0])
+reader = saved(surface, "surface", Normals="By PCA", Precision=0.001)
+require(points_of(reader) == points_of(surface) > 1000,
+        "%d points of %d" % (points_of(reader), points_of(surface)))
+wanted = surface.GetDataInformation().GetBounds()
+found = reader.GetDataInformation().GetBounds()
+require(all(abs(a - b) < 0.002 for a, b in zip(wanted, found)), "%s, not %s" % (found, wanted))
+require("RTData" in reader.PointData.keys(), "without the contour's value")
+require("normal" in reader.PointData.keys(), "asked for, and without normals")
+
+# All points of a store, as the pipeline has them: the same picture as the store's.
+scene.reader.OverviewPoints = POINTS
+require(points_of(scene.reader) == POINTS, "%d points in memory" % points_of(scene.reader))
+again = saved(scene.reader, "again")
+require(points_of(again) == POINTS, "%d points written" % points_of(again))
+names = set(scene.reader.PointData.keys())
+require(set(again.PointData.keys()) == names, "%s, not %s" % (again.PointData.keys(), names))
+display = scene.show(again)
+display.TargetError, display.PointBudget = 0.01, 0
+scene.color_by(display, "rgb")
+scene.save(name)

@@ -194,7 +194,8 @@ bool SplatGroups::Listed::continues(const Drawn& old) const
   const RasterItem& item = *group.first;
   return item.item->node == old.node && *item.style == *old.style && item.passes == old.passes &&
     item.item->first == old.first && end >= old.end && record.radii == old.radii &&
-    record.growth == old.growth && record.coloured == old.coloured && record.shaped == old.shaped && record.sized == old.sized;
+    record.growth == old.growth && record.coloured == old.coloured &&
+    record.shaped == old.shaped && record.sized == old.sized;
 }
 
 void SplatGroups::keep(const FramePlan& plan)
@@ -211,7 +212,8 @@ void SplatGroups::keep(const FramePlan& plan)
   {
     const RasterItem& item = *one.group.first;
     drawn_.push_back({ item.item->node, styles[item.style], item.passes, item.item->first, one.end,
-      one.record.radii, one.record.growth, one.record.coloured, one.record.shaped, one.record.sized });
+      one.record.radii, one.record.growth, one.record.coloured, one.record.shaped,
+      one.record.sized });
   }
   groups_.clear();
   listed_.clear();

@@ -13,7 +13,7 @@ namespace
 /// all others is no surface.
 constexpr float mostOfClosing = 4.0f;
 /// Of a blended splat's centre: six bits.
-constexpr float mostWeight = 63.0f;
+constexpr float weightOfCentre = 63.0f;
 
 /// Points one after the other: columns are read where they lie.
 struct Consecutive
@@ -225,7 +225,7 @@ void PointShapes::fillBlended(
   std::fill(batch.grown, batch.grown + count, 1.0f);
   for (int j = 0; j < count; ++j)
   {
-    batch.weight[j] = mostWeight * item.item->growth.of(first + static_cast<std::uint32_t>(j));
+    batch.weight[j] = weightOfCentre * item.item->growth.of(first + static_cast<std::uint32_t>(j));
   }
 }
 

@@ -26,7 +26,7 @@ public:
   void fill(const RasterItem& item, const std::uint32_t* points, int count, float share,
     RasterBatch& batch) const;
 
-  /// The same for blending: points that grow have their size, and of their weight what is there yet.
+  /// The same for blending: points that grow have their size, and a part of their weight.
   void fillBlended(const RasterItem& item, std::uint32_t first, int count, float share,
     RasterBatch& batch) const;
 

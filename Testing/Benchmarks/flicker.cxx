@@ -1,14 +1,16 @@
 // usage: pointfrontFlickerBenchmark STORE [FRAMES]
 //
-// What of a moving picture is due to its levels of detail: a zoom and a pan, frame by frame, and a
-// sweep: a camera that stands still while the error falls to a quarter, splats as large as at its
-// beginning, so that nothing changes but the detail; and a step: in one frame the error falls to a
-// quarter, as where motion ends or nodes arrive. Everything is in memory. Three ways to go from level to level: nodes that pop up whole, when
-// half of their points are wanted; prefixes whose points pop up one by one; prefixes that grow. Of
-// each pair of frames the mean difference (grey levels), less that of the pictures with all points
-// in the same pair: the mean over the path, the largest, and the share of pixels that change by
-// more than 24 levels where those with all points do not. The root of the mean square tells a change
-// that comes at once from one that comes by and by. Time is the frame's number / 30 s.
+// What of a moving picture is due to its levels of detail, frame by frame, everything in memory.
+//   zoom   to a quarter of the distance; pan: 4 pixels a frame
+//   sweep  the camera stands still while the error falls to a quarter; splats stay as large as at
+//          the beginning, so that nothing changes but the detail
+//   step   the error falls to a quarter in one frame, as where motion ends or nodes arrive
+// Three ways to go from level to level: nodes that pop up whole, when half of their points are
+// wanted; prefixes whose points pop up one by one; prefixes that grow. Of each pair of frames the
+// mean difference (grey levels), less that of the pictures with all points in the same pair: the
+// mean over the path and the largest; the root of the mean square, less that of all points; and the
+// share of pixels that change by more than 24 levels where those with all points do not.
+// Time is the frame's number / 30 s.
 
 #include "SoftwareRasteriser.h"
 
@@ -224,7 +226,8 @@ FrameCamera cameraAt(const Bounds& box, Path path, int frame, int frames)
   else
   {
     away *= 0.5;
-    at.x += (path == Path::Pan ? 4.0 * (frame - frames / 2) : 0.0) * (2.0 * away * std::tan(0.5 * angle) / height);
+    const double pixel = 2.0 * away * std::tan(0.5 * angle) / height;
+    at.x += path == Path::Pan ? 4.0 * (frame - frames / 2) * pixel : 0.0;
   }
   return FrameCamera::perspective(at + glm::dvec3(0.0, -0.3 * away, away), at, { 0, 1, 0 }, angle,
     1e-3 * away, 10.0 * away, width, height);
@@ -283,7 +286,8 @@ int main(int argc, char** argv)
     fail(store.error().what);
   }
   const int frames = argc > 2 ? std::max(2, std::atoi(argv[2])) : 60;
-  std::printf("| technique, path | levels | mean | largest | root of squares | jumps, %% of pixels | thousand points "
+  std::printf("| technique, path | levels | mean | largest | root of squares "
+              "| jumps, %% of pixels | thousand points "
               "| ms a frame |\n| --- | --- | --- | --- | --- | --- | --- | --- |\n");
   for (const DrawnWay& technique : techniques)
   {

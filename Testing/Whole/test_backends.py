@@ -1,4 +1,4 @@
-"""Real clouds by both back ends: the same pictures but for rounding, in perspective and parallel."""
+"""Real clouds by both back ends: the same pictures but for rounding, in both projections."""
 
 import json
 import unittest

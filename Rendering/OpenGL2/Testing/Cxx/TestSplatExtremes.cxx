@@ -202,7 +202,9 @@ TEST(SplatExtremes, TenThousandSplatsOnOnePixel)
     for (std::size_t i = 0; i < count; ++i)
     {
       points[i].rgb = {100, static_cast<std::uint8_t>(i % 2 == 0 ? 40 : 200), 7};
-      points[i].position = {1e-3 * static_cast<double>(i % 6), 1e-3 * static_cast<double>(i / 6 % 6), 0.0};
+      const std::size_t column = i % 6;
+      const std::size_t row = i / 6 % 6;
+      points[i].position = 1e-3 * glm::dvec3(glm::uvec3(column, row, 0));
     }
     Extreme scene(storeOfPoints("heap", points));
     scene.mapper->SetTargetError(0.01);

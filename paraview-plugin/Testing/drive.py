@@ -511,8 +511,8 @@ def main(way):
             "application": application, "colours": colours, "filtered": filtered,
             "rubber-band": rubber_band, "selection": selection, "series": series,
             "ranks-selection": ranks_selection, "batch-selection": batch_selection,
-            "rectangles": rectangles, "extract": extract, "files": files, "looks": looks, "views": views,
-            "state": state, "backends": backends,
+            "rectangles": rectangles, "extract": extract, "files": files, "looks": looks,
+            "views": views, "state": state, "backends": backends,
             "first-hour": first_hour, "written": written}
     with Programs() as programs:
         ways[way](programs)

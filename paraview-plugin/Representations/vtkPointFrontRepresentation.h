@@ -130,8 +130,8 @@ public:
    */
   void SetTechnique(const char* name);
   /// "draft", "balanced" or "exact": technique, size and target error as
-  /// vtkPointFrontMapper::SetQuality has them, whatever is set of these. "custom" (default): what is
-  /// set.
+  /// vtkPointFrontMapper::SetQuality has them, whatever is set of these. "custom" (default): what
+  /// is set.
   void SetQuality(const char* name);
   void SetClosingSize(bool closing);
   void SetSizeFactor(double factor);

@@ -426,6 +426,24 @@ def batch_selection(programs):
     programs.run(*mpi(2, os.environ["POINTFRONT_PVBATCH"], os.path.join(HERE, "selection.py")))
 
 
+def rectangles(programs):
+    """Fifty each on trees of several classes, a kd-tree and an octree; on one process and two."""
+    os.environ["POINTFRONT_ONLY"] = "rectangles"
+    tool("generate", "--points", "120000", "--seed", "7", "-o", "survey.las", "--force")
+    stadium = os.environ["POINTFRONT_CLOUD"], os.environ["POINTFRONT_CAMERA"]
+    for name, (cloud, camera), options in (
+            ("classes", ("survey.las", ""), ["--layers", "class", "--node-points", "2000"]),
+            ("kd-tree", stadium, ["--structure", "kdtree", "--node-points", "4000"]),
+            ("octree", ("survey.las", ""), ["--layers", "none", "--node-points", "1000"])):
+        store = os.environ["POINTFRONT_STORE"] = os.path.abspath(name + ".pfront")
+        tool("build", cloud, "-o", store, "--force", *options)
+        os.environ["POINTFRONT_POINTS"] = str(json.loads(tool("info", store, "--json"))["points"])
+        os.environ["POINTFRONT_CAMERA"] = camera
+        command = [os.environ["POINTFRONT_PVBATCH"], os.path.join(HERE, "selection.py")]
+        programs.run(*command)
+        programs.run(*mpi(2, *command))
+
+
 def rubber_band(programs):
     """A flat square of points seen from above: what the rubber band covers is known."""
     with open("flat.ply", "w") as ply:
@@ -493,8 +511,8 @@ def main(way):
             "application": application, "colours": colours, "filtered": filtered,
             "rubber-band": rubber_band, "selection": selection, "series": series,
             "ranks-selection": ranks_selection, "batch-selection": batch_selection,
-            "extract": extract, "files": files, "looks": looks, "views": views,
-            "state": state, "backends": backends,
+            "rectangles": rectangles, "extract": extract, "files": files, "looks": looks,
+            "views": views, "state": state, "backends": backends,
             "first-hour": first_hour, "written": written}
     with Programs() as programs:
         ways[way](programs)

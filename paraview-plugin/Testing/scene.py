@@ -64,6 +64,12 @@ class Scene:
         return display
 
     def look(self, by=(0.0, 0.0, 0.0)):
+        if not os.environ["POINTFRONT_CAMERA"]:  # a cloud of which nobody has chosen a view
+            self.view.CameraViewUp, self.view.CameraPosition = [0, 0, 1], [0.3, -2, 1.2]
+            self.view.CameraFocalPoint = [0, 0, 0]
+            self.view.SMProxy.ResetCamera()
+            self.view.SMProxy.GetActiveCamera().Zoom(1.5)
+            return
         with open(os.environ["POINTFRONT_CAMERA"]) as file:
             camera = json.load(file)
         self.view.CameraPosition = moved(camera["position"], by)

@@ -4,8 +4,9 @@
  *
  * While it is enabled, a circle or rectangle of a vtkPointFrontStyle (AddCircleLens and the like)
  * lies where the mouse is, and Ctrl with the mouse wheel makes a circle larger and smaller. The
- * mouse's buttons stay with the interactor style. The key 'l' turns it on and off (KeyPressActivation
- * of vtkInteractorObserver). InteractionEvent tells of each change; the widget renders the window.
+ * mouse's buttons stay with the interactor style. The key 'l' turns it on and off
+ * (KeyPressActivation of vtkInteractorObserver). InteractionEvent tells of each change; the widget
+ * renders the window.
  *
  * Use: style->AddCircleLens(0, 0, 120); widget->SetStyle(style); widget->SetInteractor(...);
  * widget->On().

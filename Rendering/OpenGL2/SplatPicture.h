@@ -20,8 +20,8 @@ class vtkRenderer;
 namespace pointfront
 {
 
-/// Plans that are drawn by GL, part by part, composed and handed over to a window's framebuffer: the
-/// twin of SoftwareComposition and SoftwarePicture.
+/// Plans that are drawn by GL, part by part, composed and handed over to a window's framebuffer:
+/// the twin of SoftwareComposition and SoftwarePicture.
 /// Viewport  as SoftwarePicture's.
 /// Threads   that of the GL context, current in all functions.
 /// Source    drawing.md section 6; docs/adr/0028, 0029.

@@ -237,9 +237,9 @@ bool vtkOpenGLPointFrontMapper::DrawsFromHostMemory(vtkActor* actor)
   }
   if (!asked && !onlyOpenGL && !this->DrawsByOpenGL(actor))
   {
-    this->TellFallBack("OpenGL fills no holes, has at most 4 lenses and 4 translucent styles, and draws "
-                       "at most 254 styles of a layer with one attribute of sizes: this style is "
-                       "drawn by the software back end");
+    this->TellFallBack("OpenGL fills no holes, has at most 4 lenses and 4 translucent styles, and "
+                       "draws at most 254 styles of a layer with one attribute of sizes: this "
+                       "style is drawn by the software back end");
     return true;
   }
   return asked;

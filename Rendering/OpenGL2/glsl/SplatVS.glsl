@@ -133,10 +133,9 @@ void main()
   splat.colour.a = grown; // of its weight
   grown = 1.0;
 #endif
+  float height = 0.0;
 #if POINTFRONT_SHAPE == 5
-  float height = pointHeight * heightFactor;
-#else
-  const float height = 0.0;
+  height = pointHeight * heightFactor;
 #endif
   setUp(camera, radiusOf(steps.w, slot, camera.z), grown, height);
   vec4 r = splat.rectangle;

@@ -115,8 +115,10 @@ TEST(Lenses, AreAlikeInBothBackEnds)
     {"around", R"({"lenses": [{"around_class": 2, "radius": 0.05,
       "inside": {"5": {"visible": false}}}], "classes": {"2": {"where": "x < 0"}}})"},
     {"two", R"({"lenses": [
-      {"shape": "circle", "center_px": [90, 80], "radius_px": 50, "inside": {"5": {"color": "#4080ff"}}},
-      {"shape": "circle", "center_px": [110, 90], "radius_px": 30, "inside": {"5": {"visible": false}}}]})"},
+      {"shape": "circle", "center_px": [90, 80], "radius_px": 50,
+       "inside": {"5": {"color": "#4080ff"}}},
+      {"shape": "circle", "center_px": [110, 90], "radius_px": 30,
+       "inside": {"5": {"visible": false}}}]})"},
     {"translucent", R"({"classes": {"5": {"opacity": 0.4}}, "shading": {"mode": "edl"}})"},
     {"both", R"({"classes": {"5": {"opacity": 0.4}, "2": {"opacity": 0.7, "technique": "ewa"}}})"},
     {"highlight", R"({"classes": {"5": {"where": "x in [-0.5, 0.4]"}},

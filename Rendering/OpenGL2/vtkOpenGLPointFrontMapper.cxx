@@ -71,6 +71,7 @@ struct vtkOpenGLPointFrontMapper::Content
   std::map<vtkWindow*, std::unique_ptr<pointfront::WindowDrawing>> Windows;
   std::uint64_t UploadedBefore = 0; ///< by drawings that are gone
   bool FallBackTold = false;
+  bool OwnShadersTold = false;
 
   pointfront::WindowDrawing& Of(vtkOpenGLRenderWindow* window)
   {
@@ -168,7 +169,7 @@ vtkIdType vtkOpenGLPointFrontMapper::DrawPoints(vtkRenderer* renderer, vtkActor*
   pointfront::WindowDrawing& drawing, pointfront::FramePlan& plan)
 {
   const vtkIdType storePoints = this->GetStore()->GetNumberOfPoints();
-  if (hasOwnShaders(actor) || this->HasPlainPointsOnly(actor))
+  if (this->HasPlainPointsOnly(actor))
   {
     const vtkIdType points = drawing.list(plan);
     if (points > 0)
@@ -224,7 +225,13 @@ void vtkOpenGLPointFrontMapper::TellFallBack(const char* what)
 /// Asked while the window's context is current.
 bool vtkOpenGLPointFrontMapper::DrawsFromHostMemory(vtkActor* actor)
 {
-  const bool ownShaders = hasOwnShaders(actor);
+  const bool plain = this->HasPlainPointsOnly(actor);
+  const bool ownShaders = plain && hasOwnShaders(actor);
+  if (!plain && hasOwnShaders(actor) && !std::exchange(this->Internals->OwnShadersTold, true))
+  {
+    vtkWarningMacro("the actor's own shader code is not used: it draws points of a fixed number of "
+                    "pixels, and the style asks for more (a technique, a filter, light, lenses)");
+  }
   const bool onlyOpenGL = ownShaders || actor->HasTranslucentPolygonalGeometry() != 0;
   const bool asked =
     this->Backend == SOFTWARE || (this->Backend == AUTOMATIC && pointfront::glIsAProgram());

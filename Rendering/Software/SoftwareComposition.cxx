@@ -74,6 +74,12 @@ void put(const TranslucentPixel& nearest, SoftwareTarget& target, std::size_t pi
   }
 }
 
+/// The same from picture to picture, so that each part goes on from its own last one.
+std::uint16_t numberOf(const PlanPart& part)
+{
+  return static_cast<std::uint16_t>(((part.lens + 1) << 10) + (part.mask ? 512 : 0) + part.group);
+}
+
 PixelRectangle wider(const PixelRectangle& place, int by, const FrameCamera& camera)
 {
   const PixelRectangle larger{ place.left - by, place.bottom - by, place.right + by,
@@ -134,7 +140,6 @@ RasterStatistics SoftwareComposition::draw(SoftwareRasteriser& rasteriser, const
     return rasteriser.draw(plan, target, store);
   }
   RasterStatistics all;
-  std::uint16_t number = 0;
   for (PlanPart& part : partsOf(plan))
   {
     const bool whole = part.lens < 0 && part.group == 0;
@@ -146,13 +151,12 @@ RasterStatistics SoftwareComposition::draw(SoftwareRasteriser& rasteriser, const
     }
     if (!own.rectangle().empty())
     {
-      const RasterStatistics drawn = rasteriser.draw(part.plan, own, store, number);
+      const RasterStatistics drawn = rasteriser.draw(part.plan, own, store, numberOf(part));
       all.points += drawn.points;
       all.reused += drawn.reused;
       all.keptVisible += drawn.keptVisible;
       all.milliseconds += drawn.milliseconds;
     }
-    ++number;
   }
   return all;
 }

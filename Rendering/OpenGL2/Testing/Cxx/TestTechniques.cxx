@@ -8,13 +8,16 @@
 #include "pointfront/Style/StyleSheet.h"
 #include "vtkPointFrontStyle.h"
 
+#include <vtkCallbackCommand.h>
 #include <vtkCellArray.h>
+#include <vtkCommand.h>
 #include <vtkHardwareSelector.h>
 #include <vtkIdTypeArray.h>
 #include <vtkPlane.h>
 #include <vtkPoints.h>
 #include <vtkSelection.h>
 #include <vtkSelectionNode.h>
+#include <vtkShaderProperty.h>
 
 #include <glm/geometric.hpp>
 
@@ -399,6 +402,27 @@ int primitivesOf(Scene& scene)
   glGetQueryObjectuiv(query, GL_QUERY_RESULT, &count);
   glDeleteQueries(1, &query);
   return static_cast<int>(count);
+}
+
+// Such an actor was drawn as plain points without the style's filters, and nothing was said.
+TEST(Techniques, AnActorsOwnShaderCodeIsForPlainPointsAndThatIsTold)
+{
+  Splats scene(surfaceStore("own_shader", planeAt));
+  scene.style->LoadJSON(R"({"default": {"technique": "splats", "where": "reach > 0.02"}})");
+  const Picture before = scene.with(vtkPointFrontMapper::OPENGL);
+  std::string warning;
+  vtkNew<vtkCallbackCommand> told;
+  told->SetClientData(&warning);
+  told->SetCallback([](vtkObject*, unsigned long, void* client, void* data)
+    { *static_cast<std::string*>(client) += static_cast<const char*>(data); });
+  scene.mapper->AddObserver(vtkCommand::WarningEvent, told);
+  scene.actor->GetShaderProperty()->AddFragmentShaderReplacement(
+    "//VTK::Light::Impl", true, "gl_FragData[0] = vec4(1.0, 0.0, 1.0, 1.0);\n", false);
+  for (const int backend : {vtkPointFrontMapper::OPENGL, vtkPointFrontMapper::SOFTWARE})
+  {
+    EXPECT_LE(differing(before, scene.with(backend), 2), 300) << backend;
+  }
+  EXPECT_NE(warning.find("own shader code is not used"), std::string::npos);
 }
 
 TEST(Techniques, AtRestNothingIsDrawnTwice)

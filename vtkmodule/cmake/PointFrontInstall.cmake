@@ -21,8 +21,9 @@ foreach (filter IN ITEMS Attributes Normals Projection ImageColor)
     FILES_MATCHING PATTERN "*.h" PATTERN "Testing" EXCLUDE)
 endforeach ()
 list(APPEND pointfront_kernel_libraries pointfrontSoftware)
-install(FILES "${CMAKE_CURRENT_SOURCE_DIR}/Rendering/Software/SoftwareRasteriser.h"
-    "${CMAKE_CURRENT_SOURCE_DIR}/Rendering/Software/SoftwareTarget.h"
+set(software "${CMAKE_CURRENT_SOURCE_DIR}/Rendering/Software")
+install(FILES "${software}/PixelRectangle.h" "${software}/SoftwareComposition.h"
+    "${software}/SoftwareRasteriser.h" "${software}/SoftwareTarget.h"
   DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/pointfront" COMPONENT Development)
 install(TARGETS ${pointfront_kernel_libraries} EXPORT PointFrontKernel
   RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT Runtime
@@ -32,6 +33,9 @@ install(EXPORT PointFrontKernel NAMESPACE PointFront:: FILE PointFrontKernel-tar
   DESTINATION "${pointfront_package_folder}" COMPONENT Development)
 export(EXPORT PointFrontKernel NAMESPACE PointFront::
   FILE "${CMAKE_BINARY_DIR}/${pointfront_package_folder}/PointFrontKernel-targets.cmake")
+
+install(FILES "${CMAKE_CURRENT_SOURCE_DIR}/LICENSE" "${CMAKE_CURRENT_SOURCE_DIR}/CHANGELOG.md"
+  DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT Runtime)
 
 # The package names exactly what it was built with: VTK's C++ interface changes between releases.
 set(pointfront_vtk_version "")

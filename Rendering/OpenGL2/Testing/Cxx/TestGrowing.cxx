@@ -14,7 +14,7 @@ using namespace pointfront::test;
 namespace
 {
 
-const std::map<std::string, std::string> techniques = {
+const std::map<std::string, std::string> growingStyles = {
   {"opaque", R"({"default": {"technique": "splats"}})"},
   {"blended", R"({"default": {"technique": "splats", "blended": true}})"},
   {"spheres", R"({"default": {"technique": "spheres"}})"},
@@ -38,7 +38,7 @@ struct Growing : Scene
 
   explicit Growing(const std::string& store, const std::string& technique) : Scene(store)
   {
-    EXPECT_TRUE(style->LoadJSON(techniques.at(technique)));
+    EXPECT_TRUE(style->LoadJSON(growingStyles.at(technique)));
     mapper->SetStyle(style);
     mapper->CompleteOff();
     mapper->SetTargetError(6.0);
@@ -74,7 +74,7 @@ struct Growing : Scene
 TEST(Growing, TheBackEndsDrawItAlike)
 {
   const std::string store = hillsStore();
-  for (const auto& [technique, json] : techniques)
+  for (const auto& [technique, json] : growingStyles)
   {
     Growing scene(store, technique);
     scene.mapper->SetBackendToSoftware();
@@ -93,7 +93,7 @@ TEST(Growing, TheBackEndsDrawItAlike)
 TEST(Growing, AtRestNothingIsLeftOfIt)
 {
   const std::string store = hillsStore();
-  for (const auto& [technique, json] : techniques)
+  for (const auto& [technique, json] : growingStyles)
   {
     for (const int backend : {vtkPointFrontMapper::SOFTWARE, vtkPointFrontMapper::OPENGL})
     {

@@ -99,12 +99,13 @@ bool SplatComposition::begin(vtkOpenGLRenderWindow* window, int width, int heigh
     whole = whole && target.framebuffer->CheckFrameBufferStatus(GL_FRAMEBUFFER) != 0;
   }
   state->PopFramebufferBindings();
-  if (whole)
+  window_ = window;
+  width_ = width;
+  height_ = height;
+  ids_ = ids;
+  if (!whole)
   {
-    window_ = window;
-    width_ = width;
-    height_ = height;
-    ids_ = ids;
+    release(window);
   }
   return whole;
 }
@@ -248,6 +249,10 @@ SplatTextures SplatComposition::highlight(
 
 void SplatComposition::release(vtkOpenGLRenderWindow* window)
 {
+  if (!window_ && !loadedMask_)
+  {
+    return;
+  }
   for (Target& target : targets_)
   {
     target.framebuffer->ReleaseGraphicsResources(window);

@@ -60,15 +60,12 @@ std::int64_t SplatPicture::draw(vtkOpenGLRenderWindow* window, vtkRenderer* rend
   {
     return drawParts(frame, plan);
   }
-  if (!further_.empty())
+  for (FurtherPart& part : further_)
   {
-    for (FurtherPart& part : further_)
-    {
-      part.part->release(window);
-    }
-    further_.clear();
-    composition_.release(window);
+    part.part->release(window);
   }
+  further_.clear();
+  composition_.release(window); // what a plan of one part does not need
   const std::int64_t points = main_.draw(frame, plan, perWindow<SplatTarget>(window), nullptr);
   shown_ = points > 0 ? main_.shown() : PixelRectangle();
   picture_ = shown_.empty() ? SplatTextures() : main_.picture();

@@ -52,6 +52,14 @@ bool vtkOpenGLPointFrontPicture::IsDrawingIds() const
   return pointfront::drawsIds(this->LastSelectionState);
 }
 
+/// Without an actor's replacements: they are for a shader that draws points.
+void vtkOpenGLPointFrontPicture::BuildShaders(
+  std::map<vtkShader::Type, vtkShader*> shaders, vtkRenderer* ren, vtkActor* act)
+{
+  this->GetShaderTemplate(shaders, ren, act);
+  this->ReplaceShaderValues(shaders, ren, act);
+}
+
 void vtkOpenGLPointFrontPicture::GetShaderTemplate(
   std::map<vtkShader::Type, vtkShader*> shaders, vtkRenderer*, vtkActor*)
 {

@@ -49,6 +49,8 @@ protected:
   vtkOpenGLPointFrontPicture();
   ~vtkOpenGLPointFrontPicture() override;
 
+  void BuildShaders(
+    std::map<vtkShader::Type, vtkShader*> shaders, vtkRenderer* ren, vtkActor* act) override;
   void GetShaderTemplate(
     std::map<vtkShader::Type, vtkShader*> shaders, vtkRenderer* ren, vtkActor* act) override;
   void ReplaceShaderLight(

@@ -164,8 +164,8 @@ TEST(StyleJSON, RefusalsBeginWithTheirPlace)
     "solid, ewa");
   expect(R"({"highlight": [{"class": 6}, {"class": 6}]})",
     "highlight[1].class: a class has one highlight");
-  expect(R"({"highlight": [{"class": 6, "halo_px": 65}]})",
-    "highlight[0].halo_px: expected a number from 0.0 to 64.0, not 65");
+  expect(R"({"highlight": [{"class": 6, "halo_px": 17}]})",
+    "highlight[0].halo_px: expected a number from 0.0 to 16.0, not 17");
   expect(R"({"default": {"where": "intensity = 3"}})",
     "default.where: 'intensity = 3', character 11: expected 'in', ==, !=, <, <=, > or >=, not '= "
     "3'");

@@ -29,7 +29,7 @@ struct StyleLens
 };
 
 /// The widest rim of a highlight, pixels.
-constexpr float mostHaloPx = 64.0f;
+constexpr float mostHaloPx = 16.0f;
 /// So many classes stand out at once: a pixel's mark is a part of a byte.
 constexpr std::size_t mostHighlights = 120;
 

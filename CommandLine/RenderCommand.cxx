@@ -28,6 +28,7 @@ void RenderCommand::declare(CLI::App& program)
 {
   app_ = program.add_subcommand("render", "Draw a picture of stores, offscreen");
   drawing_.declare(*app_);
+  drawing_.growthMs = 0.0; // a still shows all that is there, however fast its frames were drawn
   app_->add_option("-o,--output", outputPath_, "The picture; replaced if it is there")
     ->required()
     ->check(CLI::Validator(checkPng, "OUT.png"));

@@ -260,6 +260,7 @@ pointfront::PlanRequest vtkPointFrontMapper::GetRequest(vtkRenderer* renderer, v
   if (const auto sheet = this->GetStyleSheet())
   {
     request.shading = sheet->frameShading();
+    pointfront::placeInTile(renderer, request.shading.lenses);
   }
   for (const pointfront::LayerStyling& layer : this->GetStyling(actor))
   {

@@ -87,7 +87,8 @@ bool covered(ivec2 at)
   vec2 from = vec2(at) + 0.5 - lensCentre;
   if (lensShape == 0)
   {
-    return dot(from, from) <= lensHalfSize.x * lensHalfSize.x;
+    vec2 a = from * from, b = lensHalfSize * lensHalfSize;
+    return a.x * b.y + a.y * b.x <= b.x * b.y;
   }
   if (lensShape == 1)
   {

@@ -2,6 +2,7 @@
 
 #include "Scene.h"
 
+#include "pointfront/Style/StyleSheet.h"
 #include "vtkPointFrontLensWidget.h"
 #include "vtkPointFrontStyle.h"
 
@@ -15,6 +16,7 @@
 #include <vtkRenderWindowInteractor.h>
 #include <vtkSelection.h>
 #include <vtkSelectionNode.h>
+#include <vtkWindowToImageFilter.h>
 
 #include <map>
 #include <set>
@@ -280,6 +282,40 @@ TEST(Lenses, TheWidgetFollowsTheMouse)
   interactor->SetEventInformation(10, 10);
   interactor->InvokeEvent(vtkCommand::MouseMoveEvent);
   EXPECT_EQ(scene.style->GetLensCenterX(lens), 70.0) << "off";
+}
+
+// A poster is one picture: its lens lies where it lies in the window, not once in every tile.
+TEST(Lenses, APosterOfTilesHasTheLensOnce)
+{
+  Meadow scene(meadowStore("poster_lens"));
+  for (const char* const place :
+    {R"("shape": "circle", "center_px": [60, 100], "radius_px": 30)",
+      R"("shape": "mask", "mask": ["..#...", "...#.."])"})
+  {
+    scene.style->LoadJSON(std::string(R"({"default": {"technique": "splats"}, "lenses": [{)") +
+      place + R"(, "inside": {"5": {"visible": false}}}]})");
+    const FrameLens lens = scene.style->GetStyleSheet().lenses[0].place;
+    for (const int backend : backends)
+    {
+      scene.with(backend);
+      vtkNew<vtkWindowToImageFilter> filter;
+      filter->SetInput(scene.window);
+      filter->SetScale(3, 2);
+      filter->ReadFrontBufferOff();
+      filter->Update();
+      vtkImageData* const image = filter->GetOutput();
+      int wrong = 0;
+      for (int y = 30; y < 370; ++y)
+      {
+        for (int x = 125; x < 475; ++x) // a wider picture shows the same meadow
+        {
+          const bool inside = image->GetScalarComponentAsDouble(x, y, 0, 0) > 100.0;
+          wrong += inside != lens.covers(x / 3, y / 2, 200, 200) ? 1 : 0;
+        }
+      }
+      EXPECT_LE(wrong, 600) << place << backend << ": pixels of the rim at most";
+    }
+  }
 }
 
 TEST(Lenses, ResourcesAreReleasedAndMadeAgain)

@@ -28,7 +28,10 @@ bool FrameLens::covers(int x, int y, int viewportWidth, int viewportHeight) cons
   switch (shape)
   {
     case LensShape::Circle:
-      return from.x * from.x + from.y * from.y <= halfSizePx.x * halfSizePx.x;
+    {
+      const glm::vec2 a = from * from, b = halfSizePx * halfSizePx;
+      return a.x * b.y + a.y * b.x <= b.x * b.y;
+    }
     case LensShape::Rectangle:
       return std::abs(from.x) <= halfSizePx.x && std::abs(from.y) <= halfSizePx.y;
     case LensShape::Mask:

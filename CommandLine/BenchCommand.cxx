@@ -36,8 +36,7 @@ std::int64_t gpuBytesMax(const std::vector<FrameRecord>& frames)
 
 /// `interactive`: frames whose camera moved are drawn as in motion, others as at rest; the first is
 /// in motion if the second is.
-Result<std::vector<FrameRecord>> replay(
-  StoreScene& scene, const CameraPath& path, bool interactive)
+Result<std::vector<FrameRecord>> replay(StoreScene& scene, const CameraPath& path, bool interactive)
 {
   std::vector<FrameRecord> frames;
   frames.reserve(path.size());
@@ -69,12 +68,14 @@ void BenchCommand::declare(CLI::App& program)
     ->type_name("N");
   app_->add_flag("--interactive", interactive_,
     "While the camera moves the fronts hold the frame time of a moving view");
-  app_->add_option("--frame-ms", drawing_.frameMs,
-         "--interactive: time that a frame may take (66.7, VTK's for a moving view)")
+  app_
+    ->add_option("--frame-ms", drawing_.frameMs,
+      "--interactive: time that a frame may take (66.7, VTK's for a moving view)")
     ->check(CLI::Range(1.0, 10000.0))
     ->type_name("MS");
-  app_->add_option("--grow-ms", drawing_.growthMs,
-         "Time in which detail that comes or goes grows or shrinks; 0: it is there at once (250)")
+  app_
+    ->add_option("--grow-ms", drawing_.growthMs,
+      "Time in which detail that comes or goes grows or shrinks; 0: it is there at once (250)")
     ->check(CLI::Range(0.0, 10000.0))
     ->type_name("MS");
   app_->add_flag("--settle", settles_,
@@ -115,9 +116,10 @@ Result<CameraPath> BenchCommand::path(const StoreScene& scene) const
 Result<void> BenchCommand::run()
 {
   const CancelSignal signal(CancelSignal::Mode::Leave);
-  Result<void> free = checkDrawnFiles({ { statisticsPath_, FileKind::Statistics },
-    { framesPath_, FileKind::FrameTable }, { picturePath_, FileKind::Picture } }, drawing_.stores,
-    { path_ });
+  Result<void> free =
+    checkDrawnFiles({ { statisticsPath_, FileKind::Statistics },
+                      { framesPath_, FileKind::FrameTable }, { picturePath_, FileKind::Picture } },
+      drawing_.stores, { path_ });
   if (!free)
   {
     return free;
@@ -220,9 +222,8 @@ nlohmann::ordered_json benchStatistics(const std::vector<FrameRecord>& frames)
   object["frames"] = frames.size();
   object["frame_ms"] = percentilesJson(milliseconds);
   object["front_update_ms"] = percentilesJson(frontMilliseconds);
-  object["rasterise_ms"] = rasteriseMilliseconds.empty()
-    ? nlohmann::ordered_json()
-    : percentilesJson(rasteriseMilliseconds);
+  object["rasterise_ms"] = rasteriseMilliseconds.empty() ? nlohmann::ordered_json()
+                                                         : percentilesJson(rasteriseMilliseconds);
   object["points_drawn"] = { { "p50", static_cast<std::int64_t>(drawn.p50) },
     { "max", static_cast<std::int64_t>(drawn.max) } };
   object["frames_that_read_files"] = reading;

@@ -22,8 +22,8 @@ public:
 
 private:
   Result<CameraPath> path(const StoreScene& scene) const;
-  Result<void> write(StoreScene& scene, const std::string& statistics,
-    const std::vector<FrameRecord>& frames) const;
+  Result<void> write(
+    StoreScene& scene, const std::string& statistics, const std::vector<FrameRecord>& frames) const;
 
   DrawingOptions drawing_;
   std::string path_ = "orbit";

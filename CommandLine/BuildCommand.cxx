@@ -22,8 +22,7 @@ namespace pointfront
 void BuildCommand::declare(CLI::App& program)
 {
   app_ = program.add_subcommand("build", "Build a store from point files and stores");
-  app_->add_option("inputs", inputs_, "Files, glob patterns, folders; any mix")
-    ->type_name("IN...");
+  app_->add_option("inputs", inputs_, "Files, glob patterns, folders; any mix")->type_name("IN...");
   app_->add_option("-o,--output", options_.outputPath, "The store to write")
     ->required()
     ->type_name("OUT.pfront");
@@ -31,14 +30,16 @@ void BuildCommand::declare(CLI::App& program)
     ->check(availableValues({ "octree", "kdtree" }, {}));
   app_->add_option("--refinement", refinement_, "Inner nodes hold a subset, or mean points (add)")
     ->check(availableValues({ "add", "replace" }, {}));
-  app_->add_option("--layers", layers_,
-        "One tree for all points, or for each class (class if any point is classified)")
+  app_
+    ->add_option("--layers", layers_,
+      "One tree for all points, or for each class (class if any point is classified)")
     ->check(availableValues({ "none", "class" }, {}));
   app_->add_option("--node-points", options_.nodePoints, "Most points of a leaf (16384)")
     ->check(CLI::Range(256u, 1u << 20))
     ->type_name("N");
-  app_->add_option("--precision", precision_,
-        "Step of the stored coordinates (the inputs' own: lossless)")
+  app_
+    ->add_option(
+      "--precision", precision_, "Step of the stored coordinates (the inputs' own: lossless)")
     ->check(positiveNumber())
     ->type_name("METRES");
   app_->add_option("--attributes", attributes_, "Attributes to store: all, or names (all)")
@@ -54,8 +55,9 @@ void BuildCommand::declare(CLI::App& program)
   app_->add_flag("--force", options_.overwrite, "Replace an existing output");
   app_->add_option("--progress", progress_, "On stderr: auto, plain, json or none (auto)")
     ->check(availableValues({ "auto", "plain", "json", "none" }, {}));
-  app_->add_option("--preview", preview_,
-        "A small store beside the output, to look at while it is built: auto or none (auto)")
+  app_
+    ->add_option("--preview", preview_,
+      "A small store beside the output, to look at while it is built: auto or none (auto)")
     ->check(availableValues({ "auto", "none" }, {}));
   app_->add_flag("--json", json_, "Print the report as one JSON object");
   addOnError(*app_, options_.onFault);
@@ -64,8 +66,7 @@ void BuildCommand::declare(CLI::App& program)
   app_->final_callback(
     [this]
     {
-      const std::vector<std::string> more =
-        passes_.inputsAmongImages(SourceFormats().extensions());
+      const std::vector<std::string> more = passes_.inputsAmongImages(SourceFormats().extensions());
       inputs_.insert(inputs_.end(), more.begin(), more.end());
       if (inputs_.empty())
       {
@@ -108,8 +109,7 @@ Result<OpenedInputs> BuildCommand::openSources() const
   return inputs;
 }
 
-void BuildCommand::warnOfBuild(
-  const PointSources& sources, const BuildReport& report) const
+void BuildCommand::warnOfBuild(const PointSources& sources, const BuildReport& report) const
 {
   std::set<std::string> told;
   for (const std::unique_ptr<PointSource>& source : sources)
@@ -131,8 +131,7 @@ Result<BuildReport> BuildCommand::buildFrom(PointSources& sources, const Attribu
   ProgressDisplay display(*ProgressDisplay::styleOf(progress_));
   PreviewOptions preview;
   preview.wanted = preview_ != "none";
-  BuildRun run(
-    options_, preview, [this](const std::string& finding) { warn(name(), finding); });
+  BuildRun run(options_, preview, [this](const std::string& finding) { warn(name(), finding); });
   return run.run(sources, passes, display.function());
 }
 
@@ -180,13 +179,14 @@ Result<void> BuildCommand::run()
     return {};
   }
   const std::string rejected = rejectionText(*report);
-  const std::string leftOut = (rejected.empty() ? "" : "; left out: " + rejected) +
-    skippedText(report->inputsSkipped);
+  const std::string leftOut =
+    (rejected.empty() ? "" : "; left out: " + rejected) + skippedText(report->inputsSkipped);
   std::printf("%s: %llu points in %llu nodes, %s, %.1f s (%.2f M points/s)%s\n",
     options_.outputPath.c_str(), static_cast<unsigned long long>(report->pointsStored),
     static_cast<unsigned long long>(report->nodes), byteSizeText(report->bytesWritten).c_str(),
-    report->seconds, report->seconds > 0.0
-      ? static_cast<double>(report->pointsStored) / report->seconds * 1e-6 : 0.0,
+    report->seconds,
+    report->seconds > 0.0 ? static_cast<double>(report->pointsStored) / report->seconds * 1e-6
+                          : 0.0,
     leftOut.c_str());
   return {};
 }

@@ -28,8 +28,7 @@ private:
   /// Passes, preview and build, with progress on stderr. `sources` becomes what the passes gave.
   Result<BuildReport> buildFrom(PointSources& sources, const AttributePasses& passes);
   /// Tells what the build itself found; what the sources said has been told, with their paths.
-  void warnOfBuild(const PointSources& sources,
-    const BuildReport& report) const;
+  void warnOfBuild(const PointSources& sources, const BuildReport& report) const;
 
   std::vector<std::string> inputs_;
   BuildOptions options_;

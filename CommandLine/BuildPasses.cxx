@@ -11,19 +11,21 @@ namespace pointfront
 
 void BuildPasses::declare(CLI::App& app)
 {
-  app.add_option("--crs", choice_.targetCrs,
-        "Coordinate reference system of the store; utm: the zone of the first input (the inputs')")
+  app
+    .add_option("--crs", choice_.targetCrs,
+      "Coordinate reference system of the store; utm: the zone of the first input (the inputs')")
     ->type_name("EPSG:N|WKTFILE|utm");
   app.add_option("--assume-crs", choice_.assumedCrs, "What inputs are in that do not name it")
     ->type_name("EPSG:N|WKTFILE");
 
-  app.add_option("--color-from", choice_.colourFrom,
-        "Colours from georeferenced images: files, patterns, folders; the first has right of way")
+  app
+    .add_option("--color-from", choice_.colourFrom,
+      "Colours from georeferenced images: files, patterns, folders; the first has right of way")
     ->type_name("IMG...")
     ->expected(1, -1);
   app
-    .add_option("--attribute-from", choice_.attributeFrom,
-      "Values of georeferenced images, likewise")
+    .add_option(
+      "--attribute-from", choice_.attributeFrom, "Values of georeferenced images, likewise")
     ->type_name("NAME=IMG...")
     ->expected(1, -1);
 

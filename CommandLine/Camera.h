@@ -18,8 +18,8 @@ struct Camera
   glm::dvec3 position{ 0.0 };
   glm::dvec3 focalPoint{ 0.0, 0.0, -1.0 };
   glm::dvec3 viewUp{ 0.0, 1.0, 0.0 };
-  double viewAngleDegrees = 30.0;       ///< vertical; for a perspective camera
-  std::optional<double> parallelScale;  ///< half the height of a parallel view, world units
+  double viewAngleDegrees = 30.0; ///< vertical; for a perspective camera
+  std::optional<double> parallelScale; ///< half the height of a parallel view, world units
 
   glm::dvec3 direction() const; ///< unit, away from the eye
 };
@@ -34,11 +34,11 @@ inline bool operator==(const Camera& a, const Camera& b)
 /// From where `--view` looks.
 enum class NamedView
 {
-  Iso,   ///< from the south-east, 35 degrees above the horizon; z is up
-  Top,   ///< straight down; north (y) is up in the picture
+  Iso, ///< from the south-east, 35 degrees above the horizon; z is up
+  Top, ///< straight down; north (y) is up in the picture
   Front, ///< from the south
   Back,
-  Left,  ///< from the west
+  Left, ///< from the west
   Right
 };
 std::optional<NamedView> namedView(const std::string& name);

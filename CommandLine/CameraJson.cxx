@@ -65,8 +65,8 @@ Result<nlohmann::json> readJsonFile(const std::string& path)
   }
   catch (const nlohmann::json::parse_error& failure)
   {
-    return makeError(Error::Kind::BadFormat,
-      path + ": not JSON, at byte " + std::to_string(failure.byte));
+    return makeError(
+      Error::Kind::BadFormat, path + ": not JSON, at byte " + std::to_string(failure.byte));
   }
 }
 

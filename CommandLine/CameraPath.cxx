@@ -49,8 +49,7 @@ CameraPath resampled(const CameraPath& path, int frames)
     const double position = shareOf(frame, frames) * static_cast<double>(path.size() - 1);
     const auto first = static_cast<std::size_t>(position);
     const std::size_t second = std::min(first + 1, path.size() - 1);
-    result.push_back(
-      between(path[first], path[second], position - static_cast<double>(first)));
+    result.push_back(between(path[first], path[second], position - static_cast<double>(first)));
   }
   return result;
 }
@@ -172,8 +171,7 @@ Result<CameraPath> readPathFile(const std::string& path, int frames)
     const Camera& next = keys[std::min(i + 1, keys.size() - 1)].camera;
     for (int frame = 0; frame < keys[i].frames; ++frame)
     {
-      cameras.push_back(
-        between(keys[i].camera, next, static_cast<double>(frame) / keys[i].frames));
+      cameras.push_back(between(keys[i].camera, next, static_cast<double>(frame) / keys[i].frames));
     }
   }
   return frames > 0 ? resampled(cameras, frames) : cameras;

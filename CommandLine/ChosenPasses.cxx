@@ -33,8 +33,8 @@ Result<void> within(double value, double least, double most, const char* name)
     return {};
   }
   char text[200];
-  std::snprintf(text, sizeof text, "%s of %g is not possible; choose %g to %g", name, value, least,
-    most);
+  std::snprintf(
+    text, sizeof text, "%s of %g is not possible; choose %g to %g", name, value, least, most);
   return wrong(text);
 }
 

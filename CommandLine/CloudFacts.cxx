@@ -9,9 +9,9 @@ namespace pointfront
 
 nlohmann::ordered_json boundsJson(const Bounds& b)
 {
-  return b.empty() ? nlohmann::ordered_json()
-                   : nlohmann::ordered_json{ b.low.x, b.low.y, b.low.z, b.high.x, b.high.y,
-                       b.high.z };
+  return b.empty()
+    ? nlohmann::ordered_json()
+    : nlohmann::ordered_json{ b.low.x, b.low.y, b.low.z, b.high.x, b.high.y, b.high.z };
 }
 
 std::string boundsText(const Bounds& b)
@@ -51,8 +51,8 @@ nlohmann::ordered_json attributesJson(const AttributeSchema& schema)
   auto list = nlohmann::ordered_json::array();
   for (const Attribute& attribute : schema)
   {
-    list.push_back({ { "name", attribute.name },
-      { "type", std::string(nameOf(attribute.type)) }, { "components", attribute.components } });
+    list.push_back({ { "name", attribute.name }, { "type", std::string(nameOf(attribute.type)) },
+      { "components", attribute.components } });
   }
   return list;
 }

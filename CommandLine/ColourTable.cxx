@@ -51,23 +51,23 @@ ColourTable classificationTable()
   static const std::uint8_t standard[19][3] = {
     { 160, 160, 160 }, // created, never classified
     { 190, 190, 190 }, // unclassified
-    { 165, 120, 75 },  // ground
+    { 165, 120, 75 }, // ground
     { 150, 205, 110 }, // low vegetation
-    { 85, 170, 70 },   // medium vegetation
-    { 30, 120, 45 },   // high vegetation
-    { 205, 60, 50 },   // building
-    { 225, 70, 200 },  // low point (noise)
+    { 85, 170, 70 }, // medium vegetation
+    { 30, 120, 45 }, // high vegetation
+    { 205, 60, 50 }, // building
+    { 225, 70, 200 }, // low point (noise)
     { 220, 200, 150 }, // reserved (model key point)
-    { 55, 120, 215 },  // water
-    { 120, 85, 60 },   // rail
-    { 95, 95, 105 },   // road surface
-    { 225, 205, 60 },  // reserved (overlap)
+    { 55, 120, 215 }, // water
+    { 120, 85, 60 }, // rail
+    { 95, 95, 105 }, // road surface
+    { 225, 205, 60 }, // reserved (overlap)
     { 245, 225, 100 }, // wire: guard
-    { 250, 190, 40 },  // wire: conductor
-    { 235, 140, 30 },  // transmission tower
-    { 245, 165, 95 },  // wire: structure connector
-    { 150, 95, 175 },  // bridge deck
-    { 255, 90, 160 },  // high noise
+    { 250, 190, 40 }, // wire: conductor
+    { 235, 140, 30 }, // transmission tower
+    { 245, 165, 95 }, // wire: structure connector
+    { 150, 95, 175 }, // bridge deck
+    { 255, 90, 160 }, // high noise
   };
   ColourTable table(256, { 130, 130, 130 });
   for (std::size_t code = 0; code < 19; ++code)

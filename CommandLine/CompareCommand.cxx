@@ -34,8 +34,10 @@ void CompareCommand::declare(CLI::App& program)
     const auto colour = parseColour(text);
     if (!colour)
     {
-      throw CLI::ValidationError("--background", "'" + text + "' is not a colour: write R,G,B "
-                                                              "with 0 to 255");
+      throw CLI::ValidationError("--background",
+        "'" + text +
+          "' is not a colour: write R,G,B "
+          "with 0 to 255");
     }
     background_.emplace();
     for (std::size_t i = 0; i < 3; ++i)
@@ -43,8 +45,9 @@ void CompareCommand::declare(CLI::App& program)
       (*background_)[i] = std::uint8_t(std::lround(255.0 * (*colour)[i]));
     }
   };
-  app_->add_option_function<std::string>("--background", background,
-      "Colour behind the points (most frequent in B outside the mask)")
+  app_
+    ->add_option_function<std::string>(
+      "--background", background, "Colour behind the points (most frequent in B outside the mask)")
     ->type_name("R,G,B");
   app_->add_flag("--json", json_, "Print one JSON object");
 }

@@ -30,9 +30,10 @@ CLI::callback_t word(const std::string& option, const std::string& expected, Tak
 
 void declareColour(CLI::App& app, DrawingOptions& options)
 {
-  app.add_option("--color-by", options.colourBy,
-       "rgb, classification, intensity, elevation, normal, horizontality, global-height, "
-       "local-height or an attribute (the first of them that says something)")
+  app
+    .add_option("--color-by", options.colourBy,
+      "rgb, classification, intensity, elevation, normal, horizontality, global-height, "
+      "local-height or an attribute (the first of them that says something)")
     ->type_name("ATTRIBUTE")
     ->expected(1)
     ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
@@ -59,8 +60,9 @@ void declareBackend(CLI::App& app, DrawingOptions& options)
       options.backend = found != backends.end() ? found->second : options.backend;
       return found != backends.end();
     });
-  app.add_option("--backend", backend,
-       "software: no display and no GL needed; opengl: VTK, on an X server (auto: software)")
+  app
+    .add_option("--backend", backend,
+      "software: no display and no GL needed; opengl: VTK, on an X server (auto: software)")
     ->type_name("auto|opengl|software")
     ->expected(1);
 }
@@ -106,8 +108,7 @@ void DrawingOptions::declare(CLI::App& app)
     {
       const auto pixels = parseNumbers<1>(text);
       pointSizePx = pixels ? (*pixels)[0] : 0.0;
-      return text == "auto" ||
-        (pixels && pointSizePx >= 1.0 && pointSizePx <= largestPointSizePx);
+      return text == "auto" || (pixels && pointSizePx >= 1.0 && pointSizePx <= largestPointSizePx);
     });
   app.add_option("--point-size", pointSize, "Diameter of a point (auto: as the points' spacing)")
     ->type_name("PX|auto")
@@ -121,7 +122,8 @@ void DrawingOptions::declare(CLI::App& app)
     ->type_name("N");
   addByteSize(app, "--gpu-memory", gpuBytes,
     "Most GPU memory for points (as the points need; software takes none)");
-  app.add_option("--detail", detail,
+  app
+    .add_option("--detail", detail,
       "front: each part as fine as it projects; view: one level that fills the view (front)")
     ->check(availableValues({ "front", "view" }, {}));
   addByteSize(app, "--memory", memoryBytes, "Most memory for decoded points and the picture (1G)");

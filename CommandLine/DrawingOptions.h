@@ -16,9 +16,9 @@ namespace pointfront
 /// What draws the points.
 enum class DrawingBackend : std::uint8_t
 {
-  Auto,     ///< Software
+  Auto, ///< Software
   Software, ///< the tool itself: needs no display and no GL
-  OpenGL    ///< VTK, in a window that is not shown
+  OpenGL ///< VTK, in a window that is not shown
 };
 
 /// What `render` and `bench` have in common: which stores, and how they are drawn.
@@ -26,16 +26,16 @@ struct DrawingOptions
 {
   std::vector<std::string> stores;
   DrawingBackend backend = DrawingBackend::Auto;
-  std::array<int, 2> size{ 1280, 720 };              ///< pixels
+  std::array<int, 2> size{ 1280, 720 }; ///< pixels
   std::array<double, 3> background{ 0.09, 0.10, 0.12 }; ///< 0 to 1
-  std::string colourBy;          ///< empty: defaultColourAttribute()
-  double pointSizePx = 0.0;      ///< 0: auto
-  double errorPx = 1.0;          ///< projected point spacing
+  std::string colourBy; ///< empty: defaultColourAttribute()
+  double pointSizePx = 0.0; ///< 0: auto
+  double errorPx = 1.0; ///< projected point spacing
   std::uint64_t memoryBytes = 0; ///< points of all stores, and the picture; 0: the library's
   std::int64_t pointBudget = -1; ///< most points drawn; -1: not given
-  std::uint64_t gpuBytes = 0;    ///< most GPU memory for points; 0: no limit but the points
-  double frameMs = 0.0;          ///< while the camera moves; 0: that VTK allots
-  double growthMs = 250.0;       ///< that detail takes to its size, in frames that follow others
+  std::uint64_t gpuBytes = 0; ///< most GPU memory for points; 0: no limit but the points
+  double frameMs = 0.0; ///< while the camera moves; 0: that VTK allots
+  double growthMs = 250.0; ///< that detail takes to its size, in frames that follow others
   bool measureEmptyScene = false; ///< see StoreScene::emptySceneBytes()
   std::vector<std::uint8_t> classes; ///< sorted codes of what is drawn; empty: all
   bool eyeDomeLighting = false;

@@ -25,9 +25,9 @@ Result<std::unique_ptr<DrawnStore>> DrawnStore::open(const std::string& path)
   }
   std::unique_ptr<DrawnStore> store(new DrawnStore);
   store->cloud_ = std::move(cloud).value();
-  store->share_ = std::make_unique<ResidencyShare>(store->cloud_,
-    store->cloud_->hierarchy()->nodeCount(), LoadScheduler::ofProcess(),
-    store->cloud_->description().pointCount);
+  store->share_ =
+    std::make_unique<ResidencyShare>(store->cloud_, store->cloud_->hierarchy()->nodeCount(),
+      LoadScheduler::ofProcess(), store->cloud_->description().pointCount);
   return store;
 }
 
@@ -67,9 +67,8 @@ std::uint64_t DrawnStore::pointsShown() const
 
 void DrawnStore::enterWindow(std::shared_ptr<const WindowDemand> window)
 {
-  front_ = std::make_unique<ViewFront>(
-    std::make_shared<HierarchyPiece>(cloud_->hierarchy(), 0, 1), *share_,
-    cloud_->description().schema, std::move(window));
+  front_ = std::make_unique<ViewFront>(std::make_shared<HierarchyPiece>(cloud_->hierarchy(), 0, 1),
+    *share_, cloud_->description().schema, std::move(window));
 }
 
 const FrontDelta& DrawnStore::update(FrameDemand demand)
@@ -100,8 +99,7 @@ FramePlan DrawnStore::plan(
   return planFrame(*front_, cloud_->description(), std::move(request));
 }
 
-void DrawnStore::noteFrame(
-  std::uint64_t points, std::uint64_t keptPoints, double milliseconds)
+void DrawnStore::noteFrame(std::uint64_t points, std::uint64_t keptPoints, double milliseconds)
 {
   front_->drewBeside(keptPoints);
   front_->recordFrame(points + keptPoints, front_->last().moves, milliseconds);
@@ -125,8 +123,8 @@ bool DrawnStore::needsFrame()
     front_->update(demand_);
     ahead_ = true;
   }
-  due_ = (ahead_ || front_->wantsUpdate() || growth_.growing()) &&
-    !(pauses && front_->expectsMore());
+  due_ =
+    (ahead_ || front_->wantsUpdate() || growth_.growing()) && !(pauses && front_->expectsMore());
   return due_;
 }
 

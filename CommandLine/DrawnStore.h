@@ -67,14 +67,14 @@ private:
   std::unique_ptr<ViewFront> front_;
   DetailGrowth growth_;
   std::vector<LayerStyling> styles_;
-  double tallestWall_ = 0.0;        ///< of the styles
-  LayerColumns columns_;            ///< that the styles read
+  double tallestWall_ = 0.0; ///< of the styles
+  LayerColumns columns_; ///< that the styles read
   std::vector<LayerLimits> limits_; ///< that they set
-  FrameDemand demand_;       ///< of the last update
+  FrameDemand demand_; ///< of the last update
   Clock::time_point drawnAt_; ///< end of the last frame
-  double frameMs_ = 0.0;     ///< what it took
-  bool ahead_ = false;       ///< the front was moved since
-  bool due_ = true;          ///< needsFrame() said so, and no frame was drawn since
+  double frameMs_ = 0.0; ///< what it took
+  bool ahead_ = false; ///< the front was moved since
+  bool due_ = true; ///< needsFrame() said so, and no frame was drawn since
 };
 
 } // namespace pointfront

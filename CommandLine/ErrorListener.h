@@ -19,8 +19,7 @@ public:
   ErrorListener()
   {
     command_->SetClientData(this);
-    command_->SetCallback(
-      [](vtkObject*, unsigned long, void* self, void* text)
+    command_->SetCallback([](vtkObject*, unsigned long, void* self, void* text)
       { static_cast<ErrorListener*>(self)->hear(static_cast<const char*>(text)); });
   }
   ~ErrorListener() { command_->SetClientData(nullptr); }

@@ -26,8 +26,9 @@ void ExportCommand::declare(CLI::App& program)
     ->required()
     ->check(sinkExtension());
   arguments_.declare(*app_);
-  app_->add_option("--crs", sinkChoice_.crs,
-        "Transform into this coordinate reference system (the store's own)")
+  app_
+    ->add_option(
+      "--crs", sinkChoice_.crs, "Transform into this coordinate reference system (the store's own)")
     ->type_name("EPSG:N|WKTFILE");
   app_->add_flag("--double", sinkChoice_.doubleCoordinates,
     "PCD: coordinates as float64, which PCL's readers of points do not take");
@@ -55,8 +56,7 @@ Result<void> ExportCommand::run()
   {
     reads.push_back(file);
   }
-  Result<void> checked =
-    checkOutputTarget({ outputPath_, sinkKind(outputPath_), replace_ }, reads);
+  Result<void> checked = checkOutputTarget({ outputPath_, sinkKind(outputPath_), replace_ }, reads);
   if (!checked)
   {
     return checked;

@@ -14,7 +14,7 @@ namespace
 constexpr double smallestNear = 0.001; // of the farthest
 constexpr double roundingRoom = 0.01;
 constexpr double depthRoom = 0.5; // of the box's depth, before and behind it
-constexpr double thinnest = 0.2;  // depth, of half the height of the picture where the box ends
+constexpr double thinnest = 0.2; // depth, of half the height of the picture where the box ends
 } // namespace
 
 std::array<double, 2> clippingRange(const Camera& camera, const Bounds& bounds)

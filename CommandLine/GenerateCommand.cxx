@@ -33,8 +33,7 @@ void GenerateCommand::declare(CLI::App& program)
 Result<void> GenerateCommand::run()
 {
   const CancelSignal signal(CancelSignal::Mode::Finish);
-  Result<void> checked =
-    checkOutputTarget({ outputPath_, sinkKind(outputPath_), replace_ });
+  Result<void> checked = checkOutputTarget({ outputPath_, sinkKind(outputPath_), replace_ });
   if (!checked)
   {
     return checked;
@@ -53,8 +52,7 @@ Result<void> GenerateCommand::run()
     }
     written = exported.value();
   }
-  std::printf(
-    "%s: %llu points\n", outputPath_.c_str(), static_cast<unsigned long long>(written));
+  std::printf("%s: %llu points\n", outputPath_.c_str(), static_cast<unsigned long long>(written));
   return {};
 }
 

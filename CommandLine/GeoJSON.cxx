@@ -100,8 +100,7 @@ bool Reader::addPolygon(const json& value, const std::string& place)
       }
       if (vertices.size() < 4 || vertices.front() != vertices.back())
       {
-        return fail(
-          here, "has fewer than four vertices, or does not return to its first one");
+        return fail(here, "has fewer than four vertices, or does not return to its first one");
       }
       polygon.rings.push_back(std::move(vertices));
       return true;

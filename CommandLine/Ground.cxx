@@ -1,7 +1,7 @@
 #include "Ground.h"
 
-#include "pointfront/Store/StoreSample.h"
 #include "pointfront/Store/StoredCloud.h"
+#include "pointfront/Store/StoreSample.h"
 
 namespace pointfront
 {
@@ -9,8 +9,8 @@ namespace pointfront
 Result<double> groundOf(const StoredCloud& store)
 {
   const StoreDescription& description = store.description();
-  const Result<StoreSample> sample = StoreSample::read(
-    *store.hierarchy(), store, description.grid, description.schema, {});
+  const Result<StoreSample> sample =
+    StoreSample::read(*store.hierarchy(), store, description.grid, description.schema, {});
   if (!sample)
   {
     return sample.error();

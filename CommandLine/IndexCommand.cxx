@@ -49,8 +49,9 @@ void IndexCommand::declare(CLI::App& program)
   app_->add_option("inputs", inputs_, "LAS files, patterns, folders; they are not changed")
     ->required()
     ->type_name("IN.las...");
-  app_->add_option("-o,--output", sidePath_,
-        std::string("The side file (IN.las") + lasIndexSuffix + ")")
+  app_
+    ->add_option(
+      "-o,--output", sidePath_, std::string("The side file (IN.las") + lasIndexSuffix + ")")
     ->type_name("SIDE");
   app_->add_option("--node-points", options_.leafPoints, "Most points of a leaf (16384)")
     ->check(CLI::Range(256u, 1u << 20))
@@ -75,8 +76,7 @@ void IndexCommand::declare(CLI::App& program)
 Result<std::vector<std::string>> IndexCommand::findFiles(std::vector<InputFault>& skipped) const
 {
   const bool skip = onFault_ == OnFault::Skip;
-  Result<InputFileList> files =
-    findInputFiles(inputs_, { "las" }, {}, &skipped);
+  Result<InputFileList> files = findInputFiles(inputs_, { "las" }, {}, &skipped);
   if (!files)
   {
     return files.error();
@@ -162,8 +162,8 @@ Result<void> IndexCommand::run()
   return {};
 }
 
-std::string indexReportJson(const LASIndexReport& report, const std::vector<InputFault>* skipped,
-  std::uint64_t peakBytes)
+std::string indexReportJson(
+  const LASIndexReport& report, const std::vector<InputFault>* skipped, std::uint64_t peakBytes)
 {
   nlohmann::ordered_json object;
   object["points_read"] = report.points;

@@ -32,7 +32,7 @@ private:
 };
 
 /// The keys of `index --json`; of several files `report` is their sum. Null: nothing is skipped.
-std::string indexReportJson(const LASIndexReport& report, const std::vector<InputFault>* skipped,
-  std::uint64_t peakBytes);
+std::string indexReportJson(
+  const LASIndexReport& report, const std::vector<InputFault>* skipped, std::uint64_t peakBytes);
 
 } // namespace pointfront

@@ -152,15 +152,14 @@ Result<void> InfoCommand::run()
   return faults.empty() ? Result<void>() : faultsOf(faults, inputs);
 }
 
-Result<void> InfoCommand::tell(const std::string& path, const PointFileOpener& opener,
-  nlohmann::ordered_json& reports) const
+Result<void> InfoCommand::tell(
+  const std::string& path, const PointFileOpener& opener, nlohmann::ordered_json& reports) const
 {
   const bool store = SourceFormats::isStore(path) || namedLikeStore(path);
   return store ? tellStore(path, reports) : tellSource(path, opener, reports);
 }
 
-Result<void> InfoCommand::tellStore(
-  const std::string& path, nlohmann::ordered_json& reports) const
+Result<void> InfoCommand::tellStore(const std::string& path, nlohmann::ordered_json& reports) const
 {
   Result<std::shared_ptr<const StoredCloud>> store = StoredCloudFormats::ofProcess().open(path);
   if (!store)
@@ -202,8 +201,8 @@ Result<void> InfoCommand::tellStore(
   return {};
 }
 
-Result<void> InfoCommand::tellSource(const std::string& path, const PointFileOpener& opener,
-  nlohmann::ordered_json& reports) const
+Result<void> InfoCommand::tellSource(
+  const std::string& path, const PointFileOpener& opener, nlohmann::ordered_json& reports) const
 {
   const Result<std::unique_ptr<PointSource>> source = opener.open(path);
   if (!source)

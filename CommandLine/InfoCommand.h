@@ -22,11 +22,11 @@ public:
   Result<void> run() override;
 
 private:
-  Result<void> tell(const std::string& path, const PointFileOpener& opener,
-    nlohmann::ordered_json& reports) const;
+  Result<void> tell(
+    const std::string& path, const PointFileOpener& opener, nlohmann::ordered_json& reports) const;
   Result<void> tellStore(const std::string& path, nlohmann::ordered_json& reports) const;
-  Result<void> tellSource(const std::string& path, const PointFileOpener& opener,
-    nlohmann::ordered_json& reports) const;
+  Result<void> tellSource(
+    const std::string& path, const PointFileOpener& opener, nlohmann::ordered_json& reports) const;
 
   std::vector<std::string> inputs_;
   bool json_ = false;

@@ -92,8 +92,7 @@ Result<std::vector<std::string>> filesBelow(const std::string& folder, const Fol
   return files;
 }
 
-Result<std::vector<std::string>> filesMatching(
-  const std::string& pattern, const FolderRule& rule)
+Result<std::vector<std::string>> filesMatching(const std::string& pattern, const FolderRule& rule)
 {
   glob_t matches = {};
   const int status = ::glob(pattern.c_str(), GLOB_NOSORT, nullptr, &matches);
@@ -129,8 +128,7 @@ Result<std::vector<std::string>> filesMatching(
   return files;
 }
 
-Result<std::vector<std::string>> expand(
-  const std::string& argument, const FolderRule& rule)
+Result<std::vector<std::string>> expand(const std::string& argument, const FolderRule& rule)
 {
   std::error_code failure;
   const fs::file_status status = fs::status(argument, failure);
@@ -150,9 +148,9 @@ Result<std::vector<std::string>> expand(
 }
 } // namespace
 
-Result<InputFileList> findInputFiles(
-  const std::vector<std::string>& arguments, const std::vector<std::string>& extensions,
-  const PointFileTest& isPointFile, std::vector<InputFault>* faults, const PointFileTest& isStore)
+Result<InputFileList> findInputFiles(const std::vector<std::string>& arguments,
+  const std::vector<std::string>& extensions, const PointFileTest& isPointFile,
+  std::vector<InputFault>* faults, const PointFileTest& isStore)
 {
   InputFileList list;
   const FolderRule rule{ extensions, isPointFile, isStore, list.warnings };

@@ -13,7 +13,7 @@ namespace pointfront
 /// What the arguments of `build` stand for.
 struct InputFileList
 {
-  std::vector<std::string> paths;    ///< sorted bytewise: the same for any order of the arguments
+  std::vector<std::string> paths; ///< sorted bytewise: the same for any order of the arguments
   std::vector<std::string> warnings; ///< a file that was named twice is read once
 };
 
@@ -27,9 +27,8 @@ using PointFileTest = std::function<bool(const std::string&)>;
 ///         of several each is named. With `faults` they are added there instead.
 /// `isStore`  tells stores and indices: of a folder that holds other point files, too, they are
 ///            left out, with a warning, for they may hold the same points. Empty: all are taken.
-Result<InputFileList> findInputFiles(
-  const std::vector<std::string>& arguments, const std::vector<std::string>& extensions,
-  const PointFileTest& isPointFile = {}, std::vector<InputFault>* faults = nullptr,
-  const PointFileTest& isStore = {});
+Result<InputFileList> findInputFiles(const std::vector<std::string>& arguments,
+  const std::vector<std::string>& extensions, const PointFileTest& isPointFile = {},
+  std::vector<InputFault>* faults = nullptr, const PointFileTest& isStore = {});
 
 } // namespace pointfront

@@ -34,8 +34,9 @@ bool maybeDegrees(PlanarGeometry& geometry)
   forEachLine(geometry,
     [&degrees](const PlanarLine& line)
     {
-      degrees = degrees && std::all_of(line.begin(), line.end(), [](const glm::dvec2& v)
-        { return std::abs(v.x) <= 180.0 && std::abs(v.y) <= 90.0; });
+      degrees = degrees &&
+        std::all_of(line.begin(), line.end(),
+          [](const glm::dvec2& v) { return std::abs(v.x) <= 180.0 && std::abs(v.y) <= 90.0; });
     });
   return degrees;
 }
@@ -112,7 +113,8 @@ Result<PlanarGeometry> readMapGeometry(
   if (json && geometry->crs.empty() && !store.crsWkt.empty() && maybeDegrees(*geometry))
   {
     geometry->crs = longitudeAndLatitude;
-    notes.push_back(path + ": taken as longitudes and latitudes (WGS 84), as GeoJSON without a "
+    notes.push_back(path +
+      ": taken as longitudes and latitudes (WGS 84), as GeoJSON without a "
       "\"crs\" is");
   }
   if (!geometry->crs.empty() && !store.crsWkt.empty())

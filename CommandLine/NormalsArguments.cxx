@@ -31,9 +31,9 @@ void NormalsArguments::declare(CLI::App& app)
     app.add_flag("--curvature", curvature_, "Keep the curvature that PCA gives beside the normal");
   ofPCA_ = { neighbours, radius, eps, curvature };
   classesOption_ =
-    app.add_option("--normals-classes", classes_, "Classes that get normals; others get none (all)")
-      ->check(
-        [](const std::string& text)
+    app
+      .add_option("--normals-classes", classes_, "Classes that get normals; others get none (all)")
+      ->check([](const std::string& text)
         { return parseClasses(text) ? std::string() : "'" + text + "' is no list of classes"; })
       ->type_name("LIST");
 }

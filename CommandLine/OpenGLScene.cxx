@@ -28,8 +28,8 @@
 #include <vtkOpenGLRenderer.h>
 #include <vtkPNGWriter.h>
 #include <vtkProperty.h>
-#include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
+#include <vtkRenderWindow.h>
 #include <vtkSmartPointer.h>
 #include <vtkUnsignedCharArray.h>
 #include <vtkWindowToImageFilter.h>
@@ -48,10 +48,10 @@ namespace
 /// One store's arrivals are waited for that long before the others are looked at.
 constexpr std::chrono::milliseconds lookAtOthers{ 20 };
 constexpr int mostRounds = 64; // of a complete render
-constexpr double stillRate = 0.0001;      // frames a second: VTK's value for a view at rest
-constexpr double interactiveRate = 15.0;  // VTK's value for a view in motion
-constexpr int largestEdge = 16384;        // pixels, of what OpenGL's drivers draw into
-constexpr int emptyFrames = 3;            // until a window has all that it ever makes by itself
+constexpr double stillRate = 0.0001; // frames a second: VTK's value for a view at rest
+constexpr double interactiveRate = 15.0; // VTK's value for a view in motion
+constexpr int largestEdge = 16384; // pixels, of what OpenGL's drivers draw into
+constexpr int emptyFrames = 3; // until a window has all that it ever makes by itself
 
 /// Nothing in the sheet that the mapper's own properties cannot say.
 bool isPlain(const DrawingOptions& options)
@@ -155,10 +155,7 @@ public:
 
   const char* backend() const override { return "opengl"; }
   const Bounds& bounds() const override { return bounds_; }
-  Result<double> ground() const override
-  {
-    return groundOf(*stores_.front()->store->GetStore());
-  }
+  Result<double> ground() const override { return groundOf(*stores_.front()->store->GetStore()); }
   void setCamera(const Camera& camera) override;
   void setInteractive(bool interactive) override
   {
@@ -247,8 +244,9 @@ Result<void> OffscreenScene::openWindow(bool empty)
 {
   if (std::max(options_.size[0], options_.size[1]) > largestEdge)
   {
-    return makeError(Error::Kind::Unsupported, "OpenGL draws pictures of up to " +
-        std::to_string(largestEdge) + " pixels a side; use --backend software");
+    return makeError(Error::Kind::Unsupported,
+      "OpenGL draws pictures of up to " + std::to_string(largestEdge) +
+        " pixels a side; use --backend software");
   }
   if (Result<void> connected = connection_.open(); !connected)
   {
@@ -345,8 +343,7 @@ FrameRecord OffscreenScene::record() const
     frame.limitedByGpu = frame.limitedByGpu || mapper->GetLastLimitedByGPUMemory();
     frame.limitedByMemory = frame.limitedByMemory || mapper->GetLastLimitedByMemory();
     frame.failedNodes += mapper->GetLastFailedNodes();
-    frame.gpuBytes =
-      std::max<std::int64_t>(frame.gpuBytes, mapper->GetLastWindowGPUBytes());
+    frame.gpuBytes = std::max<std::int64_t>(frame.gpuBytes, mapper->GetLastWindowGPUBytes());
     frame.residentBytes += residency.residentBytes;
     frame.bytesRead += residency.bytesRead;
     frame.cancelled += residency.cancelled;
@@ -373,8 +370,7 @@ Result<FrameRecord> OffscreenScene::render(bool complete)
     window_->Render();
   } while (complete && ++rounds < mostRounds && needsRender());
   window_->WaitForCompletion();
-  const std::chrono::duration<double, std::milli> taken =
-    std::chrono::steady_clock::now() - begin;
+  const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - begin;
   if (const Result<void> heard = errors_.outcome(); !heard)
   {
     return heard.error();
@@ -387,8 +383,8 @@ Result<FrameRecord> OffscreenScene::render(bool complete)
 
 bool OffscreenScene::needsRender() const
 {
-  return std::any_of(stores_.begin(), stores_.end(),
-    [](const auto& drawn) { return drawn->mapper->NeedsRender(); });
+  return std::any_of(
+    stores_.begin(), stores_.end(), [](const auto& drawn) { return drawn->mapper->NeedsRender(); });
 }
 
 bool OffscreenScene::waitForArrival()
@@ -435,10 +431,8 @@ std::uint64_t OffscreenScene::budgetBytes() const
 
 LoadingRecord OffscreenScene::loading() const
 {
-  const LoadSchedulerStatistics s =
-    stores_.front()->store->GetResidency().scheduler().statistics();
-  return { s.fetchedBytes, s.decodedBytes, s.fetchSeconds, s.decodeSeconds,
-    s.lastLoaded };
+  const LoadSchedulerStatistics s = stores_.front()->store->GetResidency().scheduler().statistics();
+  return { s.fetchedBytes, s.decodedBytes, s.fetchSeconds, s.decodeSeconds, s.lastLoaded };
 }
 
 std::uint64_t OffscreenScene::residentBytesMax() const
@@ -458,8 +452,8 @@ Result<void> OffscreenScene::writePicture(const std::string& path)
   png->WriteToMemoryOn();
   png->Write();
   vtkUnsignedCharArray* const bytes = png->GetResult();
-  return writeWholeFile(path, bytes->GetPointer(0),
-    static_cast<std::size_t>(bytes->GetNumberOfValues()));
+  return writeWholeFile(
+    path, bytes->GetPointer(0), static_cast<std::size_t>(bytes->GetNumberOfValues()));
 }
 
 Result<std::unique_ptr<StoreScene>> openScene(const DrawingOptions& options)

@@ -11,10 +11,10 @@ namespace pointfront
 /// What drawing takes, of each pixel and of each thread.
 struct PictureCost
 {
-  std::uint64_t pixelBytes = 0;       ///< of the picture, whatever threads there are
+  std::uint64_t pixelBytes = 0; ///< of the picture, whatever threads there are
   std::uint64_t threadPixelBytes = 0; ///< of each thread's buffers
   int marginPixels = 0; ///< of each thread's buffers, on all sides of what is drawn
-  int overlapRows = 0;  ///< of a band, that it draws of its neighbours on each side
+  int overlapRows = 0; ///< of a band, that it draws of its neighbours on each side
   unsigned threads = 1; ///< that draw, at most
 };
 

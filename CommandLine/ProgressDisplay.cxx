@@ -86,7 +86,7 @@ ProgressFunction ProgressDisplay::function()
 std::string ProgressDisplay::text(const Progress& progress, double pointsPerSecond)
 {
   char text[160];
-  int length = std::snprintf(text, sizeof(text), "%5.1f %%  %-9s %8.2f M points", 
+  int length = std::snprintf(text, sizeof(text), "%5.1f %%  %-9s %8.2f M points",
     100.0 * progress.fraction, progress.phase, static_cast<double>(progress.done) * 1e-6);
   std::string line(text, static_cast<std::size_t>(length));
   if (progress.total > 0)

@@ -27,7 +27,10 @@ public:
   /// "plain", "json", "none", or "auto": Line if stderr is a terminal, None otherwise.
   static std::optional<Style> styleOf(const std::string& name);
 
-  explicit ProgressDisplay(Style style) : style_(style) {}
+  explicit ProgressDisplay(Style style)
+    : style_(style)
+  {
+  }
   ~ProgressDisplay();
   ProgressDisplay(const ProgressDisplay&) = delete;
   ProgressDisplay& operator=(const ProgressDisplay&) = delete;
@@ -45,10 +48,10 @@ private:
 
   Style style_;
   std::string phase_;
-  double phaseBegan_ = 0.0;      ///< seconds into the operation
-  std::uint64_t phaseDone_ = 0;  ///< points at that time
-  double shownAt_ = -1.0e9;      ///< seconds into the operation
-  bool lineOpen_ = false;        ///< Line: something to clear
+  double phaseBegan_ = 0.0; ///< seconds into the operation
+  std::uint64_t phaseDone_ = 0; ///< points at that time
+  double shownAt_ = -1.0e9; ///< seconds into the operation
+  bool lineOpen_ = false; ///< Line: something to clear
 };
 
 } // namespace pointfront

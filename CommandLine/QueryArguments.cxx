@@ -49,7 +49,8 @@ void QueryArguments::declareRegions(CLI::App& app)
       (*numbers)[2] > (*numbers)[5])
     {
       throw CLI::ParseError("--box: '" + words.back() +
-          "' is not a box: write x0,y0,z0,x1,y1,z1 with lower before upper corner", 2);
+          "' is not a box: write x0,y0,z0,x1,y1,z1 with lower before upper corner",
+        2);
     }
     const auto& n = *numbers;
     box_ = Bounds{ { n[0], n[1], n[2] }, { n[3], n[4], n[5] } };
@@ -58,8 +59,9 @@ void QueryArguments::declareRegions(CLI::App& app)
   app.add_option("--box", box, "Only points inside or on this box")
     ->type_name("x0,y0,z0,x1,y1,z1")
     ->expected(1);
-  app.add_option("--polygon", polygonPath_,
-       "Only points above or below the areas of this file (GeoJSON or WKT)")
+  app
+    .add_option("--polygon", polygonPath_,
+      "Only points above or below the areas of this file (GeoJSON or WKT)")
     ->type_name("FILE")
     ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
   const auto sphere = [this](const CLI::results_t& words)
@@ -68,7 +70,8 @@ void QueryArguments::declareRegions(CLI::App& app)
     if (!sphere_ || (*sphere_)[3] < 0.0)
     {
       throw CLI::ParseError("--sphere: '" + words.back() +
-          "' is not a sphere: write x,y,z,r with a radius of 0 or more", 2);
+          "' is not a sphere: write x,y,z,r with a radius of 0 or more",
+        2);
     }
     return true;
   };
@@ -76,8 +79,9 @@ void QueryArguments::declareRegions(CLI::App& app)
     ->type_name("x,y,z,r")
     ->expected(1);
   CLI::Option* const corridor =
-    app.add_option("--corridor", corridorPath_,
-         "Only points that lie --within a distance of the lines of this file, on the map")
+    app
+      .add_option("--corridor", corridorPath_,
+        "Only points that lie --within a distance of the lines of this file, on the map")
       ->type_name("FILE")
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
   CLI::Option* const within =
@@ -114,13 +118,15 @@ void QueryArguments::declareConditions(CLI::App& app)
     query_.where = std::move(*expression);
     return true;
   };
-  app.add_option("--where", where,
-       "Only points that meet it: 'ATTRIBUTE in [a, b]', 'in {1, 2}', ==, !=, <, <=, >, >=, and")
+  app
+    .add_option("--where", where,
+      "Only points that meet it: 'ATTRIBUTE in [a, b]', 'in {1, 2}', ==, !=, <, <=, >, >=, and")
     ->type_name("CONDITION")
     ->expected(1)
     ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
-  app.add_option("--spacing", query_.spacing,
-       "Thin out: levels until the points are at least this dense")
+  app
+    .add_option(
+      "--spacing", query_.spacing, "Thin out: levels until the points are at least this dense")
     ->check(positiveNumber())
     ->type_name("METRES");
 }

@@ -27,10 +27,10 @@ public:
 private:
   void declareRegions(CLI::App& app);
   void declareConditions(CLI::App& app);
-  Result<void> addPolygon(const StoreDescription& store, PointQuery& query,
-    std::vector<std::string>& notes) const;
-  Result<void> addCorridor(const StoreDescription& store, PointQuery& query,
-    std::vector<std::string>& notes) const;
+  Result<void> addPolygon(
+    const StoreDescription& store, PointQuery& query, std::vector<std::string>& notes) const;
+  Result<void> addCorridor(
+    const StoreDescription& store, PointQuery& query, std::vector<std::string>& notes) const;
 
   PointQuery query_; ///< what needs no store
   std::optional<Bounds> box_;

@@ -82,8 +82,8 @@ Result<std::vector<RasterInput>> RasterModule::inputs(
   return inputs;
 }
 
-Result<std::unique_ptr<AttributePass>> RasterModule::load(const std::vector<RasterInput>& inputs,
-  const std::shared_ptr<const CoordinateSystems>& systems)
+Result<std::unique_ptr<AttributePass>> RasterModule::load(
+  const std::vector<RasterInput>& inputs, const std::shared_ptr<const CoordinateSystems>& systems)
 {
   void* library = ::dlopen(POINTFRONT_RASTER_MODULE, RTLD_NOW | RTLD_LOCAL);
   void* symbol = library != nullptr ? ::dlsym(library, "pointfrontMakeRasterPass") : nullptr;

@@ -21,8 +21,8 @@ public:
   /// stands before the first "=" names the attribute of that image and those that follow.
   /// Order    of the arguments, then of the names within a pattern or folder.
   /// Errors   NotFound; BadArgument: no attribute named, or a name that cannot be taken.
-  static Result<std::vector<RasterInput>> inputs(const std::vector<std::string>& colourFrom,
-    const std::vector<std::string>& attributeFrom);
+  static Result<std::vector<RasterInput>> inputs(
+    const std::vector<std::string>& colourFrom, const std::vector<std::string>& attributeFrom);
 
   /// Errors   Unsupported: the library is not installed beside this program.
   static Result<std::unique_ptr<AttributePass>> load(const std::vector<RasterInput>& inputs,

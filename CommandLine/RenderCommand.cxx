@@ -115,7 +115,8 @@ Result<void> RenderCommand::judge(const FrameRecord& last) const
 {
   if (frames_ == 0 && last.points == 0)
   {
-    return makeError(Error::Kind::BadArgument, "no point is in the picture, which is not written; "
+    return makeError(Error::Kind::BadArgument,
+      "no point is in the picture, which is not written; "
       "look elsewhere (--camera, --view), or choose other points");
   }
   std::string raise;
@@ -139,8 +140,9 @@ Result<void> RenderCommand::run()
 {
   const CancelSignal signal(CancelSignal::Mode::Leave);
   begin_ = Clock::now();
-  Result<void> free = checkDrawnFiles({ { outputPath_, FileKind::Picture },
-    { statisticsPath_, FileKind::Statistics } }, drawing_.stores, { cameraPath_ });
+  Result<void> free = checkDrawnFiles(
+    { { outputPath_, FileKind::Picture }, { statisticsPath_, FileKind::Statistics } },
+    drawing_.stores, { cameraPath_ });
   if (!free)
   {
     return free;

@@ -20,8 +20,9 @@ Result<ShownClasses> ShownClasses::choose(
   if (store.layers.size() == 1 && store.layers.front().name == "all")
   {
     return makeError(Error::Kind::BadArgument,
-      store.path + ": --classes needs a store with a tree for each class, and this one has one for "
-      "all; build it with --layers class, or export the classes");
+      store.path +
+        ": --classes needs a store with a tree for each class, and this one has one for "
+        "all; build it with --layers class, or export the classes");
   }
   for (const Layer& layer : store.layers)
   {

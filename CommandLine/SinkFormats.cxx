@@ -69,9 +69,9 @@ FileKind sinkKind(const std::string& path)
 {
   const std::string extension = extensionOf(path);
   return extension == ".xyz" || extension == ".csv" ? FileKind::Text
-    : extension == ".ply"    ? FileKind::PLY
-    : extension == ".pcd"    ? FileKind::PCD
-                             : FileKind::LAS;
+    : extension == ".ply"                           ? FileKind::PLY
+    : extension == ".pcd"                           ? FileKind::PCD
+                                                    : FileKind::LAS;
 }
 
 CLI::Validator sinkExtension()

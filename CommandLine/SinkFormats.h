@@ -17,8 +17,8 @@ namespace pointfront
 struct SinkChoice
 {
   bool doubleCoordinates = false; ///< PCD
-  bool dated = true;              ///< LAS: its header tells the day
-  std::string crs;                ///< the system to transform into; empty: as they are
+  bool dated = true; ///< LAS: its header tells the day
+  std::string crs; ///< the system to transform into; empty: as they are
 };
 
 /// What writes a file of that name; the extension has passed the check.

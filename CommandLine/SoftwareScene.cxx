@@ -30,10 +30,10 @@ using Clock = std::chrono::steady_clock;
 
 /// One store's arrivals are waited for that long before the others are looked at.
 constexpr std::chrono::milliseconds lookAtOthers{ 20 };
-constexpr int mostRounds = 64;                   // of the fronts of a complete picture
-constexpr double frameMsInMotion = 1000.0 / 15;  // that VTK allots to a moving view
+constexpr int mostRounds = 64; // of the fronts of a complete picture
+constexpr double frameMsInMotion = 1000.0 / 15; // that VTK allots to a moving view
 constexpr std::uint64_t framePointBudget = 5000000; // as vtkPointFrontMapper's
-constexpr std::uint64_t overviewPoints = 2000000;   // likewise
+constexpr std::uint64_t overviewPoints = 2000000; // likewise
 constexpr int filledRows = 64; ///< of a neighbour, that a hole may be filled from
 /// How far a splat reaches beyond the rows that its centre lies in, where its size is no number of
 /// pixels.
@@ -134,8 +134,8 @@ Result<std::unique_ptr<StoreScene>> SoftwareScene::open(const DrawingOptions& op
     scene->target_.reset(options.size[0], options.size[1]);
     scene->emptySceneBytes_ = residentBytesNow();
   }
-  for (const auto step : { &SoftwareScene::openStores, &SoftwareScene::chooseStyles,
-         &SoftwareScene::shareMemory })
+  for (const auto step :
+    { &SoftwareScene::openStores, &SoftwareScene::chooseStyles, &SoftwareScene::shareMemory })
   {
     if (Result<void> done = (scene.get()->*step)(); !done)
     {
@@ -213,8 +213,8 @@ void SoftwareScene::forEachStyle(const Visit& visit) const
   {
     for (const LayerStyling& layer : store->styles())
     {
-      std::for_each(layer.styles.begin(), layer.styles.end(),
-        [&visit](const auto& style) { visit(*style); });
+      std::for_each(
+        layer.styles.begin(), layer.styles.end(), [&visit](const auto& style) { visit(*style); });
     }
   }
 }
@@ -224,19 +224,20 @@ Result<void> SoftwareScene::shareMemory()
 {
   bool blends = false;
   std::set<std::tuple<int, bool, int>> parts; // that have targets of their own
-  forEachStyle([&](const ResolvedStyle& style)
+  forEachStyle(
+    [&](const ResolvedStyle& style)
     {
       blends = blends || style.blended || style.technique == Technique::Ewa;
       parts.insert({ style.lens, style.lensMask, style.group });
     });
   const std::uint64_t targets = std::max<std::size_t>(1, parts.size());
   PictureCost cost;
-  cost.pixelBytes = sizeof(std::uint32_t) + sizeof(float);     // colour and depth
-  cost.pixelBytes += shading_.lit ? 3 * sizeof(float) : 0;     // normals
-  cost.pixelBytes += shading_.highlights.empty() ? 0 : 4;      // who stands out, how far that is
+  cost.pixelBytes = sizeof(std::uint32_t) + sizeof(float); // colour and depth
+  cost.pixelBytes += shading_.lit ? 3 * sizeof(float) : 0; // normals
+  cost.pixelBytes += shading_.highlights.empty() ? 0 : 4; // who stands out, how far that is
   cost.pixelBytes *= targets;
   cost.pixelBytes += shading_.eyeDomeStrength > 0.0f ? sizeof(float) : 0; // logarithms of depth
-  cost.pixelBytes += blends ? sizeof(float) : 0;               // the nearest depth
+  cost.pixelBytes += blends ? sizeof(float) : 0; // the nearest depth
   cost.pixelBytes += stores_.size() > 1 // keys of their last pictures
     ? SoftwareRasteriser::keptPictures * sizeof(RasterKey)
     : 0;
@@ -285,8 +286,8 @@ void SoftwareScene::setCamera(const Camera& camera)
 FrameDemand SoftwareScene::demand(const View& view, bool complete) const
 {
   FrameDemand demand;
-  demand.method = options_.detail == "view" ? DetailMethod::ViewSpecific
-                                            : DetailMethod::RenderingFront;
+  demand.method =
+    options_.detail == "view" ? DetailMethod::ViewSpecific : DetailMethod::RenderingFront;
   demand.view = view;
   demand.targetErrorPx = options_.errorPx;
   const std::uint64_t unsaid = complete ? 0 : framePointBudget;
@@ -303,9 +304,10 @@ void SoftwareScene::updateFronts(const View& view, bool complete)
 {
   const FrameDemand common = demand(view, complete);
   ownMs_.assign(stores_.size(), 0.0);
-  const auto wantsUpdate = [&] {
-    return std::any_of(stores_.begin(), stores_.end(),
-      [](const auto& store) { return store->wantsUpdate(); });
+  const auto wantsUpdate = [&]
+  {
+    return std::any_of(
+      stores_.begin(), stores_.end(), [](const auto& store) { return store->wantsUpdate(); });
   };
   // Stores that share a budget come to one error within a few rounds.
   int rounds = 0;
@@ -315,8 +317,8 @@ void SoftwareScene::updateFronts(const View& view, bool complete)
     {
       const auto begin = Clock::now();
       FrameDemand own = common;
-      own.overviewPoints = overviewShare(
-        overviewPoints, stores_[i]->cloud()->description().pointCount, allPoints_);
+      own.overviewPoints =
+        overviewShare(overviewPoints, stores_[i]->cloud()->description().pointCount, allPoints_);
       stores_[i]->update(std::move(own));
       ownMs_[i] += millisecondsSince(begin);
     }
@@ -492,10 +494,12 @@ Result<FrameRecord> SoftwareScene::renderBand(
 double SoftwareScene::reachRows() const
 {
   double reach = 0.0;
-  forEachStyle([&reach](const ResolvedStyle& style) {
-    const bool pixels = style.size.mode == SplatSize::Mode::Pixels;
-    reach = std::max<double>(reach, pixels ? 0.5 * style.size.value + 1.0 : splatReachRows);
-  });
+  forEachStyle(
+    [&reach](const ResolvedStyle& style)
+    {
+      const bool pixels = style.size.mode == SplatSize::Mode::Pixels;
+      reach = std::max<double>(reach, pixels ? 0.5 * style.size.value + 1.0 : splatReachRows);
+    });
   return reach;
 }
 

@@ -55,8 +55,7 @@ private:
   FrameDemand demand(const View& view, bool complete) const;
   void updateFronts(const View& view, bool complete);
   FrameRecord record(bool complete) const;
-  void drawPart(
-    SoftwareRasteriser& rasteriser, const PixelRectangle& place, FrameRecord& frame);
+  void drawPart(SoftwareRasteriser& rasteriser, const PixelRectangle& place, FrameRecord& frame);
   Result<FrameRecord> render(bool complete);
   Result<FrameRecord> renderBand(
     SoftwareRasteriser& rasteriser, const PixelRectangle& rows, DrawnNodes& drawn);
@@ -72,7 +71,7 @@ private:
   bool interactive_ = false;
   std::uint64_t emptySceneBytes_ = 0;
   std::uint64_t allPoints_ = 0; ///< of all stores
-  std::vector<double> ownMs_;   ///< of the frame in work, what each store took
+  std::vector<double> ownMs_; ///< of the frame in work, what each store took
   ThreadReads reads_;
   std::vector<std::unique_ptr<DrawnStore>> stores_;
   SoftwareRasteriser rasteriser_;

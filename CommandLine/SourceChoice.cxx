@@ -15,12 +15,14 @@ void SourceChoice::declare(CLI::App& app)
     if (columns_.size() < 2)
     {
       throw CLI::ParseError("--columns: '" + words.back() +
-          "' names no columns: write x,y,z,intensity,r,g,b,- or the like", 2);
+          "' names no columns: write x,y,z,intensity,r,g,b,- or the like",
+        2);
     }
     return true;
   };
-  app.add_option("--columns", columns,
-       "Columns of text files: x,y,z,intensity,r,g,b,- (their headers, or a guess)")
+  app
+    .add_option("--columns", columns,
+      "Columns of text files: x,y,z,intensity,r,g,b,- (their headers, or a guess)")
     ->type_name("LIST")
     ->expected(1);
   const auto decimal = [this](const CLI::results_t& words)
@@ -28,29 +30,32 @@ void SourceChoice::declare(CLI::App& app)
     text_.decimalPoint = words.back() == "comma" || words.back() == "," ? ',' : '.';
     return true;
   };
-  app.add_option("--decimal", decimal, "Decimal mark of text files: point or comma (by their rows)")
+  app
+    .add_option("--decimal", decimal, "Decimal mark of text files: point or comma (by their rows)")
     ->expected(1)
     ->check(availableValues({ "point", "comma", ".", "," }, {}));
   const auto separator = [this](const CLI::results_t& words)
   {
     const std::string& word = words.back();
-    text_.separator = word == "comma" ? ','
-      : word == "semicolon"           ? ';'
+    text_.separator = word == "comma"  ? ','
+      : word == "semicolon"            ? ';'
       : word == "tab" || word == "\\t" ? '\t'
-      : word == "blank"               ? ' '
-                                      : word[0];
+      : word == "blank"                ? ' '
+                                       : word[0];
     return true;
   };
-  app.add_option("--separator", separator,
-       "Between columns of text files: comma, semicolon, tab or blank (by their rows)")
+  app
+    .add_option("--separator", separator,
+      "Between columns of text files: comma, semicolon, tab or blank (by their rows)")
     ->expected(1)
-    ->check(availableValues(
-      { "comma", "semicolon", "tab", "blank", ",", ";", " ", "\t", "\\t" }, {}));
+    ->check(
+      availableValues({ "comma", "semicolon", "tab", "blank", ",", ";", " ", "\t", "\\t" }, {}));
   app.add_option("--skip", text_.skip, "Lines at the beginning of text files to pass over (0)")
     ->check(wholeNumber())
     ->type_name("N");
-  app.add_option("--color-depth", colourDepth_,
-       "Bits of 16-bit colours: by each file's largest (auto), 8 or 16")
+  app
+    .add_option("--color-depth", colourDepth_,
+      "Bits of 16-bit colours: by each file's largest (auto), 8 or 16")
     ->check(availableValues({ "auto", "8", "16" }, {}));
 }
 

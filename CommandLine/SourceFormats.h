@@ -16,8 +16,8 @@ namespace pointfront
 struct SourceOptions
 {
   std::vector<std::string> columns; ///< of text files; empty: by header or guess
-  TextChoice text;                  ///< of text files
-  SurveyOptions survey;        ///< of files that are looked through when they are opened
+  TextChoice text; ///< of text files
+  SurveyOptions survey; ///< of files that are looked through when they are opened
   std::string temporaryFolder; ///< for what must be unpacked; empty: the system's
 };
 

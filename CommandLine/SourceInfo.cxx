@@ -131,8 +131,8 @@ std::vector<std::string> SourceInfo::warnings() const
   }
   if (!counted->rejected.empty())
   {
-    all.push_back("Some points are no positions, and a build leaves them out: " +
-      rejectedText(*counted) + ".");
+    all.push_back(
+      "Some points are no positions, and a build leaves them out: " + rejectedText(*counted) + ".");
   }
   return all;
 }
@@ -168,10 +168,10 @@ nlohmann::ordered_json sourceJson(const SourceInfo& info)
   {
     object["from_header"].push_back("bounds");
   }
-  object["header"] = { { "points",
-                         source.headerPointCount ? nlohmann::ordered_json(*source.headerPointCount)
-                                                 : none },
-    { "bounds", boundsJson(info.headerBounds().value_or(Bounds())) } };
+  object["header"] = {
+    { "points", source.headerPointCount ? nlohmann::ordered_json(*source.headerPointCount) : none },
+    { "bounds", boundsJson(info.headerBounds().value_or(Bounds())) }
+  };
   if (info.counted)
   {
     object["points_rejected"] = rejectedJson(*info.counted);
@@ -192,8 +192,8 @@ std::string sourceText(const SourceInfo& info)
   std::ostringstream text;
   text.precision(15);
   const bool told = source.headerPointCount && *source.headerPointCount != info.points();
-  text << source.path << "\n  format      " << source.format << "\n  points      "
-       << info.points() << origin(info.pointsFromHeader());
+  text << source.path << "\n  format      " << source.format << "\n  points      " << info.points()
+       << origin(info.pointsFromHeader());
   if (told)
   {
     text << "; the header claims " << *source.headerPointCount;
@@ -214,7 +214,7 @@ std::string sourceText(const SourceInfo& info)
     text << "floating point";
   }
   text << "\n  crs         "
-       << (!source.crsWkt.empty()              ? source.crsWkt
+       << (!source.crsWkt.empty()            ? source.crsWkt
               : hasProjectionRecords(source) ? "GeoTIFF keys"
                                              : "not known")
        << "\n  file        " << byteSizeText(info.fileBytes) << " (" << info.fileBytes

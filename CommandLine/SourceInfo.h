@@ -17,7 +17,7 @@ namespace pointfront
 struct SourceInfo
 {
   SourceDescription description;
-  std::uint64_t fileBytes = 0;       ///< of the file that was named
+  std::uint64_t fileBytes = 0; ///< of the file that was named
   std::optional<PointCount> counted; ///< where all points were read
 
   /// Opens nothing more: counts where the header gives no bounds.

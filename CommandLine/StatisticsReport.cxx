@@ -139,8 +139,8 @@ std::string statisticsText(const PointStatistics& statistics)
   if (const std::optional<double> density = statistics.density())
   {
     const std::string side = numberText(statistics.cellSize);
-    text += numberText(*density) + " points per square unit: " +
-      std::to_string(statistics.all.points) + " points in " +
+    text += numberText(*density) +
+      " points per square unit: " + std::to_string(statistics.all.points) + " points in " +
       std::to_string(statistics.occupiedCells) + " ground cells of " + side + " x " + side +
       " that hold one";
   }
@@ -151,8 +151,8 @@ std::string statisticsText(const PointStatistics& statistics)
   text += "\n  all points" + groupText(statistics, statistics.all);
   for (const auto& [number, group] : statistics.classes)
   {
-    text += "\n  class " + std::to_string(number) + " (" + objectClassName(number) + "): " +
-      std::to_string(group.points) + " points, bounds " + boundsText(group.bounds);
+    text += "\n  class " + std::to_string(number) + " (" + objectClassName(number) +
+      "): " + std::to_string(group.points) + " points, bounds " + boundsText(group.bounds);
     text += statistics.classes.size() > 1 ? groupText(statistics, group) : " (all)";
   }
   return text;

@@ -75,8 +75,10 @@ std::vector<std::string> doubtsOfCompany(const std::vector<std::string>& clouds)
     if (gap > far * size)
     {
       char text[160];
-      std::snprintf(text, sizeof text, " lies %.6g units away from the others, which are at most "
-        "%.6g units long: together they are small in the picture", gap, size);
+      std::snprintf(text, sizeof text,
+        " lies %.6g units away from the others, which are at most "
+        "%.6g units long: together they are small in the picture",
+        gap, size);
       doubts.push_back(other.path + text);
     }
   }

@@ -122,8 +122,8 @@ std::string storeText(const StoreDescription& store, const Hierarchy& hierarchy)
   text << "\n  attributes  " << attributesText(store.schema);
   for (const Layer& layer : store.layers)
   {
-    text << "\n  layer       " << layer.name << " (class " << layer.objectClass << "): "
-         << layer.pointCount << " points in " << layer.nodeCount << " nodes";
+    text << "\n  layer       " << layer.name << " (class " << layer.objectClass
+         << "): " << layer.pointCount << " points in " << layer.nodeCount << " nodes";
   }
   return text.str();
 }

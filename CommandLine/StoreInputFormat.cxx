@@ -55,8 +55,7 @@ Result<std::unique_ptr<PointSource>> openIndex(const std::string& path)
   {
     return points;
   }
-  return std::unique_ptr<PointSource>(
-    std::make_unique<IndexedPoints>(std::move(*points), path));
+  return std::unique_ptr<PointSource>(std::make_unique<IndexedPoints>(std::move(*points), path));
 }
 } // namespace
 

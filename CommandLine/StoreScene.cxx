@@ -36,7 +36,7 @@ void FrameRecord::add(const FrameRecord& part)
 Result<std::unique_ptr<StoreScene>> StoreScene::open(const DrawingOptions& options)
 {
   return options.backend == DrawingBackend::OpenGL ? OpenGLModule::open(options)
-                                            : SoftwareScene::open(options);
+                                                   : SoftwareScene::open(options);
 }
 
 } // namespace pointfront

@@ -19,7 +19,7 @@ namespace pointfront
 /// What one frame drew, and where the loading stands after it; sums over the stores.
 struct FrameRecord
 {
-  double milliseconds = 0.0;      ///< of the whole frame, drawing finished
+  double milliseconds = 0.0; ///< of the whole frame, drawing finished
   double frontMilliseconds = 0.0; ///< of the fronts' updates
   /// From the plans to the pixels, the points alone; nothing where a driver draws beside the rest.
   std::optional<double> rasteriseMilliseconds;
@@ -28,18 +28,18 @@ struct FrameRecord
   std::int64_t frontLength = 0;
   std::int64_t moves = 0;
   std::int64_t requests = 0;
-  double thresholdPx = 0.0;       ///< largest
-  double errorPx = 0.0;           ///< largest
-  bool complete = false;          ///< no further frame will change the picture
-  bool limitedByPoints = false;   ///< --point-budget kept the error above --error
-  bool limitedByGpu = false;      ///< --gpu-memory did
-  bool limitedByMemory = false;   ///< --memory did
-  std::int64_t failedNodes = 0;   ///< that could not be read
+  double thresholdPx = 0.0; ///< largest
+  double errorPx = 0.0; ///< largest
+  bool complete = false; ///< no further frame will change the picture
+  bool limitedByPoints = false; ///< --point-budget kept the error above --error
+  bool limitedByGpu = false; ///< --gpu-memory did
+  bool limitedByMemory = false; ///< --memory did
+  std::int64_t failedNodes = 0; ///< that could not be read
   std::int64_t gpuBytes = 0;
   std::uint64_t residentBytes = 0;
   std::uint64_t threadReadBytes = 0; ///< that the rendering thread read from files in this frame
-  std::uint64_t bytesRead = 0;    ///< from the disk, ever
-  std::uint64_t cancelled = 0;    ///< requests withdrawn, ever
+  std::uint64_t bytesRead = 0; ///< from the disk, ever
+  std::uint64_t cancelled = 0; ///< requests withdrawn, ever
 
   /// One part of a picture more, drawn after this one: what it took and asked adds up, the worst
   /// error counts, and what is in memory is what is now.
@@ -51,7 +51,7 @@ struct LoadingRecord
 {
   std::uint64_t fetchedBytes = 0;
   std::uint64_t decodedBytes = 0;
-  double fetchSeconds = 0.0;  ///< one read at a time
+  double fetchSeconds = 0.0; ///< one read at a time
   double decodeSeconds = 0.0; ///< CPU time of all threads
   std::chrono::steady_clock::time_point last; ///< when the last of it was there
 };

@@ -59,8 +59,7 @@ FilterExpression joined(const FilterExpression& file, const FilterExpression& op
 }
 
 /// An option of its own counts more than the preset.
-StyleSheet makeStyle(
-  const CLI::App& app, const StyleArguments& arguments, DrawingOptions& options)
+StyleSheet makeStyle(const CLI::App& app, const StyleArguments& arguments, DrawingOptions& options)
 {
   StyleSheet sheet = arguments.file.empty() ? StyleSheet() : readStyle(arguments.file);
   if (const QualityPreset* const preset = qualityPresetOf(arguments.quality))
@@ -108,8 +107,9 @@ void declareStyle(CLI::App& app, DrawingOptions& options)
   {
     techniques.emplace_back(traits.name);
   }
-  app.add_option("--style", arguments->file,
-       "How each class is drawn, as JSON (docs/user/styles.md); other options change its default")
+  app
+    .add_option("--style", arguments->file,
+      "How each class is drawn, as JSON (docs/user/styles.md); other options change its default")
     ->type_name("FILE.json")
     ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
   std::vector<std::string> presets;
@@ -117,19 +117,21 @@ void declareStyle(CLI::App& app, DrawingOptions& options)
   {
     presets.emplace_back(preset.name);
   }
-  app.add_option("--quality", arguments->quality,
-       "Technique and --error together, from fast to accurate (none)")
+  app
+    .add_option("--quality", arguments->quality,
+      "Technique and --error together, from fast to accurate (none)")
     ->check(availableValues(presets, {}))
     ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
   app.add_option("--technique", arguments->technique, "How points become pixels (points)")
     ->check(availableValues(techniques, {}))
     ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
-  app.add_option("--where", arguments->where,
-       "Only points that meet it: 'ATTRIBUTE in [a, b]', 'in {1, 2}', ==, !=, <, <=, >, >=, and")
+  app
+    .add_option("--where", arguments->where,
+      "Only points that meet it: 'ATTRIBUTE in [a, b]', 'in {1, 2}', ==, !=, <, <=, >, >=, and")
     ->type_name("CONDITION")
     ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
-  app.parse_complete_callback([&app, &options, arguments]()
-    { options.style = makeStyle(app, *arguments, options); });
+  app.parse_complete_callback(
+    [&app, &options, arguments]() { options.style = makeStyle(app, *arguments, options); });
 }
 
 } // namespace pointfront

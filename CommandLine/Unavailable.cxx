@@ -41,7 +41,8 @@ void declareUnavailable(CLI::App& app, const std::string& option, const std::str
 
 void declareUnavailableFlag(CLI::App& app, const std::string& flag, const std::string& why)
 {
-  app.add_flag_callback(flag, [flag, why]() { throw refusal(flag, why); }, "(not available yet)");
+  app.add_flag_callback(
+    flag, [flag, why]() { throw refusal(flag, why); }, "(not available yet)");
 }
 
 void declareUnavailableCommand(
@@ -62,9 +63,8 @@ CLI::Validator availableValues(std::vector<std::string> available, std::vector<s
     {
       return {};
     }
-    return has(planned, value)
-      ? "'" + value + "'" + inThisVersion + "use " + shown
-      : "'" + value + "' is unknown: use " + shown;
+    return has(planned, value) ? "'" + value + "'" + inThisVersion + "use " + shown
+                               : "'" + value + "' is unknown: use " + shown;
   };
   return CLI::Validator(std::move(check), "{" + shown + "}");
 }

@@ -143,7 +143,8 @@ CLI::Option* addByteSize(
       const std::string shown = words.back().substr(0, 40);
       throw CLI::ParseError(isByteSizeOutOfRange(words.back())
           ? option + ": '" + shown + "' is out of range: 1 byte to 8E"
-          : option + ": '" + shown + "' is not a size in bytes: write 512M or 4G", 2);
+          : option + ": '" + shown + "' is not a size in bytes: write 512M or 4G",
+        2);
     }
     bytes = *size;
     return true;

@@ -17,8 +17,7 @@ namespace
 {
 Result<VerifyReport> verifyStore(const std::string& path, const std::string& progress)
 {
-  Result<std::shared_ptr<const StoredCloud>> store =
-    StoredCloudFormats::ofProcess().open(path);
+  Result<std::shared_ptr<const StoredCloud>> store = StoredCloudFormats::ofProcess().open(path);
   if (!store)
   {
     return store.error();

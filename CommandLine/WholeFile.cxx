@@ -19,8 +19,7 @@ std::string temporaryName(const std::string& path)
 
 Error unwritable(const std::string& path, int reason)
 {
-  return makeError(
-    Error::Kind::Unwritable, path + ": cannot be written: " + std::strerror(reason));
+  return makeError(Error::Kind::Unwritable, path + ": cannot be written: " + std::strerror(reason));
 }
 
 struct CloseFile
@@ -37,8 +36,8 @@ Result<void> writeWholeFile(const std::string& path, const void* bytes, std::siz
   {
     return unwritable(path, errno);
   }
-  const bool written = std::fwrite(bytes, 1, size, file.get()) == size &&
-    std::fflush(file.get()) == 0;
+  const bool written =
+    std::fwrite(bytes, 1, size, file.get()) == size && std::fflush(file.get()) == 0;
   const int reason = errno;
   file.reset();
   if (!written || std::rename(temporary.c_str(), path.c_str()) != 0)

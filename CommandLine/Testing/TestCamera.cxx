@@ -48,8 +48,8 @@ int cornersInside(const Camera& camera, double aspect, const Bounds& b)
   int corners = 0;
   for (int i = 0; i < 8; ++i)
   {
-    corners += inside(view, { i & 1 ? b.high.x : b.low.x, i & 2 ? b.high.y : b.low.y,
-      i & 4 ? b.high.z : b.low.z });
+    corners += inside(
+      view, { i & 1 ? b.high.x : b.low.x, i & 2 ? b.high.y : b.low.y, i & 4 ? b.high.z : b.low.z });
   }
   return corners;
 }
@@ -115,7 +115,8 @@ TEST(Camera, WrongFilesAreErrorsThatNameTheKey)
       "view_angle" },
     { R"({"position":[0,0,1],"focal_point":[0,0,0],"view_up":[0,1,0],"parallel_scale":0})",
       "parallel_scale" },
-    { "[1,2", "not JSON, at byte" }, { "[]", "object" } };
+    { "[1,2", "not JSON, at byte" }, { "[]", "object" }
+  };
   for (const auto& [text, expected] : cases)
   {
     const auto camera = readCameraFile(written("wrong.json", text));

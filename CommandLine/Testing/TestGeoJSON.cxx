@@ -43,13 +43,13 @@ TEST(GeoJSON, FaultsAreNamedWithTheirPlace)
 {
   EXPECT_EQ(faultOf("{"), "not JSON");
   EXPECT_NE(faultOf("[]").find("type"), std::string::npos);
-  EXPECT_NE(faultOf(R"({"type": "Point", "coordinates": [1, 2]})").find("Point"),
-    std::string::npos);
+  EXPECT_NE(
+    faultOf(R"({"type": "Point", "coordinates": [1, 2]})").find("Point"), std::string::npos);
   EXPECT_NE(faultOf(R"({"type": "Polygon", "coordinates": [[[0, 0], [1, 0], [1, 1]]]})")
               .find("coordinates[0]"),
     std::string::npos);
-  EXPECT_NE(faultOf(R"({"type": "LineString", "coordinates": [[0, 0], [1, "2"]]})")
-              .find("coordinates[1]"),
+  EXPECT_NE(
+    faultOf(R"({"type": "LineString", "coordinates": [[0, 0], [1, "2"]]})").find("coordinates[1]"),
     std::string::npos);
   EXPECT_NE(faultOf(R"({"type": "FeatureCollection"})").find("features"), std::string::npos);
   EXPECT_NE(faultOf(R"({"type": "LineString", "crs": 4, "coordinates": []})").find("crs"),

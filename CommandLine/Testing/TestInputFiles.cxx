@@ -40,8 +40,8 @@ TEST_F(InputFiles, FolderGivesItsPointFilesSorted)
 {
   const auto list = findInputFiles({ folder_.string() }, extensions_);
   ASSERT_TRUE(list) << list.error().what;
-  EXPECT_EQ(list.value().paths,
-    (std::vector<std::string>{ at("a.LAZ"), at("b.las"), at("deeper/c.las") }));
+  EXPECT_EQ(
+    list.value().paths, (std::vector<std::string>{ at("a.LAZ"), at("b.las"), at("deeper/c.las") }));
   EXPECT_TRUE(list.value().warnings.empty());
 }
 

@@ -14,9 +14,8 @@ StoreDescription layered()
   StoreDescription store;
   store.path = "town.pfront";
   store.pointCount = 60;
-  store.layers = {
-    { 2, "ground", 30, 3 }, { 5, "high vegetation", 20, 2 }, { 6, "building", 10, 1 }
-  };
+  store.layers = { { 2, "ground", 30, 3 }, { 5, "high vegetation", 20, 2 },
+    { 6, "building", 10, 1 } };
   return store;
 }
 } // namespace

@@ -50,8 +50,10 @@ TEST(StyleOptions, NothingSaidIsAnEmptySheet)
 
 TEST(StyleOptions, OptionsBecomeTheDefault)
 {
-  const StyleSheet sheet = parsed({ "--technique", "ewa", "--color-by", "intensity",
-    "--point-size", "3", "--where", "return_number == 1", "--classes", "6,2", "--edl" }).style;
+  const StyleSheet sheet =
+    parsed({ "--technique", "ewa", "--color-by", "intensity", "--point-size", "3", "--where",
+             "return_number == 1", "--classes", "6,2", "--edl" })
+      .style;
   EXPECT_EQ(sheet.standard.technique, Technique::Ewa);
   EXPECT_EQ(sheet.standard.colour, ColourSource::ofAttribute("intensity"));
   EXPECT_EQ(sheet.standard.size, (StyleSize{ SplatSize::Mode::Pixels, 3.0, "" }));
@@ -99,10 +101,10 @@ TEST(StyleOptions, WhatIsWrongIsNamed)
     "--where: 'z = 3', character 3: expected 'in', ==, !=, <, <=, > or >=, not '= 3'");
   EXPECT_NE(refusal({ "--technique", "dots" }).find("'dots' is unknown"), std::string::npos);
   const std::string path = styleFile("wrong", R"({"classes": {"6": {"size": {"mode": "big"}}}})");
-  EXPECT_EQ(refusal({ "--style", path }), "--style: " + path +
-      ": classes.6.size.mode: 'big' is unknown: use fixed, spacing, attribute");
-  EXPECT_EQ(refusal({ "--style", "/nowhere.json" }),
-    "--style: /nowhere.json: cannot read the file");
+  EXPECT_EQ(refusal({ "--style", path }),
+    "--style: " + path + ": classes.6.size.mode: 'big' is unknown: use fixed, spacing, attribute");
+  EXPECT_EQ(
+    refusal({ "--style", "/nowhere.json" }), "--style: /nowhere.json: cannot read the file");
 }
 
 } // namespace pointfront

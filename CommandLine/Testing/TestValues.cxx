@@ -17,8 +17,8 @@ TEST(Values, BoxNeedsSixFiniteNumbers)
   const auto box = parseNumbers<6>("-1,2.5,3e2,4,5,6");
   ASSERT_TRUE(box);
   EXPECT_EQ(*box, (std::array<double, 6>{ -1.0, 2.5, 300.0, 4.0, 5.0, 6.0 }));
-  for (const char* text : { "1,2,3,4,5", "1,2,3,4,5,6,7", "1,2,3,4,5,x", "1,2,3,4,5,nan",
-         "1,2,3,4,5,6m", "" })
+  for (const char* text :
+    { "1,2,3,4,5", "1,2,3,4,5,6,7", "1,2,3,4,5,x", "1,2,3,4,5,nan", "1,2,3,4,5,6m", "" })
   {
     EXPECT_FALSE(parseNumbers<6>(text)) << text;
   }

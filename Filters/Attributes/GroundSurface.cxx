@@ -17,8 +17,7 @@ constexpr double onOneLine = 1e-4;
 
 double groundHeight(const glm::dvec3& place, const std::vector<NearPoint>& near)
 {
-  const double soft =
-    0.01 * near.back().squaredDistance + std::numeric_limits<double>::min();
+  const double soft = 0.01 * near.back().squaredDistance + std::numeric_limits<double>::min();
   const auto weightOf = [soft](const NearPoint& point)
   { return point.count / (point.squaredDistance + soft); };
   double weights = 0.0;

@@ -24,7 +24,8 @@ Attribute heightAttribute()
 /// Is any point of that class? Reads until it finds one.
 Result<bool> hasGround(const PointSources& sources, const InputOrder& order, WorkCrew& crew)
 {
-  const bool classified = std::any_of(sources.begin(), sources.end(), [](const auto& source)
+  const bool classified = std::any_of(sources.begin(), sources.end(),
+    [](const auto& source)
     { return source->description().schema.find("classification").has_value(); });
   if (!classified)
   {
@@ -114,8 +115,8 @@ Result<PointSources> HeightAboveGroundPass::aboveLowest(
   }
   cells_ = lowest->positions.size();
   const auto ground = std::make_shared<const Ground>(std::move(*lowest));
-  const ValueSource heights =
-    [ground](const SourceChunk&, const PointBatch& batch, std::byte* values) -> Result<void>
+  const ValueSource heights = [ground](const SourceChunk&, const PointBatch& batch,
+                                std::byte* values) -> Result<void>
   {
     NeighbourList list(groundNeighbours);
     std::vector<NearPoint> near;
@@ -148,7 +149,8 @@ std::vector<std::string> HeightAboveGroundPass::findings() const
     return {};
   }
   return { "No point is classified as ground (class 2): heights above ground are above the lowest "
-           "points of " + std::to_string(cells_) + " cells." };
+           "points of " +
+    std::to_string(cells_) + " cells." };
 }
 
 } // namespace pointfront

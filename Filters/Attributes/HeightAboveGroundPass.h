@@ -28,8 +28,7 @@ public:
     : options_(options)
   {
   }
-  Result<PointSources> apply(
-    PointSources sources, const PassResources& resources) const override;
+  Result<PointSources> apply(PointSources sources, const PassResources& resources) const override;
   std::uint64_t heldBytes(const PassResources& resources) const override;
   /// Says so when the ground is a guess.
   std::vector<std::string> findings() const override;

@@ -33,8 +33,8 @@ Result<void> writeHeights(
     order[i] = i;
   }
   const std::vector<TilePoint>& points = gathered->points;
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b)
-    { return points[a].number() < points[b].number(); });
+  std::sort(order.begin(), order.end(),
+    [&](std::uint32_t a, std::uint32_t b) { return points[a].number() < points[b].number(); });
   std::vector<std::uint64_t> numbers;
   std::vector<std::byte> values(order.size() * sizeof(float));
   for (std::size_t i = 0; i < order.size(); ++i)

@@ -24,8 +24,7 @@ public:
     , tilePoints_(tilePoints)
   {
   }
-  Result<PointSources> apply(
-    PointSources sources, const PassResources& resources) const override;
+  Result<PointSources> apply(PointSources sources, const PassResources& resources) const override;
 
 private:
   double radius_;

@@ -37,8 +37,8 @@ void LowestPoints::add(const LowestPoints& other)
 PositionSet LowestPoints::positions() const
 {
   std::vector<std::pair<Key, glm::dvec3>> sorted(lowest_.begin(), lowest_.end());
-  std::sort(sorted.begin(), sorted.end(),
-    [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::sort(
+    sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   PositionSet set;
   for (const auto& [key, p] : sorted)
   {

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "pointfront/Neighbourhood/KdIndex.h"
-#include "pointfront/Neighbourhood/InputOrder.h"
 #include "pointfront/Build/WorkCrew.h"
+#include "pointfront/Neighbourhood/InputOrder.h"
+#include "pointfront/Neighbourhood/KdIndex.h"
 
 #include <cstdint>
 #include <unordered_map>
@@ -24,8 +24,8 @@ public:
   void add(const glm::dvec3& p);
   void add(const LowestPoints& other);
   std::size_t size() const { return lowest_.size(); } ///< cells
-  static constexpr std::uint64_t bytesOfCell = 200;   ///< with the index that is made of it
-  PositionSet positions() const;                      ///< by cell
+  static constexpr std::uint64_t bytesOfCell = 200; ///< with the index that is made of it
+  PositionSet positions() const; ///< by cell
 
   /// Of all sources, by all threads of the crew. Error NoMemory when there are more cells than fit
   /// in `memoryBytes`.

@@ -46,8 +46,8 @@ Result<BuildReport> BuildThread::build(const Order& order)
   {
     return passes.error();
   }
-  Result<OpenedInputs> inputs = order.made ? OpenedInputs{order.made(), {}}
-                                           : openFiles(order.files, order.options.onFault);
+  Result<OpenedInputs> inputs =
+    order.made ? OpenedInputs{ order.made(), {} } : openFiles(order.files, order.options.onFault);
   if (!inputs)
   {
     return inputs.error();
@@ -90,7 +90,7 @@ Result<BuildReport> BuildThread::run(const Order& order, const Watch& watch)
       outcome_ = std::move(done);
       changed_.notify_one();
     });
-  constexpr std::chrono::milliseconds betweenLooks{100}; // an abort is seen without news too
+  constexpr std::chrono::milliseconds betweenLooks{ 100 }; // an abort is seen without news too
   std::unique_lock<std::mutex> lock(mutex_);
   while (!outcome_)
   {

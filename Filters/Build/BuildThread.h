@@ -48,7 +48,7 @@ private:
   Result<BuildReport> build(const Order& order);
   bool report(const Progress& progress);
 
-  std::atomic<bool> cancelled_{false};
+  std::atomic<bool> cancelled_{ false };
   std::mutex mutex_; // guards what follows
   std::condition_variable changed_;
   News news_; ///< the latest progress; a preview until it is told

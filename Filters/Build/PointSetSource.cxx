@@ -79,8 +79,7 @@ bool isHeight(vtkDataArray* array, vtkPoints* points)
 /// As vtkPointFrontReader's output names it in ParaView.
 std::string referenceSystemOf(vtkPointSet* points)
 {
-  auto* text = vtkStringArray::SafeDownCast(
-    points->GetFieldData()->GetAbstractArray("store_crs"));
+  auto* text = vtkStringArray::SafeDownCast(points->GetFieldData()->GetAbstractArray("store_crs"));
   const std::string wkt = text && text->GetNumberOfValues() == 1 ? text->GetValue(0) : "";
   return wkt.find('[') != std::string::npos ? wkt : "";
 }
@@ -88,7 +87,7 @@ std::string referenceSystemOf(vtkPointSet* points)
 } // namespace
 
 PointSetSource::PointSetSource(vtkPointSet* points)
-    : points_(points->GetPoints())
+  : points_(points->GetPoints())
 {
   description_.path = "the points of the pipeline";
   description_.format = points->GetClassName();
@@ -173,7 +172,7 @@ Result<void> PointSetSource::read(std::uint64_t chunk, PointBatch& batch) const
   {
     double place[3];
     points_->GetPoint(static_cast<vtkIdType>(first + i), place);
-    batch.positions[i] = {place[0], place[1], place[2]};
+    batch.positions[i] = { place[0], place[1], place[2] };
   }
   for (std::size_t c = 0; c < columns_.size(); ++c)
   {

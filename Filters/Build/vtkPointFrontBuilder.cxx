@@ -60,8 +60,8 @@ struct vtkPointFrontBuilder::Content
   std::vector<std::string> AttributeImages; // NAME=IMAGE
   std::string PreviewFileName;
   std::string Phase;
-  double PhaseBegan = 0.0;       // seconds into the build
-  std::uint64_t PhaseDone = 0;   // points at that time
+  double PhaseBegan = 0.0; // seconds into the build
+  std::uint64_t PhaseDone = 0; // points at that time
 
   pointfront::BuildThread::Order Order(const vtkPointFrontBuilder& builder) const;
   void Choose(const vtkPointFrontBuilder& builder, pointfront::PassChoice& choice) const;
@@ -88,15 +88,14 @@ pointfront::BuildThread::Order vtkPointFrontBuilder::Content::Order(
   options.outputPath = builder.OutputFileName;
   options.temporaryFolder = builder.TemporaryFolder ? builder.TemporaryFolder : "";
   options.overwrite = builder.Overwrite;
-  options.onFault =
-    builder.SkipFaultyFiles ? pointfront::OnFault::Skip : pointfront::OnFault::Stop;
+  options.onFault = builder.SkipFaultyFiles ? pointfront::OnFault::Skip : pointfront::OnFault::Stop;
   options.memoryBytes = static_cast<std::uint64_t>(builder.MemoryLimit);
   options.threads = static_cast<unsigned>(builder.NumberOfThreads);
   options.nodePoints = static_cast<std::uint32_t>(builder.NodePoints);
   options.structure =
     builder.Structure == KDTREE ? pointfront::Structure::KdTree : pointfront::Structure::Octree;
-  options.refinement = builder.Refinement == REPLACE ? pointfront::Refinement::Replace
-                                                     : pointfront::Refinement::Add;
+  options.refinement =
+    builder.Refinement == REPLACE ? pointfront::Refinement::Replace : pointfront::Refinement::Add;
   options.layering = builder.Layers == BY_CLASS ? pointfront::Layering::ObjectClass
     : builder.Layers == NO_LAYERS               ? pointfront::Layering::None
                                                 : pointfront::Layering::Automatic;
@@ -179,8 +178,7 @@ void vtkPointFrontBuilder::Content::Report(
     vtkWarningWithObjectMacro(&builder, << skipped.path << " is skipped: " << skipped.why);
   }
   builder.NumberOfFilesSkipped = static_cast<int>(built.inputsSkipped.size());
-  builder.NumberOfPointsRejected =
-    static_cast<vtkIdType>(built.pointsRead - built.pointsStored);
+  builder.NumberOfPointsRejected = static_cast<vtkIdType>(built.pointsRead - built.pointsStored);
   builder.NumberOfPointsRead = static_cast<vtkIdType>(built.pointsRead);
   builder.NumberOfPointsStored = static_cast<vtkIdType>(built.pointsStored);
   builder.NumberOfNodes = static_cast<vtkIdType>(built.nodes);
@@ -188,7 +186,8 @@ void vtkPointFrontBuilder::Content::Report(
   builder.BytesSpilled = static_cast<vtkTypeInt64>(built.spilledBytes);
 }
 
-vtkPointFrontBuilder::vtkPointFrontBuilder() : Internals(new Content)
+vtkPointFrontBuilder::vtkPointFrontBuilder()
+  : Internals(new Content)
 {
   this->SetNumberOfInputPorts(0);
   this->SetNumberOfOutputPorts(0);

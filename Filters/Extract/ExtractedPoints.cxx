@@ -41,8 +41,7 @@ void ExtractedPoints::moveTo(const StoreDescription& description, vtkPolyData* o
   std::vector<AttributeArray> arrays;
   for (std::size_t c = 0; c < description.schema.size(); ++c)
   {
-    const ColumnRange range =
-      c < description.ranges.size() ? description.ranges[c] : ColumnRange();
+    const ColumnRange range = c < description.ranges.size() ? description.ranges[c] : ColumnRange();
     arrays.emplace_back(description.schema[c], range, points_);
   }
   std::size_t first = 0;

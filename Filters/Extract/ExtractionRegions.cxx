@@ -65,8 +65,9 @@ AnyRegion regionOfText(const std::string& text, double distance)
   }
   if (!geometry->crs.empty())
   {
-    return makeError(Error::Kind::BadArgument, "the text names a coordinate reference system (" +
-        geometry->crs + "); give its coordinates in the store's, without an SRID");
+    return makeError(Error::Kind::BadArgument,
+      "the text names a coordinate reference system (" + geometry->crs +
+        "); give its coordinates in the store's, without an SRID");
   }
   if (geometry->lines.empty())
   {
@@ -74,8 +75,8 @@ AnyRegion regionOfText(const std::string& text, double distance)
   }
   if (!geometry->polygons.empty() || !(distance > 0.0))
   {
-    return makeError(Error::Kind::BadArgument,
-      "lines want a LineDistance above 0, and no areas beside them");
+    return makeError(
+      Error::Kind::BadArgument, "lines want a LineDistance above 0, and no areas beside them");
   }
   return anyRegion(LineCorridor::make(geometry->lines, distance));
 }

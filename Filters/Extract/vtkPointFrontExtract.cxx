@@ -36,13 +36,12 @@ struct vtkPointFrontExtract::Content
   std::vector<std::uint8_t> Classes;
   vtkSmartPointer<vtkPointFrontStore> Store;
 
-  static Result<void> AddRegions(
-    const vtkPointFrontExtract& filter, pointfront::PointQuery& query);
+  static Result<void> AddRegions(const vtkPointFrontExtract& filter, pointfront::PointQuery& query);
   Result<pointfront::PointQuery> Query(const vtkPointFrontExtract& filter) const;
   std::vector<std::string> Attributes(const vtkPointFrontExtract& filter) const;
   static pointfront::QueryOptions Options(vtkPointFrontExtract& filter);
-  Result<pointfront::QueryReport> Run(vtkPointFrontExtract& filter, unsigned piece,
-    unsigned pieces, vtkPolyData* output) const;
+  Result<pointfront::QueryReport> Run(
+    vtkPointFrontExtract& filter, unsigned piece, unsigned pieces, vtkPolyData* output) const;
 };
 
 Result<void> vtkPointFrontExtract::Content::AddRegions(
@@ -114,8 +113,7 @@ Result<pointfront::PointQuery> vtkPointFrontExtract::Content::Query(
   query.where = std::move(*where);
   query.classes = this->Classes;
   query.spacing = filter.Spacing;
-  query.attributes =
-    filter.CountOnly ? std::vector<std::string>() : this->Attributes(filter);
+  query.attributes = filter.CountOnly ? std::vector<std::string>() : this->Attributes(filter);
   return query;
 }
 
@@ -151,8 +149,7 @@ Result<pointfront::QueryReport> vtkPointFrontExtract::Content::Run(
     {
       return columns.error();
     }
-    const auto ids =
-      pointfront::pieceOf(pointfront::ascendingIds(filter.PointIds), piece, pieces);
+    const auto ids = pointfront::pieceOf(pointfront::ascendingIds(filter.PointIds), piece, pieces);
     auto report = pointfront::pointsById(store, ids, names, options, consume);
     report ? points.moveTo(columns->description, output) : void();
     return report;
@@ -363,8 +360,8 @@ int vtkPointFrontExtract::RequestData(
     {
       return 1; // what the user asked for: an empty output
     }
-    const bool damaged = report.error().kind == Error::Kind::Corrupt ||
-      report.error().kind == Error::Kind::Truncated;
+    const bool damaged =
+      report.error().kind == Error::Kind::Corrupt || report.error().kind == Error::Kind::Truncated;
     this->SetErrorCode(damaged ? vtkErrorCode::FileFormatError : vtkErrorCode::UnknownError);
     vtkErrorMacro(<< report.error().what);
     return 0;

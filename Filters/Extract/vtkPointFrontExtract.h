@@ -23,7 +23,7 @@
 #define vtkPointFrontExtract_h
 
 #include "pointfrontFiltersExtractModule.h" // for the export macro
-#include "vtkNew.h"                         // for the selection
+#include "vtkNew.h" // for the selection
 #include "vtkPolyDataAlgorithm.h"
 #include "vtkSmartPointer.h" // for planes and ids
 

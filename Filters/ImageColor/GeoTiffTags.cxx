@@ -69,8 +69,8 @@ std::vector<T> elements(TIFF* tiff, std::uint32_t tag, TIFFDataType type)
   std::uint32_t count = 0;
   std::uint16_t shortCount = 0;
   const bool wide = TIFFFieldReadCount(field) == TIFF_VARIABLE2;
-  const int found = wide ? TIFFGetField(tiff, tag, &count, &data)
-                         : TIFFGetField(tiff, tag, &shortCount, &data);
+  const int found =
+    wide ? TIFFGetField(tiff, tag, &count, &data) : TIFFGetField(tiff, tag, &shortCount, &data);
   count = wide ? count : shortCount;
   if (found == 0 || data == nullptr)
   {
@@ -115,8 +115,8 @@ Result<std::optional<GeoTransform>> transformOf(
   const auto matrix = elements<double>(tiff, Transformation, TIFF_DOUBLE);
   if (matrix.size() >= 16) // row by row: x = m0 column + m1 row + m3, y = m4 column + m5 row + m7
   {
-    transform = place(pixelIsPoint, { matrix[3], matrix[7] }, { matrix[0], matrix[4] },
-      { matrix[1], matrix[5] });
+    transform = place(
+      pixelIsPoint, { matrix[3], matrix[7] }, { matrix[0], matrix[4] }, { matrix[1], matrix[5] });
   }
   else if (scale.size() >= 2 && tie.size() >= 6)
   {
@@ -128,8 +128,9 @@ Result<std::optional<GeoTransform>> transformOf(
   else if (tie.size() >= 12)
   {
     return makeError(Error::Kind::Unsupported,
-      path + ": this GeoTIFF is tied to the ground by control points only; rectify it first "
-             "(gdalwarp does)");
+      path +
+        ": this GeoTIFF is tied to the ground by control points only; rectify it first "
+        "(gdalwarp does)");
   }
   else
   {
@@ -186,8 +187,8 @@ Result<GeoTiffTags> GeoTiffTags::read(const std::string& path)
   const Tiff tiff = openTiff(path, message);
   if (!tiff)
   {
-    return makeError(Error::Kind::BadFormat, path + ": its TIFF directory cannot be read" +
-        (message.empty() ? "" : ": " + message));
+    return makeError(Error::Kind::BadFormat,
+      path + ": its TIFF directory cannot be read" + (message.empty() ? "" : ": " + message));
   }
   if (Result<void> there = checkPixelsAreThere(tiff.get(), path); !there)
   {

@@ -57,22 +57,24 @@ double asDouble(ScalarType type, const std::byte* from)
 /// Stores `value` if the type holds it: integers exactly, float rounded. False otherwise.
 bool storeDouble(double value, ScalarType type, std::byte* to)
 {
-  return withType(type, [&](auto zero) {
-    using To = decltype(zero);
-    if constexpr (std::is_integral_v<To>)
+  return withType(type,
+    [&](auto zero)
     {
-      // 2^n - 1 is no double for 64 bits, 2^n is.
-      const double end = std::ldexp(1.0, std::numeric_limits<To>::digits);
-      const double begin = std::is_signed_v<To> ? -end : 0.0;
-      if (!(value >= begin && value < end) || value != std::trunc(value))
+      using To = decltype(zero);
+      if constexpr (std::is_integral_v<To>)
       {
-        return false;
+        // 2^n - 1 is no double for 64 bits, 2^n is.
+        const double end = std::ldexp(1.0, std::numeric_limits<To>::digits);
+        const double begin = std::is_signed_v<To> ? -end : 0.0;
+        if (!(value >= begin && value < end) || value != std::trunc(value))
+        {
+          return false;
+        }
       }
-    }
-    const To stored = static_cast<To>(value);
-    std::memcpy(to, &stored, sizeof stored);
-    return true;
-  });
+      const To stored = static_cast<To>(value);
+      std::memcpy(to, &stored, sizeof stored);
+      return true;
+    });
 }
 
 bool withoutData(const RasterFile& file, const std::byte* pixel)
@@ -89,13 +91,12 @@ bool withoutData(const RasterFile& file, const std::byte* pixel)
     return false;
   }
   // The value in the tag is decimal, the pixel perhaps a float.
-  const double none = !file.noData ? std::nan("")
+  const double none = !file.noData     ? std::nan("")
     : file.type == ScalarType::Float32 ? static_cast<double>(static_cast<float>(*file.noData))
                                        : *file.noData;
   for (int channel = 0; channel < file.channels; ++channel)
   {
-    const double value =
-      asDouble(file.type, pixel + static_cast<std::size_t>(channel) * bytes);
+    const double value = asDouble(file.type, pixel + static_cast<std::size_t>(channel) * bytes);
     if (channel != file.alphaChannel && !std::isnan(value) && value != none)
     {
       return false;
@@ -173,10 +174,9 @@ Result<RasterColumn> RasterColumn::make(
   if (own.components != wanted.components || own.scale != 1.0 || own.offset != 0.0)
   {
     return makeError(Error::Kind::BadArgument,
-      description.path + ": its attribute " + own.name + " has " +
-        std::to_string(own.components) + " components" +
-        (own.scale != 1.0 || own.offset != 0.0 ? " with a scale" : "") + ", the images have " +
-        std::to_string(wanted.components) + "; take another name for them");
+      description.path + ": its attribute " + own.name + " has " + std::to_string(own.components) +
+        " components" + (own.scale != 1.0 || own.offset != 0.0 ? " with a scale" : "") +
+        ", the images have " + std::to_string(wanted.components) + "; take another name for them");
   }
   column.old_ = true;
   column.attribute_ = own;
@@ -210,8 +210,8 @@ RasterColumn::Outcome RasterColumn::storeColour(
   {
     const std::size_t channel = grey ? 0 : c;
     const bool wide = file.type == ScalarType::UInt16;
-    const unsigned value = wide ? load<std::uint16_t>(pixel + 2 * channel)
-                                : std::to_integer<unsigned>(pixel[channel]);
+    const unsigned value =
+      wide ? load<std::uint16_t>(pixel + 2 * channel) : std::to_integer<unsigned>(pixel[channel]);
     if (attribute_.type == ScalarType::UInt8)
     {
       to[c] = static_cast<std::byte>(wide ? (value + 128) / 257 : value);
@@ -242,8 +242,8 @@ RasterColumn::Outcome RasterColumn::storeValues(
     {
       std::memcpy(values.data() + component * step, value, step);
     }
-    else if (!storeDouble(asDouble(file.type, value), attribute_.type,
-               values.data() + component * step))
+    else if (!storeDouble(
+               asDouble(file.type, value), attribute_.type, values.data() + component * step))
     {
       return Outcome::NotHeld;
     }

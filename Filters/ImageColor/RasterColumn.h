@@ -34,8 +34,8 @@ public:
   enum class Outcome
   {
     Taken,
-    NoData,      ///< the pixel says nothing
-    NotHeld      ///< the column's type cannot hold the value: the point keeps what it had
+    NoData, ///< the pixel says nothing
+    NotHeld ///< the column's type cannot hold the value: the point keeps what it had
   };
   /// `to`: the point's place in the column.
   Outcome store(const RasterFile& file, const std::byte* pixel, std::byte* to) const;

@@ -48,8 +48,8 @@ Result<void> readPixelLayout(RasterFile& file)
   const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(file.path);
   if (!input)
   {
-    return makeError(Error::Kind::BadFormat,
-      file.path + ": is no image that can be read: " + OIIO::geterror());
+    return makeError(
+      Error::Kind::BadFormat, file.path + ": is no image that can be read: " + OIIO::geterror());
   }
   const OIIO::ImageSpec& spec = input->spec();
   file.width = spec.width;
@@ -62,8 +62,9 @@ Result<void> readPixelLayout(RasterFile& file)
   {
     return makeError(Error::Kind::Unsupported,
       file.path + ": pixels of " + std::to_string(spec.nchannels) + " channels of " +
-        spec.format.c_str() + " are not read; 1 to 16 channels of one integer type, float or "
-                              "double are");
+        spec.format.c_str() +
+        " are not read; 1 to 16 channels of one integer type, float or "
+        "double are");
   }
   file.type = *type;
   if (file.use == RasterUse::Values && file.palette)
@@ -83,8 +84,8 @@ Result<void> readPixelLayout(RasterFile& file)
   if (file.use == RasterUse::Colour && !colour)
   {
     return makeError(Error::Kind::Unsupported,
-      file.path + ": colours have 8 or 16 bits, this image has " +
-        std::string(nameOf(file.type)) + "; --attribute-from NAME=IMG takes its values");
+      file.path + ": colours have 8 or 16 bits, this image has " + std::string(nameOf(file.type)) +
+        "; --attribute-from NAME=IMG takes its values");
   }
   return {};
 }
@@ -106,8 +107,8 @@ Result<void> checkJpegEnds(const std::string& path)
   const std::string end{ std::istreambuf_iterator<char>(file), {} };
   if (end.find("\xff\xd9") == std::string::npos)
   {
-    return makeError(Error::Kind::Truncated,
-      path + ": this JPEG ends before its end mark; get a whole copy");
+    return makeError(
+      Error::Kind::Truncated, path + ": this JPEG ends before its end mark; get a whole copy");
   }
   return {};
 }
@@ -157,8 +158,8 @@ void readSystem(RasterFile& file, const GeoKeys& keys, const CoordinateSystems& 
 Bounds RasterFile::ground() const
 {
   Bounds bounds;
-  for (const glm::dvec2& corner : { glm::dvec2(0, 0), glm::dvec2(width, 0), glm::dvec2(0, height),
-         glm::dvec2(width, height) })
+  for (const glm::dvec2& corner :
+    { glm::dvec2(0, 0), glm::dvec2(width, 0), glm::dvec2(0, height), glm::dvec2(width, height) })
   {
     const glm::dvec2 p = transform.toGround(corner);
     bounds.add({ p.x, p.y, 0.0 });

@@ -17,7 +17,7 @@ namespace pointfront
 enum class RasterUse
 {
   Colour, ///< palettes are looked up; 8 or 16 bits a channel, grey or red, green, blue
-  Values  ///< as they stand in the file: palettes give their index, every type is kept
+  Values ///< as they stand in the file: palettes give their index, every type is kept
 };
 
 /// A georeferenced image, before any pixel is read.
@@ -30,11 +30,11 @@ struct RasterFile
   RasterUse use = RasterUse::Colour;
   int width = 0;
   int height = 0;
-  int channels = 1;       ///< in a pixel as it is read, alpha included
-  int alphaChannel = -1;  ///< -1: none
+  int channels = 1; ///< in a pixel as it is read, alpha included
+  int alphaChannel = -1; ///< -1: none
   ScalarType type = ScalarType::UInt8; ///< of one channel
   bool tiff = false;
-  bool palette = false;   ///< a TIFF with a table of colours
+  bool palette = false; ///< a TIFF with a table of colours
   GeoTransform transform;
   std::optional<CoordinateSystem> system;
   std::string systemDoubt; ///< why `system` is not known, or what is odd about it; "" if neither

@@ -112,8 +112,7 @@ std::vector<std::size_t> RasterMosaic::groupLeaders() const
   return leaders;
 }
 
-bool RasterMosaic::find(
-  const Group& group, const glm::dvec3& p, std::uint32_t from, Hit& hit) const
+bool RasterMosaic::find(const Group& group, const glm::dvec3& p, std::uint32_t from, Hit& hit) const
 {
   const Bounds& all = group.ground;
   if (!(p.x >= all.low.x && p.x <= all.high.x && p.y >= all.low.y && p.y <= all.high.y))
@@ -138,8 +137,7 @@ bool RasterMosaic::find(
       const int y = static_cast<int>(pixel.y);
       hit.image = image;
       hit.tile = static_cast<std::uint32_t>(y / layout.height * layout.across + x / layout.width);
-      hit.pixel =
-        static_cast<std::uint32_t>(y % layout.height * layout.width + x % layout.width);
+      hit.pixel = static_cast<std::uint32_t>(y % layout.height * layout.width + x % layout.width);
       return true;
     }
   }
@@ -165,8 +163,8 @@ Result<std::vector<std::vector<glm::dvec3>>> RasterMosaic::positionsOf(
   return moved;
 }
 
-Result<void> RasterMosaic::visitHits(const std::vector<Hit>& hits, const Visit& visit,
-  std::vector<std::uint32_t>& refused) const
+Result<void> RasterMosaic::visitHits(
+  const std::vector<Hit>& hits, const Visit& visit, std::vector<std::uint32_t>& refused) const
 {
   for (std::size_t begin = 0; begin < hits.size();)
   {
@@ -174,9 +172,9 @@ Result<void> RasterMosaic::visitHits(const std::vector<Hit>& hits, const Visit& 
     const std::uint32_t number = hits[begin].tile;
     const RasterTiles::Layout& layout = tiles_->layout(numbers_[image]);
     const int across = layout.across;
-    const Result<RasterTiles::Tile> tile = tiles_->tile(numbers_[image],
-      static_cast<int>(number) % across * layout.width,
-      static_cast<int>(number) / across * layout.height);
+    const Result<RasterTiles::Tile> tile =
+      tiles_->tile(numbers_[image], static_cast<int>(number) % across * layout.width,
+        static_cast<int>(number) / across * layout.height);
     if (!tile)
     {
       return tile.error();
@@ -289,7 +287,8 @@ Result<std::uint64_t> RasterMosaic::sample(
         ++without;
       }
     }
-    std::sort(hits.begin(), hits.end(), [](const Hit& a, const Hit& b)
+    std::sort(hits.begin(), hits.end(),
+      [](const Hit& a, const Hit& b)
       { return std::tie(a.image, a.tile, a.point) < std::tie(b.image, b.tile, b.point); });
     refused.clear();
     if (Result<void> done = visitHits(hits, visit, refused); !done)

@@ -81,11 +81,10 @@ private:
   void group();
   bool find(const Group& group, const glm::dvec3& p, std::uint32_t from, Hit& hit) const;
   std::optional<Hit> firstHit(const std::vector<glm::dvec3>& positions,
-    const std::vector<std::vector<glm::dvec3>>& moved, std::size_t point,
-    std::uint32_t from) const;
+    const std::vector<std::vector<glm::dvec3>>& moved, std::size_t point, std::uint32_t from) const;
   std::uint64_t tileBytes(std::uint32_t image) const;
-  Result<void> visitHits(const std::vector<Hit>& hits, const Visit& visit,
-    std::vector<std::uint32_t>& refused) const;
+  Result<void> visitHits(
+    const std::vector<Hit>& hits, const Visit& visit, std::vector<std::uint32_t>& refused) const;
   Result<std::vector<std::vector<glm::dvec3>>> positionsOf(
     const std::vector<glm::dvec3>& positions, const Ways& ways) const;
 

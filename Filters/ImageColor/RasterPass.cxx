@@ -28,8 +28,8 @@ public:
   {
   }
 
-  Result<RasterMosaic::Ways> to(const RasterMosaic& mosaic, const SourceDescription& source,
-    std::vector<std::string>& warnings)
+  Result<RasterMosaic::Ways> to(
+    const RasterMosaic& mosaic, const SourceDescription& source, std::vector<std::string>& warnings)
   {
     RasterMosaic::Ways ways;
     for (const std::size_t leader : mosaic.groupLeaders())
@@ -70,8 +70,8 @@ private:
     }
   }
 
-  Result<Transform> one(const RasterFile& file, const SourceDescription& source,
-    std::vector<std::string>& warnings)
+  Result<Transform> one(
+    const RasterFile& file, const SourceDescription& source, std::vector<std::string>& warnings)
   {
     const auto key = std::make_pair(source.crsWkt, file.system->wkt);
     const auto known = made_.find(key);
@@ -132,8 +132,8 @@ Result<PointSources> RasterPass::apply(PointSources sources, const PassResources
   for (const RasterInput& input : inputs_)
   {
     const bool colour = input.attribute == "rgb";
-    Result<RasterMosaic> mosaic = RasterMosaic::open(input.images,
-      colour ? RasterUse::Colour : RasterUse::Values, *systems_, images_->tiles);
+    Result<RasterMosaic> mosaic = RasterMosaic::open(
+      input.images, colour ? RasterUse::Colour : RasterUse::Values, *systems_, images_->tiles);
     if (!mosaic)
     {
       return mosaic.error();

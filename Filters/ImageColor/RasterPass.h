@@ -35,8 +35,7 @@ class RasterPass final : public AttributePass
 public:
   RasterPass(std::vector<RasterInput> inputs, std::shared_ptr<const CoordinateSystems> systems);
 
-  Result<PointSources> apply(
-    PointSources sources, const PassResources& resources) const override;
+  Result<PointSources> apply(PointSources sources, const PassResources& resources) const override;
   std::uint64_t heldBytes(const PassResources& resources) const override;
   std::vector<std::string> findings() const override;
   std::vector<std::string> filesRead() const override;

@@ -68,14 +68,14 @@ Result<void> RasterSource::fill(std::size_t input, bool count, PointBatch& batch
   std::vector<std::byte>& bytes = batch.columns[inputs_[input].target];
   const std::size_t step = column.attribute().bytes();
   std::uint64_t notHeld = 0;
-  const Result<std::uint64_t> without = images_->mosaics[input].sample(batch.positions,
-    inputs_[input].ways,
-    [&](std::size_t point, const RasterFile& file, const std::byte* pixel)
-    {
-      const auto outcome = column.store(file, pixel, bytes.data() + point * step);
-      notHeld += outcome == RasterColumn::Outcome::NotHeld ? 1 : 0;
-      return outcome != RasterColumn::Outcome::NoData;
-    });
+  const Result<std::uint64_t> without =
+    images_->mosaics[input].sample(batch.positions, inputs_[input].ways,
+      [&](std::size_t point, const RasterFile& file, const std::byte* pixel)
+      {
+        const auto outcome = column.store(file, pixel, bytes.data() + point * step);
+        notHeld += outcome == RasterColumn::Outcome::NotHeld ? 1 : 0;
+        return outcome != RasterColumn::Outcome::NoData;
+      });
   if (!without)
   {
     return without.error();
@@ -90,8 +90,8 @@ Result<void> RasterSource::fill(std::size_t input, bool count, PointBatch& batch
   return {};
 }
 
-void RasterSource::fill(std::size_t input, bool count, const std::vector<std::byte>& values,
-  PointBatch& batch) const
+void RasterSource::fill(
+  std::size_t input, bool count, const std::vector<std::byte>& values, PointBatch& batch) const
 {
   using Outcome = SortedRasterValues::Outcome;
   std::byte* const column = batch.columns[inputs_[input].target].data();

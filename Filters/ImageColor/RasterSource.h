@@ -42,8 +42,8 @@ public:
 
 private:
   Result<void> fill(std::size_t input, bool count, PointBatch& batch) const;
-  void fill(std::size_t input, bool count, const std::vector<std::byte>& values,
-    PointBatch& batch) const;
+  void fill(
+    std::size_t input, bool count, const std::vector<std::byte>& values, PointBatch& batch) const;
 
   std::unique_ptr<PointSource> original_;
   std::shared_ptr<RasterPass::Images> images_;

@@ -122,8 +122,8 @@ public:
         planes != PLANARCONFIG_CONTIG ? " in separate planes" : "");
       return false;
     }
-    m_spec = ImageSpec(number(TIFFTAG_IMAGEWIDTH), number(TIFFTAG_IMAGELENGTH),
-      channels * bits / 8, OIIO::TypeDesc::UINT8);
+    m_spec = ImageSpec(number(TIFFTAG_IMAGEWIDTH), number(TIFFTAG_IMAGELENGTH), channels * bits / 8,
+      OIIO::TypeDesc::UINT8);
     if (TIFFIsTiled(tiff_) != 0)
     {
       m_spec.tile_width = number(TIFFTAG_TILEWIDTH);
@@ -148,8 +148,8 @@ public:
   }
   bool read_native_tile(int, int, int x, int y, int, void* data) override
   {
-    return TIFFReadTile(tiff_, data, static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y),
-             0, 0) >= 0;
+    return TIFFReadTile(
+             tiff_, data, static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), 0, 0) >= 0;
   }
 
 private:

@@ -52,8 +52,7 @@ Result<bool> SortedRasterValues::areNeeded(const PointSources& sources, const In
     }
     for (std::size_t m = 0; m < images.mosaics.size(); ++m)
     {
-      const auto touched =
-        images.mosaics[m].tilesOf(batch.positions, inputs[chunk.source][m].ways);
+      const auto touched = images.mosaics[m].tilesOf(batch.positions, inputs[chunk.source][m].ways);
       if (!touched)
       {
         return touched.error();
@@ -225,8 +224,7 @@ Result<std::shared_ptr<const SortedRasterValues>> SortedRasterValues::compute(
   const PointSources& sources, const Inputs& inputs, const RasterPass::Images& images,
   const PassResources& resources)
 {
-  std::shared_ptr<SortedRasterValues> values(
-    new SortedRasterValues(InputOrder(sources), inputs));
+  std::shared_ptr<SortedRasterValues> values(new SortedRasterValues(InputOrder(sources), inputs));
   Result<std::unique_ptr<PointColumn>> column =
     PointColumn::create(resources, values->order_.points(), values->bytes_);
   if (!column)
@@ -242,8 +240,8 @@ Result<std::shared_ptr<const SortedRasterValues>> SortedRasterValues::compute(
   tiling.halo = std::numeric_limits<double>::min(); // no point needs another
   Participants participants;
   participants.references.reset();
-  const Result<std::unique_ptr<PointTiles>> tiles = PointTiles::make(
-    sources, values->order_, tiling, participants, resources, crew, readShare);
+  const Result<std::unique_ptr<PointTiles>> tiles =
+    PointTiles::make(sources, values->order_, tiling, participants, resources, crew, readShare);
   if (!tiles)
   {
     return tiles.error();

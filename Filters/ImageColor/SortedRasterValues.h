@@ -36,7 +36,7 @@ public:
   {
     Without, ///< no image has data for the point
     Taken,
-    NotHeld  ///< by the column's type
+    NotHeld ///< by the column's type
   };
   /// Values of the points of a chunk, valueBytes() each: for each input its outcome, then room for
   /// its value.

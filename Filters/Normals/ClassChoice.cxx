@@ -12,7 +12,8 @@ Result<ClassSet> chosenClasses(
   {
     return ClassSet().set();
   }
-  const bool classified = std::any_of(sources.begin(), sources.end(), [](const auto& source)
+  const bool classified = std::any_of(sources.begin(), sources.end(),
+    [](const auto& source)
     { return source->description().schema.find("classification").has_value(); });
   if (!classified)
   {

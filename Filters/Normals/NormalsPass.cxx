@@ -60,11 +60,12 @@ public:
   {
     return ofPlane_ == neighbours_ && neighbours_ <= mostExactlySummed;
   }
-  void compute(const glm::dvec3& position, const std::vector<NearPoint>& near,
-    std::byte* value) const override
+  void compute(
+    const glm::dvec3& position, const std::vector<NearPoint>& near, std::byte* value) const override
   {
     const std::optional<SurfaceFit> fit = ofPlane_ == neighbours_
-      ? fitSurface(position, near) : fitSurface(position, nearestOf(near, ofPlane_));
+      ? fitSurface(position, near)
+      : fitSurface(position, nearestOf(near, ofPlane_));
     if (values_.normal)
     {
       if (!fit)
@@ -205,8 +206,7 @@ std::vector<Attribute> attributesOf(const SurfaceValues& values)
 }
 } // namespace
 
-Result<PointSources> NormalsPass::apply(
-  PointSources sources, const PassResources& resources) const
+Result<PointSources> NormalsPass::apply(PointSources sources, const PassResources& resources) const
 {
   const InputOrder order(sources);
   NeighbourhoodOptions search;

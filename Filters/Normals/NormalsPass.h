@@ -16,11 +16,11 @@ namespace pointfront
 struct NormalsOptions
 {
   std::uint32_t neighbours = 16; ///< k, the point itself included; 3 or more
-  double radius = 0.0;           ///< if > 0: instead all points within, world units
-  double eps = 0.0;              ///< of FLANN's approximate search, 0: exact
-  bool curvature = false;        ///< also give attribute "curvature"
-  bool normals = true;           ///< false: only the radius of splats, from 16 neighbours
-  bool splatRadius = true;       ///< also give attribute "splat_radius" (SplatRadius.h)
+  double radius = 0.0; ///< if > 0: instead all points within, world units
+  double eps = 0.0; ///< of FLANN's approximate search, 0: exact
+  bool curvature = false; ///< also give attribute "curvature"
+  bool normals = true; ///< false: only the radius of splats, from 16 neighbours
+  bool splatRadius = true; ///< also give attribute "splat_radius" (SplatRadius.h)
   /// These classes only: others get no normal and are nobody's neighbours.
   std::optional<std::vector<std::uint8_t>> classes;
   std::uint64_t tilePoints = 1u << 17; ///< only approximate results depend on it
@@ -42,8 +42,7 @@ public:
     : options_(std::move(options))
   {
   }
-  Result<PointSources> apply(
-    PointSources sources, const PassResources& resources) const override;
+  Result<PointSources> apply(PointSources sources, const PassResources& resources) const override;
   std::vector<std::string> findings() const override;
 
 private:

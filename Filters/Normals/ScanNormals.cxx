@@ -12,8 +12,8 @@ namespace pointfront
 namespace
 {
 constexpr double jumpSteps = 10.0; // to another line
-constexpr double turnSteps = 3.0;  // behind the farthest point of a line
-constexpr std::size_t window = 6;  // points to either side of where the last search ended
+constexpr double turnSteps = 3.0; // behind the farthest point of a line
+constexpr std::size_t window = 6; // points to either side of where the last search ended
 constexpr double leastSine = 0.05; // of the angle between a triangle's edges: 3 degrees
 
 glm::dvec2 flat(const glm::dvec3& p)
@@ -95,8 +95,8 @@ std::optional<glm::dvec3> edgeAlong(
   return edge;
 }
 
-glm::dvec3 triangleNormal(const std::vector<glm::dvec3>& positions, std::size_t i,
-  const Line& line, Line& before, Line& after)
+glm::dvec3 triangleNormal(const std::vector<glm::dvec3>& positions, std::size_t i, const Line& line,
+  Line& before, Line& after)
 {
   const std::optional<glm::dvec3> along = edgeAlong(positions, i, line);
   glm::dvec3 normal(0.0);

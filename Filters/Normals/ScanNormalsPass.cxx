@@ -77,7 +77,8 @@ Result<PointSources> ScanNormalsPass::apply(PointSources sources, const PassReso
     if (source->description().inTreeOrder)
     {
       return makeError(Error::Kind::BadArgument,
-        source->description().path + ": the points of a store have left the order of the scan, "
+        source->description().path +
+          ": the points of a store have left the order of the scan, "
           "which normals from scan lines need; take normals by PCA, or the original files");
     }
   }
@@ -87,8 +88,8 @@ Result<PointSources> ScanNormalsPass::apply(PointSources sources, const PassReso
     return classes.error();
   }
   const auto normals = std::make_shared<const ChunkNormals>(sources, *classes, without_);
-  const ValueSource values =
-    [normals](const SourceChunk& chunk, const PointBatch& batch, std::byte* out) -> Result<void>
+  const ValueSource values = [normals](const SourceChunk& chunk, const PointBatch& batch,
+                               std::byte* out) -> Result<void>
   {
     normals->compute(chunk, batch, out);
     return {};

@@ -24,8 +24,7 @@ class ScanNormalsPass final : public AttributePass
 public:
   /// `classes`: these only; nothing: all.
   explicit ScanNormalsPass(std::optional<std::vector<std::uint8_t>> classes);
-  Result<PointSources> apply(
-    PointSources sources, const PassResources& resources) const override;
+  Result<PointSources> apply(PointSources sources, const PassResources& resources) const override;
   std::vector<std::string> findings() const override; ///< complete when the points are read
 
 private:

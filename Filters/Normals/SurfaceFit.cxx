@@ -26,7 +26,7 @@ struct Moments
 {
   double count = 0.0;
   glm::dvec3 sum{ 0.0 };
-  glm::dvec3 squares{ 0.0 };  ///< xx, yy, zz
+  glm::dvec3 squares{ 0.0 }; ///< xx, yy, zz
   glm::dvec3 products{ 0.0 }; ///< xy, xz, yz
 };
 
@@ -48,7 +48,7 @@ Moments momentsOf(const std::vector<NearPoint>& points, const glm::dvec3& origin
   Pair sumXY{};
   Pair squaresXY{}; // xx, yy
   Pair productsZ{}; // xz, yz
-  Pair sumZ{};      // z, zz
+  Pair sumZ{}; // z, zz
   double productXY = 0.0;
   for (const NearPoint& point : points)
   {
@@ -74,8 +74,7 @@ Moments momentsOf(const std::vector<NearPoint>& points, const glm::dvec3& origin
 /// smallest are too close to one another for that way.
 /// Way     the smallest root of the characteristic polynomial by Newton's steps from 0, which do
 ///         not pass it: less time than the closed form, with its arctangent and two sines.
-std::optional<glm::dvec3> separateEigenvalues(
-  const glm::dvec3& squares, const glm::dvec3& products)
+std::optional<glm::dvec3> separateEigenvalues(const glm::dvec3& squares, const glm::dvec3& products)
 {
   const double xy = products.x * products.x;
   const double xz = products.y * products.y;
@@ -83,8 +82,7 @@ std::optional<glm::dvec3> separateEigenvalues(
   const double minors = squares.x * squares.y + squares.x * squares.z + squares.y * squares.z - //
     (xy + xz + yz);
   const double determinant = squares.x * squares.y * squares.z +
-    2.0 * products.x * products.y * products.z -
-    (squares.x * yz + squares.y * xz + squares.z * xy);
+    2.0 * products.x * products.y * products.z - (squares.x * yz + squares.y * xz + squares.z * xy);
   double smallest = 0.0;
   double step = 1.0;
   for (int steps = 0; steps < mostNewtonSteps; ++steps)
@@ -106,8 +104,7 @@ std::optional<glm::dvec3> separateEigenvalues(
 }
 } // namespace
 
-std::optional<SurfaceFit> fitSurface(
-  const glm::dvec3& origin, const std::vector<NearPoint>& points)
+std::optional<SurfaceFit> fitSurface(const glm::dvec3& origin, const std::vector<NearPoint>& points)
 {
   if (points.size() < 3)
   {
@@ -127,7 +124,7 @@ std::optional<SurfaceFit> fitSurface(
   products /= trace;
   Eigen::Matrix3d covariance;
   covariance << squares.x, products.x, products.y, //
-    products.x, squares.y, products.z,             //
+    products.x, squares.y, products.z, //
     products.y, products.z, squares.z;
   Eigen::Vector3d eigenvalues;
   Eigen::Vector3d normal;

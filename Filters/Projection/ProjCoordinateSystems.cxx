@@ -73,8 +73,8 @@ bool ProjCoordinateSystems::equivalent(
     second = horizontalPart(context_, second.get());
   }
   return first && second &&
-    proj_is_equivalent_to_with_ctx(context_.get(), first.get(), second.get(),
-      PJ_COMP_EQUIVALENT_EXCEPT_AXIS_ORDER_GEOGCRS) != 0;
+    proj_is_equivalent_to_with_ctx(
+      context_.get(), first.get(), second.get(), PJ_COMP_EQUIVALENT_EXCEPT_AXIS_ORDER_GEOGCRS) != 0;
 }
 
 Result<std::unique_ptr<CoordinateTransform>> ProjCoordinateSystems::transform(
@@ -141,12 +141,11 @@ Result<CoordinateSystem> ProjCoordinateSystems::utmZone(
   const std::lock_guard<std::mutex> lock(mutex_);
   const ProjObject crs = createSystem(context_, system.wkt);
   const ProjObject flat = crs ? horizontalPart(context_, crs.get()) : nullptr;
-  const ProjObject base(
-    flat ? proj_crs_get_geodetic_crs(context_.get(), flat.get()) : nullptr);
+  const ProjObject base(flat ? proj_crs_get_geodetic_crs(context_.get(), flat.get()) : nullptr);
   const ProjObject geodetic = base ? horizontalPart(context_, base.get()) : nullptr;
-  const ProjObject raw(geodetic ? proj_create_crs_to_crs_from_pj(context_.get(), flat.get(),
-                                    geodetic.get(), nullptr, nullptr)
-                                : nullptr);
+  const ProjObject raw(geodetic
+      ? proj_create_crs_to_crs_from_pj(context_.get(), flat.get(), geodetic.get(), nullptr, nullptr)
+      : nullptr);
   const ProjObject toDegrees(
     raw ? proj_normalize_for_visualization(context_.get(), raw.get()) : nullptr);
   if (!toDegrees)
@@ -166,8 +165,8 @@ Result<CoordinateSystem> ProjCoordinateSystems::utmZone(
   const int zone = utmZoneNumber(longitude, p.xy.y);
   const bool north = p.xy.y >= 0.0;
   const ProjObject conversion(proj_create_conversion_utm(context_.get(), zone, north ? 1 : 0));
-  const ProjObject axes(proj_create_cartesian_2D_cs(
-    context_.get(), PJ_CART2D_EASTING_NORTHING, "metre", 1.0));
+  const ProjObject axes(
+    proj_create_cartesian_2D_cs(context_.get(), PJ_CART2D_EASTING_NORTHING, "metre", 1.0));
   const std::string name = std::string(proj_get_name(geodetic.get())) + " / UTM zone " +
     std::to_string(zone) + (north ? "N" : "S");
   const ProjObject projected(proj_create_projected_crs(

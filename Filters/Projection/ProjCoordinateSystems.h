@@ -18,8 +18,8 @@ public:
     const GeoKeys& keys, std::vector<std::string>& warnings) const override;
   bool equivalent(
     const CoordinateSystem& a, const CoordinateSystem& b, bool horizontally) const override;
-  Result<std::unique_ptr<CoordinateTransform>> transform(const CoordinateSystem& from,
-    const CoordinateSystem& to, const Bounds& where) const override;
+  Result<std::unique_ptr<CoordinateTransform>> transform(
+    const CoordinateSystem& from, const CoordinateSystem& to, const Bounds& where) const override;
 
   /// The horizontal axes of one with the heights of another.
   Result<CoordinateSystem> compound(

@@ -117,10 +117,10 @@ Result<CoordinateSystem> ProjCoordinateSystems::withUnit(
   const ProjObject altered(scaled ? proj_crs_alter_cs_linear_unit(context_.get(), scaled.get(),
                                       unit->name, unit->metres, "EPSG", code.c_str())
                                   : nullptr);
-  const ProjObject named(
-    altered ? proj_alter_name(context_.get(), altered.get(),
-                (std::string(proj_get_name(crs.get())) + " in " + unit->name).c_str())
-            : nullptr);
+  const ProjObject named(altered
+      ? proj_alter_name(context_.get(), altered.get(),
+          (std::string(proj_get_name(crs.get())) + " in " + unit->name).c_str())
+      : nullptr);
   if (!named)
   {
     return makeError(Error::Kind::Unsupported,

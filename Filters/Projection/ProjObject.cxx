@@ -11,8 +11,8 @@ ProjContext::ProjContext()
   : context_(proj_context_create())
 {
   proj_log_level(context_, PJ_LOG_ERROR);
-  proj_log_func(context_, &message_, [](void* kept, int, const char* text)
-    { *static_cast<std::string*>(kept) = text; });
+  proj_log_func(context_, &message_,
+    [](void* kept, int, const char* text) { *static_cast<std::string*>(kept) = text; });
 }
 
 ProjContext::~ProjContext()

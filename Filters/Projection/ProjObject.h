@@ -3,7 +3,7 @@
 #include <memory>
 #include <string>
 
-struct pj_ctx;   // PROJ's PJ_CONTEXT
+struct pj_ctx; // PROJ's PJ_CONTEXT
 struct PJconsts; // PROJ's PJ
 
 namespace pointfront

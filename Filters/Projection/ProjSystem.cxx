@@ -42,7 +42,7 @@ struct Axes
 {
   int count = 0;
   double first = 1.0; ///< unit of the first axis: metres or radians
-  double last = 1.0;  ///< of the last
+  double last = 1.0; ///< of the last
 };
 
 Axes axesOf(const ProjContext& context, const PJconsts* crs)
@@ -56,8 +56,8 @@ Axes axesOf(const ProjContext& context, const PJconsts* crs)
   axes.count = proj_cs_get_axis_count(context.get(), cs.get());
   const auto unit = [&](int axis, double& factor)
   {
-    proj_cs_get_axis_info(context.get(), cs.get(), axis, nullptr, nullptr, nullptr, &factor,
-      nullptr, nullptr, nullptr);
+    proj_cs_get_axis_info(
+      context.get(), cs.get(), axis, nullptr, nullptr, nullptr, &factor, nullptr, nullptr, nullptr);
   };
   if (axes.count > 0)
   {
@@ -92,8 +92,7 @@ ProjObject horizontalPart(const ProjContext& context, const PJconsts* crs)
       ? proj_crs_get_sub_crs(context.get(), crs, 0)
       : proj_clone(context.get(), crs));
   part = unbound(context, std::move(part));
-  if (proj_get_type(part.get()) == PJ_TYPE_GEOCENTRIC_CRS ||
-    axesOf(context, part.get()).count != 3)
+  if (proj_get_type(part.get()) == PJ_TYPE_GEOCENTRIC_CRS || axesOf(context, part.get()).count != 3)
   {
     return part;
   }
@@ -132,9 +131,8 @@ Result<CoordinateSystem> describeSystem(const ProjContext& context, const PJcons
       "the coordinate reference system " + system.name +
         " has no horizontal axes; name a projected or geographic one");
   }
-  ProjObject plain(type == PJ_TYPE_BOUND_CRS
-      ? proj_get_source_crs(context.get(), flat.get())
-      : proj_clone(context.get(), flat.get()));
+  ProjObject plain(type == PJ_TYPE_BOUND_CRS ? proj_get_source_crs(context.get(), flat.get())
+                                             : proj_clone(context.get(), flat.get()));
   const Axes axes = axesOf(context, plain.get());
   system.geographic = isGeographic(proj_get_type(plain.get()));
   system.geocentric = type == PJ_TYPE_GEOCENTRIC_CRS;

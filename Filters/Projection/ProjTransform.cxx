@@ -139,8 +139,8 @@ std::vector<std::string> doubts(const ProjContext& context, const PJconsts* from
     }
     if (proj_coordoperation_has_ballpark_transformation(context.get(), operation.get()) != 0)
     {
-      sentences.push_back("From " + names +
-        ": no exact transformation is known; coordinates may be off by metres.");
+      sentences.push_back(
+        "From " + names + ": no exact transformation is known; coordinates may be off by metres.");
     }
     break;
   }
@@ -165,8 +165,7 @@ Result<std::unique_ptr<CoordinateTransform>> ProjTransform::create(
   context->takeMessage();
   const ProjObject raw(
     proj_create_crs_to_crs_from_pj(context->get(), from, to, area.get(), nullptr));
-  ProjObject object(
-    raw ? proj_normalize_for_visualization(context->get(), raw.get()) : nullptr);
+  ProjObject object(raw ? proj_normalize_for_visualization(context->get(), raw.get()) : nullptr);
   if (!object)
   {
     const std::string reason = context->takeMessage();
@@ -232,8 +231,7 @@ Result<void> ProjTransform::apply(glm::dvec3* points, std::size_t count) const
     arrived += std::isfinite(points[i].x + points[i].y + points[i].z) ? 1 : 0;
   }
   const int code = proj_errno(copy->object.get());
-  const char* reason =
-    code != 0 ? proj_context_errno_string(copy->context.get(), code) : nullptr;
+  const char* reason = code != 0 ? proj_context_errno_string(copy->context.get(), code) : nullptr;
   const std::string why = reason != nullptr ? std::string(": ") + reason : std::string();
   copy->context.takeMessage();
   giveBack(std::move(copy));

@@ -20,9 +20,8 @@ public:
   /// Both systems have the same number of axes and belong to `context`, which is taken over in
   /// case of success. `where`: extent in `from`, may be empty.
   /// Error BadArgument: PROJ knows no way from one to the other, with its reason.
-  static Result<std::unique_ptr<CoordinateTransform>> create(
-    std::unique_ptr<ProjContext>& context, const PJconsts* from, const PJconsts* to,
-    const Bounds& where);
+  static Result<std::unique_ptr<CoordinateTransform>> create(std::unique_ptr<ProjContext>& context,
+    const PJconsts* from, const PJconsts* to, const Bounds& where);
 
   Result<void> apply(glm::dvec3* points, std::size_t count) const override;
   const std::vector<std::string>& warnings() const override { return warnings_; }
@@ -36,7 +35,9 @@ private:
   };
 
   ProjTransform(std::unique_ptr<ProjContext> context, ProjObject object, std::string names)
-    : context_(std::move(context)), object_(std::move(object)), names_(std::move(names))
+    : context_(std::move(context))
+    , object_(std::move(object))
+    , names_(std::move(names))
   {
   }
   std::unique_ptr<Copy> borrow() const;

@@ -39,7 +39,8 @@ Result<void> ProjectedSink::begin(const SinkDescription& description)
 {
   if (description.crsWkt.empty())
   {
-    return makeError(Error::Kind::BadArgument, "the points name no coordinate reference system to "
+    return makeError(Error::Kind::BadArgument,
+      "the points name no coordinate reference system to "
       "transform them from; build the store with --assume-crs");
   }
   const ProjCoordinateSystems known;

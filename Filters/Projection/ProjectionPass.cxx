@@ -135,8 +135,7 @@ Result<std::optional<CoordinateSystem>> ProjectionPass::chooseTarget(
   }
   if (options_.target.empty())
   {
-    return first < systems.size() ? std::optional<CoordinateSystem>(*systems[first])
-                                  : std::nullopt;
+    return first < systems.size() ? std::optional<CoordinateSystem>(*systems[first]) : std::nullopt;
   }
   for (std::size_t s = 0; s < sources.size(); ++s)
   {
@@ -186,8 +185,8 @@ void ProjectionPass::warnOfHeights(const std::string& path, const CoordinateSyst
 {
   if (from.vertical && !to.vertical)
   {
-    findings_.push_back(path + ": its heights, those of " + from.name +
-      ", stay as they are; " + to.name + " names none.");
+    findings_.push_back(path + ": its heights, those of " + from.name + ", stay as they are; " +
+      to.name + " names none.");
   }
   else if (!from.vertical && to.vertical)
   {
@@ -258,8 +257,8 @@ Result<std::vector<ProjectionPass::Way>> ProjectionPass::waysTo(const Coordinate
   return ways;
 }
 
-Result<PointSources> ProjectionPass::inOneSystem(PointSources sources,
-  const std::vector<Known>& systems, const CoordinateSystem& target) const
+Result<PointSources> ProjectionPass::inOneSystem(
+  PointSources sources, const std::vector<Known>& systems, const CoordinateSystem& target) const
 {
   const Result<std::vector<Way>> ways = waysTo(target, sources, systems);
   if (!ways)
@@ -339,14 +338,14 @@ void ProjectionPass::warnOfDegrees(const PointSources& sources, const std::vecto
   {
     if (!systems[s] && looksLikeDegrees(sources[s]->description()))
     {
-      findings_.push_back(sources[s]->description().path + ": the coordinates look like longitudes "
+      findings_.push_back(sources[s]->description().path +
+        ": the coordinates look like longitudes "
         "and latitudes. If they are, --assume-crs EPSG:4326 --crs utm transforms them to metres.");
     }
   }
 }
 
-Result<PointSources> ProjectionPass::apply(
-  PointSources sources, const PassResources&) const
+Result<PointSources> ProjectionPass::apply(PointSources sources, const PassResources&) const
 {
   findings_.clear();
   if (sources.empty())

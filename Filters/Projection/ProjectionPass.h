@@ -35,8 +35,7 @@ public:
     : options_(std::move(options))
   {
   }
-  Result<PointSources> apply(
-    PointSources sources, const PassResources& resources) const override;
+  Result<PointSources> apply(PointSources sources, const PassResources& resources) const override;
   std::vector<std::string> findings() const override { return findings_; }
   /// What names a system may be a file.
   std::vector<std::string> filesRead() const override
@@ -67,12 +66,11 @@ private:
     const CoordinateSystem& to, const Bounds& where) const;
   Result<std::vector<Way>> waysTo(const CoordinateSystem& target, const PointSources& sources,
     const std::vector<Known>& systems) const;
-  Result<PointSources> inOneSystem(PointSources sources, const std::vector<Known>& systems,
-    const CoordinateSystem& target) const;
+  Result<PointSources> inOneSystem(
+    PointSources sources, const std::vector<Known>& systems, const CoordinateSystem& target) const;
   void warnOfHeights(const std::string& path, const CoordinateSystem& from,
     const CoordinateSystem& to, bool transformed) const;
-  void warnOfDegrees(
-    const PointSources& sources, const std::vector<Known>& systems,
+  void warnOfDegrees(const PointSources& sources, const std::vector<Known>& systems,
     const std::optional<CoordinateSystem>& target) const;
 
   ProjectionOptions options_;

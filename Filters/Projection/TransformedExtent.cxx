@@ -71,8 +71,7 @@ Result<Bounds> transformedBounds(const Bounds& bounds, const CoordinateTransform
 }
 
 QuantisationGrid transformedGrid(const SourceDescription& source, const CoordinateSystem& from,
-  const CoordinateSystem& to, const Bounds& extent,
-  const std::optional<QuantisationGrid>& resident)
+  const CoordinateSystem& to, const Bounds& extent, const std::optional<QuantisationGrid>& resident)
 {
   const glm::dvec3 old = source.grid ? source.grid->scale : glm::dvec3(0.0);
   const glm::dvec3 middle = extent.empty() ? glm::dvec3(0.0) : extent.centre();
@@ -85,8 +84,8 @@ QuantisationGrid transformedGrid(const SourceDescription& source, const Coordina
     double& offset = grid.offset[axis];
     if (axis < 2)
     {
-      scale = stepFor(old[axis], groundLength(from), groundLength(to),
-        to.geographic ? angularStep : lengthStep);
+      scale = stepFor(
+        old[axis], groundLength(from), groundLength(to), to.geographic ? angularStep : lengthStep);
       offset = roundTo(middle[axis], whole);
     }
     else if (heightsChange)

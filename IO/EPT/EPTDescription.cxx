@@ -77,8 +77,8 @@ Result<std::vector<EPTDimension>> dimensionsOf(const Json& schema, const std::st
     }
     EPTDimension dimension;
     dimension.name = textOf(entry, "name");
-    const auto size = static_cast<std::int64_t>(
-      std::clamp(numberOf(entry, "size", 0.0), 0.0, 1000.0));
+    const auto size =
+      static_cast<std::int64_t>(std::clamp(numberOf(entry, "size", 0.0), 0.0, 1000.0));
     const std::optional<ScalarType> type = typeOf(textOf(entry, "type"), size);
     dimension.scale = numberOf(entry, "scale", 1.0);
     dimension.offset = numberOf(entry, "offset", 0.0);
@@ -188,8 +188,8 @@ Result<EPTDescription> EPTDescription::parse(std::string_view text, const std::s
   const std::string encoding = textOf(json, "dataType");
   if (encoding != "laszip" && encoding != "binary" && encoding != "zstandard")
   {
-    return makeError(Error::Kind::Unsupported, path + ": its nodes are of the kind '" + encoding +
-        "', not laszip, binary or zstandard");
+    return makeError(Error::Kind::Unsupported,
+      path + ": its nodes are of the kind '" + encoding + "', not laszip, binary or zstandard");
   }
   if (const std::string kind = textOf(json, "hierarchyType"); !kind.empty() && kind != "json")
   {

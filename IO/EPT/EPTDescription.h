@@ -18,8 +18,8 @@ namespace pointfront
 /// How the nodes of an Entwine tree hold their points.
 enum class EPTEncoding
 {
-  Laszip,   ///< a LAZ file each
-  Binary,   ///< records of the schema
+  Laszip, ///< a LAZ file each
+  Binary, ///< records of the schema
   Zstandard ///< the same, as one zstd frame
 };
 
@@ -39,7 +39,7 @@ struct EPTDescription
   EPTEncoding encoding = EPTEncoding::Laszip;
   std::vector<EPTDimension> dimensions;
   Bounds bounds; ///< of the points, as the file says
-  Bounds cube;   ///< of the root's cell
+  Bounds cube; ///< of the root's cell
   double ticks = 0.0; ///< points along a side of a cell ("span"); 0: not said
   std::uint64_t points = 0;
   std::string wkt; ///< or a code, or a PROJ string; empty: not known

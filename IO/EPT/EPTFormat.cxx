@@ -92,8 +92,7 @@ Result<std::unique_ptr<PointSource>> EPTFormat::open(const std::string& path) co
   {
     return source;
   }
-  return std::unique_ptr<PointSource>(
-    std::make_unique<DescribedSource>(std::move(*source), *tree));
+  return std::unique_ptr<PointSource>(std::make_unique<DescribedSource>(std::move(*source), *tree));
 }
 
 } // namespace pointfront

@@ -50,9 +50,9 @@ Result<void> EPTLasNodes::read(std::uint64_t chunk, PointBatch& batch) const
   if (found.pointCount != node.points || !(found.schema == description_.schema) ||
     !(found.grid == description_.grid))
   {
-    return makeError(Error::Kind::BadFormat, path + ": holds " + std::to_string(found.pointCount) +
-        " points where the hierarchy has " + std::to_string(node.points) +
-        ", or other attributes or scales than the other nodes");
+    return makeError(Error::Kind::BadFormat,
+      path + ": holds " + std::to_string(found.pointCount) + " points where the hierarchy has " +
+        std::to_string(node.points) + ", or other attributes or scales than the other nodes");
   }
   batch.resize(0, description_.schema);
   PointBatch part;
@@ -71,9 +71,9 @@ Result<void> EPTLasNodes::read(std::uint64_t chunk, PointBatch& batch) const
   }
   if (batch.positions.size() != node.points)
   {
-    return makeError(Error::Kind::Truncated, path + ": gives " +
-        std::to_string(batch.positions.size()) + " of its " + std::to_string(node.points) +
-        " points; get a whole copy");
+    return makeError(Error::Kind::Truncated,
+      path + ": gives " + std::to_string(batch.positions.size()) + " of its " +
+        std::to_string(node.points) + " points; get a whole copy");
   }
   return {};
 }

@@ -19,8 +19,9 @@ Result<std::vector<std::byte>> eptRecords(
   {
     if (file.size() != expected)
     {
-      return makeError(Error::Kind::Truncated, path + ": has " + std::to_string(file.size()) +
-          " bytes, its points " + std::to_string(expected) + "; get a whole copy");
+      return makeError(Error::Kind::Truncated,
+        path + ": has " + std::to_string(file.size()) + " bytes, its points " +
+          std::to_string(expected) + "; get a whole copy");
     }
     std::memcpy(records.data(), file.data(), expected);
     return records;
@@ -29,13 +30,14 @@ Result<std::vector<std::byte>> eptRecords(
     ::ZSTD_decompress(records.data(), records.size(), file.data(), file.size());
   if (::ZSTD_isError(size) != 0)
   {
-    return makeError(Error::Kind::BadFormat,
-      path + ": damaged zstandard data: " + ::ZSTD_getErrorName(size));
+    return makeError(
+      Error::Kind::BadFormat, path + ": damaged zstandard data: " + ::ZSTD_getErrorName(size));
   }
   if (size != expected)
   {
-    return makeError(Error::Kind::Truncated, path + ": unpacks to " + std::to_string(size) +
-        " bytes, its points have " + std::to_string(expected) + "; get a whole copy");
+    return makeError(Error::Kind::Truncated,
+      path + ": unpacks to " + std::to_string(size) + " bytes, its points have " +
+        std::to_string(expected) + "; get a whole copy");
   }
   return records;
 }
@@ -56,15 +58,14 @@ Result<void> EPTRecords::checkFiles() const
     const std::uintmax_t bytes = std::filesystem::file_size(file, failure);
     if (failure)
     {
-      return makeError(
-        Error::Kind::NotFound, file + ": cannot be read, but the hierarchy has it");
+      return makeError(Error::Kind::NotFound, file + ": cannot be read, but the hierarchy has it");
     }
     const std::uintmax_t expected = std::uintmax_t(node.points) * tree_.recordBytes();
     if (tree_.encoding == EPTEncoding::Binary && bytes != expected)
     {
-      return makeError(Error::Kind::Truncated, file + ": has " + std::to_string(bytes) +
-          " bytes, its " + std::to_string(node.points) + " points " + std::to_string(expected) +
-          "; get a whole copy");
+      return makeError(Error::Kind::Truncated,
+        file + ": has " + std::to_string(bytes) + " bytes, its " + std::to_string(node.points) +
+          " points " + std::to_string(expected) + "; get a whole copy");
     }
   }
   return {};
@@ -117,8 +118,8 @@ Result<void> EPTRecords::read(
     if (wanted[d])
     {
       std::vector<double>& column = block.columns[d];
-      gatherNumbers({ first, stride, dimension.type, !machineIsLittleEndian() }, column.size(),
-        column.data());
+      gatherNumbers(
+        { first, stride, dimension.type, !machineIsLittleEndian() }, column.size(), column.data());
       for (double& value : column)
       {
         value = dimension.offset + dimension.scale * value;

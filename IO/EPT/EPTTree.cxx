@@ -152,8 +152,8 @@ Result<std::shared_ptr<const StoredCloud>> EPTTreeFormat::open(const std::string
   {
     return map.error();
   }
-  const Result<EPTDescription> tree = EPTDescription::parse(
-    { reinterpret_cast<const char*>(map->data()), map->size() }, path);
+  const Result<EPTDescription> tree =
+    EPTDescription::parse({ reinterpret_cast<const char*>(map->data()), map->size() }, path);
   if (!tree)
   {
     return tree.error();

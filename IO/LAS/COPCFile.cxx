@@ -68,8 +68,9 @@ public:
     if (found.points != part.points || found.bytes != bytes.size ||
       !codesCanBegin(view, layout.pointBytes, compression_))
     {
-      return corrupt(file_, entry.offset, "the chunk is not one of " +
-          std::to_string(part.points) + " points in " + std::to_string(bytes.size) + " bytes");
+      return corrupt(file_, entry.offset,
+        "the chunk is not one of " + std::to_string(part.points) + " points in " +
+          std::to_string(bytes.size) + " bytes");
     }
     Result<LASzipReader> reader = LASzipReader::open(
       file_, compression_, view, part.points, laszipLayers(layout, part.columns));
@@ -135,8 +136,9 @@ Result<COPCInfo> readCOPCInfo(const LASFile& file)
     }
     if (record.payload.size < infoBytes)
     {
-      return makeError(Error::Kind::Corrupt, file.description.path +
-          ": its COPC record has " + std::to_string(record.payload.size) + " bytes, not 160");
+      return makeError(Error::Kind::Corrupt,
+        file.description.path + ": its COPC record has " + std::to_string(record.payload.size) +
+          " bytes, not 160");
     }
     const std::byte* at = record.payload.data;
     COPCInfo info;

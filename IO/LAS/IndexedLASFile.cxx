@@ -115,8 +115,8 @@ std::string differenceOf(const IndexedFile& now, const IndexedFile& then)
 }
 } // namespace
 
-IndexedLASFile::IndexedLASFile(std::unique_ptr<const SideFile> side, LASFile file,
-  std::unique_ptr<const InputFile> points)
+IndexedLASFile::IndexedLASFile(
+  std::unique_ptr<const SideFile> side, LASFile file, std::unique_ptr<const InputFile> points)
   : side_(std::move(side))
   , file_(std::move(file))
   , points_(std::move(points))

@@ -42,8 +42,8 @@ public:
   Result<VerifyReport> verify(const ProgressFunction& progress = {}) const override;
 
 private:
-  IndexedLASFile(std::unique_ptr<const SideFile> side, LASFile file,
-    std::unique_ptr<const InputFile> points);
+  IndexedLASFile(
+    std::unique_ptr<const SideFile> side, LASFile file, std::unique_ptr<const InputFile> points);
   Result<void> checkIdentity(const std::string& sidePath) const;
   void describe(const std::string& sidePath);
   Result<std::string> membersFault(const ProgressFunction& progress) const;

@@ -165,8 +165,8 @@ Result<void> placeGrid(const SinkDescription& description, const std::string& pa
   return {};
 }
 
-MetadataRecord record(const char* owner, std::uint16_t id, const char* what,
-  std::vector<std::byte> payload)
+MetadataRecord record(
+  const char* owner, std::uint16_t id, const char* what, std::vector<std::byte> payload)
 {
   return { owner, id, what, std::move(payload) };
 }
@@ -178,9 +178,9 @@ void collectRecords(const Needs& needs, const std::vector<Attribute>& extra, LAS
   std::vector<ByteView> descriptors;
   for (const MetadataRecord& candidate : needs.description.metadata)
   {
-    const bool taken = std::any_of(all.begin(), all.end(), [&](const MetadataRecord& other) {
-      return other.owner == candidate.owner && other.id == candidate.id;
-    });
+    const bool taken = std::any_of(all.begin(), all.end(),
+      [&](const MetadataRecord& other)
+      { return other.owner == candidate.owner && other.id == candidate.id; });
     if (candidate.owner == "LASF_Spec" && candidate.id == lasExtraBytesRecord)
     {
       descriptors.push_back({ candidate.payload.data(), candidate.payload.size() });
@@ -199,8 +199,8 @@ void collectRecords(const Needs& needs, const std::vector<Attribute>& extra, LAS
   }
   if (!extra.empty())
   {
-    all.push_back(record("LASF_Spec", lasExtraBytesRecord, "Extra bytes",
-      composeExtraBytes(extra, descriptors)));
+    all.push_back(record(
+      "LASF_Spec", lasExtraBytesRecord, "Extra bytes", composeExtraBytes(extra, descriptors)));
   }
   for (MetadataRecord& kept : all)
   {
@@ -211,9 +211,9 @@ void collectRecords(const Needs& needs, const std::vector<Attribute>& extra, LAS
 
 bool contains(const std::vector<MetadataRecord>& records, std::uint16_t projectionRecord)
 {
-  return std::any_of(records.begin(), records.end(), [&](const MetadataRecord& r) {
-    return r.owner == "LASF_Projection" && r.id == projectionRecord;
-  });
+  return std::any_of(records.begin(), records.end(),
+    [&](const MetadataRecord& r)
+    { return r.owner == "LASF_Projection" && r.id == projectionRecord; });
 }
 
 /// The lowest version that can say all of it; the encoding bits that still hold.
@@ -222,20 +222,18 @@ void chooseVersion(const Needs& needs, bool extra, LASExport& plan)
   const bool wkt =
     contains(plan.records, lasWktRecord) || contains(plan.extendedRecords, lasWktRecord);
   const bool onlyWkt = wkt && !contains(plan.records, geoKeysRecord);
-  const bool many =
-    needs.description.pointCount > std::numeric_limits<std::uint32_t>::max();
+  const bool many = needs.description.pointCount > std::numeric_limits<std::uint32_t>::max();
   const int format = plan.layout.pointFormat;
-  const bool latest =
-    format >= 6 || extra || onlyWkt || many || !plan.extendedRecords.empty();
+  const bool latest = format >= 6 || extra || onlyWkt || many || !plan.extendedRecords.empty();
   plan.versionMinor = latest ? 4 : (format >= 4 ? 3 : 2);
   constexpr std::uint16_t externalWaveforms = 4;
   constexpr std::uint16_t syntheticReturns = 8;
   const MetadataRecord* kept = needs.record(lasKeptOwner, lasKeptEncodingRecord);
   if (kept != nullptr && kept->payload.size() == sizeof(std::uint16_t))
   {
-    plan.globalEncoding = static_cast<std::uint16_t>(
-      loadNumber<std::uint16_t>(kept->payload.data()) &
-      (lasGpsStandardTime | externalWaveforms | syntheticReturns));
+    plan.globalEncoding =
+      static_cast<std::uint16_t>(loadNumber<std::uint16_t>(kept->payload.data()) &
+        (lasGpsStandardTime | externalWaveforms | syntheticReturns));
   }
   if (wkt && latest)
   {
@@ -329,8 +327,7 @@ std::vector<std::byte> LASExport::header(const LASTotals& totals, std::uint32_t 
   storeNumber(to + 94, static_cast<std::uint16_t>(headerBytes()));
   storeNumber(to + 96, pointOffset);
   storeNumber(to + 100, recordCount);
-  storeNumber(
-    to + 104, static_cast<std::uint8_t>(layout.pointFormat | (compressed ? 0x80 : 0)));
+  storeNumber(to + 104, static_cast<std::uint8_t>(layout.pointFormat | (compressed ? 0x80 : 0)));
   storeNumber(to + 105, static_cast<std::uint16_t>(layout.pointBytes));
   for (int axis = 0; axis < 3; ++axis)
   {

@@ -19,7 +19,7 @@ struct LASTotals
 {
   std::uint64_t points = 0;
   std::array<std::uint64_t, 15> byReturn{}; ///< return numbers 1 to 15
-  GridPosition low{ 0 };                    ///< valid if there are points
+  GridPosition low{ 0 }; ///< valid if there are points
   GridPosition high{ 0 };
 };
 
@@ -49,10 +49,10 @@ struct LASExport
   int versionMinor = 2;
   LASPointLayout layout;
   std::vector<std::optional<Origin>> origins; ///< one for each column of `layout`
-  QuantisationGrid grid;                      ///< every coordinate fits into 32 bits
+  QuantisationGrid grid; ///< every coordinate fits into 32 bits
   std::uint16_t globalEncoding = 0;
   LASDate created;
-  std::vector<MetadataRecord> records;         ///< written before the points
+  std::vector<MetadataRecord> records; ///< written before the points
   std::vector<MetadataRecord> extendedRecords; ///< payloads above 65,535 bytes, behind them
 
   std::size_t headerBytes() const;

@@ -24,8 +24,8 @@ constexpr std::size_t mostComponents = 16; // of an Attribute
 
 /// Data types 1 to 10; 11 to 20 are pairs of them, 21 to 30 triples.
 constexpr std::array<ScalarType, 10> scalarTypes{ ScalarType::UInt8, ScalarType::Int8,
-  ScalarType::UInt16, ScalarType::Int16, ScalarType::UInt32, ScalarType::Int32,
-  ScalarType::UInt64, ScalarType::Int64, ScalarType::Float32, ScalarType::Float64 };
+  ScalarType::UInt16, ScalarType::Int16, ScalarType::UInt32, ScalarType::Int32, ScalarType::UInt64,
+  ScalarType::Int64, ScalarType::Float32, ScalarType::Float64 };
 
 /// What one descriptor says.
 struct Descriptor
@@ -121,8 +121,7 @@ unsigned typeOf(const Attribute& attribute)
     return 0;
   }
   const auto* place = std::find(scalarTypes.begin(), scalarTypes.end(), attribute.type);
-  return static_cast<unsigned>(place - scalarTypes.begin()) + 1 +
-    10u * (attribute.components - 1u);
+  return static_cast<unsigned>(place - scalarTypes.begin()) + 1 + 10u * (attribute.components - 1u);
 }
 
 bool saysTheSame(const std::byte* descriptor, const Attribute& attribute)
@@ -159,8 +158,8 @@ void composeDescriptor(const Attribute& attribute, std::byte* to)
 }
 } // namespace
 
-std::vector<Attribute> parseExtraBytes(const std::vector<ByteView>& payloads,
-  std::size_t byteCount, std::vector<std::string>& warnings)
+std::vector<Attribute> parseExtraBytes(
+  const std::vector<ByteView>& payloads, std::size_t byteCount, std::vector<std::string>& warnings)
 {
   std::vector<Attribute> attributes;
   const std::vector<const std::byte*> descriptors = descriptorsIn(payloads);

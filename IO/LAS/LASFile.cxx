@@ -130,8 +130,8 @@ Result<LASFile> LASFile::open(const std::string& path, MemoryMap::Access access)
   {
     return makeError(Error::Kind::Unsupported,
       path + ": " + std::to_string(attributes.size()) + " extra attributes a point (" +
-        std::to_string(extra) + " bytes) are more than the " +
-        std::to_string(mostExtraAttributes) + " that are read");
+        std::to_string(extra) + " bytes) are more than the " + std::to_string(mostExtraAttributes) +
+        " that are read");
   }
   LASPointLayout layout = makeLASPointLayout(header.pointFormat, attributes);
 

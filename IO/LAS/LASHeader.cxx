@@ -181,9 +181,8 @@ Result<void> readPointFormat(const std::byte* bytes, const std::string& path, LA
   if (header.pointBytes < lasMinimumPointBytes(header.pointFormat))
   {
     return makeError(Error::Kind::BadFormat,
-      path + ": point records of " + std::to_string(header.pointBytes) + " bytes" +
-        at(PointBytes) + " are too short for point format " +
-        std::to_string(header.pointFormat) + ", which needs " +
+      path + ": point records of " + std::to_string(header.pointBytes) + " bytes" + at(PointBytes) +
+        " are too short for point format " + std::to_string(header.pointFormat) + ", which needs " +
         std::to_string(lasMinimumPointBytes(header.pointFormat)));
   }
   return {};

@@ -32,10 +32,10 @@ struct LASHeader
   std::uint16_t headerBytes = 0;
   std::uint32_t pointOffset = 0; ///< byte offset of the first point, inside the file or at its end
   std::uint32_t recordCount = 0; ///< VLRs, as claimed
-  std::uint8_t pointFormat = 0;  ///< 0 to 10
-  bool compressed = false;       ///< LAZ
-  std::uint16_t pointBytes = 0;  ///< of one point record, at least the format's minimum
-  std::uint64_t pointCount = 0;  ///< as claimed
+  std::uint8_t pointFormat = 0; ///< 0 to 10
+  bool compressed = false; ///< LAZ
+  std::uint16_t pointBytes = 0; ///< of one point record, at least the format's minimum
+  std::uint64_t pointCount = 0; ///< as claimed
   QuantisationGrid grid;
   Bounds bounds; ///< as claimed; empty when it is no box
   std::uint64_t extendedRecordOffset = 0;

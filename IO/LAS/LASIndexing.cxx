@@ -21,7 +21,7 @@ namespace
 constexpr std::uint64_t blockPoints = 65536;
 constexpr std::uint64_t edgeBytes = 65536;
 constexpr double readingWeight = 0.3; // the other phases are those of indexInPlace()
-constexpr double manyRuns = 0.25;     ///< runs a point from which on an order is called poor
+constexpr double manyRuns = 0.25; ///< runs a point from which on an order is called poor
 
 /// What a pass over all points learns of them.
 struct Survey
@@ -165,8 +165,9 @@ Result<LASFile> openToIndex(const std::string& path)
   if (file && file->header.compressed)
   {
     return makeError(Error::Kind::Unsupported,
-      path + ": compressed points (LAZ) cannot be indexed in place; build a store (pointfront "
-             "build), or decompress the file");
+      path +
+        ": compressed points (LAZ) cannot be indexed in place; build a store (pointfront "
+        "build), or decompress the file");
   }
   if (file)
   {
@@ -182,10 +183,8 @@ Result<SideFileContent> indexPoints(const LASFile& file, const LASIndexOptions& 
   const std::string& folder, WorkCrew& crew, SideFileWriter& writer)
 {
   const GridRecords records = recordsOf(file);
-  const auto released = [&](std::uint64_t begin, std::uint64_t end)
-  {
-    file.map.release(
-      records.fileOffset + begin * records.stride, (end - begin) * records.stride);
+  const auto released = [&](std::uint64_t begin, std::uint64_t end) {
+    file.map.release(records.fileOffset + begin * records.stride, (end - begin) * records.stride);
   };
   Result<Survey> survey = surveyPoints(file, records, crew, released);
   if (!survey)
@@ -253,8 +252,8 @@ Result<LASIndexReport> indexLASFile(const std::string& lasPath, const std::strin
   {
     return file.error();
   }
-  Result<void> checked = checkOutputTarget(
-    { sidePath, FileKind::SideFile, options.overwrite }, { lasPath });
+  Result<void> checked =
+    checkOutputTarget({ sidePath, FileKind::SideFile, options.overwrite }, { lasPath });
   if (!checked)
   {
     return checked.error();
@@ -265,8 +264,8 @@ Result<LASIndexReport> indexLASFile(const std::string& lasPath, const std::strin
     return writer.error();
   }
   const std::string beside = std::filesystem::absolute(sidePath).parent_path().string();
-  WorkCrew crew(options.threads > 0 ? options.threads
-                                    : std::max(1u, std::thread::hardware_concurrency()),
+  WorkCrew crew(
+    options.threads > 0 ? options.threads : std::max(1u, std::thread::hardware_concurrency()),
     progress);
   Result<SideFileContent> content = indexPoints(*file, options,
     options.temporaryFolder.empty() ? beside : options.temporaryFolder, crew, **writer);

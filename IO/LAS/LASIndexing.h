@@ -19,17 +19,17 @@ constexpr const char* lasIndexSuffix = ".pfindex";
 struct LASIndexOptions
 {
   std::uint32_t leafPoints = 16384;
-  std::uint64_t memoryBytes = 0;   ///< 0: 256 MiB
-  unsigned threads = 0;            ///< 0: one a core
-  std::string temporaryFolder;     ///< empty: the side file's
-  bool overwrite = false;          ///< false: an index that is there is an Error
+  std::uint64_t memoryBytes = 0; ///< 0: 256 MiB
+  unsigned threads = 0; ///< 0: one a core
+  std::string temporaryFolder; ///< empty: the side file's
+  bool overwrite = false; ///< false: an index that is there is an Error
 };
 
 struct LASIndexReport
 {
   std::uint64_t points = 0;
   std::uint64_t nodes = 0;
-  std::uint64_t runs = 0;         ///< of consecutive points, over all leaves
+  std::uint64_t runs = 0; ///< of consecutive points, over all leaves
   std::uint64_t bytesWritten = 0; ///< of the side file
   std::uint64_t spilledBytes = 0;
   double seconds = 0.0;

@@ -80,8 +80,7 @@ void copyField(const Records& records, const std::byte* from, std::size_t width,
   }
 }
 
-void decodeBits(
-  const Records& records, const std::byte* from, const LASField& field, std::byte* to)
+void decodeBits(const Records& records, const std::byte* from, const LASField& field, std::byte* to)
 {
   const unsigned shift = field.shift;
   const unsigned mask = field.mask;
@@ -101,8 +100,7 @@ void decodeAngle(const Records& records, const std::byte* from, double degrees, 
   }
 }
 
-void decodeColumn(
-  const Records& records, const LASField& field, std::size_t width, std::byte* to)
+void decodeColumn(const Records& records, const LASField& field, std::size_t width, std::byte* to)
 {
   const std::byte* from = records.first + field.offset;
   switch (field.kind)

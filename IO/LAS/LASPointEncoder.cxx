@@ -26,8 +26,7 @@ Error cannotHold(const Work& work, std::size_t i, const std::string& what)
 {
   return makeError(Error::Kind::BadArgument,
     work.path + ": point " + std::to_string(work.rank + i) + " has " + what +
-      ", which LAS point format " + std::to_string(work.plan.layout.pointFormat) +
-      " cannot hold");
+      ", which LAS point format " + std::to_string(work.plan.layout.pointFormat) + " cannot hold");
 }
 
 Result<void> encodePositions(const Work& work, LASTotals& totals)
@@ -118,8 +117,8 @@ Result<void> encodeAngle(const Work& work, const Elements& from, double degrees,
   {
     const double angle = loadNumber<float>(element);
     const double steps = std::round(angle / degrees);
-    const bool inRange = steps >= std::numeric_limits<Integer>::min() &&
-      steps <= std::numeric_limits<Integer>::max();
+    const bool inRange =
+      steps >= std::numeric_limits<Integer>::min() && steps <= std::numeric_limits<Integer>::max();
     if (!inRange || (whole && steps != angle))
     {
       return cannotHold(work, i, "a scan_angle of " + std::to_string(angle) + " degrees");
@@ -131,14 +130,13 @@ Result<void> encodeAngle(const Work& work, const Elements& from, double degrees,
   return {};
 }
 
-Result<void> encodeColumn(const Work& work, std::size_t c, const LASExport::Origin& origin,
-  std::size_t stride)
+Result<void> encodeColumn(
+  const Work& work, std::size_t c, const LASExport::Origin& origin, std::size_t stride)
 {
   const LASField& field = work.plan.layout.fields[c];
   const Attribute& attribute = work.plan.layout.schema[c];
-  const Elements from{
-    work.batch.columns[origin.column].data() + work.first * stride + origin.byte, stride
-  };
+  const Elements from{ work.batch.columns[origin.column].data() + work.first * stride + origin.byte,
+    stride };
   std::byte* to = work.records + field.offset;
   switch (field.kind)
   {

@@ -38,8 +38,8 @@ void add(LASPointLayout& layout, const Attribute& attribute, const LASField& fie
   layout.fields.push_back(field);
 }
 
-void addCopy(LASPointLayout& layout, const char* name, ScalarType type, int components,
-  std::size_t offset)
+void addCopy(
+  LASPointLayout& layout, const char* name, ScalarType type, int components, std::size_t offset)
 {
   LASField field;
   field.offset = static_cast<std::uint16_t>(offset);

@@ -20,8 +20,8 @@ struct LASField
 {
   enum class Kind : std::uint8_t
   {
-    Copy,   ///< the bytes of the column as they are
-    Bits,   ///< (byte >> shift) & mask
+    Copy, ///< the bytes of the column as they are
+    Bits, ///< (byte >> shift) & mask
     Angle8, ///< int8, degrees
     Angle16 ///< int16, steps of 0.006 degrees
   };

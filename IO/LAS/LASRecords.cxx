@@ -19,8 +19,8 @@ std::string lostRecords(const RecordRun& run, std::uint32_t index, std::uint64_t
 {
   return std::string(run.name) + " " + std::to_string(index + 1) + " of " +
     std::to_string(run.count) + " at byte " + std::to_string(byte) + " does not end before " +
-    run.endName + " at byte " + std::to_string(run.end) + ": " +
-    std::to_string(run.count - index) + " of these records were lost.";
+    run.endName + " at byte " + std::to_string(run.end) + ": " + std::to_string(run.count - index) +
+    " of these records were lost.";
 }
 
 void readRun(ByteView file, const RecordRun& run, std::vector<LASRecord>& records,
@@ -36,8 +36,8 @@ void readRun(ByteView file, const RecordRun& run, std::vector<LASRecord>& record
     }
     const std::byte* head = file.data + at;
     const bool extended = run.headerBytes == lasExtendedRecordHeaderBytes;
-    const std::uint64_t length = extended ? loadNumber<std::uint64_t>(head + 20)
-                                          : loadNumber<std::uint16_t>(head + 20);
+    const std::uint64_t length =
+      extended ? loadNumber<std::uint64_t>(head + 20) : loadNumber<std::uint16_t>(head + 20);
     if (length > run.end - at - run.headerBytes)
     {
       warnings.push_back(lostRecords(run, index, at));

@@ -51,8 +51,7 @@ void LASSource::decode(std::uint64_t chunk, PointBatch& batch) const
 {
   const std::size_t offset =
     file_.header.pointOffset + chunk * pointsPerChunk * file_.layout.pointBytes;
-  decodeLASPoints(
-    file_.layout, file_.header.grid, file_.map.data() + offset, batch.size(), batch);
+  decodeLASPoints(file_.layout, file_.header.grid, file_.map.data() + offset, batch.size(), batch);
   // Read once, not kept: a file larger than the memory limit must not count against it.
   file_.map.release(offset, batch.size() * file_.layout.pointBytes);
 }

@@ -29,7 +29,7 @@ struct LASWriter::State
   LASTotals totals;
   std::unique_ptr<OutputFile> file;
   std::optional<LASzipWriter> laszip; ///< after `file`: ends before it
-  std::vector<std::byte> records;     ///< of the current block
+  std::vector<std::byte> records; ///< of the current block
   std::uint32_t recordCount = 0;
   std::uint32_t pointOffset = 0;
   std::uint64_t end = 0; ///< bytes in `file`
@@ -42,8 +42,7 @@ struct LASWriter::State
 
   std::vector<std::byte> header(std::uint64_t extendedOffset) const
   {
-    return plan.header(
-      totals, recordCount, pointOffset, extendedOffset, encoding == Encoding::Laz);
+    return plan.header(totals, recordCount, pointOffset, extendedOffset, encoding == Encoding::Laz);
   }
 
   Result<void> writeBeginning();

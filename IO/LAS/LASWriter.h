@@ -29,8 +29,8 @@ public:
   };
 
   /// `created`: what the header says of the day; today by default.
-  explicit LASWriter(std::string path, Encoding encoding = Encoding::Las,
-    LASDate created = LASDate::today());
+  explicit LASWriter(
+    std::string path, Encoding encoding = Encoding::Las, LASDate created = LASDate::today());
   ~LASWriter() override;
   LASWriter(const LASWriter&) = delete;
   LASWriter& operator=(const LASWriter&) = delete;

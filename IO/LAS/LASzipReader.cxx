@@ -96,7 +96,8 @@ void storePoint14(const laszip_point& point, std::byte* to)
 void storeRecord(const laszip_point& point, const LASPointLayout& layout, std::byte* to)
 {
   std::byte* next = to;
-  const auto append = [&next](const void* from, std::size_t bytes) {
+  const auto append = [&next](const void* from, std::size_t bytes)
+  {
     std::memcpy(next, from, bytes);
     next += bytes;
   };
@@ -134,8 +135,7 @@ void storeRecord(const laszip_point& point, const LASPointLayout& layout, std::b
 }
 } // namespace
 
-std::uint32_t laszipLayers(
-  const LASPointLayout& layout, const std::vector<std::uint32_t>& columns)
+std::uint32_t laszipLayers(const LASPointLayout& layout, const std::vector<std::uint32_t>& columns)
 {
   const std::size_t extra = lasMinimumPointBytes(layout.pointFormat);
   const int format = layout.pointFormat;
@@ -144,19 +144,19 @@ std::uint32_t laszipLayers(
   {
     const std::size_t at = layout.fields[column].offset;
     const bool colours = format == 7 || format == 8 || format == 10;
-    layers |= at >= extra          ? laszip_DECOMPRESS_SELECTIVE_EXTRA_BYTES
-      : at >= 38                   ? laszip_DECOMPRESS_SELECTIVE_WAVEPACKET
-      : at >= 36 && colours        ? laszip_DECOMPRESS_SELECTIVE_NIR
-      : at >= 30 && colours        ? laszip_DECOMPRESS_SELECTIVE_RGB
-      : at >= 30                   ? laszip_DECOMPRESS_SELECTIVE_WAVEPACKET
-      : at >= 22                   ? laszip_DECOMPRESS_SELECTIVE_GPS_TIME
-      : at >= 20                   ? laszip_DECOMPRESS_SELECTIVE_POINT_SOURCE
-      : at >= 18                   ? laszip_DECOMPRESS_SELECTIVE_SCAN_ANGLE
-      : at == 17                   ? laszip_DECOMPRESS_SELECTIVE_USER_DATA
-      : at == 16                   ? laszip_DECOMPRESS_SELECTIVE_CLASSIFICATION
-      : at == 15                   ? laszip_DECOMPRESS_SELECTIVE_FLAGS
-      : at >= 14                   ? laszip_DECOMPRESS_SELECTIVE_CHANNEL_RETURNS_XY
-                                   : laszip_DECOMPRESS_SELECTIVE_INTENSITY;
+    layers |= at >= extra   ? laszip_DECOMPRESS_SELECTIVE_EXTRA_BYTES
+      : at >= 38            ? laszip_DECOMPRESS_SELECTIVE_WAVEPACKET
+      : at >= 36 && colours ? laszip_DECOMPRESS_SELECTIVE_NIR
+      : at >= 30 && colours ? laszip_DECOMPRESS_SELECTIVE_RGB
+      : at >= 30            ? laszip_DECOMPRESS_SELECTIVE_WAVEPACKET
+      : at >= 22            ? laszip_DECOMPRESS_SELECTIVE_GPS_TIME
+      : at >= 20            ? laszip_DECOMPRESS_SELECTIVE_POINT_SOURCE
+      : at >= 18            ? laszip_DECOMPRESS_SELECTIVE_SCAN_ANGLE
+      : at == 17            ? laszip_DECOMPRESS_SELECTIVE_USER_DATA
+      : at == 16            ? laszip_DECOMPRESS_SELECTIVE_CLASSIFICATION
+      : at == 15            ? laszip_DECOMPRESS_SELECTIVE_FLAGS
+      : at >= 14            ? laszip_DECOMPRESS_SELECTIVE_CHANNEL_RETURNS_XY
+                            : laszip_DECOMPRESS_SELECTIVE_INTENSITY;
   }
   return layers;
 }
@@ -202,8 +202,8 @@ LASzipReader::~LASzipReader() = default;
 Result<LASzipReader> LASzipReader::open(const LASFile& file, const LAZCompression& compression,
   ByteView chunk, std::uint32_t points, std::uint32_t layers)
 {
-  auto handle = std::make_unique<Handle>(
-    composeLAZBeginning(file, compression, points), chunk, file.layout);
+  auto handle =
+    std::make_unique<Handle>(composeLAZBeginning(file, compression, points), chunk, file.layout);
   laszip_BOOL compressed = 0;
   if (laszip_create(&handle->laszip) != 0)
   {
@@ -213,15 +213,14 @@ Result<LASzipReader> LASzipReader::open(const LASFile& file, const LAZCompressio
   {
     laszip_decompress_selective(handle->laszip, layers);
   }
-  handle->opened =
-    laszip_open_reader_stream(handle->laszip, handle->stream, &compressed) == 0;
+  handle->opened = laszip_open_reader_stream(handle->laszip, handle->stream, &compressed) == 0;
   if (!handle->opened || laszip_get_point_pointer(handle->laszip, &handle->point) != 0)
   {
     laszip_CHAR* words = nullptr;
     laszip_get_error(handle->laszip, &words);
     return makeError(Error::Kind::Unsupported,
-      file.description.path + ": LASzip refuses it: " +
-        printableText(words != nullptr ? words : "no reason given"));
+      file.description.path +
+        ": LASzip refuses it: " + printableText(words != nullptr ? words : "no reason given"));
   }
   return LASzipReader(std::move(handle));
 }

@@ -13,8 +13,7 @@ namespace pointfront
 {
 
 /// Which layers of a layered chunk hold these columns: for LASzipReader::open().
-std::uint32_t laszipLayers(
-  const LASPointLayout& layout, const std::vector<std::uint32_t>& columns);
+std::uint32_t laszipLayers(const LASPointLayout& layout, const std::vector<std::uint32_t>& columns);
 constexpr std::uint32_t laszipAllLayers = 0xFFFFFFFFu;
 
 /// Decompresses one LAZ chunk through LASzip, point by point, into plain LAS records.

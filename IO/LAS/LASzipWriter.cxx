@@ -135,7 +135,8 @@ void loadPoint14(const std::byte* from, laszip_point& point)
 
 void loadRecord(const std::byte* from, const LASPointLayout& layout, laszip_point& point)
 {
-  const auto take = [&from](void* to, std::size_t bytes) {
+  const auto take = [&from](void* to, std::size_t bytes)
+  {
     std::memcpy(to, from, bytes);
     from += bytes;
   };
@@ -242,8 +243,7 @@ Result<MetadataRecord> LASzipWriter::compressionRecord() const
 {
   laszip_U8* bytes = nullptr;
   laszip_U32 size = 0;
-  if (laszip_create_laszip_vlr(handle_->laszip, &bytes, &size) != 0 ||
-    size < lasRecordHeaderBytes)
+  if (laszip_create_laszip_vlr(handle_->laszip, &bytes, &size) != 0 || size < lasRecordHeaderBytes)
   {
     return handle_->error("describe its compression");
   }

@@ -39,12 +39,12 @@ LAZChunk parseLayeredChunk(
   return needed <= bytes.size ? LAZChunk{ 0, needed, points } : LAZChunk{};
 }
 
-LAZChunk parseLayeredChunk(const LASFile& file, const LAZCompression& compression,
-  std::uint64_t offset, std::uint64_t end)
+LAZChunk parseLayeredChunk(
+  const LASFile& file, const LAZCompression& compression, std::uint64_t offset, std::uint64_t end)
 {
-  LAZChunk chunk = parseLayeredChunk(
-    { file.bytes().data + offset, static_cast<std::size_t>(end - offset) },
-    file.header.pointBytes, compression);
+  LAZChunk chunk =
+    parseLayeredChunk({ file.bytes().data + offset, static_cast<std::size_t>(end - offset) },
+      file.header.pointBytes, compression);
   chunk.offset = chunk.bytes > 0 ? offset : 0;
   return chunk;
 }
@@ -67,8 +67,7 @@ bool codesCanBegin(ByteView bytes, std::size_t pointBytes, const LAZCompression&
 
 bool codesCanBegin(const LASFile& file, const LAZCompression& compression, const LAZChunk& chunk)
 {
-  const ByteView bytes{ file.bytes().data + chunk.offset,
-    static_cast<std::size_t>(chunk.bytes) };
+  const ByteView bytes{ file.bytes().data + chunk.offset, static_cast<std::size_t>(chunk.bytes) };
   if (compression.scheme == LAZCompression::Scheme::Layered)
   {
     return codesCanBegin(bytes, file.header.pointBytes, compression);

@@ -23,8 +23,8 @@ struct LAZChunk
 
 /// The layered chunk that begins at byte `offset`; zero points if what is there is no whole chunk
 /// of at most `end - offset` bytes.
-LAZChunk parseLayeredChunk(const LASFile& file, const LAZCompression& compression,
-  std::uint64_t offset, std::uint64_t end);
+LAZChunk parseLayeredChunk(
+  const LASFile& file, const LAZCompression& compression, std::uint64_t offset, std::uint64_t end);
 
 /// The layered chunk that is all of these bytes, of records of `pointBytes`; zero points if they
 /// are no whole chunk. Its offset is 0.

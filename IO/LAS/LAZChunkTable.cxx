@@ -13,7 +13,7 @@ namespace
 using Scheme = LAZCompression::Scheme;
 
 constexpr std::uint64_t tablePointerBytes = 8; ///< before the first chunk
-constexpr std::uint64_t tableHeaderBytes = 8;  ///< version, number of chunks
+constexpr std::uint64_t tableHeaderBytes = 8; ///< version, number of chunks
 
 /// Where the table begins, if it is there: between the first chunk and the end of the file.
 std::optional<std::uint64_t> tableOffset(const LASFile& file)
@@ -121,8 +121,7 @@ Result<LAZChunk> measureChunk(const LASFile& file, const LAZCompression& compres
 }
 
 /// Walks from chunk to chunk without a table, up to the first that is not whole.
-Result<std::vector<LAZChunk>> walkChunks(
-  const LASFile& file, const LAZCompression& compression)
+Result<std::vector<LAZChunk>> walkChunks(const LASFile& file, const LAZCompression& compression)
 {
   const bool pointwise = compression.scheme == Scheme::Pointwise;
   const bool layered = compression.scheme == Scheme::Layered;
@@ -132,8 +131,8 @@ Result<std::vector<LAZChunk>> walkChunks(
   while (left > 0 && offset < file.bytes().size)
   {
     const std::uint64_t most = pointwise ? left : compression.chunkPoints;
-    const auto points = static_cast<std::uint32_t>(std::min({ left, most,
-      std::uint64_t{ lazMostChunkPoints } }));
+    const auto points =
+      static_cast<std::uint32_t>(std::min({ left, most, std::uint64_t{ lazMostChunkPoints } }));
     Result<LAZChunk> chunk = layered
       ? Result<LAZChunk>(parseLayeredChunk(file, compression, offset, file.bytes().size))
       : measureChunk(file, compression, offset, points);
@@ -159,15 +158,14 @@ Result<std::vector<LAZChunk>> walkChunks(
 Error noPoints(const LASFile& file)
 {
   return makeError(Error::Kind::Truncated,
-    file.description.path + ": the header promises " +
-      std::to_string(file.header.pointCount) + " points from byte " +
-      std::to_string(file.header.pointOffset) + " on, but the file of " +
+    file.description.path + ": the header promises " + std::to_string(file.header.pointCount) +
+      " points from byte " + std::to_string(file.header.pointOffset) + " on, but the file of " +
       std::to_string(file.bytes().size) + " bytes holds not one that is sound; get a whole copy");
 }
 
 /// Chunks found without a table: says what is missing.
-Result<std::vector<LAZChunk>> recoverChunks(const LASFile& file,
-  const LAZCompression& compression, std::vector<std::string>& warnings)
+Result<std::vector<LAZChunk>> recoverChunks(
+  const LASFile& file, const LAZCompression& compression, std::vector<std::string>& warnings)
 {
   Result<std::vector<LAZChunk>> chunks = walkChunks(file, compression);
   if (!chunks)
@@ -186,15 +184,14 @@ Result<std::vector<LAZChunk>> recoverChunks(const LASFile& file,
     warnings.push_back(
       std::string(hasTable ? "The chunk table is missing or damaged, the chunks were searched for: "
                            : "The compressed points end early: ") +
-      std::to_string(claimed - found) + " of " + std::to_string(claimed) +
-      " points are missing.");
+      std::to_string(claimed - found) + " of " + std::to_string(claimed) + " points are missing.");
   }
   return chunks;
 }
 
 /// Makes the last chunk of fixed size as short as the header's count says.
-Result<void> fitLastChunk(const LASFile& file, std::vector<LAZChunk>& chunks,
-  std::vector<std::string>& warnings)
+Result<void> fitLastChunk(
+  const LASFile& file, std::vector<LAZChunk>& chunks, std::vector<std::string>& warnings)
 {
   const std::uint64_t claimed = file.header.pointCount;
   const std::uint64_t room = totalPoints(chunks);
@@ -224,15 +221,17 @@ Result<void> fitLastChunk(const LASFile& file, std::vector<LAZChunk>& chunks,
 }
 
 /// Layered chunks repeat how many points they hold: the table must agree.
-bool layeredChunksAgree(const LASFile& file, const LAZCompression& compression,
-  const std::vector<LAZChunk>& chunks)
+bool layeredChunksAgree(
+  const LASFile& file, const LAZCompression& compression, const std::vector<LAZChunk>& chunks)
 {
-  return std::all_of(chunks.begin(), chunks.end(), [&](const LAZChunk& chunk) {
-    const LAZChunk itself =
-      parseLayeredChunk(file, compression, chunk.offset, chunk.offset + chunk.bytes);
-    file.map.release(chunk.offset, chunk.bytes); // a look at a chunk maps 64 KiB around
-    return itself.points == chunk.points && itself.bytes == chunk.bytes;
-  });
+  return std::all_of(chunks.begin(), chunks.end(),
+    [&](const LAZChunk& chunk)
+    {
+      const LAZChunk itself =
+        parseLayeredChunk(file, compression, chunk.offset, chunk.offset + chunk.bytes);
+      file.map.release(chunk.offset, chunk.bytes); // a look at a chunk maps 64 KiB around
+      return itself.points == chunk.points && itself.bytes == chunk.bytes;
+    });
 }
 
 /// Points of a table of variable chunks against the header's count.
@@ -248,8 +247,8 @@ void compareCounts(
 }
 } // namespace
 
-Result<std::vector<LAZChunk>> findLAZChunks(const LASFile& file,
-  const LAZCompression& compression, std::vector<std::string>& warnings)
+Result<std::vector<LAZChunk>> findLAZChunks(
+  const LASFile& file, const LAZCompression& compression, std::vector<std::string>& warnings)
 {
   if (file.header.pointCount == 0)
   {

@@ -18,7 +18,7 @@ namespace pointfront
 ///         before 2.0, which has none: layered chunks say how long they are, others are
 ///         decompressed once to find out. What is missing then is a warning with its count.
 /// Errors  Truncated if points are claimed and not one is sound; BadFormat; Unsupported.
-Result<std::vector<LAZChunk>> findLAZChunks(const LASFile& file,
-  const LAZCompression& compression, std::vector<std::string>& warnings);
+Result<std::vector<LAZChunk>> findLAZChunks(
+  const LASFile& file, const LAZCompression& compression, std::vector<std::string>& warnings);
 
 } // namespace pointfront

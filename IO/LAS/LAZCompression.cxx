@@ -169,8 +169,9 @@ Result<LAZCompression> LAZCompression::of(const LASFile& file)
   if (record == nullptr)
   {
     return makeError(Error::Kind::BadFormat,
-      path + ": the points are marked as compressed (byte 104), but the record \"laszip "
-             "encoded\" that says how is missing");
+      path +
+        ": the points are marked as compressed (byte 104), but the record \"laszip "
+        "encoded\" that says how is missing");
   }
   const ByteView payload = record->payload;
   const std::size_t count =

@@ -105,8 +105,8 @@ Result<std::unique_ptr<PointSource>> glanceAt(const std::string& path, std::size
   points.resize((offsets->size() + step - 1) / step, file->layout.schema);
   for (std::size_t i = 0; i < points.size(); ++i)
   {
-    decodeLASPoints(file->layout, file->header.grid,
-      file->bytes().data + (*offsets)[i * step], 1, points, i);
+    decodeLASPoints(
+      file->layout, file->header.grid, file->bytes().data + (*offsets)[i * step], 1, points, i);
   }
   SourceDescription description = file->description;
   description.declaredBounds = Bounds();
@@ -180,8 +180,8 @@ Result<PointSources> glanceAtAll(
     glances.emplace_back(makeError(Error::Kind::NotFound, files[i]));
   }
   const std::size_t each = std::max<std::size_t>(1, mostPoints / files.size());
-  ThreadCrew::ofProcess().run(files.size(),
-    [&](std::size_t i, unsigned) { glances[i] = glanceAt(files[i], each); });
+  ThreadCrew::ofProcess().run(
+    files.size(), [&](std::size_t i, unsigned) { glances[i] = glanceAt(files[i], each); });
   PointSources sources;
   std::size_t faulty = 0;
   std::optional<Error> first;
@@ -197,8 +197,9 @@ Result<PointSources> glanceAtAll(
   }
   if (faulty > 0)
   {
-    return makeError(first->kind, path + ": " + std::to_string(faulty) + " of " +
-        std::to_string(files.size()) + " files cannot be looked at: " + first->what);
+    return makeError(first->kind,
+      path + ": " + std::to_string(faulty) + " of " + std::to_string(files.size()) +
+        " files cannot be looked at: " + first->what);
   }
   return sources;
 }

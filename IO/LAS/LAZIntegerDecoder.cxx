@@ -7,8 +7,8 @@ namespace pointfront
 namespace
 {
 constexpr std::uint32_t minimumLength = 0x01000000u; // interval below which bytes are shifted in
-constexpr std::uint32_t bitShift = 13;               // precision of bit probabilities
-constexpr std::uint32_t symbolShift = 15;            // precision of symbol probabilities
+constexpr std::uint32_t bitShift = 13; // precision of bit probabilities
+constexpr std::uint32_t symbolShift = 15; // precision of symbol probabilities
 constexpr std::uint32_t integerBits = 32;
 constexpr std::uint32_t modelledBits = 8; // of a difference; bits below them are stored as they are
 } // namespace
@@ -76,8 +76,7 @@ LAZIntegerDecoder::LAZIntegerDecoder(ByteView bytes)
 
 std::optional<std::uint32_t> LAZIntegerDecoder::next(std::uint32_t prediction, int context)
 {
-  const std::uint32_t integer =
-    prediction + difference(widths_[static_cast<std::size_t>(context)]);
+  const std::uint32_t integer = prediction + difference(widths_[static_cast<std::size_t>(context)]);
   return sound_ ? std::optional<std::uint32_t>(integer) : std::nullopt;
 }
 

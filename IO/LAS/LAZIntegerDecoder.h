@@ -62,9 +62,9 @@ private:
   bool sound_ = true;
   std::uint32_t value_ = 0;
   std::uint32_t length_ = 0xFFFFFFFFu;
-  std::array<Model, 2> widths_;   ///< how many bits a difference has, for each context
-  BitModel zeroOrOne_;            ///< differences of width 0
-  std::vector<Model> highBits_;   ///< upper bits of a difference, for each width from 1
+  std::array<Model, 2> widths_; ///< how many bits a difference has, for each context
+  BitModel zeroOrOne_; ///< differences of width 0
+  std::vector<Model> highBits_; ///< upper bits of a difference, for each width from 1
 };
 
 } // namespace pointfront

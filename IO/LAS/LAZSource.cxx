@@ -129,8 +129,7 @@ Result<void> LAZSource::decompress(
   {
     return badChunk(path, chunk, "it begins with a code that no encoder writes");
   }
-  const ByteView bytes{ file_.bytes().data + chunk.offset,
-    static_cast<std::size_t>(chunk.bytes) };
+  const ByteView bytes{ file_.bytes().data + chunk.offset, static_cast<std::size_t>(chunk.bytes) };
   Result<LASzipReader> reader = LASzipReader::open(file_, compression_, bytes, chunk.points);
   if (!reader)
   {
@@ -154,8 +153,7 @@ Result<void> LAZSource::decompress(
     {
       batch.resize(first + wanted, file_.layout.schema);
     }
-    decodeLASPoints(
-      file_.layout, file_.header.grid, records.data(), wanted, batch, first);
+    decodeLASPoints(file_.layout, file_.header.grid, records.data(), wanted, batch, first);
     done += wanted;
   }
   if (!chunk.cut && reader->consumed() != chunk.bytes)

@@ -9,7 +9,7 @@ namespace pointfront
 {
 namespace
 {
-constexpr std::size_t history = 8192;      // as far as a copy reaches back
+constexpr std::size_t history = 8192; // as far as a copy reaches back
 constexpr std::size_t pieceBytes = 1 << 20; // handed on at once
 constexpr std::size_t longestRun = 264;
 
@@ -46,10 +46,7 @@ public:
     }
     end_ += count;
   }
-  Result<void> makeRoom()
-  {
-    return end_ - begin_ >= pieceBytes ? flush() : Result<void>();
-  }
+  Result<void> makeRoom() { return end_ - begin_ >= pieceBytes ? flush() : Result<void>(); }
   Result<void> flush()
   {
     if (Result<void> done = write_(bytes_.data() + begin_, end_ - begin_); !done)

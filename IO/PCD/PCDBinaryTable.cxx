@@ -15,7 +15,7 @@ namespace
 {
 constexpr std::uint64_t pointsPerChunk = 32768;
 constexpr std::uint64_t mostInMemory = 64ull << 20;
-constexpr std::size_t sizesBytes = 8;          // packed and unpacked size before the block
+constexpr std::size_t sizesBytes = 8; // packed and unpacked size before the block
 constexpr std::uint64_t mostExpansion = 264 / 3; // of LZF: 264 bytes from three
 
 std::uint32_t littleEndian32(const std::byte* from)
@@ -29,7 +29,10 @@ std::uint32_t littleEndian32(const std::byte* from)
 }
 
 /// PCD files are little endian.
-bool machineIsBigEndian() { return !machineIsLittleEndian(); }
+bool machineIsBigEndian()
+{
+  return !machineIsLittleEndian();
+}
 } // namespace
 
 Result<void> PCDBinaryTable::locateRecords()
@@ -122,7 +125,8 @@ Result<void> PCDBinaryTable::unpack(const std::string& temporaryFolder)
   {
     std::error_code none;
     const std::string folder = temporaryFolder.empty()
-      ? std::filesystem::temp_directory_path(none).string() : temporaryFolder;
+      ? std::filesystem::temp_directory_path(none).string()
+      : temporaryFolder;
     Result<std::unique_ptr<SpillFile>> file = SpillFile::create(folder, unpacked);
     if (!file)
     {

@@ -23,8 +23,7 @@ class PCDBinaryTable final : public PointTable
 {
 public:
   /// Errors  Truncated, Corrupt; Unwritable from the temporary folder.
-  static Result<std::unique_ptr<PointTable>> open(
-    PCDFile file, const std::string& temporaryFolder);
+  static Result<std::unique_ptr<PointTable>> open(PCDFile file, const std::string& temporaryFolder);
 
   const std::string& path() const override { return file_.path; }
   const std::string& format() const override { return file_.format; }
@@ -34,10 +33,7 @@ public:
   std::uint64_t chunkRows(std::uint64_t chunk) const override;
   Result<void> read(
     std::uint64_t chunk, const std::vector<bool>& wanted, TableBlock& block) const override;
-  std::optional<std::uint64_t> headerPointCount() const override
-  {
-    return file_.header.points;
-  }
+  std::optional<std::uint64_t> headerPointCount() const override { return file_.header.points; }
   glm::dvec3 origin() const override { return file_.header.origin.value_or(glm::dvec3(0.0)); }
   std::vector<ScannerPlace> scanners(const Bounds& positions) const override
   {
@@ -61,8 +57,8 @@ private:
   std::uint64_t points_ = 0;
   /// Where each field of the header begins: in a record, or as a column of the unpacked block.
   std::vector<std::uint64_t> fieldBegins_;
-  std::vector<std::byte> columns_;        ///< unpacked, if small
-  std::unique_ptr<SpillFile> spilled_;    ///< unpacked, if large
+  std::vector<std::byte> columns_; ///< unpacked, if small
+  std::unique_ptr<SpillFile> spilled_; ///< unpacked, if large
 };
 
 } // namespace pointfront

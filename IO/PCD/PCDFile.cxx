@@ -73,8 +73,8 @@ Result<PCDFile> PCDFile::open(const std::string& path)
     if (field.count > mostComponents)
     {
       file.warnings.push_back("The field '" + field.name + "' is left out: it has " +
-        std::to_string(field.count) + " elements, more than the " +
-        std::to_string(mostComponents) + " that an attribute can have.");
+        std::to_string(field.count) + " elements, more than the " + std::to_string(mostComponents) +
+        " that an attribute can have.");
       continue;
     }
     addElements(file, f);

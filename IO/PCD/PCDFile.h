@@ -19,7 +19,7 @@ struct PCDFile
   struct Element
   {
     std::size_t field = 0; ///< of the header
-    std::size_t byte = 0;  ///< within that field
+    std::size_t byte = 0; ///< within that field
     ScalarType type = ScalarType::Float32;
   };
 

@@ -150,7 +150,8 @@ Result<void> HeaderReader::takeData(const Words& words)
   }
   else
   {
-    return fault(Error::Kind::Unsupported, "DATA '" + std::string(kind.substr(0, 40)) +
+    return fault(Error::Kind::Unsupported,
+      "DATA '" + std::string(kind.substr(0, 40)) +
         "' is unknown: ascii, binary or binary_compressed are read");
   }
   return {};
@@ -215,8 +216,8 @@ Result<void> HeaderReader::assembleFields()
   }
   if (n > mostFields)
   {
-    return makeError(Error::Kind::Unsupported,
-      path_ + ": more than " + std::to_string(mostFields) + " fields");
+    return makeError(
+      Error::Kind::Unsupported, path_ + ": more than " + std::to_string(mostFields) + " fields");
   }
   std::uint64_t elements = 0;
   for (std::size_t f = 0; f < n; ++f)

@@ -28,10 +28,7 @@ public:
   std::uint64_t chunkRows(std::uint64_t chunk) const override { return rows_->chunkRows(chunk); }
   Result<void> read(
     std::uint64_t chunk, const std::vector<bool>& wanted, TableBlock& block) const override;
-  std::optional<std::uint64_t> headerPointCount() const override
-  {
-    return file_.header.points;
-  }
+  std::optional<std::uint64_t> headerPointCount() const override { return file_.header.points; }
   std::vector<FieldStatistics> statistics() const override;
   glm::dvec3 origin() const override { return file_.header.origin.value_or(glm::dvec3(0.0)); }
   std::vector<ScannerPlace> scanners(const Bounds& positions) const override

@@ -69,14 +69,13 @@ void addAttribute(
     return;
   }
   const bool normal = attribute.name == "normal" && attribute.components == 3;
-  const bool exact = attribute.scale == 1.0 && attribute.offset == 0.0 &&
-    sizeOf(attribute.type) <= 2;
+  const bool exact =
+    attribute.scale == 1.0 && attribute.offset == 0.0 && sizeOf(attribute.type) <= 2;
   const bool single = normal || (attribute.name == "intensity" && exact);
   ScalarType type = attribute.type;
   for (std::size_t k = 0; k < attribute.components; ++k)
   {
-    type = encoder.add(
-      column, k, single ? std::make_optional(ScalarType::Float32) : std::nullopt);
+    type = encoder.add(column, k, single ? std::make_optional(ScalarType::Float32) : std::nullopt);
     if (colour || normal)
     {
       lines.add((colour ? colours : normals)[k], type);
@@ -140,14 +139,12 @@ namespace
 std::string originLine(const glm::dvec3& origin)
 {
   char text[128];
-  std::snprintf(
-    text, sizeof text, "# ORIGIN %.17g %.17g %.17g\n", origin.x, origin.y, origin.z);
+  std::snprintf(text, sizeof text, "# ORIGIN %.17g %.17g %.17g\n", origin.x, origin.y, origin.z);
   return origin == glm::dvec3(0.0) ? std::string() : text;
 }
 } // namespace
 
-RecordFile::Header PCDWriter::describe(
-  const AttributeSchema& schema, RecordEncoder& encoder) const
+RecordFile::Header PCDWriter::describe(const AttributeSchema& schema, RecordEncoder& encoder) const
 {
   FieldLines lines;
   for (const char* axis : { "x", "y", "z" })
@@ -158,8 +155,8 @@ RecordFile::Header PCDWriter::describe(
   {
     addAttribute(c, schema[c], encoder, lines);
   }
-  const std::string fields = originLine(encoder.coordinates().origin) + "VERSION 0.7\n" +
-    lines.text();
+  const std::string fields =
+    originLine(encoder.coordinates().origin) + "VERSION 0.7\n" + lines.text();
   return [fields](std::uint64_t points)
   {
     const std::string count = paddedCount(points);

@@ -44,7 +44,7 @@ private:
   std::vector<TableField> fields_;
   bool swapped_ = false;
   std::uint64_t rows_ = 0;
-  std::size_t begin_ = 0;                ///< first byte of the points
+  std::size_t begin_ = 0; ///< first byte of the points
   std::vector<std::size_t> chunkBegins_; ///< rows with lists only
 };
 

@@ -19,7 +19,7 @@ struct PLYFile
   std::string path;
   PLYHeader header;
   std::size_t points = 0; ///< the element that holds them
-  std::string format;     ///< "PLY ascii" ...
+  std::string format; ///< "PLY ascii" ...
   std::vector<std::string> warnings;
 
   const PLYElement& pointElement() const { return header.elements[points]; }

@@ -34,8 +34,8 @@ Result<std::unique_ptr<PointSource>> PLYFormat::open(const std::string& path) co
       path + ": its element '" + file->pointElement().name + "' has no properties");
   }
   const bool text = file->header.encoding == PLYEncoding::Ascii;
-  Result<std::unique_ptr<PointTable>> table = text ? PLYTextTable::open(std::move(*file), survey_)
-                                                   : PLYBinaryTable::open(std::move(*file));
+  Result<std::unique_ptr<PointTable>> table =
+    text ? PLYTextTable::open(std::move(*file), survey_) : PLYBinaryTable::open(std::move(*file));
   if (!table)
   {
     return table.error();

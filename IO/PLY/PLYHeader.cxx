@@ -19,12 +19,11 @@ struct TypeName
 };
 constexpr std::array<TypeName, 16> typeNames{ { { "char", ScalarType::Int8 },
   { "int8", ScalarType::Int8 }, { "uchar", ScalarType::UInt8 }, { "uint8", ScalarType::UInt8 },
-  { "short", ScalarType::Int16 }, { "int16", ScalarType::Int16 },
-  { "ushort", ScalarType::UInt16 }, { "uint16", ScalarType::UInt16 },
-  { "int", ScalarType::Int32 }, { "int32", ScalarType::Int32 }, { "uint", ScalarType::UInt32 },
-  { "uint32", ScalarType::UInt32 }, { "float", ScalarType::Float32 },
-  { "float32", ScalarType::Float32 }, { "double", ScalarType::Float64 },
-  { "float64", ScalarType::Float64 } } };
+  { "short", ScalarType::Int16 }, { "int16", ScalarType::Int16 }, { "ushort", ScalarType::UInt16 },
+  { "uint16", ScalarType::UInt16 }, { "int", ScalarType::Int32 }, { "int32", ScalarType::Int32 },
+  { "uint", ScalarType::UInt32 }, { "uint32", ScalarType::UInt32 },
+  { "float", ScalarType::Float32 }, { "float32", ScalarType::Float32 },
+  { "double", ScalarType::Float64 }, { "float64", ScalarType::Float64 } } };
 
 std::optional<ScalarType> typeOf(std::string_view name)
 {
@@ -119,7 +118,8 @@ Result<void> HeaderReader::takeFormat(const Words& words)
   }
   else
   {
-    return fault(Error::Kind::Unsupported, "the PLY format '" + std::string(words[1]) +
+    return fault(Error::Kind::Unsupported,
+      "the PLY format '" + std::string(words[1]) +
         "' is unknown: ascii, binary_little_endian or binary_big_endian are read");
   }
   formatSeen_ = true;
@@ -142,8 +142,8 @@ Result<void> HeaderReader::takeElement(const Words& words)
   }
   if (header_.elements.size() >= mostElements)
   {
-    return fault(Error::Kind::Unsupported,
-      "more than " + std::to_string(mostElements) + " kinds of elements");
+    return fault(
+      Error::Kind::Unsupported, "more than " + std::to_string(mostElements) + " kinds of elements");
   }
   element.name = std::string(words[1]);
   header_.elements.push_back(std::move(element));

@@ -24,7 +24,7 @@ struct PLYProperty
 {
   std::string name;
   ScalarType type = ScalarType::Float32; ///< of the value, or of each value of a list
-  std::optional<ScalarType> listCount;   ///< integer; the property is a list
+  std::optional<ScalarType> listCount; ///< integer; the property is a list
 };
 
 struct PLYElement

@@ -54,20 +54,18 @@ PLYWriter::PLYWriter(std::string path)
 {
 }
 
-RecordFile::Header PLYWriter::describe(
-  const AttributeSchema& schema, RecordEncoder& encoder) const
+RecordFile::Header PLYWriter::describe(const AttributeSchema& schema, RecordEncoder& encoder) const
 {
   std::string properties = "property double x\nproperty double y\nproperty double z\n";
   for (std::size_t c = 0; c < schema.size(); ++c)
   {
-    const bool wide =
-      schema[c].type == ScalarType::Int64 || schema[c].type == ScalarType::UInt64;
+    const bool wide = schema[c].type == ScalarType::Int64 || schema[c].type == ScalarType::UInt64;
     for (std::size_t k = 0; k < schema[c].components; ++k)
     {
       const ScalarType type =
         encoder.add(c, k, wide ? std::make_optional(ScalarType::Float64) : std::nullopt);
-      properties += std::string("property ") + typeName(type) + " " +
-        propertyName(schema[c], k) + "\n";
+      properties +=
+        std::string("property ") + typeName(type) + " " + propertyName(schema[c], k) + "\n";
     }
   }
   return [properties](std::uint64_t points)

@@ -17,8 +17,7 @@ public:
   explicit PLYWriter(std::string path);
 
 private:
-  RecordFile::Header describe(
-    const AttributeSchema& schema, RecordEncoder& encoder) const override;
+  RecordFile::Header describe(const AttributeSchema& schema, RecordEncoder& encoder) const override;
 };
 
 } // namespace pointfront

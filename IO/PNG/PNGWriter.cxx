@@ -90,8 +90,7 @@ Result<std::unique_ptr<PNGWriter>> PNGWriter::create(
 {
   assert(size.width > 0 && size.height > 0);
   assert(size.width <= PNG_UINT_31_MAX && size.height <= PNG_UINT_31_MAX);
-  Result<std::unique_ptr<OutputFile>> file =
-    OutputFile::create(path, OutputFile::Durability::None);
+  Result<std::unique_ptr<OutputFile>> file = OutputFile::create(path, OutputFile::Durability::None);
   if (!file)
   {
     return file.error();

@@ -22,12 +22,12 @@ class PNGWriter
 public:
   enum class Pixels : std::uint8_t
   {
-    RGB8,  ///< red, green, blue
-    RGBA8  ///< and opacity, not multiplied into the colours
+    RGB8, ///< red, green, blue
+    RGBA8 ///< and opacity, not multiplied into the colours
   };
   struct Size
   {
-    std::uint32_t width = 0;  ///< 1 to 2^31 - 1
+    std::uint32_t width = 0; ///< 1 to 2^31 - 1
     std::uint32_t height = 0; ///< likewise
   };
 

@@ -20,7 +20,10 @@ constexpr std::uint64_t ownShare = 2;
 class OverviewChoice
 {
 public:
-  explicit OverviewChoice(const Hierarchy& hierarchy) : hierarchy_(hierarchy) {}
+  explicit OverviewChoice(const Hierarchy& hierarchy)
+    : hierarchy_(hierarchy)
+  {
+  }
 
   void allot(NodeIndex index, std::uint64_t points)
   {
@@ -78,7 +81,7 @@ private:
   {
     if (points > 0)
     {
-      parts_.push_back({node, static_cast<std::uint32_t>(points)});
+      parts_.push_back({ node, static_cast<std::uint32_t>(points) });
     }
   }
 

@@ -52,8 +52,8 @@ PointArrays::PointArrays(
   {
     const Attribute& attribute = description.schema[column];
     const ColumnRange& range = description.ranges[column];
-    columns_.push_back({attribute.name, attribute.bytes(), showsSomething(attribute, range),
-      AttributeArray(attribute, range, points)});
+    columns_.push_back({ attribute.name, attribute.bytes(), showsSomething(attribute, range),
+      AttributeArray(attribute, range, points) });
   }
 }
 
@@ -91,7 +91,7 @@ void PointArrays::addRows(const NodeColumns& node, const std::vector<std::uint32
 
 const char* PointArrays::defaultColours() const
 {
-  for (const char* name : {"rgb", "classification", "intensity"})
+  for (const char* name : { "rgb", "classification", "intensity" })
   {
     for (const Column& column : columns_)
     {

@@ -47,7 +47,7 @@ private:
   {
     std::string name;
     std::size_t stride; ///< bytes of a point
-    bool shows;         ///< something: it may colour the points unasked
+    bool shows; ///< something: it may colour the points unasked
     AttributeArray array;
   };
   const char* defaultColours() const;

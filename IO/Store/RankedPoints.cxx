@@ -42,7 +42,7 @@ Result<std::vector<NodeRows>> locatePoints(const Hierarchy& hierarchy,
       continue;
     }
     const std::uint32_t known = overviewPoints(overview, index);
-    NodeRows rows{index, {}};
+    NodeRows rows{ index, {} };
     for (; rank != ranks.end() && *rank < node.firstPoint + node.pointCount; ++rank)
     {
       const auto row = static_cast<std::uint32_t>(*rank - node.firstPoint);
@@ -82,7 +82,7 @@ Result<std::vector<NodeRows>> pointsOfNodes(const Hierarchy& hierarchy,
     const std::uint32_t known = std::min(overviewPoints(overview, index), points);
     if (known < points)
     {
-      NodeRows rows{index, std::vector<std::uint32_t>(points - known)};
+      NodeRows rows{ index, std::vector<std::uint32_t>(points - known) };
       std::iota(rows.rows.begin(), rows.rows.end(), known);
       found.push_back(std::move(rows));
     }
@@ -124,8 +124,8 @@ std::vector<NodeRows> shareOf(std::vector<NodeRows> points, int piece, int piece
     if (from < to)
     {
       const auto rows = node.rows.begin();
-      share.push_back({node.node, {rows + static_cast<std::ptrdiff_t>(from),
-                                    rows + static_cast<std::ptrdiff_t>(to)}});
+      share.push_back({ node.node,
+        { rows + static_cast<std::ptrdiff_t>(from), rows + static_cast<std::ptrdiff_t>(to) } });
     }
   }
   return share;

@@ -106,7 +106,7 @@ const char* vtkPointFrontReader::GetFileName(int time) const
 int vtkPointFrontReader::CanReadFile(const char* fileName)
 {
   return fileName && *fileName && pointfront::StoredCloudFormats::ofProcess().accepts(fileName) ? 1
-                                                                                         : 0;
+                                                                                                : 0;
 }
 
 vtkDataArraySelection* vtkPointFrontReader::GetPointDataArraySelection()
@@ -208,9 +208,9 @@ int vtkPointFrontReader::RequestInformation(
   {
     std::vector<double> times(this->FileNames.size());
     std::iota(times.begin(), times.end(), 0.0);
-    const double range[2] = {times.front(), times.back()};
-    output->Set(vtkStreamingDemandDrivenPipeline::TIME_STEPS(), times.data(),
-      static_cast<int>(times.size()));
+    const double range[2] = { times.front(), times.back() };
+    output->Set(
+      vtkStreamingDemandDrivenPipeline::TIME_STEPS(), times.data(), static_cast<int>(times.size()));
     output->Set(vtkStreamingDemandDrivenPipeline::TIME_RANGE(), range, 2);
   }
   return 1;
@@ -290,14 +290,13 @@ bool vtkPointFrontReader::ReadPoints(
   std::copy_if(values, values + ranks->GetNumberOfValues(), std::back_inserter(wanted),
     [](vtkIdType rank) { return rank >= 0; });
   const pointfront::Hierarchy& hierarchy = *this->Store->GetStore()->hierarchy();
-  return this->Fill({pointfront::locatePoints(hierarchy, std::move(wanted),
-                      overviewOf(hierarchy, this->OverviewPoints))},
+  return this->Fill({ pointfront::locatePoints(
+                      hierarchy, std::move(wanted), overviewOf(hierarchy, this->OverviewPoints)) },
     piece, pieces, output);
 }
 
-bool vtkPointFrontReader::ReadRegion(
-  const std::function<bool(const double bounds[6])>& overlaps, vtkIdType mostPoints, int piece,
-  int pieces, vtkPolyData* output)
+bool vtkPointFrontReader::ReadRegion(const std::function<bool(const double bounds[6])>& overlaps,
+  vtkIdType mostPoints, int piece, int pieces, vtkPolyData* output)
 {
   if (!this->Store)
   {
@@ -307,12 +306,12 @@ bool vtkPointFrontReader::ReadRegion(
   const pointfront::Hierarchy& hierarchy = *this->Store->GetStore()->hierarchy();
   const auto overlapsBox = [&](const pointfront::Bounds& box)
   {
-    const double bounds[6] = {
-      box.low.x, box.high.x, box.low.y, box.high.y, box.low.z, box.high.z};
+    const double bounds[6] = { box.low.x, box.high.x, box.low.y, box.high.y, box.low.z,
+      box.high.z };
     return overlaps(bounds);
   };
-  Found found{pointfront::pointsOfNodes(
-    hierarchy, overlapsBox, overviewOf(hierarchy, this->OverviewPoints))};
+  Found found{ pointfront::pointsOfNodes(
+    hierarchy, overlapsBox, overviewOf(hierarchy, this->OverviewPoints)) };
   if (found.points && pointfront::countOf(*found.points) > static_cast<std::uint64_t>(mostPoints))
   {
     vtkErrorMacro("the region reaches into parts of the cloud with "

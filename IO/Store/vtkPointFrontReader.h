@@ -30,13 +30,13 @@
 #define vtkPointFrontReader_h
 
 #include "pointfrontIOStoreModule.h" // for the export macro
-#include "vtkNew.h"                  // for the selection
+#include "vtkNew.h" // for the selection
 #include "vtkPolyDataAlgorithm.h"
 #include "vtkSmartPointer.h" // for the store
 
 #include <functional> // for regions
-#include <string>     // for file names
-#include <vector>     // for file names
+#include <string> // for file names
+#include <vector> // for file names
 
 class vtkDataArraySelection;
 class vtkIdTypeArray;
@@ -103,8 +103,8 @@ public:
    * it. `overlaps` says whether a box does. False, and an error, also if there are more than
    * `mostPoints`.
    */
-  bool ReadRegion(const std::function<bool(const double bounds[6])>& overlaps,
-    vtkIdType mostPoints, int piece, int pieces, vtkPolyData* output);
+  bool ReadRegion(const std::function<bool(const double bounds[6])>& overlaps, vtkIdType mostPoints,
+    int piece, int pieces, vtkPolyData* output);
 #endif
 
   /// The open store: the first after UpdateInformation(), that of the output's time after Update();

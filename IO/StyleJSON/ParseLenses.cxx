@@ -59,8 +59,9 @@ FrameLens lensPlaceAt(const JSONPlace& place)
   {
     place.refuse("a lens has a shape, or around_class");
   }
-  lens.shape = oneOf<LensShape>(place.at("shape"), { { "circle", LensShape::Circle },
-    { "rectangle", LensShape::Rectangle }, { "mask", LensShape::Mask } });
+  lens.shape = oneOf<LensShape>(place.at("shape"),
+    { { "circle", LensShape::Circle }, { "rectangle", LensShape::Rectangle },
+      { "mask", LensShape::Mask } });
   if (lens.shape == LensShape::Mask)
   {
     place.expectKeys({ "shape", "mask", "inside" });
@@ -99,15 +100,14 @@ std::vector<StyleLens> lensesAt(const JSONPlace& place)
     const JSONPlace inside = one.required("inside");
     if (!inside.isObject())
     {
-      inside.refuse("expected an object with default and class codes as keys, not " +
-        inside.shown());
+      inside.refuse(
+        "expected an object with default and class codes as keys, not " + inside.shown());
     }
     for (const auto& [key, unused] : inside.value().items())
     {
       static_cast<void>(unused);
       const JSONPlace style = inside.at(key);
-      LayerStyle& target =
-        key == "default" ? lens.standard : lens.classes[classCode(style, key)];
+      LayerStyle& target = key == "default" ? lens.standard : lens.classes[classCode(style, key)];
       target = layerStyleAt(style);
     }
     lenses.push_back(std::move(lens));

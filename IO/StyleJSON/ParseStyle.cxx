@@ -176,13 +176,14 @@ ColourSource colourAt(const JSONPlace& place)
     {
       place.refuse("expected the key value beside hue");
     }
-    return ColourSource::ofTwo(ColourCombination::HueValue, partAt(place.at("hue")),
-      partAt(place.at("value")));
+    return ColourSource::ofTwo(
+      ColourCombination::HueValue, partAt(place.at("hue")), partAt(place.at("value")));
   }
   if (!place.has("attribute"))
   {
     place.refuse("expected \"#rrggbb\", an attribute's name, or an object with attribute, "
-                 "multiply, mix or hue, not " + place.shown());
+                 "multiply, mix or hue, not " +
+      place.shown());
   }
   place.expectKeys({ "attribute", "map", "range", "logarithmic" });
   const std::string name = place.at("attribute").text("an attribute's name");
@@ -229,8 +230,7 @@ StyleSize sizeAt(const JSONPlace& place)
   }
   place.expectKeys({ "mode", "attribute", "factor" });
   size.mode = SplatSize::Mode::Attribute;
-  size.attribute =
-    place.has("attribute") ? place.at("attribute").text("an attribute's name") : "";
+  size.attribute = place.has("attribute") ? place.at("attribute").text("an attribute's name") : "";
   return size;
 }
 
@@ -354,8 +354,7 @@ void addShadingMode(const JSONPlace& place, bool& lit, bool& eyeDome)
 
 FrameShading shadingAt(const JSONPlace& place)
 {
-  place.expectKeys(
-    { "mode", "strength", "radius_px", "ambient", "diffuse", "fill_holes" });
+  place.expectKeys({ "mode", "strength", "radius_px", "ambient", "diffuse", "fill_holes" });
   FrameShading shading;
   bool eyeDome = false;
   if (place.has("mode"))

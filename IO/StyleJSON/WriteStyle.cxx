@@ -157,8 +157,9 @@ Json layerStyle(const LayerStyle& style)
   put("accuracy", style.accuracy, accuracy);
   put("rim_color", style.rim, colourCode);
   put("wall_color", style.wall,
-    [](const std::array<Rgba8, 2>& wall)
-    { return Json::array({ colourCode(wall[0]), colourCode(wall[1]) }); });
+    [](const std::array<Rgba8, 2>& wall) {
+      return Json::array({ colourCode(wall[0]), colourCode(wall[1]) });
+    });
   put("where", style.where, [](const FilterExpression& filter) { return filter.text; });
   return result;
 }
@@ -301,9 +302,9 @@ std::string writeStyleSheet(const StyleSheet& sheet)
   }
   for (const StyleHighlight& one : sheet.highlights)
   {
-    result["highlight"].push_back({ { "class", one.objectClass },
-      { "color", colourCode(one.colour) }, { "halo_px", briefly(one.haloPx) },
-      { "tint", briefly(one.tint) } });
+    result["highlight"].push_back(
+      { { "class", one.objectClass }, { "color", colourCode(one.colour) },
+        { "halo_px", briefly(one.haloPx) }, { "tint", briefly(one.tint) } });
   }
   constexpr int indent = 2;
   return result.dump(indent, ' ', false, Json::error_handler_t::replace);

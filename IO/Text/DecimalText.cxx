@@ -23,7 +23,8 @@ bool isDecimal(double value, int decimals)
 template <typename Visit>
 auto visitScalar(ScalarType type, const std::byte* from, Visit visit)
 {
-  const auto load = [from, &visit](auto value) {
+  const auto load = [from, &visit](auto value)
+  {
     std::memcpy(&value, from, sizeof value);
     return visit(value);
   };

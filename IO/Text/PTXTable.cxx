@@ -79,7 +79,10 @@ TextLayout layoutOf(std::size_t columns)
 }
 } // namespace
 
-bool PTXTable::accepts(std::string_view text) { return headerAt(text, 0).has_value(); }
+bool PTXTable::accepts(std::string_view text)
+{
+  return headerAt(text, 0).has_value();
+}
 
 Result<void> PTXTable::index(const SurveyOptions& survey)
 {

@@ -177,8 +177,9 @@ public:
   }
   Error error(const std::string& path) const
   {
-    return makeError(Error::Kind::Unwritable, path + ": cannot be unpacked into '" + folder_ +
-        "' (" + std::strerror(reason_) + "); --temp chooses another folder");
+    return makeError(Error::Kind::Unwritable,
+      path + ": cannot be unpacked into '" + folder_ + "' (" + std::strerror(reason_) +
+        "); --temp chooses another folder");
   }
   /// The map outlives the descriptor.
   Result<MemoryMap> map() const
@@ -266,16 +267,14 @@ bool isUtf8(const std::string& text)
 
 Result<MemoryMap> mapText(const std::string& path, const std::string& temporaryFolder)
 {
-  Result<MemoryMap> map =
-    isGzip(path) ? unpacked(path, temporaryFolder) : MemoryMap::open(path);
+  Result<MemoryMap> map = isGzip(path) ? unpacked(path, temporaryFolder) : MemoryMap::open(path);
   if (!map)
   {
     return map;
   }
   const std::string_view text(reinterpret_cast<const char*>(map->data()), map->size());
   const Coding coding = codingOf(text);
-  return coding == Coding::Bytes ? std::move(map)
-                                 : transcoded(*map, coding, path, temporaryFolder);
+  return coding == Coding::Bytes ? std::move(map) : transcoded(*map, coding, path, temporaryFolder);
 }
 
 std::string beginningOfText(const std::string& path)

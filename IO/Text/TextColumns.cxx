@@ -117,8 +117,7 @@ std::vector<std::string> namesIn(std::string_view line, char separator)
     line.remove_prefix(1);
   }
   const bool apart = line.find(separator) != std::string_view::npos;
-  const std::vector<std::string_view> cells =
-    cellsOf(line, apart ? separator : separatorOf(line));
+  const std::vector<std::string_view> cells = cellsOf(line, apart ? separator : separatorOf(line));
   return { cells.begin(), cells.end() };
 }
 
@@ -150,8 +149,9 @@ Result<void> checkHeight(const std::vector<std::string>& names, const std::strin
     const FieldRole role = roleOf(name);
     if (role.kind == FieldRole::Kind::Attribute && !role.type)
     {
-      return makeError(Error::Kind::BadFormat, path + ": its header names no z, unless it is '" +
-          toUtf8(name) + "'; name the columns with --columns (x,y,z or, if it is flat, x,y,-)");
+      return makeError(Error::Kind::BadFormat,
+        path + ": its header names no z, unless it is '" + toUtf8(name) +
+          "'; name the columns with --columns (x,y,z or, if it is flat, x,y,-)");
     }
   }
   return {};
@@ -162,7 +162,7 @@ struct Beginning
 {
   std::optional<Dialect> dialect;
   std::string_view comment; ///< the last before it
-  std::string_view header;  ///< the last line of words before it
+  std::string_view header; ///< the last line of words before it
 };
 
 /// Passes the mark of UTF-8 and the lines to skip.
@@ -297,9 +297,8 @@ Result<void> checkTwice(const std::vector<std::string>& names, const std::string
 }
 } // namespace
 
-Result<TextColumns> TextColumns::find(
-  std::string_view text, const std::vector<std::string>& wanted, const std::string& path,
-  const TextChoice& choice)
+Result<TextColumns> TextColumns::find(std::string_view text, const std::vector<std::string>& wanted,
+  const std::string& path, const TextChoice& choice)
 {
   TextColumns columns;
   const bool unixLines = text.find('\n') != std::string_view::npos;

@@ -15,13 +15,13 @@ namespace pointfront
 struct TextColumns
 {
   std::vector<std::string> names; ///< of each column; "-": left out
-  char separator = ' ';           ///< as in TextLayout
+  char separator = ' '; ///< as in TextLayout
   char decimalPoint = '.';
   char lineEnd = '\n';
-  std::size_t dataBegin = 0;      ///< first byte behind comments and header
-  std::uint64_t dataLine = 1;     ///< number of the line that begins there
-  bool countLines = false;        ///< PTS: a lone integer says how many points follow
-  bool guessed = false;           ///< neither a header nor the user named the columns
+  std::size_t dataBegin = 0; ///< first byte behind comments and header
+  std::uint64_t dataLine = 1; ///< number of the line that begins there
+  bool countLines = false; ///< PTS: a lone integer says how many points follow
+  bool guessed = false; ///< neither a header nor the user named the columns
 
   /// `text` is the file, or its beginning; `wanted` the names that the user gave, or empty.
   /// Header   the first line with a word that is no number, or the comment before the first row if

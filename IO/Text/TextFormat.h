@@ -14,9 +14,9 @@ namespace pointfront
 /// What the user says of text files; zero: found by looking at their beginning.
 struct TextChoice
 {
-  char separator = '\0';    ///< as in TextLayout
+  char separator = '\0'; ///< as in TextLayout
   char decimalPoint = '\0'; ///< '.' or ','
-  std::uint64_t skip = 0;   ///< lines at the beginning that are neither header nor rows
+  std::uint64_t skip = 0; ///< lines at the beginning that are neither header nor rows
 };
 
 /// Points as text: XYZ, TXT, CSV, PTS, ASC, one a line; and PTX. What the columns are is said by a

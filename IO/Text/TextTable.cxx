@@ -66,9 +66,11 @@ Result<void> TextTable::index(const TextColumns& columns, const SurveyOptions& s
   rows_.emplace(std::move(*rows));
   if (rows_->badRows() * 2 > rows_->rows() || rows_->rows() == 0)
   {
-    return makeError(Error::Kind::BadFormat, path_ +
+    return makeError(Error::Kind::BadFormat,
+      path_ +
         ": its lines are no points; say how it is written (--columns, --separator, --decimal, "
-        "--skip). " + rows_->complaint());
+        "--skip). " +
+        rows_->complaint());
   }
   warn(columns);
   return {};
@@ -97,8 +99,8 @@ void TextTable::warn(const TextColumns& columns)
   }
 }
 
-Result<std::unique_ptr<PointTable>> TextTable::open(const std::string& path, MemoryMap map,
-  const TextWishes& wishes, const SurveyOptions& survey)
+Result<std::unique_ptr<PointTable>> TextTable::open(
+  const std::string& path, MemoryMap map, const TextWishes& wishes, const SurveyOptions& survey)
 {
   const Result<TextColumns> columns =
     TextColumns::find(beginningOf(map), wishes.columns, path, wishes.choice);

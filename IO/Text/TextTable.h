@@ -26,8 +26,8 @@ class TextTable final : public PointTable
 {
 public:
   /// Errors  of TextColumns::find; BadFormat: more lines are no points than are; Cancelled.
-  static Result<std::unique_ptr<PointTable>> open(const std::string& path, MemoryMap map,
-    const TextWishes& wishes, const SurveyOptions& survey);
+  static Result<std::unique_ptr<PointTable>> open(
+    const std::string& path, MemoryMap map, const TextWishes& wishes, const SurveyOptions& survey);
 
   const std::string& path() const override { return path_; }
   const std::string& format() const override { return format_; }

@@ -52,7 +52,7 @@ struct XYZWriter::State
   std::unique_ptr<OutputFile> file;
   std::vector<Column> columns;
   int decimals[3] = { 0, 0, 0 }; ///< of x, y and z
-  std::string text;              ///< not yet written
+  std::string text; ///< not yet written
 
   Result<void> flush()
   {

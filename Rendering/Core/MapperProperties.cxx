@@ -32,7 +32,7 @@ ColourRequest colourRequestOf(vtkPolyDataMapper& mapper, const StoreDescription&
     request.name = name ? name : "";
   }
   else if (mapper.GetScalarMode() == VTK_SCALAR_MODE_DEFAULT ||
-           mapper.GetScalarMode() == VTK_SCALAR_MODE_USE_POINT_DATA)
+    mapper.GetScalarMode() == VTK_SCALAR_MODE_USE_POINT_DATA)
   {
     vtkDataArray* active = points ? points->GetScalars() : nullptr;
     const char* name = active ? active->GetName() : nullptr;
@@ -48,14 +48,14 @@ ColourRequest colourRequestOf(vtkPolyDataMapper& mapper, const StoreDescription&
   vtkScalarsToColors* table = mapper.GetLookupTable();
   const int vectorMode = table ? table->GetVectorMode() : vtkScalarsToColors::COMPONENT;
   if (mapper.GetColorMode() == VTK_COLOR_MODE_DIRECT_SCALARS ||
-      vectorMode == vtkScalarsToColors::RGBCOLORS)
+    vectorMode == vtkScalarsToColors::RGBCOLORS)
   {
     request.mode = ColourRequest::Mode::Direct;
     if (vectorMode == vtkScalarsToColors::RGBCOLORS)
     {
       const double* range =
         mapper.GetUseLookupTableScalarRange() ? table->GetRange() : mapper.GetScalarRange();
-      request.colourRange = {range[0], range[1]};
+      request.colourRange = { range[0], range[1] };
     }
   }
   else if (mapper.GetColorMode() == VTK_COLOR_MODE_MAP_SCALARS)
@@ -133,8 +133,8 @@ FrameCamera cameraOf(vtkRenderer* renderer, vtkActor* actor)
   const double* point = frame.parallel ? camera->GetFocalPoint() : camera->GetPosition();
   const glm::dvec3 world(point[0], point[1], point[2]);
   const glm::dmat4 worldToView = columnsOf(camera->GetModelViewTransformMatrix());
-  frame.viewToClip = columnsOf(
-    camera->GetProjectionTransformMatrix(renderer->GetTiledAspectRatio(), -1.0, 1.0));
+  frame.viewToClip =
+    columnsOf(camera->GetProjectionTransformMatrix(renderer->GetTiledAspectRatio(), -1.0, 1.0));
   frame.referenceInView = withoutNoise(worldToView, world);
   frame.storeToView = worldToView;
   frame.reference = world;
@@ -144,10 +144,10 @@ FrameCamera cameraOf(vtkRenderer* renderer, vtkActor* actor)
     frame.storeToView = frame.storeToView * columnsOf(actor->GetMatrix());
     vtkNew<vtkMatrix4x4> toStore;
     vtkMatrix4x4::Invert(actor->GetMatrix(), toStore);
-    const double in[4] = {world.x, world.y, world.z, 1.0};
+    const double in[4] = { world.x, world.y, world.z, 1.0 };
     double out[4];
     toStore->MultiplyPoint(in, out);
-    frame.reference = {out[0] / out[3], out[1] / out[3], out[2] / out[3]};
+    frame.reference = { out[0] / out[3], out[1] / out[3], out[2] / out[3] };
   }
   return frame;
 }
@@ -177,8 +177,8 @@ void placeInTile(vtkRenderer* renderer, std::vector<FrameLens>& lenses)
   int size[2];
   int corner[2];
   renderer->GetTiledSizeAndOrigin(&size[0], &size[1], &corner[0], &corner[1]);
-  glm::dvec2 whole;   // of the renderer, pixels of the picture
-  glm::dvec2 shift;   // of the tile in it
+  glm::dvec2 whole; // of the renderer, pixels of the picture
+  glm::dvec2 shift; // of the tile in it
   for (int axis = 0; axis < 2; ++axis)
   {
     const double pixels = double(window->GetActualSize()[axis]) * scale[axis];
@@ -197,8 +197,8 @@ void placeInTile(vtkRenderer* renderer, std::vector<FrameLens>& lenses)
       {
         for (int x = 0; x < part->width; ++x)
         {
-          part->values.push_back(lens.covers(x + int(shift.x), y + int(shift.y), int(whole.x),
-            int(whole.y)));
+          part->values.push_back(
+            lens.covers(x + int(shift.x), y + int(shift.y), int(whole.x), int(whole.y)));
         }
       }
       lens.mask = std::move(part);

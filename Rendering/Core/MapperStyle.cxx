@@ -41,7 +41,7 @@ std::vector<Rgba8> coloursOf(vtkScalarsToColors& table, const std::vector<double
   for (std::size_t i = 0; i < values.size(); ++i, colour += components)
   {
     const unsigned char alpha = components == 4 ? colour[3] : (components == 2 ? colour[1] : 255);
-    colours.push_back({colour[0], colour[grey ? 0 : 1], colour[grey ? 0 : 2], alpha});
+    colours.push_back({ colour[0], colour[grey ? 0 : 1], colour[grey ? 0 : 2], alpha });
   }
   return colours;
 }
@@ -63,7 +63,7 @@ ColourMap sampleIntegers(vtkScalarsToColors& table, const std::array<std::int64_
 {
   ColourMap map;
   map.indexed = true;
-  map.range = {static_cast<double>(integers[0]), static_cast<double>(integers[1])};
+  map.range = { static_cast<double>(integers[0]), static_cast<double>(integers[1]) };
   std::vector<double> values;
   for (std::int64_t value = integers[0] - 1; value <= integers[1] + 1; ++value)
   {
@@ -75,7 +75,7 @@ ColourMap sampleIntegers(vtkScalarsToColors& table, const std::array<std::int64_
 ColourMap sampleRange(vtkScalarsToColors& table)
 {
   ColourMap map;
-  map.range = {table.GetRange()[0], table.GetRange()[1]};
+  map.range = { table.GetRange()[0], table.GetRange()[1] };
   map.logarithmic = table.UsingLogScale() != 0 && map.range[0] > 0.0 && map.range[1] > 0.0;
   const double low = map.logarithmic ? std::log10(map.range[0]) : map.range[0];
   const double high = map.logarithmic ? std::log10(map.range[1]) : map.range[1];
@@ -96,7 +96,7 @@ ColourMap sampleRange(vtkScalarsToColors& table)
 Rgba8 flatColour(vtkActor* actor)
 {
   const double* colour = actor->GetProperty()->GetColor();
-  Rgba8 flat{0, 0, 0, 255};
+  Rgba8 flat{ 0, 0, 0, 255 };
   for (std::size_t c = 0; c < 3; ++c)
   {
     flat[c] = static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(colour[c], 0.0, 1.0)));
@@ -111,8 +111,7 @@ bool hasPlainPointsOnly(const FrameShading& shading, const std::vector<LayerStyl
   const auto plain = [](const std::shared_ptr<const ResolvedStyle>& style)
   {
     return style->technique == Technique::Points && style->filter.empty() && style->lens < 0 &&
-      style->group == 0 &&
-      style->size.mode == SplatSize::Mode::Pixels &&
+      style->group == 0 && style->size.mode == SplatSize::Mode::Pixels &&
       style->second.combination == ColourCombination::None;
   };
   return !shading.lit && shading.eyeDomeStrength == 0.0f && !shading.fillHoles &&
@@ -144,8 +143,8 @@ std::optional<std::vector<LayerStyling>> MapperStyle::resolve(
   }
   if (sheetStore_ != store || !ranges_)
   {
-    ranges_ = std::make_shared<AttributeRanges>(
-      std::vector<std::shared_ptr<const StoredCloud>>{store});
+    ranges_ =
+      std::make_shared<AttributeRanges>(std::vector<std::shared_ptr<const StoredCloud>>{ store });
   }
   sheet_ = sheet;
   sheetStore_ = store;
@@ -185,7 +184,7 @@ std::vector<LayerStyling> MapperStyle::layersOf(vtkPolyDataMapper& mapper, vtkAc
     return *layers;
   }
   const std::size_t count = std::max<std::size_t>(1, store->description().layers.size());
-  return {count, LayerStyling{{update(mapper, actor, pointSizePx, store)}, 1.0}};
+  return { count, LayerStyling{ { update(mapper, actor, pointSizePx, store) }, 1.0 } };
 }
 
 PointColouring MapperStyle::colouringOf(
@@ -202,8 +201,7 @@ PointColouring MapperStyle::colouringOf(
     wantHeights(store);
   }
   const bool heights = heights_ && heights_->store() == store;
-  const auto colouring =
-    PointColouring::choose(description, request, heights ? heights_ : nullptr);
+  const auto colouring = PointColouring::choose(description, request, heights ? heights_ : nullptr);
   if (!colouring && unknownArray_ != request.name)
   {
     unknownArray_ = request.name;
@@ -242,8 +240,8 @@ std::shared_ptr<const ColourMap> MapperStyle::mapOf(
   return map_;
 }
 
-std::shared_ptr<const ResolvedStyle> MapperStyle::update(vtkPolyDataMapper& mapper,
-  vtkActor* actor, double pointSizePx, const std::shared_ptr<const StoredCloud>& store)
+std::shared_ptr<const ResolvedStyle> MapperStyle::update(vtkPolyDataMapper& mapper, vtkActor* actor,
+  double pointSizePx, const std::shared_ptr<const StoredCloud>& store)
 {
   ResolvedStyle style;
   style.colouring = colouringOf(mapper, store);

@@ -43,9 +43,8 @@ public:
 
   /// How a store's layers are drawn: by the sheet, or where that is null or asks for what the store
   /// has not, by the properties.
-  std::vector<LayerStyling> layersOf(vtkPolyDataMapper& mapper, vtkActor* actor,
-    double pointSizePx, const StyleSheet* sheet,
-    const std::shared_ptr<const StoredCloud>& store);
+  std::vector<LayerStyling> layersOf(vtkPolyDataMapper& mapper, vtkActor* actor, double pointSizePx,
+    const StyleSheet* sheet, const std::shared_ptr<const StoredCloud>& store);
   /// By a sheet in the place of the properties. Nothing, and an error to take, where the store does
   /// not have what it asks for.
   std::optional<std::vector<LayerStyling>> resolve(
@@ -78,7 +77,7 @@ private:
   vtkScalarsToColors* mapTable_ = nullptr; ///< that it was sampled from; compared, not used
   vtkMTimeType mapTime_ = 0;
   std::shared_ptr<const ClassHeights> heights_; ///< once they were asked for
-  std::string unknownArray_;                    ///< that has been warned of
+  std::string unknownArray_; ///< that has been warned of
   bool indexedWarned_ = false;
   std::string warning_;
 };

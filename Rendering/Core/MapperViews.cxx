@@ -72,8 +72,7 @@ bool MapperViews::openFront(vtkRenderer* renderer, RendererView& view)
     return false;
   }
   view.Front = std::make_unique<ViewFront>(piece_, store_->GetResidencyShare(),
-    store_->GetStore()->description().schema,
-    perWindow<WindowDemand>(renderer->GetRenderWindow()));
+    store_->GetStore()->description().schema, perWindow<WindowDemand>(renderer->GetRenderWindow()));
   return true;
 }
 
@@ -95,8 +94,7 @@ std::uint64_t MapperViews::pointsOnGpu(vtkWindow* window, std::uint64_t budget) 
   std::uint64_t points = 0;
   for (const auto& [renderer, view] : views_)
   {
-    const bool inside =
-      view.Front && view.Renderer && view.Renderer->GetRenderWindow() == window;
+    const bool inside = view.Front && view.Renderer && view.Renderer->GetRenderWindow() == window;
     points += inside ? view.Front->pointsOnGpu(budget) : 0;
   }
   return points;
@@ -120,8 +118,8 @@ bool MapperViews::needsRender()
   return needed;
 }
 
-bool MapperViews::follow(vtkRenderer* renderer, const std::function<FrameDemand()>& demand,
-  const LayersOf& layersOf)
+bool MapperViews::follow(
+  vtkRenderer* renderer, const std::function<FrameDemand()>& demand, const LayersOf& layersOf)
 {
   // Between frames only: the fronts of a frame refer to their store.
   if (!store_ || !store_->IsPreview() || !of(renderer).NewFrame)

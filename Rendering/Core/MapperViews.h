@@ -1,8 +1,8 @@
 #pragma once
 
+#include "pointfront/Views/ViewFront.h"
 #include "RendererView.h"
 #include "StoreSuccession.h"
-#include "pointfront/Views/ViewFront.h"
 #include "vtkPointFrontStore.h"
 
 #include <vtkSmartPointer.h>
@@ -25,7 +25,10 @@ class MapperViews
 {
 public:
   /// `unseen` is called after a frame that showed nothing of it, when no renderer does any more.
-  explicit MapperViews(std::function<void()> unseen) : unseen_(std::move(unseen)) {}
+  explicit MapperViews(std::function<void()> unseen)
+    : unseen_(std::move(unseen))
+  {
+  }
 
   /// Another store, or none: what was seen of the one before is gone.
   void setStore(vtkSmartPointer<vtkPointFrontStore> store);
@@ -48,8 +51,8 @@ public:
   using LayersOf = std::function<std::vector<LayerLimits>(vtkPointFrontStore&)>;
   /// Goes over to the next version of the preview that is drawn, or to the finished store, once
   /// that shows as much of all views. For a frame at rest. True when it did.
-  bool follow(vtkRenderer* renderer, const std::function<FrameDemand()>& demand,
-    const LayersOf& layersOf);
+  bool follow(
+    vtkRenderer* renderer, const std::function<FrameDemand()>& demand, const LayersOf& layersOf);
 
 private:
   bool isSeen() const;

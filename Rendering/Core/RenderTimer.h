@@ -15,7 +15,10 @@ class RenderTimer
 {
 public:
   /// `wanted` is asked some thirty times a second; true: the window is rendered.
-  explicit RenderTimer(std::function<bool()> wanted) : wanted_(std::move(wanted)) {}
+  explicit RenderTimer(std::function<bool()> wanted)
+    : wanted_(std::move(wanted))
+  {
+  }
   ~RenderTimer() { stop(); }
   RenderTimer(const RenderTimer&) = delete;
   RenderTimer& operator=(const RenderTimer&) = delete;

@@ -26,7 +26,8 @@ bool isInteracting(vtkRenderer* renderer)
 }
 
 RendererView::RendererView(vtkRenderer* renderer, std::function<void()> unseen)
-    : Renderer(renderer), Unseen(std::move(unseen))
+  : Renderer(renderer)
+  , Unseen(std::move(unseen))
 {
   vtkNew<vtkCallbackCommand> begin;
   begin->SetClientData(this);
@@ -83,14 +84,13 @@ bool RendererView::NeedsRender()
   }
   const std::chrono::duration<double, std::milli> passed = Clock::now() - this->DrawnAt;
   const bool paused = !this->NewFrame && !this->Demand.interacting && !this->Demand.complete &&
-                      passed.count() < pauseOfDrawings * this->DrawingMs;
+    passed.count() < pauseOfDrawings * this->DrawingMs;
   if (paused && this->Front->wantsUpdate())
   {
     this->Front->update(this->Demand);
     this->Ahead = true;
   }
-  this->Due =
-    (this->Ahead || this->Front->wantsUpdate() || this->Growth.growing()) &&
+  this->Due = (this->Ahead || this->Front->wantsUpdate() || this->Growth.growing()) &&
     !(paused && this->Front->expectsMore());
   return this->Due;
 }

@@ -28,17 +28,17 @@ struct RendererView
   std::unique_ptr<ViewFront> Front;
   /// Of the frame that is being drawn. It pins its nodes, so it goes with the frame.
   std::optional<FramePlan> Plan;
-  DetailGrowth Growth;  ///< what is shown of what the front draws
+  DetailGrowth Growth; ///< what is shown of what the front draws
   bool NewFrame = true; ///< the renderer began a frame, and this mapper has not been drawn in it
-  bool Seen = true;     ///< the mapper was drawn in the renderer's last frame
+  bool Seen = true; ///< the mapper was drawn in the renderer's last frame
   bool FirstDrawing = false;
   bool UploadsLeft = false;
   bool Complete = false;
   bool Announced = false; ///< ViewCompleteEvent was invoked for that view
-  bool Ahead = false;     ///< the front was moved since the last frame
-  bool Due = false;       ///< NeedsRender() said so, and no frame was drawn since
+  bool Ahead = false; ///< the front was moved since the last frame
+  bool Due = false; ///< NeedsRender() said so, and no frame was drawn since
   Clock::time_point DrawnAt; ///< end of the last frame's first drawing
-  double DrawingMs = 0.0;    ///< what a frame took lately
+  double DrawingMs = 0.0; ///< what a frame took lately
   FrameDemand Demand; ///< of the last frame, its view in the store's coordinates
 
   /// `unseen` is called after a frame of the renderer without this mapper: its actor is hidden, out

@@ -7,10 +7,10 @@
 namespace pointfront
 {
 
-StoreSuccession::StoreSuccession(vtkSmartPointer<vtkPointFrontStore> successor,
-  vtkPointFrontStore& preview, int piece, int pieces)
-    : store_(std::move(successor)), piece_(std::make_shared<HierarchyPiece>(
-                                      store_->GetStore()->hierarchy(), piece, pieces))
+StoreSuccession::StoreSuccession(
+  vtkSmartPointer<vtkPointFrontStore> successor, vtkPointFrontStore& preview, int piece, int pieces)
+  : store_(std::move(successor))
+  , piece_(std::make_shared<HierarchyPiece>(store_->GetStore()->hierarchy(), piece, pieces))
 {
   store_->SetHostMemoryBudget(preview.GetHostMemoryBudget());
 }
@@ -26,8 +26,8 @@ void StoreSuccession::advance(vtkRenderer* renderer, FrameDemand demand)
   }
   // Its layers may be others: each gets what any of the preview's has.
   ColumnSelection columns = demand.columns.any();
-  const auto unknown = std::remove_if(columns.begin(), columns.end(),
-    [&](std::uint32_t column) { return column >= schema.size(); });
+  const auto unknown = std::remove_if(
+    columns.begin(), columns.end(), [&](std::uint32_t column) { return column >= schema.size(); });
   columns.erase(unknown, columns.end());
   demand.columns = columns;
   front->update(demand);

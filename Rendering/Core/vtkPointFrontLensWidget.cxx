@@ -6,8 +6,8 @@
 #include <vtkCommand.h>
 #include <vtkIndent.h>
 #include <vtkObjectFactory.h>
-#include <vtkRenderWindowInteractor.h>
 #include <vtkRenderer.h>
+#include <vtkRenderWindowInteractor.h>
 
 #include <algorithm>
 
@@ -40,7 +40,10 @@ void vtkPointFrontLensWidget::SetStyle(vtkPointFrontStyle* style)
   }
 }
 
-vtkPointFrontStyle* vtkPointFrontLensWidget::GetStyle() const { return this->Style; }
+vtkPointFrontStyle* vtkPointFrontLensWidget::GetStyle() const
+{
+  return this->Style;
+}
 
 void vtkPointFrontLensWidget::SetEnabled(int enabling)
 {
@@ -55,15 +58,15 @@ void vtkPointFrontLensWidget::SetEnabled(int enabling)
   }
   if (enabling && !this->HasLens())
   {
-    vtkErrorMacro("there is no lens " << this->Lens
-                                      << ": set a style, and add a lens to it (AddCircleLens)");
+    vtkErrorMacro(
+      "there is no lens " << this->Lens << ": set a style, and add a lens to it (AddCircleLens)");
     return;
   }
   this->Enabled = enabling ? 1 : 0;
   if (enabling)
   {
-    for (const unsigned long event : {vtkCommand::MouseMoveEvent,
-           vtkCommand::MouseWheelForwardEvent, vtkCommand::MouseWheelBackwardEvent})
+    for (const unsigned long event : { vtkCommand::MouseMoveEvent,
+           vtkCommand::MouseWheelForwardEvent, vtkCommand::MouseWheelBackwardEvent })
     {
       this->Interactor->AddObserver(event, this->EventCallbackCommand, this->Priority);
     }
@@ -82,8 +85,7 @@ bool vtkPointFrontLensWidget::HasLens() const
   return this->Style && this->Lens >= 0 && this->Lens < this->Style->GetNumberOfLenses();
 }
 
-void vtkPointFrontLensWidget::ProcessEvents(
-  vtkObject*, unsigned long event, void* client, void*)
+void vtkPointFrontLensWidget::ProcessEvents(vtkObject*, unsigned long event, void* client, void*)
 {
   auto* const self = static_cast<vtkPointFrontLensWidget*>(client);
   if (!self->HasLens())
@@ -96,8 +98,7 @@ void vtkPointFrontLensWidget::ProcessEvents(
   }
   else if (self->Interactor->GetControlKey())
   {
-    self->Resize(
-      event == vtkCommand::MouseWheelForwardEvent ? factorOfWheel : 1.0 / factorOfWheel);
+    self->Resize(event == vtkCommand::MouseWheelForwardEvent ? factorOfWheel : 1.0 / factorOfWheel);
     self->EventCallbackCommand->SetAbortFlag(1);
   }
 }
@@ -123,8 +124,7 @@ void vtkPointFrontLensWidget::Resize(double factor)
   if (radius > 0.0)
   {
     const double most = std::max(this->MinimumRadius, this->MaximumRadius);
-    this->Style->SetLensRadius(
-      this->Lens, std::clamp(factor * radius, this->MinimumRadius, most));
+    this->Style->SetLensRadius(this->Lens, std::clamp(factor * radius, this->MinimumRadius, most));
     this->Show();
   }
 }

@@ -48,7 +48,8 @@ double millisecondsSince(Clock::time_point begin)
 struct vtkPointFrontMapper::Content
 {
   explicit Content(vtkPointFrontMapper* owner)
-      : Views([owner] { owner->LeaveScreen(); }), Timer([owner] { return owner->Announce(); })
+    : Views([owner] { owner->LeaveScreen(); })
+    , Timer([owner] { return owner->Announce(); })
   {
   }
 
@@ -63,7 +64,10 @@ struct vtkPointFrontMapper::Content
   pointfront::RenderTimer Timer;
 };
 
-vtkPointFrontMapper::vtkPointFrontMapper() : Internals(new Content(this)) {}
+vtkPointFrontMapper::vtkPointFrontMapper()
+  : Internals(new Content(this))
+{
+}
 
 vtkPointFrontMapper::~vtkPointFrontMapper()
 {
@@ -164,8 +168,7 @@ bool vtkPointFrontMapper::HasTranslucentPolygonalGeometry()
 {
   vtkPointFrontStore* store = this->GetStore();
   vtkScalarsToColors* table = this->GetLookupTable();
-  if (!store || !table ||
-    !this->Internals->Style.colouringOf(*this, store->GetStore()).usesTable())
+  if (!store || !table || !this->Internals->Style.colouringOf(*this, store->GetStore()).usesTable())
   {
     return false;
   }
@@ -289,9 +292,8 @@ pointfront::FrameDemand vtkPointFrontMapper::GetDemand(vtkRenderer* renderer, vt
   demand.targetErrorPx = this->TargetError;
   demand.pointBudget = static_cast<std::uint64_t>(this->PointBudget);
   demand.gpuBytes = this->DrawsFromHostMemory(actor) ? 0 : this->GPUMemoryBudget;
-  demand.method = this->DetailSelection == VIEW_SPECIFIC
-                    ? pointfront::DetailMethod::ViewSpecific
-                    : pointfront::DetailMethod::RenderingFront;
+  demand.method = this->DetailSelection == VIEW_SPECIFIC ? pointfront::DetailMethod::ViewSpecific
+                                                         : pointfront::DetailMethod::RenderingFront;
   if (this->DetailSelection == VIEW_SPECIFIC) // it looks at every open store
   {
     demand.overviewPoints =
@@ -347,7 +349,7 @@ pointfront::FramePlan* vtkPointFrontMapper::PlanFrame(vtkRenderer* renderer, vtk
     if (content.StoreName.empty())
     {
       vtkErrorMacro("the input names no store (field data \""
-                    << vtkPointFrontStore::FieldName() << "\"); connect a vtkPointFrontReader");
+        << vtkPointFrontStore::FieldName() << "\"); connect a vtkPointFrontReader");
     }
     return nullptr;
   }
@@ -403,7 +405,7 @@ void vtkPointFrontMapper::FinishFrame(
   view.UploadsLeft = uploadsLeft;
   // In motion the frame time limits the front: at rest the same view may show more.
   view.Complete = delta.complete && !uploadsLeft && view.Growth.whole() &&
-                  (!IsInteracting(renderer) || delta.errorPx <= this->TargetError);
+    (!IsInteracting(renderer) || delta.errorPx <= this->TargetError);
   pointfront::FrameStatistics& statistics = this->GetStatistics();
   const double frontMilliseconds = statistics.frontMilliseconds;
   statistics.take(delta);
@@ -426,8 +428,8 @@ void vtkPointFrontMapper::RecordFrame(
   if (view && view->Front)
   {
     view->DrawingMs = milliseconds;
-    view->Front->recordFrame(static_cast<std::uint64_t>(points),
-      static_cast<std::uint32_t>(moves), milliseconds);
+    view->Front->recordFrame(
+      static_cast<std::uint64_t>(points), static_cast<std::uint32_t>(moves), milliseconds);
   }
 }
 
@@ -461,7 +463,10 @@ bool vtkPointFrontMapper::IsAheadOfFrame(vtkRenderer* renderer) const
   return view && view->Ahead;
 }
 
-bool vtkPointFrontMapper::NeedsRender() { return this->Internals->Views.needsRender(); }
+bool vtkPointFrontMapper::NeedsRender()
+{
+  return this->Internals->Views.needsRender();
+}
 
 void vtkPointFrontMapper::RenderWhenDataArrives(vtkRenderWindowInteractor* interactor)
 {
@@ -493,24 +498,21 @@ pointfront::FrameStatistics& vtkPointFrontMapper::GetStatistics() const
   {                                                                                                \
     return static_cast<Type>(this->GetStatistics().field);                                         \
   }
-pointfrontGetLast(PointsDrawn, vtkIdType, points)
-pointfrontGetLast(NodesDrawn, vtkIdType, nodes)
-pointfrontGetLast(FrontLength, vtkIdType, frontLength)
-pointfrontGetLast(Moves, vtkIdType, moves)
-pointfrontGetLast(Requests, vtkIdType, requests)
-pointfrontGetLast(Error, double, errorPx)
-pointfrontGetLast(Threshold, double, thresholdPx)
-pointfrontGetLast(FrontTime, double, frontMilliseconds)
-pointfrontGetLast(GPUBytes, vtkTypeInt64, gpuBytes)
-pointfrontGetLast(WindowGPUBytes, vtkTypeInt64, windowGpuBytes)
-pointfrontGetLast(Complete, bool, complete)
-pointfrontGetLast(LimitedByPoints, bool, limitedByPoints)
-pointfrontGetLast(LimitedByGPUMemory, bool, limitedByGpuMemory)
-pointfrontGetLast(LimitedByMemory, bool, limitedByMemory)
-pointfrontGetLast(FailedNodes, vtkIdType, failedNodes)
+pointfrontGetLast(PointsDrawn, vtkIdType, points) pointfrontGetLast(NodesDrawn, vtkIdType, nodes)
+  pointfrontGetLast(FrontLength, vtkIdType, frontLength) pointfrontGetLast(Moves, vtkIdType, moves)
+    pointfrontGetLast(Requests, vtkIdType, requests) pointfrontGetLast(Error, double, errorPx)
+      pointfrontGetLast(Threshold, double, thresholdPx)
+        pointfrontGetLast(FrontTime, double, frontMilliseconds)
+          pointfrontGetLast(GPUBytes, vtkTypeInt64, gpuBytes)
+            pointfrontGetLast(WindowGPUBytes, vtkTypeInt64, windowGpuBytes)
+              pointfrontGetLast(Complete, bool, complete)
+                pointfrontGetLast(LimitedByPoints, bool, limitedByPoints)
+                  pointfrontGetLast(LimitedByGPUMemory, bool, limitedByGpuMemory)
+                    pointfrontGetLast(LimitedByMemory, bool, limitedByMemory)
+                      pointfrontGetLast(FailedNodes, vtkIdType, failedNodes)
 #undef pointfrontGetLast
 
-void vtkPointFrontMapper::PrintSelf(ostream& os, vtkIndent indent)
+                        void vtkPointFrontMapper::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "TargetError: " << this->TargetError << "\n";

@@ -30,8 +30,8 @@
 #include <cstdint> // for counts
 #include <memory> // for its content
 #include <string> // for names
-  // for the views
-#include <vector>  // for layers
+// for the views
+#include <vector> // for layers
 
 class vtkPointFrontStore;
 class vtkPointFrontStyle;
@@ -304,7 +304,10 @@ public:
 
   /// Of the whole store, at once, before anything is loaded.
   double* GetBounds() VTK_SIZEHINT(6) override;
-  void GetBounds(double bounds[6]) override { this->Superclass::GetBounds(bounds); }
+  void GetBounds(double bounds[6]) override
+  {
+    this->Superclass::GetBounds(bounds);
+  }
 
   /// True when the lookup table has transparent colours.
   bool HasTranslucentPolygonalGeometry() override;
@@ -328,15 +331,16 @@ protected:
   bool IsAheadOfFrame(vtkRenderer* renderer) const;
   /// What the first drawing of a frame came to; `keptPoints`: drawn beside the front's, as they
   /// were visible before; `uploadsLeft` when not all points of the front are on the GPU yet.
-  void FinishFrame(
-    vtkRenderer* renderer, vtkIdType points, vtkIdType keptPoints, bool uploadsLeft);
+  void FinishFrame(vtkRenderer* renderer, vtkIdType points, vtkIdType keptPoints, bool uploadsLeft);
   /// What an earlier frame of that renderer drew and cost, CPU and GPU, as soon as that is known.
-  void RecordFrame(
-    vtkRenderer* renderer, vtkIdType points, vtkIdType moves, double milliseconds);
+  void RecordFrame(vtkRenderer* renderer, vtkIdType points, vtkIdType moves, double milliseconds);
   /// A renderer drew a frame, and none shows this mapper any more: what it has on the GPU is idle.
   virtual void LeaveScreen();
   /// Points are drawn from host memory: no GPU memory is taken for them.
-  virtual bool DrawsFromHostMemory(vtkActor*) { return false; }
+  virtual bool DrawsFromHostMemory(vtkActor*)
+  {
+    return false;
+  }
   /// Points of some pixels, in one colour each, all of them, and nothing done to the picture.
   bool HasPlainPointsOnly(vtkActor* actor);
   /// How the store's layers are drawn, by their numbers.

@@ -21,7 +21,7 @@ void ColourTable::update(vtkOpenGLRenderWindow* window, std::shared_ptr<const Co
     return;
   }
   map_ = std::move(map);
-  std::vector<Rgba8> texels{map_->usesBelow ? map_->below : map_->entries.front()};
+  std::vector<Rgba8> texels{ map_->usesBelow ? map_->below : map_->entries.front() };
   texels.insert(texels.end(), map_->entries.begin(), map_->entries.end());
   texels.push_back(map_->usesAbove ? map_->above : map_->entries.back());
   texels.push_back(map_->missing);

@@ -34,7 +34,10 @@ DrawBatches::~DrawBatches()
   }
 }
 
-DrawBatches::DrawBatches() : inTurn_(glIsAProgram()) {}
+DrawBatches::DrawBatches()
+  : inTurn_(glIsAProgram())
+{
+}
 
 void DrawBatches::draw(const int* firsts, const int* counts, std::size_t runs)
 {

@@ -37,7 +37,7 @@ public:
     }
     if (!same)
     {
-      stretches_.push_back({block, firsts_.size(), firsts_.size()});
+      stretches_.push_back({ block, firsts_.size(), firsts_.size() });
     }
     firsts_.push_back(first);
     counts_.push_back(count);

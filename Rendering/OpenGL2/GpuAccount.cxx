@@ -7,7 +7,10 @@
 namespace pointfront
 {
 
-void GpuAccount::join(GpuPool& pool) { members_.push_back({&pool, false}); }
+void GpuAccount::join(GpuPool& pool)
+{
+  members_.push_back({ &pool, false });
+}
 
 void GpuAccount::leave(GpuPool& pool)
 {
@@ -18,8 +21,8 @@ void GpuAccount::leave(GpuPool& pool)
 
 void GpuAccount::draw(const GpuPool& pool, bool lowered)
 {
-  const auto own = std::find_if(members_.begin(), members_.end(),
-    [&](const Member& member) { return member.pool == &pool; });
+  const auto own = std::find_if(
+    members_.begin(), members_.end(), [&](const Member& member) { return member.pool == &pool; });
   if (own->drawn)
   {
     for (Member& member : members_)

@@ -29,8 +29,8 @@ void deleteBuffer(std::uint32_t& buffer)
 void write(std::uint32_t buffer, std::int64_t at, std::int64_t bytes, const void* data)
 {
   glBindBuffer(GL_COPY_WRITE_BUFFER, buffer);
-  glBufferSubData(GL_COPY_WRITE_BUFFER, static_cast<GLintptr>(at),
-    static_cast<GLsizeiptr>(bytes), data);
+  glBufferSubData(
+    GL_COPY_WRITE_BUFFER, static_cast<GLintptr>(at), static_cast<GLsizeiptr>(bytes), data);
   glBindBuffer(GL_COPY_WRITE_BUFFER, 0);
 }
 
@@ -50,8 +50,9 @@ void copySlot(std::uint32_t from, std::int64_t fromSlot, std::uint32_t to, std::
 } // namespace
 
 GpuBlock::GpuBlock(std::uint32_t first, std::uint32_t slots, const GpuStreams& streams)
-    : first_(first), slots_(slots),
-      positions_(makeBuffer(std::int64_t(slots) * gpuSlotPoints * GpuSlotBytes::position))
+  : first_(first)
+  , slots_(slots)
+  , positions_(makeBuffer(std::int64_t(slots) * gpuSlotPoints * GpuSlotBytes::position))
 {
   setStreams(streams);
 }

@@ -40,8 +40,8 @@ public:
   // Of `count` points from point `offset` on of a slot of the pool.
   void writePositions(
     std::uint32_t slot, std::uint32_t offset, std::uint32_t count, const void* steps) const;
-  void writeValues(GpuStream stream, std::uint32_t slot, std::uint32_t offset,
-    std::uint32_t count, const void* values) const;
+  void writeValues(GpuStream stream, std::uint32_t slot, std::uint32_t offset, std::uint32_t count,
+    const void* values) const;
   /// All of slot `from` of another block into slot `to` of this.
   void copy(const GpuBlock& other, std::uint32_t from, std::uint32_t to) const;
 

@@ -76,7 +76,10 @@ void GpuPool::charge(std::int64_t bytes)
   account_->charge(bytes);
 }
 
-std::int64_t GpuPool::windowBytes() const { return account_ ? account_->bytes() : 0; }
+std::int64_t GpuPool::windowBytes() const
+{
+  return account_ ? account_->bytes() : 0;
+}
 
 bool GpuPool::tooMuch(std::int64_t more) const
 {
@@ -125,12 +128,14 @@ void GpuPool::beginFrame(const Limits& limits)
   limits_ = limits;
   limits_.views = std::max(1u, limits.views);
   const std::uint64_t slots = std::min<std::uint64_t>(gpuSlotsOf(limits.points), 1u << 24);
-  slotLimit_ =
-    limits.points == 0 ? 0 : static_cast<std::uint32_t>(slots + slots / cacheShare + 1);
+  slotLimit_ = limits.points == 0 ? 0 : static_cast<std::uint32_t>(slots + slots / cacheShare + 1);
   account_->draw(*this, lowered_);
 }
 
-void GpuPool::leaveScreen() { frame_ += limits_.views; }
+void GpuPool::leaveScreen()
+{
+  frame_ += limits_.views;
+}
 
 bool GpuPool::makeRoom(const DrawList& draw)
 {
@@ -190,8 +195,7 @@ void GpuPool::keepWithin(const DrawList& draw)
     const auto farthest = entries_.find((*item)->node->node);
     if (farthest != entries_.end())
     {
-      free_.insert(
-        free_.end(), farthest->second.slots.begin(), farthest->second.slots.end());
+      free_.insert(free_.end(), farthest->second.slots.begin(), farthest->second.slots.end());
       entries_.erase(farthest);
     }
     while (tooMuch(0) && giveBack())
@@ -326,8 +330,7 @@ bool GpuPool::grow(std::uint64_t slots)
   {
     return false;
   }
-  blocks_.emplace_back(
-    slotCount(), static_cast<std::uint32_t>(size), wanted_);
+  blocks_.emplace_back(slotCount(), static_cast<std::uint32_t>(size), wanted_);
   charge(blocks_.back().bytes());
   for (std::uint32_t slot = blocks_.back().end(); slot-- > blocks_.back().first();)
   {
@@ -391,8 +394,8 @@ const GpuPool::Entry* GpuPool::find(NodeIndex node) const
   return found == entries_.end() || found->second.points == 0 ? nullptr : &found->second;
 }
 
-const GpuPool::Entry* GpuPool::bring(const NodeColumns& node, std::uint32_t count,
-  const FramePlan& plan, std::int64_t& bytesLeft)
+const GpuPool::Entry* GpuPool::bring(
+  const NodeColumns& node, std::uint32_t count, const FramePlan& plan, std::int64_t& bytesLeft)
 {
   Entry& entry = entries_[node.node];
   entry.frame = frame_;
@@ -461,8 +464,8 @@ void GpuPool::uploadPositions(const NodeColumns& node, Entry& entry, std::uint32
   entry.points = std::max(entry.points, end);
 }
 
-void GpuPool::uploadStream(GpuStream stream, const NodeColumns& node, const FramePlan& plan,
-  Entry& entry, std::uint32_t end)
+void GpuPool::uploadStream(
+  GpuStream stream, const NodeColumns& node, const FramePlan& plan, Entry& entry, std::uint32_t end)
 {
   std::uint32_t& filled = entry.filled[static_cast<std::size_t>(stream)];
   staging_.clear();

@@ -47,7 +47,7 @@ public:
     std::array<std::uint32_t, gpuStreamCount> filled{};
     std::uint16_t layer = 0;
     std::uint32_t wanted = 0; ///< most points that a view draws of it
-    std::uint64_t frame = 0;  ///< last drawn
+    std::uint64_t frame = 0; ///< last drawn
 
     std::uint32_t values(GpuStream stream) const
     {
@@ -58,8 +58,8 @@ public:
   struct Limits
   {
     std::uint64_t points = 0; ///< drawn at a time; 0: no limit
-    std::int64_t bytes = 0;   ///< of all pools of the window; 0: no limit
-    std::uint32_t views = 1;  ///< that take turns
+    std::int64_t bytes = 0; ///< of all pools of the window; 0: no limit
+    std::uint32_t views = 1; ///< that take turns
   };
 
   GpuPool() = default;
@@ -86,11 +86,10 @@ public:
   /// Brings the first `count` points of `node` and their streams, as far as the node has the
   /// columns, to the GPU. Positions beyond `bytesLeft` wait for another frame; bytesLeft falls by
   /// what is uploaded. Null when nothing of the node is there yet.
-  const Entry* bring(const NodeColumns& node, std::uint32_t count, const FramePlan& plan,
-    std::int64_t& bytesLeft);
+  const Entry* bring(
+    const NodeColumns& node, std::uint32_t count, const FramePlan& plan, std::int64_t& bytesLeft);
   /// Points [first, end) of a node, to be drawn.
-  void addRuns(
-    const Entry& entry, std::uint32_t first, std::uint32_t end, DrawRuns& runs) const;
+  void addRuns(const Entry& entry, std::uint32_t first, std::uint32_t end, DrawRuns& runs) const;
   /// Of a layer by its number.
   const LayerStreams& streamsOf(std::uint16_t layer) const;
   /// All that a node's layer wants of its first `count` points is there.
@@ -133,7 +132,7 @@ private:
 
   std::shared_ptr<GpuAccount> account_;
   std::vector<LayerStreams> streams_; ///< by layer
-  GpuStreams wanted_;                 ///< by one of them
+  GpuStreams wanted_; ///< by one of them
   std::vector<GpuBlock> blocks_; ///< each goes on where the one before ends
   std::unordered_map<NodeIndex, Entry> entries_;
   std::vector<std::uint32_t> free_; ///< slots

@@ -23,9 +23,8 @@ bool covers(const NodeColumns& node, const ColumnSelection& columns)
 
 const std::byte* columnOf(const NodeColumns& node, const std::optional<std::uint32_t>& column)
 {
-  const auto place = column
-    ? std::find(node.selection.begin(), node.selection.end(), *column)
-    : node.selection.end();
+  const auto place = column ? std::find(node.selection.begin(), node.selection.end(), *column)
+                            : node.selection.end();
   return place == node.selection.end()
     ? nullptr
     : node.columns[static_cast<std::size_t>(place - node.selection.begin())].data();
@@ -49,10 +48,10 @@ ColumnSelection markedColumns(const LayerStreams::Styles& styles)
   ColumnSelection all;
   for (const auto& style : styles)
   {
-    for (const ColumnSelection& some : { style->colouring.columns(), style->filter.columns(),
-           style->second.combination == ColourCombination::None
-             ? ColumnSelection()
-             : style->second.colouring.columns() })
+    for (const ColumnSelection& some :
+      { style->colouring.columns(), style->filter.columns(),
+        style->second.combination == ColourCombination::None ? ColumnSelection()
+                                                             : style->second.colouring.columns() })
     {
       all.insert(all.end(), some.begin(), some.end());
     }
@@ -254,8 +253,8 @@ void LayerStreams::encode(GpuStream stream, const FramePlan& plan, const NodeCol
   }
 }
 
-void LayerStreams::encodeShapes(const FramePlan& plan, const NodeColumns& node,
-  std::uint32_t first, std::uint32_t count, std::vector<std::uint32_t>& values) const
+void LayerStreams::encodeShapes(const FramePlan& plan, const NodeColumns& node, std::uint32_t first,
+  std::uint32_t count, std::vector<std::uint32_t>& values) const
 {
   const std::byte* const normals = columnOf(node, normal_);
   const std::byte* const radii = columnOf(node, radius_);

@@ -32,8 +32,8 @@ public:
   /// The node was read with what the stream is made of.
   bool coveredBy(const NodeColumns& node, GpuStream stream) const;
   /// Of points [first, first + count) of a node that covers the stream, appended.
-  void encode(GpuStream stream, const FramePlan& plan, const NodeColumns& node,
-    std::uint32_t first, std::uint32_t count, std::vector<std::uint32_t>& values) const;
+  void encode(GpuStream stream, const FramePlan& plan, const NodeColumns& node, std::uint32_t first,
+    std::uint32_t count, std::vector<std::uint32_t>& values) const;
 
   /// Marks are of 8 bits, one column of sizes serves all styles of a layer, and so many lenses have
   /// streams.

@@ -13,16 +13,15 @@ namespace pointfront
 /// Whether a pass of a selection wants ids of points; `state`: a vtkHardwareSelector pass.
 inline bool drawsIds(int state)
 {
-  return state >= vtkHardwareSelector::POINT_ID_LOW24 &&
-    state != vtkHardwareSelector::PROCESS_PASS;
+  return state >= vtkHardwareSelector::POINT_ID_LOW24 && state != vtkHardwareSelector::PROCESS_PASS;
 }
 
 /// Writes 24 of an id's 48 bits as a colour; `id`: a GLSL ivec2 of its low and high 24 bits.
 inline void replacePicking(
   const std::map<vtkShader::Type, vtkShader*>& shaders, int state, const std::string& id)
 {
-  const bool high = state == vtkHardwareSelector::POINT_ID_HIGH24 ||
-    state == vtkHardwareSelector::CELL_ID_HIGH24;
+  const bool high =
+    state == vtkHardwareSelector::POINT_ID_HIGH24 || state == vtkHardwareSelector::CELL_ID_HIGH24;
   std::string source = shaders.at(vtkShader::Fragment)->GetSource();
   vtkShaderProgram::Substitute(source, "//VTK::Picking::Impl",
     "  ivec3 idBytes = (ivec3(" + id + (high ? ".y" : ".x") +

@@ -17,7 +17,7 @@ namespace pointfront
 ///            vectors".
 namespace shapeCode
 {
-constexpr std::uint32_t centre = 2047;   ///< code of 0; -1 is code 0, 1 is code 4094
+constexpr std::uint32_t centre = 2047; ///< code of 0; -1 is code 0, 1 is code 4094
 constexpr std::uint32_t noNormal = 4095; ///< in the place of the first number
 
 /// `normal` may be of any length; one that is zero, not finite, or so far from unit length that it

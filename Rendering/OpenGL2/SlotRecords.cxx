@@ -80,8 +80,8 @@ void SlotRecords::load(vtkOpenGLRenderWindow* window, Column& column, bool integ
     column.texture->SetContext(window);
     column.texture->SetInternalFormat(integers ? GL_RGBA32I : GL_RGBA32F);
     column.texture->SetFormat(integers ? GL_RGBA_INTEGER : GL_RGBA);
-    column.texture->CreateTextureBuffer(static_cast<unsigned int>(values / 4), 4,
-      integers ? VTK_INT : VTK_FLOAT, column.buffer);
+    column.texture->CreateTextureBuffer(
+      static_cast<unsigned int>(values / 4), 4, integers ? VTK_INT : VTK_FLOAT, column.buffer);
   }
 }
 
@@ -100,8 +100,7 @@ void SlotRecords::activate(vtkShaderProgram* program)
     if (program->IsUniformUsed(names[number].uniform))
     {
       columns_[number].texture->Activate();
-      program->SetUniformi(
-        names[number].uniform, columns_[number].texture->GetTextureUnit());
+      program->SetUniformi(names[number].uniform, columns_[number].texture->GetTextureUnit());
     }
   }
   program->SetUniformi("slotPoints", static_cast<int>(GpuPool::slotPoints));

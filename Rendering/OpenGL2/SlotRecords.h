@@ -30,11 +30,11 @@ public:
   struct Record
   {
     SlotOrigin origin;
-    bool coloured = false;     ///< the slots' values are there
-    bool shaped = false;       ///< normals and codes of radii are there
-    bool sized = false;        ///< radii of their own are there
+    bool coloured = false; ///< the slots' values are there
+    bool shaped = false; ///< normals and codes of radii are there
+    bool sized = false; ///< radii of their own are there
     std::uint64_t firstId = 0; ///< 48-bit id of the node's first point
-    glm::vec4 place{ 0.0f };   ///< camera space of the reference's steps; w: set() does that
+    glm::vec4 place{ 0.0f }; ///< camera space of the reference's steps; w: set() does that
     PointGrowth growth;
     /// World units: what closes the node, scale of a point's own, 1 where none is below what closes
     /// it, what closes its sparsest part.

@@ -130,7 +130,7 @@ void SoftwarePicture::leaveScreen()
 void SoftwarePicture::release(vtkOpenGLRenderWindow* window)
 {
   for (vtkTextureObject* texture :
-    {colour_.GetPointer(), depth_.GetPointer(), idTexture_.GetPointer()})
+    { colour_.GetPointer(), depth_.GetPointer(), idTexture_.GetPointer() })
   {
     texture->ReleaseGraphicsResources(window);
   }

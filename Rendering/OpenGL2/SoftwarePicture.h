@@ -53,7 +53,7 @@ private:
 
   std::map<vtkRenderer*, Picture> pictures_;
   const SoftwareTarget* last_ = nullptr;
-  int originPx_[2] = {0, 0};
+  int originPx_[2] = { 0, 0 };
   std::vector<float> ids_; ///< 2 a pixel: low and high 24 bits
   vtkNew<vtkTextureObject> colour_;
   vtkNew<vtkTextureObject> depth_;

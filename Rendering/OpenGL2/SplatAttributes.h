@@ -19,8 +19,8 @@ class SplatAttributes
 public:
   SplatAttributes(vtkShaderProgram* program, PointColouring::Kind colour, GpuStream values)
     : positions_(locationOf(program, "positionSteps"))
-    , values_(locationOf(
-        program, colour == PointColouring::Kind::Direct ? "pointColour" : "pointValue"))
+    , values_(
+        locationOf(program, colour == PointColouring::Kind::Direct ? "pointColour" : "pointValue"))
     , shapes_(locationOf(program, "pointShape"))
     , sizes_(locationOf(program, "pointSize"))
     , heights_(locationOf(program, "pointHeight"))
@@ -67,8 +67,7 @@ private:
     if (location >= 0)
     {
       glBindBuffer(GL_ARRAY_BUFFER, buffer);
-      glVertexAttribIPointer(
-        static_cast<GLuint>(location), size, GL_UNSIGNED_INT, 0, nullptr);
+      glVertexAttribIPointer(static_cast<GLuint>(location), size, GL_UNSIGNED_INT, 0, nullptr);
     }
   }
   void numbers(GLint location, GLint size, GLenum type, std::uint32_t buffer) const

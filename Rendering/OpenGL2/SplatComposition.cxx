@@ -39,8 +39,8 @@ std::string fragmentOf(Step step, std::size_t count, bool ids)
     read += "colours[" + n + "] = texelFetch(groupColours" + n + ", at, 0);\n";
     read += "depths[" + n + "] = texelFetch(groupDepths" + n + ", at, 0).rg;\n";
     declared += ids ? "uniform sampler2D groupIds" + n + ";\n" : std::string();
-    read += "ids[" + n + "] = " +
-      (ids ? "texelFetch(groupIds" + n + ", at, 0).xy;\n" : std::string("vec2(0.0);\n"));
+    read += "ids[" + n +
+      "] = " + (ids ? "texelFetch(groupIds" + n + ", at, 0).xy;\n" : std::string("vec2(0.0);\n"));
   }
   vtkShaderProgram::Substitute(source, "//POINTFRONT::Define::Dec",
     "#define POINTFRONT_STEP " + std::to_string(static_cast<int>(step)) +
@@ -160,8 +160,7 @@ SplatTextures SplatComposition::draw(const std::string& fragment, std::vector<In
   return { target.colours, target.depths, ids_ ? target.ids.GetPointer() : nullptr };
 }
 
-SplatTextures SplatComposition::blend(
-  const SplatTextures& base, const std::vector<Group>& groups)
+SplatTextures SplatComposition::blend(const SplatTextures& base, const std::vector<Group>& groups)
 {
   if (groups.empty())
   {
@@ -185,9 +184,7 @@ SplatTextures SplatComposition::blend(
   }
   return draw(fragmentOf(Step::Blend, groups.size(), ids_), inputs, base,
     [&](vtkShaderProgram* program)
-    {
-      program->SetUniform1fv("opacities", static_cast<int>(opacities.size()), opacities.data());
-    });
+    { program->SetUniform1fv("opacities", static_cast<int>(opacities.size()), opacities.data()); });
 }
 
 SplatTextures SplatComposition::putLens(const SplatTextures& base, const SplatTextures& inside,
@@ -207,8 +204,8 @@ SplatTextures SplatComposition::putLens(const SplatTextures& base, const SplatTe
                                                                : base.depths;
   const SplatTextures& seen = inside.colours ? inside : base;
   return draw(fragmentOf(Step::Lens, 1, ids_),
-    { { "insideColours", seen.colours }, { "insideDepths", seen.depths },
-      { "insideIds", seen.ids }, { "lensMask", mask } },
+    { { "insideColours", seen.colours }, { "insideDepths", seen.depths }, { "insideIds", seen.ids },
+      { "lensMask", mask } },
     base,
     [&](vtkShaderProgram* program)
     {

@@ -22,7 +22,7 @@ struct SplatTextures
 {
   vtkTextureObject* colours = nullptr;
   vtkTextureObject* depths = nullptr; ///< r: from the eye's plane; g: highlight
-  vtkTextureObject* ids = nullptr;    ///< in selections
+  vtkTextureObject* ids = nullptr; ///< in selections
 };
 
 /// Puts pictures of the parts of a plan together: the twin of SoftwareComposition.
@@ -52,8 +52,7 @@ public:
   /// class is made by.
   SplatTextures putLens(const SplatTextures& base, const SplatTextures& inside,
     const FrameLens& lens, vtkTextureObject* around);
-  SplatTextures highlight(
-    const SplatTextures& base, const std::vector<FrameHighlight>& highlights);
+  SplatTextures highlight(const SplatTextures& base, const std::vector<FrameHighlight>& highlights);
 
   void release(vtkOpenGLRenderWindow* window);
 

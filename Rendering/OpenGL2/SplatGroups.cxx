@@ -35,8 +35,8 @@ float largestSplat(const RasterItem& item, const RasterItems& items)
     float depth = camera.matrix[2][3];
     for (int axis = 0; axis < 3; ++axis)
     {
-      const double step = items.plan().grid.scale[axis] *
-        std::ldexp(1.0, static_cast<int>(item.positions.shift));
+      const double step =
+        items.plan().grid.scale[axis] * std::ldexp(1.0, static_cast<int>(item.positions.shift));
       const double steps =
         static_cast<double>(node.halfSize[axis]) / step - item.positions.steps[axis];
       depth += camera.matrix[2][axis] * static_cast<float>(steps);
@@ -59,11 +59,11 @@ SlotRecords::Record recordOf(const RasterItem& item, const FramePlan& plan)
   SlotRecords::Record record;
   record.origin = SlotOrigin::of(plan.grid, node.halfSize, node.origin, plan.camera.reference);
   record.firstId = node.firstPoint;
-  record.place = glm::vec4(
-    item.camera.matrix[0][3], item.camera.matrix[1][3], item.camera.matrix[2][3], 0.0f);
+  record.place =
+    glm::vec4(item.camera.matrix[0][3], item.camera.matrix[1][3], item.camera.matrix[2][3], 0.0f);
   const bool bounded = !item.item->refined && !node.leaf;
-  record.radii = glm::vec4(item.item->closingRadius, item.item->radiusScale,
-    bounded ? 1.0f : 0.0f, item.item->sparsestRadius);
+  record.radii = glm::vec4(item.item->closingRadius, item.item->radiusScale, bounded ? 1.0f : 0.0f,
+    item.item->sparsestRadius);
   record.growth = item.item->growth;
   return record;
 }
@@ -114,8 +114,8 @@ std::int64_t SplatGroups::list(const FramePlan& plan, const GpuPool& pool, float
   return points;
 }
 
-std::int64_t SplatGroups::add(const RasterItems& items, const RasterItem& item,
-  const GpuPool& pool, float largestPointPx, SlotRecords& records)
+std::int64_t SplatGroups::add(const RasterItems& items, const RasterItem& item, const GpuPool& pool,
+  float largestPointPx, SlotRecords& records)
 {
   const NodeColumns& node = item.node();
   const GpuPool::Entry* const entry = pool.find(node.node);
@@ -142,8 +142,8 @@ std::int64_t SplatGroups::add(const RasterItems& items, const RasterItem& item,
     return 0; // heights are on their way
   }
   const bool quads = walls || largestSplat(item, items) > largestPointPx;
-  listed_.push_back({ { &items, &item, record.shaped, record.sized, quads, mark, {}, {} }, entry,
-    record, end, 0 });
+  listed_.push_back(
+    { { &items, &item, record.shaped, record.sized, quads, mark, {}, {} }, entry, record, end, 0 });
   return walls ? 0 : end - item.item->first;
 }
 
@@ -168,8 +168,7 @@ SplatGroups::Group& SplatGroups::groupOf(const Group& like)
 /// points are there.
 bool SplatGroups::continuesLast(const FramePlan& plan)
 {
-  if (drawn_.empty() || !sameCamera(camera_, plan.camera) ||
-    clippingPlanes_ != plan.clippingPlanes)
+  if (drawn_.empty() || !sameCamera(camera_, plan.camera) || clippingPlanes_ != plan.clippingPlanes)
   {
     return false;
   }
@@ -194,8 +193,8 @@ bool SplatGroups::Listed::continues(const Drawn& old) const
   const RasterItem& item = *group.first;
   return item.item->node == old.node && *item.style == *old.style && item.passes == old.passes &&
     item.item->first == old.first && end >= old.end && record.radii == old.radii &&
-    record.growth == old.growth && record.coloured == old.coloured &&
-    record.shaped == old.shaped && record.sized == old.sized;
+    record.growth == old.growth && record.coloured == old.coloured && record.shaped == old.shaped &&
+    record.sized == old.sized;
 }
 
 void SplatGroups::keep(const FramePlan& plan)

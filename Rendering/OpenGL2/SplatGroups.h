@@ -29,7 +29,7 @@ public:
     bool shaped;
     bool sized;
     bool quads; ///< larger than points of GL can be, or far from square
-    int mark;   ///< GpuStreams; -1: the layer has none
+    int mark; ///< GpuStreams; -1: the layer has none
     DrawRuns all;
     DrawRuns added; ///< that the last picture does not have
   };

@@ -41,8 +41,8 @@ SplatVariant variantOf(
   variant.marked = group.mark >= 0;
   variant.colour = variant.marked ? PointColouring::Kind::Direct : style.colouring.kind;
   variant.shaped = group.shaped;
-  variant.normals = !item.passes.walls() &&
-    group.shaped && style.normalColumn && style.orientation == SplatOrientation::Normal;
+  variant.normals = !item.passes.walls() && group.shaped && style.normalColumn &&
+    style.orientation == SplatOrientation::Normal;
   variant.radius = radiusSourceOf(item, group.shaped, group.sized);
   variant.lit = parts.lit && !second;
   variant.ids = parts.ids && !second;
@@ -84,8 +84,7 @@ std::int64_t SplatPart::draw(const SplatFrame& frame, const FramePlan& plan,
   const PixelRectangle within = limits ? *limits : whole;
   const bool mine = target_->owner() == this && renderer_ == frame.renderer &&
     parts_.ids == frame.ids && parts_.lit == plan.shading.lit && sameRectangle(limits_, within);
-  const std::int64_t points =
-    groups_.list(plan, *frame.pool, sizes[1], mine, tools_.records);
+  const std::int64_t points = groups_.list(plan, *frame.pool, sizes[1], mine, tools_.records);
   parts_ = { plan.camera.width, plan.camera.height, plan.shading.lit, frame.ids,
     groups_.blended() };
   limits_ = within;
@@ -153,8 +152,8 @@ void SplatPart::drawGroups(const SplatFrame& frame, bool second, bool addedOnly)
   }
 }
 
-void SplatPart::drawGroup(const SplatFrame& frame, const SplatGroups::Group& group,
-  const DrawRuns& runs, bool second)
+void SplatPart::drawGroup(
+  const SplatFrame& frame, const SplatGroups::Group& group, const DrawRuns& runs, bool second)
 {
   const RasterItem& item = *group.first;
   const ResolvedStyle& style = *item.style;
@@ -183,16 +182,15 @@ void SplatPart::drawGroup(const SplatFrame& frame, const SplatGroups::Group& gro
   }
   setTexture(program, "seenDepths", target_->seenDepths());
   {
-    const SplatAttributes attributes(
-      program, variant.colour, valueStreamOf(valueSetOf(style)));
+    const SplatAttributes attributes(program, variant.colour, valueStreamOf(valueSetOf(style)));
     DrawBatches batches;
     for (const DrawRuns::Stretch& stretch : runs.stretches())
     {
       const GpuBlock& block = frame.pool->blocks()[stretch.block];
       attributes.read(block);
       program->SetUniformi("firstSlot", static_cast<int>(block.first()));
-      batches.draw(runs.firsts() + stretch.begin, runs.counts() + stretch.begin,
-        stretch.end - stretch.begin);
+      batches.draw(
+        runs.firsts() + stretch.begin, runs.counts() + stretch.begin, stretch.end - stretch.begin);
     }
   }
   if (second)

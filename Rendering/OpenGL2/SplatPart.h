@@ -72,15 +72,15 @@ public:
 private:
   void drawInto(const SplatFrame& frame, const FramePlan& plan, bool goesOn);
   void drawGroups(const SplatFrame& frame, bool second, bool addedOnly);
-  void drawGroup(const SplatFrame& frame, const SplatGroups::Group& group, const DrawRuns& runs,
-    bool second);
+  void drawGroup(
+    const SplatFrame& frame, const SplatGroups::Group& group, const DrawRuns& runs, bool second);
   void resolve(vtkOpenGLRenderWindow* window, const FramePlan& plan);
 
   SplatTools& tools_;
   std::shared_ptr<SplatTarget> target_; ///< all clouds of the window may draw into it in turn
   SplatTarget::Parts parts_;
   SplatGroups groups_;
-  FrameShading shading_;            ///< of the last picture
+  FrameShading shading_; ///< of the last picture
   vtkRenderer* renderer_ = nullptr; ///< compared, not used
   PixelRectangle limits_;
   PixelRectangle shown_;

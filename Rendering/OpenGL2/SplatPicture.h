@@ -39,8 +39,8 @@ public:
   std::int64_t draw(vtkOpenGLRenderWindow* window, vtkRenderer* renderer, FramePlan& plan,
     const GpuPool& pool, const TableOf& tableOf, bool ids);
   /// What was drawn last, as if it were geometry of the actor.
-  void handOver(vtkRenderer* renderer, vtkActor* actor, const FramePlan& plan,
-    std::int64_t storePoints);
+  void handOver(
+    vtkRenderer* renderer, vtkActor* actor, const FramePlan& plan, std::int64_t storePoints);
   void release(vtkOpenGLRenderWindow* window);
 
 private:

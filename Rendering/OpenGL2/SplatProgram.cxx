@@ -36,8 +36,7 @@ std::string definitions(const SplatVariant& variant)
     define("PICKING", variant.ids) + define("QUADS", variant.quads);
 }
 
-std::string filled(
-  const char* source, const std::string& defines, bool table, bool walls = false)
+std::string filled(const char* source, const std::string& defines, bool table, bool walls = false)
 {
   std::string result = source;
   const std::pair<const char*, std::string> parts[] = {

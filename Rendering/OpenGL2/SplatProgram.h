@@ -42,8 +42,8 @@ struct SplatVariant
 
   auto key() const
   {
-    return std::make_tuple(square, shape, parallel, second, colour, marked, shaped, normals, radius,
-      lit, ids, quads);
+    return std::make_tuple(
+      square, shape, parallel, second, colour, marked, shaped, normals, radius, lit, ids, quads);
   }
   friend bool operator<(const SplatVariant& a, const SplatVariant& b) { return a.key() < b.key(); }
 };
@@ -56,8 +56,7 @@ public:
   /// Bound and ready for uniforms; null where GL does not compile it, which VTK tells.
   vtkShaderProgram* use(vtkOpenGLRenderWindow* window, const SplatVariant& variant);
   /// Of the pass that makes a picture of what was drawn.
-  vtkShaderProgram* useResolve(
-    vtkOpenGLRenderWindow* window, bool blended, bool lit, bool eyeDome);
+  vtkShaderProgram* useResolve(vtkOpenGLRenderWindow* window, bool blended, bool lit, bool eyeDome);
 
 private:
   struct Sources

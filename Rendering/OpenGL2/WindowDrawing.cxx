@@ -37,7 +37,7 @@ bool FrameTimer::begin(double cpuMilliseconds, std::int64_t moves)
   {
     return false;
   }
-  frame_ = {0, moves, 0.0};
+  frame_ = { 0, moves, 0.0 };
   cpuMs_ = cpuMilliseconds;
   gpu_.Start();
   return true;
@@ -56,13 +56,13 @@ std::optional<FrameTimer::Frame> FrameTimer::take()
   {
     return std::nullopt;
   }
-  frame_.milliseconds =
-    cpuMs_ + std::max<double>(drawingMs_, gpu_.GetElapsedMilliseconds());
+  frame_.milliseconds = cpuMs_ + std::max<double>(drawingMs_, gpu_.GetElapsedMilliseconds());
   gpu_.Reset();
   return frame_;
 }
 
-WindowDrawing::WindowDrawing(vtkOpenGLRenderWindow* window) : window_(window)
+WindowDrawing::WindowDrawing(vtkOpenGLRenderWindow* window)
+  : window_(window)
 {
   resources_->SetReleaseFunction([this] { this->release(); });
 }
@@ -143,7 +143,7 @@ void WindowDrawing::order(const FramePlan& plan)
     for (const PlanItem& item : batch.items)
     {
       const float distance = plan.batches.size() > 1 ? distanceTo(item, plan) : 0.0f;
-      places.push_back({distance, &item, batch.style.get()});
+      places.push_back({ distance, &item, batch.style.get() });
     }
   }
   if (plan.batches.size() > 1)
@@ -201,13 +201,13 @@ void WindowDrawing::chooseStreams(const FramePlan& plan)
 
 DrawRuns& WindowDrawing::runsOf(const std::shared_ptr<const ResolvedStyle>& style)
 {
-  const auto found = std::find_if(groups_.begin(), groups_.end(),
-    [&](const StyleGroup& group) { return group.style == style; });
+  const auto found = std::find_if(
+    groups_.begin(), groups_.end(), [&](const StyleGroup& group) { return group.style == style; });
   if (found != groups_.end())
   {
     return found->runs;
   }
-  groups_.push_back({style, {}});
+  groups_.push_back({ style, {} });
   return groups_.back().runs;
 }
 
@@ -232,10 +232,8 @@ std::int64_t WindowDrawing::list(const FramePlan& plan)
       continue;
     }
     SlotRecords::Record record;
-    record.origin =
-      SlotOrigin::of(plan.grid, node.halfSize, node.origin, plan.camera.reference);
-    record.coloured =
-      styles_[i]->colouring.hasValues() && entry->values(GpuStream::Value) >= end;
+    record.origin = SlotOrigin::of(plan.grid, node.halfSize, node.origin, plan.camera.reference);
+    record.coloured = styles_[i]->colouring.hasValues() && entry->values(GpuStream::Value) >= end;
     record.firstId = node.firstPoint;
     records_.set(entry->slots, record);
     const auto group = std::find_if(groups_.begin(), groups_.end(),
@@ -261,8 +259,7 @@ void WindowDrawing::dropTables(const FramePlan& plan)
   tables_.erase(std::remove_if(tables_.begin(), tables_.end(), unused), tables_.end());
 }
 
-std::int64_t WindowDrawing::drawSplats(
-  vtkRenderer* renderer, FramePlan& plan, bool ids)
+std::int64_t WindowDrawing::drawSplats(vtkRenderer* renderer, FramePlan& plan, bool ids)
 {
   this->dropTables(plan);
   return splats_.draw(

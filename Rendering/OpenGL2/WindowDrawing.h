@@ -125,7 +125,7 @@ private:
   SoftwarePicture picture_;
   SplatPicture splats_;
   std::map<vtkRenderer*, FrameTimer> timers_;
-  GpuPool::DrawList order_;                  ///< of the plan, near to far
+  GpuPool::DrawList order_; ///< of the plan, near to far
   std::vector<const ResolvedStyle*> styles_; ///< of the items of order_
   std::vector<StyleGroup> groups_;
 };

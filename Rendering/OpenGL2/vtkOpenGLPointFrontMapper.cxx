@@ -60,7 +60,8 @@ bool hasTooManyGroups(const std::vector<pointfront::LayerStyling>& layers)
       }
     }
   }
-  return std::any_of(groups.begin(), groups.end(), [](const auto& ofLens)
+  return std::any_of(groups.begin(), groups.end(),
+    [](const auto& ofLens)
     { return ofLens.second.size() > pointfront::SplatComposition::mostGroups; });
 }
 
@@ -84,7 +85,10 @@ struct vtkOpenGLPointFrontMapper::Content
   }
 };
 
-vtkOpenGLPointFrontMapper::vtkOpenGLPointFrontMapper() : Internals(new Content) {}
+vtkOpenGLPointFrontMapper::vtkOpenGLPointFrontMapper()
+  : Internals(new Content)
+{
+}
 
 vtkOpenGLPointFrontMapper::~vtkOpenGLPointFrontMapper() = default;
 
@@ -132,8 +136,8 @@ void vtkOpenGLPointFrontMapper::RenderPiece(vtkRenderer* renderer, vtkActor* act
   }
   const bool uploadsLeft = !host && this->Upload(renderer, drawing, *plan);
   pointfront::FrameTimer& timer = drawing.timerOf(renderer);
-  const bool timed = first && plan->pointCount() > 0 &&
-    timer.begin(millisecondsSince(begin), this->GetLastMoves());
+  const bool timed =
+    first && plan->pointCount() > 0 && timer.begin(millisecondsSince(begin), this->GetLastMoves());
   const auto drawn = Clock::now();
   const vtkIdType points = host ? this->HandOver(renderer, actor, drawing, *plan)
                                 : this->DrawPoints(renderer, actor, drawing, *plan);
@@ -178,13 +182,12 @@ vtkIdType vtkOpenGLPointFrontMapper::DrawPoints(vtkRenderer* renderer, vtkActor*
     }
     return points;
   }
-  const vtkIdType points =
-    drawing.drawSplats(renderer, plan, renderer->GetSelector() != nullptr);
+  const vtkIdType points = drawing.drawSplats(renderer, plan, renderer->GetSelector() != nullptr);
   if (points == pointfront::SplatPicture::noTarget)
   {
     vtkErrorMacro("OpenGL cannot draw splats into textures of "
-                  << plan.camera.width << " x " << plan.camera.height
-                  << " pixels (32-bit floats); use a smaller window or the software back end");
+      << plan.camera.width << " x " << plan.camera.height
+      << " pixels (32-bit floats); use a smaller window or the software back end");
     return 0;
   }
   if (points > 0)
@@ -195,8 +198,8 @@ vtkIdType vtkOpenGLPointFrontMapper::DrawPoints(vtkRenderer* renderer, vtkActor*
 }
 
 /// What a frame's first drawing brings to the GPU. True when something is left over.
-bool vtkOpenGLPointFrontMapper::Upload(vtkRenderer* renderer, pointfront::WindowDrawing& drawing,
-  const pointfront::FramePlan& plan)
+bool vtkOpenGLPointFrontMapper::Upload(
+  vtkRenderer* renderer, pointfront::WindowDrawing& drawing, const pointfront::FramePlan& plan)
 {
   constexpr std::int64_t noLimit = std::numeric_limits<std::int64_t>::max();
   if (!this->IsFirstDrawing(renderer))
@@ -208,8 +211,8 @@ bool vtkOpenGLPointFrontMapper::Upload(vtkRenderer* renderer, pointfront::Window
     return false;
   }
   vtkWindow* window = renderer->GetRenderWindow();
-  drawing.pool().beginFrame({static_cast<std::uint64_t>(this->GetPointsOnGPU(window)),
-    this->GPUMemoryBudget, this->GetNumberOfViews(window)});
+  drawing.pool().beginFrame({ static_cast<std::uint64_t>(this->GetPointsOnGPU(window)),
+    this->GPUMemoryBudget, this->GetNumberOfViews(window) });
   return drawing.upload(plan, IsInteracting(renderer) ? this->UploadLimit : noLimit);
 }
 
@@ -261,7 +264,8 @@ bool vtkOpenGLPointFrontMapper::DrawsByOpenGL(vtkActor* actor)
   }
   const std::vector<pointfront::LayerStyling> layers = this->GetStyling(actor);
   return !sheet->shading.fillHoles && !hasTooManyGroups(layers) &&
-    std::all_of(layers.begin(), layers.end(), [](const pointfront::LayerStyling& layer)
+    std::all_of(layers.begin(), layers.end(),
+      [](const pointfront::LayerStyling& layer)
       { return pointfront::LayerStreams::canDraw(layer.styles); });
 }
 

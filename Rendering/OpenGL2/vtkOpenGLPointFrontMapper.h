@@ -22,7 +22,7 @@ namespace pointfront
 {
 class FrameTimer;
 class WindowDrawing;
-}
+} // namespace pointfront
 
 class POINTFRONTRENDERINGOPENGL2_EXPORT vtkOpenGLPointFrontMapper : public vtkPointFrontMapper
 {
@@ -54,8 +54,8 @@ private:
     const pointfront::FramePlan& plan);
   vtkIdType DrawPoints(vtkRenderer* renderer, vtkActor* actor, pointfront::WindowDrawing& drawing,
     pointfront::FramePlan& plan);
-  bool Upload(vtkRenderer* renderer, pointfront::WindowDrawing& drawing,
-    const pointfront::FramePlan& plan);
+  bool Upload(
+    vtkRenderer* renderer, pointfront::WindowDrawing& drawing, const pointfront::FramePlan& plan);
   void ReadTimer(vtkRenderer* renderer, pointfront::FrameTimer& timer);
 
   struct Content;

@@ -45,14 +45,13 @@ constexpr float selectionOffset = -2.0f;
 bool selectsPoints(vtkRenderer* renderer)
 {
   vtkHardwareSelector* selector = renderer->GetSelector();
-  return selector &&
-    selector->GetFieldAssociation() == vtkDataObject::FIELD_ASSOCIATION_POINTS;
+  return selector && selector->GetFieldAssociation() == vtkDataObject::FIELD_ASSOCIATION_POINTS;
 }
 
 std::string definitions(pointfront::PointColouring::Kind kind, bool ids)
 {
   return "#define POINTFRONT_COLOUR " + std::to_string(static_cast<int>(kind)) +
-         "\n#define POINTFRONT_PICKING " + (ids ? "1\n" : "0\n");
+    "\n#define POINTFRONT_PICKING " + (ids ? "1\n" : "0\n");
 }
 
 /// World to view without what VTK's matrix lost: `reference` to view is the origin where it is the
@@ -184,8 +183,8 @@ void vtkOpenGLPointFrontPass::SetMapperShaderParameters(
   cellBO.AttributeUpdateTime.Modified();
   const pointfront::PointDrawing& drawing = *this->Drawing;
   drawing.records->activate(cellBO.Program);
-  const float stepSize[3] = {static_cast<float>(drawing.stepSize.x),
-    static_cast<float>(drawing.stepSize.y), static_cast<float>(drawing.stepSize.z)};
+  const float stepSize[3] = { static_cast<float>(drawing.stepSize.x),
+    static_cast<float>(drawing.stepSize.y), static_cast<float>(drawing.stepSize.z) };
   cellBO.Program->SetUniform3f("stepSize", stepSize);
   float flat[4];
   std::transform(drawing.flat.begin(), drawing.flat.end(), flat,
@@ -284,7 +283,7 @@ void vtkOpenGLPointFrontPass::DrawBlocks(vtkOpenGLHelper& cellBO)
   const GLint positions = glGetAttribLocation(program, "positionSteps");
   const GLint colours = glGetAttribLocation(program, "pointColour");
   const GLint values = glGetAttribLocation(program, "pointValue");
-  for (const GLint location : {positions, colours, values})
+  for (const GLint location : { positions, colours, values })
   {
     if (location >= 0)
     {

@@ -10,8 +10,8 @@
 #ifndef vtkOpenGLPointFrontPass_h
 #define vtkOpenGLPointFrontPass_h
 
-#include "DrawRuns.h"                        // for the draw list
-#include "pointfront/Style/ColourMap.h"      // for colours
+#include "DrawRuns.h" // for the draw list
+#include "pointfront/Style/ColourMap.h" // for colours
 #include "pointfront/Style/PointColouring.h" // for the colouring
 #include "vtkOpenGLPolyDataMapper.h"
 
@@ -31,12 +31,12 @@ struct PointDrawing
   SlotRecords* records = nullptr;
   ColourTable* table = nullptr; ///< when the colouring uses one
   PointColouring colouring;
-  glm::dvec3 reference{0.0}; ///< store coordinates that the records' origins are relative to
-  glm::dvec3 stepSize{1.0};  ///< store units of a grid step
-  double pointSize = 0.0;    ///< pixels; 0: the property's
+  glm::dvec3 reference{ 0.0 }; ///< store coordinates that the records' origins are relative to
+  glm::dvec3 stepSize{ 1.0 }; ///< store units of a grid step
+  double pointSize = 0.0; ///< pixels; 0: the property's
   vtkIdType storePoints = 0; ///< ids are below it
   const DrawRuns* runs = nullptr;
-  Rgba8 flat{255, 255, 255, 255}; ///< of points without a value
+  Rgba8 flat{ 255, 255, 255, 255 }; ///< of points without a value
 };
 } // namespace pointfront
 

@@ -107,16 +107,16 @@ void vtkOpenGLPointFrontPicture::SetMapperShaderParameters(
     program->SetUniformi("pictureIds", drawing.ids->GetTextureUnit());
   }
   program->SetUniform2i("pictureOrigin", drawing.originPx);
-  const float size[2] = {
-    static_cast<float>(drawing.camera->width), static_cast<float>(drawing.camera->height)};
+  const float size[2] = { static_cast<float>(drawing.camera->width),
+    static_cast<float>(drawing.camera->height) };
   program->SetUniform2f("pictureSize", size);
   const pointfront::PixelRectangle& place = drawing.place;
-  const int corner[2] = {drawing.textures.left, drawing.textures.bottom};
+  const int corner[2] = { drawing.textures.left, drawing.textures.bottom };
   program->SetUniform2i("pictureCorner", corner);
-  const float edges[4] = {2.0f * static_cast<float>(place.left) / size[0] - 1.0f,
+  const float edges[4] = { 2.0f * static_cast<float>(place.left) / size[0] - 1.0f,
     2.0f * static_cast<float>(place.bottom) / size[1] - 1.0f,
     2.0f * static_cast<float>(place.right) / size[0] - 1.0f,
-    2.0f * static_cast<float>(place.top) / size[1] - 1.0f};
+    2.0f * static_cast<float>(place.top) / size[1] - 1.0f };
   program->SetUniform4f("pictureEdges", edges);
   vtkNew<vtkMatrix4x4> viewToClip; // stored as GL wants it: columns
   for (int column = 0; column < 4; ++column)
@@ -141,8 +141,8 @@ void vtkOpenGLPointFrontPicture::RenderPieceDraw(vtkRenderer* ren, vtkActor* act
 {
   this->DrawingVertices = false;
   this->DrawingSelection = false;
-  vtkTextureObject* const textures[] = {
-    this->Drawing->colour, this->Drawing->depth, this->Drawing->ids};
+  vtkTextureObject* const textures[] = { this->Drawing->colour, this->Drawing->depth,
+    this->Drawing->ids };
   for (vtkTextureObject* texture : textures)
   {
     if (texture)

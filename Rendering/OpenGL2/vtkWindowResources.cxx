@@ -5,7 +5,10 @@
 
 vtkStandardNewMacro(vtkWindowResources);
 
-vtkWindowResources::vtkWindowResources() { this->SetInputData(this->NoInput); }
+vtkWindowResources::vtkWindowResources()
+{
+  this->SetInputData(this->NoInput);
+}
 
 vtkWindowResources::~vtkWindowResources() = default;
 

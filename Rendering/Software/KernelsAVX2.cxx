@@ -7,7 +7,7 @@ namespace pointfront
 {
 
 extern const RasterKernels kernelsAVX2;
-const RasterKernels kernelsAVX2 = { "AVX2", project, drawSquares, loadRadii,
-  loadNormals, setUp, drawSplats, addSplats };
+const RasterKernels kernelsAVX2 = { "AVX2", project, drawSquares, loadRadii, loadNormals, setUp,
+  drawSplats, addSplats };
 
 } // namespace pointfront

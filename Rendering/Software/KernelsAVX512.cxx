@@ -7,7 +7,7 @@ namespace pointfront
 {
 
 extern const RasterKernels kernelsAVX512;
-const RasterKernels kernelsAVX512 = { "AVX-512", project, drawSquares, loadRadii,
-  loadNormals, setUp, drawSplats, addSplats };
+const RasterKernels kernelsAVX512 = { "AVX-512", project, drawSquares, loadRadii, loadNormals,
+  setUp, drawSplats, addSplats };
 
 } // namespace pointfront

@@ -7,7 +7,7 @@ namespace pointfront
 {
 
 extern const RasterKernels kernelsPortable;
-const RasterKernels kernelsPortable = { "portable", project, drawSquares, loadRadii,
-  loadNormals, setUp, drawSplats, addSplats };
+const RasterKernels kernelsPortable = { "portable", project, drawSquares, loadRadii, loadNormals,
+  setUp, drawSplats, addSplats };
 
 } // namespace pointfront

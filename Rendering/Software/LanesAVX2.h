@@ -40,8 +40,7 @@ inline void keepNearest4(RasterKey* keys, __m128i depthBits, __m256i index, __m1
   const __m256i old = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(keys));
   const __m256i key =
     _mm256_or_si256(_mm256_slli_epi64(_mm256_cvtepu32_epi64(depthBits), 32), index);
-  const __m256i nearer =
-    _mm256_and_si256(_mm256_cmpgt_epi64(old, key), _mm256_cvtepi32_epi64(m));
+  const __m256i nearer = _mm256_and_si256(_mm256_cmpgt_epi64(old, key), _mm256_cvtepi32_epi64(m));
   _mm256_storeu_si256(reinterpret_cast<__m256i*>(keys), _mm256_blendv_epi8(old, key, nearer));
 }
 inline void keepNearest4x2(
@@ -51,8 +50,7 @@ inline void keepNearest4x2(
   const __m256i mask = _mm256_castps_si256(m.v);
   const __m256i low = _mm256_set1_epi64x(static_cast<long long>(index));
   keepNearest4(lower, _mm256_castsi256_si128(bits), low, _mm256_castsi256_si128(mask));
-  keepNearest4(
-    upper, _mm256_extracti128_si256(bits, 1), low, _mm256_extracti128_si256(mask, 1));
+  keepNearest4(upper, _mm256_extracti128_si256(bits, 1), low, _mm256_extracti128_si256(mask, 1));
 }
 inline void keepNearest8(RasterKey* keys, Lanes depth, std::uint32_t index, LaneMask m)
 {
@@ -104,8 +102,7 @@ inline int listFragments(RasterBatch& batch, int listed, const std::int32_t* off
     _mm256_loadu_si256(reinterpret_cast<const __m256i*>(offsets)), _mm256_set1_epi32(further));
   _mm256_storeu_si256(reinterpret_cast<__m256i*>(batch.fragmentOffset + listed),
     _mm256_permutevar8x32_epi32(offset, lanes));
-  _mm256_storeu_ps(
-    batch.fragmentDepth + listed, _mm256_permutevar8x32_ps(depth.v, lanes));
+  _mm256_storeu_ps(batch.fragmentDepth + listed, _mm256_permutevar8x32_ps(depth.v, lanes));
   _mm256_storeu_si256(reinterpret_cast<__m256i*>(batch.fragmentIndex + listed),
     _mm256_add_epi32(lanes, _mm256_set1_epi32(static_cast<int>(index))));
   return listed + __builtin_popcount(mask);

@@ -37,9 +37,9 @@ inline Lanes choose(LaneMask m, Lanes a, Lanes b)
 
 inline void keepNearest8(RasterKey* keys, Lanes depth, std::uint32_t index, LaneMask m)
 {
-  const __m512i key = _mm512_or_si512(
-    _mm512_slli_epi64(_mm512_cvtepu32_epi64(_mm256_castps_si256(depth.v)), 32),
-    _mm512_set1_epi64(static_cast<long long>(index)));
+  const __m512i key =
+    _mm512_or_si512(_mm512_slli_epi64(_mm512_cvtepu32_epi64(_mm256_castps_si256(depth.v)), 32),
+      _mm512_set1_epi64(static_cast<long long>(index)));
   const __m512i old = _mm512_loadu_si512(keys);
   _mm512_storeu_si512(keys, _mm512_mask_min_epi64(old, m.v, old, key));
 }
@@ -52,9 +52,9 @@ inline void keepNearest4(RasterKey* keys, __m256i key, unsigned m)
 inline void keepNearest4x2(
   RasterKey* lower, RasterKey* upper, Lanes depth, std::uint32_t index, LaneMask m)
 {
-  const __m512i key = _mm512_or_si512(
-    _mm512_slli_epi64(_mm512_cvtepu32_epi64(_mm256_castps_si256(depth.v)), 32),
-    _mm512_set1_epi64(static_cast<long long>(index)));
+  const __m512i key =
+    _mm512_or_si512(_mm512_slli_epi64(_mm512_cvtepu32_epi64(_mm256_castps_si256(depth.v)), 32),
+      _mm512_set1_epi64(static_cast<long long>(index)));
   keepNearest4(lower, _mm512_castsi512_si256(key), m.v & 15u);
   keepNearest4(upper, _mm512_extracti64x4_epi64(key, 1), static_cast<unsigned>(m.v) >> 4);
 }

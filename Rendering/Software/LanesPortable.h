@@ -23,12 +23,12 @@ struct LaneWeights
   std::int32_t v[8];
 };
 
-#define POINTFRONT_EACH_LANE(expression) \
-  Lanes r; \
-  for (int i = 0; i < 8; ++i) \
-  { \
-    r.v[i] = (expression); \
-  } \
+#define POINTFRONT_EACH_LANE(expression)                                                           \
+  Lanes r;                                                                                         \
+  for (int i = 0; i < 8; ++i)                                                                      \
+  {                                                                                                \
+    r.v[i] = (expression);                                                                         \
+  }                                                                                                \
   return r
 
 inline Lanes all(float x)
@@ -140,8 +140,8 @@ inline void keepNearest8(
 {
   keepNearest(keys, depth, index, m, 0, 8);
 }
-inline void keepNearest4x2(RasterKey* lower, RasterKey* upper, const Lanes& depth,
-  std::uint32_t index, const LaneMask& m)
+inline void keepNearest4x2(
+  RasterKey* lower, RasterKey* upper, const Lanes& depth, std::uint32_t index, const LaneMask& m)
 {
   keepNearest(lower, depth, index, m, 0, 4);
   keepNearest(upper, depth, index, m, 4, 4);
@@ -240,8 +240,8 @@ inline void addSums8(std::uint32_t* sums, const LaneWeights& w, const LaneColour
   addFour(sums, w.v, colour);
   addFour(sums + 16, w.v + 4, colour);
 }
-inline void addSums4x2(std::uint32_t* lower, std::uint32_t* upper, const LaneWeights& w,
-  const LaneColour& colour)
+inline void addSums4x2(
+  std::uint32_t* lower, std::uint32_t* upper, const LaneWeights& w, const LaneColour& colour)
 {
   addFour(lower, w.v, colour);
   addFour(upper, w.v + 4, colour);
@@ -253,8 +253,7 @@ inline void addSums2(std::uint32_t* sums, const float* nearest, const float* dep
 {
   for (int i = 0; i < 2; ++i)
   {
-    const std::uint32_t weight =
-      depths[i] <= nearest[i] ? static_cast<std::uint32_t>(w[i]) : 0u;
+    const std::uint32_t weight = depths[i] <= nearest[i] ? static_cast<std::uint32_t>(w[i]) : 0u;
     for (int c = 0; c < 4; ++c)
     {
       sums[4 * i + c] += weight * colour.v[c];

@@ -74,8 +74,7 @@ inline void storePairs(float* p, Lanes a, Lanes b)
 inline void storePairs(std::int32_t* p, LaneWeights a, LaneWeights b)
 {
   const __m256i low = _mm256_unpacklo_epi32(a.v, b.v), high = _mm256_unpackhi_epi32(a.v, b.v);
-  _mm256_storeu_si256(
-    reinterpret_cast<__m256i*>(p), _mm256_permute2x128_si256(low, high, 0x20));
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(p), _mm256_permute2x128_si256(low, high, 0x20));
   _mm256_storeu_si256(
     reinterpret_cast<__m256i*>(p + 8), _mm256_permute2x128_si256(low, high, 0x31));
 }
@@ -83,14 +82,11 @@ inline void storePairs(std::int32_t* p, LaneWeights a, LaneWeights b)
 /// Two weights, 0 where the splat is behind; each four times.
 inline __m256i twoWeights(const float* nearest, const float* depths, const std::int32_t* w)
 {
-  const __m128 front =
-    _mm_castsi128_ps(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(depths)));
-  const __m128 known =
-    _mm_castsi128_ps(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(nearest)));
+  const __m128 front = _mm_castsi128_ps(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(depths)));
+  const __m128 known = _mm_castsi128_ps(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(nearest)));
   const __m128i drawn = _mm_castps_si128(_mm_cmple_ps(front, known));
   const __m128i weights = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(w));
-  return _mm256_permutevar8x32_epi32(
-    _mm256_castsi128_si256(_mm_and_si128(weights, drawn)),
+  return _mm256_permutevar8x32_epi32(_mm256_castsi128_si256(_mm_and_si128(weights, drawn)),
     _mm256_setr_epi32(0, 0, 0, 0, 1, 1, 1, 1));
 }
 

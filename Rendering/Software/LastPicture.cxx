@@ -24,11 +24,11 @@ bool contains(const RasterWindow& window, const RasterWindow& other)
 bool continues(const RasterItem& item, const DrawnItem& drawn)
 {
   return item.item->node == drawn.node &&
-    (item.style == drawn.style || *item.style == *drawn.style) &&
-    item.passes == drawn.passes && item.item->first == drawn.first &&
-    item.item->last >= drawn.last && item.radius == drawn.radius &&
-    item.radiusScale == drawn.radiusScale && item.item->refined == drawn.refined &&
-    item.item->sparsestRadius == drawn.sparsestRadius && item.item->growth == drawn.growth;
+    (item.style == drawn.style || *item.style == *drawn.style) && item.passes == drawn.passes &&
+    item.item->first == drawn.first && item.item->last >= drawn.last &&
+    item.radius == drawn.radius && item.radiusScale == drawn.radiusScale &&
+    item.item->refined == drawn.refined && item.item->sparsestRadius == drawn.sparsestRadius &&
+    item.item->growth == drawn.growth;
 }
 
 } // namespace
@@ -53,8 +53,7 @@ bool LastPicture::isOf(const FramePlan& plan) const
 }
 
 /// From the same camera it is what it was: the picture goes on from there.
-const VisiblePoints& LastPicture::visibleFor(
-  const FramePlan& plan, bool wanted, ThreadCrew& crew)
+const VisiblePoints& LastPicture::visibleFor(const FramePlan& plan, bool wanted, ThreadCrew& crew)
 {
   const bool follows = wanted && known_ && grid_ == plan.grid && *schema_ == *plan.schema;
   if (!follows)
@@ -158,9 +157,9 @@ void LastPicture::note(const RasterItems& items, const RasterWindow& window)
   for (const RasterItem& item : items.items())
   {
     items_.push_back({ item.item->node, item.style, item.passes, item.base, item.item->first,
-      item.item->last, item.radius, item.radiusScale, item.item->refined,
-      item.item->unfinished, item.item->closingRadius, item.item->sparsestRadius,
-      item.item->radiusScale, item.item->growth });
+      item.item->last, item.radius, item.radiusScale, item.item->refined, item.item->unfinished,
+      item.item->closingRadius, item.item->sparsestRadius, item.item->radiusScale,
+      item.item->growth });
   }
   styles_.clear();
   for (const DrawBatch& batch : plan.batches)
@@ -178,8 +177,8 @@ void LastPicture::keep(
   valid_ = true;
 }
 
-void LastPicture::keepVisible(const RasterItems& items, const RasterWindow& window,
-  const RasterKey* keys, ThreadCrew& crew)
+void LastPicture::keepVisible(
+  const RasterItems& items, const RasterWindow& window, const RasterKey* keys, ThreadCrew& crew)
 {
   visible_.unmark();
   note(items, window);

@@ -51,8 +51,8 @@ public:
   /// What was drawn, all of a view.
   void keep(const RasterItems& items, const RasterWindow& window, RasterBuffer<RasterKey> keys);
   /// The same, but that the keys do not stay.
-  void keepVisible(const RasterItems& items, const RasterWindow& window, const RasterKey* keys,
-    ThreadCrew& crew);
+  void keepVisible(
+    const RasterItems& items, const RasterWindow& window, const RasterKey* keys, ThreadCrew& crew);
   /// It was a part of a view only.
   void forget();
 
@@ -60,8 +60,7 @@ private:
   VisiblePoints::Drawn drawn(const RasterKey* keys) const;
   bool isOf(const FramePlan& plan) const;
   void note(const RasterItems& items, const RasterWindow& window);
-  bool renumber(
-    const RasterItems& items, ThreadCrew& crew, std::vector<std::uint32_t>& drawnUpTo);
+  bool renumber(const RasterItems& items, ThreadCrew& crew, std::vector<std::uint32_t>& drawnUpTo);
 
   bool known_ = false; ///< what was drawn, all of a view
   bool valid_ = false; ///< and its keys are here

@@ -18,8 +18,7 @@ struct PixelRectangle
   bool empty() const { return right <= left || top <= bottom; }
   bool contains(const PixelRectangle& other) const
   {
-    return other.left >= left && other.right <= right && other.bottom >= bottom &&
-      other.top <= top;
+    return other.left >= left && other.right <= right && other.bottom >= bottom && other.top <= top;
   }
 };
 

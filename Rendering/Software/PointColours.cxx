@@ -34,8 +34,8 @@ T load(const std::byte* bytes)
 }
 
 /// World value of one component, or the magnitude of all.
-double worldValue(const PointColouring& colouring, const Attribute& attribute,
-  const std::byte* point)
+double worldValue(
+  const PointColouring& colouring, const Attribute& attribute, const std::byte* point)
 {
   const std::size_t width = sizeOf(attribute.type);
   const auto component = [&](std::size_t c)
@@ -59,8 +59,7 @@ double worldValue(const PointColouring& colouring, const Attribute& attribute,
   return std::sqrt(sum);
 }
 
-bool ofFewBits(
-  const PointColouring& colouring, const ColourMap* map, const AttributeSchema& schema)
+bool ofFewBits(const PointColouring& colouring, const ColourMap* map, const AttributeSchema& schema)
 {
   if (colouring.kind != PointColouring::Kind::Table || !colouring.usesColumn() || !map)
   {
@@ -131,7 +130,8 @@ struct PointColours::Converted
     Rgba8 rgba{ 0, 0, 0, 255 };
     for (std::size_t i = 0; i < 3; ++i)
     {
-      const double stored = visitScalar(c.attribute_->type, [&](auto zero) -> double
+      const double stored = visitScalar(c.attribute_->type,
+        [&](auto zero) -> double
         { return static_cast<double>(load<decltype(zero)>(p + i * width)); });
       const double byte = stored * c.factor_ + c.offset_;
       rgba[i] = std::isnan(byte) ? std::uint8_t(0)
@@ -244,8 +244,8 @@ PointColours::PointColours(const FramePlan& plan, const ResolvedStyle& style,
   {
     return;
   }
-  second_.reset(new PointColours(
-    plan, second.colouring, second.map.get(), second.flat, tables.second, node));
+  second_.reset(
+    new PointColours(plan, second.colouring, second.map.get(), second.flat, tables.second, node));
   combination_ = second.combination;
   share256_ = second.share256;
   first_ = one_;
@@ -272,8 +272,7 @@ PointColours::PointColours(const FramePlan& plan, const PointColouring& colourin
     readBy<Looked>();
     return;
   }
-  const auto place =
-    std::find(node.selection.begin(), node.selection.end(), colouring.column);
+  const auto place = std::find(node.selection.begin(), node.selection.end(), colouring.column);
   column_ = node.columns[static_cast<std::size_t>(place - node.selection.begin())].data();
   const Attribute& attribute = (*plan.schema)[colouring.column];
   attribute_ = &attribute;

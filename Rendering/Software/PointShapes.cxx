@@ -111,17 +111,15 @@ void PointShapes::fillNormals(
   {
     return; // nobody asks for them
   }
-  const glm::vec3 fixed = fixedNormals
-    ? toCamera * item.style->fixedNormal
-    : glm::vec3(0.0f);
+  const glm::vec3 fixed = fixedNormals ? toCamera * item.style->fixedNormal : glm::vec3(0.0f);
   std::fill(batch.normalX, batch.normalX + count, fixed.x);
   std::fill(batch.normalY, batch.normalY + count, fixed.y);
   std::fill(batch.normalZ, batch.normalZ + count, fixed.z);
 }
 
 template <typename Points>
-void PointShapes::fillBy(const RasterItem& item, const Points& points, int count, float share,
-  RasterBatch& batch) const
+void PointShapes::fillBy(
+  const RasterItem& item, const Points& points, int count, float share, RasterBatch& batch) const
 {
   if (item.style->size.mode == SplatSize::Mode::Pixels)
   {
@@ -134,16 +132,14 @@ void PointShapes::fillBy(const RasterItem& item, const Points& points, int count
   }
   else if (item.sizes)
   {
-    const auto factor =
-      static_cast<float>(item.style->size.value) * items_.radiusFactor() * share;
+    const auto factor = static_cast<float>(item.style->size.value) * items_.radiusFactor() * share;
     loadLengths(item.sizes, *item.sizeAttribute, points, count, factor, batch.radius);
   }
   else if (item.radiusCodes)
   {
     std::uint8_t scratch[RasterBatch::size];
     RadiusCodes stored;
-    stored.codes =
-      points.template values<std::uint8_t, 1>(item.radiusCodes, count, scratch);
+    stored.codes = points.template values<std::uint8_t, 1>(item.radiusCodes, count, scratch);
     stored.radii = items_.radii().data();
     stored.scale = item.radiusScale * share;
     stored.unknown = item.radius * share;
@@ -164,13 +160,11 @@ template <typename Points>
 void PointShapes::fillHeights(
   const RasterItem& item, const Points& points, int count, RasterBatch& batch) const
 {
-  loadLengths(
-    item.heights, *item.heightAttribute, points, count, items_.upFactor(), batch.height);
+  loadLengths(item.heights, *item.heightAttribute, points, count, items_.upFactor(), batch.height);
 }
 
 template <typename Points>
-void PointShapes::grow(
-  const RasterItem& item, const Points& points, int count, RasterBatch& batch)
+void PointShapes::grow(const RasterItem& item, const Points& points, int count, RasterBatch& batch)
 {
   const PointGrowth& growth = item.item->growth;
   if (growth.whole())

@@ -21,14 +21,14 @@ public:
   /// Fills radius (world units, times `share`) and normals, or heights of walls, of projected
   /// points: of [first, first + count), or of those in a list; `grown` says how large those are yet
   /// that grow.
-  void fill(const RasterItem& item, std::uint32_t first, int count, float share,
-    RasterBatch& batch) const;
+  void fill(
+    const RasterItem& item, std::uint32_t first, int count, float share, RasterBatch& batch) const;
   void fill(const RasterItem& item, const std::uint32_t* points, int count, float share,
     RasterBatch& batch) const;
 
   /// The same for blending: points that grow have their size, and a part of their weight.
-  void fillBlended(const RasterItem& item, std::uint32_t first, int count, float share,
-    RasterBatch& batch) const;
+  void fillBlended(
+    const RasterItem& item, std::uint32_t first, int count, float share, RasterBatch& batch) const;
 
   /// No point of the item has a larger radius (world units, before a share); infinite where only
   /// reading them all would tell.
@@ -38,8 +38,8 @@ public:
 
 private:
   template <typename Points>
-  void fillBy(const RasterItem& item, const Points& points, int count, float share,
-    RasterBatch& batch) const;
+  void fillBy(
+    const RasterItem& item, const Points& points, int count, float share, RasterBatch& batch) const;
   template <typename Points>
   static void grow(const RasterItem& item, const Points& points, int count, RasterBatch& batch);
   template <typename Points>

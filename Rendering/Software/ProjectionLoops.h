@@ -121,8 +121,8 @@ inline void loadNormals(const StoredNormals& stored, int count, RasterBatch& bat
 
 /// What is culled is drawn too, into a pixel of the margin that nobody looks at: a branch costs
 /// more.
-inline void drawPixels(const RasterWindow& window, RasterBatch& batch, int count,
-  std::uint32_t index, RasterKey* keys)
+inline void drawPixels(
+  const RasterWindow& window, RasterBatch& batch, int count, std::uint32_t index, RasterKey* keys)
 {
   const auto width = static_cast<float>(window.width);
   const auto height = static_cast<float>(window.height);
@@ -169,8 +169,8 @@ inline void drawBlocks(const RasterWindow& window, RasterBatch& batch, int count
   {
     const float x = __builtin_floorf(batch.screenX[j] - back) - left;
     const float y = __builtin_floorf(batch.screenY[j] - back) - bottom;
-    const int seen = (x > -reach) & (x < width) & (y > -reach) & (y < height) &
-      (batch.depth[j] >= 0.0f);
+    const int seen =
+      (x > -reach) & (x < width) & (y > -reach) & (y < height) & (batch.depth[j] >= 0.0f);
     const auto column = static_cast<std::int32_t>(seen ? x : 0.0f);
     const auto row = static_cast<std::int32_t>(seen ? y : 0.0f);
     batch.offset[j] = seen ? corner + row * stride + column : 0;

@@ -20,21 +20,21 @@ struct RasterBatch
     Culled = 0,
     Within2 = 1, ///< 2 x 2 pixels
     Within4 = 2, ///< 4 x 4 pixels
-    Wide = 3,    ///< within the buffers' margin: rows of any length
-    Clipped = 4  ///< anything larger: its rows are clipped
+    Wide = 3, ///< within the buffers' margin: rows of any length
+    Clipped = 4 ///< anything larger: its rows are clipped
   };
 
   alignas(64) float screenX[size]; ///< pixels
   alignas(64) float screenY[size];
-  alignas(64) float depth[size];   ///< camera z; negative: culled
+  alignas(64) float depth[size]; ///< camera z; negative: culled
   alignas(64) float inverseReach[size]; ///< 1 / depth; parallel: 1
-  alignas(64) float radius[size];  ///< world units; after the set-up: at least what a pixel needs
-  alignas(64) float grown[size];   ///< of its radius, once that is at least what a pixel needs
-  alignas(64) float weight[size];  ///< of a blended splat's centre, 0 to 63
+  alignas(64) float radius[size]; ///< world units; after the set-up: at least what a pixel needs
+  alignas(64) float grown[size]; ///< of its radius, once that is at least what a pixel needs
+  alignas(64) float weight[size]; ///< of a blended splat's centre, 0 to 63
   alignas(64) float normalX[size]; ///< camera space, any length
   alignas(64) float normalY[size];
   alignas(64) float normalZ[size];
-  alignas(64) float height[size];  ///< walls: world units; 0: none
+  alignas(64) float height[size]; ///< walls: world units; 0: none
 
   // Made by the set-up of a shape:
   /// of pixels for discs, of world units where rays are cast
@@ -43,20 +43,20 @@ struct RasterBatch
   alignas(64) float quadraticXX[size];
   alignas(64) float quadraticXY[size];
   alignas(64) float quadraticYY[size];
-  alignas(64) float slopeX[size];         ///< ellipses: depth per pixel
+  alignas(64) float slopeX[size]; ///< ellipses: depth per pixel
   alignas(64) float slopeY[size];
-  alignas(64) float halfX[size];          ///< pixels, half of the bounding rectangle
+  alignas(64) float halfX[size]; ///< pixels, half of the bounding rectangle
   alignas(64) float halfY[size];
-  alignas(64) float middleX[size];        ///< pixels, of the bounding rectangle
+  alignas(64) float middleX[size]; ///< pixels, of the bounding rectangle
   alignas(64) float middleY[size];
-  alignas(64) float firstX[size];         ///< first pixel centre of the rectangle less the centre
+  alignas(64) float firstX[size]; ///< first pixel centre of the rectangle less the centre
   alignas(64) float firstY[size];
-  alignas(64) std::int32_t offset[size];  ///< of the rectangle's first pixel in the buffers
+  alignas(64) std::int32_t offset[size]; ///< of the rectangle's first pixel in the buffers
   alignas(64) std::int32_t rows[size];
   alignas(64) std::int32_t columns[size];
   alignas(64) std::int32_t extent[size];
   alignas(64) std::uint32_t colour[size]; ///< bytes r, g, b, a in memory order
-  alignas(64) std::uint8_t keep[size];    ///< 0: filtered out
+  alignas(64) std::uint8_t keep[size]; ///< 0: filtered out
   alignas(64) std::int32_t list[size + 16]; ///< and what a vector writes behind it
 
   // Of splats within 2 x 2 pixels, the pixels that they cover:
@@ -87,7 +87,7 @@ struct RasterCamera
   float matrix[3][4] = {};
   /// Of the store's z axis, unit.
   float up[3] = { 0.0f, 1.0f, 0.0f };
-  float scaleX = 1.0f;  ///< pixels per unit at depth 1; parallel: at any depth
+  float scaleX = 1.0f; ///< pixels per unit at depth 1; parallel: at any depth
   float scaleY = 1.0f;
   float centreX = 0.0f; ///< pixels
   float centreY = 0.0f;
@@ -99,9 +99,9 @@ struct RasterCamera
 /// The part of the viewport that is drawn, and how buffers of it are laid out.
 struct RasterWindow
 {
-  int left = 0;        ///< first column of the viewport
+  int left = 0; ///< first column of the viewport
   int width = 0;
-  int bottom = 0;      ///< first row of the viewport
+  int bottom = 0; ///< first row of the viewport
   int height = 0;
   std::int32_t stride = 0; ///< pixels from a row to the next in a buffer with margins
 
@@ -120,11 +120,11 @@ struct RasterWindow
 struct RasterPositions
 {
   const std::uint32_t* xyz = nullptr; ///< of the batch's first point: three a point
-  std::uint32_t shift = 0;            ///< SlotOrigin
+  std::uint32_t shift = 0; ///< SlotOrigin
   std::int32_t steps[3] = {};
-  float clipping[6][4] = {};          ///< camera space planes: n . p + d >= 0 is drawn
+  float clipping[6][4] = {}; ///< camera space planes: n . p + d >= 0 is drawn
   int clippingPlanes = 0;
-  bool filtered = false;              ///< RasterBatch::keep says which points are drawn
+  bool filtered = false; ///< RasterBatch::keep says which points are drawn
 };
 
 } // namespace pointfront

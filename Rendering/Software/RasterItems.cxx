@@ -83,8 +83,8 @@ RasterItems::RasterItems(const FramePlan& plan, std::size_t from)
       ordered_.push_back({ &item, &batch });
     }
   }
-  std::stable_sort(ordered_.begin(), ordered_.end(), [](const Place& a, const Place& b)
-    { return a.item->node->node < b.item->node->node; });
+  std::stable_sort(ordered_.begin(), ordered_.end(),
+    [](const Place& a, const Place& b) { return a.item->node->node < b.item->node->node; });
   const double volume = std::abs(glm::determinant(glm::dmat3(plan.camera.storeToView)));
   radiusFactor_ = static_cast<float>(std::cbrt(volume));
   for (std::size_t code = 0; code < radii_.size(); ++code)
@@ -147,8 +147,7 @@ RasterItem RasterItems::itemOf(const Place& place)
   const bool spacing = style.size.mode == SplatSize::Mode::Spacing;
   item.radiusScale = place.item->radiusScale * static_cast<float>(style.size.value);
   item.radius = spacing ? place.item->closingRadius * value : 0.5f * value;
-  item.sparsestRadius =
-    std::max(item.radius, spacing ? place.item->sparsestRadius * value : 0.0f);
+  item.sparsestRadius = std::max(item.radius, spacing ? place.item->sparsestRadius * value : 0.0f);
   if (style.size.mode == SplatSize::Mode::Attribute)
   {
     item.sizes = columnOf(node, style.size.column);
@@ -205,8 +204,8 @@ void RasterItems::setPlace(RasterItem& item) const
     item.camera.matrix[row][3] = static_cast<float>(row == 2 ? start[row] - shift : start[row]);
   }
   item.camera.nearDepth = static_cast<float>(std::max(range[0] - shift, 0.0));
-  item.camera.farDepth = static_cast<float>(
-    std::min(range[1] - shift, double(std::numeric_limits<float>::max())));
+  item.camera.farDepth =
+    static_cast<float>(std::min(range[1] - shift, double(std::numeric_limits<float>::max())));
   item.positions.xyz = reinterpret_cast<const std::uint32_t*>(node.positions.data());
   item.positions.shift = static_cast<std::uint32_t>(origin.shift);
   for (int axis = 0; axis < 3; ++axis)
@@ -227,9 +226,8 @@ void RasterItems::setClipping(const glm::dmat3& axes, const glm::dvec3& referenc
   {
     const glm::dvec4& given = plan_.clippingPlanes[static_cast<std::size_t>(plane)];
     const glm::dvec3 normal = normalMatrix * glm::dvec3(given);
-    const double atReference =
-      given.w + given.x * plan_.camera.reference.x + given.y * plan_.camera.reference.y +
-      given.z * plan_.camera.reference.z;
+    const double atReference = given.w + given.x * plan_.camera.reference.x +
+      given.y * plan_.camera.reference.y + given.z * plan_.camera.reference.z;
     const double distance = atReference - glm::dot(normal, reference) + normal.z * shift;
     const double values[4] = { normal.x, normal.y, normal.z, distance };
     for (int i = 0; i < 4; ++i)
@@ -239,8 +237,8 @@ void RasterItems::setClipping(const glm::dmat3& axes, const glm::dvec3& referenc
   }
 }
 
-bool RasterItems::filter(const FramePlan& plan, const RasterItem& item, std::uint32_t first,
-  int count, RasterBatch& batch)
+bool RasterItems::filter(
+  const FramePlan& plan, const RasterItem& item, std::uint32_t first, int count, RasterBatch& batch)
 {
   if (!item.positions.filtered)
   {
@@ -248,8 +246,7 @@ bool RasterItems::filter(const FramePlan& plan, const RasterItem& item, std::uin
   }
   const NodeColumns& node = item.node();
   const ColumnSelection columns = item.style->filter.columns();
-  if (!std::includes(
-        node.selection.begin(), node.selection.end(), columns.begin(), columns.end()))
+  if (!std::includes(node.selection.begin(), node.selection.end(), columns.begin(), columns.end()))
   {
     std::fill(batch.keep, batch.keep + count, std::uint8_t(0)); // being read: not shown unasked
     return true;

@@ -30,9 +30,9 @@ struct RasterItem
   RasterPositions positions; ///< of the node's first point
   TechniquePasses passes;
   std::shared_ptr<const PointColours> colours;
-  float radius = 0.0f;       ///< world units, of all points without one of their own
+  float radius = 0.0f; ///< world units, of all points without one of their own
   float sparsestRadius = 0.0f; ///< where the item's points are farthest apart
-  float radiusScale = 1.0f;  ///< times a point's own
+  float radiusScale = 1.0f; ///< times a point's own
   const std::uint8_t* radiusCodes = nullptr;
   const std::byte* sizes = nullptr; ///< a column of radii
   const Attribute* sizeAttribute = nullptr;

@@ -28,7 +28,7 @@ const RasterKernels* rasterKernelsOf(const char* instructionSet)
   }
 #endif
   return std::strcmp(instructionSet, kernelsPortable.instructionSet) == 0 ? &kernelsPortable
-                                                                           : nullptr;
+                                                                          : nullptr;
 }
 
 const RasterKernels& rasterKernels()

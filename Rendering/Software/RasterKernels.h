@@ -8,11 +8,11 @@ namespace pointfront
 /// What a splat is made of, for the loops that put it into the buffers.
 enum class SplatShape : std::int32_t
 {
-  Disc,         ///< faces the eye
-  Ellipse,      ///< affine image of a disc with a normal, depth by its plane (EWA-5)
+  Disc, ///< faces the eye
+  Ellipse, ///< affine image of a disc with a normal, depth by its plane (EWA-5)
   ExactEllipse, ///< ray and disc in each pixel
-  Sphere,       ///< ray and hemisphere in each pixel (LAYERS-5)
-  Wall          ///< upright rectangle that faces the eye, from the point down (LAYERS-7)
+  Sphere, ///< ray and hemisphere in each pixel (LAYERS-5)
+  Wall ///< upright rectangle that faces the eye, from the point down (LAYERS-7)
 };
 
 /// Constants of a pass over splats.
@@ -24,9 +24,9 @@ struct SplatPass
   float paraboloid = 0.0f;
   float leastRadius = 0.71f; ///< pixels; a disc of 0.71 reaches a pixel's centre wherever it lies
   float mostRadius = 1.0e5f; ///< pixels
-  float lowPass = 0.0f;      ///< ellipses: radius of a screen-space low-pass, pixels; 0: none
-  float slackRadii = 1.0f;   ///< second pass: adds up to that far behind the nearest, in radii
-  float slackPixels = 2.0f;  ///< and that many pixels' size at its depth
+  float lowPass = 0.0f; ///< ellipses: radius of a screen-space low-pass, pixels; 0: none
+  float slackRadii = 1.0f; ///< second pass: adds up to that far behind the nearest, in radii
+  float slackPixels = 2.0f; ///< and that many pixels' size at its depth
   /// Beyond that q a splat is its rim, drawn that many radii further back (LAYERS-6). Discs and
   /// ellipses of first passes alone.
   float rimFrom = 1.0f;
@@ -41,9 +41,9 @@ struct SplatPass
 struct RadiusCodes
 {
   const std::uint8_t* codes = nullptr; ///< of the batch's first point
-  const float* radii = nullptr;        ///< 256; 0: not known
+  const float* radii = nullptr; ///< 256; 0: not known
   float scale = 1.0f;
-  float unknown = 0.0f;                ///< taken where it is not known; all are after `scale`
+  float unknown = 0.0f; ///< taken where it is not known; all are after `scale`
   float least = 0.0f;
   float most = 0.0f;
 };
@@ -52,7 +52,7 @@ struct RadiusCodes
 struct StoredNormals
 {
   const std::int16_t* xyz = nullptr; ///< of the batch's first point
-  float matrix[3][3] = {};           ///< rows
+  float matrix[3][3] = {}; ///< rows
 };
 
 /// The inner loops, made for one instruction set. All sets give the same bits: only operations that
@@ -64,8 +64,8 @@ struct RasterKernels
   /// Fills screenX, screenY and depth.
   void (*project)(const RasterCamera&, const RasterPositions&, int count, RasterBatch&);
   /// Squares of `size` x `size` pixels, 1 to 255. `index` is that of the batch's first point.
-  void (*drawSquares)(const RasterWindow&, RasterBatch&, int count, int size, std::uint32_t index,
-    RasterKey* keys);
+  void (*drawSquares)(
+    const RasterWindow&, RasterBatch&, int count, int size, std::uint32_t index, RasterKey* keys);
   /// Fills radius; normalX, normalY, normalZ. Walls have `height` for a normal.
   void (*loadRadii)(const RadiusCodes&, int count, RasterBatch&);
   void (*loadNormals)(const StoredNormals&, int count, RasterBatch&);

@@ -72,8 +72,7 @@ std::vector<float> octavesOf(const FrameCamera& camera, const SoftwareTarget& ta
 {
   const glm::dmat4& clip = camera.viewToClip;
   const double nearDepth = (clip[3][2] + clip[3][3]) / (clip[2][2] + clip[2][3]);
-  const auto offset =
-    static_cast<float>(camera.parallel ? 2.0 / clip[1][1] - nearDepth : 0.0);
+  const auto offset = static_cast<float>(camera.parallel ? 2.0 / clip[1][1] - nearDepth : 0.0);
   std::vector<float> octaves(target.depth.size());
   ThreadCrew::ofProcess().run(static_cast<std::size_t>(target.height),
     [&](std::size_t y, unsigned)
@@ -111,8 +110,8 @@ void eyeDome(const FrameCamera& camera, const FrameShading& shading, SoftwareTar
       float response = 0.0f;
       for (const auto& pair : pairs)
       {
-        const float between = octaveAt(x + pair[0], y + pair[1], own) +
-          octaveAt(x - pair[0], y - pair[1], own);
+        const float between =
+          octaveAt(x + pair[0], y + pair[1], own) + octaveAt(x - pair[0], y - pair[1], own);
         response += std::max(0.0f, own - 0.5f * between);
       }
       return glm::vec3(std::exp(-eyeDomeGain * shading.eyeDomeStrength * 0.25f * response));

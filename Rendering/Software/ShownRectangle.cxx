@@ -65,8 +65,7 @@ glm::dvec2 reachOf(const RasterItem& item, const CornerRange& corners)
   {
     return glm::dvec2(0.5 * passes.squareSize + 1.0);
   }
-  const double share =
-    std::max(passes.firstRadius, passes.blended ? passes.secondRadius : 0.0f);
+  const double share = std::max(passes.firstRadius, passes.blended ? passes.secondRadius : 0.0f);
   const double least =
     std::max(passes.first.leastRadius, passes.blended ? passes.second.leastRadius : 0.0f);
   const double filter =
@@ -77,8 +76,8 @@ glm::dvec2 reachOf(const RasterItem& item, const CornerRange& corners)
   size = ofPixels ? 0.5 * item.style->size.value * share / camera.scaleY : size;
   // A wall that is widened at its top may go down towards the eye.
   const bool nearer = item.passes.walls() && !camera.parallel;
-  size = std::max(
-    size, least / camera.scaleY * (nearer ? corners.farthest / corners.nearest : 1.0));
+  size =
+    std::max(size, least / camera.scaleY * (nearer ? corners.farthest / corners.nearest : 1.0));
   const glm::dvec2 scale(camera.scaleX, camera.scaleY);
   if (camera.parallel)
   {
@@ -125,9 +124,9 @@ PixelRectangle rectangleOf(const RasterItem& item, const FramePlan& plan)
   {
     return all;
   }
-  return common(all, { pixelWithin(std::floor(low.x), all.right),
-    pixelWithin(std::floor(low.y), all.top), pixelWithin(std::ceil(high.x), all.right),
-    pixelWithin(std::ceil(high.y), all.top) });
+  return common(all,
+    { pixelWithin(std::floor(low.x), all.right), pixelWithin(std::floor(low.y), all.top),
+      pixelWithin(std::ceil(high.x), all.right), pixelWithin(std::ceil(high.y), all.top) });
 }
 
 } // namespace

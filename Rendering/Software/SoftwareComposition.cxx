@@ -91,9 +91,8 @@ PixelRectangle wider(const PixelRectangle& place, int by, const FrameCamera& cam
 
 int SoftwareComposition::reachPx(const FrameShading& shading)
 {
-  int reach = shading.eyeDomeStrength > 0.0f
-    ? static_cast<int>(std::ceil(shading.eyeDomeRadiusPx)) + 1
-    : 0;
+  int reach =
+    shading.eyeDomeStrength > 0.0f ? static_cast<int>(std::ceil(shading.eyeDomeRadiusPx)) + 1 : 0;
   for (const FrameHighlight& one : shading.highlights)
   {
     reach = std::max(reach, static_cast<int>(std::ceil(one.haloPx)) + 1);
@@ -198,8 +197,8 @@ void SoftwareComposition::blendGroups(std::int16_t lens, SoftwareTarget& target)
           const float depth = group->target.depth[own];
           if (depth < target.depth[pixel])
           {
-            layers.push_back({ depth, static_cast<float>(group->opacity),
-              group->target.rgba[own], &group->target, own });
+            layers.push_back({ depth, static_cast<float>(group->opacity), group->target.rgba[own],
+              &group->target, own });
           }
         }
         std::stable_sort(layers.begin(), layers.end(),
@@ -235,8 +234,7 @@ void SoftwareComposition::putLens(std::int16_t number, const FrameCamera& camera
       ? lens.covers(x, y, camera.width, camera.height)
       : mask && mask->depth[placeIn(*mask, x, y)] != nothingThere;
   };
-  ThreadCrew::ofProcess().run(
-    place.empty() ? 0 : static_cast<std::size_t>(place.height()),
+  ThreadCrew::ofProcess().run(place.empty() ? 0 : static_cast<std::size_t>(place.height()),
     [&](std::size_t row, unsigned)
     {
       const int y = place.bottom + static_cast<int>(row);

@@ -85,7 +85,7 @@ struct SoftwareRasteriser::Content
     LastPicture& picture;
     std::uint16_t store = 0;
     bool whole = false; ///< all of the viewport is wanted
-    bool fits = false;  ///< the target is made as large as what is shown
+    bool fits = false; ///< the target is made as large as what is shown
     std::uint64_t reused = 0;
   };
 
@@ -111,8 +111,8 @@ struct SoftwareRasteriser::Content
     const RasterItems& items, const RasterWindow& now, const std::vector<RasterPiece>& pieces);
   void drawPoints(const RasterItems& items, const RasterWindow& now,
     const std::vector<RasterPiece>& pieces, bool goingOn);
-  void resolve(const RasterItems& items, const RasterWindow& now, std::uint16_t store,
-    SoftwareTarget& target);
+  void resolve(
+    const RasterItems& items, const RasterWindow& now, std::uint16_t store, SoftwareTarget& target);
 };
 
 /// First pass. The first thread's keys may hold the last picture's.
@@ -154,8 +154,7 @@ void SoftwareRasteriser::Content::drawKeys(const RasterItems& items, const Raste
         kernels.project(item.camera, positions, count, batch);
         if (item.passes.squares)
         {
-          kernels.drawSquares(
-            now, batch, count, item.passes.squareSize, item.base + first, keys);
+          kernels.drawSquares(now, batch, count, item.passes.squareSize, item.base + first, keys);
           continue;
         }
         shapes.fill(item, first, count, item.passes.firstRadius, batch);
@@ -183,8 +182,7 @@ void SoftwareRasteriser::Content::addColours(
         {
           key = one.keysDrawn ? std::min(key, one.keys.data()[p]) : key;
         }
-        depths[p] =
-          key == emptyKey ? -std::numeric_limits<float>::infinity() : depthBits(key);
+        depths[p] = key == emptyKey ? -std::numeric_limits<float>::infinity() : depthBits(key);
       }
     });
   for (ThreadBuffers& one : buffers)
@@ -237,8 +235,8 @@ void SoftwareRasteriser::Content::drawPoints(const RasterItems& items, const Ras
   }
 }
 
-void SoftwareRasteriser::Content::resolve(const RasterItems& items, const RasterWindow& now,
-  std::uint16_t store, SoftwareTarget& target)
+void SoftwareRasteriser::Content::resolve(
+  const RasterItems& items, const RasterWindow& now, std::uint16_t store, SoftwareTarget& target)
 {
   if (items.plan().shading.lit && target.normals.empty())
   {
@@ -311,8 +309,7 @@ void SoftwareRasteriser::Content::drawAtOnce(
 {
   LastPicture& picture = drawing.picture;
   std::vector<RasterPiece> pieces;
-  const bool goingOn =
-    drawing.whole && picture.goOn(items, window, crew, pieces, drawing.reused);
+  const bool goingOn = drawing.whole && picture.goOn(items, window, crew, pieces, drawing.reused);
   if (!goingOn)
   {
     pieces = piecesOf(items);
@@ -357,11 +354,10 @@ void SoftwareRasteriser::Content::drawRound(const RasterItems& items, Drawing& d
   {
     place = common(place, drawing.target.rectangle());
   }
-  const std::int64_t pixelBytes =
-    std::int64_t(crew.threads()) * (items.blended() ? 24 : 8) + 4;
+  const std::int64_t pixelBytes = std::int64_t(crew.threads()) * (items.blended() ? 24 : 8) + 4;
   const std::int64_t rowBytes = pixelBytes * windowOf(place).stride;
-  const auto rows = static_cast<int>(std::max<std::int64_t>(
-    mostBytes / rowBytes - 2 * rasterMargin, leastRows));
+  const auto rows =
+    static_cast<int>(std::max<std::int64_t>(mostBytes / rowBytes - 2 * rasterMargin, leastRows));
   if (only && !place.empty() && rows >= place.height())
   {
     drawAtOnce(items, windowOf(place), drawing);
@@ -374,15 +370,15 @@ void SoftwareRasteriser::Content::drawRound(const RasterItems& items, Drawing& d
   }
   for (int bottom = place.bottom; bottom < place.top && !place.empty(); bottom += rows)
   {
-    const RasterWindow window = windowOf(
-      { place.left, bottom, place.right, std::min(bottom + rows, place.top) });
+    const RasterWindow window =
+      windowOf({ place.left, bottom, place.right, std::min(bottom + rows, place.top) });
     drawPoints(items, window, piecesOf(items), false);
     resolve(items, window, drawing.store, drawing.target);
   }
 }
 
-RasterStatistics SoftwareRasteriser::Content::draw(const FramePlan& asked,
-  SoftwareTarget& target, std::uint16_t store, std::uint16_t part, bool fits)
+RasterStatistics SoftwareRasteriser::Content::draw(const FramePlan& asked, SoftwareTarget& target,
+  std::uint16_t store, std::uint16_t part, bool fits)
 {
   const auto begin = std::chrono::steady_clock::now();
   buffers.resize(crew.threads());

@@ -14,8 +14,8 @@ class ThreadCrew;
 /// What a drawing came to.
 struct RasterStatistics
 {
-  std::uint64_t points = 0;  ///< of the plan, that were looked at
-  std::uint64_t reused = 0;  ///< of the plan, that the last picture already had
+  std::uint64_t points = 0; ///< of the plan, that were looked at
+  std::uint64_t reused = 0; ///< of the plan, that the last picture already had
   /// Drawn beside the plan's, as they were visible before (FramePlan::keepsVisible).
   std::uint64_t keptVisible = 0;
   double milliseconds = 0.0; ///< wall time
@@ -49,8 +49,8 @@ public:
   /// there. The target is the camera's viewport or a part of it: a large picture is drawn in bands,
   /// each with the splat sizes of the whole. `store` becomes PixelPoint::store; each store goes on
   /// from its own last picture, and so does each `part` of its plans.
-  RasterStatistics draw(const FramePlan& plan, SoftwareTarget& target, std::uint16_t store = 0,
-    std::uint16_t part = 0);
+  RasterStatistics draw(
+    const FramePlan& plan, SoftwareTarget& target, std::uint16_t store = 0, std::uint16_t part = 0);
   /// Makes the target that part of the viewport in which the plan can show anything, empty if there
   /// is none, and draws into it.
   RasterStatistics drawShown(

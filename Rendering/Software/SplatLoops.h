@@ -18,8 +18,8 @@ alignas(32) constexpr float laneY4[8] = { 0, 0, 0, 0, 1, 1, 1, 1 };
 
 /// Calls `take` with two rows of four pixels: offsets in the buffers, sample.
 template <typename Splat, typename Take>
-inline void visitSmall(const RasterWindow& window, const RasterBatch& batch, int j,
-  const Splat& splat, const Take& take)
+inline void visitSmall(
+  const RasterWindow& window, const RasterBatch& batch, int j, const Splat& splat, const Take& take)
 {
   const std::int32_t stride = window.stride;
   const std::int32_t offset = batch.offset[j];
@@ -38,8 +38,7 @@ struct SplatRectangle
   int rows;
   int columns;
 };
-inline SplatRectangle clippedRectangle(
-  const RasterWindow& window, const RasterBatch& batch, int j)
+inline SplatRectangle clippedRectangle(const RasterWindow& window, const RasterBatch& batch, int j)
 {
   const auto clamped = [](float x, float least, float most)
   { return x > least ? (x < most ? x : most) : least; };
@@ -59,8 +58,8 @@ inline SplatRectangle clippedRectangle(
 
 /// Calls `take` with eight pixels of a row each: offset in the buffers, sample.
 template <typename Splat, typename Take>
-inline void visitLarge(const RasterWindow& window, const RasterBatch& batch, int j,
-  const Splat& splat, const Take& take)
+inline void visitLarge(
+  const RasterWindow& window, const RasterBatch& batch, int j, const Splat& splat, const Take& take)
 {
   SplatRectangle rectangle{ batch.offset[j], batch.firstX[j], batch.firstY[j], batch.rows[j],
     batch.columns[j] };
@@ -138,10 +137,8 @@ void addShape(const RasterCamera& camera, const RasterWindow& window, const Spla
 {
   addTiny<Shape, Parallel>(camera, pass, batch, count, window.stride, nearest, sums);
   const float pixelSize = pass.slackPixels / camera.scaleY;
-  const auto slackOf = [&](int j)
-  {
-    return all(
-      pass.slackRadii * batch.radius[j] + pixelSize * (Parallel ? 1.0f : batch.depth[j]));
+  const auto slackOf = [&](int j) {
+    return all(pass.slackRadii * batch.radius[j] + pixelSize * (Parallel ? 1.0f : batch.depth[j]));
   };
   const int small = listSmall(batch, count);
   for (int i = 0; i < small; ++i)
@@ -174,8 +171,7 @@ void addShape(const RasterCamera& camera, const RasterWindow& window, const Spla
     visitLarge(window, batch, j, splat,
       [&](std::int32_t offset, const SplatSample& s)
       {
-        const LaneMask added =
-          s.covered & (s.depth + rim * s.q - slack <= load8(nearest + offset));
+        const LaneMask added = s.covered & (s.depth + rim * s.q - slack <= load8(nearest + offset));
         if (any(added))
         {
           addSums8(sums + 4 * std::int64_t(offset), weightsOf(s, centre, added), colour);
@@ -242,8 +238,8 @@ void addSplatsOf(const RasterCamera& camera, const RasterWindow& window, const S
   }
 }
 
-inline void addSplats(const RasterCamera& camera, const RasterWindow& window,
-  const SplatPass& pass, RasterBatch& batch, int count, const float* nearest, std::uint32_t* sums)
+inline void addSplats(const RasterCamera& camera, const RasterWindow& window, const SplatPass& pass,
+  RasterBatch& batch, int count, const float* nearest, std::uint32_t* sums)
 {
   camera.parallel ? addSplatsOf<true>(camera, window, pass, batch, count, nearest, sums)
                   : addSplatsOf<false>(camera, window, pass, batch, count, nearest, sums);

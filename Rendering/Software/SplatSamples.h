@@ -14,7 +14,7 @@ namespace
 /// Splats at pixels, in eight lanes.
 struct SplatSample
 {
-  Lanes q;          ///< 0 at the centre, 1 at the rim
+  Lanes q; ///< 0 at the centre, 1 at the rim
   Lanes depth;
   LaneMask covered;
 };
@@ -230,8 +230,8 @@ struct SplatAt<SplatShape::Wall, Parallel>
     const Lanes uy = Parallel ? y : further * toY + t * y;
     const Lanes aside = ux * rightX + uy * rightY + further * rightZ;
     const Lanes down = all(0.0f) - (ux * upX + uy * upY + further * upZ);
-    const LaneMask within = (aside <= radius) & (all(0.0f) - radius <= aside) &
-      (all(0.0f) <= down) & (down <= height);
+    const LaneMask within =
+      (aside <= radius) & (all(0.0f) - radius <= aside) & (all(0.0f) <= down) & (down <= height);
     return { all(1.0f), t, within & (nearest <= t) & (t <= farthest) };
   }
   Lanes nx, ny, rightX, rightY, rightZ, radius, height, depth, upX, upY, upZ, widthX, widthY;

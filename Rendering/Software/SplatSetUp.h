@@ -178,10 +178,10 @@ inline void setUpExact(RasterCamera camera, float lowPass, int count, RasterBatc
     const float square = batch.radius[j] * batch.radius[j];
     const float tiltX = nx - to.x * nz, tiltY = ny - to.y * nz;
     const float a22 = square * (1.0f - nz * nz) - depth * depth;
-    const ConicExtent x = conicExtent(square * (1.0f + to.x * to.x - tiltX * tiltX),
-      square * (-to.x - tiltX * nz), a22, depth);
-    const ConicExtent y = conicExtent(square * (1.0f + to.y * to.y - tiltY * tiltY),
-      square * (-to.y - tiltY * nz), a22, depth);
+    const ConicExtent x = conicExtent(
+      square * (1.0f + to.x * to.x - tiltX * tiltX), square * (-to.x - tiltX * nz), a22, depth);
+    const ConicExtent y = conicExtent(
+      square * (1.0f + to.y * to.y - tiltY * tiltY), square * (-to.y - tiltY * nz), a22, depth);
     const float flatX = 1.0f - nx * nx, flatY = 1.0f - ny * ny;
     const float parallelX = batch.radius[j] * __builtin_sqrtf(flatX > 0.0f ? flatX : 0.0f);
     const float parallelY = batch.radius[j] * __builtin_sqrtf(flatY > 0.0f ? flatY : 0.0f);
@@ -211,10 +211,8 @@ inline void setUpSpheres(RasterCamera camera, int count, RasterBatch& batch)
     const float depth = batch.depth[j];
     const float square = batch.radius[j] * batch.radius[j];
     const float a22 = square - depth * depth;
-    const ConicExtent x =
-      conicExtent(square * (1.0f + to.x * to.x), -square * to.x, a22, depth);
-    const ConicExtent y =
-      conicExtent(square * (1.0f + to.y * to.y), -square * to.y, a22, depth);
+    const ConicExtent x = conicExtent(square * (1.0f + to.x * to.x), -square * to.x, a22, depth);
+    const ConicExtent y = conicExtent(square * (1.0f + to.y * to.y), -square * to.y, a22, depth);
     const float flat = batch.radius[j];
     batch.halfX[j] = (Parallel ? flat : x.half) * camera.scaleX;
     batch.halfY[j] = (Parallel ? flat : y.half) * camera.scaleY;
@@ -339,8 +337,8 @@ inline void sortByExtent(const RasterWindow& window, int count, RasterBatch& bat
     const float larger = hx > hy ? hx : hy;
     const float x0 = __builtin_ceilf(mx - hx - 0.5f), y0 = __builtin_ceilf(my - hy - 0.5f);
     const float x1 = __builtin_floorf(mx + hx - 0.5f), y1 = __builtin_floorf(my + hy - 0.5f);
-    const int seen = (batch.depth[j] >= 0.0f) & (x1 >= left) & (x0 < right) & (y1 >= bottom) &
-      (y0 < top);
+    const int seen =
+      (batch.depth[j] >= 0.0f) & (x1 >= left) & (x0 < right) & (y1 >= bottom) & (y0 < top);
     // A splat may be small and yet reach over the margin: its centre is beyond the edge.
     const int inMargin = (x0 >= leftmost) & (x1 < rightmost) & (y0 >= lowest) & (y1 < highest);
     const int fits = seen & inMargin & (larger <= largestUnclipped);

@@ -9,10 +9,10 @@ namespace
 {
 
 // Against ground truth (docs/adr/0016):
-constexpr float visibleShare = 0.85f;   ///< of the closing radius, for what decides who is seen
-constexpr float blendedShare = 1.25f;   ///< for what is blended
-constexpr float leastDisc = 0.71f;      ///< pixels: reaches a pixel's centre wherever it lies
-constexpr float leastEllipse = 0.5f;    ///< its low-pass and its centre's pixel do the rest
+constexpr float visibleShare = 0.85f; ///< of the closing radius, for what decides who is seen
+constexpr float blendedShare = 1.25f; ///< for what is blended
+constexpr float leastDisc = 0.71f; ///< pixels: reaches a pixel's centre wherever it lies
+constexpr float leastEllipse = 0.5f; ///< its low-pass and its centre's pixel do the rest
 constexpr float leastBlended = 1.0f;
 constexpr float lowPassPixels = 0.5f;
 constexpr float opaqueParaboloid = 8.0f; ///< radii at the rim
@@ -38,8 +38,7 @@ constexpr float mostOfHeight = 0.125f;
 SplatPass ellipsePass(SplatAccuracy accuracy)
 {
   SplatPass pass;
-  pass.shape =
-    accuracy == SplatAccuracy::Affine ? SplatShape::Ellipse : SplatShape::ExactEllipse;
+  pass.shape = accuracy == SplatAccuracy::Affine ? SplatShape::Ellipse : SplatShape::ExactEllipse;
   pass.lowPass = accuracy == SplatAccuracy::Exact ? 0.0f : lowPassPixels;
   pass.leastRadius = leastEllipse;
   return pass;
@@ -91,11 +90,9 @@ void boundRadius(const ResolvedStyle& style, const PassDemand& demand, float sha
     return;
   }
   const float closing = share * demand.spacingPx *
-    static_cast<float>(std::max(style.size.value, 0.0)) *
-    (demand.thinned ? thinnedSpacings : 1.0f);
+    static_cast<float>(std::max(style.size.value, 0.0)) * (demand.thinned ? thinnedSpacings : 1.0f);
   pass.leastRadius = std::max(pass.leastRadius, closing);
-  pass.mostRadius =
-    std::max(pass.leastRadius, mostOfHeight * static_cast<float>(demand.heightPx));
+  pass.mostRadius = std::max(pass.leastRadius, mostOfHeight * static_cast<float>(demand.heightPx));
 }
 
 } // namespace
@@ -108,13 +105,12 @@ TechniquePasses passesOf(const ResolvedStyle& style, const PassDemand& demand)
   if (style.technique == Technique::Points && pixels)
   {
     passes.squares = true;
-    passes.squareSize =
-      std::clamp(static_cast<int>(std::lround(style.size.value)), 1, mostSquare);
+    passes.squareSize = std::clamp(static_cast<int>(std::lround(style.size.value)), 1, mostSquare);
     return passes;
   }
   passes.firstRadius = shareOf(style);
-  const bool twice = style.technique == Technique::Ewa ||
-    (style.technique == Technique::Splats && style.blended);
+  const bool twice =
+    style.technique == Technique::Ewa || (style.technique == Technique::Splats && style.blended);
   switch (style.technique)
   {
     case Technique::Spheres:
@@ -162,10 +158,9 @@ bool operator==(const TechniquePasses& a, const TechniquePasses& b)
 {
   const auto same = [](const SplatPass& x, const SplatPass& y)
   {
-    return x.shape == y.shape && x.paraboloid == y.paraboloid &&
-      x.leastRadius == y.leastRadius && x.mostRadius == y.mostRadius && x.lowPass == y.lowPass &&
-      x.slackRadii == y.slackRadii && x.slackPixels == y.slackPixels &&
-      x.rimFrom == y.rimFrom && x.rimRadii == y.rimRadii;
+    return x.shape == y.shape && x.paraboloid == y.paraboloid && x.leastRadius == y.leastRadius &&
+      x.mostRadius == y.mostRadius && x.lowPass == y.lowPass && x.slackRadii == y.slackRadii &&
+      x.slackPixels == y.slackPixels && x.rimFrom == y.rimFrom && x.rimRadii == y.rimRadii;
   };
   return a.squares == b.squares && a.squareSize == b.squareSize && same(a.first, b.first) &&
     a.firstRadius == b.firstRadius && a.blended == b.blended && same(a.second, b.second) &&

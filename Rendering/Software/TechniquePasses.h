@@ -13,7 +13,7 @@ struct TechniquePasses
   bool squares = false; ///< of `squareSize` pixels; else splats by `first`
   int squareSize = 1;
   SplatPass first;
-  float firstRadius = 1.0f;  ///< of the radius that closes the surface
+  float firstRadius = 1.0f; ///< of the radius that closes the surface
   bool blended = false;
   SplatPass second;
   float secondRadius = 1.0f;
@@ -27,7 +27,7 @@ struct TechniquePasses
 struct PassDemand
 {
   bool hasNormals = false; ///< of the node that is drawn
-  float spacingPx = 0.0f;  ///< FramePlan's
+  float spacingPx = 0.0f; ///< FramePlan's
   /// More points are there than are drawn, and the node does not say how far those are apart.
   bool thinned = false;
   int heightPx = 1; ///< of the viewport

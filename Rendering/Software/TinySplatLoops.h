@@ -69,7 +69,7 @@ void drawTiny(const RasterCamera& camera, const SplatPass& pass, RasterBatch& ba
 {
   int listed = 0;
   sampleTiny<Shape, Parallel>(camera, pass, batch, count,
-    [&](EightSplats eight, LaneMask tiny, const SplatSample (&samples)[4])
+    [&](EightSplats eight, LaneMask tiny, const SplatSample(&samples)[4])
     {
       const KeyDepth<Rimmed> keyDepth(pass, eight(batch.radius));
       const std::int32_t further[4] = { 0, 1, stride, stride + 1 };
@@ -85,8 +85,7 @@ void drawTiny(const RasterCamera& camera, const SplatPass& pass, RasterBatch& ba
   {
     std::uint32_t bits;
     __builtin_memcpy(&bits, batch.fragmentDepth + i, 4);
-    const auto key =
-      static_cast<RasterKey>(std::uint64_t(bits) << 32 | batch.fragmentIndex[i]);
+    const auto key = static_cast<RasterKey>(std::uint64_t(bits) << 32 | batch.fragmentIndex[i]);
     RasterKey* const pixel = keys + batch.fragmentOffset[i];
     const RasterKey old = *pixel;
     *pixel = key < old ? key : old;
@@ -105,7 +104,7 @@ void addTiny(const RasterCamera& camera, const SplatPass& pass, RasterBatch& bat
   const Lanes nothing = all(notDrawn());
   const Lanes pixelSize = all(pass.slackPixels / camera.scaleY);
   sampleTiny<Shape, Parallel>(camera, pass, batch, count,
-    [&](EightSplats eight, LaneMask, const SplatSample (&samples)[4])
+    [&](EightSplats eight, LaneMask, const SplatSample(&samples)[4])
     {
       const SplatSample& a = samples[0];
       const SplatSample& b = samples[1];
@@ -129,10 +128,10 @@ void addTiny(const RasterCamera& camera, const SplatPass& pass, RasterBatch& bat
     const int j = batch.list[i];
     const std::int64_t lower = batch.offset[j], upper = lower + stride;
     const LaneColour colour = colourOf(batch.colour[j]);
-    addSums2(sums + 4 * lower, nearest + lower, batch.lowerDepth + 2 * j,
-      batch.lowerWeight + 2 * j, colour);
-    addSums2(sums + 4 * upper, nearest + upper, batch.upperDepth + 2 * j,
-      batch.upperWeight + 2 * j, colour);
+    addSums2(sums + 4 * lower, nearest + lower, batch.lowerDepth + 2 * j, batch.lowerWeight + 2 * j,
+      colour);
+    addSums2(sums + 4 * upper, nearest + upper, batch.upperDepth + 2 * j, batch.upperWeight + 2 * j,
+      colour);
   }
 }
 

@@ -60,10 +60,10 @@ struct VisiblePoints::Place
 struct VisiblePoints::Source
 {
   const DrawnItem* drawn = nullptr;
-  const Kept* kept = nullptr;   ///< it is not a node but points of one
+  const Kept* kept = nullptr; ///< it is not a node but points of one
   bool wanted = true;
-  std::uint32_t planned = 0;    ///< that many of the node's points are drawn anyway
-  std::uint32_t full = 0;       ///< points from there on were not of their size yet, or no more
+  std::uint32_t planned = 0; ///< that many of the node's points are drawn anyway
+  std::uint32_t full = 0; ///< points from there on were not of their size yet, or no more
   std::unique_ptr<std::atomic<std::uint32_t>[]> visible; ///< null: nothing is known of it
 
   std::uint32_t indexInNode(std::uint32_t point) const
@@ -198,8 +198,7 @@ void VisiblePoints::markRow(
       source = &sources[item];
     }
     const std::uint32_t point = index - begin;
-    if (source->visible && point < source->full &&
-      source->indexInNode(point) >= source->planned)
+    if (source->visible && point < source->full && source->indexInNode(point) >= source->planned)
     {
       source->visible[point / 32].fetch_or(1u << point % 32, std::memory_order_relaxed);
     }

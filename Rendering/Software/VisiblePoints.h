@@ -52,14 +52,13 @@ private:
   {
     std::shared_ptr<const NodeColumns> columns;
     std::vector<std::uint32_t> indices; ///< in the node, ascending
-    PlanItem item;                      ///< how it was drawn
+    PlanItem item; ///< how it was drawn
   };
   struct Source;
   struct Place;
   std::vector<Source> sourcesOf(const std::vector<DrawnItem>& drawn) const;
   static bool leaveOutPlanned(const FramePlan& plan, std::vector<Source>& sources);
-  static void markVisible(
-    const Drawn& drawn, const std::vector<Source>& sources, ThreadCrew& crew);
+  static void markVisible(const Drawn& drawn, const std::vector<Source>& sources, ThreadCrew& crew);
   static void markRow(const RasterKey* row, int width, const ItemNumbers& numbers,
     const std::vector<Source>& sources);
   void gather(const std::vector<Source>& sources, ThreadCrew& crew);

@@ -125,8 +125,7 @@ void WinnerResolve::resolveFound(SoftwareTarget& target)
     const std::uint32_t end = winners_.places[number];
     for (; begin < end; begin += std::min<std::uint32_t>(RasterBatch::size, end - begin))
     {
-      const auto count =
-        static_cast<int>(std::min<std::uint32_t>(RasterBatch::size, end - begin));
+      const auto count = static_cast<int>(std::min<std::uint32_t>(RasterBatch::size, end - begin));
       resolve(items[number], winners_.sorted.data() + begin, count, target);
     }
     winners_.places[number] = 0;
@@ -254,13 +253,11 @@ float WinnerResolve::planeDepth(const RasterItem& item, int j, const Winner& win
       (batch_.screenX[j] - item.camera.centreX) * (perspective / item.camera.scaleX);
     const float toY =
       (batch_.screenY[j] - item.camera.centreY) * (perspective / item.camera.scaleY);
-    const float facing =
-      batch_.normalX[j] * toX + batch_.normalY[j] * toY + batch_.normalZ[j];
-    const float turned = batch_.normalX[j] * (dx / item.camera.scaleX) +
-      batch_.normalY[j] * (dy / item.camera.scaleY);
-    const float further = item.camera.parallel
-      ? -turned / facing
-      : -batch_.depth[j] * turned / (facing + turned);
+    const float facing = batch_.normalX[j] * toX + batch_.normalY[j] * toY + batch_.normalZ[j];
+    const float turned =
+      batch_.normalX[j] * (dx / item.camera.scaleX) + batch_.normalY[j] * (dy / item.camera.scaleY);
+    const float further =
+      item.camera.parallel ? -turned / facing : -batch_.depth[j] * turned / (facing + turned);
     const bool met = item.passes.walls() || std::abs(further) <= batch_.radius[j];
     return met ? batch_.depth[j] + further : batch_.depth[j];
   }
@@ -322,8 +319,8 @@ void WinnerResolve::resolve(
     const Winner& winner = winners[j];
     const float depth = keyIsDepth ? winner.keyDepth : planeDepth(item, j, winner);
     const std::int64_t row = winner.y + source_.window.bottom - target.bottom;
-    const auto pixel = static_cast<std::size_t>(
-      row * target.width + winner.x + source_.window.left - target.left);
+    const auto pixel =
+      static_cast<std::size_t>(row * target.width + winner.x + source_.window.left - target.left);
     const float eyeDepth = fromEye(*source_.items, depth);
     const bool nearer = eyeDepth < target.depth[pixel];
     put(item, j, winner, depth, target, pixel);

@@ -43,12 +43,10 @@ private:
   void find(int y);
   void resolveFound(SoftwareTarget& target);
   void sortByItem();
-  void resolve(
-    const RasterItem& item, const Winner* winners, int count, SoftwareTarget& target);
-  void put(const RasterItem& item, int j, const Winner& winner, float depth,
-    SoftwareTarget& target, std::size_t pixel);
-  std::uint32_t colourOf(
-    const RasterItem& item, int j, const Winner& winner, float depth) const;
+  void resolve(const RasterItem& item, const Winner* winners, int count, SoftwareTarget& target);
+  void put(const RasterItem& item, int j, const Winner& winner, float depth, SoftwareTarget& target,
+    std::size_t pixel);
+  std::uint32_t colourOf(const RasterItem& item, int j, const Winner& winner, float depth) const;
   glm::vec3 fromCentre(const RasterItem& item, int j, const Winner& winner, float depth) const;
   bool blendedColour(const Winner& winner, std::uint32_t& rgba) const;
   float planeDepth(const RasterItem& item, int j, const Winner& winner) const;

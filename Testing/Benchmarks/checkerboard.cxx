@@ -20,7 +20,7 @@ using namespace pointfront::test;
 
 constexpr int width = 640;
 constexpr int height = 360;
-constexpr int rays = 8;        // a pixel and axis
+constexpr int rays = 8; // a pixel and axis
 constexpr double board = 20.0; // half of an edge
 constexpr double square = 0.5;
 constexpr double spacing = 0.05;

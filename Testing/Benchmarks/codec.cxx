@@ -191,9 +191,8 @@ std::vector<Column> asNodes(const Cloud& cloud)
       {
         const std::size_t point = order[begin + i].second;
         const glm::u32vec3 position = cloud.positions[point] - low;
-        const void* from = c == 0
-          ? static_cast<const void*>(&position)
-          : cloud.attributes[c - 1].nodes[0].data() + point * step;
+        const void* from = c == 0 ? static_cast<const void*>(&position)
+                                  : cloud.attributes[c - 1].nodes[0].data() + point * step;
         std::memcpy(node.data() + i * step, from, step);
       }
     }
@@ -218,7 +217,10 @@ Bytes planesOf(const Bytes& values, const BlockShape& shape)
 }
 
 /// meshoptimizer wants vertices of a multiple of four bytes.
-std::size_t vertexBytes(const BlockShape& shape) { return (shape.pointBytes() + 3) / 4 * 4; }
+std::size_t vertexBytes(const BlockShape& shape)
+{
+  return (shape.pointBytes() + 3) / 4 * 4;
+}
 
 Bytes meshEncode(const Bytes& values, const BlockShape& shape)
 {
@@ -226,8 +228,7 @@ Bytes meshEncode(const Bytes& values, const BlockShape& shape)
   Bytes vertices(shape.points * stride);
   for (std::size_t i = 0; i < shape.points; ++i)
   {
-    std::memcpy(
-      &vertices[i * stride], &values[i * shape.pointBytes()], shape.pointBytes());
+    std::memcpy(&vertices[i * stride], &values[i * shape.pointBytes()], shape.pointBytes());
   }
   Bytes coded(meshopt_encodeVertexBufferBound(shape.points, stride));
   coded.resize(meshopt_encodeVertexBuffer(reinterpret_cast<unsigned char*>(coded.data()),
@@ -300,10 +301,9 @@ Candidate planesLz4()
     {
       const Bytes planes = planesOf(values, shape);
       Bytes coded(static_cast<std::size_t>(LZ4_compressBound(static_cast<int>(planes.size()))));
-      coded.resize(static_cast<std::size_t>(
-        LZ4_compress_default(reinterpret_cast<const char*>(planes.data()),
-          reinterpret_cast<char*>(coded.data()), static_cast<int>(planes.size()),
-          static_cast<int>(coded.size()))));
+      coded.resize(static_cast<std::size_t>(LZ4_compress_default(
+        reinterpret_cast<const char*>(planes.data()), reinterpret_cast<char*>(coded.data()),
+        static_cast<int>(planes.size()), static_cast<int>(coded.size()))));
       return coded;
     },
     [](const Bytes& coded, const BlockShape& shape, Bytes& values)

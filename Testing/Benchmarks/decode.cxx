@@ -92,8 +92,7 @@ int main(int argc, char** argv)
     registerDecode(store, "positions", {}, threads);
     if (const std::optional<std::size_t> rgb = schema.find("rgb"))
     {
-      registerDecode(
-        store, "positions and rgb", { static_cast<std::uint32_t>(*rgb) }, threads);
+      registerDecode(store, "positions and rgb", { static_cast<std::uint32_t>(*rgb) }, threads);
     }
     registerDecode(store, "everything", all, threads);
   }

@@ -110,8 +110,7 @@ public:
   std::vector<float> frame(const FrameCamera& camera, int number, double times, bool fixedSizes)
   {
     demand_.targetErrorPx = way_ == Way::AllPoints ? allPointsPx : times * errorPx_;
-    demand_.view =
-      View::fromMatrix(camera.storeToClip(), camera.width, camera.height);
+    demand_.view = View::fromMatrix(camera.storeToClip(), camera.width, camera.height);
     front_.update(demand_);
     PlanRequest request = request_;
     request.camera = camera;
@@ -134,8 +133,8 @@ public:
     for (std::size_t i = 0; i < grey.size(); ++i)
     {
       const std::uint32_t c = target.rgba[i];
-      grey[i] = 0.299f * static_cast<float>(c & 255u) +
-        0.587f * static_cast<float>(c >> 8 & 255u) + 0.114f * static_cast<float>(c >> 16 & 255u);
+      grey[i] = 0.299f * static_cast<float>(c & 255u) + 0.587f * static_cast<float>(c >> 8 & 255u) +
+        0.114f * static_cast<float>(c >> 16 & 255u);
     }
     return grey;
   }
@@ -233,8 +232,8 @@ FrameCamera cameraAt(const Bounds& box, Path path, int frame, int frames)
     1e-3 * away, 10.0 * away, width, height);
 }
 
-void measure(const std::shared_ptr<const PointStore>& store, const DrawnWay& technique,
-  Path path, int frames)
+void measure(
+  const std::shared_ptr<const PointStore>& store, const DrawnWay& technique, Path path, int frames)
 {
   std::vector<std::unique_ptr<Flight>> flights;
   for (const Way way : { Way::AllPoints, Way::Nodes, Way::Prefixes, Way::Growing })
@@ -246,7 +245,7 @@ void measure(const std::shared_ptr<const PointStore>& store, const DrawnWay& tec
   for (int frame = 0; frame < frames; ++frame)
   {
     const FrameCamera camera = cameraAt(store->description().bounds, path, frame, frames);
-    const double times = path == Path::Sweep ? std::pow(0.25, double(frame) / frames) * 4.0
+    const double times = path == Path::Sweep     ? std::pow(0.25, double(frame) / frames) * 4.0
       : path == Path::Step && frame < frames / 4 ? 4.0
                                                  : 1.0;
     std::array<std::vector<float>, 4> now;
@@ -265,8 +264,7 @@ void measure(const std::shared_ptr<const PointStore>& store, const DrawnWay& tec
     std::printf("| %s, %s | %s | %.2f | %.2f | %.2f | %.2f | %.0f | %.1f |\n", technique.name,
       pathNames[static_cast<std::size_t>(path)], wayNames[way], flicker[way].sum / (frames - 1),
       flicker[way].largest, std::sqrt(std::max(0.0, flicker[way].squares / (frames - 1))),
-      flicker[way].jumps / (frames - 1),
-      1e-3 * static_cast<double>(flights[way]->points) / frames,
+      flicker[way].jumps / (frames - 1), 1e-3 * static_cast<double>(flights[way]->points) / frames,
       flights[way]->milliseconds / frames);
   }
   std::fflush(stdout);

@@ -24,8 +24,8 @@
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
-#include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
+#include <vtkRenderWindow.h>
 #include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
@@ -85,8 +85,8 @@ vtkSmartPointer<vtkPolyData> allPoints(const StoredCloud& store)
     }
     for (std::size_t i = 0; i < decoded->size(); ++i, ++id)
     {
-      const glm::dvec3 p = description.grid.toWorld(
-        decoded->origin + GridPosition(decoded->positions[i]));
+      const glm::dvec3 p =
+        description.grid.toWorld(decoded->origin + GridPosition(decoded->positions[i]));
       points->SetPoint(id, p.x, p.y, p.z);
       colourOf(rgb, decoded->columns[0].data() + i * rgb.bytes(), colours->GetPointer(3 * id));
       vertices->InsertCellPoint(id);
@@ -134,7 +134,7 @@ double frameMs(vtkRenderWindow* window)
 void dressOurs(vtkPointFrontMapper* mapper, vtkPointFrontReader* reader, double error,
   const std::string& backend)
 {
-  backend == "opengl"     ? mapper->SetBackendToOpenGL()
+  backend == "opengl"       ? mapper->SetBackendToOpenGL()
     : backend == "software" ? mapper->SetBackendToSoftware()
                             : mapper->SetBackendToAutomatic();
   mapper->SetInputConnection(reader->GetOutputPort());

@@ -54,10 +54,10 @@ private:
 
 enum Motion
 {
-  Still,      ///< and the residency tells that nothing changed: what a view at rest costs
+  Still, ///< and the residency tells that nothing changed: what a view at rest costs
   StillAsked, ///< everything is looked at anew
-  Moving,     ///< to and fro over a hundredth of the terrain in 2,000 updates
-  Rotating    ///< once round in 2,000 updates, in the middle: as much terrain to every side
+  Moving, ///< to and fro over a hundredth of the terrain in 2,000 updates
+  Rotating ///< once round in 2,000 updates, in the middle: as much terrain to every side
 };
 
 /// Low over the terrain, so that the front reaches from the first levels to the deepest.
@@ -66,8 +66,7 @@ View lowFlight(int levels, double x, double y, double turn)
   const double height = terrainSize * std::exp2(-levels) * 10.0;
   const glm::dvec3 eye(x * terrainSize, y * terrainSize, height);
   const glm::dvec3 ahead(std::cos(turn), std::sin(turn), -0.25);
-  return View::perspective(
-    eye, eye + ahead, { 0, 0, 1 }, 0.8, 0.1, 2 * terrainSize, 1920, 1080);
+  return View::perspective(eye, eye + ahead, { 0, 0, 1 }, 0.8, 0.1, 2 * terrainSize, 1920, 1080);
 }
 
 View viewOf(Motion motion, int levels, std::size_t update)
@@ -144,8 +143,7 @@ void frontUpdate(benchmark::State& state)
   limits.pointBudget = 50000000;
   AllResident residency(motion == Still ? 1 : 0);
   RenderFront front(table);
-  const FrontDelta* delta =
-    &settle(front, *table, viewOf(motion, levels, 0), residency, limits);
+  const FrontDelta* delta = &settle(front, *table, viewOf(motion, levels, 0), residency, limits);
   const std::uint64_t pagesBefore = table->pagesRead();
   std::vector<double> times;
   double nodesDrawn = 0.0;
@@ -155,8 +153,7 @@ void frontUpdate(benchmark::State& state)
     const View view = viewOf(motion, levels, times.size());
     const auto begin = std::chrono::steady_clock::now();
     delta = &front.update(view, residency, limits);
-    const std::chrono::duration<double, std::milli> time =
-      std::chrono::steady_clock::now() - begin;
+    const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - begin;
     times.push_back(time.count());
     sum += time.count();
     nodesDrawn += double(delta->draw.size());
@@ -175,8 +172,7 @@ void frontUpdate(benchmark::State& state)
   state.counters["nodes_drawn"] = nodesDrawn / double(times.size());
   state.counters["ns_a_node"] = 1e6 * sum / nodesDrawn;
   state.counters["table_nodes"] = table->nodeCount();
-  state.counters["table_points"] =
-    double(table->nodeCount()) * test::Terrain::pointsOfNode;
+  state.counters["table_points"] = double(table->nodeCount()) * test::Terrain::pointsOfNode;
   state.counters["pages_read"] = double(table->pagesRead() - pagesBefore);
   state.counters["rows_mib"] = double(table->cachedBytes()) / 1048576.0;
   state.counters["process_mib"] = processBytes() / 1048576.0;
@@ -186,8 +182,8 @@ void frontUpdate(benchmark::State& state)
 void printRatios()
 {
   const char* const names[] = { "still", "still, asked", "moving", "rotating" };
-  std::fprintf(stderr, "\n%-14s %8s %14s %14s %14s\n", "to 8 levels", "levels", "p50", "p99",
-    "a node drawn");
+  std::fprintf(
+    stderr, "\n%-14s %8s %14s %14s %14s\n", "to 8 levels", "levels", "p50", "p99", "a node drawn");
   for (const auto& [key, times] : results())
   {
     const auto smallest = results().find({ key.first, 8 });

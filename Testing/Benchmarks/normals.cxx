@@ -166,8 +166,8 @@ private:
 void printSpeed(const Estimate& estimate)
 {
   const auto points = double(estimate.normals.size());
-  std::printf(" %.2f | %.0f |", points / estimate.seconds * 1e-6,
-    estimate.cpuSeconds / points * 1e9);
+  std::printf(
+    " %.2f | %.0f |", points / estimate.seconds * 1e-6, estimate.cpuSeconds / points * 1e9);
 }
 
 /// From the first reading to the last: the normals of all points in input order.
@@ -206,8 +206,8 @@ Estimate estimated(const AttributePass& pass, const Vectors& positions)
 /// Between lines: the sign of a normal plays no part.
 struct Angles
 {
-  double rms = 0.0;     ///< degrees
-  double most95 = 0.0;  ///< degrees; 95 % are no larger
+  double rms = 0.0; ///< degrees
+  double most95 = 0.0; ///< degrees; 95 % are no larger
   double without = 0.0; ///< share of the known ones that have no normal
 };
 
@@ -228,8 +228,9 @@ Angles anglesBetween(const Vectors& normals, const Vectors& known)
       ++without;
       continue;
     }
-    const double angle = degree * std::atan2(glm::length(glm::cross(normals[i], known[i])),
-      std::abs(glm::dot(normals[i], known[i])));
+    const double angle = degree *
+      std::atan2(
+        glm::length(glm::cross(normals[i], known[i])), std::abs(glm::dot(normals[i], known[i])));
     degrees.push_back(angle);
     squares += angle * angle;
   }
@@ -367,8 +368,7 @@ int main(int argc, char** argv)
       std::printf("| %s | %s |", shape.name.c_str(), method.name.c_str());
       printSpeed(estimate);
       const Angles angles = anglesBetween(estimate.normals, shape.normals);
-      std::printf(
-        " %.3f | %.3f | %.2f |\n", angles.rms, angles.most95, 100.0 * angles.without);
+      std::printf(" %.3f | %.3f | %.2f |\n", angles.rms, angles.most95, 100.0 * angles.without);
       std::fflush(stdout);
     }
   }

@@ -148,8 +148,8 @@ FramePlan planOfAll(const StoreDescription& description,
     }
     angle = std::atof(argv[9]);
   }
-  plan.camera = FrameCamera::perspective(from, at, { 0, 0, 1 }, angle * 0.017453292519943295,
-    1e-4 * size, 10.0 * size, width, height);
+  plan.camera = FrameCamera::perspective(
+    from, at, { 0, 0, 1 }, angle * 0.017453292519943295, 1e-4 * size, 10.0 * size, width, height);
   plan.grid = description.grid;
   plan.schema = std::make_shared<const AttributeSchema>(description.schema);
   plan.splatRadiusBase = description.splatRadiusBase;
@@ -208,8 +208,8 @@ int main(int argc, char** argv)
 
   FramePlan plan = planOfAll(description, nodes, argc, argv);
   const auto points = static_cast<double>(plan.pointCount());
-  std::printf("%.0f points, %zu nodes, %s\n", points, nodes.size(),
-    SoftwareRasteriser().instructionSet());
+  std::printf(
+    "%.0f points, %zu nodes, %s\n", points, nodes.size(), SoftwareRasteriser().instructionSet());
   std::printf("| technique | CPU ns a point, 1 thread | 2 threads "
               "| ms, 1 thread | 2 threads | speed-up |\n| --- | --- | --- | --- | --- | --- |\n");
   for (const MeasuredTechnique& one : techniques)
@@ -227,11 +227,9 @@ int main(int argc, char** argv)
     style->normalColumn = one.normals ? normal : std::nullopt;
     style->radiusColumn = radius;
     style->heightColumn = solid ? height : std::nullopt;
-    style->colouring.kind =
-      rgb ? PointColouring::Kind::Direct : PointColouring::Kind::Flat;
+    style->colouring.kind = rgb ? PointColouring::Kind::Direct : PointColouring::Kind::Flat;
     style->colouring.column = rgb.value_or(0);
-    style->colouring.wide =
-      rgb && description.ranges[*rgb].components[0][1] > 255.0;
+    style->colouring.wide = rgb && description.ranges[*rgb].components[0][1] > 255.0;
     plan.batches[0].style = style;
     SoftwareTarget target;
     const Measured alone = measure(plan, 1, target);

@@ -41,7 +41,11 @@ constexpr unsigned seed = 1;
 class PointCells
 {
 public:
-  PointCells(double size, const glm::dvec3& low) : size_(size), low_(low) {}
+  PointCells(double size, const glm::dvec3& low)
+    : size_(size)
+    , low_(low)
+  {
+  }
   void add(const glm::dvec3& p) { cells_[key(cellOf(p))].push_back(p); }
   /// Smallest distance to another point, if it is below the size; else infinite.
   double nearest(const glm::dvec3& p) const
@@ -232,8 +236,8 @@ void print(const std::array<Spacings, 3>& spacings, std::size_t nodes)
   std::printf("+\n");
   for (const Spacings& s : spacings)
   {
-    std::printf("%-12s %8.3f %8.3f", s.name, s.sumOfMeans / double(nodes),
-      s.sumOfFifths / double(nodes));
+    std::printf(
+      "%-12s %8.3f %8.3f", s.name, s.sumOfMeans / double(nodes), s.sumOfFifths / double(nodes));
     std::array<std::size_t, bins> histogram{};
     for (const double d : s.relative)
     {

@@ -37,8 +37,7 @@ void seal(std::vector<std::byte>& bytes)
 void openAndRead(const std::vector<std::byte>& bytes)
 {
   using namespace pointfront;
-  const fuzz::BytesAsFile file(
-    reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
+  const fuzz::BytesAsFile file(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
   const Result<std::unique_ptr<const SideFile>> side = SideFile::open(file.path());
   if (!side)
   {

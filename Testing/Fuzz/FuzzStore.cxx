@@ -14,8 +14,7 @@ using namespace pointfront;
 /// A store of these bytes: opened, checked and, whatever the check says, read node by node.
 void openAndRead(const std::vector<std::byte>& bytes)
 {
-  const fuzz::BytesAsFile file(
-    reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
+  const fuzz::BytesAsFile file(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
   const Result<std::shared_ptr<const PointStore>> opened = PointStore::open(file.path());
   if (!opened)
   {

@@ -8,8 +8,8 @@
 /// What is read has closed rings of finite vertices.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
-  const auto geometry = pointfront::parseWellKnownText(
-    std::string_view(reinterpret_cast<const char*>(data), size));
+  const auto geometry =
+    pointfront::parseWellKnownText(std::string_view(reinterpret_cast<const char*>(data), size));
   if (geometry)
   {
     const auto prism = pointfront::PolygonPrism::make(geometry->polygons);

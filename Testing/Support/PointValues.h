@@ -91,8 +91,7 @@ inline std::string bytesOfFile(const std::string& path)
 /// Writes a file under a folder of this process; gives its path.
 inline std::string writeFile(const std::string& name, const std::string& bytes)
 {
-  const std::string folder =
-    testing::TempDir() + "pointfront-points-" + std::to_string(::getpid());
+  const std::string folder = testing::TempDir() + "pointfront-points-" + std::to_string(::getpid());
   std::filesystem::create_directories(folder);
   const std::string path = folder + "/" + name;
   std::ofstream file(path, std::ios::binary | std::ios::trunc);

@@ -164,7 +164,7 @@ public:
   {
     OracleQuery query;
     const std::int64_t kind = number_++ % 6;
-    kind == 0   ? addBox(query)
+    kind == 0     ? addBox(query)
       : kind == 1 ? addPrism(query)
       : kind == 2 ? addSphere(query)
       : kind == 3 ? addConvex(query)
@@ -301,8 +301,7 @@ private:
       world.push_back(worldOf(line.back()));
     }
     const std::int64_t distance = random_.upTo(80);
-    query.query.regions.push_back(
-      LineCorridor::make({ world }, 0.25 * double(distance)).value());
+    query.query.regions.push_back(LineCorridor::make({ world }, 0.25 * double(distance)).value());
     const auto excess = [line, distance](const OraclePoint& p)
     {
       long double least = squaredDistance(line[0], line[0], Flat(p.steps));
@@ -323,8 +322,8 @@ private:
     const std::string text = (query.query.where.empty() ? "" : query.query.where.text + " and ") +
       "intensity in [" + std::to_string(low) + ", " + std::to_string(high) + ")";
     query.query.where = FilterExpression::parse(text).value();
-    query.also(text,
-      [low, high](const OraclePoint& p) { return p.intensity >= low && p.intensity < high; });
+    query.also(
+      text, [low, high](const OraclePoint& p) { return p.intensity >= low && p.intensity < high; });
   }
 
   void addClasses(OracleQuery& query)
@@ -353,8 +352,7 @@ struct QueryAnswer
     EXPECT_EQ(batch.points.positions.size(), batch.ids.size());
     nodes.push_back(batch.node);
     ids.insert(ids.end(), batch.ids.begin(), batch.ids.end());
-    positions.insert(
-      positions.end(), batch.points.positions.begin(), batch.points.positions.end());
+    positions.insert(positions.end(), batch.points.positions.begin(), batch.points.positions.end());
     columns.resize(batch.points.columns.size());
     for (std::size_t c = 0; c < columns.size(); ++c)
     {
@@ -388,12 +386,11 @@ inline void expectOracle(
   answer.columns.resize(3);
   const AttributeSchema& schema = store.description().schema;
   std::vector<std::string> names{ "gps_time", "intensity", "classification" };
-  std::sort(names.begin(), names.end(), [&schema](const std::string& a, const std::string& b)
+  std::sort(names.begin(), names.end(),
+    [&schema](const std::string& a, const std::string& b)
     { return *schema.find(a) < *schema.find(b); });
   const auto columnOf = [&names](const char* name)
-  {
-    return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
-  };
+  { return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin()); };
   std::vector<bool> found(cloud.points().size(), false);
   for (std::size_t i = 0; i < answer.ids.size(); ++i)
   {
@@ -430,8 +427,7 @@ inline void expectOracle(const StoredCloud& store, const OracleCloud& cloud, int
       QueryAnswer again;
       ASSERT_TRUE(queryPoints(store, asked.query, {}, answer.consumer()));
       std::sort(answer.ids.begin(), answer.ids.end());
-      ASSERT_TRUE(
-        pointsById(store, answer.ids, asked.query.attributes, {}, again.consumer()));
+      ASSERT_TRUE(pointsById(store, answer.ids, asked.query.attributes, {}, again.consumer()));
       EXPECT_TRUE(again.ids == answer.ids);
       EXPECT_TRUE(again.columns == answer.columns);
       EXPECT_TRUE(again.positions == answer.positions);

@@ -19,8 +19,8 @@
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
-#include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
+#include <vtkRenderWindow.h>
 #include <vtkUnsignedCharArray.h>
 #include <vtkWindowToImageFilter.h>
 
@@ -43,8 +43,8 @@ using namespace pointfront;
 }
 
 /// Three values a point, as the file has them.
-void appendColours(const Attribute& rgb, const std::vector<std::byte>& column,
-  std::vector<std::uint16_t>& colours)
+void appendColours(
+  const Attribute& rgb, const std::vector<std::byte>& column, std::vector<std::uint16_t>& colours)
 {
   const std::size_t before = colours.size();
   colours.resize(before + column.size() / sizeOf(rgb.type));
@@ -61,8 +61,8 @@ void appendColours(const Attribute& rgb, const std::vector<std::byte>& column,
 
 vtkSmartPointer<vtkUnsignedCharArray> shownColours(const std::vector<std::uint16_t>& colours)
 {
-  const bool wide = std::any_of(
-    colours.begin(), colours.end(), [](std::uint16_t value) { return value > 255; });
+  const bool wide =
+    std::any_of(colours.begin(), colours.end(), [](std::uint16_t value) { return value > 255; });
   auto shown = vtkSmartPointer<vtkUnsignedCharArray>::New();
   shown->SetNumberOfComponents(3);
   for (const std::uint16_t value : colours)

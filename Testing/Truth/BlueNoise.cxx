@@ -11,7 +11,7 @@ namespace pointfront::truth
 namespace
 {
 constexpr double candidatesPerSquare = 6.0; // of the spacing
-constexpr double radiusPerSpacing = 0.713;  // what comes to one point a square, by experiment
+constexpr double radiusPerSpacing = 0.713; // what comes to one point a square, by experiment
 
 /// A place on a triangle, as Hit has it.
 struct Place
@@ -82,8 +82,9 @@ private:
   void divide(std::size_t triangle, const Place& p, const Place& q, const Place& r,
     const glm::dvec3 (&corners)[3])
   {
-    const auto middle = [](const Place& one, const Place& other)
-    { return Place{ 0.5 * (one.b + other.b), 0.5 * (one.c + other.c) }; };
+    const auto middle = [](const Place& one, const Place& other) {
+      return Place{ 0.5 * (one.b + other.b), 0.5 * (one.c + other.c) };
+    };
     const double pq = glm::length(corners[1] - corners[0]);
     const double qr = glm::length(corners[2] - corners[1]);
     const double rp = glm::length(corners[0] - corners[2]);
@@ -107,11 +108,11 @@ private:
     }
   }
 
-  void scatter(std::size_t triangle, const Place& p, const Place& q, const Place& r,
-    double spacing, double area)
+  void scatter(std::size_t triangle, const Place& p, const Place& q, const Place& r, double spacing,
+    double area)
   {
-    const auto count = std::uint64_t(
-      candidatesPerSquare * area / (spacing * spacing) + random_.uniform());
+    const auto count =
+      std::uint64_t(candidatesPerSquare * area / (spacing * spacing) + random_.uniform());
     for (std::uint64_t i = 0; i < count; ++i)
     {
       double u = random_.uniform();

@@ -6,8 +6,8 @@ namespace pointfront::truth
 {
 namespace
 {
-constexpr int turns = 800;  // vertices along the knot
-constexpr int sides = 80;   // and around its tube
+constexpr int turns = 800; // vertices along the knot
+constexpr int sides = 80; // and around its tube
 constexpr double extent = 10.0;
 
 /// The trefoil knot, which winds twice around and three times through a torus.

@@ -16,8 +16,7 @@ constexpr std::uint32_t neighbours = 12;
 constexpr double radiusSpacings = 1.5;
 constexpr double nearestWeighs = 1.05; // of its distance: a point alone has some weight
 
-glm::dvec3 meanColour(
-  const NeighbourList& near, const TruthPoints& points, double radius)
+glm::dvec3 meanColour(const NeighbourList& near, const TruthPoints& points, double radius)
 {
   const double nearest = near.entries().front().squaredDistance;
   const double squaredRadius =

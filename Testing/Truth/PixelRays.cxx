@@ -18,8 +18,7 @@ PixelRays::PixelRays(const TruthCamera& camera, std::uint32_t width, std::uint32
 
 glm::dvec3 PixelRays::through(double x, double y) const
 {
-  return forward_ + (x - 0.5 * width_) / focalPx_ * right_ +
-    (y - 0.5 * height_) / focalPx_ * down_;
+  return forward_ + (x - 0.5 * width_) / focalPx_ * right_ + (y - 0.5 * height_) / focalPx_ * down_;
 }
 
 glm::dvec3 PixelRays::project(const glm::dvec3& place) const

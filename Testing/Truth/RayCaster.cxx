@@ -209,8 +209,7 @@ Hit RayCaster::cast(
   {
     const Node& node = nodes_[current.node];
     // At the same distance another triangle may have a lower number.
-    const bool reached =
-      std::isfinite(current.entry) && current.entry <= hit.distance;
+    const bool reached = std::isfinite(current.entry) && current.entry <= hit.distance;
     if (reached && node.count == 0)
     {
       Visit near = { current.node + 1, ray.entry(nodes_[current.node + 1].box, hit.distance) };

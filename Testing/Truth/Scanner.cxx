@@ -11,21 +11,21 @@ namespace pointfront::truth
 namespace
 {
 constexpr double linesPerPoints = 2.0; // distance of two lines over that of two points in one
-constexpr double alongJitter = 0.08;   // of the distance of points, standard deviation
-constexpr double acrossJitter = 0.03;  // of the distance of lines
-constexpr double lineSway = 0.1;       // of the distance of lines
-constexpr double rangeNoise = 0.1;     // of the spacing
+constexpr double alongJitter = 0.08; // of the distance of points, standard deviation
+constexpr double acrossJitter = 0.03; // of the distance of lines
+constexpr double lineSway = 0.1; // of the distance of lines
+constexpr double rangeNoise = 0.1; // of the spacing
 constexpr double outlierShare = 0.01;
-constexpr double outlierNoise = 1.0;   // of the spacing
-constexpr double leastCosine = 0.35;   // of a single object: flatter hits are lost
+constexpr double outlierNoise = 1.0; // of the spacing
+constexpr double leastCosine = 0.35; // of a single object: flatter hits are lost
 
 /// Parallel beams over the whole scene.
 struct Flight
 {
   glm::dvec3 beam;
-  glm::dvec3 along;  ///< direction of a scan line
+  glm::dvec3 along; ///< direction of a scan line
   glm::dvec3 across; ///< from one line to the next
-  double widening;   ///< of the spacing: less than 1 where several flights meet
+  double widening; ///< of the spacing: less than 1 where several flights meet
 };
 
 Flight makeFlight(const glm::dvec3& beam, double widening, bool turned)
@@ -46,8 +46,8 @@ std::vector<Flight> flightsOver(bool town)
     for (int k = 0; k < 4; ++k)
     {
       const double heading = 0.3 + 0.5 * pi * k;
-      flights.push_back(makeFlight(
-        { 0.7 * std::cos(heading), 0.7 * std::sin(heading), -1.0 }, 2.44, k % 2 == 1));
+      flights.push_back(
+        makeFlight({ 0.7 * std::cos(heading), 0.7 * std::sin(heading), -1.0 }, 2.44, k % 2 == 1));
     }
     return flights;
   }
@@ -192,8 +192,7 @@ private:
       return;
     }
     const glm::dvec3 place = from + hit.distance * flight_.beam;
-    if (!region_.contains(place) ||
-      region_.grade.level(region_.pixels.project(place).z) != level_)
+    if (!region_.contains(place) || region_.grade.level(region_.pixels.project(place).z) != level_)
     {
       return;
     }

@@ -33,14 +33,16 @@ double noise(const glm::dvec3& p)
   for (std::int64_t up = 0; up < 2; ++up)
   {
     const double near = glm::mix(cellValue(i, j, k + up), cellValue(i + 1, j, k + up), s.x);
-    const double far =
-      glm::mix(cellValue(i, j + 1, k + up), cellValue(i + 1, j + 1, k + up), s.x);
+    const double far = glm::mix(cellValue(i, j + 1, k + up), cellValue(i + 1, j + 1, k + up), s.x);
     layers[up] = glm::mix(near, far, s.y);
   }
   return glm::mix(layers[0], layers[1], s.z);
 }
 
-double fraction(double x) { return x - std::floor(x); }
+double fraction(double x)
+{
+  return x - std::floor(x);
+}
 
 /// Distance to the middle of the nearest of the roads that run along the other axis.
 double fromRoad(double x)
@@ -79,8 +81,8 @@ glm::dvec3 wall(const glm::dvec3& p)
     cellValue(std::lround(p.x / roadDistance), std::lround(p.y / roadDistance), 3);
   const double across = (p.x + p.y) / 2.6;
   const double up = p.z / 2.8;
-  const bool window = std::abs(across - std::round(across)) < 0.2 &&
-    std::abs(up - std::round(up)) < 0.22;
+  const bool window =
+    std::abs(across - std::round(across)) < 0.2 && std::abs(up - std::round(up)) < 0.22;
   const glm::dvec3 colour = window
     ? glm::dvec3(45, 55, 70)
     : glm::mix(glm::dvec3(205, 190, 160), glm::dvec3(180, 120, 100), house);
@@ -114,8 +116,8 @@ glm::dvec3 paint(Material material, const glm::dvec3& p, std::size_t triangle)
     case Material::Roof:
       return roof(p);
     case Material::Leaf:
-      return glm::mix(glm::dvec3(48, 92, 34), glm::dvec3(120, 150, 60),
-        cellValue(std::int64_t(triangle), 17, 5));
+      return glm::mix(
+        glm::dvec3(48, 92, 34), glm::dvec3(120, 150, 60), cellValue(std::int64_t(triangle), 17, 5));
     case Material::Trunk:
       return glm::dvec3(100, 76, 52) * (0.7 + 0.3 * noise(6.0 * p));
     case Material::Metal:

@@ -20,9 +20,8 @@ struct SpacingGrade
   /// 0 at the median depth, 1 where the spacing is twice as large ...
   int level(double depth) const
   {
-    return graded
-      ? int(std::floor(std::log2(std::max(depth, 0.5 * nearest()) / medianDepth) + 0.5))
-      : 0;
+    return graded ? int(std::floor(std::log2(std::max(depth, 0.5 * nearest()) / medianDepth) + 0.5))
+                  : 0;
   }
   double ofLevel(int level) const { return std::ldexp(spacing, level); }
   double at(double depth) const { return ofLevel(level(depth)); }

@@ -9,10 +9,10 @@ namespace pointfront::truth
 {
 namespace
 {
-constexpr double halfWidth = 100.0;  // metres
-constexpr int groundCells = 100;     // along each axis
+constexpr double halfWidth = 100.0; // metres
+constexpr int groundCells = 100; // along each axis
 constexpr double plotWidth = 28.0;
-constexpr int plots = 7;             // along each axis
+constexpr int plots = 7; // along each axis
 
 double groundHeight(double x, double y)
 {
@@ -44,8 +44,8 @@ void addGround(MeshBuilder& mesh)
 /// Four walls, two gables and a roof that stands out by half a metre.
 void addHouse(MeshBuilder& mesh, const glm::dvec2& centre, RandomStream& random)
 {
-  const double a = random.uniform(3.5, 6.0);  // half of the width
-  const double b = random.uniform(3.5, 6.5);  // half of the length
+  const double a = random.uniform(3.5, 6.0); // half of the width
+  const double b = random.uniform(3.5, 6.5); // half of the length
   const double wall = random.uniform(3.0, 8.0);
   const double rise = random.uniform(1.5, 3.5);
   const double angle = random.uniform(-0.3, 0.3);
@@ -60,8 +60,8 @@ void addHouse(MeshBuilder& mesh, const glm::dvec2& centre, RandomStream& random)
   {
     const glm::dvec2& p = corners[side];
     const glm::dvec2& q = corners[(side + 1) % 4];
-    mesh.quad(at(p.x, p.y, 0), at(q.x, q.y, 0), at(q.x, q.y, wall), at(p.x, p.y, wall),
-      Material::Wall);
+    mesh.quad(
+      at(p.x, p.y, 0), at(q.x, q.y, 0), at(q.x, q.y, wall), at(p.x, p.y, wall), Material::Wall);
   }
   const double top = wall + rise;
   mesh.triangle(at(-a, -b, wall), at(a, -b, wall), at(0, -b, top), Material::Wall);
@@ -100,8 +100,7 @@ void addTree(MeshBuilder& mesh, const glm::dvec2& place, RandomStream& random)
   const int leaves = int(260.0 * radius * radius);
   for (int leaf = 0; leaf < leaves; ++leaf)
   {
-    const glm::dvec3 centre =
-      crown + placeInCrown(random) * glm::dvec3(radius, radius, halfHeight);
+    const glm::dvec3 centre = crown + placeInCrown(random) * glm::dvec3(radius, radius, halfHeight);
     const glm::dvec3 along = random.direction();
     const glm::dvec3 across = glm::normalize(glm::cross(along, random.direction()));
     const double size = random.uniform(0.12, 0.28);

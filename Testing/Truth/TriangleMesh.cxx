@@ -30,8 +30,8 @@ glm::dvec3 TriangleMesh::normalAt(std::size_t triangle, double b, double c) cons
     return faceNormal(triangle);
   }
   const std::array<std::uint32_t, 3>& corners = triangles[triangle];
-  return glm::normalize((1.0 - b - c) * vertexNormals[corners[0]] +
-    b * vertexNormals[corners[1]] + c * vertexNormals[corners[2]]);
+  return glm::normalize((1.0 - b - c) * vertexNormals[corners[0]] + b * vertexNormals[corners[1]] +
+    c * vertexNormals[corners[2]]);
 }
 
 Bounds TriangleMesh::bounds() const

@@ -29,7 +29,7 @@ struct TriangleMesh
 {
   std::vector<glm::dvec3> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles; ///< anticlockwise from outside
-  std::vector<Material> materials;                     ///< of each triangle
+  std::vector<Material> materials; ///< of each triangle
   std::vector<glm::dvec3> vertexNormals; ///< empty: each triangle is flat to the eye as well
 
   std::size_t size() const { return triangles.size(); }
@@ -51,13 +51,12 @@ struct TriangleMesh
 class MeshBuilder
 {
 public:
-  void triangle(
-    const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, Material material);
+  void triangle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, Material material);
   void quad(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d,
     Material material);
   /// The side of a prism of so many sides from one end to the other.
-  void tube(const glm::dvec3& from, const glm::dvec3& to, double radius, int sides,
-    Material material);
+  void tube(
+    const glm::dvec3& from, const glm::dvec3& to, double radius, int sides, Material material);
   TriangleMesh take() { return std::move(mesh_); }
 
 private:

@@ -19,7 +19,7 @@ public:
   struct Choice
   {
     std::string view = "far"; ///< one that the scene has
-    double spacingPx = 1.0;   ///< projected, at the median depth
+    double spacingPx = 1.0; ///< projected, at the median depth
     std::uint32_t width = 800;
     std::uint32_t height = 600;
   };

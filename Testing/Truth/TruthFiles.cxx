@@ -18,8 +18,7 @@ constexpr std::size_t batchPoints = 1u << 16;
 
 Result<void> writeBytes(const std::string& path, const void* bytes, std::size_t size)
 {
-  Result<std::unique_ptr<OutputFile>> file =
-    OutputFile::create(path, OutputFile::Durability::None);
+  Result<std::unique_ptr<OutputFile>> file = OutputFile::create(path, OutputFile::Durability::None);
   if (!file)
   {
     return file.error();
@@ -58,8 +57,7 @@ Result<void> writePoints(const std::string& path, const TruthPoints& points)
     batch.resize(count, description.schema);
     std::copy_n(points.positions.data() + first, count, batch.positions.data());
     std::memcpy(batch.columns[0].data(), points.colours.data() + first, 3 * count);
-    std::memcpy(
-      batch.columns[1].data(), points.normals.data() + first, sizeof(glm::vec3) * count);
+    std::memcpy(batch.columns[1].data(), points.normals.data() + first, sizeof(glm::vec3) * count);
     if (Result<void> done = writer.append(batch); !done)
     {
       return done;
@@ -77,8 +75,7 @@ Result<void> writePicture(const std::string& path, const Picture& picture)
     const std::uint8_t* pixel = picture.rgba.data() + 4 * i;
     rgb.insert(rgb.end(), pixel, pixel + 3);
   }
-  auto writer =
-    PNGWriter::create(path, { picture.width, picture.height }, PNGWriter::Pixels::RGB8);
+  auto writer = PNGWriter::create(path, { picture.width, picture.height }, PNGWriter::Pixels::RGB8);
   if (!writer)
   {
     return writer.error();
@@ -103,8 +100,8 @@ Result<void> writeCamera(const std::string& path, const TruthCamera& camera)
   return writeJson(path, object);
 }
 
-Result<void> writeFacts(const std::string& path, const PixelRays& pixels,
-  const SpacingGrade& grade, const TruthPoints& points)
+Result<void> writeFacts(const std::string& path, const PixelRays& pixels, const SpacingGrade& grade,
+  const TruthPoints& points)
 {
   nlohmann::ordered_json object;
   object["width"] = pixels.width();

@@ -24,7 +24,7 @@ Result<void> writeDepth(const std::string& path, const std::vector<float>& depth
 Result<void> writeCamera(const std::string& path, const TruthCamera& camera);
 /// What a script has to know: points, spacing_px, spacing, median_depth, graded, focal_px,
 /// background.
-Result<void> writeFacts(const std::string& path, const PixelRays& pixels,
-  const SpacingGrade& grade, const TruthPoints& points);
+Result<void> writeFacts(const std::string& path, const PixelRays& pixels, const SpacingGrade& grade,
+  const TruthPoints& points);
 
 } // namespace pointfront::truth

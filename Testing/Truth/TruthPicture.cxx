@@ -18,8 +18,8 @@ constexpr std::uint32_t medianRows = 120;
 
 glm::dvec3 colourOfHit(const TriangleMesh& mesh, const glm::dvec3& place, const Hit& hit)
 {
-  return surfaceColour(mesh.materials[hit.triangle], place,
-    mesh.normalAt(hit.triangle, hit.b, hit.c), hit.triangle);
+  return surfaceColour(
+    mesh.materials[hit.triangle], place, mesh.normalAt(hit.triangle, hit.b, hit.c), hit.triangle);
 }
 
 /// 0 and 255 for none and all only.

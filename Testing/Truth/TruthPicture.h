@@ -24,8 +24,8 @@ struct TruthPicture
   Picture colours; ///< mean of the samples, in the texture's own steps (no gamma)
   /// Share of the samples that met the surface: 0 none, 255 all, 1 to 254 some.
   std::vector<std::uint8_t> coverage;
-  std::vector<float> depth;    ///< at the pixel's centre; infinity where there is nothing
-  std::vector<float> nearest;  ///< of the samples
+  std::vector<float> depth; ///< at the pixel's centre; infinity where there is nothing
+  std::vector<float> nearest; ///< of the samples
   std::vector<float> farthest; ///< of those that met the surface
   std::vector<glm::vec3> normal; ///< of the triangle at the centre, towards the eye; 0: nothing
 

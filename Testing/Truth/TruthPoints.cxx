@@ -10,12 +10,12 @@ void TruthPoints::add(const TriangleMesh& mesh, std::size_t triangle, double b, 
 {
   // The colour is that of the surface, even where noise moved the point off it.
   const glm::dvec3& corner = mesh.corner(triangle, 0);
-  const glm::dvec3 surface = corner + b * (mesh.corner(triangle, 1) - corner) +
-    c * (mesh.corner(triangle, 2) - corner);
+  const glm::dvec3 surface =
+    corner + b * (mesh.corner(triangle, 1) - corner) + c * (mesh.corner(triangle, 2) - corner);
   positions.push_back(place);
   normals.push_back(glm::vec3(normal));
-  colours.push_back(toBytes(surfaceColour(
-    mesh.materials[triangle], surface, mesh.normalAt(triangle, b, c), triangle)));
+  colours.push_back(toBytes(
+    surfaceColour(mesh.materials[triangle], surface, mesh.normalAt(triangle, b, c), triangle)));
 }
 
 void TruthPoints::append(const TruthPoints& more)

@@ -19,7 +19,7 @@ struct TruthPoints
 {
   std::vector<glm::dvec3> positions;
   std::vector<std::array<std::uint8_t, 3>> colours; ///< of the texture, light included
-  std::vector<glm::vec3> normals;                   ///< unit
+  std::vector<glm::vec3> normals; ///< unit
 
   std::size_t size() const { return positions.size(); }
   void add(const TriangleMesh& mesh, std::size_t triangle, double b, double c,

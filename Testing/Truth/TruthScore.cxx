@@ -25,8 +25,8 @@ double cosineAt(const TruthPicture& truth, const PixelRays& pixels, std::size_t 
   {
     return 1.0;
   }
-  const glm::dvec3 ray = pixels.through(
-    double(index % pixels.width()) + 0.5, double(index / pixels.width()) + 0.5);
+  const glm::dvec3 ray =
+    pixels.through(double(index % pixels.width()) + 0.5, double(index / pixels.width()) + 0.5);
   return std::abs(glm::dot(glm::dvec3(truth.normal[index]), glm::normalize(ray)));
 }
 } // namespace

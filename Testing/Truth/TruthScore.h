@@ -21,7 +21,7 @@ struct TruthScore
   /// that of the angle between surface and ray: what lies behind shows through.
   double holes = 0.0;
   double innerBloat = 0.0; ///< drawn as far in front: points that cover what they should not
-  double bloat = 0.0;      ///< drawn where the surface does not reach
+  double bloat = 0.0; ///< drawn where the surface does not reach
   /// Root mean square of the depth's error at the pixel's centre, over h, where it is neither
   /// hole nor inner bloat; each error counts as 4 h at most.
   double depthError = 0.0;

@@ -89,12 +89,11 @@ Result<void> run(const Options& options)
   done = done ? truth::writeDepth(folder + "depth.f32", picture.depth) : done;
   if (done && options.oracle)
   {
-    done = truth::writePicture(folder + "oracle.png",
-      truth::drawOracle(picture, seen.pixels(), seen.grade(), points));
+    done = truth::writePicture(
+      folder + "oracle.png", truth::drawOracle(picture, seen.pixels(), seen.grade(), points));
   }
-  return done
-    ? truth::writeFacts(folder + "truth.json", seen.pixels(), seen.grade(), points)
-    : done;
+  return done ? truth::writeFacts(folder + "truth.json", seen.pixels(), seen.grade(), points)
+              : done;
 }
 } // namespace
 

@@ -23,7 +23,7 @@ constexpr int entries = 256;
 
 Rgba8 rgba(const std::array<double, 3>& colour)
 {
-  Rgba8 bytes{0, 0, 0, 255};
+  Rgba8 bytes{ 0, 0, 0, 255 };
   for (std::size_t c = 0; c < 3; ++c)
   {
     bytes[c] = static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(colour[c], 0.0, 1.0)));
@@ -39,11 +39,11 @@ ColourMapChoice sampled(vtkScalarsToColors& table)
   ColourMapChoice map;
   map.kind = ColourMapChoice::Kind::Colours;
   const bool categories = table.GetIndexedLookup() != 0;
-  std::array<double, 2> range = {table.GetRange()[0], table.GetRange()[1]};
+  std::array<double, 2> range = { table.GetRange()[0], table.GetRange()[1] };
   map.logarithmic = !categories && table.UsingLogScale() != 0 && range[0] > 0.0;
   if (categories)
   {
-    range = {-0.5, entries - 0.5};
+    range = { -0.5, entries - 0.5 };
   }
   else if (!(range[0] < range[1]))
   {
@@ -63,7 +63,7 @@ ColourMapChoice sampled(vtkScalarsToColors& table)
   for (vtkIdType entry = 0; entry < entries; ++entry)
   {
     const unsigned char* from = colours->GetPointer(4 * entry);
-    map.colours.push_back({from[0], from[1], from[2], 255});
+    map.colours.push_back({ from[0], from[1], from[2], 255 });
   }
   return map;
 }
@@ -76,8 +76,8 @@ ColourSource sourceOf(const LookColour& colour)
   }
   ColourMapChoice map;
   std::string name = colour.array;
-  const int component = colour.table && !colour.direct &&
-      colour.table->GetVectorMode() == vtkScalarsToColors::COMPONENT
+  const int component =
+    colour.table && !colour.direct && colour.table->GetVectorMode() == vtkScalarsToColors::COMPONENT
     ? colour.table->GetVectorComponent()
     : -1;
   const bool vectors = name == "rgb" || name == "normal";

@@ -15,9 +15,9 @@ struct StyleSheet;
 struct PointLook
 {
   std::string technique = "points"; ///< as style sheets name it
-  bool closing = false;             ///< size: what closes the surface times `size`, else pixels
-  double size = 2.0;                ///< > 0
-  double eyeDomeStrength = 0.0;     ///< 0: off
+  bool closing = false; ///< size: what closes the surface times `size`, else pixels
+  double size = 2.0; ///< > 0
+  double eyeDomeStrength = 0.0; ///< 0: off
   std::string quality; ///< a preset, in the place of technique and closing; empty: none
   bool lit = false;
   bool fillHoles = false;
@@ -33,10 +33,10 @@ struct PointLook
 /// Colours as a representation's properties choose them.
 struct LookColour
 {
-  std::string array;                    ///< empty: `flat`
-  bool direct = false;                  ///< components are the colour
-  vtkScalarsToColors* table = nullptr;  ///< else; null: the array's own usual map
-  std::array<double, 3> flat{{1.0, 1.0, 1.0}};
+  std::string array; ///< empty: `flat`
+  bool direct = false; ///< components are the colour
+  vtkScalarsToColors* table = nullptr; ///< else; null: the array's own usual map
+  std::array<double, 3> flat{ { 1.0, 1.0, 1.0 } };
 };
 
 /// A look as a style sheet. Of several components the table's vector component; a magnitude is

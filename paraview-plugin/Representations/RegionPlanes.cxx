@@ -48,15 +48,15 @@ vtkSmartPointer<vtkPlanes> planesOf(vtkBox* box)
   origins->SetDataTypeToDouble();
   vtkNew<vtkDoubleArray> normals;
   normals->SetNumberOfComponents(3);
-  const Vector middle = toWorld({0.5 * (bounds[0] + bounds[1]), 0.5 * (bounds[2] + bounds[3]),
-    0.5 * (bounds[4] + bounds[5])});
+  const Vector middle = toWorld({ 0.5 * (bounds[0] + bounds[1]), 0.5 * (bounds[2] + bounds[3]),
+    0.5 * (bounds[4] + bounds[5]) });
   for (std::size_t side = 0; side < 6; ++side)
   {
     // Three corners of the side: where it is, and two edges.
     const std::size_t axis = side / 2;
-    Vector corner = {bounds[0], bounds[2], bounds[4]};
+    Vector corner = { bounds[0], bounds[2], bounds[4] };
     corner[axis] = bounds[side];
-    std::array<Vector, 2> along = {corner, corner};
+    std::array<Vector, 2> along = { corner, corner };
     for (std::size_t k = 0; k < 2; ++k)
     {
       const std::size_t other = (axis + 1 + k) % 3;

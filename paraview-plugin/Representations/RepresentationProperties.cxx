@@ -4,10 +4,10 @@
 #include "StyleChoice.h"
 
 #include "vtkNew.h"
-#include "vtkPVLODActor.h"
 #include "vtkPointFrontMapper.h"
 #include "vtkPointFrontStore.h"
 #include "vtkProperty.h"
+#include "vtkPVLODActor.h"
 #include "vtkScalarsToColors.h"
 #include "vtkTransform.h"
 

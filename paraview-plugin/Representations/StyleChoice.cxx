@@ -20,7 +20,7 @@ int classOf(const std::string& code)
   char* end = nullptr;
   const long number = std::strtol(code.c_str(), &end, 10);
   return !code.empty() && *end == '\0' && number >= 0 && number <= 255 ? static_cast<int>(number)
-                                                                        : -1;
+                                                                       : -1;
 }
 
 } // namespace
@@ -85,7 +85,8 @@ bool StyleChoice::readFile(std::string& error)
     fileRead_ = true;
     fileStyle_->Reset();
     std::ifstream file(file_);
-    const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+    const std::string text{ std::istreambuf_iterator<char>(file),
+      std::istreambuf_iterator<char>() };
     if (!file && text.empty())
     {
       error = file_ + ": the style sheet cannot be read";

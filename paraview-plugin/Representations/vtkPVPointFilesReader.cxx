@@ -272,7 +272,8 @@ bool vtkPVPointFilesReader::Build(const std::string& store)
   if (std::filesystem::exists(store, failed) && !this->ReplaceStore)
   {
     this->SetErrorCode(vtkErrorCode::FileFormatError);
-    vtkErrorMacro("the store " << store << " does not fit: " << this->Misfit(store)
+    vtkErrorMacro("the store "
+      << store << " does not fit: " << this->Misfit(store)
       << ". Tick Replace Store to build it again, or name another file in Store File.");
     return false;
   }
@@ -280,7 +281,7 @@ bool vtkPVPointFilesReader::Build(const std::string& store)
   vtkNew<BuildObserver> observer;
   observer->Reader = this;
   for (const unsigned long event :
-    {vtkCommand::ProgressEvent, vtkCommand::ErrorEvent, vtkCommand::WarningEvent})
+    { vtkCommand::ProgressEvent, vtkCommand::ErrorEvent, vtkCommand::WarningEvent })
   {
     builder->AddObserver(event, observer);
   }

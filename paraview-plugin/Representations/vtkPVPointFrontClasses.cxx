@@ -19,7 +19,7 @@ void vtkPVPointFrontClasses::CopyFromObject(vtkObject* object)
   if (!representation)
   {
     vtkErrorMacro("A vtkPointFrontRepresentation is asked for its classes, not "
-                  << (object ? object->GetClassName() : "nothing"));
+      << (object ? object->GetClassName() : "nothing"));
     return;
   }
   this->Names.clear();

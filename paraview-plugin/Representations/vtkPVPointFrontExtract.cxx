@@ -11,11 +11,11 @@
 #include "vtkInformationVector.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
-#include "vtkPVBox.h"
 #include "vtkPlane.h"
 #include "vtkPlanes.h"
 #include "vtkPointFrontStore.h"
 #include "vtkPolyData.h"
+#include "vtkPVBox.h"
 #include "vtkSelection.h"
 #include "vtkSphere.h"
 
@@ -37,8 +37,7 @@ bool endsOf(vtkImplicitFunction* region, double bounds[6])
   const double* turn = box->GetRotation();
   for (int i = 0; i < 3; ++i)
   {
-    const double ends[2] = {
-      box->GetPosition()[i], box->GetPosition()[i] + box->GetScale()[i]};
+    const double ends[2] = { box->GetPosition()[i], box->GetPosition()[i] + box->GetScale()[i] };
     bounds[2 * i] = std::min(ends[0], ends[1]);
     bounds[2 * i + 1] = std::max(ends[0], ends[1]);
   }

@@ -21,7 +21,7 @@ void vtkPVPointFrontFrame::CopyFromObject(vtkObject* object)
   if (!representation)
   {
     vtkErrorMacro("A vtkPointFrontRepresentation is asked for its frame, not "
-                  << (object ? object->GetClassName() : "nothing"));
+      << (object ? object->GetClassName() : "nothing"));
     return;
   }
   this->PointsDrawn = representation->GetPointsDrawn();
@@ -42,8 +42,8 @@ void vtkPVPointFrontFrame::AddInformation(vtkPVInformation* information)
     this->ProjectedSpacing = std::max(this->ProjectedSpacing, other->ProjectedSpacing);
     // 0: the client, before anything was added to it.
     this->HostMemoryBudget = this->HostMemoryBudget > 0
-                               ? std::min(this->HostMemoryBudget, other->HostMemoryBudget)
-                               : other->HostMemoryBudget;
+      ? std::min(this->HostMemoryBudget, other->HostMemoryBudget)
+      : other->HostMemoryBudget;
     this->Complete = this->Complete && other->Complete;
     this->Outdated = this->Outdated || other->Outdated;
   }
@@ -67,9 +67,8 @@ void vtkPVPointFrontFrame::CopyFromStream(const vtkClientServerStream* stream)
   int complete = 1;
   int outdated = 0;
   if (!stream->GetArgument(0, 0, &points) || !stream->GetArgument(0, 1, &nodes) ||
-      !stream->GetArgument(0, 2, &this->ProjectedSpacing) ||
-      !stream->GetArgument(0, 3, &complete) || !stream->GetArgument(0, 4, &outdated) ||
-      !stream->GetArgument(0, 5, &this->HostMemoryBudget))
+    !stream->GetArgument(0, 2, &this->ProjectedSpacing) || !stream->GetArgument(0, 3, &complete) ||
+    !stream->GetArgument(0, 4, &outdated) || !stream->GetArgument(0, 5, &this->HostMemoryBudget))
   {
     vtkErrorMacro("The server's frame cannot be read: client and server have different plugins. "
                   "Load the same build of the PointFront plugin on both.");

@@ -46,19 +46,18 @@ void describe(const pointfront::StoredCloud& store, vtkIdType mostOverviewPoints
 {
   const pointfront::StoreDescription& about = store.description();
   const auto points = static_cast<vtkIdType>(about.pointCount);
-  addNumbers(data, "store_points", {points});
+  addNumbers(data, "store_points", { points });
   vtkNew<vtkDoubleArray> bounds;
   bounds->SetName("store_bounds");
   bounds->SetNumberOfComponents(6);
   const pointfront::Bounds& box = about.bounds;
-  const double ends[6] = {
-    box.low.x, box.high.x, box.low.y, box.high.y, box.low.z, box.high.z};
+  const double ends[6] = { box.low.x, box.high.x, box.low.y, box.high.y, box.low.z, box.high.z };
   bounds->InsertNextTuple(ends);
   data->GetFieldData()->AddArray(bounds);
-  addTexts(data, "store_crs", {about.crsWkt.empty() ? "not stated" : about.crsWkt});
+  addTexts(data, "store_crs", { about.crsWkt.empty() ? "not stated" : about.crsWkt });
   addTexts(data, "store_structure",
-    {about.structure + ", " + std::to_string(store.hierarchy()->nodeCount()) + " nodes, " +
-      std::to_string(about.levels) + " levels, " + std::to_string(about.fileBytes) + " bytes"});
+    { about.structure + ", " + std::to_string(store.hierarchy()->nodeCount()) + " nodes, " +
+      std::to_string(about.levels) + " levels, " + std::to_string(about.fileBytes) + " bytes" });
   std::vector<std::string> names;
   std::vector<vtkIdType> counts;
   for (const pointfront::Layer& layer : about.layers)
@@ -70,11 +69,11 @@ void describe(const pointfront::StoredCloud& store, vtkIdType mostOverviewPoints
   addNumbers(data, "store_class_points", counts);
   const std::string shown = std::to_string(std::min(points, mostOverviewPoints));
   addTexts(data, "output_is",
-    {points <= mostOverviewPoints
+    { points <= mostOverviewPoints
         ? "all points of the store"
         : "an overview of at most " + shown + " of " + std::to_string(points) +
           " points. Save Data saves this overview. The filter PointFront Extract gives the exact "
-          "points, and what it gives can be saved."});
+          "points, and what it gives can be saved." });
 }
 
 } // namespace

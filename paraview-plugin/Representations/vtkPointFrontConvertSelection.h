@@ -12,7 +12,7 @@
 #include "vtkPConvertSelection.h"
 
 class POINTFRONTPARAVIEWREPRESENTATIONS_EXPORT vtkPointFrontConvertSelection
-    : public vtkPConvertSelection
+  : public vtkPConvertSelection
 {
 public:
   static vtkPointFrontConvertSelection* New();

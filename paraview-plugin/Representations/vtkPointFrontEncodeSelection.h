@@ -17,7 +17,7 @@
 #include "vtkPVEncodeSelectionForServer.h"
 
 class POINTFRONTPARAVIEWREPRESENTATIONS_EXPORT vtkPointFrontEncodeSelection
-    : public vtkPVEncodeSelectionForServer
+  : public vtkPVEncodeSelectionForServer
 {
 public:
   static vtkPointFrontEncodeSelection* New();

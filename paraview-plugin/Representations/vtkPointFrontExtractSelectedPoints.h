@@ -11,7 +11,7 @@
 #include "vtkPointFrontExtractSelection.h"
 
 class POINTFRONTPARAVIEWREPRESENTATIONS_EXPORT vtkPointFrontExtractSelectedPoints
-    : public vtkPointFrontExtractSelection
+  : public vtkPointFrontExtractSelection
 {
 public:
   static vtkPointFrontExtractSelectedPoints* New();

@@ -11,8 +11,8 @@
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
-#include "vtkPoints.h"
 #include "vtkPointFrontStore.h"
+#include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkSelection.h"
 #include "vtkSelectionNode.h"
@@ -59,8 +59,7 @@ bool asksForValues(vtkSelection* selection)
     vtkAbstractArray* list = node->GetSelectionList();
     const bool named = list && list->GetName() && std::string(list->GetName()) == "point_id";
     if ((query && *query) || content == vtkSelectionNode::QUERY ||
-      content == vtkSelectionNode::THRESHOLDS ||
-      (content == vtkSelectionNode::VALUES && !named))
+      content == vtkSelectionNode::THRESHOLDS || (content == vtkSelectionNode::VALUES && !named))
     {
       return true;
     }
@@ -153,8 +152,11 @@ int vtkPointFrontExtractSelection::RequestData(
     reader->GetStore()->GetNumberOfPoints() > reader->GetOverviewPoints();
   if (partly && !this->ToldOfOverview && piece == 0)
   {
-    vtkWarningMacro("a query selects among the " << reader->GetOverviewPoints() << " points of the "
-      "overview, not among all of the store: for those, use the filter PointFront Extract (Where)");
+    vtkWarningMacro("a query selects among the "
+      << reader->GetOverviewPoints()
+      << " points of the "
+         "overview, not among all of the store: for those, use the filter PointFront Extract "
+         "(Where)");
   }
   this->ToldOfOverview = partly;
   vtkNew<vtkIdTypeArray> ranks;

@@ -20,7 +20,7 @@
 #include "vtkPVExtractSelection.h"
 
 class POINTFRONTPARAVIEWREPRESENTATIONS_EXPORT vtkPointFrontExtractSelection
-    : public vtkPVExtractSelection
+  : public vtkPVExtractSelection
 {
 public:
   static vtkPointFrontExtractSelection* New();

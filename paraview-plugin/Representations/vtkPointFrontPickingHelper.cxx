@@ -1,7 +1,6 @@
 #include "vtkPointFrontPickingHelper.h"
 
 #include "UpstreamReader.h"
-#include "vtkPointFrontExtractSelection.h"
 #include "vtkCommunicator.h"
 #include "vtkDataArray.h"
 #include "vtkDataSet.h"
@@ -9,6 +8,7 @@
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
+#include "vtkPointFrontExtractSelection.h"
 
 #include <algorithm>
 #include <array>

@@ -14,7 +14,7 @@
 #include "vtkPVRayCastPickingHelper.h"
 
 class POINTFRONTPARAVIEWREPRESENTATIONS_EXPORT vtkPointFrontPickingHelper
-    : public vtkPVRayCastPickingHelper
+  : public vtkPVRayCastPickingHelper
 {
 public:
   static vtkPointFrontPickingHelper* New();

@@ -263,10 +263,9 @@ void vtkPointFrontRepresentation::PrepareColors()
 {
   vtkInformation* info = this->GetInputArrayInformation(0);
   const char* array = info && info->Has(vtkDataObject::FIELD_NAME())
-                        ? info->Get(vtkDataObject::FIELD_NAME())
-                        : nullptr;
-  const bool ofPoints =
-    info && info->Has(vtkDataObject::FIELD_ASSOCIATION()) &&
+    ? info->Get(vtkDataObject::FIELD_NAME())
+    : nullptr;
+  const bool ofPoints = info && info->Has(vtkDataObject::FIELD_ASSOCIATION()) &&
     info->Get(vtkDataObject::FIELD_ASSOCIATION()) == vtkDataObject::FIELD_ASSOCIATION_POINTS;
   if (!array || !array[0] || !ofPoints)
   {
@@ -347,7 +346,7 @@ bool vtkPointFrontRepresentation::WantsComplete(vtkPVRenderView* view) const
     return this->CompleteStillRenders == ALWAYS;
   }
   return vtkProcessModule::GetProcessType() == vtkProcessModule::PROCESS_BATCH ||
-         CaptureState::Of(view);
+    CaptureState::Of(view);
 }
 
 //------------------------------------------------------------------------------

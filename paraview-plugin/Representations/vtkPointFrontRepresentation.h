@@ -22,10 +22,10 @@
 #define vtkPointFrontRepresentation_h
 
 #include "pointfrontParaViewRepresentationsModule.h" // for the export macro
-#include "vtkNew.h"                                  // for the members
+#include "vtkNew.h" // for the members
 #include "vtkPVDataRepresentation.h"
 #include "vtkSmartPointer.h" // for the store and colour maps
-#include "vtkWeakPointer.h"  // for marks
+#include "vtkWeakPointer.h" // for marks
 
 #include <map>
 #include <memory>
@@ -47,7 +47,7 @@ class StyleChoice;
 } // namespace pointfront
 
 class POINTFRONTPARAVIEWREPRESENTATIONS_EXPORT vtkPointFrontRepresentation
-    : public vtkPVDataRepresentation
+  : public vtkPVDataRepresentation
 {
 public:
   static vtkPointFrontRepresentation* New();
@@ -240,7 +240,7 @@ private:
   vtkNew<vtkPointFrontMapper> Mapper;
   vtkNew<vtkProperty> Property;
   vtkNew<vtkPVLODActor> Actor;
-  vtkNew<vtkPolyData> Overview;              ///< data server: the input
+  vtkNew<vtkPolyData> Overview; ///< data server: the input
   vtkSmartPointer<vtkPointFrontStore> Store; ///< data server: for the bounds of the whole cloud
 
   int CompleteStillRenders = WHEN_UNATTENDED;

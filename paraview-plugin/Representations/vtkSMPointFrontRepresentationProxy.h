@@ -30,7 +30,7 @@ class vtkRenderWindowInteractor;
 class vtkSMViewProxy;
 
 class POINTFRONTPARAVIEWREPRESENTATIONS_EXPORT vtkSMPointFrontRepresentationProxy
-    : public vtkSMRepresentationProxy
+  : public vtkSMRepresentationProxy
 {
 public:
   static vtkSMPointFrontRepresentationProxy* New();

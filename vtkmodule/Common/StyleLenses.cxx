@@ -16,7 +16,10 @@ namespace
 
 constexpr double mostPixels = 1e6;
 
-bool isPixels(double value) { return std::abs(value) <= mostPixels; }
+bool isPixels(double value)
+{
+  return std::abs(value) <= mostPixels;
+}
 
 } // namespace
 
@@ -51,7 +54,7 @@ int vtkPointFrontStyle::AddCircleLens(double x, double y, double radius)
   if (!isPixels(x) || !isPixels(y) || !(radius >= 0.0) || !isPixels(radius))
   {
     vtkErrorMacro("a lens lies at numbers of pixels, and its radius is not below 0; not "
-                  << x << ", " << y << ", " << radius);
+      << x << ", " << y << ", " << radius);
     return -1;
   }
   pointfront::StyleLens lens;
@@ -67,7 +70,7 @@ int vtkPointFrontStyle::AddRectangleLens(double x, double y, double width, doubl
     !isPixels(height))
   {
     vtkErrorMacro("a lens lies at numbers of pixels, and its size is not below 0; not "
-                  << x << ", " << y << ", " << width << " x " << height);
+      << x << ", " << y << ", " << width << " x " << height);
     return -1;
   }
   pointfront::StyleLens lens;
@@ -141,9 +144,9 @@ bool vtkPointFrontStyle::SetLensStyle(int lens, const std::string& style, int ob
   return this->ChangeLens(lens,
     [&](pointfront::StyleLens& changed)
     {
-      (objectClass == DEFAULT_CLASS
-          ? changed.standard
-          : changed.classes[static_cast<std::uint8_t>(objectClass)]) = *parsed;
+      (objectClass == DEFAULT_CLASS ? changed.standard
+                                    : changed.classes[static_cast<std::uint8_t>(objectClass)]) =
+        *parsed;
     });
 }
 
@@ -208,7 +211,7 @@ double vtkPointFrontStyle::GetLensRadius(int lens) const
 {
   const pointfront::StyleLens* const found = this->LensOf(lens);
   return found && found->place.shape == pointfront::LensShape::Circle ? found->place.halfSizePx.x
-                                                                     : 0.0;
+                                                                      : 0.0;
 }
 
 int vtkPointFrontStyle::GetNumberOfLenses() const
@@ -243,7 +246,7 @@ bool vtkPointFrontStyle::SetHighlight(
     !(haloPx >= 0.0 && haloPx <= pointfront::mostHaloPx) || !(tint >= 0.0 && tint <= 1.0))
   {
     vtkErrorMacro("a highlight has a class from 0 to 255, a colour \"#rrggbb\", a rim of 0 to "
-                  << pointfront::mostHaloPx << " pixels and a tint from 0 to 1");
+      << pointfront::mostHaloPx << " pixels and a tint from 0 to 1");
     return false;
   }
   pointfront::StyleSheet sheet = *this->Sheet;
@@ -273,8 +276,8 @@ bool vtkPointFrontStyle::SetHighlight(
 bool vtkPointFrontStyle::HasHighlight(int objectClass) const
 {
   const auto& all = this->Sheet->highlights;
-  return std::any_of(all.begin(), all.end(),
-    [&](const auto& one) { return one.objectClass == objectClass; });
+  return std::any_of(
+    all.begin(), all.end(), [&](const auto& one) { return one.objectClass == objectClass; });
 }
 
 bool vtkPointFrontStyle::RemoveHighlight(int objectClass)

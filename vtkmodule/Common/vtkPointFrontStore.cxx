@@ -54,7 +54,8 @@ bool identify(const std::string& fileName, FileIdentity& identity, std::string& 
     return false;
   }
   const auto written = std::filesystem::last_write_time(path, code);
-  identity = {path.string(), bytes, static_cast<std::int64_t>(written.time_since_epoch().count())};
+  identity = { path.string(), bytes,
+    static_cast<std::int64_t>(written.time_since_epoch().count()) };
   return true;
 }
 
@@ -92,7 +93,7 @@ Registry& registry()
 
 } // namespace
 
-constexpr std::chrono::milliseconds betweenLooks{250};
+constexpr std::chrono::milliseconds betweenLooks{ 250 };
 
 struct vtkPointFrontStore::Content
 {
@@ -103,7 +104,10 @@ struct vtkPointFrontStore::Content
   std::unique_ptr<pointfront::ResidencyShare> residency;
 };
 
-vtkPointFrontStore::vtkPointFrontStore() : Internals(new Content) {}
+vtkPointFrontStore::vtkPointFrontStore()
+  : Internals(new Content)
+{
+}
 
 vtkPointFrontStore::~vtkPointFrontStore()
 {

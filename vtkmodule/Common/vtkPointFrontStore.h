@@ -19,7 +19,7 @@
 #include "pointfrontCommonModule.h" // for the export macro
 #include "vtkObject.h"
 #include "vtkSmartPointer.h" // for Open
-#include "vtkStdString.h"    // for names
+#include "vtkStdString.h" // for names
 
 #include <memory> // for the kernel objects
 

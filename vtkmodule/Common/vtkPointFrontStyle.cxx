@@ -18,9 +18,8 @@ namespace
 
 std::string placeOf(int objectClass)
 {
-  return objectClass == vtkPointFrontStyle::DEFAULT_CLASS
-    ? "default"
-    : "class " + std::to_string(objectClass);
+  return objectClass == vtkPointFrontStyle::DEFAULT_CLASS ? "default"
+                                                          : "class " + std::to_string(objectClass);
 }
 
 /// A text as JSON has it.
@@ -100,8 +99,9 @@ bool vtkPointFrontStyle::ChangeByJSON(
     return false;
   }
   pointfront::LayerStyle others = parsed->standard;
-  (key == "color" ? others.colour.reset() : key == "where" ? others.where.reset()
-                                                           : others.technique.reset());
+  (key == "color"      ? others.colour.reset()
+      : key == "where" ? others.where.reset()
+                       : others.technique.reset());
   if (!others.empty())
   {
     vtkErrorMacro(<< placeOf(objectClass) << ": expected a value for " << key << " alone");
@@ -149,8 +149,9 @@ namespace
 {
 auto sizeSetter(pointfront::SplatSize::Mode mode, double value, const std::string& attribute = "")
 {
-  return [=](pointfront::LayerStyle& style)
-  { style.size = pointfront::StyleSize{ mode, value, attribute }; };
+  return [=](pointfront::LayerStyle& style) {
+    style.size = pointfront::StyleSize{ mode, value, attribute };
+  };
 }
 } // namespace
 
@@ -161,8 +162,7 @@ bool vtkPointFrontStyle::SetSizePixels(double diameter, int objectClass)
     vtkErrorMacro(<< placeOf(objectClass) << ": a size is a number above 0, not " << diameter);
     return false;
   }
-  return this->ChangeStyle(
-    objectClass, sizeSetter(pointfront::SplatSize::Mode::Pixels, diameter));
+  return this->ChangeStyle(objectClass, sizeSetter(pointfront::SplatSize::Mode::Pixels, diameter));
 }
 
 bool vtkPointFrontStyle::SetSizeWorld(double diameter, int objectClass)

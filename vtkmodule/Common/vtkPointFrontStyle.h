@@ -223,7 +223,10 @@ public:
    * who keeps it can tell by the pointer that there is something new.
    */
   const pointfront::StyleSheet& GetStyleSheet() const;
-  std::shared_ptr<const pointfront::StyleSheet> GetSharedStyleSheet() const { return this->Sheet; }
+  std::shared_ptr<const pointfront::StyleSheet> GetSharedStyleSheet() const
+  {
+    return this->Sheet;
+  }
   bool SetStyleSheet(const pointfront::StyleSheet& sheet);
   ///@}
 #endif

@@ -31,8 +31,9 @@ int main(int argc, char* argv[])
   pointfront::BuildOptions options;
   options.outputPath = argv[argc - 1];
   options.overwrite = true;
-  const auto report =
-    pointfront::buildStore(sources, options, [](const pointfront::Progress& progress) {
+  const auto report = pointfront::buildStore(sources, options,
+    [](const pointfront::Progress& progress)
+    {
       std::fprintf(stderr, "%s %3.0f %%\n", progress.phase, 100.0 * progress.fraction);
       return true; // false cancels, and leaves nothing behind
     });

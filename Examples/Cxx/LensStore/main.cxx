@@ -9,9 +9,9 @@
 #include <vtkPointFrontMapper.h>
 #include <vtkPointFrontReader.h>
 #include <vtkPointFrontStyle.h>
+#include <vtkRenderer.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderWindowInteractor.h>
-#include <vtkRenderer.h>
 #include <vtkWindowToImageFilter.h>
 
 #include <cstdio>
@@ -68,7 +68,7 @@ int main(int argc, char* argv[])
   style->SetTechnique("splats");
   const int lens = style->AddCircleLens(480, 300, 120); // pixels, from the lower left corner
   style->SetLensStyle(lens, R"({"color": "intensity"})");
-  for (const int vegetation : {3, 4, 5})
+  for (const int vegetation : { 3, 4, 5 })
   {
     style->SetLensStyle(lens, R"({"visible": false})", vegetation);
   }

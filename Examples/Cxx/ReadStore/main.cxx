@@ -52,8 +52,8 @@ int main(int argc, char* argv[])
   std::printf("%llu points\n", static_cast<unsigned long long>(description.pointCount));
   for (std::size_t level = 0; level < pointsOfLevel.size(); ++level)
   {
-    std::printf("level %zu: %llu points\n", level,
-      static_cast<unsigned long long>(pointsOfLevel[level]));
+    std::printf(
+      "level %zu: %llu points\n", level, static_cast<unsigned long long>(pointsOfLevel[level]));
   }
   std::printf("mean %s: %.2f\n", argv[2], sum / static_cast<double>(description.pointCount));
   return 0;

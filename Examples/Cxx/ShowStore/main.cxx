@@ -7,9 +7,9 @@
 #include <vtkPNGWriter.h>
 #include <vtkPointFrontMapper.h>
 #include <vtkPointFrontReader.h>
+#include <vtkRenderer.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderWindowInteractor.h>
-#include <vtkRenderer.h>
 #include <vtkWindowToImageFilter.h>
 
 #include <cstdio>

@@ -293,8 +293,7 @@ TEST(LocalHeight, ManyPointsAtOnePlaceTakeNoLongerThanOthers)
 TEST(LocalHeight, ARadiusFarTooWideIsRefused)
 {
   const Scene scene = boxesOnASlope(glm::dvec3(0.0), 400000);
-  const auto refused =
-    LocalHeightPass(90.0, 2000).apply(sourcesOf(scene, true), testResources());
+  const auto refused = LocalHeightPass(90.0, 2000).apply(sourcesOf(scene, true), testResources());
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().kind, Error::Kind::BadArgument);
 }

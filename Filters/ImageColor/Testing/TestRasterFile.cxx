@@ -133,16 +133,16 @@ TEST(RasterFile, SaysWhereAndWhatItIs)
   WrittenTiff image;
   image.values = ramp(12);
   const std::string bare = image.write("unplaced.tif");
-  EXPECT_EQ(RasterFile::open(bare, RasterUse::Colour, systems).error().kind,
-    Error::Kind::Unsupported);
-  EXPECT_EQ(RasterFile::open(bare + "x", RasterUse::Colour, systems).error().kind,
-    Error::Kind::NotFound);
+  EXPECT_EQ(
+    RasterFile::open(bare, RasterUse::Colour, systems).error().kind, Error::Kind::Unsupported);
+  EXPECT_EQ(
+    RasterFile::open(bare + "x", RasterUse::Colour, systems).error().kind, Error::Kind::NotFound);
   image.bits = 32;
   image.sampleFormat = 3;
   image.at(0, 0);
   const std::string heights = image.write("heights.tif");
-  EXPECT_EQ(RasterFile::open(heights, RasterUse::Colour, systems).error().kind,
-    Error::Kind::Unsupported);
+  EXPECT_EQ(
+    RasterFile::open(heights, RasterUse::Colour, systems).error().kind, Error::Kind::Unsupported);
   std::ofstream(testing::TempDir() + "heights.prj") << systems.parse("EPSG:25832")->wkt;
   const auto placed = RasterFile::open(heights, RasterUse::Values, systems);
   ASSERT_TRUE(placed.ok()) << placed.error().what;

@@ -143,8 +143,7 @@ Outcome coloured(std::unique_ptr<PointSource> source, std::vector<RasterInput> i
     all.columns.resize(batch.columns.size());
     for (std::size_t c = 0; c < batch.columns.size(); ++c)
     {
-      all.columns[c].insert(
-        all.columns[c].end(), batch.columns[c].begin(), batch.columns[c].end());
+      all.columns[c].insert(all.columns[c].end(), batch.columns[c].begin(), batch.columns[c].end());
     }
   }
   for (const std::string& finding : pass.findings())
@@ -246,8 +245,9 @@ TEST(RasterPass, AMosaicIsTheImageItWasCutFrom)
   }
   const std::string folder = ortho + "mosaic_2x2/";
   const Outcome one = coloured(cloud(points), { { "rgb", { folder + "RGB.byte.tif" } } });
-  const Outcome four = coloured(cloud(points), { { "rgb", { folder + "rgb1.tif",
-    folder + "rgb2.tif", folder + "rgb3.tif", folder + "rgb4.tif" } } });
+  const Outcome four = coloured(cloud(points),
+    { { "rgb",
+      { folder + "rgb1.tif", folder + "rgb2.tif", folder + "rgb3.tif", folder + "rgb4.tif" } } });
   const Outcome tiled =
     coloured(cloud(points), { { "rgb", { ortho + "geotiff_kinds/rgb_lzw.tif" } } });
   const Outcome planar =
@@ -292,9 +292,8 @@ TEST(RasterPass, APointOnAnEdgeBelongsToThePixelRightAndBelow)
   WrittenTiff image;
   image.values = { 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11 };
   image.at(0, 3);
-  const Outcome outcome = coloured(
-    cloud({ { 1, 2.5, 0 }, { 0.999999, 2.5, 0 }, { 1, 2, 0 }, { 0, 3, 0 }, { 4, 1, 0 },
-      { 1, 0, 0 } }),
+  const Outcome outcome = coloured(cloud({ { 1, 2.5, 0 }, { 0.999999, 2.5, 0 }, { 1, 2, 0 },
+                                     { 0, 3, 0 }, { 4, 1, 0 }, { 1, 0, 0 } }),
     { { "v", { image.write("edges.tif") } } });
   EXPECT_EQ(outcome.values("v"), (std::vector<double>{ 1, 0, 5, 0, 0, 0 }));
   EXPECT_NE(outcome.findings.find("2 of 6"), std::string::npos) << "the far edges are outside";
@@ -338,11 +337,10 @@ TEST(RasterPass, EveryTypeOfPixelIsExact)
       image.sampleFormat = c.format;
       image.values = c.values;
       image.tile = tile;
-      const std::string name =
-        "type" + std::to_string(c.format * 100 + c.bits + tile) + ".tif";
+      const std::string name = "type" + std::to_string(c.format * 100 + c.bits + tile) + ".tif";
       image.at(0, 1);
-      const Outcome outcome = coloured(cloud({ { 0.5, 0.5, 0 }, { 1.5, 0.5, 0 } }),
-        { { "v", { image.write(name) } } });
+      const Outcome outcome =
+        coloured(cloud({ { 0.5, 0.5, 0 }, { 1.5, 0.5, 0 } }), { { "v", { image.write(name) } } });
       ASSERT_EQ(outcome.error, "");
       EXPECT_EQ(outcome.values("v"), c.values) << c.bits << " bits, format " << c.format;
     }
@@ -447,8 +445,8 @@ TEST(RasterPass, TilesAreTouchedOnceAndTheCacheStaysSmall)
   constexpr std::uint64_t cacheBytes = 10u << 20;
   const ProjCoordinateSystems systems;
   RasterTiles tiles(cacheBytes);
-  const auto mosaic = RasterMosaic::open(
-    { ortho + "autzen/autzen.jpg" }, RasterUse::Colour, systems, tiles);
+  const auto mosaic =
+    RasterMosaic::open({ ortho + "autzen/autzen.jpg" }, RasterUse::Colour, systems, tiles);
   ASSERT_TRUE(mosaic.ok()) << mosaic.error().what;
   const RasterFile& file = mosaic.value().files()[0];
   std::vector<glm::dvec3> points;
@@ -513,8 +511,8 @@ TEST(LargeRaster, ColoursOfTenMillionPoints)
   ASSERT_TRUE(source);
   const ProjCoordinateSystems systems;
   RasterTiles tiles(10u << 20);
-  const auto mosaic = RasterMosaic::open(
-    { ortho + "autzen/autzen.jpg" }, RasterUse::Colour, systems, tiles);
+  const auto mosaic =
+    RasterMosaic::open({ ortho + "autzen/autzen.jpg" }, RasterUse::Colour, systems, tiles);
   ASSERT_TRUE(mosaic.ok()) << mosaic.error().what;
   const std::size_t column = *source->description().schema.find("rgb");
   std::uint64_t inside = 0;

@@ -149,8 +149,7 @@ TEST(SortedRasterValues, ChunksInOrderAreLookedUpWhileTheyAreRead)
   resources.threads = 2;
   resources.temporaryFolder = testing::TempDir();
   PointSources sources;
-  sources.push_back(
-    std::make_unique<CloudInMemory>("cloud", std::move(points), "", chunkPoints));
+  sources.push_back(std::make_unique<CloudInMemory>("cloud", std::move(points), "", chunkPoints));
   ASSERT_TRUE(pass.apply(std::move(sources), resources));
   EXPECT_EQ(pass.tilesRead(), 0u);
 }

@@ -11,13 +11,12 @@ namespace pointfront::test
 {
 namespace
 {
-const TIFFFieldInfo geoFields[] = {
-  { 33550, -1, -1, TIFF_DOUBLE, FIELD_CUSTOM, 1, 1, const_cast<char*>("PixelScale") },
+const TIFFFieldInfo geoFields[] = { { 33550, -1, -1, TIFF_DOUBLE, FIELD_CUSTOM, 1, 1,
+                                      const_cast<char*>("PixelScale") },
   { 33922, -1, -1, TIFF_DOUBLE, FIELD_CUSTOM, 1, 1, const_cast<char*>("TiePoints") },
   { 34264, -1, -1, TIFF_DOUBLE, FIELD_CUSTOM, 1, 1, const_cast<char*>("Transformation") },
   { 34735, -1, -1, TIFF_SHORT, FIELD_CUSTOM, 1, 1, const_cast<char*>("GeoKeys") },
-  { 42113, -1, -1, TIFF_ASCII, FIELD_CUSTOM, 1, 0, const_cast<char*>("NoData") }
-};
+  { 42113, -1, -1, TIFF_ASCII, FIELD_CUSTOM, 1, 0, const_cast<char*>("NoData") } };
 
 template <typename T>
 void put(std::vector<std::uint8_t>& bytes, double value)
@@ -80,9 +79,10 @@ void setLayout(TIFF* tiff, const WrittenTiff& image)
   TIFFSetField(tiff, TIFFTAG_SAMPLESPERPIXEL, image.channels);
   TIFFSetField(tiff, TIFFTAG_SAMPLEFORMAT, image.sampleFormat);
   TIFFSetField(tiff, TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG);
-  TIFFSetField(tiff, TIFFTAG_PHOTOMETRIC, image.palette ? PHOTOMETRIC_PALETTE
-      : image.channels >= 3                             ? PHOTOMETRIC_RGB
-                                                        : PHOTOMETRIC_MINISBLACK);
+  TIFFSetField(tiff, TIFFTAG_PHOTOMETRIC,
+    image.palette           ? PHOTOMETRIC_PALETTE
+      : image.channels >= 3 ? PHOTOMETRIC_RGB
+                            : PHOTOMETRIC_MINISBLACK);
   if (image.alpha)
   {
     const std::uint16_t extra = EXTRASAMPLE_UNASSALPHA;

@@ -21,9 +21,9 @@ struct WrittenTiff
   std::vector<double> matrix;
   std::vector<std::uint16_t> keys;
   std::string noData;
-  bool alpha = false;   ///< the last channel
+  bool alpha = false; ///< the last channel
   bool palette = false; ///< colour i is (255 - i, i, 7)
-  int tile = 0;         ///< side of a tile, 0: strips of one row; a multiple of 16
+  int tile = 0; ///< side of a tile, 0: strips of one row; a multiple of 16
 
   /// North-up pixels of `size`, the corner at (x, y).
   WrittenTiff& at(double x, double y, double size = 1.0)

@@ -86,8 +86,7 @@ TEST(NormalsPass, TheWholeBunnyAsOneNeighbourhood)
     {
       p += shift;
     }
-    Result<PointSources> result =
-      NormalsPass(options).apply(sourcesOf(positions), testResources());
+    Result<PointSources> result = NormalsPass(options).apply(sourcesOf(positions), testResources());
     ASSERT_TRUE(result);
     const Attribute& stored = result->front()->description().schema[1];
     for (const PackedNormal& packed : attributeOf<PackedNormal>(*result, "normal"))
@@ -294,8 +293,7 @@ TEST(SurfaceFit, OfAnyShapeIsWhatASolverForAnyMatrixFinds)
         const double across = (covariance * normal).dot(normal);
         // A root is known to the last bit of its polynomial over the gap to the next root, 1e-4.
         EXPECT_NEAR(across, solver.eigenvalues()[0], 1e-12) << thin << " " << middle;
-        EXPECT_NEAR(
-          fit->curvature, solver.eigenvalues()[0] / solver.eigenvalues().sum(), 1e-12);
+        EXPECT_NEAR(fit->curvature, solver.eigenvalues()[0] / solver.eigenvalues().sum(), 1e-12);
         EXPECT_NEAR(normal.norm(), 1.0, 1e-12);
       }
     }

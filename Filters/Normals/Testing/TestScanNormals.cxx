@@ -82,8 +82,8 @@ TEST(ScanNormals, OnGeneratedGroundTheyAreCoarserThanPCA)
   std::vector<std::uint8_t> classes(batch.size());
   std::memcpy(classes.data(), objectClass.data(), classes.size());
   const std::vector<std::uint8_t> ground{ 2 };
-  const auto scan = normalsBy(
-    ScanNormalsPass(std::optional(ground)), sourcesOf(batch.positions, classes));
+  const auto scan =
+    normalsBy(ScanNormalsPass(std::optional(ground)), sourcesOf(batch.positions, classes));
   NormalsOptions options;
   options.neighbours = 32;
   options.classes = ground;

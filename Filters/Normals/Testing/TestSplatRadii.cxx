@@ -115,10 +115,12 @@ TEST(SplatRadii, DoNotDependOnFewNeighboursOfNormals)
     ASSERT_TRUE(both && plain);
     EXPECT_EQ(attributeOf<std::uint8_t>(*both, splatRadiusAttribute), alone.codes) << neighbours;
     EXPECT_EQ(both->front()->description().splatRadiusBase, alone.base) << neighbours;
-    EXPECT_EQ(attributeOf<PackedNormal>(*both, "normal"),
-      attributeOf<PackedNormal>(*plain, "normal")) << neighbours;
+    EXPECT_EQ(
+      attributeOf<PackedNormal>(*both, "normal"), attributeOf<PackedNormal>(*plain, "normal"))
+      << neighbours;
     EXPECT_EQ(attributeOf<std::uint16_t>(*both, "curvature"),
-      attributeOf<std::uint16_t>(*plain, "curvature")) << neighbours;
+      attributeOf<std::uint16_t>(*plain, "curvature"))
+      << neighbours;
   }
 }
 

@@ -17,8 +17,8 @@ CoordinateSystem named(const ProjCoordinateSystems& known, const std::string& de
   return system ? *system : CoordinateSystem();
 }
 
-glm::dvec3 moved(const ProjCoordinateSystems& known, const std::string& from,
-  const std::string& to, glm::dvec3 p)
+glm::dvec3 moved(
+  const ProjCoordinateSystems& known, const std::string& from, const std::string& to, glm::dvec3 p)
 {
   auto transform = known.transform(named(known, from), named(known, to), {});
   EXPECT_TRUE(transform.ok()) << (transform ? "" : transform.error().what);
@@ -58,16 +58,15 @@ TEST(ProjCoordinateSystems, WorkedExamplesOfTheEpsgGuidanceNote)
     double northing;
   };
   const Example examples[] = {
-    { "EPSG:4277", "EPSG:27700", 0.5, 50.5, 577274.99, 69740.50 },             // TM, metres
-    { "EPSG:4267", "EPSG:32040", -96.0, 28.5, 2963503.91, 254759.80 },         // LCC, feet
+    { "EPSG:4277", "EPSG:27700", 0.5, 50.5, 577274.99, 69740.50 }, // TM, metres
+    { "EPSG:4267", "EPSG:32040", -96.0, 28.5, 2963503.91, 254759.80 }, // LCC, feet
     { "EPSG:4242", "EPSG:24200", -degrees(76, 56, 37.26), degrees(17, 55, 55.80), 255966.58,
-      142493.51 },                                                             // LCC, metres
-    { "EPSG:4326", "EPSG:32661", 44.0, 73.0, 3320416.75, 632668.43 },          // north before east
+      142493.51 }, // LCC, metres
+    { "EPSG:4326", "EPSG:32661", 44.0, 73.0, 3320416.75, 632668.43 }, // north before east
   };
   for (const Example& e : examples)
   {
-    const glm::dvec3 p =
-      moved(known, e.geographic, e.projected, { e.longitude, e.latitude, 12.5 });
+    const glm::dvec3 p = moved(known, e.geographic, e.projected, { e.longitude, e.latitude, 12.5 });
     EXPECT_NEAR(p.x, e.easting, 0.01) << e.projected;
     EXPECT_NEAR(p.y, e.northing, 0.01) << e.projected;
     EXPECT_EQ(p.z, 12.5) << "heights stay where no system of heights is named";
@@ -220,8 +219,8 @@ TEST(ProjCoordinateSystems, UtmZones)
 TEST(ProjCoordinateSystems, WhatIsNoSystemIsRefusedWithTheReason)
 {
   const ProjCoordinateSystems known;
-  for (const char* definition : { "", "EPSG:999999", "nonsense", "PROJCS[\"x\"", "EPSG:5703",
-         "+proj=utm +zone=32", "EPSG:1" })
+  for (const char* definition :
+    { "", "EPSG:999999", "nonsense", "PROJCS[\"x\"", "EPSG:5703", "+proj=utm +zone=32", "EPSG:1" })
   {
     const auto system = known.parse(definition);
     ASSERT_FALSE(system.ok()) << definition;
@@ -232,8 +231,7 @@ TEST(ProjCoordinateSystems, WhatIsNoSystemIsRefusedWithTheReason)
 TEST(ProjCoordinateSystems, PointsThatCannotBeTransformedBecomeInfinite)
 {
   const ProjCoordinateSystems known;
-  const auto transform =
-    known.transform(named(known, "EPSG:32632"), named(known, "EPSG:4326"), {});
+  const auto transform = known.transform(named(known, "EPSG:32632"), named(known, "EPSG:4326"), {});
   ASSERT_TRUE(transform.ok());
   std::vector<glm::dvec3> points{ { 500000, 5000000, 1 }, { 1e30, 5e6, 1 }, { NAN, 1, 1 } };
   ASSERT_TRUE((*transform)->apply(points.data(), 3).ok());
@@ -249,8 +247,7 @@ TEST(ProjCoordinateSystems, PointsThatCannotBeTransformedBecomeInfinite)
 TEST(ProjCoordinateSystems, ManyThreadsShareOneTransformation)
 {
   const ProjCoordinateSystems known;
-  const auto transform =
-    known.transform(named(known, "EPSG:4326"), named(known, "EPSG:32632"), {});
+  const auto transform = known.transform(named(known, "EPSG:4326"), named(known, "EPSG:32632"), {});
   ASSERT_TRUE(transform.ok());
   std::vector<glm::dvec3> expected(2000);
   for (std::size_t i = 0; i < expected.size(); ++i)

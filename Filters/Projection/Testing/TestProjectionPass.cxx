@@ -23,8 +23,8 @@ std::string wkt(const char* code)
 std::unique_ptr<CloudInMemory> cloud(
   const char* path, glm::dvec3 corner, const std::string& system, double extent = 1000.0)
 {
-  return std::make_unique<CloudInMemory>(path,
-    std::vector<glm::dvec3>{ corner, corner + glm::dvec3(extent, extent, 10.0) }, system);
+  return std::make_unique<CloudInMemory>(
+    path, std::vector<glm::dvec3>{ corner, corner + glm::dvec3(extent, extent, 10.0) }, system);
 }
 
 struct Outcome
@@ -90,9 +90,8 @@ PointSources listOf(std::unique_ptr<PointSource> a, std::unique_ptr<PointSource>
 
 TEST(ProjectionPass, OneSystemStaysAsItIs)
 {
-  const Outcome outcome =
-    passed(listOf(cloud("a", { 5e5, 5e6, 0 }, wkt("EPSG:32632")),
-      cloud("b", { 5e5, 5e6, 0 }, wkt("EPSG:32632"))));
+  const Outcome outcome = passed(listOf(cloud("a", { 5e5, 5e6, 0 }, wkt("EPSG:32632")),
+    cloud("b", { 5e5, 5e6, 0 }, wkt("EPSG:32632"))));
   ASSERT_EQ(outcome.sources.size(), 2u) << outcome.error;
   EXPECT_EQ(outcome.all(), "");
   EXPECT_EQ(firstChunk(*outcome.sources[1]).positions[0], glm::dvec3(5e5, 5e6, 0));
@@ -199,12 +198,12 @@ TEST(ProjectionPass, ATargetMayBeAFileAndAWrongOneIsNamed)
   std::ofstream(path) << wkt("EPSG:32633") << "\n";
   ProjectionOptions options;
   options.target = path;
-  const Outcome outcome =
-    passed(listOf(cloud("a", { 5e5, 5e6, 0 }, wkt("EPSG:32632"))), options);
+  const Outcome outcome = passed(listOf(cloud("a", { 5e5, 5e6, 0 }, wkt("EPSG:32632"))), options);
   ASSERT_EQ(outcome.sources.size(), 1u) << outcome.error;
   std::ofstream(path) << "nothing of the kind";
   EXPECT_NE(passed(listOf(cloud("a", { 5e5, 5e6, 0 }, wkt("EPSG:32632"))), options)
-              .error.find("target.wkt"), std::string::npos);
+              .error.find("target.wkt"),
+    std::string::npos);
 }
 
 TEST(ProjectionPass, AnErrorOfProjNamesTheFile)
@@ -260,6 +259,7 @@ TEST(ProjectionPass, RealGeoKeysBecomeWkt)
   }
   const Outcome own = passed(listOf(shared("las/real/prec3.las")));
   EXPECT_EQ(own.sources.at(0)->description().crsWkt, "");
-  EXPECT_NE(own.all().find("prec3.las: its coordinate reference system is not known"),
-    std::string::npos) << own.all();
+  EXPECT_NE(
+    own.all().find("prec3.las: its coordinate reference system is not known"), std::string::npos)
+    << own.all();
 }

@@ -84,8 +84,7 @@ protected:
       return put("ept-data/" + key + ".bin", bytes);
     }
     std::string packed(::ZSTD_compressBound(bytes.size()), '\0');
-    packed.resize(
-      ::ZSTD_compress(packed.data(), packed.size(), bytes.data(), bytes.size(), 3));
+    packed.resize(::ZSTD_compress(packed.data(), packed.size(), bytes.data(), bytes.size(), 3));
     put("ept-data/" + key + ".zst", packed);
   }
   std::string file() const { return (folder_ / "ept.json").string(); }
@@ -131,8 +130,8 @@ TEST_P(WrittenTree, GivesEveryPointOnItsOwnGrid)
   {
     EXPECT_EQ(description.grid->toGrid(all.positions[i]), expected[i]);
   }
-  EXPECT_EQ(columnOf<std::uint16_t>(*source, all, "intensity"),
-    (std::vector<std::uint16_t>{ 7, 8, 9 }));
+  EXPECT_EQ(
+    columnOf<std::uint16_t>(*source, all, "intensity"), (std::vector<std::uint16_t>{ 7, 8, 9 }));
   EXPECT_EQ(columnOf<std::uint16_t>(*source, all, "rgb")[6], 256u);
 }
 
@@ -167,8 +166,7 @@ INSTANTIATE_TEST_SUITE_P(EPT, WrittenTree, testing::Values("binary", "zstandard"
 
 TEST(RealTree, OfLaszipHasThePointsOfItsNodes)
 {
-  const auto source = openPoints(
-    format(), POINTFRONT_SHARED_DATA "/ept/lone-star-laszip/ept.json");
+  const auto source = openPoints(format(), POINTFRONT_SHARED_DATA "/ept/lone-star-laszip/ept.json");
   ASSERT_TRUE(source);
   EXPECT_EQ(source->description().pointCount, 518862u);
   EXPECT_TRUE(source->description().warnings.empty());

@@ -42,8 +42,7 @@ std::vector<Point> pointsOf(const PointSource& source)
   std::vector<Point> points;
   for (std::size_t i = 0; i < all.size(); ++i)
   {
-    points.emplace_back(
-      all.positions[i].x, all.positions[i].y, all.positions[i].z, intensity[i]);
+    points.emplace_back(all.positions[i].x, all.positions[i].y, all.positions[i].z, intensity[i]);
   }
   std::sort(points.begin(), points.end());
   return points;
@@ -96,13 +95,16 @@ TEST(EPTTree, BoxesGiveWhatAFilterOfAllPointsGives)
     query.regions = { *BoxRegion::make(box) };
     query.attributes = std::vector<std::string>();
     std::size_t found = 0;
-    const auto report = queryPoints(*cloud, query, {}, [&](QueryBatch& batch) -> Result<void> {
-      found += batch.size();
-      return {};
-    });
+    const auto report = queryPoints(*cloud, query, {},
+      [&](QueryBatch& batch) -> Result<void>
+      {
+        found += batch.size();
+        return {};
+      });
     ASSERT_TRUE(report) << report.error().what;
-    EXPECT_EQ(found, static_cast<std::size_t>(
-      std::count_if(all.positions.begin(), all.positions.end(), inside))) << n;
+    EXPECT_EQ(found,
+      static_cast<std::size_t>(std::count_if(all.positions.begin(), all.positions.end(), inside)))
+      << n;
   }
 }
 } // namespace

@@ -1,7 +1,7 @@
 #include "vtkPointFrontLASIndexer.h"
 
-#include "IndexedLASFile.h"
 #include "COPCFile.h"
+#include "IndexedLASFile.h"
 #include "InterpreterPause.h"
 #include "LASIndexing.h"
 #include "LAZGlance.h"

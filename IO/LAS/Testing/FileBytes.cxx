@@ -37,8 +37,7 @@ std::string FileBytes::write(const std::string& name) const
 
 std::string outputFolder()
 {
-  const std::string folder =
-    testing::TempDir() + "pointfront-las-" + std::to_string(::getpid());
+  const std::string folder = testing::TempDir() + "pointfront-las-" + std::to_string(::getpid());
   std::filesystem::create_directories(folder);
   return folder;
 }

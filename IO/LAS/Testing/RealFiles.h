@@ -11,8 +11,8 @@ namespace pointfront::test
 /// What is known of a real file from its owners and two independent decoders (MANIFEST.md there).
 struct RealFile
 {
-  const char* path;     ///< under shared/data
-  const char* format;   ///< SourceDescription::format
+  const char* path; ///< under shared/data
+  const char* format; ///< SourceDescription::format
   std::uint64_t points; ///< that can be read
   /// "class:points" of every class present, or "N kinds".
   const char* classes;

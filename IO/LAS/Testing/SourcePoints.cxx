@@ -14,8 +14,8 @@ namespace pointfront::test
 namespace
 {
 /// Copies a chunk's points behind the first `first` points of `all`.
-void place(const PointBatch& chunk, const AttributeSchema& schema, std::uint64_t first,
-  PointBatch& all)
+void place(
+  const PointBatch& chunk, const AttributeSchema& schema, std::uint64_t first, PointBatch& all)
 {
   std::copy(chunk.positions.begin(), chunk.positions.end(),
     all.positions.begin() + static_cast<std::ptrdiff_t>(first));
@@ -39,7 +39,8 @@ std::vector<std::uint64_t> firstPoints(const PointSource& source)
 
 double number(ScalarType type, const std::byte* from)
 {
-  const auto load = [from](auto value) {
+  const auto load = [from](auto value)
+  {
     std::memcpy(&value, from, sizeof value);
     return static_cast<double>(value);
   };
@@ -99,7 +100,8 @@ PointBatch readAllBackwards(const PointSource& source, int threads)
   all.resize(first.back(), schema);
   std::atomic<std::uint64_t> left{ source.chunkCount() };
   std::atomic<int> failures{ 0 };
-  const auto work = [&] {
+  const auto work = [&]
+  {
     PointBatch chunk;
     for (std::uint64_t taken = left.fetch_sub(1); taken > 0 && taken <= source.chunkCount();
          taken = left.fetch_sub(1))
@@ -148,8 +150,8 @@ std::vector<double> valuesOf(
     return {};
   }
   const Attribute& attribute = schema[*column];
-  const std::byte* from = batch.columns[*column].data() +
-    static_cast<std::size_t>(component) * sizeOf(attribute.type);
+  const std::byte* from =
+    batch.columns[*column].data() + static_cast<std::size_t>(component) * sizeOf(attribute.type);
   std::vector<double> values(batch.size());
   for (std::size_t i = 0; i < values.size(); ++i)
   {

@@ -12,7 +12,7 @@ namespace pointfront::test
 {
 namespace
 {
-const char* const chunked = "laz/autzen_trim.laz";       // format 3, chunks of 50,000
+const char* const chunked = "laz/autzen_trim.laz"; // format 3, chunks of 50,000
 const char* const layered = "laz/las1.4_pf8_random.laz"; // format 8, 4 chunks of 256
 const char* const variable = "copc/1.2-with-color.copc.laz";
 const char* const pointwise = "laz/simple-laszip-compressor-version-1.2r0.laz";
@@ -81,13 +81,13 @@ TEST(BrokenLAZ, ALyingCompressionRecordIsRefusedBeforeLASzipSeesIt)
   for (const Case& c : cases)
   {
     SCOPED_TRACE(c.words);
-    const std::string path = broken(c.file,
-      [&](FileBytes& b) { b.put<std::uint16_t>(compressionRecord(b) + c.at, c.value); });
+    const std::string path = broken(
+      c.file, [&](FileBytes& b) { b.put<std::uint16_t>(compressionRecord(b) + c.at, c.value); });
     expectArchiveRefused(path, c.kind, c.words);
   }
-  expectArchiveRefused(broken(chunked, [](FileBytes& b) {
-    b.put<std::uint32_t>(compressionRecord(b) + 12, 0);
-  }), Error::Kind::BadFormat, "chunks of 0 points");
+  expectArchiveRefused(
+    broken(chunked, [](FileBytes& b) { b.put<std::uint32_t>(compressionRecord(b) + 12, 0); }),
+    Error::Kind::BadFormat, "chunks of 0 points");
   expectArchiveRefused(broken(chunked, [](FileBytes& b) { b[b.find("laszip encoded")] = 'x'; }),
     Error::Kind::BadFormat, "record \"laszip encoded\" that says how is missing");
 }
@@ -103,7 +103,8 @@ TEST(BrokenLAZ, ACountBelowItsChunksIsAWarning)
 {
   const auto one = [](FileBytes& b) { b.put<std::uint32_t>(107, 50000); };
   expectArchiveSurvived(broken(chunked, one), 50000, "2 of 3 chunks lie behind them");
-  const auto fewer = [](FileBytes& b) {
+  const auto fewer = [](FileBytes& b)
+  {
     b.put<std::uint64_t>(247, 1000);
     b.put<std::uint32_t>(107, 0);
   };
@@ -173,21 +174,23 @@ TEST(BrokenLAZ, CutShortGivesWhatIsSound)
 
 TEST(BrokenLAZ, ADamagedChunkIsAnErrorWithItsPlaceAndTheOthersAreRead)
 {
-  const std::string path = broken(layered, [](FileBytes& b) {
-    // Layer sizes stay, so only the code of the last chunk contradicts itself.
-    for (std::size_t at = chunkTable(b) - 3000; at < chunkTable(b); ++at)
+  const std::string path = broken(layered,
+    [](FileBytes& b)
     {
-      b[at] = 0xFF;
-    }
-  });
+      // Layer sizes stay, so only the code of the last chunk contradicts itself.
+      for (std::size_t at = chunkTable(b) - 3000; at < chunkTable(b); ++at)
+      {
+        b[at] = 0xFF;
+      }
+    });
   const auto source = LASFormat().open(path);
   ASSERT_TRUE(source) << source.error().what;
   PointBatch batch;
   const Result<void> done = (*source)->read((*source)->chunkCount() - 1, batch);
   ASSERT_FALSE(done);
   EXPECT_EQ(done.error().kind, Error::Kind::BadFormat);
-  EXPECT_NE(done.error().what.find("the compressed chunk of 256 points at byte"),
-    std::string::npos) << done.error().what;
+  EXPECT_NE(done.error().what.find("the compressed chunk of 256 points at byte"), std::string::npos)
+    << done.error().what;
 }
 } // namespace
 } // namespace pointfront::test

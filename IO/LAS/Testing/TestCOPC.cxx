@@ -187,14 +187,16 @@ void expectBoxes(const StoredCloud& cloud, const PointSource& file, int count, d
     query.regions = { *BoxRegion::make(box) };
     query.attributes = std::vector<std::string>();
     std::size_t found = 0;
-    const auto report = queryPoints(cloud, query, {}, [&](QueryBatch& batch) -> Result<void> {
-      for (const glm::dvec3& p : batch.points.positions)
+    const auto report = queryPoints(cloud, query, {},
+      [&](QueryBatch& batch) -> Result<void>
       {
-        EXPECT_TRUE(box.contains(p));
-      }
-      found += batch.size();
-      return {};
-    });
+        for (const glm::dvec3& p : batch.points.positions)
+        {
+          EXPECT_TRUE(box.contains(p));
+        }
+        found += batch.size();
+        return {};
+      });
     ASSERT_TRUE(report) << report.error().what;
     ASSERT_EQ(found, wanted) << "box " << n;
   }

@@ -120,9 +120,9 @@ bool has(const std::string& text, const char* part)
 
 TEST(IndexedLASFile, GivesEveryPointOfEveryFormatOnce)
 {
-  for (const char* name : { trimmed, "las/real/1.2-with-color.las",
-         "las/version_x_format/las1.4_pf10_1024pts_random.las",
-         "las/version_x_format/las1.2_pf3_10pts.las" })
+  for (const char* name :
+    { trimmed, "las/real/1.2-with-color.las", "las/version_x_format/las1.4_pf10_1024pts_random.las",
+      "las/version_x_format/las1.2_pf3_10pts.las" })
   {
     const std::string las = copyOf(name, "points.las");
     const LASIndexReport report = indexOrFail(las, las + lasIndexSuffix);

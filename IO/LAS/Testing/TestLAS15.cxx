@@ -57,8 +57,8 @@ TEST(LAS15, IsReadLikeLAS14)
     ASSERT_TRUE((*source)->read(0, other));
     EXPECT_EQ(one.positions, other.positions);
     EXPECT_EQ(one.columns, other.columns);
-    EXPECT_EQ((*source)->description().warnings.size() -
-        (*older)->description().warnings.size(), timeOffset == 1400 ? 1u : 0u);
+    EXPECT_EQ((*source)->description().warnings.size() - (*older)->description().warnings.size(),
+      timeOffset == 1400 ? 1u : 0u);
   }
 }
 

@@ -212,8 +212,8 @@ TEST(LASExport, RefusesAFractionOfADegreeInOldFormatsAndRoundsInNewOnes)
   batch.columns.push_back({ std::byte{ 1 } });
   const auto source = written(description, batch, "angle.las");
   ASSERT_TRUE(source);
-  EXPECT_NEAR(valuesOf(readAll(*source), source->description().schema, "scan_angle")[0], 12.498,
-    1e-5);
+  EXPECT_NEAR(
+    valuesOf(readAll(*source), source->description().schema, "scan_angle")[0], 12.498, 1e-5);
 }
 
 TEST(LASExport, WithoutPointsIsAWholeFile)

@@ -9,4 +9,4 @@ TEST(LASFormat, RefusesAMissingFile)
   LASFormat format;
   EXPECT_FALSE(format.accepts("no/such/file.las"));
 }
-}
+} // namespace pointfront

@@ -62,9 +62,8 @@ TEST(LASPoints, FirstPointHasItsKnownValues)
   EXPECT_NEAR(all.positions[0].x, 637012.24, 1e-6);
   EXPECT_NEAR(all.positions[0].y, 849028.31, 1e-6);
   EXPECT_NEAR(all.positions[0].z, 431.66, 1e-6);
-  const auto value = [&](const char* name, int component = 0) {
-    return valuesOf(all, schema, name, component)[0];
-  };
+  const auto value = [&](const char* name, int component = 0)
+  { return valuesOf(all, schema, name, component)[0]; };
   EXPECT_EQ(value("intensity"), 143);
   EXPECT_EQ(value("return_number"), 1);
   EXPECT_EQ(value("return_count"), 1);
@@ -91,8 +90,8 @@ TEST(LASPoints, EveryFieldOfFormat10ComesFromItsBytes)
   storeNumber<std::int32_t>(&record[4], 7);
   storeNumber<std::int32_t>(&record[8], 2147483647);
   storeNumber<std::uint16_t>(&record[12], 40000);
-  storeNumber<std::uint8_t>(&record[14], 0xB9);  // return 9 of 11
-  storeNumber<std::uint8_t>(&record[15], 0x6A);  // flags 10, channel 2, direction 1, edge 0
+  storeNumber<std::uint8_t>(&record[14], 0xB9); // return 9 of 11
+  storeNumber<std::uint8_t>(&record[15], 0x6A); // flags 10, channel 2, direction 1, edge 0
   storeNumber<std::uint8_t>(&record[16], 201);
   storeNumber<std::uint8_t>(&record[17], 33);
   storeNumber<std::int16_t>(&record[18], -15000);
@@ -142,9 +141,9 @@ TEST(LASPoints, FlagsOfOldFormatsAreSplitFromTheClass)
   PointBatch batch;
   batch.resize(1, layout.schema);
   decodeLASPoints(layout, {}, record.data(), 1, batch);
-  const std::pair<const char*, double> expected[] = { { "return_number", 2 },
-    { "return_count", 3 }, { "scan_direction", 1 }, { "edge_of_flight_line", 1 },
-    { "classification", 6 }, { "classification_flags", 5 }, { "scan_angle", -90 } };
+  const std::pair<const char*, double> expected[] = { { "return_number", 2 }, { "return_count", 3 },
+    { "scan_direction", 1 }, { "edge_of_flight_line", 1 }, { "classification", 6 },
+    { "classification_flags", 5 }, { "scan_angle", -90 } };
   for (const auto& [name, value] : expected)
   {
     EXPECT_EQ(valuesOf(batch, layout.schema, name)[0], value) << name;
@@ -201,8 +200,8 @@ TEST(LASExtraBytes, WithoutDescriptorsStayBytes)
 TEST(LASExtraBytes, AreReadBackFromWhatIsComposed)
 {
   const std::vector<Attribute> attributes{ { "a", ScalarType::Int16, 1, 0.01, -5.0, "scaled" },
-    { "b", ScalarType::Float64, 2 }, { "c", ScalarType::UInt64, 3 },
-    { "d", ScalarType::UInt8, 16 }, { "e", ScalarType::Int8 } };
+    { "b", ScalarType::Float64, 2 }, { "c", ScalarType::UInt64, 3 }, { "d", ScalarType::UInt8, 16 },
+    { "e", ScalarType::Int8 } };
   const std::vector<std::byte> payload = composeExtraBytes(attributes, {});
   std::vector<std::string> warnings;
   const std::vector<Attribute> back =
@@ -242,8 +241,8 @@ TEST(LASText, IsMadePrintable)
   EXPECT_EQ(printableText("a\tb\nc"), "a b c");
   EXPECT_EQ(printableText("a\x01z"), "a_z");
   EXPECT_EQ(printableText("H\xC3\xB6he"), "H\xC3\xB6he"); // UTF-8 stays
-  EXPECT_EQ(printableText("H\xF6he"), "H_he");            // Latin-1 does not
-  EXPECT_EQ(printableText("\xED\xA0\x80"), "___");        // a surrogate is not UTF-8
+  EXPECT_EQ(printableText("H\xF6he"), "H_he"); // Latin-1 does not
+  EXPECT_EQ(printableText("\xED\xA0\x80"), "___"); // a surrogate is not UTF-8
 }
 
 TEST(LAZIntegerDecoder, StopsWhereTheBytesEnd)

@@ -131,8 +131,8 @@ TEST_P(LASRoundTrip, GivesBackEveryIntegerAndTheCrs)
   const RoundTrip& trip = GetParam();
   const auto source = openOrFail(sharedData(trip.file.path));
   ASSERT_TRUE(source);
-  const std::string path = outputFolder() + "/" +
-    tripName(testing::TestParamInfo<RoundTrip>(trip, 0)) + ".las";
+  const std::string path =
+    outputFolder() + "/" + tripName(testing::TestParamInfo<RoundTrip>(trip, 0)) + ".las";
   LASWriter writer(path, trip.encoding);
   const Result<void> done = copyTo(writer, *source, sinkFor(*source));
   ASSERT_TRUE(done) << done.error().what;

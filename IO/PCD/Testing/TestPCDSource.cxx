@@ -13,7 +13,10 @@ namespace pointfront::test
 {
 namespace
 {
-std::string shared(const std::string& path) { return POINTFRONT_SHARED_DATA "/" + path; }
+std::string shared(const std::string& path)
+{
+  return POINTFRONT_SHARED_DATA "/" + path;
+}
 
 struct RealPCD
 {
@@ -204,8 +207,8 @@ TEST(PCDFields, OfManyElementsAreArraysOrLeftOut)
     EXPECT_NE(source->description().warnings[0].find("'histogram'"), std::string::npos);
     const PointBatch all = readPoints(*source);
     EXPECT_EQ(all.positions[1], glm::dvec3(2.5, 2.5, -3.5));
-    EXPECT_EQ(columnOf<std::int16_t>(*source, all, "pair"),
-      (std::vector<std::int16_t>{ -7, 8, -7, 8 }));
+    EXPECT_EQ(
+      columnOf<std::int16_t>(*source, all, "pair"), (std::vector<std::int16_t>{ -7, 8, -7, 8 }));
     EXPECT_EQ(columnOf<std::uint8_t>(*source, all, "rgb"),
       (std::vector<std::uint8_t>{ 16, 32, 48, 16, 32, 48 }));
   }
@@ -260,8 +263,9 @@ TEST(PCDBlocks, BeyondMemoryAreUnpackedToDisk)
     left -= run;
   }
   const auto source = openPoints(PCDFormat({}, testing::TempDir()),
-    writeFile("large.pcd", header(xyz, points, "binary_compressed") +
-      sized(static_cast<std::uint32_t>(block.size()), points * 12, block)));
+    writeFile("large.pcd",
+      header(xyz, points, "binary_compressed") +
+        sized(static_cast<std::uint32_t>(block.size()), points * 12, block)));
   ASSERT_TRUE(source);
   EXPECT_EQ(source->description().pointCount, points);
   PointBatch batch;
@@ -286,8 +290,8 @@ TEST(PCDBlocks, ThatAreDamagedAreRefused)
   };
   for (const auto& [block, reason] : blocks)
   {
-    const auto source = PCDFormat().open(
-      writeFile("damaged.pcd", header(xyz, 2, "binary_compressed") + block));
+    const auto source =
+      PCDFormat().open(writeFile("damaged.pcd", header(xyz, 2, "binary_compressed") + block));
     ASSERT_FALSE(source.ok()) << reason;
     EXPECT_NE(source.error().what.find(reason), std::string::npos) << source.error().what;
   }
@@ -326,8 +330,8 @@ TEST(CutPCDFile, IsSoundAtEveryByte)
     PCDFormat(), header(xyz, 20, "binary") + std::string(240, '\1'), "cut.pcd");
   const std::string block = literals(std::string(240, '\1'));
   const auto size = static_cast<std::uint32_t>(block.size());
-  expectSoundCutAnywhere(PCDFormat(),
-    header(xyz, 20, "binary_compressed") + sized(size, 240, block), "cut.pcd");
+  expectSoundCutAnywhere(
+    PCDFormat(), header(xyz, 20, "binary_compressed") + sized(size, 240, block), "cut.pcd");
 }
 } // namespace
 } // namespace pointfront::test

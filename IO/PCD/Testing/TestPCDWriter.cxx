@@ -12,7 +12,8 @@ protected:
   PCDFormat format_;
   const WriterCase case_{ format_, "pcd",
     [](const std::string& path) { return std::make_unique<PCDWriter>(path); } };
-  const WriterCase exact_{ format_, "pcd", [](const std::string& path)
+  const WriterCase exact_{ format_, "pcd",
+    [](const std::string& path)
     { return std::make_unique<PCDWriter>(path, PCDWriter::Coordinates::Float64); } };
 
   /// Points of a grid of 1 mm at and beside `low`, written and read again.
@@ -74,8 +75,8 @@ TEST_F(PCDWriterTest, LooksToOthersLikeTheirOwn)
   ASSERT_TRUE(writer.append(batch));
   ASSERT_TRUE(writer.finish());
   const std::string header = bytesOfFile(path).substr(0, 400);
-  EXPECT_NE(header.find("FIELDS x y z intensity rgb normal_x normal_y normal_z"),
-    std::string::npos) << header;
+  EXPECT_NE(header.find("FIELDS x y z intensity rgb normal_x normal_y normal_z"), std::string::npos)
+    << header;
   EXPECT_NE(header.find("SIZE 4 4 4 4 4 4 4 4 "), std::string::npos) << header;
   EXPECT_NE(header.find("TYPE F F F F F F F F "), std::string::npos) << header;
 }

@@ -11,7 +11,10 @@ namespace pointfront::test
 {
 namespace
 {
-std::string shared(const std::string& path) { return POINTFRONT_SHARED_DATA "/" + path; }
+std::string shared(const std::string& path)
+{
+  return POINTFRONT_SHARED_DATA "/" + path;
+}
 
 struct RealPLY
 {
@@ -21,16 +24,14 @@ struct RealPLY
 };
 
 // Counts: MANIFEST.md beside the data.
-const RealPLY realFiles[] = { { "ply/simple_text.ply", 3, "" },
-  { "ply/simple_binary.ply", 3, "" },
+const RealPLY realFiles[] = { { "ply/simple_text.ply", 3, "" }, { "ply/simple_binary.ply", 3, "" },
   { "ply/sized_dims.ply", 1, "j int32, intensity float64" },
   { "ply/unsized_dims.ply", 1, "intensity float64, j int32" },
   { "ply/text_extradim.ply", 1, "normal float32x3, rgb uint8x3, alpha uint8, omg int32" },
   { "ply/platonic_shelf.ply", 50, "" }, { "ply/platonic_shelf_ascii.ply", 50, "" },
   { "ply/platonic_shelf_big_endian.ply", 50, "" },
   { "ply/standard_ply_points.ply", 20, "normal float32x3, rgb uint8x3, a float32x2" },
-  { "ply/single_point.ply", 1, "" },
-  { "ply/diamond.ply", 6, "rgb uint8x3, normal float32x3" },
+  { "ply/single_point.ply", 1, "" }, { "ply/diamond.ply", 6, "rgb uint8x3, normal float32x3" },
   { "ply/diamond_ascii.ply", 6, "normal float32x3, rgb uint8x3, alpha uint8" },
   { "ply/points_ascii.ply", 5, "" }, { "ply/points_bin.ply", 5, "" },
   { "ply/points_ascii_with_lists.ply", 5, "" }, { "ply/points_emptyface.ply", 1024, "" },
@@ -148,9 +149,9 @@ void append(std::string& bytes, T value, bool reversed)
 {
   char raw[sizeof(T)];
   std::memcpy(raw, &value, sizeof value);
-  bytes += reversed ? std::string(std::reverse_iterator<char*>(raw + sizeof raw),
-                        std::reverse_iterator<char*>(raw))
-                    : std::string(raw, sizeof raw);
+  bytes += reversed
+    ? std::string(std::reverse_iterator<char*>(raw + sizeof raw), std::reverse_iterator<char*>(raw))
+    : std::string(raw, sizeof raw);
 }
 
 /// Vertices with a list each, in front of and behind other elements with lists.
@@ -158,9 +159,11 @@ std::string listedFile(bool big, int points)
 {
   std::string bytes = header(big ? "binary_big_endian" : "binary_little_endian",
     "element face 2\nproperty list uchar int vertex_index\nproperty short flags\n"
-    "element vertex " + std::to_string(points) + "\nproperty double z\n"
-    "property list ushort float weights\nproperty double y\nproperty uint id\n"
-    "property double x\nelement tail 1\nproperty char c\n");
+    "element vertex " +
+      std::to_string(points) +
+      "\nproperty double z\n"
+      "property list ushort float weights\nproperty double y\nproperty uint id\n"
+      "property double x\nelement tail 1\nproperty char c\n");
   for (int face = 0; face < 2; ++face)
   {
     append<std::uint8_t>(bytes, static_cast<std::uint8_t>(3 + face), false);
@@ -214,9 +217,11 @@ TEST(PLYLists, AreSoundWhereverTheFileEnds)
 
 TEST(PLYLists, InTextArePassedOver)
 {
-  const std::string text = header("ascii",
-    "element vertex 2\nproperty float x\nproperty list uchar int n\nproperty float y\n"
-    "property float z\n") + "1 2 8 9 4 5\n6 0 7 8\n";
+  const std::string text =
+    header("ascii",
+      "element vertex 2\nproperty float x\nproperty list uchar int n\nproperty float y\n"
+      "property float z\n") +
+    "1 2 8 9 4 5\n6 0 7 8\n";
   const auto source = openPoints(PLYFormat(), writeFile("lists.ply", text));
   ASSERT_TRUE(source);
   const PointBatch all = readPoints(*source);
@@ -260,8 +265,8 @@ TEST(PLYColours, AreDecidedByAllValuesOfTheFile)
 
 TEST(PLYPositions, ThatAreNoNumbersGoThrough)
 {
-  const std::string text = header("ascii",
-    "element vertex 4\nproperty float x\nproperty float y\nproperty float z\n") +
+  const std::string text =
+    header("ascii", "element vertex 4\nproperty float x\nproperty float y\nproperty float z\n") +
     "1 2 3\nnan 0 0\n0 inf 0\nno point\n";
   const auto source = openPoints(PLYFormat(), writeFile("nan.ply", text));
   ASSERT_TRUE(source);
@@ -307,13 +312,16 @@ TEST(PLYHeaders, WithCountsBeyondAllBytesEndAtOnce)
   for (const char* format : { "ascii", "binary_little_endian" })
   {
     const std::string body = std::string(format) == "ascii" ? "1 2 3\n" : std::string(12, '\0');
-    const auto points = openPoints(PLYFormat(), writeFile("many.ply",
-      header(format, "element vertex 18446744073709551615\n" + xyz) + body));
+    const auto points = openPoints(PLYFormat(),
+      writeFile("many.ply", header(format, "element vertex 18446744073709551615\n" + xyz) + body));
     ASSERT_TRUE(points);
     EXPECT_EQ(points->description().pointCount, 1u);
     const auto before = PLYFormat().open(writeFile("many.ply",
-      header(format, "element face 18446744073709551615\nproperty list uint int i\n"
-        "element vertex 1\n" + xyz) + body));
+      header(format,
+        "element face 18446744073709551615\nproperty list uint int i\n"
+        "element vertex 1\n" +
+          xyz) +
+        body));
     ASSERT_FALSE(before.ok());
     EXPECT_EQ(before.error().kind, Error::Kind::Truncated);
   }

@@ -36,8 +36,8 @@ struct ForeignPNG
     png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
     png_infop info = png_create_info_struct(png);
     png_init_io(png, file);
-    png_set_IHDR(png, info, width, height, bits, colourType, interlace,
-      PNG_COMPRESSION_TYPE_BASE, PNG_FILTER_TYPE_BASE);
+    png_set_IHDR(png, info, width, height, bits, colourType, interlace, PNG_COMPRESSION_TYPE_BASE,
+      PNG_FILTER_TYPE_BASE);
     if (!palette.empty())
     {
       png_set_PLTE(png, info, palette.data(), int(palette.size()));
@@ -66,8 +66,7 @@ class PNGReaderTest : public testing::Test
 protected:
   PNGReaderTest()
     : folder_(fs::path(testing::TempDir()) /
-        (std::string("PNGReader.") +
-          testing::UnitTest::GetInstance()->current_test_info()->name()))
+        (std::string("PNGReader.") + testing::UnitTest::GetInstance()->current_test_info()->name()))
   {
     fs::remove_all(folder_);
     fs::create_directories(folder_);

@@ -21,8 +21,7 @@ class PNGWriterTest : public testing::Test
 protected:
   PNGWriterTest()
     : folder_(fs::path(testing::TempDir()) /
-        (std::string("PNGWriter.") +
-          testing::UnitTest::GetInstance()->current_test_info()->name()))
+        (std::string("PNGWriter.") + testing::UnitTest::GetInstance()->current_test_info()->name()))
   {
     fs::remove_all(folder_);
     fs::create_directories(folder_);
@@ -146,9 +145,8 @@ TEST_F(PNGWriterTest, BandsAndBottomUpRowsMakeTheSameFile)
 
   auto upwards = PNGWriter::create(path("upwards.png"), size, PNGWriter::Pixels::RGB8);
   ASSERT_TRUE(upwards);
-  ASSERT_TRUE((*upwards)
-                ->append(
-                  flipped.data() + stride * (height - 1), height, -std::ptrdiff_t(stride)));
+  ASSERT_TRUE(
+    (*upwards)->append(flipped.data() + stride * (height - 1), height, -std::ptrdiff_t(stride)));
   ASSERT_TRUE((*upwards)->finish());
 
   EXPECT_EQ(contentOf(path("whole.png")), contentOf(path("banded.png")));
@@ -208,8 +206,7 @@ TEST_F(PNGWriterTest, AFullDiskAtTheVeryEndIsAnError)
 
 TEST_F(PNGWriterTest, SaysWhyItCannotBegin)
 {
-  const auto missing =
-    PNGWriter::create(path("none/a.png"), { 4, 4 }, PNGWriter::Pixels::RGBA8);
+  const auto missing = PNGWriter::create(path("none/a.png"), { 4, 4 }, PNGWriter::Pixels::RGBA8);
   ASSERT_FALSE(missing);
   EXPECT_EQ(missing.error().kind, Error::Kind::Unwritable);
   EXPECT_NE(missing.error().what.find("does not exist"), std::string::npos);

@@ -141,8 +141,8 @@ TEST(StyleJSON, RefusalsBeginWithTheirPlace)
   expect(R"({"classes": {"256": {}}})", "classes.256: a class is a code from 0 to 255");
   expect(R"({"classes": {"06": {}}})", "classes.06: a class is a code from 0 to 255");
   expect(R"({"classes": {"ground": {}}})", "classes.ground: a class is a code from 0 to 255");
-  expect(R"({"default": {"opacity": 2}})",
-    "default.opacity: expected a number from 0.0 to 1.0, not 2");
+  expect(
+    R"({"default": {"opacity": 2}})", "default.opacity: expected a number from 0.0 to 1.0, not 2");
   expect(R"({"default": {"visible": 1}})", "default.visible: expected true or false, not 1");
   expect(R"({"default": {"technique": "dots"}})",
     "default.technique: 'dots' is unknown: use points, splats, spheres, silhouettes, solid, ewa");
@@ -183,8 +183,8 @@ TEST(StyleJSON, RefusalsBeginWithTheirPlace)
     "default.color.range: expected the smaller number first, not [2,1]");
   expect(R"({"default": {"color": {"mix": ["rgb", {"mix": ["rgb", "rgb"]}]}}})",
     "default.color.mix[1]: a combination is of two colours that are none themselves");
-  expect(R"({"shading": {"strength": 1}})",
-    "shading.strength: means something with the mode edl only");
+  expect(
+    R"({"shading": {"strength": 1}})", "shading.strength: means something with the mode edl only");
   for (const char* text : { "", "{", R"({"default")", "{\"a\": 1e999}", "nan", "\xff" })
   {
     EXPECT_EQ(refusal(text).rfind("not JSON", 0), 0u) << text << ": " << refusal(text);

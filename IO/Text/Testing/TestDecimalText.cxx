@@ -38,7 +38,8 @@ TEST(DecimalText, TellsApartTheStepsOfAnyGrid)
 
 TEST(DecimalText, WritesEveryTypeSoThatItReadsBack)
 {
-  const auto textOf = [](ScalarType type, auto value) {
+  const auto textOf = [](ScalarType type, auto value)
+  {
     std::string text;
     appendScalar(text, type, reinterpret_cast<const std::byte*>(&value));
     return text;
@@ -49,10 +50,10 @@ TEST(DecimalText, WritesEveryTypeSoThatItReadsBack)
   EXPECT_EQ(textOf(ScalarType::Int16, std::int16_t{ -32768 }), "-32768");
   EXPECT_EQ(textOf(ScalarType::UInt32, std::uint32_t{ 4294967295u }), "4294967295");
   EXPECT_EQ(textOf(ScalarType::Int32, std::int32_t{ -1 }), "-1");
-  EXPECT_EQ(textOf(ScalarType::UInt64, std::numeric_limits<std::uint64_t>::max()),
-    "18446744073709551615");
-  EXPECT_EQ(textOf(ScalarType::Int64, std::numeric_limits<std::int64_t>::min()),
-    "-9223372036854775808");
+  EXPECT_EQ(
+    textOf(ScalarType::UInt64, std::numeric_limits<std::uint64_t>::max()), "18446744073709551615");
+  EXPECT_EQ(
+    textOf(ScalarType::Int64, std::numeric_limits<std::int64_t>::min()), "-9223372036854775808");
   EXPECT_EQ(textOf(ScalarType::Float32, 0.1f), "0.1");
   EXPECT_EQ(textOf(ScalarType::Float64, 245379.39846), "245379.39846");
   EXPECT_EQ(textOf(ScalarType::Float64, std::numeric_limits<double>::quiet_NaN()), "nan");

@@ -34,8 +34,8 @@ TEST(TextDialect, DecimalCommasStandWithAnySeparator)
   {
     SCOPED_TRACE(separator);
     const std::string s = separator;
-    const std::string rows = "1,5" + s + "-2,25" + s + "10\n4" + s + "5,5" + s + "6\n7,25" + s +
-      "8" + s + "9,5\n";
+    const std::string rows =
+      "1,5" + s + "-2,25" + s + "10\n4" + s + "5,5" + s + "6\n7,25" + s + "8" + s + "9,5\n";
     expectThreePoints(openText(rows).get());
     expectThreePoints(openText("X" + s + "Y" + s + "Z\n" + rows).get());
   }
@@ -120,15 +120,16 @@ TEST(TextEncoding, OfGzipIsUnpacked)
 
 TEST(TextNames, AreThoseThatPeopleWrite)
 {
-  for (const char* header : { "lon,lat,height", "Lon,Lat,H", "E,N,H", "e,n,elev",
-         "POINT_X,POINT_Y,POINT_Z",
-         "Points:0,Points:1,Points:2", "X (m),Y (m),Z (m)", "X[m],Y[m],Z[m]", "x_m,y_m,z_m",
-         "Easting(m),Northing(m),Elevation (ft)", "Longitude [deg],Latitude [deg],Altitude [m]",
-         "\"X\",\"Y\",\"Z\"", "Rechtswert,Hochwert,H", "x_coord,y_coord,z_coord" })
+  for (const char* header :
+    { "lon,lat,height", "Lon,Lat,H", "E,N,H", "e,n,elev", "POINT_X,POINT_Y,POINT_Z",
+      "Points:0,Points:1,Points:2", "X (m),Y (m),Z (m)", "X[m],Y[m],Z[m]", "x_m,y_m,z_m",
+      "Easting(m),Northing(m),Elevation (ft)", "Longitude [deg],Latitude [deg],Altitude [m]",
+      "\"X\",\"Y\",\"Z\"", "Rechtswert,Hochwert,H", "x_coord,y_coord,z_coord" })
   {
     SCOPED_TRACE(header);
-    const auto source = openText(std::string(header) + ",Intensity\n1.5,-2.25,10,1\n4,5.5,6,2\n"
-                                                       "7.25,8,9.5,3\n");
+    const auto source = openText(std::string(header) +
+      ",Intensity\n1.5,-2.25,10,1\n4,5.5,6,2\n"
+      "7.25,8,9.5,3\n");
     expectThreePoints(source.get());
     EXPECT_EQ(schemaText(*source), "intensity uint16");
     EXPECT_TRUE(source->description().warnings.empty());

@@ -11,7 +11,10 @@ namespace pointfront::test
 {
 namespace
 {
-std::string shared(const std::string& path) { return POINTFRONT_SHARED_DATA "/" + path; }
+std::string shared(const std::string& path)
+{
+  return POINTFRONT_SHARED_DATA "/" + path;
+}
 
 std::unique_ptr<PointSource> openText(
   const std::string& text, const std::vector<std::string>& columns = {})
@@ -28,8 +31,7 @@ struct RealText
 };
 
 // Counts: MANIFEST.md beside the data.
-const RealText realFiles[] = {
-  { "text/ripple.txt", 10201, 0, "rgb uint8x3, normal float32x3" },
+const RealText realFiles[] = { { "text/ripple.txt", 10201, 0, "rgb uint8x3, normal float32x3" },
   { "text/ripple.pts", 10201, 0, "intensity uint16, rgb uint8x3" },
   { "text/ripple.ptx", 10201, 0, "intensity uint16, rgb uint8x3" },
   { "text/utm17_1.txt", 10, 0, "" }, { "text/utm17_2.txt", 10, 0, "" },

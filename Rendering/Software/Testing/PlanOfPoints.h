@@ -20,7 +20,7 @@ struct TestPoint
   glm::dvec3 position{ 0.0 };
   std::array<std::uint8_t, 3> rgb{ 255, 255, 255 };
   glm::vec3 normal{ 0.0f }; ///< unit, or 0
-  float height = 0.0f;      ///< above the ground
+  float height = 0.0f; ///< above the ground
 };
 
 /// Plans of made-up nodes: columns 0 rgb (u8 x 3), 1 normal (f32 x 3), 2 splat_radius, 3 class
@@ -44,8 +44,8 @@ public:
     plan.batches[0].style = style;
   }
 
-  PlanItem& add(const std::vector<TestPoint>& points, double radius = 0.0,
-    std::uint8_t objectClass = 0)
+  PlanItem& add(
+    const std::vector<TestPoint>& points, double radius = 0.0, std::uint8_t objectClass = 0)
   {
     auto node = std::make_shared<NodeColumns>();
     node->node = next++;
@@ -124,8 +124,8 @@ inline std::vector<TestPoint> wavySurface(int count, unsigned seed)
   {
     const double x = place(random), y = place(random);
     point.position = { x, y, 0.2 * std::sin(5.0 * x) * std::cos(4.0 * y) };
-    point.normal = glm::normalize(glm::vec3(-std::cos(5.0 * x) * std::cos(4.0 * y),
-      0.8 * std::sin(5.0 * x) * std::sin(4.0 * y), 1.0));
+    point.normal = glm::normalize(glm::vec3(
+      -std::cos(5.0 * x) * std::cos(4.0 * y), 0.8 * std::sin(5.0 * x) * std::sin(4.0 * y), 1.0));
     point.height = static_cast<float>(0.4 + point.position.z);
     point.rgb = { static_cast<std::uint8_t>(random()), static_cast<std::uint8_t>(random()),
       static_cast<std::uint8_t>(random()) };

@@ -55,8 +55,8 @@ public:
     return put(one, { { at, {}, {} } }, colour);
   }
 
-  SoftwareTarget draw(ThreadCrew* crew = nullptr, const PixelRectangle* place = nullptr,
-    bool points = false) const
+  SoftwareTarget draw(
+    ThreadCrew* crew = nullptr, const PixelRectangle* place = nullptr, bool points = false) const
   {
     SoftwareRasteriser rasteriser(crew);
     SoftwareComposition composition;
@@ -86,8 +86,9 @@ private:
 
 Bytes at(const SoftwareTarget& target, int x, int y)
 {
-  const std::size_t pixel = static_cast<std::size_t>(y - target.bottom) *
-      static_cast<std::size_t>(target.width) + static_cast<std::size_t>(x - target.left);
+  const std::size_t pixel =
+    static_cast<std::size_t>(y - target.bottom) * static_cast<std::size_t>(target.width) +
+    static_cast<std::size_t>(x - target.left);
   Bytes bytes;
   for (int c = 0; c < 4; ++c)
   {
@@ -216,8 +217,7 @@ TEST(Composition, AMaskIsStretchedOverTheViewport)
     for (int x = 0; x < size; ++x)
     {
       const bool covered = x >= size / 2 && y < size / 2;
-      EXPECT_EQ(
-        at(picture, x, y), (covered ? Bytes{ 0, 200, 0, 255 } : Bytes{ 200, 0, 0, 255 }));
+      EXPECT_EQ(at(picture, x, y), (covered ? Bytes{ 0, 200, 0, 255 } : Bytes{ 200, 0, 0, 255 }));
     }
   }
 }
@@ -244,8 +244,8 @@ TEST(Composition, ALensAroundAClassIsWhatItsDiscsCover)
       const double far = std::hypot(x + 0.5 - 32.0, y + 0.5 - 32.0);
       if (std::abs(far - radius) > 0.1)
       {
-        EXPECT_EQ(at(picture, x, y),
-          (far < radius ? Bytes{ 0, 0, 200, 255 } : Bytes{ 200, 0, 0, 255 }))
+        EXPECT_EQ(
+          at(picture, x, y), (far < radius ? Bytes{ 0, 0, 200, 255 } : Bytes{ 200, 0, 0, 255 }))
           << x << ", " << y;
       }
     }
@@ -279,7 +279,7 @@ TEST(Composition, AHighlightTintsAndHasARimOnWhatIsBehind)
   Sheets sheets;
   sheets.add(4.0, blue);
   sheets.add(2.0, red, 0.25)->highlight = 1; // the middle quarter: pixels 24 to 39
-  sheets.add(1.0, green, 0.05);              // in front of its middle
+  sheets.add(1.0, green, 0.05); // in front of its middle
   sheets.scene.plan.shading.highlights = { { { 1.0f, 1.0f, 1.0f }, 3.0f, 0.5f } };
   const SoftwareTarget picture = sheets.draw();
   EXPECT_EQ(at(picture, 28, 36), (Bytes{ 228, 128, 128, 255 })) << "half white";

@@ -55,8 +55,8 @@ PlanOfPoints surface(const GrowingStyle& style)
 
 int covered(const SoftwareTarget& target)
 {
-  return static_cast<int>(std::count_if(target.depth.begin(), target.depth.end(),
-    [](float depth) { return std::isfinite(depth); }));
+  return static_cast<int>(std::count_if(
+    target.depth.begin(), target.depth.end(), [](float depth) { return std::isfinite(depth); }));
 }
 
 void expectSame(const SoftwareTarget& a, const SoftwareTarget& b)

@@ -26,8 +26,7 @@ struct NamedStyle
 
 const NamedStyle styles[] = {
   { "Points", Technique::Points, false, false, SplatAccuracy::Affine, SplatSize::Mode::Pixels },
-  { "FlatDiscs", Technique::Points, false, false, SplatAccuracy::Affine,
-    SplatSize::Mode::Spacing },
+  { "FlatDiscs", Technique::Points, false, false, SplatAccuracy::Affine, SplatSize::Mode::Spacing },
   { "Paraboloids", Technique::Splats, false, false, SplatAccuracy::Affine,
     SplatSize::Mode::Spacing },
   { "BlendedParaboloids", Technique::Splats, true, false, SplatAccuracy::Affine,
@@ -100,8 +99,7 @@ void expectPart(const SoftwareTarget& part, const SoftwareTarget& whole, const s
     for (int x = 0; x < part.width; ++x)
     {
       const auto mine = static_cast<std::size_t>(y * part.width + x);
-      const auto other =
-        static_cast<std::size_t>((part.bottom + y) * whole.width + part.left + x);
+      const auto other = static_cast<std::size_t>((part.bottom + y) * whole.width + part.left + x);
       different += part.rgba[mine] != whole.rgba[other] || part.depth[mine] != whole.depth[other];
       for (std::size_t c = 0; !part.normals.empty() && c < 3; ++c)
       {

@@ -174,8 +174,7 @@ TEST(Silhouettes, AClosedSurfaceHasAnOutlineWhereItEndsAndNoneWithin)
         for (int x = 0; x < width; ++x)
         {
           const Ray ray = rayThrough(camera, x, y);
-          const double t =
-            glm::dot(n, inView(camera, glm::dvec3(0.0))) / glm::dot(n, ray.along);
+          const double t = glm::dot(n, inView(camera, glm::dvec3(0.0))) / glm::dot(n, ray.along);
           const glm::dvec3 at(toStore * glm::dvec4(t * ray.along, 1.0));
           if (t > 0.0 && std::max(std::abs(at.x), std::abs(at.y)) < 0.76)
           {
@@ -262,8 +261,8 @@ TEST(Walls, AreWhatRaysMeet)
           const bool onEdge = std::abs(std::abs(hit.aside) - 0.03) < 1e-3 ||
             std::abs(hit.down) < 1e-3 || std::abs(hit.down - h) < 1e-3;
           const bool inside = std::abs(hit.aside) <= 0.03 && hit.down >= 0.0 && hit.down <= h;
-          const bool near = std::abs(hit.aside) <= 0.032 && hit.down >= -0.001 &&
-            hit.down <= h + 0.001;
+          const bool near =
+            std::abs(hit.aside) <= 0.032 && hit.down >= -0.001 && hit.down <= h + 0.001;
           doubtful = doubtful || (near && onEdge);
           if (inside && hit.depth < nearest)
           {
@@ -328,8 +327,8 @@ TEST(Walls, AreScaledWithTheirCloud)
   {
     PlanOfPoints scene = sceneOf(Technique::Solid, 0.1, true, true);
     scene.style->wall = { Rgba8{ 0, 0, 0, 255 }, Rgba8{ 0, 0, 0, 255 } };
-    scene.plan.camera = FrameCamera::parallelView(
-      { 0, -3, 0 }, { 0, 0, 0 }, { 0, 0, 1 }, 1.0, 0.1, 10.0, 100, 100);
+    scene.plan.camera =
+      FrameCamera::parallelView({ 0, -3, 0 }, { 0, 0, 0 }, { 0, 0, 1 }, 1.0, 0.1, 10.0, 100, 100);
     scene.plan.camera.storeToView[2] *= scale;
     TestPoint point;
     point.height = 0.4f;

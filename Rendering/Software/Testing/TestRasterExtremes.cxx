@@ -32,9 +32,8 @@ void expectSound(const SoftwareTarget& target)
 std::vector<ResolvedStyle> allStyles(double size)
 {
   std::vector<ResolvedStyle> styles;
-  for (const Technique technique :
-    { Technique::Points, Technique::Splats, Technique::Spheres, Technique::Silhouettes,
-      Technique::Solid, Technique::Ewa })
+  for (const Technique technique : { Technique::Points, Technique::Splats, Technique::Spheres,
+         Technique::Silhouettes, Technique::Solid, Technique::Ewa })
   {
     for (const SplatAccuracy accuracy :
       { SplatAccuracy::Affine, SplatAccuracy::Exact, SplatAccuracy::Full })

@@ -56,8 +56,8 @@ struct Overlap
 };
 
 /// One disc, drawn and cast by rays.
-Overlap overlapOf(PlanOfPoints& scene, const glm::dvec3& centre, const glm::dvec3& normal,
-  double radius)
+Overlap overlapOf(
+  PlanOfPoints& scene, const glm::dvec3& centre, const glm::dvec3& normal, double radius)
 {
   scene.plan.batches[0].items.clear();
   TestPoint point;
@@ -66,8 +66,8 @@ Overlap overlapOf(PlanOfPoints& scene, const glm::dvec3& centre, const glm::dvec
   scene.add({ point });
   const SoftwareTarget target = scene.draw();
   const FrameCamera& camera = scene.plan.camera;
-  const glm::dvec3 c(camera.storeToView * glm::dvec4(scene.plan.grid.toWorld(
-    scene.plan.grid.toGrid(centre)), 1.0));
+  const glm::dvec3 c(
+    camera.storeToView * glm::dvec4(scene.plan.grid.toWorld(scene.plan.grid.toGrid(centre)), 1.0));
   const glm::dvec3 n(camera.storeToView * glm::dvec4(normal, 0.0));
   Overlap overlap;
   for (int y = 0; y < camera.height; ++y)
@@ -192,8 +192,7 @@ TEST(RasterReference, SpheresHaveTheirDepthInEachPixel)
   {
     scene.plan.batches[0].items.clear();
     scene.look({ 0, -distance, 0 }, { 0, 0, 0 }, 1.2 / distance + 0.1, 200, 200);
-    scene.plan.batches[0].style =
-      worldSized(Technique::Spheres, SplatAccuracy::Affine, 1.0);
+    scene.plan.batches[0].style = worldSized(Technique::Spheres, SplatAccuracy::Affine, 1.0);
     const glm::dvec3 centre(0.25, 0.125, -0.125);
     scene.add({ { centre } });
     const SoftwareTarget target = scene.draw();
@@ -275,8 +274,8 @@ TEST(RasterReference, AFilterAndAPlaneLeaveOutWhatTheySay)
     }
     ++drawn;
     ASSERT_EQ(point.node, 1u);
-    const glm::dvec3 place = scene.plan.grid.toWorld(
-      node.origin + GridPosition(node.positions[point.index]));
+    const glm::dvec3 place =
+      scene.plan.grid.toWorld(node.origin + GridPosition(node.positions[point.index]));
     ASSERT_GE(place.x, 0.25 - 1e-6);
   }
   EXPECT_GT(drawn, 500u);

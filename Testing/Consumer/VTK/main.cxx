@@ -5,8 +5,8 @@
 #include <vtkNew.h>
 #include <vtkPointFrontMapper.h>
 #include <vtkPointFrontReader.h>
-#include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
+#include <vtkRenderWindow.h>
 #include <vtkUnsignedCharArray.h>
 
 #include <cstdio>

@@ -107,8 +107,9 @@ TEST(BlueNoise, AGradedViewHasItsSpacingOnTheScreenNearAndFar)
     ASSERT_GT(px, 4.0 / 1.42);
     ASSERT_LT(px, 4.0 * 1.42);
   }
-  EXPECT_GT(std::count_if(std::begin(levels), std::end(levels),
-              [](std::size_t count) { return count > 20; }), 3);
+  EXPECT_GT(std::count_if(
+              std::begin(levels), std::end(levels), [](std::size_t count) { return count > 20; }),
+    3);
   std::size_t tooNear = 0;
   for (std::size_t i = 0; i < points.size(); i += 7) // each with all before it
   {

@@ -15,8 +15,8 @@ protected:
   static TriangleMesh makeWall(double depth)
   {
     MeshBuilder builder;
-    builder.quad({ -1, depth, -1 }, { 1, depth, -1 }, { 1, depth, 1 }, { -1, depth, 1 },
-      Material::Metal);
+    builder.quad(
+      { -1, depth, -1 }, { 1, depth, -1 }, { 1, depth, 1 }, { -1, depth, 1 }, Material::Metal);
     return builder.take();
   }
   static TruthCamera makeCamera()

@@ -62,8 +62,8 @@ TEST(TruthScene, TheGroundLooksUpAndTheKnotOutwards)
   double sixVolumes = 0.0;
   for (std::size_t t = 0; t < knot.mesh.size(); ++t)
   {
-    sixVolumes += glm::dot(knot.mesh.corner(t, 0),
-      glm::cross(knot.mesh.corner(t, 1), knot.mesh.corner(t, 2)));
+    sixVolumes +=
+      glm::dot(knot.mesh.corner(t, 0), glm::cross(knot.mesh.corner(t, 1), knot.mesh.corner(t, 2)));
   }
   EXPECT_GT(sixVolumes, 0.0);
   const glm::dvec3 size = knot.mesh.bounds().size();

@@ -49,16 +49,34 @@ void* countedOrThrow(std::size_t bytes)
 
 // Never inlined: a compiler that sees free() behind a delete takes it for a mistake. The one that
 // does not throw is replaced too: AddressSanitizer has its own, and would pair it with our delete.
-[[gnu::noinline]] void* operator new(std::size_t bytes) { return countedOrThrow(bytes); }
-[[gnu::noinline]] void* operator new[](std::size_t bytes) { return countedOrThrow(bytes); }
+[[gnu::noinline]] void* operator new(std::size_t bytes)
+{
+  return countedOrThrow(bytes);
+}
+[[gnu::noinline]] void* operator new[](std::size_t bytes)
+{
+  return countedOrThrow(bytes);
+}
 [[gnu::noinline]] void* operator new(std::size_t bytes, const std::nothrow_t&) noexcept
 {
   return counted(bytes);
 }
-[[gnu::noinline]] void operator delete(void* memory) noexcept { release(memory); }
-[[gnu::noinline]] void operator delete[](void* memory) noexcept { release(memory); }
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { release(memory); }
-[[gnu::noinline]] void operator delete[](void* memory, std::size_t) noexcept { release(memory); }
+[[gnu::noinline]] void operator delete(void* memory) noexcept
+{
+  release(memory);
+}
+[[gnu::noinline]] void operator delete[](void* memory) noexcept
+{
+  release(memory);
+}
+[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept
+{
+  release(memory);
+}
+[[gnu::noinline]] void operator delete[](void* memory, std::size_t) noexcept
+{
+  release(memory);
+}
 
 namespace pointfront::test
 {

@@ -38,8 +38,7 @@ void ForgedStore::replaceSection(SectionKind kind, const std::vector<std::byte>&
 {
   SectionEntry& found = entry(kind);
   ASSERT_EQ(bytes.size(), found.bytes);
-  std::copy(
-    bytes.begin(), bytes.end(), bytes_.begin() + static_cast<std::ptrdiff_t>(found.offset));
+  std::copy(bytes.begin(), bytes.end(), bytes_.begin() + static_cast<std::ptrdiff_t>(found.offset));
   found.checksum = checksumOf(bytes.data(), bytes.size());
 }
 

@@ -18,12 +18,12 @@ namespace pointfront::test
 struct TreeShape
 {
   std::uint32_t seed = 1;
-  int levels = 5;               ///< the deepest possible; roots are level 0
+  int levels = 5; ///< the deepest possible; roots are level 0
   int roots = 1;
-  double rootSize = 1000.0;     ///< edge of a root's cube, world units
+  double rootSize = 1000.0; ///< edge of a root's cube, world units
   std::uint32_t pointsMax = 1000;
-  double childChance = 0.7;     ///< of each of the eight cells to be occupied
-  double emptyChance = 0.05;    ///< of an inner node to have no points of its own
+  double childChance = 0.7; ///< of each of the eight cells to be occupied
+  double emptyChance = 0.05; ///< of an inner node to have no points of its own
   Refinement refinement = Refinement::Add;
 };
 

@@ -38,8 +38,7 @@ public:
       changed_.notify_all();
       if (broken_.count(node) > 0)
       {
-        return makeError(
-          Error::Kind::Corrupt, "node " + std::to_string(node) + ": made to fail");
+        return makeError(Error::Kind::Corrupt, "node " + std::to_string(node) + ": made to fail");
       }
       if (throwing_.count(node) > 0)
       {
@@ -88,12 +87,30 @@ public:
       columns.size() * sizeof(std::vector<std::byte>);
   }
 
-  void breakNode(NodeIndex node) { locked([&] { broken_.insert(node); }); }
-  void mendNode(NodeIndex node) { locked([&] { broken_.erase(node); }); }
-  void throwAt(NodeIndex node) { locked([&] { throwing_.insert(node); }); }
-  void closeGate() { locked([&] { open_ = false; }); }
-  void openGate() { locked([&] { open_ = true; }); }
-  void letThrough(int reads) { locked([&] { tickets_ += reads; }); }
+  void breakNode(NodeIndex node)
+  {
+    locked([&] { broken_.insert(node); });
+  }
+  void mendNode(NodeIndex node)
+  {
+    locked([&] { broken_.erase(node); });
+  }
+  void throwAt(NodeIndex node)
+  {
+    locked([&] { throwing_.insert(node); });
+  }
+  void closeGate()
+  {
+    locked([&] { open_ = false; });
+  }
+  void openGate()
+  {
+    locked([&] { open_ = true; });
+  }
+  void letThrough(int reads)
+  {
+    locked([&] { tickets_ += reads; });
+  }
   /// Blocks until that many reads stand at the gate.
   void awaitReads(int reads) const
   {
@@ -109,7 +126,7 @@ public:
 
   std::uint64_t diskNumber = 0;
   std::size_t promised = 0; ///< what decodedBytes() says, if not the truth
-  std::size_t varyBy = 0;   ///< points more in nodes 1 to 6 of each seven
+  std::size_t varyBy = 0; ///< points more in nodes 1 to 6 of each seven
 
 private:
   template <typename Function>

@@ -16,7 +16,10 @@ namespace pointfront
 namespace
 {
 // Not std::uniform_int_distribution: its results differ from library to library.
-std::uint64_t next(std::mt19937_64& random, std::uint64_t limit) { return random() % limit; }
+std::uint64_t next(std::mt19937_64& random, std::uint64_t limit)
+{
+  return random() % limit;
+}
 
 AttributeSchema sampleSchema()
 {

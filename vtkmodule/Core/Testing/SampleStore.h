@@ -20,7 +20,7 @@ struct SampleStore
   std::vector<Node> nodes;
   std::vector<NodeIndex> roots;
   std::vector<NodeColumns> points; ///< of node i
-  StoreDescription description;    ///< as a builder gives it to commit()
+  StoreDescription description; ///< as a builder gives it to commit()
 };
 
 /// `pointsPerNode` is what each node has but node 1, which has none.

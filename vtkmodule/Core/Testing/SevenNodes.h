@@ -38,8 +38,8 @@ inline std::shared_ptr<const HierarchyTable> sevenNodes(Refinement refinement = 
 /// Looking down from `height`, everything in sight; 1000 pixels a unit at depth 1.
 inline View fromAbove(double height, double x = 0.0)
 {
-  return View::perspective({ x, 0, height }, { x, 0, 0 }, { 0, 1, 0 },
-    2.0 * std::atan(0.5), 0.1, 1e5, 1000, 1000);
+  return View::perspective(
+    { x, 0, height }, { x, 0, 0 }, { 0, 1, 0 }, 2.0 * std::atan(0.5), 0.1, 1e5, 1000, 1000);
 }
 
 /// Straight to an error, without the fall from 60 px.

@@ -17,7 +17,10 @@ namespace pointfront::test
 class SplatPatterns
 {
 public:
-  explicit SplatPatterns(std::uint64_t seed) : random_(seed) {}
+  explicit SplatPatterns(std::uint64_t seed)
+    : random_(seed)
+  {
+  }
 
   /// A maximal Poisson-disk sample, by darts.
   std::vector<glm::dvec3> blueNoise(std::size_t count)

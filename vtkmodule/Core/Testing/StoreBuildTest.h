@@ -44,7 +44,7 @@ protected:
   std::string bytes() const
   {
     std::ifstream file(options_.outputPath, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+    return { std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>() };
   }
 
   std::filesystem::path folder_;

@@ -11,8 +11,7 @@ namespace pointfront::test
 {
 
 /// What a store with some attributes says of itself; no points.
-inline void addColumn(
-  StoreDescription& store, Attribute attribute, double low, double high)
+inline void addColumn(StoreDescription& store, Attribute attribute, double low, double high)
 {
   ColumnRange range;
   range.components.assign(attribute.components, { low, high });

@@ -17,7 +17,9 @@ constexpr std::size_t recordBytes = RecordLayout::positionBytes + 5; // class, n
 
 struct Block
 {
-  explicit Block(std::vector<TreePosition> p) : positions(std::move(p)), records(bytes())
+  explicit Block(std::vector<TreePosition> p)
+    : positions(std::move(p))
+    , records(bytes())
   {
     for (std::size_t i = 0; i < positions.size(); ++i)
     {
@@ -58,15 +60,15 @@ std::vector<CellRun> checkedRuns(BlockCells& cells, const Block& block)
   std::set<std::tuple<int, std::uint32_t, std::uint32_t, std::uint32_t>> cellsSeen;
   for (const CellRun& run : runs)
   {
-    EXPECT_TRUE(cellsSeen.insert({run.objectClass, run.cell.x, run.cell.y, run.cell.z}).second);
+    EXPECT_TRUE(cellsSeen.insert({ run.objectClass, run.cell.x, run.cell.y, run.cell.z }).second);
     std::int64_t before = -1;
     for (std::uint32_t i = 0; i < run.count; ++i, record += recordBytes)
     {
       const TreePosition p = positionOf(record);
       const std::uint32_t number = numberIn(record);
       EXPECT_EQ(p, block.positions[number]);
-      EXPECT_EQ(TreePosition(p.x >> cells.runShift(), p.y >> cells.runShift(),
-                  p.z >> cells.runShift()),
+      EXPECT_EQ(
+        TreePosition(p.x >> cells.runShift(), p.y >> cells.runShift(), p.z >> cells.runShift()),
         run.cell);
       EXPECT_EQ(Block::classOf(number), run.objectClass);
       EXPECT_LT(before, std::int64_t(number));
@@ -120,7 +122,7 @@ TEST(BlockCells, CountTheFineCellsWhateverTheRunsAre)
   for (const TreePosition& p : block.positions)
   {
     cells.add(p, 2);
-    ++expected[{p.x >> shift, p.y >> shift, p.z >> shift}];
+    ++expected[{ p.x >> shift, p.y >> shift, p.z >> shift }];
   }
   ClassCounts counts(shift);
   cells.countInto(counts);
@@ -130,14 +132,14 @@ TEST(BlockCells, CountTheFineCellsWhateverTheRunsAre)
   EXPECT_EQ(table.size(), expected.size());
   for (const CellTable::Entry& entry : table.entries())
   {
-    EXPECT_EQ((expected[{entry.cell.x, entry.cell.y, entry.cell.z}]), entry.value);
+    EXPECT_EQ((expected[{ entry.cell.x, entry.cell.y, entry.cell.z }]), entry.value);
   }
 }
 
 TEST(CellTable, FindsCellsThatAllPreferTheSamePlaceOfTheirTile)
 {
   // Every fourth cell along an axis, or of a plane: one place of 16, so tiles overflow.
-  for (const TreePosition& along : {TreePosition(4, 0, 0), {0, 4, 0}, {0, 0, 4}, {4, 8, 0}})
+  for (const TreePosition& along : { TreePosition(4, 0, 0), { 0, 4, 0 }, { 0, 0, 4 }, { 4, 8, 0 } })
   {
     CellTable table(0);
     for (std::uint32_t i = 0; i < 5000; ++i)

@@ -52,8 +52,7 @@ Values makeValues(const BlockShape& shape, const Pattern& pattern)
 }
 
 /// Decodes from and into memory of exactly the right size, so that a sanitizer sees every slip.
-bool decodeExactly(
-  BlockCodec codec, const Values& coded, const BlockShape& shape, Values& values)
+bool decodeExactly(BlockCodec codec, const Values& coded, const BlockShape& shape, Values& values)
 {
   const Values tight(coded);
   values.assign(shape.bytes(), std::byte(0xcd));
@@ -97,11 +96,11 @@ TEST(BlockCodec, EveryCodecGivesBackEveryBit)
       ASSERT_LE(chosen.bytes.size(), values.size());
       if (shape.points > 0)
       {
-        ASSERT_TRUE(decodeExactly(
-          BlockCodec::Packed, encodePacked(values.data(), shape), shape, back));
+        ASSERT_TRUE(
+          decodeExactly(BlockCodec::Packed, encodePacked(values.data(), shape), shape, back));
         ASSERT_EQ(back, values);
-        ASSERT_TRUE(decodeExactly(
-          BlockCodec::PlanesZstd, encodePlanes(values.data(), shape), shape, back));
+        ASSERT_TRUE(
+          decodeExactly(BlockCodec::PlanesZstd, encodePlanes(values.data(), shape), shape, back));
         ASSERT_EQ(back, values);
       }
     }
@@ -133,8 +132,7 @@ TEST(BlockCodec, ChoosesByWhatItSaves)
   EXPECT_EQ(codecOf({ 5000, 1, 8 }, patterns[3].value), BlockCodec::Raw);
   EXPECT_EQ(codecOf({ 5000, 3, 4 }, patterns[4].value), BlockCodec::Packed);
   // What repeats at a distance is what Zstandard is for.
-  EXPECT_EQ(
-    codecOf({ 5000, 1, 1 }, [](std::size_t i, std::mt19937_64&) { return i % 50 * 181; }),
+  EXPECT_EQ(codecOf({ 5000, 1, 1 }, [](std::size_t i, std::mt19937_64&) { return i % 50 * 181; }),
     BlockCodec::PlanesZstd);
 }
 
@@ -158,8 +156,8 @@ TEST(BlockCodec, SurvivesForgedBytes)
   std::size_t refused = 0;
   const auto visit = [&](const BlockShape& shape)
   {
-    for (const BlockCodec codec : { BlockCodec::Raw, BlockCodec::Constant, BlockCodec::Packed,
-           BlockCodec::PlanesZstd })
+    for (const BlockCodec codec :
+      { BlockCodec::Raw, BlockCodec::Constant, BlockCodec::Packed, BlockCodec::PlanesZstd })
     {
       const Values values = makeValues(shape, patterns[5].value);
       const Values sound = codec == BlockCodec::PlanesZstd ? encodePlanes(values.data(), shape)

@@ -23,7 +23,7 @@ namespace pointfront::test
 inline std::filesystem::path freshFolder(const std::string& name)
 {
   const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) /
-                                       ("pointfront-" + name + "-" + std::to_string(getpid()));
+    ("pointfront-" + name + "-" + std::to_string(getpid()));
   std::filesystem::remove_all(folder);
   std::filesystem::create_directories(folder);
   return folder;
@@ -35,7 +35,7 @@ class CloudSource final : public PointSource
 public:
   CloudSource(std::string path, AttributeSchema schema, std::optional<QuantisationGrid> grid,
     std::uint64_t chunk = 1000)
-      : chunk_(chunk)
+    : chunk_(chunk)
   {
     description_.path = std::move(path);
     description_.format = "test";
@@ -101,7 +101,10 @@ private:
 class Random
 {
 public:
-  explicit Random(std::uint64_t seed) : state_(seed) {}
+  explicit Random(std::uint64_t seed)
+    : state_(seed)
+  {
+  }
   std::uint64_t next()
   {
     std::uint64_t z = (state_ += 0x9e3779b97f4a7c15ull);
@@ -117,15 +120,15 @@ private:
 
 inline QuantisationGrid millimetres(const glm::dvec3& offset = glm::dvec3(0.0))
 {
-  return {glm::dvec3(0.001), offset};
+  return { glm::dvec3(0.001), offset };
 }
 
 /// Schema of cloudOf(): "id" is the input index, so that every point can be told from the others.
 inline AttributeSchema idSchema()
 {
   AttributeSchema schema;
-  schema.add({"id", ScalarType::UInt32, 1});
-  schema.add({"intensity", ScalarType::UInt16, 1});
+  schema.add({ "id", ScalarType::UInt32, 1 });
+  schema.add({ "intensity", ScalarType::UInt16, 1 });
   return schema;
 }
 
@@ -154,7 +157,7 @@ inline std::unique_ptr<CloudSource> hills(std::size_t count, double side,
       const double x = random->uniform();
       const double y = random->uniform();
       const double z = 0.05 * std::sin(9.0 * x) * std::cos(7.0 * y);
-      return {std::llround(side * x), std::llround(side * y), std::llround(side * z)};
+      return { std::llround(side * x), std::llround(side * y), std::llround(side * z) };
     },
     chunk);
 }

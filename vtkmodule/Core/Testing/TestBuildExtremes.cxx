@@ -22,11 +22,11 @@ struct Shape
 };
 
 constexpr Shape shapes[] = {
-  {"OctreeAdd", Structure::Octree, Refinement::Add, Layering::None},
-  {"OctreeReplace", Structure::Octree, Refinement::Replace, Layering::None},
-  {"KdTree", Structure::KdTree, Refinement::Add, Layering::None},
-  {"KdTreeOfClasses", Structure::KdTree, Refinement::Add, Layering::ObjectClass},
-  {"OctreeOfClasses", Structure::Octree, Refinement::Replace, Layering::ObjectClass},
+  { "OctreeAdd", Structure::Octree, Refinement::Add, Layering::None },
+  { "OctreeReplace", Structure::Octree, Refinement::Replace, Layering::None },
+  { "KdTree", Structure::KdTree, Refinement::Add, Layering::None },
+  { "KdTreeOfClasses", Structure::KdTree, Refinement::Add, Layering::ObjectClass },
+  { "OctreeOfClasses", Structure::Octree, Refinement::Replace, Layering::ObjectClass },
 };
 
 using Steps = std::tuple<std::int64_t, std::int64_t, std::int64_t>;
@@ -39,16 +39,16 @@ protected:
   void TearDown() override { std::filesystem::remove_all(folder_); }
 
   /// A cloud whose points have the classes 0, 2, 2, 6, 2, 0, 2 ... and a lone 9.
-  static std::unique_ptr<CloudSource> cloud(std::size_t count, const QuantisationGrid& grid,
-    const std::function<glm::dvec3(int)>& position)
+  static std::unique_ptr<CloudSource> cloud(
+    std::size_t count, const QuantisationGrid& grid, const std::function<glm::dvec3(int)>& position)
   {
     AttributeSchema schema;
-    schema.add({"classification", ScalarType::UInt8, 1});
+    schema.add({ "classification", ScalarType::UInt8, 1 });
     auto source = std::make_unique<CloudSource>("extreme", schema, grid);
     for (std::size_t i = 0; i < count; ++i)
     {
       source->addPosition(position(static_cast<int>(i)));
-      const std::uint8_t classes[] = {0, 2, 2, 6, 2};
+      const std::uint8_t classes[] = { 0, 2, 2, 6, 2 };
       source->addValue<std::uint8_t>(0, i == 7 ? 9 : classes[i % 5]);
     }
     return source;
@@ -88,8 +88,7 @@ protected:
       if (std::isfinite(position.x + position.y + position.z))
       {
         const glm::dvec3 steps = (position - grid.offset) / grid.scale;
-        expected.emplace_back(
-          std::llround(steps.x), std::llround(steps.y), std::llround(steps.z));
+        expected.emplace_back(std::llround(steps.x), std::llround(steps.y), std::llround(steps.z));
       }
     }
     std::vector<Steps> stored = originalPoints(**store);
@@ -112,8 +111,7 @@ protected:
       EXPECT_TRUE(node.ok());
       for (const glm::u32vec3& p : node->positions)
       {
-        points.emplace_back(
-          node->origin.x + p.x, node->origin.y + p.y, node->origin.z + p.z);
+        points.emplace_back(node->origin.x + p.x, node->origin.y + p.y, node->origin.z + p.z);
       }
     }
     return points;
@@ -133,21 +131,21 @@ TEST_P(BuildExtremes, AllPointsEqual)
 TEST_P(BuildExtremes, OnALineAndOnAPlane)
 {
   keepsAll(cloud(5000, millimetres(), [](int i) { return glm::dvec3(0.003 * i, 0, 0); }));
-  keepsAll(cloud(5000, millimetres(),
-    [](int i) { return glm::dvec3(0.01 * (i % 70), 0.01 * (i / 70), 5.0); }));
+  keepsAll(cloud(
+    5000, millimetres(), [](int i) { return glm::dvec3(0.01 * (i % 70), 0.01 * (i / 70), 5.0); }));
   // A line that lies along no axis.
-  keepsAll(cloud(5000, millimetres(),
-    [](int i) { return glm::dvec3(0.001 * i, 0.002 * i, -0.001 * i); }));
+  keepsAll(
+    cloud(5000, millimetres(), [](int i) { return glm::dvec3(0.001 * i, 0.002 * i, -0.001 * i); }));
 }
 
 TEST_P(BuildExtremes, ExtentsOfAMicrometreAndOfAMillionKilometres)
 {
-  const QuantisationGrid tiny{glm::dvec3(1e-12), glm::dvec3(0.0)};
+  const QuantisationGrid tiny{ glm::dvec3(1e-12), glm::dvec3(0.0) };
   auto random = std::make_shared<Random>(3);
   const auto inCube = [random](double side)
   { return glm::dvec3(random->uniform(), random->uniform(), random->uniform()) * side; };
   keepsAll(cloud(3000, tiny, [=](int) { return inCube(1e-6); }));
-  const QuantisationGrid huge{glm::dvec3(1.0), glm::dvec3(0.0)};
+  const QuantisationGrid huge{ glm::dvec3(1.0), glm::dvec3(0.0) };
   keepsAll(cloud(3000, huge, [=](int) { return inCube(1e9); }));
 }
 
@@ -159,8 +157,9 @@ TEST_P(BuildExtremes, MillimetresAtTenThousandKilometres)
     [=](int)
     {
       return far +
-        0.001 * glm::floor(glm::dvec3(random->uniform() * 9000.0, random->uniform() * 9000.0,
-                  random->uniform() * 200.0));
+        0.001 *
+        glm::floor(glm::dvec3(
+          random->uniform() * 9000.0, random->uniform() * 9000.0, random->uniform() * 200.0));
     }));
 }
 
@@ -197,13 +196,13 @@ TEST_P(BuildExtremes, BoundsThatLieByAnUlpAndByAKilometre)
 {
   const auto position = [](int i)
   { return glm::dvec3(0.001 * (i % 900), 0.001 * (i / 3), 0.001 * (i % 17)); };
-  for (const double lie : {0.0, 1000.0, -1000.0})
+  for (const double lie : { 0.0, 1000.0, -1000.0 })
   {
     auto source = cloud(5000, millimetres(), position);
     Bounds& bounds = source->editDescription().declaredBounds;
     bounds.high = lie == 0.0 ? glm::dvec3(std::nextafter(bounds.high.x, 0.0),
-                                std::nextafter(bounds.high.y, 0.0), bounds.high.z)
-                            : bounds.high + lie;
+                                 std::nextafter(bounds.high.y, 0.0), bounds.high.z)
+                             : bounds.high + lie;
     bounds.low += lie;
     keepsAll(std::move(source));
   }
@@ -213,8 +212,7 @@ TEST_P(BuildExtremes, ADenseBlock)
 {
   constexpr int side = 40; // every place of the grid is taken
   keepsAll(cloud(side * side * side, millimetres(),
-    [](int i)
-    { return 0.001 * glm::dvec3(i % side, i / side % side, i / (side * side)); }));
+    [](int i) { return 0.001 * glm::dvec3(i % side, i / side % side, i / (side * side)); }));
 }
 
 INSTANTIATE_TEST_SUITE_P(Structures, BuildExtremes, testing::ValuesIn(shapes),

@@ -182,8 +182,9 @@ TEST_F(BuildFromStores, TellsWhatOneOfThemLacks)
   bool told = false;
   for (const std::string& warning : report->warnings)
   {
-    told = told || (warning.find("poor.pfront") != std::string::npos &&
-      warning.find("lacks intensity") != std::string::npos);
+    told = told ||
+      (warning.find("poor.pfront") != std::string::npos &&
+        warning.find("lacks intensity") != std::string::npos);
   }
   EXPECT_TRUE(told);
   EXPECT_EQ(report->pointsStored, 1065u);

@@ -21,7 +21,7 @@ using Sources = std::vector<std::unique_ptr<PointSource>>;
 std::unique_ptr<CloudSource> gridSource(const std::string& path, double scale, double offset)
 {
   return std::make_unique<CloudSource>(
-    path, AttributeSchema{}, QuantisationGrid{glm::dvec3(scale), glm::dvec3(offset)});
+    path, AttributeSchema{}, QuantisationGrid{ glm::dvec3(scale), glm::dvec3(offset) });
 }
 
 TEST(GridChoice, KeepsASharedGridAndOneApartByWholeSteps)
@@ -32,7 +32,7 @@ TEST(GridChoice, KeepsASharedGridAndOneApartByWholeSteps)
   sources.push_back(gridSource("c", 0.05, 100.05));
   const auto choice = chooseGrid(sources, std::nullopt);
   ASSERT_TRUE(choice);
-  EXPECT_EQ(choice->grid, (QuantisationGrid{glm::dvec3(0.01), glm::dvec3(100.0)}));
+  EXPECT_EQ(choice->grid, (QuantisationGrid{ glm::dvec3(0.01), glm::dvec3(100.0) }));
   EXPECT_TRUE(choice->warnings.empty());
 }
 
@@ -56,7 +56,7 @@ TEST(GridChoice, TakesThePrecisionAskedFor)
   sources.push_back(gridSource("a", 0.001, 7.0));
   const auto choice = chooseGrid(sources, 0.25);
   ASSERT_TRUE(choice);
-  EXPECT_EQ(choice->grid, (QuantisationGrid{glm::dvec3(0.25), glm::dvec3(7.0)}));
+  EXPECT_EQ(choice->grid, (QuantisationGrid{ glm::dvec3(0.25), glm::dvec3(7.0) }));
   EXPECT_EQ(choice->warnings.size(), 1u);
   EXPECT_FALSE(chooseGrid(sources, 0.0));
   EXPECT_FALSE(chooseGrid(sources, std::nan("")));
@@ -65,7 +65,7 @@ TEST(GridChoice, TakesThePrecisionAskedFor)
 TEST(GridChoice, GivesFloatingPointAMillionthOfItsExtent)
 {
   auto cloud = std::make_unique<CloudSource>("scan", AttributeSchema{}, std::nullopt);
-  cloud->editDescription().declaredBounds = Bounds{glm::dvec3(-60.0), glm::dvec3(60.0)};
+  cloud->editDescription().declaredBounds = Bounds{ glm::dvec3(-60.0), glm::dvec3(60.0) };
   Sources sources;
   sources.push_back(std::move(cloud));
   const auto choice = chooseGrid(sources, std::nullopt);
@@ -87,7 +87,8 @@ std::unique_ptr<CloudSource> floatingSource(const std::vector<glm::dvec3>& point
 TEST(GridChoice, GivesTheHeightsOverDegreesAStepOfTheirOwn)
 {
   Sources sources;
-  sources.push_back(floatingSource({{7.0, 50.0, 0.0}, {7.02, 50.01, 450.0}, {7.01, 50.0, 99.0}}));
+  sources.push_back(
+    floatingSource({ { 7.0, 50.0, 0.0 }, { 7.02, 50.01, 450.0 }, { 7.01, 50.0, 99.0 } }));
   const auto choice = chooseGrid(sources, std::nullopt);
   ASSERT_TRUE(choice);
   EXPECT_DOUBLE_EQ(choice->grid.scale.x, 1e-8);
@@ -139,9 +140,9 @@ std::unique_ptr<CloudSource> schemaSource(
 TEST(CommonSchema, UnitesColumnsAndNamesThoseMissing)
 {
   Sources sources;
-  sources.push_back(schemaSource("a", {{"intensity", ScalarType::UInt16, 1}}));
+  sources.push_back(schemaSource("a", { { "intensity", ScalarType::UInt16, 1 } }));
   sources.push_back(
-    schemaSource("b", {{"x", ScalarType::Int8, 1}, {"intensity", ScalarType::UInt8, 1}}));
+    schemaSource("b", { { "x", ScalarType::Int8, 1 }, { "intensity", ScalarType::UInt8, 1 } }));
   const auto common = commonSchema(sources, std::nullopt);
   ASSERT_TRUE(common);
   ASSERT_EQ(common->schema.size(), 2u);
@@ -157,13 +158,13 @@ TEST(CommonSchema, TakesOnlyWhatIsWanted)
 {
   Sources sources;
   sources.push_back(schemaSource(
-    "a", {{"intensity", ScalarType::UInt16, 1}, {"gps_time", ScalarType::Float64, 1}}));
-  const auto common = commonSchema(sources, std::vector<std::string>{"GPS_time"});
+    "a", { { "intensity", ScalarType::UInt16, 1 }, { "gps_time", ScalarType::Float64, 1 } }));
+  const auto common = commonSchema(sources, std::vector<std::string>{ "GPS_time" });
   ASSERT_TRUE(common);
   ASSERT_EQ(common->schema.size(), 1u);
   EXPECT_EQ(common->schema[0].name, "gps_time");
   EXPECT_EQ(commonSchema(sources, std::vector<std::string>{})->schema.size(), 0u);
-  const auto unknown = commonSchema(sources, std::vector<std::string>{"colour"});
+  const auto unknown = commonSchema(sources, std::vector<std::string>{ "colour" });
   ASSERT_FALSE(unknown);
   EXPECT_NE(unknown.error().what.find("intensity, gps_time"), std::string::npos);
 }
@@ -171,23 +172,23 @@ TEST(CommonSchema, TakesOnlyWhatIsWanted)
 TEST(CommonSchema, RefusesColumnsOfDifferentShape)
 {
   Sources sources;
-  sources.push_back(schemaSource("a", {{"normal", ScalarType::Float32, 3}}));
-  sources.push_back(schemaSource("b", {{"normal", ScalarType::Float32, 2}}));
+  sources.push_back(schemaSource("a", { { "normal", ScalarType::Float32, 3 } }));
+  sources.push_back(schemaSource("b", { { "normal", ScalarType::Float32, 2 } }));
   EXPECT_FALSE(commonSchema(sources, std::nullopt));
 }
 
 TEST(CommonSchema, ConvertsValuesToTheCommonTypeAndScale)
 {
-  const Attribute signedByte{"v", ScalarType::Int8, 1};
-  const Attribute wide{"v", ScalarType::Int32, 1};
-  const std::int8_t bytes[] = {-128, 7};
+  const Attribute signedByte{ "v", ScalarType::Int8, 1 };
+  const Attribute wide{ "v", ScalarType::Int32, 1 };
+  const std::int8_t bytes[] = { -128, 7 };
   std::int32_t words[2];
   convertColumn(signedByte, reinterpret_cast<const std::byte*>(bytes), wide,
     reinterpret_cast<std::byte*>(words), 2);
   EXPECT_EQ(words[0], -128);
   EXPECT_EQ(words[1], 7);
-  const Attribute scaled{"v", ScalarType::Int8, 1, 0.5, 10.0};
-  const Attribute world{"v", ScalarType::Float64, 1};
+  const Attribute scaled{ "v", ScalarType::Int8, 1, 0.5, 10.0 };
+  const Attribute world{ "v", ScalarType::Float64, 1 };
   double values[2];
   convertColumn(scaled, reinterpret_cast<const std::byte*>(bytes), world,
     reinterpret_cast<std::byte*>(values), 2);
@@ -198,7 +199,7 @@ TEST(CommonSchema, ConvertsValuesToTheCommonTypeAndScale)
 TEST(ReferenceSystem, RefusesTwoSystemsAndNamesBothFiles)
 {
   Sources sources;
-  for (const char* path : {"first", "silent", "second"})
+  for (const char* path : { "first", "silent", "second" })
   {
     auto source = schemaSource(path, {});
     source->editDescription().crsWkt = path == std::string("silent") ? "" : path;
@@ -219,11 +220,11 @@ std::unique_ptr<CloudSource> coloured(
   const std::string& path, double x, std::array<std::uint16_t, 3> rgb)
 {
   AttributeSchema schema;
-  schema.add({"rgb", ScalarType::UInt16, 3});
+  schema.add({ "rgb", ScalarType::UInt16, 3 });
   auto cloud = std::make_unique<CloudSource>(path, schema, millimetres(), 100);
   for (int i = 0; i < 500; ++i)
   {
-    cloud->addPosition({x, i * 0.01, 0.0});
+    cloud->addPosition({ x, i * 0.01, 0.0 });
     cloud->addValue(0, rgb);
   }
   return cloud;
@@ -236,7 +237,7 @@ std::set<std::array<unsigned, 3>> coloursOf(const PointStore& store)
   const bool wide = store.description().schema[0].type == ScalarType::UInt16;
   for (NodeIndex n = 0; n < store.hierarchy()->nodeCount(); ++n)
   {
-    const auto node = store.read(n, {0});
+    const auto node = store.read(n, { 0 });
     EXPECT_TRUE(node);
     for (std::size_t i = 0; i < node->size(); ++i)
     {
@@ -261,25 +262,26 @@ TEST(BuildColours, AreEightBitsIfAllFitAndAreWidenedFileByFile)
   options.outputPath = (folder / "cloud.pfront").string();
   options.overwrite = true;
   options.nodePoints = 64;
-  for (const std::uint64_t memory : {std::uint64_t(1) << 30, std::uint64_t(40) << 10})
+  for (const std::uint64_t memory : { std::uint64_t(1) << 30, std::uint64_t(40) << 10 })
   {
     options.memoryBytes = memory;
     Sources sources;
-    sources.push_back(coloured("dark", 0.0, {0, 10, 255}));
-    sources.push_back(coloured("black", 1.0, {0, 0, 0}));
+    sources.push_back(coloured("dark", 0.0, { 0, 10, 255 }));
+    sources.push_back(coloured("black", 1.0, { 0, 0, 0 }));
     ASSERT_TRUE(buildStore(sources, options));
     const auto narrow = PointStore::open(options.outputPath);
     ASSERT_TRUE(narrow);
     EXPECT_EQ((*narrow)->description().schema[0].type, ScalarType::UInt8);
-    EXPECT_EQ(coloursOf(**narrow), (std::set<std::array<unsigned, 3>>{{0, 0, 0}, {0, 10, 255}}));
+    EXPECT_EQ(
+      coloursOf(**narrow), (std::set<std::array<unsigned, 3>>{ { 0, 0, 0 }, { 0, 10, 255 } }));
 
-    sources.push_back(coloured("wide", 2.0, {3, 256, 65535}));
+    sources.push_back(coloured("wide", 2.0, { 3, 256, 65535 }));
     ASSERT_TRUE(buildStore(sources, options));
     const auto wide = PointStore::open(options.outputPath);
     ASSERT_TRUE(wide);
     EXPECT_EQ((*wide)->description().schema[0].type, ScalarType::UInt16);
     EXPECT_EQ(coloursOf(**wide),
-      (std::set<std::array<unsigned, 3>>{{0, 0, 0}, {0, 2570, 65535}, {3, 256, 65535}}));
+      (std::set<std::array<unsigned, 3>>{ { 0, 0, 0 }, { 0, 2570, 65535 }, { 3, 256, 65535 } }));
   }
   std::filesystem::remove_all(folder);
 }
@@ -291,19 +293,20 @@ TEST(BuildColours, AreAsDeepAsTheUserSays)
   options.outputPath = (folder / "cloud.pfront").string();
   options.overwrite = true;
   Sources sources;
-  sources.push_back(coloured("dark", 0.0, {0, 10, 255}));
+  sources.push_back(coloured("dark", 0.0, { 0, 10, 255 }));
   options.colourDepth = ColourDepth::Sixteen;
   ASSERT_TRUE(buildStore(sources, options));
   const auto dark = PointStore::open(options.outputPath);
   ASSERT_TRUE(dark);
   EXPECT_EQ((*dark)->description().schema[0].type, ScalarType::UInt16);
-  EXPECT_EQ(coloursOf(**dark), (std::set<std::array<unsigned, 3>>{{0, 10, 255}}));
+  EXPECT_EQ(coloursOf(**dark), (std::set<std::array<unsigned, 3>>{ { 0, 10, 255 } }));
 
-  sources.push_back(coloured("wide", 2.0, {3, 256, 65535}));
+  sources.push_back(coloured("wide", 2.0, { 3, 256, 65535 }));
   ASSERT_TRUE(buildStore(sources, options));
   const auto both = PointStore::open(options.outputPath);
   ASSERT_TRUE(both);
-  EXPECT_EQ(coloursOf(**both), (std::set<std::array<unsigned, 3>>{{0, 10, 255}, {3, 256, 65535}}));
+  EXPECT_EQ(
+    coloursOf(**both), (std::set<std::array<unsigned, 3>>{ { 0, 10, 255 }, { 3, 256, 65535 } }));
 
   options.colourDepth = ColourDepth::Eight;
   const auto refused = buildStore(sources, options);

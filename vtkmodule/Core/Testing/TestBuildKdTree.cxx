@@ -35,7 +35,7 @@ void expectEveryPointOnce(const PointStore& store, std::size_t count)
   std::vector<bool> seen(count, false);
   for (NodeIndex n = 0; n < store.hierarchy()->nodeCount(); ++n)
   {
-    const auto columns = store.read(n, {0});
+    const auto columns = store.read(n, { 0 });
     ASSERT_TRUE(columns) << columns.error().what;
     for (std::size_t i = 0; i < columns->size(); ++i)
     {
@@ -81,7 +81,7 @@ TEST_F(KdTreeBuild, NodesAreEqualAndHoldEveryPointOnce)
 
 TEST_F(KdTreeBuild, EvenNumbersOfNodesAreFullToTheLast)
 {
-  for (const std::size_t count : {64u, 65u, 128u, 64u * 16, 64u * 16 + 1, 64u * 17, 64u * 100})
+  for (const std::size_t count : { 64u, 65u, 128u, 64u * 16, 64u * 16 + 1, 64u * 17, 64u * 100 })
   {
     const auto store = build(hills(count, 100000.0));
     EXPECT_EQ(store->hierarchy()->nodeCount(), (count + 63) / 64) << count;
@@ -114,8 +114,8 @@ TEST_F(KdTreeBuild, SameBytesForAnyThreadsAndMemory)
   EXPECT_TRUE(built(2, 500 << 10, nullptr) == reference);
   EXPECT_GT(spilled, 0u);
   EXPECT_TRUE(built(3, 900 << 10, nullptr) == reference);
-  const Bounds tiny{glm::dvec3(0.0), glm::dvec3(0.001)};
-  const Bounds huge{glm::dvec3(-1e6), glm::dvec3(1e6)};
+  const Bounds tiny{ glm::dvec3(0.0), glm::dvec3(0.001) };
+  const Bounds huge{ glm::dvec3(-1e6), glm::dvec3(1e6) };
   EXPECT_TRUE(built(2, 1u << 30, &tiny) == reference);
   EXPECT_TRUE(built(2, 1u << 30, &huge) == reference);
 }
@@ -158,7 +158,7 @@ TEST_F(KdTreeBuild, ABorderCrossesNoMoreThanACell)
 std::unique_ptr<CloudSource> classified(std::size_t count)
 {
   AttributeSchema schema = idSchema();
-  schema.add({"classification", ScalarType::UInt8, 1});
+  schema.add({ "classification", ScalarType::UInt8, 1 });
   const auto plain = hills(count, 100000.0);
   auto cloud = std::make_unique<CloudSource>("cloud", schema, millimetres());
   for (std::size_t i = 0; i < count; ++i)
@@ -188,7 +188,7 @@ void expectClassLayers(const PointStore& store)
   ASSERT_EQ(store.hierarchy()->roots().size(), 3u);
   for (NodeIndex n = 0; n < store.hierarchy()->nodeCount(); ++n)
   {
-    const auto points = store.read(n, {2});
+    const auto points = store.read(n, { 2 });
     ASSERT_TRUE(points);
     for (const std::byte value : points->columns[0])
     {
@@ -215,7 +215,7 @@ TEST_F(KdTreeBuild, OctreesHaveLayersToo)
 {
   options_.structure = Structure::Octree;
   options_.layering = Layering::ObjectClass;
-  for (const Refinement refinement : {Refinement::Add, Refinement::Replace})
+  for (const Refinement refinement : { Refinement::Add, Refinement::Replace })
   {
     options_.refinement = refinement;
     options_.memoryBytes = 0;
@@ -233,11 +233,11 @@ TEST_F(KdTreeBuild, PointsThatNobodyClassifiedShareATree)
 {
   options_.layering = Layering::Automatic;
   AttributeSchema schema;
-  schema.add({"classification", ScalarType::UInt8, 1});
+  schema.add({ "classification", ScalarType::UInt8, 1 });
   auto cloud = std::make_unique<CloudSource>("cloud", schema, millimetres());
   for (unsigned i = 0; i < 1000; ++i)
   {
-    cloud->addPosition({i * 0.1, 0.0, 0.0});
+    cloud->addPosition({ i * 0.1, 0.0, 0.0 });
     cloud->addValue(0, static_cast<std::uint8_t>(i % 2));
   }
   const auto store = build(std::move(cloud));
@@ -277,7 +277,7 @@ TEST(KdCut, PartsHaveWholeNodesAndOweExactlyWhatIsAsked)
   for (std::uint32_t i = 0; i < 4000; ++i)
   {
     const std::uint64_t count = i % 97 == 0 ? 3000 : 1 + random.next() % 40;
-    cells.push_back({{(i % 64) << 8, (i / 64) << 8, 0}, count});
+    cells.push_back({ { (i % 64) << 8, (i / 64) << 8, 0 }, count });
     total += count;
   }
   KdRule rule;
@@ -314,10 +314,10 @@ TEST(KdCut, PartsHaveWholeNodesAndOweExactlyWhatIsAsked)
 TEST(KdCut, ACellIsDividedOnlyWhereTheMedianGoesThrough)
 {
   // One cell of 4000 among cells of one point: divided; parts get what is said.
-  std::vector<KdCell> cells{{{0, 0, 0}, 4000}};
+  std::vector<KdCell> cells{ { { 0, 0, 0 }, 4000 } };
   for (std::uint32_t i = 1; i < 50; ++i)
   {
-    cells.push_back({{i << 8, 0, 0}, 1});
+    cells.push_back({ { i << 8, 0, 0 }, 1 });
   }
   KdRule rule;
   rule.nodePoints = 100;

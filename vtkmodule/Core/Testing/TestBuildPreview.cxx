@@ -99,7 +99,7 @@ protected:
 std::string bytesOf(const std::string& path)
 {
   std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
+  return { std::istreambuf_iterator<char>(file), {} };
 }
 
 TEST_F(BuildPreviews, OpenWhileTheBuildRunsAndGrow)
@@ -120,7 +120,7 @@ TEST_F(BuildPreviews, OpenWhileTheBuildRunsAndGrow)
   };
   const auto report = buildWithPreview();
   ASSERT_TRUE(report) << report.error().what;
-  EXPECT_EQ(entries(), std::vector<std::string>{"city.pfront"});
+  EXPECT_EQ(entries(), std::vector<std::string>{ "city.pfront" });
   ASSERT_FALSE(versions.empty());
   EXPECT_EQ(versions.front().pointsRead, 0u);
   for (std::size_t v = 0; v < versions.size(); ++v)
@@ -149,8 +149,8 @@ TEST_F(BuildPreviews, OpenWhileTheBuildRunsAndGrow)
 
 TEST_F(BuildPreviews, ComeAgainWhenEverythingIsRead)
 {
-  std::atomic<std::uint64_t> last{0};
-  std::atomic<int> versions{0};
+  std::atomic<std::uint64_t> last{ 0 };
+  std::atomic<int> versions{ 0 };
   wish_.shown = [&](const std::string& path)
   {
     const auto store = PointStore::open(path);
@@ -177,7 +177,7 @@ TEST_F(BuildPreviews, ComeAgainWhenEverythingIsRead)
 
 TEST_F(BuildPreviews, CountAChunkThatIsReadAgainOnce)
 {
-  std::atomic<std::uint64_t> last{0};
+  std::atomic<std::uint64_t> last{ 0 };
   wish_.shown = [&](const std::string& path)
   {
     const auto store = PointStore::open(path);
@@ -228,8 +228,8 @@ TEST_F(BuildPreviews, AreNotThereForSmallInputsOrWithoutAWish)
 
 TEST_F(BuildPreviews, LeaveNothingWhenTheBuildIsCancelled)
 {
-  const auto report = buildWithPreview(
-    [](const Progress& state) { return std::string(state.phase) != "sorting"; });
+  const auto report =
+    buildWithPreview([](const Progress& state) { return std::string(state.phase) != "sorting"; });
   ASSERT_FALSE(report);
   EXPECT_EQ(report.error().kind, Error::Kind::Cancelled);
   EXPECT_TRUE(entries().empty());
@@ -251,7 +251,7 @@ TEST_F(BuildPreviews, RefineAsPartsFinish)
   };
   const auto report = buildWithPreview();
   ASSERT_TRUE(report) << report.error().what;
-  EXPECT_EQ(entries(), std::vector<std::string>{"city.pfront"});
+  EXPECT_EQ(entries(), std::vector<std::string>{ "city.pfront" });
   EXPECT_GT(versions.back().pointsFinished, cloudPoints / 2);
   std::size_t finishing = 0;
   for (std::size_t v = 1; v < versions.size(); ++v)
@@ -275,7 +275,7 @@ TEST_F(BuildPreviews, KeepToTheirShareOfTheTime)
   build_.nodePoints = 512;
   build_.threads = 1;
   wish_.shareOfTime = 0.0;
-  std::atomic<int> finishing{0};
+  std::atomic<int> finishing{ 0 };
   wish_.shown = [&](const std::string& path)
   {
     const auto store = PointStore::open(path);
@@ -297,14 +297,14 @@ TEST_F(BuildPreviews, OfAKilledBuildWithFinishedPartsGoWithTheNext)
   everyVersion();
   killWhen([](const PreviewRecord& record) { return record.pointsFinished > cloudPoints / 3; });
   EXPECT_EQ(entries(),
-    (std::vector<std::string>{"city.pfront.tmp", "city.preview.pfront"})); // as it was killed
+    (std::vector<std::string>{ "city.pfront.tmp", "city.preview.pfront" })); // as it was killed
   const auto left = PointStore::open(previewPath());
   ASSERT_FALSE(left);
   EXPECT_EQ(left.error().kind, Error::Kind::Truncated);
   EXPECT_NE(left.error().what.find("preview of a build that has ended"), std::string::npos);
   EXPECT_FALSE(PointStore::open(build_.outputPath + ".tmp"));
   ASSERT_TRUE(buildWithPreview());
-  EXPECT_EQ(entries(), std::vector<std::string>{"city.pfront"});
+  EXPECT_EQ(entries(), std::vector<std::string>{ "city.pfront" });
 }
 
 TEST_F(BuildPreviews, OfAKilledBuildDoNotOpenAndGoWithTheNext)
@@ -316,7 +316,7 @@ TEST_F(BuildPreviews, OfAKilledBuildDoNotOpenAndGoWithTheNext)
   EXPECT_NE(left.error().what.find("preview of a build that has ended"), std::string::npos);
   wish_.wanted = false; // also a build that shows none cleans up
   ASSERT_TRUE(buildWithPreview());
-  EXPECT_EQ(entries(), std::vector<std::string>{"city.pfront"});
+  EXPECT_EQ(entries(), std::vector<std::string>{ "city.pfront" });
 }
 
 TEST_F(BuildPreviews, OfARunningBuildAreLeftAlone)
@@ -353,15 +353,15 @@ TEST_F(BuildPreviews, ThatCannotBeWrittenAreAWarning)
 
 TEST(PreviewRecord, TravelsAsMetadata)
 {
-  const PreviewRecord record{"city.pfront", std::uint64_t(1) << 40, 12345, 678};
-  const auto back = previewRecordOf({{"LASF_Projection", 1, "", {}}, previewMetadata(record)});
+  const PreviewRecord record{ "city.pfront", std::uint64_t(1) << 40, 12345, 678 };
+  const auto back = previewRecordOf({ { "LASF_Projection", 1, "", {} }, previewMetadata(record) });
   ASSERT_TRUE(back);
   EXPECT_EQ(back->storeName, record.storeName);
   EXPECT_EQ(back->pointsExpected, record.pointsExpected);
   EXPECT_EQ(back->pointsRead, record.pointsRead);
   EXPECT_EQ(back->pointsFinished, record.pointsFinished);
   EXPECT_FALSE(previewRecordOf({}));
-  EXPECT_FALSE(previewRecordOf({{"pointfront", 1, "", std::vector<std::byte>(23)}}));
+  EXPECT_FALSE(previewRecordOf({ { "pointfront", 1, "", std::vector<std::byte>(23) } }));
 }
 
 TEST(PreviewRecord, HasANameBesideTheStore)

@@ -73,7 +73,7 @@ void expectEnclosed(const PointStore& store)
     {
       continue;
     }
-    const auto points = store.read(leaf, {column});
+    const auto points = store.read(leaf, { column });
     ASSERT_TRUE(points);
     for (std::size_t i = 0; i < points->size(); ++i)
     {
@@ -83,7 +83,7 @@ void expectEnclosed(const PointStore& store)
     for (NodeIndex above = hierarchy.node(leaf).parent; above != noNode;
          above = hierarchy.node(above).parent)
     {
-      const auto means = store.read(above, {column});
+      const auto means = store.read(above, { column });
       ASSERT_TRUE(means);
       Spheres spheres;
       spheres.centres = worldOf(*means, grid);
@@ -110,7 +110,7 @@ TEST_F(ReplaceBuild, LeavesHoldEveryPointOnceAndSpheresHoldWhatIsBelow)
   std::uint64_t representatives = 0;
   for (NodeIndex n = 0; n < hierarchy.nodeCount(); ++n)
   {
-    const auto columns = store->read(n, {0});
+    const auto columns = store->read(n, { 0 });
     ASSERT_TRUE(columns);
     if (!hierarchy.node(n).leaf())
     {
@@ -143,7 +143,7 @@ TEST_F(ReplaceBuild, RepresentativesAreMeansOfTheInput)
     return i < 1200 ? GridPosition(2 * odd, 0, 0) : GridPosition(1000002 + 6 * odd, 0, 0);
   };
   const auto store = build(cloudOf(2400, millimetres(), cloud));
-  const auto root = store->read(0, {1, 2});
+  const auto root = store->read(0, { 1, 2 });
   ASSERT_TRUE(root);
   ASSERT_EQ(root->size(), 1u);
   double intensity = 0.0;
@@ -217,7 +217,7 @@ TEST_F(ReplaceBuild, RefusesAnInputThatHasTheColumnAlready)
   AttributeSchema schema;
   schema.add(enclosingRadiusAttribute());
   auto cloud = std::make_unique<CloudSource>("cloud", schema, millimetres());
-  cloud->addPosition({0.0, 0.0, 0.0});
+  cloud->addPosition({ 0.0, 0.0, 0.0 });
   cloud->addValue(0, 1.0f);
   const auto report = buildStore(one(std::move(cloud)), options_);
   ASSERT_FALSE(report);
@@ -228,8 +228,8 @@ TEST_F(ReplaceBuild, RefusesAnInputThatHasTheColumnAlready)
 TEST(MeanRecord, CodesComeFromTheNearestAndNormalsKeepLengthOne)
 {
   AttributeSchema schema;
-  schema.add({"classification", ScalarType::UInt8, 1});
-  schema.add({"normal", ScalarType::Float32, 3});
+  schema.add({ "classification", ScalarType::UInt8, 1 });
+  schema.add({ "normal", ScalarType::Float32, 3 });
   schema.add(enclosingRadiusAttribute());
   TreeSpace space;
   space.grid = millimetres();
@@ -237,18 +237,18 @@ TEST(MeanRecord, CodesComeFromTheNearestAndNormalsKeepLengthOne)
   const auto record = [&](std::uint32_t x, std::uint8_t code, const glm::vec3& normal)
   {
     std::vector<std::byte> bytes(layout.bytes());
-    setPosition(bytes.data(), {x, 0, 0});
+    setPosition(bytes.data(), { x, 0, 0 });
     std::memcpy(bytes.data() + layout.offset(0), &code, 1);
     std::memcpy(bytes.data() + layout.offset(1), &normal, 12);
     return bytes;
   };
   const float nan = std::nanf("");
-  const auto a = record(0, 6, {1.0f, 0.0f, 0.0f});
-  const auto b = record(10, 2, {0.0f, 1.0f, 0.0f});
-  const auto c = record(14, 5, {nan, nan, nan});
+  const auto a = record(0, 6, { 1.0f, 0.0f, 0.0f });
+  const auto b = record(10, 2, { 0.0f, 1.0f, 0.0f });
+  const auto c = record(14, 5, { nan, nan, nan });
   MeanRecord form(space, schema);
   std::vector<std::byte> mean(form.bytes());
-  form.summarise({{a.data(), true}, {b.data(), true}, {c.data(), true}}, 0, 3, mean.data());
+  form.summarise({ { a.data(), true }, { b.data(), true }, { c.data(), true } }, 0, 3, mean.data());
   EXPECT_EQ(positionOf(mean.data()), TreePosition(8, 0, 0));
   EXPECT_EQ(std::to_integer<int>(mean[layout.offset(0)]), 2); // 10 is nearest to 8
   glm::vec3 normal;

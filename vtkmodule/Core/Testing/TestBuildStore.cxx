@@ -41,7 +41,7 @@ protected:
   std::string bytes() const
   {
     std::ifstream file(options_.outputPath, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+    return { std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>() };
   }
 
   fs::path folder_;
@@ -56,7 +56,7 @@ std::vector<Identified> pointsOf(const PointStore& store)
   std::vector<Identified> points;
   for (NodeIndex n = 0; n < store.hierarchy()->nodeCount(); ++n)
   {
-    const auto columns = store.read(n, {0, 1});
+    const auto columns = store.read(n, { 0, 1 });
     EXPECT_TRUE(columns) << columns.error().what;
     for (std::size_t i = 0; i < columns->size(); ++i)
     {
@@ -133,13 +133,13 @@ TEST_F(StoreBuild, SameBytesForAnyThreadsAndMemory)
   const auto [spilledNot, reference] = build(1, 1u << 30);
   EXPECT_EQ(spilledNot, 0u);
   EXPECT_GT(reference.size(), 100000u);
-  for (const unsigned threads : {2u, 4u})
+  for (const unsigned threads : { 2u, 4u })
   {
     EXPECT_TRUE(build(threads, 1u << 30).second == reference) << threads << " threads";
   }
-  for (const std::uint64_t kibibytes : {150u, 400u, 1000u})
+  for (const std::uint64_t kibibytes : { 150u, 400u, 1000u })
   {
-    for (const unsigned threads : {1u, 2u, 4u})
+    for (const unsigned threads : { 1u, 2u, 4u })
     {
       const auto [spilled, store] = build(threads, kibibytes << 10);
       EXPECT_EQ(spilled, 60000u * 18) << kibibytes << " KiB";
@@ -208,31 +208,30 @@ TEST_F(StoreBuild, StoresAnOutlierFarAway)
 
 TEST_F(StoreBuild, KeepsTinyAndHugeExtentsAndFarOrigins)
 {
-  expectSoundStore(hills(5000, 1000.0, {glm::dvec3(1e-9), glm::dvec3(0.5)}), options_); // 1e-6
-  expectSoundStore(hills(5000, 1e9, {glm::dvec3(1.0), glm::dvec3(0.0)}), options_);     // 1e9
+  expectSoundStore(hills(5000, 1000.0, { glm::dvec3(1e-9), glm::dvec3(0.5) }), options_); // 1e-6
+  expectSoundStore(hills(5000, 1e9, { glm::dvec3(1.0), glm::dvec3(0.0) }), options_); // 1e9
   expectSoundStore(hills(5000, 1e6, millimetres(glm::dvec3(1e7, -2e7, 3e6))), options_);
 }
 
 TEST_F(StoreBuild, KeepsCubesOnAnisotropicGrids)
 {
-  const QuantisationGrid grid{{0.01, 0.01, 0.001}, {500000.0, 4000000.0, 0.0}};
+  const QuantisationGrid grid{ { 0.01, 0.01, 0.001 }, { 500000.0, 4000000.0, 0.0 } };
   expectSoundStore(hills(20000, 50000.0, grid), options_);
 }
 
 TEST_F(StoreBuild, KeepsAxesWhoseStepsAreTheirExtentDividedBy31Bits)
 {
   const glm::dvec3 extent(1000.0, 700.0, 90.0);
-  const QuantisationGrid grid{extent / 2147483647.0, glm::dvec3(500000.0, 4000000.0, 100.0)};
+  const QuantisationGrid grid{ extent / 2147483647.0, glm::dvec3(500000.0, 4000000.0, 100.0) };
   const auto cloud = [&]
   {
-    return cloudOf(20000, grid, [](std::size_t i)
-      { // the corners, and points all over
-        const auto n = static_cast<std::int64_t>(i);
-        return i == 0 ? GridPosition(0)
-          : i == 1    ? GridPosition(2147483647)
-                      : GridPosition(n * 104729 % 2147483647, n * 1299709 % 2147483647,
-                          n * 15485863 % 2147483647);
-      });
+    return cloudOf(20000, grid, [](std::size_t i) { // the corners, and points all over
+      const auto n = static_cast<std::int64_t>(i);
+      return i == 0 ? GridPosition(0)
+        : i == 1    ? GridPosition(2147483647)
+                    : GridPosition(
+                        n * 104729 % 2147483647, n * 1299709 % 2147483647, n * 15485863 % 2147483647);
+    });
   };
   expectSoundStore(cloud(), options_);
   auto lying = cloud(); // bounds that say nothing: known only when all points are read
@@ -288,7 +287,7 @@ TEST_F(StoreBuild, RefusesAnExtentBeyondTheGridAndSaysWhatFits)
 TEST_F(StoreBuild, RejectsWhatIsNoPositionAndCountsWhy)
 {
   auto cloud = hills(5000, 10000.0);
-  const double bad[] = {std::nan(""), HUGE_VAL, -HUGE_VAL, 1e300};
+  const double bad[] = { std::nan(""), HUGE_VAL, -HUGE_VAL, 1e300 };
   for (std::uint32_t i = 0; i < 40; ++i)
   {
     glm::dvec3 position(1.0);
@@ -297,15 +296,15 @@ TEST_F(StoreBuild, RejectsWhatIsNoPositionAndCountsWhy)
     cloud->addValue(0, 5000 + i);
     cloud->addValue(1, std::uint16_t(0));
   }
-  cloud->addPosition({1.0, 1.0, 0.0});
+  cloud->addPosition({ 1.0, 1.0, 0.0 });
   cloud->addValue(0, std::uint32_t(5040));
   cloud->addValue(1, std::uint16_t(9));
   const auto report = buildStore(one(std::move(cloud)), options_);
   ASSERT_TRUE(report) << report.error().what;
   EXPECT_EQ(report->pointsRead, 5041u);
   EXPECT_EQ(report->pointsStored, 5001u);
-  const std::map<std::string, std::uint64_t> expected{
-    {"not a number", 10}, {"infinite", 20}, {"outside the grid's range", 10}};
+  const std::map<std::string, std::uint64_t> expected{ { "not a number", 10 }, { "infinite", 20 },
+    { "outside the grid's range", 10 } };
   EXPECT_EQ(report->pointsRejected, expected);
   const auto points = pointsOf(**PointStore::open(options_.outputPath));
   EXPECT_EQ(points.back(), Identified(5040, 1000, 1000, 0, 9)); // values moved with their points
@@ -315,7 +314,7 @@ TEST_F(StoreBuild, LeavesNothingWhenCancelled)
 {
   options_.memoryBytes = 400 << 10;
   const auto sources = one(hills(60000, 100000.0));
-  for (const char* phase : {"reading", "sorting", "building"})
+  for (const char* phase : { "reading", "sorting", "building" })
   {
     bool met = false;
     const auto cancelled = buildStore(sources, options_,
@@ -349,7 +348,7 @@ TEST_F(StoreBuild, TellsProgressThatNeverFalls)
       return true;
     });
   ASSERT_TRUE(report);
-  EXPECT_EQ(phases, (std::vector<std::string>{"reading", "sorting", "building"}));
+  EXPECT_EQ(phases, (std::vector<std::string>{ "reading", "sorting", "building" }));
 }
 
 TEST_F(StoreBuild, KeepsAnExistingOutputUnlessAllowed)
@@ -392,7 +391,7 @@ TEST_F(StoreBuild, SaysThatAFolderCannotBeWritten)
 
 TEST_F(StoreBuild, StopsWhereASourceBreaks)
 {
-  for (const unsigned threads : {1u, 4u})
+  for (const unsigned threads : { 1u, 4u })
   {
     auto cloud = hills(60000, 100000.0);
     cloud->failAt(37);

@@ -48,8 +48,9 @@ TEST(ColumnPlan, FindsWellKnownNamesInAnySpelling)
 TEST(ColumnPlan, NarrowsAWellKnownAttributeOnlyIfAllValuesFit)
 {
   const std::vector<TableField> fields{ x, y, z, { "intensity", ScalarType::Float64 } };
-  const auto intensity = [&](const FieldStatistics& values)
-  { return planned(fields, { {}, {}, {}, values }); };
+  const auto intensity = [&](const FieldStatistics& values) {
+    return planned(fields, { {}, {}, {}, values });
+  };
   EXPECT_EQ(intensity(range(0, 65535)), "intensity uint16");
   EXPECT_EQ(intensity(range(0, 65536)), "intensity float64");
   EXPECT_EQ(intensity(range(-1, 5)), "intensity float64");
@@ -101,10 +102,9 @@ TEST(ColumnPlan, NamesTheSecondOfOneNameOtherwise)
 
 TEST(ColumnPlan, RefusesWhatHasNoPosition)
 {
-  EXPECT_NE(planned({ x, z }, std::vector<FieldStatistics>(2)).find("no x and y"),
-    std::string::npos);
-  EXPECT_NE(planned({ x, y, x }, std::vector<FieldStatistics>(3)).find("twice"),
-    std::string::npos);
+  EXPECT_NE(
+    planned({ x, z }, std::vector<FieldStatistics>(2)).find("no x and y"), std::string::npos);
+  EXPECT_NE(planned({ x, y, x }, std::vector<FieldStatistics>(3)).find("twice"), std::string::npos);
   const auto flat = ColumnPlan::make({ x, y }, std::vector<FieldStatistics>(2), "file");
   ASSERT_TRUE(flat.ok());
   EXPECT_EQ(flat->warnings.size(), 1u);

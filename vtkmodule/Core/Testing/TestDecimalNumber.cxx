@@ -83,8 +83,8 @@ TEST(DecimalNumber, KnowsOtherSpellings)
 TEST(DecimalNumber, EndsWhereTheNumberEnds)
 {
   const std::pair<const char*, int> texts[] = { { "", 0 }, { "-", 0 }, { ".", 0 }, { "e5", 0 },
-    { "x", 0 }, { "--1", 0 }, { "1x", 1 }, { "1e", 1 }, { "1e+", 1 }, { "1.2.3", 3 },
-    { "1-2", 1 }, { "1e5e5", 3 }, { "na", 0 }, { "1.#", 0 } };
+    { "x", 0 }, { "--1", 0 }, { "1x", 1 }, { "1e", 1 }, { "1e+", 1 }, { "1.2.3", 3 }, { "1-2", 1 },
+    { "1e5e5", 3 }, { "na", 0 }, { "1.#", 0 } };
   for (const auto& [text, length] : texts)
   {
     DecimalNumber number;

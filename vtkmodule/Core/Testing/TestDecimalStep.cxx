@@ -107,8 +107,8 @@ public:
     block.resize(3, wanted);
     for (std::vector<double>& column : block.columns)
     {
-      std::copy_n(values_.begin() + static_cast<std::ptrdiff_t>(3 * chunk), column.size(),
-        column.begin());
+      std::copy_n(
+        values_.begin() + static_cast<std::ptrdiff_t>(3 * chunk), column.size(), column.begin());
     }
     return {};
   }

@@ -190,7 +190,7 @@ TEST(DetailGrowth, InMotionTheLastPointsOfAPrefixAreSmall)
   }
   scene.frame(0.03, { { 0, 305 } }, true);
   EXPECT_FALSE(scene.growth.growing()); // the same again is the same
-  EXPECT_FALSE(scene.growth.whole());   // and at rest there is more
+  EXPECT_FALSE(scene.growth.whole()); // and at rest there is more
 }
 
 /// At rest all of it gets its size.

@@ -76,8 +76,7 @@ View anyView(std::mt19937& random)
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   std::uniform_real_distribution<double> place(-1500.0, 1500.0);
   const double closeness = unit(random) < 0.3 ? 0.02 : 1.0;
-  const glm::dvec3 eye =
-    closeness * glm::dvec3(place(random), place(random), place(random));
+  const glm::dvec3 eye = closeness * glm::dvec3(place(random), place(random), place(random));
   const glm::dvec3 focus = 0.2 * glm::dvec3(place(random), place(random), place(random));
   const glm::dmat4 camera = glm::lookAt(eye, focus, glm::dvec3(0.01, 0.02, 1.0));
   const double nearPlane = std::pow(10.0, -6.0 + 15.0 * unit(random));
@@ -86,13 +85,17 @@ View anyView(std::mt19937& random)
   if (unit(random) < 0.3)
   {
     const double size = std::pow(10.0, -2.0 + 6.0 * unit(random));
-    return View::fromMatrix(glm::ortho(-size * (1.0 + shift), size * (1.0 - shift), -size, size,
-                              nearPlane, farPlane) * camera, 800, 600);
+    return View::fromMatrix(
+      glm::ortho(-size * (1.0 + shift), size * (1.0 - shift), -size, size, nearPlane, farPlane) *
+        camera,
+      800, 600);
   }
   const double slope = std::pow(10.0, -4.0 + 6.0 * unit(random)); // 0.0002 to nearly 180 degrees
   const double edge = nearPlane * slope;
   return View::fromMatrix(glm::frustum(edge * (shift - 1.0), edge * (shift + 1.0), -0.75 * edge,
-                            0.75 * edge, nearPlane, farPlane) * camera, 800, 600);
+                            0.75 * edge, nearPlane, farPlane) *
+      camera,
+    800, 600);
 }
 
 /// A walk in the tree, step by step.
@@ -204,7 +207,7 @@ struct Trip
   std::mt19937 random;
   std::uint64_t points = 0;
   std::uint64_t slots = 0; ///< of GPU memory
-  DemandCurve nobody;      ///< shares
+  DemandCurve nobody; ///< shares
   ScriptedResidency residency;
   FrontLimits limits;
 };

@@ -27,23 +27,24 @@ struct TwoDisks
   std::uint64_t freeOnB = 0;
   DiskSpace operator()(const std::string& folder) const
   {
-    return folder[1] == 'a' ? DiskSpace{1, freeOnA} : DiskSpace{2, freeOnB};
+    return folder[1] == 'a' ? DiskSpace{ 1, freeOnA } : DiskSpace{ 2, freeOnB };
   }
 };
 
 DiskDemand demandOf(const char* spill, std::uint64_t spillBytes)
 {
-  return {spill, spillBytes, "/a/out", 100 * mega, 250 * mega};
+  return { spill, spillBytes, "/a/out", 100 * mega, 250 * mega };
 }
 
 TEST(DiskDemand, SpillAndStoreOnOneDiskNeedTheirSum)
 {
-  EXPECT_TRUE(checkDiskSpace(demandOf("/a/tmp", 300 * mega), TwoDisks{400 * mega, 0}));
-  const auto refused = checkDiskSpace(demandOf("/a/tmp", 300 * mega), TwoDisks{400 * mega - 1, 0});
+  EXPECT_TRUE(checkDiskSpace(demandOf("/a/tmp", 300 * mega), TwoDisks{ 400 * mega, 0 }));
+  const auto refused =
+    checkDiskSpace(demandOf("/a/tmp", 300 * mega), TwoDisks{ 400 * mega - 1, 0 });
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().kind, Error::Kind::Unwritable);
-  for (const char* part : {"100 MiB, perhaps 250 MiB, in '/a/out'", "300 MiB in '/a/tmp'",
-         "400 MiB are free", "--temp", "--memory"})
+  for (const char* part : { "100 MiB, perhaps 250 MiB, in '/a/out'", "300 MiB in '/a/tmp'",
+         "400 MiB are free", "--temp", "--memory" })
   {
     EXPECT_NE(refused.error().what.find(part), std::string::npos) << refused.error().what;
   }
@@ -52,32 +53,32 @@ TEST(DiskDemand, SpillAndStoreOnOneDiskNeedTheirSum)
 TEST(DiskDemand, EachDiskIsAskedForItsShare)
 {
   const DiskDemand demand = demandOf("/b/tmp", 300 * mega);
-  EXPECT_TRUE(checkDiskSpace(demand, TwoDisks{100 * mega, 300 * mega}));
-  const auto noSpill = checkDiskSpace(demand, TwoDisks{1000 * mega, 299 * mega});
+  EXPECT_TRUE(checkDiskSpace(demand, TwoDisks{ 100 * mega, 300 * mega }));
+  const auto noSpill = checkDiskSpace(demand, TwoDisks{ 1000 * mega, 299 * mega });
   ASSERT_FALSE(noSpill);
   EXPECT_NE(noSpill.error().what.find("299 MiB are free in '/b/tmp'"), std::string::npos);
-  const auto noStore = checkDiskSpace(demand, TwoDisks{99 * mega, 300 * mega});
+  const auto noStore = checkDiskSpace(demand, TwoDisks{ 99 * mega, 300 * mega });
   ASSERT_FALSE(noStore);
   EXPECT_NE(noStore.error().what.find("99 MiB are free in '/a/out'"), std::string::npos);
 }
 
 TEST(DiskDemand, WithoutSpillOnlyTheStoreCounts)
 {
-  EXPECT_TRUE(checkDiskSpace(demandOf("", 0), TwoDisks{100 * mega, 0}));
-  EXPECT_FALSE(checkDiskSpace(demandOf("", 0), TwoDisks{99 * mega, 0}));
+  EXPECT_TRUE(checkDiskSpace(demandOf("", 0), TwoDisks{ 100 * mega, 0 }));
+  EXPECT_FALSE(checkDiskSpace(demandOf("", 0), TwoDisks{ 99 * mega, 0 }));
 }
 
 TEST(DiskDemand, WarnsWhereTheStoreMayNotFit)
 {
   const DiskDemand demand = demandOf("/a/tmp", 300 * mega);
-  EXPECT_EQ(diskSpaceWarning(demand, TwoDisks{550 * mega, 0}), "");
-  const std::string told = diskSpaceWarning(demand, TwoDisks{550 * mega - 1, 0});
-  for (const char* part : {"may not suffice", "perhaps 250 MiB", "550 MiB are free in '/a/tmp'"})
+  EXPECT_EQ(diskSpaceWarning(demand, TwoDisks{ 550 * mega, 0 }), "");
+  const std::string told = diskSpaceWarning(demand, TwoDisks{ 550 * mega - 1, 0 });
+  for (const char* part : { "may not suffice", "perhaps 250 MiB", "550 MiB are free in '/a/tmp'" })
   {
     EXPECT_NE(told.find(part), std::string::npos) << told;
   }
-  EXPECT_EQ(diskSpaceWarning(demandOf("/b/tmp", 9 * mega), TwoDisks{250 * mega, 9 * mega}), "");
-  EXPECT_NE(diskSpaceWarning(demandOf("", 0), TwoDisks{249 * mega, 0}), "");
+  EXPECT_EQ(diskSpaceWarning(demandOf("/b/tmp", 9 * mega), TwoDisks{ 250 * mega, 9 * mega }), "");
+  EXPECT_NE(diskSpaceWarning(demandOf("", 0), TwoDisks{ 249 * mega, 0 }), "");
 }
 
 TEST(DiskDemand, EstimatesTheStoreFromBothSides)
@@ -111,7 +112,7 @@ int withFileLimit(rlim_t bytes, const std::function<int()>& work)
   if (child == 0)
   {
     std::signal(SIGXFSZ, SIG_IGN);
-    const rlimit limit{bytes, bytes};
+    const rlimit limit{ bytes, bytes };
     setrlimit(RLIMIT_FSIZE, &limit);
     _exit(work());
   }
@@ -142,7 +143,7 @@ void spillMeetsTheLimit(std::size_t bytes, SpillFile::Way way)
 
 TEST(SpillFile, SaysWhatWasNeededWhenTheDiskEnds)
 {
-  for (const std::size_t bytes : {30000u, 2000000u})
+  for (const std::size_t bytes : { 30000u, 2000000u })
   {
     spillMeetsTheLimit(bytes, SpillFile::Way::PastCache);
     spillMeetsTheLimit(bytes, SpillFile::Way::ThroughCache);

@@ -54,8 +54,7 @@ TEST_P(DrawOrders, DistancesOfAllSizes)
 {
   std::mt19937 random(20101);
   std::uniform_real_distribution<double> exponent(-44.0, 38.0);
-  expectOrdered(
-    items(GetParam(), [&](NodeIndex) { return std::pow(10.0, exponent(random)); }));
+  expectOrdered(items(GetParam(), [&](NodeIndex) { return std::pow(10.0, exponent(random)); }));
 }
 
 TEST_P(DrawOrders, DistancesThatDifferInOneDigitOnly)

@@ -29,7 +29,7 @@ std::vector<std::uint32_t> exactly(const SortedCloud& cloud, std::uint64_t wante
 TEST(ExactSampler, ChoosesExactlyAsManyAsWanted)
 {
   const SortedCloud cloud = plane(5000);
-  for (const std::uint64_t wanted : {0u, 1u, 2u, 3u, 100u, 1666u, 2500u, 4999u, 5000u})
+  for (const std::uint64_t wanted : { 0u, 1u, 2u, 3u, 100u, 1666u, 2500u, 4999u, 5000u })
   {
     EXPECT_EQ(exactly(cloud, wanted).size(), wanted);
   }
@@ -77,7 +77,7 @@ TEST(ExactSampler, SpreadsPointsWiderThanChance)
 {
   const SortedCloud cloud = plane(20000);
   Random random(4);
-  for (const std::size_t wanted : {300u, 2000u})
+  for (const std::size_t wanted : { 300u, 2000u })
   {
     std::set<std::uint32_t> picked;
     while (picked.size() < wanted)
@@ -86,7 +86,7 @@ TEST(ExactSampler, SpreadsPointsWiderThanChance)
     }
     // 1.5 for a maximal Poisson-disk sample; thinning it takes some of that.
     EXPECT_GT(test::meanNearestDistance(cloud, exactly(cloud, wanted)),
-      1.35 * test::meanNearestDistance(cloud, {picked.begin(), picked.end()}))
+      1.35 * test::meanNearestDistance(cloud, { picked.begin(), picked.end() }))
       << wanted;
   }
 }

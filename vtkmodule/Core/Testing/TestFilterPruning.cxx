@@ -38,10 +38,10 @@ TEST(FilterPruning, NodesWithoutAPointThatPassesAreLeftOut)
   ASSERT_TRUE(store) << store.error().what;
   std::size_t left = 0;
   std::size_t out = 0;
-  for (const char* text : { "classification == 6", "classification != 2", "x > 900",
-         "identity < 3e17", "shift[0] > 5.4", "gps_time in {100000}",
-         "classification == 6 and x < 0", "small < -32700", "small not in [-32000, 32700]",
-         "z > 1e9", "rgb.g in [100, 100]" })
+  for (const char* text :
+    { "classification == 6", "classification != 2", "x > 900", "identity < 3e17", "shift[0] > 5.4",
+      "gps_time in {100000}", "classification == 6 and x < 0", "small < -32700",
+      "small not in [-32000, 32700]", "z > 1e9", "rgb.g in [100, 100]" })
   {
     SCOPED_TRACE(text);
     StyleSheet sheet;
@@ -113,8 +113,7 @@ TEST(FilterPruning, AStyleWithoutAFilterLeavesNothingOut)
 
 TEST(FilterPruning, StoresThatKnowNothingOfTheirNodesAreDrawnWhole)
 {
-  const auto store =
-    PointStore::open(std::string(POINTFRONT_CORE_TEST_DATA) + "/version2.pfront");
+  const auto store = PointStore::open(std::string(POINTFRONT_CORE_TEST_DATA) + "/version2.pfront");
   ASSERT_TRUE(store);
   StyleSheet sheet;
   sheet.where = *FilterExpression::parse("classification == 99");

@@ -62,8 +62,7 @@ public:
   }
   std::size_t decodedBytes(NodeIndex, std::uint32_t, const ColumnSelection& columns) const override
   {
-    return sizeof(NodeColumns) +
-      pointsOfNode * (sizeof(glm::u32vec3) + columns.size()) +
+    return sizeof(NodeColumns) + pointsOfNode * (sizeof(glm::u32vec3) + columns.size()) +
       columns.size() * sizeof(std::vector<std::byte>);
   }
   std::size_t storedBytes(NodeIndex, const ColumnSelection&) const override { return 1; }
@@ -85,8 +84,8 @@ struct Scene
     description.schema = schema;
     description.splatRadiusBase = 0.25;
     description.grid.scale = glm::dvec3(0.01);
-    demand.view = View::perspective(
-      { 0, 0, 1000 }, { 0, 0, 0 }, { 0, 1, 0 }, 0.9, 1.0, 1e5, 1000, 1000);
+    demand.view =
+      View::perspective({ 0, 0, 1000 }, { 0, 0, 0 }, { 0, 1, 0 }, 0.9, 1.0, 1e5, 1000, 1000);
     demand.complete = true;
     request.styles = { flatStyle(), flatStyle(), flatStyle() };
   }
@@ -205,8 +204,8 @@ TEST(FramePlanner, PiecesCloseTheSurfaceAsTheWholeDoes)
     std::size_t seen = 0;
     for (int number = 0; number < 3; ++number) // 0 and 3, 4 and 1, 5 and 2
     {
-      ViewFront front(std::make_shared<HierarchyPiece>(scene.reader->table, number, 3),
-        scene.share, scene.schema, std::make_shared<WindowDemand>());
+      ViewFront front(std::make_shared<HierarchyPiece>(scene.reader->table, number, 3), scene.share,
+        scene.schema, std::make_shared<WindowDemand>());
       front.update(scene.demand);
       for (const DrawBatch& batch : planFrame(front, scene.description, scene.request).batches)
       {
@@ -281,8 +280,8 @@ TEST(FramePlanner, ThePrefixOfARootHasTheSpacingThatTheThresholdAskedFor)
   ASSERT_EQ(plan.batches.size(), 3u);
   const PlanItem& item = plan.batches[2].items.front();
   EXPECT_LT(item.last, pointsOfNode / 2);
-  EXPECT_NEAR(item.spacing,
-    8.0 * std::sqrt(double(pointsOfNode) / item.last), 1e-4); // s * sqrt(N / n)
+  EXPECT_NEAR(
+    item.spacing, 8.0 * std::sqrt(double(pointsOfNode) / item.last), 1e-4); // s * sqrt(N / n)
   // The front measures at the sphere's near side, 180 nearer than its centre.
   EXPECT_NEAR(item.spacing * pixel * 1000.0 / 820.0, errorPx, 0.02 * errorPx);
 }
@@ -423,8 +422,8 @@ TEST(FramePlanner, ANodeAmongFinerOnesHasSplatsOfTheirSize)
 TEST(FramePlanner, WhatIsFarAwayMakesNoSplatsNearTheEyeLarge)
 {
   std::vector<DrawBatch> batches(1);
-  const auto add = [&](NodeIndex number, NodeIndex parent, float radius, std::uint32_t points,
-                     bool unfinished)
+  const auto add =
+    [&](NodeIndex number, NodeIndex parent, float radius, std::uint32_t points, bool unfinished)
   {
     auto node = std::make_shared<NodeColumns>();
     node->node = number;
@@ -437,10 +436,10 @@ TEST(FramePlanner, WhatIsFarAwayMakesNoSplatsNearTheEyeLarge)
     batches[0].items.push_back(item);
   };
   add(0, noNode, 100.0f, 50, true);
-  add(1, 0, 30.0f, 900, true);  // refined by the next two
-  add(3, 1, 1.0f, 990, false);  // near: all there
-  add(4, 1, 11.0f, 10, false);  // some strays
-  add(2, 0, 40.0f, 900, true);  // far away: coarse
+  add(1, 0, 30.0f, 900, true); // refined by the next two
+  add(3, 1, 1.0f, 990, false); // near: all there
+  add(4, 1, 11.0f, 10, false); // some strays
+  add(2, 0, 40.0f, 900, true); // far away: coarse
   matchNeighbours(batches, QuantisationGrid());
   const std::vector<PlanItem>& items = batches[0].items;
   for (const std::size_t above : { std::size_t(0), std::size_t(1) })
@@ -468,8 +467,8 @@ TEST(FramePlanner, AFewPointsOfAClassAmongManyOfAnotherHaveSplatsLikeTheirs)
 {
   std::vector<DrawBatch> batches(2);
   QuantisationGrid grid;
-  const auto add = [&](std::uint16_t layer, NodeIndex number, float radius, std::uint32_t points,
-                     double x)
+  const auto add =
+    [&](std::uint16_t layer, NodeIndex number, float radius, std::uint32_t points, double x)
   {
     auto node = std::make_shared<NodeColumns>();
     node->node = number;
@@ -484,7 +483,7 @@ TEST(FramePlanner, AFewPointsOfAClassAmongManyOfAnotherHaveSplatsLikeTheirs)
   };
   add(0, 0, 0.5f, 10000, 0.0);
   add(0, 1, 0.4f, 10000, 100.0);
-  add(1, 2, 6.0f, 100, 0.0);    // among the first
+  add(1, 2, 6.0f, 100, 0.0); // among the first
   add(1, 3, 6.0f, 100, 5000.0); // alone
   matchNeighbours(batches, grid);
   EXPECT_FLOAT_EQ(batches[0].items[0].closingRadius, 0.5f);

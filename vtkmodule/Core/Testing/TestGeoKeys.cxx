@@ -13,10 +13,10 @@ const std::string text = std::string("NAD83(HARN) / Oregon|NAD83|\0", 28);
 
 std::vector<std::uint16_t> oregon()
 {
-  return { 1, 1, 0, 4,          //
-    1024, 0, 1, 1,              // a projected system
-    1026, 34737, 21, 0,         // its name
-    2049, 34737, 6, 21,         //
+  return { 1, 1, 0, 4, //
+    1024, 0, 1, 1, // a projected system
+    1026, 34737, 21, 0, // its name
+    2049, 34737, 6, 21, //
     3072, 0, 1, 2994 };
 }
 

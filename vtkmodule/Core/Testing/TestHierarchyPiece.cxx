@@ -34,7 +34,7 @@ std::shared_ptr<const HierarchyTable> fourLevels(Refinement refinement = Refinem
     }
   }
   return std::make_shared<HierarchyTable>(
-    std::move(nodes), std::vector<NodeIndex>{0}, refinement);
+    std::move(nodes), std::vector<NodeIndex>{ 0 }, refinement);
 }
 
 /// What one meets walking down, each parent naming its children.
@@ -52,7 +52,10 @@ std::vector<NodeIndex> nodesOf(const Hierarchy& part)
 class CountingTable final : public Hierarchy
 {
 public:
-  explicit CountingTable(std::shared_ptr<const Hierarchy> table) : table_(std::move(table)) {}
+  explicit CountingTable(std::shared_ptr<const Hierarchy> table)
+    : table_(std::move(table))
+  {
+  }
   NodeIndex nodeCount() const override { return table_->nodeCount(); }
   const std::vector<NodeIndex>& roots() const override { return table_->roots(); }
   Refinement refinement() const override { return table_->refinement(); }
@@ -165,8 +168,8 @@ TEST(HierarchyPiece, MorePiecesThanNodesLeavesSomeEmpty)
   std::vector<Node> nodes(1);
   nodes[0].pointCount = 5;
   nodes[0].pointsBelow = 5;
-  const auto whole =
-    std::make_shared<HierarchyTable>(std::move(nodes), std::vector<NodeIndex>{0}, Refinement::Add);
+  const auto whole = std::make_shared<HierarchyTable>(
+    std::move(nodes), std::vector<NodeIndex>{ 0 }, Refinement::Add);
   int withPoints = 0;
   for (int number = 0; number < 4; ++number)
   {

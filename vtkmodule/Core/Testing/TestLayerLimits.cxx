@@ -186,8 +186,7 @@ TEST(LayerLimits, TheMarginAheadOfTheMotionHasLayersToo)
   ScriptedResidency nothing;
   l.limits.layers[0].visible = false;
   margin.requests(lookingFrom(1000.0), 4.0, nothing, 8.0, 500, l.limits.layers);
-  const auto& ahead =
-    margin.requests(lookingFrom(990.0), 4.0, nothing, 8.0, 500, l.limits.layers);
+  const auto& ahead = margin.requests(lookingFrom(990.0), 4.0, nothing, 8.0, 500, l.limits.layers);
   EXPECT_FALSE(ahead.empty());
   for (const LoadRequest& request : ahead)
   {

@@ -30,7 +30,10 @@ std::vector<LoadRequest> wish(NodeIndex first, NodeIndex end, double priority = 
   return requests;
 }
 
-std::uint32_t needed(NodeIndex) { return 0; }
+std::uint32_t needed(NodeIndex)
+{
+  return 0;
+}
 
 /// `count` stores of 100 nodes each, in one memory that holds `nodes` of them.
 struct Scene

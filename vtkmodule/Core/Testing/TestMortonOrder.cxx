@@ -48,10 +48,10 @@ std::vector<TreePosition> positionsOf(std::size_t count, unsigned bits)
   const std::uint32_t mask = bits == 32 ? ~0u : (1u << bits) - 1;
   for (std::size_t i = 0; i < count; ++i)
   {
-    positions.push_back(
-      i % 3 == 2 ? positions[random.next() % i]
-                 : TreePosition(std::uint32_t(random.next()) & mask,
-                     std::uint32_t(random.next()) & mask, std::uint32_t(random.next()) & mask));
+    positions.push_back(i % 3 == 2
+        ? positions[random.next() % i]
+        : TreePosition(std::uint32_t(random.next()) & mask, std::uint32_t(random.next()) & mask,
+            std::uint32_t(random.next()) & mask));
   }
   return positions;
 }
@@ -70,7 +70,7 @@ TEST(MortonOrder, ComparesAsInterleavedBitsDo)
 
 TEST(MortonOrder, SortsStablyForEveryNumberOfBits)
 {
-  for (const unsigned bits : {0u, 1u, 4u, 20u, 21u, 22u, 32u})
+  for (const unsigned bits : { 0u, 1u, 4u, 20u, 21u, 22u, 32u })
   {
     const std::vector<TreePosition> positions = positionsOf(2000, bits);
     const std::vector<std::byte> records = packed(positions);
@@ -79,7 +79,7 @@ TEST(MortonOrder, SortsStablyForEveryNumberOfBits)
     std::stable_sort(expected.begin(), expected.end(),
       [&](std::uint32_t a, std::uint32_t b) { return referenceLess(positions[a], positions[b]); });
     EXPECT_EQ(
-      mortonOrder({records.data(), RecordLayout::positionBytes}, positions.size()), expected)
+      mortonOrder({ records.data(), RecordLayout::positionBytes }, positions.size()), expected)
       << bits << " bits";
   }
   EXPECT_TRUE(mortonOrder({}, 0).empty());
@@ -87,13 +87,13 @@ TEST(MortonOrder, SortsStablyForEveryNumberOfBits)
 
 TEST(MortonOrder, FindsTheSmallestCommonCell)
 {
-  const OctreeCell cell = commonCell({4, 5, 6}, {7, 7, 7});
+  const OctreeCell cell = commonCell({ 4, 5, 6 }, { 7, 7, 7 });
   EXPECT_EQ(cell.log2Side, 2u);
   EXPECT_EQ(cell.origin, TreePosition(4, 4, 4));
-  EXPECT_EQ(commonCell({9, 9, 9}, {9, 9, 9}).log2Side, 0u);
-  EXPECT_EQ(commonCell({0, 0, 0}, {0, ~0u, 0}).log2Side, 32u);
-  EXPECT_EQ(commonCell({0, 0, 0}, {0, ~0u, 0}).origin, TreePosition(0));
-  EXPECT_EQ(octantOf({4, 0, 4}, 3), 5u);
+  EXPECT_EQ(commonCell({ 9, 9, 9 }, { 9, 9, 9 }).log2Side, 0u);
+  EXPECT_EQ(commonCell({ 0, 0, 0 }, { 0, ~0u, 0 }).log2Side, 32u);
+  EXPECT_EQ(commonCell({ 0, 0, 0 }, { 0, ~0u, 0 }).origin, TreePosition(0));
+  EXPECT_EQ(octantOf({ 4, 0, 4 }, 3), 5u);
 }
 
 } // namespace

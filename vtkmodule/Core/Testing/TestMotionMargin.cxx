@@ -85,9 +85,9 @@ TEST(ViewAhead, ATurnGoesOn)
 {
   const auto turnedBy = [](double a)
   {
-    return View::perspective(
-      { 5, 6, 7 }, glm::dvec3(5, 6, 7) + glm::dvec3(std::cos(a), std::sin(a), 0.0),
-      { 0, 0, 1 }, angle, 0.1, 1e4, 800, 600);
+    return View::perspective({ 5, 6, 7 },
+      glm::dvec3(5, 6, 7) + glm::dvec3(std::cos(a), std::sin(a), 0.0), { 0, 0, 1 }, angle, 0.1, 1e4,
+      800, 600);
   };
   const View ahead = viewAhead(turnedBy(0.5), turnedBy(0.52), 5.0);
   const View there = turnedBy(0.62);

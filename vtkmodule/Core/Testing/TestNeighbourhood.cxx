@@ -37,8 +37,8 @@ class SignatureFeature final : public NeighbourhoodFeature
 {
 public:
   std::size_t bytes() const override { return sizeof(Signature); }
-  void compute(const glm::dvec3& position, const std::vector<NearPoint>& near,
-    std::byte* value) const override
+  void compute(
+    const glm::dvec3& position, const std::vector<NearPoint>& near, std::byte* value) const override
   {
     Signature signature;
     for (const NearPoint& neighbour : near)
@@ -79,8 +79,8 @@ PointSources cloudOf(const Positions& positions, const std::vector<std::uint8_t>
 }
 
 std::vector<Signature> computed(const Positions& positions, NeighbourhoodOptions options,
-  std::uint64_t tilePoints, const std::vector<std::uint8_t>& classes = {},
-  std::uint64_t memory = 0, unsigned threads = 2)
+  std::uint64_t tilePoints, const std::vector<std::uint8_t>& classes = {}, std::uint64_t memory = 0,
+  unsigned threads = 2)
 {
   options.tilePoints = tilePoints;
   const PointSources sources = cloudOf(positions, classes);
@@ -98,15 +98,14 @@ std::vector<Signature> computed(const Positions& positions, NeighbourhoodOptions
   std::vector<Signature> values(positions.size());
   if (column)
   {
-    EXPECT_TRUE((*column)->read(
-      0, values.size(), reinterpret_cast<std::byte*>(values.data())));
+    EXPECT_TRUE((*column)->read(0, values.size(), reinterpret_cast<std::byte*>(values.data())));
   }
   return values;
 }
 
 /// One by one, with nothing but a sort.
-std::vector<Signature> byBruteForce(const Positions& positions,
-  const NeighbourhoodOptions& options, const std::vector<std::uint8_t>& classes = {})
+std::vector<Signature> byBruteForce(const Positions& positions, const NeighbourhoodOptions& options,
+  const std::vector<std::uint8_t>& classes = {})
 {
   std::vector<Signature> values(positions.size());
   for (std::size_t i = 0; i < positions.size(); ++i)
@@ -123,14 +122,17 @@ std::vector<Signature> byBruteForce(const Positions& positions,
       if (hasPlace(positions[j]) && options.participants.references[other])
       {
         const glm::dvec3 d = positions[j] - positions[i];
-        const double squared = options.axes > 2 ? d.x * d.x + d.y * d.y + d.z * d.z
-                                                : d.x * d.x + d.y * d.y;
+        const double squared =
+          options.axes > 2 ? d.x * d.x + d.y * d.y + d.z * d.z : d.x * d.x + d.y * d.y;
         all.push_back({ positions[j], squared, 1 });
       }
     }
-    std::sort(all.begin(), all.end(), [](const NearPoint& a, const NearPoint& b)
-      { return a.squaredDistance != b.squaredDistance ? a.squaredDistance < b.squaredDistance
-                                                      : positionLess(a.position, b.position); });
+    std::sort(all.begin(), all.end(),
+      [](const NearPoint& a, const NearPoint& b)
+      {
+        return a.squaredDistance != b.squaredDistance ? a.squaredDistance < b.squaredDistance
+                                                      : positionLess(a.position, b.position);
+      });
     const std::size_t wanted = options.neighbours > 0 ? options.neighbours : all.size();
     while (all.size() > wanted ||
       (options.neighbours == 0 && !all.empty() &&
@@ -145,8 +147,7 @@ std::vector<Signature> byBruteForce(const Positions& positions,
       const bool same = !places.empty() && places.back().position == point.position;
       same ? ++places.back().count : (places.push_back(point), 0u);
     }
-    SignatureFeature().compute(
-      positions[i], places, reinterpret_cast<std::byte*>(&values[i]));
+    SignatureFeature().compute(positions[i], places, reinterpret_cast<std::byte*>(&values[i]));
   }
   return values;
 }

@@ -177,8 +177,9 @@ TEST(NodePruning, TheMarginAheadOfTheMotionKnowsItToo)
   const auto verdicts = someVerdicts(*hierarchy, 7);
   std::vector<LayerLimits> layers(1);
   layers[0].pruning = std::make_shared<const NodePruning>(verdicts);
-  const auto from = [](double x)
-  { return View::perspective({ x, 300, 200 }, { 0, 0, 0 }, { 0, 0, 1 }, 0.9, 0.1, 1e5, 800, 600); };
+  const auto from = [](double x) {
+    return View::perspective({ x, 300, 200 }, { 0, 0, 0 }, { 0, 0, 1 }, 0.9, 0.1, 1e5, 800, 600);
+  };
   MotionMargin margin(hierarchy);
   ScriptedResidency nothing;
   margin.requests(from(1000.0), 4.0, nothing, 8.0, 500, layers);

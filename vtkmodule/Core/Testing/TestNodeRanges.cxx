@@ -22,8 +22,8 @@ bool within(const ValueRange& inner, const ValueRange& outer)
 ValueRange valuesOf(const SampleStore& sample, NodeIndex node, std::uint32_t column, std::size_t c)
 {
   const NodeColumns& points = sample.points[node];
-  const auto range = rangeOf(
-    points.columns[column].data(), sample.description.schema[column], points.size());
+  const auto range =
+    rangeOf(points.columns[column].data(), sample.description.schema[column], points.size());
   return { range.components[c][0], range.components[c][1] };
 }
 
@@ -102,9 +102,11 @@ TEST(NodeRanges, AStoreKnowsTheValuesOfEachNodeAndOfAllBelow)
   ASSERT_TRUE(x && *x);
   EXPECT_TRUE((*x)->own(1).empty()); // it has no points of its own
   EXPECT_FALSE((*x)->below(1).empty());
-  EXPECT_EQ((*x)->own(5).low, static_cast<double>(sample.points[5].origin.x) +
+  EXPECT_EQ((*x)->own(5).low,
+    static_cast<double>(sample.points[5].origin.x) +
       std::min_element(sample.points[5].positions.begin(), sample.points[5].positions.end(),
-        [](const auto& a, const auto& b) { return a.x < b.x; })->x);
+        [](const auto& a, const auto& b) { return a.x < b.x; })
+        ->x);
 }
 
 TEST(NodeRanges, ManyValuesAreRoundedOutwards)
@@ -150,8 +152,8 @@ TEST(NodeRanges, MoreNodesThanAreSampledAreRoundedOutwardsToo)
 
 TEST(NodeRanges, OneValueEverywhereTakesNoCodes)
 {
-  const auto ranges =
-    rangesOfLeaves(20000, [](NodeIndex) { return 7.0; }, temporaryPath("constant"));
+  const auto ranges = rangesOfLeaves(
+    20000, [](NodeIndex) { return 7.0; }, temporaryPath("constant"));
   ASSERT_TRUE(ranges);
   EXPECT_TRUE(ranges->own(0).empty()); // a node without points is told from the others
   EXPECT_EQ(ranges->own(1).low, 7.0);
@@ -161,7 +163,8 @@ TEST(NodeRanges, OneValueEverywhereTakesNoCodes)
 TEST(NodeRanges, OnlyTheFirstNodesAreReadWhereThatIsEnough)
 {
   const std::string path = temporaryPath("part");
-  ASSERT_TRUE(rangesOfLeaves(40000, [](NodeIndex i) { return double(i); }, path));
+  ASSERT_TRUE(rangesOfLeaves(
+    40000, [](NodeIndex i) { return double(i); }, path));
   AttributeSchema schema;
   schema.add({ "value", ScalarType::Float64, 1 });
   auto file = InputFile::open(path);

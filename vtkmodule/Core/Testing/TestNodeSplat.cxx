@@ -15,7 +15,7 @@ namespace
 using test::SplatPatterns;
 using Points = std::vector<glm::dvec3>;
 constexpr double extent = 100.0; ///< of the patterns' unit square, metres
-constexpr double step = 1e-4;    ///< of the grid
+constexpr double step = 1e-4; ///< of the grid
 
 float radiusOf(const std::vector<TreePosition>& positions, const glm::dvec3& scale)
 {
@@ -57,8 +57,8 @@ TEST(NodeSplat, OneRadiusClosesAPlane)
   {
     const double radius = radiusOf(points) / extent;
     const double h = 1.0 / std::sqrt(static_cast<double>(points.size()));
-    EXPECT_LT(test::holesOf(points, [&](std::size_t) { return test::visibleShare * radius; }),
-      0.002);
+    EXPECT_LT(
+      test::holesOf(points, [&](std::size_t) { return test::visibleShare * radius; }), 0.002);
     EXPECT_LT(radius, 1.45 * h); // 1 : 4 needs 1.29
   }
 }
@@ -113,8 +113,8 @@ class SplatStore : public test::StoreBuildTest
 protected:
   std::unique_ptr<test::CloudSource> cloudOf(const Points& points)
   {
-    auto cloud = std::make_unique<test::CloudSource>("plane",
-      AttributeSchema(), QuantisationGrid{ glm::dvec3(step), glm::dvec3(0.0) });
+    auto cloud = std::make_unique<test::CloudSource>(
+      "plane", AttributeSchema(), QuantisationGrid{ glm::dvec3(step), glm::dvec3(0.0) });
     for (const glm::dvec3& p : points)
     {
       cloud->addPosition(p * extent + origin_);
@@ -163,13 +163,13 @@ double holesAround(const PointStore& store, NodeIndex index, const Points& drawn
   int count = 0;
   for (const glm::dvec3& p : pointsOf(store, index))
   {
-    const glm::dvec3 at = p +
-      glm::dvec3(places.uniform() - 0.5, places.uniform() - 0.5, 0.0) * (2.0 * node.spacing);
+    const glm::dvec3 at =
+      p + glm::dvec3(places.uniform() - 0.5, places.uniform() - 0.5, 0.0) * (2.0 * node.spacing);
     const double inside = 0.05 * extent;
     if (++count % 4 == 0 && std::min(at.x, at.y) > inside && std::max(at.x, at.y) < extent - inside)
     {
-      holes += std::any_of(drawn.begin(), drawn.end(), [&](const glm::dvec3& q)
-                 { return std::hypot(q.x - at.x, q.y - at.y) <= radius; })
+      holes += std::any_of(drawn.begin(), drawn.end(),
+                 [&](const glm::dvec3& q) { return std::hypot(q.x - at.x, q.y - at.y) <= radius; })
         ? 0
         : 1;
     }
@@ -184,9 +184,8 @@ TEST_F(SplatStore, EveryNodeSaysWhatClosesIt)
   options_.nodePoints = 1000;
   SplatPatterns patterns(8);
   const Points plane = patterns.scanLines(20000, 2.0);
-  for (const auto& [structure, refinement] :
-    { std::pair(Structure::Octree, Refinement::Add), { Structure::Octree, Refinement::Replace },
-      { Structure::KdTree, Refinement::Add } })
+  for (const auto& [structure, refinement] : { std::pair(Structure::Octree, Refinement::Add),
+         { Structure::Octree, Refinement::Replace }, { Structure::KdTree, Refinement::Add } })
   {
     options_.structure = structure;
     options_.refinement = refinement;
@@ -203,8 +202,7 @@ TEST_F(SplatStore, EveryNodeSaysWhatClosesIt)
         {
           EXPECT_LT(holesAround(*store, i, drawn), 0.02)
             << "node " << i << ", level " << level << " of " << store->description().structure
-            << ", leaf " << node.leaf() << ", radius / spacing "
-            << node.splatRadius / node.spacing;
+            << ", leaf " << node.leaf() << ", radius / spacing " << node.splatRadius / node.spacing;
           EXPECT_EQ(store->read(i, {})->splatRadius, node.splatRadius);
         }
       }

@@ -36,8 +36,8 @@ std::vector<std::byte> contentOf(const std::string& path)
   std::ifstream in(path, std::ios::binary);
   const std::vector<char> chars{ std::istreambuf_iterator<char>(in), {} };
   std::vector<std::byte> bytes(chars.size());
-  std::transform(chars.begin(), chars.end(), bytes.begin(),
-    [](char c) { return static_cast<std::byte>(c); });
+  std::transform(
+    chars.begin(), chars.end(), bytes.begin(), [](char c) { return static_cast<std::byte>(c); });
   return bytes;
 }
 

@@ -113,8 +113,8 @@ TEST(NodePage, RowsComeBack)
   {
     EXPECT_TRUE(sameRow(read[r], rows[r])) << r;
   }
-  EXPECT_NE(decodeNodePage(bytes.data(), 2, limits, read).find("number 1 instead of 2"),
-    std::string::npos);
+  EXPECT_NE(
+    decodeNodePage(bytes.data(), 2, limits, read).find("number 1 instead of 2"), std::string::npos);
   for (std::size_t at = 0; at < bytes.size(); at += 37)
   {
     bytes[at] ^= std::byte(4);
@@ -277,8 +277,8 @@ TEST(PagedNodeTable, TheFrontDrawsTheParentOfALostPage)
   {
     auto source = std::make_unique<TrickyPages>(6);
     source->damaged = 1; // nodes 56 to 111, of level 3: children of 13 (one of them) to 27
-    const auto table = std::make_shared<PagedNodeTable>(
-      std::move(source), std::vector<NodeIndex>{ 0 }, refinement);
+    const auto table =
+      std::make_shared<PagedNodeTable>(std::move(source), std::vector<NodeIndex>{ 0 }, refinement);
     RenderFront front(table);
     test::ScriptedResidency residency;
     residency.otherwise = ResidencyView::State::Resident;

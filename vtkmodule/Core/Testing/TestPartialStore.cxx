@@ -23,9 +23,8 @@ std::unique_ptr<test::CloudSource> classified()
 {
   const auto plain = test::hills(cloudPoints, 1e6);
   AttributeSchema schema = test::idSchema();
-  schema.add({"classification", ScalarType::UInt8, 1});
-  auto cloud =
-    std::make_unique<test::CloudSource>("cloud", schema, test::millimetres(), 1000);
+  schema.add({ "classification", ScalarType::UInt8, 1 });
+  auto cloud = std::make_unique<test::CloudSource>("cloud", schema, test::millimetres(), 1000);
   for (std::size_t i = 0; i < cloudPoints; ++i)
   {
     const glm::dvec3& p = plain->positions()[i];
@@ -54,7 +53,7 @@ Contents contentsOf(const PointStore& store)
     {
       continue;
     }
-    const auto points = store.read(node, {0});
+    const auto points = store.read(node, { 0 });
     EXPECT_TRUE(points) << points.error().what;
     for (std::size_t i = 0; i < points->size(); ++i, ++contents.points)
     {
@@ -77,18 +76,19 @@ class EveryMoment final : public BuildWatch
 {
 public:
   EveryMoment(std::string path, PointSources sample)
-      : path_(std::move(path)), sample_(std::move(sample))
+    : path_(std::move(path))
+    , sample_(std::move(sample))
   {
   }
   PointSources sample() override { return std::move(sample_); }
   bool due(std::size_t) override { return true; }
   void show(PartialStore& partial) override
   {
-    const Result<void> done = partial.write(path_, {"test", 7, "a moment", {}});
+    const Result<void> done = partial.write(path_, { "test", 7, "a moment", {} });
     ASSERT_TRUE(done) << done.error().what;
     auto store = PointStore::open(path_);
     ASSERT_TRUE(store) << store.error().what;
-    versions.push_back({partial.pointsFinished(), *store});
+    versions.push_back({ partial.pointsFinished(), *store });
     fs::remove(path_); // whoever has it open keeps it
   }
   std::vector<Version> versions;
@@ -226,13 +226,16 @@ TEST_P(PartialStores, StayReadableWhenTheBuildIsCancelledAndDoNotOpenAgain)
   class Copy final : public BuildWatch
   {
   public:
-    explicit Copy(fs::path folder) : folder_(std::move(folder)) {}
+    explicit Copy(fs::path folder)
+      : folder_(std::move(folder))
+    {
+    }
     PointSources sample() override { return test::one(classified()); }
     bool due(std::size_t) override { return !open; }
     void show(PartialStore& partial) override
     {
       const std::string path = (folder_ / "kept.pfront").string();
-      ASSERT_TRUE(partial.write(path, {"test", 7, "", {}}));
+      ASSERT_TRUE(partial.write(path, { "test", 7, "", {} }));
       auto store = PointStore::open(path);
       ASSERT_TRUE(store) << store.error().what;
       open = *store;
@@ -262,11 +265,11 @@ TEST_P(PartialStores, StayReadableWhenTheBuildIsCancelledAndDoNotOpenAgain)
 }
 
 INSTANTIATE_TEST_SUITE_P(Trees, PartialStores,
-  testing::Values(Case{"add", Structure::Octree, Refinement::Add, Layering::None},
-    Case{"replace", Structure::Octree, Refinement::Replace, Layering::None},
-    Case{"addByClass", Structure::Octree, Refinement::Add, Layering::ObjectClass},
-    Case{"kdtree", Structure::KdTree, Refinement::Add, Layering::None},
-    Case{"kdtreeByClass", Structure::KdTree, Refinement::Add, Layering::ObjectClass}),
+  testing::Values(Case{ "add", Structure::Octree, Refinement::Add, Layering::None },
+    Case{ "replace", Structure::Octree, Refinement::Replace, Layering::None },
+    Case{ "addByClass", Structure::Octree, Refinement::Add, Layering::ObjectClass },
+    Case{ "kdtree", Structure::KdTree, Refinement::Add, Layering::None },
+    Case{ "kdtreeByClass", Structure::KdTree, Refinement::Add, Layering::ObjectClass }),
   [](const auto& test) { return std::string(test.param.name); });
 
 } // namespace

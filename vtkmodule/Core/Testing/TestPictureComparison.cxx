@@ -79,8 +79,8 @@ TEST(PictureComparison, ADifferenceOfOneLevelHasAKnownRatio)
   ASSERT_TRUE(compared);
   EXPECT_NEAR(compared->psnrDecibels, 20.0 * std::log10(255.0), 1e-12);
   const double c = 2.55 * 2.55; // no variance: SSIM is that of the means
-  EXPECT_NEAR(compared->ssim,
-    (2.0 * 100.0 * 101.0 + c) / (100.0 * 100.0 + 101.0 * 101.0 + c), 1e-12);
+  EXPECT_NEAR(
+    compared->ssim, (2.0 * 100.0 * 101.0 + c) / (100.0 * 100.0 + 101.0 * 101.0 + c), 1e-12);
   EXPECT_EQ(compared->shareOver8, 0.0);
 }
 

@@ -18,15 +18,15 @@ StoreDescription description()
   const auto add = [&](Attribute attribute, double low, double high)
   {
     ColumnRange range;
-    range.components.assign(attribute.components, {low, high});
+    range.components.assign(attribute.components, { low, high });
     result.ranges.push_back(range);
     result.schema.add(std::move(attribute));
   };
-  add({"rgb", ScalarType::UInt16, 3}, 0.0, 65535.0);
-  add({"classification", ScalarType::UInt8, 1}, 2.0, 9.0);
-  add({"gps_time", ScalarType::Float64, 1}, 3e8, 3e8 + 10.0);
-  add({"normal", ScalarType::Float32, 3}, -1.0, 1.0);
-  add({"scaled", ScalarType::Int16, 1, 0.1, 5.0}, -10.0, 10.0);
+  add({ "rgb", ScalarType::UInt16, 3 }, 0.0, 65535.0);
+  add({ "classification", ScalarType::UInt8, 1 }, 2.0, 9.0);
+  add({ "gps_time", ScalarType::Float64, 1 }, 3e8, 3e8 + 10.0);
+  add({ "normal", ScalarType::Float32, 3 }, -1.0, 1.0);
+  add({ "scaled", ScalarType::Int16, 1, 0.1, 5.0 }, -10.0, 10.0);
   return result;
 }
 
@@ -35,7 +35,7 @@ NodeColumns nodeOf(std::uint32_t column, std::vector<T> values, std::size_t poin
 {
   NodeColumns node;
   node.positions.resize(points);
-  node.selection = {column};
+  node.selection = { column };
   node.columns.emplace_back(values.size() * sizeof(T));
   std::memcpy(node.columns[0].data(), values.data(), node.columns[0].size());
   return node;
@@ -75,9 +75,9 @@ TEST(PointColouring, NeedsOnlyItsColumn)
   ColourRequest request;
   request.name = "gps_time";
   const auto time = *PointColouring::choose(description(), request);
-  EXPECT_EQ(time.columns(), ColumnSelection{2});
-  EXPECT_TRUE(time.coveredBy(nodeOf<double>(2, {1.0}, 1)));
-  EXPECT_FALSE(time.coveredBy(nodeOf<double>(1, {1.0}, 1)));
+  EXPECT_EQ(time.columns(), ColumnSelection{ 2 });
+  EXPECT_TRUE(time.coveredBy(nodeOf<double>(2, { 1.0 }, 1)));
+  EXPECT_FALSE(time.coveredBy(nodeOf<double>(1, { 1.0 }, 1)));
   request.name = "elevation";
   EXPECT_TRUE(PointColouring::choose(description(), request)->columns().empty());
 }
@@ -90,7 +90,7 @@ TEST(PointColouring, LargeValuesAreKeptRelativeToTheLowest)
   const auto time = *PointColouring::choose(store, request);
   EXPECT_EQ(time.base, 3e8);
   std::vector<std::uint32_t> values;
-  time.encode(nodeOf<double>(2, {3e8, 3e8 + 0.25, 3e8 + 9.5}, 3), store.schema, 1, 2, values);
+  time.encode(nodeOf<double>(2, { 3e8, 3e8 + 0.25, 3e8 + 9.5 }, 3), store.schema, 1, 2, values);
   ASSERT_EQ(values.size(), 2u);
   EXPECT_EQ(number(values[0]), 0.25f);
   EXPECT_EQ(number(values[1]), 9.5f);
@@ -104,7 +104,7 @@ TEST(PointColouring, ScaleAndOffsetAreApplied)
   const auto scaled = *PointColouring::choose(store, request);
   EXPECT_DOUBLE_EQ(scaled.base, 4.0);
   std::vector<std::uint32_t> values;
-  scaled.encode(nodeOf<std::int16_t>(4, {-10, 10}, 2), store.schema, 0, 2, values);
+  scaled.encode(nodeOf<std::int16_t>(4, { -10, 10 }, 2), store.schema, 0, 2, values);
   EXPECT_FLOAT_EQ(number(values[0]), 0.0f);
   EXPECT_FLOAT_EQ(number(values[1]), 2.0f);
 }
@@ -123,9 +123,9 @@ TEST(PointColouring, SixteenBitColoursAreReducedOnlyWhenTheyAreWide)
     std::memcpy(result.data(), values.data(), 4);
     return result;
   };
-  EXPECT_EQ(bytes({0xffff, 0x8000, 0x00ff}), (std::array<std::uint8_t, 4>{255, 128, 0, 255}));
-  store.ranges[0].components.assign(3, {0.0, 255.0});
-  EXPECT_EQ(bytes({255, 128, 7}), (std::array<std::uint8_t, 4>{255, 128, 7, 255}));
+  EXPECT_EQ(bytes({ 0xffff, 0x8000, 0x00ff }), (std::array<std::uint8_t, 4>{ 255, 128, 0, 255 }));
+  store.ranges[0].components.assign(3, { 0.0, 255.0 });
+  EXPECT_EQ(bytes({ 255, 128, 7 }), (std::array<std::uint8_t, 4>{ 255, 128, 7, 255 }));
 }
 
 TEST(PointColouring, MagnitudeAndComponents)
@@ -133,7 +133,7 @@ TEST(PointColouring, MagnitudeAndComponents)
   const StoreDescription store = description();
   ColourRequest request;
   request.name = "normal";
-  const NodeColumns node = nodeOf<float>(3, {3.0f, 0.0f, 4.0f}, 1);
+  const NodeColumns node = nodeOf<float>(3, { 3.0f, 0.0f, 4.0f }, 1);
   std::vector<std::uint32_t> values;
   PointColouring::choose(store, request)->encode(node, store.schema, 0, 1, values);
   request.component = 2;
@@ -148,20 +148,20 @@ TEST(PointColouring, AVectorOverARangeIsAColour)
   StoreDescription store = description();
   store.schema = {};
   store.ranges.resize(1);
-  store.ranges[0].components.assign(3, {-100.0, 100.0});
-  store.schema.add({"normal", ScalarType::Int16, 3, 0.01});
+  store.ranges[0].components.assign(3, { -100.0, 100.0 });
+  store.schema.add({ "normal", ScalarType::Int16, 3, 0.01 });
   ColourRequest request;
   request.name = "normal";
   request.mode = Mode::Direct;
-  request.colourRange = {-1.0, 1.0};
+  request.colourRange = { -1.0, 1.0 };
   const auto colouring = *PointColouring::choose(store, request);
   EXPECT_EQ(colouring.kind, Kind::Direct);
   std::vector<std::uint32_t> values;
-  colouring.encode(nodeOf<std::int16_t>(0, {-100, 0, 100}, 1), store.schema, 0, 1, values);
+  colouring.encode(nodeOf<std::int16_t>(0, { -100, 0, 100 }, 1), store.schema, 0, 1, values);
   std::array<std::uint8_t, 4> rgba;
   std::memcpy(rgba.data(), values.data(), 4);
-  EXPECT_EQ(rgba, (std::array<std::uint8_t, 4>{0, 127, 255, 255}));
-  request.colourRange = {0.0, 1.0};
+  EXPECT_EQ(rgba, (std::array<std::uint8_t, 4>{ 0, 127, 255, 255 }));
+  request.colourRange = { 0.0, 1.0 };
   EXPECT_NE(colouring, *PointColouring::choose(store, request)); // values are uploaded again
 }
 
@@ -171,15 +171,15 @@ TEST(PointColouring, HorizontalityIsOfTheNormal)
   ColourRequest request;
   request.name = "horizontality";
   const auto horizontality = *PointColouring::choose(store, request);
-  EXPECT_EQ(horizontality.columns(), ColumnSelection{3});
+  EXPECT_EQ(horizontality.columns(), ColumnSelection{ 3 });
   std::vector<std::uint32_t> values;
   horizontality.encode(
-    nodeOf<float>(3, {0.6f, 0.0f, -0.8f, 1.0f, 0.0f, 0.0f}, 2), store.schema, 0, 2, values);
+    nodeOf<float>(3, { 0.6f, 0.0f, -0.8f, 1.0f, 0.0f, 0.0f }, 2), store.schema, 0, 2, values);
   EXPECT_FLOAT_EQ(number(values[0]), 0.8f); // a ceiling is as flat as a roof
   EXPECT_FLOAT_EQ(number(values[1]), 0.0f);
-  store.schema.add({"horizontality", ScalarType::Float32, 1});
-  store.ranges.push_back({{{0.0, 1.0}}});
-  EXPECT_EQ(PointColouring::choose(store, request)->columns(), ColumnSelection{5}); // its own
+  store.schema.add({ "horizontality", ScalarType::Float32, 1 });
+  store.ranges.push_back({ { { 0.0, 1.0 } } });
+  EXPECT_EQ(PointColouring::choose(store, request)->columns(), ColumnSelection{ 5 }); // its own
   EXPECT_FALSE(PointColouring::choose(StoreDescription(), request));
 }
 
@@ -190,8 +190,8 @@ public:
   TwoClasses()
   {
     description_.layers.resize(2);
-    description_.grid.scale = {0.1, 0.1, 0.5};
-    description_.grid.offset = {0.0, 0.0, -1.0};
+    description_.grid.scale = { 0.1, 0.1, 0.5 };
+    description_.grid.offset = { 0.0, 0.0, -1.0 };
     std::vector<Node> nodes(2);
     nodes[0].centre.z = 5.0;
     nodes[0].halfSize.z = 5.0f;
@@ -199,8 +199,8 @@ public:
     nodes[1].centre.z = 4.0;
     nodes[1].pointsBelow = 1;
     nodes[1].layer = 1;
-    hierarchy_ = std::make_shared<HierarchyTable>(
-      nodes, std::vector<NodeIndex>{0, 1}, Refinement::Add);
+    hierarchy_ =
+      std::make_shared<HierarchyTable>(nodes, std::vector<NodeIndex>{ 0, 1 }, Refinement::Add);
   }
   const StoreDescription& description() const override { return description_; }
   const std::shared_ptr<const Hierarchy>& hierarchy() const override { return hierarchy_; }
@@ -230,7 +230,7 @@ TEST(PointColouring, GlobalHeightIsAmongThePointsOfAClass)
   NodeColumns node;
   node.node = 0;
   node.origin.z = 4; // z = 1
-  node.positions = {{9, 9, 0}, {9, 9, 8}, {9, 9, 18}, {9, 9, 40}};
+  node.positions = { { 9, 9, 0 }, { 9, 9, 8 }, { 9, 9, 18 }, { 9, 9, 40 } };
   EXPECT_TRUE(colouring.coveredBy(node));
   std::vector<std::uint32_t> values;
   colouring.encode(node, store->description().schema, 0, 2, values);
@@ -244,7 +244,7 @@ TEST(PointColouring, GlobalHeightIsAmongThePointsOfAClass)
   colouring.encode(node, store->description().schema, 0, 1, values);
   EXPECT_FLOAT_EQ(number(values[4]), 0.5f);
   StoreDescription own;
-  own.schema.add({"global_height", ScalarType::Float32, 1});
+  own.schema.add({ "global_height", ScalarType::Float32, 1 });
   EXPECT_FALSE(PointColouring::wantsHeights(own, request));
   EXPECT_FALSE(PointColouring::choose(store->description(), request)); // no heights were given
 }

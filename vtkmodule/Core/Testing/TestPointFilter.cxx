@@ -85,8 +85,8 @@ TEST(PointFilter, EveryTypeIsJudgedAsItsWorldValueIs)
   constexpr std::uint32_t count = 400;
   constexpr unsigned seed = 7;
   std::mt19937_64 random(seed);
-  const std::array<std::array<double, 2>, 4> scales{
-    { { 1.0, 0.0 }, { 0.1, 0.0 }, { -0.5, 12.0 }, { 0.0, 7.0 } } };
+  const std::array<std::array<double, 2>, 4> scales{ { { 1.0, 0.0 }, { 0.1, 0.0 }, { -0.5, 12.0 },
+    { 0.0, 7.0 } } };
   for (const ScalarType type : allTypes)
   {
     for (const std::uint8_t components : { std::uint8_t(1), std::uint8_t(3) })

@@ -150,13 +150,13 @@ TEST_F(PointQueries, ReadAboutTheShareOfTheBytesThatTheyAskFor)
   options_.nodePoints = 100;
   const auto store = build(hills(300000, 1e6));
   const CountedReads all(*store);
-  ASSERT_TRUE(QueryPlan::make(*store, {})->run(all, {}, [](QueryBatch&) -> Result<void>
-    { return {}; }));
+  ASSERT_TRUE(
+    QueryPlan::make(*store, {})->run(all, {}, [](QueryBatch&) -> Result<void> { return {}; }));
   PointQuery query;
   query.regions = { middleOf(store->description().bounds, 0.01) };
   const CountedReads some(*store);
-  const auto report = QueryPlan::make(*store, query)->run(
-    some, {}, [](QueryBatch&) -> Result<void> { return {}; });
+  const auto report =
+    QueryPlan::make(*store, query)->run(some, {}, [](QueryBatch&) -> Result<void> { return {}; });
   ASSERT_TRUE(report);
   EXPECT_NEAR(double(report->pointsChosen), 3000.0, 300.0);
   EXPECT_EQ(report->bytesRead, some.bytes);
@@ -195,7 +195,8 @@ TEST_F(PointQueries, ReadOnlyTheColumnsThatAreAskedFor)
   ASSERT_TRUE(positions);
   EXPECT_TRUE(answer.columns.empty());
   query.attributes = { "INTENSITY" };
-  const auto one = queryPoints(*store, query, {}, [](QueryBatch& batch) -> Result<void>
+  const auto one = queryPoints(*store, query, {},
+    [](QueryBatch& batch) -> Result<void>
     {
       EXPECT_EQ(batch.points.columns.size(), 1u);
       EXPECT_EQ(batch.points.columns[0].size(), 2 * batch.size());
@@ -240,8 +241,7 @@ TEST_F(PointQueries, KeepToTheirMemory)
   }
   QueryOptions options;
   options.memoryBytes = plan.leastMemoryBytes(*store) - 1;
-  const auto report =
-    plan.run(*store, options, [](QueryBatch&) -> Result<void> { return {}; });
+  const auto report = plan.run(*store, options, [](QueryBatch&) -> Result<void> { return {}; });
   ASSERT_FALSE(report);
   EXPECT_EQ(report.error().kind, Error::Kind::NoMemory);
 }
@@ -290,10 +290,10 @@ TEST_F(PointQueries, OfRegionsWithoutPointsGiveNone)
 {
   const auto store = build(hills(1000, 1e5));
   const Bounds bounds = store->description().bounds;
-  const std::vector<std::shared_ptr<const Region>> regions{ boxOf(bounds.high + 1.0,
-                                                              bounds.high + 2.0),
-    boxOf(bounds.high, bounds.low), PolygonPrism::make({}).value(),
-    SphereRegion::make(bounds.low - 10.0, 1.0).value() };
+  const std::vector<std::shared_ptr<const Region>> regions{
+    boxOf(bounds.high + 1.0, bounds.high + 2.0), boxOf(bounds.high, bounds.low),
+    PolygonPrism::make({}).value(), SphereRegion::make(bounds.low - 10.0, 1.0).value()
+  };
   for (const std::shared_ptr<const Region>& region : regions)
   {
     PointQuery query;
@@ -354,7 +354,8 @@ TEST_F(PointQueries, ErrorsAndCancellationEndThem)
   EXPECT_EQ(failed.error().kind, Error::Kind::Corrupt);
   EXPECT_EQ(before.nodes.size(), 40u);
   int calls = 0;
-  const auto full = plan.run(*store, {}, [&calls](QueryBatch&) -> Result<void>
+  const auto full = plan.run(*store, {},
+    [&calls](QueryBatch&) -> Result<void>
     {
       return ++calls == 3 ? Result<void>(makeError(Error::Kind::Unwritable, "full"))
                           : Result<void>();
@@ -364,7 +365,8 @@ TEST_F(PointQueries, ErrorsAndCancellationEndThem)
   EXPECT_EQ(calls, 3);
   QueryOptions options;
   options.progress = [](const Progress&) { return false; };
-  const auto cancelled = plan.run(*store, options, [](QueryBatch&) -> Result<void>
+  const auto cancelled = plan.run(*store, options,
+    [](QueryBatch&) -> Result<void>
     {
       std::this_thread::sleep_for(std::chrono::milliseconds(110)); // the next report is due
       return {};
@@ -393,8 +395,8 @@ TEST_F(PointQueries, PointsByTheirIds)
   }
   const auto refused = [&store](const std::vector<std::uint64_t>& wrong)
   {
-    const auto answer = pointsById(
-      *store, wrong, std::nullopt, {}, [](QueryBatch&) -> Result<void> { return {}; });
+    const auto answer =
+      pointsById(*store, wrong, std::nullopt, {}, [](QueryBatch&) -> Result<void> { return {}; });
     return !answer && answer.error().kind == Error::Kind::BadArgument;
   };
   EXPECT_TRUE(refused({ 5, 4 }));

@@ -16,7 +16,10 @@ PointSources lineOf(std::size_t points, std::uint64_t chunk)
 {
   return one(test::cloudOf(
     points, test::millimetres(),
-    [](std::size_t i) -> GridPosition { return {static_cast<std::int64_t>(i), 0, 0}; }, chunk));
+    [](std::size_t i) -> GridPosition {
+      return { static_cast<std::int64_t>(i), 0, 0 };
+    },
+    chunk));
 }
 
 void keepAll(PointSample& sample, const PointSources& sources, double share)
@@ -55,7 +58,7 @@ TEST(PointSample, KeepsAShareInRandomSteps)
   PointSample sample;
   keepAll(sample, sources, 0.01);
   EXPECT_NEAR(static_cast<double>(sample.points()), 1000.0, 60.0);
-  const PointSources kept = sample.snapshot(sources, {"owner", 7, "", {}});
+  const PointSources kept = sample.snapshot(sources, { "owner", 7, "", {} });
   ASSERT_EQ(kept.size(), 1u);
   EXPECT_EQ(kept[0]->description().pointCount, sample.points());
   ASSERT_FALSE(kept[0]->description().metadata.empty());

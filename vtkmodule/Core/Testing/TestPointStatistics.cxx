@@ -231,8 +231,8 @@ TEST(PointStatistics, SameForAnyNumberOfThreadsAndClassesAddUp)
   }
   for (std::size_t b = 0; b < 32; ++b)
   {
-    EXPECT_EQ(one.classes.at(2).components[4].histogram[b] +
-        one.classes.at(255).components[4].histogram[b],
+    EXPECT_EQ(
+      one.classes.at(2).components[4].histogram[b] + one.classes.at(255).components[4].histogram[b],
       one.all.components[4].histogram[b]);
   }
 }

@@ -73,7 +73,8 @@ std::vector<std::uint32_t> backwards(std::uint32_t count)
 
 TEST(ReadAhead, GivesEachPartWhatIsItsOwn)
 {
-  for (const ReadAheadPlan plan : {ReadAheadPlan{0, 1}, {1, 1}, {3, 1}, {4, 3}, {1000, 2}})
+  for (const ReadAheadPlan plan :
+    { ReadAheadPlan{ 0, 1 }, { 1, 1 }, { 3, 1 }, { 4, 3 }, { 1000, 2 } })
   {
     Disk disk;
     const std::vector<std::uint32_t> order = backwards(100);
@@ -93,7 +94,7 @@ TEST(ReadAhead, BeginsInOrderAndNotFurtherThanAllowed)
 {
   Disk disk;
   const std::vector<std::uint32_t> order = backwards(20);
-  ReadAhead parts(order, disk.loader(), {4, 1});
+  ReadAhead parts(order, disk.loader(), { 4, 1 });
   ASSERT_TRUE(disk.awaitBegun(4)); // before any was asked for
   std::this_thread::sleep_for(30ms);
   EXPECT_EQ(disk.begun(), std::vector<std::uint32_t>(order.begin(), order.begin() + 4));
@@ -106,22 +107,22 @@ TEST(ReadAhead, BeginsInOrderAndNotFurtherThanAllowed)
 TEST(ReadAhead, NothingIsReadBeforeItIsTakenWithoutMemoryForIt)
 {
   Disk disk;
-  ReadAhead parts(backwards(5), disk.loader(), {0, 2});
+  ReadAhead parts(backwards(5), disk.loader(), { 0, 2 });
   std::this_thread::sleep_for(30ms);
   EXPECT_TRUE(disk.begun().empty());
   EXPECT_TRUE(parts.take(4));
-  EXPECT_EQ(disk.begun(), std::vector<std::uint32_t>{4});
+  EXPECT_EQ(disk.begun(), std::vector<std::uint32_t>{ 4 });
 }
 
 TEST(ReadAhead, AnErrorIsThatOfItsPart)
 {
-  for (const std::size_t ahead : {0u, 3u})
+  for (const std::size_t ahead : { 0u, 3u })
   {
     Disk disk;
     disk.broken_ = 2;
     disk.tooLarge_ = 1;
     const std::vector<std::uint32_t> order = backwards(5);
-    ReadAhead parts(order, disk.loader(), {ahead, 2});
+    ReadAhead parts(order, disk.loader(), { ahead, 2 });
     EXPECT_TRUE(parts.take(4));
     EXPECT_TRUE(parts.take(3));
     const auto broken = parts.take(2);
@@ -139,7 +140,7 @@ TEST(ReadAhead, EndsWithWhatItHasBegun)
 {
   Disk disk;
   {
-    ReadAhead parts(backwards(1000), disk.loader(), {8, 2});
+    ReadAhead parts(backwards(1000), disk.loader(), { 8, 2 });
     ASSERT_TRUE(parts.take(999));
   }
   const std::size_t begun = disk.begun().size();
@@ -152,9 +153,9 @@ TEST(ReadAhead, ManyTakeWhileManyRead)
 {
   Disk disk;
   const std::vector<std::uint32_t> order = backwards(2000);
-  ReadAhead parts(order, disk.loader(), {3, 3});
-  std::atomic<std::size_t> next{0};
-  std::atomic<int> wrong{0};
+  ReadAhead parts(order, disk.loader(), { 3, 3 });
+  std::atomic<std::size_t> next{ 0 };
+  std::atomic<int> wrong{ 0 };
   const auto work = [&]
   {
     for (std::size_t i = next++; i < order.size(); i = next++)

@@ -17,20 +17,19 @@ namespace fs = std::filesystem;
 AttributeSchema schemaOf()
 {
   AttributeSchema schema;
-  schema.add({"intensity", ScalarType::UInt16, 1});
-  schema.add({"user_data", ScalarType::UInt8, 1});
-  schema.add({"rgb", ScalarType::UInt16, 3});
+  schema.add({ "intensity", ScalarType::UInt16, 1 });
+  schema.add({ "user_data", ScalarType::UInt8, 1 });
+  schema.add({ "rgb", ScalarType::UInt16, 3 });
   return schema;
 }
 
 /// Constant user_data 9 and colours below 256, but for the point `odd`.
 std::unique_ptr<test::CloudSource> cloud(std::size_t count, std::size_t odd)
 {
-  auto source =
-    std::make_unique<test::CloudSource>("cloud", schemaOf(), test::millimetres(), 100);
+  auto source = std::make_unique<test::CloudSource>("cloud", schemaOf(), test::millimetres(), 100);
   for (std::size_t i = 0; i < count; ++i)
   {
-    source->addPosition({0.01 * double(i % 97), 0.01 * double(i / 97), 0.0});
+    source->addPosition({ 0.01 * double(i % 97), 0.01 * double(i / 97), 0.0 });
     source->addValue(0, static_cast<std::uint16_t>(i));
     source->addValue(1, static_cast<std::uint8_t>(i == odd ? 10 : 9));
     for (int k = 0; k < 3; ++k)
@@ -43,7 +42,7 @@ std::unique_ptr<test::CloudSource> cloud(std::size_t count, std::size_t odd)
 
 ColumnGuess anything()
 {
-  return {{true, true, false}, true};
+  return { { true, true, false }, true };
 }
 
 class RecordColumnsOf : public testing::Test
@@ -64,12 +63,12 @@ protected:
     EXPECT_TRUE(report) << report.error().what;
     const auto store = PointStore::open(options.outputPath);
     EXPECT_TRUE(store) << store.error().what;
-    EXPECT_EQ((*store)->description().schema[2].type,
-      odd < 5000 ? ScalarType::UInt16 : ScalarType::UInt8);
+    EXPECT_EQ(
+      (*store)->description().schema[2].type, odd < 5000 ? ScalarType::UInt16 : ScalarType::UInt8);
     sum = 0;
     for (NodeIndex node = 0; node < (*store)->hierarchy()->nodeCount(); ++node)
     {
-      const auto columns = (*store)->read(node, {1});
+      const auto columns = (*store)->read(node, { 1 });
       EXPECT_TRUE(columns);
       for (const std::byte value : columns->columns[0])
       {
@@ -77,7 +76,7 @@ protected:
       }
     }
     std::ifstream file(options.outputPath, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
+    return { std::istreambuf_iterator<char>(file), {} };
   }
 
   fs::path folder_;
@@ -92,11 +91,11 @@ TEST(RecordColumns, LeaveOutConstantsAndTheUpperBytesOfColours)
   ASSERT_EQ(columns.schema().size(), 2u);
   EXPECT_EQ(columns.schema()[0].name, "intensity");
   EXPECT_EQ(columns.schema()[1].type, ScalarType::UInt8);
-  EXPECT_EQ(columns.constant(1), ConstantValue{std::byte(9)});
+  EXPECT_EQ(columns.constant(1), ConstantValue{ std::byte(9) });
   EXPECT_FALSE(columns.place(1).has_value());
   EXPECT_EQ(columns.place(2), 1u);
   EXPECT_EQ(columns.narrowed(), 2u);
-  const RecordColumns all = columns.carrying(common->schema, {false, true, true});
+  const RecordColumns all = columns.carrying(common->schema, { false, true, true });
   EXPECT_EQ(all.schema(), common->schema);
   EXPECT_FALSE(all.narrowed().has_value());
 }
@@ -106,8 +105,8 @@ TEST(RecordColumns, GuessOnlyWhatTheyMayAndFromPointsOnly)
   const auto sources = test::one(cloud(2000, SIZE_MAX));
   const auto common = commonSchema(sources, {});
   ASSERT_TRUE(common);
-  EXPECT_EQ(guessColumns(sources, *common, {{false, false, false}, false}).schema(),
-    common->schema);
+  EXPECT_EQ(
+    guessColumns(sources, *common, { { false, false, false }, false }).schema(), common->schema);
   const auto empty = test::one(cloud(0, SIZE_MAX));
   EXPECT_EQ(guessColumns(empty, *common, anything()).schema(), common->schema);
 }

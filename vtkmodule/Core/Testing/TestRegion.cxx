@@ -50,11 +50,11 @@ std::vector<std::shared_ptr<const Region>> someRegions(Random& random)
   PlanarLine ring{ place(), place(), place(), place(), place() };
   return { BoxRegion::make({ centre, centre + size }).value(),
     SphereRegion::make(centre, size).value(),
-    ConvexRegion::make({ glm::dvec4(normal, -(normal.x * centre.x + normal.y * centre.y +
-                                              normal.z * centre.z)) })
+    ConvexRegion::make(
+      { glm::dvec4(normal, -(normal.x * centre.x + normal.y * centre.y + normal.z * centre.z)) })
       .value(),
-    PolygonPrism::make({ PlanarPolygon{ { ring, { place(), place(), place() } } } },
-      { 10.0, 10.0 + size })
+    PolygonPrism::make(
+      { PlanarPolygon{ { ring, { place(), place(), place() } } } }, { 10.0, 10.0 + size })
       .value(),
     LineCorridor::make({ { place(), place(), place() } }, 0.5 * size, { 5.0, 45.0 }).value() };
 }
@@ -72,8 +72,8 @@ TEST(Orientation, IsTheSignOfTheExactDeterminant)
     const std::int64_t ax = far(), ay = far(), dx = far() >> 27, dy = far() >> 27;
     const auto wobble = static_cast<std::int64_t>(random.next() % 3) - 1;
     const std::int64_t bx = ax + dx, by = ay + dy, px = ax + 3 * dx, py = ay + 3 * dy + wobble;
-    const __int128 exact = static_cast<__int128>(bx - ax) * (py - ay) -
-      static_cast<__int128>(by - ay) * (px - ax);
+    const __int128 exact =
+      static_cast<__int128>(bx - ax) * (py - ay) - static_cast<__int128>(by - ay) * (px - ax);
     const glm::dvec2 a(ax, ay), b(bx, by), p(px, py);
     if (std::max(std::max(a.x, b.x), std::max(p.x, p.y)) > 0x1p53 || b.y > 0x1p53)
     {
@@ -198,8 +198,8 @@ TEST(PolygonPrism, HolesAreOutAndTheirEdgesAreIn)
 TEST(PolygonPrism, MayTouchAndCrossItself)
 {
   // Two squares that share a corner, as one ring; and a bow tie.
-  const auto touching = prismOf(
-    { { { 0, 0 }, { 2, 0 }, { 2, 2 }, { 4, 2 }, { 4, 4 }, { 2, 4 }, { 2, 2 }, { 0, 2 } } });
+  const auto touching =
+    prismOf({ { { 0, 0 }, { 2, 0 }, { 2, 2 }, { 4, 2 }, { 4, 4 }, { 2, 4 }, { 2, 2 }, { 0, 2 } } });
   EXPECT_TRUE(holds(*touching, 1, 1));
   EXPECT_TRUE(holds(*touching, 3, 3));
   EXPECT_TRUE(holds(*touching, 2, 2));

@@ -1,7 +1,7 @@
 #include "pointfront/Front/RenderFront.h"
 
-#include "SevenNodes.h"
 #include "pointfront/Front/ScreenError.h"
+#include "SevenNodes.h"
 
 #include <gtest/gtest.h>
 
@@ -209,8 +209,8 @@ TEST(RenderFront, DrawsNearToFarWithTiesByNode)
   RenderFront front(tree);
   ScriptedResidency residency;
   residency.otherwise = State::Resident;
-  const View view = View::perspective(
-    { 900, 300, 700 }, { 0, 0, 0 }, { 0, 0, 1 }, 0.8, 0.1, 1e4, 800, 600);
+  const View view =
+    View::perspective({ 900, 300, 700 }, { 0, 0, 0 }, { 0, 0, 1 }, 0.8, 0.1, 1e4, 800, 600);
   const FrontDelta& delta = settle(front, view, residency, settleAt(3.0));
   ASSERT_GT(delta.draw.size(), 100u);
   for (std::size_t i = 0; i < delta.draw.size(); ++i)

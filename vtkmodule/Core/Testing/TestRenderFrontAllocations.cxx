@@ -33,8 +33,8 @@ std::pair<std::uint32_t, std::size_t> allocationsOf(
   {
     before = u == 1500 ? test::allocationCount() : before;
     const double x = size * (1.0 + 0.004 * std::abs(u % 100 - 50));
-    const View view = View::perspective({ x, 0.3 * size, 0.2 * size }, { 0, 0, 0 },
-      { 0, 0, 1 }, 0.9, 1e-4 * size, 100.0 * size, 800, 600);
+    const View view = View::perspective({ x, 0.3 * size, 0.2 * size }, { 0, 0, 0 }, { 0, 0, 1 },
+      0.9, 1e-4 * size, 100.0 * size, 800, 600);
     const std::uint64_t seen = table.arrivals();
     const FrontDelta& delta = front.update(view, residency, limits);
     longest = std::max(longest, delta.frontLength);
@@ -65,8 +65,7 @@ TEST(RenderFront, AllocatesNothingOverAPagedTableOfHundredMillionNodes)
 {
   const auto table = test::terrainTable(14);
   RenderFront front(table);
-  const auto [longest, counted] =
-    allocationsOf(front, *table, test::Terrain::sizeMetres, 10000000);
+  const auto [longest, counted] = allocationsOf(front, *table, test::Terrain::sizeMetres, 10000000);
   EXPECT_EQ(counted, 0u);
   EXPECT_GT(longest, 200u);
   EXPECT_LE(table->cachedBytes(), PagedNodeTable::defaultCacheBytes);

@@ -47,8 +47,8 @@ View moved(const View& view, std::mt19937& random)
 {
   std::uniform_real_distribution<double> step(-20.0, 20.0);
   const glm::dvec3 eye = view.position + glm::dvec3(step(random), step(random), step(random));
-  const glm::dvec3 focus = view.position + 500.0 * view.direction +
-    glm::dvec3(step(random), step(random), step(random));
+  const glm::dvec3 focus =
+    view.position + 500.0 * view.direction + glm::dvec3(step(random), step(random), step(random));
   return View::perspective(eye, focus, { 0, 0, 1 }, 0.9, 0.1, 1e5, 800, 600);
 }
 

@@ -25,9 +25,8 @@ TEST(RequestQueue, NeededThenPriorityThenAgeThenNode)
 {
   RequestQueue queue;
   queue.replace({ { 7, 2.0, false } });
-  const auto change = queue.replace(
-    { { 1, 9.0, true }, { 5, 2.0, false }, { 4, 2.0, false }, { 7, 2.0, false },
-      { 3, 5.0, false } });
+  const auto change = queue.replace({ { 1, 9.0, true }, { 5, 2.0, false }, { 4, 2.0, false },
+    { 7, 2.0, false }, { 3, 5.0, false } });
   EXPECT_EQ(change.added, 4u);
   EXPECT_EQ(change.cancelled, 0u);
   EXPECT_EQ(order(queue), (Nodes{ 3, 7, 4, 5, 1 }));

@@ -26,8 +26,7 @@ public:
     result.columns.resize(columns.size(), std::vector<std::byte>(10));
     return result;
   }
-  std::size_t decodedBytes(
-    NodeIndex, std::uint32_t, const ColumnSelection& columns) const override
+  std::size_t decodedBytes(NodeIndex, std::uint32_t, const ColumnSelection& columns) const override
   {
     return sizeof(NodeColumns) + 120 + columns.size() * (10 + sizeof(std::vector<std::byte>));
   }
@@ -51,7 +50,7 @@ std::uint32_t needed(NodeIndex)
 struct Shared
 {
   std::shared_ptr<RememberingReader> reader = std::make_shared<RememberingReader>();
-  ResidencyShare share{reader, 100, ResidencyOptions{1 << 20, 1}};
+  ResidencyShare share{ reader, 100, ResidencyOptions{ 1 << 20, 1 } };
 };
 
 TEST(ResidencyShare, LoadsWhatAnyFrontWantsOnce)
@@ -60,10 +59,10 @@ TEST(ResidencyShare, LoadsWhatAnyFrontWantsOnce)
   const auto a = s.share.join();
   const auto b = s.share.join();
   EXPECT_EQ(s.share.wishes(), 2u);
-  a->request({{1, 2.0}, {2, 1.0}}, needed);
-  b->request({{2, 9.0}, {3, 0.5}}, needed);
+  a->request({ { 1, 2.0 }, { 2, 1.0 } }, needed);
+  b->request({ { 2, 9.0 }, { 3, 0.5 } }, needed);
   s.share.residency().waitUntilIdle();
-  for (const NodeIndex node : {1u, 2u, 3u})
+  for (const NodeIndex node : { 1u, 2u, 3u })
   {
     EXPECT_EQ(s.share.residency().state(node), ResidencyView::State::Resident);
   }
@@ -75,11 +74,11 @@ TEST(ResidencyShare, ReadsTheColumnsOfAllFronts)
   Shared s;
   const auto a = s.share.join();
   auto b = s.share.join();
-  a->setColumns({4});
-  b->setColumns({1, 4});
-  EXPECT_EQ(s.share.residency().columns(), (ColumnSelection{1, 4}));
+  a->setColumns({ 4 });
+  b->setColumns({ 1, 4 });
+  EXPECT_EQ(s.share.residency().columns(), (ColumnSelection{ 1, 4 }));
   b = nullptr;
-  EXPECT_EQ(s.share.residency().columns(), (ColumnSelection{4}));
+  EXPECT_EQ(s.share.residency().columns(), (ColumnSelection{ 4 }));
 }
 
 TEST(ResidencyShare, KeepsWhatAnotherFrontNeeds)
@@ -89,11 +88,11 @@ TEST(ResidencyShare, KeepsWhatAnotherFrontNeeds)
   s.share.setBudgetBytes(2 * one + one / 2); // room for two nodes
   const auto a = s.share.join();
   const auto b = s.share.join();
-  a->request({{1, 1.0}}, [](NodeIndex node) { return node == 1 ? 0u : 3u; });
-  b->request({{2, 1.0}}, [](NodeIndex node) { return node == 2 ? 0u : 3u; });
+  a->request({ { 1, 1.0 } }, [](NodeIndex node) { return node == 1 ? 0u : 3u; });
+  b->request({ { 2, 1.0 } }, [](NodeIndex node) { return node == 2 ? 0u : 3u; });
   s.share.residency().waitUntilIdle();
   // A third node: both residents are needed by one of the two, so nothing gives way.
-  a->request({{3, 1.0}}, [](NodeIndex node) { return node == 1 || node == 3 ? 0u : 3u; });
+  a->request({ { 3, 1.0 } }, [](NodeIndex node) { return node == 1 || node == 3 ? 0u : 3u; });
   s.share.residency().waitUntilIdle();
   EXPECT_EQ(s.share.residency().state(1), ResidencyView::State::Resident);
   EXPECT_EQ(s.share.residency().state(2), ResidencyView::State::Resident);

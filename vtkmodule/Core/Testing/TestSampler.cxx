@@ -42,7 +42,7 @@ std::set<Cell> cellsOf(
   for (const std::uint32_t i : points)
   {
     const TreePosition p = cloud.view().position(i);
-    cells.insert({p.x >> cellLog2, p.y >> cellLog2, p.z >> cellLog2});
+    cells.insert({ p.x >> cellLog2, p.y >> cellLog2, p.z >> cellLog2 });
   }
   return cells;
 }
@@ -51,7 +51,7 @@ TEST(Sampler, CountsOccupiedCellsOfEverySize)
 {
   const Cloud cloud = plane(3000);
   const CellOccupancy occupancy = cellOccupancy(cloud.view(), cloud.all);
-  for (const unsigned level : {0u, 5u, 9u, 12u, 16u, 32u})
+  for (const unsigned level : { 0u, 5u, 9u, 12u, 16u, 32u })
   {
     EXPECT_EQ(occupancy.distinct[level], level == 32 ? 1 : cellsOf(cloud, cloud.all, level).size());
   }
@@ -61,7 +61,7 @@ TEST(Sampler, CountsOccupiedCellsOfEverySize)
 TEST(Sampler, CountsOccupiedCellsByStepsAlone)
 {
   const Cloud cloud = plane(3000);
-  for (const std::size_t every : {1u, 2u, 7u})
+  for (const std::size_t every : { 1u, 2u, 7u })
   {
     std::vector<std::uint32_t> points;
     std::vector<std::uint8_t> steps;
@@ -70,8 +70,8 @@ TEST(Sampler, CountsOccupiedCellsByStepsAlone)
     {
       if (i > 0)
       {
-        step = std::max(step, std::uint8_t(differingBits(cloud.view().position(i),
-                                cloud.view().position(i - 1))));
+        step = std::max(step,
+          std::uint8_t(differingBits(cloud.view().position(i), cloud.view().position(i - 1))));
       }
       if (i % every == every - 1)
       {
@@ -91,14 +91,14 @@ TEST(Sampler, CountsCellsOfRunsThatFollowEachOther)
   const CellOccupancy whole = cellOccupancy(cloud.view(), cloud.all);
   CellOccupancy joined;
   std::size_t begin = 0;
-  for (const std::size_t end : {1u, 2u, 700u, 2999u, 3000u})
+  for (const std::size_t end : { 1u, 2u, 700u, 2999u, 3000u })
   {
     const auto first = cloud.all.begin() + static_cast<std::ptrdiff_t>(begin);
     const auto last = cloud.all.begin() + static_cast<std::ptrdiff_t>(end);
-    const unsigned between =
-      begin == 0 ? 0
-                 : differingBits(cloud.view().position(begin - 1), cloud.view().position(begin));
-    joined.append(cellOccupancy(cloud.view(), {first, last}), between);
+    const unsigned between = begin == 0
+      ? 0
+      : differingBits(cloud.view().position(begin - 1), cloud.view().position(begin));
+    joined.append(cellOccupancy(cloud.view(), { first, last }), between);
     begin = end;
   }
   EXPECT_EQ(joined.distinct, whole.distinct);
@@ -106,8 +106,7 @@ TEST(Sampler, CountsCellsOfRunsThatFollowEachOther)
 
 double distanceOf(const Cloud& cloud, std::uint32_t a, std::uint32_t b)
 {
-  return glm::length(
-    glm::dvec3(cloud.view().position(a)) - glm::dvec3(cloud.view().position(b)));
+  return glm::length(glm::dvec3(cloud.view().position(a)) - glm::dvec3(cloud.view().position(b)));
 }
 
 double nearest(const Cloud& cloud, std::uint32_t point, const std::vector<std::uint32_t>& points)
@@ -122,18 +121,18 @@ double nearest(const Cloud& cloud, std::uint32_t point, const std::vector<std::u
 
 TEST(Sampler, DistancesAreQuartersOfAnOctave)
 {
-  EXPECT_EQ(SamplingDistance{0}.squaredSteps(), 1.0);
-  EXPECT_EQ(SamplingDistance{8}.steps(), 4.0);
-  EXPECT_NEAR(SamplingDistance{3}.steps(), std::pow(2.0, 0.75), 1e-12);
-  EXPECT_NEAR(SamplingDistance{126}.steps(), std::pow(2.0, 31.5), 1e-3);
+  EXPECT_EQ(SamplingDistance{ 0 }.squaredSteps(), 1.0);
+  EXPECT_EQ(SamplingDistance{ 8 }.steps(), 4.0);
+  EXPECT_NEAR(SamplingDistance{ 3 }.steps(), std::pow(2.0, 0.75), 1e-12);
+  EXPECT_NEAR(SamplingDistance{ 126 }.steps(), std::pow(2.0, 31.5), 1e-3);
 }
 
 TEST(Sampler, KeepsTheDistanceAndCoversAllPoints)
 {
   const Cloud cloud = plane(20000);
-  for (const int quarters : {41, 43, 44, 46})
+  for (const int quarters : { 41, 43, 44, 46 })
   {
-    const SamplingDistance distance{quarters};
+    const SamplingDistance distance{ quarters };
     const std::vector<std::uint32_t> points = sampled(cloud, cloud.all, distance);
     ASSERT_GT(points.size(), 300u);
     for (const std::uint32_t i : cloud.all)
@@ -154,7 +153,7 @@ TEST(Sampler, KeepsTheDistanceInABlockToo)
     positions.emplace_back(random.next() % 4096, random.next() % 4096, random.next() % 4096);
   }
   const Cloud cloud(positions);
-  const SamplingDistance distance{33};
+  const SamplingDistance distance{ 33 };
   const std::vector<std::uint32_t> points = sampled(cloud, cloud.all, distance);
   for (const std::uint32_t i : cloud.all)
   {
@@ -166,24 +165,26 @@ TEST(Sampler, KeepsTheDistanceInABlockToo)
 
 TEST(Sampler, TakesOneOfEqualPoints)
 {
-  const Cloud equal({{2, 2, 2}, {2, 2, 2}, {2, 2, 2}});
-  EXPECT_EQ(sampled(equal, equal.all, {0}), (std::vector<std::uint32_t>{0})); // input order decides
-  EXPECT_TRUE(sampled(equal, {}, {8}).empty());
+  const Cloud equal({ { 2, 2, 2 }, { 2, 2, 2 }, { 2, 2, 2 } });
+  EXPECT_EQ(
+    sampled(equal, equal.all, { 0 }), (std::vector<std::uint32_t>{ 0 })); // input order decides
+  EXPECT_TRUE(sampled(equal, {}, { 8 }).empty());
 }
 
 TEST(Sampler, DoesNotWrapAroundTheEdgesOfTheTree)
 {
   const std::uint32_t top = ~0u;
-  const Cloud cloud({{15, 0, 0}, {16, 0, 0}, {top, top, top}});
-  EXPECT_EQ(sampled(cloud, cloud.all, {16}), (std::vector<std::uint32_t>{0, 2})); // 15 comes first
-  EXPECT_EQ(sampled(cloud, cloud.all, {128}).size(), 2u); // the diagonal is longer than an edge
-  EXPECT_EQ(sampled(cloud, cloud.all, {0}).size(), 3u);
+  const Cloud cloud({ { 15, 0, 0 }, { 16, 0, 0 }, { top, top, top } });
+  EXPECT_EQ(
+    sampled(cloud, cloud.all, { 16 }), (std::vector<std::uint32_t>{ 0, 2 })); // 15 comes first
+  EXPECT_EQ(sampled(cloud, cloud.all, { 128 }).size(), 2u); // the diagonal is longer than an edge
+  EXPECT_EQ(sampled(cloud, cloud.all, { 0 }).size(), 3u);
 }
 
 TEST(Sampler, SpreadsPointsAsDartsThatKeepTheirDistance)
 {
   const Cloud cloud = plane(60000);
-  const SamplingDistance distance{44};
+  const SamplingDistance distance{ 44 };
   const std::vector<std::uint32_t> points = sampled(cloud, cloud.all, distance);
   ASSERT_GT(points.size(), 600u);
   Random random(4);
@@ -209,7 +210,7 @@ TEST(Sampler, SpreadsPointsAsDartsThatKeepTheirDistance)
   // Of the same number of points: the mean distance in units of what the number allows.
   const auto spread = [&](const std::vector<std::uint32_t>& set)
   { return meanNearestDistance(cloud, set) * std::sqrt(static_cast<double>(set.size())); };
-  EXPECT_GT(spread(points), 1.5 * spread({picked.begin(), picked.end()}));
+  EXPECT_GT(spread(points), 1.5 * spread({ picked.begin(), picked.end() }));
   EXPECT_GT(spread(points), 0.97 * spread(darts));
 }
 
@@ -219,8 +220,7 @@ CellOccupancy filled(unsigned dimensions)
   CellOccupancy occupancy;
   for (unsigned level = 0; level <= 32; ++level)
   {
-    occupancy.distinct[level] =
-      level >= 20 ? 1 : std::uint64_t(1) << (dimensions * (20 - level));
+    occupancy.distinct[level] = level >= 20 ? 1 : std::uint64_t(1) << (dimensions * (20 - level));
   }
   return occupancy;
 }
@@ -263,7 +263,7 @@ TEST(BuildPrefixOrder, EveryPrefixCoversTheNode)
   const std::vector<std::uint32_t> order = prefixOrder(cloud.view(), cloud.all);
   ASSERT_TRUE(std::is_permutation(order.begin(), order.end(), cloud.all.begin()));
   Random random(5);
-  for (const std::size_t prefix : {64u, 300u, 1000u, 5000u, 16000u})
+  for (const std::size_t prefix : { 64u, 300u, 1000u, 5000u, 16000u })
   {
     // Cells of which about half would be hit by chance.
     const auto level = static_cast<unsigned>(std::lround(16.0 - 0.5 * std::log2(prefix)));
@@ -273,7 +273,7 @@ TEST(BuildPrefixOrder, EveryPrefixCoversTheNode)
       for (const std::uint32_t i : points)
       {
         const TreePosition p = cloud.view().position(i);
-        cells.insert({p.x >> level, p.y >> level});
+        cells.insert({ p.x >> level, p.y >> level });
       }
       return static_cast<double>(cells.size());
     };
@@ -299,7 +299,7 @@ TEST(BuildPrefixOrder, BatchesAreInMortonOrder)
   }
   EXPECT_LE(turns, 10u); // 4096 = 4 + 4 + 8 + ... + 2048: eleven batches
   EXPECT_EQ(prefixOrder(cloud.view(), {}).size(), 0u);
-  EXPECT_EQ(prefixOrder(cloud.view(), {7}), (std::vector<std::uint32_t>{7}));
+  EXPECT_EQ(prefixOrder(cloud.view(), { 7 }), (std::vector<std::uint32_t>{ 7 }));
 }
 
 } // namespace

@@ -38,7 +38,8 @@ Made index(const MadeUpRecords& records, const std::string& name, unsigned threa
   options.temporaryFolder = made.path.substr(0, made.path.rfind('/'));
   WorkCrew crew(threads, {});
   const GridRecords view = records.view();
-  auto table = indexInPlace(view, records.box(), grid, options, crew, [](auto, auto) {},
+  auto table = indexInPlace(
+    view, records.box(), grid, options, crew, [](auto, auto) {},
     [&](const std::vector<std::byte>& list) { return (*writer)->append(list); });
   EXPECT_TRUE(table) << table.error().what;
   SideFileContent content;
@@ -234,8 +235,8 @@ TEST(SideFile, DamageIsTold)
     return side ? std::string("opens") : std::to_string(int(side.error().kind));
   };
   const auto kind = [](Error::Kind k) { return std::to_string(int(k)); };
-  for (const std::size_t size : { std::size_t(9), std::size_t(63), std::size_t(64),
-         whole.size() / 2, whole.size() - 1 })
+  for (const std::size_t size :
+    { std::size_t(9), std::size_t(63), std::size_t(64), whole.size() / 2, whole.size() - 1 })
   {
     std::vector<std::byte> cut(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size));
     EXPECT_EQ(kindOf(cut), kind(Error::Kind::Truncated)) << size;

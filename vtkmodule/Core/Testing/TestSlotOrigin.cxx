@@ -7,9 +7,12 @@ using namespace pointfront;
 namespace
 {
 
-glm::vec3 cube(double halfSize) { return glm::vec3(static_cast<float>(halfSize)); }
+glm::vec3 cube(double halfSize)
+{
+  return glm::vec3(static_cast<float>(halfSize));
+}
 
-const QuantisationGrid far{glm::dvec3(0.001), glm::dvec3(1e7, 1e7, 1e3)};
+const QuantisationGrid far{ glm::dvec3(0.001), glm::dvec3(1e7, 1e7, 1e3) };
 
 TEST(SlotOrigin, NearTheReferenceAPointIsExactToAFractionOfAStep)
 {
@@ -64,7 +67,7 @@ TEST(SlotOrigin, NodesBeyondThirtyBitsAreShifted)
 
 TEST(SlotOrigin, TheSameAtTheOriginAndFarAway)
 {
-  const QuantisationGrid home{glm::dvec3(0.001), glm::dvec3(0.0)};
+  const QuantisationGrid home{ glm::dvec3(0.001), glm::dvec3(0.0) };
   const glm::dvec3 eye(3.0625, -2.5, 1.125);
   for (int i = 0; i < 50; ++i)
   {

@@ -23,7 +23,7 @@ TEST(SpillFile, KeepsBytesWithoutAName)
     auto file = SpillFile::create(folder.string(), 100);
     ASSERT_TRUE(file) << file.error().what;
     EXPECT_TRUE(fs::is_empty(folder));
-    const std::byte out[3] = {std::byte(1), std::byte(2), std::byte(3)};
+    const std::byte out[3] = { std::byte(1), std::byte(2), std::byte(3) };
     std::byte in[3] = {};
     ASSERT_TRUE((*file)->write(std::uint64_t(5) << 32, out, 3));
     ASSERT_TRUE((*file)->read(std::uint64_t(5) << 32, in, 3));
@@ -67,7 +67,8 @@ std::vector<std::byte> pattern(std::size_t bytes, unsigned seed)
 class SpillWays : public testing::TestWithParam<SpillFile::Way>
 {
 protected:
-  SpillWays() : folder_(test::freshFolder("spill-ways"))
+  SpillWays()
+    : folder_(test::freshFolder("spill-ways"))
   {
     auto file = SpillFile::create(folder_.string(), 1 << 20, GetParam());
     file_ = file ? std::move(*file) : nullptr;
@@ -88,8 +89,9 @@ protected:
 /// long or only a few bytes.
 TEST_P(SpillWays, KeepRangesOfAnyLengthAtAnyPlace)
 {
-  const std::size_t lengths[] = {SpillFile::leastDirectBytes, 17, 5 * DirectAccess::bufferBytes / 2,
-    DirectAccess::alignment, SpillFile::leastDirectBytes + 1, DirectAccess::bufferBytes, 3};
+  const std::size_t lengths[] = { SpillFile::leastDirectBytes, 17,
+    5 * DirectAccess::bufferBytes / 2, DirectAccess::alignment, SpillFile::leastDirectBytes + 1,
+    DirectAccess::bufferBytes, 3 };
   std::vector<std::byte> all;
   for (const std::size_t length : lengths)
   {
@@ -99,12 +101,12 @@ TEST_P(SpillWays, KeepRangesOfAnyLengthAtAnyPlace)
     EXPECT_TRUE(holds(all.size() - length, data)) << length; // the file ends behind it
   }
   EXPECT_TRUE(holds(0, all));
-  for (const std::size_t first : {1u, 4095u, 4096u, 130000u})
+  for (const std::size_t first : { 1u, 4095u, 4096u, 130000u })
   {
-    for (const std::size_t length : {std::size_t(100), 2 * DirectAccess::bufferBytes})
+    for (const std::size_t length : { std::size_t(100), 2 * DirectAccess::bufferBytes })
     {
       const auto begin = all.begin() + static_cast<std::ptrdiff_t>(first);
-      EXPECT_TRUE(holds(first, {begin, begin + static_cast<std::ptrdiff_t>(length)}))
+      EXPECT_TRUE(holds(first, { begin, begin + static_cast<std::ptrdiff_t>(length) }))
         << first << " " << length;
     }
   }
@@ -114,7 +116,7 @@ TEST_P(SpillWays, KeepRangesOfAnyLengthAtAnyPlace)
   std::copy(again.begin(), again.end(), all.begin() + 1001);
   ASSERT_TRUE(file_->write(5000, again.data(), 40));
   std::copy(again.begin(), again.begin() + 40, all.begin() + 5000);
-  EXPECT_TRUE(holds(4990, {all.begin() + 4990, all.begin() + 5100}));
+  EXPECT_TRUE(holds(4990, { all.begin() + 4990, all.begin() + 5100 }));
   EXPECT_TRUE(holds(0, all));
 }
 
@@ -161,8 +163,8 @@ TEST_P(SpillWays, AFileThatEndsIsAnErrorThatSaysWhere)
   EXPECT_FALSE(file_->read(std::uint64_t(1) << 40, more.data(), more.size()));
 }
 
-INSTANTIATE_TEST_SUITE_P(SpillFile, SpillWays,
-  testing::Values(SpillFile::Way::PastCache, SpillFile::Way::ThroughCache));
+INSTANTIATE_TEST_SUITE_P(
+  SpillFile, SpillWays, testing::Values(SpillFile::Way::PastCache, SpillFile::Way::ThroughCache));
 
 TEST(SpillFile, GoesPastTheCacheWhereFilesCan)
 {

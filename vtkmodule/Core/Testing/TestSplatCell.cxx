@@ -79,8 +79,8 @@ double farthestOfCell(const Points& points, std::size_t point, double extent)
   {
     for (int i = -steps; i <= steps; ++i)
     {
-      const glm::dvec3 place(points[point].x + i * extent / steps,
-        points[point].y + j * extent / steps, 0.0);
+      const glm::dvec3 place(
+        points[point].x + i * extent / steps, points[point].y + j * extent / steps, 0.0);
       const double own = glm::length(place - points[point]);
       const bool mine = own > farthest &&
         std::none_of(points.begin(), points.end(),
@@ -251,8 +251,8 @@ TEST(SplatCell, AStrayIsAsLargeAsWhatIsBesideIt)
 TEST(SplatCell, Extremes)
 {
   EXPECT_EQ(radiusAmong({}), 0.0);
-  EXPECT_EQ(radiusAmong({ glm::dvec3(0.0), glm::dvec3(0.0) }), 0.0);     // all at its place
-  EXPECT_NEAR(radiusAmong({ { 2.0, 0.0, 0.0 } }), margin, 1e-12);        // two points touch
+  EXPECT_EQ(radiusAmong({ glm::dvec3(0.0), glm::dvec3(0.0) }), 0.0); // all at its place
+  EXPECT_NEAR(radiusAmong({ { 2.0, 0.0, 0.0 } }), margin, 1e-12); // two points touch
   EXPECT_NEAR(radiusAmong({ { 2.0, 0.0, 0.0 }, { 2.0, 0.0, 0.0 } }), margin, 1e-12);
   for (const double size : { 1e-150, 1e-30, 1e12, 1e100 })
   {

@@ -145,8 +145,9 @@ TEST(StoreDamage, OtherFilesAreNotStores)
 {
   const std::string text = temporaryPath("text.pfront");
   const char words[] = "this is a text that is longer than a header, it goes on and on and on";
-  writeFile(text, { reinterpret_cast<const std::byte*>(words),
-    reinterpret_cast<const std::byte*>(words) + sizeof(words) });
+  writeFile(text,
+    { reinterpret_cast<const std::byte*>(words),
+      reinterpret_cast<const std::byte*>(words) + sizeof(words) });
   EXPECT_EQ(openFails(text).kind, Error::Kind::BadFormat);
   EXPECT_FALSE(PointStore::looksLikeStore(text));
   EXPECT_EQ(openFails(temporaryPath("absent.pfront")).kind, Error::Kind::NotFound);
@@ -164,8 +165,8 @@ TEST(StoreDamage, NewerVersionsAreNamed)
   forged.write(path);
   const Error newer = openFails(path);
   EXPECT_EQ(newer.kind, Error::Kind::Unsupported);
-  EXPECT_TRUE(mentions(newer, "version 4") && mentions(newer, "up to version 3") &&
-    mentions(newer, "update"))
+  EXPECT_TRUE(
+    mentions(newer, "version 4") && mentions(newer, "up to version 3") && mentions(newer, "update"))
     << newer.what;
   EXPECT_TRUE(PointStore::looksLikeStore(path));
   forged.header.version = 2;
@@ -281,9 +282,8 @@ TEST(StoreDamage, HugeClaimsOfVersion1AreRefused)
   refused("points of a node",
     [](ForgedStore& f)
     {
-      std::vector<Node> nodes =
-        decodeNodeTable(
-          f.section(SectionKind::NodeTable).data(), f.footer.nodeCount, NodeRowForm::Plain);
+      std::vector<Node> nodes = decodeNodeTable(
+        f.section(SectionKind::NodeTable).data(), f.footer.nodeCount, NodeRowForm::Plain);
       nodes[4].pointCount = 0xffffffffu;
       f.footer.pointCount += nodes[4].pointCount - nodes[4].pointsBelow;
       nodes[4].pointsBelow = nodes[4].pointCount;

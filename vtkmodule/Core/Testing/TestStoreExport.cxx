@@ -149,7 +149,7 @@ TEST(StoreExport, BoxIsClosedAndSkipsNodesOutside)
   ASSERT_TRUE(report);
   EXPECT_EQ(sink.x, (std::vector<double>{ 20.0, 25.0 }));
   EXPECT_EQ(report.value().pointsRead, 4u); // node 1 was not decoded
-  EXPECT_EQ(sink.begun.pointCount, 0u);     // not known before
+  EXPECT_EQ(sink.begun.pointCount, 0u); // not known before
 }
 
 TEST(StoreExport, KeepsTheClassesAskedFor)

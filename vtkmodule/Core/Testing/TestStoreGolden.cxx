@@ -1,6 +1,5 @@
 #include "SampleStore.h"
 
-
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -17,7 +16,10 @@ const std::string large = "/version3-all-codecs.pfront";
 constexpr std::uint32_t smallPoints = 3;
 constexpr std::uint32_t largePoints = 260;
 
-std::string golden(const std::string& name) { return POINTFRONT_CORE_TEST_DATA + name; }
+std::string golden(const std::string& name)
+{
+  return POINTFRONT_CORE_TEST_DATA + name;
+}
 
 void expectSample(const std::string& path, const SampleStore& sample, std::uint32_t version)
 {
@@ -26,8 +28,8 @@ void expectSample(const std::string& path, const SampleStore& sample, std::uint3
   const PointStore& store = **opened;
   ASSERT_EQ(store.description().version, version);
   // Older ones know nothing of splats.
-  ASSERT_EQ(store.description().splatRadiusBase,
-    version < 3 ? 0.0 : sample.description.splatRadiusBase);
+  ASSERT_EQ(
+    store.description().splatRadiusBase, version < 3 ? 0.0 : sample.description.splatRadiusBase);
   ASSERT_EQ(store.description().levels, 3u);
   ASSERT_EQ(store.description().layers[0].nodeCount, 5u);
   ASSERT_EQ(store.description().layers[1].pointCount, sample.nodes[4].pointCount);

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstring>
 
-
 namespace pointfront
 {
 
@@ -94,8 +93,7 @@ TEST(StoreSample, StopsWhenThereIsEnough)
 TEST(StoreSample, QuantilesAreOfWorldZAndOfStoredValues)
 {
   const Chain store;
-  const auto read =
-    StoreSample::read(store.hierarchy(), store, store.grid, store.schema, { 0, 1 });
+  const auto read = StoreSample::read(store.hierarchy(), store, store.grid, store.schema, { 0, 1 });
   ASSERT_TRUE(read);
   const StoreSample& sample = read.value();
   EXPECT_EQ(sample.elevationQuantile(0.0), 1000.0);

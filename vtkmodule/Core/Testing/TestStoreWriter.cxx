@@ -66,8 +66,7 @@ Error commitFails(SampleStore sample, std::vector<StoreWriter::PayloadId> payloa
   {
     EXPECT_TRUE(writer->append(encodeNode(points, sample.description.schema)));
   }
-  const auto done =
-    writer->commit(sample.description, sample.nodes, sample.roots, payloads);
+  const auto done = writer->commit(sample.description, sample.nodes, sample.roots, payloads);
   EXPECT_FALSE(done);
   EXPECT_FALSE(fs::exists(path));
   return done ? Error{} : done.error();
@@ -126,8 +125,8 @@ TEST(StoreWriter, FullDiskIsToldAtEveryByte)
        capacity += capacity + 700 < needed ? 700 : 1)
   {
     bool published = false;
-    auto writer = assembleStore(
-      std::make_unique<SmallDisk>(capacity, published), sample.description.schema);
+    auto writer =
+      assembleStore(std::make_unique<SmallDisk>(capacity, published), sample.description.schema);
     const Result<void> done = writer ? writeSample(sample, **writer) : writer.error();
     ASSERT_EQ(bool(done), capacity == needed);
     ASSERT_EQ(published, capacity == needed);

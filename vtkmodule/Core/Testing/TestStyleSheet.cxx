@@ -85,8 +85,7 @@ TEST(StyleSheet, ClassesSayOnlyWhatDiffers)
   ASSERT_EQ(layers.size(), 3u);
   ASSERT_EQ(layers[0].styles.size(), 1u);
   EXPECT_EQ(layers[0].styles[0]->technique, Technique::Splats);
-  EXPECT_EQ(
-    layers[0].columns(), (ColumnSelection{ rgbColumn, normalsColumn, splatRadiusColumn }));
+  EXPECT_EQ(layers[0].columns(), (ColumnSelection{ rgbColumn, normalsColumn, splatRadiusColumn }));
   ASSERT_EQ(layers[1].styles.size(), 1u);
   EXPECT_EQ(layers[1].styles[0]->technique, Technique::Spheres);
   EXPECT_EQ(layers[1].styles[0]->opacity, 0.5);

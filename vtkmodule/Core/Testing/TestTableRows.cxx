@@ -19,10 +19,10 @@ namespace pointfront
 namespace
 {
 
+using std::chrono::milliseconds;
 using test::Terrain;
 using test::TerrainReader;
 using test::Traffic;
-using std::chrono::milliseconds;
 
 View overview()
 {

@@ -4,8 +4,8 @@
 #include "pointfront/Query/BoxRegion.h"
 #include "pointfront/Query/QueryPlan.h"
 #include "pointfront/Store/StoredCloudFormats.h"
-#include "pointfront/Tiles/TileFormat.h"
 #include "pointfront/Tiles/TiledCloud.h"
+#include "pointfront/Tiles/TileFormat.h"
 
 #include <map>
 #include <set>
@@ -42,8 +42,7 @@ protected:
     Random random(first + 1);
     for (std::uint32_t i = 0; i < 500; ++i)
     {
-      const glm::dvec3 p{ x + 16.0 * random.uniform(), 16.0 * random.uniform(),
-        random.uniform() };
+      const glm::dvec3 p{ x + 16.0 * random.uniform(), 16.0 * random.uniform(), random.uniform() };
       cloud->addPosition(grid.toWorld(grid.toGrid(p)));
       cloud->addValue(0, first + i);
       cloud->addValue(1, static_cast<std::uint16_t>(first + i));
@@ -69,17 +68,19 @@ protected:
   {
     std::map<std::uint32_t, glm::dvec3> found;
     std::uint64_t behind = 0;
-    const auto report = queryPoints(cloud, query, {}, [&](QueryBatch& batch) -> Result<void> {
-      for (std::size_t i = 0; i < batch.size(); ++i)
+    const auto report = queryPoints(cloud, query, {},
+      [&](QueryBatch& batch) -> Result<void>
       {
-        EXPECT_GE(batch.ids[i], behind);
-        behind = batch.ids[i] + 1;
-        std::uint32_t id = 0;
-        std::memcpy(&id, batch.points.columns[0].data() + 4 * i, 4);
-        EXPECT_TRUE(found.emplace(id, batch.points.positions[i]).second) << id << " twice";
-      }
-      return {};
-    });
+        for (std::size_t i = 0; i < batch.size(); ++i)
+        {
+          EXPECT_GE(batch.ids[i], behind);
+          behind = batch.ids[i] + 1;
+          std::uint32_t id = 0;
+          std::memcpy(&id, batch.points.columns[0].data() + 4 * i, 4);
+          EXPECT_TRUE(found.emplace(id, batch.points.positions[i]).second) << id << " twice";
+        }
+        return {};
+      });
     EXPECT_TRUE(report) << report.error().what;
     return found;
   }

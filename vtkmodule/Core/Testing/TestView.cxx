@@ -73,7 +73,7 @@ TEST(View, PlanesAreUnitAndAtTheirPlaces)
   EXPECT_TRUE(seen(view, { 10, 20, 29.4 }));
   EXPECT_TRUE(seen(view, { 10, 20, -69.9 }));
   EXPECT_FALSE(seen(view, { 10, 20, -70.1 })); // behind the far plane
-  EXPECT_FALSE(seen(view, { 10, 20, 31 }));    // behind the eye
+  EXPECT_FALSE(seen(view, { 10, 20, 31 })); // behind the eye
   EXPECT_NEAR(signedDistance(view.planes[4], { 10, 20, 20 }), 9.5, 1e-12);
   EXPECT_NEAR(signedDistance(view.planes[5], { 10, 20, 20 }), 90.0, 1e-9);
 }
@@ -89,7 +89,7 @@ TEST(View, OffAxisFrustumKeepsItsEye)
   expectNear(view.direction, { -1, 0, 0 }, 1e-14);
   EXPECT_NEAR(view.nearDistance, 1.0, 1e-12);
   EXPECT_NEAR(view.pixelsPerUnit, 640.0, 1e-9); // one unit at depth 1 fills the window
-  EXPECT_FALSE(seen(view, { -9, 2, 3 }));       // straight on, and yet beside the window
+  EXPECT_FALSE(seen(view, { -9, 2, 3 })); // straight on, and yet beside the window
   EXPECT_TRUE(seen(view, { -9, 2 + 10, 3 + 2.5 }));
 }
 
@@ -158,9 +158,9 @@ TEST(View, PerspectiveAgreesWithItsMatrix)
   const glm::dvec3 eye(100, -50, 20);
   const glm::dvec3 focus(0, 10, 5);
   const View direct = View::perspective(eye, focus, { 0, 0, 1 }, 0.7, 0.1, 1000.0, 300, 200);
-  const View derived = View::fromMatrix(glm::perspective(0.7, 1.5, 0.1, 1000.0) *
-      glm::lookAt(eye, focus, glm::dvec3(0, 0, 1)),
-    300, 200);
+  const View derived = View::fromMatrix(
+    glm::perspective(0.7, 1.5, 0.1, 1000.0) * glm::lookAt(eye, focus, glm::dvec3(0, 0, 1)), 300,
+    200);
   expectNear(direct.position, derived.position, 1e-9);
   expectNear(direct.direction, derived.direction, 1e-12);
   EXPECT_NEAR(direct.pixelsPerUnit, derived.pixelsPerUnit, 1e-9);

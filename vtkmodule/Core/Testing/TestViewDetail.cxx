@@ -1,10 +1,10 @@
 #include "pointfront/Front/ViewDetail.h"
 
 #include "FrontScene.h"
-#include "TerrainPages.h"
 #include "pointfront/Front/DetailLevel.h"
 #include "pointfront/Front/OverviewCount.h"
 #include "pointfront/Front/ScreenError.h"
+#include "TerrainPages.h"
 
 #include <gtest/gtest.h>
 
@@ -36,8 +36,8 @@ std::shared_ptr<const Hierarchy> terrainInMemory(int levels)
 /// Straight down on the middle from a height, in terrain sizes; 53 degrees, 1000 x 1000 pixels.
 View fromAbove(double height, double x = 0.5)
 {
-  return View::perspective({ x * size, 0.5 * size, height * size },
-    { x * size, 0.5 * size, 0.0 }, { 0, 1, 0 }, 2.0 * std::atan(0.5), 1.0, 1e7, 1000, 1000);
+  return View::perspective({ x * size, 0.5 * size, height * size }, { x * size, 0.5 * size, 0.0 },
+    { 0, 1, 0 }, 2.0 * std::atan(0.5), 1.0, 1e7, 1000, 1000);
 }
 
 FrontLimits overviewOf(std::uint64_t points)
@@ -96,8 +96,9 @@ TEST(OverviewCount, CountsWhatLiesInTheFrustum)
 TEST(OverviewCount, MeasuresBoxes)
 {
   const View view = fromAbove(1.0); // sees 0 to 1 of the ground
-  const auto at = [](double low, double high)
-  { return Bounds{ { low * size, 0.4 * size, 0 }, { high * size, 0.6 * size, 0 } }; };
+  const auto at = [](double low, double high) {
+    return Bounds{ { low * size, 0.4 * size, 0 }, { high * size, 0.6 * size, 0 } };
+  };
   EXPECT_DOUBLE_EQ(shareInFrustum(at(0.2, 0.4), view), 1.0);
   EXPECT_DOUBLE_EQ(shareInFrustum(at(-0.5, 0.5), view), 0.5);
   EXPECT_DOUBLE_EQ(shareInFrustum(at(2.0, 3.0), view), 0.0);
@@ -270,12 +271,9 @@ TEST(ViewDetail, HiddenLayersAskForNothing)
   for (NodeIndex i = 0; i < random->nodeCount(); ++i)
   {
     nodes.push_back(random->node(i));
-    nodes[i].layer = i == 0
-      ? 0
-      : nodes[i].parent == noNode ? 1 : nodes[nodes[i].parent].layer;
+    nodes[i].layer = i == 0 ? 0 : nodes[i].parent == noNode ? 1 : nodes[nodes[i].parent].layer;
   }
-  const auto tree =
-    std::make_shared<HierarchyTable>(nodes, random->roots(), Refinement::Add);
+  const auto tree = std::make_shared<HierarchyTable>(nodes, random->roots(), Refinement::Add);
   ViewDetail detail(tree);
   ScriptedResidency residency;
   FrontLimits limits = overviewOf(1000);

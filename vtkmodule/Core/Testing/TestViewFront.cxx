@@ -1,7 +1,7 @@
 // The front of a view and what it shares with those of other clouds, without a window.
 
-#include "TerrainReader.h"
 #include "pointfront/Views/ViewFront.h"
+#include "TerrainReader.h"
 
 #include "pointfront/Residency/LoadScheduler.h"
 
@@ -25,7 +25,7 @@ View overview()
 {
   const double s = Terrain::sizeMetres;
   return View::perspective(
-    {0.5 * s, 0.5 * s, s}, {0.5 * s, 0.51 * s, 0}, {0, 0, 1}, 0.9, 1.0, 1e7, 800, 600);
+    { 0.5 * s, 0.5 * s, s }, { 0.5 * s, 0.51 * s, 0 }, { 0, 0, 1 }, 0.9, 1.0, 1e7, 800, 600);
 }
 
 /// 13.6 million points, all of which the view wants.
@@ -42,9 +42,9 @@ struct Cloud
 {
   Cloud(const std::shared_ptr<LoadScheduler>& scheduler,
     const std::shared_ptr<const WindowDemand>& window, std::uint64_t disk = 0)
-      : reader(std::make_shared<TerrainReader>(std::make_shared<Traffic>(), disk)),
-        share(reader, reader->table->nodeCount(), scheduler, Terrain::pointsOfNode),
-        front(std::make_shared<HierarchyPiece>(reader->table, 0, 1), share, schema, window)
+    : reader(std::make_shared<TerrainReader>(std::make_shared<Traffic>(), disk))
+    , share(reader, reader->table->nodeCount(), scheduler, Terrain::pointsOfNode)
+    , front(std::make_shared<HierarchyPiece>(reader->table, 0, 1), share, schema, window)
   {
   }
   void frame(const FrameDemand& demand)
@@ -110,7 +110,7 @@ TEST(ViewFront, AFrameTimeIsSharedByTheCloudsOfAWindow)
   FrameDemand motion = everything();
   motion.interacting = true;
   motion.frameMs = 50.0;
-  for (const int clouds : {1, 2, 5})
+  for (const int clouds : { 1, 2, 5 })
   {
     Window window(clouds);
     EXPECT_EQ(window.drawn(), wholeTerrain * std::uint64_t(clouds));
@@ -187,7 +187,7 @@ TEST(ViewFront, WhatArrivesForAnotherLeavesACompleteViewInPeace)
   const std::unique_ptr<ResidencyShare::Wish> another = cloud.share.join();
   const std::uint64_t before = cloud.share.residency().arrivals();
   another->request(
-    {{notShown, 1.0, false, Terrain::pointsOfNode, 0}}, [](NodeIndex) { return 0u; });
+    { { notShown, 1.0, false, Terrain::pointsOfNode, 0 } }, [](NodeIndex) { return 0u; });
   while (cloud.share.residency().arrivals() == before)
   {
     cloud.share.residency().waitForArrival(before);

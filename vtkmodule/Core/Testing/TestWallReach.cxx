@@ -21,15 +21,14 @@ TEST(WallReach, AViewHasAllWhoseWallsReachIntoIt)
   {
     const glm::dvec3 eye(place(random), place(random), place(random));
     const glm::dvec3 focus(place(random), place(random), place(random));
-    const View view =
-      View::perspective(eye, focus, { 0.3, 0.2, 1.0 }, 0.7, 0.1, 200.0, 400, 300);
+    const View view = View::perspective(eye, focus, { 0.3, 0.2, 1.0 }, 0.7, 0.1, 200.0, 400, 300);
     const View wider = withWallsFromAbove(view, 12.0);
     const glm::dvec3 top(place(random), place(random), place(random));
     bool seen = false;
     for (double down = 0.0; down <= 12.0; down += 0.25)
     {
-      seen = seen ||
-        sphereVisibility(view, top - glm::dvec3(0.0, 0.0, down), 0.0) == Visibility::Inside;
+      seen =
+        seen || sphereVisibility(view, top - glm::dvec3(0.0, 0.0, down), 0.0) == Visibility::Inside;
     }
     const bool chosen = sphereVisibility(wider, top, 0.0) == Visibility::Inside;
     ASSERT_TRUE(chosen || !seen) << i;

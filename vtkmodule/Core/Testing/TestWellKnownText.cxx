@@ -27,7 +27,8 @@ std::string faultOf(const std::string& text)
 
 TEST(WellKnownText, AreasWithHolesInAnySpelling)
 {
-  const PlanarGeometry geometry = parsed("\xef\xbb\xbf polygon ((0 0, 4 0,4 4.5 , 0 0),\n"
+  const PlanarGeometry geometry = parsed(
+    "\xef\xbb\xbf polygon ((0 0, 4 0,4 4.5 , 0 0),\n"
     "(1 1,2 1,2 2,1 1))\nMULTIPOLYGON Z (((0 0 7,1 0 7,1 1 7,0 0 7)),((5 5 1,6 5 1,6 6 1,5 5 1)))");
   ASSERT_EQ(geometry.polygons.size(), 3u);
   ASSERT_EQ(geometry.polygons[0].rings.size(), 2u);
@@ -40,8 +41,9 @@ TEST(WellKnownText, AreasWithHolesInAnySpelling)
 
 TEST(WellKnownText, LinesCollectionsAndEmptyOnes)
 {
-  const PlanarGeometry geometry = parsed("SRID=25832;GEOMETRYCOLLECTION(LINESTRING(1e2 -2, 3 4),"
-    "MULTILINESTRINGZM((0 0 1 2,1 1 1 2),EMPTY),POLYGON EMPTY);");
+  const PlanarGeometry geometry =
+    parsed("SRID=25832;GEOMETRYCOLLECTION(LINESTRING(1e2 -2, 3 4),"
+           "MULTILINESTRINGZM((0 0 1 2,1 1 1 2),EMPTY),POLYGON EMPTY);");
   EXPECT_EQ(geometry.crs, "EPSG:25832");
   ASSERT_EQ(geometry.lines.size(), 2u);
   EXPECT_EQ(geometry.lines[0][0], glm::dvec2(100, -2));

@@ -49,7 +49,7 @@ struct Blocks
   /// How many could not be written.
   int writeBy(unsigned threads, WriteBehind& behind)
   {
-    std::atomic<int> failed{0};
+    std::atomic<int> failed{ 0 };
     std::mutex mutex;
     std::uint64_t next = 0;
     std::uint64_t first = 0;
@@ -91,7 +91,7 @@ struct Blocks
 TEST(WriteBehind, WritesAllBlocksWhateverTheirThreadsAndBuffers)
 {
   const fs::path folder = test::freshFolder("write-behind");
-  for (const auto& [threads, buffers] : {std::pair(1u, 1u), {2u, 2u}, {4u, 1u}, {3u, 8u}})
+  for (const auto& [threads, buffers] : { std::pair(1u, 1u), { 2u, 2u }, { 4u, 1u }, { 3u, 8u } })
   {
     auto pool = RecordPool::spilled(folder.string(), Blocks::total(), recordBytes);
     ASSERT_TRUE(pool);
@@ -139,7 +139,7 @@ TEST(WriteBehind, AFullDiskIsTheErrorOfAllThatFollows)
   if (child == 0)
   {
     std::signal(SIGXFSZ, SIG_IGN);
-    const rlimit limit{1000000, 1000000};
+    const rlimit limit{ 1000000, 1000000 };
     setrlimit(RLIMIT_FSIZE, &limit);
     auto pool = RecordPool::spilled(folder.string(), Blocks::total(), recordBytes);
     if (!pool)

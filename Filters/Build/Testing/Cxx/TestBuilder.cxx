@@ -208,7 +208,7 @@ TEST_F(Builder, GivesTheStoreTheShapeAndTheAttributesThatAreAskedFor)
   EXPECT_EQ(description.layers.size(), 1u);
   EXPECT_EQ(description.grid.scale.x, 0.01);
   EXPECT_EQ(description.schema.size(), 5u);
-  for (const char* name : {"intensity", "normal", "curvature", "local_height"})
+  for (const char* name : { "intensity", "normal", "curvature", "local_height" })
   {
     EXPECT_TRUE(description.schema.find(name)) << name;
   }
@@ -217,7 +217,7 @@ TEST_F(Builder, GivesTheStoreTheShapeAndTheAttributesThatAreAskedFor)
 TEST_F(Builder, MeasuresRadiiOfSplatsWhereTheyAreAskedFor)
 {
   EXPECT_FALSE(builder->GetSplatRadius());
-  for (const bool asked : {false, true})
+  for (const bool asked : { false, true })
   {
     builder->SetSplatRadius(asked);
     builder->OverwriteOn();

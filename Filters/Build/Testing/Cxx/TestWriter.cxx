@@ -58,8 +58,8 @@ protected:
     }
     data->SetPoints(points);
     for (vtkAbstractArray* array :
-      {static_cast<vtkAbstractArray*>(intensity), static_cast<vtkAbstractArray*>(colours),
-        static_cast<vtkAbstractArray*>(heights), static_cast<vtkAbstractArray*>(names)})
+      { static_cast<vtkAbstractArray*>(intensity), static_cast<vtkAbstractArray*>(colours),
+        static_cast<vtkAbstractArray*>(heights), static_cast<vtkAbstractArray*>(names) })
     {
       data->GetPointData()->AddArray(array);
     }
@@ -92,8 +92,8 @@ TEST_F(Writer, StoresPointsWithTheirData)
   for (pointfront::NodeIndex node = 0; node < (*store)->hierarchy()->nodeCount(); ++node)
   {
     const auto columns = (*store)->read(node,
-      {static_cast<std::uint32_t>(std::min(*intensity, *rgb)),
-        static_cast<std::uint32_t>(std::max(*intensity, *rgb))});
+      { static_cast<std::uint32_t>(std::min(*intensity, *rgb)),
+        static_cast<std::uint32_t>(std::max(*intensity, *rgb)) });
     ASSERT_TRUE(columns.ok());
     for (std::size_t i = 0; i < columns->size(); ++i)
     {

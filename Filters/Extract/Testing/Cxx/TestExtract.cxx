@@ -281,8 +281,7 @@ TEST_F(Extract, SaysWhatIsWrong)
   {
     errors->Clear();
     filter->Update();
-    EXPECT_NE(errors->GetErrorMessage().find(part), std::string::npos)
-      << errors->GetErrorMessage();
+    EXPECT_NE(errors->GetErrorMessage().find(part), std::string::npos) << errors->GetErrorMessage();
     EXPECT_NE(filter->GetErrorCode(), vtkErrorCode::NoError);
   };
   filter->SetWhere("nonsense > 3");

@@ -34,17 +34,17 @@ namespace
 std::string storeOf(const std::string& name, std::size_t count)
 {
   AttributeSchema schema;
-  schema.add({"rgb", ScalarType::UInt16, 3});
-  schema.add({"id", ScalarType::UInt32, 1});
-  schema.add({"height", ScalarType::Int16, 1, 0.5, 100.0});
-  auto cloud = std::make_unique<CloudSource>(name, schema, millimetres({5e5, 4e6, 0.0}));
+  schema.add({ "rgb", ScalarType::UInt16, 3 });
+  schema.add({ "id", ScalarType::UInt32, 1 });
+  schema.add({ "height", ScalarType::Int16, 1, 0.5, 100.0 });
+  auto cloud = std::make_unique<CloudSource>(name, schema, millimetres({ 5e5, 4e6, 0.0 }));
   Random random(3);
   for (std::size_t i = 0; i < count; ++i)
   {
-    cloud->addPosition(glm::dvec3(5e5, 4e6, 0.0) + glm::dvec3(100.0 * random.uniform(),
-                                                     100.0 * random.uniform(), random.uniform()));
+    cloud->addPosition(glm::dvec3(5e5, 4e6, 0.0) +
+      glm::dvec3(100.0 * random.uniform(), 100.0 * random.uniform(), random.uniform()));
     cloud->addValue(
-      0, std::array<std::uint16_t, 3>{static_cast<std::uint16_t>(i & 0xffff), 0x8000, 0xffff});
+      0, std::array<std::uint16_t, 3>{ static_cast<std::uint16_t>(i & 0xffff), 0x8000, 0xffff });
     cloud->addValue(1, static_cast<std::uint32_t>(i));
     cloud->addValue(2, static_cast<std::int16_t>(i % 100));
   }
@@ -146,8 +146,8 @@ TEST(Reader, AnOverviewIsAsLargeAsAskedAndHasNoThinQuarter)
 std::string unevenStore(const std::string& name, bool layers)
 {
   AttributeSchema schema;
-  schema.add({"classification", ScalarType::UInt8, 1});
-  auto cloud = std::make_unique<CloudSource>(name, schema, millimetres({0.0, 0.0, 0.0}));
+  schema.add({ "classification", ScalarType::UInt8, 1 });
+  auto cloud = std::make_unique<CloudSource>(name, schema, millimetres({ 0.0, 0.0, 0.0 }));
   Random random(5);
   for (int i = 0; i < 100000; ++i)
   {
@@ -168,11 +168,11 @@ std::string unevenStore(const std::string& name, bool layers)
 
 TEST(Reader, TheOverviewHasItsShareOfEverything)
 {
-  for (const bool layers : {false, true})
+  for (const bool layers : { false, true })
   {
     vtkNew<vtkPointFrontReader> reader;
     reader->SetFileName(unevenStore(layers ? "layered" : "uneven", layers).c_str());
-    for (const vtkIdType points : {5000, 20000})
+    for (const vtkIdType points : { 5000, 20000 })
     {
       reader->SetOverviewPoints(points);
       reader->Update();
@@ -232,7 +232,7 @@ std::set<vtkIdType> idsLikeIn(vtkPolyData* data, vtkPolyData* cloud)
     data->GetPoint(i, one.data());
     cloud->GetPoint(row, other.data());
     EXPECT_EQ(one, other);
-    for (const char* name : {"id", "height", "rgb"})
+    for (const char* name : { "id", "height", "rgb" })
     {
       EXPECT_EQ(data->GetPointData()->GetArray(name)->GetComponent(i, 0),
         cloud->GetPointData()->GetArray(name)->GetComponent(row, 0));
@@ -263,8 +263,8 @@ TEST(Reader, PointsThatTheOverviewLacksAreReadByTheirRanks)
       wanted.insert(rank);
     }
   }
-  ranks->InsertNextValue(19999);  // twice
-  ranks->InsertNextValue(-1);     // and what there is not
+  ranks->InsertNextValue(19999); // twice
+  ranks->InsertNextValue(-1); // and what there is not
   ranks->InsertNextValue(20000);
   ranks->InsertNextValue(VTK_ID_MAX);
   std::set<vtkIdType> found;
@@ -378,10 +378,10 @@ TEST(Reader, ProgressRisesAndAnAbortLeavesNothing)
 std::string activeScalars(const std::set<std::string>& varying)
 {
   AttributeSchema schema;
-  schema.add({"intensity", ScalarType::UInt16, 1});
-  schema.add({"classification", ScalarType::UInt8, 1});
-  schema.add({"rgb", ScalarType::UInt16, 3});
-  auto cloud = std::make_unique<CloudSource>("scalars", schema, millimetres({0.0, 0.0, 0.0}));
+  schema.add({ "intensity", ScalarType::UInt16, 1 });
+  schema.add({ "classification", ScalarType::UInt8, 1 });
+  schema.add({ "rgb", ScalarType::UInt16, 3 });
+  auto cloud = std::make_unique<CloudSource>("scalars", schema, millimetres({ 0.0, 0.0, 0.0 }));
   for (int i = 0; i < 1000; ++i)
   {
     const auto value = [&](const char* name) { return varying.count(name) ? i % 7 : 0; };
@@ -389,7 +389,7 @@ std::string activeScalars(const std::set<std::string>& varying)
     cloud->addValue(0, static_cast<std::uint16_t>(value("intensity")));
     cloud->addValue(1, static_cast<std::uint8_t>(value("classification")));
     const auto green = static_cast<std::uint16_t>(value("rgb"));
-    cloud->addValue(2, std::array<std::uint16_t, 3>{0, green, 0});
+    cloud->addValue(2, std::array<std::uint16_t, 3>{ 0, green, 0 });
   }
   BuildOptions options;
   options.outputPath = ::testing::TempDir() + "scalars.pfront";
@@ -408,16 +408,16 @@ std::string activeScalars(const std::set<std::string>& varying)
 
 TEST(Reader, TheActiveScalarsShowSomething)
 {
-  EXPECT_EQ(activeScalars({"rgb", "classification", "intensity"}), "rgb");
-  EXPECT_EQ(activeScalars({"classification", "intensity"}), "classification");
-  EXPECT_EQ(activeScalars({"intensity"}), "intensity");
+  EXPECT_EQ(activeScalars({ "rgb", "classification", "intensity" }), "rgb");
+  EXPECT_EQ(activeScalars({ "classification", "intensity" }), "classification");
+  EXPECT_EQ(activeScalars({ "intensity" }), "intensity");
   EXPECT_EQ(activeScalars({}), "elevation");
 }
 
 TEST(Reader, SeveralStoresAreTimeSteps)
 {
-  const std::vector<std::string> stores = {
-    storeOf("first", 1000), storeOf("second", 3000), storeOf("third", 2000)};
+  const std::vector<std::string> stores = { storeOf("first", 1000), storeOf("second", 3000),
+    storeOf("third", 2000) };
   vtkNew<vtkPointFrontReader> reader;
   for (const std::string& store : stores)
   {
@@ -427,15 +427,15 @@ TEST(Reader, SeveralStoresAreTimeSteps)
   vtkInformation* info = reader->GetOutputInformation(0);
   ASSERT_EQ(info->Length(vtkStreamingDemandDrivenPipeline::TIME_STEPS()), 3);
   EXPECT_EQ(info->Get(vtkStreamingDemandDrivenPipeline::TIME_RANGE())[1], 2.0);
-  const std::array<std::array<double, 3>, 6> asked = {
-    {{0, 1000, 0}, {2, 2000, 2}, {1, 3000, 1}, {1.7, 3000, 1}, {-5, 1000, 0}, {9, 2000, 2}}};
+  const std::array<std::array<double, 3>, 6> asked = { { { 0, 1000, 0 }, { 2, 2000, 2 },
+    { 1, 3000, 1 }, { 1.7, 3000, 1 }, { -5, 1000, 0 }, { 9, 2000, 2 } } };
   for (const auto& [time, points, step] : asked)
   {
     reader->UpdateTimeStep(time);
     EXPECT_EQ(static_cast<double>(reader->GetOutput()->GetNumberOfPoints()), points) << time;
     EXPECT_EQ(reader->GetOutput()->GetInformation()->Get(vtkDataObject::DATA_TIME_STEP()), step);
-    EXPECT_EQ(vtkPointFrontStore::GetStoreName(reader->GetOutput()),
-      reader->GetStore()->GetFileName());
+    EXPECT_EQ(
+      vtkPointFrontStore::GetStoreName(reader->GetOutput()), reader->GetStore()->GetFileName());
   }
 
   reader->SetFileName(stores[1].c_str());

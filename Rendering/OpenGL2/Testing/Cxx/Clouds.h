@@ -12,14 +12,15 @@ namespace pointfront::test
 /// Hills beside each other, seen together from above; one mapper each.
 struct Clouds
 {
-  explicit Clouds(int count) : first(store(0))
+  explicit Clouds(int count)
+    : first(store(0))
   {
     first.mapper->SetTargetError(0.02);
     for (int c = 1; c < count; ++c)
     {
       add(c);
     }
-    first.lookFrom({0.0, 0.0, 40.0}, {0.0, 0.0, 0.0});
+    first.lookFrom({ 0.0, 0.0, 40.0 }, { 0.0, 0.0, 0.0 });
   }
   static std::string store(int number)
   {
@@ -30,8 +31,7 @@ struct Clouds
     options.nodePoints = 2000;
     options.overwrite = true;
     options.threads = 1;
-    EXPECT_TRUE(buildStore(
-      one(hills(40000, 3000.0, millimetres({x, y, 0.0}))), options).ok());
+    EXPECT_TRUE(buildStore(one(hills(40000, 3000.0, millimetres({ x, y, 0.0 }))), options).ok());
     return options.outputPath;
   }
   void add(int number)
@@ -49,7 +49,7 @@ struct Clouds
   }
   std::vector<vtkPointFrontMapper*> all() const
   {
-    std::vector<vtkPointFrontMapper*> list{first.mapper};
+    std::vector<vtkPointFrontMapper*> list{ first.mapper };
     list.insert(list.end(), mappers.begin(), mappers.end());
     return list;
   }

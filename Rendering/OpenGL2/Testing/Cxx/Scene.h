@@ -36,8 +36,8 @@ namespace pointfront::test
 /// What a made-up point carries beside its position.
 struct Sample
 {
-  GridPosition position{0}; ///< millimetres from the grid's offset
-  std::array<std::uint8_t, 3> rgb{255, 255, 255};
+  GridPosition position{ 0 }; ///< millimetres from the grid's offset
+  std::array<std::uint8_t, 3> rgb{ 255, 255, 255 };
   std::uint8_t classification = 0;
   double time = 0.0;
 };
@@ -47,9 +47,9 @@ inline std::string storeOf(const std::string& name, std::size_t count,
   const std::function<Sample(std::size_t)>& sample, const glm::dvec3& offset = glm::dvec3(0.0))
 {
   AttributeSchema schema;
-  schema.add({"rgb", ScalarType::UInt8, 3});
-  schema.add({"classification", ScalarType::UInt8, 1});
-  schema.add({"gps_time", ScalarType::Float64, 1});
+  schema.add({ "rgb", ScalarType::UInt8, 3 });
+  schema.add({ "classification", ScalarType::UInt8, 1 });
+  schema.add({ "gps_time", ScalarType::Float64, 1 });
   const QuantisationGrid grid = millimetres(offset);
   auto cloud = std::make_unique<CloudSource>(name, schema, grid);
   for (std::size_t i = 0; i < count; ++i)
@@ -82,7 +82,7 @@ inline std::string planeStore(
       const auto column = static_cast<int>(i) % side;
       const auto row = static_cast<int>(i) / side;
       Sample sample;
-      sample.position = {(2 * column - side + 1) * step / 2, (2 * row - side + 1) * step / 2, 0};
+      sample.position = { (2 * column - side + 1) * step / 2, (2 * row - side + 1) * step / 2, 0 };
       sample.classification = sample.position.x < 0 ? 1 : 2;
       sample.time = 1e-3 * static_cast<double>(sample.position.x);
       return sample;
@@ -100,7 +100,7 @@ struct Picture
   std::array<int, 3> at(int x, int y) const
   {
     const std::size_t i = 3 * (static_cast<std::size_t>(y) * width + x);
-    return {rgb[i], rgb[i + 1], rgb[i + 2]};
+    return { rgb[i], rgb[i + 1], rgb[i + 2] };
   }
   int lit() const
   {
@@ -189,7 +189,7 @@ struct Scene
     renderer->SetWorldPoint(world.x, world.y, world.z, 1.0);
     renderer->WorldToDisplay();
     const double* p = renderer->GetDisplayPoint();
-    return {p[0], p[1], p[2]};
+    return { p[0], p[1], p[2] };
   }
 
   /// The same points in memory, drawn by VTK's own mapper with this scene's actor.

@@ -17,7 +17,8 @@ namespace
 class ProcessBudget
 {
 public:
-  explicit ProcessBudget(vtkTypeInt64 bytes) : before_(vtkPointFrontStore::GetProcessMemoryBudget())
+  explicit ProcessBudget(vtkTypeInt64 bytes)
+    : before_(vtkPointFrontStore::GetProcessMemoryBudget())
   {
     vtkPointFrontStore::SetProcessMemoryBudget(bytes);
   }
@@ -62,7 +63,7 @@ TEST(Budgets, ALoweredBudgetOfPointsHoldsInTheFirstFrame)
   Clouds scene(6);
   scene.settle();
   ASSERT_EQ(scene.drawn(), 240000);
-  for (const vtkIdType budget : {150000, 60000, 20000})
+  for (const vtkIdType budget : { 150000, 60000, 20000 })
   {
     scene.setPointBudget(budget);
     scene.first.window->Render();
@@ -93,7 +94,7 @@ TEST(Budgets, WhatIsNotSeenLeavesItsPartToTheOthers)
   EXPECT_EQ(scene.first.mapper->GetLastPointsDrawn(), shared);
   EXPECT_EQ(hidden->GetLastPointsDrawn(), before);
   // Out of sight VTK does not draw it either.
-  scene.first.lookFrom({-6.0, -3.0, 4.0}, {-6.0, -3.0, 0.0});
+  scene.first.lookFrom({ -6.0, -3.0, 4.0 }, { -6.0, -3.0, 0.0 });
   scene.settle();
   EXPECT_EQ(hidden->GetLastPointsDrawn(), 0);
   EXPECT_FALSE(hidden->NeedsRender());
@@ -106,8 +107,7 @@ TEST(Budgets, TheStoresOfAProcessShareItsMemory)
   const ProcessBudget memory(budget);
   Clouds scene(6); // 240,000 points of 12 bytes and more
   scene.settle();
-  const auto statistics =
-    scene.first.mapper->GetStore()->GetResidency().scheduler().statistics();
+  const auto statistics = scene.first.mapper->GetStore()->GetResidency().scheduler().statistics();
   EXPECT_EQ(statistics.stores, 6u);
   EXPECT_LE(statistics.residentBytes, static_cast<std::size_t>(budget));
   EXPECT_LE(statistics.threads, 16u);
@@ -143,29 +143,28 @@ TEST(Budgets, TheStoresOfAProcessShareTheOverviewByTheirSizes)
   options.outputPath = ::testing::TempDir() + "quarter.pfront";
   options.nodePoints = 500;
   options.overwrite = true;
-  ASSERT_TRUE(buildStore(one(hills(10000, 3000.0, millimetres({-6.0, -3.0, 0.0}))), options));
+  ASSERT_TRUE(buildStore(one(hills(10000, 3000.0, millimetres({ -6.0, -3.0, 0.0 }))), options));
   Scene small(options.outputPath);
-  for (Scene* scene : {&large, &small})
+  for (Scene* scene : { &large, &small })
   {
     scene->mapper->SetDetailSelectionToViewSpecific();
     scene->mapper->SetTargetError(1.0);
     scene->window->SetSize(30, 20); // fewer pixels than the overview has points
-    scene->lookFrom({-6.0, -3.0, 30.0}, {-6.0, -3.0, 0.0});
+    scene->lookFrom({ -6.0, -3.0, 30.0 }, { -6.0, -3.0, 0.0 });
   }
   vtkIdType before = 0;
-  for (const vtkIdType overview : {5000, 10000})
+  for (const vtkIdType overview : { 5000, 10000 })
   {
     large.mapper->SetOverviewPoints(overview);
     small.mapper->SetOverviewPoints(overview);
-    for (Scene* scene : {&large, &small, &large, &small}) // from the second on both are open
+    for (Scene* scene : { &large, &small, &large, &small }) // from the second on both are open
     {
       scene->draw();
     }
-    const double ratio = double(large.mapper->GetLastPointsDrawn()) /
-                         double(small.mapper->GetLastPointsDrawn());
+    const double ratio =
+      double(large.mapper->GetLastPointsDrawn()) / double(small.mapper->GetLastPointsDrawn());
     EXPECT_NEAR(ratio, 4.0, 0.4);
-    const vtkIdType both =
-      large.mapper->GetLastPointsDrawn() + small.mapper->GetLastPointsDrawn();
+    const vtkIdType both = large.mapper->GetLastPointsDrawn() + small.mapper->GetLastPointsDrawn();
     EXPECT_LE(both, overview * 11 / 10);
     EXPECT_GT(both, before * 3 / 2);
     before = both;
@@ -176,8 +175,8 @@ TEST(Budgets, TheStoresOfAProcessShareTheOverviewByTheirSizes)
 std::string layeredStore()
 {
   AttributeSchema schema;
-  schema.add({"rgb", ScalarType::UInt8, 3});
-  schema.add({"classification", ScalarType::UInt8, 1});
+  schema.add({ "rgb", ScalarType::UInt8, 3 });
+  schema.add({ "classification", ScalarType::UInt8, 1 });
   const QuantisationGrid grid = millimetres();
   auto cloud = std::make_unique<CloudSource>("layered", schema, grid);
   for (int row = 0; row < 200; ++row)
@@ -186,8 +185,8 @@ std::string layeredStore()
     {
       const bool red = column % 2 == 0;
       cloud->addPosition(grid.toWorld(GridPosition(column * 20 - 2000, row * 20 - 2000, 0)));
-      cloud->addValue(
-        0, red ? std::array<std::uint8_t, 3>{255, 0, 0} : std::array<std::uint8_t, 3>{0, 0, 255});
+      cloud->addValue(0,
+        red ? std::array<std::uint8_t, 3>{ 255, 0, 0 } : std::array<std::uint8_t, 3>{ 0, 0, 255 });
       cloud->addValue(1, static_cast<std::uint8_t>(red ? 2 : 6));
     }
   }

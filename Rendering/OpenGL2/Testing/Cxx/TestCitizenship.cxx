@@ -30,14 +30,14 @@ TEST(Citizenship, TheFactoryGivesTheOpenGLMapper)
 
 TEST(Citizenship, OpacityBlendsAndDepthPeelingSorts)
 {
-  for (const bool peeling : {false, true})
+  for (const bool peeling : { false, true })
   {
     Scene scene(planeStore("opacity", 3, 500));
     scene.actor->GetProperty()->SetPointSize(9);
     scene.actor->GetProperty()->SetOpacity(0.5);
     scene.renderer->SetBackground(0.0, 0.0, 1.0);
     scene.renderer->SetUseDepthPeeling(peeling);
-    const auto p = scene.project({0.5, 0.5, 0.0});
+    const auto p = scene.project({ 0.5, 0.5, 0.0 });
     const Picture picture = scene.draw();
     const auto colour = picture.at(static_cast<int>(p[0]), static_cast<int>(p[1]));
     EXPECT_NEAR(colour[0], 128, 2) << "peeling " << peeling;
@@ -70,7 +70,7 @@ TEST(Citizenship, HardwareSelectionGivesTheRankInTheStore)
   vtkPolyData* all = scene.reader->GetOutput();
   auto* ids = vtkIdTypeArray::SafeDownCast(all->GetPointData()->GetGlobalIds());
   ASSERT_NE(ids, nullptr);
-  for (const glm::dvec3& at : {glm::dvec3(0.4, -0.2, 0.0), glm::dvec3(-0.8, 0.6, 0.0)})
+  for (const glm::dvec3& at : { glm::dvec3(0.4, -0.2, 0.0), glm::dvec3(-0.8, 0.6, 0.0) })
   {
     const auto p = scene.project(at);
     vtkNew<vtkHardwareSelector> selector;

@@ -18,10 +18,10 @@ std::string fourPoints(const std::string& name)
     [](std::size_t i)
     {
       Sample sample;
-      sample.position = {i % 2 == 0 ? -500 : 500, i < 2 ? -500 : 500, static_cast<int>(i) * 100};
+      sample.position = { i % 2 == 0 ? -500 : 500, i < 2 ? -500 : 500, static_cast<int>(i) * 100 };
       sample.classification = static_cast<std::uint8_t>(i);
-      sample.rgb = {static_cast<std::uint8_t>(10 + i), 20, 30};
-      const double times[] = {-5.0, 0.5, 1.5, std::numeric_limits<double>::quiet_NaN()};
+      sample.rgb = { static_cast<std::uint8_t>(10 + i), 20, 30 };
+      const double times[] = { -5.0, 0.5, 1.5, std::numeric_limits<double>::quiet_NaN() };
       sample.time = times[i];
       return sample;
     });
@@ -29,13 +29,14 @@ std::string fourPoints(const std::string& name)
 
 struct FourPoints : Scene
 {
-  explicit FourPoints(const std::string& name) : Scene(fourPoints(name))
+  explicit FourPoints(const std::string& name)
+    : Scene(fourPoints(name))
   {
     actor->GetProperty()->SetPointSize(5);
   }
   std::array<int, 3> colourOf(const Picture& picture, int i)
   {
-    const auto p = project({i % 2 == 0 ? -0.5 : 0.5, i < 2 ? -0.5 : 0.5, i * 0.1});
+    const auto p = project({ i % 2 == 0 ? -0.5 : 0.5, i < 2 ? -0.5 : 0.5, i * 0.1 });
     return picture.at(static_cast<int>(p[0]), static_cast<int>(p[1]));
   }
   void colourBy(const char* name, vtkScalarsToColors* table)
@@ -55,7 +56,7 @@ TEST(Colours, RgbIsDrawnAsItIs)
   const Picture picture = scene.draw();
   for (int i = 0; i < 4; ++i)
   {
-    EXPECT_EQ(scene.colourOf(picture, i), (Rgb{10 + i, 20, 30}));
+    EXPECT_EQ(scene.colourOf(picture, i), (Rgb{ 10 + i, 20, 30 }));
   }
 }
 
@@ -64,7 +65,7 @@ TEST(Colours, WithoutScalarsThePropertysColour)
   FourPoints scene("flat");
   scene.mapper->ScalarVisibilityOff();
   scene.actor->GetProperty()->SetColor(1.0, 0.2, 0.0);
-  EXPECT_EQ(scene.colourOf(scene.draw(), 2), (Rgb{255, 51, 0}));
+  EXPECT_EQ(scene.colourOf(scene.draw(), 2), (Rgb{ 255, 51, 0 }));
 }
 
 TEST(Colours, TheTableHasRangeColoursAndOneForNan)
@@ -83,10 +84,10 @@ TEST(Colours, TheTableHasRangeColoursAndOneForNan)
   table->SetNanColor(0.0, 1.0, 1.0, 1.0);
   scene.colourBy("gps_time", table);
   const Picture picture = scene.draw();
-  EXPECT_EQ(scene.colourOf(picture, 0), (Rgb{0, 0, 255}));
-  EXPECT_EQ(scene.colourOf(picture, 1), (Rgb{0, 255, 0}));
-  EXPECT_EQ(scene.colourOf(picture, 2), (Rgb{255, 0, 255}));
-  EXPECT_EQ(scene.colourOf(picture, 3), (Rgb{0, 255, 255}));
+  EXPECT_EQ(scene.colourOf(picture, 0), (Rgb{ 0, 0, 255 }));
+  EXPECT_EQ(scene.colourOf(picture, 1), (Rgb{ 0, 255, 0 }));
+  EXPECT_EQ(scene.colourOf(picture, 2), (Rgb{ 255, 0, 255 }));
+  EXPECT_EQ(scene.colourOf(picture, 3), (Rgb{ 0, 255, 255 }));
 }
 
 TEST(Colours, EditingTheTableChangesThePictureAndUploadsNoPoint)
@@ -100,14 +101,14 @@ TEST(Colours, EditingTheTableChangesThePictureAndUploadsNoPoint)
   scene.colourBy("gps_time", table);
   auto* gl = vtkOpenGLPointFrontMapper::SafeDownCast(scene.mapper);
   ASSERT_NE(gl, nullptr);
-  EXPECT_EQ(scene.colourOf(scene.draw(), 1), (Rgb{255, 0, 0}));
+  EXPECT_EQ(scene.colourOf(scene.draw(), 1), (Rgb{ 255, 0, 0 }));
   const auto uploaded = gl->GetUploadedBytes();
   EXPECT_EQ(uploaded, 4 * (12 + 4));
   table->SetTableValue(0, 0.0, 0.0, 1.0);
-  EXPECT_EQ(scene.colourOf(scene.draw(), 1), (Rgb{0, 0, 255}));
+  EXPECT_EQ(scene.colourOf(scene.draw(), 1), (Rgb{ 0, 0, 255 }));
   table->SetTableRange(-1.0, 1.0);
   table->SetTableValue(1, 0.0, 1.0, 0.0);
-  EXPECT_EQ(scene.colourOf(scene.draw(), 1), (Rgb{0, 255, 0}));
+  EXPECT_EQ(scene.colourOf(scene.draw(), 1), (Rgb{ 0, 255, 0 }));
   EXPECT_EQ(gl->GetUploadedBytes(), uploaded);
 }
 
@@ -124,10 +125,10 @@ TEST(Colours, ClassesOfAnIndexedTable)
   table->SetNanColor(0.0, 0.0, 1.0, 1.0);
   scene.colourBy("classification", table);
   const Picture picture = scene.draw();
-  EXPECT_EQ(scene.colourOf(picture, 0), (Rgb{0, 0, 255}));
-  EXPECT_EQ(scene.colourOf(picture, 1), (Rgb{153, 102, 51}));
-  EXPECT_EQ(scene.colourOf(picture, 2), (Rgb{0, 0, 255}));
-  EXPECT_EQ(scene.colourOf(picture, 3), (Rgb{255, 0, 0}));
+  EXPECT_EQ(scene.colourOf(picture, 0), (Rgb{ 0, 0, 255 }));
+  EXPECT_EQ(scene.colourOf(picture, 1), (Rgb{ 153, 102, 51 }));
+  EXPECT_EQ(scene.colourOf(picture, 2), (Rgb{ 0, 0, 255 }));
+  EXPECT_EQ(scene.colourOf(picture, 3), (Rgb{ 255, 0, 0 }));
 }
 
 TEST(Colours, ALogarithmicTableEqualsVtks)
@@ -136,8 +137,8 @@ TEST(Colours, ALogarithmicTableEqualsVtks)
     [](std::size_t i)
     {
       Sample sample;
-      sample.position = {
-        static_cast<int>(i % 20) * 100 - 950, static_cast<int>(i / 20) * 100 - 950, 0};
+      sample.position = { static_cast<int>(i % 20) * 100 - 950,
+        static_cast<int>(i / 20) * 100 - 950, 0 };
       sample.time = std::pow(10.0, static_cast<double>(i) / 100.0) - 1.5;
       return sample;
     });
@@ -192,12 +193,12 @@ TEST(Colours, AnotherAttributeReplacesTheFirst)
   {
     table->SetTableValue(i, 0.2 * (i + 1), 0.0, 0.0);
   }
-  EXPECT_EQ(scene.colourOf(scene.draw(), 3), (Rgb{13, 20, 30}));
+  EXPECT_EQ(scene.colourOf(scene.draw(), 3), (Rgb{ 13, 20, 30 }));
   scene.colourBy("classification", table);
-  EXPECT_EQ(scene.colourOf(scene.draw(), 3), (Rgb{204, 0, 0}));
+  EXPECT_EQ(scene.colourOf(scene.draw(), 3), (Rgb{ 204, 0, 0 }));
   EXPECT_TRUE(scene.mapper->GetLastComplete());
   scene.mapper->SelectColorArray("rgb");
-  EXPECT_EQ(scene.colourOf(scene.draw(), 3), (Rgb{13, 20, 30}));
+  EXPECT_EQ(scene.colourOf(scene.draw(), 3), (Rgb{ 13, 20, 30 }));
 }
 
 TEST(Colours, LargeTimesKeepTheirFractions)
@@ -207,7 +208,7 @@ TEST(Colours, LargeTimesKeepTheirFractions)
     [](std::size_t i)
     {
       Sample sample;
-      sample.position = {static_cast<int>(i) * 20 - 990, 0, 0};
+      sample.position = { static_cast<int>(i) * 20 - 990, 0, 0 };
       sample.time = 3e8 + 0.01 * static_cast<double>(i);
       return sample;
     });
@@ -231,7 +232,7 @@ TEST(Colours, LargeTimesKeepTheirFractions)
   int seen = 0;
   for (int i = 1; i < 99; ++i)
   {
-    const auto p = scene.project({0.001 * (i * 20 - 990), 0.0, 0.0});
+    const auto p = scene.project({ 0.001 * (i * 20 - 990), 0.0, 0.0 });
     for (int dy = -1; dy <= 1; ++dy)
     {
       const auto c = picture.at(static_cast<int>(p[0]), static_cast<int>(p[1]) + dy);

@@ -27,7 +27,8 @@ int liveNames(vtkRenderWindow* window)
 /// A cloud in a window of its own, and the names that the window had without it.
 struct Counted : Scene
 {
-  explicit Counted(const std::string& store) : Scene(store)
+  explicit Counted(const std::string& store)
+    : Scene(store)
   {
     mapper->SetBackendToOpenGL();
     actor->VisibilityOff();

@@ -22,8 +22,8 @@ TEST(Drawing, APlaneHasNoHoles)
 {
   Scene scene(planeStore("no_holes", 201, 10)); // 2 m: a point each 0.37 pixels
   const Picture picture = scene.draw();
-  const auto low = scene.project({-0.95, -0.95, 0.0});
-  const auto high = scene.project({0.95, 0.95, 0.0});
+  const auto low = scene.project({ -0.95, -0.95, 0.0 });
+  const auto high = scene.project({ 0.95, 0.95, 0.0 });
   int holes = 0;
   for (int y = static_cast<int>(low[1]); y <= static_cast<int>(high[1]); ++y)
   {
@@ -38,21 +38,21 @@ TEST(Drawing, APlaneHasNoHoles)
 
 TEST(Drawing, APointIsWhereTheCameraPutsItInItsColourAndDepth)
 {
-  const GridPosition at{700, -400, 500};
+  const GridPosition at{ 700, -400, 500 };
   const auto store = storeOf("one_point", 2,
     [&](std::size_t i)
     {
       Sample sample;
-      sample.position = i == 0 ? at : GridPosition{-800, 300, 0};
-      sample.rgb = {200, static_cast<std::uint8_t>(i == 0 ? 100 : 30), 50};
+      sample.position = i == 0 ? at : GridPosition{ -800, 300, 0 };
+      sample.rgb = { 200, static_cast<std::uint8_t>(i == 0 ? 100 : 30), 50 };
       return sample;
     });
   Scene scene(store);
   scene.actor->GetProperty()->SetPointSize(3);
   const Picture picture = scene.draw();
-  const auto where = scene.project({0.7, -0.4, 0.5});
+  const auto where = scene.project({ 0.7, -0.4, 0.5 });
   EXPECT_EQ(picture.at(static_cast<int>(where[0]), static_cast<int>(where[1])),
-    (std::array<int, 3>{200, 100, 50}));
+    (std::array<int, 3>{ 200, 100, 50 }));
   EXPECT_EQ(picture.lit(), 18); // two squares of 3 x 3
   const double depth = scene.renderer->GetZ(static_cast<int>(where[0]), static_cast<int>(where[1]));
   EXPECT_NEAR(depth, where[2], 1e-5);
@@ -73,7 +73,7 @@ TEST(Drawing, EqualsVtksMapperOfAllPointsInMemory)
     });
   Scene scene(store);
   for (const glm::dvec3& eye :
-    {glm::dvec3(0.0, 0.0, 10.0), glm::dvec3(7.0, 3.0, 4.0), glm::dvec3(-2.0, -8.0, 1.0)})
+    { glm::dvec3(0.0, 0.0, 10.0), glm::dvec3(7.0, 3.0, 4.0), glm::dvec3(-2.0, -8.0, 1.0) })
   {
     scene.lookFrom(eye, glm::dvec3(0.0));
     scene.actor->SetMapper(scene.mapper);
@@ -140,8 +140,8 @@ TEST(Drawing, AClippingPlaneCutsAtItsCoordinate)
   plane->SetNormal(-1.0, 0.0, 0.0);
   scene.mapper->AddClippingPlane(plane);
   const Picture picture = scene.draw();
-  const auto kept = scene.project({0.3, 0.0, 0.0});
-  const auto gone = scene.project({0.32, 0.0, 0.0});
+  const auto kept = scene.project({ 0.3, 0.0, 0.0 });
+  const auto gone = scene.project({ 0.32, 0.0, 0.0 });
   int right = 0;
   for (int y = 0; y < picture.height; ++y)
   {

@@ -30,10 +30,10 @@ TEST(GpuBudgets, TheCloudsOfAWindowShareItsGpuMemory)
     EXPECT_GT(mapper->GetLastPointsDrawn(), 2000);
   }
   // What one cloud leaves idle, another takes.
-  scene.first.lookFrom({-6.0, -3.0, 5.0}, {-6.0, -3.0, 0.0});
+  scene.first.lookFrom({ -6.0, -3.0, 5.0 }, { -6.0, -3.0, 0.0 });
   scene.settle();
   const vtkIdType near = scene.first.mapper->GetLastPointsDrawn();
-  scene.first.lookFrom({3.0, -3.0, 5.0}, {3.0, -3.0, 0.0});
+  scene.first.lookFrom({ 3.0, -3.0, 5.0 }, { 3.0, -3.0, 0.0 });
   scene.settle();
   EXPECT_GT(scene.mappers[2]->GetLastPointsDrawn(), near * 3 / 4);
   // A path, frame by frame, some of them in motion.
@@ -42,7 +42,7 @@ TEST(GpuBudgets, TheCloudsOfAWindowShareItsGpuMemory)
   {
     scene.first.window->SetDesiredUpdateRate(step % 20 < 12 ? 15.0 : 0.0001);
     const double x = -6.0 + 0.15 * step;
-    scene.first.lookFrom({x, -3.0, 3.0 + 0.6 * (step % 30)}, {x, -3.0, 0.0});
+    scene.first.lookFrom({ x, -3.0, 3.0 + 0.6 * (step % 30) }, { x, -3.0, 0.0 });
     scene.first.window->Render();
     EXPECT_LE(scene.gpuBytes(), budget) << "step " << step;
   }
@@ -119,7 +119,7 @@ TEST(GpuBudgets, ALoweredBudgetOfGpuMemoryHoldsInTheFirstFrame)
   {
     mapper->CompleteOff();
   }
-  for (const vtkTypeInt64 less : {vtkTypeInt64(7) << 20, budget, budget / 2, budget / 8})
+  for (const vtkTypeInt64 less : { vtkTypeInt64(7) << 20, budget, budget / 2, budget / 8 })
   {
     lowerTo(scene, less, 15.0);
     lowerTo(scene, less, 15.0);
@@ -147,10 +147,11 @@ TEST(GpuBudgets, ALoweredBudgetOfGpuMemoryHoldsForAllViews)
   vtkTypeInt64 most = 0;
   vtkNew<vtkCallbackCommand> watch; // after each renderer's frame
   watch->SetClientData(&most);
-  watch->SetCallback([](vtkObject* caller, unsigned long, void* data, void*)
+  watch->SetCallback(
+    [](vtkObject* caller, unsigned long, void* data, void*)
     {
-      auto* actor = vtkActor::SafeDownCast(
-        static_cast<vtkRenderer*>(caller)->GetActors()->GetLastActor());
+      auto* actor =
+        vtkActor::SafeDownCast(static_cast<vtkRenderer*>(caller)->GetActors()->GetLastActor());
       auto* mapper = static_cast<vtkPointFrontMapper*>(actor->GetMapper());
       auto* bytes = static_cast<vtkTypeInt64*>(data);
       *bytes = std::max(*bytes, mapper->GetLastWindowGPUBytes());

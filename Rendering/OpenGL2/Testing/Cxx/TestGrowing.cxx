@@ -15,9 +15,9 @@ namespace
 {
 
 const std::map<std::string, std::string> growingStyles = {
-  {"opaque", R"({"default": {"technique": "splats"}})"},
-  {"blended", R"({"default": {"technique": "splats", "blended": true}})"},
-  {"spheres", R"({"default": {"technique": "spheres"}})"},
+  { "opaque", R"({"default": {"technique": "splats"}})" },
+  { "blended", R"({"default": {"technique": "splats", "blended": true}})" },
+  { "spheres", R"({"default": {"technique": "spheres"}})" },
 };
 
 std::string hillsStore()
@@ -27,8 +27,7 @@ std::string hillsStore()
   options.nodePoints = 2000;
   options.overwrite = true;
   options.threads = 1;
-  EXPECT_TRUE(
-    buildStore(one(hills(60000, 3000.0, millimetres(glm::dvec3(0.0)))), options).ok());
+  EXPECT_TRUE(buildStore(one(hills(60000, 3000.0, millimetres(glm::dvec3(0.0)))), options).ok());
   return options.outputPath;
 }
 
@@ -36,14 +35,15 @@ struct Growing : Scene
 {
   vtkNew<vtkPointFrontStyle> style;
 
-  explicit Growing(const std::string& store, const std::string& technique) : Scene(store)
+  explicit Growing(const std::string& store, const std::string& technique)
+    : Scene(store)
   {
     EXPECT_TRUE(style->LoadJSON(growingStyles.at(technique)));
     mapper->SetStyle(style);
     mapper->CompleteOff();
     mapper->SetTargetError(6.0);
     mapper->SetTargetFrameTime(10000.0); // time does not limit the detail
-    lookFrom({0.5, -6.0, 6.0}, {0.0, 0.0, 0.0});
+    lookFrom({ 0.5, -6.0, 6.0 }, { 0.0, 0.0, 0.0 });
   }
   /// In motion until another frame would be the same.
   Picture inMotion()
@@ -95,7 +95,7 @@ TEST(Growing, AtRestNothingIsLeftOfIt)
   const std::string store = hillsStore();
   for (const auto& [technique, json] : growingStyles)
   {
-    for (const int backend : {vtkPointFrontMapper::SOFTWARE, vtkPointFrontMapper::OPENGL})
+    for (const int backend : { vtkPointFrontMapper::SOFTWARE, vtkPointFrontMapper::OPENGL })
     {
       Growing scene(store, technique);
       scene.mapper->SetBackend(backend);

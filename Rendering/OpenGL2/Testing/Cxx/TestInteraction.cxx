@@ -36,12 +36,12 @@ int settle(Scene& scene)
     scene.window->Render();
     ++frames;
     while (!scene.mapper->NeedsRender() && !scene.mapper->GetLastComplete() &&
-           std::chrono::steady_clock::now() - begin < std::chrono::seconds(20))
+      std::chrono::steady_clock::now() - begin < std::chrono::seconds(20))
     {
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
   } while (scene.mapper->NeedsRender() &&
-           std::chrono::steady_clock::now() - begin < std::chrono::seconds(20));
+    std::chrono::steady_clock::now() - begin < std::chrono::seconds(20));
   return frames;
 }
 
@@ -90,8 +90,8 @@ TEST(Interaction, AViewIsAnnouncedOnceWhenItIsComplete)
   int announced = 0;
   vtkNew<vtkCallbackCommand> counter;
   counter->SetClientData(&announced);
-  counter->SetCallback([](vtkObject*, unsigned long, void* count, void*)
-    { ++*static_cast<int*>(count); });
+  counter->SetCallback(
+    [](vtkObject*, unsigned long, void* count, void*) { ++*static_cast<int*>(count); });
   scene.mapper->AddObserver(vtkPointFrontMapper::ViewCompleteEvent, counter);
   scene.window->Render();
   EXPECT_EQ(announced, 0); // the roots alone
@@ -204,7 +204,8 @@ TEST(Interaction, PiecesTogetherDrawEachPointOnce)
 class SteppedBuild
 {
 public:
-  explicit SteppedBuild(const std::string& name) : folder_(freshFolder(name))
+  explicit SteppedBuild(const std::string& name)
+    : folder_(freshFolder(name))
   {
     options_.outputPath = (folder_ / "city.pfront").string();
     options_.memoryBytes = std::uint64_t(1) << 30;
@@ -212,7 +213,7 @@ public:
     options_.threads = 1;
     wish_.leastPoints = 1000;
     wish_.leastSeconds = 1e9; // no version that shows no parts: they would come from a thread
-    wish_.shareOfTime = 1e9;  // of their own, and while it writes one the parts are left out
+    wish_.shareOfTime = 1e9; // of their own, and while it writes one the parts are left out
     wish_.shown = [this](const std::string& path)
     {
       const auto store = PointStore::open(path);
@@ -298,7 +299,7 @@ TEST(Interaction, AViewOfABuildGetsFinerAndLosesNothingOnTheWay)
       before = scene.mapper->GetLastPointsDrawn();
       std::this_thread::sleep_for(std::chrono::milliseconds(2));
     } while ((scene.mapper->NeedsRender() || before == seen) &&
-             std::chrono::steady_clock::now() - begin < std::chrono::seconds(20));
+      std::chrono::steady_clock::now() - begin < std::chrono::seconds(20));
     EXPECT_GT(before, seen);
     ++versions;
   }
@@ -328,7 +329,7 @@ TEST(Interaction, AViewInMotionStaysWithItsPreview)
   // The mapper looks for a successor four times a second and goes over when that is loaded.
   const auto begin = std::chrono::steady_clock::now();
   while (scene.mapper->GetStore()->GetFileName() == before &&
-         std::chrono::steady_clock::now() - begin < std::chrono::seconds(20))
+    std::chrono::steady_clock::now() - begin < std::chrono::seconds(20))
   {
     settle(scene);
     std::this_thread::sleep_for(std::chrono::milliseconds(2));

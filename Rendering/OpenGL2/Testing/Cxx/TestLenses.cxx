@@ -29,11 +29,11 @@ namespace
 {
 
 using Colour = std::array<int, 3>;
-constexpr Colour black{0, 0, 0};
-constexpr Colour green{0, 200, 0};
-constexpr Colour red{200, 0, 0};
+constexpr Colour black{ 0, 0, 0 };
+constexpr Colour green{ 0, 200, 0 };
+constexpr Colour red{ 200, 0, 0 };
 constexpr int side = 120;
-const std::array<int, 2> backends = {vtkPointFrontMapper::SOFTWARE, vtkPointFrontMapper::OPENGL};
+const std::array<int, 2> backends = { vtkPointFrontMapper::SOFTWARE, vtkPointFrontMapper::OPENGL };
 
 /// Class 5, green, half a metre above class 2, red; both 2.4 m wide and 20 mm apart.
 std::string meadowStore(const std::string& name)
@@ -45,9 +45,10 @@ std::string meadowStore(const std::string& name)
       const auto column = static_cast<int>(i % side);
       const auto row = static_cast<int>(i / side % side);
       Sample sample;
-      sample.position = {(2 * column - side + 1) * 10, (2 * row - side + 1) * 10, above ? 500 : 0};
-      sample.rgb = above ? std::array<std::uint8_t, 3>{0, 200, 0}
-                         : std::array<std::uint8_t, 3>{200, 0, 0};
+      sample.position = { (2 * column - side + 1) * 10, (2 * row - side + 1) * 10,
+        above ? 500 : 0 };
+      sample.rgb =
+        above ? std::array<std::uint8_t, 3>{ 0, 200, 0 } : std::array<std::uint8_t, 3>{ 200, 0, 0 };
       sample.classification = above ? 5 : 2;
       return sample;
     });
@@ -58,10 +59,11 @@ struct Meadow : Scene
 {
   vtkNew<vtkPointFrontStyle> style;
 
-  explicit Meadow(const std::string& store) : Scene(store)
+  explicit Meadow(const std::string& store)
+    : Scene(store)
   {
     window->SetSize(200, 200);
-    lookFrom({0.0, 0.0, 5.0}, {0.0, 0.0, 0.0});
+    lookFrom({ 0.0, 0.0, 5.0 }, { 0.0, 0.0, 0.0 });
     mapper->SetStyle(style);
     style->SetTechnique("splats");
   }
@@ -108,26 +110,27 @@ TEST(Lenses, ACircleOpensTheCanopy)
 TEST(Lenses, AreAlikeInBothBackEnds)
 {
   const std::map<std::string, std::string> styles = {
-    {"circle", R"({"lenses": [{"shape": "circle", "center_px": [90, 80], "radius_px": 50,
-      "inside": {"default": {"technique": "ewa", "color": "elevation"}}}]})"},
-    {"rectangle", R"({"lenses": [{"shape": "rectangle", "center_px": [90, 80], "size_px": [80, 31],
-      "inside": {"5": {"opacity": 0.3}}}], "shading": {"mode": "edl"}})"},
-    {"mask", R"({"lenses": [{"shape": "mask", "mask": ["#..", ".##"],
-      "inside": {"5": {"visible": false}, "2": {"technique": "spheres"}}}]})"},
-    {"around", R"({"lenses": [{"around_class": 2, "radius": 0.05,
-      "inside": {"5": {"visible": false}}}], "classes": {"2": {"where": "x < 0"}}})"},
-    {"two", R"({"lenses": [
+    { "circle", R"({"lenses": [{"shape": "circle", "center_px": [90, 80], "radius_px": 50,
+      "inside": {"default": {"technique": "ewa", "color": "elevation"}}}]})" },
+    { "rectangle", R"({"lenses": [{"shape": "rectangle", "center_px": [90, 80], "size_px": [80, 31],
+      "inside": {"5": {"opacity": 0.3}}}], "shading": {"mode": "edl"}})" },
+    { "mask", R"({"lenses": [{"shape": "mask", "mask": ["#..", ".##"],
+      "inside": {"5": {"visible": false}, "2": {"technique": "spheres"}}}]})" },
+    { "around", R"({"lenses": [{"around_class": 2, "radius": 0.05,
+      "inside": {"5": {"visible": false}}}], "classes": {"2": {"where": "x < 0"}}})" },
+    { "two", R"({"lenses": [
       {"shape": "circle", "center_px": [90, 80], "radius_px": 50,
        "inside": {"5": {"color": "#4080ff"}}},
       {"shape": "circle", "center_px": [110, 90], "radius_px": 30,
-       "inside": {"5": {"visible": false}}}]})"},
-    {"translucent", R"({"classes": {"5": {"opacity": 0.4}}, "shading": {"mode": "edl"}})"},
-    {"both", R"({"classes": {"5": {"opacity": 0.4}, "2": {"opacity": 0.7, "technique": "ewa"}}})"},
-    {"highlight", R"({"classes": {"5": {"where": "x in [-0.5, 0.4]"}},
-      "highlight": [{"class": 5, "color": "#ffcc00", "halo_px": 4, "tint": 0.3}]})"},
+       "inside": {"5": {"visible": false}}}]})" },
+    { "translucent", R"({"classes": {"5": {"opacity": 0.4}}, "shading": {"mode": "edl"}})" },
+    { "both",
+      R"({"classes": {"5": {"opacity": 0.4}, "2": {"opacity": 0.7, "technique": "ewa"}}})" },
+    { "highlight", R"({"classes": {"5": {"where": "x in [-0.5, 0.4]"}},
+      "highlight": [{"class": 5, "color": "#ffcc00", "halo_px": 4, "tint": 0.3}]})" },
   };
   Meadow scene(meadowStore("alike"));
-  scene.lookFrom({1.5, -3.0, 4.0}, {0.0, 0.0, 0.2});
+  scene.lookFrom({ 1.5, -3.0, 4.0 }, { 0.0, 0.0, 0.2 });
   for (const auto& [name, json] : styles)
   {
     ASSERT_TRUE(scene.style->LoadJSON(json)) << name;
@@ -145,11 +148,11 @@ TEST(Lenses, WhatIsTranslucentLiesOverWhatIsBehindItAndOverTheBackground)
   for (const int backend : backends)
   {
     scene.style->SetVisibility(true, 2);
-    expectNear(scene.with(backend).at(100, 100), {150, 50, 0}, "over red");
+    expectNear(scene.with(backend).at(100, 100), { 150, 50, 0 }, "over red");
     scene.style->SetVisibility(false, 2);
-    expectNear(scene.with(backend).at(100, 100), {0, 50, 0}, "over black");
+    expectNear(scene.with(backend).at(100, 100), { 0, 50, 0 }, "over black");
     scene.renderer->SetBackground(0.0, 0.0, 1.0);
-    expectNear(scene.with(backend).at(100, 100), {0, 50, 191}, "over blue");
+    expectNear(scene.with(backend).at(100, 100), { 0, 50, 191 }, "over blue");
     scene.renderer->SetBackground(0.0, 0.0, 0.0);
   }
 }
@@ -162,7 +165,7 @@ TEST(Lenses, OtherActorsAreInFrontAndBehind)
   vtkNew<vtkPoints> corners; // between the two classes
   vtkNew<vtkCellArray> cells;
   cells->InsertNextCell(4);
-  for (const auto& [x, y] : {std::pair(-0.2, -0.2), {0.2, -0.2}, {0.2, 0.2}, {-0.2, 0.2}})
+  for (const auto& [x, y] : { std::pair(-0.2, -0.2), { 0.2, -0.2 }, { 0.2, 0.2 }, { -0.2, 0.2 } })
   {
     cells->InsertCellPoint(corners->InsertNextPoint(x, y, 0.25));
   }
@@ -179,7 +182,7 @@ TEST(Lenses, OtherActorsAreInFrontAndBehind)
   for (const int backend : backends)
   {
     const Picture picture = scene.with(backend);
-    EXPECT_EQ(picture.at(100, 100), (Colour{0, 0, 255})) << "seen through the lens";
+    EXPECT_EQ(picture.at(100, 100), (Colour{ 0, 0, 255 })) << "seen through the lens";
     EXPECT_EQ(picture.at(130, 100), red) << "beside it, in the lens";
     EXPECT_EQ(picture.at(160, 100), green);
   }
@@ -208,8 +211,7 @@ TEST(Lenses, SelectionsGetWhatIsSeen)
       std::set<double> heights;
       for (unsigned int n = 0; n < selection->GetNumberOfNodes(); ++n)
       {
-        auto* const ids =
-          vtkIdTypeArray::SafeDownCast(selection->GetNode(n)->GetSelectionList());
+        auto* const ids = vtkIdTypeArray::SafeDownCast(selection->GetNode(n)->GetSelectionList());
         for (vtkIdType i = 0; i < ids->GetNumberOfTuples(); ++i)
         {
           heights.insert(all->GetPoint(ids->GetValue(i))[2]);
@@ -217,8 +219,8 @@ TEST(Lenses, SelectionsGetWhatIsSeen)
       }
       return heights;
     };
-    EXPECT_EQ(heightsIn(58, 98), std::set<double>{0.0}) << "in the lens, " << backend;
-    EXPECT_EQ(heightsIn(150, 98), std::set<double>{0.5}) << "outside, " << backend;
+    EXPECT_EQ(heightsIn(58, 98), std::set<double>{ 0.0 }) << "in the lens, " << backend;
+    EXPECT_EQ(heightsIn(150, 98), std::set<double>{ 0.5 }) << "outside, " << backend;
   }
 }
 
@@ -288,9 +290,8 @@ TEST(Lenses, TheWidgetFollowsTheMouse)
 TEST(Lenses, APosterOfTilesHasTheLensOnce)
 {
   Meadow scene(meadowStore("poster_lens"));
-  for (const char* const place :
-    {R"("shape": "circle", "center_px": [60, 100], "radius_px": 30)",
-      R"("shape": "mask", "mask": ["..#...", "...#.."])"})
+  for (const char* const place : { R"("shape": "circle", "center_px": [60, 100], "radius_px": 30)",
+         R"("shape": "mask", "mask": ["..#...", "...#.."])" })
   {
     scene.style->LoadJSON(std::string(R"({"default": {"technique": "splats"}, "lenses": [{)") +
       place + R"(, "inside": {"5": {"visible": false}}}]})");

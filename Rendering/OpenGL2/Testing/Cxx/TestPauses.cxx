@@ -30,7 +30,7 @@ std::shared_ptr<const Hierarchy> terrain(int levels)
   {
     rows.push_back(made.row(n));
   }
-  return std::make_shared<HierarchyTable>(rows, std::vector<NodeIndex>{0}, Refinement::Add);
+  return std::make_shared<HierarchyTable>(rows, std::vector<NodeIndex>{ 0 }, Refinement::Add);
 }
 
 /// A view whose last drawing took `drawingMs` and has just ended; behind its root the nodes come
@@ -38,15 +38,16 @@ std::shared_ptr<const Hierarchy> terrain(int levels)
 struct LoadingView
 {
   LoadingView()
-      : reader(std::make_shared<MadeUpReader>()), table(terrain(3)),
-        share(reader, table->nodeCount(), ResidencyOptions()),
-        view(renderer, [] {})
+    : reader(std::make_shared<MadeUpReader>())
+    , table(terrain(3))
+    , share(reader, table->nodeCount(), ResidencyOptions())
+    , view(renderer, [] {})
   {
     view.Front = std::make_unique<ViewFront>(std::make_shared<HierarchyPiece>(table, 0, 1), share,
       schema, std::make_shared<WindowDemand>());
     const double s = Terrain::sizeMetres;
-    view.Demand.view = View::perspective({0.5 * s, 0.5 * s, s}, {0.5 * s, 0.51 * s, 0},
-      {0, 0, 1}, 0.9, 1.0, 1e7, 800, 600);
+    view.Demand.view = View::perspective(
+      { 0.5 * s, 0.5 * s, s }, { 0.5 * s, 0.51 * s, 0 }, { 0, 0, 1 }, 0.9, 1.0, 1e7, 800, 600);
     view.Demand.targetErrorPx = 0.01;
     reader->closeGate();
     reader->letThrough(1); // the root
@@ -137,7 +138,7 @@ TEST(Pauses, WhenAllIsThereThePauseEnds)
 
 TEST(Pauses, NoneInMotionNorForACompleteRender)
 {
-  for (const bool interacting : {true, false})
+  for (const bool interacting : { true, false })
   {
     LoadingView loading;
     loading.view.Demand.interacting = interacting;

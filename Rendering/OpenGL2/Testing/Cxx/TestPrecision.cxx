@@ -10,11 +10,11 @@ Sample hill(std::size_t i)
 {
   Random random(1000 + i);
   Sample sample;
-  sample.position = {std::llround(4000.0 * random.uniform() - 2000.0),
-    std::llround(4000.0 * random.uniform() - 2000.0), 0};
+  sample.position = { std::llround(4000.0 * random.uniform() - 2000.0),
+    std::llround(4000.0 * random.uniform() - 2000.0), 0 };
   sample.position.z = (sample.position.x * sample.position.y) / 4000;
-  sample.rgb = {static_cast<std::uint8_t>(random.next()), static_cast<std::uint8_t>(random.next()),
-    static_cast<std::uint8_t>(random.next())};
+  sample.rgb = { static_cast<std::uint8_t>(random.next()), static_cast<std::uint8_t>(random.next()),
+    static_cast<std::uint8_t>(random.next()) };
   return sample;
 }
 
@@ -24,8 +24,8 @@ TEST(Precision, TheSceneLooksTheSameAtTheOriginAndFarFromIt)
   Scene near(storeOf("near", 40000, hill));
   Scene away(storeOf("away", 40000, hill, far), far);
   // Eyes on multiples of 1/1024, which are exact at both places.
-  for (const glm::dvec3& eye : {glm::dvec3(0.0, 0.0, 10.0), glm::dvec3(3.0625, -2.5, 1.125),
-         glm::dvec3(0.5, 0.25, 0.0625 + 0.5)})
+  for (const glm::dvec3& eye : { glm::dvec3(0.0, 0.0, 10.0), glm::dvec3(3.0625, -2.5, 1.125),
+         glm::dvec3(0.5, 0.25, 0.0625 + 0.5) })
   {
     near.lookFrom(eye, glm::dvec3(0.0));
     away.lookFrom(far + eye, far);
@@ -45,7 +45,7 @@ TEST(Precision, NothingJittersWhenTheCameraMovesByFractionsOfAMillimetre)
     [](std::size_t i)
     {
       Sample sample;
-      sample.position = {static_cast<int>(i) - 25, 0, 0};
+      sample.position = { static_cast<int>(i) - 25, 0, 0 };
       return sample;
     },
     far);

@@ -21,9 +21,10 @@ namespace
 /// A sheet of 150 * 150 points, 20 mm apart, seen obliquely, whose colours are their numbers.
 struct NumberedSheet : Scene
 {
-  NumberedSheet() : Scene(store())
+  NumberedSheet()
+    : Scene(store())
   {
-    lookFrom({3.0, -6.0, 4.0}, {0.0, 0.0, 0.0});
+    lookFrom({ 3.0, -6.0, 4.0 }, { 0.0, 0.0, 0.0 });
     mapper->SetPointSize(2.0);
     reader->SetOverviewPoints(1000000);
     reader->Update();
@@ -38,11 +39,11 @@ struct NumberedSheet : Scene
         const int column = static_cast<int>(i % 150);
         const int row = static_cast<int>(i / 150);
         Sample sample;
-        sample.position = {20 * column - 1490, 20 * row - 1490,
-          static_cast<int>(300.0 * std::sin(0.07 * column) * std::cos(0.05 * row))};
+        sample.position = { 20 * column - 1490, 20 * row - 1490,
+          static_cast<int>(300.0 * std::sin(0.07 * column) * std::cos(0.05 * row)) };
         const std::size_t number = i + 1;
-        sample.rgb = {static_cast<std::uint8_t>(number & 255),
-          static_cast<std::uint8_t>(number >> 8), static_cast<std::uint8_t>(200)};
+        sample.rgb = { static_cast<std::uint8_t>(number & 255),
+          static_cast<std::uint8_t>(number >> 8), static_cast<std::uint8_t>(200) };
         return sample;
       });
   }
@@ -74,7 +75,7 @@ struct NumberedSheet : Scene
     {
       for (unsigned x = 0; x < static_cast<unsigned>(size[0]); ++x)
       {
-        const unsigned pixel[2] = {x, y};
+        const unsigned pixel[2] = { x, y };
         const auto found = selector->GetPixelInformation(pixel);
         if (!found.Valid || found.Prop != actor)
         {
@@ -112,11 +113,11 @@ struct NumberedSheet : Scene
 
 TEST(Selection, FindsThePointOfEachPixel)
 {
-  for (const int backend : {vtkPointFrontMapper::OPENGL, vtkPointFrontMapper::SOFTWARE})
+  for (const int backend : { vtkPointFrontMapper::OPENGL, vtkPointFrontMapper::SOFTWARE })
   {
     NumberedSheet scene;
     scene.mapper->SetBackend(backend);
-    for (const double sizePx : {1.0, 2.0, 3.0, 5.0})
+    for (const double sizePx : { 1.0, 2.0, 3.0, 5.0 })
     {
       scene.mapper->SetPointSize(sizePx);
       const std::string what = "back end " + std::to_string(backend) + ", size " +
@@ -138,12 +139,13 @@ TEST(Selection, FindsNothingBehindOthers)
 {
   NumberedSheet scene;
   vtkNew<vtkPoints> corners; // a wall that stands in the sheet
-  for (const glm::dvec2& corner : {glm::dvec2(-0.8, -0.5), {0.8, -0.5}, {0.8, 0.5}, {-0.8, 0.5}})
+  for (const glm::dvec2& corner :
+    { glm::dvec2(-0.8, -0.5), { 0.8, -0.5 }, { 0.8, 0.5 }, { -0.8, 0.5 } })
   {
     corners->InsertNextPoint(corner.x, 0.0, corner.y);
   }
   vtkNew<vtkCellArray> quad;
-  quad->InsertNextCell({0, 1, 2, 3});
+  quad->InsertNextCell({ 0, 1, 2, 3 });
   vtkNew<vtkPolyData> surface;
   surface->SetPoints(corners);
   surface->SetPolys(quad);
@@ -157,7 +159,7 @@ TEST(Selection, FindsNothingBehindOthers)
   scene.renderer->AddActor(wall);
   scene.renderer->AddActor(scene.actor); // the last: it wins where both have one depth
   // So far that 1/65000 of the range of depths is more than the sheet.
-  scene.lookFrom({300.0, -600.0, 400.0}, {0.0, 0.0, 0.0});
+  scene.lookFrom({ 300.0, -600.0, 400.0 }, { 0.0, 0.0, 0.0 });
   scene.renderer->GetActiveCamera()->SetViewAngle(0.3);
   scene.renderer->GetActiveCamera()->SetClippingRange(100.0, 2000.0);
   scene.expectWhatIsShown("a wall in the sheet");
@@ -165,7 +167,7 @@ TEST(Selection, FindsNothingBehindOthers)
 
 TEST(Selection, FindsTheNearestWhereALayerAboveClearsDepths)
 {
-  for (const int backend : {vtkPointFrontMapper::OPENGL, vtkPointFrontMapper::SOFTWARE})
+  for (const int backend : { vtkPointFrontMapper::OPENGL, vtkPointFrontMapper::SOFTWARE })
   {
     NumberedSheet scene;
     scene.mapper->SetBackend(backend);

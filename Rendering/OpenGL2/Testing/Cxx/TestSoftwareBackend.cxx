@@ -22,9 +22,9 @@
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkRenderStepsPass.h>
-#include <vtkSSAOPass.h>
 #include <vtkSelection.h>
 #include <vtkSelectionNode.h>
+#include <vtkSSAOPass.h>
 #include <vtkWindowToImageFilter.h>
 
 #include <array>
@@ -49,9 +49,9 @@ std::string sheetStore()
       const int row = static_cast<int>(i / 200);
       Sample sample;
       const double height = 300.0 * std::sin(0.07 * column) * std::cos(0.05 * row);
-      sample.position = {20 * column - 1990, 20 * row - 1990, static_cast<int>(height)};
-      sample.rgb = {static_cast<std::uint8_t>(55 + column), static_cast<std::uint8_t>(55 + row),
-        static_cast<std::uint8_t>(150 + height / 3)};
+      sample.position = { 20 * column - 1990, 20 * row - 1990, static_cast<int>(height) };
+      sample.rgb = { static_cast<std::uint8_t>(55 + column), static_cast<std::uint8_t>(55 + row),
+        static_cast<std::uint8_t>(150 + height / 3) };
       sample.classification = static_cast<std::uint8_t>(1 + column / 100);
       sample.time = 1e-3 * height;
       return sample;
@@ -60,9 +60,10 @@ std::string sheetStore()
 
 struct Sheet : Scene
 {
-  Sheet() : Scene(sheetStore())
+  Sheet()
+    : Scene(sheetStore())
   {
-    lookFrom({3.0, -6.0, 4.0}, {0.0, 0.0, 0.0});
+    lookFrom({ 3.0, -6.0, 4.0 }, { 0.0, 0.0, 0.0 });
   }
   Picture with(int backend)
   {
@@ -84,7 +85,8 @@ struct Sheet : Scene
   vtkSmartPointer<vtkActor> addPyramid(const glm::dvec3& centre, double height)
   {
     vtkNew<vtkPoints> points;
-    for (const glm::dvec2& corner : {glm::dvec2(-0.8, -0.8), {0.8, -0.8}, {0.8, 0.8}, {-0.8, 0.8}})
+    for (const glm::dvec2& corner :
+      { glm::dvec2(-0.8, -0.8), { 0.8, -0.8 }, { 0.8, 0.8 }, { -0.8, 0.8 } })
     {
       points->InsertNextPoint(centre.x + corner.x, centre.y + corner.y, centre.z - 0.5 * height);
     }
@@ -92,7 +94,7 @@ struct Sheet : Scene
     vtkNew<vtkCellArray> sides;
     for (vtkIdType side = 0; side < 4; ++side)
     {
-      sides->InsertNextCell({side, (side + 1) % 4, 4});
+      sides->InsertNextCell({ side, (side + 1) % 4, 4 });
     }
     vtkNew<vtkPolyData> surface;
     surface->SetPoints(points);
@@ -162,7 +164,7 @@ TEST(SoftwareBackend, DrawsTheColoursThatOpenGLDraws)
   table->Build();
   scene.mapper->SetLookupTable(table);
   scene.mapper->UseLookupTableScalarRangeOn();
-  for (const char* name : {"gps_time", "classification", "elevation"})
+  for (const char* name : { "gps_time", "classification", "elevation" })
   {
     scene.mapper->SelectColorArray(name);
     scene.expectAlike(name, 0.03); // neighbours of one depth differ more in some tables
@@ -190,7 +192,7 @@ TEST(SoftwareBackend, FollowsActorsAndClippingPlanes)
 TEST(SoftwareBackend, DepthIsOpenGLsToSixDigits)
 {
   Sheet scene;
-  for (const bool parallel : {false, true})
+  for (const bool parallel : { false, true })
   {
     scene.renderer->GetActiveCamera()->SetParallelProjection(parallel);
     scene.renderer->GetActiveCamera()->SetParallelScale(2.0);
@@ -218,9 +220,9 @@ TEST(SoftwareBackend, OtherActorsIntersectIt)
 {
   Sheet scene;
   scene.mapper->SetPointSize(3.0);
-  const auto front = scene.addPyramid({0.5, 0.0, 0.3}, 2.0); // half above the sheet
+  const auto front = scene.addPyramid({ 0.5, 0.0, 0.3 }, 2.0); // half above the sheet
   scene.expectAlike("a pyramid through the sheet");
-  const auto behind = scene.addPyramid({-0.5, 3.0, -1.5}, 1.0);
+  const auto behind = scene.addPyramid({ -0.5, 3.0, -1.5 }, 1.0);
   scene.expectAlike("and one behind");
   front->GetProperty()->SetOpacity(0.5);
   scene.expectAlike("a translucent one");
@@ -305,7 +307,7 @@ TEST(SoftwareBackend, SelectsThePointsThatItShows)
   vtkPointData* all = reader->GetOutput()->GetPointData();
   auto* ranks = vtkIdTypeArray::SafeDownCast(all->GetGlobalIds());
   ASSERT_NE(ranks, nullptr);
-  for (const double sizePx : {1.0, 4.0})
+  for (const double sizePx : { 1.0, 4.0 })
   {
     scene.mapper->SetPointSize(sizePx);
     const Picture picture = scene.with(vtkPointFrontMapper::SOFTWARE);
@@ -315,10 +317,10 @@ TEST(SoftwareBackend, SelectsThePointsThatItShows)
       for (int x = 100; x <= 180; ++x)
       {
         const auto colour = picture.at(x, y);
-        shown.insert({colour[0], colour[1]});
+        shown.insert({ colour[0], colour[1] });
       }
     }
-    shown.erase({0, 0}); // nothing
+    shown.erase({ 0, 0 }); // nothing
     vtkNew<vtkHardwareSelector> selector;
     selector->SetRenderer(scene.renderer);
     selector->SetArea(100, 60, 180, 140);
@@ -334,7 +336,7 @@ TEST(SoftwareBackend, SelectsThePointsThatItShows)
       const vtkIdType index = ranks->LookupValue(list->GetValue(i));
       ASSERT_GE(index, 0);
       const double* colour = all->GetArray("rgb")->GetTuple3(index);
-      selected.insert({static_cast<int>(colour[0]), static_cast<int>(colour[1])});
+      selected.insert({ static_cast<int>(colour[0]), static_cast<int>(colour[1]) });
     }
     EXPECT_EQ(list->GetNumberOfValues(), static_cast<vtkIdType>(selected.size()));
     EXPECT_EQ(selected, shown);
@@ -346,7 +348,7 @@ TEST(SoftwareBackend, PassesOfOthersWorkOnIt)
 {
   Sheet scene;
   scene.mapper->SetPointSize(3.0);
-  scene.addPyramid({0.5, 0.0, 0.3}, 2.0);
+  scene.addPyramid({ 0.5, 0.0, 0.3 }, 2.0);
   const Picture plain = scene.with(vtkPointFrontMapper::SOFTWARE);
   vtkNew<vtkRenderStepsPass> steps;
   vtkNew<vtkEDLShading> edl;
@@ -422,8 +424,8 @@ TEST(SoftwareBackend, FewOutliersDoNotEatTheColours)
     [](std::size_t i)
     {
       Sample sample;
-      sample.position = {20 * static_cast<int>(i % 200) - 1990,
-        20 * static_cast<int>(i / 200) - 1990, 0};
+      sample.position = { 20 * static_cast<int>(i % 200) - 1990,
+        20 * static_cast<int>(i / 200) - 1990, 0 };
       sample.time = i % 200 == 77 ? 1000.0 : static_cast<double>(i % 200) / 200.0;
       return sample;
     }));
@@ -438,7 +440,7 @@ TEST(SoftwareBackend, FewOutliersDoNotEatTheColours)
     return scene.draw();
   };
   scene.draw(); // opens the store
-  const AttributeRanges ranges({scene.mapper->GetStore()->GetStore()});
+  const AttributeRanges ranges({ scene.mapper->GetStore()->GetStore() });
   const auto sampled = ranges.of("gps_time");
   ASSERT_TRUE(sampled);
   EXPECT_NEAR((*sampled)[0], 0.02, 0.01);
@@ -446,7 +448,7 @@ TEST(SoftwareBackend, FewOutliersDoNotEatTheColours)
   const Picture automatic = coloured(std::nullopt);
   EXPECT_GT(automatic.lit(), 1000);
   EXPECT_EQ(differing(automatic, coloured(*sampled)), 0);
-  EXPECT_GT(differing(automatic, coloured(std::array<double, 2>{0.0, 1000.0})), 1000);
+  EXPECT_GT(differing(automatic, coloured(std::array<double, 2>{ 0.0, 1000.0 })), 1000);
 }
 
 TEST(SoftwareBackend, AStyleMayChangeBetweenTwoFrames)

@@ -17,32 +17,31 @@ using namespace pointfront::test;
 namespace
 {
 
-const std::vector<std::string> techniqueWords = {R"("technique": "splats")",
+const std::vector<std::string> techniqueWords = { R"("technique": "splats")",
   R"("technique": "splats", "blended": true)", R"("technique": "splats", "orientation": "view")",
   R"("technique": "spheres")", R"("technique": "ewa")",
-  R"("technique": "ewa", "accuracy": "exact")", R"("technique": "ewa", "accuracy": "full")"};
+  R"("technique": "ewa", "accuracy": "exact")", R"("technique": "ewa", "accuracy": "full")" };
 
 struct NormalPoint
 {
   glm::dvec3 position;
-  glm::vec3 normal{0.0f, 0.0f, 1.0f};
-  std::array<std::uint8_t, 3> rgb{255, 255, 255};
+  glm::vec3 normal{ 0.0f, 0.0f, 1.0f };
+  std::array<std::uint8_t, 3> rgb{ 255, 255, 255 };
 };
 
 std::string storeOfPoints(const std::string& name, const std::vector<NormalPoint>& points,
   const glm::dvec3& offset = glm::dvec3(0.0))
 {
   AttributeSchema schema;
-  schema.add({"rgb", ScalarType::UInt8, 3});
-  schema.add({"normal", ScalarType::Float32, 3});
+  schema.add({ "rgb", ScalarType::UInt8, 3 });
+  schema.add({ "normal", ScalarType::Float32, 3 });
   const QuantisationGrid grid = millimetres(offset);
   auto cloud = std::make_unique<CloudSource>(name, schema, grid);
   for (const NormalPoint& point : points)
   {
     cloud->addPosition(point.position + offset);
     cloud->addValue(0, point.rgb);
-    cloud->addValue(
-      1, std::array<float, 3>{point.normal.x, point.normal.y, point.normal.z});
+    cloud->addValue(1, std::array<float, 3>{ point.normal.x, point.normal.y, point.normal.z });
   }
   BuildOptions options;
   options.outputPath = ::testing::TempDir() + name + ".pfront";
@@ -59,7 +58,7 @@ struct Extreme : Scene
   vtkNew<vtkPointFrontStyle> style;
 
   explicit Extreme(const std::string& store, const glm::dvec3& origin = glm::dvec3(0.0))
-      : Scene(store, origin)
+    : Scene(store, origin)
   {
     mapper->SetStyle(style);
   }
@@ -78,8 +77,8 @@ std::vector<NormalPoint> plane(int side, double step)
   std::vector<NormalPoint> points;
   for (int i = 0; i < side * side; ++i)
   {
-    points.push_back({{(i % side - 0.5 * (side - 1)) * step, (i / side - 0.5 * (side - 1)) * step,
-      0.0}});
+    points.push_back(
+      { { (i % side - 0.5 * (side - 1)) * step, (i / side - 0.5 * (side - 1)) * step, 0.0 } });
   }
   return points;
 }
@@ -88,9 +87,10 @@ std::vector<NormalPoint> plane(int side, double step)
 
 TEST(SplatExtremes, AnEyeOnASplatAndPointsBehind)
 {
-  Extreme scene(storeOfPoints("eye", {{{0, 0, 0}, {0, -1, 0}}, {{0, -1, 0}}, {{0, -3, 0.1}}}));
+  Extreme scene(
+    storeOfPoints("eye", { { { 0, 0, 0 }, { 0, -1, 0 } }, { { 0, -1, 0 } }, { { 0, -3, 0.1 } } }));
   scene.renderer->ResetCameraClippingRange();
-  scene.lookFrom({0, 0, 0}, {0, 1, 0});
+  scene.lookFrom({ 0, 0, 0 }, { 0, 1, 0 });
   scene.renderer->GetActiveCamera()->SetViewUp(0, 0, 1);
   scene.renderer->GetActiveCamera()->SetClippingRange(1e-3, 10.0);
   for (const std::string& technique : techniqueWords)
@@ -106,12 +106,12 @@ TEST(SplatExtremes, CoordinatesOfTenThousandKilometres)
   std::vector<NormalPoint> points = plane(30, 0.1);
   for (std::size_t i = 0; i < points.size(); ++i)
   {
-    points[i].rgb = {static_cast<std::uint8_t>(37 * i), static_cast<std::uint8_t>(11 * i), 200};
+    points[i].rgb = { static_cast<std::uint8_t>(37 * i), static_cast<std::uint8_t>(11 * i), 200 };
   }
   const glm::dvec3 far(10485760.0, -10485760.0, 2621440.0);
   Extreme near(storeOfPoints("near", points));
   Extreme moved(storeOfPoints("far", points, far), far);
-  near.lookFrom({0.5, -3.0, 4.0}, {0.0, 0.0, 0.0});
+  near.lookFrom({ 0.5, -3.0, 4.0 }, { 0.0, 0.0, 0.0 });
   moved.lookFrom(far + glm::dvec3(0.5, -3.0, 4.0), far);
   for (const std::string& technique : techniqueWords)
   {
@@ -125,7 +125,7 @@ TEST(SplatExtremes, CoordinatesOfTenThousandKilometres)
 /// A radius of nothing shows each point in its pixel; one of a million pixels fills the picture.
 TEST(SplatExtremes, RadiiOfNothingAndOfAMillionPixels)
 {
-  Extreme scene(storeOfPoints("radii", {{{0, 0, 0}}}));
+  Extreme scene(storeOfPoints("radii", { { { 0, 0, 0 } } }));
   for (const std::string& technique : techniqueWords)
   {
     const int lit = scene.with(technique, 1.0e-6).lit();
@@ -142,11 +142,11 @@ TEST(SplatExtremes, RadiiOfNothingAndOfAMillionPixels)
 TEST(SplatExtremes, ViewAnglesOfOneAndOf170Degrees)
 {
   Extreme scene(storeOfPoints("angles", plane(60, 0.05)));
-  for (const double angle : {1.0, 170.0})
+  for (const double angle : { 1.0, 170.0 })
   {
     for (const std::string& technique : techniqueWords)
     {
-      scene.lookFrom({0, 0, angle == 1.0 ? 100.0 : 0.5}, {0, 0, 0});
+      scene.lookFrom({ 0, 0, angle == 1.0 ? 100.0 : 0.5 }, { 0, 0, 0 });
       scene.renderer->GetActiveCamera()->SetViewAngle(angle);
       scene.renderer->GetActiveCamera()->SetClippingRange(0.1, 1000.0);
       scene.mapper->SetBackendToOpenGL();
@@ -176,11 +176,10 @@ TEST(SplatExtremes, NormalsThatAreNone)
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const float infinity = std::numeric_limits<float>::infinity();
   std::vector<NormalPoint> points;
-  for (const glm::vec3& normal :
-    {glm::vec3(0.0f), glm::vec3(nan), glm::vec3(infinity, 0, 0), glm::vec3(1e-20f),
-      glm::vec3(1e20f, 0, 1), glm::vec3(1, 0, 0)})
+  for (const glm::vec3& normal : { glm::vec3(0.0f), glm::vec3(nan), glm::vec3(infinity, 0, 0),
+         glm::vec3(1e-20f), glm::vec3(1e20f, 0, 1), glm::vec3(1, 0, 0) })
   {
-    points.push_back({{0.6 * static_cast<double>(points.size()) - 1.5, 0, 0}, normal});
+    points.push_back({ { 0.6 * static_cast<double>(points.size()) - 1.5, 0, 0 }, normal });
   }
   Extreme scene(storeOfPoints("normals", points));
   for (const std::string& technique : techniqueWords)
@@ -196,12 +195,12 @@ TEST(SplatExtremes, NormalsThatAreNone)
 /// Blended, their mean: sums are exact in floats up to a thousand overlaps (docs/adr/0028).
 TEST(SplatExtremes, TenThousandSplatsOnOnePixel)
 {
-  for (const std::size_t count : {std::size_t(1000), std::size_t(10000)})
+  for (const std::size_t count : { std::size_t(1000), std::size_t(10000) })
   {
     std::vector<NormalPoint> points(count);
     for (std::size_t i = 0; i < count; ++i)
     {
-      points[i].rgb = {100, static_cast<std::uint8_t>(i % 2 == 0 ? 40 : 200), 7};
+      points[i].rgb = { 100, static_cast<std::uint8_t>(i % 2 == 0 ? 40 : 200), 7 };
       const std::size_t column = i % 6;
       const std::size_t row = i / 6 % 6;
       points[i].position = 1e-3 * glm::dvec3(glm::uvec3(column, row, 0));
@@ -234,11 +233,11 @@ TEST(SplatExtremes, AConstantColourStaysWhereSplatsAreBlended)
   std::vector<NormalPoint> points = plane(100, 0.03);
   for (NormalPoint& point : points)
   {
-    point.rgb = {201, 94, 33};
+    point.rgb = { 201, 94, 33 };
     point.position.z = 0.05 * std::sin(7.0 * point.position.x);
   }
   Extreme scene(storeOfPoints("constant", points));
-  scene.lookFrom({0.5, -3.0, 2.0}, {0.0, 0.0, 0.0});
+  scene.lookFrom({ 0.5, -3.0, 2.0 }, { 0.0, 0.0, 0.0 });
   for (const std::string& technique : techniqueWords)
   {
     const Picture picture = scene.with(technique, 0.1);
@@ -247,8 +246,9 @@ TEST(SplatExtremes, AConstantColourStaysWhereSplatsAreBlended)
     {
       const unsigned char* const c = &picture.rgb[i];
       const bool empty = c[0] + c[1] + c[2] == 0;
-      ASSERT_TRUE(empty || (std::abs(c[0] - 201) <= 1 && std::abs(c[1] - 94) <= 1 &&
-        std::abs(c[2] - 33) <= 1)) << technique;
+      ASSERT_TRUE(empty ||
+        (std::abs(c[0] - 201) <= 1 && std::abs(c[1] - 94) <= 1 && std::abs(c[2] - 33) <= 1))
+        << technique;
     }
   }
 }
@@ -257,15 +257,14 @@ TEST(SplatExtremes, AConstantColourStaysWhereSplatsAreBlended)
 TEST(SplatExtremes, ADiscCoversWhatRaysMeet)
 {
   constexpr double radius = 0.8;
-  for (const glm::dvec3& facing : {glm::dvec3(0, 0, 1), glm::dvec3(1, 0.3, 1),
-         glm::dvec3(-0.9, 0.9, 0.5), glm::dvec3(0.2, -1, 0.25)})
+  for (const glm::dvec3& facing : { glm::dvec3(0, 0, 1), glm::dvec3(1, 0.3, 1),
+         glm::dvec3(-0.9, 0.9, 0.5), glm::dvec3(0.2, -1, 0.25) })
   {
     const glm::dvec3 normal = glm::normalize(facing);
     const glm::dvec3 centre(1.2, -0.7, 0.0);
-    Extreme scene(storeOfPoints("disc", {{centre, glm::vec3(normal)}}));
-    scene.lookFrom({0, 0, 5}, {0, 0, 0});
-    const Picture picture =
-      scene.with(R"("technique": "ewa", "accuracy": "exact")", 2.0 * radius);
+    Extreme scene(storeOfPoints("disc", { { centre, glm::vec3(normal) } }));
+    scene.lookFrom({ 0, 0, 5 }, { 0, 0, 0 });
+    const Picture picture = scene.with(R"("technique": "ewa", "accuracy": "exact")", 2.0 * radius);
     const double pixel = 2.0 * std::tan(0.5 * 30.0 * 3.14159265358979 / 180.0) / 200.0;
     int both = 0, either = 0;
     for (int y = 0; y < 200; ++y)
@@ -293,12 +292,12 @@ TEST(SplatExtremes, ASplattedPlaneHasNoHole)
   Extreme scene(storeOfPoints("wide", plane(220, 0.05)));
   scene.mapper->SetTargetError(0.01);
   for (const std::string& technique :
-    {techniqueWords[0], techniqueWords[1], techniqueWords[2], techniqueWords[4]})
+    { techniqueWords[0], techniqueWords[1], techniqueWords[2], techniqueWords[4] })
   {
     ASSERT_TRUE(scene.style->LoadJSON("{\"default\": {" + technique + "}}"));
-    for (const double away : {1.0, 3.0, 10.0, 30.0, 100.0, 300.0, 1000.0, 3000.0, 10000.0})
+    for (const double away : { 1.0, 3.0, 10.0, 30.0, 100.0, 300.0, 1000.0, 3000.0, 10000.0 })
     {
-      scene.lookFrom({0.0, 0.0, away}, {0.0, 0.0, 0.0});
+      scene.lookFrom({ 0.0, 0.0, away }, { 0.0, 0.0, 0.0 });
       scene.renderer->GetActiveCamera()->SetClippingRange(0.5 * away, 2.0 * away);
       const Picture picture = scene.draw();
       // Pixels to the edge.
@@ -308,8 +307,7 @@ TEST(SplatExtremes, ASplattedPlaneHasNoHole)
       {
         for (int x = 0; x < 300; ++x)
         {
-          const bool inside =
-            std::abs(x + 0.5 - 150.0) < half && std::abs(y + 0.5 - 100.0) < half;
+          const bool inside = std::abs(x + 0.5 - 150.0) < half && std::abs(y + 0.5 - 100.0) < half;
           const std::array<int, 3> c = picture.at(x, y);
           holes += inside && c[0] + c[1] + c[2] == 0;
         }

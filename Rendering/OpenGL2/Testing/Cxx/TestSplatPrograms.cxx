@@ -17,7 +17,7 @@ namespace
 
 using Kind = PointColouring::Kind;
 
-const std::vector<bool> bothWays{false, true};
+const std::vector<bool> bothWays{ false, true };
 
 /// Shapes, projections, passes and outputs: what lines of the set-up and of the pixels depend on.
 std::set<SplatVariant> shapes()

@@ -42,7 +42,8 @@ using Surface = Surfel (*)(double u, double v); ///< u, v in [0, 1]
 
 Surfel planeAt(double u, double v)
 {
-  return {{4.0 * u - 2.0, 4.0 * v - 2.0, 0.3 * u}, glm::normalize(glm::dvec3(-0.075, 0.0, 1.0))};
+  return { { 4.0 * u - 2.0, 4.0 * v - 2.0, 0.3 * u },
+    glm::normalize(glm::dvec3(-0.075, 0.0, 1.0)) };
 }
 
 Surfel sphereAt(double u, double v)
@@ -51,7 +52,7 @@ Surfel sphereAt(double u, double v)
   const double around = 6.283185307 * v;
   const double wide = std::sqrt(1.0 - height * height);
   const glm::dvec3 normal(wide * std::cos(around), wide * std::sin(around), height);
-  return {1.5 * normal, normal};
+  return { 1.5 * normal, normal };
 }
 
 Surfel stairsAt(double u, double v)
@@ -62,16 +63,16 @@ Surfel stairsAt(double u, double v)
   const bool tread = part < 0.5;
   const double x = 0.5 * step + (tread ? part : 0.5);
   const double z = 0.4 * step + (tread ? 0.0 : 0.8 * (part - 0.5));
-  return {{x - 2.0, 4.0 * v - 2.0, z - 1.5},
-    tread ? glm::dvec3(0.0, 0.0, 1.0) : glm::dvec3(-1.0, 0.0, 0.0)};
+  return { { x - 2.0, 4.0 * v - 2.0, z - 1.5 },
+    tread ? glm::dvec3(0.0, 0.0, 1.0) : glm::dvec3(-1.0, 0.0, 0.0) };
 }
 
 /// A roof at a height of 40, and the ground; its walls are 8.3 high (surfaceStore).
 Surfel roofAt(double u, double v)
 {
   const bool roof = u >= 0.5;
-  return {{4.0 * (roof ? 2.0 * u - 1.0 : 2.0 * u) - 2.0, 4.0 * v - 2.0, roof ? 40.0 : 0.0},
-    {0.0, 0.0, 1.0}};
+  return { { 4.0 * (roof ? 2.0 * u - 1.0 : 2.0 * u) - 2.0, 4.0 * v - 2.0, roof ? 40.0 : 0.0 },
+    { 0.0, 0.0, 1.0 } };
 }
 
 /// 40,000 points with normals, radii, sizes, colours and two classes. One in 97 has no normal.
@@ -79,14 +80,14 @@ std::string surfaceStore(const std::string& name, Surface surface)
 {
   constexpr int side = 200;
   AttributeSchema schema;
-  schema.add({"rgb", ScalarType::UInt8, 3});
-  schema.add({"classification", ScalarType::UInt8, 1});
-  Attribute normal{"normal", ScalarType::Int16, 3};
+  schema.add({ "rgb", ScalarType::UInt8, 3 });
+  schema.add({ "classification", ScalarType::UInt8, 1 });
+  Attribute normal{ "normal", ScalarType::Int16, 3 };
   normal.scale = 1.0 / 32767.0;
   schema.add(normal);
   schema.add(splatRadiusColumn());
-  schema.add({"reach", ScalarType::Float32, 1});
-  schema.add({"height_above_ground", ScalarType::Float32, 1});
+  schema.add({ "reach", ScalarType::Float32, 1 });
+  schema.add({ "height_above_ground", ScalarType::Float32, 1 });
   const QuantisationGrid grid = millimetres(glm::dvec3(0.0));
   auto cloud = std::make_unique<CloudSource>(name, schema, grid);
   for (int i = 0; i < side * side; ++i)
@@ -96,7 +97,7 @@ std::string surfaceStore(const std::string& name, Surface surface)
     const Surfel surfel = surface(u, v);
     cloud->addPosition(surfel.position);
     const auto byte = [](double x) { return static_cast<std::uint8_t>(255.0 * x); };
-    cloud->addValue(0, std::array<std::uint8_t, 3>{byte(u), byte(v), byte(0.5 * (u + v))});
+    cloud->addValue(0, std::array<std::uint8_t, 3>{ byte(u), byte(v), byte(0.5 * (u + v)) });
     cloud->addValue(1, static_cast<std::uint8_t>(v < 0.5 ? 2 : 6));
     std::array<std::int16_t, 3> stored{};
     for (int axis = 0; axis < 3 && i % 97 != 0; ++axis)
@@ -124,9 +125,10 @@ struct Splats : Scene
 {
   vtkNew<vtkPointFrontStyle> style;
 
-  explicit Splats(const std::string& store) : Scene(store)
+  explicit Splats(const std::string& store)
+    : Scene(store)
   {
-    lookFrom({3.0, -5.0, 4.0}, {0.0, 0.0, 0.0});
+    lookFrom({ 3.0, -5.0, 4.0 }, { 0.0, 0.0, 0.0 });
     mapper->SetStyle(style);
     mapper->SetTargetError(2.0);
   }
@@ -154,54 +156,54 @@ struct Splats : Scene
 };
 
 const std::map<std::string, std::string> techniques = {
-  {"squares", R"({"default": {"technique": "points", "size": {"mode": "fixed", "px": 3}},
-     "shading": {"mode": "edl", "strength": 0.4}})"},
-  {"discs", R"({"default": {"technique": "points"}})"},
-  {"splats", R"({"default": {"technique": "splats"}})"},
-  {"blended", R"({"default": {"technique": "splats", "blended": true}})"},
-  {"paraboloids", R"({"default": {"technique": "splats", "orientation": "view"}})"},
-  {"fixed", R"({"default": {"technique": "splats", "orientation": [0.1, 0.2, 1]}})"},
-  {"spheres", R"({"default": {"technique": "spheres"}})"},
-  {"silhouettes", R"({"default": {"technique": "silhouettes"}})"},
-  {"facing silhouettes", R"({"default": {"technique": "silhouettes", "orientation": "view",
-     "rim_color": "#8020c0"}, "shading": {"mode": "edl"}})"},
-  {"exact silhouettes", R"({"default": {"technique": "silhouettes", "accuracy": "exact",
-     "size": {"mode": "fixed", "metres": 0.2}}})"},
-  {"solid", R"({"default": {"technique": "solid", "wall_color": ["#f0e0d0", "#103060"]}})"},
-  {"facing solid", R"({"default": {"technique": "solid", "orientation": "view"}})"},
-  {"lit solid", R"({"default": {"technique": "solid", "wall_color": "#a0a0a0"},
-     "shading": {"mode": "lit"}})"},
-  {"solid class", R"({"default": {"technique": "ewa"}, "classes": {"6": {"technique": "solid",
-     "color": "#ff8000"}, "2": {"technique": "silhouettes"}}})"},
-  {"ewa", R"({"default": {"technique": "ewa"}})"},
-  {"ewa exact", R"({"default": {"technique": "ewa", "accuracy": "exact"}})"},
-  {"ewa full", R"({"default": {"technique": "ewa", "accuracy": "full"}})"},
-  {"lit", R"({"default": {"technique": "spheres"}, "shading": {"mode": "lit"}})"},
-  {"lit ewa", R"({"default": {"technique": "ewa"}, "shading": {"mode": "lit"}})"},
-  {"metres", R"({"default": {"technique": "splats", "size": {"mode": "fixed", "metres": 0.1}}})"},
-  {"sizes", R"({"default": {"technique": "splats",
-     "size": {"mode": "attribute", "attribute": "reach"}}})"},
-  {"elevation", R"({"default": {"technique": "splats", "color": "elevation"}})"},
-  {"table", R"({"default": {"technique": "ewa", "color": "classification"}})"},
-  {"constant", R"({"default": {"technique": "splats", "color": "#4080c0"}})"},
-  {"two colours", R"({"default": {"technique": "splats",
-     "color": {"multiply": ["rgb", "classification"]}}})"},
-  {"classes", R"({"default": {"technique": "ewa"}, "classes": {"6": {"technique": "spheres",
-     "color": "#ff8000", "size": {"mode": "spacing", "factor": 1.5}}}})"},
-  {"filtered", R"({"default": {"technique": "splats", "where": "reach in [0.015, 0.03]"}})"},
+  { "squares", R"({"default": {"technique": "points", "size": {"mode": "fixed", "px": 3}},
+     "shading": {"mode": "edl", "strength": 0.4}})" },
+  { "discs", R"({"default": {"technique": "points"}})" },
+  { "splats", R"({"default": {"technique": "splats"}})" },
+  { "blended", R"({"default": {"technique": "splats", "blended": true}})" },
+  { "paraboloids", R"({"default": {"technique": "splats", "orientation": "view"}})" },
+  { "fixed", R"({"default": {"technique": "splats", "orientation": [0.1, 0.2, 1]}})" },
+  { "spheres", R"({"default": {"technique": "spheres"}})" },
+  { "silhouettes", R"({"default": {"technique": "silhouettes"}})" },
+  { "facing silhouettes", R"({"default": {"technique": "silhouettes", "orientation": "view",
+     "rim_color": "#8020c0"}, "shading": {"mode": "edl"}})" },
+  { "exact silhouettes", R"({"default": {"technique": "silhouettes", "accuracy": "exact",
+     "size": {"mode": "fixed", "metres": 0.2}}})" },
+  { "solid", R"({"default": {"technique": "solid", "wall_color": ["#f0e0d0", "#103060"]}})" },
+  { "facing solid", R"({"default": {"technique": "solid", "orientation": "view"}})" },
+  { "lit solid", R"({"default": {"technique": "solid", "wall_color": "#a0a0a0"},
+     "shading": {"mode": "lit"}})" },
+  { "solid class", R"({"default": {"technique": "ewa"}, "classes": {"6": {"technique": "solid",
+     "color": "#ff8000"}, "2": {"technique": "silhouettes"}}})" },
+  { "ewa", R"({"default": {"technique": "ewa"}})" },
+  { "ewa exact", R"({"default": {"technique": "ewa", "accuracy": "exact"}})" },
+  { "ewa full", R"({"default": {"technique": "ewa", "accuracy": "full"}})" },
+  { "lit", R"({"default": {"technique": "spheres"}, "shading": {"mode": "lit"}})" },
+  { "lit ewa", R"({"default": {"technique": "ewa"}, "shading": {"mode": "lit"}})" },
+  { "metres", R"({"default": {"technique": "splats", "size": {"mode": "fixed", "metres": 0.1}}})" },
+  { "sizes", R"({"default": {"technique": "splats",
+     "size": {"mode": "attribute", "attribute": "reach"}}})" },
+  { "elevation", R"({"default": {"technique": "splats", "color": "elevation"}})" },
+  { "table", R"({"default": {"technique": "ewa", "color": "classification"}})" },
+  { "constant", R"({"default": {"technique": "splats", "color": "#4080c0"}})" },
+  { "two colours", R"({"default": {"technique": "splats",
+     "color": {"multiply": ["rgb", "classification"]}}})" },
+  { "classes", R"({"default": {"technique": "ewa"}, "classes": {"6": {"technique": "spheres",
+     "color": "#ff8000", "size": {"mode": "spacing", "factor": 1.5}}}})" },
+  { "filtered", R"({"default": {"technique": "splats", "where": "reach in [0.015, 0.03]"}})" },
 };
 
 TEST(Techniques, AreThoseOfTheSoftwareBackEnd)
 {
-  const std::map<std::string, Surface> surfaces = {
-    {"plane", planeAt}, {"sphere", sphereAt}, {"stairs", stairsAt}};
+  const std::map<std::string, Surface> surfaces = { { "plane", planeAt }, { "sphere", sphereAt },
+    { "stairs", stairsAt } };
   for (const auto& [name, surface] : surfaces)
   {
     Splats scene(surfaceStore(name, surface));
     for (const auto& [technique, json] : techniques)
     {
       ASSERT_TRUE(scene.style->LoadJSON(json)) << technique;
-      for (const bool parallel : {false, true})
+      for (const bool parallel : { false, true })
       {
         if (parallel && surface != stairsAt)
         {
@@ -221,7 +223,7 @@ TEST(Techniques, ASplatMayBeLargerThanAnyPointOfGL)
   Splats scene(surfaceStore("large", planeAt));
   ASSERT_TRUE(scene.style->LoadJSON(
     R"({"default": {"technique": "splats", "size": {"mode": "fixed", "metres": 1.5}}})"));
-  scene.lookFrom({0.2, -0.4, 1.2}, {0.2, 0.4, 0.15}); // discs of 400 pixels
+  scene.lookFrom({ 0.2, -0.4, 1.2 }, { 0.2, 0.4, 0.15 }); // discs of 400 pixels
   scene.expectAlike("near");
   ASSERT_TRUE(scene.style->LoadJSON(
     R"({"default": {"technique": "spheres", "size": {"mode": "fixed", "metres": 0.5}}})"));
@@ -231,7 +233,7 @@ TEST(Techniques, ASplatMayBeLargerThanAnyPointOfGL)
 TEST(Techniques, FollowActorsClippingPlanesAndPartsOfWindows)
 {
   const std::string store = surfaceStore("moved", stairsAt);
-  for (const char* name : {"ewa", "silhouettes", "solid"})
+  for (const char* name : { "ewa", "silhouettes", "solid" })
   {
     const std::string what = std::string(name) + ", ";
     Splats scene(store);
@@ -260,7 +262,7 @@ TEST(Techniques, WallsGoDownBehindTheEye)
   ASSERT_TRUE(scene.style->LoadJSON(
     R"({"default": {"technique": "solid", "wall_color": ["#f0e0d0", "#103060"]}})"));
   scene.actor->SetScale(1.0, 1.0, 8.0); // walls of some 2.4
-  scene.lookFrom({0.1, -2.2, -1.5}, {0.0, 0.0, 1.0});
+  scene.lookFrom({ 0.1, -2.2, -1.5 }, { 0.0, 0.0, 1.0 });
   scene.expectAlike("from below");
 }
 
@@ -269,12 +271,13 @@ TEST(Techniques, OtherActorsIntersectSplats)
   Splats scene(surfaceStore("beside", sphereAt));
   ASSERT_TRUE(scene.style->LoadJSON(techniques.at("blended")));
   vtkNew<vtkPoints> corners; // of a wall through the surface
-  for (const glm::dvec2& corner : {glm::dvec2(-2.0, -1.0), {2.0, -1.0}, {2.0, 1.8}, {-2.0, 1.8}})
+  for (const glm::dvec2& corner :
+    { glm::dvec2(-2.0, -1.0), { 2.0, -1.0 }, { 2.0, 1.8 }, { -2.0, 1.8 } })
   {
     corners->InsertNextPoint(corner.x, -0.8 + 0.2 * corner.x, corner.y);
   }
   vtkNew<vtkCellArray> sides;
-  sides->InsertNextCell({0, 1, 2, 3});
+  sides->InsertNextCell({ 0, 1, 2, 3 });
   vtkNew<vtkPolyData> wall;
   wall->SetPoints(corners);
   wall->SetPolys(sides);
@@ -294,7 +297,7 @@ TEST(Techniques, WallsComeDownFromAboveTheView)
   Splats scene(surfaceStore("above", roofAt));
   ASSERT_TRUE(scene.style->LoadJSON(
     R"({"default": {"technique": "solid", "wall_color": ["#f0e0d0", "#103060"]}})"));
-  scene.lookFrom({0.0, -12.0, 33.0}, {0.0, 0.0, 33.0}); // heights from 32.6 to 33.4
+  scene.lookFrom({ 0.0, -12.0, 33.0 }, { 0.0, 0.0, 33.0 }); // heights from 32.6 to 33.4
   scene.renderer->GetActiveCamera()->SetViewUp(0.0, 0.0, 1.0);
   scene.renderer->GetActiveCamera()->SetViewAngle(4.0);
   scene.expectAlike("from aside");
@@ -345,7 +348,7 @@ std::set<vtkIdType> selected(Scene& scene)
 TEST(Techniques, SelectionsFindTheSplatsThatAreSeen)
 {
   Splats scene(surfaceStore("selected", sphereAt));
-  for (const char* name : {"splats", "ewa", "spheres", "classes", "lit", "silhouettes", "solid"})
+  for (const char* name : { "splats", "ewa", "spheres", "classes", "lit", "silhouettes", "solid" })
   {
     ASSERT_TRUE(scene.style->LoadJSON(techniques.at(name)));
     scene.with(vtkPointFrontMapper::SOFTWARE);
@@ -383,8 +386,8 @@ TEST(Techniques, AStyleEditUploadsNoPositionAgain)
     "size": {"mode": "fixed", "px": 2}, "color": "classification"}})"));
   scene.draw();
   EXPECT_EQ(gl->GetUploadedBytes(), first + points * 4) << "squares need no shapes";
-  ASSERT_TRUE(scene.style->LoadJSON(
-    R"({"default": {"technique": "solid", "color": "classification"}})"));
+  ASSERT_TRUE(
+    scene.style->LoadJSON(R"({"default": {"technique": "solid", "color": "classification"}})"));
   scene.draw();
   EXPECT_EQ(gl->GetUploadedBytes(), first + points * (4 + 4 + 4)) << "heights, shapes again";
 }
@@ -418,7 +421,7 @@ TEST(Techniques, AnActorsOwnShaderCodeIsForPlainPointsAndThatIsTold)
   scene.mapper->AddObserver(vtkCommand::WarningEvent, told);
   scene.actor->GetShaderProperty()->AddFragmentShaderReplacement(
     "//VTK::Light::Impl", true, "gl_FragData[0] = vec4(1.0, 0.0, 1.0, 1.0);\n", false);
-  for (const int backend : {vtkPointFrontMapper::OPENGL, vtkPointFrontMapper::SOFTWARE})
+  for (const int backend : { vtkPointFrontMapper::OPENGL, vtkPointFrontMapper::SOFTWARE })
   {
     EXPECT_LE(differing(before, scene.with(backend), 2), 300) << backend;
   }
@@ -428,7 +431,7 @@ TEST(Techniques, AnActorsOwnShaderCodeIsForPlainPointsAndThatIsTold)
 TEST(Techniques, AtRestNothingIsDrawnTwice)
 {
   Splats scene(surfaceStore("rest", sphereAt));
-  for (const char* name : {"metres", "lit ewa", "solid"})
+  for (const char* name : { "metres", "lit ewa", "solid" })
   {
     ASSERT_TRUE(scene.style->LoadJSON(techniques.at(name)));
     const Picture first = scene.draw();
@@ -445,7 +448,7 @@ TEST(Techniques, AtRestNothingIsDrawnTwice)
 TEST(Techniques, DetailIsAddedToWhatIsThere)
 {
   const std::string store = surfaceStore("added", stairsAt);
-  for (const char* name : {"metres", "lit", "splats", "silhouettes", "solid"})
+  for (const char* name : { "metres", "lit", "splats", "silhouettes", "solid" })
   {
     Splats whole(store);
     ASSERT_TRUE(whole.style->LoadJSON(techniques.at(name)));
@@ -454,7 +457,7 @@ TEST(Techniques, DetailIsAddedToWhatIsThere)
     Splats scene(store);
     ASSERT_TRUE(scene.style->LoadJSON(techniques.at(name)));
     scene.draw();
-    for (const double error : {8.0, 4.0, 2.0, 1.0, 0.5})
+    for (const double error : { 8.0, 4.0, 2.0, 1.0, 0.5 })
     {
       scene.mapper->SetTargetError(error);
       scene.draw();
@@ -490,7 +493,7 @@ TEST(Techniques, AQualitySetsErrorAndTechnique)
   scene.mapper->SetStyle(nullptr);
   scene.mapper->SetBackendToSoftware();
   vtkIdType points = 0;
-  for (const char* name : {"draft", "balanced", "exact"})
+  for (const char* name : { "draft", "balanced", "exact" })
   {
     ASSERT_TRUE(scene.mapper->SetQuality(name));
     EXPECT_GT(scene.draw().lit(), 4000) << name;

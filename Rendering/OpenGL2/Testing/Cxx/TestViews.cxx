@@ -50,9 +50,9 @@ TEST(Views, TwoCloudsInAViewHideEachOtherByDepth)
       [=](std::size_t i)
       {
         Sample sample;
-        sample.position = {
-          static_cast<int>(i % 201) * 10 - 1000, static_cast<int>(i / 201) * 10 - 1000, z};
-        sample.rgb = {red, 0, 0};
+        sample.position = { static_cast<int>(i % 201) * 10 - 1000,
+          static_cast<int>(i / 201) * 10 - 1000, z };
+        sample.rgb = { red, 0, 0 };
         return sample;
       });
   };
@@ -67,7 +67,7 @@ TEST(Views, TwoCloudsInAViewHideEachOtherByDepth)
   actor->SetMapper(mapper);
   scene.renderer->AddActor(actor);
   EXPECT_EQ(scene.draw().at(150, 100)[0], 250);
-  scene.lookFrom({0.0, 0.0, -10.0}, {0.0, 0.0, 0.0});
+  scene.lookFrom({ 0.0, 0.0, -10.0 }, { 0.0, 0.0, 0.0 });
   EXPECT_EQ(scene.draw().at(150, 100)[0], 50);
 }
 
@@ -119,7 +119,7 @@ TEST(Views, PointsOfTheSamePixelsWithMultisampling)
   const Picture picture = scene.draw();
   for (int i = -1; i <= 1; ++i)
   {
-    const auto p = scene.project({0.5 * i, 0.5 * i, 0.0});
+    const auto p = scene.project({ 0.5 * i, 0.5 * i, 0.0 });
     EXPECT_EQ(picture.at(static_cast<int>(p[0]), static_cast<int>(p[1]))[0], 255);
   }
   EXPECT_LE(picture.lit(), 9 * 121);
@@ -130,7 +130,7 @@ TEST(Views, StereoDrawsBothEyes)
 {
   Scene scene(planeStore("stereo", 3, 500));
   scene.actor->GetProperty()->SetPointSize(5);
-  scene.lookFrom({0.0, 0.0, 6.0}, {0.0, 0.0, 2.0});
+  scene.lookFrom({ 0.0, 0.0, 6.0 }, { 0.0, 0.0, 2.0 });
   scene.window->SetStereoTypeToAnaglyph();
   scene.window->StereoRenderOn();
   const Picture picture = scene.draw();

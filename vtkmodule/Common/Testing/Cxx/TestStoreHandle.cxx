@@ -113,7 +113,7 @@ TEST(StoreHandle, BoundsAreTight)
   const auto store = vtkPointFrontStore::Open(options.outputPath.c_str(), error);
   double bounds[6];
   store->GetBounds(bounds);
-  const double expected[6] = {0.0, 2.0, -1.0, 0.0, 0.007, 0.007};
+  const double expected[6] = { 0.0, 2.0, -1.0, 0.0, 0.007, 0.007 };
   for (int i = 0; i < 6; ++i)
   {
     EXPECT_DOUBLE_EQ(bounds[i], expected[i]);
@@ -142,7 +142,8 @@ TEST(StoreHandle, APreviewHasSuccessors)
   EXPECT_FALSE(early->HasSuccessor());
   EXPECT_EQ(early->GetSuccessor(), nullptr);
 
-  std::filesystem::last_write_time(name, std::filesystem::last_write_time(name) -
+  std::filesystem::last_write_time(name,
+    std::filesystem::last_write_time(name) -
       std::chrono::hours(1)); // a clock too coarse to tell two versions apart
   (*preview)->showOverview(cloud);
   const auto later = early->GetSuccessor();

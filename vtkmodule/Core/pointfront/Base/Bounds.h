@@ -1,7 +1,7 @@
 #pragma once
 
-#include <glm/vec3.hpp>
 #include <glm/common.hpp>
+#include <glm/vec3.hpp>
 
 #include <limits>
 

@@ -25,7 +25,11 @@ inline double processSeconds()
 class CpuStopwatch
 {
 public:
-  explicit CpuStopwatch(double& sum) : sum_(sum), start_(threadSeconds()) {}
+  explicit CpuStopwatch(double& sum)
+    : sum_(sum)
+    , start_(threadSeconds())
+  {
+  }
   ~CpuStopwatch() { sum_ += threadSeconds() - start_; }
   CpuStopwatch(const CpuStopwatch&) = delete;
   CpuStopwatch& operator=(const CpuStopwatch&) = delete;

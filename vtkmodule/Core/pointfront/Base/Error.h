@@ -12,16 +12,16 @@ struct Error
 {
   enum class Kind
   {
-    NotFound,    ///< the file or folder is not there
-    Unreadable,  ///< it is there, and the operating system refuses to read it
-    Unwritable,  ///< cannot be created or written (permission, full disk)
-    BadFormat,   ///< the bytes contradict the format, or themselves
-    Truncated,   ///< the bytes end before what they promise
-    Corrupt,     ///< a checksum or an invariant of a store does not hold
+    NotFound, ///< the file or folder is not there
+    Unreadable, ///< it is there, and the operating system refuses to read it
+    Unwritable, ///< cannot be created or written (permission, full disk)
+    BadFormat, ///< the bytes contradict the format, or themselves
+    Truncated, ///< the bytes end before what they promise
+    Corrupt, ///< a checksum or an invariant of a store does not hold
     Unsupported, ///< well-formed, but of a kind or a version we do not read
     BadArgument, ///< what the user asked for cannot be done with this input
-    NoMemory,    ///< the memory limit is too small for the work
-    Cancelled    ///< the user asked to stop
+    NoMemory, ///< the memory limit is too small for the work
+    Cancelled ///< the user asked to stop
   };
 
   Kind kind = Kind::BadFormat;

@@ -63,7 +63,7 @@ void BlockCells::countInto(ClassCounts& counts) const
   for (const CellRun& cell : cells_)
   {
     counts.add(cell.objectClass,
-      {cell.cell.x << shift_, cell.cell.y << shift_, cell.cell.z << shift_}, cell.count);
+      { cell.cell.x << shift_, cell.cell.y << shift_, cell.cell.z << shift_ }, cell.count);
   }
 }
 
@@ -81,7 +81,7 @@ void BlockCells::coarsen()
     for (std::size_t i = 0; i < cells_.size(); ++i)
     {
       CellRun cell = cells_[i];
-      cell.cell = {cell.cell.x >> 1, cell.cell.y >> 1, cell.cell.z >> 1};
+      cell.cell = { cell.cell.x >> 1, cell.cell.y >> 1, cell.cell.z >> 1 };
       const std::uint32_t count = std::exchange(cell.count, 0u);
       numberIn[i] = numberOf(cell, larger);
       larger[numberIn[i]].count += count;

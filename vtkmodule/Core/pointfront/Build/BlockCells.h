@@ -14,7 +14,7 @@ namespace pointfront
 /// Records of one class in one cell that lie one behind the other in the pool.
 struct CellRun
 {
-  TreePosition cell{0}; ///< absolute position >> PoolBlock::shift
+  TreePosition cell{ 0 }; ///< absolute position >> PoolBlock::shift
   std::uint32_t count = 0;
   std::uint8_t objectClass = 0;
 };
@@ -39,16 +39,21 @@ struct PoolBlock
 class BlockCells
 {
 public:
-  explicit BlockCells(unsigned shift) : shift_(shift), runShift_(shift), slots_(leastSlots) {}
+  explicit BlockCells(unsigned shift)
+    : shift_(shift)
+    , runShift_(shift)
+    , slots_(leastSlots)
+  {
+  }
 
   void begin(std::size_t records); ///< the next block, of at most so many
   void add(const TreePosition& position, std::uint8_t objectClass)
   {
-    const TreePosition cell{position.x >> shift_, position.y >> shift_, position.z >> shift_};
+    const TreePosition cell{ position.x >> shift_, position.y >> shift_, position.z >> shift_ };
     Last& last = last_[objectClass]; // neighbours in a file are neighbours in space
     if (last.number == none || last.cell != cell)
     {
-      last = {cell, numberOf({cell, 0, objectClass}, cells_)};
+      last = { cell, numberOf({ cell, 0, objectClass }, cells_) };
     }
     ++cells_[last.number].count;
     numbers_[records_++] = last.number;
@@ -67,7 +72,7 @@ private:
   static constexpr std::size_t leastSlots = 1024;
   struct Last
   {
-    TreePosition cell{0};
+    TreePosition cell{ 0 };
     std::uint32_t number = none;
   };
   std::uint32_t numberOf(const CellRun& cell, std::vector<CellRun>& cells);
@@ -76,12 +81,12 @@ private:
   unsigned shift_;
   unsigned runShift_;
   std::array<Last, 256> last_{};
-  std::vector<CellRun> cells_;         // in the order in which they were met
+  std::vector<CellRun> cells_; // in the order in which they were met
   std::size_t met_ = 0; // cells of the last block that was ordered
   std::size_t records_ = 0;
   std::vector<std::uint32_t> numbers_; // of each record's cell
-  std::vector<std::uint32_t> slots_;   // hash table of numbers in cells_, plus one
-  std::vector<std::uint32_t> places_;  // where the next record of each cell goes
+  std::vector<std::uint32_t> slots_; // hash table of numbers in cells_, plus one
+  std::vector<std::uint32_t> places_; // where the next record of each cell goes
 };
 
 } // namespace pointfront

@@ -13,8 +13,8 @@ namespace pointfront
 {
 namespace
 {
-void widen(std::byte* records, std::size_t recordBytes, const Piece& piece,
-  const ColourWidening& widening)
+void widen(
+  std::byte* records, std::size_t recordBytes, const Piece& piece, const ColourWidening& widening)
 {
   for (const Piece& run : widening.runs)
   {
@@ -37,7 +37,7 @@ CellTable coarseBuckets(const CellTable& buckets, unsigned shift)
   for (const CellTable::Entry& entry : buckets.entries())
   {
     std::uint64_t& value =
-      coarse.at({entry.cell.x >> bits, entry.cell.y >> bits, entry.cell.z >> bits});
+      coarse.at({ entry.cell.x >> bits, entry.cell.y >> bits, entry.cell.z >> bits });
     value = value == 0 || value == entry.value ? entry.value : shared;
   }
   return coarse;
@@ -48,7 +48,9 @@ class RunBuckets
 {
 public:
   RunBuckets(const BucketTables& buckets, const PoolPreparation& points)
-      : buckets_(buckets), points_(points), coarse_(buckets.size())
+    : buckets_(buckets)
+    , points_(points)
+    , coarse_(buckets.size())
   {
     if (points.layers.byClass())
     {
@@ -70,7 +72,7 @@ public:
       return std::nullopt;
     }
     const TreePosition low = points_.space.relativeSteps(
-      {run.cell.x << shift, run.cell.y << shift, run.cell.z << shift});
+      { run.cell.x << shift, run.cell.y << shift, run.cell.z << shift });
     const CellTable& table = shift > fine ? coarse(layer, shift) : buckets_[layer];
     const std::uint64_t bucket = table.find(table.cellOf(low));
     if (bucket == shared)
@@ -103,15 +105,17 @@ class BlockDivision
 public:
   BlockDivision(RecordPool& pool, const BucketTables& buckets, std::uint32_t bucketCount,
     const PoolPreparation& points)
-      : bucketCount_(bucketCount), bucketOf_(buckets, points),
-        finder_(buckets, points.layers, points.space), sorter_(pool, pool.recordBytes())
+    : bucketCount_(bucketCount)
+    , bucketOf_(buckets, points)
+    , finder_(buckets, points.layers, points.space)
+    , sorter_(pool, pool.recordBytes())
   {
   }
 
   Result<std::vector<PartPiece>> divide(const PoolBlock& block)
   {
     pieces_.clear();
-    mixed_ = {block.first, 0};
+    mixed_ = { block.first, 0 };
     for (const CellRun& run : block.runs)
     {
       const auto bucket = bucketOf_(run, block.shift);
@@ -124,7 +128,7 @@ public:
       {
         return done.error();
       }
-      append({*bucket, {mixed_.first, run.count}});
+      append({ *bucket, { mixed_.first, run.count } });
       mixed_.first += run.count;
     }
     if (Result<void> done = sortMixed(); !done)
@@ -139,7 +143,7 @@ private:
   void append(const PartPiece& piece)
   {
     if (!pieces_.empty() && pieces_.back().part == piece.part &&
-        pieces_.back().piece.first + pieces_.back().piece.count == piece.piece.first)
+      pieces_.back().piece.first + pieces_.back().piece.count == piece.piece.first)
     {
       pieces_.back().piece.count += piece.piece.count;
       return;
@@ -166,7 +170,7 @@ private:
     {
       append(piece);
     }
-    mixed_ = {mixed_.first + mixed_.count, 0};
+    mixed_ = { mixed_.first + mixed_.count, 0 };
     return {};
   }
 
@@ -175,7 +179,7 @@ private:
   BucketFinder finder_;
   RunSorter sorter_;
   std::vector<PartPiece> pieces_; // of the block, up to mixed_
-  Piece mixed_;                   // runs whose buckets are not known yet
+  Piece mixed_; // runs whose buckets are not known yet
 };
 } // namespace
 
@@ -185,8 +189,8 @@ std::vector<CountedCell> countedCells(const CellTable& table, const TreeSpace& s
   for (const CellTable::Entry& entry : table.entries())
   {
     const unsigned shift = table.shift();
-    const TreePosition low{entry.cell.x << shift, entry.cell.y << shift, entry.cell.z << shift};
-    cells.push_back({space.relativeSteps(low), entry.value});
+    const TreePosition low{ entry.cell.x << shift, entry.cell.y << shift, entry.cell.z << shift };
+    cells.push_back({ space.relativeSteps(low), entry.value });
   }
   std::sort(cells.begin(), cells.end(),
     [](const CountedCell& a, const CountedCell& b) { return mortonLess(a.origin, b.origin); });
@@ -196,7 +200,7 @@ std::vector<CountedCell> countedCells(const CellTable& table, const TreeSpace& s
 Result<ClassCounts> BlockSorter::count(
   const PoolPreparation& points, unsigned finest, unsigned coarsest)
 {
-  std::atomic<std::uint64_t> next{0};
+  std::atomic<std::uint64_t> next{ 0 };
   std::mutex mutex;
   ClassCounts all(finest, coarsest);
   const auto work = [&]() -> Result<void>
@@ -207,7 +211,7 @@ Result<ClassCounts> BlockSorter::count(
          first < points.points && !crew_.stopped(); first = next.fetch_add(plan_.blockPoints))
     {
       const std::uint64_t count = std::min(plan_.blockPoints, points.points - first);
-      if (Result<void> done = run.load({first, count}); !done)
+      if (Result<void> done = run.load({ first, count }); !done)
       {
         return done;
       }
@@ -232,7 +236,7 @@ Result<std::vector<std::vector<Piece>>> BlockSorter::sort(
   const PoolPreparation& points, const BucketTables& buckets, std::uint32_t bucketCount)
 {
   std::vector<std::vector<PartPiece>> sorted(points.blocks.size());
-  std::atomic<std::size_t> next{0};
+  std::atomic<std::size_t> next{ 0 };
   std::mutex mutex;
   const auto work = [&]() -> Result<void>
   {

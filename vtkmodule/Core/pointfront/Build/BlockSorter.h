@@ -43,9 +43,9 @@ struct ColourWidening
 /// The records of the pool when all have been read, and what becomes of them when they are loaded.
 struct PoolPreparation
 {
-  std::uint64_t points = 0;      ///< records 0 to points - 1
-  TreeSpace space;               ///< with its origin; positions in the pool are absolute steps
-  unsigned rootLog2 = 0;         ///< of the root cube's side
+  std::uint64_t points = 0; ///< records 0 to points - 1
+  TreeSpace space; ///< with its origin; positions in the pool are absolute steps
+  unsigned rootLog2 = 0; ///< of the root cube's side
   std::vector<PoolBlock> blocks; ///< of the pool
   std::optional<ColourWidening> widening;
   ClassLayers layers;
@@ -63,7 +63,10 @@ class BucketFinder
 {
 public:
   BucketFinder(const BucketTables& tables, const ClassLayers& layers, const TreeSpace& space)
-      : tables_(tables), layers_(layers), space_(space), last_(tables.size())
+    : tables_(tables)
+    , layers_(layers)
+    , space_(space)
+    , last_(tables.size())
   {
   }
   std::uint32_t operator()(const std::byte* record)
@@ -73,7 +76,7 @@ public:
     Last& last = last_[layer];
     if (last.bucket == 0 || cell != last.cell)
     {
-      last = {cell, tables_[layer].find(cell)};
+      last = { cell, tables_[layer].find(cell) };
     }
     return static_cast<std::uint32_t>(last.bucket - 1);
   }
@@ -81,7 +84,7 @@ public:
 private:
   struct Last
   {
-    TreePosition cell{0};
+    TreePosition cell{ 0 };
     std::uint64_t bucket = 0;
   };
   const BucketTables& tables_;
@@ -96,7 +99,10 @@ class BlockSorter
 {
 public:
   BlockSorter(RecordPool& pool, std::size_t recordBytes, const MemoryPlan& plan, WorkCrew& crew)
-      : pool_(pool), recordBytes_(recordBytes), plan_(plan), crew_(crew)
+    : pool_(pool)
+    , recordBytes_(recordBytes)
+    , plan_(plan)
+    , crew_(crew)
   {
   }
 

@@ -54,11 +54,13 @@ class BuildPreview::WatchedSource final : public PointSource
 {
 public:
   WatchedSource(const PointSource& original, std::size_t number, BuildPreview& preview)
-      : original_(original), number_(number), preview_(preview),
-        share_(preview.active()
-            ? double(preview.capacity_) / double(std::max<std::uint64_t>(preview.expected_, 1))
-            : 0.0),
-        seen_(original.chunkCount())
+    : original_(original)
+    , number_(number)
+    , preview_(preview)
+    , share_(preview.active()
+          ? double(preview.capacity_) / double(std::max<std::uint64_t>(preview.expected_, 1))
+          : 0.0)
+    , seen_(original.chunkCount())
   {
   }
   const SourceDescription& description() const override { return original_.description(); }
@@ -81,8 +83,7 @@ private:
   {
     if (done && share_ > 0.0)
     {
-      preview_.sample_.keep(
-        number_, chunk, original_.description(), batch, std::min(1.0, share_));
+      preview_.sample_.keep(number_, chunk, original_.description(), batch, std::min(1.0, share_));
       // The build reads some chunks again: to guess its columns, or when that guess was wrong.
       if (!seen_[chunk].exchange(true))
       {
@@ -100,7 +101,8 @@ private:
 };
 
 BuildPreview::BuildPreview(const BuildOptions& build, PreviewOptions options)
-    : build_(build), options_(std::move(options))
+  : build_(build)
+  , options_(std::move(options))
 {
 }
 
@@ -140,8 +142,8 @@ void BuildPreview::chooseCapacity(const PointSources& sources)
   const auto forSample = static_cast<std::uint64_t>(sampleShareOfMemory * double(memoryBytes_));
   const std::uint64_t fitting =
     (forSample - fixedMemory) / (2 * pointBytes + recordsPerPoint * recordBytes);
-  capacity_ = std::min({mostPoints, fitting,
-    std::max(fewestPoints, expected_ / leastShareOfPoints)});
+  capacity_ =
+    std::min({ mostPoints, fitting, std::max(fewestPoints, expected_ / leastShareOfPoints) });
 }
 
 BuildPreview::~BuildPreview()
@@ -198,7 +200,7 @@ void BuildPreview::pickChunks(const PointSources& sources, const std::function<b
   // Half of the sample: the rest is for what the build reads before it comes to these chunks.
   const double share =
     std::min(1.0, double(capacity_) / double(2 * std::max<std::uint64_t>(points, 1)));
-  std::atomic<std::size_t> next{0};
+  std::atomic<std::size_t> next{ 0 };
   const auto work = [&]
   {
     PointBatch batch;
@@ -359,8 +361,7 @@ Result<void> BuildPreview::write(const PointSources& originals, std::uint64_t po
   options.threads = threads;
   options.precision = build_.precision;
   options.attributes = build_.attributes;
-  const PointSources sample =
-    sample_.snapshot(originals, previewMetadata(recordOf(pointsRead)));
+  const PointSources sample = sample_.snapshot(originals, previewMetadata(recordOf(pointsRead)));
   const Result<BuildReport> built =
     buildStore(sample, options, [&](const Progress&) { return goOn(); });
   return built ? file_->replace() : Result<void>(built.error());

@@ -114,14 +114,14 @@ private:
   const PointSources* sources_ = nullptr; ///< that the build reads
   std::thread refiner_;
   // Of the trees' time:
-  double began_ = 0.0;    ///< CPU seconds of the process when they were
-  double spent_ = 0.0;    ///< CPU seconds for versions with finished parts
+  double began_ = 0.0; ///< CPU seconds of the process when they were
+  double spent_ = 0.0; ///< CPU seconds for versions with finished parts
   double estimate_ = 0.0; ///< for the next one
   bool tooLittleMemory_ = false;
   mutable std::mutex mutex_; // guards what follows
   std::condition_variable changed_;
   std::uint64_t read_ = 0;
-  bool allRead_ = false;  ///< the refiner begins nothing more
+  bool allRead_ = false; ///< the refiner begins nothing more
   bool refining_ = false; ///< it writes a version
   bool stop_ = false;
   std::vector<std::string> warnings_;

@@ -45,8 +45,7 @@ Result<BuildReport> BuildRun::run(
 }
 
 /// Before the preview takes its place, and with what only the passes read.
-Result<void> BuildRun::checkOutput(
-  const PointSources& sources, const AttributePasses& passes) const
+Result<void> BuildRun::checkOutput(const PointSources& sources, const AttributePasses& passes) const
 {
   std::vector<std::string> reads = pathsOf(sources);
   for (const std::unique_ptr<AttributePass>& pass : passes)
@@ -59,7 +58,7 @@ Result<void> BuildRun::checkOutput(
   {
     return apart;
   }
-  return checkOutputTarget({options_.outputPath, FileKind::Store, options_.overwrite}, reads);
+  return checkOutputTarget({ options_.outputPath, FileKind::Store, options_.overwrite }, reads);
 }
 
 /// Shows an overview before the first pass that takes long; the build gets the memory that they

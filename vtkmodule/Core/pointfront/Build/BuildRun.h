@@ -20,17 +20,19 @@ class BuildRun
 {
 public:
   /// `tell` gets what the passes find, each sentence once, as early as it is known.
-  BuildRun(BuildOptions options, PreviewOptions preview,
-    std::function<void(const std::string&)> tell = {})
-      : options_(std::move(options)), preview_(std::move(preview)), tell_(std::move(tell))
+  BuildRun(
+    BuildOptions options, PreviewOptions preview, std::function<void(const std::string&)> tell = {})
+    : options_(std::move(options))
+    , preview_(std::move(preview))
+    , tell_(std::move(tell))
   {
   }
 
   /// `sources` becomes what the passes made of them. The report's seconds are those of all.
   /// Errors  of checkOutputTarget(), with the files of the passes too; those of the passes, of
   ///         PreviewFile::claim() and of buildStore().
-  Result<BuildReport> run(PointSources& sources, const AttributePasses& passes,
-    const ProgressFunction& progress = {});
+  Result<BuildReport> run(
+    PointSources& sources, const AttributePasses& passes, const ProgressFunction& progress = {});
 
 private:
   Result<void> checkOutput(const PointSources& sources, const AttributePasses& passes) const;

@@ -14,7 +14,7 @@ namespace pointfront
 /// A node of the tree under construction: its points are already encoded, or soon will be.
 struct BuiltNode
 {
-  Node row;              ///< box, spacing and counts; links and level come from nodeTable()
+  Node row; ///< box, spacing and counts; links and level come from nodeTable()
   int samplingQuarters = -1; ///< of its SamplingDistance; -1 for a leaf
   StoreWriter::PayloadId payload = 0;
   std::vector<std::unique_ptr<BuiltNode>> children; ///< in the order of their octants

@@ -5,7 +5,11 @@
 namespace pointfront
 {
 
-CellTable::CellTable(unsigned shift) : shift_(shift), slots_(64) {}
+CellTable::CellTable(unsigned shift)
+  : shift_(shift)
+  , slots_(64)
+{
+}
 
 std::size_t CellTable::slotOf(const TreePosition& cell) const
 {
@@ -75,7 +79,7 @@ void CellCounts::add(const CellCounts& other)
   const unsigned otherShift = other.table_.shift();
   for (const CellTable::Entry& entry : other.table_.entries())
   {
-    add({entry.cell.x << otherShift, entry.cell.y << otherShift, entry.cell.z << otherShift},
+    add({ entry.cell.x << otherShift, entry.cell.y << otherShift, entry.cell.z << otherShift },
       entry.value);
   }
 }
@@ -87,14 +91,14 @@ CellTable twiceAsCoarse(const CellTable& table)
   CellTable coarse(table.shift() + 1);
   for (const CellTable::Entry& entry : table.entries())
   {
-    coarse.at({entry.cell.x >> 1, entry.cell.y >> 1, entry.cell.z >> 1}) += entry.value;
+    coarse.at({ entry.cell.x >> 1, entry.cell.y >> 1, entry.cell.z >> 1 }) += entry.value;
   }
   return coarse;
 }
 
 TreePosition lowestOf(const CellTable& table, const TreePosition& cell)
 {
-  return {cell.x << table.shift(), cell.y << table.shift(), cell.z << table.shift()};
+  return { cell.x << table.shift(), cell.y << table.shift(), cell.z << table.shift() };
 }
 } // namespace
 

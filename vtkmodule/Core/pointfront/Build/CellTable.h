@@ -19,10 +19,10 @@ class CellPlace
 public:
   static constexpr std::size_t fewestSlots = 16;
 
-  CellPlace(const TreePosition& cell, std::uint64_t salt, std::size_t slots) : mask_(slots - 1)
+  CellPlace(const TreePosition& cell, std::uint64_t salt, std::size_t slots)
+    : mask_(slots - 1)
   {
-    std::uint64_t h =
-      (std::uint64_t(cell.x >> 2) << 32 | cell.y >> 1) * 0x9e3779b97f4a7c15ull;
+    std::uint64_t h = (std::uint64_t(cell.x >> 2) << 32 | cell.y >> 1) * 0x9e3779b97f4a7c15ull;
     h = (h ^ (h >> 32) ^ cell.z >> 1 ^ salt << 32) * 0xff51afd7ed558ccdull;
     const std::uint32_t inTile = (cell.x & 3u) + 4 * (cell.y & 1u) + 8 * (cell.z & 1u);
     slot_ = ((h >> 32) * fewestSlots + inTile) & mask_;
@@ -45,7 +45,7 @@ class CellTable
 public:
   struct Entry
   {
-    TreePosition cell{0};    ///< position >> shift
+    TreePosition cell{ 0 }; ///< position >> shift
     std::uint64_t value = 0; ///< 0: the slot is free
   };
 
@@ -61,7 +61,7 @@ public:
   std::uint64_t find(const TreePosition& cell) const;
   TreePosition cellOf(const TreePosition& position) const
   {
-    return {position.x >> shift_, position.y >> shift_, position.z >> shift_};
+    return { position.x >> shift_, position.y >> shift_, position.z >> shift_ };
   }
   std::vector<Entry> entries() const; ///< in no particular order
 
@@ -83,7 +83,10 @@ public:
   /// too fine for it, so coarsening never goes beyond it.
   static constexpr std::size_t limit = std::size_t(1) << 18;
 
-  explicit CellCounts(unsigned shift) : table_(shift) {}
+  explicit CellCounts(unsigned shift)
+    : table_(shift)
+  {
+  }
   void add(const TreePosition& position, std::uint64_t count = 1);
   void add(const CellCounts& other);
   void coarsen(unsigned shift); ///< to at least that shift
@@ -98,7 +101,9 @@ private:
 class ClassCounts
 {
 public:
-  explicit ClassCounts(unsigned shift, unsigned coarsest = 32) : shift_(shift), coarsest_(coarsest)
+  explicit ClassCounts(unsigned shift, unsigned coarsest = 32)
+    : shift_(shift)
+    , coarsest_(coarsest)
   {
   }
   unsigned shift() const { return shift_; }

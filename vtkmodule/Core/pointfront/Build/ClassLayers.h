@@ -18,7 +18,8 @@ public:
   ClassLayers() = default; ///< one layer
   /// `offset`: of the class, one byte, in a record; `classes`: ascending, those that there are.
   ClassLayers(std::size_t offset, std::vector<std::uint8_t> classes)
-      : offset_(offset), classes_(std::move(classes))
+    : offset_(offset)
+    , classes_(std::move(classes))
   {
     for (std::size_t layer = 0; layer < classes_.size(); ++layer)
     {
@@ -35,7 +36,7 @@ public:
 
 private:
   std::optional<std::size_t> offset_;
-  std::vector<std::uint8_t> classes_{0};
+  std::vector<std::uint8_t> classes_{ 0 };
   std::array<std::uint8_t, 256> layerOf_{};
 };
 

@@ -130,7 +130,8 @@ CommonRadii commonRadii(const std::vector<std::unique_ptr<PointSource>>& sources
     }
     if (description.splatRadiusBase == 0.0)
     {
-      common.warnings.push_back("'" + description.path + "' does not say what its splat radii are "
+      common.warnings.push_back("'" + description.path +
+        "' does not say what its splat radii are "
         "multiples of; they are stored as unknown.");
     }
     common.sources.push_back(std::make_unique<RebasedRadii>(*source, *column, largest));

@@ -18,7 +18,7 @@ bool isFloat(ScalarType type)
 bool isSigned(ScalarType type)
 {
   return type == ScalarType::Int8 || type == ScalarType::Int16 || type == ScalarType::Int32 ||
-         type == ScalarType::Int64;
+    type == ScalarType::Int64;
 }
 
 /// The smallest type that holds all values of both, see CommonSchema.
@@ -40,14 +40,14 @@ ScalarType commonType(ScalarType a, ScalarType b)
   const std::size_t unsignedBytes = isSigned(a) ? sizeOf(b) : sizeOf(a);
   switch (std::max(largest, 2 * unsignedBytes))
   {
-  case 2:
-    return ScalarType::Int16;
-  case 4:
-    return ScalarType::Int32;
-  case 8:
-    return ScalarType::Int64;
-  default:
-    return ScalarType::Float64;
+    case 2:
+      return ScalarType::Int16;
+    case 4:
+      return ScalarType::Int32;
+    case 8:
+      return ScalarType::Int64;
+    default:
+      return ScalarType::Float64;
   }
 }
 
@@ -114,9 +114,8 @@ Result<AttributeSchema> unionOf(const Sources& sources, std::vector<std::string>
       if (!(common == *known))
       {
         warnings.push_back("Attribute " + quoted(attribute.name) + " is stored as " +
-                           std::string(nameOf(common.type)) +
-                           " because its type or scale differs in " +
-                           quoted(source->description().path) + ".");
+          std::string(nameOf(common.type)) + " because its type or scale differs in " +
+          quoted(source->description().path) + ".");
       }
       *known = common;
     }
@@ -199,8 +198,8 @@ void convertValues(const Attribute& from, const std::byte* in, const Attribute& 
   {
     const From value = valueAt<From>(in, i);
     const To converted = rescale
-                           ? static_cast<To>(static_cast<double>(value) * from.scale + from.offset)
-                           : static_cast<To>(value);
+      ? static_cast<To>(static_cast<double>(value) * from.scale + from.offset)
+      : static_cast<To>(value);
     std::memcpy(out + i * sizeof(To), &converted, sizeof(To));
   }
 }
@@ -211,26 +210,26 @@ void convertTo(const Attribute& from, const std::byte* in, const Attribute& to, 
 {
   switch (from.type)
   {
-  case ScalarType::Int8:
-    return convertValues<To, std::int8_t>(from, in, to, out, values);
-  case ScalarType::UInt8:
-    return convertValues<To, std::uint8_t>(from, in, to, out, values);
-  case ScalarType::Int16:
-    return convertValues<To, std::int16_t>(from, in, to, out, values);
-  case ScalarType::UInt16:
-    return convertValues<To, std::uint16_t>(from, in, to, out, values);
-  case ScalarType::Int32:
-    return convertValues<To, std::int32_t>(from, in, to, out, values);
-  case ScalarType::UInt32:
-    return convertValues<To, std::uint32_t>(from, in, to, out, values);
-  case ScalarType::Int64:
-    return convertValues<To, std::int64_t>(from, in, to, out, values);
-  case ScalarType::UInt64:
-    return convertValues<To, std::uint64_t>(from, in, to, out, values);
-  case ScalarType::Float32:
-    return convertValues<To, float>(from, in, to, out, values);
-  case ScalarType::Float64:
-    return convertValues<To, double>(from, in, to, out, values);
+    case ScalarType::Int8:
+      return convertValues<To, std::int8_t>(from, in, to, out, values);
+    case ScalarType::UInt8:
+      return convertValues<To, std::uint8_t>(from, in, to, out, values);
+    case ScalarType::Int16:
+      return convertValues<To, std::int16_t>(from, in, to, out, values);
+    case ScalarType::UInt16:
+      return convertValues<To, std::uint16_t>(from, in, to, out, values);
+    case ScalarType::Int32:
+      return convertValues<To, std::int32_t>(from, in, to, out, values);
+    case ScalarType::UInt32:
+      return convertValues<To, std::uint32_t>(from, in, to, out, values);
+    case ScalarType::Int64:
+      return convertValues<To, std::int64_t>(from, in, to, out, values);
+    case ScalarType::UInt64:
+      return convertValues<To, std::uint64_t>(from, in, to, out, values);
+    case ScalarType::Float32:
+      return convertValues<To, float>(from, in, to, out, values);
+    case ScalarType::Float64:
+      return convertValues<To, double>(from, in, to, out, values);
   }
 }
 } // namespace
@@ -280,23 +279,23 @@ void convertColumn(const Attribute& from, const std::byte* in, const Attribute& 
   const std::size_t values = count * from.components;
   switch (to.type)
   {
-  case ScalarType::Int16:
-    return convertTo<std::int16_t>(from, in, to, out, values);
-  case ScalarType::UInt16:
-    return convertTo<std::uint16_t>(from, in, to, out, values);
-  case ScalarType::Int32:
-    return convertTo<std::int32_t>(from, in, to, out, values);
-  case ScalarType::UInt32:
-    return convertTo<std::uint32_t>(from, in, to, out, values);
-  case ScalarType::Int64:
-    return convertTo<std::int64_t>(from, in, to, out, values);
-  case ScalarType::UInt64:
-    return convertTo<std::uint64_t>(from, in, to, out, values);
-  case ScalarType::Int8: // nothing smaller is ever widened to 8 bits
-  case ScalarType::UInt8:
-  case ScalarType::Float32: // a mix with a float is always float64
-  case ScalarType::Float64:
-    return convertTo<double>(from, in, to, out, values);
+    case ScalarType::Int16:
+      return convertTo<std::int16_t>(from, in, to, out, values);
+    case ScalarType::UInt16:
+      return convertTo<std::uint16_t>(from, in, to, out, values);
+    case ScalarType::Int32:
+      return convertTo<std::int32_t>(from, in, to, out, values);
+    case ScalarType::UInt32:
+      return convertTo<std::uint32_t>(from, in, to, out, values);
+    case ScalarType::Int64:
+      return convertTo<std::int64_t>(from, in, to, out, values);
+    case ScalarType::UInt64:
+      return convertTo<std::uint64_t>(from, in, to, out, values);
+    case ScalarType::Int8: // nothing smaller is ever widened to 8 bits
+    case ScalarType::UInt8:
+    case ScalarType::Float32: // a mix with a float is always float64
+    case ScalarType::Float64:
+      return convertTo<double>(from, in, to, out, values);
   }
 }
 

@@ -17,7 +17,7 @@ namespace pointfront
 struct ColumnMapping
 {
   std::optional<std::size_t> column; ///< of the source; nothing: the source lacks it, zeros
-  bool converted = false;            ///< type, scale or offset differ from the common column
+  bool converted = false; ///< type, scale or offset differ from the common column
 };
 
 /// The attributes of several sources as one schema.

@@ -103,8 +103,7 @@ std::size_t DirectAccess::read(std::uint64_t offset, std::byte* data, std::size_
     const std::size_t step = std::min(bytes - done, bufferBytes - before);
     const std::size_t asked = roundedUp(before + step);
     const auto place = static_cast<off_t>(offset + done - before);
-    const std::size_t got =
-      moved([&] { return ::pread(descriptor_, buffer.get(), asked, place); });
+    const std::size_t got = moved([&] { return ::pread(descriptor_, buffer.get(), asked, place); });
     const std::size_t useful = std::min(step, got - std::min(got, before));
     std::memcpy(data + done, buffer.get() + before, useful);
     done += useful;

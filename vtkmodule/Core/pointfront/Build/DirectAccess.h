@@ -46,7 +46,10 @@ private:
   };
   using Buffer = std::unique_ptr<std::byte, Release>;
 
-  explicit DirectAccess(int descriptor) : descriptor_(descriptor) {}
+  explicit DirectAccess(int descriptor)
+    : descriptor_(descriptor)
+  {
+  }
   Buffer take();
   void giveBack(Buffer buffer);
 

@@ -47,7 +47,7 @@ std::optional<Shortage> shortageOf(const DiskDemand& demand, std::uint64_t store
     const bool shared = spill.device == output.device;
     if (spill.freeBytes < demand.spillBytes + (shared ? storeBytes : 0))
     {
-      return Shortage{demand.spillFolder, spill.freeBytes};
+      return Shortage{ demand.spillFolder, spill.freeBytes };
     }
     if (shared)
     {
@@ -56,7 +56,7 @@ std::optional<Shortage> shortageOf(const DiskDemand& demand, std::uint64_t store
   }
   if (output.freeBytes < storeBytes)
   {
-    return Shortage{demand.outputFolder, output.freeBytes};
+    return Shortage{ demand.outputFolder, output.freeBytes };
   }
   return std::nullopt;
 }

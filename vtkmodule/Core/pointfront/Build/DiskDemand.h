@@ -12,7 +12,7 @@ namespace pointfront
 /// The disk that a folder lies on: which one, and what an ordinary user may still write there.
 struct DiskSpace
 {
-  std::uint64_t device = 0;    ///< equal for folders on one disk
+  std::uint64_t device = 0; ///< equal for folders on one disk
   std::uint64_t freeBytes = 0; ///< UINT64_MAX if the system does not tell
 };
 
@@ -27,7 +27,7 @@ struct DiskDemand
   std::string spillFolder;
   std::uint64_t spillBytes = 0; ///< 0: nothing is spilled
   std::string outputFolder;
-  std::uint64_t storeBytes = 0;       ///< the least that the store is expected to take
+  std::uint64_t storeBytes = 0; ///< the least that the store is expected to take
   std::uint64_t likelyStoreBytes = 0; ///< more than most stores take
 };
 

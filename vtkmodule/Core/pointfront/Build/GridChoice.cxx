@@ -31,7 +31,7 @@ bool usable(const QuantisationGrid& grid)
   for (int axis = 0; axis < 3; ++axis)
   {
     if (!(grid.scale[axis] > 0.0) || !std::isfinite(grid.scale[axis]) ||
-        !std::isfinite(grid.offset[axis]))
+      !std::isfinite(grid.offset[axis]))
     {
       return false;
     }
@@ -61,7 +61,7 @@ Bounds declaredBounds(const Sources& sources)
   {
     const Bounds& declared = source->description().declaredBounds;
     const glm::dvec3 reach = glm::max(glm::abs(declared.low), glm::abs(declared.high));
-    if (!declared.empty() && std::max({reach.x, reach.y, reach.z}) <= farthestCoordinate)
+    if (!declared.empty() && std::max({ reach.x, reach.y, reach.z }) <= farthestCoordinate)
     {
       bounds.add(declared);
     }
@@ -127,13 +127,13 @@ double millionth(double extent)
 
 double largest(const glm::dvec3& size)
 {
-  return std::max({size.x, size.y, size.z});
+  return std::max({ size.x, size.y, size.z });
 }
 
 /// Steps for an extent that is far larger than what most points have; see chooseGrid().
 Result<double> stepAmongOutliers(double extent, double bulk)
 {
-  constexpr double mostSteps = 2.0e9;  // 32 bits, less what the tree's alignment takes
+  constexpr double mostSteps = 2.0e9; // 32 bits, less what the tree's alignment takes
   constexpr double leastSteps = 1.0e4; // of what most points have
   const double step = std::pow(10.0, std::ceil(std::log10(extent / mostSteps)));
   if (bulk < leastSteps * step)
@@ -218,9 +218,8 @@ void warnOfRounding(const Sources& sources, GridChoice& choice)
       continue;
     }
     choice.warnings.push_back("Coordinates of '" + description.path +
-                              "' do not lie on the store's grid and are rounded, by at most " +
-                              number(0.5 * s.x) + ", " + number(0.5 * s.y) + ", " +
-                              number(0.5 * s.z) + " units in x, y, z.");
+      "' do not lie on the store's grid and are rounded, by at most " + number(0.5 * s.x) + ", " +
+      number(0.5 * s.y) + ", " + number(0.5 * s.z) + " units in x, y, z.");
   }
 }
 } // namespace
@@ -274,7 +273,8 @@ Result<GridChoice> chooseGrid(const Sources& sources, const std::optional<double
   constexpr double coarsest = 1e12;
   if (precision && (!(*precision > 0.0) || !(*precision <= coarsest)))
   {
-    return makeError(Error::Kind::BadArgument, "a precision of " + number(*precision) +
+    return makeError(Error::Kind::BadArgument,
+      "a precision of " + number(*precision) +
         " is not a step of coordinates; give a positive number, 1e12 at most");
   }
   Result<GridChoice> choice = chosenGrid(sources, precision);
@@ -288,8 +288,9 @@ Result<GridChoice> chooseGrid(const Sources& sources, const std::optional<double
     const double offset = choice->grid.offset[axis];
     if (scale > coarsest || !(std::abs(offset) <= farthestCoordinate))
     {
-      return makeError(Error::Kind::BadArgument, "coordinates in steps of " + number(scale) +
-          " units from " + number(offset) + " are no positions; the inputs' scales, offsets or "
+      return makeError(Error::Kind::BadArgument,
+        "coordinates in steps of " + number(scale) + " units from " + number(offset) +
+          " are no positions; the inputs' scales, offsets or "
           "bounds are wrong");
     }
   }

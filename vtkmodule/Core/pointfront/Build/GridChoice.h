@@ -15,8 +15,8 @@ namespace pointfront
 struct GridChoice
 {
   QuantisationGrid grid;
-  GridPosition low{0}; ///< of the declared extent, in steps; a hint
-  GridPosition high{0};
+  GridPosition low{ 0 }; ///< of the declared extent, in steps; a hint
+  GridPosition high{ 0 };
   std::vector<std::string> warnings; ///< which source is rounded, by how much at most
 };
 

@@ -40,12 +40,15 @@ std::uint64_t kdLeftPoints(std::uint64_t points, std::uint32_t nodePoints)
 }
 
 KdCut::KdCut(const std::vector<KdCell>& cells, const KdRule& rule, std::uint16_t layer)
-    : cells_(cells), rule_(rule), layer_(layer), places_(cells.size())
+  : cells_(cells)
+  , rule_(rule)
+  , layer_(layer)
+  , places_(cells.size())
 {
   Region all;
   for (std::uint32_t i = 0; i < cells.size(); ++i)
   {
-    all.items.push_back({i, i, cells[i].count});
+    all.items.push_back({ i, i, cells[i].count });
   }
   std::vector<Region> open;
   if (!cells.empty())
@@ -69,7 +72,7 @@ KdCut::KdCut(const std::vector<KdCell>& cells, const KdRule& rule, std::uint16_t
     else
     {
       const std::uint32_t node = addNode(region, count);
-      region.shares.push_back({node, rule_.nodePoints});
+      region.shares.push_back({ node, rule_.nodePoints });
       region.parent = node;
       divide(std::move(region), own - rule_.nodePoints, open);
     }
@@ -187,8 +190,8 @@ void KdCut::divide(Region region, std::uint64_t own, std::vector<Region>& open)
     place.first = at.inside;
     place.left = static_cast<std::uint32_t>(places_.size());
     place.right = place.left + 1;
-    left.items.push_back({median.cell, place.left, at.inside});
-    right.items.push_back({median.cell, place.right, median.count - at.inside});
+    left.items.push_back({ median.cell, place.left, at.inside });
+    right.items.push_back({ median.cell, place.right, median.count - at.inside });
     places_.resize(places_.size() + 2);
   }
   left.shares = at.left;

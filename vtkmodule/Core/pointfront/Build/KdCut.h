@@ -13,7 +13,7 @@ namespace pointfront
 /// layer are cubes of one size and do not overlap.
 struct KdCell
 {
-  TreePosition origin{0};
+  TreePosition origin{ 0 };
   std::uint64_t count = 0;
 };
 

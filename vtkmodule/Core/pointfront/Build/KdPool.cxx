@@ -119,7 +119,7 @@ Result<void> KdPool::build(
       std::vector<KdCell> histogram;
       for (const CountedCell& cell : cells.back())
       {
-        histogram.push_back({cell.origin, cell.count});
+        histogram.push_back({ cell.origin, cell.count });
       }
       append(
         KdCut(histogram, rule, static_cast<std::uint16_t>(cells.size() - 1)), cells.back().size());
@@ -202,8 +202,8 @@ CellTable KdPool::bucketTable(
     const auto place = static_cast<std::uint32_t>(firstPlace + i);
     const auto rank = std::lower_bound(divided_.begin(), divided_.end(), place) - divided_.begin();
     const std::uint64_t bucket = places_[place].part != KdPlace::none
-                                   ? places_[place].part
-                                   : counts_.size() + static_cast<std::uint64_t>(rank);
+      ? places_[place].part
+      : counts_.size() + static_cast<std::uint64_t>(rank);
     table.at(table.cellOf(cells[i].origin)) = bucket + 1;
   }
   return table;
@@ -267,7 +267,7 @@ Result<void> KdPool::divide(const KdPlace& place, const std::vector<Piece>& piec
   std::vector<Piece>& left, std::vector<Piece>& right)
 {
   RunSorter sorter(sorter_.pool(), sorter_.recordBytes());
-  const CutOrder order{points_->space, place.axis};
+  const CutOrder order{ points_->space, place.axis };
   std::uint64_t rank = place.first;
   CutKey key{};
   for (std::size_t digit = 0; digit < key.size() && (digit == 0 || rank > 0); ++digit)
@@ -284,8 +284,8 @@ Result<void> KdPool::divide(const KdPlace& place, const std::vector<Piece>& piec
         const CutKey own = order.keyOf(sorter.record(i));
         digits[own[digit]] +=
           std::equal(key.begin(), key.begin() + static_cast<std::ptrdiff_t>(digit), own.begin())
-            ? 1u
-            : 0u;
+          ? 1u
+          : 0u;
       }
     }
     key[digit] = static_cast<std::uint16_t>(digitAt(digits, rank));

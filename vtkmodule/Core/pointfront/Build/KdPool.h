@@ -24,7 +24,7 @@ public:
   static constexpr unsigned histogramCellsLog2 = 10;
 
   KdPool(RecordPool& pool, std::size_t recordBytes, const MemoryPlan& plan, WorkCrew& crew)
-      : sorter_(pool, recordBytes, plan, crew)
+    : sorter_(pool, recordBytes, plan, crew)
   {
   }
 
@@ -59,10 +59,10 @@ private:
   const PoolPreparation* points_ = nullptr;
   std::vector<PartNode> tree_;
   std::vector<std::vector<KdShare>> shares_;
-  std::vector<KdPlace> places_;            // of all layers
-  std::vector<std::uint32_t> divided_;     // places of cells that are divided
+  std::vector<KdPlace> places_; // of all layers
+  std::vector<std::uint32_t> divided_; // places of cells that are divided
   std::vector<std::vector<Piece>> pieces_; // of each part
-  std::vector<std::uint64_t> counts_;      // of each part
+  std::vector<std::uint64_t> counts_; // of each part
   // Of findable points:
   ClassLayers layers_;
   BucketTables buckets_;

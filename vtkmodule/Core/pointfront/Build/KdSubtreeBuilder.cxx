@@ -18,19 +18,19 @@ constexpr unsigned intervalsLog2 = 11;
 
 RecordView viewOf(const std::vector<TreePosition>& positions)
 {
-  return {reinterpret_cast<const std::byte*>(positions.data()), sizeof(TreePosition)};
+  return { reinterpret_cast<const std::byte*>(positions.data()), sizeof(TreePosition) };
 }
 } // namespace
 
 RecordView KdSubtreeBuilder::sorted(const std::vector<std::byte>& records, std::size_t count)
 {
   const CpuStopwatch watch(seconds_.sort);
-  const RecordView view{records.data(), recordBytes_};
+  const RecordView view{ records.data(), recordBytes_ };
   sorted_.resize(std::max(sorted_.size(), records.size()));
   positions_.resize(std::max(positions_.size(), count));
   gatherRecords(view, mortonOrder(view, count), sorted_.data(),
     [&](std::size_t i, const std::byte* record) { positions_[i] = positionOf(record); });
-  return {sorted_.data(), recordBytes_};
+  return { sorted_.data(), recordBytes_ };
 }
 
 OpenSubtree KdSubtreeBuilder::build(
@@ -45,7 +45,7 @@ OpenSubtree KdSubtreeBuilder::build(
   active_.resize(count);
   std::iota(active_.begin(), active_.end(), 0u);
   countSteps(active_);
-  Region all{0, count, 0.0};
+  Region all{ 0, count, 0.0 };
   OpenSubtree subtree;
   subtree.records = owed(view, node, all);
   subtree.root = this->node(view, all);
@@ -67,7 +67,7 @@ std::vector<std::byte> KdSubtreeBuilder::owed(
   std::vector<std::uint32_t> rest = std::exchange(active_, std::move(held_));
   std::vector<std::uint8_t> restSteps = std::exchange(steps_, {});
   countSteps(active_);
-  Region open{0, active_.size(), 0.0};
+  Region open{ 0, active_.size(), 0.0 };
   std::vector<std::byte> owedRecords;
   owedRecords.reserve(total * recordBytes_);
   for (const KdShare& share : shares_[node])
@@ -89,8 +89,8 @@ void KdSubtreeBuilder::countSteps(const std::vector<std::uint32_t>& points)
   steps_.resize(points.size());
   for (std::size_t i = 1; i < points.size(); ++i)
   {
-    steps_[i] = static_cast<std::uint8_t>(
-      differingBits(positions_[points[i]], positions_[points[i - 1]]));
+    steps_[i] =
+      static_cast<std::uint8_t>(differingBits(positions_[points[i]], positions_[points[i - 1]]));
   }
 }
 
@@ -106,7 +106,7 @@ void KdSubtreeBuilder::take(Region& region, std::uint64_t wanted)
   sampler_.choose(viewOf(positions_), points_, occupancy_, wanted, chosen_);
   std::size_t left = region.begin;
   std::size_t from = region.begin; // behind the last one taken
-  std::uint8_t step = 0;           // the largest of those taken since one was left
+  std::uint8_t step = 0; // the largest of those taken since one was left
   const auto leave = [&](std::size_t end)
   {
     if (from < end)
@@ -136,7 +136,7 @@ double KdSubtreeBuilder::spacing(double drawn) const
   const unsigned side = differingBits(positions_[points_.front()], positions_[points_.back()]);
   const double all = surfaceSpacing(occupancy_, points_.size(), side);
   return all * std::sqrt(static_cast<double>(points_.size()) / drawn) *
-         emitter_.space().stepLength();
+    emitter_.space().stepLength();
 }
 
 /// Measured among a node's own points, which are some of those drawn there, evenly spread: discs
@@ -162,12 +162,12 @@ std::unique_ptr<BuiltNode> KdSubtreeBuilder::node(const RecordView& records, Reg
   {
     const double left = static_cast<double>(region.end - region.begin);
     const std::size_t middle = divide(region);
-    for (const auto& [begin, end] : {std::pair(region.begin, middle), {middle, region.end}})
+    for (const auto& [begin, end] : { std::pair(region.begin, middle), { middle, region.end } })
     {
       if (begin < end)
       {
         built->children.push_back(
-          node(records, {begin, end, drawn * static_cast<double>(end - begin) / left}));
+          node(records, { begin, end, drawn * static_cast<double>(end - begin) / left }));
       }
     }
   }
@@ -266,7 +266,7 @@ void KdSubtreeBuilder::emit(
 {
   const CpuStopwatch watch(seconds_.encode);
   EncodedNode payload = emitter_.emit(node, records, points);
-  emitted_.push_back({&node, std::move(payload)});
+  emitted_.push_back({ &node, std::move(payload) });
 }
 
 OpenSubtree KdSubtreeBuilder::join(std::vector<OpenSubtree> children, std::uint32_t node)

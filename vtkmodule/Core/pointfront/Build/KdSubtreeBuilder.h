@@ -32,8 +32,12 @@ public:
   /// `tree` and `shares`: the upper tree, and what each of its nodes owes (KdCut.h).
   KdSubtreeBuilder(const NodeEmitter& emitter, const KdRule& rule, std::size_t recordBytes,
     const std::vector<PartNode>& tree, const std::vector<std::vector<KdShare>>& shares)
-      : emitter_(emitter), rule_(rule), recordBytes_(recordBytes), tree_(tree), shares_(shares),
-        splat_(emitter.space())
+    : emitter_(emitter)
+    , rule_(rule)
+    , recordBytes_(recordBytes)
+    , tree_(tree)
+    , shares_(shares)
+    , splat_(emitter.space())
   {
   }
 
@@ -74,17 +78,17 @@ private:
   ExactSampler sampler_;
   NodeSplat splat_;
   // Reused from part to part: fresh memory costs more than what is done with it.
-  std::vector<std::byte> sorted_;       // records of the part
+  std::vector<std::byte> sorted_; // records of the part
   std::vector<TreePosition> positions_; // of the sorted records
-  std::vector<std::uint32_t> active_;   // numbers of those that no node has yet, region by region
-  std::vector<std::uint8_t> steps_;     // bits that each of active_ differs in from the one before
-  std::vector<std::uint32_t> points_;   // of the region at hand
-  CellOccupancy occupancy_;             // of points_
-  std::vector<std::uint32_t> held_;     // what take() took
+  std::vector<std::uint32_t> active_; // numbers of those that no node has yet, region by region
+  std::vector<std::uint8_t> steps_; // bits that each of active_ differs in from the one before
+  std::vector<std::uint32_t> points_; // of the region at hand
+  CellOccupancy occupancy_; // of points_
+  std::vector<std::uint32_t> held_; // what take() took
   std::vector<std::uint32_t> coordinates_; // of active_, along the axis at hand
   std::vector<std::uint32_t> right_;
   std::vector<std::uint8_t> rightSteps_;
-  std::vector<std::uint32_t> chosen_;   // places in points_
+  std::vector<std::uint32_t> chosen_; // places in points_
   std::vector<EmittedNode> emitted_;
   SubtreeSeconds seconds_;
 };

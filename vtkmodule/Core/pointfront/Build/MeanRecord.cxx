@@ -55,9 +55,10 @@ void setNearest(std::byte* at, double value)
     const double high = static_cast<double>(std::numeric_limits<T>::max());
     const double whole = roundedAway(value);
     // The largest 64-bit integers are no doubles: compare before the cast.
-    setValue<T>(at, whole >= high  ? std::numeric_limits<T>::max()
-                    : whole <= low ? std::numeric_limits<T>::lowest()
-                                   : static_cast<T>(whole));
+    setValue<T>(at,
+      whole >= high    ? std::numeric_limits<T>::max()
+        : whole <= low ? std::numeric_limits<T>::lowest()
+                       : static_cast<T>(whole));
   }
 }
 
@@ -67,26 +68,26 @@ void visit(ScalarType type, const Visitor& visitor)
 {
   switch (type)
   {
-  case ScalarType::Int8:
-    return visitor(std::int8_t());
-  case ScalarType::UInt8:
-    return visitor(std::uint8_t());
-  case ScalarType::Int16:
-    return visitor(std::int16_t());
-  case ScalarType::UInt16:
-    return visitor(std::uint16_t());
-  case ScalarType::Int32:
-    return visitor(std::int32_t());
-  case ScalarType::UInt32:
-    return visitor(std::uint32_t());
-  case ScalarType::Int64:
-    return visitor(std::int64_t());
-  case ScalarType::UInt64:
-    return visitor(std::uint64_t());
-  case ScalarType::Float32:
-    return visitor(float());
-  case ScalarType::Float64:
-    break;
+    case ScalarType::Int8:
+      return visitor(std::int8_t());
+    case ScalarType::UInt8:
+      return visitor(std::uint8_t());
+    case ScalarType::Int16:
+      return visitor(std::int16_t());
+    case ScalarType::UInt16:
+      return visitor(std::uint16_t());
+    case ScalarType::Int32:
+      return visitor(std::int32_t());
+    case ScalarType::UInt32:
+      return visitor(std::uint32_t());
+    case ScalarType::Int64:
+      return visitor(std::int64_t());
+    case ScalarType::UInt64:
+      return visitor(std::uint64_t());
+    case ScalarType::Float32:
+      return visitor(float());
+    case ScalarType::Float64:
+      break;
   }
   visitor(double());
 }
@@ -106,7 +107,7 @@ bool hasMean(const Attribute& attribute)
     attribute.type == ScalarType::Float32 || attribute.type == ScalarType::Float64;
   const bool scaled = attribute.scale != 1.0 || attribute.offset != 0.0;
   return fractional || scaled || attribute.name == "intensity" || attribute.name == "rgb" ||
-         attribute.name == "nir";
+    attribute.name == "nir";
 }
 
 MeanRecord::MeanRecord(const TreeSpace& space, const AttributeSchema& pooled)
@@ -171,8 +172,8 @@ void MeanRecord::addMean(
   for (const MeanInput* input = first; input != last; ++input)
   {
     const double value = input->original
-                           ? static_cast<double>(valueAt<T>(input->record + mean.offset))
-                           : valueAt<double>(input->record + exactOffset);
+      ? static_cast<double>(valueAt<T>(input->record + mean.offset))
+      : valueAt<double>(input->record + exactOffset);
     if (std::is_integral_v<T> || !std::isnan(value))
     {
       const double own = weightOf(*input);
@@ -190,8 +191,7 @@ void MeanRecord::addMeans(const MeanInput* first, const MeanInput* last)
   std::size_t exactOffset = meansOffset_;
   for (Mean& mean : means_)
   {
-    visit(mean.type,
-      [&](auto zero) { addMean<decltype(zero)>(mean, exactOffset, first, last); });
+    visit(mean.type, [&](auto zero) { addMean<decltype(zero)>(mean, exactOffset, first, last); });
     exactOffset += sizeof(double);
   }
 }
@@ -210,9 +210,9 @@ void MeanRecord::writeMeans(std::byte* out)
   }
   for (std::size_t m = 0; m + 2 < means_.size(); ++m)
   {
-    const double length =
-      means_[m].normal ? glm::length(valueAt<glm::dvec3>(out + meansOffset_ + m * sizeof(double)))
-                       : 0.0;
+    const double length = means_[m].normal
+      ? glm::length(valueAt<glm::dvec3>(out + meansOffset_ + m * sizeof(double)))
+      : 0.0;
     for (std::size_t k = m; length > 0.0 && k < m + 3; ++k)
     {
       writeScalar(means_[k].type, out + means_[k].offset,

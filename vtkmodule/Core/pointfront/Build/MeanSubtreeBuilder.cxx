@@ -39,12 +39,12 @@ OpenSubtree MeanSubtreeBuilder::build(
   }
   {
     const CpuStopwatch watch(seconds_.sort);
-    const RecordView view{records.data(), recordBytes_};
+    const RecordView view{ records.data(), recordBytes_ };
     sorted_.resize(std::max(sorted_.size(), records.size()));
     gatherRecords(view, mortonOrder(view, count), sorted_.data());
     records = {};
   }
-  const RecordView sorted{sorted_.data(), recordBytes_};
+  const RecordView sorted{ sorted_.data(), recordBytes_ };
   return opened(branch(sorted, 0, static_cast<std::uint32_t>(count)));
 }
 
@@ -59,7 +59,7 @@ MeanSubtreeBuilder::Branch MeanSubtreeBuilder::branch(
   std::vector<Branch> children;
   const auto octant = [&](std::uint64_t i)
   { return octantOf(records.position(static_cast<std::size_t>(i)), side); };
-  for (const IndexRange& range : splitRange({begin, end}, side, octant))
+  for (const IndexRange& range : splitRange({ begin, end }, side, octant))
   {
     children.push_back(branch(
       records, static_cast<std::uint32_t>(range.begin), static_cast<std::uint32_t>(range.end)));
@@ -103,7 +103,7 @@ void MeanSubtreeBuilder::represent(
     const std::size_t first = next;
     for (const std::uint32_t i : child.held)
     {
-      inputs_[next] = {child.view.record(i), child.original};
+      inputs_[next] = { child.view.record(i), child.original };
       positions_[next++] = child.view.position(i);
     }
     const bool leaf = child.node->samplingQuarters < 0;
@@ -122,7 +122,7 @@ void MeanSubtreeBuilder::represent(
   joined.held.resize(occupancy.distinct[cell]);
   std::iota(joined.held.begin(), joined.held.end(), 0u);
   joined.means.resize(joined.held.size() * form_.bytes());
-  joined.view = {joined.means.data(), form_.bytes()};
+  joined.view = { joined.means.data(), form_.bytes() };
   std::byte* out = joined.means.data();
   for (std::size_t begin = 0; begin < inputs_.size(); out += form_.bytes())
   {
@@ -156,7 +156,7 @@ void MeanSubtreeBuilder::emit(Branch child, BuiltNode& parent)
 {
   const CpuStopwatch watch(seconds_.encode);
   EncodedNode payload = emitter_.emit(*child.node, child.view, child.held);
-  emitted_.push_back({child.node.get(), std::move(payload)});
+  emitted_.push_back({ child.node.get(), std::move(payload) });
   parent.children.push_back(std::move(child.node));
 }
 
@@ -164,16 +164,16 @@ OpenSubtree MeanSubtreeBuilder::opened(Branch branch)
 {
   if (!branch.original)
   {
-    return {std::move(branch.node), std::move(branch.means)};
+    return { std::move(branch.node), std::move(branch.means) };
   }
   inputs_.clear();
   std::vector<std::byte> records(branch.held.size() * form_.bytes());
   for (std::size_t i = 0; i < branch.held.size(); ++i)
   {
-    inputs_.push_back({branch.view.record(branch.held[i]), true});
+    inputs_.push_back({ branch.view.record(branch.held[i]), true });
     form_.summarise(inputs_, i, i + 1, records.data() + i * form_.bytes());
   }
-  return {std::move(branch.node), std::move(records)};
+  return { std::move(branch.node), std::move(records) };
 }
 
 OpenSubtree MeanSubtreeBuilder::join(std::vector<OpenSubtree> children, std::uint32_t node)
@@ -189,7 +189,7 @@ OpenSubtree MeanSubtreeBuilder::join(std::vector<OpenSubtree> children, std::uin
   {
     Branch branch;
     branch.node = std::move(child.root);
-    branch.view = {records.data(), form_.bytes()};
+    branch.view = { records.data(), form_.bytes() };
     branch.held.resize(child.records.size() / form_.bytes());
     std::iota(branch.held.begin(), branch.held.end(), first);
     first += static_cast<std::uint32_t>(branch.held.size());
@@ -205,12 +205,12 @@ std::unique_ptr<BuiltNode> MeanSubtreeBuilder::close(OpenSubtree subtree)
   {
     return nullptr;
   }
-  const RecordView view{subtree.records.data(), form_.bytes()};
+  const RecordView view{ subtree.records.data(), form_.bytes() };
   std::vector<std::uint32_t> all(subtree.records.size() / form_.bytes());
   std::iota(all.begin(), all.end(), 0u);
   const CpuStopwatch watch(seconds_.encode);
   EncodedNode payload = emitter_.emit(*subtree.root, view, all);
-  emitted_.push_back({subtree.root.get(), std::move(payload)});
+  emitted_.push_back({ subtree.root.get(), std::move(payload) });
   return std::move(subtree.root);
 }
 

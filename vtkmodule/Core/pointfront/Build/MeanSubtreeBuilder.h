@@ -29,8 +29,12 @@ class MeanSubtreeBuilder final : public TreeBuilder
 public:
   MeanSubtreeBuilder(const NodeEmitter& emitter, const SamplingRule& rule, MeanRecord form,
     std::size_t recordBytes, const Partition& partition)
-      : emitter_(emitter), rule_(rule), form_(std::move(form)), recordBytes_(recordBytes),
-        partition_(partition), splat_(emitter.space())
+    : emitter_(emitter)
+    , rule_(rule)
+    , form_(std::move(form))
+    , recordBytes_(recordBytes)
+    , partition_(partition)
+    , splat_(emitter.space())
   {
   }
 
@@ -46,7 +50,7 @@ private:
     std::unique_ptr<BuiltNode> node;
     std::vector<std::byte> means; ///< what `view` shows of an inner node built here
     RecordView view;
-    bool original = false;           ///< the view shows records of the pool
+    bool original = false; ///< the view shows records of the pool
     std::vector<std::uint32_t> held; ///< numbers in the view, Morton order
     std::optional<CellOccupancy> occupancy; ///< of `held`, where it is known already
   };
@@ -64,9 +68,9 @@ private:
   const Partition& partition_;
   NodeSplat splat_;
   // Reused from part to part: fresh memory costs more than what is done with it.
-  std::vector<std::byte> sorted_;         // records of the part
-  std::vector<MeanInput> inputs_;         // of the node at hand
-  std::vector<TreePosition> positions_;   // of inputs_
+  std::vector<std::byte> sorted_; // records of the part
+  std::vector<MeanInput> inputs_; // of the node at hand
+  std::vector<TreePosition> positions_; // of inputs_
   std::vector<EmittedNode> emitted_;
   SubtreeSeconds seconds_;
 };

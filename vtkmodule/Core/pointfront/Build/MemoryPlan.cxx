@@ -51,8 +51,8 @@ std::uint64_t readBytes(const MemoryDemand& demand)
 
 std::uint64_t leastBytes(const MemoryDemand& demand)
 {
-  return std::max(readBytes(demand),
-    std::min(demand.points, leastPartPoints(demand)) * partPointBytes(demand));
+  return std::max(
+    readBytes(demand), std::min(demand.points, leastPartPoints(demand)) * partPointBytes(demand));
 }
 
 /// What the allocator keeps, tables of cells and nodes, decoders, the pages of mapped inputs, the
@@ -76,8 +76,8 @@ MemoryPlan divided(const MemoryDemand& demand, std::uint64_t available, bool spi
   plan.partPoints = std::clamp(std::min(share / partPointBytes(demand), forBalance),
     leastPartPoints(demand), std::max(mostPartPoints, leastPartPoints(demand)));
   const std::uint64_t forBlock = share - std::min(share, batchBytes(demand));
-  plan.blockPoints = std::clamp<std::uint64_t>(forBlock / blockPointBytes(demand.recordBytes),
-    1024, spill ? mostBlockPoints : memoryBlockPoints);
+  plan.blockPoints = std::clamp<std::uint64_t>(forBlock / blockPointBytes(demand.recordBytes), 1024,
+    spill ? mostBlockPoints : memoryBlockPoints);
   if (spill) // of what parts leave, so that little memory is still enough
   {
     const std::uint64_t left = share - std::min(share, plan.partPoints * partPointBytes(demand));
@@ -93,7 +93,7 @@ Result<MemoryPlan> planMemory(const MemoryDemand& demand)
   const std::uint64_t all = demand.points * demand.recordBytes;
   const std::uint64_t least = leastBytes(demand);
   if (demand.memoryBytes >= all &&
-      demand.memoryBytes - all >= std::min(least * demand.threads, demand.memoryBytes / 4 + least))
+    demand.memoryBytes - all >= std::min(least * demand.threads, demand.memoryBytes / 4 + least))
   {
     return divided(demand, demand.memoryBytes - all, false);
   }

@@ -32,7 +32,7 @@ constexpr std::array<std::uint32_t, 256> spreadBytes = makeSpreadBytes();
 std::uint64_t spread(std::uint32_t v)
 {
   return spreadBytes[v & 0xffu] | std::uint64_t(spreadBytes[(v >> 8) & 0xffu]) << 24 |
-         std::uint64_t(spreadBytes[(v >> 16) & 0x1fu]) << 48;
+    std::uint64_t(spreadBytes[(v >> 16) & 0x1fu]) << 48;
 }
 
 std::uint64_t keyOf(const TreePosition& p, unsigned shift)
@@ -44,12 +44,12 @@ std::uint64_t keyOf(const TreePosition& p, unsigned shift)
 unsigned commonBits(const RecordView& records, std::size_t count)
 {
   const TreePosition first = records.position(0);
-  TreePosition differ{0};
+  TreePosition differ{ 0 };
   for (std::size_t i = 1; i < count; ++i)
   {
     differ |= records.position(i) ^ first;
   }
-  return differingBits(differ, TreePosition{0});
+  return differingBits(differ, TreePosition{ 0 });
 }
 
 unsigned bitsFor(std::uint64_t largest)
@@ -62,13 +62,13 @@ unsigned bitsFor(std::uint64_t largest)
 struct WordLayout
 {
   unsigned axisShift = 0; ///< bits of an axis below its key
-  unsigned keyShift = 0;  ///< bits of the key that do not fit
-  unsigned keyBits = 0;   ///< that do
+  unsigned keyShift = 0; ///< bits of the key that do not fit
+  unsigned keyBits = 0; ///< that do
   unsigned indexBits = 0;
 
   WordLayout(unsigned axisBits, std::size_t count)
-      : axisShift(axisBits > mostAxisBits ? axisBits - mostAxisBits : 0),
-        indexBits(bitsFor(count - 1))
+    : axisShift(axisBits > mostAxisBits ? axisBits - mostAxisBits : 0)
+    , indexBits(bitsFor(count - 1))
   {
     const unsigned all = 3 * (axisBits - axisShift);
     keyBits = std::min(all, 64 - indexBits);

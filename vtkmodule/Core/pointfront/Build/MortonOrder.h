@@ -12,7 +12,7 @@ namespace pointfront
 /// A cube of 2^log2Side steps a side, aligned to multiples of its side from the tree's origin.
 struct OctreeCell
 {
-  TreePosition origin{0};
+  TreePosition origin{ 0 };
   unsigned log2Side = 0; ///< 0 to 32
 };
 

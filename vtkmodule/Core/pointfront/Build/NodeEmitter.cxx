@@ -60,20 +60,20 @@ void gatherColumn(const StoredColumn& column, const Tile& tile, std::byte* out)
   }
   switch (column.bytes)
   {
-  case 1:
-    return copyColumn<1>(tile, *column.offset, out);
-  case 2:
-    return copyColumn<2>(tile, *column.offset, out);
-  case 3:
-    return copyColumn<3>(tile, *column.offset, out);
-  case 4:
-    return copyColumn<4>(tile, *column.offset, out);
-  case 6:
-    return copyColumn<6>(tile, *column.offset, out);
-  case 8:
-    return copyColumn<8>(tile, *column.offset, out);
-  default:
-    return copyColumn(tile, *column.offset, column.bytes, out);
+    case 1:
+      return copyColumn<1>(tile, *column.offset, out);
+    case 2:
+      return copyColumn<2>(tile, *column.offset, out);
+    case 3:
+      return copyColumn<3>(tile, *column.offset, out);
+    case 4:
+      return copyColumn<4>(tile, *column.offset, out);
+    case 6:
+      return copyColumn<6>(tile, *column.offset, out);
+    case 8:
+      return copyColumn<8>(tile, *column.offset, out);
+    default:
+      return copyColumn(tile, *column.offset, column.bytes, out);
   }
 }
 
@@ -95,9 +95,11 @@ Bounds boundsOf(const QuantisationGrid& grid, const NodeColumns& points)
 }
 } // namespace
 
-NodeEmitter::NodeEmitter(TreeSpace space, const RecordColumns& columns, AttributeSchema stored,
-  Refinement refinement)
-    : space_(std::move(space)), schema_(std::move(stored)), refinement_(refinement)
+NodeEmitter::NodeEmitter(
+  TreeSpace space, const RecordColumns& columns, AttributeSchema stored, Refinement refinement)
+  : space_(std::move(space))
+  , schema_(std::move(stored))
+  , refinement_(refinement)
 {
   const RecordLayout layout(columns.schema());
   for (std::size_t c = 0; c < schema_.size(); ++c)
@@ -128,7 +130,7 @@ NodeColumns NodeEmitter::gather(
   }
   for (std::size_t begin = 0; begin < order.size(); begin += tilePoints)
   {
-    const Tile tile{records, order.data() + begin, std::min(tilePoints, order.size() - begin)};
+    const Tile tile{ records, order.data() + begin, std::min(tilePoints, order.size() - begin) };
     for (std::size_t i = 0; i < tile.count; ++i)
     {
       // The node's records lie anywhere in the part: ask early for those of the next tile.
@@ -153,7 +155,7 @@ NodeColumns NodeEmitter::gather(
   for (TreePosition& p : points.positions)
   {
     const TreePosition steps = p - low;
-    p = {steps.x >> space_.shift[0], steps.y >> space_.shift[1], steps.z >> space_.shift[2]};
+    p = { steps.x >> space_.shift[0], steps.y >> space_.shift[1], steps.z >> space_.shift[2] };
   }
   return points;
 }

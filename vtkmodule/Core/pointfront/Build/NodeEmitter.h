@@ -19,7 +19,7 @@ struct StoredColumn
 {
   std::optional<std::size_t> offset; ///< in the record; nothing: it is not carried
   std::size_t bytes = 0; ///< of one point in the store
-  bool narrowed = false;  ///< two bytes a component in the record, one in the store
+  bool narrowed = false; ///< two bytes a component in the record, one in the store
 };
 
 /// Turns the final points of a node into what the store keeps: orders them, splits records into

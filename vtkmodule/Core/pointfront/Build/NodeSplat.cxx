@@ -130,16 +130,15 @@ float SplatQuantile::radius()
 }
 
 NodeSplat::NodeSplat(const TreeSpace& space)
-    : stepLengths_(lengthsOf(space))
+  : stepLengths_(lengthsOf(space))
 {
 }
 
-NodeSplat::Range NodeSplat::inCell(
-  const Points& points, std::size_t near, const OctreeCell& cell)
+NodeSplat::Range NodeSplat::inCell(const Points& points, std::size_t near, const OctreeCell& cell)
 {
   const TreePosition last = cell.origin + TreePosition((1u << cell.log2Side) - 1u);
-  const std::size_t begin = firstNot(points.size(), near,
-    [&](std::size_t i) { return mortonLess(points[i], cell.origin); });
+  const std::size_t begin = firstNot(
+    points.size(), near, [&](std::size_t i) { return mortonLess(points[i], cell.origin); });
   if (begin == points.size() || differingBits(points[begin], cell.origin) > cell.log2Side)
   {
     return {};
@@ -175,10 +174,8 @@ std::size_t NodeSplat::cellsAround(const Points& points, std::size_t from, unsig
 unsigned NodeSplat::likelySide(const Points& points, std::size_t from)
 {
   const std::size_t last = points.size() - 1;
-  const unsigned before =
-    differingBits(points[from - std::min(from, pointsOfCell)], points[from]);
-  const unsigned behind =
-    differingBits(points[from], points[std::min(from + pointsOfCell, last)]);
+  const unsigned before = differingBits(points[from - std::min(from, pointsOfCell)], points[from]);
+  const unsigned behind = differingBits(points[from], points[std::min(from + pointsOfCell, last)]);
   return std::min(from < pointsOfCell ? behind
       : from + pointsOfCell > last    ? before
                                       : std::min(before, behind),
@@ -220,8 +217,8 @@ float NodeSplat::measure(const RecordView& positions, const std::vector<std::uin
 {
   const Points points{ positions, numbers };
   quantile_.begin();
-  const std::size_t count = std::min(numbers.size(),
-    std::clamp(numbers.size() / pointsOfGroup, fewestGroups, mostGroups));
+  const std::size_t count =
+    std::min(numbers.size(), std::clamp(numbers.size() / pointsOfGroup, fewestGroups, mostGroups));
   for (std::size_t group = 0; group < count; ++group)
   {
     lookAround(points, (2 * group + 1) * numbers.size() / (2 * count));

@@ -26,21 +26,21 @@ std::vector<IndexRange> splitRange(IndexRange all, unsigned log2Side, const Octa
     const std::uint64_t run = (all.end - all.begin + 7) / 8;
     for (std::uint64_t begin = all.begin; begin < all.end; begin += run)
     {
-      ranges.push_back({begin, begin + run < all.end ? begin + run : all.end});
+      ranges.push_back({ begin, begin + run < all.end ? begin + run : all.end });
     }
     return ranges;
   }
   for (std::uint64_t begin = all.begin; begin < all.end;)
   {
     const unsigned own = octant(begin);
-    std::uint64_t low = begin;    // the last item known to be in the octant
+    std::uint64_t low = begin; // the last item known to be in the octant
     std::uint64_t high = all.end; // the first known to be beyond it
     while (high - low > 1)
     {
       const std::uint64_t middle = low + (high - low) / 2;
       (octant(middle) == own ? low : high) = middle;
     }
-    ranges.push_back({begin, high});
+    ranges.push_back({ begin, high });
     begin = high;
   }
   return ranges;

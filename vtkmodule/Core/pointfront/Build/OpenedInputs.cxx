@@ -76,7 +76,7 @@ InputFault inputFault(const std::string& path, const Error& error)
 {
   const std::string prefix = path + ": ";
   const bool named = error.what.compare(0, prefix.size(), prefix) == 0;
-  return {path, named ? error.what.substr(prefix.size()) : error.what};
+  return { path, named ? error.what.substr(prefix.size()) : error.what };
 }
 
 Error errorOf(const InputFault& fault)

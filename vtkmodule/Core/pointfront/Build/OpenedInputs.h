@@ -14,7 +14,7 @@ namespace pointfront
 enum class OnFault
 {
   Stop, ///< nothing is written; the Error names all inputs that are wrong
-  Skip  ///< it is left out, named and counted
+  Skip ///< it is left out, named and counted
 };
 
 /// An input that is left out.

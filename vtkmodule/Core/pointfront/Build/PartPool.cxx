@@ -24,7 +24,7 @@ CellTable partTable(const std::vector<CountedCell>& cells, unsigned shift,
 
 PartPool::PartPool(
   RecordPool& pool, std::size_t recordBytes, const MemoryPlan& plan, WorkCrew& crew)
-    : sorter_(pool, recordBytes, plan, crew)
+  : sorter_(pool, recordBytes, plan, crew)
 {
 }
 
@@ -106,7 +106,7 @@ Result<void> PartPool::refine(std::uint32_t part)
   std::vector<std::uint32_t> partOf;
   const Partition finer(cells, counts.table().shift(), sorter_.plan().partPoints, partOf);
   const ClassLayers layer; // of the part: there is no other in it
-  const BucketTables table{partTable(cells, counts.table().shift(), partOf, 0)};
+  const BucketTables table{ partTable(cells, counts.table().shift(), partOf, 0) };
   const std::vector<std::uint32_t> numbers = partition_->refine(part, finer);
   pieces_.resize(partition_->partCount());
   pieces_[part].clear();
@@ -147,7 +147,7 @@ void PartPool::refineByOrder(std::uint32_t part)
         rest = all[next++];
       }
       const std::uint64_t taken = std::min(missing, rest.count);
-      pieces_[number].push_back({rest.first, taken});
+      pieces_[number].push_back({ rest.first, taken });
       rest.first += taken;
       rest.count -= taken;
       missing -= taken;

@@ -21,7 +21,7 @@ std::vector<std::uint32_t> postOrder(const std::vector<PartNode>& nodes)
     order.push_back(index);
     open.insert(open.end(), nodes[index].children.begin(), nodes[index].children.end());
   }
-  return {order.rbegin(), order.rend()};
+  return { order.rbegin(), order.rend() };
 }
 
 } // namespace pointfront

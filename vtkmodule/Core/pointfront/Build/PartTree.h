@@ -11,10 +11,10 @@ struct PartNode
 {
   static constexpr std::uint32_t none = 0xffffffffu;
 
-  std::uint64_t count = 0;     ///< points inside
+  std::uint64_t count = 0; ///< points inside
   std::uint32_t parent = none; ///< none for a root
-  std::uint32_t part = none;   ///< number of the part; none for an inner node
-  std::uint16_t layer = 0;     ///< of the store; each layer has a tree of its own
+  std::uint32_t part = none; ///< number of the part; none for an inner node
+  std::uint16_t layer = 0; ///< of the store; each layer has a tree of its own
   std::vector<std::uint32_t> children;
 };
 

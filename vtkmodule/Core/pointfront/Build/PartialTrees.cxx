@@ -10,8 +10,9 @@ class PartialTrees::Snapshot final : public PartialStore
 {
 public:
   Snapshot(const PartialTrees& trees, FinishedSubtrees finished)
-      : trees_(trees), points_(trees.pointsOf(trees.progressOf(finished))),
-        finished_(std::move(finished))
+    : trees_(trees)
+    , points_(trees.pointsOf(trees.progressOf(finished)))
+    , finished_(std::move(finished))
   {
   }
   std::uint64_t pointsFinished() const override { return points_; }
@@ -28,7 +29,10 @@ private:
 
 PartialTrees::PartialTrees(PartialTreesSite site, std::vector<PartNode> tree,
   const std::vector<std::byte>& sample, BuildWatch& watch)
-    : site_(std::move(site)), tree_(std::move(tree)), sample_(tree_.size()), watch_(watch)
+  : site_(std::move(site))
+  , tree_(std::move(tree))
+  , sample_(tree_.size())
+  , watch_(watch)
 {
   for (std::size_t at = 0; at < sample.size(); at += site_.recordBytes)
   {
@@ -112,9 +116,12 @@ class PartialTrees::Weaving
 {
 public:
   Weaving(const PartialTrees& trees, FinishedSubtrees finished, StoreWriter& writer)
-      : site_(trees.site_), tree_(trees.tree_), progress_(trees.progressOf(finished)),
-        sample_(trees.sampleOf(progress_)), writer_(writer),
-        builder_(site_.construction.partialBuilder(site_.emitter))
+    : site_(trees.site_)
+    , tree_(trees.tree_)
+    , progress_(trees.progressOf(finished))
+    , sample_(trees.sampleOf(progress_))
+    , writer_(writer)
+    , builder_(site_.construction.partialBuilder(site_.emitter))
   {
     for (FinishedSubtree& subtree : finished.subtrees)
     {
@@ -215,8 +222,8 @@ private:
 Result<void> PartialTrees::write(
   FinishedSubtrees finished, const std::string& path, const MetadataRecord& record) const
 {
-  auto writer = StoreWriter::createReferring(
-    path, site_.description.schema, std::move(finished.written));
+  auto writer =
+    StoreWriter::createReferring(path, site_.description.schema, std::move(finished.written));
   if (!writer)
   {
     return writer.error();

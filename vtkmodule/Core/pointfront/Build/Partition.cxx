@@ -13,7 +13,7 @@ namespace
 OctreeCell cellAround(const std::vector<CountedCell>& cells, IndexRange range, unsigned cellLog2)
 {
   const OctreeCell cell = commonCell(cells[range.begin].origin, cells[range.end - 1].origin);
-  return cell.log2Side >= cellLog2 ? cell : OctreeCell{cells[range.begin].origin, cellLog2};
+  return cell.log2Side >= cellLog2 ? cell : OctreeCell{ cells[range.begin].origin, cellLog2 };
 }
 
 struct OpenRange
@@ -27,7 +27,7 @@ Partition::Partition(const std::vector<CountedCell>& cells, unsigned cellLog2,
   std::uint64_t partPoints, std::vector<std::uint32_t>& partOf)
 {
   partOf.assign(cells.size(), none);
-  std::vector<std::uint64_t> before{0};
+  std::vector<std::uint64_t> before{ 0 };
   for (const CountedCell& cell : cells)
   {
     before.push_back(before.back() + cell.count);
@@ -35,7 +35,7 @@ Partition::Partition(const std::vector<CountedCell>& cells, unsigned cellLog2,
   std::vector<OpenRange> open;
   if (!cells.empty())
   {
-    open.push_back({{0, cells.size()}, none});
+    open.push_back({ { 0, cells.size() }, none });
   }
   while (!open.empty())
   {
@@ -55,7 +55,7 @@ Partition::Partition(const std::vector<CountedCell>& cells, unsigned cellLog2,
     const std::vector<IndexRange> split = splitRange(next.range, cell.log2Side, octant);
     for (auto range = split.rbegin(); range != split.rend(); ++range)
     {
-      open.push_back({*range, node}); // the last in is the first out: octant order
+      open.push_back({ *range, node }); // the last in is the first out: octant order
     }
   }
 }
@@ -150,7 +150,7 @@ std::vector<std::uint32_t> Partition::refineByOrder(std::uint32_t part)
   const std::uint32_t place = parts_[part];
   const OctreeCell cell = nodes_[place].cell;
   const std::vector<IndexRange> runs =
-    splitRange({0, nodes_[place].count}, 0, [](std::uint64_t) { return 0u; });
+    splitRange({ 0, nodes_[place].count }, 0, [](std::uint64_t) { return 0u; });
   nodes_[place].part = none;
   std::vector<std::uint32_t> numbers;
   for (const IndexRange& run : runs)

@@ -12,7 +12,7 @@ namespace pointfront
 /// How many points a counted cell holds. Cells are aligned cubes of one size.
 struct CountedCell
 {
-  TreePosition origin{0}; ///< tree steps
+  TreePosition origin{ 0 }; ///< tree steps
   std::uint64_t count = 0;
 };
 
@@ -57,7 +57,7 @@ public:
   std::uint32_t nodeAt(std::size_t layer, const TreePosition& position) const;
 
   /// The nodes without their cells.
-  std::vector<PartNode> tree() const { return {nodes_.begin(), nodes_.end()}; }
+  std::vector<PartNode> tree() const { return { nodes_.begin(), nodes_.end() }; }
 
 private:
   std::uint32_t addNode(OctreeCell cell, std::uint64_t count, std::uint32_t parent);

@@ -29,10 +29,10 @@ unsigned hintedShift(const Sources& sources, const TreeSpace& space, double leas
     bounds.add(source->description().declaredBounds);
     points += static_cast<double>(source->description().pointCount);
   }
-  const double cellsLog2 = std::clamp(
-    std::ceil(0.5 * std::log2(points / pointsOfCell)), least, std::max(least, 9.0));
+  const double cellsLog2 =
+    std::clamp(std::ceil(0.5 * std::log2(points / pointsOfCell)), least, std::max(least, 9.0));
   const glm::dvec3 size = bounds.empty() ? glm::dvec3(0.0) : bounds.size();
-  const double steps = std::max({size.x, size.y, size.z}) / space.stepLength();
+  const double steps = std::max({ size.x, size.y, size.z }) / space.stepLength();
   const double bits = std::log2(std::max(1.0, steps)) - cellsLog2;
   return bits > 0.0 && std::isfinite(bits) ? static_cast<unsigned>(std::min(bits, 26.0)) : 0u;
 }
@@ -56,7 +56,7 @@ std::vector<ChunkRun> chunkRuns(const Sources& sources, std::uint64_t blockPoint
       const std::uint64_t more = sources[s]->chunkPoints(chunk);
       if (chunk == 0 || runs.back().points + more > blockPoints)
       {
-        runs.push_back({s, chunk, chunk, 0});
+        runs.push_back({ s, chunk, chunk, 0 });
       }
       runs.back().points += more;
       runs.back().end = chunk + 1;
@@ -70,9 +70,10 @@ class Ingest
 {
 public:
   Ingest(const IngestSite& site, std::optional<std::size_t> classOffset)
-      : site_(site), classOffset_(classOffset),
-        shift_(hintedShift(site.sources, site.space, site.leastCellsLog2)),
-        runs_(chunkRuns(site.sources, site.blockPoints))
+    : site_(site)
+    , classOffset_(classOffset)
+    , shift_(hintedShift(site.sources, site.space, site.leastCellsLog2))
+    , runs_(chunkRuns(site.sources, site.blockPoints))
   {
     points_.counts = ClassCounts(shift_);
     points_.hintedShift = shift_;
@@ -104,8 +105,7 @@ private:
     double readSeconds = 0.0; ///< CPU
     double quantiseSeconds = 0.0;
   };
-  Result<bool> fill(
-    const ChunkRun& run, RecordPacker& packer, PointBatch& batch, Share& share);
+  Result<bool> fill(const ChunkRun& run, RecordPacker& packer, PointBatch& batch, Share& share);
   Result<bool> store(std::size_t number, RecordPacker& packer);
   bool placeInOrder(std::size_t number, const RecordPacker& packer);
   void merge(const RecordPacker& packer, const Share& share);
@@ -117,8 +117,8 @@ private:
   std::vector<ChunkRun> runs_;
   std::vector<bool> onGrid_; // of each source: its grid is the store's
   std::optional<WriteBehind> behind_; // for a pool on disk
-  std::atomic<std::size_t> nextRun_{0};
-  std::atomic<bool> guessedWrong_{false};
+  std::atomic<std::size_t> nextRun_{ 0 };
+  std::atomic<bool> guessedWrong_{ false };
   std::mutex mutex_; // guards what follows
   std::condition_variable turnChanged_;
   std::size_t turn_ = 0; // the run whose records are placed next
@@ -284,8 +284,7 @@ Result<IngestedPoints> Ingest::finish()
 }
 } // namespace
 
-Result<IngestedPoints> ingestPoints(
-  const IngestSite& site, std::optional<std::size_t> classOffset)
+Result<IngestedPoints> ingestPoints(const IngestSite& site, std::optional<std::size_t> classOffset)
 {
   Ingest ingest(site, classOffset);
   if (Result<void> done = site.crew.run([&] { return ingest.work(); }); !done)

@@ -37,14 +37,14 @@ struct IngestedPoints
   std::uint64_t read = 0;
   std::uint64_t kept = 0; ///< records 0 to kept - 1 of the pool
   std::map<std::string, std::uint64_t> rejected;
-  GridPosition low{INT64_MAX}; ///< grid steps
-  GridPosition high{INT64_MIN};
-  ClassCounts counts{0};
-  std::vector<PoolBlock> blocks;            ///< of the pool, in input order
-  std::vector<std::uint64_t> sourceEnd;     ///< end of each source's records in the pool
+  GridPosition low{ INT64_MAX }; ///< grid steps
+  GridPosition high{ INT64_MIN };
+  ClassCounts counts{ 0 };
+  std::vector<PoolBlock> blocks; ///< of the pool, in input order
+  std::vector<std::uint64_t> sourceEnd; ///< end of each source's records in the pool
   std::vector<std::uint16_t> largestColour; ///< of each source's "rgb", 0 without one
-  unsigned hintedShift = 0;                 ///< of the cells before any were joined
-  double readSeconds = 0.0;                 ///< CPU, over all threads
+  unsigned hintedShift = 0; ///< of the cells before any were joined
+  double readSeconds = 0.0; ///< CPU, over all threads
   double quantiseSeconds = 0.0;
   /// A column that was left out of the records is not what was guessed, and nothing else here is
   /// complete: to be read again with those that are wrong.

@@ -10,7 +10,10 @@ namespace
 class StepRandom
 {
 public:
-  explicit StepRandom(std::uint64_t seed) : state_(seed) {}
+  explicit StepRandom(std::uint64_t seed)
+    : state_(seed)
+  {
+  }
   double uniform() ///< 0 to 1
   {
     std::uint64_t z = (state_ += 0x9e3779b97f4a7c15ull);
@@ -42,7 +45,8 @@ class SampledSource final : public PointSource
 {
 public:
   SampledSource(SourceDescription description, std::vector<std::shared_ptr<const PointBatch>> kept)
-      : description_(std::move(description)), kept_(std::move(kept))
+    : description_(std::move(description))
+    , kept_(std::move(kept))
   {
     description_.pointCount = 0;
     for (const auto& batch : kept_)
@@ -76,8 +80,8 @@ void PointSample::keep(std::size_t source, std::uint64_t chunk,
   for (std::size_t i = 0; i < chosen.size(); ++i)
   {
     kept->positions[i] = batch.steps.empty()
-                           ? batch.positions[chosen[i]]
-                           : description.grid->toWorld(GridPosition(batch.steps[chosen[i]]));
+      ? batch.positions[chosen[i]]
+      : description.grid->toWorld(GridPosition(batch.steps[chosen[i]]));
   }
   for (std::size_t c = 0; c < schema.size(); ++c)
   {
@@ -89,7 +93,7 @@ void PointSample::keep(std::size_t source, std::uint64_t chunk,
     }
   }
   const std::lock_guard<std::mutex> lock(mutex_);
-  std::shared_ptr<const PointBatch>& place = kept_[{source, chunk}];
+  std::shared_ptr<const PointBatch>& place = kept_[{ source, chunk }];
   points_ += kept->size() - (place ? place->size() : 0);
   place = std::move(kept);
 }

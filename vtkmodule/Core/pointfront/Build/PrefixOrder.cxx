@@ -28,7 +28,7 @@ std::vector<std::uint32_t> prefixOrder(
   std::vector<RankedHash> points(indices.size());
   for (std::size_t i = 0; i < indices.size(); ++i)
   {
-    points[i] = {indices[i], static_cast<std::uint32_t>(hashOf(records.position(indices[i])))};
+    points[i] = { indices[i], static_cast<std::uint32_t>(hashOf(records.position(indices[i]))) };
   }
   return prefixBatches(std::move(points));
 }

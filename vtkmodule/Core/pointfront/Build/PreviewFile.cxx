@@ -22,7 +22,11 @@ Error inTheWay(const std::string& path, const char* why)
 }
 } // namespace
 
-PreviewFile::PreviewFile(std::string path) : path_(std::move(path)), nextPath_(path_ + ".next") {}
+PreviewFile::PreviewFile(std::string path)
+  : path_(std::move(path))
+  , nextPath_(path_ + ".next")
+{
+}
 
 Result<std::unique_ptr<PreviewFile>> PreviewFile::claim(const std::string& storePath)
 {

@@ -9,7 +9,9 @@ namespace pointfront
 {
 
 ReadAhead::ReadAhead(std::vector<std::uint32_t> order, Load load, const ReadAheadPlan& plan)
-    : order_(std::move(order)), load_(std::move(load)), parts_(plan.parts)
+  : order_(std::move(order))
+  , load_(std::move(load))
+  , parts_(plan.parts)
 {
   threads_.reserve(plan.threads);
   try
@@ -70,8 +72,8 @@ void ReadAhead::work()
   for (;;)
   {
     // Those being taken are not held any more, or are what is waited for.
-    wanted_.wait(lock,
-      [this] { return over_ || next_ == order_.size() || next_ < taken_ + parts_; });
+    wanted_.wait(
+      lock, [this] { return over_ || next_ == order_.size() || next_ < taken_ + parts_; });
     if (over_ || next_ == order_.size())
     {
       return;

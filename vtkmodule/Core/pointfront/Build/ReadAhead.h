@@ -18,7 +18,7 @@ namespace pointfront
 struct ReadAheadPlan
 {
   std::size_t parts = 0; ///< held before they are taken, at most; 0: read when they are taken
-  unsigned threads = 1;  ///< that read, and mostly wait for the disk
+  unsigned threads = 1; ///< that read, and mostly wait for the disk
 };
 
 /// Reads the parts of a pool on disk before they are asked for, so that who builds trees of them
@@ -54,7 +54,7 @@ private:
   mutable std::mutex mutex_; // guards what follows
   std::condition_variable wanted_;
   std::condition_variable ready_;
-  std::size_t next_ = 0;  // in order_, to be read
+  std::size_t next_ = 0; // in order_, to be read
   std::size_t taken_ = 0; // calls of take() so far
   bool over_ = false;
   std::map<std::uint32_t, Records> held_;

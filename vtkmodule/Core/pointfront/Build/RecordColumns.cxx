@@ -17,7 +17,9 @@ class Candidates
 {
 public:
   Candidates(const CommonSchema& common, const ColumnGuess& guess)
-      : common_(common), may_(guess.mayBeConstant), values_(common.schema.size())
+    : common_(common)
+    , may_(guess.mayBeConstant)
+    , values_(common.schema.size())
   {
     if (guess.mayBeNarrow)
     {
@@ -50,7 +52,7 @@ public:
         values_[c].reset();
       }
     }
-    return {common_.schema, std::move(values_), seen_ ? narrow_ : std::nullopt};
+    return { common_.schema, std::move(values_), seen_ ? narrow_ : std::nullopt };
   }
 
 private:
@@ -104,7 +106,8 @@ private:
 
 RecordColumns::RecordColumns(const AttributeSchema& common,
   std::vector<std::optional<ConstantValue>> constants, std::optional<std::size_t> narrow)
-    : constants_(std::move(constants)), narrowed_(narrow)
+  : constants_(std::move(constants))
+  , narrowed_(narrow)
 {
   constants_.resize(common.size());
   if (narrowed_ && constants_[*narrowed_])
@@ -137,7 +140,7 @@ RecordColumns RecordColumns::carrying(
       narrow = narrow == c ? std::nullopt : narrow;
     }
   }
-  return {common, std::move(constants), narrow};
+  return { common, std::move(constants), narrow };
 }
 
 RecordColumns guessColumns(
@@ -182,8 +185,9 @@ std::optional<std::size_t> wideColourColumn(const AttributeSchema& schema)
 
 bool allAre(const std::byte* values, std::size_t bytes, std::size_t count, const std::byte* value)
 {
-  return count == 0 || (std::memcmp(values, value, bytes) == 0 &&
-                         std::memcmp(values, values + bytes, (count - 1) * bytes) == 0);
+  return count == 0 ||
+    (std::memcmp(values, value, bytes) == 0 &&
+      std::memcmp(values, values + bytes, (count - 1) * bytes) == 0);
 }
 
 } // namespace pointfront

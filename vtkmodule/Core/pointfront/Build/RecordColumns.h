@@ -51,7 +51,7 @@ private:
 struct ColumnGuess
 {
   std::vector<bool> mayBeConstant; ///< for each common column
-  bool mayBeNarrow = false;        ///< 16-bit colours, to 8
+  bool mayBeNarrow = false; ///< 16-bit colours, to 8
 };
 
 /// A guess from some chunks all over the sources. Whoever packs the points meets what differs, and

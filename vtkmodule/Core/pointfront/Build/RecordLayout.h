@@ -20,7 +20,8 @@ namespace pointfront
 class RecordLayout
 {
 public:
-  explicit RecordLayout(const AttributeSchema& schema) : bytes_(positionBytes)
+  explicit RecordLayout(const AttributeSchema& schema)
+    : bytes_(positionBytes)
   {
     for (const Attribute& attribute : schema)
     {

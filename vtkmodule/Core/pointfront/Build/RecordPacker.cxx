@@ -26,7 +26,7 @@ std::int64_t rounded(double v)
 
 std::optional<Rejection> fault(const glm::dvec3& world, const glm::dvec3& steps)
 {
-  const double reach = std::max({std::abs(steps.x), std::abs(steps.y), std::abs(steps.z)});
+  const double reach = std::max({ std::abs(steps.x), std::abs(steps.y), std::abs(steps.z) });
   if (reach <= largestSteps && !std::isnan(steps.x + steps.y + steps.z))
   {
     return std::nullopt;
@@ -53,23 +53,23 @@ void scatter(
 {
   switch (bytes)
   {
-  case 1:
-    return scatter<1>(in, out, stride, count);
-  case 2:
-    return scatter<2>(in, out, stride, count);
-  case 3:
-    return scatter<3>(in, out, stride, count);
-  case 4:
-    return scatter<4>(in, out, stride, count);
-  case 6:
-    return scatter<6>(in, out, stride, count);
-  case 8:
-    return scatter<8>(in, out, stride, count);
-  default:
-    for (std::size_t i = 0; i < count; ++i)
-    {
-      std::memcpy(out + i * stride, in + i * bytes, bytes);
-    }
+    case 1:
+      return scatter<1>(in, out, stride, count);
+    case 2:
+      return scatter<2>(in, out, stride, count);
+    case 3:
+      return scatter<3>(in, out, stride, count);
+    case 4:
+      return scatter<4>(in, out, stride, count);
+    case 6:
+      return scatter<6>(in, out, stride, count);
+    case 8:
+      return scatter<8>(in, out, stride, count);
+    default:
+      for (std::size_t i = 0; i < count; ++i)
+      {
+        std::memcpy(out + i * stride, in + i * bytes, bytes);
+      }
   }
 }
 
@@ -144,22 +144,28 @@ const char* nameOf(Rejection reason)
 {
   switch (reason)
   {
-  case Rejection::NotANumber:
-    return "not a number";
-  case Rejection::Infinite:
-    return "infinite";
-  case Rejection::OutsideGrid:
-  case Rejection::Count:
-    break;
+    case Rejection::NotANumber:
+      return "not a number";
+    case Rejection::Infinite:
+      return "infinite";
+    case Rejection::OutsideGrid:
+    case Rejection::Count:
+      break;
   }
   return "outside the grid's range";
 }
 
 RecordPacker::RecordPacker(const CommonSchema& common, const RecordColumns& columns,
   const TreeSpace& space, unsigned cellShift, std::optional<std::size_t> classOffset)
-    : common_(common), columns_(columns), space_(space), layout_(columns.schema()),
-      colour_(wideColourColumn(common.schema)), wrong_(common.schema.size(), false),
-      classOffset_(classOffset), cells_(cellShift), counts_(cellShift)
+  : common_(common)
+  , columns_(columns)
+  , space_(space)
+  , layout_(columns.schema())
+  , colour_(wideColourColumn(common.schema))
+  , wrong_(common.schema.size(), false)
+  , classOffset_(classOffset)
+  , cells_(cellShift)
+  , counts_(cellShift)
 {
 }
 
@@ -210,7 +216,7 @@ void RecordPacker::takeSteps(const PointBatch& batch, std::size_t begin, std::si
   {
     // The low 32 bits, as TreeSpace::absoluteSteps().
     const glm::u32vec3 steps(batch.steps[i]);
-    setPosition(record, {steps.x << shift[0], steps.y << shift[1], steps.z << shift[2]});
+    setPosition(record, { steps.x << shift[0], steps.y << shift[1], steps.z << shift[2] });
   }
   count_ += end - begin;
 }
@@ -228,7 +234,7 @@ std::size_t RecordPacker::quantise(PointBatch& batch, const AttributeSchema& sou
       ++rejected_[std::size_t(*reason)];
       continue;
     }
-    const GridPosition g{rounded(steps.x), rounded(steps.y), rounded(steps.z)};
+    const GridPosition g{ rounded(steps.x), rounded(steps.y), rounded(steps.z) };
     low_ = glm::min(low_, g);
     high_ = glm::max(high_, g);
     setPosition(records_.data() + count_ * layout_.bytes(), space_.absoluteSteps(g));
@@ -268,8 +274,8 @@ bool RecordPacker::packColumn(const AttributeSchema& sourceSchema, const ColumnM
   if (constant)
   {
     const ConstantValue zeros(values ? 0 : bytes, std::byte(0));
-    const bool right = allAre(values ? values : zeros.data(), bytes, values ? count : 1u,
-      constant->data());
+    const bool right =
+      allAre(values ? values : zeros.data(), bytes, values ? count : 1u, constant->data());
     wrong_[column] = wrong_[column] || !right;
     return right;
   }
@@ -296,7 +302,7 @@ bool RecordPacker::packColumn(const AttributeSchema& sourceSchema, const ColumnM
 
 void RecordPacker::addCells(std::size_t from)
 {
-  const RecordView view{records_.data(), layout_.bytes()};
+  const RecordView view{ records_.data(), layout_.bytes() };
   for (std::size_t i = from; i < count_; ++i)
   {
     const auto objectClass =

@@ -43,7 +43,7 @@ public:
   /// Common columns that must be carried after all.
   const std::vector<bool>& wrong() const { return wrong_; }
 
-  std::size_t count() const { return count_; }                   ///< of the block
+  std::size_t count() const { return count_; } ///< of the block
   std::uint16_t largestColour() const { return largestColour_; } ///< of the block
   /// After the last append() of a block, which is counted then.
   std::vector<CellRun> order();
@@ -81,8 +81,8 @@ private:
   std::optional<std::size_t> classOffset_;
   BlockCells cells_;
   ClassCounts counts_;
-  GridPosition low_{INT64_MAX};
-  GridPosition high_{INT64_MIN};
+  GridPosition low_{ INT64_MAX };
+  GridPosition high_{ INT64_MIN };
   std::array<std::uint64_t, std::size_t(Rejection::Count)> rejected_{};
 };
 

@@ -32,7 +32,10 @@ public:
   bool onDisk() const { return file_ != nullptr; }
 
 private:
-  explicit RecordPool(std::size_t recordBytes) : recordBytes_(recordBytes) {}
+  explicit RecordPool(std::size_t recordBytes)
+    : recordBytes_(recordBytes)
+  {
+  }
   std::size_t recordBytes_;
   std::unique_ptr<std::byte[]> memory_;
   std::unique_ptr<SpillFile> file_;

@@ -68,9 +68,8 @@ Result<ReferenceSystem> commonReferenceSystem(
     system.metadata = first->metadata;
     for (const std::string& path : silent)
     {
-      system.warnings.push_back(
-        "'" + path + "' names no coordinate reference system; it is taken to be that of '" +
-        first->path + "'.");
+      system.warnings.push_back("'" + path +
+        "' names no coordinate reference system; it is taken to be that of '" + first->path + "'.");
     }
   }
   else if (!sources.empty())

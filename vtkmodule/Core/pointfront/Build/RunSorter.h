@@ -30,7 +30,11 @@ struct PartPiece
 class RunSorter
 {
 public:
-  RunSorter(RecordPool& pool, std::size_t recordBytes) : pool_(pool), recordBytes_(recordBytes) {}
+  RunSorter(RecordPool& pool, std::size_t recordBytes)
+    : pool_(pool)
+    , recordBytes_(recordBytes)
+  {
+  }
 
   Result<void> load(const Piece& run)
   {
@@ -56,7 +60,7 @@ public:
     {
       if (const std::uint64_t count = starts_[part + 1]; count > 0)
       {
-        pieces.push_back({part, {run_.first + starts_[part], count}});
+        pieces.push_back({ part, { run_.first + starts_[part], count } });
       }
       starts_[part + 1] += starts_[part];
     }

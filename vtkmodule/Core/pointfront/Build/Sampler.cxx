@@ -117,15 +117,18 @@ SamplingDistance samplingDistance(const CellOccupancy& occupancy, std::uint64_t 
   {
     ++quarters;
   }
-  return {std::min(quarters, mostQuarters)};
+  return { std::min(quarters, mostQuarters) };
 }
 
-SubsetSampler::SubsetSampler() : slots_(std::size_t(1) << slotBits, none) {}
+SubsetSampler::SubsetSampler()
+  : slots_(std::size_t(1) << slotBits, none)
+{
+}
 
 SubsetSampler::Reach SubsetSampler::reachOf(const glm::dvec3& p) const
 {
   // Odd constants of large period (those of xxHash): a sum of products spreads a lattice evenly.
-  constexpr std::array<std::uint32_t, 3> factors{0x9e3779b1u, 0x85ebca77u, 0xc2b2ae3du};
+  constexpr std::array<std::uint32_t, 3> factors{ 0x9e3779b1u, 0x85ebca77u, 0xc2b2ae3du };
   Reach reach;
   const auto axis = [&](double coordinate, std::uint32_t factor, std::array<std::uint32_t, 2>& out)
   {
@@ -144,7 +147,7 @@ SubsetSampler::Reach SubsetSampler::reachOf(const glm::dvec3& p) const
 std::uint32_t SubsetSampler::slotOf(const Reach& reach, unsigned octant)
 {
   return (reach.x[octant & 1u] + reach.y[(octant >> 1) & 1u] + reach.z[octant >> 2]) >>
-         (32 - slotBits);
+    (32 - slotBits);
 }
 
 SubsetSampler::Mask SubsetSampler::near(const Query& query, const Taken& a, const Taken& b)
@@ -157,8 +160,8 @@ SubsetSampler::Mask SubsetSampler::near(const Query& query, const Taken& a, cons
   db -= query.xy;
   da *= da;
   db *= db;
-  const Pair dz = Pair{a.position.z, b.position.z} - query.z;
-  return Pair{da[0], db[0]} + Pair{da[1], db[1]} + dz * dz < query.squared;
+  const Pair dz = Pair{ a.position.z, b.position.z } - query.z;
+  return Pair{ da[0], db[0] } + Pair{ da[1], db[1] } + dz * dz < query.squared;
 }
 
 bool SubsetSampler::nearRecent(const Query& query) const
@@ -166,8 +169,8 @@ bool SubsetSampler::nearRecent(const Query& query) const
   // All of them, without a branch in between: which one it is cannot be foretold.
   const Taken* end = taken_.data() + taken_.size();
   static_assert(recentPoints == 6);
-  const Mask found = near(query, end[-1], end[-2]) | near(query, end[-3], end[-4]) |
-                     near(query, end[-5], end[-6]);
+  const Mask found =
+    near(query, end[-1], end[-2]) | near(query, end[-3], end[-4]) | near(query, end[-5], end[-6]);
   return (found[0] | found[1]) != 0;
 }
 
@@ -183,7 +186,7 @@ bool SubsetSampler::crowded(const Query& query, const Reach& reach) const
   std::uint32_t more = 1;
   while (more != 0)
   {
-    Mask found{0, 0};
+    Mask found{ 0, 0 };
     more = 0;
     for (unsigned list = 0; list < 8; list += 2)
     {
@@ -206,16 +209,16 @@ void SubsetSampler::choose(const RecordView& records, const std::vector<std::uin
   SamplingDistance distance, std::vector<std::uint32_t>& chosen)
 {
   chosen.clear();
-  taken_.assign(recentPoints, {glm::dvec3(nowhere), none}); // there are always that many
+  taken_.assign(recentPoints, { glm::dvec3(nowhere), none }); // there are always that many
   std::fill(slots_.begin(), slots_.end(), none);
   Query query;
-  query.squared = Pair{distance.squaredSteps(), distance.squaredSteps()};
+  query.squared = Pair{ distance.squaredSteps(), distance.squaredSteps() };
   cellsPerStep_ = 0.499999 / distance.steps(); // a hair larger than twice the distance
   for (std::size_t i = 0; i < points.size(); ++i)
   {
     const glm::dvec3 p(records.position(points[i]));
-    query.xy = Pair{p.x, p.y};
-    query.z = Pair{p.z, p.z};
+    query.xy = Pair{ p.x, p.y };
+    query.z = Pair{ p.z, p.z };
     if (nearRecent(query))
     {
       continue;
@@ -227,7 +230,7 @@ void SubsetSampler::choose(const RecordView& records, const std::vector<std::uin
     }
     chosen.push_back(static_cast<std::uint32_t>(i));
     std::uint32_t& head = slots_[slotOf(reach, 0)];
-    taken_.push_back({p, head});
+    taken_.push_back({ p, head });
     head = static_cast<std::uint32_t>(taken_.size() - 1);
   }
 }

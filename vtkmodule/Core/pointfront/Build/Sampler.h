@@ -83,7 +83,7 @@ private:
 
   struct Taken
   {
-    glm::dvec3 position{0.0};
+    glm::dvec3 position{ 0.0 };
     std::uint32_t next = none; ///< another one whose cell has the same slot
   };
   /// The cells that a ball around a point can touch.
@@ -98,7 +98,7 @@ private:
   struct Query
   {
     Pair xy;
-    Pair z;       ///< twice
+    Pair z; ///< twice
     Pair squared; ///< of the distance in steps, twice
   };
   /// Two points at a time, in the halves of vectors; the same sums as one by one.

@@ -41,7 +41,7 @@ Error systemError(const std::string& doing, const std::string& folder)
 Result<std::unique_ptr<SpillFile>> SpillFile::create(
   const std::string& folder, std::uint64_t bytes, Way way)
 {
-  static std::atomic<unsigned> serial{0};
+  static std::atomic<unsigned> serial{ 0 };
   if (const std::uint64_t available = diskSpaceOf(folder).freeBytes; available < bytes)
   {
     return tooSmall(folder, bytes, available);
@@ -63,7 +63,9 @@ Result<std::unique_ptr<SpillFile>> SpillFile::create(
 }
 
 SpillFile::SpillFile(int descriptor, std::string folder, std::uint64_t bytes)
-    : descriptor_(descriptor), folder_(std::move(folder)), bytes_(bytes)
+  : descriptor_(descriptor)
+  , folder_(std::move(folder))
+  , bytes_(bytes)
 {
 }
 
@@ -93,8 +95,7 @@ Result<void> SpillFile::write(std::uint64_t offset, const std::byte* data, std::
   return writeCached(offset, data, bytes);
 }
 
-Result<void> SpillFile::writeCached(
-  std::uint64_t offset, const std::byte* data, std::size_t bytes)
+Result<void> SpillFile::writeCached(std::uint64_t offset, const std::byte* data, std::size_t bytes)
 {
   while (bytes > 0)
   {
@@ -123,8 +124,7 @@ Result<void> SpillFile::read(std::uint64_t offset, std::byte* data, std::size_t 
   return readCached(offset + done, data + done, bytes - done);
 }
 
-Result<void> SpillFile::readCached(
-  std::uint64_t offset, std::byte* data, std::size_t bytes) const
+Result<void> SpillFile::readCached(std::uint64_t offset, std::byte* data, std::size_t bytes) const
 {
   while (bytes > 0)
   {
@@ -136,9 +136,9 @@ Result<void> SpillFile::readCached(
     if (done <= 0)
     {
       errno = done == 0 ? EIO : errno;
-      return makeError(Error::Kind::Unreadable, "cannot read a temporary file in '" + folder_ +
-                                                  "' at byte " + std::to_string(offset) + ": " +
-                                                  std::strerror(errno));
+      return makeError(Error::Kind::Unreadable,
+        "cannot read a temporary file in '" + folder_ + "' at byte " + std::to_string(offset) +
+          ": " + std::strerror(errno));
     }
     data += done;
     offset += static_cast<std::uint64_t>(done);

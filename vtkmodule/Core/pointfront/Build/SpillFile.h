@@ -22,7 +22,7 @@ class SpillFile
 public:
   enum class Way
   {
-    PastCache,   ///< where that is possible
+    PastCache, ///< where that is possible
     ThroughCache ///< all of it
   };
   /// Ranges from so many bytes on go past the page cache.

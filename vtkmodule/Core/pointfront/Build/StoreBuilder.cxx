@@ -43,9 +43,9 @@ Result<void> checkOptions(const Sources& sources, const BuildOptions& options)
   }
   if (options.nodePoints < 16 || options.nodePoints > (1u << 20))
   {
-    return makeError(
-      Error::Kind::BadArgument, "a node of " + std::to_string(options.nodePoints) +
-                                  " points is not possible; choose 16 to 1048576 points a node");
+    return makeError(Error::Kind::BadArgument,
+      "a node of " + std::to_string(options.nodePoints) +
+        " points is not possible; choose 16 to 1048576 points a node");
   }
   if (options.structure == Structure::KdTree && options.refinement == Refinement::Replace)
   {
@@ -54,7 +54,7 @@ Result<void> checkOptions(const Sources& sources, const BuildOptions& options)
       "octree");
   }
   return checkOutputTarget(
-    {options.outputPath, FileKind::Store, options.overwrite}, pathsOf(sources));
+    { options.outputPath, FileKind::Store, options.overwrite }, pathsOf(sources));
 }
 
 /// One build, from what is common to all sources to the committed store.
@@ -63,7 +63,10 @@ class StoreBuild
 public:
   StoreBuild(const Sources& sources, const BuildOptions& options, ProgressFunction progress,
     BuildWatch* watch)
-      : sources_(sources), options_(options), watch_(watch), crew_(std::move(progress))
+    : sources_(sources)
+    , options_(options)
+    , watch_(watch)
+    , crew_(std::move(progress))
   {
   }
   Result<BuildReport> run();
@@ -215,8 +218,7 @@ ColumnGuess StoreBuild::columnGuess() const
   for (std::size_t c = 0; c < common_.schema.size(); ++c)
   {
     // Means of equal values are these values, where sums are exact; not of normals.
-    const bool mean =
-      options_.refinement == Refinement::Replace && hasMean(common_.schema[c]) &&
+    const bool mean = options_.refinement == Refinement::Replace && hasMean(common_.schema[c]) &&
       (common_.schema[c].type == ScalarType::Float64 || common_.schema[c].components > 1);
     const bool radius = common_.schema[c].name == enclosingRadiusName ||
       (options_.refinement == Refinement::Replace &&
@@ -254,8 +256,8 @@ Result<void> StoreBuild::readAll()
     {
       classOffset = RecordLayout(columns_.schema()).offset(*columns_.place(*classColumn_));
     }
-    const IngestSite site{sources_, common_, columns_, space_, *storage_.pool,
-      storage_.plan.blockPoints, countedCellsLog2(options_), crew_};
+    const IngestSite site{ sources_, common_, columns_, space_, *storage_.pool,
+      storage_.plan.blockPoints, countedCellsLog2(options_), crew_ };
     auto points = ingestPoints(site, classOffset);
     if (!points)
     {
@@ -310,7 +312,7 @@ Result<void> StoreBuild::findEmptySources()
       why += ": " + rejectionText(report_);
     }
     faults.push_back(makeError(Error::Kind::BadFormat, source.path + ": " + why));
-    report_.inputsSkipped.push_back({source.path, why});
+    report_.inputsSkipped.push_back({ source.path, why });
   }
   const bool stop = options_.onFault == OnFault::Stop || points_.kept == 0;
   return !faults.empty() && stop ? Result<void>(faultyInputs(faults, sources_.size()))
@@ -336,8 +338,7 @@ Result<void> StoreBuild::read()
   }
   report_.phaseSeconds["read"] = points_.readSeconds;
   report_.phaseSeconds["quantise and count"] = points_.quantiseSeconds;
-  report_.spilledBytes =
-    storage_.pool->onDisk() ? points_.kept * storage_.pool->recordBytes() : 0;
+  report_.spilledBytes = storage_.pool->onDisk() ? points_.kept * storage_.pool->recordBytes() : 0;
   if (points_.kept == 0)
   {
     report_.warnings.push_back("The input has no points to store; the store is empty.");
@@ -378,9 +379,9 @@ void StoreBuild::takeLayers()
 
 Error StoreBuild::tooLarge() const
 {
-  const Bounds bounds{space_.grid.toWorld(points_.low), space_.grid.toWorld(points_.high)};
+  const Bounds bounds{ space_.grid.toWorld(points_.low), space_.grid.toWorld(points_.high) };
   const glm::dvec3 size = bounds.size();
-  const double extent = std::max({size.x, size.y, size.z});
+  const double extent = std::max({ size.x, size.y, size.z });
   // The next power of ten that leaves a factor of two for axes of different scales.
   const double fitting = std::pow(10.0, std::ceil(std::log10(extent / 2.0e9)));
   char text[256];
@@ -388,7 +389,7 @@ Error StoreBuild::tooLarge() const
     "the points extend over %.9g units, more than 32 bits of steps of %.9g units; a precision of "
     "%g "
     "fits, or leave out the points that lie far away",
-    extent, std::min({space_.grid.scale.x, space_.grid.scale.y, space_.grid.scale.z}), fitting);
+    extent, std::min({ space_.grid.scale.x, space_.grid.scale.y, space_.grid.scale.z }), fitting);
   return makeError(Error::Kind::BadArgument, text);
 }
 
@@ -408,10 +409,9 @@ Result<void> StoreBuild::cutIntoParts()
   prepared_.layers = layers_;
   prepared_.findable = watch_ != nullptr;
   prepared_.blocks = std::move(points_.blocks);
-  construction_ = treeConstruction(options_, {*storage_.pool, storage_.pool->recordBytes(),
-    storage_.plan, crew_, columns_.schema()});
-  Result<void> done =
-    construction_->cut(prepared_, std::move(points_.counts), points_.hintedShift);
+  construction_ = treeConstruction(options_,
+    { *storage_.pool, storage_.pool->recordBytes(), storage_.plan, crew_, columns_.schema() });
+  Result<void> done = construction_->cut(prepared_, std::move(points_.counts), points_.hintedShift);
   report_.phaseSeconds["distribute"] = construction_->seconds();
   return done;
 }
@@ -426,7 +426,7 @@ Result<void> StoreBuild::assemble()
   }
   const NodeEmitter emitter(space_, columns_, stored_, options_.refinement);
   AssemblyPlan plan = construction_->assembly(emitter);
-  plan.readAhead = {storage_.plan.partsAhead, (storage_.plan.threads + 1) / 2};
+  plan.readAhead = { storage_.plan.partsAhead, (storage_.plan.threads + 1) / 2 };
   const auto partial = partialTrees(emitter, plan.tree);
   TreeAssembly assembly(std::move(plan), **writer, crew_, partial.get());
   auto trees = assembly.run();
@@ -462,9 +462,9 @@ try
     widened[s] = prepared_.widening && hasNarrowColours(sources_, points_, s);
   }
   const std::vector<std::byte> sample =
-    sampleRecords(watch_->sample(), {common_, columns_, space_}, prepared_.widening, widened);
-  const PartialTreesSite site{
-    *construction_, emitter, storage_.pool->recordBytes(), description()};
+    sampleRecords(watch_->sample(), { common_, columns_, space_ }, prepared_.widening, widened);
+  const PartialTreesSite site{ *construction_, emitter, storage_.pool->recordBytes(),
+    description() };
   return std::make_unique<PartialTrees>(site, tree, sample, *watch_);
 }
 catch (const std::bad_alloc&)
@@ -506,7 +506,7 @@ StoreDescription StoreBuild::description() const
   for (const std::uint8_t objectClass : layers_.classes())
   {
     const std::string name = layers_.byClass() ? objectClassName(objectClass) : "all";
-    description.layers.push_back({objectClass, name, 0, 0}); // the writer counts
+    description.layers.push_back({ objectClass, name, 0, 0 }); // the writer counts
   }
   return description;
 }
@@ -539,7 +539,7 @@ Result<BuildReport> StoreBuild::run()
   {
     return ready.error();
   }
-  for (const auto step : {&StoreBuild::read, &StoreBuild::cutIntoParts, &StoreBuild::assemble})
+  for (const auto step : { &StoreBuild::read, &StoreBuild::cutIntoParts, &StoreBuild::assemble })
   {
     if (Result<void> done = (this->*step)(); !done)
     {

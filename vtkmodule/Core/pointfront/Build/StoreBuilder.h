@@ -21,7 +21,7 @@ class BuildWatch;
 enum class ColourDepth
 {
   ByFile, ///< a file whose largest value is at most 255 has 8 bits; beside others it is widened
-  Eight,  ///< 8 in all files; a larger value is an Error
+  Eight, ///< 8 in all files; a larger value is an Error
   Sixteen ///< 16 in all files: stored as they are
 };
 
@@ -34,8 +34,8 @@ enum class Structure : std::uint8_t
 /// Which points share a tree.
 enum class Layering : std::uint8_t
 {
-  Automatic,  ///< ObjectClass if any point has a class other than 0 and 1, else None
-  None,       ///< all
+  Automatic, ///< ObjectClass if any point has a class other than 0 and 1, else None
+  None, ///< all
   ObjectClass ///< those of one value of "classification"
 };
 
@@ -47,11 +47,11 @@ struct BuildOptions
   /// Replace: the leaves hold the points, inner nodes mean representatives, and the store gets the
   /// column "enclosing_radius" (float32, world units; MeanRecord.h).
   Refinement refinement = Refinement::Add;
-  std::string temporaryFolder;      ///< for spill files; empty: the output's folder
-  std::uint64_t memoryBytes = 0;    ///< budget for points in memory; 0: half of the machine's
-  unsigned threads = 0;             ///< 0: one a core
+  std::string temporaryFolder; ///< for spill files; empty: the output's folder
+  std::uint64_t memoryBytes = 0; ///< budget for points in memory; 0: half of the machine's
+  unsigned threads = 0; ///< 0: one a core
   std::uint32_t nodePoints = 16384; ///< capacity of a leaf; inner nodes hold about as many
-  std::optional<double> precision;  ///< world units a step; nothing: the sources' own (lossless)
+  std::optional<double> precision; ///< world units a step; nothing: the sources' own (lossless)
   /// Attributes to store, by name; nothing: all.
   std::optional<std::vector<std::string>> attributes;
   ColourDepth colourDepth = ColourDepth::ByFile;
@@ -70,7 +70,7 @@ struct BuildReport
   std::uint64_t bytesWritten = 0;
   std::uint64_t spilledBytes = 0;
   std::uint64_t nodes = 0;
-  std::vector<std::string> warnings;          ///< of the sources and of the build; full sentences
+  std::vector<std::string> warnings; ///< of the sources and of the build; full sentences
   std::map<std::string, double> phaseSeconds; ///< phase -> CPU seconds over all threads
   double cpuSeconds = 0.0; ///< of the process while it built: the phases and what is between them
 };

@@ -59,7 +59,7 @@ Result<StoredColours> storedColours(const std::vector<std::unique_ptr<PointSourc
   {
     if (hasNarrowColours(sources, points, s))
     {
-      stored.widening->runs.push_back({begin, points.sourceEnd[s] - begin});
+      stored.widening->runs.push_back({ begin, points.sourceEnd[s] - begin });
     }
     begin = points.sourceEnd[s];
   }

@@ -13,7 +13,7 @@ namespace pointfront
 /// How deep the colours of a store are, once all points are read.
 struct StoredColours
 {
-  AttributeSchema schema;                 ///< the common schema as it is stored
+  AttributeSchema schema; ///< the common schema as it is stored
   std::optional<ColourWidening> widening; ///< of records, while they are loaded
 };
 

@@ -19,14 +19,14 @@ OpenSubtree SubtreeBuilder::build(
   }
   {
     const CpuStopwatch watch(seconds_.sort);
-    const RecordView view{records.data(), recordBytes_};
+    const RecordView view{ records.data(), recordBytes_ };
     sorted_.resize(std::max(sorted_.size(), records.size()));
     positions_.resize(std::max(positions_.size(), count));
     gatherRecords(view, mortonOrder(view, count), sorted_.data(),
       [&](std::size_t i, const std::byte* record) { positions_[i] = positionOf(record); });
     records = {};
   }
-  const SortedPoints sorted{{sorted_.data(), recordBytes_}, positionsView()};
+  const SortedPoints sorted{ { sorted_.data(), recordBytes_ }, positionsView() };
   return opened(sorted.records, branch(sorted, 0, static_cast<std::uint32_t>(count)));
 }
 
@@ -39,13 +39,12 @@ SubtreeBuilder::SortedPoints SubtreeBuilder::sortedPoints(
   {
     positions_[i] = records.position(i);
   }
-  return {records, positionsView()};
+  return { records, positionsView() };
 }
 
 RecordView SubtreeBuilder::positionsView() const
 {
-  return {
-    reinterpret_cast<const std::byte*>(positions_.data()), RecordLayout::positionBytes};
+  return { reinterpret_cast<const std::byte*>(positions_.data()), RecordLayout::positionBytes };
 }
 
 SubtreeBuilder::Branch SubtreeBuilder::branch(
@@ -60,7 +59,7 @@ SubtreeBuilder::Branch SubtreeBuilder::branch(
   std::vector<Branch> children;
   const auto octant = [&](std::uint64_t i)
   { return octantOf(positions.position(static_cast<std::size_t>(i)), side); };
-  for (const IndexRange& range : splitRange({begin, end}, side, octant))
+  for (const IndexRange& range : splitRange({ begin, end }, side, octant))
   {
     children.push_back(branch(
       points, static_cast<std::uint32_t>(range.begin), static_cast<std::uint32_t>(range.end)));
@@ -100,8 +99,7 @@ SubtreeBuilder::Branch SubtreeBuilder::joinBranches(
     const SamplingDistance distance = samplingDistance(
       occupancyOf(points.positions, children), candidates_.size(), coarsestBelow, rule_);
     joined.node->samplingQuarters = distance.quarters;
-    joined.node->row.spacing =
-      static_cast<float>(emitter_.space().stepLength() * distance.steps());
+    joined.node->row.spacing = static_cast<float>(emitter_.space().stepLength() * distance.steps());
     sampler_.choose(points.positions, candidates_, distance, chosen_);
     joined.held.reserve(chosen_.size());
     auto next = chosen_.begin();
@@ -143,10 +141,9 @@ CellOccupancy SubtreeBuilder::occupancyOf(
     {
       continue;
     }
-    const unsigned between =
-      before ? differingBits(positions.position(before->held.back()),
-                 positions.position(child.held.front()))
-             : 0;
+    const unsigned between = before ? differingBits(positions.position(before->held.back()),
+                                        positions.position(child.held.front()))
+                                    : 0;
     all.append(child.occupancy ? *child.occupancy : cellOccupancy(positions, child.held), between);
     before = &child;
   }
@@ -157,13 +154,13 @@ void SubtreeBuilder::emit(Branch child, BuiltNode& parent, const RecordView& rec
 {
   const CpuStopwatch watch(seconds_.encode);
   EncodedNode payload = emitter_.emit(*child.node, records, child.held);
-  emitted_.push_back({child.node.get(), std::move(payload)});
+  emitted_.push_back({ child.node.get(), std::move(payload) });
   parent.children.push_back(std::move(child.node));
 }
 
 OpenSubtree SubtreeBuilder::opened(const RecordView& records, Branch branch)
 {
-  OpenSubtree open{std::move(branch.node), {}};
+  OpenSubtree open{ std::move(branch.node), {} };
   open.records.resize(branch.held.size() * records.stride);
   gatherRecords(records, branch.held, open.records.data());
   return open;
@@ -185,7 +182,7 @@ OpenSubtree SubtreeBuilder::join(std::vector<OpenSubtree> children, std::uint32_
     child.records = {};
   }
   const SortedPoints points =
-    sortedPoints({records.data(), recordBytes_}, records.size() / recordBytes_);
+    sortedPoints({ records.data(), recordBytes_ }, records.size() / recordBytes_);
   return opened(points.records, joinBranches(points, std::move(branches)));
 }
 
@@ -195,12 +192,12 @@ std::unique_ptr<BuiltNode> SubtreeBuilder::close(OpenSubtree subtree)
   {
     return nullptr;
   }
-  const RecordView view{subtree.records.data(), recordBytes_};
+  const RecordView view{ subtree.records.data(), recordBytes_ };
   std::vector<std::uint32_t> all(subtree.records.size() / recordBytes_);
   std::iota(all.begin(), all.end(), 0u);
   const CpuStopwatch watch(seconds_.encode);
   EncodedNode payload = emitter_.emit(*subtree.root, view, all);
-  emitted_.push_back({subtree.root.get(), std::move(payload)});
+  emitted_.push_back({ subtree.root.get(), std::move(payload) });
   return std::move(subtree.root);
 }
 

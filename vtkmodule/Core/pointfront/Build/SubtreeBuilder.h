@@ -36,7 +36,10 @@ class SubtreeBuilder final : public TreeBuilder
 {
 public:
   SubtreeBuilder(const NodeEmitter& emitter, const SamplingRule& rule, std::size_t recordBytes)
-      : emitter_(emitter), rule_(rule), recordBytes_(recordBytes), splat_(emitter.space())
+    : emitter_(emitter)
+    , rule_(rule)
+    , recordBytes_(recordBytes)
+    , splat_(emitter.space())
   {
   }
 
@@ -76,7 +79,7 @@ private:
   SubsetSampler sampler_;
   NodeSplat splat_;
   // Reused from part to part: fresh memory costs more than what is done with it.
-  std::vector<std::byte> sorted_;       // records
+  std::vector<std::byte> sorted_; // records
   std::vector<TreePosition> positions_; // of the sorted points
   std::vector<std::uint32_t> candidates_;
   std::vector<std::uint32_t> chosen_;

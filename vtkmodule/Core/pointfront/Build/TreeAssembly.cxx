@@ -30,8 +30,13 @@ std::unique_ptr<BuiltNode> copyOf(const BuiltNode& node)
 
 TreeAssembly::TreeAssembly(
   AssemblyPlan plan, StoreWriter& writer, WorkCrew& crew, AssemblyWatch* watch)
-    : plan_(std::move(plan)), writer_(writer), crew_(crew), watch_(watch),
-      order_(postOrder(plan_.tree)), rank_(order_.size()), open_(order_.size())
+  : plan_(std::move(plan))
+  , writer_(writer)
+  , crew_(crew)
+  , watch_(watch)
+  , order_(postOrder(plan_.tree))
+  , rank_(order_.size())
+  , open_(order_.size())
 {
   for (std::uint32_t i = 0; i < order_.size(); ++i)
   {
@@ -95,8 +100,7 @@ bool TreeAssembly::takePart(std::uint32_t& node)
   return false;
 }
 
-Result<void> TreeAssembly::buildPart(
-  std::uint32_t node, ReadAhead& parts, TreeBuilder& builder)
+Result<void> TreeAssembly::buildPart(std::uint32_t node, ReadAhead& parts, TreeBuilder& builder)
 {
   const PartNode& part = plan_.tree[node];
   ReadAhead::Records records = parts.take(part.part);
@@ -249,7 +253,7 @@ Result<FinishedSubtrees> TreeAssembly::finished(const std::vector<std::uint32_t>
     const BuiltNode* root = closed ? roots_[place.layer].get() : open_[node].root.get();
     if (root)
     {
-      result.subtrees.push_back({node, {copyOf(*root), open_[node].records}});
+      result.subtrees.push_back({ node, { copyOf(*root), open_[node].records } });
     }
   }
   auto written = writer_.written();

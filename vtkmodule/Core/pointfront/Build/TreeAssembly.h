@@ -41,7 +41,7 @@ struct FinishedSubtree
 struct FinishedSubtrees
 {
   std::vector<FinishedSubtree> subtrees; ///< no one contains another; in the order of the file
-  WrittenPayloads written;               ///< exactly the nodes of the subtrees
+  WrittenPayloads written; ///< exactly the nodes of the subtrees
 };
 
 /// Somebody who wants to see finished subtrees while others are built.
@@ -86,21 +86,21 @@ private:
   StoreWriter& writer_;
   WorkCrew& crew_;
   AssemblyWatch* watch_;
-  std::vector<std::uint32_t> order_;     // partition nodes in the order of the file
-  std::vector<std::uint32_t> rank_;      // of each partition node in order_
+  std::vector<std::uint32_t> order_; // partition nodes in the order of the file
+  std::vector<std::uint32_t> rank_; // of each partition node in order_
   std::vector<std::uint32_t> partNodes_; // the parts among order_
 
   std::mutex mutex_; // guards what follows
   std::condition_variable turnChanged_;
   std::size_t nextPart_ = 0; // in partNodes_
-  std::uint32_t turn_ = 0;   // in order_: whose nodes are written next
+  std::uint32_t turn_ = 0; // in order_: whose nodes are written next
   bool writing_ = false;
-  bool watched_ = false;    // watch_ is being shown something
-  std::uint32_t shown_ = 0;  // turn_ of what it was shown last
-  std::vector<OpenSubtree> open_;     // of each partition node
+  bool watched_ = false; // watch_ is being shown something
+  std::uint32_t shown_ = 0; // turn_ of what it was shown last
+  std::vector<OpenSubtree> open_; // of each partition node
   std::vector<std::uint8_t> missing_; // children not finished, of each partition node
   std::map<std::uint32_t, std::vector<EmittedNode>> waiting_; // by rank
-  std::vector<std::unique_ptr<BuiltNode>> roots_;             // of each layer
+  std::vector<std::unique_ptr<BuiltNode>> roots_; // of each layer
   SubtreeSeconds seconds_;
   double loadSeconds_ = 0.0;
   double writeSeconds_ = 0.0;

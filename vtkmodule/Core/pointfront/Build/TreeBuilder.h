@@ -22,7 +22,7 @@ struct EmittedNode
 struct OpenSubtree
 {
   std::unique_ptr<BuiltNode> root; ///< null for an empty set of points
-  std::vector<std::byte> records;  ///< what the levels above may take or summarise, packed
+  std::vector<std::byte> records; ///< what the levels above may take or summarise, packed
 };
 
 /// CPU seconds by phase.

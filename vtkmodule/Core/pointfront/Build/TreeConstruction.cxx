@@ -14,8 +14,10 @@ class OctreeConstruction final : public TreeConstruction
 {
 public:
   OctreeConstruction(const BuildOptions& options, const ConstructionSite& site)
-      : refinement_(options.refinement), recordBytes_(site.recordBytes), pooled_(site.pooled),
-        parts_(site.pool, site.recordBytes, site.plan, site.crew)
+    : refinement_(options.refinement)
+    , recordBytes_(site.recordBytes)
+    , pooled_(site.pooled)
+    , parts_(site.pool, site.recordBytes, site.plan, site.crew)
   {
     rule_.nodePoints = options.nodePoints;
   }
@@ -75,8 +77,9 @@ class KdConstruction final : public TreeConstruction
 {
 public:
   KdConstruction(const BuildOptions& options, const ConstructionSite& site)
-      : rule_(kdRule(options)), recordBytes_(site.recordBytes),
-        parts_(site.pool, site.recordBytes, site.plan, site.crew)
+    : rule_(kdRule(options))
+    , recordBytes_(site.recordBytes)
+    , parts_(site.pool, site.recordBytes, site.plan, site.crew)
   {
   }
   Result<void> cut(const PoolPreparation& points, ClassCounts counts, unsigned hintedShift) override
@@ -113,7 +116,7 @@ public:
     above->row.spacing = coarser * finished.root->row.spacing;
     above->row.splatRadius = coarser * finished.root->row.splatRadius;
     above->children.push_back(std::move(finished.root));
-    return {std::move(above), std::move(finished.records)};
+    return { std::move(above), std::move(finished.records) };
   }
   double seconds() const override { return parts_.seconds(); }
 
@@ -141,17 +144,17 @@ std::size_t constructionBytes(const BuildOptions& options, const AttributeSchema
     return sizeof(TreePosition) + 2 * sizeof(std::uint32_t); // positions and lists of points
   }
   // The inputs of a node, and a representative for every third of them.
-  return options.refinement == Refinement::Replace ? sizeof(MeanInput) + sizeof(TreePosition) +
-                                                       MeanRecord(TreeSpace(), pooled).bytes() / 2
-                                                   : 0;
+  return options.refinement == Refinement::Replace
+    ? sizeof(MeanInput) + sizeof(TreePosition) + MeanRecord(TreeSpace(), pooled).bytes() / 2
+    : 0;
 }
 
 std::uint64_t constructionPart(const BuildOptions& options)
 {
   // What a part owes to the nodes above it is about as much as one node has.
   return options.structure == Structure::KdTree
-           ? kdRule(options).partPoints() + 2ull * options.nodePoints
-           : 0;
+    ? kdRule(options).partPoints() + 2ull * options.nodePoints
+    : 0;
 }
 
 unsigned countedCellsLog2(const BuildOptions& options)

@@ -8,14 +8,14 @@ namespace pointfront
 std::array<unsigned, 3> axisShifts(const glm::dvec3& scale)
 {
   constexpr long mostBits = 4;
-  const double finest = std::min({scale.x, scale.y, scale.z});
-  std::array<unsigned, 3> shift{0, 0, 0};
+  const double finest = std::min({ scale.x, scale.y, scale.z });
+  std::array<unsigned, 3> shift{ 0, 0, 0 };
   for (int axis = 0; axis < 3; ++axis)
   {
     const long bits = std::lround(std::log2(scale[axis] / finest));
     if (bits > mostBits)
     {
-      return {0, 0, 0};
+      return { 0, 0, 0 };
     }
     shift[static_cast<std::size_t>(axis)] = static_cast<unsigned>(bits);
   }
@@ -43,8 +43,8 @@ std::optional<unsigned> placeRoot(
   TreeSpace& space, const GridPosition& low, const GridPosition& high)
 {
   constexpr std::int64_t reach = std::int64_t(1) << 58; // 2^53 steps, shifted by at most 4
-  GridPosition first{0};
-  GridPosition last{0};
+  GridPosition first{ 0 };
+  GridPosition last{ 0 };
   for (int axis = 0; axis < 3; ++axis)
   {
     const std::int64_t step = std::int64_t(1) << space.shift[static_cast<std::size_t>(axis)];

@@ -21,26 +21,27 @@ namespace pointfront
 struct TreeSpace
 {
   QuantisationGrid grid;
-  std::array<unsigned, 3> shift{0, 0, 0}; ///< tree step = grid step / 2^shift
-  GridPosition origin{0};                 ///< of the root cube, in tree steps
+  std::array<unsigned, 3> shift{ 0, 0, 0 }; ///< tree step = grid step / 2^shift
+  GridPosition origin{ 0 }; ///< of the root cube, in tree steps
 
   /// Low 32 bits of the tree coordinates of a grid position.
   TreePosition absoluteSteps(const GridPosition& g) const
   {
-    return {static_cast<std::uint32_t>(static_cast<std::uint64_t>(g.x) << shift[0]),
+    return { static_cast<std::uint32_t>(static_cast<std::uint64_t>(g.x) << shift[0]),
       static_cast<std::uint32_t>(static_cast<std::uint64_t>(g.y) << shift[1]),
-      static_cast<std::uint32_t>(static_cast<std::uint64_t>(g.z) << shift[2])};
+      static_cast<std::uint32_t>(static_cast<std::uint64_t>(g.z) << shift[2]) };
   }
   TreePosition relativeSteps(const TreePosition& absolute) const
   {
-    return absolute - TreePosition(static_cast<std::uint32_t>(static_cast<std::uint64_t>(origin.x)),
-                        static_cast<std::uint32_t>(static_cast<std::uint64_t>(origin.y)),
-                        static_cast<std::uint32_t>(static_cast<std::uint64_t>(origin.z)));
+    return absolute -
+      TreePosition(static_cast<std::uint32_t>(static_cast<std::uint64_t>(origin.x)),
+        static_cast<std::uint32_t>(static_cast<std::uint64_t>(origin.y)),
+        static_cast<std::uint32_t>(static_cast<std::uint64_t>(origin.z)));
   }
   GridPosition gridPosition(const TreePosition& relative) const
   {
-    return {(origin.x + relative.x) >> shift[0], (origin.y + relative.y) >> shift[1],
-      (origin.z + relative.z) >> shift[2]};
+    return { (origin.x + relative.x) >> shift[0], (origin.y + relative.y) >> shift[1],
+      (origin.z + relative.z) >> shift[2] };
   }
   /// Length of a tree step in world units, the longest of the three.
   double stepLength() const

@@ -13,7 +13,9 @@ constexpr double secondsBetweenReports = 0.1;
 } // namespace
 
 WorkCrew::WorkCrew(unsigned threads, ProgressFunction progress)
-    : threads_(threads), progress_(std::move(progress)), start_(std::chrono::steady_clock::now())
+  : threads_(threads)
+  , progress_(std::move(progress))
+  , start_(std::chrono::steady_clock::now())
 {
 }
 

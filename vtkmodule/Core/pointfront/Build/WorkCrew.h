@@ -19,7 +19,10 @@ namespace pointfront
 class WorkCrew
 {
 public:
-  explicit WorkCrew(ProgressFunction progress) : WorkCrew(1, std::move(progress)) {}
+  explicit WorkCrew(ProgressFunction progress)
+    : WorkCrew(1, std::move(progress))
+  {
+  }
   WorkCrew(unsigned threads, ProgressFunction progress);
 
   unsigned threads() const { return threads_; }
@@ -51,8 +54,8 @@ private:
   unsigned threads_;
   ProgressFunction progress_;
   std::chrono::steady_clock::time_point start_;
-  std::atomic<bool> stop_{false};
-  std::atomic<std::uint64_t> done_{0};
+  std::atomic<bool> stop_{ false };
+  std::atomic<std::uint64_t> done_{ 0 };
   mutable std::mutex errorMutex_;
   std::optional<Error> error_;
   std::mutex reportMutex_; // guards what follows

@@ -8,7 +8,9 @@
 namespace pointfront
 {
 
-WriteBehind::WriteBehind(RecordPool& pool, std::size_t buffers) : pool_(pool), idle_(buffers)
+WriteBehind::WriteBehind(RecordPool& pool, std::size_t buffers)
+  : pool_(pool)
+  , idle_(buffers)
 {
   try
   {
@@ -53,7 +55,7 @@ Result<WriteBehind::Buffer> WriteBehind::buffer(std::size_t bytes)
 void WriteBehind::write(std::uint64_t first, std::uint64_t count, Buffer records)
 {
   std::unique_lock<std::mutex> lock(mutex_);
-  blocks_.push_back({first, count, std::move(records)});
+  blocks_.push_back({ first, count, std::move(records) });
   ++underWay_;
   if (thread_.joinable())
   {

@@ -153,8 +153,8 @@ Result<void> checkOutputTarget(const OutputTarget& target, const std::vector<std
     if (there != target.kind)
     {
       return refusal(target,
-        std::string("is there already and is ") + nameOf(there) + ", which " +
-          nameOf(target.kind) + " does not replace; give another name");
+        std::string("is there already and is ") + nameOf(there) + ", which " + nameOf(target.kind) +
+          " does not replace; give another name");
     }
   }
   if (!target.replace)

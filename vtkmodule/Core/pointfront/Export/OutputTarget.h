@@ -17,8 +17,8 @@ enum class FileKind
   LAS, ///< LAZ too
   PLY,
   PCD,
-  Text,       ///< rows of numbers, as far as anyone can tell: text that is none of the others
-  Picture,    ///< PNG, JPEG, TIFF, BMP
+  Text, ///< rows of numbers, as far as anyone can tell: text that is none of the others
+  Picture, ///< PNG, JPEG, TIFF, BMP
   Statistics, ///< JSON that `render` and `bench` wrote
   FrameTable, ///< CSV that `bench` wrote
   Other

@@ -24,8 +24,7 @@ Result<PointBatch> readChunk(const PointSource& source, std::uint64_t chunk)
 
 std::future<Result<PointBatch>> readAhead(const PointSource& source, std::uint64_t chunk)
 {
-  return std::async(
-    std::launch::async, [&source, chunk]() { return readChunk(source, chunk); });
+  return std::async(std::launch::async, [&source, chunk]() { return readChunk(source, chunk); });
 }
 } // namespace
 

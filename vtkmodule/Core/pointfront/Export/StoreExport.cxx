@@ -25,8 +25,8 @@ SinkDescription sinkDescription(const StoreDescription& store, const PointQuery&
     sink.bounds.low = glm::max(sink.bounds.low, box.low);
     sink.bounds.high = glm::min(sink.bounds.high, box.high);
   }
-  const bool everything = query.regions.empty() && query.classes.empty() && query.where.empty() &&
-    query.spacing <= 0.0;
+  const bool everything =
+    query.regions.empty() && query.classes.empty() && query.where.empty() && query.spacing <= 0.0;
   sink.pointCount = everything ? store.pointCount : 0;
   for (const ColumnRange& range : store.ranges)
   {
@@ -69,8 +69,8 @@ Result<ExportReport> exportPlanned(const QueryPlan& plan, const PointQuery& quer
   options.memoryBytes = std::max(options.memoryBytes, plan.leastMemoryBytes(reader));
   options.progress = progress;
   options.phase = "exporting";
-  const Result<QueryReport> report = plan.run(
-    reader, options, [&sink](QueryBatch& batch) { return sink.append(batch.points); });
+  const Result<QueryReport> report =
+    plan.run(reader, options, [&sink](QueryBatch& batch) { return sink.append(batch.points); });
   if (!report)
   {
     return report.error();

@@ -25,7 +25,7 @@ struct ExportSelection : PointQuery
 
 struct ExportReport
 {
-  std::uint64_t pointsRead = 0;    ///< decoded
+  std::uint64_t pointsRead = 0; ///< decoded
   std::uint64_t pointsWritten = 0; ///< of those, selected
 };
 

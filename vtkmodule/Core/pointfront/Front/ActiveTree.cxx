@@ -13,7 +13,10 @@ namespace
 /// A root without a spacing is refined and drawn whole at any threshold.
 constexpr float alwaysTooCoarse = 1e30f;
 
-bool usable(float spacing) { return spacing > 0.0f && std::isfinite(spacing); }
+bool usable(float spacing)
+{
+  return spacing > 0.0f && std::isfinite(spacing);
+}
 
 ActiveNode activeNode(const Node& entry, NodeIndex index)
 {
@@ -67,8 +70,7 @@ void ActiveTree::applyLayer(ActiveNode& node) const
   static const LayerLimits byDefault;
   const LayerLimits& limits = node.layer < layers_.size() ? layers_[node.layer] : byDefault;
   assert(limits.errorFactor > 0.0 && limits.share >= 0.0);
-  const auto verdict =
-    limits.pruning ? limits.pruning->of(node.node) : NodePruning::Verdict::Draw;
+  const auto verdict = limits.pruning ? limits.pruning->of(node.node) : NodePruning::Verdict::Draw;
   node.hidden = !limits.visible || verdict == NodePruning::Verdict::Skip;
   node.pointCount = verdict == NodePruning::Verdict::Draw ? node.storedPoints : 0;
   node.errorWeight = static_cast<float>(1.0 / limits.errorFactor);
@@ -201,8 +203,8 @@ ActiveTree::Place ActiveTree::find(NodeIndex node) const
 void evaluate(ActiveNode& node, const View& view, std::uint32_t update)
 {
   node.evaluated = update;
-  node.visible = !node.hidden &&
-    sphereVisibility(view, node.centre, node.radius) == Visibility::Inside;
+  node.visible =
+    !node.hidden && sphereVisibility(view, node.centre, node.radius) == Visibility::Inside;
   const double distance = distanceToSphere(view, node.centre, node.radius);
   node.distance = static_cast<float>(distance);
   node.errorPx =

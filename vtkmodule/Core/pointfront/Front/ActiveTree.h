@@ -22,31 +22,31 @@ struct ActiveNode
 {
   glm::dvec3 centre{ 0.0 };
   float radius = 0.0f;
-  float spacing = 0.0f;      ///< > 0: half the parent's where the table has none
+  float spacing = 0.0f; ///< > 0: half the parent's where the table has none
   float spacingRatio = 0.0f; ///< to the parent's spacing; 0 for a root
   std::uint32_t storedPoints = 0; ///< in the table
-  std::uint32_t pointCount = 0;   ///< of these, 0 where none would be drawn (NodePruning)
-  NodeIndex node = noNode;   ///< noNode: the slot is free
+  std::uint32_t pointCount = 0; ///< of these, 0 where none would be drawn (NodePruning)
+  NodeIndex node = noNode; ///< noNode: the slot is free
   NodeIndex firstChild = noNode;
   SlotIndex parent = noSlot;
   SlotIndex children = noSlot; ///< first of childCount neighbouring slots; noSlot: on the front
   std::uint8_t childCount = 0; ///< in the table
   std::uint8_t level = 0;
   std::uint16_t layer = 0;
-  bool hidden = false;         ///< its layer is, or no point of its subtree would be drawn
-  float errorWeight = 1.0f;    ///< LAYERS-11: 1 / the layer's errorFactor
+  bool hidden = false; ///< its layer is, or no point of its subtree would be drawn
+  float errorWeight = 1.0f; ///< LAYERS-11: 1 / the layer's errorFactor
 
   bool lost = false; ///< its row cannot be read: a leaf without points in its parent's place
   bool visible = false;
-  float errorPx = 0.0f;        ///< projected spacing * errorWeight
+  float errorPx = 0.0f; ///< projected spacing * errorWeight
   float distance = 0.0f;
 
   // Numbers of the update in which it last was ...
   std::uint32_t created = 0;
   std::uint32_t evaluated = 0; ///< visible, errorPx and distance are of the current view
-  std::uint32_t live = 0;      ///< reached from a root through visible nodes above the threshold
-  std::uint32_t seen = 0;      ///< live and visible
-  std::uint32_t needed = 0;    ///< drawn, or waited for
+  std::uint32_t live = 0; ///< reached from a root through visible nodes above the threshold
+  std::uint32_t seen = 0; ///< live and visible
+  std::uint32_t needed = 0; ///< drawn, or waited for
 
   bool leaf() const { return childCount == 0; }
   bool expanded() const { return children != noSlot; }

@@ -73,7 +73,7 @@ struct DemandCurves
 {
   DemandCurve drawn; ///< points on screen
   DemandCurve slots; ///< of GPU memory (GpuSlots.h)
-  DemandCurve held;  ///< points in memory, whole nodes
+  DemandCurve held; ///< points in memory, whole nodes
 };
 
 } // namespace pointfront

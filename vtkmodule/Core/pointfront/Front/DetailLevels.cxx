@@ -88,8 +88,7 @@ bool DetailLevels::fitsAt(DetailWalk& walk, const FrontLimits& limits, double le
 void DetailLevels::chooseCommon(DetailWalk& walk, const FrontLimits& limits)
 {
   double common = 0.0;
-  bool fitting =
-    highestFitting([&](double level) { return fitsAt(walk, limits, level); }, common);
+  bool fitting = highestFitting([&](double level) { return fitsAt(walk, limits, level); }, common);
   while (!fitting && overview_ > 0.0)
   {
     overview_ -= 0.5;
@@ -125,8 +124,8 @@ void DetailLevels::choose(
     overview = std::min(overview, limits.pointBudget);
   }
   overview_ = overviewLevel(overview);
-  const double pixels = static_cast<double>(view.width) * view.height /
-    (limits.targetErrorPx * limits.targetErrorPx);
+  const double pixels =
+    static_cast<double>(view.width) * view.height / (limits.targetErrorPx * limits.targetErrorPx);
   const double inFrustum =
     overviewInFrustum(hierarchy, view, std::exp2(overview_) / all_, limits.layers);
   wanted_ = detailLevel(overview_, pixels, inFrustum, std::log2(all_));

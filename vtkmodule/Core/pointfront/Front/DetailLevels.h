@@ -34,14 +34,14 @@ public:
   double wanted() const { return wanted_; }
   /// A level as a threshold: four times fewer points than the pixels ask for are twice the error.
   double errorAt(double level) const;
-  bool bound() const { return lowest_ < wanted_; }      ///< by a budget
+  bool bound() const { return lowest_ < wanted_; } ///< by a budget
   FrontBudget boundBy() const { return boundBy_; } ///< if bound()
 
 private:
   struct LayerLevel
   {
     double own = 0.0; ///< below any level without a share, or if not even the overview fits it
-    Demand demand;    ///< at its own level
+    Demand demand; ///< at its own level
   };
 
   DetailWalk::Shown shownAt(double level) const;
@@ -54,7 +54,7 @@ private:
 
   std::vector<LayerLevel> layers_;
   std::vector<DetailWalk::Shown> shown_;
-  double all_ = 1.0;      ///< points of the store
+  double all_ = 1.0; ///< points of the store
   double overview_ = 0.0; ///< level
   double wanted_ = 0.0;
   double lowest_ = 0.0;

@@ -43,13 +43,13 @@ struct DetailWalk::Visit
 {
   NodeIndex index = noNode;
   Node row;
-  std::uint32_t points = 0;     ///< of its own, 0 where none would be drawn (NodePruning)
+  std::uint32_t points = 0; ///< of its own, 0 where none would be drawn (NodePruning)
   Quota quota;
-  double ratio = 0.0;           ///< of its spacing to its parent's
-  double errorWeight = 1.0;     ///< of its layer
-  bool inSight = true;          ///< its parent is
-  bool drawable = true;         ///< all that must be there before it is
-  bool standIn = true;          ///< Replace: it is resident and may be drawn for its branch
+  double ratio = 0.0; ///< of its spacing to its parent's
+  double errorWeight = 1.0; ///< of its layer
+  bool inSight = true; ///< its parent is
+  bool drawable = true; ///< all that must be there before it is
+  bool standIn = true; ///< Replace: it is resident and may be drawn for its branch
 };
 
 /// What children take over from their parent.
@@ -110,8 +110,8 @@ Demand DetailWalk::demand(std::size_t layer, const Shown& shown)
   return sum_;
 }
 
-void DetailWalk::plan(const ResidencyView& residency, const std::vector<Shown>& shown,
-  FrontDelta& delta)
+void DetailWalk::plan(
+  const ResidencyView& residency, const std::vector<Shown>& shown, FrontDelta& delta)
 {
   residency_ = &residency;
   delta_ = &delta;
@@ -184,8 +184,8 @@ void DetailWalk::visit(const Visit& at)
 {
   const Node& row = at.row;
   // As its parent: a sphere may stick out of its parent's.
-  const bool inSight = at.inSight &&
-    sphereVisibility(*view_, row.centre, row.radius) == Visibility::Inside;
+  const bool inSight =
+    at.inSight && sphereVisibility(*view_, row.centre, row.radius) == Visibility::Inside;
   const double distance = distanceToNode(*view_, row);
   const bool onPixel = projectedSpacing(*view_, 2.0 * row.radius, distance) < onePixel;
   if (hierarchy_.refinement() == Refinement::Add)
@@ -258,9 +258,7 @@ bool DetailWalk::childrenReady(const Visit& at, double priority)
     const RowState state = hierarchy_.peekChild(at.index, at.row, c, child);
     noteRow(state, true);
     ready = state == RowState::Here &&
-      require(at.row.firstChild + c, child, priority) ==
-        ResidencyView::State::Resident &&
-      ready;
+      require(at.row.firstChild + c, child, priority) == ResidencyView::State::Resident && ready;
   }
   return ready;
 }
@@ -297,8 +295,7 @@ void DetailWalk::descend(const Visit& at, const Quota& left, const Descent& desc
   }
 }
 
-ResidencyView::State DetailWalk::require(
-  NodeIndex node, const Node& row, double priority)
+ResidencyView::State DetailWalk::require(NodeIndex node, const Node& row, double priority)
 {
   const std::uint32_t points = drawablePoints(node, row).value_or(0);
   if (points == 0)
@@ -353,15 +350,14 @@ double DetailWalk::priorityOf(const Visit& at, double distance) const
   return firstSlicePriority * std::exp2(-slice) * (1.0 + within / (1.0 + within));
 }
 
-void DetailWalk::noteError(
-  const Visit& at, std::uint32_t shown, double distance, bool refined)
+void DetailWalk::noteError(const Visit& at, std::uint32_t shown, double distance, bool refined)
 {
   const bool everything = at.row.leaf() && shown == at.points;
   if (residency_ && !refined && !everything)
   {
     const double ratio = std::clamp(at.ratio, 0.0, 1.0);
-    delta_->errorPx = std::max(delta_->errorPx,
-      prefixErrorPx(at.points, shown, errorOf(at, distance), ratio));
+    delta_->errorPx =
+      std::max(delta_->errorPx, prefixErrorPx(at.points, shown, errorOf(at, distance), ratio));
   }
 }
 

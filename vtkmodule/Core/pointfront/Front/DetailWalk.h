@@ -33,7 +33,7 @@ public:
   struct Shown
   {
     double overview = 0.0; ///< in sight or not, and kept in memory
-    double detail = 0.0;   ///< in sight
+    double detail = 0.0; ///< in sight
   };
 
   explicit DetailWalk(const Hierarchy& hierarchy);
@@ -51,12 +51,11 @@ public:
 
   /// Fills draw, requests, pointsDrawn, errorPx, failedNodes and rowsComing of `delta`; draws
   /// as much as the limits allow. `shown` is by layer.
-  void plan(const ResidencyView& residency, const std::vector<Shown>& shown,
-    FrontDelta& delta);
+  void plan(const ResidencyView& residency, const std::vector<Shown>& shown, FrontDelta& delta);
 
   // Of the last plan.
   std::uint32_t missing() const { return missing_; } ///< neither resident nor failed
-  std::uint64_t held() const { return sum_.held; }   ///< points of all nodes needed
+  std::uint64_t held() const { return sum_.held; } ///< points of all nodes needed
   const NodeSlots& needed() const { return needed_; }
 
 private:
@@ -86,7 +85,7 @@ private:
   const View* view_ = nullptr;
   const FrontLimits* limits_ = nullptr;
   const ResidencyView* residency_ = nullptr; ///< null: the walk only counts
-  FrontDelta* delta_ = nullptr;              ///< null likewise
+  FrontDelta* delta_ = nullptr; ///< null likewise
   Demand sum_;
   DrawAllowance allowance_;
   std::uint32_t missing_ = 0;

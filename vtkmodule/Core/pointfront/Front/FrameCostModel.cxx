@@ -81,8 +81,8 @@ void FrameCostModel::record(std::uint64_t points, std::uint32_t moves, double mi
   {
     scaleMs_ = frames_ == 0 ? residual : std::min(scaleMs_, residual);
   }
-  const double ownMs = milliseconds -
-    std::min(costs_[1] * double(moves) / moveUnit, mostMoveShare * milliseconds);
+  const double ownMs =
+    milliseconds - std::min(costs_[1] * double(moves) / moveUnit, mostMoveShare * milliseconds);
   const double perPoint = ownMs / std::max(1.0, double(points));
   recentPerPoint_[frames_ % recentPerPoint_.size()] = perPoint;
   if (frames_ == 0)
@@ -143,9 +143,8 @@ std::uint64_t FrameCostModel::pointsFor(double targetMs, std::uint64_t floorPoin
   {
     const double proportional = targetMs / recentPerPoint();
     const double scale = proportional / std::max(1.0, lastPoints_);
-    points = scale >= 1.0
-      ? proportional
-      : std::clamp(points, proportional * std::sqrt(scale), proportional);
+    points = scale >= 1.0 ? proportional
+                          : std::clamp(points, proportional * std::sqrt(scale), proportional);
     if (std::abs(scale - 1.0) < nearTarget)
     {
       points = lastPoints_;

@@ -16,7 +16,7 @@ struct Demand
 {
   std::uint64_t drawn = 0; ///< points on screen
   std::uint64_t slots = 0; ///< of GPU memory, for them
-  std::uint64_t held = 0;  ///< points of the nodes that must be in memory for that, whole nodes
+  std::uint64_t held = 0; ///< points of the nodes that must be in memory for that, whole nodes
 
   Demand& operator+=(const Demand& more)
   {
@@ -58,13 +58,11 @@ inline double shareOf(const std::vector<LayerLimits>& layers, std::size_t layer)
   return given ? layers[layer].share / std::max(1.0, sum) : 0.0;
 }
 
-inline bool fitsBudget(std::uint64_t points, std::uint64_t budget, const SharedLimit& shared,
-  double share, double px)
+inline bool fitsBudget(
+  std::uint64_t points, std::uint64_t budget, const SharedLimit& shared, double share, double px)
 {
   const auto part = [&](std::uint64_t whole)
-  {
-    return share < 1.0 ? static_cast<std::uint64_t>(share * static_cast<double>(whole)) : whole;
-  };
+  { return share < 1.0 ? static_cast<std::uint64_t>(share * static_cast<double>(whole)) : whole; };
   return (budget == 0 || points <= part(budget)) &&
     (shared.most == 0 || points <= part(shared.leftAt(px)));
 }
@@ -114,8 +112,7 @@ public:
   /// Takes what a node draws, as much of it as is allowed.
   std::uint32_t take(std::uint32_t points)
   {
-    const auto most =
-      std::min(points_, slots_ < UINT32_MAX ? slots_ * gpuSlotPoints : UINT64_MAX);
+    const auto most = std::min(points_, slots_ < UINT32_MAX ? slots_ * gpuSlotPoints : UINT64_MAX);
     const auto taken = static_cast<std::uint32_t>(std::min<std::uint64_t>(points, most));
     points_ -= taken;
     slots_ -= gpuSlotsOf(taken);

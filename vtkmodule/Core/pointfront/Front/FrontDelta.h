@@ -49,23 +49,23 @@ struct SharedLimit
 /// What one update may do and strives for.
 struct FrontLimits
 {
-  double targetErrorPx = 1.0;       ///< the threshold stops falling here
-  double initialErrorPx = 60.0;     ///< FRONT-7: where it starts
+  double targetErrorPx = 1.0; ///< the threshold stops falling here
+  double initialErrorPx = 60.0; ///< FRONT-7: where it starts
   /// FRONT-6: expansions + collapses; the rest goes on next frame.
   std::uint32_t movesPerFrame = 64;
-  std::uint64_t pointBudget = 0;    ///< FRONT-8: most points drawn; 0: no limit
+  std::uint64_t pointBudget = 0; ///< FRONT-8: most points drawn; 0: no limit
   /// Most points in the nodes that the view needs in memory, drawn or not (a node is held whole
   /// although a prefix of it may be drawn); 0: no limit. Budget bytes / bytes of a decoded point,
   /// with some room to spare, makes a view that needs more settle at the best error that fits.
   std::uint64_t heldPointBudget = 0;
-  SharedLimit sharedDrawn;          ///< as pointBudget, over all clouds of a window
-  SharedLimit sharedSlots;          ///< of GPU memory (GpuSlots.h), over all clouds of a window
-  SharedLimit sharedHeld;           ///< as heldPointBudget, over all stores of a process
+  SharedLimit sharedDrawn; ///< as pointBudget, over all clouds of a window
+  SharedLimit sharedSlots; ///< of GPU memory (GpuSlots.h), over all clouds of a window
+  SharedLimit sharedHeld; ///< as heldPointBudget, over all stores of a process
   /// Changes whenever one of the curves of the shared limits does.
   std::uint64_t sharedRevision = 0;
   std::uint32_t requestLimit = 256; ///< most requests handed out by one update
-  bool interacting = false;         ///< in motion the threshold does not fall below motionErrorPx
-  double motionErrorPx = 0.0;       ///< FRONT-7: raised by the caller until the frame rate holds
+  bool interacting = false; ///< in motion the threshold does not fall below motionErrorPx
+  double motionErrorPx = 0.0; ///< FRONT-7: raised by the caller until the frame rate holds
   /// SMOOTH-2, ViewDetail only: points of this store that are in memory and drawn for every view:
   /// its share of the scene's overview (overviewShare()).
   std::uint64_t overviewPoints = 2000000;
@@ -84,18 +84,17 @@ inline bool operator==(const FrontLimits& a, const FrontLimits& b)
     a.heldPointBudget == b.heldPointBudget && a.requestLimit == b.requestLimit &&
     a.interacting == b.interacting && a.motionErrorPx == b.motionErrorPx &&
     a.prefetchSiblings == b.prefetchSiblings && a.overviewPoints == b.overviewPoints &&
-    a.layers == b.layers &&
-    a.sharedDrawn.most == b.sharedDrawn.most && a.sharedSlots.most == b.sharedSlots.most &&
-    a.sharedHeld.most == b.sharedHeld.most;
+    a.layers == b.layers && a.sharedDrawn.most == b.sharedDrawn.most &&
+    a.sharedSlots.most == b.sharedSlots.most && a.sharedHeld.most == b.sharedHeld.most;
 }
 
 struct DrawItem
 {
   NodeIndex node = noNode;
   std::uint32_t pointCount = 0; ///< a prefix of the node's points (PointPrefix.h), at least 1
-  float errorPx = 0.0f;         ///< projected spacing of this node, whatever its layer's factor
-  float distance = 0.0f;        ///< from the eye to its sphere
-  float spacingRatio = 0.0f;    ///< its spacing to its parent's (PointPrefix.h); 0 for a root
+  float errorPx = 0.0f; ///< projected spacing of this node, whatever its layer's factor
+  float distance = 0.0f; ///< from the eye to its sphere
+  float spacingRatio = 0.0f; ///< its spacing to its parent's (PointPrefix.h); 0 for a root
 };
 
 struct LoadRequest
@@ -113,14 +112,14 @@ struct FrontDelta
 {
   /// Of the update that made it, from 1 on: the same again means that nothing has changed.
   std::uint64_t number = 0;
-  std::vector<DrawItem> draw;        ///< near to far, ties by node: two runs give the same list
+  std::vector<DrawItem> draw; ///< near to far, ties by node: two runs give the same list
   /// All that is wanted now: optional ones last, highest priority first, ties by node.
   std::vector<LoadRequest> requests;
   std::uint64_t pointsDrawn = 0;
-  std::uint64_t slotsDrawn = 0;      ///< of GPU memory (GpuSlots.h), that they take
-  std::uint32_t moves = 0;           ///< expansions + collapses of this update
-  std::uint32_t frontLength = 0;     ///< nodes in the cut, culled ones too
-  double thresholdPx = 0.0;          ///< in force for this update; the largest of the layers'
+  std::uint64_t slotsDrawn = 0; ///< of GPU memory (GpuSlots.h), that they take
+  std::uint32_t moves = 0; ///< expansions + collapses of this update
+  std::uint32_t frontLength = 0; ///< nodes in the cut, culled ones too
+  double thresholdPx = 0.0; ///< in force for this update; the largest of the layers'
   /// Largest projected spacing on screen where the store holds more than is drawn, divided by its
   /// layer's errorFactor; 0 when every point in sight is drawn.
   double errorPx = 0.0;
@@ -129,10 +128,10 @@ struct FrontDelta
   /// give the same list.
   bool complete = false;
   // Which budget keeps the threshold above the target:
-  bool limitedByBudget = false;      ///< pointBudget
-  bool limitedByGpu = false;         ///< sharedSlots
-  bool limitedByMemory = false;      ///< heldPointBudget does, or the residency is exhausted
-  std::uint32_t failedNodes = 0;     ///< nodes wanted in this view that could not be read
+  bool limitedByBudget = false; ///< pointBudget
+  bool limitedByGpu = false; ///< sharedSlots
+  bool limitedByMemory = false; ///< heldPointBudget does, or the residency is exhausted
+  std::uint32_t failedNodes = 0; ///< nodes wanted in this view that could not be read
   /// Rows of a paged table that the front waits for: another update after
   /// Hierarchy::arrivals() has changed.
   bool rowsComing = false;

@@ -5,8 +5,7 @@
 namespace pointfront
 {
 
-Demand FrontDemand::joined(
-  const ActiveNode& node, const Demand& children, double thresholdPx) const
+Demand FrontDemand::joined(const ActiveNode& node, const Demand& children, double thresholdPx) const
 {
   const std::uint64_t own = node.visible ? pointsOf(node, refinement_, thresholdPx) : 0;
   if (refinement_ == Refinement::Replace)

@@ -46,8 +46,7 @@ public:
   }
 
 private:
-  void addBelow(
-    const ActiveNode& node, double beginPx, DemandCurves& at, DemandCurves& upTo) const;
+  void addBelow(const ActiveNode& node, double beginPx, DemandCurves& at, DemandCurves& upTo) const;
   Demand below(const ActiveNode& node, double thresholdPx) const;
   Demand joined(const ActiveNode& node, const Demand& children, double thresholdPx) const;
 

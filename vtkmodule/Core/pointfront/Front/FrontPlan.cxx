@@ -59,8 +59,8 @@ void FrontPlan::make(ActiveTree& tree, const FrontThreshold& threshold,
     else
     {
       const Presence presence = require(tree[root], nothingDrawnPx);
-      visitReplace(root,
-        { nothingDrawnPx, presence != Presence::Missing, presence == Presence::Ready });
+      visitReplace(
+        root, { nothingDrawnPx, presence != Presence::Missing, presence == Presence::Ready });
     }
   }
   order_.sort(delta.draw);
@@ -187,8 +187,7 @@ void FrontPlan::draw(const ActiveNode& node, std::uint32_t points)
   if (points > 0)
   {
     const float projectedPx = node.errorPx / node.errorWeight;
-    delta_->draw.push_back(
-      { node.node, points, projectedPx, node.distance, node.spacingRatio });
+    delta_->draw.push_back({ node.node, points, projectedPx, node.distance, node.spacingRatio });
     delta_->pointsDrawn += points;
     delta_->slotsDrawn += gpuSlotsOf(points);
   }
@@ -204,8 +203,7 @@ void FrontPlan::noteError(const ActiveNode& node, std::uint32_t drawn, bool refi
     const double errorPx = node.errorPx;
     if (errorPx * errorPx > delta_->errorPx * delta_->errorPx * density)
     {
-      const double shown =
-        prefixErrorPx(node.pointCount, drawn, node.errorPx, node.spacingRatio);
+      const double shown = prefixErrorPx(node.pointCount, drawn, node.errorPx, node.spacingRatio);
       delta_->errorPx = std::max(delta_->errorPx, shown);
     }
   }

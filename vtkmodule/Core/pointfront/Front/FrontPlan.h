@@ -30,8 +30,8 @@ private:
   struct Visit
   {
     double errorAbovePx; ///< on screen while this node is missing
-    bool drawable;       ///< all that must be there before something of this branch is drawn is
-    bool itself;         ///< Replace: this node can stand in for its branch
+    bool drawable; ///< all that must be there before something of this branch is drawn is
+    bool itself; ///< Replace: this node can stand in for its branch
   };
   enum class Presence
   {

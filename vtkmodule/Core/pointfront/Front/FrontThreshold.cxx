@@ -99,7 +99,10 @@ void FrontThreshold::begin(
   }
 }
 
-bool FrontThreshold::limited() const { return pointfront::limited(limits_); }
+bool FrontThreshold::limited() const
+{
+  return pointfront::limited(limits_);
+}
 
 FrontThreshold::Left FrontThreshold::sharedLeft(double px) const
 {
@@ -123,8 +126,7 @@ bool FrontThreshold::moreLeft() const
   return false;
 }
 
-Demand FrontThreshold::totalAt(
-  const ActiveTree& tree, const FrontDemand& demand, int common) const
+Demand FrontThreshold::totalAt(const ActiveTree& tree, const FrontDemand& demand, int common) const
 {
   Demand sum;
   for (SlotIndex root = 0; root < tree.rootCount(); ++root)
@@ -294,8 +296,9 @@ bool FrontThreshold::unmoved() const
 bool FrontThreshold::falling() const
 {
   const auto falls = [&](const Rung& state) { return state.rung > floor_ && !state.bound; };
-  return falls(common_) || std::any_of(layers_.begin(), layers_.end(),
-    [&](const LayerRung& layer) { return layer.share > 0.0 && falls(layer.own); });
+  return falls(common_) ||
+    std::any_of(layers_.begin(), layers_.end(),
+      [&](const LayerRung& layer) { return layer.share > 0.0 && falls(layer.own); });
 }
 
 } // namespace pointfront

@@ -44,7 +44,7 @@ public:
 
   /// By any budget.
   bool limited() const;
-  bool changed() const { return changed_; }   ///< by the last choose()
+  bool changed() const { return changed_; } ///< by the last choose()
   bool atTarget() const { return common_.rung == 0; }
   bool bound() const { return common_.bound; } ///< by a budget, which keeps the next lower rung out
   FrontBudget boundBy() const { return boundBy_; } ///< if bound()
@@ -58,7 +58,7 @@ private:
   struct Rung
   {
     int rung = 0;
-    int goal = 0;   ///< of this update
+    int goal = 0; ///< of this update
     int lowest = 0; ///< proved too low for this view and these limits below it
     bool bound = false;
   };
@@ -66,7 +66,7 @@ private:
   {
     Rung own;
     double share = 0.0; ///< 0: none
-    double px = 0.0;    ///< in force
+    double px = 0.0; ///< in force
   };
 
   int rungOf(std::uint16_t layer) const;
@@ -86,13 +86,13 @@ private:
   Rung common_;
   double commonPx_ = 0.0;
   std::vector<LayerRung> layers_;
-  int floor_ = 0;       ///< FRONT-7: of the motion
+  int floor_ = 0; ///< FRONT-7: of the motion
   bool first_ = true;
   bool mayFall_ = false;
   bool changed_ = false;
   FrontBudget boundBy_ = FrontBudget::Points;
   Left leftAtLowest_{}; ///< when common_.lowest was found
-  Demand demand_;       ///< the last one that fits: of the thresholds in force
+  Demand demand_; ///< the last one that fits: of the thresholds in force
 };
 
 } // namespace pointfront

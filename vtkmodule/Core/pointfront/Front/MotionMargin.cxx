@@ -36,8 +36,8 @@ View viewAhead(const View& before, const View& now, double frames)
   ahead.position = now.position + frames * (now.position - before.position);
   ahead.direction = turned(before.direction, now.direction, frames);
   ahead.pixelsPerUnit = now.pixelsPerUnit *
-    std::clamp(std::pow(now.pixelsPerUnit / before.pixelsPerUnit, frames), 1.0 / mostZoom,
-      mostZoom);
+    std::clamp(
+      std::pow(now.pixelsPerUnit / before.pixelsPerUnit, frames), 1.0 / mostZoom, mostZoom);
   for (std::size_t p = 0; p < now.planes.size(); ++p)
   {
     if (now.planes[p].w == std::numeric_limits<double>::max())

@@ -19,9 +19,9 @@ class NodePruning
 public:
   enum class Verdict : std::uint8_t
   {
-    Draw,    ///< some of its points may be drawn
+    Draw, ///< some of its points may be drawn
     Descend, ///< none of its own, but some of those below it
-    Skip     ///< none of its own and none below it
+    Skip ///< none of its own and none below it
   };
 
   explicit NodePruning(std::vector<Verdict> verdicts)

@@ -17,13 +17,14 @@ constexpr int placesPerAxis = 4;
 
 bool inside(const glm::dvec3& point, const View& view)
 {
-  return std::all_of(view.planes.begin(), view.planes.end(), [&](const glm::dvec4& plane)
-    { return glm::dot(glm::dvec3(plane), point) + plane.w >= 0.0; });
+  return std::all_of(view.planes.begin(), view.planes.end(),
+    [&](const glm::dvec4& plane) { return glm::dot(glm::dvec3(plane), point) + plane.w >= 0.0; });
 }
 
 bool whollyInside(const Node& node, const View& view)
 {
-  return std::all_of(view.planes.begin(), view.planes.end(), [&](const glm::dvec4& plane)
+  return std::all_of(view.planes.begin(), view.planes.end(),
+    [&](const glm::dvec4& plane)
     { return glm::dot(glm::dvec3(plane), node.centre) + plane.w >= node.radius; });
 }
 

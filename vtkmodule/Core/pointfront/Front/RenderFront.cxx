@@ -42,18 +42,18 @@ struct RenderFront::State
   // What the last update saw.
   View view;
   FrontLimits limits;
-  std::uint64_t revision = 0;  ///< of the residency, before the update asked it anything
-  bool sameRevision = true;    ///< as in the update before
-  bool exhausted = false;      ///< of these requests: nothing more can come
-  bool inputChanged = true;    ///< other view or limits than in the update before
+  std::uint64_t revision = 0; ///< of the residency, before the update asked it anything
+  bool sameRevision = true; ///< as in the update before
+  bool exhausted = false; ///< of these requests: nothing more can come
+  bool inputChanged = true; ///< other view or limits than in the update before
 
   // What the last update left behind.
-  bool atRest = false;         ///< the same input would give the same output
-  bool movesUsedUp = false;    ///< FRONT-6: expansions are left for the next update
+  bool atRest = false; ///< the same input would give the same output
+  bool movesUsedUp = false; ///< FRONT-6: expansions are left for the next update
   std::uint32_t expansions = 0;
-  bool rowsComing = false;     ///< expansions wait for rows of a paged table
+  bool rowsComing = false; ///< expansions wait for rows of a paged table
   bool growthHeldBack = false; ///< an expansion would have broken a budget
-  SlotIndex nextSlot = 0;      ///< FRONT-6: where the next update goes on
+  SlotIndex nextSlot = 0; ///< FRONT-6: where the next update goes on
 
   Refinement refinement() const { return hierarchy->refinement(); }
   double thresholdOf(const ActiveNode& node) const { return threshold.px(node.layer); }
@@ -134,8 +134,8 @@ bool RenderFront::State::wantsCollapse(const ActiveNode& node) const
   {
     return false;
   }
-  const bool fineEnough = node.live == update && node.visible &&
-    node.errorPx <= collapseBelow * thresholdOf(node);
+  const bool fineEnough =
+    node.live == update && node.visible && node.errorPx <= collapseBelow * thresholdOf(node);
   return fineEnough || update - node.seen > updatesUnseen;
 }
 
@@ -242,8 +242,8 @@ void RenderFront::State::finish(const ResidencyView& residency)
   delta.limitedByBudget = plan.clipped() || heldBy(FrontBudget::Points);
   delta.limitedByGpu = heldBy(FrontBudget::GpuMemory);
   delta.limitedByMemory = exhausted || heldBy(FrontBudget::HostMemory);
-  delta.complete = settled && steady &&
-    (exhausted || ((threshold.atTarget() || bound) && plan.missing() == 0));
+  delta.complete =
+    settled && steady && (exhausted || ((threshold.atTarget() || bound) && plan.missing() == 0));
   const bool falls = threshold.falling() && plan.missing() <= limits.requestLimit;
   atRest = settled && delta.moves == 0 && steady && !falls;
 }

@@ -14,7 +14,7 @@ namespace pointfront
 enum class Visibility
 {
   Outside, ///< no part of the sphere can be seen
-  Inside   ///< some part may be seen
+  Inside ///< some part may be seen
 };
 
 /// FRONT-4: frustum test by bounding sphere: six plane distances. Conservative: a sphere near an
@@ -37,8 +37,7 @@ inline Visibility sphereVisibility(const View& view, const glm::dvec3& centre, d
 inline double distanceToSphere(const View& view, const glm::dvec3& centre, double radius)
 {
   const glm::dvec3 fromEye = centre - view.position;
-  const double distance =
-    view.parallel ? glm::dot(fromEye, view.direction) : glm::length(fromEye);
+  const double distance = view.parallel ? glm::dot(fromEye, view.direction) : glm::length(fromEye);
   return distance > radius ? distance - radius : 0.0; // a NaN gives 0: first rather than lost
 }
 

@@ -19,7 +19,10 @@ glm::dvec4 row(const glm::dmat4& m, int r)
   return { m[0][r], m[1][r], m[2][r], m[3][r] };
 }
 
-glm::dvec3 gradient(const glm::dvec4& form) { return glm::dvec3(form); }
+glm::dvec3 gradient(const glm::dvec4& form)
+{
+  return glm::dvec3(form);
+}
 
 double at(const glm::dvec4& form, const glm::dvec3& p)
 {
@@ -83,8 +86,8 @@ std::array<glm::dvec4, 6> clipPlanes(
 
 /// Pixels of one world unit across the line of sight, the larger of both screen axes. Off-axis
 /// frusta lean their x and y rows along the line of sight: that part is no size on screen.
-double pixelsAcross(const std::array<glm::dvec4, 4>& rows, const glm::dvec3& direction, int width,
-  int height)
+double pixelsAcross(
+  const std::array<glm::dvec4, 4>& rows, const glm::dvec3& direction, int width, int height)
 {
   const auto across = [&](const glm::dvec4& form)
   { return glm::length(gradient(form) - direction * glm::dot(gradient(form), direction)); };
@@ -107,8 +110,7 @@ View View::fromMatrix(const glm::dmat4& worldToClip, int width, int height)
   view.height = std::max(height, 1);
   std::array<glm::dvec4, 4> rows{ row(worldToClip, 0), row(worldToClip, 1), row(worldToClip, 2),
     row(worldToClip, 3) };
-  const double across =
-    std::max(glm::length(gradient(rows[0])), glm::length(gradient(rows[1])));
+  const double across = std::max(glm::length(gradient(rows[0])), glm::length(gradient(rows[1])));
   const double depthScale = glm::length(gradient(rows[3]));
   view.parallel = depthScale <= 1e-13 * across;
 

@@ -54,9 +54,8 @@ bool ViewDetail::State::unchanged(
   const View& v, const ResidencyView& from, const FrontLimits& l) const
 {
   return atRest && revision != 0 && revision == from.revision() &&
-    exhausted == (walk.missing() > 0 && from.exhausted()) &&
-    rowArrivals == hierarchy->arrivals() && limits.sharedRevision == l.sharedRevision &&
-    view == v && limits == l;
+    exhausted == (walk.missing() > 0 && from.exhausted()) && rowArrivals == hierarchy->arrivals() &&
+    limits.sharedRevision == l.sharedRevision && view == v && limits == l;
 }
 
 void ViewDetail::State::finish(const ResidencyView& from, bool sameInput, bool sameRevision)
@@ -140,8 +139,14 @@ std::uint32_t ViewDetail::distanceUnderFront(NodeIndex node) const
   return farBelow;
 }
 
-void ViewDetail::reset() { state_ = std::make_unique<State>(state_->hierarchy); }
+void ViewDetail::reset()
+{
+  state_ = std::make_unique<State>(state_->hierarchy);
+}
 
-double ViewDetail::level() const { return state_->levels.lowest(); }
+double ViewDetail::level() const
+{
+  return state_->levels.lowest();
+}
 
 } // namespace pointfront

@@ -6,8 +6,14 @@ namespace pointfront
 {
 namespace
 {
-double smooth(double t) { return t * t * (3.0 - 2.0 * t); }
-double mix(double a, double b, double t) { return a + (b - a) * t; }
+double smooth(double t)
+{
+  return t * t * (3.0 - 2.0 * t);
+}
+double mix(double a, double b, double t)
+{
+  return a + (b - a) * t;
+}
 } // namespace
 
 double latticeNoise(std::uint64_t seed, double x, double y)

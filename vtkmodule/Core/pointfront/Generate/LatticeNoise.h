@@ -16,7 +16,10 @@ inline std::uint64_t hashOf(std::uint64_t key)
 }
 
 /// In [0, 1), from the upper 53 bits.
-inline double unitOf(std::uint64_t hash) { return static_cast<double>(hash >> 11) * 0x1.0p-53; }
+inline double unitOf(std::uint64_t hash)
+{
+  return static_cast<double>(hash >> 11) * 0x1.0p-53;
+}
 
 /// The hash of a lattice cell.
 inline std::uint64_t hashOfCell(std::uint64_t seed, std::int64_t i, std::int64_t j)

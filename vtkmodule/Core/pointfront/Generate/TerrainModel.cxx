@@ -9,9 +9,9 @@ namespace pointfront
 {
 namespace
 {
-constexpr double waterLevel = 38.0;      // metres; about a tenth of the ground lies below
-constexpr double plotSize = 36.0;        // a building plot
-constexpr double treeCell = 7.0;         // at most one tree a cell
+constexpr double waterLevel = 38.0; // metres; about a tenth of the ground lies below
+constexpr double plotSize = 36.0; // a building plot
+constexpr double treeCell = 7.0; // at most one tree a cell
 constexpr double townWavelength = 900.0; // of the noise that decides between town and country
 constexpr double woodWavelength = 260.0;
 
@@ -23,7 +23,10 @@ constexpr std::uint64_t treeStream = 401;
 constexpr std::uint64_t shadeStream = 503;
 
 /// In [0, 1): independent values out of one cell's hash.
-double draw(std::uint64_t cell, std::uint64_t index) { return unitOf(hashOf(cell + index)); }
+double draw(std::uint64_t cell, std::uint64_t index)
+{
+  return unitOf(hashOf(cell + index));
+}
 
 std::uint8_t channel(double value)
 {

@@ -54,7 +54,7 @@ private:
   {
     bool hit = false;
     double height = 0.0; ///< above the ground
-    bool wall = false;   ///< the pulse grazes the façade
+    bool wall = false; ///< the pulse grazes the façade
   };
   Roof roofAt(double x, double y) const;
   /// Height of a tree's crown above the ground at (x, y), 0 where there is none.

@@ -13,7 +13,7 @@ namespace
 {
 constexpr std::uint64_t tilePoints = 65536; // a chunk: 256 scan lines of 256 pulses
 constexpr std::uint64_t linePoints = 256;
-constexpr double tileSize = 80.0;           // metres: 10.24 points a square metre
+constexpr double tileSize = 80.0; // metres: 10.24 points a square metre
 constexpr double stepSize = tileSize / static_cast<double>(linePoints);
 constexpr double origin[3] = { 400000.0, 5600000.0, 0.0 };
 constexpr double scale = 0.001;
@@ -74,7 +74,10 @@ void store(PointBatch& batch, Column column, std::size_t point, const T& value)
 }
 
 /// On the grid, so that what is written is what was made.
-double onGrid(double value) { return std::round(value / scale) * scale; }
+double onGrid(double value)
+{
+  return std::round(value / scale) * scale;
+}
 } // namespace
 
 TerrainSource::TerrainSource(std::uint64_t points, std::uint64_t seed)
@@ -82,8 +85,7 @@ TerrainSource::TerrainSource(std::uint64_t points, std::uint64_t seed)
   , model_(seed)
 {
   const std::uint64_t tiles = std::max<std::uint64_t>(1, (points + tilePoints - 1) / tilePoints);
-  tilesAlongStrip_ =
-    static_cast<std::uint64_t>(std::ceil(std::sqrt(static_cast<double>(tiles))));
+  tilesAlongStrip_ = static_cast<std::uint64_t>(std::ceil(std::sqrt(static_cast<double>(tiles))));
   const std::uint64_t strips = (tiles + tilesAlongStrip_ - 1) / tilesAlongStrip_;
   description_.path = "synthetic terrain, seed " + std::to_string(seed);
   description_.format = "synthetic terrain";

@@ -95,8 +95,9 @@ CellGrid::Place CellGrid::find(const glm::ivec3& position) const
   const std::uint64_t frame = (std::uint64_t(1) << frameBits_) - 1;
   const auto x = static_cast<std::uint64_t>(std::int64_t(position.x) - box_.low.x) & frame;
   const auto y = static_cast<std::uint64_t>(std::int64_t(position.y) - box_.low.y) & frame;
-  Place place{ 0, morton(static_cast<std::uint32_t>(x >> logSides_[0]),
-                    static_cast<std::uint32_t>(y >> logSides_[0])) };
+  Place place{ 0,
+    morton(static_cast<std::uint32_t>(x >> logSides_[0]),
+      static_cast<std::uint32_t>(y >> logSides_[0])) };
   for (std::uint32_t value = cell(0, place.index); (value & cutFlag) != 0;
        value = cell(place.level, place.index))
   {
@@ -104,8 +105,8 @@ CellGrid::Place CellGrid::find(const glm::ivec3& position) const
     const std::uint32_t mask = (1u << bitsOf(place.level)) - 1;
     const unsigned side = logSides_[place.level];
     place.index = (value & ~cutFlag) * (1u << (2 * cutBits)) +
-      morton(static_cast<std::uint32_t>(x >> side) & mask,
-        static_cast<std::uint32_t>(y >> side) & mask);
+      morton(
+        static_cast<std::uint32_t>(x >> side) & mask, static_cast<std::uint32_t>(y >> side) & mask);
   }
   return place;
 }

@@ -36,8 +36,8 @@ Error bad(const ForeignTreeContent& content, const std::string& what)
 
 std::string nameOf(const ForeignNode& node)
 {
-  return std::to_string(node.level) + "-" + std::to_string(node.x) + "-" +
-    std::to_string(node.y) + "-" + std::to_string(node.z);
+  return std::to_string(node.level) + "-" + std::to_string(node.x) + "-" + std::to_string(node.y) +
+    "-" + std::to_string(node.z);
 }
 
 bool isCell(const ForeignNode& node)
@@ -77,7 +77,8 @@ Result<std::map<CellKey, Cell>> cellsOf(const ForeignTreeContent& content)
     }
     if (node.points > maxNodePoints)
     {
-      return bad(content, "its node " + nameOf(node) + " claims " + std::to_string(node.points) +
+      return bad(content,
+        "its node " + nameOf(node) + " claims " + std::to_string(node.points) +
           " points; more than " + std::to_string(maxNodePoints) + " are not read at once");
     }
     Cell& cell = cells[{ node.level, node.x, node.y, node.z }];
@@ -95,12 +96,10 @@ Result<std::map<CellKey, Cell>> cellsOf(const ForeignTreeContent& content)
 }
 } // namespace
 
-Result<ForeignTable> ForeignTable::make(
-  const ForeignTreeContent& content, const glm::dvec3& margin)
+Result<ForeignTable> ForeignTable::make(const ForeignTreeContent& content, const glm::dvec3& margin)
 {
   const glm::dvec3 reach = glm::abs(content.low) + glm::dvec3(content.side);
-  if (!(content.side > 0.0) ||
-    !(std::max({ reach.x, reach.y, reach.z }) <= farthestCoordinate))
+  if (!(content.side > 0.0) || !(std::max({ reach.x, reach.y, reach.z }) <= farthestCoordinate))
   {
     return bad(content, "the cube of its octree is none");
   }
@@ -129,8 +128,7 @@ Result<ForeignTable> ForeignTable::make(
     node.pointsBelow = cell.points;
     node.spacing = static_cast<float>(std::ldexp(spacing, -level));
     const double size = std::ldexp(content.side, -level);
-    const glm::dvec3 low =
-      content.low + size * glm::dvec3(double(x), double(y), double(z));
+    const glm::dvec3 low = content.low + size * glm::dvec3(double(x), double(y), double(z));
     setBox(node, { low - margin, low + size + margin });
     for (std::int64_t child = 0; child < 8; ++child)
     {

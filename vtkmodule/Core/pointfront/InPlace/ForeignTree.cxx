@@ -87,8 +87,8 @@ bool encloses(const Bounds& outer, const Bounds& inner)
   return outer.contains(inner.low) && outer.contains(inner.high);
 }
 
-std::vector<std::byte> gathered(const std::vector<std::byte>& values,
-  const std::vector<std::uint32_t>& order, std::size_t bytes)
+std::vector<std::byte> gathered(
+  const std::vector<std::byte>& values, const std::vector<std::uint32_t>& order, std::size_t bytes)
 {
   std::vector<std::byte> result(order.size() * bytes);
   for (std::size_t i = 0; i < order.size(); ++i)
@@ -296,8 +296,9 @@ Result<NodeColumns> ForeignTree::decodeNow(const FetchedNode& fetched) const
   }
   if (batch.size() != points)
   {
-    return damaged(fetched.node, "has " + std::to_string(batch.size()) + " points, not the " +
-        std::to_string(points) + " that its hierarchy says");
+    return damaged(fetched.node,
+      "has " + std::to_string(batch.size()) + " points, not the " + std::to_string(points) +
+        " that its hierarchy says");
   }
   if (!std::all_of(batch.positions.begin(), batch.positions.end(), finite))
   {
@@ -327,8 +328,7 @@ Result<NodeColumns> ForeignTree::decodeNow(const FetchedNode& fetched) const
   for (std::size_t c = 0; c < fetched.columns.size(); ++c)
   {
     const std::uint32_t column = fetched.columns[c];
-    result.columns[c] =
-      gathered(batch.columns[column], order, description_.schema[column].bytes());
+    result.columns[c] = gathered(batch.columns[column], order, description_.schema[column].bytes());
   }
   return result;
 }
@@ -343,7 +343,8 @@ Result<VerifyReport> ForeignTree::verify(const ProgressFunction& progress) const
   {
     const NodeIndex count = std::min(atOnce, nodes - first);
     std::vector<std::string> faults(count);
-    ThreadCrew::ofProcess().run(count, [&](std::size_t i, unsigned)
+    ThreadCrew::ofProcess().run(count,
+      [&](std::size_t i, unsigned)
       {
         const Result<NodeColumns> node = read(first + static_cast<NodeIndex>(i), {});
         faults[i] = node ? "" : node.error().what;

@@ -36,7 +36,7 @@ public:
   {
     std::uint64_t chunk = 0;
     std::uint32_t points = 0; ///< that the hierarchy says it has
-    std::uint32_t first = 0;  ///< so many of them are enough, those that come first in the file
+    std::uint32_t first = 0; ///< so many of them are enough, those that come first in the file
     const ColumnSelection& columns;
   };
   /// Points in the file's order, as positions or as steps, and the columns that are wanted (others
@@ -49,11 +49,11 @@ public:
 /// What is known of such a tree before its points are read.
 struct ForeignTreeContent
 {
-  SourceDescription source;     ///< with a grid
+  SourceDescription source; ///< with a grid
   std::uint64_t fileBytes = 0;
-  glm::dvec3 low{ 0.0 };        ///< of the root's cube
-  double side = 0.0;            ///< of it
-  double spacing = 0.0;         ///< between points of the root; not positive: a 128th of the side
+  glm::dvec3 low{ 0.0 }; ///< of the root's cube
+  double side = 0.0; ///< of it
+  double spacing = 0.0; ///< between points of the root; not positive: a 128th of the side
   std::vector<ForeignNode> nodes; ///< in any order
   std::shared_ptr<const ForeignNodes> reader;
 };

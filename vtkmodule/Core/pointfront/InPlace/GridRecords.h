@@ -15,7 +15,7 @@ namespace pointfront
 struct GridRecords
 {
   const std::byte* first = nullptr;
-  std::size_t stride = 0;       ///< bytes from one record to the next, at least 12
+  std::size_t stride = 0; ///< bytes from one record to the next, at least 12
   std::uint64_t count = 0;
   std::uint64_t fileOffset = 0; ///< of the first record: tells which pages a record lies on
 

@@ -158,8 +158,8 @@ Result<void> checkPoints(const QuadTree& tree, const RunLedger& ledger, std::uin
   return {};
 }
 
-void fillBranch(const QuadTree& tree, const RunLedger& ledger, const QuantisationGrid& grid,
-  InPlaceTable& table)
+void fillBranch(
+  const QuadTree& tree, const RunLedger& ledger, const QuantisationGrid& grid, InPlaceTable& table)
 {
   const std::vector<QuadNode>& shape = tree.nodes();
   for (NodeIndex i = static_cast<NodeIndex>(shape.size()); i-- > 0;)
@@ -204,8 +204,8 @@ InPlaceTable tableOf(const QuadTree& tree, const RunLedger& ledger, const Quanti
     table.nodes.push_back(node);
     InPlaceRow row;
     row.logStep = from.logStep;
-    row.pages = static_cast<std::uint32_t>(
-      std::min<std::uint64_t>(ledger.entries()[i].pages, UINT32_MAX));
+    row.pages =
+      static_cast<std::uint32_t>(std::min<std::uint64_t>(ledger.entries()[i].pages, UINT32_MAX));
     table.rows.push_back(row);
   }
   fillBranch(tree, ledger, grid, table);

@@ -17,19 +17,19 @@ namespace pointfront
 /// What the side file knows of a node besides the node table's row.
 struct InPlaceRow
 {
-  std::uint64_t offset = 0;   ///< of its list of runs in the side file
-  std::uint32_t bytes = 0;    ///< of the list
+  std::uint64_t offset = 0; ///< of its list of runs in the side file
+  std::uint32_t bytes = 0; ///< of the list
   std::uint32_t checksum = 0; ///< of the list
-  glm::ivec3 low{ 0 };        ///< lowest grid position of its points and of all below
-  std::uint32_t pages = 0;    ///< of 4096 bytes that its points lie on in the points' file
-  std::uint8_t logStep = 0;   ///< inner nodes: the list is of strata of the stream of 2^logStep
+  glm::ivec3 low{ 0 }; ///< lowest grid position of its points and of all below
+  std::uint32_t pages = 0; ///< of 4096 bytes that its points lie on in the points' file
+  std::uint8_t logStep = 0; ///< inner nodes: the list is of strata of the stream of 2^logStep
 };
 
 struct InPlaceOptions
 {
   std::uint32_t leafPoints = 16384; ///< 256 to 2^20; Kovac has 5,000 for each draw call
   std::uint64_t memoryBytes = std::uint64_t(256) << 20; ///< for lists; the grid takes 64 MiB more
-  std::string temporaryFolder;      ///< for lists beyond memoryBytes
+  std::string temporaryFolder; ///< for lists beyond memoryBytes
 };
 
 /// The in-place tree over some records: which points each node holds, told by runs.
@@ -40,7 +40,7 @@ struct InPlaceTable
 {
   std::vector<Node> nodes;
   std::vector<InPlaceRow> rows;
-  std::uint64_t leafRuns = 0;     ///< runs of consecutive points, over all leaves
+  std::uint64_t leafRuns = 0; ///< runs of consecutive points, over all leaves
   std::uint64_t spilledBytes = 0;
 };
 

@@ -31,9 +31,8 @@ float toFloat(double radius)
 }
 } // namespace
 
-LeafSplats::LeafSplats(
-  const QuadTree& tree, const GridRecords& records, const QuantisationGrid& grid,
-  std::function<void(std::uint64_t, std::uint64_t)> released)
+LeafSplats::LeafSplats(const QuadTree& tree, const GridRecords& records,
+  const QuantisationGrid& grid, std::function<void(std::uint64_t, std::uint64_t)> released)
   : tree_(tree)
   , records_(records)
   , released_(std::move(released))

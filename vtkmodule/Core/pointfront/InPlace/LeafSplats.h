@@ -42,7 +42,7 @@ private:
   double stepArea_; ///< of a step by a step of the grid, world units
   NodeSplat splat_;
   std::vector<NodeIndex> measured_; ///< leaves, ascending
-  std::vector<double> ratios_;      ///< theirs; 0: none was found
+  std::vector<double> ratios_; ///< theirs; 0: none was found
 };
 
 } // namespace pointfront

@@ -160,8 +160,7 @@ void QuadTree::chooseSteps()
     {
       ++logStep;
     }
-    node.logStep =
-      node.parent == noNode ? logStep : std::min(logStep, nodes_[node.parent].logStep);
+    node.logStep = node.parent == noNode ? logStep : std::min(logStep, nodes_[node.parent].logStep);
   }
 }
 

@@ -16,13 +16,13 @@ struct QuadNode
   NodeIndex firstChild = noNode;
   std::uint8_t childCount = 0;
   std::uint8_t level = 0;
-  std::uint8_t logStep = 0;  ///< an inner node holds the sample stream of this step
-  bool sliced = false;       ///< its children share its square: they are slices of the file's order
-  std::uint64_t points = 0;  ///< in its square, as counted
+  std::uint8_t logStep = 0; ///< an inner node holds the sample stream of this step
+  bool sliced = false; ///< its children share its square: they are slices of the file's order
+  std::uint64_t points = 0; ///< in its square, as counted
   std::uint64_t sliceStep = 0; ///< sliced only: points of each child but the last
-  double area = 0.0;         ///< of the cells in its square that hold points, square steps
+  double area = 0.0; ///< of the cells in its square that hold points, square steps
   Square square;
-  CellGrid::Range range;     ///< of a leaf, and of a sliced node: its cells
+  CellGrid::Range range; ///< of a leaf, and of a sliced node: its cells
 
   bool leaf() const { return childCount == 0; }
 };

@@ -15,8 +15,7 @@ struct Rectangle
 
   bool holds(const RecordBox& box) const
   {
-    return box.low.x >= low.x && box.high.x <= high.x && box.low.y >= low.y &&
-      box.high.y <= high.y;
+    return box.low.x >= low.x && box.high.x <= high.x && box.low.y >= low.y && box.high.y <= high.y;
   }
 };
 } // namespace
@@ -64,8 +63,7 @@ LeafRun RunFinder::runFrom(std::uint64_t first, std::uint64_t end) const
   return run;
 }
 
-void RunFinder::find(
-  std::uint64_t begin, std::uint64_t end, std::vector<LeafRun>& runs) const
+void RunFinder::find(std::uint64_t begin, std::uint64_t end, std::vector<LeafRun>& runs) const
 {
   while (begin < end)
   {

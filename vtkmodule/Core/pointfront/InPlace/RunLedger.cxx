@@ -15,8 +15,7 @@ constexpr std::uint64_t bytesPerRun = 3;
 constexpr std::uint64_t memoryShare = 3;
 
 /// True if the stream of a coarser holder than the one at `below` has the point.
-bool heldAbove(
-  const std::vector<QuadTree::Holder>& holders, std::size_t below, std::uint64_t point)
+bool heldAbove(const std::vector<QuadTree::Holder>& holders, std::size_t below, std::uint64_t point)
 {
   for (std::size_t h = 0; h < below; ++h)
   {
@@ -107,8 +106,7 @@ void RunLedger::enterRun(NodeIndex leaf, const Run& run, const RecordBox& box)
   touch(entry, run.first, run.count);
 }
 
-void RunLedger::enterSlices(
-  const LeafRun& run, const HeldSample* samples, std::size_t sampleCount)
+void RunLedger::enterSlices(const LeafRun& run, const HeldSample* samples, std::size_t sampleCount)
 {
   const QuadNode& group = tree_.nodes()[run.leaf];
   std::uint64_t& before = slicedSoFar_[run.leaf];

@@ -26,7 +26,7 @@ struct HeldSample
 struct RunBatch
 {
   std::vector<LeafRun> runs;
-  std::vector<HeldSample> samples;    ///< ascending by point
+  std::vector<HeldSample> samples; ///< ascending by point
   std::vector<std::size_t> sampleEnd; ///< of run i in `samples`; they begin where i - 1 ends
 };
 
@@ -55,8 +55,8 @@ public:
   {
     RunListWriter list;
     std::uint64_t points = 0; ///< that the node holds
-    RecordBox box;            ///< leaves only: of the points in its runs
-    std::uint64_t pages = 0;  ///< of 4096 bytes of the file that its points lie on
+    RecordBox box; ///< leaves only: of the points in its runs
+    std::uint64_t pages = 0; ///< of 4096 bytes of the file that its points lie on
     std::uint64_t lastPage = UINT64_MAX;
   };
 

@@ -115,8 +115,8 @@ std::vector<std::byte> encodeTable(const SideFileContent& content)
 std::string rowFault(const InPlaceTable& table, NodeIndex i, std::uint64_t payloadEnd)
 {
   const InPlaceRow& row = table.rows[i];
-  const bool inside = row.offset >= headerBytes && row.offset <= payloadEnd &&
-    row.bytes <= payloadEnd - row.offset;
+  const bool inside =
+    row.offset >= headerBytes && row.offset <= payloadEnd && row.bytes <= payloadEnd - row.offset;
   const NodeIndex parent = table.nodes[i].parent;
   const bool stepsFall = row.logStep <= largestLogStep &&
     (table.nodes[i].leaf() ? row.logStep == 0
@@ -125,11 +125,10 @@ std::string rowFault(const InPlaceTable& table, NodeIndex i, std::uint64_t paylo
 }
 
 /// What is wrong with the table's bytes, or an empty text with `content` filled.
-std::string tableFault(const std::byte* data, std::size_t size, const Header& header,
-  SideFileContent& content)
+std::string tableFault(
+  const std::byte* data, std::size_t size, const Header& header, SideFileContent& content)
 {
-  const NodeRowForm form =
-    header.version < 2 ? NodeRowForm::Plain : NodeRowForm::WithSplatRadius;
+  const NodeRowForm form = header.version < 2 ? NodeRowForm::Plain : NodeRowForm::WithSplatRadius;
   ByteReader in(data, size);
   IndexedFile& file = content.indexed;
   file.name = in.getText();
@@ -175,8 +174,7 @@ std::string tableFault(const std::byte* data, std::size_t size, const Header& he
 Result<Header> readHeader(const InputFile& file)
 {
   std::byte bytes[headerBytes] = {};
-  const auto size =
-    static_cast<std::size_t>(std::min<std::uint64_t>(file.bytes(), headerBytes));
+  const auto size = static_cast<std::size_t>(std::min<std::uint64_t>(file.bytes(), headerBytes));
   if (Result<void> done = file.readAt(0, bytes, size); !done)
   {
     return done.error();
@@ -318,8 +316,7 @@ Result<std::unique_ptr<const SideFile>> SideFile::open(const std::string& path)
     return corrupt(path, header->tableOffset, "the table's checksum does not match");
   }
   std::unique_ptr<SideFile> side(new SideFile);
-  const std::string fault =
-    tableFault(table.data(), table.size(), *header, side->content_);
+  const std::string fault = tableFault(table.data(), table.size(), *header, side->content_);
   if (!fault.empty())
   {
     return corrupt(path, header->tableOffset, fault);

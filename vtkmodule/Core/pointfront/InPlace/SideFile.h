@@ -22,13 +22,13 @@ constexpr std::array<unsigned char, 8> sideFileMagic{ 0x89, 'P', 'F', 'I', 'D', 
 /// The file that an index is of, and how to see that it is still the same.
 struct IndexedFile
 {
-  std::string name;          ///< relative to the side file's folder
+  std::string name; ///< relative to the side file's folder
   std::uint64_t bytes = 0;
   std::uint64_t points = 0;
   std::uint64_t firstRecord = 0; ///< byte offset
   std::uint32_t recordBytes = 0;
   std::uint32_t headerChecksum = 0; ///< of all bytes before the first record
-  std::uint32_t edgesChecksum = 0;  ///< of the first and the last 64 KiB of the records
+  std::uint32_t edgesChecksum = 0; ///< of the first and the last 64 KiB of the records
 };
 
 /// What a side file says, but its lists of runs.

@@ -38,7 +38,7 @@ public:
 
   std::uint64_t points() const { return points_; }
   std::uint64_t largestChunk() const { return largestChunk_; } ///< points
-  std::uint64_t chunks() const { return chunkBegin_.size(); }  ///< of all sources
+  std::uint64_t chunks() const { return chunkBegin_.size(); } ///< of all sources
   SourceChunk chunk(std::uint64_t number) const
   {
     // Sources without a chunk begin where the next one does: the last that begins here owns it.

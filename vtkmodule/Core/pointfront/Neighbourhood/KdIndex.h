@@ -25,8 +25,8 @@ private:
     std::uint32_t end = 0;
   };
   std::uint32_t divide(std::uint32_t begin, std::uint32_t end);
-  void visit(std::uint32_t node, const glm::dvec3& from, glm::dvec3& beyond,
-    NeighbourList& list) const;
+  void visit(
+    std::uint32_t node, const glm::dvec3& from, glm::dvec3& beyond, NeighbourList& list) const;
 
   const PositionSet& set_;
   int axes_;

@@ -16,7 +16,10 @@ bool offsetLess(const glm::dvec3& a, const glm::dvec3& b)
   return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z;
 }
 
-double squaredLengthOf(const glm::dvec3& v) { return v.x * v.x + v.y * v.y + v.z * v.z; }
+double squaredLengthOf(const glm::dvec3& v)
+{
+  return v.x * v.x + v.y * v.y + v.z * v.z;
+}
 
 } // namespace
 

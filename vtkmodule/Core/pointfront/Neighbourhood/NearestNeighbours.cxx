@@ -130,11 +130,11 @@ struct Search::TileWork
   {
   }
   std::vector<TilePoint> points; ///< own ones come first
-  Bounds box;                    ///< that they were gathered from
+  Bounds box; ///< that they were gathered from
   PlaceOrder queries;
   PositionSet references;
   std::vector<std::byte> values; ///< of points[i]
-  std::vector<bool> finished;    ///< points[i]
+  std::vector<bool> finished; ///< points[i]
   std::vector<UnfinishedPoint> unfinished;
   std::vector<std::uint32_t> places; ///< near one point
   std::vector<NearPoint> near;
@@ -155,8 +155,7 @@ Ball Search::TileWork::ballAround(std::size_t begin, std::size_t end, unsigned a
   for (std::size_t query = begin; query < end; ++query)
   {
     const glm::dvec3 out = points[queries.points[query]].position - middle;
-    reach =
-      std::max(reach, out.x * out.x + out.y * out.y + (axes > 2 ? out.z * out.z : 0.0));
+    reach = std::max(reach, out.x * out.x + out.y * out.y + (axes > 2 ? out.z * out.z : 0.0));
   }
   return { middle, std::sqrt(reach) };
 }
@@ -169,8 +168,7 @@ Result<void> Search::searchTile(std::size_t tile)
     return gathered.error();
   }
   const std::size_t own = gathered->own;
-  TileWork work(
-    std::move(*gathered), tiles_.layout().tiles()[tile].gathered, feature_.bytes());
+  TileWork work(std::move(*gathered), tiles_.layout().tiles()[tile].gathered, feature_.bytes());
   const PlaceOrder order = placeOrder(work.points);
   const Participants& participants = tiles_.participants();
   collectReferences(work.points, order, participants.references, options_.axes,
@@ -255,8 +253,7 @@ bool Search::compute(TileWork& work, std::uint32_t point, const NeighbourList& l
 {
   const glm::dvec3& p = work.points[point].position;
   const double clearance = squaredClearance(work.box, p);
-  if (options_.neighbours > 0 && clearance < infinity &&
-    !(list.full() && list.bound() < clearance))
+  if (options_.neighbours > 0 && clearance < infinity && !(list.full() && list.bound() < clearance))
   {
     return false;
   }
@@ -290,8 +287,8 @@ double Search::squaredReach(const NeighbourList& list, const glm::dvec3& p) cons
 
 /// Values of points[i] that are finished. The own points of a tile came from the sources in blocks,
 /// each in input order: so there are long runs to write at once without a sort.
-Result<void> Search::store(const std::vector<TilePoint>& points,
-  const std::vector<bool>& finished, const std::vector<std::byte>& values) const
+Result<void> Search::store(const std::vector<TilePoint>& points, const std::vector<bool>& finished,
+  const std::vector<std::byte>& values) const
 {
   const std::size_t bytes = feature_.bytes();
   std::vector<std::uint64_t> numbers;
@@ -315,8 +312,8 @@ Result<void> Search::finishUnfinished()
   {
     return {};
   }
-  std::sort(unfinished_.begin(), unfinished_.end(), [](const auto& a, const auto& b)
-    { return a.point.number() < b.point.number(); });
+  std::sort(unfinished_.begin(), unfinished_.end(),
+    [](const auto& a, const auto& b) { return a.point.number() < b.point.number(); });
   std::vector<std::vector<NearPoint>> found(unfinished_.size());
   std::atomic<std::size_t> next{ 0 };
   const auto work = [&]() -> Result<void>
@@ -411,8 +408,8 @@ Result<std::unique_ptr<PointColumn>> computeFromNeighbours(const PointSources& s
   // A little more than the radius: what lies exactly on it must not fall to rounding.
   tiling.halo = options.neighbours > 0 ? 0.0 : options.radius * (1.0 + 1e-9);
   WorkCrew reading(threadsOf(resources), resources.progress);
-  Result<std::unique_ptr<PointTiles>> tiles = PointTiles::make(
-    sources, order, tiling, options.participants, resources, reading, readShare);
+  Result<std::unique_ptr<PointTiles>> tiles =
+    PointTiles::make(sources, order, tiling, options.participants, resources, reading, readShare);
   if (!tiles)
   {
     return tiles.error();

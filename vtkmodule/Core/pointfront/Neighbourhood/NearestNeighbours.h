@@ -1,8 +1,8 @@
 #pragma once
 
+#include "pointfront/Neighbourhood/NeighbourList.h"
 #include "pointfront/Neighbourhood/PointColumn.h"
 #include "pointfront/Neighbourhood/PointTiles.h"
-#include "pointfront/Neighbourhood/NeighbourList.h"
 
 #include <functional>
 #include <memory>
@@ -31,8 +31,8 @@ public:
   /// `near`: nearest first, ties by positionLess(), or in any order; the point itself is among them
   /// if it is a reference. Their counts sum up to the neighbours wanted, or fewer when there are no
   /// more.
-  virtual void compute(const glm::dvec3& position, const std::vector<NearPoint>& near,
-    std::byte* value) const = 0;
+  virtual void compute(
+    const glm::dvec3& position, const std::vector<NearPoint>& near, std::byte* value) const = 0;
 };
 
 /// Makes the search structure over the places of a tile.
@@ -40,9 +40,9 @@ using IndexMaker = std::function<std::unique_ptr<NeighbourIndex>(const PositionS
 
 struct NeighbourhoodOptions
 {
-  std::uint32_t neighbours = 16;   ///< the k nearest references; 0: all within `radius`
-  double radius = 0.0;             ///< world units
-  unsigned axes = 3;               ///< 2: distances are horizontal
+  std::uint32_t neighbours = 16; ///< the k nearest references; 0: all within `radius`
+  double radius = 0.0; ///< world units
+  unsigned axes = 3; ///< 2: distances are horizontal
   Participants participants;
   std::uint64_t tilePoints = 1u << 17;
   const char* phase = "neighbourhoods"; ///< for the user, a string literal

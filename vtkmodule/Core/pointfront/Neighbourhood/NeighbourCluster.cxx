@@ -138,8 +138,7 @@ void NeighbourCluster::search(const glm::dvec3& from, NeighbourList& list)
     }
     return;
   }
-  if (searchBall(*around_, from, list) ||
-    (around_ == &few_ && searchBall(group_, from, list)))
+  if (searchBall(*around_, from, list) || (around_ == &few_ && searchBall(group_, from, list)))
   {
     return;
   }
@@ -153,8 +152,7 @@ bool NeighbourCluster::searchBall(
 {
   list.begin(set_);
   selection_.measure(ball, from, demand_.axes);
-  selection_.select(
-    limitAmongAll(demand_.neighbours, demand_.neighbours + demand_.neighbours / 4));
+  selection_.select(limitAmongAll(demand_.neighbours, demand_.neighbours + demand_.neighbours / 4));
   chooseNearest(ball, from, list);
   if (list.full())
   {
@@ -209,8 +207,8 @@ void NeighbourCluster::chooseNearest(
     chosen_[at] = entry;
     if (chosen_.size() == demand_.neighbours) // none farther than these can be among them
     {
-      cut = safely(chosen_.back().squaredDistance, ball.extent) *
-        (1.0f + PlaceSelection::rankError);
+      cut =
+        safely(chosen_.back().squaredDistance, ball.extent) * (1.0f + PlaceSelection::rankError);
     }
   }
   list.assign(chosen_);

@@ -12,8 +12,8 @@ namespace pointfront
 struct NeighbourDemand
 {
   std::uint32_t neighbours = 16; ///< the k nearest references; 0: all within `radius`
-  double radius = 0.0;           ///< world units
-  unsigned axes = 3;             ///< 2: distances are horizontal
+  double radius = 0.0; ///< world units
+  unsigned axes = 3; ///< 2: distances are horizontal
 };
 
 /// The neighbours of points that lie close together: the places around the middle of a group are
@@ -60,9 +60,9 @@ private:
   PlaceBall group_;
   PlaceBall few_;
   const PlaceBall* around_ = &group_; ///< that points choose from
-  NeighbourList nearest_;             ///< of a middle
-  NeighbourList within_;              ///< a ball
-  float likely_ = 0.0f;               ///< squared distance to the last neighbour
+  NeighbourList nearest_; ///< of a middle
+  NeighbourList within_; ///< a ball
+  float likely_ = 0.0f; ///< squared distance to the last neighbour
   PlaceSelection selection_;
   std::vector<NeighbourList::Entry> chosen_;
 };

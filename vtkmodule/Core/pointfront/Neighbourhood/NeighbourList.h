@@ -49,8 +49,8 @@ public:
   {
   }
 
-  void begin(const PositionSet& among,
-    double squaredRadius = std::numeric_limits<double>::infinity())
+  void begin(
+    const PositionSet& among, double squaredRadius = std::numeric_limits<double>::infinity())
   {
     among_ = &among;
     entries_.clear();

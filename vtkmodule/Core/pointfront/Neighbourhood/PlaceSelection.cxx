@@ -149,7 +149,7 @@ float PlaceSelection::limitOf(
   const float aim = 0.5f * float(fewest + most);
   float low = 0.0f;
   float high = everything;
-  float below = 0.0f;  // places within the low limit
+  float below = 0.0f; // places within the low limit
   float above = -1.0f; // and within the high one, if it is known
   float limit = likely;
   for (int step = 0; step < mostSteps; ++step)

@@ -16,7 +16,7 @@ struct PlaceBall
   glm::dvec3 middle{ 0.0 };
   double searched = 0.0; ///< all places within this distance of it are here; infinite: all
   glm::dvec3 origin{ 0.0 };
-  double extent = 0.0;   ///< how far from the origin places, and points searched for, are at most
+  double extent = 0.0; ///< how far from the origin places, and points searched for, are at most
   std::vector<std::uint32_t> places; ///< indices into a PositionSet
   std::vector<float> x, y, z; ///< relative to the origin; infinite behind the last, up to fours
   void resize(std::size_t count);

@@ -17,7 +17,7 @@ public:
   {
     PointBatch batch;
     std::vector<TilePoint> points; ///< those that have a place and are of the classes wanted
-    std::uint64_t read = 0;        ///< all
+    std::uint64_t read = 0; ///< all
   };
 
   PointReading(const PointSources& sources, const InputOrder& order, const ClassSet& classes);

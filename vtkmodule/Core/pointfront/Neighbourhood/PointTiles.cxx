@@ -145,8 +145,7 @@ void PointTiles::Distribution::place(const TilePoint& point, std::vector<Placed>
   const TileLayout& layout = *tiles_.layout_;
   const std::size_t own = layout.tileOf(point.position);
   block.push_back({ static_cast<std::uint32_t>(own), true, point });
-  if (layout.isInner(point.position, own) ||
-    !tiles_.participants_.references[point.objectClass()])
+  if (layout.isInner(point.position, own) || !tiles_.participants_.references[point.objectClass()])
   {
     return;
   }

@@ -34,7 +34,7 @@ struct TilePoint
 /// Which points take part. Without a column "classification" all points have class 0.
 struct Participants
 {
-  ClassSet queries = ClassSet().set();    ///< those that are given a value
+  ClassSet queries = ClassSet().set(); ///< those that are given a value
   ClassSet references = ClassSet().set(); ///< those that can be neighbours
 };
 

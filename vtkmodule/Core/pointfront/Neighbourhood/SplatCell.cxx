@@ -19,27 +19,30 @@ namespace
 constexpr double overReach = 1.25;
 /// Farthest Voronoi vertex over the median distance to 15 neighbours: median over a surface.
 constexpr double vertexOfMedianDistance = 0.5;
-constexpr double mostScales = 4.0;      ///< of a closed cell on a surface
-constexpr double openScales = 1.1;      ///< of a cell at the rim: distances grow there, too
-constexpr double lineWidth = 0.1;       ///< of eigenvalues: narrower is a line
-constexpr double planeFlatness = 0.05;  ///< thicker is a volume
-constexpr double volumeFourth = 0.6;    ///< of the distance to the fourth neighbour
+constexpr double mostScales = 4.0; ///< of a closed cell on a surface
+constexpr double openScales = 1.1; ///< of a cell at the rim: distances grow there, too
+constexpr double lineWidth = 0.1; ///< of eigenvalues: narrower is a line
+constexpr double planeFlatness = 0.05; ///< thicker is a volume
+constexpr double volumeFourth = 0.6; ///< of the distance to the fourth neighbour
 constexpr double noVertexFourth = 0.55; ///< likewise, of a cell without a vertex
 constexpr std::size_t lineNeighbours = 8;
 constexpr std::size_t fewestBeforeGap = 3;
-constexpr double gapRatio = 2.0;          ///< of distances of neighbours that follow each other
-constexpr std::size_t fewestAround = 6;   ///< neighbours, to call a point a stray
-constexpr double strayNearest = 0.5;      ///< distance of the second over that of the last
-constexpr double strayDirection = 0.8;    ///< length of the sum of offsets over the sum of lengths
-constexpr double scaleOfSpread = 0.5;     ///< local scale over the spread of points of a surface
+constexpr double gapRatio = 2.0; ///< of distances of neighbours that follow each other
+constexpr std::size_t fewestAround = 6; ///< neighbours, to call a point a stray
+constexpr double strayNearest = 0.5; ///< distance of the second over that of the last
+constexpr double strayDirection = 0.8; ///< length of the sum of offsets over the sum of lengths
+constexpr double scaleOfSpread = 0.5; ///< local scale over the spread of points of a surface
 constexpr std::size_t firstCheck = 6; ///< of whether more neighbours can cut a cell
 
-double squaredLength(const glm::dvec3& v) { return v.x * v.x + v.y * v.y + v.z * v.z; }
+double squaredLength(const glm::dvec3& v)
+{
+  return v.x * v.x + v.y * v.y + v.z * v.z;
+}
 
 /// Six sums of a covariance, not divided by the number of points.
 struct Covariance
 {
-  glm::dvec3 squares{ 0.0 };  ///< xx, yy, zz
+  glm::dvec3 squares{ 0.0 }; ///< xx, yy, zz
   glm::dvec3 products{ 0.0 }; ///< xy, xz, yz
 };
 
@@ -156,7 +159,7 @@ public:
     // The polygon is convex: those beyond follow one another, round the end.
     const std::uint32_t before = (beyond << 1 | beyond >> (count_ - 1)) & all; // one has it before
     const auto begin = static_cast<std::size_t>(__builtin_ctz(~beyond & before & all)); // kept
-    const auto end = static_cast<std::size_t>(__builtin_ctz(beyond & ~before & all));   // not
+    const auto end = static_cast<std::size_t>(__builtin_ctz(beyond & ~before & all)); // not
     std::array<FourFloats, fours> keptX;
     std::array<FourFloats, fours> keptY;
     std::size_t count = 0;
@@ -206,7 +209,7 @@ public:
   struct Reach
   {
     float squared = 0.0f; ///< distance of the farthest vertex between points; 0: there is none
-    bool open = false;    ///< the cell reaches the square
+    bool open = false; ///< the cell reaches the square
   };
   Reach reach() const
   {
@@ -283,8 +286,8 @@ public:
       const int third = cutOffBy(*farthest);
       if (third < 0)
       {
-        return farthest->squared < mostReach * mostReach
-          ? std::optional<float>(farthest->squared) : std::nullopt;
+        return farthest->squared < mostReach * mostReach ? std::optional<float>(farthest->squared)
+                                                         : std::nullopt;
       }
       if (count == vertices.size())
       {
@@ -460,8 +463,8 @@ CellPolygon::Reach reachOf(
     {
       break; // half way to it and to all behind it is beyond every vertex
     }
-    cell.cut(static_cast<float>(glm::dot(near[i], first)),
-      static_cast<float>(glm::dot(near[i], second)));
+    cell.cut(
+      static_cast<float>(glm::dot(near[i], first)), static_cast<float>(glm::dot(near[i], second)));
   }
   return cell.reach();
 }
@@ -547,8 +550,7 @@ double splatRadius(const NearOffsets& near, const NeighbourPlane& plane, bool* r
     *rim = found.open;
   }
   const double vertex = length * std::sqrt(static_cast<double>(found.squared));
-  const double reach =
-    vertex > 0.0 ? std::min(vertex, length) : noVertexFourth * distance(4);
+  const double reach = vertex > 0.0 ? std::min(vertex, length) : noVertexFourth * distance(4);
   if (plane.flatness < planeFlatness)
   {
     return overReach * (found.open ? openScales * scale : std::min(reach, mostScales * scale));

@@ -12,7 +12,7 @@ struct NeighbourPlane
 {
   glm::dvec3 normal{ 0.0, 0.0, 1.0 }; ///< of length 1; its sign has no meaning
   double flatness = 1.0; ///< smallest eigenvalue over the sum: 0 a plane, 1/3 a ball
-  double width = 0.0;    ///< middle eigenvalue over the largest: 0 a line
+  double width = 0.0; ///< middle eigenvalue over the largest: 0 a line
 };
 
 /// Of the point and its neighbours.
@@ -26,7 +26,6 @@ NeighbourPlane neighbourPlane(const NearOffsets& near);
 /// Result   finite, > 0; 0 without a neighbour. Units of the offsets.
 /// Source   splat rule and constants: docs/adr/0017-splat-radius.md.
 /// `rim`, if it is asked for: whether the cell is open, so that the radius is a guess.
-double splatRadius(
-  const NearOffsets& near, const NeighbourPlane& plane, bool* rim = nullptr);
+double splatRadius(const NearOffsets& near, const NeighbourPlane& plane, bool* rim = nullptr);
 
 } // namespace pointfront

@@ -22,8 +22,8 @@ bool touches(const Bounds& box, const glm::dvec3& low, const glm::dvec3& high)
   return box.overlaps({ low, high });
 }
 
-std::uint64_t pointsOf(std::vector<PopulatedCell>::iterator begin,
-  std::vector<PopulatedCell>::iterator end)
+std::uint64_t pointsOf(
+  std::vector<PopulatedCell>::iterator begin, std::vector<PopulatedCell>::iterator end)
 {
   std::uint64_t points = 0;
   for (auto cell = begin; cell != end; ++cell)
@@ -34,8 +34,8 @@ std::uint64_t pointsOf(std::vector<PopulatedCell>::iterator begin,
 }
 
 /// The axis along which the cells reach farthest; -1 for a single cell.
-int longestAxis(std::vector<PopulatedCell>::iterator begin,
-  std::vector<PopulatedCell>::iterator end)
+int longestAxis(
+  std::vector<PopulatedCell>::iterator begin, std::vector<PopulatedCell>::iterator end)
 {
   CellIndex low = begin->index;
   CellIndex high = begin->index;
@@ -131,7 +131,8 @@ std::size_t TileLayout::divide(CellIterator begin, CellIterator end, const Bound
     return number;
   }
   const auto along = static_cast<std::size_t>(axis);
-  std::sort(begin, end, [along](const PopulatedCell& a, const PopulatedCell& b)
+  std::sort(begin, end,
+    [along](const PopulatedCell& a, const PopulatedCell& b)
     { return a.index[along] < b.index[along]; });
   const CellIterator cut = evenCut(begin, end, along, points);
   const double plane = static_cast<double>(cut->index[along]) * edge_;

@@ -15,7 +15,7 @@ namespace pointfront
 /// How a cloud is cut into tiles.
 struct TilingOptions
 {
-  unsigned axes = 3;                 ///< 2: tiles are columns without top and bottom
+  unsigned axes = 3; ///< 2: tiles are columns without top and bottom
   std::uint64_t tilePoints = 1u << 17; ///< a tile has at most as many, where cells are fine enough
   /// Around each tile, in world units, the points of which it gets copies; 0: estimated for each
   /// tile from its density so that `neighbours` neighbours of most of its points lie inside.
@@ -26,9 +26,9 @@ struct TilingOptions
 /// One tile: the boxes are half open below infinity and closed where they are infinite.
 struct Tile
 {
-  Bounds own;      ///< no two tiles share a point; together they cover all of space
+  Bounds own; ///< no two tiles share a point; together they cover all of space
   Bounds gathered; ///< own and a halo around it, whose points the tile gets too
-  std::uint64_t points = 0;       ///< in `own`
+  std::uint64_t points = 0; ///< in `own`
   std::uint64_t mostGathered = 0; ///< in `gathered`: at most
 };
 

@@ -54,9 +54,8 @@ PlaceOrder placeOrder(const std::vector<TilePoint>& points)
   std::sort(keyed.begin(), keyed.end(),
     [&](const Keyed& a, const Keyed& b)
     {
-      return a.key != b.key
-        ? a.key < b.key
-        : positionLess(points[a.index].position, points[b.index].position);
+      return a.key != b.key ? a.key < b.key
+                            : positionLess(points[a.index].position, points[b.index].position);
     });
   PlaceOrder order;
   order.points.reserve(points.size());
@@ -69,8 +68,8 @@ PlaceOrder placeOrder(const std::vector<TilePoint>& points)
   return order;
 }
 
-PlaceOrder queriesOf(const PlaceOrder& order, const std::vector<TilePoint>& points,
-  std::size_t own, const ClassSet& queries)
+PlaceOrder queriesOf(const PlaceOrder& order, const std::vector<TilePoint>& points, std::size_t own,
+  const ClassSet& queries)
 {
   PlaceOrder chosen;
   chosen.points.reserve(own);
@@ -87,8 +86,8 @@ PlaceOrder queriesOf(const PlaceOrder& order, const std::vector<TilePoint>& poin
   return chosen;
 }
 
-std::size_t runEnd(const std::vector<std::uint64_t>& keys, std::size_t begin, std::size_t end,
-  std::size_t longest)
+std::size_t runEnd(
+  const std::vector<std::uint64_t>& keys, std::size_t begin, std::size_t end, std::size_t longest)
 {
   if (end - begin <= longest)
   {
@@ -108,9 +107,8 @@ std::size_t runEnd(const std::vector<std::uint64_t>& keys, std::size_t begin, st
   return leaving;
 }
 
-void collectReferences(const std::vector<TilePoint>& points,
-  const PlaceOrder& order, const ClassSet& references, unsigned axes,
-  std::uint32_t mostCount, PositionSet& set)
+void collectReferences(const std::vector<TilePoint>& points, const PlaceOrder& order,
+  const ClassSet& references, unsigned axes, std::uint32_t mostCount, PositionSet& set)
 {
   set.clear();
   for (const std::uint32_t i : order.points)
@@ -135,8 +133,8 @@ void collectReferences(const std::vector<TilePoint>& points,
   // Points above one another are apart on the curve: bring them together.
   std::vector<glm::dvec3>& all = set.positions;
   std::sort(all.begin(), all.end(), positionLess); // the lowest of a column first
-  all.erase(std::unique(all.begin(), all.end(), [](const glm::dvec3& a, const glm::dvec3& b)
-              { return samePlace(a, b, 2); }),
+  all.erase(std::unique(all.begin(), all.end(),
+              [](const glm::dvec3& a, const glm::dvec3& b) { return samePlace(a, b, 2); }),
     all.end());
   set.counts.assign(all.size(), 1);
 }

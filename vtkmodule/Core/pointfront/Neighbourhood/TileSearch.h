@@ -11,24 +11,23 @@ namespace pointfront
 struct PlaceOrder
 {
   std::vector<std::uint32_t> points; ///< indices into the tile's
-  std::vector<std::uint64_t> keys;   ///< steps of the curve
+  std::vector<std::uint64_t> keys; ///< steps of the curve
 };
 PlaceOrder placeOrder(const std::vector<TilePoint>& points);
 
 /// Those of the points that are searched for: in `queries`, and among the first `own`.
-PlaceOrder queriesOf(const PlaceOrder& order, const std::vector<TilePoint>& points,
-  std::size_t own, const ClassSet& queries);
+PlaceOrder queriesOf(const PlaceOrder& order, const std::vector<TilePoint>& points, std::size_t own,
+  const ClassSet& queries);
 
 /// Where the run of points close together ends that begins at `begin`: at `end`, or after
 /// `longest` / 2 to `longest` points, where the curve leaves the largest cell.
-std::size_t runEnd(const std::vector<std::uint64_t>& keys, std::size_t begin, std::size_t end,
-  std::size_t longest);
+std::size_t runEnd(
+  const std::vector<std::uint64_t>& keys, std::size_t begin, std::size_t end, std::size_t longest);
 
 /// The places of the references among `points`, taken in `order`. With two axes, points above one
 /// another are one place: the lowest.
-void collectReferences(const std::vector<TilePoint>& points,
-  const PlaceOrder& order, const ClassSet& references, unsigned axes,
-  std::uint32_t mostCount, PositionSet& set);
+void collectReferences(const std::vector<TilePoint>& points, const PlaceOrder& order,
+  const ClassSet& references, unsigned axes, std::uint32_t mostCount, PositionSet& set);
 
 /// The entries of a list as points, in its order, with no more than `wanted` points in all (0: any
 /// number).

@@ -52,8 +52,7 @@ std::vector<std::uint8_t> coverageOfDrawn(const Picture& reference, const Colour
   std::vector<std::uint8_t> coverage(reference.pixels());
   for (std::size_t i = 0; i < coverage.size(); ++i)
   {
-    coverage[i] =
-      isBackground(reference.rgba.data() + 4 * i, background) ? std::uint8_t(0) : full;
+    coverage[i] = isBackground(reference.rgba.data() + 4 * i, background) ? std::uint8_t(0) : full;
   }
   return coverage;
 }
@@ -77,8 +76,8 @@ Result<Colour> backgroundOutside(
     return wrong("the mask leaves no pixel of the reference outside, so it does not show what the "
                  "background is: say its colour");
   }
-  const auto most = std::max_element(counts.begin(), counts.end(),
-    [](const auto& a, const auto& b) { return a.second < b.second; });
+  const auto most = std::max_element(
+    counts.begin(), counts.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
   if (2 * most->second <= outside)
   {
     return wrong("the reference has no colour in half of the pixels outside of the mask, so it "

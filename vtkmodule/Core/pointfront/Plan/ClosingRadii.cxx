@@ -48,10 +48,13 @@ Ground groundOf(const PlanItem& item, const QuantisationGrid& grid)
   return { { low.x, low.y }, { low.x + size.x, low.y + size.y } };
 }
 
-bool before(const DrawnNode& drawn, NodeIndex node) { return drawn.node < node; }
+bool before(const DrawnNode& drawn, NodeIndex node)
+{
+  return drawn.node < node;
+}
 
-std::vector<DrawnNode> nodesOf(const std::vector<DrawBatch>& batches,
-  const QuantisationGrid& grid, const std::vector<NodeElsewhere>& elsewhere)
+std::vector<DrawnNode> nodesOf(const std::vector<DrawBatch>& batches, const QuantisationGrid& grid,
+  const std::vector<NodeElsewhere>& elsewhere)
 {
   std::vector<DrawnNode> nodes;
   for (const DrawBatch& batch : batches)
@@ -64,9 +67,9 @@ std::vector<DrawnNode> nodesOf(const std::vector<DrawBatch>& batches,
   }
   for (const NodeElsewhere& other : elsewhere)
   {
-    nodes.push_back({ other.node, other.parent, other.layer, other.points, other.closingRadius,
-      other.unfinished,
-      { { other.box.low.x, other.box.low.y }, { other.box.high.x, other.box.high.y } } });
+    nodes.push_back(
+      { other.node, other.parent, other.layer, other.points, other.closingRadius, other.unfinished,
+        { { other.box.low.x, other.box.low.y }, { other.box.high.x, other.box.high.y } } });
   }
   std::stable_sort(nodes.begin(), nodes.end(),
     [](const DrawnNode& a, const DrawnNode& b) { return a.node < b.node; });
@@ -84,7 +87,7 @@ std::vector<DrawnNode> nodesOf(const std::vector<DrawBatch>& batches,
 struct FinerRadii
 {
   double points = 0.0; ///< of nodes that are all there
-  double sum = 0.0;    ///< of their radii
+  double sum = 0.0; ///< of their radii
   float largestFinished = 0.0f;
   float leastUnfinished = 0.0f; ///< 0: there is none
   float sparsest = 0.0f;

@@ -16,10 +16,10 @@ struct NodeElsewhere
   NodeIndex node = noNode;
   NodeIndex parent = noNode;
   std::uint16_t layer = 0;
-  std::uint32_t points = 0;    ///< that are drawn
-  float closingRadius = 0.0f;  ///< as PlanItem's, before it is matched
+  std::uint32_t points = 0; ///< that are drawn
+  float closingRadius = 0.0f; ///< as PlanItem's, before it is matched
   bool unfinished = false;
-  Bounds box;                  ///< world units
+  Bounds box; ///< world units
 };
 
 /// Makes the closing radii of a plan's items agree with each other, and with those of what other

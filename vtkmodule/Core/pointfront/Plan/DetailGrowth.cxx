@@ -98,10 +98,8 @@ DetailGrowth::Shown DetailGrowth::growOrdered(State& now, const NodeColumns& nod
   }
   whole_ = false;
   Shown result;
-  result.points = 
-    std::min(now.points, static_cast<std::uint32_t>(std::ceil(now.shown)));
-  result.spread =
-    static_cast<std::uint32_t>(std::clamp(now.shown - 0.5 * falling, 1.0, points));
+  result.points = std::min(now.points, static_cast<std::uint32_t>(std::ceil(now.shown)));
+  result.spread = static_cast<std::uint32_t>(std::clamp(now.shown - 0.5 * falling, 1.0, points));
   result.growth.first = static_cast<float>(now.shown / falling);
   result.growth.perPoint = static_cast<float>(1.0 / falling);
   return result;

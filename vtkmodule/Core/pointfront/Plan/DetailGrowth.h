@@ -15,9 +15,9 @@ namespace pointfront
 /// When a frame is drawn, and how.
 struct GrowthMoment
 {
-  double seconds = 0.0;  ///< of any clock that does not go back: only differences count
+  double seconds = 0.0; ///< of any clock that does not go back: only differences count
   double duration = 0.0; ///< seconds that a node takes to grow; 0: all is whole at once
-  bool moving = false;   ///< the view is in motion
+  bool moving = false; ///< the view is in motion
 };
 
 /// Lets detail grow from frame to frame, where it would pop up: what one view shows of each node,

@@ -14,7 +14,7 @@ namespace pointfront
 struct FrameCamera
 {
   glm::dmat4 storeToView{ 1.0 }; ///< affine; an actor's matrix is part of it
-  glm::dmat4 viewToClip{ 1.0 };  ///< any frustum: off-axis and sheared ones too
+  glm::dmat4 viewToClip{ 1.0 }; ///< any frustum: off-axis and sheared ones too
   /// Store coordinates that positions are taken relative to before they become floats: the eye, in
   /// a parallel view the focal point (docs/adr/0004).
   glm::dvec3 reference{ 0.0 };

@@ -44,8 +44,8 @@ std::ostream& operator<<(std::ostream& out, const FramePlan& plan)
       << plan.clippingPlanes.size() << " clipping planes\n";
   for (const DrawBatch& batch : plan.batches)
   {
-    out << "layer " << batch.layer << ", technique "
-        << static_cast<int>(batch.style->technique) << ", " << batch.items.size() << " nodes\n";
+    out << "layer " << batch.layer << ", technique " << static_cast<int>(batch.style->technique)
+        << ", " << batch.items.size() << " nodes\n";
     for (const PlanItem& item : batch.items)
     {
       out << "  node " << item.node->node << " [" << item.first << ", " << item.last << ")";

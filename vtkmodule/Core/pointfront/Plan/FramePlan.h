@@ -53,7 +53,7 @@ struct DrawBatch
 {
   std::uint16_t layer = 0;
   std::shared_ptr<const ResolvedStyle> style; ///< never null
-  std::vector<PlanItem> items;                ///< near to far, ties by node
+  std::vector<PlanItem> items; ///< near to far, ties by node
 };
 
 /// What is true of a whole frame, whatever is drawn in it.
@@ -64,7 +64,7 @@ struct FrameSetting
   std::vector<glm::dvec4> clippingPlanes;
   QuantisationGrid grid;
   std::shared_ptr<const AttributeSchema> schema; ///< of the nodes' columns; never null
-  double splatRadiusBase = 0.0;                  ///< of the store's radii (SplatRadius.h); 0: none
+  double splatRadiusBase = 0.0; ///< of the store's radii (SplatRadius.h); 0: none
   /// Pixels between the points on screen wherever the store has more than is drawn: the front's
   /// threshold. No splat need be smaller, whatever was measured; by it a point looks the same
   /// whether its parent or its leaf is drawn.

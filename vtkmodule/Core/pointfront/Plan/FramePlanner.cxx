@@ -31,7 +31,7 @@ float inSteps(double spacingPx)
 /// looked at.
 struct MeasuredRadius
 {
-  float spacing = 0.0f;     ///< between the points on screen
+  float spacing = 0.0f; ///< between the points on screen
   float radiusScale = 1.0f; ///< as PlanItem's
   float closing = 0.0f;
   bool unfinished = false;
@@ -58,7 +58,8 @@ void keepWhatIsSeen(const FramePlan& plan, DrawBatch& batch)
     return;
   }
   std::vector<PlanItem>& items = batch.items;
-  items.erase(std::remove_if(items.begin(), items.end(), [&](const PlanItem& item)
+  items.erase(std::remove_if(items.begin(), items.end(),
+                [&](const PlanItem& item)
                 { return !mayReach(plan, item, *batch.style, plan.shading.lenses[lens]); }),
     items.end());
 }
@@ -92,8 +93,8 @@ std::vector<std::vector<PlanItem>> itemsByLayer(const ViewFront& front, const Pl
   { return node && node->layer < styles.size() && !styles[node->layer].empty(); };
   DetailGrowth still; // that of no duration
   DetailGrowth& growth = request.growth ? *request.growth : still;
-  growth.begin(request.growth ? request.moment : GrowthMoment(),
-    front.refinement() == Refinement::Add);
+  growth.begin(
+    request.growth ? request.moment : GrowthMoment(), front.refinement() == Refinement::Add);
   std::vector<std::vector<PlanItem>> items(styles.size());
   for (const DrawItem& item : front.last().draw)
   {

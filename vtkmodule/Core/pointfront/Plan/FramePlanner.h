@@ -33,7 +33,7 @@ struct PlanRequest
   std::vector<glm::dvec4> clippingPlanes; ///< (n, d), store coordinates; as FramePlan's
   FrameShading shading;
   bool keepsVisible = false; ///< as FramePlan's: see leavesOut()
-  bool composited = false;   ///< as FramePlan's
+  bool composited = false; ///< as FramePlan's
   /// Not null: detail grows, by what that view showed so far, which becomes what this plan shows.
   DetailGrowth* growth = nullptr;
   GrowthMoment moment;

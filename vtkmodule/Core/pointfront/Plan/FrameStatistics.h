@@ -11,23 +11,23 @@ namespace pointfront
 struct FrameStatistics
 {
   std::uint64_t points = 0; ///< drawn
-  std::uint64_t nodes = 0;  ///< that they are of
+  std::uint64_t nodes = 0; ///< that they are of
   /// Drawn beside the front's, as they were visible in the frame before (SMOOTH-7).
   std::uint64_t keptPoints = 0;
   std::uint32_t frontLength = 0;
   std::uint32_t moves = 0;
   std::uint64_t requests = 0;
-  double errorPx = 0.0;     ///< as FrontDelta::errorPx
+  double errorPx = 0.0; ///< as FrontDelta::errorPx
   double thresholdPx = 0.0; ///< that the front worked with
   double frontMilliseconds = 0.0;
   std::int64_t gpuBytes = 0;
   std::int64_t windowGpuBytes = 0; ///< of all clouds of the window
   /// Nothing is missing: no further frame of the same view differs.
   bool complete = false;
-  bool limitedByPoints = false;    ///< the budget of points, or a frame's time
+  bool limitedByPoints = false; ///< the budget of points, or a frame's time
   bool limitedByGpuMemory = false;
-  bool limitedByMemory = false;    ///< of the host
-  std::uint32_t failedNodes = 0;   ///< that could not be read
+  bool limitedByMemory = false; ///< of the host
+  std::uint32_t failedNodes = 0; ///< that could not be read
 
   /// What an update of the front says. Points and nodes are those that it names; `complete` and GPU
   /// memory are the back end's to say.

@@ -38,8 +38,8 @@ double reachOf(const PlanItem& item, const SplatSize& size)
 
 } // namespace
 
-bool mayReach(const FramePlan& plan, const PlanItem& item, const ResolvedStyle& style,
-  const FrameLens& lens)
+bool mayReach(
+  const FramePlan& plan, const PlanItem& item, const ResolvedStyle& style, const FrameLens& lens)
 {
   if (style.size.mode == SplatSize::Mode::Attribute)
   {
@@ -66,10 +66,12 @@ bool mayReach(const FramePlan& plan, const PlanItem& item, const ResolvedStyle& 
   const glm::dmat4 rows = glm::transpose(camera.viewToClip);
   const glm::dvec4 planes[] = { rows[0] - left * rows[3], right * rows[3] - rows[0],
     rows[1] - bottom * rows[3], top * rows[3] - rows[1] };
-  return std::all_of(std::begin(planes), std::end(planes), [&](const glm::dvec4& plane) {
-    const glm::dvec3 normal(plane);
-    return glm::dot(normal, seen) + plane.w >= -radius * glm::length(normal);
-  });
+  return std::all_of(std::begin(planes), std::end(planes),
+    [&](const glm::dvec4& plane)
+    {
+      const glm::dvec3 normal(plane);
+      return glm::dot(normal, seen) + plane.w >= -radius * glm::length(normal);
+    });
 }
 
 } // namespace pointfront

@@ -22,8 +22,8 @@ PlanPart partOf(const ResolvedStyle& style)
 
 bool isComposed(const FramePlan& plan)
 {
-  return std::any_of(plan.batches.begin(), plan.batches.end(), [](const DrawBatch& batch)
-    { return batch.style->lens >= 0 || batch.style->group > 0; });
+  return std::any_of(plan.batches.begin(), plan.batches.end(),
+    [](const DrawBatch& batch) { return batch.style->lens >= 0 || batch.style->group > 0; });
 }
 
 std::vector<PlanPart> partsOf(const FramePlan& plan)

@@ -12,7 +12,7 @@ namespace pointfront
 struct PlanPart
 {
   std::int16_t lens = -1; ///< of FrameShading::lenses, the one it is seen in; -1: outside all
-  bool mask = false;      ///< what it covers is what the lens covers
+  bool mask = false; ///< what it covers is what the lens covers
   std::uint16_t group = 0; ///< 0: opaque
   double opacity = 1.0;
   FramePlan plan; ///< its batches; all else as the whole's

@@ -12,7 +12,7 @@ namespace pointfront
 /// Twin  growthOf() in SplatVS.glsl.
 struct PointGrowth
 {
-  float first = 1.0f;    ///< of the node's first point, before it is bounded to [0, 1]
+  float first = 1.0f; ///< of the node's first point, before it is bounded to [0, 1]
   float perPoint = 0.0f; ///< that it falls from a point to the next
 
   /// All points have their size: nothing is multiplied.
@@ -37,6 +37,9 @@ inline bool operator==(const PointGrowth& a, const PointGrowth& b)
 {
   return a.first == b.first && a.perPoint == b.perPoint;
 }
-inline bool operator!=(const PointGrowth& a, const PointGrowth& b) { return !(a == b); }
+inline bool operator!=(const PointGrowth& a, const PointGrowth& b)
+{
+  return !(a == b);
+}
 
 } // namespace pointfront

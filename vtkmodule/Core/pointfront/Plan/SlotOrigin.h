@@ -19,9 +19,9 @@ namespace pointfront
 ///            nothing.
 struct SlotOrigin
 {
-  glm::ivec3 steps{0};  ///< reference in (shifted) steps from the node's origin, within +-2^30
-  int shift = 0;        ///< bits dropped of positions of nodes of more than 2^30 steps
-  glm::vec3 base{0.0f}; ///< what rounding and clamping left over, store units
+  glm::ivec3 steps{ 0 }; ///< reference in (shifted) steps from the node's origin, within +-2^30
+  int shift = 0; ///< bits dropped of positions of nodes of more than 2^30 steps
+  glm::vec3 base{ 0.0f }; ///< what rounding and clamping left over, store units
 
   static SlotOrigin of(const QuantisationGrid& grid, const glm::vec3& halfSize,
     const GridPosition& origin, const glm::dvec3& reference)
@@ -29,7 +29,7 @@ struct SlotOrigin
     constexpr double most = 1073741824.0; // 2^30
     SlotOrigin result;
     const glm::dvec3 extent = 2.0 * glm::dvec3(halfSize) / grid.scale;
-    for (double steps = std::max({extent.x, extent.y, extent.z}); steps > most; steps *= 0.5)
+    for (double steps = std::max({ extent.x, extent.y, extent.z }); steps > most; steps *= 0.5)
     {
       ++result.shift;
     }

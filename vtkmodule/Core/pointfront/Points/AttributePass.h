@@ -17,10 +17,10 @@ using PointSources = std::vector<std::unique_ptr<PointSource>>;
 /// What a pass may use.
 struct PassResources
 {
-  std::uint64_t memoryBytes = 0;  ///< for points and buffers; 0: half of the machine's
-  unsigned threads = 0;           ///< 0: one a core
-  std::string temporaryFolder;    ///< for files that are unlinked as soon as they are open
-  ProgressFunction progress;      ///< may be empty; false cancels
+  std::uint64_t memoryBytes = 0; ///< for points and buffers; 0: half of the machine's
+  unsigned threads = 0; ///< 0: one a core
+  std::string temporaryFolder; ///< for files that are unlinked as soon as they are open
+  ProgressFunction progress; ///< may be empty; false cancels
 };
 
 /// Gives points something that they do not bring along: normals, heights, colours, other

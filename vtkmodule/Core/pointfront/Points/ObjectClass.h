@@ -11,6 +11,9 @@ namespace pointfront
 std::string objectClassName(std::uint8_t objectClass);
 
 /// True for the classes of points that nobody classified: 0 and 1.
-inline bool unclassified(std::uint8_t objectClass) { return objectClass <= 1; }
+inline bool unclassified(std::uint8_t objectClass)
+{
+  return objectClass <= 1;
+}
 
 } // namespace pointfront

@@ -19,20 +19,20 @@ struct PassChoice
   {
     None,
     ScanLine, ///< from neighbours in the scan
-    PCA       ///< from planes through the nearest points
+    PCA ///< from planes through the nearest points
   };
 
-  std::string targetCrs;  ///< a code, a definition, a file with one, "utm"; empty: the inputs'
+  std::string targetCrs; ///< a code, a definition, a file with one, "utm"; empty: the inputs'
   std::string assumedCrs; ///< of inputs that name none; empty: unknown
 
-  std::vector<std::string> colourFrom;    ///< georeferenced images: files, patterns, folders
+  std::vector<std::string> colourFrom; ///< georeferenced images: files, patterns, folders
   std::vector<std::string> attributeFrom; ///< likewise, NAME=IMAGE; without NAME= as the one before
 
   Normals normals = Normals::None;
   std::uint32_t normalsNeighbours = 16; ///< of a plane, with the point itself; 3 to 4096
-  double normalsRadius = 0.0;           ///< if > 0, instead: all points within
-  double normalsEps = 0.0;              ///< of an approximate search, 0 (exact) to 1000
-  bool curvature = false;               ///< attribute "curvature" too; PCA only
+  double normalsRadius = 0.0; ///< if > 0, instead: all points within
+  double normalsEps = 0.0; ///< of an approximate search, 0 (exact) to 1000
+  bool curvature = false; ///< attribute "curvature" too; PCA only
   /// Classes that get normals; nothing: all.
   std::optional<std::vector<std::uint8_t>> normalsClasses;
 

@@ -17,7 +17,7 @@ namespace pointfront
 struct PointBatch
 {
   std::vector<glm::dvec3> positions; ///< world coordinates in the source's CRS
-  std::vector<glm::ivec3> steps;     ///< instead: whole steps of the source's own grid
+  std::vector<glm::ivec3> steps; ///< instead: whole steps of the source's own grid
   std::vector<std::vector<std::byte>> columns;
 
   std::size_t size() const { return steps.empty() ? positions.size() : steps.size(); }

@@ -19,7 +19,7 @@ namespace pointfront
 /// bytes ...), so that an export gives it back.
 struct MetadataRecord
 {
-  std::string owner;    ///< LAS: user id, at most 16 characters
+  std::string owner; ///< LAS: user id, at most 16 characters
   std::uint16_t id = 0; ///< LAS: record id
   std::string description;
   std::vector<std::byte> payload;
@@ -28,17 +28,17 @@ struct MetadataRecord
 /// The points of some chunks were seen from here.
 struct ScannerPlace
 {
-  std::uint64_t firstChunk = 0;   ///< that one and those behind it, up to the next place
-  glm::dvec3 position{ 0.0 };     ///< world coordinates
+  std::uint64_t firstChunk = 0; ///< that one and those behind it, up to the next place
+  glm::dvec3 position{ 0.0 }; ///< world coordinates
 };
 
 /// What is known of a source before its points are read.
 struct SourceDescription
 {
   std::string path;
-  std::string format;          ///< for messages: "LAS 1.4 format 7", "LAZ 1.2 format 3" ...
+  std::string format; ///< for messages: "LAS 1.4 format 7", "LAZ 1.2 format 3" ...
   std::uint64_t pointCount = 0; ///< points that can be read (not what a lying header claims)
-  Bounds declaredBounds;       ///< from the header; a hint, may lie; empty if not given
+  Bounds declaredBounds; ///< from the header; a hint, may lie; empty if not given
   /// The grid that the coordinates already live on; nothing for sources of floating point.
   std::optional<QuantisationGrid> grid;
   AttributeSchema schema;
@@ -115,9 +115,9 @@ class PointSourceFormat
 {
 public:
   virtual ~PointSourceFormat() = default;
-  virtual std::string name() const = 0;                       ///< "LAS/LAZ"
-  virtual std::vector<std::string> extensions() const = 0;    ///< lower case, without the dot
-  virtual bool accepts(const std::string& path) const = 0;    ///< by content, silent
+  virtual std::string name() const = 0; ///< "LAS/LAZ"
+  virtual std::vector<std::string> extensions() const = 0; ///< lower case, without the dot
+  virtual bool accepts(const std::string& path) const = 0; ///< by content, silent
   virtual Result<std::unique_ptr<PointSource>> open(const std::string& path) const = 0;
 };
 

@@ -21,7 +21,7 @@ constexpr double farthestCoordinate = 1e15;
 struct QuantisationGrid
 {
   glm::dvec3 scale{ 0.001 }; ///< world units a step, > 0
-  glm::dvec3 offset{ 0.0 };  ///< world coordinates of grid position 0
+  glm::dvec3 offset{ 0.0 }; ///< world coordinates of grid position 0
 
   glm::dvec3 toWorld(const GridPosition& g) const
   {

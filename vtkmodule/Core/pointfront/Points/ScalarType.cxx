@@ -20,12 +20,21 @@ constexpr std::array<Row, 10> rows{ { { ScalarType::Int8, 1, "int8" },
   { ScalarType::Float64, 8, "float64" } } };
 
 // The enumerators number the rows from 1.
-const Row& rowOf(ScalarType type) { return rows[static_cast<std::size_t>(type) - 1]; }
+const Row& rowOf(ScalarType type)
+{
+  return rows[static_cast<std::size_t>(type) - 1];
+}
 } // namespace
 
-std::size_t sizeOf(ScalarType type) { return rowOf(type).bytes; }
+std::size_t sizeOf(ScalarType type)
+{
+  return rowOf(type).bytes;
+}
 
-std::string_view nameOf(ScalarType type) { return rowOf(type).name; }
+std::string_view nameOf(ScalarType type)
+{
+  return rowOf(type).name;
+}
 
 std::optional<ScalarType> scalarTypeOf(std::string_view name)
 {

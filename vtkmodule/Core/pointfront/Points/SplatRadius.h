@@ -35,10 +35,10 @@ constexpr int codeOfBase = 128;
 
 /// 2^(i/16), rounded to the nearest double: the same on every machine, unlike exp2.
 constexpr std::array<double, codesPerDoubling> sixteenths = { 1.0, 1.0442737824274138,
-  1.0905077326652577, 1.1387886347566916, 1.189207115002721, 1.2418578120734840,
-  1.2968395546510096, 1.3542555469368927, 1.4142135623730951, 1.4768261459394993,
-  1.5422108254079407, 1.6104903319492543, 1.6817928305074292, 1.7562521603732995,
-  1.8340080864093424, 1.9152065613971474 };
+  1.0905077326652577, 1.1387886347566916, 1.189207115002721, 1.2418578120734840, 1.2968395546510096,
+  1.3542555469368927, 1.4142135623730951, 1.4768261459394993, 1.5422108254079407,
+  1.6104903319492543, 1.6817928305074292, 1.7562521603732995, 1.8340080864093424,
+  1.9152065613971474 };
 } // namespace splat
 
 /// Units  world units: base * 2^((code - 128) / 16). 0 for code 0, and where the store has no base.
@@ -73,8 +73,7 @@ inline std::uint8_t encodeSplatRadius(double radius, double base)
   {
     ++step;
   }
-  int code =
-    splat::codeOfBase + splat::codesPerDoubling * (exponent - 1) + static_cast<int>(step);
+  int code = splat::codeOfBase + splat::codesPerDoubling * (exponent - 1) + static_cast<int>(step);
   code = std::clamp(code, 1, 255);
   // The quotient is rounded, and so are radii, to float: what they are decoded to decides.
   const auto covers = [&](int smaller)

@@ -64,9 +64,9 @@ ChosenColumns ChosenColumns::ofInput(const StoreDescription& store)
   ColumnSelection columns = allColumns(store);
   if (store.refinement == Refinement::Replace)
   {
-    columns.erase(std::remove_if(columns.begin(), columns.end(),
-                    [&store](std::uint32_t c)
-                    { return store.schema[c].name == enclosingRadiusName; }),
+    columns.erase(
+      std::remove_if(columns.begin(), columns.end(),
+        [&store](std::uint32_t c) { return store.schema[c].name == enclosingRadiusName; }),
       columns.end());
   }
   return described(store, std::move(columns));

@@ -19,8 +19,8 @@ double side(const glm::dvec4& plane, const glm::dvec3& p)
 /// The box's corner farthest along `direction`.
 glm::dvec3 extreme(const Bounds& box, const glm::dvec3& direction)
 {
-  return { direction.x >= 0.0 ? box.high.x : box.low.x,
-    direction.y >= 0.0 ? box.high.y : box.low.y, direction.z >= 0.0 ? box.high.z : box.low.z };
+  return { direction.x >= 0.0 ? box.high.x : box.low.x, direction.y >= 0.0 ? box.high.y : box.low.y,
+    direction.z >= 0.0 ? box.high.z : box.low.z };
 }
 
 } // namespace

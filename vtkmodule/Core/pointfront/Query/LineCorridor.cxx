@@ -34,8 +34,8 @@ Result<std::shared_ptr<const LineCorridor>> LineCorridor::make(
       [](const glm::dvec2& v) { return std::isfinite(v.x) && std::isfinite(v.y); });
     if (line.empty() || !places)
     {
-      return makeError(Error::Kind::BadArgument,
-        "a corridor's line has no vertex, or one that is not finite");
+      return makeError(
+        Error::Kind::BadArgument, "a corridor's line has no vertex, or one that is not finite");
     }
     for (std::size_t i = 0; i == 0 || i + 1 < line.size(); ++i)
     {
@@ -44,8 +44,8 @@ Result<std::shared_ptr<const LineCorridor>> LineCorridor::make(
     }
     for (const glm::dvec2& v : line)
     {
-      const glm::dvec2 room(reach + relativeMargin * std::abs(v.x),
-        reach + relativeMargin * std::abs(v.y));
+      const glm::dvec2 room(
+        reach + relativeMargin * std::abs(v.x), reach + relativeMargin * std::abs(v.y));
       corridor->bounds_.add(glm::dvec3(v - room, heights[0]));
       corridor->bounds_.add(glm::dvec3(v + room, heights[1]));
     }
@@ -73,8 +73,7 @@ bool LineCorridor::contains(const glm::dvec3& point) const
   const double most = distance_ * distance_;
   return point.z >= heights_[0] && point.z <= heights_[1] &&
     std::any_of(segments_.begin(), segments_.end(),
-      [&](const Segment& segment)
-      { return segment.squaredDistance(glm::dvec2(point)) <= most; });
+      [&](const Segment& segment) { return segment.squaredDistance(glm::dvec2(point)) <= most; });
 }
 
 Overlap LineCorridor::overlapSegment(

@@ -22,8 +22,8 @@ public:
   /// is negative, a height is NaN.
   static Result<std::shared_ptr<const LineCorridor>> make(const std::vector<PlanarLine>& lines,
     double distance,
-    const std::array<double, 2>& heights = { -std::numeric_limits<double>::infinity(),
-      std::numeric_limits<double>::infinity() });
+    const std::array<double, 2>& heights = {
+      -std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity() });
 
   bool contains(const glm::dvec3& point) const override;
   Overlap overlap(const Bounds& box) const override;

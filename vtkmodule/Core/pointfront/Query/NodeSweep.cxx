@@ -142,8 +142,8 @@ Result<Chosen> Sweep::readOne(std::size_t task) const
 Sweep::Results Sweep::read(const Wave& wave) const
 {
   Results results(wave.count, makeError(Error::Kind::Cancelled, "not read"));
-  crew_.run(wave.count,
-    [&](std::size_t piece, unsigned) { results[piece] = readOne(wave.first + piece); });
+  crew_.run(
+    wave.count, [&](std::size_t piece, unsigned) { results[piece] = readOne(wave.first + piece); });
   return results;
 }
 
@@ -234,8 +234,8 @@ Result<QueryReport> Sweep::run(const QueryConsumer& consume)
 
 std::size_t QueryBatch::bytes() const
 {
-  std::size_t sum = ids.capacity() * sizeof(std::uint64_t) +
-    points.positions.capacity() * sizeof(glm::dvec3);
+  std::size_t sum =
+    ids.capacity() * sizeof(std::uint64_t) + points.positions.capacity() * sizeof(glm::dvec3);
   for (const std::vector<std::byte>& column : points.columns)
   {
     sum += column.capacity() + sizeof(column);

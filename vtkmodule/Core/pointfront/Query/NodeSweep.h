@@ -12,8 +12,8 @@ namespace pointfront
 struct NodeSweep
 {
   std::size_t count = 0;
-  ColumnSelection columns;         ///< to read
-  std::size_t resultBytes = 0;     ///< at most, of one point of a result
+  ColumnSelection columns; ///< to read
+  std::size_t resultBytes = 0; ///< at most, of one point of a result
   std::function<NodeIndex(std::size_t)> node;
   std::function<std::uint32_t(std::size_t)> points; ///< of the node, as its row says
   /// Chooses. From any thread of the crew, several at once.

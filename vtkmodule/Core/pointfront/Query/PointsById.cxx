@@ -25,8 +25,8 @@ struct NodeIds
 
 Error notInCloud(const StoreDescription& store, std::uint64_t id)
 {
-  return makeError(Error::Kind::BadArgument,
-    store.path + ": it has no point of the id " + std::to_string(id));
+  return makeError(
+    Error::Kind::BadArgument, store.path + ": it has no point of the id " + std::to_string(id));
 }
 
 Result<std::vector<NodeIds>> nodesOf(
@@ -51,8 +51,8 @@ Result<std::vector<NodeIds>> nodesOf(
     {
       return notInCloud(store.description(), ids[i]);
     }
-    const auto after = std::lower_bound(
-      ids.begin() + static_cast<std::ptrdiff_t>(i), ids.end(), end);
+    const auto after =
+      std::lower_bound(ids.begin() + static_cast<std::ptrdiff_t>(i), ids.end(), end);
     const auto next = static_cast<std::size_t>(after - ids.begin());
     nodes.push_back({ index, row.pointCount, i, next - i });
     i = next;
@@ -77,8 +77,8 @@ QueryBatch chosen(const NodeIds& of, const std::vector<std::uint64_t>& ids,
     for (std::size_t c = 0; c < node.columns.size(); ++c)
     {
       const std::size_t bytes = description.schema[c].bytes();
-      std::memcpy(batch.points.columns[c].data() + i * bytes,
-        node.columns[c].data() + place * bytes, bytes);
+      std::memcpy(
+        batch.points.columns[c].data() + i * bytes, node.columns[c].data() + place * bytes, bytes);
     }
   }
   return batch;

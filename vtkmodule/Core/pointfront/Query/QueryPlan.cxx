@@ -244,8 +244,7 @@ std::optional<std::vector<std::uint32_t>> QueryPlan::passing(
   const NodeColumns& node, const std::vector<glm::dvec3>& positions, bool tested) const
 {
   std::vector<std::uint8_t> keep(node.size());
-  filter_.evaluate(
-    node, storeSchema_, 0, static_cast<std::uint32_t>(node.size()), keep.data());
+  filter_.evaluate(node, storeSchema_, 0, static_cast<std::uint32_t>(node.size()), keep.data());
   const Bounds box = tested ? boxOf(positions) : Bounds();
   for (std::size_t r = 0; tested && r < regions_.size(); ++r)
   {

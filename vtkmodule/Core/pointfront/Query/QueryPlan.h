@@ -65,21 +65,20 @@ private:
   static Result<QueryPlan> makeWithoutNodes(const StoreDescription& store, const PointQuery& query);
   Result<void> chooseConditions(const StoreDescription& store, const PointQuery& query);
   Result<void> chooseColumns(const StoreDescription& store, const PointQuery& query);
-  Result<void> chooseNodes(
-    const Hierarchy& hierarchy, double spacing, const NodePruning* pruning);
+  Result<void> chooseNodes(const Hierarchy& hierarchy, double spacing, const NodePruning* pruning);
   Overlap overlap(const Bounds& box) const;
   QueryBatch choose(std::size_t task, NodeColumns&& node) const;
   /// Numbers of the points that pass; none if all do.
-  std::optional<std::vector<std::uint32_t>> passing(const NodeColumns& node,
-    const std::vector<glm::dvec3>& positions, bool tested) const;
+  std::optional<std::vector<std::uint32_t>> passing(
+    const NodeColumns& node, const std::vector<glm::dvec3>& positions, bool tested) const;
   NodeSweep sweep() const;
 
   StoreDescription description_;
   AttributeSchema storeSchema_;
   QuantisationGrid grid_;
   std::vector<std::shared_ptr<const Region>> regions_;
-  PointFilter filter_;         ///< classes too
-  ColumnSelection read_;       ///< of the store
+  PointFilter filter_; ///< classes too
+  ColumnSelection read_; ///< of the store
   std::vector<std::size_t> out_; ///< place in read_ of each column that comes out
   std::vector<PlannedNode> nodes_;
 };

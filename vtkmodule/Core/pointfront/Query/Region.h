@@ -13,9 +13,9 @@ namespace pointfront
 /// How a region meets a box.
 enum class Overlap : std::uint8_t
 {
-  Outside,  ///< contains() is false for every point of the box
+  Outside, ///< contains() is false for every point of the box
   Crossing, ///< nothing is known
-  Inside    ///< contains() is true for every point of the box
+  Inside ///< contains() is true for every point of the box
 };
 
 /// A closed set of points in space: what lies on its surface is in it.

@@ -43,8 +43,7 @@ Overlap SphereRegion::overlap(const Bounds& box) const
   {
     return Overlap::Outside;
   }
-  const glm::dvec3 farthest =
-    glm::max(glm::abs(box.low - centre_), glm::abs(box.high - centre_));
+  const glm::dvec3 farthest = glm::max(glm::abs(box.low - centre_), glm::abs(box.high - centre_));
   return squaredLength(farthest) <= radius_ * radius_ ? Overlap::Inside : Overlap::Crossing;
 }
 

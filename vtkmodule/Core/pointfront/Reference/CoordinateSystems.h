@@ -19,11 +19,11 @@ namespace pointfront
 /// definition names (LAS 1.4 R15, 2.5; GDAL's "traditional GIS order").
 struct CoordinateSystem
 {
-  std::string wkt;        ///< WKT 1 where it can say all of it (LAS 1.4 asks for it), else WKT 2
-  std::string name;       ///< for messages: "WGS 84 / UTM zone 32N (EPSG:32632)"
+  std::string wkt; ///< WKT 1 where it can say all of it (LAS 1.4 asks for it), else WKT 2
+  std::string name; ///< for messages: "WGS 84 / UTM zone 32N (EPSG:32632)"
   bool geographic = false; ///< x and y are angles; else lengths
   bool geocentric = false; ///< x, y and z count from the middle of the Earth
-  bool vertical = false;   ///< heights have a system of their own: compound or with three axes
+  bool vertical = false; ///< heights have a system of their own: compound or with three axes
   double unitLength = 1.0; ///< metres a unit of x and y; geographic: radians a unit
   double heightUnit = 1.0; ///< metres a unit of z, if `vertical`
 };
@@ -62,8 +62,8 @@ public:
   /// Both with heights: all three coordinates are transformed. Else heights stay as they are.
   /// `where`: the points' extent in `from`, empty if not known; the choice among several
   /// transformations is made for it.
-  virtual Result<std::unique_ptr<CoordinateTransform>> transform(const CoordinateSystem& from,
-    const CoordinateSystem& to, const Bounds& where) const = 0;
+  virtual Result<std::unique_ptr<CoordinateTransform>> transform(
+    const CoordinateSystem& from, const CoordinateSystem& to, const Bounds& where) const = 0;
 };
 
 } // namespace pointfront

@@ -11,8 +11,7 @@ namespace
 {
 constexpr std::size_t wordsOfEntry = 4; // key, where its value is, count, value or its place
 
-const MetadataRecord* projectionRecord(
-  const std::vector<MetadataRecord>& records, std::uint16_t id)
+const MetadataRecord* projectionRecord(const std::vector<MetadataRecord>& records, std::uint16_t id)
 {
   const auto found = std::find_if(records.begin(), records.end(),
     [&](const MetadataRecord& r) { return r.owner == "LASF_Projection" && r.id == id; });

@@ -15,13 +15,16 @@ DiskLane::Ticket DiskLane::enter(const void* store, std::uint64_t disk, Clock::t
 
 void DiskLane::leave(Ticket ticket)
 {
-  const auto read = std::find_if(
-    reads_.begin(), reads_.end(), [=](const Read& r) { return r.ticket == ticket; });
+  const auto read =
+    std::find_if(reads_.begin(), reads_.end(), [=](const Read& r) { return r.ticket == ticket; });
   assert(read != reads_.end());
   reads_.erase(read);
 }
 
-bool DiskLane::busy(Clock::time_point now) const { return freeAt(now).has_value(); }
+bool DiskLane::busy(Clock::time_point now) const
+{
+  return freeAt(now).has_value();
+}
 
 bool DiskLane::barred(const void* store, std::uint64_t disk, Clock::time_point now) const
 {
@@ -54,8 +57,8 @@ std::optional<DiskLane::Clock::time_point> DiskLane::freeAt(Clock::time_point no
 
 std::size_t DiskLane::overdue(Clock::time_point now) const
 {
-  return static_cast<std::size_t>(std::count_if(
-    reads_.begin(), reads_.end(), [&](const Read& read) { return late(read, now); }));
+  return static_cast<std::size_t>(
+    std::count_if(reads_.begin(), reads_.end(), [&](const Read& read) { return late(read, now); }));
 }
 
 bool DiskLane::overdue(const void* store, Clock::time_point now) const

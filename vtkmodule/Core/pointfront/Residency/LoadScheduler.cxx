@@ -170,8 +170,8 @@ void LoadScheduler::Content::replaceHanging(Clock::time_point now)
       ++worker;
     }
   }
-  const std::size_t wanted = steadyThreads +
-    std::min<std::size_t>(lane.overdue(now), options.spareThreads);
+  const std::size_t wanted =
+    steadyThreads + std::min<std::size_t>(lane.overdue(now), options.spareThreads);
   while (workers.size() < wanted)
   {
     addWorker();
@@ -194,8 +194,9 @@ std::optional<LoadScheduler::Content::Job> LoadScheduler::Content::take(Clock::t
       continue;
     }
     const std::optional<StoreNodes::Urgency> next = member.store->next();
-    if (next && (best == nullptr || std::tie(next->rank, most.priority) <
-      std::tie(most.rank, next->priority)))
+    if (next &&
+      (best == nullptr ||
+        std::tie(next->rank, most.priority) < std::tie(most.rank, next->priority)))
     {
       best = &member;
       most = *next;
@@ -206,8 +207,7 @@ std::optional<LoadScheduler::Content::Job> LoadScheduler::Content::take(Clock::t
   {
     return std::nullopt; // nothing fits; or not any more, and that is a change that wakes us
   }
-  const DiskLane::Ticket ticket =
-    lane.enter(best->store.get(), best->store->reader().disk(), now);
+  const DiskLane::Ticket ticket = lane.enter(best->store.get(), best->store->reader().disk(), now);
   return Job{ best->store, std::move(*task), ticket };
 }
 
@@ -249,9 +249,8 @@ void LoadScheduler::Content::perform(Worker& self, const Job& job)
   const std::size_t bytesRead = fetched ? fetched->bytesRead : 0;
   freeLane(self, job, begin, bytesRead);
   double decodeSeconds = -threadSeconds();
-  Result<NodeColumns> result = fetched
-    ? guarded(task.node, [&] { return reader.decode(*fetched); })
-    : Result<NodeColumns>(fetched.error());
+  Result<NodeColumns> result = fetched ? guarded(task.node, [&] { return reader.decode(*fetched); })
+                                       : Result<NodeColumns>(fetched.error());
   decodeSeconds += threadSeconds();
   fetched = makeError(Error::Kind::Cancelled, "decoded"); // its bytes go before anyone is told
   {
@@ -411,9 +410,15 @@ void LoadScheduler::setProcessBudgetBytes(std::size_t bytes)
   }
 }
 
-std::size_t LoadScheduler::processBudgetBytes() { return processBudget()->ownLimit(); }
+std::size_t LoadScheduler::processBudgetBytes()
+{
+  return processBudget()->ownLimit();
+}
 
-const std::shared_ptr<MemoryBudget>& LoadScheduler::budget() const { return content_->budget; }
+const std::shared_ptr<MemoryBudget>& LoadScheduler::budget() const
+{
+  return content_->budget;
+}
 
 void LoadScheduler::setBudgetBytes(std::size_t bytes)
 {

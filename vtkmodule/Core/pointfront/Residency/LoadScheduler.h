@@ -36,8 +36,8 @@ struct LoadSchedulerStatistics
   // Of all that was loaded so far:
   std::uint64_t fetchedBytes = 0;
   std::uint64_t decodedBytes = 0; ///< in memory
-  double fetchSeconds = 0.0;      ///< of the disk lane: one read at a time
-  double decodeSeconds = 0.0;     ///< CPU time of all threads together
+  double fetchSeconds = 0.0; ///< of the disk lane: one read at a time
+  double decodeSeconds = 0.0; ///< CPU time of all threads together
   std::chrono::steady_clock::time_point lastLoaded; ///< when the last of it was there
 };
 

@@ -23,8 +23,8 @@ void NodeCache::insert(NodeIndex node, NodeColumns points, std::size_t bytes)
     delete gone;
     budget->giveBack(bytes);
   };
-  cached.points = std::shared_ptr<const NodeColumns>(
-    new NodeColumns(std::move(points)), leaveAccount);
+  cached.points =
+    std::shared_ptr<const NodeColumns>(new NodeColumns(std::move(points)), leaveAccount);
   cached.bytes = bytes;
   bytes_ += bytes;
   ++count_;

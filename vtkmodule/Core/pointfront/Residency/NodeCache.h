@@ -17,12 +17,12 @@ namespace pointfront
 struct CachedNode
 {
   std::shared_ptr<const NodeColumns> points; ///< null: not in memory
-  std::size_t bytes = 0;    ///< of `points` on the account
-  bool loading = false;     ///< a loader is reading it; `points` are then those it replaces
-  bool stale = false;       ///< lacks a column that is wanted now; waits to be read again
-  bool drawn = false;       ///< stale, and was asked for since
+  std::size_t bytes = 0; ///< of `points` on the account
+  bool loading = false; ///< a loader is reading it; `points` are then those it replaces
+  bool stale = false; ///< lacks a column that is wanted now; waits to be read again
+  bool drawn = false; ///< stale, and was asked for since
   bool failed = false;
-  bool tooLarge = false;    ///< failed because it does not fit the whole budget
+  bool tooLarge = false; ///< failed because it does not fit the whole budget
 };
 
 /// The nodes of a store that are in memory or were asked for, and their account.

@@ -35,9 +35,7 @@ std::vector<ReleasePlan::Candidate> ReleasePlan::farthest(std::size_t bytes)
   }
   std::sort(chosen.begin(), chosen.end(),
     [](const Candidate& a, const Candidate& b)
-    {
-      return std::tie(b.levels, a.store, b.node) < std::tie(a.levels, b.store, a.node);
-    });
+    { return std::tie(b.levels, a.store, b.node) < std::tie(a.levels, b.store, a.node); });
   std::size_t sum = 0;
   std::size_t taken = 0;
   while (taken < chosen.size() && sum < bytes)

@@ -52,7 +52,10 @@ Residency::Residency(
   nodes_->budget().setLimit(options.budgetBytes);
 }
 
-Residency::~Residency() { scheduler_->leave(nodes_); }
+Residency::~Residency()
+{
+  scheduler_->leave(nodes_);
+}
 
 void Residency::setLayerColumns(const LayerColumns& columns)
 {
@@ -62,7 +65,10 @@ void Residency::setLayerColumns(const LayerColumns& columns)
   }
 }
 
-LayerColumns Residency::layerColumns() const { return nodes_->columns(); }
+LayerColumns Residency::layerColumns() const
+{
+  return nodes_->columns();
+}
 
 void Residency::request(const std::vector<LoadRequest>& requests)
 {
@@ -82,18 +88,30 @@ std::shared_ptr<const NodeColumns> Residency::find(NodeIndex node) const
   return nodes_->find(node);
 }
 
-ResidencyView::State Residency::state(NodeIndex node) const { return nodes_->state(node); }
+ResidencyView::State Residency::state(NodeIndex node) const
+{
+  return nodes_->state(node);
+}
 
-std::uint64_t Residency::revision() const { return nodes_->revision(); }
+std::uint64_t Residency::revision() const
+{
+  return nodes_->revision();
+}
 
-bool Residency::exhausted() const { return nodes_->exhausted(); }
+bool Residency::exhausted() const
+{
+  return nodes_->exhausted();
+}
 
 void Residency::setArrivalFunction(std::function<void()> arrived)
 {
   nodes_->setArrivalFunction(std::move(arrived));
 }
 
-std::uint64_t Residency::arrivals() const { return nodes_->arrivals(); }
+std::uint64_t Residency::arrivals() const
+{
+  return nodes_->arrivals();
+}
 
 void Residency::waitUntilIdle() const
 {
@@ -109,17 +127,22 @@ void Residency::waitForArrival(std::uint64_t seen, std::chrono::milliseconds mos
 {
   const auto end = std::chrono::steady_clock::now() + most;
   std::uint64_t change = nodes_->budget().changes();
-  while (nodes_->arrivals() == seen && !nodes_->idle() &&
-    std::chrono::steady_clock::now() < end)
+  while (nodes_->arrivals() == seen && !nodes_->idle() && std::chrono::steady_clock::now() < end)
   {
     nodes_->budget().waitForChange(change, end);
     change = nodes_->budget().changes();
   }
 }
 
-std::vector<Error> Residency::takeErrors() { return nodes_->takeErrors(); }
+std::vector<Error> Residency::takeErrors()
+{
+  return nodes_->takeErrors();
+}
 
-ResidencyStatistics Residency::statistics() const { return nodes_->statistics(); }
+ResidencyStatistics Residency::statistics() const
+{
+  return nodes_->statistics();
+}
 
 void Residency::setBudgetBytes(std::size_t bytes)
 {
@@ -128,8 +151,14 @@ void Residency::setBudgetBytes(std::size_t bytes)
   nodes_->budget().announceChange();
 }
 
-std::size_t Residency::budgetBytes() const { return nodes_->budget().limit(); }
+std::size_t Residency::budgetBytes() const
+{
+  return nodes_->budget().limit();
+}
 
-double Residency::shareOfAll() const { return scheduler_->shareOf(*nodes_); }
+double Residency::shareOfAll() const
+{
+  return scheduler_->shareOf(*nodes_);
+}
 
 } // namespace pointfront

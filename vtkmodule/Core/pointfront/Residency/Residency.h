@@ -27,16 +27,16 @@ struct ResidencyOptions
 
 struct ResidencyStatistics
 {
-  std::size_t residentBytes = 0;    ///< decoded nodes in memory, those being decoded included
+  std::size_t residentBytes = 0; ///< decoded nodes in memory, those being decoded included
   std::size_t residentBytesMax = 0; ///< the most there ever was; <= budgetBytes
   std::uint32_t residentNodes = 0;
-  std::uint32_t pending = 0;        ///< asked for and not yet begun, re-reads included
-  std::uint32_t loading = 0;        ///< being read or decoded now
-  std::uint64_t requested = 0;      ///< ever
-  std::uint64_t cancelled = 0;      ///< asked for and withdrawn before they were read
+  std::uint32_t pending = 0; ///< asked for and not yet begun, re-reads included
+  std::uint32_t loading = 0; ///< being read or decoded now
+  std::uint64_t requested = 0; ///< ever
+  std::uint64_t cancelled = 0; ///< asked for and withdrawn before they were read
   std::uint64_t failed = 0;
   std::uint64_t released = 0;
-  std::uint64_t bytesRead = 0;      ///< from the disk
+  std::uint64_t bytesRead = 0; ///< from the disk
 };
 
 /// Decoded nodes of one store in host memory, under hard budgets: the store's own and that of its

@@ -6,7 +6,10 @@
 namespace pointfront
 {
 
-ResidencyShare::Wish::Wish(ResidencyShare& share) : share_(share) {}
+ResidencyShare::Wish::Wish(ResidencyShare& share)
+  : share_(share)
+{
+}
 
 ResidencyShare::Wish::~Wish()
 {
@@ -34,13 +37,13 @@ void ResidencyShare::Wish::request(const std::vector<LoadRequest>& requests, Dis
 
 ResidencyShare::ResidencyShare(
   std::shared_ptr<const NodeReader> reader, NodeIndex nodeCount, const ResidencyOptions& options)
-    : residency_(std::move(reader), nodeCount, options)
+  : residency_(std::move(reader), nodeCount, options)
 {
 }
 
 ResidencyShare::ResidencyShare(std::shared_ptr<const NodeReader> reader, NodeIndex nodeCount,
   std::shared_ptr<LoadScheduler> scheduler, std::uint64_t points)
-    : residency_(std::move(reader), nodeCount, std::move(scheduler), points)
+  : residency_(std::move(reader), nodeCount, std::move(scheduler), points)
 {
 }
 

@@ -44,15 +44,17 @@ StoreNodes::StoreNodes(std::shared_ptr<const NodeReader> reader, NodeIndex nodeC
   }
 }
 
-StoreNodes::~StoreNodes() { close(); }
+StoreNodes::~StoreNodes()
+{
+  close();
+}
 
 std::size_t StoreNodes::need(const LoadRequest& request) const
 {
   const auto known = needs_.find(request.node);
   return known != needs_.end()
     ? known->second
-    : reader_->decodedBytes(
-        request.node, request.pointCount, columns_.of(request.layer));
+    : reader_->decodedBytes(request.node, request.pointCount, columns_.of(request.layer));
 }
 
 bool StoreNodes::rowsNext(const std::optional<Choice>& choice) const
@@ -112,8 +114,7 @@ std::optional<StoreNodes::Urgency> StoreNodes::next() const
   {
     return Urgency{ 0, std::numeric_limits<double>::infinity() };
   }
-  return choice ? std::optional<Urgency>({ choice->rank, choice->request.priority })
-                : std::nullopt;
+  return choice ? std::optional<Urgency>({ choice->rank, choice->request.priority }) : std::nullopt;
 }
 
 std::optional<StoreNodes::Task> StoreNodes::begin()

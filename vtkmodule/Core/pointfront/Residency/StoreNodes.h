@@ -35,7 +35,7 @@ public:
     NodeIndex node = noNode; ///< none: rows of the node table
     ColumnSelection columns;
     std::size_t bytes = 0; ///< reserved for it
-    bool reread = false;   ///< of a node that is or was in memory with other columns
+    bool reread = false; ///< of a node that is or was in memory with other columns
   };
   /// What waits longest for is compared across stores by this: lower ranks first, then larger
   /// priorities (projected errors).
@@ -73,7 +73,7 @@ public:
 
   // What the scheduler does.
   std::optional<Urgency> next() const; ///< of what waits and fits
-  std::optional<Task> begin();         ///< takes that; none when it does not fit any more
+  std::optional<Task> begin(); ///< takes that; none when it does not fit any more
   /// A read has ended. True when there is something new: then tell() is called.
   bool finish(const Task& task, Result<NodeColumns> result, std::size_t bytesRead);
   void tell();
@@ -83,8 +83,7 @@ public:
 
   std::size_t waitingBytes() const; ///< of what is asked for and does not wait for free memory
   std::size_t stayingBytes() const; ///< in memory or on its way
-  void offer(
-    std::uint32_t number, const NodeCache::Distance& distance, ReleasePlan& plan) const;
+  void offer(std::uint32_t number, const NodeCache::Distance& distance, ReleasePlan& plan) const;
   using Gone = std::vector<std::shared_ptr<const NodeColumns>>;
   /// Takes a node out; who calls drops the points after all locks.
   void release(NodeIndex node, Gone& gone);
@@ -125,15 +124,15 @@ private:
   std::vector<Error> errors_;
   /// Bytes of nodes of which decodedBytes() said too little, and of those that are too large.
   std::unordered_map<NodeIndex, std::size_t> needs_;
-  std::size_t leastNeed_ = 0;  ///< nothing that waits needs less
+  std::size_t leastNeed_ = 0; ///< nothing that waits needs less
   mutable std::size_t waiting_ = 0;
   mutable bool waitingKnown_ = false; ///< `waiting_` is what waitingBytes() says
   std::size_t loadingBytes_ = 0;
-  std::uint32_t loading_ = 0;     ///< nodes
+  std::uint32_t loading_ = 0; ///< nodes
   std::uint32_t loadingRows_ = 0; ///< pages
-  bool rowsLast_ = false;         ///< what began last were rows
+  bool rowsLast_ = false; ///< what began last were rows
   bool nothingToRelease_ = false; ///< found by the last release that room was wanted from
-  bool fileFailed_ = false;       ///< told already that the file cannot be read
+  bool fileFailed_ = false; ///< told already that the file cannot be read
   std::uint64_t requested_ = 0;
   std::uint64_t cancelled_ = 0;
   std::uint64_t failed_ = 0;

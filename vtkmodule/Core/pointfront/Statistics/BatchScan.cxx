@@ -21,11 +21,9 @@ unsigned mostThreads(const PointSource& source, const ScanOptions& options)
     largest = std::max(largest, source.chunkPoints(chunk));
   }
   // A reader has the values once more: as doubles, or as they lie in the file.
-  const std::size_t point =
-    3 * (sizeof(glm::dvec3) + source.description().schema.pointBytes());
+  const std::size_t point = 3 * (sizeof(glm::dvec3) + source.description().schema.pointBytes());
   const std::uint64_t fit = options.memoryBytes / point / largest;
-  return static_cast<unsigned>(
-    std::clamp<std::uint64_t>(fit, 1, crewOf(options).threads()));
+  return static_cast<unsigned>(std::clamp<std::uint64_t>(fit, 1, crewOf(options).threads()));
 }
 } // namespace
 
@@ -40,7 +38,7 @@ Result<void> scanBatches(const PointSource& source, const ScanOptions& options,
   const auto chunks = static_cast<std::size_t>(source.chunkCount());
   std::vector<PointBatch> batches(crewOf(options).threads());
   std::atomic<std::size_t> broken{ chunks }; // the first chunk that cannot be read
-  std::mutex mutex;                          // guards `error`
+  std::mutex mutex; // guards `error`
   std::optional<Error> error;
   const auto piece = [&](std::size_t chunk, unsigned thread)
   {

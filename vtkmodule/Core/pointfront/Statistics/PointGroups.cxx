@@ -33,8 +33,8 @@ PointGroups::PointGroups(const AttributeSchema& schema)
   }
 }
 
-void PointGroups::assign(const PointBatch& batch, std::vector<std::int16_t>& groups,
-  RejectionCounts& rejected) const
+void PointGroups::assign(
+  const PointBatch& batch, std::vector<std::int16_t>& groups, RejectionCounts& rejected) const
 {
   groups.resize(batch.size());
   for (std::size_t i = 0; i < groups.size(); ++i)
@@ -45,8 +45,8 @@ void PointGroups::assign(const PointBatch& batch, std::vector<std::int16_t>& gro
       groups[i] = none;
       continue;
     }
-    groups[i] = column_ ? std::to_integer<std::int16_t>(batch.columns[*column_][i])
-                        : std::int16_t(0);
+    groups[i] =
+      column_ ? std::to_integer<std::int16_t>(batch.columns[*column_][i]) : std::int16_t(0);
   }
 }
 

@@ -29,8 +29,8 @@ public:
   /// Without a classification of one byte all points are of group 0.
   bool classified() const { return column_.has_value(); }
   /// `groups[i]`: the class of point i, or `none`, which is counted in `rejected`.
-  void assign(const PointBatch& batch, std::vector<std::int16_t>& groups,
-    RejectionCounts& rejected) const;
+  void assign(
+    const PointBatch& batch, std::vector<std::int16_t>& groups, RejectionCounts& rejected) const;
 
 private:
   std::optional<std::size_t> column_;

@@ -146,8 +146,8 @@ std::vector<ValueKind> kindsOf(const AttributeSchema& schema)
   return kinds;
 }
 
-void countBatch(const PointBatch& batch, const PointGroups& groups, std::size_t components,
-  RangeTally& tally)
+void countBatch(
+  const PointBatch& batch, const PointGroups& groups, std::size_t components, RangeTally& tally)
 {
   tally.read += batch.size();
   groups.assign(batch, tally.groupOfPoint, tally.rejected);

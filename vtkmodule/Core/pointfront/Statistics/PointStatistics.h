@@ -21,8 +21,8 @@ struct PointCount
 {
   std::uint64_t read = 0;
   std::map<std::string, std::uint64_t> rejected; ///< what is no position: reason -> points
-  std::uint64_t points = 0;                      ///< the others
-  Bounds bounds;                                 ///< of these
+  std::uint64_t points = 0; ///< the others
+  Bounds bounds; ///< of these
 };
 
 /// One component of an attribute, or a coordinate.
@@ -67,7 +67,7 @@ struct PointStatistics
   std::vector<ComponentBins> bins;
   GroupStatistics all;
   std::map<std::uint8_t, GroupStatistics> classes; ///< empty without a classification
-  double cellSize = 0.0;                           ///< of GroundCells; 0: no ground
+  double cellSize = 0.0; ///< of GroundCells; 0: no ground
   std::uint64_t occupiedCells = 0;
 
   /// Points per square unit of the ground cells that hold one; nothing without ground.

@@ -98,8 +98,7 @@ ValueMoments ValueSteps::moments(const StepSums& sums) const
   const auto rest = static_cast<std::uint64_t>(sums.sum % sums.count);
   const double fraction = static_cast<double>(rest) / static_cast<double>(sums.count);
   const StepSums::Wide around = sums.squares - middle * (sums.sum + rest);
-  const double squares =
-    std::max(0.0, wideAsDouble(around) - static_cast<double>(rest) * fraction);
+  const double squares = std::max(0.0, wideAsDouble(around) - static_cast<double>(rest) * fraction);
   const double deviation = std::sqrt(squares / static_cast<double>(sums.count));
   const double mean = static_cast<double>(middle) + fraction;
   if (kind_ == ValueKind::Real)

@@ -65,11 +65,11 @@ private:
   double fraction(std::uint64_t key) const; ///< of the range; Real only
 
   ValueKind kind_ = ValueKind::Real;
-  std::uint64_t low_ = 0;    ///< key
-  std::uint64_t range_ = 0;  ///< difference of keys; whole numbers only
-  unsigned shift_ = 0;       ///< a step is 2^shift_; whole numbers only
+  std::uint64_t low_ = 0; ///< key
+  std::uint64_t range_ = 0; ///< difference of keys; whole numbers only
+  unsigned shift_ = 0; ///< a step is 2^shift_; whole numbers only
   double realLow_ = 0.0;
-  double halfRange_ = 0.0;   ///< half, for the whole may be larger than any double
+  double halfRange_ = 0.0; ///< half, for the whole may be larger than any double
   std::size_t bins_ = 0;
   double binWidth_ = 0.0;
 };

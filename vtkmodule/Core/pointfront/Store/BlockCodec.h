@@ -10,9 +10,9 @@ namespace pointfront
 /// How the bytes of a block give its values. The numbers are part of the format: never renumber.
 enum class BlockCodec : std::uint8_t
 {
-  Raw = 0,       ///< the values as they are
-  Constant = 1,  ///< all points have the value that is stored once
-  Packed = 2,    ///< differences in groups of 128, as many bits as most of them need
+  Raw = 0, ///< the values as they are
+  Constant = 1, ///< all points have the value that is stored once
+  Packed = 2, ///< differences in groups of 128, as many bits as most of them need
   PlanesZstd = 3 ///< differences in planes of bytes, then Zstandard
 };
 
@@ -25,7 +25,7 @@ bool knownBlockCodec(std::uint8_t codec);
 struct BlockShape
 {
   std::size_t points = 0;
-  unsigned components = 1;  ///< 1 to 16
+  unsigned components = 1; ///< 1 to 16
   unsigned scalarBytes = 1; ///< 1, 2, 4 or 8
 
   std::size_t pointBytes() const { return std::size_t(components) * scalarBytes; }

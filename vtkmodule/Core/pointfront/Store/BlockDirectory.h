@@ -73,9 +73,9 @@ private:
   std::uint32_t blocksPerNode_;
   std::vector<GridPosition> origins_;
   std::vector<std::uint64_t> offsets_;
-  std::vector<std::uint32_t> sizes_;     // node * blocksPerNode + block
+  std::vector<std::uint32_t> sizes_; // node * blocksPerNode + block
   std::vector<std::uint32_t> checksums_; // likewise
-  std::vector<std::uint8_t> codecs_;     // likewise
+  std::vector<std::uint8_t> codecs_; // likewise
 };
 
 /// Grid positions beyond this (2^51 steps) would not survive double coordinates.
@@ -83,8 +83,8 @@ constexpr std::int64_t maxGridPosition = std::int64_t(1) << 51;
 
 inline bool inRange(const GridPosition& p)
 {
-  return std::all_of(&p[0], &p[0] + 3,
-    [](std::int64_t v) { return v >= -maxGridPosition && v <= maxGridPosition; });
+  return std::all_of(
+    &p[0], &p[0] + 3, [](std::int64_t v) { return v >= -maxGridPosition && v <= maxGridPosition; });
 }
 
 } // namespace pointfront

@@ -101,7 +101,10 @@ ColumnRange rangeOfValues(const std::byte* values, std::size_t points, std::size
 }
 } // namespace
 
-BlockShape positionShape(std::size_t points) { return { points, 3, 4 }; }
+BlockShape positionShape(std::size_t points)
+{
+  return { points, 3, 4 };
+}
 
 BlockShape columnShape(const Attribute& attribute, std::size_t points)
 {

@@ -183,8 +183,7 @@ bool soundGrid(const QuantisationGrid& grid)
 }
 } // namespace
 
-std::vector<std::byte> encodeDescription(
-  const StoredDescription& stored, std::uint32_t version)
+std::vector<std::byte> encodeDescription(const StoredDescription& stored, std::uint32_t version)
 {
   const StoreDescription& d = stored.description;
   ByteWriter out;
@@ -241,10 +240,9 @@ std::optional<StoredDescription> decodeDescription(
   d.structure = in.getText();
   d.generator = in.getText();
   d.crsWkt = in.getText();
-  if (!in.ok() || !soundGrid(d.grid) || refinement < 1 || refinement > 2 ||
-    !getColumns(in, d) || !getLayers(in, d) || !getMetadata(in, d) ||
-    (version >= 2 && !getTableSummary(in, stored)) || (version >= 3 && !getSplatBase(in, d)) ||
-    in.remaining() != 0)
+  if (!in.ok() || !soundGrid(d.grid) || refinement < 1 || refinement > 2 || !getColumns(in, d) ||
+    !getLayers(in, d) || !getMetadata(in, d) || (version >= 2 && !getTableSummary(in, stored)) ||
+    (version >= 3 && !getSplatBase(in, d)) || in.remaining() != 0)
   {
     return std::nullopt;
   }

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "pointfront/Store/GridBounds.h"
-#include "pointfront/Store/StoreFormat.h"
 #include "pointfront/Store/StoredCloud.h"
+#include "pointfront/Store/StoreFormat.h"
 
 #include <cstddef>
 #include <cstdint>

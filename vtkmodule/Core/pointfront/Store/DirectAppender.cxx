@@ -147,8 +147,8 @@ bool DirectAppender::writeHanded() const
   ssize_t count = -1;
   do
   {
-    count = ::pwrite(
-      descriptor_, handed_.memory.get(), handed_.size, static_cast<off_t>(handed_.begin));
+    count =
+      ::pwrite(descriptor_, handed_.memory.get(), handed_.size, static_cast<off_t>(handed_.begin));
   } while (count < 0 && errno == EINTR);
   return count >= 0 && static_cast<std::size_t>(count) == handed_.size;
 }

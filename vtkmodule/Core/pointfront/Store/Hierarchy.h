@@ -23,10 +23,10 @@ constexpr NodeIndex noNode = 0xffffffffu;
 /// Units  world units of the store's CRS (metres unless it says otherwise).
 struct Node
 {
-  glm::dvec3 centre{ 0.0 };    ///< of the box, world
-  glm::vec3 halfSize{ 0.0f };  ///< of the box of this node's points and all below; rounded up
-  float radius = 0.0f;         ///< of the sphere around `centre` with all those points; rounded up
-  float spacing = 0.0f;        ///< between points when this node and all above it are drawn
+  glm::dvec3 centre{ 0.0 }; ///< of the box, world
+  glm::vec3 halfSize{ 0.0f }; ///< of the box of this node's points and all below; rounded up
+  float radius = 0.0f; ///< of the sphere around `centre` with all those points; rounded up
+  float spacing = 0.0f; ///< between points when this node and all above it are drawn
   /// Of discs that close the surface when all points of this node and of those above it are drawn;
   /// 0 where it was not measured.
   float splatRadius = 0.0f;
@@ -38,8 +38,8 @@ struct Node
   NodeIndex parent = noNode;
   NodeIndex firstChild = noNode; ///< children are neighbours in the table
   std::uint8_t childCount = 0;
-  std::uint8_t level = 0;      ///< roots are 0
-  std::uint16_t layer = 0;     ///< index into the store's layers
+  std::uint8_t level = 0; ///< roots are 0
+  std::uint16_t layer = 0; ///< index into the store's layers
 
   bool leaf() const { return childCount == 0; }
   Bounds box() const
@@ -51,7 +51,7 @@ struct Node
 /// What a deeper node means to the points above it.
 enum class Refinement : std::uint8_t
 {
-  Add = 1,    ///< inner nodes hold a subset; every point is stored once; ancestors stay drawn
+  Add = 1, ///< inner nodes hold a subset; every point is stored once; ancestors stay drawn
   Replace = 2 ///< inner nodes hold mean representatives; children replace their parent
 };
 
@@ -64,9 +64,9 @@ inline std::uint32_t originalPoints(const Node& node, Refinement refinement)
 /// What a table can say of a node without waiting.
 enum class RowState : std::uint8_t
 {
-  Here,   ///< in memory
+  Here, ///< in memory
   Coming, ///< not in memory, asked for (MissingRows): Hierarchy::arrivals() will change
-  Lost    ///< cannot be read, or is damaged
+  Lost ///< cannot be read, or is damaged
 };
 
 /// The node table of one store: the shape of the hierarchy without any payload.

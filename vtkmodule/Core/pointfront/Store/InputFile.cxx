@@ -19,13 +19,11 @@ Error notReadable(const std::string& path, int error)
   {
     return makeError(Error::Kind::NotFound, "'" + path + "' does not exist; check the path");
   }
-  return makeError(
-    Error::Kind::Unreadable, "cannot read '" + path + "': " + std::strerror(error));
+  return makeError(Error::Kind::Unreadable, "cannot read '" + path + "': " + std::strerror(error));
 }
 } // namespace
 
-InputFile::InputFile(
-  std::string path, int descriptor, std::uint64_t bytes, std::uint64_t device)
+InputFile::InputFile(std::string path, int descriptor, std::uint64_t bytes, std::uint64_t device)
   : path_(std::move(path))
   , descriptor_(descriptor)
   , bytes_(bytes)
@@ -33,7 +31,10 @@ InputFile::InputFile(
 {
 }
 
-InputFile::~InputFile() { ::close(descriptor_); }
+InputFile::~InputFile()
+{
+  ::close(descriptor_);
+}
 
 Result<std::unique_ptr<const InputFile>> InputFile::open(const std::string& path)
 {
@@ -53,12 +54,11 @@ Result<std::unique_ptr<const InputFile>> InputFile::open(const std::string& path
   if (!S_ISREG(status.st_mode))
   {
     ::close(descriptor);
-    return makeError(Error::Kind::Unreadable,
-      "cannot read '" + path + "': it is not a file; name a file");
+    return makeError(
+      Error::Kind::Unreadable, "cannot read '" + path + "': it is not a file; name a file");
   }
-  return std::unique_ptr<const InputFile>(
-    new InputFile(path, descriptor, static_cast<std::uint64_t>(status.st_size),
-      static_cast<std::uint64_t>(status.st_dev)));
+  return std::unique_ptr<const InputFile>(new InputFile(path, descriptor,
+    static_cast<std::uint64_t>(status.st_size), static_cast<std::uint64_t>(status.st_dev)));
 }
 
 bool InputFile::isLocked() const
@@ -83,8 +83,8 @@ Result<void> InputFile::readAt(std::uint64_t offset, std::byte* target, std::siz
 {
   while (size != 0)
   {
-    const ssize_t count = ::pread(descriptor_, target, size < maxReadBytes ? size : maxReadBytes,
-      static_cast<off_t>(offset));
+    const ssize_t count = ::pread(
+      descriptor_, target, size < maxReadBytes ? size : maxReadBytes, static_cast<off_t>(offset));
     if (count < 0 && errno == EINTR)
     {
       continue;

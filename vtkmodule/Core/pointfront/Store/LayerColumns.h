@@ -19,10 +19,13 @@ struct LayerColumns
 {
   LayerColumns() = default;
   /// The same for all layers.
-  LayerColumns(ColumnSelection columns) : others(std::move(columns)) {}
+  LayerColumns(ColumnSelection columns)
+    : others(std::move(columns))
+  {
+  }
 
   std::vector<ColumnSelection> layers; ///< by number of the layer
-  ColumnSelection others;              ///< of layers beyond the list
+  ColumnSelection others; ///< of layers beyond the list
 
   const ColumnSelection& of(std::uint16_t layer) const
   {

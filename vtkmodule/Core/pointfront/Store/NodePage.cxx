@@ -22,7 +22,10 @@ constexpr bool fits(NodeRowForm form)
 }
 static_assert(fits(NodeRowForm::Plain) && fits(NodeRowForm::WithSplatRadius));
 
-bool notNegative(float value) { return std::isfinite(value) && value >= 0.0f; }
+bool notNegative(float value)
+{
+  return std::isfinite(value) && value >= 0.0f;
+}
 
 std::string sizeFault(const Node& row)
 {
@@ -46,8 +49,8 @@ std::string childrenFault(const Node& row, NodeIndex index, NodeIndex nodes)
   {
     return row.firstChild == noNode ? "" : "it has no children but names a first child";
   }
-  const bool inside = row.firstChild > index && row.firstChild < nodes &&
-    row.childCount <= nodes - row.firstChild;
+  const bool inside =
+    row.firstChild > index && row.firstChild < nodes && row.childCount <= nodes - row.firstChild;
   return inside ? "" : "its children lie outside the table";
 }
 } // namespace

@@ -61,7 +61,7 @@ private:
 
   NodeIndex nodes_;
   std::vector<double> marks_; ///< ascending
-  std::vector<Codes> codes_;  ///< empty: all nodes have all marks
+  std::vector<Codes> codes_; ///< empty: all nodes have all marks
 };
 
 /// Which component a range is of: coordinates come first, then the components of all columns in

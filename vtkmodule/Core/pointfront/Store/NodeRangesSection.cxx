@@ -323,8 +323,7 @@ Result<std::shared_ptr<const NodeRanges>> NodeRangesFile::read(
   {
     const NodeIndex count = std::min(chunkNodes, nodes_ - known);
     codes.resize(std::size_t(known) + count);
-    if (Result<void> done =
-          readChecked(codes.data() + known, count * sizeof(NodeRanges::Codes));
+    if (Result<void> done = readChecked(codes.data() + known, count * sizeof(NodeRanges::Codes));
         !done)
     {
       return done.error();
@@ -333,9 +332,7 @@ Result<std::shared_ptr<const NodeRanges>> NodeRangesFile::read(
   }
   const bool sound = std::all_of(codes.begin(), codes.end(),
     [&marks](const NodeRanges::Codes& c)
-    {
-      return (c[0] > c[1] || c[1] < marks.size()) && (c[2] > c[3] || c[3] < marks.size());
-    });
+    { return (c[0] > c[1] || c[1] < marks.size()) && (c[2] > c[3] || c[3] < marks.size()); });
   if (!sound || !ascending)
   {
     return corruptStore(file_->path(), part->offset, "node ranges: a code has no mark");

@@ -81,8 +81,8 @@ struct FetchedNode
   NodeIndex node = noNode;
   ColumnSelection columns;
   std::vector<RawBytes> runs; ///< their meaning is the reader's
-  std::size_t bytesRead = 0;  ///< from the disk
-  Node row{};                 ///< of the node table
+  std::size_t bytesRead = 0; ///< from the disk
+  Node row{}; ///< of the node table
   /// Instead of runs: what a cloud that is made of others has fetched from one of them.
   std::shared_ptr<const FetchedNode> inner = nullptr;
 };

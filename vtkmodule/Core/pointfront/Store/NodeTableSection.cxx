@@ -139,8 +139,7 @@ std::vector<std::byte> encodeNodeTable(const std::vector<Node>& nodes, NodeRowFo
   return out.bytes();
 }
 
-std::vector<Node> decodeNodeTable(
-  const std::byte* data, std::uint32_t nodeCount, NodeRowForm form)
+std::vector<Node> decodeNodeTable(const std::byte* data, std::uint32_t nodeCount, NodeRowForm form)
 {
   ByteReader in(data, std::size_t(nodeCount) * nodeRowBytes(form));
   std::vector<Node> nodes(nodeCount);
@@ -151,8 +150,7 @@ std::vector<Node> decodeNodeTable(
   return nodes;
 }
 
-std::string nodeTableFault(
-  const Hierarchy& table, std::size_t layerCount, std::uint64_t pointCount)
+std::string nodeTableFault(const Hierarchy& table, std::size_t layerCount, std::uint64_t pointCount)
 {
   const TableLimits limits{ table.nodeCount(), static_cast<std::uint32_t>(layerCount) };
   std::uint64_t total = 0;

@@ -36,8 +36,7 @@ Node decodeNodeRow(NodeRowForm form, ByteReader& in);
 std::vector<std::byte> encodeNodeTable(const std::vector<Node>& nodes, NodeRowForm form);
 
 /// `data` must have nodeCount rows (the caller has checked it against the file).
-std::vector<Node> decodeNodeTable(
-  const std::byte* data, std::uint32_t nodeCount, NodeRowForm form);
+std::vector<Node> decodeNodeTable(const std::byte* data, std::uint32_t nodeCount, NodeRowForm form);
 
 /// A table whose rows somebody else holds, for the length of a check.
 class BorrowedTable final : public Hierarchy

@@ -158,8 +158,8 @@ private:
   {
     while (size != 0)
     {
-      const ssize_t count = ::pwrite(descriptor_, data, size < maxWriteBytes ? size : maxWriteBytes,
-        static_cast<off_t>(offset));
+      const ssize_t count = ::pwrite(
+        descriptor_, data, size < maxWriteBytes ? size : maxWriteBytes, static_cast<off_t>(offset));
       if (count < 0 && errno == EINTR)
       {
         continue;
@@ -185,8 +185,8 @@ private:
   void startWriting(std::uint64_t offset, std::size_t size) const
   {
 #ifdef SYNC_FILE_RANGE_WRITE
-    ::sync_file_range(descriptor_, static_cast<off64_t>(offset), static_cast<off64_t>(size),
-      SYNC_FILE_RANGE_WRITE);
+    ::sync_file_range(
+      descriptor_, static_cast<off64_t>(offset), static_cast<off64_t>(size), SYNC_FILE_RANGE_WRITE);
 #else
     static_cast<void>(offset);
     static_cast<void>(size);

@@ -22,7 +22,7 @@ public:
   enum class Durability
   {
     Full, ///< the disk has it
-    None  ///< nothing: for a file that means nothing after a crash
+    None ///< nothing: for a file that means nothing after a crash
   };
 
   /// Creates `path` + ".tmp" in the same folder and locks it. A left-over of a process that died

@@ -30,9 +30,8 @@ void putValues(const Groups& groups, unsigned components, Predictor predictor, s
   {
     for (unsigned c = 0; c < components; ++c)
     {
-      value[c] = predictor == Predictor::Zero
-        ? groups[c][i]
-        : static_cast<T>(value[c] + unzigzag(groups[c][i]));
+      value[c] = predictor == Predictor::Zero ? groups[c][i]
+                                              : static_cast<T>(value[c] + unzigzag(groups[c][i]));
     }
     for (unsigned c = 0; c < components; ++c, target += sizeof(T))
     {
@@ -63,8 +62,8 @@ bool decodeGroups(
       }
     }
     const std::size_t count = std::min(codesPerGroup, shape.points - begin);
-    putValues<T>(groups, components, predictor, count, before,
-      values + begin * components * sizeof(T));
+    putValues<T>(
+      groups, components, predictor, count, before, values + begin * components * sizeof(T));
   }
   return at == end;
 }
@@ -127,19 +126,21 @@ bool decodePacked(
   {
     return false;
   }
-  return withUnsigned(shape.scalarBytes, [&](auto zero) {
-    using T = decltype(zero);
-    const std::byte* begin = coded + 1 + (hasFactor ? sizeof(T) : 0);
-    if (!decodePredicted<T>(predictor, begin, coded + codedBytes, shape, values))
+  return withUnsigned(shape.scalarBytes,
+    [&](auto zero)
     {
-      return false;
-    }
-    if (hasFactor)
-    {
-      multiply<T>(values, shape, valueAt<T>(coded + 1, 0));
-    }
-    return true;
-  });
+      using T = decltype(zero);
+      const std::byte* begin = coded + 1 + (hasFactor ? sizeof(T) : 0);
+      if (!decodePredicted<T>(predictor, begin, coded + codedBytes, shape, values))
+      {
+        return false;
+      }
+      if (hasFactor)
+      {
+        multiply<T>(values, shape, valueAt<T>(coded + 1, 0));
+      }
+      return true;
+    });
 }
 
 } // namespace pointfront

@@ -163,8 +163,8 @@ void codesOf(const ComponentPlanes<T>& planes, std::size_t begin, unsigned c, bo
 
 /// Bytes of the groups from the group of point `begin` on; any number above `most` for more.
 template <typename T>
-std::size_t groupsBytes(const ComponentPlanes<T>& planes, std::size_t begin, bool difference,
-  std::size_t most = SIZE_MAX)
+std::size_t groupsBytes(
+  const ComponentPlanes<T>& planes, std::size_t begin, bool difference, std::size_t most = SIZE_MAX)
 {
   std::size_t sum = 0;
   CodeGroup<T> codes;
@@ -216,9 +216,8 @@ std::vector<std::byte> encodeGroups(const ComponentPlanes<T>& planes, Predictor 
 {
   thread_local std::vector<std::byte> scratch; // likewise: written once, then cut to its length
   const std::size_t groups = (planes.points() + codesPerGroup - 1) / codesPerGroup;
-  const std::size_t most =
-    1 + sizeof(T) + groups * planes.components() * packed::mostGroupBytes<T> +
-    packed::writtenBeyond;
+  const std::size_t most = 1 + sizeof(T) +
+    groups * planes.components() * packed::mostGroupBytes<T> + packed::writtenBeyond;
   if (scratch.size() < most)
   {
     scratch.resize(most);
@@ -245,18 +244,20 @@ std::vector<std::byte> encodeGroups(const ComponentPlanes<T>& planes, Predictor 
 
 PackedBlock packBlock(const std::byte* values, const BlockShape& shape)
 {
-  return withUnsigned(shape.scalarBytes, [&](auto zero) {
-    using T = decltype(zero);
-    ComponentPlanes<T>& planes = planesOfThread<T>();
-    planes.take(values, shape);
-    const T factor = planes.commonFactor();
-    if (factor > 1)
+  return withUnsigned(shape.scalarBytes,
+    [&](auto zero)
     {
-      planes.divide(factor);
-    }
-    const PredictorChoice choice = choosePredictor<T>(planes, shape);
-    return PackedBlock{ encodeGroups<T>(planes, choice.predictor, factor), choice.sampleBytes };
-  });
+      using T = decltype(zero);
+      ComponentPlanes<T>& planes = planesOfThread<T>();
+      planes.take(values, shape);
+      const T factor = planes.commonFactor();
+      if (factor > 1)
+      {
+        planes.divide(factor);
+      }
+      const PredictorChoice choice = choosePredictor<T>(planes, shape);
+      return PackedBlock{ encodeGroups<T>(planes, choice.predictor, factor), choice.sampleBytes };
+    });
 }
 
 std::vector<std::byte> encodePacked(const std::byte* values, const BlockShape& shape)

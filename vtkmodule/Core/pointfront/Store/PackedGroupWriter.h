@@ -14,7 +14,7 @@ namespace packed
 
 /// Bytes that a group takes at most.
 template <typename T>
-constexpr std::size_t mostGroupBytes = 2 + rowBytes * bitsOf<T>;
+constexpr std::size_t mostGroupBytes = 2 + rowBytes* bitsOf<T>;
 /// Bytes behind a group that writing it may change: upper parts are written as whole words.
 constexpr std::size_t writtenBeyond = 8;
 
@@ -68,7 +68,7 @@ void bitLengths(const CodeGroup<T>& codes, GroupLengths& lengths)
 struct GroupPlan
 {
   unsigned width = 0;
-  unsigned exceptions = 0;     ///< codes of more than `width` bits
+  unsigned exceptions = 0; ///< codes of more than `width` bits
   unsigned exceptionBytes = 0; ///< of the upper part of each
   std::size_t bytes = 0;
 };

@@ -11,8 +11,8 @@ namespace pointfront
 /// How a value of a packed block is predicted. The numbers are part of the format.
 enum class Predictor : std::uint8_t
 {
-  Zero = 0,           ///< code = value
-  PointBefore = 1,    ///< code = zigzag(value - value of the point before)
+  Zero = 0, ///< code = value
+  PointBefore = 1, ///< code = zigzag(value - value of the point before)
   SecondComponent = 2 ///< as 1, after component 1 was subtracted from 0 and 2: colours
 };
 constexpr std::uint8_t predictorCount = 3;

@@ -78,7 +78,10 @@ private:
 };
 
 /// What stands in for a row that is lost.
-Node hollowRow() { return Node(); }
+Node hollowRow()
+{
+  return Node();
+}
 } // namespace
 
 struct PagedNodeTable::Content final : MissingRows
@@ -90,9 +93,9 @@ struct PagedNodeTable::Content final : MissingRows
     , pageRows(source->pageRows())
     , roots(std::move(rootNodes))
     , refinement(kind)
-    , sets(std::max<std::size_t>(
-        1, std::min<std::size_t>(cacheBytes / (waysPerSet * sizeof(NodePage)),
-             nodePageCount(nodes, pageRows) / waysPerSet + 1)))
+    , sets(std::max<std::size_t>(1,
+        std::min<std::size_t>(cacheBytes / (waysPerSet * sizeof(NodePage)),
+          nodePageCount(nodes, pageRows) / waysPerSet + 1)))
   {
     wanted.reserve(mostWanted);
   }
@@ -114,7 +117,7 @@ struct PagedNodeTable::Content final : MissingRows
   const NodeIndex nodes;
   const std::uint32_t pageRows;
   const std::vector<NodeIndex> roots; ///< ascending
-  std::vector<Node> rootRows;         ///< theirs, or none
+  std::vector<Node> rootRows; ///< theirs, or none
   const Refinement refinement;
   std::vector<PageSet> sets;
   std::atomic<std::uint64_t> pagesRead{ 0 };
@@ -122,8 +125,8 @@ struct PagedNodeTable::Content final : MissingRows
   std::atomic<std::uint64_t> arrivals{ 0 };
 
   std::mutex faultMutex; ///< guards what follows
-  std::unordered_set<std::uint32_t> lost;     ///< pages
-  std::unordered_set<NodeIndex> unlinked;     ///< nodes that deny their parent
+  std::unordered_set<std::uint32_t> lost; ///< pages
+  std::unordered_set<NodeIndex> unlinked; ///< nodes that deny their parent
   std::optional<Error> firstFault;
   std::vector<Error> newFaults;
   std::atomic<bool> damaged{ false }; ///< written under the lock
@@ -190,8 +193,8 @@ bool PagedNodeTable::Content::linked(
   if (unlinked.insert(child).second)
   {
     noteFault(makeError(Error::Kind::Corrupt,
-      "node " + std::to_string(child) + " of the node table denies node " +
-        std::to_string(parent) + ", which names it as a child; build the store again"));
+      "node " + std::to_string(child) + " of the node table denies node " + std::to_string(parent) +
+        ", which names it as a child; build the store again"));
   }
   return false;
 }
@@ -263,8 +266,7 @@ void PagedNodeTable::Content::detach(const void* reader)
 
 PagedNodeTable::PagedNodeTable(std::unique_ptr<const NodePageSource> source,
   std::vector<NodeIndex> roots, Refinement refinement, std::size_t cacheBytes)
-  : content_(
-      std::make_unique<Content>(std::move(source), std::move(roots), refinement, cacheBytes))
+  : content_(std::make_unique<Content>(std::move(source), std::move(roots), refinement, cacheBytes))
 {
 }
 
@@ -280,11 +282,20 @@ void PagedNodeTable::keepRoots()
   content_->rootRows = std::move(rows);
 }
 
-NodeIndex PagedNodeTable::nodeCount() const { return content_->nodes; }
+NodeIndex PagedNodeTable::nodeCount() const
+{
+  return content_->nodes;
+}
 
-const std::vector<NodeIndex>& PagedNodeTable::roots() const { return content_->roots; }
+const std::vector<NodeIndex>& PagedNodeTable::roots() const
+{
+  return content_->roots;
+}
 
-Refinement PagedNodeTable::refinement() const { return content_->refinement; }
+Refinement PagedNodeTable::refinement() const
+{
+  return content_->refinement;
+}
 
 Node PagedNodeTable::node(NodeIndex index) const
 {
@@ -347,7 +358,10 @@ RowState PagedNodeTable::peek(NodeIndex index, Node& row) const
   return RowState::Coming;
 }
 
-std::uint64_t PagedNodeTable::arrivals() const { return content_->arrivals; }
+std::uint64_t PagedNodeTable::arrivals() const
+{
+  return content_->arrivals;
+}
 
 void PagedNodeTable::waitForArrival(std::uint64_t seen) const
 {
@@ -368,7 +382,10 @@ void PagedNodeTable::waitForArrival(std::uint64_t seen) const
   }
 }
 
-MissingRows* PagedNodeTable::missingRows() const { return content_.get(); }
+MissingRows* PagedNodeTable::missingRows() const
+{
+  return content_.get();
+}
 
 std::optional<Error> PagedNodeTable::fault() const
 {
@@ -390,7 +407,10 @@ std::vector<Error> PagedNodeTable::takeFaults() const
   return std::exchange(content_->newFaults, {});
 }
 
-std::uint64_t PagedNodeTable::pagesRead() const { return content_->pagesRead; }
+std::uint64_t PagedNodeTable::pagesRead() const
+{
+  return content_->pagesRead;
+}
 
 std::size_t PagedNodeTable::cachedBytes() const
 {

@@ -103,8 +103,8 @@ public:
     const std::size_t size = fetched.size - countBytes;
     const auto damaged = [&](const std::string& what)
     {
-      return corruptStore(file_.path(), placeOf(node),
-        "block directory, node " + std::to_string(node) + ": " + what);
+      return corruptStore(
+        file_.path(), placeOf(node), "block directory, node " + std::to_string(node) + ": " + what);
     };
     ByteReader end(record + size - 4, 4);
     if (!matchesChecksum(record, size - 4, end.get<std::uint32_t>()))
@@ -202,9 +202,8 @@ Result<std::unique_ptr<const PayloadDirectory>> openInMemory(
 }
 } // namespace
 
-Result<std::unique_ptr<const PayloadDirectory>> PayloadDirectory::open(
-  const InputFile& file, std::uint32_t version, const StoreFooter& footer,
-  std::uint64_t bytesElsewhere)
+Result<std::unique_ptr<const PayloadDirectory>> PayloadDirectory::open(const InputFile& file,
+  std::uint32_t version, const StoreFooter& footer, std::uint64_t bytesElsewhere)
 {
   const SectionEntry& section = *footer.find(SectionKind::BlockDirectory);
   const std::uint32_t blocks = footer.columnCount + 1;
@@ -234,8 +233,8 @@ std::vector<std::byte> encodePayloadRecords(const BlockDirectory& directory)
     {
       out.put(directory.origin(node)[axis]);
     }
-    out.put(directory.offset(node) |
-      (directory.isElsewhere(node) ? BlockDirectory::elsewhereBit : 0u));
+    out.put(
+      directory.offset(node) | (directory.isElsewhere(node) ? BlockDirectory::elsewhereBit : 0u));
     for (std::uint32_t b = 0; b < directory.blocksPerNode(); ++b)
     {
       const BlockDirectory::Block block = directory.block(node, b);

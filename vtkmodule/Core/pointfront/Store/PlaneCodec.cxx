@@ -89,14 +89,14 @@ void fromPlanes(const std::byte* planes, const BlockShape& shape, std::byte* val
 
 void splitPlanes(const std::byte* values, const BlockShape& shape, std::byte* planes)
 {
-  withUnsigned(shape.scalarBytes,
-    [&](auto zero) { toPlanes<decltype(zero)>(values, shape, planes); });
+  withUnsigned(
+    shape.scalarBytes, [&](auto zero) { toPlanes<decltype(zero)>(values, shape, planes); });
 }
 
 void joinPlanes(const std::byte* planes, const BlockShape& shape, std::byte* values)
 {
-  withUnsigned(shape.scalarBytes,
-    [&](auto zero) { fromPlanes<decltype(zero)>(planes, shape, values); });
+  withUnsigned(
+    shape.scalarBytes, [&](auto zero) { fromPlanes<decltype(zero)>(planes, shape, values); });
 }
 
 std::vector<std::byte> encodePlanes(const std::byte* values, const BlockShape& shape)
@@ -111,8 +111,8 @@ std::vector<std::byte> encodePlanes(const std::byte* values, const BlockShape& s
   return coded;
 }
 
-bool decodePlanes(const std::byte* coded, std::size_t codedBytes, const BlockShape& shape,
-  std::byte* values)
+bool decodePlanes(
+  const std::byte* coded, std::size_t codedBytes, const BlockShape& shape, std::byte* values)
 {
   std::vector<std::byte>& planes = scratch(shape.bytes());
   const std::size_t size =

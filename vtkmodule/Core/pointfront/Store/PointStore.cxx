@@ -4,9 +4,9 @@
 #include "pointfront/Store/ColumnStatistics.h"
 #include "pointfront/Store/PreviewRecord.h"
 #include "pointfront/Store/StoreContent.h"
+#include "pointfront/Store/StoredNodeTable.h"
 #include "pointfront/Store/StoreFormat.h"
 #include "pointfront/Store/StoreVerification.h"
-#include "pointfront/Store/StoredNodeTable.h"
 
 #include <algorithm>
 #include <cassert>
@@ -38,8 +38,8 @@ Result<RawBytes> readSection(const InputFile& file, const SectionEntry& section,
 Result<StoreHeader> readHeader(const InputFile& file)
 {
   std::byte bytes[storeHeaderBytes] = {};
-  const auto size = static_cast<std::size_t>(
-    std::min<std::uint64_t>(file.bytes(), storeHeaderBytes));
+  const auto size =
+    static_cast<std::size_t>(std::min<std::uint64_t>(file.bytes(), storeHeaderBytes));
   if (Result<void> done = file.readAt(0, bytes, size); !done)
   {
     return done.error();
@@ -242,8 +242,8 @@ Result<std::shared_ptr<PointStore>> PointStore::openTables(const std::string& pa
   {
     return elsewhere.error();
   }
-  auto directory = PayloadDirectory::open(
-    file, header->version, *footer, *elsewhere ? (*elsewhere)->bytes : 0);
+  auto directory =
+    PayloadDirectory::open(file, header->version, *footer, *elsewhere ? (*elsewhere)->bytes : 0);
   if (!directory)
   {
     return directory.error();
@@ -268,7 +268,10 @@ Result<std::shared_ptr<PointStore>> PointStore::openTables(const std::string& pa
   return store;
 }
 
-const StoreDescription& PointStore::description() const { return content_->description; }
+const StoreDescription& PointStore::description() const
+{
+  return content_->description;
+}
 
 const std::shared_ptr<const Hierarchy>& PointStore::hierarchy() const
 {
@@ -281,7 +284,10 @@ std::size_t PointStore::decodedBytes(
   return decodedBytesOf(points, columns, content_->description.schema);
 }
 
-MissingRows* PointStore::missingRows() const { return content_->hierarchy->missingRows(); }
+MissingRows* PointStore::missingRows() const
+{
+  return content_->hierarchy->missingRows();
+}
 
 std::size_t PointStore::storedBytes(NodeIndex node, const ColumnSelection& columns) const
 {
@@ -316,8 +322,7 @@ Result<FetchedNode> PointStore::fetch(NodeIndex node, const ColumnSelection& col
   if (content_->hierarchy->peek(node, row) == RowState::Lost)
   {
     return makeError(Error::Kind::Corrupt,
-      "'" + content_->description.path + "' is damaged: the row of node " +
-        std::to_string(node) +
+      "'" + content_->description.path + "' is damaged: the row of node " + std::to_string(node) +
         " in the node table cannot be read; copy the file again or build the store again");
   }
   Result<RawBytes> record = content_->directory->fetch(node, row.pointCount);

@@ -14,9 +14,9 @@ namespace pointfront
 /// the format stays version 1 and every reader shows it (ADR 0011, SMOOTH-1).
 struct PreviewRecord
 {
-  std::string storeName;         ///< file name of the finished store, in the preview's folder
+  std::string storeName; ///< file name of the finished store, in the preview's folder
   std::uint64_t pointsExpected = 0; ///< of the finished store, as the inputs announce them
-  std::uint64_t pointsRead = 0;  ///< that the build had read when the preview was written
+  std::uint64_t pointsRead = 0; ///< that the build had read when the preview was written
   std::uint64_t pointsFinished = 0; ///< of parts that the preview shows in full
 };
 

@@ -31,7 +31,7 @@ public:
   double columnQuantile(std::size_t column, std::size_t component, double share) const;
 
 private:
-  std::vector<double> elevations_;                        ///< sorted
+  std::vector<double> elevations_; ///< sorted
   std::vector<std::vector<std::vector<double>>> columns_; ///< [column][component], sorted
 };
 

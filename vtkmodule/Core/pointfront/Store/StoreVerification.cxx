@@ -83,8 +83,7 @@ public:
     report.phase = "verifying";
     report.done = done;
     report.total = total_;
-    report.fraction =
-      total_ == 0 ? 1.0 : static_cast<double>(done) / static_cast<double>(total_);
+    report.fraction = total_ == 0 ? 1.0 : static_cast<double>(done) / static_cast<double>(total_);
     report.secondsElapsed = std::chrono::duration<double>(now - begin_).count();
     return progress_(report);
   }
@@ -411,8 +410,8 @@ std::string StoreVerification::totalsFault(const SeenPoints& seen) const
   {
     if (seen.ranges[c].components != description_.ranges[c].components)
     {
-      return "'" + description_.path + "': the range of attribute '" +
-        description_.schema[c].name + "' is not that of its values";
+      return "'" + description_.path + "': the range of attribute '" + description_.schema[c].name +
+        "' is not that of its values";
     }
   }
   return {};

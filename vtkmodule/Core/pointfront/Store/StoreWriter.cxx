@@ -65,10 +65,8 @@ private:
   Result<void> put(const std::vector<std::byte>& bytes);
   Result<void> flush();
   Result<void> putBlock(const EncodedNode::Block& block);
-  Result<void> putWhole(
-    SectionKind kind, const std::vector<std::byte>& bytes, StoreFooter& footer);
-  Result<void> putParts(
-    SectionKind kind, const std::vector<std::byte>& bytes, StoreFooter& footer);
+  Result<void> putWhole(SectionKind kind, const std::vector<std::byte>& bytes, StoreFooter& footer);
+  Result<void> putParts(SectionKind kind, const std::vector<std::byte>& bytes, StoreFooter& footer);
   Result<void> finish(const StoreFooter& footer);
   std::string payloadFault(
     const std::vector<Node>& nodes, const std::vector<PayloadId>& payloads) const;
@@ -215,8 +213,7 @@ Result<void> FileStoreWriter::commit(const StoreDescription& description,
     {
       pointCount += originalPoints(node, description.refinement);
     }
-    fault =
-      nodeTableFault(nodes, description.layers.size(), pointCount, description.refinement);
+    fault = nodeTableFault(nodes, description.layers.size(), pointCount, description.refinement);
   }
   if (fault.empty() && roots != rootsOf(nodes))
   {
@@ -315,8 +312,7 @@ Result<std::unique_ptr<StoreWriter>> assembleStore(std::unique_ptr<OutputFile> f
       "a store has at most " + std::to_string(maxColumns) + " attributes, not " +
         std::to_string(schema.size()) + "; name the ones to store");
   }
-  auto writer =
-    std::make_unique<FileStoreWriter>(std::move(file), schema, std::move(elsewhere));
+  auto writer = std::make_unique<FileStoreWriter>(std::move(file), schema, std::move(elsewhere));
   if (Result<void> done = writer->begin(); !done)
   {
     return done.error();
@@ -338,8 +334,7 @@ Result<std::unique_ptr<StoreWriter>> StoreWriter::create(
 Result<std::unique_ptr<StoreWriter>> StoreWriter::createReferring(
   const std::string& path, const AttributeSchema& schema, WrittenPayloads elsewhere)
 {
-  Result<std::unique_ptr<OutputFile>> file =
-    OutputFile::create(path, OutputFile::Durability::None);
+  Result<std::unique_ptr<OutputFile>> file = OutputFile::create(path, OutputFile::Durability::None);
   if (!file)
   {
     return file.error();

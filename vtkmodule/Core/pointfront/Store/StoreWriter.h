@@ -28,7 +28,7 @@ struct EncodedNode
   std::vector<Block> columns; ///< one for each column of the schema
   GridPosition origin{ 0 };
   std::uint32_t pointCount = 0;
-  GridBounds bounds;               ///< of the points, not relative to the origin
+  GridBounds bounds; ///< of the points, not relative to the origin
   std::vector<ColumnRange> ranges; ///< of the points, one for each column
 
   std::size_t bytes() const;
@@ -48,9 +48,9 @@ EncodedNode encodeNode(
 /// What a writer has written so far, for stores that refer to it.
 struct WrittenPayloads
 {
-  std::string storeName;          ///< file name of the store; it has ".tmp" at its end meanwhile
-  std::uint64_t bytes = 0;        ///< of that file, to be relied on from now on
-  BlockDirectory directory{ 1 };  ///< by PayloadId, like the next one
+  std::string storeName; ///< file name of the store; it has ".tmp" at its end meanwhile
+  std::uint64_t bytes = 0; ///< of that file, to be relied on from now on
+  BlockDirectory directory{ 1 }; ///< by PayloadId, like the next one
   std::vector<std::uint32_t> pointCounts;
   GridBounds bounds;
   std::vector<ColumnRange> ranges; ///< of all their points, one for each column

@@ -44,7 +44,7 @@ struct StoreDescription
   Bounds bounds; ///< tight, of the stored points
   QuantisationGrid grid;
   std::string crsWkt;
-  std::string structure;   ///< "octree", "kdtree", "inplace", "tiles", "sample"
+  std::string structure; ///< "octree", "kdtree", "inplace", "tiles", "sample"
   Refinement refinement = Refinement::Add;
   std::uint32_t levels = 0;
   AttributeSchema schema;
@@ -100,7 +100,7 @@ class StoredCloudFormat
 {
 public:
   virtual ~StoredCloudFormat() = default;
-  virtual std::string name() const = 0;                    ///< "store", "index of a LAS file"
+  virtual std::string name() const = 0; ///< "store", "index of a LAS file"
   virtual bool accepts(const std::string& path) const = 0; ///< by content, cheap, silent
   virtual Result<std::shared_ptr<const StoredCloud>> open(const std::string& path) const = 0;
 };

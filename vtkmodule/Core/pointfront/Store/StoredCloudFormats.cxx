@@ -52,8 +52,7 @@ void StoredCloudFormats::add(std::shared_ptr<const StoredCloudFormat> format)
   formats_.push_back(std::move(format));
 }
 
-std::shared_ptr<const StoredCloudFormat> StoredCloudFormats::formatOf(
-  const std::string& path) const
+std::shared_ptr<const StoredCloudFormat> StoredCloudFormats::formatOf(const std::string& path) const
 {
   const std::shared_lock<std::shared_mutex> lock(mutex_);
   const auto found = std::find_if(formats_.begin(), formats_.end(),

@@ -58,19 +58,18 @@ Result<std::shared_ptr<const Hierarchy>> readWhole(
   }
   if (!matchesChecksum(bytes.data(), bytes.size(), section.checksum))
   {
-    return corruptStore(
-      file.path(), section.offset, "the node table's checksum does not match");
+    return corruptStore(file.path(), section.offset, "the node table's checksum does not match");
   }
   std::vector<Node> nodes = decodeNodeTable(bytes.data(), footer.nodeCount, NodeRowForm::Plain);
-  const std::string fault = nodeTableFault(
-    nodes, description.layers.size(), footer.pointCount, description.refinement);
+  const std::string fault =
+    nodeTableFault(nodes, description.layers.size(), footer.pointCount, description.refinement);
   if (!fault.empty())
   {
     return corruptStore(file.path(), section.offset, fault);
   }
   std::vector<NodeIndex> roots = rootsOf(nodes);
-  auto table = std::make_shared<HierarchyTable>(
-    std::move(nodes), std::move(roots), description.refinement);
+  auto table =
+    std::make_shared<HierarchyTable>(std::move(nodes), std::move(roots), description.refinement);
   countLayers(*table, description);
   return std::shared_ptr<const Hierarchy>(std::move(table));
 }

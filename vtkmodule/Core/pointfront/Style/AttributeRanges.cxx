@@ -68,12 +68,11 @@ bool AttributeRanges::has(const std::string& name) const
     { return findComponent(store->description().schema, name).has_value(); });
 }
 
-std::array<double, 2> AttributeRanges::whole(
-  const StoreDescription& store, const std::string& name)
+std::array<double, 2> AttributeRanges::whole(const StoreDescription& store, const std::string& name)
 {
   const std::optional<AttributeComponent> part = findComponent(store.schema, name);
-  const Range range = part ? wholeOf(store, *part)
-                           : Range{ store.bounds.low.z, store.bounds.high.z };
+  const Range range =
+    part ? wholeOf(store, *part) : Range{ store.bounds.low.z, store.bounds.high.z };
   return usable({ infinity, -infinity }, range);
 }
 

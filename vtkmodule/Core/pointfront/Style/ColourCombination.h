@@ -11,10 +11,10 @@ namespace pointfront
 /// What becomes of two colours of one point.
 enum class ColourCombination : std::uint8_t
 {
-  None,     ///< there is one only
+  None, ///< there is one only
   Multiply, ///< channel by channel: white leaves the first as it is
-  Mix,      ///< (1 - share) * first + share * second
-  HueValue  ///< hue and saturation of the first, value (largest channel) of the second
+  Mix, ///< (1 - share) * first + share * second
+  HueValue ///< hue and saturation of the first, value (largest channel) of the second
 };
 
 /// Alpha is the first one's.

@@ -14,16 +14,16 @@ using Rgba8 = std::array<std::uint8_t, 4>;
 /// Threads  a value.
 struct ColourMap
 {
-  std::vector<Rgba8> entries;                 ///< at least one
-  std::array<double, 2> range{ 0.0, 1.0 };    ///< of the first entry's low, the last one's high end
-  bool logarithmic = false;                   ///< equal steps of log10; range > 0 then
+  std::vector<Rgba8> entries; ///< at least one
+  std::array<double, 2> range{ 0.0, 1.0 }; ///< of the first entry's low, the last one's high end
+  bool logarithmic = false; ///< equal steps of log10; range > 0 then
   /// Whole numbers from range[0] on have an entry each; nothing lies between two.
   bool indexed = false;
   Rgba8 below{ 0, 0, 0, 255 };
   Rgba8 above{ 255, 255, 255, 255 };
-  Rgba8 missing{ 127, 0, 0, 255 };            ///< NaN, and what an indexed map does not have
-  bool usesBelow = false;                     ///< else the first entry
-  bool usesAbove = false;                     ///< else the last one
+  Rgba8 missing{ 127, 0, 0, 255 }; ///< NaN, and what an indexed map does not have
+  bool usesBelow = false; ///< else the first entry
+  bool usesAbove = false; ///< else the last one
 
   Rgba8 at(double value) const;
 

@@ -14,7 +14,6 @@ namespace pointfront
 namespace
 {
 
-
 /// Smallest and largest stored value over all components; {0, 0} if it is not known.
 std::array<double, 2> storedRange(const StoreDescription& store, std::size_t column)
 {
@@ -58,7 +57,7 @@ Error missing(const StoreDescription& store, const std::string& name)
 struct Meaning
 {
   ColourRequest request;
-  bool derived = false;  ///< horizontality, global_height: from 0 to 1
+  bool derived = false; ///< horizontality, global_height: from 0 to 1
   const Attribute* attribute = nullptr;
 };
 
@@ -118,8 +117,7 @@ std::vector<Rgba8> entriesOf(const ColourMapChoice& choice, bool grey)
     default:
       break;
   }
-  return grey && choice.kind == ColourMapChoice::Kind::Automatic ? greyColours()
-                                                                 : viridisColours();
+  return grey && choice.kind == ColourMapChoice::Kind::Automatic ? greyColours() : viridisColours();
 }
 
 Result<std::shared_ptr<const ColourMap>> makeMap(const ColourSource& source,
@@ -196,8 +194,8 @@ ColourSource ColourSource::ofTwo(
   return source;
 }
 
-Result<ResolvedColour> resolveColour(const ColourSource& source, const StoreDescription& store,
-  const StoreSurroundings& surroundings)
+Result<ResolvedColour> resolveColour(
+  const ColourSource& source, const StoreDescription& store, const StoreSurroundings& surroundings)
 {
   assert(source.kind != ColourSource::Kind::Combination);
   if (source.kind == ColourSource::Kind::Automatic)
@@ -219,8 +217,7 @@ Result<ResolvedColour> resolveColour(const ColourSource& source, const StoreDesc
   const bool heightsMissing =
     PointColouring::wantsHeights(store, meaning->request) && !surroundings.heights;
   assert(!heightsMissing);
-  const auto colouring =
-    PointColouring::choose(store, meaning->request, surroundings.heights);
+  const auto colouring = PointColouring::choose(store, meaning->request, surroundings.heights);
   if (!colouring || heightsMissing)
   {
     const AttributeRanges* const others = surroundings.ranges;

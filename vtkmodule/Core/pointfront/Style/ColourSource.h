@@ -27,8 +27,8 @@ struct ColourMapChoice
     Viridis,
     Grey,
     Classification, ///< a colour for each whole number 0 to 255 (ASPRS)
-    Colours,        ///< `colours`, at equal distances, linear between two
-    Direct          ///< the three or four components are the colour
+    Colours, ///< `colours`, at equal distances, linear between two
+    Direct ///< the three or four components are the colour
   };
   Kind kind = Kind::Automatic;
   std::vector<Rgba8> colours;
@@ -48,10 +48,10 @@ struct ColourSource
 {
   enum class Kind : std::uint8_t
   {
-    Automatic,  ///< what says most of the store: defaultColourAttribute()
+    Automatic, ///< what says most of the store: defaultColourAttribute()
     Constant,
-    Attribute,  ///< a name: an attribute, a component (ComponentName.h), elevation, horizontality
-                ///< or global_height
+    Attribute, ///< a name: an attribute, a component (ComponentName.h), elevation, horizontality
+               ///< or global_height
     Combination ///< of two, neither of them a combination
   };
   Kind kind = Kind::Automatic;
@@ -59,7 +59,7 @@ struct ColourSource
   std::string attribute;
   ColourMapChoice map;
   ColourCombination combination = ColourCombination::None;
-  double share = 0.5;              ///< Mix: of the second, 0 to 1
+  double share = 0.5; ///< Mix: of the second, 0 to 1
   std::vector<ColourSource> parts; ///< of a combination: two
 
   static ColourSource ofAttribute(std::string name, ColourMapChoice map = {});
@@ -91,12 +91,12 @@ struct ResolvedColour
 {
   PointColouring colouring;
   std::shared_ptr<const ColourMap> map; ///< where the colouring uses a table; else null
-  Rgba8 flat{ 255, 255, 255, 255 };     ///< where it is Flat
+  Rgba8 flat{ 255, 255, 255, 255 }; ///< where it is Flat
 };
 
 /// BadArgument names the attribute that is missing, and how to get it where that is known.
-Result<ResolvedColour> resolveColour(const ColourSource& source, const StoreDescription& store,
-  const StoreSurroundings& surroundings);
+Result<ResolvedColour> resolveColour(
+  const ColourSource& source, const StoreDescription& store, const StoreSurroundings& surroundings);
 
 /// What is drawn when the user does not say: rgb if the store has any colour, else classification
 /// if there are several classes, else intensity if it varies, else elevation.

@@ -61,23 +61,23 @@ std::vector<Rgba8> classificationColours()
   const Rgba8 standard[] = {
     { 160, 160, 160, opaque }, // created, never classified
     { 190, 190, 190, opaque }, // unclassified
-    { 165, 120, 75, opaque },  // ground
+    { 165, 120, 75, opaque }, // ground
     { 150, 205, 110, opaque }, // low vegetation
-    { 85, 170, 70, opaque },   // medium vegetation
-    { 30, 120, 45, opaque },   // high vegetation
-    { 205, 60, 50, opaque },   // building
-    { 225, 70, 200, opaque },  // low point (noise)
+    { 85, 170, 70, opaque }, // medium vegetation
+    { 30, 120, 45, opaque }, // high vegetation
+    { 205, 60, 50, opaque }, // building
+    { 225, 70, 200, opaque }, // low point (noise)
     { 220, 200, 150, opaque }, // reserved (model key point)
-    { 55, 120, 215, opaque },  // water
-    { 120, 85, 60, opaque },   // rail
-    { 95, 95, 105, opaque },   // road surface
-    { 225, 205, 60, opaque },  // reserved (overlap)
+    { 55, 120, 215, opaque }, // water
+    { 120, 85, 60, opaque }, // rail
+    { 95, 95, 105, opaque }, // road surface
+    { 225, 205, 60, opaque }, // reserved (overlap)
     { 245, 225, 100, opaque }, // wire: guard
-    { 250, 190, 40, opaque },  // wire: conductor
-    { 235, 140, 30, opaque },  // transmission tower
-    { 245, 165, 95, opaque },  // wire: structure connector
-    { 150, 95, 175, opaque },  // bridge deck
-    { 255, 90, 160, opaque },  // high noise
+    { 250, 190, 40, opaque }, // wire: conductor
+    { 235, 140, 30, opaque }, // transmission tower
+    { 245, 165, 95, opaque }, // wire: structure connector
+    { 150, 95, 175, opaque }, // bridge deck
+    { 255, 90, 160, opaque }, // high noise
   };
   std::copy(std::begin(standard), std::end(standard), colours.begin());
   return colours;

@@ -36,8 +36,7 @@ std::optional<SplitName> splitLetter(std::string_view name)
   {
     return std::nullopt;
   }
-  const auto letter =
-    static_cast<char>(std::tolower(static_cast<unsigned char>(name.back())));
+  const auto letter = static_cast<char>(std::tolower(static_cast<unsigned char>(name.back())));
   for (const std::string_view letters : { std::string_view("xyzw"), std::string_view("rgba") })
   {
     const std::size_t place = letters.find(letter);

@@ -64,10 +64,7 @@ private:
     }
   }
 
-  void fail(const std::string& expected)
-  {
-    fail(expected, at_);
-  }
+  void fail(const std::string& expected) { fail(expected, at_); }
 
   void fail(const std::string& expected, std::size_t at)
   {
@@ -139,8 +136,8 @@ private:
     else
     {
       const std::size_t begin = at_;
-      while (!atEnd() && !isSpace(next()) && std::string_view("=!<>(){},\"").find(next()) ==
-        std::string_view::npos)
+      while (!atEnd() && !isSpace(next()) &&
+        std::string_view("=!<>(){},\"").find(next()) == std::string_view::npos)
       {
         ++at_;
       }
@@ -326,8 +323,8 @@ Result<PointFilter> FilterExpression::resolve(const StoreDescription& store) con
     const int axis = found ? -1 : axisOf(term.name);
     if (!found && axis < 0)
     {
-      return refusal(*this, term, store.path + " has no attribute '" + term.name +
-        "' (info lists them)");
+      return refusal(
+        *this, term, store.path + " has no attribute '" + term.name + "' (info lists them)");
     }
     if (axis >= 0)
     {
@@ -340,9 +337,9 @@ Result<PointFilter> FilterExpression::resolve(const StoreDescription& store) con
       const Attribute& attribute = store.schema[found->column];
       if (attribute.components > 1 && !found->component)
       {
-        return refusal(*this, term, "'" + term.name + "' has " +
-          std::to_string(attribute.components) + " components: write one of them, " + term.name +
-          "[0]");
+        return refusal(*this, term,
+          "'" + term.name + "' has " + std::to_string(attribute.components) +
+            " components: write one of them, " + term.name + "[0]");
       }
       condition.column = found->column;
       condition.component = found->component.value_or(0);

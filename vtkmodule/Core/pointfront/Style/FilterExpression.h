@@ -15,8 +15,8 @@ namespace pointfront
 /// One condition as the user wrote it, before any store is known.
 struct FilterTerm
 {
-  std::string name;           ///< attribute, component or coordinate
-  std::size_t position = 0;   ///< of the name in the text, bytes
+  std::string name; ///< attribute, component or coordinate
+  std::size_t position = 0; ///< of the name in the text, bytes
   AttributeCondition passing; ///< column, component and axis are not set
 };
 

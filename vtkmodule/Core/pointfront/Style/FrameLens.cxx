@@ -14,8 +14,9 @@ bool FrameLens::coversNothing() const
     case LensShape::Rectangle:
       return !(halfSizePx.x > 0.0f && halfSizePx.y > 0.0f);
     case LensShape::Mask:
-      return !mask || std::all_of(mask->values.begin(), mask->values.end(),
-                        [](std::uint8_t value) { return value == 0; });
+      return !mask ||
+        std::all_of(
+          mask->values.begin(), mask->values.end(), [](std::uint8_t value) { return value == 0; });
     case LensShape::AroundClass:
       break;
   }

@@ -29,7 +29,7 @@ enum class LensShape : std::uint8_t
 {
   Circle,
   Rectangle,
-  Mask,       ///< any set of pixels
+  Mask, ///< any set of pixels
   AroundClass ///< what points of a class cover, each with a disc of some world units
 };
 
@@ -40,7 +40,7 @@ struct FrameLens
 {
   LensShape shape = LensShape::Circle;
   glm::vec2 centrePx{ 0.0f };
-  glm::vec2 halfSizePx{ 0.0f };         ///< Circle: its radius, twice; else an ellipse
+  glm::vec2 halfSizePx{ 0.0f }; ///< Circle: its radius, twice; else an ellipse
   std::shared_ptr<const LensMask> mask; ///< Mask
 
   /// No pixel of any viewport; a lens around a class covers what the class's points do.

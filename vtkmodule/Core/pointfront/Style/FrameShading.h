@@ -13,7 +13,7 @@ namespace pointfront
 struct FrameLight
 {
   glm::vec3 towards{ 0.0f, 0.0f, 1.0f }; ///< unit, view space, from the surface to the light
-  glm::vec3 colour{ 1.0f };              ///< intensity included
+  glm::vec3 colour{ 1.0f }; ///< intensity included
 
   friend bool operator==(const FrameLight& a, const FrameLight& b)
   {
@@ -26,7 +26,7 @@ struct FrameHighlight
 {
   glm::vec3 colour{ 1.0f };
   float haloPx = 0.0f; ///< around them, on what lies behind them
-  float tint = 0.0f;   ///< 0 to 1: of their own colour, how much is this one
+  float tint = 0.0f; ///< 0 to 1: of their own colour, how much is this one
 
   friend bool operator==(const FrameHighlight& a, const FrameHighlight& b)
   {

@@ -18,9 +18,9 @@ enum class GpuStream : std::uint8_t
 {
   Value, ///< what its colour is made of
   Shape, ///< its normal and the code of its radius
-  Size,  ///< a radius of its own as a float, world units
+  Size, ///< a radius of its own as a float, world units
   Height, ///< above the ground as a float, world units
-  Lenses  ///< and those behind it: as Value, for each set of styles but the first (valueSetOf)
+  Lenses ///< and those behind it: as Value, for each set of styles but the first (valueSetOf)
 };
 /// So many lenses of a sheet have streams: what is inside them, and who makes their masks.
 constexpr std::size_t gpuLenses = 4;
@@ -48,10 +48,7 @@ struct GpuStreams
   std::array<bool, gpuValueSets> marked{};
 
   bool has(GpuStream stream) const { return wanted[static_cast<std::size_t>(stream)]; }
-  int count() const
-  {
-    return static_cast<int>(std::count(wanted.begin(), wanted.end(), true));
-  }
+  int count() const { return static_cast<int>(std::count(wanted.begin(), wanted.end(), true)); }
   void add(const GpuStreams& other)
   {
     for (std::size_t stream = 0; stream < gpuStreamCount; ++stream)

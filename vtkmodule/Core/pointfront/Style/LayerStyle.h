@@ -18,7 +18,7 @@ namespace pointfront
 struct StyleSize
 {
   SplatSize::Mode mode = SplatSize::Mode::Spacing;
-  double value = 1.0;    ///< > 0: pixels, world units, or a factor
+  double value = 1.0; ///< > 0: pixels, world units, or a factor
   std::string attribute; ///< Attribute: of one component; empty: enclosing_radius
 
   friend bool operator==(const StyleSize& a, const StyleSize& b)
@@ -48,14 +48,14 @@ struct LayerStyle
   std::optional<ColourSource> colour;
   std::optional<StyleSize> size;
   std::optional<StyleOrientation> orientation;
-  std::optional<double> opacity;     ///< 0 to 1
-  std::optional<bool> visible;       ///< false: neither loaded nor drawn
+  std::optional<double> opacity; ///< 0 to 1
+  std::optional<bool> visible; ///< false: neither loaded nor drawn
   std::optional<double> errorFactor; ///< > 0: 2 draws half as fine (LayerLimits)
-  std::optional<bool> blended;       ///< splats: two passes with weights
+  std::optional<bool> blended; ///< splats: two passes with weights
   std::optional<SplatAccuracy> accuracy;
-  std::optional<Rgba8> rim;                  ///< silhouettes
-  std::optional<std::array<Rgba8, 2>> wall;  ///< solid: upper and lower end; else as the points
-  std::optional<FilterExpression> where;     ///< in the place of the default's
+  std::optional<Rgba8> rim; ///< silhouettes
+  std::optional<std::array<Rgba8, 2>> wall; ///< solid: upper and lower end; else as the points
+  std::optional<FilterExpression> where; ///< in the place of the default's
 
   /// With what it leaves open filled from `below`.
   LayerStyle over(const LayerStyle& below) const;

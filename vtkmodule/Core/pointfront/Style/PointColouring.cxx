@@ -22,8 +22,8 @@ constexpr std::int64_t mostIntegers = 8192;
 bool sameName(const std::string& a, const char* b)
 {
   return a.size() == std::strlen(b) &&
-         std::equal(a.begin(), a.end(), b,
-           [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
+    std::equal(a.begin(), a.end(), b,
+      [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
 }
 
 bool isInteger(ScalarType type)
@@ -45,26 +45,26 @@ Reading readingOf(ScalarType type)
 {
   switch (type)
   {
-  case ScalarType::Int8:
-    return as<std::int8_t>;
-  case ScalarType::UInt8:
-    return as<std::uint8_t>;
-  case ScalarType::Int16:
-    return as<std::int16_t>;
-  case ScalarType::UInt16:
-    return as<std::uint16_t>;
-  case ScalarType::Int32:
-    return as<std::int32_t>;
-  case ScalarType::UInt32:
-    return as<std::uint32_t>;
-  case ScalarType::Int64:
-    return as<std::int64_t>;
-  case ScalarType::UInt64:
-    return as<std::uint64_t>;
-  case ScalarType::Float32:
-    return as<float>;
-  case ScalarType::Float64:
-    break;
+    case ScalarType::Int8:
+      return as<std::int8_t>;
+    case ScalarType::UInt8:
+      return as<std::uint8_t>;
+    case ScalarType::Int16:
+      return as<std::int16_t>;
+    case ScalarType::UInt16:
+      return as<std::uint16_t>;
+    case ScalarType::Int32:
+      return as<std::int32_t>;
+    case ScalarType::UInt32:
+      return as<std::uint32_t>;
+    case ScalarType::Int64:
+      return as<std::int64_t>;
+    case ScalarType::UInt64:
+      return as<std::uint64_t>;
+    case ScalarType::Float32:
+      return as<float>;
+    case ScalarType::Float64:
+      break;
   }
   return as<double>;
 }
@@ -86,18 +86,17 @@ std::uint32_t packed(float number)
 bool isColour(const Attribute& attribute, ColourRequest::Mode mode)
 {
   if (mode == ColourRequest::Mode::Table ||
-      (attribute.components != 3 && attribute.components != 4))
+    (attribute.components != 3 && attribute.components != 4))
   {
     return false;
   }
   return mode == ColourRequest::Mode::Direct || attribute.type == ScalarType::UInt8 ||
-         (sameName(attribute.name, "rgb") && attribute.type == ScalarType::UInt16);
+    (sameName(attribute.name, "rgb") && attribute.type == ScalarType::UInt16);
 }
 
 } // namespace
 
-ColourScale::ColourScale(
-  const Attribute& attribute, bool wide, const std::array<double, 2>& range)
+ColourScale::ColourScale(const Attribute& attribute, bool wide, const std::array<double, 2>& range)
 {
   if (isInteger(attribute.type) && attribute.scale == 1.0 && attribute.offset == 0.0)
   {
@@ -112,8 +111,7 @@ ColourScale::ColourScale(
   offset = (attribute.offset - range[0]) * full;
 }
 
-bool PointColouring::wantsHeights(
-  const StoreDescription& description, const ColourRequest& request)
+bool PointColouring::wantsHeights(const StoreDescription& description, const ColourRequest& request)
 {
   return sameName(request.name, "global_height") && !description.schema.find(request.name);
 }
@@ -136,7 +134,7 @@ std::optional<PointColouring> PointColouring::derived(const StoreDescription& de
   }
   const auto normal = description.schema.find("normal");
   if (sameName(request.name, "horizontality") && normal &&
-      description.schema[*normal].components == 3)
+    description.schema[*normal].components == 3)
   {
     colouring.column = static_cast<std::uint32_t>(*normal);
     colouring.component = 2;
@@ -183,10 +181,10 @@ std::optional<PointColouring> PointColouring::choose(const StoreDescription& des
     const double high = range[1] * attribute.scale + attribute.offset;
     colouring.base = known ? std::min(low, high) : 0.0;
     if (known && isInteger(attribute.type) && attribute.scale == 1.0 && attribute.offset == 0.0 &&
-        range[1] - range[0] < static_cast<double>(mostIntegers))
+      range[1] - range[0] < static_cast<double>(mostIntegers))
     {
-      colouring.integers = std::array<std::int64_t, 2>{
-        static_cast<std::int64_t>(range[0]), static_cast<std::int64_t>(range[1])};
+      colouring.integers = std::array<std::int64_t, 2>{ static_cast<std::int64_t>(range[0]),
+        static_cast<std::int64_t>(range[1]) };
     }
   }
   return colouring;
@@ -194,13 +192,13 @@ std::optional<PointColouring> PointColouring::choose(const StoreDescription& des
 
 ColumnSelection PointColouring::columns() const
 {
-  return usesColumn() ? ColumnSelection{column} : ColumnSelection{};
+  return usesColumn() ? ColumnSelection{ column } : ColumnSelection{};
 }
 
 bool PointColouring::coveredBy(const NodeColumns& node) const
 {
   return !usesColumn() ||
-         std::find(node.selection.begin(), node.selection.end(), column) != node.selection.end();
+    std::find(node.selection.begin(), node.selection.end(), column) != node.selection.end();
 }
 
 void PointColouring::encode(const NodeColumns& node, const AttributeSchema& schema,
@@ -233,7 +231,7 @@ void PointColouring::encodeColours(const std::byte* point, const Attribute& attr
   const ColourScale toByte(attribute, wide, colourRange);
   for (std::uint32_t i = 0; i < count; ++i, point += attribute.bytes())
   {
-    std::array<std::uint8_t, 4> rgba{255, 255, 255, 255};
+    std::array<std::uint8_t, 4> rgba{ 255, 255, 255, 255 };
     for (std::size_t c = 0; c < attribute.components; ++c)
     {
       const double byte = reading(point + c * width) * toByte.factor + toByte.offset;

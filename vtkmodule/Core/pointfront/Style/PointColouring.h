@@ -21,15 +21,15 @@ struct ColourRequest
   enum class Mode
   {
     Default, ///< bytes (and "rgb" of 16 bits) are colours, all else goes through the table
-    Table,   ///< everything through the table
-    Direct   ///< whatever has three or four components is a colour
+    Table, ///< everything through the table
+    Direct ///< whatever has three or four components is a colour
   };
   std::string name; ///< of the attribute; empty: the property's colour
   Mode mode = Mode::Default;
   int component = -1; ///< -1: the magnitude of several
   /// Direct: the values of floating or scaled components that are black and full (a lookup table
   /// of vector mode RGB colours has such a range). {-1, 1} shows a normal as a colour.
-  std::array<double, 2> colourRange{0.0, 1.0};
+  std::array<double, 2> colourRange{ 0.0, 1.0 };
 };
 
 /// From a stored component to 0..255: byte = stored * factor + offset, clamped.
@@ -54,9 +54,9 @@ struct PointColouring
 {
   enum class Kind
   {
-    Flat,     ///< the property's colour
-    Direct,   ///< the value is four bytes r, g, b, a
-    Table,    ///< the value is a float: world value - base, to be looked up
+    Flat, ///< the property's colour
+    Direct, ///< the value is four bytes r, g, b, a
+    Table, ///< the value is a float: world value - base, to be looked up
     Elevation ///< the point's z, computed in the shader, to be looked up
   };
   Kind kind = Kind::Flat;
@@ -65,7 +65,7 @@ struct PointColouring
   double base = 0.0; ///< world value that float 0 stands for: floats keep large GPS times apart
   bool absolute = false; ///< Table: of the component
   bool wide = false; ///< Direct: integer components use all bits of their type
-  std::array<double, 2> colourRange{0.0, 1.0}; ///< Direct: as in ColourRequest
+  std::array<double, 2> colourRange{ 0.0, 1.0 }; ///< Direct: as in ColourRequest
   /// Table: the value is a point's height in its class, of no column.
   std::shared_ptr<const ClassHeights> heights;
   /// Table: world values are the integers of this range, few enough for a table of one entry each.
@@ -93,8 +93,8 @@ struct PointColouring
   friend bool operator==(const PointColouring& a, const PointColouring& b)
   {
     return a.kind == b.kind && a.column == b.column && a.component == b.component &&
-           a.base == b.base && a.absolute == b.absolute && a.wide == b.wide &&
-           a.colourRange == b.colourRange && a.heights == b.heights;
+      a.base == b.base && a.absolute == b.absolute && a.wide == b.wide &&
+      a.colourRange == b.colourRange && a.heights == b.heights;
   }
   friend bool operator!=(const PointColouring& a, const PointColouring& b) { return !(a == b); }
 

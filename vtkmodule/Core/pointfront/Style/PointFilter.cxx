@@ -160,8 +160,8 @@ struct OrderedKeys
 };
 
 template <typename T, typename From>
-void keepPassing(const From& from, const Attribute& attribute,
-  const AttributeCondition& condition, std::uint32_t count, std::uint8_t* keep)
+void keepPassing(const From& from, const Attribute& attribute, const AttributeCondition& condition,
+  std::uint32_t count, std::uint8_t* keep)
 {
   if constexpr (std::is_floating_point_v<T>)
   {
@@ -172,8 +172,7 @@ void keepPassing(const From& from, const Attribute& attribute,
       return;
     }
     keepWhere(from, count, keep,
-      [&attribute, &condition](T stored)
-      {
+      [&attribute, &condition](T stored) {
         return condition.passes(static_cast<double>(stored) * attribute.scale + attribute.offset);
       });
   }
@@ -185,8 +184,7 @@ void keepPassing(const From& from, const Attribute& attribute,
 }
 
 void keepOfColumn(const NodeColumns& node, const AttributeSchema& schema,
-  const AttributeCondition& condition, std::uint32_t first, std::uint32_t count,
-  std::uint8_t* keep)
+  const AttributeCondition& condition, std::uint32_t first, std::uint32_t count, std::uint8_t* keep)
 {
   const auto place = std::find(node.selection.begin(), node.selection.end(), condition.column);
   const Attribute& attribute = schema[condition.column];
@@ -197,8 +195,8 @@ void keepOfColumn(const NodeColumns& node, const AttributeSchema& schema,
     [&](auto zero)
     {
       using T = decltype(zero);
-      const std::byte* const at = column + first * stride +
-        static_cast<std::size_t>(condition.component) * sizeof(T);
+      const std::byte* const at =
+        column + first * stride + static_cast<std::size_t>(condition.component) * sizeof(T);
       stride == sizeof(T)
         ? keepPassing<T>(DenseValues<T>{ at }, attribute, condition, count, keep)
         : keepPassing<T>(Values<T>{ at, stride }, attribute, condition, count, keep);
@@ -238,9 +236,8 @@ bool AttributeCondition::passes(double value) const
   {
     return false;
   }
-  const bool inside = !values.empty()
-    ? std::binary_search(values.begin(), values.end(), value)
-    : (lowOpen ? value > range[0] : value >= range[0]) &&
+  const bool inside = !values.empty() ? std::binary_search(values.begin(), values.end(), value)
+                                      : (lowOpen ? value > range[0] : value >= range[0]) &&
       (highOpen ? value < range[1] : value <= range[1]);
   return inside != inverted;
 }

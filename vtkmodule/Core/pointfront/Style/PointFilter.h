@@ -18,15 +18,15 @@ struct AttributeCondition
 {
   std::uint32_t column = 0;
   int component = 0;
-  int axis = -1;           ///< 0 x, 1 y, 2 z: of the position, which needs no column
-  double axisScale = 1.0;  ///< of the store's grid, along `axis`
+  int axis = -1; ///< 0 x, 1 y, 2 z: of the position, which needs no column
+  double axisScale = 1.0; ///< of the store's grid, along `axis`
   double axisOffset = 0.0;
   std::array<double, 2> range{ -std::numeric_limits<double>::infinity(),
     std::numeric_limits<double>::infinity() };
-  bool lowOpen = false;  ///< range[0] itself does not pass
+  bool lowOpen = false; ///< range[0] itself does not pass
   bool highOpen = false; ///< range[1] itself does not pass
   std::vector<double> values; ///< ascending; not empty: one of these, whatever the range
-  bool inverted = false;      ///< what would pass does not, and the other way round; NaN never does
+  bool inverted = false; ///< what would pass does not, and the other way round; NaN never does
 
   bool passes(double value) const;
   /// False when no value of [low, high] passes: a node of that range need not be read.

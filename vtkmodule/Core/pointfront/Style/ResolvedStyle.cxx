@@ -45,8 +45,8 @@ bool operator==(const SecondColour& a, const SecondColour& b)
   {
     return a.combination == b.combination;
   }
-  return a.combination == b.combination && a.share256 == b.share256 &&
-    a.colouring == b.colouring && sameMap(a.map, b.map) && a.flat == b.flat;
+  return a.combination == b.combination && a.share256 == b.share256 && a.colouring == b.colouring &&
+    sameMap(a.map, b.map) && a.flat == b.flat;
 }
 
 bool operator==(const ResolvedStyle& a, const ResolvedStyle& b)
@@ -54,11 +54,10 @@ bool operator==(const ResolvedStyle& a, const ResolvedStyle& b)
   return a.technique == b.technique && a.accuracy == b.accuracy && a.blended == b.blended &&
     a.size == b.size && a.orientation == b.orientation && a.fixedNormal == b.fixedNormal &&
     a.normalColumn == b.normalColumn && a.radiusColumn == b.radiusColumn &&
-    a.heightColumn == b.heightColumn && a.colouring == b.colouring &&
-    sameMap(a.map, b.map) && a.flat == b.flat && a.second == b.second && a.rim == b.rim &&
-    a.wall == b.wall && a.opacity == b.opacity && a.filter == b.filter &&
-    a.lens == b.lens && a.lensMask == b.lensMask && a.group == b.group &&
-    a.highlight == b.highlight;
+    a.heightColumn == b.heightColumn && a.colouring == b.colouring && sameMap(a.map, b.map) &&
+    a.flat == b.flat && a.second == b.second && a.rim == b.rim && a.wall == b.wall &&
+    a.opacity == b.opacity && a.filter == b.filter && a.lens == b.lens &&
+    a.lensMask == b.lensMask && a.group == b.group && a.highlight == b.highlight;
 }
 
 } // namespace pointfront

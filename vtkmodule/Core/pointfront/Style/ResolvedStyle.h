@@ -19,20 +19,20 @@ namespace pointfront
 /// How points become pixels. The same names in C++, JSON, the tool and ParaView.
 enum class Technique : std::uint8_t
 {
-  Points,      ///< squares of a number of pixels
-  Splats,      ///< discs in object space: ellipses by the normal, paraboloids without one
-  Spheres,     ///< hemispheres, depth and normal exact in each pixel (LAYERS-5)
+  Points, ///< squares of a number of pixels
+  Splats, ///< discs in object space: ellipses by the normal, paraboloids without one
+  Spheres, ///< hemispheres, depth and normal exact in each pixel (LAYERS-5)
   Silhouettes, ///< splats with a rim of its own colour, pushed back in depth (LAYERS-6)
-  Solid,       ///< quads from a point down to the terrain (LAYERS-7)
-  Ewa          ///< splats blended in two passes with a screen-space low-pass (EWA-6)
+  Solid, ///< quads from a point down to the terrain (LAYERS-7)
+  Ewa ///< splats blended in two passes with a screen-space low-pass (EWA-6)
 };
 
 /// How exactly an ellipse is drawn (EWA-5).
 enum class SplatAccuracy : std::uint8_t
 {
   Affine, ///< the ellipse of the disc's affine approximation at its centre
-  Exact,  ///< ray and disc in each pixel
-  Full    ///< Exact with a low-pass that filters what is smaller than a pixel
+  Exact, ///< ray and disc in each pixel
+  Full ///< Exact with a low-pass that filters what is smaller than a pixel
 };
 
 /// How large a splat is (docs/user/styles.md).
@@ -40,9 +40,9 @@ struct SplatSize
 {
   enum class Mode : std::uint8_t
   {
-    Pixels,   ///< diameter, pixels
-    World,    ///< diameter, world units
-    Spacing,  ///< the radius that closes the surface times `value`
+    Pixels, ///< diameter, pixels
+    World, ///< diameter, world units
+    Spacing, ///< the radius that closes the surface times `value`
     Attribute ///< the radius that `column` holds, world units, times `value`
   };
   Mode mode = Mode::Spacing;
@@ -59,18 +59,18 @@ struct SplatSize
 enum class SplatOrientation : std::uint8_t
 {
   Normal, ///< the point's normal if it has one, else View
-  View,   ///< towards the eye
-  Fixed   ///< one vector for all
+  View, ///< towards the eye
+  Fixed ///< one vector for all
 };
 
 /// The second colour of a point, and what is done with both.
 struct SecondColour
 {
   ColourCombination combination = ColourCombination::None; ///< None: the rest means nothing
-  std::uint32_t share256 = 128;         ///< Mix
+  std::uint32_t share256 = 128; ///< Mix
   PointColouring colouring;
   std::shared_ptr<const ColourMap> map; ///< where the colouring uses a table; else null
-  Rgba8 flat{ 255, 255, 255, 255 };     ///< where it is Flat
+  Rgba8 flat{ 255, 255, 255, 255 }; ///< where it is Flat
 };
 
 bool operator==(const SecondColour& a, const SecondColour& b);
@@ -84,21 +84,21 @@ struct ResolvedStyle
   bool blended = false; ///< Splats: two passes with weights; Ewa always
   SplatSize size{ SplatSize::Mode::Pixels, 1.0, 0 };
   SplatOrientation orientation = SplatOrientation::Normal;
-  glm::vec3 fixedNormal{ 0.0f, 0.0f, 1.0f };  ///< Fixed: unit, store axes
-  std::optional<std::uint32_t> normalColumn;  ///< read for orientation or lighting
-  std::optional<std::uint32_t> radiusColumn;  ///< splat_radius: read for SplatSize::Mode::Spacing
-  std::optional<std::uint32_t> heightColumn;  ///< height_above_ground: read for Solid
+  glm::vec3 fixedNormal{ 0.0f, 0.0f, 1.0f }; ///< Fixed: unit, store axes
+  std::optional<std::uint32_t> normalColumn; ///< read for orientation or lighting
+  std::optional<std::uint32_t> radiusColumn; ///< splat_radius: read for SplatSize::Mode::Spacing
+  std::optional<std::uint32_t> heightColumn; ///< height_above_ground: read for Solid
   PointColouring colouring;
   std::shared_ptr<const ColourMap> map; ///< where the colouring uses a table; else null
-  Rgba8 flat{ 255, 255, 255, 255 };     ///< where it is Flat
+  Rgba8 flat{ 255, 255, 255, 255 }; ///< where it is Flat
   SecondColour second;
-  Rgba8 rim{ 0, 0, 0, 255 };            ///< Silhouettes
+  Rgba8 rim{ 0, 0, 0, 255 }; ///< Silhouettes
   std::optional<std::array<Rgba8, 2>> wall; ///< Solid: upper and lower end; else as the points
-  double opacity = 1.0;                 ///< 0 to 1
-  PointFilter filter;                   ///< points that do not pass are not drawn
+  double opacity = 1.0; ///< 0 to 1
+  PointFilter filter; ///< points that do not pass are not drawn
   // Where in the picture its points are seen (PlanParts.h):
   std::int16_t lens = -1; ///< of FrameShading::lenses, the one they are seen in; -1: outside all
-  bool lensMask = false;  ///< they are not seen: what they cover is what the lens covers
+  bool lensMask = false; ///< they are not seen: what they cover is what the lens covers
   /// 0: opaque, all of them the nearest of each other. Else what is drawn with `opacity` over what
   /// lies behind it, as one surface: groups have different numbers.
   std::uint16_t group = 0;
@@ -109,6 +109,9 @@ struct ResolvedStyle
 };
 
 bool operator==(const ResolvedStyle& a, const ResolvedStyle& b);
-inline bool operator!=(const ResolvedStyle& a, const ResolvedStyle& b) { return !(a == b); }
+inline bool operator!=(const ResolvedStyle& a, const ResolvedStyle& b)
+{
+  return !(a == b);
+}
 
 } // namespace pointfront

@@ -52,7 +52,10 @@ bool isShown(const StyleSheet& sheet, std::uint8_t objectClass)
 }
 
 /// `style` is complete.
-bool isSeen(const LayerStyle& style) { return *style.visible && *style.opacity > 0.0; }
+bool isSeen(const LayerStyle& style)
+{
+  return *style.visible && *style.opacity > 0.0;
+}
 
 std::string placeOf(const StyleSheet& sheet, std::uint8_t objectClass)
 {
@@ -102,7 +105,8 @@ std::vector<ClassGroup> classGroups(const StyleSheet& sheet)
   const auto join = [&](const LayerStyle& style, std::uint8_t code)
   {
     const std::uint8_t highlight = highlightOf(sheet, code);
-    const auto same = std::find_if(groups.begin(), groups.end(), [&](const ClassGroup& group)
+    const auto same = std::find_if(groups.begin(), groups.end(),
+      [&](const ClassGroup& group)
       { return group.style == style && group.highlight == highlight; });
     if (same != groups.end())
     {
@@ -116,8 +120,8 @@ std::vector<ClassGroup> classGroups(const StyleSheet& sheet)
     const auto objectClass = static_cast<std::uint8_t>(code);
     const LayerStyle style = sheet.styleOf(objectClass);
     const bool shown = isShown(sheet, objectClass) && isSeen(style);
-    const bool differs = style != others.style || sheet.shownClasses ||
-      highlightOf(sheet, objectClass) > 0;
+    const bool differs =
+      style != others.style || sheet.shownClasses || highlightOf(sheet, objectClass) > 0;
     if (shown && differs)
     {
       join(style, objectClass);
@@ -264,8 +268,8 @@ private:
     const std::string& place, std::int16_t lens) const
   {
     const std::string inside = "lenses[" + std::to_string(lens) + "].inside: ";
-    Result<ResolvedStyle> resolved = resolveStyle(
-      sheet, style, store_, surroundings_, lens == noLens ? place : inside + place);
+    Result<ResolvedStyle> resolved =
+      resolveStyle(sheet, style, store_, surroundings_, lens == noLens ? place : inside + place);
     if (resolved)
     {
       resolved->lens = lens;

@@ -68,12 +68,10 @@ std::optional<StoredInterval<T>> storedInterval(
 {
   const auto value = [&](T stored) { return static_cast<double>(stored) * scale + offset; };
   const bool rising = scale >= 0.0;
-  const std::optional<T> first = rising
-    ? firstThatMeets<T>([&](T s) { return value(s) >= low; })
-    : firstThatMeets<T>([&](T s) { return value(s) <= high; });
-  const std::optional<T> beyond = rising
-    ? firstThatMeets<T>([&](T s) { return value(s) > high; })
-    : firstThatMeets<T>([&](T s) { return value(s) < low; });
+  const std::optional<T> first = rising ? firstThatMeets<T>([&](T s) { return value(s) >= low; })
+                                        : firstThatMeets<T>([&](T s) { return value(s) <= high; });
+  const std::optional<T> beyond = rising ? firstThatMeets<T>([&](T s) { return value(s) > high; })
+                                         : firstThatMeets<T>([&](T s) { return value(s) < low; });
   if (!first || (beyond && *beyond <= *first))
   {
     return std::nullopt;
@@ -146,8 +144,8 @@ std::optional<StoredInterval<OrderedKey<T>>> floatingInterval(double low, double
   const OrderedKey<T> to = orderedKey(last == T(0) ? T(0) : last);
   using Interval = StoredInterval<OrderedKey<T>>;
   using Unsigned = typename Interval::Unsigned;
-  return Interval{
-    from, static_cast<Unsigned>(static_cast<Unsigned>(to) - static_cast<Unsigned>(from)) };
+  return Interval{ from,
+    static_cast<Unsigned>(static_cast<Unsigned>(to) - static_cast<Unsigned>(from)) };
 }
 
 /// Like storedIntervals(), as keys of values that have neither scale nor offset. With an inverted
@@ -182,8 +180,8 @@ std::vector<StoredInterval<OrderedKey<T>>> floatingIntervals(const AttributeCond
     { return static_cast<Unsigned>(static_cast<Unsigned>(to) - static_cast<Unsigned>(from)); };
     const auto least = std::numeric_limits<Key>::min();
     const auto beyond = static_cast<Key>(orderedKey(infinity) + 1);
-    intervals.insert(intervals.begin(),
-      { least, width(least, static_cast<Key>(orderedKey(-infinity) - 1)) });
+    intervals.insert(
+      intervals.begin(), { least, width(least, static_cast<Key>(orderedKey(-infinity) - 1)) });
     intervals.push_back({ beyond, width(beyond, std::numeric_limits<Key>::max()) });
   }
   return intervals;

@@ -17,7 +17,7 @@ struct StyleLens
 {
   FrameLens place;
   std::uint8_t aroundClass = 0; ///< AroundClass
-  double aroundRadius = 0.0;    ///< AroundClass: world units, > 0
+  double aroundRadius = 0.0; ///< AroundClass: world units, > 0
   LayerStyle standard;
   std::map<std::uint8_t, LayerStyle> classes;
 
@@ -39,7 +39,7 @@ struct StyleHighlight
   std::uint8_t objectClass = 0;
   Rgba8 colour{ 255, 204, 0, 255 };
   float haloPx = 2.0f; ///< >= 0: width of the rim around what is seen of the class
-  float tint = 0.25f;  ///< 0 to 1: how much of the colour the class's own pixels take
+  float tint = 0.25f; ///< 0 to 1: how much of the colour the class's own pixels take
 
   friend bool operator==(const StyleHighlight& a, const StyleHighlight& b)
   {

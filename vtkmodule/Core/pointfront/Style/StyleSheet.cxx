@@ -68,9 +68,8 @@ public:
       resolved_.rim = *style_.rim;
     }
     orient();
-    for (const auto step :
-      { &StyleResolution::colour, &StyleResolution::size, &StyleResolution::solid,
-        &StyleResolution::filter })
+    for (const auto step : { &StyleResolution::colour, &StyleResolution::size,
+           &StyleResolution::solid, &StyleResolution::filter })
     {
       if (const Result<void> done = (this->*step)(); !done)
       {
@@ -87,8 +86,8 @@ private:
     const bool fixed = resolved_.orientation == SplatOrientation::Fixed;
     resolved_.fixedNormal =
       fixed ? glm::vec3(glm::normalize(style_.orientation->direction)) : glm::vec3(0, 0, 1);
-    const bool turns = traitsOf(resolved_.technique).facing &&
-      resolved_.orientation == SplatOrientation::Normal;
+    const bool turns =
+      traitsOf(resolved_.technique).facing && resolved_.orientation == SplatOrientation::Normal;
     const bool lit = sheet_.shading.lit && resolved_.technique != Technique::Spheres;
     if (turns || lit)
     {
@@ -141,9 +140,10 @@ private:
       const auto column = scalarColumn(store_, name);
       if (!column || store_.schema[*column].components != 1)
       {
-        return makeError(Error::Kind::BadArgument, place_ + ".size.attribute: " + store_.path +
-          (column || store_.schema.find(name) ? ": '" + name + "' has several components"
-                                              : " has no attribute '" + name + "'"));
+        return makeError(Error::Kind::BadArgument,
+          place_ + ".size.attribute: " + store_.path +
+            (column || store_.schema.find(name) ? ": '" + name + "' has several components"
+                                                : " has no attribute '" + name + "'"));
       }
       resolved_.size.column = *column;
     }
@@ -242,24 +242,24 @@ bool StyleSheet::wantsHeights(const StoreDescription& store) const
   };
   const auto anyAsks = [&styleAsks](const LayerStyle& one, const auto& ofClasses)
   {
-    return styleAsks(one) || std::any_of(ofClasses.begin(), ofClasses.end(),
-                               [&](const auto& ofClass) { return styleAsks(ofClass.second); });
+    return styleAsks(one) ||
+      std::any_of(ofClasses.begin(), ofClasses.end(),
+        [&](const auto& ofClass) { return styleAsks(ofClass.second); });
   };
-  return anyAsks(standard, classes) || std::any_of(lenses.begin(), lenses.end(),
-    [&](const StyleLens& lens) { return anyAsks(lens.standard, lens.classes); });
+  return anyAsks(standard, classes) ||
+    std::any_of(lenses.begin(), lenses.end(),
+      [&](const StyleLens& lens) { return anyAsks(lens.standard, lens.classes); });
 }
 
-Result<StylePointer> StyleSheet::resolve(const StoreDescription& store, std::size_t layer,
-  const StoreSurroundings& surroundings) const
+Result<StylePointer> StyleSheet::resolve(
+  const StoreDescription& store, std::size_t layer, const StoreSurroundings& surroundings) const
 {
   const bool layered = isLayered(store);
-  const auto objectClass =
-    static_cast<std::uint8_t>(layered ? store.layers[layer].objectClass : 0);
-  const LayerStyle style =
-    layered ? styleOf(objectClass) : standard.over(standardStyle());
+  const auto objectClass = static_cast<std::uint8_t>(layered ? store.layers[layer].objectClass : 0);
+  const LayerStyle style = layered ? styleOf(objectClass) : standard.over(standardStyle());
   const bool own = layered && classes.count(objectClass) > 0;
-  Result<ResolvedStyle> resolved = resolveStyle(*this, style, store, surroundings,
-    own ? "classes." + std::to_string(objectClass) : "default");
+  Result<ResolvedStyle> resolved = resolveStyle(
+    *this, style, store, surroundings, own ? "classes." + std::to_string(objectClass) : "default");
   if (!resolved)
   {
     return resolved.error();

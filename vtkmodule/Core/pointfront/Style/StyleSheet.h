@@ -39,13 +39,13 @@ struct LayerStyling
 /// Threads    a value.
 struct StyleSheet
 {
-  LayerStyle standard;                       ///< the default
+  LayerStyle standard; ///< the default
   std::map<std::uint8_t, LayerStyle> classes; ///< what differs, by class code
   /// Codes that are drawn, ascending; the others are hidden, whatever their styles say. Nothing:
   /// all.
   std::optional<std::vector<std::uint8_t>> shownClasses;
   FilterExpression where; ///< points have to pass it besides their style's own
-  FrameShading shading;   ///< lights are the renderer's; lenses and highlights those below
+  FrameShading shading; ///< lights are the renderer's; lenses and highlights those below
   std::vector<StyleLens> lenses;
   std::vector<StyleHighlight> highlights; ///< one for a class at most
 
@@ -74,9 +74,9 @@ struct StyleSheet
 
   friend bool operator==(const StyleSheet& a, const StyleSheet& b)
   {
-    return a.standard == b.standard && a.classes == b.classes &&
-      a.shownClasses == b.shownClasses && a.where == b.where && a.shading == b.shading &&
-      a.lenses == b.lenses && a.highlights == b.highlights;
+    return a.standard == b.standard && a.classes == b.classes && a.shownClasses == b.shownClasses &&
+      a.where == b.where && a.shading == b.shading && a.lenses == b.lenses &&
+      a.highlights == b.highlights;
   }
   friend bool operator!=(const StyleSheet& a, const StyleSheet& b) { return !(a == b); }
 };

@@ -19,12 +19,14 @@ bool isFloat(ScalarType type)
 }
 
 /// Largest value of an unsigned type of a well-known attribute.
-double largestOf(ScalarType type) { return type == ScalarType::UInt8 ? 255.0 : 65535.0; }
+double largestOf(ScalarType type)
+{
+  return type == ScalarType::UInt8 ? 255.0 : 65535.0;
+}
 
 bool always(ScalarType inner, ScalarType outer)
 {
-  return inner == outer ||
-    (inner == ScalarType::UInt8 && outer == ScalarType::UInt16) ||
+  return inner == outer || (inner == ScalarType::UInt8 && outer == ScalarType::UInt16) ||
     (outer == ScalarType::Float64) ||
     (outer == ScalarType::Float32 && !isFloat(inner) && sizeOf(inner) <= 2);
 }
@@ -33,14 +35,16 @@ ScalarType smallestInteger(double low, double high)
 {
   if (low >= 0.0)
   {
-    return high <= 255.0 ? ScalarType::UInt8
-      : high <= 65535.0 ? ScalarType::UInt16
-      : high <= 4294967295.0 ? ScalarType::UInt32 : ScalarType::Int64;
+    return high <= 255.0     ? ScalarType::UInt8
+      : high <= 65535.0      ? ScalarType::UInt16
+      : high <= 4294967295.0 ? ScalarType::UInt32
+                             : ScalarType::Int64;
   }
   const double reach = std::max(-low - 1.0, high);
-  return reach <= 127.0 ? ScalarType::Int8
-    : reach <= 32767.0 ? ScalarType::Int16
-    : reach <= 2147483647.0 ? ScalarType::Int32 : ScalarType::Int64;
+  return reach <= 127.0     ? ScalarType::Int8
+    : reach <= 32767.0      ? ScalarType::Int16
+    : reach <= 2147483647.0 ? ScalarType::Int32
+                            : ScalarType::Int64;
 }
 
 /// The type that text of those values is stored with.
@@ -204,8 +208,8 @@ Result<void> Planner::findPosition()
     {
       names += (names.empty() ? "" : ", ") + field.name;
     }
-    return makeError(Error::Kind::BadFormat,
-      path_ + ": no x and y among its fields (" + names + ")");
+    return makeError(
+      Error::Kind::BadFormat, path_ + ": no x and y among its fields (" + names + ")");
   }
   if (!plan_.position[2])
   {
@@ -238,8 +242,8 @@ void Planner::addColumn(Attribute attribute, std::vector<std::size_t> fields, do
     used_[f] = true;
   }
   const std::size_t first = *std::min_element(fields.begin(), fields.end());
-  found_.emplace(first,
-    std::make_pair(std::move(attribute), ColumnPlan::Column{ std::move(fields), factor }));
+  found_.emplace(
+    first, std::make_pair(std::move(attribute), ColumnPlan::Column{ std::move(fields), factor }));
 }
 
 void Planner::addColour()

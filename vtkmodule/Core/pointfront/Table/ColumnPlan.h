@@ -26,7 +26,7 @@ struct ColumnPlan
   struct Column
   {
     std::vector<std::size_t> fields; ///< one for each component
-    double factor = 1.0;             ///< stored = value * factor; integers are rounded
+    double factor = 1.0; ///< stored = value * factor; integers are rounded
   };
   std::array<std::optional<std::size_t>, 3> position; ///< field of x, y, z; without z: 0
   AttributeSchema schema;

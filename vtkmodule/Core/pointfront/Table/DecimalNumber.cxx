@@ -18,7 +18,10 @@ constexpr double powersOfTen[] = { 1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 
 constexpr int exactPowers = 22;
 constexpr std::uint64_t exactMantissa = 1ull << 53;
 
-bool isDigit(char c) { return c >= '0' && c <= '9'; }
+bool isDigit(char c)
+{
+  return c >= '0' && c <= '9';
+}
 
 bool startsWith(const char* text, const char* end, const char* word)
 {
@@ -62,9 +65,9 @@ const char* readSpecial(const char* text, const char* end, bool negative, Decima
 struct Digits
 {
   std::uint64_t mantissa = 0; ///< the first 19 significant digits
-  int kept = 0;               ///< digits in it, leading zeros not
-  int dropped = 0;            ///< further integer digits
-  int trailingZeros = 0;      ///< at the end of all that were seen
+  int kept = 0; ///< digits in it, leading zeros not
+  int dropped = 0; ///< further integer digits
+  int trailingZeros = 0; ///< at the end of all that were seen
   int significant = 0;
   bool any = false;
 
@@ -176,8 +179,7 @@ const char* readDecimal(const char* text, const char* end, char point, DecimalNu
     power <= exactPowers)
   {
     const auto mantissa = static_cast<double>(digits.mantissa);
-    const double value =
-      power < 0 ? mantissa / powersOfTen[-power] : mantissa * powersOfTen[power];
+    const double value = power < 0 ? mantissa / powersOfTen[-power] : mantissa * powersOfTen[power];
     number.value = negative ? -value : value;
   }
   else

@@ -6,9 +6,9 @@ namespace pointfront
 /// A number as text gives it, and how precisely it gives it.
 struct DecimalNumber
 {
-  double value = 0.0;     ///< the double nearest to what is written
-  int decimals = 0;       ///< places after the point, exponent counted in, trailing zeros not
-  int digits = 1;         ///< significant digits, trailing zeros not; at least 1
+  double value = 0.0; ///< the double nearest to what is written
+  int decimals = 0; ///< places after the point, exponent counted in, trailing zeros not
+  int digits = 1; ///< significant digits, trailing zeros not; at least 1
   bool pointSeen = false; ///< a decimal point or an exponent is there
 };
 

@@ -57,8 +57,8 @@ public:
   }
 
 private:
-  static constexpr double powers[mostDecimals + 1] = { 1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7,
-    1e8, 1e9, 1e10, 1e11, 1e12 };
+  static constexpr double powers[mostDecimals + 1] = { 1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8,
+    1e9, 1e10, 1e11, 1e12 };
 
   bool isMultiple(double value) const
   {

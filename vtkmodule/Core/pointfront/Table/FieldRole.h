@@ -19,10 +19,10 @@ struct FieldRole
 {
   enum class Kind
   {
-    Position,  ///< component 0, 1, 2: x, y, z
-    Vector,    ///< a component of `attribute`, which exists only if all three are there
+    Position, ///< component 0, 1, 2: x, y, z
+    Vector, ///< a component of `attribute`, which exists only if all three are there
     Attribute, ///< `attribute`
-    Padding    ///< "_" and "-": bytes without a meaning
+    Padding ///< "_" and "-": bytes without a meaning
   };
   Kind kind = Kind::Attribute;
   std::string attribute;

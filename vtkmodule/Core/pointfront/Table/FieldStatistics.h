@@ -12,12 +12,12 @@ struct FieldStatistics
 {
   double low = std::numeric_limits<double>::infinity();
   double high = -std::numeric_limits<double>::infinity();
-  bool finite = true;      ///< neither NaN nor infinity among them
-  bool whole = true;       ///< every one is an integer
-  double off255 = 0.0;     ///< farthest that a value * 255 is from an integer: colours
-  int decimals = 0;        ///< text: most places after the point, trailing zeros left out
-  int digits = 0;          ///< text: most significant digits
-  bool pointSeen = false;  ///< text: a decimal point or an exponent is written somewhere
+  bool finite = true; ///< neither NaN nor infinity among them
+  bool whole = true; ///< every one is an integer
+  double off255 = 0.0; ///< farthest that a value * 255 is from an integer: colours
+  int decimals = 0; ///< text: most places after the point, trailing zeros left out
+  int digits = 0; ///< text: most significant digits
+  bool pointSeen = false; ///< text: a decimal point or an exponent is written somewhere
 
   bool empty() const { return low > high; }
   void add(double value)

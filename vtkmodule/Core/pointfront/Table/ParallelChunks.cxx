@@ -12,8 +12,7 @@ namespace pointfront
 {
 namespace
 {
-Result<void> guarded(
-  const std::function<Result<void>(std::uint64_t)>& work, std::uint64_t chunk)
+Result<void> guarded(const std::function<Result<void>(std::uint64_t)>& work, std::uint64_t chunk)
 {
   try
   {

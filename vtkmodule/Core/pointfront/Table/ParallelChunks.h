@@ -11,7 +11,7 @@ namespace pointfront
 /// How a file may be looked through when it is opened.
 struct SurveyOptions
 {
-  unsigned threads = 0;            ///< 0: one a core
+  unsigned threads = 0; ///< 0: one a core
   std::function<bool()> cancelled; ///< asked from any thread; may be empty
 };
 

@@ -55,8 +55,7 @@ void RecordEncoder::addByte(std::uint8_t value)
   parts_.push_back(part);
 }
 
-void RecordEncoder::encodePart(
-  const Part& part, const PointBatch& batch, std::byte* records) const
+void RecordEncoder::encodePart(const Part& part, const PointBatch& batch, std::byte* records) const
 {
   std::byte* to = records + part.offset;
   if (!part.column)

@@ -17,7 +17,7 @@ namespace pointfront
 struct CoordinateCoding
 {
   ScalarType type = ScalarType::Float64; ///< or Float32
-  glm::dvec3 origin{ 0.0 };              ///< is taken from them
+  glm::dvec3 origin{ 0.0 }; ///< is taken from them
 };
 
 /// Turns points into records of a binary file, little endian and packed: x, y, z, then the parts in

@@ -27,8 +27,8 @@ bool isInteger(const TableField& field)
 struct Survey
 {
   std::vector<FieldStatistics> statistics; ///< a field each
-  std::vector<DecimalStep> steps;          ///< the same; of floating point positions that were seen
-  bool whole = true;                       ///< all values were looked at
+  std::vector<DecimalStep> steps; ///< the same; of floating point positions that were seen
+  bool whole = true; ///< all values were looked at
 
   explicit Survey(const std::vector<TableField>& fields)
     : statistics(fields.size())
@@ -135,8 +135,9 @@ Result<void> leaveOutFar(const PointTable& table, const SurveyOptions& options, 
   for (std::size_t f = 0; f < positions.size(); ++f)
   {
     const FieldStatistics& values = survey.statistics[f];
-    far = far || (positions[f] && !values.empty() &&
-      std::max(std::abs(values.low), std::abs(values.high)) > farthestCoordinate);
+    far = far ||
+      (positions[f] && !values.empty() &&
+        std::max(std::abs(values.low), std::abs(values.high)) > farthestCoordinate);
   }
   if (!far)
   {
@@ -211,16 +212,15 @@ std::optional<QuantisationGrid> decimalGrid(
     // Written as a quotient: the nearest double to the decimal step.
     grid.scale[axis] = 1.0 / std::pow(10.0, places);
     const double reach = std::max(std::abs(low[axis]), std::abs(high[axis]));
-    grid.offset[axis] =
-      reach / step < mostSteps ? 0.0 : std::round(0.5 * (low[axis] + high[axis]));
+    grid.offset[axis] = reach / step < mostSteps ? 0.0 : std::round(0.5 * (low[axis] + high[axis]));
   }
   return grid;
 }
 
 /// Whether the coordinates lie on a decimal grid that a store can hold, see TableSource.
 /// `origin` is to be added to them; one of whole units changes nothing about their decimals.
-Extent extentOf(const ColumnPlan& plan, const std::vector<TableField>& fields,
-  const Survey& survey, const glm::dvec3& origin)
+Extent extentOf(const ColumnPlan& plan, const std::vector<TableField>& fields, const Survey& survey,
+  const glm::dvec3& origin)
 {
   Extent extent;
   std::array<int, 3> decimals{};
@@ -242,9 +242,9 @@ Extent extentOf(const ColumnPlan& plan, const std::vector<TableField>& fields,
     low[axis] = values.low;
     high[axis] = values.high;
     const bool text = values.digits > 0;
-    const std::optional<int> step = text || isInteger(fields[*field])
-      ? values.decimals
-      : survey.whole ? survey.steps[*field].decimals() : std::nullopt;
+    const std::optional<int> step = text || isInteger(fields[*field]) ? values.decimals
+      : survey.whole ? survey.steps[*field].decimals()
+                     : std::nullopt;
     exact = exact && step;
     decimals[static_cast<std::size_t>(axis)] = step.value_or(0);
   }
@@ -282,9 +282,9 @@ void storeColumn(const std::vector<double>& values, double factor, std::size_t c
       const double rounded = std::nearbyint(value * factor);
       // NaN compares false with everything: 0. 2^63 as a double is one too many.
       stored = rounded >= high ? std::numeric_limits<T>::max()
-        : rounded > low       ? static_cast<T>(rounded)
-        : rounded <= low      ? std::numeric_limits<T>::min()
-                              : T{ 0 };
+        : rounded > low        ? static_cast<T>(rounded)
+        : rounded <= low       ? std::numeric_limits<T>::min()
+                               : T{ 0 };
     }
     std::memcpy(to, &stored, sizeof stored);
     to += components * sizeof(T);
@@ -336,8 +336,7 @@ Result<std::unique_ptr<PointSource>> TableSource::open(
     return plan.error();
   }
   const Extent extent = extentOf(*plan, fields, *survey, table->origin());
-  auto source =
-    std::unique_ptr<TableSource>(new TableSource(std::move(table), std::move(*plan)));
+  auto source = std::unique_ptr<TableSource>(new TableSource(std::move(table), std::move(*plan)));
   SourceDescription& description = source->description_;
   description.path = source->table_->path();
   description.format = source->table_->format();

@@ -30,10 +30,7 @@ public:
 
   const SourceDescription& description() const override { return description_; }
   std::uint64_t chunkCount() const override { return table_->chunkCount(); }
-  std::uint64_t chunkPoints(std::uint64_t chunk) const override
-  {
-    return table_->chunkRows(chunk);
-  }
+  std::uint64_t chunkPoints(std::uint64_t chunk) const override { return table_->chunkRows(chunk); }
   Result<void> read(std::uint64_t chunk, PointBatch& batch) const override;
 
 private:

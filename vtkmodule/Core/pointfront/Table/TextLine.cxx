@@ -6,7 +6,10 @@ namespace pointfront
 {
 namespace
 {
-bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
+bool isBlank(char c)
+{
+  return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
+}
 
 const char* skipBlanks(const char* p, const char* end)
 {
@@ -129,7 +132,10 @@ bool skipList(CellReader& cells)
 }
 } // namespace
 
-bool isBlankLine(const char* text, const char* end) { return skipBlanks(text, end) == end; }
+bool isBlankLine(const char* text, const char* end)
+{
+  return skipBlanks(text, end) == end;
+}
 
 bool isCommentLine(const char* text, const char* end)
 {
@@ -137,8 +143,8 @@ bool isCommentLine(const char* text, const char* end)
   return p != end && (*p == '#' || *p == '%' || (*p == '/' && end - p > 1 && p[1] == '/'));
 }
 
-TextLine readLine(const char* text, const char* end, const TextLayout& layout,
-  std::vector<DecimalNumber>& numbers)
+TextLine readLine(
+  const char* text, const char* end, const TextLayout& layout, std::vector<DecimalNumber>& numbers)
 {
   if (isBlankLine(text, end) || (layout.comments && isCommentLine(text, end)))
   {

@@ -13,14 +13,14 @@ enum class TextLine
 {
   Nothing, ///< blank, or a comment
   Row,
-  Count,   ///< a lone integer where the layout has such lines: number[0]
-  Bad      ///< neither
+  Count, ///< a lone integer where the layout has such lines: number[0]
+  Bad ///< neither
 };
 
 /// Takes the line [text, end), without its line end, apart. `numbers` has fieldCount elements, at
 /// least one; all that have a cell are filled when it is a Row.
-TextLine readLine(const char* text, const char* end, const TextLayout& layout,
-  std::vector<DecimalNumber>& numbers);
+TextLine readLine(
+  const char* text, const char* end, const TextLayout& layout, std::vector<DecimalNumber>& numbers);
 
 /// True for a line with nothing but blanks.
 bool isBlankLine(const char* text, const char* end);

@@ -108,8 +108,8 @@ TextRows::Findings TextRows::look(const Chunk& chunk) const
   return found;
 }
 
-Result<TextRows> TextRows::open(const MemoryMap& map, const TextRegion& region, TextLayout layout,
-  const SurveyOptions& options)
+Result<TextRows> TextRows::open(
+  const MemoryMap& map, const TextRegion& region, TextLayout layout, const SurveyOptions& options)
 {
   assert(layout.fieldCount > 0 && region.end <= map.size());
   TextRows rows(map, std::move(layout));

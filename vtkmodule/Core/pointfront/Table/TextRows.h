@@ -20,15 +20,15 @@ struct TextLayout
   struct Cell
   {
     std::optional<std::size_t> field; ///< nothing: skipped, whatever it says
-    bool list = false;                ///< a count, and as many cells behind it; all skipped
+    bool list = false; ///< a count, and as many cells behind it; all skipped
   };
-  std::vector<Cell> cells;   ///< further cells of a row are ignored
+  std::vector<Cell> cells; ///< further cells of a row are ignored
   std::size_t fieldCount = 0;
-  char separator = ' ';      ///< ' ': blanks and tabs, many are one; else one stands between cells
+  char separator = ' '; ///< ' ': blanks and tabs, many are one; else one stands between cells
   char decimalPoint = '.';
-  char lineEnd = '\n';       ///< a '\r' before it belongs to it
-  bool comments = true;      ///< lines that begin with # // or % are none
-  bool countLines = false;   ///< a lone integer says how many rows follow (PTS), and is no row
+  char lineEnd = '\n'; ///< a '\r' before it belongs to it
+  bool comments = true; ///< lines that begin with # // or % are none
+  bool countLines = false; ///< a lone integer says how many rows follow (PTS), and is no row
 };
 
 /// The bytes of a file that are rows.

@@ -18,11 +18,11 @@ namespace pointfront
 struct ThreadCrew::Content
 {
   std::mutex callers; ///< one run() at a time
-  std::mutex mutex;   ///< guards what follows
+  std::mutex mutex; ///< guards what follows
   std::condition_variable begun;
   std::condition_variable ended;
   std::uint64_t round = 0;
-  unsigned most = 0;    ///< threads that take part in this round
+  unsigned most = 0; ///< threads that take part in this round
   unsigned working = 0; ///< that have not ended this round
   bool leaving = false;
   std::exception_ptr failure;

@@ -31,8 +31,8 @@ public:
 
   /// Calls work(piece, thread) for each piece in [0, pieces), thread in [0, threads()), and returns
   /// when all are done. The caller's thread works too. At most `most` threads take part; 0: all.
-  void run(std::size_t pieces, const std::function<void(std::size_t, unsigned)>& work,
-    unsigned most = 0);
+  void run(
+    std::size_t pieces, const std::function<void(std::size_t, unsigned)>& work, unsigned most = 0);
 
 private:
   struct Content;

@@ -23,8 +23,8 @@ constexpr std::uintmax_t mostListBytes = 64u << 20; ///< a million long names
 bool endsWith(const std::string& text, std::string_view end)
 {
   return text.size() >= end.size() &&
-    std::equal(end.rbegin(), end.rend(), text.rbegin(), [](char a, char b)
-      { return a == std::tolower(static_cast<unsigned char>(b)); });
+    std::equal(end.rbegin(), end.rend(), text.rbegin(),
+      [](char a, char b) { return a == std::tolower(static_cast<unsigned char>(b)); });
 }
 
 std::string_view trimmed(std::string_view line)
@@ -64,7 +64,8 @@ Result<std::vector<std::string>> parseTileList(std::string_view text, const std:
     text.remove_prefix(std::min(end + 1, text.size()));
     if (line.find('\0') != std::string_view::npos)
     {
-      return makeError(Error::Kind::BadFormat, path + ": line " + std::to_string(number) +
+      return makeError(Error::Kind::BadFormat,
+        path + ": line " + std::to_string(number) +
           " is no text; a list of stores has the name of one in each line");
     }
     if (!line.empty() && line.front() != '#')
@@ -114,8 +115,8 @@ Result<std::vector<std::string>> readTileList(const std::string& path)
     {
       if (endsWith(each, listExtension))
       {
-        return makeError(Error::Kind::BadFormat,
-          path + ": names '" + each + "', a list; a list names stores");
+        return makeError(
+          Error::Kind::BadFormat, path + ": names '" + each + "', a list; a list names stores");
       }
       const fs::path real = fs::canonical(each, failure);
       if (seen.insert(failure ? each : real.string()).second)

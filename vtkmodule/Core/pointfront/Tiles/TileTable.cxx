@@ -121,8 +121,7 @@ Node TileTable::node(NodeIndex index) const
 Node TileTable::childOf(NodeIndex parent, const Node& row, std::uint8_t child) const
 {
   const Place at = placeOf(parent);
-  return shifted(
-    at.tile, tiles_[at.tile].table->childOf(at.node, unshifted(at.tile, row), child));
+  return shifted(at.tile, tiles_[at.tile].table->childOf(at.node, unshifted(at.tile, row), child));
 }
 
 RowState TileTable::peek(NodeIndex index, Node& row) const

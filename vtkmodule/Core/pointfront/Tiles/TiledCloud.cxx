@@ -95,14 +95,14 @@ void raiseOpenFiles(std::size_t tiles)
 }
 } // namespace
 
-Result<std::shared_ptr<const StoredCloud>> TiledCloud::open(const std::string& path,
-  const std::vector<std::string>& files, std::vector<std::string> warnings)
+Result<std::shared_ptr<const StoredCloud>> TiledCloud::open(
+  const std::string& path, const std::vector<std::string>& files, std::vector<std::string> warnings)
 {
   raiseOpenFiles(files.size());
   std::vector<Result<std::shared_ptr<const StoredCloud>>> opened(
     files.size(), makeError(Error::Kind::NotFound, ""));
-  ThreadCrew::ofProcess().run(files.size(), [&](std::size_t i, unsigned)
-    { opened[i] = StoredCloudFormats::ofProcess().open(files[i]); });
+  ThreadCrew::ofProcess().run(files.size(),
+    [&](std::size_t i, unsigned) { opened[i] = StoredCloudFormats::ofProcess().open(files[i]); });
   constexpr std::size_t mostNamed = 3;
   std::string faults;
   std::size_t faulty = 0;
@@ -120,8 +120,9 @@ Result<std::shared_ptr<const StoredCloud>> TiledCloud::open(const std::string& p
   }
   if (faulty > 0)
   {
-    return makeError(first->kind, path + ": " + countOf(faulty, files.size()) +
-        " cannot be opened: " + faults + (faulty > mostNamed ? "; and others" : ""));
+    return makeError(first->kind,
+      path + ": " + countOf(faulty, files.size()) + " cannot be opened: " + faults +
+        (faulty > mostNamed ? "; and others" : ""));
   }
   return make(path, std::move(tiles), std::move(warnings));
 }
@@ -228,8 +229,8 @@ Result<void> TiledCloud::chooseColumns()
   }
   for (const auto& [lacking, names] : lacked)
   {
-    description_.warnings.push_back(countOf(lacking, tiles_.size()) + " lack " + names +
-      "; zeros are shown for their points.");
+    description_.warnings.push_back(
+      countOf(lacking, tiles_.size()) + " lack " + names + "; zeros are shown for their points.");
   }
   const auto radius = description_.schema.find(splatRadiusAttribute);
   for (Tile& tile : tiles_)
@@ -284,7 +285,8 @@ void TiledCloud::chooseGrid()
     char text[160];
     std::snprintf(text, sizeof text,
       " do not lie on the grid of the finest; their points are rounded, by at most %.9g, %.9g, "
-      "%.9g units.", 0.5 * grid.scale.x, 0.5 * grid.scale.y, 0.5 * grid.scale.z);
+      "%.9g units.",
+      0.5 * grid.scale.x, 0.5 * grid.scale.y, 0.5 * grid.scale.z);
     description_.warnings.push_back(countOf(rounded, tiles_.size()) + text);
   }
 }
@@ -369,8 +371,9 @@ Result<void> TiledCloud::makeTable()
   }
   if (nodes >= noNode)
   {
-    return makeError(Error::Kind::NoMemory, description_.path + ": its stores have " +
-        std::to_string(nodes) + " nodes together, more than 32 bits count; open fewer of them");
+    return makeError(Error::Kind::NoMemory,
+      description_.path + ": its stores have " + std::to_string(nodes) +
+        " nodes together, more than 32 bits count; open fewer of them");
   }
   std::map<std::pair<std::uint16_t, std::string>, std::uint16_t> numbers;
   for (auto& [key, layer] : layers)
@@ -380,7 +383,8 @@ Result<void> TiledCloud::makeTable()
   }
   if (layers.size() > 1 && layers.count({ 0, "all" }) > 0)
   {
-    description_.warnings.push_back("Some stores have a tree for each class and others one for all "
+    description_.warnings.push_back(
+      "Some stores have a tree for each class and others one for all "
       "points: what is said of a class does not reach the latter's points.");
   }
   std::vector<TileTable::Tile> tables;
@@ -488,7 +492,8 @@ Result<void> TiledCloud::place(const Tile& tile, NodeColumns& node) const
   if (std::max({ extent.x, extent.y, extent.z }) > std::numeric_limits<std::uint32_t>::max())
   {
     return makeError(Error::Kind::Unsupported,
-      tile.cloud->description().path + ": a node of it is wider than 32 bits of steps of the "
+      tile.cloud->description().path +
+        ": a node of it is wider than 32 bits of steps of the "
         "finest store beside it; build them with one --precision");
   }
   node.origin = low;
@@ -519,15 +524,14 @@ Result<NodeColumns> TiledCloud::decode(const FetchedNode& fetched) const
       columns.emplace_back(points * common.bytes());
       continue;
     }
-    const auto place = std::find(
-      result.selection.begin(), result.selection.end(), std::uint32_t(*mapping.column));
+    const auto place =
+      std::find(result.selection.begin(), result.selection.end(), std::uint32_t(*mapping.column));
     std::vector<std::byte>& values =
       result.columns[static_cast<std::size_t>(place - result.selection.begin())];
     if (mapping.converted)
     {
       columns.emplace_back(points * common.bytes());
-      convertColumn(
-        own[*mapping.column], values.data(), common, columns.back().data(), points);
+      convertColumn(own[*mapping.column], values.data(), common, columns.back().data(), points);
       continue;
     }
     if (tile.radii && common.name == splatRadiusAttribute)

@@ -12,8 +12,8 @@ namespace pointfront
 struct GpuSlotBytes
 {
   static constexpr std::int64_t position = 12; ///< of a point: three unsigned grid steps
-  static constexpr std::int64_t value = 4;     ///< of a point, in each stream (GpuStreams.h)
-  static constexpr std::int64_t record = 80;   ///< of a slot, what the vertex shader knows of it
+  static constexpr std::int64_t value = 4; ///< of a point, in each stream (GpuStreams.h)
+  static constexpr std::int64_t record = 80; ///< of a slot, what the vertex shader knows of it
 
   static constexpr std::int64_t of(int streams)
   {
@@ -23,8 +23,7 @@ struct GpuSlotBytes
   /// Slots that the fronts of `clouds` clouds may fill together so that their pools stay within
   /// `budget` > 0: a pool's last block may be partly empty, by an eighth of it and a slot. At least
   /// one: a budget that small shows what fits.
-  static constexpr std::uint64_t slotsWithin(
-    std::int64_t budget, int streams, std::uint64_t clouds)
+  static constexpr std::uint64_t slotsWithin(std::int64_t budget, int streams, std::uint64_t clouds)
   {
     const std::int64_t all = budget / of(streams) - static_cast<std::int64_t>(clouds);
     return all > 1 ? static_cast<std::uint64_t>(all * 8 / 9) : 1;

@@ -24,7 +24,9 @@ class HierarchyPiece::ChangedTable final : public Hierarchy
 public:
   ChangedTable(
     std::shared_ptr<const Hierarchy> whole, ChangedRows changed, std::vector<NodeIndex> roots)
-      : whole_(std::move(whole)), changed_(std::move(changed)), roots_(std::move(roots))
+    : whole_(std::move(whole))
+    , changed_(std::move(changed))
+    , roots_(std::move(roots))
   {
   }
   NodeIndex nodeCount() const override { return whole_->nodeCount(); }
@@ -111,8 +113,9 @@ class PieceChoice
 {
 public:
   PieceChoice(const Hierarchy& whole, int piece, int pieces)
-      : whole_(whole), piece_(static_cast<std::uint64_t>(piece)),
-        pieces_(static_cast<std::uint64_t>(pieces))
+    : whole_(whole)
+    , piece_(static_cast<std::uint64_t>(piece))
+    , pieces_(static_cast<std::uint64_t>(pieces))
   {
     for (const NodeIndex root : whole.roots())
     {
@@ -150,7 +153,7 @@ private:
     if (node.leaf() || node.pointsBelow * pieces_ * unitsPerPiece <= total_)
     {
       const bool whole = mine(node.pointsBelow);
-      return {whole, whole ? node.pointsBelow : 0};
+      return { whole, whole ? node.pointsBelow : 0 };
     }
     const bool representatives = whole_.refinement() == Refinement::Replace;
     Node row = node;
@@ -188,18 +191,22 @@ private:
 } // namespace
 
 HierarchyPiece::HierarchyPiece(std::shared_ptr<const Hierarchy> whole, int piece, int pieces)
-    : whole_(std::move(whole)), part_(whole_)
+  : whole_(std::move(whole))
+  , part_(whole_)
 {
   assert(pieces >= 1 && piece >= 0 && piece < pieces);
   if (pieces > 1)
   {
     PieceChoice choice(*whole_, piece, pieces);
-    changed_ = std::make_shared<ChangedTable>(
-      whole_, std::move(choice.rows), std::move(choice.roots));
+    changed_ =
+      std::make_shared<ChangedTable>(whole_, std::move(choice.rows), std::move(choice.roots));
     part_ = changed_;
   }
 }
 
-bool HierarchyPiece::has(NodeIndex node) const { return !changed_ || changed_->has(node); }
+bool HierarchyPiece::has(NodeIndex node) const
+{
+  return !changed_ || changed_->has(node);
+}
 
 } // namespace pointfront

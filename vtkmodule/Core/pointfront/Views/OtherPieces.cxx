@@ -24,8 +24,9 @@ public:
 };
 
 OtherPieces::OtherPieces(std::shared_ptr<const HierarchyPiece> piece)
-    : piece_(std::move(piece)), residents_(std::make_unique<AllResident>()),
-      front_(std::make_unique<RenderFront>(piece_->whole()))
+  : piece_(std::move(piece))
+  , residents_(std::make_unique<AllResident>())
+  , front_(std::make_unique<RenderFront>(piece_->whole()))
 {
 }
 
@@ -66,7 +67,7 @@ void OtherPieces::update(
     Node row;
     if (!piece_->has(item.node) && whole.peek(item.node, row) == RowState::Here)
     {
-      drawn_.push_back({item, row});
+      drawn_.push_back({ item, row });
     }
   }
   std::sort(drawn_.begin(), drawn_.end(),

@@ -21,13 +21,13 @@ constexpr std::uint32_t movesToComplete = 1u << 20;
 /// Of the memory budget that a view's nodes may fill: some room stays for what is being decoded.
 constexpr double heldShare = 0.85;
 /// Longest that a frame at rest goes on moving its front.
-constexpr std::chrono::milliseconds restTime{10};
+constexpr std::chrono::milliseconds restTime{ 10 };
 constexpr std::uint32_t requestsAtOnce = 1024;
 /// Frames that a moving view is looked ahead: about what a disk and a decoder take, and half a
 /// second at the rates of interactors.
 constexpr double framesAhead = 8.0;
 /// Longest wait for the roots: a disk that hangs must not hold up the other clouds of a scene.
-constexpr std::chrono::milliseconds rootTime{500};
+constexpr std::chrono::milliseconds rootTime{ 500 };
 /// Fewest points of a frame in motion: less is no picture, whatever the machine.
 constexpr std::uint64_t fewestPoints = 100000;
 
@@ -43,11 +43,11 @@ bool covers(const NodeColumns& node, const ColumnSelection& columns)
 class ViewFront::Residents final : public ResidencyView
 {
 public:
-  explicit Residents(const Residency& residency) : residency_(residency) {}
-  State state(NodeIndex node) const override
+  explicit Residents(const Residency& residency)
+    : residency_(residency)
   {
-    return residency_.state(node);
   }
+  State state(NodeIndex node) const override { return residency_.state(node); }
   std::uint64_t revision() const override { return residency_.revision(); }
   bool exhausted() const override { return residency_.exhausted(); }
 
@@ -57,13 +57,16 @@ private:
 
 ViewFront::ViewFront(std::shared_ptr<const HierarchyPiece> piece, ResidencyShare& share,
   const AttributeSchema& schema, std::shared_ptr<const WindowDemand> window)
-    : piece_(std::move(piece)), share_(share), schema_(schema), wish_(share.join()),
-      residents_(std::make_unique<Residents>(share.residency())),
-      selection_(std::make_unique<RenderFront>(piece_->hierarchy())),
-      others_(piece_->isWhole() ? nullptr : std::make_unique<OtherPieces>(piece_)),
-      margin_(piece_->hierarchy()),
-      memory_(share.residency().scheduler().sharedDemand()),
-      window_(std::make_unique<WindowClaims>(std::move(window)))
+  : piece_(std::move(piece))
+  , share_(share)
+  , schema_(schema)
+  , wish_(share.join())
+  , residents_(std::make_unique<Residents>(share.residency()))
+  , selection_(std::make_unique<RenderFront>(piece_->hierarchy()))
+  , others_(piece_->isWhole() ? nullptr : std::make_unique<OtherPieces>(piece_))
+  , margin_(piece_->hierarchy())
+  , memory_(share.residency().scheduler().sharedDemand())
+  , window_(std::make_unique<WindowClaims>(std::move(window)))
 {
 }
 
@@ -117,7 +120,7 @@ const FrontDelta& ViewFront::update(const FrameDemand& demand)
     // update a drawing would ask for it in waves, each as long as a drawing.
     const auto begin = std::chrono::steady_clock::now();
     while (!demand.interacting && !delta_.complete && movedOn() &&
-           std::chrono::steady_clock::now() - begin < restTime)
+      std::chrono::steady_clock::now() - begin < restTime)
     {
       step(demand);
     }
@@ -191,7 +194,7 @@ void ViewFront::loadRoots()
     const std::uint32_t points = row.pointCount;
     if (points > 0)
     {
-      roots.push_back({root, 1e9, false, points, row.layer});
+      roots.push_back({ root, 1e9, false, points, row.layer });
     }
   }
   const auto missing = [&](const LoadRequest& r)
@@ -199,14 +202,14 @@ void ViewFront::loadRoots()
   const auto end = std::chrono::steady_clock::now() + rootTime;
   bool waits = true; // false: no room for them in the budget; the frame says what it can draw
   while (waits && std::any_of(roots.begin(), roots.end(), missing) &&
-         std::chrono::steady_clock::now() < end)
+    std::chrono::steady_clock::now() < end)
   {
     wish_->request(roots, [](NodeIndex) { return 0u; }); // frees memory for them, too
     const std::uint64_t seen = residency.arrivals();
     residency.waitForArrival(seen, rootTime);
     const ResidencyStatistics now = residency.statistics();
     waits = residency.arrivals() != seen || now.loading > 0 ||
-            (now.pending > 0 && !residency.exhausted());
+      (now.pending > 0 && !residency.exhausted());
   }
 }
 
@@ -264,18 +267,17 @@ void ViewFront::setLimits(const FrameDemand& demand)
   limits.layers = demand.layers;
   limits.sharedDrawn.most = demand.pointBudget;
   const std::uint64_t claims = window_->points.claims();
-  limits.sharedSlots.most = demand.gpuBytes > 0
-    ? GpuSlotBytes::slotsWithin(demand.gpuBytes, demand.gpuStreams, claims)
-    : 0;
+  limits.sharedSlots.most =
+    demand.gpuBytes > 0 ? GpuSlotBytes::slotsWithin(demand.gpuBytes, demand.gpuStreams, claims) : 0;
   limits.requestLimit = requestsAtOnce;
   limits.interacting = demand.interacting;
   limits.motionErrorPx = demand.targetErrorPx;
   limits.movesPerFrame = demand.complete ? movesToComplete : movesAtRest;
   limits.prefetchSiblings = !demand.complete;
   limits.overviewPoints = demand.overviewPoints;
-  limits.heldPointBudget = static_cast<std::uint64_t>(
-    heldShare * static_cast<double>(share_.budgetBytes()) /
-    static_cast<double>(pointBytes_ * std::max<std::size_t>(1, share_.wishes())));
+  limits.heldPointBudget =
+    static_cast<std::uint64_t>(heldShare * static_cast<double>(share_.budgetBytes()) /
+      static_cast<double>(pointBytes_ * std::max<std::size_t>(1, share_.wishes())));
   const auto clouds = static_cast<double>(claims);
   const double frameMs = demand.frameMs > 0.0 ? demand.frameMs : clouds * demand.cloudMs;
   if (demand.interacting && frameMs > 0.0)
@@ -323,8 +325,7 @@ void ViewFront::addMargin(const FrameDemand& demand)
   }
   const auto asked = static_cast<std::uint32_t>(delta_.requests.size());
   const std::vector<LoadRequest>& margin = margin_.requests(demand.view, delta_.thresholdPx,
-    *residents_, framesAhead, requestsAtOnce - std::min(requestsAtOnce, asked),
-    demand.layers);
+    *residents_, framesAhead, requestsAtOnce - std::min(requestsAtOnce, asked), demand.layers);
   delta_.requests.insert(delta_.requests.end(), margin.begin(), margin.end());
 }
 
@@ -378,8 +379,7 @@ bool ViewFront::expectsMore() const
 {
   const ResidencyStatistics now = share_.residency().statistics();
   return !delta_.complete &&
-         (delta_.rowsComing || now.loading > 0 ||
-           (now.pending > 0 && !share_.residency().exhausted()));
+    (delta_.rowsComing || now.loading > 0 || (now.pending > 0 && !share_.residency().exhausted()));
 }
 
 /// All that this view asks for is there: what arrives now is another's, or was seen before the
@@ -392,9 +392,9 @@ bool ViewFront::isSettled() const
 bool ViewFront::wantsUpdate() const
 {
   return !begun_ || (share_.residency().arrivals() != arrivalsSeen_ && !isSettled()) ||
-         sharedRevision() != sharedSeen_ ||
-         (delta_.rowsComing && piece_->hierarchy()->arrivals() != rowsSeen_) ||
-         (!delta_.complete && movedOn());
+    sharedRevision() != sharedSeen_ ||
+    (delta_.rowsComing && piece_->hierarchy()->arrivals() != rowsSeen_) ||
+    (!delta_.complete && movedOn());
 }
 
 } // namespace pointfront

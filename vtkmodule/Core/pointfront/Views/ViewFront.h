@@ -1,8 +1,8 @@
 #pragma once
 
+#include "pointfront/Residency/ResidencyShare.h"
 #include "pointfront/Views/HierarchyPiece.h"
 #include "pointfront/Views/OtherPieces.h"
-#include "pointfront/Residency/ResidencyShare.h"
 #include "pointfront/Views/WindowDemand.h"
 
 #include "pointfront/Front/DetailSelection.h"
@@ -22,7 +22,7 @@ namespace pointfront
 enum class DetailMethod
 {
   RenderingFront, ///< RenderFront
-  ViewSpecific    ///< ViewDetail
+  ViewSpecific ///< ViewDetail
 };
 
 /// What one frame of one view asks of its front.
@@ -30,15 +30,15 @@ struct FrameDemand
 {
   DetailMethod method = DetailMethod::RenderingFront;
   std::uint64_t overviewPoints = 0; ///< ViewSpecific: this store's share of the overview
-  View view;            ///< in the store's coordinates
+  View view; ///< in the store's coordinates
   LayerColumns columns; ///< that the points are drawn with
   double targetErrorPx = 1.0;
   std::uint64_t pointBudget = 0; ///< 0: no limit; over all clouds of the window
-  std::int64_t gpuBytes = 0;     ///< likewise, of GPU memory
-  int gpuStreams = 1;            ///< that a point has there beside its position (GpuStreams.h)
+  std::int64_t gpuBytes = 0; ///< likewise, of GPU memory
+  int gpuStreams = 1; ///< that a point has there beside its position (GpuStreams.h)
   bool interacting = false;
-  double frameMs = 0.0;  ///< interacting: that a frame may take, with all clouds of the window
-  double cloudMs = 0.0;  ///< where frameMs is 0: that this cloud may take
+  double frameMs = 0.0; ///< interacting: that a frame may take, with all clouds of the window
+  double cloudMs = 0.0; ///< where frameMs is 0: that this cloud may take
   bool complete = false; ///< wait until nothing is missing
   std::vector<LayerLimits> layers; ///< by number of the store's layer (LAYERS-11)
 };

@@ -13,14 +13,16 @@ namespace pointfront
 struct WindowDemand
 {
   std::shared_ptr<SharedDemand> points = std::make_shared<SharedDemand>(); ///< on screen
-  std::shared_ptr<SharedDemand> slots = std::make_shared<SharedDemand>();  ///< of GPU memory
+  std::shared_ptr<SharedDemand> slots = std::make_shared<SharedDemand>(); ///< of GPU memory
 };
 
 /// One view's part.
 struct WindowClaims
 {
   explicit WindowClaims(std::shared_ptr<const WindowDemand> demand)
-      : window(std::move(demand)), points(window->points), slots(window->slots)
+    : window(std::move(demand))
+    , points(window->points)
+    , slots(window->slots)
   {
   }
   std::uint64_t revision() const { return points.revision() + slots.revision(); }

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "pointfront/Build/WorkCrew.h"
 #include "pointfront/Neighbourhood/InputOrder.h"
 #include "pointfront/Neighbourhood/KdIndex.h"
+#include "pointfront/Threads/WorkCrew.h"
 
 #include <cstdint>
 #include <unordered_map>

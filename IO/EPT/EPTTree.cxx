@@ -3,9 +3,9 @@
 #include "EPTDescription.h"
 
 #include "pointfront/Base/MemoryMap.h"
-#include "pointfront/Build/GridChoice.h"
+#include "pointfront/Disk/InputFile.h"
+#include "pointfront/Ingest/GridChoice.h"
 #include "pointfront/InPlace/ForeignTree.h"
-#include "pointfront/Store/InputFile.h"
 
 #include <cstdio>
 #include <filesystem>

@@ -4,7 +4,7 @@
 #include "LASzipReader.h"
 #include "LAZChunk.h"
 
-#include "pointfront/Store/InputFile.h"
+#include "pointfront/Disk/InputFile.h"
 
 #include <algorithm>
 #include <cstring>

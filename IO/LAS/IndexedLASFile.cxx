@@ -3,11 +3,11 @@
 #include "LASIndexing.h"
 #include "LASPointDecoder.h"
 
-#include "pointfront/Build/PrefixOrder.h"
 #include "pointfront/InPlace/SampleStream.h"
-#include "pointfront/Store/ColumnStatistics.h"
+#include "pointfront/Statistics/ColumnStatistics.h"
 #include "pointfront/Store/NodeTableSection.h"
 #include "pointfront/Store/StoreVerification.h"
+#include "pointfront/Trees/PrefixOrder.h"
 
 #include <algorithm>
 #include <cassert>

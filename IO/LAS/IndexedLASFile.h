@@ -2,8 +2,8 @@
 
 #include "LASFile.h"
 
+#include "pointfront/Disk/InputFile.h"
 #include "pointfront/InPlace/SideFile.h"
-#include "pointfront/Store/InputFile.h"
 #include "pointfront/Store/StoredCloud.h"
 
 #include <memory>

@@ -2,9 +2,9 @@
 
 #include "LASPointDecoder.h"
 
+#include "pointfront/Codec/Checksum.h"
 #include "pointfront/Export/OutputTarget.h"
-#include "pointfront/Store/Checksum.h"
-#include "pointfront/Store/ColumnStatistics.h"
+#include "pointfront/Statistics/ColumnStatistics.h"
 #include "pointfront/Store/GridBounds.h"
 
 #include <algorithm>

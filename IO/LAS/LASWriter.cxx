@@ -3,7 +3,7 @@
 #include "LASPointEncoder.h"
 #include "LASzipWriter.h"
 
-#include "pointfront/Store/OutputFile.h"
+#include "pointfront/Disk/OutputFile.h"
 
 #include <algorithm>
 #include <cassert>

@@ -3,8 +3,8 @@
 #include "LASPointLayout.h"
 
 #include "pointfront/Base/Result.h"
+#include "pointfront/Disk/OutputFile.h"
 #include "pointfront/Points/PointSource.h"
-#include "pointfront/Store/OutputFile.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -5,9 +5,9 @@
 #include "LAZChunkTable.h"
 #include "LAZCompression.h"
 
-#include "pointfront/Build/CommonSchema.h"
-#include "pointfront/Build/GridChoice.h"
-#include "pointfront/Build/ReferenceSystem.h"
+#include "pointfront/Ingest/CommonSchema.h"
+#include "pointfront/Ingest/GridChoice.h"
+#include "pointfront/Ingest/ReferenceSystem.h"
 #include "pointfront/InPlace/ForeignTree.h"
 #include "pointfront/Points/AttributePass.h"
 #include "pointfront/Threads/ThreadCrew.h"

@@ -2,7 +2,7 @@
 
 #include "PCDFile.h"
 
-#include "pointfront/Build/SpillFile.h"
+#include "pointfront/Disk/SpillFile.h"
 #include "pointfront/Table/PointTable.h"
 
 #include <memory>

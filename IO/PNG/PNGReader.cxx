@@ -1,6 +1,6 @@
 #include "PNGReader.h"
 
-#include "pointfront/Store/InputFile.h"
+#include "pointfront/Disk/InputFile.h"
 
 #include <csetjmp>
 #include <memory>

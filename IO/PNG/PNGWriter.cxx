@@ -1,6 +1,6 @@
 #include "PNGWriter.h"
 
-#include "pointfront/Store/OutputFile.h"
+#include "pointfront/Disk/OutputFile.h"
 
 #include <cassert>
 #include <csetjmp>

@@ -2,7 +2,7 @@
 
 #include "DecimalText.h"
 
-#include "pointfront/Store/OutputFile.h"
+#include "pointfront/Disk/OutputFile.h"
 
 #include <algorithm>
 #include <cassert>

@@ -6,7 +6,7 @@
 #include "MapperViews.h"
 #include "RenderTimer.h"
 
-#include "pointfront/Front/DetailLevel.h"
+#include "pointfront/Detail/DetailLevel.h"
 #include "pointfront/Plan/FramePlanner.h"
 #include "pointfront/Plan/FrameStatistics.h"
 #include "pointfront/Style/GpuStreams.h"

@@ -4,9 +4,9 @@
 
 #include "LASFormat.h"
 
-#include "pointfront/Store/BlockCodec.h"
-#include "pointfront/Store/PackedCodec.h"
-#include "pointfront/Store/PlaneCodec.h"
+#include "pointfront/Codec/BlockCodec.h"
+#include "pointfront/Codec/PackedCodec.h"
+#include "pointfront/Codec/PlaneCodec.h"
 
 #include <benchmark/benchmark.h>
 #include <lz4.h>

@@ -1,7 +1,7 @@
 #include "BytesAsFile.h"
 
+#include "pointfront/Codec/Checksum.h"
 #include "pointfront/InPlace/SideFile.h"
-#include "pointfront/Store/Checksum.h"
 
 #include <algorithm>
 #include <cstring>

@@ -12,6 +12,8 @@ from source_tree import read_tree
 
 RULES = {
     "FileLength": text_rules.file_length,
+    "FolderSize": text_rules.folder_size,
+    "Formatting": text_rules.formatting,
     "LineLength": text_rules.line_length,
     "FunctionLength": text_rules.function_length,
     "MachinePaths": text_rules.machine_paths,

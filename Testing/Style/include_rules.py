@@ -2,7 +2,8 @@
 
     std, GLM <- vtkmodule/Core <- vtkmodule/Common <- IO/* Filters/* Rendering/* <- paraview-plugin
 
-No edge among IO, Filters and Rendering, nor between two modules of IO or of Filters. A foreign
+No edge among IO, Filters and Rendering, nor between two modules of IO or of Filters, but that
+IO/Formats knows all readers and Filters/Passes all passes. A foreign
 library is known to the .cxx files of exactly one module. Tests may include anything; nothing
 includes tests, examples or the plugin. Examples and consumers see only what is installed.
 """
@@ -26,6 +27,7 @@ PARAVIEW = re.compile(r"^(pq|vtkPV|vtkSM|vtkSI)[A-Z]\w*\.h$")
 TEST_LIBRARY = re.compile(r"^(gtest|gmock|benchmark)/")
 OUTSIDE = ("Examples", "Testing", "docs", "CommandLine")
 LAYERS = ("IO", "Filters", "Rendering")
+ASSEMBLIES = ("IO/Formats", "Filters/Passes")  # put together what their neighbours offer
 
 
 def module_of(path):
@@ -48,6 +50,8 @@ def may_know(room, other):
         return False
     if room == "vtkmodule/Common":
         return other in ("vtkmodule/Core", "IO/StyleJSON")  # plain C++: the text of a style
+    if room in ASSEMBLIES and other.split("/")[0] == room.split("/")[0]:
+        return True
     if room.split("/")[0] in LAYERS:
         return other.startswith("vtkmodule/") or (
             room == "Rendering/OpenGL2" and other in ("Rendering/Core", "Rendering/Software"))

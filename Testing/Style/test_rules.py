@@ -42,6 +42,21 @@ class RulesTest(unittest.TestCase):
             [("IO/LAS/A.cxx", 601), ("Rendering/OpenGL2/glsl/a.glsl", 151)],
         )
 
+    def test_folder_size(self):
+        tree = {f"vtkmodule/Core/pointfront/Store/A{i}.h": "int a;\n" for i in range(41)}
+        tree.update({f"vtkmodule/Core/pointfront/Front/A{i}.h": "int a;\n" for i in range(40)})
+        tree.update({f"Testing/Whole/A{i}.h": "int a;\n" for i in range(60)})
+        self.assertEqual(
+            self.faults("FolderSize", tree), [("vtkmodule/Core/pointfront/Store", 41)])
+
+    def test_formatting(self):
+        tree = {
+            ".clang-format": "BasedOnStyle: LLVM\n",
+            "IO/LAS/A.cxx": "int a;\nint  b;\nint  c;\n",
+            "IO/LAS/B.cxx": "int a;\n",
+        }
+        self.assertEqual(self.faults("Formatting", tree), [("IO/LAS/A.cxx", 2)])
+
     def test_line_length(self):
         tree = {"IO/LAS/A.cxx": "x" * 100 + "\n" + "x" * 101 + "\n", "docs/a.md": "x" * 200}
         self.assertEqual(self.faults("LineLength", tree), [("IO/LAS/A.cxx", 2)])

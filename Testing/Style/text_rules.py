@@ -2,11 +2,15 @@
 
 import os
 import re
+import shutil
+import subprocess
 
 FILE_LINES = 600
 FUNCTION_LINES = 100
 SHADER_LINES = 150
 COLUMNS = 100
+FOLDER_FILES = 40  # of the kernel
+CLANG_FORMAT = ("clang-format-14", "clang-format")  # other releases format otherwise
 
 
 def file_length(files):
@@ -15,6 +19,45 @@ def file_length(files):
         limit = SHADER_LINES if file.is_shader else FILE_LINES
         if file.is_code and len(file.lines) > limit:
             yield file.path, len(file.lines), f"{len(file.lines)} lines, at most {limit}"
+
+
+def folder_size(files):
+    """No folder of the kernel holds more than 40 files of C++."""
+    folders = {}
+    for file in files:
+        if file.is_cpp and file.path.startswith("vtkmodule/Core/"):
+            folders.setdefault("/".join(file.folders), []).append(file)
+    for folder, held in sorted(folders.items()):
+        if len(held) > FOLDER_FILES:
+            yield folder, len(held), f"{len(held)} files, at most {FOLDER_FILES}"
+
+
+def clang_format():
+    """The program of release 14; None if there is none."""
+    for name in CLANG_FORMAT:
+        program = shutil.which(name)
+        if program is None:
+            continue
+        said = subprocess.run([program, "--version"], capture_output=True, text=True, check=True)
+        if re.search(r"version 14\.", said.stdout):
+            return program
+    return None
+
+
+def formatting(files):
+    """C++ is as clang-format 14 writes it."""
+    program = clang_format()
+    if program is None:
+        yield "clang-format", 14, "is not there; scripts/setup installs it"
+        return
+    sources = [file for file in files if file.is_cpp]
+    for begin in range(0, len(sources), 200):
+        paths = [os.path.join(file.root, file.path) for file in sources[begin:begin + 200]]
+        said = subprocess.run([program, "--dry-run", "-Werror", "--ferror-limit=1", *paths],
+                              capture_output=True, text=True, check=False)
+        for match in re.finditer(r"^(.*?):(\d+):\d+: error:", said.stderr, flags=re.M):
+            path = os.path.relpath(match.group(1), sources[0].root)
+            yield path, int(match.group(2)), "not as clang-format writes it; run clang-format -i"
 
 
 def line_length(files):

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pointfront/Store/ByteStream.h"
+#include "pointfront/Codec/ByteStream.h"
 #include "pointfront/Store/NodePage.h"
 #include "pointfront/Store/PagedNodeTable.h"
 

@@ -3,7 +3,7 @@
 #include "PLYWriter.h"
 #include "PNGWriter.h"
 
-#include "pointfront/Store/OutputFile.h"
+#include "pointfront/Disk/OutputFile.h"
 
 #include <nlohmann/json.hpp>
 

@@ -2,8 +2,8 @@
 
 #include "pointfront/Residency/ResidencyShare.h"
 
+#include "pointfront/Preview/PreviewRecord.h"
 #include "pointfront/Residency/LoadScheduler.h"
-#include "pointfront/Store/PreviewRecord.h"
 #include "pointfront/Store/StoredCloudFormats.h"
 
 #include <vtkDataObject.h>

@@ -2,7 +2,7 @@
 
 #include "SampleStore.h"
 
-#include "pointfront/Store/Checksum.h"
+#include "pointfront/Codec/Checksum.h"
 
 #include <gtest/gtest.h>
 

@@ -2,8 +2,8 @@
 
 #include "TestBuildClouds.h"
 
-#include "pointfront/Build/MortonOrder.h"
-#include "pointfront/Build/RecordLayout.h"
+#include "pointfront/Ingest/RecordLayout.h"
+#include "pointfront/Trees/MortonOrder.h"
 
 #include <glm/geometric.hpp>
 

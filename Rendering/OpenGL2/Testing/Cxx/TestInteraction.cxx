@@ -2,9 +2,9 @@
 
 #include "TestBuildClouds.h"
 
-#include "pointfront/Build/BuildPreview.h"
+#include "pointfront/Preview/BuildPreview.h"
+#include "pointfront/Preview/PreviewRecord.h"
 #include "pointfront/Store/PointStore.h"
-#include "pointfront/Store/PreviewRecord.h"
 
 #include <vtkCallbackCommand.h>
 

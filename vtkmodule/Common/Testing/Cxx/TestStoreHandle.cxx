@@ -1,7 +1,7 @@
 #include "TestBuildClouds.h"
 
-#include "pointfront/Build/BuildPreview.h"
 #include "pointfront/Build/StoreBuilder.h"
+#include "pointfront/Preview/BuildPreview.h"
 #include "vtkPointFrontStore.h"
 
 #include <vtkNew.h>

@@ -2,9 +2,9 @@
 
 #include "pointfront/Base/Progress.h"
 #include "pointfront/Base/Result.h"
-#include "pointfront/Build/BuildPreview.h"
 #include "pointfront/Build/StoreBuilder.h"
 #include "pointfront/Points/AttributePass.h"
+#include "pointfront/Preview/BuildPreview.h"
 
 #include <functional>
 #include <set>

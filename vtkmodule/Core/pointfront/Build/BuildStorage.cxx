@@ -1,7 +1,7 @@
 #include "pointfront/Build/BuildStorage.h"
 
-#include "pointfront/Build/RecordLayout.h"
 #include "pointfront/Build/TreeConstruction.h"
+#include "pointfront/Ingest/RecordLayout.h"
 
 #include <algorithm>
 #include <filesystem>

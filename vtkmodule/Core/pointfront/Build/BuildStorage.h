@@ -1,9 +1,9 @@
 #pragma once
 
-#include "pointfront/Build/DiskDemand.h"
 #include "pointfront/Build/MemoryPlan.h"
-#include "pointfront/Build/RecordPool.h"
 #include "pointfront/Build/StoreBuilder.h"
+#include "pointfront/Disk/DiskDemand.h"
+#include "pointfront/Ingest/RecordPool.h"
 
 #include <memory>
 #include <string>

@@ -1,6 +1,6 @@
 #include "pointfront/Build/MemoryPlan.h"
 
-#include "pointfront/Build/MortonOrder.h"
+#include "pointfront/Trees/MortonOrder.h"
 
 #include <algorithm>
 #include <string>

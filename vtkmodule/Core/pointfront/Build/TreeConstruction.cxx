@@ -1,10 +1,10 @@
 #include "pointfront/Build/TreeConstruction.h"
 
-#include "pointfront/Build/KdPool.h"
-#include "pointfront/Build/KdSubtreeBuilder.h"
-#include "pointfront/Build/MeanSubtreeBuilder.h"
-#include "pointfront/Build/PartPool.h"
-#include "pointfront/Build/SubtreeBuilder.h"
+#include "pointfront/Trees/KdPool.h"
+#include "pointfront/Trees/KdSubtreeBuilder.h"
+#include "pointfront/Trees/MeanSubtreeBuilder.h"
+#include "pointfront/Trees/PartPool.h"
+#include "pointfront/Trees/SubtreeBuilder.h"
 
 namespace pointfront
 {

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "pointfront/Build/BlockSorter.h"
-#include "pointfront/Build/NodeEmitter.h"
 #include "pointfront/Build/StoreBuilder.h"
-#include "pointfront/Build/TreeAssembly.h"
+#include "pointfront/Ingest/BlockSorter.h"
+#include "pointfront/Trees/NodeEmitter.h"
+#include "pointfront/Trees/TreeAssembly.h"
 
 #include <memory>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pointfront/Front/DetailSelection.h"
+#include "pointfront/Detail/DetailSelection.h"
 
 #include <memory>
 

@@ -1,10 +1,10 @@
 #include "pointfront/InPlace/ForeignTree.h"
 
-#include "pointfront/Build/PrefixOrder.h"
 #include "pointfront/InPlace/ForeignTable.h"
 #include "pointfront/InPlace/SampleStream.h"
-#include "pointfront/Store/ColumnStatistics.h"
+#include "pointfront/Statistics/ColumnStatistics.h"
 #include "pointfront/Threads/ThreadCrew.h"
+#include "pointfront/Trees/PrefixOrder.h"
 
 #include <glm/common.hpp>
 

@@ -1,11 +1,11 @@
 #include "pointfront/InPlace/InPlaceTable.h"
 
-#include "pointfront/Build/BuiltTree.h"
+#include "pointfront/Codec/Checksum.h"
 #include "pointfront/InPlace/LeafSplats.h"
 #include "pointfront/InPlace/RunLedger.h"
-#include "pointfront/Store/Checksum.h"
 #include "pointfront/Store/GridBounds.h"
 #include "pointfront/Store/StoreFormat.h"
+#include "pointfront/Trees/BuiltTree.h"
 
 #include <algorithm>
 #include <cmath>

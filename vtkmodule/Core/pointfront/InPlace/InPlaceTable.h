@@ -1,10 +1,10 @@
 #pragma once
 
 #include "pointfront/Base/Result.h"
-#include "pointfront/Build/WorkCrew.h"
 #include "pointfront/InPlace/GridRecords.h"
 #include "pointfront/Points/QuantisationGrid.h"
 #include "pointfront/Store/Hierarchy.h"
+#include "pointfront/Threads/WorkCrew.h"
 
 #include <cstdint>
 #include <functional>

@@ -1,7 +1,7 @@
 #include "pointfront/InPlace/LeafSplats.h"
 
-#include "pointfront/Build/BuiltTree.h"
 #include "pointfront/InPlace/RunList.h"
+#include "pointfront/Trees/BuiltTree.h"
 
 #include <algorithm>
 #include <cmath>

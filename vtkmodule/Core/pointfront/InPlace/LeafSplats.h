@@ -1,10 +1,10 @@
 #pragma once
 
-#include "pointfront/Build/NodeSplat.h"
 #include "pointfront/InPlace/GridRecords.h"
 #include "pointfront/InPlace/QuadTree.h"
 #include "pointfront/Points/QuantisationGrid.h"
 #include "pointfront/Store/Hierarchy.h"
+#include "pointfront/Trees/NodeSplat.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "pointfront/Base/Result.h"
-#include "pointfront/Build/SpillFile.h"
+#include "pointfront/Disk/SpillFile.h"
 #include "pointfront/InPlace/QuadTree.h"
 #include "pointfront/InPlace/RunFinder.h"
 #include "pointfront/InPlace/RunList.h"

@@ -1,8 +1,8 @@
 #include "pointfront/InPlace/SideFile.h"
 
+#include "pointfront/Codec/ByteStream.h"
+#include "pointfront/Codec/Checksum.h"
 #include "pointfront/InPlace/SampleStream.h"
-#include "pointfront/Store/ByteStream.h"
-#include "pointfront/Store/Checksum.h"
 #include "pointfront/Store/NodeTableSection.h"
 
 #include <algorithm>

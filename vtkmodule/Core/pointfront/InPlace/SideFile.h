@@ -1,11 +1,11 @@
 #pragma once
 
 #include "pointfront/Base/Result.h"
+#include "pointfront/Disk/InputFile.h"
+#include "pointfront/Disk/OutputFile.h"
 #include "pointfront/InPlace/InPlaceTable.h"
 #include "pointfront/InPlace/RunList.h"
 #include "pointfront/Store/DescriptionSection.h"
-#include "pointfront/Store/InputFile.h"
-#include "pointfront/Store/OutputFile.h"
 
 #include <array>
 #include <cstdint>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pointfront/Build/SpillFile.h"
+#include "pointfront/Disk/SpillFile.h"
 #include "pointfront/Neighbourhood/InputOrder.h"
 #include "pointfront/Points/AttributeSchema.h"
 

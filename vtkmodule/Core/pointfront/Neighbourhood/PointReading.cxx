@@ -1,6 +1,6 @@
 #include "pointfront/Neighbourhood/PointReading.h"
 
-#include "pointfront/Build/CommonSchema.h"
+#include "pointfront/Ingest/CommonSchema.h"
 
 #include <cstring>
 

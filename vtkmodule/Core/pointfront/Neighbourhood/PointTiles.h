@@ -1,9 +1,9 @@
 #pragma once
 
-#include "pointfront/Build/RecordPool.h"
-#include "pointfront/Build/WorkCrew.h"
+#include "pointfront/Ingest/RecordPool.h"
 #include "pointfront/Neighbourhood/InputOrder.h"
 #include "pointfront/Neighbourhood/TileLayout.h"
+#include "pointfront/Threads/WorkCrew.h"
 
 #include <atomic>
 #include <bitset>

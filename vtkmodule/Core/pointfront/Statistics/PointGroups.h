@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pointfront/Build/RecordPacker.h"
+#include "pointfront/Ingest/RecordPacker.h"
 #include "pointfront/Points/PointBatch.h"
 
 #include <array>

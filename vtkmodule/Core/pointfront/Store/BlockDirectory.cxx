@@ -1,6 +1,6 @@
 #include "pointfront/Store/BlockDirectory.h"
 
-#include "pointfront/Store/ByteStream.h"
+#include "pointfront/Codec/ByteStream.h"
 
 #include <numeric>
 

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "pointfront/Codec/BlockCodec.h"
 #include "pointfront/Points/QuantisationGrid.h"
-#include "pointfront/Store/BlockCodec.h"
 
 #include <algorithm>
 #include <cstddef>

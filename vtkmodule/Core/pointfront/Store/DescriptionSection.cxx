@@ -1,6 +1,6 @@
 #include "pointfront/Store/DescriptionSection.h"
 
-#include "pointfront/Store/ByteStream.h"
+#include "pointfront/Codec/ByteStream.h"
 #include "pointfront/Store/StoreFormat.h"
 
 #include <cmath>

@@ -1,7 +1,7 @@
 #include "pointfront/Store/NodePage.h"
 
-#include "pointfront/Store/ByteStream.h"
-#include "pointfront/Store/Checksum.h"
+#include "pointfront/Codec/ByteStream.h"
+#include "pointfront/Codec/Checksum.h"
 #include "pointfront/Store/StoreFormat.h"
 
 #include <algorithm>

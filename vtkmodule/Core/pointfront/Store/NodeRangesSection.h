@@ -1,7 +1,7 @@
 #pragma once
 
 #include "pointfront/Base/Result.h"
-#include "pointfront/Store/InputFile.h"
+#include "pointfront/Disk/InputFile.h"
 #include "pointfront/Store/NodeRanges.h"
 #include "pointfront/Store/StoreFormat.h"
 #include "pointfront/Store/StoreWriter.h"

@@ -1,6 +1,6 @@
 #include "pointfront/Store/NodeTableSection.h"
 
-#include "pointfront/Store/ByteStream.h"
+#include "pointfront/Codec/ByteStream.h"
 #include "pointfront/Store/NodePage.h"
 #include "pointfront/Store/StoredCloud.h"
 

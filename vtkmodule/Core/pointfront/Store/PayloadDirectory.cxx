@@ -1,7 +1,7 @@
 #include "pointfront/Store/PayloadDirectory.h"
 
-#include "pointfront/Store/ByteStream.h"
-#include "pointfront/Store/Checksum.h"
+#include "pointfront/Codec/ByteStream.h"
+#include "pointfront/Codec/Checksum.h"
 
 #include <algorithm>
 #include <cstring>

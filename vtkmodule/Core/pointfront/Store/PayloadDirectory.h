@@ -1,8 +1,8 @@
 #pragma once
 
 #include "pointfront/Base/Result.h"
+#include "pointfront/Disk/InputFile.h"
 #include "pointfront/Store/BlockDirectory.h"
-#include "pointfront/Store/InputFile.h"
 #include "pointfront/Store/NodeReader.h"
 #include "pointfront/Store/StoreFormat.h"
 

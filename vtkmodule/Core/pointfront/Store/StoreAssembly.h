@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pointfront/Store/OutputFile.h"
+#include "pointfront/Disk/OutputFile.h"
 #include "pointfront/Store/StoreWriter.h"
 
 #include <memory>

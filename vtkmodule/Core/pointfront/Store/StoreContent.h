@@ -1,7 +1,7 @@
 #pragma once
 
+#include "pointfront/Disk/InputFile.h"
 #include "pointfront/Store/DescriptionSection.h"
-#include "pointfront/Store/InputFile.h"
 #include "pointfront/Store/NodeRangesSection.h"
 #include "pointfront/Store/PayloadDirectory.h"
 #include "pointfront/Store/PayloadElsewhere.h"

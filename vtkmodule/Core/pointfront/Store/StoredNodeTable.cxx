@@ -1,6 +1,6 @@
 #include "pointfront/Store/StoredNodeTable.h"
 
-#include "pointfront/Store/Checksum.h"
+#include "pointfront/Codec/Checksum.h"
 #include "pointfront/Store/NodePage.h"
 #include "pointfront/Store/NodeTableSection.h"
 #include "pointfront/Store/PagedNodeTable.h"

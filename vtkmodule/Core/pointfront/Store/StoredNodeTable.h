@@ -1,9 +1,9 @@
 #pragma once
 
 #include "pointfront/Base/Result.h"
+#include "pointfront/Disk/InputFile.h"
 #include "pointfront/Store/DescriptionSection.h"
 #include "pointfront/Store/Hierarchy.h"
-#include "pointfront/Store/InputFile.h"
 #include "pointfront/Store/StoreFormat.h"
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "pointfront/Base/Result.h"
-#include "pointfront/Store/OutputFile.h"
+#include "pointfront/Disk/OutputFile.h"
 #include "pointfront/Table/RecordEncoder.h"
 
 #include <cstdint>

@@ -1,8 +1,8 @@
 #include "pointfront/Tiles/TiledCloud.h"
 
-#include "pointfront/Build/CommonRadii.h"
+#include "pointfront/Ingest/CommonRadii.h"
 #include "pointfront/Points/SplatRadius.h"
-#include "pointfront/Store/ColumnStatistics.h"
+#include "pointfront/Statistics/ColumnStatistics.h"
 #include "pointfront/Store/StoredCloudFormats.h"
 #include "pointfront/Threads/ThreadCrew.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pointfront/Build/CommonSchema.h"
+#include "pointfront/Ingest/CommonSchema.h"
 #include "pointfront/Store/StoredCloud.h"
 #include "pointfront/Tiles/TileTable.h"
 

@@ -2,8 +2,8 @@
 
 #include "pointfront/Views/GpuSlotBytes.h"
 
+#include "pointfront/Detail/ViewDetail.h"
 #include "pointfront/Front/RenderFront.h"
-#include "pointfront/Front/ViewDetail.h"
 #include "pointfront/Residency/LoadScheduler.h"
 
 #include <algorithm>

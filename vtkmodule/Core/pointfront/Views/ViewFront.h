@@ -5,7 +5,7 @@
 #include "pointfront/Views/OtherPieces.h"
 #include "pointfront/Views/WindowDemand.h"
 
-#include "pointfront/Front/DetailSelection.h"
+#include "pointfront/Detail/DetailSelection.h"
 #include "pointfront/Front/FrameCostModel.h"
 #include "pointfront/Front/MotionMargin.h"
 #include "pointfront/Front/View.h"

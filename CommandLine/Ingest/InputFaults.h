@@ -1,0 +1,21 @@
+#pragma once
+
+#include "pointfront/Ingest/OpenedInputs.h"
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include <string>
+#include <vector>
+
+namespace pointfront
+{
+
+/// --on-error stop|skip of `build` and `index`.
+void addOnError(CLI::App& app, OnFault& onFault);
+/// Behind a summary: "; skipped 2 inputs: a.las (why), b.las (why)". Empty if there are none.
+std::string skippedText(const std::vector<InputFault>& skipped);
+/// The key `inputs_skipped` of a report: a list of {path, why}.
+nlohmann::ordered_json skippedJson(const std::vector<InputFault>& skipped);
+
+} // namespace pointfront

@@ -1,0 +1,131 @@
+#include "StoreInfo.h"
+
+#include "ByteSize.h"
+#include "CloudFacts.h"
+
+#include "pointfront/Points/SplatRadius.h"
+#include "pointfront/Preview/PreviewRecord.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <sstream>
+
+namespace pointfront
+{
+
+namespace
+{
+const char* refinementName(Refinement refinement)
+{
+  return refinement == Refinement::Add ? "add" : "replace";
+}
+
+/// The coarsest axis: no coordinate is farther from the truth than half of it.
+double precisionOf(const QuantisationGrid& grid)
+{
+  return std::max({ grid.scale.x, grid.scale.y, grid.scale.z });
+}
+
+enum class SplatMeasure : std::uint8_t
+{
+  None,
+  PerNode,
+  PerPoint ///< and per node
+};
+
+SplatMeasure splatMeasure(const StoreDescription& store, const Hierarchy& hierarchy)
+{
+  if (store.splatRadiusBase > 0.0 && store.schema.find(splatRadiusAttribute))
+  {
+    return SplatMeasure::PerPoint;
+  }
+  const std::vector<NodeIndex>& roots = hierarchy.roots();
+  const bool byNode = std::any_of(roots.begin(), roots.end(),
+    [&](NodeIndex root) { return hierarchy.node(root).splatRadius > 0.0f; });
+  return byNode ? SplatMeasure::PerNode : SplatMeasure::None;
+}
+
+/// Versions of stores and of side files.
+bool olderThanSplats(const StoreDescription& store)
+{
+  return store.version < (store.structure == "inplace" ? 2u : 3u);
+}
+
+const char* nameOf(SplatMeasure measure)
+{
+  return measure == SplatMeasure::PerPoint ? "per point"
+    : measure == SplatMeasure::PerNode     ? "per node"
+                                           : "none";
+}
+} // namespace
+
+nlohmann::ordered_json storeJson(const StoreDescription& store, const Hierarchy& hierarchy)
+{
+  nlohmann::ordered_json object;
+  object["points"] = store.pointCount;
+  object["bounds"] = boundsJson(store.bounds);
+  object["precision"] = precisionOf(store.grid);
+  object["crs"] =
+    store.crsWkt.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(store.crsWkt);
+  object["structure"] = store.structure;
+  object["refinement"] = refinementName(store.refinement);
+  object["nodes"] = hierarchy.nodeCount();
+  object["levels"] = store.levels;
+  object["bytes"] = store.fileBytes;
+  object["attributes"] = attributesJson(store.schema);
+  object["layers"] = nlohmann::ordered_json::array();
+  for (const Layer& layer : store.layers)
+  {
+    object["layers"].push_back({ { "class", layer.objectClass }, { "name", layer.name },
+      { "points", layer.pointCount }, { "nodes", layer.nodeCount } });
+  }
+  object["splat_radius"] = nameOf(splatMeasure(store, hierarchy));
+  object["version"] = store.version;
+  if (const auto preview = previewRecordOf(store.metadata))
+  {
+    object["preview"] = { { "of", preview->storeName },
+      { "points_expected", preview->pointsExpected }, { "points_read", preview->pointsRead },
+      { "points_finished", preview->pointsFinished } };
+  }
+  object["warnings"] = store.warnings;
+  object["grid"] = { { "scale", { store.grid.scale.x, store.grid.scale.y, store.grid.scale.z } },
+    { "offset", { store.grid.offset.x, store.grid.offset.y, store.grid.offset.z } } };
+  return object;
+}
+
+std::string storeText(const StoreDescription& store, const Hierarchy& hierarchy)
+{
+  std::ostringstream text;
+  text.precision(15);
+  text << store.path;
+  if (const auto preview = previewRecordOf(store.metadata))
+  {
+    text << "\n  preview     of " << preview->storeName << ", which is being built from "
+         << preview->pointsExpected << " points; " << preview->pointsRead
+         << " were read when this was written, " << preview->pointsFinished
+         << " of them are shown in full";
+  }
+  text << "\n  points      " << store.pointCount << "\n  bounds      " << boundsText(store.bounds);
+  text << "\n  precision   " << store.grid.scale.x << ' ' << store.grid.scale.y << ' '
+       << store.grid.scale.z << "\n  crs         "
+       << (store.crsWkt.empty() ? "not known" : store.crsWkt) << "\n  hierarchy   "
+       << store.structure << ", refinement " << refinementName(store.refinement) << ", "
+       << hierarchy.nodeCount() << " nodes in " << store.levels << " levels\n  file        "
+       << byteSizeText(store.fileBytes) << " (" << store.fileBytes << " bytes), version "
+       << store.version << ", by " << store.generator << "\n  splat sizes ";
+  const SplatMeasure measure = splatMeasure(store, hierarchy);
+  text << (measure == SplatMeasure::PerPoint ? "measured per point"
+      : measure == SplatMeasure::PerNode     ? "measured per node"
+      : olderThanSplats(store)               ? "not measured (built by an older version)"
+                                             : "not measured (no two places)");
+  text << "\n  attributes  " << attributesText(store.schema);
+  for (const Layer& layer : store.layers)
+  {
+    text << "\n  layer       " << layer.name << " (class " << layer.objectClass
+         << "): " << layer.pointCount << " points in " << layer.nodeCount << " nodes";
+  }
+  return text.str();
+}
+
+} // namespace pointfront

@@ -1,0 +1,572 @@
+#include "SoftwareScene.h"
+
+#include "CancelSignal.h"
+#include "Frustum.h"
+#include "Ground.h"
+#include "PeakMemory.h"
+#include "ShownClasses.h"
+
+#include "PNGWriter.h"
+#include "RasterBatch.h"
+
+#include "pointfront/Detail/DetailLevel.h"
+#include "pointfront/Residency/LoadScheduler.h"
+#include "pointfront/Style/ClassHeights.h"
+#include "pointfront/Style/TechniqueNames.h"
+#include "pointfront/Threads/ThreadCrew.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <tuple>
+#include <unordered_map>
+
+namespace pointfront
+{
+
+namespace
+{
+using Clock = std::chrono::steady_clock;
+
+/// One store's arrivals are waited for that long before the others are looked at.
+constexpr std::chrono::milliseconds lookAtOthers{ 20 };
+constexpr int mostRounds = 64; // of the fronts of a complete picture
+constexpr double frameMsInMotion = 1000.0 / 15; // that VTK allots to a moving view
+constexpr std::uint64_t framePointBudget = 5000000; // as vtkPointFrontMapper's
+constexpr std::uint64_t overviewPoints = 2000000; // likewise
+constexpr int filledRows = 64; ///< of a neighbour, that a hole may be filled from
+/// How far a splat reaches beyond the rows that its centre lies in, where its size is no number of
+/// pixels.
+constexpr int splatReachRows = 64;
+
+double millisecondsSince(Clock::time_point begin)
+{
+  return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+}
+
+/// Behind what is drawn.
+void putBackground(const std::array<double, 3>& colour, SoftwareTarget& target)
+{
+  std::array<int, 3> behind{};
+  std::transform(colour.begin(), colour.end(), behind.begin(),
+    [](double channel) { return static_cast<int>(std::lround(255.0 * channel)); });
+  for (std::uint32_t& pixel : target.rgba)
+  {
+    auto* const bytes = reinterpret_cast<std::uint8_t*>(&pixel);
+    const int opacity = bytes[3];
+    for (std::size_t channel = 0; opacity < 255 && channel < 3; ++channel)
+    {
+      const int mixed = opacity * bytes[channel] + (255 - opacity) * behind[channel];
+      bytes[channel] = static_cast<std::uint8_t>((mixed + 127) / 255);
+    }
+    bytes[3] = 255;
+  }
+}
+
+/// Rows [bottom, top) of the target, the top one first.
+Result<void> append(PNGWriter& png, const SoftwareTarget& target, int bottom, int top)
+{
+  const auto width = static_cast<std::size_t>(target.width);
+  std::vector<std::uint8_t> row(3 * width);
+  for (int y = top - 1; y >= bottom; --y)
+  {
+    const auto* from = reinterpret_cast<const std::uint8_t*>(
+      target.rgba.data() + static_cast<std::size_t>(y) * width);
+    for (std::size_t x = 0; x < width; ++x)
+    {
+      std::copy(from + 4 * x, from + 4 * x + 3, row.data() + 3 * x);
+    }
+    if (Result<void> written = png.append(row.data(), 1, 0); !written)
+    {
+      return written;
+    }
+  }
+  return {};
+}
+
+Result<std::unique_ptr<PNGWriter>> pngOf(const std::string& path, const std::array<int, 2>& size)
+{
+  return PNGWriter::create(path,
+    { static_cast<std::uint32_t>(size[0]), static_cast<std::uint32_t>(size[1]) },
+    PNGWriter::Pixels::RGB8);
+}
+} // namespace
+
+/// What bands have drawn, each node once: neighbours share many.
+struct SoftwareScene::DrawnNodes
+{
+  std::vector<std::unordered_map<NodeIndex, std::uint32_t>> points; ///< of nodes, by store
+
+  void add(std::size_t store, const FrontDelta& delta)
+  {
+    for (const DrawItem& item : delta.draw)
+    {
+      std::uint32_t& most = points[store][item.node];
+      most = std::max(most, item.pointCount);
+    }
+  }
+  void countIn(FrameRecord& frame) const
+  {
+    frame.points = 0;
+    frame.nodes = 0;
+    for (const auto& store : points)
+    {
+      frame.nodes += static_cast<std::int64_t>(store.size());
+      for (const auto& [node, count] : store)
+      {
+        frame.points += count;
+      }
+    }
+  }
+};
+
+SoftwareScene::SoftwareScene(const DrawingOptions& options)
+  : options_(options)
+  , shading_(options.style.frameShading())
+{
+}
+
+Result<std::unique_ptr<StoreScene>> SoftwareScene::open(const DrawingOptions& options)
+{
+  std::unique_ptr<SoftwareScene> scene(new SoftwareScene(options));
+  if (options.measureEmptyScene)
+  {
+    scene->target_.reset(options.size[0], options.size[1]);
+    scene->emptySceneBytes_ = residentBytesNow();
+  }
+  for (const auto step :
+    { &SoftwareScene::openStores, &SoftwareScene::chooseStyles, &SoftwareScene::shareMemory })
+  {
+    if (Result<void> done = (scene.get()->*step)(); !done)
+    {
+      return done.error();
+    }
+  }
+  return std::unique_ptr<StoreScene>(std::move(scene));
+}
+
+Result<void> SoftwareScene::openStores()
+{
+  for (const std::string& path : options_.stores)
+  {
+    Result<std::unique_ptr<DrawnStore>> store = DrawnStore::open(path);
+    if (!store)
+    {
+      return store.error();
+    }
+    bounds_.add(store.value()->cloud()->description().bounds);
+    allPoints_ += store.value()->cloud()->description().pointCount;
+    stores_.push_back(std::move(store).value());
+  }
+  return {};
+}
+
+Result<void> SoftwareScene::chooseStyles()
+{
+  std::vector<std::shared_ptr<const StoredCloud>> clouds;
+  for (const auto& store : stores_)
+  {
+    clouds.push_back(store->cloud());
+  }
+  const AttributeRanges ranges(clouds);
+  StyleSheet sheet = options_.style;
+  if (!sheet.standard.colour) // the first store decides for all
+  {
+    sheet.standard.colour =
+      ColourSource::ofAttribute(defaultColourAttribute(clouds.front()->description()));
+  }
+  const auto window = std::make_shared<const WindowDemand>();
+  std::uint64_t shown = 0;
+  for (const auto& store : stores_)
+  {
+    const StoreDescription& description = store->cloud()->description();
+    StoreSurroundings surroundings;
+    surroundings.ranges = &ranges;
+    if (sheet.wantsHeights(description))
+    {
+      surroundings.heights = std::make_shared<const ClassHeights>(store->cloud());
+    }
+    Result<std::vector<LayerStyling>> layers = sheet.resolveAll(description, surroundings);
+    if (!layers)
+    {
+      return layers.error();
+    }
+    if (const Result<void> set = store->setStyles(std::move(layers).value()); !set)
+    {
+      return set;
+    }
+    store->enterWindow(window);
+    shown += store->pointsShown();
+  }
+  if (sheet.shownClasses && shown == 0)
+  {
+    return noClassShown();
+  }
+  return {};
+}
+
+/// Of all that is drawn in one way.
+template <typename Visit>
+void SoftwareScene::forEachStyle(const Visit& visit) const
+{
+  for (const auto& store : stores_)
+  {
+    for (const LayerStyling& layer : store->styles())
+    {
+      std::for_each(
+        layer.styles.begin(), layer.styles.end(), [&visit](const auto& style) { visit(*style); });
+    }
+  }
+}
+
+/// Before anything is loaded.
+Result<void> SoftwareScene::shareMemory()
+{
+  bool blends = false;
+  std::set<std::tuple<int, bool, int>> parts; // that have targets of their own
+  forEachStyle(
+    [&](const ResolvedStyle& style)
+    {
+      blends = blends || style.blended || style.technique == Technique::Ewa;
+      parts.insert({ style.lens, style.lensMask, style.group });
+    });
+  const std::uint64_t targets = std::max<std::size_t>(1, parts.size());
+  PictureCost cost;
+  cost.pixelBytes = sizeof(std::uint32_t) + sizeof(float); // colour and depth
+  cost.pixelBytes += shading_.lit ? 3 * sizeof(float) : 0; // normals
+  cost.pixelBytes += shading_.highlights.empty() ? 0 : 4; // who stands out, how far that is
+  cost.pixelBytes *= targets;
+  cost.pixelBytes += shading_.eyeDomeStrength > 0.0f ? sizeof(float) : 0; // logarithms of depth
+  cost.pixelBytes += blends ? sizeof(float) : 0; // the nearest depth
+  cost.pixelBytes += stores_.size() > 1 // keys of their last pictures
+    ? SoftwareRasteriser::keptPictures * sizeof(RasterKey)
+    : 0;
+  cost.threadPixelBytes = sizeof(RasterKey) + (blends ? 4 * sizeof(std::uint32_t) : 0);
+  cost.marginPixels = rasterMargin;
+  cost.threads = ThreadCrew::ofProcess().threads();
+  cost.overlapRows = SoftwareComposition::reachPx(shading_);
+  cost.overlapRows = shading_.fillHoles ? std::max(cost.overlapRows, filledRows) : cost.overlapRows;
+  const std::uint64_t budget =
+    options_.memoryBytes > 0 ? options_.memoryBytes : LoadScheduler::processBudgetBytes();
+  const Result<PictureMemory> memory = PictureMemory::share(options_.size, budget, cost);
+  if (!memory)
+  {
+    return memory.error();
+  }
+  memory_ = *memory;
+  LoadScheduler::setProcessBudgetBytes(memory_->pointBytesOfFrames());
+  return {};
+}
+
+std::vector<std::string> SoftwareScene::warnings() const
+{
+  std::vector<std::string> all;
+  for (const auto& store : stores_)
+  {
+    const StoreDescription& description = store->cloud()->description();
+    for (const std::string& warning : description.warnings)
+    {
+      all.push_back(description.path + ": " + warning);
+    }
+  }
+  return all;
+}
+
+Result<double> SoftwareScene::ground() const
+{
+  return groundOf(*stores_.front()->cloud());
+}
+
+void SoftwareScene::setCamera(const Camera& camera)
+{
+  camera_ = frameCameraOf(camera, bounds_, options_.size[0], options_.size[1]);
+}
+
+/// But for what each store adds of its own.
+FrameDemand SoftwareScene::demand(const View& view, bool complete) const
+{
+  FrameDemand demand;
+  demand.method =
+    options_.detail == "view" ? DetailMethod::ViewSpecific : DetailMethod::RenderingFront;
+  demand.view = view;
+  demand.targetErrorPx = options_.errorPx;
+  const std::uint64_t unsaid = complete ? 0 : framePointBudget;
+  demand.pointBudget =
+    options_.pointBudget > 0 ? static_cast<std::uint64_t>(options_.pointBudget) : unsaid;
+  demand.interacting = interactive_ && !complete;
+  demand.frameMs = options_.frameMs > 0.0 ? options_.frameMs : frameMsInMotion;
+  demand.complete = complete;
+  return demand;
+}
+
+/// Milliseconds that each store's front took are left in `ownMs_`.
+void SoftwareScene::updateFronts(const View& view, bool complete)
+{
+  const FrameDemand common = demand(view, complete);
+  ownMs_.assign(stores_.size(), 0.0);
+  const auto wantsUpdate = [&]
+  {
+    return std::any_of(
+      stores_.begin(), stores_.end(), [](const auto& store) { return store->wantsUpdate(); });
+  };
+  // Stores that share a budget come to one error within a few rounds.
+  int rounds = 0;
+  do
+  {
+    for (std::size_t i = 0; i < stores_.size(); ++i)
+    {
+      const auto begin = Clock::now();
+      FrameDemand own = common;
+      own.overviewPoints =
+        overviewShare(overviewPoints, stores_[i]->cloud()->description().pointCount, allPoints_);
+      stores_[i]->update(std::move(own));
+      ownMs_[i] += millisecondsSince(begin);
+    }
+  } while (complete && ++rounds < mostRounds && wantsUpdate());
+}
+
+/// What the fronts say of the frame that is about to be drawn.
+FrameRecord SoftwareScene::record(bool complete) const
+{
+  FrameRecord frame;
+  frame.complete = true;
+  for (std::size_t i = 0; i < stores_.size(); ++i)
+  {
+    const FrontDelta& delta = stores_[i]->last();
+    const ResidencyStatistics residency = stores_[i]->residency().statistics();
+    frame.frontMilliseconds += ownMs_[i];
+    frame.nodes += static_cast<std::int64_t>(delta.draw.size());
+    frame.frontLength += delta.frontLength;
+    frame.moves += delta.moves;
+    frame.requests += static_cast<std::int64_t>(delta.requests.size());
+    frame.thresholdPx = std::max(frame.thresholdPx, delta.thresholdPx);
+    frame.errorPx = std::max(frame.errorPx, delta.errorPx);
+    // In motion the frame time limits the front: at rest the same view may show more.
+    const bool limited = interactive_ && !complete && delta.errorPx > options_.errorPx;
+    frame.complete = frame.complete && delta.complete && !limited;
+    frame.limitedByPoints = frame.limitedByPoints || delta.limitedByBudget;
+    frame.limitedByMemory = frame.limitedByMemory || delta.limitedByMemory;
+    frame.failedNodes += delta.failedNodes;
+    frame.residentBytes += residency.residentBytes;
+    frame.bytesRead += residency.bytesRead;
+    frame.cancelled += residency.cancelled;
+  }
+  return frame;
+}
+
+/// A part of the viewport into the target, which becomes that part. Points drawn and the
+/// milliseconds of it go into `frame`.
+void SoftwareScene::drawPart(
+  SoftwareRasteriser& rasteriser, const PixelRectangle& place, FrameRecord& frame)
+{
+  const auto begin = Clock::now();
+  target_.reset(place);
+  frame.rasteriseMilliseconds = 0.0;
+  std::vector<std::uint64_t> points(stores_.size()), kept(stores_.size());
+  double own = 0.0;
+  GrowthMoment moment;
+  moment.seconds = std::chrono::duration<double>(begin.time_since_epoch()).count();
+  moment.duration = 1e-3 * options_.growthMs;
+  for (std::size_t i = 0; i < stores_.size(); ++i)
+  {
+    const auto beginOfStore = Clock::now();
+    const FramePlan plan = stores_[i]->plan(camera_, shading_, moment);
+    const RasterStatistics drawn =
+      composition_.draw(rasteriser, plan, target_, static_cast<std::uint16_t>(i));
+    *frame.rasteriseMilliseconds += drawn.milliseconds;
+    kept[i] = drawn.keptVisible;
+    points[i] = plan.pointCount();
+    frame.complete = frame.complete && stores_[i]->isGrown();
+    frame.points += static_cast<std::int64_t>(points[i]);
+    ownMs_[i] += millisecondsSince(beginOfStore);
+    own += millisecondsSince(beginOfStore);
+  }
+  composition_.finish(camera_, shading_, target_);
+  putBackground(options_.background, target_);
+  // What no store has to itself is shared out, or frames of a given time would be longer.
+  const double shared = (millisecondsSince(begin) - own) / static_cast<double>(stores_.size());
+  for (std::size_t i = 0; i < stores_.size(); ++i)
+  {
+    stores_[i]->noteFrame(points[i], kept[i], ownMs_[i] + shared);
+  }
+}
+
+Result<void> SoftwareScene::outcome()
+{
+  for (const auto& store : stores_)
+  {
+    if (Result<void> fine = store->outcome(); !fine)
+    {
+      return fine;
+    }
+  }
+  return {};
+}
+
+Result<FrameRecord> SoftwareScene::render(bool complete)
+{
+  reads_.since();
+  const auto begin = Clock::now();
+  updateFronts(viewOf(camera_), complete);
+  FrameRecord frame = record(complete);
+  drawPart(rasteriser_, { 0, 0, camera_.width, camera_.height }, frame);
+  if (const Result<void> fine = outcome(); !fine)
+  {
+    return fine.error();
+  }
+  frame.milliseconds = millisecondsSince(begin);
+  frame.threadReadBytes = reads_.since();
+  return frame;
+}
+
+Result<FrameRecord> SoftwareScene::renderInBands(const std::string& path)
+{
+  const CancelSignal finishing(CancelSignal::Mode::Finish);
+  const auto begin = Clock::now();
+  Result<std::unique_ptr<PNGWriter>> png = pngOf(path, options_.size);
+  if (!png)
+  {
+    return png.error();
+  }
+  stores_.front()->residency().scheduler().setBudgetBytes(memory_->pointBytesOfBands());
+  ThreadCrew crew(memory_->bandThreads());
+  SoftwareRasteriser rasteriser(&crew);
+  rasteriser_.release();
+  FrameRecord whole;
+  whole.complete = true;
+  whole.rasteriseMilliseconds = 0.0;
+  DrawnNodes drawn;
+  drawn.points.resize(stores_.size());
+  reads_.since();
+  for (int top = camera_.height; top > 0; top -= memory_->bandRows())
+  {
+    const int bottom = std::max(0, top - memory_->bandRows());
+    const PixelRectangle rows{ 0, std::max(0, bottom - memory_->overlapRows()), camera_.width,
+      std::min(camera_.height, top + memory_->overlapRows()) };
+    const Result<FrameRecord> band = renderBand(rasteriser, rows, drawn);
+    if (!band)
+    {
+      return band;
+    }
+    whole.add(*band);
+    Result<void> fine = append(**png, target_, bottom - rows.bottom, top - rows.bottom);
+    if (fine && CancelSignal::requested())
+    {
+      fine = makeError(Error::Kind::Cancelled, "stopped; nothing was written");
+    }
+    if (!fine)
+    {
+      return fine.error();
+    }
+  }
+  if (Result<void> written = (*png)->finish(); !written)
+  {
+    return written.error();
+  }
+  drawn.countIn(whole);
+  whole.milliseconds = millisecondsSince(begin);
+  whole.threadReadBytes = reads_.since();
+  return whole;
+}
+
+Result<FrameRecord> SoftwareScene::renderBand(
+  SoftwareRasteriser& rasteriser, const PixelRectangle& rows, DrawnNodes& drawn)
+{
+  // Points outside the rows may reach into them.
+  const int reach = static_cast<int>(std::ceil(reachRows()));
+  const int bottom = std::max(0, rows.bottom - reach);
+  const int top = std::min(camera_.height, rows.top + reach);
+  updateFronts(viewOfRows(camera_, bottom, top), true);
+  FrameRecord frame = record(true);
+  drawPart(rasteriser, rows, frame);
+  rasteriser.release(); // it holds what it has drawn, and the next band needs the memory
+  for (std::size_t i = 0; i < stores_.size(); ++i)
+  {
+    drawn.add(i, stores_[i]->last());
+  }
+  if (const Result<void> fine = outcome(); !fine)
+  {
+    return fine.error();
+  }
+  return frame;
+}
+
+double SoftwareScene::reachRows() const
+{
+  double reach = 0.0;
+  forEachStyle(
+    [&reach](const ResolvedStyle& style)
+    {
+      const bool pixels = style.size.mode == SplatSize::Mode::Pixels;
+      reach = std::max<double>(reach, pixels ? 0.5 * style.size.value + 1.0 : splatReachRows);
+    });
+  return reach;
+}
+
+bool SoftwareScene::needsFrame()
+{
+  bool needed = false;
+  for (const auto& store : stores_)
+  {
+    needed = store->needsFrame() || needed; // each is asked: it moves its front
+  }
+  return needed;
+}
+
+bool SoftwareScene::waitForArrival()
+{
+  while (!needsFrame())
+  {
+    const auto loading = std::find_if(
+      stores_.begin(), stores_.end(), [](const auto& store) { return store->loads(); });
+    if (loading == stores_.end())
+    {
+      return false;
+    }
+    const Residency& residency = (*loading)->residency();
+    residency.waitForArrival(residency.arrivals(), lookAtOthers);
+  }
+  return true;
+}
+
+std::vector<std::string> SoftwareScene::attributesRead() const
+{
+  std::set<std::string> names;
+  for (const auto& store : stores_)
+  {
+    for (const std::uint32_t column : store->residency().columns())
+    {
+      names.insert(store->cloud()->description().schema[column].name);
+    }
+  }
+  return { names.begin(), names.end() };
+}
+
+std::uint64_t SoftwareScene::residentBytesMax() const
+{
+  return stores_.front()->residency().scheduler().statistics().residentBytesMax;
+}
+
+std::uint64_t SoftwareScene::pictureBytes() const
+{
+  return target_.height == options_.size[1] ? memory_->frameBytes() : memory_->bandBytes();
+}
+
+LoadingRecord SoftwareScene::loading() const
+{
+  const LoadSchedulerStatistics s = stores_.front()->residency().scheduler().statistics();
+  return { s.fetchedBytes, s.decodedBytes, s.fetchSeconds, s.decodeSeconds, s.lastLoaded };
+}
+
+Result<void> SoftwareScene::writePicture(const std::string& path)
+{
+  Result<std::unique_ptr<PNGWriter>> png = pngOf(path, options_.size);
+  if (!png)
+  {
+    return png.error();
+  }
+  Result<void> written = append(**png, target_, 0, target_.height);
+  return written ? (*png)->finish() : written;
+}
+
+} // namespace pointfront

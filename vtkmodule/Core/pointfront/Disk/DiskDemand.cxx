@@ -1,0 +1,129 @@
+#include "pointfront/Disk/DiskDemand.h"
+
+#include <cerrno>
+#include <optional>
+#include <sys/stat.h>
+#include <sys/statvfs.h>
+
+namespace pointfront
+{
+namespace
+{
+/// Stores of airborne and terrestrial surveys take a fifth to a half of their raw records.
+constexpr std::uint64_t leastShareOfRecords = 6;
+constexpr std::uint64_t likelyShareOfRecords = 2;
+
+const char advice[] = "; free some space, choose another folder for temporary files (--temp), "
+                      "allow more memory (--memory) so that less is spilled, or write to "
+                      "another disk";
+
+std::string needsText(const DiskDemand& demand)
+{
+  std::string text = "the store needs at least " + mebibytes(demand.storeBytes) + ", perhaps " +
+    mebibytes(demand.likelyStoreBytes) + ", in '" + demand.outputFolder + "'";
+  if (demand.spillBytes > 0)
+  {
+    text += " and the points that do not fit in memory need " + mebibytes(demand.spillBytes) +
+      " in '" + demand.spillFolder + "'";
+  }
+  return text;
+}
+
+/// A folder whose disk has too little.
+struct Shortage
+{
+  std::string folder;
+  std::uint64_t freeBytes;
+};
+
+/// Where `storeBytes` and the spill do not fit. On one disk they need their sum.
+std::optional<Shortage> shortageOf(const DiskDemand& demand, std::uint64_t storeBytes,
+  const std::function<DiskSpace(const std::string&)>& spaceOf)
+{
+  const DiskSpace output = spaceOf(demand.outputFolder);
+  if (demand.spillBytes > 0)
+  {
+    const DiskSpace spill = spaceOf(demand.spillFolder);
+    const bool shared = spill.device == output.device;
+    if (spill.freeBytes < demand.spillBytes + (shared ? storeBytes : 0))
+    {
+      return Shortage{ demand.spillFolder, spill.freeBytes };
+    }
+    if (shared)
+    {
+      return std::nullopt;
+    }
+  }
+  if (output.freeBytes < storeBytes)
+  {
+    return Shortage{ demand.outputFolder, output.freeBytes };
+  }
+  return std::nullopt;
+}
+
+std::string shortageText(const DiskDemand& demand, const Shortage& shortage)
+{
+  return needsText(demand) + ", but only " + mebibytes(shortage.freeBytes) + " are free in '" +
+    shortage.folder + "'" + advice;
+}
+} // namespace
+
+std::string mebibytes(std::uint64_t bytes)
+{
+  return std::to_string((bytes >> 20) + ((bytes & 0xfffff) != 0 ? 1 : 0)) + " MiB";
+}
+
+bool isDiskFault(int systemError)
+{
+  return systemError == ENOSPC || systemError == EDQUOT || systemError == EFBIG ||
+    systemError == EIO;
+}
+
+DiskSpace diskSpaceOf(const std::string& folder)
+{
+  DiskSpace space;
+  space.freeBytes = UINT64_MAX;
+  struct stat place = {};
+  struct statvfs disk = {};
+  if (stat(folder.c_str(), &place) == 0 && statvfs(folder.c_str(), &disk) == 0)
+  {
+    space.device = place.st_dev;
+    space.freeBytes = std::uint64_t(disk.f_bavail) * disk.f_frsize;
+  }
+  return space;
+}
+
+void estimateStore(DiskDemand& demand, std::uint64_t points, std::size_t recordBytes)
+{
+  demand.storeBytes = points * recordBytes / leastShareOfRecords;
+  demand.likelyStoreBytes = points * recordBytes / likelyShareOfRecords;
+}
+
+Result<void> checkDiskSpace(
+  const DiskDemand& demand, const std::function<DiskSpace(const std::string&)>& spaceOf)
+{
+  if (const auto shortage = shortageOf(demand, demand.storeBytes, spaceOf))
+  {
+    return makeError(
+      Error::Kind::Unwritable, "not enough disk space: " + shortageText(demand, *shortage));
+  }
+  return {};
+}
+
+std::string diskSpaceWarning(
+  const DiskDemand& demand, const std::function<DiskSpace(const std::string&)>& spaceOf)
+{
+  const auto shortage = shortageOf(demand, demand.likelyStoreBytes, spaceOf);
+  return shortage ? "Disk space may not suffice: " + shortageText(demand, *shortage) + "." : "";
+}
+
+Error withDemand(Error error, const DiskDemand& demand)
+{
+  if (error.kind == Error::Kind::Unwritable)
+  {
+    error.what += " (" + needsText(demand) + ")";
+  }
+  return error;
+}
+
+} // namespace pointfront

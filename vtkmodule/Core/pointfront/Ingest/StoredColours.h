@@ -1,0 +1,30 @@
+#pragma once
+
+#include "pointfront/Build/StoreBuilder.h"
+#include "pointfront/Ingest/BlockSorter.h"
+#include "pointfront/Ingest/PointIngest.h"
+#include "pointfront/Ingest/RecordColumns.h"
+
+#include <optional>
+
+namespace pointfront
+{
+
+/// How deep the colours of a store are, once all points are read.
+struct StoredColours
+{
+  AttributeSchema schema; ///< the common schema as it is stored
+  std::optional<ColourWidening> widening; ///< of records, while they are loaded
+};
+
+/// Whether the 16-bit colours of a source hold 8 bits.
+bool hasNarrowColours(const std::vector<std::unique_ptr<PointSource>>& sources,
+  const IngestedPoints& points, std::size_t source);
+
+/// 16-bit colours become 8-bit if all fit; if only those of some files do, these are widened.
+/// Error  BadArgument when 8 bits are asked for and a colour needs more, with the file.
+Result<StoredColours> storedColours(const std::vector<std::unique_ptr<PointSource>>& sources,
+  const CommonSchema& common, const RecordColumns& columns, const IngestedPoints& points,
+  ColourDepth depth);
+
+} // namespace pointfront

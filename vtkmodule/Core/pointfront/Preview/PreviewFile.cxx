@@ -1,0 +1,93 @@
+#include "pointfront/Preview/PreviewFile.h"
+
+#include "pointfront/Disk/InputFile.h"
+#include "pointfront/Disk/OutputFile.h"
+#include "pointfront/Preview/PreviewRecord.h"
+#include "pointfront/Store/PointStore.h"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+namespace pointfront
+{
+namespace
+{
+Error inTheWay(const std::string& path, const char* why)
+{
+  return makeError(Error::Kind::Unwritable, "cannot write the preview '" + path + "': " + why);
+}
+} // namespace
+
+PreviewFile::PreviewFile(std::string path)
+  : path_(std::move(path))
+  , nextPath_(path_ + ".next")
+{
+}
+
+Result<std::unique_ptr<PreviewFile>> PreviewFile::claim(const std::string& storePath)
+{
+  const std::string path = previewPathOf(storePath);
+  const Result<std::unique_ptr<const InputFile>> earlier = InputFile::open(path);
+  if (!earlier && earlier.error().kind != Error::Kind::NotFound)
+  {
+    return inTheWay(path, "something else has that name; rename it");
+  }
+  if (earlier && (*earlier)->isLocked())
+  {
+    return inTheWay(path, "another build of that store is running; wait or choose another name");
+  }
+  if (earlier && !PointStore::looksLikePreview(path))
+  {
+    return inTheWay(path, "a file that is no preview has that name; rename it");
+  }
+  std::unique_ptr<PreviewFile> file(new PreviewFile(path));
+  if (::access((file->nextPath_ + ".tmp").c_str(), F_OK) == 0)
+  {
+    // Takes over, and removes, what a killed build was writing; a living one keeps it locked.
+    if (auto leftOver = OutputFile::create(file->nextPath_); !leftOver)
+    {
+      return leftOver.error();
+    }
+  }
+  ::unlink(path.c_str());
+  ::unlink(file->nextPath_.c_str());
+  return file;
+}
+
+PreviewFile::~PreviewFile()
+{
+  ::unlink(nextPath_.c_str());
+  if (locked_ >= 0)
+  {
+    ::unlink(path_.c_str()); // before the lock goes: nobody takes it for a killed build's
+    ::close(locked_);
+  }
+}
+
+Result<void> PreviewFile::replace()
+{
+  const int next = ::open(nextPath_.c_str(), O_RDWR | O_CLOEXEC);
+  if (next < 0)
+  {
+    return inTheWay(path_, std::strerror(errno));
+  }
+  ::flock(next, LOCK_EX | LOCK_NB); // fails only where there are no locks
+  if (::rename(nextPath_.c_str(), path_.c_str()) != 0)
+  {
+    const int error = errno;
+    ::close(next);
+    return inTheWay(path_, std::strerror(error));
+  }
+  if (locked_ >= 0)
+  {
+    ::close(locked_);
+  }
+  locked_ = next;
+  return {};
+}
+
+} // namespace pointfront

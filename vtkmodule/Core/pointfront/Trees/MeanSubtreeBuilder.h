@@ -1,0 +1,78 @@
+#pragma once
+
+#include "pointfront/Trees/MeanRecord.h"
+#include "pointfront/Trees/NodeEmitter.h"
+#include "pointfront/Trees/NodeSplat.h"
+#include "pointfront/Trees/Partition.h"
+#include "pointfront/Trees/Sampler.h"
+#include "pointfront/Trees/TreeBuilder.h"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace pointfront
+{
+
+/// The octree over some points with `replace` refinement, from the leaves up: the points of the
+/// input are in the leaves, an inner node holds one mean representative for each cell of its grid
+/// (MeanRecord.h). Cells, leaves and merging as in SubtreeBuilder; cells are so coarse that a node
+/// has at most a third of the points that it stands in for, so all inner nodes together add at
+/// most half.
+/// What an open subtree holds are the representatives of its root, or the points of a leaf, as
+/// records of MeanRecord in Morton order.
+/// Source   Richter & Doellner 2010, section 3.1 and figure 3.
+class MeanSubtreeBuilder final : public TreeBuilder
+{
+public:
+  MeanSubtreeBuilder(const NodeEmitter& emitter, const SamplingRule& rule, MeanRecord form,
+    std::size_t recordBytes, const Partition& partition)
+    : emitter_(emitter)
+    , rule_(rule)
+    , form_(std::move(form))
+    , recordBytes_(recordBytes)
+    , partition_(partition)
+    , splat_(emitter.space())
+  {
+  }
+
+  OpenSubtree build(std::vector<std::byte> records, std::size_t count, std::uint32_t node) override;
+  OpenSubtree join(std::vector<OpenSubtree> children, std::uint32_t node) override;
+  std::unique_ptr<BuiltNode> close(OpenSubtree subtree) override;
+  std::vector<EmittedNode> takeEmitted() override { return std::exchange(emitted_, {}); }
+  const SubtreeSeconds& seconds() const override { return seconds_; }
+
+private:
+  struct Branch
+  {
+    std::unique_ptr<BuiltNode> node;
+    std::vector<std::byte> means; ///< what `view` shows of an inner node built here
+    RecordView view;
+    bool original = false; ///< the view shows records of the pool
+    std::vector<std::uint32_t> held; ///< numbers in the view, Morton order
+    std::optional<CellOccupancy> occupancy; ///< of `held`, where it is known already
+  };
+  Branch branch(const RecordView& records, std::uint32_t begin, std::uint32_t end);
+  Branch leaf(const RecordView& records, std::uint32_t begin, std::uint32_t end, unsigned side);
+  Branch joinBranches(std::vector<Branch> children, unsigned log2Side);
+  void represent(const std::vector<Branch>& children, unsigned log2Side, Branch& joined);
+  void emit(Branch child, BuiltNode& parent);
+  OpenSubtree opened(Branch branch);
+
+  const NodeEmitter& emitter_;
+  SamplingRule rule_;
+  MeanRecord form_;
+  std::size_t recordBytes_;
+  const Partition& partition_;
+  NodeSplat splat_;
+  // Reused from part to part: fresh memory costs more than what is done with it.
+  std::vector<std::byte> sorted_; // records of the part
+  std::vector<MeanInput> inputs_; // of the node at hand
+  std::vector<TreePosition> positions_; // of inputs_
+  std::vector<EmittedNode> emitted_;
+  SubtreeSeconds seconds_;
+};
+
+} // namespace pointfront

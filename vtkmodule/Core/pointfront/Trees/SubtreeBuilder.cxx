@@ -1,0 +1,204 @@
+#include "pointfront/Trees/SubtreeBuilder.h"
+
+#include "pointfront/Base/CpuClock.h"
+#include "pointfront/Trees/LeafMerging.h"
+#include "pointfront/Trees/OctreeSplit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace pointfront
+{
+OpenSubtree SubtreeBuilder::build(
+  std::vector<std::byte> records, std::size_t count, std::uint32_t /*node*/)
+{
+  if (count == 0)
+  {
+    return {};
+  }
+  {
+    const CpuStopwatch watch(seconds_.sort);
+    const RecordView view{ records.data(), recordBytes_ };
+    sorted_.resize(std::max(sorted_.size(), records.size()));
+    positions_.resize(std::max(positions_.size(), count));
+    gatherRecords(view, mortonOrder(view, count), sorted_.data(),
+      [&](std::size_t i, const std::byte* record) { positions_[i] = positionOf(record); });
+    records = {};
+  }
+  const SortedPoints sorted{ { sorted_.data(), recordBytes_ }, positionsView() };
+  return opened(sorted.records, branch(sorted, 0, static_cast<std::uint32_t>(count)));
+}
+
+SubtreeBuilder::SortedPoints SubtreeBuilder::sortedPoints(
+  const RecordView& records, std::size_t count)
+{
+  const CpuStopwatch watch(seconds_.sort);
+  positions_.resize(std::max(positions_.size(), count));
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    positions_[i] = records.position(i);
+  }
+  return { records, positionsView() };
+}
+
+RecordView SubtreeBuilder::positionsView() const
+{
+  return { reinterpret_cast<const std::byte*>(positions_.data()), RecordLayout::positionBytes };
+}
+
+SubtreeBuilder::Branch SubtreeBuilder::branch(
+  const SortedPoints& points, std::uint32_t begin, std::uint32_t end)
+{
+  const RecordView& positions = points.positions;
+  const unsigned side = differingBits(positions.position(begin), positions.position(end - 1));
+  if (end - begin <= rule_.nodePoints)
+  {
+    return leaf(points, begin, end, side);
+  }
+  std::vector<Branch> children;
+  const auto octant = [&](std::uint64_t i)
+  { return octantOf(positions.position(static_cast<std::size_t>(i)), side); };
+  for (const IndexRange& range : splitRange({ begin, end }, side, octant))
+  {
+    children.push_back(branch(
+      points, static_cast<std::uint32_t>(range.begin), static_cast<std::uint32_t>(range.end)));
+  }
+  return joinBranches(points, std::move(children));
+}
+
+SubtreeBuilder::Branch SubtreeBuilder::leaf(
+  const SortedPoints& points, std::uint32_t begin, std::uint32_t end, unsigned side)
+{
+  const CpuStopwatch watch(seconds_.sample);
+  Branch branch;
+  branch.held.resize(end - begin);
+  std::iota(branch.held.begin(), branch.held.end(), begin);
+  branch.node = std::make_unique<BuiltNode>();
+  branch.occupancy = cellOccupancy(points.positions, branch.held);
+  const double steps = surfaceSpacing(*branch.occupancy, branch.held.size(), side);
+  branch.node->row.spacing = static_cast<float>(steps * emitter_.space().stepLength());
+  branch.node->row.splatRadius = splat_.measure(points.positions, branch.held);
+  return branch;
+}
+
+SubtreeBuilder::Branch SubtreeBuilder::joinBranches(
+  const SortedPoints& points, std::vector<Branch> children)
+{
+  Branch joined;
+  joined.node = std::make_unique<BuiltNode>();
+  {
+    const CpuStopwatch watch(seconds_.sample);
+    candidates_.clear();
+    int coarsestBelow = -1;
+    for (const Branch& child : children)
+    {
+      candidates_.insert(candidates_.end(), child.held.begin(), child.held.end());
+      coarsestBelow = std::max(coarsestBelow, child.node->samplingQuarters);
+    }
+    const SamplingDistance distance = samplingDistance(
+      occupancyOf(points.positions, children), candidates_.size(), coarsestBelow, rule_);
+    joined.node->samplingQuarters = distance.quarters;
+    joined.node->row.spacing = static_cast<float>(emitter_.space().stepLength() * distance.steps());
+    sampler_.choose(points.positions, candidates_, distance, chosen_);
+    joined.held.reserve(chosen_.size());
+    auto next = chosen_.begin();
+    std::size_t first = 0; // of the child, among the candidates
+    for (Branch& child : children)
+    {
+      auto left = child.held.begin();
+      auto from = child.held.begin();
+      const std::size_t end = first + child.held.size();
+      for (; next != chosen_.end() && *next < end; ++next)
+      {
+        const auto at = child.held.begin() + static_cast<std::ptrdiff_t>(*next - first);
+        left = std::copy(from, at, left);
+        joined.held.push_back(*at);
+        from = at + 1;
+      }
+      child.held.erase(std::copy(from, child.held.end(), left), child.held.end());
+      first = end;
+    }
+    joined.node->row.splatRadius = splat_.measure(points.positions, joined.held);
+  }
+  mergeLeaves(children, rule_.nodePoints);
+  for (Branch& child : children)
+  {
+    emit(std::move(child), *joined.node, points.records);
+  }
+  return joined;
+}
+
+/// Of all that the children hold; what a leaf holds was counted already.
+CellOccupancy SubtreeBuilder::occupancyOf(
+  const RecordView& positions, const std::vector<Branch>& children)
+{
+  CellOccupancy all;
+  const Branch* before = nullptr;
+  for (const Branch& child : children)
+  {
+    if (child.held.empty())
+    {
+      continue;
+    }
+    const unsigned between = before ? differingBits(positions.position(before->held.back()),
+                                        positions.position(child.held.front()))
+                                    : 0;
+    all.append(child.occupancy ? *child.occupancy : cellOccupancy(positions, child.held), between);
+    before = &child;
+  }
+  return all;
+}
+
+void SubtreeBuilder::emit(Branch child, BuiltNode& parent, const RecordView& records)
+{
+  const CpuStopwatch watch(seconds_.encode);
+  EncodedNode payload = emitter_.emit(*child.node, records, child.held);
+  emitted_.push_back({ child.node.get(), std::move(payload) });
+  parent.children.push_back(std::move(child.node));
+}
+
+OpenSubtree SubtreeBuilder::opened(const RecordView& records, Branch branch)
+{
+  OpenSubtree open{ std::move(branch.node), {} };
+  open.records.resize(branch.held.size() * records.stride);
+  gatherRecords(records, branch.held, open.records.data());
+  return open;
+}
+
+OpenSubtree SubtreeBuilder::join(std::vector<OpenSubtree> children, std::uint32_t /*node*/)
+{
+  std::vector<std::byte> records;
+  std::vector<Branch> branches;
+  for (OpenSubtree& child : children)
+  {
+    const auto begin = static_cast<std::uint32_t>(records.size() / recordBytes_);
+    records.insert(records.end(), child.records.begin(), child.records.end());
+    Branch branch;
+    branch.node = std::move(child.root);
+    branch.held.resize(child.records.size() / recordBytes_);
+    std::iota(branch.held.begin(), branch.held.end(), begin);
+    branches.push_back(std::move(branch));
+    child.records = {};
+  }
+  const SortedPoints points =
+    sortedPoints({ records.data(), recordBytes_ }, records.size() / recordBytes_);
+  return opened(points.records, joinBranches(points, std::move(branches)));
+}
+
+std::unique_ptr<BuiltNode> SubtreeBuilder::close(OpenSubtree subtree)
+{
+  if (!subtree.root)
+  {
+    return nullptr;
+  }
+  const RecordView view{ subtree.records.data(), recordBytes_ };
+  std::vector<std::uint32_t> all(subtree.records.size() / recordBytes_);
+  std::iota(all.begin(), all.end(), 0u);
+  const CpuStopwatch watch(seconds_.encode);
+  EncodedNode payload = emitter_.emit(*subtree.root, view, all);
+  emitted_.push_back({ subtree.root.get(), std::move(payload) });
+  return std::move(subtree.root);
+}
+
+} // namespace pointfront

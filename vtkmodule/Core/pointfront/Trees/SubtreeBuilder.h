@@ -1,0 +1,90 @@
+#pragma once
+
+#include "pointfront/Trees/NodeEmitter.h"
+#include "pointfront/Trees/NodeSplat.h"
+#include "pointfront/Trees/Sampler.h"
+#include "pointfront/Trees/TreeBuilder.h"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace pointfront
+{
+
+/// The octree over some points with `add` refinement, from the leaves up. What an open subtree
+/// holds are the points of its root, in Morton order: they are its parent's candidates, and only
+/// what the parent leaves is the root's own.
+/// Shape     A cell is the smallest of the octree that holds all its points, so each inner cell
+///           has two to eight children (Richter & Doellner 2010, section 3.1). It is a leaf if and
+///           only if all points in it are at most nodePoints. Equal points are split by
+///           input order into eight runs, as if the octree went on below one step.
+/// Mergers   Leaves of one parent become one node as long as what is left of them together is at
+///           most nodePoints: an octree over a surface has many slivers, and a node of some
+///           hundred points costs the front, the disk and the GPU as much as a full one.
+/// Sampling  An inner node takes from what its children hold, as many as it may, none closer than
+///           a distance of its own (Sampler.h); what it leaves is theirs. What a node ends up with
+///           depends on the points inside its parent only: not on where the cloud was cut into
+///           parts, nor on their order.
+/// Splats    are measured when a node still has all points that are drawn of its cell: before those
+///           above take their share of them.
+/// Order     join() emits the children: siblings are neighbours in the file, below them all
+///           that they contain. A subtree's root is emitted by its parent or by close().
+class SubtreeBuilder final : public TreeBuilder
+{
+public:
+  SubtreeBuilder(const NodeEmitter& emitter, const SamplingRule& rule, std::size_t recordBytes)
+    : emitter_(emitter)
+    , rule_(rule)
+    , recordBytes_(recordBytes)
+    , splat_(emitter.space())
+  {
+  }
+
+  OpenSubtree build(std::vector<std::byte> records, std::size_t count, std::uint32_t node) override;
+  OpenSubtree join(std::vector<OpenSubtree> children, std::uint32_t node) override;
+  std::unique_ptr<BuiltNode> close(OpenSubtree subtree) override;
+  std::vector<EmittedNode> takeEmitted() override { return std::exchange(emitted_, {}); }
+  const SubtreeSeconds& seconds() const override { return seconds_; }
+
+private:
+  /// Records in Morton order, and their positions once more: a tree is made of positions, and
+  /// close together five of them come with one line of the cache.
+  struct SortedPoints
+  {
+    RecordView records;
+    RecordView positions;
+  };
+  struct Branch
+  {
+    std::unique_ptr<BuiltNode> node;
+    std::vector<std::uint32_t> held; ///< indices into the sorted points, Morton order
+    std::optional<CellOccupancy> occupancy; ///< of `held`, where it is known already
+  };
+  Branch branch(const SortedPoints& points, std::uint32_t begin, std::uint32_t end);
+  Branch leaf(const SortedPoints& points, std::uint32_t begin, std::uint32_t end, unsigned side);
+  Branch joinBranches(const SortedPoints& points, std::vector<Branch> children);
+  static CellOccupancy occupancyOf(
+    const RecordView& positions, const std::vector<Branch>& children);
+  void emit(Branch child, BuiltNode& parent, const RecordView& records);
+  static OpenSubtree opened(const RecordView& records, Branch branch);
+  SortedPoints sortedPoints(const RecordView& records, std::size_t count);
+  RecordView positionsView() const;
+
+  const NodeEmitter& emitter_;
+  SamplingRule rule_;
+  std::size_t recordBytes_;
+  SubsetSampler sampler_;
+  NodeSplat splat_;
+  // Reused from part to part: fresh memory costs more than what is done with it.
+  std::vector<std::byte> sorted_; // records
+  std::vector<TreePosition> positions_; // of the sorted points
+  std::vector<std::uint32_t> candidates_;
+  std::vector<std::uint32_t> chosen_;
+  std::vector<EmittedNode> emitted_;
+  SubtreeSeconds seconds_;
+};
+
+} // namespace pointfront

@@ -493,26 +493,33 @@ pointfront::FrameStatistics& vtkPointFrontMapper::GetStatistics() const
   return this->Internals->Statistics;
 }
 
+// A definition each, which takes no semicolon.
+// clang-format off
 #define pointfrontGetLast(Name, Type, field)                                                       \
   Type vtkPointFrontMapper::GetLast##Name() const                                                  \
   {                                                                                                \
     return static_cast<Type>(this->GetStatistics().field);                                         \
   }
-pointfrontGetLast(PointsDrawn, vtkIdType, points) pointfrontGetLast(NodesDrawn, vtkIdType, nodes)
-  pointfrontGetLast(FrontLength, vtkIdType, frontLength) pointfrontGetLast(Moves, vtkIdType, moves)
-    pointfrontGetLast(Requests, vtkIdType, requests) pointfrontGetLast(Error, double, errorPx)
-      pointfrontGetLast(Threshold, double, thresholdPx)
-        pointfrontGetLast(FrontTime, double, frontMilliseconds)
-          pointfrontGetLast(GPUBytes, vtkTypeInt64, gpuBytes)
-            pointfrontGetLast(WindowGPUBytes, vtkTypeInt64, windowGpuBytes)
-              pointfrontGetLast(Complete, bool, complete)
-                pointfrontGetLast(LimitedByPoints, bool, limitedByPoints)
-                  pointfrontGetLast(LimitedByGPUMemory, bool, limitedByGpuMemory)
-                    pointfrontGetLast(LimitedByMemory, bool, limitedByMemory)
-                      pointfrontGetLast(FailedNodes, vtkIdType, failedNodes)
+pointfrontGetLast(PointsDrawn, vtkIdType, points)
+pointfrontGetLast(PointsKept, vtkIdType, keptPoints)
+pointfrontGetLast(NodesDrawn, vtkIdType, nodes)
+pointfrontGetLast(FrontLength, vtkIdType, frontLength)
+pointfrontGetLast(Moves, vtkIdType, moves)
+pointfrontGetLast(Requests, vtkIdType, requests)
+pointfrontGetLast(Error, double, errorPx)
+pointfrontGetLast(Threshold, double, thresholdPx)
+pointfrontGetLast(FrontTime, double, frontMilliseconds)
+pointfrontGetLast(GPUBytes, vtkTypeInt64, gpuBytes)
+pointfrontGetLast(WindowGPUBytes, vtkTypeInt64, windowGpuBytes)
+pointfrontGetLast(Complete, bool, complete)
+pointfrontGetLast(LimitedByPoints, bool, limitedByPoints)
+pointfrontGetLast(LimitedByGPUMemory, bool, limitedByGpuMemory)
+pointfrontGetLast(LimitedByMemory, bool, limitedByMemory)
+pointfrontGetLast(FailedNodes, vtkIdType, failedNodes)
 #undef pointfrontGetLast
+  // clang-format on
 
-                        void vtkPointFrontMapper::PrintSelf(ostream& os, vtkIndent indent)
+  void vtkPointFrontMapper::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "TargetError: " << this->TargetError << "\n";

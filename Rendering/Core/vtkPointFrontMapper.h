@@ -255,6 +255,8 @@ public:
   /// Of the last frame. Error in pixels; Threshold is what the front worked with.
   ///@{
   vtkIdType GetLastPointsDrawn() const;
+  /// Beside these: what the picture before showed and the front lacked while the view moved.
+  vtkIdType GetLastPointsKept() const;
   vtkIdType GetLastNodesDrawn() const;
   vtkIdType GetLastFrontLength() const;
   vtkIdType GetLastMoves() const;

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_map>
 
 namespace pointfront
 {
@@ -191,10 +192,42 @@ bool SplatGroups::continuesLast(const FramePlan& plan)
 bool SplatGroups::Listed::continues(const Drawn& old) const
 {
   const RasterItem& item = *group.first;
-  return item.item->node == old.node && *item.style == *old.style && item.passes == old.passes &&
-    item.item->first == old.first && end >= old.end && record.radii == old.radii &&
-    record.growth == old.growth && record.coloured == old.coloured && record.shaped == old.shaped &&
-    record.sized == old.sized;
+  return item.item->node == old.item.node && *item.style == *old.style &&
+    item.passes == old.passes && item.item->first == old.item.first && end >= old.end &&
+    record.radii == old.radii && record.growth == old.item.growth &&
+    record.coloured == old.coloured && record.shaped == old.shaped && record.sized == old.sized;
+}
+
+FramePlan SplatGroups::leaving(const FramePlan& plan) const
+{
+  FramePlan lost;
+  static_cast<FrameSetting&>(lost) = plan;
+  std::unordered_map<NodeIndex, std::uint32_t> planned;
+  for (const DrawBatch& batch : plan.batches)
+  {
+    lost.batches.push_back({ batch.layer, batch.style, {} });
+    for (const PlanItem& item : batch.items)
+    {
+      std::uint32_t& prefix = planned[item.node->node];
+      prefix = item.first == 0 ? std::max(prefix, item.last) : prefix;
+    }
+  }
+  for (const Drawn& old : drawn_)
+  {
+    PlanItem item = old.item;
+    const auto found = planned.find(item.node->node);
+    item.first = std::max(item.first, found == planned.end() ? 0 : found->second);
+    item.last = item.growth.fullPoints(old.end);
+    item.growth = PointGrowth();
+    const auto batch = std::find_if(lost.batches.begin(), lost.batches.end(),
+      [&](const DrawBatch& each)
+      { return each.layer == item.node->layer && *each.style == *old.style; });
+    if (item.first < item.last && batch != lost.batches.end() && !old.passes.walls())
+    {
+      batch->items.push_back(std::move(item));
+    }
+  }
+  return lost;
 }
 
 void SplatGroups::keep(const FramePlan& plan)
@@ -210,9 +243,8 @@ void SplatGroups::keep(const FramePlan& plan)
   for (const Listed& one : listed_)
   {
     const RasterItem& item = *one.group.first;
-    drawn_.push_back({ item.item->node, styles[item.style], item.passes, item.item->first, one.end,
-      one.record.radii, one.record.growth, one.record.coloured, one.record.shaped,
-      one.record.sized });
+    drawn_.push_back({ *item.item, styles[item.style], item.passes, one.end, one.record.radii,
+      one.record.coloured, one.record.shaped, one.record.sized });
   }
   groups_.clear();
   listed_.clear();

@@ -49,6 +49,13 @@ public:
   const PixelRectangle& shown() const { return shown_; }
   const std::vector<Group>& groups() const { return groups_; }
 
+  /// What the last picture has and `plan` lacks, as the plan's camera sees it. What had not its
+  /// full size is left out, and so is what a style of the plan does not draw as it was drawn.
+  FramePlan leaving(const FramePlan& plan) const;
+  /// Of the last picture.
+  const FrameCamera& lastCamera() const { return camera_; }
+  bool hasLast() const { return !drawn_.empty(); }
+
   /// What is listed has been drawn; the groups and the plan are no longer used.
   void keep(const FramePlan& plan);
   void forget();
@@ -56,13 +63,11 @@ public:
 private:
   struct Drawn
   {
-    std::shared_ptr<const NodeColumns> node; ///< kept alive: an address is no identity otherwise
+    PlanItem item; ///< keeps the node alive: an address is no identity otherwise
     std::shared_ptr<const ResolvedStyle> style;
     TechniquePasses passes;
-    std::uint32_t first;
     std::uint32_t end;
     glm::vec4 radii;
-    PointGrowth growth;
     bool coloured;
     bool shaped;
     bool sized;

@@ -1,11 +1,9 @@
 #include "SplatPart.h"
 
-#include "ColourTable.h"
-#include "DrawBatches.h"
 #include "GpuPool.h"
 #include "RasterItems.h"
 #include "SoftwareRasteriser.h"
-#include "SplatAttributes.h"
+#include "SplatRuns.h"
 #include "SplatUniforms.h"
 #include "TargetState.h"
 
@@ -27,37 +25,6 @@ namespace
 {
 
 constexpr std::size_t mostLights = 8;
-
-SplatVariant variantOf(
-  const SplatGroups::Group& group, const SplatTarget::Parts& parts, bool second)
-{
-  const RasterItem& item = *group.first;
-  const ResolvedStyle& style = *item.style;
-  SplatVariant variant;
-  variant.square = item.passes.squares;
-  variant.shape = second ? item.passes.second.shape : item.passes.first.shape;
-  variant.parallel = item.camera.parallel;
-  variant.second = second;
-  variant.marked = group.mark >= 0;
-  variant.colour = variant.marked ? PointColouring::Kind::Direct : style.colouring.kind;
-  variant.shaped = group.shaped;
-  variant.normals = !item.passes.walls() && group.shaped && style.normalColumn &&
-    style.orientation == SplatOrientation::Normal;
-  variant.radius = radiusSourceOf(item, group.shaped, group.sized);
-  variant.lit = parts.lit && !second;
-  variant.ids = parts.ids && !second;
-  variant.quads = group.quads;
-  return variant;
-}
-
-void setTexture(vtkShaderProgram* program, const char* name, vtkTextureObject* texture)
-{
-  if (program->IsUniformUsed(name))
-  {
-    texture->Activate();
-    program->SetUniformi(name, texture->GetTextureUnit());
-  }
-}
 
 bool sameRectangle(const PixelRectangle& a, const PixelRectangle& b)
 {
@@ -83,21 +50,34 @@ std::int64_t SplatPart::draw(const SplatFrame& frame, const FramePlan& plan,
   const PixelRectangle whole{ 0, 0, plan.camera.width, plan.camera.height };
   const PixelRectangle within = limits ? *limits : whole;
   const bool mine = target_->owner() == this && renderer_ == frame.renderer &&
-    parts_.ids == frame.ids && parts_.lit == plan.shading.lit && sameRectangle(limits_, within);
+    parts_.lit == plan.shading.lit && sameRectangle(limits_, within);
   const std::int64_t points = groups_.list(plan, *frame.pool, sizes[1], mine, tools_.records);
-  parts_ = { plan.camera.width, plan.camera.height, plan.shading.lit, frame.ids,
-    groups_.blended() };
+  // Who was seen is known of whole pictures: the next frame may be of a view that moves.
+  const SplatTarget::Parts parts{ plan.camera.width, plan.camera.height, plan.shading.lit,
+    frame.ids || !limits, groups_.blended() };
+  bool goesOn = groups_.goesOn() && target_->has(parts);
+  const bool keeps = plan.keepsVisible && !limits && mine && target_->has(parts_) && parts_.ids;
+  if (!keeps)
+  {
+    goesOn = goesOn && kept_.empty(); // they are in the picture
+    kept_.clear();
+  }
+  else if (!goesOn)
+  {
+    keepVisible(frame, plan, sizes[1]);
+  }
+  parts_ = parts;
   limits_ = within;
-  shown_ = limits ? within : groups_.shown();
+  shown_ = !limits && kept_.empty() ? groups_.shown() : within;
+  selects_ = frame.ids;
   if (!limits && (points == 0 || shown_.empty()))
   {
-    groups_.forget();
+    forget();
     return points;
   }
-  const bool goesOn = groups_.goesOn() && target_->has(parts_);
   if (!target_->prepare(window, parts_))
   {
-    groups_.forget();
+    forget();
     return noTarget;
   }
   target_->setOwner(this);
@@ -112,6 +92,26 @@ std::int64_t SplatPart::draw(const SplatFrame& frame, const FramePlan& plan,
   return points;
 }
 
+void SplatPart::forget()
+{
+  groups_.forget();
+  kept_.clear();
+}
+
+/// Before anything is drawn into the target: it says who was seen.
+void SplatPart::keepVisible(const SplatFrame& frame, const FramePlan& plan, float largestPointPx)
+{
+  const FramePlan lost = groups_.leaving(plan);
+  SplatGroups leaving;
+  leaving.list(lost, *frame.pool, largestPointPx, false, tools_.lastRecords);
+  if (leaving.groups().empty() && kept_.empty())
+  {
+    return;
+  }
+  tools_.lastRecords.upload(frame.window);
+  kept_.collect(frame, tools_, leaving, plan, { groups_.lastCamera(), target_->ids() });
+}
+
 void SplatPart::drawInto(const SplatFrame& frame, const FramePlan& plan, bool goesOn)
 {
   vtkOpenGLState* const state = frame.window->GetState();
@@ -124,6 +124,10 @@ void SplatPart::drawInto(const SplatFrame& frame, const FramePlan& plan, bool go
   state->vtkglEnable(GL_DEPTH_TEST);
   state->vtkglDepthFunc(GL_LESS);
   drawGroups(frame, false, goesOn);
+  if (!goesOn)
+  {
+    kept_.draw(frame, tools_, groups_, parts_, false, target_->seenDepths());
+  }
   state->vtkglDisable(GL_DEPTH_TEST);
   state->vtkglDepthMask(GL_FALSE);
   state->vtkglScissor(shown_.left, shown_.bottom, shown_.width(), shown_.height());
@@ -133,6 +137,7 @@ void SplatPart::drawInto(const SplatFrame& frame, const FramePlan& plan, bool go
     state->vtkglEnable(GL_BLEND);
     state->vtkglBlendFuncSeparate(GL_ONE, GL_ONE, GL_ONE, GL_ONE);
     drawGroups(frame, true, false);
+    kept_.draw(frame, tools_, groups_, parts_, true, target_->seenDepths());
     state->vtkglDisable(GL_BLEND);
   }
   target_->beginPicture();
@@ -155,53 +160,18 @@ void SplatPart::drawGroups(const SplatFrame& frame, bool second, bool addedOnly)
 void SplatPart::drawGroup(
   const SplatFrame& frame, const SplatGroups::Group& group, const DrawRuns& runs, bool second)
 {
-  const RasterItem& item = *group.first;
-  const ResolvedStyle& style = *item.style;
   const SplatVariant variant = variantOf(group, parts_, second);
   vtkShaderProgram* const program = tools_.programs.use(frame.window, variant);
   if (!program)
   {
     return;
   }
-  tools_.records.activate(program);
-  setSplatUniforms(program, *group.items, item, second);
-  program->SetUniformi("styleMark", group.mark);
-  float flat[4];
-  std::transform(style.flat.begin(), style.flat.end(), flat,
-    [](std::uint8_t value) { return static_cast<float>(value) / 255.0f; });
-  program->SetUniform4f("flatColour", flat);
-  const FramePlan& plan = group.items->plan();
-  const float stepSize[3] = { static_cast<float>(plan.grid.scale.x),
-    static_cast<float>(plan.grid.scale.y), static_cast<float>(plan.grid.scale.z) };
-  program->SetUniform3f("stepSize", stepSize);
-  const bool tabled = !variant.marked && style.colouring.usesTable() && style.map;
-  ColourTable* const table = tabled ? frame.tableOf(style.map) : nullptr;
-  if (table)
-  {
-    table->activate(program, style.colouring, plan.camera.reference.z);
-  }
   setTexture(program, "seenDepths", target_->seenDepths());
-  {
-    const SplatAttributes attributes(program, variant.colour, valueStreamOf(valueSetOf(style)));
-    DrawBatches batches;
-    for (const DrawRuns::Stretch& stretch : runs.stretches())
-    {
-      const GpuBlock& block = frame.pool->blocks()[stretch.block];
-      attributes.read(block);
-      program->SetUniformi("firstSlot", static_cast<int>(block.first()));
-      batches.draw(
-        runs.firsts() + stretch.begin, runs.counts() + stretch.begin, stretch.end - stretch.begin);
-    }
-  }
+  drawSplatRuns(frame, tools_.records, program, variant, group, runs);
   if (second)
   {
     target_->seenDepths()->Deactivate();
   }
-  if (table)
-  {
-    table->deactivate();
-  }
-  tools_.records.deactivate();
 }
 
 void SplatPart::resolve(vtkOpenGLRenderWindow* window, const FramePlan& plan)
@@ -262,8 +232,7 @@ void SplatPart::resolve(vtkOpenGLRenderWindow* window, const FramePlan& plan)
 
 SplatTextures SplatPart::picture() const
 {
-  return { target_->pictureColour(), target_->pictureDepth(),
-    parts_.ids ? target_->ids() : nullptr };
+  return { target_->pictureColour(), target_->pictureDepth(), selects_ ? target_->ids() : nullptr };
 }
 
 void SplatPart::release(vtkOpenGLRenderWindow* window)
@@ -273,7 +242,7 @@ void SplatPart::release(vtkOpenGLRenderWindow* window)
     target_->release(window);
     target_ = nullptr;
   }
-  groups_.forget();
+  forget();
 }
 
 } // namespace pointfront

@@ -1,54 +1,27 @@
 #pragma once
 
-#include "SlotRecords.h"
+#include "KeptSplats.h"
 #include "SplatComposition.h"
+#include "SplatFrame.h"
 #include "SplatGroups.h"
-#include "SplatProgram.h"
 #include "SplatTarget.h"
 
 #include "pointfront/Plan/FramePlan.h"
 
-#include <vtkNew.h>
-#include <vtkOpenGLVertexArrayObject.h>
-
 #include <cstdint>
-#include <functional>
 #include <memory>
-
-class vtkOpenGLRenderWindow;
-class vtkRenderer;
 
 namespace pointfront
 {
-class ColourTable;
-class GpuPool;
-
-/// What all parts of a picture are drawn with.
-struct SplatTools
-{
-  SplatPrograms programs;
-  SlotRecords records;
-  vtkNew<vtkOpenGLVertexArrayObject> vertices;
-};
-
-/// One drawing of a picture.
-struct SplatFrame
-{
-  using TableOf = std::function<ColourTable*(const std::shared_ptr<const ColourMap>&)>;
-
-  vtkOpenGLRenderWindow* window = nullptr;
-  vtkRenderer* renderer = nullptr;
-  const GpuPool* pool = nullptr;
-  TableOf tableOf;
-  bool ids = false; ///< for a selection
-};
 
 /// A plan, or a part of one, drawn by GL into targets of its own: the twin of SoftwareRasteriser.
 /// Passes    who is seen in each pixel (the nearest; of splats that overlap the one with the
 ///           nearest centre), then weights and colours of what is not behind it, then light and
 ///           eye-dome lighting.
+/// Motion    what the last picture showed is kept (FramePlan::keepsVisible) where it is the whole
+///           plan's and still there: no other cloud has drawn into the target since.
 /// Threads   that of the GL context, current in all functions.
-/// Source    drawing.md sections 4 and 5; docs/adr/0016, 0028.
+/// Source    drawing.md sections 4, 5 and 7; docs/adr/0016, 0028.
 class SplatPart
 {
 public:
@@ -66,10 +39,14 @@ public:
   /// Where the points can show anything.
   const PixelRectangle& shown() const { return groups_.shown(); }
   SplatTextures picture() const;
+  /// Points of the last picture that were drawn beside the plan's (FramePlan::keepsVisible).
+  std::int64_t keptPoints() const { return kept_.points(); }
   /// The target as well; the next drawing begins anew.
   void release(vtkOpenGLRenderWindow* window);
 
 private:
+  void forget();
+  void keepVisible(const SplatFrame& frame, const FramePlan& plan, float largestPointPx);
   void drawInto(const SplatFrame& frame, const FramePlan& plan, bool goesOn);
   void drawGroups(const SplatFrame& frame, bool second, bool addedOnly);
   void drawGroup(
@@ -80,6 +57,8 @@ private:
   std::shared_ptr<SplatTarget> target_; ///< all clouds of the window may draw into it in turn
   SplatTarget::Parts parts_;
   SplatGroups groups_;
+  KeptSplats kept_;
+  bool selects_ = false; ///< the last picture is for a selection
   FrameShading shading_; ///< of the last picture
   vtkRenderer* renderer_ = nullptr; ///< compared, not used
   PixelRectangle limits_;

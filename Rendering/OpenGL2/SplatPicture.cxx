@@ -219,6 +219,7 @@ void SplatPicture::release(vtkOpenGLRenderWindow* window)
   further_.clear();
   composition_.release(window);
   tools_.records.release(window);
+  tools_.lastRecords.release(window);
   tools_.vertices->ReleaseGraphicsResources();
   if (mapper_)
   {

@@ -41,6 +41,8 @@ public:
   /// What was drawn last, as if it were geometry of the actor.
   void handOver(
     vtkRenderer* renderer, vtkActor* actor, const FramePlan& plan, std::int64_t storePoints);
+  /// Of the last drawing: what the picture before showed and the plan lacks.
+  std::int64_t keptPoints() const { return main_.keptPoints(); }
   void release(vtkOpenGLRenderWindow* window);
 
 private:

@@ -1,7 +1,12 @@
 #include "SplatProgram.h"
 
+#include "CaptureFSGLSL.h"
+#include "CaptureGSGLSL.h"
+#include "CaptureVSGLSL.h"
 #include "ColourTableGLSL.h"
+#include "KeptPointGLSL.h"
 #include "PictureVSGLSL.h"
+#include "PointDataGLSL.h"
 #include "ResolveFSGLSL.h"
 #include "SplatDataGLSL.h"
 #include "SplatFSGLSL.h"
@@ -9,12 +14,15 @@
 #include "SplatMembersGLSL.h"
 #include "SplatSetUpGLSL.h"
 #include "SplatVSGLSL.h"
+#include "StoredPointGLSL.h"
 #include "WallSampleGLSL.h"
 #include "WallSetUpGLSL.h"
 
+#include <vtkNew.h>
 #include <vtkOpenGLRenderWindow.h>
 #include <vtkOpenGLShaderCache.h>
 #include <vtkShaderProgram.h>
+#include <vtkTransformFeedback.h>
 
 namespace pointfront
 {
@@ -36,17 +44,28 @@ std::string definitions(const SplatVariant& variant)
     define("PICKING", variant.ids) + define("QUADS", variant.quads);
 }
 
-std::string filled(const char* source, const std::string& defines, bool table, bool walls = false)
+/// What a shader is put together of, beside its own text.
+struct Content
+{
+  std::string defines;
+  bool table = false; ///< colours by a table
+  bool walls = false;
+  bool kept = false;
+};
+
+std::string filled(const char* source, const Content& content)
 {
   std::string result = source;
   const std::pair<const char*, std::string> parts[] = {
-    { "//POINTFRONT::Define::Dec", defines },
+    { "//POINTFRONT::Define::Dec", content.defines },
     { "//POINTFRONT::SplatData::Dec", SplatDataGLSL },
     { "//POINTFRONT::SplatMembers::Dec", SplatMembersGLSL },
-    { "//POINTFRONT::ColourTable::Dec", table ? ColourTableGLSL : "" },
+    { "//POINTFRONT::PointData::Dec", PointDataGLSL },
+    { "//POINTFRONT::Point::Dec", content.kept ? KeptPointGLSL : StoredPointGLSL },
+    { "//POINTFRONT::ColourTable::Dec", content.table ? ColourTableGLSL : "" },
     { "//POINTFRONT::SplatSetUp::Dec", SplatSetUpGLSL },
-    { "//POINTFRONT::WallSetUp::Dec", walls ? WallSetUpGLSL : "" },
-    { "//POINTFRONT::WallSample::Dec", walls ? WallSampleGLSL : "" },
+    { "//POINTFRONT::WallSetUp::Dec", content.walls ? WallSetUpGLSL : "" },
+    { "//POINTFRONT::WallSample::Dec", content.walls ? WallSampleGLSL : "" },
   };
   for (const auto& [mark, text] : parts)
   {
@@ -57,31 +76,60 @@ std::string filled(const char* source, const std::string& defines, bool table, b
 
 } // namespace
 
+const SplatPrograms::Sources& SplatPrograms::sourcesOf(const SplatVariant& variant, bool captures)
+{
+  const auto found = sources_.find({ variant, captures });
+  if (found != sources_.end())
+  {
+    return found->second;
+  }
+  Content content;
+  content.defines = definitions(variant);
+  content.table = variant.colour == PointColouring::Kind::Table ||
+    variant.colour == PointColouring::Kind::Elevation;
+  content.walls = !variant.square && variant.shape == SplatShape::Wall;
+  content.kept = variant.kept;
+  Sources sources;
+  if (captures)
+  {
+    sources = { filled(CaptureVSGLSL, content), CaptureFSGLSL, CaptureGSGLSL };
+  }
+  else
+  {
+    sources.vertex = filled(SplatVSGLSL, content);
+    sources.fragment = filled(SplatFSGLSL, content);
+    sources.geometry = variant.quads ? filled(SplatGSGLSL, content) : std::string();
+  }
+  return sources_.emplace(std::make_pair(variant, captures), std::move(sources)).first->second;
+}
+
 vtkShaderProgram* SplatPrograms::use(vtkOpenGLRenderWindow* window, const SplatVariant& variant)
 {
-  auto found = sources_.find(variant);
-  if (found == sources_.end())
-  {
-    const std::string defines = definitions(variant);
-    const bool table = variant.colour == PointColouring::Kind::Table ||
-      variant.colour == PointColouring::Kind::Elevation;
-    Sources sources;
-    const bool walls = !variant.square && variant.shape == SplatShape::Wall;
-    sources.vertex = filled(SplatVSGLSL, defines, table, walls);
-    sources.fragment = filled(SplatFSGLSL, defines, false, walls);
-    sources.geometry = variant.quads ? filled(SplatGSGLSL, defines, false) : std::string();
-    found = sources_.emplace(variant, std::move(sources)).first;
-  }
-  const Sources& sources = found->second;
+  const Sources& sources = this->sourcesOf(variant, false);
   return window->GetShaderCache()->ReadyShaderProgram(
     sources.vertex.c_str(), sources.fragment.c_str(), sources.geometry.c_str());
+}
+
+vtkShaderProgram* SplatPrograms::useCapture(
+  vtkOpenGLRenderWindow* window, const SplatVariant& variant)
+{
+  const Sources& sources = this->sourcesOf(variant, true);
+  vtkNew<vtkTransformFeedback> written; // read when the program is linked; roles say nothing here
+  for (const char* name :
+    { "capturedPlace", "capturedRadius", "capturedColour", "capturedNormal", "capturedId" })
+  {
+    written->AddVarying(vtkTransformFeedback::Color_RGBA_F, name);
+  }
+  return window->GetShaderCache()->ReadyShaderProgram(
+    sources.vertex.c_str(), sources.fragment.c_str(), sources.geometry.c_str(), written);
 }
 
 vtkShaderProgram* SplatPrograms::useResolve(
   vtkOpenGLRenderWindow* window, bool blended, bool lit, bool eyeDome)
 {
-  const std::string fragment = filled(ResolveFSGLSL,
-    define("BLENDED", blended) + define("LIT", lit) + define("EYE_DOME", eyeDome), false);
+  Content content;
+  content.defines = define("BLENDED", blended) + define("LIT", lit) + define("EYE_DOME", eyeDome);
+  const std::string fragment = filled(ResolveFSGLSL, content);
   return window->GetShaderCache()->ReadyShaderProgram(PictureVSGLSL, fragment.c_str(), "");
 }
 

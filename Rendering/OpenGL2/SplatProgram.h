@@ -7,6 +7,7 @@
 #include <map>
 #include <string>
 #include <tuple>
+#include <utility>
 
 class vtkOpenGLRenderWindow;
 class vtkShaderProgram;
@@ -39,11 +40,12 @@ struct SplatVariant
   bool lit = false;
   bool ids = false;
   bool quads = false; ///< for splats that are larger than points can be
+  bool kept = false; ///< of points that were visible in an earlier picture
 
   auto key() const
   {
-    return std::make_tuple(
-      square, shape, parallel, second, colour, marked, shaped, normals, radius, lit, ids, quads);
+    return std::make_tuple(square, shape, parallel, second, colour, marked, shaped, normals, radius,
+      lit, ids, quads, kept);
   }
   friend bool operator<(const SplatVariant& a, const SplatVariant& b) { return a.key() < b.key(); }
 };
@@ -55,6 +57,8 @@ class SplatPrograms
 public:
   /// Bound and ready for uniforms; null where GL does not compile it, which VTK tells.
   vtkShaderProgram* use(vtkOpenGLRenderWindow* window, const SplatVariant& variant);
+  /// The same points, but these are looked for in the last picture, and written to a buffer.
+  vtkShaderProgram* useCapture(vtkOpenGLRenderWindow* window, const SplatVariant& variant);
   /// Of the pass that makes a picture of what was drawn.
   vtkShaderProgram* useResolve(vtkOpenGLRenderWindow* window, bool blended, bool lit, bool eyeDome);
 
@@ -65,7 +69,9 @@ private:
     std::string fragment;
     std::string geometry;
   };
-  std::map<SplatVariant, Sources> sources_;
+  const Sources& sourcesOf(const SplatVariant& variant, bool captures);
+
+  std::map<std::pair<SplatVariant, bool>, Sources> sources_;
 };
 
 } // namespace pointfront

@@ -141,6 +141,10 @@ void vtkOpenGLPointFrontMapper::RenderPiece(vtkRenderer* renderer, vtkActor* act
   const auto drawn = Clock::now();
   const vtkIdType points = host ? this->HandOver(renderer, actor, drawing, *plan)
                                 : this->DrawPoints(renderer, actor, drawing, *plan);
+  if (!host && !this->HasPlainPointsOnly(actor))
+  {
+    kept = static_cast<std::uint64_t>(drawing.splats().keptPoints());
+  }
   if (timed)
   {
     timer.end(millisecondsSince(drawn), points + static_cast<std::int64_t>(kept));

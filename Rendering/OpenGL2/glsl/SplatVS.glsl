@@ -1,134 +1,35 @@
 //VTK::System::Dec
-// One splat a vertex: where it is on screen, and what its pixels need to know. Positions are
-// integers (docs/adr/0004). Twin of ProjectionLoops.h and SplatSetUp.h.
+// One splat a vertex: where it is on screen, and what its pixels need to know.
+// Twin of ProjectionLoops.h and SplatSetUp.h.
 //POINTFRONT::Define::Dec
 //POINTFRONT::SplatData::Dec
 
-in uvec3 positionSteps; // grid steps from the node's origin
-#if POINTFRONT_COLOUR == 1
-in vec4 pointColour;
-#elif POINTFRONT_COLOUR == 2
-in float pointValue;    // world value - the colouring's base
-#endif
-#if POINTFRONT_SHAPED
-in uint pointShape;     // ShapeCode.h
-#endif
-#if POINTFRONT_RADIUS == 4
-in float pointSize;     // radius, store units
-#endif
-
-uniform int slotPoints;            // vertices of a slot
-uniform int firstSlot;             // of the buffers that are drawn from
-uniform isamplerBuffer slotSteps;  // xyz: the reference in the node's steps; w: shift and flags
-uniform samplerBuffer slotPlaces;  // camera space of the reference; w: size of the first point
-uniform samplerBuffer slotRadii;   // closing radius, scale of own ones, 1: none below, sparsest
-uniform isamplerBuffer slotIds;    // low and high 24 bits of the id of the slot's first point
-uniform samplerBuffer slotBase;    // store units; w: what sizes fall by from a point to the next
-#if POINTFRONT_COLOUR == 3
-uniform vec3 stepSize;
-#endif
-uniform mat3 stepsToCamera;
-uniform mat3 normalToCamera;
-uniform vec3 fixedNormal;          // camera space, of points without one; 0: none
-uniform vec4 flatColour;           // of points without a value
-uniform int styleMark;
-uniform float squareSize;          // pixels
-uniform float radiusFactor;        // of what the store says, of splats of this pass
-uniform float radiusBase;          // of codes, store units
-uniform vec4 clipPlanes[6];        // camera space: n . p + d >= 0 is drawn
-uniform int clipCount;
-uniform vec2 depthRange;
+uniform float squareSize; // pixels
 uniform vec2 viewportSize;
 
-//POINTFRONT::ColourTable::Dec
 out SplatData
 {
 //POINTFRONT::SplatMembers::Dec
 } splat;
 
+//POINTFRONT::PointData::Dec
 //POINTFRONT::SplatSetUp::Dec
-
-vec4 colourOf(int flags, int slot, vec3 difference, float steps)
-{
-#if POINTFRONT_COLOUR == 3
-  return tableColour(difference.z * (stepSize.z * steps) + texelFetch(slotBase, slot).z);
-#elif POINTFRONT_COLOUR == 1
-  return (flags & 256) != 0 ? pointColour : flatColour;
-#elif POINTFRONT_COLOUR == 2
-  return (flags & 256) != 0 ? tableColour(pointValue) : flatColour;
-#else
-  return flatColour;
-#endif
-}
-
-/// Twin of PointShapes::fill.
-float radiusOf(int flags, int slot, float depth)
-{
-  vec4 node = texelFetch(slotRadii, slot);
-  float closing = node.x * radiusFactor;
-#if POINTFRONT_RADIUS == 0
-  return radiusFactor / cameraScale.y * (POINTFRONT_PARALLEL == 1 ? 1.0 : depth);
-#elif POINTFRONT_RADIUS == 1
-  return radiusFactor;
-#elif POINTFRONT_RADIUS == 3
-  uint code = (flags & 512) != 0 ? pointShape & 255u : 0u;
-  float own = radiusBase * exp2((float(code) - 128.0) / 16.0) * radiusFactor * node.y;
-  float most = 4.0 * max(closing, node.w * radiusFactor);
-  float known = code != 0u && radiusBase > 0.0 ? min(own, most) : closing;
-  return max(known, node.z * closing);
-#elif POINTFRONT_RADIUS == 4
-  return (flags & 1024) != 0 ? pointSize * radiusFactor : closing;
-#else
-  return closing;
-#endif
-}
-
-vec3 normalOf(int flags)
-{
-#if POINTFRONT_NORMALS
-  uint across = pointShape >> 8 & 4095u;
-  if ((flags & 512) != 0 && across != 4095u)
-  {
-    vec2 e = (vec2(float(across), float(pointShape >> 20)) - 2047.0) / 2047.0;
-    vec3 n = vec3(e, 1.0 - abs(e.x) - abs(e.y));
-    vec2 folded = (1.0 - abs(e.yx)) * vec2(e.x < 0.0 ? -1.0 : 1.0, e.y < 0.0 ? -1.0 : 1.0);
-    return normalToCamera * (n.z < 0.0 ? vec3(folded, n.z) : n);
-  }
-#endif
-  return fixedNormal;
-}
+//POINTFRONT::Point::Dec
 
 void main()
 {
   gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
   gl_PointSize = 1.0;
   splat.rectangle = vec4(0.0, 0.0, -1.0, -1.0);
-  int slot = firstSlot + gl_VertexID / slotPoints;
-  ivec4 steps = texelFetch(slotSteps, slot);
-  int shift = steps.w & 255;
-  vec3 difference = vec3(ivec3(positionSteps >> uint(shift)) - steps.xyz);
-  float width = exp2(float(shift));
-  vec4 place = texelFetch(slotPlaces, slot);
-  vec3 camera = stepsToCamera * (difference * width) + place.xyz;
-  float fall = texelFetch(slotBase, slot).w; // twin of PointGrowth.h
-  float grown = clamp(place.w - fall * float(gl_VertexID % slotPoints), 0.0, 1.0);
-  bool drawn = camera.z >= depthRange.x && camera.z <= depthRange.y;
-  for (int plane = 0; plane < clipCount; ++plane)
-  {
-    drawn = drawn && dot(clipPlanes[plane], vec4(camera, 1.0)) >= 0.0;
-  }
-  splat.colour = colourOf(steps.w, slot, difference, width);
-#if POINTFRONT_MARKED
-  drawn = drawn && (steps.w & 256) != 0 && int(splat.colour.a * 255.0 + 0.5) == styleMark;
-#endif
-  splat.normal = normalOf(steps.w);
-  ivec2 id = texelFetch(slotIds, slot).xy;
-  int low = id.x + gl_VertexID % slotPoints;
-  splat.id = vec2(float(low & 0xffffff), float(id.y + (low >> 24)));
-  if (!drawn)
+  Point point = pointOf();
+  splat.colour = point.colour;
+  splat.normal = point.normal;
+  splat.id = point.id;
+  if (!point.drawn || !isInView(point.camera))
   {
     return;
   }
+  float grown = point.grown;
 #if POINTFRONT_PASS == 2
   splat.colour.a = grown; // of its weight
   grown = 1.0;
@@ -137,7 +38,7 @@ void main()
 #if POINTFRONT_SHAPE == 5
   height = pointHeight * heightFactor;
 #endif
-  setUp(camera, radiusOf(steps.w, slot, camera.z), grown, height);
+  setUp(point.camera, point.radius, grown, height);
   vec4 r = splat.rectangle;
   r = vec4(max(r.xy, vec2(0.0)), min(r.zw, viewportSize));
   splat.rectangle = r;

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "SlotRecords.h"
+#include "SplatProgram.h"
+
+#include <vtkNew.h>
+#include <vtkOpenGLVertexArrayObject.h>
+
+#include <functional>
+#include <memory>
+
+class vtkOpenGLRenderWindow;
+class vtkRenderer;
+
+namespace pointfront
+{
+struct ColourMap;
+class ColourTable;
+class GpuPool;
+
+/// What all parts of a picture are drawn with.
+struct SplatTools
+{
+  SplatPrograms programs;
+  SlotRecords records;
+  SlotRecords lastRecords; ///< of what the last picture had and this one lacks
+  vtkNew<vtkOpenGLVertexArrayObject> vertices;
+};
+
+/// One drawing of a picture.
+struct SplatFrame
+{
+  using TableOf = std::function<ColourTable*(const std::shared_ptr<const ColourMap>&)>;
+
+  vtkOpenGLRenderWindow* window = nullptr;
+  vtkRenderer* renderer = nullptr;
+  const GpuPool* pool = nullptr;
+  TableOf tableOf;
+  bool ids = false; ///< for a selection
+};
+
+} // namespace pointfront

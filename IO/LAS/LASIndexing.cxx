@@ -6,13 +6,13 @@
 #include "pointfront/Export/OutputTarget.h"
 #include "pointfront/Statistics/ColumnStatistics.h"
 #include "pointfront/Store/GridBounds.h"
+#include "pointfront/Threads/WorkerThread.h"
 
 #include <algorithm>
 #include <atomic>
 #include <cstdio>
 #include <filesystem>
 #include <mutex>
-#include <thread>
 
 namespace pointfront
 {
@@ -264,9 +264,7 @@ Result<LASIndexReport> indexLASFile(const std::string& lasPath, const std::strin
     return writer.error();
   }
   const std::string beside = std::filesystem::absolute(sidePath).parent_path().string();
-  WorkCrew crew(
-    options.threads > 0 ? options.threads : std::max(1u, std::thread::hardware_concurrency()),
-    progress);
+  WorkCrew crew(threadsOr(options.threads), progress);
   Result<SideFileContent> content = indexPoints(*file, options,
     options.temporaryFolder.empty() ? beside : options.temporaryFolder, crew, **writer);
   if (!content)

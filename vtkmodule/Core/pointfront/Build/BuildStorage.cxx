@@ -2,10 +2,10 @@
 
 #include "pointfront/Build/TreeConstruction.h"
 #include "pointfront/Ingest/RecordLayout.h"
+#include "pointfront/Threads/WorkerThread.h"
 
 #include <algorithm>
 #include <filesystem>
-#include <thread>
 #include <unistd.h>
 
 namespace pointfront
@@ -42,8 +42,7 @@ MemoryDemand demandOf(
   demand.partBytes = constructionBytes(options, pooled);
   demand.wholePart = constructionPart(options);
   demand.nodePoints = options.nodePoints;
-  demand.threads =
-    options.threads > 0 ? options.threads : std::max(1u, std::thread::hardware_concurrency());
+  demand.threads = threadsOr(options.threads);
   demand.memoryBytes = options.memoryBytes > 0 ? options.memoryBytes : machineMemory() / 2;
   return demand;
 }

@@ -4,7 +4,6 @@
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
-#include <system_error>
 #include <unistd.h>
 #include <utility>
 
@@ -58,10 +57,7 @@ DirectAppender::~DirectAppender()
     over_ = true;
   }
   changed_.notify_all();
-  if (thread_.joinable())
-  {
-    thread_.join();
-  }
+  thread_.join();
   ::close(descriptor_);
 }
 
@@ -109,18 +105,7 @@ void DirectAppender::awaitWritten(std::unique_lock<std::mutex>& lock)
 /// False when the system gives none: then who appends writes.
 bool DirectAppender::startThread()
 {
-  try
-  {
-    if (!thread_.joinable())
-    {
-      thread_ = std::thread([this] { work(); });
-    }
-  }
-  catch (const std::system_error&)
-  {
-    return false;
-  }
-  return true;
+  return thread_.started() || thread_.start([this] { work(); });
 }
 
 void DirectAppender::work()

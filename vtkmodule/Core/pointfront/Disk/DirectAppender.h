@@ -1,5 +1,7 @@
 #pragma once
 
+#include "pointfront/Threads/WorkerThread.h"
+
 #include <array>
 #include <condition_variable>
 #include <cstddef>
@@ -8,7 +10,6 @@
 #include <memory>
 #include <mutex>
 #include <string>
-#include <thread>
 
 namespace pointfront
 {
@@ -78,7 +79,7 @@ private:
   Buffer handed_; // empty once it is written
   bool writing_ = false;
   bool over_ = false;
-  std::thread thread_; // from the first full buffer on
+  WorkerThread thread_; // from the first full buffer on
 };
 
 } // namespace pointfront

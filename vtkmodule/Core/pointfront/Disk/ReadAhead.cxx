@@ -3,27 +3,31 @@
 #include "pointfront/Base/CpuClock.h"
 
 #include <new>
-#include <system_error>
 
 namespace pointfront
 {
+namespace
+{
+Error noMemory()
+{
+  return makeError(Error::Kind::NoMemory,
+    "the system gave no more memory to the build; use a lower memory limit or fewer threads");
+}
+} // namespace
 
 ReadAhead::ReadAhead(std::vector<std::uint32_t> order, Load load, const ReadAheadPlan& plan)
   : order_(std::move(order))
   , load_(std::move(load))
   , parts_(plan.parts)
 {
-  threads_.reserve(plan.threads);
-  try
+  // Without any thread, parts are read when they are taken.
+  for (unsigned i = 0; parts_ > 0 && i < plan.threads; ++i)
   {
-    for (unsigned i = 0; parts_ > 0 && i < plan.threads; ++i)
+    if (!threads_.emplace_back().start([this] { work(); }))
     {
-      threads_.emplace_back([this] { work(); });
+      threads_.pop_back();
+      return;
     }
-  }
-  catch (const std::system_error&)
-  {
-    // No more threads than there are. Without any, parts are read when they are taken.
   }
 }
 
@@ -34,10 +38,7 @@ ReadAhead::~ReadAhead()
     over_ = true;
   }
   wanted_.notify_all();
-  for (std::thread& thread : threads_)
-  {
-    thread.join();
-  }
+  threads_.clear();
 }
 
 ReadAhead::Records ReadAhead::take(std::uint32_t part)
@@ -52,6 +53,10 @@ ReadAhead::Records ReadAhead::take(std::uint32_t part)
   auto found = held_.find(part);
   while (found == held_.end())
   {
+    if (noMemory_)
+    {
+      return noMemory();
+    }
     ready_.wait(lock);
     found = held_.find(part);
   }
@@ -82,7 +87,14 @@ void ReadAhead::work()
     lock.unlock();
     Records records = loaded(part);
     lock.lock();
-    held_.emplace(part, std::move(records));
+    try
+    {
+      held_.emplace(part, std::move(records));
+    }
+    catch (const std::bad_alloc&)
+    {
+      noMemory_ = true; // who takes parts is told, and does not wait for this one
+    }
     ready_.notify_all();
   }
 }
@@ -99,8 +111,7 @@ ReadAhead::Records ReadAhead::loaded(std::uint32_t part)
     }
     catch (const std::bad_alloc&)
     {
-      return makeError(Error::Kind::NoMemory,
-        "the system gave no more memory to the build; use a lower memory limit or fewer threads");
+      return noMemory();
     }
   }();
   const std::lock_guard<std::mutex> lock(mutex_);

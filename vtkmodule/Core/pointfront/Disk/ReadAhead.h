@@ -1,14 +1,15 @@
 #pragma once
 
 #include "pointfront/Base/Result.h"
+#include "pointfront/Threads/WorkerThread.h"
 
 #include <condition_variable>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <list>
 #include <map>
 #include <mutex>
-#include <thread>
 #include <vector>
 
 namespace pointfront
@@ -57,9 +58,10 @@ private:
   std::size_t next_ = 0; // in order_, to be read
   std::size_t taken_ = 0; // calls of take() so far
   bool over_ = false;
+  bool noMemory_ = false; // to hold a part that was read
   std::map<std::uint32_t, Records> held_;
   double seconds_ = 0.0;
-  std::vector<std::thread> threads_;
+  std::list<WorkerThread> threads_; // not guarded: changed before they begin, and after
 };
 
 } // namespace pointfront

@@ -3,7 +3,7 @@
 #include "pointfront/Base/CpuClock.h"
 
 #include <algorithm>
-#include <system_error>
+#include <new>
 
 namespace pointfront
 {
@@ -12,14 +12,8 @@ WriteBehind::WriteBehind(RecordPool& pool, std::size_t buffers)
   : pool_(pool)
   , idle_(buffers)
 {
-  try
-  {
-    thread_ = std::thread([this] { work(); });
-  }
-  catch (const std::system_error&)
-  {
-    // Without a thread of its own who hands over writes.
-  }
+  // Without a thread of its own who hands over writes.
+  static_cast<void>(thread_.start([this] { work(); }));
 }
 
 WriteBehind::~WriteBehind()
@@ -29,10 +23,7 @@ WriteBehind::~WriteBehind()
     over_ = true;
   }
   handed_.notify_all();
-  if (thread_.joinable())
-  {
-    thread_.join();
-  }
+  thread_.join();
 }
 
 Result<WriteBehind::Buffer> WriteBehind::buffer(std::size_t bytes)
@@ -57,7 +48,7 @@ void WriteBehind::write(std::uint64_t first, std::uint64_t count, Buffer records
   std::unique_lock<std::mutex> lock(mutex_);
   blocks_.push_back({ first, count, std::move(records) });
   ++underWay_;
-  if (thread_.joinable())
+  if (thread_.started())
   {
     handed_.notify_one();
     return;
@@ -108,7 +99,14 @@ void WriteBehind::writeNext(std::unique_lock<std::mutex>& lock)
   if (done)
   {
     const CpuStopwatch watch(seconds);
-    done = pool_.write(block.first, block.count, block.records.data());
+    try
+    {
+      done = pool_.write(block.first, block.count, block.records.data());
+    }
+    catch (const std::bad_alloc&)
+    {
+      done = makeError(Error::Kind::NoMemory, "the system gave no more memory to the build");
+    }
   }
   lock.lock();
   seconds_ += seconds;

@@ -2,6 +2,7 @@
 
 #include "pointfront/Base/Result.h"
 #include "pointfront/Ingest/RecordPool.h"
+#include "pointfront/Threads/WorkerThread.h"
 
 #include <condition_variable>
 #include <cstddef>
@@ -9,7 +10,6 @@
 #include <deque>
 #include <mutex>
 #include <optional>
-#include <thread>
 #include <vector>
 
 namespace pointfront
@@ -60,7 +60,7 @@ private:
   bool over_ = false;
   std::optional<Error> error_;
   double seconds_ = 0.0;
-  std::thread thread_;
+  WorkerThread thread_;
 };
 
 } // namespace pointfront

@@ -1,12 +1,12 @@
 #include "pointfront/Neighbourhood/PointTiles.h"
 
 #include "pointfront/Neighbourhood/PointReading.h"
+#include "pointfront/Threads/WorkerThread.h"
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <numeric>
-#include <thread>
 #include <unistd.h>
 
 namespace pointfront
@@ -62,8 +62,7 @@ std::uint64_t memoryOf(const PassResources& resources)
 
 unsigned threadsOf(const PassResources& resources)
 {
-  return resources.threads > 0 ? resources.threads
-                               : std::max(1u, std::thread::hardware_concurrency());
+  return threadsOr(resources.threads);
 }
 
 /// One run over all sources that puts every point where it belongs.

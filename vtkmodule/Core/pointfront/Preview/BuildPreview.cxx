@@ -2,6 +2,7 @@
 
 #include "pointfront/Base/CpuClock.h"
 #include "pointfront/Ingest/RecordLayout.h"
+#include "pointfront/Threads/ThreadCrew.h"
 
 #include <algorithm>
 #include <atomic>
@@ -43,10 +44,6 @@ std::uint64_t memoryOf(const BuildOptions& build)
   return std::min(limit / shareOfMemory, mostMemory);
 }
 
-unsigned threadsOf(const BuildOptions& build)
-{
-  return build.threads > 0 ? build.threads : std::max(1u, std::thread::hardware_concurrency());
-}
 } // namespace
 
 /// A source that gives the preview a share of what is read from it.
@@ -153,7 +150,7 @@ BuildPreview::~BuildPreview()
     stop_ = true;
   }
   changed_.notify_all();
-  if (refiner_.joinable())
+  if (refiner_.started())
   {
     refiner_.join();
   }
@@ -174,8 +171,16 @@ void BuildPreview::showOverview(const PointSources& sources, const ProgressFunct
   }
   const auto goOn = [&] { return !progress || progress(state); };
   firstShown_ = sources.front().get();
-  pickChunks(sources, goOn);
-  show(sources, 0, threadsOf(build_), goOn);
+  try
+  {
+    pickChunks(sources, goOn);
+  }
+  catch (const std::bad_alloc&)
+  {
+    tell(makeError(Error::Kind::NoMemory, "the system gave no more memory"));
+    return;
+  }
+  show(sources, 0, threadsOr(build_.threads), goOn);
 }
 
 void BuildPreview::pickChunks(const PointSources& sources, const std::function<bool()>& goOn)
@@ -200,29 +205,19 @@ void BuildPreview::pickChunks(const PointSources& sources, const std::function<b
   // Half of the sample: the rest is for what the build reads before it comes to these chunks.
   const double share =
     std::min(1.0, double(capacity_) / double(2 * std::max<std::uint64_t>(points, 1)));
-  std::atomic<std::size_t> next{ 0 };
-  const auto work = [&]
-  {
-    PointBatch batch;
-    for (std::size_t i = next++; i < picked.size(); i = next++)
+  ThreadCrew crew(
+    static_cast<unsigned>(std::min<std::uint64_t>(threadsOr(build_.threads), picked.size())));
+  std::vector<PointBatch> batches(crew.threads());
+  crew.run(picked.size(),
+    [&](std::size_t i, unsigned thread)
     {
       const auto [number, chunk] = picked[i];
+      PointBatch& batch = batches[thread];
       if (sources[number]->read(chunk, batch)) // the build meets, and tells, what is wrong
       {
         sample_.keep(number, chunk, sources[number]->description(), batch, share);
       }
-    }
-  };
-  std::vector<std::thread> others;
-  for (unsigned i = 1; i < std::min<std::uint64_t>(threadsOf(build_), picked.size()); ++i)
-  {
-    others.emplace_back(work);
-  }
-  work();
-  for (std::thread& thread : others)
-  {
-    thread.join();
-  }
+    });
   mixed_ = goOn();
 }
 
@@ -255,7 +250,8 @@ PointSources BuildPreview::watched(const PointSources& sources)
       mixed_ = false;
     }
     sources_ = &sources;
-    refiner_ = std::thread([this, &sources] { refine(sources); });
+    // Where there is no thread for it, the overview stays until parts are finished.
+    static_cast<void>(refiner_.start([this, &sources] { refine(sources); }));
   }
   return result;
 }

@@ -7,6 +7,7 @@
 #include "pointfront/Preview/PointSample.h"
 #include "pointfront/Preview/PreviewFile.h"
 #include "pointfront/Preview/PreviewRecord.h"
+#include "pointfront/Threads/WorkerThread.h"
 
 #include <chrono>
 #include <condition_variable>
@@ -15,7 +16,6 @@
 #include <mutex>
 #include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
 namespace pointfront
@@ -112,7 +112,7 @@ private:
   bool mixed_ = false; ///< the sample still holds points of the overview
   PointSample sample_;
   const PointSources* sources_ = nullptr; ///< that the build reads
-  std::thread refiner_;
+  WorkerThread refiner_;
   // Of the trees' time:
   double began_ = 0.0; ///< CPU seconds of the process when they were
   double spent_ = 0.0; ///< CPU seconds for versions with finished parts

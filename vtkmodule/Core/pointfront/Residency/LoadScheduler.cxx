@@ -3,6 +3,7 @@
 #include "pointfront/Base/CpuClock.h"
 #include "pointfront/Residency/DiskLane.h"
 #include "pointfront/Residency/StoreNodes.h"
+#include "pointfront/Threads/WorkerThread.h"
 
 #include <algorithm>
 #include <exception>
@@ -11,8 +12,8 @@
 #include <new>
 #include <optional>
 #include <string>
-#include <thread>
 #include <tuple>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -28,6 +29,9 @@ namespace
 
 using Clock = DiskLane::Clock;
 
+/// After a step that ran out of memory, unless something is given back before.
+constexpr std::chrono::milliseconds waitForMemory{ 100 };
+
 /// FRONT-9: loading must not disturb the drawing. A hint: where it is refused nothing is lost.
 void lowerThreadPriority()
 {
@@ -39,7 +43,7 @@ void lowerThreadPriority()
 
 unsigned threadsOf(const LoadSchedulerOptions& options)
 {
-  const unsigned processors = std::thread::hardware_concurrency();
+  const unsigned processors = threadsOr(0);
   return options.threads > 0 ? options.threads
                              : std::clamp(processors > 1 ? processors - 1 : 1u, 2u, 16u);
 }
@@ -102,7 +106,7 @@ struct LoadScheduler::Content : std::enable_shared_from_this<LoadScheduler::Cont
   };
   struct Worker
   {
-    std::thread thread;
+    WorkerThread thread;
     bool fetching = false;
     Clock::time_point since; ///< of its read
     bool ended = false;
@@ -127,11 +131,13 @@ struct LoadScheduler::Content : std::enable_shared_from_this<LoadScheduler::Cont
   bool stopped = false;
   LoadSchedulerStatistics loaded; ///< its sums over all loads
 
-  void addWorker();
+  bool addWorker();
   bool surplus(Clock::time_point now) const;
   void replaceHanging(Clock::time_point now);
   std::optional<Job> take(Clock::time_point now);
   void work(Worker& self);
+  void takeTurn(Worker& self, std::uint64_t seen);
+  void loadHere();
   void perform(Worker& self, const Job& job);
   void readRows(Worker& self, const Job& job);
   void freeLane(Worker& self, const Job& job, Clock::time_point begin, std::size_t bytesRead);
@@ -140,10 +146,16 @@ struct LoadScheduler::Content : std::enable_shared_from_this<LoadScheduler::Cont
   void releaseFrom(ReleasePlan& plan, std::size_t bytes, StoreNodes::Gone& gone);
 };
 
-void LoadScheduler::Content::addWorker()
+/// False where the system gives no thread.
+bool LoadScheduler::Content::addWorker()
 {
   Worker& worker = workers.emplace_back();
-  worker.thread = std::thread([self = shared_from_this(), &worker] { self->work(worker); });
+  if (!worker.thread.start([self = shared_from_this(), &worker] { self->work(worker); }))
+  {
+    workers.pop_back();
+    return false;
+  }
+  return true;
 }
 
 /// More threads than there should be, now that a read that hung has come back.
@@ -172,9 +184,8 @@ void LoadScheduler::Content::replaceHanging(Clock::time_point now)
   }
   const std::size_t wanted =
     steadyThreads + std::min<std::size_t>(lane.overdue(now), options.spareThreads);
-  while (workers.size() < wanted)
+  while (workers.size() < wanted && addWorker())
   {
-    addWorker();
   }
 }
 
@@ -228,10 +239,21 @@ void LoadScheduler::Content::freeLane(
 void LoadScheduler::Content::readRows(Worker& self, const Job& job)
 {
   const Clock::time_point begin = Clock::now();
-  const std::size_t bytesRead = job.store->reader().missingRows()->readNext();
-  freeLane(self, job, begin, bytesRead);
-  job.store->leave(job.task);
-  budget->announceChange();
+  const auto end = [&](std::size_t bytesRead)
+  {
+    freeLane(self, job, begin, bytesRead);
+    job.store->leave(job.task);
+    budget->announceChange();
+  };
+  try
+  {
+    end(job.store->reader().missingRows()->readNext());
+  }
+  catch (const std::bad_alloc&)
+  {
+    end(0); // the rows are still missing
+    throw;
+  }
 }
 
 void LoadScheduler::Content::perform(Worker& self, const Job& job)
@@ -273,37 +295,73 @@ void LoadScheduler::Content::perform(Worker& self, const Job& job)
 void LoadScheduler::Content::work(Worker& self)
 {
   lowerThreadPriority();
-  while (true)
+  while (!self.ended)
   {
     const std::uint64_t seen = budget->changes();
-    const Clock::time_point now = Clock::now();
+    try
+    {
+      takeTurn(self, seen);
+    }
+    catch (const std::bad_alloc&)
+    {
+      budget->waitForChange(seen, Clock::now() + waitForMemory);
+    }
+  }
+}
+
+/// Does what is most urgent, or waits for a change after `seen`.
+void LoadScheduler::Content::takeTurn(Worker& self, std::uint64_t seen)
+{
+  const Clock::time_point now = Clock::now();
+  std::optional<Job> job;
+  std::optional<Clock::time_point> lookAgain;
+  {
+    const std::lock_guard<std::mutex> lock(mutex);
+    if (stopped || surplus(now))
+    {
+      self.ended = true;
+      return;
+    }
+    replaceHanging(now);
+    job = take(now);
+    self.fetching = job.has_value();
+    self.since = now;
+    lookAgain = lane.freeAt(now);
+  }
+  if (job)
+  {
+    perform(self, *job);
+  }
+  else if (lookAgain)
+  {
+    budget->waitForChange(seen, *lookAgain);
+  }
+  else
+  {
+    budget->waitForChange(seen);
+  }
+}
+
+/// On the caller's thread.
+void LoadScheduler::Content::loadHere()
+{
+  while (true)
+  {
+    Worker self;
     std::optional<Job> job;
-    std::optional<Clock::time_point> lookAgain;
     {
       const std::lock_guard<std::mutex> lock(mutex);
-      if (stopped || surplus(now))
+      if (!workers.empty() || addWorker())
       {
-        self.ended = true;
         return;
       }
-      replaceHanging(now);
-      job = take(now);
-      self.fetching = job.has_value();
-      self.since = now;
-      lookAgain = lane.freeAt(now);
+      job = take(Clock::now());
     }
-    if (job)
+    if (!job)
     {
-      perform(self, *job);
+      return;
     }
-    else if (lookAgain)
-    {
-      budget->waitForChange(seen, *lookAgain);
-    }
-    else
-    {
-      budget->waitForChange(seen);
-    }
+    perform(self, *job);
   }
 }
 
@@ -349,9 +407,10 @@ LoadScheduler::LoadScheduler(
   : content_(std::make_shared<Content>(options, std::move(budget)))
 {
   const std::lock_guard<std::mutex> lock(content_->mutex);
-  for (unsigned thread = 0; thread < content_->steadyThreads; ++thread)
+  unsigned threads = 0;
+  while (threads < content_->steadyThreads && content_->addWorker())
   {
-    content_->addWorker();
+    ++threads;
   }
 }
 
@@ -444,6 +503,11 @@ LoadSchedulerStatistics LoadScheduler::statistics() const
   s.residentBytes = content_->budget->used();
   s.residentBytesMax = content_->budget->usedMax();
   return s;
+}
+
+void LoadScheduler::loadWithoutThreads()
+{
+  content_->loadHere();
 }
 
 void LoadScheduler::join(const std::shared_ptr<StoreNodes>& store, std::uint64_t points)

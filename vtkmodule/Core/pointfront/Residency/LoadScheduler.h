@@ -83,6 +83,9 @@ public:
   /// Returns when nothing of the store is being read any more, but does not wait for a read that is
   /// overdue.
   void leave(const std::shared_ptr<StoreNodes>& store);
+  /// After each new request: where the system gave no thread to load with, the caller's loads all
+  /// that fits. Does nothing otherwise.
+  void loadWithoutThreads();
   /// The store's points as a share of those of all stores here (SMOOTH-2: sections of the overview
   /// are in proportion to size).
   double shareOf(const StoreNodes& store) const;

@@ -62,6 +62,7 @@ void Residency::setLayerColumns(const LayerColumns& columns)
   if (nodes_->setColumns(columns))
   {
     nodes_->budget().announceChange();
+    scheduler_->loadWithoutThreads();
   }
 }
 
@@ -75,6 +76,7 @@ void Residency::request(const std::vector<LoadRequest>& requests)
   if (nodes_->request(requests))
   {
     nodes_->budget().announceChange();
+    scheduler_->loadWithoutThreads();
   }
 }
 

@@ -2,6 +2,8 @@
 
 #include "pointfront/Statistics/ColumnStatistics.h"
 #include "pointfront/Store/NodeTableSection.h"
+#include "pointfront/Threads/ThreadCrew.h"
+#include "pointfront/Threads/WorkerThread.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -12,7 +14,7 @@
 #include <cmath>
 #include <cstdio>
 #include <mutex>
-#include <thread>
+#include <new>
 
 namespace pointfront
 {
@@ -158,15 +160,15 @@ Result<VerifyReport> StoreVerification::run(const ProgressFunction& progress)
     return report;
   }
   Walk walk(nothingSeen(), progress, description_.pointCount);
-  std::vector<std::thread> others;
-  for (unsigned i = 1; i < std::max(1u, std::thread::hardware_concurrency()); ++i)
+  ThreadCrew crew(threadsOr(0));
+  try
   {
-    others.emplace_back([this, &walk] { work(walk); });
+    crew.run(crew.threads(), [&](std::size_t, unsigned) { work(walk); });
   }
-  work(walk);
-  for (std::thread& thread : others)
+  catch (const std::bad_alloc&)
   {
-    thread.join();
+    return makeError(
+      Error::Kind::NoMemory, "not enough memory to verify '" + description_.path + "'");
   }
   if (walk.cancelled)
   {

@@ -29,7 +29,7 @@ public:
   /// `gridBounds` is the box that the file claims for all points.
   StoreVerification(const StoredCloud& cloud, const GridBounds& gridBounds);
 
-  /// Cancelled is the only Error.
+  /// Errors   Cancelled, NoMemory; what is wrong with the cloud is in the report.
   Result<VerifyReport> run(const ProgressFunction& progress);
 
 private:

@@ -1,12 +1,13 @@
 #include "pointfront/Table/ParallelChunks.h"
 
+#include "pointfront/Threads/ThreadCrew.h"
+#include "pointfront/Threads/WorkerThread.h"
+
 #include <algorithm>
 #include <atomic>
 #include <mutex>
 #include <new>
 #include <optional>
-#include <thread>
-#include <vector>
 
 namespace pointfront
 {
@@ -28,14 +29,18 @@ Result<void> guarded(const std::function<Result<void>(std::uint64_t)>& work, std
 Result<void> forEachChunk(std::uint64_t count, const SurveyOptions& options,
   const std::function<Result<void>(std::uint64_t)>& work)
 {
-  std::atomic<std::uint64_t> next{ 0 };
   std::atomic<bool> stop{ false };
   std::mutex mutex; // guards `error`
   std::optional<Error> error;
-  const auto run = [&]
-  {
-    for (std::uint64_t chunk = next++; chunk < count && !stop; chunk = next++)
+  ThreadCrew crew(
+    static_cast<unsigned>(std::min<std::uint64_t>(threadsOr(options.threads), count)));
+  crew.run(count,
+    [&](std::size_t chunk, unsigned)
     {
+      if (stop)
+      {
+        return;
+      }
       const bool cancelled = options.cancelled && options.cancelled();
       const Result<void> done = cancelled
         ? Result<void>(makeError(Error::Kind::Cancelled, "cancelled"))
@@ -46,21 +51,7 @@ Result<void> forEachChunk(std::uint64_t count, const SurveyOptions& options,
         error = error ? error : done.error();
         stop = true;
       }
-    }
-  };
-  const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
-  const std::uint64_t threads =
-    std::min<std::uint64_t>(options.threads > 0 ? options.threads : cores, count);
-  std::vector<std::thread> crew;
-  for (std::uint64_t t = 1; t < threads; ++t)
-  {
-    crew.emplace_back(run);
-  }
-  run();
-  for (std::thread& thread : crew)
-  {
-    thread.join();
-  }
+    });
   return error ? Result<void>(*error) : Result<void>();
 }
 

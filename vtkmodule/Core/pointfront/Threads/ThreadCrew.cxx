@@ -1,19 +1,25 @@
 #include "pointfront/Threads/ThreadCrew.h"
 
+#include "pointfront/Threads/WorkerThread.h"
+
 #include <algorithm>
 #include <atomic>
 #include <condition_variable>
 #include <cstdint>
 #include <cstdlib>
 #include <exception>
+#include <list>
 #include <mutex>
-#include <system_error>
-#include <thread>
 #include <utility>
-#include <vector>
 
 namespace pointfront
 {
+namespace
+{
+/// The crew whose piece this thread works at, and its number there.
+thread_local const void* crewOfPiece = nullptr;
+thread_local unsigned numberInCrew = 0;
+} // namespace
 
 struct ThreadCrew::Content
 {
@@ -30,10 +36,12 @@ struct ThreadCrew::Content
   const std::function<void(std::size_t, unsigned)>* work = nullptr;
   std::size_t pieces = 0;
   std::atomic<std::size_t> next{ 0 };
-  std::vector<std::thread> threads;
+  std::list<WorkerThread> threads;
 
   void takePart(unsigned thread)
   {
+    const void* const crewBefore = std::exchange(crewOfPiece, this);
+    const unsigned numberBefore = std::exchange(numberInCrew, thread);
     try
     {
       for (std::size_t piece = next++; piece < pieces; piece = next++)
@@ -47,6 +55,8 @@ struct ThreadCrew::Content
       const std::lock_guard<std::mutex> lock(mutex);
       failure = failure ? failure : std::current_exception();
     }
+    crewOfPiece = crewBefore;
+    numberInCrew = numberBefore;
   }
 
   void wait(unsigned thread)
@@ -83,8 +93,7 @@ ThreadCrew& ThreadCrew::ofProcess()
     {
       const char* const text = std::getenv("POINTFRONT_THREADS");
       const unsigned long wanted = text ? std::strtoul(text, nullptr, 10) : 0;
-      return wanted > 0 ? static_cast<unsigned>(std::min(wanted, 256ul))
-                        : std::thread::hardware_concurrency();
+      return wanted > 0 ? static_cast<unsigned>(std::min(wanted, 256ul)) : threadsOr(0);
     }());
   return crew;
 }
@@ -94,13 +103,11 @@ ThreadCrew::ThreadCrew(unsigned threads)
 {
   for (unsigned thread = 1; thread < threads; ++thread)
   {
-    try
+    WorkerThread& worker = content_->threads.emplace_back();
+    if (!worker.start([content = content_.get(), thread] { content->wait(thread); }))
     {
-      content_->threads.emplace_back([content = content_.get(), thread] { content->wait(thread); });
-    }
-    catch (const std::system_error&)
-    {
-      break; // the system gives no more threads: those that are there do the work
+      content_->threads.pop_back();
+      break;
     }
   }
 }
@@ -112,10 +119,7 @@ ThreadCrew::~ThreadCrew()
     content_->leaving = true;
   }
   content_->begun.notify_all();
-  for (std::thread& thread : content_->threads)
-  {
-    thread.join();
-  }
+  content_->threads.clear();
 }
 
 unsigned ThreadCrew::threads() const
@@ -127,6 +131,14 @@ void ThreadCrew::run(
   std::size_t pieces, const std::function<void(std::size_t, unsigned)>& work, unsigned most)
 {
   Content& content = *content_;
+  if (crewOfPiece == &content)
+  {
+    for (std::size_t piece = 0; piece < pieces; ++piece)
+    {
+      work(piece, numberInCrew);
+    }
+    return;
+  }
   const std::lock_guard<std::mutex> one(content.callers);
   const auto useful = static_cast<unsigned>(std::min<std::size_t>(pieces, threads()));
   const unsigned part = std::max(1u, most > 0 ? std::min(most, useful) : useful);

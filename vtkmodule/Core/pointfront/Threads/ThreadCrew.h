@@ -7,18 +7,20 @@
 namespace pointfront
 {
 
-/// Threads that wait for work and do it together: for work that is cut into many pieces and is over
-/// within a frame.
+/// Threads that wait for work and do it together: for work that is cut into many pieces. Where the
+/// system gives fewer threads than asked for, those that there are do it.
 /// Order       pieces are handed out in ascending order, to whichever thread is free. Results must
 ///             not depend on which thread does which.
 /// Errors      an exception of a piece stops the handing out and comes out of run(), the first one
 ///             if there are several.
-/// Threads     run() from one thread at a time; a second caller waits. A piece must not call run().
+/// Threads     run() from one thread at a time; a second caller waits. A piece that calls run() of
+/// its
+///             own crew does the pieces itself, as the thread that it is.
 class ThreadCrew
 {
 public:
-  /// The one that the process shares: as many threads as processors, the caller's included; with
-  /// POINTFRONT_THREADS in the environment that many.
+  /// The one that the process shares, for work that is over within a frame: as many threads as
+  /// processors, the caller's included; with POINTFRONT_THREADS in the environment that many.
   static ThreadCrew& ofProcess();
 
   /// `threads` with the caller's; 0 is taken as 1.

@@ -1,9 +1,9 @@
 #include "pointfront/Threads/WorkCrew.h"
 
+#include "pointfront/Threads/ThreadCrew.h"
+
 #include <algorithm>
 #include <new>
-#include <thread>
-#include <vector>
 
 namespace pointfront
 {
@@ -36,16 +36,8 @@ Result<void> WorkCrew::run(const std::function<Result<void>()>& work)
         "the system gave no more memory to the build; use a lower memory limit or fewer threads"));
     }
   };
-  std::vector<std::thread> others;
-  for (unsigned i = 1; i < threads_ && !stopped(); ++i)
-  {
-    others.emplace_back(guarded);
-  }
-  guarded();
-  for (std::thread& thread : others)
-  {
-    thread.join();
-  }
+  ThreadCrew crew(threads_);
+  crew.run(crew.threads(), [&](std::size_t, unsigned) { guarded(); });
   return outcome();
 }
 

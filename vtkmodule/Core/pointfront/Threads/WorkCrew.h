@@ -29,7 +29,7 @@ public:
   /// Between two run().
   void setThreads(unsigned threads) { threads_ = threads; }
 
-  /// Calls `work` once on each thread and waits for all. The first Error stops the others at
+  /// Calls `work` once for each thread and waits for all. The first Error stops the others at
   /// their next stopped(); running out of memory is an Error too.
   Result<void> run(const std::function<Result<void>()>& work);
 

@@ -143,6 +143,85 @@ TEST_F(Tiled, ThreeStoresAreOneCloud)
   EXPECT_EQ(points(*cloud, query), inside);
 }
 
+/// Points of a condition, and the nodes that were read for it.
+TEST_F(Tiled, NodesThatAFilterExcludesAreNotRead)
+{
+  store("a.pfront", tile(0, 0.0));
+  store("b.pfront", tile(1000, 16.0, { glm::dvec3(0.0015), glm::dvec3(0.0) }));
+  options_.attributes = { { "id" } }; // no intensity
+  store("c.pfront", tile(2000, 32.0));
+  const auto cloud = opened(folder_.string());
+  ASSERT_TRUE(cloud);
+  const std::map<std::uint32_t, glm::dvec3> all = points(*cloud);
+  ASSERT_EQ(all.size(), 1500u);
+  Random random(7);
+  for (int i = 0; i < 200; ++i)
+  {
+    const double low = 2600.0 * random.uniform();
+    const double high = low + 300.0 * random.uniform();
+    const std::string text = "id in [" + std::to_string(low) + ", " + std::to_string(high) + "]";
+    PointQuery query;
+    query.where = FilterExpression::parse(i % 2 == 0 ? text : "x in [10, 20] and " + text).value();
+    std::map<std::uint32_t, glm::dvec3> wanted;
+    for (const auto& [id, p] : all)
+    {
+      if (id >= low && id <= high && (i % 2 == 0 || (p.x >= 10.0 && p.x <= 20.0)))
+      {
+        wanted.emplace(id, p);
+      }
+    }
+    EXPECT_EQ(points(*cloud, query), wanted) << text;
+    const auto plan = QueryPlan::make(*cloud, query);
+    ASSERT_TRUE(plan) << plan.error().what;
+    EXPECT_TRUE(low >= 1000.0 || plan->nodeCount() < cloud->hierarchy()->nodeCount()) << text;
+  }
+  PointQuery bright;
+  bright.where = FilterExpression::parse("intensity > 1400").value();
+  EXPECT_EQ(points(*cloud, bright).size(), 99u);
+  const auto few = QueryPlan::make(*cloud, bright);
+  ASSERT_TRUE(few);
+  EXPECT_LT(few->nodeCount(), cloud->hierarchy()->nodeCount() / 2); // none of a and c
+}
+
+TEST_F(Tiled, RangesHoldTheValuesOfTheirNodes)
+{
+  store("a.pfront", tile(0, 0.0));
+  store("b.pfront", tile(1000, 16.0, { glm::dvec3(0.0015), glm::dvec3(0.0) }));
+  store("c.pfront", tile(2000, 32.0, { glm::dvec3(0.01), glm::dvec3(0.003) }));
+  const auto cloud = opened(folder_.string());
+  ASSERT_TRUE(cloud);
+  const NodeIndex nodes = cloud->hierarchy()->nodeCount();
+  const NodeIndex few = nodes / 2;
+  EXPECT_EQ((*cloud->nodeRanges(0, few))->nodeCount(), few);
+  for (std::uint32_t axis = 0; axis < coordinateComponents; ++axis)
+  {
+    const auto ranges = cloud->nodeRanges(axis);
+    ASSERT_TRUE(ranges && *ranges);
+    for (NodeIndex i = 0; i < nodes; ++i)
+    {
+      const auto node = cloud->read(i, {});
+      ASSERT_TRUE(node);
+      const ValueRange own = (*ranges)->own(i);
+      for (const glm::u32vec3& position : node->positions)
+      {
+        const auto step = static_cast<double>(
+          node->origin[static_cast<int>(axis)] + position[static_cast<int>(axis)]);
+        ASSERT_TRUE(step >= own.low && step <= own.high) << axis << " of node " << i;
+      }
+    }
+  }
+}
+
+TEST_F(Tiled, StoresThatLieFarApartAreTold)
+{
+  store("a.pfront", tile(0, 0.0));
+  store("b.pfront", tile(1000, 100000.0));
+  const auto cloud = opened(folder_.string());
+  ASSERT_TRUE(cloud);
+  ASSERT_EQ(cloud->description().warnings.size(), 1u);
+  EXPECT_NE(cloud->description().warnings[0].find("far apart"), std::string::npos);
+}
+
 TEST_F(Tiled, AFolderIsItsStores)
 {
   fs::create_directories(folder_ / "deeper");

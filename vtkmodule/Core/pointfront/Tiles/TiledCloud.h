@@ -1,13 +1,12 @@
 #pragma once
 
-#include "pointfront/Ingest/CommonSchema.h"
 #include "pointfront/Store/StoredCloud.h"
+#include "pointfront/Tiles/TileDescription.h"
 #include "pointfront/Tiles/TileTable.h"
 
-#include <array>
 #include <memory>
-#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace pointfront
@@ -36,7 +35,7 @@ public:
   static Result<std::shared_ptr<const StoredCloud>> open(const std::string& path,
     const std::vector<std::string>& files, std::vector<std::string> warnings = {});
 
-  const StoreDescription& description() const override { return description_; }
+  const StoreDescription& description() const override { return described_.whole; }
   const std::shared_ptr<const Hierarchy>& hierarchy() const override { return hierarchy_; }
   std::vector<std::string> files() const override;
   Result<FetchedNode> fetch(NodeIndex node, const ColumnSelection& columns) const override;
@@ -44,39 +43,24 @@ public:
   std::size_t decodedBytes(
     NodeIndex node, std::uint32_t points, const ColumnSelection& columns) const override;
   std::size_t storedBytes(NodeIndex node, const ColumnSelection& columns) const override;
-  std::uint64_t disk() const override { return tiles_.front().cloud->disk(); }
+  std::uint64_t disk() const override { return tiles_.front()->disk(); }
+  /// Of all tiles, in common values. Nodes of a tile that knows none may have any value.
+  Result<std::shared_ptr<const NodeRanges>> nodeRanges(
+    std::uint32_t component, NodeIndex most = noNode) const override;
   MissingRows* missingRows() const override { return table_->missingRows(); }
   /// Of all tiles, one after the other.
   Result<VerifyReport> verify(const ProgressFunction& progress = {}) const override;
 
 private:
-  struct Tile
+  TiledCloud(Tiles tiles, TileDescription described)
+    : tiles_(std::move(tiles))
+    , described_(std::move(described))
   {
-    std::shared_ptr<const StoredCloud> cloud;
-    std::vector<ColumnMapping> columns; ///< by common column
-    /// Nothing: positions are rounded to the common grid. Else common = steps * ratio + shift.
-    struct Placing
-    {
-      GridPosition ratio{ 1 };
-      GridPosition shift{ 0 };
-    };
-    std::optional<Placing> placing;
-    std::optional<std::array<std::byte, 256>> radii; ///< codes, where their base is another one
-  };
-
-  TiledCloud() = default;
-  Result<void> describe(const std::string& path, std::vector<std::string> warnings);
-  Result<void> chooseColumns();
-  void chooseGrid();
-  void addRanges(const Tile& tile);
-  void compareSystems();
+  }
   Result<void> makeTable();
-  /// Its own numbers of those of the common columns that it has.
-  static ColumnSelection ownColumns(const Tile& tile, const ColumnSelection& columns);
-  Result<void> place(const Tile& tile, NodeColumns& node) const;
 
-  std::vector<Tile> tiles_;
-  StoreDescription description_;
+  Tiles tiles_;
+  TileDescription described_;
   std::shared_ptr<const TileTable> table_;
   std::shared_ptr<const Hierarchy> hierarchy_; ///< the same
 };

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "pointfront/Store/StoredCloud.h"
+#include "pointfront/Tiles/TileColumns.h"
+#include "pointfront/Tiles/TilePlacing.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace pointfront
+{
+
+/// What several stores are as one cloud, and what each of them has to become for that. From their
+/// descriptions alone; nothing is read.
+struct TileDescription
+{
+  /// How one of them becomes a part of the whole.
+  struct Part
+  {
+    TileColumns columns;
+    TilePlacing placing;
+    std::vector<std::uint16_t> layers; ///< which of the common ones its own are
+  };
+
+  StoreDescription whole; ///< what differs is in its warnings
+  std::vector<Part> parts;
+
+  /// `path` names the whole.
+  /// Errors  BadArgument: tiles with subsets beside tiles with representatives; columns of one name
+  ///         with different numbers of components.
+  static Result<TileDescription> of(const std::string& path,
+    const std::vector<const StoreDescription*>& tiles, std::vector<std::string> warnings);
+};
+
+} // namespace pointfront

@@ -1,0 +1,74 @@
+#include "pointfront/Tiles/TileRanges.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace pointfront
+{
+namespace
+{
+constexpr std::size_t mostMarks = 256;
+
+void thin(std::vector<double>& marks)
+{
+  std::sort(marks.begin(), marks.end());
+  marks.erase(std::unique(marks.begin(), marks.end()), marks.end());
+  if (marks.size() > mostMarks)
+  {
+    std::vector<double> kept;
+    for (std::size_t mark = 0; mark < mostMarks; ++mark)
+    {
+      kept.push_back(marks[mark * (marks.size() - 1) / (mostMarks - 1)]);
+    }
+    marks = std::move(kept);
+  }
+}
+
+void putCodes(const ValueRange& range, const std::vector<double>& marks, std::uint8_t* codes)
+{
+  codes[0] = 1; // nothing: low after high
+  codes[1] = 0;
+  if (!range.empty())
+  {
+    const auto above = std::upper_bound(marks.begin(), marks.end(), range.low);
+    const auto enough = std::lower_bound(marks.begin(), marks.end(), range.high);
+    codes[0] = static_cast<std::uint8_t>(above - marks.begin() - 1);
+    codes[1] = static_cast<std::uint8_t>(enough - marks.begin());
+  }
+}
+} // namespace
+
+void TileRanges::addUnknown(std::size_t nodes)
+{
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  own_.insert(own_.end(), nodes, { -infinity, infinity });
+  below_.insert(below_.end(), nodes, { -infinity, infinity });
+}
+
+std::shared_ptr<const NodeRanges> TileRanges::together() const
+{
+  std::vector<double> marks;
+  for (const std::vector<ValueRange>* ranges : { &own_, &below_ })
+  {
+    for (const ValueRange& range : *ranges)
+    {
+      if (!range.empty())
+      {
+        marks.push_back(range.low);
+        marks.push_back(range.high);
+      }
+    }
+  }
+  thin(marks);
+  std::vector<NodeRanges::Codes> codes(marks.empty() ? 0 : own_.size());
+  for (std::size_t i = 0; i < codes.size(); ++i)
+  {
+    putCodes(own_[i], marks, &codes[i][0]);
+    putCodes(below_[i], marks, &codes[i][2]);
+  }
+  return std::make_shared<const NodeRanges>(
+    static_cast<NodeIndex>(own_.size()), std::move(marks), std::move(codes));
+}
+
+} // namespace pointfront

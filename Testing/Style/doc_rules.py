@@ -1,4 +1,4 @@
-"""Rules about the documentation. Each gives (path, line, message) for every place that breaks it."""
+"""Rules about the documentation. Each gives (path, line, message) for every fault."""
 
 import os
 import re

@@ -6,6 +6,7 @@ usage: check_style.py RULE ROOT     exit 1 and one line for each place that brea
 
 import sys
 
+import doc_rules
 import include_rules
 import text_rules
 from source_tree import read_tree
@@ -22,6 +23,7 @@ RULES = {
     "IdleTests": text_rules.idle_tests,
     "QuietLibraries": text_rules.quiet_libraries,
     "Links": text_rules.links,
+    "LinkedNames": doc_rules.linked_names,
     "Includes": include_rules.includes,
     "ModuleEdges": include_rules.module_edges,
 }

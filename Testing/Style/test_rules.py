@@ -123,6 +123,15 @@ class RulesTest(unittest.TestCase):
         }
         self.assertEqual(self.faults("Links", tree), [("docs/a.md", 2)])
 
+    def test_linked_names(self):
+        tree = {
+            "docs/a.md": "[`View`](../IO/View.h) [`View.h`](../IO/View.h)\n"
+            "[`Pool::size()`](../IO/View.h)\n"
+            "[`Gone`](../IO/Gone.h)\n",
+            "IO/View.h": "struct View\n{\n  int size;\n};\n",
+        }
+        self.assertEqual(self.faults("LinkedNames", tree), [("docs/a.md", 2)])
+
     def include_faults(self, path, header):
         known = {
             name: "int a;\n"

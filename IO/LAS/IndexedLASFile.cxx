@@ -91,10 +91,13 @@ void decodeSteps(const GridRecords& gathered, const glm::ivec3& low, NodeColumns
   }
 }
 
+std::string numbers(const char* what, std::uint64_t now, std::uint64_t then)
+{
+  return std::string(what) + " " + std::to_string(now) + ", not " + std::to_string(then);
+}
+
 std::string differenceOf(const IndexedFile& now, const IndexedFile& then)
 {
-  const auto numbers = [](const char* what, std::uint64_t a, std::uint64_t b)
-  { return std::string(what) + " " + std::to_string(a) + ", not " + std::to_string(b); };
   if (now.bytes != then.bytes)
   {
     return numbers("its size in bytes is", now.bytes, then.bytes);
@@ -112,6 +115,35 @@ std::string differenceOf(const IndexedFile& now, const IndexedFile& then)
     return "its points lie elsewhere";
   }
   return now.edgesChecksum != then.edgesChecksum ? "its first or last points are others" : "";
+}
+
+/// Before a byte of the file is read: a side file may come from anywhere and name anything, a
+/// device or a pipe that never answers as well.
+Result<void> checkPlace(
+  const std::string& sidePath, const std::string& lasPath, const IndexedFile& indexed)
+{
+  std::error_code failure;
+  if (!std::filesystem::exists(lasPath, failure))
+  {
+    return makeError(Error::Kind::NotFound,
+      "'" + sidePath + "' is an index of '" + lasPath +
+        "', which is not there; move it back, or index it where it is: pointfront index");
+  }
+  if (!std::filesystem::is_regular_file(lasPath, failure))
+  {
+    return makeError(Error::Kind::Corrupt,
+      "'" + sidePath + "' is an index of '" + lasPath +
+        "', which is no file; index the LAS file again: pointfront index --force");
+  }
+  const std::uint64_t bytes = std::filesystem::file_size(lasPath, failure);
+  if (failure || bytes != indexed.bytes)
+  {
+    return makeError(Error::Kind::Corrupt,
+      "'" + sidePath + "' is not an index of '" + lasPath +
+        "' as it is now: " + numbers("its size in bytes is", bytes, indexed.bytes) +
+        "; index the file again: pointfront index --force");
+  }
+  return {};
 }
 } // namespace
 
@@ -167,12 +199,10 @@ Result<std::shared_ptr<const IndexedLASFile>> IndexedLASFile::open(const std::st
   }
   const std::filesystem::path folder = std::filesystem::path(sidePath).parent_path();
   const std::string lasPath = (folder / (*side)->content().indexed.name).string();
-  std::error_code failure;
-  if (!std::filesystem::exists(lasPath, failure))
+  if (Result<void> plausible = checkPlace(sidePath, lasPath, (*side)->content().indexed);
+      !plausible)
   {
-    return makeError(Error::Kind::NotFound,
-      "'" + sidePath + "' is an index of '" + lasPath +
-        "', which is not there; move it back, or index it where it is: pointfront index");
+    return plausible.error();
   }
   Result<LASFile> file = LASFile::open(lasPath, MemoryMap::Access::Random);
   if (!file)

@@ -203,8 +203,10 @@ Result<void> fitLastChunk(
         std::to_string(room) + "; write the file again with a valid header");
   }
   const std::size_t before = chunks.size();
-  while (!chunks.empty() && totalPoints(chunks) - chunks.back().points >= claimed)
+  std::uint64_t held = room;
+  while (!chunks.empty() && held - chunks.back().points >= claimed)
   {
+    held -= chunks.back().points;
     chunks.pop_back();
   }
   if (chunks.size() < before)
@@ -215,7 +217,7 @@ Result<void> fitLastChunk(
   }
   if (!chunks.empty())
   {
-    chunks.back().points -= static_cast<std::uint32_t>(totalPoints(chunks) - claimed);
+    chunks.back().points -= static_cast<std::uint32_t>(held - claimed);
   }
   return {};
 }

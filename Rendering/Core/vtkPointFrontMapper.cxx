@@ -305,6 +305,10 @@ pointfront::FrameDemand vtkPointFrontMapper::GetDemand(vtkRenderer* renderer, vt
   demand.frameMs = this->TargetFrameTime;
   demand.cloudMs = 1000.0 * actor->GetAllocatedRenderTime();
   demand.complete = this->Complete && !demand.interacting;
+  if (vtkRenderWindow* const window = renderer->GetRenderWindow())
+  {
+    demand.aborted = [window] { return window->CheckAbortStatus() != 0; };
+  }
   return demand;
 }
 

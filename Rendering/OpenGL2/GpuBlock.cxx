@@ -7,13 +7,22 @@ namespace pointfront
 namespace
 {
 
+/// 0 where the GPU has no room for it.
 std::uint32_t makeBuffer(std::int64_t bytes)
 {
   GLuint buffer = 0;
   glGenBuffers(1, &buffer);
   glBindBuffer(GL_COPY_WRITE_BUFFER, buffer);
   glBufferData(GL_COPY_WRITE_BUFFER, static_cast<GLsizeiptr>(bytes), nullptr, GL_DYNAMIC_DRAW);
+  GLint64 there = 0;
+  glGetBufferParameteri64v(GL_COPY_WRITE_BUFFER, GL_BUFFER_SIZE, &there);
   glBindBuffer(GL_COPY_WRITE_BUFFER, 0);
+  if (there != bytes)
+  {
+    glGetError(); // GL_OUT_OF_MEMORY is ours; the next who asks must not take it for theirs
+    glDeleteBuffers(1, &buffer);
+    return 0;
+  }
   return buffer;
 }
 

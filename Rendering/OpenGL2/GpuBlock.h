@@ -34,7 +34,9 @@ public:
   /// Streams that are wanted and not there; those that are there and not wanted.
   int missing(const GpuStreams& wanted) const;
   int unwanted(const GpuStreams& wanted) const;
-  /// Makes what is missing, and gives back what is not wanted.
+  /// The GPU had room for its positions and for all that is wanted.
+  bool whole(const GpuStreams& wanted) const { return positions_ != 0 && missing(wanted) == 0; }
+  /// Makes what is missing, as far as the GPU has room, and gives back what is not wanted.
   void setStreams(const GpuStreams& wanted);
 
   // Of `count` points from point `offset` on of a slot of the pool.

@@ -227,6 +227,12 @@ void GpuPool::addStreams()
       charge(block.bytes());
     }
   }
+  const auto whole = [this](const GpuBlock& block) { return block.whole(wanted_); };
+  if (!std::all_of(blocks_.begin(), blocks_.end(), whole))
+  {
+    refused_ = true;
+    release(); // and what the frame draws comes again, as far as there is room
+  }
 }
 
 /// Below the limit: more memory. At the limit: what is not drawn gives way; if all is drawn, more.
@@ -314,7 +320,7 @@ bool GpuPool::trim()
   return free_.size() > before;
 }
 
-/// By a block, towards `slots` more; false if the budget of bytes has no room for a slot.
+/// By a block, towards `slots` more; false if the budget of bytes, or the GPU, has no room for it.
 bool GpuPool::grow(std::uint64_t slots)
 {
   const std::int64_t slotBytes = GpuSlotBytes::of(wanted_.count());
@@ -331,6 +337,13 @@ bool GpuPool::grow(std::uint64_t slots)
     return false;
   }
   blocks_.emplace_back(slotCount(), static_cast<std::uint32_t>(size), wanted_);
+  if (!blocks_.back().whole(wanted_))
+  {
+    refused_ = true;
+    blocks_.back().release();
+    blocks_.pop_back();
+    return false;
+  }
   charge(blocks_.back().bytes());
   for (std::uint32_t slot = blocks_.back().end(); slot-- > blocks_.back().first();)
   {

@@ -102,6 +102,8 @@ public:
   std::size_t blockOf(std::uint32_t slot) const;
   std::uint32_t slotCount() const { return blocks_.empty() ? 0 : blocks_.back().end(); }
   std::int64_t bytes() const { return bytes_; }
+  /// True once after the GPU had less memory than the budgets allow.
+  bool takeRefused() { return std::exchange(refused_, false); }
   /// Of all pools of the window.
   std::int64_t windowBytes() const;
   /// Bytes uploaded ever: positions and values.
@@ -141,6 +143,7 @@ private:
   std::vector<std::uint32_t> staging_;
   Limits limits_;
   bool lowered_ = false;
+  bool refused_ = false;
   std::uint32_t slotLimit_ = 0; ///< of `points`: grows beyond for what is on screen; 0: none
   std::uint64_t frame_ = 0;
   std::uint64_t uploaded_ = 0;

@@ -135,6 +135,11 @@ void vtkOpenGLPointFrontMapper::RenderPiece(vtkRenderer* renderer, vtkActor* act
     kept = drawing.softwarePicture().draw(window, renderer, *plan, ids).keptVisible;
   }
   const bool uploadsLeft = !host && this->Upload(renderer, drawing, *plan);
+  if (drawing.pool().takeRefused())
+  {
+    vtkWarningMacro("the GPU has less memory than the budget of this window: not all points of the "
+                    "view are drawn; set a smaller GPUMemoryBudget");
+  }
   pointfront::FrameTimer& timer = drawing.timerOf(renderer);
   const bool timed =
     first && plan->pointCount() > 0 && timer.begin(millisecondsSince(begin), this->GetLastMoves());

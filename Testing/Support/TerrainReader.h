@@ -33,6 +33,28 @@ struct Traffic
   }
 };
 
+/// Reads wait while it is shut.
+class Gate
+{
+public:
+  void pass() const
+  {
+    std::unique_lock<std::mutex> lock(mutex_);
+    changed_.wait(lock, [&] { return isOpen_; });
+  }
+  void open(bool isOpen)
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    isOpen_ = isOpen;
+    changed_.notify_all();
+  }
+
+private:
+  mutable std::mutex mutex_;
+  mutable std::condition_variable changed_;
+  bool isOpen_ = true;
+};
+
 /// Pages of a disk that answers only while its gate is open.
 class GatedPages final : public NodePageSource
 {
@@ -47,29 +69,19 @@ public:
   NodeIndex nodeCount() const override { return pages_.nodeCount(); }
   Result<void> read(std::uint32_t page, NodePage& rows) const override
   {
-    {
-      std::unique_lock<std::mutex> lock(mutex_);
-      open_.wait(lock, [&] { return isOpen_; });
-    }
+    gate_.pass();
     traffic_->pass();
     return pages_.read(page, rows);
   }
-  void open(bool isOpen)
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    isOpen_ = isOpen;
-    open_.notify_all();
-  }
+  void open(bool isOpen) { gate_.open(isOpen); }
 
 private:
   TerrainPages pages_;
   std::shared_ptr<Traffic> traffic_;
-  mutable std::mutex mutex_;
-  mutable std::condition_variable open_;
-  bool isOpen_ = true;
+  Gate gate_;
 };
 
-/// A store whose table is paged; its nodes are read at once.
+/// A store whose table is paged; its nodes are read at once, while their gate is open.
 class TerrainReader final : public NodeReader
 {
 public:
@@ -85,6 +97,7 @@ public:
   }
   Result<FetchedNode> fetch(NodeIndex node, const ColumnSelection& columns) const override
   {
+    nodes.pass();
     traffic_->pass();
     return FetchedNode{ node, columns, {}, 1 };
   }
@@ -104,6 +117,7 @@ public:
 
   std::shared_ptr<PagedNodeTable> table;
   GatedPages* pages = nullptr;
+  Gate nodes;
 
 private:
   std::uint64_t disk_;

@@ -13,9 +13,11 @@
 #include <vtkStringArray.h>
 
 #include <chrono>
+#include <condition_variable>
 #include <filesystem>
 #include <map>
 #include <mutex>
+#include <new>
 #include <string>
 #include <tuple>
 
@@ -59,12 +61,14 @@ bool identify(const std::string& fileName, FileIdentity& identity, std::string& 
   return true;
 }
 
-/// The open stores of this process. Weak: an entry leaves with its store. The lock is recursive,
-/// because the last UnRegister() deletes the store, which erases its entry.
+/// The open stores of this process, and those that a thread is opening. Weak: an entry leaves
+/// before the last reference to its store does. The lock is never held while a file is read or a
+/// store is closed: a disk that hangs stops who wants the store that lies on it, and nobody else.
 struct Registry
 {
-  std::recursive_mutex mutex;
-  std::map<FileIdentity, vtkPointFrontStore*> stores;
+  std::mutex mutex;
+  std::map<FileIdentity, vtkPointFrontStore*> stores; ///< null: being opened
+  std::condition_variable opened;
 };
 
 /// Whether the process's budget was set, or follows those of single stores.
@@ -109,20 +113,25 @@ vtkPointFrontStore::vtkPointFrontStore()
 {
 }
 
-vtkPointFrontStore::~vtkPointFrontStore()
-{
-  Registry& all = registry();
-  const std::lock_guard<std::recursive_mutex> lock(all.mutex);
-  const auto entry = all.stores.find(this->Internals->identity);
-  if (entry != all.stores.end() && entry->second == this)
-  {
-    all.stores.erase(entry);
-  }
-}
+vtkPointFrontStore::~vtkPointFrontStore() = default;
 
 void vtkPointFrontStore::UnRegisterInternal(vtkObjectBase* holder, vtkTypeBool check)
 {
-  const std::lock_guard<std::recursive_mutex> lock(registry().mutex);
+  Registry& all = registry();
+  {
+    // Every reference goes here, and Open() gives none without the lock: the last is the last.
+    const std::lock_guard<std::mutex> lock(all.mutex);
+    if (this->GetReferenceCount() > 1)
+    {
+      this->Superclass::UnRegisterInternal(holder, check);
+      return;
+    }
+    const auto entry = all.stores.find(this->Internals->identity);
+    if (entry != all.stores.end() && entry->second == this)
+    {
+      all.stores.erase(entry);
+    }
+  }
   this->Superclass::UnRegisterInternal(holder, check);
 }
 
@@ -141,13 +150,49 @@ vtkSmartPointer<vtkPointFrontStore> vtkPointFrontStore::Open(
     return nullptr;
   }
   Registry& all = registry();
-  const std::lock_guard<std::recursive_mutex> lock(all.mutex);
-  const auto entry = all.stores.find(identity);
-  if (entry != all.stores.end())
   {
-    return entry->second;
+    std::unique_lock<std::mutex> lock(all.mutex);
+    auto entry = all.stores.find(identity);
+    while (entry != all.stores.end() && entry->second == nullptr)
+    {
+      all.opened.wait(lock); // another thread opens it
+      entry = all.stores.find(identity);
+    }
+    if (entry != all.stores.end())
+    {
+      return entry->second;
+    }
+    all.stores.emplace(identity, nullptr);
   }
-  auto opened = pointfront::StoredCloudFormats::ofProcess().open(std::get<0>(identity));
+  vtkSmartPointer<vtkPointFrontStore> made;
+  try
+  {
+    made = OpenFile(std::get<0>(identity), error);
+  }
+  catch (const std::bad_alloc&)
+  {
+    error = "not enough memory to open the store " + std::get<0>(identity);
+  }
+  {
+    const std::lock_guard<std::mutex> lock(all.mutex);
+    if (made)
+    {
+      made->Internals->identity = identity;
+      all.stores[identity] = made;
+    }
+    else
+    {
+      all.stores.erase(identity);
+    }
+  }
+  all.opened.notify_all();
+  return made;
+}
+
+vtkSmartPointer<vtkPointFrontStore> vtkPointFrontStore::OpenFile(
+  const std::string& path, std::string& error)
+{
+  auto opened = pointfront::StoredCloudFormats::ofProcess().open(path);
   if (!opened)
   {
     error = opened.error().what;
@@ -156,14 +201,12 @@ vtkSmartPointer<vtkPointFrontStore> vtkPointFrontStore::Open(
   auto* made = new vtkPointFrontStore;
   made->InitializeObjectBase();
   auto result = vtkSmartPointer<vtkPointFrontStore>::Take(made);
-  made->Internals->identity = identity;
-  made->Internals->store = std::move(opened).value();
-  made->Internals->preview =
-    pointfront::previewRecordOf(made->Internals->store->description().metadata).has_value();
-  made->Internals->residency = std::make_unique<pointfront::ResidencyShare>(made->Internals->store,
-    made->Internals->store->hierarchy()->nodeCount(), pointfront::LoadScheduler::ofProcess(),
-    made->Internals->store->description().pointCount);
-  all.stores[identity] = made;
+  Content& content = *made->Internals;
+  content.store = std::move(opened).value();
+  content.preview = pointfront::previewRecordOf(content.store->description().metadata).has_value();
+  content.residency = std::make_unique<pointfront::ResidencyShare>(content.store,
+    content.store->hierarchy()->nodeCount(), pointfront::LoadScheduler::ofProcess(),
+    content.store->description().pointCount);
   return result;
 }
 
@@ -238,11 +281,11 @@ vtkIdType vtkPointFrontStore::GetNumberOfPoints() const
 vtkIdType vtkPointFrontStore::GetNumberOfPointsOfAllStores()
 {
   Registry& all = registry();
-  const std::lock_guard<std::recursive_mutex> lock(all.mutex);
+  const std::lock_guard<std::mutex> lock(all.mutex);
   vtkIdType points = 0;
   for (const auto& entry : all.stores)
   {
-    points += entry.second->GetNumberOfPoints();
+    points += entry.second != nullptr ? entry.second->GetNumberOfPoints() : 0;
   }
   return points;
 }

@@ -22,6 +22,7 @@
 #include "vtkStdString.h" // for names
 
 #include <memory> // for the kernel objects
+#include <string> // for paths
 
 class vtkDataObject;
 namespace pointfront
@@ -115,12 +116,14 @@ public:
 protected:
   vtkPointFrontStore();
   ~vtkPointFrontStore() override;
-  /// Under the registry's lock: Open() must not find an object whose last reference is going.
+  /// Leaves the registry before the last reference goes: Open() must not find what is closing.
   void UnRegisterInternal(vtkObjectBase* holder, vtkTypeBool check) override;
 
 private:
   vtkPointFrontStore(const vtkPointFrontStore&) = delete;
   void operator=(const vtkPointFrontStore&) = delete;
+
+  static vtkSmartPointer<vtkPointFrontStore> OpenFile(const std::string& path, std::string& error);
 
   struct Content;
   std::unique_ptr<Content> Internals;

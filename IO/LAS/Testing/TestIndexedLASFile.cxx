@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <numeric>
+#include <sys/stat.h>
 
 namespace pointfront::test
 {
@@ -249,6 +250,20 @@ TEST(IndexedLASFile, TheFolderMayMoveAndTheSideFileMayLieElsewhere)
   const auto indexed = openIndexed(outputFolder() + "/b/sides/points.pfindex");
   ASSERT_NE(indexed, nullptr);
   EXPECT_EQ(indexed->description().pointCount, 110000u);
+}
+
+// A side file may come from anywhere. A pipe never answers who opens it to read.
+TEST(IndexedLASFile, APipeInPlaceOfTheFileIsRefusedAndNotOpened)
+{
+  const std::string las = copyOf(trimmed, "piped.las");
+  const std::string side = outputFolder() + "/piped.pfindex";
+  indexOrFail(las, side);
+  fs::remove(las);
+  ASSERT_EQ(mkfifo(las.c_str(), 0600), 0);
+  const auto indexed = IndexedLASFile::open(side);
+  fs::remove(las);
+  ASSERT_FALSE(indexed);
+  EXPECT_TRUE(has(indexed.error().what, "which is no file")) << indexed.error().what;
 }
 
 TEST(LASIndexing, RefusesWhatItCannotIndex)

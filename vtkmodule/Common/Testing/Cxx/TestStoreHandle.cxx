@@ -2,6 +2,7 @@
 
 #include "pointfront/Build/StoreBuilder.h"
 #include "pointfront/Preview/BuildPreview.h"
+#include "pointfront/Store/StoredCloudFormats.h"
 #include "vtkPointFrontStore.h"
 
 #include <vtkNew.h>
@@ -9,10 +10,15 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <chrono>
+#include <condition_variable>
 #include <filesystem>
 #include <fstream>
+#include <memory>
+#include <mutex>
 #include <thread>
+#include <vector>
 
 using namespace pointfront;
 using namespace pointfront::test;
@@ -185,6 +191,100 @@ TEST(StoreHandle, StoresShareTheMemoryOfTheProcess)
   two->SetHostMemoryBudget(before / 4);
   EXPECT_EQ(two->GetHostMemoryBudget(), before / 4);
   EXPECT_EQ(one->GetHostMemoryBudget(), before);
+}
+
+/// Stored clouds on a disk that answers only when it is let.
+class Hanging final : public StoredCloudFormat
+{
+public:
+  std::string name() const override { return "hanging (test)"; }
+  bool accepts(const std::string& path) const override
+  {
+    return std::filesystem::path(path).extension() == ".hanging";
+  }
+  Result<std::shared_ptr<const StoredCloud>> open(const std::string&) const override
+  {
+    ++opened;
+    std::unique_lock<std::mutex> lock(mutex_);
+    changed_.wait(lock, [&] { return answers_; });
+    return makeError(Error::Kind::Unreadable, "the share is gone");
+  }
+  void answer()
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    answers_ = true;
+    changed_.notify_all();
+  }
+  mutable std::atomic<int> opened{ 0 };
+
+private:
+  mutable std::mutex mutex_;
+  mutable std::condition_variable changed_;
+  bool answers_ = false;
+};
+
+TEST(StoreHandle, AHungShareStopsNobodyElse)
+{
+  const auto share = std::make_shared<Hanging>();
+  StoredCloudFormats::ofProcess().add(share);
+  const std::string hung = ::testing::TempDir() + "far.hanging";
+  std::ofstream(hung) << "far";
+  const std::string path = build("near", 3000);
+  vtkStdString hungError;
+  std::thread waiting(
+    [&] { EXPECT_EQ(vtkPointFrontStore::Open(hung.c_str(), hungError), nullptr); });
+  while (share->opened == 0)
+  {
+    std::this_thread::yield();
+  }
+  std::atomic<bool> done{ false };
+  std::thread working(
+    [&]
+    {
+      vtkStdString error;
+      for (int i = 0; i < 3; ++i) // opens, is found again, closes
+      {
+        const auto store = vtkPointFrontStore::Open(path.c_str(), error);
+        ASSERT_NE(store, nullptr) << error;
+        EXPECT_EQ(vtkPointFrontStore::Open(path.c_str(), error), store);
+        EXPECT_EQ(vtkPointFrontStore::GetNumberOfPointsOfAllStores(), 3000);
+      }
+      done = true;
+    });
+  for (int i = 0; i < 1000 && !done; ++i)
+  {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  EXPECT_TRUE(done) << "while another file is being opened";
+  share->answer();
+  working.join();
+  waiting.join();
+  EXPECT_EQ(hungError, "the share is gone");
+}
+
+TEST(StoreHandle, ManyThreadsOpenAndCloseOneFile)
+{
+  const std::string path = build("shared", 3000);
+  std::vector<std::thread> threads;
+  for (int t = 0; t < 4; ++t)
+  {
+    threads.emplace_back(
+      [&path]
+      {
+        vtkStdString error;
+        for (int i = 0; i < 200; ++i)
+        {
+          const auto store = vtkPointFrontStore::Open(path.c_str(), error);
+          ASSERT_NE(store, nullptr) << error;
+          EXPECT_EQ(store->GetNumberOfPoints(), 3000);
+        }
+      });
+  }
+  for (std::thread& thread : threads)
+  {
+    thread.join();
+  }
+  EXPECT_EQ(vtkPointFrontStore::GetNumberOfPointsOfAllStores(), 0);
 }
 
 } // namespace

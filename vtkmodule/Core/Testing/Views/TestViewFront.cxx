@@ -235,3 +235,62 @@ TEST(ViewFront, AFrameDoesNotWaitForAPageOfTheTable)
   EXPECT_TRUE(cloud.front.last().complete);
   EXPECT_GT(cloud.drawn(), wholeTerrain / 2);
 }
+
+// The reads of 1,365 nodes, or of the pages of their table, hang; who looks has had enough.
+TEST(ViewFront, ACompleteFrameEndsWhenItIsAborted)
+{
+  for (const bool rows : { false, true })
+  {
+    LoadSchedulerOptions options;
+    options.overdueAfter = milliseconds(30);
+    const auto scheduler = std::make_shared<LoadScheduler>(options);
+    Cloud cloud(scheduler, std::make_shared<WindowDemand>());
+    FrameDemand demand = everything();
+    demand.targetErrorPx = 1000.0;
+    cloud.frame(demand); // the root
+    if (rows)
+    {
+      cloud.reader->pages->open(false);
+    }
+    else
+    {
+      cloud.reader->nodes.open(false);
+    }
+    demand.targetErrorPx = 0.01;
+    demand.complete = true;
+    int asked = 0;
+    demand.aborted = [&asked] { return ++asked > 3; };
+    cloud.frame(demand);
+    EXPECT_EQ(asked, 4) << rows;
+    EXPECT_FALSE(cloud.front.last().complete) << rows;
+    EXPECT_GT(cloud.drawn(), 0u) << "what is there is drawn";
+    cloud.reader->pages->open(true);
+    cloud.reader->nodes.open(true);
+    demand.aborted = nullptr;
+    cloud.frame(demand);
+    EXPECT_TRUE(cloud.front.last().complete) << rows;
+  }
+}
+
+// Eight clouds on disks that hang: a window opens in a second, not in eight halves of one.
+TEST(ViewFront, FirstFramesOfManyCloudsWaitForASecondAtMost)
+{
+  LoadSchedulerOptions options;
+  options.overdueAfter = milliseconds(30);
+  const auto scheduler = std::make_shared<LoadScheduler>(options);
+  const auto window = std::make_shared<WindowDemand>();
+  std::vector<std::unique_ptr<Cloud>> clouds;
+  const auto begin = std::chrono::steady_clock::now();
+  for (std::uint64_t disk = 0; disk < 8; ++disk)
+  {
+    clouds.push_back(std::make_unique<Cloud>(scheduler, window, disk));
+    clouds.back()->reader->nodes.open(false);
+    clouds.back()->frame(everything());
+  }
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, milliseconds(2000));
+  for (const auto& cloud : clouds)
+  {
+    EXPECT_EQ(cloud->drawn(), 0u);
+    cloud->reader->nodes.open(true);
+  }
+}

@@ -136,6 +136,11 @@ void Residency::waitForArrival(std::uint64_t seen, std::chrono::milliseconds mos
   }
 }
 
+bool Residency::idle() const
+{
+  return nodes_->idle();
+}
+
 std::vector<Error> Residency::takeErrors()
 {
   return nodes_->takeErrors();

@@ -110,6 +110,9 @@ public:
   /// The same, at most that long.
   void waitForArrival(std::uint64_t seen, std::chrono::milliseconds most) const;
 
+  /// Nothing is loading and nothing that waits fits.
+  bool idle() const;
+
   std::vector<Error> takeErrors();
   ResidencyStatistics statistics() const;
   /// The store's own; the scheduler's holds too.

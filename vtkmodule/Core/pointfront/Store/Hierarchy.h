@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
+#include <chrono>
 #include <cstdint>
 #include <optional>
 #include <utility>
@@ -122,7 +123,21 @@ public:
   virtual std::uint64_t arrivals() const { return 0; }
   /// Blocks until arrivals() differs from `seen` or nothing is coming. Reads itself what is coming
   /// if nobody else does (MissingRows).
-  virtual void waitForArrival(std::uint64_t seen) const { static_cast<void>(seen); }
+  /// Not longer than to `end`, but for a read of its own. False: nothing is coming.
+  virtual bool waitForArrival(std::uint64_t seen, std::chrono::steady_clock::time_point end) const
+  {
+    static_cast<void>(seen);
+    static_cast<void>(end);
+    return false;
+  }
+  /// The same, without an end.
+  void waitForArrival(std::uint64_t seen) const
+  {
+    while (arrivals() == seen &&
+      waitForArrival(seen, std::chrono::steady_clock::now() + std::chrono::seconds(1)))
+    {
+    }
+  }
   /// The first damage that was met.
   virtual std::optional<Error> fault() const { return std::nullopt; }
   /// Damage met since the last call, each page once.

@@ -363,12 +363,17 @@ std::uint64_t PagedNodeTable::arrivals() const
   return content_->arrivals;
 }
 
-void PagedNodeTable::waitForArrival(std::uint64_t seen) const
+bool PagedNodeTable::waitForArrival(
+  std::uint64_t seen, std::chrono::steady_clock::time_point end) const
 {
   Content& c = *content_;
   std::unique_lock<std::mutex> lock(c.wantedMutex);
   while (c.arrivals == seen && !(c.wanted.empty() && c.beingRead.empty()))
   {
+    if (std::chrono::steady_clock::now() >= end)
+    {
+      return true;
+    }
     if (c.readers.empty() && !c.wanted.empty())
     {
       lock.unlock();
@@ -377,9 +382,10 @@ void PagedNodeTable::waitForArrival(std::uint64_t seen) const
     }
     else
     {
-      c.changed.wait(lock);
+      c.changed.wait_until(lock, end);
     }
   }
+  return c.arrivals != seen;
 }
 
 MissingRows* PagedNodeTable::missingRows() const

@@ -58,7 +58,8 @@ public:
     NodeIndex parent, const Node& row, std::uint8_t child, Node& found) const override;
   MissingRows* missingRows() const override;
   std::uint64_t arrivals() const override;
-  void waitForArrival(std::uint64_t seen) const override;
+  using Hierarchy::waitForArrival;
+  bool waitForArrival(std::uint64_t seen, std::chrono::steady_clock::time_point end) const override;
   std::optional<Error> fault() const override;
   std::vector<Error> takeFaults() const override;
 

@@ -163,7 +163,7 @@ std::uint64_t TileTable::arrivals() const
   return sum;
 }
 
-void TileTable::waitForArrival(std::uint64_t seen) const
+bool TileTable::waitForArrival(std::uint64_t seen, std::chrono::steady_clock::time_point end) const
 {
   std::vector<std::uint64_t> each;
   std::uint64_t sum = 0;
@@ -173,11 +173,13 @@ void TileTable::waitForArrival(std::uint64_t seen) const
     sum += each.back();
   }
   // None of them shrinks: a sum that is what was seen means that each is what was seen.
+  bool coming = false;
   for (std::size_t t = 0; t < tiles_.size() && sum == seen; ++t)
   {
-    tiles_[t].table->waitForArrival(each[t]);
+    coming = tiles_[t].table->waitForArrival(each[t], end) || coming;
     sum = arrivals();
   }
+  return coming || sum != seen;
 }
 
 std::optional<Error> TileTable::fault() const

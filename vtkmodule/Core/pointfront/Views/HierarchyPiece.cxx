@@ -64,7 +64,11 @@ public:
     return whole_->peekChild(parent, row, child, found);
   }
   std::uint64_t arrivals() const override { return whole_->arrivals(); }
-  void waitForArrival(std::uint64_t seen) const override { whole_->waitForArrival(seen); }
+  using Hierarchy::waitForArrival;
+  bool waitForArrival(std::uint64_t seen, std::chrono::steady_clock::time_point end) const override
+  {
+    return whole_->waitForArrival(seen, end);
+  }
   std::optional<Error> fault() const override { return whole_->fault(); }
   std::vector<Error> takeFaults() const override { return whole_->takeFaults(); }
 

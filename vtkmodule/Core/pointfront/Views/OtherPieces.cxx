@@ -3,6 +3,7 @@
 #include "pointfront/Front/RenderFront.h"
 
 #include <algorithm>
+#include <chrono>
 #include <utility>
 
 namespace pointfront
@@ -13,6 +14,8 @@ namespace
 constexpr std::uint32_t movesOfUpdate = 1u << 20;
 /// The threshold falls by a fifth an update: from any to any other it takes far fewer.
 constexpr int mostUpdates = 256;
+/// Whether to go on waiting.
+constexpr std::chrono::milliseconds betweenQuestions{ 50 };
 
 } // namespace
 
@@ -32,8 +35,8 @@ OtherPieces::OtherPieces(std::shared_ptr<const HierarchyPiece> piece)
 
 OtherPieces::~OtherPieces() = default;
 
-void OtherPieces::update(
-  const View& view, const FrontLimits& limits, double thresholdPx, bool waits)
+void OtherPieces::update(const View& view, const FrontLimits& limits, double thresholdPx,
+  const std::function<bool()>& waits)
 {
   FrontLimits all; // no budgets: they are in the threshold
   all.layers = limits.layers;
@@ -49,11 +52,21 @@ void OtherPieces::update(
     delta = &front_->update(view, *residents_, all);
     if (delta->rowsComing)
     {
-      if (!waits)
+      const auto news = [&]
+      {
+        return whole.arrivals() != rows ||
+          !whole.waitForArrival(rows, std::chrono::steady_clock::now() + betweenQuestions) ||
+          whole.arrivals() != rows;
+      };
+      bool goesOn = waits && waits();
+      while (goesOn && !news())
+      {
+        goesOn = waits();
+      }
+      if (!goesOn)
       {
         break;
       }
-      whole.waitForArrival(rows);
     }
   }
   if (delta->number == seen_)

@@ -4,6 +4,7 @@
 #include "pointfront/Views/HierarchyPiece.h"
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -27,9 +28,10 @@ public:
   explicit OtherPieces(std::shared_ptr<const HierarchyPiece> piece);
   ~OtherPieces();
 
-  /// With the layers of `limits`, at a threshold. `waits`: for rows of a paged table; without it
-  /// rows that are on their way are looked for at the next update.
-  void update(const View& view, const FrontLimits& limits, double thresholdPx, bool waits);
+  /// With the layers of `limits`, at a threshold. `waits`: for rows of a paged table, as
+  /// long as it is true; empty: rows that are on their way are looked for at the next update.
+  void update(const View& view, const FrontLimits& limits, double thresholdPx,
+    const std::function<bool()>& waits);
   /// By node.
   const std::vector<Drawn>& drawn() const { return drawn_; }
 

@@ -26,8 +26,8 @@ constexpr std::uint32_t requestsAtOnce = 1024;
 /// Frames that a moving view is looked ahead: about what a disk and a decoder take, and half a
 /// second at the rates of interactors.
 constexpr double framesAhead = 8.0;
-/// Longest wait for the roots: a disk that hangs must not hold up the other clouds of a scene.
-constexpr std::chrono::milliseconds rootTime{ 500 };
+/// Between two questions whether a complete frame is to go on waiting.
+constexpr std::chrono::milliseconds betweenAborts{ 50 };
 /// Fewest points of a frame in motion: less is no picture, whatever the machine.
 constexpr std::uint64_t fewestPoints = 100000;
 
@@ -39,29 +39,12 @@ bool covers(const NodeColumns& node, const ColumnSelection& columns)
 
 } // namespace
 
-/// The residency as the front of a piece sees it.
-class ViewFront::Residents final : public ResidencyView
-{
-public:
-  explicit Residents(const Residency& residency)
-    : residency_(residency)
-  {
-  }
-  State state(NodeIndex node) const override { return residency_.state(node); }
-  std::uint64_t revision() const override { return residency_.revision(); }
-  bool exhausted() const override { return residency_.exhausted(); }
-
-private:
-  const Residency& residency_;
-};
-
 ViewFront::ViewFront(std::shared_ptr<const HierarchyPiece> piece, ResidencyShare& share,
   const AttributeSchema& schema, std::shared_ptr<const WindowDemand> window)
   : piece_(std::move(piece))
   , share_(share)
   , schema_(schema)
   , wish_(share.join())
-  , residents_(std::make_unique<Residents>(share.residency()))
   , selection_(std::make_unique<RenderFront>(piece_->hierarchy()))
   , others_(piece_->isWhole() ? nullptr : std::make_unique<OtherPieces>(piece_))
   , margin_(piece_->hierarchy())
@@ -127,7 +110,12 @@ const FrontDelta& ViewFront::update(const FrameDemand& demand)
   }
   if (others_ && method_ == DetailMethod::RenderingFront)
   {
-    others_->update(demand.view, limits_, delta_.thresholdPx, demand.complete);
+    std::function<bool()> waits;
+    if (demand.complete && delta_.complete) // not where it was aborted
+    {
+      waits = [&demand] { return !demand.aborted || !demand.aborted(); };
+    }
+    others_->update(demand.view, limits_, delta_.thresholdPx, waits);
   }
   return delta_;
 }
@@ -199,7 +187,9 @@ void ViewFront::loadRoots()
   }
   const auto missing = [&](const LoadRequest& r)
   { return residency.state(r.node) == ResidencyView::State::Absent; };
-  const auto end = std::chrono::steady_clock::now() + rootTime;
+  const auto begin = std::chrono::steady_clock::now();
+  const std::chrono::milliseconds rootTime = window_->window->roots->allowance(begin);
+  const auto end = begin + rootTime;
   bool waits = true; // false: no room for them in the budget; the frame says what it can draw
   while (waits && std::any_of(roots.begin(), roots.end(), missing) &&
     std::chrono::steady_clock::now() < end)
@@ -211,6 +201,7 @@ void ViewFront::loadRoots()
     waits = residency.arrivals() != seen || now.loading > 0 ||
       (now.pending > 0 && !residency.exhausted());
   }
+  window_->window->roots->spend(begin, std::chrono::steady_clock::now());
 }
 
 /// What the other views take now, of the memory and of the window.
@@ -301,7 +292,7 @@ void ViewFront::step(const FrameDemand& demand)
   arrivalsSeen_ = share_.residency().arrivals();
   rowsSeen_ = piece_->hierarchy()->arrivals();
   setLimits(demand);
-  const FrontDelta& made = selection_->update(demand.view, *residents_, limits_);
+  const FrontDelta& made = selection_->update(demand.view, share_.residency(), limits_);
   if (made.number == told_ && !demand.interacting)
   {
     delta_.complete = made.complete;
@@ -324,8 +315,9 @@ void ViewFront::addMargin(const FrameDemand& demand)
     return;
   }
   const auto asked = static_cast<std::uint32_t>(delta_.requests.size());
-  const std::vector<LoadRequest>& margin = margin_.requests(demand.view, delta_.thresholdPx,
-    *residents_, framesAhead, requestsAtOnce - std::min(requestsAtOnce, asked), demand.layers);
+  const std::vector<LoadRequest>& margin =
+    margin_.requests(demand.view, delta_.thresholdPx, share_.residency(), framesAhead,
+      requestsAtOnce - std::min(requestsAtOnce, asked), demand.layers);
   delta_.requests.insert(delta_.requests.end(), margin.begin(), margin.end());
 }
 
@@ -337,6 +329,34 @@ bool ViewFront::allCovered() const
       const auto node = share_.residency().find(item.node);
       return node && covers(*node, columns_.of(node->layer));
     });
+}
+
+/// Waits for rows of the table if those are missing, or else for nodes. False: aborted.
+bool ViewFront::waitForNews(const FrameDemand& demand)
+{
+  const Residency& residency = share_.residency();
+  const Hierarchy& table = *piece_->hierarchy();
+  const auto arrived = [&]
+  {
+    return delta_.rowsComing ? table.arrivals() != rowsSeen_
+                             : residency.arrivals() != arrivalsSeen_ || residency.idle();
+  };
+  while (!arrived())
+  {
+    if (demand.aborted && demand.aborted())
+    {
+      return false;
+    }
+    if (!delta_.rowsComing)
+    {
+      residency.waitForArrival(arrivalsSeen_, betweenAborts);
+    }
+    else if (!table.waitForArrival(rowsSeen_, std::chrono::steady_clock::now() + betweenAborts))
+    {
+      break;
+    }
+  }
+  return true;
 }
 
 void ViewFront::complete(const FrameDemand& demand)
@@ -351,14 +371,15 @@ void ViewFront::complete(const FrameDemand& demand)
       return;
     }
     const bool moved = movedOn();
+    if ((delta_.rowsComing || !moved) && !waitForNews(demand))
+    {
+      delta_.complete = false;
+      told_ = 0;
+      return;
+    }
     if (delta_.rowsComing)
     {
-      piece_->hierarchy()->waitForArrival(rowsSeen_);
       continue;
-    }
-    if (!moved)
-    {
-      residency.waitForArrival(arrivalsSeen_);
     }
     // Twice nothing new and nothing under way: the memory budget holds no more of this view.
     idle = moved || residency.arrivals() != arrivalsSeen_ ? 0 : idle + 1;

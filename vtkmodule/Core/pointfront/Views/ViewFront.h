@@ -12,6 +12,7 @@
 #include "pointfront/Points/AttributeSchema.h"
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -40,14 +41,18 @@ struct FrameDemand
   double frameMs = 0.0; ///< interacting: that a frame may take, with all clouds of the window
   double cloudMs = 0.0; ///< where frameMs is 0: that this cloud may take
   bool complete = false; ///< wait until nothing is missing
+  /// Asked some times a second while a complete frame waits: true ends the wait, and the frame
+  /// shows what is there. May be empty.
+  std::function<bool()> aborted;
   std::vector<LayerLimits> layers; ///< by number of the store's layer (LAYERS-11)
 };
 
 /// The front of one view of a store, with its share of the residency and what it has learnt of the
 /// cost of its frames. Several views of one cloud have one of these each.
 /// Guarantees  update() waits for the disk only when the demand is `complete`, and on the first
-///             update for the roots (one node a layer), half a second at most, so that no first
-///             frame is empty unless the disk hangs.
+///             update for the roots (one node a layer), so that no first frame is empty unless the
+///             disk hangs: half a second at most, and all new clouds of a window together a second
+///             (RootWait). A complete update that is aborted is not complete, and can be repeated.
 /// Threads     one thread (the renderer's).
 class ViewFront
 {
@@ -99,7 +104,6 @@ public:
   bool expectsMore() const;
 
 private:
-  class Residents;
   void choose(DetailMethod method);
   void step(const FrameDemand& demand);
   void addMargin(const FrameDemand& demand);
@@ -108,6 +112,7 @@ private:
   std::size_t largestPoint(const LayerColumns& columns) const;
   bool movedOn() const;
   void complete(const FrameDemand& demand);
+  bool waitForNews(const FrameDemand& demand);
   void loadRoots();
   void setLimits(const FrameDemand& demand);
   std::uint64_t sharedRevision() const { return memory_.revision() + window_->revision(); }
@@ -118,7 +123,6 @@ private:
   ResidencyShare& share_;
   const AttributeSchema& schema_;
   std::unique_ptr<ResidencyShare::Wish> wish_;
-  std::unique_ptr<Residents> residents_;
   DetailMethod method_ = DetailMethod::RenderingFront;
   std::unique_ptr<DetailSelection> selection_;
   std::unique_ptr<OtherPieces> others_; ///< null for a whole hierarchy

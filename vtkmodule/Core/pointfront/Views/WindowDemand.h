@@ -1,6 +1,7 @@
 #pragma once
 
 #include "pointfront/Front/SharedDemand.h"
+#include "pointfront/Views/RootWait.h"
 
 #include <cstdint>
 #include <memory>
@@ -14,6 +15,7 @@ struct WindowDemand
 {
   std::shared_ptr<SharedDemand> points = std::make_shared<SharedDemand>(); ///< on screen
   std::shared_ptr<SharedDemand> slots = std::make_shared<SharedDemand>(); ///< of GPU memory
+  std::shared_ptr<RootWait> roots = std::make_shared<RootWait>(); ///< of first frames
 };
 
 /// One view's part.

@@ -48,7 +48,7 @@ struct SplatFrame
 ///           nearest centre), then weights and colours of what is not behind it, then light and
 ///           eye-dome lighting.
 /// Threads   that of the GL context, current in all functions.
-/// Source    drawing.md sections 4 and 5; docs/adr/0016, 0028.
+/// Source    docs/adr/0016, 0028.
 class SplatPart
 {
 public:

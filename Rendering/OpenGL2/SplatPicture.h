@@ -24,7 +24,7 @@ namespace pointfront
 /// the twin of SoftwareComposition and SoftwarePicture.
 /// Viewport  as SoftwarePicture's.
 /// Threads   that of the GL context, current in all functions.
-/// Source    drawing.md section 6; docs/adr/0028, 0029.
+/// Source    docs/adr/0028, 0029.
 class SplatPicture
 {
 public:

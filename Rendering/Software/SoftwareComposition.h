@@ -18,7 +18,7 @@ namespace pointfront
 ///          nearest of that. PixelPoint: the nearest of all.
 /// Memory   targets are kept from picture to picture while plans have such parts.
 /// Threads  as SoftwareRasteriser.
-/// Source   drawing.md section 6; docs/adr/0029.
+/// Source   docs/adr/0029.
 class SoftwareComposition
 {
 public:

@@ -31,7 +31,7 @@ struct RasterStatistics
 ///              frame; one more for each further thread; with several stores, up to `keptPictures`
 ///              more.
 /// Threads      one thread at a time; draws with those of a crew.
-/// Source       drawing.md sections 4 to 7; docs/adr/0016.
+/// Source       docs/adr/0016.
 class SoftwareRasteriser
 {
 public:

@@ -9,8 +9,8 @@
 namespace pointfront
 {
 
-/// A cell of the histogram of one layer: where it is and how many points it holds. Cells of a
-/// layer are cubes of one size and do not overlap.
+/// A cell of the histogram of one layer: its place and its number of points. Cells of a layer are
+/// cubes of one size and do not overlap.
 struct KdCell
 {
   TreePosition origin{ 0 };

@@ -30,7 +30,7 @@ namespace pointfront
 ///             drawn. With Add its descendants, which are stored apart, are still refined into.
 /// Threads     one instance, one thread; View and ResidencyView are snapshots.
 /// Source      Richter & Doellner 2010, section 3.2.1 (the rendering front); FRONT-4..8;
-///          Richter, Discher & Doellner 2015, section 4.2 (LAYERS-11).
+///             Richter, Discher & Doellner 2015, section 4.2 (LAYERS-11).
 class RenderFront final : public DetailSelection
 {
 public:

@@ -19,7 +19,7 @@ struct DiskSpace
 /// By stat and statvfs; a folder that is not there has all the space: opening it will say so.
 DiskSpace diskSpaceOf(const std::string& folder);
 
-/// What a build will write, and where: known before the first point is read.
+/// The bytes that a build will write, and their folders: known before the first point is read.
 /// Units    bytes. The spill is exact; the store is estimated from both sides: a build is refused
 ///          only if it could hardly succeed, and a disk that may be too small is told of.
 struct DiskDemand

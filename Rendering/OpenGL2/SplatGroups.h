@@ -16,8 +16,8 @@
 namespace pointfront
 {
 
-/// What of a plan is on the GPU, in groups that one program draws each, and what of it the last
-/// picture has already: a view at rest only gains points (SMOOTH-5).
+/// The points of a plan that are on the GPU, in groups that one program draws each; and those of
+/// them that the last picture already has, because a view at rest only gains points (SMOOTH-5).
 /// Threads  one thread: that of the GL context.
 class SplatGroups
 {
@@ -37,19 +37,19 @@ public:
   SplatGroups();
   ~SplatGroups();
 
-  /// Fills the records of what is drawn and returns its points. `samePicture`: the last picture is
-  /// still where it was drawn.
+  /// Fills the records of the drawn nodes and returns the number of their points. `samePicture`:
+  /// the last picture is still in its target.
   std::int64_t list(const FramePlan& plan, const GpuPool& pool, float largestPointPx,
     bool samePicture, SlotRecords& records);
-  /// The last picture's points are all part of what is listed, as they were.
+  /// Whether the list contains all points of the last picture, unchanged.
   bool goesOn() const { return goesOn_; }
   bool addsNothing() const { return addsNothing_; }
   bool blended() const { return blended_; }
-  /// What the points can show anything in.
+  /// The rectangle in which the points can show anything.
   const PixelRectangle& shown() const { return shown_; }
   const std::vector<Group>& groups() const { return groups_; }
 
-  /// What is listed has been drawn; the groups and the plan are no longer used.
+  /// Tells that the list has been drawn; the groups and the plan are no longer used.
   void keep(const FramePlan& plan);
   void forget();
 

@@ -23,7 +23,7 @@ namespace pointfront
 class ColourTable;
 class GpuPool;
 
-/// What all parts of a picture are drawn with.
+/// The tools with which all parts of a picture are drawn.
 struct SplatTools
 {
   SplatPrograms programs;
@@ -52,21 +52,22 @@ struct SplatFrame
 class SplatPart
 {
 public:
-  /// In the place of a number of points: GL has no room for the targets, or cannot draw into them.
+  /// Returned instead of a number of points: GL has no room for the targets, or cannot draw into
+  /// them.
   static constexpr std::int64_t noTarget = -1;
 
   explicit SplatPart(SplatTools& tools);
   ~SplatPart();
 
-  /// Returns the points that are on the GPU of the plan. What the last picture has of it is not
-  /// drawn again. `limits`: the pixels that are wanted, all of which get a value; null: only those
-  /// of shown() do.
+  /// Draws the points of the plan that are on the GPU, except those that the last picture has, and
+  /// returns their number. `limits`: the wanted pixels, all of which get a value; null: only the
+  /// pixels of shown() do.
   std::int64_t draw(const SplatFrame& frame, const FramePlan& plan,
     const std::shared_ptr<SplatTarget>& target, const PixelRectangle* limits);
-  /// Where the points can show anything.
+  /// The rectangle in which the points can show anything.
   const PixelRectangle& shown() const { return groups_.shown(); }
   SplatTextures picture() const;
-  /// The target as well; the next drawing begins anew.
+  /// Gives the target back too; the next drawing begins anew.
   void release(vtkOpenGLRenderWindow* window);
 
 private:

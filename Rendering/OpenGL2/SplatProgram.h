@@ -14,7 +14,7 @@ class vtkShaderProgram;
 namespace pointfront
 {
 
-/// Where splats take their radius from (SplatData.glsl).
+/// The source of a splat's radius (SplatData.glsl).
 enum class RadiusSource : std::uint8_t
 {
   Pixels,
@@ -24,7 +24,7 @@ enum class RadiusSource : std::uint8_t
   Sizes
 };
 
-/// What a program that draws splats is compiled for.
+/// The variant of a program that draws splats.
 struct SplatVariant
 {
   bool square = false;

@@ -5,7 +5,7 @@
 namespace pointfront
 {
 
-/// What a splat is made of, for the loops that put it into the buffers.
+/// The shape of a splat, for the loops that draw it into the buffers.
 enum class SplatShape : std::int32_t
 {
   Disc, ///< faces the eye

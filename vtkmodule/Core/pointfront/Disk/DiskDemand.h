@@ -9,14 +9,14 @@
 namespace pointfront
 {
 
-/// The disk that a folder lies on: which one, and what an ordinary user may still write there.
+/// The disk of a folder: its number, and the bytes that an ordinary user may still write there.
 struct DiskSpace
 {
   std::uint64_t device = 0; ///< equal for folders on one disk
   std::uint64_t freeBytes = 0; ///< UINT64_MAX if the system does not tell
 };
 
-/// By stat and statvfs; a folder that is not there has all the space: opening it will say so.
+/// By stat and statvfs. A missing folder counts as having all space: opening it gives the error.
 DiskSpace diskSpaceOf(const std::string& folder);
 
 /// The bytes that a build will write, and their folders: known before the first point is read.

@@ -41,8 +41,7 @@ public:
   VTK_FILEPATH const char* GetFileName(int index);
   ///@}
 
-  ///@{
-  /// Points to store instead of those of files: a data set with its point data. Null: none.
+  /// @{ A data set whose points and point data are stored instead of files. Null: none.
   void SetPoints(vtkPointSet* points);
   vtkPointSet* GetPoints();
   ///@}
@@ -53,18 +52,16 @@ public:
   vtkGetFilePathMacro(OutputFileName);
   ///@}
 
-  ///@{
-  /// Replace an existing store. Off by default: one that is there is an error. A file of another
-  /// kind is never replaced, nor one that is read.
+  /// @{ Replace an existing store. Off by default: an existing store is an error. Write() never
+  /// replaces a file of another kind, nor a file that it reads.
   vtkSetMacro(Overwrite, bool);
   vtkGetMacro(Overwrite, bool);
   vtkBooleanMacro(Overwrite, bool);
   ///@}
 
-  ///@{
-  /// Leave out files that are no point files, are damaged or hold no position; each is a warning,
-  /// and counted. All are then read twice. Off by default: they are an error that names all of
-  /// them.
+  /// @{ Leave out files that are no point files, are damaged or hold no position; each is a
+  /// warning, and counted. Write() then reads all files twice. Off by default: such files are an
+  /// error that names all of them.
   vtkSetMacro(SkipFaultyFiles, bool);
   vtkGetMacro(SkipFaultyFiles, bool);
   vtkBooleanMacro(SkipFaultyFiles, bool);
@@ -157,7 +154,7 @@ public:
   ///@{
   /**
    * Coordinate reference system of the store ("EPSG:25832", a WKT file, "utm"; null: the files'
-   * own), and what files are in that name none (null: unknown).
+   * own), and the system of files that name none (null: unknown).
    */
   vtkSetStringMacro(CRS);
   vtkGetStringMacro(CRS);
@@ -182,10 +179,10 @@ public:
 
   ///@{
   /**
-   * Of PCA: points of a plane, the point itself among them (16), or all within NormalsRadius if
-   * that is not 0; NormalsError of an approximate search (0: exact); keep Curvature as an
-   * attribute. Set without PCA, or out of range, they are an error of Write(). Normals point to the
-   * scanner where files say where it stood, else up.
+   * Options of PCA: the number of points of a plane, with the point itself (16), or all points
+   * within NormalsRadius if that is not 0; NormalsError of an approximate search (0: exact);
+   * whether to keep Curvature as an attribute. Write() fails if they are set without PCA or out of
+   * range. Normals point to the scanner where files say where it stood, else up.
    */
   vtkSetMacro(NormalsNeighbors, int);
   vtkGetMacro(NormalsNeighbors, int);
@@ -214,8 +211,8 @@ public:
   vtkBooleanMacro(SplatRadius, bool);
   ///@}
 
-  ///@{
-  /// Attribute local_height: above the mean of the same class within LocalHeightRadius (5).
+  /// @{ Attribute local_height: height above the mean of the points of the same class within
+  /// LocalHeightRadius (5).
   vtkSetMacro(LocalHeight, bool);
   vtkGetMacro(LocalHeight, bool);
   vtkBooleanMacro(LocalHeight, bool);
@@ -223,8 +220,8 @@ public:
   vtkGetMacro(LocalHeightRadius, double);
   ///@}
 
-  ///@{
-  /// Attribute height_above_ground: from class 2, or the lowest points in cells of GroundCell (10).
+  /// @{ Attribute height_above_ground: the ground is class 2, or else the lowest points in cells of
+  /// GroundCell (10).
   vtkSetMacro(HeightAboveGround, bool);
   vtkGetMacro(HeightAboveGround, bool);
   vtkBooleanMacro(HeightAboveGround, bool);
@@ -234,8 +231,8 @@ public:
 
   ///@{
   /**
-   * Colours, and values of attributes, from georeferenced images: files, patterns, folders. The
-   * first has right of way.
+   * Colours, and values of attributes, from georeferenced images: files, patterns, folders. Where
+   * images overlap, the first one counts.
    */
   void AddColorImage(VTK_FILEPATH const char* fileName);
   void AddAttributeImage(const char* attribute, VTK_FILEPATH const char* fileName);
@@ -259,8 +256,8 @@ public:
 
   ///@{
   /**
-   * How the build gets on, for observers of ProgressEvent. SecondsRemaining is -1 until there is an
-   * estimate.
+   * The progress of the build, for observers of ProgressEvent. SecondsRemaining is -1 until there
+   * is an estimate.
    */
   vtkGetMacro(PointsDone, vtkIdType);
   vtkGetMacro(PointsTotal, vtkIdType);
@@ -268,8 +265,7 @@ public:
   vtkGetMacro(SecondsRemaining, double);
   ///@}
 
-  ///@{
-  /// Of the last Write() that succeeded.
+  /// @{ Results of the last Write() that succeeded.
   vtkGetMacro(NumberOfPointsRead, vtkIdType);
   vtkGetMacro(NumberOfPointsStored, vtkIdType);
   vtkGetMacro(NumberOfPointsRejected, vtkIdType); ///< a warning counts them by reason

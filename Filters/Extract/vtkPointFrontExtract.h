@@ -2,9 +2,9 @@
  * @class vtkPointFrontExtract
  * @brief the exact points of a region, of classes, of ranges of attributes, as vtkPolyData
  *
- * Reads from a store (or an index of a LAS file) the points that meet every condition that is set,
- * and nothing that bounds and stored ranges of its nodes rule out. Without a condition it reads the
- * whole store: set MaximumNumberOfPoints or Spacing where that may not fit into memory.
+ * Reads from a store (or an index of a LAS file) the points that meet every condition that is set.
+ * It skips nodes whose bounds or stored value ranges rule out every point. Without a condition it
+ * reads the whole store: set MaximumNumberOfPoints or Spacing if that may not fit into memory.
  *
  * The store is named by FileName, or by the field data of an input (vtkPointFrontReader's output);
  * FileName goes first. Nothing else of the input is used.
@@ -14,10 +14,10 @@
  * with a scale or an offset are doubles with both applied), and ranks in the store as global ids,
  * the 64-bit array "point_id": the ids of hardware selections.
  *
- * Pieces: each reads its own nodes, about as many points each; together they are the whole. Events:
- * ProgressEvent some ten times a second; an aborted update leaves an empty output. Errors
- * (ErrorCode, vtkErrorMacro): no store, a damaged one, a condition that is none or asks for what
- * the store has not, more points than MaximumNumberOfPoints.
+ * Pieces: each piece reads its own nodes, with about as many points as any other; together they are
+ * the whole. Events: ProgressEvent some ten times a second; an aborted update leaves an empty
+ * output. Errors (ErrorCode, vtkErrorMacro): no store, a damaged store, a condition that cannot be
+ * parsed or names an attribute that the store lacks, more points than MaximumNumberOfPoints.
  */
 #ifndef vtkPointFrontExtract_h
 #define vtkPointFrontExtract_h
@@ -105,8 +105,8 @@ public:
 
   ///@{
   /**
-   * Conditions on attributes and coordinates, as `--where` of the tool has them:
-   * "intensity in [100, 200] and classification in {2, 6}". Null: none.
+   * Conditions on attributes and coordinates, as the tool's option `--where` takes them: "intensity
+   * in [100, 200] and classification in {2, 6}". Null: none.
    */
   vtkSetStringMacro(Where);
   vtkGetStringMacro(Where);
@@ -114,8 +114,8 @@ public:
 
   ///@{
   /**
-   * World units between neighbouring points: a coarser subset, as dense as that or a little denser.
-   * 0, the default: all points.
+   * World units between neighbouring points: gives a coarser subset that is as dense as this or a
+   * little denser. 0, the default: all points.
    */
   vtkSetClampMacro(Spacing, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(Spacing, double);
@@ -123,8 +123,8 @@ public:
 
   ///@{
   /**
-   * Points of these ranks in the store, in any order, instead of all conditions above: what was
-   * picked or selected. Null: none.
+   * Ranks of picked or selected points in the store, in any order. The output has these points, and
+   * all conditions above are ignored. Null: none.
    */
   virtual void SetPointIds(vtkIdTypeArray* ids);
   vtkIdTypeArray* GetPointIds();
@@ -144,7 +144,8 @@ public:
 
   ///@{
   /**
-   * More points than this are an error, not a machine without memory. Default: no limit.
+   * More points than this are an error, so that a large result cannot exhaust the memory. Default:
+   * no limit.
    */
   vtkSetClampMacro(MaximumNumberOfPoints, vtkIdType, 0, VTK_ID_MAX);
   vtkGetMacro(MaximumNumberOfPoints, vtkIdType);
@@ -152,7 +153,7 @@ public:
 
   ///@{
   /**
-   * Most memory for what is being read, besides the output, bytes. Default 256 MiB.
+   * Most memory in bytes for nodes that are being read, in addition to the output. Default 256 MiB.
    */
   vtkSetClampMacro(MemoryLimit, vtkTypeInt64, 1, VTK_TYPE_INT64_MAX);
   vtkGetMacro(MemoryLimit, vtkTypeInt64);
@@ -160,20 +161,20 @@ public:
 
   ///@{
   /**
-   * On: the points are counted and none come out, whatever MaximumNumberOfPoints says. Reads what
-   * the extract itself would read, but for the attributes that no condition names. Default off.
+   * On: the points are counted and none come out, whatever MaximumNumberOfPoints says. It reads
+   * what the extraction would read, except attributes that no condition names. Default off.
    */
   vtkSetMacro(CountOnly, bool);
   vtkGetMacro(CountOnly, bool);
   vtkBooleanMacro(CountOnly, bool);
   ///@}
 
-  /// Of the last update and its piece: points that meet all conditions.
+  /// Points of the last update and its piece that meet all conditions.
   vtkGetMacro(NumberOfPointsChosen, vtkIdType);
 
   ///@{
   /**
-   * Of the last update: nodes and bytes read from the disk, points decoded.
+   * Nodes and bytes that the last update read from the disk, and points that it decoded.
    */
   vtkGetMacro(NumberOfNodesRead, vtkIdType);
   vtkGetMacro(NumberOfPointsRead, vtkIdType);

@@ -20,14 +20,14 @@ struct OverviewPart
   std::uint32_t pointCount = 0;
 };
 
-/// What an overview of at most `maxPoints` consists of: of each layer and of each subtree its share
-/// of the cloud's points, so that histograms and statistics of the overview are those of the cloud,
-/// near enough. Below the size of some thousand points a share is spread evenly over the subtree's
+/// The parts of an overview of at most `maxPoints` points. Each layer and each subtree has its
+/// share of the cloud's points, so histograms and statistics of the overview are close to those of
+/// the cloud. Below the size of some thousand points a share is spread evenly over the subtree's
 /// box (each prefix of a node is a fair subset of it). In table order, which is breadth first.
 std::vector<OverviewPart> chooseOverview(const Hierarchy& hierarchy, std::uint64_t maxPoints);
 
-/// The parts that piece `piece` of `pieces` consists of: neighbours in the table, about as many
-/// points in each piece; together each part once.
+/// The parts of piece `piece` of `pieces`: neighbours in the table. All pieces have about as many
+/// points, and together they have each part once.
 std::vector<OverviewPart> overviewPiece(
   const std::vector<OverviewPart>& parts, int piece, int pieces);
 

@@ -24,9 +24,9 @@ namespace pointfront
 /// filters that select cells can select points), and the chosen columns as point data.
 /// Values      AttributeArray's.
 /// Elevation   a further array of that name, which the mapper draws by, too: z.
-/// Colours     the active scalars are the first of what was chosen that shows something: rgb,
-///             classification, intensity, elevation: rgb unless it is black, the others if they are
-///             not the same everywhere.
+/// Colours     the active scalars are the first chosen array of rgb, classification, intensity and
+///             elevation that shows something: rgb unless it is black, the others if their values
+///             differ.
 /// Identity    global point ids are ranks in the store: (node, position in the node).
 class PointArrays
 {
@@ -39,7 +39,7 @@ public:
   void addPrefix(const NodeColumns& node, std::uint32_t count);
   /// The points of a node at those positions in it.
   void addRows(const NodeColumns& node, const std::vector<std::uint32_t>& rows);
-  /// Once all points that were promised are there.
+  /// Called when all promised points have been added.
   void moveTo(vtkPolyData* output);
 
 private:

@@ -16,21 +16,22 @@ struct NodeRows
   std::vector<std::uint32_t> rows;
 };
 
-/// Where the points with those ranks lie that `overview` does not have: in table order, each once.
-/// Ranks that the store does not have are left out.
+/// The places of the points with those ranks, except the points of `overview`: in table order, each
+/// once. Ranks beyond the store's points are left out.
 /// Errors  damage of the table that was met.
 Result<std::vector<NodeRows>> locatePoints(const Hierarchy& hierarchy,
   std::vector<std::uint64_t> ranks, const std::vector<OverviewPart>& overview);
 
-/// Points of the input in all nodes whose box satisfies `overlaps`, without those that `overview`
-/// has: no fewer than those in the region that `overlaps` asks about. In table order.
+/// The points of the input in all nodes whose box satisfies `overlaps`, except the points of
+/// `overview`. They contain all points of the region that `overlaps` describes. In table order.
 /// Errors  damage of the table that was met.
 Result<std::vector<NodeRows>> pointsOfNodes(const Hierarchy& hierarchy,
   const std::function<bool(const Bounds&)>& overlaps, const std::vector<OverviewPart>& overview);
 
 std::uint64_t countOf(const std::vector<NodeRows>& points);
 
-/// Share `piece` of `pieces`: neighbours, about as many points in each; together each point once.
+/// The share of piece `piece` of `pieces`: neighbours. All shares have about as many points, and
+/// together they have each point once.
 std::vector<NodeRows> shareOf(std::vector<NodeRows> points, int piece, int pieces);
 
 /// Fills `output` with those points (PointArrays).

@@ -16,15 +16,15 @@
  * vtkPointFrontMapper give them.
  * An aborted update leaves an empty output.
  *
- * Besides stores it opens whatever the process knows as a stored cloud: lists (`.pfronts`) and
- * folders of stores as one cloud, and, with PointFront::IOLASIndex, indices of LAS files, COPC
- * files, EPTs (`ept.json`) and folders of LAS and LAZ files at a glance. What differs among the
- * parts of a cloud, or is left out, is a WarningEvent.
+ * Besides stores it opens everything that the process knows as a stored cloud: lists (`.pfronts`)
+ * and folders of stores as one cloud, and, with PointFront::IOLASIndex, indices of LAS files, COPC
+ * files, EPTs (`ept.json`) and folders of LAS and LAZ files at a glance. A WarningEvent tells what
+ * differs among the parts of a cloud, and what is left out.
  *
- * RequestInformation gives the bounds and array names of the whole cloud without reading points: of
- * several times, the bounds of the first and the arrays of all.
- * Pieces: the overview is cut by nodes. Errors (ErrorCode, vtkErrorMacro): no file name, a missing,
- * truncated or corrupt file, a newer version.
+ * RequestInformation gives the bounds and array names of the whole cloud without reading points. Of
+ * several time steps it gives the bounds of the first and the arrays of all. Pieces: the overview
+ * is cut by nodes. Errors (ErrorCode, vtkErrorMacro): no file name, a missing, truncated or corrupt
+ * file, a newer version.
  */
 #ifndef vtkPointFrontReader_h
 #define vtkPointFrontReader_h
@@ -49,8 +49,7 @@ public:
   vtkTypeMacro(vtkPointFrontReader, vtkPolyDataAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  ///@{
-  /// The store's file: of several, the first.
+  /// @{ The store's file; if there are several, the first.
   void SetFileName(VTK_FILEPATH const char* fileName);
   VTK_FILEPATH const char* GetFileName() const;
   ///@}
@@ -58,7 +57,7 @@ public:
   ///@{
   /**
    * Stores of the same cloud at several times, in their order: time steps 0, 1, 2 ... The output is
-   * the overview of the store whose time is asked for. SetFileName() leaves one.
+   * the overview of the store of the requested time. SetFileName() reduces the list to one file.
    */
   void AddFileName(VTK_FILEPATH const char* fileName);
   void RemoveAllFileNames();
@@ -90,25 +89,25 @@ public:
   ///@}
 
   /**
-   * Points of the store by their ranks (as global point ids and hardware selections have them) that
-   * the overview lacks: `output` is as the overview is, each point once, ranks that the store does
-   * not have left out. Of `pieces` that ask alike each gets its share. After UpdateInformation();
-   * false, and an error, if a node cannot be read.
+   * Reads points of the store by their ranks (which are the global point ids of hardware
+   * selections), except those of the overview. `output` has the arrays of the overview and each
+   * point once; it leaves out ranks beyond the store's points. With several `pieces`, each gets its
+   * share. Call it after UpdateInformation(). False, and an error, if a node cannot be read.
    */
   bool ReadPoints(vtkIdTypeArray* ranks, int piece, int pieces, vtkPolyData* output);
 
 #ifndef __VTK_WRAP__
   /**
-   * The same for the points in a region: at least those, and others of the nodes that reach into
-   * it. `overlaps` says whether a box does. False, and an error, also if there are more than
-   * `mostPoints`.
+   * The same for the points in a region: all of them, and further points of the nodes that reach
+   * into the region. `overlaps` says whether a box reaches into it. False, and an error, also if
+   * there are more than `mostPoints`.
    */
   bool ReadRegion(const std::function<bool(const double bounds[6])>& overlaps, vtkIdType mostPoints,
     int piece, int pieces, vtkPolyData* output);
 #endif
 
-  /// The open store: the first after UpdateInformation(), that of the output's time after Update();
-  /// null before, or if it could not be opened.
+  /// The open store: the first store after UpdateInformation(), the store of the output's time
+  /// after Update(). Null before, or if it could not be opened.
   vtkPointFrontStore* GetStore();
 
   vtkMTimeType GetMTime() override;

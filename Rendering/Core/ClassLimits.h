@@ -14,7 +14,7 @@
 namespace pointfront
 {
 
-/// What a mapper says of object classes, by their number in a store (LAYERS-11).
+/// The limits that a mapper sets for object classes, by their number in a store (LAYERS-11).
 class ClassLimits
 {
 public:
@@ -27,7 +27,7 @@ public:
   bool empty() const { return limits_.empty(); }
   void clear() { limits_.clear(); }
 
-  /// By number of the store's layer; none where nothing was said.
+  /// Limits by number of the store's layer; empty if none was set.
   std::vector<LayerLimits> layersOf(vtkPointFrontStore& store) const
   {
     std::vector<LayerLimits> layers;
@@ -39,8 +39,8 @@ public:
     return layers;
   }
 
-  /// The same with what the layers' styles say, and the nodes that their filters leave out; none
-  /// where all is usual.
+  /// The same, with the error factors of the layers' styles and the nodes that their filters leave
+  /// out; empty if all layers have default limits.
   std::vector<LayerLimits> layersOf(vtkPointFrontStore& store,
     const std::vector<LayerStyling>& styling,
     const std::vector<std::shared_ptr<const NodePruning>>& pruning) const
@@ -56,7 +56,7 @@ public:
     const auto usual = [](const LayerLimits& limits) { return limits == LayerLimits(); };
     return std::all_of(layers.begin(), layers.end(), usual) ? std::vector<LayerLimits>() : layers;
   }
-  /// Takes the styles of classes that are switched off.
+  /// Removes the styles of classes that are switched off.
   void hide(vtkPointFrontStore& store, std::vector<LayerStyling>& styling) const
   {
     const std::vector<LayerLimits> layers = layersOf(store);

@@ -27,29 +27,31 @@ namespace pointfront
 ///          logarithmic table of negative values is sampled in equal steps.
 ColourMap sampleColours(vtkScalarsToColors& table, const PointColouring& colouring);
 
-/// Points of some pixels, in one colour each, all of them, and nothing done to the picture.
+/// Whether the styles are plain: every point is drawn with a size of some pixels in one colour, and
+/// nothing is done to the finished picture.
 bool hasPlainPointsOnly(const FrameShading& shading, const std::vector<LayerStyling>& layers);
 
-/// The style that the properties of a mapper and of its actor come to: points of some pixels,
-/// coloured as any vtkMapper's are.
+/// Turns the properties of a mapper and of its actor into a style: points of some pixels, coloured
+/// as with any vtkMapper.
 /// Threads  the renderer's.
 class MapperStyle
 {
 public:
-  /// What they say now. The same object as long as that does not change.
-  /// `pointSizePx`: 0 is the property's.
+  /// The style of the current properties; the same object as long as they do not change.
+  /// `pointSizePx`: 0 means the size of the actor's property.
   std::shared_ptr<const ResolvedStyle> update(vtkPolyDataMapper& mapper, vtkActor* actor,
     double pointSizePx, const std::shared_ptr<const StoredCloud>& store);
 
-  /// How a store's layers are drawn: by the sheet, or where that is null or asks for what the store
-  /// has not, by the properties.
+  /// How a store's layers are drawn: by the sheet; by the properties if the sheet is null or asks
+  /// for an attribute that the store lacks.
   std::vector<LayerStyling> layersOf(vtkPolyDataMapper& mapper, vtkActor* actor, double pointSizePx,
     const StyleSheet* sheet, const std::shared_ptr<const StoredCloud>& store);
-  /// By a sheet in the place of the properties. Nothing, and an error to take, where the store does
-  /// not have what it asks for.
+  /// Resolves a sheet, which replaces the properties. Returns nothing, and sets an error to take,
+  /// if the store lacks an attribute that the sheet asks for.
   std::optional<std::vector<LayerStyling>> resolve(
     const StyleSheet& sheet, const std::shared_ptr<const StoredCloud>& store);
-  /// For each layer the nodes that its filters leave out (FilterPruning.h), of what was resolved.
+  /// For each layer of the last resolved sheet, the nodes that its filters leave out
+  /// (FilterPruning.h).
   const std::vector<std::shared_ptr<const NodePruning>>& pruning() const { return pruning_; }
   /// Why a sheet could not be resolved, once for a sheet and a store; empty: nothing.
   std::string takeError() { return std::exchange(error_, {}); }

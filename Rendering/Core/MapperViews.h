@@ -24,33 +24,33 @@ namespace pointfront
 class MapperViews
 {
 public:
-  /// `unseen` is called after a frame that showed nothing of it, when no renderer does any more.
+  /// `unseen` is called after a frame when no renderer shows the mapper any more.
   explicit MapperViews(std::function<void()> unseen)
     : unseen_(std::move(unseen))
   {
   }
 
-  /// Another store, or none: what was seen of the one before is gone.
+  /// Takes another store, or none, and forgets the views of the store before.
   void setStore(vtkSmartPointer<vtkPointFrontStore> store);
   vtkPointFrontStore* store() const { return store_; }
-  /// Of a store: which of how many pieces is drawn (HierarchyPiece).
+  /// Chooses which piece of how many pieces of the store is drawn (HierarchyPiece).
   void setPiece(int piece, int pieces);
 
-  /// Made when it is not there.
+  /// The view of a renderer, made on the first call.
   RendererView& of(vtkRenderer* renderer);
   RendererView* find(vtkRenderer* renderer);
-  /// A view's front, made when it is not there. False if it was.
+  /// Makes the front of a view if it has none. True if this call made it.
   bool openFront(vtkRenderer* renderer, RendererView& view);
 
-  /// Renderers of that window.
+  /// Number of renderers of that window.
   std::uint32_t countIn(vtkWindow* window) const;
-  /// Of a budget of points, what the views in that window may have on its GPU.
+  /// The part of a budget of points that the views in that window may have on its GPU.
   std::uint64_t pointsOnGpu(vtkWindow* window, std::uint64_t budget) const;
   bool needsRender();
 
   using LayersOf = std::function<std::vector<LayerLimits>(vtkPointFrontStore&)>;
-  /// Goes over to the next version of the preview that is drawn, or to the finished store, once
-  /// that shows as much of all views. For a frame at rest. True when it did.
+  /// Changes from a preview to its next version, or to the finished store, as soon as the successor
+  /// shows as much in all views. Called in frames at rest. True when it changed.
   bool follow(
     vtkRenderer* renderer, const std::function<FrameDemand()>& demand, const LayersOf& layersOf);
 

@@ -9,8 +9,8 @@
 namespace pointfront
 {
 
-/// What all clouds of a window share: one object of a type a window, made when it is first asked
-/// for. It lives as long as one of them holds it.
+/// An object that all clouds of a window share: one for each type and window, made on the first
+/// request. It lives as long as one cloud holds it.
 /// Threads  the renderer's only.
 template <typename Shared>
 std::shared_ptr<Shared> perWindow(vtkWindow* window)

@@ -8,13 +8,13 @@
 namespace pointfront
 {
 
-/// Renders an interactor's window from a timer of it, whenever somebody wants it: what a program
-/// without an event loop of its own needs to see a view refine.
+/// Renders an interactor's window from one of its timers, whenever a render is wanted. A program
+/// without an event loop of its own needs this to see a view refine.
 /// Threads  the interactor's.
 class RenderTimer
 {
 public:
-  /// `wanted` is asked some thirty times a second; true: the window is rendered.
+  /// `wanted` is called some thirty times a second; if it returns true, the window is rendered.
   explicit RenderTimer(std::function<bool()> wanted)
     : wanted_(std::move(wanted))
   {

@@ -18,7 +18,7 @@ namespace pointfront
 /// Whether the user moves the view of the renderer's window: VTK's interactors then ask for a rate.
 bool isInteracting(vtkRenderer* renderer);
 
-/// What one renderer sees of a mapper's store: the front, and how far its frames are.
+/// One renderer's view of a mapper's store: the front, and the state of the renderer's frames.
 /// Threads  the renderer's.
 struct RendererView
 {
@@ -26,7 +26,8 @@ struct RendererView
 
   vtkWeakPointer<vtkRenderer> Renderer;
   std::unique_ptr<ViewFront> Front;
-  /// Of the frame that is being drawn. It pins its nodes, so it goes with the frame.
+  /// The plan of the frame that is being drawn. It pins its nodes, so it is dropped at the end of
+  /// the frame.
   std::optional<FramePlan> Plan;
   DetailGrowth Growth; ///< what is shown of what the front draws
   bool NewFrame = true; ///< the renderer began a frame, and this mapper has not been drawn in it
@@ -41,21 +42,22 @@ struct RendererView
   double DrawingMs = 0.0; ///< what a frame took lately
   FrameDemand Demand; ///< of the last frame, its view in the store's coordinates
 
-  /// `unseen` is called after a frame of the renderer without this mapper: its actor is hidden, out
-  /// of sight or no longer there.
+  /// `unseen` is called after a frame of the renderer in which this mapper was not drawn: its actor
+  /// is hidden, out of sight or removed.
   RendererView(vtkRenderer* renderer, std::function<void()> unseen);
   ~RendererView();
   RendererView(const RendererView&) = delete;
   RendererView& operator=(const RendererView&) = delete;
 
   /// Whether a frame is due. A view at rest that is being loaded is drawn a quarter of the time at
-  /// most: till the next frame is due its front is moved here, so that what it asks for next does
-  /// not wait for a slow drawing. A view that motion left incomplete is due as soon as it rests.
-  /// Once a frame is due it stays so until it is drawn. Never for what the renderer does not show:
-  /// it would stay due for ever.
+  /// most. Until the next frame is due, this function moves the front, so that its next requests do
+  /// not wait for a slow drawing. A view that motion left incomplete is due as soon as it rests. A
+  /// due frame stays due until it is drawn. Never true for a mapper that the renderer does not
+  /// show: its frame would stay due for ever.
   bool NeedsRender();
 
-  /// Of the frame that is being drawn; a view that is to be complete at once does not grow.
+  /// The time of the frame that is being drawn; in a view that waits until it is complete nothing
+  /// grows.
   GrowthMoment MomentOf(double growthMilliseconds) const;
 
 private:

@@ -16,9 +16,9 @@ class vtkRenderer;
 namespace pointfront
 {
 
-/// Going over from a preview to its next version, or to the finished store, without a gap: fronts
-/// on the successor are moved and loaded beside those that are drawn, and taken over when they show
-/// all that the view asks for.
+/// Changes from a preview to its next version, or to the finished store, without a gap. Fronts on
+/// the successor move and load beside the fronts that are drawn, and replace them when they show
+/// everything that the view asks for.
 /// Memory   until then both stores have nodes in host memory, together within the process's budget.
 /// Threads  one thread (the renderer's).
 /// Source   Futterlieb et al. 2016, section 3.3.1 (SMOOTH-1).
@@ -29,12 +29,12 @@ public:
   StoreSuccession(vtkSmartPointer<vtkPointFrontStore> successor, vtkPointFrontStore& preview,
     int piece, int pieces);
 
-  /// Moves the front of that renderer on. `demand`: what is asked of the front that is drawn, but
-  /// for the layers, which are the successor's.
+  /// Moves the successor's front for that renderer. `demand`: the demand on the front that is
+  /// drawn, with the layers of the successor.
   void advance(vtkRenderer* renderer, FrameDemand demand);
-  /// The front of that renderer shows all that its view asks for.
+  /// Whether the front for that renderer shows everything that its view asks for.
   bool ready(vtkRenderer* renderer) const;
-  /// Something arrived, or work is left.
+  /// Whether nodes arrived, or work is left.
   bool wantsUpdate() const;
 
   const vtkSmartPointer<vtkPointFrontStore>& store() const { return store_; }

@@ -65,9 +65,8 @@ public:
 
   ///@{
   /**
-   * Most points drawn at a time (they are in GPU memory), over all clouds of a window: several
-   * mappers in one window share it, the largest errors on screen first. Default 5,000,000; 0: no
-   * limit but memory.
+   * Most points drawn at a time (they are in GPU memory). All clouds of a window share this budget;
+   * the largest errors on screen come first. Default 5,000,000; 0: no limit but memory.
    */
   vtkSetClampMacro(PointBudget, vtkIdType, 0, VTK_ID_MAX);
   vtkGetMacro(PointBudget, vtkIdType);
@@ -76,9 +75,9 @@ public:
   ///@{
   /**
    * Most bytes of GPU memory for points, over all clouds of a window. A view that needs more
-   * settles at the best error that fits (LastLimitedByGPUMemory). Counted is what the buffers take,
-   * filled or not, not the points in them; a frame in which they grow takes no more than that
-   * either, nor does the first one after it was lowered. Default 0: no limit but PointBudget.
+   * settles at the best error that fits (LastLimitedByGPUMemory). The budget counts the size of the
+   * buffers, filled or not. It also holds in a frame in which buffers grow, and in the first frame
+   * after the budget was lowered. Default 0: no limit but PointBudget.
    */
   vtkSetClampMacro(GPUMemoryBudget, vtkTypeInt64, 0, VTK_TYPE_INT64_MAX);
   vtkGetMacro(GPUMemoryBudget, vtkTypeInt64);
@@ -93,8 +92,8 @@ public:
   /**
    * How the detail of a view is chosen. RENDERING_FRONT (default): each part of the cloud as fine
    * as its projected point spacing asks for (Richter & Doellner 2010, section 3.2.1).
-   * VIEW_SPECIFIC: an overview of the whole cloud is always there, and one detail level for the
-   * view fills its pixels, near to far (Futterlieb, Teutsch & Berndt 2016, section 3.1).
+   * VIEW_SPECIFIC: an overview of the whole cloud always stays in memory, and one detail level for
+   * the view fills its pixels, near to far (Futterlieb, Teutsch & Berndt 2016, section 3.1).
    * TargetError and the budgets hold for both. Can be changed between any two frames.
    */
   vtkSetClampMacro(DetailSelection, int, RENDERING_FRONT, VIEW_SPECIFIC);
@@ -128,13 +127,13 @@ public:
   };
   ///@{
   /**
-   * Who turns points into pixels. OPENGL: the window's GL. SOFTWARE: threads of this process, from
-   * the points where they are in host memory; colour and depth enter the window's picture in the
-   * opaque pass, where other actors, passes and selections see them as any other geometry's.
+   * Which back end turns points into pixels. OPENGL: the window's GL. SOFTWARE: threads of this
+   * process, which read the points in host memory; colour and depth enter the window's picture in
+   * the opaque pass, where other actors, passes and selections see them as any other geometry's.
    * AUTOMATIC (default): SOFTWARE where the window's GL is itself a program (GL_RENDERER llvmpipe,
-   * softpipe), else OPENGL. Both draw the same pictures but for rounding. What SOFTWARE does not
-   * draw (translucent points, an actor's own shader code) OPENGL does, and the other way round
-   * (holes that are filled); a warning says so once where another one was asked for.
+   * softpipe), else OPENGL. Both draw the same pictures except for rounding. OPENGL draws what
+   * SOFTWARE cannot (translucent points, an actor's own shader code), and SOFTWARE draws what
+   * OPENGL cannot (filled holes). A warning says so once if Backend asks for the other one.
    */
   vtkSetClampMacro(Backend, int, AUTOMATIC, SOFTWARE);
   vtkGetMacro(Backend, int);
@@ -168,8 +167,9 @@ public:
   /**
    * Milliseconds in which detail that comes or goes grows from nothing to its size, or shrinks;
    * while the user interacts the last points of what is shown of a node stay smaller. So nothing
-   * pops up. 0: what is new is there at once. Pictures of views at rest are the same either way.
-   * Points of a fixed number of pixels do not grow: they appear one after the other. Default 250.
+   * pops up. 0: new detail appears at full size. Pictures of views at rest are the same with any
+   * value. Points of a fixed number of pixels do not grow: they appear one after the other. Default
+   * 250.
    */
   vtkSetClampMacro(GrowthTime, double, 0.0, 10000.0);
   vtkGetMacro(GrowthTime, double);
@@ -203,12 +203,12 @@ public:
    * -1 stands for the single layer of a store without layers. A class that no store of this mapper
    * has is remembered and ignored.
    *
-   * Visibility: a class that is switched off is not drawn and not loaded; its share goes to the
-   * others. Default on.
-   * TargetErrorFactor: its target is TargetError times this, [0.01, 100]. Default 1.
-   * BudgetShare: of PointBudget and of the host memory, [0, 1]: so much it has before all others.
-   * What it does not need is lent to others and taken back when it does. Default 0: no share of its
-   * own; the largest errors win.
+   * Visibility: a class that is switched off is neither drawn nor loaded; its share goes to the
+   * other classes. Default on. TargetErrorFactor: the target of the class is TargetError times this
+   * factor, [0.01, 100]. Default 1. BudgetShare: the share of PointBudget and of the host memory,
+   * [0, 1], that the class gets before all others. The mapper lends an unused part of the share to
+   * other classes and takes it back when the class needs it. Default 0: no share of its own; the
+   * largest errors win.
    */
   void SetClassVisibility(int objectClass, bool visible);
   bool GetClassVisibility(int objectClass) const;
@@ -228,8 +228,8 @@ public:
 
   ///@{
   /**
-   * Draws by a style: its changes show in the next frame. PointSize and the properties of vtkMapper
-   * that choose colours do not count then. Null (default): they do.
+   * Draws by a style: its changes show in the next frame. With a style, PointSize and the
+   * properties of vtkMapper that choose colours have no effect. Null (default): they have.
    */
   void SetStyle(vtkPointFrontStyle* style);
   vtkPointFrontStyle* GetStyle() const;
@@ -239,12 +239,12 @@ public:
 #ifndef __VTK_WRAP__
   /**
    * Draws by a style sheet: techniques, colours, sizes, visibility and filters of each object
-   * class, and shading. PointSize and the properties of vtkMapper that choose colours do not count
-   * then. Null (default): they do. Where the store has not what the sheet asks for, an error says
-   * so and they count as well.
+   * class, and shading. With a sheet, PointSize and the properties of vtkMapper that choose colours
+   * have no effect. Null (default): they have. If the store lacks something that the sheet asks
+   * for, an error says so and these properties apply.
    */
   void SetStyleSheet(std::shared_ptr<const pointfront::StyleSheet> sheet);
-  /// The style's sheet where there is a style, else what was set.
+  /// The sheet of the style if a style was set, else the sheet that was set.
   std::shared_ptr<const pointfront::StyleSheet> GetStyleSheet() const;
 #endif
 
@@ -252,7 +252,8 @@ public:
   /// cannot be opened.
   vtkPointFrontStore* GetStore();
 
-  /// Of the last frame. Error in pixels; Threshold is what the front worked with.
+  /// Facts about the last frame. Error in pixels; Threshold is the spacing in pixels that the front
+  /// worked with.
   ///@{
   vtkIdType GetLastPointsDrawn() const;
   /// Beside these: what the picture before showed and the front lacked while the view moved.
@@ -265,46 +266,46 @@ public:
   double GetLastThreshold() const;
   double GetLastFrontTime() const; ///< milliseconds of the front's update
   vtkTypeInt64 GetLastGPUBytes() const;
-  /// As LastGPUBytes, of all clouds of the window together.
+  /// As LastGPUBytes, over all clouds of the window.
   vtkTypeInt64 GetLastWindowGPUBytes() const;
   /// True when the last frame showed all that TargetError and the budgets allow: no further render
   /// will change the picture.
   bool GetLastComplete() const;
   /// True when PointBudget, or the time of a frame in motion, kept the error above TargetError.
   bool GetLastLimitedByPoints() const;
-  /// True when GPUMemoryBudget did.
+  /// True when GPUMemoryBudget kept the error above TargetError.
   bool GetLastLimitedByGPUMemory() const;
-  /// True when the store's host memory budget did.
+  /// True when the store's host memory budget kept the error above TargetError.
   bool GetLastLimitedByMemory() const;
-  /// Nodes of this view that could not be read; what lies above them is drawn in their place.
+  /// Nodes of this view that could not be read; the nodes above them are drawn in their place.
   vtkIdType GetLastFailedNodes() const;
   ///@}
 
   enum EventIds
   {
     /// Invoked after a frame that is the first to be complete (LastComplete) for its view: the
-    /// picture is as good as the budgets allow and stays so until something is changed.
+    /// picture is as good as the budgets allow and stays the same until something changes.
     ViewCompleteEvent = 10440
   };
 
   /**
    * True if nodes arrived since the last render, or the last render left work over: render again.
    * Cheap, non blocking; for timers and render loops, from the rendering thread. While a view at
-   * rest is being loaded, drawings take a quarter of the time at most: until then this moves the
-   * front alone, so that loading does not wait for a slow drawing, and says false. False for a
-   * mapper that no renderer shows: hidden or out of sight, it leaves its part of the budgets to the
-   * others.
+   * rest is being loaded, drawings take a quarter of the time at most. Between two drawings this
+   * function only moves the front, so that loading does not wait for a slow drawing, and returns
+   * false. It returns false for a mapper that no renderer shows; a hidden mapper leaves its part of
+   * the budgets to the others.
    */
   virtual bool NeedsRender();
 
   /**
-   * Renders the interactor's window from a timer of it whenever NeedsRender(): what an application
-   * without an event loop of its own needs to see a view refine. Invokes
-   * vtkCommand::UpdateDataEvent before each. Null ends it.
+   * Renders the interactor's window from one of its timers whenever NeedsRender() is true. An
+   * application without an event loop of its own needs this to see a view refine. Invokes
+   * vtkCommand::UpdateDataEvent before each render. Null stops the timer.
    */
   void RenderWhenDataArrives(vtkRenderWindowInteractor* interactor);
 
-  /// Of the whole store, at once, before anything is loaded.
+  /// Bounds of the whole store, known before any point is loaded.
   double* GetBounds() VTK_SIZEHINT(6) override;
   void GetBounds(double bounds[6]) override
   {
@@ -320,38 +321,42 @@ protected:
 
 #ifndef __VTK_WRAP__
   /**
-   * For the OpenGL side, at each RenderPiece: what that renderer draws. The front is moved on the
-   * first call of a frame; all others (peeling, selection and shadow passes draw one frame several
-   * times) get the same nodes. Valid until the next call or the end of the renderer's frame. Null,
-   * and an error once a cause, without a store.
+   * For the OpenGL side, at each RenderPiece: the plan of what that renderer draws. The first call
+   * of a frame moves the front; all other calls (peeling, selection and shadow passes draw one
+   * frame several times) get the same nodes. Valid until the next call or the end of the renderer's
+   * frame. Null, and an error once a cause, without a store.
    */
   pointfront::FramePlan* PlanFrame(vtkRenderer* renderer, vtkActor* actor);
   /// True from PlanFrame() to FinishFrame(): the frame's first drawing, which uploads.
   bool IsFirstDrawing(vtkRenderer* renderer) const;
-  /// True when the front was moved since the renderer's last frame (see NeedsRender()): what a
-  /// further drawing of that frame shows may not be on the GPU yet.
+  /// True when the front was moved since the renderer's last frame (see NeedsRender()): a further
+  /// drawing of that frame may show nodes that are not on the GPU yet.
   bool IsAheadOfFrame(vtkRenderer* renderer) const;
-  /// What the first drawing of a frame came to; `keptPoints`: drawn beside the front's, as they
-  /// were visible before; `uploadsLeft` when not all points of the front are on the GPU yet.
+  /// The result of the first drawing of a frame. `keptPoints`: points drawn in addition to the
+  /// front's, because they were visible before. `uploadsLeft`: not all points of the front are on
+  /// the GPU yet.
   void FinishFrame(vtkRenderer* renderer, vtkIdType points, vtkIdType keptPoints, bool uploadsLeft);
-  /// What an earlier frame of that renderer drew and cost, CPU and GPU, as soon as that is known.
+  /// What an earlier frame of that renderer drew, and its time on CPU and GPU; called as soon as
+  /// the time is known.
   void RecordFrame(vtkRenderer* renderer, vtkIdType points, vtkIdType moves, double milliseconds);
-  /// A renderer drew a frame, and none shows this mapper any more: what it has on the GPU is idle.
+  /// Called when a renderer drew a frame and no renderer shows this mapper any more: its GPU memory
+  /// is idle.
   virtual void LeaveScreen();
-  /// Points are drawn from host memory: no GPU memory is taken for them.
+  /// Whether points are drawn from host memory and take no GPU memory.
   virtual bool DrawsFromHostMemory(vtkActor*)
   {
     return false;
   }
-  /// Points of some pixels, in one colour each, all of them, and nothing done to the picture.
+  /// Whether the style is plain: every point is drawn with a size of some pixels in one colour, and
+  /// nothing is done to the finished picture.
   bool HasPlainPointsOnly(vtkActor* actor);
   /// How the store's layers are drawn, by their numbers.
   std::vector<pointfront::LayerStyling> GetStyling(vtkActor* actor);
   static bool IsInteracting(vtkRenderer* renderer);
-  /// Of PointBudget, what this mapper may have on the GPU of a window beside the other clouds of
-  /// it; 0: no limit.
+  /// The part of PointBudget that this mapper may have on the GPU of a window, beside the other
+  /// clouds of the window; 0: no limit.
   vtkIdType GetPointsOnGPU(vtkWindow* window) const;
-  /// Renderers of a window that this mapper draws in.
+  /// Number of renderers in a window that show this mapper.
   std::uint32_t GetNumberOfViews(vtkWindow* window) const;
   /// Of the last frame.
   pointfront::FrameStatistics& GetStatistics() const;

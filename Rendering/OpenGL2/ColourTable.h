@@ -15,8 +15,8 @@ class vtkWindow;
 namespace pointfront
 {
 
-/// A colour map as a texture; see glsl/ColourTable.glsl. Remade when the map is another one: no
-/// point is touched by it.
+/// A colour map as a texture; see glsl/ColourTable.glsl. A new map remakes the texture and touches
+/// no point.
 /// Threads  that of the GL context, current in all functions but the constructor.
 class ColourTable
 {
@@ -25,7 +25,7 @@ public:
   ~ColourTable();
 
   void update(vtkOpenGLRenderWindow* window, std::shared_ptr<const ColourMap> map);
-  /// The one that it shows.
+  /// The map of the texture.
   const std::shared_ptr<const ColourMap>& map() const { return map_; }
   /// `referenceZ` is the store's z of the frame's reference point (elevations are relative to it).
   void activate(vtkShaderProgram* program, const PointColouring& colouring, double referenceZ);

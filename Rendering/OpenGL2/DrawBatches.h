@@ -9,10 +9,10 @@ namespace pointfront
 /// Whether the GL of the current context is itself a program (GL_RENDERER llvmpipe, softpipe).
 bool glIsAProgram();
 
-/// Draws runs of vertices as GL points. On a rasteriser that is a program (Mesa's llvmpipe) it
-/// hands over some at a time and goes on when those before are drawn: such a driver keeps every
-/// primitive that is not drawn yet in host memory, some hundred bytes for a point of 16, and does
-/// not limit how many. A GPU gets all in one call.
+/// Draws runs of vertices as GL points. A GPU gets all points in one call. A rasteriser that is a
+/// program (Mesa's llvmpipe) gets some points at a time, and the next ones when these are drawn:
+/// such a driver keeps every undrawn primitive in host memory, some hundred bytes for a point of
+/// 16, without a limit.
 /// Threads  that of the GL context, current in all functions.
 class DrawBatches
 {

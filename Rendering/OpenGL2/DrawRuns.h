@@ -6,9 +6,9 @@
 namespace pointfront
 {
 
-/// What a frame draws of the blocks of a pool: runs of vertices, in an order that does not depend
-/// on where in the pool they lie. So a view looks the same however its points came to the GPU, also
-/// where points fall on one pixel at one depth.
+/// The vertices that a frame draws of the blocks of a pool: runs in an order that does not depend
+/// on their places in the pool. So a view looks the same in whatever way its points came to the
+/// GPU, even where points fall on one pixel at one depth.
 class DrawRuns
 {
 public:

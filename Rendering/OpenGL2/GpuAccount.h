@@ -8,23 +8,25 @@ namespace pointfront
 
 class GpuPool;
 
-/// GPU memory of all clouds of a window: what their pools have together, so that a budget of bytes
-/// holds for the window whichever of them has it.
-/// Rounds   in which each pool is drawn once; the first to be drawn again begins the next. In one
-///          that found the budget lowered, what is not drawn yet makes room for what is: so the
-///          lower budget holds in the first frame, before anything is drawn.
+/// The GPU memory that the pools of all clouds of a window have together, so that a budget of bytes
+/// holds for the window.
+/// Rounds   each pool is drawn once in a round; the first pool that is drawn again begins the next
+///          round. In a round with a lowered budget, pools that are not drawn yet make room for the
+///          others, so the lower budget holds in the first frame.
 /// Threads  that of the GL context.
 class GpuAccount
 {
 public:
   void join(GpuPool& pool);
   void leave(GpuPool& pool);
-  /// The pool draws now. `lowered`: its budget is less than in the frame before, and exceeded.
+  /// Tells that the pool draws now. `lowered`: its budget is less than in the frame before, and
+  /// exceeded.
   void draw(const GpuPool& pool, bool lowered);
   void charge(std::int64_t bytes) { bytes_ += bytes; }
   std::int64_t bytes() const { return bytes_; }
-  /// The others give back what nobody draws until they are `bytes` fewer, if they can; in a round
-  /// with a lowered budget also what the frame before showed of pools that are yet to be drawn.
+  /// Makes the other pools give back nodes that nobody draws, up to `bytes` bytes. In a round with
+  /// a lowered budget, pools that are yet to be drawn also give back nodes that the frame before
+  /// showed.
   void reclaim(std::int64_t bytes, const GpuPool& asking);
 
 private:

@@ -17,7 +17,7 @@ class GpuBlock
 {
 public:
   GpuBlock(std::uint32_t first, std::uint32_t slots, const GpuStreams& streams);
-  /// Gives the buffers back; nothing else does.
+  /// Gives the buffers back; no other function does.
   void release();
 
   std::uint32_t first() const { return first_; } ///< slot of the pool
@@ -34,9 +34,9 @@ public:
   /// Streams that are wanted and not there; those that are there and not wanted.
   int missing(const GpuStreams& wanted) const;
   int unwanted(const GpuStreams& wanted) const;
-  /// The GPU had room for its positions and for all that is wanted.
+  /// The GPU had room for its positions and for all wanted streams.
   bool whole(const GpuStreams& wanted) const { return positions_ != 0 && missing(wanted) == 0; }
-  /// Makes what is missing, as far as the GPU has room, and gives back what is not wanted.
+  /// Makes missing buffers, as far as the GPU has room, and gives unwanted ones back.
   void setStreams(const GpuStreams& wanted);
 
   // Of `count` points from point `offset` on of a slot of the pool.
@@ -44,7 +44,7 @@ public:
     std::uint32_t slot, std::uint32_t offset, std::uint32_t count, const void* steps) const;
   void writeValues(GpuStream stream, std::uint32_t slot, std::uint32_t offset, std::uint32_t count,
     const void* values) const;
-  /// All of slot `from` of another block into slot `to` of this.
+  /// Copies slot `from` of another block into slot `to` of this block.
   void copy(const GpuBlock& other, std::uint32_t from, std::uint32_t to) const;
 
 private:

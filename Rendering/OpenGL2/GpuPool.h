@@ -19,16 +19,15 @@ namespace pointfront
 
 class GpuAccount;
 
-/// GPU memory of one cloud in one GL context: equal slots, in blocks of vertex buffers that come
-/// and go, so that growing copies nothing and takes no more than it ends with. A node takes as many
-/// slots as its drawn prefix fills; what is no longer drawn stays until its slots are wanted, least
-/// recently drawn first.
-/// The clouds of a window share its budgets: a pool that may have less than half of what it has
-/// gives memory back, and so does one whose idle memory another one wants.
-/// Guarantees  a node that any view has drawn within the last `views` frames is never evicted: what
-///             is on screen stays, even when that takes more than the limit of points; and never
-///             more than the limit of bytes. In the first frame after that was lowered only what
-///             the frame itself draws stays, and of that the nearest if not all fits.
+/// GPU memory of one cloud in one GL context: equal slots in blocks of vertex buffers. Blocks come
+/// and go, so growing copies nothing and takes no extra memory. A node takes as many slots as its
+/// drawn prefix fills. A node that is no longer drawn stays until its slots are wanted; the least
+/// recently drawn node goes first. The clouds of a window share its budgets. A pool gives memory
+/// back if its limit is less than half of its size, or if another pool wants its idle memory.
+/// Guarantees  a node that any view has drawn within the last `views` frames is never evicted, even
+///             if that exceeds the limit of points. The limit of bytes always holds: in the first
+///             frame after it was lowered only nodes that this frame draws stay, the nearest ones
+///             if not all fit.
 /// Threads     one thread, that of the GL context, which must be current in every function but
 ///             the constructor and the destructor. Destruction without release() leaks the buffers
 ///             to the context, which is gone then.
@@ -36,7 +35,7 @@ class GpuPool
 {
 public:
   static constexpr std::uint32_t slotPoints = gpuSlotPoints;
-  /// Items of a plan, near to far: what a frame draws.
+  /// The items of a plan that a frame draws, near to far.
   using DrawList = std::vector<const PlanItem*>;
 
   struct Entry
@@ -54,7 +53,7 @@ public:
       return filled[static_cast<std::size_t>(stream)];
     }
   };
-  /// What a frame may take.
+  /// The limits of a frame.
   struct Limits
   {
     std::uint64_t points = 0; ///< drawn at a time; 0: no limit
@@ -67,20 +66,20 @@ public:
   GpuPool(const GpuPool&) = delete;
   GpuPool& operator=(const GpuPool&) = delete;
 
-  /// Before anything else in a context: the account of its window.
+  /// Sets the account of the window. Called before any other function in a context.
   void enter(std::shared_ptr<GpuAccount> account);
-  /// Of each layer by its number; what has none has positions only. Values that a layer's styles
-  /// would fill otherwise now are worth nothing and are uploaded again as nodes are drawn; all else
-  /// stays where it is.
+  /// Sets the streams of each layer by its number; a layer without an entry has positions only. If
+  /// the new styles fill a stream in another way, its values are uploaded again as nodes are drawn;
+  /// everything else stays.
   void setStreams(std::vector<LayerStreams> byLayer);
   void beginFrame(const Limits& limits);
-  /// This frame's limit of bytes is lower than that of the frame before, and was exceeded.
+  /// Whether this frame's limit of bytes is lower than that of the frame before, and was exceeded.
   bool lowered() const { return lowered_; }
-  /// Before a frame's first bring(): what it draws. False if the budget of bytes does not hold all
-  /// of it: bring() then brings what there is room for.
+  /// Called before a frame's first bring() with everything that the frame draws. False if the
+  /// budget of bytes does not hold all of it: bring() then brings as much as there is room for.
   bool makeRoom(const DrawList& draw);
 
-  /// Nothing of it is drawn until the next frame: all of it may be given back.
+  /// Tells that nothing of the pool is drawn until the next frame: all of it may be given back.
   void leaveScreen();
 
   /// Brings the first `count` points of `node` and their streams, as far as the node has the
@@ -92,9 +91,9 @@ public:
   void addRuns(const Entry& entry, std::uint32_t first, std::uint32_t end, DrawRuns& runs) const;
   /// Of a layer by its number.
   const LayerStreams& streamsOf(std::uint16_t layer) const;
-  /// All that a node's layer wants of its first `count` points is there.
+  /// Whether the positions and all streams of the node's first `count` points are on the GPU.
   bool isFilled(const Entry& entry, std::uint32_t count) const;
-  /// What is there of a node, or null.
+  /// The entry of a node on the GPU, or null.
   const Entry* find(NodeIndex node) const;
 
   const std::vector<GpuBlock>& blocks() const { return blocks_; }
@@ -104,9 +103,9 @@ public:
   std::int64_t bytes() const { return bytes_; }
   /// True once after the GPU had less memory than the budgets allow.
   bool takeRefused() { return std::exchange(refused_, false); }
-  /// Of all pools of the window.
+  /// Bytes of all pools of the window.
   std::int64_t windowBytes() const;
-  /// Bytes uploaded ever: positions and values.
+  /// All bytes uploaded so far: positions and values.
   std::uint64_t uploadedBytes() const { return uploaded_; }
 
   /// The last block, if what is drawn finds room in the others; false if not.

@@ -18,13 +18,13 @@ class vtkTextureObject;
 namespace pointfront
 {
 
-/// What the last picture showed and the next plan lacks, on the GPU: splats whose centre's pixel
-/// shows them, at most one a pixel, copied by transform feedback before their nodes' memory goes to
-/// others (SMOOTH-7). They are floats in the camera space of the frame that they were captured in,
-/// and are captured anew in each frame of a motion: the error of a frame is 1e-7 of the depth.
+/// Splats of the last picture that the next plan lacks, on the GPU (SMOOTH-7): those whose centre's
+/// pixel shows them, at most one a pixel. Transform feedback copies them before the memory of their
+/// nodes goes to others. Each frame of a motion captures them anew, as floats in the camera space
+/// of that frame: the error of a frame is 1e-7 of the depth.
 /// Bytes    52 a point, not part of the GPU budget.
-/// Threads  that of the GL context, which is current in all functions but the constructor.
-/// Source   drawing.md section 7. Twin of VisiblePoints.
+/// Threads  the thread of the GL context, which is current in all functions but the constructor.
+/// Source   docs/adr/0028. Twin of VisiblePoints.
 class KeptSplats
 {
 public:

@@ -13,7 +13,7 @@
 namespace pointfront
 {
 
-/// What fills the streams of one layer's points.
+/// Fills the streams of one layer's points.
 /// Threads  a value; const functions from any thread.
 class LayerStreams
 {
@@ -27,11 +27,11 @@ public:
   bool has(GpuStream stream) const { return streams_.has(stream); }
   /// Alpha of the points that this style draws, where its set has marks (GpuStreams); else -1.
   int markOf(const ResolvedStyle& style) const;
-  /// What was made for the other one is what this one makes.
+  /// Whether values that the other object made equal those that this object makes.
   bool fillsAs(const LayerStreams& other, GpuStream stream) const;
-  /// The node was read with what the stream is made of.
+  /// Whether the node was read with the columns that the stream needs.
   bool coveredBy(const NodeColumns& node, GpuStream stream) const;
-  /// Of points [first, first + count) of a node that covers the stream, appended.
+  /// Appends the values of points [first, first + count) of a node that covers the stream.
   void encode(GpuStream stream, const FramePlan& plan, const NodeColumns& node, std::uint32_t first,
     std::uint32_t count, std::vector<std::uint32_t>& values) const;
 

@@ -20,8 +20,8 @@ class vtkWindow;
 namespace pointfront
 {
 
-/// What the vertex shader knows of each slot of a GpuPool, as texture buffers that gl_VertexID /
-/// slotPoints indexes: one record a slot instead of one draw call a node.
+/// The facts about each slot of a GpuPool that the vertex shader reads, as texture buffers indexed
+/// by gl_VertexID / slotPoints: one record a slot instead of one draw call a node.
 /// Threads  that of the GL context, current in all functions but the constructor.
 class SlotRecords
 {
@@ -44,10 +44,10 @@ public:
   SlotRecords();
   ~SlotRecords();
 
-  /// A frame begins; `slots` is the pool's number of slots.
+  /// Begins a frame; `slots` is the pool's number of slots.
   void begin(std::uint32_t slots);
   void set(const std::vector<std::uint32_t>& slots, const Record& record);
-  /// To the GPU.
+  /// Uploads the records.
   void upload(vtkOpenGLRenderWindow* window);
 
   /// Binds the textures that `program` uses to units and gives it their numbers.

@@ -31,14 +31,14 @@ public:
   SoftwarePicture();
   ~SoftwarePicture();
 
-  /// With threads. `ids`: for a selection, who is in each pixel.
+  /// Draws the plan with threads. `ids`: also makes the point ids of all pixels, for a selection.
   RasterStatistics draw(
     vtkOpenGLRenderWindow* window, vtkRenderer* renderer, FramePlan& plan, bool ids);
-  /// What was drawn last, as if it were geometry of the actor.
+  /// Hands over the last drawing, as if it were geometry of the actor.
   void handOver(vtkOpenGLRenderWindow* window, vtkRenderer* renderer, vtkActor* actor,
     const FramePlan& plan, std::int64_t storePoints);
   void release(vtkOpenGLRenderWindow* window);
-  /// Nothing is shown of it: memory of pictures goes.
+  /// Tells that nothing of it is shown: gives the memory of pictures back.
   void leaveScreen();
 
 private:

@@ -25,13 +25,13 @@ struct SplatTextures
   vtkTextureObject* ids = nullptr; ///< in selections
 };
 
-/// Puts pictures of the parts of a plan together: the twin of SoftwareComposition.
+/// Composes the pictures of the parts of a plan: the twin of SoftwareComposition.
 /// Bytes    12 a pixel for each of three pictures, with ids 8 more.
 /// Threads  that of the GL context, which is current in all functions but the constructor.
 class SplatComposition
 {
 public:
-  /// So many translucent groups outside of lenses, and in each.
+  /// Most translucent groups outside of lenses, and in each lens.
   static constexpr std::size_t mostGroups = 4;
 
   struct Group
@@ -43,7 +43,7 @@ public:
   SplatComposition();
   ~SplatComposition();
 
-  /// The size of what follows. False where GL has no room.
+  /// Sets the size of the pictures. False if GL has no room.
   bool begin(vtkOpenGLRenderWindow* window, int width, int height, bool ids);
 
   // Each draws over the whole viewport, into a picture that stays as it is until the next but one.

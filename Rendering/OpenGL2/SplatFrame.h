@@ -18,12 +18,12 @@ struct ColourMap;
 class ColourTable;
 class GpuPool;
 
-/// What all parts of a picture are drawn with.
+/// The tools with which all parts of a picture are drawn.
 struct SplatTools
 {
   SplatPrograms programs;
   SlotRecords records;
-  SlotRecords lastRecords; ///< of what the last picture had and this one lacks
+  SlotRecords lastRecords; ///< of points that the last picture has and this one lacks
   vtkNew<vtkOpenGLVertexArrayObject> vertices;
 };
 

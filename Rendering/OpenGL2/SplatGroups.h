@@ -16,8 +16,8 @@
 namespace pointfront
 {
 
-/// What of a plan is on the GPU, in groups that one program draws each, and what of it the last
-/// picture has already: a view at rest only gains points (SMOOTH-5).
+/// The points of a plan that are on the GPU, in groups that one program draws each; and those of
+/// them that the last picture already has, because a view at rest only gains points (SMOOTH-5).
 /// Threads  one thread: that of the GL context.
 class SplatGroups
 {
@@ -37,26 +37,26 @@ public:
   SplatGroups();
   ~SplatGroups();
 
-  /// Fills the records of what is drawn and returns its points. `samePicture`: the last picture is
-  /// still where it was drawn.
+  /// Fills the records of the drawn nodes and returns the number of their points. `samePicture`:
+  /// the last picture is still in its target.
   std::int64_t list(const FramePlan& plan, const GpuPool& pool, float largestPointPx,
     bool samePicture, SlotRecords& records);
-  /// The last picture's points are all part of what is listed, as they were.
+  /// Whether the list contains all points of the last picture, unchanged.
   bool goesOn() const { return goesOn_; }
   bool addsNothing() const { return addsNothing_; }
   bool blended() const { return blended_; }
-  /// What the points can show anything in.
+  /// The rectangle in which the points can show anything.
   const PixelRectangle& shown() const { return shown_; }
   const std::vector<Group>& groups() const { return groups_; }
 
-  /// What the last picture has and `plan` lacks, as the plan's camera sees it. What had not its
-  /// full size is left out, and so is what a style of the plan does not draw as it was drawn.
+  /// Points of the last picture that `plan` lacks, as the plan's camera sees them. Points that had
+  /// not grown to their size are left out, and so are those that no style of the plan draws as they
+  /// were drawn.
   FramePlan leaving(const FramePlan& plan) const;
-  /// Of the last picture.
+  /// The camera of the last picture.
   const FrameCamera& lastCamera() const { return camera_; }
-  bool hasLast() const { return !drawn_.empty(); }
 
-  /// What is listed has been drawn; the groups and the plan are no longer used.
+  /// Tells that the list has been drawn; the groups and the plan are no longer used.
   void keep(const FramePlan& plan);
   void forget();
 

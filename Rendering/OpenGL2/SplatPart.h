@@ -21,27 +21,28 @@ namespace pointfront
 /// Motion    what the last picture showed is kept (FramePlan::keepsVisible) where it is the whole
 ///           plan's and still there: no other cloud has drawn into the target since.
 /// Threads   that of the GL context, current in all functions.
-/// Source    drawing.md sections 4, 5 and 7; docs/adr/0016, 0028.
+/// Source    docs/adr/0016, 0028.
 class SplatPart
 {
 public:
-  /// In the place of a number of points: GL has no room for the targets, or cannot draw into them.
+  /// Returned instead of a number of points: GL has no room for the targets, or cannot draw into
+  /// them.
   static constexpr std::int64_t noTarget = -1;
 
   explicit SplatPart(SplatTools& tools);
   ~SplatPart();
 
-  /// Returns the points that are on the GPU of the plan. What the last picture has of it is not
-  /// drawn again. `limits`: the pixels that are wanted, all of which get a value; null: only those
-  /// of shown() do.
+  /// Draws the points of the plan that are on the GPU, except those that the last picture has, and
+  /// returns their number. `limits`: the wanted pixels, all of which get a value; null: only the
+  /// pixels of shown() do.
   std::int64_t draw(const SplatFrame& frame, const FramePlan& plan,
     const std::shared_ptr<SplatTarget>& target, const PixelRectangle* limits);
-  /// Where the points can show anything.
+  /// The rectangle in which the points can show anything.
   const PixelRectangle& shown() const { return groups_.shown(); }
   SplatTextures picture() const;
   /// Points of the last picture that were drawn beside the plan's (FramePlan::keepsVisible).
   std::int64_t keptPoints() const { return kept_.points(); }
-  /// The target as well; the next drawing begins anew.
+  /// Gives the target back too; the next drawing begins anew.
   void release(vtkOpenGLRenderWindow* window);
 
 private:

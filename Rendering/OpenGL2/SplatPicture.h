@@ -24,7 +24,7 @@ namespace pointfront
 /// the twin of SoftwareComposition and SoftwarePicture.
 /// Viewport  as SoftwarePicture's.
 /// Threads   that of the GL context, current in all functions.
-/// Source    drawing.md section 6; docs/adr/0028, 0029.
+/// Source    docs/adr/0028, 0029.
 class SplatPicture
 {
 public:
@@ -34,11 +34,11 @@ public:
   SplatPicture();
   ~SplatPicture();
 
-  /// What is on the GPU of the plan; its camera gets the viewport's size. Returns its points.
-  /// `ids`: for a selection. What the last picture has of it is not drawn again.
+  /// Draws the points of the plan that are on the GPU, except those that the last picture has, and
+  /// returns their number. The plan's camera gets the size of the viewport. `ids`: for a selection.
   std::int64_t draw(vtkOpenGLRenderWindow* window, vtkRenderer* renderer, FramePlan& plan,
     const GpuPool& pool, const TableOf& tableOf, bool ids);
-  /// What was drawn last, as if it were geometry of the actor.
+  /// Hands over the last drawing, as if it were geometry of the actor.
   void handOver(
     vtkRenderer* renderer, vtkActor* actor, const FramePlan& plan, std::int64_t storePoints);
   /// Of the last drawing: what the picture before showed and the plan lacks.

@@ -15,7 +15,7 @@ class vtkShaderProgram;
 namespace pointfront
 {
 
-/// Where splats take their radius from (SplatData.glsl).
+/// The source of a splat's radius (SplatData.glsl).
 enum class RadiusSource : std::uint8_t
 {
   Pixels,
@@ -25,7 +25,7 @@ enum class RadiusSource : std::uint8_t
   Sizes
 };
 
-/// What a program that draws splats is compiled for.
+/// The variant of a program that draws splats.
 struct SplatVariant
 {
   bool square = false;

@@ -16,7 +16,7 @@ namespace pointfront
 class SplatTarget
 {
 public:
-  /// What a frame needs of it.
+  /// The textures that a frame needs.
   struct Parts
   {
     int width = 1;
@@ -32,7 +32,7 @@ public:
   /// Makes the textures that are missing or of another size, and gives back what is not needed.
   /// False where GL has no room for them or cannot draw into them.
   bool prepare(vtkOpenGLRenderWindow* window, const Parts& parts);
-  /// They are there as a frame needs them.
+  /// Whether all textures that a frame needs exist.
   bool has(const Parts& parts) const;
   /// Who drew into it last; null: nobody since it was made.
   const void* owner() const { return owner_; }

@@ -7,7 +7,7 @@
 namespace pointfront
 {
 
-/// What drawing into targets of our own changes of a window's state, and gives back.
+/// Saves the state of a window that drawing into our own targets changes, and restores it.
 class TargetState
 {
 public:

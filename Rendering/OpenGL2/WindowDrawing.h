@@ -30,7 +30,7 @@ class vtkRenderer;
 namespace pointfront
 {
 
-/// What a frame cost, measured by CPU and GL; read when it is there, never waited for.
+/// The time of a frame, measured by CPU and GL. It is read when GL has it; nobody waits for it.
 class FrameTimer
 {
 public:
@@ -45,7 +45,7 @@ public:
   bool begin(double cpuMilliseconds, std::int64_t moves);
   /// `drawingMilliseconds`: of the CPU since begin(); the GPU draws meanwhile, or after.
   void end(double drawingMilliseconds, std::int64_t points);
-  /// Once a timed frame.
+  /// The time of a frame, once for each timed frame.
   std::optional<Frame> take();
   void release() { gpu_.ReleaseGraphicsResources(); }
 
@@ -56,8 +56,8 @@ private:
   double drawingMs_ = 0.0;
 };
 
-/// All GL names that one mapper has in one window's context, and drawing with them: the only owner,
-/// so that a mapper in two windows has what it needs in each, and names go where they belong.
+/// Owns all GL names that one mapper has in one window's context, and draws with them. A mapper in
+/// two windows has one object for each, and names are deleted in their own context.
 /// Releasing  by release() or destruction, whichever context is current then (it is current again
 ///            after it), and by itself when the window's context goes.
 /// Threads    the renderers'; the window's context is current in enter() and whatever draws.
@@ -69,27 +69,28 @@ public:
   WindowDrawing(const WindowDrawing&) = delete;
   WindowDrawing& operator=(const WindowDrawing&) = delete;
 
-  /// Before anything else of a frame.
+  /// Called before any other function in a frame.
   void enter(vtkRenderer* renderer, vtkActor* actor);
   void release();
 
-  /// Nodes of another store are worth nothing.
+  /// Sets the store; uploaded nodes of another store are dropped.
   void setStore(const void* store);
-  /// Brings to the GPU what the plan draws, near to far, until `bytes` are used up. True when
-  /// something is left over that another frame can bring.
+  /// Uploads the nodes of the plan, near to far, until `bytes` are used up. True when nodes are
+  /// left that another frame can upload.
   bool upload(const FramePlan& plan, std::int64_t bytes);
-  /// Makes ready what is on the GPU of the plan. Returns its points.
+  /// Lists the points of the plan that are on the GPU, and returns their number.
   std::int64_t list(const FramePlan& plan);
-  /// Draws what was listed.
+  /// Draws the listed points.
   void draw(vtkRenderer* renderer, vtkActor* actor, vtkMapper* owner, const FramePlan& plan,
     std::int64_t storePoints);
 
-  /// In the place of the last two, for splats: into targets of their own. Returns points.
+  /// Replaces list() and draw() for splats: draws into targets of their own. Returns the number of
+  /// points.
   std::int64_t drawSplats(vtkRenderer* renderer, FramePlan& plan, bool ids);
   SplatPicture& splats() { return splats_; }
 
-  /// In the place of all these: by threads of this process, from host memory. Points that are on
-  /// the GPU are given back.
+  /// Replaces all of these: threads of this process draw from host memory. GPU memory of points is
+  /// given back.
   SoftwarePicture& softwarePicture()
   {
     pool_.release();

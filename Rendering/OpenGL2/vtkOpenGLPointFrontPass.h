@@ -24,7 +24,7 @@ class GpuBlock;
 class GpuPool;
 class SlotRecords;
 
-/// What one call of the pass draws.
+/// The arguments of one drawing.
 struct PointDrawing
 {
   const GpuPool* pool = nullptr;
@@ -46,9 +46,9 @@ public:
   static vtkOpenGLPointFrontPass* New();
   vtkTypeMacro(vtkOpenGLPointFrontPass, vtkOpenGLPolyDataMapper);
 
-  /// Takes what an owner's properties say of drawing: clipping planes, coincident topology.
+  /// Takes the properties of an owner that concern drawing: clipping planes, coincident topology.
   void CopyState(vtkMapper* owner);
-  /// Draws into what is bound. `drawing` is used until it returns.
+  /// Draws into the bound framebuffer. `drawing` is used until it returns.
   void Draw(vtkRenderer* renderer, vtkActor* actor, const pointfront::PointDrawing& drawing);
 
   void RenderPiece(vtkRenderer*, vtkActor*) override {}

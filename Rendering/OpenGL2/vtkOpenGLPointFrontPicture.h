@@ -1,6 +1,6 @@
 /**
  * @class vtkOpenGLPointFrontPicture
- * @brief hands a picture that was drawn without GL over to the framebuffer that is bound
+ * @brief hands a finished picture over to the bound framebuffer
  *
  * As one of VTK's polygonal mappers, so that render passes (SSAO, EDL, peeling), selections and
  * multisampled targets take it as they take geometry. Pixels of nothing are left alone; depth is
@@ -20,7 +20,7 @@ namespace pointfront
 {
 struct FrameCamera;
 
-/// What one call of the mapper draws.
+/// The arguments of one drawing.
 struct PictureDrawing
 {
   vtkTextureObject* colour = nullptr;

@@ -11,7 +11,7 @@
 namespace pointfront
 {
 
-/// What of an item has been drawn into the keys that are kept.
+/// The points of an item that have been drawn into the kept keys.
 struct DrawnItem
 {
   std::shared_ptr<const NodeColumns> node; ///< kept alive: an address is no identity otherwise

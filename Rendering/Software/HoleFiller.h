@@ -11,8 +11,8 @@ namespace pointfront
 constexpr int holeFillerReach = 8;
 
 /// Fills pixels that no splat covers, and those through which a farther surface shows, from the
-/// nearest of their surroundings: a pyramid of means over what agrees in depth, then back down
-/// (pull-push). A pixel is filled when most of what surrounds it agrees; the farther surface beside
+/// nearest surface around them: a pyramid of means over pixels that agree in depth, then back down
+/// (pull-push). A pixel is filled when most of its surroundings agree; the farther surface beside
 /// an object stays.
 /// Threads  one; works with those of ThreadCrew::ofProcess().
 void fillHoles(const FrameCamera& camera, SoftwareTarget& target);

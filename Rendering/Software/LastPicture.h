@@ -27,14 +27,14 @@ struct RasterPiece
 /// All of an item's points from `first` on.
 void addPieces(const RasterItem& item, std::uint32_t first, std::vector<RasterPiece>& pieces);
 
-/// What the last picture of a store had, for the next one to go on from: its keys, where there is
-/// memory for them; what they mean; who was visible, for views that move.
+/// The state of a store's last picture, which the next picture continues: its keys, if there is
+/// memory for them; the meaning of the keys; the visible points, for views that move.
 /// Threads  one thread at a time; works with those of a crew.
 class LastPicture
 {
 public:
-  /// What a plan that asks for it draws beside its own (FramePlan::keepsVisible), of what was
-  /// visible.
+  /// The visible points of the last picture that a plan draws in addition to its own, if it asks
+  /// for them (FramePlan::keepsVisible).
   const VisiblePoints& visibleFor(const FramePlan& plan, bool wanted, ThreadCrew& crew);
 
   /// If the keys are those of the same view: takes the pieces that are not in them yet, gives the

@@ -22,7 +22,7 @@ struct PixelRectangle
   }
 };
 
-/// What both have; empty, at 0, where that is nothing.
+/// The intersection; empty, at 0, if there is none.
 inline PixelRectangle common(const PixelRectangle& a, const PixelRectangle& b)
 {
   const PixelRectangle both{ std::max(a.left, b.left), std::max(a.bottom, b.bottom),
@@ -30,7 +30,7 @@ inline PixelRectangle common(const PixelRectangle& a, const PixelRectangle& b)
   return both.empty() ? PixelRectangle() : both;
 }
 
-/// The smallest that has both.
+/// The smallest rectangle that contains both.
 inline PixelRectangle around(const PixelRectangle& a, const PixelRectangle& b)
 {
   if (a.empty() || b.empty())

@@ -36,7 +36,8 @@ struct StyleColours
   ValueColours second;
 };
 
-/// What colours the points of one node: where their values lie and what is made of them.
+/// The colouring of the points of one node: the place of their values and the way from values to
+/// colours.
 /// Shapes   colours are bytes r, g, b, a in memory order, a = 255.
 /// Meaning  as appendColours() of the kernel; the flat colour where the node was read without the
 ///          column.

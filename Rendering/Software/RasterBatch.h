@@ -7,8 +7,8 @@
 namespace pointfront
 {
 
-/// Points that go through the rasteriser together: what is known of each, one array a quantity, so
-/// that loops over points become vector instructions. Scratch of one thread.
+/// Points that go through the rasteriser together: one array for each quantity, so that loops over
+/// points become vector instructions. Scratch of one thread.
 /// Spaces  Camera space: x to the right, y up, z along the line of sight (positive in front), world
 ///         units. Pixels: the viewport's, y up.
 struct RasterBatch

@@ -83,7 +83,7 @@ public:
   bool last() const { return end_ == ordered_.size(); }
   const std::vector<RasterItem>& items() const { return items_; }
   bool blended() const { return blended_; }
-  /// What the keys' indices mean.
+  /// The meaning of the keys' indices.
   const ItemNumbers& numbers() const { return numbers_; }
   /// Radius of a point's code, world units; 0 where it has none.
   const std::array<float, 256>& radii() const { return radii_; }

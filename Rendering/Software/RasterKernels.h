@@ -5,7 +5,7 @@
 namespace pointfront
 {
 
-/// What a splat is made of, for the loops that put it into the buffers.
+/// The shape of a splat, for the loops that draw it into the buffers.
 enum class SplatShape : std::int32_t
 {
   Disc, ///< faces the eye
@@ -20,7 +20,7 @@ struct SplatPass
 {
   SplatShape shape = SplatShape::Disc;
   /// Added to the depth: that many radii at the rim, falling with q to nothing at the centre. Of
-  /// splats that overlap the one with the nearest centre wins (drawing.md 9).
+  /// splats that overlap the one with the nearest centre wins (docs/adr/0016).
   float paraboloid = 0.0f;
   float leastRadius = 0.71f; ///< pixels; a disc of 0.71 reaches a pixel's centre wherever it lies
   float mostRadius = 1.0e5f; ///< pixels
@@ -37,7 +37,7 @@ struct SplatPass
   float mostAtCentre() const { return 0.999f * rimFrom; }
 };
 
-/// Radii as codes of a byte (drawing.md 3), and what they come to.
+/// Radii as codes of a byte (SplatRadius.h), and the radii that they stand for.
 struct RadiusCodes
 {
   const std::uint8_t* codes = nullptr; ///< of the batch's first point

@@ -5,7 +5,8 @@
 namespace pointfront
 {
 
-/// Points land on the same pixels: a picture of the one camera may be gone on with for the other.
+/// Whether points land on the same pixels with both cameras, so that a picture of one camera can be
+/// continued with the other.
 inline bool sameCamera(const FrameCamera& a, const FrameCamera& b)
 {
   return a.storeToView == b.storeToView && a.viewToClip == b.viewToClip &&

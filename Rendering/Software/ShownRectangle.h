@@ -6,9 +6,9 @@
 namespace pointfront
 {
 
-/// The part of the viewport that the items can show anything in, from the boxes of their nodes and
-/// how large their splats can be: all that is outside stays as it is. All of the viewport where a
-/// node comes near the eye, or its splats are of any size.
+/// The part of the viewport in which the items can show anything, from the boxes of their nodes and
+/// the sizes of their splats. Pixels outside stay as they are. It is the whole viewport if a node
+/// comes near the eye, or if splats have any size.
 /// Exactness  no splat is cut by an edge that is not the viewport's, so that pictures of that part
 ///            have the bits that pictures of all have.
 PixelRectangle shownRectangle(const RasterItems& items);

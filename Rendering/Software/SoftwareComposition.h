@@ -12,26 +12,26 @@ namespace pointfront
 
 /// Pictures of plans that are more than one opaque surface: translucent classes, lenses and
 /// highlights. Each part of the plans (PlanParts.h) is drawn into a target of its own, that of a
-/// lens is as large as the lens; one pass over the pixels puts them together (LAYERS-9, -10).
-/// A plan of one part is drawn straight into the target.
-/// Depth    of a pixel: what is opaque in it; where there is nothing but what is translucent, the
-///          nearest of that. PixelPoint: the nearest of all.
+/// lens is as large as the lens; one pass over the pixels composes them (LAYERS-9, -10). A plan of
+/// one part is drawn straight into the target.
+/// Depth    a pixel has the depth of its opaque point, or if it has none, of its nearest
+///          translucent point. PixelPoint is the nearest point of all.
 /// Memory   targets are kept from picture to picture while plans have such parts.
 /// Threads  as SoftwareRasteriser.
-/// Source   drawing.md section 6; docs/adr/0029.
+/// Source   docs/adr/0029.
 class SoftwareComposition
 {
 public:
-  /// As the rasteriser's: of each store of the picture, one after the other.
+  /// As SoftwareRasteriser::draw(); called for each store of the picture, one after the other.
   RasterStatistics draw(SoftwareRasteriser& rasteriser, const FramePlan& plan,
     SoftwareTarget& target, std::uint16_t store = 0);
   RasterStatistics drawShown(
     SoftwareRasteriser& rasteriser, const FramePlan& plan, SoftwareTarget& target);
-  /// Shades the parts and puts them together; once, after all stores. The next draw() begins
+  /// Shades the parts and composes them; called once, after all stores. The next draw() begins
   /// another picture.
   void finish(const FrameCamera& camera, const FrameShading& shading, SoftwareTarget& target);
 
-  /// Pixels around what is wanted that light, highlights and the like look at.
+  /// Number of pixels around the wanted ones that light, highlights and hole filling read.
   static int reachPx(const FrameShading& shading);
 
 private:
@@ -41,7 +41,7 @@ private:
     bool begun = false; ///< in this picture
     SoftwareTarget target;
   };
-  /// Where a part belongs: PlanPart without its plan.
+  /// The place of a part: PlanPart without its plan.
   struct Place
   {
     std::int16_t lens;
@@ -64,7 +64,8 @@ private:
   std::map<Place, Part> parts_;
 };
 
-/// What stands out: tints its pixels, and draws a rim on what lies behind it.
+/// Draws highlights: tints the pixels of highlighted points, and draws a rim on what lies behind
+/// them.
 void highlight(const FrameShading& shading, SoftwareTarget& target);
 
 } // namespace pointfront

@@ -94,7 +94,7 @@ inline void normalise(int count, RasterBatch& batch)
 }
 
 /// Source  Kovac 2009, 4.1 and 4.2, with the sign of the errata; the affine map's inverse variance
-///         with a low-pass added, as in splat-study.md. Roots and divisions are what this costs:
+///         with a low-pass added (docs/adr/0016). Roots and divisions make up its cost:
 ///         bounds that need not be sharp do without.
 template <bool Parallel>
 inline void setUpEllipses(RasterCamera camera, float lowPass, int count, RasterBatch& batch)

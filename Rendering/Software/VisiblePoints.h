@@ -16,7 +16,7 @@ class ThreadCrew;
 
 /// What the last picture showed, kept while the view moves: points that were visible, at most one a
 /// pixel, and that the next plan does not draw. They are copied together, so that the nodes they
-/// come from may leave the memory (SMOOTH-7; drawing.md 7).
+/// come from may leave the memory (SMOOTH-7).
 /// Threads  one thread at a time; works with those of a crew.
 class VisiblePoints
 {

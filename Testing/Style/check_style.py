@@ -23,6 +23,7 @@ RULES = {
     "IdleTests": text_rules.idle_tests,
     "QuietLibraries": text_rules.quiet_libraries,
     "Links": text_rules.links,
+    "Anchors": doc_rules.anchors,
     "LinkedNames": doc_rules.linked_names,
     "Includes": include_rules.includes,
     "ModuleEdges": include_rules.module_edges,

@@ -22,3 +22,30 @@ def linked_names(files):
                 for name in wanted:
                     if name not in words:
                         yield file.path, number, f"{name} is not in {path}"
+
+
+ANCHOR = re.compile(r"\]\(([^)#\s]*)#([^)\s]+)\)")
+HEADING = re.compile(r"#{1,6} (.*)")
+
+
+def anchors_of(file):
+    """Names of a page's headings, as hosts of repositories make them."""
+    names = set()
+    for line in file.lines:
+        heading = HEADING.match(line)
+        if heading:
+            plain = re.sub(r"[`*]|\]\([^)]*\)|\[", "", heading.group(1)).lower()
+            names.add(re.sub(r"[^\w\- ]", "", plain).replace(" ", "-"))
+    return names
+
+
+def anchors(files):
+    """Links of the documentation to a heading lead to one."""
+    pages = {os.path.normpath(file.path): file for file in files if file.ends(".md")}
+    for file in pages.values():
+        for number, line in file.numbered():
+            for target, name in ANCHOR.findall(line):
+                path = os.path.join(*file.folders, target) if target else file.path
+                path = os.path.normpath(path)
+                if path in pages and name not in anchors_of(pages[path]):
+                    yield file.path, number, f"{path} has no heading {name}"

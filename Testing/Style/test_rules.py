@@ -123,6 +123,15 @@ class RulesTest(unittest.TestCase):
         }
         self.assertEqual(self.faults("Links", tree), [("docs/a.md", 2)])
 
+    def test_anchors(self):
+        tree = {
+            "docs/a.md": "# On `a`, (b)\n[b](b.md#two-words) [a](#on-a-b)\n[no](b.md#three)\n"
+            "[no](#b)\n",
+            "docs/b.md": "## Two words\n",
+            "IO/A.cxx": "",
+        }
+        self.assertEqual(self.faults("Anchors", tree), [("docs/a.md", 3), ("docs/a.md", 4)])
+
     def test_linked_names(self):
         tree = {
             "docs/a.md": "[`View`](../IO/View.h) [`View.h`](../IO/View.h)\n"

@@ -71,7 +71,7 @@ public:
   /// Bounds of all points (world, tight), without reading any of them.
   void GetBounds(double bounds[6]) const;
   vtkIdType GetNumberOfPoints() const;
-  /// Of all stores that are open in this process.
+  /// Points of all stores that are open in this process.
   static vtkIdType GetNumberOfPointsOfAllStores();
   int GetNumberOfAttributes() const;
   const char* GetAttributeName(int attribute) const;
@@ -89,8 +89,8 @@ public:
   ///@{
   /**
    * Host memory for decoded nodes of all stores of this process, bytes. Set it once; it holds
-   * whatever is opened. While it was never set it is 1 GiB, or the largest budget that was set for
-   * a single store.
+   * whatever stores are opened. If it was never set it is 1 GiB, or the largest budget that was set
+   * for a single store.
    */
   static void SetProcessMemoryBudget(vtkTypeInt64 bytes);
   static vtkTypeInt64 GetProcessMemoryBudget();
@@ -98,8 +98,8 @@ public:
 
   ///@{
   /**
-   * Host memory that decoded nodes of this store may have of the process's, bytes. Default: all of
-   * it.
+   * The part of the process's host memory that decoded nodes of this store may take, bytes.
+   * Default: all of it.
    */
   void SetHostMemoryBudget(vtkTypeInt64 bytes);
   vtkTypeInt64 GetHostMemoryBudget() const;
@@ -109,7 +109,7 @@ public:
   /// The kernel's objects, for modules of ours. Never null.
   const std::shared_ptr<const pointfront::StoredCloud>& GetStore() const;
   pointfront::Residency& GetResidency() const;
-  /// Where fronts join; it owns the residency and merges their wishes.
+  /// The object that fronts join: it owns the residency and merges the wishes of the fronts.
   pointfront::ResidencyShare& GetResidencyShare() const;
 #endif
 

@@ -2,8 +2,8 @@
  * @class vtkPointFrontStyle
  * @brief how a point cloud is drawn: a default, what differs for each object class, and shading
  *
- * What is not set for a class is as the default says; what the default does not say is usual:
- * points that close the surface, in the colour that says most of the store. Every change calls
+ * A class takes from the default what is not set for it. What the default does not set is: points
+ * that close the surface, in the colour that tells most about the store. Every change calls
  * Modified(), shows in the next frame of a mapper that draws by the style, and rebuilds no
  * positions. One style can serve several mappers. docs/user/styles.md has the words.
  *
@@ -37,7 +37,7 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /**
-   * In the place of a class: the default of all.
+   * Stands for the default of all classes where a class is expected.
    */
   static constexpr int DEFAULT_CLASS = -1;
 
@@ -86,8 +86,8 @@ public:
 
   ///@{
   /**
-   * From 0 to 1. A class that is translucent is one surface: what is behind its nearest points
-   * shows through, not its own farther ones.
+   * From 0 to 1. A translucent class is one surface: other classes show through its nearest points,
+   * its own farther points do not.
    */
   bool SetOpacity(double opacity, int objectClass = -1);
   double GetOpacity(int objectClass = -1) const;
@@ -115,8 +115,8 @@ public:
 
   ///@{
   /**
-   * Which points are drawn, of a class or of all that have none of their own: "return_number == 1
-   * and z < 50". Empty: all.
+   * The condition that points must meet to be drawn, for a class or for all classes without a
+   * condition of their own: "return_number == 1 and z < 50". Empty: all.
    */
   bool SetFilter(const std::string& where, int objectClass = -1);
   std::string GetFilter(int objectClass = -1) const;
@@ -124,7 +124,7 @@ public:
 
   ///@{
   /**
-   * A condition that holds besides, whatever the class.
+   * A further condition that holds for all classes.
    */
   bool SetCommonFilter(const std::string& where);
   std::string GetCommonFilter() const;
@@ -132,8 +132,8 @@ public:
 
   ///@{
   /**
-   * Light on points that have a normal; eye-dome lighting, 0 to turn it off, 0.4 is usual; filling
-   * of holes that points leave. Off by default.
+   * Light on points that have a normal; eye-dome lighting (0 turns it off, 0.4 is usual); filling
+   * of holes between points. All are off by default.
    */
   bool SetLit(bool lit);
   bool GetLit() const;
@@ -147,10 +147,10 @@ public:
   /**
    * A lens that shows what it covers in other styles: a circle or a rectangle, in pixels from the
    * lower left corner of the viewport (as events give them); a mask that is stretched over the
-   * viewport, one component, not 0 where the lens is; or all that discs of `radius` (the store's
-   * units) around the points of a class cover. Inside it all is drawn as outside until
-   * SetLensStyle() says otherwise. Returns the lens' number, -1 where something is wrong. Where
-   * lenses overlap the later one lies on top.
+   * viewport, one component, not 0 where the lens is; or everything that discs of `radius` (the
+   * store's units) around the points of a class cover. A lens draws as outside until SetLensStyle()
+   * sets another style. Returns the lens' number, -1 where something is wrong. Where lenses overlap
+   * the later one lies on top.
    */
   int AddCircleLens(double x, double y, double radius);
   int AddRectangleLens(double x, double y, double width, double height);
@@ -160,9 +160,9 @@ public:
 
   ///@{
   /**
-   * What differs inside a lens, of a class or of all that have nothing of their own there: an
-   * object as `default` or a class has in JSON, {"visible": false, "color": "intensity"}. Replaces
-   * what was said before; GetLensStyle gives JSON.
+   * The differences inside a lens, for a class or for all classes without differences of their own:
+   * an object as `default` or a class has in JSON, {"visible": false, "color": "intensity"}. It
+   * replaces earlier differences; GetLensStyle gives JSON.
    */
   bool SetLensStyle(int lens, const std::string& style, int objectClass = -1);
   std::string GetLensStyle(int lens, int objectClass = -1) const;
@@ -170,7 +170,7 @@ public:
 
   ///@{
   /**
-   * Where a circle or a rectangle lies: its centre. A circle's radius, pixels; 0: it covers
+   * The centre of a circle or a rectangle, and the radius of a circle, in pixels; with 0 it covers
    * nothing. Moving a lens resolves no styles and draws nothing outside of it anew.
    */
   bool SetLensCenter(int lens, double x, double y);
@@ -182,7 +182,7 @@ public:
 
   ///@{
   /**
-   * Later lenses move up in number.
+   * Removes lenses. Lenses behind a removed one get a lower number.
    */
   int GetNumberOfLenses() const;
   bool RemoveLens(int lens);
@@ -191,8 +191,8 @@ public:
 
   ///@{
   /**
-   * A class whose points stand out: a rim of `haloPx` pixels in a colour, "#rrggbb", around what is
-   * seen of them, and a share of it in their own colours.
+   * A class whose points stand out: they get a rim of `haloPx` pixels in a colour, "#rrggbb",
+   * around their visible pixels, and their own colours get a share of it.
    */
   bool SetHighlight(
     int objectClass, const std::string& color, double haloPx = 2.0, double tint = 0.25);
@@ -202,7 +202,7 @@ public:
 
   ///@{
   /**
-   * The class is drawn as the default says again; all of them are.
+   * Draws one class, or all classes, by the default again.
    */
   void ResetClass(int objectClass);
   void Reset();

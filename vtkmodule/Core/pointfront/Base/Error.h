@@ -6,8 +6,8 @@
 namespace pointfront
 {
 
-/// Why something asked of the outside world (file, disk, decoder, image) did not happen.
-/// Mistakes of our own caller are asserts, never Errors.
+/// The reason why an operation on the outside world (file, disk, decoder, image) failed. Mistakes
+/// of our own caller are asserts, never Errors.
 struct Error
 {
   enum class Kind

@@ -1,5 +1,4 @@
-/// @file
-/// The distance or bound that nothing reaches.
+/// @file Infinity: a distance or bound that no value reaches.
 #pragma once
 
 #include <limits>

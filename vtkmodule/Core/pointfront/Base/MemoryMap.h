@@ -15,7 +15,7 @@ namespace pointfront
 class MemoryMap
 {
 public:
-  /// How the bytes will be touched: lets the system read ahead, or not.
+  /// The order in which the bytes will be touched: it lets the system read ahead, or not.
   enum class Access
   {
     Sequential,
@@ -34,10 +34,10 @@ public:
   const std::byte* data() const { return data_; }
   std::size_t size() const { return size_; }
 
-  /// Gives the pages that these bytes touch back to the system: they no longer count as memory of
-  /// this process, so that reading a file of any size stays inside a memory limit. They stay
-  /// valid: who touches one again gets it from the disk cache. So do 2 MiB on both sides: pages
-  /// come back with their neighbours. Any thread, any range of the map.
+  /// Gives the pages of these bytes, and 2 MiB on both sides, back to the system: they no longer
+  /// count as memory of this process, so reading a file of any size stays inside a memory limit.
+  /// The pages stay valid: a later access gets them from the disk cache, together with their
+  /// neighbours. Any thread, any range of the map.
   void release(std::size_t offset, std::size_t bytes) const;
 
 private:

@@ -21,7 +21,8 @@ struct BuildStorage
   std::unique_ptr<RecordPool> pool; ///< for all points that the sources may give
 };
 
-/// For records of `pooled`. Errors  NoMemory, Unwritable: with what is needed.
+/// Reserves memory and disk for records of `pooled`. Errors NoMemory, Unwritable, with the amount
+/// that is needed.
 Result<BuildStorage> reserveStorage(const std::vector<std::unique_ptr<PointSource>>& sources,
   const AttributeSchema& pooled, const BuildOptions& options);
 

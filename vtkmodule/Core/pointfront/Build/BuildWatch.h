@@ -10,7 +10,7 @@
 namespace pointfront
 {
 
-/// A store while its trees are built: finished subtrees in full, of the rest a sample.
+/// A store while its trees are built: finished subtrees in full, and a sample of the rest.
 class PartialStore
 {
 public:
@@ -23,7 +23,7 @@ public:
   virtual Result<void> write(const std::string& path, const MetadataRecord& record) = 0;
 };
 
-/// Somebody who wants to see a store while its trees are built (BuildPreview).
+/// An observer that sees a store while its trees are built (BuildPreview).
 /// Threads  called from the build's threads, one at a time.
 class BuildWatch
 {

@@ -10,7 +10,7 @@
 namespace pointfront
 {
 
-/// What construction needs of a build.
+/// The parts of a build that construction needs.
 struct ConstructionSite
 {
   RecordPool& pool;
@@ -35,7 +35,7 @@ public:
   /// contains it, a part but for places that several parts share; PartNode::none if it is not one
   /// of the pool's. After cut() with findable points.
   virtual std::uint32_t nodeOf(const std::byte* record) const = 0;
-  /// Builds and joins when of some parts there is only a sample.
+  /// Builds and joins parts of which some have only a sample of their points.
   virtual std::unique_ptr<TreeBuilder> partialBuilder(const NodeEmitter& emitter) const = 0;
   /// Children that partialBuilder() joins at once, at most: nodes of the upper tree are left out
   /// for that, or not if they have as many already.

@@ -11,15 +11,14 @@
 namespace pointfront
 {
 
-/// Reads and writes at places of a file past the page cache: what passes through once costs there
-/// the first touch of a page, for each 4 KiB, and pushes out what others will read again. Moves
-/// bytes by way of aligned buffers of its own, which are used again.
-/// Beside it the file may be read and written the usual way, on separate ranges: the system keeps
-/// both the same.
+/// Reads and writes ranges of a file past the page cache. Bytes that are used once would cost the
+/// first touch of a page there, for each 4 KiB, and would push out bytes that others read again.
+/// Bytes move through aligned buffers of this object, which are used again. Beside it the file may
+/// be read and written the usual way, on separate ranges: the system keeps both the same.
 /// Memory   bufferBytes for each thread that is in a call at the same time.
 /// Threads  from any thread, on separate ranges.
-/// Errors   none of its own: what was not moved is to be moved the usual way, which works all the
-///          same or says what is wrong.
+/// Errors   none of its own. The caller moves the remaining bytes the usual way, which works all
+///          the same or says what is wrong.
 class DirectAccess
 {
 public:

@@ -14,10 +14,10 @@
 namespace pointfront
 {
 
-/// Bytes on their way to the end of a file, past the page cache: what is written once and not read
-/// soon costs a page of memory and a copy there, for each 4 KiB. Gathers whole blocks in memory of
-/// its own and hands them to the disk as one, on a thread of its own: who appends does not wait
-/// unless the disk is slower.
+/// Appends bytes to a file past the page cache. Bytes that are written once and not read soon would
+/// cost a page of memory and a copy there, for each 4 KiB. It gathers whole blocks in its own
+/// memory and writes them at once on its own thread: the appending thread waits only if the disk is
+/// slower.
 /// Memory   two buffers: one is gathered in while the other is written.
 /// Threads  called from one thread.
 class DirectAppender
@@ -26,7 +26,7 @@ public:
   /// Bytes gathered before they are written.
   static constexpr std::size_t bufferBytes = std::size_t(2) << 20;
 
-  /// Bytes that belong into the file and are not known to be there.
+  /// Bytes that belong to the file and may not be in it yet.
   struct Span
   {
     std::uint64_t begin = 0; ///< byte of the file
@@ -36,7 +36,7 @@ public:
 
   /// For an empty file; nullptr where files cannot be written that way.
   static std::unique_ptr<DirectAppender> open(const std::string& path);
-  /// What is handed over is written.
+  /// Whether everything that was handed over is written.
   ~DirectAppender();
   DirectAppender(const DirectAppender&) = delete;
   DirectAppender& operator=(const DirectAppender&) = delete;

@@ -9,17 +9,17 @@
 namespace pointfront
 {
 
-/// The disk that a folder lies on: which one, and what an ordinary user may still write there.
+/// The disk of a folder: its number, and the bytes that an ordinary user may still write there.
 struct DiskSpace
 {
   std::uint64_t device = 0; ///< equal for folders on one disk
   std::uint64_t freeBytes = 0; ///< UINT64_MAX if the system does not tell
 };
 
-/// By stat and statvfs; a folder that is not there has all the space: opening it will say so.
+/// By stat and statvfs. A missing folder counts as having all space: opening it gives the error.
 DiskSpace diskSpaceOf(const std::string& folder);
 
-/// What a build will write, and where: known before the first point is read.
+/// The bytes that a build will write, and their folders: known before the first point is read.
 /// Units    bytes. The spill is exact; the store is estimated from both sides: a build is refused
 ///          only if it could hardly succeed, and a disk that may be too small is told of.
 struct DiskDemand

@@ -25,8 +25,8 @@ public:
   /// The number of the file system that it lies on.
   std::uint64_t device() const { return device_; }
   std::uint64_t bytes() const { return bytes_; } ///< when it was opened
-  /// True while somebody else has the file open under an exclusive lock: it is being replaced or
-  /// kept by a running build. Also true on file systems that have no locks.
+  /// True while another process has the file open under an exclusive lock: a running build replaces
+  /// or keeps it. Also true on file systems that have no locks.
   bool isLocked() const;
   /// False once another file has this path, or none.
   bool isStillNamed() const;

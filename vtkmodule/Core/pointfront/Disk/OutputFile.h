@@ -18,7 +18,7 @@ namespace pointfront
 class OutputFile
 {
 public:
-  /// What publish() waits for.
+  /// How durable publish() makes the file.
   enum class Durability
   {
     Full, ///< the disk has it
@@ -31,7 +31,7 @@ public:
   static Result<std::unique_ptr<OutputFile>> create(
     const std::string& path, Durability durability = Durability::Full);
 
-  /// Without publish() before: removes what was written.
+  /// Removes the file unless publish() was called.
   virtual ~OutputFile() = default;
 
   virtual const std::string& path() const = 0;

@@ -15,15 +15,15 @@
 namespace pointfront
 {
 
-/// What is read ahead, and how far.
+/// How much is read ahead.
 struct ReadAheadPlan
 {
   std::size_t parts = 0; ///< held before they are taken, at most; 0: read when they are taken
   unsigned threads = 1; ///< that read, and mostly wait for the disk
 };
 
-/// Reads the parts of a pool on disk before they are asked for, so that who builds trees of them
-/// does not wait for the disk.
+/// Reads the parts of a pool on disk before they are asked for, so that threads that build trees do
+/// not wait for the disk.
 /// Order     begun in the order given; each is taken once, in about that order.
 /// Memory    that of `parts` parts, and of those in take().
 /// Errors    of reading a part, when that part is taken; NoMemory.

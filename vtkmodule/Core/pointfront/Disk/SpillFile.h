@@ -11,10 +11,10 @@
 namespace pointfront
 {
 
-/// A file on disk for what does not fit in memory. It has no name once it is open, so nothing
-/// can be left behind: not by an Error, not by a killed process.
-/// Large ranges go past the page cache where the file system lets them: they are written once and
-/// read once. Small ones are read more than once when a dense place is divided, and stay there.
+/// A file on disk for data that does not fit in memory. It has no name once it is open, so nothing
+/// can be left behind: not by an Error, not by a killed process. Large ranges go past the page
+/// cache where the file system lets them: they are written once and read once. Small ones are read
+/// more than once when a dense place is divided, and stay there.
 /// Threads  read() and write() are positional and safe from any thread, on separate ranges.
 /// Errors   Unwritable, with the bytes needed and those free when the disk is too small.
 class SpillFile

@@ -15,8 +15,8 @@
 namespace pointfront
 {
 
-/// Writes blocks of records to a pool on disk while the next blocks are read: who reads does not
-/// wait for the disk, but for a buffer when the disk is slower.
+/// Writes blocks of records to a pool on disk while the next blocks are read. Reading threads do
+/// not wait for the disk; they wait for a buffer if the disk is slower.
 /// Memory    `buffers` blocks; they are used again.
 /// Errors    the first of any write; from then on nothing is written.
 /// Threads   buffer() and write() from any thread; writes on one of its own, or in write() if there

@@ -8,8 +8,8 @@
 namespace pointfront
 {
 
-/// What a file is that this project writes, told by its first bytes. A file of no bytes is of every
-/// kind: somebody reserved the name.
+/// The kind of a file that this project writes, told by its first bytes. An empty file counts as
+/// every kind: somebody reserved the name.
 enum class FileKind
 {
   Store,

@@ -10,8 +10,8 @@
 namespace pointfront
 {
 
-/// Brings all points of a source into a sink, chunk by chunk in the source's order: a made-up
-/// survey into a file, for example. Gives the number of points.
+/// Writes all points of a source to a sink, chunk by chunk in the source's order: a made-up survey
+/// to a file, for example. Returns the number of points.
 /// Errors   of both; BadArgument for a source without a grid of integers; Cancelled. The sink then
 ///          never finishes, and leaves nothing.
 /// Threads  called from one thread; makes the next chunk on one of its own.

@@ -16,7 +16,7 @@
 namespace pointfront
 {
 
-/// Which points of a store to bring out, and with which attributes. All by default.
+/// The points of a store that an export writes, and their attributes. All by default.
 struct ExportSelection : PointQuery
 {
   /// Besides the query's regions: points inside or on this box, world units.

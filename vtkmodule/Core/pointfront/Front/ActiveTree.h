@@ -16,8 +16,8 @@ namespace pointfront
 using SlotIndex = std::uint32_t;
 constexpr SlotIndex noSlot = 0xffffffffu;
 
-/// A node of the front or above it: what the table says of it, copied when it became active
-/// (a paged table is not touched again), and how the current view sees it.
+/// A node of the front or above it: its row, copied when it became active (a paged table is not
+/// touched again), and how the current view sees it.
 struct ActiveNode
 {
   glm::dvec3 centre{ 0.0 };
@@ -66,7 +66,7 @@ public:
   /// Back to the roots.
   void reset();
 
-  /// LAYERS-11: how the layers are seen from now on; those beyond the list as if by default. Time
+  /// LAYERS-11: sets the limits of the layers; layers beyond the list have default limits. Time
   /// linear in the slots when something changes.
   void setLayers(const std::vector<LayerLimits>& layers);
 
@@ -95,7 +95,7 @@ public:
   };
   Place find(NodeIndex node) const;
 
-  /// What the table says of child number `child` of a node; false when it is coming.
+  /// Reads the row of child number `child` of a node; false while the row is coming.
   bool childOf(const ActiveNode& parent, std::uint8_t child, ActiveNode& node) const;
 
 private:

@@ -9,9 +9,9 @@
 namespace pointfront
 {
 
-/// What a view takes (points or bytes) at each threshold: falls as the threshold rises. A table
-/// over thresholds, so that the curves of many views can be added and the threshold that all of
-/// them can have together be found.
+/// The demand of a view (points or bytes) at each threshold; it falls as the threshold rises. It is
+/// a table over thresholds, so that the curves of many views can be added to find the threshold at
+/// which all views fit.
 /// Steps     eight to a factor of two, from 2^-8 to 2^24 px; between two the larger demand counts.
 /// Threads   a value.
 class DemandCurve
@@ -52,7 +52,7 @@ public:
       steps_[s] -= other.steps_[s];
     }
   }
-  /// Below `px` it takes what it takes there: it will not go lower.
+  /// Sets the demand below `px` to the demand at `px`: the view will not go lower.
   void levelOff(double px)
   {
     const std::size_t last = stepOf(px);
@@ -68,7 +68,7 @@ private:
   std::array<std::uint64_t, size> steps_{};
 };
 
-/// All that a view takes at each threshold.
+/// The whole demand of a view at each threshold.
 struct DemandCurves
 {
   DemandCurve drawn; ///< points on screen

@@ -11,7 +11,7 @@
 namespace pointfront
 {
 
-/// What a selection of detail would take.
+/// The resources that a selection of detail would take.
 struct Demand
 {
   std::uint64_t drawn = 0; ///< points on screen
@@ -27,9 +27,9 @@ struct Demand
   }
 };
 
-// Whether a demand fits the budgets of FrontLimits: of a store alone and beside what others take
-// of the limits shared with them, all of it or the share of one layer (LAYERS-11). The same for
-// every selection of detail.
+// Whether a demand fits the budgets of FrontLimits: the budgets of the store alone, and the shared
+// limits less what others take of them; for the whole store or for the share of one layer
+// (LAYERS-11). Every selection of detail uses these functions.
 // Units    points; `px` is the threshold that the demand is of: what others take depends on it.
 
 enum class FrontBudget
@@ -91,8 +91,8 @@ inline bool fitsBudgets(const FrontLimits& limits, const Demand& wanted, double 
   return !brokenBudget(limits, wanted, share, px);
 }
 
-/// How many points may be drawn when a list is made, whatever the threshold: beside what the others
-/// have on screen at this moment.
+/// How many points may be drawn when a list is made, at any threshold: the budget less what the
+/// other clouds have on screen at this moment.
 class DrawAllowance
 {
 public:
@@ -109,7 +109,7 @@ public:
       slots_ = limits.sharedSlots.leftAt(0.0);
     }
   }
-  /// Takes what a node draws, as much of it as is allowed.
+  /// Takes the points that a node draws, as many as the budget allows.
   std::uint32_t take(std::uint32_t points)
   {
     const auto most = std::min(points_, slots_ < UINT32_MAX ? slots_ * gpuSlotPoints : UINT64_MAX);

@@ -10,7 +10,7 @@
 namespace pointfront
 {
 
-/// What of a store is in memory at this moment. A snapshot for the length of one update.
+/// Which nodes of a store are in memory at this moment. A snapshot for the length of one update.
 class ResidencyView
 {
 public:
@@ -22,8 +22,8 @@ public:
   };
   virtual ~ResidencyView() = default;
   virtual State state(NodeIndex node) const = 0;
-  /// Changes whenever the state of any node does, so that an update in which nothing changed can
-  /// end at once. 0: not known, every update asks anew.
+  /// Changes whenever the state of any node changes, so that an update in which nothing changed can
+  /// end at once. 0: not known; every update then asks anew.
   virtual std::uint64_t revision() const { return 0; }
   /// True when nothing more can come: the memory is full of what the front needs, and no
   /// request that waits fits. The view is then as complete as this memory allows.
@@ -46,12 +46,12 @@ struct SharedLimit
   }
 };
 
-/// What one update may do and strives for.
+/// The limits and the goal of one update.
 struct FrontLimits
 {
   double targetErrorPx = 1.0; ///< the threshold stops falling here
   double initialErrorPx = 60.0; ///< FRONT-7: where it starts
-  /// FRONT-6: expansions + collapses; the rest goes on next frame.
+  /// FRONT-6: most expansions + collapses; the next frame continues with the rest.
   std::uint32_t movesPerFrame = 64;
   std::uint64_t pointBudget = 0; ///< FRONT-8: most points drawn; 0: no limit
   /// Most points in the nodes that the view needs in memory, drawn or not (a node is held whole
@@ -69,14 +69,14 @@ struct FrontLimits
   /// SMOOTH-2, ViewDetail only: points of this store that are in memory and drawn for every view:
   /// its share of the scene's overview (overviewShare()).
   std::uint64_t overviewPoints = 2000000;
-  /// FRONT-9: ask also for the siblings (out of sight) of what is asked for, after everything that
-  /// is in sight and only into free memory. Off for a single still picture.
+  /// FRONT-9: also ask for siblings of requested nodes that are out of sight, after all nodes in
+  /// sight and only into free memory. Off for a single still picture.
   bool prefetchSiblings = true;
   /// LAYERS-11: by number of the layer; layers beyond the list are as by default.
   std::vector<LayerLimits> layers;
 };
 
-/// The curves of the others are not compared: sharedRevision tells of them.
+/// The curves of the others are not compared: sharedRevision changes with them.
 inline bool operator==(const FrontLimits& a, const FrontLimits& b)
 {
   return a.targetErrorPx == b.targetErrorPx && a.initialErrorPx == b.initialErrorPx &&
@@ -102,18 +102,20 @@ struct LoadRequest
   NodeIndex node = noNode;
   double priority = 0.0; ///< larger is sooner; the error on screen that it would mend, in px
   bool optional = false; ///< not needed for this view: after all others, into free memory only
-  /// The node's own, all of them: who loads it must know what it takes without reading the table.
+  /// All points of the node: the loader must know the memory that it needs without reading the
+  /// table.
   std::uint32_t pointCount = 0;
   std::uint16_t layer = 0; ///< likewise: which columns it is wanted with
 };
 
-/// What one update decided. Owned by the front, valid until its next update.
+/// The decisions of one update. Owned by the front, valid until its next update.
 struct FrontDelta
 {
-  /// Of the update that made it, from 1 on: the same again means that nothing has changed.
+  /// The number of the update that made it, from 1 on. The same number again means that nothing has
+  /// changed.
   std::uint64_t number = 0;
   std::vector<DrawItem> draw; ///< near to far, ties by node: two runs give the same list
-  /// All that is wanted now: optional ones last, highest priority first, ties by node.
+  /// All nodes that are wanted now: optional ones last, highest priority first, ties by node.
   std::vector<LoadRequest> requests;
   std::uint64_t pointsDrawn = 0;
   std::uint64_t slotsDrawn = 0; ///< of GPU memory (GpuSlots.h), that they take

@@ -11,11 +11,11 @@
 namespace pointfront
 {
 
-/// Counts, from the table alone, what a threshold asks for: what is loaded at the moment plays no
-/// part, so a view settles at the same threshold however its nodes arrive, and nothing is
-/// begun that would have to be taken back when its data comes. Front nodes above the threshold
-/// count with their children (one level ahead of the tree).
-/// Falls with the threshold, never rises: the lowest one that fits can be found by bisection.
+/// Counts, from the table alone, the demand of a threshold. Loaded nodes play no part, so a view
+/// settles at the same threshold in whatever order its nodes arrive, and the front begins nothing
+/// that it would have to take back when data comes. Front nodes above the threshold count with
+/// their children (one level ahead of the tree). The demand never rises with the threshold, so
+/// bisection finds the lowest threshold that fits.
 class FrontDemand
 {
 public:
@@ -27,14 +27,14 @@ public:
   {
   }
 
-  /// Of the tree under a root, at a threshold in the pixels of ActiveNode::errorPx.
+  /// The demand of the tree under a root, at a threshold in the pixels of ActiveNode::errorPx.
   Demand ofRoot(SlotIndex root, double thresholdPx) const
   {
     return below(tree_[root], thresholdPx);
   }
   /// The demand at all thresholds, of the active nodes alone.
   void curves(DemandCurves& curves) const;
-  /// Of the children that a front node has in the table.
+  /// The demand of the children that a front node has in the table.
   Demand ofChildren(const ActiveNode& parent, double thresholdPx) const;
   /// Points of a visible node drawn at a threshold. Representatives (Replace) carry a
   /// radius that closes the surface when all of them are drawn: they come whole.

@@ -11,8 +11,9 @@
 namespace pointfront
 {
 
-/// What of the active tree is drawn and what is asked for, given what is resident: the
-/// last step of an update. Also marks every node that the view needs (ActiveNode::needed).
+/// Decides which nodes of the active tree are drawn and which are requested, given the resident
+/// ones: the last step of an update. Also marks every node that the view needs
+/// (ActiveNode::needed).
 /// Threads  one.
 class FrontPlan
 {

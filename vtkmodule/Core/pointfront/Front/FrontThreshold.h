@@ -24,22 +24,21 @@ namespace pointfront
 class FrontThreshold
 {
 public:
-  /// An update begins. `mayFall`: nothing is left over from the one before.
+  /// Begins an update. `mayFall`: the update before left no moves over.
   void begin(const FrontLimits& limits, const ActiveTree& tree, bool inputChanged, bool mayFall);
   /// The lowest threshold that choose() may give a layer: nodes above it must be evaluated first.
   double lowestPx(std::uint16_t layer) const;
   void choose(const ActiveTree& tree, const FrontDemand& demand);
 
-  /// In force for a layer, in the (weighted) pixels of ActiveNode::errorPx.
+  /// The threshold in force for a layer, in the (weighted) pixels of ActiveNode::errorPx.
   double px(std::uint16_t layer) const
   {
     return layer < layers_.size() ? layers_[layer].px : commonPx_;
   }
-  /// The largest over the visible layers.
+  /// The largest threshold of the visible layers.
   double largestPx(const ActiveTree& tree) const;
 
-  /// Adds what an expansion would bring to the demand; false, and nothing added, if that breaks a
-  /// budget.
+  /// Adds the demand of an expansion; false, and nothing added, if that breaks a budget.
   bool admit(const Demand& more);
 
   /// By any budget.
@@ -48,10 +47,10 @@ public:
   bool atTarget() const { return common_.rung == 0; }
   bool bound() const { return common_.bound; } ///< by a budget, which keeps the next lower rung out
   FrontBudget boundBy() const { return boundBy_; } ///< if bound()
-  /// Whether what others take now of the shared limits leaves the choice as it was: it is not bound
-  /// by them, and fits beside them still.
+  /// Whether the present demand of the others leaves the choice as it was: the shared limits do not
+  /// bind it, and it still fits.
   bool unmoved() const;
-  /// If nothing is missing, the next update will try a lower one.
+  /// Whether the next update will try a lower threshold if nothing is missing.
   bool falling() const;
 
 private:

@@ -5,9 +5,9 @@
 namespace pointfront
 {
 
-/// GPU memory is given out in equal slots: a node takes as many whole ones as the prefix of it that
-/// is drawn fills. What a view takes of a GPU is therefore counted in slots: small nodes take more
-/// memory than their points.
+/// GPU memory is given out in equal slots. A node takes as many whole slots as its drawn prefix
+/// fills, so small nodes take more memory than their points. The demand of a view on the GPU is
+/// therefore counted in slots.
 constexpr std::uint32_t gpuSlotPoints = 4096;
 
 constexpr std::uint64_t gpuSlotsOf(std::uint64_t points)

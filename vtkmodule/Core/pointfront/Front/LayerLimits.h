@@ -7,7 +7,8 @@
 namespace pointfront
 {
 
-/// What one layer (object class with a tree of its own) asks of a view and may have of its budgets.
+/// The limits of one layer (an object class with a tree of its own): its switch, its error and its
+/// share of the budgets.
 /// Source  Richter, Discher & Doellner 2015, section 4.2 (LAYERS-11).
 struct LayerLimits
 {
@@ -16,13 +17,14 @@ struct LayerLimits
   /// Its threshold is the view's times this, > 0: 2 draws the layer half as fine. Its errors are
   /// divided by it wherever layers are compared (thresholds, priorities, FrontDelta::errorPx).
   double errorFactor = 1.0;
-  /// Of pointBudget and heldPointBudget, 0 to 1: so much the layer has before any other, however
-  /// large their errors are. What it does not use is lent to those with the largest errors and
-  /// taken back at the next update that needs it. 0: it takes from what is left. Shares that come
-  /// to more than 1 over the visible layers are cut down in proportion.
+  /// The share of pointBudget and heldPointBudget, 0 to 1, that the layer gets before any other,
+  /// however large their errors are. An unused part of the share is lent to the layers with the
+  /// largest errors and taken back at the next update that needs it. 0: the layer takes from the
+  /// rest. Shares that come to more than 1 over the visible layers are cut down in proportion.
   double share = 0.0;
-  /// Nodes of the layer that its filter leaves out: neither asked for nor drawn, as if they had no
-  /// points; nor is anything below those that are skipped. Null: there is none. Compared by object.
+  /// Nodes of the layer that its filter leaves out. They are neither requested nor drawn, as if
+  /// they had no points; the same goes for everything below skipped nodes. Null: no node. Compared
+  /// by object.
   std::shared_ptr<const NodePruning> pruning = nullptr;
 };
 

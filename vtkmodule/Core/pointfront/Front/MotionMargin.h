@@ -11,14 +11,14 @@
 namespace pointfront
 {
 
-/// Where a camera will be `frames` frames after `now`, if it goes on as from `before` to `now`: the
-/// eye moves on, the planes of the frustum turn on, the size of things on the screen changes on by
-/// the same factor (at most fourfold). The same view if it stands still.
-/// Two views of different kinds (parallel and not) or viewports tell nothing: `now` comes back.
+/// The view `frames` frames after `now`, if the camera continues its motion from `before` to `now`:
+/// the eye moves, the planes of the frustum turn, and the size of things on the screen changes by
+/// the same factor (at most fourfold). A camera at rest gives the same view. If the two views
+/// differ in kind (parallel or perspective) or viewport, the result is `now`.
 View viewAhead(const View& before, const View& now, double frames);
 
-/// What a moving view is about to need: loaded ahead as far as memory is free, so that what comes
-/// into sight is there already.
+/// The nodes that a moving view is about to need. They are loaded ahead as far as memory is free,
+/// so that they are there when they come into sight.
 /// Source   Kovac 2009, section 3 (a margin around the view is loaded ahead; EWA-2), led by the
 ///          motion instead of lying on all sides.
 /// Cost     one walk over at most `visitLimit` nodes of the table, nothing while the view rests.
@@ -31,10 +31,9 @@ public:
   {
   }
 
-  /// Nodes that are absent and that the view ahead shows above `thresholdPx`, all optional, largest
-  /// error first, ties by node; at most `most`. `frames`: how far ahead. Call it once a frame.
-  /// Valid until the next call.
-  /// Layers as in FrontLimits.
+  /// Absent nodes that the view ahead shows above `thresholdPx`: all optional, largest error first,
+  /// ties by node; at most `most`. `frames`: how far to look ahead. Call it once a frame. Valid
+  /// until the next call. Layers as in FrontLimits.
   const std::vector<LoadRequest>& requests(const View& now, double thresholdPx,
     const ResidencyView& residency, double frames, std::uint32_t most,
     const std::vector<LayerLimits>& layers = {});

@@ -9,9 +9,9 @@
 namespace pointfront
 {
 
-/// Nodes that need not be read because no point of theirs would be drawn: what a filter comes to
-/// for the node table (docs/user/styles.md).
-/// Numbers  the store's, for its first nodes; of others nothing is known.
+/// Nodes that need not be read because a filter lets none of their points through
+/// (docs/user/styles.md).
+/// Numbers  node numbers of the store, for its first nodes; nothing is known of the others.
 /// Size     one byte a node.
 /// Threads  const functions from any thread.
 class NodePruning
@@ -33,7 +33,7 @@ public:
   {
     return node < verdicts_.size() ? verdicts_[node] : Verdict::Draw;
   }
-  /// For how many nodes something is known.
+  /// Number of nodes with a known answer.
   std::size_t size() const { return verdicts_.size(); }
 
 private:

@@ -9,7 +9,7 @@
 namespace pointfront
 {
 
-/// In which slot an active node is. Open addressing with linear probing: one allocation that
+/// Maps active nodes to their slots. Open addressing with linear probing: one allocation that
 /// doubles when it is half full, none in the steady state.
 /// Threads  one.
 class NodeSlots
@@ -18,9 +18,9 @@ public:
   static constexpr std::uint32_t none = 0xffffffffu;
 
   void clear();
-  /// A node that is not in here.
+  /// Adds a node that is not in the map.
   void insert(NodeIndex node, std::uint32_t slot);
-  /// A node that is.
+  /// Removes a node of the map.
   void erase(NodeIndex node);
   std::uint32_t find(NodeIndex node) const;
   std::size_t size() const { return size_; }

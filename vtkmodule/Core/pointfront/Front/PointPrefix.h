@@ -46,7 +46,8 @@ inline std::uint32_t prefixLength(
   return rounded == 0 && ratio == 0.0 && pointCount > 0 ? 1 : rounded;
 }
 
-/// The density on screen when `drawn` of `pointCount` points are drawn, to that of all of them.
+/// The density on screen when `drawn` of `pointCount` points are drawn, divided by the density of
+/// all.
 inline double prefixDensity(std::uint32_t pointCount, std::uint32_t drawn, double ratio)
 {
   const double above = ratio * ratio < 0.75 ? ratio * ratio : 0.75;
@@ -54,7 +55,7 @@ inline double prefixDensity(std::uint32_t pointCount, std::uint32_t drawn, doubl
   return above + fraction * (1.0 - above);
 }
 
-/// The spacing in pixels that is on screen then: the inverse of the prefix' length.
+/// The spacing in pixels on screen with a prefix of that length: the inverse of prefixLength().
 inline double prefixErrorPx(
   std::uint32_t pointCount, std::uint32_t drawn, double errorPx, double ratio)
 {

@@ -9,8 +9,8 @@ namespace pointfront
 
 /// The cut through a hierarchy that is drawn this frame.
 /// Front       the cut that the threshold asks for is kept from update to update and moved by the
-///             table alone (FRONT-5, -6); of it is drawn what is resident. Nodes that are missing
-///             are requested, and stand-ins drawn: the ancestors (Add: they are drawn anyway;
+///             table alone (FRONT-5, -6). Its resident nodes are drawn. Missing nodes are
+///             requested, and their ancestors stand in for them (Add: ancestors are drawn anyway;
 ///             Replace: a node stands in until all of its children are there).
 /// Threshold   starts at initialErrorPx and falls by a fifth an update while moves are not used up
 ///             and requests not piled up (FRONT-7). Budgets act on it: the lowest threshold whose
@@ -30,7 +30,7 @@ namespace pointfront
 ///             drawn. With Add its descendants, which are stored apart, are still refined into.
 /// Threads     one instance, one thread; View and ResidencyView are snapshots.
 /// Source      Richter & Doellner 2010, section 3.2.1 (the rendering front); FRONT-4..8;
-///          Richter, Discher & Doellner 2015, section 4.2 (LAYERS-11).
+///             Richter, Discher & Doellner 2015, section 4.2 (LAYERS-11).
 class RenderFront final : public DetailSelection
 {
 public:
@@ -41,16 +41,16 @@ public:
   const FrontDelta& update(
     const View& view, const ResidencyView& residency, const FrontLimits& limits) override;
 
-  /// What the last update's view takes at each threshold from the one in force on, on
-  /// screen, on the GPU and in memory. Below that it takes what it takes now; step 0 is what is
+  /// The demand of the last update's view on screen, on the GPU and in memory, at each threshold
+  /// from the one in force upwards. Lower thresholds have the present demand; step 0 is what is
   /// drawn.
   void demandCurves(DemandCurves& curves) const override;
 
-  /// FRONT-10, first pass: levels that a node lies below the part of the front that the last
-  /// update needed; 0 for what it needed itself (which must stay), larger for what may be released
-  /// first. Branches out of sight count from their last ancestor in sight; of a hidden layer
-  /// nothing is needed, not even its root. Does not wait for a paged table: what is nowhere near
-  /// the front is far below it.
+  /// FRONT-10, first pass: the number of levels that a node lies below the part of the front that
+  /// the last update needed. 0: the update needed the node itself, which must stay. Nodes with
+  /// larger numbers may be released first. Branches out of sight count from their last ancestor in
+  /// sight; a hidden layer needs no node, not even its root. Does not wait for a paged table: a
+  /// node nowhere near the front counts as far below it.
   std::uint32_t distanceUnderFront(NodeIndex node) const override;
 
   /// Back to the roots and the initial threshold.

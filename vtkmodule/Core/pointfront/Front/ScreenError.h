@@ -18,8 +18,8 @@ enum class Visibility
 };
 
 /// FRONT-4: frustum test by bounding sphere: six plane distances. Conservative: a sphere near an
-/// edge of the frustum may be called Inside, one that can be seen is never called Outside.
-/// Inline, as what follows: asked for each node of a front in each update.
+/// edge of the frustum may be called Inside, one that can be seen is never called Outside. Inline,
+/// like the next functions, because each update calls it for each node of a front.
 inline Visibility sphereVisibility(const View& view, const glm::dvec3& centre, double radius)
 {
   for (const glm::dvec4& plane : view.planes)
@@ -41,7 +41,7 @@ inline double distanceToSphere(const View& view, const glm::dvec3& centre, doubl
   return distance > radius ? distance - radius : 0.0; // a NaN gives 0: first rather than lost
 }
 
-/// The order of nodes stays monotone and every sum of errors finite, also with an eye inside a
+/// This keeps the order of nodes monotone and every sum of errors finite, even with an eye inside a
 /// node and a near plane of 1e-300.
 constexpr double largestErrorPx = 1e30;
 

@@ -12,12 +12,13 @@ namespace pointfront
 {
 
 /// The demand of all views that share a memory (of the process, of a window's GPU). Each view tells
-/// what it takes at which threshold, and asks what the others take: the threshold that fits all of
-/// them together is then the same for all, so the memory goes to the largest errors on screen,
+/// its demand at each threshold, and asks for the demand of the others. The threshold at which all
+/// views fit together is then the same for all. So the memory goes to the largest errors on screen,
 /// and a scene that needs more settles at the best error that every view can have.
-/// Budgets  a claim is made under a budget (in any unit; 0: none). After that was lowered the views
-///          come down one after the other, each before it draws: what those that are yet to come
-///          down have at this moment does not count for those that do, only what they will take.
+/// Budgets  a claim is made under a budget (in any unit; 0: none). After the budget was lowered the
+///          views come down one after the other, each before it draws. For a view that comes down,
+///          the present holdings of views that are yet to come down do not count, only what they
+///          will take.
 /// Threads  any.
 class SharedDemand
 {
@@ -54,7 +55,7 @@ public:
         ++shared_->revision_;
       }
     }
-    /// What all others take.
+    /// The demand of all others.
     void elsewhere(DemandCurve& others, std::uint64_t budget = 0) const
     {
       const std::lock_guard<std::mutex> lock(shared_->mutex_);
@@ -66,13 +67,13 @@ public:
         others[0] -= claim != this && comesDown ? claim->own_[0] : 0;
       }
     }
-    /// How many views share.
+    /// Number of views that share.
     std::uint64_t claims() const
     {
       const std::lock_guard<std::mutex> lock(shared_->mutex_);
       return shared_->claims_.size();
     }
-    /// Changes whenever a claim does.
+    /// Changes whenever a claim changes.
     std::uint64_t revision() const
     {
       const std::lock_guard<std::mutex> lock(shared_->mutex_);

@@ -15,7 +15,8 @@ namespace pointfront
 /// Units  world units; pixels of the render target.
 struct View
 {
-  /// Of the eye. A parallel view has none: the middle of its near plane, nearDistance towards us.
+  /// Position of the eye. A parallel view has no eye: the middle of its near plane, moved by
+  /// nearDistance towards the viewer.
   glm::dvec3 position{ 0.0 };
   glm::dvec3 direction{ 0.0, 0.0, -1.0 }; ///< unit, away from the eye
   bool parallel = false;

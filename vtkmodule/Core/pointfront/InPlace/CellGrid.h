@@ -20,13 +20,13 @@ struct Square
   unsigned logSide = 0;
 };
 
-/// Counts points in the cells of a square grid in the plane, finer where they are dense; later
-/// tells for any position which leaf it belongs to.
+/// Counts points in the cells of a square grid in the plane, with finer cells in dense places.
+/// Later it finds the leaf of any position.
 /// Shape     one grid of 2^topBits cells a side over the square frame around `box`; a cell that
 ///           holds too many is cut into 8 x 8 by refine(), and so on. Cells lie in Morton order,
 ///           so that every square of the quadtree is one range of them.
 /// Memory    4 bytes a cell: at most 64 MiB for the first grid, 256 for each cell that is cut.
-/// Counts    stop at 2^30: they shape the tree, the exact ones come with the runs.
+/// Counts    stop at 2^30. They shape the tree only; the exact counts come with the runs.
 /// Threads   count() from any number of threads at once; everything else from one.
 class CellGrid
 {
@@ -58,9 +58,9 @@ public:
   /// Points of a range that is one cell and was not cut.
   std::uint32_t points(const Range& range) const { return cell(range.level, range.first); }
 
-  /// From now on the cells of `range`, none of which is cut, answer `leaf` (below 2^31).
+  /// Assigns `leaf` (below 2^31) to the cells of `range`, none of which is cut.
   void assign(const Range& range, std::uint32_t leaf);
-  /// What the cell of this position was assigned, or its points before that.
+  /// The leaf that was assigned to the cell of this position; before that, the points of the cell.
   std::uint32_t at(const glm::ivec3& position) const;
 
   /// Lowest and highest grid position of a square that a point can have, inclusive.

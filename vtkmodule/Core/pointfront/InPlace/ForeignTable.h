@@ -21,7 +21,7 @@ struct ForeignTable
   /// `margin` wider than the cells.
   /// Errors  as ForeignTree::make().
   static Result<ForeignTable> make(const ForeignTreeContent& content, const glm::dvec3& margin);
-  /// What lies outside of the box belongs to no node.
+  /// Cells outside of the box belong to no node.
   void cutTo(const Bounds& box);
 };
 

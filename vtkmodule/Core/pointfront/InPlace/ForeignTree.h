@@ -31,7 +31,7 @@ public:
   /// Bytes of a chunk as they lie on the disk.
   virtual Result<RawBytes> fetch(std::uint64_t chunk) const = 0;
   virtual std::size_t storedBytes(std::uint64_t chunk) const = 0;
-  /// What is wanted of a chunk.
+  /// The part of a chunk that is wanted.
   struct Part
   {
     std::uint64_t chunk = 0;
@@ -39,14 +39,14 @@ public:
     std::uint32_t first = 0; ///< so many of them are enough, those that come first in the file
     const ColumnSelection& columns;
   };
-  /// Points in the file's order, as positions or as steps, and the columns that are wanted (others
-  /// too, or empty in their places).
+  /// Points in the file's order, as positions or as steps, with the wanted columns. Other columns
+  /// may be filled or empty.
   virtual Result<void> decode(const Part& part, const RawBytes& bytes, PointBatch& batch) const = 0;
   virtual std::uint64_t disk() const { return 0; }
   virtual std::vector<std::string> files() const = 0;
 };
 
-/// What is known of such a tree before its points are read.
+/// The facts about such a tree that are known before its points are read.
 struct ForeignTreeContent
 {
   SourceDescription source; ///< with a grid
@@ -70,8 +70,8 @@ struct ForeignTreeContent
 class ForeignTree final : public StoredCloud
 {
 public:
-  /// Errors  BadFormat: a cube or cells that are none, a cell that is there twice; more points in
-  ///         a node than maxNodePoints. Of the nodes that are read.
+  /// Errors  BadFormat: an invalid cube or cell, a cell that appears twice, a node with more points
+  ///         than maxNodePoints; and the errors of the nodes that are read.
   static Result<std::shared_ptr<const StoredCloud>> make(ForeignTreeContent content);
 
   const StoreDescription& description() const override { return description_; }
@@ -98,8 +98,8 @@ private:
   StoreDescription description_;
   std::shared_ptr<const Hierarchy> hierarchy_;
   NodeIndex first_ = noNode; ///< with points
-  /// As it was asked for last: colours are chosen from its points before it is drawn, and it takes
-  /// as long as all else of the first picture.
+  /// The first node, with the columns of the last request. Colours are chosen from its points
+  /// before it is drawn, and reading it again would take as long as the rest of the first picture.
   mutable std::unique_ptr<const NodeColumns> kept_;
   mutable std::mutex mutex_; ///< of kept_
 };

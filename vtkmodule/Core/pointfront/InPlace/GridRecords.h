@@ -10,7 +10,8 @@ namespace pointfront
 {
 
 /// The points of a file as they lie there: records of one width, each beginning with its grid
-/// position, three little-endian int32. An uncompressed LAS file, mapped into memory, is that.
+/// position, three little-endian int32. An uncompressed LAS file, mapped into memory, has this
+/// form.
 /// Lifetime  the bytes belong to whoever maps the file.
 struct GridRecords
 {

@@ -14,7 +14,7 @@
 namespace pointfront
 {
 
-/// What the side file knows of a node besides the node table's row.
+/// The facts about a node in the side file that the node table's row lacks.
 struct InPlaceRow
 {
   std::uint64_t offset = 0; ///< of its list of runs in the side file
@@ -32,10 +32,10 @@ struct InPlaceOptions
   std::string temporaryFolder; ///< for lists beyond memoryBytes
 };
 
-/// The in-place tree over some records: which points each node holds, told by runs.
-/// Shapes    nodes[i] goes with rows[i]; breadth first. An inner node's points are those of its
-///           runs of strata that no coarser stream of an ancestor has; a leaf's are those of its
-///           runs of points that no ancestor's stream has. Every point is in exactly one node.
+/// The in-place tree over some records: the points of each node, as runs.
+/// Shapes    nodes[i] goes with rows[i]; breadth first. An inner node has the points of its runs of
+///           strata, except those in a coarser stream of an ancestor. A leaf has the points of its
+///           runs, except those in a stream of an ancestor. Every point is in exactly one node.
 struct InPlaceTable
 {
   std::vector<Node> nodes;

@@ -25,12 +25,12 @@ class LeafSplats
 public:
   static constexpr std::size_t mostMeasured = 96;
 
-  /// `released` is told of records [begin, end) that were looked at: their pages need not stay.
+  /// `released` gets the records [begin, end) that were read: their pages need not stay in memory.
   LeafSplats(const QuadTree& tree, const GridRecords& records, const QuantisationGrid& grid,
     std::function<void(std::uint64_t, std::uint64_t)> released);
   /// Called with the list of each node, in any order.
   void look(NodeIndex node, const std::vector<std::byte>& list);
-  /// When all were seen.
+  /// Called after the lists of all nodes.
   void fill(std::vector<Node>& nodes) const;
 
 private:

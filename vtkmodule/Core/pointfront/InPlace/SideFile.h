@@ -19,7 +19,7 @@ namespace pointfront
 constexpr std::uint32_t sideFileVersion = 2; ///< written by this program, and the newest it reads
 constexpr std::array<unsigned char, 8> sideFileMagic{ 0x89, 'P', 'F', 'I', 'D', 'X', 0x0d, 0x0a };
 
-/// The file that an index is of, and how to see that it is still the same.
+/// The file that an index describes, with checksums that show whether it is still the same.
 struct IndexedFile
 {
   std::string name; ///< relative to the side file's folder
@@ -31,7 +31,7 @@ struct IndexedFile
   std::uint32_t edgesChecksum = 0; ///< of the first and the last 64 KiB of the records
 };
 
-/// What a side file says, but its lists of runs.
+/// The content of a side file except its lists of runs.
 struct SideFileContent
 {
   IndexedFile indexed;

@@ -10,7 +10,7 @@
 namespace pointfront
 {
 
-/// What becomes of a build one of whose inputs is no point file, is damaged or holds no position.
+/// What a build does if an input is no point file, is damaged or holds no position.
 enum class OnFault
 {
   Stop, ///< nothing is written; the Error names all inputs that are wrong

@@ -18,7 +18,7 @@
 namespace pointfront
 {
 
-/// What is read, and where its records go.
+/// The inputs of an ingest, and the place of its records.
 struct IngestSite
 {
   const std::vector<std::unique_ptr<PointSource>>& sources;
@@ -31,7 +31,7 @@ struct IngestSite
   WorkCrew& crew;
 };
 
-/// What is known of the points once all are read.
+/// The facts about the points that are known once all are read.
 struct IngestedPoints
 {
   std::uint64_t read = 0;
@@ -46,8 +46,8 @@ struct IngestedPoints
   unsigned hintedShift = 0; ///< of the cells before any were joined
   double readSeconds = 0.0; ///< CPU, over all threads
   double quantiseSeconds = 0.0;
-  /// A column that was left out of the records is not what was guessed, and nothing else here is
-  /// complete: to be read again with those that are wrong.
+  /// A guess about a column that was left out of the records was wrong. Nothing else here is
+  /// complete: the points must be read again with the wrong columns carried.
   bool guessedWrong = false;
   std::vector<bool> wrong; ///< of the common columns
 };

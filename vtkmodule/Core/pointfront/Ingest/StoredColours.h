@@ -10,7 +10,7 @@
 namespace pointfront
 {
 
-/// How deep the colours of a store are, once all points are read.
+/// The depth of a store's colours, known once all points are read.
 struct StoredColours
 {
   AttributeSchema schema; ///< the common schema as it is stored

@@ -12,7 +12,7 @@
 namespace pointfront
 {
 
-/// When a frame is drawn, and how.
+/// The time of a frame, and how detail grows in it.
 struct GrowthMoment
 {
   double seconds = 0.0; ///< of any clock that does not go back: only differences count
@@ -20,23 +20,24 @@ struct GrowthMoment
   bool moving = false; ///< the view is in motion
 };
 
-/// Lets detail grow from frame to frame, where it would pop up: what one view shows of each node,
-/// between what it showed and what its front wants (SMOOTH-6).
+/// Lets detail grow from frame to frame instead of popping up (SMOOTH-6). For one view it chooses
+/// what is shown of each node, between what the last frame showed and what the front wants.
 /// Ordered    (Refinement::Add) a node's prefix grows and falls within `duration`. In motion the
 ///            last fifth of a prefix has sizes from full to nothing, so that a point that comes or
 ///            goes has none: the picture depends on the view alone where the front's prefixes
 ///            change slowly. At rest all become whole.
-/// Unordered  (Refinement::Replace) what replaces others grows as a whole; what it replaces goes on
-///            being drawn meanwhile and shrinks last, so that nothing opens.
-/// At once    what is seen first, and what comes into view with all of its branch, is whole.
+/// Unordered  (Refinement::Replace) a node that replaces another grows as a whole; the replaced
+///            node is drawn meanwhile and shrinks last, so that no hole opens.
+/// At once    nodes of the first frame, and nodes that come into view with their whole branch, are
+///            whole.
 /// At rest    after `duration` nothing is left of it: the plan is the same, bit for bit, as one
 ///            that never grew.
-/// Pauses     a frame counts for half of `duration` at most: what changes after a long rest is not
-///            there at once.
+/// Pauses     a frame counts for half of `duration` at most, so that a change after a long rest
+///            grows too.
 /// Time       is a value; none is read here.
 /// Threads    one.
 /// Source     Futterlieb, Teutsch & Berndt 2016, section 3.2.2, which blends finished pictures at
-///            intervals; drawing.md 7. docs/adr/0025.
+///            intervals; docs/adr/0025.
 class DetailGrowth
 {
 public:
@@ -57,16 +58,16 @@ public:
   };
 
   void begin(const GrowthMoment& moment, bool ordered);
-  /// For each node that the front draws `points` of.
+  /// Called for each node of which the front draws `points` points.
   Shown grow(const std::shared_ptr<const NodeColumns>& node, std::uint32_t points);
-  /// After all of them: what is drawn beside. Unordered only.
+  /// Called after all nodes: the nodes that are drawn in addition. Unordered only.
   std::vector<Leaving> finish();
 
-  /// Another frame that asks for the same differs.
+  /// Whether another frame with the same demand would differ.
   bool growing() const { return growing_; }
-  /// What is shown is what the front draws: nothing is left of growth.
+  /// Whether everything that the front draws is shown at full size.
   bool whole() const { return whole_; }
-  /// What is seen next is seen first.
+  /// Forgets all nodes: the next frame counts as the first.
   void reset();
 
 private:

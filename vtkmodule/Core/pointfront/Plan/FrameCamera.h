@@ -15,11 +15,11 @@ struct FrameCamera
 {
   glm::dmat4 storeToView{ 1.0 }; ///< affine; an actor's matrix is part of it
   glm::dmat4 viewToClip{ 1.0 }; ///< any frustum: off-axis and sheared ones too
-  /// Store coordinates that positions are taken relative to before they become floats: the eye, in
-  /// a parallel view the focal point (docs/adr/0004).
+  /// The reference point in store coordinates. Positions are taken relative to it before they
+  /// become floats: the eye, in a parallel view the focal point (docs/adr/0004).
   glm::dvec3 reference{ 0.0 };
-  /// Where it lies in the view: exactly 0 when it is the eye, so that no rounding noise of two
-  /// large terms comes in.
+  /// The place of the reference point in view space: exactly 0 when it is the eye, so that no
+  /// rounding noise of two large terms enters.
   glm::dvec3 referenceInView{ 0.0 };
   bool parallel = false;
   int width = 1; ///< of the viewport, pixels

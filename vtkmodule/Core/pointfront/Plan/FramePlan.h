@@ -29,26 +29,26 @@ struct PlanItem
   /// World units between the points on screen when this prefix and all nodes above it are drawn, by
   /// the tree's levels.
   float spacing = 0.0f;
-  // How large splats close the surface (drawing.md 3); a back end takes the largest of what
-  // applies, and FramePlan::spacingPx.
-  /// A point's own radius counts that many times: more than 1 for a prefix.
+  // How large splats must be to close the surface (docs/adr/0017). A back end takes the largest of
+  // the radii that apply and of FramePlan::spacingPx.
+  /// Factor of a point's own radius: more than 1 for a prefix.
   float radiusScale = 1.0f;
   /// World units, for points without a radius of their own.
   float closingRadius = 0.0f;
-  /// The same of the sparsest finer node that is drawn among its points; its own if there is none.
-  /// A point's own radius is bounded by that: a stray is no surface.
+  /// The closing radius of the sparsest finer node that is drawn among its points, or its own. It
+  /// bounds a point's own radius, because a stray point is no surface.
   float sparsestRadius = 0.0f;
-  /// Finer nodes are drawn among this one's points: how far these are apart does not say how large
-  /// their splats must be.
+  /// Finer nodes are drawn among the points of this node, so the distances between its own points
+  /// do not tell how large their splats must be.
   bool refined = false;
-  /// The store has more points there than are drawn.
+  /// The store has more points in this node's place than are drawn.
   bool unfinished = false;
-  /// Pixels between the points on screen while this node or finer ones among its points grow, if
-  /// these are more than FramePlan::spacingPx, which counts on what they will be.
+  /// Pixels between the points on screen while this node or finer nodes among its points grow, if
+  /// more than FramePlan::spacingPx, which assumes that growth is over.
   float growingSpacingPx = 0.0f;
 };
 
-/// What is drawn in one way: the nodes of one layer.
+/// Nodes of one layer that are drawn in one style.
 struct DrawBatch
 {
   std::uint16_t layer = 0;
@@ -56,7 +56,7 @@ struct DrawBatch
   std::vector<PlanItem> items; ///< near to far, ties by node
 };
 
-/// What is true of a whole frame, whatever is drawn in it.
+/// The settings of a whole frame, whatever nodes it draws.
 struct FrameSetting
 {
   FrameCamera camera;
@@ -65,16 +65,17 @@ struct FrameSetting
   QuantisationGrid grid;
   std::shared_ptr<const AttributeSchema> schema; ///< of the nodes' columns; never null
   double splatRadiusBase = 0.0; ///< of the store's radii (SplatRadius.h); 0: none
-  /// Pixels between the points on screen wherever the store has more than is drawn: the front's
-  /// threshold. No splat need be smaller, whatever was measured; by it a point looks the same
-  /// whether its parent or its leaf is drawn.
+  /// Pixels between the points on screen wherever the store has more points than are drawn: the
+  /// front's threshold. No splat need be smaller than this, whatever its measured radius. So a
+  /// place looks the same whether a parent or a leaf is drawn there.
   float spacingPx = 0.0f;
-  /// The view moves, or more is to come: what the last picture showed and this plan lacks is drawn
-  /// too, by back ends that can (SMOOTH-7). A complete view never keeps anything: its picture is
-  /// the same whatever was seen before.
+  /// The view moves, or more nodes are to come. Back ends that can then also draw points that the
+  /// last picture showed and this plan lacks (SMOOTH-7). A complete view never keeps points: its
+  /// picture does not depend on earlier pictures.
   bool keepsVisible = false;
-  /// Other processes draw the rest of the cloud, and the nearest of all is shown: the picture's
-  /// depths are those that decide who is seen, which lie behind a splat's plane towards its rim.
+  /// Other processes draw the rest of the cloud, and the nearest point of all is shown. The picture
+  /// then has the depths that decide which splat is seen; they lie behind a splat's plane towards
+  /// its rim.
   bool composited = false;
   FrameShading shading;
 };

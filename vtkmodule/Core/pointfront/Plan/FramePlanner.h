@@ -26,7 +26,7 @@ struct LayerStyles : std::vector<std::shared_ptr<const ResolvedStyle>>
   }
 };
 
-/// What a view asks of a frame beside what its front draws.
+/// The demands of a view on a frame, in addition to the nodes that its front draws.
 struct PlanRequest
 {
   FrameCamera camera;
@@ -34,7 +34,8 @@ struct PlanRequest
   FrameShading shading;
   bool keepsVisible = false; ///< as FramePlan's: see leavesOut()
   bool composited = false; ///< as FramePlan's
-  /// Not null: detail grows, by what that view showed so far, which becomes what this plan shows.
+  /// Not null: detail grows. The object knows what that view showed so far, and learns what this
+  /// plan shows.
   DetailGrowth* growth = nullptr;
   GrowthMoment moment;
   std::vector<LayerStyles> styles; ///< by number of the store's layer; beyond the list: hidden
@@ -44,15 +45,15 @@ struct PlanRequest
 /// anything, in the order of their numbers; one for each style of a layer that has several.
 /// Nodes     each is looked up once and pinned until the plan is gone. One that is no longer in
 ///           memory is left out.
-/// Columns   a node may lack columns that its style reads, while it is being read again: it is in
-///           the plan all the same, and back ends draw what they can of it: without the colouring's
-///           column in the flat colour, without a normal as a paraboloid, without a filter's column
-///           not at all (NodeColumns::selection says what is there).
+/// Columns   a node may lack columns that its style reads, while it is being read again. It is in
+///           the plan all the same: back ends draw it in the flat colour without the column of the
+///           colouring, as paraboloids without normals, and not at all without the column of a
+///           filter (NodeColumns::selection says which columns it has).
 /// Threads   the renderer's, as ViewFront.
 FramePlan planFrame(
   const ViewFront& front, const StoreDescription& description, PlanRequest request);
 
-/// Whether a frame is not all that its view will show: it moves, or more is being loaded.
+/// Whether the view will show more than this frame: it moves, or nodes are being loaded.
 bool leavesOut(const FrontDelta& delta, const FrameDemand& demand);
 
 /// World units between the points on screen when the first `drawn` points of a node and all nodes

@@ -7,7 +7,7 @@
 namespace pointfront
 {
 
-/// What one frame of one cloud came to: for properties, tables and log lines.
+/// The results of one frame of one cloud: for properties, tables and log lines.
 struct FrameStatistics
 {
   std::uint64_t points = 0; ///< drawn
@@ -29,8 +29,8 @@ struct FrameStatistics
   bool limitedByMemory = false; ///< of the host
   std::uint32_t failedNodes = 0; ///< that could not be read
 
-  /// What an update of the front says. Points and nodes are those that it names; `complete` and GPU
-  /// memory are the back end's to say.
+  /// Takes the results of an update of the front. Points and nodes are those that the front names;
+  /// the back end sets `complete` and GPU memory.
   void take(const FrontDelta& delta)
   {
     points = delta.pointsDrawn;

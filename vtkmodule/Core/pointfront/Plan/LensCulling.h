@@ -6,8 +6,8 @@
 namespace pointfront
 {
 
-/// False: no splat of the node reaches a pixel that the lens can cover, when it is drawn in that
-/// style. What is outside of the viewport may count as inside.
+/// False if no splat of the node, drawn in that style, reaches a pixel that the lens can cover.
+/// Splats outside of the viewport may count as inside.
 bool mayReach(
   const FramePlan& plan, const PlanItem& item, const ResolvedStyle& style, const FrameLens& lens);
 

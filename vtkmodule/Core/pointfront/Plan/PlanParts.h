@@ -8,7 +8,8 @@
 namespace pointfront
 {
 
-/// What of a plan is drawn into a picture of its own before all are composed (LAYERS-9).
+/// The points of a plan that are drawn into a picture of their own before all pictures are composed
+/// (LAYERS-9).
 struct PlanPart
 {
   std::int16_t lens = -1; ///< of FrameShading::lenses, the one it is seen in; -1: outside all
@@ -25,11 +26,12 @@ struct PlanPart
   }
 };
 
-/// False: the plan is one part, all opaque and outside of lenses.
+/// False if the plan is one part: all points are opaque and outside of lenses.
 bool isComposed(const FramePlan& plan);
 
-/// The parts of a plan, in order: outside of lenses what is opaque, which is always there; then
-/// each translucent group; then the same of each lens, what is opaque always there, and its mask.
+/// The parts of a plan, in order. Outside of lenses: the opaque part, which always exists, then
+/// each translucent group. Then for each lens: its opaque part, which always exists, its
+/// translucent groups, and its mask.
 std::vector<PlanPart> partsOf(const FramePlan& plan);
 
 } // namespace pointfront

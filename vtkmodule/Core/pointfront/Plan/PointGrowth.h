@@ -6,22 +6,22 @@
 namespace pointfront
 {
 
-/// How large a node's points are yet, as a share of their size: it falls along the node's order, so
-/// that the last points of a prefix grow from nothing while the prefix grows (SMOOTH-6).
-/// Where splats are blended it is their weight.
+/// The present share of their size that a node's points have. It falls along the node's order, so
+/// that the last points of a prefix grow from nothing while the prefix grows (SMOOTH-6). Where
+/// splats are blended it is their weight.
 /// Twin  growthOf() in SplatVS.glsl.
 struct PointGrowth
 {
   float first = 1.0f; ///< of the node's first point, before it is bounded to [0, 1]
   float perPoint = 0.0f; ///< that it falls from a point to the next
 
-  /// All points have their size: nothing is multiplied.
+  /// Whether all points have their full size.
   bool whole() const { return perPoint == 0.0f && first >= 1.0f; }
   float of(std::uint32_t point) const
   {
     return std::clamp(first - perPoint * static_cast<float>(point), 0.0f, 1.0f);
   }
-  /// That many of the first points have their size.
+  /// How many of the first points have their full size.
   std::uint32_t fullPoints(std::uint32_t last) const
   {
     if (perPoint == 0.0f)

@@ -14,7 +14,7 @@ namespace pointfront
 
 using PointSources = std::vector<std::unique_ptr<PointSource>>;
 
-/// What a pass may use.
+/// The resources that a pass may use.
 struct PassResources
 {
   std::uint64_t memoryBytes = 0; ///< for points and buffers; 0: half of the machine's
@@ -23,15 +23,16 @@ struct PassResources
   ProgressFunction progress; ///< may be empty; false cancels
 };
 
-/// Gives points something that they do not bring along: normals, heights, colours, other
-/// coordinates. It runs between the sources and the build, on all sources together, so what it
-/// computes cannot depend on where a tree cuts the cloud into parts.
+/// Gives points attributes that their source lacks: normals, heights, colours, other coordinates.
+/// It runs between the sources and the build, on all sources together, so what it computes cannot
+/// depend on where a tree cuts the cloud into parts.
 /// Order       the result has the same number of sources, in the same order; each with the same
-///             chunks as its original and the same points in them: input order stays what results
-///             depend on.
-/// Columns     added behind those of the source's schema, or replaced where a name is there
-///             already. What is per point alone is computed in read(); what needs neighbours is
-///             computed by apply() into a temporary column file, under memoryBytes.
+///             chunks as its original and the same points in them. So results still depend on the
+///             input order.
+/// Columns     new columns come behind those of the source's schema, or replace a column of the
+///             same name. A value that depends on one point alone is computed in read(). A value
+///             that needs neighbours is computed by apply() into a temporary column file, under
+///             memoryBytes.
 /// Threads     apply() is called from one thread and runs its own; the sources it gives keep
 ///             PointSource's promises.
 /// Errors      apply(): what, where, what to try; Error::Kind::Cancelled leaves nothing behind.
@@ -42,8 +43,8 @@ public:
   virtual Result<PointSources> apply(
     PointSources sources, const PassResources& resources) const = 0;
 
-  /// False if apply() only wraps the sources. True if it reads points, which takes as long as that
-  /// does: what can be shown of the cloud is shown before.
+  /// False if apply() only wraps the sources. True if it reads points, which takes time: the first
+  /// preview of the cloud is then shown before.
   virtual bool readsPoints() const { return true; }
   /// Memory in bytes that the sources it gives keep while they are read (a cache of images). The
   /// build has that much less of resources.memoryBytes.
@@ -54,8 +55,8 @@ public:
   }
   /// Files that it reads besides the sources: none of them may be written over.
   virtual std::vector<std::string> filesRead() const { return {}; }
-  /// What it met and survived, full sentences that count what was lost. Asked after apply(), and
-  /// again after the sources have been read: what was said the first time is told once.
+  /// Faults that it met and survived: full sentences that count what was lost. Called after
+  /// apply(), and again after the sources have been read; a repeated sentence is told once.
   virtual std::vector<std::string> findings() const { return {}; }
 };
 

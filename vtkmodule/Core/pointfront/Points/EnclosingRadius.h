@@ -5,8 +5,9 @@
 namespace pointfront
 {
 
-/// Name of the column that tells how far the points that a representative stands for lie from it
-/// (Refinement::Replace): float32, world units, 0 for points of the input.
+/// Name of the column with the enclosing radius of representatives (Refinement::Replace): the
+/// largest distance between a representative and a point that it stands for. float32, world units,
+/// 0 for points of the input.
 constexpr const char* enclosingRadiusName = "enclosing_radius";
 
 inline Attribute enclosingRadiusAttribute()

@@ -40,14 +40,14 @@ inline glm::dvec3 unpackNormal(const PackedNormal& packed)
   return length > 0.0 ? normal / length : normal;
 }
 
-/// The one of both directions that looks up; a horizontal one looks north, or else east.
+/// The normal or its opposite: the one that points up. A horizontal one points north, or else east.
 inline PackedNormal facingUp(const PackedNormal& normal)
 {
   const bool down = normal.z != 0 ? normal.z < 0 : normal.y != 0 ? normal.y < 0 : normal.x < 0;
   return down ? PackedNormal(-normal.x, -normal.y, -normal.z) : normal;
 }
 
-/// The one of both directions that looks from `position` to `viewer`.
+/// The normal or its opposite: the one that points from `position` to `viewer`.
 inline PackedNormal facing(
   const PackedNormal& normal, const glm::dvec3& position, const glm::dvec3& viewer)
 {

@@ -11,7 +11,8 @@
 namespace pointfront
 {
 
-/// What a user wants computed between the inputs and the tree, whatever it is asked with.
+/// The attributes that a user wants computed between the inputs and the tree, from the tool, VTK or
+/// Python.
 /// Units  lengths in the units of the coordinates.
 struct PassChoice
 {
@@ -36,8 +37,8 @@ struct PassChoice
   /// Classes that get normals; nothing: all.
   std::optional<std::vector<std::uint8_t>> normalsClasses;
 
-  /// Attribute "splat_radius"; with normals by PCA it comes with them, for the classes that have
-  /// them. Of all points if asked for.
+  /// Attribute "splat_radius" for all points. Normals by PCA bring it too, for the classes with
+  /// normals.
   bool splatRadius = false;
 
   bool localHeight = false;
@@ -46,22 +47,22 @@ struct PassChoice
   double groundCell = 10.0; ///< where no point is of class 2: of the lowest points; 1e-3 to 1e6
 };
 
-/// Makes the passes that a choice asks for, from all families that a program carries. Filters do
-/// not know each other: whoever puts them together gives the process a maker.
+/// Makes the passes of a choice, from all families that a program carries. Filters do not know each
+/// other: the program that combines them gives the process a maker.
 /// Threads  const functions from any thread; use() and ofProcess() from any thread.
 class AttributePassMaker
 {
 public:
   virtual ~AttributePassMaker() = default;
-  /// In the order in which they must run: coordinates first, then what comes from images, then what
-  /// comes from neighbours.
+  /// Passes come in the order in which they must run: coordinates first, then values from images,
+  /// then values from neighbours.
   /// Errors  BadArgument: a value out of its range, an option of something that is not asked for;
   ///         NotFound: an image; Unsupported: the library that reads images is not installed.
   virtual Result<AttributePasses> passes(const PassChoice& choice) const = 0;
 
-  /// From now on that of this process.
+  /// Makes it the maker of this process.
   static void use(std::shared_ptr<const AttributePassMaker> maker);
-  /// Null when no passes were put together.
+  /// Null if the program set no maker.
   static std::shared_ptr<const AttributePassMaker> ofProcess();
 };
 

@@ -9,8 +9,8 @@
 namespace pointfront
 {
 
-/// Opens point files of all families that a program carries. Readers do not know each other and
-/// filters do not know readers: whoever puts them together gives the process an opener.
+/// Opens point files of all families that a program carries. Readers do not know each other, and
+/// filters do not know readers: the program that combines them gives the process an opener.
 /// Threads  const functions from any thread; use() and ofProcess() from any thread.
 class PointFileOpener
 {
@@ -20,9 +20,9 @@ public:
   virtual std::vector<std::string> extensions() const = 0;
   virtual Result<std::unique_ptr<PointSource>> open(const std::string& path) const = 0;
 
-  /// From now on that of this process.
+  /// Makes it the opener of this process.
   static void use(std::shared_ptr<const PointFileOpener> opener);
-  /// Null when no readers were put together.
+  /// Null if the program set no opener.
   static std::shared_ptr<const PointFileOpener> ofProcess();
 };
 

@@ -14,8 +14,8 @@
 namespace pointfront
 {
 
-/// What a sink must know before its first point. A StoreDescription and a SourceDescription both
-/// hold these facts, so either can be passed on member by member.
+/// The facts that a sink must know before its first point. A StoreDescription and a
+/// SourceDescription both hold these facts, so either can be passed on member by member.
 struct SinkDescription
 {
   AttributeSchema schema; ///< of every batch that follows
@@ -32,10 +32,10 @@ struct SinkDescription
   std::vector<MetadataRecord> metadata; ///< as the source gave it (LAS: VLRs of the CRS ...)
 };
 
-/// A file being written from points: begin(), append() as often as there are batches, finish().
-/// Whole or absent: writes to a temporary name beside `path` and renames it in finish(); a sink
-/// that is destroyed before finish() succeeded removes its temporary file and leaves what was
-/// at `path` before.
+/// A file being written from points: begin(), append() as often as there are batches, finish(). The
+/// file is whole or absent: the sink writes to a temporary name beside `path` and renames it in
+/// finish(). A sink that is destroyed before finish() succeeded removes its temporary file; a file
+/// that was at `path` before stays.
 /// Order    points are written in the order they come.
 /// Threads  one thread.
 /// Errors   Unwritable (permission, full disk), BadArgument (what the format cannot hold: a
@@ -44,12 +44,13 @@ class PointSink
 {
 public:
   virtual ~PointSink() = default;
-  /// The file that finish() puts there; empty for a sink that is none.
+  /// Path of the file that finish() writes; empty for a sink that writes no file.
   virtual std::string path() const { return {}; }
   virtual Result<void> begin(const SinkDescription& description) = 0;
   virtual Result<void> append(const PointBatch& batch) = 0;
   virtual Result<void> finish() = 0;
-  /// What its readers should know, and what it could not keep: full sentences, after finish().
+  /// Facts that readers of the file should know, and attributes that it could not keep: full
+  /// sentences, after finish().
   virtual std::vector<std::string> findings() const { return {}; }
 };
 

@@ -25,14 +25,14 @@ struct MetadataRecord
   std::vector<std::byte> payload;
 };
 
-/// The points of some chunks were seen from here.
+/// The place from which the scanner saw the points of some chunks.
 struct ScannerPlace
 {
   std::uint64_t firstChunk = 0; ///< that one and those behind it, up to the next place
   glm::dvec3 position{ 0.0 }; ///< world coordinates
 };
 
-/// What is known of a source before its points are read.
+/// The facts about a source that are known before its points are read.
 struct SourceDescription
 {
   std::string path;
@@ -43,25 +43,28 @@ struct SourceDescription
   std::optional<QuantisationGrid> grid;
   AttributeSchema schema;
   std::string crsWkt; ///< CRS as WKT, if the source carries one as WKT
-  /// Where the scanner stood, if the source says so (PCD VIEWPOINT, the scans of a PTX); by chunk.
+  /// Places of the scanner, if the source has them (PCD VIEWPOINT, the scans of a PTX); by chunk.
   std::vector<ScannerPlace> scanners;
   std::vector<MetadataRecord> metadata; ///< CRS records kept as they are (LASF_Projection ...)
-  /// Of the codes in the attribute `splat_radius` (SplatRadius.h); 0: not known, or there is none.
+  /// Base of the codes in the attribute `splat_radius` (SplatRadius.h); 0: not known, or no such
+  /// attribute.
   double splatRadiusBase = 0.0;
-  /// What was wrong and survived: each a full sentence that counts what was lost.
+  /// Faults that the source survived: each is a full sentence that counts what was lost.
   std::vector<std::string> warnings;
-  /// Points that the header claims; nothing: it claims none, they were counted.
+  /// Number of points that the header claims; nothing: the header has no number, the points were
+  /// counted.
   std::optional<std::uint64_t> headerPointCount;
-  /// declaredBounds are not from a header, but of points that were looked at when the source was
-  /// opened: all or some.
+  /// declaredBounds do not come from a header, but from all or some points that were read when the
+  /// source was opened.
   bool boundsLookedUp = false;
   std::vector<std::string> furtherFiles; ///< that it reads besides `path`
   /// Points come in the order of a tree, not as they were scanned.
   bool inTreeOrder = false;
-  /// 16-bit colours have 16 bits, however small the largest is: who stored them has decided that.
+  /// 16-bit colours have 16 bits, however small the largest value is, because the writer of the
+  /// store decided so.
   bool deepColours = false;
 
-  /// From where a chunk was seen; none if that is not known.
+  /// The scanner's place for a chunk; none if it is not known.
   const glm::dvec3* scanner(std::uint64_t chunk) const
   {
     const glm::dvec3* position = nullptr;
@@ -87,9 +90,9 @@ public:
   virtual std::uint64_t chunkPoints(std::uint64_t chunk) const = 0; ///< some ten thousand
   /// Fills `batch` with that chunk's points: chunkPoints(chunk) of them, columns as in the schema.
   virtual Result<void> read(std::uint64_t chunk, PointBatch& batch) const = 0;
-  /// The same for a reader that works on description().grid itself: a source that has whole steps
-  /// may give batch.steps instead of batch.positions. grid->toGrid() of a position that read()
-  /// gives is that step.
+  /// The same for a caller that works on description().grid: a source that has whole steps may give
+  /// batch.steps instead of batch.positions. The steps equal grid->toGrid() of the positions that
+  /// read() gives.
   virtual Result<void> readSteps(std::uint64_t chunk, PointBatch& batch) const
   {
     return read(chunk, batch);
@@ -109,8 +112,8 @@ inline std::vector<std::string> pathsOf(const std::vector<std::unique_ptr<PointS
   return paths;
 }
 
-/// Opens files of one family. Registered by the program at the top (IO modules do not know each
-/// other), asked in turn.
+/// Opens files of one family. The program registers the formats (IO modules do not know each
+/// other), and each format is asked in turn.
 class PointSourceFormat
 {
 public:

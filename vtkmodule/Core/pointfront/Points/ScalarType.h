@@ -32,8 +32,8 @@ std::optional<ScalarType> scalarTypeOf(std::string_view name);
 /// The type of that number in a store, or nothing.
 std::optional<ScalarType> scalarTypeOf(std::uint8_t number);
 
-/// Calls `function` with a zero of the C++ type that stands for `type`, and returns what it
-/// returns: the switch over types is written once, and loops over points are made for one type.
+/// Calls `function` with a zero of the C++ type that stands for `type`, and returns its result. So
+/// the switch over types is written once, and loops over points are compiled for one type.
 template <typename Function>
 decltype(auto) visitScalar(ScalarType type, Function&& function)
 {

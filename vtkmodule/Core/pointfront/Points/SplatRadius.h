@@ -57,8 +57,9 @@ inline float decodeSplatRadius(std::uint8_t code, double base)
     std::min<double>(radius, std::numeric_limits<float>::max())); // where no float is larger
 }
 
-/// The smallest code whose radius is not smaller (at most 4.5 % larger); the largest code for what
-/// is larger still. 0, unknown, for a radius that is not a positive number and without a base.
+/// The smallest code whose radius is not smaller than `radius` (at most 4.5 % larger), or the
+/// largest code if there is none. 0 (unknown) without a base, and for a radius that is not a
+/// positive number.
 inline std::uint8_t encodeSplatRadius(double radius, double base)
 {
   if (!(radius > 0.0) || !(base > 0.0) || !std::isfinite(base))

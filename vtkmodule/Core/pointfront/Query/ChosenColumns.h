@@ -17,8 +17,8 @@ struct ChosenColumns
   ColumnSelection columns;
   StoreDescription description;
 
-  /// Those of these names in the store's order, each once; nothing: all. BadArgument names what the
-  /// store has not.
+  /// The attributes with these names in the store's order, each once; nothing: all. BadArgument
+  /// names an attribute that the store lacks.
   static Result<ChosenColumns> make(
     const StoreDescription& store, const std::optional<std::vector<std::string>>& names);
   /// All but the enclosing radius of representatives, which points of the input have not.

@@ -11,8 +11,8 @@
 namespace pointfront
 {
 
-/// What lies on the inner side of some planes: the frustum of a camera (View::planes), or what
-/// clipping planes leave.
+/// The space on the inner side of some planes: the frustum of a camera (View::planes), or the space
+/// that clipping planes leave.
 class ConvexRegion final : public Region
 {
 public:

@@ -12,8 +12,8 @@
 namespace pointfront
 {
 
-/// What lies within a distance of some polylines on the map, at any height or between two: a road,
-/// a power line. The ends are round.
+/// All places within a distance of some polylines on the map, at any height or between two heights:
+/// a road, a power line. The ends are round.
 class LineCorridor final : public Region
 {
 public:

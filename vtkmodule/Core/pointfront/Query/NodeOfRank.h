@@ -7,10 +7,9 @@
 namespace pointfront
 {
 
-/// The node that holds the point of that rank, if one does: the last whose first point is not
-/// behind it. Rows ascend by their first points, and nodes without points share theirs with the
-/// next one.
-/// The hierarchy has at least one node.
+/// The node that holds the point of that rank, if there is one: the last node whose first point has
+/// that rank or a lower one. Rows ascend by their first points; a node without points has the first
+/// point of the next one. The hierarchy has at least one node.
 inline NodeIndex nodeOfRank(const Hierarchy& hierarchy, std::uint64_t rank)
 {
   NodeIndex low = 0;

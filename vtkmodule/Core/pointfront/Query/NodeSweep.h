@@ -8,7 +8,7 @@
 namespace pointfront
 {
 
-/// Nodes that are read one after the other, and what becomes of each.
+/// Nodes that are read one after the other, and the function that chooses the result of each.
 struct NodeSweep
 {
   std::size_t count = 0;

@@ -12,7 +12,7 @@
 namespace pointfront
 {
 
-/// What stands upright on polygons: the union of all of them, between two heights.
+/// Upright prisms over polygons: the union of all of them, between two heights.
 /// Inside     by the even-odd rule over the rings of one polygon: holes are out; rings may touch
 ///            or cross themselves. What lies on an edge or vertex, of a hole too, is in.
 /// Exactness  by the sign of exact determinants (Orientation.h): two polygons that share an edge

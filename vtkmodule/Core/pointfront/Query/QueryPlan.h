@@ -31,7 +31,7 @@ public:
   static Result<QueryPlan> make(
     const StoreDescription& store, const Hierarchy& hierarchy, const PointQuery& query);
 
-  /// The cloud's, with the attributes that are asked for only.
+  /// The description of the cloud with the requested attributes only.
   const StoreDescription& description() const { return description_; }
   /// Of batches.
   const AttributeSchema& schema() const { return description_.schema; }
@@ -42,8 +42,8 @@ public:
   /// Points of these nodes: no more can be chosen.
   std::uint64_t mostPoints() const;
 
-  /// A share of the nodes: neighbours in the list, about as many points in each piece; all pieces
-  /// together are the plan. For ranks that each read their own.
+  /// A share of the nodes for one of several ranks: neighbours in the list. All shares have about
+  /// as many points, and together they are the plan.
   QueryPlan piece(unsigned piece, unsigned pieces) const;
 
   /// Reads the nodes and hands over what is chosen; see sweepNodes() for order, memory, errors.

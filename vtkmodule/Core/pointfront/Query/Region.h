@@ -18,7 +18,7 @@ enum class Overlap : std::uint8_t
   Inside ///< contains() is true for every point of the box
 };
 
-/// A closed set of points in space: what lies on its surface is in it.
+/// A closed set of places in space: its surface belongs to it.
 /// Units       world units of the store.
 /// Exactness   overlap() never contradicts contains(), so a query that leaves nodes out, or takes
 ///             them whole, gives the same points as one that asks contains() of each.
@@ -29,7 +29,7 @@ public:
   virtual ~Region() = default;
   virtual bool contains(const glm::dvec3& point) const = 0;
   virtual Overlap overlap(const Bounds& box) const = 0;
-  /// A box that the region lies in; may reach to infinity.
+  /// A box that contains the region; may reach to infinity.
   virtual Bounds bounds() const = 0;
   /// keep[i] = 0 where contains(points[i]) is false; the others stay as they are. All points lie in
   /// `box`, which lets a region of many edges look at those nearby only.

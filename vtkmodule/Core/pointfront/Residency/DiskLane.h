@@ -27,11 +27,11 @@ public:
   {
   }
 
-  /// `store`: any pointer that tells stores apart.
+  /// `store`: any pointer that identifies the store.
   Ticket enter(const void* store, std::uint64_t disk, Clock::time_point now);
   void leave(Ticket ticket);
 
-  /// A read is under way that is not overdue.
+  /// Whether a read is under way that is not overdue.
   bool busy(Clock::time_point now) const;
   /// Whether this store must not read now although the lane is free.
   bool barred(const void* store, std::uint64_t disk, Clock::time_point now) const;

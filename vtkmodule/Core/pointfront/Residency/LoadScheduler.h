@@ -41,9 +41,9 @@ struct LoadSchedulerStatistics
   std::chrono::steady_clock::time_point lastLoaded; ///< when the last of it was there
 };
 
-/// Loads the nodes of any number of stores: they share its threads, its host memory and one order
-/// of requests, so that a hundred stores cost what one does. Stores come and go at run time: each
-/// Residency is one.
+/// Loads the nodes of any number of stores. The stores share its threads, its host memory and one
+/// order of requests, so a hundred stores cost as much as one. Stores come and go at run time: each
+/// Residency is one store.
 /// Order       most urgent first over all stores: nodes drawn with old columns, then needed ones by
 ///             projected error, then re-reads, then optional ones; ties by the order of joining.
 /// Disk        one read at a time over all stores, decoding beside it on the other threads; a read
@@ -63,7 +63,7 @@ public:
   LoadScheduler(const LoadScheduler&) = delete;
   LoadScheduler& operator=(const LoadScheduler&) = delete;
 
-  /// That of this process: it begins with its first user and ends with the last.
+  /// The scheduler of this process: it begins with its first user and ends with the last.
   static std::shared_ptr<LoadScheduler> ofProcess();
   /// Its budget, whether it runs or not.
   static void setProcessBudgetBytes(std::size_t bytes);
@@ -73,15 +73,15 @@ public:
   void setBudgetBytes(std::size_t bytes);
   LoadSchedulerStatistics statistics() const;
 
-  /// What the views of its stores want in memory, in bytes: they settle at one error.
+  /// The memory demand of the views of all stores, in bytes; by it they settle at one error.
   const std::shared_ptr<SharedDemand>& sharedDemand() const { return demand_; }
 
   // For residencies.
 
-  /// From now on the store takes its turn. `points`: its size, for shareOf().
+  /// Adds a store, which takes its turn from now on. `points`: its size, for shareOf().
   void join(const std::shared_ptr<StoreNodes>& store, std::uint64_t points);
-  /// Returns when nothing of the store is being read any more, but does not wait for a read that is
-  /// overdue.
+  /// Removes a store. Returns when none of its nodes is being read, but does not wait for an
+  /// overdue read.
   void leave(const std::shared_ptr<StoreNodes>& store);
   /// After each new request: where the system gave no thread to load with, the caller's loads all
   /// that fits. Does nothing otherwise.
@@ -89,8 +89,8 @@ public:
   /// The store's points as a share of those of all stores here (SMOOTH-2: sections of the overview
   /// are in proportion to size).
   double shareOf(const StoreNodes& store) const;
-  /// Frees what the waiting requests of all stores need, and what this one's own budget does.
-  /// `distance` is kept, and asked again when other stores want room.
+  /// Frees the memory that the waiting requests of all stores need, and the memory that this
+  /// store's own budget demands. `distance` is kept, and asked again when other stores want room.
   void release(StoreNodes& store, const NodeCache::Distance& distance);
 
 private:

@@ -12,9 +12,10 @@
 namespace pointfront
 {
 
-/// Bytes taken out of a hard limit, all or nothing, and the wish to know when some came back.
-/// A budget may be a part of a larger one (a store's of the process's): what is reserved fits both.
-/// Outlives whoever reserves: memory that is still held elsewhere stays on the account.
+/// An account of bytes under a hard limit. A reservation takes all of its bytes or none, and a
+/// thread can wait until bytes come back. A budget may be a part of a larger one (a store's budget
+/// is part of the process's): a reservation fits both. It outlives its users: memory that is still
+/// held elsewhere stays on the account.
 /// Threads  all functions from any thread; no other lock is taken inside.
 class MemoryBudget
 {
@@ -23,13 +24,14 @@ public:
 
   explicit MemoryBudget(std::size_t limitBytes, std::shared_ptr<MemoryBudget> whole = nullptr);
 
-  /// True when the bytes fit: they are taken then.
+  /// Takes the bytes if they fit; true when it did.
   bool reserve(std::size_t bytes);
   void giveBack(std::size_t bytes);
-  /// A lower limit takes nothing away: no reservation succeeds until enough was given back.
+  /// A lower limit takes no reserved bytes away: no reservation succeeds until enough bytes were
+  /// given back.
   void setLimit(std::size_t bytes);
 
-  /// Of this part and of the whole: the lower one.
+  /// The lower one of the limits of this part and of the whole.
   std::size_t limit() const;
   std::size_t ownLimit() const { return limit_; }
   std::size_t used() const { return used_; }
@@ -37,9 +39,9 @@ public:
   /// Whether `bytes` could be reserved once `returned` bytes were given back.
   bool fits(std::size_t bytes, std::size_t returned = 0) const;
 
-  /// Every change that someone may wait for has a number, one row for the whole and its parts: read
-  /// it, look at what matters, and wait for the next one. A change between the look and the wait
-  /// ends the wait at once.
+  /// Every change that a thread may wait for has a number; the whole and its parts count together.
+  /// Read the number, look at the state, and wait for the next number. A change between the look
+  /// and the wait ends the wait at once.
   std::uint64_t changes() const;
   void announceChange();
   void waitForChange(std::uint64_t seen) const;

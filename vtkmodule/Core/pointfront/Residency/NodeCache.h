@@ -13,7 +13,7 @@
 namespace pointfront
 {
 
-/// What is known of a node that was ever asked for.
+/// The state of a node that was ever asked for.
 struct CachedNode
 {
   std::shared_ptr<const NodeColumns> points; ///< null: not in memory
@@ -38,7 +38,7 @@ public:
   }
 
   CachedNode& operator[](NodeIndex node) { return nodes_[node]; }
-  /// Null when nothing is known of it.
+  /// The state of a node; null if it was never asked for.
   const CachedNode* find(NodeIndex node) const;
   CachedNode* find(NodeIndex node);
   void forget(NodeIndex node) { nodes_.erase(node); }

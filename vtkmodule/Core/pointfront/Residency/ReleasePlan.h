@@ -10,7 +10,7 @@
 namespace pointfront
 {
 
-/// Which nodes give way when memory is short, over any number of stores.
+/// Chooses the nodes that are released when memory is short, over any number of stores.
 /// Order    by distance under the front, farthest first; at one distance by store and highest node.
 /// Source   Richter & Doellner 2010, section 3.2.3: one pass counts the bytes at each distance, a
 ///          second takes all beyond a distance and of that one what is still missing (FRONT-10).
@@ -26,7 +26,7 @@ public:
     std::size_t bytes;
   };
 
-  /// First pass. What is at distance 0 is needed and no candidate.
+  /// First pass. A node at distance 0 is needed and is no candidate.
   void count(std::uint32_t store, NodeIndex node, std::size_t bytes, std::uint32_t levels);
   /// Second pass: at least `bytes`, as far as there are any.
   std::vector<Candidate> farthest(std::size_t bytes);

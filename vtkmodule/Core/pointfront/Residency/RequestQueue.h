@@ -10,8 +10,8 @@
 namespace pointfront
 {
 
-/// What waits to be loaded, most urgent first: needed before optional, then by priority (the
-/// projected error), then by age, then by node. A request keeps its age while it stays wanted.
+/// The requests that wait to be loaded, most urgent first: needed before optional, then by priority
+/// (the projected error), then by age, then by node. A request keeps its age while it stays wanted.
 /// Threads  none of its own: the owner locks.
 class RequestQueue
 {
@@ -23,7 +23,8 @@ public:
   };
   using Iterator = std::vector<LoadRequest>::const_iterator;
 
-  /// The new wish list: what is not in it is cancelled (FRONT-9), what stays gets its new priority.
+  /// Takes the new wish list: requests that are not in it are cancelled (FRONT-9), the others get
+  /// their new priority.
   Change replace(const std::vector<LoadRequest>& wanted);
   /// Adds one, or changes its priority; true when it is new.
   bool add(const LoadRequest& request);
@@ -34,7 +35,7 @@ public:
   std::size_t size() const { return requests_.size(); }
   bool empty() const { return requests_.empty(); }
   bool contains(NodeIndex node) const { return since_.count(node) > 0; }
-  /// In the order in which they should be loaded.
+  /// All requests, in the order in which they should be loaded.
   Iterator begin() const { return requests_.begin(); }
   Iterator end() const { return requests_.end(); }
 

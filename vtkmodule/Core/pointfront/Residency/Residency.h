@@ -39,9 +39,9 @@ struct ResidencyStatistics
   std::uint64_t bytesRead = 0; ///< from the disk
 };
 
-/// Decoded nodes of one store in host memory, under hard budgets: the store's own and that of its
-/// scheduler, which brings in what is asked for (FRONT-9); what is farthest under the front is
-/// released first (FRONT-10), over all stores of the scheduler.
+/// Decoded nodes of one store in host memory, under two hard budgets: the store's own and that of
+/// its scheduler. The scheduler loads requested nodes (FRONT-9), and releases first the nodes
+/// farthest under the fronts of all its stores (FRONT-10).
 /// Order       needed requests by priority, then re-reads for new columns, then optional requests;
 ///             a request that does not fit waits, smaller ones behind it go on. Nodes that are
 ///             drawn (found) with old columns are read again before everything else.
@@ -77,13 +77,13 @@ public:
   LayerColumns layerColumns() const;
   ColumnSelection columns() const { return layerColumns().any(); }
 
-  /// Replaces the wish list: what is not in it and not yet begun is cancelled.
+  /// Replaces the wish list: requests that are not in it and not yet begun are cancelled.
   void request(const std::vector<LoadRequest>& requests);
 
-  /// Frees memory for what is requested and does not fit (not for optional requests): nodes by
-  /// distance under the front, farthest first, two passes (count, release). Nodes of distance 0
-  /// stay. `distance` is asked for resident nodes only and must not call this object; it is kept
-  /// until the next call, and asked again when other stores of the scheduler want room. Costs
+  /// Frees memory for requests that do not fit (not for optional ones). It releases nodes by
+  /// distance under the front, farthest first, in two passes (count, release); nodes of distance 0
+  /// stay. `distance` is called for resident nodes only and must not call this object; it is kept
+  /// until the next call, and called again when other stores of the scheduler want room. Costs
   /// nothing while everything fits; call it after each request().
   void release(const std::function<std::uint32_t(NodeIndex)>& distance);
 
@@ -103,7 +103,7 @@ public:
   /// Grows with every arrival or failure: a cheap "is there something new".
   std::uint64_t arrivals() const;
 
-  /// Blocks until nothing is loading and nothing that waits fits (complete renders, tests).
+  /// Blocks until nothing is loading and no waiting request fits (complete renders, tests).
   void waitUntilIdle() const;
   /// Blocks until arrivals() differs from `seen`, or as waitUntilIdle().
   void waitForArrival(std::uint64_t seen) const;
@@ -115,12 +115,12 @@ public:
 
   std::vector<Error> takeErrors();
   ResidencyStatistics statistics() const;
-  /// The store's own; the scheduler's holds too.
+  /// Sets the store's own budget; that of the scheduler holds too.
   void setBudgetBytes(std::size_t bytes);
-  /// The lower of the two.
+  /// The lower one of the store's budget and the scheduler's.
   std::size_t budgetBytes() const;
-  /// This store's points as a share of those of all stores of the scheduler: its part of what is
-  /// shared in proportion to size (SMOOTH-2).
+  /// This store's points as a share of the points of all stores of the scheduler, for budgets that
+  /// are shared in proportion to size (SMOOTH-2).
   double shareOfAll() const;
   LoadScheduler& scheduler() const { return *scheduler_; }
 

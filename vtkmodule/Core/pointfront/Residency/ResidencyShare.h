@@ -11,12 +11,12 @@
 namespace pointfront
 {
 
-/// One residency, wished from by several fronts: each view of each mapper that draws a store has a
-/// front of its own, and all of them share what is loaded.
-/// Wishes      the residency is asked for the union of what the fronts want, each node with the
-///             largest priority that any of them gives it, optional if it is so for all; for the
-///             union of their columns; and keeps what any of them needs (the smallest distance
-///             under any front counts).
+/// One residency that several fronts share: each view of each mapper that draws a store has a front
+/// of its own, and all of them share the loaded nodes.
+/// Wishes      the residency gets the union of the wishes: all wanted nodes, each with the largest
+///             priority that any front gives it, optional if it is optional for all; and the union
+///             of the columns. It keeps every node that a front needs (the smallest distance under
+///             any front counts).
 /// Threads     one thread (the renderer's), as Residency.
 class ResidencyShare
 {

@@ -19,8 +19,8 @@
 namespace pointfront
 {
 
-/// One store's part of what a LoadScheduler loads: its nodes in memory, what is asked for, and what
-/// should come next. What it promises its users is written at Residency, which is its face.
+/// One store's part of a LoadScheduler: its nodes in memory, its requests, and the next request.
+/// Residency is its interface and documents its guarantees.
 /// Rows      of the node table that its front waits for (MissingRows) take turns with nodes, before
 ///           them: without rows nothing further is asked for, and they are small.
 /// Order     needed requests by priority, then re-reads for new columns, then optional requests; a

@@ -12,7 +12,7 @@
 namespace pointfront
 {
 
-/// A description and what only the file knows of it.
+/// A description, with the facts that only the file has.
 struct StoredDescription
 {
   StoreDescription description;
@@ -27,8 +27,8 @@ struct StoredDescription
 std::vector<std::byte> encodeDescription(
   const StoredDescription& stored, std::uint32_t version = storeVersion);
 
-/// What the bytes say, or nothing when they are not a description (texts that run over the end,
-/// a scalar type or a refinement that does not exist, a scale of zero ...).
+/// The description in the bytes, or nothing when they are not a description (texts that run over
+/// the end, a scalar type or a refinement that does not exist, a scale of zero ...).
 std::optional<StoredDescription> decodeDescription(
   const std::byte* data, std::size_t size, std::uint32_t version = storeVersion);
 

@@ -19,8 +19,8 @@ namespace pointfront
 using NodeIndex = std::uint32_t;
 constexpr NodeIndex noNode = 0xffffffffu;
 
-/// One node of a hierarchy: all that the front may know of it. A node is a chunk of some ten
-/// thousand points, not a single point.
+/// One node of a hierarchy: everything that the front may know about it. A node is a chunk of some
+/// ten thousand points, not a single point.
 /// Units  world units of the store's CRS (metres unless it says otherwise).
 struct Node
 {
@@ -28,13 +28,14 @@ struct Node
   glm::vec3 halfSize{ 0.0f }; ///< of the box of this node's points and all below; rounded up
   float radius = 0.0f; ///< of the sphere around `centre` with all those points; rounded up
   float spacing = 0.0f; ///< between points when this node and all above it are drawn
-  /// Of discs that close the surface when all points of this node and of those above it are drawn;
-  /// 0 where it was not measured.
+  /// Radius of the discs that close the surface when all points of this node and of the nodes above
+  /// it are drawn; 0 if it was not measured.
   float splatRadius = 0.0f;
   std::uint32_t pointCount = 0; ///< the node's own points; may be 0 for an inner node
   /// Points of the input in this node and all its descendants: representatives do not count.
   std::uint64_t pointsBelow = 0;
-  /// Own points of all nodes before it in the table: the rank of its first point in the store.
+  /// Number of own points of all nodes before it in the table: the rank of its first point in the
+  /// store.
   std::uint64_t firstPoint = 0;
   NodeIndex parent = noNode;
   NodeIndex firstChild = noNode; ///< children are neighbours in the table
@@ -49,20 +50,20 @@ struct Node
   }
 };
 
-/// What a deeper node means to the points above it.
+/// How the points of a deeper node relate to the points above it.
 enum class Refinement : std::uint8_t
 {
   Add = 1, ///< inner nodes hold a subset; every point is stored once; ancestors stay drawn
   Replace = 2 ///< inner nodes hold mean representatives; children replace their parent
 };
 
-/// How many of a node's points are points of the input: with Replace those of the leaves only.
+/// How many of a node's points are points of the input: with Replace none but those of leaves.
 inline std::uint32_t originalPoints(const Node& node, Refinement refinement)
 {
   return refinement == Refinement::Add || node.leaf() ? node.pointCount : 0u;
 }
 
-/// What a table can say of a node without waiting.
+/// The answer of a table about a node's row without waiting.
 enum class RowState : std::uint8_t
 {
   Here, ///< in memory
@@ -86,8 +87,8 @@ public:
   virtual const std::vector<NodeIndex>& roots() const = 0;
   virtual Refinement refinement() const = 0;
 
-  /// Child number `child` of a node; hollow unless its row agrees that it is (so that a walk down
-  /// meets each node once, whatever the bytes say). May wait for the disk.
+  /// Child number `child` of a node; hollow unless the child's row names this parent, so that a
+  /// walk down meets each node once whatever the bytes say. May wait for the disk.
   virtual Node childOf(NodeIndex parent, const Node& row, std::uint8_t child) const
   {
     static_cast<void>(parent);
@@ -104,24 +105,24 @@ public:
       }
     }
   }
-  /// For a thread that must not wait: fills `row` if it is here.
+  /// For a thread that must not wait: fills `row` if the row is in memory.
   virtual RowState peek(NodeIndex index, Node& row) const
   {
     row = node(index);
     return RowState::Here;
   }
-  /// The same of a child: Lost unless its row agrees that it is one.
+  /// The same for a child: Lost unless the child's row names this parent.
   virtual RowState peekChild(
     NodeIndex parent, const Node& row, std::uint8_t child, Node& found) const
   {
     found = childOf(parent, row, child);
     return RowState::Here;
   }
-  /// What peek() was asked for, of a table that is not in memory as a whole.
+  /// The rows that peek() was asked for and that are not in memory.
   virtual MissingRows* missingRows() const { return nullptr; }
   /// Grows when rows that were coming are here, or lost.
   virtual std::uint64_t arrivals() const { return 0; }
-  /// Blocks until arrivals() differs from `seen` or nothing is coming. Reads itself what is coming
+  /// Blocks until arrivals() differs from `seen` or no row is coming. Reads the coming rows itself
   /// if nobody else does (MissingRows).
   /// Not longer than to `end`, but for a read of its own. False: nothing is coming.
   virtual bool waitForArrival(std::uint64_t seen, std::chrono::steady_clock::time_point end) const

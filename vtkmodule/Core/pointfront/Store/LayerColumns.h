@@ -12,8 +12,9 @@
 namespace pointfront
 {
 
-/// Columns that nodes are wanted with, by the layer they are of: buildings by normal and ground by
-/// colour read normals of buildings and colours of the ground, nothing else.
+/// The columns that are wanted for the nodes of each layer. With buildings drawn by normal and
+/// ground by colour, the normals of buildings and the colours of the ground are read and nothing
+/// else.
 /// Threads  a value.
 struct LayerColumns
 {
@@ -31,7 +32,7 @@ struct LayerColumns
   {
     return layer < layers.size() ? layers[layer] : others;
   }
-  /// Of any layer, ascending.
+  /// The columns of all layers together, ascending.
   ColumnSelection any() const
   {
     ColumnSelection all = others;
@@ -42,7 +43,7 @@ struct LayerColumns
     return all;
   }
   bool empty() const { return any().empty(); }
-  /// What the other wants as well.
+  /// Adds the columns of another object.
   void add(const LayerColumns& other)
   {
     const std::size_t count = std::max(layers.size(), other.layers.size());

@@ -13,17 +13,17 @@ class MissingRows
 {
 public:
   virtual ~MissingRows() = default;
-  /// Whether some are asked for and nobody reads them.
+  /// Whether rows are asked for and nobody reads them.
   virtual bool waiting() const = 0;
-  /// Reads those that were asked for first, one page. May wait for the disk. Bytes read; 0 when
-  /// nothing waits any more.
+  /// Reads the page of the rows that were asked for first. May wait for the disk. Returns the bytes
+  /// read; 0 when no row waits.
   virtual std::size_t readNext() = 0;
 
-  /// From now on `reader` sees to it that they are read: `wanted` is called when the first is asked
-  /// for, by who asks, and must not call this object. Without a reader who waits for rows reads
+  /// Sets the `reader` of the rows: `wanted` is called, on the asking thread, when a first row is
+  /// asked for, and must not call this object. Without a reader, threads that wait for rows read
   /// them.
   virtual void attach(const void* reader, std::function<void()> wanted) = 0;
-  /// Its function is not running any more then.
+  /// Removes the reader. Its function is not running any more when this returns.
   virtual void detach(const void* reader) = 0;
 };
 

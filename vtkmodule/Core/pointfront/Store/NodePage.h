@@ -39,7 +39,7 @@ constexpr std::uint32_t nodePageLength(
   return left < pageRows ? left : pageRows;
 }
 
-/// What every row must agree with, whatever is in other pages.
+/// The facts that every row must agree with, whatever other pages contain.
 struct TableLimits
 {
   NodeIndex nodes = 0;

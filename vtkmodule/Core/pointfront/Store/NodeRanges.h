@@ -12,7 +12,7 @@
 namespace pointfront
 {
 
-/// Which values a node has: as stored, before scale and offset; of coordinates, grid steps.
+/// The range of a node's values: as stored, before scale and offset; for coordinates, grid steps.
 struct ValueRange
 {
   double low = 0.0;
@@ -22,8 +22,8 @@ struct ValueRange
 };
 
 /// Ranges of one component of one column (or of one coordinate) in the first nodes of a table.
-/// Guarantees  every value of a node's own points is in own(), every value of it and all nodes
-///             below in below(); both may be wider than that.
+/// Guarantees  own() contains every value of a node's own points, below() every value of the node
+///             and all nodes below it; both may be wider.
 /// Size        4 bytes a node.
 /// Threads     const functions from any thread.
 class NodeRanges
@@ -39,7 +39,7 @@ public:
   {
   }
 
-  /// Nodes beyond these are not known.
+  /// Number of nodes with known ranges.
   NodeIndex nodeCount() const { return nodes_; }
   ValueRange own(NodeIndex node) const { return range(node, 0); }
   ValueRange below(NodeIndex node) const { return range(node, 2); }

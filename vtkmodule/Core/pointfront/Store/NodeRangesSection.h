@@ -42,7 +42,7 @@ private:
   std::vector<Values> components_;
 };
 
-/// The section in a file: nothing of it is read before somebody asks.
+/// The section in a file: it is read only when somebody asks for it.
 /// Threads  const functions from any thread; they wait for the disk.
 class NodeRangesFile
 {

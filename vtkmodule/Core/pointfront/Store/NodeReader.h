@@ -15,8 +15,8 @@
 namespace pointfront
 {
 
-/// Which attribute columns of the store's schema are wanted, by column number, ascending.
-/// Positions always come. "Model only what a scene requires": what is not named is not read.
+/// Which attribute columns of the store's schema are wanted, by column number, ascending. Positions
+/// always come. Columns that are not named are not read.
 using ColumnSelection = std::vector<std::uint32_t>;
 
 /// The decoded points of one node.
@@ -75,7 +75,7 @@ struct RawBytes
   std::size_t size = 0;
 };
 
-/// What of a node came from the disk, as it lies there: on the way from fetch() to decode().
+/// The bytes of a node as they lie on the disk, on their way from fetch() to decode().
 struct FetchedNode
 {
   NodeIndex node = noNode;
@@ -83,19 +83,19 @@ struct FetchedNode
   std::vector<RawBytes> runs; ///< their meaning is the reader's
   std::size_t bytesRead = 0; ///< from the disk
   Node row{}; ///< of the node table
-  /// Instead of runs: what a cloud that is made of others has fetched from one of them.
+  /// Instead of runs: the bytes that a cloud made of others has fetched from one of them.
   std::shared_ptr<const FetchedNode> inner = nullptr;
 };
 
-/// Where nodes come from: a store, or a made-up one in tests. In two steps, so that the disk serves
-/// one at a time while processors decode others (SMOOTH-8).
+/// Reads nodes of a store, or makes them up in tests. It works in two steps, so that the disk
+/// serves one node at a time while processors decode others (SMOOTH-8).
 /// Threads  all functions are called from several loader threads at once.
 class NodeReader
 {
 public:
   virtual ~NodeReader() = default;
-  /// The disk's part: reads bytes, and does no more with them than it must. May take long. Without
-  /// a disk there is nothing to fetch.
+  /// The disk's part: reads bytes and does as little else as possible. May take long. A reader
+  /// without a disk fetches nothing.
   virtual Result<FetchedNode> fetch(NodeIndex node, const ColumnSelection& columns) const
   {
     return FetchedNode{ node, columns, {}, 0 };
@@ -113,15 +113,15 @@ public:
     return decode(*fetched);
   }
 
-  /// Host bytes that the node's points will need, `points` as its row says: known before, so that a
-  /// budget can hold. Does not wait.
+  /// Host bytes that the node's points will need; `points` is the number in its row. The number is
+  /// known before the node is read, so that a budget can hold. Does not wait.
   virtual std::size_t decodedBytes(
     NodeIndex node, std::uint32_t points, const ColumnSelection& columns) const = 0;
   /// Bytes that fetch() reads from the disk.
   virtual std::size_t storedBytes(NodeIndex node, const ColumnSelection& columns) const = 0;
-  /// A number that readers on the same disk (file system) share.
+  /// The number of the disk (file system): equal for readers on the same disk.
   virtual std::uint64_t disk() const { return 0; }
-  /// Rows of its table that are read when somebody asks for them; null where all are in memory.
+  /// The rows of its table that are read on demand; null if all rows are in memory.
   virtual MissingRows* missingRows() const { return nullptr; }
 };
 

@@ -11,7 +11,7 @@
 namespace pointfront
 {
 
-/// Where a paged table gets its pages from: a store's file, or a rule that makes them up.
+/// The source of a paged table's pages: a store's file, or a rule that makes them up.
 /// Threads  read() is called from several threads at once.
 class NodePageSource
 {

@@ -34,7 +34,7 @@ struct ColumnRange
   std::vector<std::array<double, 2>> components;
 };
 
-/// What `pointfront info` prints: everything about a stored cloud but its points.
+/// Everything about a stored cloud except its points; `pointfront info` prints it.
 struct StoreDescription
 {
   std::string path;
@@ -52,11 +52,11 @@ struct StoreDescription
   std::vector<Layer> layers;
   std::vector<MetadataRecord> metadata;
   std::string generator; ///< "pointfront 0.1.0"
-  /// Of the codes in the column `splat_radius` (SplatRadius.h), world units; 0 where the store has
-  /// none.
+  /// Base of the codes in the column `splat_radius` (SplatRadius.h), world units; 0 if the store
+  /// has no such column.
   double splatRadiusBase = 0.0;
-  /// Of a cloud that is made of others, or is a part of one: what differs or is left out. Full
-  /// sentences.
+  /// For a cloud that is made of others, or is a part of another: what differs or is left out, in
+  /// full sentences.
   std::vector<std::string> warnings;
 };
 
@@ -69,8 +69,8 @@ struct VerifyReport
 };
 
 /// A cloud on disk that can be drawn at once: a description, a node table and the nodes' points.
-/// Whoever draws, exports or checks knows no more than this; it may be a store of ours or an index
-/// over a file that someone else wrote.
+/// Drawing, exports and checks know no more than this interface. The cloud may be a store of ours
+/// or an index over a file that someone else wrote.
 /// Threads    all functions are safe from any thread.
 class StoredCloud : public NodeReader
 {

@@ -14,10 +14,11 @@
 namespace pointfront
 {
 
-/// Over which values colours are spread when nobody says: ranges of attributes over all stores of
-/// one picture, so that the same colour means the same value in each of them.
-/// Range    2 % to 98 % of a sample of the points (StoreSample), so that a few outliers do not eat
-///          the colours; the whole range where those are equal, or none could be taken.
+/// The ranges over which colours are spread when the style names none. A range covers all stores of
+/// one picture, so the same colour means the same value in each of them.
+/// Range    2 % to 98 % of a sample of the points (StoreSample), so that a few outliers do not use
+///          up the colours. It is the whole range if these are equal, or if no sample could be
+///          taken.
 /// Cost     the first time that an attribute is asked for, some ten thousand points of each store
 ///          are read; later nothing.
 /// Threads  const functions are safe from any thread.
@@ -29,13 +30,13 @@ public:
   {
   }
 
-  /// One of the stores has an attribute (or component) of that name.
+  /// Whether one of the stores has an attribute (or component) of that name.
   bool has(const std::string& name) const;
   /// World units; low < high. `name` is an attribute's, a component's, or "elevation"; component 0
   /// of an attribute of several. BadArgument where no store has it; errors of reading.
   Result<std::array<double, 2>> of(const std::string& name) const;
 
-  /// The same of one store, of what its description says: the whole range.
+  /// The whole range of one store, from its description.
   static std::array<double, 2> whole(const StoreDescription& store, const std::string& name);
 
 private:

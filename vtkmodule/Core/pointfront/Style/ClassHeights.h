@@ -12,7 +12,7 @@ namespace pointfront
 /// Global height (Richter, Discher & Doellner 2015, section 3.1): how high a point lies among all
 /// points of its object class, from 0, the lowest, to 1. The classes are the store's layers; in a
 /// store without layers all points are one class.
-/// Cost     nothing is stored: it is computed from z when a point goes to the GPU.
+/// Cost     no store holds it: it is computed from z when a point goes to the GPU.
 /// Threads  const functions from any thread.
 class ClassHeights
 {
@@ -20,11 +20,11 @@ public:
   explicit ClassHeights(std::shared_ptr<const StoredCloud> store);
 
   const std::shared_ptr<const StoredCloud>& store() const { return store_; }
-  /// Of the points [first, first + count) of a node, appended; 0.5 where the class has one height
-  /// only.
+  /// Appends the heights of the points [first, first + count) of a node; 0.5 if the class has one
+  /// height only.
   void append(const NodeColumns& node, std::uint32_t first, std::uint32_t count,
     std::vector<float>& heights) const;
-  /// Of one point.
+  /// The height of one point.
   double at(const NodeColumns& node, std::uint32_t point) const;
 
 private:

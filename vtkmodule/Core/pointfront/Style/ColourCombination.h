@@ -8,7 +8,7 @@
 namespace pointfront
 {
 
-/// What becomes of two colours of one point.
+/// How two colours of one point are combined.
 enum class ColourCombination : std::uint8_t
 {
   None, ///< there is one only

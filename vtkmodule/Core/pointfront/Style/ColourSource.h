@@ -43,7 +43,8 @@ struct ColourMapChoice
   }
 };
 
-/// What colours points, by name: any attribute, a constant, or a combination of two (LAYERS-8).
+/// The source of the points' colours, by name: any attribute, a constant, or a combination of two
+/// (LAYERS-8).
 struct ColourSource
 {
   enum class Kind : std::uint8_t
@@ -75,14 +76,14 @@ struct ColourSource
   friend bool operator!=(const ColourSource& a, const ColourSource& b) { return !(a == b); }
 };
 
-/// What of a store its description does not say, where a style asks for it.
+/// Facts that a style may ask for and that a store's description lacks.
 struct StoreSurroundings
 {
   /// Of the store: for global_height.
   std::shared_ptr<const ClassHeights> heights;
-  /// Of all stores of the picture: ranges that are not given are taken from it, and an attribute
-  /// that another store has and this one has not leaves this one white. Null: the store stands
-  /// alone, and its whole range is taken.
+  /// The ranges over all stores of the picture. Missing ranges come from it, and an attribute that
+  /// another store has and this store lacks leaves this store white. Null: the store stands alone,
+  /// and its whole range is taken.
   const AttributeRanges* ranges = nullptr;
 };
 
@@ -98,8 +99,8 @@ struct ResolvedColour
 Result<ResolvedColour> resolveColour(
   const ColourSource& source, const StoreDescription& store, const StoreSurroundings& surroundings);
 
-/// What is drawn when the user does not say: rgb if the store has any colour, else classification
-/// if there are several classes, else intensity if it varies, else elevation.
+/// The attribute that is drawn when the user names none: rgb if the store has any colour, else
+/// classification if there are several classes, else intensity if it varies, else elevation.
 std::string defaultColourAttribute(const StoreDescription& store);
 
 /// "#rrggbb"; nothing for another text.

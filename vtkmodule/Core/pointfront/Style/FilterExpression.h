@@ -20,7 +20,8 @@ struct FilterTerm
   AttributeCondition passing; ///< column, component and axis are not set
 };
 
-/// Which points are drawn, by name: what `--where` and a style's "where" say.
+/// A condition on the points that are drawn, by names: the text of `--where` and of a style's
+/// "where".
 ///
 ///     where     = condition { "and" condition }
 ///     condition = name "in" range | name ["not"] "in" set | name comparison number
@@ -42,7 +43,7 @@ struct FilterExpression
   bool empty() const { return terms.empty(); }
   /// BadArgument: what is wrong, and where in the text. An empty text lets all points pass.
   static Result<FilterExpression> parse(std::string_view text);
-  /// With the columns of a store; BadArgument names what it has not.
+  /// The filter with the columns of a store; BadArgument names an attribute that the store lacks.
   Result<PointFilter> resolve(const StoreDescription& store) const;
 
   friend bool operator==(const FilterExpression& a, const FilterExpression& b)

@@ -11,13 +11,13 @@
 namespace pointfront
 {
 
-/// More nodes of a store than this are not judged one by one; breadth first, they are some 10^10
-/// points, and what lies below them is judged with their subtrees.
+/// Most nodes of a store that are judged one by one. Breadth first, these hold some 10^10 points;
+/// deeper nodes are judged with the subtree of their ancestor.
 constexpr NodeIndex mostPrunedNodes = NodeIndex(1) << 20;
 
-/// For each layer the nodes that its styles' filters leave out, by the ranges that the store knows
-/// of its nodes (docs/formats/pfront.md). Null for a layer that has a style without a filter, that
-/// is hidden, or where the store knows nothing.
+/// For each layer the nodes that its styles' filters leave out, by the value ranges of nodes in the
+/// store (docs/formats/pfront.md). Null for a hidden layer, for a layer with a style without a
+/// filter, and for a store without ranges.
 /// Exactness  no point that passes a filter is left out: ranges are wider than values, never
 ///            narrower. One object for layers of equal filters.
 /// Cost       4 bytes of the disk for each node and condition, and some ns; may wait for the disk.

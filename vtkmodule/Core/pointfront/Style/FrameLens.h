@@ -10,7 +10,7 @@
 namespace pointfront
 {
 
-/// Which pixels a lens covers where it has a shape of its own: not 0 where it does.
+/// The shape of a lens as a mask: not 0 for pixels that the lens covers.
 /// Shape  width * height values, row 0 is the lowest; stretched over the viewport.
 struct LensMask
 {
@@ -24,7 +24,7 @@ struct LensMask
   }
 };
 
-/// What part of a picture a lens shows (LAYERS-10).
+/// The part of a picture that a lens covers (LAYERS-10).
 enum class LensShape : std::uint8_t
 {
   Circle,
@@ -43,7 +43,8 @@ struct FrameLens
   glm::vec2 halfSizePx{ 0.0f }; ///< Circle: its radius, twice; else an ellipse
   std::shared_ptr<const LensMask> mask; ///< Mask
 
-  /// No pixel of any viewport; a lens around a class covers what the class's points do.
+  /// Whether it covers no pixel of any viewport. (A lens around a class covers the pixels of the
+  /// class's points.)
   bool coversNothing() const;
   /// Whether it covers pixel (x, y) of a viewport; AroundClass: never.
   bool covers(int x, int y, int viewportWidth, int viewportHeight) const;

@@ -21,7 +21,7 @@ struct FrameLight
   }
 };
 
-/// How pixels of points that stand out are drawn (ResolvedStyle::highlight).
+/// How pixels of highlighted points are drawn (ResolvedStyle::highlight).
 struct FrameHighlight
 {
   glm::vec3 colour{ 1.0f };
@@ -34,10 +34,10 @@ struct FrameHighlight
   }
 };
 
-/// What is done with a frame's pixels after the points are in.
+/// The work on a frame's pixels after all points are drawn.
 struct FrameShading
 {
-  /// Diffuse light on what has a normal (two-sided); what has none keeps its colour.
+  /// Diffuse light on pixels with a normal (two-sided); pixels without a normal keep their colour.
   bool lit = false;
   float ambient = 0.3f;
   float diffuse = 0.7f;
@@ -50,7 +50,8 @@ struct FrameShading
   /// Pull-push over depth and colour: pixels that no point covers, and those through which a
   /// farther surface shows, take their neighbours' colour where these agree in depth.
   bool fillHoles = false;
-  /// Where points of ResolvedStyle::lens are seen in the place of others; a later one lies on top.
+  /// The places where points of ResolvedStyle::lens are seen instead of others; a later lens lies
+  /// on top.
   std::vector<FrameLens> lenses;
   std::vector<FrameHighlight> highlights; ///< at most mostHighlights
 

@@ -12,8 +12,8 @@
 namespace pointfront
 {
 
-/// What a point has on the GPU beside its position: streams of 4 bytes a point, each there only
-/// where a style reads it.
+/// The values of a point on the GPU beside its position: streams of 4 bytes a point. A stream
+/// exists only if a style reads it.
 enum class GpuStream : std::uint8_t
 {
   Value, ///< what its colour is made of
@@ -22,7 +22,8 @@ enum class GpuStream : std::uint8_t
   Height, ///< above the ground as a float, world units
   Lenses ///< and those behind it: as Value, for each set of styles but the first (valueSetOf)
 };
-/// So many lenses of a sheet have streams: what is inside them, and who makes their masks.
+/// Most lenses of a sheet that have streams, for the points inside them and for the points that
+/// make their masks.
 constexpr std::size_t gpuLenses = 4;
 constexpr std::size_t gpuValueSets = 1 + 2 * gpuLenses;
 constexpr std::size_t gpuStreamCount = std::size_t(GpuStream::Lenses) + gpuValueSets - 1;

@@ -39,8 +39,8 @@ struct StyleOrientation
   }
 };
 
-/// How one object class is drawn, before any store is known. What is not set is as in the style
-/// below it: a class's below is the sheet's default, whose below is standardStyle().
+/// How one object class is drawn, before any store is known. Unset members come from the style
+/// below it: below a class is the sheet's default, below that standardStyle().
 /// Threads  a value.
 struct LayerStyle
 {
@@ -57,7 +57,7 @@ struct LayerStyle
   std::optional<std::array<Rgba8, 2>> wall; ///< solid: upper and lower end; else as the points
   std::optional<FilterExpression> where; ///< in the place of the default's
 
-  /// With what it leaves open filled from `below`.
+  /// The style with its unset members taken from `below`.
   LayerStyle over(const LayerStyle& below) const;
   bool empty() const { return *this == LayerStyle(); }
 
@@ -71,8 +71,8 @@ struct LayerStyle
   friend bool operator!=(const LayerStyle& a, const LayerStyle& b) { return !(a == b); }
 };
 
-/// What is drawn where nothing is said: points that close the surface, in the colour that says
-/// most. All but `wall` is set.
+/// The style without any setting: points that close the surface, in the colour that tells most.
+/// Every member but `wall` is set.
 LayerStyle standardStyle();
 
 } // namespace pointfront

@@ -14,8 +14,8 @@ namespace pointfront
 {
 class ClassHeights;
 
-/// How VTK wants colours: the part of vtkMapper's and its lookup table's properties that decides
-/// which column is needed and what is made of it. What the table says of a value is not part of it.
+/// The colours that VTK asks for: those properties of vtkMapper and its lookup table that decide
+/// which column is needed and how it is used. The colours in the table are not part of it.
 struct ColourRequest
 {
   enum class Mode
@@ -71,13 +71,13 @@ struct PointColouring
   /// Table: world values are the integers of this range, few enough for a table of one entry each.
   std::optional<std::array<std::int64_t, 2>> integers;
 
-  /// How `request` is met with that store; nothing when no attribute has that name. `heights` are
-  /// asked for where wantsHeights() says so.
+  /// The colouring that meets `request` with that store; nothing when no attribute has that name.
+  /// `heights` are needed if wantsHeights() is true.
   static std::optional<PointColouring> choose(const StoreDescription& description,
     const ColourRequest& request, std::shared_ptr<const ClassHeights> heights = nullptr);
   static bool wantsHeights(const StoreDescription& description, const ColourRequest& request);
 
-  /// A point has a value on the GPU.
+  /// Whether a point has a value on the GPU.
   bool hasValues() const { return kind == Kind::Direct || kind == Kind::Table; }
   bool usesColumn() const { return hasValues() && !heights; }
   bool usesTable() const { return kind == Kind::Table || kind == Kind::Elevation; }

@@ -63,7 +63,7 @@ enum class SplatOrientation : std::uint8_t
   Fixed ///< one vector for all
 };
 
-/// The second colour of a point, and what is done with both.
+/// The second colour of a point, and how both are combined.
 struct SecondColour
 {
   ColourCombination combination = ColourCombination::None; ///< None: the rest means nothing
@@ -75,8 +75,8 @@ struct SecondColour
 
 bool operator==(const SecondColour& a, const SecondColour& b);
 
-/// A layer's style with a store's columns looked up: all that a back end needs to know to draw a
-/// batch. Made by StyleSheet; compared to know whether anything has to be drawn anew.
+/// A layer's style with a store's columns looked up: everything that a back end needs to draw a
+/// batch. StyleSheet makes it. It is compared to find out whether something has to be drawn anew.
 struct ResolvedStyle
 {
   Technique technique = Technique::Points;
@@ -99,8 +99,8 @@ struct ResolvedStyle
   // Where in the picture its points are seen (PlanParts.h):
   std::int16_t lens = -1; ///< of FrameShading::lenses, the one they are seen in; -1: outside all
   bool lensMask = false; ///< they are not seen: what they cover is what the lens covers
-  /// 0: opaque, all of them the nearest of each other. Else what is drawn with `opacity` over what
-  /// lies behind it, as one surface: groups have different numbers.
+  /// 0: opaque; the nearest opaque point of all such styles is seen. Else the number of a
+  /// translucent group: its points are one surface, drawn with `opacity` over everything behind it.
   std::uint16_t group = 0;
   std::uint8_t highlight = 0; ///< 1 + number in FrameShading::highlights; 0: none
 

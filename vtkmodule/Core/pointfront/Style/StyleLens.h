@@ -10,7 +10,7 @@
 namespace pointfront
 {
 
-/// A lens: where it lies, and what is drawn in another style inside it (LAYERS-10).
+/// A lens: its place, and the styles that hold inside it (LAYERS-10).
 /// Precedence  inside: its style of the class, its default, then what is drawn outside.
 /// Threads     a value.
 struct StyleLens
@@ -30,10 +30,10 @@ struct StyleLens
 
 /// The widest rim of a highlight, pixels.
 constexpr float mostHaloPx = 16.0f;
-/// So many classes stand out at once: a pixel's mark is a part of a byte.
+/// Most classes that are highlighted at once: a pixel's mark is a part of a byte.
 constexpr std::size_t mostHighlights = 120;
 
-/// Points of a class that stand out.
+/// A class whose points are highlighted.
 struct StyleHighlight
 {
   std::uint8_t objectClass = 0;

@@ -32,8 +32,8 @@ struct LayerStyling
   ColumnSelection columns() const;
 };
 
-/// How a cloud is drawn: a default, what differs for each object class, and what is done with the
-/// pixels (LAYERS-8). Says nothing about any store; resolve() looks names up in one.
+/// How a cloud is drawn: a default, the differences of each object class, and the work on the
+/// pixels (LAYERS-8). It knows no store; resolve() looks its names up in one.
 /// Unlayered  a store that keeps one tree for all classes: resolveAll() gives its layer one style
 ///            for each class that differs, with a filter on the column "classification".
 /// Threads    a value.
@@ -53,12 +53,12 @@ struct StyleSheet
   LayerStyle styleOf(std::uint8_t objectClass) const;
   /// How it is drawn inside a lens, as a sheet without lenses.
   StyleSheet inside(const StyleLens& lens) const;
-  /// resolveAll() gives what it gives for the other one: they differ in where lenses lie, and in
-  /// what is done with pixels, at most.
+  /// Whether resolveAll() gives the same for both sheets: they differ at most in the places of
+  /// lenses and in the work on pixels.
   bool resolvesAs(const StyleSheet& other) const;
   /// With its lenses and highlights.
   FrameShading frameShading() const;
-  /// Somewhere a colour asks for ClassHeights of this store.
+  /// Whether any colour asks for ClassHeights of this store.
   bool wantsHeights(const StoreDescription& store) const;
 
   /// Layer number `layer`'s style with the store's columns looked up, visible or not; of an

@@ -9,8 +9,8 @@
 namespace pointfront
 {
 
-/// A cell of the histogram of one layer: where it is and how many points it holds. Cells of a
-/// layer are cubes of one size and do not overlap.
+/// A cell of the histogram of one layer: its place and its number of points. Cells of a layer are
+/// cubes of one size and do not overlap.
 struct KdCell
 {
   TreePosition origin{ 0 };
@@ -56,12 +56,11 @@ std::uint64_t kdLeftPoints(std::uint64_t points, std::uint32_t nodePoints);
 ///           occupied area; what is left is divided at the median along the longest axis, so that
 ///           the left has a whole number of full nodes.
 /// Cells     are ordered by their place along the axis; those before the median cell go to the
-/// left,
-///           those behind it to the right, and only the median cell is divided by its points
+///           left, those behind it to the right. Only the median cell is divided by its points
 ///           (KdPlace). So a point is moved once for all levels, and borders of regions are as
 ///           straight as cells are small.
-/// Shares    how many points each part owes to each node above it is fixed here; which ones, the
-///           part finds out when it has its points.
+/// Shares    the cut fixes how many points each part owes to each node above it. The part chooses
+///           them when it has its points.
 /// Threads   const after construction.
 /// Source    Richter, Discher & Doellner 2015, section 4.1.1 and figure 6.
 class KdCut

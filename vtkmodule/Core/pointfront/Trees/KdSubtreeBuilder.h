@@ -15,16 +15,14 @@ namespace pointfront
 {
 
 /// The balanced kd-tree over some points with `add` refinement, from the root down (LAYERS-1).
-/// Shape     a node takes nodePoints of the points in its region, evenly spread (ExactSampler.h);
-/// the
-///           rest is divided along the longest axis of its box so that the left has a whole
+/// Shape     a node takes nodePoints of the points in its region, evenly spread (ExactSampler.h).
+///           The rest is divided along the longest axis of its box so that the left has a whole
 ///           number of full nodes. All nodes have nodePoints points, but for one a tree. Equal
 ///           coordinates are divided by Morton order, then by input order.
-/// Median    counts of the coordinates in some thousand intervals name the one with the median;
-/// only
-///           its points are searched (LAYERS-2).
-/// Parts     give first what they owe to the nodes above them, from the root down; what an open
-///           subtree holds are those points, in this order.
+/// Median    counts of the coordinates in some thousand intervals name the interval with the
+///           median; only its points are searched (LAYERS-2).
+/// Parts     first give the points that they owe to the nodes above them, from the root down. An
+///           open subtree holds these points, in this order.
 /// Source    Richter, Discher & Doellner 2015, sections 4.1 and 4.1.1.
 class KdSubtreeBuilder final : public TreeBuilder
 {

@@ -16,7 +16,7 @@ namespace pointfront
 ///            fixed hash of its position: stratified, but never an equidistant step, which
 ///            would beat with scan lines.
 /// `indices` must come in Morton order; the result depends on the positions only.
-/// Source     Kovac 2009, section 3.1 (random step); architecture.md (Morton batches).
+/// Source     Kovac 2009, section 3.1 (random step); docs/formats/pfront.md, Blocks.
 std::vector<std::uint32_t> prefixOrder(
   const RecordView& records, const std::vector<std::uint32_t>& indices);
 

@@ -20,7 +20,7 @@
 namespace pointfront
 {
 
-/// Where the parts are and what makes nodes of them.
+/// The parts, and the builders that make nodes of them.
 struct AssemblyPlan
 {
   std::vector<PartNode> tree;
@@ -37,14 +37,15 @@ struct FinishedSubtree
   OpenSubtree subtree;
 };
 
-/// What of the trees is finished, and written but for what it still holds for the nodes above.
+/// The finished subtrees. Their nodes are written, except the points that they still hold for the
+/// nodes above.
 struct FinishedSubtrees
 {
   std::vector<FinishedSubtree> subtrees; ///< no one contains another; in the order of the file
   WrittenPayloads written; ///< exactly the nodes of the subtrees
 };
 
-/// Somebody who wants to see finished subtrees while others are built.
+/// An observer that sees finished subtrees while others are built.
 /// Threads  called from the crew's threads, one at a time; due() with the assembly waiting.
 class AssemblyWatch
 {

@@ -7,7 +7,8 @@
 namespace pointfront
 {
 
-/// What a slot of GPU memory (GpuSlots.h) takes, and how many a window's budget is worth.
+/// The bytes of a slot of GPU memory (GpuSlots.h), and the number of slots that a window's budget
+/// holds.
 /// Units  bytes.
 struct GpuSlotBytes
 {
@@ -20,9 +21,9 @@ struct GpuSlotBytes
     return gpuSlotPoints * (position + streams * value) + record;
   }
 
-  /// Slots that the fronts of `clouds` clouds may fill together so that their pools stay within
-  /// `budget` > 0: a pool's last block may be partly empty, by an eighth of it and a slot. At least
-  /// one: a budget that small shows what fits.
+  /// The slots that the fronts of `clouds` clouds may fill together so that their pools stay within
+  /// `budget` > 0. A pool's last block may be partly empty, by an eighth of the pool and a slot. At
+  /// least one slot, so that even a small budget shows something.
   static constexpr std::uint64_t slotsWithin(std::int64_t budget, int streams, std::uint64_t clouds)
   {
     const std::int64_t all = budget / of(streams) - static_cast<std::int64_t>(clouds);

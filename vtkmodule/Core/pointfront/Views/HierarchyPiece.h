@@ -8,13 +8,14 @@ namespace pointfront
 {
 
 /// The share of a hierarchy that one of several processes draws (sort-last rendering).
-/// Shapes      whole subtrees, neighbours in depth-first order, about as many points in each piece.
-///             Nodes above them stand in every piece that has something below them, but only one
-///             piece has their points; in the others their point count is 0. With
-///             Refinement::Replace each of those pieces has their representatives, to show them
-///             until its own part of the children is there.
-/// Numbers     nodes keep the store's: the piece is the store's table, seen through a few changed
-///             rows (those above the subtrees). Walking down from its roots one meets the piece.
+/// Shapes      whole subtrees, neighbours in depth-first order; all pieces have about as many
+///             points. A node above the subtrees is in every piece that has nodes below it, but
+///             only one piece has its points; in the others its point count is 0. With
+///             Refinement::Replace each of these pieces has its representatives, to show them until
+///             its own part of the children is loaded.
+/// Numbers     nodes keep their numbers in the store: the piece is the store's table with a few
+///             changed rows (those above the subtrees). Walking down from its roots one meets the
+///             piece.
 /// Guarantees  the pieces together have every point of the input once. Piece 0 of 1 is the
 ///             hierarchy itself. Takes time and memory for the changed rows only, whatever the
 ///             size of the table.

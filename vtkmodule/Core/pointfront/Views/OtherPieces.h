@@ -11,9 +11,9 @@
 namespace pointfront
 {
 
-/// What the other pieces of a hierarchy draw of a view, from the table alone: a front over the
-/// whole hierarchy, as if all of it were in memory. It is what they draw as soon as they have
-/// loaded what they want at that threshold.
+/// The nodes that other pieces of a hierarchy draw of a view, from the table alone: a front over
+/// the whole hierarchy, as if all of it were in memory. The other pieces draw these nodes as soon
+/// as they have loaded what they want at that threshold.
 /// Time     that of a front's update; next to nothing where neither view nor threshold changed.
 /// Threads  one.
 class OtherPieces
@@ -28,8 +28,9 @@ public:
   explicit OtherPieces(std::shared_ptr<const HierarchyPiece> piece);
   ~OtherPieces();
 
-  /// With the layers of `limits`, at a threshold. `waits`: for rows of a paged table, as
-  /// long as it is true; empty: rows that are on their way are looked for at the next update.
+  /// Updates for a view with the layers of `limits`, at a threshold. `waits`: as long as it is true
+  /// the update waits for rows of a paged table; empty: the next update looks again for rows that
+  /// are on their way.
   void update(const View& view, const FrontLimits& limits, double thresholdPx,
     const std::function<bool()>& waits);
   /// By node.

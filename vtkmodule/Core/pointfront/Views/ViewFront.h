@@ -26,7 +26,7 @@ enum class DetailMethod
   ViewSpecific ///< ViewDetail
 };
 
-/// What one frame of one view asks of its front.
+/// The demand of one frame of one view on its front.
 struct FrameDemand
 {
   DetailMethod method = DetailMethod::RenderingFront;
@@ -47,8 +47,8 @@ struct FrameDemand
   std::vector<LayerLimits> layers; ///< by number of the store's layer (LAYERS-11)
 };
 
-/// The front of one view of a store, with its share of the residency and what it has learnt of the
-/// cost of its frames. Several views of one cloud have one of these each.
+/// The front of one view of a store, with its share of the residency and the measured cost of its
+/// frames. Several views of one cloud have one of these each.
 /// Guarantees  update() waits for the disk only when the demand is `complete`, and on the first
 ///             update for the roots (one node a layer), so that no first frame is empty unless the
 ///             disk hangs: half a second at most, and all new clouds of a window together a second
@@ -66,41 +66,41 @@ public:
   const FrontDelta& update(const FrameDemand& demand);
   const FrontDelta& last() const { return delta_; }
 
-  /// What other processes draw of the last update's view beside this piece; empty for a whole
-  /// hierarchy, and with DetailMethod::ViewSpecific, whose pieces choose levels of their own.
+  /// The nodes that other processes draw of the last update's view beside this piece; empty for a
+  /// whole hierarchy, and with DetailMethod::ViewSpecific, whose pieces choose levels of their own.
   const std::vector<OtherPieces::Drawn>& drawnElsewhere() const;
 
-  /// Nobody sees it until the next update: its part of all that is shared goes to the others, what
-  /// it has loaded stays as long as nobody wants the memory.
+  /// Tells that nobody sees the view until the next update. Its part of all shared budgets goes to
+  /// the others; its loaded nodes stay as long as nobody wants the memory.
   void leave();
 
-  /// From now on it is drawn among the clouds with that demand.
+  /// Moves the view to a window: it is drawn among the clouds with that demand.
   void enterWindow(std::shared_ptr<const WindowDemand> window);
 
-  /// Of a window's budget of points (0: no limit), what this view has on the GPU and may keep there
-  /// beside it: what it draws, and its part of what nobody draws.
+  /// The part of a window's budget of points (0: no limit) that this view may have on the GPU: the
+  /// points that it draws, and its part of those that nobody draws.
   std::uint64_t pointsOnGpu(std::uint64_t windowBudget) const;
 
-  /// Of the store's tree.
+  /// The refinement of the store's tree.
   Refinement refinement() const { return piece_->hierarchy()->refinement(); }
 
   /// The node's points, or null.
   std::shared_ptr<const NodeColumns> find(NodeIndex node) const;
 
-  /// What an earlier frame cost this cloud (CPU + GPU), and what was in it.
+  /// Tells the time that an earlier frame took for this cloud (CPU + GPU), and what the frame drew.
   void recordFrame(std::uint64_t points, std::uint32_t moves, double milliseconds)
   {
     cost_.record(points, moves, milliseconds);
   }
 
-  /// The last frame drew that many points beside the front's: they take of a frame's time, two
-  /// fifths of it at most. recordFrame() gets all of them.
+  /// Tells how many points the last frame drew beside the front's: they may take two fifths of a
+  /// frame's time. The count for recordFrame() includes them.
   void drewBeside(std::uint64_t points) { beside_ = points; }
 
-  /// True if something arrived since the last update, that update itself left moves for the
-  /// next, or other clouds took or left memory since.
+  /// True if nodes arrived since the last update, if that update left moves for the next one, or if
+  /// other clouds took or left memory since.
   bool wantsUpdate() const;
-  /// True while the last update misses something that is being read or waits to be.
+  /// True while nodes that the last update misses are being read or wait to be read.
   bool expectsMore() const;
 
 private:

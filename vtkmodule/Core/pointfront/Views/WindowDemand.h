@@ -10,7 +10,7 @@
 namespace pointfront
 {
 
-/// What all clouds of a window take: their views settle at one error.
+/// The demand of all clouds of a window; by it their views settle at one error.
 struct WindowDemand
 {
   std::shared_ptr<SharedDemand> points = std::make_shared<SharedDemand>(); ///< on screen

@@ -19,9 +19,9 @@ enum class BlockCodec : std::uint8_t
 /// True for the codecs that decodeBlock() knows.
 bool knownBlockCodec(std::uint8_t codec);
 
-/// What a block holds: `points` times `components` scalars of `scalarBytes` bytes, interleaved.
-/// Scalars are coded as unsigned integers of their size, floating point by its bits, so every
-/// value (each NaN too) comes back bit for bit.
+/// The shape of a block: `points` times `components` scalars of `scalarBytes` bytes, interleaved.
+/// Scalars are coded as unsigned integers of their size, floating point by its bits, so every value
+/// (each NaN too) comes back bit for bit.
 struct BlockShape
 {
   std::size_t points = 0;

@@ -49,8 +49,8 @@ private:
   std::vector<std::byte> bytes_;
 };
 
-/// Takes numbers and texts from bytes that may be damaged: what is not there reads as zero or
-/// empty and ok() is false from then on, so a parser checks once at its end.
+/// Takes numbers and texts from bytes that may be damaged. Missing numbers read as zero and missing
+/// texts as empty, and ok() is false from then on, so a parser checks once at its end.
 /// Guarantees  never reads outside [data, data + size) and never allocates more than is there.
 class ByteReader
 {

@@ -10,14 +10,15 @@ namespace pointfront
 
 /// How deep each layer of a view is shown (SMOOTH-2, -3, LAYERS-11). Levels are as in
 /// DetailLevel.h.
-/// Wanted   the overview's, and what fills the image's pixels where the frustum has fewer points of
-///          it than they are. Pixels are counted at targetErrorPx: a third of the error wants nine
-///          times the points. Hidden layers have no points.
+/// Wanted   the level of the overview; or, if the frustum has fewer points of the overview than the
+///          image has pixels, the level that fills the pixels. Pixels are counted at targetErrorPx:
+///          a third of the error wants nine times the points. Hidden layers have no points.
 /// Common   one level for all layers: the highest up to the wanted that fits the budgets, in
 ///          eighths from the overview's; if even that does not, the overview is made smaller.
-/// Own      a layer with a share of the budgets has a level of its own beside it, the highest that
-///          fits the share, and is shown at the higher of the two: never less than its share
-///          allows, and what it does not need raises the common level (as FrontThreshold has it).
+/// Own      a layer with a share of the budgets also has a level of its own, the highest that fits
+///          the share, and is shown at the higher one of the two. So it never gets less than its
+///          share allows, and an unused part of the share raises the common level (as in
+///          FrontThreshold).
 /// Steady   from the view and the table alone, whatever is loaded and came before.
 /// Threads  one. Allocates only when the number of layers changes.
 class DetailLevels

@@ -29,7 +29,7 @@ namespace pointfront
 class DetailWalk
 {
 public:
-  /// Of a layer's points that are shown, 0 to 1.
+  /// The share of a layer's points that is shown, 0 to 1.
   struct Shown
   {
     double overview = 0.0; ///< in sight or not, and kept in memory
@@ -38,7 +38,7 @@ public:
 
   explicit DetailWalk(const Hierarchy& hierarchy);
 
-  /// View and limits of what follows; they must outlive it.
+  /// Sets view and limits for the next calls; they must outlive these.
   void begin(const View& view, const FrontLimits& limits);
 
   std::size_t layerCount() const { return layerCount_; }
@@ -46,7 +46,7 @@ public:
   /// Of all roots, points below them; hidden layers too.
   double points() const { return points_; }
 
-  /// What a visible layer would draw and hold.
+  /// The demand of a visible layer: the points that it would draw and hold.
   Demand demand(std::size_t layer, const Shown& shown);
 
   /// Fills draw, requests, pointsDrawn, errorPx, failedNodes and rowsComing of `delta`; draws

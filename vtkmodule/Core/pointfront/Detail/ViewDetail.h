@@ -15,9 +15,9 @@ namespace pointfront
 ///             (LayerLimits.h): a layer with a share may be shown deeper than the others.
 /// Budgets     hard. Levels fall by eighths until what they draw and hold fits; if even the
 ///             overview does not, that is made smaller.
-/// Guarantees  those of DetailSelection. What was on screen goes only when the level or the
-///             frustum leaves it, not while something else loads. With Add the ancestors of what is
-///             drawn are drawn too, whole.
+/// Guarantees  those of DetailSelection. A point on screen goes only when the level or the frustum
+///             leaves it, not while other nodes load. With Add the ancestors of what is drawn are
+///             drawn too, whole.
 /// Cost        of an update in which something changed: a walk over the nodes that it shows; of a
 ///             new view one more to check the budgets, and some eight more where they hold the
 ///             level down. No memory is taken in the steady state. FrontLimits::movesPerFrame and

@@ -7,9 +7,9 @@
 namespace pointfront
 {
 
-/// What an airborne laser pulse meets at a place of a made-up landscape: hills, lakes and a river
-/// plain, towns with flat and gabled roofs, woods and single trees. A function of (seed, x, y)
-/// only: any part can be made by any thread, at any size.
+/// The surfaces that an airborne laser pulse meets at a place of a made-up landscape: hills, lakes
+/// and a river plain, towns with flat and gabled roofs, woods and single trees. A function of
+/// (seed, x, y) only: any part can be made by any thread, at any size.
 /// Units    metres.
 /// Threads  const functions are safe from any thread.
 class TerrainModel

@@ -30,8 +30,8 @@ inline bool hasPlace(const glm::dvec3& p)
     p.z >= -farthest && p.z <= farthest; // false for NaN
 }
 
-/// Where the points are, coarsely and in bounded memory: it begins with fine cells and doubles
-/// their edge whenever there are more than `mostCells`.
+/// Counts points in cells, in bounded memory: it begins with fine cells and doubles their edge
+/// whenever there are more than `mostCells`.
 /// Order   the result is the same whatever the order of the points, and however they are spread
 ///         over several histograms that are added up: its edge is the smallest, from the first on,
 ///         that needs no more than mostCells for all points.

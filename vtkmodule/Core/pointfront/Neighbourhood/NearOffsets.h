@@ -9,7 +9,8 @@
 namespace pointfront
 {
 
-/// What is around a point: places, as seen from it, nearest first, each once, without its own.
+/// The places around a point as offsets from it: nearest first, each once, without the point's own
+/// place.
 /// Order    by distance, then by the offsets: the same whatever order they came in.
 /// Threads  one a thread; begin() keeps nothing.
 class NearOffsets
@@ -22,7 +23,7 @@ public:
   void add(const glm::dvec3& offset);
   /// begin() and add() of each: much less time for up to 16, unless some are equally far.
   void assign(const glm::dvec3* offsets, std::size_t count);
-  /// Only what is nearer can still be kept.
+  /// Only nearer places can still be kept.
   double squaredBound() const;
 
   std::size_t size() const { return count_; }

@@ -19,7 +19,7 @@ struct NearPoint
   std::uint32_t count = 1;
 };
 
-/// What is computed for a point from its neighbours. Threads: compute() from any.
+/// A value that is computed for a point from its neighbours. Threads: compute() from any.
 class NeighbourhoodFeature
 {
 public:
@@ -49,10 +49,11 @@ struct NeighbourhoodOptions
 };
 
 /// Computes a feature of every query from its nearest references among all sources, out of core.
-/// Exact    with an exact index the values do not depend on tiles, memory, threads or the order
-///          of the points: a point is final only if its last neighbour is nearer than what its tile
-///          did not gather; the others are looked for in all tiles within their reach in a second
-///          round. With an approximate index they depend on the points and tilePoints alone.
+/// Exact    with an exact index the values do not depend on tiles, memory, threads or the order of
+///          the points: a point is final only if its last neighbour is nearer than every place that
+///          its tile did not gather. The other points are searched in a second round, in all tiles
+///          within their reach. With an approximate index they depend on the points and tilePoints
+///          alone.
 /// Speed    points in a row along a Morton curve share a search (NeighbourCluster).
 /// Memory   a tile a thread and the points of the second round: under resources.memoryBytes.
 /// Errors   those of PointTiles and of the sources; NoMemory; Cancelled.

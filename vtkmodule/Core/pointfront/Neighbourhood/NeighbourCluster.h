@@ -8,7 +8,7 @@
 namespace pointfront
 {
 
-/// What is searched for around each point.
+/// The neighbours that are searched for around each point.
 struct NeighbourDemand
 {
   std::uint32_t neighbours = 16; ///< the k nearest references; 0: all within `radius`
@@ -16,12 +16,11 @@ struct NeighbourDemand
   unsigned axes = 3; ///< 2: distances are horizontal
 };
 
-/// The neighbours of points that lie close together: the places around the middle of a group are
-/// looked up once, those around a few points of it picked from them, and each point chooses among
-/// these, which is cheaper than to descend the tree for each.
-/// Exact    the lists are those that the index gives. A place that was not looked up is farther
-///          from the middle than the search went; a point for which that is not far enough is
-///          searched for alone.
+/// Finds the neighbours of points that lie close together. It looks up the places around the middle
+/// of a group once, picks from them the places around a few points of the group, and lets each
+/// point choose among these. That is cheaper than to descend the tree for each point.
+/// Exact    the lists equal those of the index. Places that were not looked up lie beyond the range
+///          of the search around the middle; a point that may need them is searched alone.
 /// Eps      an approximate index is asked once or twice for a group: its lists depend on which
 ///          points are together.
 /// Threads  one a thread; the set and its index must live as long.
@@ -31,10 +30,10 @@ public:
   NeighbourCluster(
     const PositionSet& set, const NeighbourIndex& index, const NeighbourDemand& demand);
 
-  /// Looks up what is around a group. All points that are searched for next are within `reach` of
+  /// Looks up the places around a group. All points that are searched next lie within `reach` of
   /// the middle, over the axes of the demand.
   void gather(const glm::dvec3& middle, double reach);
-  /// Picks what is around some points of the group: all that are searched for next.
+  /// Picks the places around some points of the group, which are the points that are searched next.
   void focus(const glm::dvec3& middle, double reach);
   /// Fills the list for one of them.
   void search(const glm::dvec3& from, NeighbourList& list);

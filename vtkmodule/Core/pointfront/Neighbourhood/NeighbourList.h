@@ -10,8 +10,8 @@
 namespace pointfront
 {
 
-/// Places that points have, each once, and how many points are there (counted up to the number of
-/// neighbours wanted: more make no difference). Duplicates so cost nothing in a search.
+/// The places of points, each once, with the number of points there (counted up to the number of
+/// wanted neighbours). So duplicates cost nothing in a search.
 struct PositionSet
 {
   std::vector<glm::dvec3> positions;

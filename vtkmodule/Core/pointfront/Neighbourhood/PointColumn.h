@@ -12,8 +12,9 @@
 namespace pointfront
 {
 
-/// Values of all points, by their number in input order, in an unnamed file: what was computed from
-/// neighbours waits there until its source is read. Zero bytes where nothing was written.
+/// Values of all points, by their number in input order, in an unnamed file. Values that were
+/// computed from neighbours wait there until their source is read. Unwritten places have zero
+/// bytes.
 /// Threads  write() and read() from any thread, on separate points.
 class PointColumn
 {
@@ -43,9 +44,9 @@ private:
 using ValueSource =
   std::function<Result<void>(const SourceChunk&, const PointBatch& batch, std::byte* values)>;
 
-/// Sources that give what the originals give, and the new attributes: behind the others, or in the
-/// place of one with the same name.
-/// `describe`: what else changes in their descriptions.
+/// Sources that give the points of the originals with the new attributes. These come behind the
+/// others, or replace an attribute of the same name. `describe`: what else changes in their
+/// descriptions.
 PointSources withAttributes(PointSources sources, const std::vector<Attribute>& attributes,
   const ValueSource& values, const std::function<void(SourceDescription&)>& describe = {});
 

@@ -31,7 +31,7 @@ struct TilePoint
   std::uint8_t objectClass() const { return static_cast<std::uint8_t>(key >> 56); }
 };
 
-/// Which points take part. Without a column "classification" all points have class 0.
+/// The points that take part, by class. Without a column "classification" all points have class 0.
 struct Participants
 {
   ClassSet queries = ClassSet().set(); ///< those that are given a value
@@ -45,7 +45,7 @@ struct GatheredPoints
   std::size_t own = 0; ///< points [0, own): all that take part; behind them references of the halo
 };
 
-/// Where the references of a tile are: a bound for searches from elsewhere.
+/// The bounds of a tile's references, for searches from other tiles.
 struct ReferenceExtent
 {
   Bounds bounds;

@@ -7,7 +7,7 @@
 namespace pointfront
 {
 
-/// The plane of a neighbourhood, and how far it is one. Eigenvalues are of the covariance.
+/// The plane of a neighbourhood, and how plane it is. Eigenvalues are of the covariance.
 struct NeighbourPlane
 {
   glm::dvec3 normal{ 0.0, 0.0, 1.0 }; ///< of length 1; its sign has no meaning

@@ -38,15 +38,15 @@ void collectNear(const PositionSet& set, const NeighbourList& list, std::uint32_
 void collectNear(const PositionSet& set, const std::vector<std::uint32_t>& places,
   const glm::dvec3& from, std::vector<NearPoint>& near);
 
-/// A point whose neighbours may lie outside of what its tile gathered.
+/// A point whose neighbours may lie outside of the box that its tile gathered.
 struct UnfinishedPoint
 {
   TilePoint point;
   double squaredReach = 0.0; ///< its neighbours are within this squared distance
 };
 
-/// Squared distance from p to what lies outside of the box, a little less than it is; infinite if
-/// nothing does.
+/// Squared distance from p to the space outside of the box, rounded down; infinite if the box is
+/// all of space.
 double squaredClearance(const Bounds& box, const glm::dvec3& p);
 /// Squared distance from p to the nearest and to the farthest point of a box, over some axes.
 double squaredDistanceTo(const Bounds& box, const glm::dvec3& p, unsigned axes);

@@ -36,11 +36,10 @@ struct ComparisonOptions
   std::optional<std::array<std::uint8_t, 3>> background;
 };
 
-/// Compares colours; opacity is not looked at, but for pixels that are wholly transparent: they
-/// are background.
-/// hole    a pixel that is white in the mask (255) and background in `drawn`
-/// bloat   a pixel that is black in the mask (0) and not background in `drawn`
-/// Pixels that the mask covers partly are neither: either answer is right there.
+/// Compares colours and ignores opacity, except that wholly transparent pixels are background. hole
+/// a pixel that is white in the mask (255) and background in `drawn` bloat a pixel that is black in
+/// the mask (0) and not background in `drawn` Pixels that the mask covers partly are neither:
+/// either answer is right there.
 /// Errors  BadArgument for sizes that differ, a mask without a pixel inside, and a background that
 ///         has to be told: where the mask leaves nothing outside, or no colour has half of that.
 Result<PictureComparison> comparePictures(

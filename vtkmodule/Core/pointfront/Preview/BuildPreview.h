@@ -26,21 +26,21 @@ struct PreviewOptions
   bool wanted = true;
   /// Smaller inputs are built in about the time that an overview takes.
   std::uint64_t leastPoints = 4000000;
-  /// Of the CPU time that building the trees has taken so far, what showing finished parts may.
+  /// The share of the trees' CPU time so far that showing finished parts may take.
   double shareOfTime = 0.02;
-  /// A later version of the sample is left out when the one before is younger: of a build that
-  /// takes some seconds nobody looks at four pictures.
+  /// A later version of the sample is left out while the one before is younger than this: nobody
+  /// looks at four pictures of a build that takes some seconds.
   double leastSeconds = 2.0;
   /// Called after each version with the preview's path; from a thread of the preview.
   std::function<void(const std::string&)> shown;
 };
 
-/// Shows a cloud while its store is built: beside the store lies a small one, the preview
-/// (PreviewRecord.h). Its first version comes from some chunks spread over all inputs, within
-/// seconds; the next ones from a random share of all that the build has read, unless the one before
-/// is very young. While the trees are built, versions show finished parts in full, out of the file
-/// that the build is writing, and that share of the others (PartialTrees.h). What the build writes
-/// does not depend on it.
+/// Shows a cloud while its store is built: a small store, the preview, lies beside it
+/// (PreviewRecord.h). Its first version comes within seconds, from some chunks spread over all
+/// inputs. The next versions come from a random share of everything that the build has read, unless
+/// the one before is very young. While the trees are built, versions show finished parts in full,
+/// out of the file that the build is writing, and that share of the other parts (PartialTrees.h).
+/// The build's bytes do not depend on the preview.
 /// Cost        the sample has at most a 256th of the points; versions with finished parts come as
 ///             often as PreviewOptions::shareOfTime lets them. Memory: a 16th of the build's limit,
 ///             at most 1 GiB, see heldBytes().
@@ -52,8 +52,8 @@ struct PreviewOptions
 class BuildPreview final : private BuildWatch
 {
 public:
-  /// Claims the preview's name. Without a wish, with few points or little memory it stays silent:
-  /// all other functions then only pass things on.
+  /// Claims the preview's name. If no preview is wanted, or with few points or little memory, the
+  /// object stays silent: all other functions then only pass their arguments on.
   /// Errors  PreviewFile::claim(): another build of this store is running.
   static Result<std::unique_ptr<BuildPreview>> create(
     const PointSources& sources, const BuildOptions& build, const PreviewOptions& options = {});
@@ -67,8 +67,8 @@ public:
   /// Reads some chunks on all threads and shows them. Reports as the phase "overview".
   void showOverview(const PointSources& sources, const ProgressFunction& progress = {});
 
-  /// Builds the store from `sources` and shows how it comes about; `options` may leave the build
-  /// less memory than create() was told, nothing else. The report has the warnings of the preview.
+  /// Builds the store from `sources` and shows its progress; `options` may leave the build less
+  /// memory than create() was told, nothing else. The report has the warnings of the preview.
   Result<BuildReport> build(const PointSources& sources, const BuildOptions& options,
     const ProgressFunction& progress = {});
 

@@ -14,7 +14,7 @@
 namespace pointfront
 {
 
-/// What partial trees are made of, all of one build.
+/// The parts of a build from which partial trees are made.
 struct PartialTreesSite
 {
   const TreeConstruction& construction;
@@ -24,9 +24,9 @@ struct PartialTreesSite
 };
 
 /// The trees of a build for a watch: finished subtrees as they are, each other part built from its
-/// points in a sample, and the nodes above joined from both. So a tree has points everywhere, at
-/// every level, and none of them twice: points of the sample that lie in finished parts, or where
-/// parts share a place and one is finished, are left out.
+/// points in a sample, and the nodes above joined from both. So a tree has points everywhere and at
+/// every level, and no point twice: it leaves out points of the sample that lie in finished parts,
+/// or in a place that several parts share if one of them is finished.
 /// Memory   the sample's records, some times while a store is written.
 /// Source   Futterlieb et al. 2016, section 3.3.1: the overview is computed again from the tree
 ///          (SMOOTH-1).

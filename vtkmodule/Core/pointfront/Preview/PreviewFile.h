@@ -17,7 +17,7 @@ namespace pointfront
 class PreviewFile
 {
 public:
-  /// Of the store at `storePath`. Removes what a killed build left behind.
+  /// Claims the preview of the store at `storePath`. Removes the preview of a killed build.
   /// Errors  Unwritable: another build is writing that store now, or something that is not a
   ///         preview has its name.
   static Result<std::unique_ptr<PreviewFile>> claim(const std::string& storePath);

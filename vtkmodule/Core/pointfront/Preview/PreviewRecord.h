@@ -10,8 +10,8 @@
 namespace pointfront
 {
 
-/// What makes a store the preview of one that is still being built: a metadata record, so that
-/// the format stays version 1 and every reader shows it (ADR 0011, SMOOTH-1).
+/// The metadata record that marks a store as the preview of a store that is still being built.
+/// Because it is metadata, every reader of the format shows previews (ADR 0011, SMOOTH-1).
 struct PreviewRecord
 {
   std::string storeName; ///< file name of the finished store, in the preview's folder

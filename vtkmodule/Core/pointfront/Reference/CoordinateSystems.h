@@ -38,13 +38,13 @@ public:
   /// rejects such points and counts them.
   /// Errors  BadArgument, with the reason, when that happens to every finite point of several.
   virtual Result<void> apply(glm::dvec3* points, std::size_t count) const = 0;
-  /// What a user should know: a better transformation that lacks its grid file, an approximate
-  /// one. Full sentences.
+  /// Facts that a user should know: a better transformation that lacks its grid file, an
+  /// approximate transformation. Full sentences.
   virtual const std::vector<std::string>& warnings() const = 0;
 };
 
-/// The known coordinate reference systems. The kernel defines what it asks of them; a module
-/// answers (Filters/Projection).
+/// The known coordinate reference systems. The kernel defines this interface; a module implements
+/// it (Filters/Projection).
 /// Threads   all methods are thread-safe.
 class CoordinateSystems
 {

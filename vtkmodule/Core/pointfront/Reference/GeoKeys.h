@@ -13,8 +13,8 @@ namespace pointfront
 struct MetadataRecord;
 
 /// The GeoTIFF keys that name a coordinate reference system: in a GeoTIFF image three tags, in a
-/// LAS file three records of the same numbers. Parsed, not interpreted: what a code means is
-/// asked of a CoordinateSystems.
+/// LAS file three records of the same numbers. Parsed, not interpreted: CoordinateSystems knows
+/// what a code means.
 /// Source   OGC GeoTIFF 1.1, sections 7.1 and 7.4.
 class GeoKeys
 {

@@ -10,8 +10,8 @@
 namespace pointfront
 {
 
-/// Square cells on the ground of a cloud, and which of them hold a point: what a density is
-/// measured over, without the gaps and the corners of the bounding box.
+/// Square cells on the ground of a cloud, and which of them hold a point. A density is measured
+/// over these cells, without the gaps and the corners of the bounding box.
 /// Cells    such that 16 points would lie in each if the cloud filled its box evenly; larger where
 ///          that would be more than 2^24 of them. They begin at the box's low corner.
 /// Threads  add() from any thread.

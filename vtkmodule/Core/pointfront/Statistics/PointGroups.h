@@ -15,8 +15,8 @@ namespace pointfront
 /// Points that are left out, by Rejection.
 using RejectionCounts = std::array<std::uint64_t, std::size_t(Rejection::Count)>;
 
-/// Tells for each point of a batch which class it is counted with. What is no position is in no
-/// group, for the reasons for which a build rejects it.
+/// Tells for each point of a batch the class with which it is counted. A point without a valid
+/// position is in no group, for the reasons for which a build rejects it.
 /// Threads  immutable.
 class PointGroups
 {

@@ -16,7 +16,7 @@
 namespace pointfront
 {
 
-/// Points that were read, and where they lie.
+/// The number of points that were read, and their bounds.
 struct PointCount
 {
   std::uint64_t read = 0;
@@ -59,7 +59,7 @@ struct GroupStatistics
   std::vector<ComponentStatistics> components;
 };
 
-/// What the points of a cloud are like.
+/// The statistics of a cloud's points.
 struct PointStatistics
 {
   PointCount counted;
@@ -84,7 +84,7 @@ struct StatisticsOptions
 /// Result   the same for any number of threads. Errors: of the source.
 Result<PointCount> countPoints(const PointSource& source, const ScanOptions& options);
 
-/// Reads all points twice: first for ranges, then for what is counted within them.
+/// Reads all points twice: first for ranges, then for the counts within them.
 /// Result   the same for any number of threads: sums are of whole steps (ValueSteps).
 /// Memory   options.scan.memoryBytes for batches; beyond it some kilobytes for each class,
 ///          component and thread, and 2 MiB of ground cells.

@@ -11,7 +11,7 @@
 namespace pointfront
 {
 
-/// How the values of one component are kept while they are counted.
+/// The type in which the values of one component are kept while they are counted.
 enum class ValueKind : std::uint8_t
 {
   Unsigned,

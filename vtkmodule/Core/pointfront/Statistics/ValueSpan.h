@@ -6,7 +6,7 @@
 namespace pointfront
 {
 
-/// How many values there are, and between which two they lie, as keys (ValueKey.h).
+/// The number of values, and the smallest and largest of them, as keys (ValueKey.h).
 /// Order  the same for any order and any grouping of the values.
 struct ValueSpan
 {

@@ -9,8 +9,8 @@
 namespace pointfront
 {
 
-/// Whether floating point numbers were decimal ones once: 637.25 m in millimetres, as float the
-/// nearest number that it has. Finds the fewest decimals that all of them have in common.
+/// Finds out whether floating point numbers were decimal numbers once (637.25 m in millimetres
+/// becomes the nearest float), and the fewest decimals that all of them have in common.
 /// A number  is a multiple of a step if it is one to within the rounding of its type: half a unit
 ///           to one unit of the last place of float32, two to four of float64, to which an offset
 ///           may have been added.

@@ -10,7 +10,8 @@
 namespace pointfront
 {
 
-/// What a field of that name is of a point. The one place that knows how others call things.
+/// The role of a field in a point, by its name. Only this file knows the names that other programs
+/// use.
 /// Spelling   case, blanks, '_' and '-' do not matter; a leading "scalar_" (CloudCompare) is
 ///            dropped, and so is a unit behind a coordinate: "X (m)", "lat[deg]", "Easting_ft".
 ///            "Intensity", "scalar_Intensity" and "i" are the attribute "intensity";

@@ -7,7 +7,7 @@
 namespace pointfront
 {
 
-/// What the values of one field have in common. NaN and infinities count for `finite` only.
+/// Facts about all values of one field. NaN and infinities count for `finite` only.
 struct FieldStatistics
 {
   double low = std::numeric_limits<double>::infinity();

@@ -8,7 +8,7 @@
 namespace pointfront
 {
 
-/// How a file may be looked through when it is opened.
+/// The resources for reading through a file when it is opened.
 struct SurveyOptions
 {
   unsigned threads = 0; ///< 0: one a core

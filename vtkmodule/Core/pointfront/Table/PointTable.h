@@ -15,7 +15,7 @@
 namespace pointfront
 {
 
-/// One number that every row of a foreign file has.
+/// A field: one number in every row of a foreign file.
 /// Name   as the file gives it; "name[k]" is component k of an array field.
 struct TableField
 {
@@ -40,8 +40,8 @@ struct TableBlock
   }
 };
 
-/// A foreign file as most of them are: rows of named numbers, cut into chunks. What the names mean
-/// is not the table's business: TableSource turns it into points.
+/// A foreign file of the usual form: rows of named numbers, cut into chunks. The table does not
+/// know what the names mean: TableSource turns it into points.
 /// Threads   read() is thread-safe; the rest is constant.
 class PointTable
 {
@@ -50,7 +50,7 @@ public:
   virtual const std::string& path() const = 0;
   virtual const std::string& format() const = 0; ///< for messages: "PLY ascii" ...
   virtual const std::vector<TableField>& fields() const = 0;
-  /// What was wrong with the file and survived, each a full sentence.
+  /// Faults of the file that the table survived, each a full sentence.
   virtual const std::vector<std::string>& warnings() const = 0;
   virtual std::uint64_t chunkCount() const = 0;
   virtual std::uint64_t chunkRows(std::uint64_t chunk) const = 0;
@@ -64,7 +64,7 @@ public:
   virtual std::vector<FieldStatistics> statistics() const { return {}; }
   /// The grid that all positions lie on, if the file says so; else their digits decide.
   virtual std::optional<QuantisationGrid> grid() const { return std::nullopt; }
-  /// What its coordinates are relative to: added to every position.
+  /// The origin of its coordinates: added to every position.
   virtual glm::dvec3 origin() const { return glm::dvec3(0.0); }
   /// SourceDescription::scanners; `positions` is where the points are, as far as that is known.
   virtual std::vector<ScannerPlace> scanners(const Bounds& positions) const

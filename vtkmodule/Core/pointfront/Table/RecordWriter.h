@@ -9,8 +9,8 @@
 namespace pointfront
 {
 
-/// Writes points as one record each behind a text header, as PLY and PCD have it. What the header
-/// says, how x, y and z are written, and what a record holds behind them, is the format's.
+/// Writes points as one record each behind a text header, as in PLY and PCD. The format decides the
+/// header, the form of x, y and z, and the rest of a record.
 /// CRS         such formats have no place for it: it is lost.
 /// Errors      as in PointSink.
 /// Threads     one thread.

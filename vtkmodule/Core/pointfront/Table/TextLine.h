@@ -8,7 +8,7 @@
 namespace pointfront
 {
 
-/// What a line of a table is.
+/// The kind of a line of a table.
 enum class TextLine
 {
   Nothing, ///< blank, or a comment

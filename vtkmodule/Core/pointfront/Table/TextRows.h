@@ -31,7 +31,7 @@ struct TextLayout
   bool countLines = false; ///< a lone integer says how many rows follow (PTS), and is no row
 };
 
-/// The bytes of a file that are rows.
+/// The bytes of a file that hold rows.
 struct TextRegion
 {
   std::size_t begin = 0;

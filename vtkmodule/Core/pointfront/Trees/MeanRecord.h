@@ -19,7 +19,7 @@ namespace pointfront
 /// taken for codes or counts: a mean of two classes is not a class.
 bool hasMean(const Attribute& attribute);
 
-/// Something that a representative stands for: a record of the pool, or a representative.
+/// An input of a representative: a record of the pool, or another representative.
 struct MeanInput
 {
   const std::byte* record = nullptr;
@@ -48,7 +48,8 @@ public:
   /// Writes bytes() to `out`. All inputs lie in one cell of the tree, and so does the result.
   void summarise(
     const std::vector<MeanInput>& inputs, std::size_t begin, std::size_t end, std::byte* out);
-  /// What was measured around a point does not hold for what stands in for its cell, even alone.
+  /// A value that was measured around a point does not hold for the representative of its cell,
+  /// even if the point is alone there.
   void forgetSplat(std::byte* record) const;
 
 private:

@@ -159,6 +159,33 @@ TEST(FramePlanner, WhatGrowsLeavesNoHoles)
   EXPECT_EQ(grown.str(), still.str());
 }
 
+/// A node around the eye is thousands of pixels coarse at its nearest point: its splats do not grow
+/// from that, which took seconds and covered the picture.
+TEST(FramePlanner, WhatGrowsAroundTheEyeIsNotLarge)
+{
+  Scene scene;
+  DetailGrowth growth;
+  scene.request.growth = &growth;
+  scene.request.moment.duration = 0.2;
+  scene.plan(1000.0);
+  scene.demand.view =
+    View::perspective({ 0, 0, 0.5 }, { 0, 0, 0 }, { 0, 1, 0 }, 0.9, 0.001, 1e5, 1000, 1000);
+  bool grew = false;
+  for (int frame = 1; frame <= 12; ++frame)
+  {
+    scene.request.moment.seconds = 0.02 * frame;
+    for (const DrawBatch& batch : scene.plan(1.0).batches)
+    {
+      for (const PlanItem& item : batch.items)
+      {
+        grew = grew || item.growingSpacingPx > 0.0f;
+        EXPECT_LE(item.growingSpacingPx, 34.0f);
+      }
+    }
+  }
+  EXPECT_TRUE(grew);
+}
+
 TEST(FramePlanner, GroupsAllThatTheFrontDrawsByLayer)
 {
   Scene scene;

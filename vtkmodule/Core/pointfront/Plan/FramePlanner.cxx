@@ -20,11 +20,26 @@ constexpr std::size_t fewestOfSurface = 64;
 /// Of how far points of a node that grows are apart.
 constexpr double stepsAnOctave = 16.0;
 
+/// No splat is made larger than this, in pixels, to bridge what grows: a node around the eye is
+/// thousands of pixels coarse at its nearest point, and its other points are not.
+constexpr double mostGrowingPx = 32.0;
+
 /// Of the next step of a ladder: what differs by less is drawn alike, so in one group.
 float inSteps(double spacingPx)
 {
   return static_cast<float>(
     std::exp2(std::ceil(stepsAnOctave * std::log2(spacingPx)) / stepsAnOctave));
+}
+
+/// Pixels between the points on screen while `spread` of a node's points have grown. A leaf has no
+/// finer points, so what it lacks is counted from `thresholdPx` on.
+float growingSpacing(const NodeColumns& node, std::uint32_t spread, float spacingRatio,
+  double errorPx, double thresholdPx)
+{
+  const double whole = node.leaf ? std::min(errorPx, thresholdPx) : errorPx;
+  const auto points = static_cast<std::uint32_t>(node.size());
+  const double most = std::max(mostGrowingPx, thresholdPx);
+  return inSteps(std::min(most, prefixErrorPx(points, spread, whole, spacingRatio)));
 }
 
 /// What closes the surface among the first `drawn` points of a node, before its neighbours are
@@ -66,7 +81,7 @@ void keepWhatIsSeen(const FramePlan& plan, DrawBatch& batch)
 
 /// Points [0, points) of a node; `spread` of them say how far they are apart.
 PlanItem itemOf(std::shared_ptr<const NodeColumns> node, const DetailGrowth::Shown& shown,
-  float spacingRatio, float errorPx)
+  float spacingRatio, float errorPx, double thresholdPx)
 {
   const NodeColumns& columns = *node;
   PlanItem item;
@@ -79,7 +94,7 @@ PlanItem itemOf(std::shared_ptr<const NodeColumns> node, const DetailGrowth::Sho
   item.radiusScale = radius.radiusScale;
   item.growingSpacingPx = shown.growth.whole()
     ? 0.0f
-    : inSteps(prefixErrorPx(points, shown.spread, errorPx, spacingRatio));
+    : growingSpacing(columns, shown.spread, spacingRatio, errorPx, thresholdPx);
   item.unfinished = !columns.leaf || shown.points < points;
   item.closingRadius = radius.closing;
   return item;
@@ -106,7 +121,8 @@ std::vector<std::vector<PlanItem>> itemsByLayer(const ViewFront& front, const Pl
       const std::uint16_t layer = node->layer;
       if (shown.points > 0)
       {
-        items[layer].push_back(itemOf(std::move(node), shown, item.spacingRatio, item.errorPx));
+        items[layer].push_back(itemOf(
+          std::move(node), shown, item.spacingRatio, item.errorPx, front.last().thresholdPx));
       }
     }
   }
@@ -115,8 +131,8 @@ std::vector<std::vector<PlanItem>> itemsByLayer(const ViewFront& front, const Pl
     if (shows(leaving.node))
     {
       const std::uint16_t layer = leaving.node->layer;
-      items[layer].push_back(itemOf(
-        std::move(leaving.node), { leaving.points, leaving.points, leaving.growth }, 0.0f, 0.0f));
+      items[layer].push_back(itemOf(std::move(leaving.node),
+        { leaving.points, leaving.points, leaving.growth }, 0.0f, 0.0f, front.last().thresholdPx));
     }
   }
   return items;

@@ -1,0 +1,145 @@
+#!/usr/bin/python3
+"""What a picture does not show costs nothing: bytes and frame times with and without it.
+
+    Testing/Benchmarks/unused_cost.py --build build/release --work FOLDER CLOUD.laz...
+
+CLOUD.laz is classified. Prints one Markdown table. Each row replays one camera path over the same
+points twice, with and without what is not shown:
+
+    a class that a style hides          against the same classes chosen by --classes
+    a lens with a radius of 0           against the style without it
+    a store with normals                against the same store without, drawn without normals
+    20 further attributes in the store  against the store with positions and rgb, coloured by rgb
+
+Bytes are those that the loading read from the stores. Times are medians over the frames; the two
+sides take turns, and each side's smallest of three runs counts. No display is needed.
+"""
+
+import argparse
+import json
+import pathlib
+import subprocess
+import sys
+
+import numpy
+
+ROUNDS = 3
+POINTS = 1_000_000  # of the made-up cloud with further attributes
+FURTHER = 20
+
+
+def call(*words):
+    finished = subprocess.run([str(word) for word in words], capture_output=True, text=True,
+                              check=False)
+    if finished.returncode != 0:
+        sys.exit(f"{' '.join(map(str, words))}: status {finished.returncode}\n{finished.stderr}")
+    return finished.stdout
+
+
+class Runs:
+    def __init__(self, options):
+        self.options = options
+        self.tool = options.build / "bin/pointfront"
+
+    def store(self, name, *words):
+        store = self.options.work / f"{name}.pfront"
+        if not store.exists():
+            call(self.tool, "build", *words, "-o", store, "--progress", "none")
+        return store
+
+    def style(self, name, content):
+        path = self.options.work / f"{name}.json"
+        path.write_text(json.dumps(content))
+        return path
+
+    def replay(self, store, words):
+        out = self.options.work / "bench.json"
+        call(self.tool, "bench", store, "--backend", "software", "--path", "flight", "--frames",
+             self.options.frames, "--stats", out, *words)
+        told = json.loads(out.read_text())
+        return told["loading"]["bytes_read"], told["frame_ms"]["p50"], \
+            told["points_drawn"]["p50"]
+
+    def row(self, label, shown, other):
+        """`shown`, `other`: (store, words) with and without what is not shown."""
+        told = [[], []]
+        for _ in range(ROUNDS):
+            for side, (store, words) in enumerate((shown, other)):
+                told[side].append(self.replay(store, words))
+        size = [min(run[0] for run in side) / 1e6 for side in told]
+        time = [min(run[1] for run in side) for side in told]
+        points = [side[0][2] for side in told]
+        if points[0] != points[1]:
+            sys.exit(f"{label}: {points[0]} and {points[1]} points were drawn")
+        print(f"| {label} | {size[0]:.2f} / {size[1]:.2f} | {100 * (size[0] / size[1] - 1):+.1f} % "
+              f"| {time[0]:.1f} / {time[1]:.1f} | {100 * (time[0] / time[1] - 1):+.1f} % |",
+              flush=True)
+
+
+def write_ply(path, further):
+    """Hills with rgb, and `further` attributes of floats."""
+    random = numpy.random.default_rng(1)
+    fields = [("x", "<f8"), ("y", "<f8"), ("z", "<f8"),
+              ("red", "u1"), ("green", "u1"), ("blue", "u1")]
+    fields += [(f"extra_{i}", "<f4") for i in range(further)]
+    points = numpy.zeros(POINTS, fields)
+    points["x"] = numpy.round(random.uniform(0.0, 1000.0, POINTS), 3)
+    points["y"] = numpy.round(random.uniform(0.0, 1000.0, POINTS), 3)
+    hills = 20.0 * numpy.sin(points["x"] / 90.0) * numpy.cos(points["y"] / 70.0)
+    points["z"] = numpy.round(hills, 3)
+    for name in ("red", "green", "blue"):
+        points[name] = random.integers(0, 256, POINTS)
+    values = numpy.random.default_rng(2)
+    for i in range(further):
+        points[f"extra_{i}"] = values.normal(size=POINTS)
+    names = {"<f8": "double", "u1": "uchar", "<f4": "float"}
+    header = ["ply", "format binary_little_endian 1.0", f"element vertex {POINTS}"]
+    header += [f"property {names[kind]} {name}" for name, kind in fields] + ["end_header", ""]
+    path.write_bytes("\n".join(header).encode() + points.tobytes())
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("clouds", nargs="+", metavar="CLOUD.laz")
+    parser.add_argument("--build", type=pathlib.Path, required=True)
+    parser.add_argument("--work", type=pathlib.Path, required=True)
+    parser.add_argument("--hidden", type=int, default=5, help="class that is hidden")
+    parser.add_argument("--frames", type=int, default=60)
+    options = parser.parse_args()
+    options.work.mkdir(parents=True, exist_ok=True)
+    runs = Runs(options)
+
+    layered = runs.store("layered", *options.clouds, "--structure", "kdtree", "--layers", "class")
+    told = json.loads(call(runs.tool, "info", layered, "--json"))
+    classes = [str(entry["class"]) for entry in told["layers"] if entry["class"] != options.hidden]
+    splats = {"technique": "splats"}
+    plain = runs.style("plain", {"default": splats})
+    hides = runs.style("hides", {"default": splats,
+                                 "classes": {str(options.hidden): {"visible": False}}})
+    lens = runs.style("lens", {"default": splats, "lenses": [
+        {"shape": "circle", "center_px": [640, 360], "radius_px": 0,
+         "inside": {str(options.hidden): {"visible": False}}}]})
+    turned = runs.style("turned", {"default": {"technique": "splats", "orientation": "view"}})
+
+    print("| not shown | MB read with / without | | ms a frame with / without | |")
+    print("| --- | ---: | ---: | ---: | ---: |")
+    runs.row(f"class {options.hidden}, hidden by a style", (layered, ["--style", hides]),
+             (layered, ["--style", plain, "--classes", ",".join(classes)]))
+    runs.row("a lens with a radius of 0", (layered, ["--style", lens]),
+             (layered, ["--style", plain]))
+    runs.row("normals, in a style that needs none",
+             (runs.store("normals", *options.clouds, "--normals", "pca"), ["--style", turned]),
+             (runs.store("octree", *options.clouds), ["--style", turned]))
+    for name, further in (("further", FURTHER), ("rgb", 0)):
+        path = options.work / f"{name}.ply"
+        if not path.exists():
+            write_ply(path, further)
+    colour = ["--technique", "splats", "--color-by", "rgb"]
+    runs.row(f"{FURTHER} further attributes",
+             (runs.store("further", options.work / "further.ply"), colour),
+             (runs.store("rgb", options.work / "rgb.ply"), colour))
+
+
+if __name__ == "__main__":
+    main()

@@ -46,23 +46,4 @@ struct PassChoice
   double groundCell = 10.0; ///< where no point is of class 2: of the lowest points; 1e-3 to 1e6
 };
 
-/// Makes the passes that a choice asks for, from all families that a program carries. Filters do
-/// not know each other: whoever puts them together gives the process a maker.
-/// Threads  const functions from any thread; use() and ofProcess() from any thread.
-class AttributePassMaker
-{
-public:
-  virtual ~AttributePassMaker() = default;
-  /// In the order in which they must run: coordinates first, then what comes from images, then what
-  /// comes from neighbours.
-  /// Errors  BadArgument: a value out of its range, an option of something that is not asked for;
-  ///         NotFound: an image; Unsupported: the library that reads images is not installed.
-  virtual Result<AttributePasses> passes(const PassChoice& choice) const = 0;
-
-  /// From now on that of this process.
-  static void use(std::shared_ptr<const AttributePassMaker> maker);
-  /// Null when no passes were put together.
-  static std::shared_ptr<const AttributePassMaker> ofProcess();
-};
-
 } // namespace pointfront

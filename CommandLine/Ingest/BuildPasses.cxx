@@ -69,7 +69,7 @@ Result<AttributePasses> BuildPasses::passes() const
   PassChoice choice = choice_;
   normals_.fill(choice);
   heights_.fill(choice);
-  return ChosenPasses().passes(choice);
+  return chosenPasses(choice);
 }
 
 } // namespace pointfront

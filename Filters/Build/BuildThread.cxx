@@ -1,27 +1,15 @@
 #include "BuildThread.h"
 
-#include "pointfront/Points/PointFileOpener.h"
+#include "ChosenPasses.h"
+#include "SourceFormats.h"
+
+#include "pointfront/Threads/WorkerThread.h"
 
 #include <chrono>
 #include <new>
-#include <thread>
 
 namespace pointfront
 {
-
-namespace
-{
-Result<OpenedInputs> openFiles(const std::vector<std::string>& files, OnFault onFault)
-{
-  const auto opener = PointFileOpener::ofProcess();
-  if (!opener)
-  {
-    return makeError(Error::Kind::Unsupported,
-      "this program carries no readers of point files; link PointFront::SourceFormats");
-  }
-  return openInputs(files, *opener, onFault);
-}
-} // namespace
 
 bool BuildThread::report(const Progress& progress)
 {
@@ -35,19 +23,14 @@ bool BuildThread::report(const Progress& progress)
 
 Result<BuildReport> BuildThread::build(const Order& order)
 {
-  const auto maker = AttributePassMaker::ofProcess();
-  if (!maker)
-  {
-    return makeError(Error::Kind::Unsupported,
-      "this program carries no attribute passes; link PointFront::AttributePasses");
-  }
-  const Result<AttributePasses> passes = maker->passes(order.passes);
+  const Result<AttributePasses> passes = chosenPasses(order.passes);
   if (!passes)
   {
     return passes.error();
   }
-  Result<OpenedInputs> inputs =
-    order.made ? OpenedInputs{ order.made(), {} } : openFiles(order.files, order.options.onFault);
+  Result<OpenedInputs> inputs = order.made
+    ? OpenedInputs{ order.made(), {} }
+    : openInputs(order.files, SourceFormats(), order.options.onFault);
   if (!inputs)
   {
     return inputs.error();
@@ -74,22 +57,26 @@ Result<BuildReport> BuildThread::build(const Order& order)
 
 Result<BuildReport> BuildThread::run(const Order& order, const Watch& watch)
 {
-  std::thread worker(
-    [&]
+  const auto work = [&]
+  {
+    Result<BuildReport> done = makeError(Error::Kind::NoMemory,
+      "the system gave no more memory to the build; use a lower memory limit");
+    try
     {
-      Result<BuildReport> done = makeError(Error::Kind::NoMemory,
-        "the system gave no more memory to the build; use a lower memory limit");
-      try
-      {
-        done = build(order);
-      }
-      catch (const std::bad_alloc&)
-      {
-      }
-      const std::lock_guard<std::mutex> lock(mutex_);
-      outcome_ = std::move(done);
-      changed_.notify_one();
-    });
+      done = build(order);
+    }
+    catch (const std::bad_alloc&)
+    {
+    }
+    const std::lock_guard<std::mutex> lock(mutex_);
+    outcome_ = std::move(done);
+    changed_.notify_one();
+  };
+  WorkerThread worker;
+  if (!worker.start(work))
+  {
+    work(); // the system gives no thread: nobody watches
+  }
   constexpr std::chrono::milliseconds betweenLooks{ 100 }; // an abort is seen without news too
   std::unique_lock<std::mutex> lock(mutex_);
   while (!outcome_)

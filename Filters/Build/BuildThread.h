@@ -39,8 +39,7 @@ public:
     PreviewOptions preview;
   };
 
-  /// Opens the files with PointFileOpener::ofProcess(), makes the passes with
-  /// AttributePassMaker::ofProcess(), builds, returns when all is done. What passes find is among
+  /// Opens the files, makes the passes, builds, returns when all is done. What passes find is among
   /// the report's warnings.
   Result<BuildReport> run(const Order& order, const Watch& watch);
 

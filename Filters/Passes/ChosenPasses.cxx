@@ -14,13 +14,6 @@ namespace pointfront
 {
 namespace
 {
-/// When the library is loaded.
-const bool registered = []
-{
-  AttributePassMaker::use(std::make_shared<ChosenPasses>());
-  return true;
-}();
-
 Error wrong(const std::string& what)
 {
   return makeError(Error::Kind::BadArgument, what);
@@ -94,9 +87,8 @@ std::unique_ptr<AttributePass> normalsPass(const PassChoice& choice)
 
 } // namespace
 
-Result<AttributePasses> ChosenPasses::passes(const PassChoice& choice) const
+Result<AttributePasses> chosenPasses(const PassChoice& choice)
 {
-  static_cast<void>(registered);
   if (Result<void> sound = check(choice); !sound)
   {
     return sound.error();

@@ -5,12 +5,13 @@
 namespace pointfront
 {
 
-/// The passes that this build carries, put together. A library of its own: a process that loads it
-/// has them as AttributePassMaker::ofProcess().
-class ChosenPasses final : public AttributePassMaker
-{
-public:
-  Result<AttributePasses> passes(const PassChoice& choice) const override;
-};
+/// The passes that a choice asks for, of all families that this build carries. Passes do not know
+/// each other: they are put together here.
+/// Order    that in which they must run: coordinates first, then what comes from images, then what
+///          comes from neighbours.
+/// Errors   BadArgument: a value out of its range, an option of something that is not asked for;
+///          NotFound: an image; Unsupported: this build was made without the passes that are asked
+///          for, or the library that reads images is not installed.
+Result<AttributePasses> chosenPasses(const PassChoice& choice);
 
 } // namespace pointfront

@@ -14,15 +14,8 @@
 namespace pointfront
 {
 
-namespace
-{
-/// When the library is loaded.
-const bool added = (addCloudFormats(), true);
-} // namespace
-
 void addCloudFormats()
 {
-  static_cast<void>(added);
   StoredCloudFormats& formats = StoredCloudFormats::ofProcess();
   formats.add(std::make_shared<LASIndexFormat>());
   formats.add(std::make_shared<COPCFormat>());

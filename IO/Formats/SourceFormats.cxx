@@ -17,19 +17,8 @@
 namespace pointfront
 {
 
-namespace
-{
-/// When the library is loaded.
-const bool registered = []
-{
-  PointFileOpener::use(std::make_shared<SourceFormats>());
-  return true;
-}();
-} // namespace
-
 SourceFormats::SourceFormats(const SourceOptions& options)
 {
-  static_cast<void>(registered);
   formats_.push_back(std::make_unique<StoreInputFormat>());
   formats_.push_back(std::make_unique<LASFormat>());
   formats_.push_back(std::make_unique<PLYFormat>(options.survey));

@@ -22,8 +22,7 @@ struct SourceOptions
 };
 
 /// The families of point files that this program reads. IO modules do not know each other: they
-/// are put together here, and asked in turn. A library of its own: a process that loads it has them
-/// all, as PointFileOpener::ofProcess(), with the usual options.
+/// are put together here, and asked in turn.
 class SourceFormats final : public PointFileOpener
 {
 public:

@@ -105,8 +105,7 @@ const char* vtkPointFrontReader::GetFileName(int time) const
 
 int vtkPointFrontReader::CanReadFile(const char* fileName)
 {
-  return fileName && *fileName && pointfront::StoredCloudFormats::ofProcess().accepts(fileName) ? 1
-                                                                                                : 0;
+  return fileName && *fileName && vtkPointFrontStore::GetFormats().accepts(fileName) ? 1 : 0;
 }
 
 vtkDataArraySelection* vtkPointFrontReader::GetPointDataArraySelection()

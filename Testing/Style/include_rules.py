@@ -3,7 +3,8 @@
     std, GLM <- vtkmodule/Core <- vtkmodule/Common <- IO/* Filters/* Rendering/* <- paraview-plugin
 
 No edge among IO, Filters and Rendering, nor between two modules of IO or of Filters, but that
-IO/Formats knows all readers and Filters/Passes all passes. A foreign
+IO/Formats knows all readers and Filters/Passes all passes: plain C++, which the VTK modules that
+open files and build stores may know (ASSEMBLY_USERS). A foreign
 library is known to the .cxx files of exactly one module. Tests may include anything; nothing
 includes tests, examples or the plugin. Examples and consumers see only what is installed.
 """
@@ -28,6 +29,10 @@ TEST_LIBRARY = re.compile(r"^(gtest|gmock|benchmark)/")
 OUTSIDE = ("Examples", "Testing", "docs", "CommandLine")
 LAYERS = ("IO", "Filters", "Rendering")
 ASSEMBLIES = ("IO/Formats", "Filters/Passes")  # put together what their neighbours offer
+ASSEMBLY_USERS = {  # room: assemblies that it may know
+    "vtkmodule/Common": ("IO/Formats",),
+    "Filters/Build": ASSEMBLIES,
+}
 
 
 def module_of(path):
@@ -43,6 +48,8 @@ def module_of(path):
 def may_know(room, other):
     """May a file of `room` include a header of the project's room `other`?"""
     if room == other or room in ("Testing", "CommandLine"):
+        return True
+    if other in ASSEMBLY_USERS.get(room, ()):
         return True
     if other in OUTSIDE or other == "paraview-plugin":
         return False

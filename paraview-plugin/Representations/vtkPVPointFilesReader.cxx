@@ -1,8 +1,8 @@
 #include "vtkPVPointFilesReader.h"
 
-#include "pointfront/Points/PointFileOpener.h"
 #include "pointfront/Store/StoredCloud.h"
 #include "pointfront/Store/StoredCloudFormats.h"
+#include "SourceFormats.h"
 
 #include "vtkCommand.h"
 #include "vtkErrorCode.h"
@@ -151,12 +151,11 @@ void vtkPVPointFilesReader::RemoveAllPointFileNames()
 //------------------------------------------------------------------------------
 int vtkPVPointFilesReader::CanReadFile(const char* fileName)
 {
-  const auto opener = pointfront::PointFileOpener::ofProcess();
-  if (!opener || !fileName || vtkPointFrontReader::CanReadFile(fileName))
+  if (!fileName || vtkPointFrontReader::CanReadFile(fileName))
   {
     return 0;
   }
-  const std::vector<std::string> known = opener->extensions();
+  const std::vector<std::string> known = pointfront::SourceFormats().extensions();
   const std::string extension = extensionOf(fileName);
   const bool ours = std::find(known.begin(), known.end(), extension) != known.end();
   std::error_code missing;
@@ -201,7 +200,7 @@ std::string vtkPVPointFilesReader::Misfit(const std::string& store) const
       return "it is older than " + name;
     }
   }
-  const auto opened = pointfront::StoredCloudFormats::ofProcess().open(store);
+  const auto opened = vtkPointFrontStore::GetFormats().open(store);
   if (!opened)
   {
     return opened.error().what;

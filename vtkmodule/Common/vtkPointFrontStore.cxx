@@ -1,5 +1,7 @@
 #include "vtkPointFrontStore.h"
 
+#include "CloudFormats.h"
+
 #include "pointfront/Residency/ResidencyShare.h"
 
 #include "pointfront/Preview/PreviewRecord.h"
@@ -189,10 +191,17 @@ vtkSmartPointer<vtkPointFrontStore> vtkPointFrontStore::Open(
   return made;
 }
 
+pointfront::StoredCloudFormats& vtkPointFrontStore::GetFormats()
+{
+  static const bool added = (pointfront::addCloudFormats(), true);
+  static_cast<void>(added);
+  return pointfront::StoredCloudFormats::ofProcess();
+}
+
 vtkSmartPointer<vtkPointFrontStore> vtkPointFrontStore::OpenFile(
   const std::string& path, std::string& error)
 {
-  auto opened = pointfront::StoredCloudFormats::ofProcess().open(path);
+  auto opened = GetFormats().open(path);
   if (!opened)
   {
     error = opened.error().what;

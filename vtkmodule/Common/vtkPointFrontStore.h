@@ -30,6 +30,7 @@ namespace pointfront
 class Residency;
 class ResidencyShare;
 class StoredCloud;
+class StoredCloudFormats;
 } // namespace pointfront
 
 class POINTFRONTCOMMON_EXPORT vtkPointFrontStore : public vtkObject
@@ -106,6 +107,8 @@ public:
   ///@}
 
 #ifndef __VTK_WRAP__
+  /// The kinds of stored clouds that Open() opens: all that this build carries, and what was added.
+  static pointfront::StoredCloudFormats& GetFormats();
   /// The kernel's objects, for modules of ours. Never null.
   const std::shared_ptr<const pointfront::StoredCloud>& GetStore() const;
   pointfront::Residency& GetResidency() const;

@@ -34,20 +34,6 @@ vtk_module_build(
   TARGETS_COMPONENT Runtime
   USE_EXTERNAL OFF)
 
-# Put together at the top: the builder finds readers and passes in the process, whoever opens stored
-# clouds the formats, and nothing names them.
-if (BUILD_SHARED_LIBS)
-  target_link_options(IOLASIndex PRIVATE LINKER:--no-as-needed)
-  target_link_libraries(IOLASIndex PRIVATE pointfrontSourceFormats)
-  target_link_options(FiltersBuild PRIVATE LINKER:--no-as-needed)
-  target_link_libraries(FiltersBuild PRIVATE pointfrontSourceFormats pointfrontAttributePasses)
-else ()
-  target_link_libraries(IOLASIndex PRIVATE
-    "$<LINK_LIBRARY:WHOLE_ARCHIVE,pointfrontSourceFormats>")
-  target_link_libraries(FiltersBuild PRIVATE
-    "$<LINK_LIBRARY:WHOLE_ARCHIVE,pointfrontSourceFormats,pointfrontAttributePasses>")
-endif ()
-
 if (POINTFRONT_HOST STREQUAL "ParaView")
   paraview_plugin_scan(
     PLUGIN_FILES "${CMAKE_CURRENT_SOURCE_DIR}/paraview-plugin/paraview.plugin"

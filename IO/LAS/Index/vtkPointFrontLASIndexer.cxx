@@ -1,35 +1,16 @@
 #include "vtkPointFrontLASIndexer.h"
 
-#include "COPCFile.h"
-#include "IndexedLASFile.h"
 #include "InterpreterPause.h"
 #include "LASIndexing.h"
-#include "LAZGlance.h"
-
-#include "pointfront/Store/StoredCloudFormats.h"
 
 #include <vtkCommand.h>
 #include <vtkIndent.h>
 #include <vtkObjectFactory.h>
 
-#include <memory>
 #include <string>
 #include <thread>
 
 vtkStandardNewMacro(vtkPointFrontLASIndexer);
-
-namespace
-{
-const bool registered = (vtkPointFrontLASIndexer::RegisterFormat(), true);
-}
-
-void vtkPointFrontLASIndexer::RegisterFormat()
-{
-  pointfront::StoredCloudFormats& formats = pointfront::StoredCloudFormats::ofProcess();
-  formats.add(std::make_shared<pointfront::LASIndexFormat>());
-  formats.add(std::make_shared<pointfront::COPCFormat>());
-  formats.add(std::make_shared<pointfront::LAZGlanceFormat>());
-}
 
 vtkPointFrontLASIndexer::~vtkPointFrontLASIndexer()
 {

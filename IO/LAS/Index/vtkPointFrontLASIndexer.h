@@ -6,9 +6,6 @@
  * its points lie where. vtkPointFrontReader opens that side file as it opens a store. LAZ is
  * refused: its points have no places of their own.
  *
- * Loading this module also makes vtkPointFrontStore and vtkPointFrontReader know side files. A
- * linker that drops libraries nobody calls can be made to keep it by calling RegisterFormat().
- *
  * Invokes vtkCommand::ProgressEvent with the fraction done (double); an observer may then call
  * SetAbort(true), which leaves what was there before.
  *
@@ -61,10 +58,6 @@ public:
 
   /// Points of the file that Index() read last.
   vtkGetMacro(NumberOfPoints, vtkIdType);
-
-  /// Lets every reader and mapper of this process open side files, COPC files, and folders of LAS
-  /// and LAZ files at a glance. Done when the module is loaded; doing it again changes nothing.
-  static void RegisterFormat();
 
 protected:
   vtkPointFrontLASIndexer() = default;

@@ -47,23 +47,4 @@ struct PassChoice
   double groundCell = 10.0; ///< where no point is of class 2: of the lowest points; 1e-3 to 1e6
 };
 
-/// Makes the passes of a choice, from all families that a program carries. Filters do not know each
-/// other: the program that combines them gives the process a maker.
-/// Threads  const functions from any thread; use() and ofProcess() from any thread.
-class AttributePassMaker
-{
-public:
-  virtual ~AttributePassMaker() = default;
-  /// Passes come in the order in which they must run: coordinates first, then values from images,
-  /// then values from neighbours.
-  /// Errors  BadArgument: a value out of its range, an option of something that is not asked for;
-  ///         NotFound: an image; Unsupported: the library that reads images is not installed.
-  virtual Result<AttributePasses> passes(const PassChoice& choice) const = 0;
-
-  /// Makes it the maker of this process.
-  static void use(std::shared_ptr<const AttributePassMaker> maker);
-  /// Null if the program set no maker.
-  static std::shared_ptr<const AttributePassMaker> ofProcess();
-};
-
 } // namespace pointfront

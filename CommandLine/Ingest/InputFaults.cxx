@@ -13,6 +13,7 @@ void addOnError(CLI::App& app, OnFault& onFault)
     return true;
   };
   app.add_option("--on-error", parse, "Of inputs that cannot be used: stop, or skip them (stop)")
+    ->type_name("TEXT")
     ->expected(1)
     ->check(availableValues({ "stop", "skip" }, {}));
 }

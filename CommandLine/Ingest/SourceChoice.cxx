@@ -32,8 +32,9 @@ void SourceChoice::declare(CLI::App& app)
   };
   app
     .add_option("--decimal", decimal, "Decimal mark of text files: point or comma (by their rows)")
+    ->type_name("TEXT")
     ->expected(1)
-    ->check(availableValues({ "point", "comma", ".", "," }, {}));
+    ->check(availableValues({ "point", "comma", ".", "," }, {}).description("{point, comma}"));
   const auto separator = [this](const CLI::results_t& words)
   {
     const std::string& word = words.back();
@@ -47,9 +48,11 @@ void SourceChoice::declare(CLI::App& app)
   app
     .add_option("--separator", separator,
       "Between columns of text files: comma, semicolon, tab or blank (by their rows)")
+    ->type_name("TEXT")
     ->expected(1)
     ->check(
-      availableValues({ "comma", "semicolon", "tab", "blank", ",", ";", " ", "\t", "\\t" }, {}));
+      availableValues({ "comma", "semicolon", "tab", "blank", ",", ";", " ", "\t", "\\t" }, {})
+        .description("{comma, semicolon, tab, blank}"));
   app.add_option("--skip", text_.skip, "Lines at the beginning of text files to pass over (0)")
     ->check(wholeNumber())
     ->type_name("N");

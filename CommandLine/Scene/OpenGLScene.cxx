@@ -155,6 +155,19 @@ public:
 
   const char* backend() const override { return "opengl"; }
   const Bounds& bounds() const override { return bounds_; }
+  std::vector<std::string> warnings() const override
+  {
+    std::vector<std::string> all;
+    for (const auto& drawn : stores_)
+    {
+      const StoreDescription& description = drawn->store->GetStore()->description();
+      for (const std::string& warning : description.warnings)
+      {
+        all.push_back(description.path + ": " + warning);
+      }
+    }
+    return all;
+  }
   Result<double> ground() const override { return groundOf(*stores_.front()->store->GetStore()); }
   void setCamera(const Camera& camera) override;
   void setInteractive(bool interactive) override

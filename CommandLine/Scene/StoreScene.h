@@ -71,7 +71,7 @@ public:
   virtual const char* backend() const = 0; ///< "software" or "opengl"
   virtual const Bounds& bounds() const = 0;
   /// What the clouds say of themselves: that they are a part, or made of parts that differ.
-  virtual std::vector<std::string> warnings() const { return {}; }
+  virtual std::vector<std::string> warnings() const = 0;
   /// Median z of a sample of the first store's points.
   virtual Result<double> ground() const = 0;
   virtual void setCamera(const Camera& camera) = 0;

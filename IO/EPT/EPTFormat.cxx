@@ -4,6 +4,7 @@
 #include "EPTRecords.h"
 
 #include "pointfront/Base/MemoryMap.h"
+#include "pointfront/Points/DescribedSource.h"
 #include "pointfront/Table/TableSource.h"
 
 #include <filesystem>
@@ -12,44 +13,22 @@ namespace pointfront
 {
 namespace
 {
-/// A source with what the tree says of it.
-class DescribedSource final : public PointSource
+/// Of a source, with what the tree says of it.
+SourceDescription described(const PointSource& source, const EPTDescription& tree)
 {
-public:
-  DescribedSource(std::unique_ptr<PointSource> original, const EPTDescription& tree)
-    : original_(std::move(original))
-    , description_(original_->description())
+  SourceDescription description = source.description();
+  description.declaredBounds = tree.bounds;
+  description.boundsLookedUp = false;
+  description.headerPointCount = tree.points;
+  description.crsWkt = description.crsWkt.empty() ? tree.wkt : description.crsWkt;
+  if (tree.points != description.pointCount)
   {
-    description_.declaredBounds = tree.bounds;
-    description_.boundsLookedUp = false;
-    description_.headerPointCount = tree.points;
-    description_.crsWkt = description_.crsWkt.empty() ? tree.wkt : description_.crsWkt;
-    if (tree.points != description_.pointCount)
-    {
-      description_.warnings.push_back("Its description promises " + std::to_string(tree.points) +
-        " points, the nodes of its hierarchy " + std::to_string(description_.pointCount) +
-        ": the second was used.");
-    }
+    description.warnings.push_back("Its description promises " + std::to_string(tree.points) +
+      " points, the nodes of its hierarchy " + std::to_string(description.pointCount) +
+      ": the second was used.");
   }
-  const SourceDescription& description() const override { return description_; }
-  std::uint64_t chunkCount() const override { return original_->chunkCount(); }
-  std::uint64_t chunkPoints(std::uint64_t chunk) const override
-  {
-    return original_->chunkPoints(chunk);
-  }
-  Result<void> read(std::uint64_t chunk, PointBatch& batch) const override
-  {
-    return original_->read(chunk, batch);
-  }
-  Result<void> readSteps(std::uint64_t chunk, PointBatch& batch) const override
-  {
-    return original_->readSteps(chunk, batch);
-  }
-
-private:
-  std::unique_ptr<PointSource> original_;
-  SourceDescription description_;
-};
+  return description;
+}
 } // namespace
 
 bool EPTFormat::accepts(const std::string& path) const
@@ -92,7 +71,9 @@ Result<std::unique_ptr<PointSource>> EPTFormat::open(const std::string& path) co
   {
     return source;
   }
-  return std::unique_ptr<PointSource>(std::make_unique<DescribedSource>(std::move(*source), *tree));
+  SourceDescription description = described(**source, *tree);
+  return std::unique_ptr<PointSource>(
+    std::make_unique<DescribedSource>(std::move(*source), std::move(description)));
 }
 
 } // namespace pointfront

@@ -6,6 +6,7 @@
 #include "pointfront/Disk/InputFile.h"
 #include "pointfront/Ingest/GridChoice.h"
 #include "pointfront/InPlace/ForeignTree.h"
+#include "pointfront/Points/DescribedSource.h"
 
 #include <cstdio>
 #include <filesystem>
@@ -98,32 +99,15 @@ ForeignNode cellOf(const EPTNode& node, std::uint64_t chunk)
 }
 
 /// For floating point, as a build would choose it.
-Result<void> giveGrid(const PointSource& source, SourceDescription& description)
+Result<void> giveGrid(
+  const std::shared_ptr<const PointSource>& source, SourceDescription& description)
 {
   if (description.grid)
   {
     return {};
   }
-  class Described final : public PointSource
-  {
-  public:
-    explicit Described(const PointSource& of)
-      : of_(of)
-    {
-    }
-    const SourceDescription& description() const override { return of_.description(); }
-    std::uint64_t chunkCount() const override { return of_.chunkCount(); }
-    std::uint64_t chunkPoints(std::uint64_t chunk) const override { return of_.chunkPoints(chunk); }
-    Result<void> read(std::uint64_t chunk, PointBatch& batch) const override
-    {
-      return of_.read(chunk, batch);
-    }
-
-  private:
-    const PointSource& of_;
-  };
   std::vector<std::unique_ptr<PointSource>> sources;
-  sources.push_back(std::make_unique<Described>(source));
+  sources.push_back(std::make_unique<DescribedSource>(source, source->description()));
   const Result<GridChoice> choice = chooseGrid(sources, std::nullopt);
   if (!choice)
   {
@@ -169,13 +153,14 @@ Result<std::shared_ptr<const StoredCloud>> EPTTreeFormat::open(const std::string
   {
     return source.error();
   }
+  const std::shared_ptr<const PointSource> points = std::move(*source);
   const glm::dvec3 sides = tree->cube.empty() ? glm::dvec3(0.0) : tree->cube.size();
   ForeignTreeContent content;
   content.side = std::max({ sides.x, sides.y, sides.z });
   content.low = tree->cube.empty() ? glm::dvec3(0.0) : tree->cube.low;
   content.spacing = tree->ticks > 0.0 ? content.side / tree->ticks : 0.0;
-  content.source = (*source)->description();
-  if (Result<void> ready = giveGrid(**source, content.source); !ready)
+  content.source = points->description();
+  if (Result<void> ready = giveGrid(points, content.source); !ready)
   {
     return ready.error();
   }
@@ -188,8 +173,7 @@ Result<std::shared_ptr<const StoredCloud>> EPTTreeFormat::open(const std::string
     : tree->encoding == EPTEncoding::Binary                        ? ".bin"
                                                                    : ".zst";
   std::vector<EPTNode> list = std::move(*nodes);
-  auto reader = std::make_shared<EPTNodes>(
-    std::shared_ptr<const PointSource>(std::move(*source)), folder, ending, std::move(list));
+  auto reader = std::make_shared<EPTNodes>(points, folder, ending, std::move(list));
   for (std::uint64_t i = 0; i < content.nodes.size(); ++i)
   {
     content.fileBytes += reader->storedBytes(i);

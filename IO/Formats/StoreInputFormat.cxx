@@ -3,6 +3,7 @@
 #include "IndexedLASFile.h"
 #include "LASFormat.h"
 
+#include "pointfront/Points/DescribedSource.h"
 #include "pointfront/Query/StoredPoints.h"
 #include "pointfront/Store/PointStore.h"
 
@@ -10,39 +11,8 @@
 
 namespace pointfront
 {
-
 namespace
 {
-/// A LAS file that was named by its index.
-class IndexedPoints final : public PointSource
-{
-public:
-  IndexedPoints(std::unique_ptr<PointSource> original, std::string sidePath)
-    : original_(std::move(original))
-    , description_(original_->description())
-  {
-    description_.furtherFiles.push_back(std::move(sidePath));
-  }
-  const SourceDescription& description() const override { return description_; }
-  std::uint64_t chunkCount() const override { return original_->chunkCount(); }
-  std::uint64_t chunkPoints(std::uint64_t chunk) const override
-  {
-    return original_->chunkPoints(chunk);
-  }
-  Result<void> read(std::uint64_t chunk, PointBatch& batch) const override
-  {
-    return original_->read(chunk, batch);
-  }
-  Result<void> readSteps(std::uint64_t chunk, PointBatch& batch) const override
-  {
-    return original_->readSteps(chunk, batch);
-  }
-
-private:
-  std::unique_ptr<PointSource> original_;
-  SourceDescription description_;
-};
-
 Result<std::unique_ptr<PointSource>> openIndex(const std::string& path)
 {
   const auto index = IndexedLASFile::open(path); // which checks that it is of the file as it is
@@ -55,7 +25,10 @@ Result<std::unique_ptr<PointSource>> openIndex(const std::string& path)
   {
     return points;
   }
-  return std::unique_ptr<PointSource>(std::make_unique<IndexedPoints>(std::move(*points), path));
+  SourceDescription description = (*points)->description();
+  description.furtherFiles.push_back(path);
+  return std::unique_ptr<PointSource>(
+    std::make_unique<DescribedSource>(std::move(*points), std::move(description)));
 }
 } // namespace
 

@@ -35,6 +35,12 @@ class Usage(ToolTest):
         outcome = self.refuse(2, "view", "a", "-o", "b", "--points", "3")
         self.assertIn("not available", outcome.err)
 
+    def test_help_names_values_as_words(self):
+        text = self.succeed("build", "--help").out
+        self.assertNotIn("\t", text)
+        self.assertNotIn(" :{", text)
+        self.assertIn("{comma, semicolon, tab, blank}", text)
+
     def test_wrong_values_are_wrong_usage(self):
         wrong = [
             ("--structure", "rtree"), ("--memory", "12Q"), ("--memory", "0"), ("--threads", "0"),

@@ -229,6 +229,18 @@ class Styles(SceneTest):
                               "weight > 2")
         self.assertIn("weight", outcome.err)
 
+    def test_what_differs_between_tiles_is_told(self):
+        tiles = self.folder / "tiles"
+        tiles.mkdir()
+        shutil.copy(self.store, tiles)
+        self.succeed("build", write_las(self.folder / "far.las", [(1e6, 0.0, 0.0, 0, 0, 0),
+                                                                  (1e6 + 1, 1.0, 0.0, 0, 0, 0)]),
+                     "-o", tiles / "far.pfront", "--attributes", "intensity")
+        out = self.succeed("render", tiles, "-o", self.folder / "x.png", "--size", "64x64",
+                           "--backend", BACKEND)
+        self.assertIn("1 of 2 stores lack", out.err)
+        self.assertIn("far apart", out.err)
+
     def test_style_file(self):
         style = self.folder / "style.json"
         style.write_text(json.dumps({"default": {"color": "#20ff40", "technique": "splats"}}))

@@ -5,6 +5,7 @@ import os
 import pathlib
 import shutil
 import signal
+import struct
 import tempfile
 import threading
 import time
@@ -128,6 +129,22 @@ class Package(unittest.TestCase):
             work()
         self.assertLess(time.monotonic() - begin, 2.5)
         timer.join()
+
+    def test_an_interrupt_stops_an_indexing(self):
+        las = self.folder / "a.las"
+        header = bytearray(227)
+        count = 12_000_000  # some seconds of work
+        struct.pack_into("<4s20xBB68xHIIBHI", header, 0, b"LASF", 1, 2, 227, 227, 0, 0, 20, count)
+        struct.pack_into("<6d", header, 131, 0.01, 0.01, 0.01, 0.0, 0.0, 0.0)
+        struct.pack_into("<6d", header, 179, 10000.0, 0.0, 10000.0, 0.0, 10000.0, 0.0)
+        rows = numpy.zeros((count, 5), numpy.uint32)
+        rows[:, :3] = numpy.random.default_rng(1).integers(0, 1_000_000, (count, 3))
+        with las.open("wb") as file:
+            file.write(header)
+            rows.tofile(file)
+        del rows
+        self.interrupted(lambda: pointfront.index(las))
+        self.assertEqual([path.name for path in self.folder.iterdir()], ["a.las"])
 
     def test_an_interrupt_stops_a_build(self):
         self.interrupted(lambda: pointfront.build(LARGE, self.folder / "a.pfront"))

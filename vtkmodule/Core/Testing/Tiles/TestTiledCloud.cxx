@@ -183,6 +183,67 @@ TEST_F(Tiled, NodesThatAFilterExcludesAreNotRead)
   EXPECT_LT(few->nodeCount(), cloud->hierarchy()->nodeCount() / 2); // none of a and c
 }
 
+/// Roots in two: the same points with the same ids; from afar the heads are enough.
+TEST_F(Tiled, HeadsOfRootsAreEnoughFromAfar)
+{
+  options_.nodePoints = 4096;
+  std::vector<std::shared_ptr<const StoredCloud>> tiles;
+  std::map<std::uint32_t, glm::dvec3> all;
+  for (std::uint32_t t = 0; t < 3; ++t)
+  {
+    auto cloud = std::make_unique<CloudSource>("tile", idSchema(), millimetres());
+    Random random(t + 1);
+    const std::uint32_t points = t == 1 ? 200 : 9000; // the middle one is its root alone
+    for (std::uint32_t i = 0; i < points; ++i)
+    {
+      const glm::dvec3 p{ 100.0 * t + 90.0 * random.uniform(), 90.0 * random.uniform(), 0.0 };
+      cloud->addPosition(millimetres().toWorld(millimetres().toGrid(p)));
+      cloud->addValue(0, 10000 * t + i);
+      cloud->addValue(1, static_cast<std::uint16_t>(i));
+      all[10000 * t + i] = cloud->positions().back();
+    }
+    tiles.push_back(opened(store(std::string(1, char('a' + t)) + ".pfront", std::move(cloud))));
+  }
+  const auto whole = TiledCloud::make("tiles", tiles);
+  const auto cut = TiledCloud::make("tiles", tiles, {}, 768);
+  ASSERT_TRUE(whole && cut);
+  const Hierarchy& table = *(*cut)->hierarchy();
+  EXPECT_EQ(table.nodeCount(), (*whole)->hierarchy()->nodeCount() + 2);
+  expectSoundTable(table);
+  EXPECT_EQ(points(**cut), all);
+  for (const NodeIndex root : table.roots())
+  {
+    const Node row = table.node(root);
+    EXPECT_LE(row.pointCount, 256u);
+    const auto head = (*cut)->read(root, { 0 });
+    ASSERT_TRUE(head);
+    ASSERT_EQ(head->size(), row.pointCount);
+    EXPECT_LE(head->bytes(), sizeof(NodeColumns) + 256 * 16 + 64);
+  }
+  // Ids are those of the uncut cloud: by rank, in the same order.
+  std::vector<std::uint32_t> ids[2];
+  for (int k = 0; k < 2; ++k)
+  {
+    const StoredCloud& cloud = k == 0 ? **whole : **cut;
+    for (NodeIndex i = 0; i < cloud.hierarchy()->nodeCount(); ++i)
+    {
+      const auto node = cloud.read(i, { 0 });
+      ASSERT_TRUE(node);
+      ASSERT_EQ(node->firstPoint, ids[k].size());
+      for (std::size_t p = 0; p < node->size(); ++p)
+      {
+        std::uint32_t id = 0;
+        std::memcpy(&id, node->columns[0].data() + 4 * p, 4);
+        ids[k].push_back(id);
+      }
+    }
+  }
+  EXPECT_EQ(ids[0], ids[1]);
+  PointQuery query;
+  query.where = FilterExpression::parse("id in [20000, 20100]").value();
+  EXPECT_EQ(points(**cut, query).size(), 101u);
+}
+
 TEST_F(Tiled, RangesHoldTheValuesOfTheirNodes)
 {
   store("a.pfront", tile(0, 0.0));

@@ -39,11 +39,10 @@ void putCodes(const ValueRange& range, const std::vector<double>& marks, std::ui
 }
 } // namespace
 
-void TileRanges::addUnknown(std::size_t nodes)
+void TileRanges::addUnknown()
 {
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  own_.insert(own_.end(), nodes, { -infinity, infinity });
-  below_.insert(below_.end(), nodes, { -infinity, infinity });
+  add({ -infinity, infinity }, { -infinity, infinity });
 }
 
 std::shared_ptr<const NodeRanges> TileRanges::together() const

@@ -19,8 +19,8 @@ public:
     own_.push_back(own);
     below_.push_back(below);
   }
-  /// Nodes of which nothing is known.
-  void addUnknown(std::size_t nodes);
+  /// A node of which nothing is known.
+  void addUnknown();
 
   std::shared_ptr<const NodeRanges> together() const;
 

@@ -1,13 +1,17 @@
 #include "pointfront/Tiles/TileTable.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cassert>
+#include <cmath>
 #include <utility>
 
 namespace pointfront
 {
 
 /// What all tables wait for; one page after another, whichever asked.
+/// Cost  nothing while nobody has asked: a reader looks here before each node that it takes, and
+///       there may be ten thousand tables.
 class TileTable::Rows final : public MissingRows
 {
 public:
@@ -15,10 +19,18 @@ public:
     : tables_(std::move(tables))
   {
   }
+  /// After a table said that a row is coming.
+  void ask() { asked_ = true; }
   bool waiting() const override
   {
-    return std::any_of(
-      tables_.begin(), tables_.end(), [](const MissingRows* rows) { return rows->waiting(); });
+    // Taken back before it is looked whether it is so: who asks meanwhile sets it again.
+    if (asked_.exchange(false) &&
+      std::any_of(
+        tables_.begin(), tables_.end(), [](const MissingRows* rows) { return rows->waiting(); }))
+    {
+      asked_ = true;
+    }
+    return asked_;
   }
   std::size_t readNext() override
   {
@@ -35,7 +47,12 @@ public:
   {
     for (MissingRows* const rows : tables_)
     {
-      rows->attach(reader, wanted);
+      rows->attach(reader,
+        [this, wanted]
+        {
+          ask();
+          wanted();
+        });
     }
   }
   void detach(const void* reader) override
@@ -48,10 +65,12 @@ public:
 
 private:
   std::vector<MissingRows*> tables_;
+  mutable std::atomic<bool> asked_{ true };
 };
 
-TileTable::TileTable(std::vector<Tile> tiles)
+TileTable::TileTable(std::vector<Tile> tiles, std::uint32_t headPoints)
   : tiles_(std::move(tiles))
+  , headPoints_(headPoints)
 {
   assert(!tiles_.empty());
   refinement_ = tiles_.front().table->refinement();
@@ -63,11 +82,13 @@ TileTable::TileTable(std::vector<Tile> tiles)
     assert(tile.table->refinement() == refinement_);
     firstNodes_.push_back(nodes);
     firstPoints_.push_back(points);
+    cut_.push_back(rootsToCut(*tile.table));
     for (const NodeIndex root : tile.table->roots())
     {
-      roots_.push_back(nodes + root);
+      roots_.push_back(indexOf(cut_.size() - 1, root));
     }
-    nodes += tile.table->nodeCount();
+    headCount_ += static_cast<NodeIndex>(cut_.back().size());
+    nodes += tile.table->nodeCount() + static_cast<NodeIndex>(cut_.back().size());
     points += tile.points;
     if (MissingRows* const rows = tile.table->missingRows())
     {
@@ -83,54 +104,151 @@ TileTable::TileTable(std::vector<Tile> tiles)
 
 TileTable::~TileTable() = default;
 
+/// All roots of a table or none, so that all nodes of it are a level deeper, or none; but for roots
+/// of few points with nothing below.
+TileTable::CutRoots TileTable::rootsToCut(const Hierarchy& table) const
+{
+  CutRoots cut;
+  bool large = false;
+  for (const NodeIndex root : table.roots())
+  {
+    const Node row = table.node(root);
+    const bool many = row.pointCount / 2 >= headPoints_;
+    large = large || many;
+    if (many || !row.leaf())
+    {
+      cut.push_back(root);
+    }
+  }
+  std::sort(cut.begin(), cut.end());
+  return large && refinement_ == Refinement::Add ? cut : CutRoots();
+}
+
+NodeIndex TileTable::indexOf(std::size_t tile, NodeIndex own) const
+{
+  const CutRoots& cut = cut_[tile];
+  const auto before = std::lower_bound(cut.begin(), cut.end(), own) - cut.begin();
+  return firstNodes_[tile] + own + static_cast<NodeIndex>(before);
+}
+
+NodeIndex TileTable::bodyIndexOf(std::size_t tile, NodeIndex own) const
+{
+  const CutRoots& cut = cut_[tile];
+  return indexOf(tile, own) + (std::binary_search(cut.begin(), cut.end(), own) ? 1 : 0);
+}
+
 TileTable::Place TileTable::placeOf(NodeIndex node) const
 {
   const auto behind = std::upper_bound(firstNodes_.begin(), firstNodes_.end(), node);
   const auto tile = static_cast<std::size_t>(behind - firstNodes_.begin()) - 1;
   assert(tile < tiles_.size());
-  return { tile, node - firstNodes_[tile] };
+  const NodeIndex local = node - firstNodes_[tile];
+  const CutRoots& cut = cut_[tile];
+  // Heads before this node: head number k stands at cut[k] + k, its body right behind it.
+  std::size_t low = 0;
+  std::size_t high = cut.size();
+  while (low < high)
+  {
+    const std::size_t middle = (low + high) / 2;
+    if (cut[middle] + middle < local)
+    {
+      low = middle + 1;
+    }
+    else
+    {
+      high = middle;
+    }
+  }
+  const auto heads = static_cast<NodeIndex>(low);
+  if (heads > 0 && local == cut[heads - 1] + heads)
+  {
+    return { tile, cut[heads - 1], Cut::Body };
+  }
+  const bool head = heads < cut.size() && cut[heads] + heads == local;
+  return { tile, local - heads, head ? Cut::Head : Cut::Whole };
 }
 
-Node TileTable::shifted(std::size_t tile, Node row) const
+Node TileTable::shifted(const Place& place, Node row) const
 {
-  const NodeIndex first = firstNodes_[tile];
-  row.parent = row.parent == noNode ? noNode : row.parent + first;
-  row.firstChild = row.firstChild == noNode ? noNode : row.firstChild + first;
+  const std::size_t tile = place.tile;
+  const NodeIndex index = indexOf(tile, place.node);
+  row.parent = row.parent == noNode ? noNode : bodyIndexOf(tile, row.parent);
+  row.firstChild = row.firstChild == noNode ? noNode : indexOf(tile, row.firstChild);
   row.firstPoint += firstPoints_[tile];
   const std::vector<std::uint16_t>& layers = tiles_[tile].layers;
   row.layer = row.layer < layers.size() ? layers[row.layer] : std::uint16_t(0);
+  if (cut_[tile].empty())
+  {
+    return row;
+  }
+  const std::uint32_t head = std::min(row.pointCount, headPoints_);
+  if (place.cut == Cut::Head)
+  {
+    // Fewer points of the same surface lie that much further apart.
+    const auto sparser =
+      static_cast<float>(head > 0 ? std::sqrt(static_cast<double>(row.pointCount) / head) : 1.0);
+    row.spacing *= sparser;
+    row.splatRadius *= sparser;
+    row.pointCount = head;
+    row.firstChild = index + 1;
+    row.childCount = 1;
+    return row;
+  }
+  if (place.cut == Cut::Body)
+  {
+    row.parent = index;
+    row.pointCount -= head;
+    row.pointsBelow -= head;
+    row.firstPoint += head;
+  }
+  row.level = static_cast<std::uint8_t>(row.level + (row.parent == noNode ? 0 : 1));
   return row;
 }
 
-/// Links only: what a table needs to find a row's child.
-Node TileTable::unshifted(std::size_t tile, Node row) const
+/// Links and level only: what a table needs to find a row's child.
+Node TileTable::unshifted(const Place& place, Node row) const
 {
-  const NodeIndex first = firstNodes_[tile];
-  row.parent = row.parent == noNode ? noNode : row.parent - first;
-  row.firstChild = row.firstChild == noNode ? noNode : row.firstChild - first;
-  row.firstPoint -= firstPoints_[tile];
+  const bool below = !cut_[place.tile].empty() && row.parent != noNode;
+  row.level = static_cast<std::uint8_t>(row.level - (below ? 1 : 0));
+  row.parent = place.cut == Cut::Body || row.parent == noNode ? noNode : placeOf(row.parent).node;
+  row.firstChild = row.firstChild == noNode ? noNode : placeOf(row.firstChild).node;
+  row.firstPoint -= firstPoints_[place.tile];
   return row;
 }
 
 Node TileTable::node(NodeIndex index) const
 {
   const Place at = placeOf(index);
-  return shifted(at.tile, tiles_[at.tile].table->node(at.node));
+  return shifted(at, tiles_[at.tile].table->node(at.node));
 }
 
 Node TileTable::childOf(NodeIndex parent, const Node& row, std::uint8_t child) const
 {
   const Place at = placeOf(parent);
-  return shifted(at.tile, tiles_[at.tile].table->childOf(at.node, unshifted(at.tile, row), child));
+  if (at.cut == Cut::Head)
+  {
+    return node(parent + 1);
+  }
+  const Node found = tiles_[at.tile].table->childOf(at.node, unshifted(at, row), child);
+  return shifted(placeOf(row.firstChild + child), found);
+}
+
+RowState TileTable::asked(RowState state) const
+{
+  if (state == RowState::Coming && rows_)
+  {
+    rows_->ask();
+  }
+  return state;
 }
 
 RowState TileTable::peek(NodeIndex index, Node& row) const
 {
   const Place at = placeOf(index);
-  const RowState state = tiles_[at.tile].table->peek(at.node, row);
+  const RowState state = asked(tiles_[at.tile].table->peek(at.node, row));
   if (state == RowState::Here)
   {
-    row = shifted(at.tile, row);
+    row = shifted(at, row);
   }
   return state;
 }
@@ -139,11 +257,15 @@ RowState TileTable::peekChild(
   NodeIndex parent, const Node& row, std::uint8_t child, Node& found) const
 {
   const Place at = placeOf(parent);
+  if (at.cut == Cut::Head)
+  {
+    return peek(parent + 1, found);
+  }
   const RowState state =
-    tiles_[at.tile].table->peekChild(at.node, unshifted(at.tile, row), child, found);
+    asked(tiles_[at.tile].table->peekChild(at.node, unshifted(at, row), child, found));
   if (state == RowState::Here)
   {
-    found = shifted(at.tile, found);
+    found = shifted(placeOf(row.firstChild + child), found);
   }
   return state;
 }

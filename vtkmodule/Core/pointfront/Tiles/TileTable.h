@@ -4,6 +4,7 @@
 #include "pointfront/Store/StoredCloud.h"
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -13,6 +14,9 @@ namespace pointfront
 /// The node tables of several clouds, one behind the other, as one. Pages of each stay on its disk.
 /// Roots    of all clouds, in their order.
 /// Ranks    the points of a cloud follow those of the clouds before it.
+/// Heads    where roots have many points and there are many of them, a root is cut in two: its
+///          first points, a fair subset (NodeColumns), are the root, the others its only child. A
+///          tile that is small on screen is in memory with its head alone.
 /// Cost     finding the cloud of a node: the logarithm of their number.
 class TileTable final : public Hierarchy
 {
@@ -25,19 +29,32 @@ public:
     std::uint64_t points = 0; ///< own points of all its nodes
   };
 
-  /// All of one refinement; together less than noNode nodes.
-  explicit TileTable(std::vector<Tile> tiles);
+  /// All of one refinement; together, with a node more for each root, less than noNode nodes.
+  /// Roots with twice `headPoints` points and more are cut, those of Refinement::Add.
+  explicit TileTable(
+    std::vector<Tile> tiles, std::uint32_t headPoints = std::numeric_limits<std::uint32_t>::max());
   ~TileTable() override;
 
+  enum class Cut : std::uint8_t
+  {
+    Whole,
+    Head, ///< the first headPoints() points of a root
+    Body ///< the others
+  };
   /// A node of one of the clouds.
   struct Place
   {
     std::size_t tile = 0;
     NodeIndex node = noNode; ///< in that cloud's own table
+    Cut cut = Cut::Whole;
   };
   Place placeOf(NodeIndex node) const;
-  /// A row of that cloud as it stands in this table.
-  Node shifted(std::size_t tile, Node row) const;
+  /// The first node behind those of a cloud.
+  NodeIndex nodesBehind(std::size_t tile) const { return firstNodes_[tile + 1]; }
+  /// The row of that node, as it stands in its cloud, as it stands in this table.
+  Node shifted(const Place& place, Node row) const;
+  std::uint32_t headPoints() const { return headPoints_; }
+  NodeIndex headCount() const { return headCount_; }
 
   NodeIndex nodeCount() const override { return firstNodes_.back(); }
   Node node(NodeIndex index) const override;
@@ -56,9 +73,20 @@ public:
 
 private:
   class Rows;
-  Node unshifted(std::size_t tile, Node row) const;
+  /// Ascending: roots that are cut.
+  using CutRoots = std::vector<NodeIndex>;
+
+  CutRoots rootsToCut(const Hierarchy& table) const;
+  /// Of a cloud's own node that is whole, or the head of it.
+  NodeIndex indexOf(std::size_t tile, NodeIndex own) const;
+  NodeIndex bodyIndexOf(std::size_t tile, NodeIndex own) const; ///< its own index if it is whole
+  Node unshifted(const Place& place, Node row) const;
+  RowState asked(RowState state) const; ///< the same; readers are told of a row that is coming
 
   std::vector<Tile> tiles_;
+  std::vector<CutRoots> cut_; ///< by tile
+  std::uint32_t headPoints_;
+  NodeIndex headCount_ = 0;
   std::vector<NodeIndex> firstNodes_; ///< of each tile; the last entry is behind all
   std::vector<std::uint64_t> firstPoints_;
   std::vector<NodeIndex> roots_;

@@ -2,6 +2,7 @@
 
 #include "pointfront/Statistics/ColumnStatistics.h"
 #include "pointfront/Store/StoredCloudFormats.h"
+#include "pointfront/Store/StoreFormat.h"
 #include "pointfront/Threads/ThreadCrew.h"
 #include "pointfront/Tiles/TileRanges.h"
 
@@ -25,6 +26,25 @@ void raiseOpenFiles(std::size_t tiles)
     limit.rlim_cur = limit.rlim_max == RLIM_INFINITY ? wanted : std::min(wanted, limit.rlim_max);
     ::setrlimit(RLIMIT_NOFILE, &limit); // where it is refused, open() says so
   }
+}
+
+/// Points `begin` to `end` of a node; no more memory than they take.
+NodeColumns sliced(
+  const NodeColumns& node, std::size_t begin, std::size_t end, const AttributeSchema& schema)
+{
+  NodeColumns part;
+  part.origin = node.origin;
+  part.selection = node.selection;
+  const auto at = [](const auto& values, std::size_t place)
+  { return values.begin() + static_cast<std::ptrdiff_t>(place); };
+  part.positions.assign(at(node.positions, begin), at(node.positions, end));
+  for (std::size_t c = 0; c < node.columns.size(); ++c)
+  {
+    const std::size_t bytes = schema[node.selection[c]].bytes();
+    const std::vector<std::byte>& values = node.columns[c];
+    part.columns.emplace_back(at(values, begin * bytes), at(values, end * bytes));
+  }
+  return part;
 }
 
 /// Which component of which column of the whole; of coordinates the axis alone.
@@ -83,8 +103,8 @@ Result<std::shared_ptr<const StoredCloud>> TiledCloud::open(
   return make(path, std::move(tiles), std::move(warnings));
 }
 
-Result<std::shared_ptr<const StoredCloud>> TiledCloud::make(
-  const std::string& path, Tiles tiles, std::vector<std::string> warnings)
+Result<std::shared_ptr<const StoredCloud>> TiledCloud::make(const std::string& path, Tiles tiles,
+  std::vector<std::string> warnings, std::uint64_t overviewPoints)
 {
   if (tiles.empty())
   {
@@ -101,21 +121,24 @@ Result<std::shared_ptr<const StoredCloud>> TiledCloud::make(
     return described.error();
   }
   std::shared_ptr<TiledCloud> cloud(new TiledCloud(std::move(tiles), std::move(described.value())));
-  if (Result<void> done = cloud->makeTable(); !done)
+  if (Result<void> done = cloud->makeTable(overviewPoints); !done)
   {
     return done.error();
   }
   return std::shared_ptr<const StoredCloud>(std::move(cloud));
 }
 
-Result<void> TiledCloud::makeTable()
+Result<void> TiledCloud::makeTable(std::uint64_t overviewPoints)
 {
+  constexpr std::uint64_t fewest = 256;
   std::uint64_t nodes = 0;
+  std::uint64_t roots = 0;
   std::vector<TileTable::Tile> tables;
   for (std::size_t t = 0; t < tiles_.size(); ++t)
   {
     const std::shared_ptr<const Hierarchy>& table = tiles_[t]->hierarchy();
-    nodes += table->nodeCount();
+    nodes += table->nodeCount() + table->roots().size();
+    roots += table->roots().size();
     TileTable::Tile row{ table, described_.parts[t].layers, 0 };
     if (const NodeIndex count = table->nodeCount(); count > 0)
     {
@@ -134,7 +157,10 @@ Result<void> TiledCloud::makeTable()
       described_.whole.path + ": its stores have " + std::to_string(nodes) +
         " nodes together, more than 32 bits count; open fewer of them");
   }
-  table_ = std::make_shared<const TileTable>(std::move(tables));
+  const std::uint64_t each = std::max(fewest, overviewPoints / std::max<std::uint64_t>(roots, 1));
+  table_ = std::make_shared<const TileTable>(
+    std::move(tables), static_cast<std::uint32_t>(std::min<std::uint64_t>(each, maxNodePoints)));
+  described_.whole.levels += table_->headCount() > 0 ? 1 : 0;
   hierarchy_ = table_;
   return {};
 }
@@ -171,7 +197,7 @@ Result<FetchedNode> TiledCloud::fetch(NodeIndex node, const ColumnSelection& col
   {
     return inner;
   }
-  FetchedNode fetched{ node, columns, {}, inner->bytesRead, table_->shifted(at.tile, inner->row) };
+  FetchedNode fetched{ node, columns, {}, inner->bytesRead, table_->shifted(at, inner->row) };
   fetched.inner = std::make_shared<const FetchedNode>(std::move(*inner));
   return fetched;
 }
@@ -187,6 +213,13 @@ Result<NodeColumns> TiledCloud::decode(const FetchedNode& fetched) const
     return inner;
   }
   NodeColumns result = std::move(*inner);
+  if (at.cut != TileTable::Cut::Whole)
+  {
+    const std::size_t head = std::min<std::size_t>(table_->headPoints(), result.size());
+    result = at.cut == TileTable::Cut::Head
+      ? sliced(result, 0, head, tile.description().schema)
+      : sliced(result, head, result.size(), tile.description().schema);
+  }
   result.node = fetched.node;
   result.describe(fetched.row);
   part.columns.adapt(result, fetched.columns, described_.whole.schema);
@@ -203,42 +236,48 @@ Result<std::shared_ptr<const NodeRanges>> TiledCloud::nodeRanges(
   const auto wanted = WholeComponent::of(component, described_.whole.schema);
   TileRanges all;
   bool known = false;
-  NodeIndex left = std::min(most, table_->nodeCount());
-  for (std::size_t t = 0; t < tiles_.size() && left > 0; ++t)
+  const NodeIndex nodes = std::min(most, table_->nodeCount());
+  for (NodeIndex first = 0; first < nodes;)
   {
+    const std::size_t t = table_->placeOf(first).tile;
+    const NodeIndex end = std::min(nodes, table_->nodesBehind(t));
     const TileDescription::Part& part = described_.parts[t];
-    const NodeIndex nodes = std::min(left, tiles_[t]->hierarchy()->nodeCount());
-    left -= nodes;
     const std::optional<std::uint32_t> own = wanted.attribute == nullptr
       ? component
       : part.columns.ownComponent(wanted.column, wanted.component);
-    if (!own)
+    std::shared_ptr<const NodeRanges> ranges;
+    if (own)
     {
-      known = true;
-      for (NodeIndex node = 0; node < nodes; ++node)
+      auto read = tiles_[t]->nodeRanges(*own, table_->placeOf(end - 1).node + 1);
+      if (!read)
       {
-        all.add({ 0.0, 0.0 }, { 0.0, 0.0 });
+        return read.error();
       }
-      continue;
+      ranges = std::move(*read);
     }
-    const auto ranges = tiles_[t]->nodeRanges(*own, nodes);
-    if (!ranges)
-    {
-      return ranges.error();
-    }
-    const NodeIndex there = *ranges ? std::min(nodes, (*ranges)->nodeCount()) : 0;
-    known = known || there > 0;
+    known = known || ranges || !own;
     const auto adapted = [&](const ValueRange& range)
     {
       return wanted.attribute == nullptr
         ? part.placing.placed(range, static_cast<int>(component))
         : part.columns.adapted(range, wanted.column, *wanted.attribute);
     };
-    for (NodeIndex node = 0; node < there; ++node)
+    for (; first < end; ++first)
     {
-      all.add(adapted((*ranges)->own(node)), adapted((*ranges)->below(node)));
+      const NodeIndex node = table_->placeOf(first).node;
+      if (!own)
+      {
+        all.add({ 0.0, 0.0 }, { 0.0, 0.0 }); // a column that the tile lacks
+      }
+      else if (ranges && node < ranges->nodeCount())
+      {
+        all.add(adapted(ranges->own(node)), adapted(ranges->below(node)));
+      }
+      else
+      {
+        all.addUnknown();
+      }
     }
-    all.addUnknown(nodes - there);
   }
   return known ? all.together() : std::shared_ptr<const NodeRanges>();
 }

@@ -19,18 +19,22 @@ namespace pointfront
 ///             by half a step at most.
 /// Layers      of all tiles, in the order of their classes; one tree for each tile and layer.
 /// Differences are in description().warnings: attributes, grids, systems, and how many tiles.
+/// Heads       of roots (TileTable), where there are many tiles: all of them from afar take as much
+///             memory as `overviewPoints` points do, each tile 256 at least. What is behind a head
+///             is read with it and decoded once more when it is drawn.
 /// Limits      a file descriptor a tile: the process's soft limit is raised as far as it may be.
 /// Threads     all functions are safe from any thread.
 class TiledCloud final : public StoredCloud
 {
 public:
+  static constexpr std::uint64_t defaultOverviewPoints = std::uint64_t(1) << 21;
   using Tiles = std::vector<std::shared_ptr<const StoredCloud>>;
 
   /// `path` names the whole: the list or the folder.
   /// Errors  BadArgument: no tile; tiles with subsets beside tiles with representatives; columns
   ///         of one name with different numbers of components; NoMemory: 2^32 nodes and more.
-  static Result<std::shared_ptr<const StoredCloud>> make(
-    const std::string& path, Tiles tiles, std::vector<std::string> warnings = {});
+  static Result<std::shared_ptr<const StoredCloud>> make(const std::string& path, Tiles tiles,
+    std::vector<std::string> warnings = {}, std::uint64_t overviewPoints = defaultOverviewPoints);
   /// Opens them all, in parallel. Errors: those that cannot be opened, the first three by name.
   static Result<std::shared_ptr<const StoredCloud>> open(const std::string& path,
     const std::vector<std::string>& files, std::vector<std::string> warnings = {});
@@ -57,7 +61,7 @@ private:
     , described_(std::move(described))
   {
   }
-  Result<void> makeTable();
+  Result<void> makeTable(std::uint64_t overviewPoints);
 
   Tiles tiles_;
   TileDescription described_;

@@ -71,6 +71,7 @@ std::optional<std::array<double, N>> parseNumbers(const std::string& text)
 }
 template std::optional<std::array<double, 1>> parseNumbers<1>(const std::string&);
 template std::optional<std::array<double, 3>> parseNumbers<3>(const std::string&);
+template std::optional<std::array<double, 4>> parseNumbers<4>(const std::string&);
 template std::optional<std::array<double, 6>> parseNumbers<6>(const std::string&);
 
 std::optional<std::vector<std::uint8_t>> parseClasses(const std::string& text)

@@ -3,13 +3,12 @@
 #include "ColourTable.h"
 #include "DrawBatches.h"
 #include "GpuPool.h"
+#include "OpenGLFunctions.h"
 #include "RasterItems.h"
 #include "SoftwareRasteriser.h"
 #include "SplatAttributes.h"
 #include "SplatUniforms.h"
 #include "TargetState.h"
-
-#include <vtk_glew.h>
 
 #include <vtkOpenGLRenderWindow.h>
 #include <vtkOpenGLState.h>

@@ -36,15 +36,17 @@ vtk_module_build(
 
 # Put together at the top: the builder finds readers and passes in the process, whoever opens stored
 # clouds the formats, and nothing names them.
+get_target_property(las_index PointFront::IOLASIndex ALIASED_TARGET) # VTK's own names changed
+get_target_property(builder PointFront::FiltersBuild ALIASED_TARGET) # in 9.4
 if (BUILD_SHARED_LIBS)
-  target_link_options(IOLASIndex PRIVATE LINKER:--no-as-needed)
-  target_link_libraries(IOLASIndex PRIVATE pointfrontSourceFormats)
-  target_link_options(FiltersBuild PRIVATE LINKER:--no-as-needed)
-  target_link_libraries(FiltersBuild PRIVATE pointfrontSourceFormats pointfrontAttributePasses)
+  target_link_options(${las_index} PRIVATE LINKER:--no-as-needed)
+  target_link_libraries(${las_index} PRIVATE pointfrontSourceFormats)
+  target_link_options(${builder} PRIVATE LINKER:--no-as-needed)
+  target_link_libraries(${builder} PRIVATE pointfrontSourceFormats pointfrontAttributePasses)
 else ()
-  target_link_libraries(IOLASIndex PRIVATE
+  target_link_libraries(${las_index} PRIVATE
     "$<LINK_LIBRARY:WHOLE_ARCHIVE,pointfrontSourceFormats>")
-  target_link_libraries(FiltersBuild PRIVATE
+  target_link_libraries(${builder} PRIVATE
     "$<LINK_LIBRARY:WHOLE_ARCHIVE,pointfrontSourceFormats,pointfrontAttributePasses>")
 endif ()
 
@@ -73,6 +75,7 @@ elseif (POINTFRONT_WRAP_PYTHON)
     MODULE_DESTINATION "${pointfront_python_folder}"
     CMAKE_DESTINATION "${CMAKE_INSTALL_LIBDIR}/cmake/PointFront"
     BUILD_STATIC OFF
+    COMPONENT Runtime
     TARGET PointFront::pythonmodules)
 endif ()
 

@@ -15,39 +15,14 @@
     mapper.SetInputConnection(reader.GetOutputPort())
 
 The functions raise PointFrontError. The classes are VTK classes (their C++ headers document them),
-belong to the VTK whose Python package VTK_PACKAGE names, and report errors as VTK does. VTK is
-loaded when something of it is first used.
+belong to the VTK whose Python package VTK_PACKAGE names, and report errors as VTK does. OpenGL's
+side of VTK is loaded, too: actors and windows that are made after this import can be drawn.
 """
 
-import importlib
-
+from ._calls import BuildReport, build, index
+from ._classes import *
+from ._clouds import Cloud, open
 from ._errors import PointFrontError
 from ._host import VTK_PACKAGE
+from ._pictures import Picture
 from ._version import __version__
-
-_PLACES = {
-    "BuildReport": "_calls",
-    "Cloud": "_clouds",
-    "Picture": "_pictures",
-    "build": "_calls",
-    "index": "_calls",
-    "open": "_clouds",
-}
-
-
-def __getattr__(name):
-    if name.startswith("_"):
-        raise AttributeError(f"module 'pointfront' has no attribute '{name}'")
-    place = importlib.import_module("." + _PLACES.get(name, "_classes"), __name__)
-    try:
-        value = getattr(place, name)
-    except AttributeError:
-        raise AttributeError(f"module 'pointfront' has no attribute '{name}'") from None
-    globals()[name] = value
-    return value
-
-
-def __dir__():
-    classes = importlib.import_module("._classes", __name__)
-    names = {name for name in dir(classes) if name.startswith("vtk")}
-    return sorted(names | set(_PLACES) | set(globals()))

@@ -89,8 +89,10 @@ if (POINTFRONT_HOST STREQUAL "VTK" AND POINTFRONT_WRAP_PYTHON)
   endif ()
 endif ()
 
-# What a wheel brings along, for it cannot ask the system: PROJ's coordinate systems.
+# What a wheel has besides: its command, and PROJ's coordinate systems, which no system gives it.
 if (POINTFRONT_WHEEL)
+  install(FILES "${CMAKE_CURRENT_SOURCE_DIR}/vtkmodule/Python/pointfront_tool.py" DESTINATION "."
+    COMPONENT Runtime)
   find_file(POINTFRONT_PROJ_DATABASE proj.db PATH_SUFFIXES share/proj proj REQUIRED
     HINTS "${PROJ_DIR}/../../.." "${PROJ_DIR}/../../../.." PATHS /usr /usr/local)
   install(FILES "${POINTFRONT_PROJ_DATABASE}" DESTINATION "${CMAKE_INSTALL_LIBDIR}/proj"

@@ -39,7 +39,6 @@ USE = """
 import pathlib, sys
 import pointfront
 
-assert "cvista" not in sys.modules  # VTK is loaded when it is needed
 report = pointfront.build(sys.argv[1], "a.pfront", normals="pca", assumed_crs="EPSG:2994")
 with pointfront.open("a.pfront") as cloud:
     assert len(cloud) == report.points_stored == 174151, report

@@ -74,7 +74,8 @@ class PyVista(unittest.TestCase):
         for add in (lambda p: p.add_points(mesh, scalars="elevation", cmap="gray", point_size=3,
                                            clim=(410, 500), show_scalar_bar=False, lighting=False),
                     lambda p: self.cloud.add_to(p, scalars="elevation", cmap="gray", point_size=3,
-                                                clim=(410, 500), show_scalar_bar=False, error=0.01)):
+                                                clim=(410, 500), show_scalar_bar=False,
+                                                error=0.01)):
             plotter = self.plotter()
             add(plotter)
             plotter.view_xy()

@@ -2,6 +2,8 @@
 
 #include "ExtractedPoints.h"
 #include "ExtractionRegions.h"
+#include "HostVTK.h"
+#include "InterpreterPause.h"
 
 #include "pointfront/Query/ChosenColumns.h"
 #include "pointfront/Query/PointsById.h"
@@ -20,7 +22,6 @@
 #include <vtkPlanes.h>
 #include <vtkPolyData.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
-#include <vtkVersionMacros.h>
 
 #include <algorithm>
 #include <string>
@@ -39,7 +40,8 @@ struct vtkPointFrontExtract::Content
   static Result<void> AddRegions(const vtkPointFrontExtract& filter, pointfront::PointQuery& query);
   Result<pointfront::PointQuery> Query(const vtkPointFrontExtract& filter) const;
   std::vector<std::string> Attributes(const vtkPointFrontExtract& filter) const;
-  static pointfront::QueryOptions Options(vtkPointFrontExtract& filter);
+  static pointfront::QueryOptions Options(
+    vtkPointFrontExtract& filter, pointfront::InterpreterPause& pause);
   Result<pointfront::QueryReport> Run(
     vtkPointFrontExtract& filter, unsigned piece, unsigned pieces, vtkPolyData* output) const;
 };
@@ -117,18 +119,16 @@ Result<pointfront::PointQuery> vtkPointFrontExtract::Content::Query(
   return query;
 }
 
-pointfront::QueryOptions vtkPointFrontExtract::Content::Options(vtkPointFrontExtract& filter)
+pointfront::QueryOptions vtkPointFrontExtract::Content::Options(
+  vtkPointFrontExtract& filter, pointfront::InterpreterPause& pause)
 {
   pointfront::QueryOptions options;
   options.memoryBytes = static_cast<std::size_t>(filter.MemoryLimit);
-  options.progress = [&filter](const pointfront::Progress& state)
+  options.progress = [&filter, &pause](const pointfront::Progress& state)
   {
+    const pointfront::InterpreterPause::Resumed resumed(pause);
     filter.UpdateProgress(state.fraction);
-#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 2, 20220101)
-    return !filter.CheckAbort();
-#else
-    return filter.GetAbortExecute() == 0;
-#endif
+    return !pointfront::isAborted(filter) && !resumed.interrupted();
   };
   return options;
 }
@@ -137,7 +137,8 @@ Result<pointfront::QueryReport> vtkPointFrontExtract::Content::Run(
   vtkPointFrontExtract& filter, unsigned piece, unsigned pieces, vtkPolyData* output) const
 {
   const pointfront::StoredCloud& store = *this->Store->GetStore();
-  const pointfront::QueryOptions options = Options(filter);
+  pointfront::InterpreterPause pause;
+  const pointfront::QueryOptions options = Options(filter, pause);
   pointfront::ExtractedPoints points(static_cast<std::uint64_t>(filter.MaximumNumberOfPoints));
   const auto consume = [&](pointfront::QueryBatch& batch)
   { return filter.CountOnly ? Result<void>() : points.add(batch); };

@@ -1,5 +1,6 @@
 #include "PointArrays.h"
 
+#include <vtkDataArray.h>
 #include <vtkDoubleArray.h>
 #include <vtkIdTypeArray.h>
 #include <vtkPointData.h>
@@ -69,7 +70,7 @@ void PointArrays::addPrefix(const NodeColumns& node, std::uint32_t count)
 void PointArrays::addRows(const NodeColumns& node, const std::vector<std::uint32_t>& rows)
 {
   assert(static_cast<vtkIdType>(filled_ + rows.size()) <= ids_->GetNumberOfValues());
-  auto* xyz = static_cast<double*>(points_->GetVoidPointer(0));
+  auto* xyz = static_cast<double*>(points_->GetData()->GetVoidPointer(0));
   for (std::size_t i = 0; i < rows.size(); ++i)
   {
     const std::size_t at = filled_ + i;

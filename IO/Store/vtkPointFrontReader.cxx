@@ -1,5 +1,6 @@
 #include "vtkPointFrontReader.h"
 
+#include "HostVTK.h"
 #include "Overview.h"
 #include "RankedPoints.h"
 
@@ -15,7 +16,6 @@
 #include <vtkObjectFactory.h>
 #include <vtkPolyData.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
-#include <vtkVersionMacros.h>
 
 #include <algorithm>
 #include <cmath>
@@ -248,11 +248,7 @@ int vtkPointFrontReader::RequestData(
   const auto advance = [this](double fraction)
   {
     this->UpdateProgress(fraction);
-#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 2, 20220101)
-    return !this->CheckAbort();
-#else
-    return this->GetAbortExecute() == 0;
-#endif
+    return !pointfront::isAborted(*this);
   };
   const auto filled = pointfront::fillOverview(
     store, pointfront::overviewPiece(whole, piece, pieces), columns, output, advance);

@@ -1,6 +1,6 @@
 #include "DrawBatches.h"
 
-#include <vtk_glew.h>
+#include "OpenGLFunctions.h"
 
 #include <algorithm>
 #include <string>

@@ -1,6 +1,6 @@
 #include "GpuBlock.h"
 
-#include <vtk_glew.h>
+#include "OpenGLFunctions.h"
 
 namespace pointfront
 {

@@ -1,11 +1,10 @@
 #include "KeptSplats.h"
 
 #include "GpuPool.h"
+#include "OpenGLFunctions.h"
 #include "RasterItems.h"
 #include "SplatRuns.h"
 #include "SplatUniforms.h"
-
-#include <vtk_glew.h>
 
 #include <vtkShaderProgram.h>
 #include <vtkTextureObject.h>

@@ -1,8 +1,7 @@
 #include "SlotRecords.h"
 
 #include "GpuPool.h"
-
-#include <vtk_glew.h>
+#include "OpenGLFunctions.h"
 
 #include <vtkOpenGLBufferObject.h>
 #include <vtkOpenGLRenderWindow.h>

@@ -1,8 +1,7 @@
 #include "SoftwarePicture.h"
 
+#include "OpenGLFunctions.h"
 #include "vtkOpenGLPointFrontPicture.h"
-
-#include <vtk_glew.h>
 
 #include <vtkOpenGLRenderWindow.h>
 #include <vtkOpenGLState.h>

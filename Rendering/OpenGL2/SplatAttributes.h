@@ -1,10 +1,9 @@
 #pragma once
 
 #include "GpuBlock.h"
+#include "OpenGLFunctions.h"
 
 #include "pointfront/Style/PointColouring.h"
-
-#include <vtk_glew.h>
 
 #include <vtkShaderProgram.h>
 

@@ -4,7 +4,7 @@
 #include "HighlightGLSL.h"
 #include "PictureVSGLSL.h"
 
-#include <vtk_glew.h>
+#include "OpenGLFunctions.h"
 
 #include <vtkOpenGLFramebufferObject.h>
 #include <vtkOpenGLRenderWindow.h>

@@ -1,13 +1,12 @@
 #include "SplatPart.h"
 
 #include "GpuPool.h"
+#include "OpenGLFunctions.h"
 #include "RasterItems.h"
 #include "SoftwareRasteriser.h"
 #include "SplatRuns.h"
 #include "SplatUniforms.h"
 #include "TargetState.h"
-
-#include <vtk_glew.h>
 
 #include <vtkOpenGLRenderWindow.h>
 #include <vtkOpenGLState.h>

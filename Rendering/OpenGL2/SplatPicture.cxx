@@ -1,11 +1,10 @@
 #include "SplatPicture.h"
 
+#include "OpenGLFunctions.h"
 #include "PerWindow.h"
 #include "SoftwareComposition.h"
 #include "TargetState.h"
 #include "vtkOpenGLPointFrontPicture.h"
-
-#include <vtk_glew.h>
 
 #include <vtkOpenGLRenderWindow.h>
 #include <vtkOpenGLState.h>

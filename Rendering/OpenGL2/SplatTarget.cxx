@@ -1,6 +1,6 @@
 #include "SplatTarget.h"
 
-#include <vtk_glew.h>
+#include "OpenGLFunctions.h"
 
 #include <vtkOpenGLFramebufferObject.h>
 #include <vtkOpenGLRenderWindow.h>

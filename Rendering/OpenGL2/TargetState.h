@@ -1,6 +1,6 @@
 #pragma once
 
-#include <vtk_glew.h>
+#include "OpenGLFunctions.h"
 
 #include <vtkOpenGLState.h>
 

@@ -3,14 +3,13 @@
 #include "ColourTable.h"
 #include "DrawBatches.h"
 #include "GpuPool.h"
+#include "OpenGLFunctions.h"
 #include "SelectionIds.h"
 #include "SlotRecords.h"
 
 #include "ColourTableGLSL.h"
 #include "PointsFSGLSL.h"
 #include "PointsVSGLSL.h"
-
-#include <vtk_glew.h>
 
 #include <vtkActor.h>
 #include <vtkCamera.h>

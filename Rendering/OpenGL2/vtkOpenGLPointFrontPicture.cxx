@@ -1,13 +1,12 @@
 #include "vtkOpenGLPointFrontPicture.h"
 
+#include "OpenGLFunctions.h"
 #include "SelectionIds.h"
 
 #include "pointfront/Plan/FrameCamera.h"
 
 #include "PictureFSGLSL.h"
 #include "PictureVSGLSL.h"
-
-#include <vtk_glew.h>
 
 #include <vtkActor.h>
 #include <vtkHardwareSelector.h>

@@ -21,7 +21,7 @@ FOREIGN = (  # header, library, the one module that may include it
     (re.compile(r"^png\.h$"), "libpng", "IO/PNG"),
     (re.compile(r"^tiffio\.h$"), "libtiff", "Filters/ImageColor"),
     (re.compile(r"^OpenImageIO/"), "OpenImageIO", "Filters/ImageColor"),
-    (re.compile(r"^(GL|GLES\d?|EGL)/|^vtk_glew\.h$|^glad/"), "OpenGL", "Rendering/OpenGL2"),
+    (re.compile(r"^(GL|GLES\d?|EGL)/|^vtk_gl(ew|ad)\.h$|^glad/"), "OpenGL", "Rendering/OpenGL2"),
 )
 VTK = re.compile(r"^(vtk[A-Z_]\w*\.(h|txx)|vtksys/.*|pointfront\w+Module\.h)$")
 PARAVIEW = re.compile(r"^(pq|vtkPV|vtkSM|vtkSI)[A-Z]\w*\.h$")

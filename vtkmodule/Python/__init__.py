@@ -1,8 +1,13 @@
 """Point clouds larger than memory in VTK.
 
     report = pointfront.build(["tile1.laz", "tile2.laz"], "city.pfront", overwrite=True)
-    cloud = pointfront.open("city.pfront")
-    arrays = cloud.query(where="classification == 2")    # NumPy arrays by name
+    with pointfront.open("city.pfront") as cloud:
+        ground = cloud.points(classes=2, spacing=0.5)    # NumPy arrays by name
+        cloud.screenshot("city.png", color_by="elevation")    # no display, no OpenGL
+        cloud.show()
+
+    plotter = pyvista.Plotter()
+    pointfront.open("city.pfront").add_to(plotter, scalars="intensity")
 
     reader = pointfront.vtkPointFrontReader()
     reader.SetFileName("city.pfront")
@@ -10,17 +15,14 @@
     mapper.SetInputConnection(reader.GetOutputPort())
 
 The functions raise PointFrontError. The classes are VTK classes (their C++ headers document them),
-go together with vtkmodules, and report errors as VTK does.
+belong to the VTK whose Python package VTK_PACKAGE names, and report errors as VTK does. OpenGL's
+side of VTK is loaded, too: actors and windows that are made after this import can be drawn.
 """
 
-from .pointfrontCommon import *
-from .pointfrontFiltersBuild import *
-from .pointfrontFiltersExtract import *
-from .pointfrontIOStore import *
-from .pointfrontIOLASIndex import *  # readers and mappers know side files of LAS files by it
-from .pointfrontRenderingCore import *
-from .pointfrontRenderingOpenGL2 import *  # the OpenGL side of the mapper, by VTK's object factory
-
-from ._calls import BuildReport, PointFrontError, build, index
+from ._calls import BuildReport, build, index
+from ._classes import *
 from ._clouds import Cloud, open
+from ._errors import PointFrontError
+from ._host import VTK_PACKAGE
+from ._pictures import Picture
 from ._version import __version__

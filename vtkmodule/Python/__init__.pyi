@@ -1,12 +1,16 @@
 from os import PathLike
-from typing import Any, Callable, Dict, Iterable, List, Optional, Tuple, Union
+from typing import Any, Callable, Dict, Iterable, List, Optional, Sequence, Tuple, Union
 
 import numpy
 
 _Path = Union[str, PathLike[str]]
 _Point = Tuple[float, float, float]
+_Box = Union[Tuple[_Point, _Point], Sequence[float]]
+_Progress = Union[None, bool, Callable[[str, float], Optional[bool]]]
+_Classes = Union[None, int, Iterable[int]]
 
 __version__: str
+VTK_PACKAGE: str
 
 class PointFrontError(RuntimeError): ...
 
@@ -30,19 +34,28 @@ def build(
     normals: str = ...,
     attributes: Optional[Iterable[str]] = ...,
     color_from: Union[_Path, Iterable[_Path]] = ...,
-    progress: Optional[Callable[[str, float], Optional[bool]]] = ...,
+    progress: _Progress = ...,
     **options: Any,
 ) -> BuildReport: ...
 def index(
     las: _Path, side: Optional[_Path] = ..., *, overwrite: bool = ..., node_points: int = ...
 ) -> str: ...
 
+class Picture:
+    png: bytes
+    def __init__(self, png: bytes) -> None: ...
+    def save(self, path: _Path) -> None: ...
+    @property
+    def pixels(self) -> numpy.ndarray: ...
+    def __array__(self, dtype: Any = ..., copy: Optional[bool] = ...) -> numpy.ndarray: ...
+
 class Cloud:
     def __init__(self, path: _Path) -> None: ...
+    def close(self) -> None: ...
+    def __enter__(self) -> "Cloud": ...
+    def __exit__(self, *_: Any) -> None: ...
     @property
     def path(self) -> str: ...
-    @property
-    def points(self) -> int: ...
     def __len__(self) -> int: ...
     @property
     def bounds(self) -> Tuple[_Point, _Point]: ...
@@ -50,9 +63,71 @@ class Cloud:
     def attributes(self) -> List[str]: ...
     @property
     def classes(self) -> Dict[int, str]: ...
-    def query(
-        self, *, area: Optional[str] = ..., where: Optional[str] = ..., **options: Any
+    @property
+    def info(self) -> Dict[str, Any]: ...
+    def extract(
+        self,
+        *,
+        box: Optional[_Box] = ...,
+        sphere: Optional[Tuple[_Point, float]] = ...,
+        area: Optional[str] = ...,
+        classes: _Classes = ...,
+        where: Optional[str] = ...,
+        spacing: Optional[float] = ...,
+        attributes: Union[None, str, Iterable[str]] = ...,
+        progress: _Progress = ...,
+        **options: Any,
+    ) -> Any: ...
+    def points(
+        self,
+        *,
+        box: Optional[_Box] = ...,
+        sphere: Optional[Tuple[_Point, float]] = ...,
+        area: Optional[str] = ...,
+        classes: _Classes = ...,
+        where: Optional[str] = ...,
+        spacing: Optional[float] = ...,
+        attributes: Union[None, str, Iterable[str]] = ...,
+        progress: _Progress = ...,
+        **options: Any,
     ) -> Dict[str, numpy.ndarray]: ...
+    def to_pyvista(self, **query: Any) -> Any: ...
+    def add_to(
+        self,
+        plotter: Any,
+        *,
+        scalars: Optional[str] = ...,
+        cmap: Any = ...,
+        clim: Optional[Tuple[float, float]] = ...,
+        show_scalar_bar: Optional[bool] = ...,
+        scalar_bar_args: Optional[Dict[str, Any]] = ...,
+        point_size: Optional[float] = ...,
+        error: float = ...,
+        complete: bool = ...,
+        style: Any = ...,
+        name: Optional[str] = ...,
+        opacity: float = ...,
+        pickable: bool = ...,
+        reset_camera: Optional[bool] = ...,
+        render: bool = ...,
+    ) -> Any: ...
+    def screenshot(
+        self,
+        path: Optional[_Path] = ...,
+        *,
+        size: Tuple[int, int] = ...,
+        color_by: Optional[str] = ...,
+        view: Optional[str] = ...,
+        camera: Optional[_Path] = ...,
+        technique: Optional[str] = ...,
+        style: Optional[_Path] = ...,
+        classes: _Classes = ...,
+        where: Optional[str] = ...,
+        error: Optional[float] = ...,
+        background: Optional[Tuple[int, int, int]] = ...,
+        **options: Any,
+    ) -> Picture: ...
+    def show(self, *, size: Tuple[int, int] = ..., title: Optional[str] = ...) -> None: ...
 
 def open(path: _Path) -> Cloud: ...
 

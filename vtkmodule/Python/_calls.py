@@ -2,14 +2,13 @@
 
 import os
 
-from vtkmodules.vtkCommonCore import vtkCommand
-
+from . import _host
+from ._errors import PointFrontError
+from ._progress import Watch
 from .pointfrontFiltersBuild import vtkPointFrontBuilder
 from .pointfrontIOLASIndex import vtkPointFrontLASIndexer
 
-
-class PointFrontError(RuntimeError):
-    """Something asked of PointFront did not happen. The message says what, where, what to try."""
+vtkCommand = _host.vtk("vtkCommonCore").vtkCommand
 
 
 class BuildReport:
@@ -104,7 +103,8 @@ def build(inputs, output, *, structure="octree", refinement="add", layers="auto"
     normals     "none", "pca" or "scanline"
     attributes  names of those to store; None: all
     color_from  georeferenced images
-    progress    called with (phase, fraction) some ten times a second; False stops the build
+    progress    called with (phase, fraction) some ten times a second; False stops the build.
+                True: a bar, by the package tqdm
     options     other properties of vtkPointFrontBuilder in snake case: memory_limit,
                 number_of_threads, precision, crs ... (CRS is written crs)
 
@@ -132,20 +132,9 @@ def build(inputs, output, *, structure="octree", refinement="add", layers="auto"
     if "assumed_crs" in options:
         builder.SetAssumedCRS(options.pop("assumed_crs"))
     _set(builder, options)
-    raised = []
-    if progress is not None:
-        def report(caller, _event):
-            try:
-                if progress(caller.GetProgressText(), caller.GetProgress()) is False:
-                    caller.AbortExecuteOn()
-            except BaseException as problem:  # VTK prints what an observer raises, and goes on
-                raised.append(problem)
-                caller.AbortExecuteOn()
-
-        builder.AddObserver(vtkCommand.ProgressEvent, report)
+    watch = Watch(builder, vtkCommand.ProgressEvent, progress)
     written = builder.Write()
-    if raised:
-        raise raised[0]
+    watch.end()
     if not written:
         raise messages.error(f"{path}: the build was stopped")
     return BuildReport(path, builder, messages.warnings)

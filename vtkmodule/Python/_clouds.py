@@ -1,98 +1,274 @@
-"""Stores as Python objects: what they hold, and points of them as NumPy arrays."""
+"""Stores as Python objects: what they hold, points of them as NumPy arrays, and pictures."""
 
+import json
 import os
 
-from vtkmodules.util.numpy_support import vtk_to_numpy
-
+from . import _host, _pictures
 from ._calls import _Messages
+from ._errors import PointFrontError
+from ._progress import Watch
 from .pointfrontFiltersExtract import vtkPointFrontExtract
 from .pointfrontIOStore import vtkPointFrontReader
+
+vtkCommand = _host.vtk("vtkCommonCore").vtkCommand
+vtk_to_numpy = _host.vtk("util.numpy_support").vtk_to_numpy
 
 
 class Cloud:
     """A stored cloud: a store, an index, a COPC file, an EPT tree, a list (.pfronts) or a folder.
 
     path        as it was found
-    points      how many
-    bounds      ((x0, y0, z0), (x1, y1, z1)), tight
+    bounds      ((x0, y0, z0), (x1, y1, z1)) in the units of the coordinate system, tight
     attributes  names
     classes     {number: name} of object classes with a tree of their own
+    info        what `pointfront info --json` tells, as a dictionary
+    len(cloud)  how many points
+
+    Opening reads no points. A cloud is a context manager: leaving it lets go of the file.
     """
 
     def __init__(self, path):
+        self._store = None
         reader = vtkPointFrontReader()
         messages = _Messages(reader)
         reader.SetFileName(os.fspath(path))
         reader.UpdateInformation()
+        self._reader = reader
         self._store = reader.GetStore()
         if self._store is None:
             raise messages.error(f"{path}: cannot be opened")
+        self._path = self._store.GetFileName()
+
+    def close(self):
+        """Let go of the file. Arrays and pictures stay."""
+        self._store = self._reader = None
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.close()
+
+    def _opened(self):
+        if self._store is None:
+            raise PointFrontError(f"{self._path}: this cloud was closed; open it again")
+        return self._store
 
     @property
     def path(self):
-        return self._store.GetFileName()
-
-    @property
-    def points(self):
-        return self._store.GetNumberOfPoints()
+        return self._path
 
     def __len__(self):
-        return self.points
+        return self._opened().GetNumberOfPoints()
 
     @property
     def bounds(self):
         b = [0.0] * 6
-        self._store.GetBounds(b)
+        self._opened().GetBounds(b)
         return (b[0], b[2], b[4]), (b[1], b[3], b[5])
 
     @property
     def attributes(self):
-        store = self._store
+        store = self._opened()
         return [store.GetAttributeName(i) for i in range(store.GetNumberOfAttributes())]
 
     @property
     def classes(self):
-        store = self._store
+        store = self._opened()
         return {store.GetObjectClassNumber(i): store.GetObjectClassName(i)
                 for i in range(store.GetNumberOfObjectClasses())
                 if store.GetObjectClassNumber(i) >= 0}
 
+    @property
+    def info(self):
+        self._opened()
+        return json.loads(_pictures.run_tool(["info", "--json", self.path]))
+
     def __repr__(self):
-        return f"<{self.path}: {self.points} points>"
+        if self._store is None:
+            return f"<{self._path}: closed>"
+        return f"<{self._path}: {len(self)} points>"
 
-    def query(self, *, area=None, where=None, **options):
-        """Points as NumPy arrays by name: "position" (n by 3, float64), "id", each attribute.
+    def extract(self, *, box=None, sphere=None, area=None, classes=None, where=None, spacing=None,
+                attributes=None, progress=None, **options):
+        """The exact points of a region as vtkPolyData: all that meet every condition.
 
-        area     polygons or lines as well-known text
-        where    a condition: "classification in {2, 6} and z > 20"
-        options  other properties of vtkPointFrontExtract in snake case
+        box         ((x0, y0, z0), (x1, y1, z1)), or six numbers in that order
+        sphere      ((x, y, z), radius)
+        area        polygons or lines as well-known text, for all heights
+        classes     a number of an object class, or several
+        where       a condition: "classification in {2, 6} and intensity > 20"
+        spacing     thin out: points no closer than this, in units of the coordinates
+        attributes  names of those to read; None: all
+        progress    called with (phase, fraction); False ends it. True: a bar, by tqdm
+        options     other properties of vtkPointFrontExtract in snake case: line_distance,
+                    maximum_number_of_points, memory_limit ...
 
-        Raises PointFrontError.
+        Point data: the attributes, and "point_id", the rank in the store. Raises PointFrontError;
+        KeyboardInterrupt at once. Other threads run meanwhile.
         """
+        self._opened()
         extract = vtkPointFrontExtract()
         messages = _Messages(extract)
         extract.SetFileName(self.path)
+        if box is not None:
+            x0, y0, z0, x1, y1, z1 = _six(box)
+            extract.UseBoxOn()
+            extract.SetBox(x0, x1, y0, y1, z0, z1)
+        if sphere is not None:
+            center, radius = sphere
+            extract.UseSphereOn()
+            extract.SetSphereCenter(*center)
+            extract.SetSphereRadius(radius)
         if area is not None:
             extract.SetWellKnownText(area)
+        numbers = [] if classes is None else [classes] if isinstance(classes, int) else classes
+        for number in numbers:
+            extract.AddObjectClass(number)
         if where is not None:
             extract.SetWhere(where)
-        for name, value in options.items():
-            setter = "Set" + "".join(word.capitalize() for word in name.split("_"))
-            if not hasattr(extract, setter):
-                raise TypeError(f"there is no option '{name}'")
-            getattr(extract, setter)(value)
+        if spacing is not None:
+            extract.SetSpacing(spacing)
+        self._choose_attributes(extract, attributes)
+        _set_options(extract, options)
+        watch = Watch(extract, vtkCommand.ProgressEvent, progress)
         extract.Update()
+        watch.end()
         if messages.errors:
             raise messages.error("the query failed")
-        output = extract.GetOutput()
+        if extract.GetAbortExecute():
+            raise PointFrontError(f"{self.path}: the query was stopped")
+        return extract.GetOutput()
+
+    def _choose_attributes(self, extract, names):
+        if names is None:
+            return
+        known = self.attributes
+        wanted = [names] if isinstance(names, str) else list(names)
+        for name in wanted:
+            if name not in known:
+                raise PointFrontError(f"{self.path}: there is no attribute '{name}' among "
+                                      f"{', '.join(known)}")
+        for name in known:
+            extract.SetPointArrayStatus(name, int(name in wanted))
+
+    def points(self, **query):
+        """Points as NumPy arrays by name; `query` as for extract().
+
+        "position" n by 3, float64, in the store's coordinates; "id" n, int64: the rank in the
+        store; each attribute n, or n by its components, in its type, or float64 if it has a scale.
+        Nothing is copied: an array keeps VTK's memory alive.
+        """
+        output = self.extract(**query)
         data = output.GetPointData()
-        points = output.GetPoints()
-        arrays = {"position": vtk_to_numpy(points.GetData()).copy() if points else None}
+        arrays = {"position": vtk_to_numpy(output.GetPoints().GetData())}
         for i in range(data.GetNumberOfArrays()):
             array = data.GetArray(i)
             name = "id" if array.GetName() == "point_id" else array.GetName()
-            arrays[name] = vtk_to_numpy(array).copy()
+            arrays[name] = vtk_to_numpy(array)
         return arrays
+
+    def to_pyvista(self, **query):
+        """Points of a region as pyvista.PolyData; `query` as for extract()."""
+        from . import _plotting
+
+        return _plotting.wrapped(self.extract(**query))
+
+    def add_to(self, plotter, **options):
+        """Add the cloud to a pyvista.Plotter: drawn from the store, however large it is.
+
+        scalars     an attribute, "rgb", "elevation", "horizontality", "global_height"; None: the
+                    first of rgb, classification, intensity and elevation that says something
+        cmap        PyVista's or Matplotlib's name of a colour map
+        clim        (low, high) of the map; None: the attribute's range in the overview
+        show_scalar_bar, scalar_bar_args   as in add_mesh; a bar unless the colours are rgb
+        point_size  pixels; None: discs as large as the points' spacing
+        error       projected point spacing to refine to, in pixels
+        complete    a render of a view at rest waits for all of it: for screenshots. False: the
+                    view refines before the user's eyes
+        style       JSON of classes and techniques, or a vtkPointFrontStyle
+        name, opacity, pickable, reset_camera, render   as in add_mesh
+
+        Returns the pyvista.Actor; its mapper is a vtkPointFrontMapper.
+        """
+        from . import _plotting
+
+        return _plotting.add_cloud(self._opened(), self.path, plotter, **options)
+
+    def screenshot(self, path=None, *, size=(1280, 720), color_by=None, view=None, camera=None,
+                   technique=None, style=None, classes=None, where=None, error=None,
+                   background=None, **options):
+        """A picture of the cloud, drawn in software: no display, no OpenGL, the same bits anywhere.
+
+        path        a PNG file to write; None: the Picture only
+        size        (width, height) in pixels
+        color_by    an attribute, "rgb", "elevation" ...
+        view        "iso", "top", "front", "back", "left" or "right"
+        camera      instead of view: a camera file (JSON)
+        technique   "points", "splats", "spheres" or "ewa"
+        style       a file of styles (JSON)
+        classes     numbers of object classes
+        where       a condition on attributes
+        error       projected point spacing to refine to, in pixels
+        background  (red, green, blue), 0 to 255
+        options     others of `pointfront render` in snake case: edl=True, point_size=3 ...
+
+        Returns a Picture: `.pixels` are height by width by 3, uint8. Raises PointFrontError.
+        """
+        self._opened()
+        classes = [classes] if isinstance(classes, int) else classes
+        options.update(color_by=color_by, view=view, camera=camera, technique=technique,
+                       style=style, classes=classes, where=where, error=error,
+                       background=background)
+        return _pictures.draw(self.path, path, size, options)
+
+    def show(self, *, size=(1280, 720), title=None):
+        """Show the cloud in a window until the user closes it. Raises PointFrontError without a
+        display: use screenshot() there.
+        """
+        if os.name == "posix" and not os.environ.get("DISPLAY"):
+            raise PointFrontError("there is no display (DISPLAY is not set); use screenshot()")
+        from .pointfrontRenderingCore import vtkPointFrontMapper
+        from .pointfrontRenderingOpenGL2 import vtkOpenGLPointFrontMapper  # registers the drawing
+
+        _host.vtk("vtkInteractionStyle")
+        _host.vtk("vtkRenderingUI")
+        core = _host.vtk("vtkRenderingCore")
+        reader = vtkPointFrontReader()
+        reader.SetFileName(self.path)
+        mapper = vtkPointFrontMapper()
+        assert isinstance(mapper, vtkOpenGLPointFrontMapper)
+        mapper.SetInputConnection(reader.GetOutputPort())
+        actor = core.vtkActor()
+        actor.SetMapper(mapper)
+        renderer = core.vtkRenderer()
+        renderer.AddActor(actor)
+        window = core.vtkRenderWindow()
+        window.SetSize(*size)
+        window.SetWindowName(title or self.path)
+        window.AddRenderer(renderer)
+        interactor = window.MakeRenderWindowInteractor()
+        interactor.Initialize()
+        mapper.RenderWhenDataArrives(interactor)
+        window.Render()
+        interactor.Start()
+        mapper.RenderWhenDataArrives(None)
+
+
+def _six(box):
+    numbers = [float(number) for corner in box
+               for number in (corner if hasattr(corner, "__len__") else (corner,))]
+    if len(numbers) != 6:
+        raise ValueError(f"a box has six numbers, ((x0, y0, z0), (x1, y1, z1)), not {len(numbers)}")
+    return numbers
+
+
+def _set_options(algorithm, options):
+    for name, value in options.items():
+        setter = "Set" + "".join(word.capitalize() for word in name.split("_"))
+        if not hasattr(algorithm, setter):
+            raise TypeError(f"there is no option '{name}', for there is no {setter}")
+        getattr(algorithm, setter)(value)
 
 
 def open(path):  # as in gzip.open: the module's name says what

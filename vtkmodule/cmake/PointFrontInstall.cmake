@@ -14,7 +14,11 @@ foreach (family IN ITEMS EPT LAS PCD PLY PNG StyleJSON Text)
       FILES_MATCHING PATTERN "*.h" PATTERN "Testing" EXCLUDE PATTERN "vtk*.h" EXCLUDE)
   endif ()
 endforeach ()
-foreach (filter IN ITEMS Attributes Normals Projection ImageColor)
+set(filters Attributes Normals Projection)
+if (POINTFRONT_IMAGE_COLOR)
+  list(APPEND filters ImageColor)
+endif ()
+foreach (filter IN LISTS filters)
   list(APPEND pointfront_kernel_libraries pointfrontFilters${filter})
   install(DIRECTORY "${CMAKE_CURRENT_SOURCE_DIR}/Filters/${filter}/"
     DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/pointfront/Filters" COMPONENT Development
@@ -34,8 +38,10 @@ install(EXPORT PointFrontKernel NAMESPACE PointFront:: FILE PointFrontKernel-tar
 export(EXPORT PointFrontKernel NAMESPACE PointFront::
   FILE "${CMAKE_BINARY_DIR}/${pointfront_package_folder}/PointFrontKernel-targets.cmake")
 
-install(FILES "${CMAKE_CURRENT_SOURCE_DIR}/LICENSE" "${CMAKE_CURRENT_SOURCE_DIR}/CHANGELOG.md"
-  DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT Runtime)
+if (NOT POINTFRONT_WHEEL) # its metadata have them
+  install(FILES "${CMAKE_CURRENT_SOURCE_DIR}/LICENSE" "${CMAKE_CURRENT_SOURCE_DIR}/CHANGELOG.md"
+    DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT Runtime)
+endif ()
 
 # The package names exactly what it was built with: VTK's C++ interface changes between releases.
 set(pointfront_vtk_version "")
@@ -60,9 +66,14 @@ install(FILES
 if (POINTFRONT_HOST STREQUAL "VTK" AND POINTFRONT_WRAP_PYTHON)
   set(from "${CMAKE_CURRENT_SOURCE_DIR}/vtkmodule/Python")
   set(to "${CMAKE_BINARY_DIR}/${pointfront_python_folder}/pointfront")
-  set(package_files _version.py)
-  configure_file("${from}/_version.py.in" "${to}/_version.py" @ONLY)
-  foreach (file IN ITEMS __init__.py __init__.pyi _calls.py _clouds.py py.typed)
+  file(RELATIVE_PATH pointfront_tool_path "/${pointfront_python_folder}/pointfront"
+    "/${CMAKE_INSTALL_BINDIR}/pointfront")
+  set(package_files _version.py _host.py)
+  foreach (file IN LISTS package_files)
+    configure_file("${from}/${file}.in" "${to}/${file}" @ONLY)
+  endforeach ()
+  foreach (file IN ITEMS __init__.py __init__.pyi __main__.py _calls.py _classes.py _clouds.py
+      _errors.py _pictures.py _plotting.py _progress.py py.typed)
     configure_file("${from}/${file}" "${to}/${file}" COPYONLY)
     list(APPEND package_files "${file}")
   endforeach ()
@@ -76,4 +87,14 @@ if (POINTFRONT_HOST STREQUAL "VTK" AND POINTFRONT_WRAP_PYTHON)
         "POINTFRONT_SHARED_DATA=${POINTFRONT_SHARED_DATA}"
         "${Python3_EXECUTABLE}" -B "${from}/Testing/test_package.py")
   endif ()
+endif ()
+
+# What a wheel has besides: its command, and PROJ's coordinate systems, which no system gives it.
+if (POINTFRONT_WHEEL)
+  install(FILES "${CMAKE_CURRENT_SOURCE_DIR}/vtkmodule/Python/pointfront_tool.py" DESTINATION "."
+    COMPONENT Runtime)
+  find_file(POINTFRONT_PROJ_DATABASE proj.db PATH_SUFFIXES share/proj proj REQUIRED
+    HINTS "${PROJ_DIR}/../../.." "${PROJ_DIR}/../../../.." PATHS /usr /usr/local)
+  install(FILES "${POINTFRONT_PROJ_DATABASE}" DESTINATION "${CMAKE_INSTALL_LIBDIR}/proj"
+    COMPONENT Runtime)
 endif ()

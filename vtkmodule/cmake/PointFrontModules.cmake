@@ -59,6 +59,7 @@ elseif (POINTFRONT_WRAP_PYTHON)
     MODULE_DESTINATION "${pointfront_python_folder}"
     CMAKE_DESTINATION "${CMAKE_INSTALL_LIBDIR}/cmake/PointFront"
     BUILD_STATIC OFF
+    COMPONENT Runtime
     TARGET PointFront::pythonmodules)
 endif ()
 

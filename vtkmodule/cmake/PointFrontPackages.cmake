@@ -10,29 +10,38 @@ find_package(LASzip REQUIRED)                # LASzip::LASzip
 find_package(PROJ CONFIG REQUIRED)           # PROJ::proj
 find_package(TIFF REQUIRED)                  # TIFF::TIFF
 find_package(PNG REQUIRED)                   # PNG::PNG
-find_package(OpenImageIO CONFIG REQUIRED)    # OpenImageIO::OpenImageIO
-# Debian's targets name a folder that is not there, which CMake refuses.
-foreach (target IN ITEMS OpenImageIO::OpenImageIO OpenImageIO::OpenImageIO_Util)
-  get_target_property(folders ${target} INTERFACE_INCLUDE_DIRECTORIES)
-  set(present "")
-  foreach (folder IN LISTS folders)
-    if (EXISTS "${folder}")
-      list(APPEND present "${folder}")
-    endif ()
+if (POINTFRONT_IMAGE_COLOR)
+  find_package(OpenImageIO CONFIG REQUIRED)    # OpenImageIO::OpenImageIO
+  # Debian's targets name a folder that is not there, which CMake refuses.
+  foreach (target IN ITEMS OpenImageIO::OpenImageIO OpenImageIO::OpenImageIO_Util)
+    get_target_property(folders ${target} INTERFACE_INCLUDE_DIRECTORIES)
+    set(present "")
+    foreach (folder IN LISTS folders)
+      if (EXISTS "${folder}")
+        list(APPEND present "${folder}")
+      endif ()
+    endforeach ()
+    set_target_properties(${target} PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "${present}")
   endforeach ()
-  set_target_properties(${target} PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "${present}")
-endforeach ()
+endif ()
 
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(POINTFRONT_LZ4 REQUIRED IMPORTED_TARGET liblz4) # what FLANN's headers call
 
-# VTK first: a find_package(Python3) before it would find another Python than Debian's.
+# VTK first: a find_package(Python3) before it would find another Python than VTK's.
 if (POINTFRONT_HOST STREQUAL "VTK")
   find_package(VTK 9.1 REQUIRED COMPONENTS
     CommonCore CommonDataModel CommonExecutionModel CommonMath CommonTransforms
     FiltersCore ImagingCore InteractionStyle IOImage
-    RenderingAnnotation RenderingCore RenderingOpenGL2 RenderingUI TestingRendering glew opengl
-    WrappingPythonCore Python WrappingTools)
+    RenderingAnnotation RenderingCore RenderingOpenGL2 RenderingUI
+    WrappingPythonCore Python WrappingTools
+    OPTIONAL_COMPONENTS glad glew opengl) # glad since VTK 9.4, the two others before
+  # The Python package that VTK's own classes are in: vtkmodules, or another build's name.
+  get_property(pointfront_vtk_package TARGET VTK::CommonCore
+    PROPERTY INTERFACE_vtk_module_python_package)
+  if (POINTFRONT_WHEEL) # VTK's libraries lie in its own package, beside ours
+    list(APPEND CMAKE_INSTALL_RPATH "$ORIGIN/../${pointfront_vtk_package}")
+  endif ()
 elseif (POINTFRONT_HOST STREQUAL "ParaView")
   # Debian's package config works through the shadow prefix that scripts/paraview-prefix makes.
   file(GLOB pointfront_paraview_prefix

@@ -45,7 +45,7 @@ function (pointfront_add_module_test name)
   add_executable(${name} ${sources})
   pointfront_compile_by_folder(${name})
   target_include_directories(${name} PRIVATE "${CMAKE_CURRENT_SOURCE_DIR}/Cxx"
-    "${CMAKE_SOURCE_DIR}/vtkmodule/Core/Testing")
+    "${CMAKE_SOURCE_DIR}/vtkmodule/Core/Testing" "${CMAKE_SOURCE_DIR}/Testing/Support")
   target_link_libraries(${name} PRIVATE ${test_MODULES} pointfrontWarnings GTest::gtest_main)
   vtk_module_autoinit(TARGETS ${name} MODULES ${test_MODULES})
   if (test_SUITES)

@@ -1,11 +1,14 @@
 """The Python package: calls that raise, a free interpreter, interrupts, versions, stubs."""
 
 import ast
+import inspect
 import os
 import pathlib
 import shutil
 import signal
 import struct
+import subprocess
+import sys
 import tempfile
 import threading
 import time
@@ -26,10 +29,11 @@ class Package(unittest.TestCase):
 
     def test_version_and_documentation(self):
         self.assertRegex(pointfront.__version__, r"^[0-9]+[.][0-9]+[.][0-9]+$")
-        for name in ("build", "index", "open", "Cloud", "BuildReport", "PointFrontError"):
+        for name in ("build", "index", "open", "Cloud", "BuildReport", "Picture",
+                     "PointFrontError"):
             self.assertTrue(getattr(pointfront, name).__doc__, name)
 
-    def test_stubs_name_what_there_is(self):
+    def test_pyi_names_what_there_is(self):
         folder = pathlib.Path(pointfront.__file__).parent
         self.assertTrue((folder / "py.typed").exists())
         tree = ast.parse((folder / "__init__.pyi").read_text())
@@ -41,8 +45,14 @@ class Package(unittest.TestCase):
             self.assertTrue(hasattr(pointfront, name), name)
         for node in tree.body:
             if isinstance(node, ast.ClassDef) and node.name == "Cloud":
-                for member in node.body:
-                    self.assertTrue(hasattr(pointfront.Cloud, member.name), member.name)
+                written_down = {member.name: member for member in node.body}
+        for name, declared in written_down.items():
+            function = getattr(pointfront.Cloud, name)
+            if not isinstance(function, property) and name != "__exit__":
+                given = inspect.signature(function).parameters
+                written = {a.arg for a in declared.args.args + declared.args.kwonlyargs}
+                named = {n for n, p in given.items() if p.kind is not p.VAR_KEYWORD}
+                self.assertLessEqual(named, written, name)
 
     def test_build_open_query(self):
         phases = []
@@ -53,16 +63,88 @@ class Package(unittest.TestCase):
         cloud = pointfront.open(self.folder / "a.pfront")
         self.assertEqual(len(cloud), 1065)
         self.assertIn("intensity", cloud.attributes)
-        arrays = cloud.query()
+        arrays = cloud.points()
         self.assertEqual(arrays["position"].shape, (1065, 3))
         self.assertEqual(arrays["position"].dtype, numpy.float64)
         low, high = cloud.bounds
         numpy.testing.assert_allclose(arrays["position"].min(axis=0), low)
         numpy.testing.assert_allclose(arrays["position"].max(axis=0), high)
-        bright = cloud.query(where="intensity > 100")
+        bright = cloud.points(where="intensity > 100")
         self.assertEqual(len(bright["id"]), int((arrays["intensity"] > 100).sum()))
         again = pointfront.build(self.folder / "a.pfront", self.folder / "b.pfront")
         self.assertEqual(again.points_stored, 1065)
+
+    def test_regions(self):
+        pointfront.build(SMALL, self.folder / "a.pfront", node_points=64)
+        with pointfront.open(self.folder / "a.pfront") as cloud:
+            everything = cloud.points()
+            xyz = everything["position"]
+            low, high = numpy.percentile(xyz, [25, 75], axis=0)
+            inside = ((xyz >= low) & (xyz <= high)).all(axis=1)
+            self.assertTrue(0 < inside.sum() < len(xyz))
+            for box in ((low, high), [*low, *high]):
+                found = cloud.points(box=box)
+                self.assertEqual(set(found["id"]), set(everything["id"][inside]))
+            center = xyz.mean(axis=0)
+            near = numpy.linalg.norm(xyz - center, axis=1) <= 100
+            self.assertTrue(0 < near.sum() < len(xyz))
+            self.assertEqual(len(cloud.points(sphere=(center, 100))["id"]), near.sum())
+            thin = cloud.points(spacing=500, attributes="intensity")
+            self.assertEqual(set(thin), {"position", "id", "intensity"})
+            self.assertTrue(0 < len(thin["id"]) < len(xyz))
+            none = cloud.points(where="intensity > 65000")
+            self.assertEqual(none["position"].shape, (0, 3))
+            with self.assertRaises(ValueError):
+                cloud.points(box=(1, 2, 3))
+            with self.assertRaisesRegex(pointfront.PointFrontError, "colour"):
+                cloud.points(attributes=["colour"])
+            with self.assertRaisesRegex(TypeError, "colour"):
+                cloud.points(colour=1)
+        self.assertEqual(len(everything["id"]), 1065)  # arrays outlive the cloud
+        with self.assertRaisesRegex(pointfront.PointFrontError, "closed"):
+            cloud.points()
+        with self.assertRaisesRegex(pointfront.PointFrontError, "closed"):
+            len(cloud)
+
+    def test_information(self):
+        pointfront.build(SMALL, self.folder / "a.pfront")
+        told = pointfront.open(self.folder / "a.pfront").info
+        self.assertEqual(told["points"], 1065)
+        self.assertIn("intensity", [a["name"] for a in told["attributes"]])
+
+    def test_a_picture_needs_no_display(self):
+        pointfront.build(SMALL, self.folder / "a.pfront")
+        cloud = pointfront.open(self.folder / "a.pfront")
+        display = os.environ.pop("DISPLAY", None)
+        try:
+            picture = cloud.screenshot(self.folder / "a.png", size=(64, 48), point_size=3,
+                                       background=(0, 0, 255), view="top")
+            with self.assertRaisesRegex(pointfront.PointFrontError, "screenshot"):
+                cloud.show()
+        finally:
+            if display is not None:
+                os.environ["DISPLAY"] = display
+        self.assertEqual((self.folder / "a.png").read_bytes(), picture._repr_png_())
+        self.assertEqual(picture.pixels.shape, (48, 64, 3))
+        blue = (picture.pixels == (0, 0, 255)).all(axis=2)
+        self.assertTrue(0 < blue.sum() < blue.size)
+        self.assertTrue((numpy.asarray(picture) == picture.pixels).all())
+        with self.assertRaisesRegex(pointfront.PointFrontError, "sideways"):
+            cloud.screenshot(view="sideways")
+
+    def test_an_actor_made_first_can_be_drawn(self):
+        code = ("import importlib, pointfront; "
+                "core = importlib.import_module(pointfront.VTK_PACKAGE + '.vtkRenderingCore'); "
+                "name = core.vtkActor().GetClassName(); assert name == 'vtkOpenGLActor', name")
+        subprocess.run([sys.executable, "-c", code], check=True)
+
+    def test_the_tool_is_a_module(self):
+        run = subprocess.run([sys.executable, "-m", "pointfront", "--version"],
+                             capture_output=True, text=True, check=True)
+        self.assertIn(pointfront.__version__, run.stdout)
+        run = subprocess.run([sys.executable, "-m", "pointfront", "info", "none.pfront"],
+                             capture_output=True, text=True)
+        self.assertNotEqual(run.returncode, 0)
 
     def test_lists_folders_and_trees_open(self):
         pointfront.build(SMALL, self.folder / "a.pfront")
@@ -89,7 +171,7 @@ class Package(unittest.TestCase):
         with self.assertRaises(pointfront.PointFrontError):
             pointfront.open(self.folder / "none.pfront")
         with self.assertRaises(pointfront.PointFrontError):
-            pointfront.open(self.folder / "a.pfront").query(where="nothing > 1")
+            pointfront.open(self.folder / "a.pfront").points(where="nothing > 1")
         with self.assertRaisesRegex(TypeError, "colour"):
             pointfront.build(SMALL, self.folder / "b.pfront", colour=1)
         with self.assertRaisesRegex(ValueError, "tree"):
@@ -120,6 +202,32 @@ class Package(unittest.TestCase):
         done.set()
         thread.join()
         self.assertGreater(len(ticks), 20 * seconds)  # 100 a second where nothing else runs
+
+    def test_a_query_is_watched_and_stopped(self):
+        store = self.folder / "a.pfront"
+        pointfront.build(LARGE, store, preview=False)
+        with pointfront.open(store) as cloud:
+            fractions = []
+            cloud.points(attributes=["intensity"], progress=lambda _, f: fractions.append(f))
+            self.assertEqual(fractions, sorted(fractions))
+            self.assertGreater(len(fractions), 3)
+            with self.assertRaisesRegex(pointfront.PointFrontError, "stopped"):
+                cloud.points(progress=lambda *_: False)
+            ticks = []
+            done = threading.Event()
+
+            def tick():
+                while not done.wait(0.01):
+                    ticks.append(time.monotonic())
+
+            thread = threading.Thread(target=tick)
+            thread.start()
+            begin = time.monotonic()
+            cloud.points()
+            seconds = time.monotonic() - begin
+            done.set()
+            thread.join()
+            self.assertGreater(len(ticks), 10 * seconds)
 
     def interrupted(self, work):
         timer = threading.Timer(0.4, os.kill, (os.getpid(), signal.SIGINT))

@@ -1,3 +1,4 @@
+#include "ErrorObserver.h"
 #include "vtkPointFrontBuilder.h"
 #include "vtkPointFrontExtract.h"
 #include "vtkPointFrontReader.h"
@@ -12,7 +13,6 @@
 #include <vtkPlanes.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
-#include <vtkTestErrorObserver.h>
 
 #include <gtest/gtest.h>
 
@@ -165,7 +165,7 @@ TEST_F(Extract, ASpacingThinsOutAndALimitIsKept)
   const vtkIdType points = updated()->GetNumberOfPoints();
   EXPECT_GT(points, 100);
   EXPECT_LT(points, whole()->GetNumberOfPoints() / 4);
-  vtkNew<vtkTest::ErrorObserver> errors;
+  vtkNew<ErrorObserver> errors;
   filter->AddObserver(vtkCommand::ErrorEvent, errors);
   filter->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, errors);
   filter->SetMaximumNumberOfPoints(points - 1);
@@ -226,7 +226,7 @@ TEST_F(Extract, GivesPointsByTheirIds)
   picked->GetPoint(1, p);
   whole()->GetPoint(77, q);
   EXPECT_TRUE(p[0] == q[0] && p[1] == q[1] && p[2] == q[2]);
-  vtkNew<vtkTest::ErrorObserver> errors;
+  vtkNew<ErrorObserver> errors;
   filter->AddObserver(vtkCommand::ErrorEvent, errors);
   filter->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, errors);
   wanted->InsertNextValue(-1);
@@ -274,7 +274,7 @@ TEST_F(Extract, TellsProgressAndStopsWhenItIsAborted)
 
 TEST_F(Extract, SaysWhatIsWrong)
 {
-  vtkNew<vtkTest::ErrorObserver> errors;
+  vtkNew<ErrorObserver> errors;
   filter->AddObserver(vtkCommand::ErrorEvent, errors);
   filter->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, errors);
   const auto said = [&](const char* part)

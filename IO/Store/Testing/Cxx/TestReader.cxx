@@ -1,3 +1,4 @@
+#include "ErrorObserver.h"
 #include "TestBuildClouds.h"
 
 #include "pointfront/Build/StoreBuilder.h"
@@ -15,7 +16,6 @@
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
-#include <vtkTestErrorObserver.h>
 
 #include <gtest/gtest.h>
 
@@ -309,8 +309,8 @@ TEST(Reader, FiltersWorkOnTheOverview)
 TEST(Reader, ErrorsHaveACodeAndAReason)
 {
   vtkNew<vtkPointFrontReader> reader;
-  vtkNew<vtkTest::ErrorObserver> errors;
-  vtkNew<vtkTest::ErrorObserver> pipeline;
+  vtkNew<ErrorObserver> errors;
+  vtkNew<ErrorObserver> pipeline;
   reader->AddObserver(vtkCommand::ErrorEvent, errors);
   reader->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, pipeline);
   reader->Update();
@@ -443,7 +443,7 @@ TEST(Reader, SeveralStoresAreTimeSteps)
   EXPECT_FALSE(info->Has(vtkStreamingDemandDrivenPipeline::TIME_STEPS()));
   EXPECT_EQ(reader->GetOutput()->GetNumberOfPoints(), 3000);
 
-  vtkNew<vtkTest::ErrorObserver> errors;
+  vtkNew<ErrorObserver> errors;
   reader->AddObserver(vtkCommand::ErrorEvent, errors);
   reader->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, errors);
   reader->AddFileName((::testing::TempDir() + "gone.pfront").c_str());

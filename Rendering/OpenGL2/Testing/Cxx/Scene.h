@@ -1,5 +1,6 @@
 #pragma once
 
+#include "OpenGLFunctions.h"
 #include "TestBuildClouds.h"
 
 #include "pointfront/Build/StoreBuilder.h"
@@ -7,8 +8,6 @@
 #include "vtkOpenGLPointFrontMapper.h"
 #include "vtkPointFrontReader.h"
 #include "vtkPointFrontStore.h"
-
-#include <vtk_glew.h>
 
 #include <vtkActor.h>
 #include <vtkCamera.h>

@@ -1,3 +1,4 @@
+#include "ErrorObserver.h"
 #include "Scene.h"
 
 #include <vtkCameraPass.h>
@@ -13,7 +14,6 @@
 #include <vtkSelection.h>
 #include <vtkSelectionNode.h>
 #include <vtkSSAOPass.h>
-#include <vtkTestErrorObserver.h>
 
 using namespace pointfront;
 using namespace pointfront::test;
@@ -159,7 +159,7 @@ TEST(Citizenship, AnInputWithoutAStoreIsAnErrorNotACrash)
   nameless->DeepCopy(scene.reader->GetOutput());
   nameless->GetFieldData()->Initialize();
   scene.mapper->SetInputData(nameless);
-  vtkNew<vtkTest::ErrorObserver> errors;
+  vtkNew<ErrorObserver> errors;
   scene.mapper->AddObserver(vtkCommand::ErrorEvent, errors);
   EXPECT_EQ(scene.draw().lit(), 0);
   EXPECT_TRUE(errors->GetError());
@@ -171,7 +171,7 @@ TEST(Citizenship, AnUnknownAttributeIsNamedInAWarning)
   Scene scene(planeStore("unknown", 3, 500));
   scene.mapper->SetScalarModeToUsePointFieldData();
   scene.mapper->SelectColorArray("temperature");
-  vtkNew<vtkTest::ErrorObserver> warnings;
+  vtkNew<ErrorObserver> warnings;
   scene.mapper->AddObserver(vtkCommand::WarningEvent, warnings);
   EXPECT_EQ(scene.draw().lit(), 9); // drawn in the property's colour
   EXPECT_NE(warnings->GetWarningMessage().find("temperature"), std::string::npos);

@@ -1,0 +1,80 @@
+"""Installs a wheel into a fresh environment and uses it as somebody would who has nothing else.
+
+    check_wheel.py WHEEL
+"""
+
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import zipfile
+
+ROOT = pathlib.Path(__file__).resolve().parents[3]
+CLOUD = ROOT / "Testing/Data/autzen_stadium.laz"
+LARGEST = 25 * 1000 * 1000  # bytes
+
+
+def without_display(folder):
+    keep = {name: os.environ[name] for name in ("HOME", "LANG", "PIP_CERT", "PIP_FIND_LINKS")
+            if name in os.environ}
+    return {**keep, "PATH": f"{folder}/bin:/usr/bin:/bin"}
+
+
+def check_contents(wheel):
+    size = wheel.stat().st_size
+    assert size < LARGEST, f"{wheel.name} has {size} bytes"
+    names = zipfile.ZipFile(wheel).namelist()
+    for name in ("pointfront/py.typed", "pointfront/__init__.pyi", "pointfront/pointfront",
+                 "pointfront/proj/proj.db"):
+        assert name in names, name
+    assert any(name.endswith("licenses/LICENSE") for name in names)
+    assert any("licenses/third-party/libproj" in name for name in names)
+    strangers = [name for name in names if "libvtk" in name]
+    assert not strangers, strangers  # a second VTK in the process
+    print(f"{wheel.name}: {size / 1e6:.1f} MB, {len(names)} files")
+
+
+USE = """
+import pathlib, sys
+import pointfront
+
+report = pointfront.build(sys.argv[1], "a.pfront", normals="pca", assumed_crs="EPSG:2994")
+with pointfront.open("a.pfront") as cloud:
+    assert len(cloud) == report.points_stored == 174151, report
+    assert "2994" in cloud.info["crs"], cloud.info["crs"]
+    assert cloud.points(where="classification == 2")["position"].shape[1] == 3
+    pixels = cloud.screenshot("a.png", size=(320, 200)).pixels
+    assert pixels.shape == (200, 320, 3) and pixels.std() > 5
+try:
+    pointfront.build(sys.argv[1], "b.pfront", color_from="a.png")
+    raise SystemExit("images were read")
+except pointfront.PointFrontError as error:
+    assert "OpenImageIO" in str(error), error
+maps = pathlib.Path("/proc/self/maps").read_text()
+vtks = {line.split("/")[-1] for line in maps.splitlines() if "libvtkCommon" in line}
+assert len(vtks) == 1, vtks
+assert "libX11" not in maps and "libGL" not in maps, "X or GL is loaded"
+"""
+
+
+def check_use(wheel):
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        environment = folder / "environment"
+        subprocess.run([sys.executable, "-m", "venv", environment], check=True)
+        variables = without_display(environment)
+
+        def run(*command):
+            subprocess.run(list(map(str, command)), check=True, cwd=folder, env=variables)
+
+        run("python", "-m", "pip", "install", "-q", "--disable-pip-version-check", wheel.resolve())
+        run("pointfront", "--version")
+        run("python", "-m", "pointfront", "--version")
+        run("python", "-c", USE, CLOUD)
+
+
+wheel = pathlib.Path(sys.argv[1])
+check_contents(wheel)
+check_use(wheel)
+print("the wheel works")

@@ -1,0 +1,17 @@
+"""The command line tool: `pointfront` and `python -m pointfront`."""
+
+import os
+import sys
+
+from ._host import TOOL
+
+
+def main():
+    """Becomes the tool, with this process's arguments."""
+    if not TOOL.exists():
+        sys.exit(f"pointfront: the tool is not installed: there is no {TOOL}")
+    os.execv(TOOL, ["pointfront", *sys.argv[1:]])
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,109 @@
+"""Pictures drawn by the tool: in software, without a display and without OpenGL."""
+
+import pathlib
+import signal
+import subprocess
+import tempfile
+import zlib
+
+import numpy
+
+from ._errors import PointFrontError
+from ._host import TOOL
+
+_SIGNATURE = b"\x89PNG\r\n\x1a\n"
+
+
+class Picture:
+    """A picture as PNG. A notebook shows it.
+
+    png  its bytes
+    """
+
+    def __init__(self, png):
+        self.png = png
+
+    def _repr_png_(self):
+        return self.png
+
+    def save(self, path):
+        """Write the PNG file."""
+        pathlib.Path(path).write_bytes(self.png)
+
+    @property
+    def pixels(self):
+        """Rows from the top: height by width by 3, uint8, red green blue."""
+        width, height, channels, rows = _rows_of(self.png)
+        raw = numpy.frombuffer(rows, numpy.uint8).reshape(height, 1 + width * channels)
+        if raw[:, 0].any():
+            raise PointFrontError("this PNG was not written by PointFront: its rows are filtered")
+        return raw[:, 1:].reshape(height, width, channels)[:, :, :3]
+
+    def __array__(self, dtype=None, copy=None):
+        return numpy.array(self.pixels, dtype=dtype)
+
+    def __repr__(self):
+        width, height = _size_of(self.png)
+        return f"<Picture {width}x{height}, {len(self.png)} bytes of PNG>"
+
+
+def _size_of(png):
+    return int.from_bytes(png[16:20], "big"), int.from_bytes(png[20:24], "big")
+
+
+def _rows_of(png):
+    if png[:8] != _SIGNATURE:
+        raise PointFrontError("these bytes are no PNG")
+    width, height = _size_of(png)
+    depth, kind = png[24], png[25]
+    if depth != 8 or kind not in (2, 6):
+        raise PointFrontError(f"a PNG of depth {depth} and kind {kind} is none of PointFront's")
+    at, data = 8, []
+    while at < len(png):
+        length = int.from_bytes(png[at:at + 4], "big")
+        if png[at + 4:at + 8] == b"IDAT":
+            data.append(png[at + 8:at + 8 + length])
+        at += 12 + length
+    return width, height, 3 if kind == 2 else 4, zlib.decompress(b"".join(data))
+
+
+def run_tool(arguments):
+    """What the tool prints. Raises PointFrontError with what it says; Ctrl-C ends it, too."""
+    try:
+        tool = subprocess.Popen([TOOL, *map(str, arguments)], stdin=subprocess.DEVNULL,
+                                stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    except OSError as problem:
+        raise PointFrontError(f"the tool cannot be run: {problem}") from None
+    try:
+        output, said = tool.communicate()
+    except BaseException:  # an interrupt: the tool leaves nothing behind when it is asked to end
+        tool.send_signal(signal.SIGINT)
+        tool.wait()
+        raise
+    if tool.returncode != 0:
+        text = said.decode(errors="replace").strip()
+        raise PointFrontError(text or f"the tool ended with status {tool.returncode}")
+    return output
+
+
+def draw(path, output, size, options):
+    """A Picture of a stored cloud; also written to `output` unless that is None."""
+    width, height = size
+    arguments = ["render", path, "--size", f"{int(width)}x{int(height)}"]
+    for name, value in options.items():
+        if value is None or value is False:
+            continue
+        flag = "--" + name.replace("_", "-")
+        if value is True:
+            arguments.append(flag)
+        elif isinstance(value, (tuple, list)):
+            arguments += [flag, ",".join(map(str, value))]
+        else:
+            arguments += [flag, value]
+    with tempfile.TemporaryDirectory(prefix="pointfront-") as folder:
+        file = pathlib.Path(folder) / "picture.png"
+        run_tool([*arguments, "-o", file])
+        picture = Picture(file.read_bytes())
+    if output is not None:
+        picture.save(output)
+    return picture

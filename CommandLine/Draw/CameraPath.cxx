@@ -86,7 +86,7 @@ Result<KeyCamera> keyCameraFromJson(const nlohmann::json& entry, const std::stri
 
 CameraPath orbitPath(const PathSubject& subject, int frames)
 {
-  Camera start = cameraFitting(subject.bounds, NamedView::Iso, subject.aspect);
+  Camera start = cameraFitting(subject.bounds, ViewDirection::Iso, subject.aspect);
   const glm::dvec3 arm = start.position - start.focalPoint;
   start.focalPoint = subject.bounds.empty() ? glm::dvec3(0.0) : subject.bounds.centre();
   CameraPath path;
@@ -107,7 +107,7 @@ CameraPath orbitPath(const PathSubject& subject, int frames)
 CameraPath zoomPath(const PathSubject& subject, int frames)
 {
   const double nearest = 0.02;
-  Camera camera = cameraFitting(subject.bounds, NamedView::Iso, subject.aspect);
+  Camera camera = cameraFitting(subject.bounds, ViewDirection::Iso, subject.aspect);
   const glm::dvec3 arm = camera.position - camera.focalPoint;
   camera.focalPoint = subject.bounds.empty() ? glm::dvec3(0.0) : subject.bounds.centre();
   camera.focalPoint.z = subject.ground;

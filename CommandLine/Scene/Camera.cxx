@@ -21,22 +21,22 @@ struct Axes
   glm::dvec3 up;
 };
 
-Axes axesOf(NamedView view)
+Axes axesOf(ViewDirection view)
 {
   const glm::dvec3 z(0.0, 0.0, 1.0);
   switch (view)
   {
-    case NamedView::Top:
+    case ViewDirection::Top:
       return { z, { 0.0, 1.0, 0.0 } };
-    case NamedView::Front:
+    case ViewDirection::Front:
       return { { 0.0, -1.0, 0.0 }, z };
-    case NamedView::Back:
+    case ViewDirection::Back:
       return { { 0.0, 1.0, 0.0 }, z };
-    case NamedView::Left:
+    case ViewDirection::Left:
       return { { -1.0, 0.0, 0.0 }, z };
-    case NamedView::Right:
+    case ViewDirection::Right:
       return { { 1.0, 0.0, 0.0 }, z };
-    case NamedView::Iso:
+    case ViewDirection::Iso:
       break;
   }
   return { { 1.0, -1.0, 1.0 }, z };
@@ -73,11 +73,12 @@ glm::dvec3 Camera::direction() const
   return glm::normalize(focalPoint - position);
 }
 
-std::optional<NamedView> namedView(const std::string& name)
+std::optional<ViewDirection> namedView(const std::string& name)
 {
-  static const std::pair<const char*, NamedView> names[] = { { "iso", NamedView::Iso },
-    { "top", NamedView::Top }, { "front", NamedView::Front }, { "back", NamedView::Back },
-    { "left", NamedView::Left }, { "right", NamedView::Right } };
+  static const std::pair<const char*, ViewDirection> names[] = { { "iso", ViewDirection::Iso },
+    { "top", ViewDirection::Top }, { "front", ViewDirection::Front },
+    { "back", ViewDirection::Back }, { "left", ViewDirection::Left },
+    { "right", ViewDirection::Right } };
   for (const auto& [known, view] : names)
   {
     if (name == known)
@@ -88,7 +89,7 @@ std::optional<NamedView> namedView(const std::string& name)
   return std::nullopt;
 }
 
-Camera cameraFitting(const Bounds& bounds, NamedView view, double aspect)
+Camera cameraFitting(const Bounds& bounds, ViewDirection view, double aspect)
 {
   const double margin = 1.04;
   Camera camera;

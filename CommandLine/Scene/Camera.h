@@ -32,7 +32,7 @@ inline bool operator==(const Camera& a, const Camera& b)
 }
 
 /// From where `--view` looks.
-enum class NamedView
+enum class ViewDirection
 {
   Iso, ///< from the south-east, 35 degrees above the horizon; z is up
   Top, ///< straight down; north (y) is up in the picture
@@ -41,11 +41,11 @@ enum class NamedView
   Left, ///< from the west
   Right
 };
-std::optional<NamedView> namedView(const std::string& name);
+std::optional<ViewDirection> namedView(const std::string& name);
 
 /// A perspective camera that shows all of the box, as large as fits with a margin of 4 %.
 /// `aspect` is width / height of the picture.
-Camera cameraFitting(const Bounds& bounds, NamedView view, double aspect);
+Camera cameraFitting(const Bounds& bounds, ViewDirection view, double aspect);
 
 /// Reads {"position":[x,y,z],"focal_point":[x,y,z],"view_up":[x,y,z],"view_angle":30}, or with
 /// "parallel_scale" instead of "view_angle".

@@ -71,7 +71,7 @@ void DrawnStore::enterWindow(std::shared_ptr<const WindowDemand> window)
     *share_, cloud_->description().schema, std::move(window));
 }
 
-const FrontDelta& DrawnStore::update(FrameDemand demand)
+const FrontDelta& DrawnStore::update(FrameRequest demand)
 {
   demand.columns = columns_;
   demand.layers = limits_;

@@ -34,7 +34,7 @@ public:
   void enterWindow(std::shared_ptr<const WindowDemand> window);
 
   /// Moves the front on; `demand` lacks what is the store's own: its columns and layers.
-  const FrontDelta& update(FrameDemand demand);
+  const FrontDelta& update(FrameRequest demand);
   const FrontDelta& last() const { return front_->last(); }
   /// What the last update draws; `moment`: how it grows. A view that is to be complete at once does
   /// not.
@@ -70,7 +70,7 @@ private:
   double tallestWall_ = 0.0; ///< of the styles
   LayerColumns columns_; ///< that the styles read
   std::vector<LayerLimits> limits_; ///< that they set
-  FrameDemand demand_; ///< of the last update
+  FrameRequest demand_; ///< of the last update
   Clock::time_point drawnAt_; ///< end of the last frame
   double frameMs_ = 0.0; ///< what it took
   bool ahead_ = false; ///< the front was moved since

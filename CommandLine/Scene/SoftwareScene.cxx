@@ -283,9 +283,9 @@ void SoftwareScene::setCamera(const Camera& camera)
 }
 
 /// But for what each store adds of its own.
-FrameDemand SoftwareScene::demand(const View& view, bool complete) const
+FrameRequest SoftwareScene::demand(const View& view, bool complete) const
 {
-  FrameDemand demand;
+  FrameRequest demand;
   demand.method =
     options_.detail == "view" ? DetailMethod::ViewSpecific : DetailMethod::RenderingFront;
   demand.view = view;
@@ -302,7 +302,7 @@ FrameDemand SoftwareScene::demand(const View& view, bool complete) const
 /// Milliseconds that each store's front took are left in `ownMs_`.
 void SoftwareScene::updateFronts(const View& view, bool complete)
 {
-  const FrameDemand common = demand(view, complete);
+  const FrameRequest common = demand(view, complete);
   ownMs_.assign(stores_.size(), 0.0);
   const auto wantsUpdate = [&]
   {
@@ -316,7 +316,7 @@ void SoftwareScene::updateFronts(const View& view, bool complete)
     for (std::size_t i = 0; i < stores_.size(); ++i)
     {
       const auto begin = Clock::now();
-      FrameDemand own = common;
+      FrameRequest own = common;
       own.overviewPoints =
         overviewShare(overviewPoints, stores_[i]->cloud()->description().pointCount, allPoints_);
       stores_[i]->update(std::move(own));

@@ -52,7 +52,7 @@ private:
   template <typename Visit>
   void forEachStyle(const Visit& visit) const;
   Result<void> shareMemory();
-  FrameDemand demand(const View& view, bool complete) const;
+  FrameRequest demand(const View& view, bool complete) const;
   void updateFronts(const View& view, bool complete);
   FrameRecord record(bool complete) const;
   void drawPart(SoftwareRasteriser& rasteriser, const PixelRectangle& place, FrameRecord& frame);

@@ -73,7 +73,7 @@ TEST(Camera, NamedViewsShowTheWholeBoxAndLittleMore)
 
 TEST(Camera, TopLooksDownWithNorthUp)
 {
-  const Camera camera = cameraFitting(terrain(), NamedView::Top, 1.0);
+  const Camera camera = cameraFitting(terrain(), ViewDirection::Top, 1.0);
   EXPECT_NEAR(glm::dot(camera.direction(), glm::dvec3(0.0, 0.0, -1.0)), 1.0, 1e-12);
   EXPECT_NEAR(glm::dot(camera.viewUp, glm::dvec3(0.0, 1.0, 0.0)), 1.0, 1e-12);
 }
@@ -81,7 +81,7 @@ TEST(Camera, TopLooksDownWithNorthUp)
 TEST(Camera, OnePointHasACamera)
 {
   const Bounds point{ glm::dvec3(5.0), glm::dvec3(5.0) };
-  const Camera camera = cameraFitting(point, NamedView::Iso, 1.0);
+  const Camera camera = cameraFitting(point, ViewDirection::Iso, 1.0);
   EXPECT_GT(glm::length(camera.focalPoint - camera.position), 0.0);
 }
 

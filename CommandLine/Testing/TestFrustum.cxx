@@ -68,7 +68,7 @@ TEST(Frustum, ClippingRangeIsVTKs)
 
 TEST(Frustum, CutsNothingOfTheBox)
 {
-  for (const NamedView named : { NamedView::Iso, NamedView::Top, NamedView::Left })
+  for (const ViewDirection named : { ViewDirection::Iso, ViewDirection::Top, ViewDirection::Left })
   {
     const Camera camera = cameraFitting(town(), named, 1.5);
     const FrameCamera frame = frameCameraOf(camera, town(), 1200, 800);
@@ -88,7 +88,7 @@ TEST(Frustum, RowsSeeTheirPartOfThePicture)
 {
   for (const bool parallel : { false, true })
   {
-    Camera camera = cameraFitting(town(), NamedView::Iso, 1.5);
+    Camera camera = cameraFitting(town(), ViewDirection::Iso, 1.5);
     if (parallel)
     {
       camera.parallelScale = 1500.0;

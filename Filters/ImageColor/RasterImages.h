@@ -1,7 +1,7 @@
 #pragma once
 
+#include "ImageValuesPass.h"
 #include "RasterMosaic.h"
-#include "RasterPass.h"
 
 #include <atomic>
 #include <cstdint>
@@ -21,7 +21,7 @@ struct RasterTally
 
 /// What all sources share while they are read: tiles, mosaics, counts. Lives as long as the pass
 /// or any of its sources.
-struct RasterPass::Images
+struct ImageValuesPass::Images
 {
   explicit Images(std::uint64_t bytes)
     : tileBytes(bytes)

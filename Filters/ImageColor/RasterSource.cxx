@@ -9,7 +9,8 @@ namespace pointfront
 {
 
 RasterSource::RasterSource(std::unique_ptr<PointSource> original,
-  std::shared_ptr<RasterPass::Images> images, std::vector<Input> inputs, AttributeSchema schema)
+  std::shared_ptr<ImageValuesPass::Images> images, std::vector<Input> inputs,
+  AttributeSchema schema)
   : original_(std::move(original))
   , images_(std::move(images))
   , inputs_(std::move(inputs))

@@ -27,8 +27,9 @@ class RasterSource final : public PointSource
 {
 public:
   using Input = RasterSourceInput;
-  RasterSource(std::unique_ptr<PointSource> original, std::shared_ptr<RasterPass::Images> images,
-    std::vector<Input> inputs, AttributeSchema schema);
+  RasterSource(std::unique_ptr<PointSource> original,
+    std::shared_ptr<ImageValuesPass::Images> images, std::vector<Input> inputs,
+    AttributeSchema schema);
   /// What was looked up before for all sources, of which this is `number`.
   void use(std::shared_ptr<const SortedRasterValues> sorted, std::size_t number);
 
@@ -46,7 +47,7 @@ private:
     std::size_t input, bool count, const std::vector<std::byte>& values, PointBatch& batch) const;
 
   std::unique_ptr<PointSource> original_;
-  std::shared_ptr<RasterPass::Images> images_;
+  std::shared_ptr<ImageValuesPass::Images> images_;
   std::shared_ptr<const SortedRasterValues> sorted_; ///< none: pixels are looked up in read()
   std::size_t number_ = 0;
   std::vector<Input> inputs_; ///< in the order of the mosaics

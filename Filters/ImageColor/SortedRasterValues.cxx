@@ -25,7 +25,7 @@ constexpr double lookupShare = 0.5;
 } // namespace
 
 Result<bool> SortedRasterValues::areNeeded(const PointSources& sources, const Inputs& inputs,
-  const RasterPass::Images& images, const PassResources& resources)
+  const ImageValuesPass::Images& images, const PassResources& resources)
 {
   double allBytes = 0.0;
   double allTiles = 0.0;
@@ -86,7 +86,7 @@ class SortedRasterValues::Lookup
 {
 public:
   Lookup(SortedRasterValues& values, const PointTiles& tiles, const PointSources& sources,
-    const Inputs& inputs, const RasterPass::Images& images, WorkCrew& crew)
+    const Inputs& inputs, const ImageValuesPass::Images& images, WorkCrew& crew)
     : values_(values)
     , tiles_(tiles)
     , inputs_(inputs)
@@ -138,7 +138,7 @@ private:
   SortedRasterValues& values_;
   const PointTiles& tiles_;
   const Inputs& inputs_;
-  const RasterPass::Images& images_;
+  const ImageValuesPass::Images& images_;
   WorkCrew& crew_;
   std::vector<std::uint64_t> ends_; ///< of each source's points, in input order
   /// For each mosaic and source: the first source with the same ways to the mosaic. Their points
@@ -221,7 +221,7 @@ Result<void> SortedRasterValues::Lookup::lookUp(std::size_t mosaic,
 }
 
 Result<std::shared_ptr<const SortedRasterValues>> SortedRasterValues::compute(
-  const PointSources& sources, const Inputs& inputs, const RasterPass::Images& images,
+  const PointSources& sources, const Inputs& inputs, const ImageValuesPass::Images& images,
   const PassResources& resources)
 {
   std::shared_ptr<SortedRasterValues> values(new SortedRasterValues(InputOrder(sources), inputs));

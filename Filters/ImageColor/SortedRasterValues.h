@@ -26,11 +26,11 @@ public:
   /// Is that worth it? A few chunks are read: if the image tiles that one of them touches do not
   /// stay in the cache until the next one is read, nearly all are decoded again for each chunk.
   static Result<bool> areNeeded(const PointSources& sources, const Inputs& inputs,
-    const RasterPass::Images& images, const PassResources& resources);
+    const ImageValuesPass::Images& images, const PassResources& resources);
 
   /// Errors: those of the sources, images and spill files; Cancelled.
   static Result<std::shared_ptr<const SortedRasterValues>> compute(const PointSources& sources,
-    const Inputs& inputs, const RasterPass::Images& images, const PassResources& resources);
+    const Inputs& inputs, const ImageValuesPass::Images& images, const PassResources& resources);
 
   enum class Outcome : std::uint8_t
   {

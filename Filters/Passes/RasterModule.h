@@ -1,6 +1,6 @@
 #pragma once
 
-#include "RasterPass.h"
+#include "ImageValuesPass.h"
 
 #include "pointfront/Base/Result.h"
 

@@ -63,7 +63,7 @@ public:
   {
     const COPCEntry& entry = entries_[static_cast<std::size_t>(part.chunk)];
     const LASPointLayout& layout = file_.layout;
-    const ByteView view{ bytes.data.get(), bytes.size };
+    const ByteSpan view{ bytes.data.get(), bytes.size };
     const LAZChunk found = parseLayeredChunk(view, layout.pointBytes, compression_);
     if (found.points != part.points || found.bytes != bytes.size ||
       !codesCanBegin(view, layout.pointBytes, compression_))
@@ -157,7 +157,7 @@ Result<COPCInfo> readCOPCInfo(const LASFile& file)
 
 Result<std::vector<COPCEntry>> readCOPCHierarchy(const LASFile& file, const COPCInfo& info)
 {
-  const ByteView bytes = file.bytes();
+  const ByteSpan bytes = file.bytes();
   const auto inside = [&bytes](std::uint64_t offset, std::uint64_t size)
   { return offset <= bytes.size && size <= bytes.size - offset; };
   std::vector<COPCEntry> entries;

@@ -12,7 +12,7 @@ namespace pointfront
 static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "LAS records are read by copying bytes");
 
 /// A run of bytes that someone else owns.
-struct ByteView
+struct ByteSpan
 {
   const std::byte* data = nullptr;
   std::size_t size = 0;

@@ -175,7 +175,7 @@ MetadataRecord record(
 void collectRecords(const Needs& needs, const std::vector<Attribute>& extra, LASExport& plan)
 {
   std::vector<MetadataRecord> all;
-  std::vector<ByteView> descriptors;
+  std::vector<ByteSpan> descriptors;
   for (const MetadataRecord& candidate : needs.description.metadata)
   {
     const bool taken = std::any_of(all.begin(), all.end(),

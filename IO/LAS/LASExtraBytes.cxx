@@ -99,10 +99,10 @@ void addDocumented(const Descriptor& d, std::vector<Attribute>& to)
   }
 }
 
-std::vector<const std::byte*> descriptorsIn(const std::vector<ByteView>& payloads)
+std::vector<const std::byte*> descriptorsIn(const std::vector<ByteSpan>& payloads)
 {
   std::vector<const std::byte*> all;
-  for (const ByteView& payload : payloads)
+  for (const ByteSpan& payload : payloads)
   {
     for (std::size_t at = 0; at + lasExtraBytesDescriptor <= payload.size;
          at += lasExtraBytesDescriptor)
@@ -159,7 +159,7 @@ void composeDescriptor(const Attribute& attribute, std::byte* to)
 } // namespace
 
 std::vector<Attribute> parseExtraBytes(
-  const std::vector<ByteView>& payloads, std::size_t byteCount, std::vector<std::string>& warnings)
+  const std::vector<ByteSpan>& payloads, std::size_t byteCount, std::vector<std::string>& warnings)
 {
   std::vector<Attribute> attributes;
   const std::vector<const std::byte*> descriptors = descriptorsIn(payloads);
@@ -185,7 +185,7 @@ std::vector<Attribute> parseExtraBytes(
 }
 
 std::vector<std::byte> composeExtraBytes(
-  const std::vector<Attribute>& attributes, const std::vector<ByteView>& originals)
+  const std::vector<Attribute>& attributes, const std::vector<ByteSpan>& originals)
 {
   const std::vector<const std::byte*> known = descriptorsIn(originals);
   std::vector<std::byte> payload(attributes.size() * lasExtraBytesDescriptor);

@@ -21,11 +21,11 @@ constexpr std::size_t lasExtraBytesDescriptor = 192;
 /// when those differ in scale or offset, attributes of their own, "name[0]" and so on.
 /// Source   ASPRS LAS 1.4 R15, section 2.4 (extra bytes), with the types 11 to 30 of R13.
 std::vector<Attribute> parseExtraBytes(
-  const std::vector<ByteView>& payloads, std::size_t byteCount, std::vector<std::string>& warnings);
+  const std::vector<ByteSpan>& payloads, std::size_t byteCount, std::vector<std::string>& warnings);
 
 /// The payload that describes `attributes` in that order. A descriptor of `originals` that says
 /// the same of an attribute is taken over whole, with its no-data value and range.
 std::vector<std::byte> composeExtraBytes(
-  const std::vector<Attribute>& attributes, const std::vector<ByteView>& originals);
+  const std::vector<Attribute>& attributes, const std::vector<ByteSpan>& originals);
 
 } // namespace pointfront

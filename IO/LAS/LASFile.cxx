@@ -106,7 +106,7 @@ Result<LASFile> LASFile::open(const std::string& path, MemoryMap::Access access)
     return map.error();
   }
   std::vector<std::string> warnings;
-  const ByteView bytes{ map->data(), map->size() };
+  const ByteSpan bytes{ map->data(), map->size() };
   Result<LASHeader> parsed = parseLASHeader(bytes, path, warnings);
   if (!parsed)
   {
@@ -116,7 +116,7 @@ Result<LASFile> LASFile::open(const std::string& path, MemoryMap::Access access)
   dropOverlappingRecords(header, bytes.size, warnings);
   std::vector<LASRecord> records = readLASRecords(bytes, header, warnings);
 
-  std::vector<ByteView> descriptors;
+  std::vector<ByteSpan> descriptors;
   for (const LASRecord& record : records)
   {
     if (record.is("LASF_Spec", lasExtraBytesRecord))

@@ -30,7 +30,7 @@ struct LASFile
   LASPointLayout layout;
   SourceDescription description;
 
-  ByteView bytes() const { return { map.data(), map.size() }; }
+  ByteSpan bytes() const { return { map.data(), map.size() }; }
 
   /// Errors   of MemoryMap::open and parseLASHeader; Unsupported if a point has a thousand
   ///          attributes.

@@ -188,7 +188,7 @@ Result<void> readPointFormat(const std::byte* bytes, const std::string& path, LA
   return {};
 }
 
-Result<void> readSizes(ByteView file, const std::string& path, LASHeader& header)
+Result<void> readSizes(ByteSpan file, const std::string& path, LASHeader& header)
 {
   header.headerBytes = loadNumber<std::uint16_t>(file.data + HeaderSize);
   header.pointOffset = loadNumber<std::uint32_t>(file.data + PointOffset);
@@ -225,7 +225,7 @@ Result<void> readSizes(ByteView file, const std::string& path, LASHeader& header
 } // namespace
 
 Result<LASHeader> parseLASHeader(
-  ByteView file, const std::string& path, std::vector<std::string>& warnings)
+  ByteSpan file, const std::string& path, std::vector<std::string>& warnings)
 {
   if (file.size == 0)
   {

@@ -48,6 +48,6 @@ struct LASHeader
 /// Errors   BadFormat, Truncated, Unsupported, each with `path` and the byte offset of the field.
 /// What is wrong but harmless is added to `warnings`.
 Result<LASHeader> parseLASHeader(
-  ByteView file, const std::string& path, std::vector<std::string>& warnings);
+  ByteSpan file, const std::string& path, std::vector<std::string>& warnings);
 
 } // namespace pointfront

@@ -23,7 +23,7 @@ std::string lostRecords(const RecordRun& run, std::uint32_t index, std::uint64_t
     " of these records were lost.";
 }
 
-void readRun(ByteView file, const RecordRun& run, std::vector<LASRecord>& records,
+void readRun(ByteSpan file, const RecordRun& run, std::vector<LASRecord>& records,
   std::vector<std::string>& warnings)
 {
   std::uint64_t at = run.begin;
@@ -55,7 +55,7 @@ void readRun(ByteView file, const RecordRun& run, std::vector<LASRecord>& record
 } // namespace
 
 std::vector<LASRecord> readLASRecords(
-  ByteView file, const LASHeader& header, std::vector<std::string>& warnings)
+  ByteSpan file, const LASHeader& header, std::vector<std::string>& warnings)
 {
   std::vector<LASRecord> records;
   readRun(file,

@@ -24,7 +24,7 @@ struct LASRecord
   std::string owner; ///< user id
   std::uint16_t id = 0;
   std::string description;
-  ByteView payload; ///< in the file's map
+  ByteSpan payload; ///< in the file's map
 
   bool is(const char* user, std::uint16_t record) const { return owner == user && id == record; }
 };
@@ -33,6 +33,6 @@ struct LASRecord
 /// the first that does not fit, with a warning that counts the records lost. Never allocates by a
 /// count that the file claims.
 std::vector<LASRecord> readLASRecords(
-  ByteView file, const LASHeader& header, std::vector<std::string>& warnings);
+  ByteSpan file, const LASHeader& header, std::vector<std::string>& warnings);
 
 } // namespace pointfront

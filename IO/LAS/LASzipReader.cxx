@@ -14,7 +14,7 @@ namespace
 class TwoPartBuffer final : public std::streambuf
 {
 public:
-  TwoPartBuffer(std::vector<std::byte> first, ByteView second)
+  TwoPartBuffer(std::vector<std::byte> first, ByteSpan second)
     : first_(std::move(first))
     , second_(second)
   {
@@ -69,7 +69,7 @@ private:
   }
 
   std::vector<std::byte> first_;
-  ByteView second_;
+  ByteSpan second_;
   int part_ = 0;
 };
 
@@ -163,7 +163,7 @@ std::uint32_t laszipLayers(const LASPointLayout& layout, const std::vector<std::
 
 struct LASzipReader::Handle
 {
-  Handle(std::vector<std::byte> beginning, ByteView chunk, const LASPointLayout& pointLayout)
+  Handle(std::vector<std::byte> beginning, ByteSpan chunk, const LASPointLayout& pointLayout)
     : buffer(std::move(beginning), chunk)
     , stream(&buffer)
     , layout(&pointLayout)
@@ -200,7 +200,7 @@ LASzipReader& LASzipReader::operator=(LASzipReader&&) noexcept = default;
 LASzipReader::~LASzipReader() = default;
 
 Result<LASzipReader> LASzipReader::open(const LASFile& file, const LAZCompression& compression,
-  ByteView chunk, std::uint32_t points, std::uint32_t layers)
+  ByteSpan chunk, std::uint32_t points, std::uint32_t layers)
 {
   auto handle =
     std::make_unique<Handle>(composeLAZBeginning(file, compression, points), chunk, file.layout);

@@ -26,7 +26,7 @@ public:
   /// `chunk` outlives the reader; its codesCanBegin(). Columns of other `layers` have any values.
   /// Errors   Unsupported with LASzip's own words.
   static Result<LASzipReader> open(const LASFile& file, const LAZCompression& compression,
-    ByteView chunk, std::uint32_t points, std::uint32_t layers = laszipAllLayers);
+    ByteSpan chunk, std::uint32_t points, std::uint32_t layers = laszipAllLayers);
 
   LASzipReader(LASzipReader&&) noexcept;
   LASzipReader& operator=(LASzipReader&&) noexcept;

@@ -21,7 +21,7 @@ bool codeCanBegin(const std::byte* code, std::uint64_t bytes)
 } // namespace
 
 LAZChunk parseLayeredChunk(
-  ByteView bytes, std::size_t pointBytes, const LAZCompression& compression)
+  ByteSpan bytes, std::size_t pointBytes, const LAZCompression& compression)
 {
   const std::size_t head = layeredHeadBytes(pointBytes, compression);
   if (bytes.size < head)
@@ -49,7 +49,7 @@ LAZChunk parseLayeredChunk(
   return chunk;
 }
 
-bool codesCanBegin(ByteView bytes, std::size_t pointBytes, const LAZCompression& compression)
+bool codesCanBegin(ByteSpan bytes, std::size_t pointBytes, const LAZCompression& compression)
 {
   const std::byte* size = bytes.data + pointBytes + numberBytes;
   const std::byte* code = bytes.data + layeredHeadBytes(pointBytes, compression);
@@ -67,7 +67,7 @@ bool codesCanBegin(ByteView bytes, std::size_t pointBytes, const LAZCompression&
 
 bool codesCanBegin(const LASFile& file, const LAZCompression& compression, const LAZChunk& chunk)
 {
-  const ByteView bytes{ file.bytes().data + chunk.offset, static_cast<std::size_t>(chunk.bytes) };
+  const ByteSpan bytes{ file.bytes().data + chunk.offset, static_cast<std::size_t>(chunk.bytes) };
   if (compression.scheme == LAZCompression::Scheme::Layered)
   {
     return codesCanBegin(bytes, file.header.pointBytes, compression);

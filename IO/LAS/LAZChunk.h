@@ -29,13 +29,13 @@ LAZChunk parseLayeredChunk(
 /// The layered chunk that is all of these bytes, of records of `pointBytes`; zero points if they
 /// are no whole chunk. Its offset is 0.
 LAZChunk parseLayeredChunk(
-  ByteView bytes, std::size_t pointBytes, const LAZCompression& compression);
+  ByteSpan bytes, std::size_t pointBytes, const LAZCompression& compression);
 
 /// False for a chunk with an arithmetic code that begins with four bytes of 255. No encoder
 /// writes that (a code is less than its interval, 2^32 - 1), and LASzip's decoder, which does not
 /// look, reads behind its tables.
 bool codesCanBegin(const LASFile& file, const LAZCompression& compression, const LAZChunk& chunk);
 /// The same of bytes that parseLayeredChunk() finds to be a chunk.
-bool codesCanBegin(ByteView bytes, std::size_t pointBytes, const LAZCompression& compression);
+bool codesCanBegin(ByteSpan bytes, std::size_t pointBytes, const LAZCompression& compression);
 
 } // namespace pointfront

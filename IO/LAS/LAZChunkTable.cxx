@@ -18,7 +18,7 @@ constexpr std::uint64_t tableHeaderBytes = 8; ///< version, number of chunks
 /// Where the table begins, if it is there: between the first chunk and the end of the file.
 std::optional<std::uint64_t> tableOffset(const LASFile& file)
 {
-  const ByteView bytes = file.bytes();
+  const ByteSpan bytes = file.bytes();
   const std::uint64_t first = file.header.pointOffset + tablePointerBytes;
   if (first > bytes.size)
   {
@@ -97,7 +97,7 @@ Result<LAZChunk> measureChunk(const LASFile& file, const LAZCompression& compres
   {
     return chunk;
   }
-  const ByteView rest{ file.bytes().data + offset, static_cast<std::size_t>(chunk.bytes) };
+  const ByteSpan rest{ file.bytes().data + offset, static_cast<std::size_t>(chunk.bytes) };
   Result<LASzipReader> reader = LASzipReader::open(file, compression, rest, points);
   if (!reader)
   {

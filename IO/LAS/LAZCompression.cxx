@@ -173,7 +173,7 @@ Result<LAZCompression> LAZCompression::of(const LASFile& file)
         ": the points are marked as compressed (byte 104), but the record \"laszip "
         "encoded\" that says how is missing");
   }
-  const ByteView payload = record->payload;
+  const ByteSpan payload = record->payload;
   const std::size_t count =
     payload.size < itemsAt ? 0 : loadNumber<std::uint16_t>(payload.data + itemCountAt);
   if (payload.size < itemsAt || payload.size < itemsAt + count * itemBytes)

@@ -60,7 +60,7 @@ void LAZIntegerDecoder::BitModel::update()
   untilUpdate = cycle;
 }
 
-LAZIntegerDecoder::LAZIntegerDecoder(ByteView bytes)
+LAZIntegerDecoder::LAZIntegerDecoder(ByteSpan bytes)
   : bytes_(bytes)
   , widths_{ Model(integerBits + 1), Model(integerBits + 1) }
 {

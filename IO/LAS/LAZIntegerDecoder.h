@@ -19,7 +19,7 @@ class LAZIntegerDecoder
 {
 public:
   /// Two series of integers (contexts 0 and 1) follow one another in `bytes`.
-  explicit LAZIntegerDecoder(ByteView bytes);
+  explicit LAZIntegerDecoder(ByteSpan bytes);
 
   /// The next integer of that series; nothing when the bytes end or contradict the code.
   std::optional<std::uint32_t> next(std::uint32_t prediction, int context);
@@ -57,7 +57,7 @@ private:
   void renormalise();
   std::uint32_t byte();
 
-  ByteView bytes_;
+  ByteSpan bytes_;
   std::size_t at_ = 0;
   bool sound_ = true;
   std::uint32_t value_ = 0;

@@ -129,7 +129,7 @@ Result<void> LAZSource::decompress(
   {
     return badChunk(path, chunk, "it begins with a code that no encoder writes");
   }
-  const ByteView bytes{ file_.bytes().data + chunk.offset, static_cast<std::size_t>(chunk.bytes) };
+  const ByteSpan bytes{ file_.bytes().data + chunk.offset, static_cast<std::size_t>(chunk.bytes) };
   Result<LASzipReader> reader = LASzipReader::open(file_, compression_, bytes, chunk.points);
   if (!reader)
   {

@@ -15,7 +15,7 @@ StoreSuccession::StoreSuccession(
   store_->SetHostMemoryBudget(preview.GetHostMemoryBudget());
 }
 
-void StoreSuccession::advance(vtkRenderer* renderer, FrameDemand demand)
+void StoreSuccession::advance(vtkRenderer* renderer, FrameRequest demand)
 {
   const AttributeSchema& schema = store_->GetStore()->description().schema;
   std::unique_ptr<ViewFront>& front = fronts_[renderer];

@@ -31,7 +31,7 @@ public:
 
   /// Moves the successor's front for that renderer. `demand`: the demand on the front that is
   /// drawn, with the layers of the successor.
-  void advance(vtkRenderer* renderer, FrameDemand demand);
+  void advance(vtkRenderer* renderer, FrameRequest demand);
   /// Whether the front for that renderer shows everything that its view asks for.
   bool ready(vtkRenderer* renderer) const;
   /// Whether nodes arrived, or work is left.

@@ -1,9 +1,9 @@
 #include "vtkPointFrontMapper.h"
 
 #include "ClassLimits.h"
+#include "MapperFronts.h"
 #include "MapperProperties.h"
 #include "MapperStyle.h"
-#include "MapperViews.h"
 #include "RenderTimer.h"
 
 #include "pointfront/Detail/DetailLevel.h"
@@ -55,7 +55,7 @@ struct vtkPointFrontMapper::Content
 
   std::string StoreName;
   vtkMTimeType InputTime = 0;
-  pointfront::MapperViews Views;
+  pointfront::MapperFronts Views;
   pointfront::ClassLimits Limits;
   pointfront::MapperStyle Style;
   std::shared_ptr<const pointfront::StyleSheet> Sheet;
@@ -273,9 +273,10 @@ pointfront::PlanRequest vtkPointFrontMapper::GetRequest(vtkRenderer* renderer, v
   return request;
 }
 
-pointfront::FrameDemand vtkPointFrontMapper::GetDemand(vtkRenderer* renderer, vtkActor* actor)
+pointfront::FrameRequest vtkPointFrontMapper::GetFrameRequest(
+  vtkRenderer* renderer, vtkActor* actor)
 {
-  pointfront::FrameDemand demand;
+  pointfront::FrameRequest demand;
   const auto styling = this->GetStyling(actor);
   demand.view = pointfront::withWallsFromAbove(pointfront::viewOf(renderer, actor),
     pointfront::tallestWall(this->GetStore()->GetStore()->description(), styling));
@@ -318,7 +319,7 @@ bool vtkPointFrontMapper::MoveFront(vtkRenderer* renderer, vtkActor* actor)
   Content& content = *this->Internals;
   vtkPointFrontStore* store = this->GetStore();
   content.Views.setPiece(this->StorePiece, this->NumberOfStorePieces);
-  pointfront::RendererView& view = content.Views.of(renderer);
+  pointfront::RendererFront& view = content.Views.of(renderer);
   if (!content.Views.openFront(renderer, view) && (!view.NewFrame || renderer->GetSelector()))
   {
     return false; // a further drawing of the same frame
@@ -328,7 +329,7 @@ bool vtkPointFrontMapper::MoveFront(vtkRenderer* renderer, vtkActor* actor)
   view.Plan.reset(); // what it pins may be released
 
   const auto begin = Clock::now();
-  const pointfront::FrameDemand demand = this->GetDemand(renderer, actor);
+  const pointfront::FrameRequest demand = this->GetFrameRequest(renderer, actor);
   view.Announced = view.Announced && view.Demand.view == demand.view;
   view.Demand = demand;
   const pointfront::FrontDelta& delta = view.Front->update(demand);
@@ -360,13 +361,13 @@ pointfront::FramePlan* vtkPointFrontMapper::PlanFrame(vtkRenderer* renderer, vtk
   // A frame in motion has no time for a second front, nor for bringing all points to the GPU again.
   if (!renderer->GetSelector() && !IsInteracting(renderer) &&
     content.Views.follow(
-      renderer, [&] { return this->GetDemand(renderer, actor); },
+      renderer, [&] { return this->GetFrameRequest(renderer, actor); },
       [&](vtkPointFrontStore& next) { return content.Limits.layersOf(next); }))
   {
     this->Modified();
   }
   const bool moved = this->MoveFront(renderer, actor);
-  pointfront::RendererView& view = content.Views.of(renderer);
+  pointfront::RendererFront& view = content.Views.of(renderer);
   pointfront::PlanRequest request = this->GetRequest(renderer, actor);
   if (moved || !view.Plan)
   {
@@ -392,14 +393,14 @@ pointfront::FramePlan* vtkPointFrontMapper::PlanFrame(vtkRenderer* renderer, vtk
 
 bool vtkPointFrontMapper::IsFirstDrawing(vtkRenderer* renderer) const
 {
-  const pointfront::RendererView* view = this->Internals->Views.find(renderer);
+  const pointfront::RendererFront* view = this->Internals->Views.find(renderer);
   return view && view->FirstDrawing;
 }
 
 void vtkPointFrontMapper::FinishFrame(
   vtkRenderer* renderer, vtkIdType points, vtkIdType keptPoints, bool uploadsLeft)
 {
-  pointfront::RendererView& view = this->Internals->Views.of(renderer);
+  pointfront::RendererFront& view = this->Internals->Views.of(renderer);
   const pointfront::FrontDelta& delta = view.Front->last();
   view.Front->drewBeside(static_cast<std::uint64_t>(keptPoints));
   view.FirstDrawing = false;
@@ -428,7 +429,7 @@ void vtkPointFrontMapper::FinishFrame(
 void vtkPointFrontMapper::RecordFrame(
   vtkRenderer* renderer, vtkIdType points, vtkIdType moves, double milliseconds)
 {
-  pointfront::RendererView* view = this->Internals->Views.find(renderer);
+  pointfront::RendererFront* view = this->Internals->Views.find(renderer);
   if (view && view->Front)
   {
     view->DrawingMs = milliseconds;
@@ -463,7 +464,7 @@ std::uint32_t vtkPointFrontMapper::GetNumberOfViews(vtkWindow* window) const
 
 bool vtkPointFrontMapper::IsAheadOfFrame(vtkRenderer* renderer) const
 {
-  const pointfront::RendererView* view = this->Internals->Views.find(renderer);
+  const pointfront::RendererFront* view = this->Internals->Views.find(renderer);
   return view && view->Ahead;
 }
 

@@ -39,7 +39,7 @@ class vtkRenderWindowInteractor;
 class vtkWindow;
 namespace pointfront
 {
-struct FrameDemand;
+struct FrameRequest;
 struct FramePlan;
 struct FrameStatistics;
 struct LayerStyling;
@@ -378,7 +378,7 @@ protected:
 
 private:
   struct Content;
-  pointfront::FrameDemand GetDemand(vtkRenderer* renderer, vtkActor* actor);
+  pointfront::FrameRequest GetFrameRequest(vtkRenderer* renderer, vtkActor* actor);
   pointfront::PlanRequest GetRequest(vtkRenderer* renderer, vtkActor* actor);
   bool MoveFront(vtkRenderer* renderer, vtkActor* actor);
   bool Announce();

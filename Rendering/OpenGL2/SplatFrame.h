@@ -15,7 +15,7 @@ class vtkRenderer;
 namespace pointfront
 {
 struct ColourMap;
-class ColourTable;
+class ColourMapTexture;
 class GpuPool;
 
 /// The tools with which all parts of a picture are drawn.
@@ -30,7 +30,7 @@ struct SplatTools
 /// One drawing of a picture.
 struct SplatFrame
 {
-  using TableOf = std::function<ColourTable*(const std::shared_ptr<const ColourMap>&)>;
+  using TableOf = std::function<ColourMapTexture*(const std::shared_ptr<const ColourMap>&)>;
 
   vtkOpenGLRenderWindow* window = nullptr;
   vtkRenderer* renderer = nullptr;

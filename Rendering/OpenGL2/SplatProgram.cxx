@@ -3,7 +3,7 @@
 #include "CaptureFSGLSL.h"
 #include "CaptureGSGLSL.h"
 #include "CaptureVSGLSL.h"
-#include "ColourTableGLSL.h"
+#include "ColourMapTextureGLSL.h"
 #include "KeptPointGLSL.h"
 #include "PictureVSGLSL.h"
 #include "PointDataGLSL.h"
@@ -62,7 +62,7 @@ std::string filled(const char* source, const Content& content)
     { "//POINTFRONT::SplatMembers::Dec", SplatMembersGLSL },
     { "//POINTFRONT::PointData::Dec", PointDataGLSL },
     { "//POINTFRONT::Point::Dec", content.kept ? KeptPointGLSL : StoredPointGLSL },
-    { "//POINTFRONT::ColourTable::Dec", content.table ? ColourTableGLSL : "" },
+    { "//POINTFRONT::ColourMapTexture::Dec", content.table ? ColourMapTextureGLSL : "" },
     { "//POINTFRONT::SplatSetUp::Dec", SplatSetUpGLSL },
     { "//POINTFRONT::WallSetUp::Dec", content.walls ? WallSetUpGLSL : "" },
     { "//POINTFRONT::WallSample::Dec", content.walls ? WallSampleGLSL : "" },

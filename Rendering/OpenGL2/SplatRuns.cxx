@@ -1,6 +1,6 @@
 #include "SplatRuns.h"
 
-#include "ColourTable.h"
+#include "ColourMapTexture.h"
 #include "DrawBatches.h"
 #include "GpuPool.h"
 #include "RasterItems.h"
@@ -62,7 +62,7 @@ void drawSplatRuns(const SplatFrame& frame, SlotRecords& records, vtkShaderProgr
     static_cast<float>(plan.grid.scale.y), static_cast<float>(plan.grid.scale.z) };
   program->SetUniform3f("stepSize", stepSize);
   const bool tabled = !variant.marked && style.colouring.usesTable() && style.map;
-  ColourTable* const table = tabled ? frame.tableOf(style.map) : nullptr;
+  ColourMapTexture* const table = tabled ? frame.tableOf(style.map) : nullptr;
   if (table)
   {
     table->activate(program, style.colouring, plan.camera.reference.z);

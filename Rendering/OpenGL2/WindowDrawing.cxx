@@ -246,7 +246,7 @@ std::int64_t WindowDrawing::list(const FramePlan& plan)
 
 void WindowDrawing::dropTables(const FramePlan& plan)
 {
-  const auto unused = [&](const std::unique_ptr<ColourTable>& table)
+  const auto unused = [&](const std::unique_ptr<ColourMapTexture>& table)
   {
     const bool used = std::any_of(plan.batches.begin(), plan.batches.end(),
       [&](const DrawBatch& batch) { return batch.style->map == table->map(); });
@@ -267,7 +267,7 @@ std::int64_t WindowDrawing::drawSplats(vtkRenderer* renderer, FramePlan& plan, b
     [this](const std::shared_ptr<const ColourMap>& map) { return this->tableOf(map); }, ids);
 }
 
-ColourTable* WindowDrawing::tableOf(const std::shared_ptr<const ColourMap>& map)
+ColourMapTexture* WindowDrawing::tableOf(const std::shared_ptr<const ColourMap>& map)
 {
   for (const auto& table : tables_)
   {
@@ -276,17 +276,17 @@ ColourTable* WindowDrawing::tableOf(const std::shared_ptr<const ColourMap>& map)
       return table.get();
     }
   }
-  tables_.push_back(std::make_unique<ColourTable>());
+  tables_.push_back(std::make_unique<ColourMapTexture>());
   tables_.back()->update(window_, map);
   return tables_.back().get();
 }
 
-vtkOpenGLPointFrontPass& WindowDrawing::passOf(PointColouring::Kind kind)
+vtkOpenGLPointFrontPoints& WindowDrawing::passOf(PointColouring::Kind kind)
 {
   auto& pass = passes_[static_cast<std::size_t>(kind)];
   if (!pass)
   {
-    pass = vtkSmartPointer<vtkOpenGLPointFrontPass>::New();
+    pass = vtkSmartPointer<vtkOpenGLPointFrontPoints>::New();
   }
   return *pass;
 }
@@ -314,7 +314,7 @@ void WindowDrawing::draw(vtkRenderer* renderer, vtkActor* actor, vtkMapper* owne
     drawing.flat = style.flat;
     drawing.pointSize = style.size.mode == SplatSize::Mode::Pixels ? style.size.value : 0.0;
     drawing.runs = &group.runs;
-    vtkOpenGLPointFrontPass& pass = this->passOf(style.colouring.kind);
+    vtkOpenGLPointFrontPoints& pass = this->passOf(style.colouring.kind);
     pass.CopyState(owner);
     pass.Draw(renderer, actor, drawing);
   }

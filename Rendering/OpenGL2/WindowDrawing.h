@@ -1,12 +1,12 @@
 #pragma once
 
-#include "ColourTable.h"
+#include "ColourMapTexture.h"
 #include "DrawRuns.h"
 #include "GpuPool.h"
 #include "SlotRecords.h"
 #include "SoftwarePicture.h"
 #include "SplatPicture.h"
-#include "vtkOpenGLPointFrontPass.h"
+#include "vtkOpenGLPointFrontPoints.h"
 #include "vtkWindowResources.h"
 
 #include "pointfront/Plan/FramePlan.h"
@@ -112,8 +112,8 @@ private:
   void chooseStreams(const FramePlan& plan);
   void dropTables(const FramePlan& plan);
   DrawRuns& runsOf(const std::shared_ptr<const ResolvedStyle>& style);
-  ColourTable* tableOf(const std::shared_ptr<const ColourMap>& map);
-  vtkOpenGLPointFrontPass& passOf(PointColouring::Kind kind);
+  ColourMapTexture* tableOf(const std::shared_ptr<const ColourMap>& map);
+  vtkOpenGLPointFrontPoints& passOf(PointColouring::Kind kind);
 
   vtkWeakPointer<vtkOpenGLRenderWindow> window_;
   vtkNew<vtkWindowResources> resources_;
@@ -121,8 +121,8 @@ private:
   GpuPool pool_;
   SlotRecords records_;
   std::vector<LayerStreams> streams_; ///< by layer
-  std::vector<std::unique_ptr<ColourTable>> tables_; ///< of the maps of the last frame
-  std::array<vtkSmartPointer<vtkOpenGLPointFrontPass>, 4> passes_; ///< by kind of colouring
+  std::vector<std::unique_ptr<ColourMapTexture>> tables_; ///< of the maps of the last frame
+  std::array<vtkSmartPointer<vtkOpenGLPointFrontPoints>, 4> passes_; ///< by kind of colouring
   SoftwarePicture picture_;
   SplatPicture splats_;
   std::map<vtkRenderer*, FrameTimer> timers_;

@@ -5,7 +5,7 @@
  *
  * Comes from vtkPointFrontMapper::New() by the object factory. It draws plans (FramePlan) and asks
  * neither residency nor table. Host nodes become slots of a GpuPool (bounded bytes a frame while
- * interacting). Points of some pixels are drawings of vtkOpenGLPointFrontPass, in VTK's own pass;
+ * interacting). Points of some pixels are drawings of vtkOpenGLPointFrontPoints, in VTK's own pass;
  * splats are drawn into targets of their own (SplatPicture) and handed over as one picture. Each
  * window has its own (WindowDrawing). Hardware selection gives ids that are ranks in the store:
  * (node, position in the node), 48 bits.

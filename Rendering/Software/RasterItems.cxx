@@ -159,7 +159,7 @@ RasterItem RasterItems::itemOf(const Place& place)
   return item;
 }
 
-PassDemand RasterItems::demandOf(const RasterItem& item) const
+PassConditions RasterItems::demandOf(const RasterItem& item) const
 {
   const bool oriented = item.normals || item.style->orientation == SplatOrientation::Fixed;
   const bool thinned = item.item->refined && item.item->unfinished;

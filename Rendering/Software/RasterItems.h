@@ -107,7 +107,7 @@ private:
   /// What `place` is drawn as, without its place.
   RasterItem itemOf(const Place& place);
   RasterItem wallsOf(const RasterItem& item) const;
-  PassDemand demandOf(const RasterItem& item) const;
+  PassConditions demandOf(const RasterItem& item) const;
   void append(RasterItem item);
   void setPlace(RasterItem& item) const;
   /// `reference` in camera space; `shift`: what depths of a parallel view count from.

@@ -83,7 +83,8 @@ void addRim(TechniquePasses& passes)
 }
 
 /// How large what closes the surface is at least and at most, pixels.
-void boundRadius(const ResolvedStyle& style, const PassDemand& demand, float share, SplatPass& pass)
+void boundRadius(
+  const ResolvedStyle& style, const PassConditions& demand, float share, SplatPass& pass)
 {
   if (style.size.mode != SplatSize::Mode::Spacing)
   {
@@ -97,7 +98,7 @@ void boundRadius(const ResolvedStyle& style, const PassDemand& demand, float sha
 
 } // namespace
 
-TechniquePasses passesOf(const ResolvedStyle& style, const PassDemand& demand)
+TechniquePasses passesOf(const ResolvedStyle& style, const PassConditions& demand)
 {
   const bool hasNormals = demand.hasNormals;
   TechniquePasses passes;
@@ -143,7 +144,7 @@ TechniquePasses passesOf(const ResolvedStyle& style, const PassDemand& demand)
   return passes;
 }
 
-TechniquePasses wallPassesOf(const ResolvedStyle& style, const PassDemand& demand)
+TechniquePasses wallPassesOf(const ResolvedStyle& style, const PassConditions& demand)
 {
   TechniquePasses passes;
   passes.firstRadius = shareOf(style);

@@ -24,7 +24,7 @@ struct TechniquePasses
 };
 
 /// What of a frame decides about passes, beside a style.
-struct PassDemand
+struct PassConditions
 {
   bool hasNormals = false; ///< of the node that is drawn
   float spacingPx = 0.0f; ///< FramePlan's
@@ -34,9 +34,9 @@ struct PassDemand
 };
 
 /// Constants  as measured against ground truth: docs/adr/0016.
-TechniquePasses passesOf(const ResolvedStyle& style, const PassDemand& demand);
+TechniquePasses passesOf(const ResolvedStyle& style, const PassConditions& demand);
 /// Solid: of the walls below the points.
-TechniquePasses wallPassesOf(const ResolvedStyle& style, const PassDemand& demand);
+TechniquePasses wallPassesOf(const ResolvedStyle& style, const PassConditions& demand);
 
 bool operator==(const TechniquePasses& a, const TechniquePasses& b);
 

@@ -178,7 +178,7 @@ private:
   double errorPx_ = 1.0;
   ResidencyShare share_;
   ViewFront front_;
-  FrameDemand demand_;
+  FrameRequest demand_;
   PlanRequest request_;
   DetailGrowth growth_;
   SoftwareRasteriser rasteriser_;

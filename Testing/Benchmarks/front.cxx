@@ -38,7 +38,7 @@ double processBytes()
   return resident * 4096.0;
 }
 
-class AllResident final : public ResidencyView
+class AllResident final : public ResidencySnapshot
 {
 public:
   explicit AllResident(std::uint64_t revision)
@@ -81,7 +81,7 @@ View viewOf(Motion motion, int levels, std::size_t update)
 
 /// Until the front rests: rows of the table that it waits for are waited for.
 const FrontDelta& settle(RenderFront& front, const Hierarchy& table, const View& view,
-  const ResidencyView& residency, const FrontLimits& limits)
+  const ResidencySnapshot& residency, const FrontLimits& limits)
 {
   const FrontDelta* delta = nullptr;
   for (int u = 0; u < 5000; ++u)

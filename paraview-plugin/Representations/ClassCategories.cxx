@@ -1,7 +1,7 @@
 #include "ClassCategories.h"
 
 #include "pointfront/Points/ObjectClass.h"
-#include "pointfront/Style/ColourTables.h"
+#include "pointfront/Style/StandardColours.h"
 
 #include "vtkPVArrayInformation.h"
 #include "vtkPVDataInformation.h"

@@ -1,6 +1,6 @@
 // Clouds of which every chunk is scattered over images that do not fit the cache.
 
-#include "RasterPass.h"
+#include "ImageValuesPass.h"
 #include "RasterTiles.h"
 
 #include "CloudInMemory.h"
@@ -57,7 +57,7 @@ Coloured coloured(const std::vector<glm::dvec3>& points)
     "first", std::vector<glm::dvec3>(points.begin(), half), "", chunkPoints));
   sources.push_back(std::make_unique<CloudInMemory>(
     "second", std::vector<glm::dvec3>(half, points.end()), "", chunkPoints));
-  const RasterPass pass({ { "rgb", { image } } }, std::make_shared<ProjCoordinateSystems>());
+  const ImageValuesPass pass({ { "rgb", { image } } }, std::make_shared<ProjCoordinateSystems>());
   PassResources resources;
   resources.memoryBytes = 80u << 20;
   resources.threads = 2;
@@ -143,7 +143,7 @@ TEST(SortedRasterValues, AShuffledCloudReadsEachTileOnceToo)
 TEST(SortedRasterValues, ChunksInOrderAreLookedUpWhileTheyAreRead)
 {
   std::vector<glm::dvec3> points = ordered();
-  const RasterPass pass({ { "rgb", { image } } }, std::make_shared<ProjCoordinateSystems>());
+  const ImageValuesPass pass({ { "rgb", { image } } }, std::make_shared<ProjCoordinateSystems>());
   PassResources resources;
   resources.memoryBytes = 80u << 20;
   resources.threads = 2;

@@ -48,7 +48,7 @@ flat out ivec2 pointIdVSOutput;
 //VTK::Picking::Dec
 
 #if POINTFRONT_COLOUR >= 2
-//POINTFRONT::ColourTable::Dec
+//POINTFRONT::ColourMapTexture::Dec
 #endif
 
 /// The difference is taken in integers, where it is exact; only then it becomes float.

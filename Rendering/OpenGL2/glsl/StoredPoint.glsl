@@ -30,7 +30,7 @@ uniform int styleMark;
 uniform float radiusFactor;        // of what the store says, of splats of this pass
 uniform float radiusBase;          // of codes, store units
 
-//POINTFRONT::ColourTable::Dec
+//POINTFRONT::ColourMapTexture::Dec
 
 vec4 colourOf(int flags, int slot, vec3 difference, float steps)
 {

@@ -85,7 +85,7 @@ inline std::shared_ptr<const HierarchyTable> randomTree(const TreeShape& shape)
 }
 
 /// A residency without threads or bytes: what a test says is there, is there.
-class ScriptedResidency final : public ResidencyView
+class ScriptedResidency final : public ResidencySnapshot
 {
 public:
   State state(NodeIndex node) const override

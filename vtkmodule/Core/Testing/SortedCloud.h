@@ -33,7 +33,7 @@ struct SortedCloud
     all.resize(sorted.size());
     std::iota(all.begin(), all.end(), 0u);
   }
-  RecordView view() const { return { records.data(), RecordLayout::positionBytes }; }
+  RecordSpan view() const { return { records.data(), RecordLayout::positionBytes }; }
 };
 
 /// A gently sloped plane through a cube of 2^16 steps.

@@ -1,7 +1,7 @@
 // When a view at rest that is being loaded is drawn: not with every node that arrives.
 
 #include "MadeUpReader.h"
-#include "RendererView.h"
+#include "RendererFront.h"
 #include "TerrainPages.h"
 
 #include <vtkNew.h>
@@ -65,7 +65,7 @@ struct LoadingView
     view.NewFrame = false;
     view.Ahead = false;
     view.Due = false;
-    view.DrawnAt = RendererView::Clock::now();
+    view.DrawnAt = RendererFront::Clock::now();
     view.DrawingMs = drawingMs;
   }
   /// One more node arrives, and the next is being read.
@@ -90,7 +90,7 @@ struct LoadingView
   AttributeSchema schema;
   ResidencyShare share;
   vtkNew<vtkRenderer> renderer;
-  RendererView view;
+  RendererFront view;
 };
 
 TEST(Pauses, WhatArrivesWithinThePauseMovesTheFrontAndIsNotDrawn)

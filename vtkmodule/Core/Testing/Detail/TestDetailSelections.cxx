@@ -20,7 +20,7 @@ namespace
 
 using test::ScriptedResidency;
 using test::TreeShape;
-using State = ResidencyView::State;
+using State = ResidencySnapshot::State;
 
 struct Case
 {

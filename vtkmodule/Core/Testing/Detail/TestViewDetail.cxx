@@ -18,7 +18,7 @@ namespace
 
 using test::ScriptedResidency;
 using test::Terrain;
-using State = ResidencyView::State;
+using State = ResidencySnapshot::State;
 
 constexpr double size = Terrain::sizeMetres;
 

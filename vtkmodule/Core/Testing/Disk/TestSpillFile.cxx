@@ -181,9 +181,9 @@ TEST(SpillFile, GoesPastTheCacheWhereFilesCan)
   fs::remove_all(folder);
 }
 
-MemoryDemand demandOf(std::uint64_t points, std::uint64_t memory)
+BuildSize demandOf(std::uint64_t points, std::uint64_t memory)
 {
-  MemoryDemand demand;
+  BuildSize demand;
   demand.points = points;
   demand.largestChunk = 50000;
   demand.recordBytes = 20;

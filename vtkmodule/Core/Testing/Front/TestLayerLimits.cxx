@@ -22,7 +22,7 @@ namespace
 {
 
 using test::ScriptedResidency;
-using State = ResidencyView::State;
+using State = ResidencySnapshot::State;
 
 /// `count` copies of one random tree, breadth first, one layer each.
 std::shared_ptr<const HierarchyTable> layered(std::uint16_t count, Refinement refinement)

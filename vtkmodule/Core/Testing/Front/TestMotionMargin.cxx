@@ -42,7 +42,7 @@ std::uint64_t nodesLate(bool ahead)
   MotionMargin margin(tree);
   ScriptedResidency residency;
   ScriptedResidency everything;
-  everything.otherwise = ResidencyView::State::Resident;
+  everything.otherwise = ResidencySnapshot::State::Resident;
   FrontLimits limits;
   limits.targetErrorPx = limits.initialErrorPx = 4.0;
   std::deque<std::vector<LoadRequest>> underWay(2);
@@ -133,7 +133,7 @@ TEST(MotionMargin, AsksForNothingAtRestAndOnlyForWhatIsAbsent)
     EXPECT_TRUE(ahead[r].optional);
     EXPECT_TRUE(r == 0 || ahead[r - 1].priority >= ahead[r].priority);
   }
-  residency.otherwise = ResidencyView::State::Resident;
+  residency.otherwise = ResidencySnapshot::State::Resident;
   EXPECT_TRUE(margin.requests(lookingDown(100.0), 4.0, residency, 8.0, 1000).empty());
 }
 

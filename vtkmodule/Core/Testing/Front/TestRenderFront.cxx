@@ -12,7 +12,7 @@ namespace pointfront
 {
 
 using namespace test;
-using State = ResidencyView::State;
+using State = ResidencySnapshot::State;
 
 // Nothing is there at first:  (0)   then 0 arrives:  0 drawn, 1 and 2 asked for
 TEST(RenderFront, DrawsNothingAndAsksForTheRootUntilItIsThere)

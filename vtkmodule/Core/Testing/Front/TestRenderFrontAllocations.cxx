@@ -22,7 +22,7 @@ std::pair<std::uint32_t, std::size_t> allocationsOf(
   DetailSelection& front, const Hierarchy& table, double size, std::uint64_t pointBudget)
 {
   test::ScriptedResidency residency;
-  residency.otherwise = ResidencyView::State::Resident;
+  residency.otherwise = ResidencySnapshot::State::Resident;
   FrontLimits limits;
   limits.targetErrorPx = 1.0;
   limits.pointBudget = pointBudget;

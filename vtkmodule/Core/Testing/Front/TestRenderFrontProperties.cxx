@@ -18,7 +18,7 @@ namespace
 using test::randomTree;
 using test::ScriptedResidency;
 using test::TreeShape;
-using State = ResidencyView::State;
+using State = ResidencySnapshot::State;
 
 struct Case
 {

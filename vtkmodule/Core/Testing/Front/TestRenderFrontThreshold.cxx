@@ -12,7 +12,7 @@ namespace pointfront
 {
 
 using namespace test;
-using State = ResidencyView::State;
+using State = ResidencySnapshot::State;
 
 TEST(RenderFront, ThresholdStartsAtSixtyAndFallsToTheTarget)
 {

@@ -14,7 +14,7 @@ namespace pointfront
 namespace
 {
 
-using State = ResidencyView::State;
+using State = ResidencySnapshot::State;
 
 View lookingFrom(double x)
 {

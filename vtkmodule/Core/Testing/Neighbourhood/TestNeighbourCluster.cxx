@@ -55,7 +55,7 @@ bool expectThePlacesOfTheList(NeighbourCluster& cluster, const PositionSet& set,
 
 /// Each list of a cluster is, entry by entry, that of a search of its own.
 void expectTheListsOfTheIndex(
-  const PositionSet& set, const NeighbourDemand& demand, double size, const glm::dvec3& origin)
+  const PositionSet& set, const NeighbourSearch& demand, double size, const glm::dvec3& origin)
 {
   const KdIndex index(set, static_cast<int>(demand.axes));
   NeighbourCluster cluster(set, index, demand);

@@ -111,7 +111,7 @@ struct Scene
   ViewFront front{ std::make_shared<HierarchyPiece>(reader->table, 0, 1), share, schema,
     std::make_shared<WindowDemand>() };
   StoreDescription description;
-  FrameDemand demand;
+  FrameRequest demand;
   PlanRequest request;
 };
 

@@ -17,7 +17,7 @@ namespace
 {
 
 using test::MadeUpReader;
-using State = ResidencyView::State;
+using State = ResidencySnapshot::State;
 using std::chrono::milliseconds;
 
 std::vector<LoadRequest> wish(NodeIndex first, NodeIndex end, double priority = 1.0)

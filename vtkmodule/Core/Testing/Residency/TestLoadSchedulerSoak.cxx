@@ -131,7 +131,7 @@ public:
       store.residency->request({ { 7, 1.0, false } });
       store.residency->release([](NodeIndex) { return 1u; });
       store.residency->waitUntilIdle();
-      EXPECT_NE(store.residency->state(7), ResidencyView::State::Absent);
+      EXPECT_NE(store.residency->state(7), ResidencySnapshot::State::Absent);
     }
     stores_.clear();
     EXPECT_EQ(scheduler_->statistics().stores, 0u);

@@ -15,7 +15,7 @@ namespace
 {
 
 using test::MadeUpReader;
-using State = ResidencyView::State;
+using State = ResidencySnapshot::State;
 
 /// One loader: reads happen in the order of the queue. Room for `nodes` nodes of `reader`.
 ResidencyOptions roomFor(const MadeUpReader& reader, std::size_t nodes, unsigned threads = 1)

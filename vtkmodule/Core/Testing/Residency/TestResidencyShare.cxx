@@ -64,7 +64,7 @@ TEST(ResidencyShare, LoadsWhatAnyFrontWantsOnce)
   s.share.residency().waitUntilIdle();
   for (const NodeIndex node : { 1u, 2u, 3u })
   {
-    EXPECT_EQ(s.share.residency().state(node), ResidencyView::State::Resident);
+    EXPECT_EQ(s.share.residency().state(node), ResidencySnapshot::State::Resident);
   }
   EXPECT_EQ(s.reader->asked().size(), 3u);
 }
@@ -94,14 +94,14 @@ TEST(ResidencyShare, KeepsWhatAnotherFrontNeeds)
   // A third node: both residents are needed by one of the two, so nothing gives way.
   a->request({ { 3, 1.0 } }, [](NodeIndex node) { return node == 1 || node == 3 ? 0u : 3u; });
   s.share.residency().waitUntilIdle();
-  EXPECT_EQ(s.share.residency().state(1), ResidencyView::State::Resident);
-  EXPECT_EQ(s.share.residency().state(2), ResidencyView::State::Resident);
-  EXPECT_EQ(s.share.residency().state(3), ResidencyView::State::Absent);
+  EXPECT_EQ(s.share.residency().state(1), ResidencySnapshot::State::Resident);
+  EXPECT_EQ(s.share.residency().state(2), ResidencySnapshot::State::Resident);
+  EXPECT_EQ(s.share.residency().state(3), ResidencySnapshot::State::Absent);
   // The second looks elsewhere: its node gives way.
   b->request({}, [](NodeIndex) { return 3u; });
   s.share.residency().waitUntilIdle();
-  EXPECT_EQ(s.share.residency().state(2), ResidencyView::State::Absent);
-  EXPECT_EQ(s.share.residency().state(3), ResidencyView::State::Resident);
+  EXPECT_EQ(s.share.residency().state(2), ResidencySnapshot::State::Absent);
+  EXPECT_EQ(s.share.residency().state(3), ResidencySnapshot::State::Resident);
 }
 
 } // namespace

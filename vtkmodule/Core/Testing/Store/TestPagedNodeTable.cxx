@@ -236,7 +236,7 @@ TEST(PagedNodeTable, TheFrontSettlesAsOverATableInMemory)
     nodes[i] = terrain.row(i);
   }
   test::ScriptedResidency residency;
-  residency.otherwise = ResidencyView::State::Resident;
+  residency.otherwise = ResidencySnapshot::State::Resident;
   const auto settled = [&](const std::shared_ptr<const Hierarchy>& table, std::size_t cached)
   {
     RenderFront front(table);
@@ -281,7 +281,7 @@ TEST(PagedNodeTable, TheFrontDrawsTheParentOfALostPage)
       std::make_shared<PagedNodeTable>(std::move(source), std::vector<NodeIndex>{ 0 }, refinement);
     RenderFront front(table);
     test::ScriptedResidency residency;
-    residency.otherwise = ResidencyView::State::Resident;
+    residency.otherwise = ResidencySnapshot::State::Resident;
     const FrontDelta* delta = nullptr;
     for (int u = 0; u < 1000; ++u)
     {

@@ -21,7 +21,7 @@ float radiusOf(const std::vector<TreePosition>& positions, const glm::dvec3& sca
 {
   TreeSpace space;
   space.grid.scale = scale;
-  const RecordView view{ reinterpret_cast<const std::byte*>(positions.data()),
+  const RecordSpan view{ reinterpret_cast<const std::byte*>(positions.data()),
     sizeof(TreePosition) };
   std::vector<TreePosition> sorted;
   for (const std::uint32_t i : mortonOrder(view, positions.size()))

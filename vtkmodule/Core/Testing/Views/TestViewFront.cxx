@@ -29,9 +29,9 @@ View overview()
 }
 
 /// 13.6 million points, all of which the view wants.
-FrameDemand everything()
+FrameRequest everything()
 {
-  FrameDemand demand;
+  FrameRequest demand;
   demand.view = overview();
   demand.targetErrorPx = 0.01;
   return demand;
@@ -47,7 +47,7 @@ struct Cloud
     , front(std::make_shared<HierarchyPiece>(reader->table, 0, 1), share, schema, window)
   {
   }
-  void frame(const FrameDemand& demand)
+  void frame(const FrameRequest& demand)
   {
     const FrontDelta& delta = front.update(demand);
     front.recordFrame(
@@ -70,11 +70,11 @@ struct Window
     {
       all.push_back(std::make_unique<Cloud>(scheduler, demand, std::uint64_t(c)));
     }
-    FrameDemand complete = everything();
+    FrameRequest complete = everything();
     complete.complete = true;
     frames(1, complete);
   }
-  void frames(int count, const FrameDemand& wanted)
+  void frames(int count, const FrameRequest& wanted)
   {
     for (int frame = 0; frame < count; ++frame)
     {
@@ -107,7 +107,7 @@ constexpr std::uint64_t wholeTerrain = 13650000;
 // 50 ms at 0.1 us a point: half a million points, however many clouds there are.
 TEST(ViewFront, AFrameTimeIsSharedByTheCloudsOfAWindow)
 {
-  FrameDemand motion = everything();
+  FrameRequest motion = everything();
   motion.interacting = true;
   motion.frameMs = 50.0;
   for (const int clouds : { 1, 2, 5 })
@@ -125,7 +125,7 @@ TEST(ViewFront, AFrameTimeIsSharedByTheCloudsOfAWindow)
     EXPECT_GT(least, window.drawn() / std::uint64_t(2 * clouds)) << "at one error";
     // Half the time, half the points; and at rest time is no limit.
     const std::uint64_t before = window.drawn();
-    FrameDemand faster = motion;
+    FrameRequest faster = motion;
     faster.frameMs = 25.0;
     window.frames(60, faster);
     EXPECT_LT(window.drawn(), before * 7 / 10);
@@ -138,7 +138,7 @@ TEST(ViewFront, AFrameTimeIsSharedByTheCloudsOfAWindow)
 TEST(ViewFront, TheTimesOfTheCloudsAreAddedUpWhereTheFrameHasNone)
 {
   Window window(4);
-  FrameDemand motion = everything();
+  FrameRequest motion = everything();
   motion.interacting = true;
   motion.cloudMs = 12.5;
   window.frames(60, motion);
@@ -160,7 +160,7 @@ TEST(ViewFront, TheTimesOfTheCloudsAreAddedUpWhereTheFrameHasNone)
 TEST(ViewFront, TheBudgetOfPointsHoldsInMotionToo)
 {
   Window window(2);
-  FrameDemand motion = everything();
+  FrameRequest motion = everything();
   motion.interacting = true;
   motion.frameMs = 1000.0; // ten million
   motion.pointBudget = 300000;
@@ -177,7 +177,7 @@ TEST(ViewFront, WhatArrivesForAnotherLeavesACompleteViewInPeace)
 {
   const auto scheduler = std::make_shared<LoadScheduler>(LoadSchedulerOptions());
   Cloud cloud(scheduler, std::make_shared<WindowDemand>());
-  FrameDemand coarse = everything();
+  FrameRequest coarse = everything();
   coarse.targetErrorPx = 1000.0;
   coarse.complete = true;
   cloud.frame(coarse);
@@ -213,7 +213,7 @@ TEST(ViewFront, AFrameDoesNotWaitForAPageOfTheTable)
   const auto scheduler = std::make_shared<LoadScheduler>(options);
   Cloud cloud(scheduler, std::make_shared<WindowDemand>());
   cloud.reader->pages->open(false);
-  FrameDemand demand = everything();
+  FrameRequest demand = everything();
   for (int frame = 0; frame < 60; ++frame)
   {
     demand.interacting = frame % 2 == 0;
@@ -245,7 +245,7 @@ TEST(ViewFront, ACompleteFrameEndsWhenItIsAborted)
     options.overdueAfter = milliseconds(30);
     const auto scheduler = std::make_shared<LoadScheduler>(options);
     Cloud cloud(scheduler, std::make_shared<WindowDemand>());
-    FrameDemand demand = everything();
+    FrameRequest demand = everything();
     demand.targetErrorPx = 1000.0;
     cloud.frame(demand); // the root
     if (rows)

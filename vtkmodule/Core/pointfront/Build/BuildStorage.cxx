@@ -25,10 +25,10 @@ std::string folderOf(const std::string& path)
   return folder.empty() ? "." : folder;
 }
 
-MemoryDemand demandOf(
+BuildSize demandOf(
   const Sources& sources, const AttributeSchema& pooled, const BuildOptions& options)
 {
-  MemoryDemand demand;
+  BuildSize demand;
   for (const auto& source : sources)
   {
     for (std::uint64_t chunk = 0; chunk < source->chunkCount(); ++chunk)
@@ -51,7 +51,7 @@ MemoryDemand demandOf(
 Result<BuildStorage> reserveStorage(
   const Sources& sources, const AttributeSchema& pooled, const BuildOptions& options)
 {
-  const MemoryDemand demand = demandOf(sources, pooled, options);
+  const BuildSize demand = demandOf(sources, pooled, options);
   const auto plan = planMemory(demand);
   if (!plan)
   {
@@ -59,7 +59,7 @@ Result<BuildStorage> reserveStorage(
   }
   BuildStorage storage;
   storage.plan = *plan;
-  DiskDemand& disk = storage.disk;
+  DiskEstimate& disk = storage.disk;
   disk.outputFolder = folderOf(options.outputPath);
   estimateStore(disk, demand.points, demand.recordBytes);
   disk.spillFolder = options.temporaryFolder.empty() ? disk.outputFolder : options.temporaryFolder;

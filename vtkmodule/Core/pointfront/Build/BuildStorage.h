@@ -2,7 +2,7 @@
 
 #include "pointfront/Build/MemoryPlan.h"
 #include "pointfront/Build/StoreBuilder.h"
-#include "pointfront/Disk/DiskDemand.h"
+#include "pointfront/Disk/DiskEstimate.h"
 #include "pointfront/Ingest/RecordPool.h"
 
 #include <memory>
@@ -16,7 +16,7 @@ namespace pointfront
 struct BuildStorage
 {
   MemoryPlan plan;
-  DiskDemand disk;
+  DiskEstimate disk;
   std::string diskWarning; ///< for the user, when the disk may be too small; or empty
   std::unique_ptr<RecordPool> pool; ///< for all points that the sources may give
 };

@@ -19,7 +19,7 @@ constexpr std::uint64_t mostPartsAhead = 4;
 /// Bytes for one point of a part while it is built: its record twice (unsorted and sorted), keys,
 /// its position once more, index lists of the levels (their sum is below 2 indices a point), the
 /// encoded nodes of the part and of those finished out of turn.
-std::uint64_t partPointBytes(const MemoryDemand& demand)
+std::uint64_t partPointBytes(const BuildSize& demand)
 {
   return 2 * demand.recordBytes + mortonOrderBytes + RecordLayout::positionBytes + 8 +
     2 * demand.recordBytes + demand.partBytes;
@@ -32,24 +32,24 @@ std::uint64_t blockPointBytes(std::size_t recordBytes)
 }
 
 /// Parts much larger than a node: their ancestors are surely inner nodes.
-std::uint64_t leastPartPoints(const MemoryDemand& demand)
+std::uint64_t leastPartPoints(const BuildSize& demand)
 {
   return std::max<std::uint64_t>(4ull * demand.nodePoints, demand.wholePart);
 }
 
 /// A batch of doubles, for each thread.
-std::uint64_t batchBytes(const MemoryDemand& demand)
+std::uint64_t batchBytes(const BuildSize& demand)
 {
   return demand.largestChunk * (3 * sizeof(double) + demand.sourceBytes);
 }
 
 /// A batch, and a block of it alone.
-std::uint64_t readBytes(const MemoryDemand& demand)
+std::uint64_t readBytes(const BuildSize& demand)
 {
   return batchBytes(demand) + demand.largestChunk * blockPointBytes(demand.recordBytes);
 }
 
-std::uint64_t leastBytes(const MemoryDemand& demand)
+std::uint64_t leastBytes(const BuildSize& demand)
 {
   return std::max(
     readBytes(demand), std::min(demand.points, leastPartPoints(demand)) * partPointBytes(demand));
@@ -63,7 +63,7 @@ std::uint64_t withoutOverhead(std::uint64_t bytes)
 }
 
 /// With the bytes left beside what stays in memory all the time.
-MemoryPlan divided(const MemoryDemand& demand, std::uint64_t available, bool spill)
+MemoryPlan divided(const BuildSize& demand, std::uint64_t available, bool spill)
 {
   const std::uint64_t bytes = withoutOverhead(available);
   MemoryPlan plan;
@@ -88,7 +88,7 @@ MemoryPlan divided(const MemoryDemand& demand, std::uint64_t available, bool spi
 }
 } // namespace
 
-Result<MemoryPlan> planMemory(const MemoryDemand& demand)
+Result<MemoryPlan> planMemory(const BuildSize& demand)
 {
   const std::uint64_t all = demand.points * demand.recordBytes;
   const std::uint64_t least = leastBytes(demand);

@@ -9,7 +9,7 @@ namespace pointfront
 {
 
 /// What a build needs to know to divide its memory.
-struct MemoryDemand
+struct BuildSize
 {
   std::uint64_t points = 0; ///< at most
   std::uint64_t largestChunk = 0; ///< points of the largest chunk of any source
@@ -34,6 +34,6 @@ struct MemoryPlan
 };
 
 /// Error NoMemory, with the least that would do, when even one thread has too little.
-Result<MemoryPlan> planMemory(const MemoryDemand& demand);
+Result<MemoryPlan> planMemory(const BuildSize& demand);
 
 } // namespace pointfront

@@ -15,7 +15,7 @@ namespace pointfront
 ///             Refinement::Add each point at most once; never more than the budgets; the same
 ///             inputs give the same lists.
 /// Never       opens a file, blocks, allocates GPU memory or includes VTK. It only names nodes.
-/// Threads     one instance, one thread; View and ResidencyView are snapshots.
+/// Threads     one instance, one thread; View and ResidencySnapshot are snapshots.
 class DetailSelection
 {
 public:
@@ -25,7 +25,7 @@ public:
 
   /// One frame. The result is owned by the selection and valid until the next call.
   virtual const FrontDelta& update(
-    const View& view, const ResidencyView& residency, const FrontLimits& limits) = 0;
+    const View& view, const ResidencySnapshot& residency, const FrontLimits& limits) = 0;
 
   /// The demand of the last update's view on screen, on the GPU and in memory, at each threshold
   /// from the one in force upwards. Lower thresholds have the present demand; step 0 is what is

@@ -111,7 +111,7 @@ Demand DetailWalk::demand(std::size_t layer, const Shown& shown)
 }
 
 void DetailWalk::plan(
-  const ResidencyView& residency, const std::vector<Shown>& shown, FrontDelta& delta)
+  const ResidencySnapshot& residency, const std::vector<Shown>& shown, FrontDelta& delta)
 {
   residency_ = &residency;
   delta_ = &delta;
@@ -164,8 +164,8 @@ void DetailWalk::enter(std::size_t root, const Shown& shown)
   if (hierarchy_.refinement() == Refinement::Replace)
   {
     const auto state = require(at.index, at.row, overviewPriority);
-    at.drawable = state != ResidencyView::State::Absent;
-    at.standIn = state == ResidencyView::State::Resident;
+    at.drawable = state != ResidencySnapshot::State::Absent;
+    at.standIn = state == ResidencySnapshot::State::Resident;
   }
   visit(at);
 }
@@ -204,13 +204,13 @@ void DetailWalk::visitAdd(const Visit& at, bool inSight, double distance, bool o
   const bool detailed = inSight && !onPixel;
   const Quota quota{ at.quota.overview, detailed ? at.quota.detail : 0.0 };
   const std::uint32_t wantedPoints = prefixOf(quota.most(), at.points);
-  auto state = ResidencyView::State::Resident;
+  auto state = ResidencySnapshot::State::Resident;
   if (wantedPoints > 0)
   {
     const bool overview = prefixOf(quota.overview, row.pointCount) > 0;
     state = require(at.index, row, overview ? overviewPriority : priorityOf(at, distance));
   }
-  const bool here = at.drawable && state == ResidencyView::State::Resident;
+  const bool here = at.drawable && state == ResidencySnapshot::State::Resident;
   if (inSight && here)
   {
     draw(at, wantedPoints, distance);
@@ -224,7 +224,7 @@ void DetailWalk::visitAdd(const Visit& at, bool inSight, double distance, bool o
   if (deeper)
   {
     // Below a node that failed the others go on: they are stored apart from it.
-    const bool drawable = at.drawable && state != ResidencyView::State::Absent;
+    const bool drawable = at.drawable && state != ResidencySnapshot::State::Absent;
     descend(at, left, { inSight, drawable, true });
   }
 }
@@ -258,7 +258,8 @@ bool DetailWalk::childrenReady(const Visit& at, double priority)
     const RowState state = hierarchy_.peekChild(at.index, at.row, c, child);
     noteRow(state, true);
     ready = state == RowState::Here &&
-      require(at.row.firstChild + c, child, priority) == ResidencyView::State::Resident && ready;
+      require(at.row.firstChild + c, child, priority) == ResidencySnapshot::State::Resident &&
+      ready;
   }
   return ready;
 }
@@ -295,25 +296,25 @@ void DetailWalk::descend(const Visit& at, const Quota& left, const Descent& desc
   }
 }
 
-ResidencyView::State DetailWalk::require(NodeIndex node, const Node& row, double priority)
+ResidencySnapshot::State DetailWalk::require(NodeIndex node, const Node& row, double priority)
 {
   const std::uint32_t points = drawablePoints(node, row).value_or(0);
   if (points == 0)
   {
-    return ResidencyView::State::Resident;
+    return ResidencySnapshot::State::Resident;
   }
   sum_.held += points;
   if (!residency_)
   {
-    return ResidencyView::State::Resident;
+    return ResidencySnapshot::State::Resident;
   }
   needed_.insert(node, 0);
-  const ResidencyView::State state = residency_->state(node);
-  if (state == ResidencyView::State::Failed)
+  const ResidencySnapshot::State state = residency_->state(node);
+  if (state == ResidencySnapshot::State::Failed)
   {
     ++delta_->failedNodes;
   }
-  else if (state == ResidencyView::State::Absent)
+  else if (state == ResidencySnapshot::State::Absent)
   {
     ++missing_;
     wanted_.push_back({ node, priority, false, points, row.layer });

@@ -51,7 +51,7 @@ public:
 
   /// Fills draw, requests, pointsDrawn, errorPx, failedNodes and rowsComing of `delta`; draws
   /// as much as the limits allow. `shown` is by layer.
-  void plan(const ResidencyView& residency, const std::vector<Shown>& shown, FrontDelta& delta);
+  void plan(const ResidencySnapshot& residency, const std::vector<Shown>& shown, FrontDelta& delta);
 
   // Of the last plan.
   std::uint32_t missing() const { return missing_; } ///< neither resident nor failed
@@ -71,7 +71,7 @@ private:
   void visitReplace(const Visit& at, bool inSight, double distance, bool onPixel);
   void descend(const Visit& at, const Quota& left, const Descent& descent);
   bool childrenReady(const Visit& at, double priority);
-  ResidencyView::State require(NodeIndex node, const Node& row, double priority);
+  ResidencySnapshot::State require(NodeIndex node, const Node& row, double priority);
   void draw(const Visit& at, std::uint32_t count, double distance);
   void noteError(const Visit& at, std::uint32_t shown, double distance, bool refined);
   double errorOf(const Visit& at, double distance) const;
@@ -84,7 +84,7 @@ private:
   double points_ = 0.0;
   const View* view_ = nullptr;
   const FrontLimits* limits_ = nullptr;
-  const ResidencyView* residency_ = nullptr; ///< null: the walk only counts
+  const ResidencySnapshot* residency_ = nullptr; ///< null: the walk only counts
   FrontDelta* delta_ = nullptr; ///< null likewise
   Demand sum_;
   DrawAllowance allowance_;

@@ -39,8 +39,8 @@ struct ViewDetail::State
   bool atRest = false;
   bool exhausted = false;
 
-  bool unchanged(const View& v, const ResidencyView& from, const FrontLimits& l) const;
-  void finish(const ResidencyView& from, bool sameInput, bool sameRevision);
+  bool unchanged(const View& v, const ResidencySnapshot& from, const FrontLimits& l) const;
+  void finish(const ResidencySnapshot& from, bool sameInput, bool sameRevision);
 };
 
 ViewDetail::ViewDetail(std::shared_ptr<const Hierarchy> hierarchy)
@@ -51,14 +51,14 @@ ViewDetail::ViewDetail(std::shared_ptr<const Hierarchy> hierarchy)
 ViewDetail::~ViewDetail() = default;
 
 bool ViewDetail::State::unchanged(
-  const View& v, const ResidencyView& from, const FrontLimits& l) const
+  const View& v, const ResidencySnapshot& from, const FrontLimits& l) const
 {
   return atRest && revision != 0 && revision == from.revision() &&
     exhausted == (walk.missing() > 0 && from.exhausted()) && rowArrivals == hierarchy->arrivals() &&
     limits.sharedRevision == l.sharedRevision && view == v && limits == l;
 }
 
-void ViewDetail::State::finish(const ResidencyView& from, bool sameInput, bool sameRevision)
+void ViewDetail::State::finish(const ResidencySnapshot& from, bool sameInput, bool sameRevision)
 {
   ++delta.number;
   delta.frontLength = static_cast<std::uint32_t>(walk.needed().size());
@@ -76,7 +76,7 @@ void ViewDetail::State::finish(const ResidencyView& from, bool sameInput, bool s
 }
 
 const FrontDelta& ViewDetail::update(
-  const View& view, const ResidencyView& residency, const FrontLimits& limits)
+  const View& view, const ResidencySnapshot& residency, const FrontLimits& limits)
 {
   State& s = *state_;
   assert(limits.targetErrorPx > 0.0);

@@ -31,7 +31,7 @@ public:
   ~ViewDetail() override;
 
   const FrontDelta& update(
-    const View& view, const ResidencyView& residency, const FrontLimits& limits) override;
+    const View& view, const ResidencySnapshot& residency, const FrontLimits& limits) override;
   /// Above the threshold in force estimated, without another walk: a quarter of the points for
   /// twice the error.
   void demandCurves(DemandCurves& curves) const override;

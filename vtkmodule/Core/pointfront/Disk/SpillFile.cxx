@@ -1,6 +1,6 @@
 #include "pointfront/Disk/SpillFile.h"
 
-#include "pointfront/Disk/DiskDemand.h"
+#include "pointfront/Disk/DiskEstimate.h"
 
 #include <atomic>
 #include <cerrno>

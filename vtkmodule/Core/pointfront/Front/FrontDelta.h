@@ -11,7 +11,7 @@ namespace pointfront
 {
 
 /// Which nodes of a store are in memory at this moment. A snapshot for the length of one update.
-class ResidencyView
+class ResidencySnapshot
 {
 public:
   enum class State : std::uint8_t
@@ -20,7 +20,7 @@ public:
     Resident,
     Failed ///< could not be read; is not asked for again
   };
-  virtual ~ResidencyView() = default;
+  virtual ~ResidencySnapshot() = default;
   virtual State state(NodeIndex node) const = 0;
   /// Changes whenever the state of any node changes, so that an update in which nothing changed can
   /// end at once. 0: not known; every update then asks anew.

@@ -25,7 +25,7 @@ bool sooner(const LoadRequest& a, const LoadRequest& b)
 } // namespace
 
 void FrontPlan::make(ActiveTree& tree, const FrontThreshold& threshold,
-  const ResidencyView& residency, const FrontLimits& limits, std::uint32_t update,
+  const ResidencySnapshot& residency, const FrontLimits& limits, std::uint32_t update,
   FrontDelta& delta)
 {
   tree_ = &tree;
@@ -158,12 +158,12 @@ FrontPlan::Presence FrontPlan::require(ActiveNode& node, double priority)
   }
   switch (residency_->state(node.node))
   {
-    case ResidencyView::State::Resident:
+    case ResidencySnapshot::State::Resident:
       return Presence::Ready;
-    case ResidencyView::State::Failed:
+    case ResidencySnapshot::State::Failed:
       ++delta_->failedNodes;
       return Presence::Failed;
-    case ResidencyView::State::Absent:
+    case ResidencySnapshot::State::Absent:
       break;
   }
   ++missing_;
@@ -173,7 +173,7 @@ FrontPlan::Presence FrontPlan::require(ActiveNode& node, double priority)
 
 void FrontPlan::prefetch(const ActiveNode& node, double priority)
 {
-  if (node.pointCount > 0 && residency_->state(node.node) == ResidencyView::State::Absent)
+  if (node.pointCount > 0 && residency_->state(node.node) == ResidencySnapshot::State::Absent)
   {
     wanted_.push_back({ node.node, priority, true, node.pointCount, node.layer });
   }

@@ -19,7 +19,7 @@ class FrontPlan
 {
 public:
   /// Fills draw, requests, pointsDrawn, errorPx and failedNodes of `delta`.
-  void make(ActiveTree& tree, const FrontThreshold& threshold, const ResidencyView& residency,
+  void make(ActiveTree& tree, const FrontThreshold& threshold, const ResidencySnapshot& residency,
     const FrontLimits& limits, std::uint32_t update, FrontDelta& delta);
 
   /// Nodes that the view needs and that are neither resident nor failed.
@@ -51,7 +51,7 @@ private:
   void selectRequests(FrontDelta& delta);
 
   ActiveTree* tree_ = nullptr;
-  const ResidencyView* residency_ = nullptr;
+  const ResidencySnapshot* residency_ = nullptr;
   const FrontLimits* limits_ = nullptr;
   FrontDelta* delta_ = nullptr;
   std::vector<LoadRequest> wanted_;

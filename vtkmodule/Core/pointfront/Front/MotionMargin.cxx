@@ -54,7 +54,7 @@ View viewAhead(const View& before, const View& now, double frames)
 }
 
 const std::vector<LoadRequest>& MotionMargin::requests(const View& now, double thresholdPx,
-  const ResidencyView& residency, double frames, std::uint32_t most,
+  const ResidencySnapshot& residency, double frames, std::uint32_t most,
   const std::vector<LayerLimits>& layers)
 {
   requests_.clear();
@@ -88,7 +88,7 @@ void MotionMargin::rest(const View& now)
 }
 
 void MotionMargin::visit(NodeIndex index, const View& ahead, const LayerLimits& layer,
-  double thresholdPx, const ResidencyView& residency)
+  double thresholdPx, const ResidencySnapshot& residency)
 {
   if (++visits_ > visitLimit)
   {
@@ -110,7 +110,7 @@ void MotionMargin::visit(NodeIndex index, const View& ahead, const LayerLimits& 
   }
   const double errorPx = screenError(ahead, node) / layer.errorFactor;
   if (verdict == NodePruning::Verdict::Draw && node.pointCount > 0 &&
-    residency.state(index) == ResidencyView::State::Absent)
+    residency.state(index) == ResidencySnapshot::State::Absent)
   {
     requests_.push_back({ index, errorPx, true, node.pointCount, node.layer });
   }

@@ -35,7 +35,7 @@ public:
   /// ties by node; at most `most`. `frames`: how far to look ahead. Call it once a frame. Valid
   /// until the next call. Layers as in FrontLimits.
   const std::vector<LoadRequest>& requests(const View& now, double thresholdPx,
-    const ResidencyView& residency, double frames, std::uint32_t most,
+    const ResidencySnapshot& residency, double frames, std::uint32_t most,
     const std::vector<LayerLimits>& layers = {});
 
   /// Instead of requests(), for a frame that is not part of a motion.
@@ -45,7 +45,7 @@ public:
 
 private:
   void visit(NodeIndex index, const View& ahead, const LayerLimits& layer, double thresholdPx,
-    const ResidencyView& residency);
+    const ResidencySnapshot& residency);
 
   std::shared_ptr<const Hierarchy> hierarchy_;
   std::vector<LoadRequest> requests_;

@@ -67,7 +67,7 @@ struct RenderFront::State
   bool wantsCollapse(const ActiveNode& node) const;
   void expand(SlotIndex slot);
   void collapse(SlotIndex slot);
-  void finish(const ResidencyView& residency);
+  void finish(const ResidencySnapshot& residency);
 };
 
 void RenderFront::State::adopt(const View& newView, const FrontLimits& newLimits)
@@ -224,7 +224,7 @@ void RenderFront::State::moveFront()
   }
 }
 
-void RenderFront::State::finish(const ResidencyView& residency)
+void RenderFront::State::finish(const ResidencySnapshot& residency)
 {
   const bool settled = expansions == 0 && !movesUsedUp && !growthHeldBack && !rowsComing;
   const bool steady = !threshold.changed();
@@ -256,7 +256,7 @@ RenderFront::RenderFront(std::shared_ptr<const Hierarchy> hierarchy)
 RenderFront::~RenderFront() = default;
 
 const FrontDelta& RenderFront::update(
-  const View& view, const ResidencyView& residency, const FrontLimits& limits)
+  const View& view, const ResidencySnapshot& residency, const FrontLimits& limits)
 {
   State& s = *state_;
   const bool sameResidency = s.revision != 0 && s.revision == residency.revision() &&

@@ -28,7 +28,7 @@ namespace pointfront
 ///             the steady state it does not allocate.
 /// Errors      none; a node that failed to load stays unrequested, and what stands in goes on being
 ///             drawn. With Add its descendants, which are stored apart, are still refined into.
-/// Threads     one instance, one thread; View and ResidencyView are snapshots.
+/// Threads     one instance, one thread; View and ResidencySnapshot are snapshots.
 /// Source      Richter & Doellner 2010, section 3.2.1 (the rendering front); FRONT-4..8;
 ///             Richter, Discher & Doellner 2015, section 4.2 (LAYERS-11).
 class RenderFront final : public DetailSelection
@@ -39,7 +39,7 @@ public:
 
   /// One frame. The result is owned by the front and valid until the next call.
   const FrontDelta& update(
-    const View& view, const ResidencyView& residency, const FrontLimits& limits) override;
+    const View& view, const ResidencySnapshot& residency, const FrontLimits& limits) override;
 
   /// The demand of the last update's view on screen, on the GPU and in memory, at each threshold
   /// from the one in force upwards. Lower thresholds have the present demand; step 0 is what is

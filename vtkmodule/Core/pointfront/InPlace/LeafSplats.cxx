@@ -82,7 +82,7 @@ void LeafSplats::look(NodeIndex node, const std::vector<std::byte>& list)
     }
     released_(run.first, run.first + run.count);
   }
-  const RecordView view{ reinterpret_cast<const std::byte*>(positions.data()),
+  const RecordSpan view{ reinterpret_cast<const std::byte*>(positions.data()),
     sizeof(TreePosition) };
   const float radius = splat_.measure(view, mortonOrder(view, positions.size()));
   ratios_[static_cast<std::size_t>(found - measured_.begin())] = radius / spacing(node);

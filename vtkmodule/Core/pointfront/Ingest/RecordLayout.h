@@ -77,7 +77,7 @@ inline void copyRecord(std::byte* to, const std::byte* from, std::size_t bytes)
 }
 
 /// A packed run of records that someone else owns.
-struct RecordView
+struct RecordSpan
 {
   const std::byte* data = nullptr;
   std::size_t stride = 0; ///< bytes of one record
@@ -89,7 +89,7 @@ struct RecordView
 /// The records numbered in `order`, one behind the other from `to` on; `seen(i, record)` is called
 /// with each of them while it is near.
 template <typename Seen>
-void gatherRecords(const RecordView& records, const std::vector<std::uint32_t>& order,
+void gatherRecords(const RecordSpan& records, const std::vector<std::uint32_t>& order,
   std::byte* to, const Seen& seen)
 {
   constexpr std::size_t ahead = 12; // records lie anywhere in the part: ask for them early
@@ -103,7 +103,7 @@ void gatherRecords(const RecordView& records, const std::vector<std::uint32_t>& 
 }
 
 inline void gatherRecords(
-  const RecordView& records, const std::vector<std::uint32_t>& order, std::byte* to)
+  const RecordSpan& records, const std::vector<std::uint32_t>& order, std::byte* to)
 {
   gatherRecords(records, order, to, [](std::size_t, const std::byte*) {});
 }

@@ -302,7 +302,7 @@ bool RecordPacker::packColumn(const AttributeSchema& sourceSchema, const ColumnM
 
 void RecordPacker::addCells(std::size_t from)
 {
-  const RecordView view{ records_.data(), layout_.bytes() };
+  const RecordSpan view{ records_.data(), layout_.bytes() };
   for (std::size_t i = from; i < count_; ++i)
   {
     const auto objectClass =

@@ -30,7 +30,7 @@ float safely(double squaredBound, double extent)
 } // namespace
 
 NeighbourCluster::NeighbourCluster(
-  const PositionSet& set, const NeighbourIndex& index, const NeighbourDemand& demand)
+  const PositionSet& set, const NeighbourIndex& index, const NeighbourSearch& demand)
   : set_(set)
   , index_(index)
   , demand_(demand)

@@ -9,7 +9,7 @@ namespace pointfront
 {
 
 /// The neighbours that are searched for around each point.
-struct NeighbourDemand
+struct NeighbourSearch
 {
   std::uint32_t neighbours = 16; ///< the k nearest references; 0: all within `radius`
   double radius = 0.0; ///< world units
@@ -28,7 +28,7 @@ class NeighbourCluster
 {
 public:
   NeighbourCluster(
-    const PositionSet& set, const NeighbourIndex& index, const NeighbourDemand& demand);
+    const PositionSet& set, const NeighbourIndex& index, const NeighbourSearch& demand);
 
   /// Looks up the places around a group. All points that are searched next lie within `reach` of
   /// the middle, over the axes of the demand.
@@ -55,7 +55,7 @@ private:
 
   const PositionSet& set_;
   const NeighbourIndex& index_;
-  const NeighbourDemand demand_;
+  const NeighbourSearch demand_;
   PlaceBall group_;
   PlaceBall few_;
   const PlaceBall* around_ = &group_; ///< that points choose from

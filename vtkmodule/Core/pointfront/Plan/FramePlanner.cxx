@@ -180,7 +180,7 @@ float prefixSpacing(const NodeColumns& node, std::uint32_t drawn, float spacingR
   return static_cast<float>(prefixErrorPx(points, drawn, node.spacing, spacingRatio));
 }
 
-bool leavesOut(const FrontDelta& delta, const FrameDemand& demand)
+bool leavesOut(const FrontDelta& delta, const FrameRequest& demand)
 {
   // In motion the frame time limits the front: at rest the same view may show more.
   const bool limited = demand.interacting && delta.errorPx > demand.targetErrorPx;

@@ -90,7 +90,7 @@ std::shared_ptr<const NodeColumns> Residency::find(NodeIndex node) const
   return nodes_->find(node);
 }
 
-ResidencyView::State Residency::state(NodeIndex node) const
+ResidencySnapshot::State Residency::state(NodeIndex node) const
 {
   return nodes_->state(node);
 }

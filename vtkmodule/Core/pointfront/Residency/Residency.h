@@ -56,7 +56,7 @@ struct ResidencyStatistics
 /// Errors      a node that cannot be read is Failed for good (for these columns); one that is
 ///             larger than the whole budget is Failed until the budget grows. Each is
 ///             reported once by takeErrors(); a file that cannot be read once for all its nodes.
-class Residency final : public ResidencyView
+class Residency final : public ResidencySnapshot
 {
 public:
   /// One of several stores of a scheduler. Its own budget is without limit until setBudgetBytes().

@@ -464,9 +464,9 @@ std::shared_ptr<const NodeColumns> StoreNodes::find(NodeIndex node)
   return cached->points;
 }
 
-ResidencyView::State StoreNodes::state(NodeIndex node) const
+ResidencySnapshot::State StoreNodes::state(NodeIndex node) const
 {
-  using State = ResidencyView::State;
+  using State = ResidencySnapshot::State;
   const std::lock_guard<std::mutex> lock(mutex_);
   const CachedNode* cached = cache_.find(node);
   if (cached == nullptr)

@@ -60,7 +60,7 @@ public:
   LayerColumns columns() const;
   bool request(const std::vector<LoadRequest>& requests); ///< false: no change
   std::shared_ptr<const NodeColumns> find(NodeIndex node);
-  ResidencyView::State state(NodeIndex node) const;
+  ResidencySnapshot::State state(NodeIndex node) const;
   std::uint64_t revision() const { return revision_; }
   std::uint64_t arrivals() const { return arrivals_; }
   bool exhausted() const;

@@ -2,8 +2,8 @@
 
 #include "pointfront/Base/Infinity.h"
 
-#include "pointfront/Style/ColourTables.h"
 #include "pointfront/Style/ComponentName.h"
+#include "pointfront/Style/StandardColours.h"
 
 #include <algorithm>
 #include <cassert>

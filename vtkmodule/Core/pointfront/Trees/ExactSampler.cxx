@@ -66,7 +66,7 @@ void fill(std::vector<std::uint32_t>& chosen, std::size_t points, std::uint64_t 
 }
 } // namespace
 
-void ExactSampler::choose(const RecordView& records, const std::vector<std::uint32_t>& points,
+void ExactSampler::choose(const RecordSpan& records, const std::vector<std::uint32_t>& points,
   const CellOccupancy& occupancy, std::uint64_t wanted, std::vector<std::uint32_t>& chosen)
 {
   if (wanted == 0 || wanted >= points.size())

@@ -18,7 +18,7 @@ class ExactSampler
 public:
   /// `points` in Morton order, at least `wanted`; `chosen`: at which places of `points` those are,
   /// ascending. `occupancy` is that of the points.
-  void choose(const RecordView& records, const std::vector<std::uint32_t>& points,
+  void choose(const RecordSpan& records, const std::vector<std::uint32_t>& points,
     const CellOccupancy& occupancy, std::uint64_t wanted, std::vector<std::uint32_t>& chosen);
 
 private:

@@ -16,16 +16,16 @@ namespace
 {
 constexpr unsigned intervalsLog2 = 11;
 
-RecordView viewOf(const std::vector<TreePosition>& positions)
+RecordSpan viewOf(const std::vector<TreePosition>& positions)
 {
   return { reinterpret_cast<const std::byte*>(positions.data()), sizeof(TreePosition) };
 }
 } // namespace
 
-RecordView KdSubtreeBuilder::sorted(const std::vector<std::byte>& records, std::size_t count)
+RecordSpan KdSubtreeBuilder::sorted(const std::vector<std::byte>& records, std::size_t count)
 {
   const CpuStopwatch watch(seconds_.sort);
-  const RecordView view{ records.data(), recordBytes_ };
+  const RecordSpan view{ records.data(), recordBytes_ };
   sorted_.resize(std::max(sorted_.size(), records.size()));
   positions_.resize(std::max(positions_.size(), count));
   gatherRecords(view, mortonOrder(view, count), sorted_.data(),
@@ -40,7 +40,7 @@ OpenSubtree KdSubtreeBuilder::build(
   {
     return {};
   }
-  const RecordView view = sorted(records, count);
+  const RecordSpan view = sorted(records, count);
   records = {};
   active_.resize(count);
   std::iota(active_.begin(), active_.end(), 0u);
@@ -55,7 +55,7 @@ OpenSubtree KdSubtreeBuilder::build(
 /// All that is owed is taken at once, evenly spread; the nodes farthest above choose among it
 /// first.
 std::vector<std::byte> KdSubtreeBuilder::owed(
-  const RecordView& records, std::uint32_t node, Region& region)
+  const RecordSpan& records, std::uint32_t node, Region& region)
 {
   std::uint64_t total = 0;
   for (const KdShare& share : shares_[node])
@@ -148,7 +148,7 @@ float KdSubtreeBuilder::splatRadius(const std::vector<std::uint32_t>& own, doubl
   return static_cast<float>(splat_.measure(viewOf(positions_), own) * share);
 }
 
-std::unique_ptr<BuiltNode> KdSubtreeBuilder::node(const RecordView& records, Region region)
+std::unique_ptr<BuiltNode> KdSubtreeBuilder::node(const RecordSpan& records, Region region)
 {
   auto built = std::make_unique<BuiltNode>();
   const std::size_t count = region.end - region.begin;
@@ -262,7 +262,7 @@ std::size_t KdSubtreeBuilder::divide(const Region& region)
 }
 
 void KdSubtreeBuilder::emit(
-  BuiltNode& node, const RecordView& records, const std::vector<std::uint32_t>& points)
+  BuiltNode& node, const RecordSpan& records, const std::vector<std::uint32_t>& points)
 {
   const CpuStopwatch watch(seconds_.encode);
   EncodedNode payload = emitter_.emit(node, records, points);
@@ -293,7 +293,7 @@ OpenSubtree KdSubtreeBuilder::join(std::vector<OpenSubtree> children, std::uint3
     joined.root->children.push_back(std::move(child.root));
   }
   const std::size_t count = own.size() / recordBytes_;
-  const RecordView records = sorted(own, count);
+  const RecordSpan records = sorted(own, count);
   points_.resize(count);
   std::iota(points_.begin(), points_.end(), 0u);
   occupancy_ = cellOccupancy(viewOf(positions_), points_);

@@ -54,19 +54,19 @@ private:
     double above = 0.0;
   };
   /// The records in Morton order, with their positions_; until the next call.
-  RecordView sorted(const std::vector<std::byte>& records, std::size_t count);
+  RecordSpan sorted(const std::vector<std::byte>& records, std::size_t count);
   /// The bits that each of some points differs in from the one before.
   void countSteps(const std::vector<std::uint32_t>& points);
   /// Moves `wanted` evenly spread points of a region to held_; the others stay, in order. Leaves
   /// in occupancy_ that of all of them.
   void take(Region& region, std::uint64_t wanted);
-  std::vector<std::byte> owed(const RecordView& records, std::uint32_t node, Region& region);
-  std::unique_ptr<BuiltNode> node(const RecordView& records, Region region);
+  std::vector<std::byte> owed(const RecordSpan& records, std::uint32_t node, Region& region);
+  std::unique_ptr<BuiltNode> node(const RecordSpan& records, Region region);
   std::size_t divide(const Region& region);
   unsigned longestAxis(const Region& region, std::uint32_t& low, std::uint32_t& high) const;
   double spacing(double drawn) const;
   float splatRadius(const std::vector<std::uint32_t>& own, double drawn);
-  void emit(BuiltNode& node, const RecordView& records, const std::vector<std::uint32_t>& points);
+  void emit(BuiltNode& node, const RecordSpan& records, const std::vector<std::uint32_t>& points);
 
   const NodeEmitter& emitter_;
   KdRule rule_;

@@ -39,17 +39,17 @@ OpenSubtree MeanSubtreeBuilder::build(
   }
   {
     const CpuStopwatch watch(seconds_.sort);
-    const RecordView view{ records.data(), recordBytes_ };
+    const RecordSpan view{ records.data(), recordBytes_ };
     sorted_.resize(std::max(sorted_.size(), records.size()));
     gatherRecords(view, mortonOrder(view, count), sorted_.data());
     records = {};
   }
-  const RecordView sorted{ sorted_.data(), recordBytes_ };
+  const RecordSpan sorted{ sorted_.data(), recordBytes_ };
   return opened(branch(sorted, 0, static_cast<std::uint32_t>(count)));
 }
 
 MeanSubtreeBuilder::Branch MeanSubtreeBuilder::branch(
-  const RecordView& records, std::uint32_t begin, std::uint32_t end)
+  const RecordSpan& records, std::uint32_t begin, std::uint32_t end)
 {
   const unsigned side = differingBits(records.position(begin), records.position(end - 1));
   if (end - begin <= rule_.nodePoints)
@@ -68,7 +68,7 @@ MeanSubtreeBuilder::Branch MeanSubtreeBuilder::branch(
 }
 
 MeanSubtreeBuilder::Branch MeanSubtreeBuilder::leaf(
-  const RecordView& records, std::uint32_t begin, std::uint32_t end, unsigned side)
+  const RecordSpan& records, std::uint32_t begin, std::uint32_t end, unsigned side)
 {
   const CpuStopwatch watch(seconds_.sample);
   Branch branch;
@@ -205,7 +205,7 @@ std::unique_ptr<BuiltNode> MeanSubtreeBuilder::close(OpenSubtree subtree)
   {
     return nullptr;
   }
-  const RecordView view{ subtree.records.data(), form_.bytes() };
+  const RecordSpan view{ subtree.records.data(), form_.bytes() };
   std::vector<std::uint32_t> all(subtree.records.size() / form_.bytes());
   std::iota(all.begin(), all.end(), 0u);
   const CpuStopwatch watch(seconds_.encode);

@@ -49,13 +49,13 @@ private:
   {
     std::unique_ptr<BuiltNode> node;
     std::vector<std::byte> means; ///< what `view` shows of an inner node built here
-    RecordView view;
+    RecordSpan view;
     bool original = false; ///< the view shows records of the pool
     std::vector<std::uint32_t> held; ///< numbers in the view, Morton order
     std::optional<CellOccupancy> occupancy; ///< of `held`, where it is known already
   };
-  Branch branch(const RecordView& records, std::uint32_t begin, std::uint32_t end);
-  Branch leaf(const RecordView& records, std::uint32_t begin, std::uint32_t end, unsigned side);
+  Branch branch(const RecordSpan& records, std::uint32_t begin, std::uint32_t end);
+  Branch leaf(const RecordSpan& records, std::uint32_t begin, std::uint32_t end, unsigned side);
   Branch joinBranches(std::vector<Branch> children, unsigned log2Side);
   void represent(const std::vector<Branch>& children, unsigned log2Side, Branch& joined);
   void emit(Branch child, BuiltNode& parent);

@@ -41,7 +41,7 @@ std::uint64_t keyOf(const TreePosition& p, unsigned shift)
 }
 
 /// Smallest n such that all records lie in one cell of 2^n steps.
-unsigned commonBits(const RecordView& records, std::size_t count)
+unsigned commonBits(const RecordSpan& records, std::size_t count)
 {
   const TreePosition first = records.position(0);
   TreePosition differ{ 0 };
@@ -180,7 +180,7 @@ bool mortonLess(const TreePosition& a, const TreePosition& b)
   return a[axis] < b[axis];
 }
 
-std::vector<std::uint32_t> mortonOrder(const RecordView& records, std::size_t count)
+std::vector<std::uint32_t> mortonOrder(const RecordSpan& records, std::size_t count)
 {
   std::vector<std::uint32_t> order(count);
   if (count == 0)

@@ -42,7 +42,7 @@ bool mortonLess(const TreePosition& a, const TreePosition& b);
 /// result depends on the input order of duplicates only.
 /// Cost     about a third of the key's bits are sorted by digits, the rest only where they decide.
 /// Memory   16 bytes a record while it runs, 4 bytes a record of result.
-std::vector<std::uint32_t> mortonOrder(const RecordView& records, std::size_t count);
+std::vector<std::uint32_t> mortonOrder(const RecordSpan& records, std::size_t count);
 
 /// mortonOrder() needs that much memory for one record beside the records themselves.
 constexpr std::size_t mortonOrderBytes = 20;

@@ -17,7 +17,7 @@ constexpr std::size_t tilePoints = 256;
 /// `count` points of a node, in the order in which they are stored.
 struct Tile
 {
-  const RecordView& records;
+  const RecordSpan& records;
   const std::uint32_t* order;
   std::size_t count;
 };
@@ -117,7 +117,7 @@ NodeEmitter::NodeEmitter(
 }
 
 NodeColumns NodeEmitter::gather(
-  const RecordView& records, const std::vector<std::uint32_t>& order) const
+  const RecordSpan& records, const std::vector<std::uint32_t>& order) const
 {
   NodeColumns points;
   points.positions.resize(order.size());
@@ -161,7 +161,7 @@ NodeColumns NodeEmitter::gather(
 }
 
 EncodedNode NodeEmitter::emit(
-  BuiltNode& node, const RecordView& records, const std::vector<std::uint32_t>& points) const
+  BuiltNode& node, const RecordSpan& records, const std::vector<std::uint32_t>& points) const
 {
   const NodeColumns columns = gather(records, prefixOrder(records, points));
   encloseNode(node.row, boundsOf(space_.grid, columns), node.children);

@@ -36,12 +36,12 @@ public:
 
   /// `points` in Morton order; the children of `node` are finished.
   EncodedNode emit(
-    BuiltNode& node, const RecordView& records, const std::vector<std::uint32_t>& points) const;
+    BuiltNode& node, const RecordSpan& records, const std::vector<std::uint32_t>& points) const;
 
   const TreeSpace& space() const { return space_; }
 
 private:
-  NodeColumns gather(const RecordView& records, const std::vector<std::uint32_t>& order) const;
+  NodeColumns gather(const RecordSpan& records, const std::vector<std::uint32_t>& order) const;
 
   TreeSpace space_;
   AttributeSchema schema_;

@@ -213,7 +213,7 @@ void NodeSplat::lookAround(const Points& points, std::size_t from)
   }
 }
 
-float NodeSplat::measure(const RecordView& positions, const std::vector<std::uint32_t>& numbers)
+float NodeSplat::measure(const RecordSpan& positions, const std::vector<std::uint32_t>& numbers)
 {
   const Points points{ positions, numbers };
   quantile_.begin();

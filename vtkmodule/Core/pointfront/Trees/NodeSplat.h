@@ -50,12 +50,12 @@ public:
   explicit NodeSplat(const TreeSpace& space);
   /// Of the points with these numbers, in Morton order: all that are drawn of a region. World
   /// units; 0 for a single place.
-  float measure(const RecordView& positions, const std::vector<std::uint32_t>& points);
+  float measure(const RecordSpan& positions, const std::vector<std::uint32_t>& points);
 
 private:
   struct Points
   {
-    const RecordView& positions;
+    const RecordSpan& positions;
     const std::vector<std::uint32_t>& numbers;
 
     TreePosition operator[](std::size_t i) const { return positions.position(numbers[i]); }

@@ -23,7 +23,7 @@ std::uint64_t hashOf(const TreePosition& p)
 } // namespace
 
 std::vector<std::uint32_t> prefixOrder(
-  const RecordView& records, const std::vector<std::uint32_t>& indices)
+  const RecordSpan& records, const std::vector<std::uint32_t>& indices)
 {
   std::vector<RankedHash> points(indices.size());
   for (std::size_t i = 0; i < indices.size(); ++i)

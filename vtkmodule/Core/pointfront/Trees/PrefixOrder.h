@@ -18,7 +18,7 @@ namespace pointfront
 /// `indices` must come in Morton order; the result depends on the positions only.
 /// Source     Kovac 2009, section 3.1 (random step); docs/formats/pfront.md, Blocks.
 std::vector<std::uint32_t> prefixOrder(
-  const RecordView& records, const std::vector<std::uint32_t>& indices);
+  const RecordSpan& records, const std::vector<std::uint32_t>& indices);
 
 /// A point of a node and a fixed, well mixed hash of it.
 struct RankedHash

@@ -50,7 +50,7 @@ void CellOccupancy::append(const CellOccupancy& others, unsigned between)
   }
 }
 
-CellOccupancy cellOccupancy(const RecordView& records, const std::vector<std::uint32_t>& points)
+CellOccupancy cellOccupancy(const RecordSpan& records, const std::vector<std::uint32_t>& points)
 {
   if (points.empty())
   {
@@ -205,7 +205,7 @@ bool SubsetSampler::crowded(const Query& query, const Reach& reach) const
   return false;
 }
 
-void SubsetSampler::choose(const RecordView& records, const std::vector<std::uint32_t>& points,
+void SubsetSampler::choose(const RecordSpan& records, const std::vector<std::uint32_t>& points,
   SamplingDistance distance, std::vector<std::uint32_t>& chosen)
 {
   chosen.clear();

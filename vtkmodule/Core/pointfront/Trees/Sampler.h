@@ -21,7 +21,7 @@ struct CellOccupancy
   void append(const CellOccupancy& others, unsigned between);
 };
 
-CellOccupancy cellOccupancy(const RecordView& records, const std::vector<std::uint32_t>& points);
+CellOccupancy cellOccupancy(const RecordSpan& records, const std::vector<std::uint32_t>& points);
 /// The same from how many bits each point differs in from the one before (differingBits()), without
 /// asking where they are. That of the first is not looked at.
 CellOccupancy cellOccupancy(const std::uint8_t* steps, std::size_t points);
@@ -70,7 +70,7 @@ class SubsetSampler
 public:
   SubsetSampler();
   /// `points` in Morton order; `chosen`: at which places of `points` those are, ascending.
-  void choose(const RecordView& records, const std::vector<std::uint32_t>& points,
+  void choose(const RecordSpan& records, const std::vector<std::uint32_t>& points,
     SamplingDistance distance, std::vector<std::uint32_t>& chosen);
 
 private:

@@ -19,7 +19,7 @@ OpenSubtree SubtreeBuilder::build(
   }
   {
     const CpuStopwatch watch(seconds_.sort);
-    const RecordView view{ records.data(), recordBytes_ };
+    const RecordSpan view{ records.data(), recordBytes_ };
     sorted_.resize(std::max(sorted_.size(), records.size()));
     positions_.resize(std::max(positions_.size(), count));
     gatherRecords(view, mortonOrder(view, count), sorted_.data(),
@@ -31,7 +31,7 @@ OpenSubtree SubtreeBuilder::build(
 }
 
 SubtreeBuilder::SortedPoints SubtreeBuilder::sortedPoints(
-  const RecordView& records, std::size_t count)
+  const RecordSpan& records, std::size_t count)
 {
   const CpuStopwatch watch(seconds_.sort);
   positions_.resize(std::max(positions_.size(), count));
@@ -42,7 +42,7 @@ SubtreeBuilder::SortedPoints SubtreeBuilder::sortedPoints(
   return { records, positionsView() };
 }
 
-RecordView SubtreeBuilder::positionsView() const
+RecordSpan SubtreeBuilder::positionsView() const
 {
   return { reinterpret_cast<const std::byte*>(positions_.data()), RecordLayout::positionBytes };
 }
@@ -50,7 +50,7 @@ RecordView SubtreeBuilder::positionsView() const
 SubtreeBuilder::Branch SubtreeBuilder::branch(
   const SortedPoints& points, std::uint32_t begin, std::uint32_t end)
 {
-  const RecordView& positions = points.positions;
+  const RecordSpan& positions = points.positions;
   const unsigned side = differingBits(positions.position(begin), positions.position(end - 1));
   if (end - begin <= rule_.nodePoints)
   {
@@ -131,7 +131,7 @@ SubtreeBuilder::Branch SubtreeBuilder::joinBranches(
 
 /// Of all that the children hold; what a leaf holds was counted already.
 CellOccupancy SubtreeBuilder::occupancyOf(
-  const RecordView& positions, const std::vector<Branch>& children)
+  const RecordSpan& positions, const std::vector<Branch>& children)
 {
   CellOccupancy all;
   const Branch* before = nullptr;
@@ -150,7 +150,7 @@ CellOccupancy SubtreeBuilder::occupancyOf(
   return all;
 }
 
-void SubtreeBuilder::emit(Branch child, BuiltNode& parent, const RecordView& records)
+void SubtreeBuilder::emit(Branch child, BuiltNode& parent, const RecordSpan& records)
 {
   const CpuStopwatch watch(seconds_.encode);
   EncodedNode payload = emitter_.emit(*child.node, records, child.held);
@@ -158,7 +158,7 @@ void SubtreeBuilder::emit(Branch child, BuiltNode& parent, const RecordView& rec
   parent.children.push_back(std::move(child.node));
 }
 
-OpenSubtree SubtreeBuilder::opened(const RecordView& records, Branch branch)
+OpenSubtree SubtreeBuilder::opened(const RecordSpan& records, Branch branch)
 {
   OpenSubtree open{ std::move(branch.node), {} };
   open.records.resize(branch.held.size() * records.stride);
@@ -192,7 +192,7 @@ std::unique_ptr<BuiltNode> SubtreeBuilder::close(OpenSubtree subtree)
   {
     return nullptr;
   }
-  const RecordView view{ subtree.records.data(), recordBytes_ };
+  const RecordSpan view{ subtree.records.data(), recordBytes_ };
   std::vector<std::uint32_t> all(subtree.records.size() / recordBytes_);
   std::iota(all.begin(), all.end(), 0u);
   const CpuStopwatch watch(seconds_.encode);

@@ -54,8 +54,8 @@ private:
   /// close together five of them come with one line of the cache.
   struct SortedPoints
   {
-    RecordView records;
-    RecordView positions;
+    RecordSpan records;
+    RecordSpan positions;
   };
   struct Branch
   {
@@ -67,11 +67,11 @@ private:
   Branch leaf(const SortedPoints& points, std::uint32_t begin, std::uint32_t end, unsigned side);
   Branch joinBranches(const SortedPoints& points, std::vector<Branch> children);
   static CellOccupancy occupancyOf(
-    const RecordView& positions, const std::vector<Branch>& children);
-  void emit(Branch child, BuiltNode& parent, const RecordView& records);
-  static OpenSubtree opened(const RecordView& records, Branch branch);
-  SortedPoints sortedPoints(const RecordView& records, std::size_t count);
-  RecordView positionsView() const;
+    const RecordSpan& positions, const std::vector<Branch>& children);
+  void emit(Branch child, BuiltNode& parent, const RecordSpan& records);
+  static OpenSubtree opened(const RecordSpan& records, Branch branch);
+  SortedPoints sortedPoints(const RecordSpan& records, std::size_t count);
+  RecordSpan positionsView() const;
 
   const NodeEmitter& emitter_;
   SamplingRule rule_;

@@ -19,7 +19,7 @@ constexpr std::chrono::milliseconds betweenQuestions{ 50 };
 
 } // namespace
 
-class OtherPieces::AllResident final : public ResidencyView
+class OtherPieces::AllResident final : public ResidencySnapshot
 {
 public:
   State state(NodeIndex) const override { return State::Resident; }

@@ -78,7 +78,7 @@ std::shared_ptr<const NodeColumns> ViewFront::find(NodeIndex node) const
   return share_.residency().find(node);
 }
 
-const FrontDelta& ViewFront::update(const FrameDemand& demand)
+const FrontDelta& ViewFront::update(const FrameRequest& demand)
 {
   wish_->setLayerColumns(demand.columns);
   columns_ = demand.columns;
@@ -186,7 +186,7 @@ void ViewFront::loadRoots()
     }
   }
   const auto missing = [&](const LoadRequest& r)
-  { return residency.state(r.node) == ResidencyView::State::Absent; };
+  { return residency.state(r.node) == ResidencySnapshot::State::Absent; };
   const auto begin = std::chrono::steady_clock::now();
   const std::chrono::milliseconds rootTime = window_->window->roots->allowance(begin);
   const auto end = begin + rootTime;
@@ -205,7 +205,7 @@ void ViewFront::loadRoots()
 }
 
 /// What the other views take now, of the memory and of the window.
-void ViewFront::readShares(const FrameDemand& demand)
+void ViewFront::readShares(const FrameRequest& demand)
 {
   const LoadScheduler& scheduler = share_.residency().scheduler();
   const std::uint64_t revision = sharedRevision();
@@ -234,7 +234,7 @@ void ViewFront::readShares(const FrameDemand& demand)
 }
 
 /// What this view takes, for the others.
-void ViewFront::tellDemand(const FrameDemand& demand)
+void ViewFront::tellDemand(const FrameRequest& demand)
 {
   DemandCurves curves;
   selection_->demandCurves(curves);
@@ -250,7 +250,7 @@ void ViewFront::tellDemand(const FrameDemand& demand)
   sharedSeen_ += sharedRevision() - before;
 }
 
-void ViewFront::setLimits(const FrameDemand& demand)
+void ViewFront::setLimits(const FrameRequest& demand)
 {
   FrontLimits& limits = limits_;
   limits.targetErrorPx = demand.targetErrorPx;
@@ -286,7 +286,7 @@ void ViewFront::setLimits(const FrameDemand& demand)
 
 /// Where nothing has changed nothing is told nor asked for: a still view costs next to nothing,
 /// however many there are.
-void ViewFront::step(const FrameDemand& demand)
+void ViewFront::step(const FrameRequest& demand)
 {
   thresholdBefore_ = delta_.thresholdPx;
   arrivalsSeen_ = share_.residency().arrivals();
@@ -307,7 +307,7 @@ void ViewFront::step(const FrameDemand& demand)
 }
 
 /// In motion, behind all that the view needs itself.
-void ViewFront::addMargin(const FrameDemand& demand)
+void ViewFront::addMargin(const FrameRequest& demand)
 {
   if (!demand.interacting)
   {
@@ -332,7 +332,7 @@ bool ViewFront::allCovered() const
 }
 
 /// Waits for rows of the table if those are missing, or else for nodes. False: aborted.
-bool ViewFront::waitForNews(const FrameDemand& demand)
+bool ViewFront::waitForNews(const FrameRequest& demand)
 {
   const Residency& residency = share_.residency();
   const Hierarchy& table = *piece_->hierarchy();
@@ -359,7 +359,7 @@ bool ViewFront::waitForNews(const FrameDemand& demand)
   return true;
 }
 
-void ViewFront::complete(const FrameDemand& demand)
+void ViewFront::complete(const FrameRequest& demand)
 {
   Residency& residency = share_.residency();
   int idle = 0;

@@ -27,7 +27,7 @@ enum class DetailMethod
 };
 
 /// The demand of one frame of one view on its front.
-struct FrameDemand
+struct FrameRequest
 {
   DetailMethod method = DetailMethod::RenderingFront;
   std::uint64_t overviewPoints = 0; ///< ViewSpecific: this store's share of the overview
@@ -63,7 +63,7 @@ public:
   ~ViewFront();
 
   /// Moves the front towards the view. The delta is valid until the next update.
-  const FrontDelta& update(const FrameDemand& demand);
+  const FrontDelta& update(const FrameRequest& demand);
   const FrontDelta& last() const { return delta_; }
 
   /// The nodes that other processes draw of the last update's view beside this piece; empty for a
@@ -105,19 +105,19 @@ public:
 
 private:
   void choose(DetailMethod method);
-  void step(const FrameDemand& demand);
-  void addMargin(const FrameDemand& demand);
+  void step(const FrameRequest& demand);
+  void addMargin(const FrameRequest& demand);
   bool allCovered() const;
   bool isSettled() const;
   std::size_t largestPoint(const LayerColumns& columns) const;
   bool movedOn() const;
-  void complete(const FrameDemand& demand);
-  bool waitForNews(const FrameDemand& demand);
+  void complete(const FrameRequest& demand);
+  bool waitForNews(const FrameRequest& demand);
   void loadRoots();
-  void setLimits(const FrameDemand& demand);
+  void setLimits(const FrameRequest& demand);
   std::uint64_t sharedRevision() const { return memory_.revision() + window_->revision(); }
-  void readShares(const FrameDemand& demand);
-  void tellDemand(const FrameDemand& demand);
+  void readShares(const FrameRequest& demand);
+  void tellDemand(const FrameRequest& demand);
 
   std::shared_ptr<const HierarchyPiece> piece_;
   ResidencyShare& share_;

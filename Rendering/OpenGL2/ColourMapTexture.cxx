@@ -1,4 +1,4 @@
-#include "ColourTable.h"
+#include "ColourMapTexture.h"
 
 #include <vtkOpenGLRenderWindow.h>
 #include <vtkShaderProgram.h>
@@ -11,10 +11,10 @@
 namespace pointfront
 {
 
-ColourTable::ColourTable() = default;
-ColourTable::~ColourTable() = default;
+ColourMapTexture::ColourMapTexture() = default;
+ColourMapTexture::~ColourMapTexture() = default;
 
-void ColourTable::update(vtkOpenGLRenderWindow* window, std::shared_ptr<const ColourMap> map)
+void ColourMapTexture::update(vtkOpenGLRenderWindow* window, std::shared_ptr<const ColourMap> map)
 {
   if (map == map_)
   {
@@ -33,7 +33,7 @@ void ColourTable::update(vtkOpenGLRenderWindow* window, std::shared_ptr<const Co
     static_cast<unsigned int>(texels.size()), 1, 4, VTK_UNSIGNED_CHAR, texels.data());
 }
 
-void ColourTable::activate(
+void ColourMapTexture::activate(
   vtkShaderProgram* program, const PointColouring& colouring, double referenceZ)
 {
   texture_->Activate();
@@ -58,7 +58,7 @@ void ColourTable::activate(
   program->SetUniformi("tableLogarithmic", map_->logarithmic ? 1 : 0);
 }
 
-void ColourTable::deactivate()
+void ColourMapTexture::deactivate()
 {
   if (texture_->GetTextureUnit() >= 0)
   {
@@ -66,7 +66,7 @@ void ColourTable::deactivate()
   }
 }
 
-void ColourTable::release(vtkWindow* window)
+void ColourMapTexture::release(vtkWindow* window)
 {
   texture_->ReleaseGraphicsResources(window);
   map_.reset();

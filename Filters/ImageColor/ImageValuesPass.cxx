@@ -1,4 +1,4 @@
-#include "RasterPass.h"
+#include "ImageValuesPass.h"
 
 #include "RasterImages.h"
 #include "RasterSource.h"
@@ -110,14 +110,14 @@ std::string counted(std::uint64_t count, std::uint64_t of)
 }
 } // namespace
 
-RasterPass::RasterPass(
+ImageValuesPass::ImageValuesPass(
   std::vector<RasterInput> inputs, std::shared_ptr<const CoordinateSystems> systems)
   : inputs_(std::move(inputs))
   , systems_(std::move(systems))
 {
 }
 
-std::uint64_t RasterPass::heldBytes(const PassResources& resources) const
+std::uint64_t ImageValuesPass::heldBytes(const PassResources& resources) const
 {
   constexpr std::uint64_t least = 10u << 20;
   constexpr std::uint64_t most = 1u << 30;
@@ -126,7 +126,8 @@ std::uint64_t RasterPass::heldBytes(const PassResources& resources) const
   return std::clamp(memory / 8, least, most);
 }
 
-Result<PointSources> RasterPass::apply(PointSources sources, const PassResources& resources) const
+Result<PointSources> ImageValuesPass::apply(
+  PointSources sources, const PassResources& resources) const
 {
   images_ = std::make_shared<Images>(heldBytes(resources));
   for (const RasterInput& input : inputs_)
@@ -179,7 +180,7 @@ Result<PointSources> RasterPass::apply(PointSources sources, const PassResources
   return wrapped(std::move(sources), std::move(inputs), std::move(schemas), resources);
 }
 
-Result<PointSources> RasterPass::wrapped(PointSources sources, Inputs inputs,
+Result<PointSources> ImageValuesPass::wrapped(PointSources sources, Inputs inputs,
   std::vector<AttributeSchema> schemas, const PassResources& resources) const
 {
   std::shared_ptr<const SortedRasterValues> sorted;
@@ -208,12 +209,12 @@ Result<PointSources> RasterPass::wrapped(PointSources sources, Inputs inputs,
   return sources;
 }
 
-std::uint64_t RasterPass::tilesRead() const
+std::uint64_t ImageValuesPass::tilesRead() const
 {
   return images_ ? images_->tiles.tilesRead() : 0;
 }
 
-std::vector<std::string> RasterPass::filesRead() const
+std::vector<std::string> ImageValuesPass::filesRead() const
 {
   std::vector<std::string> files;
   for (const RasterInput& input : inputs_)
@@ -223,7 +224,7 @@ std::vector<std::string> RasterPass::filesRead() const
   return files;
 }
 
-std::vector<std::string> RasterPass::findings() const
+std::vector<std::string> ImageValuesPass::findings() const
 {
   if (!images_)
   {
@@ -257,5 +258,5 @@ pointfront::AttributePass* pointfrontMakeRasterPass(
   const std::vector<pointfront::RasterInput>& inputs,
   const std::shared_ptr<const pointfront::CoordinateSystems>& systems)
 {
-  return new pointfront::RasterPass(inputs, systems);
+  return new pointfront::ImageValuesPass(inputs, systems);
 }

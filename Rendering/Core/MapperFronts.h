@@ -1,7 +1,7 @@
 #pragma once
 
 #include "pointfront/Views/ViewFront.h"
-#include "RendererView.h"
+#include "RendererFront.h"
 #include "StoreSuccession.h"
 #include "vtkPointFrontStore.h"
 
@@ -21,11 +21,11 @@ namespace pointfront
 
 /// The store that a mapper draws, and what each of its renderers sees of it.
 /// Threads  the renderers'.
-class MapperViews
+class MapperFronts
 {
 public:
   /// `unseen` is called after a frame when no renderer shows the mapper any more.
-  explicit MapperViews(std::function<void()> unseen)
+  explicit MapperFronts(std::function<void()> unseen)
     : unseen_(std::move(unseen))
   {
   }
@@ -37,10 +37,10 @@ public:
   void setPiece(int piece, int pieces);
 
   /// The view of a renderer, made on the first call.
-  RendererView& of(vtkRenderer* renderer);
-  RendererView* find(vtkRenderer* renderer);
+  RendererFront& of(vtkRenderer* renderer);
+  RendererFront* find(vtkRenderer* renderer);
   /// Makes the front of a view if it has none. True if this call made it.
-  bool openFront(vtkRenderer* renderer, RendererView& view);
+  bool openFront(vtkRenderer* renderer, RendererFront& view);
 
   /// Number of renderers of that window.
   std::uint32_t countIn(vtkWindow* window) const;
@@ -52,7 +52,7 @@ public:
   /// Changes from a preview to its next version, or to the finished store, as soon as the successor
   /// shows as much in all views. Called in frames at rest. True when it changed.
   bool follow(
-    vtkRenderer* renderer, const std::function<FrameDemand()>& demand, const LayersOf& layersOf);
+    vtkRenderer* renderer, const std::function<FrameRequest()>& demand, const LayersOf& layersOf);
 
 private:
   bool isSeen() const;
@@ -63,7 +63,7 @@ private:
   std::shared_ptr<const HierarchyPiece> piece_;
   int pieceNumber_ = 0;
   int pieces_ = 1;
-  std::map<vtkRenderer*, RendererView> views_;
+  std::map<vtkRenderer*, RendererFront> views_;
   std::unique_ptr<StoreSuccession> succession_; ///< from the store, while it is a preview
 };
 

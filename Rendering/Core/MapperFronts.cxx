@@ -1,4 +1,4 @@
-#include "MapperViews.h"
+#include "MapperFronts.h"
 
 #include "PerWindow.h"
 
@@ -13,7 +13,7 @@
 namespace pointfront
 {
 
-void MapperViews::setStore(vtkSmartPointer<vtkPointFrontStore> store)
+void MapperFronts::setStore(vtkSmartPointer<vtkPointFrontStore> store)
 {
   if (store != store_)
   {
@@ -24,7 +24,7 @@ void MapperViews::setStore(vtkSmartPointer<vtkPointFrontStore> store)
   }
 }
 
-void MapperViews::setPiece(int piece, int pieces)
+void MapperFronts::setPiece(int piece, int pieces)
 {
   if (piece_ && pieceNumber_ == piece && pieces_ == pieces)
   {
@@ -38,7 +38,7 @@ void MapperViews::setPiece(int piece, int pieces)
     store_->GetStore()->hierarchy(), std::clamp(piece, 0, pieces - 1), pieces);
 }
 
-RendererView& MapperViews::of(vtkRenderer* renderer)
+RendererFront& MapperFronts::of(vtkRenderer* renderer)
 {
   for (auto view = views_.begin(); view != views_.end();)
   {
@@ -59,13 +59,13 @@ RendererView& MapperViews::of(vtkRenderer* renderer)
   return views_.try_emplace(renderer, renderer, left).first->second; // a map's stay where they are
 }
 
-RendererView* MapperViews::find(vtkRenderer* renderer)
+RendererFront* MapperFronts::find(vtkRenderer* renderer)
 {
   const auto view = views_.find(renderer);
   return view != views_.end() ? &view->second : nullptr;
 }
 
-bool MapperViews::openFront(vtkRenderer* renderer, RendererView& view)
+bool MapperFronts::openFront(vtkRenderer* renderer, RendererFront& view)
 {
   if (view.Front)
   {
@@ -76,20 +76,20 @@ bool MapperViews::openFront(vtkRenderer* renderer, RendererView& view)
   return true;
 }
 
-bool MapperViews::isSeen() const
+bool MapperFronts::isSeen() const
 {
   return std::any_of(views_.begin(), views_.end(),
     [](const auto& view) { return view.second.Renderer && view.second.Seen; });
 }
 
-std::uint32_t MapperViews::countIn(vtkWindow* window) const
+std::uint32_t MapperFronts::countIn(vtkWindow* window) const
 {
   return static_cast<std::uint32_t>(std::count_if(views_.begin(), views_.end(),
     [&](const auto& view)
     { return view.second.Renderer && view.second.Renderer->GetRenderWindow() == window; }));
 }
 
-std::uint64_t MapperViews::pointsOnGpu(vtkWindow* window, std::uint64_t budget) const
+std::uint64_t MapperFronts::pointsOnGpu(vtkWindow* window, std::uint64_t budget) const
 {
   std::uint64_t points = 0;
   for (const auto& [renderer, view] : views_)
@@ -100,7 +100,7 @@ std::uint64_t MapperViews::pointsOnGpu(vtkWindow* window, std::uint64_t budget) 
   return points;
 }
 
-bool MapperViews::needsRender()
+bool MapperFronts::needsRender()
 {
   if (!views_.empty() && !isSeen())
   {
@@ -118,8 +118,8 @@ bool MapperViews::needsRender()
   return needed;
 }
 
-bool MapperViews::follow(
-  vtkRenderer* renderer, const std::function<FrameDemand()>& demand, const LayersOf& layersOf)
+bool MapperFronts::follow(
+  vtkRenderer* renderer, const std::function<FrameRequest()>& demand, const LayersOf& layersOf)
 {
   // Between frames only: the fronts of a frame refer to their store.
   if (!store_ || !store_->IsPreview() || !of(renderer).NewFrame)
@@ -140,7 +140,7 @@ bool MapperViews::follow(
   {
     if (view.Front || viewing == renderer)
     {
-      FrameDemand wanted = viewing == renderer ? demand() : view.Demand;
+      FrameRequest wanted = viewing == renderer ? demand() : view.Demand;
       wanted.layers = layersOf(*succession_->store());
       succession_->advance(viewing, std::move(wanted));
     }
@@ -155,7 +155,7 @@ bool MapperViews::follow(
   return all;
 }
 
-void MapperViews::takeSuccessor()
+void MapperFronts::takeSuccessor()
 {
   const std::unique_ptr<StoreSuccession> succession = std::move(succession_);
   for (auto& [renderer, view] : views_)

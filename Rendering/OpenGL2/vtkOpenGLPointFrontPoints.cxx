@@ -1,13 +1,13 @@
-#include "vtkOpenGLPointFrontPass.h"
+#include "vtkOpenGLPointFrontPoints.h"
 
-#include "ColourTable.h"
+#include "ColourMapTexture.h"
 #include "DrawBatches.h"
 #include "GpuPool.h"
 #include "OpenGLFunctions.h"
 #include "SelectionIds.h"
 #include "SlotRecords.h"
 
-#include "ColourTableGLSL.h"
+#include "ColourMapTextureGLSL.h"
 #include "PointsFSGLSL.h"
 #include "PointsVSGLSL.h"
 
@@ -33,7 +33,7 @@
 #include <limits>
 #include <string>
 
-vtkStandardNewMacro(vtkOpenGLPointFrontPass);
+vtkStandardNewMacro(vtkOpenGLPointFrontPoints);
 
 namespace
 {
@@ -73,16 +73,16 @@ void referenceToView(vtkMatrix4x4* worldToView, const double reference[3], doubl
 
 } // namespace
 
-vtkOpenGLPointFrontPass::vtkOpenGLPointFrontPass()
+vtkOpenGLPointFrontPoints::vtkOpenGLPointFrontPoints()
 {
   this->SetPopulateSelectionSettings(1);
   // No points, no normals, no cells: what the superclass finds when it looks at its input.
   this->SetInputData(this->NoInput);
 }
 
-vtkOpenGLPointFrontPass::~vtkOpenGLPointFrontPass() = default;
+vtkOpenGLPointFrontPoints::~vtkOpenGLPointFrontPoints() = default;
 
-void vtkOpenGLPointFrontPass::CopyState(vtkMapper* owner)
+void vtkOpenGLPointFrontPoints::CopyState(vtkMapper* owner)
 {
   if (this->GetClippingPlanes() != owner->GetClippingPlanes())
   {
@@ -98,7 +98,7 @@ void vtkOpenGLPointFrontPass::CopyState(vtkMapper* owner)
   }
 }
 
-void vtkOpenGLPointFrontPass::Draw(
+void vtkOpenGLPointFrontPoints::Draw(
   vtkRenderer* renderer, vtkActor* actor, const pointfront::PointDrawing& drawing)
 {
   this->Drawing = &drawing;
@@ -116,12 +116,12 @@ void vtkOpenGLPointFrontPass::Draw(
   this->Drawing = nullptr;
 }
 
-bool vtkOpenGLPointFrontPass::IsDrawingIds() const
+bool vtkOpenGLPointFrontPoints::IsDrawingIds() const
 {
   return pointfront::drawsIds(this->LastSelectionState);
 }
 
-void vtkOpenGLPointFrontPass::GetShaderTemplate(
+void vtkOpenGLPointFrontPoints::GetShaderTemplate(
   std::map<vtkShader::Type, vtkShader*> shaders, vtkRenderer* ren, vtkActor* act)
 {
   this->Superclass::GetShaderTemplate(shaders, ren, act);
@@ -131,7 +131,8 @@ void vtkOpenGLPointFrontPass::GetShaderTemplate(
   {
     std::string source = PointsVSGLSL;
     vtkShaderProgram::Substitute(source, "//POINTFRONT::Define::Dec", defines);
-    vtkShaderProgram::Substitute(source, "//POINTFRONT::ColourTable::Dec", ColourTableGLSL);
+    vtkShaderProgram::Substitute(
+      source, "//POINTFRONT::ColourMapTexture::Dec", ColourMapTextureGLSL);
     shaders[vtkShader::Vertex]->SetSource(source);
   }
   if (!custom->HasFragmentShaderCode())
@@ -144,13 +145,13 @@ void vtkOpenGLPointFrontPass::GetShaderTemplate(
     custom->HasGeometryShaderCode() ? custom->GetGeometryShaderCode() : "");
 }
 
-void vtkOpenGLPointFrontPass::ReplaceShaderColor(
+void vtkOpenGLPointFrontPoints::ReplaceShaderColor(
   std::map<vtkShader::Type, vtkShader*>, vtkRenderer*, vtkActor*)
 {
   // The templates have it.
 }
 
-void vtkOpenGLPointFrontPass::ReplaceShaderPicking(
+void vtkOpenGLPointFrontPoints::ReplaceShaderPicking(
   std::map<vtkShader::Type, vtkShader*> shaders, vtkRenderer* ren, vtkActor* act)
 {
   if (!this->IsDrawingIds())
@@ -163,7 +164,7 @@ void vtkOpenGLPointFrontPass::ReplaceShaderPicking(
 
 /// Without what VTK moves points by in selections: they would win over what hides them, 30 m behind
 /// it at a distance of 1 km with a near plane at 1 m.
-void vtkOpenGLPointFrontPass::ReplaceShaderCoincidentOffset(
+void vtkOpenGLPointFrontPoints::ReplaceShaderCoincidentOffset(
   std::map<vtkShader::Type, vtkShader*> shaders, vtkRenderer* ren, vtkActor* act)
 {
   float factor = 0.0f;
@@ -175,7 +176,7 @@ void vtkOpenGLPointFrontPass::ReplaceShaderCoincidentOffset(
   }
 }
 
-void vtkOpenGLPointFrontPass::SetMapperShaderParameters(
+void vtkOpenGLPointFrontPoints::SetMapperShaderParameters(
   vtkOpenGLHelper& cellBO, vtkRenderer* ren, vtkActor* act)
 {
   this->Superclass::SetMapperShaderParameters(cellBO, ren, act);
@@ -196,7 +197,7 @@ void vtkOpenGLPointFrontPass::SetMapperShaderParameters(
   this->SetClippingUniforms(cellBO.Program, act);
 }
 
-void vtkOpenGLPointFrontPass::SetClippingUniforms(vtkShaderProgram* program, vtkActor* actor)
+void vtkOpenGLPointFrontPoints::SetClippingUniforms(vtkShaderProgram* program, vtkActor* actor)
 {
   const int planes = std::min(this->GetNumberOfClippingPlanes(), 6);
   if (planes == 0 || !program->IsUniformUsed("clipPlanes"))
@@ -215,7 +216,7 @@ void vtkOpenGLPointFrontPass::SetClippingUniforms(vtkShaderProgram* program, vtk
   program->SetUniform4fv("clipPlanes", 6, equations);
 }
 
-void vtkOpenGLPointFrontPass::SetCameraShaderParameters(
+void vtkOpenGLPointFrontPoints::SetCameraShaderParameters(
   vtkOpenGLHelper& cellBO, vtkRenderer* ren, vtkActor* act)
 {
   this->Superclass::SetCameraShaderParameters(cellBO, ren, act);
@@ -267,7 +268,7 @@ void vtkOpenGLPointFrontPass::SetCameraShaderParameters(
   }
 }
 
-void vtkOpenGLPointFrontPass::UpdateMaximumPointCellIds(vtkRenderer* ren, vtkActor*)
+void vtkOpenGLPointFrontPoints::UpdateMaximumPointCellIds(vtkRenderer* ren, vtkActor*)
 {
   vtkHardwareSelector* selector = ren->GetSelector();
   const vtkIdType last = std::max<vtkIdType>(0, this->Drawing->storePoints - 1);
@@ -276,7 +277,7 @@ void vtkOpenGLPointFrontPass::UpdateMaximumPointCellIds(vtkRenderer* ren, vtkAct
 }
 
 /// From one block's buffers after the other.
-void vtkOpenGLPointFrontPass::DrawBlocks(vtkOpenGLHelper& cellBO)
+void vtkOpenGLPointFrontPoints::DrawBlocks(vtkOpenGLHelper& cellBO)
 {
   const auto program = static_cast<GLuint>(cellBO.Program->GetHandle());
   const GLint positions = glGetAttribLocation(program, "positionSteps");
@@ -317,7 +318,7 @@ void vtkOpenGLPointFrontPass::DrawBlocks(vtkOpenGLHelper& cellBO)
   glBindBuffer(GL_ARRAY_BUFFER, 0);
 }
 
-void vtkOpenGLPointFrontPass::RenderPieceDraw(vtkRenderer* ren, vtkActor* act)
+void vtkOpenGLPointFrontPoints::RenderPieceDraw(vtkRenderer* ren, vtkActor* act)
 {
   auto* window = static_cast<vtkOpenGLRenderWindow*>(ren->GetRenderWindow());
   vtkOpenGLState* state = window->GetState();

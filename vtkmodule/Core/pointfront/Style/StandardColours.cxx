@@ -1,4 +1,4 @@
-#include "pointfront/Style/ColourTables.h"
+#include "pointfront/Style/StandardColours.h"
 
 #include <algorithm>
 #include <cassert>

@@ -1,4 +1,4 @@
-#include "RendererView.h"
+#include "RendererFront.h"
 
 #include <vtkCallbackCommand.h>
 #include <vtkCommand.h>
@@ -25,23 +25,23 @@ bool isInteracting(vtkRenderer* renderer)
   return window && window->GetDesiredUpdateRate() > interactiveRate;
 }
 
-RendererView::RendererView(vtkRenderer* renderer, std::function<void()> unseen)
+RendererFront::RendererFront(vtkRenderer* renderer, std::function<void()> unseen)
   : Renderer(renderer)
   , Unseen(std::move(unseen))
 {
   vtkNew<vtkCallbackCommand> begin;
   begin->SetClientData(this);
   begin->SetCallback([](vtkObject*, unsigned long, void* data, void*)
-    { static_cast<RendererView*>(data)->NewFrame = true; });
+    { static_cast<RendererFront*>(data)->NewFrame = true; });
   this->StartTag = renderer->AddObserver(vtkCommand::StartEvent, begin);
   vtkNew<vtkCallbackCommand> end;
   end->SetClientData(this);
   end->SetCallback([](vtkObject*, unsigned long, void* data, void*)
-    { static_cast<RendererView*>(data)->EndFrame(); });
+    { static_cast<RendererFront*>(data)->EndFrame(); });
   this->EndTag = renderer->AddObserver(vtkCommand::EndEvent, end);
 }
 
-RendererView::~RendererView()
+RendererFront::~RendererFront()
 {
   if (this->Renderer)
   {
@@ -51,7 +51,7 @@ RendererView::~RendererView()
 }
 
 /// A frame that was broken off, or that is drawn for a selection, says nothing.
-void RendererView::EndFrame()
+void RendererFront::EndFrame()
 {
   this->Plan.reset();
   vtkRenderWindow* window = this->Renderer->GetRenderWindow();
@@ -68,7 +68,7 @@ void RendererView::EndFrame()
   }
 }
 
-bool RendererView::NeedsRender()
+bool RendererFront::NeedsRender()
 {
   if (this->Front && !this->Seen)
   {
@@ -95,7 +95,7 @@ bool RendererView::NeedsRender()
   return this->Due;
 }
 
-GrowthMoment RendererView::MomentOf(double growthMilliseconds) const
+GrowthMoment RendererFront::MomentOf(double growthMilliseconds) const
 {
   GrowthMoment moment;
   moment.seconds = std::chrono::duration<double>(Clock::now().time_since_epoch()).count();

@@ -20,7 +20,7 @@ bool isInteracting(vtkRenderer* renderer);
 
 /// One renderer's view of a mapper's store: the front, and the state of the renderer's frames.
 /// Threads  the renderer's.
-struct RendererView
+struct RendererFront
 {
   using Clock = std::chrono::steady_clock;
 
@@ -40,14 +40,14 @@ struct RendererView
   bool Due = false; ///< NeedsRender() said so, and no frame was drawn since
   Clock::time_point DrawnAt; ///< end of the last frame's first drawing
   double DrawingMs = 0.0; ///< what a frame took lately
-  FrameDemand Demand; ///< of the last frame, its view in the store's coordinates
+  FrameRequest Demand; ///< of the last frame, its view in the store's coordinates
 
   /// `unseen` is called after a frame of the renderer in which this mapper was not drawn: its actor
   /// is hidden, out of sight or removed.
-  RendererView(vtkRenderer* renderer, std::function<void()> unseen);
-  ~RendererView();
-  RendererView(const RendererView&) = delete;
-  RendererView& operator=(const RendererView&) = delete;
+  RendererFront(vtkRenderer* renderer, std::function<void()> unseen);
+  ~RendererFront();
+  RendererFront(const RendererFront&) = delete;
+  RendererFront& operator=(const RendererFront&) = delete;
 
   /// Whether a frame is due. A view at rest that is being loaded is drawn a quarter of the time at
   /// most. Until the next frame is due, this function moves the front, so that its next requests do

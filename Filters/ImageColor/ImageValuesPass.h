@@ -30,10 +30,11 @@ struct RasterInput
 ///          chunks are so scattered that the cache would thrash, apply() looks all of them up,
 ///          sorted by place (SortedRasterValues). The values are the same.
 /// Memory   decoded tiles take an eighth of the limit (1 GiB at most), 10 MiB at least.
-class RasterPass final : public AttributePass
+class ImageValuesPass final : public AttributePass
 {
 public:
-  RasterPass(std::vector<RasterInput> inputs, std::shared_ptr<const CoordinateSystems> systems);
+  ImageValuesPass(
+    std::vector<RasterInput> inputs, std::shared_ptr<const CoordinateSystems> systems);
 
   Result<PointSources> apply(PointSources sources, const PassResources& resources) const override;
   std::uint64_t heldBytes(const PassResources& resources) const override;
@@ -60,7 +61,8 @@ private:
 
 extern "C"
 {
-  /// Makes a RasterPass for a program that has loaded this library at run time; the caller owns it.
+  /// Makes a ImageValuesPass for a program that has loaded this library at run time; the caller
+  /// owns it.
   pointfront::AttributePass* pointfrontMakeRasterPass(
     const std::vector<pointfront::RasterInput>& inputs,
     const std::shared_ptr<const pointfront::CoordinateSystems>& systems);

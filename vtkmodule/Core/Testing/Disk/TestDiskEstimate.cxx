@@ -1,6 +1,6 @@
 #include "TestBuildClouds.h"
 
-#include "pointfront/Disk/DiskDemand.h"
+#include "pointfront/Disk/DiskEstimate.h"
 #include "pointfront/Disk/SpillFile.h"
 
 #include <gtest/gtest.h>
@@ -31,12 +31,12 @@ struct TwoDisks
   }
 };
 
-DiskDemand demandOf(const char* spill, std::uint64_t spillBytes)
+DiskEstimate demandOf(const char* spill, std::uint64_t spillBytes)
 {
   return { spill, spillBytes, "/a/out", 100 * mega, 250 * mega };
 }
 
-TEST(DiskDemand, SpillAndStoreOnOneDiskNeedTheirSum)
+TEST(DiskEstimate, SpillAndStoreOnOneDiskNeedTheirSum)
 {
   EXPECT_TRUE(checkDiskSpace(demandOf("/a/tmp", 300 * mega), TwoDisks{ 400 * mega, 0 }));
   const auto refused =
@@ -50,9 +50,9 @@ TEST(DiskDemand, SpillAndStoreOnOneDiskNeedTheirSum)
   }
 }
 
-TEST(DiskDemand, EachDiskIsAskedForItsShare)
+TEST(DiskEstimate, EachDiskIsAskedForItsShare)
 {
-  const DiskDemand demand = demandOf("/b/tmp", 300 * mega);
+  const DiskEstimate demand = demandOf("/b/tmp", 300 * mega);
   EXPECT_TRUE(checkDiskSpace(demand, TwoDisks{ 100 * mega, 300 * mega }));
   const auto noSpill = checkDiskSpace(demand, TwoDisks{ 1000 * mega, 299 * mega });
   ASSERT_FALSE(noSpill);
@@ -62,15 +62,15 @@ TEST(DiskDemand, EachDiskIsAskedForItsShare)
   EXPECT_NE(noStore.error().what.find("99 MiB are free in '/a/out'"), std::string::npos);
 }
 
-TEST(DiskDemand, WithoutSpillOnlyTheStoreCounts)
+TEST(DiskEstimate, WithoutSpillOnlyTheStoreCounts)
 {
   EXPECT_TRUE(checkDiskSpace(demandOf("", 0), TwoDisks{ 100 * mega, 0 }));
   EXPECT_FALSE(checkDiskSpace(demandOf("", 0), TwoDisks{ 99 * mega, 0 }));
 }
 
-TEST(DiskDemand, WarnsWhereTheStoreMayNotFit)
+TEST(DiskEstimate, WarnsWhereTheStoreMayNotFit)
 {
-  const DiskDemand demand = demandOf("/a/tmp", 300 * mega);
+  const DiskEstimate demand = demandOf("/a/tmp", 300 * mega);
   EXPECT_EQ(diskSpaceWarning(demand, TwoDisks{ 550 * mega, 0 }), "");
   const std::string told = diskSpaceWarning(demand, TwoDisks{ 550 * mega - 1, 0 });
   for (const char* part : { "may not suffice", "perhaps 250 MiB", "550 MiB are free in '/a/tmp'" })
@@ -81,15 +81,15 @@ TEST(DiskDemand, WarnsWhereTheStoreMayNotFit)
   EXPECT_NE(diskSpaceWarning(demandOf("", 0), TwoDisks{ 249 * mega, 0 }), "");
 }
 
-TEST(DiskDemand, EstimatesTheStoreFromBothSides)
+TEST(DiskEstimate, EstimatesTheStoreFromBothSides)
 {
-  DiskDemand demand;
+  DiskEstimate demand;
   estimateStore(demand, 1'000'000'000, 30);
   EXPECT_EQ(demand.storeBytes, 5'000'000'000u);
   EXPECT_EQ(demand.likelyStoreBytes, 15'000'000'000u);
 }
 
-TEST(DiskDemand, KnowsTheRealDisk)
+TEST(DiskEstimate, KnowsTheRealDisk)
 {
   const DiskSpace space = diskSpaceOf(testing::TempDir());
   EXPECT_GT(space.freeBytes, 0u);
@@ -97,9 +97,9 @@ TEST(DiskDemand, KnowsTheRealDisk)
   EXPECT_EQ(diskSpaceOf("/no/such/folder").freeBytes, UINT64_MAX);
 }
 
-TEST(DiskDemand, AddsWhatIsNeededToErrorsOfWritingOnly)
+TEST(DiskEstimate, AddsWhatIsNeededToErrorsOfWritingOnly)
 {
-  const DiskDemand demand = demandOf("/b/tmp", 300 * mega);
+  const DiskEstimate demand = demandOf("/b/tmp", 300 * mega);
   const Error full = withDemand(makeError(Error::Kind::Unwritable, "disk full"), demand);
   EXPECT_NE(full.what.find("disk full (the store needs at least 100 MiB"), std::string::npos);
   EXPECT_EQ(withDemand(makeError(Error::Kind::Cancelled, "stop"), demand).what, "stop");
@@ -174,12 +174,12 @@ void buildMeetsTheLimit(std::uint64_t memory, const char* need)
   fs::remove_all(folder);
 }
 
-TEST(DiskDemand, SaysWhatWasNeededWhenTheStoreCannotGrow)
+TEST(DiskEstimate, SaysWhatWasNeededWhenTheStoreCannotGrow)
 {
   buildMeetsTheLimit(std::uint64_t(1) << 30, "the store needs at least 1 MiB");
 }
 
-TEST(DiskDemand, SaysWhatWasNeededWhenTheSpillCannotGrow)
+TEST(DiskEstimate, SaysWhatWasNeededWhenTheSpillCannotGrow)
 {
   buildMeetsTheLimit(std::uint64_t(12) << 20, "do not fit in memory need");
 }

@@ -1,5 +1,5 @@
 /**
- * @class vtkOpenGLPointFrontPass
+ * @class vtkOpenGLPointFrontPoints
  * @brief draws slots of a GpuPool as GL points, as one of VTK's polygonal mappers
  *
  * By being a vtkOpenGLPolyDataMapper it takes part in all that VTK does with shaders of such
@@ -19,7 +19,7 @@
 
 namespace pointfront
 {
-class ColourTable;
+class ColourMapTexture;
 class GpuBlock;
 class GpuPool;
 class SlotRecords;
@@ -29,7 +29,7 @@ struct PointDrawing
 {
   const GpuPool* pool = nullptr;
   SlotRecords* records = nullptr;
-  ColourTable* table = nullptr; ///< when the colouring uses one
+  ColourMapTexture* table = nullptr; ///< when the colouring uses one
   PointColouring colouring;
   glm::dvec3 reference{ 0.0 }; ///< store coordinates that the records' origins are relative to
   glm::dvec3 stepSize{ 1.0 }; ///< store units of a grid step
@@ -40,11 +40,11 @@ struct PointDrawing
 };
 } // namespace pointfront
 
-class vtkOpenGLPointFrontPass : public vtkOpenGLPolyDataMapper
+class vtkOpenGLPointFrontPoints : public vtkOpenGLPolyDataMapper
 {
 public:
-  static vtkOpenGLPointFrontPass* New();
-  vtkTypeMacro(vtkOpenGLPointFrontPass, vtkOpenGLPolyDataMapper);
+  static vtkOpenGLPointFrontPoints* New();
+  vtkTypeMacro(vtkOpenGLPointFrontPoints, vtkOpenGLPolyDataMapper);
 
   /// Takes the properties of an owner that concern drawing: clipping planes, coincident topology.
   void CopyState(vtkMapper* owner);
@@ -54,8 +54,8 @@ public:
   void RenderPiece(vtkRenderer*, vtkActor*) override {}
 
 protected:
-  vtkOpenGLPointFrontPass();
-  ~vtkOpenGLPointFrontPass() override;
+  vtkOpenGLPointFrontPoints();
+  ~vtkOpenGLPointFrontPoints() override;
 
   void GetShaderTemplate(
     std::map<vtkShader::Type, vtkShader*> shaders, vtkRenderer* ren, vtkActor* act) override;
@@ -72,8 +72,8 @@ protected:
   void RenderPieceDraw(vtkRenderer* ren, vtkActor* act) override;
 
 private:
-  vtkOpenGLPointFrontPass(const vtkOpenGLPointFrontPass&) = delete;
-  void operator=(const vtkOpenGLPointFrontPass&) = delete;
+  vtkOpenGLPointFrontPoints(const vtkOpenGLPointFrontPoints&) = delete;
+  void operator=(const vtkOpenGLPointFrontPoints&) = delete;
 
   bool IsDrawingIds() const;
   void DrawBlocks(vtkOpenGLHelper& cellBO);

@@ -15,14 +15,13 @@ class vtkWindow;
 namespace pointfront
 {
 
-/// A colour map as a texture; see glsl/ColourTable.glsl. A new map remakes the texture and touches
-/// no point.
-/// Threads  that of the GL context, current in all functions but the constructor.
-class ColourTable
+/// A colour map as a texture; see glsl/ColourMapTexture.glsl. A new map remakes the texture and
+/// touches no point. Threads  that of the GL context, current in all functions but the constructor.
+class ColourMapTexture
 {
 public:
-  ColourTable();
-  ~ColourTable();
+  ColourMapTexture();
+  ~ColourMapTexture();
 
   void update(vtkOpenGLRenderWindow* window, std::shared_ptr<const ColourMap> map);
   /// The map of the texture.

@@ -22,7 +22,7 @@ DiskSpace diskSpaceOf(const std::string& folder);
 /// The bytes that a build will write, and their folders: known before the first point is read.
 /// Units    bytes. The spill is exact; the store is estimated from both sides: a build is refused
 ///          only if it could hardly succeed, and a disk that may be too small is told of.
-struct DiskDemand
+struct DiskEstimate
 {
   std::string spillFolder;
   std::uint64_t spillBytes = 0; ///< 0: nothing is spilled
@@ -33,20 +33,20 @@ struct DiskDemand
 
 /// Fills in what a store of so many points takes. `recordBytes` is a point with all attributes,
 /// uncompressed.
-void estimateStore(DiskDemand& demand, std::uint64_t points, std::size_t recordBytes);
+void estimateStore(DiskEstimate& demand, std::uint64_t points, std::size_t recordBytes);
 
 /// Unwritable when a disk has too little: how much is needed, where, what is free, what to do.
 /// Spill and store that share a disk need their sum there.
-Result<void> checkDiskSpace(const DiskDemand& demand,
+Result<void> checkDiskSpace(const DiskEstimate& demand,
   const std::function<DiskSpace(const std::string&)>& spaceOf = diskSpaceOf);
 
 /// A sentence for the user when checkDiskSpace() has nothing to say, but the store might still not
 /// fit; empty when all is well.
-std::string diskSpaceWarning(const DiskDemand& demand,
+std::string diskSpaceWarning(const DiskEstimate& demand,
   const std::function<DiskSpace(const std::string&)>& spaceOf = diskSpaceOf);
 
 /// An Error of writing with what the build needs in all, when the disk was the reason.
-Error withDemand(Error error, const DiskDemand& demand);
+Error withDemand(Error error, const DiskEstimate& demand);
 
 /// ENOSPC, EDQUOT, EFBIG, EIO: what `errno` is when a disk, a quota, a limit or a device ends.
 bool isDiskFault(int systemError);

@@ -1,4 +1,4 @@
-#include "pointfront/Disk/DiskDemand.h"
+#include "pointfront/Disk/DiskEstimate.h"
 
 #include <cerrno>
 #include <optional>
@@ -17,7 +17,7 @@ const char advice[] = "; free some space, choose another folder for temporary fi
                       "allow more memory (--memory) so that less is spilled, or write to "
                       "another disk";
 
-std::string needsText(const DiskDemand& demand)
+std::string needsText(const DiskEstimate& demand)
 {
   std::string text = "the store needs at least " + mebibytes(demand.storeBytes) + ", perhaps " +
     mebibytes(demand.likelyStoreBytes) + ", in '" + demand.outputFolder + "'";
@@ -37,7 +37,7 @@ struct Shortage
 };
 
 /// Where `storeBytes` and the spill do not fit. On one disk they need their sum.
-std::optional<Shortage> shortageOf(const DiskDemand& demand, std::uint64_t storeBytes,
+std::optional<Shortage> shortageOf(const DiskEstimate& demand, std::uint64_t storeBytes,
   const std::function<DiskSpace(const std::string&)>& spaceOf)
 {
   const DiskSpace output = spaceOf(demand.outputFolder);
@@ -61,7 +61,7 @@ std::optional<Shortage> shortageOf(const DiskDemand& demand, std::uint64_t store
   return std::nullopt;
 }
 
-std::string shortageText(const DiskDemand& demand, const Shortage& shortage)
+std::string shortageText(const DiskEstimate& demand, const Shortage& shortage)
 {
   return needsText(demand) + ", but only " + mebibytes(shortage.freeBytes) + " are free in '" +
     shortage.folder + "'" + advice;
@@ -93,14 +93,14 @@ DiskSpace diskSpaceOf(const std::string& folder)
   return space;
 }
 
-void estimateStore(DiskDemand& demand, std::uint64_t points, std::size_t recordBytes)
+void estimateStore(DiskEstimate& demand, std::uint64_t points, std::size_t recordBytes)
 {
   demand.storeBytes = points * recordBytes / leastShareOfRecords;
   demand.likelyStoreBytes = points * recordBytes / likelyShareOfRecords;
 }
 
 Result<void> checkDiskSpace(
-  const DiskDemand& demand, const std::function<DiskSpace(const std::string&)>& spaceOf)
+  const DiskEstimate& demand, const std::function<DiskSpace(const std::string&)>& spaceOf)
 {
   if (const auto shortage = shortageOf(demand, demand.storeBytes, spaceOf))
   {
@@ -111,13 +111,13 @@ Result<void> checkDiskSpace(
 }
 
 std::string diskSpaceWarning(
-  const DiskDemand& demand, const std::function<DiskSpace(const std::string&)>& spaceOf)
+  const DiskEstimate& demand, const std::function<DiskSpace(const std::string&)>& spaceOf)
 {
   const auto shortage = shortageOf(demand, demand.likelyStoreBytes, spaceOf);
   return shortage ? "Disk space may not suffice: " + shortageText(demand, *shortage) + "." : "";
 }
 
-Error withDemand(Error error, const DiskDemand& demand)
+Error withDemand(Error error, const DiskEstimate& demand)
 {
   if (error.kind == Error::Kind::Unwritable)
   {

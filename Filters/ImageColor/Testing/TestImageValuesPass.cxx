@@ -1,5 +1,5 @@
+#include "ImageValuesPass.h"
 #include "RasterImages.h"
-#include "RasterPass.h"
 
 #include "CloudInMemory.h"
 #include "LASFormat.h"
@@ -121,7 +121,7 @@ Outcome coloured(std::unique_ptr<PointSource> source, std::vector<RasterInput> i
   Outcome outcome;
   PointSources sources;
   sources.push_back(std::move(source));
-  const RasterPass pass(std::move(inputs), std::make_shared<ProjCoordinateSystems>());
+  const ImageValuesPass pass(std::move(inputs), std::make_shared<ProjCoordinateSystems>());
   PassResources resources;
   resources.memoryBytes = 1; // the least cache that there is
   Result<PointSources> result = pass.apply(std::move(sources), resources);
@@ -183,7 +183,7 @@ std::vector<Expected> expectedColours()
 }
 } // namespace
 
-TEST(RasterPass, AutzenAsPublished)
+TEST(ImageValuesPass, AutzenAsPublished)
 {
   const Outcome outcome = coloured(opened(ortho + "autzen/autzen-point-format-3.las"),
     { { "rgb", { ortho + "autzen/autzen.jpg" } } });
@@ -211,7 +211,7 @@ TEST(RasterPass, AutzenAsPublished)
     << outcome.findings;
 }
 
-TEST(RasterPass, PointsOutsideKeepTheirColour)
+TEST(ImageValuesPass, PointsOutsideKeepTheirColour)
 {
   auto moved = std::make_unique<Shifted>(
     opened(ortho + "autzen/autzen-point-format-3.las"), glm::dvec3(1600, 2200, 60));
@@ -228,7 +228,7 @@ TEST(RasterPass, PointsOutsideKeepTheirColour)
   EXPECT_EQ(inside, 23);
 }
 
-TEST(RasterPass, AMosaicIsTheImageItWasCutFrom)
+TEST(ImageValuesPass, AMosaicIsTheImageItWasCutFrom)
 {
   std::vector<glm::dvec3> points;
   const ProjCoordinateSystems systems;
@@ -265,7 +265,7 @@ TEST(RasterPass, AMosaicIsTheImageItWasCutFrom)
   EXPECT_GT(sum, 1e7) << "a picture, not black";
 }
 
-TEST(RasterPass, TheFirstImageNamedWinsWhereItHasData)
+TEST(ImageValuesPass, TheFirstImageNamedWinsWhereItHasData)
 {
   WrittenTiff a;
   a.values = { 10, 11, 12, 13, 0, 15, 16, 17, 18, 19, 20, 21 };
@@ -287,7 +287,7 @@ TEST(RasterPass, TheFirstImageNamedWinsWhereItHasData)
   EXPECT_NE(outcome.findings.find("2 of 6 points"), std::string::npos) << outcome.findings;
 }
 
-TEST(RasterPass, APointOnAnEdgeBelongsToThePixelRightAndBelow)
+TEST(ImageValuesPass, APointOnAnEdgeBelongsToThePixelRightAndBelow)
 {
   WrittenTiff image;
   image.values = { 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11 };
@@ -299,7 +299,7 @@ TEST(RasterPass, APointOnAnEdgeBelongsToThePixelRightAndBelow)
   EXPECT_NE(outcome.findings.find("2 of 6"), std::string::npos) << "the far edges are outside";
 }
 
-TEST(RasterPass, ATransparentPixelSaysNothing)
+TEST(ImageValuesPass, ATransparentPixelSaysNothing)
 {
   WrittenTiff image;
   image.width = 2;
@@ -314,7 +314,7 @@ TEST(RasterPass, ATransparentPixelSaysNothing)
     << "not multiplied by alpha";
 }
 
-TEST(RasterPass, EveryTypeOfPixelIsExact)
+TEST(ImageValuesPass, EveryTypeOfPixelIsExact)
 {
   struct Case
   {
@@ -347,7 +347,7 @@ TEST(RasterPass, EveryTypeOfPixelIsExact)
   }
 }
 
-TEST(RasterPass, APaletteIsColourOrIndex)
+TEST(ImageValuesPass, APaletteIsColourOrIndex)
 {
   for (const int tile : { 0, 16 })
   {
@@ -367,7 +367,7 @@ TEST(RasterPass, APaletteIsColourOrIndex)
   }
 }
 
-TEST(RasterPass, GreyAndSixteenBitsBecomeColours)
+TEST(ImageValuesPass, GreyAndSixteenBitsBecomeColours)
 {
   WrittenTiff grey;
   grey.width = 1;
@@ -388,7 +388,7 @@ TEST(RasterPass, GreyAndSixteenBitsBecomeColours)
   EXPECT_EQ(both.values("rgb"), (std::vector<double>{ 23130, 23130, 23130, 65535, 514, 0 }));
 }
 
-TEST(RasterPass, AColumnThatIsThereKeepsItsType)
+TEST(ImageValuesPass, AColumnThatIsThereKeepsItsType)
 {
   WrittenTiff image;
   image.width = 1;
@@ -417,7 +417,7 @@ TEST(RasterPass, AColumnThatIsThereKeepsItsType)
   EXPECT_NE(outcome.findings.find("cannot hold"), std::string::npos) << outcome.findings;
 }
 
-TEST(RasterPass, ImagesOfAnotherSystemAreLookedUpThroughIt)
+TEST(ImageValuesPass, ImagesOfAnotherSystemAreLookedUpThroughIt)
 {
   const ProjCoordinateSystems systems;
   WrittenTiff image; // WGS 84 / UTM zone 32N, 9 degrees east
@@ -439,7 +439,7 @@ TEST(RasterPass, ImagesOfAnotherSystemAreLookedUpThroughIt)
   EXPECT_NE(silent.findings.find("taken to be in that of the images"), std::string::npos);
 }
 
-TEST(RasterPass, TilesAreTouchedOnceAndTheCacheStaysSmall)
+TEST(ImageValuesPass, TilesAreTouchedOnceAndTheCacheStaysSmall)
 {
   // 42.7 MB of pixels, a cache of 10 MiB; the points of a chunk jump all over the image.
   constexpr std::uint64_t cacheBytes = 10u << 20;
@@ -474,7 +474,7 @@ TEST(RasterPass, TilesAreTouchedOnceAndTheCacheStaysSmall)
   EXPECT_LE(largest, cacheBytes + (4u << 20)) << "a band of tiles is read at a time";
 }
 
-TEST(RasterPass, AnImageThatIsCutShortIsAnErrorThatNamesIt)
+TEST(ImageValuesPass, AnImageThatIsCutShortIsAnErrorThatNamesIt)
 {
   for (const char* file : { "geotiff_kinds/cog_rgba.tif", "autzen/autzen.jpg" })
   {
@@ -490,7 +490,7 @@ TEST(RasterPass, AnImageThatIsCutShortIsAnErrorThatNamesIt)
   }
 }
 
-TEST(RasterPass, ImagesOfOneAttributeHaveOneType)
+TEST(ImageValuesPass, ImagesOfOneAttributeHaveOneType)
 {
   WrittenTiff a;
   a.values.assign(12, 1);

@@ -26,6 +26,8 @@
 
 using namespace pointfront;
 
+#ifndef POINTFRONT_MEMORY_IS_THE_SANITIZERS
+
 namespace
 {
 /// Of this process from now on: no address space for the stack of a further thread (8 MiB), some
@@ -49,8 +51,6 @@ void endWith(bool done)
   std::_Exit(done ? 0 : 1);
 }
 } // namespace
-
-#ifndef POINTFRONT_MEMORY_IS_THE_SANITIZERS
 
 TEST(ThreadShortageDeathTest, ABuildsCrewWorksWithTheThreadsThatThereAre)
 {

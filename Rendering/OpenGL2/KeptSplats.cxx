@@ -21,14 +21,14 @@ namespace
 {
 
 /// As CaptureGS.glsl writes them, one after the other.
-struct Attribute
+struct KeptValue
 {
   const char* name;
   GLint size;
 };
-constexpr Attribute attributes[] = { { "keptPlace", 3 }, { "keptRadius", 1 }, { "keptColour", 4 },
+constexpr KeptValue keptValues[] = { { "keptPlace", 3 }, { "keptRadius", 1 }, { "keptColour", 4 },
   { "keptNormal", 3 }, { "keptId", 2 } };
-constexpr GLsizei stride = 13 * sizeof(float);
+constexpr GLsizei keptStride = 13 * sizeof(float);
 
 /// Camera space as the shaders have it: the line of sight is z, depths of a parallel view count
 /// from its near plane.
@@ -73,18 +73,18 @@ public:
   {
     glBindBuffer(GL_ARRAY_BUFFER, buffer);
     std::size_t offset = 0;
-    for (std::size_t i = 0; i < std::size(attributes); ++i)
+    for (std::size_t i = 0; i < std::size(keptValues); ++i)
     {
       locations_[i] =
-        glGetAttribLocation(static_cast<GLuint>(program->GetHandle()), attributes[i].name);
+        glGetAttribLocation(static_cast<GLuint>(program->GetHandle()), keptValues[i].name);
       if (locations_[i] >= 0)
       {
         const auto location = static_cast<GLuint>(locations_[i]);
         glEnableVertexAttribArray(location);
-        glVertexAttribPointer(location, attributes[i].size, GL_FLOAT, GL_FALSE, stride,
+        glVertexAttribPointer(location, keptValues[i].size, GL_FLOAT, GL_FALSE, keptStride,
           reinterpret_cast<const void*>(offset));
       }
-      offset += sizeof(float) * static_cast<std::size_t>(attributes[i].size);
+      offset += sizeof(float) * static_cast<std::size_t>(keptValues[i].size);
     }
   }
   ~KeptAttributes()
@@ -102,7 +102,7 @@ public:
   KeptAttributes& operator=(const KeptAttributes&) = delete;
 
 private:
-  GLint locations_[std::size(attributes)];
+  GLint locations_[std::size(keptValues)];
 };
 
 } // namespace
@@ -133,8 +133,8 @@ bool KeptSplats::begin(Set& set, std::int64_t most)
   }
   glGenBuffers(1, &set.buffer);
   glBindBuffer(GL_TRANSFORM_FEEDBACK_BUFFER, set.buffer);
-  glBufferData(
-    GL_TRANSFORM_FEEDBACK_BUFFER, static_cast<GLsizeiptr>(most * stride), nullptr, GL_DYNAMIC_COPY);
+  glBufferData(GL_TRANSFORM_FEEDBACK_BUFFER, static_cast<GLsizeiptr>(most * keptStride), nullptr,
+    GL_DYNAMIC_COPY);
   if (glGetError() != GL_NO_ERROR)
   {
     glDeleteBuffers(1, &set.buffer);

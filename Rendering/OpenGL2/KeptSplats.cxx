@@ -128,8 +128,9 @@ void KeptSplats::clear()
 /// False where GL has no room for it.
 bool KeptSplats::begin(Set& set, std::int64_t most)
 {
-  while (glGetError() != GL_NO_ERROR) // of others
+  for (int errors = 0; errors < 16 && glGetError() != GL_NO_ERROR; ++errors)
   {
+    // Of others. A lost context never runs out of them.
   }
   glGenBuffers(1, &set.buffer);
   glBindBuffer(GL_TRANSFORM_FEEDBACK_BUFFER, set.buffer);

@@ -10,6 +10,16 @@ option(POINTFRONT_TEST_KERNEL "Test the kernel, the readers and the tool" ON)
 
 find_program(POINTFRONT_XVFB_RUN xvfb-run)
 
+# Where tests write: a folder for each build tree, since the same tests of several trees run at one
+# time, and one for each program that draws.
+set(pointfront_test_files "${CMAKE_BINARY_DIR}/Testing/Files")
+file(MAKE_DIRECTORY "${pointfront_test_files}")
+
+# pointfront_discover_tests(<executable> <as gtest_discover_tests>...)
+macro (pointfront_discover_tests)
+  gtest_discover_tests(${ARGN} PROPERTIES ENVIRONMENT "TEST_TMPDIR=${pointfront_test_files}")
+endmacro ()
+
 # pointfront_add_display_test(NAME <name> COMMAND <command> [<argument>...])
 # A test that opens a window. It draws on an X server of its own, in software: the same pictures on
 # every machine, with or without a screen. -noreset keeps the server when its last window closes.
@@ -21,8 +31,9 @@ function (pointfront_add_display_test)
   endif ()
   add_test(NAME "${POINTFRONT_TEST_PREFIX}${test_NAME}"
     COMMAND "${POINTFRONT_XVFB_RUN}" -a -s "-screen 0 1280x1024x24 -noreset" ${test_COMMAND})
+  file(MAKE_DIRECTORY "${pointfront_test_files}/${test_NAME}")
   set_tests_properties("${POINTFRONT_TEST_PREFIX}${test_NAME}" PROPERTIES
-    ENVIRONMENT "LIBGL_ALWAYS_SOFTWARE=1")
+    ENVIRONMENT "LIBGL_ALWAYS_SOFTWARE=1;TEST_TMPDIR=${pointfront_test_files}/${test_NAME}")
 endfunction ()
 
 # pointfront_name_leaks(<executable>)
@@ -55,7 +66,7 @@ function (pointfront_add_module_test name)
         COMMAND "$<TARGET_FILE:${name}>" "--gtest_filter=${suite}.*")
     endforeach ()
   else ()
-    gtest_discover_tests(${name} TEST_PREFIX "${POINTFRONT_TEST_PREFIX}${name}."
+    pointfront_discover_tests(${name} TEST_PREFIX "${POINTFRONT_TEST_PREFIX}${name}."
       DISCOVERY_TIMEOUT 60)
   endif ()
 endfunction ()

@@ -84,7 +84,9 @@ TEST(StoreHandle, SaysWhatIsWrongWithAFile)
   const std::string missing = ::testing::TempDir() + "nowhere.pfront";
   EXPECT_EQ(vtkPointFrontStore::Open(missing.c_str(), error), nullptr);
   EXPECT_NE(error.find("nowhere.pfront"), std::string::npos);
-  EXPECT_EQ(vtkPointFrontStore::Open(::testing::TempDir().c_str(), error), nullptr);
+  const std::string folder = ::testing::TempDir() + "folder_without_stores";
+  std::filesystem::create_directories(folder);
+  EXPECT_EQ(vtkPointFrontStore::Open(folder.c_str(), error), nullptr);
   EXPECT_FALSE(error.empty());
   const std::string text = ::testing::TempDir() + "text.pfront";
   std::ofstream(text) << "x y z\n";

@@ -32,6 +32,11 @@ void ExportCommand::declare(CLI::App& program)
     ->type_name("EPSG:N|WKTFILE");
   app_->add_flag("--double", sinkChoice_.doubleCoordinates,
     "PCD: coordinates as float64, which PCL's readers of points do not take");
+  app_
+    ->add_option("--color-depth", sinkChoice_.colourBits,
+      "Bits of 16-bit colours to write: 8 or 16 (8 in PLY and PCD, else 16)")
+    ->type_name("BITS")
+    ->check(CLI::IsMember({ 8U, 16U }));
   app_->add_flag("--force", replace_, "Replace an existing file of the same kind");
   app_->add_option("--progress", progress_, "On stderr: auto, plain, json or none (auto)")
     ->check(availableValues({ "auto", "plain", "json", "none" }, {}));

@@ -7,6 +7,8 @@
 #include "Unavailable.h"
 #include "XYZWriter.h"
 
+#include "pointfront/Export/EightBitColourSink.h"
+
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
@@ -61,6 +63,12 @@ std::unique_ptr<PointSink> makeFile(const std::string& path, const SinkChoice& c
 std::unique_ptr<PointSink> makeSink(const std::string& path, const SinkChoice& choice)
 {
   std::unique_ptr<PointSink> file = makeFile(path, choice);
+  const FileKind kind = sinkKind(path);
+  const unsigned usual = kind == FileKind::PLY || kind == FileKind::PCD ? 8 : 16;
+  if (choice.colourBits.value_or(usual) == 8)
+  {
+    file = std::make_unique<EightBitColourSink>(std::move(file));
+  }
   return choice.crs.empty() ? std::move(file)
                             : std::make_unique<ProjectedSink>(std::move(file), choice.crs);
 }

@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace pointfront
@@ -17,6 +18,8 @@ namespace pointfront
 struct SinkChoice
 {
   bool doubleCoordinates = false; ///< PCD
+  /// 8 or 16, of colours that have 16; nothing: 8 in PLY and PCD, whose readers know no more.
+  std::optional<unsigned> colourBits;
   bool dated = true; ///< LAS: its header tells the day
   std::string crs; ///< the system to transform into; empty: as they are
 };

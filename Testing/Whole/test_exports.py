@@ -46,6 +46,26 @@ class Exports(ToolTest):
         self.assertIn("SIZE 8 8 8", out.read_bytes()[:600].decode("ascii", "replace"))
         self.assertEqual(outcome.err, "")
 
+    def test_colours_have_the_bits_that_readers_expect(self):
+        """16-bit colours in PLY and PCD: 8 bits unless asked, told where that rounds them."""
+        colours = [(0x1200, 0x3400, 0x5600), (0x1234, 0, 0)]
+        las = write_las(self.folder / "a.las",
+                        [(0.0, 0.0, 0.0, *colours[0]), (1.0, 1.0, 1.0, *colours[1])])
+        store = self.build(las)
+        for kind in ("ply", "pcd"):
+            for options, wanted in (((), [(0x12, 0x34, 0x56), (0x12, 0, 0)]),
+                                    (("--color-depth", "16"), colours)):
+                out, outcome = self.export(store, f"x.{kind}", *options)
+                self.assertEqual("rounds those of 1 points" in outcome.err, not options)
+                self.succeed("build", out, "-o", self.folder / "b.pfront", "--force")
+                back, _ = self.export(self.folder / "b.pfront", "b.csv")
+                lines = [line.split(",") for line in back.read_text().splitlines()]
+                at = [lines[0].index(c) for c in ("red", "green", "blue")]
+                rows = sorted(tuple(int(row[k]) for k in at) for row in lines[1:])
+                self.assertEqual(rows, sorted(wanted), (kind, options))
+        out, outcome = self.export(store, "x.csv", "--color-depth", "8")
+        self.assertTrue(any(line.endswith(",18,52,86") for line in out.read_text().splitlines()))
+
     def test_names_dates_and_nothing(self):
         store = self.build(SMALL, name="a.pfront")
         self.succeed("build", SMALL, "-o", self.folder / "n.pfront", "--normals", "pca")

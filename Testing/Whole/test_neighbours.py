@@ -4,6 +4,7 @@ Environment, beside that of tool.py: POINTFRONT_LASZIP the library, POINTFRONT_P
 program that reads PCD files with PCL.
 """
 
+import collections
 import ctypes
 import os
 import struct
@@ -51,6 +52,17 @@ def laszip_points(path):
     return bool(compressed.value), points
 
 
+def las_colours(path):
+    """How often each colour occurs in a LAS file of format 2 or 3."""
+    data = path.read_bytes()
+    first, = struct.unpack_from("<I", data, 96)
+    kind, size, count = struct.unpack_from("<BHI", data, 104)
+    at = {2: 20, 3: 28}[kind]
+    return collections.Counter(
+        struct.unpack_from("<3H", data, first + i * size + at)
+        for i in range(count))
+
+
 class Neighbours(ToolTest):
     def setUp(self):
         super().setUp()
@@ -79,6 +91,8 @@ class Neighbours(ToolTest):
         self.assertEqual(steps_of([p + o for p, o in zip(row[:3], origin)] for row in rows),
                          self.expected)
         self.assertGreater(max(row[3] for row in rows), 0.0)  # intensity
+        self.assertEqual(collections.Counter(tuple(map(int, row[4:])) for row in rows),
+                         las_colours(SMALL))
 
     @unittest.skipUnless(WITH_VTK, "VTK's Python package is not there")
     def test_vtk_readers(self):
@@ -93,6 +107,8 @@ class Neighbours(ToolTest):
             values = sorted(p[axis] for p in got)
             wanted = sorted(s[axis] / 100 for s in self.expected)
             self.assertLess(max(abs(a - b) for a, b in zip(values, wanted)), 0.5)
+        colours = vtk_to_numpy(ply.GetOutput().GetPointData().GetArray("RGB"))
+        self.assertEqual(collections.Counter(map(tuple, colours.tolist())), las_colours(SMALL))
         table = vtkmodules.vtkIOInfovis.vtkDelimitedTextReader()
         table.SetFileName(str(self.export("x.csv")))
         table.SetHaveHeaders(True)

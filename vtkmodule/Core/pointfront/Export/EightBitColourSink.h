@@ -1,0 +1,40 @@
+#pragma once
+
+#include "pointfront/Points/PointSink.h"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace pointfront
+{
+
+/// Points on their way into a sink, with 16-bit colours narrowed to the 8 bits that readers of PLY
+/// and PCD expect.
+/// Values    the upper byte, as of 8-bit colours that a writer of LAS shifted or repeated. If no
+///           colour is above 255, the lower byte: those are 8-bit colours already.
+/// Lost      findings() counts the points whose colours 8 bits do not hold.
+/// Others    points without such colours pass as they are.
+class EightBitColourSink final : public PointSink
+{
+public:
+  explicit EightBitColourSink(std::unique_ptr<PointSink> sink);
+
+  std::string path() const override { return sink_->path(); }
+  Result<void> begin(const SinkDescription& description) override;
+  Result<void> append(const PointBatch& batch) override;
+  Result<void> finish() override { return sink_->finish(); }
+  std::vector<std::string> findings() const override;
+
+private:
+  void narrow(const std::vector<std::byte>& wide, std::vector<std::byte>& bytes);
+
+  std::unique_ptr<PointSink> sink_;
+  std::optional<std::size_t> colours_; ///< the column to narrow, since begin()
+  bool areSmall_ = false; ///< no colour is above 255
+  PointBatch batch_; ///< the last one, narrowed
+  std::uint64_t rounded_ = 0; ///< points
+};
+
+} // namespace pointfront

@@ -169,6 +169,55 @@ TEST(SplatExtremes, PicturesOfOnePixelAndLargeOnes)
   }
   scene.window->SetSize(3000, 2000);
   EXPECT_EQ(scene.with(techniqueWords[0], 0.6).lit(), 3000 * 2000);
+  // The largest width and height that OpenGL must have; both at once take gigabytes a target.
+  for (const glm::ivec2& size : { glm::ivec2(16384, 16), glm::ivec2(16, 16384) })
+  {
+    scene.window->SetSize(size.x, size.y);
+    scene.renderer->GetActiveCamera()->SetViewAngle(size.x > size.y ? 0.03 : 30.0);
+    for (const std::string& technique : techniqueWords)
+    {
+      const Picture picture = scene.with(technique, 0.6);
+      EXPECT_EQ(picture.width, size.x);
+      scene.mapper->SetBackendToSoftware();
+      const Picture software = scene.draw();
+      scene.mapper->SetBackendToOpenGL();
+      EXPECT_GT(software.lit(), 16 * 5000) << technique << ", " << size.x;
+      EXPECT_LE(differing(picture, software, 2), 16 * 16384 / 200) << technique << ", " << size.x;
+    }
+  }
+}
+
+TEST(SplatExtremes, NothingToDraw)
+{
+  Extreme scene(storeOfPoints("nothing", plane(10, 0.25)));
+  for (const std::string& technique : techniqueWords)
+  {
+    EXPECT_EQ(scene.with(technique + R"(, "visible": false)", 0.5).lit(), 0) << technique;
+    EXPECT_EQ(scene.with(technique + R"(, "where": "x > 1000")", 0.5).lit(), 0) << technique;
+    EXPECT_TRUE(scene.mapper->GetLastComplete()) << technique;
+    EXPECT_GT(scene.with(technique, 0.5).lit(), 0) << technique;
+  }
+}
+
+/// From a millimetre to ten thousand kilometres: what is nearer by a tenth hides what is behind, up
+/// to where 24 bits of depth tell that apart (60 m at 1 km).
+TEST(SplatExtremes, DepthsOfTenOrdersOfMagnitude)
+{
+  for (const double away : { 0.1, 10.0, 1000.0 })
+  {
+    const double radius = 0.1 * away;
+    Extreme scene(storeOfPoints("depths",
+      { { { 0, 0, 0 }, { 0, 0, 1 }, { 255, 0, 0 } },
+        { { 0, 0, -radius }, { 0, 0, 1 }, { 0, 255, 0 } } }));
+    scene.lookFrom({ 0, 0, away }, { 0, 0, 0 });
+    scene.renderer->GetActiveCamera()->SetClippingRange(1e-3, 1e7);
+    for (const std::string& technique : techniqueWords)
+    {
+      const std::array<int, 3> colour = scene.with(technique, radius).at(150, 100);
+      EXPECT_GT(colour[0], 250) << technique << ", " << away;
+      EXPECT_LT(colour[1], 5) << technique << ", " << away;
+    }
+  }
 }
 
 TEST(SplatExtremes, NormalsThatAreNone)

@@ -159,12 +159,28 @@ RasterItem RasterItems::itemOf(const Place& place)
   return item;
 }
 
+namespace
+{
+Thinning thinningOf(const PlanItem& item)
+{
+  if (!item.unfinished)
+  {
+    return Thinning::None;
+  }
+  if (item.refined)
+  {
+    return Thinning::Even;
+  }
+  const bool inPart = item.last < item.node->size();
+  return !inPart ? Thinning::None : item.node->parent == noNode ? Thinning::Random : Thinning::Even;
+}
+} // namespace
+
 PassConditions RasterItems::demandOf(const RasterItem& item) const
 {
   const bool oriented = item.normals || item.style->orientation == SplatOrientation::Fixed;
-  const bool thinned = item.item->refined && item.item->unfinished;
   const float spacingPx = std::max(plan_.spacingPx, item.item->growingSpacingPx);
-  return { oriented, spacingPx, thinned, plan_.camera.height };
+  return { oriented, spacingPx, thinningOf(*item.item), plan_.camera.height };
 }
 
 RasterItem RasterItems::wallsOf(const RasterItem& item) const

@@ -23,13 +23,21 @@ struct TechniquePasses
   bool depthInKey() const { return squares || (first.paraboloid == 0.0f && !first.rimmed()); }
 };
 
+/// How points that are drawn were chosen, where more are there and the node does not say how far
+/// the chosen ones are apart.
+enum class Thinning
+{
+  None, ///< all are drawn, or as many as the node says
+  Even, ///< among evenly thinned points
+  Random ///< from a root, whose first points have nothing between them
+};
+
 /// What of a frame decides about passes, beside a style.
 struct PassConditions
 {
   bool hasNormals = false; ///< of the node that is drawn
   float spacingPx = 0.0f; ///< FramePlan's
-  /// More points are there than are drawn, and the node does not say how far those are apart.
-  bool thinned = false;
+  Thinning thinning = Thinning::None;
   int heightPx = 1; ///< of the viewport
 };
 

@@ -83,6 +83,23 @@ std::vector<NormalPoint> plane(int side, double step)
   return points;
 }
 
+/// Pixels without a splat among those around the middle, up to `half` pixels aside.
+int unlitWithin(const Picture& picture, double half)
+{
+  int unlit = 0;
+  for (int y = 0; y < picture.height; ++y)
+  {
+    for (int x = 0; x < picture.width; ++x)
+    {
+      const bool inside = std::abs(x + 0.5 - 0.5 * picture.width) < half &&
+        std::abs(y + 0.5 - 0.5 * picture.height) < half;
+      const std::array<int, 3> c = picture.at(x, y);
+      unlit += inside && c[0] + c[1] + c[2] == 0;
+    }
+  }
+  return unlit;
+}
+
 } // namespace
 
 TEST(SplatExtremes, AnEyeOnASplatAndPointsBehind)
@@ -335,34 +352,33 @@ TEST(SplatExtremes, ADiscCoversWhatRaysMeet)
   }
 }
 
-/// From a metre to ten kilometres, all of its points.
+/// From a metre to ten kilometres, all of its points and levels that were thinned: points without
+/// radii of their own, those that are drawn chosen by the front.
 TEST(SplatExtremes, ASplattedPlaneHasNoHole)
 {
-  Extreme scene(storeOfPoints("wide", plane(220, 0.05)));
-  scene.mapper->SetTargetError(0.01);
-  for (const std::string& technique :
-    { techniqueWords[0], techniqueWords[1], techniqueWords[2], techniqueWords[4] })
+  const std::string store = storeOfPoints("wide", plane(220, 0.05));
+  for (const double error : { 0.01, 1.0, 2.0, 4.0 })
   {
-    ASSERT_TRUE(scene.style->LoadJSON("{\"default\": {" + technique + "}}"));
-    for (const double away : { 1.0, 3.0, 10.0, 30.0, 100.0, 300.0, 1000.0, 3000.0, 10000.0 })
+    Extreme scene(store);
+    scene.mapper->SetTargetError(error);
+    for (const std::string& technique :
+      { techniqueWords[0], techniqueWords[1], techniqueWords[2], techniqueWords[4] })
     {
-      scene.lookFrom({ 0.0, 0.0, away }, { 0.0, 0.0, 0.0 });
-      scene.renderer->GetActiveCamera()->SetClippingRange(0.5 * away, 2.0 * away);
-      const Picture picture = scene.draw();
-      // Pixels to the edge.
-      const double half = 5.475 / (away * std::tan(0.2617993878)) * 100.0;
-      int holes = 0;
-      for (int y = 0; y < 200; ++y)
+      ASSERT_TRUE(scene.style->LoadJSON("{\"default\": {" + technique + "}}"));
+      for (const double away : { 1.0, 3.0, 10.0, 30.0, 100.0, 300.0, 1000.0, 3000.0, 10000.0 })
       {
-        for (int x = 0; x < 300; ++x)
-        {
-          const bool inside = std::abs(x + 0.5 - 150.0) < half && std::abs(y + 0.5 - 100.0) < half;
-          const std::array<int, 3> c = picture.at(x, y);
-          holes += inside && c[0] + c[1] + c[2] == 0;
-        }
+        scene.lookFrom({ 0.0, 0.0, away }, { 0.0, 0.0, 0.0 });
+        scene.renderer->GetActiveCamera()->SetClippingRange(0.5 * away, 2.0 * away);
+        const Picture picture = scene.draw();
+        // The points at the edge may be among those that are left out.
+        const double edge = error < 1.0 ? 0.0 : 2.0 * error;
+        const double half = 5.475 / (away * std::tan(0.2617993878)) * 100.0 - edge;
+        const int holes = unlitWithin(picture, half);
+        const double share = error < 1.0 ? 0.0 : 0.001;
+        EXPECT_LE(holes, share * picture.lit() + (error < 1.0 ? 0.0 : 1.0))
+          << technique << ", from " << away << ", error " << error;
+        EXPECT_GT(picture.lit(), 0) << technique << ", from " << away;
       }
-      EXPECT_EQ(holes, 0) << technique << ", from " << away;
-      EXPECT_GT(picture.lit(), 0) << technique << ", from " << away;
     }
   }
 }

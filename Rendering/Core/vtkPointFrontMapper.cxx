@@ -5,6 +5,7 @@
 #include "MapperProperties.h"
 #include "MapperStyle.h"
 #include "RenderTimer.h"
+#include "RendererLights.h"
 
 #include "pointfront/Detail/DetailLevel.h"
 #include "pointfront/Plan/FramePlanner.h"
@@ -263,6 +264,7 @@ pointfront::PlanRequest vtkPointFrontMapper::GetRequest(vtkRenderer* renderer, v
   if (const auto sheet = this->GetStyleSheet())
   {
     request.shading = sheet->frameShading();
+    request.shading.lights = pointfront::lightsOf(renderer);
     pointfront::placeInTile(renderer, request.shading.lenses);
   }
   for (const pointfront::LayerStyling& layer : this->GetStyling(actor))

@@ -23,7 +23,7 @@ namespace pointfront
 namespace
 {
 
-constexpr std::size_t mostLights = 8;
+constexpr std::size_t mostLights = 64; // of ResolveFS.glsl; OpenGL 3.2 has room for 128
 
 bool sameRectangle(const PixelRectangle& a, const PixelRectangle& b)
 {

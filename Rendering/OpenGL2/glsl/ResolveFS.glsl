@@ -13,8 +13,8 @@ uniform sampler2D colourSums;
 uniform sampler2D seenNormals;
 uniform vec2 ambientDiffuse;
 uniform int lightCount;
-uniform vec3 lightTowards[8];
-uniform vec3 lightColours[8];
+uniform vec3 lightTowards[64];
+uniform vec3 lightColours[64];
 #endif
 uniform float depthShift;       // parallel: of the near plane
 uniform bool composited;        // with other processes' pictures, by what decided

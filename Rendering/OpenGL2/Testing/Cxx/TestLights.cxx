@@ -1,0 +1,150 @@
+// Deferred light from VTK's lights, by both back ends.
+
+#include "Scene.h"
+
+#include "vtkPointFrontStyle.h"
+
+#include <vtkLight.h>
+
+#include <cmath>
+#include <string>
+
+using namespace pointfront;
+using namespace pointfront::test;
+
+namespace
+{
+
+using Colour = std::array<int, 3>;
+const std::array<int, 2> lightBackends = { vtkPointFrontMapper::SOFTWARE,
+  vtkPointFrontMapper::OPENGL };
+
+/// One white sphere that fills much of the view, seen along -z.
+struct LitSphere : Scene
+{
+  vtkNew<vtkPointFrontStyle> style;
+
+  LitSphere()
+    : Scene(storeOf("lit-sphere", 1,
+        [](std::size_t)
+        {
+          Sample sample;
+          sample.rgb = { 200, 200, 200 };
+          return sample;
+        }))
+  {
+    EXPECT_TRUE(style->LoadJSON(
+      R"({"default": {"technique": "spheres", "size": {"mode": "fixed", "metres": 2}},
+          "shading": {"mode": "lit"}})"));
+    mapper->SetStyle(style);
+    lookFrom({ 0, 0, 10 }, { 0, 0, 0 });
+  }
+  vtkSmartPointer<vtkLight> add(
+    const std::array<double, 3>& from, const std::array<double, 3>& colour, double intensity = 1.0)
+  {
+    vtkNew<vtkLight> light;
+    light->SetLightTypeToSceneLight();
+    light->SetPosition(from[0], from[1], from[2]);
+    light->SetFocalPoint(0.0, 0.0, 0.0);
+    light->SetDiffuseColor(colour[0], colour[1], colour[2]);
+    light->SetIntensity(intensity);
+    renderer->AutomaticLightCreationOff();
+    renderer->AddLight(light);
+    return light.Get();
+  }
+  Picture by(int backend)
+  {
+    mapper->SetBackend(backend);
+    return draw();
+  }
+};
+
+void expectNear(const Colour& colour, double red, double green, double blue)
+{
+  EXPECT_NEAR(colour[0], red, 2.0);
+  EXPECT_NEAR(colour[1], green, 2.0);
+  EXPECT_NEAR(colour[2], blue, 2.0);
+}
+
+constexpr int middleX = 150;
+constexpr int middleY = 100;
+constexpr double ambient = 0.3 * 200.0;
+constexpr double diffuse = 0.7 * 200.0;
+
+} // namespace
+
+/// Without any the renderer makes one at the camera, as for other mappers.
+TEST(Lights, TheRenderersOwnIsAtTheEye)
+{
+  LitSphere scene;
+  for (const int backend : lightBackends)
+  {
+    expectNear(scene.by(backend).at(middleX, middleY), 200, 200, 200);
+  }
+}
+
+TEST(Lights, HaveDirectionColourAndIntensity)
+{
+  LitSphere scene;
+  scene.add({ -5, 0, 0 }, { 1, 0, 0 });
+  scene.add({ 0, 5, 5 }, { 0, 0, 1 }, 0.5);
+  for (const int backend : lightBackends)
+  {
+    const Picture picture = scene.by(backend);
+    const double slanted = 0.5 * diffuse * std::sqrt(0.5);
+    expectNear(picture.at(middleX, middleY), ambient, ambient, ambient + slanted);
+    EXPECT_GT(picture.at(middleX - 30, middleY)[0], ambient + 0.5 * diffuse);
+    EXPECT_NEAR(picture.at(middleX + 30, middleY)[0], ambient, 2.0);
+  }
+}
+
+/// A light that follows the camera stays where it is on screen, one of the scene does not.
+TEST(Lights, FollowTheCameraOrNot)
+{
+  for (const bool follows : { true, false })
+  {
+    LitSphere scene;
+    vtkLight* const light = scene.add({ 0, 0, 1 }, { 1, 1, 1 });
+    follows ? light->SetLightTypeToCameraLight() : light->SetLightTypeToSceneLight();
+    scene.lookFrom({ -10, 0, 0 }, { 0, 0, 0 });
+    for (const int backend : lightBackends)
+    {
+      const double expected = follows ? ambient + diffuse : ambient;
+      expectNear(scene.by(backend).at(middleX, middleY), expected, expected, expected);
+    }
+  }
+}
+
+/// The view is at rest; nothing but a light has changed.
+TEST(Lights, AChangeShowsInTheNextFrame)
+{
+  LitSphere scene;
+  vtkLight* const light = scene.add({ 0, 0, 5 }, { 1, 1, 1 });
+  for (const int backend : lightBackends)
+  {
+    light->SwitchOn();
+    light->SetPosition(0, 0, 5);
+    expectNear(scene.by(backend).at(middleX, middleY), 200, 200, 200);
+    light->SetPosition(0, 5, 5);
+    const double slanted = ambient + diffuse * std::sqrt(0.5);
+    expectNear(scene.draw().at(middleX, middleY), slanted, slanted, slanted);
+    light->SwitchOff();
+    expectNear(scene.draw().at(middleX, middleY), ambient, ambient, ambient);
+  }
+}
+
+TEST(Lights, EachOfManyCounts)
+{
+  LitSphere scene;
+  constexpr int count = 40;
+  for (int i = 0; i < count; ++i)
+  {
+    scene.add(
+      { 0, 0, 5 }, { 1.0, i < count / 2 ? 1.0 : 0.0, i < count / 2 ? 0.0 : 1.0 }, 1.0 / count);
+  }
+  for (const int backend : lightBackends)
+  {
+    expectNear(scene.by(backend).at(middleX, middleY), ambient + diffuse, ambient + 0.5 * diffuse,
+      ambient + 0.5 * diffuse);
+  }
+}

@@ -12,17 +12,30 @@
 #include "VerifyCommand.h"
 
 #include "CloudFormats.h"
+#include "LeftOut.h"
 #include "Suggestion.h"
 
 #include <cstdio>
 
 namespace pointfront
 {
+namespace
+{
+std::string versionText()
+{
+  std::string text = "pointfront " POINTFRONT_VERSION;
+  for (const LeftOutFamily& family : leftOutFamilies())
+  {
+    text += "\nbuilt without " + family.name + " (" + family.option + ")";
+  }
+  return text;
+}
+} // namespace
 
 Program::Program()
   : app_("Point clouds larger than memory: build stores, check them, draw them.", "pointfront")
 {
-  app_.set_version_flag("--version", "pointfront " POINTFRONT_VERSION);
+  app_.set_version_flag("--version", versionText);
   commands_.push_back(std::make_unique<BuildCommand>());
   addCloudFormats();
   commands_.push_back(std::make_unique<IndexCommand>());

@@ -14,11 +14,10 @@ foreach (family IN ITEMS EPT LAS PCD PLY PNG StyleJSON Text)
       FILES_MATCHING PATTERN "*.h" PATTERN "Testing" EXCLUDE PATTERN "vtk*.h" EXCLUDE)
   endif ()
 endforeach ()
-set(filters Attributes Normals Projection)
-if (POINTFRONT_IMAGE_COLOR)
-  list(APPEND filters ImageColor)
-endif ()
-foreach (filter IN LISTS filters)
+foreach (filter IN ITEMS Attributes ImageColor Normals Projection)
+  if (NOT TARGET pointfrontFilters${filter}) # left out of this build
+    continue ()
+  endif ()
   list(APPEND pointfront_kernel_libraries pointfrontFilters${filter})
   install(DIRECTORY "${CMAKE_CURRENT_SOURCE_DIR}/Filters/${filter}/"
     DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/pointfront/Filters" COMPONENT Development

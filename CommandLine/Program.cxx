@@ -7,6 +7,7 @@
 #include "GenerateCommand.h"
 #include "IndexCommand.h"
 #include "InfoCommand.h"
+#include "ManPage.h"
 #include "RenderCommand.h"
 #include "Unavailable.h"
 #include "VerifyCommand.h"
@@ -16,6 +17,7 @@
 #include "Suggestion.h"
 
 #include <cstdio>
+#include <cstring>
 
 namespace pointfront
 {
@@ -117,6 +119,12 @@ std::string Program::usageText(const std::string& command, const CLI::ParseError
 
 int Program::run(int argc, char** argv)
 {
+  if (argc == 2 && std::strcmp(argv[1], "--help-man") == 0)
+  {
+    const std::string page = manPage(app_, POINTFRONT_VERSION);
+    const bool whole = std::fwrite(page.data(), 1, page.size(), stdout) == page.size();
+    return whole && std::fflush(stdout) == 0 ? ExitStatus::Done : ExitStatus::Failed;
+  }
   try
   {
     app_.parse(argc, argv);

@@ -18,7 +18,9 @@ foreach (filter IN ITEMS Attributes ImageColor Normals Projection)
   if (NOT TARGET pointfrontFilters${filter}) # left out of this build
     continue ()
   endif ()
-  list(APPEND pointfront_kernel_libraries pointfrontFilters${filter})
+  if (NOT filter STREQUAL "ImageColor")
+    list(APPEND pointfront_kernel_libraries pointfrontFilters${filter})
+  endif ()
   install(DIRECTORY "${CMAKE_CURRENT_SOURCE_DIR}/Filters/${filter}/"
     DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/pointfront/Filters" COMPONENT Development
     FILES_MATCHING PATTERN "*.h" PATTERN "Testing" EXCLUDE)
@@ -32,6 +34,11 @@ install(TARGETS ${pointfront_kernel_libraries} EXPORT PointFrontKernel
   RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT Runtime
   LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT Runtime NAMELINK_COMPONENT Development
   ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT Development)
+if (TARGET pointfrontFiltersImageColor) # a package of its own: OpenImageIO brings 260 libraries
+  install(TARGETS pointfrontFiltersImageColor EXPORT PointFrontKernel
+    LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT Images
+      NAMELINK_COMPONENT Development)
+endif ()
 install(EXPORT PointFrontKernel NAMESPACE PointFront:: FILE PointFrontKernel-targets.cmake
   DESTINATION "${pointfront_package_folder}" COMPONENT Development)
 export(EXPORT PointFrontKernel NAMESPACE PointFront::
@@ -40,6 +47,7 @@ export(EXPORT PointFrontKernel NAMESPACE PointFront::
 if (NOT POINTFRONT_WHEEL) # its metadata have them
   install(FILES "${CMAKE_CURRENT_SOURCE_DIR}/LICENSE" "${CMAKE_CURRENT_SOURCE_DIR}/CHANGELOG.md"
     DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT Runtime)
+  include(PointFrontDebian)
 endif ()
 
 # The package names exactly what it was built with: VTK's C++ interface changes between releases.
@@ -78,9 +86,9 @@ if (POINTFRONT_HOST STREQUAL "VTK" AND POINTFRONT_WRAP_PYTHON)
   endforeach ()
   list(TRANSFORM package_files PREPEND "${to}/")
   install(FILES ${package_files} DESTINATION "${pointfront_python_folder}/pointfront"
-    COMPONENT Runtime)
+    COMPONENT "${pointfront_python_component}")
   if (POINTFRONT_BUILD_TESTING)
-    add_test(NAME "${POINTFRONT_TEST_PREFIX}Python.Package"
+    pointfront_add_data_test(NAME Python.Package
       COMMAND "${CMAKE_COMMAND}" -E env
         "PYTHONPATH=${CMAKE_BINARY_DIR}/${pointfront_python_folder}"
         "POINTFRONT_SHARED_DATA=${POINTFRONT_SHARED_DATA}"

@@ -44,10 +44,17 @@ if (POINTFRONT_WHEEL) # libraries, tool and extension modules side by side; a wh
   set(CMAKE_INSTALL_BINDIR "pointfront")
   set(CMAKE_PLATFORM_NO_VERSIONED_SONAME ON)
 endif ()
+set(CMAKE_INSTALL_DOCDIR "share/doc/pointfront" CACHE PATH "Where licence and changes go")
 include(GNUInstallDirs)
 set(pointfront_python_folder "${CMAKE_INSTALL_LIBDIR}/python3/dist-packages")
+# Components of an installation, of which Debian's packages are made: Runtime (tool and kernel),
+# Images, Modules (of VTK), Python, Development. A wheel is one: Runtime.
+set(pointfront_modules_component Modules)
+set(pointfront_python_component Python)
 if (POINTFRONT_WHEEL)
   set(pointfront_python_folder ".")
+  set(pointfront_modules_component Runtime)
+  set(pointfront_python_component Runtime)
 endif ()
 set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/${CMAKE_INSTALL_BINDIR}")
 set(CMAKE_LIBRARY_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/${CMAKE_INSTALL_LIBDIR}")

@@ -1,0 +1,14 @@
+# Run by cpack on the files of each package before it packs them: what Debian's policy asks for.
+file(GLOB_RECURSE pages "${CPACK_TEMPORARY_DIRECTORY}/*.1")
+list(FILTER pages INCLUDE REGEX "/man1/")
+foreach (page IN LISTS pages)
+  execute_process(COMMAND gzip -9n "${page}" COMMAND_ERROR_IS_FATAL ANY)
+endforeach ()
+
+# What the plugin's package installs lies outside of /usr/share, but for this.
+file(GLOB plugins LIST_DIRECTORIES TRUE "${CPACK_TEMPORARY_DIRECTORY}/usr/lib/paraview-pointfront"
+  "${CPACK_TEMPORARY_DIRECTORY}/*/usr/lib/paraview-pointfront")
+foreach (plugin IN LISTS plugins)
+  configure_file("${CPACK_POINTFRONT_LICENCE}"
+    "${plugin}/../../share/doc/paraview-pointfront/copyright" COPYONLY)
+endforeach ()

@@ -3,33 +3,16 @@
 include(CMakePackageConfigHelpers)
 set(pointfront_package_folder "${CMAKE_INSTALL_LIBDIR}/cmake/PointFront")
 
-install(DIRECTORY "${CMAKE_CURRENT_SOURCE_DIR}/vtkmodule/Core/pointfront"
-  DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" COMPONENT Development FILES_MATCHING PATTERN "*.h")
-set(pointfront_kernel_libraries pointfrontCore pointfrontSourceFormats pointfrontAttributePasses)
-foreach (family IN ITEMS EPT LAS PCD PLY PNG StyleJSON Text)
-  if (TARGET pointfrontIO${family})
-    list(APPEND pointfront_kernel_libraries pointfrontIO${family})
-    install(DIRECTORY "${CMAKE_CURRENT_SOURCE_DIR}/IO/${family}/"
-      DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/pointfront/IO" COMPONENT Development
-      FILES_MATCHING PATTERN "*.h" PATTERN "Testing" EXCLUDE PATTERN "vtk*.h" EXCLUDE)
+include(PointFrontPublicHeaders)
+pointfront_install_headers()
+set(pointfront_kernel_libraries pointfrontCore pointfrontSourceFormats pointfrontAttributePasses
+  pointfrontSoftware)
+foreach (library IN ITEMS IOEPT IOLAS IOPCD IOPLY IOPNG IOStyleJSON IOText FiltersAttributes
+    FiltersNormals FiltersProjection)
+  if (TARGET pointfront${library}) # not left out of this build
+    list(APPEND pointfront_kernel_libraries pointfront${library})
   endif ()
 endforeach ()
-foreach (filter IN ITEMS Attributes ImageColor Normals Projection)
-  if (NOT TARGET pointfrontFilters${filter}) # left out of this build
-    continue ()
-  endif ()
-  if (NOT filter STREQUAL "ImageColor")
-    list(APPEND pointfront_kernel_libraries pointfrontFilters${filter})
-  endif ()
-  install(DIRECTORY "${CMAKE_CURRENT_SOURCE_DIR}/Filters/${filter}/"
-    DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/pointfront/Filters" COMPONENT Development
-    FILES_MATCHING PATTERN "*.h" PATTERN "Testing" EXCLUDE)
-endforeach ()
-list(APPEND pointfront_kernel_libraries pointfrontSoftware)
-set(software "${CMAKE_CURRENT_SOURCE_DIR}/Rendering/Software")
-install(FILES "${software}/PixelRectangle.h" "${software}/SoftwareComposition.h"
-    "${software}/SoftwareRasteriser.h" "${software}/SoftwareTarget.h"
-  DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/pointfront" COMPONENT Development)
 install(TARGETS ${pointfront_kernel_libraries} EXPORT PointFrontKernel
   RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT Runtime
   LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT Runtime NAMELINK_COMPONENT Development
@@ -48,6 +31,24 @@ if (NOT POINTFRONT_WHEEL) # its metadata have them
   install(FILES "${CMAKE_CURRENT_SOURCE_DIR}/LICENSE" "${CMAKE_CURRENT_SOURCE_DIR}/CHANGELOG.md"
     DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT Runtime)
   include(PointFrontDebian)
+endif ()
+
+# Pages of the public headers: plain C++, and the classes for VTK.
+find_package(Doxygen QUIET)
+if (DOXYGEN_FOUND)
+  file(GLOB pointfront_documented CONFIGURE_DEPENDS
+    "${CMAKE_CURRENT_SOURCE_DIR}/*/*/vtkPointFront*.h")
+  list(APPEND pointfront_documented ${pointfront_public_headers})
+  set(DOXYGEN_PROJECT_NAME PointFront)
+  set(DOXYGEN_STRIP_FROM_PATH "${CMAKE_CURRENT_SOURCE_DIR}/vtkmodule/Core"
+    "${CMAKE_CURRENT_SOURCE_DIR}")
+  set(DOXYGEN_JAVADOC_AUTOBRIEF YES)
+  set(DOXYGEN_GENERATE_LATEX NO)
+  set(DOXYGEN_QUIET YES)
+  set(DOXYGEN_WARN_IF_UNDOCUMENTED NO) # a name that says all needs no sentence
+  set(DOXYGEN_WARN_AS_ERROR FAIL_ON_WARNINGS)
+  set(DOXYGEN_PREDEFINED "VTK_WRAPEXTERN=")
+  doxygen_add_docs(docs ${pointfront_documented} COMMENT "Pages of the public headers")
 endif ()
 
 # The package names exactly what it was built with: VTK's C++ interface changes between releases.

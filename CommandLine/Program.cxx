@@ -7,22 +7,37 @@
 #include "GenerateCommand.h"
 #include "IndexCommand.h"
 #include "InfoCommand.h"
+#include "ManPage.h"
 #include "RenderCommand.h"
 #include "Unavailable.h"
 #include "VerifyCommand.h"
 
 #include "CloudFormats.h"
+#include "LeftOut.h"
 #include "Suggestion.h"
 
 #include <cstdio>
+#include <cstring>
 
 namespace pointfront
 {
+namespace
+{
+std::string versionText()
+{
+  std::string text = "pointfront " POINTFRONT_VERSION;
+  for (const LeftOutFamily& family : leftOutFamilies())
+  {
+    text += "\nbuilt without " + family.name + " (" + family.option + ")";
+  }
+  return text;
+}
+} // namespace
 
 Program::Program()
   : app_("Point clouds larger than memory: build stores, check them, draw them.", "pointfront")
 {
-  app_.set_version_flag("--version", "pointfront " POINTFRONT_VERSION);
+  app_.set_version_flag("--version", versionText);
   commands_.push_back(std::make_unique<BuildCommand>());
   addCloudFormats();
   commands_.push_back(std::make_unique<IndexCommand>());
@@ -104,6 +119,12 @@ std::string Program::usageText(const std::string& command, const CLI::ParseError
 
 int Program::run(int argc, char** argv)
 {
+  if (argc == 2 && std::strcmp(argv[1], "--help-man") == 0)
+  {
+    const std::string page = manPage(app_, POINTFRONT_VERSION);
+    const bool whole = std::fwrite(page.data(), 1, page.size(), stdout) == page.size();
+    return whole && std::fflush(stdout) == 0 ? ExitStatus::Done : ExitStatus::Failed;
+  }
   try
   {
     app_.parse(argc, argv);

@@ -41,11 +41,16 @@ Result<void> GenerateCommand::run()
   const TerrainSource survey(points_, seed_);
   SinkChoice choice;
   choice.dated = false; // the same numbers give the same file
-  const std::unique_ptr<PointSink> sink = makeSink(outputPath_, choice);
+  const Result<std::unique_ptr<PointSink>> made = makeSink(outputPath_, choice);
+  if (!made)
+  {
+    return made.error();
+  }
+  PointSink& sink = **made;
   std::uint64_t written = 0;
   {
     ProgressDisplay display(*ProgressDisplay::styleOf(progress_));
-    const Result<std::uint64_t> exported = exportSource(survey, *sink, display.function());
+    const Result<std::uint64_t> exported = exportSource(survey, sink, display.function());
     if (!exported)
     {
       return exported.error();

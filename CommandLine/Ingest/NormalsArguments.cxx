@@ -12,9 +12,9 @@ void NormalsArguments::declare(CLI::App& app)
 {
   app
     .add_option("--normals", method_,
-      "Estimate normals: from planes through neighbours (pca) or neighbours in the scan "
-      "(scanline) (none)")
-    ->check(availableValues({ "none", "scanline", "pca" }, {}));
+      "Estimate normals: from planes through neighbours (pca; pcl: as the Point Cloud Library fits "
+      "them) or neighbours in the scan (scanline) (none)")
+    ->check(availableValues({ "none", "scanline", "pca", "pcl" }, {}));
   CLI::Option* neighbours =
     app.add_option("--normals-k", neighbours_, "Neighbours of a plane, with the point itself (16)")
       ->check(CLI::Range(3u, 4096u))
@@ -42,9 +42,9 @@ void NormalsArguments::check() const
 {
   for (const CLI::Option* option : ofPCA_)
   {
-    if (option->count() > 0 && method_ != "pca")
+    if (option->count() > 0 && method_ != "pca" && method_ != "pcl")
     {
-      throw CLI::ValidationError(option->get_name(), "needs --normals pca");
+      throw CLI::ValidationError(option->get_name(), "needs --normals pca or pcl");
     }
   }
   if (classesOption_->count() > 0 && method_ == "none")
@@ -57,6 +57,7 @@ void NormalsArguments::fill(PassChoice& choice) const
 {
   choice.normals = method_ == "none" ? PassChoice::Normals::None
     : method_ == "pca"               ? PassChoice::Normals::PCA
+    : method_ == "pcl"               ? PassChoice::Normals::PCL
                                      : PassChoice::Normals::ScanLine;
   choice.normalsNeighbours = neighbours_;
   choice.normalsRadius = radius_;

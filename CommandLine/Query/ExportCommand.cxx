@@ -77,18 +77,23 @@ Result<void> ExportCommand::run()
     warn(name(), note);
   }
   const ExportSelection selection{ std::move(*query), std::nullopt };
-  const std::unique_ptr<PointSink> sink = makeSink(outputPath_, sinkChoice_);
+  const Result<std::unique_ptr<PointSink>> made = makeSink(outputPath_, sinkChoice_);
+  if (!made)
+  {
+    return made.error();
+  }
+  PointSink& sink = **made;
   ExportReport report;
   {
     ProgressDisplay display(*ProgressDisplay::styleOf(progress_));
-    Result<ExportReport> exported = exportStore(**store, selection, *sink, display.function());
+    Result<ExportReport> exported = exportStore(**store, selection, sink, display.function());
     if (!exported)
     {
       return exported.error();
     }
     report = *exported;
   }
-  for (const std::string& finding : sink->findings())
+  for (const std::string& finding : sink.findings())
   {
     warn(name(), outputPath_ + ": " + finding);
   }

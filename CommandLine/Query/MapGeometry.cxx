@@ -1,7 +1,7 @@
 #include "MapGeometry.h"
 
 #include "GeoJSON.h"
-#include "ProjCoordinateSystems.h"
+#include "KnownSystems.h"
 
 #include "pointfront/Query/WellKnownText.h"
 
@@ -58,18 +58,18 @@ Bounds boundsOf(PlanarGeometry& geometry)
 Result<void> transformTo(
   const std::string& wkt, PlanarGeometry& geometry, std::vector<std::string>& notes)
 {
-  const ProjCoordinateSystems known;
-  const Result<CoordinateSystem> from = known.parse(geometry.crs);
-  const Result<CoordinateSystem> to = known.parse(wkt);
+  const std::shared_ptr<const CoordinateSystems> known = knownSystems();
+  const Result<CoordinateSystem> from = known->parse(geometry.crs);
+  const Result<CoordinateSystem> to = known->parse(wkt);
   if (!from || !to)
   {
     return !from ? from.error() : to.error();
   }
-  if (known.equivalent(*from, *to, true))
+  if (known->equivalent(*from, *to, true))
   {
     return {};
   }
-  const auto transform = known.transform(*from, *to, boundsOf(geometry));
+  const auto transform = known->transform(*from, *to, boundsOf(geometry));
   if (!transform)
   {
     return transform.error();

@@ -1,9 +1,9 @@
 #include "SinkFormats.h"
 
+#include "KnownSystems.h"
 #include "LASWriter.h"
 #include "PCDWriter.h"
 #include "PLYWriter.h"
-#include "ProjectedSink.h"
 #include "Unavailable.h"
 #include "XYZWriter.h"
 
@@ -60,7 +60,7 @@ std::unique_ptr<PointSink> makeFile(const std::string& path, const SinkChoice& c
 }
 } // namespace
 
-std::unique_ptr<PointSink> makeSink(const std::string& path, const SinkChoice& choice)
+Result<std::unique_ptr<PointSink>> makeSink(const std::string& path, const SinkChoice& choice)
 {
   std::unique_ptr<PointSink> file = makeFile(path, choice);
   const FileKind kind = sinkKind(path);
@@ -69,8 +69,8 @@ std::unique_ptr<PointSink> makeSink(const std::string& path, const SinkChoice& c
   {
     file = std::make_unique<EightBitColourSink>(std::move(file));
   }
-  return choice.crs.empty() ? std::move(file)
-                            : std::make_unique<ProjectedSink>(std::move(file), choice.crs);
+  return choice.crs.empty() ? Result<std::unique_ptr<PointSink>>(std::move(file))
+                            : sinkInSystem(std::move(file), choice.crs);
 }
 
 FileKind sinkKind(const std::string& path)

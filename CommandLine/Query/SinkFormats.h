@@ -25,7 +25,8 @@ struct SinkChoice
 };
 
 /// What writes a file of that name; the extension has passed the check.
-std::unique_ptr<PointSink> makeSink(const std::string& path, const SinkChoice& choice);
+/// Errors   Unsupported: another system, in a build without PROJ.
+Result<std::unique_ptr<PointSink>> makeSink(const std::string& path, const SinkChoice& choice);
 /// What such a file is, for checkOutputTarget().
 FileKind sinkKind(const std::string& path);
 /// Check for an option that names such a file.

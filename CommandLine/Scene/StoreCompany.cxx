@@ -1,6 +1,6 @@
 #include "StoreCompany.h"
 
-#include "ProjCoordinateSystems.h"
+#include "KnownSystems.h"
 
 #include "pointfront/Store/StoredCloudFormats.h"
 
@@ -26,10 +26,10 @@ bool sameSystem(const std::string& one, const std::string& other)
   {
     return true; // what is not known is not different
   }
-  const ProjCoordinateSystems known;
-  const auto a = known.parse(one);
-  const auto b = known.parse(other);
-  return !a || !b || known.equivalent(*a, *b, true);
+  const std::shared_ptr<const CoordinateSystems> known = knownSystems();
+  const auto a = known->parse(one);
+  const auto b = known->parse(other);
+  return !a || !b || known->equivalent(*a, *b, true);
 }
 } // namespace
 

@@ -2,6 +2,7 @@
 
 #include "ClassChoice.h"
 #include "FlannIndex.h"
+#include "PCLFit.h"
 #include "SplatCodes.h"
 #include "SurfaceFit.h"
 
@@ -34,6 +35,7 @@ struct SurfaceValues
   bool normal = true;
   bool curvature = false;
   bool radius = true;
+  bool byPCL = false; ///< normal and curvature
 
   std::size_t curvatureAt() const { return normal ? sizeof(PackedNormal) : 0; }
   std::size_t radiusAt() const { return curvatureAt() + (curvature ? sizeof(std::uint16_t) : 0); }
@@ -58,14 +60,15 @@ public:
   std::size_t bytes() const override { return values_.waitingBytes(); }
   bool orderFree() const override
   {
-    return ofPlane_ == neighbours_ && neighbours_ <= mostExactlySummed;
+    return ofPlane_ == neighbours_ && neighbours_ <= mostExactlySummed && !values_.byPCL;
   }
   void compute(
     const glm::dvec3& position, const std::vector<NearPoint>& near, std::byte* value) const override
   {
+    const auto planeOf = values_.byPCL ? fitSurfaceByPCL : fitSurface;
     const std::optional<SurfaceFit> fit = ofPlane_ == neighbours_
-      ? fitSurface(position, near)
-      : fitSurface(position, nearestOf(near, ofPlane_));
+      ? planeOf(position, near)
+      : planeOf(position, nearestOf(near, ofPlane_));
     if (values_.normal)
     {
       if (!fit)
@@ -83,7 +86,7 @@ public:
     }
     if (values_.radius)
     {
-      const WaitingRadius radius = waitingRadius(ofPlane_ == neighbours_
+      const WaitingRadius radius = waitingRadius(ofPlane_ == neighbours_ && !values_.byPCL
           ? radiusOf(position, near, fit)
           : radiusOf(position, near, fitSurface(position, near)));
       radii_.count(radius);
@@ -208,9 +211,16 @@ std::vector<Attribute> attributesOf(const SurfaceValues& values)
 
 Result<PointSources> NormalsPass::apply(PointSources sources, const PassResources& resources) const
 {
+  if (options_.byPCL && !hasPCLFit())
+  {
+    return makeError(Error::Kind::Unsupported,
+      "normals by PCL: this build was made without it (POINTFRONT_PCL); normals by pca need no "
+      "PCL");
+  }
   const InputOrder order(sources);
   NeighbourhoodOptions search;
-  const SurfaceValues kept{ options_.normals, options_.curvature, options_.splatRadius };
+  const SurfaceValues kept{ options_.normals, options_.curvature, options_.splatRadius,
+    options_.byPCL };
   const std::uint32_t ofPlane = options_.radius > 0.0 ? 0 : options_.neighbours;
   search.neighbours = kept.radius && ofPlane > 0 ? std::max(ofPlane, ofRadius) : ofPlane;
   search.radius = options_.radius;

@@ -19,6 +19,8 @@ struct NormalsOptions
   double radius = 0.0; ///< if > 0: instead all points within, world units
   double eps = 0.0; ///< of FLANN's approximate search, 0: exact
   bool curvature = false; ///< also give attribute "curvature"
+  /// Planes are PCL's (PCLFit.h), in single precision, not those of SurfaceFit.h.
+  bool byPCL = false;
   bool normals = true; ///< false: only the radius of splats, from 16 neighbours
   bool splatRadius = true; ///< also give attribute "splat_radius" (SplatRadius.h)
   /// These classes only: others get no normal and are nobody's neighbours.
@@ -34,6 +36,7 @@ struct NormalsOptions
 /// Base     of the radii: chosen when all are known, in each source's description.
 /// Zero     where there is no plane: fewer than three neighbours, or all on one line; for the other
 ///          classes; for positions that the build rejects.
+/// Errors   Unsupported: planes by PCL in a build without it.
 /// Exact    does not depend on parts, memory or threads (NearestNeighbours.h).
 class NormalsPass final : public AttributePass
 {

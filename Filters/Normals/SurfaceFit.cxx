@@ -1,10 +1,10 @@
 #include "SurfaceFit.h"
 
-#include <pcl/common/eigen.h>
-
 #include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace pointfront
@@ -102,6 +102,22 @@ std::optional<glm::dvec3> separateEigenvalues(const glm::dvec3& squares, const g
   // Not true for what is not a number: no slope, or roots that rounding made complex.
   return roots.y - roots.x >= closeEigenvalues ? std::optional<glm::dvec3>(roots) : std::nullopt;
 }
+
+/// The eigenvector of an eigenvalue that differs from both others, of length 1.
+/// Way     the rows of the matrix less the eigenvalue on its diagonal span a plane to which the
+///         eigenvector is normal. Of the cross products of two rows the longest has the most
+///         digits.
+Eigen::Vector3d eigenvectorOf(const Eigen::Matrix3d& matrix, double eigenvalue)
+{
+  const double largest = matrix.cwiseAbs().maxCoeff();
+  Eigen::Matrix3d rows = matrix / largest; // squares of what is small keep their digits
+  rows.diagonal().array() -= eigenvalue / largest;
+  const std::array<Eigen::Vector3d, 3> normals{ rows.row(0).cross(rows.row(1)),
+    rows.row(0).cross(rows.row(2)), rows.row(1).cross(rows.row(2)) };
+  const auto longest = std::max_element(normals.begin(), normals.end(),
+    [](const auto& a, const auto& b) { return a.squaredNorm() < b.squaredNorm(); });
+  return *longest / std::sqrt(longest->squaredNorm());
+}
 } // namespace
 
 std::optional<SurfaceFit> fitSurface(const glm::dvec3& origin, const std::vector<NearPoint>& points)
@@ -131,7 +147,7 @@ std::optional<SurfaceFit> fitSurface(const glm::dvec3& origin, const std::vector
   if (const auto separate = separateEigenvalues(squares, products))
   {
     eigenvalues = { separate->x, separate->y, separate->z };
-    pcl::computeCorrespondingEigenVector(covariance, eigenvalues[0], normal);
+    normal = eigenvectorOf(covariance, eigenvalues[0]);
   }
   else
   {

@@ -1,11 +1,10 @@
 #include "ChosenPasses.h"
 
 #include "HeightAboveGroundPass.h"
+#include "KnownSystems.h"
 #include "LocalHeightPass.h"
-#include "NormalsPass.h"
-#include "ProjectionPass.h"
+#include "NormalsChoice.h"
 #include "RasterModule.h"
-#include "ScanNormalsPass.h"
 
 #include <cstdio>
 #include <string>
@@ -37,11 +36,12 @@ Result<void> checkNormals(const PassChoice& choice)
   const bool radius = choice.normalsRadius != usual.normalsRadius;
   const bool neighbours = choice.normalsNeighbours != usual.normalsNeighbours;
   const bool eps = choice.normalsEps != usual.normalsEps;
-  const bool ofPCA = radius || neighbours || eps || choice.curvature;
-  if (choice.normals != PassChoice::Normals::PCA && ofPCA)
+  const bool ofPlanes =
+    choice.normals == PassChoice::Normals::PCA || choice.normals == PassChoice::Normals::PCL;
+  if (!ofPlanes && (radius || neighbours || eps || choice.curvature))
   {
-    return wrong("neighbours, radius, search error and curvature are of normals by PCA, which are "
-                 "not asked for");
+    return wrong("neighbours, radius, search error and curvature are of normals by PCA or PCL, "
+                 "which are not asked for");
   }
   if (choice.normals == PassChoice::Normals::None && choice.normalsClasses)
   {
@@ -62,29 +62,6 @@ Result<void> check(const PassChoice& choice)
   sound = sound ? within(choice.localHeightRadius, 1e-3, 1e6, "a radius of heights") : sound;
   return sound ? within(choice.groundCell, 1e-3, 1e6, "a cell of ground") : sound;
 }
-
-/// Radii that do not come with the normals.
-bool radiiApart(const PassChoice& choice)
-{
-  return choice.splatRadius &&
-    (choice.normals != PassChoice::Normals::PCA || choice.normalsClasses);
-}
-std::unique_ptr<AttributePass> normalsPass(const PassChoice& choice)
-{
-  if (choice.normals == PassChoice::Normals::ScanLine)
-  {
-    return std::make_unique<ScanNormalsPass>(choice.normalsClasses);
-  }
-  NormalsOptions options;
-  options.classes = choice.normalsClasses;
-  options.neighbours = choice.normalsNeighbours;
-  options.radius = choice.normalsRadius;
-  options.eps = choice.normalsEps;
-  options.curvature = choice.curvature;
-  options.splatRadius = !radiiApart(choice);
-  return std::make_unique<NormalsPass>(options);
-}
-
 } // namespace
 
 Result<AttributePasses> chosenPasses(const PassChoice& choice)
@@ -94,8 +71,13 @@ Result<AttributePasses> chosenPasses(const PassChoice& choice)
     return sound.error();
   }
   AttributePasses passes;
-  passes.push_back(
-    std::make_unique<ProjectionPass>(ProjectionOptions{ choice.targetCrs, choice.assumedCrs }));
+  Result<std::unique_ptr<AttributePass>> oneSystem =
+    oneSystemPass(choice.targetCrs, choice.assumedCrs);
+  if (!oneSystem)
+  {
+    return oneSystem.error();
+  }
+  passes.push_back(std::move(*oneSystem));
   const Result<std::vector<RasterInput>> images =
     RasterModule::inputs(choice.colourFrom, choice.attributeFrom);
   if (!images)
@@ -104,23 +86,16 @@ Result<AttributePasses> chosenPasses(const PassChoice& choice)
   }
   if (!images->empty())
   {
-    Result<std::unique_ptr<AttributePass>> pass =
-      RasterModule::load(*images, std::make_shared<ProjCoordinateSystems>());
+    Result<std::unique_ptr<AttributePass>> pass = RasterModule::load(*images, knownSystems());
     if (!pass)
     {
       return pass.error();
     }
     passes.push_back(std::move(*pass));
   }
-  if (choice.normals != PassChoice::Normals::None)
+  if (Result<void> added = addNormals(choice, passes); !added)
   {
-    passes.push_back(normalsPass(choice));
-  }
-  if (radiiApart(choice))
-  {
-    NormalsOptions options;
-    options.normals = false;
-    passes.push_back(std::make_unique<NormalsPass>(options));
+    return added.error();
   }
   if (choice.localHeight)
   {

@@ -91,8 +91,8 @@ Result<std::unique_ptr<AttributePass>> RasterModule::load(
   {
     const char* reason = ::dlerror();
     return makeError(Error::Kind::Unsupported,
-      std::string("the library that reads images cannot be loaded (wheels of pip come without it: "
-                  "build from source with OpenImageIO): ") +
+      std::string("the library that reads images cannot be loaded (builds with "
+                  "POINTFRONT_IMAGE_COLOR=OFF, such as pip's wheels, come without it): ") +
         (reason != nullptr ? reason : POINTFRONT_RASTER_MODULE));
   }
   const auto make = reinterpret_cast<decltype(&pointfrontMakeRasterPass)>(symbol);

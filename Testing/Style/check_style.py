@@ -9,6 +9,7 @@ import sys
 import doc_rules
 import include_rules
 import text_rules
+import version_rules
 from source_tree import read_tree
 
 RULES = {
@@ -27,6 +28,7 @@ RULES = {
     "LinkedNames": doc_rules.linked_names,
     "Includes": include_rules.includes,
     "ModuleEdges": include_rules.module_edges,
+    "OneVersion": version_rules.one_version,
 }
 
 

@@ -15,7 +15,7 @@ INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 
 FOREIGN = (  # header, library, the one module that may include it
     (re.compile(r"^laszip/"), "LASzip", "IO/LAS"),
-    (re.compile(r"^(pcl|flann)/"), "PCL and FLANN", "Filters/Normals"),
+    (re.compile(r"^(pcl|flann|Eigen)/"), "PCL, FLANN and Eigen", "Filters/Normals"),
     (re.compile(r"^zlib\.h$"), "zlib", "IO/Text"),
     (re.compile(r"^proj(_experimental)?\.h$"), "PROJ", "Filters/Projection"),
     (re.compile(r"^png\.h$"), "libpng", "IO/PNG"),

@@ -42,6 +42,18 @@ class RulesTest(unittest.TestCase):
             [("IO/LAS/A.cxx", 601), ("Rendering/OpenGL2/glsl/a.glsl", 151)],
         )
 
+    def test_one_version(self):
+        tree = {
+            "CMakeLists.txt": "project(PointFront VERSION 3.2.1 LANGUAGES CXX)\n",
+            "CHANGELOG.md": "# Changes\n\n## 3.2.1, not released\n",
+            "pyproject.toml": 'version = "3.2.1"\n',
+            "IO/A.cxx": "int a = 3;\n// 13.2.1 and 3.2.10\n",
+        }
+        self.assertEqual(self.faults("OneVersion", tree), [("pyproject.toml", 1)])
+        tree["CHANGELOG.md"] = "# Changes\n\n## 3.2.0\n"
+        del tree["pyproject.toml"]
+        self.assertEqual(self.faults("OneVersion", tree), [("CHANGELOG.md", 3)])
+
     def test_folder_size(self):
         tree = {f"vtkmodule/Core/pointfront/Store/A{i}.h": "int a;\n" for i in range(41)}
         tree.update({f"vtkmodule/Core/pointfront/Front/A{i}.h": "int a;\n" for i in range(40)})

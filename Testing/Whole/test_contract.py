@@ -23,6 +23,32 @@ class Usage(ToolTest):
         for command in ("build", "info", "verify", "export"):
             self.assertIn("Usage", self.succeed(command, "--help").out)
 
+    def test_what_is_left_out_is_named_and_refused(self):
+        """--version and the error of an option agree, whatever this build leaves out."""
+        version = self.succeed("--version").out
+        self.assertTrue(version.startswith("pointfront "), version)
+        points = self.folder / "p.xyz"
+        points.write_text("".join(f"{i % 5} {i // 5} {i % 3}\n" for i in range(50)))
+        image = self.folder / "no.tif"
+        for option, arguments in {
+            "POINTFRONT_NORMALS": ("--normals", "pca"),
+            "POINTFRONT_PCL": ("--normals", "pcl"),
+            "POINTFRONT_PROJECTION": ("--assume-crs", "EPSG:25832"),
+        }.items():
+            built = pointfront("build", points, "-o", self.folder / "x.pfront", "--force",
+                               *arguments)
+            if option in version:
+                self.assertEqual(built.status, 1, built)
+                self.assertIn("POINTFRONT_", built.err.splitlines()[-1])
+                self.assertFalse((self.folder / "x.pfront").exists())
+            else:
+                self.assertEqual(built.status, 0, built)
+                (self.folder / "x.pfront").unlink()
+        image.write_bytes(b"")
+        said = self.refuse(
+            1, "build", points, "-o", self.folder / "x.pfront", "--color-from", image).err
+        self.assertEqual("POINTFRONT_IMAGE_COLOR" in said, "POINTFRONT_IMAGE_COLOR" in version)
+
     def test_unknown_words(self):
         outcome = pointfront("frobnicate")
         self.assertEqual(outcome.status, 2)

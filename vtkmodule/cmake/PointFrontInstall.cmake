@@ -3,36 +3,25 @@
 include(CMakePackageConfigHelpers)
 set(pointfront_package_folder "${CMAKE_INSTALL_LIBDIR}/cmake/PointFront")
 
-install(DIRECTORY "${CMAKE_CURRENT_SOURCE_DIR}/vtkmodule/Core/pointfront"
-  DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" COMPONENT Development FILES_MATCHING PATTERN "*.h")
-set(pointfront_kernel_libraries pointfrontCore pointfrontSourceFormats pointfrontAttributePasses)
-foreach (family IN ITEMS EPT LAS PCD PLY PNG StyleJSON Text)
-  if (TARGET pointfrontIO${family})
-    list(APPEND pointfront_kernel_libraries pointfrontIO${family})
-    install(DIRECTORY "${CMAKE_CURRENT_SOURCE_DIR}/IO/${family}/"
-      DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/pointfront/IO" COMPONENT Development
-      FILES_MATCHING PATTERN "*.h" PATTERN "Testing" EXCLUDE PATTERN "vtk*.h" EXCLUDE)
+include(PointFrontPublicHeaders)
+pointfront_install_headers()
+set(pointfront_kernel_libraries pointfrontCore pointfrontSourceFormats pointfrontAttributePasses
+  pointfrontSoftware)
+foreach (library IN ITEMS IOEPT IOLAS IOPCD IOPLY IOPNG IOStyleJSON IOText FiltersAttributes
+    FiltersNormals FiltersProjection)
+  if (TARGET pointfront${library}) # not left out of this build
+    list(APPEND pointfront_kernel_libraries pointfront${library})
   endif ()
 endforeach ()
-set(filters Attributes Normals Projection)
-if (POINTFRONT_IMAGE_COLOR)
-  list(APPEND filters ImageColor)
-endif ()
-foreach (filter IN LISTS filters)
-  list(APPEND pointfront_kernel_libraries pointfrontFilters${filter})
-  install(DIRECTORY "${CMAKE_CURRENT_SOURCE_DIR}/Filters/${filter}/"
-    DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/pointfront/Filters" COMPONENT Development
-    FILES_MATCHING PATTERN "*.h" PATTERN "Testing" EXCLUDE)
-endforeach ()
-list(APPEND pointfront_kernel_libraries pointfrontSoftware)
-set(software "${CMAKE_CURRENT_SOURCE_DIR}/Rendering/Software")
-install(FILES "${software}/PixelRectangle.h" "${software}/SoftwareComposition.h"
-    "${software}/SoftwareRasteriser.h" "${software}/SoftwareTarget.h"
-  DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/pointfront" COMPONENT Development)
 install(TARGETS ${pointfront_kernel_libraries} EXPORT PointFrontKernel
   RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT Runtime
   LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT Runtime NAMELINK_COMPONENT Development
   ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT Development)
+if (TARGET pointfrontFiltersImageColor) # a package of its own: OpenImageIO brings 260 libraries
+  install(TARGETS pointfrontFiltersImageColor EXPORT PointFrontKernel
+    LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT Images
+      NAMELINK_COMPONENT Development)
+endif ()
 install(EXPORT PointFrontKernel NAMESPACE PointFront:: FILE PointFrontKernel-targets.cmake
   DESTINATION "${pointfront_package_folder}" COMPONENT Development)
 export(EXPORT PointFrontKernel NAMESPACE PointFront::
@@ -41,6 +30,25 @@ export(EXPORT PointFrontKernel NAMESPACE PointFront::
 if (NOT POINTFRONT_WHEEL) # its metadata have them
   install(FILES "${CMAKE_CURRENT_SOURCE_DIR}/LICENSE" "${CMAKE_CURRENT_SOURCE_DIR}/CHANGELOG.md"
     DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT Runtime)
+  include(PointFrontDebian)
+endif ()
+
+# Pages of the public headers: plain C++, and the classes for VTK.
+find_package(Doxygen QUIET)
+if (DOXYGEN_FOUND)
+  file(GLOB pointfront_documented CONFIGURE_DEPENDS
+    "${CMAKE_CURRENT_SOURCE_DIR}/*/*/vtkPointFront*.h")
+  list(APPEND pointfront_documented ${pointfront_public_headers})
+  set(DOXYGEN_PROJECT_NAME PointFront)
+  set(DOXYGEN_STRIP_FROM_PATH "${CMAKE_CURRENT_SOURCE_DIR}/vtkmodule/Core"
+    "${CMAKE_CURRENT_SOURCE_DIR}")
+  set(DOXYGEN_JAVADOC_AUTOBRIEF YES)
+  set(DOXYGEN_GENERATE_LATEX NO)
+  set(DOXYGEN_QUIET YES)
+  set(DOXYGEN_WARN_IF_UNDOCUMENTED NO) # a name that says all needs no sentence
+  set(DOXYGEN_WARN_AS_ERROR FAIL_ON_WARNINGS)
+  set(DOXYGEN_PREDEFINED "VTK_WRAPEXTERN=")
+  doxygen_add_docs(docs ${pointfront_documented} COMMENT "Pages of the public headers")
 endif ()
 
 # The package names exactly what it was built with: VTK's C++ interface changes between releases.
@@ -79,9 +87,9 @@ if (POINTFRONT_HOST STREQUAL "VTK" AND POINTFRONT_WRAP_PYTHON)
   endforeach ()
   list(TRANSFORM package_files PREPEND "${to}/")
   install(FILES ${package_files} DESTINATION "${pointfront_python_folder}/pointfront"
-    COMPONENT Runtime)
+    COMPONENT "${pointfront_python_component}")
   if (POINTFRONT_BUILD_TESTING)
-    add_test(NAME "${POINTFRONT_TEST_PREFIX}Python.Package"
+    pointfront_add_data_test(NAME Python.Package
       COMMAND "${CMAKE_COMMAND}" -E env
         "PYTHONPATH=${CMAKE_BINARY_DIR}/${pointfront_python_folder}"
         "POINTFRONT_SHARED_DATA=${POINTFRONT_SHARED_DATA}"

@@ -31,7 +31,7 @@ vtk_module_build(
   VERSION "${PROJECT_VERSION}"
   SOVERSION "${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}"
   HEADERS_COMPONENT Development
-  TARGETS_COMPONENT Runtime
+  TARGETS_COMPONENT "${pointfront_modules_component}"
   USE_EXTERNAL OFF)
 
 if (POINTFRONT_HOST STREQUAL "ParaView")
@@ -59,7 +59,7 @@ elseif (POINTFRONT_WRAP_PYTHON)
     MODULE_DESTINATION "${pointfront_python_folder}"
     CMAKE_DESTINATION "${CMAKE_INSTALL_LIBDIR}/cmake/PointFront"
     BUILD_STATIC OFF
-    COMPONENT Runtime
+    COMPONENT "${pointfront_python_component}"
     TARGET PointFront::pythonmodules)
 endif ()
 

@@ -11,7 +11,20 @@ option(POINTFRONT_BUILD_BENCHMARKS "Build the benchmarks" OFF)
 option(POINTFRONT_BUILD_FUZZERS "Build the fuzz targets (clang)" OFF)
 option(POINTFRONT_WRAP_PYTHON "Wrap the VTK modules for Python" ON)
 option(POINTFRONT_WHEEL "Lay everything out as one Python package, as pip installs it" OFF)
-option(POINTFRONT_IMAGE_COLOR "Read colours and values from images, through OpenImageIO" ON)
+# Families of passes that a build may leave out. The tool then refuses what needs them, and its
+# --version names what it was built without.
+option(POINTFRONT_NORMALS "Normals and radii of splats, through FLANN and Eigen" ON)
+option(POINTFRONT_PROJECTION "Coordinate reference systems, through PROJ" ON)
+option(POINTFRONT_IMAGE_COLOR "Colours and values from images, through OpenImageIO" ON)
+set(pointfront_pcl_by_default ON)
+if (POINTFRONT_HOST STREQUAL "NONE" OR POINTFRONT_WHEEL) # Debian's PCL brings VTK along
+  set(pointfront_pcl_by_default OFF)
+endif ()
+option(POINTFRONT_PCL "Normals as the Point Cloud Library estimates them, too; tests compare"
+  ${pointfront_pcl_by_default})
+if (POINTFRONT_PCL AND NOT POINTFRONT_NORMALS)
+  message(FATAL_ERROR "POINTFRONT_PCL is a way to normals: it needs POINTFRONT_NORMALS")
+endif ()
 option(POINTFRONT_WARNINGS_AS_ERRORS "Stop at a warning" OFF)
 option(POINTFRONT_COMPILE_BY_FOLDER "Compile the sources of a folder as one" OFF)
 set(POINTFRONT_SANITIZE "" CACHE STRING
@@ -31,10 +44,17 @@ if (POINTFRONT_WHEEL) # libraries, tool and extension modules side by side; a wh
   set(CMAKE_INSTALL_BINDIR "pointfront")
   set(CMAKE_PLATFORM_NO_VERSIONED_SONAME ON)
 endif ()
+set(CMAKE_INSTALL_DOCDIR "share/doc/pointfront" CACHE PATH "Where licence and changes go")
 include(GNUInstallDirs)
 set(pointfront_python_folder "${CMAKE_INSTALL_LIBDIR}/python3/dist-packages")
+# Components of an installation, of which Debian's packages are made: Runtime (tool and kernel),
+# Images, Modules (of VTK), Python, Development. A wheel is one: Runtime.
+set(pointfront_modules_component Modules)
+set(pointfront_python_component Python)
 if (POINTFRONT_WHEEL)
   set(pointfront_python_folder ".")
+  set(pointfront_modules_component Runtime)
+  set(pointfront_python_component Runtime)
 endif ()
 set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/${CMAKE_INSTALL_BINDIR}")
 set(CMAKE_LIBRARY_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/${CMAKE_INSTALL_LIBDIR}")

@@ -3,14 +3,15 @@
 find_package(Threads REQUIRED)
 find_package(glm REQUIRED)
 find_package(zstd CONFIG REQUIRED)           # zstd::libzstd_shared
-find_package(meshoptimizer CONFIG REQUIRED)  # meshoptimizer::meshoptimizer
 find_package(nlohmann_json REQUIRED)
 find_package(CLI11 CONFIG REQUIRED)
 find_package(LASzip REQUIRED)                # LASzip::LASzip
-find_package(PROJ CONFIG REQUIRED)           # PROJ::proj
-find_package(TIFF REQUIRED)                  # TIFF::TIFF
 find_package(PNG REQUIRED)                   # PNG::PNG
+if (POINTFRONT_PROJECTION)
+  find_package(PROJ CONFIG REQUIRED)           # PROJ::proj
+endif ()
 if (POINTFRONT_IMAGE_COLOR)
+  find_package(TIFF REQUIRED)                  # TIFF::TIFF
   find_package(OpenImageIO CONFIG REQUIRED)    # OpenImageIO::OpenImageIO
   # Debian's targets name a folder that is not there, which CMake refuses.
   foreach (target IN ITEMS OpenImageIO::OpenImageIO OpenImageIO::OpenImageIO_Util)
@@ -25,8 +26,12 @@ if (POINTFRONT_IMAGE_COLOR)
   endforeach ()
 endif ()
 
-find_package(PkgConfig REQUIRED)
-pkg_check_modules(POINTFRONT_LZ4 REQUIRED IMPORTED_TARGET liblz4) # what FLANN's headers call
+if (POINTFRONT_NORMALS)
+  find_package(Eigen3 REQUIRED NO_MODULE)      # Eigen3::Eigen
+  find_path(POINTFRONT_FLANN_INCLUDE flann/flann.hpp REQUIRED) # its headers only
+  find_package(PkgConfig REQUIRED)
+  pkg_check_modules(POINTFRONT_LZ4 REQUIRED IMPORTED_TARGET liblz4) # what FLANN's headers call
+endif ()
 
 # VTK first: a find_package(Python3) before it would find another Python than VTK's.
 if (POINTFRONT_HOST STREQUAL "VTK")
@@ -55,12 +60,15 @@ elseif (POINTFRONT_HOST STREQUAL "ParaView")
   endif ()
 endif ()
 
-# pcl_common and, for tests, pcl_features and pcl_search. In a function: PCL must not see VTK (it
-# would bring Debian's into a build for ParaView, and Qt), and what it sets must not be seen here.
+# pcl_common and, for tests and benchmarks, pcl_features and pcl_search. In a function: PCL must not
+# see VTK (it would bring Debian's into a build for ParaView, and Qt), and what it sets must not be
+# seen here.
 function (pointfront_find_pcl)
   set(CMAKE_DISABLE_FIND_PACKAGE_VTK ON)
   set(CMAKE_DISABLE_FIND_PACKAGE_MPI ON)
   set(VTK_FOUND 0)
   find_package(PCL 1.13 REQUIRED QUIET COMPONENTS common kdtree search features)
 endfunction ()
-pointfront_find_pcl()
+if (POINTFRONT_PCL)
+  pointfront_find_pcl()
+endif ()

@@ -1,7 +1,11 @@
 # What every test of the project shares: where data are, how a test is named, where it draws.
 
 set(POINTFRONT_SHARED_DATA "${CMAKE_SOURCE_DIR}/../shared/data" CACHE PATH
-  "The folder of public test clouds; tests that need it fail without it")
+  "The folder of public test clouds; tests that read it are left out without it")
+set(pointfront_has_shared_data FALSE)
+if (EXISTS "${POINTFRONT_SHARED_DATA}/MANIFEST.md")
+  set(pointfront_has_shared_data TRUE)
+endif ()
 set(POINTFRONT_TEST_DATA "${CMAKE_SOURCE_DIR}/Testing/Data")
 set(POINTFRONT_TEST_PREFIX "" CACHE STRING
   "Put before every test's name, so that the tests of several build trees can run as one")
@@ -15,16 +19,73 @@ find_program(POINTFRONT_XVFB_RUN xvfb-run)
 set(pointfront_test_files "${CMAKE_BINARY_DIR}/Testing/Files")
 file(MAKE_DIRECTORY "${pointfront_test_files}")
 
-# pointfront_discover_tests(<executable> <as gtest_discover_tests>...)
-macro (pointfront_discover_tests)
-  gtest_discover_tests(${ARGN} PROPERTIES ENVIRONMENT "TEST_TMPDIR=${pointfront_test_files}")
-endmacro ()
+# pointfront_leave_out(<test>...)
+# Tests that this configuration has not, because they read the public clouds.
+function (pointfront_leave_out)
+  list(TRANSFORM ARGN PREPEND "${POINTFRONT_TEST_PREFIX}")
+  set_property(GLOBAL APPEND PROPERTY pointfront_tests_left_out ${ARGN})
+endfunction ()
 
-# pointfront_add_display_test(NAME <name> COMMAND <command> [<argument>...])
+# pointfront_report_left_out()
+# Says which tests are left out; scripts/test counts them from the file.
+function (pointfront_report_left_out)
+  get_property(names GLOBAL PROPERTY pointfront_tests_left_out)
+  set(file "${CMAKE_BINARY_DIR}/tests-left-out.txt")
+  list(LENGTH names count)
+  if (count EQUAL 0)
+    file(REMOVE "${file}")
+    return ()
+  endif ()
+  list(JOIN names "\n" lines)
+  file(WRITE "${file}" "${lines}\n")
+  message(STATUS "${count} tests or groups of tests are left out: they read public clouds, and "
+    "POINTFRONT_SHARED_DATA (${POINTFRONT_SHARED_DATA}) has none. Their names are in ${file}")
+endfunction ()
+
+# pointfront_discover_tests(<executable> TEST_PREFIX <prefix> [READS_DATA <suite>.<test>...]
+#   <as gtest_discover_tests>...)
+# READS_DATA: those that read the public clouds, or patterns of such. A TEST_FILTER may only begin
+# with "-".
+function (pointfront_discover_tests executable)
+  cmake_parse_arguments(PARSE_ARGV 1
+    test "" "TEST_PREFIX;TEST_FILTER;DISCOVERY_TIMEOUT" "READS_DATA")
+  set(filter "${test_TEST_FILTER}")
+  if (test_READS_DATA AND NOT pointfront_has_shared_data)
+    list(JOIN test_READS_DATA ":" reading)
+    set(filter "-${reading}")
+    if (test_TEST_FILTER) # it leaves tests out, too
+      set(filter "${test_TEST_FILTER}:${reading}")
+    endif ()
+    string(LENGTH "${POINTFRONT_TEST_PREFIX}" length)
+    string(SUBSTRING "${test_TEST_PREFIX}" ${length} -1 prefix)
+    list(TRANSFORM test_READS_DATA PREPEND "${prefix}")
+    pointfront_leave_out(${test_READS_DATA})
+  endif ()
+  gtest_discover_tests(${executable} TEST_PREFIX "${test_TEST_PREFIX}" TEST_FILTER "${filter}"
+    DISCOVERY_TIMEOUT ${test_DISCOVERY_TIMEOUT} ${test_UNPARSED_ARGUMENTS}
+    PROPERTIES ENVIRONMENT "TEST_TMPDIR=${pointfront_test_files}")
+endfunction ()
+
+# pointfront_add_data_test(NAME <name> COMMAND <command> [<argument>...])
+# As add_test(), of a test that reads the public clouds. The prefix of tests is put before the name.
+function (pointfront_add_data_test)
+  cmake_parse_arguments(PARSE_ARGV 0 test "" "NAME" "COMMAND")
+  if (pointfront_has_shared_data)
+    add_test(NAME "${POINTFRONT_TEST_PREFIX}${test_NAME}" COMMAND ${test_COMMAND})
+  else ()
+    pointfront_leave_out("${test_NAME}")
+  endif ()
+endfunction ()
+
+# pointfront_add_display_test(NAME <name> [READS_DATA] COMMAND <command> [<argument>...])
 # A test that opens a window. It draws on an X server of its own, in software: the same pictures on
 # every machine, with or without a screen. -noreset keeps the server when its last window closes.
 function (pointfront_add_display_test)
-  cmake_parse_arguments(PARSE_ARGV 0 test "" "NAME" "COMMAND")
+  cmake_parse_arguments(PARSE_ARGV 0 test "READS_DATA" "NAME" "COMMAND")
+  if (test_READS_DATA AND NOT pointfront_has_shared_data)
+    pointfront_leave_out("${test_NAME}")
+    return ()
+  endif ()
   if (NOT POINTFRONT_XVFB_RUN)
     message(FATAL_ERROR
       "xvfb-run is missing: run scripts/setup, or set POINTFRONT_BUILD_TESTING=OFF")
@@ -45,11 +106,12 @@ function (pointfront_name_leaks executable)
   endif ()
 endfunction ()
 
-# pointfront_add_module_test(<executable> MODULES <module>... [SUITES <suite>...])
+# pointfront_add_module_test(<executable> MODULES <module>... [SUITES <suite>...]
+#   [READS_DATA <suite>.<test>...])
 # One executable of all Cxx/*.cxx of the calling folder. With SUITES its tests draw: each is one
 # test on an X server; without, each test is found by itself.
 function (pointfront_add_module_test name)
-  cmake_parse_arguments(PARSE_ARGV 1 test "" "" "MODULES;SUITES")
+  cmake_parse_arguments(PARSE_ARGV 1 test "" "" "MODULES;SUITES;READS_DATA")
   find_package(GTest REQUIRED)
   include(GoogleTest)
   file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/Cxx/*.cxx")
@@ -67,6 +129,6 @@ function (pointfront_add_module_test name)
     endforeach ()
   else ()
     pointfront_discover_tests(${name} TEST_PREFIX "${POINTFRONT_TEST_PREFIX}${name}."
-      DISCOVERY_TIMEOUT 60)
+      DISCOVERY_TIMEOUT 60 READS_DATA ${test_READS_DATA})
   endif ()
 endfunction ()

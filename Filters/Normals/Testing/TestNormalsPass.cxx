@@ -1,15 +1,12 @@
 #include "NormalClouds.h"
 
 #include "NormalsPass.h"
+#include "PCLFit.h"
 #include "SurfaceFit.h"
-
-#include "LASFormat.h"
 
 #include <Eigen/Eigenvalues>
 
 #include <glm/common.hpp>
-#include <pcl/features/normal_3d.h>
-#include <pcl/search/kdtree.h>
 
 namespace
 {
@@ -34,43 +31,6 @@ Positions bumpy(std::size_t count, const glm::dvec3& origin, double step = 0.001
     const double y = 20.0 * random.uniform();
     const glm::dvec3 p(x, y, std::sin(x) * std::cos(0.7 * y));
     positions.push_back(origin + glm::round(p / step) * step);
-  }
-  return positions;
-}
-
-/// What pcl::NormalEstimation gives for the k nearest points, in float relative to the first point.
-Positions normalsByPCL(const Positions& positions, int neighbours)
-{
-  const auto cloud = pcl::make_shared<pcl::PointCloud<pcl::PointXYZ>>();
-  for (const glm::dvec3& p : positions)
-  {
-    const glm::vec3 q(p - positions[0]);
-    cloud->push_back({ q.x, q.y, q.z });
-  }
-  pcl::NormalEstimation<pcl::PointXYZ, pcl::Normal> estimation;
-  estimation.setInputCloud(cloud);
-  estimation.setSearchMethod(pcl::make_shared<pcl::search::KdTree<pcl::PointXYZ>>());
-  estimation.setKSearch(neighbours);
-  pcl::PointCloud<pcl::Normal> normals;
-  estimation.compute(normals);
-  Positions result;
-  for (const pcl::Normal& n : normals)
-  {
-    result.emplace_back(n.normal_x, n.normal_y, n.normal_z);
-  }
-  return result;
-}
-
-Positions lasPositions(const std::string& name)
-{
-  const auto source = LASFormat().open(std::string(POINTFRONT_SHARED_DATA) + "/normals/" + name);
-  EXPECT_TRUE(source) << (source ? "" : source.error().what);
-  Positions positions;
-  PointBatch batch;
-  for (std::uint64_t chunk = 0; source && chunk < (*source)->chunkCount(); ++chunk)
-  {
-    EXPECT_TRUE((*source)->read(chunk, batch));
-    positions.insert(positions.end(), batch.positions.begin(), batch.positions.end());
   }
   return positions;
 }
@@ -159,12 +119,17 @@ TEST(NormalsPass, AsStoredInTheBunny)
   EXPECT_LT(degrees[198], 0.01); // median
 }
 
-TEST(NormalsPass, AsPCLFindsThem)
+TEST(NormalsPass, ByPCLNeedsABuildWithPCL)
 {
-  for (const Positions& positions : { bunny(), lasPositions("street_thinned.las") })
+  NormalsOptions options = nearest(16);
+  options.byPCL = true;
+  const auto done =
+    NormalsPass(options).apply(sourcesOf(bumpy(100, glm::dvec3(0.0))), testResources());
+  ASSERT_EQ(bool(done), hasPCLFit());
+  if (!done)
   {
-    const auto ours = normalsBy(NormalsPass(nearest(16)), sourcesOf(positions));
-    EXPECT_LT(rmsDegrees(ours, normalsByPCL(positions, 16)), 0.5);
+    EXPECT_EQ(done.error().kind, Error::Kind::Unsupported);
+    EXPECT_NE(done.error().what.find("POINTFRONT_PCL"), std::string::npos);
   }
 }
 

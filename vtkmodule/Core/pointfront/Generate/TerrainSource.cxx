@@ -118,8 +118,9 @@ Result<void> TerrainSource::read(std::uint64_t chunk, PointBatch& batch) const
   {
     const std::uint64_t index = chunk * tilePoints + i;
     const std::uint64_t key = hashOf(seed_ ^ (index * 0x2545f4914f6cdd1dull));
+    const std::uint64_t line = i / linePoints;
     const double across = static_cast<double>(i % linePoints) + unitOf(hashOf(key + 1));
-    const double forward = static_cast<double>(i / linePoints) + unitOf(hashOf(key + 2));
+    const double forward = static_cast<double>(line) + unitOf(hashOf(key + 2));
     const double x = static_cast<double>(strip) * tileSize + across * stepSize;
     const double y = static_cast<double>(row) * tileSize + forward * stepSize;
     const double grain = unitOf(hashOf(key + 3));

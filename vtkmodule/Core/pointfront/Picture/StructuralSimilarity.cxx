@@ -12,7 +12,7 @@ namespace pointfront
 namespace
 {
 constexpr int radius = 5; // of a window of 11 pixels
-constexpr std::size_t windowRows = 2 * radius + 1;
+constexpr std::size_t windowRows = 2 * std::size_t(radius) + 1;
 constexpr double sigma = 1.5;
 constexpr double stabiliser1 = (0.01 * 255.0) * (0.01 * 255.0);
 constexpr double stabiliser2 = (0.03 * 255.0) * (0.03 * 255.0);
@@ -32,10 +32,11 @@ std::array<double, windowRows> gaussianWeights()
 {
   std::array<double, windowRows> weights{};
   double sum = 0.0;
-  for (int i = -radius; i <= radius; ++i)
+  for (std::size_t i = 0; i < windowRows; ++i)
   {
-    weights[std::size_t(i + radius)] = std::exp(-double(i * i) / (2.0 * sigma * sigma));
-    sum += weights[std::size_t(i + radius)];
+    const double offset = double(i) - radius;
+    weights[i] = std::exp(-(offset * offset) / (2.0 * sigma * sigma));
+    sum += weights[i];
   }
   for (double& weight : weights)
   {
@@ -57,7 +58,7 @@ public:
   MomentRows(const Picture& one, const Picture& other)
     : one_(one)
     , other_(other)
-    , paddedWidth_(std::size_t(one.width) + 2 * radius)
+    , paddedWidth_(std::size_t(one.width) + windowRows - 1)
     , padded_(MomentCount * paddedWidth_)
     , ring_(windowRows * MomentCount * one.width)
   {
@@ -142,17 +143,17 @@ void structuralSimilarity(const Picture& one, const Picture& other,
     {
       sum.assign(one.width, 0.0);
     }
-    for (int i = -radius; i <= radius; ++i)
+    for (std::size_t i = 0; i < windowRows; ++i)
     {
-      const auto source =
-        std::uint32_t(std::clamp<std::ptrdiff_t>(std::ptrdiff_t(row) + i, 0, lastRow));
+      const std::ptrdiff_t wanted = std::ptrdiff_t(row) + std::ptrdiff_t(i) - radius;
+      const auto source = std::uint32_t(std::clamp<std::ptrdiff_t>(wanted, 0, lastRow));
       rows.reach(source);
       for (std::size_t moment = 0; moment < MomentCount; ++moment)
       {
         const double* smoothed = rows.at(source, Moment(moment));
         for (std::size_t x = 0; x < one.width; ++x)
         {
-          sums[moment][x] += weights[std::size_t(i + radius)] * smoothed[x];
+          sums[moment][x] += weights[i] * smoothed[x];
         }
       }
     }

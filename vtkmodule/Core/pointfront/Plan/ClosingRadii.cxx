@@ -178,6 +178,7 @@ void matchLayers(std::vector<DrawnNode>& nodes)
 {
   const float median = medianRadius(nodes);
   std::vector<float> radii; // as they are before any is changed
+  radii.reserve(nodes.size());
   for (const DrawnNode& drawn : nodes)
   {
     radii.push_back(drawn.closingRadius);

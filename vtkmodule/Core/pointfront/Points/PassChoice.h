@@ -20,7 +20,8 @@ struct PassChoice
   {
     None,
     ScanLine, ///< from neighbours in the scan
-    PCA ///< from planes through the nearest points
+    PCA, ///< from planes through the nearest points
+    PCL ///< likewise; the Point Cloud Library fits the planes, in single precision
   };
 
   std::string targetCrs; ///< a code, a definition, a file with one, "utm"; empty: the inputs'
@@ -33,12 +34,12 @@ struct PassChoice
   std::uint32_t normalsNeighbours = 16; ///< of a plane, with the point itself; 3 to 4096
   double normalsRadius = 0.0; ///< if > 0, instead: all points within
   double normalsEps = 0.0; ///< of an approximate search, 0 (exact) to 1000
-  bool curvature = false; ///< attribute "curvature" too; PCA only
+  bool curvature = false; ///< attribute "curvature" too; of planes only
   /// Classes that get normals; nothing: all.
   std::optional<std::vector<std::uint8_t>> normalsClasses;
 
-  /// Attribute "splat_radius" for all points. Normals by PCA bring it too, for the classes with
-  /// normals.
+  /// Attribute "splat_radius" for all points. Normals from planes bring it too, for the classes
+  /// with normals.
   bool splatRadius = false;
 
   bool localHeight = false;

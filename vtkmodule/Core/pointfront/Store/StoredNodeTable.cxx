@@ -112,7 +112,7 @@ std::string summaryFault(
 }
 } // namespace
 
-Result<std::shared_ptr<const Hierarchy>> openNodeTable(std::shared_ptr<const InputFile> file,
+Result<std::shared_ptr<const Hierarchy>> openNodeTable(const std::shared_ptr<const InputFile>& file,
   std::uint32_t version, const StoreFooter& footer, StoredDescription& stored)
 {
   const SectionEntry& section = *footer.find(SectionKind::NodeTable);

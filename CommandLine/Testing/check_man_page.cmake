@@ -1,0 +1,27 @@
+# cmake -DMAN=<man> -DPAGE=<pointfront.1> -DTOOL=<pointfront> -P check_man_page.cmake
+# man reads the page without a warning, and the page names every command and its options.
+set(ENV{MANWIDTH} 100)
+set(ENV{LC_ALL} C.UTF-8)
+set(ENV{MANROFFSEQ} "")
+execute_process(COMMAND "${MAN}" --warnings -E UTF-8 -l -Tutf8 -Z "${PAGE}"
+  OUTPUT_QUIET ERROR_VARIABLE warnings RESULT_VARIABLE status)
+if (NOT status EQUAL 0 OR NOT warnings STREQUAL "")
+  message(FATAL_ERROR "man, status ${status}: ${warnings}")
+endif ()
+file(READ "${PAGE}" page)
+string(REPLACE "\\-" "-" page "${page}")
+foreach (command IN ITEMS build index info verify export generate render bench compare)
+  execute_process(COMMAND "${TOOL}" ${command} --help OUTPUT_VARIABLE help
+    COMMAND_ERROR_IS_FATAL ANY)
+  string(REGEX MATCHALL "\n  (-[a-z],)?--[a-z-]+" options "${help}")
+  list(LENGTH options count)
+  if (count LESS 2 OR NOT page MATCHES "\n\\.SS ${command}\n")
+    message(FATAL_ERROR "${command}: ${count} options in its help, or no part of the page")
+  endif ()
+  foreach (option IN LISTS options)
+    string(REGEX REPLACE ".*--" "--" option "${option}")
+    if (NOT page MATCHES "${option}[^a-z-]")
+      message(FATAL_ERROR "${command}: the page does not name ${option}")
+    endif ()
+  endforeach ()
+endforeach ()

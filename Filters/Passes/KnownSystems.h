@@ -1,0 +1,29 @@
+#pragma once
+
+#include "pointfront/Points/AttributePass.h"
+#include "pointfront/Points/PointSink.h"
+#include "pointfront/Reference/CoordinateSystems.h"
+
+#include <memory>
+#include <string>
+
+namespace pointfront
+{
+
+/// The coordinate reference systems that this build knows: PROJ's. In a build without PROJ none:
+/// every definition is Unsupported there, and two systems are equivalent if their text is the same.
+/// Never null.
+std::shared_ptr<const CoordinateSystems> knownSystems();
+
+/// The pass that gives all inputs one system: `target` and `assumed` as in PassChoice. Without PROJ
+/// it gives the inputs on as they are, with a finding, if all that name a system name the same.
+/// Errors   Unsupported: a build without PROJ, and one of the two is not empty.
+Result<std::unique_ptr<AttributePass>> oneSystemPass(
+  const std::string& target, const std::string& assumed);
+
+/// A sink whose points are transformed into the system `target` first.
+/// Errors   Unsupported: a build without PROJ.
+Result<std::unique_ptr<PointSink>> sinkInSystem(
+  std::unique_ptr<PointSink> sink, const std::string& target);
+
+} // namespace pointfront

@@ -159,7 +159,7 @@ class Cloud:
         store; each attribute n, or n by its components, in its type, or float64 if it has a scale.
         Nothing is copied: an array keeps VTK's memory alive.
         """
-        output = self.extract(**query)
+        output = self.extract(vertex_cells=False, **query)
         data = output.GetPointData()
         arrays = {"position": vtk_to_numpy(output.GetPoints().GetData())}
         for i in range(data.GetNumberOfArrays()):
@@ -223,9 +223,14 @@ class Cloud:
         return _pictures.draw(self.path, path, size, options)
 
     def show(self, *, size=(1280, 720), title=None):
-        """Show the cloud in a window until the user closes it. Raises PointFrontError without a
-        display: use screenshot() there.
+        """Show the cloud in a window until the user closes it; in a notebook, as a view in the
+        cell, drawn here without a display (the package's extra `web`), which is returned. Raises
+        PointFrontError without a display: use screenshot() there.
         """
+        if _in_notebook():
+            from ._page import NotebookView
+
+            return NotebookView([self.path], height=size[1])
         if os.name == "posix" and not os.environ.get("DISPLAY"):
             raise PointFrontError("there is no display (DISPLAY is not set); use screenshot()")
         from .pointfrontRenderingCore import vtkPointFrontMapper
@@ -253,6 +258,17 @@ class Cloud:
         window.Render()
         interactor.Start()
         mapper.RenderWhenDataArrives(None)
+        return None
+
+
+def _in_notebook():
+    """Whether this process is the kernel of a notebook."""
+    try:
+        from IPython import get_ipython
+    except ImportError:
+        return False
+    shell = get_ipython()
+    return shell is not None and hasattr(shell, "kernel")
 
 
 def _six(box):

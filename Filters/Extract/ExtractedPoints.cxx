@@ -71,13 +71,16 @@ Result<void> ExtractedPoints::add(const QueryBatch& batch)
 void ExtractedPoints::moveTo(vtkPolyData* output, bool vertexCells)
 {
   resize(points_);
+  positions_->Squeeze();
+  ids_->Squeeze();
   output->SetPoints(positions_);
   if (vertexCells)
   {
     addVertexCells(output);
   }
-  for (const AttributeArray& attribute : attributes_)
+  for (AttributeArray& attribute : attributes_)
   {
+    attribute.squeeze();
     attribute.addTo(output);
   }
   output->GetPointData()->SetGlobalIds(ids_);

@@ -1,5 +1,7 @@
 #include "AttributeArray.h"
 
+#include "HostVTK.h"
+
 #include <vtkCellArray.h>
 #include <vtkIdTypeArray.h>
 #include <vtkNew.h>
@@ -132,8 +134,8 @@ void AttributeArray::addTo(vtkPolyData* output) const
 void resizeArray(vtkDataArray* array, std::size_t tuples)
 {
   const auto count = static_cast<vtkIdType>(tuples);
-  array->Resize(count); // may give more
-  array->SetNumberOfTuples(count); // keeps what there is, for it has room
+  reserveTuples(*array, count);
+  array->SetNumberOfTuples(count); // keeps what is there, for it has room
 }
 
 void addVertexCells(vtkPolyData* output)

@@ -29,8 +29,9 @@ public:
   /// 16-bit fields from wide ones.
   AttributeArray(const Attribute& attribute, const ColumnRange& range, std::size_t points);
 
-  /// Makes room for so many points; values that are there stay.
+  /// For so many points from now on; values that are there stay.
   void resize(std::size_t points);
+  void squeeze() { array_->Squeeze(); }
   /// Packed values of `count` points as the store has them, to be the array's from `first` on.
   void fill(const std::byte* values, std::size_t first, std::size_t count);
   /// Among the point data; a colour as the active scalars.
@@ -44,7 +45,7 @@ private:
   vtkSmartPointer<vtkDataArray> array_;
 };
 
-/// Makes room for so many tuples, no more; what is there stays.
+/// Gives it so many tuples; what is there stays. Squeeze() takes away what it has room for besides.
 POINTFRONTCOMMON_EXPORT void resizeArray(vtkDataArray* array, std::size_t tuples);
 /// One vertex cell a point, so that filters that select cells can select points.
 POINTFRONTCOMMON_EXPORT void addVertexCells(vtkPolyData* output);

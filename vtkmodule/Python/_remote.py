@@ -61,11 +61,16 @@ class RemoteView:
         self._at = (0.0, 0.0)
         self._pinch = 1.0
         self._moved = -REST_SECONDS  # when an event moved the camera
-        self._stream = None
-        self._restarts = True
+        self._stream = FrameStream(self._paths, self._arguments)
+        self._restarts = False
         self._news = None  # an asyncio.Event, once there is a loop
         self._task = None
         self._drawing = concurrent.futures.ThreadPoolExecutor(1, "pointfront-frames")
+        try:
+            self._stream.frame(size=(16, 9))  # what is wrong is said here, not in the browser
+        except PointFrontError:
+            self._end_stream()
+            raise
 
     # RcaRenderSchedulerProtocol
     @property

@@ -128,6 +128,7 @@ pointfront::QueryOptions vtkPointFrontExtract::Content::Options(
   options.progress = [&filter, &pause](const pointfront::Progress& state)
   {
     const pointfront::InterpreterPause::Resumed resumed(pause);
+    filter.SetProgressText(state.phase);
     filter.UpdateProgress(state.fraction);
     return !pointfront::isAborted(filter) && !resumed.interrupted();
   };

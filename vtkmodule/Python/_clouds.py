@@ -131,9 +131,8 @@ class Cloud:
             extract.SetSpacing(spacing)
         self._choose_attributes(extract, attributes)
         _set_options(extract, options)
-        watch = Watch(extract, vtkCommand.ProgressEvent, progress)
-        extract.Update()
-        watch.end()
+        with Watch(extract, vtkCommand.ProgressEvent, progress):
+            extract.Update()
         if messages.errors:
             raise messages.error("the query failed")
         if extract.GetAbortExecute():
@@ -231,33 +230,9 @@ class Cloud:
             from ._page import NotebookView
 
             return NotebookView([self.path], height=size[1])
-        if os.name == "posix" and not os.environ.get("DISPLAY"):
-            raise PointFrontError("there is no display (DISPLAY is not set); use screenshot()")
-        from .pointfrontRenderingCore import vtkPointFrontMapper
-        from .pointfrontRenderingOpenGL2 import vtkOpenGLPointFrontMapper  # registers the drawing
+        from . import _window
 
-        _host.vtk("vtkInteractionStyle")
-        _host.vtk("vtkRenderingUI")
-        core = _host.vtk("vtkRenderingCore")
-        reader = vtkPointFrontReader()
-        reader.SetFileName(self.path)
-        mapper = vtkPointFrontMapper()
-        assert isinstance(mapper, vtkOpenGLPointFrontMapper)
-        mapper.SetInputConnection(reader.GetOutputPort())
-        actor = core.vtkActor()
-        actor.SetMapper(mapper)
-        renderer = core.vtkRenderer()
-        renderer.AddActor(actor)
-        window = core.vtkRenderWindow()
-        window.SetSize(*size)
-        window.SetWindowName(title or self.path)
-        window.AddRenderer(renderer)
-        interactor = window.MakeRenderWindowInteractor()
-        interactor.Initialize()
-        mapper.RenderWhenDataArrives(interactor)
-        window.Render()
-        interactor.Start()
-        mapper.RenderWhenDataArrives(None)
+        _window.show(self.path, size, title or self.path)
         return None
 
 

@@ -75,12 +75,14 @@ class CloudPage:
 
     def __init__(self, paths, arguments=None):
         self._options = dict(arguments or {})
+        if "style" not in self._options and "quality" not in self._options:  # they choose their own
+            self._options.setdefault("technique", TECHNIQUES[0])
         self.view = RemoteView(paths, self._arguments(), self._tell)
         self.server = get_server(f"pointfront-{next(_count)}", client_type="vue3")
         state = self.server.state
         state.trame__title = "PointFront"
         state.colour = self._options.get("color-by", "")
-        state.technique = self._options.get("technique", TECHNIQUES[0])
+        state.technique = self._options.get("technique", "")
         state.status = ""
         state.frames = 0
         state.settled = False
@@ -102,6 +104,7 @@ class CloudPage:
                     for name in colours:
                         html.Option(name, value=name)
                 with html.Select(v_model=("technique",), title="technique"):
+                    html.Option("technique", value="")
                     for name in TECHNIQUES:
                         html.Option(name, value=name)
                 for name in VIEWS:
@@ -128,7 +131,7 @@ class CloudPage:
 
     def _choose(self, colour, technique, **_):
         chosen = {**self._options, "color-by": colour, "technique": technique}
-        if chosen != self._options:
+        if any(chosen[name] != self._options.get(name, "") for name in chosen):
             self._options = chosen
             self.view.draw_with(self._arguments())
 

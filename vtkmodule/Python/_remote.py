@@ -1,4 +1,4 @@
-"""A view that is drawn here and shown in a browser: what comes in are events, what goes out JPEG."""
+"""A view that is drawn here and shown in a browser: events come in, JPEG goes out."""
 
 import asyncio
 import concurrent.futures

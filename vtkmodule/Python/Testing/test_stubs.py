@@ -23,7 +23,7 @@ with pointfront.open("a.pfront") as cloud:
 WRONG = {  # a line, and what is wrong with it
     "pointfront.vtkPointFrontMapper().SetTargetError('fine')": "arg-type",
     "pointfront.vtkPointFrontReader().SetFileName(3)": "arg-type",
-    "pointfront.vtkPointFrontMapper().SetStyle(pointfront.vtkPointFrontReader())": "arg-type",
+    "pointfront.vtkPointFrontMapper().SetStyle(3)": "arg-type",
     "text: str = pointfront.vtkPointFrontExtract().GetSpacing()": "assignment",
     "pointfront.open('a.pfront').points(box=3)": "arg-type",
     "pointfront.open('a.pfront').pionts()": "attr-defined",

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Frames a second, and bytes a frame, that a browser gets while the mouse turns a cloud; no GPU.
 
-    notebook_rate.py STORE [--peer PYTHON] [--seconds S] [--json FILE]
+    notebook_rate.py STORE [--peer PYTHON] [--seconds S] [--peer-seconds S] [--json FILE]
 
 `pointfront serve` against PyVista's own trame back end (rendering on the server), which shows the
 same points as one PolyData: a pixel each, in their colours. Both draw 1280 by 720 pixels on this
@@ -9,7 +9,7 @@ machine; Chromium, headless, is on it, too, and the same mouse path is taken in 
 of a Markdown table for each.
 
 Run it by a Python that has the wheel, trame, trame-rca and playwright (scripts/wheel environment).
-PYTHON has pyvista, trame, trame-vtk and trame-vuetify, and finds a GL (xvfb-run with Mesa).
+PYTHON has pyvista, trame-pyvista, trame-vtk and trame-vuetify, and finds a GL (xvfb-run, Mesa).
 """
 
 import argparse
@@ -25,12 +25,14 @@ import time
 
 CHROMIUM = os.environ.get("POINTFRONT_CHROMIUM", "/usr/bin/chromium")
 SIZE = {"width": 1280, "height": 720}
+FIRST_SECONDS = 300.0  # most, for the first picture
 SMALLEST = 4000  # bytes: what is less is no picture
 
 PEER = """
 import sys, numpy, pyvista
 from trame.app import get_server
 from trame.ui.vuetify3 import VAppLayout
+from trame.widgets import html
 from trame_pyvista.ui import plotter_ui
 
 pyvista.OFF_SCREEN = True
@@ -40,9 +42,10 @@ cloud["rgb"] = data["rgb"]
 plotter = pyvista.Plotter(window_size=(1280, 720))
 plotter.add_mesh(cloud, scalars="rgb", rgb=True, style="points", point_size=1, lighting=False)
 plotter.view_isometric()
-server = get_server("peer", client_type="vue3")
+server = get_server(client_type="vue3")
 with VAppLayout(server):
-    plotter_ui(plotter, mode="server", default_server_rendering=True, add_menu=False)
+    with html.Div(style="position:absolute; inset:0;"):
+        plotter_ui(plotter, mode="server", default_server_rendering=True, add_menu=False)
 server.controller.on_server_ready.add(
     lambda **_: print(f"http://localhost:{server.port}/", flush=True))
 sys.argv = sys.argv[:1]
@@ -83,9 +86,11 @@ def measure(browser, command, seconds, environment, picture):
 
         page.on("websocket", lambda socket: socket.on("framereceived", note))
         page.goto(address.group(0))
-        end = time.monotonic() + 120
+        end = time.monotonic() + FIRST_SECONDS
         while not sizes and time.monotonic() < end:
             page.wait_for_timeout(200)
+        if not sizes:
+            sys.exit(f"{command[0]}: no picture within {FIRST_SECONDS:.0f} s")
         page.wait_for_timeout(4000)
         turn(page, 2.0)  # what is needed only once
         page.wait_for_timeout(3000)
@@ -117,6 +122,7 @@ def main():
     parser.add_argument("store")
     parser.add_argument("--peer")
     parser.add_argument("--seconds", type=float, default=10.0)
+    parser.add_argument("--peer-seconds", type=float, default=60.0)
     parser.add_argument("--pictures", default=".", help="folder for the last pictures")
     parser.add_argument("--json")
     chosen = parser.parse_args()
@@ -138,7 +144,7 @@ def main():
             file = pathlib.Path(folder) / "points.npz"
             write_points(chosen.store, file)
             rows["PyVista's trame back end, points of 1 pixel"] = measure(
-                browser, [chosen.peer, "-c", PEER, str(file)], chosen.seconds, os.environ,
+                browser, [chosen.peer, "-c", PEER, str(file)], chosen.peer_seconds, os.environ,
                 pictures / "peer.png")
         browser.close()
     print("| view | frames a second | kB a frame |\n|---|---:|---:|")

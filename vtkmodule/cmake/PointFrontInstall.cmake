@@ -82,11 +82,14 @@ if (POINTFRONT_HOST STREQUAL "VTK" AND POINTFRONT_WRAP_PYTHON)
   install(FILES ${package_files} DESTINATION "${pointfront_python_folder}/pointfront"
     COMPONENT Runtime)
   if (POINTFRONT_BUILD_TESTING)
-    add_test(NAME "${POINTFRONT_TEST_PREFIX}Python.Package"
-      COMMAND "${CMAKE_COMMAND}" -E env
-        "PYTHONPATH=${CMAKE_BINARY_DIR}/${pointfront_python_folder}"
-        "POINTFRONT_SHARED_DATA=${POINTFRONT_SHARED_DATA}"
-        "${Python3_EXECUTABLE}" -B "${from}/Testing/test_package.py")
+    foreach (name IN ITEMS Package Waiting)
+      string(TOLOWER "${name}" test)
+      add_test(NAME "${POINTFRONT_TEST_PREFIX}Python.${name}"
+        COMMAND "${CMAKE_COMMAND}" -E env
+          "PYTHONPATH=${CMAKE_BINARY_DIR}/${pointfront_python_folder}"
+          "POINTFRONT_SHARED_DATA=${POINTFRONT_SHARED_DATA}"
+          "${Python3_EXECUTABLE}" -B "${from}/Testing/test_${test}.py")
+    endforeach ()
   endif ()
 endif ()
 

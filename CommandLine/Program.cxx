@@ -9,6 +9,7 @@
 #include "InfoCommand.h"
 #include "ManPage.h"
 #include "RenderCommand.h"
+#include "StreamCommand.h"
 #include "Unavailable.h"
 #include "VerifyCommand.h"
 
@@ -48,6 +49,7 @@ Program::Program()
   commands_.push_back(std::make_unique<RenderCommand>());
   commands_.push_back(std::make_unique<BenchCommand>());
   commands_.push_back(std::make_unique<CompareCommand>());
+  commands_.push_back(std::make_unique<StreamCommand>());
   for (const auto& command : commands_)
   {
     command->declare(app_);
@@ -58,6 +60,8 @@ Program::Program()
 void Program::declareUnavailableCommands()
 {
   declareUnavailableCommand(app_, "view", "there is no window; use render, or ParaView");
+  declareUnavailableCommand(
+    app_, "serve", "it belongs to the Python package: python3 -m pointfront serve");
 }
 
 std::string Program::commandNamed(int argc, char** argv) const

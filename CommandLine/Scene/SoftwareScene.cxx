@@ -126,7 +126,7 @@ SoftwareScene::SoftwareScene(const DrawingOptions& options)
 {
 }
 
-Result<std::unique_ptr<StoreScene>> SoftwareScene::open(const DrawingOptions& options)
+Result<std::unique_ptr<SoftwareScene>> SoftwareScene::open(const DrawingOptions& options)
 {
   std::unique_ptr<SoftwareScene> scene(new SoftwareScene(options));
   if (options.measureEmptyScene)
@@ -142,7 +142,7 @@ Result<std::unique_ptr<StoreScene>> SoftwareScene::open(const DrawingOptions& op
       return done.error();
     }
   }
-  return std::unique_ptr<StoreScene>(std::move(scene));
+  return scene;
 }
 
 Result<void> SoftwareScene::openStores()
@@ -527,6 +527,18 @@ bool SoftwareScene::waitForArrival()
     residency.waitForArrival(residency.arrivals(), lookAtOthers);
   }
   return true;
+}
+
+Result<void> SoftwareScene::resize(std::array<int, 2> size)
+{
+  options_.size = size;
+  return shareMemory();
+}
+
+bool SoftwareScene::loads() const
+{
+  return std::any_of(
+    stores_.begin(), stores_.end(), [](const auto& store) { return store->loads(); });
 }
 
 std::vector<std::string> SoftwareScene::attributesRead() const

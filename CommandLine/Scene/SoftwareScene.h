@@ -23,7 +23,7 @@ namespace pointfront
 class SoftwareScene final : public StoreScene
 {
 public:
-  static Result<std::unique_ptr<StoreScene>> open(const DrawingOptions& options);
+  static Result<std::unique_ptr<SoftwareScene>> open(const DrawingOptions& options);
 
   const char* backend() const override { return "software"; }
   const Bounds& bounds() const override { return bounds_; }
@@ -44,6 +44,18 @@ public:
   std::uint64_t pictureBytes() const override;
   Result<void> writePicture(const std::string& path) override;
 
+  /// Frames from now on have that size; what they keep of earlier ones is as good as before. The
+  /// camera is to be set again.
+  /// Errors  NoMemory: --memory is too little for such a picture.
+  Result<void> resize(std::array<int, 2> size);
+  /// The last frame: opaque, row 0 is the lowest.
+  const SoftwareTarget& picture() const { return target_; }
+  /// Something arrived that the last frame did not have, or that frame left work over. Cheap; moves
+  /// the fronts.
+  bool needsFrame();
+  /// Something is on its way from the disk.
+  bool loads() const;
+
 private:
   struct DrawnNodes;
   explicit SoftwareScene(const DrawingOptions& options);
@@ -60,7 +72,6 @@ private:
   Result<FrameRecord> renderBand(
     SoftwareRasteriser& rasteriser, const PixelRectangle& rows, DrawnNodes& drawn);
   double reachRows() const;
-  bool needsFrame();
   Result<void> outcome();
 
   DrawingOptions options_;

@@ -35,8 +35,16 @@ void FrameRecord::add(const FrameRecord& part)
 
 Result<std::unique_ptr<StoreScene>> StoreScene::open(const DrawingOptions& options)
 {
-  return options.backend == DrawingBackend::OpenGL ? OpenGLModule::open(options)
-                                                   : SoftwareScene::open(options);
+  if (options.backend == DrawingBackend::OpenGL)
+  {
+    return OpenGLModule::open(options);
+  }
+  Result<std::unique_ptr<SoftwareScene>> scene = SoftwareScene::open(options);
+  if (!scene)
+  {
+    return scene.error();
+  }
+  return std::unique_ptr<StoreScene>(std::move(scene).value());
 }
 
 } // namespace pointfront

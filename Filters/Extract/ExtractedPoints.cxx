@@ -1,12 +1,7 @@
 #include "ExtractedPoints.h"
 
-#include "AttributeArray.h"
-
 #include <vtkDataArray.h>
-#include <vtkIdTypeArray.h>
-#include <vtkNew.h>
 #include <vtkPointData.h>
-#include <vtkPoints.h>
 #include <vtkPolyData.h>
 
 #include <algorithm>
@@ -16,8 +11,37 @@
 namespace pointfront
 {
 
-Result<void> ExtractedPoints::add(QueryBatch& batch)
+namespace
 {
+constexpr std::uint64_t firstRoom = 1 << 16; // points
+} // namespace
+
+ExtractedPoints::ExtractedPoints(const StoreDescription& description, std::uint64_t mostPoints)
+  : mostPoints_(mostPoints)
+{
+  positions_->SetDataTypeToDouble();
+  ids_->SetName("point_id");
+  for (std::size_t c = 0; c < description.schema.size(); ++c)
+  {
+    const ColumnRange range = c < description.ranges.size() ? description.ranges[c] : ColumnRange();
+    attributes_.emplace_back(description.schema[c], range, 0);
+  }
+}
+
+void ExtractedPoints::resize(std::uint64_t points)
+{
+  room_ = points;
+  resizeArray(positions_->GetData(), points);
+  resizeArray(ids_, points);
+  for (AttributeArray& attribute : attributes_)
+  {
+    attribute.resize(points);
+  }
+}
+
+Result<void> ExtractedPoints::add(const QueryBatch& batch)
+{
+  const std::uint64_t first = points_;
   points_ += batch.size();
   if (points_ > mostPoints_)
   {
@@ -25,51 +49,41 @@ Result<void> ExtractedPoints::add(QueryBatch& batch)
       "more than " + std::to_string(mostPoints_) +
         " points are chosen; choose less, a coarser Spacing, or raise MaximumNumberOfPoints");
   }
-  batches_.push_back(std::move(batch));
+  if (points_ > room_)
+  {
+    resize(std::max({ points_, 2 * room_, firstRoom }));
+  }
+  auto* const xyz =
+    static_cast<double*>(positions_->GetData()->GetVoidPointer(static_cast<vtkIdType>(3 * first)));
+  vtkIdType* const ids = ids_->GetPointer(static_cast<vtkIdType>(first));
+  for (std::size_t i = 0; i < batch.size(); ++i)
+  {
+    std::copy_n(&batch.points.positions[i].x, 3, xyz + 3 * i);
+    ids[i] = static_cast<vtkIdType>(batch.ids[i]);
+  }
+  for (std::size_t c = 0; c < attributes_.size(); ++c)
+  {
+    attributes_[c].fill(batch.points.columns[c].data(), first, batch.size());
+  }
   return {};
 }
 
-void ExtractedPoints::moveTo(const StoreDescription& description, vtkPolyData* output)
+void ExtractedPoints::moveTo(vtkPolyData* output, bool vertexCells)
 {
-  const auto count = static_cast<vtkIdType>(points_);
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  points->SetNumberOfPoints(count);
-  vtkNew<vtkIdTypeArray> ids;
-  ids->SetName("point_id");
-  ids->SetNumberOfValues(count);
-  std::vector<AttributeArray> arrays;
-  for (std::size_t c = 0; c < description.schema.size(); ++c)
+  resize(points_);
+  positions_->Squeeze();
+  ids_->Squeeze();
+  output->SetPoints(positions_);
+  if (vertexCells)
   {
-    const ColumnRange range = c < description.ranges.size() ? description.ranges[c] : ColumnRange();
-    arrays.emplace_back(description.schema[c], range, points_);
+    addVertexCells(output);
   }
-  std::size_t first = 0;
-  for (QueryBatch& batch : batches_)
+  for (AttributeArray& attribute : attributes_)
   {
-    const QueryBatch from = std::move(batch);
-    auto* const xyz =
-      static_cast<double*>(points->GetData()->GetVoidPointer(static_cast<vtkIdType>(3 * first)));
-    for (std::size_t i = 0; i < from.size(); ++i)
-    {
-      const glm::dvec3& p = from.points.positions[i];
-      std::copy_n(&p.x, 3, xyz + 3 * i);
-      ids->SetValue(static_cast<vtkIdType>(first + i), static_cast<vtkIdType>(from.ids[i]));
-    }
-    for (std::size_t c = 0; c < arrays.size(); ++c)
-    {
-      arrays[c].fill(from.points.columns[c].data(), first, from.size());
-    }
-    first += from.size();
+    attribute.squeeze();
+    attribute.addTo(output);
   }
-  batches_.clear();
-  output->SetPoints(points);
-  addVertexCells(output);
-  for (const AttributeArray& array : arrays)
-  {
-    array.addTo(output);
-  }
-  output->GetPointData()->SetGlobalIds(ids);
+  output->GetPointData()->SetGlobalIds(ids_);
 }
 
 std::vector<std::uint64_t> ascendingIds(vtkIdTypeArray* ids)

@@ -1,39 +1,48 @@
 #pragma once
 
+#include "AttributeArray.h"
+
 #include "pointfront/Query/QueryBatch.h"
 #include "pointfront/Store/StoredCloud.h"
+
+#include <vtkIdTypeArray.h>
+#include <vtkNew.h>
+#include <vtkPoints.h>
 
 #include <cstdint>
 #include <vector>
 
-class vtkIdTypeArray;
 class vtkPolyData;
 
 namespace pointfront
 {
 
-/// Batches of a query, kept until all are there and the arrays' size is known.
-/// Memory   the points as the store has them; twice that for a moment while arrays are filled, for
-///          each batch is given back once it is copied.
+/// Batches of a query on their way into VTK's arrays, which grow as they come.
+/// Memory   the arrays, which hold each point once. While they grow they are larger than what is in
+///          them; the system gives memory to what was written only.
 /// Threads  one.
 class ExtractedPoints
 {
 public:
-  explicit ExtractedPoints(std::uint64_t mostPoints)
-    : mostPoints_(mostPoints)
-  {
-  }
+  /// `description` has the schema of the batches.
+  ExtractedPoints(const StoreDescription& description, std::uint64_t mostPoints);
 
   /// NoMemory where they would be more than `mostPoints`.
-  Result<void> add(QueryBatch& batch);
-  /// Double points, a vertex cell each, their attributes (AttributeArray), and ranks in the store
-  /// as global ids called "point_id". `description` has the schema of the batches.
-  void moveTo(const StoreDescription& description, vtkPolyData* output);
+  Result<void> add(const QueryBatch& batch);
+  /// Double points, a vertex cell each if they are wanted, their attributes (AttributeArray), and
+  /// ranks in the store as global ids called "point_id".
+  void moveTo(vtkPolyData* output, bool vertexCells);
 
 private:
+  /// Makes room for so many points; what is there stays.
+  void resize(std::uint64_t points);
+
   std::uint64_t mostPoints_;
   std::uint64_t points_ = 0;
-  std::vector<QueryBatch> batches_;
+  std::uint64_t room_ = 0;
+  vtkNew<vtkPoints> positions_;
+  vtkNew<vtkIdTypeArray> ids_;
+  std::vector<AttributeArray> attributes_;
 };
 
 /// Ranks out of a VTK array: ascending, each once; negative ones are left to the query to refuse.

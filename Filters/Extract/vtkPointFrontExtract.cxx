@@ -30,6 +30,7 @@
 vtkStandardNewMacro(vtkPointFrontExtract);
 
 using pointfront::Error;
+using pointfront::QueryReport;
 using pointfront::Result;
 
 struct vtkPointFrontExtract::Content
@@ -42,7 +43,7 @@ struct vtkPointFrontExtract::Content
   std::vector<std::string> Attributes(const vtkPointFrontExtract& filter) const;
   static pointfront::QueryOptions Options(
     vtkPointFrontExtract& filter, pointfront::InterpreterPause& pause);
-  Result<pointfront::QueryReport> Run(
+  Result<QueryReport> Run(
     vtkPointFrontExtract& filter, unsigned piece, unsigned pieces, vtkPolyData* output) const;
 };
 
@@ -127,21 +128,29 @@ pointfront::QueryOptions vtkPointFrontExtract::Content::Options(
   options.progress = [&filter, &pause](const pointfront::Progress& state)
   {
     const pointfront::InterpreterPause::Resumed resumed(pause);
+    filter.SetProgressText(state.phase);
     filter.UpdateProgress(state.fraction);
     return !pointfront::isAborted(filter) && !resumed.interrupted();
   };
   return options;
 }
 
-Result<pointfront::QueryReport> vtkPointFrontExtract::Content::Run(
+Result<QueryReport> vtkPointFrontExtract::Content::Run(
   vtkPointFrontExtract& filter, unsigned piece, unsigned pieces, vtkPolyData* output) const
 {
   const pointfront::StoredCloud& store = *this->Store->GetStore();
   pointfront::InterpreterPause pause;
   const pointfront::QueryOptions options = Options(filter, pause);
-  pointfront::ExtractedPoints points(static_cast<std::uint64_t>(filter.MaximumNumberOfPoints));
-  const auto consume = [&](pointfront::QueryBatch& batch)
-  { return filter.CountOnly ? Result<void>() : points.add(batch); };
+  const auto fetch = [&](const pointfront::StoreDescription& description,
+                       const auto& run) -> Result<QueryReport>
+  {
+    pointfront::ExtractedPoints points(
+      description, static_cast<std::uint64_t>(filter.MaximumNumberOfPoints));
+    Result<QueryReport> report = run([&](const pointfront::QueryBatch& batch)
+      { return filter.CountOnly ? Result<void>() : points.add(batch); });
+    report ? points.moveTo(output, filter.VertexCells) : void();
+    return report;
+  };
   if (filter.PointIds)
   {
     const auto names = this->Attributes(filter);
@@ -151,9 +160,9 @@ Result<pointfront::QueryReport> vtkPointFrontExtract::Content::Run(
       return columns.error();
     }
     const auto ids = pointfront::pieceOf(pointfront::ascendingIds(filter.PointIds), piece, pieces);
-    auto report = pointfront::pointsById(store, ids, names, options, consume);
-    report ? points.moveTo(columns->description, output) : void();
-    return report;
+    return fetch(columns->description,
+      [&](const auto& consume)
+      { return pointfront::pointsById(store, ids, names, options, consume); });
   }
   const Result<pointfront::PointQuery> query = this->Query(filter);
   if (!query)
@@ -165,9 +174,8 @@ Result<pointfront::QueryReport> vtkPointFrontExtract::Content::Run(
   {
     return plan.error();
   }
-  auto report = plan->piece(piece, pieces).run(store, options, consume);
-  report ? points.moveTo(plan->description(), output) : void();
-  return report;
+  return fetch(plan->description(),
+    [&](const auto& consume) { return plan->piece(piece, pieces).run(store, options, consume); });
 }
 
 vtkPointFrontExtract::vtkPointFrontExtract()
@@ -400,5 +408,6 @@ void vtkPointFrontExtract::PrintSelf(ostream& os, vtkIndent indent)
      << "\n";
   os << indent << "MaximumNumberOfPoints: " << this->MaximumNumberOfPoints << "\n";
   os << indent << "CountOnly: " << this->CountOnly << "\n";
+  os << indent << "VertexCells: " << this->VertexCells << "\n";
   os << indent << "MemoryLimit: " << this->MemoryLimit << "\n";
 }

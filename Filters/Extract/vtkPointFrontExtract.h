@@ -169,6 +169,16 @@ public:
   vtkBooleanMacro(CountOnly, bool);
   ///@}
 
+  ///@{
+  /**
+   * On: each point has a vertex cell, as filters and views of cells want it: 16 bytes a point, by
+   * numbers of 64 bits. Default on.
+   */
+  vtkSetMacro(VertexCells, bool);
+  vtkGetMacro(VertexCells, bool);
+  vtkBooleanMacro(VertexCells, bool);
+  ///@}
+
   /// Points of the last update and its piece that meet all conditions.
   vtkGetMacro(NumberOfPointsChosen, vtkIdType);
 
@@ -205,6 +215,7 @@ protected:
   vtkIdType MaximumNumberOfPoints;
   vtkTypeInt64 MemoryLimit = 268435456;
   bool CountOnly = false;
+  bool VertexCells = true;
   vtkIdType NumberOfPointsChosen = 0;
   vtkIdType NumberOfNodesRead = 0;
   vtkIdType NumberOfPointsRead = 0;

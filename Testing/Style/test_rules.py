@@ -97,6 +97,7 @@ class RulesTest(unittest.TestCase):
             "scripts/a": f"curl {ADDRESS}\n",
             "x/CMakeLists.txt": f"# {ADDRESS}\n",
             "docs/a.md": ADDRESS,
+            "scripts/b": "print('http:" + "//localhost:8080/')\n",
         }
         self.assertEqual(
             self.faults("Addresses", tree), [("scripts/a", 1), ("x/CMakeLists.txt", 1)]

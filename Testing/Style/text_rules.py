@@ -107,7 +107,8 @@ def machine_paths(files):
                 yield file.path, number, "names a folder of one machine"
 
 
-ADDRESS = re.compile(r"https?:" + "//")
+# Not of this machine, nor put together from what a program was told.
+ADDRESS = re.compile(r"https?:" + r"//(?!localhost\b|[{\\])")
 
 
 def addresses(files):

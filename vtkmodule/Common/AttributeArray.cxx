@@ -1,5 +1,7 @@
 #include "AttributeArray.h"
 
+#include "HostVTK.h"
+
 #include <vtkCellArray.h>
 #include <vtkIdTypeArray.h>
 #include <vtkNew.h>
@@ -76,6 +78,11 @@ AttributeArray::AttributeArray(
   }
 }
 
+void AttributeArray::resize(std::size_t points)
+{
+  resizeArray(array_, points);
+}
+
 void AttributeArray::fill(const std::byte* from, std::size_t first, std::size_t count)
 {
   const std::size_t values = count * attribute_.components;
@@ -122,6 +129,13 @@ void AttributeArray::addTo(vtkPolyData* output) const
   {
     output->GetPointData()->AddArray(array_);
   }
+}
+
+void resizeArray(vtkDataArray* array, std::size_t tuples)
+{
+  const auto count = static_cast<vtkIdType>(tuples);
+  reserveTuples(*array, count);
+  array->SetNumberOfTuples(count); // keeps what is there, for it has room
 }
 
 void addVertexCells(vtkPolyData* output)

@@ -29,6 +29,9 @@ public:
   /// 16-bit fields from wide ones.
   AttributeArray(const Attribute& attribute, const ColumnRange& range, std::size_t points);
 
+  /// For so many points from now on; values that are there stay.
+  void resize(std::size_t points);
+  void squeeze() { array_->Squeeze(); }
   /// Packed values of `count` points as the store has them, to be the array's from `first` on.
   void fill(const std::byte* values, std::size_t first, std::size_t count);
   /// Among the point data; a colour as the active scalars.
@@ -42,6 +45,8 @@ private:
   vtkSmartPointer<vtkDataArray> array_;
 };
 
+/// Gives it so many tuples; what is there stays. Squeeze() takes away what it has room for besides.
+POINTFRONTCOMMON_EXPORT void resizeArray(vtkDataArray* array, std::size_t tuples);
 /// One vertex cell a point, so that filters that select cells can select points.
 POINTFRONTCOMMON_EXPORT void addVertexCells(vtkPolyData* output);
 

@@ -3,6 +3,7 @@
 #ifndef HostVTK_h
 #define HostVTK_h
 
+#include <vtkType.h>
 #include <vtkVersionMacros.h>
 
 /// OpenGL's functions are loaded by glad since VTK 9.4, by GLEW before. An argument of #include.
@@ -24,6 +25,20 @@ bool isAborted(Algorithm& algorithm)
   return algorithm.CheckAbort();
 #else
   return algorithm.GetAbortExecute() != 0;
+#endif
+}
+
+/// Makes room for so many tuples, or more; what is there stays.
+template <class Array>
+void reserveTuples(Array& array, vtkIdType tuples)
+{
+#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 7, 0)
+  array.ReserveTuples(tuples);
+#else
+  if (tuples * array.GetNumberOfComponents() > array.GetSize()) // or it would be cut
+  {
+    array.Resize(tuples);
+  }
 #endif
 }
 

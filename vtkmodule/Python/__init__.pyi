@@ -3,6 +3,15 @@ from typing import Any, Callable, Dict, Iterable, List, Optional, Sequence, Tupl
 
 import numpy
 
+# Stubs that VTK's generator makes for a wheel; elsewhere they are missing, and __getattr__ counts.
+from .pointfrontCommon import *
+from .pointfrontFiltersBuild import *
+from .pointfrontFiltersExtract import *
+from .pointfrontIOLASIndex import *
+from .pointfrontIOStore import *
+from .pointfrontRenderingCore import *
+from .pointfrontRenderingOpenGL2 import *
+
 _Path = Union[str, PathLike[str]]
 _Point = Tuple[float, float, float]
 _Box = Union[Tuple[_Point, _Point], Sequence[float]]
@@ -127,7 +136,7 @@ class Cloud:
         background: Optional[Tuple[int, int, int]] = ...,
         **options: Any,
     ) -> Picture: ...
-    def show(self, *, size: Tuple[int, int] = ..., title: Optional[str] = ...) -> None: ...
+    def show(self, *, size: Tuple[int, int] = ..., title: Optional[str] = ...) -> Any: ...
 
 def open(path: _Path) -> Cloud: ...
 

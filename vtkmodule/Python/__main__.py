@@ -7,7 +7,11 @@ from ._host import TOOL
 
 
 def main():
-    """Becomes the tool, with this process's arguments."""
+    """Serves, or becomes the tool with this process's arguments."""
+    if sys.argv[1:2] == ["serve"]:
+        from ._serve import main as serve
+
+        sys.exit(serve(sys.argv[2:]))
     if not TOOL.exists():
         sys.exit(f"pointfront: the tool is not installed: there is no {TOOL}")
     os.execv(TOOL, ["pointfront", *sys.argv[1:]])

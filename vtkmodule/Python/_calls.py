@@ -132,9 +132,8 @@ def build(inputs, output, *, structure="octree", refinement="add", layers="auto"
     if "assumed_crs" in options:
         builder.SetAssumedCRS(options.pop("assumed_crs"))
     _set(builder, options)
-    watch = Watch(builder, vtkCommand.ProgressEvent, progress)
-    written = builder.Write()
-    watch.end()
+    with Watch(builder, vtkCommand.ProgressEvent, progress):
+        written = builder.Write()
     if not written:
         raise messages.error(f"{path}: the build was stopped")
     return BuildReport(path, builder, messages.warnings)

@@ -131,9 +131,8 @@ class Cloud:
             extract.SetSpacing(spacing)
         self._choose_attributes(extract, attributes)
         _set_options(extract, options)
-        watch = Watch(extract, vtkCommand.ProgressEvent, progress)
-        extract.Update()
-        watch.end()
+        with Watch(extract, vtkCommand.ProgressEvent, progress):
+            extract.Update()
         if messages.errors:
             raise messages.error("the query failed")
         if extract.GetAbortExecute():
@@ -159,7 +158,7 @@ class Cloud:
         store; each attribute n, or n by its components, in its type, or float64 if it has a scale.
         Nothing is copied: an array keeps VTK's memory alive.
         """
-        output = self.extract(**query)
+        output = self.extract(vertex_cells=False, **query)
         data = output.GetPointData()
         arrays = {"position": vtk_to_numpy(output.GetPoints().GetData())}
         for i in range(data.GetNumberOfArrays()):
@@ -223,36 +222,28 @@ class Cloud:
         return _pictures.draw(self.path, path, size, options)
 
     def show(self, *, size=(1280, 720), title=None):
-        """Show the cloud in a window until the user closes it. Raises PointFrontError without a
-        display: use screenshot() there.
+        """Show the cloud in a window until the user closes it; in a notebook, as a view in the
+        cell, drawn here without a display (the package's extra `web`), which is returned. Raises
+        PointFrontError without a display: use screenshot() there.
         """
-        if os.name == "posix" and not os.environ.get("DISPLAY"):
-            raise PointFrontError("there is no display (DISPLAY is not set); use screenshot()")
-        from .pointfrontRenderingCore import vtkPointFrontMapper
-        from .pointfrontRenderingOpenGL2 import vtkOpenGLPointFrontMapper  # registers the drawing
+        if _in_notebook():
+            from ._page import NotebookView
 
-        _host.vtk("vtkInteractionStyle")
-        _host.vtk("vtkRenderingUI")
-        core = _host.vtk("vtkRenderingCore")
-        reader = vtkPointFrontReader()
-        reader.SetFileName(self.path)
-        mapper = vtkPointFrontMapper()
-        assert isinstance(mapper, vtkOpenGLPointFrontMapper)
-        mapper.SetInputConnection(reader.GetOutputPort())
-        actor = core.vtkActor()
-        actor.SetMapper(mapper)
-        renderer = core.vtkRenderer()
-        renderer.AddActor(actor)
-        window = core.vtkRenderWindow()
-        window.SetSize(*size)
-        window.SetWindowName(title or self.path)
-        window.AddRenderer(renderer)
-        interactor = window.MakeRenderWindowInteractor()
-        interactor.Initialize()
-        mapper.RenderWhenDataArrives(interactor)
-        window.Render()
-        interactor.Start()
-        mapper.RenderWhenDataArrives(None)
+            return NotebookView([self.path], height=size[1])
+        from . import _window
+
+        _window.show(self.path, size, title or self.path)
+        return None
+
+
+def _in_notebook():
+    """Whether this process is the kernel of a notebook."""
+    try:
+        from IPython import get_ipython
+    except ImportError:
+        return False
+    shell = get_ipython()
+    return shell is not None and hasattr(shell, "kernel")
 
 
 def _six(box):

@@ -1,42 +1,71 @@
 """Progress of long calls: by a callable, or as tqdm's bar."""
 
+import signal
+import threading
+
+from ._errors import PointFrontError
+
 
 class Watch:
-    """Hands the progress of a VTK object on; keeps what the receiver raises.
+    """Hands the progress of a VTK object on; raises what the receiver raised when the work is over.
+
+        with Watch(algorithm, vtkCommand.ProgressEvent, progress):
+            algorithm.Update()
 
     progress  None; a callable (phase, fraction) whose False ends the work; or True: a bar of tqdm
     """
 
     def __init__(self, algorithm, event, progress):
-        self.raised = []
+        self._algorithm = algorithm
+        self._event = event
+        self._raised = []
         self._bar = None
-        self._phase = None
-        if progress is None or progress is False:
-            return
+        self._before = None  # what SIGINT did
         if progress is True:
-            from tqdm.auto import tqdm
-
-            self._bar = tqdm(total=1.0, bar_format="{desc} {percentage:3.0f}%|{bar}| {elapsed}")
+            self._bar = _bar()
             progress = self._advance
+        self._progress = progress if progress is not False else None
 
-        def report(caller, _event):
-            try:
-                if progress(caller.GetProgressText() or "", caller.GetProgress()) is False:
-                    caller.AbortExecuteOn()
-            except BaseException as problem:  # VTK prints what an observer raises, and goes on
-                self.raised.append(problem)
+    def _report(self, caller, _event):
+        try:
+            if self._progress(caller.GetProgressText() or "", caller.GetProgress()) is False:
                 caller.AbortExecuteOn()
-
-        algorithm.AddObserver(event, report)
+        except BaseException as problem:  # VTK prints what an observer raises, and goes on
+            self._stop(problem)
 
     def _advance(self, phase, fraction):
         self._bar.set_description_str(phase, refresh=False)
         self._bar.n = fraction
         self._bar.refresh()
 
-    def end(self):
-        """Raises what the receiver raised."""
+    def _stop(self, problem):
+        self._raised.append(problem)
+        self._algorithm.AbortExecuteOn()
+
+    def __enter__(self):
+        if self._progress is None:
+            return self
+        self._algorithm.AddObserver(self._event, self._report)
+        # A KeyboardInterrupt that strikes inside an observer ends the process: VTK's rule.
+        if (threading.current_thread() is threading.main_thread()
+                and signal.getsignal(signal.SIGINT) is signal.default_int_handler):
+            self._before = signal.signal(
+                signal.SIGINT, lambda *_: self._stop(KeyboardInterrupt()))
+        return self
+
+    def __exit__(self, kind, *_):
+        if self._before is not None:
+            signal.signal(signal.SIGINT, self._before)
         if self._bar is not None:
             self._bar.close()
-        if self.raised:
-            raise self.raised[0]
+        if kind is None and self._raised:
+            raise self._raised[0]
+
+
+def _bar():
+    try:
+        from tqdm.auto import tqdm
+    except ImportError:
+        raise PointFrontError("progress=True draws a bar with Python's package tqdm, which is not "
+                              "there: pip install tqdm, or pass a callable") from None
+    return tqdm(total=1.0, bar_format="{desc} {percentage:3.0f}%|{bar}| {elapsed}")

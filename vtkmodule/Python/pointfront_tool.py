@@ -8,5 +8,9 @@ TOOL = pathlib.Path(__file__).parent / "pointfront" / "pointfront"
 
 
 def main():
-    """Becomes the tool, with this process's arguments."""
+    """Serves, or becomes the tool with this process's arguments."""
+    if sys.argv[1:2] == ["serve"]:
+        from pointfront._serve import main as serve
+
+        sys.exit(serve(sys.argv[2:]))
     os.execv(TOOL, ["pointfront", *sys.argv[1:]])

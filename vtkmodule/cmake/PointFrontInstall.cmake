@@ -81,7 +81,8 @@ if (POINTFRONT_HOST STREQUAL "VTK" AND POINTFRONT_WRAP_PYTHON)
     configure_file("${from}/${file}.in" "${to}/${file}" @ONLY)
   endforeach ()
   foreach (file IN ITEMS __init__.py __init__.pyi __main__.py _calls.py _classes.py _clouds.py
-      _errors.py _pictures.py _plotting.py _progress.py py.typed)
+      _errors.py _orbit.py _page.py _pictures.py _plotting.py _progress.py _remote.py _serve.py
+      _stream.py _window.py py.typed)
     configure_file("${from}/${file}" "${to}/${file}" COPYONLY)
     list(APPEND package_files "${file}")
   endforeach ()
@@ -89,11 +90,14 @@ if (POINTFRONT_HOST STREQUAL "VTK" AND POINTFRONT_WRAP_PYTHON)
   install(FILES ${package_files} DESTINATION "${pointfront_python_folder}/pointfront"
     COMPONENT "${pointfront_python_component}")
   if (POINTFRONT_BUILD_TESTING)
-    pointfront_add_data_test(NAME Python.Package
-      COMMAND "${CMAKE_COMMAND}" -E env
-        "PYTHONPATH=${CMAKE_BINARY_DIR}/${pointfront_python_folder}"
-        "POINTFRONT_SHARED_DATA=${POINTFRONT_SHARED_DATA}"
-        "${Python3_EXECUTABLE}" -B "${from}/Testing/test_package.py")
+    foreach (name IN ITEMS Package Waiting)
+      string(TOLOWER "${name}" test)
+      pointfront_add_data_test(NAME Python.${name}
+        COMMAND "${CMAKE_COMMAND}" -E env
+          "PYTHONPATH=${CMAKE_BINARY_DIR}/${pointfront_python_folder}"
+          "POINTFRONT_SHARED_DATA=${POINTFRONT_SHARED_DATA}"
+          "${Python3_EXECUTABLE}" -B "${from}/Testing/test_${test}.py")
+    endforeach ()
   endif ()
 endif ()
 

@@ -26,6 +26,7 @@ def check_contents(wheel):
     assert size < LARGEST, f"{wheel.name} has {size} bytes"
     names = zipfile.ZipFile(wheel).namelist()
     for name in ("pointfront/py.typed", "pointfront/__init__.pyi", "pointfront/pointfront",
+                 "pointfront/pointfrontRenderingCore.pyi",
                  "pointfront/proj/proj.db"):
         assert name in names, name
     assert any(name.endswith("licenses/LICENSE") for name in names)

@@ -1,0 +1,248 @@
+#include "StreamCommand.h"
+
+#include "CameraJson.h"
+#include "CancelSignal.h"
+#include "StoreCompany.h"
+
+#include <nlohmann/json.hpp>
+
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <iostream>
+#include <thread>
+
+namespace pointfront
+{
+
+namespace
+{
+using Clock = std::chrono::steady_clock;
+
+constexpr int largestEdge = 8192; // a screen; more would be a mistake of the asking program
+constexpr std::chrono::milliseconds pause{ 2 }; // between two looks at what has arrived
+const char* const requestName = "request";
+
+Error badRequest(const std::string& what)
+{
+  return makeError(Error::Kind::BadFormat, std::string(requestName) + ": " + what);
+}
+
+nlohmann::ordered_json cameraJson(const Camera& camera)
+{
+  const auto numbers = [](const glm::dvec3& v) { return nlohmann::ordered_json{ v.x, v.y, v.z }; };
+  nlohmann::ordered_json object;
+  object["position"] = numbers(camera.position);
+  object["focal_point"] = numbers(camera.focalPoint);
+  object["view_up"] = numbers(camera.viewUp);
+  if (camera.parallelScale)
+  {
+    object["parallel_scale"] = *camera.parallelScale;
+  }
+  else
+  {
+    object["view_angle"] = camera.viewAngleDegrees;
+  }
+  return object;
+}
+
+nlohmann::ordered_json boundsJson(const Bounds& bounds)
+{
+  if (bounds.empty())
+  {
+    return nullptr;
+  }
+  const glm::dvec3 low = bounds.centre() - 0.5 * bounds.size();
+  const glm::dvec3 high = low + bounds.size();
+  return { low.x, low.y, low.z, high.x, high.y, high.z };
+}
+} // namespace
+
+void StreamCommand::declare(CLI::App& program)
+{
+  app_ = program.add_subcommand("stream",
+    "Draw frames for another program: requests on stdin, "
+    "pixels on stdout");
+  drawing_.declare(*app_);
+  app_
+    ->add_option("--frame-ms", drawing_.frameMs,
+      "Time that a frame in motion may take (66.7, VTK's for a moving view)")
+    ->check(CLI::Range(1.0, 10000.0))
+    ->type_name("MS");
+}
+
+Result<void> StreamCommand::resize(const nlohmann::json& request)
+{
+  const auto size = request.find("size");
+  if (size == request.end())
+  {
+    return {};
+  }
+  std::array<int, 2> edges{};
+  for (std::size_t i = 0; i < edges.size(); ++i)
+  {
+    const bool right =
+      size->is_array() && size->size() == edges.size() && (*size)[i].is_number_integer();
+    const std::int64_t edge = right ? (*size)[i].get<std::int64_t>() : 0;
+    if (edge < 1 || edge > largestEdge)
+    {
+      return badRequest("\"size\" must be two numbers from 1 to " + std::to_string(largestEdge));
+    }
+    edges[i] = static_cast<int>(edge);
+  }
+  if (edges == drawing_.size)
+  {
+    return {};
+  }
+  drawing_.size = edges;
+  return scene_->resize(edges);
+}
+
+Result<void> StreamCommand::move(const nlohmann::json& request)
+{
+  const auto camera = request.find("camera");
+  const auto view = request.find("view");
+  if (camera != request.end())
+  {
+    Result<Camera> given = cameraFromJson(*camera, requestName);
+    if (!given)
+    {
+      return given.error();
+    }
+    camera_ = *given;
+  }
+  else if (view != request.end())
+  {
+    const auto direction = view->is_string() ? namedView(view->get<std::string>()) : std::nullopt;
+    if (!direction)
+    {
+      return badRequest("\"view\" must be iso, top, front, back, left or right");
+    }
+    const double aspect = static_cast<double>(drawing_.size[0]) / drawing_.size[1];
+    camera_ = cameraFitting(scene_->bounds(), *direction, aspect);
+  }
+  const auto moving = request.find("moving");
+  if (moving != request.end() && !moving->is_boolean())
+  {
+    return badRequest("\"moving\" must be true or false");
+  }
+  scene_->setCamera(camera_);
+  scene_->setInteractive(moving != request.end() && moving->get<bool>());
+  return {};
+}
+
+bool StreamCommand::waitForNews(double waitMs)
+{
+  const auto begin = Clock::now();
+  while (!scene_->needsFrame())
+  {
+    const std::chrono::duration<double, std::milli> waited = Clock::now() - begin;
+    if (waited.count() >= waitMs || !scene_->loads())
+    {
+      return false;
+    }
+    std::this_thread::sleep_for(pause);
+  }
+  return true;
+}
+
+/// `frame`: that was drawn, or null when there is no other than the last one.
+Result<void> StreamCommand::answer(const FrameRecord* frame)
+{
+  const SoftwareTarget& picture = scene_->picture();
+  const auto rowBytes = static_cast<std::size_t>(picture.width) * sizeof(std::uint32_t);
+  nlohmann::ordered_json head;
+  head["bytes"] = 0;
+  if (frame != nullptr)
+  {
+    head["bytes"] = rowBytes * static_cast<std::size_t>(picture.height);
+    head["width"] = picture.width;
+    head["height"] = picture.height;
+    head["complete"] = frame->complete;
+    head["milliseconds"] = frame->milliseconds;
+    head["points"] = frame->points;
+    head["error_px"] = frame->errorPx;
+    head["failed_nodes"] = frame->failedNodes;
+  }
+  // At rest, and nothing to come: a view may end short of its error where a budget holds it.
+  head["settled"] = frame != nullptr ? frame->complete : !scene_->loads();
+  head["camera"] = cameraJson(camera_);
+  head["bounds"] = boundsJson(scene_->bounds());
+  const std::string line = head.dump() + "\n";
+  bool written = std::fwrite(line.data(), 1, line.size(), stdout) == line.size();
+  for (int y = picture.height - 1; frame != nullptr && written && y >= 0; --y)
+  {
+    const std::uint32_t* const row =
+      picture.rgba.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width);
+    written = std::fwrite(row, 1, rowBytes, stdout) == rowBytes;
+  }
+  if (!written || std::fflush(stdout) != 0)
+  {
+    return makeError(Error::Kind::Unwritable, "stdout: the frame cannot be written");
+  }
+  return {};
+}
+
+Result<void> StreamCommand::obey(const std::string& line)
+{
+  const nlohmann::json request = nlohmann::json::parse(line, nullptr, false);
+  if (!request.is_object())
+  {
+    return badRequest("a line must be a JSON object");
+  }
+  if (const auto wait = request.find("wait_ms"); wait != request.end())
+  {
+    if (!wait->is_number())
+    {
+      return badRequest("\"wait_ms\" must be a number");
+    }
+    if (!waitForNews(wait->get<double>()))
+    {
+      return answer(nullptr);
+    }
+  }
+  for (const auto step : { &StreamCommand::resize, &StreamCommand::move })
+  {
+    if (Result<void> done = (this->*step)(request); !done)
+    {
+      return done;
+    }
+  }
+  const Result<FrameRecord> frame = scene_->renderFrame();
+  return frame ? answer(&*frame) : frame.error();
+}
+
+Result<void> StreamCommand::run()
+{
+  const CancelSignal signal(CancelSignal::Mode::Leave);
+  if (drawing_.backend == DrawingBackend::OpenGL)
+  {
+    return makeError(Error::Kind::Unsupported, "frames are drawn in software: leave --backend out");
+  }
+  for (const std::string& doubt : doubtsOfCompany(drawing_.stores))
+  {
+    warn(name(), doubt);
+  }
+  Result<std::unique_ptr<SoftwareScene>> scene = SoftwareScene::open(drawing_);
+  if (!scene)
+  {
+    return scene.error();
+  }
+  scene_ = std::move(scene).value();
+  for (const std::string& warning : scene_->warnings())
+  {
+    warn(name(), warning);
+  }
+  const double aspect = static_cast<double>(drawing_.size[0]) / drawing_.size[1];
+  camera_ = cameraFitting(scene_->bounds(), ViewDirection::Iso, aspect);
+  for (std::string line; std::getline(std::cin, line);)
+  {
+    if (Result<void> done = obey(line); !done)
+    {
+      return done;
+    }
+  }
+  return {};
+}
+
+} // namespace pointfront

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "Command.h"
+#include "DrawingOptions.h"
+#include "SoftwareScene.h"
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <memory>
+#include <string>
+
+namespace pointfront
+{
+
+/// `pointfront stream`: frames for another program, in software. A line of JSON on stdin asks for a
+/// frame; a line of JSON on stdout and the frame's bytes behind it are the answer.
+/// docs/user/command-line.md describes both.
+/// Ends     when stdin does.
+/// Threads  one.
+class StreamCommand final : public Command
+{
+public:
+  void declare(CLI::App& program) override;
+  Result<void> run() override;
+
+private:
+  Result<void> obey(const std::string& line);
+  Result<void> resize(const nlohmann::json& request);
+  Result<void> move(const nlohmann::json& request);
+  /// False when `waitMs` passed and a frame would show what the last one did.
+  bool waitForNews(double waitMs);
+  Result<void> answer(const FrameRecord* frame);
+
+  DrawingOptions drawing_;
+  std::unique_ptr<SoftwareScene> scene_;
+  Camera camera_;
+};
+
+} // namespace pointfront

@@ -1,0 +1,121 @@
+"""`pointfront stream`: frames for another program."""
+
+import json
+import subprocess
+import unittest
+
+import numpy
+import pictures
+import tool
+
+CLOUD = tool.DATA / "las/real/1.2-with-color.las"
+
+
+class Stream:
+    """The tool, asked for a frame at a time."""
+
+    def __init__(self, *arguments):
+        self.process = subprocess.Popen([tool.TOOL, "stream", *map(str, arguments)],
+                                        stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+                                        stderr=subprocess.PIPE)
+
+    def ask(self, **request):
+        return self.send(json.dumps(request))
+
+    def send(self, line):
+        """The answer, and the pixels of its frame."""
+        self.process.stdin.write(line.encode() + b"\n")
+        self.process.stdin.flush()
+        answer = json.loads(self.process.stdout.readline() or b"null")
+        return answer, self.process.stdout.read(answer["bytes"]) if answer else b""
+
+    def settle(self, **request):
+        answer, pixels = self.ask(**request)
+        while not answer["settled"]:
+            answer, newer = self.ask(wait_ms=200)
+            pixels = newer or pixels
+        return answer, pixels
+
+    def end(self):
+        """Its status and what it complained of."""
+        self.process.stdin.close()
+        said = self.process.stderr.read().decode()
+        status = self.process.wait(60)
+        self.process.stdout.close()
+        self.process.stderr.close()
+        return status, said
+
+
+class Streams(tool.ToolTest):
+    def setUp(self):
+        super().setUp()
+        self.store = self.folder / "a.pfront"
+        self.succeed("build", CLOUD, "-o", self.store, "--node-points", "256")
+
+    def open(self, *arguments):
+        stream = Stream(self.store, *arguments)
+        self.addCleanup(stream.process.kill)
+        return stream
+
+    def test_a_view_at_rest_is_what_render_draws(self):
+        look = ["--color-by", "intensity", "--technique", "splats", "--background", "0,0,255"]
+        stream = self.open(*look)
+        answer, pixels = stream.settle(size=[160, 90])
+        self.assertTrue(answer["settled"])
+        self.assertEqual(stream.end(), (0, ""))
+        picture = self.folder / "a.png"
+        self.succeed("render", self.store, "-o", picture, "--size", "160x90", *look)
+        drawn = numpy.frombuffer(pixels, numpy.uint8).reshape(90, 160, 4)
+        numpy.testing.assert_array_equal(drawn[..., :3], pictures.read_png(picture))
+        self.assertTrue((drawn[..., 3] == 255).all())
+
+    def test_sizes_cameras_and_views(self):
+        stream = self.open()
+        iso, first = stream.settle(size=[64, 48])
+        self.assertEqual((iso["width"], iso["height"]), (64, 48))
+        self.assertEqual(len(iso["bounds"]), 6)
+        top, from_above = stream.settle(view="top")
+        self.assertNotEqual(from_above, first)
+        self.assertEqual(top["camera"]["view_up"], [0.0, 1.0, 0.0])
+        again, back = stream.settle(camera=iso["camera"])
+        self.assertEqual(again["camera"], iso["camera"])
+        self.assertEqual(back, first)
+        large, _ = stream.settle(size=[128, 96], moving=False)
+        self.assertEqual(large["bytes"], 4 * 128 * 96)
+        moving, pixels = stream.ask(camera=iso["camera"], moving=True)
+        self.assertEqual(len(pixels), moving["bytes"])
+        nothing, pixels = stream.ask(wait_ms=0)
+        self.assertIn(nothing["bytes"], (0, 4 * 128 * 96))
+        self.assertEqual(stream.end()[0], 0)
+
+    def test_nothing_new_is_said(self):
+        stream = self.open()
+        stream.settle(size=[64, 48])
+        answer, _ = stream.ask(wait_ms=10)
+        self.assertEqual((answer["bytes"], answer["settled"]), (0, True))
+        self.assertEqual(stream.end()[0], 0)
+
+    def test_wrong_requests_end_it(self):
+        for line, says in (("{", "JSON object"), ("[]", "JSON object"),
+                           ('{"size": [0, 5]}', "size"), ('{"size": [9000, 5]}', "size"),
+                           ('{"size": 5}', "size"), ('{"view": "sideways"}', "view"),
+                           ('{"moving": 1}', "moving"), ('{"wait_ms": "long"}', "wait_ms"),
+                           ('{"camera": {}}', "position")):
+            stream = self.open()
+            answer, _ = stream.send(line)
+            self.assertIsNone(answer, line)
+            status, said = stream.end()
+            self.assertEqual(status, 1, line)
+            self.assertIn(says, said)
+            self.assertEqual(len(said.splitlines()), 1)
+        self.refuse(1, "stream", self.folder / "none.pfront")
+        self.refuse(1, "stream", self.store, "--backend", "opengl")
+        self.refuse(2, "stream")
+
+    def test_serve_is_of_python(self):
+        said = self.refuse(2, "serve", self.store)
+        self.assertIn("python3 -m pointfront serve", str(said))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,217 @@
+"""The page of `pointfront serve` and the view of a notebook in a real browser: Chromium, headless.
+
+Neither has a display. Environment: POINTFRONT_CHROMIUM the browser, /usr/bin/chromium unless given.
+"""
+
+import asyncio
+import io
+import os
+import pathlib
+import re
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+import numpy
+import pointfront
+from PIL import Image
+from playwright.sync_api import sync_playwright
+from pointfront._remote import RemoteView
+
+CLOUD = pathlib.Path(__file__).resolve().parents[3] / "Testing/Data/autzen_stadium.laz"
+CHROMIUM = os.environ.get("POINTFRONT_CHROMIUM", "/usr/bin/chromium")
+SETTLED = ".pointfront-status[data-settled=true]"
+LIMIT_MS = 30000
+
+
+def without_display():
+    return {name: value for name, value in os.environ.items() if name != "DISPLAY"}
+
+
+class Server:
+    """`pointfront serve` in a process of its own."""
+
+    def __init__(self, *arguments):
+        command = [sys.executable, "-m", "pointfront", "serve", *map(str, arguments)]
+        self.process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                        text=True, env=without_display())
+        line = self.process.stdout.readline()
+        found = re.search(r"http://\S+", line)
+        if found is None:
+            self.process.kill()
+            raise AssertionError(line + self.process.stderr.read())
+        self.url = found.group(0)
+
+    def tools(self):
+        """Processes that this server started."""
+        threads = pathlib.Path(f"/proc/{self.process.pid}/task").iterdir()
+        return [int(word) for thread in threads
+                for word in (thread / "children").read_text().split()]
+
+    def end(self, with_signal=signal.SIGINT):
+        self.process.send_signal(with_signal)
+        status = self.process.wait(20)
+        self.process.stdout.close()
+        self.process.stderr.close()
+        return status
+
+
+class Frames(unittest.TestCase):
+    def test_frames_in_motion_are_cheap_and_the_last_is_whole(self):
+        folder = tempfile.TemporaryDirectory(prefix="pointfront-frames-")
+        self.addCleanup(folder.cleanup)
+        store = pathlib.Path(folder.name) / "a.pfront"
+        pointfront.build(CLOUD, store)
+        sent, told = [], []
+
+        async def move():
+            view = RemoteView([store], ["--frame-ms", "1"], told.append)
+            view.set_push_callback(lambda data, meta: sent.append((meta["quality"], len(data))))
+            view.process_resize_event(640, 360)
+            view.schedule_render()
+            await asyncio.sleep(1.0)
+            view.process_interaction_event({"type": "LeftButtonPress", "x": 300, "y": 200})
+            for x in range(300, 360, 4):
+                view.process_interaction_event({"type": "MouseMove", "x": x, "y": 200})
+                view.schedule_render()
+                await asyncio.sleep(0.03)
+            view.process_interaction_event({"type": "LeftButtonRelease", "x": 360, "y": 200})
+            await asyncio.sleep(1.5)
+            await view.close()
+
+        asyncio.run(move())
+        moving = [size for quality, size in sent if quality < 80]
+        self.assertGreater(len(moving), 3)
+        last_quality, last_size = sent[-1]
+        self.assertGreater(last_quality, 80, "no frame at rest came last")
+        self.assertLess(numpy.median(moving), 0.7 * last_size)
+        self.assertTrue(told[-1]["settled"])
+        points = [facts["points"] for facts in told if facts["moving"]]
+        self.assertLess(points[-1], told[-1]["points"], "the view at rest is not refined")
+
+
+class Page(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.temporary = tempfile.TemporaryDirectory(prefix="pointfront-page-")
+        cls.addClassCleanup(cls.temporary.cleanup)
+        cls.store = pathlib.Path(cls.temporary.name) / "a.pfront"
+        pointfront.build(CLOUD, cls.store, assumed_crs="EPSG:2994")
+        playwright = sync_playwright().start()
+        cls.addClassCleanup(playwright.stop)
+        cls.browser = playwright.chromium.launch(
+            executable_path=CHROMIUM, args=["--no-sandbox", "--disable-gpu"])
+        cls.addClassCleanup(cls.browser.close)
+
+    def open(self, url):
+        page = self.browser.new_page(viewport={"width": 800, "height": 500})
+        self.addCleanup(page.close)
+        self.errors = []
+        page.on("console", lambda said: said.type == "error" and self.errors.append(said.text))
+        page.on("pageerror", lambda error: self.errors.append(str(error)))
+        page.goto(url)
+        self.wait(page)
+        return page
+
+    @staticmethod
+    def wait(page):
+        page.wait_for_selector(SETTLED, state="attached", timeout=LIMIT_MS)
+
+    @staticmethod
+    def frames(page):
+        return int(page.get_attribute(".pointfront-status", "data-frames"))
+
+    def settle(self, page, act):
+        """Does something, waits until the view has a new picture at rest, gives its pixels."""
+        before = self.frames(page)
+        act()
+        page.wait_for_function(f"document.querySelector('.pointfront-status').dataset.frames > "
+                               f"{before}", timeout=LIMIT_MS)
+        self.wait(page)
+        return self.pixels(page)
+
+    @staticmethod
+    def pixels(page):
+        """Below the bar and above the status: height by width by 3."""
+        time.sleep(0.2)  # the browser shows what it got
+        picture = Image.open(io.BytesIO(page.screenshot())).convert("RGB")
+        return numpy.asarray(picture).astype(int)[40:-40]
+
+    def test_a_view_is_opened_moved_and_refined(self):
+        server = Server(self.store, "--port", "0")
+        self.addCleanup(server.process.kill)
+        page = self.open(server.url)
+        first = self.pixels(page)
+        self.assertGreater(first.std(axis=(0, 1)).min(), 20, "no cloud is in the picture")
+
+        def drag():
+            page.mouse.move(400, 250)
+            page.mouse.down()
+            for step in range(40):
+                page.mouse.move(400 + 5 * step, 250 + step)
+                time.sleep(0.02)
+            page.mouse.up()
+
+        before = self.frames(page)
+        turned = self.settle(page, drag)
+        self.assertGreater(self.frames(page) - before, 5, "no frames while it moved")
+        self.assertGreater(numpy.abs(turned - first).mean(), 10, "the mouse rotates nothing")
+        status = page.inner_text(".pointfront-status")
+        self.assertRegex(status, r"^[0-9,]+ points, error [01]\.[0-9] px$")
+        again = self.pixels(page)
+        self.assertEqual(numpy.abs(again - turned).max(), 0, "a view at rest changes")
+
+        near = self.settle(page, lambda: page.mouse.wheel(0, -600))
+        empty = [(p.max(axis=2) < 40).mean() for p in (turned, near)]
+        self.assertLess(empty[1], empty[0], "the wheel does not come closer")
+        wide = self.settle(page, lambda: page.set_viewport_size({"width": 1000, "height": 640}))
+        self.assertEqual(wide.shape, (560, 1000, 3))
+        sizes = page.evaluate("[...document.images].map(i => [i.naturalWidth, i.naturalHeight])")
+        self.assertIn([1000, 640], sizes, "the picture is not as large as the window")
+
+        grey = self.settle(page, lambda: page.select_option("select >> nth=0", "intensity"))
+        self.assertLess(numpy.ptp(grey, axis=2).mean(), 4, "another colour is not drawn")
+        self.settle(page, lambda: page.click("text=top"))
+        self.assertEqual(self.errors, [])
+
+        maps = [pathlib.Path(f"/proc/{pid}/maps").read_text()
+                for pid in (server.process.pid, *server.tools())]
+        self.assertEqual(len(maps), 2)
+        for text in maps:
+            self.assertNotIn("libX11", text)
+            self.assertNotIn("libGL", text)
+        tool = server.tools()[0]
+        self.assertEqual(server.end(), 130)
+        self.assertFalse(pathlib.Path(f"/proc/{tool}").exists(), "the tool is still there")
+
+    def test_a_notebook_has_the_view_in_its_cell(self):
+        from pointfront._page import NotebookView
+
+        view = NotebookView([str(self.store)], height=400)
+        self.addCleanup(view.close)
+        page = self.browser.new_page(viewport={"width": 800, "height": 500})
+        self.addCleanup(page.close)
+        with tempfile.NamedTemporaryFile("w", suffix=".html", dir=self.temporary.name) as cell:
+            cell.write(f"<html><body>{view._repr_html_()}</body></html>")
+            cell.flush()
+            page.goto(f"file://{cell.name}")
+            frame = page.frame_locator("iframe")
+            frame.locator(SETTLED).wait_for(state="attached", timeout=LIMIT_MS)
+            self.assertGreater(self.pixels(page).std(), 20)
+
+    def test_what_cannot_be_served_is_said(self):
+        for arguments, status, says in ((["none.pfront"], 1, "none.pfront"),
+                                        ([self.store, "--technique", "dust"], 1, "dust"),
+                                        ([], 2, "STORE"), ([self.store, "--dust"], 2, "--dust")):
+            run = subprocess.run([sys.executable, "-m", "pointfront", "serve", "--port", "0",
+                                  *map(str, arguments)], capture_output=True, text=True,
+                                 timeout=60, env=without_display())
+            self.assertEqual(run.returncode, status, run.stderr)
+            self.assertIn(says, run.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

@@ -1,0 +1,63 @@
+"""`pointfront serve`: a page with a view of stores, drawn here without a display."""
+
+import argparse
+import os
+import signal
+import sys
+
+from ._errors import PointFrontError
+
+# Of `pointfront render`, and what argparse shows for their values.
+VALUES = {"color-by": "ATTRIBUTE", "technique": "NAME", "style": "FILE.json", "classes": "LIST",
+          "where": "CONDITION", "error": "PX", "point-size": "PX", "point-budget": "N",
+          "memory": "BYTES", "background": "R,G,B", "quality": "NAME", "frame-ms": "MS"}
+FLAGS = ("edl",)
+
+
+def parser():
+    made = argparse.ArgumentParser(
+        prog="pointfront serve",
+        description="A page with a view of stores, drawn here in software: no display, no OpenGL. "
+                    "All who open it see the same view. Options as of `pointfront render`.")
+    made.add_argument("stores", nargs="+", metavar="STORE")
+    made.add_argument("--port", type=int, default=8080, help="8080; 0: any free one")
+    made.add_argument("--host", default="localhost",
+                      help="whom to listen to: localhost, or 0.0.0.0 for other machines, which "
+                           "then can see the cloud without a password")
+    made.add_argument("--open", action="store_true", help="open it in this machine's browser")
+    for name, shown in VALUES.items():
+        made.add_argument(f"--{name}", metavar=shown)
+    for name in FLAGS:
+        made.add_argument(f"--{name}", action="store_true")
+    return made
+
+
+def main(arguments):
+    """Serves until it is interrupted; the exit status."""
+    chosen = parser().parse_args(arguments)
+    sys.argv = sys.argv[:1]  # trame reads it, too
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    os.environ.setdefault("WSLINK_WS_COMPRESS", "0")  # JPEG does not become smaller
+    try:
+        from ._page import CloudPage
+
+        given = vars(chosen)
+        options = {name: given[name.replace("-", "_")] for name in (*VALUES, *FLAGS)}
+        page = CloudPage(chosen.stores, {n: v for n, v in options.items() if v})
+
+        def say(**_):
+            where = f"http://{chosen.host}:{page.server.port}/"
+            print(f"pointfront serve: {where} (Ctrl-C ends it)", flush=True)
+            if chosen.open:
+                import webbrowser
+
+                webbrowser.open(where)
+
+        page.server.controller.on_server_ready.add(say)
+        page.serve(port=chosen.port, host=chosen.host)
+    except KeyboardInterrupt:
+        return 130
+    except (PointFrontError, OSError) as problem:
+        print(f"pointfront serve: {problem}", file=sys.stderr)
+        return 1
+    return 0

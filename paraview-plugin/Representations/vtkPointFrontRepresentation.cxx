@@ -224,6 +224,7 @@ void vtkPointFrontRepresentation::PrepareFrame(vtkInformation* inInfo, vtkPVRend
 
   const double rate = view->GetRenderWindow()->GetDesiredUpdateRate();
   const bool interactive = rate > StillRate;
+  this->InMotion = interactive;
   this->Mapper->SetComplete(!interactive && this->WantsComplete(view));
   // vtkPVLODActor draws through an actor of its own, whose allotted time nobody sets: hand the time
   // on here.
@@ -405,6 +406,28 @@ vtkIdType vtkPointFrontRepresentation::GetNodesDrawn()
 double vtkPointFrontRepresentation::GetProjectedSpacing()
 {
   return this->IsDrawing() ? this->Mapper->GetLastError() : 0.0;
+}
+
+//------------------------------------------------------------------------------
+vtkIdType vtkPointFrontRepresentation::GetStorePoints()
+{
+  return this->IsDrawing() ? this->Mapper->GetStore()->GetNumberOfPoints() : 0;
+}
+
+//------------------------------------------------------------------------------
+int vtkPointFrontRepresentation::GetFrameLimits()
+{
+  if (!this->IsDrawing())
+  {
+    return 0;
+  }
+  const auto bit = [](bool set, int value) { return set ? value : 0; };
+  const bool points = this->Mapper->GetLastLimitedByPoints();
+  return bit(points && !this->InMotion, POINT_BUDGET) | bit(points && this->InMotion, FRAME_TIME) |
+    bit(this->Mapper->GetLastLimitedByGPUMemory(), GPU_MEMORY) |
+    bit(this->Mapper->GetLastLimitedByMemory(), HOST_MEMORY) |
+    bit(!this->Mapper->GetLastComplete(), LOADING) |
+    bit(this->Mapper->GetLastFailedNodes() > 0, UNREADABLE);
 }
 
 //------------------------------------------------------------------------------

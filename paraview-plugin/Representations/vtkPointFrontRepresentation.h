@@ -194,6 +194,21 @@ public:
   double GetProjectedSpacing();
   ///@}
 
+  /// Points of the store that is drawn, all of them; 0 on a process that draws nothing.
+  vtkIdType GetStorePoints();
+
+  /// Why the last frame of this process has not reached the target error: bits.
+  enum FrameLimits
+  {
+    POINT_BUDGET = 1,
+    GPU_MEMORY = 2,
+    HOST_MEMORY = 4,
+    FRAME_TIME = 8, ///< of a frame in motion
+    LOADING = 16, ///< not all points are there yet
+    UNREADABLE = 32 ///< nodes that cannot be read
+  };
+  int GetFrameLimits();
+
   /// Memory that this process has for the points of all clouds, MiB (vtkPointFrontSettings).
   int GetHostMemoryBudget();
 
@@ -254,6 +269,7 @@ private:
   std::vector<vtkWeakPointer<vtkPVLODActor>> HiddenMarks;
   bool ToldOfNames = false; ///< that they are no colours
   bool CrispPoints = true;
+  bool InMotion = false; ///< the last frame
   vtkWeakPointer<vtkPVRenderView> SuspendedView; ///< whose FXAA is off for a frame
   unsigned long EndObserver = 0;
   const std::unique_ptr<pointfront::StyleChoice> Choice;

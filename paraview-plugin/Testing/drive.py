@@ -216,6 +216,15 @@ def colours(programs):
         raise AssertionError("nobody is told, or more than once, that ids are no colours")
 
 
+def facts(programs):
+    """Ranges and facts, against what reading all points of the store says."""
+    with open("statistics.json", "w") as file:
+        file.write(tool("info", "--stats", "--json", os.environ["POINTFRONT_STORE"]))
+    command = [os.environ["POINTFRONT_PVBATCH"], os.path.join(HERE, "facts.py"), "statistics.json"]
+    programs.run(*command, "alone")
+    programs.run(*mpi(2, *command))
+
+
 def files(programs):
     """Point files of several families, opened on one process and on two."""
     def places(shift):
@@ -508,7 +517,7 @@ def main(way):
          "--camera", os.environ["POINTFRONT_CAMERA"], "--color-by", "rgb", "--point-size", "2",
          "--error", "0.01", "--background", "0,0,0")
     ways = {"batch": batch, "classes": classes, "ranks": ranks, "server": server,
-            "application": application, "colours": colours, "filtered": filtered,
+            "application": application, "colours": colours, "facts": facts, "filtered": filtered,
             "rubber-band": rubber_band, "selection": selection, "series": series,
             "ranks-selection": ranks_selection, "batch-selection": batch_selection,
             "rectangles": rectangles, "extract": extract, "files": files, "looks": looks,

@@ -271,7 +271,8 @@ void vtkPointFrontRepresentation::PrepareColors()
   if (!array || !array[0] || !ofPoints)
   {
     this->Mapper->ScalarVisibilityOff();
-    this->PrepareStyle("", false);
+    this->DrawnArray.clear();
+    this->PrepareStyle();
     return;
   }
   const bool color = IsColor(array);
@@ -298,22 +299,30 @@ void vtkPointFrontRepresentation::PrepareColors()
   {
     this->Mapper->SetColorModeToMapScalars();
   }
-  this->PrepareStyle(color ? array : "elevation", direct);
+  this->DrawnArray = color ? array : "elevation";
+  this->DrawnDirectly = direct;
+  this->PrepareStyle();
 }
 
 //------------------------------------------------------------------------------
-void vtkPointFrontRepresentation::PrepareStyle(const std::string& array, bool direct)
+void vtkPointFrontRepresentation::PrepareStyle()
 {
+  auto* view = vtkPVRenderView::SafeDownCast(this->GetView());
+  if (!view)
+  {
+    return;
+  }
   pointfront::LookColour colour;
-  colour.array = array;
-  colour.direct = direct;
+  colour.array = this->DrawnArray;
+  colour.direct = !this->DrawnArray.empty() && this->DrawnDirectly;
   colour.table = this->Mapper->GetLookupTable();
   std::copy_n(this->Property->GetColor(), 3, colour.flat.begin());
   pointfront::PointLook& look = this->Choice->look;
   look.size = look.closes() ? this->SizeFactor : this->PointSize;
   look.opacity = this->Property->GetOpacity();
   std::string error;
-  this->Mapper->SetStyle(this->Choice->style(colour, error));
+  const int* const size = view->GetRenderer()->GetSize();
+  this->Mapper->SetStyle(this->Choice->style(colour, size[0], size[1], error));
   if (!error.empty() && this->Mapper->GetStorePiece() == 0)
   {
     vtkErrorMacro(<< error);
@@ -360,6 +369,10 @@ bool vtkPointFrontRepresentation::AddToView(vtkView* view)
   }
   renderView->GetRenderer()->AddActor(this->Actor);
   renderView->RegisterPropForHardwareSelection(this, this->Actor);
+  // With a server, pictures in motion have fewer pixels than the window: ParaView sets the viewport
+  // when the renderer starts, with priority 0. Behind that a lens knows its place.
+  this->StartObserver = renderView->GetRenderer()->AddObserver(
+    vtkCommand::StartEvent, this, &vtkPointFrontRepresentation::PrepareStyle, -1.0f);
   return this->Superclass::AddToView(view);
 }
 
@@ -372,6 +385,7 @@ bool vtkPointFrontRepresentation::RemoveFromView(vtkView* view)
     return false;
   }
   this->ResumeFXAA();
+  renderView->GetRenderer()->RemoveObserver(this->StartObserver);
   renderView->GetRenderer()->RemoveActor(this->Actor);
   renderView->UnRegisterPropForHardwareSelection(this, this->Actor);
   return this->Superclass::RemoveFromView(view);

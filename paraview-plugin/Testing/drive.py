@@ -364,6 +364,15 @@ def looks(programs):
                              % told.count("has no attribute"))
 
 
+def lens(programs):
+    for count in (1, 2):
+        name = "lens-%d" % count
+        programs.run(*mpi(count, os.environ["POINTFRONT_PVBATCH"],
+                          os.path.join(HERE, "lens.py"), name))
+    for way in ("Circle", "Rectangle", "hidden"):
+        compare("lens-2-" + way, "lens-1-" + way, channel=2)
+
+
 def series(programs):
     """Three made-up surveys; the second has other attributes."""
     steps = []
@@ -516,13 +525,12 @@ def main(way):
     tool("render", store, "-o", "tool.png", "--size", "640x360",
          "--camera", os.environ["POINTFRONT_CAMERA"], "--color-by", "rgb", "--point-size", "2",
          "--error", "0.01", "--background", "0,0,0")
-    ways = {"batch": batch, "classes": classes, "ranks": ranks, "server": server,
-            "application": application, "colours": colours, "facts": facts, "filtered": filtered,
-            "rubber-band": rubber_band, "selection": selection, "series": series,
-            "ranks-selection": ranks_selection, "batch-selection": batch_selection,
-            "rectangles": rectangles, "extract": extract, "files": files, "looks": looks,
-            "views": views, "state": state, "backends": backends,
-            "first-hour": first_hour, "written": written}
+    ways = {"batch": batch, "classes": classes, "ranks": ranks, "server": server, "application":
+            application, "colours": colours, "facts": facts, "filtered": filtered, "rubber-
+            band": rubber_band, "selection": selection, "series": series, "ranks-selection":
+            ranks_selection, "batch-selection": batch_selection, "rectangles": rectangles,
+            "extract": extract, "files": files, "lens": lens, "looks": looks, "views": views,
+            "state": state, "backends": backends, "first-hour": first_hour, "written": written}
     with Programs() as programs:
         ways[way](programs)
 

@@ -330,6 +330,15 @@ void vtkPointFrontRepresentation::PrepareStyle()
 }
 
 //------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::PlaceLens()
+{
+  if (this->GetVisibility() && this->Choice->lens.shape != pointfront::LensPlace::NONE)
+  {
+    this->PrepareStyle();
+  }
+}
+
+//------------------------------------------------------------------------------
 vtkScalarsToColors* vtkPointFrontRepresentation::HeightTable()
 {
   vtkPointFrontStore* store = this->Mapper->GetStore();
@@ -372,7 +381,7 @@ bool vtkPointFrontRepresentation::AddToView(vtkView* view)
   // With a server, pictures in motion have fewer pixels than the window: ParaView sets the viewport
   // when the renderer starts, with priority 0. Behind that a lens knows its place.
   this->StartObserver = renderView->GetRenderer()->AddObserver(
-    vtkCommand::StartEvent, this, &vtkPointFrontRepresentation::PrepareStyle, -1.0f);
+    vtkCommand::StartEvent, this, &vtkPointFrontRepresentation::PlaceLens, -1.0f);
   return this->Superclass::AddToView(view);
 }
 

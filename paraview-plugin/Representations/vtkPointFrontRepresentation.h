@@ -259,6 +259,8 @@ private:
   void PrepareColors();
   /// Hands the mapper a style, if one is needed.
   void PrepareStyle();
+  /// When the renderer starts: its size is known.
+  void PlaceLens();
   /// Greys over the heights of the cloud; null without a store.
   vtkScalarsToColors* HeightTable();
   bool WantsComplete(vtkPVRenderView* view) const;

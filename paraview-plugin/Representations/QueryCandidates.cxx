@@ -23,6 +23,7 @@
 #include <limits>
 #include <locale>
 #include <optional>
+#include <regex>
 #include <sstream>
 #include <vector>
 
@@ -161,6 +162,20 @@ bool asksForValues(vtkSelection* selection)
     const bool named = list && list->GetName() && std::string(list->GetName()) == "point_id";
     if ((query && *query) || content == vtkSelectionNode::QUERY ||
       content == vtkSelectionNode::THRESHOLDS || (content == vtkSelectionNode::VALUES && !named))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+bool asksForRows(vtkSelection* selection)
+{
+  const std::regex row("\\bid\\b");
+  for (unsigned int i = 0; i < selection->GetNumberOfNodes(); ++i)
+  {
+    const char* query = selection->GetNode(i)->GetQueryString();
+    if (query && std::regex_search(query, row))
     {
       return true;
     }

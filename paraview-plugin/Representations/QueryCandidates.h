@@ -16,6 +16,9 @@ struct StoreDescription;
 /// Whether a selection asks for values that points have: not by their names, nor by a place.
 bool asksForValues(vtkSelection* selection);
 
+/// Whether a query asks for "id", the number of a row: rows are those of the reader's output.
+bool asksForRows(vtkSelection* selection);
+
 /// A condition (FilterExpression) that every point meets which a query of ParaView's selects, and
 /// perhaps others: for a query of comparisons of attributes with numbers, joined by "&". Numbers
 /// are widened by a millionth, for ParaView compares in an attribute's own type. Empty, all points,

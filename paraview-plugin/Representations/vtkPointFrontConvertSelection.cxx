@@ -29,7 +29,7 @@ int vtkPointFrontConvertSelection::RequestData(
   vtkSelection* input = vtkSelection::GetData(inputVector[0], 0);
   const bool ofStore = this->GetNumberOfInputConnections(1) > 0 &&
     pointfront::upstreamReader(this->GetInputConnection(1, 0)->GetProducer());
-  if (ofStore && input && pointfront::asksForValues(input))
+  if (ofStore && input && pointfront::asksForValues(input) && !pointfront::asksForRows(input))
   {
     this->NameWhatIsSelected(input, vtkSelection::GetData(outputVector, 0));
     return 1;

@@ -190,7 +190,8 @@ vtkSmartPointer<vtkPolyData> vtkPointFrontExtractSelection::GetCandidates(
 {
   vtkPointFrontStore* store = reader->GetStore();
   vtkNew<vtkPolyData> further;
-  const bool byValues = pointfront::asksForValues(selection) && store &&
+  const bool byValues = pointfront::asksForValues(selection) &&
+    !pointfront::asksForRows(selection) && store &&
     store->GetNumberOfPoints() > reader->GetOverviewPoints();
   if (byValues)
   {

@@ -46,6 +46,17 @@ for query, wanted in known["wanted"].items():
         require(set(reader.PointData.keys()) <= set(extracted.PointData.keys()), "arrays are gone")
         simple.Delete(extracted)
 
+# A row's number is that of the reader's output, as a spreadsheet lists it.
+simple.QuerySelect(QueryString="(id == 17)", FieldType="POINT", Source=reader)
+extracted, points = selected()
+ranks = servermanager.ActiveConnection.GetNumberOfDataPartitions()
+require(points == ranks, "row 17: %d points" % points)
+if ranks == 1:
+    row = servermanager.Fetch(reader).GetPointData().GetArray("point_id").GetValue(17)
+    found = extracted.PointData["point_id"].GetRange()
+    require(found == (row, row), "row 17 is point %d, not %s" % (row, found))
+simple.Delete(extracted)
+
 # Frozen, the same points, by their names.
 query, wanted = next(iter(known["wanted"].items()))
 simple.QuerySelect(QueryString=query, FieldType="POINT", Source=reader)

@@ -11,6 +11,16 @@
 #include "vtkScalarsToColors.h"
 #include "vtkTransform.h"
 
+namespace
+{
+
+std::string textOf(const char* value)
+{
+  return value ? value : "";
+}
+
+} // namespace
+
 //------------------------------------------------------------------------------
 void vtkPointFrontRepresentation::SetPointBudget(vtkIdType points)
 {
@@ -161,15 +171,58 @@ void vtkPointFrontRepresentation::SetStyleFile(const char* fileName)
 //------------------------------------------------------------------------------
 void vtkPointFrontRepresentation::ClearClassStyles()
 {
-  this->Choice->clearClasses();
+  this->Choice->classes.clear();
 }
 
 //------------------------------------------------------------------------------
 void vtkPointFrontRepresentation::AddClassStyle(
   const char* classCode, const char* technique, const char* color, const char* size)
 {
-  const auto text = [](const char* value) { return std::string(value ? value : ""); };
-  this->Choice->addClass(text(classCode), text(technique), text(color), text(size));
+  this->Choice->classes.add(textOf(classCode), textOf(technique), textOf(color), textOf(size));
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetLensShape(int shape)
+{
+  this->Choice->lens.shape = shape;
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetLensCenter(double x, double y)
+{
+  this->Choice->lens.centre = { { x, y } };
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetLensRadius(double radius)
+{
+  this->Choice->lens.radius = radius;
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetLensSize(double width, double height)
+{
+  this->Choice->lens.size = { { width, height } };
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::ClearLensStyles()
+{
+  this->Choice->lensClasses.clear();
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::AddLensStyle(
+  const char* classCode, const char* technique, const char* color, const char* size)
+{
+  this->Choice->lensClasses.add(
+    textOf(classCode), textOf(technique), textOf(color), textOf(size), true);
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetGrowthTime(double milliseconds)
+{
+  this->Mapper->SetGrowthTime(milliseconds);
 }
 
 //------------------------------------------------------------------------------

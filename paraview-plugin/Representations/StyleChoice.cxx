@@ -5,6 +5,8 @@
 
 #include "vtkPointFrontStyle.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
@@ -23,7 +25,76 @@ int classOf(const std::string& code)
                                                                        : -1;
 }
 
+/// A lens in a picture of some size, with the styles inside it.
+StyleLens lensIn(const LensPlace& place, const ClassRows& inside, int width, int height)
+{
+  const double size[2] = { static_cast<double>(width), static_cast<double>(height) };
+  StyleLens lens;
+  lens.place.shape = place.shape == LensPlace::CIRCLE ? LensShape::Circle : LensShape::Rectangle;
+  for (int axis = 0; axis < 2; ++axis)
+  {
+    const auto at = static_cast<std::size_t>(axis);
+    const double half =
+      place.shape == LensPlace::CIRCLE ? place.radius * size[1] : 0.5 * place.size[at] * size[axis];
+    lens.place.centrePx[axis] = static_cast<float>(place.centre[at] * size[axis]);
+    lens.place.halfSizePx[axis] = static_cast<float>(std::max(half, 0.0));
+  }
+  lens.standard = inside.sheet().standard;
+  lens.classes = inside.sheet().classes;
+  return lens;
+}
+
 } // namespace
+
+ClassRows::ClassRows() = default;
+
+ClassRows::~ClassRows() = default;
+
+void ClassRows::clear()
+{
+  style_->Reset();
+  filled_ = false;
+  wrong_.clear();
+}
+
+const StyleSheet& ClassRows::sheet() const
+{
+  return style_->GetStyleSheet();
+}
+
+void ClassRows::add(const std::string& code, const std::string& technique,
+  const std::string& colour, const std::string& size, bool forAll)
+{
+  const bool all = forAll && code.empty();
+  const int number = all ? vtkPointFrontStyle::DEFAULT_CLASS : classOf(code);
+  if (code.empty() && technique.empty() && colour.empty() && size.empty())
+  {
+    return; // a row that is not filled in yet
+  }
+  char* end = nullptr;
+  const double pixels = std::strtod(size.c_str(), &end);
+  const bool known = technique.empty() || technique == "hidden" || techniqueOf(technique);
+  if ((number < 0 && !all) || !known || *end != '\0' || (!size.empty() && !(pixels > 0.0)))
+  {
+    wrong_ = "the class style \"" + code + "\", \"" + technique + "\", \"" + colour + "\", \"" +
+      size + "\" is none: a code of 0 to 255, hidden or one of " + techniqueList() +
+      ", a colour, a size above 0";
+    return;
+  }
+  filled_ = true;
+  bool right = true;
+  if (technique == "hidden")
+  {
+    right = style_->SetVisibility(false, number);
+  }
+  else if (!technique.empty())
+  {
+    right = style_->SetTechnique(technique, number);
+  }
+  right = (colour.empty() || style_->SetColor(colour, number)) && right;
+  right = (size.empty() || style_->SetSizePixels(pixels, number)) && right;
+  static_cast<void>(right); // the style itself has said what is wrong
+}
 
 StyleChoice::StyleChoice() = default;
 
@@ -36,46 +107,6 @@ void StyleChoice::setFile(const std::string& fileName)
     file_ = fileName;
     fileRead_ = false;
   }
-}
-
-void StyleChoice::clearClasses()
-{
-  classStyle_->Reset();
-  classes_ = false;
-  wrongClass_.clear();
-}
-
-void StyleChoice::addClass(const std::string& code, const std::string& technique,
-  const std::string& colour, const std::string& size)
-{
-  const int number = classOf(code);
-  if (code.empty() && technique.empty() && colour.empty() && size.empty())
-  {
-    return; // a row that is not filled in yet
-  }
-  char* end = nullptr;
-  const double pixels = std::strtod(size.c_str(), &end);
-  const bool known = technique.empty() || technique == "hidden" || techniqueOf(technique);
-  if (number < 0 || !known || *end != '\0' || (!size.empty() && !(pixels > 0.0)))
-  {
-    wrongClass_ = "the class style \"" + code + "\", \"" + technique + "\", \"" + colour +
-      "\", \"" + size + "\" is none: a code of 0 to 255, hidden or one of " + techniqueList() +
-      ", a colour, a size above 0";
-    return;
-  }
-  classes_ = true;
-  bool right = true;
-  if (technique == "hidden")
-  {
-    right = classStyle_->SetVisibility(false, number);
-  }
-  else if (!technique.empty())
-  {
-    right = classStyle_->SetTechnique(technique, number);
-  }
-  right = (colour.empty() || classStyle_->SetColor(colour, number)) && right;
-  right = (size.empty() || classStyle_->SetSizePixels(pixels, number)) && right;
-  static_cast<void>(right); // the style itself has said what is wrong
 }
 
 bool StyleChoice::readFile(std::string& error)
@@ -99,11 +130,13 @@ bool StyleChoice::readFile(std::string& error)
   return error.empty();
 }
 
-vtkPointFrontStyle* StyleChoice::style(const LookColour& colour, std::string& error)
+vtkPointFrontStyle* StyleChoice::style(
+  const LookColour& colour, int width, int height, std::string& error)
 {
-  std::string wrong = wrongClass_;
+  const bool seesThroughLens = lens.shape != LensPlace::NONE && !lensClasses.empty();
+  std::string wrong = classes.wrong().empty() ? lensClasses.wrong() : classes.wrong();
   StyleSheet sheet;
-  bool needed = classes_ || !file_.empty() || !look.plain();
+  bool needed = !classes.empty() || seesThroughLens || !file_.empty() || !look.plain();
   if (!file_.empty())
   {
     if (readFile(wrong))
@@ -115,10 +148,14 @@ vtkPointFrontStyle* StyleChoice::style(const LookColour& colour, std::string& er
   {
     needed = false;
   }
-  for (const auto& [number, differs] : classStyle_->GetStyleSheet().classes)
+  for (const auto& [number, differs] : classes.sheet().classes)
   {
     LayerStyle& own = sheet.classes[number];
     own = differs.over(own);
+  }
+  if (seesThroughLens)
+  {
+    sheet.lenses.push_back(lensIn(lens, lensClasses, width, height));
   }
   error = wrong == said_ ? std::string() : wrong;
   said_ = wrong;

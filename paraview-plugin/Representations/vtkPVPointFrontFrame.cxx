@@ -1,10 +1,15 @@
 #include "vtkPVPointFrontFrame.h"
 
+#include "StoreFacts.h"
+
 #include "vtkClientServerStream.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointFrontRepresentation.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <string>
+#include <utility>
 
 vtkStandardNewMacro(vtkPVPointFrontFrame);
 
@@ -25,9 +30,11 @@ void vtkPVPointFrontFrame::CopyFromObject(vtkObject* object)
     return;
   }
   this->PointsDrawn = representation->GetPointsDrawn();
+  this->StorePoints = representation->GetStorePoints();
   this->NodesDrawn = representation->GetNodesDrawn();
   this->ProjectedSpacing = representation->GetProjectedSpacing();
   this->HostMemoryBudget = representation->GetHostMemoryBudget();
+  this->Limits = representation->GetFrameLimits();
   this->Complete = representation->GetFrameComplete();
   this->Outdated = representation->GetFrameOutdated();
 }
@@ -38,12 +45,14 @@ void vtkPVPointFrontFrame::AddInformation(vtkPVInformation* information)
   if (auto* other = vtkPVPointFrontFrame::SafeDownCast(information))
   {
     this->PointsDrawn += other->PointsDrawn;
+    this->StorePoints = std::max(this->StorePoints, other->StorePoints);
     this->NodesDrawn += other->NodesDrawn;
     this->ProjectedSpacing = std::max(this->ProjectedSpacing, other->ProjectedSpacing);
     // 0: the client, before anything was added to it.
     this->HostMemoryBudget = this->HostMemoryBudget > 0
       ? std::min(this->HostMemoryBudget, other->HostMemoryBudget)
       : other->HostMemoryBudget;
+    this->Limits |= other->Limits;
     this->Complete = this->Complete && other->Complete;
     this->Outdated = this->Outdated || other->Outdated;
   }
@@ -56,6 +65,7 @@ void vtkPVPointFrontFrame::CopyToStream(vtkClientServerStream* stream)
   *stream << vtkClientServerStream::Reply << static_cast<vtkTypeInt64>(this->PointsDrawn)
           << static_cast<vtkTypeInt64>(this->NodesDrawn) << this->ProjectedSpacing
           << (this->Complete ? 1 : 0) << (this->Outdated ? 1 : 0) << this->HostMemoryBudget
+          << this->Limits << static_cast<vtkTypeInt64>(this->StorePoints)
           << vtkClientServerStream::End;
 }
 
@@ -64,11 +74,13 @@ void vtkPVPointFrontFrame::CopyFromStream(const vtkClientServerStream* stream)
 {
   vtkTypeInt64 points = 0;
   vtkTypeInt64 nodes = 0;
+  vtkTypeInt64 all = 0;
   int complete = 1;
   int outdated = 0;
   if (!stream->GetArgument(0, 0, &points) || !stream->GetArgument(0, 1, &nodes) ||
     !stream->GetArgument(0, 2, &this->ProjectedSpacing) || !stream->GetArgument(0, 3, &complete) ||
-    !stream->GetArgument(0, 4, &outdated) || !stream->GetArgument(0, 5, &this->HostMemoryBudget))
+    !stream->GetArgument(0, 4, &outdated) || !stream->GetArgument(0, 5, &this->HostMemoryBudget) ||
+    !stream->GetArgument(0, 6, &this->Limits) || !stream->GetArgument(0, 7, &all))
   {
     vtkErrorMacro("The server's frame cannot be read: client and server have different plugins. "
                   "Load the same build of the PointFront plugin on both.");
@@ -76,8 +88,37 @@ void vtkPVPointFrontFrame::CopyFromStream(const vtkClientServerStream* stream)
   }
   this->PointsDrawn = static_cast<vtkIdType>(points);
   this->NodesDrawn = static_cast<vtkIdType>(nodes);
+  this->StorePoints = static_cast<vtkIdType>(all);
   this->Complete = complete != 0;
   this->Outdated = outdated != 0;
+}
+
+//------------------------------------------------------------------------------
+std::string vtkPVPointFrontFrame::GetPointsInView() const
+{
+  return pointfront::groupedDigits(static_cast<std::uint64_t>(this->PointsDrawn)) + " of " +
+    pointfront::groupedDigits(static_cast<std::uint64_t>(this->StorePoints));
+}
+
+//------------------------------------------------------------------------------
+std::string vtkPVPointFrontFrame::GetLimitedBy() const
+{
+  using Representation = vtkPointFrontRepresentation;
+  std::string words;
+  for (const auto& [limit, name] :
+    { std::pair<int, const char*>{ Representation::LOADING, "still loading" },
+      { Representation::FRAME_TIME, "the time of a frame in motion" },
+      { Representation::POINT_BUDGET, "Point Budget" },
+      { Representation::GPU_MEMORY, "GPU Memory Budget" },
+      { Representation::HOST_MEMORY, "Host Memory Budget (Settings)" },
+      { Representation::UNREADABLE, "parts of the store that cannot be read" } })
+  {
+    if ((this->Limits & limit) != 0)
+    {
+      words += (words.empty() ? "" : ", ") + std::string(name);
+    }
+  }
+  return words.empty() ? "nothing" : words;
 }
 
 //------------------------------------------------------------------------------
@@ -88,6 +129,7 @@ void vtkPVPointFrontFrame::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "NodesDrawn: " << this->NodesDrawn << "\n"
      << indent << "ProjectedSpacing: " << this->ProjectedSpacing << " px\n"
      << indent << "HostMemoryBudget: " << this->HostMemoryBudget << " MiB\n"
+     << indent << "LimitedBy: " << this->GetLimitedBy() << "\n"
      << indent << "Complete: " << this->Complete << "\n"
      << indent << "Outdated: " << this->Outdated << "\n";
 }

@@ -12,6 +12,8 @@
 #include "pointfrontParaViewRepresentationsModule.h" // for the export macro
 #include "vtkPVInformation.h"
 
+#include <string> // for words
+
 class POINTFRONTPARAVIEWREPRESENTATIONS_EXPORT vtkPVPointFrontFrame : public vtkPVInformation
 {
 public:
@@ -33,6 +35,14 @@ public:
   vtkGetMacro(ProjectedSpacing, double);
   ///@}
 
+  /// "412,345 of 697,721": points drawn and points of the store.
+  std::string GetPointsInView() const;
+
+  /// Of all processes together: bits of vtkPointFrontRepresentation::FrameLimits, and the same in
+  /// words.
+  vtkGetMacro(Limits, int);
+  std::string GetLimitedBy() const;
+
   /// MiB for points, of the process that has least.
   vtkGetMacro(HostMemoryBudget, int);
 
@@ -50,9 +60,11 @@ private:
   void operator=(const vtkPVPointFrontFrame&) = delete;
 
   vtkIdType PointsDrawn = 0;
+  vtkIdType StorePoints = 0;
   vtkIdType NodesDrawn = 0;
   double ProjectedSpacing = 0.0;
   int HostMemoryBudget = 0;
+  int Limits = 0;
   bool Complete = true;
   bool Outdated = false;
 };

@@ -5,7 +5,8 @@
  * What the Information panel shows, and what is saved with the overview: "store_points",
  * "store_bounds" (x, y, z, low and high), "store_crs", "store_structure", "store_classes" and
  * "store_class_points" (of a store with a tree for each class), "output_is" (what the points of the
- * output are, and where the exact ones come from). The same on each rank.
+ * output are, and where the exact ones come from). The same on each rank. The arrays of the output
+ * have the ranges of the store's (vtkDataArray::GetRange), so colour maps span the whole cloud.
  */
 #ifndef vtkPVPointFrontReader_h
 #define vtkPVPointFrontReader_h
@@ -13,12 +14,17 @@
 #include "pointfrontParaViewRepresentationsModule.h" // for the export macro
 #include "vtkPointFrontReader.h"
 
+#include <string> // for facts
+
 class POINTFRONTPARAVIEWREPRESENTATIONS_EXPORT vtkPVPointFrontReader : public vtkPointFrontReader
 {
 public:
   static vtkPVPointFrontReader* New();
   vtkTypeMacro(vtkPVPointFrontReader, vtkPointFrontReader);
   void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /// What the store is, in lines for a panel; empty without a store.
+  const char* GetStoreFacts();
 
 protected:
   vtkPVPointFrontReader();
@@ -30,6 +36,8 @@ protected:
 private:
   vtkPVPointFrontReader(const vtkPVPointFrontReader&) = delete;
   void operator=(const vtkPVPointFrontReader&) = delete;
+
+  std::string StoreFacts;
 };
 
 #endif

@@ -1,16 +1,24 @@
 #include "vtkPointFrontExtractSelection.h"
 
+#include "QueryCandidates.h"
 #include "UpstreamReader.h"
 
+#include "pointfront/Store/StoredCloud.h"
+#include "vtkAbstractArray.h"
+#include "vtkAppendFilter.h"
 #include "vtkCellArray.h"
+#include "vtkDataSet.h"
+
 #include "vtkDoubleArray.h"
 #include "vtkExtractSelectedFrustum.h"
 #include "vtkIdTypeArray.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkMultiProcessController.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
+#include "vtkPointFrontReader.h"
 #include "vtkPointFrontStore.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
@@ -18,10 +26,13 @@
 #include "vtkSelectionNode.h"
 #include "vtkSmartPointer.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <string>
+#include <vector>
 
 vtkStandardNewMacro(vtkPointFrontExtractSelection);
 
@@ -48,25 +59,6 @@ void appendNamedPoints(vtkSelection* selection, vtkIdTypeArray* ranks)
   }
 }
 
-/// Whether a selection asks for values that points have: not by their names, nor by a place.
-bool asksForValues(vtkSelection* selection)
-{
-  for (unsigned int i = 0; i < selection->GetNumberOfNodes(); ++i)
-  {
-    vtkSelectionNode* node = selection->GetNode(i);
-    const char* query = node->GetQueryString();
-    const int content = node->GetContentType();
-    vtkAbstractArray* list = node->GetSelectionList();
-    const bool named = list && list->GetName() && std::string(list->GetName()) == "point_id";
-    if ((query && *query) || content == vtkSelectionNode::QUERY ||
-      content == vtkSelectionNode::THRESHOLDS || (content == vtkSelectionNode::VALUES && !named))
-    {
-      return true;
-    }
-  }
-  return false;
-}
-
 /// The view frustum that a selection consists of, if it has one.
 vtkDoubleArray* frustumOf(vtkSelection* selection)
 {
@@ -81,6 +73,44 @@ vtkDoubleArray* frustumOf(vtkSelection* selection)
     }
   }
   return nullptr;
+}
+
+/// By name: VTK's statistics over time take columns by their order.
+void sortArrays(vtkPointData* attributes)
+{
+  std::map<std::string, vtkSmartPointer<vtkAbstractArray>> arrays;
+  for (int i = 0; i < attributes->GetNumberOfArrays(); ++i)
+  {
+    vtkAbstractArray* array = attributes->GetAbstractArray(i);
+    arrays[array->GetName() ? array->GetName() : ""] = array;
+  }
+  attributes->Initialize();
+  for (const auto& [name, array] : arrays)
+  {
+    attributes->AddArray(array);
+  }
+}
+
+/// Moves what all ranks have to the first.
+void gatherOnFirst(vtkDataSet* share)
+{
+  auto* controller = vtkMultiProcessController::GetGlobalController();
+  std::vector<vtkSmartPointer<vtkDataObject>> shares;
+  controller->Gather(share, shares, 0);
+  vtkNew<vtkAppendFilter> all;
+  for (const auto& one : shares)
+  {
+    all->AddInputData(one);
+  }
+  if (!shares.empty())
+  {
+    all->Update();
+    share->ShallowCopy(all->GetOutput());
+  }
+  else
+  {
+    share->Initialize();
+  }
 }
 
 /// The points of `first` and behind them those of `second`, which has the same arrays.
@@ -134,34 +164,55 @@ vtkPointFrontExtractSelection::vtkPointFrontExtractSelection() = default;
 vtkPointFrontExtractSelection::~vtkPointFrontExtractSelection() = default;
 
 //------------------------------------------------------------------------------
-int vtkPointFrontExtractSelection::RequestData(
-  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+void vtkPointFrontExtractSelection::SetReader(vtkPointFrontReader* reader)
 {
-  auto* overview = vtkPolyData::GetData(inputVector[0], 0);
-  vtkSelection* selection = vtkSelection::GetData(inputVector[1], 0);
-  vtkPointFrontReader* reader = pointfront::upstreamReaderOf(this);
-  if (!reader || !overview || !selection)
+  if (this->Reader != reader)
   {
-    return this->Superclass::RequestData(request, inputVector, outputVector);
+    this->Reader = reader;
+    this->Modified();
   }
-  vtkInformation* output = outputVector->GetInformationObject(0);
-  const int piece = output->Get(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER());
-  const int pieces =
-    std::max(1, output->Get(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES()));
-  const bool partly = asksForValues(selection) && reader->GetStore() &&
-    reader->GetStore()->GetNumberOfPoints() > reader->GetOverviewPoints();
-  if (partly && !this->ToldOfOverview && piece == 0)
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontExtractSelection::SetDroppedArrays(const std::vector<std::string>& names)
+{
+  if (this->DroppedArrays != names)
   {
-    vtkWarningMacro("a query selects among the "
-      << reader->GetOverviewPoints()
-      << " points of the "
-         "overview, not among all of the store: for those, use the filter PointFront Extract "
-         "(Where)");
+    this->DroppedArrays = names;
+    this->Modified();
   }
-  this->ToldOfOverview = partly;
+}
+
+//------------------------------------------------------------------------------
+vtkSmartPointer<vtkPolyData> vtkPointFrontExtractSelection::GetCandidates(
+  vtkPointFrontReader* reader, vtkPolyData* overview, vtkSelection* selection, int piece,
+  int pieces)
+{
+  vtkPointFrontStore* store = reader->GetStore();
+  vtkNew<vtkPolyData> further;
+  const bool byValues = pointfront::asksForValues(selection) &&
+    !pointfront::asksForRows(selection) && store &&
+    store->GetNumberOfPoints() > reader->GetOverviewPoints();
+  if (byValues)
+  {
+    const std::string condition = this->GetPreserveTopology()
+      ? std::string()
+      : pointfront::conditionOfSelection(selection, store->GetStore()->description());
+    std::string error;
+    const bool read =
+      pointfront::readCandidates(reader, condition, MostPoints, piece, pieces, further, error);
+    if (!read)
+    {
+      vtkErrorMacro("the query selects among too many points, or they cannot be read: "
+        << error
+        << ". The filter PointFront Extract (Region, Classes, Where) gives a part of them.");
+      return nullptr;
+    }
+    further->SetFieldData(overview->GetFieldData());
+    return further;
+  }
   vtkNew<vtkIdTypeArray> ranks;
   appendNamedPoints(selection, ranks);
-  vtkNew<vtkPolyData> further;
   bool read = true;
   if (vtkDoubleArray* corners = frustumOf(selection))
   {
@@ -179,15 +230,51 @@ int vtkPointFrontExtractSelection::RequestData(
   {
     read = reader->ReadPoints(ranks, piece, pieces, further);
   }
-  if (!read)
+  return read ? joined(overview, further) : nullptr; // the reader has said why
+}
+
+//------------------------------------------------------------------------------
+int vtkPointFrontExtractSelection::RequestData(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  auto* overview = vtkPolyData::GetData(inputVector[0], 0);
+  vtkSelection* selection = vtkSelection::GetData(inputVector[1], 0);
+  vtkPointFrontReader* reader =
+    this->Reader ? this->Reader.Get() : pointfront::upstreamReaderOf(this);
+  if (!reader || !overview || !selection)
   {
-    return 0; // the reader has said why
+    return this->Superclass::RequestData(request, inputVector, outputVector);
+  }
+  vtkInformation* output = outputVector->GetInformationObject(0);
+  const int piece = output->Get(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER());
+  const int pieces =
+    std::max(1, output->Get(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES()));
+  const vtkSmartPointer<vtkPolyData> candidates =
+    this->GetCandidates(reader, overview, selection, piece, pieces);
+  if (!candidates)
+  {
+    return 0; // has been said
   }
   vtkInformation* input = inputVector[0]->GetInformationObject(0);
   const vtkSmartPointer<vtkDataObject> kept = overview;
-  input->Set(vtkDataObject::DATA_OBJECT(), joined(overview, further));
+  input->Set(vtkDataObject::DATA_OBJECT(), candidates);
   const int done = this->Superclass::RequestData(request, inputVector, outputVector);
   input->Set(vtkDataObject::DATA_OBJECT(), kept);
+  if (vtkDataSet* extracted = vtkDataSet::GetData(outputVector, 0))
+  {
+    for (const std::string& name : this->DroppedArrays)
+    {
+      extracted->GetPointData()->RemoveArray(name.c_str());
+    }
+    if (this->Reader && pieces > 1)
+    {
+      gatherOnFirst(extracted);
+    }
+    if (this->Reader)
+    {
+      sortArrays(extracted->GetPointData());
+    }
+  }
   return done;
 }
 

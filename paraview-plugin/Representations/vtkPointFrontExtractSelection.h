@@ -11,13 +11,23 @@
  *
  * Points are named by global ids, which are ranks in the store (vtkPointFrontEncodeSelection), by
  * values of "point_id", or by a frustum, in which they are ("Select Points Through"): an error if
- * that reaches into parts of the cloud with more than 50 million points.
+ * that reaches into parts of the cloud with more than 50 million points. A query on values selects
+ * among all points of the store: of comparisons joined by "&" those are read that may meet it, for
+ * any other query all of them, 50 million on a process at most.
  */
 #ifndef vtkPointFrontExtractSelection_h
 #define vtkPointFrontExtractSelection_h
 
 #include "pointfrontParaViewRepresentationsModule.h" // for the export macro
 #include "vtkPVExtractSelection.h"
+#include "vtkSmartPointer.h" // for the reader
+
+#include <string> // for names
+#include <vector> // for names
+
+class vtkPointFrontReader;
+class vtkPolyData;
+class vtkSelection;
 
 class POINTFRONTPARAVIEWREPRESENTATIONS_EXPORT vtkPointFrontExtractSelection
   : public vtkPVExtractSelection
@@ -26,6 +36,14 @@ public:
   static vtkPointFrontExtractSelection* New();
   vtkTypeMacro(vtkPointFrontExtractSelection, vtkPVExtractSelection);
   void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /// The reader whose points are extracted, where the input does not come from it by connections;
+  /// then the first rank gets what all extract, so that statistics are of all. Null (default): the
+  /// input's reader.
+  void SetReader(vtkPointFrontReader* reader);
+
+  /// Arrays of points that do not come along.
+  void SetDroppedArrays(const std::vector<std::string>& names);
 
 protected:
   vtkPointFrontExtractSelection();
@@ -37,7 +55,12 @@ private:
   vtkPointFrontExtractSelection(const vtkPointFrontExtractSelection&) = delete;
   void operator=(const vtkPointFrontExtractSelection&) = delete;
 
-  bool ToldOfOverview = false; ///< that a query has no more to select among
+  /// The points to select among; null, and an error, where they cannot be read.
+  vtkSmartPointer<vtkPolyData> GetCandidates(vtkPointFrontReader* reader, vtkPolyData* overview,
+    vtkSelection* selection, int piece, int pieces);
+
+  vtkSmartPointer<vtkPointFrontReader> Reader;
+  std::vector<std::string> DroppedArrays;
 };
 
 #endif

@@ -224,6 +224,7 @@ void vtkPointFrontRepresentation::PrepareFrame(vtkInformation* inInfo, vtkPVRend
 
   const double rate = view->GetRenderWindow()->GetDesiredUpdateRate();
   const bool interactive = rate > StillRate;
+  this->InMotion = interactive;
   this->Mapper->SetComplete(!interactive && this->WantsComplete(view));
   // vtkPVLODActor draws through an actor of its own, whose allotted time nobody sets: hand the time
   // on here.
@@ -270,7 +271,8 @@ void vtkPointFrontRepresentation::PrepareColors()
   if (!array || !array[0] || !ofPoints)
   {
     this->Mapper->ScalarVisibilityOff();
-    this->PrepareStyle("", false);
+    this->DrawnArray.clear();
+    this->PrepareStyle();
     return;
   }
   const bool color = IsColor(array);
@@ -297,25 +299,42 @@ void vtkPointFrontRepresentation::PrepareColors()
   {
     this->Mapper->SetColorModeToMapScalars();
   }
-  this->PrepareStyle(color ? array : "elevation", direct);
+  this->DrawnArray = color ? array : "elevation";
+  this->DrawnDirectly = direct;
+  this->PrepareStyle();
 }
 
 //------------------------------------------------------------------------------
-void vtkPointFrontRepresentation::PrepareStyle(const std::string& array, bool direct)
+void vtkPointFrontRepresentation::PrepareStyle()
 {
+  auto* view = vtkPVRenderView::SafeDownCast(this->GetView());
+  if (!view)
+  {
+    return;
+  }
   pointfront::LookColour colour;
-  colour.array = array;
-  colour.direct = direct;
+  colour.array = this->DrawnArray;
+  colour.direct = !this->DrawnArray.empty() && this->DrawnDirectly;
   colour.table = this->Mapper->GetLookupTable();
   std::copy_n(this->Property->GetColor(), 3, colour.flat.begin());
   pointfront::PointLook& look = this->Choice->look;
   look.size = look.closes() ? this->SizeFactor : this->PointSize;
   look.opacity = this->Property->GetOpacity();
   std::string error;
-  this->Mapper->SetStyle(this->Choice->style(colour, error));
+  const int* const size = view->GetRenderer()->GetSize();
+  this->Mapper->SetStyle(this->Choice->style(colour, size[0], size[1], error));
   if (!error.empty() && this->Mapper->GetStorePiece() == 0)
   {
     vtkErrorMacro(<< error);
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::PlaceLens()
+{
+  if (this->GetVisibility() && this->Choice->lens.shape != pointfront::LensPlace::NONE)
+  {
+    this->PrepareStyle();
   }
 }
 
@@ -359,6 +378,10 @@ bool vtkPointFrontRepresentation::AddToView(vtkView* view)
   }
   renderView->GetRenderer()->AddActor(this->Actor);
   renderView->RegisterPropForHardwareSelection(this, this->Actor);
+  // With a server, pictures in motion have fewer pixels than the window: ParaView sets the viewport
+  // when the renderer starts, with priority 0. Behind that a lens knows its place.
+  this->StartObserver = renderView->GetRenderer()->AddObserver(
+    vtkCommand::StartEvent, this, &vtkPointFrontRepresentation::PlaceLens, -1.0f);
   return this->Superclass::AddToView(view);
 }
 
@@ -371,6 +394,7 @@ bool vtkPointFrontRepresentation::RemoveFromView(vtkView* view)
     return false;
   }
   this->ResumeFXAA();
+  renderView->GetRenderer()->RemoveObserver(this->StartObserver);
   renderView->GetRenderer()->RemoveActor(this->Actor);
   renderView->UnRegisterPropForHardwareSelection(this, this->Actor);
   return this->Superclass::RemoveFromView(view);
@@ -405,6 +429,28 @@ vtkIdType vtkPointFrontRepresentation::GetNodesDrawn()
 double vtkPointFrontRepresentation::GetProjectedSpacing()
 {
   return this->IsDrawing() ? this->Mapper->GetLastError() : 0.0;
+}
+
+//------------------------------------------------------------------------------
+vtkIdType vtkPointFrontRepresentation::GetStorePoints()
+{
+  return this->IsDrawing() ? this->Mapper->GetStore()->GetNumberOfPoints() : 0;
+}
+
+//------------------------------------------------------------------------------
+int vtkPointFrontRepresentation::GetFrameLimits()
+{
+  if (!this->IsDrawing())
+  {
+    return 0;
+  }
+  const auto bit = [](bool set, int value) { return set ? value : 0; };
+  const bool points = this->Mapper->GetLastLimitedByPoints();
+  return bit(points && !this->InMotion, POINT_BUDGET) | bit(points && this->InMotion, FRAME_TIME) |
+    bit(this->Mapper->GetLastLimitedByGPUMemory(), GPU_MEMORY) |
+    bit(this->Mapper->GetLastLimitedByMemory(), HOST_MEMORY) |
+    bit(!this->Mapper->GetLastComplete(), LOADING) |
+    bit(this->Mapper->GetLastFailedNodes() > 0, UNREADABLE);
 }
 
 //------------------------------------------------------------------------------

@@ -170,6 +170,25 @@ public:
 
   ///@{
   /**
+   * A lens that shows what it covers in other styles: its shape (LensPlace::Shape); its centre as
+   * parts of the picture's width and height, from the lower left corner; a circle's radius as a
+   * part of the height; a rectangle's size as parts of width and height. Inside, as for classes;
+   * without a code for all classes.
+   */
+  void SetLensShape(int shape);
+  void SetLensCenter(double x, double y);
+  void SetLensRadius(double radius);
+  void SetLensSize(double width, double height);
+  void ClearLensStyles();
+  void AddLensStyle(
+    const char* classCode, const char* technique, const char* color, const char* size);
+  ///@}
+
+  /// Milliseconds in which detail grows and shrinks (vtkPointFrontMapper::SetGrowthTime).
+  void SetGrowthTime(double milliseconds);
+
+  ///@{
+  /**
    * Of the property and the actor, as in vtkGeometryRepresentation.
    */
   void SetPointSize(double pixels);
@@ -193,6 +212,21 @@ public:
   vtkIdType GetNodesDrawn();
   double GetProjectedSpacing();
   ///@}
+
+  /// Points of the store that is drawn, all of them; 0 on a process that draws nothing.
+  vtkIdType GetStorePoints();
+
+  /// Why the last frame of this process has not reached the target error: bits.
+  enum FrameLimits
+  {
+    POINT_BUDGET = 1,
+    GPU_MEMORY = 2,
+    HOST_MEMORY = 4,
+    FRAME_TIME = 8, ///< of a frame in motion
+    LOADING = 16, ///< not all points are there yet
+    UNREADABLE = 32 ///< nodes that cannot be read
+  };
+  int GetFrameLimits();
 
   /// Memory that this process has for the points of all clouds, MiB (vtkPointFrontSettings).
   int GetHostMemoryBudget();
@@ -223,8 +257,10 @@ private:
   void PrepareFrame(vtkInformation* inInfo, vtkPVRenderView* view);
   void PrepareClasses();
   void PrepareColors();
-  /// Hands the mapper a style, if one is needed; `array` is drawn, or none if it is empty.
-  void PrepareStyle(const std::string& array, bool direct);
+  /// Hands the mapper a style, if one is needed.
+  void PrepareStyle();
+  /// When the renderer starts: its size is known.
+  void PlaceLens();
   /// Greys over the heights of the cloud; null without a store.
   vtkScalarsToColors* HeightTable();
   bool WantsComplete(vtkPVRenderView* view) const;
@@ -254,8 +290,12 @@ private:
   std::vector<vtkWeakPointer<vtkPVLODActor>> HiddenMarks;
   bool ToldOfNames = false; ///< that they are no colours
   bool CrispPoints = true;
+  bool InMotion = false; ///< the last frame
   vtkWeakPointer<vtkPVRenderView> SuspendedView; ///< whose FXAA is off for a frame
   unsigned long EndObserver = 0;
+  unsigned long StartObserver = 0;
+  std::string DrawnArray; ///< empty: one colour
+  bool DrawnDirectly = false; ///< its components are the colour
   const std::unique_ptr<pointfront::StyleChoice> Choice;
   double PointSize = 2.0;
   double SizeFactor = 1.0;

@@ -225,6 +225,7 @@ void vtkSMPointFrontRepresentationProxy::OnTimer(vtkObject*, unsigned long, void
   // vtkSMSessionClient returns false always; a frame that could not be gathered says "complete",
   // which ends here.
   this->GatherInformation(frame);
+  this->TellFrame(frame);
   if (frame->GetOutdated())
   {
     // Without a window of its own the interactor renders through ParaView's proxies; OnRendered
@@ -248,9 +249,17 @@ void vtkSMPointFrontRepresentationProxy::UpdatePropertyInformationInternal(vtkSM
   }
   vtkNew<vtkPVPointFrontFrame> frame;
   this->GatherInformation(frame);
+  this->TellFrame(frame);
+}
+
+//------------------------------------------------------------------------------
+void vtkSMPointFrontRepresentationProxy::TellFrame(vtkPVPointFrontFrame* frame)
+{
   vtkSMPropertyHelper(this, "PointsDrawn").Set(frame->GetPointsDrawn());
+  vtkSMPropertyHelper(this, "PointsInView").Set(frame->GetPointsInView().c_str());
   vtkSMPropertyHelper(this, "NodesDrawn").Set(frame->GetNodesDrawn());
   vtkSMPropertyHelper(this, "ProjectedSpacing").Set(frame->GetProjectedSpacing());
+  vtkSMPropertyHelper(this, "LimitedBy").Set(frame->GetLimitedBy().c_str());
   vtkSMPropertyHelper(this, "HostMemoryBudget").Set(frame->GetHostMemoryBudget());
   vtkSMPropertyHelper(this, "FrameComplete").Set(frame->GetComplete() ? 1 : 0);
 }

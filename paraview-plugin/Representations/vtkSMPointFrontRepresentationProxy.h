@@ -8,10 +8,10 @@
  * the view's interactor. When it fires, the last frame is gathered from all processes
  * (vtkPVPointFrontFrame); if one of them has more to show, the interactor's RenderEvent is invoked,
  * which ParaView turns into a still render, or an interactive one while a mouse button is held. It
- * ends when the frame is complete everywhere. Works without Qt: in the ParaView application, and in
- * a Python client with a window (Interact()), with the builtin and with remote servers. In batch
- * there is no event loop and no timer. Before each render it hides the legends of colours that are
- * drawn as they are.
+ * ends when the frame is complete everywhere. What is gathered is what the panel shows of the view.
+ * Works without Qt: in the ParaView application, and in a Python client with a window (Interact()),
+ * with the builtin and with remote servers. In batch there is no event loop and no timer. Before
+ * each render it hides the legends of colours that are drawn as they are.
  *
  * The server manager makes one for every representation of a view, whatever it draws; one that is
  * not the active type stays silent and sends nothing to the server. Client only, main thread.
@@ -26,6 +26,7 @@
 #include <string>
 #include <vector>
 
+class vtkPVPointFrontFrame;
 class vtkRenderWindowInteractor;
 class vtkSMViewProxy;
 
@@ -48,8 +49,8 @@ protected:
   /// so (pvbatch, Python).
   void CreateVTKObjects() override;
 
-  /// PointsDrawn, NodesDrawn, ProjectedSpacing and FrameComplete are of all processes, not of the
-  /// server's root.
+  /// PointsDrawn, NodesDrawn, ProjectedSpacing, LimitedBy and FrameComplete are of all processes,
+  /// not of the server's root.
   void UpdatePropertyInformationInternal(vtkSMProperty* property) override;
 
 private:
@@ -59,6 +60,8 @@ private:
   /// Asks the server for the classes of the store; all are shown where nothing else was chosen.
   void GatherClasses();
   void TellClasses();
+  /// Sets what the panel shows of a frame.
+  void TellFrame(vtkPVPointFrontFrame* frame);
   void Follow(vtkSMViewProxy* view);
   void Unfollow();
   /// Whether this is the representation that the view draws now.

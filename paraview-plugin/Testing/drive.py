@@ -216,6 +216,15 @@ def colours(programs):
         raise AssertionError("nobody is told, or more than once, that ids are no colours")
 
 
+def facts(programs):
+    """Ranges and facts, against what reading all points of the store says."""
+    with open("statistics.json", "w") as file:
+        file.write(tool("info", "--stats", "--json", os.environ["POINTFRONT_STORE"]))
+    command = [os.environ["POINTFRONT_PVBATCH"], os.path.join(HERE, "facts.py"), "statistics.json"]
+    programs.run(*command, "alone")
+    programs.run(*mpi(2, *command))
+
+
 def files(programs):
     """Point files of several families, opened on one process and on two."""
     def places(shift):
@@ -273,8 +282,6 @@ def filtered(programs):
     print(told)
     if "is a filter's output" not in told:
         raise AssertionError("nobody is told why a filter's output is not drawn")
-    if "a query selects among the 5000 points of the overview" not in told:
-        raise AssertionError("nobody is told what a query selects among")
     compare("filtered", "tool")
 
 
@@ -355,8 +362,17 @@ def looks(programs):
                              % told.count("has no attribute"))
 
 
-def series(programs):
-    """Three made-up surveys; the second has other attributes."""
+def lens(programs):
+    for count in (1, 2):
+        name = "lens-%d" % count
+        programs.run(*mpi(count, os.environ["POINTFRONT_PVBATCH"],
+                          os.path.join(HERE, "lens.py"), name))
+    for way in ("Circle", "Rectangle", "hidden"):
+        compare("lens-2-" + way, "lens-1-" + way, channel=2)
+
+
+def surveys():
+    """Three made-up surveys; the second has other attributes. Pairs of a store and its points."""
     steps = []
     for time, points in enumerate((20000, 50000, 30000)):
         store = os.path.abspath("survey_%d.pfront" % time)
@@ -365,6 +381,41 @@ def series(programs):
         tool("build", "survey.las", "-o", store, "--force",
              *(["--attributes", "rgb"] if time == 1 else []))
         steps.append((store, json.loads(tool("info", store, "--json"))["points"]))
+    return steps
+
+
+def queries(programs):
+    """What queries select is what the tool exports for the same conditions."""
+    rows = exported("all")
+    height, intensity = rows[:, 2], rows[:, 3]
+    middle = float(numpy.median(height))
+    wanted = {
+        "(intensity > 100)": (intensity > 100).sum(),
+        "intensity == 100": (intensity == 100).sum(),
+        "(intensity >= 50) & (intensity <= 60)": ((intensity >= 50) & (intensity <= 60)).sum(),
+        "(intensity < 50) | (elevation > %r)" % middle:
+            ((intensity < 50) | (height > middle)).sum(),
+        "(elevation == max(elevation))": (height == height.max()).sum(),
+        "(intensity > mean(intensity)) & (elevation > %r)" % middle:
+            ((intensity > intensity.mean()) & (height > middle)).sum()}
+    means = {query: intensity[eval(query, {"intensity": intensity})].mean()
+             for query in ("(intensity > 100)",)}
+    steps = [(store, int(points), tool("info", "--stats", "--json", store))
+             for store, points in surveys()]
+    heights = [next(a for a in json.loads(told)["stats"]["attributes"] if a["name"] == "z")
+               for _, _, told in steps]
+    with open("queries.json", "w") as file:
+        json.dump({"wanted": {query: int(count) for query, count in wanted.items()},
+                   "means": means, "steps": [store for store, _, _ in steps],
+                   "highest": [one["maximum"] for one in heights],
+                   "mean": [one["mean"] for one in heights]}, file)
+    command = [os.environ["POINTFRONT_PVBATCH"], os.path.join(HERE, "queries.py"), "queries.json"]
+    programs.run(*command)
+    programs.run(*mpi(2, *command))
+
+
+def series(programs):
+    steps = surveys()
     command = [os.environ["POINTFRONT_PVBATCH"], os.path.join(HERE, "series.py"), json.dumps(steps)]
     programs.run(*command)
     programs.run(*mpi(2, *command))
@@ -507,13 +558,13 @@ def main(way):
     tool("render", store, "-o", "tool.png", "--size", "640x360",
          "--camera", os.environ["POINTFRONT_CAMERA"], "--color-by", "rgb", "--point-size", "2",
          "--error", "0.01", "--background", "0,0,0")
-    ways = {"batch": batch, "classes": classes, "ranks": ranks, "server": server,
-            "application": application, "colours": colours, "filtered": filtered,
+    ways = {"application": application, "backends": backends, "batch": batch,
+            "batch-selection": batch_selection, "classes": classes, "colours": colours,
+            "extract": extract, "facts": facts, "files": files, "filtered": filtered,
+            "first-hour": first_hour, "lens": lens, "looks": looks, "queries": queries,
+            "ranks": ranks, "ranks-selection": ranks_selection, "rectangles": rectangles,
             "rubber-band": rubber_band, "selection": selection, "series": series,
-            "ranks-selection": ranks_selection, "batch-selection": batch_selection,
-            "rectangles": rectangles, "extract": extract, "files": files, "looks": looks,
-            "views": views, "state": state, "backends": backends,
-            "first-hour": first_hour, "written": written}
+            "server": server, "state": state, "views": views, "written": written}
     with Programs() as programs:
         ways[way](programs)
 

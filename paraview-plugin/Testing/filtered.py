@@ -38,14 +38,6 @@ simple.Show(transform, scene.view)
 scene.save("filtered-points")
 simple.Hide(transform, scene.view)
 
-# A query has the overview to select among, and says so.
-simple.SetActiveSource(scene.reader)
-simple.QuerySelect(QueryString="(intensity > 100)", FieldType="POINT", InsideOut=0)
-queried = simple.ExtractSelection(Input=scene.reader)
-queried.UpdatePipeline()
-require(0 < queried.GetDataInformation().GetNumberOfPoints() < 5000, "a query of the overview")
-simple.ClearSelection(scene.reader)
-
 # The store is drawn again, moved by the representation's own transformation.
 simple.Show(scene.reader, scene.view)
 scene.move([50.0, 0.0, 0.0])

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "vtkType.h"
+
+#include <cstdint>
+#include <string>
+
+class vtkPolyData;
+
+namespace pointfront
+{
+
+class StoredCloud;
+
+/// A number for people: 10,653,336.
+std::string groupedDigits(std::uint64_t number);
+
+/// What the store is, in lines for a panel: points, bounds, coordinate reference system, structure,
+/// classes with their points (of a store with a tree for each class), attributes' ranges.
+std::string storeFacts(const StoredCloud& store);
+
+/// The same as field data of the reader's output, and "output_is": what the points of the output
+/// are. `mostOverviewPoints` is the reader's limit.
+void addStoreFacts(const StoredCloud& store, vtkIdType mostOverviewPoints, vtkPolyData* output);
+
+/// Gives the point arrays of an overview the ranges of the whole store. Data arrays keep the range
+/// that they were asked for last until they are modified; ParaView asks for it, and so colour maps,
+/// thresholds and histograms span what the store has. The overview alone lacks most extremes. Of
+/// vectors the components' ranges are the store's and that of the length is the overview's; the
+/// colours "rgb" keep the overview's.
+void setStoreRanges(const StoredCloud& store, vtkPolyData* output);
+
+} // namespace pointfront

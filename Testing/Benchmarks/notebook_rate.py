@@ -26,7 +26,8 @@ import time
 CHROMIUM = os.environ.get("POINTFRONT_CHROMIUM", "/usr/bin/chromium")
 SIZE = {"width": 1280, "height": 720}
 FIRST_SECONDS = 300.0  # most, for the first picture
-SMALLEST = 4000  # bytes: what is less is no picture
+JPEG = re.compile(rb"\xff\xd8\xff")
+FRAME_OF_JPEG = re.compile(rb"\xff[\xc0\xc2]\x00.\x08(..)(..)", re.DOTALL)  # height, width
 
 PEER = """
 import sys, numpy, pyvista
@@ -68,7 +69,7 @@ def turn(page, seconds):
 
 
 def measure(browser, command, seconds, environment, picture):
-    """Of a server that prints its address: (frames a second, median bytes a frame)."""
+    """Of a server that prints its address: frames a second; median bytes, width and height."""
     server = subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=environment)
     try:
         address = None
@@ -78,29 +79,33 @@ def measure(browser, command, seconds, environment, picture):
                 sys.exit(f"{command} ended")
             address = re.search(r"http://\S+", line)
         page = browser.new_page(viewport=SIZE)
-        sizes = []
+        frames = []
 
         def note(data):
-            if isinstance(data, bytes) and len(data) > SMALLEST:
-                sizes.append(len(data))
+            start = JPEG.search(data, 0, 4000) if isinstance(data, bytes) else None
+            frame = FRAME_OF_JPEG.search(data, start.start()) if start else None
+            if frame:
+                height, width = (int.from_bytes(edge, "big") for edge in frame.groups())
+                frames.append((len(data), width, height))
 
         page.on("websocket", lambda socket: socket.on("framereceived", note))
         page.goto(address.group(0))
         end = time.monotonic() + FIRST_SECONDS
-        while not sizes and time.monotonic() < end:
+        while not frames and time.monotonic() < end:
             page.wait_for_timeout(200)
-        if not sizes:
+        if not frames:
             sys.exit(f"{command[0]}: no picture within {FIRST_SECONDS:.0f} s")
         page.wait_for_timeout(4000)
         turn(page, 2.0)  # what is needed only once
         page.wait_for_timeout(3000)
-        sizes.clear()
+        frames.clear()
         turn(page, seconds)
-        moving = list(sizes)
+        moving = list(frames)
         page.wait_for_timeout(4000)
         page.screenshot(path=picture)
         page.close()
-        return len(moving) / seconds, statistics.median(moving) if moving else 0
+        middle = [statistics.median(column) for column in zip(*moving)] if moving else [0, 0, 0]
+        return (len(moving) / seconds, *middle)
     finally:
         server.terminate()
         server.wait()
@@ -147,11 +152,12 @@ def main():
                 browser, [chosen.peer, "-c", PEER, str(file)], chosen.peer_seconds, os.environ,
                 pictures / "peer.png")
         browser.close()
-    print("| view | frames a second | kB a frame |\n|---|---:|---:|")
-    for name, (rate, size) in rows.items():
-        print(f"| {name} | {rate:.1f} | {size / 1e3:.0f} |")
+    print("| view | frames a second | kB a frame | pixels |\n|---|---:|---:|---:|")
+    for name, (rate, size, width, height) in rows.items():
+        print(f"| {name} | {rate:.2f} | {size / 1e3:.0f} | {width:.0f}x{height:.0f} |")
     if chosen.json:
-        result = {name: {"frames_per_second": r, "bytes": b} for name, (r, b) in rows.items()}
+        keys = ("frames_per_second", "bytes", "width", "height")
+        result = {name: dict(zip(keys, row)) for name, row in rows.items()}
         pathlib.Path(chosen.json).write_text(json.dumps(result, indent=2))
 
 

@@ -18,8 +18,8 @@ try:
     from ._remote import RemoteView
 except ImportError as missing:
     raise PointFrontError(
-        f"a page needs Python's packages trame, trame-rca and pillow: pip install "
-        f"'pointfront[web]' ({missing})") from None
+        f"a page needs Python's packages trame, trame-rca and pillow: pip install trame trame-rca "
+        f"pillow ({missing})") from None
 
 VIEWS = ("iso", "top", "front", "back", "left", "right")
 TECHNIQUES = ("splats", "points", "spheres", "ewa")

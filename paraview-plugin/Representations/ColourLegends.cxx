@@ -3,7 +3,6 @@
 #include "vtkPointFrontRepresentation.h"
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMProxy.h"
-#include "vtkSMPVRepresentationProxy.h"
 #include "vtkSMScalarBarWidgetRepresentationProxy.h"
 
 #include <set>
@@ -19,6 +18,19 @@ bool isPointFront(vtkSMProxy* representation)
   const char* const type =
     vtkSMPropertyHelper(representation, "Representation", true).GetAsString();
   return type && std::string(type) == "Point Front";
+}
+
+/// Whether a representation is coloured by an array. (ParaView's own question moved to another
+/// class with 5.12.)
+bool isColoured(vtkSMProxy* representation)
+{
+  if (!representation->GetProperty("ColorArrayName") || !representation->GetProperty("LookupTable"))
+  {
+    return false;
+  }
+  const char* const array =
+    vtkSMPropertyHelper(representation, "ColorArrayName").GetInputArrayNameToProcess();
+  return array && *array;
 }
 
 /// Whether Point Front draws the colours that it was asked for through the colour map.
@@ -51,7 +63,7 @@ void hideUnusedLegends(vtkSMProxy* view)
     {
       legends.insert(proxy);
     }
-    else if (vtkSMPVRepresentationProxy::GetUsingScalarColoring(proxy))
+    else if (isColoured(proxy))
     {
       const bool none = isPointFront(proxy) && !drawsThroughMap(proxy);
       (none ? unused : used).insert(vtkSMPropertyHelper(proxy, "LookupTable", true).GetAsProxy());

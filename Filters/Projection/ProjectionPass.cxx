@@ -48,6 +48,28 @@ bool looksLikeDegrees(const SourceDescription& source)
   }
   return extent < 1.0 && dwarfed;
 }
+
+/// The bounds and the scanners' places, as they are in another system.
+Result<void> moveDescription(SourceDescription& description, const CoordinateTransform& transform)
+{
+  if (!description.declaredBounds.empty())
+  {
+    Result<Bounds> moved = transformedBounds(description.declaredBounds, transform);
+    if (!moved)
+    {
+      return moved.error();
+    }
+    description.declaredBounds = *moved;
+  }
+  for (ScannerPlace& scanner : description.scanners)
+  {
+    if (Result<void> done = transform.apply(&scanner.position, 1); !done)
+    {
+      return done;
+    }
+  }
+  return {};
+}
 } // namespace
 
 Result<CoordinateSystem> ProjectionPass::defined(const std::string& definition) const
@@ -277,24 +299,17 @@ Result<PointSources> ProjectionPass::inOneSystem(
     {
       resident = description.grid;
     }
-    if (way.transform && !description.declaredBounds.empty())
+    if (!way.transform)
     {
-      Result<Bounds> moved = transformedBounds(description.declaredBounds, *way.transform);
-      if (!moved)
-      {
-        return makeError(moved.error().kind, description.path + ": " + moved.error().what);
-      }
-      description.declaredBounds = *moved;
-      extent.add(*moved);
+      continue;
     }
-    for (ScannerPlace& scanner : description.scanners)
+    if (Result<void> done = moveDescription(description, *way.transform); !done)
     {
-      if (Result<void> done =
-            way.transform ? way.transform->apply(&scanner.position, 1) : Result<void>();
-          !done)
-      {
-        return makeError(done.error().kind, description.path + ": " + done.error().what);
-      }
+      return makeError(done.error().kind, description.path + ": " + done.error().what);
+    }
+    if (!description.declaredBounds.empty())
+    {
+      extent.add(description.declaredBounds);
     }
   }
   for (std::size_t s = 0; s < sources.size(); ++s)

@@ -97,6 +97,33 @@ Result<void> PCDBinaryTable::unpack(const std::string& temporaryFolder)
       file_.path + ": the compressed block of " + std::to_string(packed) + " bytes ends after " +
         std::to_string(room - sizesBytes) + "; get a whole copy");
   }
+  if (Result<void> done = locateFields(packed, unpacked); !done)
+  {
+    return done.error();
+  }
+  const bool spilled = unpacked > mostInMemory;
+  if (spilled)
+  {
+    std::error_code none;
+    const std::string folder = temporaryFolder.empty()
+      ? std::filesystem::temp_directory_path(none).string()
+      : temporaryFolder;
+    Result<std::unique_ptr<SpillFile>> file = SpillFile::create(folder, unpacked);
+    if (!file)
+    {
+      return file.error();
+    }
+    spilled_ = std::move(*file);
+  }
+  const std::byte* block = file_.map.data() + begin + sizesBytes;
+  const Result<void> done = decode(block, static_cast<std::size_t>(packed), unpacked, spilled);
+  file_.map.release(begin, static_cast<std::size_t>(packed));
+  return done;
+}
+
+/// Where the fields of all points begin in a block that unpacks to so many bytes.
+Result<void> PCDBinaryTable::locateFields(std::uint64_t packed, std::uint64_t unpacked)
+{
   std::uint64_t pointBytes = file_.header.pointBytes();
   std::uint64_t padding = 0;
   for (const PCDField& field : file_.header.fields)
@@ -120,24 +147,7 @@ Result<void> PCDBinaryTable::unpack(const std::string& temporaryFolder)
     fieldBegins_.push_back(offset);
     offset += field.isPadding() && !withPadding ? 0 : field.bytes() * points_;
   }
-  const bool spilled = unpacked > mostInMemory;
-  if (spilled)
-  {
-    std::error_code none;
-    const std::string folder = temporaryFolder.empty()
-      ? std::filesystem::temp_directory_path(none).string()
-      : temporaryFolder;
-    Result<std::unique_ptr<SpillFile>> file = SpillFile::create(folder, unpacked);
-    if (!file)
-    {
-      return file.error();
-    }
-    spilled_ = std::move(*file);
-  }
-  const std::byte* block = file_.map.data() + begin + sizesBytes;
-  const Result<void> done = decode(block, static_cast<std::size_t>(packed), unpacked, spilled);
-  file_.map.release(begin, static_cast<std::size_t>(packed));
-  return done;
+  return {};
 }
 
 Result<std::unique_ptr<PointTable>> PCDBinaryTable::open(

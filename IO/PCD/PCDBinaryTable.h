@@ -47,6 +47,7 @@ private:
   }
   Result<void> locateRecords();
   Result<void> unpack(const std::string& temporaryFolder);
+  Result<void> locateFields(std::uint64_t packed, std::uint64_t unpacked);
   Result<void> decode(
     const std::byte* block, std::size_t blockBytes, std::uint64_t bytes, bool spilled);
   void readRecords(std::uint64_t chunk, const std::vector<bool>& wanted, TableBlock& block) const;

@@ -5,20 +5,49 @@ import re
 import shutil
 import subprocess
 
-FILE_LINES = 600
-FUNCTION_LINES = 100
+FILE_LINES = 450
+FUNCTION_LINES = 60
 SHADER_LINES = 150
 COLUMNS = 100
 FOLDER_FILES = 40  # of the kernel
+# Longer than that still: path and length. Numbers may only shrink, and nothing may be added.
+LONG_FILES = {
+    "CommandLine/Scene/OpenGLScene.cxx": 511,
+    "CommandLine/Scene/SoftwareScene.cxx": 572,
+    "Filters/ImageColor/Testing/TestImageValuesPass.cxx": 545,
+    "IO/Store/Testing/Cxx/TestReader.cxx": 479,
+    "IO/StyleJSON/ParseStyle.cxx": 487,
+    "Rendering/Core/vtkPointFrontMapper.cxx": 550,
+    "Rendering/OpenGL2/GpuPool.cxx": 509,
+    "Rendering/OpenGL2/Testing/Cxx/TestSoftwareBackend.cxx": 568,
+    "Rendering/OpenGL2/Testing/Cxx/TestTechniques.cxx": 542,
+    "Rendering/Software/SoftwareRasteriser.cxx": 454,
+    "Testing/Whole/test_render.py": 545,
+    "paraview-plugin/Testing/drive.py": 522,
+    "vtkmodule/Core/Testing/Plan/TestFramePlanner.cxx": 520,
+    "vtkmodule/Core/pointfront/Residency/StoreNodes.cxx": 524,
+}
+LONG_FUNCTIONS = {  # the longest of the file
+    "IO/StyleJSON/Testing/TestStyleJSON.cxx": 68,
+    "Rendering/Software/Testing/TestOutlinesAndWalls.cxx": 64,
+    "Testing/Benchmarks/frame.cxx": 81,
+    "Testing/Benchmarks/raster.cxx": 63,
+    "vtkmodule/Core/Testing/Residency/TestResidencySoak.cxx": 73,
+}
 CLANG_FORMAT = ("clang-format-14", "clang-format")  # other releases format otherwise
 
 
 def file_length(files):
-    """No file is longer than 600 lines, no shader than 150."""
+    """No file is longer than 450 lines, no shader than 150; LONG_FILES may only shrink."""
     for file in files:
-        limit = SHADER_LINES if file.is_shader else FILE_LINES
-        if file.is_code and len(file.lines) > limit:
+        if not file.is_code:
+            continue
+        usual = SHADER_LINES if file.is_shader else FILE_LINES
+        limit = LONG_FILES.get(file.path, usual)
+        if len(file.lines) > limit:
             yield file.path, len(file.lines), f"{len(file.lines)} lines, at most {limit}"
+        elif file.path in LONG_FILES and len(file.lines) <= usual:
+            yield file.path, len(file.lines), "is long no more: strike it from LONG_FILES"
 
 
 def folder_size(files):
@@ -75,7 +104,9 @@ NOT_A_FUNCTION = re.compile(
 
 
 def function_length(files):
-    """No function is longer than 100 lines. Counts on braces that stand alone (Allman)."""
+    """No function is longer than 60 lines; those of LONG_FUNCTIONS may only shrink.
+
+    Counts on braces that stand alone (Allman)."""
     for file in files:
         if not file.is_cpp:
             continue
@@ -92,8 +123,9 @@ def function_length(files):
             close = re.compile(re.escape(line[: line.index("{")]) + r"\}")
             ends = (n for n in range(start + 1, len(code)) if close.match(code[n]))
             length = next(ends, len(code)) - start - 1
-            if length > FUNCTION_LINES:
-                yield file.path, head + 1, f"a function of {length} lines, at most {FUNCTION_LINES}"
+            limit = LONG_FUNCTIONS.get(file.path, FUNCTION_LINES)
+            if length > limit:
+                yield file.path, head + 1, f"a function of {length} lines, at most {limit}"
 
 
 MACHINE_PATH = re.compile(r"(^|[^a-zA-Z0-9_.])/(tmp|work|farm|root|home)/[a-z]")

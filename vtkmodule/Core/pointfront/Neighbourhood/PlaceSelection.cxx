@@ -185,7 +185,8 @@ std::size_t PlaceSelection::countWithin(const Distances& distances, float limit)
   {
     within -= fourFrom(squared + i) <= limits;
   }
-  return static_cast<std::size_t>(within[0] + within[1] + within[2] + within[3]);
+  const auto all = within[0] + within[1] + within[2] + within[3];
+  return static_cast<std::size_t>(all);
 }
 
 /// Each one's rank is counted: for the twenty there usually are that is faster than a sort, as

@@ -150,8 +150,8 @@ PointSources withAttributes(PointSources sources, const std::vector<Attribute>& 
 ValueSource valuesOf(std::shared_ptr<const PointColumn> column, InputOrder order)
 {
   const auto shared = std::make_shared<const InputOrder>(std::move(order));
-  return [column, shared](const SourceChunk& chunk, const PointBatch& batch, std::byte* values)
-  { return column->read(shared->first(chunk), batch.size(), values); };
+  return [column = std::move(column), shared](const SourceChunk& chunk, const PointBatch& batch,
+           std::byte* values) { return column->read(shared->first(chunk), batch.size(), values); };
 }
 
 } // namespace pointfront

@@ -151,6 +151,7 @@ public:
     , used_(fields.size(), false)
   {
     std::vector<std::string> names;
+    names.reserve(fields.size());
     for (const TableField& field : fields)
     {
       names.push_back(field.name);

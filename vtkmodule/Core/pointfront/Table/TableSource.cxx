@@ -51,6 +51,7 @@ struct Survey
 std::vector<bool> positionFields(const std::vector<TableField>& fields)
 {
   std::vector<std::string> names;
+  names.reserve(fields.size());
   for (const TableField& field : fields)
   {
     names.push_back(field.name);

@@ -234,6 +234,14 @@ std::size_t KdSubtreeBuilder::divide(const Region& region)
   const auto at = inside.begin() + static_cast<std::ptrdiff_t>(rank);
   std::nth_element(inside.begin(), at, inside.end());
   const std::pair<std::uint32_t, std::uint32_t> first = *at; // of the right
+  return separate(region, first);
+}
+
+/// Moves what is before `first` (coordinate, Morton order) to the left, each side in the order it
+/// had; where the right begins. The coordinates are those of divide().
+std::size_t KdSubtreeBuilder::separate(
+  const Region& region, const std::pair<std::uint32_t, std::uint32_t>& first)
+{
   right_.clear();
   rightSteps_.clear();
   std::size_t left = region.begin;
@@ -244,7 +252,7 @@ std::size_t KdSubtreeBuilder::divide(const Region& region)
     const std::uint32_t point = active_[i];
     leftStep = std::max(leftStep, steps_[i]);
     rightStep = std::max(rightStep, steps_[i]);
-    if (std::pair(coordinate(i), point) < first)
+    if (std::pair(coordinates_[i], point) < first)
     {
       steps_[left] = std::exchange(leftStep, std::uint8_t(0));
       active_[left++] = point;

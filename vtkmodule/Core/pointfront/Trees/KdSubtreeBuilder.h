@@ -63,6 +63,7 @@ private:
   std::vector<std::byte> owed(const RecordSpan& records, std::uint32_t node, Region& region);
   std::unique_ptr<BuiltNode> node(const RecordSpan& records, Region region);
   std::size_t divide(const Region& region);
+  std::size_t separate(const Region& region, const std::pair<std::uint32_t, std::uint32_t>& first);
   unsigned longestAxis(const Region& region, std::uint32_t& low, std::uint32_t& high) const;
   double spacing(double drawn) const;
   float splatRadius(const std::vector<std::uint32_t>& own, double drawn);

@@ -97,7 +97,7 @@ Bounds boundsOf(const QuantisationGrid& grid, const NodeColumns& points)
 
 NodeEmitter::NodeEmitter(
   TreeSpace space, const RecordColumns& columns, AttributeSchema stored, Refinement refinement)
-  : space_(std::move(space))
+  : space_(space)
   , schema_(std::move(stored))
   , refinement_(refinement)
 {

@@ -125,7 +125,7 @@ Result<void> TreeAssembly::buildPart(std::uint32_t node, ReadAhead& parts, TreeB
     }
     else
     {
-      open_[node] = std::move(subtree);
+      open_[node] = std::move(subtree); // NOLINT(bugprone-use-after-move): above, the other case
     }
     const bool last = parent != PartNode::none && --missing_[parent] == 0;
     lock.unlock();

@@ -4,8 +4,8 @@
 #include "MapperFronts.h"
 #include "MapperProperties.h"
 #include "MapperStyle.h"
-#include "RenderTimer.h"
 #include "RendererLights.h"
+#include "RenderTimer.h"
 
 #include "pointfront/Detail/DetailLevel.h"
 #include "pointfront/Plan/FramePlanner.h"

@@ -134,16 +134,21 @@ Result<void> StreamCommand::move(const nlohmann::json& request)
 bool StreamCommand::waitForNews(double waitMs)
 {
   const auto begin = Clock::now();
-  while (!scene_->needsFrame())
+  while (true)
   {
-    const std::chrono::duration<double, std::milli> waited = Clock::now() - begin;
-    if (waited.count() >= waitMs || !scene_->loads())
+    const bool loads = scene_->loads(); // asked first: what arrives in between needs a frame
+    if (scene_->needsFrame())
     {
+      return true;
+    }
+    const std::chrono::duration<double, std::milli> waited = Clock::now() - begin;
+    if (waited.count() >= waitMs || !loads)
+    {
+      settled_ = !loads;
       return false;
     }
     std::this_thread::sleep_for(pause);
   }
-  return true;
 }
 
 /// `frame`: that was drawn, or null when there is no other than the last one.
@@ -165,7 +170,7 @@ Result<void> StreamCommand::answer(const FrameRecord* frame)
     head["failed_nodes"] = frame->failedNodes;
   }
   // At rest, and nothing to come: a view may end short of its error where a budget holds it.
-  head["settled"] = frame != nullptr ? frame->complete : !scene_->loads();
+  head["settled"] = frame != nullptr ? frame->complete : settled_;
   head["camera"] = cameraJson(camera_);
   head["bounds"] = boundsJson(scene_->bounds());
   const std::string line = head.dump() + "\n";

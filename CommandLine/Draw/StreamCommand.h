@@ -34,6 +34,7 @@ private:
   DrawingOptions drawing_;
   std::unique_ptr<SoftwareScene> scene_;
   Camera camera_;
+  bool settled_ = false; ///< when it was last waited: nothing was on its way
 };
 
 } // namespace pointfront

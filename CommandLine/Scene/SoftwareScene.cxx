@@ -246,8 +246,8 @@ Result<void> SoftwareScene::shareMemory()
   cost.threads = ThreadCrew::ofProcess().threads();
   cost.overlapRows = SoftwareComposition::reachPx(shading_);
   cost.overlapRows = shading_.fillHoles ? std::max(cost.overlapRows, filledRows) : cost.overlapRows;
-  const std::uint64_t budget =
-    options_.memoryBytes > 0 ? options_.memoryBytes : LoadScheduler::processBudgetBytes();
+  std::uint64_t& budget = options_.memoryBytes;
+  budget = budget > 0 ? budget : LoadScheduler::processBudgetBytes(); // before it is shared below
   const Result<PictureMemory> memory = PictureMemory::share(options_.size, budget, cost);
   if (!memory)
   {

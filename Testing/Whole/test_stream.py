@@ -69,6 +69,13 @@ class Streams(tool.ToolTest):
         numpy.testing.assert_array_equal(drawn[..., :3], pictures.read_png(picture))
         self.assertTrue((drawn[..., 3] == 255).all())
 
+    def test_sizes_may_change_as_often_as_a_window_does(self):
+        stream = self.open()
+        for i in range(160):
+            answer, _ = stream.ask(size=[320, 180] if i % 2 else [1280, 720], moving=True)
+            self.assertIsNotNone(answer, f"it ended at size {i}")
+        self.assertEqual(stream.end(), (0, ""))
+
     def test_sizes_cameras_and_views(self):
         stream = self.open()
         iso, first = stream.settle(size=[64, 48])

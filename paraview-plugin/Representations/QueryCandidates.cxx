@@ -18,7 +18,7 @@
 
 #include <cmath>
 #include <cstddef>
-#include <cstdlib>
+#include <cstdio>
 #include <iomanip>
 #include <limits>
 #include <locale>
@@ -119,9 +119,10 @@ std::optional<std::string> conditionOfComparison(
   const std::string name = trimmed(text.substr(0, sign));
   const std::string comparison = text.substr(sign, rest - sign);
   const std::string number = rest == std::string::npos ? "" : trimmed(text.substr(rest));
-  char* end = nullptr;
-  const double value = std::strtod(number.c_str(), &end);
-  const bool isNumber = !number.empty() && *end == '\0' && std::isfinite(value) &&
+  std::istringstream digits(number); // whatever the locale's decimal point is
+  digits.imbue(std::locale::classic());
+  double value = 0.0;
+  const bool isNumber = (digits >> value) && digits.peek() == EOF && std::isfinite(value) &&
     number.find_first_not_of("+-.0123456789eE") == std::string::npos;
   if (!isNumber || !isOneNumberOf(name, store))
   {
@@ -153,6 +154,8 @@ std::optional<std::string> conditionOfComparison(
 
 bool asksForValues(vtkSelection* selection)
 {
+  int frusta = 0;
+  int lists = 0;
   for (unsigned int i = 0; i < selection->GetNumberOfNodes(); ++i)
   {
     vtkSelectionNode* node = selection->GetNode(i);
@@ -160,8 +163,26 @@ bool asksForValues(vtkSelection* selection)
     const int content = node->GetContentType();
     vtkAbstractArray* list = node->GetSelectionList();
     const bool named = list && list->GetName() && std::string(list->GetName()) == "point_id";
+    vtkInformation* properties = node->GetProperties();
+    const bool inverted =
+      properties->Has(vtkSelectionNode::INVERSE()) && properties->Get(vtkSelectionNode::INVERSE());
     if ((query && *query) || content == vtkSelectionNode::QUERY ||
-      content == vtkSelectionNode::THRESHOLDS || (content == vtkSelectionNode::VALUES && !named))
+      content == vtkSelectionNode::THRESHOLDS || (content == vtkSelectionNode::VALUES && !named) ||
+      (inverted && content != vtkSelectionNode::INDICES))
+    {
+      return true;
+    }
+    frusta += content == vtkSelectionNode::FRUSTUM ? 1 : 0;
+    lists += content == vtkSelectionNode::GLOBALIDS || named ? 1 : 0;
+  }
+  return frusta > 1 || (frusta == 1 && lists > 0);
+}
+
+bool namesRows(vtkSelection* selection)
+{
+  for (unsigned int i = 0; i < selection->GetNumberOfNodes(); ++i)
+  {
+    if (selection->GetNode(i)->GetContentType() == vtkSelectionNode::INDICES)
     {
       return true;
     }
@@ -169,8 +190,15 @@ bool asksForValues(vtkSelection* selection)
   return false;
 }
 
-bool asksForRows(vtkSelection* selection)
+bool asksForRows(vtkSelection* selection, const StoreDescription& store)
 {
+  for (const Attribute& attribute : store.schema)
+  {
+    if (attribute.name == "id")
+    {
+      return false;
+    }
+  }
   const std::regex row("\\bid\\b");
   for (unsigned int i = 0; i < selection->GetNumberOfNodes(); ++i)
   {

@@ -13,11 +13,16 @@ namespace pointfront
 
 struct StoreDescription;
 
-/// Whether a selection asks for values that points have: not by their names, nor by a place.
+/// Whether a selection is about all points of a store: by values that points have, or by all but
+/// those that it names, or by more places than one.
 bool asksForValues(vtkSelection* selection);
 
-/// Whether a query asks for "id", the number of a row: rows are those of the reader's output.
-bool asksForRows(vtkSelection* selection);
+/// Whether a query asks for "id", the number of a row: rows are those of the reader's output. An
+/// attribute of that name comes first.
+bool asksForRows(vtkSelection* selection, const StoreDescription& store);
+
+/// Whether a part of a selection lists numbers of rows.
+bool namesRows(vtkSelection* selection);
 
 /// A condition (FilterExpression) that every point meets which a query of ParaView's selects, and
 /// perhaps others: for a query of comparisons of attributes with numbers, joined by "&". Numbers

@@ -3,6 +3,8 @@
 #include "QueryCandidates.h"
 #include "UpstreamReader.h"
 
+#include "pointfront/Store/StoredCloud.h"
+
 #include "vtkDataSet.h"
 #include "vtkIdTypeArray.h"
 #include "vtkInformationVector.h"
@@ -11,6 +13,8 @@
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkPointFrontExtractSelection.h"
+#include "vtkPointFrontReader.h"
+#include "vtkPointFrontStore.h"
 #include "vtkSelection.h"
 #include "vtkSelectionNode.h"
 
@@ -27,28 +31,30 @@ int vtkPointFrontConvertSelection::RequestData(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   vtkSelection* input = vtkSelection::GetData(inputVector[0], 0);
-  const bool ofStore = this->GetNumberOfInputConnections(1) > 0 &&
-    pointfront::upstreamReader(this->GetInputConnection(1, 0)->GetProducer());
-  if (ofStore && input && pointfront::asksForValues(input) && !pointfront::asksForRows(input))
-  {
-    this->NameWhatIsSelected(input, vtkSelection::GetData(outputVector, 0));
-    return 1;
-  }
+  vtkPointFrontReader* reader = this->GetNumberOfInputConnections(1) > 0
+    ? pointfront::upstreamReader(this->GetInputConnection(1, 0)->GetProducer())
+    : nullptr;
+  const bool ofStore = reader && reader->GetStore();
   bool named = input && input->GetNumberOfNodes() > 0;
   for (unsigned int i = 0; named && i < input->GetNumberOfNodes(); ++i)
   {
     named = input->GetNode(i)->GetContentType() == vtkSelectionNode::GLOBALIDS;
   }
-  if (!ofStore || !named)
+  if (ofStore && named)
   {
-    return this->Superclass::RequestData(request, inputVector, outputVector);
+    vtkSelection::GetData(outputVector, 0)->ShallowCopy(input);
+    return 1;
   }
-  vtkSelection::GetData(outputVector, 0)->ShallowCopy(input);
-  return 1;
+  if (ofStore && input && pointfront::asksForValues(input) &&
+    !pointfront::asksForRows(input, reader->GetStore()->GetStore()->description()))
+  {
+    return this->NameWhatIsSelected(input, vtkSelection::GetData(outputVector, 0)) ? 1 : 0;
+  }
+  return this->Superclass::RequestData(request, inputVector, outputVector);
 }
 
 //------------------------------------------------------------------------------
-void vtkPointFrontConvertSelection::NameWhatIsSelected(
+bool vtkPointFrontConvertSelection::NameWhatIsSelected(
   vtkSelection* selection, vtkSelection* output)
 {
   vtkNew<vtkPointFrontExtractSelection> extract;
@@ -60,12 +66,22 @@ void vtkPointFrontConvertSelection::NameWhatIsSelected(
   vtkDataSet* points = vtkDataSet::SafeDownCast(extract->GetOutputDataObject(0));
   vtkDataArray* ids = points ? points->GetPointData()->GetArray("point_id") : nullptr;
   vtkNew<vtkIdTypeArray> ranks;
-  ids ? ranks->DeepCopy(ids) : void();
+  if (ids)
+  {
+    ranks->DeepCopy(ids);
+  }
+  else if (!points || points->GetNumberOfPoints() > 0)
+  {
+    vtkErrorMacro("the selected points cannot be named: they could not be extracted, or the array "
+                  "point_id is switched off in the reader");
+    return false;
+  }
   vtkNew<vtkSelectionNode> node;
   node->SetContentType(vtkSelectionNode::GLOBALIDS);
   node->SetFieldType(vtkSelectionNode::POINT);
   node->SetSelectionList(ranks);
   output->AddNode(node);
+  return true;
 }
 
 //------------------------------------------------------------------------------

@@ -26,8 +26,9 @@ protected:
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
 private:
-  /// Adds the names of all points of the store that a query selects.
-  void NameWhatIsSelected(vtkSelection* selection, vtkSelection* output);
+  /// Adds the names of all points of the store that a query selects; false, and an error, where
+  /// they cannot be had.
+  bool NameWhatIsSelected(vtkSelection* selection, vtkSelection* output);
 
   vtkPointFrontConvertSelection(const vtkPointFrontConvertSelection&) = delete;
   void operator=(const vtkPointFrontConvertSelection&) = delete;

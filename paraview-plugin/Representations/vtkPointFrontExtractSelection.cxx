@@ -7,6 +7,7 @@
 #include "vtkAbstractArray.h"
 #include "vtkAppendFilter.h"
 #include "vtkCellArray.h"
+#include "vtkCommunicator.h"
 #include "vtkDataSet.h"
 
 #include "vtkDoubleArray.h"
@@ -39,7 +40,7 @@ vtkStandardNewMacro(vtkPointFrontExtractSelection);
 namespace
 {
 
-/// That a selection through the cloud may read, on all processes together: some GB.
+/// That a selection through the cloud may read, a query on each process: some GB.
 constexpr vtkIdType MostPoints = 50000000;
 
 /// Ranks of the points that a selection names, whoever's they are.
@@ -73,6 +74,20 @@ vtkDoubleArray* frustumOf(vtkSelection* selection)
     }
   }
   return nullptr;
+}
+
+/// Whether it is so on all ranks: those that went on alone would wait for the others.
+bool everywhere(bool here, int pieces)
+{
+  auto* controller = vtkMultiProcessController::GetGlobalController();
+  if (!controller || pieces < 2)
+  {
+    return here;
+  }
+  const int mine = here ? 1 : 0;
+  int all = 0;
+  controller->AllReduce(&mine, &all, 1, vtkCommunicator::MIN_OP);
+  return all != 0;
 }
 
 /// By name: VTK's statistics over time take columns by their order.
@@ -190,9 +205,15 @@ vtkSmartPointer<vtkPolyData> vtkPointFrontExtractSelection::GetCandidates(
 {
   vtkPointFrontStore* store = reader->GetStore();
   vtkNew<vtkPolyData> further;
-  const bool byValues = pointfront::asksForValues(selection) &&
-    !pointfront::asksForRows(selection) && store &&
-    store->GetNumberOfPoints() > reader->GetOverviewPoints();
+  const bool hasMore = store && store->GetNumberOfPoints() > reader->GetOverviewPoints();
+  const bool rows = hasMore && pointfront::asksForRows(selection, store->GetStore()->description());
+  const bool byValues = hasMore && !rows && pointfront::asksForValues(selection);
+  if (byValues && pointfront::namesRows(selection))
+  {
+    vtkErrorMacro("the selection joins rows of the spreadsheet, which are those of the overview, "
+                  "and a query, which is about all points. Select by one of the two.");
+    return nullptr;
+  }
   if (byValues)
   {
     const std::string condition = this->GetPreserveTopology()
@@ -251,9 +272,9 @@ int vtkPointFrontExtractSelection::RequestData(
     std::max(1, output->Get(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES()));
   const vtkSmartPointer<vtkPolyData> candidates =
     this->GetCandidates(reader, overview, selection, piece, pieces);
-  if (!candidates)
+  if (!everywhere(candidates != nullptr, pieces))
   {
-    return 0; // has been said
+    return 0; // has been said, here or by another rank
   }
   vtkInformation* input = inputVector[0]->GetInformationObject(0);
   const vtkSmartPointer<vtkDataObject> kept = overview;

@@ -16,6 +16,7 @@
 
 #include <chrono>
 #include <condition_variable>
+#include <exception>
 #include <filesystem>
 #include <map>
 #include <mutex>
@@ -174,6 +175,10 @@ vtkSmartPointer<vtkPointFrontStore> vtkPointFrontStore::Open(
   catch (const std::bad_alloc&)
   {
     error = "not enough memory to open the store " + std::get<0>(identity);
+  }
+  catch (const std::exception& problem) // else all who open it later would wait for ever
+  {
+    error = "cannot open the store " + std::get<0>(identity) + ": " + problem.what();
   }
   {
     const std::lock_guard<std::mutex> lock(all.mutex);

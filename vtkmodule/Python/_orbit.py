@@ -5,6 +5,7 @@ import math
 import numpy
 
 _HIGHEST = math.pi / 2  # elevation
+_LEAST_DISTANCE = 1e-9  # of the coordinates: the eye and what it looks at stay apart
 
 
 class OrbitCamera:
@@ -55,6 +56,7 @@ class OrbitCamera:
     def zoom(self, factor, right=0.0, up=0.0):
         """Closer by that factor; what is at (right, up) stays there."""
         before = self._height()
-        self.distance /= factor
+        least = _LEAST_DISTANCE * max(1.0, float(numpy.abs(self.focal_point).max()))
+        self.distance /= min(factor, max(1.0, self.distance / least))
         to_the_right, upwards, _ = self.axes()
         self.focal_point += (before - self._height()) * (right * to_the_right + up * upwards)

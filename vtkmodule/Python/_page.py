@@ -15,13 +15,12 @@ try:
     from trame.widgets import html, rca
     from trame_rca.view_adapter import RcaViewAdapter
 
-    from ._remote import RemoteView
+    from ._remote import VIEWS, RemoteView
 except ImportError as missing:
     raise PointFrontError(
         f"a page needs Python's packages trame, trame-rca and pillow: pip install trame trame-rca "
         f"pillow ({missing})") from None
 
-VIEWS = ("iso", "top", "front", "back", "left", "right")
 TECHNIQUES = ("splats", "points", "spheres", "ewa")
 START_SECONDS = 30.0  # for a server of a notebook
 
@@ -64,6 +63,23 @@ def _answer_launcher(wslink_server):
         return web.json_response({"sessionURL": "ws://USE_HOST/ws", "secret": "wslink-secret"})
 
     wslink_server.app.router.add_post("/paraview/", sessions)
+
+
+def _refuse_foreign_pages(wslink_server):
+    """A browser connects any page to any server of its machine, and says which page asks. Only
+    pages of this server, or of a proxy that says whom it stands for, reach the view.
+    """
+    from aiohttp import web
+
+    @web.middleware
+    async def check(request, handler):
+        origin = request.headers.get("Origin")
+        hosts = {request.headers.get("Host"), request.headers.get("X-Forwarded-Host")}
+        if origin is not None and urllib.parse.urlsplit(origin).netloc not in hosts:
+            raise web.HTTPForbidden(text="a page of another server asks for this view")
+        return await handler(request)
+
+    wslink_server.app.middlewares.append(check)
 
 
 class CloudPage:
@@ -114,6 +130,7 @@ class CloudPage:
         controller = self.server.controller
         controller.on_server_ready.add(lambda **_: self._watch_network(adapter))
         controller.on_server_bind.add(_answer_launcher)
+        controller.on_server_bind.add(_refuse_foreign_pages)
 
     def _watch_network(self, adapter):
         if adapter.streamer is not None:
@@ -180,12 +197,16 @@ class NotebookView:
         except BaseException as problem:  # it is raised where the view was asked for
             self._problem = problem
             self._ready.set()
+        finally:
+            self._loop.close()
 
     async def _serve(self):
-        await self._page.server.start(
-            port=0, thread=True, exec_mode="coroutine", open_browser=False, disable_logging=True,
-            show_connection_info=False, timeout=0)
-        await self._page.view.close()
+        try:
+            await self._page.server.start(
+                port=0, thread=True, exec_mode="coroutine", open_browser=False,
+                disable_logging=True, show_connection_info=False, timeout=0)
+        finally:
+            await self._page.view.close()
 
     @property
     def url(self):

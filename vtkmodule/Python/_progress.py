@@ -21,6 +21,7 @@ class Watch:
         self._raised = []
         self._bar = None
         self._before = None  # what SIGINT did
+        self._observer = None
         if progress is True:
             self._bar = _bar()
             progress = self._advance
@@ -45,7 +46,7 @@ class Watch:
     def __enter__(self):
         if self._progress is None:
             return self
-        self._algorithm.AddObserver(self._event, self._report)
+        self._observer = self._algorithm.AddObserver(self._event, self._report)
         # A KeyboardInterrupt that strikes inside an observer ends the process: VTK's rule.
         if (threading.current_thread() is threading.main_thread()
                 and signal.getsignal(signal.SIGINT) is signal.default_int_handler):
@@ -54,6 +55,8 @@ class Watch:
         return self
 
     def __exit__(self, kind, *_):
+        if self._progress is not None:  # else a circle of references would keep the result
+            self._algorithm.RemoveObserver(self._observer)
         if self._before is not None:
             signal.signal(signal.SIGINT, self._before)
         if self._bar is not None:

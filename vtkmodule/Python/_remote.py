@@ -16,6 +16,7 @@ MOVING_QUALITY = 60  # of JPEG
 RESTING_QUALITY = 90
 SLOW_SECONDS = 0.05  # a frame in motion that takes longer makes the next motion's smaller
 FAST_SECONDS = 0.025
+VIEWS = ("iso", "top", "front", "back", "left", "right")
 SCALES = (1.0, 0.75, 0.5)  # of the size, in motion
 LARGEST_EDGE = 4096  # pixels
 WAIT_MS = 50  # for what the disk gives; an event waits as long at most
@@ -153,8 +154,9 @@ class RemoteView:
     # What the page asks for
     def look(self, view):
         """From "iso", "top", "front", "back", "left" or "right", at all of the cloud."""
-        self._view = view
-        self.schedule_render()
+        if view in VIEWS:
+            self._view = view
+            self.schedule_render()
 
     def draw_with(self, arguments):
         """With other arguments of the command line from now on, from where the camera is."""
@@ -228,20 +230,26 @@ class RemoteView:
         while not frame.settled and not self._news.is_set():
             frame = await self._show({**self._request(False), "wait_ms": WAIT_MS}, False)
 
+    async def _answer_events(self):
+        """Frames in motion, until the mouse rests, and those at rest."""
+        while self._moves():
+            await self._show(self._request(True), True)
+            if not self._news.is_set():  # the mouse rests: perhaps for a moment
+                rest = self._moved + REST_SECONDS - time.monotonic()
+                try:
+                    await asyncio.wait_for(self._news.wait(), max(0.0, rest))
+                except asyncio.TimeoutError:
+                    break
+            self._news.clear()
+        await self._refine()
+
     async def _run(self):
-        try:
-            while True:
-                await self._news.wait()
-                self._news.clear()
-                while self._moves():
-                    await self._show(self._request(True), True)
-                    if not self._news.is_set():  # the mouse rests: perhaps for a moment
-                        rest = self._moved + REST_SECONDS - time.monotonic()
-                        try:
-                            await asyncio.wait_for(self._news.wait(), max(0.0, rest))
-                        except asyncio.TimeoutError:
-                            break
-                    self._news.clear()
-                await self._refine()
-        except PointFrontError as problem:
-            self._told({"problem": str(problem)})
+        while True:
+            await self._news.wait()
+            self._news.clear()
+            try:
+                await self._answer_events()
+            except Exception as problem:  # all who look are told; the next event begins again
+                self._told({"problem": str(problem) or type(problem).__name__})
+                self._restarts = True
+                self._orbit = None

@@ -9,6 +9,7 @@ import numpy
 from ._errors import PointFrontError
 from ._host import TOOL
 
+END_SECONDS = 2.0  # for a tool whose input has ended
 
 class Frame:
     """One answer of the tool.
@@ -59,19 +60,25 @@ class FrameStream:
         moving   True: as much detail as the time of a frame allows
         wait_ms  waits that long at most for something that the last frame did not have
         """
+        line = json.dumps(request).encode() + b"\n"
         try:
-            self._tool.stdin.write(json.dumps(request).encode() + b"\n")
+            self._tool.stdin.write(line)
             self._tool.stdin.flush()
             facts = json.loads(self._tool.stdout.readline() or b"null")
             data = self._tool.stdout.read(facts["bytes"]) if facts else b""
         except (OSError, ValueError) as problem:
+            self._tool.stdin.close()  # it ends, if it has not
             raise PointFrontError(self._complaint() or str(problem)) from None
         if facts is None or len(data) < facts["bytes"]:
             raise PointFrontError(self._complaint() or "the drawing ended")
         return Frame(facts, data)
 
     def _complaint(self):
-        self._tool.wait()
+        try:
+            self._tool.wait(END_SECONDS)
+        except subprocess.TimeoutExpired:
+            self._tool.kill()
+            self._tool.wait()
         self._said.seek(0)
         return self._said.read().decode(errors="replace").strip()
 

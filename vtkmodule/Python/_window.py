@@ -37,7 +37,8 @@ class _Interrupts:
         finally:
             self._interactor.DestroyTimer(timer)
             self._interactor.RemoveObserver(looks)
-            signal.signal(signal.SIGINT, before)
+            if before is not None:  # a handler that is not Python's cannot be set again
+                signal.signal(signal.SIGINT, before)
         if self._came:
             raise KeyboardInterrupt
 

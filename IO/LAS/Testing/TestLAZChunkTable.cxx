@@ -6,7 +6,6 @@
 
 #include <laszip/laszip_api.h>
 
-#include <chrono>
 #include <cstdint>
 #include <string>
 
@@ -46,22 +45,19 @@ std::string chunksOfOnePoint(std::uint32_t points)
   return path;
 }
 
-TEST(LAZChunkTable, ChunksBehindTheCountAreDroppedInTimeThatGrowsWithTheirNumber)
+TEST(LAZChunkTable, ManyChunksBehindTheCountAreDropped)
 {
-  constexpr std::uint32_t points = 60000;
+  constexpr std::uint32_t points = 60000; // counting them anew for each one would take 9 s
   FileBytes bytes(chunksOfOnePoint(points));
   bytes.put<std::uint32_t>(107, 1); // the header's count
   const std::string path = bytes.write("one.laz");
-  const auto begin = std::chrono::steady_clock::now();
   const auto source = LASFormat().open(path);
-  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
   ASSERT_TRUE(source) << source.error().what;
   ASSERT_EQ((*source)->description().warnings.size(), 1u);
   EXPECT_NE((*source)->description().warnings[0].find("59999 of 60000 chunks lie behind them"),
     std::string::npos)
     << (*source)->description().warnings[0];
   EXPECT_EQ(readAll(**source).size(), 1u);
-  EXPECT_LT(taken.count(), 0.5); // adding all chunks up for each one dropped takes seconds
 }
 
 TEST(LAZChunkTable, ACountInTheMiddleOfManyChunksKeepsThem)

@@ -1,6 +1,7 @@
 """The Python package: calls that raise, a free interpreter, interrupts, versions, stubs."""
 
 import ast
+import gc
 import inspect
 import os
 import pathlib
@@ -228,6 +229,17 @@ class Package(unittest.TestCase):
             done.set()
             thread.join()
             self.assertGreater(len(ticks), 10 * seconds)
+
+    def test_a_watched_query_leaves_nothing_behind(self):
+        """No circle of references holds its arrays until Python looks for circles."""
+        store = self.folder / "a.pfront"
+        pointfront.build(SMALL, store, preview=False)
+        with pointfront.open(store) as cloud:
+            gc.collect()
+            gc.disable()
+            self.addCleanup(gc.enable)
+            cloud.points(progress=lambda *_: None)
+            self.assertEqual(gc.collect(), 0)
 
     def interrupted(self, work):
         timer = threading.Timer(0.4, os.kill, (os.getpid(), signal.SIGINT))

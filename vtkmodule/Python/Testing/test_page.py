@@ -14,6 +14,8 @@ import sys
 import tempfile
 import time
 import unittest
+import urllib.error
+import urllib.request
 
 import numpy
 import pointfront
@@ -91,6 +93,34 @@ class Frames(unittest.TestCase):
         self.assertTrue(told[-1]["settled"])
         points = [facts["points"] for facts in told if facts["moving"]]
         self.assertLess(points[-1], told[-1]["points"], "the view at rest is not refined")
+
+
+    def test_an_error_is_told_and_the_next_event_begins_again(self):
+        folder = tempfile.TemporaryDirectory(prefix="pointfront-frames-")
+        self.addCleanup(folder.cleanup)
+        store = pathlib.Path(folder.name) / "a.pfront"
+        pointfront.build(CLOUD, store)
+        told = []
+
+        async def err():
+            view = RemoteView([store], [], told.append)
+            view.set_push_callback(lambda *_: None)
+            view.process_resize_event(320, 180)
+            view.draw_with(["--color-by", "nothing-of-that-name"])
+            await asyncio.sleep(1.5)
+            self.assertIn("nothing-of-that-name", told[-1]["problem"])
+            view.draw_with([])
+            await asyncio.sleep(1.5)
+            self.assertTrue(told[-1]["settled"])
+            for _ in range(600):  # as near as a wheel can bring it
+                view.process_interaction_event(
+                    {"type": "MouseWheel", "x": 160, "y": 90, "spinY": -1})
+            view.schedule_render()
+            await asyncio.sleep(1.5)
+            self.assertNotIn("problem", told[-1])
+            await view.close()
+
+        asyncio.run(err())
 
 
 class Page(unittest.TestCase):
@@ -201,6 +231,18 @@ class Page(unittest.TestCase):
             frame = page.frame_locator("iframe")
             frame.locator(SETTLED).wait_for(state="attached", timeout=LIMIT_MS)
             self.assertGreater(self.pixels(page).std(), 20)
+
+    def test_pages_of_others_are_refused(self):
+        server = Server(self.store, "--port", "0")
+        self.addCleanup(server.process.kill)
+        for origin, status in (("http://elsewhere.example", 403), (server.url.rstrip("/"), 200)):
+            request = urllib.request.Request(server.url, headers={"Origin": origin})
+            try:
+                with urllib.request.urlopen(request) as answer:
+                    self.assertEqual(answer.status, status)
+            except urllib.error.HTTPError as refused:
+                self.assertEqual(refused.code, status)
+        server.end()
 
     def test_what_cannot_be_served_is_said(self):
         for arguments, status, says in ((["none.pfront"], 1, "none.pfront"),

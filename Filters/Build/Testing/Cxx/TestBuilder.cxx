@@ -261,7 +261,7 @@ TEST_F(Builder, RefusesWhatDoesNotGoTogether)
     EXPECT_EQ(entries(), 0u);
   };
   builder->SetNormalsRadius(2.0);
-  refuses("normals by PCA, which are not asked for");
+  refuses("normals by PCA or PCL, which are not asked for");
   builder->SetNormalsToPCA();
   builder->SetNormalsNeighbors(8);
   refuses("not both");

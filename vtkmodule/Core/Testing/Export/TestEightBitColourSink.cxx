@@ -56,12 +56,11 @@ protected:
     PointBatch batch;
     batch.resize(colours.size() / 3, description.schema);
     std::memcpy(batch.columns[1].data(), colours.data(), batch.columns[1].size());
-    batch.columns[0].back() = std::byte{ 7 };
+    batch.columns[0][batch.columns[0].size() - 2] = std::byte{ 7 };
     EightBitColourSink sink(std::make_unique<GivenPointsSink>(given));
     EXPECT_TRUE(sink.begin(description));
-    EXPECT_TRUE(sink.append(batch));
+    appended = sink.append(batch);
     EXPECT_TRUE(sink.finish());
-    EXPECT_EQ(given.columns[0], batch.columns[0]);
     return sink.findings();
   }
   std::vector<int> bytes() const
@@ -75,6 +74,7 @@ protected:
   }
 
   GivenPoints given;
+  Result<void> appended;
 };
 
 } // namespace
@@ -83,6 +83,8 @@ TEST_F(EightBitColours, ShiftedAndRepeatedBytesAreKept)
 {
   EXPECT_TRUE(write({ 0x4b00, 0x4600, 0xff00, 0x8181, 0xffff, 0 }, 65535.0).empty());
   EXPECT_EQ(bytes(), (std::vector<int>{ 0x4b, 0x46, 0xff, 0x81, 0xff, 0 }));
+  EXPECT_TRUE(appended);
+  EXPECT_EQ(std::to_integer<int>(given.columns[0][2]), 7) << "others pass";
   EXPECT_EQ(given.description.schema[1].type, ScalarType::UInt8);
   EXPECT_EQ(given.description.largest[1], 255.0);
 }
@@ -99,6 +101,14 @@ TEST_F(EightBitColours, SmallColoursHaveEightBitsAlready)
 {
   EXPECT_TRUE(write({ 1, 2, 255 }, 255.0).empty());
   EXPECT_EQ(bytes(), (std::vector<int>{ 1, 2, 255 }));
+}
+
+/// The ranges of a COPC file are those of its first points.
+TEST_F(EightBitColours, ARangeThatWasTooSmallIsAnError)
+{
+  write({ 0, 0, 0, 1, 2, 256 }, 0.0);
+  ASSERT_FALSE(appended);
+  EXPECT_NE(appended.error().what.find("--color-depth 16"), std::string::npos);
 }
 
 TEST_F(EightBitColours, OtherTypesPass)

@@ -57,6 +57,7 @@ void EightBitColourSink::narrow(const std::vector<std::byte>& wide, std::vector<
     {
       const unsigned upper = colour[k] >> 8;
       const unsigned lower = colour[k] & maximum;
+      wasMisjudged_ = wasMisjudged_ || (areSmall_ && upper != 0);
       isExact = isExact && (areSmall_ || lower == 0 || lower == upper);
       bytes[3 * i + k] = static_cast<std::byte>(areSmall_ ? lower : upper);
     }
@@ -78,6 +79,13 @@ Result<void> EightBitColourSink::append(const PointBatch& batch)
     if (c == *colours_)
     {
       narrow(batch.columns[c], batch_.columns[c]);
+      if (wasMisjudged_)
+      {
+        return makeError(Error::Kind::BadArgument,
+          path() +
+            ": some colours are above 255, and the first points that were looked at have none; "
+            "export with --color-depth 16");
+      }
     }
     else
     {

@@ -15,6 +15,7 @@ namespace pointfront
 /// Values    the upper byte, as of 8-bit colours that a writer of LAS shifted or repeated. If no
 ///           colour is above 255, the lower byte: those are 8-bit colours already.
 /// Lost      findings() counts the points whose colours 8 bits do not hold.
+/// Errors    BadArgument for a larger colour then: ranges of COPC and EPT are those of some points.
 /// Others    points without such colours pass as they are.
 class EightBitColourSink final : public PointSink
 {
@@ -32,7 +33,8 @@ private:
 
   std::unique_ptr<PointSink> sink_;
   std::optional<std::size_t> colours_; ///< the column to narrow, since begin()
-  bool areSmall_ = false; ///< no colour is above 255
+  bool areSmall_ = false; ///< no colour is said to be above 255
+  bool wasMisjudged_ = false; ///< but one is
   PointBatch batch_; ///< the last one, narrowed
   std::uint64_t rounded_ = 0; ///< points
 };

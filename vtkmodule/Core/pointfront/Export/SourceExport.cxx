@@ -2,6 +2,7 @@
 
 #include "pointfront/Export/ExportClock.h"
 #include "pointfront/Export/OutputTarget.h"
+#include "pointfront/Threads/WorkBeside.h"
 
 #include <future>
 #include <utility>
@@ -24,7 +25,7 @@ Result<PointBatch> readChunk(const PointSource& source, std::uint64_t chunk)
 
 std::future<Result<PointBatch>> readAhead(const PointSource& source, std::uint64_t chunk)
 {
-  return std::async(std::launch::async, [&source, chunk]() { return readChunk(source, chunk); });
+  return workBeside([&source, chunk]() { return readChunk(source, chunk); });
 }
 } // namespace
 

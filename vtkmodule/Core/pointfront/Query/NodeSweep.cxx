@@ -2,9 +2,11 @@
 
 #include "pointfront/Export/ExportClock.h"
 #include "pointfront/Threads/ThreadCrew.h"
+#include "pointfront/Threads/WorkBeside.h"
 
 #include <algorithm>
 #include <future>
+#include <new>
 #include <optional>
 #include <string>
 #include <utility>
@@ -82,7 +84,7 @@ private:
   Result<Chosen> readOne(std::size_t task) const;
   std::future<Results> begin(const Wave& wave) const
   {
-    return std::async(std::launch::async, [this, wave] { return read(wave); });
+    return workBeside([this, wave] { return read(wave); });
   }
   Result<void> handOver(Results& results, const QueryConsumer& consume);
 
@@ -246,7 +248,15 @@ std::size_t QueryBatch::bytes() const
 Result<QueryReport> sweepNodes(const NodeReader& reader, const NodeSweep& sweep,
   const QueryOptions& options, const QueryConsumer& consume)
 {
-  return Sweep(reader, sweep, options).run(consume);
+  try
+  {
+    return Sweep(reader, sweep, options).run(consume);
+  }
+  catch (const std::bad_alloc&)
+  {
+    return makeError(Error::Kind::NoMemory,
+      "the system gave no more memory to the query; ask for fewer points or attributes");
+  }
 }
 
 std::size_t leastSweepBytes(const NodeReader& reader, const NodeSweep& sweep)

@@ -43,12 +43,12 @@ Result<void> WorkCrew::run(const std::function<Result<void>()>& work)
 
 void WorkCrew::fail(const Error& error)
 {
+  stop_ = true; // first: what follows may need memory
   const std::lock_guard<std::mutex> lock(errorMutex_);
   if (!error_)
   {
     error_ = error;
   }
-  stop_ = true;
 }
 
 Result<void> WorkCrew::outcome() const

@@ -51,7 +51,7 @@ try:
     pointfront.build(sys.argv[1], "b.pfront", color_from="a.png")
     raise SystemExit("images were read")
 except pointfront.PointFrontError as error:
-    assert "OpenImageIO" in str(error), error
+    assert "POINTFRONT_IMAGE_COLOR" in str(error), error
 maps = pathlib.Path("/proc/self/maps").read_text()
 vtks = {line.split("/")[-1] for line in maps.splitlines() if "libvtkCommon" in line}
 assert len(vtks) == 1, vtks

@@ -26,6 +26,7 @@ from pointfront._remote import RemoteView
 CLOUD = pathlib.Path(__file__).resolve().parents[3] / "Testing/Data/autzen_stadium.laz"
 CHROMIUM = os.environ.get("POINTFRONT_CHROMIUM", "/usr/bin/chromium")
 SETTLED = ".pointfront-status[data-settled=true]"
+STRANGER = "elsewhere.example"
 LIMIT_MS = 30000
 
 
@@ -235,7 +236,7 @@ class Page(unittest.TestCase):
     def test_pages_of_others_are_refused(self):
         server = Server(self.store, "--port", "0")
         self.addCleanup(server.process.kill)
-        for origin, status in (("http://elsewhere.example", 403), (server.url.rstrip("/"), 200)):
+        for origin, status in ((f"http://{STRANGER}", 403), (server.url.rstrip("/"), 200)):
             request = urllib.request.Request(server.url, headers={"Origin": origin})
             try:
                 with urllib.request.urlopen(request) as answer:

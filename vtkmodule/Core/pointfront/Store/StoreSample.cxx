@@ -11,6 +11,8 @@ namespace pointfront
 namespace
 {
 constexpr std::size_t enoughPoints = 10000;
+/// Of one node: its first points are a fair subset of it. Trees of others have large roots.
+constexpr std::size_t mostOfNode = 20000;
 
 template <typename T>
 double valueAt(const std::byte* bytes)
@@ -48,12 +50,14 @@ double valueAt(ScalarType type, const std::byte* bytes)
   return valueAt<double>(bytes);
 }
 
+/// Of the first points of a node.
 void appendValues(const Attribute& attribute, const std::vector<std::byte>& bytes,
-  std::vector<std::vector<double>>& components)
+  std::size_t points, std::vector<std::vector<double>>& components)
 {
   const std::size_t step = sizeOf(attribute.type);
-  for (std::size_t at = 0; at + attribute.bytes() <= bytes.size(); at += attribute.bytes())
+  for (std::size_t i = 0; i < points; ++i)
   {
+    const std::size_t at = i * attribute.bytes();
     for (std::size_t c = 0; c < attribute.components; ++c)
     {
       const double value = valueAt(attribute.type, bytes.data() + at + c * step);
@@ -104,13 +108,15 @@ Result<StoreSample> StoreSample::read(const Hierarchy& hierarchy, const NodeRead
       {
         return node.error();
       }
-      for (const glm::u32vec3& position : node->positions)
+      const std::size_t points = std::min(node->size(), mostOfNode);
+      for (std::size_t i = 0; i < points; ++i)
       {
-        sample.elevations_.push_back(grid.toWorld(node->origin + GridPosition(position)).z);
+        const GridPosition step = node->origin + GridPosition(node->positions[i]);
+        sample.elevations_.push_back(grid.toWorld(step).z);
       }
       for (std::size_t c = 0; c < selection.size(); ++c)
       {
-        appendValues(schema[selection[c]], node->columns[c], sample.columns_[c]);
+        appendValues(schema[selection[c]], node->columns[c], points, sample.columns_[c]);
       }
     }
     level = childrenOf(hierarchy, level);

@@ -15,7 +15,8 @@ namespace pointfront
 
 /// A fair, small subset of a cloud: the points of its coarsest levels. Enough to see how values
 /// spread before anything is drawn (ranges of colour maps, a typical height).
-/// Cost  reads the roots, and whole levels below them until there are some ten thousand points.
+/// Cost  reads the roots, and whole levels below them until there are some ten thousand points; of
+///       a large node its first ones.
 class StoreSample
 {
 public:

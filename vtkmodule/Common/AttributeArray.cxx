@@ -94,6 +94,14 @@ void AttributeArray::fill(const std::byte* from, std::size_t first, std::size_t 
   if (colour_ && attribute_.type == ScalarType::UInt16)
   {
     auto* const bytes = static_cast<unsigned char*>(to);
+    for (std::size_t i = 0; i < values && !wide_; ++i)
+    {
+      wide_ = valueAt<std::uint16_t>(from, i) > 255;
+      if (wide_) // the range of a COPC file is that of some points; those before have dark colours
+      {
+        std::memset(array_->GetVoidPointer(0), 0, first * attribute_.components);
+      }
+    }
     for (std::size_t i = 0; i < values; ++i)
     {
       const auto value = valueAt<std::uint16_t>(from, i);

@@ -32,7 +32,9 @@ public:
   /// For so many points from now on; values that are there stay.
   void resize(std::size_t points);
   void squeeze() { array_->Squeeze(); }
-  /// Packed values of `count` points as the store has them, to be the array's from `first` on.
+  /// Packed values of `count` points as the store has them, to be the array's from `first` on,
+  /// after those before. A 16-bit colour above 255 makes all of them wide, whatever the range says:
+  /// that of a COPC file is of some points.
   void fill(const std::byte* values, std::size_t first, std::size_t count);
   /// Among the point data; a colour as the active scalars.
   void addTo(vtkPolyData* output) const;

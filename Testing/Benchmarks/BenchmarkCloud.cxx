@@ -1,5 +1,7 @@
 #include "BenchmarkCloud.h"
 
+#include "vtkPointFrontStore.h"
+
 #include <vtkCellArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -31,6 +33,20 @@ void fail(const std::string& text)
 {
   std::fprintf(stderr, "%s\n", text.c_str());
   std::exit(1);
+}
+
+vtkSmartPointer<vtkPointFrontReader> openReader(const char* path)
+{
+  auto reader = vtkSmartPointer<vtkPointFrontReader>::New();
+  reader->SetFileName(path);
+  reader->SetOverviewPoints(0);
+  reader->UpdateInformation();
+  if (reader->GetStore() == nullptr)
+  {
+    fail(std::string(path) + ": cannot be opened");
+  }
+  reader->GetStore()->SetHostMemoryBudget(vtkTypeInt64(4) << 30);
+  return reader;
 }
 
 vtkSmartPointer<vtkPolyData> allPoints(const StoredCloud& store)

@@ -287,15 +287,7 @@ int main(int argc, char** argv)
   }
   const int rounds = argc > 2 ? std::stoi(argv[2]) : 7;
   const vtkIdType most = argc > 3 ? std::stoll(argv[3]) : VTK_ID_MAX;
-  vtkNew<vtkPointFrontReader> reader;
-  reader->SetFileName(argv[1]);
-  reader->SetOverviewPoints(0);
-  reader->UpdateInformation();
-  if (reader->GetStore() == nullptr)
-  {
-    fail(std::string(argv[1]) + ": cannot be opened");
-  }
-  reader->GetStore()->SetHostMemoryBudget(vtkTypeInt64(4) << 30);
+  const vtkSmartPointer<vtkPointFrontReader> reader = openReader(argv[1]);
   const Cloud cloud = packed(allPoints(*reader->GetStore()->GetStore()), most);
   Race race(reader, cloud);
   nlohmann::ordered_json result;

@@ -92,15 +92,7 @@ int main(int argc, char** argv)
     fail("usage: pointfrontFrameBenchmark STORE.pfront [ROUNDS [automatic|opengl|software]]");
   }
   const int rounds = argc >= 3 ? std::stoi(argv[2]) : 9;
-  vtkNew<vtkPointFrontReader> reader;
-  reader->SetFileName(argv[1]);
-  reader->SetOverviewPoints(0);
-  reader->UpdateInformation();
-  if (reader->GetStore() == nullptr)
-  {
-    fail(std::string(argv[1]) + ": cannot be opened");
-  }
-  reader->GetStore()->SetHostMemoryBudget(vtkTypeInt64(4) << 30);
+  const vtkSmartPointer<vtkPointFrontReader> reader = openReader(argv[1]);
 
   Contestant theirs;
   theirs.name = "vtkPolyDataMapper, all points";

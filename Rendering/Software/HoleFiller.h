@@ -3,12 +3,10 @@
 #include "SoftwareTarget.h"
 
 #include "pointfront/Plan/FrameCamera.h"
+#include "pointfront/Style/FrameShading.h"
 
 namespace pointfront
 {
-
-/// A filled pixel depends on its own block of that many pixels a side and on the blocks around.
-constexpr int holeFillerReach = 8;
 
 /// Fills pixels that no splat covers, and those through which a farther surface shows, from the
 /// nearest surface around them: a pyramid of means over pixels that agree in depth, then back down

@@ -4,6 +4,8 @@
 
 #include <glm/vec3.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 namespace pointfront
@@ -34,6 +36,9 @@ struct FrameHighlight
   }
 };
 
+/// A filled pixel depends on its own block of that many pixels a side and on the blocks around.
+constexpr int holeFillerReach = 8;
+
 /// The work on a frame's pixels after all points are drawn.
 struct FrameShading
 {
@@ -54,6 +59,17 @@ struct FrameShading
   /// on top.
   std::vector<FrameLens> lenses;
   std::vector<FrameHighlight> highlights; ///< at most mostHighlights
+
+  /// How far from a pixel light, highlights and hole filling look.
+  int reachPx() const
+  {
+    int reach = eyeDomeStrength > 0.0f ? static_cast<int>(std::ceil(eyeDomeRadiusPx)) + 1 : 0;
+    for (const FrameHighlight& one : highlights)
+    {
+      reach = std::max(reach, static_cast<int>(std::ceil(one.haloPx)) + 1);
+    }
+    return fillHoles ? std::max(reach, holeFillerReach) : reach;
+  }
 
   friend bool operator==(const FrameShading& a, const FrameShading& b)
   {

@@ -67,7 +67,7 @@ pointfront::PlanRequest vtkPointFrontMapper::GetRequest(vtkRenderer* renderer, v
   if (const auto sheet = this->GetStyleSheet())
   {
     request.shading = sheet->frameShading();
-    request.shading.lights = pointfront::lightsOf(renderer);
+    request.shading.lights = pointfront::lightsOf(renderer, request.camera);
     const pointfront::PosterTile tile(renderer);
     tile.enlarge(request.shading);
     tile.place(request, this->GetMargin(renderer, actor));

@@ -1,5 +1,6 @@
 #include "SplatPicture.h"
 
+#include "HoleFiller.h"
 #include "OpenGLFunctions.h"
 #include "PerWindow.h"
 #include "TargetState.h"
@@ -32,7 +33,8 @@ PixelRectangle limitsOf(const PlanPart& part, const FramePlan& plan)
   const std::array<int, 4> e =
     plan.shading.lenses[lens].extent(plan.camera.width, plan.camera.height);
   const int reach = plan.shading.reachPx();
-  return common(viewport, { e[0] - reach, e[1] - reach, e[2] + reach, e[3] + reach });
+  const PixelRectangle place{ e[0] - reach, e[1] - reach, e[2] + reach, e[3] + reach };
+  return plan.shading.fillHoles ? filledFrom(place, plan.camera) : common(viewport, place);
 }
 
 } // namespace
@@ -53,6 +55,10 @@ std::int64_t SplatPicture::draw(vtkOpenGLRenderWindow* window, vtkRenderer* rend
   originPx_[1] = viewport[1];
   plan.camera.setViewport(std::max(1, viewport[2]), std::max(1, viewport[3]), plan.camera.margin);
   const SplatFrame frame{ window, renderer, &pool, tableOf, ids };
+  if (!plan.shading.fillHoles)
+  {
+    tools_.holes.release(window);
+  }
   if (isSeveral(plan))
   {
     return drawParts(frame, plan);
@@ -217,6 +223,7 @@ void SplatPicture::release(vtkOpenGLRenderWindow* window)
   composition_.release(window);
   tools_.records.release(window);
   tools_.lastRecords.release(window);
+  tools_.holes.release(window);
   tools_.vertices->ReleaseGraphicsResources();
   if (mapper_)
   {

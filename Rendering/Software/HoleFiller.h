@@ -1,5 +1,6 @@
 #pragma once
 
+#include "PixelRectangle.h"
 #include "SoftwareTarget.h"
 
 #include "pointfront/Plan/FrameCamera.h"
@@ -7,6 +8,13 @@
 
 namespace pointfront
 {
+
+/// Depths agree within that many pixels' size.
+constexpr float holeFillerAgreePx = 3.0f;
+
+/// What the pixels of `place` and holes beside them are filled from: whole blocks, which count from
+/// the viewport's corner, and those around them.
+PixelRectangle filledFrom(const PixelRectangle& place, const FrameCamera& camera);
 
 /// Fills pixels that no splat covers, and those through which a farther surface shows, from the
 /// nearest surface around them: a pyramid of means over pixels that agree in depth, then back down

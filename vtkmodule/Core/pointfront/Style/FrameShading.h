@@ -11,15 +11,25 @@
 namespace pointfront
 {
 
-/// A light as deferred lighting uses it.
+/// A light as deferred lighting uses it. Places and directions are those of view space.
 struct FrameLight
 {
-  glm::vec3 towards{ 0.0f, 0.0f, 1.0f }; ///< unit, view space, from the surface to the light
+  static constexpr float noCone = -2.0f;
+
+  glm::vec3 towards{ 0.0f, 0.0f, 1.0f }; ///< unit, from the surface to a light that is far away
   glm::vec3 colour{ 1.0f }; ///< intensity included
+  bool positional = false; ///< it shines from `place`; what follows is for such lights
+  glm::vec3 place{ 0.0f };
+  glm::vec3 aim{ 0.0f, 0.0f, -1.0f }; ///< unit: the middle of its cone
+  float coneCosine = noCone; ///< of the angle between aim and the cone's rim
+  float exponent = 1.0f; ///< in a cone it fades as the cosine of the angle from aim, to this power
+  glm::vec3 attenuation{ 1.0f, 0.0f, 0.0f }; ///< divides by a + b * distance + c * distance^2
 
   friend bool operator==(const FrameLight& a, const FrameLight& b)
   {
-    return a.towards == b.towards && a.colour == b.colour;
+    return a.towards == b.towards && a.colour == b.colour && a.positional == b.positional &&
+      a.place == b.place && a.aim == b.aim && a.coneCosine == b.coneCosine &&
+      a.exponent == b.exponent && a.attenuation == b.attenuation;
   }
 };
 

@@ -343,4 +343,4 @@ pointfrontGetLast(LimitedByGPUMemory, bool, limitedByGpuMemory)
 pointfrontGetLast(LimitedByMemory, bool, limitedByMemory)
 pointfrontGetLast(FailedNodes, vtkIdType, failedNodes)
 #undef pointfrontGetLast
-// clang-format on
+  // clang-format on

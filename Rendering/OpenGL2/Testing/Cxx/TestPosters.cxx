@@ -78,18 +78,17 @@ TEST(Posters, AreThePictureOfOneWindow)
 {
   Pillars scene(pillarsStore("poster"));
   const std::string splats = R"({"default": {"technique": "splats"}, )";
+  const std::string open = R"({"default": {"technique": "points", "size": {"mode": "fixed", )"
+                           R"("px": 3}}, "shading": {"fill_holes": true}})";
+  const std::string large =
+    R"({"default": {"technique": "splats", "size": {"mode": "spacing", "factor": 4}}})";
   const Look looks[] = {
     { "eye-dome lighting", splats + R"("shading": {"mode": "edl", "radius_px": 2}})",
       splats + R"("shading": {"mode": "edl", "radius_px": 6}})" },
     { "halo", splats + R"("highlight": [{"class": 5, "color": "#ff0000", "halo_px": 3}]})",
       splats + R"("highlight": [{"class": 5, "color": "#ff0000", "halo_px": 9}]})" },
-    { "holes",
-      R"({"default": {"technique": "points", "size": {"mode": "fixed", "px": 3}}, )"
-      R"("shading": {"fill_holes": true}})",
-      R"({"default": {"technique": "points", "size": {"mode": "fixed", "px": 3}}, "shading": {"fill_holes": true}})" },
-    { "large discs",
-      R"({"default": {"technique": "splats", "size": {"mode": "spacing", "factor": 4}}})",
-      R"({"default": {"technique": "splats", "size": {"mode": "spacing", "factor": 4}}})" },
+    { "holes", open, open },
+    { "large discs", large, large },
   };
   for (const Look& look : looks)
   {

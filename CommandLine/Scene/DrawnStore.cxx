@@ -3,8 +3,10 @@
 #include "pointfront/Residency/LoadScheduler.h"
 #include "pointfront/Store/StoredCloudFormats.h"
 #include "pointfront/Style/FilterPruning.h"
+#include "pointfront/Views/LensWindows.h"
 #include "pointfront/Views/WallReach.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace pointfront
@@ -71,10 +73,13 @@ void DrawnStore::enterWindow(std::shared_ptr<const WindowDemand> window)
     *share_, cloud_->description().schema, std::move(window));
 }
 
-const FrontDelta& DrawnStore::update(FrameRequest demand)
+const FrontDelta& DrawnStore::update(
+  FrameRequest demand, const FrameCamera& camera, const FrameShading& shading)
 {
   demand.columns = columns_;
   demand.layers = limits_;
+  limitToLenses(styles_, shading.lenses, camera,
+    std::max(demand.targetErrorPx, front_->last().thresholdPx), tallestWall_, demand.layers);
   demand.view = withWallsFromAbove(demand.view, tallestWall_);
   demand_ = std::move(demand);
   return front_->update(demand_);

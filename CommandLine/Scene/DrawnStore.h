@@ -34,7 +34,9 @@ public:
   void enterWindow(std::shared_ptr<const WindowDemand> window);
 
   /// Moves the front on; `demand` lacks what is the store's own: its columns and layers.
-  const FrontDelta& update(FrameRequest demand);
+  /// `camera`, `shading`: of the frame; what is seen in lenses only is loaded for these.
+  const FrontDelta& update(
+    FrameRequest demand, const FrameCamera& camera, const FrameShading& shading);
   const FrontDelta& last() const { return front_->last(); }
   /// What the last update draws; `moment`: how it grows. A view that is to be complete at once does
   /// not.

@@ -319,7 +319,7 @@ void SoftwareScene::updateFronts(const View& view, bool complete)
       FrameRequest own = common;
       own.overviewPoints =
         overviewShare(overviewPoints, stores_[i]->cloud()->description().pointCount, allPoints_);
-      stores_[i]->update(std::move(own));
+      stores_[i]->update(std::move(own), camera_, shading_);
       ownMs_[i] += millisecondsSince(begin);
     }
   } while (complete && ++rounds < mostRounds && wantsUpdate());

@@ -382,6 +382,7 @@ private:
   pointfront::FrameRequest GetFrameRequest(vtkRenderer* renderer, vtkActor* actor);
   pointfront::PlanRequest GetRequest(vtkRenderer* renderer, vtkActor* actor);
   pointfront::ViewportMargin GetMargin(vtkRenderer* renderer, vtkActor* actor);
+  void Place(vtkRenderer* renderer, vtkActor* actor, pointfront::PlanRequest& request);
   bool MoveFront(vtkRenderer* renderer, vtkActor* actor);
   bool Announce();
   std::unique_ptr<Content> Internals;

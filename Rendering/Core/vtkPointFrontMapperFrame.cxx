@@ -7,6 +7,7 @@
 #include "pointfront/Detail/DetailLevel.h"
 #include "pointfront/Plan/FramePlanner.h"
 #include "pointfront/Style/GpuStreams.h"
+#include "pointfront/Views/LensWindows.h"
 #include "pointfront/Views/WallReach.h"
 
 #include <vtkActor.h>
@@ -58,19 +59,29 @@ bool vtkPointFrontMapper::HasPlainPointsOnly(vtkActor* actor)
   return !sheet || pointfront::hasPlainPointsOnly(sheet->frameShading(), this->GetStyling(actor));
 }
 
-pointfront::PlanRequest vtkPointFrontMapper::GetRequest(vtkRenderer* renderer, vtkActor* actor)
+/// Camera and shading, for what is drawn of the picture.
+void vtkPointFrontMapper::Place(
+  vtkRenderer* renderer, vtkActor* actor, pointfront::PlanRequest& request)
 {
-  pointfront::PlanRequest request;
   request.camera = pointfront::cameraOf(renderer, actor);
-  request.clippingPlanes = pointfront::clippingPlanesOf(*this, actor);
-  request.composited = this->NumberOfStorePieces > 1;
   if (const auto sheet = this->GetStyleSheet())
   {
     request.shading = sheet->frameShading();
-    request.shading.lights = pointfront::lightsOf(renderer, request.camera);
     const pointfront::PosterTile tile(renderer);
     tile.enlarge(request.shading);
     tile.place(request, this->GetMargin(renderer, actor));
+  }
+}
+
+pointfront::PlanRequest vtkPointFrontMapper::GetRequest(vtkRenderer* renderer, vtkActor* actor)
+{
+  pointfront::PlanRequest request;
+  this->Place(renderer, actor, request);
+  request.clippingPlanes = pointfront::clippingPlanesOf(*this, actor);
+  request.composited = this->NumberOfStorePieces > 1;
+  if (this->GetStyleSheet())
+  {
+    request.shading.lights = pointfront::lightsOf(renderer, request.camera);
   }
   for (const pointfront::LayerStyling& layer : this->GetStyling(actor))
   {
@@ -98,12 +109,20 @@ pointfront::FrameRequest vtkPointFrontMapper::GetFrameRequest(
 {
   pointfront::FrameRequest demand;
   const auto styling = this->GetStyling(actor);
+  const double walls =
+    pointfront::tallestWall(this->GetStore()->GetStore()->description(), styling);
   demand.view = pointfront::withWallsFromAbove(
-    pointfront::viewOf(renderer, actor, this->GetMargin(renderer, actor)),
-    pointfront::tallestWall(this->GetStore()->GetStore()->description(), styling));
+    pointfront::viewOf(renderer, actor, this->GetMargin(renderer, actor)), walls);
   demand.layers = this->Internals->Limits.layersOf(*this->GetStore(), styling,
     this->GetStyleSheet() ? this->Internals->Style.pruning()
                           : std::vector<std::shared_ptr<const pointfront::NodePruning>>());
+  if (const auto sheet = this->GetStyleSheet(); sheet && !sheet->lenses.empty())
+  {
+    pointfront::PlanRequest request;
+    this->Place(renderer, actor, request);
+    pointfront::limitToLenses(styling, request.shading.lenses, request.camera,
+      std::max(this->TargetError, this->GetStatistics().thresholdPx), walls, demand.layers);
+  }
   pointfront::GpuStreams streams;
   for (const pointfront::LayerStyling& layer : styling)
   {

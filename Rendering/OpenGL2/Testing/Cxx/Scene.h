@@ -43,7 +43,8 @@ struct Sample
 
 /// A store of `count` samples, built where the test may write. Node capacity 2000 points.
 inline std::string storeOf(const std::string& name, std::size_t count,
-  const std::function<Sample(std::size_t)>& sample, const glm::dvec3& offset = glm::dvec3(0.0))
+  const std::function<Sample(std::size_t)>& sample, const glm::dvec3& offset = glm::dvec3(0.0),
+  Layering layering = Layering::None)
 {
   AttributeSchema schema;
   schema.add({ "rgb", ScalarType::UInt8, 3 });
@@ -64,6 +65,7 @@ inline std::string storeOf(const std::string& name, std::size_t count,
   options.nodePoints = 2000;
   options.overwrite = true;
   options.threads = 1;
+  options.layering = layering;
   const auto built = buildStore(one(std::move(cloud)), options);
   EXPECT_TRUE(built.ok()) << (built.ok() ? "" : built.error().what);
   return options.outputPath;

@@ -35,23 +35,27 @@ constexpr Colour red{ 200, 0, 0 };
 constexpr int side = 120;
 const std::array<int, 2> backends = { vtkPointFrontMapper::SOFTWARE, vtkPointFrontMapper::OPENGL };
 
-/// Class 5, green, half a metre above class 2, red; both 2.4 m wide and 20 mm apart.
-std::string meadowStore(const std::string& name)
+/// Class 5, green, half a metre above class 2, red; both 2.4 m wide, `across` points a side.
+std::string meadowStore(
+  const std::string& name, int across = side, Layering layering = Layering::None)
 {
-  return storeOf(name, 2 * side * side,
-    [](std::size_t i)
+  return storeOf(
+    name, 2 * static_cast<std::size_t>(across) * across,
+    [across](std::size_t i)
     {
-      const bool above = i >= std::size_t(side) * side;
-      const auto column = static_cast<int>(i % side);
-      const auto row = static_cast<int>(i / side % side);
+      const bool above = i >= static_cast<std::size_t>(across) * across;
+      const auto column = static_cast<int>(i % across);
+      const auto row = static_cast<int>(i / across % across);
+      const int half = 1200 / across; // of the distance between points, millimetres
       Sample sample;
-      sample.position = { (2 * column - side + 1) * 10, (2 * row - side + 1) * 10,
+      sample.position = { (2 * column - across + 1) * half, (2 * row - across + 1) * half,
         above ? 500 : 0 };
       sample.rgb =
         above ? std::array<std::uint8_t, 3>{ 0, 200, 0 } : std::array<std::uint8_t, 3>{ 200, 0, 0 };
       sample.classification = above ? 5 : 2;
       return sample;
-    });
+    },
+    glm::dvec3(0.0), layering);
 }
 
 /// Seen from 5 m above: 200 pixels show 2.68 m of the ground, 2.41 m of what is above it.
@@ -315,6 +319,47 @@ TEST(Lenses, APosterOfTilesHasTheLensOnce)
         }
       }
       EXPECT_LE(wrong, 600) << place << backend << ": pixels of the rim at most";
+    }
+  }
+}
+
+// A class with a tree of its own is read and drawn where its lens is, and nowhere else.
+TEST(Lenses, WhatOnlyALensShowsIsLoadedForTheLens)
+{
+  constexpr int across = 400;
+  Meadow all(meadowStore("all_layers", across, Layering::ObjectClass));
+  all.style->LoadJSON(R"({"default": {"technique": "splats"}})");
+  Meadow scene(meadowStore("lens_layers", across, Layering::ObjectClass));
+  const auto lensAt = [&](int x, int y)
+  {
+    scene.style->LoadJSON(R"({"default": {"technique": "splats"}, "classes": {"5": {"visible": )"
+                          R"(false}}, "lenses": [{"shape": "circle", "center_px": [)" +
+      std::to_string(x) + ", " + std::to_string(y) +
+      R"(], "radius_px": 25, "inside": {"5": {"visible": true}}}]})");
+  };
+  for (const int backend : backends)
+  {
+    const Picture above = all.with(backend);
+    lensAt(-100, -100);
+    scene.with(backend);
+    EXPECT_EQ(scene.mapper->GetLastPointsDrawn(), across * across) << "the ground alone";
+    for (const auto& [x, y] : { std::pair(40, 50), std::pair(100, 100), std::pair(170, 120) })
+    {
+      lensAt(x, y);
+      const Picture picture = scene.with(backend);
+      EXPECT_LT(scene.mapper->GetLastPointsDrawn(), 1.4 * across * across) << x;
+      EXPECT_GT(scene.mapper->GetLastPointsDrawn(), 1.02 * across * across) << x;
+      for (int row = -24; row <= 24; ++row)
+      {
+        for (int column = -24; column <= 24; ++column)
+        {
+          if (column * column + row * row < 23 * 23 && x + column < 200)
+          {
+            EXPECT_EQ(picture.at(x + column, y + row), above.at(x + column, y + row))
+              << backend << ", " << x + column << ", " << y + row;
+          }
+        }
+      }
     }
   }
 }

@@ -184,8 +184,9 @@ void DetailWalk::visit(const Visit& at)
 {
   const Node& row = at.row;
   // As its parent: a sphere may stick out of its parent's.
-  const bool inSight =
-    at.inSight && sphereVisibility(*view_, row.centre, row.radius) == Visibility::Inside;
+  const bool inSight = at.inSight &&
+    sphereVisibility(*view_, row.centre, row.radius) == Visibility::Inside &&
+    limitsOf(row.layer).sees(row.centre, row.radius, row.spacing);
   const double distance = distanceToNode(*view_, row);
   const bool onPixel = projectedSpacing(*view_, 2.0 * row.radius, distance) < onePixel;
   if (hierarchy_.refinement() == Refinement::Add)

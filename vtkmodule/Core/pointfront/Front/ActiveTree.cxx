@@ -200,11 +200,13 @@ ActiveTree::Place ActiveTree::find(NodeIndex node) const
   return place;
 }
 
-void evaluate(ActiveNode& node, const View& view, std::uint32_t update)
+void ActiveTree::evaluate(ActiveNode& node, const View& view, std::uint32_t update) const
 {
   node.evaluated = update;
-  node.visible =
-    !node.hidden && sphereVisibility(view, node.centre, node.radius) == Visibility::Inside;
+  node.visible = !node.hidden &&
+    sphereVisibility(view, node.centre, node.radius) == Visibility::Inside &&
+    (node.layer >= layers_.size() ||
+      layers_[node.layer].sees(node.centre, node.radius, node.spacing));
   const double distance = distanceToSphere(view, node.centre, node.radius);
   node.distance = static_cast<float>(distance);
   node.errorPx =

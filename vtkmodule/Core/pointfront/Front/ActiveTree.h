@@ -95,6 +95,9 @@ public:
   };
   Place find(NodeIndex node) const;
 
+  /// Sets visibility, error and distance of a node, of this tree or of childOf(), for a view.
+  void evaluate(ActiveNode& node, const View& view, std::uint32_t update) const;
+
   /// Reads the row of child number `child` of a node; false while the row is coming.
   bool childOf(const ActiveNode& parent, std::uint8_t child, ActiveNode& node) const;
 
@@ -112,8 +115,5 @@ private:
   SlotIndex rootCount_ = 0;
   std::uint32_t frontLength_ = 0;
 };
-
-/// Visibility, error and distance of a node for a view.
-void evaluate(ActiveNode& node, const View& view, std::uint32_t update);
 
 } // namespace pointfront

@@ -28,7 +28,7 @@ Demand FrontDemand::ofChildren(const ActiveNode& parent, double thresholdPx) con
     {
       continue; // its row is coming: the threshold stays until then
     }
-    evaluate(child, view_, 0);
+    tree_.evaluate(child, view_, 0);
     sum += joined(child, {}, thresholdPx);
   }
   return sum;

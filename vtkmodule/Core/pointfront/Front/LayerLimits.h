@@ -1,8 +1,11 @@
 #pragma once
 
 #include "pointfront/Front/NodePruning.h"
+#include "pointfront/Front/SightWindow.h"
 
+#include <algorithm>
 #include <memory>
+#include <vector>
 
 namespace pointfront
 {
@@ -26,12 +29,22 @@ struct LayerLimits
   /// they had no points; the same goes for everything below skipped nodes. Null: no node. Compared
   /// by object.
   std::shared_ptr<const NodePruning> pruning = nullptr;
+  /// The parts of the view in which the layer is seen; empty: all of it. Elsewhere it is out of
+  /// sight.
+  std::vector<SightWindow> windows{};
+
+  bool sees(const glm::dvec3& centre, double radius, double spacing) const
+  {
+    return windows.empty() ||
+      std::any_of(windows.begin(), windows.end(),
+        [&](const SightWindow& window) { return window.sees(centre, radius, spacing); });
+  }
 };
 
 inline bool operator==(const LayerLimits& a, const LayerLimits& b)
 {
   return a.visible == b.visible && a.errorFactor == b.errorFactor && a.share == b.share &&
-    a.pruning == b.pruning;
+    a.pruning == b.pruning && a.windows == b.windows;
 }
 
 } // namespace pointfront

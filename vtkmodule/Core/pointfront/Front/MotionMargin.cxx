@@ -69,7 +69,8 @@ const std::vector<LoadRequest>& MotionMargin::requests(const View& now, double t
   {
     const std::uint16_t number = hierarchy_->node(root).layer;
     const LayerLimits layer = number < layers.size() ? layers[number] : LayerLimits();
-    if (layer.visible)
+    // Where a lens will be is not known.
+    if (layer.visible && layer.windows.empty())
     {
       visit(root, ahead, layer, thresholdPx, residency);
     }

@@ -82,7 +82,7 @@ void RenderFront::State::adopt(const View& newView, const FrontLimits& newLimits
 void RenderFront::State::evaluateBranch(SlotIndex slot, double lowestPx)
 {
   ActiveNode& node = tree[slot];
-  evaluate(node, view, update);
+  tree.evaluate(node, view, update);
   if (node.visible && node.errorPx > lowestPx && node.expanded())
   {
     for (std::uint8_t c = 0; c < node.childCount; ++c)
@@ -161,7 +161,7 @@ void RenderFront::State::expand(SlotIndex slot)
   for (std::uint8_t c = 0; c < parent.childCount; ++c)
   {
     ActiveNode& child = tree[parent.children + c];
-    evaluate(child, view, update);
+    tree.evaluate(child, view, update);
     child.live = update;
   }
   ++expansions;

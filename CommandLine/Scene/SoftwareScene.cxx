@@ -1,12 +1,11 @@
 #include "SoftwareScene.h"
 
-#include "CancelSignal.h"
 #include "Frustum.h"
 #include "Ground.h"
 #include "PeakMemory.h"
+#include "PicturePixels.h"
 #include "ShownClasses.h"
 
-#include "PNGWriter.h"
 #include "RasterBatch.h"
 
 #include "pointfront/Detail/DetailLevel.h"
@@ -19,7 +18,6 @@
 #include <cmath>
 #include <set>
 #include <tuple>
-#include <unordered_map>
 
 namespace pointfront
 {
@@ -35,90 +33,13 @@ constexpr double frameMsInMotion = 1000.0 / 15; // that VTK allots to a moving v
 constexpr std::uint64_t framePointBudget = 5000000; // as vtkPointFrontMapper's
 constexpr std::uint64_t overviewPoints = 2000000; // likewise
 constexpr int filledRows = 64; ///< of a neighbour, that a hole may be filled from
-/// How far a splat reaches beyond the rows that its centre lies in, where its size is no number of
-/// pixels.
-constexpr int splatReachRows = 64;
 
 double millisecondsSince(Clock::time_point begin)
 {
   return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
 }
 
-/// Behind what is drawn.
-void putBackground(const std::array<double, 3>& colour, SoftwareTarget& target)
-{
-  std::array<int, 3> behind{};
-  std::transform(colour.begin(), colour.end(), behind.begin(),
-    [](double channel) { return static_cast<int>(std::lround(255.0 * channel)); });
-  for (std::uint32_t& pixel : target.rgba)
-  {
-    auto* const bytes = reinterpret_cast<std::uint8_t*>(&pixel);
-    const int opacity = bytes[3];
-    for (std::size_t channel = 0; opacity < 255 && channel < 3; ++channel)
-    {
-      const int mixed = opacity * bytes[channel] + (255 - opacity) * behind[channel];
-      bytes[channel] = static_cast<std::uint8_t>((mixed + 127) / 255);
-    }
-    bytes[3] = 255;
-  }
-}
-
-/// Rows [bottom, top) of the target, the top one first.
-Result<void> append(PNGWriter& png, const SoftwareTarget& target, int bottom, int top)
-{
-  const auto width = static_cast<std::size_t>(target.width);
-  std::vector<std::uint8_t> row(3 * width);
-  for (int y = top - 1; y >= bottom; --y)
-  {
-    const auto* from = reinterpret_cast<const std::uint8_t*>(
-      target.rgba.data() + static_cast<std::size_t>(y) * width);
-    for (std::size_t x = 0; x < width; ++x)
-    {
-      std::copy(from + 4 * x, from + 4 * x + 3, row.data() + 3 * x);
-    }
-    if (Result<void> written = png.append(row.data(), 1, 0); !written)
-    {
-      return written;
-    }
-  }
-  return {};
-}
-
-Result<std::unique_ptr<PNGWriter>> pngOf(const std::string& path, const std::array<int, 2>& size)
-{
-  return PNGWriter::create(path,
-    { static_cast<std::uint32_t>(size[0]), static_cast<std::uint32_t>(size[1]) },
-    PNGWriter::Pixels::RGB8);
-}
 } // namespace
-
-/// What bands have drawn, each node once: neighbours share many.
-struct SoftwareScene::DrawnNodes
-{
-  std::vector<std::unordered_map<NodeIndex, std::uint32_t>> points; ///< of nodes, by store
-
-  void add(std::size_t store, const FrontDelta& delta)
-  {
-    for (const DrawItem& item : delta.draw)
-    {
-      std::uint32_t& most = points[store][item.node];
-      most = std::max(most, item.pointCount);
-    }
-  }
-  void countIn(FrameRecord& frame) const
-  {
-    frame.points = 0;
-    frame.nodes = 0;
-    for (const auto& store : points)
-    {
-      frame.nodes += static_cast<std::int64_t>(store.size());
-      for (const auto& [node, count] : store)
-      {
-        frame.points += count;
-      }
-    }
-  }
-};
 
 SoftwareScene::SoftwareScene(const DrawingOptions& options)
   : options_(options)
@@ -203,20 +124,6 @@ Result<void> SoftwareScene::chooseStyles()
     return noClassShown();
   }
   return {};
-}
-
-/// Of all that is drawn in one way.
-template <typename Visit>
-void SoftwareScene::forEachStyle(const Visit& visit) const
-{
-  for (const auto& store : stores_)
-  {
-    for (const LayerStyling& layer : store->styles())
-    {
-      std::for_each(
-        layer.styles.begin(), layer.styles.end(), [&visit](const auto& style) { visit(*style); });
-    }
-  }
 }
 
 /// Before anything is loaded.
@@ -419,90 +326,6 @@ Result<FrameRecord> SoftwareScene::render(bool complete)
   return frame;
 }
 
-Result<FrameRecord> SoftwareScene::renderInBands(const std::string& path)
-{
-  const CancelSignal finishing(CancelSignal::Mode::Finish);
-  const auto begin = Clock::now();
-  Result<std::unique_ptr<PNGWriter>> png = pngOf(path, options_.size);
-  if (!png)
-  {
-    return png.error();
-  }
-  stores_.front()->residency().scheduler().setBudgetBytes(memory_->pointBytesOfBands());
-  ThreadCrew crew(memory_->bandThreads());
-  SoftwareRasteriser rasteriser(&crew);
-  rasteriser_.release();
-  FrameRecord whole;
-  whole.complete = true;
-  whole.rasteriseMilliseconds = 0.0;
-  DrawnNodes drawn;
-  drawn.points.resize(stores_.size());
-  reads_.since();
-  for (int top = camera_.height; top > 0; top -= memory_->bandRows())
-  {
-    const int bottom = std::max(0, top - memory_->bandRows());
-    const PixelRectangle rows{ 0, std::max(0, bottom - memory_->overlapRows()), camera_.width,
-      std::min(camera_.height, top + memory_->overlapRows()) };
-    const Result<FrameRecord> band = renderBand(rasteriser, rows, drawn);
-    if (!band)
-    {
-      return band;
-    }
-    whole.add(*band);
-    Result<void> fine = append(**png, target_, bottom - rows.bottom, top - rows.bottom);
-    if (fine && CancelSignal::requested())
-    {
-      fine = makeError(Error::Kind::Cancelled, "stopped; nothing was written");
-    }
-    if (!fine)
-    {
-      return fine.error();
-    }
-  }
-  if (Result<void> written = (*png)->finish(); !written)
-  {
-    return written.error();
-  }
-  drawn.countIn(whole);
-  whole.milliseconds = millisecondsSince(begin);
-  whole.threadReadBytes = reads_.since();
-  return whole;
-}
-
-Result<FrameRecord> SoftwareScene::renderBand(
-  SoftwareRasteriser& rasteriser, const PixelRectangle& rows, DrawnNodes& drawn)
-{
-  // Points outside the rows may reach into them.
-  const int reach = static_cast<int>(std::ceil(reachRows()));
-  const int bottom = std::max(0, rows.bottom - reach);
-  const int top = std::min(camera_.height, rows.top + reach);
-  updateFronts(viewOfRows(camera_, bottom, top), true);
-  FrameRecord frame = record(true);
-  drawPart(rasteriser, rows, frame);
-  rasteriser.release(); // it holds what it has drawn, and the next band needs the memory
-  for (std::size_t i = 0; i < stores_.size(); ++i)
-  {
-    drawn.add(i, stores_[i]->last());
-  }
-  if (const Result<void> fine = outcome(); !fine)
-  {
-    return fine.error();
-  }
-  return frame;
-}
-
-double SoftwareScene::reachRows() const
-{
-  double reach = 0.0;
-  forEachStyle(
-    [&reach](const ResolvedStyle& style)
-    {
-      const bool pixels = style.size.mode == SplatSize::Mode::Pixels;
-      reach = std::max<double>(reach, pixels ? 0.5 * style.size.value + 1.0 : splatReachRows);
-    });
-  return reach;
-}
-
 bool SoftwareScene::needsFrame()
 {
   bool needed = false;
@@ -577,7 +400,7 @@ Result<void> SoftwareScene::writePicture(const std::string& path)
   {
     return png.error();
   }
-  Result<void> written = append(**png, target_, 0, target_.height);
+  Result<void> written = appendRows(**png, target_, 0, target_.height);
   return written ? (*png)->finish() : written;
 }
 

@@ -8,6 +8,7 @@
 #include "SoftwareComposition.h"
 #include "SoftwareRasteriser.h"
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string>
@@ -61,8 +62,19 @@ private:
   explicit SoftwareScene(const DrawingOptions& options);
   Result<void> openStores();
   Result<void> chooseStyles();
+  /// Of all that is drawn in one way.
   template <typename Visit>
-  void forEachStyle(const Visit& visit) const;
+  void forEachStyle(const Visit& visit) const
+  {
+    for (const auto& store : stores_)
+    {
+      for (const LayerStyling& layer : store->styles())
+      {
+        std::for_each(
+          layer.styles.begin(), layer.styles.end(), [&visit](const auto& style) { visit(*style); });
+      }
+    }
+  }
   Result<void> shareMemory();
   FrameRequest demand(const View& view, bool complete) const;
   void updateFronts(const View& view, bool complete);

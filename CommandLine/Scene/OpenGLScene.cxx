@@ -1,11 +1,11 @@
 #include "OpenGLScene.h"
 
 #include "CloudFormats.h"
-#include "ColourChoice.h"
 #include "ErrorListener.h"
 #include "Frustum.h"
 #include "Ground.h"
 #include "MapperColour.h"
+#include "MapperSheet.h"
 #include "PeakMemory.h"
 #include "ShownClasses.h"
 #include "ThreadReads.h"
@@ -15,7 +15,6 @@
 #include "pointfront/Residency/LoadScheduler.h"
 #include "pointfront/Residency/Residency.h"
 #include "pointfront/Store/StoredCloud.h"
-#include "pointfront/Style/AttributeRanges.h"
 #include "pointfront/Style/StyleSheet.h"
 
 #include "vtkPointFrontMapper.h"
@@ -52,76 +51,6 @@ constexpr double stillRate = 0.0001; // frames a second: VTK's value for a view 
 constexpr double interactiveRate = 15.0; // VTK's value for a view in motion
 constexpr int largestEdge = 16384; // pixels, of what OpenGL's drivers draw into
 constexpr int emptyFrames = 3; // until a window has all that it ever makes by itself
-
-/// Nothing in the sheet that the mapper's own properties cannot say.
-bool isPlain(const DrawingOptions& options)
-{
-  StyleSheet rest = options.style;
-  LayerStyle& style = rest.standard;
-  const StyleSize pixels{ SplatSize::Mode::Pixels, options.pointSizePx, "" };
-  if (style.technique == Technique::Points)
-  {
-    style.technique.reset();
-  }
-  if (style.colour == ColourSource::ofAttribute(options.colourBy))
-  {
-    style.colour.reset();
-  }
-  if (style.size == pixels)
-  {
-    style.size.reset();
-  }
-  if (rest.shownClasses == options.classes)
-  {
-    rest.shownClasses.reset();
-  }
-  return options.pointSizePx > 0.0 && rest == StyleSheet();
-}
-
-/// The same colour means the same value in all stores: ranges that the sheet leaves open are taken
-/// over all of them, as the software back end does.
-void setRanges(ColourSource& source, const AttributeRanges& ranges)
-{
-  using Kind = ColourMapChoice::Kind;
-  const bool mapped = source.map.kind != Kind::Classification && source.map.kind != Kind::Direct;
-  if (source.kind == ColourSource::Kind::Attribute && mapped && !source.map.range &&
-    source.attribute != "classification" && ranges.has(source.attribute))
-  {
-    if (const Result<std::array<double, 2>> range = ranges.of(source.attribute); range)
-    {
-      source.map.range = *range;
-    }
-  }
-  for (ColourSource& part : source.parts)
-  {
-    setRanges(part, ranges);
-  }
-}
-
-/// One sheet for all stores; the first one decides what is not said.
-std::shared_ptr<const StyleSheet> sheetOf(
-  const DrawingOptions& options, const std::vector<std::shared_ptr<const StoredCloud>>& stores)
-{
-  auto sheet = std::make_shared<StyleSheet>(options.style);
-  if (!sheet->standard.colour)
-  {
-    sheet->standard.colour =
-      ColourSource::ofAttribute(defaultColourAttribute(stores.front()->description()));
-  }
-  if (stores.size() > 1)
-  {
-    const AttributeRanges ranges(stores);
-    setRanges(*sheet->standard.colour, ranges);
-    for (auto& [code, style] : sheet->classes)
-    {
-      if (style.colour)
-      {
-        setRanges(*style.colour, ranges);
-      }
-    }
-  }
-  return sheet;
-}
 
 /// One store with what draws it.
 struct DrawnStore

@@ -12,7 +12,6 @@ COLUMNS = 100
 FOLDER_FILES = 40  # of the kernel
 # Longer than that still: path and length. Numbers may only shrink, and nothing may be added.
 LONG_FILES = {
-    "CommandLine/Scene/OpenGLScene.cxx": 511,
     "Filters/ImageColor/Testing/TestImageValuesPass.cxx": 545,
     "IO/Store/Testing/Cxx/TestReader.cxx": 479,
     "IO/StyleJSON/ParseStyle.cxx": 487,

@@ -4,7 +4,9 @@ Neither has a display. Environment: POINTFRONT_CHROMIUM the browser, /usr/bin/ch
 """
 
 import asyncio
+import concurrent.futures
 import io
+import json
 import os
 import pathlib
 import re
@@ -17,11 +19,14 @@ import unittest
 import urllib.error
 import urllib.request
 
+import aiohttp
+import msgpack
 import numpy
 import pointfront
 from PIL import Image
 from playwright.sync_api import sync_playwright
 from pointfront._remote import RemoteView
+from wslink.chunking import UnChunker, generate_chunks
 
 CLOUD = pathlib.Path(__file__).resolve().parents[3] / "Testing/Data/autzen_stadium.laz"
 CHROMIUM = os.environ.get("POINTFRONT_CHROMIUM", "/usr/bin/chromium")
@@ -60,6 +65,38 @@ class Server:
         self.process.stdout.close()
         self.process.stderr.close()
         return status
+
+
+def status_of(url):
+    try:
+        with urllib.request.urlopen(url) as answer:
+            return answer.status
+    except urllib.error.HTTPError as refused:
+        return refused.code
+
+
+def greet(address, secret):
+    with concurrent.futures.ThreadPoolExecutor(1) as thread:  # playwright has this one's event loop
+        return thread.submit(asyncio.run, _greet(address, secret)).result()
+
+
+async def _greet(address, secret):
+    """What a server's socket answers to a greeting, and to a question for the whole state."""
+    said = []
+    async with aiohttp.ClientSession() as session:
+        async with session.ws_connect(f"{address}/ws") as socket:
+            for call, method, arguments in (("system:c0:0", "wslink.hello", [{"secret": secret}]),
+                                            ("rpc:c0:1", "trame.state.get", [])):
+                message = msgpack.packb({"wslink": "1.0", "id": call, "method": method,
+                                         "args": arguments, "kwargs": {}})
+                for chunk in generate_chunks(message, 0):
+                    await socket.send_bytes(chunk)
+                parts, answer = UnChunker(), None
+                parts.set_max_message_size(1 << 20)
+                while answer is None:
+                    answer = parts.process_chunk((await socket.receive(20)).data)
+                said.append(answer)
+    return said
 
 
 class Frames(unittest.TestCase):
@@ -236,13 +273,51 @@ class Page(unittest.TestCase):
     def test_pages_of_others_are_refused(self):
         server = Server(self.store, "--port", "0")
         self.addCleanup(server.process.kill)
-        for origin, status in ((f"http://{STRANGER}", 403), (server.url.rstrip("/"), 200)):
+        own = server.url.split("/?")[0]
+        for origin, status in ((f"http://{STRANGER}", 403), (own, 200)):
             request = urllib.request.Request(server.url, headers={"Origin": origin})
             try:
                 with urllib.request.urlopen(request) as answer:
                     self.assertEqual(answer.status, status)
             except urllib.error.HTTPError as refused:
                 self.assertEqual(refused.code, status)
+        server.end()
+
+    def test_who_has_not_the_secret_is_refused(self):
+        server = Server(self.store, "--port", "0")
+        self.addCleanup(server.process.kill)
+        own, secret = server.url.split("/?secret=")
+        self.assertGreater(len(secret), 30)
+        other = Server(self.store, "--port", "0")
+        self.addCleanup(other.process.kill)
+        theirs = other.url.split("/?secret=")[1]
+        other.end()
+        self.assertNotEqual(secret, theirs)
+        for query, status in ((f"?secret={secret}", 200), ("", 403), ("?secret=wslink-secret", 403),
+                              ("?secret=", 403), (f"?secret={theirs}", 403), ("?secret=%C3%A4", 403)):
+            for page in ("/", "/index.html"):
+                self.assertEqual(status_of(own + page + query), status, page + query)
+        asked = urllib.request.Request(f"{own}/paraview/", data=b"{}")
+        with urllib.request.urlopen(asked) as answer:
+            self.assertNotIn("secret", json.loads(answer.read()))
+        said = greet(own, "wslink-secret")
+        self.assertIn("Authentication failed", str(said[0]))
+        self.assertTrue(all("error" in answer for answer in said), said)
+        self.assertTrue(all("result" in answer for answer in greet(own, secret)))
+        server.end()
+
+    def test_a_page_that_is_loaded_anew_has_its_view(self):
+        server = Server(self.store, "--port", "0")
+        self.addCleanup(server.process.kill)
+        page = self.open(server.url)
+        self.assertNotIn("secret", page.url)  # nobody who looks at the screen sees it
+        page.reload()
+        self.wait(page)
+        self.assertGreater(self.pixels(page).std(axis=(0, 1)).min(), 20)
+        self.assertEqual(self.errors, [])
+        stranger = self.browser.new_context().new_page()
+        self.addCleanup(stranger.close)
+        self.assertEqual(stranger.goto(page.url).status, 403)
         server.end()
 
     def test_what_cannot_be_served_is_said(self):

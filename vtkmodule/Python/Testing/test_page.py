@@ -1,6 +1,7 @@
 """The page of `pointfront serve` and the view of a notebook in a real browser: Chromium, headless.
 
-Neither has a display. Environment: POINTFRONT_CHROMIUM the browser, /usr/bin/chromium unless given.
+Neither has a display. Environment: POINTFRONT_CHROMIUM the browser, /usr/bin/chromium unless given;
+POINTFRONT_SHARED_DATA the public clouds, of which a large one is shown.
 """
 
 import asyncio
@@ -29,6 +30,8 @@ from pointfront._remote import RemoteView
 from wslink.chunking import UnChunker, generate_chunks
 
 CLOUD = pathlib.Path(__file__).resolve().parents[3] / "Testing/Data/autzen_stadium.laz"
+LARGE = (pathlib.Path(os.environ.get("POINTFRONT_SHARED_DATA", "none"))
+         / "large/autzen_10653336_rgb_intensity.laz")
 CHROMIUM = os.environ.get("POINTFRONT_CHROMIUM", "/usr/bin/chromium")
 SETTLED = ".pointfront-status[data-settled=true]"
 STRANGER = "elsewhere.example"
@@ -161,21 +164,25 @@ class Frames(unittest.TestCase):
         asyncio.run(err())
 
 
-class Page(unittest.TestCase):
+class InBrowser(unittest.TestCase):
+    """A store, and a browser for it."""
+
+    cloud = CLOUD
+
     @classmethod
     def setUpClass(cls):
         cls.temporary = tempfile.TemporaryDirectory(prefix="pointfront-page-")
         cls.addClassCleanup(cls.temporary.cleanup)
         cls.store = pathlib.Path(cls.temporary.name) / "a.pfront"
-        pointfront.build(CLOUD, cls.store, assumed_crs="EPSG:2994")
+        pointfront.build(cls.cloud, cls.store, assumed_crs="EPSG:2994", preview=False)
         playwright = sync_playwright().start()
         cls.addClassCleanup(playwright.stop)
         cls.browser = playwright.chromium.launch(
             executable_path=CHROMIUM, args=["--no-sandbox", "--disable-gpu"])
         cls.addClassCleanup(cls.browser.close)
 
-    def open(self, url):
-        page = self.browser.new_page(viewport={"width": 800, "height": 500})
+    def open(self, url, width=800, height=500):
+        page = self.browser.new_page(viewport={"width": width, "height": height})
         self.addCleanup(page.close)
         self.errors = []
         page.on("console", lambda said: said.type == "error" and self.errors.append(said.text))
@@ -208,6 +215,8 @@ class Page(unittest.TestCase):
         picture = Image.open(io.BytesIO(page.screenshot())).convert("RGB")
         return numpy.asarray(picture).astype(int)[40:-40]
 
+
+class Page(InBrowser):
     def test_a_view_is_opened_moved_and_refined(self):
         server = Server(self.store, "--port", "0")
         self.addCleanup(server.process.kill)
@@ -329,6 +338,59 @@ class Page(unittest.TestCase):
                                  timeout=60, env=without_display())
             self.assertEqual(run.returncode, status, run.stderr)
             self.assertIn(says, run.stderr)
+
+
+@unittest.skipUnless(LARGE.exists(), f"there is no {LARGE}")
+class LargePage(InBrowser):
+    """Of ten million points: what a user waits for. Limits leave room for a busy machine."""
+
+    cloud = LARGE
+
+    def turn(self, page, seconds):
+        """Drags for that long; pictures a second."""
+        before, begin = self.frames(page), time.monotonic()
+        page.mouse.move(640, 360)
+        page.mouse.down()
+        step = 0
+        while time.monotonic() - begin < seconds:
+            step += 1
+            page.mouse.move(640 + 4 * min(step % 200, 200 - step % 200), 360)
+            time.sleep(0.015)
+        rate = (self.frames(page) - before) / (time.monotonic() - begin)
+        page.mouse.up()
+        return rate
+
+    def test_it_is_turned_and_refined_and_resized(self):
+        server = Server(self.store, "--port", "0")
+        self.addCleanup(server.process.kill)
+        begin = time.monotonic()
+        page = self.open(server.url, 1280, 720)
+        opened = time.monotonic() - begin
+        first = self.pixels(page)
+        self.turn(page, 1.0)  # what is read only once
+        rate = self.turn(page, 4.0)
+        begin = time.monotonic()
+        page.wait_for_function(f"document.querySelector('{SETTLED}') !== null", timeout=LIMIT_MS)
+        rested = time.monotonic() - begin
+        status = page.inner_text(".pointfront-status")
+        self.assertRegex(status, r"^[0-9,]+ points, error [01]\.[0-9] px$")
+        turned = self.pixels(page)
+        self.assertGreater(numpy.abs(turned - first).mean(), 5, "the mouse rotates nothing")
+        begin = time.monotonic()
+        wide = self.settle(page, lambda: page.set_viewport_size({"width": 1600, "height": 900}))
+        resized = time.monotonic() - begin
+        self.assertEqual(wide.shape, (820, 1600, 3))
+        begin = time.monotonic()
+        near = self.settle(page, lambda: page.mouse.wheel(0, -1200))
+        closer = time.monotonic() - begin
+        self.assertGreater(numpy.abs(near - wide).mean(), 5, "the wheel does not come closer")
+        self.assertEqual(self.errors, [])
+        print(f"opened in {opened:.1f} s; {rate:.0f} pictures a second in motion; at rest, {status}, "
+              f"after {rested:.1f} s; resized in {resized:.1f} s; closer in {closer:.1f} s")
+        self.assertGreater(rate, 3.0, "pictures a second in motion")
+        for seconds in (opened, rested, resized, closer):
+            self.assertLess(seconds, 15.0)
+        server.end()
 
 
 if __name__ == "__main__":

@@ -3,8 +3,8 @@
     pyvista_page.py STORE
 
 It takes trame-pyvista, trame-vtk and trame-vuetify, and an OpenGL; no X server. trame-vtk asks for
-Kitware's `vtkmodules`, of which PyVista's objects are none where it runs on another build of VTK: here
-that name is given to the VTK that PointFront and PyVista have.
+Kitware's `vtkmodules`, of which PyVista's objects are none where it runs on another build of VTK:
+here that name is given to the VTK that PointFront and PyVista have.
 """
 
 import importlib

@@ -4,11 +4,11 @@
     notebook_rate.py STORE [--peer PYTHON] [--seconds S] [--peer-seconds S] [--json FILE]
 
 `pointfront serve` against PyVista's own trame back end (rendering on the server), which shows the
-same points as one PolyData: a pixel each, in their colours, without anti-aliasing. Both draw 1280 by
-720 pixels on this machine; Chromium, headless, is on it, too, and the same mouse path is taken in
-both. "all points": `serve` draws every point in every frame, at full size, as the peer does.
-Prints a row of a Markdown table for each. Then, without a browser, the same rotation frame by frame:
-how alike the pictures are, and what processor time a frame takes.
+same points as one PolyData: a pixel each, in their colours, without anti-aliasing. Both draw 1280
+by 720 pixels on this machine; Chromium, headless, is on it, too, and the same mouse path is taken
+in both. "all points": `serve` draws every point in every frame, at full size, as the peer does.
+Prints a row of a Markdown table for each. Then, without a browser, the same rotation frame by
+frame: how alike the pictures are, and what processor time a frame takes.
 
 Run it by a Python that has the wheel, trame, trame-rca and playwright (scripts/wheel environment).
 PYTHON has pyvista, trame-pyvista, trame-vtk and trame-vuetify, and finds a GL (xvfb-run, Mesa).
@@ -174,7 +174,8 @@ def rotate_here(store, picture):
     stream.close()
     camera = picture.with_suffix(".json")
     camera.write_text(json.dumps(cameras[0]))
-    run_tool(["render", store, *ALL[:-2], "--background", colour, "--camera", camera, "-o", picture])
+    run_tool(["render", store, *ALL[:-2], "--background", colour, "--camera", camera,
+              "-o", picture])
     return cameras, statistics.median(milliseconds), used, frame.facts["points"]
 
 

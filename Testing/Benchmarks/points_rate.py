@@ -3,9 +3,9 @@
 
     points_rate.py STORE [--attributes intensity,rgb,classification] [--rounds N]
 
-Run it by a Python that has the package. Processor time of all threads counts, so the rate is that of
-one core; the file is in the system's cache after the first round. Prints the best round, and how much
-the process grew in the first one beside what the arrays take: a second copy of them would show.
+Run it by a Python that has the package. Processor time of all threads counts, so the rate is that
+of one core; the file is in the system's cache after the first round. Prints the best round, and how
+much the process grew in the first one beside what the arrays take: a second copy would show.
 """
 
 import argparse

@@ -62,7 +62,7 @@ class _Doors:
     """
 
     def __init__(self, server):
-        self.secret = "s" + secrets.token_hex(16)  # a letter: the page would take digits as a number
+        self.secret = "s" + secrets.token_hex(16)  # digits alone would be a number to the page
         self._server = server
 
     @property

@@ -1,8 +1,8 @@
 """Builds the wheel by scikit-build-core, also for Python 3.11, which VTK's SDK does not name.
 
-cvista-sdk asks for Python 3.12, whose stable interface its wrapping uses. Its headers and tools make
-modules for one version, too, and cvista has libraries for 3.11. So for 3.11 a copy of the SDK is
-taken into build/ and changed: it finds that Python, and links the wrapping library of its cvista.
+cvista-sdk asks for Python 3.12, whose stable interface its wrapping uses. Its headers and tools
+make modules for one version, too, and cvista has libraries for 3.11. So for 3.11 a copy of the SDK
+is taken into build/ and changed: it finds that Python, and links its cvista's wrapping library.
 """
 
 import pathlib

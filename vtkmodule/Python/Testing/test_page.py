@@ -302,8 +302,9 @@ class Page(InBrowser):
         theirs = other.url.split("/?secret=")[1]
         other.end()
         self.assertNotEqual(secret, theirs)
-        for query, status in ((f"?secret={secret}", 200), ("", 403), ("?secret=wslink-secret", 403),
-                              ("?secret=", 403), (f"?secret={theirs}", 403), ("?secret=%C3%A4", 403)):
+        for query, status in ((f"?secret={secret}", 200), ("", 403), ("?secret=", 403),
+                              ("?secret=wslink-secret", 403), (f"?secret={theirs}", 403),
+                              ("?secret=%C3%A4", 403)):
             for page in ("/", "/index.html"):
                 self.assertEqual(status_of(own + page + query), status, page + query)
         asked = urllib.request.Request(f"{own}/paraview/", data=b"{}")
@@ -385,8 +386,9 @@ class LargePage(InBrowser):
         closer = time.monotonic() - begin
         self.assertGreater(numpy.abs(near - wide).mean(), 5, "the wheel does not come closer")
         self.assertEqual(self.errors, [])
-        print(f"opened in {opened:.1f} s; {rate:.0f} pictures a second in motion; at rest, {status}, "
-              f"after {rested:.1f} s; resized in {resized:.1f} s; closer in {closer:.1f} s")
+        print(f"opened in {opened:.1f} s; {rate:.0f} pictures a second in motion; at rest, "
+              f"{status}, after {rested:.1f} s; resized in {resized:.1f} s; "
+              f"closer in {closer:.1f} s")
         self.assertGreater(rate, 3.0, "pictures a second in motion")
         for seconds in (opened, rested, resized, closer):
             self.assertLess(seconds, 15.0)

@@ -69,7 +69,7 @@ class RemoteView:
         self._frame_seconds = _frame_seconds(self._arguments)
         self._orbit = None
         self._view = "iso"  # to be taken, instead of the camera
-        self._last_camera = None
+        self._last_facts = {}
         self._pressed = None
         self._at = (0.0, 0.0)
         self._pinch = 1.0
@@ -220,7 +220,11 @@ class RemoteView:
             now = time.time_ns() // 1_000_000
             self._push(data, {"type": "image/jpeg", "codec": "", "w": width, "h": height,
                               "st": now, "key": "key", "quality": quality})
-            self._told({**frame.facts, "moving": moving})
+            self._last_facts = {**frame.facts, "moving": moving}
+            self._told(self._last_facts)
+        elif frame.settled and self._last_facts.get("settled") is False:  # no pixel changed
+            self._last_facts = {**self._last_facts, "settled": True}
+            self._told(self._last_facts)
         if moving:
             self._seconds.append(time.monotonic() - begin)
         return frame

@@ -19,6 +19,10 @@ belong to the VTK whose Python package VTK_PACKAGE names, and report errors as V
 side of VTK is loaded, too: actors and windows that are made after this import can be drawn.
 """
 
+from . import _host
+
+_host.require_vtk()  # before what would only say which library it misses
+
 from ._calls import BuildReport, build, index
 from ._classes import *
 from ._clouds import Cloud, open

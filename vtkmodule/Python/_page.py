@@ -1,8 +1,10 @@
 """A page with a view of stored clouds: drawn here, shown in a browser or in a notebook."""
 
 import asyncio
+import html as html_text
 import itertools
 import json
+import secrets
 import threading
 import urllib.parse
 
@@ -10,6 +12,7 @@ from ._errors import PointFrontError
 from ._pictures import run_tool
 
 try:
+    from aiohttp import web  # trame's server
     from trame.app import get_server
     from trame.ui.html import DivLayout
     from trame.widgets import html, rca
@@ -50,36 +53,73 @@ def _status(facts):
     return text if facts["settled"] else text + " …"
 
 
-def _answer_launcher(wslink_server):
-    """trame's page asks for a launcher of servers before it takes the one that it came from, and
-    the browser logs an error where there is none: tell it where that is.
-    """
-    from aiohttp import web
+class _Doors:
+    """Who may reach the view: those who have the server's secret, from the server's own pages.
 
-    async def sessions(request):
+    secret  of this server alone, a part of the address that is told. trame's page takes it out of
+            the address and opens its socket with it; a cookie keeps it for a page that is loaded
+            anew. The page's code, which is trame's, and nothing else is there without it.
+    """
+
+    def __init__(self, server):
+        self.secret = "s" + secrets.token_hex(16)  # digits alone would be a number to the page
+        self._server = server
+
+    @property
+    def query(self):
+        return f"secret={self.secret}"
+
+    def bind(self, wslink_server):
+        """Before the server listens."""
+        self._server.protocol.updateSecret(self.secret)
+        app = wslink_server.app
+        app.router.add_post("/paraview/", self._answer_launcher)
+        app.middlewares.append(self._middleware())
+
+    def _cookie(self):
+        return f"pointfront-{self._server.port}"  # browsers have the cookies of all ports in one
+
+    def _knows(self, given):
+        return given is not None and secrets.compare_digest(given.encode(), self.secret.encode())
+
+    async def _answer_launcher(self, request):
+        """trame's page asks for a launcher of servers before it takes the one that it came from,
+        and the browser logs an error where there is none: tell it where that is.
+        """
         page = urllib.parse.urlsplit(request.headers.get("Referer", "")).path
         if page.count("/") > 1:  # a proxy is between: the page finds the way by its own address
             raise web.HTTPNotFound()
-        return web.json_response({"sessionURL": "ws://USE_HOST/ws", "secret": "wslink-secret"})
+        answer = {"sessionURL": "ws://USE_HOST/ws"}
+        if self._knows(request.cookies.get(self._cookie())):
+            answer["secret"] = self.secret
+        return web.json_response(answer)
 
-    wslink_server.app.router.add_post("/paraview/", sessions)
+    def _middleware(self):
+        @web.middleware
+        async def check(request, handler):
+            _refuse_foreign_pages(request)
+            if request.path not in ("/", "/index.html"):
+                return await handler(request)
+            invited = self._knows(request.query.get("secret"))
+            if not invited and not self._knows(request.cookies.get(self._cookie())):
+                raise web.HTTPForbidden(text="this view opens by the whole address that "
+                                             "`pointfront serve` printed, with its secret")
+            answer = await handler(request)
+            if invited:
+                answer.set_cookie(self._cookie(), self.secret, httponly=True, samesite="Strict")
+            return answer
+
+        return check
 
 
-def _refuse_foreign_pages(wslink_server):
+def _refuse_foreign_pages(request):
     """A browser connects any page to any server of its machine, and says which page asks. Only
     pages of this server, or of a proxy that says whom it stands for, reach the view.
     """
-    from aiohttp import web
-
-    @web.middleware
-    async def check(request, handler):
-        origin = request.headers.get("Origin")
-        hosts = {request.headers.get("Host"), request.headers.get("X-Forwarded-Host")}
-        if origin is not None and urllib.parse.urlsplit(origin).netloc not in hosts:
-            raise web.HTTPForbidden(text="a page of another server asks for this view")
-        return await handler(request)
-
-    wslink_server.app.middlewares.append(check)
+    origin = request.headers.get("Origin")
+    hosts = {request.headers.get("Host"), request.headers.get("X-Forwarded-Host")}
+    if origin is not None and urllib.parse.urlsplit(origin).netloc not in hosts:
+        raise web.HTTPForbidden(text="a page of another server asks for this view")
 
 
 class CloudPage:
@@ -95,6 +135,7 @@ class CloudPage:
             self._options.setdefault("technique", TECHNIQUES[0])
         self.view = RemoteView(paths, self._arguments(), self._tell)
         self.server = get_server(f"pointfront-{next(_count)}", client_type="vue3")
+        self._doors = _Doors(self.server)
         state = self.server.state
         state.trame__title = "PointFront"
         state.colour = self._options.get("color-by", "")
@@ -129,8 +170,12 @@ class CloudPage:
                      raw_attrs=[':data-frames="frames"', ':data-settled="settled"'])
         controller = self.server.controller
         controller.on_server_ready.add(lambda **_: self._watch_network(adapter))
-        controller.on_server_bind.add(_answer_launcher)
-        controller.on_server_bind.add(_refuse_foreign_pages)
+        controller.on_server_bind.add(self._doors.bind)
+
+    @property
+    def query(self):
+        """What an address of this page ends with, behind '?'."""
+        return self._doors.query
 
     def _watch_network(self, adapter):
         if adapter.streamer is not None:
@@ -211,13 +256,15 @@ class NotebookView:
     @property
     def url(self):
         """Of the page, as this machine sees it."""
-        return f"http://localhost:{self._page.server.port}/index.html"
+        return f"http://localhost:{self._page.server.port}/index.html?{self._page.query}"
 
     def _repr_html_(self):
         layout = self._page.layout
         layout.iframe_style = f"border: none; width: 100%; height: {self._height}px;"
-        attributes = " ".join(f'{name}="{value}"'
-                              for name, value in layout.iframe_builder(layout).items())
+        frame = layout.iframe_builder(layout)
+        frame["src"] += f"&{self._page.query}"
+        attributes = " ".join(f'{name}="{html_text.escape(str(value))}"'
+                              for name, value in frame.items())
         return f"<iframe {attributes}></iframe>"
 
     def close(self):

@@ -14,8 +14,9 @@ from ._stream import FrameStream
 REST_SECONDS = 0.2  # without an event: the view is refined
 MOVING_QUALITY = 60  # of JPEG
 RESTING_QUALITY = 90
-SLOW_SECONDS = 0.05  # a frame in motion that takes longer makes the next motion's smaller
-FAST_SECONDS = 0.025
+FRAME_MS = 66.7  # of the tool, unless --frame-ms says otherwise
+SLOW = 0.75  # of that time: a frame in motion that takes longer makes the next motion's smaller
+FAST = 0.375
 VIEWS = ("iso", "top", "front", "back", "left", "right")
 SCALES = (1.0, 0.75, 0.5)  # of the size, in motion
 LARGEST_EDGE = 4096  # pixels
@@ -30,6 +31,16 @@ def jpeg(pixels, quality):
     file = io.BytesIO()
     picture.save(file, "jpeg", quality=quality)
     return file.getvalue()
+
+
+def _frame_seconds(arguments):
+    """That a frame in motion may take to be drawn."""
+    words = [str(word) for word in arguments]
+    at = words.index("--frame-ms") if "--frame-ms" in words else None
+    try:
+        return (FRAME_MS if at is None else float(words[at + 1])) / 1000
+    except (IndexError, ValueError):  # the tool says what is wrong with it
+        return FRAME_MS / 1000
 
 
 class RemoteView:
@@ -55,9 +66,10 @@ class RemoteView:
         self._size = (1280, 720)
         self._scale = 0  # which of SCALES
         self._seconds = []  # of the frames of this motion
+        self._frame_seconds = _frame_seconds(self._arguments)
         self._orbit = None
         self._view = "iso"  # to be taken, instead of the camera
-        self._last_camera = None
+        self._last_facts = {}
         self._pressed = None
         self._at = (0.0, 0.0)
         self._pinch = 1.0
@@ -161,6 +173,7 @@ class RemoteView:
     def draw_with(self, arguments):
         """With other arguments of the command line from now on, from where the camera is."""
         self._arguments = list(arguments)
+        self._frame_seconds = _frame_seconds(self._arguments)
         self._restarts = True
         self.schedule_render()
 
@@ -207,7 +220,11 @@ class RemoteView:
             now = time.time_ns() // 1_000_000
             self._push(data, {"type": "image/jpeg", "codec": "", "w": width, "h": height,
                               "st": now, "key": "key", "quality": quality})
-            self._told({**frame.facts, "moving": moving})
+            self._last_facts = {**frame.facts, "moving": moving}
+            self._told(self._last_facts)
+        elif frame.settled and self._last_facts.get("settled") is False:  # no pixel changed
+            self._last_facts = {**self._last_facts, "settled": True}
+            self._told(self._last_facts)
         if moving:
             self._seconds.append(time.monotonic() - begin)
         return frame
@@ -216,7 +233,8 @@ class RemoteView:
         """By the frames of the last motion, before the next: a size that changes within is ugly."""
         if len(self._seconds) >= 3:
             middle = sorted(self._seconds)[len(self._seconds) // 2]
-            step = (middle > SLOW_SECONDS) - (middle < FAST_SECONDS)
+            time_of_frame = middle / self._frame_seconds
+            step = (time_of_frame > SLOW) - (time_of_frame < FAST)
             self._scale = max(0, min(len(SCALES) - 1, self._scale + step))
         self._seconds = []
 

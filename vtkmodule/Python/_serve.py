@@ -22,8 +22,8 @@ def parser():
     made.add_argument("stores", nargs="+", metavar="STORE")
     made.add_argument("--port", type=int, default=8080, help="8080; 0: any free one")
     made.add_argument("--host", default="localhost",
-                      help="whom to listen to: localhost, or 0.0.0.0 for other machines, which "
-                           "then can see the cloud without a password")
+                      help="whom to listen to: localhost, or 0.0.0.0 for other machines; the whole "
+                           "printed address opens the view, and nothing is encrypted")
     made.add_argument("--open", action="store_true", help="open it in this machine's browser")
     for name, shown in VALUES.items():
         made.add_argument(f"--{name}", metavar=shown)
@@ -46,7 +46,7 @@ def main(arguments):
         page = CloudPage(chosen.stores, {n: v for n, v in options.items() if v})
 
         def say(**_):
-            where = f"http://{chosen.host}:{page.server.port}/"
+            where = f"http://{chosen.host}:{page.server.port}/?{page.query}"
             print(f"pointfront serve: {where} (Ctrl-C ends it)", flush=True)
             if chosen.open:
                 import webbrowser

@@ -5,6 +5,7 @@
 
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -59,23 +60,79 @@ assert "libX11" not in maps and "libGL" not in maps, "X or GL is loaded"
 """
 
 
+# Two VTKs in one process, each with objects of its own.
+BESIDE = """
+import sys
+import pointfront
+import vtkmodules.all as kitware
+
+pointfront.build(sys.argv[1], "a.pfront")
+with pointfront.open("a.pfront") as cloud:
+    assert cloud.points()["position"].shape == (174151, 3)
+    assert cloud.screenshot(size=(320, 200)).pixels.std() > 5
+assert pointfront.VTK_PACKAGE != kitware.__name__.split(".")[0]
+try:
+    kitware.vtkActor().SetMapper(pointfront.vtkPointFrontMapper())
+    raise SystemExit("an actor of one VTK took a mapper of another")
+except TypeError:
+    pass
+"""
+
+
+class Environment:
+    """A fresh virtual environment in a folder."""
+
+    def __init__(self, folder):
+        self._folder = pathlib.Path(folder)
+        place = self._folder / "environment"
+        subprocess.run([sys.executable, "-m", "venv", place], check=True)
+        self._variables = without_display(place)
+
+    def run(self, *command):
+        subprocess.run(list(map(str, command)), check=True, cwd=self._folder, env=self._variables)
+
+    def install(self, *what):
+        self.run("python", "-m", "pip", "install", "-q", "--disable-pip-version-check", *what)
+
+    def import_error(self):
+        run = subprocess.run(["python", "-c", "import pointfront"], cwd=self._folder,
+                             env=self._variables, capture_output=True, text=True)
+        assert run.returncode == 1, run
+        return run.stderr.splitlines()[-1]
+
+
 def check_use(wheel):
-    with tempfile.TemporaryDirectory() as name:
-        folder = pathlib.Path(name)
-        environment = folder / "environment"
-        subprocess.run([sys.executable, "-m", "venv", environment], check=True)
-        variables = without_display(environment)
+    with tempfile.TemporaryDirectory() as folder:
+        environment = Environment(folder)
+        environment.install(wheel.resolve())
+        environment.run("pointfront", "--version")
+        environment.run("python", "-m", "pointfront", "--version")
+        environment.run("python", "-c", USE, CLOUD)
 
-        def run(*command):
-            subprocess.run(list(map(str, command)), check=True, cwd=folder, env=variables)
 
-        run("python", "-m", "pip", "install", "-q", "--disable-pip-version-check", wheel.resolve())
-        run("pointfront", "--version")
-        run("python", "-m", "pointfront", "--version")
-        run("python", "-c", USE, CLOUD)
+def check_other_vtks(wheel):
+    """With Kitware's `vtk` alone an import says what to do; with both, both work."""
+    with tempfile.TemporaryDirectory() as folder:
+        environment = Environment(folder)
+        environment.install("vtk", "numpy")
+        environment.install("--no-deps", wheel.resolve())
+        said = environment.import_error()
+        found = re.search(r"ImportError: .* pip install '(cvista\[all\])==([0-9.]+)'", said)
+        assert found, said
+        name, version = found.groups()
+        environment.install("--no-deps", f"cvista=={version}")  # a part of it
+        said = environment.import_error()
+        assert "there is no cvista.vtkRenderingOpenGL2" in said, said
+        older = version[:-1] + str(int(version[-1]) - 1)
+        environment.install(f"{name}=={older}")
+        said = environment.import_error()
+        assert f"built for cvista {version}, and {older} is installed" in said, said
+        environment.install(f"{name}=={version}")
+        environment.run("python", "-c", BESIDE, CLOUD)
 
 
 wheel = pathlib.Path(sys.argv[1])
 check_contents(wheel)
 check_use(wheel)
+check_other_vtks(wheel)
 print("the wheel works")

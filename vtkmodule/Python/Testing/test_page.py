@@ -1,10 +1,13 @@
 """The page of `pointfront serve` and the view of a notebook in a real browser: Chromium, headless.
 
-Neither has a display. Environment: POINTFRONT_CHROMIUM the browser, /usr/bin/chromium unless given.
+Neither has a display. Environment: POINTFRONT_CHROMIUM the browser, /usr/bin/chromium unless given;
+POINTFRONT_SHARED_DATA the public clouds, of which a large one is shown.
 """
 
 import asyncio
+import concurrent.futures
 import io
+import json
 import os
 import pathlib
 import re
@@ -17,13 +20,18 @@ import unittest
 import urllib.error
 import urllib.request
 
+import aiohttp
+import msgpack
 import numpy
 import pointfront
 from PIL import Image
 from playwright.sync_api import sync_playwright
 from pointfront._remote import RemoteView
+from wslink.chunking import UnChunker, generate_chunks
 
 CLOUD = pathlib.Path(__file__).resolve().parents[3] / "Testing/Data/autzen_stadium.laz"
+LARGE = (pathlib.Path(os.environ.get("POINTFRONT_SHARED_DATA", "none"))
+         / "large/autzen_10653336_rgb_intensity.laz")
 CHROMIUM = os.environ.get("POINTFRONT_CHROMIUM", "/usr/bin/chromium")
 SETTLED = ".pointfront-status[data-settled=true]"
 STRANGER = "elsewhere.example"
@@ -60,6 +68,38 @@ class Server:
         self.process.stdout.close()
         self.process.stderr.close()
         return status
+
+
+def status_of(url):
+    try:
+        with urllib.request.urlopen(url) as answer:
+            return answer.status
+    except urllib.error.HTTPError as refused:
+        return refused.code
+
+
+def greet(address, secret):
+    with concurrent.futures.ThreadPoolExecutor(1) as thread:  # playwright has this one's event loop
+        return thread.submit(asyncio.run, _greet(address, secret)).result()
+
+
+async def _greet(address, secret):
+    """What a server's socket answers to a greeting, and to a question for the whole state."""
+    said = []
+    async with aiohttp.ClientSession() as session:
+        async with session.ws_connect(f"{address}/ws") as socket:
+            for call, method, arguments in (("system:c0:0", "wslink.hello", [{"secret": secret}]),
+                                            ("rpc:c0:1", "trame.state.get", [])):
+                message = msgpack.packb({"wslink": "1.0", "id": call, "method": method,
+                                         "args": arguments, "kwargs": {}})
+                for chunk in generate_chunks(message, 0):
+                    await socket.send_bytes(chunk)
+                parts, answer = UnChunker(), None
+                parts.set_max_message_size(1 << 20)
+                while answer is None:
+                    answer = parts.process_chunk((await socket.receive(20)).data)
+                said.append(answer)
+    return said
 
 
 class Frames(unittest.TestCase):
@@ -124,21 +164,25 @@ class Frames(unittest.TestCase):
         asyncio.run(err())
 
 
-class Page(unittest.TestCase):
+class InBrowser(unittest.TestCase):
+    """A store, and a browser for it."""
+
+    cloud = CLOUD
+
     @classmethod
     def setUpClass(cls):
         cls.temporary = tempfile.TemporaryDirectory(prefix="pointfront-page-")
         cls.addClassCleanup(cls.temporary.cleanup)
         cls.store = pathlib.Path(cls.temporary.name) / "a.pfront"
-        pointfront.build(CLOUD, cls.store, assumed_crs="EPSG:2994")
+        pointfront.build(cls.cloud, cls.store, assumed_crs="EPSG:2994", preview=False)
         playwright = sync_playwright().start()
         cls.addClassCleanup(playwright.stop)
         cls.browser = playwright.chromium.launch(
             executable_path=CHROMIUM, args=["--no-sandbox", "--disable-gpu"])
         cls.addClassCleanup(cls.browser.close)
 
-    def open(self, url):
-        page = self.browser.new_page(viewport={"width": 800, "height": 500})
+    def open(self, url, width=800, height=500):
+        page = self.browser.new_page(viewport={"width": width, "height": height})
         self.addCleanup(page.close)
         self.errors = []
         page.on("console", lambda said: said.type == "error" and self.errors.append(said.text))
@@ -171,6 +215,8 @@ class Page(unittest.TestCase):
         picture = Image.open(io.BytesIO(page.screenshot())).convert("RGB")
         return numpy.asarray(picture).astype(int)[40:-40]
 
+
+class Page(InBrowser):
     def test_a_view_is_opened_moved_and_refined(self):
         server = Server(self.store, "--port", "0")
         self.addCleanup(server.process.kill)
@@ -236,13 +282,52 @@ class Page(unittest.TestCase):
     def test_pages_of_others_are_refused(self):
         server = Server(self.store, "--port", "0")
         self.addCleanup(server.process.kill)
-        for origin, status in ((f"http://{STRANGER}", 403), (server.url.rstrip("/"), 200)):
+        own = server.url.split("/?")[0]
+        for origin, status in ((f"http://{STRANGER}", 403), (own, 200)):
             request = urllib.request.Request(server.url, headers={"Origin": origin})
             try:
                 with urllib.request.urlopen(request) as answer:
                     self.assertEqual(answer.status, status)
             except urllib.error.HTTPError as refused:
                 self.assertEqual(refused.code, status)
+        server.end()
+
+    def test_who_has_not_the_secret_is_refused(self):
+        server = Server(self.store, "--port", "0")
+        self.addCleanup(server.process.kill)
+        own, secret = server.url.split("/?secret=")
+        self.assertGreater(len(secret), 30)
+        other = Server(self.store, "--port", "0")
+        self.addCleanup(other.process.kill)
+        theirs = other.url.split("/?secret=")[1]
+        other.end()
+        self.assertNotEqual(secret, theirs)
+        for query, status in ((f"?secret={secret}", 200), ("", 403), ("?secret=", 403),
+                              ("?secret=wslink-secret", 403), (f"?secret={theirs}", 403),
+                              ("?secret=%C3%A4", 403)):
+            for page in ("/", "/index.html"):
+                self.assertEqual(status_of(own + page + query), status, page + query)
+        asked = urllib.request.Request(f"{own}/paraview/", data=b"{}")
+        with urllib.request.urlopen(asked) as answer:
+            self.assertNotIn("secret", json.loads(answer.read()))
+        said = greet(own, "wslink-secret")
+        self.assertIn("Authentication failed", str(said[0]))
+        self.assertTrue(all("error" in answer for answer in said), said)
+        self.assertTrue(all("result" in answer for answer in greet(own, secret)))
+        server.end()
+
+    def test_a_page_that_is_loaded_anew_has_its_view(self):
+        server = Server(self.store, "--port", "0")
+        self.addCleanup(server.process.kill)
+        page = self.open(server.url)
+        self.assertNotIn("secret", page.url)  # nobody who looks at the screen sees it
+        page.reload()
+        self.wait(page)
+        self.assertGreater(self.pixels(page).std(axis=(0, 1)).min(), 20)
+        self.assertEqual(self.errors, [])
+        stranger = self.browser.new_context().new_page()
+        self.addCleanup(stranger.close)
+        self.assertEqual(stranger.goto(page.url).status, 403)
         server.end()
 
     def test_what_cannot_be_served_is_said(self):
@@ -254,6 +339,64 @@ class Page(unittest.TestCase):
                                  timeout=60, env=without_display())
             self.assertEqual(run.returncode, status, run.stderr)
             self.assertIn(says, run.stderr)
+
+
+@unittest.skipUnless(LARGE.exists(), f"there is no {LARGE}")
+class LargePage(InBrowser):
+    """Of ten million points: what a user waits for. Limits leave room for a busy machine."""
+
+    cloud = LARGE
+
+    def turn(self, page, seconds):
+        """Drags for that long; pictures a second."""
+        before, begin = self.frames(page), time.monotonic()
+        page.mouse.move(640, 360)
+        page.mouse.down()
+        step = 0
+        while time.monotonic() - begin < seconds:
+            step += 1
+            page.mouse.move(640 + 4 * min(step % 200, 200 - step % 200), 360)
+            time.sleep(0.015)
+        rate = (self.frames(page) - before) / (time.monotonic() - begin)
+        page.mouse.up()
+        return rate
+
+    def test_it_is_turned_and_refined_and_resized(self):
+        server = Server(self.store, "--port", "0")
+        self.addCleanup(server.process.kill)
+        begin = time.monotonic()
+        page = self.open(server.url, 1280, 720)
+        opened = time.monotonic() - begin
+        first = self.pixels(page)
+        self.turn(page, 1.0)  # what is read only once
+        rate = self.turn(page, 4.0)
+        begin = time.monotonic()
+        page.wait_for_function(f"document.querySelector('{SETTLED}') !== null", timeout=LIMIT_MS)
+        rested = time.monotonic() - begin
+        status = page.inner_text(".pointfront-status")
+        self.assertRegex(status, r"^[0-9,]+ points, error [01]\.[0-9] px$")
+        turned = self.pixels(page)
+        self.assertGreater(numpy.abs(turned - first).mean(), 5, "the mouse rotates nothing")
+        begin = time.monotonic()
+        wide = self.settle(page, lambda: page.set_viewport_size({"width": 1600, "height": 900}))
+        resized = time.monotonic() - begin
+        self.assertEqual(wide.shape, (820, 1600, 3))
+        begin = time.monotonic()
+        page.mouse.wheel(0, -1200)
+        near = wide  # frames of the resize may come late
+        while numpy.abs(near - wide).mean() < 5 and time.monotonic() - begin < LIMIT_MS / 1000:
+            self.wait(page)
+            near = self.pixels(page)
+        closer = time.monotonic() - begin
+        self.assertGreater(numpy.abs(near - wide).mean(), 5, "the wheel does not come closer")
+        self.assertEqual(self.errors, [])
+        print(f"opened in {opened:.1f} s; {rate:.0f} pictures a second in motion; at rest, "
+              f"{status}, after {rested:.1f} s; resized in {resized:.1f} s; "
+              f"closer in {closer:.1f} s")
+        self.assertGreater(rate, 3.0, "pictures a second in motion")
+        for seconds in (opened, rested, resized, closer):
+            self.assertLess(seconds, 15.0)
+        server.end()
 
 
 if __name__ == "__main__":

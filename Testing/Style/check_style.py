@@ -26,6 +26,7 @@ RULES = {
     "Links": text_rules.links,
     "Anchors": doc_rules.anchors,
     "LinkedNames": doc_rules.linked_names,
+    "TableCommands": doc_rules.table_commands,
     "Includes": include_rules.includes,
     "ModuleEdges": include_rules.module_edges,
     "OneVersion": version_rules.one_version,

@@ -85,6 +85,8 @@ pointfront-vtk ${pointfront_this_version}, libvtk9-dev")
         DEPENDS "pointfront-vtk ${pointfront_this_version}" python3 python3-vtk9 python3-numpy
         TEXT "The Python package pointfront: clouds, queries into NumPy arrays, pictures, and\n\
 the classes for VTK.")
+      set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA
+        "${CMAKE_CURRENT_LIST_DIR}/debian/postinst" "${CMAKE_CURRENT_LIST_DIR}/debian/prerm")
     endif ()
   endif ()
 endif ()

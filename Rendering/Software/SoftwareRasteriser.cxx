@@ -60,18 +60,9 @@ std::vector<RasterPiece> piecesOf(const RasterItems& items)
   return pieces;
 }
 
-/// With what shading looks at: holes are filled from blocks of pixels that count from the
-/// viewport's corner, and their neighbours.
-PixelRectangle withSurroundings(const PixelRectangle& place, const FramePlan& plan)
+PixelRectangle withHoles(const PixelRectangle& place, const FramePlan& plan)
 {
-  if (!plan.shading.fillHoles || place.empty())
-  {
-    return place;
-  }
-  const auto down = [](int x) { return (x - holeFillerReach) & -holeFillerReach; };
-  const auto up = [](int x) { return (x + 2 * holeFillerReach - 1) & -holeFillerReach; };
-  return common({ 0, 0, plan.camera.width, plan.camera.height },
-    { down(place.left), down(place.bottom), up(place.right), up(place.top) });
+  return plan.shading.fillHoles ? filledFrom(place, plan.camera) : place;
 }
 
 } // namespace
@@ -348,7 +339,7 @@ void SoftwareRasteriser::Content::drawRound(const RasterItems& items, Drawing& d
   PixelRectangle place = shownRectangle(items);
   if (drawing.fits)
   {
-    place = only ? withSurroundings(place, plan) : viewport;
+    place = only ? withHoles(place, plan) : viewport;
   }
   else
   {
@@ -417,7 +408,7 @@ PixelRectangle shownRectangle(const FramePlan& plan)
 {
   const PixelRectangle viewport{ 0, 0, plan.camera.width, plan.camera.height };
   const RasterItems items(plan, 0);
-  return items.last() ? withSurroundings(shownRectangle(items), plan) : viewport;
+  return items.last() ? withHoles(shownRectangle(items), plan) : viewport;
 }
 
 RasterStatistics SoftwareRasteriser::draw(

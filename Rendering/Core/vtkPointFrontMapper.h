@@ -134,7 +134,8 @@ public:
    * AUTOMATIC (default): SOFTWARE where the window's GL is itself a program (GL_RENDERER llvmpipe,
    * softpipe), else OPENGL. Both draw the same pictures except for rounding. OPENGL draws what
    * SOFTWARE cannot (translucent points, an actor's own shader code), and SOFTWARE draws what
-   * OPENGL cannot (filled holes). A warning says so once if Backend asks for the other one.
+   * OPENGL cannot (more than 4 lenses or 4 translucent styles). A warning says so once if Backend
+   * asks for the other one.
    */
   vtkSetClampMacro(Backend, int, AUTOMATIC, SOFTWARE);
   vtkGetMacro(Backend, int);

@@ -3,10 +3,10 @@
  * @brief opens a `.pfront` store: an overview as vtkPolyData, and the store's name for
  * vtkPointFrontMapper
  *
- * The output holds an overview (at most OverviewPoints points, of each class and each place its
- * share of the cloud's; double coordinates, one vertex cell a point, the chosen attributes as point
- * data), so every VTK filter works at once, and names the store in its field data (see
- * vtkPointFrontStore), so that vtkPointFrontMapper draws the whole cloud from it.
+ * The output holds an overview, so every VTK filter works at once: at most OverviewPoints points in
+ * double coordinates, one vertex cell a point, the chosen attributes as point data. Each class and
+ * each place has its share of the overview. The output's field data name the store (see
+ * vtkPointFrontStore): vtkPointFrontMapper draws the whole cloud by that name.
  *
  * Attributes keep their type; one with a scale or an offset becomes double with both applied. "rgb"
  * has three bytes: 16-bit colour is reduced, for VTK takes only bytes as colours without a lookup

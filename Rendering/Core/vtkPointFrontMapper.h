@@ -129,12 +129,13 @@ public:
   ///@{
   /**
    * Which back end turns points into pixels. OPENGL: the window's GL. SOFTWARE: threads of this
-   * process, which read the points in host memory; colour and depth enter the window's picture in
-   * the opaque pass, where other actors, passes and selections see them as any other geometry's.
+   * process, which read the points in host memory. Their colour and depth enter the window's
+   * picture in the opaque pass, so other actors, passes and selections treat them as geometry.
    * AUTOMATIC (default): SOFTWARE where the window's GL is itself a program (GL_RENDERER llvmpipe,
    * softpipe), else OPENGL. Both draw the same pictures except for rounding. OPENGL draws what
    * SOFTWARE cannot (translucent points, an actor's own shader code), and SOFTWARE draws what
-   * OPENGL cannot (filled holes). A warning says so once if Backend asks for the other one.
+   * OPENGL cannot (more than 4 lenses or 4 translucent styles). A warning says so once if Backend
+   * asks for the other one.
    */
   vtkSetClampMacro(Backend, int, AUTOMATIC, SOFTWARE);
   vtkGetMacro(Backend, int);
@@ -157,8 +158,8 @@ public:
   ///@{
   /**
    * Milliseconds that a frame should take while the user interacts, with all clouds of the window
-   * together. 0 (default): the time that VTK
-   * allots (vtkProp::GetAllocatedRenderTime, from the window's DesiredUpdateRate).
+   * together. 0 (default): the time that VTK allots (vtkProp::GetAllocatedRenderTime, from the
+   * window's DesiredUpdateRate).
    */
   vtkSetClampMacro(TargetFrameTime, double, 0.0, 10000.0);
   vtkGetMacro(TargetFrameTime, double);
@@ -166,9 +167,9 @@ public:
 
   ///@{
   /**
-   * Milliseconds in which detail that comes or goes grows from nothing to its size, or shrinks;
-   * while the user interacts the last points of what is shown of a node stay smaller. So nothing
-   * pops up. 0: new detail appears at full size. Pictures of views at rest are the same with any
+   * Milliseconds in which new detail grows from nothing to its size, and detail that goes shrinks,
+   * so that nothing pops up. While the user interacts, the last shown points of a node stay
+   * smaller. 0: new detail appears at full size. Pictures of views at rest are the same with any
    * value. Points of a fixed number of pixels do not grow: they appear one after the other. Default
    * 250.
    */
@@ -257,7 +258,8 @@ public:
   /// worked with.
   ///@{
   vtkIdType GetLastPointsDrawn() const;
-  /// Beside these: what the picture before showed and the front lacked while the view moved.
+  /// Points drawn beside these while the view moved: the last picture showed them, and the front
+  /// of this frame lacks them.
   vtkIdType GetLastPointsKept() const;
   vtkIdType GetLastNodesDrawn() const;
   vtkIdType GetLastFrontLength() const;

@@ -1,6 +1,7 @@
-"""Checks one rule over the whole tree.
+"""Checks one rule over the whole tree, or all.
 
 usage: check_style.py RULE ROOT     exit 1 and one line for each place that breaks the rule
+       check_style.py --all ROOT    the same of every rule
        check_style.py --list        the rules
 """
 
@@ -26,6 +27,7 @@ RULES = {
     "Links": text_rules.links,
     "Anchors": doc_rules.anchors,
     "LinkedNames": doc_rules.linked_names,
+    "TableCommands": doc_rules.table_commands,
     "Includes": include_rules.includes,
     "ModuleEdges": include_rules.module_edges,
     "OneVersion": version_rules.one_version,
@@ -36,18 +38,21 @@ def main(arguments):
     if arguments == ["--list"]:
         print("\n".join(f"{name}: {rule.__doc__}" for name, rule in RULES.items()))
         return 0
-    if len(arguments) != 2 or arguments[0] not in RULES:
+    if len(arguments) != 2 or arguments[0] not in (*RULES, "--all"):
         print(__doc__, file=sys.stderr)
         return 2
     files = read_tree(arguments[1])
     if not any(file.is_cpp for file in files):
         print(f"{arguments[1]} holds no source: is it the project's root?", file=sys.stderr)
         return 2
-    faults = list(RULES[arguments[0]](files))
-    for path, line, message in faults:
-        print(f"{path}:{line}: {message}")
-    print(f"{arguments[0]}: {len(files)} files, {len(faults)} faults")
-    return 1 if faults else 0
+    broken = False
+    for name in RULES if arguments[0] == "--all" else arguments[:1]:
+        faults = list(RULES[name](files))
+        for path, line, message in faults:
+            print(f"{path}:{line}: {message}")
+        print(f"{name}: {len(files)} files, {len(faults)} faults")
+        broken = broken or bool(faults)
+    return 1 if broken else 0
 
 
 if __name__ == "__main__":

@@ -49,3 +49,38 @@ def anchors(files):
                 path = os.path.normpath(path)
                 if path in pages and name not in anchors_of(pages[path]):
                     yield file.path, number, f"{path} has no heading {name}"
+
+
+# Pages whose tables of numbers Testing/Benchmarks/tables makes.
+MEASURED = ("README.md", "docs/tradeoffs.md")
+COMMAND = re.compile(r"<!-- table(?: \d+)?(?: by hand)?: (.+) -->")
+CALLED = re.compile(r"Testing/Benchmarks/(\w+(?:\.py)?)|\bpointfront(\w+)Benchmark\b")
+
+
+def is_of_numbers(rows):
+    """At least half of a table's filled cells, but for its head and first column, are numbers."""
+    cells = [cell.strip() for row in rows[2:] for cell in row.strip("|").split("|")[1:]]
+    cells = [cell for cell in cells if cell]
+    numbers = [cell for cell in cells if re.match(r"[-+<]?\.?\d", cell)]
+    return 2 * len(numbers) >= len(cells) > 0
+
+
+def table_commands(files):
+    """A table of numbers in README or tradeoffs.md has its command, which calls what is there."""
+    there = {file.path for file in files}
+    for file in files:
+        for number, line in file.numbered() if file.path in MEASURED else ():
+            before = file.lines[number - 2] if number > 1 else ""
+            command = COMMAND.match(line)
+            if line.startswith("|") and not before.startswith("|"):
+                end = number - 1
+                while end < len(file.lines) and file.lines[end].startswith("|"):
+                    end += 1
+                after = file.lines[end] if end < len(file.lines) else ""
+                marked = COMMAND.match(before) and after == "<!-- end of table -->"
+                if is_of_numbers(file.lines[number - 1:end]) and not marked:
+                    yield file.path, number, "a table of numbers without its command"
+            for script, program in CALLED.findall(command.group(1)) if command else ():
+                path = f"Testing/Benchmarks/{script or program.lower() + '.cxx'}"
+                if path not in there:
+                    yield file.path, number, f"{path} is not there"

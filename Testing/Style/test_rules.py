@@ -158,6 +158,22 @@ class RulesTest(unittest.TestCase):
         }
         self.assertEqual(self.faults("LinkedNames", tree), [("docs/a.md", 2)])
 
+    def test_table_commands(self):
+        rows = "| points | ms |\n| --- | --- |\n| 1 M | 2.5 |\n"
+        begin, end = "<!-- table: Testing/Benchmarks/{} x -->\n", "<!-- end of table -->\n"
+        tree = {
+            "README.md": "| what | how |\n| --- | --- |\n| reads | LAS 1.4 |\n\n"
+            + rows + "\n" + begin.format("there.py") + rows + end + begin.format("gone.py") + rows,
+            "docs/tradeoffs.md":
+                "<!-- table 2 by hand: pointfrontRasterBenchmark -->\n" + rows + end
+                + "<!-- table: pointfrontGoneBenchmark -->\n" + rows + end,
+            "docs/other.md": rows,
+            "Testing/Benchmarks/there.py": "",
+            "Testing/Benchmarks/raster.cxx": "",
+        }
+        self.assertEqual(self.faults("TableCommands", tree), [
+            ("README.md", 5), ("README.md", 14), ("README.md", 15), ("docs/tradeoffs.md", 6)])
+
     def include_faults(self, path, header):
         known = {
             name: "int a;\n"

@@ -18,6 +18,7 @@ set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS_POLICY "=")
 set(CPACK_PACKAGING_INSTALL_PREFIX "/usr")
 set(CPACK_POINTFRONT_LICENCE "${CMAKE_CURRENT_SOURCE_DIR}/LICENSE") # for that script
 set(CPACK_PRE_BUILD_SCRIPTS "${CMAKE_CURRENT_LIST_DIR}/PointFrontDebianFiles.cmake")
+set(CPACK_POST_BUILD_SCRIPTS "${CMAKE_CURRENT_LIST_DIR}/PointFrontDebianScripts.cmake")
 
 # pointfront_debian_package(<component> NAME <name> SECTION <section> TEXT <lines of at most 78>
 #   [DEPENDS <package>...] [SUGGESTS <package>...])
@@ -50,7 +51,8 @@ if (POINTFRONT_HOST STREQUAL "ParaView")
   set(CPACK_DEBIAN_PACKAGE_SECTION science)
   set(CPACK_DEBIAN_PACKAGE_DEPENDS "paraview")
   set(CPACK_DEBIAN_PACKAGE_DESCRIPTION "A ParaView plugin that opens point files and stores\n\
-of any size and draws them in bounded memory. Load it with Tools, Manage Plugins.")
+of any size and draws them in bounded memory. Load it with Tools, Manage\n\
+Plugins, Load New: PointFront.so lies in /usr/lib/paraview-pointfront.")
   list(APPEND CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS
     "${CMAKE_LIBRARY_OUTPUT_DIRECTORY}/${PARAVIEW_PLUGIN_SUBDIR}/PointFront")
 else ()
@@ -83,6 +85,8 @@ pointfront-vtk ${pointfront_this_version}, libvtk9-dev")
         DEPENDS "pointfront-vtk ${pointfront_this_version}" python3 python3-vtk9 python3-numpy
         TEXT "The Python package pointfront: clouds, queries into NumPy arrays, pictures, and\n\
 the classes for VTK.")
+      set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA
+        "${CMAKE_CURRENT_LIST_DIR}/debian/postinst" "${CMAKE_CURRENT_LIST_DIR}/debian/prerm")
     endif ()
   endif ()
 endif ()

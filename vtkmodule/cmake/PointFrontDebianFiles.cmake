@@ -5,6 +5,14 @@ foreach (page IN LISTS pages)
   execute_process(COMMAND gzip -9n "${page}" COMMAND_ERROR_IS_FATAL ANY)
 endforeach ()
 
+# Policy has its own name for the list of changes.
+file(GLOB_RECURSE changes "${CPACK_TEMPORARY_DIRECTORY}/CHANGELOG.md")
+foreach (page IN LISTS changes)
+  get_filename_component(folder "${page}" DIRECTORY)
+  file(RENAME "${page}" "${folder}/changelog")
+  execute_process(COMMAND gzip -9nf "${folder}/changelog" COMMAND_ERROR_IS_FATAL ANY)
+endforeach ()
+
 # What the plugin's package installs lies outside of /usr/share, but for this.
 file(GLOB plugins LIST_DIRECTORIES TRUE "${CPACK_TEMPORARY_DIRECTORY}/usr/lib/paraview-pointfront"
   "${CPACK_TEMPORARY_DIRECTORY}/*/usr/lib/paraview-pointfront")

@@ -204,6 +204,11 @@ vtkSmartPointer<vtkPolyData> vtkPointFrontExtractSelection::GetCandidates(
   int pieces)
 {
   vtkPointFrontStore* store = reader->GetStore();
+  if (pointfront::isPreview(reader) && selection->GetNumberOfNodes() > 0)
+  {
+    vtkErrorMacro(<< pointfront::previewRefusal());
+    return nullptr;
+  }
   vtkNew<vtkPolyData> further;
   const bool hasMore = store && store->GetNumberOfPoints() > reader->GetOverviewPoints();
   const bool rows = hasMore && pointfront::asksForRows(selection, store->GetStore()->description());

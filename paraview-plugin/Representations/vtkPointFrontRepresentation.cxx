@@ -20,6 +20,7 @@
 #include "vtkProcessModule.h"
 #include "vtkProperty.h"
 #include "vtkPVLODActor.h"
+#include "vtkPVPointFilesReader.h"
 #include "vtkPVRenderView.h"
 #include "vtkRenderer.h"
 #include "vtkRenderWindow.h"
@@ -456,7 +457,14 @@ int vtkPointFrontRepresentation::GetFrameLimits()
 //------------------------------------------------------------------------------
 bool vtkPointFrontRepresentation::GetFrameComplete()
 {
-  return !this->IsDrawing() || this->Mapper->GetLastComplete();
+  return !this->IsDrawing() || (this->Mapper->GetLastComplete() && this->GetBuildState().empty());
+}
+
+//------------------------------------------------------------------------------
+std::string vtkPointFrontRepresentation::GetBuildState()
+{
+  auto* files = vtkPVPointFilesReader::SafeDownCast(pointfront::upstreamReaderOf(this));
+  return files ? files->GetBuildState() : std::string();
 }
 
 //------------------------------------------------------------------------------

@@ -235,6 +235,10 @@ public:
   /// come.
   bool GetFrameComplete();
 
+  /// What the build of the preview that is drawn is at: "sorting, 43 %". Empty if there is none,
+  /// and on all processes but the first of the data server.
+  std::string GetBuildState();
+
   /// True if a further frame would show more now. Cheap, never waits.
   bool GetFrameOutdated();
 

@@ -249,18 +249,13 @@ std::vector<pointfront::LayerStyling> vtkPointFrontMapper::GetStyling(vtkActor* 
   return layers;
 }
 
-bool vtkPointFrontMapper::HasPlainPointsOnly(vtkActor* actor)
-{
-  const auto sheet = this->GetStyleSheet();
-  return !sheet || pointfront::hasPlainPointsOnly(sheet->frameShading(), this->GetStyling(actor));
-}
-
 pointfront::PlanRequest vtkPointFrontMapper::GetRequest(vtkRenderer* renderer, vtkActor* actor)
 {
   pointfront::PlanRequest request;
   request.camera = pointfront::cameraOf(renderer, actor);
   request.clippingPlanes = pointfront::clippingPlanesOf(*this, actor);
   request.composited = this->NumberOfStorePieces > 1;
+  request.exchange = this->Exchange;
   if (const auto sheet = this->GetStyleSheet())
   {
     request.shading = sheet->frameShading();
@@ -382,6 +377,7 @@ pointfront::FramePlan* vtkPointFrontMapper::PlanFrame(vtkRenderer* renderer, vtk
   }
   // The same nodes, as another actor, eye or pass sees them.
   view.Plan->camera = request.camera;
+  view.Plan->exchange = request.exchange;
   view.Plan->clippingPlanes = std::move(request.clippingPlanes);
   std::map<std::uint16_t, std::size_t> styleOf; // the next of a layer's
   for (pointfront::DrawBatch& batch : view.Plan->batches)

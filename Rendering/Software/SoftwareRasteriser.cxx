@@ -1,11 +1,11 @@
 #include "SoftwareRasteriser.h"
 
-#include "HoleFiller.h"
 #include "LastPicture.h"
 #include "PointShapes.h"
 #include "RasterBuffers.h"
 #include "RasterItems.h"
 #include "RasterKernels.h"
+#include "SharedSums.h"
 #include "ShownRectangle.h"
 #include "WinnerResolve.h"
 
@@ -58,20 +58,6 @@ std::vector<RasterPiece> piecesOf(const RasterItems& items)
     addPieces(item, item.item->first, pieces);
   }
   return pieces;
-}
-
-/// With what shading looks at: holes are filled from blocks of pixels that count from the
-/// viewport's corner, and their neighbours.
-PixelRectangle withSurroundings(const PixelRectangle& place, const FramePlan& plan)
-{
-  if (!plan.shading.fillHoles || place.empty())
-  {
-    return place;
-  }
-  const auto down = [](int x) { return (x - holeFillerReach) & -holeFillerReach; };
-  const auto up = [](int x) { return (x + 2 * holeFillerReach - 1) & -holeFillerReach; };
-  return common({ 0, 0, plan.camera.width, plan.camera.height },
-    { down(place.left), down(place.bottom), up(place.right), up(place.top) });
 }
 
 } // namespace
@@ -185,6 +171,8 @@ void SoftwareRasteriser::Content::addColours(
         depths[p] = key == emptyKey ? -std::numeric_limits<float>::infinity() : depthBits(key);
       }
     });
+  PictureExchange* const others = items.plan().exchange;
+  const bool together = others && shareDepths(*others, depths, now.pixels());
   for (ThreadBuffers& one : buffers)
   {
     one.sumsDrawn = false;
@@ -222,6 +210,10 @@ void SoftwareRasteriser::Content::addColours(
         kernels.addSplats(item.camera, now, item.passes.second, batch, count, depths, sums);
       }
     });
+  if (together)
+  {
+    shareSums(*others, buffers, 4 * now.pixels());
+  }
 }
 
 /// All passes but the last.
@@ -229,7 +221,7 @@ void SoftwareRasteriser::Content::drawPoints(const RasterItems& items, const Ras
   const std::vector<RasterPiece>& pieces, bool goingOn)
 {
   drawKeys(items, now, pieces, goingOn);
-  if (items.blended())
+  if (items.blended() || items.plan().exchange)
   {
     addColours(items, now, piecesOf(items));
   }
@@ -345,6 +337,11 @@ void SoftwareRasteriser::Content::drawRound(const RasterItems& items, Drawing& d
   const FramePlan& plan = items.plan();
   const PixelRectangle viewport{ 0, 0, plan.camera.width, plan.camera.height };
   const bool only = items.first() && items.last();
+  if (plan.exchange)
+  {
+    drawAtOnce(items, windowOf(viewport), drawing); // every process has all of the same pixels
+    return;
+  }
   PixelRectangle place = shownRectangle(items);
   if (drawing.fits)
   {
@@ -386,7 +383,7 @@ RasterStatistics SoftwareRasteriser::Content::draw(const FramePlan& asked, Softw
   const std::uint32_t picture = std::uint32_t(part) << 16 | store;
   Drawing drawing{ target, last[picture], store, fits || target.rectangle().contains(viewport),
     fits };
-  const bool keeps = asked.keepsVisible && drawing.whole && !target.keepPoints;
+  const bool keeps = asked.keepsVisible && !asked.exchange && drawing.whole && !target.keepPoints;
   const VisiblePoints& visible = drawing.picture.visibleFor(asked, keeps, crew);
   RasterStatistics statistics;
   statistics.points = asked.pointCount();
@@ -411,13 +408,6 @@ RasterStatistics SoftwareRasteriser::Content::draw(const FramePlan& asked, Softw
   statistics.milliseconds =
     std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
   return statistics;
-}
-
-PixelRectangle shownRectangle(const FramePlan& plan)
-{
-  const PixelRectangle viewport{ 0, 0, plan.camera.width, plan.camera.height };
-  const RasterItems items(plan, 0);
-  return items.last() ? withSurroundings(shownRectangle(items), plan) : viewport;
 }
 
 RasterStatistics SoftwareRasteriser::draw(

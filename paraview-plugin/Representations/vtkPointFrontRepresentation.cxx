@@ -1,5 +1,6 @@
 #include "vtkPointFrontRepresentation.h"
 
+#include "RankExchange.h"
 #include "StyleChoice.h"
 #include "UpstreamReader.h"
 
@@ -52,6 +53,7 @@ struct SelectionState : vtkPVRenderView
 //------------------------------------------------------------------------------
 vtkPointFrontRepresentation::vtkPointFrontRepresentation()
   : Choice(new pointfront::StyleChoice)
+  , Exchange(new pointfront::RankExchange)
 {
   this->Property->SetRepresentationToPoints();
   this->Property->LightingOff();
@@ -261,7 +263,7 @@ bool vtkPointFrontRepresentation::AddToView(vtkView* view)
   // With a server, pictures in motion have fewer pixels than the window: ParaView sets the viewport
   // when the renderer starts, with priority 0. Behind that a lens knows its place.
   this->StartObserver = renderView->GetRenderer()->AddObserver(
-    vtkCommand::StartEvent, this, &vtkPointFrontRepresentation::PlaceLens, -1.0f);
+    vtkCommand::StartEvent, this, &vtkPointFrontRepresentation::BeginFrame, -1.0f);
   return this->Superclass::AddToView(view);
 }
 
@@ -278,6 +280,34 @@ bool vtkPointFrontRepresentation::RemoveFromView(vtkView* view)
   renderView->GetRenderer()->RemoveActor(this->Actor);
   renderView->UnRegisterPropForHardwareSelection(this, this->Actor);
   return this->Superclass::RemoveFromView(view);
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::BeginFrame()
+{
+  this->PlaceLens();
+  this->AgreeOnExchange();
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::AgreeOnExchange()
+{
+  this->Mapper->SetPictureExchange(nullptr);
+  auto* view = vtkPVRenderView::SafeDownCast(this->GetView());
+  if (!view || !this->GetVisibility() || this->Mapper->GetNumberOfStorePieces() < 2)
+  {
+    return; // alike on all ranks
+  }
+  bool wanted = !this->InMotion && !SelectionState::Of(view) &&
+    !this->Actor->HasTranslucentPolygonalGeometry() && this->Mapper->AddsUpSplats(this->Actor);
+  if (wanted)
+  {
+    wanted = pointfront::isSurelyInView(view->GetRenderer(), this->Actor->GetBounds());
+  }
+  if (this->Exchange->agreed(vtkMultiProcessController::GetGlobalController(), wanted))
+  {
+    this->Mapper->SetPictureExchange(this->Exchange.get());
+  }
 }
 
 //------------------------------------------------------------------------------

@@ -43,6 +43,7 @@ class vtkScalarsToColors;
 
 namespace pointfront
 {
+class RankExchange;
 class StyleChoice;
 } // namespace pointfront
 
@@ -263,8 +264,11 @@ private:
   void PrepareColors();
   /// Hands the mapper a style, if one is needed.
   void PrepareStyle();
-  /// When the renderer starts: its size is known.
+  /// When the renderer starts: its size and camera are known.
+  void BeginFrame();
   void PlaceLens();
+  /// Ranks add up the colours of blended splats, if all of them can.
+  void AgreeOnExchange();
   /// Greys over the heights of the cloud; null without a store.
   vtkScalarsToColors* HeightTable();
   bool WantsComplete(vtkPVRenderView* view) const;
@@ -301,6 +305,7 @@ private:
   std::string DrawnArray; ///< empty: one colour
   bool DrawnDirectly = false; ///< its components are the colour
   const std::unique_ptr<pointfront::StyleChoice> Choice;
+  const std::unique_ptr<pointfront::RankExchange> Exchange;
   double PointSize = 2.0;
   double SizeFactor = 1.0;
   vtkSmartPointer<vtkScalarsToColors> Table;

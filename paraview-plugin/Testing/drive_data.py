@@ -5,7 +5,7 @@ import os
 
 import numpy
 from expected import compare, exported, surveys
-from programs import HERE, mpi, tool, with_server
+from programs import HERE, mpi, python_client, tool, with_server
 
 
 def facts(programs):
@@ -45,6 +45,43 @@ def queries(programs):
     command = [os.environ["POINTFRONT_PVBATCH"], os.path.join(HERE, "queries.py"), "queries.json"]
     programs.run(*command)
     programs.run(*mpi(2, *command))
+
+
+def refusals(programs):
+    """What is told of selections that cannot be had, on one process and on two."""
+    with open("id.ply", "w") as ply:
+        ply.write("ply\nformat ascii 1.0\nelement vertex 40000\n"
+                  "property double x\nproperty double y\nproperty double z\n"
+                  "property int id\nend_header\n")
+        for i in range(40000):
+            ply.write("%d %d %g %d\n" % (i % 200, i // 200, 0.001 * i, i % 10))
+    store, damaged = os.path.abspath("id.pfront"), os.path.abspath("damaged.pfront")
+    tool("build", "id.ply", "-o", store, "--node-points", "1000", "--force")
+    with open(store, "rb") as file:
+        content = bytearray(file.read())
+    middle = len(content) // 2
+    content[middle:middle + 64] = bytes(64)  # in the points of one node or two
+    with open(damaged, "wb") as file:
+        file.write(content)
+    for count in (1, 2):
+        log = "refusals-%d.log" % count
+        with open(log, "w") as output:
+            done = programs.start(*mpi(count, os.environ["POINTFRONT_PVBATCH"],
+                                       os.path.join(HERE, "refusals.py"), store, damaged),
+                                  output=output)
+        try:
+            programs.finish(done)
+        finally:
+            told = open(log).read()
+            print(told)
+        steps = dict(part.split("\n", 1) for part in told.split("== ")[1:])
+        for step, words in (("id", None), ("too many", "PointFront Extract"), ("enough", None),
+                            ("unnamed", "Most Selection Points"),
+                            ("damaged", "cannot be read")):
+            errors = steps[step].count("ERR|")
+            most = count if words else 0  # each rank speaks for itself
+            if not bool(words) <= errors <= most or (words or "") not in steps[step]:
+                raise AssertionError("what is said of %s: %s" % (step, steps[step]))
 
 
 def series(programs):
@@ -101,7 +138,7 @@ def batch_selection(programs):
 
 
 def ranks_selection(programs):
-    with_server(programs, "selection.py")
+    with_server(programs, python_client("selection.py"))
 
 
 def rectangles(programs):

@@ -5,7 +5,7 @@ import json
 import os
 
 from expected import SHARE, STOCK_SHARE, compare
-from programs import HERE, mpi, tool, with_server
+from programs import HERE, mpi, python_client, tool, with_server
 
 
 def make_large():
@@ -69,7 +69,7 @@ def backends(programs):
 
 def server(programs):
     make_large()
-    with_server(programs, "client.py", "server", "2")
+    with_server(programs, python_client("client.py", "server", "2"))
     compare("server", "tool")
 
 
@@ -165,3 +165,12 @@ def application(programs):
     if drawn["at rest again"][-1] != points:
         raise AssertionError("all points come back at rest, not %s" % drawn["at rest again"])
     compare("application", "tool")
+
+
+def panel(programs):
+    try:
+        programs.run(os.environ["POINTFRONT_PARAVIEW"], "--dr",
+                     "--script=" + os.path.join(HERE, "panel.py"))
+    finally:
+        if os.path.exists("panel.json"):
+            print(open("panel.json").read())

@@ -1,13 +1,14 @@
 """Ways to run ParaView that open and write files. Each function is a test: see drive.py."""
 
 import glob
+import json
 import os
 import re
 import shlex
 import shutil
 
 from expected import compare
-from programs import HERE, mpi, tool
+from programs import HERE, mpi, tool, with_server
 
 
 def files(programs):
@@ -103,3 +104,45 @@ def first_hour(programs):
                 raise AssertionError("%s on %d ranks: %s" % (name, ranks_, found))
         if len(glob.glob("flight*.png")) != 4:
             raise AssertionError("frames: %s" % glob.glob("flight*.png"))
+
+
+def preview(programs):
+    """In the application a preview is in view while a store is built; so it is on a server."""
+    points = 2000000
+    for way in ("alone", "cancelled", "ranks"):
+        name = "large-%s.las" % way
+        for old in glob.glob("large-%s*" % way) + glob.glob("preview*.*"):
+            os.remove(old)
+        tool("generate", "--points", str(points), "--seed", "5", "-o", name)
+        os.environ["POINTFRONT_FILES"] = json.dumps([os.path.abspath(name)])
+        os.environ["POINTFRONT_CANCEL"] = "1" if way == "cancelled" else ""
+        command = [os.environ["POINTFRONT_PARAVIEW"], "--dr",
+                   "--script=" + os.path.join(HERE, "preview.py")]
+        try:
+            if way == "ranks":
+                with_server(programs,
+                            lambda port: [*command, "--url=cs://127.0.0.1:%d" % port])
+            else:
+                programs.run(*command)
+        finally:
+            if os.path.exists("preview.json"):
+                print(way, open("preview.json").read())
+        with open("preview.json") as file:
+            seen = json.load(file)
+        begun, last = seen["while"], seen["after"][-1]
+        if len(begun) < 3 or begun[0]["there"] or not begun[0]["drawn"] > 1000:
+            raise AssertionError(way + ": no preview, or not before the store: %s" % begun)
+        if not all(frame["store"].endswith(".preview.pfront") for frame in begun[:3]):
+            raise AssertionError(way + ": not a preview: %s" % begun)
+        left = sorted(os.path.basename(path) for path in glob.glob(name + ".*"))
+        if way == "cancelled":
+            if last["store"] or last["drawn"] or left:
+                raise AssertionError("cancelled, and there is %s, %s" % (last, left))
+        elif last["drawn_of"] != points or last["store_points"] != points:
+            raise AssertionError(way + ": not the store in the end: %s" % last)
+        elif left != [name + ".pfront"]:
+            raise AssertionError("left behind: %s" % left)
+        else:
+            shutil.copyfile("preview.png", way + ".png")
+        os.remove(name)
+    compare("ranks", "alone")

@@ -78,8 +78,8 @@ def free_port():
         return probe.getsockname()[1]
 
 
-def with_server(programs, script, *arguments):
-    """A Python client of a server with two ranks."""
+def with_server(programs, client):
+    """Runs a client of a server with two ranks: the command that client() makes of the port."""
     port = free_port()
     with open("server.log", "w") as log:
         running = programs.start(
@@ -89,5 +89,10 @@ def with_server(programs, script, *arguments):
             if running.poll() is not None or time.time() > programs.deadline:
                 raise AssertionError("pvserver does not start:\n" + open("server.log").read())
             time.sleep(0.1)
-        programs.run(sys.executable, os.path.join(HERE, script), str(port), *arguments)
+        programs.run(*client(port))
         programs.finish(running)  # a server ends with its client
+
+
+def python_client(script, *arguments):
+    """For with_server()."""
+    return lambda port: [sys.executable, os.path.join(HERE, script), str(port), *arguments]

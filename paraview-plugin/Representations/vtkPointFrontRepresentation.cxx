@@ -214,6 +214,10 @@ void vtkPointFrontRepresentation::PrepareFrame(vtkInformation* inInfo, vtkPVRend
   const bool lod = inInfo->Has(vtkPVRenderView::USE_LOD()) != 0;
   this->Mapper->SetInputDataObject(lod ? vtkPVView::GetDeliveredPieceLOD(inInfo, this)
                                        : vtkPVView::GetDeliveredPiece(inInfo, this));
+  // What has no store to draw has been told of, or was cancelled.
+  const bool named =
+    !vtkPointFrontStore::GetStoreName(this->Mapper->GetInputDataObject(0, 0)).empty();
+  this->Actor->SetVisibility(named && this->GetVisibility());
 
   const bool distributed = lod ? view->GetUseDistributedRenderingForLODRender()
                                : view->GetUseDistributedRenderingForRender();
@@ -298,7 +302,7 @@ void vtkPointFrontRepresentation::AgreeOnExchange()
   {
     return; // alike on all ranks
   }
-  bool wanted = !this->InMotion && !SelectionState::Of(view) &&
+  bool wanted = !this->InMotion && this->Actor->GetVisibility() && !SelectionState::Of(view) &&
     !this->Actor->HasTranslucentPolygonalGeometry() && this->Mapper->AddsUpSplats(this->Actor);
   if (wanted)
   {

@@ -42,6 +42,8 @@ def save(view, name):
 @guarded
 def start():
     simple.GetSettingsProxy("GeneralSettings").ShowWelcomeDialog = 0
+    if simple.servermanager.ActiveConnection.IsRemote():
+        simple.LoadPlugin(os.environ["POINTFRONT_PLUGIN"], remote=True, ns=globals())
     simple.LoadPlugin(os.environ["POINTFRONT_PLUGIN"], remote=False, ns=globals())
     import scene
 

@@ -244,7 +244,7 @@ Result<void> SoftwareScene::shareMemory()
   cost.threadPixelBytes = sizeof(RasterKey) + (blends ? 4 * sizeof(std::uint32_t) : 0);
   cost.marginPixels = rasterMargin;
   cost.threads = ThreadCrew::ofProcess().threads();
-  cost.overlapRows = SoftwareComposition::reachPx(shading_);
+  cost.overlapRows = shading_.reachPx();
   cost.overlapRows = shading_.fillHoles ? std::max(cost.overlapRows, filledRows) : cost.overlapRows;
   std::uint64_t& budget = options_.memoryBytes;
   budget = budget > 0 ? budget : LoadScheduler::processBudgetBytes(); // before it is shared below

@@ -164,52 +164,7 @@ std::vector<glm::dvec4> clippingPlanesOf(vtkPolyDataMapper& mapper, vtkActor* ac
   return planes;
 }
 
-void placeInTile(vtkRenderer* renderer, std::vector<FrameLens>& lenses)
-{
-  vtkWindow* const window = renderer->GetVTKWindow();
-  const int* const scale = window->GetTileScale();
-  if (lenses.empty() || (scale[0] == 1 && scale[1] == 1))
-  {
-    return;
-  }
-  const double* const tile = window->GetTileViewport();
-  const double* const viewport = renderer->GetViewport();
-  int size[2];
-  int corner[2];
-  renderer->GetTiledSizeAndOrigin(&size[0], &size[1], &corner[0], &corner[1]);
-  glm::dvec2 whole; // of the renderer, pixels of the picture
-  glm::dvec2 shift; // of the tile in it
-  for (int axis = 0; axis < 2; ++axis)
-  {
-    const double pixels = double(window->GetActualSize()[axis]) * scale[axis];
-    const double first = std::max(tile[axis], viewport[axis]);
-    whole[axis] = std::round((viewport[axis + 2] - viewport[axis]) * pixels);
-    shift[axis] = std::round((first - viewport[axis]) * pixels);
-  }
-  for (FrameLens& lens : lenses)
-  {
-    if (lens.shape == LensShape::Mask)
-    {
-      auto part = std::make_shared<LensMask>();
-      part->width = std::max(1, size[0]);
-      part->height = std::max(1, size[1]);
-      for (int y = 0; y < part->height; ++y)
-      {
-        for (int x = 0; x < part->width; ++x)
-        {
-          part->values.push_back(
-            lens.covers(x + int(shift.x), y + int(shift.y), int(whole.x), int(whole.y)));
-        }
-      }
-      lens.mask = std::move(part);
-    }
-    const glm::vec2 larger(static_cast<float>(scale[0]), static_cast<float>(scale[1]));
-    lens.centrePx = lens.centrePx * larger - glm::vec2(shift);
-    lens.halfSizePx *= larger;
-  }
-}
-
-View viewOf(vtkRenderer* renderer, vtkActor* actor)
+View viewOf(vtkRenderer* renderer, vtkActor* actor, const ViewportMargin& margin)
 {
   int size[2];
   int origin[2];
@@ -218,7 +173,12 @@ View viewOf(vtkRenderer* renderer, vtkActor* actor)
     renderer->GetTiledAspectRatio(), -1.0, 1.0);
   vtkNew<vtkMatrix4x4> storeToClip;
   vtkMatrix4x4::Multiply4x4(toClip, actor->GetMatrix(), storeToClip);
-  return View::fromMatrix(columnsOf(storeToClip), std::max(1, size[0]), std::max(1, size[1]));
+  FrameCamera frame;
+  frame.viewToClip = columnsOf(storeToClip);
+  frame.width = std::max(1, size[0]);
+  frame.height = std::max(1, size[1]);
+  frame.setViewport(frame.width, frame.height, margin);
+  return View::fromMatrix(frame.viewToClip, frame.width, frame.height);
 }
 
 } // namespace pointfront

@@ -22,16 +22,12 @@ namespace pointfront
 ColourRequest colourRequestOf(vtkPolyDataMapper& mapper, const StoreDescription& description);
 
 /// The view of a renderer's camera in the coordinates of an actor's data; it works in tiled windows
-/// too.
-View viewOf(vtkRenderer* renderer, vtkActor* actor);
+/// too. With a margin it sees what lies around the viewport.
+View viewOf(vtkRenderer* renderer, vtkActor* actor, const ViewportMargin& margin);
 /// The camera for back ends. Positions are relative to the eye, in a parallel view to the focal
 /// point, and that point is exactly zero in view coordinates, without the rounding of large
 /// coordinates.
 FrameCamera cameraOf(vtkRenderer* renderer, vtkActor* actor);
-
-/// Moves lenses from the viewport of a renderer into the drawn part of it: in a window that is a
-/// tile of a larger picture, into that tile.
-void placeInTile(vtkRenderer* renderer, std::vector<FrameLens>& lenses);
 
 /// A mapper's planes as a plan has them: (n, d) in the coordinates of the actor's data.
 std::vector<glm::dvec4> clippingPlanesOf(vtkPolyDataMapper& mapper, vtkActor* actor);

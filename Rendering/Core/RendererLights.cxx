@@ -2,6 +2,8 @@
 
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/trigonometric.hpp>
 #include <glm/vec3.hpp>
 
 #include <vtkCamera.h>
@@ -20,43 +22,72 @@ namespace
 /// Less of a unit vector than this is rounding.
 constexpr double noise = 1.0e-12;
 
-glm::dvec3 towards(vtkLight* light, vtkCamera* camera)
+constexpr double widestCone = 90.0; ///< degrees; VTK's lights of that angle and more have none
+
+glm::dmat4 viewMatrixOf(vtkCamera* camera)
 {
-  double place[3];
-  double aim[3];
-  light->GetTransformedPosition(place);
-  light->GetTransformedFocalPoint(aim);
-  if (light->GetPositional())
+  glm::dmat4 matrix;
+  for (int row = 0; row < 4; ++row)
   {
-    camera->GetFocalPoint(aim);
-  }
-  const glm::dvec3 world(place[0] - aim[0], place[1] - aim[1], place[2] - aim[2]);
-  vtkMatrix4x4* const toView = camera->GetModelViewTransformMatrix();
-  glm::dvec3 view(0.0);
-  for (int row = 0; row < 3; ++row)
-  {
-    for (int column = 0; column < 3; ++column)
+    for (int column = 0; column < 4; ++column)
     {
-      view[row] += toView->GetElement(row, column) * world[column];
+      matrix[column][row] = camera->GetModelViewTransformMatrix()->GetElement(row, column);
     }
   }
-  const double length = glm::length(view);
-  if (light->LightTypeIsHeadlight() || !(length > 0.0))
+  return matrix;
+}
+
+/// A unit vector, without the noise of a turn by a right angle; `usual` if it has no length.
+glm::dvec3 unit(const glm::dvec3& vector, const glm::dvec3& usual)
+{
+  const double length = glm::length(vector);
+  if (!(length > 0.0))
   {
-    return { 0.0, 0.0, 1.0 };
+    return usual;
   }
-  view /= length;
+  glm::dvec3 result = vector / length;
   for (int axis = 0; axis < 3; ++axis)
   {
-    view[axis] = std::abs(view[axis]) < noise ? 0.0 : view[axis];
+    result[axis] = std::abs(result[axis]) < noise ? 0.0 : result[axis];
   }
-  return view;
+  return result;
+}
+
+FrameLight lightOf(vtkLight* light, const glm::dmat4& toView, const glm::dvec3& eyeInView)
+{
+  constexpr glm::dvec3 ahead(0.0, 0.0, -1.0);
+  double from[3];
+  double to[3];
+  light->GetTransformedPosition(from);
+  light->GetTransformedFocalPoint(to);
+  const glm::dvec3 place(from[0], from[1], from[2]), aim(to[0], to[1], to[2]);
+  const glm::dvec3 direction = unit(glm::dmat3(toView) * (aim - place), ahead);
+  const double* const colour = light->GetDiffuseColor();
+  FrameLight result;
+  result.colour = glm::vec3(light->GetIntensity() * glm::dvec3(colour[0], colour[1], colour[2]));
+  result.towards = glm::vec3(light->LightTypeIsHeadlight() ? -ahead : -direction);
+  result.positional = light->GetPositional() != 0;
+  if (result.positional)
+  {
+    result.place = glm::vec3(glm::dvec3(toView * glm::dvec4(place, 1.0)) + eyeInView);
+    result.aim = glm::vec3(direction);
+    result.coneCosine = light->GetConeAngle() < widestCone
+      ? static_cast<float>(std::cos(glm::radians(light->GetConeAngle())))
+      : FrameLight::noCone;
+    result.exponent = static_cast<float>(light->GetExponent());
+    const double* const fall = light->GetAttenuationValues();
+    result.attenuation = glm::vec3(fall[0], fall[1], fall[2]);
+  }
+  return result;
 }
 
 } // namespace
 
-std::vector<FrameLight> lightsOf(vtkRenderer* renderer)
+std::vector<FrameLight> lightsOf(vtkRenderer* renderer, const FrameCamera& camera)
 {
+  const glm::dmat4 toView = viewMatrixOf(renderer->GetActiveCamera());
+  // An eye of a stereo pair stands beside the camera (cameraOf()).
+  const glm::dvec3 eyeInView = camera.parallel ? glm::dvec3(0.0) : camera.referenceInView;
   std::vector<FrameLight> lights;
   vtkLightCollection* const all = renderer->GetLights();
   vtkCollectionSimpleIterator at;
@@ -65,16 +96,13 @@ std::vector<FrameLight> lightsOf(vtkRenderer* renderer)
   {
     if (light->GetSwitch())
     {
-      const double* const colour = light->GetDiffuseColor();
-      FrameLight one;
-      one.towards = towards(light, renderer->GetActiveCamera());
-      one.colour = glm::vec3(light->GetIntensity() * glm::dvec3(colour[0], colour[1], colour[2]));
-      lights.push_back(one);
+      lights.push_back(lightOf(light, toView, eyeInView));
     }
   }
   if (lights.empty())
   {
-    lights.push_back({ { 0.0f, 0.0f, 1.0f }, glm::vec3(0.0f) });
+    lights.emplace_back();
+    lights.back().colour = glm::vec3(0.0f);
   }
   return lights;
 }

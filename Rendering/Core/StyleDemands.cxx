@@ -8,12 +8,6 @@
 
 #include <vector>
 
-bool vtkPointFrontMapper::HasPlainPointsOnly(vtkActor* actor)
-{
-  const auto sheet = this->GetStyleSheet();
-  return !sheet || pointfront::hasPlainPointsOnly(sheet->frameShading(), this->GetStyling(actor));
-}
-
 bool vtkPointFrontMapper::AddsUpSplats(vtkActor* actor)
 {
   const auto sheet = this->GetStore() ? this->GetStyleSheet() : nullptr;

@@ -46,6 +46,7 @@ struct FrameStatistics;
 struct LayerStyling;
 struct PlanRequest;
 struct StyleSheet;
+struct ViewportMargin;
 } // namespace pointfront
 
 class POINTFRONTRENDERINGCORE_EXPORT vtkPointFrontMapper : public vtkPolyDataMapper
@@ -394,6 +395,7 @@ private:
   struct Content;
   pointfront::FrameRequest GetFrameRequest(vtkRenderer* renderer, vtkActor* actor);
   pointfront::PlanRequest GetRequest(vtkRenderer* renderer, vtkActor* actor);
+  pointfront::ViewportMargin GetMargin(vtkRenderer* renderer, vtkActor* actor);
   bool MoveFront(vtkRenderer* renderer, vtkActor* actor);
   bool Announce();
   std::unique_ptr<Content> Internals;

@@ -48,8 +48,7 @@ RasterStatistics SoftwarePicture::draw(
   window->GetState()->vtkglGetIntegerv(GL_VIEWPORT, viewport);
   originPx_[0] = viewport[0];
   originPx_[1] = viewport[1];
-  plan.camera.width = std::max(1, viewport[2]);
-  plan.camera.height = std::max(1, viewport[3]);
+  plan.camera.setViewport(std::max(1, viewport[2]), std::max(1, viewport[3]), plan.camera.margin);
   Picture& picture = pictures_[renderer];
   picture.target.keepPoints = ids;
   picture.target.keepDecided = plan.composited;

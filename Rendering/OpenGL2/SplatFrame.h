@@ -1,6 +1,7 @@
 #pragma once
 
 #include "SlotRecords.h"
+#include "SplatHoleFiller.h"
 #include "SplatProgram.h"
 
 #include <vtkNew.h>
@@ -24,6 +25,7 @@ struct SplatTools
   SplatPrograms programs;
   SlotRecords records;
   SlotRecords lastRecords; ///< of points that the last picture has and this one lacks
+  SplatHoleFiller holes;
   vtkNew<vtkOpenGLVertexArrayObject> vertices;
 };
 

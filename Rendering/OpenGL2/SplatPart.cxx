@@ -1,9 +1,11 @@
 #include "SplatPart.h"
 
 #include "GpuPool.h"
+#include "HoleFiller.h"
 #include "OpenGLFunctions.h"
 #include "RasterItems.h"
 #include "SoftwareRasteriser.h"
+#include "SplatLights.h"
 #include "SplatRuns.h"
 #include "SplatUniforms.h"
 #include "TargetState.h"
@@ -22,8 +24,6 @@ namespace pointfront
 {
 namespace
 {
-
-constexpr std::size_t mostLights = 64; // of ResolveFS.glsl; OpenGL 3.2 has room for 128
 
 bool sameRectangle(const PixelRectangle& a, const PixelRectangle& b)
 {
@@ -67,7 +67,11 @@ std::int64_t SplatPart::draw(const SplatFrame& frame, const FramePlan& plan,
   }
   parts_ = parts;
   limits_ = within;
-  shown_ = !limits && kept_.empty() ? groups_.shown() : within;
+  const bool fills = plan.shading.fillHoles && !frame.ids; // filled pixels are no points
+  seen_ = !kept_.empty() ? within
+    : fills              ? filledFrom(groups_.shown(), plan.camera)
+                         : groups_.shown();
+  shown_ = limits ? within : seen_;
   selects_ = frame.ids;
   if (!limits && (points == 0 || shown_.empty()))
   {
@@ -81,11 +85,16 @@ std::int64_t SplatPart::draw(const SplatFrame& frame, const FramePlan& plan,
   }
   target_->setOwner(this);
   renderer_ = frame.renderer;
-  if (!goesOn || !groups_.addsNothing() || !(shading_ == plan.shading))
+  if (!goesOn || !groups_.addsNothing() || !(shading_ == plan.shading) || fills_ != fills)
   {
     tools_.records.upload(window);
-    drawInto(frame, plan, goesOn);
+    if (!drawInto(frame, plan, goesOn, fills))
+    {
+      forget();
+      return noTarget;
+    }
     shading_ = plan.shading;
+    fills_ = fills;
   }
   groups_.keep(plan);
   return points;
@@ -111,7 +120,7 @@ void SplatPart::keepVisible(const SplatFrame& frame, const FramePlan& plan, floa
   kept_.collect(frame, tools_, leaving, plan, { groups_.lastCamera(), target_->ids() });
 }
 
-void SplatPart::drawInto(const SplatFrame& frame, const FramePlan& plan, bool goesOn)
+bool SplatPart::drawInto(const SplatFrame& frame, const FramePlan& plan, bool goesOn, bool fills)
 {
   vtkOpenGLState* const state = frame.window->GetState();
   const TargetState scope(state);
@@ -139,9 +148,16 @@ void SplatPart::drawInto(const SplatFrame& frame, const FramePlan& plan, bool go
     kept_.draw(frame, tools_, groups_, parts_, true, target_->seenDepths());
     state->vtkglDisable(GL_BLEND);
   }
-  target_->beginPicture();
-  resolve(frame.window, plan);
+  const bool filled =
+    !fills || tools_.holes.fill(frame.window, *target_, parts_.blended, plan.camera, shown_);
+  if (filled)
+  {
+    state->vtkglScissor(shown_.left, shown_.bottom, shown_.width(), shown_.height());
+    target_->beginPicture();
+    resolve(frame.window, plan, fills);
+  }
   tools_.vertices->Release();
+  return filled;
 }
 
 void SplatPart::drawGroups(const SplatFrame& frame, bool second, bool addedOnly)
@@ -173,12 +189,12 @@ void SplatPart::drawGroup(
   }
 }
 
-void SplatPart::resolve(vtkOpenGLRenderWindow* window, const FramePlan& plan)
+void SplatPart::resolve(vtkOpenGLRenderWindow* window, const FramePlan& plan, bool fills)
 {
   const FrameShading& shading = plan.shading;
   const bool eyeDome = shading.eyeDomeStrength > 0.0f;
   vtkShaderProgram* const program =
-    tools_.programs.useResolve(window, parts_.blended, parts_.lit, eyeDome);
+    tools_.programs.useResolve(window, parts_.blended && !fills, parts_.lit, eyeDome);
   if (!program)
   {
     return;
@@ -195,23 +211,11 @@ void SplatPart::resolve(vtkOpenGLRenderWindow* window, const FramePlan& plan)
     "eyeDomeReach", std::max(1, static_cast<int>(std::lround(shading.eyeDomeRadiusPx))));
   const int size[2] = { parts_.width, parts_.height };
   program->SetUniform2i("pictureSize", size);
-  std::vector<FrameLight> lights = shading.lights;
-  lights.resize(std::clamp<std::size_t>(lights.size(), 1, mostLights)); // none: one at the eye
-  float towards[mostLights][3];
-  float colours[mostLights][3];
-  for (std::size_t i = 0; i < lights.size(); ++i)
-  {
-    std::copy_n(&lights[i].towards.x, 3, towards[i]);
-    std::copy_n(&lights[i].colour.x, 3, colours[i]);
-  }
-  const auto count = static_cast<int>(lights.size());
-  const float ambientDiffuse[2] = { shading.ambient, shading.diffuse };
-  program->SetUniform2f("ambientDiffuse", ambientDiffuse);
-  program->SetUniformi("lightCount", count);
-  program->SetUniform3fv("lightTowards", count, towards);
-  program->SetUniform3fv("lightColours", count, colours);
-  vtkTextureObject* const textures[] = { target_->seenColours(), target_->seenDepths(),
-    target_->sums(), target_->normals() };
+  setLights(program, plan);
+  vtkTextureObject* const textures[] = {
+    fills ? tools_.holes.seenColours() : target_->seenColours(),
+    fills ? tools_.holes.seenDepths() : target_->seenDepths(), target_->sums(), target_->normals()
+  };
   const char* const names[] = { "seenColours", "seenDepths", "colourSums", "seenNormals" };
   for (int i = 0; i < 4; ++i)
   {

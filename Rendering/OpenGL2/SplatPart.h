@@ -37,8 +37,8 @@ public:
   /// pixels of shown() do.
   std::int64_t draw(const SplatFrame& frame, const FramePlan& plan,
     const std::shared_ptr<SplatTarget>& target, const PixelRectangle* limits);
-  /// The rectangle in which the points can show anything.
-  const PixelRectangle& shown() const { return groups_.shown(); }
+  /// The rectangle in which the points of the last picture can show anything.
+  const PixelRectangle& shown() const { return seen_; }
   SplatTextures picture() const;
   /// Points of the last picture that were drawn beside the plan's (FramePlan::keepsVisible).
   std::int64_t keptPoints() const { return kept_.points(); }
@@ -48,11 +48,12 @@ public:
 private:
   void forget();
   void keepVisible(const SplatFrame& frame, const FramePlan& plan, float largestPointPx);
-  void drawInto(const SplatFrame& frame, const FramePlan& plan, bool goesOn);
+  bool drawInto(const SplatFrame& frame, const FramePlan& plan, bool goesOn, bool fills);
   void drawGroups(const SplatFrame& frame, bool second, bool addedOnly);
   void drawGroup(
     const SplatFrame& frame, const SplatGroups::Group& group, const DrawRuns& runs, bool second);
-  void resolve(vtkOpenGLRenderWindow* window, const FramePlan& plan);
+  /// `fills`: what was seen is SplatTools::holes'.
+  void resolve(vtkOpenGLRenderWindow* window, const FramePlan& plan, bool fills);
 
   SplatTools& tools_;
   std::shared_ptr<SplatTarget> target_; ///< all clouds of the window may draw into it in turn
@@ -61,9 +62,11 @@ private:
   KeptSplats kept_;
   bool selects_ = false; ///< the last picture is for a selection
   FrameShading shading_; ///< of the last picture
+  bool fills_ = false; ///< the last picture's holes are filled
   vtkRenderer* renderer_ = nullptr; ///< compared, not used
   PixelRectangle limits_;
-  PixelRectangle shown_;
+  PixelRectangle shown_; ///< the pixels that get a value
+  PixelRectangle seen_; ///< where points can be seen
 };
 
 } // namespace pointfront

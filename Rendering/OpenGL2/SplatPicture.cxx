@@ -1,8 +1,8 @@
 #include "SplatPicture.h"
 
+#include "HoleFiller.h"
 #include "OpenGLFunctions.h"
 #include "PerWindow.h"
-#include "SoftwareComposition.h"
 #include "TargetState.h"
 #include "vtkOpenGLPointFrontPicture.h"
 
@@ -32,8 +32,9 @@ PixelRectangle limitsOf(const PlanPart& part, const FramePlan& plan)
   }
   const std::array<int, 4> e =
     plan.shading.lenses[lens].extent(plan.camera.width, plan.camera.height);
-  const int reach = SoftwareComposition::reachPx(plan.shading);
-  return common(viewport, { e[0] - reach, e[1] - reach, e[2] + reach, e[3] + reach });
+  const int reach = plan.shading.reachPx();
+  const PixelRectangle place{ e[0] - reach, e[1] - reach, e[2] + reach, e[3] + reach };
+  return plan.shading.fillHoles ? filledFrom(place, plan.camera) : common(viewport, place);
 }
 
 } // namespace
@@ -52,9 +53,12 @@ std::int64_t SplatPicture::draw(vtkOpenGLRenderWindow* window, vtkRenderer* rend
   window->GetState()->vtkglGetIntegerv(GL_VIEWPORT, viewport);
   originPx_[0] = viewport[0];
   originPx_[1] = viewport[1];
-  plan.camera.width = std::max(1, viewport[2]);
-  plan.camera.height = std::max(1, viewport[3]);
+  plan.camera.setViewport(std::max(1, viewport[2]), std::max(1, viewport[3]), plan.camera.margin);
   const SplatFrame frame{ window, renderer, &pool, tableOf, ids };
+  if (!plan.shading.fillHoles)
+  {
+    tools_.holes.release(window);
+  }
   if (isSeveral(plan))
   {
     return drawParts(frame, plan);
@@ -133,7 +137,7 @@ std::int64_t SplatPicture::drawParts(const SplatFrame& frame, const FramePlan& p
       further->opacity = part.opacity;
     }
   }
-  const int reach = shown_.empty() ? 0 : SoftwareComposition::reachPx(plan.shading);
+  const int reach = shown_.empty() ? 0 : plan.shading.reachPx();
   shown_ = common(viewport,
     { shown_.left - reach, shown_.bottom - reach, shown_.right + reach, shown_.top + reach });
   if (!composition_.begin(frame.window, viewport.right, viewport.top, frame.ids))
@@ -219,6 +223,7 @@ void SplatPicture::release(vtkOpenGLRenderWindow* window)
   composition_.release(window);
   tools_.records.release(window);
   tools_.lastRecords.release(window);
+  tools_.holes.release(window);
   tools_.vertices->ReleaseGraphicsResources();
   if (mapper_)
   {

@@ -260,9 +260,9 @@ bool vtkOpenGLPointFrontMapper::DrawsFromHostMemory(vtkActor* actor)
   }
   if (!asked && !onlyOpenGL && !this->DrawsByOpenGL(actor))
   {
-    this->TellFallBack("OpenGL fills no holes, has at most 4 lenses and 4 translucent styles, and "
-                       "draws at most 254 styles of a layer with one attribute of sizes: this "
-                       "style is drawn by the software back end");
+    this->TellFallBack("OpenGL has at most 4 lenses and 4 translucent styles, and draws at most "
+                       "254 styles of a layer with one attribute of sizes: this style is drawn by "
+                       "the software back end");
     return true;
   }
   return asked;
@@ -276,7 +276,7 @@ bool vtkOpenGLPointFrontMapper::DrawsByOpenGL(vtkActor* actor)
     return true;
   }
   const std::vector<pointfront::LayerStyling> layers = this->GetStyling(actor);
-  return !sheet->shading.fillHoles && !hasTooManyGroups(layers) &&
+  return !hasTooManyGroups(layers) &&
     std::all_of(layers.begin(), layers.end(),
       [](const pointfront::LayerStyling& layer)
       { return pointfront::LayerStreams::canDraw(layer.styles); });

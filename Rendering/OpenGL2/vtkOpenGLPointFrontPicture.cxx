@@ -105,17 +105,24 @@ void vtkOpenGLPointFrontPicture::SetMapperShaderParameters(
   {
     program->SetUniformi("pictureIds", drawing.ids->GetTextureUnit());
   }
-  program->SetUniform2i("pictureOrigin", drawing.originPx);
+  const pointfront::ViewportMargin& margin = drawing.camera->margin;
+  const int origin[2] = { drawing.originPx[0] - margin.left, drawing.originPx[1] - margin.bottom };
+  program->SetUniform2i("pictureOrigin", origin);
   const float size[2] = { static_cast<float>(drawing.camera->width),
     static_cast<float>(drawing.camera->height) };
   program->SetUniform2f("pictureSize", size);
   const pointfront::PixelRectangle& place = drawing.place;
   const int corner[2] = { drawing.textures.left, drawing.textures.bottom };
   program->SetUniform2i("pictureCorner", corner);
-  const float edges[4] = { 2.0f * static_cast<float>(place.left) / size[0] - 1.0f,
-    2.0f * static_cast<float>(place.bottom) / size[1] - 1.0f,
-    2.0f * static_cast<float>(place.right) / size[0] - 1.0f,
-    2.0f * static_cast<float>(place.top) / size[1] - 1.0f };
+  const auto edge = [](int pixel, float drawn, int low, int high)
+  {
+    const float shown = drawn - static_cast<float>(low + high);
+    return 2.0f * static_cast<float>(pixel - low) / shown - 1.0f;
+  };
+  const float edges[4] = { edge(place.left, size[0], margin.left, margin.right),
+    edge(place.bottom, size[1], margin.bottom, margin.top),
+    edge(place.right, size[0], margin.left, margin.right),
+    edge(place.top, size[1], margin.bottom, margin.top) };
   program->SetUniform4f("pictureEdges", edges);
   vtkNew<vtkMatrix4x4> viewToClip; // stored as GL wants it: columns
   for (int column = 0; column < 4; ++column)

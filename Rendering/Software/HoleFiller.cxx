@@ -18,8 +18,6 @@ constexpr float nothing = std::numeric_limits<float>::infinity();
 /// Holes of up to 2^levels pixels.
 constexpr int levels = 3;
 static_assert(holeFillerReach == 1 << levels, "a coarsest pixel");
-/// Depths agree within that many pixels' size.
-constexpr float agreePixels = 3.0f;
 /// Of 16 parts of bilinear weight, those that have to agree.
 constexpr std::uint32_t leastParts = 10;
 
@@ -166,10 +164,22 @@ void push(Level& fine, const Level& coarse, const Agreement& agreement, int fact
 
 } // namespace
 
+PixelRectangle filledFrom(const PixelRectangle& place, const FrameCamera& camera)
+{
+  if (place.empty())
+  {
+    return place;
+  }
+  const auto down = [](int x) { return (x - holeFillerReach) & -holeFillerReach; };
+  const auto up = [](int x) { return (x + 2 * holeFillerReach - 1) & -holeFillerReach; };
+  return common({ 0, 0, camera.width, camera.height },
+    { down(place.left), down(place.bottom), up(place.right), up(place.top) });
+}
+
 void fillHoles(const FrameCamera& camera, SoftwareTarget& target)
 {
   const double scale = 0.5 * camera.height * camera.viewToClip[1][1];
-  const auto size = static_cast<float>(agreePixels / scale);
+  const auto size = static_cast<float>(holeFillerAgreePx / scale);
   Agreement agreement;
   (camera.parallel ? agreement.always : agreement.perDepth) = size;
   std::array<Level, levels + 1> pyramid;

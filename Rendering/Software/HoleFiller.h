@@ -1,14 +1,20 @@
 #pragma once
 
+#include "PixelRectangle.h"
 #include "SoftwareTarget.h"
 
 #include "pointfront/Plan/FrameCamera.h"
+#include "pointfront/Style/FrameShading.h"
 
 namespace pointfront
 {
 
-/// A filled pixel depends on its own block of that many pixels a side and on the blocks around.
-constexpr int holeFillerReach = 8;
+/// Depths agree within that many pixels' size.
+constexpr float holeFillerAgreePx = 3.0f;
+
+/// What the pixels of `place` and holes beside them are filled from: whole blocks, which count from
+/// the viewport's corner, and those around them.
+PixelRectangle filledFrom(const PixelRectangle& place, const FrameCamera& camera);
 
 /// Fills pixels that no splat covers, and those through which a farther surface shows, from the
 /// nearest surface around them: a pyramid of means over pixels that agree in depth, then back down

@@ -3,6 +3,9 @@
 
 #include "pointfront/Threads/ThreadCrew.h"
 
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -41,7 +44,35 @@ void scaleColours(SoftwareTarget& target, const Factors& factors)
     });
 }
 
-void light(const FrameShading& shading, SoftwareTarget& target)
+/// The place in view space that a pixel's centre shows at a depth: the inverse of any frustum.
+glm::vec3 placeAt(const FrameCamera& camera, int x, int y, float depth)
+{
+  const glm::dmat4& m = camera.viewToClip;
+  const double w = m[3][3] - m[2][3] * depth;
+  const glm::dvec2 size(camera.width, camera.height);
+  const glm::dvec2 clip = (2.0 * glm::dvec2(x + 0.5, y + 0.5) / size - 1.0) * w;
+  return { (clip.x + m[2][0] * depth - m[3][0]) / m[0][0],
+    (clip.y + m[2][1] * depth - m[3][1]) / m[1][1], -depth };
+}
+
+/// What a positional light gives to a surface: 0 on the side that it does not reach.
+float brightness(const FrameLight& light, const glm::vec3& place, const glm::vec3& normal)
+{
+  const glm::vec3 from = place - light.place;
+  const float distance = std::max(glm::length(from), std::numeric_limits<float>::min());
+  const glm::vec3 ray = from / distance;
+  float share = std::max(-glm::dot(normal, ray), 0.0f) /
+    (light.attenuation.x + light.attenuation.y * distance +
+      light.attenuation.z * distance * distance);
+  if (light.coneCosine != FrameLight::noCone)
+  {
+    const float cosine = glm::dot(ray, light.aim);
+    share *= cosine >= light.coneCosine ? std::pow(std::max(cosine, 0.0f), light.exponent) : 0.0f;
+  }
+  return share;
+}
+
+void light(const FrameCamera& camera, const FrameShading& shading, SoftwareTarget& target)
 {
   std::vector<FrameLight> lights = shading.lights;
   if (lights.empty())
@@ -49,7 +80,7 @@ void light(const FrameShading& shading, SoftwareTarget& target)
     lights.emplace_back(); // at the eye
   }
   scaleColours(target,
-    [&](std::size_t pixel, int, int)
+    [&](std::size_t pixel, int x, int y)
     {
       const float* const n = &target.normals[3 * pixel];
       if (n[0] == 0.0f && n[1] == 0.0f && n[2] == 0.0f)
@@ -60,7 +91,12 @@ void light(const FrameShading& shading, SoftwareTarget& target)
       for (const FrameLight& one : lights)
       {
         const float facing = n[0] * one.towards.x + n[1] * one.towards.y + n[2] * one.towards.z;
-        sum += one.colour * (shading.diffuse * std::max(facing, 0.0f));
+        const float share = one.positional
+          ? brightness(one,
+              placeAt(camera, target.left + x, target.bottom + y, target.depth[pixel]),
+              { n[0], n[1], n[2] })
+          : std::max(facing, 0.0f);
+        sum += one.colour * (shading.diffuse * share);
       }
       return sum;
     });
@@ -126,13 +162,13 @@ void shade(const FrameCamera& camera, const FrameShading& shading, SoftwareTarge
   {
     return;
   }
-  if (shading.fillHoles)
+  if (shading.fillHoles && !target.keepPoints) // filled pixels are no points
   {
     fillHoles(camera, target);
   }
   if (shading.lit && !target.normals.empty())
   {
-    light(shading, target);
+    light(camera, shading, target);
   }
   if (shading.eyeDomeStrength > 0.0f)
   {

@@ -1,8 +1,5 @@
 #include "ShownRectangle.h"
 
-#include "HoleFiller.h"
-#include "SoftwareRasteriser.h"
-
 #include "PointShapes.h"
 
 #include <algorithm>
@@ -151,25 +148,6 @@ PixelRectangle shownRectangle(const RasterItems& items)
     }
   }
   return shown;
-}
-
-PixelRectangle withSurroundings(const PixelRectangle& place, const FramePlan& plan)
-{
-  if (!plan.shading.fillHoles || place.empty())
-  {
-    return place;
-  }
-  const auto down = [](int x) { return (x - holeFillerReach) & -holeFillerReach; };
-  const auto up = [](int x) { return (x + 2 * holeFillerReach - 1) & -holeFillerReach; };
-  return common({ 0, 0, plan.camera.width, plan.camera.height },
-    { down(place.left), down(place.bottom), up(place.right), up(place.top) });
-}
-
-PixelRectangle shownRectangle(const FramePlan& plan)
-{
-  const PixelRectangle viewport{ 0, 0, plan.camera.width, plan.camera.height };
-  const RasterItems items(plan, 0);
-  return items.last() ? withSurroundings(shownRectangle(items), plan) : viewport;
 }
 
 } // namespace pointfront

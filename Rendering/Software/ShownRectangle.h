@@ -13,8 +13,4 @@ namespace pointfront
 ///            have the bits that pictures of all have.
 PixelRectangle shownRectangle(const RasterItems& items);
 
-/// With what shading looks at: holes are filled from blocks of pixels that count from the
-/// viewport's corner, and their neighbours.
-PixelRectangle withSurroundings(const PixelRectangle& place, const FramePlan& plan);
-
 } // namespace pointfront

@@ -89,17 +89,6 @@ PixelRectangle wider(const PixelRectangle& place, int by, const FrameCamera& cam
 
 } // namespace
 
-int SoftwareComposition::reachPx(const FrameShading& shading)
-{
-  int reach =
-    shading.eyeDomeStrength > 0.0f ? static_cast<int>(std::ceil(shading.eyeDomeRadiusPx)) + 1 : 0;
-  for (const FrameHighlight& one : shading.highlights)
-  {
-    reach = std::max(reach, static_cast<int>(std::ceil(one.haloPx)) + 1);
-  }
-  return shading.fillHoles ? std::max(reach, holeFillerReach) : reach;
-}
-
 /// A lens' holes are filled from blocks of pixels that count from the viewport's corner.
 SoftwareTarget& SoftwareComposition::begin(const PlanPart& part, const FrameShading& shading,
   const FrameCamera& camera, const SoftwareTarget& whole)
@@ -114,7 +103,7 @@ SoftwareTarget& SoftwareComposition::begin(const PlanPart& part, const FrameShad
     if (part.lens >= 0 && lens < shading.lenses.size())
     {
       const std::array<int, 4> e = shading.lenses[lens].extent(camera.width, camera.height);
-      PixelRectangle seen = wider({ e[0], e[1], e[2], e[3] }, reachPx(shading), camera);
+      PixelRectangle seen = wider({ e[0], e[1], e[2], e[3] }, shading.reachPx(), camera);
       if (shading.fillHoles)
       {
         seen = common({ 0, 0, camera.width, camera.height },
@@ -167,7 +156,7 @@ RasterStatistics SoftwareComposition::drawShown(
   {
     return rasteriser.drawShown(plan, target);
   }
-  target.reset(wider(shownRectangle(plan), reachPx(plan.shading), plan.camera));
+  target.reset(wider(shownRectangle(plan), plan.shading.reachPx(), plan.camera));
   return target.rectangle().empty() ? RasterStatistics() : draw(rasteriser, plan, target);
 }
 

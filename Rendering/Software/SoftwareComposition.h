@@ -31,9 +31,6 @@ public:
   /// another picture.
   void finish(const FrameCamera& camera, const FrameShading& shading, SoftwareTarget& target);
 
-  /// Number of pixels around the wanted ones that light, highlights and hole filling read.
-  static int reachPx(const FrameShading& shading);
-
 private:
   struct Part
   {

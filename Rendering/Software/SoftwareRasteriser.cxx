@@ -60,6 +60,11 @@ std::vector<RasterPiece> piecesOf(const RasterItems& items)
   return pieces;
 }
 
+PixelRectangle withHoles(const PixelRectangle& place, const FramePlan& plan)
+{
+  return plan.shading.fillHoles ? filledFrom(place, plan.camera) : place;
+}
+
 } // namespace
 
 struct SoftwareRasteriser::Content
@@ -345,7 +350,7 @@ void SoftwareRasteriser::Content::drawRound(const RasterItems& items, Drawing& d
   PixelRectangle place = shownRectangle(items);
   if (drawing.fits)
   {
-    place = only ? withSurroundings(place, plan) : viewport;
+    place = only ? withHoles(place, plan) : viewport;
   }
   else
   {
@@ -408,6 +413,13 @@ RasterStatistics SoftwareRasteriser::Content::draw(const FramePlan& asked, Softw
   statistics.milliseconds =
     std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
   return statistics;
+}
+
+PixelRectangle shownRectangle(const FramePlan& plan)
+{
+  const PixelRectangle viewport{ 0, 0, plan.camera.width, plan.camera.height };
+  const RasterItems items(plan, 0);
+  return items.last() ? withHoles(shownRectangle(items), plan) : viewport;
 }
 
 RasterStatistics SoftwareRasteriser::draw(

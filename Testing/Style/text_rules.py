@@ -17,7 +17,6 @@ LONG_FILES = {
     "Filters/ImageColor/Testing/TestImageValuesPass.cxx": 545,
     "IO/Store/Testing/Cxx/TestReader.cxx": 479,
     "IO/StyleJSON/ParseStyle.cxx": 487,
-    "Rendering/Core/vtkPointFrontMapper.cxx": 548,
     "Rendering/OpenGL2/GpuPool.cxx": 509,
     "Rendering/OpenGL2/Testing/Cxx/TestSoftwareBackend.cxx": 568,
     "Rendering/OpenGL2/Testing/Cxx/TestTechniques.cxx": 542,

@@ -308,7 +308,7 @@ TEST(Composition, IsTheSameForAnyThreadsAndInBands)
   const SoftwareTarget whole = sheets.draw();
   ThreadCrew seven(7);
   EXPECT_EQ(sheets.draw(&seven).rgba, whole.rgba);
-  const int reach = SoftwareComposition::reachPx(shading);
+  const int reach = shading.reachPx();
   for (int bottom = 0; bottom < size; bottom += 10)
   {
     const int top = std::min(size, bottom + 10);

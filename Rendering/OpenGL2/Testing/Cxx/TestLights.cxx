@@ -5,6 +5,7 @@
 #include "vtkPointFrontStyle.h"
 
 #include <vtkLight.h>
+#include <vtkSphereSource.h>
 
 #include <cmath>
 #include <string>
@@ -147,4 +148,76 @@ TEST(Lights, EachOfManyCounts)
     expectNear(scene.by(backend).at(middleX, middleY), ambient + diffuse, ambient + 0.5 * diffuse,
       ambient + 0.5 * diffuse);
   }
+}
+
+/// A sphere of triangles says how VTK lights what has a place, a cone and a distance.
+TEST(Lights, WithAPlaceShineAsOnVTKsOwnSurfaces)
+{
+  struct Lamp
+  {
+    std::array<double, 3> from;
+    double cone;
+    double exponent;
+    std::array<double, 3> attenuation;
+    int type;
+  };
+  const Lamp lamps[] = { { { 1.5, 1.0, 2.5 }, 120.0, 1.0, { 1, 0, 0 }, VTK_LIGHT_TYPE_SCENE_LIGHT },
+    { { 1.5, 1.0, 2.5 }, 12.0, 1.0, { 1, 0, 0 }, VTK_LIGHT_TYPE_SCENE_LIGHT },
+    { { -1.0, 2.0, 3.0 }, 40.0, 20.0, { 0.5, 0.1, 0.05 }, VTK_LIGHT_TYPE_SCENE_LIGHT },
+    { { 0.2, 0.3, 0.6 }, 8.0, 4.0, { 1, 0, 0 }, VTK_LIGHT_TYPE_CAMERA_LIGHT } };
+  LitSphere scene;
+  vtkNew<vtkSphereSource> ball;
+  ball->SetRadius(1.0);
+  ball->SetThetaResolution(400);
+  ball->SetPhiResolution(400);
+  vtkNew<vtkPolyDataMapper> triangles;
+  triangles->SetInputConnection(ball->GetOutputPort());
+  vtkNew<vtkActor> own;
+  own->SetMapper(triangles);
+  own->GetProperty()->SetColor(200.0 / 255.0, 200.0 / 255.0, 200.0 / 255.0);
+  own->GetProperty()->SetAmbient(0.3);
+  own->GetProperty()->SetDiffuse(0.7);
+  scene.renderer->AddActor(own);
+  vtkLight* const light = scene.add({ 0, 0, 5 }, { 1.0, 0.8, 0.4 });
+  light->PositionalOn();
+  for (const bool parallel : { false, true })
+  {
+    scene.renderer->GetActiveCamera()->SetParallelProjection(parallel ? 1 : 0);
+    scene.renderer->GetActiveCamera()->SetParallelScale(1.6);
+    for (const Lamp& lamp : lamps)
+    {
+      light->SetLightType(lamp.type);
+      light->SetPosition(lamp.from.data());
+      light->SetFocalPoint(0.1, 0.2, 0.0);
+      light->SetConeAngle(lamp.cone);
+      light->SetExponent(lamp.exponent);
+      light->SetAttenuationValues(lamp.attenuation.data());
+      scene.actor->VisibilityOff();
+      own->VisibilityOn();
+      const Picture expected = scene.draw();
+      scene.actor->VisibilityOn();
+      own->VisibilityOff();
+      for (const int backend : lightBackends)
+      {
+        const Picture picture = scene.by(backend);
+        EXPECT_GT(picture.lit(), 4000);
+        // The rim of a cone and of the sphere may lie a pixel beside.
+        EXPECT_LE(differing(picture, expected, 4), 0.04 * picture.lit())
+          << lamp.cone << " degrees, " << parallel << ", back end " << backend;
+      }
+      scene.actor->VisibilityOn();
+    }
+  }
+}
+
+TEST(Lights, WithAPlaceShineOnBothEyes)
+{
+  LitSphere scene;
+  vtkLight* const light = scene.add({ 1.5, 1.0, 2.5 }, { 1, 1, 1 });
+  light->PositionalOn();
+  light->SetConeAngle(15.0);
+  scene.window->SetStereoTypeToAnaglyph();
+  scene.window->StereoRenderOn();
+  const Picture software = scene.by(vtkPointFrontMapper::SOFTWARE);
+  EXPECT_LE(differing(software, scene.by(vtkPointFrontMapper::OPENGL), 2), 0.005 * 300 * 200);
 }

@@ -472,10 +472,14 @@ TEST(SoftwareBackend, AStyleMayChangeBetweenTwoFrames)
 TEST(SoftwareBackend, DrawsWhatOpenGLDoesNotAndSaysSo)
 {
   Sheet scene;
-  auto sheet = std::make_shared<StyleSheet>();
-  sheet->standard.technique = Technique::Splats;
-  sheet->shading.fillHoles = true;
-  scene.mapper->SetStyleSheet(sheet);
+  vtkNew<vtkPointFrontStyle> style;
+  style->SetTechnique("splats");
+  for (int lens = 0; lens < 5; ++lens)
+  {
+    style->AddCircleLens(100.0 + 20.0 * lens, 100.0, 8.0);
+    style->SetLensStyle(lens, R"({"color": "#ff0000"})");
+  }
+  scene.mapper->SetStyle(style);
   const Picture splats = scene.with(vtkPointFrontMapper::SOFTWARE);
   int warnings = 0;
   vtkNew<vtkCallbackCommand> count;

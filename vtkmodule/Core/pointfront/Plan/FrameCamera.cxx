@@ -1,6 +1,8 @@
 #include "pointfront/Plan/FrameCamera.h"
 
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
 
 #include <cmath>
 
@@ -71,6 +73,31 @@ FrameCamera FrameCamera::parallelView(const glm::dvec3& position, const glm::dve
   camera.referenceInView = { 0.0, 0.0, -glm::length(focalPoint - position) };
   camera.parallel = true;
   return camera;
+}
+
+void FrameCamera::setViewport(int viewportWidth, int viewportHeight, const ViewportMargin& around)
+{
+  // Without margins nothing is computed, so that nothing is rounded.
+  if (!(margin.isNone() && around.isNone()))
+  {
+    const glm::dvec2 drawn(width, height);
+    const glm::dvec2 low(margin.left, margin.bottom), high(margin.right, margin.top);
+    const glm::dvec2 shown(viewportWidth, viewportHeight);
+    const glm::dvec2 newLow(around.left, around.bottom), newHigh(around.right, around.top);
+    for (int i = 0; i < 4; ++i)
+    {
+      glm::dvec4& column = viewToClip[i];
+      const glm::dvec2 alone = (glm::dvec2(column) * drawn - column.w * (low - high)) /
+        (drawn - low - high); // what the column is without a margin
+      const glm::dvec2 wider =
+        (alone * shown + column.w * (newLow - newHigh)) / (shown + newLow + newHigh);
+      column.x = wider.x;
+      column.y = wider.y;
+    }
+  }
+  margin = around;
+  width = viewportWidth + around.left + around.right;
+  height = viewportHeight + around.bottom + around.top;
 }
 
 } // namespace pointfront

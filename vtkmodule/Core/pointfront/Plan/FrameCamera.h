@@ -6,6 +6,17 @@
 namespace pointfront
 {
 
+/// Pixels around a viewport that are drawn and not shown.
+struct ViewportMargin
+{
+  int left = 0;
+  int bottom = 0;
+  int right = 0;
+  int top = 0;
+
+  bool isNone() const { return left == 0 && bottom == 0 && right == 0 && top == 0; }
+};
+
 /// The camera of one frame in double, as back ends use it. The front's View says what is in sight;
 /// this says where each point lands.
 /// Spaces  store: the store's world coordinates. View: the eye at 0, looking along -z, x to the
@@ -22,8 +33,9 @@ struct FrameCamera
   /// rounding noise of two large terms enters.
   glm::dvec3 referenceInView{ 0.0 };
   bool parallel = false;
-  int width = 1; ///< of the viewport, pixels
+  int width = 1; ///< of the viewport and its margin, pixels
   int height = 1;
+  ViewportMargin margin; ///< part of width, height and viewToClip; set by setViewport()
 
   /// A symmetric view for tools and tests; `verticalAngle` in radians, square pixels.
   static FrameCamera perspective(const glm::dvec3& position, const glm::dvec3& focalPoint,
@@ -33,6 +45,9 @@ struct FrameCamera
   static FrameCamera parallelView(const glm::dvec3& position, const glm::dvec3& focalPoint,
     const glm::dvec3& up, double halfHeight, double nearDistance, double farDistance, int width,
     int height);
+
+  /// Draws for a viewport of that many pixels, and as many around it as the margin says.
+  void setViewport(int viewportWidth, int viewportHeight, const ViewportMargin& around);
 
   glm::dmat4 storeToClip() const { return viewToClip * storeToView; }
 };

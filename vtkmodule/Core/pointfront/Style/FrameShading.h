@@ -4,20 +4,32 @@
 
 #include <glm/vec3.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 namespace pointfront
 {
 
-/// A light as deferred lighting uses it.
+/// A light as deferred lighting uses it. Places and directions are those of view space.
 struct FrameLight
 {
-  glm::vec3 towards{ 0.0f, 0.0f, 1.0f }; ///< unit, view space, from the surface to the light
+  static constexpr float noCone = -2.0f;
+
+  glm::vec3 towards{ 0.0f, 0.0f, 1.0f }; ///< unit, from the surface to a light that is far away
   glm::vec3 colour{ 1.0f }; ///< intensity included
+  bool positional = false; ///< it shines from `place`; what follows is for such lights
+  glm::vec3 place{ 0.0f };
+  glm::vec3 aim{ 0.0f, 0.0f, -1.0f }; ///< unit: the middle of its cone
+  float coneCosine = noCone; ///< of the angle between aim and the cone's rim
+  float exponent = 1.0f; ///< in a cone it fades as the cosine of the angle from aim, to this power
+  glm::vec3 attenuation{ 1.0f, 0.0f, 0.0f }; ///< divides by a + b * distance + c * distance^2
 
   friend bool operator==(const FrameLight& a, const FrameLight& b)
   {
-    return a.towards == b.towards && a.colour == b.colour;
+    return a.towards == b.towards && a.colour == b.colour && a.positional == b.positional &&
+      a.place == b.place && a.aim == b.aim && a.coneCosine == b.coneCosine &&
+      a.exponent == b.exponent && a.attenuation == b.attenuation;
   }
 };
 
@@ -33,6 +45,9 @@ struct FrameHighlight
     return a.colour == b.colour && a.haloPx == b.haloPx && a.tint == b.tint;
   }
 };
+
+/// A filled pixel depends on its own block of that many pixels a side and on the blocks around.
+constexpr int holeFillerReach = 8;
 
 /// The work on a frame's pixels after all points are drawn.
 struct FrameShading
@@ -54,6 +69,17 @@ struct FrameShading
   /// on top.
   std::vector<FrameLens> lenses;
   std::vector<FrameHighlight> highlights; ///< at most mostHighlights
+
+  /// How far from a pixel light, highlights and hole filling look.
+  int reachPx() const
+  {
+    int reach = eyeDomeStrength > 0.0f ? static_cast<int>(std::ceil(eyeDomeRadiusPx)) + 1 : 0;
+    for (const FrameHighlight& one : highlights)
+    {
+      reach = std::max(reach, static_cast<int>(std::ceil(one.haloPx)) + 1);
+    }
+    return fillHoles ? std::max(reach, holeFillerReach) : reach;
+  }
 
   friend bool operator==(const FrameShading& a, const FrameShading& b)
   {

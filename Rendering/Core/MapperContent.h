@@ -1,0 +1,35 @@
+#pragma once
+
+#include "ClassLimits.h"
+#include "MapperFronts.h"
+#include "MapperStyle.h"
+#include "RenderTimer.h"
+
+#include "pointfront/Plan/FrameStatistics.h"
+#include "vtkPointFrontMapper.h"
+#include "vtkPointFrontStyle.h"
+
+#include <vtkSmartPointer.h>
+
+#include <memory>
+#include <string>
+
+/// What a mapper owns.
+struct vtkPointFrontMapper::Content
+{
+  explicit Content(vtkPointFrontMapper* owner)
+    : Views([owner] { owner->LeaveScreen(); })
+    , Timer([owner] { return owner->Announce(); })
+  {
+  }
+
+  std::string StoreName;
+  vtkMTimeType InputTime = 0;
+  pointfront::MapperFronts Views;
+  pointfront::ClassLimits Limits;
+  pointfront::MapperStyle Style;
+  std::shared_ptr<const pointfront::StyleSheet> Sheet;
+  vtkSmartPointer<vtkPointFrontStyle> VTKStyle; ///< goes before Sheet
+  pointfront::FrameStatistics Statistics;
+  pointfront::RenderTimer Timer;
+};

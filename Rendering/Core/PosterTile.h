@@ -1,0 +1,43 @@
+#pragma once
+
+#include "pointfront/Plan/FrameCamera.h"
+#include "pointfront/Plan/FramePlanner.h"
+#include "pointfront/Style/FrameShading.h"
+
+#include <glm/vec2.hpp>
+
+class vtkRenderer;
+
+namespace pointfront
+{
+
+/// The part of a poster that a renderer draws. VTK makes a picture larger than its window from
+/// tiles: it sets the window's tile scale and draws the window once for each tile
+/// (vtkWindowToImageFilter::SetScale). A poster is one picture: a lens lies in it once, halos and
+/// eye-dome lighting grow as the picture does, and no border between tiles is seen.
+/// Threads  the renderer's.
+class PosterTile
+{
+public:
+  explicit PosterTile(vtkRenderer* renderer);
+
+  /// Changes widths in pixels of the window into those of the poster.
+  void enlarge(FrameShading& shading) const;
+  /// What must be drawn around the tile so that its own pixels are those of the poster: light,
+  /// halos and hole filling look at neighbours, and splats reach over borders. None beyond the
+  /// poster. `shading`  enlarged.
+  ViewportMargin margin(const FrameShading& shading) const;
+  /// Widens the request's camera by the margin, and moves the lenses from the renderer's viewport
+  /// in the window into what is drawn.
+  void place(PlanRequest& request, const ViewportMargin& margin) const;
+
+private:
+  bool isTile() const { return scale_.x > 1 || scale_.y > 1; }
+
+  glm::ivec2 scale_{ 1 };
+  glm::ivec2 whole_{ 1 }; ///< of the renderer in the poster, pixels
+  glm::ivec2 shift_{ 0 }; ///< of the tile in it
+  glm::ivec2 size_{ 1 }; ///< of the tile
+};
+
+} // namespace pointfront

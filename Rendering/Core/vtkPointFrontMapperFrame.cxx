@@ -1,0 +1,348 @@
+// What a mapper does in a frame: it asks the front for points, and makes the plan for the back end.
+#include "MapperContent.h"
+#include "MapperProperties.h"
+#include "PosterTile.h"
+#include "RendererLights.h"
+
+#include "pointfront/Detail/DetailLevel.h"
+#include "pointfront/Plan/FramePlanner.h"
+#include "pointfront/Style/GpuStreams.h"
+#include "pointfront/Views/WallReach.h"
+
+#include <vtkActor.h>
+#include <vtkCommand.h>
+#include <vtkRenderer.h>
+#include <vtkRenderWindow.h>
+
+#include <algorithm>
+#include <chrono>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace
+{
+
+using Clock = std::chrono::steady_clock;
+
+double millisecondsSince(Clock::time_point begin)
+{
+  return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+}
+
+} // namespace
+
+std::vector<pointfront::LayerStyling> vtkPointFrontMapper::GetStyling(vtkActor* actor)
+{
+  Content& content = *this->Internals;
+  const auto sheet = this->GetStyleSheet();
+  auto layers = content.Style.layersOf(
+    *this, actor, this->PointSize, sheet.get(), this->GetStore()->GetStore());
+  const std::string error = content.Style.takeError();
+  if (!error.empty())
+  {
+    vtkErrorMacro(<< error);
+  }
+  const std::string warning = content.Style.takeWarning();
+  if (!warning.empty())
+  {
+    vtkWarningMacro(<< warning);
+  }
+  content.Limits.hide(*this->GetStore(), layers);
+  return layers;
+}
+
+bool vtkPointFrontMapper::HasPlainPointsOnly(vtkActor* actor)
+{
+  const auto sheet = this->GetStyleSheet();
+  return !sheet || pointfront::hasPlainPointsOnly(sheet->frameShading(), this->GetStyling(actor));
+}
+
+pointfront::PlanRequest vtkPointFrontMapper::GetRequest(vtkRenderer* renderer, vtkActor* actor)
+{
+  pointfront::PlanRequest request;
+  request.camera = pointfront::cameraOf(renderer, actor);
+  request.clippingPlanes = pointfront::clippingPlanesOf(*this, actor);
+  request.composited = this->NumberOfStorePieces > 1;
+  request.exchange = this->Exchange;
+  if (const auto sheet = this->GetStyleSheet())
+  {
+    request.shading = sheet->frameShading();
+    request.shading.lights = pointfront::lightsOf(renderer, request.camera);
+    const pointfront::PosterTile tile(renderer);
+    tile.enlarge(request.shading);
+    tile.place(request, this->GetMargin(renderer, actor));
+  }
+  for (const pointfront::LayerStyling& layer : this->GetStyling(actor))
+  {
+    request.styles.emplace_back();
+    request.styles.back().assign(layer.styles.begin(), layer.styles.end());
+  }
+  return request;
+}
+
+/// What is drawn around the viewport. Plain points go straight into it.
+pointfront::ViewportMargin vtkPointFrontMapper::GetMargin(vtkRenderer* renderer, vtkActor* actor)
+{
+  if (this->HasPlainPointsOnly(actor))
+  {
+    return {};
+  }
+  pointfront::FrameShading shading = this->GetStyleSheet()->frameShading();
+  const pointfront::PosterTile tile(renderer);
+  tile.enlarge(shading);
+  return tile.margin(shading);
+}
+
+pointfront::FrameRequest vtkPointFrontMapper::GetFrameRequest(
+  vtkRenderer* renderer, vtkActor* actor)
+{
+  pointfront::FrameRequest demand;
+  const auto styling = this->GetStyling(actor);
+  demand.view = pointfront::withWallsFromAbove(
+    pointfront::viewOf(renderer, actor, this->GetMargin(renderer, actor)),
+    pointfront::tallestWall(this->GetStore()->GetStore()->description(), styling));
+  demand.layers = this->Internals->Limits.layersOf(*this->GetStore(), styling,
+    this->GetStyleSheet() ? this->Internals->Style.pruning()
+                          : std::vector<std::shared_ptr<const pointfront::NodePruning>>());
+  pointfront::GpuStreams streams;
+  for (const pointfront::LayerStyling& layer : styling)
+  {
+    demand.columns.layers.push_back(layer.columns());
+    streams.add(pointfront::GpuStreams::of(layer.styles));
+  }
+  demand.gpuStreams = streams.count();
+  demand.targetErrorPx = this->TargetError;
+  demand.pointBudget = static_cast<std::uint64_t>(this->PointBudget);
+  demand.gpuBytes = this->DrawsFromHostMemory(actor) ? 0 : this->GPUMemoryBudget;
+  demand.method = this->DetailSelection == VIEW_SPECIFIC ? pointfront::DetailMethod::ViewSpecific
+                                                         : pointfront::DetailMethod::RenderingFront;
+  if (this->DetailSelection == VIEW_SPECIFIC) // it looks at every open store
+  {
+    demand.overviewPoints =
+      pointfront::overviewShare(static_cast<std::uint64_t>(this->OverviewPoints),
+        static_cast<std::uint64_t>(this->GetStore()->GetNumberOfPoints()),
+        static_cast<std::uint64_t>(vtkPointFrontStore::GetNumberOfPointsOfAllStores()));
+  }
+  demand.interacting = IsInteracting(renderer);
+  demand.frameMs = this->TargetFrameTime;
+  demand.cloudMs = 1000.0 * actor->GetAllocatedRenderTime();
+  demand.complete = this->Complete && !demand.interacting;
+  if (vtkRenderWindow* const window = renderer->GetRenderWindow())
+  {
+    demand.aborted = [window] { return window->CheckAbortStatus() != 0; };
+  }
+  return demand;
+}
+
+/// Once a frame. True when it did.
+bool vtkPointFrontMapper::MoveFront(vtkRenderer* renderer, vtkActor* actor)
+{
+  Content& content = *this->Internals;
+  vtkPointFrontStore* store = this->GetStore();
+  content.Views.setPiece(this->StorePiece, this->NumberOfStorePieces);
+  pointfront::RendererFront& view = content.Views.of(renderer);
+  if (!content.Views.openFront(renderer, view) && (!view.NewFrame || renderer->GetSelector()))
+  {
+    return false; // a further drawing of the same frame
+  }
+  view.NewFrame = false;
+  view.FirstDrawing = true;
+  view.Plan.reset(); // what it pins may be released
+
+  const auto begin = Clock::now();
+  const pointfront::FrameRequest demand = this->GetFrameRequest(renderer, actor);
+  view.Announced = view.Announced && view.Demand.view == demand.view;
+  view.Demand = demand;
+  const pointfront::FrontDelta& delta = view.Front->update(demand);
+  content.Statistics.take(delta);
+  content.Statistics.frontMilliseconds = millisecondsSince(begin);
+  for (const pointfront::Error& error : store->GetResidency().takeErrors())
+  {
+    vtkErrorMacro(<< error.what);
+  }
+  for (const pointfront::Error& error : store->GetStore()->hierarchy()->takeFaults())
+  {
+    vtkErrorMacro(<< error.what);
+  }
+  return true;
+}
+
+pointfront::FramePlan* vtkPointFrontMapper::PlanFrame(vtkRenderer* renderer, vtkActor* actor)
+{
+  Content& content = *this->Internals;
+  if (!this->GetStore())
+  {
+    if (content.StoreName.empty())
+    {
+      vtkErrorMacro("the input names no store (field data \""
+        << vtkPointFrontStore::FieldName() << "\"); connect a vtkPointFrontReader");
+    }
+    return nullptr;
+  }
+  // A frame in motion has no time for a second front, nor for bringing all points to the GPU again.
+  if (!renderer->GetSelector() && !IsInteracting(renderer) &&
+    content.Views.follow(
+      renderer, [&] { return this->GetFrameRequest(renderer, actor); },
+      [&](vtkPointFrontStore& next) { return content.Limits.layersOf(next); }))
+  {
+    this->Modified();
+  }
+  const bool moved = this->MoveFront(renderer, actor);
+  pointfront::RendererFront& view = content.Views.of(renderer);
+  pointfront::PlanRequest request = this->GetRequest(renderer, actor);
+  if (moved || !view.Plan)
+  {
+    request.keepsVisible = pointfront::leavesOut(view.Front->last(), view.Demand);
+    request.growth = &view.Growth;
+    request.moment = view.MomentOf(this->GrowthTime);
+    view.Plan = pointfront::planFrame(
+      *view.Front, this->GetStore()->GetStore()->description(), std::move(request));
+    return &*view.Plan;
+  }
+  // The same nodes, as another actor, eye or pass sees them.
+  view.Plan->camera = request.camera;
+  view.Plan->exchange = request.exchange;
+  view.Plan->clippingPlanes = std::move(request.clippingPlanes);
+  std::map<std::uint16_t, std::size_t> styleOf; // the next of a layer's
+  for (pointfront::DrawBatch& batch : view.Plan->batches)
+  {
+    const pointfront::LayerStyles& styles = request.styles[batch.layer];
+    const std::size_t number = styleOf[batch.layer]++;
+    batch.style = number < styles.size() ? styles[number] : batch.style;
+  }
+  return &*view.Plan;
+}
+
+bool vtkPointFrontMapper::IsFirstDrawing(vtkRenderer* renderer) const
+{
+  const pointfront::RendererFront* view = this->Internals->Views.find(renderer);
+  return view && view->FirstDrawing;
+}
+
+void vtkPointFrontMapper::FinishFrame(
+  vtkRenderer* renderer, vtkIdType points, vtkIdType keptPoints, bool uploadsLeft)
+{
+  pointfront::RendererFront& view = this->Internals->Views.of(renderer);
+  const pointfront::FrontDelta& delta = view.Front->last();
+  view.Front->drewBeside(static_cast<std::uint64_t>(keptPoints));
+  view.FirstDrawing = false;
+  view.Ahead = false;
+  view.Due = false;
+  view.DrawnAt = Clock::now();
+  view.UploadsLeft = uploadsLeft;
+  // In motion the frame time limits the front: at rest the same view may show more.
+  view.Complete = delta.complete && !uploadsLeft && view.Growth.whole() &&
+    (!IsInteracting(renderer) || delta.errorPx <= this->TargetError);
+  pointfront::FrameStatistics& statistics = this->GetStatistics();
+  const double frontMilliseconds = statistics.frontMilliseconds;
+  statistics.take(delta);
+  statistics.frontMilliseconds = frontMilliseconds;
+  statistics.points = static_cast<std::uint64_t>(points);
+  statistics.keptPoints = static_cast<std::uint64_t>(keptPoints);
+  statistics.complete = view.Complete;
+  const bool announce = view.Complete && !view.Announced;
+  view.Announced = view.Complete;
+  if (announce)
+  {
+    this->InvokeEvent(ViewCompleteEvent);
+  }
+}
+
+void vtkPointFrontMapper::RecordFrame(
+  vtkRenderer* renderer, vtkIdType points, vtkIdType moves, double milliseconds)
+{
+  pointfront::RendererFront* view = this->Internals->Views.find(renderer);
+  if (view && view->Front)
+  {
+    view->DrawingMs = milliseconds;
+    view->Front->recordFrame(
+      static_cast<std::uint64_t>(points), static_cast<std::uint32_t>(moves), milliseconds);
+  }
+}
+
+/// The last frame showed nothing of it, and that is all there is to show.
+void vtkPointFrontMapper::LeaveScreen()
+{
+  pointfront::FrameStatistics left;
+  left.frontLength = this->GetStatistics().frontLength;
+  left.thresholdPx = this->GetStatistics().thresholdPx;
+  left.complete = true;
+  this->GetStatistics() = left;
+}
+
+vtkIdType vtkPointFrontMapper::GetPointsOnGPU(vtkWindow* window) const
+{
+  const auto budget = static_cast<std::uint64_t>(this->PointBudget);
+  return budget == 0
+    ? 0
+    : std::max<vtkIdType>(
+        1, static_cast<vtkIdType>(this->Internals->Views.pointsOnGpu(window, budget)));
+}
+
+std::uint32_t vtkPointFrontMapper::GetNumberOfViews(vtkWindow* window) const
+{
+  return this->Internals->Views.countIn(window);
+}
+
+bool vtkPointFrontMapper::IsAheadOfFrame(vtkRenderer* renderer) const
+{
+  const pointfront::RendererFront* view = this->Internals->Views.find(renderer);
+  return view && view->Ahead;
+}
+
+bool vtkPointFrontMapper::NeedsRender()
+{
+  return this->Internals->Views.needsRender();
+}
+
+void vtkPointFrontMapper::RenderWhenDataArrives(vtkRenderWindowInteractor* interactor)
+{
+  this->Internals->Timer.stop();
+  if (interactor)
+  {
+    this->Internals->Timer.start(interactor);
+  }
+}
+
+/// Whether a render is due; who observes is told before it.
+bool vtkPointFrontMapper::Announce()
+{
+  const bool due = this->NeedsRender();
+  if (due)
+  {
+    this->InvokeEvent(vtkCommand::UpdateDataEvent);
+  }
+  return due;
+}
+
+pointfront::FrameStatistics& vtkPointFrontMapper::GetStatistics() const
+{
+  return this->Internals->Statistics;
+}
+
+// A definition each, which takes no semicolon.
+// clang-format off
+#define pointfrontGetLast(Name, Type, field)                                                       \
+  Type vtkPointFrontMapper::GetLast##Name() const                                                  \
+  {                                                                                                \
+    return static_cast<Type>(this->GetStatistics().field);                                         \
+  }
+pointfrontGetLast(PointsDrawn, vtkIdType, points)
+pointfrontGetLast(PointsKept, vtkIdType, keptPoints)
+pointfrontGetLast(NodesDrawn, vtkIdType, nodes)
+pointfrontGetLast(FrontLength, vtkIdType, frontLength)
+pointfrontGetLast(Moves, vtkIdType, moves)
+pointfrontGetLast(Requests, vtkIdType, requests)
+pointfrontGetLast(Error, double, errorPx)
+pointfrontGetLast(Threshold, double, thresholdPx)
+pointfrontGetLast(FrontTime, double, frontMilliseconds)
+pointfrontGetLast(GPUBytes, vtkTypeInt64, gpuBytes)
+pointfrontGetLast(WindowGPUBytes, vtkTypeInt64, windowGpuBytes)
+pointfrontGetLast(Complete, bool, complete)
+pointfrontGetLast(LimitedByPoints, bool, limitedByPoints)
+pointfrontGetLast(LimitedByGPUMemory, bool, limitedByGpuMemory)
+pointfrontGetLast(LimitedByMemory, bool, limitedByMemory)
+pointfrontGetLast(FailedNodes, vtkIdType, failedNodes)
+#undef pointfrontGetLast
+  // clang-format on

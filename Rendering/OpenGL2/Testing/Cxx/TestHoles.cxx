@@ -1,0 +1,142 @@
+// Holes that are filled, by both back ends in VTK windows.
+
+#include "Scene.h"
+
+#include "pointfront/Style/StyleSheet.h"
+#include "vtkPointFrontStyle.h"
+
+#include <vtkHardwareSelector.h>
+#include <vtkIdTypeArray.h>
+#include <vtkSelection.h>
+#include <vtkSelectionNode.h>
+#include <vtkSmartPointer.h>
+
+#include <set>
+#include <string>
+
+using namespace pointfront;
+using namespace pointfront::test;
+
+namespace
+{
+
+constexpr int side = 60;
+
+/// A wall of class 5 with gaps, red, half a metre above a green floor of class 2; 40 mm apart.
+std::string gapsStore(const std::string& name)
+{
+  return storeOf(name, 2 * std::size_t(side) * side,
+    [](std::size_t i)
+    {
+      const bool above = i >= std::size_t(side) * side;
+      const auto column = static_cast<int>(i % side);
+      const auto row = static_cast<int>(i / side % side);
+      Sample sample;
+      sample.position = { (2 * column - side + 1) * (above ? 10 : 20),
+        (2 * row - side + 1) * (above ? 10 : 20), above ? 500 : 5 * (column % 3) };
+      sample.rgb = above
+        ? std::array<std::uint8_t, 3>{ static_cast<std::uint8_t>(255 - row), 40, 0 }
+        : std::array<std::uint8_t, 3>{ 0, static_cast<std::uint8_t>(255 - column), 40 };
+      sample.classification = above ? 5 : 2;
+      return sample;
+    });
+}
+
+struct Gaps : Scene
+{
+  vtkNew<vtkPointFrontStyle> style;
+
+  explicit Gaps(const std::string& store)
+    : Scene(store)
+  {
+    lookFrom({ 0.9, -0.6, 4.0 }, { 0.1, 0.0, 0.0 });
+    mapper->SetStyle(style);
+    EXPECT_TRUE(style->LoadJSON(json(2.0, "")));
+  }
+  static std::string json(double px, const std::string& further)
+  {
+    return R"({"default": {"size": {"mode": "fixed", "px": )" + std::to_string(px) +
+      R"(}}, "shading": {"fill_holes": true})" + further + "}";
+  }
+  Picture with(int backend)
+  {
+    mapper->SetBackend(backend);
+    return draw();
+  }
+};
+
+} // namespace
+
+TEST(Holes, AreFilledAlikeByBothBackEnds)
+{
+  Gaps scene(gapsStore("gaps"));
+  const std::string lit = R"({"default": {"technique": "splats", "blended": true, "size": )"
+                          R"({"mode": "fixed", "px": 3}}, "shading": {"fill_holes": true, )"
+                          R"("mode": ["lit", "edl"]}})";
+  const std::string lens = R"(, "lenses": [{"shape": "circle", "center_px": [150, 100], )"
+                           R"("radius_px": 40, "inside": {"5": {"visible": false}}}])";
+  const std::string glass = R"(, "classes": {"5": {"opacity": 0.5}})";
+  for (const bool parallel : { false, true })
+  {
+    scene.renderer->GetActiveCamera()->SetParallelProjection(parallel ? 1 : 0);
+    scene.renderer->GetActiveCamera()->SetParallelScale(0.9);
+    for (const std::string& json : { Gaps::json(2.0, ""), Gaps::json(1.0, ""), lit,
+           Gaps::json(2.0, lens), Gaps::json(2.0, glass) })
+    {
+      ASSERT_TRUE(scene.style->LoadJSON(json));
+      const Picture software = scene.with(vtkPointFrontMapper::SOFTWARE);
+      const Picture gl = scene.with(vtkPointFrontMapper::OPENGL);
+      EXPECT_LE(differing(software, gl, 2), 0.005 * 300 * 200) << json << parallel;
+      scene.style->SetFillHoles(false);
+      const Picture open = scene.draw();
+      EXPECT_GT(gl.lit(), 1.2 * open.lit()) << json;
+      EXPECT_GT(differing(gl, open, 2), 2000) << json;
+    }
+  }
+}
+
+/// A pixel between points shows none of them: it selects nothing, least of all the first point.
+TEST(Holes, SelectNothing)
+{
+  Gaps scene(gapsStore("gaps_selected"));
+  for (const int backend : { vtkPointFrontMapper::SOFTWARE, vtkPointFrontMapper::OPENGL })
+  {
+    ASSERT_TRUE(scene.style->LoadJSON(Gaps::json(1.0, R"(, "show_classes": [5])")));
+    const int filled = scene.with(backend).lit();
+    scene.style->SetFillHoles(false);
+    const int points = scene.draw().lit();
+    ASSERT_GT(filled, 2 * points);
+    const auto count = [&]
+    {
+      vtkNew<vtkHardwareSelector> selector;
+      selector->SetRenderer(scene.renderer);
+      selector->SetArea(0, 0, 299, 199);
+      selector->SetFieldAssociation(vtkDataObject::FIELD_ASSOCIATION_POINTS);
+      const auto selection = vtkSmartPointer<vtkSelection>::Take(selector->Select());
+      EXPECT_EQ(selection->GetNumberOfNodes(), 1u);
+      auto* ids = vtkIdTypeArray::SafeDownCast(selection->GetNode(0)->GetSelectionList());
+      std::set<vtkIdType> found;
+      for (vtkIdType i = 0; ids && i < ids->GetNumberOfTuples(); ++i)
+      {
+        found.insert(ids->GetValue(i));
+      }
+      return found;
+    };
+    const std::set<vtkIdType> open = count();
+    scene.style->SetFillHoles(true);
+    scene.draw();
+    EXPECT_EQ(count(), open) << "back end " << backend;
+    EXPECT_GT(open.size(), 1000u);
+  }
+}
+
+TEST(Holes, AreGivenBackAndMadeAgain)
+{
+  Gaps scene(gapsStore("gaps_released"));
+  const Picture before = scene.with(vtkPointFrontMapper::OPENGL);
+  scene.mapper->ReleaseGraphicsResources(scene.window);
+  EXPECT_EQ(differing(before, scene.draw()), 0);
+  scene.window->SetSize(211, 133);
+  const Picture odd = scene.draw();
+  EXPECT_LE(differing(odd, scene.with(vtkPointFrontMapper::SOFTWARE), 2), 0.005 * 211 * 133);
+}

@@ -1,0 +1,108 @@
+// A picture made of tiles is the picture of one large window.
+
+#include "Scene.h"
+
+#include "vtkPointFrontStyle.h"
+
+#include <vtkImageData.h>
+#include <vtkWindowToImageFilter.h>
+
+#include <cstring>
+#include <string>
+
+using namespace pointfront;
+using namespace pointfront::test;
+
+namespace
+{
+
+constexpr int side = 150;
+
+/// Ground of class 2 in two colours, and above it pillars of class 5; 20 mm between the points.
+std::string pillarsStore(const std::string& name)
+{
+  return storeOf(name, std::size_t(side) * side,
+    [](std::size_t i)
+    {
+      const auto column = static_cast<int>(i % side);
+      const auto row = static_cast<int>(i / side);
+      const bool pillar = column % 30 < 12 && row % 25 < 9;
+      Sample sample;
+      sample.position = { (2 * column - side + 1) * 10, (2 * row - side + 1) * 10,
+        pillar ? 700 : 3 * column % 40 };
+      sample.rgb[0] = static_cast<std::uint8_t>(100 + row);
+      sample.rgb[1] = static_cast<std::uint8_t>(60 + column);
+      sample.classification = pillar ? 5 : 2;
+      return sample;
+    });
+}
+
+struct Pillars : Scene
+{
+  vtkNew<vtkPointFrontStyle> style;
+
+  explicit Pillars(const std::string& store)
+    : Scene(store)
+  {
+    lookFrom({ 0.7, -0.4, 4.0 }, { 0.1, 0.0, 0.0 });
+    mapper->SetStyle(style);
+  }
+  Picture poster(int backend, int width, int height, int scale)
+  {
+    mapper->SetBackend(backend);
+    window->SetSize(width / scale, height / scale);
+    vtkNew<vtkWindowToImageFilter> filter;
+    filter->SetInput(window);
+    filter->SetScale(scale);
+    filter->ReadFrontBufferOff();
+    filter->Update();
+    Picture picture;
+    picture.width = filter->GetOutput()->GetDimensions()[0];
+    picture.height = filter->GetOutput()->GetDimensions()[1];
+    picture.rgb.resize(3 * static_cast<std::size_t>(picture.width * picture.height));
+    std::memcpy(picture.rgb.data(), filter->GetOutput()->GetScalarPointer(), picture.rgb.size());
+    return picture;
+  }
+};
+
+struct Look
+{
+  const char* what;
+  std::string tile; ///< the style of a poster of 3 x 3 tiles
+  std::string whole; ///< the same with widths in pixels of the poster
+};
+
+} // namespace
+
+TEST(Posters, AreThePictureOfOneWindow)
+{
+  Pillars scene(pillarsStore("poster"));
+  const std::string splats = R"({"default": {"technique": "splats"}, )";
+  const std::string open = R"({"default": {"technique": "points", "size": {"mode": "fixed", )"
+                           R"("px": 3}}, "shading": {"fill_holes": true}})";
+  const std::string large =
+    R"({"default": {"technique": "splats", "size": {"mode": "spacing", "factor": 4}}})";
+  const Look looks[] = {
+    { "eye-dome lighting", splats + R"("shading": {"mode": "edl", "radius_px": 2}})",
+      splats + R"("shading": {"mode": "edl", "radius_px": 6}})" },
+    { "halo", splats + R"("highlight": [{"class": 5, "color": "#ff0000", "halo_px": 3}]})",
+      splats + R"("highlight": [{"class": 5, "color": "#ff0000", "halo_px": 9}]})" },
+    { "holes", open, open },
+    { "large discs", large, large },
+  };
+  for (const Look& look : looks)
+  {
+    for (const int backend : { vtkPointFrontMapper::SOFTWARE, vtkPointFrontMapper::OPENGL })
+    {
+      ASSERT_TRUE(scene.style->LoadJSON(look.tile)) << look.what;
+      const Picture poster = scene.poster(backend, 330, 270, 3);
+      ASSERT_TRUE(scene.style->LoadJSON(look.whole)) << look.what;
+      const Picture whole = scene.poster(backend, 330, 270, 1);
+      ASSERT_EQ(poster.width, whole.width);
+      EXPECT_GT(whole.lit(), 60000) << look.what;
+      // In floats a tile's pixels have smaller numbers: a few rims of splats fall otherwise, and
+      // light around them. Without margins of tiles 4,900 to 13,000 pixels differ.
+      EXPECT_LE(differing(poster, whole, 2), 250) << look.what << ", back end " << backend;
+    }
+  }
+}

@@ -60,11 +60,6 @@ std::vector<RasterPiece> piecesOf(const RasterItems& items)
   return pieces;
 }
 
-PixelRectangle withHoles(const PixelRectangle& place, const FramePlan& plan)
-{
-  return plan.shading.fillHoles ? filledFrom(place, plan.camera) : place;
-}
-
 } // namespace
 
 struct SoftwareRasteriser::Content
@@ -176,8 +171,8 @@ void SoftwareRasteriser::Content::addColours(
         depths[p] = key == emptyKey ? -std::numeric_limits<float>::infinity() : depthBits(key);
       }
     });
-  PictureExchange* const others = items.plan().exchange;
-  const bool together = others && shareDepths(*others, depths, now.pixels());
+  PictureExchange* const all = items.plan().exchange;
+  const bool together = all && shareDepths(*all, depths, now.pixels());
   for (ThreadBuffers& one : buffers)
   {
     one.sumsDrawn = false;
@@ -215,10 +210,7 @@ void SoftwareRasteriser::Content::addColours(
         kernels.addSplats(item.camera, now, item.passes.second, batch, count, depths, sums);
       }
     });
-  if (together)
-  {
-    shareSums(*others, buffers, 4 * now.pixels());
-  }
+  together ? shareSums(*all, buffers, 4 * now.pixels()) : void();
 }
 
 /// All passes but the last.

@@ -1,7 +1,8 @@
 """The ParaView application opens point files: the view shows a preview while the store is built.
 
-Runs as `paraview --dr --script=preview.py`: chooses the files as File > Open does and, a while later,
-shows them as Apply does. Each render is looked at until the store is there. Writes preview.json. Saves preview-while.png, preview-cancelled.png and preview.png.
+Runs as `paraview --dr --script=preview.py`: chooses the files as File > Open does and, a while
+later, shows them as Apply does. Each render is looked at until the store is there. Writes
+preview.json. Saves preview-while.png, preview-cancelled.png and preview.png.
 Told by the environment: POINTFRONT_FILES, and POINTFRONT_CANCEL if the build is to be cancelled.
 """
 

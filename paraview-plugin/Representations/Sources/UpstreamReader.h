@@ -39,7 +39,8 @@ inline bool isPreview(vtkPointFrontReader* reader)
 /// Why previews are refused.
 inline const char* previewRefusal()
 {
-  return "the store is being built, and its preview has a part of the points only: wait for the end "
+  return "the store is being built, and its preview has a part of the points only: wait for the "
+         "end "
          "of the build";
 }
 

@@ -155,6 +155,10 @@ std::optional<std::string> conditionOfComparison(
 
 bool asksForValues(vtkSelection* selection)
 {
+  if (selection->GetExpression().find('!') != std::string::npos)
+  {
+    return true; // all but what is selected: "Invert Selection" of ParaView's appended selections
+  }
   int frusta = 0;
   int lists = 0;
   for (unsigned int i = 0; i < selection->GetNumberOfNodes(); ++i)

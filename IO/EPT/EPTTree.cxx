@@ -8,6 +8,7 @@
 #include "pointfront/InPlace/ForeignTree.h"
 #include "pointfront/Points/DescribedSource.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <utility>

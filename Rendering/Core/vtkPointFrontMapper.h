@@ -39,6 +39,7 @@ class vtkRenderWindowInteractor;
 class vtkWindow;
 namespace pointfront
 {
+class PictureExchange;
 struct FrameRequest;
 struct FramePlan;
 struct FrameStatistics;
@@ -240,6 +241,18 @@ public:
 
 #ifndef __VTK_WRAP__
   /**
+   * For pieces on several processes. Whether the style adds up the colours of splats ("ewa",
+   * blended splats) and nothing else asks for more than one picture: the same on each process,
+   * whatever it draws. And who exchanges these sums during the frames that follow; null (default):
+   * each process has its own. All processes draw these frames, in software, with viewports of one
+   * size.
+   */
+  bool AddsUpSplats(vtkActor* actor);
+  void SetPictureExchange(pointfront::PictureExchange* exchange);
+#endif
+
+#ifndef __VTK_WRAP__
+  /**
    * Draws by a style sheet: techniques, colours, sizes, visibility and filters of each object
    * class, and shading. With a sheet, PointSize and the properties of vtkMapper that choose colours
    * have no effect. Null (default): they have. If the store lacks something that the sheet asks
@@ -378,6 +391,7 @@ protected:
   vtkTypeInt64 UploadLimit = 16 << 20;
   int StorePiece = 0;
   int NumberOfStorePieces = 1;
+  pointfront::PictureExchange* Exchange = nullptr;
 
 private:
   struct Content;

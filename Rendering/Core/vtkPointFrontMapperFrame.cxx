@@ -79,6 +79,7 @@ pointfront::PlanRequest vtkPointFrontMapper::GetRequest(vtkRenderer* renderer, v
   this->Place(renderer, actor, request);
   request.clippingPlanes = pointfront::clippingPlanesOf(*this, actor);
   request.composited = this->NumberOfStorePieces > 1;
+  request.exchange = this->Exchange;
   if (this->GetStyleSheet())
   {
     request.shading.lights = pointfront::lightsOf(renderer, request.camera);
@@ -220,6 +221,7 @@ pointfront::FramePlan* vtkPointFrontMapper::PlanFrame(vtkRenderer* renderer, vtk
   }
   // The same nodes, as another actor, eye or pass sees them.
   view.Plan->camera = request.camera;
+  view.Plan->exchange = request.exchange;
   view.Plan->clippingPlanes = std::move(request.clippingPlanes);
   std::map<std::uint16_t, std::size_t> styleOf; // the next of a layer's
   for (pointfront::DrawBatch& batch : view.Plan->batches)

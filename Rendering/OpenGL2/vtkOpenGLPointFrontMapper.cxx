@@ -237,6 +237,10 @@ void vtkOpenGLPointFrontMapper::TellFallBack(const char* what)
 /// Asked while the window's context is current.
 bool vtkOpenGLPointFrontMapper::DrawsFromHostMemory(vtkActor* actor)
 {
+  if (this->Exchange)
+  {
+    return true; // sums of weights are those of the software back end
+  }
   const bool plain = this->HasPlainPointsOnly(actor);
   const bool ownShaders = plain && hasOwnShaders(actor);
   if (!plain && hasOwnShaders(actor) && !std::exchange(this->Internals->OwnShadersTold, true))

@@ -1,5 +1,6 @@
 #include "ShownRectangle.h"
 
+#include "HoleFiller.h"
 #include "PointShapes.h"
 
 #include <algorithm>
@@ -148,6 +149,11 @@ PixelRectangle shownRectangle(const RasterItems& items)
     }
   }
   return shown;
+}
+
+PixelRectangle withHoles(const PixelRectangle& place, const FramePlan& plan)
+{
+  return plan.shading.fillHoles ? filledFrom(place, plan.camera) : place;
 }
 
 } // namespace pointfront

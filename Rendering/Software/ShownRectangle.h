@@ -13,4 +13,7 @@ namespace pointfront
 ///            have the bits that pictures of all have.
 PixelRectangle shownRectangle(const RasterItems& items);
 
+/// With the pixels that filling holes looks at, if the plan's are filled.
+PixelRectangle withHoles(const PixelRectangle& place, const FramePlan& plan);
+
 } // namespace pointfront

@@ -1,11 +1,11 @@
 #include "SoftwareRasteriser.h"
 
-#include "HoleFiller.h"
 #include "LastPicture.h"
 #include "PointShapes.h"
 #include "RasterBuffers.h"
 #include "RasterItems.h"
 #include "RasterKernels.h"
+#include "SharedSums.h"
 #include "ShownRectangle.h"
 #include "WinnerResolve.h"
 
@@ -58,11 +58,6 @@ std::vector<RasterPiece> piecesOf(const RasterItems& items)
     addPieces(item, item.item->first, pieces);
   }
   return pieces;
-}
-
-PixelRectangle withHoles(const PixelRectangle& place, const FramePlan& plan)
-{
-  return plan.shading.fillHoles ? filledFrom(place, plan.camera) : place;
 }
 
 } // namespace
@@ -176,6 +171,8 @@ void SoftwareRasteriser::Content::addColours(
         depths[p] = key == emptyKey ? -std::numeric_limits<float>::infinity() : depthBits(key);
       }
     });
+  PictureExchange* const all = items.plan().exchange;
+  const bool together = all && shareDepths(*all, depths, now.pixels());
   for (ThreadBuffers& one : buffers)
   {
     one.sumsDrawn = false;
@@ -213,6 +210,7 @@ void SoftwareRasteriser::Content::addColours(
         kernels.addSplats(item.camera, now, item.passes.second, batch, count, depths, sums);
       }
     });
+  together ? shareSums(*all, buffers, 4 * now.pixels()) : void();
 }
 
 /// All passes but the last.
@@ -220,7 +218,7 @@ void SoftwareRasteriser::Content::drawPoints(const RasterItems& items, const Ras
   const std::vector<RasterPiece>& pieces, bool goingOn)
 {
   drawKeys(items, now, pieces, goingOn);
-  if (items.blended())
+  if (items.blended() || items.plan().exchange)
   {
     addColours(items, now, piecesOf(items));
   }
@@ -336,6 +334,11 @@ void SoftwareRasteriser::Content::drawRound(const RasterItems& items, Drawing& d
   const FramePlan& plan = items.plan();
   const PixelRectangle viewport{ 0, 0, plan.camera.width, plan.camera.height };
   const bool only = items.first() && items.last();
+  if (plan.exchange)
+  {
+    drawAtOnce(items, windowOf(viewport), drawing); // every process has all of the same pixels
+    return;
+  }
   PixelRectangle place = shownRectangle(items);
   if (drawing.fits)
   {
@@ -377,7 +380,7 @@ RasterStatistics SoftwareRasteriser::Content::draw(const FramePlan& asked, Softw
   const std::uint32_t picture = std::uint32_t(part) << 16 | store;
   Drawing drawing{ target, last[picture], store, fits || target.rectangle().contains(viewport),
     fits };
-  const bool keeps = asked.keepsVisible && drawing.whole && !target.keepPoints;
+  const bool keeps = asked.keepsVisible && !asked.exchange && drawing.whole && !target.keepPoints;
   const VisiblePoints& visible = drawing.picture.visibleFor(asked, keeps, crew);
   RasterStatistics statistics;
   statistics.points = asked.pointCount();

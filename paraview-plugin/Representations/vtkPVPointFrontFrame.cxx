@@ -37,6 +37,7 @@ void vtkPVPointFrontFrame::CopyFromObject(vtkObject* object)
   this->Limits = representation->GetFrameLimits();
   this->Complete = representation->GetFrameComplete();
   this->Outdated = representation->GetFrameOutdated();
+  this->Build = representation->GetBuildState();
 }
 
 //------------------------------------------------------------------------------
@@ -55,6 +56,7 @@ void vtkPVPointFrontFrame::AddInformation(vtkPVInformation* information)
     this->Limits |= other->Limits;
     this->Complete = this->Complete && other->Complete;
     this->Outdated = this->Outdated || other->Outdated;
+    this->Build = this->Build.empty() ? other->Build : this->Build;
   }
 }
 
@@ -65,7 +67,7 @@ void vtkPVPointFrontFrame::CopyToStream(vtkClientServerStream* stream)
   *stream << vtkClientServerStream::Reply << static_cast<vtkTypeInt64>(this->PointsDrawn)
           << static_cast<vtkTypeInt64>(this->NodesDrawn) << this->ProjectedSpacing
           << (this->Complete ? 1 : 0) << (this->Outdated ? 1 : 0) << this->HostMemoryBudget
-          << this->Limits << static_cast<vtkTypeInt64>(this->StorePoints)
+          << this->Limits << static_cast<vtkTypeInt64>(this->StorePoints) << this->Build
           << vtkClientServerStream::End;
 }
 
@@ -77,10 +79,12 @@ void vtkPVPointFrontFrame::CopyFromStream(const vtkClientServerStream* stream)
   vtkTypeInt64 all = 0;
   int complete = 1;
   int outdated = 0;
+  std::string build;
   if (!stream->GetArgument(0, 0, &points) || !stream->GetArgument(0, 1, &nodes) ||
     !stream->GetArgument(0, 2, &this->ProjectedSpacing) || !stream->GetArgument(0, 3, &complete) ||
     !stream->GetArgument(0, 4, &outdated) || !stream->GetArgument(0, 5, &this->HostMemoryBudget) ||
-    !stream->GetArgument(0, 6, &this->Limits) || !stream->GetArgument(0, 7, &all))
+    !stream->GetArgument(0, 6, &this->Limits) || !stream->GetArgument(0, 7, &all) ||
+    !stream->GetArgument(0, 8, &build))
   {
     vtkErrorMacro("The server's frame cannot be read: client and server have different plugins. "
                   "Load the same build of the PointFront plugin on both.");
@@ -91,6 +95,7 @@ void vtkPVPointFrontFrame::CopyFromStream(const vtkClientServerStream* stream)
   this->StorePoints = static_cast<vtkIdType>(all);
   this->Complete = complete != 0;
   this->Outdated = outdated != 0;
+  this->Build = build;
 }
 
 //------------------------------------------------------------------------------
@@ -104,7 +109,7 @@ std::string vtkPVPointFrontFrame::GetPointsInView() const
 std::string vtkPVPointFrontFrame::GetLimitedBy() const
 {
   using Representation = vtkPointFrontRepresentation;
-  std::string words;
+  std::string words = this->Build.empty() ? "" : "the build (" + this->Build + ")";
   for (const auto& [limit, name] :
     { std::pair<int, const char*>{ Representation::LOADING, "still loading" },
       { Representation::FRAME_TIME, "the time of a frame in motion" },

@@ -43,6 +43,9 @@ public:
   vtkGetMacro(Limits, int);
   std::string GetLimitedBy() const;
 
+  /// The build whose preview is drawn: "sorting, 43 %"; empty if there is none.
+  const std::string& GetBuild() const { return this->Build; }
+
   /// MiB for points, of the process that has least.
   vtkGetMacro(HostMemoryBudget, int);
 
@@ -67,6 +70,7 @@ private:
   int Limits = 0;
   bool Complete = true;
   bool Outdated = false;
+  std::string Build;
 };
 
 #endif

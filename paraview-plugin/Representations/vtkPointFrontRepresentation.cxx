@@ -1,5 +1,6 @@
 #include "vtkPointFrontRepresentation.h"
 
+#include "RankExchange.h"
 #include "StyleChoice.h"
 #include "UpstreamReader.h"
 
@@ -7,10 +8,8 @@
 
 #include "vtkActorCollection.h"
 #include "vtkCommand.h"
-#include "vtkDataObject.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
-#include "vtkLookupTable.h"
 #include "vtkMatrix4x4.h"
 #include "vtkMultiProcessController.h"
 #include "vtkObjectFactory.h"
@@ -54,6 +53,7 @@ struct SelectionState : vtkPVRenderView
 //------------------------------------------------------------------------------
 vtkPointFrontRepresentation::vtkPointFrontRepresentation()
   : Choice(new pointfront::StyleChoice)
+  , Exchange(new pointfront::RankExchange)
 {
   this->Property->SetRepresentationToPoints();
   this->Property->LightingOff();
@@ -214,6 +214,10 @@ void vtkPointFrontRepresentation::PrepareFrame(vtkInformation* inInfo, vtkPVRend
   const bool lod = inInfo->Has(vtkPVRenderView::USE_LOD()) != 0;
   this->Mapper->SetInputDataObject(lod ? vtkPVView::GetDeliveredPieceLOD(inInfo, this)
                                        : vtkPVView::GetDeliveredPiece(inInfo, this));
+  // What has no store to draw has been told of, or was cancelled.
+  const bool named =
+    !vtkPointFrontStore::GetStoreName(this->Mapper->GetInputDataObject(0, 0)).empty();
+  this->Actor->SetVisibility(named && this->GetVisibility());
 
   const bool distributed = lod ? view->GetUseDistributedRenderingForLODRender()
                                : view->GetUseDistributedRenderingForRender();
@@ -240,124 +244,6 @@ void vtkPointFrontRepresentation::PrepareFrame(vtkInformation* inInfo, vtkPVRend
 }
 
 //------------------------------------------------------------------------------
-void vtkPointFrontRepresentation::PrepareClasses()
-{
-  const auto valueOf =
-    [](const std::map<std::string, double>& values, const char* name, double otherwise)
-  {
-    const auto found = values.find(name);
-    return found != values.end() ? found->second : otherwise;
-  };
-  vtkPointFrontStore* store = this->Mapper->GetStore();
-  for (int i = 0; store && i < store->GetNumberOfObjectClasses(); ++i)
-  {
-    const char* name = store->GetObjectClassName(i);
-    const int number = store->GetObjectClassNumber(i);
-    this->Mapper->SetClassVisibility(number, this->HiddenClasses.count(name) == 0);
-    this->Mapper->SetClassTargetErrorFactor(number, valueOf(this->ClassFactors, name, 1.0));
-    this->Mapper->SetClassBudgetShare(number, valueOf(this->ClassShares, name, 0.0));
-  }
-}
-
-//------------------------------------------------------------------------------
-void vtkPointFrontRepresentation::PrepareColors()
-{
-  vtkInformation* info = this->GetInputArrayInformation(0);
-  const char* array = info && info->Has(vtkDataObject::FIELD_NAME())
-    ? info->Get(vtkDataObject::FIELD_NAME())
-    : nullptr;
-  const bool ofPoints = info && info->Has(vtkDataObject::FIELD_ASSOCIATION()) &&
-    info->Get(vtkDataObject::FIELD_ASSOCIATION()) == vtkDataObject::FIELD_ASSOCIATION_POINTS;
-  if (!array || !array[0] || !ofPoints)
-  {
-    this->Mapper->ScalarVisibilityOff();
-    this->DrawnArray.clear();
-    this->PrepareStyle();
-    return;
-  }
-  const bool color = IsColor(array);
-  if (!color && !this->ToldOfNames && this->Mapper->GetStorePiece() == 0)
-  {
-    vtkWarningMacro("\"" << array << "\" names points and is no colour: they are shown by height");
-  }
-  this->ToldOfNames = !color;
-  this->Mapper->SetLookupTable(color ? this->Table.Get() : this->HeightTable());
-  this->Mapper->ScalarVisibilityOn();
-  this->Mapper->SetScalarModeToUsePointFieldData();
-  this->Mapper->SelectColorArray(color ? array : "elevation");
-  this->Mapper->UseLookupTableScalarRangeOn();
-  const bool direct = !this->MapScalars || (this->DirectColors && array == std::string("rgb"));
-  if (!this->MapScalars)
-  {
-    this->Mapper->SetColorModeToDirectScalars();
-  }
-  else if (this->DirectColors)
-  {
-    this->Mapper->SetColorModeToDefault();
-  }
-  else
-  {
-    this->Mapper->SetColorModeToMapScalars();
-  }
-  this->DrawnArray = color ? array : "elevation";
-  this->DrawnDirectly = direct;
-  this->PrepareStyle();
-}
-
-//------------------------------------------------------------------------------
-void vtkPointFrontRepresentation::PrepareStyle()
-{
-  auto* view = vtkPVRenderView::SafeDownCast(this->GetView());
-  if (!view)
-  {
-    return;
-  }
-  pointfront::LookColour colour;
-  colour.array = this->DrawnArray;
-  colour.direct = !this->DrawnArray.empty() && this->DrawnDirectly;
-  colour.table = this->Mapper->GetLookupTable();
-  std::copy_n(this->Property->GetColor(), 3, colour.flat.begin());
-  pointfront::PointLook& look = this->Choice->look;
-  look.size = look.closes() ? this->SizeFactor : this->PointSize;
-  look.opacity = this->Property->GetOpacity();
-  std::string error;
-  const int* const size = view->GetRenderer()->GetSize();
-  this->Mapper->SetStyle(this->Choice->style(colour, size[0], size[1], error));
-  if (!error.empty() && this->Mapper->GetStorePiece() == 0)
-  {
-    vtkErrorMacro(<< error);
-  }
-}
-
-//------------------------------------------------------------------------------
-void vtkPointFrontRepresentation::PlaceLens()
-{
-  if (this->GetVisibility() && this->Choice->lens.shape != pointfront::LensPlace::NONE)
-  {
-    this->PrepareStyle();
-  }
-}
-
-//------------------------------------------------------------------------------
-vtkScalarsToColors* vtkPointFrontRepresentation::HeightTable()
-{
-  vtkPointFrontStore* store = this->Mapper->GetStore();
-  if (store && !this->Heights)
-  {
-    double bounds[6];
-    store->GetBounds(bounds);
-    vtkNew<vtkLookupTable> greys;
-    greys->SetRange(bounds[4], bounds[5]);
-    greys->SetHueRange(0.0, 0.0);
-    greys->SetSaturationRange(0.0, 0.0);
-    greys->SetValueRange(0.2, 1.0);
-    greys->Build();
-    this->Heights = greys;
-  }
-  return this->Heights;
-}
-
-//------------------------------------------------------------------------------
 bool vtkPointFrontRepresentation::WantsComplete(vtkPVRenderView* view) const
 {
   if (this->CompleteStillRenders != WHEN_UNATTENDED)
@@ -381,7 +267,7 @@ bool vtkPointFrontRepresentation::AddToView(vtkView* view)
   // With a server, pictures in motion have fewer pixels than the window: ParaView sets the viewport
   // when the renderer starts, with priority 0. Behind that a lens knows its place.
   this->StartObserver = renderView->GetRenderer()->AddObserver(
-    vtkCommand::StartEvent, this, &vtkPointFrontRepresentation::PlaceLens, -1.0f);
+    vtkCommand::StartEvent, this, &vtkPointFrontRepresentation::BeginFrame, -1.0f);
   return this->Superclass::AddToView(view);
 }
 
@@ -401,68 +287,38 @@ bool vtkPointFrontRepresentation::RemoveFromView(vtkView* view)
 }
 
 //------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::BeginFrame()
+{
+  this->PlaceLens();
+  this->AgreeOnExchange();
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::AgreeOnExchange()
+{
+  this->Mapper->SetPictureExchange(nullptr);
+  auto* view = vtkPVRenderView::SafeDownCast(this->GetView());
+  if (!view || !this->GetVisibility() || this->Mapper->GetNumberOfStorePieces() < 2)
+  {
+    return; // alike on all ranks
+  }
+  bool wanted = !this->InMotion && this->Actor->GetVisibility() && !SelectionState::Of(view) &&
+    !this->Actor->HasTranslucentPolygonalGeometry() && this->Mapper->AddsUpSplats(this->Actor);
+  if (wanted)
+  {
+    wanted = pointfront::isSurelyInView(view->GetRenderer(), this->Actor->GetBounds());
+  }
+  if (this->Exchange->agreed(vtkMultiProcessController::GetGlobalController(), wanted))
+  {
+    this->Mapper->SetPictureExchange(this->Exchange.get());
+  }
+}
+
+//------------------------------------------------------------------------------
 void vtkPointFrontRepresentation::SetVisibility(bool visible)
 {
   this->Actor->SetVisibility(visible);
   this->Superclass::SetVisibility(visible);
-}
-
-//------------------------------------------------------------------------------
-bool vtkPointFrontRepresentation::IsDrawing()
-{
-  return this->GetVisibility() && this->GetView() && this->Mapper->GetStore();
-}
-
-//------------------------------------------------------------------------------
-vtkIdType vtkPointFrontRepresentation::GetPointsDrawn()
-{
-  return this->IsDrawing() ? this->Mapper->GetLastPointsDrawn() : 0;
-}
-
-//------------------------------------------------------------------------------
-vtkIdType vtkPointFrontRepresentation::GetNodesDrawn()
-{
-  return this->IsDrawing() ? this->Mapper->GetLastNodesDrawn() : 0;
-}
-
-//------------------------------------------------------------------------------
-double vtkPointFrontRepresentation::GetProjectedSpacing()
-{
-  return this->IsDrawing() ? this->Mapper->GetLastError() : 0.0;
-}
-
-//------------------------------------------------------------------------------
-vtkIdType vtkPointFrontRepresentation::GetStorePoints()
-{
-  return this->IsDrawing() ? this->Mapper->GetStore()->GetNumberOfPoints() : 0;
-}
-
-//------------------------------------------------------------------------------
-int vtkPointFrontRepresentation::GetFrameLimits()
-{
-  if (!this->IsDrawing())
-  {
-    return 0;
-  }
-  const auto bit = [](bool set, int value) { return set ? value : 0; };
-  const bool points = this->Mapper->GetLastLimitedByPoints();
-  return bit(points && !this->InMotion, POINT_BUDGET) | bit(points && this->InMotion, FRAME_TIME) |
-    bit(this->Mapper->GetLastLimitedByGPUMemory(), GPU_MEMORY) |
-    bit(this->Mapper->GetLastLimitedByMemory(), HOST_MEMORY) |
-    bit(!this->Mapper->GetLastComplete(), LOADING) |
-    bit(this->Mapper->GetLastFailedNodes() > 0, UNREADABLE);
-}
-
-//------------------------------------------------------------------------------
-bool vtkPointFrontRepresentation::GetFrameComplete()
-{
-  return !this->IsDrawing() || this->Mapper->GetLastComplete();
-}
-
-//------------------------------------------------------------------------------
-bool vtkPointFrontRepresentation::GetFrameOutdated()
-{
-  return this->IsDrawing() && this->Mapper->NeedsRender();
 }
 
 //------------------------------------------------------------------------------

@@ -43,6 +43,7 @@ class vtkScalarsToColors;
 
 namespace pointfront
 {
+class RankExchange;
 class StyleChoice;
 } // namespace pointfront
 
@@ -235,6 +236,10 @@ public:
   /// come.
   bool GetFrameComplete();
 
+  /// What the build of the preview that is drawn is at: "sorting, 43 %". Empty if there is none,
+  /// and on all processes but the first of the data server.
+  std::string GetBuildState();
+
   /// True if a further frame would show more now. Cheap, never waits.
   bool GetFrameOutdated();
 
@@ -259,8 +264,11 @@ private:
   void PrepareColors();
   /// Hands the mapper a style, if one is needed.
   void PrepareStyle();
-  /// When the renderer starts: its size is known.
+  /// When the renderer starts: its size and camera are known.
+  void BeginFrame();
   void PlaceLens();
+  /// Ranks add up the colours of blended splats, if all of them can.
+  void AgreeOnExchange();
   /// Greys over the heights of the cloud; null without a store.
   vtkScalarsToColors* HeightTable();
   bool WantsComplete(vtkPVRenderView* view) const;
@@ -297,6 +305,7 @@ private:
   std::string DrawnArray; ///< empty: one colour
   bool DrawnDirectly = false; ///< its components are the colour
   const std::unique_ptr<pointfront::StyleChoice> Choice;
+  const std::unique_ptr<pointfront::RankExchange> Exchange;
   double PointSize = 2.0;
   double SizeFactor = 1.0;
   vtkSmartPointer<vtkScalarsToColors> Table;

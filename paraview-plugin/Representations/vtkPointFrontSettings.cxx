@@ -7,6 +7,11 @@
 
 vtkStandardNewMacro(vtkPointFrontSettings);
 
+namespace
+{
+vtkIdType mostSelectionPoints = 50000000; // some GB
+} // namespace
+
 //------------------------------------------------------------------------------
 vtkPointFrontSettings::vtkPointFrontSettings() = default;
 
@@ -32,8 +37,32 @@ int vtkPointFrontSettings::GetHostMemoryBudget()
 }
 
 //------------------------------------------------------------------------------
+void vtkPointFrontSettings::SetMostSelectionPoints(vtkIdType points)
+{
+  const vtkIdType most = std::max<vtkIdType>(points, 1);
+  if (most != mostSelectionPoints)
+  {
+    mostSelectionPoints = most;
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
+vtkIdType vtkPointFrontSettings::GetMostSelectionPoints()
+{
+  return mostSelectionPoints;
+}
+
+//------------------------------------------------------------------------------
+vtkIdType vtkPointFrontSettings::MostSelectionPoints()
+{
+  return mostSelectionPoints;
+}
+
+//------------------------------------------------------------------------------
 void vtkPointFrontSettings::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "HostMemoryBudget: " << this->GetHostMemoryBudget() << " MiB\n";
+  os << indent << "MostSelectionPoints: " << mostSelectionPoints << "\n";
 }

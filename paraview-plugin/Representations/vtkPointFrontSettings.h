@@ -29,6 +29,16 @@ public:
   int GetHostMemoryBudget();
   ///@}
 
+  ///@{
+  /**
+   * Points that a query or a selection through the cloud may read on this process, at least 1.
+   */
+  void SetMostSelectionPoints(vtkIdType points);
+  vtkIdType GetMostSelectionPoints();
+  /// Of this process; 50 million until one is set.
+  static vtkIdType MostSelectionPoints();
+  ///@}
+
 protected:
   vtkPointFrontSettings();
   ~vtkPointFrontSettings() override;

@@ -26,3 +26,12 @@ for backend in ("OpenGL", "Software"):
             picture = "%s-%s-%g-%s" % (name, technique, error, backend.lower())
             scene.save(picture)
             require(scene.frame()[1], picture + " is not complete")
+
+# Blended splats by a preset; from within the cloud; from where nothing of it is seen.
+scene.display.Quality = "balanced"
+camera = scene.view.SMProxy.GetActiveCamera()
+for place, way in (("all", None), ("inside", lambda: camera.Dolly(4)),
+                   ("edge", lambda: camera.Yaw(28)), ("away", lambda: camera.Yaw(150))):
+    if way:
+        way()
+    scene.save("%s-balanced-%s" % (name, place))

@@ -295,6 +295,28 @@ def check_frustum():
     print("%d points in a frustum" % len(found[0]))
 
 
+def check_inverted():
+    """All points but those that are named; and named ones joined with those of a frustum."""
+    rectangle = [200, 100, 420, 220]
+    ids = set(extracted(select(rectangle))[1]["point_id"].tolist())
+    simple.SetActiveSource(scene.reader)
+    simple.SelectSurfacePoints(Rectangle=rectangle, View=scene.view)
+    selection = servermanager._getPyProxy(scene.reader.SMProxy.GetSelectionInput(0))
+    selection.InsideOut = 1
+    rest = extracted()[1]["point_id"].tolist()
+    require(len(rest) == POINTS - len(ids) and not ids & set(rest),
+            "inverted: %d points of %d but %d" % (len(rest), POINTS, len(ids)))
+    selection.InsideOut = 0
+    simple.SelectPointsThrough(Rectangle=[390, 110, 470, 160], View=scene.view, Modifier="ADD")
+    both = extracted()[1]["point_id"].tolist()
+    through = inside([390, 110, 470, 160], -SLACK).nonzero()[0].tolist()
+    require(len(both) == len(set(both)) and ids | set(through) <= set(both),
+            "joined: %d points of %d and %d" % (len(both), len(ids), len(through)))
+    near = inside([390, 110, 470, 160], SLACK).nonzero()[0].tolist()
+    require(set(both) <= ids | set(near), "joined: points of neither")
+    simple.ClearSelection(scene.reader)
+
+
 def check_filters():
     """A selection has no more to choose from behind a filter than the filter's own points."""
     selection = select([200, 100, 420, 220])
@@ -336,6 +358,20 @@ def check_tooltip():
     tooltip.Hide(scene.view.SMProxy)
 
 
+def check_visible_range():
+    """"Rescale to Visible Data Range": of the points that the view shows, all of the store's."""
+    rectangle = [0, 0, SIZE[0] - 1, SIZE[1] - 1]
+    heights = extracted(select(rectangle))[0][:, 2]
+    scene.color_by(scene.display, "elevation")
+    require(scene.display.SMProxy.RescaleTransferFunctionToVisibleRange(scene.view.SMProxy),
+            "no visible range")
+    points = simple.GetColorTransferFunction("elevation").RGBPoints
+    found = points[0], points[-4]
+    wanted = heights.min(), heights.max()
+    require(numpy.allclose(found, wanted, 0, 1e-6), "range %s, not %s" % (found, wanted))
+    scene.color_by(scene.display, "rgb")
+
+
 check_rectangles()
 if not ONLY:
     check_polygon()
@@ -346,5 +382,7 @@ if not ONLY:
     check_filters()
     check_picks()
     check_tooltip()
+    check_visible_range()
+    check_inverted()
 if len(sys.argv) > 1:
     simple.Disconnect()

@@ -17,6 +17,7 @@
 
 namespace pointfront
 {
+class PictureExchange;
 
 /// Points [first, last) of one node. The node is looked up once a frame and pinned: back ends never
 /// ask a residency or a table.
@@ -77,6 +78,9 @@ struct FrameSetting
   /// then has the depths that decide which splat is seen; they lie behind a splat's plane towards
   /// its rim.
   bool composited = false;
+  /// Not null: those processes draw at the same time, and blended splats of all of them are added
+  /// up. Outlives the drawing.
+  PictureExchange* exchange = nullptr;
   FrameShading shading;
 };
 

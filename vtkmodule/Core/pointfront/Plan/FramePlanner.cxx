@@ -199,6 +199,7 @@ FramePlan planFrame(
   plan.spacingPx = static_cast<float>(front.last().thresholdPx);
   plan.keepsVisible = request.keepsVisible;
   plan.composited = request.composited;
+  plan.exchange = request.exchange;
   plan.shading = std::move(request.shading);
   std::vector<DrawBatch> layers = batchesOfLayers(front, request);
   matchNeighbours(layers, plan.grid, nodesElsewhere(front, request.styles));

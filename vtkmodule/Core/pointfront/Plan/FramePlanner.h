@@ -34,6 +34,7 @@ struct PlanRequest
   FrameShading shading;
   bool keepsVisible = false; ///< as FramePlan's: see leavesOut()
   bool composited = false; ///< as FramePlan's
+  PictureExchange* exchange = nullptr; ///< as FramePlan's
   /// Not null: detail grows. The object knows what that view showed so far, and learns what this
   /// plan shows.
   DetailGrowth* growth = nullptr;

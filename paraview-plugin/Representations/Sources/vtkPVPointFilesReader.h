@@ -6,6 +6,12 @@
  * The first update builds a store, with progress, and can be aborted: then it leaves nothing and
  * gives nothing. After that this is a vtkPVPointFrontReader of that store.
  *
+ * Where somebody asks GetNeedsUpdate() again and again, as ParaView's application does of a source
+ * with the hint LiveSource, the first update returns as soon as there is a preview of the store,
+ * and the build goes on beside: the output is the preview's, the view refines with it, and when the
+ * build has ended GetNeedsUpdate() asks for the update that gives the store. Elsewhere (pvbatch,
+ * Python) an update returns with the whole store.
+ *
  * The store is StoreFile, or lies beside the first file: "town.laz.pfront", of several files
  * "a.laz-and-2-more-1c0e5d4f.pfront". One that is there is used if it is newer than all files and
  * has what the options ask for. If it does not fit, that is an error that says why, unless
@@ -16,8 +22,11 @@
 #ifndef vtkPVPointFilesReader_h
 #define vtkPVPointFilesReader_h
 
+#include "BackgroundBuild.h" // for the member
 #include "vtkPVPointFrontReader.h"
 
+#include <chrono> // for the time
+#include <memory> // for the member
 #include <string> // for names
 #include <vector> // for names
 
@@ -64,6 +73,25 @@ public:
   /// Most memory of the build, MiB; 0: half of the machine's.
   vtkSetMacro(MemoryLimitMiB, int);
 
+  ///@{
+  /// Return with a preview where somebody asks GetNeedsUpdate(). On by default.
+  vtkSetMacro(ShowPreview, bool);
+  vtkGetMacro(ShowPreview, bool);
+  ///@}
+  /// Fewest points whose build has a preview (vtkPointFrontBuilder::SetPreviewPoints).
+  vtkSetClampMacro(PreviewPoints, vtkIdType, 0, VTK_ID_MAX);
+
+  /// Whether a build has ended since the last update. Asked on the first rank; cheap.
+  bool GetNeedsUpdate();
+  /// Ends a build that is going on. The next update gives nothing, and those after it as well until
+  /// a property that the build depends on is changed.
+  void CancelBuild();
+  /// What is going on: "sorting, 43 %"; empty where nothing is built.
+  std::string GetBuildState() const;
+
+  /// While a preview is shown, every update looks what has become of the build.
+  vtkMTimeType GetMTime() override;
+
 protected:
   vtkPVPointFilesReader();
   ~vtkPVPointFilesReader() override;
@@ -83,6 +111,8 @@ protected:
   double Precision = 0.0;
   bool SkipFaultyFiles = false;
   int MemoryLimitMiB = 0;
+  bool ShowPreview = true;
+  vtkIdType PreviewPoints = 4000000;
 
 private:
   vtkPVPointFilesReader(const vtkPVPointFilesReader&) = delete;
@@ -91,10 +121,30 @@ private:
   std::string StorePath() const;
   /// Why the store that is there cannot be used; empty: it can.
   std::string Misfit(const std::string& store) const;
-  bool Build(const std::string& store);
+  /// What an update gives.
+  enum Outcome
+  {
+    NOTHING,
+    PREVIEW,
+    STORE
+  };
+  /// On the first rank: starts the build if there is none, and waits for what can be shown.
+  Outcome BuildOrWait(const std::string& store);
+  /// The same, known to all ranks.
+  Outcome Agree(const std::string& store);
+  bool StartBuild(const std::string& store);
+  Outcome EndBuild(const pointfront::BackgroundBuild::State& ended, const std::string& store);
   void Choose(vtkPointFrontBuilder* builder, const std::string& store) const;
+  /// All that the build depends on.
+  std::string Order(const std::string& store) const;
 
   std::vector<std::string> PointFileNames;
+  std::unique_ptr<pointfront::BackgroundBuild> Running; ///< first rank
+  std::string Cancelled; ///< the order that is not to be built again
+  std::chrono::steady_clock::time_point Asked; ///< GetNeedsUpdate()
+  bool Followed = false; ///< the running build has a preview to return with
+  bool Previewing = false; ///< on all ranks: the output is a preview's
+  vtkTimeStamp Looked;
 };
 
 #endif

@@ -169,6 +169,10 @@ int vtkPVPointFrontExtract::RequestData(
     vtkErrorMacro("PointFront Extract reads from a store: its input is a PointFront Reader itself, "
                   "and no filter's output");
   }
+  else if (pointfront::isPreview(pointfront::upstreamReaderOf(this)))
+  {
+    vtkErrorMacro(<< pointfront::previewRefusal());
+  }
   else if (this->ChooseRegion(vtkSelection::GetData(inputs[1], 0)))
   {
     done = this->Superclass::RequestData(request, inputs, outputs);

@@ -3,6 +3,7 @@
 #include "vtkAlgorithm.h"
 #include "vtkAlgorithmOutput.h"
 #include "vtkPointFrontReader.h"
+#include "vtkPointFrontStore.h"
 
 namespace pointfront
 {
@@ -26,6 +27,21 @@ inline vtkPointFrontReader* upstreamReaderOf(vtkAlgorithm* consumer)
   return consumer->GetNumberOfInputConnections(0) > 0
     ? upstreamReader(consumer->GetInputConnection(0, 0)->GetProducer())
     : nullptr;
+}
+
+/// Whether a reader's store is one that a build shows meanwhile. The view goes on to later versions
+/// of it, in which points have other ranks.
+inline bool isPreview(vtkPointFrontReader* reader)
+{
+  return reader && reader->GetStore() && reader->GetStore()->IsPreview();
+}
+
+/// Why previews are refused.
+inline const char* previewRefusal()
+{
+  return "the store is being built, and its preview has a part of the points only: wait for the "
+         "end "
+         "of the build";
 }
 
 } // namespace pointfront

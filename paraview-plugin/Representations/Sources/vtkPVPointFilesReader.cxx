@@ -1,18 +1,18 @@
 #include "vtkPVPointFilesReader.h"
 
+#include "pointfront/Preview/PreviewRecord.h"
 #include "pointfront/Store/StoredCloud.h"
 #include "pointfront/Store/StoredCloudFormats.h"
 #include "SourceFormats.h"
 
-#include "vtkCommand.h"
 #include "vtkErrorCode.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkMultiProcessController.h"
-#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointFrontBuilder.h"
 #include "vtkPointFrontStore.h"
+#include "vtkSmartPointer.h"
 
 #include <algorithm>
 #include <cctype>
@@ -21,6 +21,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <system_error>
 
 vtkStandardNewMacro(vtkPVPointFilesReader);
@@ -28,51 +29,8 @@ vtkStandardNewMacro(vtkPVPointFilesReader);
 namespace
 {
 
-/// What an event says: without the source line and the object that VTK puts before it, and with the
-/// property's name for the tool's option.
-std::string messageOf(const void* data)
-{
-  std::string text = static_cast<const char*>(data);
-  const std::size_t object = text.find("): ");
-  text = object == std::string::npos ? text : text.substr(object + 3);
-  const std::string option = "--assume-crs";
-  if (const std::size_t place = text.find(option); place != std::string::npos)
-  {
-    text.replace(place, option.size(), "Assumed CRS");
-  }
-  const std::size_t end = text.find_last_not_of('\n');
-  return text.substr(0, end == std::string::npos ? 0 : end + 1);
-}
-
-/// Hands a builder's progress on, and the wish to end it.
-class BuildObserver final : public vtkCommand
-{
-public:
-  static BuildObserver* New() { return new BuildObserver; }
-  void Execute(vtkObject* caller, unsigned long event, void* data) override
-  {
-    auto* builder = static_cast<vtkPointFrontBuilder*>(caller);
-    if (event == vtkCommand::ErrorEvent)
-    {
-      this->Error = messageOf(data);
-      return;
-    }
-    if (event == vtkCommand::WarningEvent)
-    {
-      vtkWarningWithObjectMacro(this->Reader, << messageOf(data));
-      return;
-    }
-    this->Reader->SetProgressText(builder->GetProgressText());
-    this->Reader->UpdateProgress(*static_cast<double*>(data));
-    // What the application sets while it shows progress.
-    if (this->Reader->CheckAbort() || this->Reader->GetAbortExecute())
-    {
-      builder->AbortExecuteOn();
-    }
-  }
-  vtkPVPointFilesReader* Reader = nullptr;
-  std::string Error;
-};
+/// Since the last question of somebody who still asks.
+constexpr std::chrono::seconds LongestSilence(10);
 
 std::string extensionOf(const std::string& name)
 {
@@ -261,11 +219,28 @@ void vtkPVPointFilesReader::Choose(vtkPointFrontBuilder* builder, const std::str
   builder->SetSkipFaultyFiles(this->SkipFaultyFiles);
   builder->SetAssumedCRS(this->AssumedCRS && *this->AssumedCRS ? this->AssumedCRS : nullptr);
   builder->SetMemoryLimit(static_cast<vtkTypeInt64>(this->MemoryLimitMiB) << 20);
-  builder->PreviewOff(); // nobody can look at it while the pipeline works
+  builder->SetPreview(this->Followed);
+  builder->SetPreviewPoints(this->PreviewPoints);
 }
 
 //------------------------------------------------------------------------------
-bool vtkPVPointFilesReader::Build(const std::string& store)
+std::string vtkPVPointFilesReader::Order(const std::string& store) const
+{
+  std::ostringstream all;
+  all << store << '\n'
+      << this->ReplaceStore << ' ' << this->Structure << ' ' << this->Refinement << ' '
+      << this->Layers << ' ' << this->Normals << ' ' << this->LocalHeight << ' '
+      << this->HeightAboveGround << ' ' << this->Precision << ' ' << this->SkipFaultyFiles << ' '
+      << this->MemoryLimitMiB << ' ' << (this->AssumedCRS ? this->AssumedCRS : "");
+  for (const std::string& name : this->PointFileNames)
+  {
+    all << '\n' << name;
+  }
+  return all.str();
+}
+
+//------------------------------------------------------------------------------
+bool vtkPVPointFilesReader::StartBuild(const std::string& store)
 {
   std::error_code failed;
   if (std::filesystem::exists(store, failed) && !this->ReplaceStore)
@@ -276,46 +251,147 @@ bool vtkPVPointFilesReader::Build(const std::string& store)
       << ". Tick Replace Store to build it again, or name another file in Store File.");
     return false;
   }
-  vtkNew<vtkPointFrontBuilder> builder;
-  vtkNew<BuildObserver> observer;
-  observer->Reader = this;
-  for (const unsigned long event :
-    { vtkCommand::ProgressEvent, vtkCommand::ErrorEvent, vtkCommand::WarningEvent })
-  {
-    builder->AddObserver(event, observer);
-  }
+  const bool asks = this->Asked != std::chrono::steady_clock::time_point() &&
+    std::chrono::steady_clock::now() - this->Asked < LongestSilence;
+  this->Followed = this->ShowPreview && asks;
+  auto builder = vtkSmartPointer<vtkPointFrontBuilder>::New();
   this->Choose(builder, store);
-  if (builder->Write())
+  this->Running = std::make_unique<pointfront::BackgroundBuild>(builder, this->Order(store));
+  return true;
+}
+
+//------------------------------------------------------------------------------
+vtkPVPointFilesReader::Outcome vtkPVPointFilesReader::EndBuild(
+  const pointfront::BackgroundBuild::State& ended, const std::string& store)
+{
+  if (ended.cancelled)
   {
-    return true;
+    // What was cancelled beside is not begun again by the next render.
+    this->Cancelled = this->Previewing ? this->Running->order() : std::string();
   }
-  if (builder->GetErrorCode() != vtkErrorCode::UserError)
+  this->Running.reset();
+  for (const std::string& warning : ended.warnings)
   {
-    this->SetErrorCode(builder->GetErrorCode());
-    vtkErrorMacro(<< observer->Error << " (The store is written to " << store
+    vtkWarningMacro(<< warning);
+  }
+  if (!ended.built && !ended.cancelled)
+  {
+    this->SetErrorCode(ended.errorCode);
+    vtkErrorMacro(<< ended.error << " (The store is written to " << store
                   << ": name another place in Store File if that one is not yours to write.)");
   }
-  return false;
+  return ended.built ? STORE : NOTHING;
+}
+
+//------------------------------------------------------------------------------
+vtkPVPointFilesReader::Outcome vtkPVPointFilesReader::BuildOrWait(const std::string& store)
+{
+  if (this->Running && this->Running->order() != this->Order(store))
+  {
+    this->Running.reset(); // other properties: another store
+  }
+  if (!this->Running)
+  {
+    if (this->Misfit(store).empty())
+    {
+      return STORE;
+    }
+    if (this->Cancelled == this->Order(store) || !this->StartBuild(store))
+    {
+      return NOTHING;
+    }
+  }
+  pointfront::BackgroundBuild::State state = this->Running->state();
+  while (!state.ended && !(this->Followed && state.preview))
+  {
+    state = this->Running->waitFor(std::chrono::milliseconds(100));
+    this->SetProgressText(state.phase.c_str());
+    this->UpdateProgress(state.fraction);
+    // What the application sets while it shows progress.
+    if (this->CheckAbort() || this->GetAbortExecute())
+    {
+      this->Running->cancel();
+    }
+  }
+  return state.ended ? this->EndBuild(state, store) : PREVIEW;
+}
+
+//------------------------------------------------------------------------------
+vtkPVPointFilesReader::Outcome vtkPVPointFilesReader::Agree(const std::string& store)
+{
+  // All ranks do the same, whatever each has seen of the disk.
+  auto* controller = vtkMultiProcessController::GetGlobalController();
+  int outcome = NOTHING;
+  if (!controller || controller->GetLocalProcessId() == 0)
+  {
+    outcome = this->BuildOrWait(store);
+  }
+  if (controller && controller->GetNumberOfProcesses() > 1)
+  {
+    controller->Broadcast(&outcome, 1, 0);
+  }
+  return static_cast<Outcome>(outcome);
+}
+
+//------------------------------------------------------------------------------
+bool vtkPVPointFilesReader::GetNeedsUpdate()
+{
+  this->Asked = std::chrono::steady_clock::now();
+  return this->Running && this->Running->state().ended;
+}
+
+//------------------------------------------------------------------------------
+void vtkPVPointFilesReader::CancelBuild()
+{
+  if (this->Running)
+  {
+    this->Running->cancel();
+  }
+}
+
+//------------------------------------------------------------------------------
+std::string vtkPVPointFilesReader::GetBuildState() const
+{
+  if (!this->Running)
+  {
+    return {};
+  }
+  const pointfront::BackgroundBuild::State state = this->Running->state();
+  return state.phase + ", " + std::to_string(std::lround(100.0 * state.fraction)) + " %";
+}
+
+//------------------------------------------------------------------------------
+vtkMTimeType vtkPVPointFilesReader::GetMTime()
+{
+  if (this->Previewing)
+  {
+    this->Looked.Modified();
+  }
+  return std::max(this->Superclass::GetMTime(), this->Looked.GetMTime());
 }
 
 //------------------------------------------------------------------------------
 int vtkPVPointFilesReader::RequestInformation(
   vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
-  this->FileNames.clear();
   if (this->PointFileNames.empty())
   {
+    this->FileNames.clear();
     this->SetErrorCode(vtkErrorCode::NoFileNameError);
     vtkErrorMacro("no file names: add the point files to read");
     return 1;
   }
   const std::string store = this->StorePath();
-  if (this->Misfit(store).empty())
+  if (!this->Previewing && this->Misfit(store).empty())
   {
     this->FileNames.assign(1, store);
     return this->Superclass::RequestInformation(request, inputs, outputs);
   }
-  this->Store = nullptr;
+  if (!this->Previewing)
+  {
+    this->FileNames.clear();
+    this->Store = nullptr;
+  }
   outputs->GetInformationObject(0)->Set(vtkAlgorithm::CAN_HANDLE_PIECE_REQUEST(), 1);
   return 1;
 }
@@ -328,25 +404,19 @@ int vtkPVPointFilesReader::RequestData(
   {
     return 1; // has been said
   }
-  // All ranks do the same, whatever each has seen of the disk.
-  auto* controller = vtkMultiProcessController::GetGlobalController();
   const std::string store = this->StorePath();
-  int usable = 0;
-  if (!controller || controller->GetLocalProcessId() == 0)
+  const Outcome outcome = this->Agree(store);
+  this->Previewing = outcome == PREVIEW;
+  if (outcome == NOTHING)
   {
-    usable = this->Misfit(store).empty() || this->Build(store) ? 1 : 0;
-  }
-  if (controller && controller->GetNumberOfProcesses() > 1)
-  {
-    controller->Broadcast(&usable, 1, 0);
-  }
-  if (!usable)
-  {
+    this->FileNames.clear();
+    this->Store = nullptr;
     return 1; // aborted, or the first rank has said why
   }
-  if (this->FileNames.empty() || !this->Store)
+  const std::string shown = this->Previewing ? pointfront::previewPathOf(store) : store;
+  if (!this->Store || this->FileNames != std::vector<std::string>{ shown })
   {
-    this->FileNames.assign(1, store);
+    this->FileNames.assign(1, shown);
     this->Superclass::RequestInformation(request, inputs, outputs);
   }
   return this->Superclass::RequestData(request, inputs, outputs);

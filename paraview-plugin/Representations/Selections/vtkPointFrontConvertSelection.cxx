@@ -70,10 +70,13 @@ bool vtkPointFrontConvertSelection::NameWhatIsSelected(
   {
     ranks->DeepCopy(ids);
   }
+  else if (extract->GetErrorCode() != 0)
+  {
+    return true; // it has said why nothing is selected
+  }
   else if (!points || points->GetNumberOfPoints() > 0)
   {
-    vtkErrorMacro("the selected points cannot be named: they could not be extracted, or the array "
-                  "point_id is switched off in the reader");
+    vtkErrorMacro("the selected points cannot be named: they could not be extracted");
     return false;
   }
   vtkNew<vtkSelectionNode> node;

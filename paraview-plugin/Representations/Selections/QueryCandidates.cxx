@@ -5,6 +5,7 @@
 #include "vtkAbstractArray.h"
 #include "vtkCommand.h"
 #include "vtkDoubleArray.h"
+#include "vtkExecutive.h"
 #include "vtkInformation.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
@@ -154,6 +155,10 @@ std::optional<std::string> conditionOfComparison(
 
 bool asksForValues(vtkSelection* selection)
 {
+  if (selection->GetExpression().find('!') != std::string::npos)
+  {
+    return true; // all but what is selected: "Invert Selection" of ParaView's appended selections
+  }
   int frusta = 0;
   int lists = 0;
   for (unsigned int i = 0; i < selection->GetNumberOfNodes(); ++i)
@@ -252,6 +257,8 @@ bool readCandidates(vtkPointFrontReader* reader, const std::string& condition, v
   vtkNew<vtkPointFrontExtract> extract;
   vtkNew<ErrorText> told;
   extract->AddObserver(vtkCommand::ErrorEvent, told);
+  vtkNew<ErrorText> ofPipeline; // says that there was one
+  extract->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, ofPipeline);
   extract->SetFileName(reader->GetStore()->GetFileName());
   extract->SetWhere(condition.empty() ? nullptr : condition.c_str());
   extract->SetMaximumNumberOfPoints(mostPoints);
@@ -263,7 +270,9 @@ bool readCandidates(vtkPointFrontReader* reader, const std::string& condition, v
   extract->UpdatePiece(piece, pieces, 0);
   if (!told->Text.empty())
   {
-    error = told->Text;
+    // The filter's property for the setting.
+    error = std::regex_replace(
+      told->Text, std::regex("MaximumNumberOfPoints"), "Most Selection Points (Settings)");
     return false;
   }
   output->ShallowCopy(extract->GetOutput());

@@ -11,6 +11,7 @@
 #include "vtkDataSet.h"
 
 #include "vtkDoubleArray.h"
+#include "vtkErrorCode.h"
 #include "vtkExtractSelectedFrustum.h"
 #include "vtkIdTypeArray.h"
 #include "vtkInformation.h"
@@ -20,6 +21,7 @@
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkPointFrontReader.h"
+#include "vtkPointFrontSettings.h"
 #include "vtkPointFrontStore.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
@@ -39,9 +41,6 @@ vtkStandardNewMacro(vtkPointFrontExtractSelection);
 
 namespace
 {
-
-/// That a selection through the cloud may read, a query on each process: some GB.
-constexpr vtkIdType MostPoints = 50000000;
 
 /// Ranks of the points that a selection names, whoever's they are.
 void appendNamedPoints(vtkSelection* selection, vtkIdTypeArray* ranks)
@@ -204,6 +203,12 @@ vtkSmartPointer<vtkPolyData> vtkPointFrontExtractSelection::GetCandidates(
   int pieces)
 {
   vtkPointFrontStore* store = reader->GetStore();
+  if (pointfront::isPreview(reader) && selection->GetNumberOfNodes() > 0)
+  {
+    vtkErrorMacro(<< pointfront::previewRefusal());
+    return nullptr;
+  }
+  const vtkIdType mostPoints = vtkPointFrontSettings::MostSelectionPoints();
   vtkNew<vtkPolyData> further;
   const bool hasMore = store && store->GetNumberOfPoints() > reader->GetOverviewPoints();
   const bool rows = hasMore && pointfront::asksForRows(selection, store->GetStore()->description());
@@ -221,7 +226,7 @@ vtkSmartPointer<vtkPolyData> vtkPointFrontExtractSelection::GetCandidates(
       : pointfront::conditionOfSelection(selection, store->GetStore()->description());
     std::string error;
     const bool read =
-      pointfront::readCandidates(reader, condition, MostPoints, piece, pieces, further, error);
+      pointfront::readCandidates(reader, condition, mostPoints, piece, pieces, further, error);
     if (!read)
     {
       vtkErrorMacro("the query selects among too many points, or they cannot be read: "
@@ -245,7 +250,7 @@ vtkSmartPointer<vtkPolyData> vtkPointFrontExtractSelection::GetCandidates(
       std::copy_n(bounds, 6, box.begin());
       return frustum->OverallBoundsTest(box.data()) != 0;
     };
-    read = reader->ReadRegion(overlaps, MostPoints, piece, pieces, further);
+    read = reader->ReadRegion(overlaps, mostPoints, piece, pieces, further);
   }
   else if (ranks->GetNumberOfTuples() > 0)
   {
@@ -266,6 +271,7 @@ int vtkPointFrontExtractSelection::RequestData(
   {
     return this->Superclass::RequestData(request, inputVector, outputVector);
   }
+  this->SetErrorCode(vtkErrorCode::NoError);
   vtkInformation* output = outputVector->GetInformationObject(0);
   const int piece = output->Get(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER());
   const int pieces =
@@ -274,7 +280,9 @@ int vtkPointFrontExtractSelection::RequestData(
     this->GetCandidates(reader, overview, selection, piece, pieces);
   if (!everywhere(candidates != nullptr, pieces))
   {
-    return 0; // has been said, here or by another rank
+    // Has been said, here or by another rank: no failure of the pipeline's besides.
+    this->SetErrorCode(vtkErrorCode::UnknownError);
+    return 1;
   }
   vtkInformation* input = inputVector[0]->GetInformationObject(0);
   const vtkSmartPointer<vtkDataObject> kept = overview;

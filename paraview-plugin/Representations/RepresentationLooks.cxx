@@ -1,0 +1,135 @@
+/// Of vtkPointFrontRepresentation: colours, styles and classes of the frame that comes.
+
+#include "vtkPointFrontRepresentation.h"
+
+#include "StyleChoice.h"
+
+#include "vtkDataObject.h"
+#include "vtkInformation.h"
+#include "vtkLookupTable.h"
+#include "vtkPointFrontMapper.h"
+#include "vtkPointFrontStore.h"
+#include "vtkProperty.h"
+#include "vtkPVRenderView.h"
+#include "vtkRenderer.h"
+#include "vtkScalarsToColors.h"
+
+#include <algorithm>
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::PrepareClasses()
+{
+  const auto valueOf =
+    [](const std::map<std::string, double>& values, const char* name, double otherwise)
+  {
+    const auto found = values.find(name);
+    return found != values.end() ? found->second : otherwise;
+  };
+  vtkPointFrontStore* store = this->Mapper->GetStore();
+  for (int i = 0; store && i < store->GetNumberOfObjectClasses(); ++i)
+  {
+    const char* name = store->GetObjectClassName(i);
+    const int number = store->GetObjectClassNumber(i);
+    this->Mapper->SetClassVisibility(number, this->HiddenClasses.count(name) == 0);
+    this->Mapper->SetClassTargetErrorFactor(number, valueOf(this->ClassFactors, name, 1.0));
+    this->Mapper->SetClassBudgetShare(number, valueOf(this->ClassShares, name, 0.0));
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::PrepareColors()
+{
+  vtkInformation* info = this->GetInputArrayInformation(0);
+  const char* array = info && info->Has(vtkDataObject::FIELD_NAME())
+    ? info->Get(vtkDataObject::FIELD_NAME())
+    : nullptr;
+  const bool ofPoints = info && info->Has(vtkDataObject::FIELD_ASSOCIATION()) &&
+    info->Get(vtkDataObject::FIELD_ASSOCIATION()) == vtkDataObject::FIELD_ASSOCIATION_POINTS;
+  if (!array || !array[0] || !ofPoints)
+  {
+    this->Mapper->ScalarVisibilityOff();
+    this->DrawnArray.clear();
+    this->PrepareStyle();
+    return;
+  }
+  const bool color = IsColor(array);
+  if (!color && !this->ToldOfNames && this->Mapper->GetStorePiece() == 0)
+  {
+    vtkWarningMacro("\"" << array << "\" names points and is no colour: they are shown by height");
+  }
+  this->ToldOfNames = !color;
+  this->Mapper->SetLookupTable(color ? this->Table.Get() : this->HeightTable());
+  this->Mapper->ScalarVisibilityOn();
+  this->Mapper->SetScalarModeToUsePointFieldData();
+  this->Mapper->SelectColorArray(color ? array : "elevation");
+  this->Mapper->UseLookupTableScalarRangeOn();
+  const bool direct = !this->MapScalars || (this->DirectColors && array == std::string("rgb"));
+  if (!this->MapScalars)
+  {
+    this->Mapper->SetColorModeToDirectScalars();
+  }
+  else if (this->DirectColors)
+  {
+    this->Mapper->SetColorModeToDefault();
+  }
+  else
+  {
+    this->Mapper->SetColorModeToMapScalars();
+  }
+  this->DrawnArray = color ? array : "elevation";
+  this->DrawnDirectly = direct;
+  this->PrepareStyle();
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::PrepareStyle()
+{
+  auto* view = vtkPVRenderView::SafeDownCast(this->GetView());
+  if (!view)
+  {
+    return;
+  }
+  pointfront::LookColour colour;
+  colour.array = this->DrawnArray;
+  colour.direct = !this->DrawnArray.empty() && this->DrawnDirectly;
+  colour.table = this->Mapper->GetLookupTable();
+  std::copy_n(this->Property->GetColor(), 3, colour.flat.begin());
+  pointfront::PointLook& look = this->Choice->look;
+  look.size = look.closes() ? this->SizeFactor : this->PointSize;
+  look.opacity = this->Property->GetOpacity();
+  std::string error;
+  const int* const size = view->GetRenderer()->GetSize();
+  this->Mapper->SetStyle(this->Choice->style(colour, size[0], size[1], error));
+  if (!error.empty() && this->Mapper->GetStorePiece() == 0)
+  {
+    vtkErrorMacro(<< error);
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::PlaceLens()
+{
+  if (this->GetVisibility() && this->Choice->lens.shape != pointfront::LensPlace::NONE)
+  {
+    this->PrepareStyle();
+  }
+}
+
+//------------------------------------------------------------------------------
+vtkScalarsToColors* vtkPointFrontRepresentation::HeightTable()
+{
+  vtkPointFrontStore* store = this->Mapper->GetStore();
+  if (store && !this->Heights)
+  {
+    double bounds[6];
+    store->GetBounds(bounds);
+    vtkNew<vtkLookupTable> greys;
+    greys->SetRange(bounds[4], bounds[5]);
+    greys->SetHueRange(0.0, 0.0);
+    greys->SetSaturationRange(0.0, 0.0);
+    greys->SetValueRange(0.2, 1.0);
+    greys->Build();
+    this->Heights = greys;
+  }
+  return this->Heights;
+}

@@ -1,0 +1,186 @@
+"""Ways to run ParaView that look at points. Each function is a test: see drive.py."""
+
+import json
+import os
+
+import numpy
+from expected import compare, exported, surveys
+from programs import HERE, mpi, python_client, tool, with_server
+
+
+def facts(programs):
+    """Ranges and facts, against what reading all points of the store says."""
+    with open("statistics.json", "w") as file:
+        file.write(tool("info", "--stats", "--json", os.environ["POINTFRONT_STORE"]))
+    command = [os.environ["POINTFRONT_PVBATCH"], os.path.join(HERE, "facts.py"), "statistics.json"]
+    programs.run(*command, "alone")
+    programs.run(*mpi(2, *command))
+
+
+def queries(programs):
+    """What queries select is what the tool exports for the same conditions."""
+    rows = exported("all")
+    height, intensity = rows[:, 2], rows[:, 3]
+    middle = float(numpy.median(height))
+    wanted = {
+        "(intensity > 100)": (intensity > 100).sum(),
+        "intensity == 100": (intensity == 100).sum(),
+        "(intensity >= 50) & (intensity <= 60)": ((intensity >= 50) & (intensity <= 60)).sum(),
+        "(intensity < 50) | (elevation > %r)" % middle:
+            ((intensity < 50) | (height > middle)).sum(),
+        "(elevation == max(elevation))": (height == height.max()).sum(),
+        "(intensity > mean(intensity)) & (elevation > %r)" % middle:
+            ((intensity > intensity.mean()) & (height > middle)).sum()}
+    means = {query: intensity[eval(query, {"intensity": intensity})].mean()
+             for query in ("(intensity > 100)",)}
+    steps = [(store, int(points), tool("info", "--stats", "--json", store))
+             for store, points in surveys()]
+    heights = [next(a for a in json.loads(told)["stats"]["attributes"] if a["name"] == "z")
+               for _, _, told in steps]
+    with open("queries.json", "w") as file:
+        json.dump({"wanted": {query: int(count) for query, count in wanted.items()},
+                   "means": means, "steps": [store for store, _, _ in steps],
+                   "highest": [one["maximum"] for one in heights],
+                   "mean": [one["mean"] for one in heights]}, file)
+    command = [os.environ["POINTFRONT_PVBATCH"], os.path.join(HERE, "queries.py"), "queries.json"]
+    programs.run(*command)
+    programs.run(*mpi(2, *command))
+
+
+def refusals(programs):
+    """What is told of selections that cannot be had, on one process and on two."""
+    with open("id.ply", "w") as ply:
+        ply.write("ply\nformat ascii 1.0\nelement vertex 40000\n"
+                  "property double x\nproperty double y\nproperty double z\n"
+                  "property int id\nend_header\n")
+        for i in range(40000):
+            ply.write("%d %d %g %d\n" % (i % 200, i // 200, 0.001 * i, i % 10))
+    store, damaged = os.path.abspath("id.pfront"), os.path.abspath("damaged.pfront")
+    tool("build", "id.ply", "-o", store, "--node-points", "1000", "--force")
+    with open(store, "rb") as file:
+        content = bytearray(file.read())
+    middle = len(content) // 2
+    content[middle:middle + 64] = bytes(64)  # in the points of one node or two
+    with open(damaged, "wb") as file:
+        file.write(content)
+    for count in (1, 2):
+        log = "refusals-%d.log" % count
+        with open(log, "w") as output:
+            done = programs.start(*mpi(count, os.environ["POINTFRONT_PVBATCH"],
+                                       os.path.join(HERE, "refusals.py"), store, damaged),
+                                  output=output)
+        try:
+            programs.finish(done)
+        finally:
+            told = open(log).read()
+            print(told)
+        steps = dict(part.split("\n", 1) for part in told.split("== ")[1:])
+        for step, words in (("id", None), ("too many", "PointFront Extract"), ("enough", None),
+                            ("unnamed", "Most Selection Points"),
+                            ("damaged", "cannot be read")):
+            errors = steps[step].count("ERR|")
+            most = count if words else 0  # each rank speaks for itself
+            if not bool(words) <= errors <= most or (words or "") not in steps[step]:
+                raise AssertionError("what is said of %s: %s" % (step, steps[step]))
+
+
+def series(programs):
+    steps = surveys()
+    command = [os.environ["POINTFRONT_PVBATCH"], os.path.join(HERE, "series.py"), json.dumps(steps)]
+    programs.run(*command)
+    programs.run(*mpi(2, *command))
+
+
+def extract(programs):
+    """On 1, 2 and 4 ranks, what the tool exports."""
+    store = os.environ["POINTFRONT_STORE"] = os.path.abspath("small-nodes.pfront")
+    tool("build", os.environ["POINTFRONT_CLOUD"], "-o", store, "--node-points", "1000", "--force")
+    bounds = json.loads(tool("info", store, "--json"))["bounds"]
+    low, high = numpy.array(bounds[:3]), numpy.array(bounds[3:])
+    # Ends that add up exactly in doubles.
+    box = [*numpy.round(low + 0.25 * (high - low)), *numpy.round(low + 0.75 * (high - low))]
+    box[2], box[5] = float(numpy.floor(low[2])), float(numpy.ceil(high[2]))
+    sphere = [*numpy.round(0.5 * (low + high)), 150.0]
+    text = ",".join("%.17g" % end for end in box)
+    wanted = {"box": exported("box", "--box", text),
+              "sphere": exported("sphere", "--sphere", ",".join("%.17g" % x for x in sphere)),
+              "conditions": exported("conditions", "--box", text, "--classes", "0,2", "--where",
+                                     "intensity > 60 and return_number == 1")}
+    wanted["turned"] = wanted["box"]
+    results = {}
+    for count in (1, 2, 4):
+        name = "extract-%d" % count
+        programs.run(*mpi(count, os.environ["POINTFRONT_PVBATCH"],
+                          os.path.join(HERE, "extract.py"), name, json.dumps(box),
+                          json.dumps(sphere)))
+        results[count] = found = numpy.load(name + ".npz")
+        for what, rows in wanted.items():
+            got = found[what][:, :4]
+            got = got[numpy.lexsort(got.T[::-1])]
+            if len(rows) < 100 or got.shape != rows.shape or not numpy.allclose(got, rows, 0, 1e-6):
+                raise AssertionError("%s on %d ranks: %d points, the tool exports %d, or others"
+                                     % (what, count, len(got), len(rows)))
+        if not numpy.array_equal(found["frustum"], results[1]["frustum"]):
+            raise AssertionError("a frustum on %d ranks has other points" % count)
+        print("%d ranks read %s bytes" % (count, found["bytes"]))
+        compare("extract-%d" % count, "extract-1")
+    if max(results[2]["bytes"]) > 0.6 * results[1]["bytes"][0]:
+        raise AssertionError("a rank of two reads as much as one alone")
+
+
+def selection(programs):
+    programs.run(os.environ["POINTFRONT_PVBATCH"], os.path.join(HERE, "selection.py"))
+
+
+def batch_selection(programs):
+    """On a rank that shows what all drew nothing is left of the depths that VTK relies on."""
+    programs.run(*mpi(2, os.environ["POINTFRONT_PVBATCH"], os.path.join(HERE, "selection.py")))
+
+
+def ranks_selection(programs):
+    with_server(programs, python_client("selection.py"))
+
+
+def rectangles(programs):
+    """Fifty each on trees of several classes, a kd-tree and an octree; on one process and two."""
+    os.environ["POINTFRONT_ONLY"] = "rectangles"
+    tool("generate", "--points", "120000", "--seed", "7", "-o", "survey.las", "--force")
+    stadium = os.environ["POINTFRONT_CLOUD"], os.environ["POINTFRONT_CAMERA"]
+    for name, (cloud, camera), options in (
+            ("classes", ("survey.las", ""), ["--layers", "class", "--node-points", "2000"]),
+            ("kd-tree", stadium, ["--structure", "kdtree", "--node-points", "4000"]),
+            ("octree", ("survey.las", ""), ["--layers", "none", "--node-points", "1000"])):
+        store = os.environ["POINTFRONT_STORE"] = os.path.abspath(name + ".pfront")
+        tool("build", cloud, "-o", store, "--force", *options)
+        os.environ["POINTFRONT_POINTS"] = str(json.loads(tool("info", store, "--json"))["points"])
+        os.environ["POINTFRONT_CAMERA"] = camera
+        command = [os.environ["POINTFRONT_PVBATCH"], os.path.join(HERE, "selection.py")]
+        programs.run(*command)
+        programs.run(*mpi(2, *command))
+
+
+def rubber_band(programs):
+    """A flat square of points seen from above: what the rubber band covers is known."""
+    with open("flat.ply", "w") as ply:
+        ply.write("ply\nformat ascii 1.0\nelement vertex 40000\n"
+                  "property double x\nproperty double y\nproperty double z\nend_header\n")
+        for i in range(40000):
+            ply.write("%d %d 0\n" % (i % 200, i // 200))
+    store = os.environ["POINTFRONT_STORE"] = os.path.abspath("flat.pfront")
+    tool("build", "flat.ply", "-o", store, "--force")
+    script = os.path.join(HERE, "rubber_band")
+    programs.run(os.environ["POINTFRONT_PARAVIEW"], "--dr", "--script=%s.py" % script,
+                 "--test-script=%s.xml" % script, "--exit")
+    with open("rubber_band.json") as file:
+        found = json.load(file)
+    print(found)
+    selected = found["selected"]
+    if found["failure"] or found["extracted"] != selected:
+        raise AssertionError("extracted is not what was selected")
+    low_x, high_x, low_y, high_y = selected["bounds"][:4]
+    # Around the middle, twice as wide as high at most, and no hole in it.
+    if abs(low_x + high_x - 199) > 4 or abs(low_y + high_y - 199) > 4 or high_y - low_y > 100:
+        raise AssertionError("selected is not what the rubber band covers")
+    grid = (high_x - low_x + 1) * (high_y - low_y + 1)
+    if not 1000 < selected["points"] == grid:
+        raise AssertionError("%d points selected, the band covers %d" % (selected["points"], grid))

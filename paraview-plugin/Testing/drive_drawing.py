@@ -1,0 +1,176 @@
+"""Ways to run ParaView that look at pictures. Each function is a test: see drive.py."""
+
+import glob
+import json
+import os
+
+from expected import STOCK_SHARE, compare
+from programs import HERE, mpi, python_client, tool, with_server
+
+
+def make_large():
+    large = os.environ["POINTFRONT_LARGE"] = os.path.abspath("large.pfront")
+    tool("generate", "--points", "4000000", "--seed", "5", "-o", "large.las")
+    tool("build", "large.las", "-o", large, "--force")
+    os.remove("large.las")
+
+
+def batch(programs):
+    make_large()
+    programs.run(os.environ["POINTFRONT_PVBATCH"], os.path.join(HERE, "batch.py"), "batch", "alone")
+    compare("batch", "tool")
+    compare("batch", "batch-stock", STOCK_SHARE)
+    compare("batch", "batch-moved")
+    compare("batch-intensity", "batch-stock-intensity", STOCK_SHARE)
+
+
+def classes(programs):
+    """A made-up survey, whose points are classified."""
+    store = os.environ["POINTFRONT_STORE"] = os.path.abspath("classes.pfront")
+    # It has four classes.
+    tool("generate", "--points", "200000", "--seed", "3", "-o", "survey.las", "--force")
+    tool("build", "survey.las", "-o", store, "--layers", "class", "--force")
+    described = json.loads(tool("info", store, "--json"))
+    os.environ["POINTFRONT_POINTS"] = str(described["points"])
+    points = json.dumps({layer["name"]: layer["points"] for layer in described["layers"]})
+    programs.run(
+        os.environ["POINTFRONT_PVBATCH"], os.path.join(HERE, "classes.py"), points)
+
+
+def ranks(programs):
+    programs.run(*mpi(2, os.environ["POINTFRONT_PVBATCH"], os.path.join(HERE, "batch.py"), "ranks"))
+    compare("ranks", "tool")
+    # Means above, the input's points in the leaves: at full detail the same picture.
+    store = os.environ["POINTFRONT_STORE"] = os.path.abspath("replace.pfront")
+    tool("build", os.environ["POINTFRONT_CLOUD"], "-o", store, "--refinement", "replace", "--force")
+    script = os.path.join(HERE, "pieces.py")
+    programs.run(*mpi(3, os.environ["POINTFRONT_PVBATCH"], script, "pieces"))
+    compare("pieces", "tool")
+
+
+def backends(programs):
+    """Of each technique the same pictures on 1, 2 and 4 ranks, but for 0.1 % and two levels of 255.
+
+    Found: 0 of what ranks add up together.
+    """
+    store = os.environ["POINTFRONT_STORE"] = os.path.abspath("small-nodes.pfront")
+    tool("build", os.environ["POINTFRONT_CLOUD"], "-o", store, "--node-points", "1000", "--force")
+    for old in glob.glob("backends-*.png"):
+        os.remove(old)
+    for count in (1, 2, 4):
+        programs.run(*mpi(count, os.environ["POINTFRONT_PVBATCH"],
+                          os.path.join(HERE, "backends.py"), "backends-%d" % count))
+        for picture in sorted(glob.glob("backends-1-*.png")):
+            way = picture[len("backends-1-"):-len(".png")]
+            if way.endswith("away"):
+                continue  # it is enough that no rank waits for the others
+            compare("backends-%d-%s" % (count, way), "backends-1-" + way, channel=2)
+
+
+def server(programs):
+    make_large()
+    with_server(programs, python_client("client.py", "server", "2"))
+    compare("server", "tool")
+
+
+def colours(programs):
+    with open("black.ply", "w") as ply:
+        ply.write("ply\nformat ascii 1.0\nelement vertex 40000\n"
+                  "property double x\nproperty double y\nproperty double z\n"
+                  "property uchar red\nproperty uchar green\nproperty uchar blue\n"
+                  "property ushort intensity\nend_header\n")
+        for i in range(40000):
+            x, y = i % 200, i // 200
+            ply.write("%d %d %g 0 0 0 %d\n" % (x, y, 0.002 * x * y, x + y))
+    os.environ["POINTFRONT_COLOURED"] = os.environ["POINTFRONT_STORE"]
+    store = os.environ["POINTFRONT_STORE"] = os.path.abspath("black.pfront")
+    tool("build", "black.ply", "-o", store, "--force")
+    with open("colours.log", "w") as log:
+        programs.finish(programs.start(
+            os.environ["POINTFRONT_PVBATCH"], os.path.join(HERE, "colours.py"), output=log))
+    told = open("colours.log").read()
+    print(told)
+    if told.count("point_id") != 1:
+        raise AssertionError("nobody is told, or more than once, that ids are no colours")
+
+
+def filtered(programs):
+    with open("filtered.log", "w") as log:
+        programs.finish(programs.start(
+            os.environ["POINTFRONT_PVBATCH"], os.path.join(HERE, "filtered.py"), output=log))
+    told = open("filtered.log").read()
+    print(told)
+    if "is a filter's output" not in told:
+        raise AssertionError("nobody is told why a filter's output is not drawn")
+    compare("filtered", "tool")
+
+
+def views(programs):
+    whole = open(os.environ["POINTFRONT_STORE"], "rb").read()
+    damaged = os.path.abspath("damaged.pfront")
+    with open(damaged, "wb") as file:
+        file.write(whole[:len(whole) // 2])
+    with open("views.log", "w") as log:
+        done = programs.start(os.environ["POINTFRONT_PVBATCH"], os.path.join(HERE, "views.py"),
+                              damaged, output=log)
+        try:
+            programs.finish(done)
+        finally:
+            print(open("views.log").read())
+    told = open("views.log").read().split("damaged", 1)[1]
+    if told.count("ERR|") != 1:
+        raise AssertionError("%d errors for one damaged store" % told.count("ERR|"))
+
+
+def looks(programs):
+    with open("looks.log", "w") as log:
+        done = programs.start(
+            os.environ["POINTFRONT_PVBATCH"], os.path.join(HERE, "looks.py"), output=log)
+        try:
+            programs.finish(done)
+        finally:
+            print(open("looks.log").read())
+    told = open("looks.log").read()
+    if told.count("has no attribute") != 1:
+        raise AssertionError("an unknown attribute is told of %d times"
+                             % told.count("has no attribute"))
+
+
+def lens(programs):
+    for count in (1, 2):
+        name = "lens-%d" % count
+        programs.run(*mpi(count, os.environ["POINTFRONT_PVBATCH"],
+                          os.path.join(HERE, "lens.py"), name))
+    for way in ("Circle", "Rectangle", "hidden"):
+        compare("lens-2-" + way, "lens-1-" + way, channel=2)
+
+
+def application(programs):
+    try:
+        programs.run(os.environ["POINTFRONT_PARAVIEW"], "--dr",
+                     "--script=" + os.path.join(HERE, "application.py"))
+    finally:
+        if os.path.exists("application.json"):
+            with open("application.json") as file:
+                print(file.read())
+    points = int(os.environ["POINTFRONT_POINTS"])
+    with open("application.json") as file:
+        phases = json.load(file)["phases"]
+    drawn = {phase: [count for count, _ in frames] for phase, frames in phases.items()}
+    opened = drawn["opened"]
+    if opened != sorted(opened) or opened[-1] != points:
+        raise AssertionError("refinement at rest loses nothing on its way, not %s" % opened)
+    if not drawn["moving"][-1] < points:
+        raise AssertionError("frames in motion keep to their time, not %s" % drawn["moving"])
+    if drawn["at rest again"][-1] != points:
+        raise AssertionError("all points come back at rest, not %s" % drawn["at rest again"])
+    compare("application", "tool")
+
+
+def panel(programs):
+    try:
+        programs.run(os.environ["POINTFRONT_PARAVIEW"], "--dr",
+                     "--script=" + os.path.join(HERE, "panel.py"))
+    finally:
+        if os.path.exists("panel.json"):
+            print(open("panel.json").read())

@@ -1,0 +1,148 @@
+"""Ways to run ParaView that open and write files. Each function is a test: see drive.py."""
+
+import glob
+import json
+import os
+import re
+import shlex
+import shutil
+
+from expected import compare
+from programs import HERE, mpi, tool, with_server
+
+
+def files(programs):
+    """Point files of several families, opened on one process and on two."""
+    def places(shift):
+        return [(i % 40, i // 40 + shift, 0.01 * i) for i in range(1000)]
+
+    header = "ply\nformat ascii 1.0\nelement vertex %d\n" + "".join(
+        "property double %s\n" % axis for axis in "xyz") + "%send_header\n"
+    for ranks_ in (1, 2):
+        folder = os.path.abspath("files-of-%d" % ranks_)
+        shutil.rmtree(folder, ignore_errors=True)
+        os.makedirs(folder)
+        shutil.copyfile(os.environ["POINTFRONT_CLOUD"], os.path.join(folder, "stadium.laz"))
+        for name, shift in (("points.xyz", 0), ("part_1.xyz", 0), ("part_2.xyz", 25)):
+            with open(os.path.join(folder, name), "w") as file:
+                file.writelines("%g %g %g\n" % place for place in places(shift))
+        with open(os.path.join(folder, "points.ply"), "w") as file:
+            file.write(header % (1000, ""))
+            file.writelines("%g %g %g\n" % place for place in places(0))
+        with open(os.path.join(folder, "surface.ply"), "w") as file:
+            file.write(header % (3, "element face 1\nproperty list uchar int vertex_indices\n"))
+            file.write("0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")
+        command = [os.environ["POINTFRONT_PVBATCH"], os.path.join(HERE, "files.py"), folder]
+        log = "files-%d.log" % ranks_
+        with open(log, "w") as output:
+            done = programs.start(*(command if ranks_ == 1 else mpi(ranks_, *command)),
+                                  output=output)
+        try:
+            programs.finish(done)
+        finally:
+            told = open(log).read()
+            print(told)
+        steps = dict(part.split("\n", 1) for part in told.split("== ")[1:])
+        for step, words in (("an older store", ["is older than", "Replace Store"]),
+                            ("no place", ["/proc/none/points.pfront", "Store File"]),
+                            ("replaced", []), ("another place", []), ("aborted", [])):
+            if step in steps and (steps[step].count("ERR|") != (1 if words else 0) or
+                                  not all(word in steps[step] for word in words)):
+                raise AssertionError("what is said of %s: %s" % (step, steps[step]))
+        compare("files-%d" % ranks_, "tool")
+
+
+def written(programs):
+    for ranks_ in (1, 2):
+        name = "written-%d" % ranks_
+        command = [os.environ["POINTFRONT_PVBATCH"], os.path.join(HERE, "written.py"), name]
+        programs.run(*(command if ranks_ == 1 else mpi(ranks_, *command)))
+        compare(name, "tool")
+
+
+def state(programs):
+    """The state as a file and as a script, and the trace, in a ParaView that knows nothing."""
+    pvbatch, script = os.environ["POINTFRONT_PVBATCH"], os.path.join(HERE, "state.py")
+    programs.run(pvbatch, script, "save")
+    programs.run(pvbatch, script, "load")
+    compare("state-loaded", "state")
+    # A trace of a script has what simple's functions did, and loads the plugin.
+    programs.run(pvbatch, os.path.abspath("saved-trace.py"))
+    # ParaView's states as scripts load no plugins: it is told of ours as of any that it shall load.
+    with open("plugins.xml", "w") as file:
+        file.write('<Plugins><Plugin name="PointFront" filename="%s" auto_load="1"/></Plugins>\n'
+                   % os.environ["POINTFRONT_PLUGIN"])
+    os.environ["PV_PLUGIN_CONFIG_FILE"] = os.path.abspath("plugins.xml")
+    programs.run(pvbatch, os.path.abspath("saved-state.py"))
+    compare("by-state", "state-loaded")
+
+
+def first_hour(programs):
+    """What docs/user/paraview.md says, line by line; alone and on two ranks."""
+    with open(os.path.join(HERE, "..", "..", "docs", "user", "paraview.md")) as file:
+        chapter = file.read().split("## A first hour", 1)[1].split("\n## ", 1)[0]
+    blocks = re.findall(r"```(sh|python)\n(.*?)```", chapter, re.DOTALL)
+    for line in "".join(text for kind, text in blocks if kind == "sh").splitlines():
+        program, *arguments = shlex.split(line)
+        if program != "pointfront":
+            raise AssertionError("not ours to run: " + line)
+        tool(*arguments, "--force")
+    script = "".join(text for kind, text in blocks if kind == "python")
+    with open("hour.py", "w") as file:
+        file.write(script.replace('"PointFront.so"', repr(os.environ["POINTFRONT_PLUGIN"])))
+    wanted = re.findall(r'"(\w+\.(?:png|csv))"', script)
+    # One process comes last: its pictures are those of the documentation.
+    for ranks_, command in ((2, mpi(2, os.environ["POINTFRONT_PVBATCH"])),
+                            (1, [os.environ["POINTFRONT_PVBATCH"]])):
+        for old in glob.glob("flight*.png") + wanted:
+            if os.path.exists(old):
+                os.remove(old)
+        programs.run(*command, "hour.py")
+        for name in wanted:
+            found = glob.glob(name.replace(".", "*."))
+            if not found or min(os.path.getsize(path) for path in found) < 5000:
+                raise AssertionError("%s on %d ranks: %s" % (name, ranks_, found))
+        if len(glob.glob("flight*.png")) != 4:
+            raise AssertionError("frames: %s" % glob.glob("flight*.png"))
+
+
+def preview(programs):
+    """In the application a preview is in view while a store is built; so it is on a server."""
+    points = 2000000
+    for way in ("alone", "cancelled", "ranks"):
+        name = "large-%s.las" % way
+        for old in glob.glob("large-%s*" % way) + glob.glob("preview*.*"):
+            os.remove(old)
+        tool("generate", "--points", str(points), "--seed", "5", "-o", name)
+        os.environ["POINTFRONT_FILES"] = json.dumps([os.path.abspath(name)])
+        os.environ["POINTFRONT_CANCEL"] = "1" if way == "cancelled" else ""
+        command = [os.environ["POINTFRONT_PARAVIEW"], "--dr",
+                   "--script=" + os.path.join(HERE, "preview.py")]
+        try:
+            if way == "ranks":
+                with_server(programs,
+                            lambda port: [*command, "--url=cs://127.0.0.1:%d" % port])
+            else:
+                programs.run(*command)
+        finally:
+            if os.path.exists("preview.json"):
+                print(way, open("preview.json").read())
+        with open("preview.json") as file:
+            seen = json.load(file)
+        begun, last = seen["while"], seen["after"][-1]
+        if len(begun) < 3 or begun[0]["there"] or not begun[0]["drawn"] > 1000:
+            raise AssertionError(way + ": no preview, or not before the store: %s" % begun)
+        if not all(frame["store"].endswith(".preview.pfront") for frame in begun[:3]):
+            raise AssertionError(way + ": not a preview: %s" % begun)
+        left = sorted(os.path.basename(path) for path in glob.glob(name + ".*"))
+        if way == "cancelled":
+            if last["store"] or last["drawn"] or left:
+                raise AssertionError("cancelled, and there is %s, %s" % (last, left))
+        elif last["drawn_of"] != points or last["store_points"] != points:
+            raise AssertionError(way + ": not the store in the end: %s" % last)
+        elif left != [name + ".pfront"]:
+            raise AssertionError("left behind: %s" % left)
+        else:
+            shutil.copyfile("preview.png", way + ".png")
+        os.remove(name)
+    compare("ranks", "alone")

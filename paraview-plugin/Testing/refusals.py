@@ -1,0 +1,73 @@
+"""What selections cannot give is an error, told once, on all ranks, and nobody waits for ever.
+
+usage: pvbatch refusals.py STORE DAMAGED      on any number of processes. STORE has an attribute
+that is called "id"; DAMAGED has parts that cannot be read
+Prints "== " and the step before each, so that what is told of it can be found.
+"""
+
+import os
+import sys
+
+from paraview import servermanager, simple
+from paraview.modules.vtkRemotingServerManager import vtkSMPropertyHelper
+from paraview.modules.vtkRemotingViews import vtkSMSelectionHelper
+from vtkmodules.vtkCommonDataModel import vtkSelectionNode
+
+simple.LoadPlugin(os.environ["POINTFRONT_PLUGIN"], remote=False, ns=globals())
+
+from scene import require
+
+store, damaged = sys.argv[1:3]
+RANKS = servermanager.ActiveConnection.GetNumberOfDataPartitions()
+POINTS = 40000
+
+
+view = simple.CreateView("RenderView")
+
+
+def opened(name):
+    reader = simple.OpenDataFile(name)
+    reader.OverviewPoints = 1000
+    simple.Show(reader, view)
+    return reader
+
+
+def selected(reader, query=None):
+    """Points that are extracted of a query, or of the active selection."""
+    if query:
+        simple.QuerySelect(QueryString=query, FieldType="POINT", Source=reader)
+    extracted = simple.ExtractSelection(Input=reader)
+    extracted.UpdatePipeline()
+    points = extracted.GetDataInformation().GetNumberOfPoints()
+    simple.Delete(extracted)
+    return points
+
+
+def step(name):
+    print("== " + name, flush=True)
+
+
+reader = opened(store)
+settings = simple.GetSettingsProxy("PointFrontSettings")
+
+# An attribute of that name is meant, not the row: in the files, id is 7 of every tenth point.
+step("id")
+require(selected(reader, "(id == 7)") == POINTS // 10, "an attribute that is called id")
+
+step("too many")
+settings.MostSelectionPoints = 100
+require(selected(reader, "(id == 7)") == 0, "more points than may be read")
+step("unnamed")
+query = reader.SMProxy.GetSelectionInput(0)
+frozen = vtkSMSelectionHelper.ConvertSelectionSource(
+    vtkSelectionNode.INDICES, vtkSMPropertyHelper(query, "Input").GetAsProxy(0), reader.SMProxy, 0)
+step("enough")
+settings.MostSelectionPoints = 50 * 10 ** 6
+require(selected(reader, "(id == 7)") == POINTS // 10, "after a refusal")
+
+# Behind the first ranks' parts lie some that cannot be read.
+step("damaged")
+simple.ClearSelection(reader)
+broken = opened(damaged)
+require(selected(broken, "(id < 100)") == 0, "a part of what is selected")
+step("done")

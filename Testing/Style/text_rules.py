@@ -20,7 +20,6 @@ LONG_FILES = {
     "Rendering/OpenGL2/GpuPool.cxx": 509,
     "Rendering/OpenGL2/Testing/Cxx/TestSoftwareBackend.cxx": 568,
     "Rendering/OpenGL2/Testing/Cxx/TestTechniques.cxx": 542,
-    "Testing/Whole/test_render.py": 545,
     "paraview-plugin/Representations/vtkPointFrontRepresentation.cxx": 479,
     "paraview-plugin/Testing/drive.py": 573,
     "vtkmodule/Core/Testing/Plan/TestFramePlanner.cxx": 520,

@@ -19,45 +19,16 @@ T load(const std::byte* from)
   return value;
 }
 
-/// Calls `use` with a value of the C++ type of `type`, 0.
-template <typename Use>
-auto withType(ScalarType type, const Use& use)
-{
-  switch (type)
-  {
-    case ScalarType::Int8:
-      return use(std::int8_t(0));
-    case ScalarType::UInt8:
-      return use(std::uint8_t(0));
-    case ScalarType::Int16:
-      return use(std::int16_t(0));
-    case ScalarType::UInt16:
-      return use(std::uint16_t(0));
-    case ScalarType::Int32:
-      return use(std::int32_t(0));
-    case ScalarType::UInt32:
-      return use(std::uint32_t(0));
-    case ScalarType::Int64:
-      return use(std::int64_t(0));
-    case ScalarType::UInt64:
-      return use(std::uint64_t(0));
-    case ScalarType::Float32:
-      return use(0.0f);
-    case ScalarType::Float64:
-      break;
-  }
-  return use(0.0);
-}
-
 double asDouble(ScalarType type, const std::byte* from)
 {
-  return withType(type, [&](auto zero) { return static_cast<double>(load<decltype(zero)>(from)); });
+  return visitScalar(
+    type, [&](auto zero) { return static_cast<double>(load<decltype(zero)>(from)); });
 }
 
 /// Stores `value` if the type holds it: integers exactly, float rounded. False otherwise.
 bool storeDouble(double value, ScalarType type, std::byte* to)
 {
-  return withType(type,
+  return visitScalar(type,
     [&](auto zero)
     {
       using To = decltype(zero);

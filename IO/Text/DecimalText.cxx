@@ -19,39 +19,12 @@ bool isDecimal(double value, int decimals)
   return std::abs(shifted - std::round(shifted)) <= 1e-9 * std::fmax(1.0, std::abs(shifted) * 1e-6);
 }
 
-/// Calls `visit` with the component in its own type.
-template <typename Visit>
-auto visitScalar(ScalarType type, const std::byte* from, Visit visit)
+template <typename Number>
+Number loaded(const std::byte* from)
 {
-  const auto load = [from, &visit](auto value)
-  {
-    std::memcpy(&value, from, sizeof value);
-    return visit(value);
-  };
-  switch (type)
-  {
-    case ScalarType::Int8:
-      return load(std::int8_t{});
-    case ScalarType::UInt8:
-      return load(std::uint8_t{});
-    case ScalarType::Int16:
-      return load(std::int16_t{});
-    case ScalarType::UInt16:
-      return load(std::uint16_t{});
-    case ScalarType::Int32:
-      return load(std::int32_t{});
-    case ScalarType::UInt32:
-      return load(std::uint32_t{});
-    case ScalarType::Int64:
-      return load(std::int64_t{});
-    case ScalarType::UInt64:
-      return load(std::uint64_t{});
-    case ScalarType::Float32:
-      return load(float{});
-    case ScalarType::Float64:
-      break;
-  }
-  return load(double{});
+  Number value;
+  std::memcpy(&value, from, sizeof value);
+  return value;
 }
 
 template <typename Number>
@@ -87,12 +60,13 @@ void appendFixed(std::string& text, double value, int decimals)
 
 void appendScalar(std::string& text, ScalarType type, const std::byte* from)
 {
-  visitScalar(type, from, [&text](auto value) { appendNumber(text, value); });
+  visitScalar(type, [&](auto zero) { appendNumber(text, loaded<decltype(zero)>(from)); });
 }
 
 double scalarValue(ScalarType type, const std::byte* from)
 {
-  return visitScalar(type, from, [](auto value) { return static_cast<double>(value); });
+  return visitScalar(
+    type, [from](auto zero) { return static_cast<double>(loaded<decltype(zero)>(from)); });
 }
 
 } // namespace pointfront

@@ -15,9 +15,7 @@ LONG_FILES = {
     "Filters/ImageColor/Testing/TestImageValuesPass.cxx": 545,
     "IO/Store/Testing/Cxx/TestReader.cxx": 479,
     "IO/StyleJSON/ParseStyle.cxx": 487,
-    "Rendering/OpenGL2/Testing/Cxx/TestSoftwareBackend.cxx": 568,
     "Rendering/OpenGL2/Testing/Cxx/TestTechniques.cxx": 542,
-    "Testing/Whole/test_render.py": 545,
     "vtkmodule/Core/Testing/Plan/TestFramePlanner.cxx": 520,
     "vtkmodule/Core/pointfront/Residency/StoreNodes.cxx": 524,
 }

@@ -3,22 +3,17 @@ each other, and what the tool says of them. For each back end: see scenes.py."""
 
 import csv
 import json
-import os
 import shutil
-import signal
-import subprocess
-import time
 import unittest
 
 import numpy
 
 from pictures import share_alike
 from scenes import BACKEND, SIZE, TRIM, SceneTest
-from tool import DATA, SLOWNESS, TOOL, run, write_las
+from tool import DATA, write_las
 
 RED, GREEN, BLUE, WHITE = (255, 0, 0), (0, 255, 0), (0, 0, 255), (255, 255, 255)
 SOFTWARE = BACKEND == "software"
-WITH_VTK = os.environ["POINTFRONT_WITH_VTK"] == "1"
 
 
 def quadrants():
@@ -406,121 +401,6 @@ class Refinement(SceneTest):
         self.assertEqual(len(rows), 4 + settle["frames"])
         self.assertEqual(int(rows[-1]["points"]), settle["points_drawn"])
         self.assertTrue(picture.read_bytes().startswith(b"\x89PNG"))
-
-
-@unittest.skipUnless(SOFTWARE, "OpenGL has no bands")
-class Bands(SceneTest):
-    """A picture that takes more than half of --memory is drawn a band of rows at a time."""
-
-    def setUp(self):
-        super().setUp()
-        self.store = self.build(TRIM)
-
-    def drawn(self, memory, size, *arguments):
-        path, stats = self.folder / f"{memory}.png", self.folder / "stats.json"
-        self.succeed("render", self.store, "-o", path, "--size", size, "--memory", memory,
-                     "--stats", stats, *arguments)
-        return path.read_bytes(), json.loads(stats.read_text())
-
-    def test_bands_are_the_picture(self):
-        for view in (("--view", "iso", "--point-size", "3"),
-                     ("--view", "top", "--edl", "--point-size", "6"),
-                     ("--view", "iso", "--point-size", "31"),
-                     ("--error", "4", "--point-size", "9")):
-            whole, statistics = self.drawn("1G", "1600x1200", *view)
-            banded, of_bands = self.drawn("24M", "1600x1200", *view)
-            self.assertLessEqual(of_bands["picture_bytes"], 12 << 20)
-            self.assertGreater(statistics["picture_bytes"], 40 << 20)
-            self.assertTrue(banded == whole, view)
-            self.assertTrue(of_bands["complete"])
-            self.assertEqual(of_bands["error_px"], statistics["error_px"])
-            # A band may draw nodes that the whole picture has just out of sight.
-            self.assertGreaterEqual(of_bands["points_drawn"], statistics["points_drawn"])
-            self.assertLessEqual(of_bands["points_drawn"], 110000)
-
-    def test_memory_holds_the_picture(self):
-        limit = 48 << 20
-        _, statistics = self.drawn("48M", "6000x5000")
-        _, small = self.drawn("48M", "64x64")
-        self.assertTrue(statistics["complete"])
-        self.assertLessEqual(statistics["picture_bytes"] + statistics["resident_bytes"], limit)
-        if SLOWNESS == 1:
-            program = small["peak_rss_bytes"] # with the decoded points
-            self.assertLess(statistics["peak_rss_bytes"], program + limit)
-
-    def test_long_edges(self):
-        for size in ((65535, 7), (7, 65535)):
-            picture = self.picture(self.store, "--view", "top", "--memory", "256M", size=size)
-            self.assertEqual(picture.shape, (size[1], size[0], 3))
-            self.assertGreater(len(numpy.unique(picture)), 3)
-        self.refuse(2, "render", self.store, "-o", self.folder / "x.png", "--size", "65536x7")
-
-    def test_too_little_memory_for_a_row(self):
-        outcome = self.refuse(1, "render", self.store, "-o", self.folder / "x.png", "--size",
-                              "65535x7", "--memory", "1M")
-        self.assertIn("--memory", outcome.err)
-        self.assertEqual(self.entries(), ["cloud.pfront"])
-
-    def test_a_signal_leaves_nothing(self):
-        process = subprocess.Popen(
-            [TOOL, "render", self.store, "-o", self.folder / "x.png", "--size", "20000x20000",
-             "--memory", "64M"], stdout=subprocess.PIPE, stderr=subprocess.PIPE)
-        while len(self.entries()) == 1: # the picture has no name yet
-            self.assertIsNone(process.poll())
-            time.sleep(0.01)
-        process.send_signal(signal.SIGINT)
-        _, err = process.communicate(timeout=120)
-        self.assertEqual(process.returncode, 130, err)
-        self.assertEqual(self.entries(), ["cloud.pfront"])
-
-
-class Libraries(SceneTest):
-    """What is loaded into the process, as the dynamic linker tells it."""
-
-    FOREIGN = ("libGL", "libEGL", "libOSMesa", "libX11", "libxcb", "libvtk", "libGLX")
-
-    def loaded(self, *arguments, environment):
-        log = self.folder / "linker"
-        outcome = run(TOOL, *arguments, environment={
-            **environment, "LD_DEBUG": "files", "LD_DEBUG_OUTPUT": str(log)})
-        names = set()
-        for file in self.folder.glob("linker.*"):
-            for line in file.read_text(errors="replace").splitlines():
-                if "calling init:" in line:
-                    names.add(line.split("/")[-1])
-            file.unlink()
-        self.assertTrue(any(name.startswith("libpointfrontCore") for name in names), names)
-        return outcome, [name for name in names if name.startswith(self.FOREIGN)]
-
-    def test_software_loads_no_display_and_no_gl(self):
-        store = self.build(TRIM)
-        bare = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
-        for words in (("render", store, "-o", self.folder / "x.png"),
-                      ("bench", store, "--path", "orbit", "--frames", 3, "--stats",
-                       self.folder / "x.json")):
-            outcome, foreign = self.loaded(*words, "--backend", "software", environment=bare)
-            self.assertEqual(outcome.status, 0, outcome)
-            self.assertEqual(foreign, [])
-
-    @unittest.skipIf(SOFTWARE, "needs an X server")
-    def test_opengl_is_seen_by_this_test(self):
-        store = self.build(TRIM)
-        outcome, foreign = self.loaded(
-            "render", store, "-o", self.folder / "x.png", "--backend", "opengl",
-            environment=dict(os.environ))
-        self.assertEqual(outcome.status, 0, outcome)
-        for library in ("libGL", "libX11", "libvtk"):
-            self.assertTrue(any(name.startswith(library) for name in foreign), foreign)
-
-    @unittest.skipIf(WITH_VTK, "this build has OpenGL")
-    def test_without_vtk_opengl_is_refused(self):
-        store = self.build(TRIM)
-        for words in (("render", store, "-o", self.folder / "x.png"),
-                      ("bench", store, "--path", "orbit", "--stats", self.folder / "x.json")):
-            outcome = self.refuse(1, *words, "--backend", "opengl")
-            self.assertIn("--backend software", outcome.err)
-        self.assertEqual(self.entries(), ["cloud.pfront"])
-
 
 
 class Trouble(SceneTest):

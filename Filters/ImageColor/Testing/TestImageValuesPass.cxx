@@ -85,34 +85,14 @@ struct Outcome
   }
 
 private:
-  template <typename T>
-  static double load(const std::byte* p)
-  {
-    T value;
-    std::memcpy(&value, p, sizeof value);
-    return static_cast<double>(value);
-  }
   static double valueAt(ScalarType type, const std::byte* p)
   {
-    switch (type)
-    {
-      case ScalarType::UInt8:
-        return load<std::uint8_t>(p);
-      case ScalarType::UInt16:
-        return load<std::uint16_t>(p);
-      case ScalarType::Int8:
-        return load<std::int8_t>(p);
-      case ScalarType::Int16:
-        return load<std::int16_t>(p);
-      case ScalarType::Int32:
-        return load<std::int32_t>(p);
-      case ScalarType::UInt32:
-        return load<std::uint32_t>(p);
-      case ScalarType::Float32:
-        return load<float>(p);
-      default:
-        return load<double>(p);
-    }
+    return visitScalar(type,
+      [p](auto value)
+      {
+        std::memcpy(&value, p, sizeof value);
+        return static_cast<double>(value);
+      });
   }
 };
 

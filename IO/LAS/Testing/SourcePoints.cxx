@@ -39,35 +39,12 @@ std::vector<std::uint64_t> firstPoints(const PointSource& source)
 
 double number(ScalarType type, const std::byte* from)
 {
-  const auto load = [from](auto value)
-  {
-    std::memcpy(&value, from, sizeof value);
-    return static_cast<double>(value);
-  };
-  switch (type)
-  {
-    case ScalarType::Int8:
-      return load(std::int8_t{});
-    case ScalarType::UInt8:
-      return load(std::uint8_t{});
-    case ScalarType::Int16:
-      return load(std::int16_t{});
-    case ScalarType::UInt16:
-      return load(std::uint16_t{});
-    case ScalarType::Int32:
-      return load(std::int32_t{});
-    case ScalarType::UInt32:
-      return load(std::uint32_t{});
-    case ScalarType::Int64:
-      return load(std::int64_t{});
-    case ScalarType::UInt64:
-      return load(std::uint64_t{});
-    case ScalarType::Float32:
-      return load(float{});
-    case ScalarType::Float64:
-      return load(double{});
-  }
-  return 0.0;
+  return visitScalar(type,
+    [from](auto value)
+    {
+      std::memcpy(&value, from, sizeof value);
+      return static_cast<double>(value);
+    });
 }
 } // namespace
 

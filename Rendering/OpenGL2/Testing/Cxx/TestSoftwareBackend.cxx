@@ -1,17 +1,9 @@
 // Pictures that threads of this process draw, in VTK's framebuffer: the same as OpenGL's, whatever
 // is in the scene beside them.
 
-#include "Scene.h"
+#include "Sheet.h"
 
-#include "pointfront/Style/AttributeRanges.h"
-#include "pointfront/Style/StyleSheet.h"
-#include "vtkPointFrontStyle.h"
-
-#include <vtkCallbackCommand.h>
-#include <vtkCellArray.h>
-#include <vtkCommand.h>
 #include <vtkEDLShading.h>
-#include <vtkFloatArray.h>
 #include <vtkHardwareSelector.h>
 #include <vtkIdTypeArray.h>
 #include <vtkImageData.h>
@@ -20,7 +12,6 @@
 #include <vtkOpenGLFXAAPass.h>
 #include <vtkPlane.h>
 #include <vtkPointData.h>
-#include <vtkPoints.h>
 #include <vtkRenderStepsPass.h>
 #include <vtkSelection.h>
 #include <vtkSelectionNode.h>
@@ -28,93 +19,12 @@
 #include <vtkWindowToImageFilter.h>
 
 #include <array>
-#include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
 using namespace pointfront;
 using namespace pointfront::test;
-
-namespace
-{
-
-/// A wavy sheet of 200 * 200 points, 20 mm apart, whose colours say where they are.
-std::string sheetStore()
-{
-  return storeOf("sheet", 200 * 200,
-    [](std::size_t i)
-    {
-      const int column = static_cast<int>(i % 200);
-      const int row = static_cast<int>(i / 200);
-      Sample sample;
-      const double height = 300.0 * std::sin(0.07 * column) * std::cos(0.05 * row);
-      sample.position = { 20 * column - 1990, 20 * row - 1990, static_cast<int>(height) };
-      sample.rgb = { static_cast<std::uint8_t>(55 + column), static_cast<std::uint8_t>(55 + row),
-        static_cast<std::uint8_t>(150 + height / 3) };
-      sample.classification = static_cast<std::uint8_t>(1 + column / 100);
-      sample.time = 1e-3 * height;
-      return sample;
-    });
-}
-
-struct Sheet : Scene
-{
-  Sheet()
-    : Scene(sheetStore())
-  {
-    lookFrom({ 3.0, -6.0, 4.0 }, { 0.0, 0.0, 0.0 });
-  }
-  Picture with(int backend)
-  {
-    mapper->SetBackend(backend);
-    return draw();
-  }
-  /// Both back ends draw alike. llvmpipe puts points on steps of 1/256 px, which moves one in a
-  /// hundred by a pixel; and where neighbours have the same depth but for rounding either may win:
-  /// their colours differ by `twoColumns` at most.
-  static constexpr int twoColumns = 12;
-  void expectAlike(const char* what, double share = 0.01)
-  {
-    const Picture gl = with(vtkPointFrontMapper::OPENGL);
-    const Picture software = with(vtkPointFrontMapper::SOFTWARE);
-    EXPECT_GT(gl.lit(), 2000) << what;
-    EXPECT_NEAR(gl.lit(), software.lit(), share * gl.lit()) << what;
-    EXPECT_LE(differing(gl, software, twoColumns), share * gl.lit()) << what;
-  }
-  vtkSmartPointer<vtkActor> addPyramid(const glm::dvec3& centre, double height)
-  {
-    vtkNew<vtkPoints> points;
-    for (const glm::dvec2& corner :
-      { glm::dvec2(-0.8, -0.8), { 0.8, -0.8 }, { 0.8, 0.8 }, { -0.8, 0.8 } })
-    {
-      points->InsertNextPoint(centre.x + corner.x, centre.y + corner.y, centre.z - 0.5 * height);
-    }
-    points->InsertNextPoint(centre.x, centre.y, centre.z + 0.5 * height);
-    vtkNew<vtkCellArray> sides;
-    for (vtkIdType side = 0; side < 4; ++side)
-    {
-      sides->InsertNextCell({ side, (side + 1) % 4, 4 });
-    }
-    vtkNew<vtkPolyData> surface;
-    surface->SetPoints(points);
-    surface->SetPolys(sides);
-    vtkNew<vtkPolyDataMapper> surfaceMapper;
-    surfaceMapper->SetInputData(surface);
-    auto pyramid = vtkSmartPointer<vtkActor>::New();
-    pyramid->SetMapper(surfaceMapper);
-    pyramid->GetProperty()->SetColor(0.2, 0.9, 0.3);
-    renderer->AddActor(pyramid);
-    return pyramid;
-  }
-  std::vector<float> depths()
-  {
-    vtkNew<vtkFloatArray> z;
-    const int* size = window->GetSize();
-    window->GetZbufferData(0, 0, size[0] - 1, size[1] - 1, z);
-    return std::vector<float>(z->GetPointer(0), z->GetPointer(0) + z->GetNumberOfValues());
-  }
-};
 
 TEST(SoftwareBackend, IsAutomaticWhereGlIsAProgram)
 {
@@ -375,198 +285,3 @@ TEST(SoftwareBackend, PassesOfOthersWorkOnIt)
   ssao->ReleaseGraphicsResources(scene.window);
   fxaa->ReleaseGraphicsResources(scene.window);
 }
-
-TEST(SoftwareBackend, WhatItDoesNotDrawOpenGLDoes)
-{
-  Sheet scene;
-  int warnings = 0;
-  vtkNew<vtkCallbackCommand> count;
-  count->SetClientData(&warnings);
-  count->SetCallback(
-    [](vtkObject*, unsigned long, void* data, void*) { ++*static_cast<int*>(data); });
-  scene.mapper->AddObserver(vtkCommand::WarningEvent, count);
-  scene.actor->GetProperty()->SetOpacity(0.5);
-  const Picture gl = scene.with(vtkPointFrontMapper::OPENGL);
-  EXPECT_EQ(warnings, 0);
-  EXPECT_EQ(differing(gl, scene.with(vtkPointFrontMapper::SOFTWARE)), 0);
-  scene.draw();
-  EXPECT_EQ(warnings, 1);
-  scene.mapper->SetBackendToAutomatic();
-  EXPECT_EQ(differing(gl, scene.draw()), 0) << "and silently where nobody asked for it";
-  EXPECT_EQ(warnings, 1);
-}
-
-/// A sheet's words are in the kernel's terms here; docs/user/styles.md has those of users.
-TEST(SoftwareBackend, DrawsByStyleSheets)
-{
-  Sheet scene;
-  const Picture points = scene.with(vtkPointFrontMapper::SOFTWARE);
-  auto sheet = std::make_shared<StyleSheet>();
-  sheet->standard.technique = Technique::Splats;
-  scene.mapper->SetStyleSheet(sheet);
-  const Picture splats = scene.draw();
-  EXPECT_GT(splats.lit(), points.lit()) << "a closed surface";
-  // A class less: its points are not drawn, whichever layer they are in.
-  auto half = std::make_shared<StyleSheet>(*sheet);
-  half->classes[2].visible = false;
-  scene.mapper->SetStyleSheet(half);
-  const Picture left = scene.draw();
-  EXPECT_LT(left.lit(), splats.lit() * 3 / 4);
-  EXPECT_GT(left.lit(), splats.lit() / 4);
-  scene.mapper->SetStyleSheet(nullptr);
-  EXPECT_EQ(differing(points, scene.draw()), 0);
-}
-
-TEST(SoftwareBackend, FewOutliersDoNotEatTheColours)
-{
-  // Times of 0 to 1 and, of one point in 200, of 1000: colours are those of 2 % to 98 %.
-  Scene scene(storeOf("outliers", 200 * 200,
-    [](std::size_t i)
-    {
-      Sample sample;
-      sample.position = { 20 * static_cast<int>(i % 200) - 1990,
-        20 * static_cast<int>(i / 200) - 1990, 0 };
-      sample.time = i % 200 == 77 ? 1000.0 : static_cast<double>(i % 200) / 200.0;
-      return sample;
-    }));
-  scene.mapper->SetBackendToSoftware();
-  const auto coloured = [&](std::optional<std::array<double, 2>> range)
-  {
-    auto sheet = std::make_shared<StyleSheet>();
-    ColourMapChoice map;
-    map.range = range;
-    sheet->standard.colour = ColourSource::ofAttribute("gps_time", map);
-    scene.mapper->SetStyleSheet(sheet);
-    return scene.draw();
-  };
-  scene.draw(); // opens the store
-  const AttributeRanges ranges({ scene.mapper->GetStore()->GetStore() });
-  const auto sampled = ranges.of("gps_time");
-  ASSERT_TRUE(sampled);
-  EXPECT_NEAR((*sampled)[0], 0.02, 0.01);
-  EXPECT_NEAR((*sampled)[1], 0.98, 0.01);
-  const Picture automatic = coloured(std::nullopt);
-  EXPECT_GT(automatic.lit(), 1000);
-  EXPECT_EQ(differing(automatic, coloured(*sampled)), 0);
-  EXPECT_GT(differing(automatic, coloured(std::array<double, 2>{ 0.0, 1000.0 })), 1000);
-}
-
-TEST(SoftwareBackend, AStyleMayChangeBetweenTwoFrames)
-{
-  Sheet scene;
-  const Picture points = scene.with(vtkPointFrontMapper::SOFTWARE);
-  vtkNew<vtkPointFrontStyle> style;
-  scene.mapper->SetStyle(style);
-  style->SetTechnique("splats");
-  const Picture splats = scene.draw();
-  EXPECT_GT(splats.lit(), points.lit());
-  style->SetFilter("x > 1e12");
-  EXPECT_EQ(scene.draw().lit(), 0);
-  EXPECT_EQ(scene.mapper->GetLastPointsDrawn(), 0) << "their nodes are not drawn at all";
-  style->SetFilter("");
-  EXPECT_EQ(differing(splats, scene.draw()), 0);
-  scene.mapper->SetStyle(nullptr);
-  EXPECT_EQ(differing(points, scene.draw()), 0);
-}
-
-TEST(SoftwareBackend, DrawsWhatOpenGLDoesNotAndSaysSo)
-{
-  Sheet scene;
-  vtkNew<vtkPointFrontStyle> style;
-  style->SetTechnique("splats");
-  for (int lens = 0; lens < 5; ++lens)
-  {
-    style->AddCircleLens(100.0 + 20.0 * lens, 100.0, 8.0);
-    style->SetLensStyle(lens, R"({"color": "#ff0000"})");
-  }
-  scene.mapper->SetStyle(style);
-  const Picture splats = scene.with(vtkPointFrontMapper::SOFTWARE);
-  int warnings = 0;
-  vtkNew<vtkCallbackCommand> count;
-  count->SetClientData(&warnings);
-  count->SetCallback(
-    [](vtkObject*, unsigned long, void* data, void*) { ++*static_cast<int*>(data); });
-  scene.mapper->AddObserver(vtkCommand::WarningEvent, count);
-  EXPECT_EQ(differing(splats, scene.with(vtkPointFrontMapper::OPENGL)), 0);
-  scene.draw();
-  EXPECT_EQ(warnings, 1);
-}
-
-TEST(SoftwareBackend, ASheetThatAsksForWhatIsNotThereIsAnError)
-{
-  Sheet scene;
-  const Picture points = scene.with(vtkPointFrontMapper::SOFTWARE);
-  auto sheet = std::make_shared<StyleSheet>();
-  sheet->standard.colour = ColourSource::ofAttribute("no_such_thing");
-  scene.mapper->SetStyleSheet(sheet);
-  int errors = 0;
-  vtkNew<vtkCallbackCommand> count;
-  count->SetClientData(&errors);
-  count->SetCallback(
-    [](vtkObject*, unsigned long, void* data, void*) { ++*static_cast<int*>(data); });
-  scene.mapper->AddObserver(vtkCommand::ErrorEvent, count);
-  EXPECT_EQ(differing(points, scene.draw()), 0) << "as the properties say";
-  scene.draw();
-  EXPECT_EQ(errors, 1) << "once";
-}
-
-TEST(SoftwareBackend, TakesNoGpuMemoryAndNoGpuBudget)
-{
-  Sheet scene;
-  const Picture gl = scene.with(vtkPointFrontMapper::OPENGL);
-  EXPECT_GT(scene.mapper->GetLastGPUBytes(), 0);
-  scene.mapper->SetGPUMemoryBudget(1000); // less than a slot
-  const Picture software = scene.with(vtkPointFrontMapper::SOFTWARE);
-  EXPECT_EQ(scene.mapper->GetLastGPUBytes(), 0);
-  EXPECT_EQ(scene.mapper->GetLastPointsDrawn(), 200 * 200);
-  EXPECT_FALSE(scene.mapper->GetLastLimitedByGPUMemory());
-  EXPECT_LE(differing(gl, software, Sheet::twoColumns), 0.01 * gl.lit());
-}
-
-TEST(SoftwareBackend, KeepsToTheTimeOfAFrame)
-{
-  Scene scene(planeStore("software_time", 1500, 2));
-  scene.mapper->SetBackendToSoftware();
-  scene.mapper->SetPointBudget(0);
-  scene.mapper->SetTargetError(0.01);
-  scene.draw();
-  EXPECT_EQ(scene.mapper->GetLastPointsDrawn(), 1500 * 1500);
-  scene.mapper->CompleteOff();
-  scene.window->SetDesiredUpdateRate(15.0);
-  scene.mapper->SetTargetFrameTime(1.0); // what no machine draws 2.25 million points in
-  for (int frame = 0; frame < 40; ++frame)
-  {
-    scene.window->Render();
-  }
-  EXPECT_LT(scene.mapper->GetLastPointsDrawn(), 1500 * 1500 / 2) << "its cost is learnt";
-  EXPECT_GE(scene.mapper->GetLastPointsDrawn(), 50000);
-}
-
-TEST(SoftwareBackend, LeavesNoNamesBehind)
-{
-  Sheet scene;
-  const auto names = [&]
-  {
-    scene.window->MakeCurrent();
-    int live = 0;
-    for (GLuint name = 1; name < 4096; ++name)
-    {
-      live += glIsTexture(name) == GL_TRUE || glIsVertexArray(name) == GL_TRUE ? 1 : 0;
-    }
-    return live;
-  };
-  scene.actor->VisibilityOff();
-  scene.draw();
-  const int before = names();
-  scene.actor->VisibilityOn();
-  const Picture picture = scene.with(vtkPointFrontMapper::SOFTWARE);
-  EXPECT_GT(names(), before);
-  scene.actor->ReleaseGraphicsResources(scene.window);
-  EXPECT_EQ(names(), before);
-  EXPECT_EQ(differing(picture, scene.draw()), 0);
-  scene.actor->SetMapper(nullptr);
-  scene.mapper = nullptr;
-  EXPECT_EQ(names(), before);
-}
-
-} // namespace

@@ -208,29 +208,8 @@ template <typename To>
 void convertTo(const Attribute& from, const std::byte* in, const Attribute& to, std::byte* out,
   std::size_t values)
 {
-  switch (from.type)
-  {
-    case ScalarType::Int8:
-      return convertValues<To, std::int8_t>(from, in, to, out, values);
-    case ScalarType::UInt8:
-      return convertValues<To, std::uint8_t>(from, in, to, out, values);
-    case ScalarType::Int16:
-      return convertValues<To, std::int16_t>(from, in, to, out, values);
-    case ScalarType::UInt16:
-      return convertValues<To, std::uint16_t>(from, in, to, out, values);
-    case ScalarType::Int32:
-      return convertValues<To, std::int32_t>(from, in, to, out, values);
-    case ScalarType::UInt32:
-      return convertValues<To, std::uint32_t>(from, in, to, out, values);
-    case ScalarType::Int64:
-      return convertValues<To, std::int64_t>(from, in, to, out, values);
-    case ScalarType::UInt64:
-      return convertValues<To, std::uint64_t>(from, in, to, out, values);
-    case ScalarType::Float32:
-      return convertValues<To, float>(from, in, to, out, values);
-    case ScalarType::Float64:
-      return convertValues<To, double>(from, in, to, out, values);
-  }
+  visitScalar(
+    from.type, [&](auto zero) { convertValues<To, decltype(zero)>(from, in, to, out, values); });
 }
 } // namespace
 

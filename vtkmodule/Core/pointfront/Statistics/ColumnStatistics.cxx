@@ -150,30 +150,8 @@ ColumnRange rangeOf(const std::byte* values, const Attribute& attribute, std::si
   {
     return emptyRange(attribute);
   }
-  switch (attribute.type)
-  {
-    case ScalarType::Int8:
-      return rangeOfValues<std::int8_t>(values, points, components);
-    case ScalarType::UInt8:
-      return rangeOfValues<std::uint8_t>(values, points, components);
-    case ScalarType::Int16:
-      return rangeOfValues<std::int16_t>(values, points, components);
-    case ScalarType::UInt16:
-      return rangeOfValues<std::uint16_t>(values, points, components);
-    case ScalarType::Int32:
-      return rangeOfValues<std::int32_t>(values, points, components);
-    case ScalarType::UInt32:
-      return rangeOfValues<std::uint32_t>(values, points, components);
-    case ScalarType::Int64:
-      return rangeOfValues<std::int64_t>(values, points, components);
-    case ScalarType::UInt64:
-      return rangeOfValues<std::uint64_t>(values, points, components);
-    case ScalarType::Float32:
-      return rangeOfValues<float>(values, points, components);
-    case ScalarType::Float64:
-      break;
-  }
-  return rangeOfValues<double>(values, points, components);
+  return visitScalar(attribute.type,
+    [&](auto zero) { return rangeOfValues<decltype(zero)>(values, points, components); });
 }
 
 void addRange(ColumnRange& range, const ColumnRange& other)

@@ -105,19 +105,6 @@ std::vector<double> chooseMarks(const std::vector<ValueRange>& own)
   return std::vector<double>(marks.begin(), marks.end());
 }
 
-void putCodes(const ValueRange& range, const std::vector<double>& marks, std::uint8_t* codes)
-{
-  codes[0] = 1; // nothing: low after high
-  codes[1] = 0;
-  if (!range.empty())
-  {
-    const auto above = std::upper_bound(marks.begin(), marks.end(), range.low);
-    const auto enough = std::lower_bound(marks.begin(), marks.end(), range.high);
-    codes[0] = static_cast<std::uint8_t>(above - marks.begin() - 1);
-    codes[1] = static_cast<std::uint8_t>(enough - marks.begin());
-  }
-}
-
 void putChecksum(ByteWriter& out, std::size_t begin)
 {
   out.put(checksumOf(out.bytes().data() + begin, out.size() - begin));
@@ -134,8 +121,8 @@ bool putComponent(const std::vector<ValueRange>& own, const std::vector<ValueRan
   bool differ = false;
   for (std::size_t i = 0; i < own.size(); ++i)
   {
-    putCodes(own[i], marks, &codes[i][0]);
-    putCodes(below[i], marks, &codes[i][2]);
+    putRangeCodes(own[i], marks, &codes[i][0]);
+    putRangeCodes(below[i], marks, &codes[i][2]);
     const auto last = static_cast<std::uint8_t>(marks.empty() ? 0 : marks.size() - 1);
     differ = differ || codes[i] != NodeRanges::Codes{ 0, last, 0, last };
   }
@@ -160,6 +147,19 @@ std::uint64_t codesBytes(NodeIndex nodes)
 }
 
 } // namespace
+
+void putRangeCodes(const ValueRange& range, const std::vector<double>& marks, std::uint8_t* codes)
+{
+  codes[0] = 1; // nothing: low after high
+  codes[1] = 0;
+  if (!range.empty())
+  {
+    const auto above = std::upper_bound(marks.begin(), marks.end(), range.low);
+    const auto enough = std::lower_bound(marks.begin(), marks.end(), range.high);
+    codes[0] = static_cast<std::uint8_t>(above - marks.begin() - 1);
+    codes[1] = static_cast<std::uint8_t>(enough - marks.begin());
+  }
+}
 
 void NodeRangesWriter::Values::add(const ValueRange& range)
 {

@@ -14,6 +14,10 @@
 namespace pointfront
 {
 
+/// Two codes of a range (NodeRanges::Codes): the narrowest marks that enclose it. The marks ascend
+/// and enclose it; an empty range has its low code after its high one.
+void putRangeCodes(const ValueRange& range, const std::vector<double>& marks, std::uint8_t* codes);
+
 /// Collects the ranges of payloads while they are written, and makes the section of them.
 /// Memory   8 bytes a node and component, 16 for those of more than 16 bits that are not float32.
 /// Threads  one.

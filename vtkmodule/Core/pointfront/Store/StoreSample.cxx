@@ -24,30 +24,7 @@ double valueAt(const std::byte* bytes)
 
 double valueAt(ScalarType type, const std::byte* bytes)
 {
-  switch (type)
-  {
-    case ScalarType::Int8:
-      return valueAt<std::int8_t>(bytes);
-    case ScalarType::UInt8:
-      return valueAt<std::uint8_t>(bytes);
-    case ScalarType::Int16:
-      return valueAt<std::int16_t>(bytes);
-    case ScalarType::UInt16:
-      return valueAt<std::uint16_t>(bytes);
-    case ScalarType::Int32:
-      return valueAt<std::int32_t>(bytes);
-    case ScalarType::UInt32:
-      return valueAt<std::uint32_t>(bytes);
-    case ScalarType::Int64:
-      return valueAt<std::int64_t>(bytes);
-    case ScalarType::UInt64:
-      return valueAt<std::uint64_t>(bytes);
-    case ScalarType::Float32:
-      return valueAt<float>(bytes);
-    case ScalarType::Float64:
-      break;
-  }
-  return valueAt<double>(bytes);
+  return visitScalar(type, [bytes](auto zero) { return valueAt<decltype(zero)>(bytes); });
 }
 
 /// Of the first points of a node.

@@ -43,30 +43,7 @@ double as(const std::byte* bytes)
 using Reading = double (*)(const std::byte*);
 Reading readingOf(ScalarType type)
 {
-  switch (type)
-  {
-    case ScalarType::Int8:
-      return as<std::int8_t>;
-    case ScalarType::UInt8:
-      return as<std::uint8_t>;
-    case ScalarType::Int16:
-      return as<std::int16_t>;
-    case ScalarType::UInt16:
-      return as<std::uint16_t>;
-    case ScalarType::Int32:
-      return as<std::int32_t>;
-    case ScalarType::UInt32:
-      return as<std::uint32_t>;
-    case ScalarType::Int64:
-      return as<std::int64_t>;
-    case ScalarType::UInt64:
-      return as<std::uint64_t>;
-    case ScalarType::Float32:
-      return as<float>;
-    case ScalarType::Float64:
-      break;
-  }
-  return as<double>;
+  return visitScalar(type, [](auto zero) -> Reading { return as<decltype(zero)>; });
 }
 
 std::uint32_t packed(const std::array<std::uint8_t, 4>& rgba)

@@ -51,29 +51,7 @@ bool machineIsLittleEndian()
 
 void gatherNumbers(const RecordNumbers& numbers, std::size_t count, double* to)
 {
-  switch (numbers.type)
-  {
-    case ScalarType::Int8:
-      return gather<std::int8_t>(numbers, count, to);
-    case ScalarType::UInt8:
-      return gather<std::uint8_t>(numbers, count, to);
-    case ScalarType::Int16:
-      return gather<std::int16_t>(numbers, count, to);
-    case ScalarType::UInt16:
-      return gather<std::uint16_t>(numbers, count, to);
-    case ScalarType::Int32:
-      return gather<std::int32_t>(numbers, count, to);
-    case ScalarType::UInt32:
-      return gather<std::uint32_t>(numbers, count, to);
-    case ScalarType::Int64:
-      return gather<std::int64_t>(numbers, count, to);
-    case ScalarType::UInt64:
-      return gather<std::uint64_t>(numbers, count, to);
-    case ScalarType::Float32:
-      return gather<float>(numbers, count, to);
-    case ScalarType::Float64:
-      return gather<double>(numbers, count, to);
-  }
+  visitScalar(numbers.type, [&](auto zero) { gather<decltype(zero)>(numbers, count, to); });
 }
 
 } // namespace pointfront

@@ -295,30 +295,9 @@ void storeColumn(const std::vector<double>& values, double factor, std::size_t c
 void storeComponent(const Attribute& attribute, const std::vector<double>& values, double factor,
   std::size_t component, std::byte* to)
 {
-  const std::size_t n = attribute.components;
-  switch (attribute.type)
-  {
-    case ScalarType::Int8:
-      return storeColumn<std::int8_t>(values, factor, n, component, to);
-    case ScalarType::UInt8:
-      return storeColumn<std::uint8_t>(values, factor, n, component, to);
-    case ScalarType::Int16:
-      return storeColumn<std::int16_t>(values, factor, n, component, to);
-    case ScalarType::UInt16:
-      return storeColumn<std::uint16_t>(values, factor, n, component, to);
-    case ScalarType::Int32:
-      return storeColumn<std::int32_t>(values, factor, n, component, to);
-    case ScalarType::UInt32:
-      return storeColumn<std::uint32_t>(values, factor, n, component, to);
-    case ScalarType::Int64:
-      return storeColumn<std::int64_t>(values, factor, n, component, to);
-    case ScalarType::UInt64:
-      return storeColumn<std::uint64_t>(values, factor, n, component, to);
-    case ScalarType::Float32:
-      return storeColumn<float>(values, factor, n, component, to);
-    case ScalarType::Float64:
-      return storeColumn<double>(values, factor, n, component, to);
-  }
+  visitScalar(attribute.type,
+    [&](auto zero)
+    { storeColumn<decltype(zero)>(values, factor, attribute.components, component, to); });
 }
 } // namespace
 

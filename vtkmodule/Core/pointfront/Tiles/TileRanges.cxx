@@ -1,5 +1,7 @@
 #include "pointfront/Tiles/TileRanges.h"
 
+#include "pointfront/Store/NodeRangesSection.h"
+
 #include <algorithm>
 #include <limits>
 #include <utility>
@@ -22,19 +24,6 @@ void thin(std::vector<double>& marks)
       kept.push_back(marks[mark * (marks.size() - 1) / (mostMarks - 1)]);
     }
     marks = std::move(kept);
-  }
-}
-
-void putCodes(const ValueRange& range, const std::vector<double>& marks, std::uint8_t* codes)
-{
-  codes[0] = 1; // nothing: low after high
-  codes[1] = 0;
-  if (!range.empty())
-  {
-    const auto above = std::upper_bound(marks.begin(), marks.end(), range.low);
-    const auto enough = std::lower_bound(marks.begin(), marks.end(), range.high);
-    codes[0] = static_cast<std::uint8_t>(above - marks.begin() - 1);
-    codes[1] = static_cast<std::uint8_t>(enough - marks.begin());
   }
 }
 } // namespace
@@ -63,8 +52,8 @@ std::shared_ptr<const NodeRanges> TileRanges::together() const
   std::vector<NodeRanges::Codes> codes(marks.empty() ? 0 : own_.size());
   for (std::size_t i = 0; i < codes.size(); ++i)
   {
-    putCodes(own_[i], marks, &codes[i][0]);
-    putCodes(below_[i], marks, &codes[i][2]);
+    putRangeCodes(own_[i], marks, &codes[i][0]);
+    putRangeCodes(below_[i], marks, &codes[i][2]);
   }
   return std::make_shared<const NodeRanges>(
     static_cast<NodeIndex>(own_.size()), std::move(marks), std::move(codes));

@@ -62,39 +62,9 @@ void setNearest(std::byte* at, double value)
   }
 }
 
-/// Calls `visitor` with a value of the type.
-template <typename Visitor>
-void visit(ScalarType type, const Visitor& visitor)
-{
-  switch (type)
-  {
-    case ScalarType::Int8:
-      return visitor(std::int8_t());
-    case ScalarType::UInt8:
-      return visitor(std::uint8_t());
-    case ScalarType::Int16:
-      return visitor(std::int16_t());
-    case ScalarType::UInt16:
-      return visitor(std::uint16_t());
-    case ScalarType::Int32:
-      return visitor(std::int32_t());
-    case ScalarType::UInt32:
-      return visitor(std::uint32_t());
-    case ScalarType::Int64:
-      return visitor(std::int64_t());
-    case ScalarType::UInt64:
-      return visitor(std::uint64_t());
-    case ScalarType::Float32:
-      return visitor(float());
-    case ScalarType::Float64:
-      break;
-  }
-  visitor(double());
-}
-
 void writeScalar(ScalarType type, std::byte* at, double value)
 {
-  visit(type, [&](auto zero) { setNearest<decltype(zero)>(at, value); });
+  visitScalar(type, [&](auto zero) { setNearest<decltype(zero)>(at, value); });
 }
 
 constexpr std::size_t centreOffset = sizeof(double); // behind the weight
@@ -191,7 +161,8 @@ void MeanRecord::addMeans(const MeanInput* first, const MeanInput* last)
   std::size_t exactOffset = meansOffset_;
   for (Mean& mean : means_)
   {
-    visit(mean.type, [&](auto zero) { addMean<decltype(zero)>(mean, exactOffset, first, last); });
+    visitScalar(
+      mean.type, [&](auto zero) { addMean<decltype(zero)>(mean, exactOffset, first, last); });
     exactOffset += sizeof(double);
   }
 }

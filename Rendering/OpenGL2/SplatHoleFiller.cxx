@@ -23,20 +23,20 @@ namespace pointfront
 namespace
 {
 
-enum class Step
+enum class HolesStep
 {
   Begin,
   Gather, ///< to the coarser level
   Fill ///< from the coarser level
 };
 
-struct Source
+struct HolesSource
 {
   const char* name;
   vtkTextureObject* texture;
 };
 
-vtkShaderProgram* useHoles(vtkOpenGLRenderWindow* window, Step step, bool blended)
+vtkShaderProgram* useHoles(vtkOpenGLRenderWindow* window, HolesStep step, bool blended)
 {
   std::string fragment = HolesFSGLSL;
   vtkShaderProgram::Substitute(fragment, "//POINTFRONT::Define::Dec",
@@ -47,9 +47,9 @@ vtkShaderProgram* useHoles(vtkOpenGLRenderWindow* window, Step step, bool blende
 
 /// Draws over `place` of the bound framebuffer. `factor`: a level's pixel in pixels of the picture.
 void drawLevel(vtkShaderProgram* program, int factor, const float (&agreement)[2],
-  const std::vector<Source>& sources)
+  const std::vector<HolesSource>& sources)
 {
-  for (const Source& source : sources)
+  for (const HolesSource& source : sources)
   {
     source.texture->Activate();
     program->SetUniformi(source.name, source.texture->GetTextureUnit());
@@ -59,7 +59,7 @@ void drawLevel(vtkShaderProgram* program, int factor, const float (&agreement)[2
   const float edges[4] = { -1.0f, -1.0f, 1.0f, 1.0f };
   program->SetUniform4f("pictureEdges", edges);
   glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
-  for (const Source& source : sources)
+  for (const HolesSource& source : sources)
   {
     source.texture->Deactivate();
   }
@@ -131,8 +131,8 @@ bool SplatHoleFiller::fill(vtkOpenGLRenderWindow* window, SplatTarget& target, b
   const auto size = static_cast<float>(holeFillerAgreePx / scale);
   const float agreement[2] = { camera.parallel ? 0.0f : size, camera.parallel ? size : 0.0f };
   vtkOpenGLState* const state = window->GetState();
-  const auto draw =
-    [&](Step step, std::size_t number, Level& into, bool sums, const std::vector<Source>& sources)
+  const auto draw = [&](HolesStep step, std::size_t number, Level& into, bool sums,
+                      const std::vector<HolesSource>& sources)
   {
     vtkShaderProgram* const program = useHoles(window, step, sums);
     if (!program)
@@ -149,23 +149,23 @@ bool SplatHoleFiller::fill(vtkOpenGLRenderWindow* window, SplatTarget& target, b
       (place.top + block - 1) / block - place.bottom / block);
     drawLevel(program, block, agreement, sources);
   };
-  std::vector<Source> seen{ { "fineColours", target.seenColours() },
+  std::vector<HolesSource> seen{ { "fineColours", target.seenColours() },
     { "fineDepths", target.seenDepths() } };
   if (blended)
   {
     seen.push_back({ "colourSums", target.sums() });
   }
-  draw(Step::Begin, 0, gathered_[0], blended, seen);
+  draw(HolesStep::Begin, 0, gathered_[0], blended, seen);
   for (std::size_t level = 1; level <= levels; ++level)
   {
-    draw(Step::Gather, level, gathered_[level], false,
+    draw(HolesStep::Gather, level, gathered_[level], false,
       { { "fineColours", gathered_[level - 1].colours },
         { "fineDepths", gathered_[level - 1].depths } });
   }
   for (std::size_t level = levels; level-- > 0;)
   {
     Level& coarse = level + 1 == levels ? gathered_[levels] : filled_[level + 1];
-    draw(Step::Fill, level, filled_[level], false,
+    draw(HolesStep::Fill, level, filled_[level], false,
       { { "fineColours", gathered_[level].colours }, { "fineDepths", gathered_[level].depths },
         { "coarseColours", coarse.colours }, { "coarseDepths", coarse.depths } });
   }

@@ -20,20 +20,20 @@ using namespace pointfront::test;
 namespace
 {
 
-constexpr int side = 60;
+constexpr int gapsSide = 60;
 
 /// A wall of class 5 with gaps, red, half a metre above a green floor of class 2; 40 mm apart.
 std::string gapsStore(const std::string& name)
 {
-  return storeOf(name, 2 * std::size_t(side) * side,
+  return storeOf(name, 2 * std::size_t(gapsSide) * gapsSide,
     [](std::size_t i)
     {
-      const bool above = i >= std::size_t(side) * side;
-      const auto column = static_cast<int>(i % side);
-      const auto row = static_cast<int>(i / side % side);
+      const bool above = i >= std::size_t(gapsSide) * gapsSide;
+      const auto column = static_cast<int>(i % gapsSide);
+      const auto row = static_cast<int>(i / gapsSide % gapsSide);
       Sample sample;
-      sample.position = { (2 * column - side + 1) * (above ? 10 : 20),
-        (2 * row - side + 1) * (above ? 10 : 20), above ? 500 : 5 * (column % 3) };
+      sample.position = { (2 * column - gapsSide + 1) * (above ? 10 : 20),
+        (2 * row - gapsSide + 1) * (above ? 10 : 20), above ? 500 : 5 * (column % 3) };
       sample.rgb = above
         ? std::array<std::uint8_t, 3>{ static_cast<std::uint8_t>(255 - row), 40, 0 }
         : std::array<std::uint8_t, 3>{ 0, static_cast<std::uint8_t>(255 - column), 40 };

@@ -16,19 +16,19 @@ using namespace pointfront::test;
 namespace
 {
 
-constexpr int side = 150;
+constexpr int pillarsSide = 150;
 
 /// Ground of class 2 in two colours, and above it pillars of class 5; 20 mm between the points.
 std::string pillarsStore(const std::string& name)
 {
-  return storeOf(name, std::size_t(side) * side,
+  return storeOf(name, std::size_t(pillarsSide) * pillarsSide,
     [](std::size_t i)
     {
-      const auto column = static_cast<int>(i % side);
-      const auto row = static_cast<int>(i / side);
+      const auto column = static_cast<int>(i % pillarsSide);
+      const auto row = static_cast<int>(i / pillarsSide);
       const bool pillar = column % 30 < 12 && row % 25 < 9;
       Sample sample;
-      sample.position = { (2 * column - side + 1) * 10, (2 * row - side + 1) * 10,
+      sample.position = { (2 * column - pillarsSide + 1) * 10, (2 * row - pillarsSide + 1) * 10,
         pillar ? 700 : 3 * column % 40 };
       sample.rgb[0] = static_cast<std::uint8_t>(100 + row);
       sample.rgb[1] = static_cast<std::uint8_t>(60 + column);

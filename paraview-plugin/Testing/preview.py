@@ -43,9 +43,10 @@ def save(view, name):
 @guarded
 def start():
     simple.GetSettingsProxy("GeneralSettings").ShowWelcomeDialog = 0
+    # Here first: what the server tells of the plugin makes its settings here at once.
+    simple.LoadPlugin(os.environ["POINTFRONT_PLUGIN"], remote=False, ns=globals())
     if simple.servermanager.ActiveConnection.IsRemote():
         simple.LoadPlugin(os.environ["POINTFRONT_PLUGIN"], remote=True, ns=globals())
-    simple.LoadPlugin(os.environ["POINTFRONT_PLUGIN"], remote=False, ns=globals())
     import scene
 
     view = simple.GetActiveViewOrCreate("RenderView")

@@ -296,7 +296,11 @@ vtkPVPointFilesReader::Outcome vtkPVPointFilesReader::BuildOrWait(const std::str
     {
       return STORE;
     }
-    if (this->Cancelled == this->Order(store) || !this->StartBuild(store))
+    // Asked before it begins: a small build is over before it could be cancelled.
+    this->SetProgressText("building the store");
+    this->UpdateProgress(0.0);
+    if (this->CheckAbort() || this->GetAbortExecute() || this->Cancelled == this->Order(store) ||
+      !this->StartBuild(store))
     {
       return NOTHING;
     }

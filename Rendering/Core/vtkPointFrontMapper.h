@@ -359,7 +359,7 @@ protected:
   /// is idle.
   virtual void LeaveScreen();
   /// Whether points are drawn from host memory and take no GPU memory.
-  virtual bool DrawsFromHostMemory(vtkActor*)
+  virtual bool DrawsFromHostMemory(vtkRenderer*, vtkActor*)
   {
     return false;
   }

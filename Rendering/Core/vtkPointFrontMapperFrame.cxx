@@ -133,7 +133,7 @@ pointfront::FrameRequest vtkPointFrontMapper::GetFrameRequest(
   demand.gpuStreams = streams.count();
   demand.targetErrorPx = this->TargetError;
   demand.pointBudget = static_cast<std::uint64_t>(this->PointBudget);
-  demand.gpuBytes = this->DrawsFromHostMemory(actor) ? 0 : this->GPUMemoryBudget;
+  demand.gpuBytes = this->DrawsFromHostMemory(renderer, actor) ? 0 : this->GPUMemoryBudget;
   demand.method = this->DetailSelection == VIEW_SPECIFIC ? pointfront::DetailMethod::ViewSpecific
                                                          : pointfront::DetailMethod::RenderingFront;
   if (this->DetailSelection == VIEW_SPECIFIC) // it looks at every open store

@@ -12,7 +12,7 @@ namespace pointfront
 /// Most lights of ResolveFS.glsl: OpenGL 3.2 promises 1024 numbers, and a light has 16.
 constexpr std::size_t mostLights = 48;
 
-/// Gives the program of ResolveFS.glsl a frame's lights; those beyond mostLights do not shine.
+/// Gives the program of ResolveFS.glsl a frame's lights: at most mostLights.
 void setLights(vtkShaderProgram* program, const FramePlan& plan);
 
 } // namespace pointfront

@@ -2,6 +2,7 @@
 
 #include "DrawBatches.h"
 #include "LayerStreams.h"
+#include "SplatLights.h"
 #include "WindowDrawing.h"
 
 #include "pointfront/Plan/FramePlan.h"
@@ -13,6 +14,8 @@
 #include <vtkActor.h>
 #include <vtkCommand.h>
 #include <vtkIndent.h>
+#include <vtkLight.h>
+#include <vtkLightCollection.h>
 #include <vtkObjectFactory.h>
 #include <vtkOpenGLRenderWindow.h>
 #include <vtkRenderer.h>
@@ -63,6 +66,20 @@ bool hasTooManyGroups(const std::vector<pointfront::LayerStyling>& layers)
   return std::any_of(groups.begin(), groups.end(),
     [](const auto& ofLens)
     { return ofLens.second.size() > pointfront::SplatComposition::mostGroups; });
+}
+
+/// More lights that are on than ResolveFS.glsl takes.
+bool hasTooManyLights(vtkRenderer* renderer)
+{
+  std::size_t lights = 0;
+  vtkLightCollection* const all = renderer->GetLights();
+  vtkCollectionSimpleIterator at;
+  all->InitTraversal(at);
+  while (vtkLight* const light = all->GetNextLight(at))
+  {
+    lights += light->GetSwitch() ? 1 : 0;
+  }
+  return lights > pointfront::mostLights;
 }
 
 } // namespace
@@ -127,7 +144,7 @@ void vtkOpenGLPointFrontMapper::RenderPiece(vtkRenderer* renderer, vtkActor* act
   }
   drawing.setStore(this->GetStore());
   const bool first = this->IsFirstDrawing(renderer);
-  const bool host = this->DrawsFromHostMemory(actor);
+  const bool host = this->DrawsFromHostMemory(renderer, actor);
   const bool ids = renderer->GetSelector() != nullptr;
   std::uint64_t kept = 0;
   if (host)
@@ -235,7 +252,7 @@ void vtkOpenGLPointFrontMapper::TellFallBack(const char* what)
 }
 
 /// Asked while the window's context is current.
-bool vtkOpenGLPointFrontMapper::DrawsFromHostMemory(vtkActor* actor)
+bool vtkOpenGLPointFrontMapper::DrawsFromHostMemory(vtkRenderer* renderer, vtkActor* actor)
 {
   if (this->Exchange)
   {
@@ -258,22 +275,26 @@ bool vtkOpenGLPointFrontMapper::DrawsFromHostMemory(vtkActor* actor)
         : "the software back end does not draw translucent points: OpenGL does");
     return false;
   }
-  if (!asked && !onlyOpenGL && !this->DrawsByOpenGL(actor))
+  if (!asked && !onlyOpenGL && !this->DrawsByOpenGL(renderer, actor))
   {
-    this->TellFallBack("OpenGL has at most 4 lenses and 4 translucent styles, and draws at most "
-                       "254 styles of a layer with one attribute of sizes: this style is drawn by "
-                       "the software back end");
+    this->TellFallBack("OpenGL has at most 4 lenses, 4 translucent styles and 48 lights, and draws "
+                       "at most 254 styles of a layer with one attribute of sizes: this frame is "
+                       "drawn by the software back end");
     return true;
   }
   return asked;
 }
 
-bool vtkOpenGLPointFrontMapper::DrawsByOpenGL(vtkActor* actor)
+bool vtkOpenGLPointFrontMapper::DrawsByOpenGL(vtkRenderer* renderer, vtkActor* actor)
 {
   const auto sheet = this->GetStyleSheet();
   if (!sheet)
   {
     return true;
+  }
+  if (sheet->frameShading().lit && hasTooManyLights(renderer))
+  {
+    return false;
   }
   const std::vector<pointfront::LayerStyling> layers = this->GetStyling(actor);
   return !hasTooManyGroups(layers) &&

@@ -42,14 +42,14 @@ protected:
   vtkOpenGLPointFrontMapper();
   ~vtkOpenGLPointFrontMapper() override;
   void LeaveScreen() override;
-  bool DrawsFromHostMemory(vtkActor* actor) override;
+  bool DrawsFromHostMemory(vtkRenderer* renderer, vtkActor* actor) override;
 
 private:
   vtkOpenGLPointFrontMapper(const vtkOpenGLPointFrontMapper&) = delete;
   void operator=(const vtkOpenGLPointFrontMapper&) = delete;
 
   void TellFallBack(const char* what);
-  bool DrawsByOpenGL(vtkActor* actor);
+  bool DrawsByOpenGL(vtkRenderer* renderer, vtkActor* actor);
   vtkIdType HandOver(vtkRenderer* renderer, vtkActor* actor, pointfront::WindowDrawing& drawing,
     const pointfront::FramePlan& plan);
   vtkIdType DrawPoints(vtkRenderer* renderer, vtkActor* actor, pointfront::WindowDrawing& drawing,

@@ -10,6 +10,7 @@
 #include "vtkPointFrontStore.h"
 
 #include <vtkActor.h>
+#include <vtkCallbackCommand.h>
 #include <vtkCamera.h>
 #include <vtkNew.h>
 #include <vtkOpenGLRenderWindow.h>
@@ -205,5 +206,15 @@ struct Scene
     return plain;
   }
 };
+
+/// Counts what `of` reports from now on; `count` outlives it.
+inline void countEvents(vtkObject* of, unsigned long event, int& count)
+{
+  vtkNew<vtkCallbackCommand> counting;
+  counting->SetClientData(&count);
+  counting->SetCallback(
+    [](vtkObject*, unsigned long, void* data, void*) { ++*static_cast<int*>(data); });
+  of->AddObserver(event, counting);
+}
 
 } // namespace pointfront::test

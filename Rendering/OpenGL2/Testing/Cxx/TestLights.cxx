@@ -4,6 +4,7 @@
 
 #include "vtkPointFrontStyle.h"
 
+#include <vtkCommand.h>
 #include <vtkLight.h>
 #include <vtkSphereSource.h>
 
@@ -65,6 +66,16 @@ void expectNear(const Colour& colour, double red, double green, double blue)
   EXPECT_NEAR(colour[0], red, 2.0);
   EXPECT_NEAR(colour[1], green, 2.0);
   EXPECT_NEAR(colour[2], blue, 2.0);
+}
+
+/// Half of them of one colour, half of the other; together as bright as one white light is in red.
+void addYellowAndMagenta(LitSphere& scene, int count)
+{
+  for (int i = 0; i < count; ++i)
+  {
+    const bool yellow = i < count / 2;
+    scene.add({ 0, 0, 5 }, { 1.0, yellow ? 1.0 : 0.0, yellow ? 0.0 : 1.0 }, 1.0 / count);
+  }
 }
 
 constexpr int middleX = 150;
@@ -137,17 +148,27 @@ TEST(Lights, AChangeShowsInTheNextFrame)
 TEST(Lights, EachOfManyCounts)
 {
   LitSphere scene;
-  constexpr int count = 40;
-  for (int i = 0; i < count; ++i)
-  {
-    scene.add(
-      { 0, 0, 5 }, { 1.0, i < count / 2 ? 1.0 : 0.0, i < count / 2 ? 0.0 : 1.0 }, 1.0 / count);
-  }
+  addYellowAndMagenta(scene, 40);
   for (const int backend : lightBackends)
   {
     expectNear(scene.by(backend).at(middleX, middleY), ambient + diffuse, ambient + 0.5 * diffuse,
       ambient + 0.5 * diffuse);
   }
+}
+
+/// OpenGL takes 48 lights: the software back end draws a frame with more, and says so once.
+TEST(Lights, MoreThanOpenGLTakesShineAllTheSame)
+{
+  LitSphere scene;
+  addYellowAndMagenta(scene, 60);
+  int warnings = 0;
+  countEvents(scene.mapper, vtkCommand::WarningEvent, warnings);
+  for (int frame = 0; frame < 2; ++frame)
+  {
+    expectNear(scene.by(vtkPointFrontMapper::OPENGL).at(middleX, middleY), ambient + diffuse,
+      ambient + 0.5 * diffuse, ambient + 0.5 * diffuse);
+  }
+  EXPECT_EQ(warnings, 1);
 }
 
 /// A sphere of triangles says how VTK lights what has a place, a cone and a distance.

@@ -6,7 +6,6 @@
 #include "pointfront/Style/StyleSheet.h"
 #include "vtkPointFrontStyle.h"
 
-#include <vtkCallbackCommand.h>
 #include <vtkCommand.h>
 
 #include <array>
@@ -15,20 +14,6 @@
 
 using namespace pointfront;
 using namespace pointfront::test;
-
-namespace
-{
-
-void countEvents(vtkObject* of, unsigned long event, int& count)
-{
-  vtkNew<vtkCallbackCommand> counting;
-  counting->SetClientData(&count);
-  counting->SetCallback(
-    [](vtkObject*, unsigned long, void* data, void*) { ++*static_cast<int*>(data); });
-  of->AddObserver(event, counting);
-}
-
-} // namespace
 
 TEST(SoftwareBackend, WhatItDoesNotDrawOpenGLDoes)
 {

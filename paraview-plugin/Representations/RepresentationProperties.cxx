@@ -252,7 +252,16 @@ void vtkPointFrontRepresentation::SetPickable(int pickable)
 //------------------------------------------------------------------------------
 void vtkPointFrontRepresentation::SetPosition(double x, double y, double z)
 {
-  this->Actor->SetPosition(x, y, z);
+  this->Position = { x, y, z };
+  this->Actor->SetPosition(
+    x + this->Translation[0], y + this->Translation[1], z + this->Translation[2]);
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetTranslation(double x, double y, double z)
+{
+  this->Translation = { x, y, z };
+  this->SetPosition(this->Position[0], this->Position[1], this->Position[2]);
 }
 
 //------------------------------------------------------------------------------

@@ -27,6 +27,7 @@
 #include "vtkSmartPointer.h" // for the store and colour maps
 #include "vtkWeakPointer.h" // for marks
 
+#include <array>
 #include <map>
 #include <memory>
 #include <set>
@@ -197,7 +198,10 @@ public:
   void SetAmbientColor(double r, double g, double b);
   void SetDiffuseColor(double r, double g, double b);
   void SetPickable(int pickable);
+  /// Where the cloud is moved to: the property Position of ParaView 5.11, Translation of 5.13. Of
+  /// the two the one that the host lacks stays 0; both add up.
   void SetPosition(double x, double y, double z);
+  void SetTranslation(double x, double y, double z);
   void SetScale(double x, double y, double z);
   void SetOrientation(double x, double y, double z);
   void SetOrigin(double x, double y, double z);
@@ -288,6 +292,8 @@ private:
   vtkSmartPointer<vtkPointFrontStore> Store; ///< data server: for the bounds of the whole cloud
 
   int CompleteStillRenders = WHEN_UNATTENDED;
+  std::array<double, 3> Position{};
+  std::array<double, 3> Translation{};
   double TargetFrameTime = 0.0;
   double TargetError = 1.0;
   std::set<std::string> HiddenClasses;

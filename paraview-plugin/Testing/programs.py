@@ -47,6 +47,7 @@ class Programs:
     def start(self, *command, output=None):
         environment = dict(os.environ)
         environment["PYTHONPATH"] = os.pathsep.join([os.environ["POINTFRONT_PVPYTHONPATH"], HERE])
+        environment["PYTHONUNBUFFERED"] = "1"  # what is said, in the order in which it is said
         for name in ("HOME", "XDG_CONFIG_HOME", "XDG_RUNTIME_DIR"):
             environment[name] = self.home
         program = subprocess.Popen(command, env=environment, start_new_session=True, stdout=output,

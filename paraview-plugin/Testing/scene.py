@@ -79,7 +79,9 @@ class Scene:
 
     def move(self, by):
         """Cloud and camera, so that the picture stays the same."""
-        self.display.Position = by
+        # The property has been called Translation since ParaView 5.13.
+        known = hasattr(type(self.display), "Translation")
+        setattr(self.display, "Translation" if known else "Position", by)
         self.look(by)
 
     def color_by(self, display, array):

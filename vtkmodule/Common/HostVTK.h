@@ -1,5 +1,6 @@
 /// Where the releases of VTK that host these modules differ: 9.1 (Debian 12), 9.2 (ParaView 5.11),
-/// 9.7. Nothing else asks for VTK's version, so what a further release changes is found here.
+/// 9.3 (ParaView 5.13), 9.7. Nothing else asks for VTK's version, so what a further release changes
+/// is found here.
 #ifndef HostVTK_h
 #define HostVTK_h
 
@@ -39,6 +40,18 @@ void reserveTuples(Array& array, vtkIdType tuples)
   {
     array.Resize(tuples);
   }
+#endif
+}
+
+/// Sets whether an extraction makes unstructured grids of hyper tree grids; 9.2 cannot be asked to.
+template <class Extraction>
+void convertHyperTreeGrids(Extraction& extraction, bool converted)
+{
+#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 3, 20240101)
+  extraction.SetHyperTreeGridToUnstructuredGrid(converted);
+#else
+  (void)extraction;
+  (void)converted;
 #endif
 }
 

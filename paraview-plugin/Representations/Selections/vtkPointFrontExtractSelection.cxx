@@ -1,5 +1,6 @@
 #include "vtkPointFrontExtractSelection.h"
 
+#include "HostVTK.h"
 #include "QueryCandidates.h"
 #include "UpstreamReader.h"
 
@@ -176,6 +177,12 @@ vtkPointFrontExtractSelection::vtkPointFrontExtractSelection() = default;
 
 //------------------------------------------------------------------------------
 vtkPointFrontExtractSelection::~vtkPointFrontExtractSelection() = default;
+
+//------------------------------------------------------------------------------
+void vtkPointFrontExtractSelection::SetHyperTreeGridsConverted(bool converted)
+{
+  pointfront::convertHyperTreeGrids(*this, converted);
+}
 
 //------------------------------------------------------------------------------
 void vtkPointFrontExtractSelection::SetReader(vtkPointFrontReader* reader)

@@ -42,6 +42,9 @@ public:
   /// input's reader.
   void SetReader(vtkPointFrontReader* reader);
 
+  /// ParaView's HyperTreeGridToUnstructuredGrid, by a name that its releases before 5.12 lack, too.
+  void SetHyperTreeGridsConverted(bool converted);
+
   /// Arrays of points that do not come along.
   void SetDroppedArrays(const std::vector<std::string>& names);
 

@@ -1,15 +1,13 @@
 #include "StoreFacts.h"
 
+#include "StoredRanges.h"
+
 #include "pointfront/Store/StoredCloud.h"
 
 #include "vtkDataArray.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkIdTypeArray.h"
-#include "vtkInformation.h"
-#include "vtkInformationDoubleVectorKey.h"
-#include "vtkInformationInformationVectorKey.h"
-#include "vtkInformationVector.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
@@ -81,36 +79,6 @@ Ends worldRange(const Attribute& attribute, const Ends& stored)
     std::swap(ends[0], ends[1]);
   }
   return ends;
-}
-
-/// Writes ranges where vtkDataArray keeps those that it has computed, each as wide as to hold what
-/// the array has.
-void keepRanges(vtkDataArray* array, const std::vector<Ends>& ranges)
-{
-  const int components = array->GetNumberOfComponents();
-  if (ranges.size() != static_cast<std::size_t>(components))
-  {
-    return;
-  }
-  vtkNew<vtkInformationVector> kept;
-  kept->SetNumberOfInformationObjects(components);
-  for (int c = 0; c < components; ++c)
-  {
-    Ends ends = ranges[static_cast<std::size_t>(c)];
-    Ends own{ { 1.0, 0.0 } };
-    array->GetFiniteRange(own.data(), c);
-    if (!(ends[0] <= ends[1]))
-    {
-      ends = own;
-    }
-    else if (array->GetNumberOfTuples() > 0 && own[0] <= own[1])
-    {
-      ends = { std::min(ends[0], own[0]), std::max(ends[1], own[1]) };
-    }
-    kept->GetInformationObject(c)->Set(vtkDataArray::COMPONENT_RANGE(), ends.data(), 2);
-  }
-  array->GetInformation()->Set(vtkAbstractArray::PER_COMPONENT(), kept);
-  array->GetInformation()->Set(vtkAbstractArray::PER_FINITE_COMPONENT(), kept);
 }
 
 } // namespace
@@ -204,7 +172,9 @@ void setStoreRanges(const StoredCloud& store, vtkPolyData* output)
   {
     if (vtkDataArray* array = attributes->GetArray(name.c_str()))
     {
-      keepRanges(array, ranges);
+      const bool active = array == attributes->GetScalars();
+      attributes->AddArray(withStoredRanges(array, ranges)); // in its place
+      active ? attributes->SetActiveScalars(name.c_str()) : -1;
     }
   };
   for (std::size_t column = 0; column < about.schema.size(); ++column)

@@ -23,11 +23,10 @@ std::string storeFacts(const StoredCloud& store);
 /// are. `mostOverviewPoints` is the reader's limit.
 void addStoreFacts(const StoredCloud& store, vtkIdType mostOverviewPoints, vtkPolyData* output);
 
-/// Gives the point arrays of an overview the ranges of the whole store. Data arrays keep the range
-/// that they were asked for last until they are modified; ParaView asks for it, and so colour maps,
-/// thresholds and histograms span what the store has. The overview alone lacks most extremes. Of
-/// vectors the components' ranges are the store's and that of the length is the overview's; the
-/// colours "rgb" keep the overview's.
+/// Puts point arrays that tell the ranges of the whole store in place of an overview's, so that
+/// colour maps, thresholds and histograms span what the store has. The overview alone lacks most
+/// extremes. Of vectors the components' ranges are the store's and that of the length is the
+/// overview's; the colours "rgb" keep the overview's.
 void setStoreRanges(const StoredCloud& store, vtkPolyData* output);
 
 } // namespace pointfront

@@ -23,6 +23,7 @@
 #include <fstream>
 #include <sstream>
 #include <system_error>
+#include <utility>
 
 vtkStandardNewMacro(vtkPVPointFilesReader);
 
@@ -270,6 +271,9 @@ vtkPVPointFilesReader::Outcome vtkPVPointFilesReader::EndBuild(
     this->Cancelled = this->Previewing ? this->Running->order() : std::string();
   }
   this->Running.reset();
+  // Whoever updated may be no view: the views are still to show it. A build that failed would begin
+  // again with the update.
+  this->Unseen = this->Previewing && (ended.built || ended.cancelled);
   for (const std::string& warning : ended.warnings)
   {
     vtkWarningMacro(<< warning);
@@ -341,7 +345,7 @@ vtkPVPointFilesReader::Outcome vtkPVPointFilesReader::Agree(const std::string& s
 bool vtkPVPointFilesReader::GetNeedsUpdate()
 {
   this->Asked = std::chrono::steady_clock::now();
-  return this->Running && this->Running->state().ended;
+  return std::exchange(this->Unseen, false) || (this->Running && this->Running->state().ended);
 }
 
 //------------------------------------------------------------------------------

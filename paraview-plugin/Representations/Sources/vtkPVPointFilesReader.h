@@ -81,7 +81,8 @@ public:
   /// Fewest points whose build has a preview (vtkPointFrontBuilder::SetPreviewPoints).
   vtkSetClampMacro(PreviewPoints, vtkIdType, 0, VTK_ID_MAX);
 
-  /// Whether a build has ended since the last update. Asked on the first rank; cheap.
+  /// Whether a build whose preview was shown has ended since this was asked. Asked on the first
+  /// rank; cheap.
   bool GetNeedsUpdate();
   /// Ends a build that is going on. The next update gives nothing, and those after it as well until
   /// a property that the build depends on is changed.
@@ -144,6 +145,7 @@ private:
   std::chrono::steady_clock::time_point Asked; ///< GetNeedsUpdate()
   bool Followed = false; ///< the running build has a preview to return with
   bool Previewing = false; ///< on all ranks: the output is a preview's
+  bool Unseen = false; ///< the build has ended, and GetNeedsUpdate() has not told so
   vtkTimeStamp Looked;
 };
 

@@ -242,6 +242,8 @@ class Package(unittest.TestCase):
             self.assertEqual(gc.collect(), 0)
 
     def interrupted(self, work):
+        # A shell's job in the background would ignore it.
+        signal.signal(signal.SIGINT, signal.default_int_handler)
         timer = threading.Timer(0.4, os.kill, (os.getpid(), signal.SIGINT))
         timer.start()
         begin = time.monotonic()

@@ -357,7 +357,7 @@ std::shared_ptr<const NodeColumns> StoreNodes::find(NodeIndex node)
   {
     return nullptr;
   }
-  if (cached->stale && !cached->drawn)
+  if (cached->stale && !cached->drawn && cached->points)
   {
     cached->drawn = true;
     waiting_.readAgain(again(node, *cached->points, WaitingReads::drawnNow));

@@ -31,6 +31,8 @@ T oneOf(const JSONPlace& place, const std::vector<std::pair<const char*, T>>& wo
 }
 
 Rgba8 colourCodeAt(const JSONPlace& place);
+/// A condition on attributes.
+FilterExpression filterAt(const JSONPlace& place);
 /// `text`: a class code as a key has it.
 std::uint8_t classCode(const JSONPlace& place, const std::string& text);
 LayerStyle layerStyleAt(const JSONPlace& place);

@@ -81,6 +81,33 @@ void dressOurs(vtkPointFrontMapper* mapper, vtkPointFrontReader* reader, double 
   mapper->CompleteOn();
 }
 
+void lookFromAside(vtkRenderer* renderer, const double* bounds)
+{
+  vtkCamera* const camera = renderer->GetActiveCamera();
+  camera->SetPosition(1.0, -1.0, 1.0);
+  camera->SetFocalPoint(0.0, 0.0, 0.0);
+  camera->SetViewUp(0.0, 0.0, 1.0);
+  renderer->ResetCamera(bounds);
+  camera->Zoom(1.5);
+}
+
+/// Measures one frame. Gives the points drawn, 0 for a mapper of VTK.
+/// A cloud out of sight gives back its GPU memory: the frame before brings it there, and looks at
+/// another view, so that no frame is the one before once more.
+vtkIdType takeTurn(
+  Contestant& contestant, vtkRenderWindow* window, vtkRenderer* renderer, const double* bounds)
+{
+  contestant.actor->VisibilityOn();
+  frameMs(window);
+  renderer->GetActiveCamera()->Azimuth(2.0);
+  renderer->ResetCameraClippingRange(bounds);
+  contestant.milliseconds.push_back(frameMs(window));
+  auto* const ours = vtkPointFrontMapper::SafeDownCast(contestant.actor->GetMapper());
+  renderer->GetActiveCamera()->Azimuth(-2.0);
+  contestant.actor->VisibilityOff();
+  return ours ? ours->GetLastPointsDrawn() : 0;
+}
+
 } // namespace
 
 int main(int argc, char** argv)
@@ -121,11 +148,7 @@ int main(int argc, char** argv)
   {
     renderer->AddActor(contestant->actor);
   }
-  renderer->GetActiveCamera()->SetPosition(1.0, -1.0, 1.0);
-  renderer->GetActiveCamera()->SetFocalPoint(0.0, 0.0, 0.0);
-  renderer->GetActiveCamera()->SetViewUp(0.0, 0.0, 1.0);
-  renderer->ResetCamera(frontMapper->GetBounds());
-  renderer->GetActiveCamera()->Zoom(1.5);
+  lookFromAside(renderer, frontMapper->GetBounds());
 
   nlohmann::ordered_json result;
   vtkIdType drawn[] = { 0, 0, 0 };
@@ -133,17 +156,7 @@ int main(int argc, char** argv)
   {
     for (std::size_t c = 0; c < 3; ++c)
     {
-      // A cloud out of sight gives back its GPU memory: the frame before brings it there, and
-      // looks at another view, so that no frame is the one before once more.
-      contestants[c]->actor->VisibilityOn();
-      frameMs(window);
-      renderer->GetActiveCamera()->Azimuth(2.0);
-      renderer->ResetCameraClippingRange(frontMapper->GetBounds());
-      contestants[c]->milliseconds.push_back(frameMs(window));
-      auto* const ours = vtkPointFrontMapper::SafeDownCast(contestants[c]->actor->GetMapper());
-      drawn[c] = ours ? ours->GetLastPointsDrawn() : 0;
-      renderer->GetActiveCamera()->Azimuth(-2.0);
-      contestants[c]->actor->VisibilityOff();
+      drawn[c] = takeTurn(*contestants[c], window, renderer, frontMapper->GetBounds());
     }
     renderer->GetActiveCamera()->Azimuth(2.0);
   }

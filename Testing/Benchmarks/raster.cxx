@@ -177,6 +177,59 @@ std::optional<std::uint32_t> columnOf(const StoreDescription& description, const
   return found ? std::optional<std::uint32_t>(static_cast<std::uint32_t>(*found)) : std::nullopt;
 }
 
+/// Columns of a store that techniques draw by.
+struct DrawnColumns
+{
+  explicit DrawnColumns(const StoreDescription& description)
+    : rgb(columnOf(description, "rgb"))
+    , normal(columnOf(description, "normal"))
+    , radius(columnOf(description, splatRadiusAttribute))
+    , height(columnOf(description, "height_above_ground"))
+    , wide(rgb && description.ranges[*rgb].components[0][1] > 255.0)
+  {
+  }
+
+  ColumnSelection all() const
+  {
+    ColumnSelection columns;
+    for (const auto& one : { rgb, normal, radius, height })
+    {
+      if (one)
+      {
+        columns.push_back(*one);
+      }
+    }
+    std::sort(columns.begin(), columns.end());
+    return columns;
+  }
+
+  std::optional<std::uint32_t> rgb, normal, radius, height;
+  bool wide; ///< colours have more than 8 bits
+};
+
+/// None if the store lacks a column that the technique needs.
+std::shared_ptr<const ResolvedStyle> styleOf(
+  const MeasuredTechnique& one, const DrawnColumns& columns)
+{
+  const bool solid = one.technique == Technique::Solid;
+  if ((one.normals && !columns.normal) || (solid && !columns.height))
+  {
+    return nullptr;
+  }
+  auto style = std::make_shared<ResolvedStyle>();
+  style->technique = one.technique;
+  style->blended = one.blended;
+  style->accuracy = one.accuracy;
+  style->size = one.size;
+  style->normalColumn = one.normals ? columns.normal : std::nullopt;
+  style->radiusColumn = columns.radius;
+  style->heightColumn = solid ? columns.height : std::nullopt;
+  style->colouring.kind = columns.rgb ? PointColouring::Kind::Direct : PointColouring::Kind::Flat;
+  style->colouring.column = columns.rgb.value_or(0);
+  style->colouring.wide = columns.wide;
+  return style;
+}
+
 } // namespace
 
 int main(int argc, char** argv)
@@ -192,19 +245,8 @@ int main(int argc, char** argv)
   }
   const PointStore& store = **opened;
   const StoreDescription& description = store.description();
-  const auto rgb = columnOf(description, "rgb"), normal = columnOf(description, "normal");
-  const auto radius = columnOf(description, splatRadiusAttribute);
-  const auto height = columnOf(description, "height_above_ground");
-  ColumnSelection columns;
-  for (const auto& one : { rgb, normal, radius, height })
-  {
-    if (one)
-    {
-      columns.push_back(*one);
-    }
-  }
-  std::sort(columns.begin(), columns.end());
-  const auto nodes = readAll(store, columns);
+  const DrawnColumns columns(description);
+  const auto nodes = readAll(store, columns.all());
 
   FramePlan plan = planOfAll(description, nodes, argc, argv);
   const auto points = static_cast<double>(plan.pointCount());
@@ -214,22 +256,11 @@ int main(int argc, char** argv)
               "| ms, 1 thread | 2 threads | speed-up |\n| --- | --- | --- | --- | --- | --- |\n");
   for (const MeasuredTechnique& one : techniques)
   {
-    const bool solid = one.technique == Technique::Solid;
-    if ((one.normals && !normal) || (solid && !height))
+    const auto style = styleOf(one, columns);
+    if (!style)
     {
       continue;
     }
-    auto style = std::make_shared<ResolvedStyle>();
-    style->technique = one.technique;
-    style->blended = one.blended;
-    style->accuracy = one.accuracy;
-    style->size = one.size;
-    style->normalColumn = one.normals ? normal : std::nullopt;
-    style->radiusColumn = radius;
-    style->heightColumn = solid ? height : std::nullopt;
-    style->colouring.kind = rgb ? PointColouring::Kind::Direct : PointColouring::Kind::Flat;
-    style->colouring.column = rgb.value_or(0);
-    style->colouring.wide = rgb && description.ranges[*rgb].components[0][1] > 255.0;
     plan.batches[0].style = style;
     SoftwareTarget target;
     const Measured alone = measure(plan, 1, target);

@@ -34,16 +34,14 @@ class RulesTest(unittest.TestCase):
         tree = {
             "IO/LAS/A.cxx": "int a;\n" * 451,
             "IO/LAS/B.cxx": "int a;\n" * 450,
-            "IO/StyleJSON/ParseStyle.cxx": "int a;\n" * 460,
-            "IO/Store/Testing/Cxx/TestReader.cxx": "int a;\n" * 450,
             "Rendering/OpenGL2/GpuPool.cxx": "int a;\n" * 599,
             "Rendering/OpenGL2/glsl/a.glsl": "int a;\n" * 151,
             "docs/long.md": "text\n" * 900,
         }
         self.assertEqual(
             self.faults("FileLength", tree),
-            [("IO/LAS/A.cxx", 451), ("IO/Store/Testing/Cxx/TestReader.cxx", 450),
-             ("Rendering/OpenGL2/GpuPool.cxx", 599), ("Rendering/OpenGL2/glsl/a.glsl", 151)],
+            [("IO/LAS/A.cxx", 451), ("Rendering/OpenGL2/GpuPool.cxx", 599),
+             ("Rendering/OpenGL2/glsl/a.glsl", 151)],
         )
 
     def test_one_version(self):

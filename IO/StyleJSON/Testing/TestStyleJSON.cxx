@@ -21,6 +21,11 @@ std::string refusal(const std::string& text)
   return sheet ? "" : sheet.error().what;
 }
 
+void expectRefusal(const char* text, const char* what)
+{
+  EXPECT_EQ(refusal(text), what) << text;
+}
+
 } // namespace
 
 TEST(StyleJSON, EveryKeyIsUnderstood)
@@ -131,64 +136,35 @@ TEST(StyleJSON, LensesAndHighlightsAreWrittenAsTheyAreRead)
 
 TEST(StyleJSON, RefusalsBeginWithTheirPlace)
 {
-  const auto expect = [](const char* text, const char* what)
-  { EXPECT_EQ(refusal(text), what) << text; };
-  expect(R"({"classes": {"6": {"size": {"mode": "big"}}}})",
+  expectRefusal(R"({"classes": {"6": {"size": {"mode": "big"}}}})",
     "classes.6.size.mode: 'big' is unknown: use fixed, spacing, attribute");
-  expect(R"({"classes": {"6": {"colour": "rgb"}}})",
+  expectRefusal(R"({"classes": {"6": {"colour": "rgb"}}})",
     "classes.6.colour: there is no such key; use technique, color, size, orientation, opacity, "
     "visible, error_factor, blended, accuracy, rim_color, wall_color, where");
-  expect(R"({"classes": {"256": {}}})", "classes.256: a class is a code from 0 to 255");
-  expect(R"({"classes": {"06": {}}})", "classes.06: a class is a code from 0 to 255");
-  expect(R"({"classes": {"ground": {}}})", "classes.ground: a class is a code from 0 to 255");
-  expect(
+  expectRefusal(R"({"classes": {"256": {}}})", "classes.256: a class is a code from 0 to 255");
+  expectRefusal(R"({"classes": {"06": {}}})", "classes.06: a class is a code from 0 to 255");
+  expectRefusal(
+    R"({"classes": {"ground": {}}})", "classes.ground: a class is a code from 0 to 255");
+  expectRefusal(
     R"({"default": {"opacity": 2}})", "default.opacity: expected a number from 0.0 to 1.0, not 2");
-  expect(R"({"default": {"visible": 1}})", "default.visible: expected true or false, not 1");
-  expect(R"({"default": {"technique": "dots"}})",
+  expectRefusal(R"({"default": {"visible": 1}})", "default.visible: expected true or false, not 1");
+  expectRefusal(R"({"default": {"technique": "dots"}})",
     "default.technique: 'dots' is unknown: use points, splats, spheres, silhouettes, solid, ewa");
-  expect(R"({"lenses": {}})", "lenses: expected a list of lenses, not {}");
-  expect(R"({"lenses": [{"inside": {}}]})", "lenses[0]: a lens has a shape, or around_class");
-  expect(R"({"lenses": [{"shape": "circle", "center_px": [1, 2], "inside": {}}]})",
-    "lenses[0]: expected the key radius_px");
-  expect(R"({"lenses": [{"shape": "circle", "center_px": [1, 2], "radius_px": -1, "inside": {}}]})",
-    "lenses[0].radius_px: expected a number from 0.0 to 1000000.0, not -1");
-  expect(R"({"lenses": [{"shape": "mask", "mask": ["##", "#"], "inside": {}}]})",
-    "lenses[0].mask[0]: rows of a mask are of one length, which is not 0");
-  expect(R"({"lenses": [{"around_class": 300, "radius": 1, "inside": {}}]})",
-    "lenses[0].around_class: a class is a code from 0 to 255");
-  expect(R"({"lenses": [{"around_class": 6, "radius": 0, "inside": {}}]})",
-    "lenses[0].radius: expected a number above 0, not 0");
-  expect(
-    R"({"lenses": [{"around_class": 6, "radius": 1, "inside": {"5": {"technique": "dots"}}}]})",
-    "lenses[0].inside.5.technique: 'dots' is unknown: use points, splats, spheres, silhouettes, "
-    "solid, ewa");
-  expect(R"({"highlight": [{"class": 6}, {"class": 6}]})",
-    "highlight[1].class: a class has one highlight");
-  expect(R"({"highlight": [{"class": 6, "halo_px": 17}]})",
-    "highlight[0].halo_px: expected a number from 0.0 to 16.0, not 17");
-  expect(R"({"default": {"where": "intensity = 3"}})",
+  expectRefusal(R"({"default": {"where": "intensity = 3"}})",
     "default.where: 'intensity = 3', character 11: expected 'in', ==, !=, <, <=, > or >=, not '= "
     "3'");
-  expect(R"({"default": {"opacity": 1, "opacity": 0}})",
-    "the key \"opacity\" stands twice in one object");
-  expect("[]", "the file: expected an object, not []");
-  expect(R"({"default": 3})", "default: expected an object, not 3");
-  expect(R"({"default": {"size": {"mode": "fixed", "px": 2, "metres": 3}}})",
+  expectRefusal(R"({"default": {"size": {"mode": "fixed", "px": 2, "metres": 3}}})",
     "default.size: a fixed size has either px or metres");
-  expect(R"({"default": {"size": {"mode": "spacing", "px": 2}}})",
+  expectRefusal(R"({"default": {"size": {"mode": "spacing", "px": 2}}})",
     "default.size.px: there is no such key; use mode, factor");
-  expect(R"({"default": {"size": {"mode": "fixed", "px": 0}}})",
+  expectRefusal(R"({"default": {"size": {"mode": "fixed", "px": 0}}})",
     "default.size.px: expected a number above 0, not 0");
-  expect(R"({"default": {"color": {"attribute": "z", "range": [2, 1]}}})",
+  expectRefusal(R"({"default": {"color": {"attribute": "z", "range": [2, 1]}}})",
     "default.color.range: expected the smaller number first, not [2,1]");
-  expect(R"({"default": {"color": {"mix": ["rgb", {"mix": ["rgb", "rgb"]}]}}})",
+  expectRefusal(R"({"default": {"color": {"mix": ["rgb", {"mix": ["rgb", "rgb"]}]}}})",
     "default.color.mix[1]: a combination is of two colours that are none themselves");
-  expect(
+  expectRefusal(
     R"({"shading": {"strength": 1}})", "shading.strength: means something with the mode edl only");
-  for (const char* text : { "", "{", R"({"default")", "{\"a\": 1e999}", "nan", "\xff" })
-  {
-    EXPECT_EQ(refusal(text).rfind("not JSON", 0), 0u) << text << ": " << refusal(text);
-  }
   for (const char* text : { R"({"default": {"color": "#12"}})", R"({"default": {"color": 3}})",
          R"({"default": {"color": {"map": "grey"}}})", R"({"default": {"orientation": [0, 0, 0]}})",
          R"({"default": {"color": {"attribute": "a", "map": []}}})",
@@ -198,5 +174,43 @@ TEST(StyleJSON, RefusalsBeginWithTheirPlace)
          R"({"default": {"error_factor": 0}})", R"({"default": {"accuracy": "best"}})" })
   {
     EXPECT_NE(refusal(text).find(": "), std::string::npos) << text;
+  }
+}
+
+TEST(StyleJSON, RefusalsOfLensesAndHighlightsBeginWithTheirPlace)
+{
+  expectRefusal(R"({"lenses": {}})", "lenses: expected a list of lenses, not {}");
+  expectRefusal(
+    R"({"lenses": [{"inside": {}}]})", "lenses[0]: a lens has a shape, or around_class");
+  expectRefusal(R"({"lenses": [{"shape": "circle", "center_px": [1, 2], "inside": {}}]})",
+    "lenses[0]: expected the key radius_px");
+  expectRefusal(
+    R"({"lenses": [{"shape": "circle", "center_px": [1, 2], "radius_px": -1, "inside": {}}]})",
+    "lenses[0].radius_px: expected a number from 0.0 to 1000000.0, not -1");
+  expectRefusal(R"({"lenses": [{"shape": "mask", "mask": ["##", "#"], "inside": {}}]})",
+    "lenses[0].mask[0]: rows of a mask are of one length, which is not 0");
+  expectRefusal(R"({"lenses": [{"around_class": 300, "radius": 1, "inside": {}}]})",
+    "lenses[0].around_class: a class is a code from 0 to 255");
+  expectRefusal(R"({"lenses": [{"around_class": 6, "radius": 0, "inside": {}}]})",
+    "lenses[0].radius: expected a number above 0, not 0");
+  expectRefusal(
+    R"({"lenses": [{"around_class": 6, "radius": 1, "inside": {"5": {"technique": "dots"}}}]})",
+    "lenses[0].inside.5.technique: 'dots' is unknown: use points, splats, spheres, silhouettes, "
+    "solid, ewa");
+  expectRefusal(R"({"highlight": [{"class": 6}, {"class": 6}]})",
+    "highlight[1].class: a class has one highlight");
+  expectRefusal(R"({"highlight": [{"class": 6, "halo_px": 17}]})",
+    "highlight[0].halo_px: expected a number from 0.0 to 16.0, not 17");
+}
+
+TEST(StyleJSON, TextThatIsNoSheetIsRefused)
+{
+  expectRefusal(R"({"default": {"opacity": 1, "opacity": 0}})",
+    "the key \"opacity\" stands twice in one object");
+  expectRefusal("[]", "the file: expected an object, not []");
+  expectRefusal(R"({"default": 3})", "default: expected an object, not 3");
+  for (const char* text : { "", "{", R"({"default")", "{\"a\": 1e999}", "nan", "\xff" })
+  {
+    EXPECT_EQ(refusal(text).rfind("not JSON", 0), 0u) << text << ": " << refusal(text);
   }
 }

@@ -106,6 +106,41 @@ WallHit hitOf(const FrameCamera& camera, const Ray& ray, const glm::dvec3& top)
   return { -glm::dot(hit - c, up), glm::dot(hit - c, glm::cross(up, normal)), -hit.z };
 }
 
+/// The nearest of the walls, 0.06 wide, that a ray meets below points of solids.
+struct WallSeen
+{
+  double depth = std::numeric_limits<double>::infinity();
+  std::size_t point = 0;
+  bool doubtful = false; ///< within the disc on top of one, or on an edge of a wall
+};
+WallSeen wallSeen(const PlanOfPoints& scene, const std::vector<TestPoint>& points, const Ray& ray)
+{
+  const FrameCamera& camera = scene.plan.camera;
+  const QuantisationGrid& grid = scene.plan.grid;
+  const glm::dvec3 n = glm::dmat3(camera.storeToView) * glm::dvec3(0.0, 0.0, 1.0);
+  WallSeen seen;
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    const glm::dvec3 top = grid.toWorld(grid.toGrid(points[i].position));
+    const WallHit hit = hitOf(camera, ray, top);
+    const double h = points[i].height > 0.0f ? points[i].height : 0.0;
+    const glm::dvec3 c = inView(camera, top);
+    const double t = glm::dot(n, c - ray.from) / glm::dot(n, ray.along);
+    const bool onDisc = glm::length(ray.from + t * ray.along - c) < 0.04;
+    const bool onEdge = std::abs(std::abs(hit.aside) - 0.03) < 1e-3 || std::abs(hit.down) < 1e-3 ||
+      std::abs(hit.down - h) < 1e-3;
+    const bool inside = std::abs(hit.aside) <= 0.03 && hit.down >= 0.0 && hit.down <= h;
+    const bool near = std::abs(hit.aside) <= 0.032 && hit.down >= -0.001 && hit.down <= h + 0.001;
+    seen.doubtful = seen.doubtful || onDisc || (near && onEdge);
+    if (inside && hit.depth < seen.depth)
+    {
+      seen.depth = hit.depth;
+      seen.point = i;
+    }
+  }
+  return seen;
+}
+
 } // namespace
 
 TEST(Silhouettes, ADiscHasARimHalfAsWideAsItsRadius)
@@ -243,45 +278,19 @@ TEST(Walls, AreWhatRaysMeet)
     {
       for (int x = 0; x < width; ++x)
       {
-        double nearest = std::numeric_limits<double>::infinity();
-        std::size_t winner = 0;
-        bool doubtful = false;
-        for (std::size_t i = 0; i < points.size(); ++i)
-        {
-          const QuantisationGrid& grid = scene.plan.grid;
-          const glm::dvec3 top = grid.toWorld(grid.toGrid(points[i].position));
-          const Ray ray = rayThrough(camera, x, y);
-          const WallHit hit = hitOf(camera, ray, top);
-          const double h = points[i].height > 0.0f ? points[i].height : 0.0;
-          // Within the disc on top, or on an edge of the wall, is none of this test.
-          const glm::dvec3 n = glm::dmat3(camera.storeToView) * glm::dvec3(0.0, 0.0, 1.0);
-          const glm::dvec3 c = inView(camera, top);
-          const double t = glm::dot(n, c - ray.from) / glm::dot(n, ray.along);
-          doubtful = doubtful || glm::length(ray.from + t * ray.along - c) < 0.04;
-          const bool onEdge = std::abs(std::abs(hit.aside) - 0.03) < 1e-3 ||
-            std::abs(hit.down) < 1e-3 || std::abs(hit.down - h) < 1e-3;
-          const bool inside = std::abs(hit.aside) <= 0.03 && hit.down >= 0.0 && hit.down <= h;
-          const bool near =
-            std::abs(hit.aside) <= 0.032 && hit.down >= -0.001 && hit.down <= h + 0.001;
-          doubtful = doubtful || (near && onEdge);
-          if (inside && hit.depth < nearest)
-          {
-            nearest = hit.depth;
-            winner = i;
-          }
-        }
+        const WallSeen seen = wallSeen(scene, points, rayThrough(camera, x, y));
         const auto pixel = static_cast<std::size_t>(y * width + x);
-        if (doubtful)
+        if (seen.doubtful)
         {
           continue;
         }
-        ASSERT_EQ(std::isinf(nearest), target.rgba[pixel] == 0u) << parallel << x << " " << y;
-        if (!std::isinf(nearest))
+        ASSERT_EQ(std::isinf(seen.depth), target.rgba[pixel] == 0u) << parallel << x << " " << y;
+        if (!std::isinf(seen.depth))
         {
           ++walls;
-          ASSERT_NEAR(target.depth[pixel], nearest, 1e-4) << parallel << x << " " << y;
-          ASSERT_EQ(target.points[pixel].index, winner) << parallel << x << " " << y;
-          ASSERT_EQ(target.rgba[pixel] & 255u, points[winner].rgb[0]) << "as its point";
+          ASSERT_NEAR(target.depth[pixel], seen.depth, 1e-4) << parallel << x << " " << y;
+          ASSERT_EQ(target.points[pixel].index, seen.point) << parallel << x << " " << y;
+          ASSERT_EQ(target.rgba[pixel] & 255u, points[seen.point].rgb[0]) << "as its point";
         }
       }
     }

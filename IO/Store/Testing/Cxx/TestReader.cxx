@@ -141,59 +141,6 @@ TEST(Reader, AnOverviewIsAsLargeAsAskedAndHasNoThinQuarter)
   EXPECT_NE(vtkPointFrontStore::GetStoreName(reader->GetOutput()), "");
 }
 
-/// Three kinds of points: 90 % of them in a hundredth of the area, 9 % elsewhere, and 1 % of
-/// another class, which has a tree of its own if the store has layers.
-std::string unevenStore(const std::string& name, bool layers)
-{
-  AttributeSchema schema;
-  schema.add({ "classification", ScalarType::UInt8, 1 });
-  auto cloud = std::make_unique<CloudSource>(name, schema, millimetres({ 0.0, 0.0, 0.0 }));
-  Random random(5);
-  for (int i = 0; i < 100000; ++i)
-  {
-    const double side = i % 100 < 90 ? 10.0 : 100.0;
-    cloud->addPosition(
-      glm::dvec3(side * random.uniform(), side * random.uniform(), random.uniform()));
-    cloud->addValue(0, static_cast<std::uint8_t>(i % 100 == 99 ? 5 : 2));
-  }
-  BuildOptions options;
-  options.outputPath = ::testing::TempDir() + name + ".pfront";
-  options.nodePoints = 1000;
-  options.overwrite = true;
-  options.threads = 1;
-  options.layering = layers ? Layering::ObjectClass : Layering::None;
-  EXPECT_TRUE(buildStore(one(std::move(cloud)), options).ok());
-  return options.outputPath;
-}
-
-TEST(Reader, TheOverviewHasItsShareOfEverything)
-{
-  for (const bool layers : { false, true })
-  {
-    vtkNew<vtkPointFrontReader> reader;
-    reader->SetFileName(unevenStore(layers ? "layered" : "uneven", layers).c_str());
-    for (const vtkIdType points : { 5000, 20000 })
-    {
-      reader->SetOverviewPoints(points);
-      reader->Update();
-      const vtkIdType count = reader->GetOutput()->GetNumberOfPoints();
-      EXPECT_NEAR(static_cast<double>(count), static_cast<double>(points), 10.0);
-      auto* classes = reader->GetOutput()->GetPointData()->GetArray("classification");
-      int dense = 0;
-      int rare = 0;
-      for (vtkIdType i = 0; i < count; ++i)
-      {
-        const double* p = reader->GetOutput()->GetPoint(i);
-        dense += p[0] < 10.0 && p[1] < 10.0 ? 1 : 0;
-        rare += classes->GetTuple1(i) == 5.0 ? 1 : 0;
-      }
-      EXPECT_NEAR(static_cast<double>(dense) / static_cast<double>(count), 0.901, 0.02);
-      EXPECT_NEAR(
-        static_cast<double>(rare) / static_cast<double>(count), 0.01, layers ? 0.001 : 0.005);
-    }
-  }
-}
-
 TEST(Reader, PiecesHaveEachPointOnce)
 {
   vtkNew<vtkPointFrontReader> reader;
@@ -372,46 +319,6 @@ TEST(Reader, ProgressRisesAndAnAbortLeavesNothing)
   reader->Modified();
   reader->Update();
   EXPECT_EQ(reader->GetOutput()->GetNumberOfPoints(), 0);
-}
-
-/// A store whose attributes are the same everywhere but those named.
-std::string activeScalars(const std::set<std::string>& varying)
-{
-  AttributeSchema schema;
-  schema.add({ "intensity", ScalarType::UInt16, 1 });
-  schema.add({ "classification", ScalarType::UInt8, 1 });
-  schema.add({ "rgb", ScalarType::UInt16, 3 });
-  auto cloud = std::make_unique<CloudSource>("scalars", schema, millimetres({ 0.0, 0.0, 0.0 }));
-  for (int i = 0; i < 1000; ++i)
-  {
-    const auto value = [&](const char* name) { return varying.count(name) ? i % 7 : 0; };
-    cloud->addPosition(glm::dvec3(i % 30, i / 30, 0.001 * i));
-    cloud->addValue(0, static_cast<std::uint16_t>(value("intensity")));
-    cloud->addValue(1, static_cast<std::uint8_t>(value("classification")));
-    const auto green = static_cast<std::uint16_t>(value("rgb"));
-    cloud->addValue(2, std::array<std::uint16_t, 3>{ 0, green, 0 });
-  }
-  BuildOptions options;
-  options.outputPath = ::testing::TempDir() + "scalars.pfront";
-  options.overwrite = true;
-  options.threads = 1;
-  EXPECT_TRUE(buildStore(one(std::move(cloud)), options).ok());
-  vtkNew<vtkPointFrontReader> reader;
-  reader->SetFileName(options.outputPath.c_str());
-  reader->Update();
-  vtkPointData* attributes = reader->GetOutput()->GetPointData();
-  auto* elevation = attributes->GetArray("elevation");
-  EXPECT_NEAR(elevation->GetRange()[0], 0.0, 1e-6);
-  EXPECT_NEAR(elevation->GetRange()[1], 0.999, 1e-6);
-  return attributes->GetScalars()->GetName();
-}
-
-TEST(Reader, TheActiveScalarsShowSomething)
-{
-  EXPECT_EQ(activeScalars({ "rgb", "classification", "intensity" }), "rgb");
-  EXPECT_EQ(activeScalars({ "classification", "intensity" }), "classification");
-  EXPECT_EQ(activeScalars({ "intensity" }), "intensity");
-  EXPECT_EQ(activeScalars({}), "elevation");
 }
 
 TEST(Reader, SeveralStoresAreTimeSteps)

@@ -27,6 +27,49 @@ std::uint32_t below(std::uint32_t end, std::mt19937& random)
   return static_cast<std::uint32_t>(random() % end);
 }
 
+using HeldNodes = std::vector<std::shared_ptr<const NodeColumns>>;
+
+/// What views, styles and the end of views do to a residency, in any order. Gives what is drawn
+/// at the end.
+HeldNodes doAnything(Residency& residency, std::mt19937& random)
+{
+  HeldNodes held(8);
+  for (int step = 0; step < 600; ++step)
+  {
+    std::vector<LoadRequest> wanted;
+    for (std::uint32_t r = below(30, random); r > 0; --r)
+    {
+      wanted.push_back({ below(200, random), double(below(50, random)), below(4, random) == 0 });
+    }
+    residency.request(wanted);
+    const NodeIndex kept = below(200, random);
+    residency.release([kept](NodeIndex n) { return n == kept ? 0u : 1u + n % 5; });
+    held[below(8, random)] = residency.find(below(200, random));
+    if (random() % 40 == 0)
+    {
+      residency.setColumns(random() % 2 == 0 ? ColumnSelection{ 1 } : ColumnSelection{ 0, 1 });
+    }
+    if (random() % 100 == 0)
+    {
+      residency.waitUntilIdle();
+    }
+  }
+  return held;
+}
+
+std::size_t bytesInMemory(Residency& residency)
+{
+  std::size_t sum = 0;
+  for (NodeIndex n = 0; n < 200; ++n)
+  {
+    if (const auto points = residency.find(n))
+    {
+      sum += points->bytes();
+    }
+  }
+  return sum;
+}
+
 } // namespace
 
 TEST(ResidencySoak, TheBudgetHoldsWhateverHappens)
@@ -58,27 +101,7 @@ TEST(ResidencySoak, TheBudgetHoldsWhateverHappens)
           std::this_thread::yield();
         }
       });
-    std::vector<std::shared_ptr<const NodeColumns>> held(8);
-    for (int step = 0; step < 600; ++step)
-    {
-      std::vector<LoadRequest> wanted;
-      for (std::uint32_t r = below(30, random); r > 0; --r)
-      {
-        wanted.push_back({ below(200, random), double(below(50, random)), below(4, random) == 0 });
-      }
-      residency.request(wanted);
-      const NodeIndex kept = below(200, random);
-      residency.release([kept](NodeIndex n) { return n == kept ? 0u : 1u + n % 5; });
-      held[below(8, random)] = residency.find(below(200, random));
-      if (random() % 40 == 0)
-      {
-        residency.setColumns(random() % 2 == 0 ? ColumnSelection{ 1 } : ColumnSelection{ 0, 1 });
-      }
-      if (random() % 100 == 0)
-      {
-        residency.waitUntilIdle();
-      }
-    }
+    HeldNodes held = doAnything(residency, random);
     done = true;
     residency.request({});
     residency.waitUntilIdle();
@@ -92,14 +115,7 @@ TEST(ResidencySoak, TheBudgetHoldsWhateverHappens)
     EXPECT_EQ(residency.takeErrors().size(), s.failed);
     // With nobody holding on, the account is what is resident.
     held.clear();
-    std::size_t sum = 0;
-    for (NodeIndex n = 0; n < 200; ++n)
-    {
-      if (const auto points = residency.find(n))
-      {
-        sum += points->bytes();
-      }
-    }
+    const std::size_t sum = bytesInMemory(residency);
     residency.waitUntilIdle();
     EXPECT_GT(sum, 0u);
     EXPECT_LE(sum, options.budgetBytes);

@@ -16,11 +16,6 @@ bool hasAll(const ColumnSelection& present, const ColumnSelection& wanted)
   return std::includes(present.begin(), present.end(), wanted.begin(), wanted.end());
 }
 
-/// A node that is drawn with old columns is read again before everything else.
-constexpr double drawnNow = 1.0;
-
-constexpr std::size_t mostNeedsKept = 1u << 16;
-
 /// Errors of the file as a whole, not of a node in it: one tells of all.
 bool isOfTheFile(const Error& error)
 {
@@ -37,6 +32,7 @@ StoreNodes::StoreNodes(std::shared_ptr<const NodeReader> reader, NodeIndex nodeC
   , nodeCount_(nodeCount)
   , budget_(std::move(budget))
   , cache_(budget_)
+  , waiting_(reader_, budget_)
 {
   if (rows_ != nullptr)
   {
@@ -49,67 +45,21 @@ StoreNodes::~StoreNodes()
   close();
 }
 
-std::size_t StoreNodes::need(const LoadRequest& request) const
-{
-  const auto known = needs_.find(request.node);
-  return known != needs_.end()
-    ? known->second
-    : reader_->decodedBytes(request.node, request.pointCount, columns_.of(request.layer));
-}
-
-bool StoreNodes::rowsNext(const std::optional<Choice>& choice) const
+bool StoreNodes::rowsNext(const std::optional<WaitingReads::Choice>& choice) const
 {
   return rows_ != nullptr && rows_->waiting() && !(rowsLast_ && choice);
 }
 
 /// What should be read next and fits.
-std::optional<StoreNodes::Choice> StoreNodes::choose() const
+std::optional<WaitingReads::Choice> StoreNodes::choose() const
 {
-  const auto fitting = [this](const RequestQueue& from, auto&& taken) -> const LoadRequest*
-  {
-    const auto found = std::find_if(from.begin(), from.end(),
-      [&](const LoadRequest& r) { return taken(r) && budget_->fits(need(r)); });
-    return found != from.end() ? &*found : nullptr;
-  };
-  const auto drawn = [](const LoadRequest& r) { return r.priority >= drawnNow; };
-  const auto needed = [](const LoadRequest& r) { return !r.optional; };
-  const auto any = [](const LoadRequest&) { return true; };
-  const bool room = budget_->fits(leastNeed_);
-  if (const LoadRequest* request = room ? fitting(rereads_, drawn) : nullptr)
-  {
-    return Choice{ *request, 0, true, false };
-  }
-  if (const LoadRequest* request = room ? fitting(queue_, needed) : nullptr)
-  {
-    return Choice{ *request, 1, false, false };
-  }
-  if (const LoadRequest* request = room ? fitting(rereads_, any) : nullptr)
-  {
-    return Choice{ *request, 2, true, false };
-  }
-  if (nothingToRelease_ && loading_ == 0)
-  {
-    // Not even one more node fits: the old columns go before the new ones come.
-    for (const LoadRequest& request : rereads_)
-    {
-      const CachedNode* cached = cache_.find(request.node);
-      if (cached->points.use_count() == 1 && budget_->fits(need(request), cached->bytes))
-      {
-        return Choice{ request, 3, true, true };
-      }
-    }
-  }
-  if (const LoadRequest* request = room ? fitting(queue_, any) : nullptr)
-  {
-    return Choice{ *request, 4, false, false };
-  }
-  return std::nullopt;
+  return waiting_.choose(cache_, nothingToRelease_ && loading_ == 0);
 }
 
 std::optional<StoreNodes::Urgency> StoreNodes::next() const
 {
   const std::lock_guard<std::mutex> lock(mutex_);
-  const std::optional<Choice> choice = choose();
+  const std::optional<WaitingReads::Choice> choice = choose();
   if (rowsNext(choice))
   {
     return Urgency{ 0, std::numeric_limits<double>::infinity() };
@@ -120,7 +70,7 @@ std::optional<StoreNodes::Urgency> StoreNodes::next() const
 std::optional<StoreNodes::Task> StoreNodes::begin()
 {
   const std::lock_guard<std::mutex> lock(mutex_);
-  const std::optional<Choice> choice = choose();
+  const std::optional<WaitingReads::Choice> choice = choose();
   rowsLast_ = rowsNext(choice);
   if (rowsLast_)
   {
@@ -132,7 +82,8 @@ std::optional<StoreNodes::Task> StoreNodes::begin()
     return std::nullopt;
   }
   const NodeIndex node = choice->request.node;
-  Task task{ node, columns_.of(choice->request.layer), need(choice->request), choice->reread };
+  Task task{ node, waiting_.columns().of(choice->request.layer), waiting_.need(choice->request),
+    choice->reread };
   if (choice->inPlaceOfOld)
   {
     cache_.remove(node);
@@ -142,8 +93,7 @@ std::optional<StoreNodes::Task> StoreNodes::begin()
   {
     return std::nullopt; // another store on the same budget was faster
   }
-  (choice->reread ? rereads_ : queue_).cancel(node);
-  waitingKnown_ = false;
+  waiting_.take(*choice);
   CachedNode& cached = cache_[node];
   cached.loading = true;
   cached.stale = cached.drawn = false;
@@ -194,26 +144,15 @@ void StoreNodes::markFailed(CachedNode& cached, Error error)
   report(std::move(error));
 }
 
-/// A node that is larger than the whole budget would wait for ever and in silence.
-void StoreNodes::refuseTooLarge(const std::vector<LoadRequest>& requests)
+void StoreNodes::markTooLarge(NodeIndex node, std::size_t bytes, std::size_t limit)
 {
-  const std::size_t limit = budget_->limit();
-  for (const LoadRequest& request : requests)
-  {
-    const std::size_t bytes = need(request);
-    if (bytes > limit)
-    {
-      needs_[request.node] = bytes;
-      CachedNode& cached = cache_[request.node];
-      cached.tooLarge = true;
-      queue_.cancel(request.node);
-      markFailed(cached,
-        makeError(Error::Kind::NoMemory,
-          "node " + std::to_string(request.node) + " takes " + std::to_string(bytes) +
-            " bytes in memory, more than the whole budget of " + std::to_string(limit) +
-            ": give more memory"));
-    }
-  }
+  CachedNode& cached = cache_[node];
+  cached.tooLarge = true;
+  markFailed(cached,
+    makeError(Error::Kind::NoMemory,
+      "node " + std::to_string(node) + " takes " + std::to_string(bytes) +
+        " bytes in memory, more than the whole budget of " + std::to_string(limit) +
+        ": give more memory"));
 }
 
 /// A request for what is in memory with other columns.
@@ -228,8 +167,7 @@ bool StoreNodes::store(const Task& task, NodeColumns points)
   const std::size_t bytes = points.bytes();
   if (bytes > task.bytes && !budget_->reserve(bytes - task.bytes))
   {
-    needs_[task.node] = bytes;
-    waitingKnown_ = false;
+    waiting_.learn(task.node, bytes);
     budget_->giveBack(task.bytes);
     return false;
   }
@@ -237,16 +175,14 @@ bool StoreNodes::store(const Task& task, NodeColumns points)
   {
     budget_->giveBack(task.bytes - bytes);
   }
-  const bool complete = hasAll(points.selection, columns_.of(points.layer));
+  const bool complete = hasAll(points.selection, waiting_.columns().of(points.layer));
   const LoadRequest other = again(task.node, points, 0.0);
   cache_.insert(task.node, std::move(points), bytes);
   if (!complete)
   {
     // Other columns were asked for while it was read.
     cache_[task.node].stale = true;
-    rereads_.add(other);
-    waitingKnown_ = false;
-    leastNeed_ = std::min(leastNeed_, need(other));
+    waiting_.readAgain(other);
   }
   return true;
 }
@@ -301,28 +237,14 @@ void StoreNodes::close()
   }
   Gone gone;
   const std::lock_guard<std::mutex> lock(mutex_);
-  queue_.clear();
-  rereads_.clear();
-  waitingKnown_ = false;
+  waiting_.clear();
   cache_.forEach([&](NodeIndex node, CachedNode&) { gone.push_back(cache_.remove(node)); });
 }
 
 std::size_t StoreNodes::waitingBytes() const
 {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (!std::exchange(waitingKnown_, true))
-  {
-    waiting_ = 0;
-    for (const LoadRequest& request : queue_)
-    {
-      waiting_ += request.optional ? 0 : need(request);
-    }
-    for (const LoadRequest& request : rereads_)
-    {
-      waiting_ += need(request);
-    }
-  }
-  return waiting_;
+  return waiting_.bytes();
 }
 
 std::size_t StoreNodes::stayingBytes() const
@@ -352,8 +274,7 @@ void StoreNodes::release(NodeIndex node, Gone& gone)
   if (cached != nullptr && cached->points != nullptr && !cached->loading)
   {
     gone.push_back(cache_.remove(node));
-    rereads_.cancel(node);
-    waitingKnown_ = false;
+    waiting_.cancelReread(node);
     cache_.forget(node);
     ++released_;
     ++revision_;
@@ -369,13 +290,10 @@ bool StoreNodes::noteRelease(bool nothingFound)
 bool StoreNodes::setColumns(const LayerColumns& columns)
 {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (columns == columns_)
+  if (columns == waiting_.columns())
   {
     return false;
   }
-  columns_ = columns;
-  needs_.clear();
-  rereads_.clear();
   std::vector<LoadRequest> lacking;
   cache_.forEach(
     [&](NodeIndex node, CachedNode& cached)
@@ -391,38 +309,20 @@ bool StoreNodes::setColumns(const LayerColumns& columns)
         lacking.push_back(again(node, *cached.points, 0.0));
       }
     });
-  rereads_.replace(lacking);
-  noteLeastNeed();
+  waiting_.setColumns(columns, lacking);
   ++revision_;
   return true;
-}
-
-void StoreNodes::noteLeastNeed()
-{
-  waitingKnown_ = false;
-  leastNeed_ = std::numeric_limits<std::size_t>::max();
-  for (const RequestQueue* waiting : { &queue_, &rereads_ })
-  {
-    for (const LoadRequest& request : *waiting)
-    {
-      leastNeed_ = std::min(leastNeed_, need(request));
-    }
-  }
 }
 
 LayerColumns StoreNodes::columns() const
 {
   const std::lock_guard<std::mutex> lock(mutex_);
-  return columns_;
+  return waiting_.columns();
 }
 
 bool StoreNodes::request(const std::vector<LoadRequest>& requests)
 {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (needs_.size() > mostNeedsKept)
-  {
-    needs_.clear();
-  }
   std::vector<LoadRequest> wanted;
   wanted.reserve(requests.size());
   for (const LoadRequest& request : requests)
@@ -434,16 +334,17 @@ bool StoreNodes::request(const std::vector<LoadRequest>& requests)
       wanted.push_back(request);
     }
   }
-  const RequestQueue::Change change = queue_.replace(wanted);
-  requested_ += change.added;
-  cancelled_ += change.cancelled;
-  waitingKnown_ = false; // priorities, and what is optional, may have changed
-  refuseTooLarge(wanted);
-  if (change.added == 0 && change.cancelled == 0)
+  const WaitingReads::Replaced replaced = waiting_.replace(wanted);
+  requested_ += replaced.change.added;
+  cancelled_ += replaced.change.cancelled;
+  for (const auto& [node, bytes] : replaced.tooLarge)
+  {
+    markTooLarge(node, bytes, replaced.limit);
+  }
+  if (replaced.change.added == 0 && replaced.change.cancelled == 0)
   {
     return false;
   }
-  noteLeastNeed();
   nothingToRelease_ = false;
   return true;
 }
@@ -456,10 +357,10 @@ std::shared_ptr<const NodeColumns> StoreNodes::find(NodeIndex node)
   {
     return nullptr;
   }
-  if (cached->stale && !cached->drawn)
+  if (cached->stale && !cached->drawn && cached->points)
   {
     cached->drawn = true;
-    rereads_.add(again(node, *cached->points, drawnNow));
+    waiting_.readAgain(again(node, *cached->points, WaitingReads::drawnNow));
   }
   return cached->points;
 }
@@ -495,7 +396,7 @@ ResidencyStatistics StoreNodes::statistics() const
   s.residentBytes = budget_->used();
   s.residentBytesMax = budget_->usedMax();
   s.residentNodes = cache_.count();
-  s.pending = static_cast<std::uint32_t>(queue_.size() + rereads_.size());
+  s.pending = static_cast<std::uint32_t>(waiting_.size());
   s.loading = loading_;
   s.requested = requested_;
   s.cancelled = cancelled_;
@@ -512,8 +413,7 @@ void StoreNodes::reconsider()
   cache_.forEach(
     [&](NodeIndex node, CachedNode& cached)
     {
-      const auto known = needs_.find(node);
-      if (cached.tooLarge && (known == needs_.end() || known->second <= limit))
+      if (cached.tooLarge && waiting_.mayFit(node, limit))
       {
         cached.tooLarge = cached.failed = false;
         ++revision_;

@@ -4,8 +4,8 @@
 #include "pointfront/Residency/MemoryBudget.h"
 #include "pointfront/Residency/NodeCache.h"
 #include "pointfront/Residency/ReleasePlan.h"
-#include "pointfront/Residency/RequestQueue.h"
 #include "pointfront/Residency/Residency.h"
+#include "pointfront/Residency/WaitingReads.h"
 #include "pointfront/Store/NodeReader.h"
 
 #include <atomic>
@@ -13,7 +13,6 @@
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <unordered_map>
 #include <vector>
 
 namespace pointfront
@@ -23,9 +22,7 @@ namespace pointfront
 /// Residency is its interface and documents its guarantees.
 /// Rows      of the node table that its front waits for (MissingRows) take turns with nodes, before
 ///           them: without rows nothing further is asked for, and they are small.
-/// Order     needed requests by priority, then re-reads for new columns, then optional requests; a
-///           request that does not fit waits, smaller ones behind it go on. Nodes that are drawn
-///           with old columns are read again before everything else.
+/// Order     that of WaitingReads.
 /// Threads   all functions from any thread; its lock is never held while a node is read.
 class StoreNodes
 {
@@ -92,21 +89,11 @@ public:
   bool loading() const; ///< rows included
 
 private:
-  struct Choice
-  {
-    LoadRequest request;
-    int rank = 0;
-    bool reread = false;
-    bool inPlaceOfOld = false; ///< fits only after the node's old points are gone
-  };
-
-  std::size_t need(const LoadRequest& request) const;
-  std::optional<Choice> choose() const;
-  bool rowsNext(const std::optional<Choice>& choice) const;
-  void noteLeastNeed();
+  std::optional<WaitingReads::Choice> choose() const;
+  bool rowsNext(const std::optional<WaitingReads::Choice>& choice) const;
   void markFailed(CachedNode& cached, Error error);
   void report(Error error);
-  void refuseTooLarge(const std::vector<LoadRequest>& requests);
+  void markTooLarge(NodeIndex node, std::size_t bytes, std::size_t limit);
   bool store(const Task& task, NodeColumns points);
   static LoadRequest again(NodeIndex node, const NodeColumns& points, double priority);
 
@@ -118,15 +105,8 @@ private:
 
   mutable std::mutex mutex_; ///< of all below
   NodeCache cache_;
-  RequestQueue queue_;
-  RequestQueue rereads_;
-  LayerColumns columns_;
+  WaitingReads waiting_;
   std::vector<Error> errors_;
-  /// Bytes of nodes of which decodedBytes() said too little, and of those that are too large.
-  std::unordered_map<NodeIndex, std::size_t> needs_;
-  std::size_t leastNeed_ = 0; ///< nothing that waits needs less
-  mutable std::size_t waiting_ = 0;
-  mutable bool waitingKnown_ = false; ///< `waiting_` is what waitingBytes() says
   std::size_t loadingBytes_ = 0;
   std::uint32_t loading_ = 0; ///< nodes
   std::uint32_t loadingRows_ = 0; ///< pages

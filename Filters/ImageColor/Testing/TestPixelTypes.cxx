@@ -1,0 +1,101 @@
+// What an attribute gets from pixels of each type: exact numbers, palettes, alpha, wide colours.
+
+#include "ColouredCloud.h"
+#include "WrittenTiff.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+using namespace pointfront;
+using namespace pointfront::test;
+
+TEST(ImageValuesPass, ATransparentPixelSaysNothing)
+{
+  WrittenTiff image;
+  image.width = 2;
+  image.height = 1;
+  image.channels = 4;
+  image.alpha = true;
+  image.values = { 200, 100, 50, 128, 1, 2, 3, 0 };
+  image.at(0, 1);
+  const ColouredCloud outcome = coloured(
+    cloud({ { 0.5, 0.5, 0 }, { 1.5, 0.5, 0 } }), { { "rgb", { image.write("alpha.tif") } } });
+  EXPECT_EQ(outcome.values("rgb"), (std::vector<double>{ 200, 100, 50, 0, 0, 0 }))
+    << "not multiplied by alpha";
+}
+
+TEST(ImageValuesPass, EveryTypeOfPixelIsExact)
+{
+  struct Case
+  {
+    int bits;
+    int format;
+    std::vector<double> values;
+  };
+  const Case cases[] = { { 8, 1, { 0, 255 } }, { 16, 1, { 1, 65535 } },
+    { 32, 1, { 16777217, 4294967295.0 } }, { 8, 2, { -128, 127 } }, { 16, 2, { -32768, 32767 } },
+    { 32, 2, { -2147483648.0, 123456789 } }, { 32, 3, { -1.5, 3e10f } },
+    { 64, 3, { 1.23456789012, 1e300 } } };
+  for (const Case& c : cases)
+  {
+    for (const int tile : { 0, 16 })
+    {
+      WrittenTiff image;
+      image.width = 2;
+      image.height = 1;
+      image.bits = c.bits;
+      image.sampleFormat = c.format;
+      image.values = c.values;
+      image.tile = tile;
+      const std::string name = "type" + std::to_string(c.format * 100 + c.bits + tile) + ".tif";
+      image.at(0, 1);
+      const ColouredCloud outcome =
+        coloured(cloud({ { 0.5, 0.5, 0 }, { 1.5, 0.5, 0 } }), { { "v", { image.write(name) } } });
+      ASSERT_EQ(outcome.error, "");
+      EXPECT_EQ(outcome.values("v"), c.values) << c.bits << " bits, format " << c.format;
+    }
+  }
+}
+
+TEST(ImageValuesPass, APaletteIsColourOrIndex)
+{
+  for (const int tile : { 0, 16 })
+  {
+    WrittenTiff image;
+    image.width = 2;
+    image.height = 1;
+    image.values = { 3, 200 };
+    image.palette = true;
+    image.tile = tile;
+    image.at(0, 1);
+    const std::string path = image.write("palette" + std::to_string(tile) + ".tif");
+    const ColouredCloud outcome = coloured(cloud({ { 0.5, 0.5, 0 }, { 1.5, 0.5, 0 } }),
+      { { "class_map", { path } }, { "rgb", { path } } });
+    ASSERT_EQ(outcome.error, "");
+    EXPECT_EQ(outcome.values("class_map"), (std::vector<double>{ 3, 200 }));
+    EXPECT_EQ(outcome.values("rgb"), (std::vector<double>{ 252, 3, 7, 55, 200, 7 }));
+  }
+}
+
+TEST(ImageValuesPass, GreyAndSixteenBitsBecomeColours)
+{
+  WrittenTiff grey;
+  grey.width = 1;
+  grey.height = 1;
+  grey.values = { 90 };
+  grey.at(0, 1);
+  WrittenTiff deep = grey;
+  deep.channels = 3;
+  deep.bits = 16;
+  deep.values = { 65535, 514, 0 };
+  deep.at(1, 1);
+  const ColouredCloud one =
+    coloured(cloud({ { 0.5, 0.5, 0 } }), { { "rgb", { grey.write("grey.tif") } } });
+  EXPECT_EQ(one.values("rgb"), (std::vector<double>{ 90, 90, 90 }));
+  EXPECT_EQ(one.schema[0].type, ScalarType::UInt8);
+  const ColouredCloud both = coloured(cloud({ { 0.5, 0.5, 0 }, { 1.5, 0.5, 0 } }),
+    { { "rgb", { grey.write("grey.tif"), deep.write("deep.tif") } } });
+  EXPECT_EQ(both.values("rgb"), (std::vector<double>{ 23130, 23130, 23130, 65535, 514, 0 }));
+}

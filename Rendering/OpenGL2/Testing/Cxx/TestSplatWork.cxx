@@ -1,0 +1,172 @@
+// What drawing splats on OpenGL costs and leaves behind: uploads, primitives, names; and which
+// points a selection finds in them.
+
+#include "Splats.h"
+
+#include <vtkHardwareSelector.h>
+#include <vtkIdTypeArray.h>
+#include <vtkSelection.h>
+#include <vtkSelectionNode.h>
+
+#include <cstddef>
+#include <set>
+
+using namespace pointfront;
+using namespace pointfront::test;
+
+namespace
+{
+
+/// Ids of points that a selection of a rectangle finds.
+std::set<vtkIdType> selected(Scene& scene)
+{
+  vtkNew<vtkHardwareSelector> selector;
+  selector->SetRenderer(scene.renderer);
+  selector->SetArea(100, 60, 180, 140);
+  selector->SetFieldAssociation(vtkDataObject::FIELD_ASSOCIATION_POINTS);
+  const auto selection = vtkSmartPointer<vtkSelection>::Take(selector->Select());
+  std::set<vtkIdType> ids;
+  for (unsigned int node = 0; node < selection->GetNumberOfNodes(); ++node)
+  {
+    auto* list = vtkIdTypeArray::SafeDownCast(selection->GetNode(node)->GetSelectionList());
+    for (vtkIdType i = 0; list && i < list->GetNumberOfValues(); ++i)
+    {
+      ids.insert(list->GetValue(i));
+    }
+  }
+  return ids;
+}
+
+TEST(Techniques, SelectionsFindTheSplatsThatAreSeen)
+{
+  Splats scene(surfaceStore("selected", sphereAt));
+  for (const char* name : { "splats", "ewa", "spheres", "classes", "lit", "silhouettes", "solid" })
+  {
+    ASSERT_TRUE(scene.style->LoadJSON(techniques.at(name)));
+    scene.with(vtkPointFrontMapper::SOFTWARE);
+    const std::set<vtkIdType> expected = selected(scene);
+    const Picture before = scene.with(vtkPointFrontMapper::OPENGL);
+    const std::set<vtkIdType> found = selected(scene);
+    EXPECT_GT(expected.size(), 300u) << name;
+    std::size_t both = 0;
+    for (const vtkIdType id : found)
+    {
+      both += expected.count(id);
+    }
+    EXPECT_GE(both, 0.99 * static_cast<double>(expected.size())) << name;
+    EXPECT_LE(found.size(), 1.01 * static_cast<double>(expected.size())) << name;
+    EXPECT_EQ(differing(before, scene.draw()), 0) << name;
+  }
+}
+
+TEST(Techniques, AStyleEditUploadsNoPositionAgain)
+{
+  Splats scene(surfaceStore("edited", stairsAt));
+  auto* const gl = vtkOpenGLPointFrontMapper::SafeDownCast(scene.mapper);
+  ASSERT_TRUE(scene.style->LoadJSON(techniques.at("splats")));
+  scene.draw();
+  const vtkTypeInt64 points = scene.mapper->GetLastPointsDrawn();
+  const vtkTypeInt64 first = gl->GetUploadedBytes();
+  EXPECT_EQ(first, points * (12 + 4 + 4)); // positions, colours, shapes
+  ASSERT_TRUE(scene.style->LoadJSON(techniques.at("ewa")));
+  scene.draw();
+  EXPECT_EQ(gl->GetUploadedBytes(), first) << "another technique reads the same";
+  ASSERT_TRUE(scene.style->LoadJSON(techniques.at("table")));
+  scene.draw();
+  EXPECT_EQ(gl->GetUploadedBytes(), first + points * 4) << "other colours alone";
+  ASSERT_TRUE(scene.style->LoadJSON(R"({"default": {"technique": "points",
+    "size": {"mode": "fixed", "px": 2}, "color": "classification"}})"));
+  scene.draw();
+  EXPECT_EQ(gl->GetUploadedBytes(), first + points * 4) << "squares need no shapes";
+  ASSERT_TRUE(
+    scene.style->LoadJSON(R"({"default": {"technique": "solid", "color": "classification"}})"));
+  scene.draw();
+  EXPECT_EQ(gl->GetUploadedBytes(), first + points * (4 + 4 + 4)) << "heights, shapes again";
+}
+
+/// Points and triangles that a frame hands to GL.
+int primitivesOf(Scene& scene)
+{
+  scene.window->MakeCurrent();
+  GLuint query = 0;
+  glGenQueries(1, &query);
+  glBeginQuery(GL_PRIMITIVES_GENERATED, query);
+  scene.window->Render();
+  glEndQuery(GL_PRIMITIVES_GENERATED);
+  GLuint count = 0;
+  glGetQueryObjectuiv(query, GL_QUERY_RESULT, &count);
+  glDeleteQueries(1, &query);
+  return static_cast<int>(count);
+}
+
+TEST(Techniques, AtRestNothingIsDrawnTwice)
+{
+  Splats scene(surfaceStore("rest", sphereAt));
+  for (const char* name : { "metres", "lit ewa", "solid" })
+  {
+    ASSERT_TRUE(scene.style->LoadJSON(techniques.at(name)));
+    const Picture first = scene.draw();
+    const vtkIdType points = scene.mapper->GetLastPointsDrawn();
+    EXPECT_LT(primitivesOf(scene), 20) << name << ": the same view";
+    EXPECT_EQ(differing(first, scene.read()), 0) << name;
+    scene.renderer->GetActiveCamera()->Azimuth(5.0);
+    EXPECT_GT(primitivesOf(scene), points / 2) << name << ": another view";
+    scene.renderer->GetActiveCamera()->Azimuth(-5.0);
+    EXPECT_EQ(differing(first, scene.draw()), 0) << name;
+  }
+}
+
+TEST(Techniques, DetailIsAddedToWhatIsThere)
+{
+  const std::string store = surfaceStore("added", stairsAt);
+  for (const char* name : { "metres", "lit", "splats", "silhouettes", "solid" })
+  {
+    Splats whole(store);
+    ASSERT_TRUE(whole.style->LoadJSON(techniques.at(name)));
+    whole.mapper->SetTargetError(0.5);
+    const Picture atOneGo = whole.draw();
+    Splats scene(store);
+    ASSERT_TRUE(scene.style->LoadJSON(techniques.at(name)));
+    scene.draw();
+    for (const double error : { 8.0, 4.0, 2.0, 1.0, 0.5 })
+    {
+      scene.mapper->SetTargetError(error);
+      scene.draw();
+    }
+    EXPECT_EQ(scene.mapper->GetLastPointsDrawn(), whole.mapper->GetLastPointsDrawn());
+    EXPECT_LE(differing(atOneGo, scene.read(), 2), 60) << name; // equally near: who came first
+  }
+}
+
+TEST(Techniques, LeaveNoNamesBehind)
+{
+  Splats scene(surfaceStore("names", planeAt));
+  ASSERT_TRUE(scene.style->LoadJSON(techniques.at("lit ewa")));
+  const auto names = [&]
+  {
+    scene.window->MakeCurrent();
+    int live = 0;
+    for (GLuint name = 1; name < 4096; ++name)
+    {
+      live += glIsTexture(name) == GL_TRUE || glIsVertexArray(name) == GL_TRUE ||
+          glIsFramebuffer(name) == GL_TRUE || glIsBuffer(name) == GL_TRUE
+        ? 1
+        : 0;
+    }
+    return live;
+  };
+  scene.actor->VisibilityOff();
+  scene.draw();
+  const int before = names();
+  scene.actor->VisibilityOn();
+  const Picture picture = scene.with(vtkPointFrontMapper::OPENGL);
+  EXPECT_GT(names(), before + 8);
+  scene.actor->ReleaseGraphicsResources(scene.window);
+  EXPECT_EQ(names(), before);
+  EXPECT_EQ(differing(picture, scene.draw()), 0);
+  scene.actor->SetMapper(nullptr);
+  scene.mapper = nullptr;
+  EXPECT_EQ(names(), before);
+}
+
+} // namespace

@@ -1,0 +1,85 @@
+// The splats of neighbours match: items made up here, without a front.
+
+#include "pointfront/Plan/ClosingRadii.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <vector>
+
+using namespace pointfront;
+
+/// Autzen from 40 ft: a point of the root, among ground that is all there, was as large as what
+/// closes the coarse nodes a mile away, or a few strays.
+TEST(FramePlanner, WhatIsFarAwayMakesNoSplatsNearTheEyeLarge)
+{
+  std::vector<DrawBatch> batches(1);
+  const auto add =
+    [&](NodeIndex number, NodeIndex parent, float radius, std::uint32_t points, bool unfinished)
+  {
+    auto node = std::make_shared<NodeColumns>();
+    node->node = number;
+    node->parent = parent;
+    PlanItem item;
+    item.node = node;
+    item.last = points;
+    item.closingRadius = radius;
+    item.unfinished = unfinished;
+    batches[0].items.push_back(item);
+  };
+  add(0, noNode, 100.0f, 50, true);
+  add(1, 0, 30.0f, 900, true); // refined by the next two
+  add(3, 1, 1.0f, 990, false); // near: all there
+  add(4, 1, 11.0f, 10, false); // some strays
+  add(2, 0, 40.0f, 900, true); // far away: coarse
+  matchNeighbours(batches, QuantisationGrid());
+  const std::vector<PlanItem>& items = batches[0].items;
+  for (const std::size_t above : { std::size_t(0), std::size_t(1) })
+  {
+    EXPECT_TRUE(items[above].refined);
+    EXPECT_FLOAT_EQ(items[above].closingRadius, 2.2f) << "twice the mean";
+  }
+  EXPECT_FLOAT_EQ(items[0].sparsestRadius, 40.0f);
+  EXPECT_FLOAT_EQ(items[1].sparsestRadius, 11.0f);
+  EXPECT_TRUE(items[0].unfinished) << "points are left out far away";
+  EXPECT_FALSE(items[1].unfinished);
+  EXPECT_FLOAT_EQ(items[4].closingRadius, 40.0f);
+
+  batches[0].items.erase(batches[0].items.begin() + 2, batches[0].items.begin() + 4);
+  for (PlanItem& item : batches[0].items)
+  {
+    item.refined = false;
+  }
+  batches[0].items[1].closingRadius = 30.0f;
+  matchNeighbours(batches, QuantisationGrid());
+  EXPECT_FLOAT_EQ(batches[0].items[0].closingRadius, 30.0f) << "the nearer of the two";
+}
+
+TEST(FramePlanner, AFewPointsOfAClassAmongManyOfAnotherHaveSplatsLikeTheirs)
+{
+  std::vector<DrawBatch> batches(2);
+  QuantisationGrid grid;
+  const auto add =
+    [&](std::uint16_t layer, NodeIndex number, float radius, std::uint32_t points, double x)
+  {
+    auto node = std::make_shared<NodeColumns>();
+    node->node = number;
+    node->origin = grid.toGrid({ x, 0.0, 0.0 });
+    node->halfSize = { 50.0f, 50.0f, 5.0f };
+    PlanItem item;
+    item.node = node;
+    item.last = points;
+    item.closingRadius = radius;
+    batches[layer].layer = layer;
+    batches[layer].items.push_back(item);
+  };
+  add(0, 0, 0.5f, 10000, 0.0);
+  add(0, 1, 0.4f, 10000, 100.0);
+  add(1, 2, 6.0f, 100, 0.0); // among the first
+  add(1, 3, 6.0f, 100, 5000.0); // alone
+  matchNeighbours(batches, grid);
+  EXPECT_FLOAT_EQ(batches[0].items[0].closingRadius, 0.5f);
+  EXPECT_FLOAT_EQ(batches[0].items[1].closingRadius, 0.4f);
+  EXPECT_FLOAT_EQ(batches[1].items[0].closingRadius, 1.0f);
+  EXPECT_FLOAT_EQ(batches[1].items[1].closingRadius, 6.0f);
+}

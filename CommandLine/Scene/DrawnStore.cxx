@@ -78,7 +78,7 @@ const FrontDelta& DrawnStore::update(
 {
   demand.columns = columns_;
   demand.layers = limits_;
-  limitToLenses(styles_, shading.lenses, camera,
+  limitToLenses(styles_, shading, camera,
     std::max(demand.targetErrorPx, front_->last().thresholdPx), tallestWall_, demand.layers);
   demand.view = withWallsFromAbove(demand.view, tallestWall_);
   demand_ = std::move(demand);

@@ -32,7 +32,6 @@ constexpr int mostRounds = 64; // of the fronts of a complete picture
 constexpr double frameMsInMotion = 1000.0 / 15; // that VTK allots to a moving view
 constexpr std::uint64_t framePointBudget = 5000000; // as vtkPointFrontMapper's
 constexpr std::uint64_t overviewPoints = 2000000; // likewise
-constexpr int filledRows = 64; ///< of a neighbour, that a hole may be filled from
 
 double millisecondsSince(Clock::time_point begin)
 {
@@ -152,7 +151,6 @@ Result<void> SoftwareScene::shareMemory()
   cost.marginPixels = rasterMargin;
   cost.threads = ThreadCrew::ofProcess().threads();
   cost.overlapRows = shading_.reachPx();
-  cost.overlapRows = shading_.fillHoles ? std::max(cost.overlapRows, filledRows) : cost.overlapRows;
   std::uint64_t& budget = options_.memoryBytes;
   budget = budget > 0 ? budget : LoadScheduler::processBudgetBytes(); // before it is shared below
   const Result<PictureMemory> memory = PictureMemory::share(options_.size, budget, cost);

@@ -116,6 +116,7 @@ void centre(FrameCamera& frame)
     frame.viewToClip[3][axis] = 0.0;
     frame.storeToView[3][axis] += aside;
     frame.referenceInView[axis] += aside;
+    frame.cameraInView[axis] = aside;
   }
 }
 

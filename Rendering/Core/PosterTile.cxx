@@ -85,6 +85,28 @@ ViewportMargin PosterTile::margin(const FrameShading& shading) const
     std::clamp(beyond.y, 0, least) };
 }
 
+ViewportMargin PosterTile::sight(
+  const ViewportMargin& margin, const std::vector<LayerStyling>& styling) const
+{
+  if (!isTile())
+  {
+    return margin;
+  }
+  int reach = 0;
+  for (const LayerStyling& layer : styling)
+  {
+    for (const auto& style : layer.styles)
+    {
+      const double radius = style->size.mode == SplatSize::Mode::Pixels
+        ? style->size.value
+        : SplatSize::mostOfHeight * static_cast<double>(whole_.y);
+      reach = std::max(reach, static_cast<int>(std::ceil(std::min(radius, double(whole_.y)))));
+    }
+  }
+  return { std::max(margin.left, reach), std::max(margin.bottom, reach),
+    std::max(margin.right, reach), std::max(margin.top, reach) };
+}
+
 void PosterTile::place(PlanRequest& request, const ViewportMargin& margin) const
 {
   FrameCamera& camera = request.camera;
@@ -93,6 +115,7 @@ void PosterTile::place(PlanRequest& request, const ViewportMargin& margin) const
   {
     return;
   }
+  camera.pictureHeight = whole_.y;
   const glm::ivec2 corner = shift_ - glm::ivec2(margin.left, margin.bottom);
   for (FrameLens& lens : request.shading.lenses)
   {

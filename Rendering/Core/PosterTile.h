@@ -3,8 +3,11 @@
 #include "pointfront/Plan/FrameCamera.h"
 #include "pointfront/Plan/FramePlanner.h"
 #include "pointfront/Style/FrameShading.h"
+#include "pointfront/Style/StyleSheet.h"
 
 #include <glm/vec2.hpp>
+
+#include <vector>
 
 class vtkRenderer;
 
@@ -27,6 +30,11 @@ public:
   /// halos and hole filling look at neighbours, and splats reach over borders. None beyond the
   /// poster. `shading`  enlarged.
   ViewportMargin margin(const FrameShading& shading) const;
+  /// What must be in sight around the tile: of points further away than the margin, splats may
+  /// reach into it. `margin`  of the tile. Those that `styling` makes large in world units may
+  /// reach further, and are missing then.
+  ViewportMargin sight(
+    const ViewportMargin& margin, const std::vector<LayerStyling>& styling) const;
   /// Widens the request's camera by the margin, and moves the lenses from the renderer's viewport
   /// in the window into what is drawn.
   void place(PlanRequest& request, const ViewportMargin& margin) const;

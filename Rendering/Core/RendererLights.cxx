@@ -53,7 +53,7 @@ glm::dvec3 unit(const glm::dvec3& vector, const glm::dvec3& usual)
   return result;
 }
 
-FrameLight lightOf(vtkLight* light, const glm::dmat4& toView, const glm::dvec3& eyeInView)
+FrameLight lightOf(vtkLight* light, const glm::dmat4& toView, const glm::dvec3& cameraInView)
 {
   constexpr glm::dvec3 ahead(0.0, 0.0, -1.0);
   double from[3];
@@ -69,7 +69,7 @@ FrameLight lightOf(vtkLight* light, const glm::dmat4& toView, const glm::dvec3& 
   result.positional = light->GetPositional() != 0;
   if (result.positional)
   {
-    result.place = glm::vec3(glm::dvec3(toView * glm::dvec4(place, 1.0)) + eyeInView);
+    result.place = glm::vec3(glm::dvec3(toView * glm::dvec4(place, 1.0)) + cameraInView);
     result.aim = glm::vec3(direction);
     result.coneCosine = light->GetConeAngle() < widestCone
       ? static_cast<float>(std::cos(glm::radians(light->GetConeAngle())))
@@ -86,8 +86,6 @@ FrameLight lightOf(vtkLight* light, const glm::dmat4& toView, const glm::dvec3& 
 std::vector<FrameLight> lightsOf(vtkRenderer* renderer, const FrameCamera& camera)
 {
   const glm::dmat4 toView = viewMatrixOf(renderer->GetActiveCamera());
-  // An eye of a stereo pair stands beside the camera (cameraOf()).
-  const glm::dvec3 eyeInView = camera.parallel ? glm::dvec3(0.0) : camera.referenceInView;
   std::vector<FrameLight> lights;
   vtkLightCollection* const all = renderer->GetLights();
   vtkCollectionSimpleIterator at;
@@ -96,7 +94,7 @@ std::vector<FrameLight> lightsOf(vtkRenderer* renderer, const FrameCamera& camer
   {
     if (light->GetSwitch())
     {
-      lights.push_back(lightOf(light, toView, eyeInView));
+      lights.push_back(lightOf(light, toView, camera.cameraInView));
     }
   }
   if (lights.empty())

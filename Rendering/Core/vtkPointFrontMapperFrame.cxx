@@ -113,7 +113,9 @@ pointfront::FrameRequest vtkPointFrontMapper::GetFrameRequest(
   const double walls =
     pointfront::tallestWall(this->GetStore()->GetStore()->description(), styling);
   demand.view = pointfront::withWallsFromAbove(
-    pointfront::viewOf(renderer, actor, this->GetMargin(renderer, actor)), walls);
+    pointfront::viewOf(renderer, actor,
+      pointfront::PosterTile(renderer).sight(this->GetMargin(renderer, actor), styling)),
+    walls);
   demand.layers = this->Internals->Limits.layersOf(*this->GetStore(), styling,
     this->GetStyleSheet() ? this->Internals->Style.pruning()
                           : std::vector<std::shared_ptr<const pointfront::NodePruning>>());
@@ -121,7 +123,7 @@ pointfront::FrameRequest vtkPointFrontMapper::GetFrameRequest(
   {
     pointfront::PlanRequest request;
     this->Place(renderer, actor, request);
-    pointfront::limitToLenses(styling, request.shading.lenses, request.camera,
+    pointfront::limitToLenses(styling, request.shading, request.camera,
       std::max(this->TargetError, this->GetStatistics().thresholdPx), walls, demand.layers);
   }
   pointfront::GpuStreams streams;
@@ -221,6 +223,7 @@ pointfront::FramePlan* vtkPointFrontMapper::PlanFrame(vtkRenderer* renderer, vtk
   }
   // The same nodes, as another actor, eye or pass sees them.
   view.Plan->camera = request.camera;
+  view.Plan->shading = std::move(request.shading); // lights in view space, lenses in pixels
   view.Plan->exchange = request.exchange;
   view.Plan->clippingPlanes = std::move(request.clippingPlanes);
   std::map<std::uint16_t, std::size_t> styleOf; // the next of a layer's

@@ -1,11 +1,12 @@
 #include "SplatHoleFiller.h"
 
 #include "HolesFSGLSL.h"
+#include "LightsGLSL.h"
 #include "PictureVSGLSL.h"
 
 #include "HoleFiller.h"
 #include "OpenGLFunctions.h"
-#include "SplatTarget.h"
+#include "SplatLights.h"
 
 #include <vtkOpenGLFramebufferObject.h>
 #include <vtkOpenGLRenderWindow.h>
@@ -36,12 +37,14 @@ struct HolesSource
   vtkTextureObject* texture;
 };
 
-vtkShaderProgram* useHoles(vtkOpenGLRenderWindow* window, HolesStep step, bool blended)
+vtkShaderProgram* useHoles(vtkOpenGLRenderWindow* window, HolesStep step, bool blended, bool lit)
 {
   std::string fragment = HolesFSGLSL;
   vtkShaderProgram::Substitute(fragment, "//POINTFRONT::Define::Dec",
     "#define POINTFRONT_STEP " + std::to_string(static_cast<int>(step)) +
-      "\n#define POINTFRONT_BLENDED " + (blended ? "1\n" : "0\n"));
+      "\n#define POINTFRONT_BLENDED " + (blended ? "1" : "0") + "\n#define POINTFRONT_LIT " +
+      (lit ? "1\n" : "0\n"));
+  vtkShaderProgram::Substitute(fragment, "//POINTFRONT::Lights::Dec", LightsGLSL);
   return window->GetShaderCache()->ReadyShaderProgram(PictureVSGLSL, fragment.c_str(), "");
 }
 
@@ -63,6 +66,21 @@ void drawLevel(vtkShaderProgram* program, int factor, const float (&agreement)[2
   {
     source.texture->Deactivate();
   }
+}
+
+std::vector<HolesSource> seenOf(SplatTarget& target, const SplatTarget::Parts& parts)
+{
+  std::vector<HolesSource> seen{ { "fineColours", target.seenColours() },
+    { "fineDepths", target.seenDepths() } };
+  if (parts.blended)
+  {
+    seen.push_back({ "colourSums", target.sums() });
+  }
+  if (parts.lit)
+  {
+    seen.push_back({ "seenNormals", target.normals() });
+  }
+  return seen;
 }
 
 } // namespace
@@ -120,9 +138,23 @@ bool SplatHoleFiller::prepare(vtkOpenGLRenderWindow* window, int width, int heig
   return whole;
 }
 
-bool SplatHoleFiller::fill(vtkOpenGLRenderWindow* window, SplatTarget& target, bool blended,
-  const FrameCamera& camera, const PixelRectangle& place)
+/// Light looks at pixels beside what is filled: nothing of an earlier frame is there.
+void SplatHoleFiller::clear(vtkOpenGLState* state)
 {
+  filled_[0].framebuffer->Bind();
+  constexpr GLenum both[] = { GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1 };
+  glDrawBuffers(2, both);
+  state->vtkglDisable(GL_SCISSOR_TEST);
+  constexpr float zeros[4] = {};
+  glClearBufferfv(GL_COLOR, 0, zeros);
+  glClearBufferfv(GL_COLOR, 1, zeros);
+  state->vtkglEnable(GL_SCISSOR_TEST);
+}
+
+bool SplatHoleFiller::fill(vtkOpenGLRenderWindow* window, SplatTarget& target,
+  const SplatTarget::Parts& parts, const FramePlan& plan, const PixelRectangle& place)
+{
+  const FrameCamera& camera = plan.camera;
   if (!prepare(window, camera.width, camera.height))
   {
     return false;
@@ -131,13 +163,24 @@ bool SplatHoleFiller::fill(vtkOpenGLRenderWindow* window, SplatTarget& target, b
   const auto size = static_cast<float>(holeFillerAgreePx / scale);
   const float agreement[2] = { camera.parallel ? 0.0f : size, camera.parallel ? size : 0.0f };
   vtkOpenGLState* const state = window->GetState();
-  const auto draw = [&](HolesStep step, std::size_t number, Level& into, bool sums,
-                      const std::vector<HolesSource>& sources)
+  if (!place.contains({ 0, 0, camera.width, camera.height }))
   {
-    vtkShaderProgram* const program = useHoles(window, step, sums);
+    clear(state);
+  }
+  const auto draw =
+    [&](HolesStep step, std::size_t number, Level& into, const std::vector<HolesSource>& sources)
+  {
+    const bool first = step == HolesStep::Begin;
+    vtkShaderProgram* const program =
+      useHoles(window, step, first && parts.blended, first && parts.lit);
     if (!program)
     {
       return; // VTK has told why
+    }
+    if (first && parts.lit)
+    {
+      program->SetUniformf("depthShift", depthShiftOf(camera));
+      setLights(program, plan);
     }
     into.framebuffer->Bind();
     constexpr GLenum both[] = { GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1 };
@@ -149,23 +192,17 @@ bool SplatHoleFiller::fill(vtkOpenGLRenderWindow* window, SplatTarget& target, b
       (place.top + block - 1) / block - place.bottom / block);
     drawLevel(program, block, agreement, sources);
   };
-  std::vector<HolesSource> seen{ { "fineColours", target.seenColours() },
-    { "fineDepths", target.seenDepths() } };
-  if (blended)
-  {
-    seen.push_back({ "colourSums", target.sums() });
-  }
-  draw(HolesStep::Begin, 0, gathered_[0], blended, seen);
+  draw(HolesStep::Begin, 0, gathered_[0], seenOf(target, parts));
   for (std::size_t level = 1; level <= levels; ++level)
   {
-    draw(HolesStep::Gather, level, gathered_[level], false,
+    draw(HolesStep::Gather, level, gathered_[level],
       { { "fineColours", gathered_[level - 1].colours },
         { "fineDepths", gathered_[level - 1].depths } });
   }
   for (std::size_t level = levels; level-- > 0;)
   {
     Level& coarse = level + 1 == levels ? gathered_[levels] : filled_[level + 1];
-    draw(HolesStep::Fill, level, filled_[level], false,
+    draw(HolesStep::Fill, level, filled_[level],
       { { "fineColours", gathered_[level].colours }, { "fineDepths", gathered_[level].depths },
         { "coarseColours", coarse.colours }, { "coarseDepths", coarse.depths } });
   }

@@ -1,8 +1,9 @@
 #pragma once
 
 #include "PixelRectangle.h"
+#include "SplatTarget.h"
 
-#include "pointfront/Plan/FrameCamera.h"
+#include "pointfront/Plan/FramePlan.h"
 
 #include <vtkNew.h>
 
@@ -10,12 +11,11 @@
 
 class vtkOpenGLFramebufferObject;
 class vtkOpenGLRenderWindow;
+class vtkOpenGLState;
 class vtkTextureObject;
 
 namespace pointfront
 {
-
-class SplatTarget;
 
 /// Fills the holes of what splats show, on the GPU: the twin of fillHoles().
 /// Bytes    40 a pixel, while pictures are filled.
@@ -26,11 +26,11 @@ public:
   SplatHoleFiller();
   ~SplatHoleFiller();
 
-  /// Fills the pixels of `place` (pixels beside it may change) of what is seen in the target, whose
-  /// framebuffers stay as they are. False if GL has no room. `blended`: the target has sums.
-  bool fill(vtkOpenGLRenderWindow* window, SplatTarget& target, bool blended,
-    const FrameCamera& camera, const PixelRectangle& place);
-  /// Of the last filling, in place of SplatTarget's: sums are part of the colours.
+  /// Fills the pixels of `place` of what is seen in the target, whose framebuffers stay as they
+  /// are; nothing is seen beside it. False if GL has no room. `parts`: what the target has.
+  bool fill(vtkOpenGLRenderWindow* window, SplatTarget& target, const SplatTarget::Parts& parts,
+    const FramePlan& plan, const PixelRectangle& place);
+  /// Of the last filling, in place of SplatTarget's: sums and light are part of the colours.
   vtkTextureObject* seenColours() { return filled_[0].colours; }
   vtkTextureObject* seenDepths() { return filled_[0].depths; }
 
@@ -48,6 +48,7 @@ private:
   static constexpr int levels = 3; ///< of HoleFiller.cxx
 
   bool prepare(vtkOpenGLRenderWindow* window, int width, int height);
+  void clear(vtkOpenGLState* state);
   static bool allocate(vtkOpenGLRenderWindow* window, Level& level, int width, int height);
 
   std::array<Level, levels + 1> gathered_; ///< the way down

@@ -11,6 +11,13 @@
 namespace pointfront
 {
 
+float depthShiftOf(const FrameCamera& camera)
+{
+  const glm::dmat4& clip = camera.viewToClip;
+  return camera.parallel ? static_cast<float>((clip[3][2] + clip[3][3]) / (clip[2][2] + clip[2][3]))
+                         : 0.0f;
+}
+
 void setLights(vtkShaderProgram* program, const FramePlan& plan)
 {
   const FrameShading& shading = plan.shading;

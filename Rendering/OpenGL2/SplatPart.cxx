@@ -148,8 +148,7 @@ bool SplatPart::drawInto(const SplatFrame& frame, const FramePlan& plan, bool go
     kept_.draw(frame, tools_, groups_, parts_, true, target_->seenDepths());
     state->vtkglDisable(GL_BLEND);
   }
-  const bool filled =
-    !fills || tools_.holes.fill(frame.window, *target_, parts_.blended, plan.camera, shown_);
+  const bool filled = !fills || tools_.holes.fill(frame.window, *target_, parts_, plan, shown_);
   if (filled)
   {
     state->vtkglScissor(shown_.left, shown_.bottom, shown_.width(), shown_.height());
@@ -193,8 +192,9 @@ void SplatPart::resolve(vtkOpenGLRenderWindow* window, const FramePlan& plan, bo
 {
   const FrameShading& shading = plan.shading;
   const bool eyeDome = shading.eyeDomeStrength > 0.0f;
+  const bool lit = parts_.lit && !fills; // what is filled is lit before
   vtkShaderProgram* const program =
-    tools_.programs.useResolve(window, parts_.blended && !fills, parts_.lit, eyeDome);
+    tools_.programs.useResolve(window, parts_.blended && !fills, lit, eyeDome);
   if (!program)
   {
     return;
@@ -202,16 +202,16 @@ void SplatPart::resolve(vtkOpenGLRenderWindow* window, const FramePlan& plan, bo
   const glm::dmat4& clip = plan.camera.viewToClip;
   const double nearDepth = (clip[3][2] + clip[3][3]) / (clip[2][2] + clip[2][3]);
   const bool parallel = plan.camera.parallel;
-  program->SetUniformf("depthShift", parallel ? static_cast<float>(nearDepth) : 0.0f);
+  program->SetUniformf("depthShift", depthShiftOf(plan.camera));
   program->SetUniformi("composited", plan.composited ? 1 : 0);
-  program->SetUniformf(
-    "octaveShift", parallel ? static_cast<float>(2.0 / clip[1][1] - nearDepth) : 0.0f);
+  program->SetUniformf("octaveShift",
+    parallel ? static_cast<float>(plan.camera.wholeWorldHeight() - nearDepth) : 0.0f);
   program->SetUniformf("eyeDomeStrength", eyeDomeGain * shading.eyeDomeStrength);
   program->SetUniformi(
     "eyeDomeReach", std::max(1, static_cast<int>(std::lround(shading.eyeDomeRadiusPx))));
   const int size[2] = { parts_.width, parts_.height };
   program->SetUniform2i("pictureSize", size);
-  setLights(program, plan);
+  lit ? setLights(program, plan) : void();
   vtkTextureObject* const textures[] = {
     fills ? tools_.holes.seenColours() : target_->seenColours(),
     fills ? tools_.holes.seenDepths() : target_->seenDepths(), target_->sums(), target_->normals()

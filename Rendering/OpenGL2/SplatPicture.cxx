@@ -34,7 +34,7 @@ PixelRectangle limitsOf(const PlanPart& part, const FramePlan& plan)
     plan.shading.lenses[lens].extent(plan.camera.width, plan.camera.height);
   const int reach = plan.shading.reachPx();
   const PixelRectangle place{ e[0] - reach, e[1] - reach, e[2] + reach, e[3] + reach };
-  return plan.shading.fillHoles ? filledFrom(place, plan.camera) : common(viewport, place);
+  return common(viewport, place);
 }
 
 } // namespace

@@ -5,6 +5,7 @@
 #include "CaptureVSGLSL.h"
 #include "ColourMapTextureGLSL.h"
 #include "KeptPointGLSL.h"
+#include "LightsGLSL.h"
 #include "PictureVSGLSL.h"
 #include "PointDataGLSL.h"
 #include "ResolveFSGLSL.h"
@@ -58,6 +59,7 @@ std::string filled(const char* source, const Content& content)
   std::string result = source;
   const std::pair<const char*, std::string> parts[] = {
     { "//POINTFRONT::Define::Dec", content.defines },
+    { "//POINTFRONT::Lights::Dec", LightsGLSL },
     { "//POINTFRONT::SplatData::Dec", SplatDataGLSL },
     { "//POINTFRONT::SplatMembers::Dec", SplatMembersGLSL },
     { "//POINTFRONT::PointData::Dec", PointDataGLSL },

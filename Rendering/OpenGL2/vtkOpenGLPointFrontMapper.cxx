@@ -68,8 +68,7 @@ bool hasTooManyGroups(const std::vector<pointfront::LayerStyling>& layers)
     { return ofLens.second.size() > pointfront::SplatComposition::mostGroups; });
 }
 
-/// More lights that are on than ResolveFS.glsl takes.
-bool hasTooManyLights(vtkRenderer* renderer)
+std::size_t lightsThatAreOn(vtkRenderer* renderer)
 {
   std::size_t lights = 0;
   vtkLightCollection* const all = renderer->GetLights();
@@ -79,7 +78,7 @@ bool hasTooManyLights(vtkRenderer* renderer)
   {
     lights += light->GetSwitch() ? 1 : 0;
   }
-  return lights > pointfront::mostLights;
+  return lights;
 }
 
 } // namespace
@@ -275,6 +274,11 @@ bool vtkOpenGLPointFrontMapper::DrawsFromHostMemory(vtkRenderer* renderer, vtkAc
         : "the software back end does not draw translucent points: OpenGL does");
     return false;
   }
+  if (onlyOpenGL && this->HasTooManyLights(renderer))
+  {
+    this->TellFallBack("OpenGL has at most 48 lights, and draws what the software back end does "
+                       "not: further lights do not shine");
+  }
   if (!asked && !onlyOpenGL && !this->DrawsByOpenGL(renderer, actor))
   {
     this->TellFallBack("OpenGL has at most 4 lenses, 4 translucent styles and 48 lights, and draws "
@@ -285,16 +289,22 @@ bool vtkOpenGLPointFrontMapper::DrawsFromHostMemory(vtkRenderer* renderer, vtkAc
   return asked;
 }
 
+bool vtkOpenGLPointFrontMapper::HasTooManyLights(vtkRenderer* renderer)
+{
+  const auto sheet = this->GetStyleSheet();
+  return sheet && sheet->frameShading().lit && lightsThatAreOn(renderer) > pointfront::mostLights;
+}
+
 bool vtkOpenGLPointFrontMapper::DrawsByOpenGL(vtkRenderer* renderer, vtkActor* actor)
 {
+  if (this->HasTooManyLights(renderer))
+  {
+    return false;
+  }
   const auto sheet = this->GetStyleSheet();
   if (!sheet)
   {
     return true;
-  }
-  if (sheet->frameShading().lit && hasTooManyLights(renderer))
-  {
-    return false;
   }
   const std::vector<pointfront::LayerStyling> layers = this->GetStyling(actor);
   return !hasTooManyGroups(layers) &&

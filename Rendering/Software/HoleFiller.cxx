@@ -21,8 +21,12 @@ static_assert(holeFillerReach == 1 << levels, "a coarsest pixel");
 /// Of 16 parts of bilinear weight, those that have to agree.
 constexpr std::uint32_t leastParts = 10;
 
+/// Cells count from the viewport's corner, wherever the picture begins: what fills a hole does not
+/// depend on how much of the viewport is drawn.
 struct Level
 {
+  int left = 0; ///< of the first cell
+  int bottom = 0;
   int width = 0;
   int height = 0;
   std::vector<float> depth;
@@ -88,8 +92,9 @@ void pull(const Level& fine, Level& coarse, const Agreement& agreement, int fact
         float least = nothing;
         for (int k = 0; k < 4; ++k)
         {
-          const int fx = 2 * x + (k & 1), fy = 2 * y + (k >> 1);
-          if (fx < fine.width && fy < fine.height)
+          const int fx = 2 * (coarse.left + x) + (k & 1) - fine.left;
+          const int fy = 2 * (coarse.bottom + y) + (k >> 1) - fine.bottom;
+          if (fx >= 0 && fy >= 0 && fx < fine.width && fy < fine.height)
           {
             places[count] = fine.at(fx, fy);
             least = std::min(least, fine.depth[places[count]]);
@@ -123,12 +128,12 @@ void push(Level& fine, const Level& coarse, const Agreement& agreement, int fact
   eachRow(fine.height,
     [&](int y)
     {
-      const int cy = std::min(y / 2, coarse.height - 1);
-      const int ny = std::clamp(cy + (y % 2 ? 1 : -1), 0, coarse.height - 1);
+      const int cy = (fine.bottom + y) / 2 - coarse.bottom;
+      const int ny = std::clamp(cy + ((fine.bottom + y) % 2 ? 1 : -1), 0, coarse.height - 1);
       for (int x = 0; x < fine.width; ++x)
       {
-        const int cx = std::min(x / 2, coarse.width - 1);
-        const int nx = std::clamp(cx + (x % 2 ? 1 : -1), 0, coarse.width - 1);
+        const int cx = (fine.left + x) / 2 - coarse.left;
+        const int nx = std::clamp(cx + ((fine.left + x) % 2 ? 1 : -1), 0, coarse.width - 1);
         const std::size_t corners[4] = { coarse.at(cx, cy), coarse.at(nx, cy), coarse.at(cx, ny),
           coarse.at(nx, ny) };
         constexpr std::uint32_t weights[4] = { 9, 3, 3, 1 };
@@ -183,6 +188,8 @@ void fillHoles(const FrameCamera& camera, SoftwareTarget& target)
   Agreement agreement;
   (camera.parallel ? agreement.always : agreement.perDepth) = size;
   std::array<Level, levels + 1> pyramid;
+  pyramid[0].left = target.left;
+  pyramid[0].bottom = target.bottom;
   pyramid[0].width = target.width;
   pyramid[0].height = target.height;
   pyramid[0].depth.swap(target.depth);
@@ -191,8 +198,10 @@ void fillHoles(const FrameCamera& camera, SoftwareTarget& target)
   {
     const Level& fine = pyramid[static_cast<std::size_t>(level - 1)];
     Level& coarse = pyramid[static_cast<std::size_t>(level)];
-    coarse.width = (fine.width + 1) / 2;
-    coarse.height = (fine.height + 1) / 2;
+    coarse.left = fine.left / 2;
+    coarse.bottom = fine.bottom / 2;
+    coarse.width = (fine.left + fine.width + 1) / 2 - coarse.left;
+    coarse.height = (fine.bottom + fine.height + 1) / 2 - coarse.bottom;
     const std::size_t pixels = coarse.at(0, coarse.height);
     coarse.depth.resize(pixels);
     coarse.rgba.resize(pixels);

@@ -180,7 +180,7 @@ PassConditions RasterItems::demandOf(const RasterItem& item) const
 {
   const bool oriented = item.normals || item.style->orientation == SplatOrientation::Fixed;
   const float spacingPx = std::max(plan_.spacingPx, item.item->growingSpacingPx);
-  return { oriented, spacingPx, thinningOf(*item.item), plan_.camera.height };
+  return { oriented, spacingPx, thinningOf(*item.item), plan_.camera.wholeHeight() };
 }
 
 RasterItem RasterItems::wallsOf(const RasterItem& item) const

@@ -11,7 +11,8 @@ inline bool sameCamera(const FrameCamera& a, const FrameCamera& b)
 {
   return a.storeToView == b.storeToView && a.viewToClip == b.viewToClip &&
     a.reference == b.reference && a.referenceInView == b.referenceInView &&
-    a.parallel == b.parallel && a.width == b.width && a.height == b.height;
+    a.parallel == b.parallel && a.width == b.width && a.height == b.height &&
+    a.pictureHeight == b.pictureHeight;
 }
 
 } // namespace pointfront

@@ -55,15 +55,18 @@ glm::vec3 placeAt(const FrameCamera& camera, int x, int y, float depth)
     (clip.y + m[2][1] * depth - m[3][1]) / m[1][1], -depth };
 }
 
+/// A light that nothing weakens, by its numbers, is as bright as can be where it shines.
+constexpr float leastFall = 1.0e-30f;
+
 /// What a positional light gives to a surface: 0 on the side that it does not reach.
 float brightness(const FrameLight& light, const glm::vec3& place, const glm::vec3& normal)
 {
   const glm::vec3 from = place - light.place;
   const float distance = std::max(glm::length(from), std::numeric_limits<float>::min());
   const glm::vec3 ray = from / distance;
-  float share = std::max(-glm::dot(normal, ray), 0.0f) /
-    (light.attenuation.x + light.attenuation.y * distance +
-      light.attenuation.z * distance * distance);
+  const float fall = light.attenuation.x + light.attenuation.y * distance +
+    light.attenuation.z * distance * distance;
+  float share = std::max(-glm::dot(normal, ray), 0.0f) / std::max(fall, leastFall);
   if (light.coneCosine != FrameLight::noCone)
   {
     const float cosine = glm::dot(ray, light.aim);
@@ -108,7 +111,8 @@ std::vector<float> octavesOf(const FrameCamera& camera, const SoftwareTarget& ta
 {
   const glm::dmat4& clip = camera.viewToClip;
   const double nearDepth = (clip[3][2] + clip[3][3]) / (clip[2][2] + clip[2][3]);
-  const auto offset = static_cast<float>(camera.parallel ? 2.0 / clip[1][1] - nearDepth : 0.0);
+  const auto offset =
+    static_cast<float>(camera.parallel ? camera.wholeWorldHeight() - nearDepth : 0.0);
   std::vector<float> octaves(target.depth.size());
   ThreadCrew::ofProcess().run(static_cast<std::size_t>(target.height),
     [&](std::size_t y, unsigned)
@@ -162,13 +166,14 @@ void shade(const FrameCamera& camera, const FrameShading& shading, SoftwareTarge
   {
     return;
   }
-  if (shading.fillHoles && !target.keepPoints) // filled pixels are no points
-  {
-    fillHoles(camera, target);
-  }
   if (shading.lit && !target.normals.empty())
   {
     light(camera, shading, target);
+  }
+  // From what is lit: a filled pixel has no normal of its own.
+  if (shading.fillHoles && !target.keepPoints) // filled pixels are no points
+  {
+    fillHoles(camera, target);
   }
   if (shading.eyeDomeStrength > 0.0f)
   {

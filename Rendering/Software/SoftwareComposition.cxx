@@ -89,7 +89,6 @@ PixelRectangle wider(const PixelRectangle& place, int by, const FrameCamera& cam
 
 } // namespace
 
-/// A lens' holes are filled from blocks of pixels that count from the viewport's corner.
 SoftwareTarget& SoftwareComposition::begin(const PlanPart& part, const FrameShading& shading,
   const FrameCamera& camera, const SoftwareTarget& whole)
 {
@@ -103,15 +102,7 @@ SoftwareTarget& SoftwareComposition::begin(const PlanPart& part, const FrameShad
     if (part.lens >= 0 && lens < shading.lenses.size())
     {
       const std::array<int, 4> e = shading.lenses[lens].extent(camera.width, camera.height);
-      PixelRectangle seen = wider({ e[0], e[1], e[2], e[3] }, shading.reachPx(), camera);
-      if (shading.fillHoles)
-      {
-        seen = common({ 0, 0, camera.width, camera.height },
-          { seen.left & -holeFillerReach, seen.bottom & -holeFillerReach,
-            (seen.right + holeFillerReach - 1) & -holeFillerReach,
-            (seen.top + holeFillerReach - 1) & -holeFillerReach });
-      }
-      place = common(place, seen);
+      place = common(place, wider({ e[0], e[1], e[2], e[3] }, shading.reachPx(), camera));
     }
     own.target.keepPoints = whole.keepPoints;
     own.target.keepDecided = whole.keepDecided;

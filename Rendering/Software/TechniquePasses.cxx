@@ -35,7 +35,6 @@ constexpr float innerParaboloid = 3.0f; ///< radii of the inner part, of discs t
 constexpr float solidParaboloid = 2.0f;
 /// What closes a surface is drawn no larger than that, of the viewport's height: nearer to the eye
 /// there is no surface to be seen.
-constexpr float mostOfHeight = 0.125f;
 
 SplatPass ellipsePass(SplatAccuracy accuracy)
 {
@@ -98,7 +97,8 @@ void boundRadius(
   const float closing =
     share * demand.spacingPx * spacings * static_cast<float>(std::max(style.size.value, 0.0));
   pass.leastRadius = std::max(pass.leastRadius, closing);
-  pass.mostRadius = std::max(pass.leastRadius, mostOfHeight * static_cast<float>(demand.heightPx));
+  pass.mostRadius =
+    std::max(pass.leastRadius, SplatSize::mostOfHeight * static_cast<float>(demand.heightPx));
 }
 
 } // namespace

@@ -17,6 +17,10 @@ uniform sampler2D coarseDepths;
 #endif
 uniform vec2 agreement;        // how far two depths may differ: by a unit of depth, and always
 uniform float levelFactor;     // pixels of the picture in one of the level, along an axis
+#if POINTFRONT_LIT
+uniform float depthShift;      // parallel: of the near plane
+#endif
+//POINTFRONT::Lights::Dec
 
 float agreeing(float depth, float factor)
 {
@@ -34,7 +38,8 @@ vec4 meanOf(ivec3 sum, int parts, float alpha)
 }
 
 #if POINTFRONT_STEP == 0
-// What the levels begin with: colours of who is seen, sums divided; depths of nothing are far.
+// What the levels begin with: colours of who is seen, sums divided, in the light of the frame, for
+// a filled pixel has no normal of its own; depths of nothing are far.
 void main()
 {
   ivec2 at = ivec2(gl_FragCoord.xy);
@@ -47,6 +52,9 @@ void main()
   }
 #endif
   vec2 depths = texelFetch(fineDepths, at, 0).rg;
+#if POINTFRONT_LIT
+  seen.rgb = seen.a > 0.0 ? litColour(seen.rgb, at, depths.g + depthShift) : seen.rgb;
+#endif
   gl_FragData[0] = seen;
   gl_FragData[1] = vec4(seen.a > 0.0 ? depths : vec2(nothing), 0.0, 0.0);
 }

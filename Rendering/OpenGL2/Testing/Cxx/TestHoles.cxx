@@ -1,12 +1,14 @@
 // Holes that are filled, by both back ends in VTK windows.
 
 #include "Scene.h"
+#include "Splats.h"
 
 #include "pointfront/Style/StyleSheet.h"
 #include "vtkPointFrontStyle.h"
 
 #include <vtkHardwareSelector.h>
 #include <vtkIdTypeArray.h>
+#include <vtkLight.h>
 #include <vtkSelection.h>
 #include <vtkSelectionNode.h>
 #include <vtkSmartPointer.h>
@@ -127,6 +129,60 @@ TEST(Holes, SelectNothing)
     scene.draw();
     EXPECT_EQ(count(), open) << "back end " << backend;
     EXPECT_GT(open.size(), 1000u);
+  }
+}
+
+/// Light looks at pixels beside the cloud: nothing of an earlier, larger picture is there.
+TEST(Holes, ShowNothingOfAnEarlierFrame)
+{
+  Gaps scene(gapsStore("gaps_earlier"));
+  ASSERT_TRUE(scene.style->LoadJSON(
+    R"({"default": {"size": {"mode": "fixed", "px": 3}}, "shading": {"mode": "edl", )"
+    R"("strength": 1, "radius_px": 24, "fill_holes": true}})"));
+  scene.lookFrom({ 0.0, 0.0, 1.2 }, { 0.0, 0.0, 0.0 });
+  scene.with(vtkPointFrontMapper::OPENGL);
+  scene.lookFrom({ 0.0, 0.0, 9.0 }, { 0.0, 0.0, 0.0 });
+  const Picture after = scene.draw();
+  scene.mapper->ReleaseGraphicsResources(scene.window);
+  EXPECT_EQ(differing(after, scene.draw()), 0);
+  EXPECT_LE(differing(after, scene.with(vtkPointFrontMapper::SOFTWARE), 2), 0.005 * 300 * 200);
+}
+
+/// A filled pixel has the light of the surface that it closes.
+TEST(Holes, AreLitAsTheSurfaceAround)
+{
+  Splats scene(surfaceStore("gaps_lit", planeAt));
+  scene.lookFrom({ 0.0, 0.0, 5.0 }, { 0.0, 0.0, 0.0 });
+  vtkNew<vtkLight> light;
+  light->SetLightTypeToSceneLight();
+  light->SetPosition(4.0, 0.0, 2.0);
+  light->SetFocalPoint(0.0, 0.0, 0.0);
+  scene.renderer->AutomaticLightCreationOff();
+  scene.renderer->AddLight(light);
+  const std::string json = R"({"default": {"color": "#ffffff", "size": {"mode": "fixed", "px": 1}},
+    "shading": {"mode": "lit", "fill_holes": true}})";
+  for (const int backend : { vtkPointFrontMapper::SOFTWARE, vtkPointFrontMapper::OPENGL })
+  {
+    scene.mapper->SetBackend(backend);
+    ASSERT_TRUE(scene.style->LoadJSON(json));
+    const Picture filled = scene.draw();
+    scene.style->SetFillHoles(false);
+    const Picture open = scene.draw();
+    double sums[2] = {};
+    int counts[2] = {};
+    for (int y = 50; y < 150; ++y)
+    {
+      for (int x = 100; x < 200; ++x)
+      {
+        const std::size_t covered = open.at(x, y)[0] > 0 ? 1 : 0;
+        sums[covered] += filled.at(x, y)[0];
+        ++counts[covered];
+      }
+    }
+    ASSERT_GT(counts[0], 500);
+    ASSERT_GT(counts[1], 500);
+    EXPECT_NEAR(sums[0] / counts[0], sums[1] / counts[1], 6.0) << "back end " << backend;
+    EXPECT_LT(sums[1] / counts[1], 200.0); // at a slant
   }
 }
 

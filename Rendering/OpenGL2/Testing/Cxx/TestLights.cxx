@@ -7,9 +7,11 @@
 #include <vtkCommand.h>
 #include <vtkLight.h>
 #include <vtkSphereSource.h>
+#include <vtkTransform.h>
 
 #include <cmath>
 #include <string>
+#include <utility>
 
 using namespace pointfront;
 using namespace pointfront::test;
@@ -171,6 +173,34 @@ TEST(Lights, MoreThanOpenGLTakesShineAllTheSame)
   EXPECT_EQ(warnings, 1);
 }
 
+/// Only OpenGL draws a translucent actor.
+TEST(Lights, BeyondWhatOpenGLTakesAreToldOf)
+{
+  LitSphere scene;
+  addYellowAndMagenta(scene, 60);
+  scene.actor->GetProperty()->SetOpacity(0.9);
+  int warnings = 0;
+  countEvents(scene.mapper, vtkCommand::WarningEvent, warnings);
+  scene.by(vtkPointFrontMapper::OPENGL);
+  scene.draw();
+  EXPECT_EQ(warnings, 1);
+}
+
+/// What is turned away from such a lamp is not lit, whatever its numbers say.
+TEST(Lights, ThatNothingWeakensAreNoNumbersBeyondFloats)
+{
+  LitSphere scene;
+  vtkLight* const light = scene.add({ 5, 0, 0 }, { 1.0, 1.0, 1.0 });
+  light->PositionalOn();
+  light->SetConeAngle(120.0);
+  light->SetAttenuationValues(0.0, 0.0, 0.0);
+  const Picture software = scene.by(vtkPointFrontMapper::SOFTWARE);
+  const double dark = software.at(middleX - 20, middleY)[0];
+  EXPECT_NEAR(dark, ambient, 2.0);
+  EXPECT_EQ(software.at(middleX + 20, middleY)[0], 255);
+  EXPECT_LE(differing(software, scene.by(vtkPointFrontMapper::OPENGL), 2), 60);
+}
+
 /// A sphere of triangles says how VTK lights what has a place, a cone and a distance.
 TEST(Lights, WithAPlaceShineAsOnVTKsOwnSurfaces)
 {
@@ -201,8 +231,13 @@ TEST(Lights, WithAPlaceShineAsOnVTKsOwnSurfaces)
   scene.renderer->AddActor(own);
   vtkLight* const light = scene.add({ 0, 0, 5 }, { 1.0, 0.8, 0.4 });
   light->PositionalOn();
-  for (const bool parallel : { false, true })
+  vtkNew<vtkTransform> aside; // what is seen lies beside the middle of the view
+  aside->Translate(0.5, 0.2, 0.0);
+  const std::pair<bool, vtkTransform*> views[] = { { false, nullptr }, { true, nullptr },
+    { false, aside } };
+  for (const auto& [parallel, transform] : views)
   {
+    scene.renderer->GetActiveCamera()->SetUserViewTransform(transform);
     scene.renderer->GetActiveCamera()->SetParallelProjection(parallel ? 1 : 0);
     scene.renderer->GetActiveCamera()->SetParallelScale(1.6);
     for (const Lamp& lamp : lamps)

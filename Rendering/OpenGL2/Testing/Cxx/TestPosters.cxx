@@ -70,7 +70,18 @@ struct Look
   const char* what;
   std::string tile; ///< the style of a poster of 3 x 3 tiles
   std::string whole; ///< the same with widths in pixels of the poster
+  bool parallel = false;
 };
+
+std::string splatsOf(const std::string& size, const std::string& further = "")
+{
+  return R"({"default": {"technique": "splats", "size": {)" + size + "}}" + further + "}";
+}
+
+std::string eyeDomeOf(int radius)
+{
+  return R"(, "shading": {"mode": "edl", "radius_px": )" + std::to_string(radius) + "}";
+}
 
 } // namespace
 
@@ -80,18 +91,33 @@ TEST(Posters, AreThePictureOfOneWindow)
   const std::string splats = R"({"default": {"technique": "splats"}, )";
   const std::string open = R"({"default": {"technique": "points", "size": {"mode": "fixed", )"
                            R"("px": 3}}, "shading": {"fill_holes": true}})";
-  const std::string large =
-    R"({"default": {"technique": "splats", "size": {"mode": "spacing", "factor": 4}}})";
+  const std::string closing = R"("mode": "spacing", "factor": )";
+  const std::string large = splatsOf(closing + "4");
+  const std::string largest = splatsOf(closing + "12"); // an eighth of the poster's height
+  const std::string fixed = splatsOf(R"("mode": "fixed", "px": 80)");
+  const auto filledAndDark = [](int radius)
+  {
+    return R"({"default": {"size": {"mode": "fixed", "px": 3}}, "shading": {"mode": "edl", )"
+           R"("fill_holes": true, "radius_px": )" +
+      std::to_string(radius) + "}}";
+  };
   const Look looks[] = {
-    { "eye-dome lighting", splats + R"("shading": {"mode": "edl", "radius_px": 2}})",
-      splats + R"("shading": {"mode": "edl", "radius_px": 6}})" },
+    { "eye-dome lighting", splatsOf(closing + "1", eyeDomeOf(2)),
+      splatsOf(closing + "1", eyeDomeOf(6)) },
+    { "eye-dome lighting, parallel", splatsOf(closing + "1", eyeDomeOf(2)),
+      splatsOf(closing + "1", eyeDomeOf(6)), true },
+    { "holes and light", filledAndDark(3), filledAndDark(9) },
     { "halo", splats + R"("highlight": [{"class": 5, "color": "#ff0000", "halo_px": 3}]})",
       splats + R"("highlight": [{"class": 5, "color": "#ff0000", "halo_px": 9}]})" },
     { "holes", open, open },
     { "large discs", large, large },
+    { "largest discs", largest, largest },
+    { "discs of 80 pixels", fixed, fixed },
   };
   for (const Look& look : looks)
   {
+    scene.renderer->GetActiveCamera()->SetParallelProjection(look.parallel ? 1 : 0);
+    scene.renderer->GetActiveCamera()->SetParallelScale(1.2);
     for (const int backend : { vtkPointFrontMapper::SOFTWARE, vtkPointFrontMapper::OPENGL })
     {
       ASSERT_TRUE(scene.style->LoadJSON(look.tile)) << look.what;

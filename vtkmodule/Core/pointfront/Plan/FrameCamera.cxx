@@ -100,4 +100,14 @@ void FrameCamera::setViewport(int viewportWidth, int viewportHeight, const Viewp
   height = viewportHeight + around.bottom + around.top;
 }
 
+int FrameCamera::wholeHeight() const
+{
+  return pictureHeight > 0 ? pictureHeight : height - margin.bottom - margin.top;
+}
+
+double FrameCamera::wholeWorldHeight() const
+{
+  return 2.0 / viewToClip[1][1] * (static_cast<double>(wholeHeight()) / height);
+}
+
 } // namespace pointfront

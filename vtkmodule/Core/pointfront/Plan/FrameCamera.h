@@ -32,10 +32,14 @@ struct FrameCamera
   /// The place of the reference point in view space: exactly 0 when it is the eye, so that no
   /// rounding noise of two large terms enters.
   glm::dvec3 referenceInView{ 0.0 };
+  /// Where VTK's camera is, from which an eye of a stereo pair stands aside: what is in that
+  /// camera's view space is moved by this into the eye's.
+  glm::dvec3 cameraInView{ 0.0 };
   bool parallel = false;
   int width = 1; ///< of the viewport and its margin, pixels
   int height = 1;
   ViewportMargin margin; ///< part of width, height and viewToClip; set by setViewport()
+  int pictureHeight = 0; ///< pixels; of the picture of which the viewport is a tile; 0: it is all
 
   /// A symmetric view for tools and tests; `verticalAngle` in radians, square pixels.
   static FrameCamera perspective(const glm::dvec3& position, const glm::dvec3& focalPoint,
@@ -50,6 +54,10 @@ struct FrameCamera
   void setViewport(int viewportWidth, int viewportHeight, const ViewportMargin& around);
 
   glm::dmat4 storeToClip() const { return viewToClip * storeToView; }
+  /// What depends on the height of a picture is the same in all of its tiles, pixels.
+  int wholeHeight() const;
+  /// What the whole picture shows from bottom to top, world units; of a parallel view.
+  double wholeWorldHeight() const;
 };
 
 } // namespace pointfront

@@ -70,7 +70,8 @@ struct FrameShading
   std::vector<FrameLens> lenses;
   std::vector<FrameHighlight> highlights; ///< at most mostHighlights
 
-  /// How far from a pixel light, highlights and hole filling look.
+  /// How far from a pixel light, highlights and hole filling look. Light and highlights look at
+  /// filled pixels, too.
   int reachPx() const
   {
     int reach = eyeDomeStrength > 0.0f ? static_cast<int>(std::ceil(eyeDomeRadiusPx)) + 1 : 0;
@@ -78,7 +79,7 @@ struct FrameShading
     {
       reach = std::max(reach, static_cast<int>(std::ceil(one.haloPx)) + 1);
     }
-    return fillHoles ? std::max(reach, holeFillerReach) : reach;
+    return fillHoles ? reach + 2 * holeFillerReach - 1 : reach;
   }
 
   friend bool operator==(const FrameShading& a, const FrameShading& b)

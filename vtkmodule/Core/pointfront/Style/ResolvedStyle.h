@@ -38,6 +38,9 @@ enum class SplatAccuracy : std::uint8_t
 /// How large a splat is (docs/user/styles.md).
 struct SplatSize
 {
+  /// What closes a surface that is near is at most that share of the picture's height.
+  static constexpr float mostOfHeight = 0.125f;
+
   enum class Mode : std::uint8_t
   {
     Pixels, ///< diameter, pixels

@@ -32,7 +32,7 @@ bool isBounded(const ResolvedStyle& style, const std::vector<FrameLens>& lenses)
 
 /// Where a style's points are seen; nothing if its lens lies beside the viewport.
 std::optional<SightWindow> windowOf(const ResolvedStyle& style, const FrameLens& lens,
-  const FrameCamera& camera, double thresholdPx, double wallHeight)
+  const FrameCamera& camera, double thresholdPx, double aroundPx, double wallHeight)
 {
   const std::array<int, 4> extent = lens.extent(camera.width, camera.height);
   if (extent[0] >= extent[2] || extent[1] >= extent[3])
@@ -41,7 +41,7 @@ std::optional<SightWindow> windowOf(const ResolvedStyle& style, const FrameLens&
   }
   const double factor = std::max(1.0, style.size.value);
   const SplatSize::Mode mode = style.size.mode;
-  const double margin = marginPx +
+  const double margin = marginPx + aroundPx +
     (mode == SplatSize::Mode::Pixels       ? factor
         : mode == SplatSize::Mode::Spacing ? mostOfSpacing * factor * roundedUp(thresholdPx)
                                            : 0.0);
@@ -70,10 +70,11 @@ std::optional<SightWindow> windowOf(const ResolvedStyle& style, const FrameLens&
 
 } // namespace
 
-void limitToLenses(const std::vector<LayerStyling>& styling, const std::vector<FrameLens>& lenses,
+void limitToLenses(const std::vector<LayerStyling>& styling, const FrameShading& shading,
   const FrameCamera& camera, double thresholdPx, double wallHeight,
   std::vector<LayerLimits>& layers)
 {
+  const std::vector<FrameLens>& lenses = shading.lenses;
   for (std::size_t layer = 0; layer < styling.size() && !lenses.empty(); ++layer)
   {
     const auto& styles = styling[layer].styles;
@@ -87,7 +88,8 @@ void limitToLenses(const std::vector<LayerStyling>& styling, const std::vector<F
     for (const auto& style : styles)
     {
       const FrameLens& lens = lenses[static_cast<std::size_t>(style->lens)];
-      if (const auto window = windowOf(*style, lens, camera, thresholdPx, wallHeight))
+      if (const auto window =
+            windowOf(*style, lens, camera, thresholdPx, shading.reachPx(), wallHeight))
       {
         layers[layer].windows.push_back(*window);
       }

@@ -68,6 +68,34 @@ TEST(EPTTree, HoldsThePointsOfItsNodesByItsOwnHierarchy)
   EXPECT_EQ(cloud->files().size(), 14u);
 }
 
+/// Ranges are those of a few points: a filter finds what lies beyond them.
+TEST(EPTTree, AFilterFindsWhatLiesBeyondTheSampledRanges)
+{
+  const auto cloud = openTree("lone-star-laszip/ept.json");
+  ASSERT_TRUE(cloud);
+  const StoreDescription& description = cloud->description();
+  EXPECT_TRUE(description.rangesAreSampled);
+  const auto read = openPoints(EPTFormat(lazOpener()), trees + "lone-star-laszip/ept.json");
+  ASSERT_TRUE(read);
+  const std::vector<Point> all = pointsOf(*read);
+  const std::size_t column = *description.schema.find("intensity");
+  const double sampled = description.ranges[column].components[0][1];
+  const auto expected = std::count_if(
+    all.begin(), all.end(), [&](const Point& point) { return std::get<3>(point) > sampled; });
+  ASSERT_GT(expected, 0) << sampled;
+  PointQuery query;
+  query.where = *FilterExpression::parse("intensity > " + std::to_string(int(sampled)));
+  std::size_t found = 0;
+  const auto report = queryPoints(*cloud, query, {},
+    [&](QueryBatch& batch) -> Result<void>
+    {
+      found += batch.size();
+      return {};
+    });
+  ASSERT_TRUE(report) << report.error().what;
+  EXPECT_EQ(found, static_cast<std::size_t>(expected));
+}
+
 TEST(EPTTree, BinaryNodesToo)
 {
   const auto cloud = openTree("bcbf");

@@ -125,6 +125,7 @@ std::string storeFacts(const StoredCloud& store)
       {
         text << "  " << ends[0];
         ends[0] < ends[1] ? text << " to " << ends[1] : text;
+        about.rangesAreSampled ? text << " in some points" : text;
       }
     }
     text << "\n";

@@ -125,6 +125,16 @@ Result<ExportReport> exportMadeUp(const MadeUpStore& store, const ExportSelectio
 
 } // namespace
 
+/// A format that holds the largest value that was seen might not hold the next.
+TEST(StoreExport, OfSampledRangesExpectsWhatTheTypeHolds)
+{
+  MadeUpStore store;
+  store.description.rangesAreSampled = true;
+  RecordingSink sink;
+  ASSERT_TRUE(exportMadeUp(store, {}, sink));
+  EXPECT_EQ(sink.begun.largest, std::vector<double>{ 255.0 });
+}
+
 TEST(StoreExport, GivesEveryPointOnceInTheOrderOfTheNodes)
 {
   const MadeUpStore store;

@@ -53,6 +53,9 @@ TEST(WallReach, AWallIsNoTallerThanTheStoreSays)
   EXPECT_EQ(tallestWall(store, *sheet.resolveAll(store)), 0.0);
   sheet.classes[6].visible = true;
   const auto layers = *sheet.resolveAll(store);
+  store.rangesAreSampled = true; // others may be taller
+  EXPECT_EQ(tallestWall(store, layers), store.bounds.high.z - store.bounds.low.z);
+  store.rangesAreSampled = false;
   store.ranges.back().components[0][1] = std::numeric_limits<double>::infinity();
   EXPECT_EQ(tallestWall(store, layers), store.bounds.high.z - store.bounds.low.z);
 }

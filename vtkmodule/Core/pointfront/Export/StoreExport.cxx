@@ -3,6 +3,7 @@
 #include "pointfront/Export/OutputTarget.h"
 #include "pointfront/Query/BoxRegion.h"
 #include "pointfront/Query/QueryPlan.h"
+#include "pointfront/Statistics/ColumnStatistics.h"
 
 #include <algorithm>
 #include <memory>
@@ -28,10 +29,13 @@ SinkDescription sinkDescription(const StoreDescription& store, const PointQuery&
   const bool everything =
     query.regions.empty() && query.classes.empty() && query.where.empty() && query.spacing <= 0.0;
   sink.pointCount = everything ? store.pointCount : 0;
-  for (const ColumnRange& range : store.ranges)
+  for (std::size_t c = 0; c < store.ranges.size(); ++c)
   {
+    // Whether colours are of 8 bits in 16 is a guess anyway, which EightBitColourSink checks.
+    const bool guess = store.schema[c].name == "rgb";
     double largest = 0.0;
-    for (const std::array<double, 2>& component : range.components)
+    for (const std::array<double, 2>& component :
+      (guess ? store.ranges[c] : certainRange(store, c)).components)
     {
       largest = std::max(largest, component[1]);
     }

@@ -202,6 +202,7 @@ void ForeignTree::describe(const ForeignTreeContent& content)
 /// Their bounds become those of the cloud, for the time being.
 Result<void> ForeignTree::lookAtFirstPoints()
 {
+  description_.rangesAreSampled = true;
   ColumnSelection all;
   for (std::uint32_t c = 0; c < description_.schema.size(); ++c)
   {

@@ -154,6 +154,26 @@ ColumnRange rangeOf(const std::byte* values, const Attribute& attribute, std::si
     [&](auto zero) { return rangeOfValues<decltype(zero)>(values, points, components); });
 }
 
+ColumnRange certainRange(const StoreDescription& store, std::size_t column)
+{
+  if (!store.rangesAreSampled)
+  {
+    return store.ranges[column];
+  }
+  const Attribute& attribute = store.schema[column];
+  ColumnRange range;
+  visitScalar(attribute.type,
+    [&](auto zero)
+    {
+      using Limits = std::numeric_limits<decltype(zero)>;
+      const bool whole = Limits::is_integer;
+      range.components.assign(attribute.components,
+        { whole ? static_cast<double>(Limits::lowest()) : -infinity,
+          whole ? static_cast<double>(Limits::max()) : infinity });
+    });
+  return range;
+}
+
 void addRange(ColumnRange& range, const ColumnRange& other)
 {
   for (std::size_t c = 0; c < range.components.size(); ++c)

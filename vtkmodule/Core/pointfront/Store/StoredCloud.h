@@ -49,6 +49,9 @@ struct StoreDescription
   std::uint32_t levels = 0;
   AttributeSchema schema;
   std::vector<ColumnRange> ranges; ///< one for each column
+  /// The ranges are those of some points: others may lie beyond (files of others, read in place).
+  /// certainRange() is what holds for all.
+  bool rangesAreSampled = false;
   std::vector<Layer> layers;
   std::vector<MetadataRecord> metadata;
   std::string generator; ///< "pointfront 0.1.0"

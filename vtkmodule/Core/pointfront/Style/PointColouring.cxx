@@ -1,5 +1,6 @@
 #include "pointfront/Style/PointColouring.h"
 
+#include "pointfront/Statistics/ColumnStatistics.h"
 #include "pointfront/Style/ClassHeights.h"
 
 #include <algorithm>
@@ -152,16 +153,18 @@ std::optional<PointColouring> PointColouring::choose(const StoreDescription& des
     attribute.components == 1 ? 0 : std::min<int>(request.component, attribute.components - 1);
   if (colouring.component >= 0)
   {
-    const auto& range = ranges[static_cast<std::size_t>(colouring.component)];
+    const auto component = static_cast<std::size_t>(colouring.component);
+    const auto& range = ranges[component];
+    const auto certain = certainRange(description, *column).components[component];
     const bool known = range[0] <= range[1];
     const double low = range[0] * attribute.scale + attribute.offset;
     const double high = range[1] * attribute.scale + attribute.offset;
     colouring.base = known ? std::min(low, high) : 0.0;
     if (known && isInteger(attribute.type) && attribute.scale == 1.0 && attribute.offset == 0.0 &&
-      range[1] - range[0] < static_cast<double>(mostIntegers))
+      certain[1] - certain[0] < static_cast<double>(mostIntegers))
     {
-      colouring.integers = std::array<std::int64_t, 2>{ static_cast<std::int64_t>(range[0]),
-        static_cast<std::int64_t>(range[1]) };
+      colouring.integers = std::array<std::int64_t, 2>{ static_cast<std::int64_t>(certain[0]),
+        static_cast<std::int64_t>(certain[1]) };
     }
   }
   return colouring;

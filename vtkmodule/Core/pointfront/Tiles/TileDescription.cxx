@@ -285,6 +285,8 @@ Result<TileDescription> TileDescription::of(
   std::vector<TilePlacing> placings = chooseGrid(whole, tiles);
   compareSystems(whole, tiles);
   compareDistances(whole, tiles);
+  whole.rangesAreSampled = std::any_of(
+    tiles.begin(), tiles.end(), [](const auto& tile) { return tile->rangesAreSampled; });
   for (std::size_t c = 0; c < whole.schema.size(); ++c)
   {
     whole.ranges.push_back(emptyRange(whole.schema[c]));

@@ -18,7 +18,7 @@ double tallestWall(const StoreDescription& store, const std::vector<LayerStyling
         continue;
       }
       const std::size_t column = *style->heightColumn;
-      const bool known = column < store.ranges.size() &&
+      const bool known = !store.rangesAreSampled && column < store.ranges.size() &&
         store.ranges[column].components.size() == 1 &&
         std::isfinite(store.ranges[column].components[0][1]);
       tallest = std::max(tallest,

@@ -25,7 +25,9 @@ enum class Step
 {
   Blend,
   Lens,
-  Highlight
+  Tints,
+  RowsOfRim,
+  Rim
 };
 
 std::string fragmentOf(Step step, std::size_t count, bool ids)
@@ -49,7 +51,7 @@ std::string fragmentOf(Step step, std::size_t count, bool ids)
   vtkShaderProgram::Substitute(source, "//POINTFRONT::Groups::Dec", declared);
   vtkShaderProgram::Substitute(source, "//POINTFRONT::Groups::Impl", read);
   vtkShaderProgram::Substitute(
-    source, "//POINTFRONT::Highlight::Dec", step == Step::Highlight ? HighlightGLSL : "");
+    source, "//POINTFRONT::Highlight::Dec", step >= Step::Tints ? HighlightGLSL : "");
   return source;
 }
 
@@ -115,7 +117,11 @@ SplatComposition::Target& SplatComposition::next(const std::vector<Input>& input
   const auto isRead = [&](const Target& target)
   {
     return std::any_of(inputs.begin(), inputs.end(),
-      [&](const Input& input) { return input.texture == target.colours.GetPointer(); });
+      [&](const Input& input)
+      {
+        return input.texture == target.colours.GetPointer() ||
+          input.texture == target.depths.GetPointer();
+      });
   };
   return *std::find_if(
     targets_.begin(), targets_.end(), [&](const Target& target) { return !isRead(target); });
@@ -225,22 +231,41 @@ SplatTextures SplatComposition::highlight(
   {
     return base;
   }
-  std::vector<std::array<float, 4>> looks;
-  std::vector<float> tints;
-  float widest = 0.0f;
+  std::vector<std::array<float, 4>> tints;
   for (const FrameHighlight& one : highlights)
   {
-    looks.push_back({ one.colour.r, one.colour.g, one.colour.b, one.haloPx });
-    tints.push_back(one.tint);
-    widest = std::max(widest, one.haloPx);
+    tints.push_back({ one.colour.r, one.colour.g, one.colour.b, one.tint });
   }
-  return draw(fragmentOf(Step::Highlight, highlights.size(), ids_), {}, base,
+  const auto count = static_cast<int>(tints.size());
+  SplatTextures picture = draw(fragmentOf(Step::Tints, tints.size(), ids_), {}, base,
+    [&](vtkShaderProgram* program)
+    { program->SetUniform4fv("tints", count, reinterpret_cast<float(*)[4]>(tints.data())); });
+  for (int number = 0; number < count; ++number)
+  {
+    const FrameHighlight& one = highlights[static_cast<std::size_t>(number)];
+    if (one.haloPx > 0.0f)
+    {
+      picture = drawRim(picture, one, number + 1);
+    }
+  }
+  return picture;
+}
+
+SplatTextures SplatComposition::drawRim(
+  const SplatTextures& base, const FrameHighlight& look, int mark)
+{
+  const auto setReach = [&](vtkShaderProgram* program)
+  {
+    program->SetUniformi("mark", mark);
+    program->SetUniformi("reach", static_cast<int>(std::ceil(look.haloPx)));
+  };
+  const SplatTextures rows = draw(fragmentOf(Step::RowsOfRim, 1, ids_), {}, base, setReach);
+  return draw(fragmentOf(Step::Rim, 1, ids_), { { "acrossMarks", rows.depths } }, base,
     [&](vtkShaderProgram* program)
     {
-      const auto count = static_cast<int>(highlights.size());
-      program->SetUniform4fv("highlights", count, reinterpret_cast<float(*)[4]>(looks.data()));
-      program->SetUniform1fv("tints", count, tints.data());
-      program->SetUniformi("reach", static_cast<int>(std::ceil(widest)));
+      setReach(program);
+      const float rim[4] = { look.colour.r, look.colour.g, look.colour.b, look.haloPx };
+      program->SetUniform4f("rim", rim);
     });
 }
 

@@ -75,6 +75,8 @@ private:
   SplatTextures draw(const std::string& fragment, std::vector<Input> inputs,
     const SplatTextures& base, const SetUniforms& setUniforms);
   Target& next(const std::vector<Input>& inputs);
+  /// `mark`: of the pixels that it is around.
+  SplatTextures drawRim(const SplatTextures& base, const FrameHighlight& look, int mark);
 
   vtkOpenGLRenderWindow* window_ = nullptr;
   int width_ = 0;

@@ -119,9 +119,5 @@ void main()
 
 #else
 // What stands out: its pixels are tinted, and it has a rim on what lies behind it.
-uniform vec4 highlights[POINTFRONT_COUNT]; // colour, width of the rim in pixels
-uniform float tints[POINTFRONT_COUNT];
-uniform int reach;                         // of the widest rim
-
 //POINTFRONT::Highlight::Dec
 #endif

@@ -4,56 +4,93 @@ vec4 mixedWith(vec4 own, vec3 colour, float share)
   return inBytes(vec4(mix(own.rgb, colour, most), own.a + (1.0 - own.a) * share));
 }
 
+#if POINTFRONT_STEP == 2
+// All tints at once.
+uniform vec4 tints[POINTFRONT_COUNT]; // colour, share
+
 void main()
 {
   ivec2 at = ivec2(gl_FragCoord.xy);
-  ivec2 last = textureSize(baseDepths, 0) - 1;
   vec4 colour = texelFetch(baseColours, at, 0);
   vec2 own = texelFetch(baseDepths, at, 0).rg;
-  int mark = int(own.g + 0.5);
-  if (mark > 0)
+  int number = int(own.g + 0.5) - 1;
+  if (number >= 0)
   {
-    colour = mixedWith(colour, highlights[mark - 1].rgb, tints[mark - 1]);
-  }
-  int least[POINTFRONT_COUNT];
-  float from[POINTFRONT_COUNT];
-  for (int i = 0; i < POINTFRONT_COUNT; ++i)
-  {
-    least[i] = 1 << 20;
-  }
-  for (int y = -reach; y <= reach; ++y)
-  {
-    for (int x = -reach; x <= reach; ++x)
-    {
-      ivec2 there = at + ivec2(x, y);
-      if (any(lessThan(there, ivec2(0))) || any(greaterThan(there, last)))
-      {
-        continue;
-      }
-      vec2 other = texelFetch(baseDepths, there, 0).rg;
-      int number = int(other.g + 0.5) - 1;
-      if (number >= 0 && x * x + y * y < least[number])
-      {
-        least[number] = x * x + y * y;
-        from[number] = other.r;
-      }
-    }
-  }
-  float depth = own.r;
-  for (int i = 0; i < POINTFRONT_COUNT; ++i)
-  {
-    float halo = highlights[i].a;
-    float share = clamp(halo + 1.0 - sqrt(float(least[i])), 0.0, 1.0);
-    bool within = least[i] <= int(ceil(halo)) * int(ceil(halo)) * 2;
-    if (halo > 0.0 && mark != i + 1 && within && share > 0.0 && from[i] < depth)
-    {
-      colour = mixedWith(colour, highlights[i].rgb, share);
-      depth = depth < nothingThere ? depth : from[i];
-    }
+    colour = mixedWith(colour, tints[number].rgb, tints[number].a);
   }
   gl_FragData[0] = colour;
-  gl_FragData[1] = vec4(depth, own.g, 0.0, 0.0);
+  gl_FragData[1] = vec4(own, 0.0, 0.0);
 #if POINTFRONT_IDS
   gl_FragData[2] = texelFetch(baseIds, at, 0);
 #endif
 }
+
+#else
+// The rim of one of them, rows first: so its cost grows with its width and not with the square.
+uniform int mark;
+uniform int reach; // pixels that the rim is wide at most
+
+const float noneInRow = 1.0e6;
+
+#if POINTFRONT_STEP == 3
+// Pixels in the row to the nearest that is marked, the left one of two.
+bool marked(ivec2 at, int width)
+{
+  return at.x >= 0 && at.x < width && int(texelFetch(baseDepths, at, 0).g + 0.5) == mark;
+}
+
+void main()
+{
+  ivec2 at = ivec2(gl_FragCoord.xy);
+  int width = textureSize(baseDepths, 0).x;
+  float across = noneInRow;
+  for (int x = 0; x <= reach && across == noneInRow; ++x)
+  {
+    across = marked(at - ivec2(x, 0), width) ? float(-x)
+      : marked(at + ivec2(x, 0), width)      ? float(x)
+                                             : noneInRow;
+  }
+  gl_FragData[0] = vec4(0.0);
+  gl_FragData[1] = vec4(across, 0.0, 0.0, 0.0);
+#if POINTFRONT_IDS
+  gl_FragData[2] = vec4(0.0);
+#endif
+}
+
+#else
+uniform sampler2D acrossMarks;
+uniform vec4 rim; // colour, width in pixels
+
+void main()
+{
+  ivec2 at = ivec2(gl_FragCoord.xy);
+  int last = textureSize(baseDepths, 0).y - 1;
+  vec4 colour = texelFetch(baseColours, at, 0);
+  vec2 own = texelFetch(baseDepths, at, 0).rg;
+  int least = 1 << 20;
+  ivec2 from = at;
+  for (int y = max(-reach, -at.y); y <= min(reach, last - at.y); ++y)
+  {
+    float across = texelFetch(acrossMarks, at + ivec2(0, y), 0).r;
+    int x = int(across);
+    if (across != noneInRow && x * x + y * y < least)
+    {
+      least = x * x + y * y;
+      from = at + ivec2(x, y);
+    }
+  }
+  float share = clamp(rim.a + 1.0 - sqrt(float(least)), 0.0, 1.0);
+  float depth = texelFetch(baseDepths, from, 0).r;
+  if (int(own.g + 0.5) != mark && share > 0.0 && depth < own.r)
+  {
+    colour = mixedWith(colour, rim.rgb, share);
+    own.r = own.r < nothingThere ? own.r : depth;
+  }
+  gl_FragData[0] = colour;
+  gl_FragData[1] = vec4(own, 0.0, 0.0);
+#if POINTFRONT_IDS
+  gl_FragData[2] = texelFetch(baseIds, at, 0);
+#endif
+}
+#endif
+#endif

@@ -132,6 +132,9 @@ TEST(Lenses, AreAlikeInBothBackEnds)
       R"({"classes": {"5": {"opacity": 0.4}, "2": {"opacity": 0.7, "technique": "ewa"}}})" },
     { "highlight", R"({"classes": {"5": {"where": "x in [-0.5, 0.4]"}},
       "highlight": [{"class": 5, "color": "#ffcc00", "halo_px": 4, "tint": 0.3}]})" },
+    { "wide halos", R"({"classes": {"5": {"where": "x in [-0.5, 0.4]"}, "2": {"where": "y < 0"}},
+      "highlight": [{"class": 5, "color": "#ffcc00", "halo_px": 15.5, "tint": 0.3},
+        {"class": 2, "color": "#00ffcc", "halo_px": 7}]})" },
   };
   Meadow scene(meadowStore("alike"));
   scene.lookFrom({ 1.5, -3.0, 4.0 }, { 0.0, 0.0, 0.2 });

@@ -132,3 +132,16 @@ TEST(Posters, AreThePictureOfOneWindow)
     }
   }
 }
+
+/// Halos grow as posters do: what one costs grows with its width, not with the square of it.
+TEST(Posters, HaveWideHalosInBothBackEnds)
+{
+  Pillars scene(pillarsStore("poster_halo"));
+  ASSERT_TRUE(scene.style->LoadJSON(splatsOf(R"("mode": "fixed", "px": 3)",
+    R"(, "classes": {"5": {"where": "x in [-0.3, 0.2]"}}, "highlight": )"
+    R"([{"class": 5, "color": "#ff0000", "halo_px": 16}])")));
+  const Picture software = scene.poster(vtkPointFrontMapper::SOFTWARE, 480, 320, 8);
+  const Picture gl = scene.poster(vtkPointFrontMapper::OPENGL, 480, 320, 8);
+  EXPECT_GT(gl.lit(), 60000);
+  EXPECT_LE(differing(software, gl, 2), 0.005 * gl.width * gl.height);
+}

@@ -31,6 +31,7 @@ struct Level
   int height = 0;
   std::vector<float> depth;
   std::vector<std::uint32_t> rgba;
+  std::vector<std::uint8_t> highlights; ///< empty: nothing stands out
 
   std::size_t at(int x, int y) const
   {
@@ -114,6 +115,10 @@ void pull(const Level& fine, Level& coarse, const Agreement& agreement, int fact
         {
           if (fine.depth[places[k]] <= most)
           {
+            if (parts == 0 && !fine.highlights.empty()) // of the first that agrees
+            {
+              coarse.highlights[place] = fine.highlights[places[k]];
+            }
             add(sum, fine.rgba[places[k]], 1);
             ++parts;
           }
@@ -162,6 +167,11 @@ void push(Level& fine, const Level& coarse, const Agreement& agreement, int fact
         {
           fine.depth[place] = least;
           fine.rgba[place] = mean(sum, parts);
+          // With so many parts the nearest corner is one that agrees.
+          if (!fine.highlights.empty())
+          {
+            fine.highlights[place] = coarse.highlights[corners[0]];
+          }
         }
       }
     });
@@ -194,6 +204,7 @@ void fillHoles(const FrameCamera& camera, SoftwareTarget& target)
   pyramid[0].height = target.height;
   pyramid[0].depth.swap(target.depth);
   pyramid[0].rgba.swap(target.rgba);
+  pyramid[0].highlights.swap(target.highlights);
   for (int level = 1; level <= levels; ++level)
   {
     const Level& fine = pyramid[static_cast<std::size_t>(level - 1)];
@@ -205,6 +216,7 @@ void fillHoles(const FrameCamera& camera, SoftwareTarget& target)
     const std::size_t pixels = coarse.at(0, coarse.height);
     coarse.depth.resize(pixels);
     coarse.rgba.resize(pixels);
+    coarse.highlights.resize(fine.highlights.empty() ? 0 : pixels);
     pull(fine, coarse, agreement, 1 << level);
   }
   for (int level = levels - 1; level >= 0; --level)
@@ -214,6 +226,7 @@ void fillHoles(const FrameCamera& camera, SoftwareTarget& target)
   }
   pyramid[0].depth.swap(target.depth);
   pyramid[0].rgba.swap(target.rgba);
+  pyramid[0].highlights.swap(target.highlights);
 }
 
 } // namespace pointfront

@@ -82,15 +82,18 @@ void main()
   float most = agreeing(least, levelFactor);
   ivec3 sum = ivec3(0);
   int parts = 0;
+  float alpha = 0.0; // with the highlight of the first that agrees
   for (int k = 0; k < 4; ++k)
   {
     if (depths[k] <= most)
     {
-      sum += bytesOf(texelFetch(fineColours, 2 * at + ivec2(k & 1, k >> 1), 0));
+      vec4 colour = texelFetch(fineColours, 2 * at + ivec2(k & 1, k >> 1), 0);
+      sum += bytesOf(colour);
+      alpha = parts == 0 ? colour.a : alpha;
       ++parts;
     }
   }
-  gl_FragData[0] = meanOf(sum, parts, 1.0);
+  gl_FragData[0] = meanOf(sum, parts, alpha);
 }
 
 #else
@@ -129,7 +132,8 @@ void main()
     }
     if (parts >= leastParts)
     {
-      colour = meanOf(sum, parts, colour.a > 0.0 ? colour.a : 1.0);
+      // With so many parts the nearest corner is one that agrees: its highlight is the pixel's.
+      colour = meanOf(sum, parts, texelFetch(coarseColours, near, 0).a);
       // What decided stays where something is: that is compared with other processes' pictures.
       depth = vec2(depth.r < nothingThere ? depth.r : least, least);
     }

@@ -186,6 +186,32 @@ TEST(Holes, AreLitAsTheSurfaceAround)
   }
 }
 
+/// A filled pixel stands out as the class that closes it does.
+TEST(Holes, AreTintedAsTheClassAround)
+{
+  Gaps scene(gapsStore("gaps_tinted"));
+  const std::string blue =
+    R"(, "highlight": [{"class": 5, "color": "#0000ff", "halo_px": 0, "tint": 1}])";
+  for (const int backend : { vtkPointFrontMapper::SOFTWARE, vtkPointFrontMapper::OPENGL })
+  {
+    ASSERT_TRUE(scene.style->LoadJSON(Gaps::json(2.0, blue)));
+    const Picture filled = scene.with(backend);
+    int tinted = 0;
+    int red = 0;
+    for (int y = 0; y < filled.height; ++y)
+    {
+      for (int x = 0; x < filled.width; ++x)
+      {
+        const auto colour = filled.at(x, y);
+        tinted += colour[2] > 200 ? 1 : 0;
+        red += colour[0] > 150 ? 1 : 0;
+      }
+    }
+    EXPECT_GT(tinted, 5000) << "back end " << backend;
+    EXPECT_EQ(red, 0) << "back end " << backend;
+  }
+}
+
 TEST(Holes, AreGivenBackAndMadeAgain)
 {
   Gaps scene(gapsStore("gaps_released"));

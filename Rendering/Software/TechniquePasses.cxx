@@ -33,8 +33,6 @@ constexpr float innerParaboloid = 3.0f; ///< radii of the inner part, of discs t
 /// Of a solid's discs that face the eye; its walls are pushed back as far, so that the roof that is
 /// in front of them is seen.
 constexpr float solidParaboloid = 2.0f;
-/// What closes a surface is drawn no larger than that, of the viewport's height: nearer to the eye
-/// there is no surface to be seen.
 
 SplatPass ellipsePass(SplatAccuracy accuracy)
 {

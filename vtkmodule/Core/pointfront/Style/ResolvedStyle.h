@@ -38,7 +38,8 @@ enum class SplatAccuracy : std::uint8_t
 /// How large a splat is (docs/user/styles.md).
 struct SplatSize
 {
-  /// What closes a surface that is near is at most that share of the picture's height.
+  /// What closes a surface is drawn no larger than that share of the picture's height: nearer to
+  /// the eye there is no surface to be seen.
   static constexpr float mostOfHeight = 0.125f;
 
   enum class Mode : std::uint8_t

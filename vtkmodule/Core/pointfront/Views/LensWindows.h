@@ -14,8 +14,7 @@ namespace pointfront
 /// nothing where no lens lies in the viewport (LAYERS-10).
 /// `styling`      by number of the layer.
 /// `shading`      its lenses are those of the camera's viewport; light and hole filling look at
-/// points
-///                beside a lens, too.
+///                points beside a lens, too.
 /// `thresholdPx`  the error of the frame; splats of what is far away reach some of it.
 /// `wallHeight`   tallestWall().
 /// `layers`       as FrameRequest::layers; changed where there is such a layer.

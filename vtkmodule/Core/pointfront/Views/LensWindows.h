@@ -13,9 +13,7 @@ namespace pointfront
 /// Limits layers that are seen in lenses only to what these lenses can show: their windows, or
 /// nothing where no lens lies in the viewport (LAYERS-10).
 /// `styling`      by number of the layer.
-/// `shading`      its lenses are those of the camera's viewport; light and hole filling look at
-/// points
-///                beside a lens, too.
+/// `shading`      its lenses are those of the viewport; light and hole filling look beside a lens.
 /// `thresholdPx`  the error of the frame; splats of what is far away reach some of it.
 /// `wallHeight`   tallestWall().
 /// `layers`       as FrameRequest::layers; changed where there is such a layer.

@@ -81,6 +81,11 @@ older.Normals = "By PCA"
 older.ReplaceStore = 1
 require(points_of(older) == POINTS, "not built again")
 require("normal" in older.PointData.keys(), "without normals: %s" % older.PointData.keys())
+# A store does not say which normals it has: what is changed is built.
+first = os.stat(store).st_mtime_ns
+require(points_of(older) == POINTS and os.stat(store).st_mtime_ns == first, "built twice")
+older.Normals = "From the scan"
+require(points_of(older) == POINTS and os.stat(store).st_mtime_ns > first, "not built again")
 
 # Where nothing can be written.
 print("== no place", flush=True)

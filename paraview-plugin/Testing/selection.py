@@ -260,12 +260,17 @@ def check_shown_selection():
         require(0 < known.sum() < len(rows), "%d of %d in the overview" % (known.sum(), len(rows)))
         require(numpy.array_equal(overview[rows[known]], found[1]["point_id"][known]), "other rows")
 
-    # Frozen, it names the same points.
+    check_frozen(selection, found[1]["point_id"])
+
+
+def check_frozen(selection, ids):
+    """Frozen, a selection names the same points."""
     frozen = vtkSMSelectionHelper.ConvertSelectionSource(
         vtkSelectionNode.INDICES, selection, scene.reader.SMProxy, 0)
     frozen.UpdateVTKObjects()
-    ids = extracted(frozen)[1]["point_id"]
-    require(set(ids.tolist()) == set(found[1]["point_id"].tolist()), "frozen: other points")
+    found = extracted(frozen)[1]["point_id"]
+    require(set(found.tolist()) == set(ids.tolist()),
+            "frozen: %d points of %d" % (len(found), len(ids)))
 
 
 def check_script():
@@ -292,6 +297,7 @@ def check_frustum():
     missing = inside(rectangle, -SLACK)
     missing[found[1]["point_id"]] = False
     require(not missing.any(), "%d points of the frustum are not selected" % missing.sum())
+    check_frozen(sources.GetItemAsObject(0), found[1]["point_id"])
     print("%d points in a frustum" % len(found[0]))
 
 

@@ -156,6 +156,7 @@ class Cloud:
 
         "position" n by 3, float64, in the store's coordinates; "id" n, int64: the rank in the
         store; each attribute n, or n by its components, in its type, or float64 if it has a scale.
+        The cloud's own attributes "position" and "id" are "position_" and "id_".
         Nothing is copied: an array keeps VTK's memory alive.
         """
         output = self.extract(vertex_cells=False, **query)
@@ -163,7 +164,11 @@ class Cloud:
         arrays = {"position": vtk_to_numpy(output.GetPoints().GetData())}
         for i in range(data.GetNumberOfArrays()):
             array = data.GetArray(i)
-            name = "id" if array.GetName() == "point_id" else array.GetName()
+            name = array.GetName()
+            if name == "point_id":
+                name = "id"
+            elif name in ("position", "id"):
+                name += "_"
             arrays[name] = vtk_to_numpy(array)
         return arrays
 

@@ -17,10 +17,12 @@
 #include "vtkSelection.h"
 #include "vtkSelectionNode.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
 #include <iomanip>
+#include <iterator>
 #include <limits>
 #include <locale>
 #include <optional>
@@ -181,6 +183,24 @@ bool asksForValues(vtkSelection* selection)
     lists += content == vtkSelectionNode::GLOBALIDS || named ? 1 : 0;
   }
   return frusta > 1 || (frusta == 1 && lists > 0);
+}
+
+bool choosesStoredPoints(vtkSelection* selection)
+{
+  constexpr int contents[] = { vtkSelectionNode::GLOBALIDS, vtkSelectionNode::VALUES,
+    vtkSelectionNode::THRESHOLDS, vtkSelectionNode::QUERY, vtkSelectionNode::FRUSTUM };
+  for (unsigned int i = 0; i < selection->GetNumberOfNodes(); ++i)
+  {
+    vtkSelectionNode* node = selection->GetNode(i);
+    const char* query = node->GetQueryString();
+    if (!(query && *query) &&
+      std::find(std::begin(contents), std::end(contents), node->GetContentType()) ==
+        std::end(contents))
+    {
+      return false;
+    }
+  }
+  return selection->GetNumberOfNodes() > 0;
 }
 
 bool namesRows(vtkSelection* selection)

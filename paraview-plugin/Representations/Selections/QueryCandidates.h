@@ -21,6 +21,10 @@ bool asksForValues(vtkSelection* selection);
 /// attribute of that name comes first.
 bool asksForRows(vtkSelection* selection, const StoreDescription& store);
 
+/// Whether all parts of a selection say by names, values or places which points of a store they
+/// mean: the reader's output need not have them.
+bool choosesStoredPoints(vtkSelection* selection);
+
 /// Whether a part of a selection lists numbers of rows.
 bool namesRows(vtkSelection* selection);
 

@@ -45,7 +45,7 @@ int vtkPointFrontConvertSelection::RequestData(
     vtkSelection::GetData(outputVector, 0)->ShallowCopy(input);
     return 1;
   }
-  if (ofStore && input && pointfront::asksForValues(input) &&
+  if (ofStore && input && pointfront::choosesStoredPoints(input) &&
     !pointfront::asksForRows(input, reader->GetStore()->GetStore()->description()))
   {
     return this->NameWhatIsSelected(input, vtkSelection::GetData(outputVector, 0)) ? 1 : 0;

@@ -1,5 +1,7 @@
 #include "BackgroundBuild.h"
 
+#include "pointfront/Threads/ThreadPriority.h"
+
 #include "vtkCommand.h"
 #include "vtkErrorCode.h"
 #include "vtkNew.h"
@@ -11,6 +13,10 @@ namespace pointfront
 {
 namespace
 {
+
+/// Views go first. Processes that wait for each other actively (MPI) count as such: with as many
+/// builders as processors they got nothing to see before the build's end.
+constexpr int niceness = 10;
 
 /// What an event says: without the source line and the object that VTK puts before it, and with the
 /// property's name for the tool's option.
@@ -85,6 +91,10 @@ void BackgroundBuild::build()
          vtkCommand::WarningEvent, vtkCommand::UpdateDataEvent })
   {
     builder_->AddObserver(event, observer);
+  }
+  if (builder_->GetPreview()) // somebody looks at it, and turns it
+  {
+    lowerThreadPriority(niceness);
   }
   const bool built = builder_->Write() != 0;
   builder_->RemoveObserver(observer);

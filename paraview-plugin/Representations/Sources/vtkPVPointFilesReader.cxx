@@ -1,9 +1,10 @@
 #include "vtkPVPointFilesReader.h"
 
+#include "PointFileNames.h"
+
 #include "pointfront/Preview/PreviewRecord.h"
 #include "pointfront/Store/StoredCloud.h"
 #include "pointfront/Store/StoredCloudFormats.h"
-#include "SourceFormats.h"
 
 #include "vtkErrorCode.h"
 #include "vtkInformation.h"
@@ -14,13 +15,8 @@
 #include "vtkPointFrontStore.h"
 #include "vtkSmartPointer.h"
 
-#include <algorithm>
-#include <cctype>
 #include <cmath>
-#include <cstdint>
-#include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 #include <system_error>
 #include <utility>
@@ -32,48 +28,6 @@ namespace
 
 /// Since the last question of somebody who still asks.
 constexpr std::chrono::seconds LongestSilence(10);
-
-std::string extensionOf(const std::string& name)
-{
-  std::string extension = std::filesystem::path(name).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension.empty() ? extension : extension.substr(1);
-}
-
-/// Whether a PLY file has faces: then it is a surface, and ParaView's reader is the one for it.
-bool hasFaces(const std::string& name)
-{
-  std::ifstream file(name);
-  std::string line;
-  constexpr int mostHeaderLines = 200;
-  for (int i = 0; i < mostHeaderLines && std::getline(file, line); ++i)
-  {
-    if (line.rfind("element face ", 0) == 0)
-    {
-      return line.find_first_of("123456789") != std::string::npos;
-    }
-    if (line.rfind("end_header", 0) == 0)
-    {
-      break;
-    }
-  }
-  return false;
-}
-
-/// FNV-1a, 32 bits: the same on every machine.
-std::uint32_t checksumOf(const std::vector<std::string>& names)
-{
-  std::uint32_t sum = 2166136261u;
-  for (const std::string& name : names)
-  {
-    for (const char c : name + '\n')
-    {
-      sum = (sum ^ static_cast<unsigned char>(c)) * 16777619u;
-    }
-  }
-  return sum;
-}
 
 } // namespace
 
@@ -114,14 +68,7 @@ int vtkPVPointFilesReader::CanReadFile(const char* fileName)
   {
     return 0;
   }
-  const std::vector<std::string> known = pointfront::SourceFormats().extensions();
-  const std::string extension = extensionOf(fileName);
-  const bool ours = std::find(known.begin(), known.end(), extension) != known.end();
-  std::error_code missing;
-  return ours && std::filesystem::is_regular_file(fileName, missing) &&
-      !(extension == "ply" && hasFaces(fileName))
-    ? 1
-    : 0;
+  return pointfront::isPointFile(fileName) ? 1 : 0;
 }
 
 //------------------------------------------------------------------------------
@@ -131,19 +78,21 @@ std::string vtkPVPointFilesReader::StorePath() const
   {
     return this->StoreFile;
   }
-  std::vector<std::string> names = this->PointFileNames;
-  std::sort(names.begin(), names.end());
-  if (names.size() == 1)
-  {
-    return names.front() + ".pfront";
-  }
-  char sum[16];
-  std::snprintf(sum, sizeof(sum), "%08x", static_cast<unsigned int>(checksumOf(names)));
-  return names.front() + "-and-" + std::to_string(names.size() - 1) + "-more-" + sum + ".pfront";
+  return pointfront::storePathBeside(this->PointFileNames);
 }
 
 //------------------------------------------------------------------------------
 std::string vtkPVPointFilesReader::Misfit(const std::string& store) const
+{
+  // A store does not tell all of how it was made: which normals, whose coordinate reference system.
+  const bool changed = !this->Shown.empty() &&
+    this->Shown.substr(0, this->Shown.find('\n')) == store && this->Shown != this->Wanted(store);
+  const std::string seen = this->VisibleMisfit(store);
+  return seen.empty() && changed && this->ReplaceStore ? "its options were changed" : seen;
+}
+
+//------------------------------------------------------------------------------
+std::string vtkPVPointFilesReader::VisibleMisfit(const std::string& store) const
 {
   std::error_code failed;
   const auto built = std::filesystem::last_write_time(store, failed);
@@ -228,11 +177,18 @@ void vtkPVPointFilesReader::Choose(vtkPointFrontBuilder* builder, const std::str
 std::string vtkPVPointFilesReader::Order(const std::string& store) const
 {
   std::ostringstream all;
+  all << this->Wanted(store) << '\n' << this->ReplaceStore << ' ' << this->MemoryLimitMiB;
+  return all.str();
+}
+
+//------------------------------------------------------------------------------
+std::string vtkPVPointFilesReader::Wanted(const std::string& store) const
+{
+  std::ostringstream all;
   all << store << '\n'
-      << this->ReplaceStore << ' ' << this->Structure << ' ' << this->Refinement << ' '
-      << this->Layers << ' ' << this->Normals << ' ' << this->LocalHeight << ' '
-      << this->HeightAboveGround << ' ' << this->Precision << ' ' << this->SkipFaultyFiles << ' '
-      << this->MemoryLimitMiB << ' ' << (this->AssumedCRS ? this->AssumedCRS : "");
+      << this->Structure << ' ' << this->Refinement << ' ' << this->Layers << ' ' << this->Normals
+      << ' ' << this->LocalHeight << ' ' << this->HeightAboveGround << ' ' << this->Precision << ' '
+      << this->SkipFaultyFiles << ' ' << (this->AssumedCRS ? this->AssumedCRS : "");
   for (const std::string& name : this->PointFileNames)
   {
     all << '\n' << name;
@@ -255,6 +211,7 @@ bool vtkPVPointFilesReader::StartBuild(const std::string& store)
   const bool asks = this->Asked != std::chrono::steady_clock::time_point() &&
     std::chrono::steady_clock::now() - this->Asked < LongestSilence;
   this->Followed = this->ShowPreview && asks;
+  this->Cancelled.clear();
   auto builder = vtkSmartPointer<vtkPointFrontBuilder>::New();
   this->Choose(builder, store);
   this->Running = std::make_unique<pointfront::BackgroundBuild>(builder, this->Order(store));
@@ -415,6 +372,10 @@ int vtkPVPointFilesReader::RequestData(
   const std::string store = this->StorePath();
   const Outcome outcome = this->Agree(store);
   this->Previewing = outcome == PREVIEW;
+  if (outcome == STORE)
+  {
+    this->Shown = this->Wanted(store);
+  }
   if (outcome == NOTHING)
   {
     this->FileNames.clear();

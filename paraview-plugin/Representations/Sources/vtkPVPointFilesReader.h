@@ -122,6 +122,8 @@ private:
   std::string StorePath() const;
   /// Why the store that is there cannot be used; empty: it can.
   std::string Misfit(const std::string& store) const;
+  /// The same of what can be seen of the store.
+  std::string VisibleMisfit(const std::string& store) const;
   /// What an update gives.
   enum Outcome
   {
@@ -138,10 +140,13 @@ private:
   void Choose(vtkPointFrontBuilder* builder, const std::string& store) const;
   /// All that the build depends on.
   std::string Order(const std::string& store) const;
+  /// The part of it that decides what is in the store.
+  std::string Wanted(const std::string& store) const;
 
   std::vector<std::string> PointFileNames;
   std::unique_ptr<pointfront::BackgroundBuild> Running; ///< first rank
   std::string Cancelled; ///< the order that is not to be built again
+  std::string Shown; ///< what was wanted of the store that is the output
   std::chrono::steady_clock::time_point Asked; ///< GetNeedsUpdate()
   bool Followed = false; ///< the running build has a preview to return with
   bool Previewing = false; ///< on all ranks: the output is a preview's

@@ -52,11 +52,24 @@ def _sdk():
                             "--ignore-requires-python", "--disable-pip-version-check",
                             "--target", unfinished, package], check=True)
             _adapt(unfinished / "cvista_sdk")
-            unfinished.rename(target)
+            try:
+                unfinished.rename(target)
+            except OSError:
+                if not target.exists():  # or another build was faster
+                    raise
     return target
 
 
-def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
+def _find_sdk():
     if sys.version_info < _NAMED:
         sys.path.insert(0, str(_sdk()))  # where scikit-build-core looks for CMake packages
+
+
+def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
+    _find_sdk()
     return _scikit.build_wheel(wheel_directory, config_settings, metadata_directory)
+
+
+def build_editable(wheel_directory, config_settings=None, metadata_directory=None):
+    _find_sdk()
+    return _scikit.build_editable(wheel_directory, config_settings, metadata_directory)

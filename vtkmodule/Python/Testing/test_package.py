@@ -241,6 +241,17 @@ class Package(unittest.TestCase):
             cloud.points(progress=lambda *_: None)
             self.assertEqual(gc.collect(), 0)
 
+    def test_attributes_called_as_ours_are_not_lost(self):
+        table = self.folder / "t.xyz"
+        table.write_text("x y z id position\n" + "".join(f"{i} 0 {i} 7 9\n" for i in range(1000)))
+        pointfront.build(table, self.folder / "a.pfront", preview=False)
+        with pointfront.open(self.folder / "a.pfront") as cloud:
+            points = cloud.points()
+        self.assertEqual(points["position"].shape, (1000, 3))
+        self.assertEqual(sorted(points["position"][:, 0]), list(range(1000)))
+        self.assertEqual(sorted(points["id"]), list(range(1000)))
+        self.assertEqual((set(points["id_"]), set(points["position_"])), ({7}, {9}))
+
     def interrupted(self, work):
         # A shell's job in the background would ignore it.
         signal.signal(signal.SIGINT, signal.default_int_handler)

@@ -1,6 +1,7 @@
 #include "pointfront/Residency/LoadSchedulerContent.h"
 
 #include "pointfront/Base/CpuClock.h"
+#include "pointfront/Threads/ThreadPriority.h"
 
 #include <algorithm>
 #include <chrono>
@@ -8,11 +9,6 @@
 #include <new>
 #include <string>
 #include <tuple>
-
-#if defined(__linux__)
-#include <sys/resource.h>
-#include <unistd.h>
-#endif
 
 namespace pointfront
 {
@@ -22,14 +18,8 @@ namespace
 /// After a step that ran out of memory, unless something is given back before.
 constexpr std::chrono::milliseconds waitForMemory{ 100 };
 
-/// FRONT-9: loading must not disturb the drawing. A hint: where it is refused nothing is lost.
-void lowerThreadPriority()
-{
-#if defined(__linux__)
-  constexpr int niceness = 5;
-  static_cast<void>(setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), niceness));
-#endif
-}
+/// FRONT-9: loading must not disturb the drawing.
+constexpr int niceness = 5;
 
 /// What `step` gives; what it throws becomes an Error that names the node.
 template <typename Step>
@@ -207,7 +197,7 @@ void LoadScheduler::Content::perform(Worker& self, const Job& job)
 
 void LoadScheduler::Content::work(Worker& self)
 {
-  lowerThreadPriority();
+  lowerThreadPriority(niceness);
   while (!self.ended)
   {
     const std::uint64_t seen = budget->changes();

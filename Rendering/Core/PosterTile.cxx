@@ -1,5 +1,7 @@
 #include "PosterTile.h"
 
+#include "pointfront/Views/LensWindows.h"
+
 #include <glm/common.hpp>
 
 #include <vtkRenderer.h>
@@ -88,23 +90,48 @@ ViewportMargin PosterTile::margin(const FrameShading& shading) const
 ViewportMargin PosterTile::sight(
   const ViewportMargin& margin, const std::vector<LayerStyling>& styling) const
 {
-  if (!isTile())
-  {
-    return margin;
-  }
-  int reach = 0;
+  double radius = 0.0;
   for (const LayerStyling& layer : styling)
   {
     for (const auto& style : layer.styles)
     {
-      const double radius = style->size.mode == SplatSize::Mode::Pixels
-        ? style->size.value
-        : SplatSize::mostOfHeight * static_cast<double>(whole_.y);
-      reach = std::max(reach, static_cast<int>(std::ceil(std::min(radius, double(whole_.y)))));
+      radius = std::max(radius,
+        style->size.mode == SplatSize::Mode::Pixels
+          ? style->size.value
+          : SplatSize::mostOfHeight * static_cast<double>(whole_.y));
     }
   }
+  return isTile() ? wider(margin, radius) : margin;
+}
+
+ViewportMargin PosterTile::wider(const ViewportMargin& margin, double px) const
+{
+  const auto reach = static_cast<int>(std::ceil(std::min(px, static_cast<double>(whole_.y))));
   return { std::max(margin.left, reach), std::max(margin.bottom, reach),
     std::max(margin.right, reach), std::max(margin.top, reach) };
+}
+
+void PosterTile::limit(const std::function<View(const ViewportMargin&)>& viewWith,
+  const ViewportMargin& margin, const std::vector<LayerStyling>& styling,
+  std::vector<LayerLimits>& layers) const
+{
+  const auto isUnknown = [](const auto& style)
+  { return style->size.mode == SplatSize::Mode::Attribute; };
+  for (std::size_t layer = 0; isTile() && layer < styling.size(); ++layer)
+  {
+    const auto& styles = styling[layer].styles;
+    layers.resize(std::max(layers.size(), styling.size()));
+    if (!layers[layer].windows.empty() || std::any_of(styles.begin(), styles.end(), isUnknown))
+    {
+      continue;
+    }
+    for (const auto& style : styles)
+    {
+      const bool pixels = style->size.mode == SplatSize::Mode::Pixels;
+      layers[layer].windows.push_back(
+        sightOf(*style, viewWith(pixels ? wider(margin, style->size.value) : margin)));
+    }
+  }
 }
 
 void PosterTile::place(PlanRequest& request, const ViewportMargin& margin) const

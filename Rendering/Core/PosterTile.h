@@ -1,5 +1,7 @@
 #pragma once
 
+#include "pointfront/Front/LayerLimits.h"
+#include "pointfront/Front/View.h"
 #include "pointfront/Plan/FrameCamera.h"
 #include "pointfront/Plan/FramePlanner.h"
 #include "pointfront/Style/FrameShading.h"
@@ -7,6 +9,7 @@
 
 #include <glm/vec2.hpp>
 
+#include <functional>
 #include <vector>
 
 class vtkRenderer;
@@ -35,11 +38,18 @@ public:
   /// reach further, and are missing then.
   ViewportMargin sight(
     const ViewportMargin& margin, const std::vector<LayerStyling>& styling) const;
+  /// Limits layers to the nodes that reach into the tile, of all that are in sight around it: the
+  /// point budget is for these. `viewWith`  the view with a margin.
+  void limit(const std::function<View(const ViewportMargin&)>& viewWith,
+    const ViewportMargin& margin, const std::vector<LayerStyling>& styling,
+    std::vector<LayerLimits>& layers) const;
   /// Widens the request's camera by the margin, and moves the lenses from the renderer's viewport
   /// in the window into what is drawn.
   void place(PlanRequest& request, const ViewportMargin& margin) const;
 
 private:
+  /// At least that many pixels on each side.
+  ViewportMargin wider(const ViewportMargin& margin, double px) const;
   bool isTile() const { return scale_.x > 1 || scale_.y > 1; }
 
   glm::ivec2 scale_{ 1 };

@@ -112,10 +112,11 @@ pointfront::FrameRequest vtkPointFrontMapper::GetFrameRequest(
   const auto styling = this->GetStyling(actor);
   const double walls =
     pointfront::tallestWall(this->GetStore()->GetStore()->description(), styling);
-  demand.view = pointfront::withWallsFromAbove(
-    pointfront::viewOf(renderer, actor,
-      pointfront::PosterTile(renderer).sight(this->GetMargin(renderer, actor), styling)),
-    walls);
+  const pointfront::PosterTile tile(renderer);
+  const pointfront::ViewportMargin margin = this->GetMargin(renderer, actor);
+  const auto viewWith = [&](const pointfront::ViewportMargin& around)
+  { return pointfront::withWallsFromAbove(pointfront::viewOf(renderer, actor, around), walls); };
+  demand.view = viewWith(tile.sight(margin, styling));
   demand.layers = this->Internals->Limits.layersOf(*this->GetStore(), styling,
     this->GetStyleSheet() ? this->Internals->Style.pruning()
                           : std::vector<std::shared_ptr<const pointfront::NodePruning>>());
@@ -126,6 +127,7 @@ pointfront::FrameRequest vtkPointFrontMapper::GetFrameRequest(
     pointfront::limitToLenses(styling, request.shading, request.camera,
       std::max(this->TargetError, this->GetStatistics().thresholdPx), walls, demand.layers);
   }
+  tile.limit(viewWith, margin, styling, demand.layers);
   pointfront::GpuStreams streams;
   for (const pointfront::LayerStyling& layer : styling)
   {

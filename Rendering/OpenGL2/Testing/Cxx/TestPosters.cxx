@@ -134,6 +134,26 @@ TEST(Posters, AreThePictureOfOneWindow)
 }
 
 /// Halos grow as posters do: what one costs grows with its width, not with the square of it.
+/// Of what lies beside a tile only what reaches into it is loaded, and takes a part of the budget.
+TEST(Posters, OfLargeSplatsNeedFewPointsBesideTheTile)
+{
+  Pillars scene(planeStore("poster-points", 500, 4));
+  scene.lookFrom({ 0.0, 0.0, 2.4 }, { 0.0, 0.0, 0.0 });
+  const auto pointsOf = [&](const std::string& json)
+  {
+    EXPECT_TRUE(scene.style->LoadJSON(json));
+    scene.poster(vtkPointFrontMapper::SOFTWARE, 600, 400, 4);
+    return scene.mapper->GetLastPointsDrawn(); // of the last tile
+  };
+  const vtkIdType small = pointsOf(R"({"default": {"size": {"mode": "fixed", "px": 1}}, )"
+                                   R"("shading": {"mode": "edl"}})");
+  const vtkIdType large =
+    pointsOf(R"({"default": {"technique": "splats"}, "shading": {"mode": "edl"}})");
+  EXPECT_GT(small, 0);
+  // With all that lies within an eighth of the poster it is 28 % more.
+  EXPECT_LE(static_cast<double>(large), 1.1 * static_cast<double>(small));
+}
+
 TEST(Posters, HaveWideHalosInBothBackEnds)
 {
   Pillars scene(pillarsStore("poster_halo"));

@@ -59,16 +59,23 @@ std::optional<SightWindow> windowOf(const ResolvedStyle& style, const FrameLens&
         (2.0 * toClip[column][axis] - (low + high) * toClip[column][3]) / (high - low);
     }
   }
-  const View view =
-    withWallsFromAbove(View::fromMatrix(toClip, camera.width, camera.height), wallHeight);
-  SightWindow window;
-  std::copy_n(view.planes.begin(), window.planes.size(), window.planes.begin());
-  window.reachSpacings = mode == SplatSize::Mode::Spacing ? mostOfSpacing * factor : 0.0;
-  window.reach = mode == SplatSize::Mode::World ? 0.5 * style.size.value : 0.0;
-  return window;
+  return sightOf(
+    style, withWallsFromAbove(View::fromMatrix(toClip, camera.width, camera.height), wallHeight));
 }
 
 } // namespace
+
+SightWindow sightOf(const ResolvedStyle& style, const View& view)
+{
+  SightWindow window;
+  std::copy_n(view.planes.begin(), window.planes.size(), window.planes.begin());
+  const double value = style.size.value;
+  const SplatSize::Mode mode = style.size.mode;
+  window.reachSpacings =
+    mode == SplatSize::Mode::Spacing ? mostOfSpacing * std::max(1.0, value) : 0.0;
+  window.reach = mode == SplatSize::Mode::World ? 0.5 * value : 0.0;
+  return window;
+}
 
 void limitToLenses(const std::vector<LayerStyling>& styling, const FrameShading& shading,
   const FrameCamera& camera, double thresholdPx, double wallHeight,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "pointfront/Front/LayerLimits.h"
+#include "pointfront/Front/View.h"
 #include "pointfront/Plan/FrameCamera.h"
 #include "pointfront/Style/FrameShading.h"
 #include "pointfront/Style/StyleSheet.h"
@@ -9,6 +10,9 @@
 
 namespace pointfront
 {
+
+/// Where a style's points are seen that reach into a view, however far they lie from it.
+SightWindow sightOf(const ResolvedStyle& style, const View& view);
 
 /// Limits layers that are seen in lenses only to what these lenses can show: their windows, or
 /// nothing where no lens lies in the viewport (LAYERS-10).

@@ -108,7 +108,7 @@ def first_hour(programs):
 
 def preview(programs):
     """In the application a preview is in view while a store is built; so it is on a server."""
-    points = 2000000
+    points = 4000000  # some seconds of work, in which some pictures are drawn
     for way in ("alone", "cancelled", "ranks"):
         name = "large-%s.las" % way
         for old in glob.glob("large-%s*" % way) + glob.glob("preview*.*"):

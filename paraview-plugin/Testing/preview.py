@@ -76,7 +76,8 @@ def start():
             save(view, "preview-while")
             if CANCEL:
                 reader.SMProxy.InvokeCommand("CancelBuild")
-        if not building and name == os.path.basename(STORE) and complete and total > 10 ** 6:
+        whole = stored is not None and total == int(stored.GetValue(0))
+        if not building and name == os.path.basename(STORE) and complete and whole:
             save(view, "preview")
             end()
         if CANCEL and not building and seen["while"] and not names:

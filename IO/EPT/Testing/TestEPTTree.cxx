@@ -48,6 +48,19 @@ std::vector<Point> pointsOf(const PointSource& source)
   return points;
 }
 
+std::size_t countOf(const StoredCloud& cloud, const PointQuery& query)
+{
+  std::size_t found = 0;
+  const auto report = queryPoints(cloud, query, {},
+    [&](QueryBatch& batch) -> Result<void>
+    {
+      found += batch.size();
+      return {};
+    });
+  EXPECT_TRUE(report) << report.error().what;
+  return found;
+}
+
 TEST(EPTTree, HoldsThePointsOfItsNodesByItsOwnHierarchy)
 {
   const EPTTreeFormat format(lazOpener());
@@ -85,15 +98,7 @@ TEST(EPTTree, AFilterFindsWhatLiesBeyondTheSampledRanges)
   ASSERT_GT(expected, 0) << sampled;
   PointQuery query;
   query.where = *FilterExpression::parse("intensity > " + std::to_string(int(sampled)));
-  std::size_t found = 0;
-  const auto report = queryPoints(*cloud, query, {},
-    [&](QueryBatch& batch) -> Result<void>
-    {
-      found += batch.size();
-      return {};
-    });
-  ASSERT_TRUE(report) << report.error().what;
-  EXPECT_EQ(found, static_cast<std::size_t>(expected));
+  EXPECT_EQ(countOf(*cloud, query), static_cast<std::size_t>(expected));
 }
 
 TEST(EPTTree, BinaryNodesToo)
@@ -122,15 +127,7 @@ TEST(EPTTree, BoxesGiveWhatAFilterOfAllPointsGives)
     PointQuery query;
     query.regions = { *BoxRegion::make(box) };
     query.attributes = std::vector<std::string>();
-    std::size_t found = 0;
-    const auto report = queryPoints(*cloud, query, {},
-      [&](QueryBatch& batch) -> Result<void>
-      {
-        found += batch.size();
-        return {};
-      });
-    ASSERT_TRUE(report) << report.error().what;
-    EXPECT_EQ(found,
+    EXPECT_EQ(countOf(*cloud, query),
       static_cast<std::size_t>(std::count_if(all.positions.begin(), all.positions.end(), inside)))
       << n;
   }

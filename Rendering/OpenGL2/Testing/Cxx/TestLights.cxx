@@ -80,6 +80,23 @@ void addYellowAndMagenta(LitSphere& scene, int count)
   }
 }
 
+/// LitSphere's sphere, as VTK draws it.
+vtkSmartPointer<vtkActor> ballOfTriangles()
+{
+  vtkNew<vtkSphereSource> ball;
+  ball->SetRadius(1.0);
+  ball->SetThetaResolution(400);
+  ball->SetPhiResolution(400);
+  vtkNew<vtkPolyDataMapper> triangles;
+  triangles->SetInputConnection(ball->GetOutputPort());
+  vtkNew<vtkActor> own;
+  own->SetMapper(triangles);
+  own->GetProperty()->SetColor(200.0 / 255.0, 200.0 / 255.0, 200.0 / 255.0);
+  own->GetProperty()->SetAmbient(0.3);
+  own->GetProperty()->SetDiffuse(0.7);
+  return own.Get();
+}
+
 constexpr int middleX = 150;
 constexpr int middleY = 100;
 constexpr double ambient = 0.3 * 200.0;
@@ -217,17 +234,7 @@ TEST(Lights, WithAPlaceShineAsOnVTKsOwnSurfaces)
     { { -1.0, 2.0, 3.0 }, 40.0, 20.0, { 0.5, 0.1, 0.05 }, VTK_LIGHT_TYPE_SCENE_LIGHT },
     { { 0.2, 0.3, 0.6 }, 8.0, 4.0, { 1, 0, 0 }, VTK_LIGHT_TYPE_CAMERA_LIGHT } };
   LitSphere scene;
-  vtkNew<vtkSphereSource> ball;
-  ball->SetRadius(1.0);
-  ball->SetThetaResolution(400);
-  ball->SetPhiResolution(400);
-  vtkNew<vtkPolyDataMapper> triangles;
-  triangles->SetInputConnection(ball->GetOutputPort());
-  vtkNew<vtkActor> own;
-  own->SetMapper(triangles);
-  own->GetProperty()->SetColor(200.0 / 255.0, 200.0 / 255.0, 200.0 / 255.0);
-  own->GetProperty()->SetAmbient(0.3);
-  own->GetProperty()->SetDiffuse(0.7);
+  const auto own = ballOfTriangles();
   scene.renderer->AddActor(own);
   vtkLight* const light = scene.add({ 0, 0, 5 }, { 1.0, 0.8, 0.4 });
   light->PositionalOn();

@@ -2,6 +2,7 @@
 #include "ImageValuesPass.h"
 #include "RasterImages.h"
 
+#include "OrthoImages.h"
 #include "ProjCoordinateSystems.h"
 #include "WrittenTiff.h"
 
@@ -17,7 +18,6 @@ using namespace pointfront::test;
 
 namespace
 {
-const std::string ortho = POINTFRONT_SHARED_DATA "/ortho/";
 
 /// A cloud with attributes and offsets of another one's points.
 class Shifted final : public PointSource

@@ -3,6 +3,7 @@
 #include "RasterFile.h"
 #include "WorldFile.h"
 
+#include "OrthoImages.h"
 #include "ProjCoordinateSystems.h"
 #include "WrittenTiff.h"
 
@@ -12,12 +13,11 @@
 #include <fstream>
 
 using namespace pointfront;
+using pointfront::test::ortho;
 using pointfront::test::WrittenTiff;
 
 namespace
 {
-const std::string ortho = POINTFRONT_SHARED_DATA "/ortho/";
-
 std::vector<double> ramp(int count)
 {
   std::vector<double> values(static_cast<std::size_t>(count));

@@ -3,6 +3,7 @@
 #include "ColouredCloud.h"
 #include "RasterImages.h"
 
+#include "OrthoImages.h"
 #include "ProjCoordinateSystems.h"
 
 #include <gtest/gtest.h>
@@ -17,11 +18,6 @@
 
 using namespace pointfront;
 using namespace pointfront::test;
-
-namespace
-{
-const std::string ortho = POINTFRONT_SHARED_DATA "/ortho/";
-} // namespace
 
 TEST(ImageValuesPass, TilesAreTouchedOnceAndTheCacheStaysSmall)
 {

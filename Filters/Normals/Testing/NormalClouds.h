@@ -1,5 +1,6 @@
 #pragma once
 
+#include "NormalsPass.h"
 #include "TestBuildClouds.h"
 
 #include "pointfront/Points/AttributePass.h"
@@ -90,6 +91,14 @@ inline PassResources testResources()
   resources.threads = 2;
   resources.temporaryFolder = testing::TempDir();
   return resources;
+}
+
+/// Planes through so many nearest points.
+inline NormalsOptions nearest(std::uint32_t neighbours)
+{
+  NormalsOptions options;
+  options.neighbours = neighbours;
+  return options;
 }
 
 /// Stored normals that a pass computes.

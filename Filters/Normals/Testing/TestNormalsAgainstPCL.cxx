@@ -12,13 +12,6 @@ namespace
 using namespace pointfront;
 using namespace pointfront::test;
 
-NormalsOptions nearest(std::uint32_t neighbours)
-{
-  NormalsOptions options;
-  options.neighbours = neighbours;
-  return options;
-}
-
 /// What pcl::NormalEstimation gives for the k nearest points, in float relative to the first point.
 Positions normalsByPCL(const Positions& positions, int neighbours)
 {

@@ -13,13 +13,6 @@ namespace
 using namespace pointfront;
 using namespace pointfront::test;
 
-NormalsOptions nearest(std::uint32_t neighbours)
-{
-  NormalsOptions options;
-  options.neighbours = neighbours;
-  return options;
-}
-
 /// A bumpy surface in the order of a scan, at `origin`.
 Positions bumpy(std::size_t count, const glm::dvec3& origin, double step = 0.001)
 {

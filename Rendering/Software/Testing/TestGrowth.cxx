@@ -16,8 +16,8 @@ using namespace pointfront::test;
 namespace
 {
 
-constexpr int width = 200;
-constexpr int height = 150;
+constexpr int growthWidth = 200;
+constexpr int growthHeight = 150;
 constexpr std::uint32_t half = 400; // points of a node
 
 struct GrowingStyle
@@ -49,7 +49,7 @@ PlanOfPoints surface(const GrowingStyle& style)
   }
   scene.add(wavySurface(2 * half, 3), 0.05);
   scene.add(wavySurface(2 * half, 4), 0.05);
-  scene.look({ 0.3, -1.6, 0.9 }, { 0, 0, 0 }, 0.9, width, height);
+  scene.look({ 0.3, -1.6, 0.9 }, { 0, 0, 0 }, 0.9, growthWidth, growthHeight);
   return scene;
 }
 
@@ -128,7 +128,7 @@ TEST_P(Growth, EndsAsOneThatNeverGrew)
   {
     items[1].growth = { first, first == 1.0f ? 0.0f : 0.001f };
     SoftwareTarget target;
-    target.reset(width, height);
+    target.reset(growthWidth, growthHeight);
     reused = rasteriser.draw(scene.plan, target).reused;
     if (first == 1.0f)
     {
@@ -138,11 +138,11 @@ TEST_P(Growth, EndsAsOneThatNeverGrew)
   EXPECT_EQ(reused, 0u);
   items[0].growth = { 0.5f, 0.0f };
   SoftwareTarget shrunk;
-  shrunk.reset(width, height);
+  shrunk.reset(growthWidth, growthHeight);
   rasteriser.draw(scene.plan, shrunk);
   EXPECT_NE(shrunk.rgba, reference.rgba);
   items[0].growth = {};
-  shrunk.reset(width, height);
+  shrunk.reset(growthWidth, growthHeight);
   rasteriser.draw(scene.plan, shrunk);
   expectSame(shrunk, reference);
 }

@@ -24,7 +24,7 @@ struct NamedStyle
   SplatSize::Mode size;
 };
 
-const NamedStyle styles[] = {
+const NamedStyle namedStyles[] = {
   { "Points", Technique::Points, false, false, SplatAccuracy::Affine, SplatSize::Mode::Pixels },
   { "FlatDiscs", Technique::Points, false, false, SplatAccuracy::Affine, SplatSize::Mode::Spacing },
   { "Paraboloids", Technique::Splats, false, false, SplatAccuracy::Affine,
@@ -266,5 +266,5 @@ TEST_P(SameBits, WhereItShows)
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Techniques, SameBits, testing::ValuesIn(styles),
+INSTANTIATE_TEST_SUITE_P(Techniques, SameBits, testing::ValuesIn(namedStyles),
   [](const testing::TestParamInfo<NamedStyle>& one) { return one.param.name; });

@@ -15,8 +15,8 @@ using namespace pointfront::test;
 namespace
 {
 
-constexpr int width = 120;
-constexpr int height = 90;
+constexpr int wallWidth = 120;
+constexpr int wallHeight = 90;
 constexpr std::uint32_t black = 0xff000000u;
 constexpr std::uint32_t white = 0xffffffffu;
 
@@ -64,8 +64,8 @@ PlanOfPoints sceneOf(Technique technique, double size, bool normals, bool parall
   scene.plan.batches[0].style = scene.style;
   const glm::dvec3 eye(0.7, -2.9, 1.6), up(0.1, 0.0, 1.0);
   scene.plan.camera = parallel
-    ? FrameCamera::parallelView(eye, { 0, 0, 0 }, up, 0.9, 0.1, 30.0, width, height)
-    : FrameCamera::perspective(eye, { 0, 0, 0 }, up, 0.6, 0.1, 30.0, width, height);
+    ? FrameCamera::parallelView(eye, { 0, 0, 0 }, up, 0.9, 0.1, 30.0, wallWidth, wallHeight)
+    : FrameCamera::perspective(eye, { 0, 0, 0 }, up, 0.6, 0.1, 30.0, wallWidth, wallHeight);
   return scene;
 }
 
@@ -160,9 +160,9 @@ TEST(Silhouettes, ADiscHasARimHalfAsWideAsItsRadius)
         ? glm::dvec3(glm::dmat3(camera.storeToView) * glm::dvec3(point.normal))
         : glm::dvec3(0.0, 0.0, 1.0);
       int inner = 0, rim = 0;
-      for (int y = 0; y < height; ++y)
+      for (int y = 0; y < wallHeight; ++y)
       {
-        for (int x = 0; x < width; ++x)
+        for (int x = 0; x < wallWidth; ++x)
         {
           const Ray ray = rayThrough(camera, x, y);
           const double t = glm::dot(n, c - ray.from) / glm::dot(n, ray.along);
@@ -171,7 +171,7 @@ TEST(Silhouettes, ADiscHasARimHalfAsWideAsItsRadius)
           {
             continue; // on an edge
           }
-          const auto pixel = static_cast<std::size_t>(y * width + x);
+          const auto pixel = static_cast<std::size_t>(y * wallWidth + x);
           const std::uint32_t expected = reach < 0.2 ? white : reach < 0.3 ? black : 0u;
           ASSERT_EQ(target.rgba[pixel], expected) << parallel << normals << " " << x << " " << y;
           inner += expected == white;
@@ -197,23 +197,23 @@ TEST(Silhouettes, AClosedSurfaceHasAnOutlineWhereItEndsAndNoneWithin)
       PlanOfPoints scene = sceneOf(Technique::Silhouettes, 0.075, normals);
       scene.add(gridOfPoints(40, 1.6, 0.0));
       const glm::dvec3 eye = glm::dvec3(0.7, -2.9, 1.6) / double(share);
-      scene.look(eye, { 0, 0, 0 }, 0.6 * share, width, height);
+      scene.look(eye, { 0, 0, 0 }, 0.6 * share, wallWidth, wallHeight);
       const SoftwareTarget target = scene.draw();
       EXPECT_GT(countOf(target, white), 2000);
       EXPECT_GT(countOf(target, black), 100);
       const FrameCamera& camera = scene.plan.camera;
       const glm::dvec3 n = glm::dmat3(camera.storeToView) * glm::dvec3(0.0, 0.0, 1.0);
       const glm::dmat4 toStore = glm::inverse(camera.storeToView);
-      for (int y = 0; y < height; ++y)
+      for (int y = 0; y < wallHeight; ++y)
       {
-        for (int x = 0; x < width; ++x)
+        for (int x = 0; x < wallWidth; ++x)
         {
           const Ray ray = rayThrough(camera, x, y);
           const double t = glm::dot(n, inView(camera, glm::dvec3(0.0))) / glm::dot(n, ray.along);
           const glm::dvec3 at(toStore * glm::dvec4(t * ray.along, 1.0));
           if (t > 0.0 && std::max(std::abs(at.x), std::abs(at.y)) < 0.76)
           {
-            ASSERT_EQ(target.rgba[static_cast<std::size_t>(y * width + x)], white)
+            ASSERT_EQ(target.rgba[static_cast<std::size_t>(y * wallWidth + x)], white)
               << normals << share << " " << x << " " << y;
           }
         }
@@ -274,12 +274,12 @@ TEST(Walls, AreWhatRaysMeet)
     const FrameCamera& camera = scene.plan.camera;
     const SoftwareTarget target = scene.draw(true);
     int walls = 0;
-    for (int y = 0; y < height; ++y)
+    for (int y = 0; y < wallHeight; ++y)
     {
-      for (int x = 0; x < width; ++x)
+      for (int x = 0; x < wallWidth; ++x)
       {
         const WallSeen seen = wallSeen(scene, points, rayThrough(camera, x, y));
-        const auto pixel = static_cast<std::size_t>(y * width + x);
+        const auto pixel = static_cast<std::size_t>(y * wallWidth + x);
         if (seen.doubtful)
         {
           continue;
@@ -310,15 +310,15 @@ TEST(Walls, FadeFromTheirUpperToTheirLowerColour)
   const SoftwareTarget target = scene.draw();
   const FrameCamera& camera = scene.plan.camera;
   int wall = 0;
-  for (int y = 0; y < height; ++y)
+  for (int y = 0; y < wallHeight; ++y)
   {
-    for (int x = 0; x < width; ++x)
+    for (int x = 0; x < wallWidth; ++x)
     {
       const WallHit hit = hitOf(camera, rayThrough(camera, x, y), point.position);
       if (hit.down > 0.3 && hit.down < 0.99 && std::abs(hit.aside) < 0.24)
       {
         ++wall;
-        const std::uint32_t rgba = target.rgba[static_cast<std::size_t>(y * width + x)];
+        const std::uint32_t rgba = target.rgba[static_cast<std::size_t>(y * wallWidth + x)];
         ASSERT_NEAR(double(rgba & 255u), 255.0 - 200.0 * hit.down, 1.0);
         ASSERT_EQ(rgba >> 8 & 255u, 128u);
         ASSERT_NEAR(double(rgba >> 16 & 255u), 200.0 * hit.down, 1.0);
@@ -427,7 +427,7 @@ TEST(Walls, EndWhereTheViewEndsAndWithTheirPoint)
   point.height = 4.0f;
   scene.add({ point });
   // From below, looking up: the wall goes down to behind the eye.
-  scene.look({ 0.0, -0.5, 0.5 }, { 0.0, 0.0, 1.7 }, 0.8, width, height, 0.2);
+  scene.look({ 0.0, -0.5, 0.5 }, { 0.0, 0.0, 1.7 }, 0.8, wallWidth, wallHeight, 0.2);
   const SoftwareTarget target = scene.draw();
   EXPECT_GT(countOf(target, white), 500);
   for (const float depth : target.depth)

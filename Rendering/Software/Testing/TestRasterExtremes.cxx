@@ -13,7 +13,7 @@ using namespace pointfront::test;
 namespace
 {
 
-std::size_t covered(const SoftwareTarget& target)
+std::size_t pixelsCovered(const SoftwareTarget& target)
 {
   return static_cast<std::size_t>(std::count_if(target.depth.begin(), target.depth.end(),
     [](float depth) { return depth < std::numeric_limits<float>::infinity(); }));
@@ -64,11 +64,11 @@ TEST(RasterExtremes, NoPoints)
 {
   PlanOfPoints scene;
   scene.look({ 0, -3, 0 }, { 0, 0, 0 }, 0.5, 20, 20);
-  EXPECT_EQ(covered(scene.draw()), 0u);
+  EXPECT_EQ(pixelsCovered(scene.draw()), 0u);
   scene.add({});
-  EXPECT_EQ(covered(scene.draw()), 0u);
+  EXPECT_EQ(pixelsCovered(scene.draw()), 0u);
   scene.plan.batches.clear();
-  EXPECT_EQ(covered(scene.draw()), 0u);
+  EXPECT_EQ(pixelsCovered(scene.draw()), 0u);
 }
 
 TEST(RasterExtremes, AnEyeOnASplatInsideASphereAndPointsBehind)
@@ -85,10 +85,11 @@ TEST(RasterExtremes, AnEyeOnASplatInsideASphereAndPointsBehind)
     beside.normal = { 0.0f, 0.0f, 1.0f };
     scene.add({ here, behind });
     expectSound(scene.draw());
-    EXPECT_EQ(covered(scene.draw()), 0u) << "the eye's own point, and what is behind, show nothing";
+    EXPECT_EQ(pixelsCovered(scene.draw()), 0u)
+      << "the eye's own point, and what is behind, show nothing";
     scene.plan.batches[0].items.clear();
     scene.add({ beside });
-    EXPECT_EQ(covered(scene.draw()), 0u) << "out of sight, near the eye's plane";
+    EXPECT_EQ(pixelsCovered(scene.draw()), 0u) << "out of sight, near the eye's plane";
   }
 }
 
@@ -113,7 +114,7 @@ TEST(RasterExtremes, CoordinatesOfTenThousandKilometresChangeNoBit)
       scene.look(glm::dvec3(0.25, -1.5, 0.875) + moved, moved, 0.9, 100, 80);
       pictures.push_back(scene.draw());
     }
-    EXPECT_GT(covered(pictures[0]), 200u);
+    EXPECT_GT(pixelsCovered(pictures[0]), 200u);
     EXPECT_EQ(pictures[0].rgba, pictures[1].rgba);
     EXPECT_EQ(pictures[0].depth, pictures[1].depth);
   }
@@ -131,7 +132,7 @@ TEST(RasterExtremes, DepthsFromAMillimetreToTenThousandKilometres)
       scene.plan.batches[0].items.clear();
       scene.add({ { { 0.0, depth, 0.0 } } });
       const SoftwareTarget target = scene.draw();
-      EXPECT_GE(covered(target), 1u) << depth;
+      EXPECT_GE(pixelsCovered(target), 1u) << depth;
       // A sphere is drawn a pixel wide, and shows its near side.
       const bool sphere = style.technique == Technique::Spheres;
       EXPECT_NEAR(target.depth[16 * 33 + 16] / depth, 1.0, sphere ? 0.025 : 1e-6);
@@ -153,8 +154,8 @@ TEST(RasterExtremes, SplatsOfNoSizeAndOfAMillionPixels)
       scene.add({ point });
       const SoftwareTarget target = scene.draw();
       expectSound(target);
-      EXPECT_GE(covered(target), 1u);
-      EXPECT_LE(covered(target), size > 0.0 ? 48u * 32u : 9u);
+      EXPECT_GE(pixelsCovered(target), 1u);
+      EXPECT_LE(pixelsCovered(target), size > 0.0 ? 48u * 32u : 9u);
       scene.look({ 0, -2.0, 0 }, { 0, 0, 0 }, 1.0, 48, 32, 1e-3, 1e9);
       expectSound(scene.draw());
     }
@@ -174,7 +175,7 @@ TEST(RasterExtremes, NarrowAndWideViews)
       scene.add(wavySurface(200, 9));
       const SoftwareTarget target = scene.draw();
       expectSound(target);
-      EXPECT_GE(covered(target), 1u);
+      EXPECT_GE(pixelsCovered(target), 1u);
     }
   }
 }
@@ -187,7 +188,7 @@ TEST(RasterExtremes, PicturesOfOnePixelAndOfSixteenThousand)
     scene.plan.batches[0].style = std::make_shared<ResolvedStyle>(style);
     scene.add(wavySurface(50, 1));
     scene.look({ 0, -3, 0 }, { 0, 0, 0 }, 0.9, 1, 1);
-    EXPECT_EQ(covered(scene.draw()), 1u);
+    EXPECT_EQ(pixelsCovered(scene.draw()), 1u);
   }
   // 16384 x 16384, of which a band is drawn: all that depends on the size is its.
   PlanOfPoints scene;
@@ -198,7 +199,7 @@ TEST(RasterExtremes, PicturesOfOnePixelAndOfSixteenThousand)
   band.reset({ 0, 8184, 16384, 8200 });
   SoftwareRasteriser rasteriser;
   rasteriser.draw(scene.plan, band);
-  EXPECT_EQ(covered(band), 1u);
+  EXPECT_EQ(pixelsCovered(band), 1u);
   EXPECT_EQ(band.points[8 * 16384 + 8192].node, 0u);
 }
 
@@ -220,7 +221,7 @@ TEST(RasterExtremes, NormalsThatSayNothing)
       scene.add({ point });
       const SoftwareTarget target = scene.draw();
       expectSound(target);
-      EXPECT_GE(covered(target), 10u) << "it faces the eye";
+      EXPECT_GE(pixelsCovered(target), 10u) << "it faces the eye";
     }
   }
 }

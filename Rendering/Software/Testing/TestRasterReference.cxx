@@ -30,7 +30,7 @@ Projected project(const FrameCamera& camera, const glm::dvec3& position)
     (clip.y / clip.w * 0.5 + 0.5) * camera.height, -view.z };
 }
 
-glm::dvec3 rayThrough(const FrameCamera& camera, int x, int y)
+glm::dvec3 directionThrough(const FrameCamera& camera, int x, int y)
 {
   const double tangentX = ((x + 0.5) / camera.width * 2.0 - 1.0) / camera.viewToClip[0][0];
   const double tangentY = ((y + 0.5) / camera.height * 2.0 - 1.0) / camera.viewToClip[1][1];
@@ -74,7 +74,7 @@ Overlap overlapOf(
   {
     for (int x = 0; x < camera.width; ++x)
     {
-      const glm::dvec3 ray = rayThrough(camera, x, y);
+      const glm::dvec3 ray = directionThrough(camera, x, y);
       const double t = glm::dot(n, c) / glm::dot(n, ray);
       const bool inside = t > 0.0 && glm::length(t * ray - c) <= radius;
       const bool drawn = target.depth[static_cast<std::size_t>(y * camera.width + x)] < 1e30f;
@@ -203,7 +203,7 @@ TEST(RasterReference, SpheresHaveTheirDepthInEachPixel)
     {
       for (int x = 0; x < 200; ++x)
       {
-        const glm::dvec3 ray = glm::normalize(rayThrough(camera, x, y));
+        const glm::dvec3 ray = glm::normalize(directionThrough(camera, x, y));
         const double along = glm::dot(ray, c);
         const double aside2 = glm::dot(c, c) - along * along;
         const float drawn = target.depth[static_cast<std::size_t>(y * 200 + x)];
@@ -295,7 +295,7 @@ TEST(RasterReference, EyeDomeLightingLeavesPlanesAsTheyAre)
       // The ground, and a box in front of its upper half.
       const glm::dvec3 up(camera.storeToView * glm::dvec4(0, 0, 1, 0));
       const glm::dvec3 origin(camera.storeToView * glm::dvec4(0, 0, 0, 1));
-      const double t = glm::dot(up, origin) / glm::dot(up, rayThrough(camera, x, y));
+      const double t = glm::dot(up, origin) / glm::dot(up, directionThrough(camera, x, y));
       const auto pixel = static_cast<std::size_t>(y * 120 + x);
       target.depth[pixel] = static_cast<float>(y > 60 && x > 60 ? 2.0 : t);
       target.rgba[pixel] = 0xffc8c8c8u;

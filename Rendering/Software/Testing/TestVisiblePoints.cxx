@@ -12,15 +12,15 @@ using namespace pointfront::test;
 namespace
 {
 
-constexpr int width = 320;
-constexpr int height = 200;
+constexpr int panWidth = 320;
+constexpr int panHeight = 200;
 constexpr double distance = 3.0;
 constexpr double angle = 0.35;
 
 /// A pixel's size at the surface.
 double pixel()
 {
-  return 2.0 * distance * std::tan(0.5 * angle) / height;
+  return 2.0 * distance * std::tan(0.5 * angle) / panHeight;
 }
 
 /// A surface seen from above, that fills the picture; the camera pans over it.
@@ -41,27 +41,27 @@ public:
   {
     const glm::dvec3 at(pixels * pixel(), 0.0, 0.0);
     plan.camera = FrameCamera::perspective(at + glm::dvec3(0.0, 0.0, distance), at,
-      { 0.0, 1.0, 0.0 }, angle, 0.01, 100.0, width, height);
+      { 0.0, 1.0, 0.0 }, angle, 0.01, 100.0, panWidth, panHeight);
   }
   void draw(double share, bool keeps, SoftwareRasteriser& with)
   {
     plan.batches[0].items[0].last = static_cast<std::uint32_t>(share * all);
     plan.keepsVisible = keeps;
-    target.reset(width, height);
+    target.reset(panWidth, panHeight);
     statistics = with.draw(plan, target);
   }
   /// Of the first columns of pixels the share in which something was drawn.
   static double coverage(const SoftwareTarget& picture, int columns)
   {
     int covered = 0;
-    for (int y = 0; y < height; ++y)
+    for (int y = 0; y < panHeight; ++y)
     {
       for (int x = 0; x < columns; ++x)
       {
-        covered += std::isfinite(picture.depth[static_cast<std::size_t>(y * width + x)]);
+        covered += std::isfinite(picture.depth[static_cast<std::size_t>(y * panWidth + x)]);
       }
     }
-    return static_cast<double>(covered) / (height * columns);
+    return static_cast<double>(covered) / (panHeight * columns);
   }
 
   std::uint32_t all = 0;
@@ -77,18 +77,18 @@ TEST(VisiblePoints, APanOfTenPixelsKeepsTheCoverage)
   PanOverSurface scene;
   SoftwareRasteriser rasteriser;
   scene.draw(1.0, true, rasteriser);
-  const double before = PanOverSurface::coverage(scene.target, width);
+  const double before = PanOverSurface::coverage(scene.target, panWidth);
   EXPECT_GT(before, 0.99);
   EXPECT_EQ(scene.statistics.keptVisible, 0u); // nothing was seen before
 
   scene.pan(10.0);
   SoftwareRasteriser fresh;
   scene.draw(0.05, true, fresh);
-  EXPECT_LT(PanOverSurface::coverage(scene.target, width - 10), 0.6);
+  EXPECT_LT(PanOverSurface::coverage(scene.target, panWidth - 10), 0.6);
   scene.draw(0.05, true, rasteriser);
-  EXPECT_GE(PanOverSurface::coverage(scene.target, width - 10), 0.99 * before);
+  EXPECT_GE(PanOverSurface::coverage(scene.target, panWidth - 10), 0.99 * before);
   EXPECT_GT(scene.statistics.keptVisible, 0u);
-  EXPECT_LE(scene.statistics.keptVisible, std::uint64_t(width) * height);
+  EXPECT_LE(scene.statistics.keptVisible, std::uint64_t(panWidth) * panHeight);
 }
 
 TEST(VisiblePoints, AreKeptFromFrameToFrame)
@@ -101,7 +101,7 @@ TEST(VisiblePoints, AreKeptFromFrameToFrame)
     scene.pan(frame);
     scene.draw(0.05, true, rasteriser);
   }
-  EXPECT_GE(PanOverSurface::coverage(scene.target, width - 20), 0.97);
+  EXPECT_GE(PanOverSurface::coverage(scene.target, panWidth - 20), 0.97);
 }
 
 TEST(VisiblePoints, ACompletePictureShowsWhatItsPlanSays)
@@ -150,7 +150,7 @@ TEST(VisiblePoints, FollowStylesAndClipping)
   scene.plan.clippingPlanes = { { 0.0, 1.0, 0.0, 0.0 } };
   scene.draw(0.05, true, rasteriser);
   EXPECT_GT(scene.statistics.keptVisible, 0u);
-  for (int x = 0; x < width; ++x)
+  for (int x = 0; x < panWidth; ++x)
   {
     EXPECT_FALSE(std::isfinite(scene.target.depth[static_cast<std::size_t>(x)])); // lowest row
   }
@@ -171,16 +171,16 @@ TEST(VisiblePoints, OfNodesThatAreGoneStay)
   scene.add(wavySurface(2000, 9), 0.01);
   SoftwareRasteriser rasteriser;
   scene.draw(1.0, true, rasteriser);
-  const double before = PanOverSurface::coverage(scene.target, width);
+  const double before = PanOverSurface::coverage(scene.target, panWidth);
   scene.pan(10.0);
   scene.plan.batches[0].items.erase(scene.plan.batches[0].items.begin());
   scene.plan.keepsVisible = true;
-  scene.target.reset(width, height);
+  scene.target.reset(panWidth, panHeight);
   rasteriser.draw(scene.plan, scene.target);
-  EXPECT_GE(PanOverSurface::coverage(scene.target, width - 10), 0.99 * before);
+  EXPECT_GE(PanOverSurface::coverage(scene.target, panWidth - 10), 0.99 * before);
   SoftwareTarget picked; // who is in a pixel is said of what the plan draws only
   picked.keepPoints = true;
-  picked.reset(width, height);
+  picked.reset(panWidth, panHeight);
   EXPECT_EQ(rasteriser.draw(scene.plan, picked).keptVisible, 0u);
 }
 
@@ -200,7 +200,7 @@ TEST(VisiblePoints, OfSeveralStoresAreKept)
     scene.draw(frame == 0 ? 1.0 : 0.05, true, alone);
     const std::uint64_t kept = scene.statistics.keptVisible;
     EXPECT_EQ(kept > 0, frame > 0);
-    window.reset(width, height);
+    window.reset(panWidth, panHeight);
     for (std::uint16_t store = 0; store < stores; ++store)
     {
       EXPECT_EQ(together.draw(scene.plan, window, store).keptVisible, kept) << frame << store;
@@ -213,12 +213,12 @@ TEST(VisiblePoints, OfSeveralStoresAreKept)
 TEST(VisiblePoints, StoresBesideEachOtherDrawNothingTwice)
 {
   PanOverSurface scene;
-  const double shift = 0.25 * width * pixel();
+  const double shift = 0.25 * panWidth * pixel();
   SoftwareRasteriser together;
   for (const double share : { 0.2, 1.0 })
   {
     SoftwareTarget window;
-    window.reset(width, height);
+    window.reset(panWidth, panHeight);
     for (const int side : { -1, 1 })
     {
       FramePlan plan = scene.plan;

@@ -20,7 +20,7 @@ namespace
 using test::ScriptedResidency;
 using Verdict = NodePruning::Verdict;
 
-enum class Way
+enum class Pruner
 {
   Front,
   ViewDetail
@@ -45,10 +45,10 @@ std::vector<Verdict> someVerdicts(const Hierarchy& tree, std::uint32_t seed)
 
 struct PrunedView
 {
-  PrunedView(Way way, std::shared_ptr<const Hierarchy> hierarchy)
+  PrunedView(Pruner way, std::shared_ptr<const Hierarchy> hierarchy)
     : tree(std::move(hierarchy))
   {
-    if (way == Way::Front)
+    if (way == Pruner::Front)
     {
       selection = std::make_unique<RenderFront>(tree);
     }
@@ -92,7 +92,7 @@ struct PrunedView
     View::perspective({ 900, 300, 200 }, { 0, 0, 0 }, { 0, 0, 1 }, 0.9, 0.1, 1e5, 800, 600);
 };
 
-class NodePruningOf : public ::testing::TestWithParam<std::tuple<Way, Refinement>>
+class NodePruningOf : public ::testing::TestWithParam<std::tuple<Pruner, Refinement>>
 {
 protected:
   static std::shared_ptr<const Hierarchy> tree(std::uint32_t seed)
@@ -107,7 +107,7 @@ protected:
 } // namespace
 
 INSTANTIATE_TEST_SUITE_P(Selections, NodePruningOf,
-  ::testing::Combine(::testing::Values(Way::Front, Way::ViewDetail),
+  ::testing::Combine(::testing::Values(Pruner::Front, Pruner::ViewDetail),
     ::testing::Values(Refinement::Add, Refinement::Replace)));
 
 TEST_P(NodePruningOf, DrawsWhatIsLeftAndNeverNamesTheOthers)

@@ -16,7 +16,7 @@ namespace
 
 using State = ResidencySnapshot::State;
 
-View lookingFrom(double x)
+View seenFrom(double x)
 {
   return View::perspective({ x, 300, 200 }, { 0, 0, 0 }, { 0, 0, 1 }, 0.9, 0.1, 1e5, 800, 600);
 }
@@ -90,7 +90,7 @@ struct Cloud
   SharedDemand::Claim slots;
   DemandCurves elsewhere;
   FrontLimits limits;
-  View view = lookingFrom(1000.0);
+  View view = seenFrom(1000.0);
   std::uint64_t heldPoints = 0;
   std::uint64_t drawnPoints = 0;
   std::uint64_t gpuSlots = 0;
@@ -402,7 +402,7 @@ TEST(SharedDemand, BudgetsHoldInEveryFrameOfEveryPath)
       scene.limit(0, budget, slots);
       for (const auto& cloud : scene.clouds)
       {
-        cloud->view = lookingFrom(place(random));
+        cloud->view = seenFrom(place(random));
       }
       for (int frame = 0; frame < 40; ++frame)
       {

@@ -16,16 +16,16 @@ namespace pointfront
 namespace
 {
 namespace fs = std::filesystem;
-constexpr std::size_t cloudPoints = 30000;
+constexpr std::size_t storePoints = 30000;
 
 /// Hills whose points have one of three classes, in patches.
 std::unique_ptr<test::CloudSource> classified()
 {
-  const auto plain = test::hills(cloudPoints, 1e6);
+  const auto plain = test::hills(storePoints, 1e6);
   AttributeSchema schema = test::idSchema();
   schema.add({ "classification", ScalarType::UInt8, 1 });
   auto cloud = std::make_unique<test::CloudSource>("cloud", schema, test::millimetres(), 1000);
-  for (std::size_t i = 0; i < cloudPoints; ++i)
+  for (std::size_t i = 0; i < storePoints; ++i)
   {
     const glm::dvec3& p = plain->positions()[i];
     cloud->addPosition(p);
@@ -165,7 +165,7 @@ TEST_P(PartialStores, HoldExactlyTheFinishedPartsWithoutASample)
       std::includes(contents.ids.begin(), contents.ids.end(), before.begin(), before.end()));
     before = contents.ids;
   }
-  EXPECT_GT(before.size(), cloudPoints / 2);
+  EXPECT_GT(before.size(), storePoints / 2);
 }
 
 TEST_P(PartialStores, HoldEachPointOnceWhateverIsFinished)
@@ -177,11 +177,11 @@ TEST_P(PartialStores, HoldEachPointOnceWhateverIsFinished)
     EXPECT_EQ(contents.points, contents.ids.size()); // none twice
     if (GetParam().structure == Structure::Octree)
     {
-      EXPECT_EQ(contents.ids.size(), cloudPoints); // none is missing
+      EXPECT_EQ(contents.ids.size(), storePoints); // none is missing
     }
     else // where a cell is divided among parts the sample says nothing once one is finished
     {
-      EXPECT_GT(contents.ids.size(), cloudPoints * 8 / 10);
+      EXPECT_GT(contents.ids.size(), storePoints * 8 / 10);
     }
   }
 }

@@ -12,7 +12,7 @@ using namespace pointfront;
 namespace
 {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double unbounded = std::numeric_limits<double>::infinity();
 constexpr ScalarType allTypes[] = { ScalarType::Int8, ScalarType::UInt8, ScalarType::Int16,
   ScalarType::UInt16, ScalarType::Int32, ScalarType::UInt32, ScalarType::Int64, ScalarType::UInt64,
   ScalarType::Float32, ScalarType::Float64 };
@@ -51,10 +51,10 @@ std::vector<AttributeCondition> someConditions()
   };
   range(3.0, 17.0, false, false);
   range(3.0, 17.0, true, true);
-  range(-infinity, 5.0, false, true);
-  range(5.25, infinity, true, false);
+  range(-unbounded, 5.0, false, true);
+  range(5.25, unbounded, true, false);
   range(1e30, 1e31, false, false);
-  range(-infinity, infinity, false, false);
+  range(-unbounded, unbounded, false, false);
   const auto set = [&](std::vector<double> values)
   {
     AttributeCondition condition;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "RandomRounds.h"
+
 #include "pointfront/Points/PointSource.h"
 #include "pointfront/Query/BoxRegion.h"
 #include "pointfront/Query/ConvexRegion.h"
@@ -411,11 +413,11 @@ inline void expectOracle(
   }
 }
 
-/// `count` random queries, and the same points again by their ids.
+/// `count` random queries (randomRounds()), and the same points again by their ids.
 inline void expectOracle(const StoredCloud& store, const OracleCloud& cloud, int count)
 {
   OracleQueries queries(cloud, 42);
-  for (int i = 0; i < count && !testing::Test::HasFatalFailure(); ++i)
+  for (int i = 0; i < randomRounds(count) && !testing::Test::HasFatalFailure(); ++i)
   {
     SCOPED_TRACE("query " + std::to_string(i));
     OracleQuery asked = queries.next();

@@ -42,24 +42,52 @@ function (pointfront_report_left_out)
     "POINTFRONT_SHARED_DATA (${POINTFRONT_SHARED_DATA}) has none. Their names are in ${file}")
 endfunction ()
 
+# pointfront_suites(<executable> PREFIX <prefix> LEFT_OUT <patterns, a colon between>)
+# A test for each suite of the executable. One for each test would start a process under a
+# sanitizer some two thousand times.
+function (pointfront_suites executable)
+  cmake_parse_arguments(PARSE_ARGV 1 suites "" "PREFIX;LEFT_OUT" "")
+  set(file "${CMAKE_CURRENT_BINARY_DIR}/${executable}-suites.cmake")
+  set(lister "${PROJECT_SOURCE_DIR}/vtkmodule/cmake/ListSuites.cmake")
+  add_custom_command(TARGET ${executable} POST_BUILD VERBATIM
+    COMMAND "${CMAKE_COMMAND}" "-DPROGRAM=$<TARGET_FILE:${executable}>" "-DFILE=${file}"
+      "-DPREFIX=${suites_PREFIX}" "-DLEFT_OUT=${suites_LEFT_OUT}"
+      "-DFOLDER=${pointfront_test_files}" -P "${lister}")
+  set_property(TARGET ${executable} APPEND PROPERTY LINK_DEPENDS "${lister}")
+  set(including "${CMAKE_CURRENT_BINARY_DIR}/${executable}-include.cmake")
+  file(WRITE "${including}" "if (EXISTS [==[${file}]==])\n  include([==[${file}]==])\n"
+    "else ()\n  add_test([==[${executable}_is_not_built]==] NOT_BUILT)\nendif ()\n")
+  set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES "${including}")
+endfunction ()
+
 # pointfront_discover_tests(<executable> TEST_PREFIX <prefix> [READS_DATA <suite>.<test>...]
-#   <as gtest_discover_tests>...)
+#   [WITHOUT_THREADS <suite>.<test>...] <as gtest_discover_tests>...)
 # READS_DATA: those that read the public clouds, or patterns of such. A TEST_FILTER may only begin
 # with "-".
+# WITHOUT_THREADS: those that start no thread and take seconds under ThreadSanitizer, which has
+# nothing to see in them: they are left out there.
 function (pointfront_discover_tests executable)
   cmake_parse_arguments(PARSE_ARGV 1
-    test "" "TEST_PREFIX;TEST_FILTER;DISCOVERY_TIMEOUT" "READS_DATA")
-  set(filter "${test_TEST_FILTER}")
+    test "" "TEST_PREFIX;TEST_FILTER;DISCOVERY_TIMEOUT" "READS_DATA;WITHOUT_THREADS")
+  string(REGEX REPLACE "^-" "" left_out "${test_TEST_FILTER}")
   if (test_READS_DATA AND NOT pointfront_has_shared_data)
-    list(JOIN test_READS_DATA ":" reading)
-    set(filter "-${reading}")
-    if (test_TEST_FILTER) # it leaves tests out, too
-      set(filter "${test_TEST_FILTER}:${reading}")
-    endif ()
+    list(APPEND left_out ${test_READS_DATA})
     string(LENGTH "${POINTFRONT_TEST_PREFIX}" length)
     string(SUBSTRING "${test_TEST_PREFIX}" ${length} -1 prefix)
     list(TRANSFORM test_READS_DATA PREPEND "${prefix}")
     pointfront_leave_out(${test_READS_DATA})
+  endif ()
+  if (POINTFRONT_SANITIZE STREQUAL "thread")
+    list(APPEND left_out ${test_WITHOUT_THREADS})
+  endif ()
+  list(JOIN left_out ":" left_out)
+  if (POINTFRONT_SANITIZE)
+    pointfront_suites(${executable} PREFIX "${test_TEST_PREFIX}" LEFT_OUT "${left_out}")
+    return ()
+  endif ()
+  set(filter "")
+  if (left_out)
+    set(filter "-${left_out}")
   endif ()
   gtest_discover_tests(${executable} TEST_PREFIX "${test_TEST_PREFIX}" TEST_FILTER "${filter}"
     DISCOVERY_TIMEOUT ${test_DISCOVERY_TIMEOUT} ${test_UNPARSED_ARGUMENTS}

@@ -142,7 +142,7 @@ def ranks_selection(programs):
 
 
 def rectangles(programs):
-    """Fifty each on trees of several classes, a kd-tree and an octree; on one process and two."""
+    """Fifty each on trees of several classes, a kd-tree and an octree; twenty on two processes."""
     os.environ["POINTFRONT_ONLY"] = "rectangles"
     tool("generate", "--points", "120000", "--seed", "7", "-o", "survey.las", "--force")
     stadium = os.environ["POINTFRONT_CLOUD"], os.environ["POINTFRONT_CAMERA"]

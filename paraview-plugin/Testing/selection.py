@@ -29,7 +29,7 @@ import visible
 from scene import OUTPUT, POINTS, SIZE, STORE, Scene, require
 
 RANKS = servermanager.ActiveConnection.GetNumberOfDataPartitions()
-RECTANGLES = 50
+RECTANGLES = 50 if RANKS == 1 else 20
 PICKS = 200 if RANKS == 1 else 50
 # Rectangles in which ParaView draws the points, too. On several ranks of pvbatch it selects only
 # those of its own that lie on other ranks (docs/adr/0022).

@@ -27,6 +27,7 @@ if (POINTFRONT_PCL AND NOT POINTFRONT_NORMALS)
 endif ()
 option(POINTFRONT_WARNINGS_AS_ERRORS "Stop at a warning" OFF)
 option(POINTFRONT_COMPILE_BY_FOLDER "Compile the sources of a folder as one" OFF)
+option(POINTFRONT_COMPILE_TESTS_BY_FOLDER "Likewise those of a folder of tests" ON)
 set(POINTFRONT_SANITIZE "" CACHE STRING
   "Sanitizers, as for -fsanitize=: address,undefined or thread")
 
@@ -91,17 +92,17 @@ target_compile_options(pointfrontInlining INTERFACE
 add_library(pointfrontWarnings INTERFACE)
 target_compile_options(pointfrontWarnings INTERFACE
   -Wall -Wextra -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor -Woverloaded-virtual
-  # Two that only make sense of a source alone.
-  $<$<NOT:$<BOOL:${POINTFRONT_COMPILE_BY_FOLDER}>>:-Wshadow>
-  $<$<AND:$<BOOL:${POINTFRONT_COMPILE_BY_FOLDER}>,$<CXX_COMPILER_ID:GNU>>:-Wno-subobject-linkage>
+  $<$<NOT:$<BOOL:$<TARGET_PROPERTY:UNITY_BUILD>>>:-Wshadow> # only makes sense of a source alone
   $<$<BOOL:${POINTFRONT_WARNINGS_AS_ERRORS}>:-Werror>)
 
-# pointfront_compile_by_folder(<target> [ALWAYS])
+# pointfront_compile_by_folder(<target> [ALWAYS | TESTS])
 # With POINTFRONT_COMPILE_BY_FOLDER the sources of one folder are compiled as one: their headers and
 # templates once. What they keep to themselves then needs names that are unique in the folder.
 # ALWAYS: whatever that option says, for code that is mostly its headers' templates.
+# TESTS: as POINTFRONT_COMPILE_TESTS_BY_FOLDER says.
 function (pointfront_compile_by_folder target)
-  if (NOT POINTFRONT_COMPILE_BY_FOLDER AND NOT "ALWAYS" IN_LIST ARGN)
+  if (NOT POINTFRONT_COMPILE_BY_FOLDER AND NOT "ALWAYS" IN_LIST ARGN
+      AND NOT ("TESTS" IN_LIST ARGN AND POINTFRONT_COMPILE_TESTS_BY_FOLDER))
     return ()
   endif ()
   get_target_property(aliased ${target} ALIASED_TARGET) # what VTK calls a module's own target
@@ -109,6 +110,8 @@ function (pointfront_compile_by_folder target)
     set(target ${aliased})
   endif ()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  # A warning that only makes sense of a source alone.
+  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
   get_target_property(sources ${target} SOURCES)
   list(FILTER sources INCLUDE REGEX "\\.cxx$")
   foreach (source IN LISTS sources)

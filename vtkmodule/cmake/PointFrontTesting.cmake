@@ -64,8 +64,8 @@ endfunction ()
 #   [WITHOUT_THREADS <suite>.<test>...] <as gtest_discover_tests>...)
 # READS_DATA: those that read the public clouds, or patterns of such. A TEST_FILTER may only begin
 # with "-".
-# WITHOUT_THREADS: those that start no thread and take seconds under ThreadSanitizer, which has
-# nothing to see in them: they are left out there.
+# WITHOUT_THREADS: those of what runs in one thread and takes seconds under ThreadSanitizer, which
+# has nothing to see in them: they are left out there.
 function (pointfront_discover_tests executable)
   cmake_parse_arguments(PARSE_ARGV 1
     test "" "TEST_PREFIX;TEST_FILTER;DISCOVERY_TIMEOUT" "READS_DATA;WITHOUT_THREADS")
@@ -144,7 +144,7 @@ function (pointfront_add_module_test name)
   include(GoogleTest)
   file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/Cxx/*.cxx")
   add_executable(${name} ${sources})
-  pointfront_compile_by_folder(${name})
+  pointfront_compile_by_folder(${name} TESTS)
   target_include_directories(${name} PRIVATE "${CMAKE_CURRENT_SOURCE_DIR}/Cxx"
     "${CMAKE_SOURCE_DIR}/vtkmodule/Core/Testing" "${CMAKE_SOURCE_DIR}/Testing/Support")
   target_link_libraries(${name} PRIVATE ${test_MODULES} pointfrontWarnings GTest::gtest_main)

@@ -57,11 +57,22 @@ class RulesTest(unittest.TestCase):
         self.assertEqual(self.faults("OneVersion", tree), [("CHANGELOG.md", 3)])
 
     def test_folder_size(self):
-        tree = {f"vtkmodule/Core/pointfront/Store/A{i}.h": "int a;\n" for i in range(41)}
-        tree.update({f"vtkmodule/Core/pointfront/Front/A{i}.h": "int a;\n" for i in range(40)})
-        tree.update({f"Testing/Whole/A{i}.h": "int a;\n" for i in range(60)})
-        self.assertEqual(
-            self.faults("FolderSize", tree), [("vtkmodule/Core/pointfront/Store", 41)])
+        held = {
+            "vtkmodule/Core/pointfront/Store": 41,
+            "vtkmodule/Core/pointfront/Front": 40,
+            "IO/LAS": 42,
+            "IO/LAS/LAZ": 40,
+            "Rendering/OpenGL2/Testing/Cxx": 43,
+            "CommandLine": 44,
+        }
+        tree = {
+            f"{folder}/A{i}.{'h' if i % 2 else 'cxx'}": "int a;\n"
+            for folder, count in held.items() for i in range(count)
+        }
+        tree.update({f"docs/A{i}.md": "text\n" for i in range(60)})
+        self.assertEqual(self.faults("FolderSize", tree), [
+            ("CommandLine", 44), ("IO/LAS", 42), ("Rendering/OpenGL2/Testing/Cxx", 43),
+            ("vtkmodule/Core/pointfront/Store", 41)])
 
     def test_formatting(self):
         tree = {

@@ -23,7 +23,8 @@ set(pointfront_public_core
   Views/ViewFront.h)
 set(pointfront_public_io
   EPT/EPTFormat.h EPT/EPTTree.h
-  LAS/COPCFile.h LAS/IndexedLASFile.h LAS/LASFormat.h LAS/LASIndexing.h LAS/LASWriter.h
+  LAS/InPlace/COPCFile.h LAS/InPlace/IndexedLASFile.h LAS/InPlace/LASIndexing.h
+  LAS/LASFormat.h LAS/LASWriter.h
   PCD/PCDFormat.h PCD/PCDWriter.h PLY/PLYFormat.h PLY/PLYWriter.h PNG/PNGReader.h PNG/PNGWriter.h
   StyleJSON/StyleJSON.h Text/TextFormat.h Text/XYZWriter.h)
 set(pointfront_public_filters
@@ -35,7 +36,8 @@ set(pointfront_public_software
   PixelRectangle.h SoftwareComposition.h SoftwareRasteriser.h SoftwareTarget.h)
 
 # pointfront_with_included(<out> <header>...)
-# The headers, and all of ours that they include, directly or not. Paths are absolute.
+# The headers, and all of ours that they include, directly or not: those of the kernel, and those
+# of their own library, in whatever room of it. Paths are absolute.
 function (pointfront_with_included out)
   set(core "${CMAKE_SOURCE_DIR}/vtkmodule/Core")
   set(waiting ${ARGN})
@@ -49,16 +51,14 @@ function (pointfront_with_included out)
       message(FATAL_ERROR "a public header is not there: ${header}")
     endif ()
     list(APPEND seen "${header}")
-    get_filename_component(folder "${header}" DIRECTORY)
+    file(RELATIVE_PATH library "${CMAKE_SOURCE_DIR}" "${header}")
+    string(REGEX REPLACE "^([^/]+/[^/]+)/.*" "${CMAKE_SOURCE_DIR}/\\1" library "${library}")
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${header}")
     file(STRINGS "${header}" lines REGEX "^#include \"")
     foreach (line IN LISTS lines)
       string(REGEX REPLACE "^#include \"([^\"]+)\".*" "\\1" name "${line}")
-      foreach (place IN ITEMS "${core}/${name}" "${folder}/${name}")
-        if (EXISTS "${place}")
-          list(APPEND waiting "${place}")
-        endif ()
-      endforeach ()
+      file(GLOB places "${core}/${name}" "${library}/${name}" "${library}/*/${name}")
+      list(APPEND waiting ${places})
     endforeach ()
   endwhile ()
   list(SORT seen)

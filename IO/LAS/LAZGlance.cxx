@@ -286,10 +286,9 @@ std::uint64_t bytesOf(const std::vector<std::string>& files)
 void enclose(ForeignTreeContent& content, std::size_t points)
 {
   const Bounds& bounds = content.source.declaredBounds;
-  const glm::dvec3 size = bounds.size();
   const glm::dvec3 step = content.source.grid->scale;
-  content.low = bounds.low;
-  content.side = std::max({ size.x, size.y, size.z, step.x, step.y, step.z });
+  content.setCube(bounds);
+  content.side = std::max({ content.side, step.x, step.y, step.z });
   content.spacing = spacingOf(bounds, points);
   content.nodes.push_back({ 0, 0, 0, 0, static_cast<std::uint32_t>(points), 0 });
 }

@@ -6,6 +6,7 @@
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <utility>
 
 namespace pointfront
 {
@@ -106,6 +107,13 @@ Result<void> InputFile::readAt(std::uint64_t offset, std::byte* target, std::siz
     offset += static_cast<std::uint64_t>(count);
   }
   return {};
+}
+
+Result<RawBytes> InputFile::readAt(std::uint64_t offset, std::size_t size) const
+{
+  RawBytes bytes(size);
+  const Result<void> done = readAt(offset, bytes.data.get(), size);
+  return done ? Result<RawBytes>(std::move(bytes)) : done.error();
 }
 
 } // namespace pointfront

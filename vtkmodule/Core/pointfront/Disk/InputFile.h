@@ -1,5 +1,6 @@
 #pragma once
 
+#include "pointfront/Base/RawBytes.h"
 #include "pointfront/Base/Result.h"
 
 #include <cstddef>
@@ -31,6 +32,7 @@ public:
   /// False once another file has this path, or none.
   bool isStillNamed() const;
   Result<void> readAt(std::uint64_t offset, std::byte* target, std::size_t size) const;
+  Result<RawBytes> readAt(std::uint64_t offset, std::size_t size) const;
 
 private:
   InputFile(std::string path, int descriptor, std::uint64_t bytes, std::uint64_t device);

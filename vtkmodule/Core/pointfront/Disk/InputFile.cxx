@@ -116,4 +116,15 @@ Result<RawBytes> InputFile::readAt(std::uint64_t offset, std::size_t size) const
   return done ? Result<RawBytes>(std::move(bytes)) : done.error();
 }
 
+bool fileBeginsWith(const std::string& path, const void* bytes, std::size_t size)
+{
+  const Result<std::unique_ptr<const InputFile>> file = InputFile::open(path);
+  if (!file || (*file)->bytes() < size)
+  {
+    return false;
+  }
+  const Result<RawBytes> beginning = (*file)->readAt(0, size);
+  return beginning && std::memcmp(beginning->data.get(), bytes, size) == 0;
+}
+
 } // namespace pointfront

@@ -42,4 +42,7 @@ private:
   std::uint64_t device_;
 };
 
+/// False, too, for a file that cannot be read.
+bool fileBeginsWith(const std::string& path, const void* bytes, std::size_t size);
+
 } // namespace pointfront

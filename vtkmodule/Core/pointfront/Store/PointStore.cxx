@@ -152,11 +152,7 @@ PointStore::~PointStore() = default;
 
 bool PointStore::looksLikeStore(const std::string& path)
 {
-  const Result<std::unique_ptr<const InputFile>> file = InputFile::open(path);
-  std::array<unsigned char, storeMagic.size()> bytes{};
-  return file && (*file)->bytes() >= bytes.size() &&
-    (*file)->readAt(0, reinterpret_cast<std::byte*>(bytes.data()), bytes.size()) &&
-    bytes == storeMagic;
+  return fileBeginsWith(path, storeMagic.data(), storeMagic.size());
 }
 
 bool PointStore::looksLikePreview(const std::string& path)

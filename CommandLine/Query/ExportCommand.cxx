@@ -5,7 +5,6 @@
 #include "SinkFormats.h"
 #include "Unavailable.h"
 
-#include "pointfront/Export/StoreExport.h"
 #include "pointfront/Store/StoredCloudFormats.h"
 
 #include <cstdio>
@@ -42,6 +41,43 @@ void ExportCommand::declare(CLI::App& program)
     ->check(availableValues({ "auto", "plain", "json", "none" }, {}));
 }
 
+Result<void> ExportCommand::checkTarget(const StoredCloud& store) const
+{
+  std::vector<std::string> reads = store.files();
+  reads.push_back(sinkChoice_.crs); // may be a file
+  for (const std::string& file : arguments_.files())
+  {
+    reads.push_back(file);
+  }
+  return checkOutputTarget({ outputPath_, sinkKind(outputPath_), replace_ }, reads);
+}
+
+Result<std::uint64_t> ExportCommand::write(
+  const StoredCloud& store, const ExportSelection& selection)
+{
+  const Result<std::unique_ptr<PointSink>> made = makeSink(outputPath_, sinkChoice_);
+  if (!made)
+  {
+    return made.error();
+  }
+  PointSink& sink = **made;
+  std::uint64_t written = 0;
+  {
+    ProgressDisplay display(*ProgressDisplay::styleOf(progress_));
+    const Result<ExportReport> report = exportStore(store, selection, sink, display.function());
+    if (!report)
+    {
+      return report.error();
+    }
+    written = report->pointsWritten;
+  }
+  for (const std::string& finding : sink.findings())
+  {
+    warn(name(), outputPath_ + ": " + finding);
+  }
+  return written;
+}
+
 Result<void> ExportCommand::run()
 {
   const CancelSignal signal(CancelSignal::Mode::Finish);
@@ -51,23 +87,17 @@ Result<void> ExportCommand::run()
   {
     return store.error();
   }
-  for (const std::string& warning : (*store)->description().warnings)
+  const StoreDescription& description = (*store)->description();
+  for (const std::string& warning : description.warnings)
   {
     warn(name(), storePath_ + ": " + warning);
   }
-  std::vector<std::string> reads = (*store)->files();
-  reads.push_back(sinkChoice_.crs); // may be a file
-  for (const std::string& file : arguments_.files())
-  {
-    reads.push_back(file);
-  }
-  Result<void> checked = checkOutputTarget({ outputPath_, sinkKind(outputPath_), replace_ }, reads);
-  if (!checked)
+  if (Result<void> checked = checkTarget(**store); !checked)
   {
     return checked;
   }
   std::vector<std::string> notes;
-  Result<PointQuery> query = arguments_.query((*store)->description(), notes);
+  Result<PointQuery> query = arguments_.query(description, notes);
   if (!query)
   {
     return query.error();
@@ -76,33 +106,16 @@ Result<void> ExportCommand::run()
   {
     warn(name(), note);
   }
-  const ExportSelection selection{ std::move(*query), std::nullopt };
-  const Result<std::unique_ptr<PointSink>> made = makeSink(outputPath_, sinkChoice_);
-  if (!made)
+  const Result<std::uint64_t> points = write(**store, { std::move(*query), std::nullopt });
+  if (!points)
   {
-    return made.error();
+    return points.error();
   }
-  PointSink& sink = **made;
-  ExportReport report;
-  {
-    ProgressDisplay display(*ProgressDisplay::styleOf(progress_));
-    Result<ExportReport> exported = exportStore(**store, selection, sink, display.function());
-    if (!exported)
-    {
-      return exported.error();
-    }
-    report = *exported;
-  }
-  for (const std::string& finding : sink.findings())
-  {
-    warn(name(), outputPath_ + ": " + finding);
-  }
-  if (report.pointsWritten == 0)
+  if (*points == 0)
   {
     warn(name(), outputPath_ + ": no point of the store is selected; the file holds none");
   }
-  std::printf("%s: %llu points\n", outputPath_.c_str(),
-    static_cast<unsigned long long>(report.pointsWritten));
+  std::printf("%s: %llu points\n", outputPath_.c_str(), static_cast<unsigned long long>(*points));
   return {};
 }
 

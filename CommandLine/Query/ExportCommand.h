@@ -4,6 +4,9 @@
 #include "QueryArguments.h"
 #include "SinkFormats.h"
 
+#include "pointfront/Export/StoreExport.h"
+
+#include <cstdint>
 #include <string>
 
 namespace pointfront
@@ -17,6 +20,11 @@ public:
   Result<void> run() override;
 
 private:
+  /// The file can be written, and is none of those that are read.
+  Result<void> checkTarget(const StoredCloud& store) const;
+  /// Gives how many points the file has; warns of what it could not keep.
+  Result<std::uint64_t> write(const StoredCloud& store, const ExportSelection& selection);
+
   std::string storePath_;
   std::string outputPath_;
   QueryArguments arguments_;

@@ -28,7 +28,7 @@ std::string definitionOf(const std::string& target)
 } // namespace
 
 ProjectedSink::ProjectedSink(std::unique_ptr<PointSink> sink, std::string target)
-  : sink_(std::move(sink))
+  : ForwardingSink(std::move(sink))
   , target_(std::move(target))
 {
 }
@@ -81,14 +81,14 @@ Result<void> ProjectedSink::begin(const SinkDescription& description)
     std::remove_if(result.metadata.begin(), result.metadata.end(),
       [](const MetadataRecord& record) { return record.owner == "LASF_Projection"; }),
     result.metadata.end());
-  return sink_->begin(result);
+  return ForwardingSink::begin(result);
 }
 
 Result<void> ProjectedSink::append(const PointBatch& batch)
 {
   if (!transform_)
   {
-    return sink_->append(batch);
+    return ForwardingSink::append(batch);
   }
   batch_ = batch;
   if (Result<void> done = transform_->apply(batch_.positions.data(), batch_.size()); !done)
@@ -113,12 +113,12 @@ Result<void> ProjectedSink::append(const PointBatch& batch)
   }
   lost_ += batch.size() - kept;
   batch_.resize(kept, schema_);
-  return kept > 0 ? sink_->append(batch_) : Result<void>();
+  return kept > 0 ? ForwardingSink::append(batch_) : Result<void>();
 }
 
 std::vector<std::string> ProjectedSink::findings() const
 {
-  std::vector<std::string> all = sink_->findings();
+  std::vector<std::string> all = ForwardingSink::findings();
   if (transform_)
   {
     const std::vector<std::string>& doubts = transform_->warnings();

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pointfront/Points/PointSink.h"
+#include "pointfront/Points/ForwardingSink.h"
 #include "pointfront/Reference/CoordinateSystems.h"
 
 #include <memory>
@@ -14,21 +14,18 @@ namespace pointfront
 /// Heights   are transformed where both systems name them; else they stay as they are.
 /// Left out  points that cannot be transformed; findings() counts them.
 /// Errors    BadArgument: the points name no system as WKT, or none of them can be transformed.
-class ProjectedSink final : public PointSink
+class ProjectedSink final : public ForwardingSink
 {
 public:
   /// `target`: a code, a definition, or the path of a file that holds one.
   ProjectedSink(std::unique_ptr<PointSink> sink, std::string target);
   ~ProjectedSink() override;
 
-  std::string path() const override { return sink_->path(); }
   Result<void> begin(const SinkDescription& description) override;
   Result<void> append(const PointBatch& batch) override;
-  Result<void> finish() override { return sink_->finish(); }
   std::vector<std::string> findings() const override;
 
 private:
-  std::unique_ptr<PointSink> sink_;
   std::string target_;
   std::unique_ptr<CoordinateTransform> transform_; ///< since begin(); null: the same system
   AttributeSchema schema_;

@@ -24,30 +24,10 @@ Error bad(const std::string& path, const std::string& what)
 
 std::optional<ScalarType> typeOf(const std::string& kind, std::int64_t bytes)
 {
-  if (kind == "float")
-  {
-    return bytes == 4 ? std::optional<ScalarType>(ScalarType::Float32)
-      : bytes == 8    ? std::optional<ScalarType>(ScalarType::Float64)
-                      : std::nullopt;
-  }
   const bool isSigned = kind == "signed";
-  if (!isSigned && kind != "unsigned")
-  {
-    return std::nullopt;
-  }
-  switch (bytes)
-  {
-    case 1:
-      return isSigned ? ScalarType::Int8 : ScalarType::UInt8;
-    case 2:
-      return isSigned ? ScalarType::Int16 : ScalarType::UInt16;
-    case 4:
-      return isSigned ? ScalarType::Int32 : ScalarType::UInt32;
-    case 8:
-      return isSigned ? ScalarType::Int64 : ScalarType::UInt64;
-    default:
-      return std::nullopt;
-  }
+  return kind == "float"             ? floatTypeOf(bytes)
+    : isSigned || kind == "unsigned" ? integerTypeOf(bytes, isSigned)
+                                     : std::nullopt;
 }
 
 double numberOf(const Json& object, const char* key, double otherwise)

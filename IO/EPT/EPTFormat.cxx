@@ -1,13 +1,14 @@
 #include "EPTFormat.h"
 
+#include "EPTFolder.h"
 #include "EPTLasNodes.h"
 #include "EPTRecords.h"
 
-#include "pointfront/Base/MemoryMap.h"
 #include "pointfront/Points/DescribedSource.h"
 #include "pointfront/Table/TableSource.h"
 
 #include <filesystem>
+#include <utility>
 
 namespace pointfront
 {
@@ -38,40 +39,29 @@ bool EPTFormat::accepts(const std::string& path) const
 
 Result<std::unique_ptr<PointSource>> EPTFormat::open(const std::string& path) const
 {
-  const Result<MemoryMap> map = MemoryMap::open(path);
-  if (!map)
+  Result<std::shared_ptr<const EPTFolder>> tree = EPTFolder::open(path);
+  return tree ? openTree(std::move(*tree)) : tree.error();
+}
+
+Result<std::unique_ptr<PointSource>> EPTFormat::openTree(
+  std::shared_ptr<const EPTFolder> tree) const
+{
+  if (tree->nodes.empty())
   {
-    return map.error();
+    return makeError(Error::Kind::BadFormat, tree->path + ": no node of its hierarchy has a point");
   }
-  const std::string_view text(reinterpret_cast<const char*>(map->data()), map->size());
-  Result<EPTDescription> tree = EPTDescription::parse(text, path);
-  if (!tree)
-  {
-    return tree.error();
-  }
-  const std::string folder = std::filesystem::absolute(path).parent_path().string();
-  Result<std::vector<EPTNode>> nodes = readEPTHierarchy(folder);
-  if (!nodes)
-  {
-    return nodes.error();
-  }
-  if (nodes->empty())
-  {
-    return makeError(Error::Kind::BadFormat, path + ": no node of its hierarchy has a point");
-  }
-  Result<std::unique_ptr<PointSource>> source = tree->encoding == EPTEncoding::Laszip
-    ? EPTLasNodes::open(path, folder, std::move(*nodes), openNode_)
+  Result<std::unique_ptr<PointSource>> source = tree->description.encoding == EPTEncoding::Laszip
+    ? EPTLasNodes::open(tree, openNode_)
     : [&]() -> Result<std::unique_ptr<PointSource>>
   {
-    Result<std::unique_ptr<PointTable>> table =
-      EPTRecords::open(path, folder, *tree, std::move(*nodes));
+    Result<std::unique_ptr<PointTable>> table = EPTRecords::open(tree);
     return table ? TableSource::open(std::move(*table), survey_) : table.error();
   }();
   if (!source)
   {
     return source;
   }
-  SourceDescription description = described(**source, *tree);
+  SourceDescription description = described(**source, tree->description);
   return std::unique_ptr<PointSource>(
     std::make_unique<DescribedSource>(std::move(*source), std::move(description)));
 }

@@ -4,11 +4,14 @@
 #include "pointfront/Table/ParallelChunks.h"
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <utility>
 
 namespace pointfront
 {
+
+struct EPTFolder;
 
 /// Entwine trees, by their ept.json: nodes of laszip, binary or zstandard. Every point of every
 /// node is read; the tree's own hierarchy counts for nothing else.
@@ -27,6 +30,7 @@ public:
   /// By the name "ept.json".
   bool accepts(const std::string& path) const override;
   Result<std::unique_ptr<PointSource>> open(const std::string& path) const override;
+  Result<std::unique_ptr<PointSource>> openTree(std::shared_ptr<const EPTFolder> tree) const;
 
 private:
   Opener openNode_;

@@ -5,32 +5,25 @@
 namespace pointfront
 {
 
-std::string EPTLasNodes::fileOf(const EPTNode& node) const
-{
-  return folder_ + "/ept-data/" + node.key + ".laz";
-}
-
-Result<std::unique_ptr<PointSource>> EPTLasNodes::open(const std::string& path,
-  const std::string& folder, std::vector<EPTNode> nodes, EPTFormat::Opener openNode)
+Result<std::unique_ptr<PointSource>> EPTLasNodes::open(
+  std::shared_ptr<const EPTFolder> tree, EPTFormat::Opener openNode)
 {
   std::unique_ptr<EPTLasNodes> source(new EPTLasNodes);
-  source->folder_ = folder;
-  source->nodes_ = std::move(nodes);
+  source->tree_ = std::move(tree);
   source->openNode_ = std::move(openNode);
-  const Result<std::unique_ptr<PointSource>> first =
-    source->openNode_(source->fileOf(source->nodes_.front()));
+  const Result<std::unique_ptr<PointSource>> first = source->openNode_(source->tree_->fileOf(0));
   if (!first)
   {
     return first.error();
   }
   SourceDescription& description = source->description_;
   description = (*first)->description();
-  description.path = path;
+  description.path = source->tree_->path;
   description.format = "EPT of " + description.format;
   description.declaredBounds = Bounds();
   description.warnings.clear();
   description.pointCount = 0;
-  for (const EPTNode& node : source->nodes_)
+  for (const EPTNode& node : source->tree_->nodes)
   {
     description.pointCount += node.points;
   }
@@ -39,8 +32,8 @@ Result<std::unique_ptr<PointSource>> EPTLasNodes::open(const std::string& path,
 
 Result<void> EPTLasNodes::read(std::uint64_t chunk, PointBatch& batch) const
 {
-  const EPTNode& node = nodes_[static_cast<std::size_t>(chunk)];
-  const std::string path = fileOf(node);
+  const EPTNode& node = tree_->nodes[static_cast<std::size_t>(chunk)];
+  const std::string path = tree_->fileOf(chunk);
   const Result<std::unique_ptr<PointSource>> file = openNode_(path);
   if (!file)
   {
@@ -62,12 +55,7 @@ Result<void> EPTLasNodes::read(std::uint64_t chunk, PointBatch& batch) const
     {
       return done;
     }
-    batch.positions.insert(batch.positions.end(), part.positions.begin(), part.positions.end());
-    for (std::size_t column = 0; column < part.columns.size(); ++column)
-    {
-      batch.columns[column].insert(
-        batch.columns[column].end(), part.columns[column].begin(), part.columns[column].end());
-    }
+    batch.append(part);
   }
   if (batch.positions.size() != node.points)
   {

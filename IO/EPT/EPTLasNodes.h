@@ -1,13 +1,11 @@
 #pragma once
 
-#include "EPTDescription.h"
+#include "EPTFolder.h"
 #include "EPTFormat.h"
 
 #include "pointfront/Points/PointSource.h"
 
 #include <memory>
-#include <string>
-#include <vector>
 
 namespace pointfront
 {
@@ -19,23 +17,21 @@ namespace pointfront
 class EPTLasNodes final : public PointSource
 {
 public:
-  static Result<std::unique_ptr<PointSource>> open(const std::string& path,
-    const std::string& folder, std::vector<EPTNode> nodes, EPTFormat::Opener openNode);
+  static Result<std::unique_ptr<PointSource>> open(
+    std::shared_ptr<const EPTFolder> tree, EPTFormat::Opener openNode);
 
   const SourceDescription& description() const override { return description_; }
-  std::uint64_t chunkCount() const override { return nodes_.size(); }
+  std::uint64_t chunkCount() const override { return tree_->nodes.size(); }
   std::uint64_t chunkPoints(std::uint64_t chunk) const override
   {
-    return nodes_[static_cast<std::size_t>(chunk)].points;
+    return tree_->nodes[static_cast<std::size_t>(chunk)].points;
   }
   Result<void> read(std::uint64_t chunk, PointBatch& batch) const override;
 
 private:
   EPTLasNodes() = default;
-  std::string fileOf(const EPTNode& node) const;
 
-  std::string folder_;
-  std::vector<EPTNode> nodes_;
+  std::shared_ptr<const EPTFolder> tree_;
   EPTFormat::Opener openNode_;
   SourceDescription description_;
 };

@@ -42,45 +42,38 @@ Result<std::vector<std::byte>> eptRecords(
   return records;
 }
 
-std::string EPTRecords::fileOf(const EPTNode& node) const
-{
-  return folder_ + "/ept-data/" + node.key +
-    (tree_.encoding == EPTEncoding::Binary ? ".bin" : ".zst");
-}
-
 /// Before hours of reading.
 Result<void> EPTRecords::checkFiles() const
 {
-  for (const EPTNode& node : nodes_)
+  const EPTDescription& description = tree_->description;
+  for (std::uint64_t chunk = 0; chunk < chunkCount(); ++chunk)
   {
-    const std::string file = fileOf(node);
+    const std::string file = tree_->fileOf(chunk);
     std::error_code failure;
     const std::uintmax_t bytes = std::filesystem::file_size(file, failure);
     if (failure)
     {
       return makeError(Error::Kind::NotFound, file + ": cannot be read, but the hierarchy has it");
     }
-    const std::uintmax_t expected = std::uintmax_t(node.points) * tree_.recordBytes();
-    if (tree_.encoding == EPTEncoding::Binary && bytes != expected)
+    const std::uintmax_t expected = chunkRows(chunk) * description.recordBytes();
+    if (description.encoding == EPTEncoding::Binary && bytes != expected)
     {
       return makeError(Error::Kind::Truncated,
-        file + ": has " + std::to_string(bytes) + " bytes, its " + std::to_string(node.points) +
-          " points " + std::to_string(expected) + "; get a whole copy");
+        file + ": has " + std::to_string(bytes) + " bytes, its " +
+          std::to_string(chunkRows(chunk)) + " points " + std::to_string(expected) +
+          "; get a whole copy");
     }
   }
   return {};
 }
 
-Result<std::unique_ptr<PointTable>> EPTRecords::open(const std::string& path,
-  const std::string& folder, const EPTDescription& tree, std::vector<EPTNode> nodes)
+Result<std::unique_ptr<PointTable>> EPTRecords::open(std::shared_ptr<const EPTFolder> tree)
 {
+  const EPTDescription& description = tree->description;
   std::unique_ptr<EPTRecords> table(new EPTRecords);
-  table->path_ = path;
-  table->folder_ = folder;
+  table->format_ = description.encoding == EPTEncoding::Binary ? "EPT binary" : "EPT zstandard";
   table->tree_ = tree;
-  table->nodes_ = std::move(nodes);
-  table->format_ = tree.encoding == EPTEncoding::Binary ? "EPT binary" : "EPT zstandard";
-  for (const EPTDimension& dimension : tree.dimensions)
+  for (const EPTDimension& dimension : description.dimensions)
   {
     const bool world = dimension.scale != 1.0 || dimension.offset != 0.0;
     table->fields_.push_back({ dimension.name, world ? ScalarType::Float64 : dimension.type });
@@ -95,26 +88,27 @@ Result<std::unique_ptr<PointTable>> EPTRecords::open(const std::string& path,
 Result<void> EPTRecords::read(
   std::uint64_t chunk, const std::vector<bool>& wanted, TableBlock& block) const
 {
-  const EPTNode& node = nodes_[static_cast<std::size_t>(chunk)];
-  const std::string path = fileOf(node);
+  const std::size_t points = chunkRows(chunk);
+  const EPTDescription& description = tree_->description;
+  const std::string path = tree_->fileOf(chunk);
   const Result<MemoryMap> map = MemoryMap::open(path);
   if (!map)
   {
     return map.error();
   }
   const std::string_view bytes(reinterpret_cast<const char*>(map->data()), map->size());
-  const std::size_t stride = tree_.recordBytes();
+  const std::size_t stride = description.recordBytes();
   const Result<std::vector<std::byte>> records =
-    eptRecords(bytes, tree_.encoding, node.points * stride, path);
+    eptRecords(bytes, description.encoding, points * stride, path);
   if (!records)
   {
     return records.error();
   }
-  block.resize(node.points, wanted);
+  block.resize(points, wanted);
   const std::byte* first = records->data();
-  for (std::size_t d = 0; d < tree_.dimensions.size(); ++d)
+  for (std::size_t d = 0; d < description.dimensions.size(); ++d)
   {
-    const EPTDimension& dimension = tree_.dimensions[d];
+    const EPTDimension& dimension = description.dimensions[d];
     if (wanted[d])
     {
       std::vector<double>& column = block.columns[d];

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "EPTDescription.h"
+#include "EPTFolder.h"
 
 #include "pointfront/Table/PointTable.h"
 
@@ -22,32 +22,27 @@ class EPTRecords final : public PointTable
 public:
   /// Errors  NotFound: the file of a node; Truncated: a binary one of another size than its points
   ///         have.
-  static Result<std::unique_ptr<PointTable>> open(const std::string& path,
-    const std::string& folder, const EPTDescription& tree, std::vector<EPTNode> nodes);
+  static Result<std::unique_ptr<PointTable>> open(std::shared_ptr<const EPTFolder> tree);
 
-  const std::string& path() const override { return path_; }
+  const std::string& path() const override { return tree_->path; }
   const std::string& format() const override { return format_; }
   const std::vector<TableField>& fields() const override { return fields_; }
   const std::vector<std::string>& warnings() const override { return warnings_; }
-  std::uint64_t chunkCount() const override { return nodes_.size(); }
+  std::uint64_t chunkCount() const override { return tree_->nodes.size(); }
   std::uint64_t chunkRows(std::uint64_t chunk) const override
   {
-    return nodes_[static_cast<std::size_t>(chunk)].points;
+    return tree_->nodes[static_cast<std::size_t>(chunk)].points;
   }
   Result<void> read(
     std::uint64_t chunk, const std::vector<bool>& wanted, TableBlock& block) const override;
-  std::optional<QuantisationGrid> grid() const override { return tree_.grid(); }
+  std::optional<QuantisationGrid> grid() const override { return tree_->description.grid(); }
 
 private:
   EPTRecords() = default;
-  std::string fileOf(const EPTNode& node) const;
   Result<void> checkFiles() const;
 
-  std::string path_;
-  std::string folder_;
+  std::shared_ptr<const EPTFolder> tree_;
   std::string format_;
-  EPTDescription tree_;
-  std::vector<EPTNode> nodes_;
   std::vector<TableField> fields_;
   std::vector<std::string> warnings_;
 };

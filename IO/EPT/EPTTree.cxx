@@ -1,14 +1,12 @@
 #include "EPTTree.h"
 
-#include "EPTDescription.h"
+#include "EPTFolder.h"
 
-#include "pointfront/Base/MemoryMap.h"
 #include "pointfront/Disk/InputFile.h"
 #include "pointfront/Ingest/GridChoice.h"
 #include "pointfront/InPlace/ForeignTree.h"
 #include "pointfront/Points/DescribedSource.h"
 
-#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <utility>
@@ -29,32 +27,20 @@ std::string descriptionOf(const std::string& path)
 class EPTNodes final : public ForeignNodes
 {
 public:
-  EPTNodes(std::shared_ptr<const PointSource> source, std::string folder, std::string ending,
-    std::vector<EPTNode> nodes)
+  EPTNodes(std::shared_ptr<const PointSource> source, std::shared_ptr<const EPTFolder> tree)
     : source_(std::move(source))
-    , folder_(std::move(folder))
-    , ending_(std::move(ending))
-    , nodes_(std::move(nodes))
+    , tree_(std::move(tree))
   {
   }
   Result<RawBytes> fetch(std::uint64_t chunk) const override
   {
-    const Result<std::unique_ptr<const InputFile>> file = InputFile::open(fileOf(chunk));
-    if (!file)
-    {
-      return file.error();
-    }
-    RawBytes bytes(static_cast<std::size_t>((*file)->bytes()));
-    if (Result<void> read = (*file)->readAt(0, bytes.data.get(), bytes.size); !read)
-    {
-      return read.error();
-    }
-    return bytes;
+    const Result<std::unique_ptr<const InputFile>> file = InputFile::open(tree_->fileOf(chunk));
+    return file ? (*file)->readAt(0, static_cast<std::size_t>((*file)->bytes())) : file.error();
   }
   std::size_t storedBytes(std::uint64_t chunk) const override
   {
     std::error_code failure;
-    const std::uintmax_t bytes = fs::file_size(fileOf(chunk), failure);
+    const std::uintmax_t bytes = fs::file_size(tree_->fileOf(chunk), failure);
     return failure ? 0 : static_cast<std::size_t>(bytes);
   }
   Result<void> decode(const Part& part, const RawBytes&, PointBatch& batch) const override
@@ -63,24 +49,17 @@ public:
   }
   std::vector<std::string> files() const override
   {
-    std::vector<std::string> all{ source_->description().path };
-    for (std::uint64_t chunk = 0; chunk < nodes_.size(); ++chunk)
+    std::vector<std::string> all{ tree_->path };
+    for (std::uint64_t chunk = 0; chunk < tree_->nodes.size(); ++chunk)
     {
-      all.push_back(fileOf(chunk));
+      all.push_back(tree_->fileOf(chunk));
     }
     return all;
   }
 
 private:
-  std::string fileOf(std::uint64_t chunk) const
-  {
-    return folder_ + "/ept-data/" + nodes_[static_cast<std::size_t>(chunk)].key + ending_;
-  }
-
   std::shared_ptr<const PointSource> source_;
-  std::string folder_;
-  std::string ending_;
-  std::vector<EPTNode> nodes_;
+  std::shared_ptr<const EPTFolder> tree_;
 };
 
 ForeignNode cellOf(const EPTNode& node, std::uint64_t chunk)
@@ -132,54 +111,35 @@ bool EPTTreeFormat::accepts(const std::string& path) const
 Result<std::shared_ptr<const StoredCloud>> EPTTreeFormat::open(const std::string& named) const
 {
   const std::string path = descriptionOf(named);
-  const Result<MemoryMap> map = MemoryMap::open(path);
-  if (!map)
+  const Result<std::shared_ptr<const EPTFolder>> opened = EPTFolder::open(path);
+  if (!opened)
   {
-    return map.error();
+    return opened.error();
   }
-  const Result<EPTDescription> tree =
-    EPTDescription::parse({ reinterpret_cast<const char*>(map->data()), map->size() }, path);
-  if (!tree)
-  {
-    return tree.error();
-  }
-  const std::string folder = fs::absolute(path).parent_path().string();
-  Result<std::vector<EPTNode>> nodes = readEPTHierarchy(folder);
-  if (!nodes)
-  {
-    return nodes.error();
-  }
-  Result<std::unique_ptr<PointSource>> source = EPTFormat(openNode_).open(path);
+  const std::shared_ptr<const EPTFolder>& tree = *opened;
+  Result<std::unique_ptr<PointSource>> source = EPTFormat(openNode_).openTree(tree);
   if (!source)
   {
     return source.error();
   }
   const std::shared_ptr<const PointSource> points = std::move(*source);
-  const glm::dvec3 sides = tree->cube.empty() ? glm::dvec3(0.0) : tree->cube.size();
+  const EPTDescription& description = tree->description;
   ForeignTreeContent content;
-  content.side = std::max({ sides.x, sides.y, sides.z });
-  content.low = tree->cube.empty() ? glm::dvec3(0.0) : tree->cube.low;
-  content.spacing = tree->ticks > 0.0 ? content.side / tree->ticks : 0.0;
+  content.setCube(description.cube);
+  content.spacing = description.ticks > 0.0 ? content.side / description.ticks : 0.0;
   content.source = points->description();
   if (Result<void> ready = giveGrid(points, content.source); !ready)
   {
     return ready.error();
   }
-  content.fileBytes = map->size();
-  for (std::uint64_t i = 0; i < nodes->size(); ++i)
+  const auto reader = std::make_shared<const EPTNodes>(points, tree);
+  content.fileBytes = tree->descriptionBytes;
+  for (std::uint64_t chunk = 0; chunk < tree->nodes.size(); ++chunk)
   {
-    content.nodes.push_back(cellOf((*nodes)[static_cast<std::size_t>(i)], i));
+    content.nodes.push_back(cellOf(tree->nodes[static_cast<std::size_t>(chunk)], chunk));
+    content.fileBytes += reader->storedBytes(chunk);
   }
-  const char* const ending = tree->encoding == EPTEncoding::Laszip ? ".laz"
-    : tree->encoding == EPTEncoding::Binary                        ? ".bin"
-                                                                   : ".zst";
-  std::vector<EPTNode> list = std::move(*nodes);
-  auto reader = std::make_shared<EPTNodes>(points, folder, ending, std::move(list));
-  for (std::uint64_t i = 0; i < content.nodes.size(); ++i)
-  {
-    content.fileBytes += reader->storedBytes(i);
-  }
-  content.reader = std::move(reader);
+  content.reader = reader;
   return ForeignTree::make(std::move(content));
 }
 

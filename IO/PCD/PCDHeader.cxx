@@ -41,30 +41,10 @@ std::optional<std::uint64_t> countOf(std::string_view word, std::uint64_t most)
 
 std::optional<ScalarType> typeOf(std::string_view type, std::uint64_t size)
 {
-  if (type == "F")
-  {
-    return size == 4 ? std::make_optional(ScalarType::Float32)
-      : size == 8    ? std::make_optional(ScalarType::Float64)
-                     : std::nullopt;
-  }
-  if (type != "I" && type != "U")
-  {
-    return std::nullopt;
-  }
-  const bool isSigned = type == "I";
-  switch (size)
-  {
-    case 1:
-      return isSigned ? ScalarType::Int8 : ScalarType::UInt8;
-    case 2:
-      return isSigned ? ScalarType::Int16 : ScalarType::UInt16;
-    case 4:
-      return isSigned ? ScalarType::Int32 : ScalarType::UInt32;
-    case 8:
-      return isSigned ? ScalarType::Int64 : ScalarType::UInt64;
-    default:
-      return std::nullopt;
-  }
+  const std::int64_t bytes = size <= 8 ? static_cast<std::int64_t>(size) : 0;
+  return type == "F"             ? floatTypeOf(bytes)
+    : type == "I" || type == "U" ? integerTypeOf(bytes, type == "I")
+                                 : std::nullopt;
 }
 
 /// The position among seven finite numbers: x y z, and a quaternion.

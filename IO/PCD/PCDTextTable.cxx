@@ -68,16 +68,11 @@ Result<void> PCDTextTable::index(const SurveyOptions& survey)
   const std::string_view line(text + begin, first.end - begin);
   layout.separator = line.find(',') != std::string_view::npos ? ',' : ' ';
   const TextRegion region{ begin, points.end, file_.header.lines + 1 };
-  Result<TextRows> rows = TextRows::open(file_.map, region, std::move(layout), survey);
-  if (!rows)
+  if (Result<void> opened = openRows(file_.map, region, std::move(layout), survey); !opened)
   {
-    return rows.error();
+    return opened;
   }
-  rows_.emplace(std::move(*rows));
-  if (const std::string complaint = rows_->complaint(); !complaint.empty())
-  {
-    file_.warnings.push_back(complaint);
-  }
+  complain(file_.warnings);
   return {};
 }
 
@@ -97,7 +92,7 @@ std::vector<FieldStatistics> PCDTextTable::statistics() const
   std::vector<FieldStatistics> statistics;
   for (const std::size_t column : columns_)
   {
-    statistics.push_back(rows_->statistics()[column]);
+    statistics.push_back(rows().statistics()[column]);
   }
   return statistics;
 }
@@ -105,13 +100,13 @@ std::vector<FieldStatistics> PCDTextTable::statistics() const
 Result<void> PCDTextTable::read(
   std::uint64_t chunk, const std::vector<bool>& wanted, TableBlock& block) const
 {
-  std::vector<bool> wantedNumbers(rows_->statistics().size(), false);
+  std::vector<bool> wantedNumbers(rows().statistics().size(), false);
   for (std::size_t f = 0; f < wanted.size(); ++f)
   {
     wantedNumbers[columns_[f]] = wantedNumbers[columns_[f]] || wanted[f];
   }
   TableBlock numbers;
-  rows_->read(chunk, wantedNumbers, numbers);
+  rows().read(chunk, wantedNumbers, numbers);
   block.columns.resize(wanted.size());
   for (std::size_t f = 0; f < wanted.size(); ++f)
   {

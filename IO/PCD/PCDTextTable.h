@@ -3,8 +3,7 @@
 #include "PCDFile.h"
 
 #include "pointfront/Table/ParallelChunks.h"
-#include "pointfront/Table/PointTable.h"
-#include "pointfront/Table/TextRows.h"
+#include "pointfront/Table/TextRowsTable.h"
 
 #include <memory>
 #include <optional>
@@ -14,7 +13,7 @@ namespace pointfront
 {
 
 /// The points of an ascii PCD file: one a line, its numbers separated by blanks, tabs or commas.
-class PCDTextTable final : public PointTable
+class PCDTextTable final : public TextRowsTable
 {
 public:
   /// Errors  Truncated, as PCDFile::countPresent; Cancelled.
@@ -24,8 +23,6 @@ public:
   const std::string& format() const override { return file_.format; }
   const std::vector<TableField>& fields() const override { return file_.fields; }
   const std::vector<std::string>& warnings() const override { return file_.warnings; }
-  std::uint64_t chunkCount() const override { return rows_->chunkCount(); }
-  std::uint64_t chunkRows(std::uint64_t chunk) const override { return rows_->chunkRows(chunk); }
   Result<void> read(
     std::uint64_t chunk, const std::vector<bool>& wanted, TableBlock& block) const override;
   std::optional<std::uint64_t> headerPointCount() const override { return file_.header.points; }
@@ -46,7 +43,6 @@ private:
 
   PCDFile file_;
   std::vector<std::size_t> columns_; ///< of each field: which number of a row it is taken from
-  std::optional<TextRows> rows_;
 };
 
 } // namespace pointfront

@@ -44,16 +44,11 @@ Result<void> PLYTextTable::index(const SurveyOptions& survey)
     }
     layout.cells.push_back(cell);
   }
-  Result<TextRows> rows = TextRows::open(file_.map, region, std::move(layout), survey);
-  if (!rows)
+  if (Result<void> opened = openRows(file_.map, region, std::move(layout), survey); !opened)
   {
-    return rows.error();
+    return opened;
   }
-  rows_.emplace(std::move(*rows));
-  if (const std::string complaint = rows_->complaint(); !complaint.empty())
-  {
-    file_.warnings.push_back(complaint);
-  }
+  complain(file_.warnings);
   return {};
 }
 
@@ -66,13 +61,6 @@ Result<std::unique_ptr<PointTable>> PLYTextTable::open(PLYFile file, const Surve
     return done.error();
   }
   return std::unique_ptr<PointTable>(std::move(table));
-}
-
-Result<void> PLYTextTable::read(
-  std::uint64_t chunk, const std::vector<bool>& wanted, TableBlock& block) const
-{
-  rows_->read(chunk, wanted, block);
-  return {};
 }
 
 } // namespace pointfront

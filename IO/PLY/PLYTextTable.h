@@ -3,8 +3,7 @@
 #include "PLYFile.h"
 
 #include "pointfront/Table/ParallelChunks.h"
-#include "pointfront/Table/PointTable.h"
-#include "pointfront/Table/TextRows.h"
+#include "pointfront/Table/TextRowsTable.h"
 
 #include <memory>
 #include <optional>
@@ -14,7 +13,7 @@ namespace pointfront
 
 /// The points of an ascii PLY file: one row a line, as every writer does it.
 /// Damage    a file that ends early gives the rows that are there, and a warning.
-class PLYTextTable final : public PointTable
+class PLYTextTable final : public TextRowsTable
 {
 public:
   /// Errors  Truncated if points are claimed and not one is there; Cancelled.
@@ -24,15 +23,10 @@ public:
   const std::string& format() const override { return file_.format; }
   const std::vector<TableField>& fields() const override { return fields_; }
   const std::vector<std::string>& warnings() const override { return file_.warnings; }
-  std::uint64_t chunkCount() const override { return rows_->chunkCount(); }
-  std::uint64_t chunkRows(std::uint64_t chunk) const override { return rows_->chunkRows(chunk); }
-  Result<void> read(
-    std::uint64_t chunk, const std::vector<bool>& wanted, TableBlock& block) const override;
   std::optional<std::uint64_t> headerPointCount() const override
   {
     return file_.pointElement().count;
   }
-  std::vector<FieldStatistics> statistics() const override { return rows_->statistics(); }
 
 private:
   explicit PLYTextTable(PLYFile file)
@@ -44,7 +38,6 @@ private:
 
   PLYFile file_;
   std::vector<TableField> fields_;
-  std::optional<TextRows> rows_;
 };
 
 } // namespace pointfront

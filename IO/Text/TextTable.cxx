@@ -58,19 +58,17 @@ Result<void> TextTable::index(const TextColumns& columns, const SurveyOptions& s
       path_ + ": its header leaves every column out; name them with --columns");
   }
   const TextRegion region{ columns.dataBegin, map_.size(), columns.dataLine };
-  Result<TextRows> rows = TextRows::open(map_, region, std::move(layout), survey);
-  if (!rows)
+  if (Result<void> opened = openRows(map_, region, std::move(layout), survey); !opened)
   {
-    return rows.error();
+    return opened;
   }
-  rows_.emplace(std::move(*rows));
-  if (rows_->badRows() * 2 > rows_->rows() || rows_->rows() == 0)
+  if (rows().badRows() * 2 > rows().rows() || rows().rows() == 0)
   {
     return makeError(Error::Kind::BadFormat,
       path_ +
         ": its lines are no points; say how it is written (--columns, --separator, --decimal, "
         "--skip). " +
-        rows_->complaint());
+        rows().complaint());
   }
   warn(columns);
   return {};
@@ -88,14 +86,11 @@ void TextTable::warn(const TextColumns& columns)
     warnings_.push_back("There is no header: its columns are taken to be " + names +
       "; --columns names them otherwise.");
   }
-  if (const std::string complaint = rows_->complaint(); !complaint.empty())
+  complain(warnings_);
+  if (columns.countLines && rows().promisedRows() != rows().rows())
   {
-    warnings_.push_back(complaint);
-  }
-  if (columns.countLines && rows_->promisedRows() != rows_->rows())
-  {
-    warnings_.push_back("Its count lines promise " + std::to_string(rows_->promisedRows()) +
-      " points; there are " + std::to_string(rows_->rows()) + ".");
+    warnings_.push_back("Its count lines promise " + std::to_string(rows().promisedRows()) +
+      " points; there are " + std::to_string(rows().rows()) + ".");
   }
 }
 
@@ -115,13 +110,6 @@ Result<std::unique_ptr<PointTable>> TextTable::open(
     return done.error();
   }
   return std::unique_ptr<PointTable>(std::move(table));
-}
-
-Result<void> TextTable::read(
-  std::uint64_t chunk, const std::vector<bool>& wanted, TableBlock& block) const
-{
-  rows_->read(chunk, wanted, block);
-  return {};
 }
 
 } // namespace pointfront

@@ -3,8 +3,7 @@
 #include "TextColumns.h"
 
 #include "pointfront/Base/MemoryMap.h"
-#include "pointfront/Table/PointTable.h"
-#include "pointfront/Table/TextRows.h"
+#include "pointfront/Table/TextRowsTable.h"
 
 #include <memory>
 #include <optional>
@@ -22,7 +21,7 @@ struct TextWishes
 };
 
 /// The rows of a text file of points.
-class TextTable final : public PointTable
+class TextTable final : public TextRowsTable
 {
 public:
   /// Errors  of TextColumns::find; BadFormat: more lines are no points than are; Cancelled.
@@ -33,11 +32,6 @@ public:
   const std::string& format() const override { return format_; }
   const std::vector<TableField>& fields() const override { return fields_; }
   const std::vector<std::string>& warnings() const override { return warnings_; }
-  std::uint64_t chunkCount() const override { return rows_->chunkCount(); }
-  std::uint64_t chunkRows(std::uint64_t chunk) const override { return rows_->chunkRows(chunk); }
-  Result<void> read(
-    std::uint64_t chunk, const std::vector<bool>& wanted, TableBlock& block) const override;
-  std::vector<FieldStatistics> statistics() const override { return rows_->statistics(); }
 
 private:
   TextTable(std::string path, MemoryMap map)
@@ -53,7 +47,6 @@ private:
   MemoryMap map_;
   std::vector<TableField> fields_;
   std::vector<std::string> warnings_;
-  std::optional<TextRows> rows_;
 };
 
 /// The beginning of a text file that is looked at before it is read: whole lines.

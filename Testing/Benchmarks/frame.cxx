@@ -91,6 +91,14 @@ void lookFromAside(vtkRenderer* renderer, const double* bounds)
   camera->Zoom(1.5);
 }
 
+void showOffScreen(vtkRenderWindow* window, vtkRenderer* renderer)
+{
+  window->SetOffScreenRendering(1);
+  window->SetMultiSamples(0);
+  window->SetSize(1280, 720);
+  window->AddRenderer(renderer);
+}
+
 /// Measures one frame. Gives the points drawn, 0 for a mapper of VTK.
 /// A cloud out of sight gives back its GPU memory: the frame before brings it there, and looks at
 /// another view, so that no frame is the one before once more.
@@ -139,10 +147,7 @@ int main(int argc, char** argv)
 
   vtkNew<vtkRenderer> renderer;
   vtkNew<vtkRenderWindow> window;
-  window->SetOffScreenRendering(1);
-  window->SetMultiSamples(0);
-  window->SetSize(1280, 720);
-  window->AddRenderer(renderer);
+  showOffScreen(window, renderer);
   Contestant* const contestants[] = { &theirs, &all, &front };
   for (Contestant* contestant : contestants)
   {

@@ -87,10 +87,10 @@ class RulesTest(unittest.TestCase):
         self.assertEqual(self.faults("LineLength", tree), [("IO/LAS/A.cxx", 2)])
 
     def test_function_length(self):
-        at = "  call();\n" * 60
+        at = "  call();\n" * 57  # and a line of head and two of braces
         more = at + "  call();\n"
         tree = {
-            "IO/LAS/A.cxx": f"namespace n\n{{\n\nvoid f(int a,\n  int b)\n{{\n{more}}}\n}}\n",
+            "IO/LAS/A.cxx": f"namespace n\n{{\n\nvoid f(int a,\n  int b)\n{{\n{at}}}\n}}\n",
             "IO/LAS/B.cxx": f"namespace n\n{{\n\nvoid f()\n{{\n{at}}}\n\nvoid g()\n{{\n{at}}}\n}}",
             "IO/LAS/C.h": f"class C\n{{\n  int f() const\n  {{\n{more}  }}\n}};\n",
         }

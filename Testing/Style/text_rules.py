@@ -77,7 +77,7 @@ NOT_A_FUNCTION = re.compile(
 
 
 def function_length(files):
-    """No function is longer than 60 lines.
+    """No function is longer than 60 lines, from the first line of its head to its closing brace.
 
     Counts on braces that stand alone (Allman)."""
     for file in files:
@@ -95,7 +95,7 @@ def function_length(files):
                 continue
             close = re.compile(re.escape(line[: line.index("{")]) + r"\}")
             ends = (n for n in range(start + 1, len(code)) if close.match(code[n]))
-            length = next(ends, len(code)) - start - 1
+            length = next(ends, len(code) - 1) - head + 1
             if length > FUNCTION_LINES:
                 message = f"a function of {length} lines, at most {FUNCTION_LINES}"
                 yield file.path, head + 1, message

@@ -20,20 +20,15 @@ namespace pointfront::test
 /// another number of points than it announced, is a test failure.
 inline PointBatch readPoints(const PointSource& source)
 {
-  const AttributeSchema& schema = source.description().schema;
   PointBatch all;
   PointBatch chunk;
-  all.resize(0, schema);
+  all.resize(0, source.description().schema);
   for (std::uint64_t i = 0; i < source.chunkCount(); ++i)
   {
     const Result<void> done = source.read(i, chunk);
     EXPECT_TRUE(done.ok());
     EXPECT_EQ(chunk.size(), source.chunkPoints(i));
-    all.positions.insert(all.positions.end(), chunk.positions.begin(), chunk.positions.end());
-    for (std::size_t c = 0; c < schema.size(); ++c)
-    {
-      all.columns[c].insert(all.columns[c].end(), chunk.columns[c].begin(), chunk.columns[c].end());
-    }
+    all.append(chunk);
   }
   EXPECT_EQ(all.size(), source.description().pointCount);
   return all;

@@ -62,13 +62,7 @@ ColouredCloud coloured(std::unique_ptr<PointSource> source, std::vector<RasterIn
     const Result<void> done = ready.read(chunk, batch);
     outcome.error += done ? "" : done.error().what;
     EXPECT_TRUE(ready.read(chunk, batch).ok() || !done); // twice: counted once
-    auto& all = outcome.points;
-    all.positions.insert(all.positions.end(), batch.positions.begin(), batch.positions.end());
-    all.columns.resize(batch.columns.size());
-    for (std::size_t c = 0; c < batch.columns.size(); ++c)
-    {
-      all.columns[c].insert(all.columns[c].end(), batch.columns[c].begin(), batch.columns[c].end());
-    }
+    outcome.points.append(batch);
   }
   for (const std::string& finding : pass.findings())
   {

@@ -45,12 +45,7 @@ public:
   Result<RawBytes> fetch(std::uint64_t chunk) const override
   {
     const COPCEntry& entry = entries_[static_cast<std::size_t>(chunk)];
-    RawBytes bytes(entry.bytes);
-    if (Result<void> read = points_->readAt(entry.offset, bytes.data.get(), bytes.size); !read)
-    {
-      return read.error();
-    }
-    return bytes;
+    return points_->readAt(entry.offset, entry.bytes);
   }
   std::size_t storedBytes(std::uint64_t chunk) const override
   {

@@ -241,6 +241,57 @@ double spacingOf(const Bounds& bounds, std::size_t points)
   const double area = std::max({ size.x * size.y, size.x * size.z, size.y * size.z });
   return std::sqrt(area / static_cast<double>(points));
 }
+/// Of files whose points are `points` in the columns `schema`. The warnings say what is missing.
+SourceDescription describeGlances(
+  const PointSources& glances, const PointBatch& points, const AttributeSchema& schema)
+{
+  const SourceDescription& first = glances.front()->description();
+  SourceDescription source;
+  source.format = "glance at " + first.format;
+  source.schema = schema;
+  source.crsWkt = first.crsWkt;
+  source.metadata = first.metadata;
+  std::uint64_t all = 0;
+  for (const auto& glance : glances)
+  {
+    all += glance->description().pointCount;
+  }
+  for (const glm::dvec3& p : points.positions)
+  {
+    source.declaredBounds.add(p);
+  }
+  source.warnings.push_back("A first look: " + std::to_string(points.size()) + " of " +
+    std::to_string(all) + " points, one of each chunk of " + std::to_string(glances.size()) +
+    " files; build a store of them to see all.");
+  if (const Result<ReferenceSystem> system = commonReferenceSystem(glances); !system)
+  {
+    source.warnings.push_back(system.error().what + ".");
+  }
+  return source;
+}
+
+std::uint64_t bytesOf(const std::vector<std::string>& files)
+{
+  std::uint64_t sum = 0;
+  for (const std::string& file : files)
+  {
+    std::error_code failure;
+    const std::uintmax_t bytes = fs::file_size(file, failure);
+    sum += failure ? 0 : bytes;
+  }
+  return sum;
+}
+
+/// A tree of one node around all points.
+void enclose(ForeignTreeContent& content, std::size_t points)
+{
+  const Bounds& bounds = content.source.declaredBounds;
+  const glm::dvec3 step = content.source.grid->scale;
+  content.setCube(bounds);
+  content.side = std::max({ content.side, step.x, step.y, step.z });
+  content.spacing = spacingOf(bounds, points);
+  content.nodes.push_back({ 0, 0, 0, 0, static_cast<std::uint32_t>(points), 0 });
+}
 } // namespace
 
 Result<std::shared_ptr<const StoredCloud>> glanceAtLAS(
@@ -256,7 +307,6 @@ Result<std::shared_ptr<const StoredCloud>> glanceAtLAS(
     return glances.error();
   }
   const Result<CommonSchema> common = commonSchema(*glances, std::nullopt);
-  const Result<ReferenceSystem> system = commonReferenceSystem(*glances);
   const Result<GridChoice> grid = chooseGrid(*glances, std::nullopt);
   if (!common || !grid)
   {
@@ -268,42 +318,11 @@ Result<std::shared_ptr<const StoredCloud>> glanceAtLAS(
     return makeError(Error::Kind::NotFound, path + ": its files hold no points");
   }
   ForeignTreeContent content;
-  SourceDescription& source = content.source;
-  const SourceDescription& first = glances->front()->description();
-  source.path = path;
-  source.format = "glance at " + first.format;
-  source.grid = grid->grid;
-  source.schema = common->schema;
-  source.crsWkt = first.crsWkt;
-  source.metadata = first.metadata;
-  std::uint64_t all = 0;
-  for (const auto& glance : *glances)
-  {
-    all += glance->description().pointCount;
-  }
-  for (const glm::dvec3& p : points.positions)
-  {
-    source.declaredBounds.add(p);
-  }
-  source.warnings.push_back("A first look: " + std::to_string(points.size()) + " of " +
-    std::to_string(all) + " points, one of each chunk of " + std::to_string(files.size()) +
-    " files; build a store of them to see all.");
-  if (!system)
-  {
-    source.warnings.push_back(system.error().what + ".");
-  }
-  for (const std::string& file : files)
-  {
-    std::error_code failure;
-    const std::uintmax_t bytes = fs::file_size(file, failure);
-    content.fileBytes += failure ? 0 : bytes;
-  }
-  const glm::dvec3 size = source.declaredBounds.size();
-  content.low = source.declaredBounds.low;
-  content.side = std::max(
-    { size.x, size.y, size.z, grid->grid.scale.x, grid->grid.scale.y, grid->grid.scale.z });
-  content.spacing = spacingOf(source.declaredBounds, points.size());
-  content.nodes.push_back({ 0, 0, 0, 0, static_cast<std::uint32_t>(points.size()), 0 });
+  content.source = describeGlances(*glances, points, common->schema);
+  content.source.path = path;
+  content.source.grid = grid->grid;
+  content.fileBytes = bytesOf(files);
+  enclose(content, points.size());
   content.reader = std::make_shared<const GlancedPoints>(std::move(points), files);
   return ForeignTree::make(std::move(content));
 }

@@ -92,71 +92,60 @@ void storePoint14(const laszip_point& point, std::byte* to)
   storeNumber(to + 22, point.gps_time);
 }
 
-/// The parts behind the core, in the order of the standard.
 void storeRecord(const laszip_point& point, const LASPointLayout& layout, std::byte* to)
 {
-  std::byte* next = to;
-  const auto append = [&next](const void* from, std::size_t bytes)
+  const LASFormatParts& parts = lasFormatParts(layout.pointFormat);
+  if (layout.pointFormat >= 6)
   {
-    std::memcpy(next, from, bytes);
-    next += bytes;
-  };
-  const int format = layout.pointFormat;
-  if (format < 6)
-  {
-    append(&point.X, 20); // the first 20 bytes of laszip_point are those of the standard
-    if (format == 1 || format >= 3)
-    {
-      append(&point.gps_time, 8);
-    }
+    storePoint14(point, to);
   }
   else
   {
-    storePoint14(point, to);
-    next += 30;
+    std::memcpy(to, &point.X, 20); // the first 20 bytes of laszip_point are those of the standard
+    if (parts.gpsTime != 0)
+    {
+      storeNumber(to + parts.gpsTime, point.gps_time);
+    }
   }
-  if (format == 2 || format == 3 || format == 5 || format == 7 || format == 8 || format == 10)
+  if (parts.rgb != 0)
   {
-    append(point.rgb, 6);
+    std::memcpy(to + parts.rgb, point.rgb, 6);
   }
-  if (format == 8 || format == 10)
+  if (parts.nir != 0)
   {
-    append(point.rgb + 3, 2);
+    std::memcpy(to + parts.nir, point.rgb + 3, 2);
   }
-  if (format == 4 || format == 5 || format >= 9)
+  if (parts.wave != 0)
   {
-    append(point.wave_packet, 29);
+    std::memcpy(to + parts.wave, point.wave_packet, 29);
   }
-  const std::size_t extra = layout.pointBytes - lasMinimumPointBytes(format);
-  if (extra > 0)
+  if (layout.pointBytes > parts.bytes)
   {
-    append(point.extra_bytes, extra);
+    std::memcpy(to + parts.bytes, point.extra_bytes, layout.pointBytes - parts.bytes);
   }
 }
 } // namespace
 
 std::uint32_t laszipLayers(const LASPointLayout& layout, const std::vector<std::uint32_t>& columns)
 {
-  const std::size_t extra = lasMinimumPointBytes(layout.pointFormat);
-  const int format = layout.pointFormat;
+  const LASFormatParts& parts = lasFormatParts(layout.pointFormat);
   std::uint32_t layers = laszip_DECOMPRESS_SELECTIVE_Z;
   for (const std::uint32_t column : columns)
   {
     const std::size_t at = layout.fields[column].offset;
-    const bool colours = format == 7 || format == 8 || format == 10;
-    layers |= at >= extra   ? laszip_DECOMPRESS_SELECTIVE_EXTRA_BYTES
-      : at >= 38            ? laszip_DECOMPRESS_SELECTIVE_WAVEPACKET
-      : at >= 36 && colours ? laszip_DECOMPRESS_SELECTIVE_NIR
-      : at >= 30 && colours ? laszip_DECOMPRESS_SELECTIVE_RGB
-      : at >= 30            ? laszip_DECOMPRESS_SELECTIVE_WAVEPACKET
-      : at >= 22            ? laszip_DECOMPRESS_SELECTIVE_GPS_TIME
-      : at >= 20            ? laszip_DECOMPRESS_SELECTIVE_POINT_SOURCE
-      : at >= 18            ? laszip_DECOMPRESS_SELECTIVE_SCAN_ANGLE
-      : at == 17            ? laszip_DECOMPRESS_SELECTIVE_USER_DATA
-      : at == 16            ? laszip_DECOMPRESS_SELECTIVE_CLASSIFICATION
-      : at == 15            ? laszip_DECOMPRESS_SELECTIVE_FLAGS
-      : at >= 14            ? laszip_DECOMPRESS_SELECTIVE_CHANNEL_RETURNS_XY
-                            : laszip_DECOMPRESS_SELECTIVE_INTENSITY;
+    const auto isIn = [at](std::size_t part) { return part != 0 && at >= part; };
+    layers |= at >= parts.bytes ? laszip_DECOMPRESS_SELECTIVE_EXTRA_BYTES
+      : isIn(parts.wave)        ? laszip_DECOMPRESS_SELECTIVE_WAVEPACKET
+      : isIn(parts.nir)         ? laszip_DECOMPRESS_SELECTIVE_NIR
+      : isIn(parts.rgb)         ? laszip_DECOMPRESS_SELECTIVE_RGB
+      : at >= 22                ? laszip_DECOMPRESS_SELECTIVE_GPS_TIME
+      : at >= 20                ? laszip_DECOMPRESS_SELECTIVE_POINT_SOURCE
+      : at >= 18                ? laszip_DECOMPRESS_SELECTIVE_SCAN_ANGLE
+      : at == 17                ? laszip_DECOMPRESS_SELECTIVE_USER_DATA
+      : at == 16                ? laszip_DECOMPRESS_SELECTIVE_CLASSIFICATION
+      : at == 15                ? laszip_DECOMPRESS_SELECTIVE_FLAGS
+      : at >= 14                ? laszip_DECOMPRESS_SELECTIVE_CHANNEL_RETURNS_XY
+                                : laszip_DECOMPRESS_SELECTIVE_INTENSITY;
   }
   return layers;
 }

@@ -135,41 +135,34 @@ void loadPoint14(const std::byte* from, laszip_point& point)
 
 void loadRecord(const std::byte* from, const LASPointLayout& layout, laszip_point& point)
 {
-  const auto take = [&from](void* to, std::size_t bytes)
+  const LASFormatParts& parts = lasFormatParts(layout.pointFormat);
+  if (layout.pointFormat >= 6)
   {
-    std::memcpy(to, from, bytes);
-    from += bytes;
-  };
-  const int format = layout.pointFormat;
-  if (format < 6)
-  {
-    take(&point.X, 20); // the first 20 bytes of laszip_point are those of the standard
-    if (format == 1 || format >= 3)
-    {
-      take(&point.gps_time, 8);
-    }
+    loadPoint14(from, point);
   }
   else
   {
-    loadPoint14(from, point);
-    from += 30;
+    std::memcpy(&point.X, from, 20); // the first 20 bytes of laszip_point are those of the standard
+    if (parts.gpsTime != 0)
+    {
+      point.gps_time = loadNumber<double>(from + parts.gpsTime);
+    }
   }
-  if (format == 2 || format == 3 || format == 5 || format == 7 || format == 8 || format == 10)
+  if (parts.rgb != 0)
   {
-    take(point.rgb, 6);
+    std::memcpy(point.rgb, from + parts.rgb, 6);
   }
-  if (format == 8 || format == 10)
+  if (parts.nir != 0)
   {
-    take(point.rgb + 3, 2);
+    std::memcpy(point.rgb + 3, from + parts.nir, 2);
   }
-  if (format == 4 || format == 5 || format >= 9)
+  if (parts.wave != 0)
   {
-    take(point.wave_packet, 29);
+    std::memcpy(point.wave_packet, from + parts.wave, 29);
   }
-  const std::size_t extra = layout.pointBytes - lasMinimumPointBytes(format);
-  if (extra > 0)
+  if (layout.pointBytes > parts.bytes)
   {
-    take(point.extra_bytes, extra);
+    std::memcpy(point.extra_bytes, from + parts.bytes, layout.pointBytes - parts.bytes);
   }
 }
 } // namespace

@@ -34,25 +34,22 @@ std::vector<LAZCompression::Item> itemsOf(int format, std::size_t extraBytes)
   const auto add = [&items](ItemType type, std::size_t bytes) {
     items.push_back({ type, static_cast<std::uint16_t>(bytes), 0 });
   };
+  const LASFormatParts& parts = lasFormatParts(format);
   const bool legacy = format < 6;
   legacy ? add(Point10, 20) : add(Point14, 30);
-  if (format == 1 || format == 3 || format == 4 || format == 5)
+  if (legacy && parts.gpsTime != 0)
   {
     add(GpsTime11, 8);
   }
-  if (format == 2 || format == 3 || format == 5)
-  {
-    add(Rgb12, 6);
-  }
-  if (format == 7)
-  {
-    add(Rgb14, 6);
-  }
-  if (format == 8 || format == 10)
+  if (parts.nir != 0)
   {
     add(RgbNir14, 8);
   }
-  if (format == 4 || format == 5 || format == 9 || format == 10)
+  else if (parts.rgb != 0)
+  {
+    add(legacy ? Rgb12 : Rgb14, 6);
+  }
+  if (parts.wave != 0)
   {
     add(legacy ? WavePacket13 : WavePacket14, 29);
   }

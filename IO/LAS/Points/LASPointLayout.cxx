@@ -8,17 +8,7 @@ namespace pointfront
 {
 namespace
 {
-/// Bytes of each format without extra bytes, and where its optional parts begin (0: it has none).
-struct FormatParts
-{
-  std::uint16_t bytes;
-  std::uint16_t gpsTime;
-  std::uint16_t rgb;
-  std::uint16_t nir;
-  std::uint16_t wave;
-};
-
-constexpr std::array<FormatParts, lasHighestPointFormat + 1> formatParts{ {
+constexpr std::array<LASFormatParts, lasHighestPointFormat + 1> formatParts{ {
   { 20, 0, 0, 0, 0 },
   { 28, 20, 0, 0, 0 },
   { 26, 0, 20, 0, 0 },
@@ -102,16 +92,20 @@ void addWavePacket(LASPointLayout& layout, std::size_t offset)
 }
 } // namespace
 
-std::size_t lasMinimumPointBytes(int pointFormat)
+const LASFormatParts& lasFormatParts(int pointFormat)
 {
   assert(pointFormat >= 0 && pointFormat <= lasHighestPointFormat);
-  return formatParts[static_cast<std::size_t>(pointFormat)].bytes;
+  return formatParts[static_cast<std::size_t>(pointFormat)];
+}
+
+std::size_t lasMinimumPointBytes(int pointFormat)
+{
+  return lasFormatParts(pointFormat).bytes;
 }
 
 LASPointLayout makeLASPointLayout(int pointFormat, const std::vector<Attribute>& extra)
 {
-  assert(pointFormat >= 0 && pointFormat <= lasHighestPointFormat);
-  const FormatParts& parts = formatParts[static_cast<std::size_t>(pointFormat)];
+  const LASFormatParts& parts = lasFormatParts(pointFormat);
   LASPointLayout layout;
   layout.pointFormat = pointFormat;
   layout.pointBytes = parts.bytes;

@@ -15,6 +15,18 @@ constexpr int lasHighestPointFormat = 10;
 /// Bytes of a record of that format (0 to 10) without extra bytes.
 std::size_t lasMinimumPointBytes(int pointFormat);
 
+/// Where the optional parts of a point format begin; 0: it has none.
+struct LASFormatParts
+{
+  std::uint16_t bytes; ///< of a record without extra bytes, which follow
+  std::uint16_t gpsTime;
+  std::uint16_t rgb;
+  std::uint16_t nir;
+  std::uint16_t wave;
+};
+/// Of a format from 0 to 10.
+const LASFormatParts& lasFormatParts(int pointFormat);
+
 /// How one column lies in a point record.
 struct LASField
 {

@@ -1,6 +1,6 @@
+#include "BuiltStore.h"
 #include "TestBuildClouds.h"
 
-#include "pointfront/Build/StoreBuilder.h"
 #include "vtkPointFrontReader.h"
 
 #include <vtkDataArray.h>
@@ -38,13 +38,8 @@ std::string activeScalars(const std::set<std::string>& varying)
     const auto green = static_cast<std::uint16_t>(value("rgb"));
     cloud->addValue(2, std::array<std::uint16_t, 3>{ 0, green, 0 });
   }
-  BuildOptions options;
-  options.outputPath = ::testing::TempDir() + "scalars.pfront";
-  options.overwrite = true;
-  options.threads = 1;
-  EXPECT_TRUE(buildStore(one(std::move(cloud)), options).ok());
   vtkNew<vtkPointFrontReader> reader;
-  reader->SetFileName(options.outputPath.c_str());
+  reader->SetFileName(builtStore("scalars", std::move(cloud)).c_str());
   reader->Update();
   vtkPointData* attributes = reader->GetOutput()->GetPointData();
   auto* elevation = attributes->GetArray("elevation");

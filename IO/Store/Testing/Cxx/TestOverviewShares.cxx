@@ -1,6 +1,6 @@
+#include "BuiltStore.h"
 #include "TestBuildClouds.h"
 
-#include "pointfront/Build/StoreBuilder.h"
 #include "vtkPointFrontReader.h"
 
 #include <vtkDataArray.h>
@@ -34,14 +34,9 @@ std::string unevenStore(const std::string& name, bool layers)
       glm::dvec3(side * random.uniform(), side * random.uniform(), random.uniform()));
     cloud->addValue(0, static_cast<std::uint8_t>(i % 100 == 99 ? 5 : 2));
   }
-  BuildOptions options;
-  options.outputPath = ::testing::TempDir() + name + ".pfront";
-  options.nodePoints = 1000;
-  options.overwrite = true;
-  options.threads = 1;
+  BuildOptions options = nodesOf(1000);
   options.layering = layers ? Layering::ObjectClass : Layering::None;
-  EXPECT_TRUE(buildStore(one(std::move(cloud)), options).ok());
-  return options.outputPath;
+  return builtStore(name, std::move(cloud), options);
 }
 
 TEST(Reader, TheOverviewHasItsShareOfEverything)

@@ -1,7 +1,7 @@
+#include "BuiltStore.h"
 #include "ErrorObserver.h"
 #include "TestBuildClouds.h"
 
-#include "pointfront/Build/StoreBuilder.h"
 #include "pointfront/Store/PointStore.h"
 #include "vtkPointFrontReader.h"
 #include "vtkPointFrontStore.h"
@@ -48,14 +48,7 @@ std::string storeOf(const std::string& name, std::size_t count)
     cloud->addValue(1, static_cast<std::uint32_t>(i));
     cloud->addValue(2, static_cast<std::int16_t>(i % 100));
   }
-  BuildOptions options;
-  options.outputPath = ::testing::TempDir() + name + ".pfront";
-  options.nodePoints = 500;
-  options.overwrite = true;
-  options.threads = 1;
-  const auto built = buildStore(one(std::move(cloud)), options);
-  EXPECT_TRUE(built.ok());
-  return options.outputPath;
+  return builtStore(name, std::move(cloud), nodesOf(500));
 }
 
 TEST(Reader, InformationHasTheBoundsAndTheArraysButNoPoints)

@@ -26,13 +26,8 @@ struct Clouds
   {
     const double x = 3.0 * (number % 4) - 6.0;
     const double y = 3.0 * (number / 4) - 3.0;
-    BuildOptions options;
-    options.outputPath = ::testing::TempDir() + "cloud" + std::to_string(number) + ".pfront";
-    options.nodePoints = 2000;
-    options.overwrite = true;
-    options.threads = 1;
-    EXPECT_TRUE(buildStore(one(hills(40000, 3000.0, millimetres({ x, y, 0.0 }))), options).ok());
-    return options.outputPath;
+    return builtStore(
+      "cloud" + std::to_string(number), hills(40000, 3000.0, millimetres({ x, y, 0.0 })));
   }
   void add(int number)
   {

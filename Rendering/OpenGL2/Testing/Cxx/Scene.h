@@ -1,9 +1,9 @@
 #pragma once
 
+#include "BuiltStore.h"
 #include "OpenGLFunctions.h"
 #include "TestBuildClouds.h"
 
-#include "pointfront/Build/StoreBuilder.h"
 #include "pointfront/Residency/Residency.h"
 #include "vtkOpenGLPointFrontMapper.h"
 #include "vtkPointFrontReader.h"
@@ -61,15 +61,9 @@ inline std::string storeOf(const std::string& name, std::size_t count,
     cloud->addValue(1, point.classification);
     cloud->addValue(2, point.time);
   }
-  BuildOptions options;
-  options.outputPath = ::testing::TempDir() + name + ".pfront";
-  options.nodePoints = 2000;
-  options.overwrite = true;
-  options.threads = 1;
+  BuildOptions options = nodesOf(2000);
   options.layering = layering;
-  const auto built = buildStore(one(std::move(cloud)), options);
-  EXPECT_TRUE(built.ok()) << (built.ok() ? "" : built.error().what);
-  return options.outputPath;
+  return builtStore(name, std::move(cloud), options);
 }
 
 /// A square plane z = 0 of side * side points, `step` millimetres apart, centred on the origin;

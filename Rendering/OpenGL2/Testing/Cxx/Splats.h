@@ -92,14 +92,7 @@ inline std::string surfaceStore(const std::string& name, Surface surface)
     cloud->addValue(5, static_cast<float>(i % 7 == 0 ? 0.0 : 0.3 + 0.2 * surfel.position.z));
   }
   cloud->editDescription().splatRadiusBase = 0.02;
-  BuildOptions options;
-  options.outputPath = ::testing::TempDir() + name + ".pfront";
-  options.nodePoints = 2000;
-  options.overwrite = true;
-  options.threads = 1;
-  const auto built = buildStore(one(std::move(cloud)), options);
-  EXPECT_TRUE(built.ok()) << (built.ok() ? "" : built.error().what);
-  return options.outputPath;
+  return builtStore(name, std::move(cloud));
 }
 
 struct Splats : Scene

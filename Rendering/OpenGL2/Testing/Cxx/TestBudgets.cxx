@@ -139,12 +139,8 @@ TEST(Budgets, TheStoresOfAProcessShareItsMemory)
 TEST(Budgets, TheStoresOfAProcessShareTheOverviewByTheirSizes)
 {
   Scene large(Clouds::store(0)); // 40,000 points
-  BuildOptions options;
-  options.outputPath = ::testing::TempDir() + "quarter.pfront";
-  options.nodePoints = 500;
-  options.overwrite = true;
-  ASSERT_TRUE(buildStore(one(hills(10000, 3000.0, millimetres({ -6.0, -3.0, 0.0 }))), options));
-  Scene small(options.outputPath);
+  Scene small(
+    builtStore("quarter", hills(10000, 3000.0, millimetres({ -6.0, -3.0, 0.0 })), nodesOf(500)));
   for (Scene* scene : { &large, &small })
   {
     scene->mapper->SetDetailSelectionToViewSpecific();
@@ -190,14 +186,9 @@ std::string layeredStore()
       cloud->addValue(1, static_cast<std::uint8_t>(red ? 2 : 6));
     }
   }
-  BuildOptions options;
-  options.outputPath = ::testing::TempDir() + "layered.pfront";
+  BuildOptions options = nodesOf(1000);
   options.layering = Layering::ObjectClass;
-  options.nodePoints = 1000;
-  options.overwrite = true;
-  options.threads = 1;
-  EXPECT_TRUE(buildStore(one(std::move(cloud)), options).ok());
-  return options.outputPath;
+  return builtStore("layered", std::move(cloud), options);
 }
 
 /// Pixels of a colour: channel 0 red, 2 blue.

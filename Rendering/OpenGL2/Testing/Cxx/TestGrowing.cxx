@@ -22,13 +22,7 @@ const std::map<std::string, std::string> growingStyles = {
 
 std::string hillsStore()
 {
-  BuildOptions options;
-  options.outputPath = ::testing::TempDir() + "growing.pfront";
-  options.nodePoints = 2000;
-  options.overwrite = true;
-  options.threads = 1;
-  EXPECT_TRUE(buildStore(one(hills(60000, 3000.0, millimetres(glm::dvec3(0.0)))), options).ok());
-  return options.outputPath;
+  return builtStore("growing", hills(60000, 3000.0, millimetres()));
 }
 
 struct Growing : Scene

@@ -43,14 +43,7 @@ std::string storeOfPoints(const std::string& name, const std::vector<NormalPoint
     cloud->addValue(0, point.rgb);
     cloud->addValue(1, std::array<float, 3>{ point.normal.x, point.normal.y, point.normal.z });
   }
-  BuildOptions options;
-  options.outputPath = ::testing::TempDir() + name + ".pfront";
-  options.nodePoints = 2000;
-  options.overwrite = true;
-  options.threads = 1;
-  const auto built = buildStore(one(std::move(cloud)), options);
-  EXPECT_TRUE(built.ok()) << (built.ok() ? "" : built.error().what);
-  return options.outputPath;
+  return builtStore(name, std::move(cloud));
 }
 
 struct Extreme : Scene

@@ -1,3 +1,4 @@
+#include "BuiltStore.h"
 #include "TestBuildClouds.h"
 
 #include "pointfront/Build/StoreBuilder.h"
@@ -28,13 +29,7 @@ namespace
 
 std::string build(const std::string& name, std::size_t points)
 {
-  BuildOptions options;
-  options.outputPath = ::testing::TempDir() + name + ".pfront";
-  options.overwrite = true;
-  options.threads = 1;
-  const auto built = buildStore(one(hills(points, 1e6)), options);
-  EXPECT_TRUE(built.ok());
-  return options.outputPath;
+  return builtStore(name, hills(points, 1e6), BuildOptions());
 }
 
 TEST(StoreHandle, IsOneObjectForAFileUntilTheLastReferenceIsGone)
@@ -112,13 +107,10 @@ TEST(StoreHandle, TheNameTravelsInFieldData)
 TEST(StoreHandle, BoundsAreTight)
 {
   vtkStdString error;
-  BuildOptions options;
-  options.outputPath = ::testing::TempDir() + "tight.pfront";
-  options.overwrite = true;
-  auto cloud = cloudOf(3, millimetres(),
-    [](std::size_t i) { return GridPosition(1000 * i, -500 * static_cast<int>(i), 7); });
-  ASSERT_TRUE(buildStore(one(std::move(cloud)), options).ok());
-  const auto store = vtkPointFrontStore::Open(options.outputPath.c_str(), error);
+  const std::string path = builtStore("tight",
+    cloudOf(3, millimetres(),
+      [](std::size_t i) { return GridPosition(1000 * i, -500 * static_cast<int>(i), 7); }));
+  const auto store = vtkPointFrontStore::Open(path.c_str(), error);
   double bounds[6];
   store->GetBounds(bounds);
   const double expected[6] = { 0.0, 2.0, -1.0, 0.0, 0.007, 0.007 };

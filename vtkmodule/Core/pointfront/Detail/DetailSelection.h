@@ -43,6 +43,10 @@ public:
 
 protected:
   DetailSelection() = default;
+
+  /// Levels below what is needed of a node that nothing near is known of: its way up is not in
+  /// memory, or it is another piece's.
+  static constexpr std::uint32_t farBelow = 0xffff;
 };
 
 } // namespace pointfront

@@ -22,11 +22,6 @@ std::uint32_t prefixOf(double quota, std::uint32_t count)
   return quota >= count ? count : static_cast<std::uint32_t>(std::max(0.0, quota + 0.5));
 }
 
-bool moreUrgent(const LoadRequest& a, const LoadRequest& b)
-{
-  return a.priority != b.priority ? a.priority > b.priority : a.node < b.node;
-}
-
 } // namespace
 
 /// What a subtree shows: points of its layer's share that fall to it, less those that its
@@ -77,22 +72,10 @@ void DetailWalk::begin(const View& view, const FrontLimits& limits)
   limits_ = &limits;
 }
 
-const LayerLimits& DetailWalk::limitsOf(std::size_t layer) const
-{
-  static const LayerLimits byDefault;
-  return layer < limits_->layers.size() ? limits_->layers[layer] : byDefault;
-}
-
 /// Own points of a node that may be drawn; nothing where the whole subtree has none.
-std::optional<std::uint32_t> DetailWalk::drawablePoints(NodeIndex node, const Node& row) const
+std::optional<std::uint32_t> DetailWalk::drawableOf(NodeIndex node, const Node& row) const
 {
-  const LayerLimits& layer = limitsOf(row.layer);
-  const auto verdict = layer.pruning ? layer.pruning->of(node) : NodePruning::Verdict::Draw;
-  if (verdict == NodePruning::Verdict::Skip)
-  {
-    return std::nullopt;
-  }
-  return verdict == NodePruning::Verdict::Draw ? row.pointCount : 0;
+  return drawablePoints(limitsOf(row.layer), node, row.pointCount);
 }
 
 Demand DetailWalk::demand(std::size_t layer, const Shown& shown)
@@ -117,13 +100,11 @@ void DetailWalk::plan(
   delta_ = &delta;
   allowance_ = DrawAllowance(*limits_);
   sum_ = {};
-  missing_ = 0;
   rowsComing_ = false;
   needed_.clear();
-  wanted_.clear();
+  requests_.begin(residency);
   delta.draw.clear();
   delta.errorPx = 0.0;
-  delta.failedNodes = 0;
   for (std::size_t root = 0; root < rootRows_.size(); ++root)
   {
     const std::uint16_t layer = rootRows_[root].layer;
@@ -133,12 +114,7 @@ void DetailWalk::plan(
     }
   }
   order_.sort(delta.draw);
-  std::sort(wanted_.begin(), wanted_.end(), moreUrgent);
-  if (wanted_.size() > limits_->requestLimit)
-  {
-    wanted_.resize(limits_->requestLimit);
-  }
-  delta.requests.assign(wanted_.begin(), wanted_.end());
+  requests_.finish(limits_->requestLimit, delta);
   delta.pointsDrawn = sum_.drawn;
   delta.slotsDrawn = sum_.slots;
   delta.rowsComing = rowsComing_;
@@ -149,7 +125,7 @@ void DetailWalk::enter(std::size_t root, const Shown& shown)
   Visit at;
   at.index = hierarchy_.roots()[root];
   at.row = rootRows_[root];
-  const std::optional<std::uint32_t> points = drawablePoints(at.index, at.row);
+  const std::optional<std::uint32_t> points = drawableOf(at.index, at.row);
   if (!points)
   {
     return;
@@ -176,7 +152,7 @@ void DetailWalk::noteRow(RowState state, bool counted)
   rowsComing_ = rowsComing_ || state == RowState::Coming;
   if (delta_ && counted && state == RowState::Lost)
   {
-    ++delta_->failedNodes;
+    requests_.countFailed();
   }
 }
 
@@ -280,7 +256,7 @@ void DetailWalk::descend(const Visit& at, const Quota& left, const Descent& desc
       noteRow(state, hierarchy_.refinement() == Refinement::Add); // else by childrenReady()
       continue;
     }
-    const std::optional<std::uint32_t> points = drawablePoints(child.index, child.row);
+    const std::optional<std::uint32_t> points = drawableOf(child.index, child.row);
     if (!points)
     {
       continue;
@@ -299,7 +275,7 @@ void DetailWalk::descend(const Visit& at, const Quota& left, const Descent& desc
 
 ResidencySnapshot::State DetailWalk::require(NodeIndex node, const Node& row, double priority)
 {
-  const std::uint32_t points = drawablePoints(node, row).value_or(0);
+  const std::uint32_t points = drawableOf(node, row).value_or(0);
   if (points == 0)
   {
     return ResidencySnapshot::State::Resident;
@@ -310,17 +286,7 @@ ResidencySnapshot::State DetailWalk::require(NodeIndex node, const Node& row, do
     return ResidencySnapshot::State::Resident;
   }
   needed_.insert(node, 0);
-  const ResidencySnapshot::State state = residency_->state(node);
-  if (state == ResidencySnapshot::State::Failed)
-  {
-    ++delta_->failedNodes;
-  }
-  else if (state == ResidencySnapshot::State::Absent)
-  {
-    ++missing_;
-    wanted_.push_back({ node, priority, false, points, row.layer });
-  }
-  return state;
+  return requests_.require({ node, priority, false, points, row.layer });
 }
 
 void DetailWalk::draw(const Visit& at, std::uint32_t count, double distance)

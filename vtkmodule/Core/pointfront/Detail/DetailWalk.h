@@ -2,6 +2,7 @@
 
 #include "pointfront/Front/DrawOrder.h"
 #include "pointfront/Front/FrontBudgets.h"
+#include "pointfront/Front/NodeRequests.h"
 #include "pointfront/Front/NodeSlots.h"
 #include "pointfront/Front/View.h"
 #include "pointfront/Store/Hierarchy.h"
@@ -54,7 +55,7 @@ public:
   void plan(const ResidencySnapshot& residency, const std::vector<Shown>& shown, FrontDelta& delta);
 
   // Of the last plan.
-  std::uint32_t missing() const { return missing_; } ///< neither resident nor failed
+  std::uint32_t missing() const { return requests_.missing(); } ///< neither resident nor failed
   std::uint64_t held() const { return sum_.held; } ///< points of all nodes needed
   const NodeSlots& needed() const { return needed_; }
 
@@ -63,8 +64,11 @@ private:
   struct Visit;
   struct Descent;
 
-  const LayerLimits& limitsOf(std::size_t layer) const;
-  std::optional<std::uint32_t> drawablePoints(NodeIndex node, const Node& row) const;
+  const LayerLimits& limitsOf(std::size_t layer) const
+  {
+    return limitsOfLayer(limits_->layers, layer);
+  }
+  std::optional<std::uint32_t> drawableOf(NodeIndex node, const Node& row) const;
   void enter(std::size_t root, const Shown& shown);
   void visit(const Visit& at);
   void visitAdd(const Visit& at, bool inSight, double distance, bool onPixel);
@@ -88,10 +92,9 @@ private:
   FrontDelta* delta_ = nullptr; ///< null likewise
   Demand sum_;
   DrawAllowance allowance_;
-  std::uint32_t missing_ = 0;
   bool rowsComing_ = false;
   NodeSlots needed_;
-  std::vector<LoadRequest> wanted_;
+  NodeRequests requests_;
   DrawOrder order_;
 };
 

@@ -2,6 +2,7 @@
 
 #include "pointfront/Detail/DetailLevels.h"
 #include "pointfront/Detail/DetailWalk.h"
+#include "pointfront/Front/SeenResidency.h"
 
 #include <algorithm>
 #include <cassert>
@@ -9,13 +10,6 @@
 
 namespace pointfront
 {
-namespace
-{
-
-/// Levels below what is needed of a node that nothing near is known of.
-constexpr std::uint32_t farBelow = 0xffff;
-
-} // namespace
 
 struct ViewDetail::State
 {
@@ -33,14 +27,13 @@ struct ViewDetail::State
   // What the last update saw and left.
   View view;
   FrontLimits limits;
-  std::uint64_t revision = 0;
+  SeenResidency residencySeen;
   std::uint64_t rowArrivals = 0;
   bool first = true;
   bool atRest = false;
-  bool exhausted = false;
 
   bool unchanged(const View& v, const ResidencySnapshot& from, const FrontLimits& l) const;
-  void finish(const ResidencySnapshot& from, bool sameInput, bool sameRevision);
+  void finish(const ResidencySnapshot& from, bool sameInput);
 };
 
 ViewDetail::ViewDetail(std::shared_ptr<const Hierarchy> hierarchy)
@@ -53,25 +46,24 @@ ViewDetail::~ViewDetail() = default;
 bool ViewDetail::State::unchanged(
   const View& v, const ResidencySnapshot& from, const FrontLimits& l) const
 {
-  return atRest && revision != 0 && revision == from.revision() &&
-    exhausted == (walk.missing() > 0 && from.exhausted()) && rowArrivals == hierarchy->arrivals() &&
-    limits.sharedRevision == l.sharedRevision && view == v && limits == l;
+  return atRest && residencySeen.unchanged(from, walk.missing()) &&
+    rowArrivals == hierarchy->arrivals() && limits.sharedRevision == l.sharedRevision &&
+    view == v && limits == l;
 }
 
-void ViewDetail::State::finish(const ResidencySnapshot& from, bool sameInput, bool sameRevision)
+void ViewDetail::State::finish(const ResidencySnapshot& from, bool sameInput)
 {
   ++delta.number;
   delta.frontLength = static_cast<std::uint32_t>(walk.needed().size());
   // As an error: what the frustum's points come to, spread over its pixels.
   delta.thresholdPx = levels.errorAt(levels.lowest());
-  exhausted = sameInput && sameRevision && walk.missing() > 0 && from.exhausted() &&
-    from.revision() == revision;
+  residencySeen.finish(from, sameInput, walk.missing());
   const auto boundBy = [&](FrontBudget budget)
   { return levels.bound() && levels.boundBy() == budget; };
   delta.limitedByBudget = boundBy(FrontBudget::Points);
   delta.limitedByGpu = boundBy(FrontBudget::GpuMemory);
-  delta.limitedByMemory = exhausted || boundBy(FrontBudget::HostMemory);
-  delta.complete = !delta.rowsComing && (walk.missing() == 0 || exhausted);
+  delta.limitedByMemory = residencySeen.exhausted() || boundBy(FrontBudget::HostMemory);
+  delta.complete = !delta.rowsComing && (walk.missing() == 0 || residencySeen.exhausted());
   atRest = !delta.rowsComing;
 }
 
@@ -84,13 +76,11 @@ const FrontDelta& ViewDetail::update(
   {
     return s.delta;
   }
-  const std::uint64_t revision = residency.revision();
   const std::uint64_t rows = s.hierarchy->arrivals();
-  const bool sameRevision = s.revision == revision;
   const bool sameInput = !s.first && s.view == view && s.limits == limits &&
     s.limits.sharedRevision == limits.sharedRevision;
   const bool sameRows = s.rowArrivals == rows && !s.delta.rowsComing;
-  s.revision = revision;
+  s.residencySeen.begin(residency);
   s.rowArrivals = rows;
   s.first = false;
   s.view = view;
@@ -101,7 +91,7 @@ const FrontDelta& ViewDetail::update(
     s.levels.choose(s.walk, *s.hierarchy, s.view, s.limits);
   }
   s.walk.plan(residency, s.levels.shown(), s.delta);
-  s.finish(residency, sameInput, sameRevision);
+  s.finish(residency, sameInput);
   return s.delta;
 }
 

@@ -6,6 +6,7 @@
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <utility>
 
 namespace pointfront
 {
@@ -106,6 +107,24 @@ Result<void> InputFile::readAt(std::uint64_t offset, std::byte* target, std::siz
     offset += static_cast<std::uint64_t>(count);
   }
   return {};
+}
+
+Result<RawBytes> InputFile::readAt(std::uint64_t offset, std::size_t size) const
+{
+  RawBytes bytes(size);
+  const Result<void> done = readAt(offset, bytes.data.get(), size);
+  return done ? Result<RawBytes>(std::move(bytes)) : done.error();
+}
+
+bool fileBeginsWith(const std::string& path, const void* bytes, std::size_t size)
+{
+  const Result<std::unique_ptr<const InputFile>> file = InputFile::open(path);
+  if (!file || (*file)->bytes() < size)
+  {
+    return false;
+  }
+  const Result<RawBytes> beginning = (*file)->readAt(0, size);
+  return beginning && std::memcmp(beginning->data.get(), bytes, size) == 0;
 }
 
 } // namespace pointfront

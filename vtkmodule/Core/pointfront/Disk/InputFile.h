@@ -1,5 +1,6 @@
 #pragma once
 
+#include "pointfront/Base/RawBytes.h"
 #include "pointfront/Base/Result.h"
 
 #include <cstddef>
@@ -31,6 +32,7 @@ public:
   /// False once another file has this path, or none.
   bool isStillNamed() const;
   Result<void> readAt(std::uint64_t offset, std::byte* target, std::size_t size) const;
+  Result<RawBytes> readAt(std::uint64_t offset, std::size_t size) const;
 
 private:
   InputFile(std::string path, int descriptor, std::uint64_t bytes, std::uint64_t device);
@@ -39,5 +41,8 @@ private:
   std::uint64_t bytes_;
   std::uint64_t device_;
 };
+
+/// False, too, for a file that cannot be read.
+bool fileBeginsWith(const std::string& path, const void* bytes, std::size_t size);
 
 } // namespace pointfront

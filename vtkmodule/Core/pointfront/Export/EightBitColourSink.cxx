@@ -12,7 +12,7 @@ constexpr unsigned maximum = 255;
 }
 
 EightBitColourSink::EightBitColourSink(std::unique_ptr<PointSink> sink)
-  : sink_(std::move(sink))
+  : ForwardingSink(std::move(sink))
 {
 }
 
@@ -40,7 +40,7 @@ Result<void> EightBitColourSink::begin(const SinkDescription& description)
       result.largest[c] = areSmall_ ? description.largest[c] : maximum;
     }
   }
-  return sink_->begin(result);
+  return ForwardingSink::begin(result);
 }
 
 void EightBitColourSink::narrow(const std::vector<std::byte>& wide, std::vector<std::byte>& bytes)
@@ -69,7 +69,7 @@ Result<void> EightBitColourSink::append(const PointBatch& batch)
 {
   if (!colours_)
   {
-    return sink_->append(batch);
+    return ForwardingSink::append(batch);
   }
   batch_.positions = batch.positions;
   batch_.steps = batch.steps;
@@ -92,12 +92,12 @@ Result<void> EightBitColourSink::append(const PointBatch& batch)
       batch_.columns[c] = batch.columns[c];
     }
   }
-  return sink_->append(batch_);
+  return ForwardingSink::append(batch_);
 }
 
 std::vector<std::string> EightBitColourSink::findings() const
 {
-  std::vector<std::string> all = sink_->findings();
+  std::vector<std::string> all = ForwardingSink::findings();
   if (rounded_ > 0)
   {
     all.push_back("It has the upper 8 of 16 bits of the colours, as readers of such files expect, "

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pointfront/Points/PointSink.h"
+#include "pointfront/Points/ForwardingSink.h"
 
 #include <cstdint>
 #include <memory>
@@ -17,21 +17,18 @@ namespace pointfront
 /// Lost      findings() counts the points whose colours 8 bits do not hold.
 /// Errors    BadArgument for a larger colour then: ranges of COPC and EPT are those of some points.
 /// Others    points without such colours pass as they are.
-class EightBitColourSink final : public PointSink
+class EightBitColourSink final : public ForwardingSink
 {
 public:
   explicit EightBitColourSink(std::unique_ptr<PointSink> sink);
 
-  std::string path() const override { return sink_->path(); }
   Result<void> begin(const SinkDescription& description) override;
   Result<void> append(const PointBatch& batch) override;
-  Result<void> finish() override { return sink_->finish(); }
   std::vector<std::string> findings() const override;
 
 private:
   void narrow(const std::vector<std::byte>& wide, std::vector<std::byte>& bytes);
 
-  std::unique_ptr<PointSink> sink_;
   std::optional<std::size_t> colours_; ///< the column to narrow, since begin()
   bool areSmall_ = false; ///< no colour is said to be above 255
   bool wasMisjudged_ = false; ///< but one is

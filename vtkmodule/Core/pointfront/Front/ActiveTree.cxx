@@ -67,12 +67,11 @@ void ActiveTree::reset()
 
 void ActiveTree::applyLayer(ActiveNode& node) const
 {
-  static const LayerLimits byDefault;
-  const LayerLimits& limits = node.layer < layers_.size() ? layers_[node.layer] : byDefault;
+  const LayerLimits& limits = limitsOfLayer(layers_, node.layer);
   assert(limits.errorFactor > 0.0 && limits.share >= 0.0);
-  const auto verdict = limits.pruning ? limits.pruning->of(node.node) : NodePruning::Verdict::Draw;
-  node.hidden = !limits.visible || verdict == NodePruning::Verdict::Skip;
-  node.pointCount = verdict == NodePruning::Verdict::Draw ? node.storedPoints : 0;
+  const std::optional<std::uint32_t> points = drawablePoints(limits, node.node, node.storedPoints);
+  node.hidden = !limits.visible || !points;
+  node.pointCount = points.value_or(0);
   node.errorWeight = static_cast<float>(1.0 / limits.errorFactor);
 }
 

@@ -13,15 +13,6 @@ namespace
 /// On screen while a root is missing: nothing at all.
 constexpr double nothingDrawnPx = 1e30;
 
-bool sooner(const LoadRequest& a, const LoadRequest& b)
-{
-  if (a.optional != b.optional)
-  {
-    return b.optional;
-  }
-  return a.priority != b.priority ? a.priority > b.priority : a.node < b.node;
-}
-
 } // namespace
 
 void FrontPlan::make(ActiveTree& tree, const FrontThreshold& threshold,
@@ -29,19 +20,16 @@ void FrontPlan::make(ActiveTree& tree, const FrontThreshold& threshold,
   FrontDelta& delta)
 {
   tree_ = &tree;
-  residency_ = &residency;
   limits_ = &limits;
   delta_ = &delta;
   update_ = update;
-  missing_ = 0;
   clipped_ = false;
   allowance_ = DrawAllowance(limits);
-  wanted_.clear();
+  requests_.begin(residency);
   delta.draw.clear();
   delta.pointsDrawn = 0;
   delta.slotsDrawn = 0;
   delta.errorPx = 0.0;
-  delta.failedNodes = 0;
 
   for (SlotIndex root = 0; root < tree.rootCount(); ++root)
   {
@@ -60,11 +48,11 @@ void FrontPlan::make(ActiveTree& tree, const FrontThreshold& threshold,
     {
       const Presence presence = require(tree[root], nothingDrawnPx);
       visitReplace(
-        root, { nothingDrawnPx, presence != Presence::Missing, presence == Presence::Ready });
+        root, { nothingDrawnPx, presence != Presence::Absent, presence == Presence::Resident });
     }
   }
   order_.sort(delta.draw);
-  selectRequests(delta);
+  requests_.finish(limits.requestLimit, delta);
 }
 
 void FrontPlan::visitAdd(SlotIndex slot, Visit visit)
@@ -75,7 +63,7 @@ void FrontPlan::visitAdd(SlotIndex slot, Visit visit)
     return;
   }
   const std::uint32_t points = FrontDemand::pointsOf(node, Refinement::Add, thresholdPx_);
-  Presence presence = Presence::Ready;
+  Presence presence = Presence::Resident;
   if (points > 0 || node.lost)
   {
     presence = require(node, visit.errorAbovePx);
@@ -84,13 +72,13 @@ void FrontPlan::visitAdd(SlotIndex slot, Visit visit)
   {
     node.needed = update_;
   }
-  const bool drawn = visit.drawable && presence == Presence::Ready;
+  const bool drawn = visit.drawable && presence == Presence::Resident;
   if (drawn && points > 0)
   {
     draw(node, points);
   }
   const bool descend = node.expanded() && node.errorPx > thresholdPx_;
-  noteError(node, drawn ? points : 0, descend && presence == Presence::Ready);
+  noteError(node, drawn ? points : 0, descend && presence == Presence::Resident);
   if (!descend)
   {
     return;
@@ -104,7 +92,7 @@ void FrontPlan::visitAdd(SlotIndex slot, Visit visit)
       prefetch((*tree_)[child], errorPx);
     }
     // Below a node that failed the others go on: they are stored apart from it.
-    visitAdd(child, { errorPx, visit.drawable && presence != Presence::Missing, true });
+    visitAdd(child, { errorPx, visit.drawable && presence != Presence::Absent, true });
   }
 }
 
@@ -116,7 +104,7 @@ bool FrontPlan::childrenReady(const ActiveNode& node, double errorPx)
     // All siblings, in sight or not: the parent cannot be drawn beside them (FRONT-9).
     ActiveNode& child = (*tree_)[node.children + c];
     child.needed = update_;
-    ready = require(child, errorPx) == Presence::Ready && ready;
+    ready = require(child, errorPx) == Presence::Resident && ready;
   }
   return ready;
 }
@@ -149,33 +137,21 @@ FrontPlan::Presence FrontPlan::require(ActiveNode& node, double priority)
 {
   if (node.lost)
   {
-    ++delta_->failedNodes;
+    requests_.countFailed();
     return Presence::Failed;
   }
   if (node.pointCount == 0)
   {
-    return Presence::Ready;
+    return Presence::Resident;
   }
-  switch (residency_->state(node.node))
-  {
-    case ResidencySnapshot::State::Resident:
-      return Presence::Ready;
-    case ResidencySnapshot::State::Failed:
-      ++delta_->failedNodes;
-      return Presence::Failed;
-    case ResidencySnapshot::State::Absent:
-      break;
-  }
-  ++missing_;
-  wanted_.push_back({ node.node, priority, false, node.pointCount, node.layer });
-  return Presence::Missing;
+  return requests_.require({ node.node, priority, false, node.pointCount, node.layer });
 }
 
 void FrontPlan::prefetch(const ActiveNode& node, double priority)
 {
-  if (node.pointCount > 0 && residency_->state(node.node) == ResidencySnapshot::State::Absent)
+  if (node.pointCount > 0)
   {
-    wanted_.push_back({ node.node, priority, true, node.pointCount, node.layer });
+    requests_.prefetch({ node.node, priority, true, node.pointCount, node.layer });
   }
 }
 
@@ -207,18 +183,6 @@ void FrontPlan::noteError(const ActiveNode& node, std::uint32_t drawn, bool refi
       delta_->errorPx = std::max(delta_->errorPx, shown);
     }
   }
-}
-
-void FrontPlan::selectRequests(FrontDelta& delta)
-{
-  if (wanted_.size() > limits_->requestLimit)
-  {
-    const auto end = wanted_.begin() + limits_->requestLimit;
-    std::nth_element(wanted_.begin(), end, wanted_.end(), sooner);
-    wanted_.erase(end, wanted_.end());
-  }
-  std::sort(wanted_.begin(), wanted_.end(), sooner);
-  delta.requests.assign(wanted_.begin(), wanted_.end());
 }
 
 } // namespace pointfront

@@ -3,10 +3,10 @@
 #include "pointfront/Front/ActiveTree.h"
 #include "pointfront/Front/DrawOrder.h"
 #include "pointfront/Front/FrontThreshold.h"
+#include "pointfront/Front/NodeRequests.h"
 #include "pointfront/Front/RenderFront.h"
 
 #include <cstdint>
-#include <vector>
 
 namespace pointfront
 {
@@ -23,7 +23,7 @@ public:
     const FrontLimits& limits, std::uint32_t update, FrontDelta& delta);
 
   /// Nodes that the view needs and that are neither resident nor failed.
-  std::uint32_t missing() const { return missing_; }
+  std::uint32_t missing() const { return requests_.missing(); }
   /// Points that the budget cut off (only where nodes are drawn whole, or not at all).
   bool clipped() const { return clipped_; }
 
@@ -34,12 +34,7 @@ private:
     bool drawable; ///< all that must be there before something of this branch is drawn is
     bool itself; ///< Replace: this node can stand in for its branch
   };
-  enum class Presence
-  {
-    Ready,
-    Missing,
-    Failed
-  };
+  using Presence = ResidencySnapshot::State;
 
   void visitAdd(SlotIndex slot, Visit visit);
   void visitReplace(SlotIndex slot, Visit visit);
@@ -48,18 +43,15 @@ private:
   void draw(const ActiveNode& node, std::uint32_t points);
   void prefetch(const ActiveNode& node, double priority);
   void noteError(const ActiveNode& node, std::uint32_t drawn, bool refined);
-  void selectRequests(FrontDelta& delta);
 
   ActiveTree* tree_ = nullptr;
-  const ResidencySnapshot* residency_ = nullptr;
   const FrontLimits* limits_ = nullptr;
   FrontDelta* delta_ = nullptr;
-  std::vector<LoadRequest> wanted_;
+  NodeRequests requests_;
   DrawOrder order_;
   DrawAllowance allowance_;
   double thresholdPx_ = 0.0; ///< of the layer being visited
   std::uint32_t update_ = 0;
-  std::uint32_t missing_ = 0;
   bool clipped_ = false;
 };
 

@@ -4,7 +4,10 @@
 #include "pointfront/Front/SightWindow.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace pointfront
@@ -40,6 +43,25 @@ struct LayerLimits
         [&](const SightWindow& window) { return window.sees(centre, radius, spacing); });
   }
 };
+
+/// Of a layer by its number; layers beyond the list are as by default.
+inline const LayerLimits& limitsOfLayer(const std::vector<LayerLimits>& layers, std::size_t layer)
+{
+  static const LayerLimits byDefault;
+  return layer < layers.size() ? layers[layer] : byDefault;
+}
+
+/// Of `points` of a node those that its pruning leaves; nothing where its whole subtree has none.
+inline std::optional<std::uint32_t> drawablePoints(
+  const LayerLimits& limits, NodeIndex node, std::uint32_t points)
+{
+  const auto verdict = limits.pruning ? limits.pruning->of(node) : NodePruning::Verdict::Draw;
+  if (verdict == NodePruning::Verdict::Skip)
+  {
+    return std::nullopt;
+  }
+  return verdict == NodePruning::Verdict::Draw ? points : 0;
+}
 
 inline bool operator==(const LayerLimits& a, const LayerLimits& b)
 {

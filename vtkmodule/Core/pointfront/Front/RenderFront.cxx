@@ -4,6 +4,7 @@
 #include "pointfront/Front/FrontDemand.h"
 #include "pointfront/Front/FrontPlan.h"
 #include "pointfront/Front/FrontThreshold.h"
+#include "pointfront/Front/SeenResidency.h"
 
 #include <algorithm>
 #include <cassert>
@@ -17,10 +18,6 @@ namespace
 constexpr double collapseBelow = 0.8;
 /// Updates that a branch stays in the cut after it was last in sight.
 constexpr std::uint32_t updatesUnseen = 30;
-/// Of a node that the front is not near: its way up is not in memory, or it is another piece's.
-constexpr std::uint32_t farUnderFront = 0xffff;
-
-/// What others take of a shared limit is no input: it may change with every update of theirs.
 
 } // namespace
 
@@ -42,9 +39,7 @@ struct RenderFront::State
   // What the last update saw.
   View view;
   FrontLimits limits;
-  std::uint64_t revision = 0; ///< of the residency, before the update asked it anything
-  bool sameRevision = true; ///< as in the update before
-  bool exhausted = false; ///< of these requests: nothing more can come
+  SeenResidency residencySeen;
   bool inputChanged = true; ///< other view or limits than in the update before
 
   // What the last update left behind.
@@ -70,6 +65,7 @@ struct RenderFront::State
   void finish(const ResidencySnapshot& residency);
 };
 
+/// What others take of a shared limit is no input: it may change with every update of theirs.
 void RenderFront::State::adopt(const View& newView, const FrontLimits& newLimits)
 {
   inputChanged = update == 0 || view != newView || !(limits == newLimits);
@@ -229,10 +225,8 @@ void RenderFront::State::finish(const ResidencySnapshot& residency)
   const bool settled = expansions == 0 && !movesUsedUp && !growthHeldBack && !rowsComing;
   const bool steady = !threshold.changed();
   const bool bound = threshold.bound();
-  // The residency speaks of what it was asked for after an earlier update: of the same view?
-  // And nothing came since that one looked: the requests are the same.
-  exhausted = !inputChanged && steady && plan.missing() > 0 && sameRevision &&
-    residency.exhausted() && residency.revision() == revision;
+  residencySeen.finish(residency, !inputChanged && steady, plan.missing());
+  const bool exhausted = residencySeen.exhausted();
   const bool held = bound && !threshold.atTarget();
   const auto heldBy = [&](FrontBudget budget) { return held && threshold.boundBy() == budget; };
   delta.number = update;
@@ -259,17 +253,13 @@ const FrontDelta& RenderFront::update(
   const View& view, const ResidencySnapshot& residency, const FrontLimits& limits)
 {
   State& s = *state_;
-  const bool sameResidency = s.revision != 0 && s.revision == residency.revision() &&
-    s.exhausted == (s.plan.missing() > 0 && residency.exhausted());
+  const bool sameResidency = s.residencySeen.unchanged(residency, s.plan.missing());
   if (s.atRest && sameResidency && s.view == view && s.limits == limits &&
     (s.limits.sharedRevision == limits.sharedRevision || s.threshold.unmoved()))
   {
     return s.delta;
   }
-  // Before anything is asked: what arrives while this update looks is news to the next one.
-  const std::uint64_t revision = residency.revision();
-  s.sameRevision = s.revision == revision;
-  s.revision = revision;
+  s.residencySeen.begin(residency);
   s.adopt(view, limits);
   s.chooseThreshold();
   for (SlotIndex root = 0; root < s.tree.rootCount(); ++root)
@@ -304,7 +294,7 @@ std::uint32_t RenderFront::distanceUnderFront(NodeIndex node) const
   auto [slot, distance] = tree.find(node);
   if (slot == noSlot)
   {
-    return farUnderFront;
+    return farBelow;
   }
   while (tree[slot].parent != noSlot && tree[slot].needed != state_->update)
   {

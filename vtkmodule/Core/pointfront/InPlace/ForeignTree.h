@@ -2,6 +2,7 @@
 
 #include "pointfront/Store/StoredCloud.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <mutex>
@@ -56,6 +57,14 @@ struct ForeignTreeContent
   double spacing = 0.0; ///< between points of the root; not positive: a 128th of the side
   std::vector<ForeignNode> nodes; ///< in any order
   std::shared_ptr<const ForeignNodes> reader;
+
+  /// The root's cube begins at the lowest corner of the box, and is as long as its longest side.
+  void setCube(const Bounds& box)
+  {
+    const glm::dvec3 size = box.empty() ? glm::dvec3(0.0) : box.size();
+    low = box.empty() ? glm::dvec3(0.0) : box.low;
+    side = std::max({ size.x, size.y, size.z });
+  }
 };
 
 /// An octree of someone else (COPC, EPT), drawn as it is: its own hierarchy, each node's points

@@ -2,17 +2,18 @@
 
 #include "pointfront/Codec/ByteStream.h"
 #include "pointfront/Codec/Checksum.h"
+#include "pointfront/Codec/SealedHeader.h"
 #include "pointfront/InPlace/SampleStream.h"
 #include "pointfront/Store/NodeTableSection.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace pointfront
 {
 namespace
 {
 constexpr std::size_t headerBytes = 64;
-constexpr std::size_t headerChecksumAt = headerBytes - 4;
 constexpr std::size_t rowBytes = 40;
 constexpr unsigned largestLogStep = 40;
 constexpr const char* again = "; index the file again: pointfront index --force";
@@ -43,12 +44,7 @@ std::vector<std::byte> encodeHeader(const Header& header)
   out.put(header.tableOffset);
   out.put(header.tableBytes);
   out.put(header.tableChecksum);
-  while (out.size() < headerChecksumAt)
-  {
-    out.put(std::uint8_t(0));
-  }
-  out.put(checksumOf(out.bytes().data(), out.size()));
-  return out.bytes();
+  return sealedHeader(std::move(out), headerBytes);
 }
 
 void putRow(ByteWriter& out, const InPlaceRow& row)
@@ -198,9 +194,7 @@ Result<Header> readHeader(const InputFile& file)
   header.tableOffset = in.get<std::uint64_t>();
   header.tableBytes = in.get<std::uint64_t>();
   header.tableChecksum = in.get<std::uint32_t>();
-  std::uint32_t checksum = 0;
-  std::memcpy(&checksum, bytes + headerChecksumAt, sizeof checksum);
-  if (!matchesChecksum(bytes, headerChecksumAt, checksum))
+  if (!headerIsSound(bytes, headerBytes))
   {
     return corrupt(file.path(), 0, "the header's checksum does not match");
   }
@@ -283,11 +277,7 @@ Result<void> SideFileWriter::commit(const SideFileContent& content)
 
 bool SideFile::looksLikeSideFile(const std::string& path)
 {
-  const Result<std::unique_ptr<const InputFile>> file = InputFile::open(path);
-  std::array<unsigned char, sideFileMagic.size()> bytes{};
-  return file && (*file)->bytes() >= bytes.size() &&
-    (*file)->readAt(0, reinterpret_cast<std::byte*>(bytes.data()), bytes.size()) &&
-    bytes == sideFileMagic;
+  return fileBeginsWith(path, sideFileMagic.data(), sideFileMagic.size());
 }
 
 Result<std::unique_ptr<const SideFile>> SideFile::open(const std::string& path)

@@ -34,6 +34,17 @@ struct PointBatch
     steps.resize(points);
     resizeColumns(points, schema);
   }
+  /// Points of the same columns, positions given alike.
+  void append(const PointBatch& more)
+  {
+    positions.insert(positions.end(), more.positions.begin(), more.positions.end());
+    steps.insert(steps.end(), more.steps.begin(), more.steps.end());
+    columns.resize(more.columns.size());
+    for (std::size_t c = 0; c < columns.size(); ++c)
+    {
+      columns[c].insert(columns[c].end(), more.columns[c].begin(), more.columns[c].end());
+    }
+  }
 
 private:
   void resizeColumns(std::size_t points, const AttributeSchema& schema)

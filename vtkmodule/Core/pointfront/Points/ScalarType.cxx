@@ -57,4 +57,28 @@ std::optional<ScalarType> scalarTypeOf(std::uint8_t number)
   return static_cast<ScalarType>(number);
 }
 
+std::optional<ScalarType> integerTypeOf(std::int64_t bytes, bool isSigned)
+{
+  switch (bytes)
+  {
+    case 1:
+      return isSigned ? ScalarType::Int8 : ScalarType::UInt8;
+    case 2:
+      return isSigned ? ScalarType::Int16 : ScalarType::UInt16;
+    case 4:
+      return isSigned ? ScalarType::Int32 : ScalarType::UInt32;
+    case 8:
+      return isSigned ? ScalarType::Int64 : ScalarType::UInt64;
+    default:
+      return std::nullopt;
+  }
+}
+
+std::optional<ScalarType> floatTypeOf(std::int64_t bytes)
+{
+  return bytes == 4 ? std::optional<ScalarType>(ScalarType::Float32)
+    : bytes == 8    ? std::optional<ScalarType>(ScalarType::Float64)
+                    : std::nullopt;
+}
+
 } // namespace pointfront

@@ -32,6 +32,10 @@ std::optional<ScalarType> scalarTypeOf(std::string_view name);
 /// The type of that number in a store, or nothing.
 std::optional<ScalarType> scalarTypeOf(std::uint8_t number);
 
+/// The integer or the float of so many bytes, or nothing.
+std::optional<ScalarType> integerTypeOf(std::int64_t bytes, bool isSigned);
+std::optional<ScalarType> floatTypeOf(std::int64_t bytes);
+
 /// Calls `function` with a zero of the C++ type that stands for `type`, and returns its result. So
 /// the switch over types is written once, and loops over points are compiled for one type.
 template <typename Function>

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "pointfront/Base/RawBytes.h"
 #include "pointfront/Base/Result.h"
 #include "pointfront/Points/QuantisationGrid.h"
 #include "pointfront/Store/Hierarchy.h"
@@ -60,19 +61,6 @@ struct NodeColumns
     }
     return sum;
   }
-};
-
-/// Bytes that are written before they are read: not cleared.
-struct RawBytes
-{
-  RawBytes() = default;
-  explicit RawBytes(std::size_t bytes)
-    : data(new std::byte[bytes])
-    , size(bytes)
-  {
-  }
-  std::unique_ptr<std::byte[]> data;
-  std::size_t size = 0;
 };
 
 /// The bytes of a node as they lie on the disk, on their way from fetch() to decode().

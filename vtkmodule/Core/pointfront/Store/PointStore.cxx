@@ -22,12 +22,8 @@ constexpr std::uint64_t mergeGapBytes = 4096;
 Result<RawBytes> readSection(const InputFile& file, const SectionEntry& section, const char* name)
 {
   // At most the file's size: the footer was checked.
-  RawBytes bytes(static_cast<std::size_t>(section.bytes));
-  if (Result<void> done = file.readAt(section.offset, bytes.data.get(), bytes.size); !done)
-  {
-    return done.error();
-  }
-  if (!matchesChecksum(bytes.data.get(), bytes.size, section.checksum))
+  Result<RawBytes> bytes = file.readAt(section.offset, static_cast<std::size_t>(section.bytes));
+  if (bytes && !matchesChecksum(bytes->data.get(), bytes->size, section.checksum))
   {
     return corruptStore(
       file.path(), section.offset, std::string("the ") + name + "'s checksum does not match");
@@ -49,12 +45,8 @@ Result<StoreHeader> readHeader(const InputFile& file)
 
 Result<StoreFooter> readFooter(const InputFile& file, const StoreHeader& header)
 {
-  const RawBytes bytes(static_cast<std::size_t>(header.footerBytes));
-  if (Result<void> done = file.readAt(header.footerOffset, bytes.data.get(), bytes.size); !done)
-  {
-    return done.error();
-  }
-  return decodeFooter(bytes.data.get(), header, file.path());
+  const Result<RawBytes> bytes = file.readAt(header.footerOffset, header.footerBytes);
+  return bytes ? decodeFooter(bytes->data.get(), header, file.path()) : bytes.error();
 }
 
 Result<StoredDescription> readDescription(
@@ -160,11 +152,7 @@ PointStore::~PointStore() = default;
 
 bool PointStore::looksLikeStore(const std::string& path)
 {
-  const Result<std::unique_ptr<const InputFile>> file = InputFile::open(path);
-  std::array<unsigned char, storeMagic.size()> bytes{};
-  return file && (*file)->bytes() >= bytes.size() &&
-    (*file)->readAt(0, reinterpret_cast<std::byte*>(bytes.data()), bytes.size()) &&
-    bytes == storeMagic;
+  return fileBeginsWith(path, storeMagic.data(), storeMagic.size());
 }
 
 bool PointStore::looksLikePreview(const std::string& path)
@@ -340,15 +328,14 @@ Result<FetchedNode> PointStore::fetch(NodeIndex node, const ColumnSelection& col
   fetched.runs.push_back(std::move(*record));
   for (std::size_t first = 0; first < blocks.size(); first = runEnd(blocks, first))
   {
-    RawBytes run(static_cast<std::size_t>(runBytes(blocks, first, runEnd(blocks, first))));
-    Result<void> done =
-      content_->fileOf(*payload).readAt(blocks[first].offset, run.data.get(), run.size);
-    if (!done)
+    Result<RawBytes> run = content_->fileOf(*payload).readAt(blocks[first].offset,
+      static_cast<std::size_t>(runBytes(blocks, first, runEnd(blocks, first))));
+    if (!run)
     {
-      return done.error();
+      return run.error();
     }
-    fetched.bytesRead += run.size;
-    fetched.runs.push_back(std::move(run));
+    fetched.bytesRead += run->size;
+    fetched.runs.push_back(std::move(*run));
   }
   return fetched;
 }

@@ -2,15 +2,15 @@
 
 #include "pointfront/Codec/ByteStream.h"
 #include "pointfront/Codec/Checksum.h"
+#include "pointfront/Codec/SealedHeader.h"
 
 #include <algorithm>
-#include <cassert>
+#include <utility>
 
 namespace pointfront
 {
 namespace
 {
-constexpr std::size_t headerChecksumAt = storeHeaderBytes - 4;
 constexpr std::size_t footerFixedBytes = 24;
 constexpr std::size_t sectionEntryBytes = 24;
 constexpr std::uint32_t maxSections = 64;
@@ -118,13 +118,7 @@ std::vector<std::byte> encodeHeader(const StoreHeader& header)
   out.put(header.fileBytes);
   out.put(header.footerOffset);
   out.put(header.footerBytes);
-  while (out.size() < headerChecksumAt)
-  {
-    out.put(std::uint8_t(0));
-  }
-  out.put(checksumOf(out.bytes().data(), out.size()));
-  assert(out.size() == storeHeaderBytes);
-  return out.bytes();
+  return sealedHeader(std::move(out), storeHeaderBytes);
 }
 
 std::vector<std::byte> encodeFooter(const StoreFooter& footer)
@@ -167,8 +161,7 @@ Result<StoreHeader> decodeHeader(
   header.fileBytes = in.get<std::uint64_t>();
   header.footerOffset = in.get<std::uint64_t>();
   header.footerBytes = in.get<std::uint32_t>();
-  ByteReader end(data + headerChecksumAt, 4);
-  if (!matchesChecksum(data, headerChecksumAt, end.get<std::uint32_t>()))
+  if (!headerIsSound(data, storeHeaderBytes))
   {
     return corruptStore(path, 0, "the header's checksum does not match");
   }

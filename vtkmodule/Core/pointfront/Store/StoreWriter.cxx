@@ -29,6 +29,17 @@ Error wrongTable(const std::string& path, const std::string& why)
     Error::Kind::BadArgument, "the node table of '" + path + "' is not sound: " + why);
 }
 
+/// Points of the cloud that nodes hold: those of all payloads together.
+std::uint64_t originalPointsOf(const std::vector<Node>& nodes, Refinement refinement)
+{
+  std::uint64_t sum = 0;
+  for (const Node& node : nodes)
+  {
+    sum += originalPoints(node, refinement);
+  }
+  return sum;
+}
+
 class FileStoreWriter final : public StoreWriter
 {
 public:
@@ -70,6 +81,13 @@ private:
   Result<void> finish(const StoreFooter& footer);
   std::string payloadFault(
     const std::vector<Node>& nodes, const std::vector<PayloadId>& payloads) const;
+  std::string nodesFault(const StoreDescription& description, const std::vector<Node>& nodes,
+    const std::vector<NodeIndex>& roots, const std::vector<PayloadId>& payloads) const;
+  Result<BlockDirectory> directoryOf(const std::vector<PayloadId>& payloads) const;
+  StoredDescription describe(const StoreDescription& description, const std::vector<Node>& nodes,
+    const std::vector<NodeIndex>& roots) const;
+  Result<void> putPayloadFacts(const std::vector<Node>& nodes,
+    const std::vector<PayloadId>& payloads, const BlockDirectory& directory, StoreFooter& footer);
 
   std::unique_ptr<OutputFile> file_;
   AttributeSchema schema_;
@@ -200,67 +218,97 @@ std::string FileStoreWriter::payloadFault(
   return {};
 }
 
-Result<void> FileStoreWriter::commit(const StoreDescription& description,
+std::string FileStoreWriter::nodesFault(const StoreDescription& description,
   const std::vector<Node>& nodes, const std::vector<NodeIndex>& roots,
-  const std::vector<PayloadId>& payloads)
+  const std::vector<PayloadId>& payloads) const
 {
-  assert(description.schema == schema_);
-  std::uint64_t pointCount = 0; // nodes and payloads hold the same numbers
   std::string fault = payloadFault(nodes, payloads);
   if (fault.empty())
   {
-    for (const Node& node : nodes)
-    {
-      pointCount += originalPoints(node, description.refinement);
-    }
-    fault = nodeTableFault(nodes, description.layers.size(), pointCount, description.refinement);
+    fault = nodeTableFault(nodes, description.layers.size(),
+      originalPointsOf(nodes, description.refinement), description.refinement);
   }
   if (fault.empty() && roots != rootsOf(nodes))
   {
     fault = "the list of roots is not that of the nodes without a parent, ascending";
   }
-  if (!fault.empty())
-  {
-    return wrongTable(file_->path(), fault);
-  }
+  return fault;
+}
+
+/// The blocks of the payloads in the order of the nodes.
+Result<BlockDirectory> FileStoreWriter::directoryOf(const std::vector<PayloadId>& payloads) const
+{
   BlockDirectory directory(payloads_.blocksPerNode());
   for (const PayloadId id : payloads)
   {
     directory.addNode(payloads_, id);
   }
   bool unknownCodec = false;
-  fault = directory.fault({ storeHeaderBytes, end_, bytesElsewhere_ }, unknownCodec);
+  const std::string fault =
+    directory.fault({ storeHeaderBytes, end_, bytesElsewhere_ }, unknownCodec);
   if (!fault.empty())
   {
     return wrongTable(file_->path(), fault);
   }
+  return directory;
+}
+
+/// With what only the appended nodes tell.
+StoredDescription FileStoreWriter::describe(const StoreDescription& description,
+  const std::vector<Node>& nodes, const std::vector<NodeIndex>& roots) const
+{
   StoredDescription stored{ description, bounds_, roots };
   stored.description.schema = schema_;
   stored.description.ranges = ranges_;
   countLayers(BorrowedTable(nodes, description.refinement), stored.description);
+  return stored;
+}
 
+/// What a reader must know of payloads beside their places: the ranges of those that are here, the
+/// file that holds those that are not.
+Result<void> FileStoreWriter::putPayloadFacts(const std::vector<Node>& nodes,
+  const std::vector<PayloadId>& payloads, const BlockDirectory& directory, StoreFooter& footer)
+{
+  if (nameElsewhere_.empty())
+  {
+    return putParts(SectionKind::NodeRanges, nodeRanges_.encode(nodes, payloads), footer);
+  }
+  const PayloadElsewhere elsewhere = describeElsewhere(nameElsewhere_, bytesElsewhere_, directory);
+  return putWhole(SectionKind::Elsewhere, encodeElsewhere(elsewhere), footer);
+}
+
+Result<void> FileStoreWriter::commit(const StoreDescription& description,
+  const std::vector<Node>& nodes, const std::vector<NodeIndex>& roots,
+  const std::vector<PayloadId>& payloads)
+{
+  assert(description.schema == schema_);
+  const std::string fault = nodesFault(description, nodes, roots, payloads);
+  if (!fault.empty())
+  {
+    return wrongTable(file_->path(), fault);
+  }
+  const Result<BlockDirectory> directory = directoryOf(payloads);
+  if (!directory)
+  {
+    return directory.error();
+  }
+  const StoredDescription stored = describe(description, nodes, roots);
   StoreFooter footer;
-  footer.pointCount = pointCount;
+  footer.pointCount = originalPointsOf(nodes, description.refinement);
   footer.nodeCount = static_cast<std::uint32_t>(nodes.size());
   footer.columnCount = static_cast<std::uint32_t>(schema_.size());
   Result<void> done = putParts(SectionKind::NodeTable, encodeNodePages(nodes), footer);
   if (done)
   {
-    done = putParts(SectionKind::BlockDirectory, encodePayloadRecords(directory), footer);
+    done = putParts(SectionKind::BlockDirectory, encodePayloadRecords(*directory), footer);
   }
   if (done)
   {
     done = putWhole(SectionKind::Description, encodeDescription(stored), footer);
   }
-  if (done && nameElsewhere_.empty())
+  if (done)
   {
-    done = putParts(SectionKind::NodeRanges, nodeRanges_.encode(nodes, payloads), footer);
-  }
-  else if (done)
-  {
-    const PayloadElsewhere elsewhere =
-      describeElsewhere(nameElsewhere_, bytesElsewhere_, directory);
-    done = putWhole(SectionKind::Elsewhere, encodeElsewhere(elsewhere), footer);
+    done = putPayloadFacts(nodes, payloads, *directory, footer);
   }
   return done ? finish(footer) : done;
 }

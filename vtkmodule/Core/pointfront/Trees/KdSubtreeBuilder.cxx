@@ -135,8 +135,7 @@ double KdSubtreeBuilder::spacing(double drawn) const
 {
   const unsigned side = differingBits(positions_[points_.front()], positions_[points_.back()]);
   const double all = surfaceSpacing(occupancy_, points_.size(), side);
-  return all * std::sqrt(static_cast<double>(points_.size()) / drawn) *
-    emitter_.space().stepLength();
+  return all * std::sqrt(static_cast<double>(points_.size()) / drawn) * space().stepLength();
 }
 
 /// Measured among a node's own points, which are some of those drawn there, evenly spread: discs
@@ -267,14 +266,6 @@ std::size_t KdSubtreeBuilder::separate(
   std::copy(
     rightSteps_.begin(), rightSteps_.end(), steps_.begin() + static_cast<std::ptrdiff_t>(left));
   return left;
-}
-
-void KdSubtreeBuilder::emit(
-  BuiltNode& node, const RecordSpan& records, const std::vector<std::uint32_t>& points)
-{
-  const CpuStopwatch watch(seconds_.encode);
-  EncodedNode payload = emitter_.emit(node, records, points);
-  emitted_.push_back({ &node, std::move(payload) });
 }
 
 OpenSubtree KdSubtreeBuilder::join(std::vector<OpenSubtree> children, std::uint32_t node)

@@ -1,10 +1,9 @@
 #pragma once
 
+#include "pointfront/Trees/EmittingBuilder.h"
 #include "pointfront/Trees/ExactSampler.h"
 #include "pointfront/Trees/KdCut.h"
-#include "pointfront/Trees/NodeEmitter.h"
 #include "pointfront/Trees/NodeSplat.h"
-#include "pointfront/Trees/TreeBuilder.h"
 
 #include <cstdint>
 #include <memory>
@@ -24,13 +23,13 @@ namespace pointfront
 /// Parts     first give the points that they owe to the nodes above them, from the root down. An
 ///           open subtree holds these points, in this order.
 /// Source    Richter, Discher & Doellner 2015, sections 4.1 and 4.1.1.
-class KdSubtreeBuilder final : public TreeBuilder
+class KdSubtreeBuilder final : public EmittingBuilder
 {
 public:
   /// `tree` and `shares`: the upper tree, and what each of its nodes owes (KdCut.h).
   KdSubtreeBuilder(const NodeEmitter& emitter, const KdRule& rule, std::size_t recordBytes,
     const std::vector<PartNode>& tree, const std::vector<std::vector<KdShare>>& shares)
-    : emitter_(emitter)
+    : EmittingBuilder(emitter)
     , rule_(rule)
     , recordBytes_(recordBytes)
     , tree_(tree)
@@ -42,8 +41,6 @@ public:
   OpenSubtree build(std::vector<std::byte> records, std::size_t count, std::uint32_t node) override;
   OpenSubtree join(std::vector<OpenSubtree> children, std::uint32_t node) override;
   std::unique_ptr<BuiltNode> close(OpenSubtree subtree) override { return std::move(subtree.root); }
-  std::vector<EmittedNode> takeEmitted() override { return std::exchange(emitted_, {}); }
-  const SubtreeSeconds& seconds() const override { return seconds_; }
 
 private:
   /// Points of active_, and how many more of the same region are in nodes above.
@@ -67,9 +64,7 @@ private:
   unsigned longestAxis(const Region& region, std::uint32_t& low, std::uint32_t& high) const;
   double spacing(double drawn) const;
   float splatRadius(const std::vector<std::uint32_t>& own, double drawn);
-  void emit(BuiltNode& node, const RecordSpan& records, const std::vector<std::uint32_t>& points);
 
-  const NodeEmitter& emitter_;
   KdRule rule_;
   std::size_t recordBytes_;
   const std::vector<PartNode>& tree_;
@@ -88,8 +83,6 @@ private:
   std::vector<std::uint32_t> right_;
   std::vector<std::uint8_t> rightSteps_;
   std::vector<std::uint32_t> chosen_; // places in points_
-  std::vector<EmittedNode> emitted_;
-  SubtreeSeconds seconds_;
 };
 
 } // namespace pointfront

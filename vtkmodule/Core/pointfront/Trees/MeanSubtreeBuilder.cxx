@@ -79,7 +79,7 @@ MeanSubtreeBuilder::Branch MeanSubtreeBuilder::leaf(
   branch.node = std::make_unique<BuiltNode>();
   branch.occupancy = cellOccupancy(records, branch.held);
   const double steps = surfaceSpacing(*branch.occupancy, branch.held.size(), side);
-  branch.node->row.spacing = static_cast<float>(steps * emitter_.space().stepLength());
+  branch.node->row.spacing = static_cast<float>(steps * space().stepLength());
   branch.node->row.splatRadius = splat_.measure(records, branch.held);
   return branch;
 }
@@ -118,7 +118,7 @@ void MeanSubtreeBuilder::represent(
   const unsigned cell = meanCell(occupancy, inputs_.size(), log2Side, coarsestBelow, rule_);
   joined.node->samplingQuarters = 4 * static_cast<int>(cell);
   joined.node->row.spacing =
-    static_cast<float>(std::ldexp(emitter_.space().stepLength(), static_cast<int>(cell)));
+    static_cast<float>(std::ldexp(space().stepLength(), static_cast<int>(cell)));
   joined.held.resize(occupancy.distinct[cell]);
   std::iota(joined.held.begin(), joined.held.end(), 0u);
   joined.means.resize(joined.held.size() * form_.bytes());
@@ -147,17 +147,10 @@ MeanSubtreeBuilder::Branch MeanSubtreeBuilder::joinBranches(
   mergeLeaves(children, rule_.nodePoints);
   for (Branch& child : children)
   {
-    emit(std::move(child), *joined.node);
+    emit(*child.node, child.view, child.held);
+    joined.node->children.push_back(std::move(child.node));
   }
   return joined;
-}
-
-void MeanSubtreeBuilder::emit(Branch child, BuiltNode& parent)
-{
-  const CpuStopwatch watch(seconds_.encode);
-  EncodedNode payload = emitter_.emit(*child.node, child.view, child.held);
-  emitted_.push_back({ child.node.get(), std::move(payload) });
-  parent.children.push_back(std::move(child.node));
 }
 
 OpenSubtree MeanSubtreeBuilder::opened(Branch branch)
@@ -197,21 +190,6 @@ OpenSubtree MeanSubtreeBuilder::join(std::vector<OpenSubtree> children, std::uin
     child.records = {};
   }
   return opened(joinBranches(std::move(branches), partition_.nodes()[node].cell.log2Side));
-}
-
-std::unique_ptr<BuiltNode> MeanSubtreeBuilder::close(OpenSubtree subtree)
-{
-  if (!subtree.root)
-  {
-    return nullptr;
-  }
-  const RecordSpan view{ subtree.records.data(), form_.bytes() };
-  std::vector<std::uint32_t> all(subtree.records.size() / form_.bytes());
-  std::iota(all.begin(), all.end(), 0u);
-  const CpuStopwatch watch(seconds_.encode);
-  EncodedNode payload = emitter_.emit(*subtree.root, view, all);
-  emitted_.push_back({ subtree.root.get(), std::move(payload) });
-  return std::move(subtree.root);
 }
 
 } // namespace pointfront

@@ -1,11 +1,10 @@
 #pragma once
 
+#include "pointfront/Trees/EmittingBuilder.h"
 #include "pointfront/Trees/MeanRecord.h"
-#include "pointfront/Trees/NodeEmitter.h"
 #include "pointfront/Trees/NodeSplat.h"
 #include "pointfront/Trees/Partition.h"
 #include "pointfront/Trees/Sampler.h"
-#include "pointfront/Trees/TreeBuilder.h"
 
 #include <cstdint>
 #include <memory>
@@ -24,12 +23,12 @@ namespace pointfront
 /// What an open subtree holds are the representatives of its root, or the points of a leaf, as
 /// records of MeanRecord in Morton order.
 /// Source   Richter & Doellner 2010, section 3.1 and figure 3.
-class MeanSubtreeBuilder final : public TreeBuilder
+class MeanSubtreeBuilder final : public EmittingBuilder
 {
 public:
   MeanSubtreeBuilder(const NodeEmitter& emitter, const SamplingRule& rule, MeanRecord form,
     std::size_t recordBytes, const Partition& partition)
-    : emitter_(emitter)
+    : EmittingBuilder(emitter)
     , rule_(rule)
     , form_(std::move(form))
     , recordBytes_(recordBytes)
@@ -40,9 +39,10 @@ public:
 
   OpenSubtree build(std::vector<std::byte> records, std::size_t count, std::uint32_t node) override;
   OpenSubtree join(std::vector<OpenSubtree> children, std::uint32_t node) override;
-  std::unique_ptr<BuiltNode> close(OpenSubtree subtree) override;
-  std::vector<EmittedNode> takeEmitted() override { return std::exchange(emitted_, {}); }
-  const SubtreeSeconds& seconds() const override { return seconds_; }
+  std::unique_ptr<BuiltNode> close(OpenSubtree subtree) override
+  {
+    return emitRoot(std::move(subtree), form_.bytes());
+  }
 
 private:
   struct Branch
@@ -58,10 +58,8 @@ private:
   Branch leaf(const RecordSpan& records, std::uint32_t begin, std::uint32_t end, unsigned side);
   Branch joinBranches(std::vector<Branch> children, unsigned log2Side);
   void represent(const std::vector<Branch>& children, unsigned log2Side, Branch& joined);
-  void emit(Branch child, BuiltNode& parent);
   OpenSubtree opened(Branch branch);
 
-  const NodeEmitter& emitter_;
   SamplingRule rule_;
   MeanRecord form_;
   std::size_t recordBytes_;
@@ -71,8 +69,6 @@ private:
   std::vector<std::byte> sorted_; // records of the part
   std::vector<MeanInput> inputs_; // of the node at hand
   std::vector<TreePosition> positions_; // of inputs_
-  std::vector<EmittedNode> emitted_;
-  SubtreeSeconds seconds_;
 };
 
 } // namespace pointfront

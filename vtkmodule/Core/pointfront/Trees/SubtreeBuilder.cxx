@@ -77,7 +77,7 @@ SubtreeBuilder::Branch SubtreeBuilder::leaf(
   branch.node = std::make_unique<BuiltNode>();
   branch.occupancy = cellOccupancy(points.positions, branch.held);
   const double steps = surfaceSpacing(*branch.occupancy, branch.held.size(), side);
-  branch.node->row.spacing = static_cast<float>(steps * emitter_.space().stepLength());
+  branch.node->row.spacing = static_cast<float>(steps * space().stepLength());
   branch.node->row.splatRadius = splat_.measure(points.positions, branch.held);
   return branch;
 }
@@ -99,7 +99,7 @@ SubtreeBuilder::Branch SubtreeBuilder::joinBranches(
     const SamplingDistance distance = samplingDistance(
       occupancyOf(points.positions, children), candidates_.size(), coarsestBelow, rule_);
     joined.node->samplingQuarters = distance.quarters;
-    joined.node->row.spacing = static_cast<float>(emitter_.space().stepLength() * distance.steps());
+    joined.node->row.spacing = static_cast<float>(space().stepLength() * distance.steps());
     sampler_.choose(points.positions, candidates_, distance, chosen_);
     joined.held.reserve(chosen_.size());
     auto next = chosen_.begin();
@@ -124,7 +124,8 @@ SubtreeBuilder::Branch SubtreeBuilder::joinBranches(
   mergeLeaves(children, rule_.nodePoints);
   for (Branch& child : children)
   {
-    emit(std::move(child), *joined.node, points.records);
+    emit(*child.node, points.records, child.held);
+    joined.node->children.push_back(std::move(child.node));
   }
   return joined;
 }
@@ -148,14 +149,6 @@ CellOccupancy SubtreeBuilder::occupancyOf(
     before = &child;
   }
   return all;
-}
-
-void SubtreeBuilder::emit(Branch child, BuiltNode& parent, const RecordSpan& records)
-{
-  const CpuStopwatch watch(seconds_.encode);
-  EncodedNode payload = emitter_.emit(*child.node, records, child.held);
-  emitted_.push_back({ child.node.get(), std::move(payload) });
-  parent.children.push_back(std::move(child.node));
 }
 
 OpenSubtree SubtreeBuilder::opened(const RecordSpan& records, Branch branch)
@@ -184,21 +177,6 @@ OpenSubtree SubtreeBuilder::join(std::vector<OpenSubtree> children, std::uint32_
   const SortedPoints points =
     sortedPoints({ records.data(), recordBytes_ }, records.size() / recordBytes_);
   return opened(points.records, joinBranches(points, std::move(branches)));
-}
-
-std::unique_ptr<BuiltNode> SubtreeBuilder::close(OpenSubtree subtree)
-{
-  if (!subtree.root)
-  {
-    return nullptr;
-  }
-  const RecordSpan view{ subtree.records.data(), recordBytes_ };
-  std::vector<std::uint32_t> all(subtree.records.size() / recordBytes_);
-  std::iota(all.begin(), all.end(), 0u);
-  const CpuStopwatch watch(seconds_.encode);
-  EncodedNode payload = emitter_.emit(*subtree.root, view, all);
-  emitted_.push_back({ subtree.root.get(), std::move(payload) });
-  return std::move(subtree.root);
 }
 
 } // namespace pointfront

@@ -1,9 +1,8 @@
 #pragma once
 
-#include "pointfront/Trees/NodeEmitter.h"
+#include "pointfront/Trees/EmittingBuilder.h"
 #include "pointfront/Trees/NodeSplat.h"
 #include "pointfront/Trees/Sampler.h"
-#include "pointfront/Trees/TreeBuilder.h"
 
 #include <cstdint>
 #include <memory>
@@ -32,11 +31,11 @@ namespace pointfront
 ///           above take their share of them.
 /// Order     join() emits the children: siblings are neighbours in the file, below them all
 ///           that they contain. A subtree's root is emitted by its parent or by close().
-class SubtreeBuilder final : public TreeBuilder
+class SubtreeBuilder final : public EmittingBuilder
 {
 public:
   SubtreeBuilder(const NodeEmitter& emitter, const SamplingRule& rule, std::size_t recordBytes)
-    : emitter_(emitter)
+    : EmittingBuilder(emitter)
     , rule_(rule)
     , recordBytes_(recordBytes)
     , splat_(emitter.space())
@@ -45,9 +44,10 @@ public:
 
   OpenSubtree build(std::vector<std::byte> records, std::size_t count, std::uint32_t node) override;
   OpenSubtree join(std::vector<OpenSubtree> children, std::uint32_t node) override;
-  std::unique_ptr<BuiltNode> close(OpenSubtree subtree) override;
-  std::vector<EmittedNode> takeEmitted() override { return std::exchange(emitted_, {}); }
-  const SubtreeSeconds& seconds() const override { return seconds_; }
+  std::unique_ptr<BuiltNode> close(OpenSubtree subtree) override
+  {
+    return emitRoot(std::move(subtree), recordBytes_);
+  }
 
 private:
   /// Records in Morton order, and their positions once more: a tree is made of positions, and
@@ -68,12 +68,10 @@ private:
   Branch joinBranches(const SortedPoints& points, std::vector<Branch> children);
   static CellOccupancy occupancyOf(
     const RecordSpan& positions, const std::vector<Branch>& children);
-  void emit(Branch child, BuiltNode& parent, const RecordSpan& records);
   static OpenSubtree opened(const RecordSpan& records, Branch branch);
   SortedPoints sortedPoints(const RecordSpan& records, std::size_t count);
   RecordSpan positionsView() const;
 
-  const NodeEmitter& emitter_;
   SamplingRule rule_;
   std::size_t recordBytes_;
   SubsetSampler sampler_;
@@ -83,8 +81,6 @@ private:
   std::vector<TreePosition> positions_; // of the sorted points
   std::vector<std::uint32_t> candidates_;
   std::vector<std::uint32_t> chosen_;
-  std::vector<EmittedNode> emitted_;
-  SubtreeSeconds seconds_;
 };
 
 } // namespace pointfront

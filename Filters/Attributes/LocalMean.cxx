@@ -77,8 +77,8 @@ void LocalMean::windowAround(
     }
     for (std::size_t at = cursor; inRow(at) && cells_[at].column <= cell.column + middle; ++at)
     {
-      const auto slot = static_cast<std::size_t>(
-        r * span + static_cast<int>(cells_[at].column - cell.column) + middle);
+      const auto slot =
+        static_cast<std::int64_t>(r) * span + (cells_[at].column - cell.column) + middle;
       window.count[slot] = cells_[at].count;
       window.sum[slot] = cells_[at].sum;
     }

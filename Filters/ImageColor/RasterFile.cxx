@@ -14,7 +14,7 @@ namespace pointfront
 {
 namespace
 {
-std::optional<ScalarType> scalarTypeOf(OIIO::TypeDesc type)
+std::optional<ScalarType> scalarTypeOf(const OIIO::TypeDesc& type)
 {
   switch (type.basetype)
   {

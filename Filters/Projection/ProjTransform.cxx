@@ -58,8 +58,9 @@ Region regionOf(const ProjContext& context, const PJconsts* crs, const Bounds& w
     raw ? proj_normalize_for_visualization(context.get(), raw.get()) : nullptr);
   for (int i = 0; operation && i < latticeSide * latticeSide; ++i)
   {
+    const int line = i / latticeSide;
     const double column = double(i % latticeSide) / (latticeSide - 1);
-    const double row = double(i / latticeSide) / (latticeSide - 1);
+    const double row = double(line) / (latticeSide - 1);
     const glm::dvec3 size = where.size();
     const PJ_COORD p = proj_trans(operation.get(), PJ_FWD,
       proj_coord(where.low.x + size.x * column, where.low.y + size.y * row, 0.0, 0.0));

@@ -51,8 +51,8 @@ Result<Bounds> transformedBounds(const Bounds& bounds, const CoordinateTransform
   const glm::dvec3 size = bounds.size();
   for (std::size_t i = 0; i < lattice.size(); ++i)
   {
-    const glm::dvec3 share(double(i % side) / (side - 1), double(i / side % side) / (side - 1),
-      double(i / (side * side)));
+    const glm::vec<3, std::size_t> place(i % side, i / side % side, i / (side * side));
+    const glm::dvec3 share = glm::dvec3(place) / glm::dvec3(side - 1, side - 1, 1.0);
     lattice[i] = bounds.low + share * size;
   }
   if (Result<void> done = transform.apply(lattice.data(), lattice.size()); !done)

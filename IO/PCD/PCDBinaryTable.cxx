@@ -61,7 +61,7 @@ Result<void> PCDBinaryTable::decode(
   {
     if (spilled)
     {
-      const Result<void> done = spilled_->write(written, from, count);
+      Result<void> done = spilled_->write(written, from, count);
       written += count;
       return done;
     }
@@ -116,7 +116,7 @@ Result<void> PCDBinaryTable::unpack(const std::string& temporaryFolder)
     spilled_ = std::move(*file);
   }
   const std::byte* block = file_.map.data() + begin + sizesBytes;
-  const Result<void> done = decode(block, static_cast<std::size_t>(packed), unpacked, spilled);
+  Result<void> done = decode(block, static_cast<std::size_t>(packed), unpacked, spilled);
   file_.map.release(begin, static_cast<std::size_t>(packed));
   return done;
 }

@@ -64,8 +64,8 @@ public:
 private:
   bool pass(std::size_t& at, std::size_t bytes, double count) const
   {
-    const auto room = static_cast<double>((map_.size() - at) / bytes);
-    if (!(count >= 0.0 && count <= room))
+    const std::size_t room = (map_.size() - at) / bytes;
+    if (!(count >= 0.0 && count <= static_cast<double>(room)))
     {
       return false;
     }

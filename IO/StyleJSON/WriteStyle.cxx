@@ -206,12 +206,13 @@ Json pixels(const glm::vec2& pair)
 Json rowsOf(const LensMask& mask)
 {
   Json rows = Json::array();
-  for (int row = mask.height - 1; row >= 0; --row)
+  const auto width = static_cast<std::size_t>(mask.width);
+  for (auto row = static_cast<std::size_t>(mask.height); row-- > 0;)
   {
     std::string text;
-    for (int column = 0; column < mask.width; ++column)
+    for (std::size_t column = 0; column < width; ++column)
     {
-      text += mask.values[static_cast<std::size_t>(row * mask.width + column)] != 0 ? '#' : '.';
+      text += mask.values[row * width + column] != 0 ? '#' : '.';
     }
     rows.push_back(text);
   }

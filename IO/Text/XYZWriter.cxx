@@ -56,8 +56,7 @@ struct XYZWriter::State
 
   Result<void> flush()
   {
-    const Result<void> done =
-      file->append(reinterpret_cast<const std::byte*>(text.data()), text.size());
+    Result<void> done = file->append(reinterpret_cast<const std::byte*>(text.data()), text.size());
     text.clear();
     return done;
   }

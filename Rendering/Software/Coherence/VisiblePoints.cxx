@@ -217,6 +217,7 @@ void VisiblePoints::gather(const std::vector<Source>& sources, ThreadCrew& crew)
     }
   }
   std::vector<const std::vector<const Source*>*> nodes;
+  nodes.reserve(byNode.size());
   for (const auto& [node, parts] : byNode)
   {
     nodes.push_back(&parts);

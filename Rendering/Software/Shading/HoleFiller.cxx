@@ -219,10 +219,9 @@ void fillHoles(const FrameCamera& camera, SoftwareTarget& target)
     coarse.highlights.resize(fine.highlights.empty() ? 0 : pixels);
     pull(fine, coarse, agreement, 1 << level);
   }
-  for (int level = levels - 1; level >= 0; --level)
+  for (auto level = static_cast<std::size_t>(levels); level-- > 0;)
   {
-    push(pyramid[static_cast<std::size_t>(level)], pyramid[static_cast<std::size_t>(level + 1)],
-      agreement, 1 << level);
+    push(pyramid[level], pyramid[level + 1], agreement, 1 << level);
   }
   pyramid[0].depth.swap(target.depth);
   pyramid[0].rgba.swap(target.rgba);

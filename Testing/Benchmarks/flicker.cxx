@@ -259,14 +259,20 @@ void measure(
     }
     before = std::move(now);
   }
+  const char* const pathName = pathNames[static_cast<std::size_t>(path)];
+  std::printf("| %s, %s |", technique.name, pathName);
   for (std::size_t way = 1; way < 4; ++way)
   {
-    std::printf("| %s, %s | %s | %.2f | %.2f | %.2f | %.2f | %.0f | %.1f |\n", technique.name,
-      pathNames[static_cast<std::size_t>(path)], wayNames[way], flicker[way].sum / (frames - 1),
-      flicker[way].largest, std::sqrt(std::max(0.0, flicker[way].squares / (frames - 1))),
+    std::printf(" %.2f; %.2f |", flicker[way].sum / (frames - 1), flicker[way].largest);
+    std::fprintf(stderr,
+      "%s, %s, %s: root of squares %.2f, jumps %.2f %% of pixels, %.0f thousand points, "
+      "%.1f ms a frame\n",
+      technique.name, pathName, wayNames[way],
+      std::sqrt(std::max(0.0, flicker[way].squares / (frames - 1))),
       flicker[way].jumps / (frames - 1), 1e-3 * static_cast<double>(flights[way]->points) / frames,
       flights[way]->milliseconds / frames);
   }
+  std::printf("\n");
   std::fflush(stdout);
 }
 
@@ -284,9 +290,8 @@ int main(int argc, char** argv)
     fail(store.error().what);
   }
   const int frames = argc > 2 ? std::max(2, std::atoi(argv[2])) : 60;
-  std::printf("| technique, path | levels | mean | largest | root of squares "
-              "| jumps, %% of pixels | thousand points "
-              "| ms a frame |\n| --- | --- | --- | --- | --- | --- | --- | --- |\n");
+  std::printf("| technique, path | %s | %s | %s |\n| --- | --- | --- | --- |\n", wayNames[1],
+    wayNames[2], wayNames[3]);
   for (const DrawnWay& technique : techniques)
   {
     for (const Path path : { Path::Zoom, Path::Pan, Path::Sweep, Path::Step })

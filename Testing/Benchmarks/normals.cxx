@@ -163,11 +163,14 @@ private:
   std::clock_t cpuBegin_ = std::clock();
 };
 
-void printSpeed(const Estimate& estimate)
+double pointsASecond(const Estimate& estimate)
 {
-  const auto points = double(estimate.normals.size());
-  std::printf(
-    " %.2f | %.0f |", points / estimate.seconds * 1e-6, estimate.cpuSeconds / points * 1e9);
+  return double(estimate.normals.size()) / estimate.seconds;
+}
+
+double nanosecondsAPoint(const Estimate& estimate)
+{
+  return estimate.cpuSeconds / double(estimate.normals.size()) * 1e9;
 }
 
 /// From the first reading to the last: the normals of all points in input order.
@@ -319,8 +322,9 @@ void compareWithPCL(const std::string& path)
 {
   const Vectors positions = lasPositions(path);
   std::printf("\n%zu points of the cloud\n", positions.size());
-  std::printf("| way | M points/s | CPU ns | CPU, PCL's to it | RMS to PCL of its k, degrees "
-              "| 95 %% | RMS to PCL, k = 16 | 95 %% | without, %% |\n");
+  std::printf("| way | M points/s | CPU, ns a point | PCL's to it | RMS to PCL of its k, degrees "
+              "| 95 %% | RMS to PCL, k = 16 | 95 %% | without a normal, %% |\n"
+              "| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n");
   std::map<unsigned, Estimate> pcl;
   for (const unsigned neighbours : { 8u, 16u, 32u })
   {
@@ -328,8 +332,8 @@ void compareWithPCL(const std::string& path)
   }
   const auto print = [&pcl](const std::string& name, unsigned neighbours, const Estimate& estimate)
   {
-    std::printf("| %s |", name.c_str());
-    printSpeed(estimate);
+    std::printf("| %s | %.2f | %.0f |", name.c_str(), 1e-6 * pointsASecond(estimate),
+      nanosecondsAPoint(estimate));
     if (const auto same = pcl.find(neighbours); same != pcl.end())
     {
       const Angles angles = anglesBetween(estimate.normals, same->second.normals);
@@ -338,7 +342,7 @@ void compareWithPCL(const std::string& path)
     }
     else
     {
-      std::printf(" | | |");
+      std::printf(" \u2013 | \u2013 | \u2013 |");
     }
     const Angles angles = anglesBetween(estimate.normals, pcl[16].normals);
     std::printf(" %.3f | %.3f | %.2f |\n", angles.rms, angles.most95, 100.0 * angles.without);
@@ -359,16 +363,17 @@ int main(int argc, char** argv)
 {
   const std::size_t points =
     argc > 1 ? static_cast<std::size_t>(std::strtoull(argv[1], nullptr, 10)) : 1000000;
-  std::printf("| shape | way | M points/s | CPU ns | RMS, degrees | 95 %% | without, %% |\n");
+  std::printf("| shape | way | CPU, ns a point | RMS, degrees | 95 %%, degrees "
+              "| without a normal, %% |\n| --- | --- | ---: | ---: | ---: | ---: |\n");
   for (const Shape& shape : { sphere(points), noisyPlane(points), terrain(points) })
   {
     for (const Method& method : methods())
     {
       const Estimate estimate = estimated(*method.pass, shape.positions);
-      std::printf("| %s | %s |", shape.name.c_str(), method.name.c_str());
-      printSpeed(estimate);
       const Angles angles = anglesBetween(estimate.normals, shape.normals);
-      std::printf(" %.3f | %.3f | %.2f |\n", angles.rms, angles.most95, 100.0 * angles.without);
+      std::printf("| %s | %s | %.0f | %.3f | %.3f | %.2f |\n", shape.name.c_str(),
+        method.name.c_str(), nanosecondsAPoint(estimate), angles.rms, angles.most95,
+        100.0 * angles.without);
       std::fflush(stdout);
     }
   }

@@ -2,13 +2,15 @@
 """What a frame in motion costs through a VTK window: front, drawing, hand-over and swap.
 
     PYTHONPATH=build/release/lib/python3/dist-packages xvfb-run -a \\
-      Testing/Benchmarks/window_orbit.py STORE [--frames 120] [--frame-ms 33] [--backend software]
+      Testing/Benchmarks/window_orbit.py STORE [--frames 120] [--frame-ms 33] \\
+        [--backend software] [--runs 1]
 
 STORE has rgb, and normals (build --normals pca). The camera goes around the whole cloud once in
 FRAMES frames of 1280 x 720 pixels, as an interactor would move it (an update rate above 1). The
 first quarter of the frames teaches the mapper what a frame costs, and is not in the figures.
-Prints a Markdown table: milliseconds a frame (median, 95 %), the error in pixels (median, worst)
-and the points. "nothing" is the window with the cloud hidden.
+Prints a Markdown table: milliseconds a frame (median, 95 %), the worst error in pixels and the
+median of the points. "nothing" is the window with the cloud hidden. With --runs all styles are
+drawn in turn so often, and a cell spans what the runs gave.
 """
 
 import argparse
@@ -91,6 +93,12 @@ def share(values, part):
     return ordered[min(int(part * len(ordered)), len(ordered) - 1)]
 
 
+def cell(values, form):
+    """What the runs gave, from the least to the most."""
+    texts = [format(value, form) for value in sorted(values)]
+    return texts[0] if texts[0] == texts[-1] else f"{texts[0]} to {texts[-1]}"
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
     parser.add_argument("store")
@@ -98,14 +106,20 @@ def main():
     parser.add_argument("--frame-ms", type=float, default=33.0)
     parser.add_argument("--backend", choices=("automatic", "software", "opengl"),
                         default="software")
+    parser.add_argument("--runs", type=int, default=1)
     given = parser.parse_args()
-    print("| in motion | ms a frame, median | 95 % | error, px | worst | points |")
-    print("| --- | ---: | ---: | ---: | ---: | ---: |")
-    for name, style in STYLES.items():
-        times, errors, points = zip(*orbit(given.store, style, given))
-        print(f"| {name} | {share(times, .5):.1f} | {share(times, .95):.1f} "
-              f"| {share(errors, .5):.2f} | {max(errors):.2f} "
-              f"| {share(points, .5) / 1e6:.2f} M |", flush=True)
+    runs = []
+    for _ in range(given.runs):
+        runs.append({name: list(zip(*orbit(given.store, style, given)))
+                     for name, style in STYLES.items()})
+    print("| in motion | ms a frame, median | 95 % | error, px, worst | points |")
+    print("| --- | ---: | ---: | ---: | ---: |")
+    for name in STYLES:
+        times, errors, points = zip(*(run[name] for run in runs))
+        print(f"| {name} | {cell([share(t, .5) for t in times], '.1f')} "
+              f"| {cell([share(t, .95) for t in times], '.1f')} "
+              f"| {cell([max(e) for e in errors], '.2f')} "
+              f"| {cell([share(p, .5) / 1e6 for p in points], '.2f')} M |")
 
 
 if __name__ == "__main__":

@@ -7,6 +7,7 @@ Prints "== " and the step before each, so that what is told of it can be found.
 
 import os
 import sys
+import time
 
 from paraview import servermanager, simple
 from paraview.modules.vtkRemotingServerManager import vtkSMPropertyHelper
@@ -44,7 +45,9 @@ def selected(reader, query=None):
 
 
 def step(name):
-    print("== " + name, flush=True)
+    """In the stream of errors: mpiexec keeps the order of one rank's stream only."""
+    time.sleep(0.5)
+    print("== " + name, file=sys.stderr, flush=True)
 
 
 reader = opened(store)

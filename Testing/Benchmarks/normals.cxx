@@ -189,6 +189,7 @@ Estimate estimated(const AttributePass& pass, const Vectors& positions)
   }
   Estimate estimate;
   PointBatch batch;
+  const std::size_t normals = *result->front()->description().schema.find("normal");
   for (std::uint64_t chunk = 0; chunk < result->front()->chunkCount(); ++chunk)
   {
     if (!result->front()->read(chunk, batch))
@@ -198,7 +199,7 @@ Estimate estimated(const AttributePass& pass, const Vectors& positions)
     for (std::size_t i = 0; i < batch.size(); ++i)
     {
       PackedNormal packed;
-      std::memcpy(&packed, batch.columns.back().data() + i * sizeof packed, sizeof packed);
+      std::memcpy(&packed, batch.columns[normals].data() + i * sizeof packed, sizeof packed);
       estimate.normals.push_back(unpackNormal(packed));
     }
   }

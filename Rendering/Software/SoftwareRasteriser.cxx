@@ -5,6 +5,7 @@
 #include "RasterBuffers.h"
 #include "RasterItems.h"
 #include "RasterKernels.h"
+#include "RasterPieces.h"
 #include "SharedSums.h"
 #include "ShownRectangle.h"
 #include "WinnerResolve.h"
@@ -48,16 +49,6 @@ RasterWindow windowOf(const PixelRectangle& place)
   window.height = place.height();
   window.stride = (window.width + 2 * rasterMargin + 15) & ~15;
   return window;
-}
-
-std::vector<RasterPiece> piecesOf(const RasterItems& items)
-{
-  std::vector<RasterPiece> pieces;
-  for (const RasterItem& item : items.items())
-  {
-    addPieces(item, item.item->first, pieces);
-  }
-  return pieces;
 }
 
 } // namespace
@@ -121,7 +112,6 @@ void SoftwareRasteriser::Content::drawKeys(const RasterItems& items, const Raste
     }
     return keys;
   };
-  drawInto(buffers[0]);
   crew.run(pieces.size(),
     [&](std::size_t number, unsigned thread)
     {
@@ -130,25 +120,21 @@ void SoftwareRasteriser::Content::drawKeys(const RasterItems& items, const Raste
       RasterBatch& batch = mine.scratch();
       const RasterPiece& piece = pieces[number];
       const RasterItem& item = *piece.item;
-      RasterPositions positions = item.positions;
-      for (std::uint32_t first = piece.first; first < piece.last; first += RasterBatch::size)
-      {
-        const int count =
-          static_cast<int>(std::min<std::uint32_t>(RasterBatch::size, piece.last - first));
-        positions.xyz = item.positions.xyz + 3 * std::size_t(first);
-        positions.filtered = RasterItems::filter(items.plan(), item, first, count, batch);
-        kernels.project(item.camera, positions, count, batch);
-        if (item.passes.squares)
+      projectBatches(items, kernels, piece, batch,
+        [&](std::uint32_t first, int count)
         {
-          kernels.drawSquares(now, batch, count, item.passes.squareSize, item.base + first, keys);
-          continue;
-        }
-        shapes.fill(item, first, count, item.passes.firstRadius, batch);
-        kernels.setUp(item.camera, now, item.passes.first, count, batch);
-        kernels.drawSplats(
-          item.camera, now, item.passes.first, batch, count, item.base + first, keys);
-      }
+          if (item.passes.squares)
+          {
+            kernels.drawSquares(now, batch, count, item.passes.squareSize, item.base + first, keys);
+            return;
+          }
+          shapes.fill(item, first, count, item.passes.firstRadius, batch);
+          kernels.setUp(item.camera, now, item.passes.first, count, batch);
+          kernels.drawSplats(
+            item.camera, now, item.passes.first, batch, count, item.base + first, keys);
+        });
     });
+  drawInto(buffers[0]); // all are merged into these
 }
 
 /// Second pass, of blended items: weights and colours of what is not behind.
@@ -196,19 +182,15 @@ void SoftwareRasteriser::Content::addColours(
         mine.sumsDrawn = true;
       }
       RasterBatch& batch = mine.scratch();
-      RasterPositions positions = item.positions;
-      for (std::uint32_t first = piece.first; first < piece.last; first += RasterBatch::size)
-      {
-        const int count =
-          static_cast<int>(std::min<std::uint32_t>(RasterBatch::size, piece.last - first));
-        positions.xyz = item.positions.xyz + 3 * std::size_t(first);
-        positions.filtered = RasterItems::filter(items.plan(), item, first, count, batch);
-        kernels.project(item.camera, positions, count, batch);
-        shapes.fillBlended(item, first, count, item.passes.secondRadius, batch);
-        kernels.setUp(item.camera, now, item.passes.second, count, batch);
-        item.colours->fill(first, count, batch.colour);
-        kernels.addSplats(item.camera, now, item.passes.second, batch, count, depths, sums);
-      }
+      projectBatches(items, kernels, piece, batch,
+        [&](std::uint32_t first, int count)
+        {
+          item.colours->fetchAhead(nextBatch(piece, first));
+          shapes.fillBlended(item, first, count, item.passes.secondRadius, batch);
+          kernels.setUp(item.camera, now, item.passes.second, count, batch);
+          item.colours->fill(first, count, batch.colour);
+          kernels.addSplats(item.camera, now, item.passes.second, batch, count, depths, sums);
+        });
     });
   together ? shareSums(*all, buffers, 4 * now.pixels()) : void();
 }

@@ -1,7 +1,8 @@
-// usage: pointfrontRasterBenchmark STORE [PICTURE_FOLDER [X Y Z FX FY FZ ANGLE]]
+// usage: pointfrontRasterBenchmark [--only TECHNIQUE] STORE [PICTURE_FOLDER [X Y Z FX FY FZ ANGLE]]
 //
 // Draws every point of a store with each technique of the software rasteriser: nanoseconds of CPU
-// and of the clock a point, by one thread and by all, the best and the median of some frames.
+// and of the clock a point, by one thread and by two, the best and the median of some frames.
+// One thread and two take turns, so that other users of the machine slow both down.
 // Everything is in memory before; a frame is all from clearing to the resolved colours and depths.
 // A folder gets a picture of each.
 
@@ -26,7 +27,7 @@ namespace
 
 using namespace pointfront;
 
-constexpr int frames = 7;
+constexpr int frames = 15;
 constexpr int width = 1280;
 constexpr int height = 720;
 
@@ -100,32 +101,54 @@ void save(const std::string& path, const SoftwareTarget& target)
   }
 }
 
+/// One number of threads and what its frames take.
 struct Measured
 {
+  explicit Measured(unsigned threads)
+    : crew(threads)
+    , rasteriser(&crew)
+  {
+  }
+  void draw(const FramePlan& plan, SoftwareTarget& target)
+  {
+    target.reset(width, height);
+    const double cpuBefore = seconds(CLOCK_PROCESS_CPUTIME_ID), before = seconds(CLOCK_MONOTONIC);
+    if (rasteriser.draw(plan, target).reused > 0)
+    {
+      fail("a frame was not drawn anew");
+    }
+    cpu = std::min(cpu, seconds(CLOCK_PROCESS_CPUTIME_ID) - cpuBefore);
+    wall.push_back(seconds(CLOCK_MONOTONIC) - before);
+  }
+  double median() const
+  {
+    std::vector<double> sorted = wall;
+    std::sort(sorted.begin(), sorted.end());
+    return sorted[sorted.size() / 2];
+  }
+
+  ThreadCrew crew;
+  SoftwareRasteriser rasteriser;
   double cpu = 1e30;
   std::vector<double> wall;
 };
 
-Measured measure(const FramePlan& plan, unsigned threads, SoftwareTarget& target)
+/// A line of the table.
+void measure(const char* name, const FramePlan& plan, SoftwareTarget& target)
 {
-  ThreadCrew crew(threads);
-  SoftwareRasteriser rasteriser(&crew);
-  Measured measured;
+  Measured alone(1), both(2);
   for (int frame = 0; frame < frames; ++frame)
   {
     FramePlan turned = plan;
     turned.camera.viewToClip[2][2] *= 1.0 + 1e-9 * frame; // another view: nothing is reused
-    target.reset(width, height);
-    const double cpu = seconds(CLOCK_PROCESS_CPUTIME_ID), wall = seconds(CLOCK_MONOTONIC);
-    if (rasteriser.draw(turned, target).reused > 0)
-    {
-      fail("a frame was not drawn anew");
-    }
-    measured.cpu = std::min(measured.cpu, seconds(CLOCK_PROCESS_CPUTIME_ID) - cpu);
-    measured.wall.push_back(seconds(CLOCK_MONOTONIC) - wall);
+    alone.draw(turned, target);
+    both.draw(turned, target);
   }
-  std::sort(measured.wall.begin(), measured.wall.end());
-  return measured;
+  const auto points = static_cast<double>(plan.pointCount());
+  std::printf("| %s | %.2f | %.2f | %.1f | %.1f | %.2f |\n", name, 1e9 * alone.cpu / points,
+    1e9 * both.cpu / points, 1e3 * alone.median(), 1e3 * both.median(),
+    alone.median() / both.median());
+  std::fflush(stdout);
 }
 
 /// All points of all nodes, as if nothing were finer: what closes a leaf closes all above it.
@@ -234,9 +257,17 @@ std::shared_ptr<const ResolvedStyle> styleOf(
 
 int main(int argc, char** argv)
 {
+  std::string only;
+  if (argc > 3 && std::string(argv[1]) == "--only")
+  {
+    only = argv[2];
+    argc -= 2;
+    argv += 2;
+  }
   if (argc != 2 && argc != 3 && argc != 10)
   {
-    fail("usage: pointfrontRasterBenchmark STORE [PICTURE_FOLDER [X Y Z FX FY FZ ANGLE]]");
+    fail("usage: pointfrontRasterBenchmark [--only TECHNIQUE] STORE "
+         "[PICTURE_FOLDER [X Y Z FX FY FZ ANGLE]]");
   }
   const Result<std::shared_ptr<const PointStore>> opened = PointStore::open(argv[1]);
   if (!opened)
@@ -249,26 +280,20 @@ int main(int argc, char** argv)
   const auto nodes = readAll(store, columns.all());
 
   FramePlan plan = planOfAll(description, nodes, argc, argv);
-  const auto points = static_cast<double>(plan.pointCount());
-  std::printf(
-    "%.0f points, %zu nodes, %s\n", points, nodes.size(), SoftwareRasteriser().instructionSet());
+  std::printf("%llu points, %zu nodes, %s\n", static_cast<unsigned long long>(plan.pointCount()),
+    nodes.size(), SoftwareRasteriser().instructionSet());
   std::printf("| technique | CPU ns a point, 1 thread | 2 threads "
               "| ms, 1 thread | 2 threads | speed-up |\n| --- | --- | --- | --- | --- | --- |\n");
   for (const MeasuredTechnique& one : techniques)
   {
     const auto style = styleOf(one, columns);
-    if (!style)
+    if (!style || (!only.empty() && only != one.name))
     {
       continue;
     }
     plan.batches[0].style = style;
     SoftwareTarget target;
-    const Measured alone = measure(plan, 1, target);
-    const Measured both = measure(plan, 2, target);
-    std::printf("| %s | %.2f | %.2f | %.1f | %.1f | %.2f |\n", one.name, 1e9 * alone.cpu / points,
-      1e9 * both.cpu / points, 1e3 * alone.wall[frames / 2], 1e3 * both.wall[frames / 2],
-      alone.wall[frames / 2] / both.wall[frames / 2]);
-    std::fflush(stdout);
+    measure(one.name, plan, target);
     if (argc > 2)
     {
       save(std::string(argv[2]) + "/" + one.name + ".png", target);

@@ -12,9 +12,6 @@ namespace pointfront
 namespace
 {
 
-/// Points that a thread draws at a time: a node, or a part of a large one.
-constexpr std::uint32_t pointsOfPiece = 1u << 14;
-
 bool contains(const RasterWindow& window, const RasterWindow& other)
 {
   return window.rectangle().contains(other.rectangle());
@@ -32,15 +29,6 @@ bool continues(const RasterItem& item, const DrawnItem& drawn)
 }
 
 } // namespace
-
-void addPieces(const RasterItem& item, std::uint32_t first, std::vector<RasterPiece>& pieces)
-{
-  const std::uint32_t last = item.item->last;
-  for (; first < last; first += std::min(pointsOfPiece, last - first))
-  {
-    pieces.push_back({ &item, first, first + std::min(pointsOfPiece, last - first) });
-  }
-}
 
 VisiblePoints::Drawn LastPicture::drawn(const RasterKey* keys) const
 {

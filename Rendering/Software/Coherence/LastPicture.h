@@ -4,6 +4,7 @@
 #include "ItemNumbers.h"
 #include "RasterBuffers.h"
 #include "RasterItems.h"
+#include "RasterPieces.h"
 #include "VisiblePoints.h"
 
 #include "pointfront/Plan/FramePlan.h"
@@ -15,17 +16,6 @@
 namespace pointfront
 {
 class ThreadCrew;
-
-/// Part of an item's points.
-struct RasterPiece
-{
-  const RasterItem* item;
-  std::uint32_t first;
-  std::uint32_t last;
-};
-
-/// All of an item's points from `first` on.
-void addPieces(const RasterItem& item, std::uint32_t first, std::vector<RasterPiece>& pieces);
 
 /// The state of a store's last picture, which the next picture continues: its keys, if there is
 /// memory for them; the meaning of the keys; the visible points, for views that move.

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "FetchAhead.h"
+
 #include "pointfront/Plan/FramePlan.h"
 
 #include <cstdint>
@@ -54,6 +56,14 @@ public:
     if (column_)
     {
       __builtin_prefetch(column_ + point * stride_);
+    }
+  }
+  /// The same for points one after the other.
+  void fetchAhead(PointRange points) const
+  {
+    if (column_)
+    {
+      pointfront::fetchAhead(column_, stride_, points);
     }
   }
   std::uint32_t at(std::uint32_t point) const { return one_(*this, point); }

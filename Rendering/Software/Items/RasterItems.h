@@ -1,5 +1,6 @@
 #pragma once
 
+#include "FetchAhead.h"
 #include "ItemNumbers.h"
 #include "PointColours.h"
 #include "RasterBatch.h"
@@ -42,6 +43,15 @@ struct RasterItem
   const Attribute* heightAttribute = nullptr;
 
   const NodeColumns& node() const { return *item->node; }
+  /// Asks for what these points are drawn by, one after the other.
+  void fetchAhead(PointRange points) const
+  {
+    pointfront::fetchAhead(positions.xyz, 3 * sizeof(std::uint32_t), points);
+    if (normals)
+    {
+      pointfront::fetchAhead(normals, normalAttribute->bytes(), points);
+    }
+  }
   /// Asks for the memory that holds what a winner is resolved by.
   void fetchAhead(std::uint32_t point) const
   {

@@ -144,10 +144,13 @@ inline void drawPixels(
   {
     std::uint32_t bits;
     __builtin_memcpy(&bits, &batch.depth[j], 4);
-    const auto key = static_cast<RasterKey>(
+    batch.key[j] = static_cast<RasterKey>(
       std::uint64_t(bits & 0x7fffffffu) << 32 | (index + static_cast<std::uint32_t>(j)));
+  }
+  for (int j = 0; j < count; ++j)
+  {
     RasterKey* const pixel = keys + batch.offset[j];
-    const RasterKey old = *pixel;
+    const RasterKey key = batch.key[j], old = *pixel;
     *pixel = key < old ? key : old;
   }
 }

@@ -7,13 +7,18 @@
 namespace pointfront
 {
 
+/// Depth and index in one number: the smallest is the nearest, and of equals the first.
+using RasterKey = std::int64_t;
+constexpr RasterKey emptyKey = INT64_MAX;
+
 /// Points that go through the rasteriser together: one array for each quantity, so that loops over
 /// points become vector instructions. Scratch of one thread.
 /// Spaces  Camera space: x to the right, y up, z along the line of sight (positive in front), world
 ///         units. Pixels: the viewport's, y up.
 struct RasterBatch
 {
-  static constexpr int size = 512;
+  /// Of 512 points, arrays and pixels do not fit into a first-level cache together.
+  static constexpr int size = 128;
   /// How large a splat is on screen, by half its larger edge: which kernel draws it.
   enum Extent : std::int32_t
   {
@@ -59,20 +64,18 @@ struct RasterBatch
   alignas(64) std::uint8_t keep[size]; ///< 0: filtered out
   alignas(64) std::int32_t list[size + 16]; ///< and what a vector writes behind it
 
+  alignas(64) RasterKey key[size]; ///< of squares of one pixel
   // Of splats within 2 x 2 pixels, the pixels that they cover:
   alignas(64) std::int32_t fragmentOffset[4 * size + 16];
   alignas(64) float fragmentDepth[4 * size + 16];
   alignas(64) std::uint32_t fragmentIndex[4 * size + 16];
+  alignas(64) RasterKey fragmentKey[4 * size];
   // and all of them, two of a row beside one another:
   alignas(64) float lowerDepth[2 * size];
   alignas(64) float upperDepth[2 * size];
   alignas(64) std::int32_t lowerWeight[2 * size];
   alignas(64) std::int32_t upperWeight[2 * size];
 };
-
-/// Depth and index in one number: the smallest is the nearest, and of equals the first.
-using RasterKey = std::int64_t;
-constexpr RasterKey emptyKey = INT64_MAX;
 
 /// Buffers have this many pixels around the picture, so that a splat that reaches over its edge
 /// needs no clipping.

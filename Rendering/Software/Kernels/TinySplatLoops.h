@@ -85,9 +85,13 @@ void drawTiny(const RasterCamera& camera, const SplatPass& pass, RasterBatch& ba
   {
     std::uint32_t bits;
     __builtin_memcpy(&bits, batch.fragmentDepth + i, 4);
-    const auto key = static_cast<RasterKey>(std::uint64_t(bits) << 32 | batch.fragmentIndex[i]);
+    batch.fragmentKey[i] =
+      static_cast<RasterKey>(std::uint64_t(bits) << 32 | batch.fragmentIndex[i]);
+  }
+  for (int i = 0; i < listed; ++i)
+  {
     RasterKey* const pixel = keys + batch.fragmentOffset[i];
-    const RasterKey old = *pixel;
+    const RasterKey key = batch.fragmentKey[i], old = *pixel;
     *pixel = key < old ? key : old;
   }
 }

@@ -64,9 +64,10 @@ struct Winner
 /// Winners of some rows, put in the order of their items: scratch of one thread.
 struct WinnerLists
 {
-  std::vector<Winner> found; ///< as they lie in the picture
-  std::vector<std::uint32_t> item; ///< of each that was found
-  std::vector<Winner> sorted; ///< by item
+  RasterBuffer<Winner> found; ///< as they lie in the picture
+  RasterBuffer<std::uint32_t> item; ///< of each that was found
+  std::size_t count = 0; ///< of them
+  RasterBuffer<Winner> sorted; ///< by item
   std::vector<std::uint32_t> places; ///< of each item: how many, then where; 0 between uses
   std::vector<std::uint32_t> touched; ///< items with a winner, in the order they were found
 };

@@ -84,6 +84,7 @@ struct SoftwareRasteriser::Content
   void keep(const RasterItems& items, const RasterWindow& window, LastPicture& picture);
   void drawKeys(const RasterItems& items, const RasterWindow& now,
     const std::vector<RasterPiece>& pieces, bool goingOn);
+  void mergeKeys(const RasterWindow& now, float* depths);
   void addColours(
     const RasterItems& items, const RasterWindow& now, const std::vector<RasterPiece>& pieces);
   void drawPoints(const RasterItems& items, const RasterWindow& now,
@@ -137,26 +138,40 @@ void SoftwareRasteriser::Content::drawKeys(const RasterItems& items, const Raste
   drawInto(buffers[0]); // all are merged into these
 }
 
+/// All threads' keys into the first one's, and the depth of each: infinite negative where nothing
+/// is.
+void SoftwareRasteriser::Content::mergeKeys(const RasterWindow& now, float* depths)
+{
+  RasterKey* const merged = buffers[0].keys.data();
+  crew.run(static_cast<std::size_t>(now.height + 2 * rasterMargin),
+    [&](std::size_t y, unsigned)
+    {
+      const std::int64_t begin = std::int64_t(y) * now.stride, end = begin + now.stride;
+      for (std::size_t other = 1; other < buffers.size(); ++other)
+      {
+        const ThreadBuffers& one = buffers[other];
+        const RasterKey* const keys = one.keysDrawn ? one.keys.data() : merged;
+        for (std::int64_t p = begin; p < end; ++p)
+        {
+          merged[p] = keys[p] < merged[p] ? keys[p] : merged[p];
+        }
+      }
+      for (std::int64_t p = begin; p < end; ++p)
+      {
+        const RasterKey key = merged[p];
+        depths[p] = key == emptyKey ? -std::numeric_limits<float>::infinity() : depthBits(key);
+      }
+    });
+  std::for_each(
+    buffers.begin() + 1, buffers.end(), [](ThreadBuffers& one) { one.keysDrawn = false; });
+}
+
 /// Second pass, of blended items: weights and colours of what is not behind.
 void SoftwareRasteriser::Content::addColours(
   const RasterItems& items, const RasterWindow& now, const std::vector<RasterPiece>& pieces)
 {
   float* const depths = nearest.ofSize(now.pixels());
-  const int rows = now.height + 2 * rasterMargin;
-  crew.run(static_cast<std::size_t>(rows),
-    [&](std::size_t y, unsigned)
-    {
-      const std::int64_t begin = std::int64_t(y) * now.stride;
-      for (std::int64_t p = begin; p < begin + now.stride; ++p)
-      {
-        RasterKey key = emptyKey;
-        for (const ThreadBuffers& one : buffers)
-        {
-          key = one.keysDrawn ? std::min(key, one.keys.data()[p]) : key;
-        }
-        depths[p] = key == emptyKey ? -std::numeric_limits<float>::infinity() : depthBits(key);
-      }
-    });
+  mergeKeys(now, depths);
   PictureExchange* const all = items.plan().exchange;
   const bool together = all && shareDepths(*all, depths, now.pixels());
   for (ThreadBuffers& one : buffers)

@@ -200,7 +200,13 @@ void VisiblePoints::markRow(
     const std::uint32_t point = index - begin;
     if (source->visible && point < source->full && source->indexInNode(point) >= source->planned)
     {
-      source->visible[point / 32].fetch_or(1u << point % 32, std::memory_order_relaxed);
+      // Most pixels show a point that another one marked: looking costs less than marking again.
+      std::atomic<std::uint32_t>& word = source->visible[point / 32];
+      const std::uint32_t bit = 1u << point % 32;
+      if ((word.load(std::memory_order_relaxed) & bit) == 0)
+      {
+        word.fetch_or(bit, std::memory_order_relaxed);
+      }
     }
   }
 }

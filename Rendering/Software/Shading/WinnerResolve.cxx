@@ -74,7 +74,12 @@ void WinnerResolve::find(int y)
   const RasterKey* const merged = source_.merged + source_.window.at(0, y);
   const RasterItem* const items = source_.items->items().data();
   const ItemNumbers& numbers = source_.items->numbers();
+  const std::int64_t most = std::int64_t(winnersAtOnce) + source_.window.width;
+  Winner* const found = winners_.found.ofSize(most);
+  std::uint32_t* const itemOfFound = winners_.item.ofSize(most);
+  std::size_t count = winners_.count;
   std::uint32_t item = 0, begin = 0, end = 0;
+  std::int64_t fetched = -1;
   for (int x = 0; x < source_.window.width; ++x)
   {
     const RasterKey key = merged[x];
@@ -89,19 +94,27 @@ void WinnerResolve::find(int y)
       begin = numbers.beginOf(item);
       end = numbers.endOf(item);
     }
-    items[item].fetchAhead(index - begin);
+    if (index != fetched) // else the splat of the pixel before
+    {
+      items[item].fetchAhead(index - begin);
+      fetched = index;
+    }
     if (winners_.places[item]++ == 0)
     {
       winners_.touched.push_back(item);
     }
-    winners_.found.push_back({ x, y, index - begin, depthOf(key) });
-    winners_.item.push_back(item);
+    found[count] = { x, y, index - begin, depthOf(key) };
+    itemOfFound[count] = item;
+    ++count;
   }
+  winners_.count = count;
 }
 
 void WinnerResolve::sortByItem()
 {
-  winners_.sorted.resize(winners_.found.size());
+  Winner* const sorted = winners_.sorted.ofSize(static_cast<std::int64_t>(winners_.count));
+  const Winner* const found = winners_.found.data();
+  const std::uint32_t* const itemOfFound = winners_.item.data();
   std::uint32_t next = 0;
   for (const std::uint32_t number : winners_.touched)
   {
@@ -109,9 +122,9 @@ void WinnerResolve::sortByItem()
     winners_.places[number] = next;
     next += count;
   }
-  for (std::size_t i = 0; i < winners_.found.size(); ++i)
+  for (std::size_t i = 0; i < winners_.count; ++i)
   {
-    winners_.sorted[winners_.places[winners_.item[i]]++] = winners_.found[i];
+    sorted[winners_.places[itemOfFound[i]]++] = found[i];
   }
 }
 
@@ -130,8 +143,7 @@ void WinnerResolve::resolveFound(SoftwareTarget& target)
     }
     winners_.places[number] = 0;
   }
-  winners_.found.clear();
-  winners_.item.clear();
+  winners_.count = 0;
   winners_.touched.clear();
 }
 
@@ -142,7 +154,7 @@ void WinnerResolve::rows(int begin, int end, SoftwareTarget& target)
   {
     merge(y);
     find(y);
-    if (winners_.found.size() >= winnersAtOnce || y + 1 == end)
+    if (winners_.count >= winnersAtOnce || y + 1 == end)
     {
       resolveFound(target);
     }
@@ -164,9 +176,9 @@ bool WinnerResolve::blendedColour(const Winner& winner, std::uint32_t& rgba) con
   {
     return false;
   }
-  const std::uint64_t half = total[3] / 2;
-  const auto mean = [&](int c)
-  { return static_cast<std::uint32_t>((std::uint64_t(total[c]) + half) / total[3]); };
+  // Exact: a quotient of such integers is no integer, or further from one than doubles round by.
+  const double half = total[3] >> 1, weight = total[3];
+  const auto mean = [&](int c) { return static_cast<std::uint32_t>((total[c] + half) / weight); };
   const std::uint8_t bytes[4] = { static_cast<std::uint8_t>(mean(0)),
     static_cast<std::uint8_t>(mean(1)), static_cast<std::uint8_t>(mean(2)), 255 };
   std::memcpy(&rgba, bytes, 4);

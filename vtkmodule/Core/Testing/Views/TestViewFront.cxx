@@ -157,6 +157,38 @@ TEST(ViewFront, TheTimesOfTheCloudsAreAddedUpWhereTheFrameHasNone)
   EXPECT_GE(two, 250000u);
 }
 
+// Of 50 ms two clouds take 10, and .05 us a point: a million points fit. What the far one shows
+// takes .1 ms a point, and says nothing of what points cost.
+TEST(ViewFront, ACloudThatShowsLittleIsAsFineAsTheOthers)
+{
+  Window window(2);
+  FrameRequest near = everything();
+  near.targetErrorPx = 2.0;
+  near.interacting = true;
+  near.frameMs = 50.0;
+  FrameRequest far = near;
+  const double s = Terrain::sizeMetres;
+  far.view = View::perspective(
+    { 0.5 * s, 0.5 * s, 40 * s }, { 0.5 * s, 0.51 * s, 0 }, { 0, 0, 1 }, 0.9, 1.0, 1e7, 800, 600);
+  const auto draw = [](Cloud& cloud, const FrameRequest& wanted)
+  {
+    const FrontDelta& delta = cloud.front.update(wanted);
+    cloud.front.recordFrame(
+      delta.pointsDrawn, delta.moves, 5.0 + 5e-5 * static_cast<double>(delta.pointsDrawn));
+  };
+  for (int frame = 0; frame < 100; ++frame)
+  {
+    draw(*window.all[0], near);
+    draw(*window.all[1], far);
+  }
+  const FrontDelta& many = window.all[0]->front.last();
+  const FrontDelta& few = window.all[1]->front.last();
+  EXPECT_GT(many.pointsDrawn, 100000u);
+  EXPECT_LT(few.pointsDrawn, 10000u);
+  EXPECT_EQ(many.thresholdPx, 2.0);
+  EXPECT_EQ(few.thresholdPx, 2.0);
+}
+
 TEST(ViewFront, TheBudgetOfPointsHoldsInMotionToo)
 {
   Window window(2);

@@ -30,6 +30,8 @@ constexpr double framesAhead = 8.0;
 constexpr std::chrono::milliseconds betweenAborts{ 50 };
 /// Fewest points of a frame in motion: less is no picture, whatever the machine.
 constexpr std::uint64_t fewestPoints = 100000;
+/// Of a front in a frame.
+constexpr std::uint32_t fewestMoves = 8;
 
 bool covers(const NodeColumns& node, const ColumnSelection& columns)
 {
@@ -273,13 +275,15 @@ void ViewFront::setLimits(const FrameRequest& demand)
   const double frameMs = demand.frameMs > 0.0 ? demand.frameMs : clouds * demand.cloudMs;
   if (demand.interacting && frameMs > 0.0)
   {
-    // At what a point of this cloud costs; several clouds share them, at one error.
-    const std::uint64_t all = cost_.pointsFor(frameMs, fewestPoints);
+    // All clouds share them, at one error.
+    const WindowCost& cost = *window_->window->cost;
+    const std::uint64_t all = cost.pointsFor(frameMs, fewestPoints);
     const std::uint64_t affordable =
-      std::max<std::uint64_t>(fewestPoints, all - std::min(beside_, 2 * all / 5));
+      std::max<std::uint64_t>(fewestPoints, all - std::min(cost.beside(), 2 * all / 5));
     std::uint64_t& most = clouds > 1.0 ? limits.sharedDrawn.most : limits.pointBudget;
     most = demand.pointBudget == 0 ? affordable : std::min(demand.pointBudget, affordable);
-    limits.movesPerFrame = cost_.movesFor(frameMs / clouds, delta_.pointsDrawn);
+    const auto moves = static_cast<double>(cost.movesFor(frameMs)) / clouds;
+    limits.movesPerFrame = std::max(fewestMoves, static_cast<std::uint32_t>(moves));
   }
   readShares(demand);
 }

@@ -6,7 +6,6 @@
 #include "pointfront/Views/WindowDemand.h"
 
 #include "pointfront/Detail/DetailSelection.h"
-#include "pointfront/Front/FrameCostModel.h"
 #include "pointfront/Front/MotionMargin.h"
 #include "pointfront/Front/View.h"
 #include "pointfront/Points/AttributeSchema.h"
@@ -47,8 +46,8 @@ struct FrameRequest
   std::vector<LayerLimits> layers; ///< by number of the store's layer (LAYERS-11)
 };
 
-/// The front of one view of a store, with its share of the residency and the measured cost of its
-/// frames. Several views of one cloud have one of these each.
+/// The front of one view of a store, with its share of the residency. Several views of one cloud
+/// have one of these each.
 /// Guarantees  update() waits for the disk only when the demand is `complete`, and on the first
 ///             update for the roots (one node a layer), so that no first frame is empty unless the
 ///             disk hangs: half a second at most, and all new clouds of a window together a second
@@ -87,10 +86,12 @@ public:
   /// The node's points, or null.
   std::shared_ptr<const NodeColumns> find(NodeIndex node) const;
 
-  /// Tells the time that an earlier frame took for this cloud (CPU + GPU), and what the frame drew.
+  /// Tells the window's cost the time that an earlier frame took for this cloud (CPU + GPU), and
+  /// what the frame drew.
   void recordFrame(std::uint64_t points, std::uint32_t moves, double milliseconds)
   {
-    cost_.record(points, moves, milliseconds);
+    window_->window->cost->record(
+      this, window_->points.claims(), { points, beside_, moves, milliseconds });
   }
 
   /// Tells how many points the last frame drew beside the front's: they may take two fifths of a
@@ -127,7 +128,6 @@ private:
   std::unique_ptr<DetailSelection> selection_;
   std::unique_ptr<OtherPieces> others_; ///< null for a whole hierarchy
   MotionMargin margin_;
-  FrameCostModel cost_;
   std::uint64_t beside_ = 0;
   FrontDelta delta_;
   FrontLimits limits_;

@@ -2,6 +2,7 @@
 
 #include "pointfront/Front/SharedDemand.h"
 #include "pointfront/Views/RootWait.h"
+#include "pointfront/Views/WindowCost.h"
 
 #include <cstdint>
 #include <memory>
@@ -15,6 +16,7 @@ struct WindowDemand
 {
   std::shared_ptr<SharedDemand> points = std::make_shared<SharedDemand>(); ///< on screen
   std::shared_ptr<SharedDemand> slots = std::make_shared<SharedDemand>(); ///< of GPU memory
+  std::shared_ptr<WindowCost> cost = std::make_shared<WindowCost>();
   std::shared_ptr<RootWait> roots = std::make_shared<RootWait>(); ///< of first frames
 };
 

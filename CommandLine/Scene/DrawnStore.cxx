@@ -101,7 +101,9 @@ FramePlan DrawnStore::plan(
     request.styles.emplace_back();
     request.styles.back().assign(layer.styles.begin(), layer.styles.end());
   }
-  return planFrame(*front_, cloud_->description(), std::move(request));
+  FramePlan plan = planFrame(*front_, cloud_->description(), std::move(request));
+  front_->fills(plan.fillPx(), double(camera.width) * double(camera.height));
+  return plan;
 }
 
 void DrawnStore::noteFrame(std::uint64_t points, std::uint64_t keptPoints, double milliseconds)

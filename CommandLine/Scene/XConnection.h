@@ -2,7 +2,7 @@
 
 #include "pointfront/Base/Result.h"
 
-struct _XDisplay; // of Xlib, whose macros stay out of here
+struct _XDisplay; // NOLINT(bugprone-reserved-identifier): of Xlib, whose macros stay out of here
 
 namespace pointfront
 {

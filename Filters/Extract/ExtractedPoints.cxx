@@ -53,8 +53,7 @@ Result<void> ExtractedPoints::add(const QueryBatch& batch)
   {
     resize(std::max({ points_, 2 * room_, firstRoom }));
   }
-  auto* const xyz =
-    static_cast<double*>(positions_->GetData()->GetVoidPointer(static_cast<vtkIdType>(3 * first)));
+  auto* const xyz = static_cast<double*>(positions_->GetData()->GetVoidPointer(0)) + 3 * first;
   vtkIdType* const ids = ids_->GetPointer(static_cast<vtkIdType>(first));
   for (std::size_t i = 0; i < batch.size(); ++i)
   {

@@ -69,7 +69,7 @@ void PointArrays::addPrefix(const NodeColumns& node, std::uint32_t count)
 
 void PointArrays::addRows(const NodeColumns& node, const std::vector<std::uint32_t>& rows)
 {
-  assert(static_cast<vtkIdType>(filled_ + rows.size()) <= ids_->GetNumberOfValues());
+  assert(filled_ + rows.size() <= static_cast<std::size_t>(ids_->GetNumberOfValues()));
   auto* xyz = static_cast<double*>(points_->GetData()->GetVoidPointer(0));
   for (std::size_t i = 0; i < rows.size(); ++i)
   {

@@ -32,6 +32,7 @@ public:
   {
     std::vector<LayerLimits> layers;
     const int classes = limits_.empty() ? 0 : store.GetNumberOfObjectClasses();
+    layers.reserve(static_cast<std::size_t>(classes));
     for (int i = 0; i < classes; ++i)
     {
       layers.push_back(of(store.GetObjectClassNumber(i)));

@@ -13,14 +13,14 @@
 namespace pointfront
 {
 
-void MapperFronts::setStore(vtkSmartPointer<vtkPointFrontStore> store)
+void MapperFronts::setStore(vtkPointFrontStore* store)
 {
   if (store != store_)
   {
     succession_.reset();
     views_.clear();
     piece_.reset();
-    store_ = std::move(store);
+    store_ = store;
   }
 }
 

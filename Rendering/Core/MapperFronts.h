@@ -31,7 +31,7 @@ public:
   }
 
   /// Takes another store, or none, and forgets the views of the store before.
-  void setStore(vtkSmartPointer<vtkPointFrontStore> store);
+  void setStore(vtkPointFrontStore* store);
   vtkPointFrontStore* store() const { return store_; }
   /// Chooses which piece of how many pieces of the store is drawn (HierarchyPiece).
   void setPiece(int piece, int pieces);

@@ -221,6 +221,8 @@ pointfront::FramePlan* vtkPointFrontMapper::PlanFrame(vtkRenderer* renderer, vtk
     request.moment = view.MomentOf(this->GrowthTime);
     view.Plan = pointfront::planFrame(
       *view.Front, this->GetStore()->GetStore()->description(), std::move(request));
+    const pointfront::FrameCamera& camera = view.Plan->camera;
+    view.Front->fills(view.Plan->fillPx(), double(camera.width) * double(camera.height));
     return &*view.Plan;
   }
   // The same nodes, as another actor, eye or pass sees them.

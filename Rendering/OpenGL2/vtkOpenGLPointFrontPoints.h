@@ -7,8 +7,8 @@
  * coincident topology, vtkShaderProperty. What it replaces is the vertex template (integer
  * positions relative to the camera), the colour, and the draw call (DrawBatches).
  */
-#ifndef vtkOpenGLPointFrontPass_h
-#define vtkOpenGLPointFrontPass_h
+#ifndef vtkOpenGLPointFrontPoints_h
+#define vtkOpenGLPointFrontPoints_h
 
 #include "DrawRuns.h" // for the draw list
 #include "pointfront/Style/ColourMap.h" // for colours

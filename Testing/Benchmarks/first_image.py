@@ -1,13 +1,14 @@
 #!/usr/bin/python3
-"""Time from a cold open to the first picture, for stores of different sizes; against loading points
-into a vtkPolyData.
+"""Time from a cold open to the first and to the complete picture, for stores of different sizes;
+against loading points into a vtkPolyData.
 
-    Testing/Benchmarks/first_image.py TOOL [--polydata FILE.las --points N] STORE...
+    Testing/Benchmarks/first_image.py TOOL [--backends software,opengl]
+        [--polydata FILE.las --points N] STORE...
 
 Each run is a process of its own. "Cold": the store's pages are dropped from the disk cache before
 (posix_fadvise; program and libraries stay warm). Times count from the start of the command to the
-first frame with points, opening of the store and of OpenGL included. Prints a Markdown table. Needs
-an X server (xvfb-run).
+first frame with points, and to the frame that has all it needs; opening of the store, and of OpenGL
+where that draws, included. Prints a Markdown table. OpenGL needs an X server (xvfb-run).
 
 --polydata loads the first N points of an uncompressed LAS file (positions as float, colours, one
 vertex a point: what vtkPolyDataMapper draws) and scales the time to the largest store. It draws
@@ -34,19 +35,34 @@ def drop_from_cache(path):
     os.close(descriptor)
 
 
-def first_image(tool, store, cold, work):
-    milliseconds, read = [], 0
+def pictures(tool, store, backend, cold, work, frames=()):
+    """Medians, the least time, and what the last run told, of RUNS runs."""
+    milliseconds, told = [], {}
+    name = "time_to_first_image_ms" if frames else "time_to_complete_ms"
     for _ in range(RUNS):
         if cold:
             drop_from_cache(store)
         report = work / "stats.json"
         subprocess.run([tool, "render", store, "-o", work / "a.png", "--size", "1280x720",
-                        "--frames", "1", "--stats", report],
+                        "--backend", backend, *frames, "--stats", report],
                        check=True, stdout=subprocess.DEVNULL)
         told = json.loads(report.read_text())
-        milliseconds.append(told["time_to_first_image_ms"])
-        read = told["bytes_read"]
-    return statistics.median(milliseconds), min(milliseconds), read
+        milliseconds.append(told[name])
+    return statistics.median(milliseconds), min(milliseconds), told
+
+
+def row(tool, store, backend, work):
+    """Prints a row of the table. The store's points and the slowest first picture."""
+    points = json.loads(subprocess.check_output([tool, "info", store, "--json"]))["points"]
+    one = ("--frames", "1")
+    cold, cold_least, told = pictures(tool, store, backend, True, work, one)
+    warm, warm_least, _ = pictures(tool, store, backend, False, work, one)
+    complete, complete_least, whole = pictures(tool, store, backend, True, work)
+    print(f"| {points:,} | {os.path.getsize(store) / 1e9:.2f} | {backend} "
+          f"| {cold:.0f}, {cold_least:.0f} | {warm:.0f}, {warm_least:.0f} "
+          f"| {told['points_drawn']:,} | {told['bytes_read'] / 1e6:.1f} "
+          f"| {complete:.0f}, {complete_least:.0f} | {whole['points_drawn']:,} |", flush=True)
+    return points, cold
 
 
 def load_polydata(path, count):
@@ -86,22 +102,19 @@ def main():
     options = argparse.ArgumentParser()
     options.add_argument("tool")
     options.add_argument("stores", nargs="+")
+    options.add_argument("--backends", default="software")
     options.add_argument("--polydata")
     options.add_argument("--points", type=int, default=20_000_000)
     given = options.parse_args()
     work = pathlib.Path(tempfile.mkdtemp())
-    print("| points | GB | cold: median, fastest, ms | warm: median, fastest, ms | MB read |")
-    print("| ---: | ---: | ---: | ---: | ---: |")
+    print("| points | GB | drawn by | first, cold: median, fastest, ms | first, warm, ms "
+          "| points in it | MB read | complete, cold, ms | points in it |")
+    print("| ---: | ---: | --- | ---: | ---: | ---: | ---: | ---: | ---: |")
     largest, slowest = 0, 0.0
-    for store in given.stores:
-        points = json.loads(subprocess.check_output(
-            [given.tool, "info", store, "--json"]))["points"]
-        cold, cold_least, read = first_image(given.tool, store, True, work)
-        warm, warm_least, _ = first_image(given.tool, store, False, work)
-        size = os.path.getsize(store) / 1e9
-        print(f"| {points:,} | {size:.2f} | {cold:.0f}, {cold_least:.0f} "
-              f"| {warm:.0f}, {warm_least:.0f} | {read / 1e6:.1f} |", flush=True)
-        largest, slowest = max(largest, points), max(slowest, cold)
+    for backend in given.backends.split(","):
+        for store in given.stores:
+            points, cold = row(given.tool, store, backend, work)
+            largest, slowest = max(largest, points), max(slowest, cold)
     if given.polydata:
         seconds, loaded = load_polydata(given.polydata, given.points)
         scaled = seconds * largest / loaded

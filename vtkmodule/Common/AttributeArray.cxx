@@ -90,7 +90,8 @@ void AttributeArray::fill(const std::byte* from, std::size_t first, std::size_t 
   {
     return;
   }
-  void* const to = array_->GetVoidPointer(static_cast<vtkIdType>(first * attribute_.components));
+  const std::size_t begin = first * attribute_.components;
+  void* const to = array_->GetVoidPointer(static_cast<vtkIdType>(begin));
   if (colour_ && attribute_.type == ScalarType::UInt16)
   {
     auto* const bytes = static_cast<unsigned char*>(to);

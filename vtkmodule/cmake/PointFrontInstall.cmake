@@ -37,7 +37,8 @@ endif ()
 find_package(Doxygen QUIET)
 if (DOXYGEN_FOUND)
   file(GLOB pointfront_documented CONFIGURE_DEPENDS
-    "${CMAKE_CURRENT_SOURCE_DIR}/*/*/vtkPointFront*.h")
+    "${CMAKE_CURRENT_SOURCE_DIR}/*/*/vtkPointFront*.h"
+    "${CMAKE_CURRENT_SOURCE_DIR}/IO/LAS/Index/vtkPointFront*.h")
   list(APPEND pointfront_documented ${pointfront_public_headers})
   set(DOXYGEN_PROJECT_NAME PointFront)
   set(DOXYGEN_STRIP_FROM_PATH "${CMAKE_CURRENT_SOURCE_DIR}/vtkmodule/Core"

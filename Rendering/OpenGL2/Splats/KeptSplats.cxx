@@ -82,7 +82,7 @@ public:
         const auto location = static_cast<GLuint>(locations_[i]);
         glEnableVertexAttribArray(location);
         glVertexAttribPointer(location, keptValues[i].size, GL_FLOAT, GL_FALSE, keptStride,
-          reinterpret_cast<const void*>(offset));
+          reinterpret_cast<const void*>(offset)); // NOLINT(performance-no-int-to-ptr): as GL has it
       }
       offset += sizeof(float) * static_cast<std::size_t>(keptValues[i].size);
     }

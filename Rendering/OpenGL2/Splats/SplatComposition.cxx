@@ -232,6 +232,7 @@ SplatTextures SplatComposition::highlight(
     return base;
   }
   std::vector<std::array<float, 4>> tints;
+  tints.reserve(highlights.size());
   for (const FrameHighlight& one : highlights)
   {
     tints.push_back({ one.colour.r, one.colour.g, one.colour.b, one.tint });

@@ -57,6 +57,44 @@ inline LaneDirection laneDirection(
     (points(batch.screenY) - all(camera.centreY)) * all(perspective / camera.scaleY) };
 }
 
+/// A plane through a splat's centre, and where rays of pixels near the centre's meet it. A ray is
+/// the centre's plus a small offset: all is computed from that offset, so that nothing cancels.
+template <bool Parallel>
+struct LanePlane
+{
+  /// Where a ray meets it.
+  struct Place
+  {
+    Lanes depth;
+    Lanes x, y, z; ///< from the centre to there, in view coordinates
+  };
+  template <typename Points>
+  LanePlane(const RasterCamera& camera, const RasterBatch& batch, Points points)
+    : nx(points(batch.normalX))
+    , ny(points(batch.normalY))
+    , depth(points(batch.depth))
+    , widthX(all(1.0f / camera.scaleX))
+    , widthY(all(1.0f / camera.scaleY))
+  {
+    const LaneDirection to = laneDirection<Parallel>(camera, batch, points);
+    toX = to.x;
+    toY = to.y;
+    facing = nx * to.x + ny * to.y + points(batch.normalZ);
+  }
+  /// `dx` and `dy`: the offset in pixels.
+  Place at(Lanes dx, Lanes dy) const
+  {
+    const Lanes x = dx * widthX, y = dy * widthY;
+    const Lanes turned = nx * x + ny * y;
+    const Lanes further =
+      Parallel ? all(0.0f) - turned / facing : all(0.0f) - depth * turned / (facing + turned);
+    const Lanes t = depth + further;
+    return { t, Parallel ? x : further * toX + t * x, Parallel ? y : further * toY + t * y,
+      further };
+  }
+  Lanes nx, ny, depth, widthX, widthY, toX, toY, facing;
+};
+
 template <bool Parallel>
 struct SplatAt<SplatShape::Disc, Parallel>
 {
@@ -101,57 +139,40 @@ struct SplatAt<SplatShape::Ellipse, Parallel>
   Lanes xx, xy, yy, slopeX, slopeY, radius, depth, mostAtCentre;
 };
 
-/// The ray through the pixel is the centre's plus a small offset: all is computed from that offset,
-/// so that nothing cancels. t is the depth where the ray meets the disc's plane, u the way from the
-/// centre to there.
 template <bool Parallel>
 struct SplatAt<SplatShape::ExactEllipse, Parallel>
 {
   template <typename Points>
   SplatAt(
     const RasterCamera& camera, const SplatPass& pass, const RasterBatch& batch, Points points)
-    : nx(points(batch.normalX))
-    , ny(points(batch.normalY))
+    : plane(camera, batch, points)
     , inverse(points(batch.inverseRadius2))
-    , depth(points(batch.depth))
-    , widthX(all(1.0f / camera.scaleX))
-    , widthY(all(1.0f / camera.scaleY))
     , filter(all(pass.lowPass > 0.0f ? 1.0f / (pass.lowPass * pass.lowPass) : 0.0f))
     , mostAtCentre(all(pass.mostAtCentre()))
     , filtered(pass.lowPass > 0.0f)
   {
-    const LaneDirection to = laneDirection<Parallel>(camera, batch, points);
-    toX = to.x;
-    toY = to.y;
-    facing = nx * to.x + ny * to.y + points(batch.normalZ);
   }
   SplatSample at(Lanes dx, Lanes dy) const
   {
-    const Lanes x = dx * widthX, y = dy * widthY;
-    const Lanes turned = nx * x + ny * y;
-    const Lanes further =
-      Parallel ? all(0.0f) - turned / facing : all(0.0f) - depth * turned / (facing + turned);
-    const Lanes t = depth + further;
-    const Lanes ux = Parallel ? x : further * toX + t * x;
-    const Lanes uy = Parallel ? y : further * toY + t * y;
-    const Lanes q = (ux * ux + uy * uy + further * further) * inverse;
-    const LaneMask onDisc = (q <= all(1.0f)) & (all(1.0e-30f) <= t);
+    const auto met = plane.at(dx, dy);
+    const Lanes q = (met.x * met.x + met.y * met.y + met.z * met.z) * inverse;
+    const LaneMask onDisc = (q <= all(1.0f)) & (all(1.0e-30f) <= met.depth);
     const LaneMask centre = inCentrePixel(dx, dy);
     const Lanes distance = filtered ? (dx * dx + dy * dy) * filter : all(2.0f);
     const Lanes near = choose(centre, smaller(distance, mostAtCentre), distance);
     SplatSample sample;
     sample.q = choose(onDisc, smaller(q, near), near);
-    sample.depth = choose(onDisc, t, depth);
+    sample.depth = choose(onDisc, met.depth, plane.depth);
     sample.covered = onDisc | (near <= all(1.0f));
     return sample;
   }
-  Lanes nx, ny, inverse, depth, widthX, widthY, filter, mostAtCentre;
-  Lanes toX, toY, facing;
+  LanePlane<Parallel> plane;
+  Lanes inverse, filter, mostAtCentre;
   bool filtered;
 };
 
-/// As above; p is the way from the sphere's centre to the ray's nearest point, `half` from there to
-/// the surface.
+/// The ray is computed from its offset, as above; p is the way from the sphere's centre to the
+/// ray's nearest point.
 template <bool Parallel>
 struct SplatAt<SplatShape::Sphere, Parallel>
 {
@@ -191,51 +212,37 @@ struct SplatAt<SplatShape::Sphere, Parallel>
   Lanes inverse, square, depth, widthX, widthY, toX, toY, length2;
 };
 
-/// The ray meets the wall's plane as a disc's; `aside` and `down` are places on the wall. All of it
-/// is its rim: pushed back by the paraboloid.
+/// `aside` and `down` are places on the wall. All of it is its rim: pushed back by the paraboloid.
 template <bool Parallel>
 struct SplatAt<SplatShape::Wall, Parallel>
 {
   template <typename Points>
   SplatAt(const RasterCamera& camera, const SplatPass&, const RasterBatch& batch, Points points)
-    : nx(points(batch.normalX))
-    , ny(points(batch.normalY))
+    : plane(camera, batch, points)
     , rightX(points(batch.quadraticXX))
     , rightY(points(batch.quadraticXY))
     , rightZ(points(batch.quadraticYY))
     , radius(points(batch.radius))
     , height(points(batch.height))
-    , depth(points(batch.depth))
     , upX(all(camera.up[0]))
     , upY(all(camera.up[1]))
     , upZ(all(camera.up[2]))
-    , widthX(all(1.0f / camera.scaleX))
-    , widthY(all(1.0f / camera.scaleY))
     , nearest(all(camera.nearDepth))
     , farthest(all(camera.farDepth))
   {
-    const LaneDirection to = laneDirection<Parallel>(camera, batch, points);
-    toX = to.x;
-    toY = to.y;
-    facing = nx * to.x + ny * to.y + points(batch.normalZ);
   }
   SplatSample at(Lanes dx, Lanes dy) const
   {
-    const Lanes x = dx * widthX, y = dy * widthY;
-    const Lanes turned = nx * x + ny * y;
-    const Lanes further =
-      Parallel ? all(0.0f) - turned / facing : all(0.0f) - depth * turned / (facing + turned);
-    const Lanes t = depth + further;
-    const Lanes ux = Parallel ? x : further * toX + t * x;
-    const Lanes uy = Parallel ? y : further * toY + t * y;
-    const Lanes aside = ux * rightX + uy * rightY + further * rightZ;
-    const Lanes down = all(0.0f) - (ux * upX + uy * upY + further * upZ);
+    const auto met = plane.at(dx, dy);
+    const Lanes aside = met.x * rightX + met.y * rightY + met.z * rightZ;
+    const Lanes down = all(0.0f) - (met.x * upX + met.y * upY + met.z * upZ);
     const LaneMask within =
       (aside <= radius) & (all(0.0f) - radius <= aside) & (all(0.0f) <= down) & (down <= height);
-    return { all(1.0f), t, within & (nearest <= t) & (t <= farthest) };
+    const LaneMask seen = (nearest <= met.depth) & (met.depth <= farthest);
+    return { all(1.0f), met.depth, within & seen };
   }
-  Lanes nx, ny, rightX, rightY, rightZ, radius, height, depth, upX, upY, upZ, widthX, widthY;
-  Lanes nearest, farthest, toX, toY, facing;
+  LanePlane<Parallel> plane;
+  Lanes rightX, rightY, rightZ, radius, height, upX, upY, upZ, nearest, farthest;
 };
 
 } // namespace

@@ -7,7 +7,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <memory>
 #include <thread>
 #include <vector>
@@ -187,6 +189,36 @@ TEST(ViewFront, ACloudThatShowsLittleIsAsFineAsTheOthers)
   EXPECT_LT(few.pointsDrawn, 10000u);
   EXPECT_EQ(many.thresholdPx, 2.0);
   EXPECT_EQ(few.thresholdPx, 2.0);
+}
+
+// Low over the terrain the front's threshold is that of the ground below the eye. A hundred
+// thousand points are as large as it allows, and fill more than ten times as many fine ones do.
+TEST(ViewFront, WhereSplatsFillFewerPointsAreNotWanted)
+{
+  Window window(1);
+  ViewFront& front = window.all[0]->front;
+  FrameRequest low = everything();
+  const double s = Terrain::sizeMetres;
+  low.view = View::perspective({ 0.5 * s, 0.2 * s, 0.01 * s }, { 0.5 * s, 0.5 * s, 0.0 },
+    { 0, 0, 1 }, 0.9, 1.0, 1e7, 800, 600);
+  low.targetErrorPx = 1.0;
+  low.interacting = true;
+  low.frameMs = 15.0;
+  constexpr double viewport = 800.0 * 600.0;
+  double longest = 0.0;
+  for (int frame = 0; frame < 100; ++frame)
+  {
+    const FrontDelta& delta = front.update(low);
+    const auto points = static_cast<double>(delta.pointsDrawn);
+    const double spacing = std::min(delta.thresholdPx, 4.0 * std::sqrt(viewport / points));
+    const double fill = 3.14 * spacing * spacing * points;
+    front.fills(fill, viewport);
+    const double milliseconds = 1.0 + 1e-5 * points + 1e-6 * fill;
+    longest = frame < 50 ? 0.0 : std::max(longest, milliseconds);
+    front.recordFrame(delta.pointsDrawn, delta.moves, milliseconds);
+  }
+  EXPECT_LT(front.last().thresholdPx, 4.0);
+  EXPECT_LT(longest, 2.0 * low.frameMs);
 }
 
 TEST(ViewFront, TheBudgetOfPointsHoldsInMotionToo)

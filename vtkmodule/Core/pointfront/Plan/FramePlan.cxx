@@ -37,6 +37,25 @@ std::size_t FramePlan::nodeCount() const
   return nodes;
 }
 
+double FramePlan::fillPx() const
+{
+  constexpr double pi = 3.14159265358979;
+  double pixels = 0.0;
+  for (const DrawBatch& batch : batches)
+  {
+    if (batch.style->size.mode != SplatSize::Mode::Spacing)
+    {
+      continue;
+    }
+    for (const PlanItem& item : batch.items)
+    {
+      const double radius = std::max(spacingPx, item.growingSpacingPx) * batch.style->size.value;
+      pixels += pi * radius * radius * double(item.last - item.first);
+    }
+  }
+  return pixels;
+}
+
 std::ostream& operator<<(std::ostream& out, const FramePlan& plan)
 {
   out << "frame " << plan.camera.width << " x " << plan.camera.height

@@ -95,6 +95,9 @@ struct FramePlan : FrameSetting
   /// Each point once, however many styles of its layer look at it.
   std::uint64_t pointCount() const;
   std::size_t nodeCount() const; ///< of all batches
+  /// Pixels that splats fill at least where they close the surface, by `spacingPx`, counted as
+  /// often as they are filled. An estimate: it counts all points of nodes that are partly in sight.
+  double fillPx() const;
 };
 
 /// One line a batch and an item: for tests and for looking at a frame.

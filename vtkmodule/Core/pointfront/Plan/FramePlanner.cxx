@@ -24,6 +24,13 @@ constexpr double stepsAnOctave = 16.0;
 /// thousands of pixels coarse at its nearest point, and its other points are not.
 constexpr double mostGrowingPx = 32.0;
 
+// The front's threshold is an error at the nearest point of a node. Most points of a node that
+// reaches to the eye are far from there, so they are much closer together on screen.
+/// Of points spread evenly over the viewport: no more spacings lie between thinned points.
+constexpr double mostEvenSpacings = 4.0;
+/// Up to there the threshold is taken at its word.
+constexpr double smallSpacingPx = 8.0;
+
 /// Of the next step of a ladder: what differs by less is drawn alike, so in one group.
 float inSteps(double spacingPx)
 {
@@ -32,13 +39,13 @@ float inSteps(double spacingPx)
 }
 
 /// Pixels between the points on screen while `spread` of a node's points have grown. A leaf has no
-/// finer points, so what it lacks is counted from `thresholdPx` on.
+/// finer points, so what it lacks is counted from `spacingPx` on.
 float growingSpacing(const NodeColumns& node, std::uint32_t spread, float spacingRatio,
-  double errorPx, double thresholdPx)
+  double errorPx, double spacingPx)
 {
-  const double whole = node.leaf ? std::min(errorPx, thresholdPx) : errorPx;
+  const double whole = node.leaf ? std::min(errorPx, spacingPx) : errorPx;
   const auto points = static_cast<std::uint32_t>(node.size());
-  const double most = std::max(mostGrowingPx, thresholdPx);
+  const double most = std::max(mostGrowingPx, spacingPx);
   return inSteps(std::min(most, prefixErrorPx(points, spread, whole, spacingRatio)));
 }
 
@@ -81,7 +88,7 @@ void keepWhatIsSeen(const FramePlan& plan, DrawBatch& batch)
 
 /// Points [0, points) of a node; `spread` of them say how far they are apart.
 PlanItem itemOf(std::shared_ptr<const NodeColumns> node, const DetailGrowth::Shown& shown,
-  float spacingRatio, float errorPx, double thresholdPx)
+  float spacingRatio, float errorPx, double spacingPx)
 {
   const NodeColumns& columns = *node;
   PlanItem item;
@@ -94,14 +101,33 @@ PlanItem itemOf(std::shared_ptr<const NodeColumns> node, const DetailGrowth::Sho
   item.radiusScale = radius.radiusScale;
   item.growingSpacingPx = shown.growth.whole()
     ? 0.0f
-    : growingSpacing(columns, shown.spread, spacingRatio, errorPx, thresholdPx);
+    : growingSpacing(columns, shown.spread, spacingRatio, errorPx, spacingPx);
   item.unfinished = !columns.leaf || shown.points < points;
   item.closingRadius = radius.closing;
   return item;
 }
 
+/// FramePlan::spacingPx. Without a bound by how many points there are, a coarse view around the eye
+/// would draw each point hundreds of pixels large: the fewer points, the longer the frame.
+double thinnedSpacingPx(const ViewFront& front, const FrameCamera& camera)
+{
+  std::uint64_t points = 1;
+  for (const DrawItem& item : front.last().draw)
+  {
+    points += item.pointCount;
+  }
+  for (const OtherPieces::Drawn& drawn : front.drawnElsewhere())
+  {
+    points += drawn.item.pointCount;
+  }
+  const double pixels = double(camera.width) * double(camera.height);
+  const double even = std::sqrt(pixels / static_cast<double>(points));
+  return std::min(front.last().thresholdPx, std::max(smallSpacingPx, mostEvenSpacings * even));
+}
+
 /// The items of each layer that has a style, near to far.
-std::vector<std::vector<PlanItem>> itemsByLayer(const ViewFront& front, const PlanRequest& request)
+std::vector<std::vector<PlanItem>> itemsByLayer(
+  const ViewFront& front, const PlanRequest& request, double spacingPx)
 {
   const std::vector<LayerStyles>& styles = request.styles;
   const auto shows = [&](const std::shared_ptr<const NodeColumns>& node)
@@ -121,8 +147,8 @@ std::vector<std::vector<PlanItem>> itemsByLayer(const ViewFront& front, const Pl
       const std::uint16_t layer = node->layer;
       if (shown.points > 0)
       {
-        items[layer].push_back(itemOf(
-          std::move(node), shown, item.spacingRatio, item.errorPx, front.last().thresholdPx));
+        items[layer].push_back(
+          itemOf(std::move(node), shown, item.spacingRatio, item.errorPx, spacingPx));
       }
     }
   }
@@ -132,16 +158,17 @@ std::vector<std::vector<PlanItem>> itemsByLayer(const ViewFront& front, const Pl
     {
       const std::uint16_t layer = leaving.node->layer;
       items[layer].push_back(itemOf(std::move(leaving.node),
-        { leaving.points, leaving.points, leaving.growth }, 0.0f, 0.0f, front.last().thresholdPx));
+        { leaving.points, leaving.points, leaving.growth }, 0.0f, 0.0f, spacingPx));
     }
   }
   return items;
 }
 
 /// One batch each, without a style; layers of which nothing is in sight have none.
-std::vector<DrawBatch> batchesOfLayers(const ViewFront& front, const PlanRequest& request)
+std::vector<DrawBatch> batchesOfLayers(
+  const ViewFront& front, const PlanRequest& request, double spacingPx)
 {
-  std::vector<std::vector<PlanItem>> items = itemsByLayer(front, request);
+  std::vector<std::vector<PlanItem>> items = itemsByLayer(front, request, spacingPx);
   std::vector<DrawBatch> batches;
   for (std::size_t layer = 0; layer < items.size(); ++layer)
   {
@@ -196,12 +223,13 @@ FramePlan planFrame(
   plan.grid = description.grid;
   plan.schema = std::make_shared<const AttributeSchema>(description.schema);
   plan.splatRadiusBase = description.splatRadiusBase;
-  plan.spacingPx = static_cast<float>(front.last().thresholdPx);
+  const double spacingPx = thinnedSpacingPx(front, request.camera);
+  plan.spacingPx = static_cast<float>(spacingPx);
   plan.keepsVisible = request.keepsVisible;
   plan.composited = request.composited;
   plan.exchange = request.exchange;
   plan.shading = std::move(request.shading);
-  std::vector<DrawBatch> layers = batchesOfLayers(front, request);
+  std::vector<DrawBatch> layers = batchesOfLayers(front, request, spacingPx);
   matchNeighbours(layers, plan.grid, nodesElsewhere(front, request.styles));
   for (const DrawBatch& layer : layers)
   {

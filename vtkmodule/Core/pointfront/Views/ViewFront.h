@@ -90,13 +90,20 @@ public:
   /// what the frame drew.
   void recordFrame(std::uint64_t points, std::uint32_t moves, double milliseconds)
   {
-    window_->window->cost->record(
-      this, window_->points.claims(), { points, beside_, moves, milliseconds });
+    window_->window->cost->record(this, window_->points.claims(),
+      { points, beside_, moves, milliseconds, fillPx_, viewportPx_ });
   }
 
   /// Tells how many points the last frame drew beside the front's: they may take two fifths of a
   /// frame's time. The count for recordFrame() includes them.
   void drewBeside(std::uint64_t points) { beside_ = points; }
+
+  /// Tells how much the splats of the next frame fill (FramePlan::fillPx), of how large a viewport.
+  void fills(double pixels, double viewportPixels)
+  {
+    fillPx_ = pixels;
+    viewportPx_ = viewportPixels;
+  }
 
   /// True if nodes arrived since the last update, if that update left moves for the next one, or if
   /// other clouds took or left memory since.
@@ -129,6 +136,8 @@ private:
   std::unique_ptr<OtherPieces> others_; ///< null for a whole hierarchy
   MotionMargin margin_;
   std::uint64_t beside_ = 0;
+  double fillPx_ = 0.0;
+  double viewportPx_ = 0.0;
   FrontDelta delta_;
   FrontLimits limits_;
   // What this view shares with others: memory (in bytes), and the window's.

@@ -67,7 +67,8 @@ struct FrameSetting
   std::shared_ptr<const AttributeSchema> schema; ///< of the nodes' columns; never null
   double splatRadiusBase = 0.0; ///< of the store's radii (SplatRadius.h); 0: none
   /// Pixels between the points on screen wherever the store has more points than are drawn: the
-  /// front's threshold. No splat need be smaller than this, whatever its measured radius. So a
+  /// front's threshold, or less where that is coarse and the points share the viewport more closely
+  /// (docs/adr/0036). No splat need be smaller than this, whatever its measured radius. So a
   /// place looks the same whether a parent or a leaf is drawn there.
   float spacingPx = 0.0f;
   /// The view moves, or more nodes are to come. Back ends that can then also draw points that the

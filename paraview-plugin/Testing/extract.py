@@ -45,6 +45,12 @@ def points_of(source):
     return table[numpy.argsort(table[:, 4])]
 
 
+# What the filter suggests at first is the whole cloud, though its input is an overview of it.
+suggested = PointFrontExtract(Input=scene.reader)
+require(len(points_of(suggested)) == POINTS,
+        "the suggested box has %d of %d points" % (len(points_of(suggested)), POINTS))
+simple.Delete(suggested)
+
 found = {}
 extract = PointFrontExtract(Input=scene.reader)
 require("intensity" in extract.PointArrays.Available, "arrays: %s" % extract.PointArrays.Available)

@@ -57,6 +57,14 @@ settings = simple.GetSettingsProxy("PointFrontSettings")
 step("id")
 require(selected(reader, "(id == 7)") == POINTS // 10, "an attribute that is called id")
 
+# A region that misses the cloud: that there are no points is told, not left to be found out.
+step("beside")
+beside = PointFrontExtract(Input=reader, UseRegion=1)
+beside.Region = "Sphere"
+beside.Region.Center, beside.Region.Radius = [1e9, 1e9, 1e9], 1.0
+beside.UpdatePipeline()
+simple.Delete(beside)
+
 step("too many")
 settings.MostSelectionPoints = 100
 require(selected(reader, "(id == 7)") == 0, "more points than may be read")

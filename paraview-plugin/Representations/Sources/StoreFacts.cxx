@@ -1,5 +1,6 @@
 #include "StoreFacts.h"
 
+#include "StoredBounds.h"
 #include "StoredRanges.h"
 
 #include "pointfront/Store/StoredCloud.h"
@@ -10,6 +11,7 @@
 #include "vtkIdTypeArray.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
+#include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkStringArray.h"
 
@@ -196,6 +198,13 @@ void setStoreRanges(const StoredCloud& store, vtkPolyData* output)
     keep("elevation", { { about.bounds.low.z, about.bounds.high.z } });
   }
   keep("point_id", { { 0.0, static_cast<double>(about.pointCount) - 1.0 } });
+  if (output->GetNumberOfPoints() > 0)
+  {
+    const glm::dvec3& low = about.bounds.low;
+    const glm::dvec3& high = about.bounds.high;
+    output->SetPoints(
+      withStoredBounds(output->GetPoints(), { low.x, high.x, low.y, high.y, low.z, high.z }));
+  }
 }
 
 } // namespace pointfront

@@ -26,7 +26,7 @@ void addStoreFacts(const StoredCloud& store, vtkIdType mostOverviewPoints, vtkPo
 /// Puts point arrays that tell the ranges of the whole store in place of an overview's, so that
 /// colour maps, thresholds and histograms span what the store has. The overview alone lacks most
 /// extremes. Of vectors the components' ranges are the store's and that of the length is the
-/// overview's; the colours "rgb" keep the overview's.
+/// overview's; the colours "rgb" keep the overview's. The points' bounds are the store's likewise.
 void setStoreRanges(const StoredCloud& store, vtkPolyData* output);
 
 } // namespace pointfront

@@ -20,13 +20,27 @@
 #include "vtkSphere.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 vtkStandardNewMacro(vtkPVPointFrontExtract);
 
 namespace
 {
 
-/// A box as its ends, if it is not turned; exactly, for a place and lengths that add up exactly.
+/// The number that comes a few steps of a double after `value`, away from the inside of a box. A
+/// box is a place and lengths, whose sum is rounded; a box around a whole cloud keeps its last
+/// points so. At 1e7 m the steps are 10 nm.
+double beyond(double value, double direction)
+{
+  for (int step = 0; step < 4; ++step)
+  {
+    value = std::nextafter(value, direction);
+  }
+  return value;
+}
+
+/// A box as its ends, if it is not turned.
 bool endsOf(vtkImplicitFunction* region, double bounds[6])
 {
   auto* box = vtkPVBox::SafeDownCast(region);
@@ -38,8 +52,9 @@ bool endsOf(vtkImplicitFunction* region, double bounds[6])
   for (int i = 0; i < 3; ++i)
   {
     const double ends[2] = { box->GetPosition()[i], box->GetPosition()[i] + box->GetScale()[i] };
-    bounds[2 * i] = std::min(ends[0], ends[1]);
-    bounds[2 * i + 1] = std::max(ends[0], ends[1]);
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    bounds[2 * i] = beyond(std::min(ends[0], ends[1]), -infinity);
+    bounds[2 * i + 1] = beyond(std::max(ends[0], ends[1]), infinity);
   }
   return turn[0] == 0.0 && turn[1] == 0.0 && turn[2] == 0.0;
 }
@@ -159,6 +174,40 @@ bool vtkPVPointFrontExtract::ChooseRegion(vtkSelection* selection)
 }
 
 //------------------------------------------------------------------------------
+void vtkPVPointFrontExtract::TellMissedRegion(vtkPointFrontStore* store)
+{
+  double region[6];
+  double cloud[6];
+  store->GetBounds(cloud);
+  if (this->UseSphere)
+  {
+    for (int i = 0; i < 3; ++i)
+    {
+      region[2 * i] = this->SphereCenter[i] - this->SphereRadius;
+      region[2 * i + 1] = this->SphereCenter[i] + this->SphereRadius;
+    }
+  }
+  else if (this->UseBox)
+  {
+    std::copy_n(this->Box, 6, region);
+  }
+  else
+  {
+    return;
+  }
+  for (int i = 0; i < 6; i += 2)
+  {
+    if (region[i] > cloud[i + 1] || region[i + 1] < cloud[i])
+    {
+      vtkWarningMacro("the region lies beside the cloud, so there are no points: the cloud has "
+        << "coordinates from (" << cloud[0] << ", " << cloud[2] << ", " << cloud[4] << ") to ("
+        << cloud[1] << ", " << cloud[3] << ", " << cloud[5] << ")");
+      return;
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
 int vtkPVPointFrontExtract::RequestData(
   vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
@@ -175,6 +224,7 @@ int vtkPVPointFrontExtract::RequestData(
   }
   else if (this->ChooseRegion(vtkSelection::GetData(inputs[1], 0)))
   {
+    this->TellMissedRegion(pointfront::upstreamReaderOf(this)->GetStore());
     done = this->Superclass::RequestData(request, inputs, outputs);
   }
   if (done)

@@ -16,6 +16,7 @@
 
 class vtkAlgorithmOutput;
 class vtkImplicitFunction;
+class vtkPointFrontStore;
 class vtkSelection;
 
 class POINTFRONTPARAVIEWREPRESENTATIONS_EXPORT vtkPVPointFrontExtract : public vtkPointFrontExtract
@@ -53,6 +54,7 @@ private:
   void operator=(const vtkPVPointFrontExtract&) = delete;
 
   bool ChooseRegion(vtkSelection* selection);
+  void TellMissedRegion(vtkPointFrontStore* store); ///< warns that no point can lie in the region
 
   bool UseRegion = true;
   vtkSmartPointer<vtkImplicitFunction> Region;

@@ -6,86 +6,141 @@
 #include "vtkPVArrayInformation.h"
 #include "vtkPVDataInformation.h"
 #include "vtkPVDataSetAttributesInformation.h"
-#include "vtkSMProperty.h"
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMProxy.h"
 #include "vtkSMSourceProxy.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
-#include <string>
-#include <vector>
+#include <cstdlib>
+#include <map>
+#include <set>
+#include <utility>
 
 namespace pointfront
 {
 namespace
 {
 
-/// Set on a map that was named.
+/// Annotation of a map that was named: what its "Annotations" were then. Who changed them since
+/// owns the map.
 constexpr const char* Named = "PointFrontClasses";
-/// More entries than this are no legend.
-constexpr int MostClasses = 64;
 
-/// Smallest and largest code of the representation's input; false without any.
-bool codesOf(vtkSMProxy* representation, int codes[2])
+using Colour = std::array<double, 3>;
+using Categories = std::map<int, std::pair<std::string, Colour>>; // by class code
+
+/// The codes of those names; of a store whose classes are not told apart, each code between the
+/// smallest and the largest of the representation's input.
+std::set<int> codesOf(vtkSMProxy* representation, const std::vector<std::string>& classes)
 {
+  std::set<int> codes;
+  for (int code = 0; code < 256 && !classes.empty(); ++code)
+  {
+    const std::string name = objectClassName(static_cast<std::uint8_t>(code));
+    if (std::find(classes.begin(), classes.end(), name) != classes.end())
+    {
+      codes.insert(code);
+    }
+  }
   const vtkSMPropertyHelper input(representation, "Input");
   auto* source = vtkSMSourceProxy::SafeDownCast(input.GetAsProxy());
   vtkPVDataInformation* data = source ? source->GetDataInformation(input.GetOutputPort()) : nullptr;
   vtkPVArrayInformation* array =
     data ? data->GetPointDataInformation()->GetArrayInformation("classification") : nullptr;
-  if (!array || array->GetNumberOfComponents() != 1)
+  if (!codes.empty() || !array || array->GetNumberOfComponents() != 1)
   {
-    return false;
+    return codes;
   }
   const double* range = array->GetComponentRange(0);
-  codes[0] = static_cast<int>(std::lround(std::clamp(range[0], 0.0, 255.0)));
-  codes[1] = static_cast<int>(std::lround(std::clamp(range[1], 0.0, 255.0)));
-  return range[0] <= range[1];
+  const auto code = [](double value) { return static_cast<int>(std::lround(value)); };
+  for (int c = code(std::max(range[0], 0.0)); c <= code(std::min(range[1], 255.0)); ++c)
+  {
+    codes.insert(c);
+  }
+  return codes;
 }
 
-} // namespace
-
-void nameClasses(vtkSMProxy* representation)
+std::string textOf(vtkSMProxy* map)
 {
-  const char* const array =
-    vtkSMPropertyHelper(representation, "ColorArrayName").GetInputArrayNameToProcess();
-  vtkSMProxy* const map = vtkSMPropertyHelper(representation, "LookupTable").GetAsProxy();
-  int codes[2];
-  if (!array || std::string(array) != "classification" || !map || map->HasAnnotation(Named) ||
-    !codesOf(representation, codes))
+  std::string text;
+  const vtkSMPropertyHelper annotations(map, "Annotations");
+  for (unsigned int i = 0; i < annotations.GetNumberOfElements(); ++i)
   {
-    return;
+    text += annotations.GetAsString(i) + std::string("\n");
   }
-  map->SetAnnotation(Named, "1");
-  if (vtkSMPropertyHelper(map, "Annotations").GetNumberOfElements() > 0 ||
-    codes[1] - codes[0] >= MostClasses)
+  return text;
+}
+
+/// What a map has, with the colours that a user may have changed.
+Categories categoriesOf(vtkSMProxy* map)
+{
+  Categories categories;
+  const vtkSMPropertyHelper annotations(map, "Annotations");
+  const vtkSMPropertyHelper colours(map, "IndexedColors");
+  for (unsigned int i = 0; 2 * i + 1 < annotations.GetNumberOfElements(); ++i)
   {
-    return; // somebody has named them
-  }
-  const auto standard = classificationColours();
-  std::vector<std::string> names;
-  std::vector<double> colours;
-  for (int code = codes[0]; code <= codes[1]; ++code)
-  {
-    names.push_back(std::to_string(code));
-    names.push_back(objectClassName(static_cast<std::uint8_t>(code)));
-    for (std::size_t c = 0; c < 3; ++c)
+    Colour colour{ { 1.0, 1.0, 1.0 } };
+    for (unsigned int c = 0; c < 3 && 3 * i + c < colours.GetNumberOfElements(); ++c)
     {
-      colours.push_back(standard[static_cast<std::size_t>(code)][c] / 255.0);
+      colour[c] = colours.GetAsDouble(3 * i + c);
     }
+    categories.emplace(std::atoi(annotations.GetAsString(2 * i)),
+      std::make_pair(annotations.GetAsString(2 * i + 1), colour));
   }
+  return categories;
+}
+
+void setCategories(vtkSMProxy* map, const Categories& categories)
+{
   vtkSMPropertyHelper annotations(map, "Annotations");
-  annotations.SetNumberOfElements(static_cast<unsigned int>(names.size()));
-  for (std::size_t i = 0; i < names.size(); ++i)
+  annotations.SetNumberOfElements(2 * static_cast<unsigned int>(categories.size()));
+  std::vector<double> colours;
+  unsigned int i = 0;
+  for (const auto& [code, category] : categories)
   {
-    annotations.Set(static_cast<unsigned int>(i), names[i].c_str());
+    annotations.Set(i++, std::to_string(code).c_str());
+    annotations.Set(i++, category.first.c_str());
+    colours.insert(colours.end(), category.second.begin(), category.second.end());
   }
   vtkSMPropertyHelper(map, "IndexedColors")
     .Set(colours.data(), static_cast<unsigned int>(colours.size()));
   vtkSMPropertyHelper(map, "IndexedLookup").Set(1);
   map->UpdateVTKObjects();
+}
+
+} // namespace
+
+void nameClasses(vtkSMProxy* representation, const std::vector<std::string>& classes)
+{
+  const char* const array =
+    vtkSMPropertyHelper(representation, "ColorArrayName").GetInputArrayNameToProcess();
+  vtkSMProxy* const map = vtkSMPropertyHelper(representation, "LookupTable").GetAsProxy();
+  if (!array || std::string(array) != "classification" || !map)
+  {
+    return;
+  }
+  const std::string before = map->HasAnnotation(Named) ? map->GetAnnotation(Named) : "";
+  if (textOf(map) != before)
+  {
+    return; // somebody else has named them, or nobody shall
+  }
+  Categories categories = categoriesOf(map);
+  const std::size_t known = categories.size();
+  const auto standard = classificationColours();
+  for (const int code : codesOf(representation, classes))
+  {
+    const auto& rgb = standard[static_cast<std::size_t>(code)];
+    categories.emplace(code,
+      std::make_pair(objectClassName(static_cast<std::uint8_t>(code)),
+        Colour{ { rgb[0] / 255.0, rgb[1] / 255.0, rgb[2] / 255.0 } }));
+  }
+  if (categories.size() > known)
+  {
+    setCategories(map, categories);
+    map->SetAnnotation(Named, textOf(map).c_str());
+  }
 }
 
 } // namespace pointfront

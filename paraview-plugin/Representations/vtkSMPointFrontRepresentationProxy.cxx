@@ -186,7 +186,7 @@ void vtkSMPointFrontRepresentationProxy::OnRender(vtkObject* view, unsigned long
 {
   if (this->IsActive())
   {
-    pointfront::nameClasses(this);
+    pointfront::nameClasses(this, this->Classes);
     pointfront::hideUnusedLegends(vtkSMViewProxy::SafeDownCast(view));
   }
 }

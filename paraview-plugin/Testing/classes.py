@@ -71,7 +71,22 @@ table = simple.GetColorTransferFunction("classification")
 named = dict(zip(table.Annotations[::2], table.Annotations[1::2]))
 require(table.InterpretValuesAsCategories == 1, "classes are no categories")
 require(named["2"] == "ground" and named["6"] == "building", "named %s" % named)
-require(set(names) <= set(named.values()), "named %s" % named)
+require(set(names) == set(named.values()), "named %s" % named)
+
+# A cloud that comes later has its classes named, too, and only classes that a cloud has are in the
+# legend. The colours that a class had already stay.
+wide = simple.OpenDataFile(os.environ["POINTFRONT_WIDE"])
+wide.OverviewPoints = 5000
+shown = scene.show(wide)
+scene.color_by(shown, "classification")
+scene.save("classes-wide")
+many = dict(zip(table.Annotations[::2], table.Annotations[1::2]))
+require(set(range(1, 68)) | set(map(int, named)) == set(map(int, many)), "named %s" % sorted(many))
+require(list(table.Annotations[::2]) == sorted(many, key=int), "in no order: %s" % many)
+require(len(table.IndexedColors) == 3 * len(many), "colours of %d" % len(many))
+require({code: many[code] for code in named} == named, "names changed: %s" % many)
+require("40" not in named, "absent classes in the first legend: %s" % named)
+simple.Hide(wide, scene.view)
 table.InterpretValuesAsCategories = 0
 table.Annotations = []
 scene.save("classes-mapped")

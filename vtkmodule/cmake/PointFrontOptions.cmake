@@ -27,7 +27,7 @@ if (POINTFRONT_PCL AND NOT POINTFRONT_NORMALS)
 endif ()
 option(POINTFRONT_WARNINGS_AS_ERRORS "Stop at a warning" OFF)
 option(POINTFRONT_COMPILE_BY_FOLDER "Compile the sources of a folder as one" OFF)
-option(POINTFRONT_PRECOMPILE "Compile the headers of CLI11 and JSON once; ccache then helps less" OFF)
+option(POINTFRONT_PRECOMPILE "Compile the headers of CLI11 and JSON once" OFF)
 option(POINTFRONT_COMPILE_TESTS_BY_FOLDER "Likewise those of a folder of tests" ON)
 set(POINTFRONT_SANITIZE "" CACHE STRING
   "Sanitizers, as for -fsanitize=: address,undefined or thread")

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <sstream>
 
 namespace pointfront
 {
@@ -119,6 +120,20 @@ CLI::Validator positiveNumber()
       : "'" + text.substr(0, 40) + "' is not a number above 0 that has an end";
   };
   return CLI::Validator(check, "POSITIVE");
+}
+
+CLI::Validator numberBetween(double low, double high)
+{
+  std::ostringstream limits;
+  limits << low << " to " << high;
+  const auto check = [low, high, told = limits.str()](std::string& text) -> std::string
+  {
+    const auto number = parseNumbers<1>(text);
+    return number && (*number)[0] >= low && (*number)[0] <= high
+      ? std::string()
+      : "'" + text.substr(0, 40) + "' is not a number from " + told;
+  };
+  return CLI::Validator(check, "FLOAT in [" + limits.str() + "]");
 }
 
 CLI::Validator wholeNumber()

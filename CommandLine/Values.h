@@ -25,6 +25,9 @@ std::optional<std::array<int, 2>> parseImageSize(const std::string& text);
 
 /// Check for an option that is a length or the like: finite, above 0.
 CLI::Validator positiveNumber();
+/// Check for an option with a smallest and a largest value; what is no number is refused, "nan"
+/// too.
+CLI::Validator numberBetween(double low, double high);
 /// Check for an option that counts: decimal digits only, at most 15.
 CLI::Validator wholeNumber();
 

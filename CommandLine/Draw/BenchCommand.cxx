@@ -5,6 +5,7 @@
 #include "PeakMemory.h"
 #include "Percentiles.h"
 #include "Settling.h"
+#include "Values.h"
 #include "WholeFile.h"
 
 #include <nlohmann/json.hpp>
@@ -71,12 +72,12 @@ void BenchCommand::declare(CLI::App& program)
   app_
     ->add_option("--frame-ms", drawing_.frameMs,
       "--interactive: time that a frame may take (66.7, VTK's for a moving view)")
-    ->check(CLI::Range(1.0, 10000.0))
+    ->check(numberBetween(1.0, 10000.0))
     ->type_name("MS");
   app_
     ->add_option("--grow-ms", drawing_.growthMs,
       "Time in which detail that comes or goes grows or shrinks; 0: it is there at once (250)")
-    ->check(CLI::Range(0.0, 10000.0))
+    ->check(numberBetween(0.0, 10000.0))
     ->type_name("MS");
   app_->add_flag("--settle", settles_,
     "After the path: frames at rest until the view is complete; --stats tells what that took");

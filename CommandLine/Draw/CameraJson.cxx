@@ -1,7 +1,10 @@
 #include "CameraJson.h"
 
+#include "pointfront/Points/QuantisationGrid.h"
+
 #include <glm/geometric.hpp>
 
+#include <cmath>
 #include <fstream>
 #include <sstream>
 
@@ -25,7 +28,7 @@ bool readVector(const nlohmann::json& object, const char* key, glm::dvec3& vecto
   for (int axis = 0; axis < 3; ++axis)
   {
     const nlohmann::json& number = (*entry)[static_cast<std::size_t>(axis)];
-    if (!number.is_number())
+    if (!number.is_number() || std::abs(number.get<double>()) > farthestCoordinate)
     {
       return false;
     }
@@ -42,7 +45,8 @@ bool readPositive(const nlohmann::json& object, const char* key, std::optional<d
   {
     return true;
   }
-  if (!entry->is_number() || !(entry->get<double>() > 0.0))
+  if (!entry->is_number() || !(entry->get<double>() > 0.0) ||
+    entry->get<double>() > farthestCoordinate)
   {
     return false;
   }
@@ -68,6 +72,11 @@ Result<nlohmann::json> readJsonFile(const std::string& path)
     return makeError(
       Error::Kind::BadFormat, path + ": not JSON, at byte " + std::to_string(failure.byte));
   }
+  catch (const nlohmann::json::out_of_range&)
+  {
+    return makeError(Error::Kind::BadFormat,
+      path + ": a number in it is too large for double precision; write one below 1e308");
+  }
 }
 
 Result<Camera> cameraFromJson(const nlohmann::json& object, const std::string& where)
@@ -79,15 +88,15 @@ Result<Camera> cameraFromJson(const nlohmann::json& object, const std::string& w
   Camera camera;
   if (!readVector(object, "position", camera.position))
   {
-    return badKey(where, "position", "three numbers");
+    return badKey(where, "position", "three numbers of at most 1e15");
   }
   if (!readVector(object, "focal_point", camera.focalPoint))
   {
-    return badKey(where, "focal_point", "three numbers");
+    return badKey(where, "focal_point", "three numbers of at most 1e15");
   }
   if (!readVector(object, "view_up", camera.viewUp))
   {
-    return badKey(where, "view_up", "three numbers");
+    return badKey(where, "view_up", "three numbers of at most 1e15");
   }
   std::optional<double> angle;
   if (!readPositive(object, "view_angle", angle) || (angle && *angle >= 180.0))
@@ -96,7 +105,7 @@ Result<Camera> cameraFromJson(const nlohmann::json& object, const std::string& w
   }
   if (!readPositive(object, "parallel_scale", camera.parallelScale))
   {
-    return badKey(where, "parallel_scale", "a positive number");
+    return badKey(where, "parallel_scale", "a positive number of at most 1e15");
   }
   camera.viewAngleDegrees = angle.value_or(camera.viewAngleDegrees);
   const glm::dvec3 sight = camera.focalPoint - camera.position;

@@ -115,7 +115,7 @@ void DrawingOptions::declare(CLI::App& app)
     ->expected(1);
   app.add_flag("--edl", eyeDomeLighting, "Eye-dome lighting: shade by depth");
   app.add_option("--error", errorPx, "Projected point spacing to refine to (1)")
-    ->check(CLI::Range(0.01, 1000.0))
+    ->check(numberBetween(0.01, 1000.0))
     ->type_name("PX");
   app.add_option("--point-budget", pointBudget, "Most points drawn at a time")
     ->check(CLI::Range(std::int64_t(1), std::int64_t(1) << 40))

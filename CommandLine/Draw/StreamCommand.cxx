@@ -3,6 +3,7 @@
 #include "CameraJson.h"
 #include "CancelSignal.h"
 #include "StoreCompany.h"
+#include "Values.h"
 
 #include <nlohmann/json.hpp>
 
@@ -67,7 +68,7 @@ void StreamCommand::declare(CLI::App& program)
   app_
     ->add_option("--frame-ms", drawing_.frameMs,
       "Time that a frame in motion may take (66.7, VTK's for a moving view)")
-    ->check(CLI::Range(1.0, 10000.0))
+    ->check(numberBetween(1.0, 10000.0))
     ->type_name("MS");
 }
 

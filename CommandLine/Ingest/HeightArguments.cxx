@@ -1,10 +1,13 @@
 #include "HeightArguments.h"
 
+#include "Values.h"
+
 namespace pointfront
 {
 namespace
 {
-const CLI::Range lengths(1e-3, 1e6); // cells of positions up to 1e12 can be numbered
+// Cells of positions up to 1e12 can be numbered.
+const CLI::Validator lengths = numberBetween(1e-3, 1e6);
 } // namespace
 
 void HeightArguments::declare(CLI::App& app)

@@ -21,11 +21,11 @@ void NormalsArguments::declare(CLI::App& app)
       ->type_name("N");
   CLI::Option* radius =
     app.add_option("--normals-radius", radius_, "Instead: all points within that distance")
-      ->check(CLI::Range(std::numeric_limits<double>::min(), 1e9))
+      ->check(numberBetween(std::numeric_limits<double>::min(), 1e9))
       ->type_name("METRES")
       ->excludes(neighbours);
   CLI::Option* eps = app.add_option("--normals-eps", eps_, "Error of an approximate search (0)")
-                       ->check(CLI::Range(0.0, 1000.0))
+                       ->check(numberBetween(0.0, 1000.0))
                        ->type_name("E");
   CLI::Option* curvature =
     app.add_flag("--curvature", curvature_, "Keep the curvature that PCA gives beside the normal");

@@ -115,6 +115,10 @@ TEST(Camera, WrongFilesAreErrorsThatNameTheKey)
       "view_angle" },
     { R"({"position":[0,0,1],"focal_point":[0,0,0],"view_up":[0,1,0],"parallel_scale":0})",
       "parallel_scale" },
+    { R"({"position":[1e999,0,1],"focal_point":[0,0,0],"view_up":[0,1,0]})", "too large" },
+    { R"({"position":[1e300,0,1],"focal_point":[0,0,0],"view_up":[0,1,0]})", "position" },
+    { R"({"position":[0,0,1],"focal_point":[0,0,0],"view_up":[0,1,0],"parallel_scale":1e99})",
+      "parallel_scale" },
     { "[1,2", "not JSON, at byte" }, { "[]", "object" }
   };
   for (const auto& [text, expected] : cases)

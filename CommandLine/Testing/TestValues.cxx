@@ -43,4 +43,17 @@ TEST(Values, ImageSizeIsTwoEdgesInPixels)
   }
 }
 
+TEST(Values, ANumberBetweenTwoIsANumber)
+{
+  const CLI::Validator check = numberBetween(0.5, 10.0);
+  for (std::string text : { "0.5", "10", "1e0", "3.25" })
+  {
+    EXPECT_EQ(check(text), "") << text;
+  }
+  for (std::string text : { "nan", "-nan", "inf", "0.49", "10.1", "", "2x", "1e999" })
+  {
+    EXPECT_NE(check(text), "") << text;
+  }
+}
+
 } // namespace pointfront

@@ -8,9 +8,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 
 namespace pointfront
 {
@@ -191,6 +194,31 @@ TEST(StoreDamage, UnknownCodecIsUnsupported)
   ASSERT_FALSE(points);
   EXPECT_EQ(points.error().kind, Error::Kind::Unsupported);
   EXPECT_TRUE(mentions(points.error(), "codec 77")) << points.error().what;
+}
+
+TEST(StoreDamage, ColumnsWithoutASoundScaleAreRefused)
+{
+  const std::string name = "intensity";
+  for (const std::size_t field : { 0, 1 }) // scale, offset
+  {
+    for (const double value : { std::nan(""), std::numeric_limits<double>::infinity() })
+    {
+      ForgedStore forged(soundStore());
+      std::vector<std::byte> section = forged.section(SectionKind::Description);
+      const auto* const key = reinterpret_cast<const std::byte*>(name.data());
+      const auto found = std::search(section.begin(), section.end(), key, key + name.size());
+      ASSERT_NE(found, section.end());
+      auto at = static_cast<std::size_t>(found - section.begin()) + name.size();
+      std::uint32_t description = 0;
+      std::memcpy(&description, section.data() + at, sizeof(description));
+      at += sizeof(description) + description + 2; // type, components
+      poke(section, at + field * sizeof(double), value);
+      forged.replaceSection(SectionKind::Description, section);
+      const std::string path = temporaryPath("scale.pfront");
+      forged.write(path);
+      EXPECT_EQ(openFails(path).kind, Error::Kind::Corrupt);
+    }
+  }
 }
 
 TEST(StoreDamage, UnknownCodecOfVersion1IsUnsupported)

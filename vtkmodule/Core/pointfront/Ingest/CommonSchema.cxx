@@ -270,9 +270,13 @@ void convertColumn(const Attribute& from, const std::byte* in, const Attribute& 
       return convertTo<std::int64_t>(from, in, to, out, values);
     case ScalarType::UInt64:
       return convertTo<std::uint64_t>(from, in, to, out, values);
-    case ScalarType::Int8: // nothing smaller is ever widened to 8 bits
+    // What follows is no wider than what a source has; the type alone says how much may be written.
+    case ScalarType::Int8:
+      return convertTo<std::int8_t>(from, in, to, out, values);
     case ScalarType::UInt8:
-    case ScalarType::Float32: // a mix with a float is always float64
+      return convertTo<std::uint8_t>(from, in, to, out, values);
+    case ScalarType::Float32:
+      return convertTo<float>(from, in, to, out, values);
     case ScalarType::Float64:
       return convertTo<double>(from, in, to, out, values);
   }

@@ -55,7 +55,8 @@ bool getColumn(ByteReader& in, StoreDescription& description)
   attribute.components = in.get<std::uint8_t>();
   attribute.scale = in.get<double>();
   attribute.offset = in.get<double>();
-  if (!type || attribute.components < 1 || attribute.components > maxComponents)
+  if (!type || attribute.components < 1 || attribute.components > maxComponents ||
+    !std::isfinite(attribute.scale) || attribute.scale == 0.0 || !std::isfinite(attribute.offset))
   {
     return false;
   }

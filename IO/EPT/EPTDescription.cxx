@@ -1,5 +1,7 @@
 #include "EPTDescription.h"
 
+#include "pointfront/Points/QuantisationGrid.h"
+
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -42,6 +44,17 @@ std::string textOf(const Json& object, const char* key)
   return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
 }
 
+/// True of positions, in integers, whose largest value is no coordinate.
+bool reachesTooFar(const EPTDimension& dimension)
+{
+  const bool position = dimension.name == "X" || dimension.name == "Y" || dimension.name == "Z";
+  const bool real = dimension.type == ScalarType::Float32 || dimension.type == ScalarType::Float64;
+  const double steps =
+    std::ldexp(1.0, 8 * std::min(4, static_cast<int>(sizeOf(dimension.type))) - 1);
+  return position && !real &&
+    std::abs(dimension.offset) + steps * std::abs(dimension.scale) > farthestCoordinate;
+}
+
 Result<std::vector<EPTDimension>> dimensionsOf(const Json& schema, const std::string& path)
 {
   if (!schema.is_array() || schema.empty() || schema.size() > mostDimensions)
@@ -69,6 +82,12 @@ Result<std::vector<EPTDimension>> dimensionsOf(const Json& schema, const std::st
         path, "its dimension '" + dimension.name + "' has no sound name, type, size or scale");
     }
     dimension.type = *type;
+    if (reachesTooFar(dimension))
+    {
+      return bad(path,
+        "the scale or offset of its dimension '" + dimension.name +
+          "' lets coordinates reach beyond 1e15");
+    }
     dimensions.push_back(std::move(dimension));
   }
   return dimensions;

@@ -71,6 +71,13 @@ Result<void> readGrid(const std::byte* bytes, const std::string& path, LASHeader
           ", which double precision cannot hold in steps of " + numberText(scale) +
           "; write the file again with a valid header");
     }
+    if (std::abs(offset) + 2147483648.0 * scale > farthestCoordinate)
+    {
+      return makeError(Error::Kind::BadFormat,
+        path + ": the " + name + " scale is " + numberText(scale) + at(scaleField) +
+          ", so that coordinates may reach beyond " + numberText(farthestCoordinate) +
+          "; write the file again with a valid header");
+    }
     header.grid.scale[axis] = scale;
     header.grid.offset[axis] = offset;
   }

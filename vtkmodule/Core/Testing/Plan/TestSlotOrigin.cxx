@@ -46,6 +46,13 @@ TEST(SlotOrigin, TwoNodesAgreeOnACommonPoint)
   }
 }
 
+TEST(SlotOrigin, AnExtentWithoutEndHasAnOrigin)
+{
+  const QuantisationGrid tiny{ glm::dvec3(1e-308), glm::dvec3(0.0) };
+  const auto slot = SlotOrigin::of(tiny, glm::vec3(3e38f), GridPosition(0), glm::dvec3(0.0));
+  EXPECT_EQ(slot.shift, 32);
+}
+
 TEST(SlotOrigin, AFarReferenceIsClampedAndTheRestIsInTheBase)
 {
   const glm::dvec3 reference = far.offset + glm::dvec3(0.0, 0.0, 5e6); // 5e9 steps

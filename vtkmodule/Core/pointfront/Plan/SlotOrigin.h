@@ -29,7 +29,10 @@ struct SlotOrigin
     constexpr double most = 1073741824.0; // 2^30
     SlotOrigin result;
     const glm::dvec3 extent = 2.0 * glm::dvec3(halfSize) / grid.scale;
-    for (double steps = std::max({ extent.x, extent.y, extent.z }); steps > most; steps *= 0.5)
+    // Positions have 32 bits: what claims a larger extent is damaged.
+    constexpr int mostBits = 32;
+    for (double steps = std::max({ extent.x, extent.y, extent.z });
+         steps > most && result.shift < mostBits; steps *= 0.5)
     {
       ++result.shift;
     }

@@ -60,7 +60,7 @@ void BuildCommand::declare(CLI::App& program)
       "A small store beside the output, to look at while it is built: auto or none (auto)")
     ->check(availableValues({ "auto", "none" }, {}));
   app_->add_flag("--json", json_, "Print the report as one JSON object");
-  addOnError(*app_, options_.onFault);
+  addOnError(*app_, options_.onFault, &options_.wholeInputs);
   sourceChoice_.declare(*app_);
   passes_.declare(*app_);
   app_->final_callback(

@@ -5,11 +5,15 @@
 namespace pointfront
 {
 
-void addOnError(CLI::App& app, OnFault& onFault)
+void addOnError(CLI::App& app, OnFault& onFault, bool* stopAtCut)
 {
-  const auto parse = [&onFault](const CLI::results_t& words)
+  const auto parse = [&onFault, stopAtCut](const CLI::results_t& words)
   {
     onFault = words.back() == "skip" ? OnFault::Skip : OnFault::Stop;
+    if (stopAtCut)
+    {
+      *stopAtCut = onFault == OnFault::Stop;
+    }
     return true;
   };
   app.add_option("--on-error", parse, "Of inputs that cannot be used: stop, or skip them (stop)")

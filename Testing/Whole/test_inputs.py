@@ -1,6 +1,7 @@
 """Every real file builds and verifies; every broken one is told from a sound one."""
 
 import pathlib
+import re
 import unittest
 
 from tool import DATA, SLOWNESS, ToolTest, pointfront
@@ -167,6 +168,14 @@ class BrokenFiles(ToolTest):
         self.assertLess(outcome.seconds, 2.0 * SLOWNESS)
         self.assertEqual(outcome.status, 0, outcome)
         self.assertEqual(outcome.json["points_stored"], points, outcome)
+        cut = re.match(r"(\d+) (of|points)", lost or "") if "missing" in outcome.err else None
+        self.assertEqual(outcome.json["points_rejected"].get("missing", 0),
+                         int(cut.group(1)) if cut else 0, outcome)
+        if cut:  # who asks for whole inputs gets an error
+            refused = pointfront(
+                "build", DATA / name, "-o", store, "--force", "--on-error", "stop")
+            self.assertEqual(refused.status, 1, refused)
+            self.assertIn("get a whole copy", refused.err)
         # What is said of its coordinate system is not what was lost: see the tests of that.
         warnings = [line for line in outcome.err.splitlines()
                     if "coordinate reference system" not in line and "longitudes" not in line]

@@ -62,6 +62,10 @@ Result<void> StoreBuild::addRadius()
 
 Result<void> StoreBuild::prepare()
 {
+  if (Result<void> whole = findShortSources(); !whole)
+  {
+    return whole;
+  }
   for (const auto& source : sources_)
   {
     append(report_.warnings, source->description().warnings);
@@ -189,6 +193,28 @@ bool StoreBuild::narrowShifts()
   }
   space_.shift = fittingShifts(space_.shift, points_.low, points_.high);
   return space_.shift != placed.shift;
+}
+
+/// Inputs whose header promises more points than there are.
+Result<void> StoreBuild::findShortSources()
+{
+  std::vector<Error> faults;
+  for (const auto& input : sources_)
+  {
+    const SourceDescription& source = input->description();
+    const std::uint64_t promised = source.headerPointCount.value_or(source.pointCount);
+    if (promised > source.pointCount)
+    {
+      missing_ += promised - source.pointCount;
+      faults.push_back(makeError(Error::Kind::Truncated,
+        source.path + ": " + std::to_string(promised - source.pointCount) + " of the " +
+          std::to_string(promised) +
+          " points that its header promises are missing; get a whole copy"));
+    }
+  }
+  return !faults.empty() && options_.wholeInputs
+    ? Result<void>(faultyInputs(faults, sources_.size()))
+    : Result<void>();
 }
 
 /// Inputs that have points, none of which can be stored.

@@ -45,6 +45,7 @@ private:
   Result<void> readAll();
   bool narrowShifts();
   Result<void> findEmptySources();
+  Result<void> findShortSources();
   void takeLayers();
   Result<void> cutIntoParts();
   Result<void> assemble();
@@ -68,6 +69,7 @@ private:
   BuildStorage storage_;
   WorkCrew crew_;
   IngestedPoints points_;
+  std::uint64_t missing_ = 0; ///< points that headers promise and files lack
   ClassLayers layers_;
   PoolPreparation prepared_;
   std::unique_ptr<TreeConstruction> construction_;

@@ -224,6 +224,10 @@ Result<BuildReport> StoreBuild::run()
       return withDemand(done.error(), storage_.disk);
     }
   }
+  if (missing_ > 0)
+  {
+    report_.pointsRejected["missing"] = missing_;
+  }
   report_.seconds = crew_.secondsElapsed();
   report_.cpuSeconds = processSeconds() - cpuBefore;
   return std::move(report_);

@@ -58,13 +58,18 @@ struct BuildOptions
   bool overwrite = false; ///< false: an existing output is an Error
   /// Of an input that has points of which none can be stored.
   OnFault onFault = OnFault::Stop;
+  /// An input that was cut short is an Error. Otherwise what is there is stored, and what its
+  /// header promised beyond that is counted as missing.
+  bool wholeInputs = false;
 };
 
 struct BuildReport
 {
   std::uint64_t pointsRead = 0;
   std::uint64_t pointsStored = 0;
-  std::map<std::string, std::uint64_t> pointsRejected; ///< reason -> count; a warning tells it too
+  /// Reason -> count; a warning tells it too. "missing" counts the points that a header promises
+  /// and its file lacks: they were not read.
+  std::map<std::string, std::uint64_t> pointsRejected;
   std::vector<InputFault> inputsSkipped; ///< of which no point could be stored (OnFault::Skip)
   double seconds = 0.0;
   std::uint64_t bytesWritten = 0;
@@ -82,9 +87,10 @@ std::string rejectionText(const BuildReport& report);
 /// for each object class.
 /// Guarantees  every point that is read is stored once, or counted in pointsRejected with its
 ///             reason (NaN, infinite, outside the grid's range); read = stored + rejected is
-///             checked at the end. An input of which nothing is left is an Error, or is skipped.
-///             Same input, same bytes out: for any number of threads and any memory budget. A build
-///             that fails or is cancelled leaves no output and no spill files.
+///             checked at the end, before what is missing is added. An input of which nothing is
+///             left is an Error, or is skipped. Same input, same bytes out: for any number of
+///             threads and any memory budget. A build that fails or is cancelled leaves no output
+///             and no spill files.
 /// Memory      points, columns and buffers stay under memoryBytes; with less than needed the
 ///             points are spilled to disk (a fixed number of files).
 /// Threads     called from one thread; runs its own.

@@ -1,52 +1,19 @@
 #include "WholeFile.h"
 
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
-#include <filesystem>
-#include <memory>
-#include <unistd.h>
+#include "pointfront/Disk/OutputFile.h"
 
 namespace pointfront
 {
 
-namespace
-{
-std::string temporaryName(const std::string& path)
-{
-  return path + ".tmp" + std::to_string(::getpid());
-}
-
-Error unwritable(const std::string& path, int reason)
-{
-  return makeError(Error::Kind::Unwritable, path + ": cannot be written: " + std::strerror(reason));
-}
-
-struct CloseFile
-{
-  void operator()(std::FILE* file) const { std::fclose(file); }
-};
-} // namespace
-
 Result<void> writeWholeFile(const std::string& path, const void* bytes, std::size_t size)
 {
-  const std::string temporary = temporaryName(path);
-  std::unique_ptr<std::FILE, CloseFile> file(std::fopen(temporary.c_str(), "wb"));
+  Result<std::unique_ptr<OutputFile>> file = OutputFile::create(path, OutputFile::Durability::None);
   if (!file)
   {
-    return unwritable(path, errno);
+    return file.error();
   }
-  const bool written =
-    std::fwrite(bytes, 1, size, file.get()) == size && std::fflush(file.get()) == 0;
-  const int reason = errno;
-  file.reset();
-  if (!written || std::rename(temporary.c_str(), path.c_str()) != 0)
-  {
-    const int cause = written ? errno : reason;
-    std::remove(temporary.c_str());
-    return unwritable(path, cause);
-  }
-  return {};
+  Result<void> done = (*file)->append(static_cast<const std::byte*>(bytes), size);
+  return done ? (*file)->publish() : done;
 }
 
 Result<void> writeWholeFile(const std::string& path, const std::string& text)
@@ -56,18 +23,9 @@ Result<void> writeWholeFile(const std::string& path, const std::string& text)
 
 Result<void> checkWritable(const std::string& path)
 {
-  if (std::filesystem::is_directory(path))
-  {
-    return unwritable(path, EISDIR);
-  }
-  const std::string temporary = temporaryName(path);
-  const std::unique_ptr<std::FILE, CloseFile> file(std::fopen(temporary.c_str(), "wb"));
-  if (!file)
-  {
-    return unwritable(path, errno);
-  }
-  std::remove(temporary.c_str());
-  return {};
+  const Result<std::unique_ptr<OutputFile>> file =
+    OutputFile::create(path, OutputFile::Durability::None);
+  return file ? Result<void>() : Result<void>(file.error());
 }
 
 } // namespace pointfront

@@ -46,11 +46,10 @@ TEST(WholeFile, SaysWhyItCannotBeWritten)
   const auto missing = writeWholeFile((folder / "none" / "a.png").string(), "x");
   ASSERT_FALSE(missing);
   EXPECT_EQ(missing.error().kind, Error::Kind::Unwritable);
-  EXPECT_NE(missing.error().what.find("No such file or directory"), std::string::npos);
+  EXPECT_NE(missing.error().what.find("does not exist"), std::string::npos);
 
   const auto overFolder = writeWholeFile(folder.string(), "x");
   ASSERT_FALSE(overFolder);
-  EXPECT_FALSE(fs::exists(folder.string() + ".tmp"));
   EXPECT_FALSE(checkWritable(folder.string()));
   EXPECT_FALSE(checkWritable((folder / "none" / "a.png").string()));
   EXPECT_TRUE(checkWritable((folder / "a.png").string()));

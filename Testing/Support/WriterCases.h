@@ -1,5 +1,6 @@
 #pragma once
 
+#include "FilesInTheMaking.h"
 #include "PointValues.h"
 
 #include "pointfront/Points/PointSink.h"
@@ -93,7 +94,7 @@ inline void expectNothingLeftUnfinished(const WriterCase& writerCase)
     ASSERT_TRUE(writer->append(batch));
   }
   EXPECT_EQ(bytesOfFile(path), "earlier");
-  EXPECT_FALSE(std::filesystem::exists(path + ".tmp"));
+  EXPECT_TRUE(filesInTheMaking(path).empty());
 }
 
 /// A file of no points, and one of a point with a colour of 16 bits.

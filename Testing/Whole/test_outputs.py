@@ -1,6 +1,7 @@
 """What is written over, and what never is."""
 
 import os
+import pathlib
 import shutil
 import unittest
 
@@ -40,10 +41,6 @@ class Outputs(ToolTest):
         side = self.folder / "a.las.pfindex"
         for target in self.aliases(las):
             self.kept([las, side], "export", side, "-o", target, "--classes", "2")
-        half_written = self.copy("b.las.tmp")
-        self.succeed("index", half_written)
-        self.kept([half_written], "export", f"{half_written}.pfindex", "-o",
-                  self.folder / "b.las")
         self.assertEqual(self.succeed("info", side, "--json").json["points"], POINTS)
 
     def test_a_build_keeps_its_inputs(self):
@@ -54,8 +51,25 @@ class Outputs(ToolTest):
         system.write_text("EPSG:25832")
         self.kept([las, system], "build", las, "-o", system, "--crs", system,
                   "--assume-crs", "EPSG:25832")
-        half_written = self.copy("b.pfront.tmp")
-        self.kept([half_written], "build", half_written, "-o", self.folder / "b.pfront")
+
+    def test_files_with_likely_temporary_names_are_kept(self):
+        las = self.copy()
+        store = self.build(las)
+        mine = []
+
+        def likely(path):
+            for name in (f"{path}.tmp", f"{path}.next", f"{path}.part", f"{path}.0.tmp",
+                         f"{path}.{0:016x}-{0:016x}.tmp"):
+                mine.append(pathlib.Path(name))
+                mine[-1].write_text("mine")
+            return path
+        self.succeed("build", las, "-o", likely(self.folder / "new.pfront"))
+        self.succeed("index", las, "-o", likely(self.folder / "new.pfindex"))
+        for kind in ("las", "laz", "xyz", "csv", "ply", "pcd"):
+            self.succeed("export", store, "-o", likely(self.folder / f"out.{kind}"))
+        self.succeed("render", store, "-o", likely(self.folder / "a.png"), "--size", "64x48",
+                     "--stats", likely(self.folder / "a.json"))
+        self.assertEqual({path.read_text() for path in mine}, {"mine"})
 
     def test_an_index_keeps_its_input(self):
         las = self.copy()

@@ -1,4 +1,5 @@
 #include "FileBytes.h"
+#include "FilesInTheMaking.h"
 #include "IndexedLASFile.h"
 #include "LASIndexing.h"
 #include "RealFiles.h"
@@ -156,7 +157,7 @@ TEST(IndexedLASFile, TheFileIsNotTouchedAndTheSideFileIsSmall)
   EXPECT_TRUE(same);
   EXPECT_EQ(fs::file_size(las + lasIndexSuffix), report.bytesWritten);
   EXPECT_LT(report.bytesWritten, report.points); // below a byte a point
-  EXPECT_FALSE(fs::exists(las + lasIndexSuffix + std::string(".tmp")));
+  EXPECT_TRUE(filesInTheMaking(las + lasIndexSuffix).empty());
 }
 
 TEST(IndexedLASFile, ColumnsAreTheSameAloneAndTogether)
@@ -295,7 +296,7 @@ TEST(LASIndexing, CancelledLeavesWhatWasThere)
   ASSERT_FALSE(cancelled);
   EXPECT_EQ(cancelled.error().kind, Error::Kind::Cancelled);
   EXPECT_EQ(fs::last_write_time(side), written);
-  EXPECT_FALSE(fs::exists(side + ".tmp"));
+  EXPECT_TRUE(filesInTheMaking(side).empty());
 }
 
 TEST(LASIndexing, AFileThatWasCutShortIsIndexedAsFarAsItGoes)

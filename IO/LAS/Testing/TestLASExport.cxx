@@ -1,4 +1,5 @@
 #include "FileBytes.h"
+#include "FilesInTheMaking.h"
 #include "LASExport.h"
 #include "LASWriter.h"
 #include "SourcePoints.h"
@@ -247,7 +248,7 @@ TEST(LASExport, LeavesNothingWhenItIsNotFinished)
       ASSERT_TRUE(writer.append(onePoint(description, glm::dvec3(1.0))));
     }
     EXPECT_FALSE(fs::exists(path));
-    EXPECT_FALSE(fs::exists(path + ".tmp"));
+    EXPECT_TRUE(filesInTheMaking(path).empty());
   }
 }
 

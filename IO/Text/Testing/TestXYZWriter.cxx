@@ -1,3 +1,4 @@
+#include "FilesInTheMaking.h"
 #include "XYZWriter.h"
 
 #include <gtest/gtest.h>
@@ -75,7 +76,7 @@ TEST(XYZWriter, LeavesNothingWhenItIsNotFinished)
     ASSERT_TRUE(writer.append(batch));
   }
   EXPECT_FALSE(fs::exists(path));
-  EXPECT_FALSE(fs::exists(path + ".tmp"));
+  EXPECT_TRUE(filesInTheMaking(path).empty());
 }
 
 TEST(XYZWriter, SaysWhyItCannotWrite)

@@ -1,3 +1,4 @@
+#include "FilesInTheMaking.h"
 #include "SampleStore.h"
 
 #include "pointfront/Disk/DirectAppender.h"
@@ -59,7 +60,7 @@ void appendAndCompare(OutputFile::Durability durability)
     if (piece % 3 == 0)
     {
       ASSERT_TRUE((*file)->settle());
-      const std::vector<std::byte> settled = contentOf(path + ".tmp");
+      const std::vector<std::byte> settled = contentOf((*file)->pathMeanwhile());
       ASSERT_EQ(settled, std::vector<std::byte>(all.begin(), all.begin() + std::ptrdiff_t(at)));
     }
   }
@@ -72,7 +73,7 @@ void appendAndCompare(OutputFile::Durability durability)
   expected.insert(expected.end(), more.begin(), more.end());
   ASSERT_TRUE((*file)->publish());
   EXPECT_EQ(contentOf(path), expected);
-  EXPECT_FALSE(std::filesystem::exists(path + ".tmp"));
+  EXPECT_TRUE(filesInTheMaking(path).empty());
 }
 
 TEST(OutputFile, DurableBytesArriveWhateverTheirPieces)
@@ -114,7 +115,7 @@ TEST(OutputFile, ADiskThatEndsIsAnErrorAndLeavesNothing)
   ASSERT_TRUE(WIFEXITED(status));
   EXPECT_EQ(WEXITSTATUS(status), 0);
   EXPECT_FALSE(std::filesystem::exists(path));
-  EXPECT_FALSE(std::filesystem::exists(path + ".tmp"));
+  EXPECT_TRUE(filesInTheMaking(path).empty());
 }
 
 /// A file that is given up while the disk works.
@@ -128,7 +129,7 @@ TEST(OutputFile, IsGoneWhenItIsGivenUp)
     ASSERT_TRUE((*file)->append(bytes.data(), bytes.size()));
   }
   EXPECT_FALSE(std::filesystem::exists(path));
-  EXPECT_FALSE(std::filesystem::exists(path + ".tmp"));
+  EXPECT_TRUE(filesInTheMaking(path).empty());
 }
 } // namespace
 } // namespace pointfront

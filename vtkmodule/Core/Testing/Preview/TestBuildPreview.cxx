@@ -1,3 +1,4 @@
+#include "FilesInTheMaking.h"
 #include "TestBuildClouds.h"
 
 #include "pointfront/Preview/BuildPreview.h"
@@ -296,13 +297,15 @@ TEST_F(BuildPreviews, OfAKilledBuildWithFinishedPartsGoWithTheNext)
 {
   everyVersion();
   killWhen([](const PreviewRecord& record) { return record.pointsFinished > cloudPoints / 3; });
+  const std::vector<std::string> killed = filesInTheMaking(build_.outputPath);
+  ASSERT_EQ(killed.size(), 1u);
   EXPECT_EQ(entries(),
-    (std::vector<std::string>{ "city.pfront.tmp", "city.preview.pfront" })); // as it was killed
+    (std::vector<std::string>{ fs::path(killed[0]).filename().string(), "city.preview.pfront" }));
   const auto left = PointStore::open(previewPath());
   ASSERT_FALSE(left);
   EXPECT_EQ(left.error().kind, Error::Kind::Truncated);
   EXPECT_NE(left.error().what.find("preview of a build that has ended"), std::string::npos);
-  EXPECT_FALSE(PointStore::open(build_.outputPath + ".tmp"));
+  EXPECT_FALSE(PointStore::open(killed[0]));
   ASSERT_TRUE(buildWithPreview());
   EXPECT_EQ(entries(), std::vector<std::string>{ "city.pfront" });
 }
@@ -339,6 +342,9 @@ TEST_F(BuildPreviews, NeverReplaceWhatIsNoPreview)
   ASSERT_FALSE(refused);
   EXPECT_NE(refused.error().what.find("city.preview.pfront"), std::string::npos);
   EXPECT_EQ(bytesOf(previewPath()), "mine");
+  fs::rename(previewPath(), previewPath() + ".next");
+  EXPECT_FALSE(BuildPreview::create(cloud_, build_, wish_));
+  EXPECT_EQ(bytesOf(previewPath() + ".next"), "mine");
 }
 
 TEST_F(BuildPreviews, ThatCannotBeWrittenAreAWarning)

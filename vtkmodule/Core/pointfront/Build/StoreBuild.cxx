@@ -4,6 +4,7 @@
 #include "pointfront/Points/EnclosingRadius.h"
 #include "pointfront/Points/ObjectClass.h"
 #include "pointfront/Points/SplatRadius.h"
+#include "pointfront/Store/StoreAssembly.h"
 #include "pointfront/Trees/MeanRecord.h"
 
 #include <algorithm>
@@ -93,11 +94,17 @@ Result<void> StoreBuild::prepare()
   space_.grid = grid->grid;
   space_.shift = fittingShifts(axisShifts(space_.grid.scale), grid->low, grid->high);
 
-  // A place that cannot be written is known before hours of reading.
-  if (auto writable = StoreWriter::create(options_.outputPath, common_.schema); !writable)
+  // A place that cannot be written is known before hours of reading, and is ours from here on.
+  if (Result<void> possible = checkColumnCount(common_.schema); !possible)
   {
-    return writable.error();
+    return possible;
   }
+  auto output = OutputFile::create(options_.outputPath);
+  if (!output)
+  {
+    return output.error();
+  }
+  output_ = std::move(*output);
   columns_ = guessColumns(sources_, common_, columnGuess());
   Result<void> ready = reserve();
   if (ready && !storage_.diskWarning.empty())

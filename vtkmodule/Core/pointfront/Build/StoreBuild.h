@@ -3,6 +3,7 @@
 #include "pointfront/Build/BuildStorage.h"
 #include "pointfront/Build/StoreBuilder.h"
 #include "pointfront/Build/TreeConstruction.h"
+#include "pointfront/Disk/OutputFile.h"
 #include "pointfront/Ingest/CommonSchema.h"
 #include "pointfront/Ingest/PointIngest.h"
 #include "pointfront/Ingest/RecordColumns.h"
@@ -69,6 +70,7 @@ private:
   BuildStorage storage_;
   WorkCrew crew_;
   IngestedPoints points_;
+  std::unique_ptr<OutputFile> output_; ///< until assemble()
   std::uint64_t missing_ = 0; ///< points that headers promise and files lack
   ClassLayers layers_;
   PoolPreparation prepared_;

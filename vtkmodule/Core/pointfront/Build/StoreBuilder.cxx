@@ -9,6 +9,7 @@
 #include "pointfront/Points/EnclosingRadius.h"
 #include "pointfront/Points/ObjectClass.h"
 #include "pointfront/Points/SplatRadius.h"
+#include "pointfront/Store/StoreAssembly.h"
 
 #include <algorithm>
 #include <cmath>
@@ -97,7 +98,7 @@ Result<void> StoreBuild::cutIntoParts()
 Result<void> StoreBuild::assemble()
 {
   crew_.beginPhase("building", points_.kept, buildShare);
-  auto writer = StoreWriter::create(options_.outputPath, stored_);
+  auto writer = assembleStore(std::move(output_), stored_);
   if (!writer)
   {
     return writer.error();

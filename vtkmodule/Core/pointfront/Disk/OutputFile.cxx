@@ -1,11 +1,11 @@
 #include "pointfront/Disk/OutputFile.h"
 
 #include "pointfront/Disk/DirectAppender.h"
+#include "pointfront/Disk/TemporaryFile.h"
 
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -16,38 +16,9 @@ namespace
 /// Linux writes at most 2 GiB a call anyway.
 constexpr std::size_t maxWriteBytes = std::size_t(1) << 30;
 
-std::string folderOf(const std::string& path)
-{
-  const std::size_t slash = path.rfind('/');
-  if (slash == std::string::npos)
-  {
-    return ".";
-  }
-  return slash == 0 ? "/" : path.substr(0, slash);
-}
-
 Error unwritable(const std::string& path, const std::string& why)
 {
   return makeError(Error::Kind::Unwritable, "cannot write '" + path + "': " + why);
-}
-
-std::string creationAdvice(int error, const std::string& path)
-{
-  switch (error)
-  {
-    case ENOENT:
-      return "the folder '" + folderOf(path) + "' does not exist; create it first";
-    case EACCES:
-    case EPERM:
-    case EROFS:
-      return std::string(std::strerror(error)) + "; choose a folder you may write to";
-    case ELOOP:
-      return "it is a symbolic link; remove it";
-    case EISDIR:
-      return "it is a folder; choose another name";
-    default:
-      return std::strerror(error);
-  }
 }
 
 Error noSpace(const std::string& path, std::size_t missing, std::uint64_t written, int error)
@@ -61,28 +32,33 @@ Error noSpace(const std::string& path, std::size_t missing, std::uint64_t writte
 class PosixOutputFile final : public OutputFile
 {
 public:
-  PosixOutputFile(
-    std::string path, std::string temporaryPath, int descriptor, Durability durability)
+  PosixOutputFile(std::string path, TemporaryFile temporary, bool replaces, Durability durability)
     : path_(std::move(path))
-    , temporaryPath_(std::move(temporaryPath))
-    , descriptor_(descriptor)
+    , temporary_(std::move(temporary))
+    , replaces_(replaces)
     , durable_(durability == Durability::Full)
-    , direct_(durable_ ? DirectAppender::open(temporaryPath_) : nullptr)
+    , tryDirect_(durable_)
   {
   }
   ~PosixOutputFile() override
   {
     if (!published_)
     {
-      ::unlink(temporaryPath_.c_str()); // while the lock is held: nobody else's file
+      ::unlink(temporary_.path.c_str());
     }
-    ::close(descriptor_);
+    ::close(temporary_.descriptor);
   }
 
   const std::string& path() const override { return path_; }
+  const std::string& pathMeanwhile() const override { return temporary_.path; }
 
   Result<void> append(const std::byte* data, std::size_t size) override
   {
+    if (tryDirect_)
+    {
+      tryDirect_ = false; // a file that waits for its first byte holds no buffers
+      direct_ = DirectAppender::open(temporary_.path);
+    }
     while (direct_ && size != 0)
     {
       const std::size_t taken = direct_->take(data, size);
@@ -134,13 +110,13 @@ public:
     {
       return done;
     }
-    if (durable_ && ::fsync(descriptor_) != 0)
-    {
-      return unwritable(temporaryPath_, std::strerror(errno));
-    }
-    if (::rename(temporaryPath_.c_str(), path_.c_str()) != 0)
+    if (durable_ && ::fsync(temporary_.descriptor) != 0)
     {
       return unwritable(path_, std::strerror(errno));
+    }
+    if (Result<void> named = nameTemporaryFile(temporary_.path, path_, replaces_); !named)
+    {
+      return named;
     }
     published_ = true;
     return durable_ ? syncFolder() : Result<void>{};
@@ -158,8 +134,8 @@ private:
   {
     while (size != 0)
     {
-      const ssize_t count = ::pwrite(
-        descriptor_, data, size < maxWriteBytes ? size : maxWriteBytes, static_cast<off_t>(offset));
+      const ssize_t count = ::pwrite(temporary_.descriptor, data,
+        size < maxWriteBytes ? size : maxWriteBytes, static_cast<off_t>(offset));
       if (count < 0 && errno == EINTR)
       {
         continue;
@@ -169,9 +145,9 @@ private:
         const int error = count < 0 ? errno : ENOSPC;
         if (error == ENOSPC || error == EDQUOT || error == EFBIG)
         {
-          return noSpace(temporaryPath_, size, offset, error);
+          return noSpace(path_, size, offset, error);
         }
-        return unwritable(temporaryPath_, std::strerror(error));
+        return unwritable(path_, std::strerror(error));
       }
       data += count;
       size -= static_cast<std::size_t>(count);
@@ -185,8 +161,8 @@ private:
   void startWriting(std::uint64_t offset, std::size_t size) const
   {
 #ifdef SYNC_FILE_RANGE_WRITE
-    ::sync_file_range(
-      descriptor_, static_cast<off64_t>(offset), static_cast<off64_t>(size), SYNC_FILE_RANGE_WRITE);
+    ::sync_file_range(temporary_.descriptor, static_cast<off64_t>(offset),
+      static_cast<off64_t>(size), SYNC_FILE_RANGE_WRITE);
 #else
     static_cast<void>(offset);
     static_cast<void>(size);
@@ -211,66 +187,32 @@ private:
   }
 
   std::string path_;
-  std::string temporaryPath_;
-  int descriptor_;
+  TemporaryFile temporary_;
+  bool replaces_;
   bool durable_;
+  bool tryDirect_;
   std::unique_ptr<DirectAppender> direct_; // nullptr: all goes through the page cache
   std::uint64_t end_ = 0;
   bool published_ = false;
 };
-
-// True when the descriptor is still the file of that name: another writer may have removed or
-// renamed it between our open and our lock.
-bool stillNamed(int descriptor, const std::string& path)
-{
-  struct stat opened = {};
-  struct stat named = {};
-  return ::fstat(descriptor, &opened) == 0 && ::lstat(path.c_str(), &named) == 0 &&
-    opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
-}
 } // namespace
 
 Result<std::unique_ptr<OutputFile>> OutputFile::create(
   const std::string& path, Durability durability)
 {
   struct stat existing = {};
-  if (::stat(path.c_str(), &existing) == 0 && !S_ISREG(existing.st_mode))
+  const bool exists = ::stat(path.c_str(), &existing) == 0;
+  if (exists && !S_ISREG(existing.st_mode))
   {
     return unwritable(path, "it is there and is not a file; choose another name");
   }
-  const std::string temporaryPath = path + ".tmp";
-  for (;;)
+  Result<TemporaryFile> temporary = createTemporaryFile(path);
+  if (!temporary)
   {
-    const int descriptor =
-      ::open(temporaryPath.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);
-    if (descriptor < 0)
-    {
-      if (errno == EINTR)
-      {
-        continue;
-      }
-      return unwritable(temporaryPath, creationAdvice(errno, path));
-    }
-    if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
-    { // any other failure: this file system has no locks
-      ::close(descriptor);
-      return unwritable(
-        temporaryPath, "another build is writing it now; wait or choose another name");
-    }
-    if (!stillNamed(descriptor, temporaryPath))
-    {
-      ::close(descriptor);
-      continue;
-    }
-    if (::ftruncate(descriptor, 0) != 0)
-    {
-      const int error = errno;
-      ::close(descriptor);
-      return unwritable(temporaryPath, std::strerror(error));
-    }
-    return std::unique_ptr<OutputFile>(
-      std::make_unique<PosixOutputFile>(path, temporaryPath, descriptor, durability));
+    return temporary.error();
   }
+  return std::unique_ptr<OutputFile>(
+    std::make_unique<PosixOutputFile>(path, std::move(*temporary), exists, durability));
 }
 
 } // namespace pointfront

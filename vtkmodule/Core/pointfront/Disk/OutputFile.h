@@ -25,9 +25,8 @@ public:
     None ///< nothing: for a file that means nothing after a crash
   };
 
-  /// Creates `path` + ".tmp" in the same folder and locks it. A left-over of a process that died
-  /// is overwritten (its lock died with it); that of a living one is an Error. File systems
-  /// without locks (some network shares) are used without that protection.
+  /// Creates a TemporaryFile of `path`. What is at `path` now will be replaced; what something else
+  /// puts there before publish() is kept.
   static Result<std::unique_ptr<OutputFile>> create(
     const std::string& path, Durability durability = Durability::Full);
 
@@ -35,12 +34,15 @@ public:
   virtual ~OutputFile() = default;
 
   virtual const std::string& path() const = 0;
+  /// Of the file until publish().
+  virtual const std::string& pathMeanwhile() const { return path(); }
   virtual Result<void> append(const std::byte* data, std::size_t size) = 0;
   /// What was appended can be read from the file now.
   virtual Result<void> settle() { return {}; }
   /// Overwrites bytes that were appended before.
   virtual Result<void> overwrite(std::uint64_t offset, const std::byte* data, std::size_t size) = 0;
   /// Renames to path(), and makes bytes and name as durable as asked for. Nothing may follow.
+  /// Errors  Unwritable too if path() has come to be since create(): it is kept.
   virtual Result<void> publish() = 0;
 };
 

@@ -119,10 +119,9 @@ bool sameFile(const std::string& one, const std::string& other)
 
 Result<void> checkApart(const std::string& path, const std::vector<std::string>& reads)
 {
-  const std::string temporary = path + ".tmp";
   for (const std::string& input : reads)
   {
-    if (sameFile(path, input) || sameFile(temporary, input))
+    if (sameFile(path, input))
     {
       return makeError(Error::Kind::BadArgument,
         path + ": would be written over '" + input + "', which is read; give another name");

@@ -36,8 +36,7 @@ struct OutputTarget
 /// is no file.
 bool sameFile(const std::string& one, const std::string& other);
 
-/// Whether `path`, and what is written under a name of its own until the target is whole
-/// (OutputFile), is none of `reads`. BadArgument if it is; an empty path is none.
+/// Whether `path` is none of `reads`. BadArgument if it is; an empty path is none.
 Result<void> checkApart(const std::string& path, const std::vector<std::string>& reads);
 
 /// Asked before anything is written and before hours of work. The kernel asks it where it knows

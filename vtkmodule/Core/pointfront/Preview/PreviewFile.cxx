@@ -1,7 +1,7 @@
 #include "pointfront/Preview/PreviewFile.h"
 
 #include "pointfront/Disk/InputFile.h"
-#include "pointfront/Disk/OutputFile.h"
+#include "pointfront/Disk/TemporaryFile.h"
 #include "pointfront/Preview/PreviewRecord.h"
 #include "pointfront/Store/PointStore.h"
 
@@ -16,6 +16,8 @@ namespace pointfront
 {
 namespace
 {
+constexpr const char* nextEnding = ".next";
+
 Error inTheWay(const std::string& path, const char* why)
 {
   return makeError(Error::Kind::Unwritable, "cannot write the preview '" + path + "': " + why);
@@ -24,7 +26,7 @@ Error inTheWay(const std::string& path, const char* why)
 
 PreviewFile::PreviewFile(std::string path)
   : path_(std::move(path))
-  , nextPath_(path_ + ".next")
+  , nextPath_(path_ + nextEnding)
 {
 }
 
@@ -44,23 +46,26 @@ Result<std::unique_ptr<PreviewFile>> PreviewFile::claim(const std::string& store
   {
     return inTheWay(path, "a file that is no preview has that name; rename it");
   }
-  std::unique_ptr<PreviewFile> file(new PreviewFile(path));
-  if (::access((file->nextPath_ + ".tmp").c_str(), F_OK) == 0)
+  const std::string nextPath = path + nextEnding;
+  if (::access(nextPath.c_str(), F_OK) == 0 && !PointStore::looksLikePreview(nextPath))
   {
-    // Takes over, and removes, what a killed build was writing; a living one keeps it locked.
-    if (auto leftOver = OutputFile::create(file->nextPath_); !leftOver)
-    {
-      return leftOver.error();
-    }
+    return inTheWay(nextPath, "a file that is no preview has that name; rename it");
+  }
+  if (!removeLeftOvers(nextPath))
+  {
+    return inTheWay(path, "another build of that store is running; wait or choose another name");
   }
   ::unlink(path.c_str());
-  ::unlink(file->nextPath_.c_str());
-  return file;
+  ::unlink(nextPath.c_str());
+  return std::unique_ptr<PreviewFile>(new PreviewFile(path));
 }
 
 PreviewFile::~PreviewFile()
 {
-  ::unlink(nextPath_.c_str());
+  if (PointStore::looksLikePreview(nextPath_))
+  {
+    ::unlink(nextPath_.c_str());
+  }
   if (locked_ >= 0)
   {
     ::unlink(path_.c_str()); // before the lock goes: nobody takes it for a killed build's
@@ -76,11 +81,10 @@ Result<void> PreviewFile::replace()
     return inTheWay(path_, std::strerror(errno));
   }
   ::flock(next, LOCK_EX | LOCK_NB); // fails only where there are no locks
-  if (::rename(nextPath_.c_str(), path_.c_str()) != 0)
+  if (Result<void> named = nameTemporaryFile(nextPath_, path_, locked_ >= 0); !named)
   {
-    const int error = errno;
     ::close(next);
-    return inTheWay(path_, std::strerror(error));
+    return named;
   }
   if (locked_ >= 0)
   {

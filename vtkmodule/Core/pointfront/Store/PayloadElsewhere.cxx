@@ -21,12 +21,17 @@ bool holds(const InputFile& file, const PayloadElsewhere& elsewhere)
   return file.readAt(mark.offset, bytes.data(), bytes.size()) &&
     matchesChecksum(bytes.data(), bytes.size(), mark.checksum);
 }
+
+/// Of a file in the same folder.
+bool isPlainName(const std::string& name)
+{
+  return !name.empty() && name.find('/') == std::string::npos &&
+    name.find('\0') == std::string::npos;
+}
 } // namespace
 
-PayloadElsewhere describeElsewhere(
-  std::string storeName, std::uint64_t bytes, const BlockDirectory& directory)
+PayloadElsewhere describeElsewhere(PayloadElsewhere elsewhere, const BlockDirectory& directory)
 {
-  PayloadElsewhere elsewhere{ std::move(storeName), bytes, {} };
   elsewhere.mark.checksum = checksumOf(nullptr, 0);
   for (std::uint32_t node = 0; node < directory.nodeCount(); ++node)
   {
@@ -47,6 +52,7 @@ std::vector<std::byte> encodeElsewhere(const PayloadElsewhere& elsewhere)
   out.put(elsewhere.mark.bytes);
   out.put(elsewhere.mark.checksum);
   out.putText(elsewhere.storeName);
+  out.putText(elsewhere.nameMeanwhile);
   return out.bytes();
 }
 
@@ -59,10 +65,9 @@ std::optional<PayloadElsewhere> decodeElsewhere(const std::byte* data, std::size
   elsewhere.mark.bytes = in.get<std::uint32_t>();
   elsewhere.mark.checksum = in.get<std::uint32_t>();
   elsewhere.storeName = in.getText();
-  const bool plainName = !elsewhere.storeName.empty() &&
-    elsewhere.storeName.find('/') == std::string::npos &&
-    elsewhere.storeName.find('\0') == std::string::npos;
-  if (!in.ok() || in.remaining() != 0 || !plainName)
+  elsewhere.nameMeanwhile = in.getText();
+  if (!in.ok() || in.remaining() != 0 || !isPlainName(elsewhere.storeName) ||
+    !isPlainName(elsewhere.nameMeanwhile))
   {
     return std::nullopt;
   }
@@ -72,12 +77,11 @@ std::optional<PayloadElsewhere> decodeElsewhere(const std::byte* data, std::size
 Result<std::unique_ptr<const InputFile>> openElsewhere(
   const std::string& path, const PayloadElsewhere& elsewhere)
 {
-  const std::string store =
-    (std::filesystem::path(path).parent_path() / elsewhere.storeName).string();
+  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
   // In this order: a build that ends in between has renamed the first to the second.
-  for (const std::string& name : { store + ".tmp", store })
+  for (const std::string& name : { elsewhere.nameMeanwhile, elsewhere.storeName })
   {
-    Result<std::unique_ptr<const InputFile>> file = InputFile::open(name);
+    Result<std::unique_ptr<const InputFile>> file = InputFile::open((folder / name).string());
     if (file && holds(**file, elsewhere))
     {
       return file;

@@ -17,9 +17,8 @@ namespace pointfront
 /// The second file of a store that refers to a store in the making (StoreWriter::createReferring).
 struct PayloadElsewhere
 {
-  /// File name of the other store, in the folder of this one. While it is written it has ".tmp" at
-  /// its end, afterwards it is the same file.
-  std::string storeName;
+  std::string storeName; ///< file name of the other store, in the folder of this one
+  std::string nameMeanwhile; ///< the same file while it is written
   std::uint64_t bytes = 0; ///< that it had at least when this store was written
   /// By which it is known: positions of the node that was written last.
   BlockDirectory::Block mark;
@@ -31,8 +30,7 @@ std::vector<std::byte> encodeElsewhere(const PayloadElsewhere& elsewhere);
 std::optional<PayloadElsewhere> decodeElsewhere(const std::byte* data, std::size_t size);
 
 /// With the mark that `directory` gives.
-PayloadElsewhere describeElsewhere(
-  std::string storeName, std::uint64_t bytes, const BlockDirectory& directory);
+PayloadElsewhere describeElsewhere(PayloadElsewhere elsewhere, const BlockDirectory& directory);
 
 /// Opens the file that the store at `path` refers to: the one being written, or what has become of
 /// it. Another file that has taken its name is told by the mark.

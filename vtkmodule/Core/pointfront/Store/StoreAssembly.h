@@ -9,6 +9,9 @@
 namespace pointfront
 {
 
+/// Errors  BadArgument: a store has no room for so many attributes.
+Result<void> checkColumnCount(const AttributeSchema& schema);
+
 /// A StoreWriter on a file of the caller's choice: StoreWriter::create() opens a real one, tests
 /// give one that fails. `elsewhere`: of createReferring().
 Result<std::unique_ptr<StoreWriter>> assembleStore(std::unique_ptr<OutputFile> file,

@@ -99,6 +99,7 @@ private:
   std::vector<std::byte> buffer_;
   std::uint64_t end_ = 0;
   std::string nameElsewhere_; // empty: all payloads are in this file
+  std::string nameMeanwhile_;
   std::uint64_t bytesElsewhere_ = 0;
 };
 
@@ -110,6 +111,7 @@ void FileStoreWriter::refer(WrittenPayloads elsewhere)
   bounds_ = elsewhere.bounds;
   ranges_ = std::move(elsewhere.ranges);
   nameElsewhere_ = std::move(elsewhere.storeName);
+  nameMeanwhile_ = std::move(elsewhere.nameMeanwhile);
   bytesElsewhere_ = elsewhere.bytes;
 }
 
@@ -123,6 +125,7 @@ Result<WrittenPayloads> FileStoreWriter::written()
   }
   WrittenPayloads result;
   result.storeName = std::filesystem::path(file_->path()).filename().string();
+  result.nameMeanwhile = std::filesystem::path(file_->pathMeanwhile()).filename().string();
   result.bytes = end_;
   result.directory = payloads_;
   result.pointCounts = pointCounts_;
@@ -273,7 +276,8 @@ Result<void> FileStoreWriter::putPayloadFacts(const std::vector<Node>& nodes,
   {
     return putParts(SectionKind::NodeRanges, nodeRanges_.encode(nodes, payloads), footer);
   }
-  const PayloadElsewhere elsewhere = describeElsewhere(nameElsewhere_, bytesElsewhere_, directory);
+  const PayloadElsewhere elsewhere =
+    describeElsewhere({ nameElsewhere_, nameMeanwhile_, bytesElsewhere_, {} }, directory);
   return putWhole(SectionKind::Elsewhere, encodeElsewhere(elsewhere), footer);
 }
 
@@ -351,14 +355,23 @@ Result<void> FileStoreWriter::finish(const StoreFooter& footer)
 }
 } // namespace
 
-Result<std::unique_ptr<StoreWriter>> assembleStore(std::unique_ptr<OutputFile> file,
-  const AttributeSchema& schema, std::optional<WrittenPayloads> elsewhere)
+Result<void> checkColumnCount(const AttributeSchema& schema)
 {
   if (schema.size() > maxColumns)
   {
     return makeError(Error::Kind::BadArgument,
       "a store has at most " + std::to_string(maxColumns) + " attributes, not " +
         std::to_string(schema.size()) + "; name the ones to store");
+  }
+  return {};
+}
+
+Result<std::unique_ptr<StoreWriter>> assembleStore(std::unique_ptr<OutputFile> file,
+  const AttributeSchema& schema, std::optional<WrittenPayloads> elsewhere)
+{
+  if (Result<void> possible = checkColumnCount(schema); !possible)
+  {
+    return possible.error();
   }
   auto writer = std::make_unique<FileStoreWriter>(std::move(file), schema, std::move(elsewhere));
   if (Result<void> done = writer->begin(); !done)

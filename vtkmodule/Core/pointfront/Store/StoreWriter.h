@@ -48,7 +48,8 @@ EncodedNode encodeNode(
 /// What a writer has written so far, for stores that refer to it.
 struct WrittenPayloads
 {
-  std::string storeName; ///< file name of the store; it has ".tmp" at its end meanwhile
+  std::string storeName; ///< file name of the store
+  std::string nameMeanwhile; ///< the file's name while it is written
   std::uint64_t bytes = 0; ///< of that file, to be relied on from now on
   BlockDirectory directory{ 1 }; ///< by PayloadId, like the next one
   std::vector<std::uint32_t> pointCounts;
@@ -56,9 +57,8 @@ struct WrittenPayloads
   std::vector<ColumnRange> ranges; ///< of all their points, one for each column
 };
 
-/// Writes a store: payloads one after another, then the table. Whole or absent: writes to
-/// `path` + ".tmp" in the same folder, commit() makes it durable and renames it; a writer that is
-/// destroyed without commit() removes its file.
+/// Writes a store: payloads one after another, then the table. Whole or absent: writes an
+/// OutputFile, which commit() publishes; a writer that is destroyed without commit() removes it.
 /// Threads  one thread.
 /// Errors   Unwritable, with the bytes that were missing when the disk is full.
 class StoreWriter

@@ -6,6 +6,7 @@
 #include "OpenGLFunctions.h"
 #include "SelectionIds.h"
 #include "SlotRecords.h"
+#include "TechniquePasses.h"
 
 #include "ColourMapTextureGLSL.h"
 #include "PointsFSGLSL.h"
@@ -339,7 +340,7 @@ void vtkOpenGLPointFrontPoints::RenderPieceDraw(vtkRenderer* ren, vtkActor* act)
     const double size = this->Drawing->pointSize > 0.0
       ? this->Drawing->pointSize
       : static_cast<double>(act->GetProperty()->GetPointSize());
-    state->vtkglPointSize(static_cast<float>(size));
+    state->vtkglPointSize(static_cast<float>(pointfront::squareSizeOf(size)));
     points.VAO->Bind();
     this->DrawBlocks(points);
     vtkOpenGLCheckErrorMacro("failed after drawing points");

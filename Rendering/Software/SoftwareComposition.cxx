@@ -64,9 +64,10 @@ void put(const TranslucentPixel& nearest, SoftwareTarget& target, std::size_t pi
       target.decided[pixel] = nearest.target->decided[nearest.pixel];
     }
   }
-  if (!target.highlights.empty() && !nearest.target->highlights.empty())
+  if (!target.highlights.empty())
   {
-    target.highlights[pixel] = nearest.target->highlights[nearest.pixel];
+    const std::vector<std::uint8_t>& marks = nearest.target->highlights;
+    target.highlights[pixel] = marks.empty() ? std::uint8_t(0) : marks[nearest.pixel];
   }
   if (target.keepPoints)
   {
@@ -248,7 +249,11 @@ void SoftwareComposition::putLens(std::int16_t number, const FrameCamera& camera
 void SoftwareComposition::finish(
   const FrameCamera& camera, const FrameShading& shading, SoftwareTarget& target)
 {
+  // A part may lack highlighted points that another one puts over it.
+  const auto mark = [&](SoftwareTarget& drawn)
+  { drawn.highlights.resize(shading.highlights.empty() ? 0 : drawn.depth.size()); };
   shade(camera, shading, target);
+  mark(target);
   for (auto part = parts_.begin(); part != parts_.end();)
   {
     part = part->second.begun ? std::next(part) : parts_.erase(part);
@@ -258,24 +263,28 @@ void SoftwareComposition::finish(
     if (!place.mask)
     {
       shade(camera, shading, part.target);
+      mark(part.target);
     }
   }
-  constexpr std::int16_t outside = -1;
-  blendGroups(outside, target);
-  for (std::size_t lens = 0; lens < shading.lenses.size(); ++lens)
+  for (const CompositionStep& step : compositionOf(shading))
   {
-    const auto number = static_cast<std::int16_t>(lens);
-    const auto inside = parts_.find({ number, false, 0 });
-    if (inside != parts_.end())
+    const auto inside = parts_.find({ step.lens, false, 0 });
+    switch (step.kind)
     {
-      blendGroups(number, inside->second.target);
-    }
-    if (!shading.lenses[lens].coversNothing())
-    {
-      putLens(number, camera, shading, target);
+      case CompositionStep::Kind::BlendGroups:
+        if (step.lens < 0 || inside != parts_.end())
+        {
+          blendGroups(step.lens, step.lens < 0 ? target : inside->second.target);
+        }
+        break;
+      case CompositionStep::Kind::PutLens:
+        putLens(step.lens, camera, shading, target);
+        break;
+      case CompositionStep::Kind::Highlight:
+        highlight(shading, target);
+        break;
     }
   }
-  highlight(shading, target);
   for (auto& [place, part] : parts_)
   {
     part.begun = false;

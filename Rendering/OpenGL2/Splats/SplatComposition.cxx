@@ -166,7 +166,8 @@ SplatTextures SplatComposition::draw(const std::string& fragment, std::vector<In
   return { target.colours, target.depths, ids_ ? target.ids.GetPointer() : nullptr };
 }
 
-SplatTextures SplatComposition::blend(const SplatTextures& base, const std::vector<Group>& groups)
+SplatTextures SplatComposition::blend(
+  const SplatTextures& base, const std::vector<Group>& groups, const SplatTextures& untouched)
 {
   if (groups.empty())
   {
@@ -188,6 +189,7 @@ SplatTextures SplatComposition::blend(const SplatTextures& base, const std::vect
     inputs.push_back({ name("groupIds"), groups[i].picture.ids });
     opacities.push_back(static_cast<float>(groups[i].opacity));
   }
+  inputs.push_back({ "untouched", untouched.colours }); // no shader reads it
   return draw(fragmentOf(Step::Blend, groups.size(), ids_), inputs, base,
     [&](vtkShaderProgram* program)
     { program->SetUniform1fv("opacities", static_cast<int>(opacities.size()), opacities.data()); });

@@ -46,8 +46,10 @@ public:
   /// Sets the size of the pictures. False if GL has no room.
   bool begin(vtkOpenGLRenderWindow* window, int width, int height, bool ids);
 
-  // Each draws over the whole viewport, into a picture that stays as it is until the next but one.
-  SplatTextures blend(const SplatTextures& base, const std::vector<Group>& groups);
+  // Each draws over the whole viewport, into one of three pictures: not into one that it reads.
+  // Translucent groups over what is opaque. `untouched`: a picture that is needed later.
+  SplatTextures blend(const SplatTextures& base, const std::vector<Group>& groups,
+    const SplatTextures& untouched = {});
   /// `inside`: without colours where nothing is shown; `around`: depths of what a lens around a
   /// class is made by.
   SplatTextures putLens(const SplatTextures& base, const SplatTextures& inside,

@@ -10,6 +10,7 @@
 #include <vtkOpenGLState.h>
 
 #include <algorithm>
+#include <map>
 
 namespace pointfront
 {
@@ -154,39 +155,63 @@ std::int64_t SplatPicture::drawParts(const SplatFrame& frame, const FramePlan& p
   return std::min(points, static_cast<std::int64_t>(plan.pointCount()));
 }
 
-SplatTextures SplatPicture::blended(std::int16_t lens, const SplatTextures& base)
+SplatTextures SplatPicture::blended(
+  std::int16_t lens, const SplatTextures& base, const SplatTextures& untouched)
 {
-  std::vector<SplatComposition::Group> groups;
+  std::map<std::uint16_t, SplatComposition::Group> byNumber; // parts lie as they came to be
   for (const FurtherPart& part : further_)
   {
     if (part.drawn && part.lens == lens && part.group > 0)
     {
-      groups.push_back({ part.part->picture(), part.opacity });
+      byNumber.insert({ part.group, { part.part->picture(), part.opacity } });
     }
   }
-  return composition_.blend(base, groups);
+  std::vector<SplatComposition::Group> groups;
+  for (const auto& [number, group] : byNumber)
+  {
+    groups.push_back(group);
+  }
+  return composition_.blend(base, groups, untouched);
 }
 
 void SplatPicture::compose(const FramePlan& plan)
 {
-  constexpr std::int16_t outside = -1;
-  picture_ = blended(outside, main_.picture());
-  const std::vector<FrameLens>& lenses = plan.shading.lenses;
-  for (std::size_t lens = 0; lens < lenses.size(); ++lens)
+  picture_ = main_.picture();
+  SplatTextures inside; // of the lens that is put next
+  for (const CompositionStep& step : compositionOf(plan.shading))
   {
-    const auto number = static_cast<std::int16_t>(lens);
-    const FurtherPart* const mask = find(number, true);
-    const bool around = lenses[lens].shape == LensShape::AroundClass;
-    if (lenses[lens].coversNothing() || (around && !mask))
+    switch (step.kind)
     {
-      continue;
+      case CompositionStep::Kind::BlendGroups:
+        if (step.lens < 0)
+        {
+          picture_ = blended(step.lens, picture_, {});
+        }
+        else
+        {
+          const FurtherPart* const opaque = find(step.lens, false);
+          inside = opaque ? blended(step.lens, opaque->part->picture(), picture_) : SplatTextures();
+        }
+        break;
+      case CompositionStep::Kind::PutLens:
+        putLens(plan.shading.lenses[static_cast<std::size_t>(step.lens)], step.lens, inside);
+        break;
+      case CompositionStep::Kind::Highlight:
+        picture_ = composition_.highlight(picture_, plan.shading.highlights);
+        break;
     }
-    const FurtherPart* const inside = find(number, false);
-    picture_ = composition_.putLens(picture_,
-      inside ? blended(number, inside->part->picture()) : SplatTextures(), lenses[lens],
-      around ? mask->part->picture().depths : nullptr);
   }
-  picture_ = composition_.highlight(picture_, plan.shading.highlights);
+}
+
+void SplatPicture::putLens(const FrameLens& lens, std::int16_t number, const SplatTextures& inside)
+{
+  const FurtherPart* const mask = find(number, true);
+  const bool around = lens.shape == LensShape::AroundClass;
+  if (!around || mask)
+  {
+    picture_ =
+      composition_.putLens(picture_, inside, lens, around ? mask->part->picture().depths : nullptr);
+  }
 }
 
 void SplatPicture::handOver(

@@ -61,8 +61,10 @@ private:
   std::int64_t drawParts(const SplatFrame& frame, const FramePlan& plan);
   FurtherPart& furtherPart(const PlanPart& like);
   const FurtherPart* find(std::int16_t lens, bool mask) const;
-  SplatTextures blended(std::int16_t lens, const SplatTextures& base);
+  SplatTextures blended(
+    std::int16_t lens, const SplatTextures& base, const SplatTextures& untouched);
   void compose(const FramePlan& plan);
+  void putLens(const FrameLens& lens, std::int16_t number, const SplatTextures& inside);
 
   SplatTools tools_;
   SplatPart main_;

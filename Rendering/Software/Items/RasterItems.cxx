@@ -137,8 +137,8 @@ RasterItem RasterItems::itemOf(const Place& place)
   item.item = place.item;
   item.style = &style;
   item.colours = std::make_shared<PointColours>(plan_, style, *table->second, node);
-  const bool facesEye = style.orientation == SplatOrientation::View;
-  item.normals = facesEye ? nullptr : columnOf(node, style.normalColumn);
+  const bool own = style.orientation == SplatOrientation::Normal;
+  item.normals = own ? columnOf(node, style.normalColumn) : nullptr;
   item.normalAttribute = item.normals ? &(*plan_.schema)[*style.normalColumn] : nullptr;
   item.passes = passesOf(style, demandOf(item));
   const std::byte* const codes = columnOf(node, style.radiusColumn);

@@ -101,6 +101,11 @@ void boundRadius(
 
 } // namespace
 
+int squareSizeOf(double pixels)
+{
+  return std::clamp(static_cast<int>(std::lround(pixels)), 1, mostSquare);
+}
+
 TechniquePasses passesOf(const ResolvedStyle& style, const PassConditions& demand)
 {
   const bool hasNormals = demand.hasNormals;
@@ -109,7 +114,7 @@ TechniquePasses passesOf(const ResolvedStyle& style, const PassConditions& deman
   if (style.technique == Technique::Points && pixels)
   {
     passes.squares = true;
-    passes.squareSize = std::clamp(static_cast<int>(std::lround(style.size.value)), 1, mostSquare);
+    passes.squareSize = squareSizeOf(style.size.value);
     return passes;
   }
   passes.firstRadius = shareOf(style);

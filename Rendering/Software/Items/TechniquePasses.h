@@ -41,6 +41,9 @@ struct PassConditions
   int heightPx = 1; ///< of the viewport
 };
 
+/// Edge of a square of a point, in whole pixels: every point has as many.
+int squareSizeOf(double pixels);
+
 /// Constants  as measured against ground truth: docs/adr/0016.
 TechniquePasses passesOf(const ResolvedStyle& style, const PassConditions& demand);
 /// Solid: of the walls below the points.

@@ -270,7 +270,14 @@ float WinnerResolve::planeDepth(const RasterItem& item, int j, const Winner& win
       batch_.normalX[j] * (dx / item.camera.scaleX) + batch_.normalY[j] * (dy / item.camera.scaleY);
     const float further =
       item.camera.parallel ? -turned / facing : -batch_.depth[j] * turned / (facing + turned);
-    const bool met = item.passes.walls() || std::abs(further) <= batch_.radius[j];
+    // As SplatAt does: a pixel that only the filter covers has the depth of the centre.
+    const float along = perspective * (batch_.depth[j] + further) + 1.0f - perspective;
+    const float x = further * toX + along * dx / item.camera.scaleX;
+    const float y = further * toY + along * dy / item.camera.scaleY;
+    const float most = batch_.radius[j] * batch_.radius[j];
+    const bool onDisc =
+      x * x + y * y + further * further <= most && batch_.depth[j] + further > 0.0f;
+    const bool met = item.passes.walls() || onDisc;
     return met ? batch_.depth[j] + further : batch_.depth[j];
   }
   return batch_.depth[j]; // a disc that faces the eye

@@ -53,4 +53,20 @@ std::vector<PlanPart> partsOf(const FramePlan& plan)
   return parts;
 }
 
+std::vector<CompositionStep> compositionOf(const FrameShading& shading)
+{
+  using Kind = CompositionStep::Kind;
+  std::vector<CompositionStep> steps{ { Kind::BlendGroups } };
+  for (std::size_t lens = 0; lens < shading.lenses.size(); ++lens)
+  {
+    if (!shading.lenses[lens].coversNothing())
+    {
+      steps.push_back({ Kind::BlendGroups, static_cast<std::int16_t>(lens) });
+      steps.push_back({ Kind::PutLens, static_cast<std::int16_t>(lens) });
+    }
+  }
+  steps.push_back({ Kind::Highlight });
+  return steps;
+}
+
 } // namespace pointfront

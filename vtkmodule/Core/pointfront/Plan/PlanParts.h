@@ -34,4 +34,21 @@ bool isComposed(const FramePlan& plan);
 /// translucent groups, and its mask.
 std::vector<PlanPart> partsOf(const FramePlan& plan);
 
+/// One step from the pictures of the parts to the picture of the whole.
+struct CompositionStep
+{
+  enum class Kind
+  {
+    BlendGroups, ///< translucent groups over the opaque picture of the same place, far to near
+    PutLens, ///< what lies inside of a lens in place of what it covers
+    Highlight ///< tints, then rims
+  };
+  Kind kind;
+  std::int16_t lens = -1; ///< where: inside of that lens; -1: outside all
+};
+
+/// The steps in order: what every back end does, and all that it does, with pictures of parts. Each
+/// part was lit, its holes filled and its depths shaded before (docs/adr/0029).
+std::vector<CompositionStep> compositionOf(const FrameShading& shading);
+
 } // namespace pointfront

@@ -82,14 +82,15 @@ public:
 private:
   void orient()
   {
-    resolved_.orientation = style_.orientation->mode;
+    // An orientation is of discs: all else has the points' normals for its light.
+    const bool disc = traitsOf(resolved_.technique).facing;
+    resolved_.orientation = disc ? style_.orientation->mode : SplatOrientation::Normal;
     const bool fixed = resolved_.orientation == SplatOrientation::Fixed;
     resolved_.fixedNormal =
       fixed ? glm::vec3(glm::normalize(style_.orientation->direction)) : glm::vec3(0, 0, 1);
-    const bool turns =
-      traitsOf(resolved_.technique).facing && resolved_.orientation == SplatOrientation::Normal;
+    // Light falls on the disc that is drawn: one with an orientation of its own needs no normal.
     const bool lit = sheet_.shading.lit && resolved_.technique != Technique::Spheres;
-    if (turns || lit)
+    if (resolved_.orientation == SplatOrientation::Normal && (disc || lit))
     {
       resolved_.normalColumn = normalColumn(store_);
     }

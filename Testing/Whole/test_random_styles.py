@@ -1,0 +1,96 @@
+"""Random scenes by both back ends: the same pictures but for rounding.
+
+Environment: POINTFRONT_RANDOM_FIRST the first seed (1), POINTFRONT_RANDOM_COUNT how many (40). A
+scene that differs is shrunk to the smallest style that still differs, which is printed with its
+seed; docs/developer/random-styles.md says what was found.
+"""
+
+import json
+import os
+import unittest
+
+from pictures import read_png, share_alike
+from random_scenes import random_scene, shrunk
+from scenes import SceneTest
+from tool import DATA, pointfront
+
+TOLERANCE = 2  # of 255
+# Eye-dome lighting stronger than usual makes much of a thousandth of a pixel on discs seen edge-on.
+STRONG_TOLERANCE = 8
+USUAL_STRENGTH = 0.4
+LEAST_ALIKE = 0.995  # of the pixels
+SIZE = (320, 240)
+# OpenGL draws no point whose centre lies outside the view; the software back end draws its part
+# inside. Half of the largest fixed size of a random style.
+EDGE = 6
+CLOUD = DATA / "classified/lidarprod_rgb_buildings_71k.laz"
+FIRST, COUNT = (int(os.environ.get(f"POINTFRONT_RANDOM_{name}", usual))
+                for name, usual in (("FIRST", "1"), ("COUNT", "40")))
+
+ACROSS = {"position": [870230.0, 6617060.0, 290.0], "focal_point": [870245.0, 6617110.0, 185.0],
+          "view_up": [0, 0, 1], "view_angle": 45}
+CIRCLE = {"shape": "circle", "center_px": [130, 120], "radius_px": 90}
+# The smallest styles of scenes that once differed.
+FOUND = (
+    {"classes": {"6": {"opacity": 0.5}},
+     "lenses": [{**CIRCLE, "inside": {"default": {"color": "intensity"}}}]},
+    {"default": {"opacity": 0.4}, "lenses": [{**CIRCLE, "inside": {}}]},
+    {"lenses": [{**CIRCLE, "inside": {"default": {"opacity": 0.8}}}], "highlight": [{"class": 2}]},
+    {"default": {"technique": "splats", "orientation": [0.2, 0.3, 0.9]},
+     "shading": {"mode": ["lit", "edl"]}},
+    {"default": {"size": {"mode": "fixed", "px": 3.5}}},
+)
+# Seeds whose smallest style differs from their own view alone.
+FOUND_SEEDS = (1366, 1680)
+
+
+class RandomStyles(SceneTest):
+    def setUp(self):
+        super().setUp()
+        self.store = self.folder / "store.pfront"
+        self.succeed("build", CLOUD, "-o", self.store, "--normals", "pca")
+        self.bounds = self.succeed("info", self.store, "--json").json["bounds"]
+
+    def drawn(self, backend, style, camera):
+        """None where the style is refused."""
+        files = {name: self.folder / f"{name}.json" for name in ("style", "camera")}
+        files["style"].write_text(json.dumps(style))
+        files["camera"].write_text(json.dumps(camera))
+        path = self.folder / f"{backend}.png"
+        outcome = pointfront("render", self.store, "-o", path, "--size", f"{SIZE[0]}x{SIZE[1]}",
+                             "--backend", backend, "--style", files["style"],
+                             "--camera", files["camera"], "--background", "0.2,0.1,0.3")
+        if outcome.status == 2:
+            return None
+        self.assertEqual(outcome.status, 0, f"{backend}: {json.dumps(style)}: {outcome}")
+        return read_png(path)[EDGE:-EDGE, EDGE:-EDGE]
+
+    def alike(self, style, camera):
+        """Share of the pixels; 1 where the style is refused."""
+        mine = self.drawn("software", style, camera)
+        other = None if mine is None else self.drawn("opengl", style, camera)
+        strong = style.get("shading", {}).get("strength", USUAL_STRENGTH) > USUAL_STRENGTH
+        tolerance = STRONG_TOLERANCE if strong else TOLERANCE
+        return 1.0 if other is None else share_alike(mine, other, tolerance)
+
+    def test_styles_that_once_differed(self):
+        for style in FOUND:
+            with self.subTest(style=json.dumps(style)):
+                self.assertGreaterEqual(self.alike(style, ACROSS), LEAST_ALIKE)
+
+    def test_both_back_ends_draw_random_styles_alike(self):
+        for seed in (*FOUND_SEEDS, *range(FIRST, FIRST + COUNT)):
+            style, view, camera = random_scene(seed, self.bounds, SIZE)
+            with self.subTest(seed=seed, view=view):
+                alike = self.alike(style, camera)
+                if alike >= LEAST_ALIKE:
+                    continue
+                smallest = shrunk(style, lambda one: self.alike(one, camera) < LEAST_ALIKE)
+                found = (f"seed {seed}, {view}: {alike:.4f} of the pixels are alike; smallest: "
+                         f"{json.dumps(smallest)} {json.dumps(camera)}")
+                print(found, flush=True)  # a night is long
+                self.fail(found)
+
+
+if __name__ == "__main__":
+    unittest.main()

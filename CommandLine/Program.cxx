@@ -17,8 +17,11 @@
 #include "LeftOut.h"
 #include "Suggestion.h"
 
+#include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <exception>
+#include <new>
 
 namespace pointfront
 {
@@ -32,6 +35,36 @@ std::string versionText()
     text += "\nbuilt without " + family.name + " (" + family.option + ")";
   }
   return text;
+}
+
+/// What the command has printed has arrived: a full disk behind stdout is known here at the latest.
+Result<void> flushedOutput()
+{
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+  {
+    return makeError(Error::Kind::Unwritable,
+      std::string("cannot write to the standard output: ") + std::strerror(errno));
+  }
+  return {};
+}
+
+/// The last resort: memory runs out, or a library throws, where nothing more can be said.
+Result<void> runGuarded(Command& command)
+{
+  try
+  {
+    Result<void> outcome = command.run();
+    return outcome ? flushedOutput() : outcome;
+  }
+  catch (const std::bad_alloc&)
+  {
+    return makeError(Error::Kind::NoMemory,
+      "out of memory; close other programs, raise the limit, or ask for less (--memory, --size)");
+  }
+  catch (const std::exception& problem)
+  {
+    return makeError(Error::Kind::Unreadable, std::string("unexpected: ") + problem.what());
+  }
 }
 } // namespace
 
@@ -149,7 +182,7 @@ int Program::run(int argc, char** argv)
     {
       continue;
     }
-    const Result<void> outcome = command->run();
+    const Result<void> outcome = runGuarded(*command);
     if (outcome)
     {
       return ExitStatus::Done;

@@ -3,6 +3,8 @@
 #include "GeoTiffTags.h"
 #include "WorldFile.h"
 
+#include "pointfront/Disk/SmallFile.h"
+
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
@@ -118,13 +120,12 @@ void readSystemBeside(RasterFile& file, const CoordinateSystems& systems)
 {
   std::filesystem::path beside(file.path);
   beside.replace_extension(".prj");
-  std::ifstream stream(beside, std::ios::binary);
-  if (!stream)
+  const Result<std::string> text = readSmallText(beside.string(), mostDefinitionBytes);
+  if (!text)
   {
     return;
   }
-  const std::string text{ std::istreambuf_iterator<char>(stream), {} };
-  if (Result<CoordinateSystem> system = systems.parse(text))
+  if (Result<CoordinateSystem> system = systems.parse(*text))
   {
     file.system = *system;
   }

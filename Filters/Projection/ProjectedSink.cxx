@@ -3,12 +3,12 @@
 #include "ProjCoordinateSystems.h"
 #include "TransformedExtent.h"
 
+#include "pointfront/Disk/SmallFile.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <utility>
 
 namespace pointfront
@@ -22,8 +22,8 @@ std::string definitionOf(const std::string& target)
   {
     return target;
   }
-  std::ifstream file(target);
-  return { std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>() };
+  const Result<std::string> text = readSmallText(target, mostDefinitionBytes);
+  return text ? *text : target; // which is then refused as a definition
 }
 } // namespace
 

@@ -3,11 +3,11 @@
 #include "ReferencedSource.h"
 #include "TransformedExtent.h"
 
+#include "pointfront/Disk/SmallFile.h"
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <utility>
 
@@ -79,9 +79,12 @@ Result<CoordinateSystem> ProjectionPass::defined(const std::string& definition) 
   {
     return known_.parse(definition);
   }
-  std::ifstream file(definition, std::ios::binary);
-  const std::string text{ std::istreambuf_iterator<char>(file), {} };
-  Result<CoordinateSystem> system = known_.parse(text);
+  const Result<std::string> text = readSmallText(definition, mostDefinitionBytes);
+  if (!text)
+  {
+    return text.error();
+  }
+  Result<CoordinateSystem> system = known_.parse(*text);
   if (!system)
   {
     return makeError(system.error().kind, definition + ": " + system.error().what);

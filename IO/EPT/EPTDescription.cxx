@@ -1,13 +1,12 @@
 #include "EPTDescription.h"
 
+#include "pointfront/Disk/SmallFile.h"
 #include "pointfront/Points/QuantisationGrid.h"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <set>
 
 namespace pointfront
@@ -136,14 +135,13 @@ bool isKey(const std::string& key)
   return numbers == 4;
 }
 
+/// A page of a hierarchy of ten million nodes.
+constexpr std::uint64_t mostPageBytes = std::uint64_t(256) << 20;
+
 Result<std::string> contentOf(const std::string& path)
 {
-  std::ifstream file(path, std::ios::binary);
-  if (!file)
-  {
-    return makeError(Error::Kind::NotFound, path + ": cannot be read, but the tree refers to it");
-  }
-  return std::string(std::istreambuf_iterator<char>(file), {});
+  Result<std::string> text = readSmallText(path, mostPageBytes);
+  return text ? text : makeError(text.error().kind, text.error().what + "; the tree refers to it");
 }
 } // namespace
 

@@ -1,23 +1,27 @@
 #include "EPTFolder.h"
 
-#include "pointfront/Base/MemoryMap.h"
+#include "pointfront/Disk/SmallFile.h"
 
 #include <filesystem>
-#include <string_view>
 #include <utility>
 
 namespace pointfront
 {
+namespace
+{
+constexpr std::uint64_t mostDescriptionBytes = std::uint64_t(16) << 20;
+/// Of a node's file beside its points: header, coordinate system, chunk table.
+constexpr std::uint64_t mostBesidePoints = std::uint64_t(16) << 20;
+} // namespace
 
 Result<std::shared_ptr<const EPTFolder>> EPTFolder::open(const std::string& path)
 {
-  const Result<MemoryMap> map = MemoryMap::open(path);
-  if (!map)
+  const Result<std::string> text = readSmallText(path, mostDescriptionBytes);
+  if (!text)
   {
-    return map.error();
+    return text.error();
   }
-  const std::string_view text(reinterpret_cast<const char*>(map->data()), map->size());
-  Result<EPTDescription> description = EPTDescription::parse(text, path);
+  Result<EPTDescription> description = EPTDescription::parse(*text, path);
   if (!description)
   {
     return description.error();
@@ -25,7 +29,7 @@ Result<std::shared_ptr<const EPTFolder>> EPTFolder::open(const std::string& path
   auto tree = std::make_shared<EPTFolder>();
   tree->path = path;
   tree->folder = std::filesystem::absolute(path).parent_path().string();
-  tree->descriptionBytes = map->size();
+  tree->descriptionBytes = text->size();
   tree->description = std::move(*description);
   Result<std::vector<EPTNode>> nodes = readEPTHierarchy(tree->folder);
   if (!nodes)
@@ -42,6 +46,12 @@ std::string EPTFolder::fileOf(std::uint64_t node) const
     : description.encoding == EPTEncoding::Binary                        ? ".bin"
                                                                          : ".zst";
   return folder + "/ept-data/" + nodes[static_cast<std::size_t>(node)].key + ending;
+}
+
+Result<RawBytes> EPTFolder::readNode(std::uint64_t node) const
+{
+  const std::uint64_t points = nodes[static_cast<std::size_t>(node)].points;
+  return readSmallFile(fileOf(node), mostBesidePoints + 2 * points * description.recordBytes());
 }
 
 } // namespace pointfront

@@ -2,6 +2,8 @@
 
 #include "EPTDescription.h"
 
+#include "pointfront/Base/RawBytes.h"
+
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -25,6 +27,8 @@ struct EPTFolder
 
   /// The file of a node, by its place in the list.
   std::string fileOf(std::uint64_t node) const;
+  /// Errors  those of readSmallFile(): a node has no more bytes than its points may take.
+  Result<RawBytes> readNode(std::uint64_t node) const;
 };
 
 } // namespace pointfront

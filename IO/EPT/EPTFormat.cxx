@@ -2,22 +2,24 @@
 
 #include "EPTFolder.h"
 #include "EPTLasNodes.h"
-#include "EPTRecords.h"
-
-#include "pointfront/Points/DescribedSource.h"
-#include "pointfront/Table/TableSource.h"
+#include "EPTRecordNodes.h"
+#include "EPTSource.h"
 
 #include <filesystem>
 #include <utility>
 
 namespace pointfront
 {
-namespace
+
+bool EPTFormat::accepts(const std::string& path) const
 {
-/// Of a source, with what the tree says of it.
-SourceDescription described(const PointSource& source, const EPTDescription& tree)
+  return std::filesystem::path(path).filename() == "ept.json";
+}
+
+SourceDescription EPTFormat::describe(const EPTNodeDecoder& nodes, const EPTFolder& folder)
 {
-  SourceDescription description = source.description();
+  const EPTDescription& tree = folder.description;
+  SourceDescription description = nodes.description();
   description.declaredBounds = tree.bounds;
   description.boundsLookedUp = false;
   description.headerPointCount = tree.points;
@@ -30,40 +32,36 @@ SourceDescription described(const PointSource& source, const EPTDescription& tre
   }
   return description;
 }
-} // namespace
 
-bool EPTFormat::accepts(const std::string& path) const
-{
-  return std::filesystem::path(path).filename() == "ept.json";
-}
-
-Result<std::unique_ptr<PointSource>> EPTFormat::open(const std::string& path) const
-{
-  Result<std::shared_ptr<const EPTFolder>> tree = EPTFolder::open(path);
-  return tree ? openTree(std::move(*tree)) : tree.error();
-}
-
-Result<std::unique_ptr<PointSource>> EPTFormat::openTree(
+Result<std::shared_ptr<const EPTNodeDecoder>> EPTFormat::decoderOf(
   std::shared_ptr<const EPTFolder> tree) const
 {
   if (tree->nodes.empty())
   {
     return makeError(Error::Kind::BadFormat, tree->path + ": no node of its hierarchy has a point");
   }
-  Result<std::unique_ptr<PointSource>> source = tree->description.encoding == EPTEncoding::Laszip
-    ? EPTLasNodes::open(tree, openNode_)
-    : [&]() -> Result<std::unique_ptr<PointSource>>
+  const bool laszip = tree->description.encoding == EPTEncoding::Laszip;
+  Result<std::unique_ptr<EPTNodeDecoder>> nodes = laszip
+    ? EPTLasNodes::open(std::move(tree), openNode_)
+    : EPTRecordNodes::open(std::move(tree), survey_);
+  return nodes ? Result<std::shared_ptr<const EPTNodeDecoder>>(std::move(*nodes)) : nodes.error();
+}
+
+Result<std::unique_ptr<PointSource>> EPTFormat::open(const std::string& path) const
+{
+  Result<std::shared_ptr<const EPTFolder>> tree = EPTFolder::open(path);
+  if (!tree)
   {
-    Result<std::unique_ptr<PointTable>> table = EPTRecords::open(tree);
-    return table ? TableSource::open(std::move(*table), survey_) : table.error();
-  }();
-  if (!source)
-  {
-    return source;
+    return tree.error();
   }
-  SourceDescription description = described(**source, tree->description);
+  Result<std::shared_ptr<const EPTNodeDecoder>> nodes = decoderOf(*tree);
+  if (!nodes)
+  {
+    return nodes.error();
+  }
+  SourceDescription description = describe(**nodes, **tree);
   return std::unique_ptr<PointSource>(
-    std::make_unique<DescribedSource>(std::move(*source), std::move(description)));
+    std::make_unique<EPTSource>(std::move(*tree), std::move(*nodes), std::move(description)));
 }
 
 } // namespace pointfront

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "pointfront/Base/RawBytes.h"
 #include "pointfront/Points/PointSource.h"
 #include "pointfront/Table/ParallelChunks.h"
 
@@ -12,14 +13,17 @@ namespace pointfront
 {
 
 struct EPTFolder;
+class EPTNodeDecoder;
 
 /// Entwine trees, by their ept.json: nodes of laszip, binary or zstandard. Every point of every
 /// node is read; the tree's own hierarchy counts for nothing else.
 class EPTFormat final : public PointSourceFormat
 {
 public:
-  using Opener = std::function<Result<std::unique_ptr<PointSource>>(const std::string&)>;
-  /// `openNode` opens LAZ files: readers do not know each other.
+  /// Opens a LAZ file by its path, for messages, and its bytes, which outlive what is opened.
+  using Opener =
+    std::function<Result<std::unique_ptr<PointSource>>(const std::string&, const RawBytes&)>;
+  /// `openNode`: readers do not know each other.
   explicit EPTFormat(Opener openNode, SurveyOptions survey = {})
     : openNode_(std::move(openNode))
     , survey_(std::move(survey))
@@ -30,7 +34,11 @@ public:
   /// By the name "ept.json".
   bool accepts(const std::string& path) const override;
   Result<std::unique_ptr<PointSource>> open(const std::string& path) const override;
-  Result<std::unique_ptr<PointSource>> openTree(std::shared_ptr<const EPTFolder> tree) const;
+  /// Of the nodes of a tree that has some.
+  Result<std::shared_ptr<const EPTNodeDecoder>> decoderOf(
+    std::shared_ptr<const EPTFolder> tree) const;
+  /// What the nodes say, and what the tree says of them.
+  static SourceDescription describe(const EPTNodeDecoder& nodes, const EPTFolder& tree);
 
 private:
   Opener openNode_;

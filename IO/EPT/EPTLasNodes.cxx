@@ -5,13 +5,19 @@
 namespace pointfront
 {
 
-Result<std::unique_ptr<PointSource>> EPTLasNodes::open(
+Result<std::unique_ptr<EPTNodeDecoder>> EPTLasNodes::open(
   std::shared_ptr<const EPTFolder> tree, EPTFormat::Opener openNode)
 {
   std::unique_ptr<EPTLasNodes> source(new EPTLasNodes);
   source->tree_ = std::move(tree);
   source->openNode_ = std::move(openNode);
-  const Result<std::unique_ptr<PointSource>> first = source->openNode_(source->tree_->fileOf(0));
+  const Result<RawBytes> bytes = source->tree_->readNode(0);
+  if (!bytes)
+  {
+    return bytes.error();
+  }
+  const Result<std::unique_ptr<PointSource>> first =
+    source->openNode_(source->tree_->fileOf(0), *bytes);
   if (!first)
   {
     return first.error();
@@ -27,14 +33,15 @@ Result<std::unique_ptr<PointSource>> EPTLasNodes::open(
   {
     description.pointCount += node.points;
   }
-  return std::unique_ptr<PointSource>(std::move(source));
+  return std::unique_ptr<EPTNodeDecoder>(std::move(source));
 }
 
-Result<void> EPTLasNodes::read(std::uint64_t chunk, PointBatch& batch) const
+Result<void> EPTLasNodes::decode(
+  std::uint64_t number, const RawBytes& bytes, PointBatch& batch) const
 {
-  const EPTNode& node = tree_->nodes[static_cast<std::size_t>(chunk)];
-  const std::string path = tree_->fileOf(chunk);
-  const Result<std::unique_ptr<PointSource>> file = openNode_(path);
+  const EPTNode& node = tree_->nodes[static_cast<std::size_t>(number)];
+  const std::string path = tree_->fileOf(number);
+  const Result<std::unique_ptr<PointSource>> file = openNode_(path, bytes);
   if (!file)
   {
     return file.error();

@@ -1,6 +1,5 @@
 #include "EPTRecords.h"
 
-#include "pointfront/Base/MemoryMap.h"
 #include "pointfront/Table/RecordNumbers.h"
 
 #include <cstring>
@@ -67,7 +66,7 @@ Result<void> EPTRecords::checkFiles() const
   return {};
 }
 
-Result<std::unique_ptr<PointTable>> EPTRecords::open(std::shared_ptr<const EPTFolder> tree)
+Result<std::unique_ptr<EPTRecords>> EPTRecords::open(std::shared_ptr<const EPTFolder> tree)
 {
   const EPTDescription& description = tree->description;
   std::unique_ptr<EPTRecords> table(new EPTRecords);
@@ -82,21 +81,23 @@ Result<std::unique_ptr<PointTable>> EPTRecords::open(std::shared_ptr<const EPTFo
   {
     return there.error();
   }
-  return std::unique_ptr<PointTable>(std::move(table));
+  return table;
 }
 
 Result<void> EPTRecords::read(
   std::uint64_t chunk, const std::vector<bool>& wanted, TableBlock& block) const
 {
+  const Result<RawBytes> file = tree_->readNode(chunk);
+  return file ? decode(chunk, *file, wanted, block) : Result<void>(file.error());
+}
+
+Result<void> EPTRecords::decode(std::uint64_t chunk, const RawBytes& file,
+  const std::vector<bool>& wanted, TableBlock& block) const
+{
   const std::size_t points = chunkRows(chunk);
   const EPTDescription& description = tree_->description;
   const std::string path = tree_->fileOf(chunk);
-  const Result<MemoryMap> map = MemoryMap::open(path);
-  if (!map)
-  {
-    return map.error();
-  }
-  const std::string_view bytes(reinterpret_cast<const char*>(map->data()), map->size());
+  const std::string_view bytes(reinterpret_cast<const char*>(file.data.get()), file.size);
   const std::size_t stride = description.recordBytes();
   const Result<std::vector<std::byte>> records =
     eptRecords(bytes, description.encoding, points * stride, path);

@@ -22,7 +22,7 @@ class EPTRecords final : public PointTable
 public:
   /// Errors  NotFound: the file of a node; Truncated: a binary one of another size than its points
   ///         have.
-  static Result<std::unique_ptr<PointTable>> open(std::shared_ptr<const EPTFolder> tree);
+  static Result<std::unique_ptr<EPTRecords>> open(std::shared_ptr<const EPTFolder> tree);
 
   const std::string& path() const override { return tree_->path; }
   const std::string& format() const override { return format_; }
@@ -35,6 +35,9 @@ public:
   }
   Result<void> read(
     std::uint64_t chunk, const std::vector<bool>& wanted, TableBlock& block) const override;
+  /// The same, of the bytes of the node's file.
+  Result<void> decode(std::uint64_t chunk, const RawBytes& file, const std::vector<bool>& wanted,
+    TableBlock& block) const;
   std::optional<QuantisationGrid> grid() const override { return tree_->description.grid(); }
 
 private:

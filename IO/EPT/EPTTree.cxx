@@ -1,8 +1,8 @@
 #include "EPTTree.h"
 
 #include "EPTFolder.h"
+#include "EPTSource.h"
 
-#include "pointfront/Disk/InputFile.h"
 #include "pointfront/Ingest/GridChoice.h"
 #include "pointfront/InPlace/ForeignTree.h"
 #include "pointfront/Points/DescribedSource.h"
@@ -23,29 +23,24 @@ std::string descriptionOf(const std::string& path)
   return fs::is_directory(path, failure) ? (fs::path(path) / "ept.json").string() : path;
 }
 
-/// The nodes of a source whose chunks they are.
 class EPTNodes final : public ForeignNodes
 {
 public:
-  EPTNodes(std::shared_ptr<const PointSource> source, std::shared_ptr<const EPTFolder> tree)
-    : source_(std::move(source))
+  EPTNodes(std::shared_ptr<const EPTNodeDecoder> decoder, std::shared_ptr<const EPTFolder> tree)
+    : decoder_(std::move(decoder))
     , tree_(std::move(tree))
   {
   }
-  Result<RawBytes> fetch(std::uint64_t chunk) const override
-  {
-    const Result<std::unique_ptr<const InputFile>> file = InputFile::open(tree_->fileOf(chunk));
-    return file ? (*file)->readAt(0, static_cast<std::size_t>((*file)->bytes())) : file.error();
-  }
+  Result<RawBytes> fetch(std::uint64_t chunk) const override { return tree_->readNode(chunk); }
   std::size_t storedBytes(std::uint64_t chunk) const override
   {
     std::error_code failure;
     const std::uintmax_t bytes = fs::file_size(tree_->fileOf(chunk), failure);
     return failure ? 0 : static_cast<std::size_t>(bytes);
   }
-  Result<void> decode(const Part& part, const RawBytes&, PointBatch& batch) const override
+  Result<void> decode(const Part& part, const RawBytes& bytes, PointBatch& batch) const override
   {
-    return source_->read(part.chunk, batch);
+    return decoder_->decode(part.chunk, bytes, batch);
   }
   std::vector<std::string> files() const override
   {
@@ -58,7 +53,7 @@ public:
   }
 
 private:
-  std::shared_ptr<const PointSource> source_;
+  std::shared_ptr<const EPTNodeDecoder> decoder_;
   std::shared_ptr<const EPTFolder> tree_;
 };
 
@@ -117,22 +112,22 @@ Result<std::shared_ptr<const StoredCloud>> EPTTreeFormat::open(const std::string
     return opened.error();
   }
   const std::shared_ptr<const EPTFolder>& tree = *opened;
-  Result<std::unique_ptr<PointSource>> source = EPTFormat(openNode_).openTree(tree);
-  if (!source)
+  const Result<std::shared_ptr<const EPTNodeDecoder>> nodes = EPTFormat(openNode_).decoderOf(tree);
+  if (!nodes)
   {
-    return source.error();
+    return nodes.error();
   }
-  const std::shared_ptr<const PointSource> points = std::move(*source);
   const EPTDescription& description = tree->description;
   ForeignTreeContent content;
   content.setCube(description.cube);
   content.spacing = description.ticks > 0.0 ? content.side / description.ticks : 0.0;
-  content.source = points->description();
+  content.source = EPTFormat::describe(**nodes, *tree);
+  const auto points = std::make_shared<const EPTSource>(tree, *nodes, content.source);
   if (Result<void> ready = giveGrid(points, content.source); !ready)
   {
     return ready.error();
   }
-  const auto reader = std::make_shared<const EPTNodes>(points, tree);
+  const auto reader = std::make_shared<const EPTNodes>(*nodes, tree);
   content.fileBytes = tree->descriptionBytes;
   for (std::uint64_t chunk = 0; chunk < tree->nodes.size(); ++chunk)
   {

@@ -19,8 +19,7 @@ void addCloudFormats()
   StoredCloudFormats& formats = StoredCloudFormats::ofProcess();
   formats.add(std::make_shared<LASIndexFormat>());
   formats.add(std::make_shared<COPCFormat>());
-  formats.add(std::make_shared<EPTTreeFormat>(
-    [](const std::string& path) { return LASFormat().open(path); }));
+  formats.add(std::make_shared<EPTTreeFormat>(&LASFormat::openBytes));
   formats.add(std::make_shared<LAZGlanceFormat>()); // last: a folder with nothing better in it
 }
 

@@ -1,7 +1,8 @@
 #include "RefusedFormat.h"
 
+#include "pointfront/Disk/SmallFile.h"
+
 #include <filesystem>
-#include <fstream>
 
 namespace pointfront
 {
@@ -12,10 +13,7 @@ bool RefusedFormat::accepts(const std::string& path) const
   {
     return std::filesystem::path(path).filename() == mark_.fileName;
   }
-  std::string start(mark_.signature.size(), '\0');
-  std::ifstream file(path, std::ios::binary);
-  return file.read(start.data(), static_cast<std::streamsize>(start.size())) &&
-    start == mark_.signature;
+  return beginningOf(path, mark_.signature.size()) == mark_.signature;
 }
 
 Result<std::unique_ptr<PointSource>> RefusedFormat::open(const std::string& path) const

@@ -27,8 +27,7 @@ SourceFormats::SourceFormats(const SourceOptions& options)
     std::vector<std::string>{ "e57" }, RefusedFormat::Mark{ "ASTM-E57", "" },
     "E57 files are not read: no E57 library comes with the system; convert it to LAS, LAZ or PLY "
     "(with CloudCompare, or PDAL's readers.e57)"));
-  formats_.push_back(std::make_unique<EPTFormat>(
-    [](const std::string& path) { return LASFormat().open(path); }, options.survey));
+  formats_.push_back(std::make_unique<EPTFormat>(&LASFormat::openBytes, options.survey));
   // Last: any text with numbers in it is accepted.
   formats_.push_back(std::make_unique<TextFormat>(
     options.columns, options.survey, options.text, options.temporaryFolder));

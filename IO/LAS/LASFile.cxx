@@ -101,12 +101,13 @@ std::uint64_t endOfPoints(const LASFile& file)
 Result<LASFile> LASFile::open(const std::string& path, MemoryMap::Access access)
 {
   Result<MemoryMap> map = MemoryMap::open(path, access);
-  if (!map)
-  {
-    return map.error();
-  }
+  return map ? of(path, std::move(*map)) : map.error();
+}
+
+Result<LASFile> LASFile::of(const std::string& path, MemoryMap map)
+{
   std::vector<std::string> warnings;
-  const ByteSpan bytes{ map->data(), map->size() };
+  const ByteSpan bytes{ map.data(), map.size() };
   Result<LASHeader> parsed = parseLASHeader(bytes, path, warnings);
   if (!parsed)
   {
@@ -133,6 +134,10 @@ Result<LASFile> LASFile::open(const std::string& path, MemoryMap::Access access)
         std::to_string(extra) + " bytes) are more than the " + std::to_string(mostExtraAttributes) +
         " that are read");
   }
+  if (Result<void> whole = map.checkWhole(); !whole)
+  {
+    return whole.error();
+  }
   LASPointLayout layout = makeLASPointLayout(header.pointFormat, attributes);
 
   SourceDescription description;
@@ -147,7 +152,7 @@ Result<LASFile> LASFile::open(const std::string& path, MemoryMap::Access access)
   description.crsWkt = wktOf(records);
   description.metadata = metadataOf(header, records);
   description.warnings = std::move(warnings);
-  return LASFile{ std::move(*map), header, std::move(records), std::move(layout),
+  return LASFile{ std::move(map), header, std::move(records), std::move(layout),
     std::move(description) };
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "pointfront/Base/RawBytes.h"
 #include "pointfront/Points/PointSource.h"
 
 namespace pointfront
@@ -13,6 +14,9 @@ public:
   std::vector<std::string> extensions() const override { return { "las", "laz" }; }
   bool accepts(const std::string& path) const override;
   Result<std::unique_ptr<PointSource>> open(const std::string& path) const override;
+  /// The same, of the bytes of a file that was read already. They outlive the points.
+  static Result<std::unique_ptr<PointSource>> openBytes(
+    const std::string& path, const RawBytes& bytes);
 };
 
 } // namespace pointfront

@@ -37,14 +37,14 @@ Result<void> LASSource::read(std::uint64_t chunk, PointBatch& batch) const
 {
   batch.resize(static_cast<std::size_t>(chunkPoints(chunk)), file_.layout.schema);
   decode(chunk, batch);
-  return {};
+  return file_.map.checkWhole();
 }
 
 Result<void> LASSource::readSteps(std::uint64_t chunk, PointBatch& batch) const
 {
   batch.resizeSteps(static_cast<std::size_t>(chunkPoints(chunk)), file_.layout.schema);
   decode(chunk, batch);
-  return {};
+  return file_.map.checkWhole();
 }
 
 void LASSource::decode(std::uint64_t chunk, PointBatch& batch) const

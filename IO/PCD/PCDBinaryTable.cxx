@@ -118,7 +118,7 @@ Result<void> PCDBinaryTable::unpack(const std::string& temporaryFolder)
   const std::byte* block = file_.map.data() + begin + sizesBytes;
   Result<void> done = decode(block, static_cast<std::size_t>(packed), unpacked, spilled);
   file_.map.release(begin, static_cast<std::size_t>(packed));
-  return done;
+  return file_.map.checkWhole(done);
 }
 
 /// Where the fields of all points begin in a block that unpacks to so many bytes.
@@ -233,7 +233,7 @@ Result<void> PCDBinaryTable::read(
     return readColumns(chunk, wanted, block);
   }
   readRecords(chunk, wanted, block);
-  return {};
+  return file_.map.checkWhole();
 }
 
 } // namespace pointfront

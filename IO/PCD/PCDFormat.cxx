@@ -4,10 +4,10 @@
 #include "PCDFile.h"
 #include "PCDTextTable.h"
 
+#include "pointfront/Disk/SmallFile.h"
 #include "pointfront/Table/TableSource.h"
 
 #include <algorithm>
-#include <fstream>
 #include <utility>
 
 namespace pointfront
@@ -15,10 +15,7 @@ namespace pointfront
 
 bool PCDFormat::accepts(const std::string& path) const
 {
-  std::ifstream file(path, std::ios::binary);
-  std::string start(512, '\0');
-  file.read(start.data(), static_cast<std::streamsize>(start.size()));
-  start.resize(static_cast<std::size_t>(file.gcount()));
+  const std::string start = beginningOf(path, 512);
   if (start.rfind("# .PCD", 0) == 0)
   {
     return true;

@@ -106,7 +106,10 @@ Result<void> PCDTextTable::read(
     wantedNumbers[columns_[f]] = wantedNumbers[columns_[f]] || wanted[f];
   }
   TableBlock numbers;
-  rows().read(chunk, wantedNumbers, numbers);
+  if (Result<void> done = rows().read(chunk, wantedNumbers, numbers); !done)
+  {
+    return done;
+  }
   block.columns.resize(wanted.size());
   for (std::size_t f = 0; f < wanted.size(); ++f)
   {

@@ -154,7 +154,7 @@ Result<void> PLYBinaryTable::locate()
 Result<std::unique_ptr<PointTable>> PLYBinaryTable::open(PLYFile file)
 {
   auto table = std::unique_ptr<PLYBinaryTable>(new PLYBinaryTable(std::move(file)));
-  if (Result<void> found = table->locate(); !found)
+  if (Result<void> found = table->file_.map.checkWhole(table->locate()); !found)
   {
     return found.error();
   }
@@ -234,7 +234,7 @@ Result<void> PLYBinaryTable::read(
   block.resize(static_cast<std::size_t>(chunkRows(chunk)), wanted);
   file_.pointElement().hasList() ? readListed(chunk, wanted, block)
                                  : readFixed(chunk, wanted, block);
-  return {};
+  return file_.map.checkWhole();
 }
 
 } // namespace pointfront

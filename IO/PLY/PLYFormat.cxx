@@ -4,10 +4,9 @@
 #include "PLYFile.h"
 #include "PLYTextTable.h"
 
+#include "pointfront/Disk/SmallFile.h"
 #include "pointfront/Table/TableSource.h"
 
-#include <cstring>
-#include <fstream>
 #include <utility>
 
 namespace pointfront
@@ -15,9 +14,8 @@ namespace pointfront
 
 bool PLYFormat::accepts(const std::string& path) const
 {
-  char start[4] = {};
-  std::ifstream file(path, std::ios::binary);
-  return file.read(start, sizeof start) && std::memcmp(start, "ply", 3) == 0 &&
+  const std::string start = beginningOf(path, 4);
+  return start.size() == 4 && start.compare(0, 3, "ply") == 0 &&
     (start[3] == '\n' || start[3] == '\r' || start[3] == ' ');
 }
 

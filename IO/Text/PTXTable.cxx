@@ -187,7 +187,10 @@ Result<void> PTXTable::read(
   {
     own[f] = f < 3 || (f < wanted.size() && wanted[f]); // all three axes make each
   }
-  scan.rows.read(at.chunk, own, block);
+  if (Result<void> done = scan.rows.read(at.chunk, own, block); !done)
+  {
+    return done;
+  }
   std::vector<double>& x = block.columns[0];
   std::vector<double>& y = block.columns[1];
   std::vector<double>& z = block.columns[2];

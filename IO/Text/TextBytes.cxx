@@ -1,11 +1,12 @@
 #include "TextBytes.h"
 
+#include "pointfront/Disk/SmallFile.h"
+
 #include <cerrno>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <string_view>
 
@@ -124,9 +125,7 @@ private:
 
 bool isGzip(const std::string& path)
 {
-  std::ifstream file(path, std::ios::binary);
-  char start[2] = {};
-  return file.read(start, 2) && start[0] == '\x1f' && start[1] == '\x8b';
+  return beginningOf(path, 2) == "\x1f\x8b";
 }
 
 struct CloseGzip
@@ -279,6 +278,10 @@ Result<MemoryMap> mapText(const std::string& path, const std::string& temporaryF
 
 std::string beginningOfText(const std::string& path)
 {
+  if (beginningOf(path, 1).empty())
+  {
+    return {}; // zlib would wait for the other end of a pipe
+  }
   std::string text(beginningBytes, '\0');
   // Reads what is not packed as it is.
   const GzipFile file(::gzopen(path.c_str(), "rb"));

@@ -85,7 +85,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string_view description = cutOff(text);
   const std::string_view page = cutOff(text);
   folder.write(description, page, text);
-  const auto openNode = [](const std::string& path) { return LASFormat().open(path); };
+  const auto openNode = &LASFormat::openBytes;
   const auto cloud = EPTTreeFormat(openNode).open(folder.path());
   if (!cloud)
   {

@@ -211,6 +211,15 @@ class Failures(ToolTest):
         self.refuse(1, "export", store, "-o", "/proc/x.las")
         self.refuse(1, "export", store, "-o", self.folder / "none" / "x.xyz")
 
+    def test_a_full_disk_behind_stdout_is_an_error(self):
+        store = self.build(SMALL)
+        for arguments in (["info", store, "--json"], ["verify", store, "--json"]):
+            with open("/dev/full", "w") as full:
+                done = subprocess.run([TOOL, *map(str, arguments)], stdout=full,
+                                      stderr=subprocess.PIPE, text=True)
+            self.assertEqual(done.returncode, 1, arguments)
+            self.assertIn("standard output", done.stderr)
+
     def test_existing_output_is_kept_unless_forced(self):
         store = self.build(SMALL)
         before = store.read_bytes()

@@ -1,7 +1,9 @@
 """Every real file builds and verifies; every broken one is told from a sound one."""
 
+import os
 import pathlib
 import re
+import shutil
 import unittest
 
 from tool import DATA, SLOWNESS, ToolTest, pointfront
@@ -188,6 +190,46 @@ class BrokenFiles(ToolTest):
             if points > 0:
                 self.assertIn(pathlib.Path(name).name, warnings[0])
         self.succeed("verify", store)
+
+
+class HostileTrees(ToolTest):
+    """Files of an Entwine tree that are no files, or cannot be what they say."""
+
+    def setUp(self):
+        super().setUp()
+        self.tree = self.folder / "tree"
+        shutil.copytree(DATA / "ept/bcbf", self.tree)
+
+    def replaced(self, path):
+        """The name is a folder, a pipe that nobody writes, a device, a sparse file of 20 GB."""
+        kept = path.read_bytes()
+        makers = (path.mkdir, lambda: os.mkfifo(path), lambda: path.symlink_to("/dev/zero"),
+                  lambda: (path.touch(), os.truncate(path, 20 << 30)))
+        for make in makers:
+            path.unlink()
+            make()
+            yield
+            shutil.rmtree(path) if path.is_dir() else path.unlink()
+            path.write_bytes(kept)
+
+    def test_each_is_told_at_once(self):
+        node = next((self.tree / "ept-data").iterdir())
+        for path in (self.tree / "ept-hierarchy/0-0-0-0.json", node):
+            for _ in self.replaced(path):
+                for command in (["build", self.tree, "-o", self.folder / "x.pfront"],
+                                ["render", self.tree, "-o", self.folder / "x.png"],
+                                ["verify", self.tree]):
+                    outcome = pointfront(*command)
+                    self.assertEqual(outcome.status, 1, outcome)
+                    self.assertIn(path.name, outcome.err)
+                    self.assertLess(outcome.seconds, 10 * SLOWNESS)
+
+    def test_no_input_is_a_pipe(self):
+        pipe = self.folder / "pipe.las"
+        os.mkfifo(pipe)
+        for command in (["build", pipe, "-o", self.folder / "x.pfront"], ["info", pipe],
+                        ["index", pipe], ["verify", pipe]):
+            self.refuse(1, *command)
 
 
 if __name__ == "__main__":

@@ -1,6 +1,8 @@
 """Long runs that end early: by a signal, by a kill, by a disk that ends."""
 
+import os
 import resource
+import shutil
 import signal
 import subprocess
 import time
@@ -58,6 +60,34 @@ class Signals(ToolTest):
         self.succeed("generate", "--points", "4000000", "-o", las)
         self.stopped("index", las, "-o", self.folder / "out.pfindex")
         self.assertEqual(self.entries(), ["large.las"])
+
+    def test_an_input_that_shrinks_is_an_error(self):
+        """At any moment: the run ends with a whole store, or with an error and nothing."""
+        las = self.folder / "a.las"
+        self.succeed("generate", "--points", 1000000, "-o", las)
+        store = self.build(las)
+        for kind in ("las", "laz", "csv", "ply", "pcd"):
+            whole, input_, out = (self.folder / name for name in
+                                  (f"whole.{kind}", f"in.{kind}", "out.pfront"))
+            self.succeed("export", store, "-o", whole)
+            statuses = set()
+            for wait in (0.01, 0.03, 0.06, 0.1, 0.2, 0.4):
+                shutil.copyfile(whole, input_)
+                out.unlink(missing_ok=True)
+                process = start("build", input_, "-o", out)
+                time.sleep(wait)
+                os.truncate(input_, whole.stat().st_size // 3)
+                _, told = process.communicate(timeout=120)
+                statuses.add(process.returncode)
+                # Who opens the file after the cut reads a shorter one: a text says nothing then.
+                if process.returncode == 0 and kind != "csv" and b"missing" not in told:
+                    self.assertEqual(self.succeed("info", out, "--json").json["points"], 1000000)
+                elif process.returncode != 0:
+                    self.assertEqual(process.returncode, 1, (kind, wait, told))
+                    self.assertIn(b"in." + kind.encode(), told)
+                    self.assertFalse(out.exists())
+            self.assertIn(1, statuses, kind)
+        self.assertEqual([name for name in self.entries() if ".tmp" in name], [])
 
     def test_an_export_that_is_stopped_keeps_what_was_there(self):
         store = self.build(LARGE)

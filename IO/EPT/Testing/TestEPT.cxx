@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 EPTFormat format()
 {
-  return EPTFormat([](const std::string& path) { return LASFormat().open(path); });
+  return EPTFormat(&LASFormat::openBytes);
 }
 
 /// A tree of two nodes with three points, written here.

@@ -23,7 +23,7 @@ const std::string trees = std::string(POINTFRONT_SHARED_DATA) + "/ept/";
 
 EPTFormat::Opener lazOpener()
 {
-  return [](const std::string& path) { return LASFormat().open(path); };
+  return &LASFormat::openBytes;
 }
 
 std::shared_ptr<const StoredCloud> openTree(const std::string& name)

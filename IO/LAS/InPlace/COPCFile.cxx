@@ -5,10 +5,10 @@
 #include "LAZChunk.h"
 
 #include "pointfront/Disk/InputFile.h"
+#include "pointfront/Disk/SmallFile.h"
 
 #include <algorithm>
 #include <cstring>
-#include <fstream>
 #include <set>
 #include <utility>
 
@@ -204,15 +204,14 @@ Result<std::vector<COPCEntry>> readCOPCHierarchy(const LASFile& file, const COPC
 bool COPCFormat::accepts(const std::string& path) const
 {
   constexpr std::size_t ownerAt = lasHeaderBytes14 + 2; // in the first record behind the header
-  char beginning[ownerAt + 18] = {};
-  std::ifstream file(path, std::ios::binary);
+  const std::string beginning = beginningOf(path, ownerAt + 18);
   std::uint16_t id = 0;
-  if (!file.read(beginning, sizeof beginning) || std::memcmp(beginning, "LASF", 4) != 0 ||
-    std::memcmp(beginning + ownerAt, copcOwner, 5) != 0)
+  if (beginning.size() != ownerAt + 18 || beginning.compare(0, 4, "LASF") != 0 ||
+    beginning.compare(ownerAt, 5, copcOwner, 5) != 0)
   {
     return false;
   }
-  std::memcpy(&id, beginning + ownerAt + 16, sizeof id);
+  std::memcpy(&id, beginning.data() + ownerAt + 16, sizeof id);
   return id == copcInfoRecord;
 }
 

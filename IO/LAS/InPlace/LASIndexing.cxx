@@ -83,6 +83,10 @@ Result<Survey> surveyPoints(const LASFile& file, const GridRecords& records, Wor
         const std::uint64_t end = std::min(begin + blockPoints, records.count);
         surveyBlock(file, records, begin, end, values, own);
         released(begin, end);
+        if (Result<void> there = file.map.checkWhole(); !there)
+        {
+          return there;
+        }
         crew.advance(end - begin);
       }
       const std::lock_guard<std::mutex> lock(mutex);

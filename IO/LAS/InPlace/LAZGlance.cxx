@@ -108,6 +108,10 @@ Result<std::unique_ptr<PointSource>> glanceAt(const std::string& path, std::size
     decodeLASPoints(
       file->layout, file->header.grid, file->bytes().data + (*offsets)[i * step], 1, points, i);
   }
+  if (Result<void> whole = file->map.checkWhole(); !whole)
+  {
+    return whole.error();
+  }
   SourceDescription description = file->description;
   description.declaredBounds = Bounds();
   for (const glm::dvec3& p : points.positions)

@@ -73,11 +73,9 @@ Result<std::unique_ptr<PointSource>> LAZSource::open(LASFile file)
   }
   Result<std::vector<LAZChunk>> chunks =
     findLAZChunks(file, *compression, file.description.warnings);
-  if (!chunks)
-  {
-    return chunks.error();
-  }
-  if (auto done = checkSizes(file.description.path, *chunks); !done)
+  const Result<void> sound =
+    chunks ? checkSizes(file.description.path, *chunks) : Result<void>(chunks.error());
+  if (Result<void> done = file.map.checkWhole(sound); !done)
   {
     return done.error();
   }
@@ -111,7 +109,8 @@ Result<void> LAZSource::decompress(
   const Run& run = runs_[chunk];
   for (std::size_t i = run.first; i < run.end; ++i)
   {
-    if (auto done = decompress(chunks_[i], batch, positions); !done)
+    const Result<void> done = file_.map.checkWhole(decompress(chunks_[i], batch, positions));
+    if (!done)
     {
       return done;
     }

@@ -156,7 +156,8 @@ TEST(BrokenLAS, LyingHeaderFieldsAreRefused)
     { { las12, put<double>(139, nan) }, Error::Kind::BadFormat, "the y scale is nan" },
     { { las12, put<double>(147, -0.01) }, Error::Kind::BadFormat, "the z scale is -0.01" },
     { { las12, put<double>(155, infinity) }, Error::Kind::BadFormat, "the x offset is inf" },
-    { { las12, put<double>(131, 1e50) }, Error::Kind::BadFormat, "may reach beyond 1e+15" },
+    { { las12, put<double>(131, 1e50) }, Error::Kind::BadFormat,
+      "may reach beyond 1000000000000000" },
     { { las12, put<double>(163, 1e30) }, Error::Kind::BadFormat, "cannot hold in steps" },
   };
   for (const Case& c : cases)

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <csignal>
+#include <cstdio>
 #include <fstream>
 #include <numeric>
 #include <string>
@@ -86,6 +88,56 @@ TEST(MemoryMap, SaysWhatIsWrong)
 {
   EXPECT_EQ(MemoryMap::open("no/such/file").error().kind, Error::Kind::NotFound);
   EXPECT_EQ(MemoryMap::open(testing::TempDir()).error().kind, Error::Kind::Unreadable);
+}
+
+TEST(MemoryMap, AFileThatOthersShortenIsToldAndReadsAsZero)
+{
+  const std::string path = sampleFile();
+  const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+  for (const std::size_t left : { fileBytes / 2, page, std::size_t(0), fileBytes - 100 })
+  {
+    ASSERT_EQ(::truncate(path.c_str(), static_cast<off_t>(fileBytes)), 0);
+    const auto map = MemoryMap::open(path);
+    ASSERT_TRUE(map.ok());
+    EXPECT_TRUE(map->checkWhole());
+    ASSERT_EQ(::truncate(path.c_str(), static_cast<off_t>(left)), 0);
+    EXPECT_EQ(map->data()[fileBytes - 1], std::byte(0));
+    const Result<void> done = map->checkWhole();
+    ASSERT_FALSE(done) << left;
+    EXPECT_EQ(done.error().kind, Error::Kind::Truncated);
+    EXPECT_NE(done.error().what.find(path), std::string::npos);
+    EXPECT_EQ(
+      map->checkWhole(makeError(Error::Kind::BadFormat, "x")).error().kind, Error::Kind::Truncated);
+  }
+  std::remove(path.c_str());
+}
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) // which report it themselves
+TEST(MemoryMap, OtherBusErrorsEndTheProcess)
+{
+  const std::string path = sampleFile();
+  const auto watched = MemoryMap::open(path);
+  ASSERT_TRUE(watched.ok());
+  EXPECT_EXIT(
+    {
+      std::signal(SIGABRT, SIG_DFL);
+      ::raise(SIGBUS);
+      ::raise(SIGBUS); // the first gives the signal back its usual meaning
+    },
+    testing::KilledBySignal(SIGBUS), "");
+  std::remove(path.c_str());
+}
+#endif
+
+TEST(MemoryMap, OfBytesIsThoseBytes)
+{
+  const std::byte bytes[3] = { std::byte(1), std::byte(2), std::byte(3) };
+  MemoryMap map = MemoryMap::ofBytes("x", bytes, 3);
+  MemoryMap moved = std::move(map);
+  EXPECT_EQ(moved.data(), bytes);
+  EXPECT_EQ(moved.size(), 3u);
+  moved.release(0, 3);
+  EXPECT_TRUE(moved.checkWhole());
 }
 
 } // namespace pointfront

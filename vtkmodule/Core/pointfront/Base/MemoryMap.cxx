@@ -57,6 +57,9 @@ Result<MemoryMap> MemoryMap::open(const std::string& path, Access access)
     return makeError(Error::Kind::Unreadable, path + ": not a regular file");
   }
   MemoryMap map;
+  map.path_ = path;
+  map.device_ = status.st_dev;
+  map.inode_ = status.st_ino;
   map.size_ = static_cast<std::size_t>(status.st_size);
   if (map.size_ == 0)
   {
@@ -69,14 +72,46 @@ Result<MemoryMap> MemoryMap::open(const std::string& path, Access access)
     return systemError(path, errno);
   }
   map.data_ = static_cast<const std::byte*>(address);
+  map.pages_ = std::make_unique<WatchedPages>(address, map.size_);
   // Advice only: a system that does not take it reads correctly all the same.
   ::madvise(address, map.size_, access == Access::Sequential ? MADV_SEQUENTIAL : MADV_RANDOM);
   return map;
 }
 
+MemoryMap MemoryMap::ofBytes(const std::string& path, const std::byte* bytes, std::size_t size)
+{
+  MemoryMap map;
+  map.path_ = path;
+  map.data_ = bytes;
+  map.size_ = size;
+  return map;
+}
+
+Result<void> MemoryMap::checkWhole() const
+{
+  struct stat now = {};
+  // The rest of a file's last page reads as 0 without a signal: its length tells.
+  const bool shorter = pages_ && ::stat(path_.c_str(), &now) == 0 && now.st_dev == device_ &&
+    now.st_ino == inode_ && static_cast<std::size_t>(now.st_size) < size_;
+  if (shorter || (pages_ && pages_->lost()))
+  {
+    return makeError(Error::Kind::Truncated,
+      path_ +
+        ": another program has shortened the file while it was read; wait until the file is "
+        "whole and start again");
+  }
+  return {};
+}
+
+Result<void> MemoryMap::checkWhole(Result<void> done) const
+{
+  Result<void> whole = checkWhole();
+  return whole ? done : whole;
+}
+
 void MemoryMap::release(std::size_t offset, std::size_t bytes) const
 {
-  if (bytes == 0)
+  if (bytes == 0 || !pages_ || pages_->lost())
   {
     return;
   }
@@ -88,22 +123,31 @@ void MemoryMap::release(std::size_t offset, std::size_t bytes) const
 }
 
 MemoryMap::MemoryMap(MemoryMap&& other) noexcept
-  : data_(std::exchange(other.data_, nullptr))
+  : path_(std::move(other.path_))
+  , data_(std::exchange(other.data_, nullptr))
   , size_(std::exchange(other.size_, 0))
+  , device_(other.device_)
+  , inode_(other.inode_)
+  , pages_(std::move(other.pages_))
 {
 }
 
 MemoryMap& MemoryMap::operator=(MemoryMap&& other) noexcept
 {
+  std::swap(path_, other.path_);
   std::swap(data_, other.data_);
   std::swap(size_, other.size_);
+  std::swap(device_, other.device_);
+  std::swap(inode_, other.inode_);
+  std::swap(pages_, other.pages_);
   return *this;
 }
 
 MemoryMap::~MemoryMap()
 {
-  if (data_ != nullptr)
+  if (pages_)
   {
+    pages_.reset(); // the addresses may be another's from here on
     ::munmap(const_cast<std::byte*>(data_), size_);
   }
 }

@@ -1,9 +1,9 @@
 #include "pointfront/Export/OutputTarget.h"
 
+#include "pointfront/Disk/SmallFile.h"
 #include "pointfront/InPlace/SideFile.h"
 #include "pointfront/Store/PointStore.h"
 
-#include <fstream>
 #include <string_view>
 
 #include <sys/stat.h>
@@ -52,10 +52,7 @@ FileKind kindOf(const std::string& path)
   {
     return FileKind::SideFile;
   }
-  std::string bytes(looked, '\0');
-  std::ifstream file(path, std::ios::binary);
-  file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  bytes.resize(static_cast<std::size_t>(file.gcount()));
+  const std::string bytes = beginningOf(path, looked);
   if (startsWith(bytes, "LASF"))
   {
     return FileKind::LAS;

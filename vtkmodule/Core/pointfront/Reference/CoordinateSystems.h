@@ -14,6 +14,9 @@
 namespace pointfront
 {
 
+/// Of a file that defines a coordinate reference system.
+constexpr std::uint64_t mostDefinitionBytes = 1 << 20;
+
 /// A coordinate reference system (CRS) as far as the kernel cares. Coordinates are always x, y, z
 /// = easting or longitude, northing or latitude, height, whatever order of axes the system's
 /// definition names (LAS 1.4 R15, 2.5; GDAL's "traditional GIS order").

@@ -304,6 +304,13 @@ void storeComponent(const Attribute& attribute, const std::vector<double>& value
 Result<std::unique_ptr<PointSource>> TableSource::open(
   std::unique_ptr<PointTable> table, const SurveyOptions& options)
 {
+  Result<std::unique_ptr<TableSource>> source = make(std::move(table), options);
+  return source ? Result<std::unique_ptr<PointSource>>(std::move(*source)) : source.error();
+}
+
+Result<std::unique_ptr<TableSource>> TableSource::make(
+  std::unique_ptr<PointTable> table, const SurveyOptions& options)
+{
   const Result<Survey> survey = surveyed(*table, options);
   if (!survey)
   {
@@ -334,7 +341,7 @@ Result<std::unique_ptr<PointSource>> TableSource::open(
   description.warnings = source->table_->warnings();
   const std::vector<std::string>& planned = source->plan_.warnings;
   description.warnings.insert(description.warnings.end(), planned.begin(), planned.end());
-  return std::unique_ptr<PointSource>(std::move(source));
+  return source;
 }
 
 Result<void> TableSource::read(std::uint64_t chunk, PointBatch& batch) const
@@ -344,7 +351,12 @@ Result<void> TableSource::read(std::uint64_t chunk, PointBatch& batch) const
   {
     return done;
   }
-  const auto count = static_cast<std::size_t>(chunkPoints(chunk));
+  convert(block, static_cast<std::size_t>(chunkPoints(chunk)), batch);
+  return {};
+}
+
+void TableSource::convert(const TableBlock& block, std::size_t count, PointBatch& batch) const
+{
   batch.resize(count, description_.schema);
   const glm::dvec3 origin = table_->origin();
   for (int axis = 0; axis < 3; ++axis)
@@ -364,7 +376,6 @@ Result<void> TableSource::read(std::uint64_t chunk, PointBatch& batch) const
         batch.columns[c].data());
     }
   }
-  return {};
 }
 
 } // namespace pointfront

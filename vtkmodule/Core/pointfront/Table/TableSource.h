@@ -27,11 +27,18 @@ public:
   /// Errors  of ColumnPlan::make and of reading; Cancelled.
   static Result<std::unique_ptr<PointSource>> open(
     std::unique_ptr<PointTable> table, const SurveyOptions& options = {});
+  /// The same, for who decodes rows of its own.
+  static Result<std::unique_ptr<TableSource>> make(
+    std::unique_ptr<PointTable> table, const SurveyOptions& options);
 
   const SourceDescription& description() const override { return description_; }
   std::uint64_t chunkCount() const override { return table_->chunkCount(); }
   std::uint64_t chunkPoints(std::uint64_t chunk) const override { return table_->chunkRows(chunk); }
   Result<void> read(std::uint64_t chunk, PointBatch& batch) const override;
+  /// The fields that convert() needs.
+  const std::vector<bool>& wanted() const { return wanted_; }
+  /// Rows of the table as points.
+  void convert(const TableBlock& block, std::size_t rows, PointBatch& batch) const;
 
 private:
   TableSource(std::unique_ptr<PointTable> table, ColumnPlan plan)

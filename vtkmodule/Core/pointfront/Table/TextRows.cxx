@@ -120,7 +120,7 @@ Result<TextRows> TextRows::open(
     {
       const auto c = static_cast<std::size_t>(chunk);
       findings[c] = rows.look(rows.chunks_[c]);
-      return {};
+      return map.checkWhole();
     });
   if (!done)
   {
@@ -152,7 +152,8 @@ Result<TextRows> TextRows::open(
   return rows;
 }
 
-void TextRows::read(std::uint64_t chunk, const std::vector<bool>& wanted, TableBlock& block) const
+Result<void> TextRows::read(
+  std::uint64_t chunk, const std::vector<bool>& wanted, TableBlock& block) const
 {
   const Chunk& piece = chunks_[static_cast<std::size_t>(chunk)];
   block.resize(static_cast<std::size_t>(piece.rows), wanted);
@@ -180,6 +181,7 @@ void TextRows::read(std::uint64_t chunk, const std::vector<bool>& wanted, TableB
     ++row;
   }
   map_->release(piece.begin, piece.end - piece.begin);
+  return map_->checkWhole();
 }
 
 std::string TextRows::complaint() const

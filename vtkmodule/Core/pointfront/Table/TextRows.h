@@ -49,7 +49,7 @@ struct TextRegion
 class TextRows
 {
 public:
-  /// `map` outlives the rows. Errors  Cancelled; NoMemory.
+  /// `map` outlives the rows. Errors  Cancelled; NoMemory; of MemoryMap::checkWhole().
   static Result<TextRows> open(const MemoryMap& map, const TextRegion& region, TextLayout layout,
     const SurveyOptions& options);
 
@@ -59,7 +59,8 @@ public:
   {
     return chunks_[static_cast<std::size_t>(chunk)].rows;
   }
-  void read(std::uint64_t chunk, const std::vector<bool>& wanted, TableBlock& block) const;
+  /// Errors  of MemoryMap::checkWhole().
+  Result<void> read(std::uint64_t chunk, const std::vector<bool>& wanted, TableBlock& block) const;
 
   const std::vector<FieldStatistics>& statistics() const { return statistics_; }
   std::uint64_t badRows() const { return badRows_; }

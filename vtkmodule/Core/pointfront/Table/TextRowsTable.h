@@ -23,8 +23,7 @@ public:
   Result<void> read(
     std::uint64_t chunk, const std::vector<bool>& wanted, TableBlock& block) const override
   {
-    rows_->read(chunk, wanted, block);
-    return {};
+    return rows_->read(chunk, wanted, block);
   }
   std::vector<FieldStatistics> statistics() const override { return rows_->statistics(); }
 

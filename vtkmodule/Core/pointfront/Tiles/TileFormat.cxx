@@ -1,5 +1,6 @@
 #include "pointfront/Tiles/TileFormat.h"
 
+#include "pointfront/Disk/SmallFile.h"
 #include "pointfront/Store/PointStore.h"
 #include "pointfront/Tiles/TiledCloud.h"
 
@@ -7,8 +8,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <set>
 
 namespace pointfront
@@ -84,17 +83,12 @@ Result<std::vector<std::string>> parseTileList(std::string_view text, const std:
 Result<std::vector<std::string>> readTileList(const std::string& path)
 {
   std::error_code failure;
-  std::ifstream file(path, std::ios::binary);
-  if (!file || !fs::is_regular_file(path, failure))
+  const Result<std::string> text = readSmallText(path, mostListBytes);
+  if (!text)
   {
-    return makeError(Error::Kind::NotFound, path + ": no such list of stores");
+    return makeError(text.error().kind, text.error().what + " (a list of stores)");
   }
-  if (fs::file_size(path, failure) > mostListBytes)
-  {
-    return makeError(Error::Kind::BadFormat, path + ": is too large to be a list of stores");
-  }
-  const std::string text{ std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>() };
-  const Result<std::vector<std::string>> names = parseTileList(text, path);
+  const Result<std::vector<std::string>> names = parseTileList(*text, path);
   if (!names)
   {
     return names;

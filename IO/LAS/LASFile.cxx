@@ -96,6 +96,13 @@ std::uint64_t endOfPoints(const LASFile& file)
     ? std::min<std::uint64_t>(file.header.extendedRecordOffset, file.map.size())
     : file.map.size();
 }
+
+/// LAS 1.3 puts packets of waveforms behind the points, and its header counts no EVLR.
+bool waveformsFollow(const LASHeader& header)
+{
+  constexpr std::uint16_t internalWaveforms = 2;
+  return (header.globalEncoding & internalWaveforms) != 0;
+}
 } // namespace
 
 Result<LASFile> LASFile::open(const std::string& path, MemoryMap::Access access)
@@ -174,6 +181,14 @@ Result<void> LASFile::countRecords()
     description.warnings.push_back(std::to_string(claimed - present) + " of " +
       std::to_string(claimed) + " points are missing: " + where + ", after " +
       std::to_string(present) + " whole points.");
+  }
+  if (const std::uint64_t more = room / header.pointBytes - present;
+      more > 0 && description.warnings.empty() && !waveformsFollow(header))
+  {
+    description.warnings.push_back("The header promises " + std::to_string(claimed) +
+      " points; behind them " + std::to_string(room - present * header.pointBytes) +
+      " bytes follow, room for " + std::to_string(more) +
+      " more, which were left out: they may be points that the header does not count.");
   }
   description.pointCount = present;
   return {};

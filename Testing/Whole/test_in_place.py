@@ -1,12 +1,13 @@
 """COPC and EPT as they are: drawn, described, brought out and queried without a copy."""
 
+import json
 import os
 import random
 import shutil
 import struct
 import unittest
 
-from tool import DATA, ToolTest, run
+from tool import DATA, ToolTest, pointfront, run
 
 COPC = DATA / "copc"
 COPC_FILES = ("lone-star", "ellipsoid_200k", "1.2-with-color")
@@ -32,9 +33,57 @@ class InPlace(ToolTest):
         stored = self.folder / "stored.las"
         self.succeed("export", self.build(EPT / "ept.json"), "-o", stored)
         self.expect_same(stored, out, 518862, "intensity", "classification", "gps_time")
+        # Binary nodes; the tree lacks five of its ten points, so only a build brings them out.
         text = self.folder / "bcbf.xyz"
-        self.succeed("export", DATA / "ept/bcbf/ept.json", "-o", text)
+        refused = pointfront("export", DATA / "ept/bcbf/ept.json", "-o", text)
+        self.assertEqual(refused.status, 1, refused)
+        self.assertIn("5 of 10 points", refused.err)
+        self.succeed("export", self.build(DATA / "ept/bcbf", name="bcbf.pfront"), "-o", text)
         self.assertEqual(len(text.read_text().splitlines()), 5 + 1)
+
+    def test_what_is_missing_is_no_answer(self):
+        """A page of the hierarchy cut short, an entry of 0 points, a key left out, a first look."""
+        whole = (COPC / "1.2-with-color.copc.laz").read_bytes()
+        broken = self.folder / "x.copc.laz"
+        root, size = struct.unpack_from("<QQ", whole, 375 + 54 + 40)
+        cut, none = bytearray(whole), bytearray(whole)
+        struct.pack_into("<Q", cut, 375 + 54 + 48, size // 64 * 32)
+        struct.pack_into("<i", none, root + 28, 0)
+        for content in (cut, none):
+            broken.write_bytes(content)
+            self.incomplete(broken)
+        tree = self.folder / "tree"
+        shutil.copytree(EPT, tree)
+        page = tree / "ept-hierarchy/0-0-0-0.json"
+        keys = json.loads(page.read_text())
+        keys.pop(max(keys))
+        page.write_text(json.dumps(keys))
+        self.incomplete(tree)
+        tiles = self.folder / "tiles"
+        tiles.mkdir()
+        shutil.copyfile(DATA / "laz/autzen_trim.laz", tiles / "a.laz")
+        self.incomplete(tiles)
+
+    def incomplete(self, cloud):
+        out = self.folder / "out.las"
+        for arguments in (["export", cloud, "-o", out], ["verify", cloud]):
+            outcome = pointfront(*arguments)
+            self.assertEqual(outcome.status, 1, outcome)
+            self.assertRegex(outcome.err, r"[0-9]+ of (the )?[0-9]+ points")
+        self.assertFalse(out.exists())
+
+    def test_a_store_that_is_linked_counts_once(self):
+        tiles = self.folder / "linked"
+        tiles.mkdir()
+        store = self.build(DATA / "las/real/autzen_trim.las")
+        shutil.copyfile(store, tiles / "a.pfront")
+        os.link(tiles / "a.pfront", tiles / "b.pfront")
+        (tiles / "c.pfront").symlink_to(tiles / "a.pfront")
+        points = self.succeed("info", store, "--json").json["points"]
+        self.assertEqual(self.succeed("verify", tiles, "--json").json["points_checked"], points)
+        outcome = self.succeed("export", tiles, "-o", self.folder / "linked.las")
+        self.assertIn(f" {points} points", outcome.out)
+        self.assertIn("2 of 3 names are links", outcome.err)
 
     def test_a_box_is_what_a_filter_of_all_points_gives(self):
         whole = self.folder / "all.xyz"

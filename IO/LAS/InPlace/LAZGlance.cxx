@@ -264,6 +264,7 @@ SourceDescription describeGlances(
   {
     source.declaredBounds.add(p);
   }
+  source.headerPointCount = all;
   source.warnings.push_back("A first look: " + std::to_string(points.size()) + " of " +
     std::to_string(all) + " points, one of each chunk of " + std::to_string(glances.size()) +
     " files; build a store of them to see all.");

@@ -1,5 +1,7 @@
 #include "LASzipReader.h"
 
+#include "StackGuard.h"
+
 #include <laszip/laszip_api.h>
 
 #include <istream>
@@ -178,6 +180,7 @@ struct LASzipReader::Handle
   laszip_POINTER laszip = nullptr;
   laszip_point_struct* point = nullptr;
   bool opened = false;
+  bool overflowed = false; ///< LASzip is somewhere inside: it may only be destroyed
 };
 
 LASzipReader::LASzipReader(std::unique_ptr<Handle> handle)
@@ -217,15 +220,23 @@ Result<LASzipReader> LASzipReader::open(const LASFile& file, const LAZCompressio
 std::size_t LASzipReader::read(std::size_t count, std::byte* to)
 {
   const LASPointLayout& layout = *handle_->layout;
-  for (std::size_t i = 0; i < count; ++i, to += layout.pointBytes)
+  if (handle_->overflowed)
   {
-    if (laszip_read_point(handle_->laszip) != 0)
-    {
-      return i;
-    }
-    storeRecord(*handle_->point, layout, to);
+    return 0;
   }
-  return count;
+  // Kept outside of the body, which may be left in the middle.
+  volatile std::size_t done = 0;
+  const auto body = [&]
+  {
+    for (; done < count && laszip_read_point(handle_->laszip) == 0; done = done + 1)
+    {
+      storeRecord(*handle_->point, layout, to + done * layout.pointBytes);
+    }
+  };
+  // LASzip follows a change of the sequence of GPS times by recursion; bytes that say nothing else
+  // but such changes make it endless.
+  handle_->overflowed = !runWithinStack(body);
+  return done;
 }
 
 std::size_t LASzipReader::consumed() const

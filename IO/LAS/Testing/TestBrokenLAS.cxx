@@ -185,6 +185,7 @@ TEST(BrokenLAS, LyingCountsOfRecordsAndPointsDoNotHurt)
     { { las14, put<std::uint64_t>(235, 400) }, 1000, "1 records were lost" },
     { { las14, put<std::uint32_t>(243, 4294967295u) }, 1000, "4294967294 of these records" },
     { { "las/real/test1_4.las", put<std::uint64_t>(247, 999) }, 999, "two point counts, 1000" },
+    { { las12, put<std::uint32_t>(107, 1000u) }, 1000, "room for 65 more" },
   };
   for (const Case& c : cases)
   {

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include <cstdint>
 #include <functional>
 
@@ -191,6 +193,39 @@ TEST(BrokenLAZ, ADamagedChunkIsAnErrorWithItsPlaceAndTheOthersAreRead)
   EXPECT_EQ(done.error().kind, Error::Kind::BadFormat);
   EXPECT_NE(done.error().what.find("the compressed chunk of 256 points at byte"), std::string::npos)
     << done.error().what;
+}
+
+/// LASzip follows changes between sequences of GPS times by recursion: such runs made it endless.
+TEST(BrokenLAZ, RunsOfOnesInTheCodeAreErrorsInEveryFormat)
+{
+  const char* const files[] = { "laz/autzen_trim.laz", "laz/lazperf_point-time.las.laz",
+    "laz/simple.laz", "laz/las1.4_pf6_random.laz", "classified/lidarprod_rgb_buildings_71k.laz" };
+  for (const char* file : files)
+  {
+    for (const std::size_t run : { 64, 512, 4096, 65536 })
+    {
+      for (const std::size_t third : { 0, 1, 2 })
+      {
+        const std::string path = broken(file,
+          [&](FileBytes& b)
+          {
+            const std::size_t begin = firstPoint(b) + 108, end = b.size() - 1;
+            const std::size_t from = begin + third * (end - begin) / 3;
+            for (std::size_t at = from; at < std::min(from + run, end); ++at)
+            {
+              b[at] = 0xFF;
+            }
+          });
+        const auto source = LASFormat().open(path);
+        PointBatch batch;
+        for (std::uint64_t c = 0; source && c < (*source)->chunkCount(); ++c)
+        {
+          const Result<void> done = (*source)->read(c, batch);
+          EXPECT_TRUE(done || done.error().kind == Error::Kind::BadFormat) << done.error().what;
+        }
+      }
+    }
+  }
 }
 } // namespace
 } // namespace pointfront::test

@@ -20,7 +20,7 @@ namespace
 {
 constexpr std::string_view ending = ".tmp";
 
-Error unwritable(const std::string& path, const std::string& why)
+Error notMade(const std::string& path, const std::string& why)
 {
   return makeError(Error::Kind::Unwritable, "cannot write '" + path + "': " + why);
 }
@@ -168,7 +168,7 @@ Result<TemporaryFile> createTemporaryFile(const std::string& path)
   } while (descriptor < 0 && errno == EINTR);
   if (descriptor < 0)
   {
-    return unwritable(path, creationAdvice(errno, path));
+    return notMade(path, creationAdvice(errno, path));
   }
   // The lock comes before the name by which others take the file for a left-over.
   ::flock(descriptor, LOCK_EX | LOCK_NB); // fails only where there are no locks
@@ -180,7 +180,7 @@ Result<TemporaryFile> createTemporaryFile(const std::string& path)
   {
     ::unlink(failed != 0 ? first.c_str() : named.c_str());
     ::close(descriptor);
-    return unwritable(path,
+    return notMade(path,
       failed != 0 ? creationAdvice(failed, path)
                   : "another process is writing it now; wait or choose another name");
   }
@@ -198,16 +198,16 @@ Result<void> nameTemporaryFile(const std::string& temporary, const std::string& 
   {
     return ::rename(temporary.c_str(), path.c_str()) == 0
       ? Result<void>()
-      : Result<void>(unwritable(path, std::strerror(errno)));
+      : Result<void>(notMade(path, std::strerror(errno)));
   }
   const std::optional<int> failed = renameToFree(temporary, path);
   if (failed == EEXIST)
   {
-    return unwritable(path,
+    return notMade(path,
       "something else has got that name meanwhile, and is kept; choose another name and start "
       "again");
   }
-  return failed ? Result<void>(unwritable(path, std::strerror(*failed))) : Result<void>();
+  return failed ? Result<void>(notMade(path, std::strerror(*failed))) : Result<void>();
 }
 
 } // namespace pointfront

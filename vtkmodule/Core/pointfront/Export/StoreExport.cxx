@@ -108,6 +108,15 @@ Result<ExportReport> exportStore(const StoredCloud& store, const ExportSelection
   {
     return apart.error();
   }
+  const StoreDescription& described = store.description();
+  if (described.missingPoints() > 0)
+  {
+    return makeError(Error::Kind::BadArgument,
+      described.path + ": shows " + std::to_string(described.pointCount) + " of " +
+        std::to_string(described.wholeCount) +
+        " points, and an export would lack the others; build a store from the files, or wait until "
+        "its build ends");
+  }
   const Result<PointQuery> query = queryOf(selection);
   if (!query)
   {

@@ -34,7 +34,8 @@ struct ExportReport
 /// Exactness  coordinates come out on the store's grid; attributes as they are stored.
 /// Memory     QueryOptions::usualMemoryBytes; more only where one node needs more.
 /// Errors     of the reader and of the sink; BadArgument of the query, or when the sink would write
-///            over a file that the store reads; Cancelled. The sink then never finishes, and
+///            over a file that the store reads, or when points are missing
+///            (StoreDescription::missingPoints); Cancelled. The sink then never finishes, and
 ///            leaves nothing.
 /// Threads    called from one thread, which writes; the process's crew reads meanwhile.
 Result<ExportReport> exportPoints(const StoreDescription& store, const Hierarchy& hierarchy,

@@ -193,6 +193,7 @@ void ForeignTree::describe(const ForeignTreeContent& content)
   description_.metadata = source.metadata;
   description_.generator = source.format;
   description_.warnings = source.warnings;
+  description_.wholeCount = source.headerPointCount.value_or(0);
   for (const Attribute& attribute : source.schema)
   {
     description_.ranges.push_back(emptyRange(attribute));
@@ -393,6 +394,14 @@ Result<VerifyReport> ForeignTree::verify(const ProgressFunction& progress) const
       return makeError(
         Error::Kind::Cancelled, "verifying '" + description_.path + "' was cancelled");
     }
+  }
+  if (report.ok && description_.missingPoints() > 0)
+  {
+    report.ok = false;
+    report.firstError = "'" + description_.path + "': its octree lacks " +
+      std::to_string(description_.missingPoints()) + " of the " +
+      std::to_string(description_.wholeCount) +
+      " points; build a store from the file, which does not need its tree";
   }
   return report;
 }

@@ -171,6 +171,7 @@ Result<std::shared_ptr<const PointStore>> PointStore::open(const std::string& pa
   Content& content = *(*store)->content_;
   const auto preview = previewRecordOf(content.description.metadata);
   const bool running = !preview || content.file->isLocked();
+  content.description.wholeCount = preview ? preview->pointsExpected : 0;
   Result<void> whole;
   if (content.elsewhere)
   {

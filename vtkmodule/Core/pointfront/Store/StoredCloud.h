@@ -41,6 +41,9 @@ struct StoreDescription
   std::uint32_t version = 0;
   std::uint64_t fileBytes = 0;
   std::uint64_t pointCount = 0;
+  /// Of the cloud that it shows a part of: a first look, the preview of a running build, a tree
+  /// that lacks points of its file. At most pointCount, as here: nothing is missing.
+  std::uint64_t wholeCount = 0;
   Bounds bounds; ///< tight, of the stored points
   QuantisationGrid grid;
   std::string crsWkt;
@@ -61,6 +64,11 @@ struct StoreDescription
   /// For a cloud that is made of others, or is a part of another: what differs or is left out, in
   /// full sentences.
   std::vector<std::string> warnings;
+
+  std::uint64_t missingPoints() const
+  {
+    return wholeCount > pointCount ? wholeCount - pointCount : 0;
+  }
 };
 
 struct VerifyReport

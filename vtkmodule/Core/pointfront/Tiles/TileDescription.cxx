@@ -59,6 +59,7 @@ Result<void> addSums(StoreDescription& whole, const Tiles& tiles)
     }
     whole.fileBytes += tile->fileBytes;
     whole.pointCount += tile->pointCount;
+    whole.wholeCount += tile->pointCount + tile->missingPoints();
     whole.bounds.add(tile->bounds);
     whole.levels = std::max(whole.levels, tile->levels);
     whole.splatRadiusBase = std::max(whole.splatRadiusBase, tile->splatRadiusBase);

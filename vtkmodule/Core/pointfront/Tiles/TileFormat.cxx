@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <filesystem>
 #include <set>
+#include <sys/stat.h>
+#include <utility>
 
 namespace pointfront
 {
@@ -45,6 +47,20 @@ std::vector<std::string> matching(const std::string& pattern)
   }
   ::globfree(&matches);
   return found;
+}
+
+/// Keeps the first name of each file. How many others there were.
+std::size_t dropSameFiles(std::vector<std::string>& files)
+{
+  std::set<std::pair<dev_t, ino_t>> seen;
+  const auto isSame = [&seen](const std::string& file)
+  {
+    struct stat state = {};
+    return ::stat(file.c_str(), &state) == 0 && !seen.insert({ state.st_dev, state.st_ino }).second;
+  };
+  const std::size_t before = files.size();
+  files.erase(std::remove_if(files.begin(), files.end(), isSame), files.end());
+  return before - files.size();
 }
 } // namespace
 
@@ -95,7 +111,6 @@ Result<std::vector<std::string>> readTileList(const std::string& path)
   }
   const fs::path folder = fs::path(path).parent_path();
   std::vector<std::string> files;
-  std::set<std::string> seen;
   for (const std::string& name : *names)
   {
     const std::string at = (folder / name).string(); // an absolute name stays as it is
@@ -112,13 +127,10 @@ Result<std::vector<std::string>> readTileList(const std::string& path)
         return makeError(
           Error::Kind::BadFormat, path + ": names '" + each + "', a list; a list names stores");
       }
-      const fs::path real = fs::canonical(each, failure);
-      if (seen.insert(failure ? each : real.string()).second)
-      {
-        files.push_back(each);
-      }
+      files.push_back(each);
     }
   }
+  dropSameFiles(files);
   return files;
 }
 
@@ -174,6 +186,12 @@ Result<TileFolder> TileFolder::of(const std::string& folder)
     : !indices.empty()          ? std::move(indices)
                                 : std::move(octrees);
   std::sort(found.files.begin(), found.files.end());
+  if (const std::size_t same = dropSameFiles(found.files); same > 0)
+  {
+    found.warnings.push_back(std::to_string(same) + " of " +
+      std::to_string(found.files.size() + same) +
+      " names are links to a file that is there under another name: it counts once.");
+  }
   return found;
 }
 

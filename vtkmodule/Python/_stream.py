@@ -67,7 +67,10 @@ class FrameStream:
             facts = json.loads(self._tool.stdout.readline() or b"null")
             data = self._tool.stdout.read(facts["bytes"]) if facts else b""
         except (OSError, ValueError) as problem:
-            self._tool.stdin.close()  # it ends, if it has not
+            try:
+                self._tool.stdin.close()  # it ends, if it has not
+            except OSError:  # what it did not take is written again here, and not taken either
+                pass
             raise PointFrontError(self._complaint() or str(problem)) from None
         if facts is None or len(data) < facts["bytes"]:
             raise PointFrontError(self._complaint() or "the drawing ended")

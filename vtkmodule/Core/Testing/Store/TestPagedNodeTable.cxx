@@ -14,6 +14,7 @@
 #include <atomic>
 #include <condition_variable>
 #include <mutex>
+#include <new>
 #include <random>
 #include <thread>
 
@@ -50,6 +51,11 @@ public:
     std::unique_lock<std::mutex> lock(mutex_);
     ++reads;
     open_.wait(lock, [&] { return !held_; });
+    if (throws > 0)
+    {
+      --throws;
+      throw std::bad_alloc();
+    }
     if (page == damaged)
     {
       return makeError(Error::Kind::Corrupt, "page " + std::to_string(page) + " is damaged");
@@ -71,6 +77,7 @@ public:
   std::uint32_t damaged = 0xffffffffu;
   std::uint32_t denying = 0xffffffffu; ///< its row 7 names another parent
   mutable int reads = 0;
+  mutable int throws = 0; ///< so many reads find no memory
 
 private:
   TerrainPages pages_;
@@ -186,6 +193,22 @@ TEST(PagedNodeTable, PeekingDoesNotWait)
   EXPECT_TRUE(sameRow(row, Terrain(6).row(100)));
   EXPECT_EQ(pages.reads, 1) << "two rows of one page";
   table.waitForArrival(1); // nothing is coming: returns
+}
+
+TEST(PagedNodeTable, AReadThatThrowsDoesNotLeaveItsPageBeingRead)
+{
+  auto source = std::make_unique<TrickyPages>(6);
+  TrickyPages& pages = *source;
+  const PagedNodeTable table(std::move(source), { 0 }, Refinement::Add);
+  Node row;
+  pages.throws = 1;
+  EXPECT_EQ(table.peek(100, row), RowState::Coming);
+  EXPECT_THROW(table.missingRows()->readNext(), std::bad_alloc);
+  EXPECT_FALSE(table.missingRows()->waiting());
+  EXPECT_EQ(table.peek(100, row), RowState::Coming) << "is asked for again";
+  ASSERT_TRUE(table.missingRows()->waiting());
+  EXPECT_GT(table.missingRows()->readNext(), 0u);
+  EXPECT_EQ(table.peek(100, row), RowState::Here);
 }
 
 TEST(PagedNodeTable, ADamagedPageIsLostAndReportedOnce)

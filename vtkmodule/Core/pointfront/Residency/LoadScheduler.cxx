@@ -263,7 +263,8 @@ void LoadScheduler::release(StoreNodes& store, const NodeCache::Distance& distan
       c.releaseFrom(plan, wanted, gone);
     }
     const bool nothingFound = (ownWanted > ownLimit || wanted > 0) && gone.empty();
-    changed = !gone.empty() || store.noteRelease(nothingFound);
+    const bool other = store.noteRelease(nothingFound); // always: it keeps the answer
+    changed = !gone.empty() || other;
   }
   if (changed)
   {

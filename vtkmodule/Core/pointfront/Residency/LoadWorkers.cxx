@@ -152,7 +152,7 @@ void LoadScheduler::Content::readRows(Worker& self, const Job& job)
   {
     end(job.store->reader().missingRows()->readNext());
   }
-  catch (const std::bad_alloc&)
+  catch (...)
   {
     end(0); // the rows are still missing
     throw;
@@ -184,11 +184,21 @@ void LoadScheduler::Content::perform(Worker& self, const Job& job)
     loaded.lastLoaded = Clock::now();
     loaded.decodedBytes += result ? result->bytes() : 0;
   }
-  const bool news = job.store->finish(task, std::move(result), bytesRead);
-  budget->announceChange();
-  if (news)
+  // Whatever finish() throws: who waits for the end of the loading must not wait for ever.
+  try
   {
-    job.store->tell();
+    const bool news = job.store->finish(task, std::move(result), bytesRead);
+    budget->announceChange();
+    if (news)
+    {
+      job.store->tell();
+    }
+  }
+  catch (...)
+  {
+    job.store->leave(task);
+    budget->announceChange();
+    throw;
   }
   // Only now: who waits until nothing is loading may count on all having been told.
   job.store->leave(task);

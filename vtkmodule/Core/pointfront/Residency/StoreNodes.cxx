@@ -202,7 +202,21 @@ bool StoreNodes::finish(const Task& task, Result<NodeColumns> result, std::size_
   }
   fileFailed_ = false;
   bytesRead_ += bytesRead;
-  const bool news = store(task, std::move(result).value());
+  const std::size_t bytes = result->bytes();
+  bool news = false;
+  try
+  {
+    news = store(task, std::move(result).value());
+  }
+  catch (const std::bad_alloc&)
+  {
+    cache_.remove(task.node);
+    budget_->giveBack(bytes);
+    markFailed(cached,
+      makeError(
+        Error::Kind::NoMemory, "node " + std::to_string(task.node) + ": no memory to keep it"));
+    return true;
+  }
   // What has come may be what can go: a node that was wanted when its read began.
   nothingToRelease_ = nothingToRelease_ && task.reread;
   if (news)

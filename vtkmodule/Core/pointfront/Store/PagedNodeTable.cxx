@@ -242,12 +242,24 @@ std::size_t PagedNodeTable::Content::readNext()
     wanted.erase(wanted.begin());
     anyWanted = !wanted.empty();
   }
-  NodePage rows;
-  load(page, rows);
-  const std::lock_guard<std::mutex> lock(wantedMutex);
-  beingRead.erase(std::find(beingRead.begin(), beingRead.end(), page));
-  ++arrivals;
-  changed.notify_all();
+  const auto end = [&]
+  {
+    const std::lock_guard<std::mutex> lock(wantedMutex);
+    beingRead.erase(std::find(beingRead.begin(), beingRead.end(), page));
+    ++arrivals;
+    changed.notify_all();
+  };
+  try
+  {
+    NodePage rows;
+    load(page, rows);
+  }
+  catch (...)
+  {
+    end(); // the page can be asked for again
+    throw;
+  }
+  end();
   return nodePageBytes;
 }
 

@@ -129,11 +129,28 @@ Result<void> RenderCommand::judge(const FrameRecord& last) const
   {
     warn(name(), "the picture is coarser than --error asks; raise " + raise);
   }
+  if (frames_ == 0 && limitedByDetail(last))
+  {
+    char text[256];
+    std::snprintf(text, sizeof text,
+      "the picture is coarser than --error asks (%.3g px): --detail view gives its pixels a point "
+      "each on average; use --detail front",
+      last.errorPx);
+    warn(name(), text);
+  }
   if (frames_ == 0 && last.failedNodes > 0)
   {
     warn(name(), std::to_string(last.failedNodes) + " nodes could not be read: points are missing");
   }
   return {};
+}
+
+/// View-specific detail counts points and pixels of the whole picture: where points lie close
+/// together, the others are farther apart than --error asks.
+bool RenderCommand::limitedByDetail(const FrameRecord& last) const
+{
+  constexpr double slack = 1.01;
+  return drawing_.detail == "view" && last.errorPx > slack * drawing_.errorPx;
 }
 
 Result<void> RenderCommand::run()
@@ -219,6 +236,10 @@ std::string RenderCommand::statistics(const StoreScene& scene, const FrameRecord
   if (last.limitedByMemory)
   {
     object["limited_by"].push_back("memory");
+  }
+  if (limitedByDetail(last))
+  {
+    object["limited_by"].push_back("detail");
   }
   object["failed_nodes"] = last.failedNodes;
   object["peak_rss_bytes"] = peakResidentBytes();

@@ -28,6 +28,7 @@ private:
   Result<FrameRecord> drawFrames(StoreScene& scene);
   void note(const FrameRecord& frame);
   Result<void> judge(const FrameRecord& last) const;
+  bool limitedByDetail(const FrameRecord& last) const;
   std::string statistics(const StoreScene& scene, const FrameRecord& last) const;
 
   DrawingOptions drawing_;

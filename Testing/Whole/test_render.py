@@ -334,6 +334,22 @@ class Refinement(SceneTest):
         self.assertEqual(statistics["limited_by"], ["points"])
         self.assertEqual(statistics["failed_nodes"], 0)
 
+    def test_a_level_for_the_view_that_is_coarser_than_asked_is_told(self):
+        las = self.folder / "large.las"  # more points than an overview has
+        self.succeed("generate", "--points", 4000000, "-o", las)
+        store = self.build(las, name="large.pfront")
+        told = set()
+        for error in (0.1, 1, 2):
+            stats = self.folder / f"{error}.json"
+            outcome = self.succeed("render", store, "-o", self.folder / f"{error}.png",
+                                   "--detail", "view", "--error", error, "--stats", stats)
+            statistics = json.loads(stats.read_text())
+            coarser = statistics["error_px"] > 1.01 * error
+            self.assertEqual(statistics["limited_by"], ["detail"] if coarser else [], statistics)
+            self.assertEqual("--detail front" in outcome.err, coarser)
+            told.add(coarser)
+        self.assertEqual(told, {False, True})
+
     @unittest.skipIf(SOFTWARE, "takes no GPU memory")
     def test_gpu_memory_is_held_and_told(self):
         path = self.folder / "x.png"

@@ -1,6 +1,7 @@
 """Stores as Python objects: what they hold, points of them as NumPy arrays, and pictures."""
 
 import json
+import operator
 import os
 
 from . import _host, _pictures
@@ -93,19 +94,22 @@ class Cloud:
                 attributes=None, progress=None, **options):
         """The exact points of a region as vtkPolyData: all that meet every condition.
 
-        box         ((x0, y0, z0), (x1, y1, z1)), or six numbers in that order
+        box         ((x0, y0, z0), (x1, y1, z1)), or six numbers in that order; its lowest corner
+                    first
         sphere      ((x, y, z), radius)
         area        polygons or lines as well-known text, for all heights
-        classes     a number of an object class, or several
+        classes     a number of an object class, or several; None: all
         where       a condition: "classification in {2, 6} and intensity > 20"
-        spacing     thin out: points no closer than this, in units of the coordinates
+        spacing     distance of neighbouring points in units of the coordinates, for a coarser
+                    subset; it is as dense as that or a little denser. None: all points
         attributes  names of those to read; None: all
         progress    called with (phase, fraction); False ends it. True: a bar, by tqdm
         options     other properties of vtkPointFrontExtract in snake case: line_distance,
                     maximum_number_of_points, memory_limit ...
 
         Point data: the attributes, and "point_id", the rank in the store. Raises PointFrontError;
-        KeyboardInterrupt at once. Other threads run meanwhile.
+        ValueError for an argument that cannot be meant (a box of other than six numbers or with its
+        corners swapped, no class); KeyboardInterrupt at once. Other threads run meanwhile.
         """
         self._opened()
         extract = vtkPointFrontExtract()
@@ -122,8 +126,7 @@ class Cloud:
             extract.SetSphereRadius(radius)
         if area is not None:
             extract.SetWellKnownText(area)
-        numbers = [] if classes is None else [classes] if isinstance(classes, int) else classes
-        for number in numbers:
+        for number in _numbers_of(classes):
             extract.AddObjectClass(number)
         if where is not None:
             extract.SetWhere(where)
@@ -220,9 +223,8 @@ class Cloud:
         Returns a Picture: `.pixels` are height by width by 3, uint8. Raises PointFrontError.
         """
         self._opened()
-        classes = [classes] if isinstance(classes, int) else classes
         options.update(color_by=color_by, view=view, camera=camera, technique=technique,
-                       style=style, classes=classes, where=where, error=error,
+                       style=style, classes=_numbers_of(classes) or None, where=where, error=error,
                        background=background)
         return _pictures.draw(self.path, path, size, options)
 
@@ -256,7 +258,23 @@ def _six(box):
                for number in (corner if hasattr(corner, "__len__") else (corner,))]
     if len(numbers) != 6:
         raise ValueError(f"a box has six numbers, ((x0, y0, z0), (x1, y1, z1)), not {len(numbers)}")
+    if any(low > high for low, high in zip(numbers, numbers[3:])):
+        raise ValueError(f"a box begins with its lowest corner, ((x0, y0, z0), (x1, y1, z1)): "
+                         f"{numbers} has a lower one behind it")
     return numbers
+
+
+def _numbers_of(classes):
+    """Numbers of object classes, as int; [] for None: all."""
+    if classes is None:
+        return []
+    try:
+        numbers = list(classes)
+    except TypeError:
+        numbers = [classes]
+    if not numbers:
+        raise ValueError("classes names no class: no point can be meant; None takes all")
+    return [operator.index(number) for number in numbers]
 
 
 def _set_options(algorithm, options):

@@ -97,6 +97,15 @@ class Package(unittest.TestCase):
             self.assertEqual(none["position"].shape, (0, 3))
             with self.assertRaises(ValueError):
                 cloud.points(box=(1, 2, 3))
+            with self.assertRaisesRegex(ValueError, "lowest corner"):
+                cloud.points(box=(high, low))
+            with self.assertRaisesRegex(ValueError, "no class"):
+                cloud.points(classes=[])
+            with self.assertRaises(TypeError):
+                cloud.points(classes=2.5)
+            codes = everything["classification"]
+            for classes in (2, [2], numpy.uint8(2), numpy.array([2]), {2}):
+                self.assertEqual(len(cloud.points(classes=classes)["id"]), (codes == 2).sum())
             with self.assertRaisesRegex(pointfront.PointFrontError, "colour"):
                 cloud.points(attributes=["colour"])
             with self.assertRaisesRegex(TypeError, "colour"):

@@ -119,6 +119,13 @@ Result<void> RenderCommand::judge(const FrameRecord& last) const
       "no point is in the picture, which is not written; "
       "look elsewhere (--camera, --view), or choose other points");
   }
+  if (frames_ == 0 && !last.complete)
+  {
+    return makeError(Error::Kind::NoMemory,
+      "there is no memory to load the points, and the picture is not written; close other "
+      "programs, "
+      "raise the limit, or ask for less (--memory, --size)");
+  }
   std::string raise;
   const auto add = [&raise](bool limited, const char* option)
   { raise += limited ? (raise.empty() ? "" : " and ") + std::string(option) : ""; };

@@ -1,5 +1,6 @@
 #include "SoftwareScene.h"
 
+#include "CancelSignal.h"
 #include "Frustum.h"
 #include "Ground.h"
 #include "PeakMemory.h"
@@ -201,6 +202,7 @@ FrameRequest SoftwareScene::demand(const View& view, bool complete) const
   demand.interacting = interactive_ && !complete;
   demand.frameMs = options_.frameMs > 0.0 ? options_.frameMs : frameMsInMotion;
   demand.complete = complete;
+  demand.aborted = [] { return CancelSignal::requested(); }; // of what must leave nothing behind
   return demand;
 }
 

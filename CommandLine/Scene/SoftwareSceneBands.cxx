@@ -81,6 +81,12 @@ Result<FrameRecord> SoftwareScene::renderInBands(const std::string& path)
     {
       return band;
     }
+    if (!band->complete && !CancelSignal::requested())
+    {
+      return makeError(Error::Kind::NoMemory,
+        "there is no memory to load the points; close other programs, raise the limit, or ask for "
+        "less (--memory, --size)");
+    }
     whole.add(*band);
     Result<void> fine = appendRows(**png, target_, bottom - rows.bottom, top - rows.bottom);
     if (fine && CancelSignal::requested())

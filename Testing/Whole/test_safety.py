@@ -8,7 +8,7 @@ import subprocess
 import time
 import unittest
 
-from tool import DATA, TOOL, ToolTest, pointfront
+from tool import DATA, SLOWNESS, TOOL, ToolTest, pointfront
 
 LARGE = DATA / "large/autzen_10653336_rgb_intensity.laz"
 STOPPED = 130
@@ -205,6 +205,27 @@ class Previews(ToolTest):
         self.succeed("build", LARGE, "-o", without, "--preview", "none")
         self.assertEqual(with_one.read_bytes(), without.read_bytes())
         self.refuse(2, "build", LARGE, "-o", without, "--preview", "often")
+
+
+@unittest.skipIf(SLOWNESS > 1, "a sanitizer needs more addresses than these limits leave")
+class Memory(ToolTest):
+    def test_a_picture_under_any_limit_is_drawn_or_refused(self):
+        store = self.build(LARGE)
+        picture = self.folder / "x.png"
+        for mebibytes in (100, 200, 400, 4000):
+            limit = mebibytes << 20
+            done = subprocess.run(
+                [TOOL, "render", store, "-o", picture, "--technique", "ewa", "--size", "3000x3000"],
+                capture_output=True, timeout=120, check=False,
+                preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)))
+            if done.returncode == 0:
+                self.assertEqual(self.entries(), ["cloud.pfront", "x.png"])
+                picture.unlink()
+            else:
+                self.assertEqual(done.returncode, 1, (mebibytes, done.stderr))
+                self.assertIn(b"memory", done.stderr)
+                self.assertEqual(self.entries(), ["cloud.pfront"])
+        self.assertEqual(done.returncode, 0, done.stderr)
 
 
 class Disks(ToolTest):

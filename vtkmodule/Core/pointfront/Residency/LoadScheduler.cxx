@@ -219,6 +219,11 @@ void LoadScheduler::leave(const std::shared_ptr<StoreNodes>& store)
   content_->budget->announceChange();
 }
 
+bool LoadScheduler::starving() const
+{
+  return content_->starving;
+}
+
 double LoadScheduler::shareOf(const StoreNodes& store) const
 {
   const std::lock_guard<std::mutex> lock(content_->mutex);

@@ -86,6 +86,8 @@ public:
   /// After each new request: where the system gave no thread to load with, the caller's loads all
   /// that fits. Does nothing otherwise.
   void loadWithoutThreads();
+  /// A thread has found no memory for seconds: what is asked for will not come.
+  bool starving() const;
   /// The store's points as a share of those of all stores here (SMOOTH-2: sections of the overview
   /// are in proportion to size).
   double shareOf(const StoreNodes& store) const;

@@ -5,6 +5,7 @@
 #include "pointfront/Residency/StoreNodes.h"
 #include "pointfront/Threads/WorkerThread.h"
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <list>
@@ -62,6 +63,7 @@ struct LoadScheduler::Content : std::enable_shared_from_this<LoadScheduler::Cont
   const unsigned steadyThreads;
   std::list<Worker> workers;
   bool stopped = false;
+  std::atomic<bool> starving{ false };
   LoadSchedulerStatistics loaded; ///< its sums over all loads
 
   bool addWorker();
@@ -72,6 +74,7 @@ struct LoadScheduler::Content : std::enable_shared_from_this<LoadScheduler::Cont
   void takeTurn(Worker& self, std::uint64_t seen);
   void loadHere();
   void perform(Worker& self, const Job& job);
+  void load(Worker& self, const Job& job, Clock::time_point begin, bool& fetching, bool& kept);
   void readRows(Worker& self, const Job& job);
   void freeLane(Worker& self, const Job& job, Clock::time_point begin, std::size_t bytesRead);
   Member* memberOf(const StoreNodes& store);

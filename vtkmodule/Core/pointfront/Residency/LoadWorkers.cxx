@@ -18,6 +18,9 @@ namespace
 /// After a step that ran out of memory, unless something is given back before.
 constexpr std::chrono::milliseconds waitForMemory{ 100 };
 
+/// So many one after another, some seconds: no more memory is to be expected.
+constexpr int failuresThatStarve = 30;
+
 /// FRONT-9: loading must not disturb the drawing.
 constexpr int niceness = 5;
 
@@ -166,12 +169,43 @@ void LoadScheduler::Content::perform(Worker& self, const Job& job)
     readRows(self, job);
     return;
   }
+  bool fetching = true, kept = false;
+  const Clock::time_point begin = Clock::now();
+  // Whatever runs out of memory here, be it the words of an Error: who waits for the end of the
+  // loading must not wait for ever.
+  try
+  {
+    load(self, job, begin, fetching, kept);
+  }
+  catch (...)
+  {
+    if (fetching)
+    {
+      freeLane(self, job, begin, 0);
+    }
+    if (!kept)
+    {
+      job.store->abandon(job.task);
+    }
+    job.store->leave(job.task);
+    budget->announceChange();
+    throw;
+  }
+  // Only now: who waits until nothing is loading may count on all having been told.
+  job.store->leave(job.task);
+  budget->announceChange();
+}
+
+/// `fetching`: the lane is not free yet. `kept`: the store has the node, or knows why not.
+void LoadScheduler::Content::load(
+  Worker& self, const Job& job, Clock::time_point begin, bool& fetching, bool& kept)
+{
   const NodeReader& reader = job.store->reader();
   const StoreNodes::Task& task = job.task;
-  const Clock::time_point begin = Clock::now();
   Result<FetchedNode> fetched =
     guarded(task.node, [&] { return reader.fetch(task.node, task.columns); });
   const std::size_t bytesRead = fetched ? fetched->bytesRead : 0;
+  fetching = false;
   freeLane(self, job, begin, bytesRead);
   double decodeSeconds = -threadSeconds();
   Result<NodeColumns> result = fetched ? guarded(task.node, [&] { return reader.decode(*fetched); })
@@ -184,39 +218,31 @@ void LoadScheduler::Content::perform(Worker& self, const Job& job)
     loaded.lastLoaded = Clock::now();
     loaded.decodedBytes += result ? result->bytes() : 0;
   }
-  // Whatever finish() throws: who waits for the end of the loading must not wait for ever.
-  try
-  {
-    const bool news = job.store->finish(task, std::move(result), bytesRead);
-    budget->announceChange();
-    if (news)
-    {
-      job.store->tell();
-    }
-  }
-  catch (...)
-  {
-    job.store->leave(task);
-    budget->announceChange();
-    throw;
-  }
-  // Only now: who waits until nothing is loading may count on all having been told.
-  job.store->leave(task);
+  kept = true;
+  const bool news = job.store->finish(task, std::move(result), bytesRead);
   budget->announceChange();
+  if (news)
+  {
+    job.store->tell();
+  }
 }
 
 void LoadScheduler::Content::work(Worker& self)
 {
   lowerThreadPriority(niceness);
+  int failures = 0; // one after another
   while (!self.ended)
   {
     const std::uint64_t seen = budget->changes();
     try
     {
       takeTurn(self, seen);
+      failures = 0;
+      starving = false;
     }
     catch (const std::bad_alloc&)
     {
+      starving = starving || ++failures >= failuresThatStarve;
       budget->waitForChange(seen, Clock::now() + waitForMemory);
     }
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <limits>
+#include <new>
 #include <string>
 #include <utility>
 
@@ -14,13 +15,6 @@ namespace
 bool hasAll(const ColumnSelection& present, const ColumnSelection& wanted)
 {
   return std::includes(present.begin(), present.end(), wanted.begin(), wanted.end());
-}
-
-/// Errors of the file as a whole, not of a node in it: one tells of all.
-bool isOfTheFile(const Error& error)
-{
-  return error.kind == Error::Kind::Unreadable || error.kind == Error::Kind::Truncated ||
-    error.kind == Error::Kind::NotFound;
 }
 
 } // namespace
@@ -120,41 +114,6 @@ bool StoreNodes::exhausted() const
   return nothingToRelease_ && loading_ == 0 && !choose();
 }
 
-/// A file that cannot be read fails for every node: told once, until a read succeeds again.
-void StoreNodes::report(Error error)
-{
-  if (isOfTheFile(error))
-  {
-    if (std::exchange(fileFailed_, true))
-    {
-      return;
-    }
-    error.what += " (other parts of this file that cannot be read are not listed)";
-  }
-  errors_.push_back(std::move(error));
-}
-
-void StoreNodes::markFailed(CachedNode& cached, Error error)
-{
-  cached.failed = true;
-  cached.stale = false;
-  ++failed_;
-  ++arrivals_;
-  ++revision_;
-  report(std::move(error));
-}
-
-void StoreNodes::markTooLarge(NodeIndex node, std::size_t bytes, std::size_t limit)
-{
-  CachedNode& cached = cache_[node];
-  cached.tooLarge = true;
-  markFailed(cached,
-    makeError(Error::Kind::NoMemory,
-      "node " + std::to_string(node) + " takes " + std::to_string(bytes) +
-        " bytes in memory, more than the whole budget of " + std::to_string(limit) +
-        ": give more memory"));
-}
-
 /// A request for what is in memory with other columns.
 LoadRequest StoreNodes::again(NodeIndex node, const NodeColumns& points, double priority)
 {
@@ -212,9 +171,7 @@ bool StoreNodes::finish(const Task& task, Result<NodeColumns> result, std::size_
   {
     cache_.remove(task.node);
     budget_->giveBack(bytes);
-    markFailed(cached,
-      makeError(
-        Error::Kind::NoMemory, "node " + std::to_string(task.node) + ": no memory to keep it"));
+    markLacking(cached);
     return true;
   }
   // What has come may be what can go: a node that was wanted when its read began.
@@ -225,6 +182,17 @@ bool StoreNodes::finish(const Task& task, Result<NodeColumns> result, std::size_
     ++revision_;
   }
   return news;
+}
+
+void StoreNodes::abandon(const Task& task)
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  CachedNode& cached = cache_[task.node];
+  cached.loading = false;
+  loadingBytes_ -= task.bytes;
+  budget_->giveBack(task.bytes);
+  cache_.remove(task.node);
+  markLacking(cached);
 }
 
 void StoreNodes::tell()

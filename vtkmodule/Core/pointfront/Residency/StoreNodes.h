@@ -73,6 +73,8 @@ public:
   std::optional<Task> begin(); ///< takes that; none when it does not fit any more
   /// A read has ended. True when there is something new: then tell() is called.
   bool finish(const Task& task, Result<NodeColumns> result, std::size_t bytesRead);
+  /// A read that ended in an exception: the node has failed for lack of memory.
+  void abandon(const Task& task);
   void tell();
   void leave(const Task& task); ///< after all: it is no longer loading
   /// Its requests are withdrawn and its nodes leave; nobody is told of anything any more.
@@ -91,7 +93,9 @@ public:
 private:
   std::optional<WaitingReads::Choice> choose() const;
   bool rowsNext(const std::optional<WaitingReads::Choice>& choice) const;
+  void countFailed(CachedNode& cached);
   void markFailed(CachedNode& cached, Error error);
+  void markLacking(CachedNode& cached);
   void report(Error error);
   void markTooLarge(NodeIndex node, std::size_t bytes, std::size_t limit);
   bool store(const Task& task, NodeColumns points);

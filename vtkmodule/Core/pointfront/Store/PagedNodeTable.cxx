@@ -160,10 +160,11 @@ void PagedNodeTable::Content::noteFault(Error error)
 /// Reads a page and keeps it; false when it is lost.
 bool PagedNodeTable::Content::load(std::uint32_t page, NodePage& rows)
 {
-  Result<void> done = source->read(page, rows);
-  ++pagesRead;
+  Result<void> done;
   try
   {
+    done = source->read(page, rows);
+    ++pagesRead;
     if (done)
     {
       pagesHeld += setOf(page).insert(page, rows) ? 1 : 0;

@@ -335,7 +335,8 @@ bool ViewFront::allCovered() const
     });
 }
 
-/// Waits for rows of the table if those are missing, or else for nodes. False: aborted.
+/// Waits for rows of the table if those are missing, or else for nodes. False: aborted, or there is
+/// no memory to load with.
 bool ViewFront::waitForNews(const FrameRequest& demand)
 {
   const Residency& residency = share_.residency();
@@ -347,7 +348,7 @@ bool ViewFront::waitForNews(const FrameRequest& demand)
   };
   while (!arrived())
   {
-    if (demand.aborted && demand.aborted())
+    if ((demand.aborted && demand.aborted()) || residency.scheduler().starving())
     {
       return false;
     }

@@ -1,5 +1,7 @@
 #include "StackGuard.h"
 
+#include "pointfront/Base/PassSignal.h"
+
 #include <csetjmp>
 #include <csignal>
 #include <cstddef>
@@ -95,20 +97,7 @@ void onFault(int signal, siginfo_t* info, void* context)
   {
     siglongjmp(*stack->way, 1);
   }
-  if ((before.sa_flags & SA_SIGINFO) != 0 && before.sa_sigaction != nullptr)
-  {
-    before.sa_sigaction(signal, info, context);
-  }
-  else if (before.sa_handler != SIG_DFL && before.sa_handler != SIG_IGN)
-  {
-    before.sa_handler(signal);
-  }
-  else
-  {
-    struct sigaction usual = {};
-    usual.sa_handler = SIG_DFL;
-    ::sigaction(SIGSEGV, &usual, nullptr); // the access is tried again, and ends the process
-  }
+  passSignal(before, signal, info, context);
 }
 
 void installHandler()

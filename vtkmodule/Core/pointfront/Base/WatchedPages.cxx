@@ -1,5 +1,7 @@
 #include "pointfront/Base/WatchedPages.h"
 
+#include "pointfront/Base/PassSignal.h"
+
 #include <csignal>
 #include <mutex>
 #include <new>
@@ -43,20 +45,7 @@ void onBusError(int signal, siginfo_t* info, void* context)
   {
     return;
   }
-  if ((before.sa_flags & SA_SIGINFO) != 0 && before.sa_sigaction != nullptr)
-  {
-    before.sa_sigaction(signal, info, context);
-  }
-  else if (before.sa_handler != SIG_DFL && before.sa_handler != SIG_IGN)
-  {
-    before.sa_handler(signal);
-  }
-  else
-  {
-    struct sigaction usual = {};
-    usual.sa_handler = SIG_DFL;
-    ::sigaction(SIGBUS, &usual, nullptr); // the access is tried again, and ends the process
-  }
+  passSignal(before, signal, info, context);
 }
 
 void installHandler()

@@ -122,9 +122,8 @@ Result<void> RenderCommand::judge(const FrameRecord& last) const
   if (frames_ == 0 && !last.complete)
   {
     return makeError(Error::Kind::NoMemory,
-      "there is no memory to load the points, and the picture is not written; close other "
-      "programs, "
-      "raise the limit, or ask for less (--memory, --size)");
+      "not all points of the picture could be loaded, and it is not written: memory is short; "
+      "close other programs, raise the limit, or ask for less (--memory, --size)");
   }
   std::string raise;
   const auto add = [&raise](bool limited, const char* option)

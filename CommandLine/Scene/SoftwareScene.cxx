@@ -202,7 +202,8 @@ FrameRequest SoftwareScene::demand(const View& view, bool complete) const
   demand.interacting = interactive_ && !complete;
   demand.frameMs = options_.frameMs > 0.0 ? options_.frameMs : frameMsInMotion;
   demand.complete = complete;
-  demand.aborted = [] { return CancelSignal::requested(); }; // of what must leave nothing behind
+  // Where a signal is kept for later (renderInBands), waiting for points ends with it.
+  demand.aborted = [] { return CancelSignal::requested(); };
   return demand;
 }
 

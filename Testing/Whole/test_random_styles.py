@@ -40,7 +40,7 @@ FOUND = (
      "shading": {"mode": ["lit", "edl"]}},
     {"default": {"size": {"mode": "fixed", "px": 3.5}}},
 )
-# Seeds whose smallest style differs from their own view alone.
+# Seeds that once differed in their own views, and not in ACROSS.
 FOUND_SEEDS = (1366, 1680)
 
 

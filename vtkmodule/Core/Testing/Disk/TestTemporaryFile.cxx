@@ -51,6 +51,17 @@ TEST(TemporaryFile, WhatWasThereIsReplaced)
   EXPECT_EQ(fs::file_size(path), 0u);
 }
 
+TEST(TemporaryFile, ALinkToNothingIsReplaced)
+{
+  const std::string path = temporaryPath("a.bin");
+  fs::create_symlink(temporaryPath("nothing"), path);
+  auto file = OutputFile::create(path);
+  ASSERT_TRUE(file);
+  const Result<void> done = publish(file);
+  ASSERT_TRUE(done) << done.error().what;
+  EXPECT_TRUE(fs::is_regular_file(fs::symlink_status(path)));
+}
+
 TEST(TemporaryFile, OneProcessAtATime)
 {
   const std::string path = temporaryPath("a.bin");

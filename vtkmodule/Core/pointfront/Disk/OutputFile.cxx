@@ -201,11 +201,12 @@ Result<std::unique_ptr<OutputFile>> OutputFile::create(
   const std::string& path, Durability durability)
 {
   struct stat existing = {};
-  const bool exists = ::stat(path.c_str(), &existing) == 0;
-  if (exists && !S_ISREG(existing.st_mode))
+  if (::stat(path.c_str(), &existing) == 0 && !S_ISREG(existing.st_mode))
   {
     return unwritable(path, "it is there and is not a file; choose another name");
   }
+  // A symbolic link to nothing is there, too: it is known now, not after hours of writing.
+  const bool exists = ::lstat(path.c_str(), &existing) == 0;
   Result<TemporaryFile> temporary = createTemporaryFile(path);
   if (!temporary)
   {

@@ -143,14 +143,15 @@ Result<void> placeGrid(const SinkDescription& description, const std::string& pa
   {
     return {};
   }
-  constexpr auto lowest = std::numeric_limits<std::int32_t>::min();
-  constexpr auto highest = std::numeric_limits<std::int32_t>::max();
+  constexpr double lowest = std::numeric_limits<std::int32_t>::min();
+  constexpr double highest = std::numeric_limits<std::int32_t>::max();
   for (int axis = 0; axis < 3; ++axis)
   {
     const double scale = plan.grid.scale[axis];
-    const double low = (description.bounds.low[axis] - plan.grid.offset[axis]) / scale;
-    const double high = (description.bounds.high[axis] - plan.grid.offset[axis]) / scale;
-    if (high - low > 4294967294.0)
+    const double low = std::round((description.bounds.low[axis] - plan.grid.offset[axis]) / scale);
+    const double high =
+      std::round((description.bounds.high[axis] - plan.grid.offset[axis]) / scale);
+    if (high - low > highest - lowest)
     {
       return makeError(Error::Kind::BadArgument,
         path + ": the extent in " + "xyz"[axis] + " is " + std::to_string((high - low) * scale) +
@@ -159,7 +160,14 @@ Result<void> placeGrid(const SinkDescription& description, const std::string& pa
     }
     if (low < lowest || high > highest)
     {
-      plan.grid.offset[axis] += std::round(0.5 * (low + high)) * scale;
+      plan.grid.offset[axis] += std::ceil(0.5 * (low + high)) * scale;
+    }
+    if (!exactInDouble(scale, plan.grid.offset[axis]))
+    {
+      return makeError(Error::Kind::BadArgument,
+        path + ": double precision cannot hold an offset in " + "xyz"[axis] + " of " +
+          std::to_string(plan.grid.offset[axis]) +
+          " and the steps of this cloud; build it with a " + "coarser precision");
     }
   }
   return {};

@@ -42,13 +42,6 @@ std::string numberText(double value)
   return text;
 }
 
-/// True if integers of 32 bit survive the way to double world coordinates and back on this axis.
-bool exactInDouble(double scale, double offset)
-{
-  constexpr double steps = 2251799813685248.0; // 2^51, see QuantisationGrid
-  return std::abs(offset) / scale + 2147483648.0 < steps;
-}
-
 Result<void> readGrid(const std::byte* bytes, const std::string& path, LASHeader& header)
 {
   for (int axis = 0; axis < 3; ++axis)
@@ -230,6 +223,12 @@ Result<void> readSizes(ByteSpan file, const std::string& path, LASHeader& header
   return {};
 }
 } // namespace
+
+bool exactInDouble(double scale, double offset)
+{
+  constexpr double steps = 2251799813685248.0; // 2^51, see QuantisationGrid
+  return std::abs(offset) / scale + 2147483648.0 < steps;
+}
 
 Result<LASHeader> parseLASHeader(
   ByteSpan file, const std::string& path, std::vector<std::string>& warnings)

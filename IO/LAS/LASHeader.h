@@ -44,6 +44,10 @@ struct LASHeader
   std::string versionText() const { return "1." + std::to_string(versionMinor); }
 };
 
+/// True if integers of 32 bit survive the way to double world coordinates and back on an axis of
+/// that scale and offset.
+bool exactInDouble(double scale, double offset);
+
 /// Reads the header at the beginning of `file`.
 /// Errors   BadFormat, Truncated, Unsupported, each with `path` and the byte offset of the field.
 /// What is wrong but harmless is added to `warnings`.

@@ -91,19 +91,22 @@ class ToolTest(unittest.TestCase):
         return sorted(entry.name for entry in self.folder.iterdir())
 
 
-def write_las(path, points, scale=0.01):
-    """A LAS 1.2 file of format 2; points are (x, y, z, red, green, blue), colours 0 to 65535."""
+def write_las(path, points, scale=0.01, centred=False):
+    """A LAS 1.2 file of format 2; points are (x, y, z, red, green, blue), colours 0 to 65535.
+    Integers count from the lowest coordinate, or from 2^31 steps above it."""
     low = [min(p[axis] for p in points) for axis in range(3)]
     high = [max(p[axis] for p in points) for axis in range(3)]
     header = struct.pack(
         "<4sHH16sBB32s32sHHHIIBHI5I12d",
         b"LASF", 0, 0, bytes(16), 1, 2, b"test", b"pointfront tests", 1, 2020, 227, 227, 0, 2, 26,
-        len(points), len(points), 0, 0, 0, 0, scale, scale, scale, *low,
+        len(points), len(points), 0, 0, 0, 0, scale, scale, scale,
+        *((v + 2 ** 31 * scale for v in low) if centred else low),
         high[0], low[0], high[1], low[1], high[2], low[2],
     )
     with open(path, "wb") as file:
         file.write(header)
         for p in points:
-            grid = [round((p[axis] - low[axis]) / scale) for axis in range(3)]
+            grid = [round((p[axis] - low[axis]) / scale) - (2 ** 31 if centred else 0)
+                    for axis in range(3)]
             file.write(struct.pack("<3iHBBBBH3H", *grid, 0, 9, 1, 0, 0, 0, *p[3:6]))
     return path

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <functional>
+#include <numeric>
 
 namespace pointfront
 {
@@ -75,11 +77,13 @@ glm::dvec3 roundOffset(const Bounds& bounds)
   return bounds.empty() ? glm::dvec3(0.0) : glm::round(bounds.centre());
 }
 
-/// Nine tenths of the points on each axis, in world units: of some chunks, those without a grid.
-std::optional<glm::dvec3> bulkSize(const Sources& sources)
+using AxisValues = std::array<std::vector<double>, 3>;
+
+/// Coordinates of some chunks, sorted on each axis; of sources without a grid.
+AxisValues sampledValues(const Sources& sources)
 {
   constexpr std::uint64_t mostChunks = 8;
-  std::array<std::vector<double>, 3> values;
+  AxisValues values;
   for (std::size_t s = 0; s < sources.size(); s += 1 + sources.size() / mostChunks)
   {
     const std::uint64_t chunks = sources[s]->chunkCount();
@@ -105,19 +109,62 @@ std::optional<glm::dvec3> bulkSize(const Sources& sources)
       }
     }
   }
+  for (std::vector<double>& axis : values)
+  {
+    std::sort(axis.begin(), axis.end());
+  }
+  return values;
+}
+
+/// What the points occupy on one axis: the extent of nine tenths of them without the widest gaps
+/// between two neighbours. Two clouds that lie far apart occupy what each has, not their distance.
+double occupied(const std::vector<double>& sorted)
+{
+  constexpr std::size_t mostGaps = 8;
+  const std::size_t twentieth = sorted.size() / 20;
+  std::vector<double> gaps;
+  double sum = 0.0;
+  for (std::size_t i = twentieth + 1; i + twentieth < sorted.size(); ++i)
+  {
+    gaps.push_back(sorted[i] - sorted[i - 1]);
+    sum += gaps.back();
+  }
+  const std::size_t left = std::min(mostGaps, twentieth); // of a few points every gap is a wide one
+  std::partial_sort(
+    gaps.begin(), gaps.begin() + static_cast<std::ptrdiff_t>(left), gaps.end(), std::greater<>());
+  if (left == 0)
+  {
+    return sum;
+  }
+  return std::accumulate(gaps.begin() + static_cast<std::ptrdiff_t>(left), gaps.end(), 0.0);
+}
+
+/// What most points occupy on each axis, in world units; nothing if no point could be read.
+std::optional<glm::dvec3> bulkSize(const Sources& sources)
+{
+  const AxisValues values = sampledValues(sources);
   glm::dvec3 size(0.0);
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    std::vector<double>& sorted = values[axis];
-    if (sorted.empty())
+    if (values[axis].empty())
     {
       return std::nullopt;
     }
-    std::sort(sorted.begin(), sorted.end());
-    const std::size_t twentieth = sorted.size() / 20;
-    size[static_cast<int>(axis)] = sorted[sorted.size() - 1 - twentieth] - sorted[twentieth];
+    size[static_cast<int>(axis)] = occupied(values[axis]);
   }
   return size;
+}
+
+/// The finest step of a power of ten that double precision tells apart at `reach` from the origin.
+double finestStep(double reach)
+{
+  return reach > 0.0 ? std::pow(10.0, std::ceil(std::log10(reach / mostStepsInDouble))) : 0.0;
+}
+
+double farthestOf(const Bounds& bounds)
+{
+  const glm::dvec3 reach = glm::max(glm::abs(bounds.low), glm::abs(bounds.high));
+  return std::max({ reach.x, reach.y, reach.z });
 }
 
 double millionth(double extent)
@@ -171,6 +218,10 @@ Result<GridChoice> defaultGrid(const Sources& sources)
     {
       choice.grid.scale.x = choice.grid.scale.y = std::min(*step, millionth(plane));
     }
+  }
+  if (!bounds.empty())
+  {
+    choice.grid.scale = glm::max(choice.grid.scale, glm::dvec3(finestStep(farthestOf(bounds))));
   }
   const glm::dvec3& s = choice.grid.scale;
   choice.warnings.push_back(
@@ -277,6 +328,14 @@ Result<GridChoice> chooseGrid(const Sources& sources, const std::optional<double
       "a precision of " + number(*precision) +
         " is not a step of coordinates; give a positive number, 1e12 at most");
   }
+  const Bounds bounds = declaredBounds(sources);
+  const double reach = bounds.empty() ? 0.0 : farthestOf(bounds);
+  if (precision && *precision < reach / mostStepsInDouble)
+  {
+    return makeError(Error::Kind::BadArgument,
+      "a precision of " + number(*precision) + " is finer than double precision tells apart " +
+        number(reach) + " units from the origin; " + number(finestStep(reach)) + " fits");
+  }
   Result<GridChoice> choice = chosenGrid(sources, precision);
   if (!choice)
   {
@@ -294,7 +353,7 @@ Result<GridChoice> chooseGrid(const Sources& sources, const std::optional<double
           "bounds are wrong");
     }
   }
-  placeExtent(declaredBounds(sources), *choice);
+  placeExtent(bounds, *choice);
   return choice;
 }
 

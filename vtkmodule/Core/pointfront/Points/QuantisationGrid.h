@@ -14,6 +14,10 @@ using GridPosition = glm::vec<3, std::int64_t, glm::defaultp>;
 /// an eighth at best.
 constexpr double farthestCoordinate = 1e15;
 
+/// The steps from the origin that every grid of our own choice stays below: half of what
+/// QuantisationGrid is exact for, so that a LAS file with the same steps is exact as well.
+constexpr double mostStepsInDouble = 1125899906842624.0; // 2^50
+
 /// The integer grid that coordinates live on: world = offset + scale * grid, for each axis.
 /// Exactness  toGrid(toWorld(g)) == g while |world| / scale < 2^51: rounding to nearest undoes the
 ///            two roundings of toWorld. This is why double world coordinates lose nothing on

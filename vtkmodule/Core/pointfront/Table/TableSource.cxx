@@ -197,7 +197,8 @@ struct Extent
   std::optional<QuantisationGrid> grid;
 };
 
-/// A decimal grid of so many places on each axis; nothing where the extent has too many steps.
+/// A decimal grid of so many places on each axis; nothing where the extent has too many steps, or
+/// the coordinates have more digits than double precision.
 std::optional<QuantisationGrid> decimalGrid(
   const std::array<int, 3>& decimals, const glm::dvec3& low, const glm::dvec3& high)
 {
@@ -206,13 +207,14 @@ std::optional<QuantisationGrid> decimalGrid(
   {
     const int places = decimals[static_cast<std::size_t>(axis)];
     const double step = std::pow(10.0, -places);
-    if (places > mostDecimals || !((high[axis] - low[axis]) / step < mostSteps))
+    const double reach = std::max(std::abs(low[axis]), std::abs(high[axis]));
+    if (places > mostDecimals || !((high[axis] - low[axis]) / step < mostSteps) ||
+      !(reach / step < mostStepsInDouble))
     {
       return std::nullopt;
     }
     // Written as a quotient: the nearest double to the decimal step.
     grid.scale[axis] = 1.0 / std::pow(10.0, places);
-    const double reach = std::max(std::abs(low[axis]), std::abs(high[axis]));
     grid.offset[axis] = reach / step < mostSteps ? 0.0 : std::round(0.5 * (low[axis] + high[axis]));
   }
   return grid;

@@ -10,6 +10,12 @@ namespace
 {
 /// Fewer rows than the margins have cost more than they draw: rather fewer threads.
 constexpr int leastRowsOfSeveral = 128;
+
+/// What a whole frame may take: the rest is for points, or there is nothing to see.
+std::uint64_t mostOfFrames(std::uint64_t budgetBytes)
+{
+  return budgetBytes - budgetBytes / 4;
+}
 } // namespace
 
 std::uint64_t PictureMemory::bytesOfRows(int rows, unsigned threads) const
@@ -39,7 +45,12 @@ Result<PictureMemory> PictureMemory::share(
   memory.cost_ = cost;
   memory.bandThreads_ = cost.threads;
   memory.bandRows_ = size[1];
-  if (memory.frameBytes() <= budgetBytes / 2)
+  memory.frameThreads_ = std::max(1u, cost.threads);
+  while (memory.frameThreads_ > 1 && memory.frameBytes() > mostOfFrames(budgetBytes))
+  {
+    --memory.frameThreads_;
+  }
+  if (memory.bytesOfRows(size[1], cost.threads) <= budgetBytes / 2)
   {
     return memory;
   }
@@ -61,6 +72,18 @@ Result<PictureMemory> PictureMemory::share(
   return memory;
 }
 
+Result<void> PictureMemory::checkFrame() const
+{
+  if (frameBytes() <= mostOfFrames(budgetBytes_))
+  {
+    return {};
+  }
+  return makeError(Error::Kind::NoMemory,
+    "a frame of " + std::to_string(size_[0]) + " x " + std::to_string(size_[1]) +
+      " pixels takes --memory " + std::to_string(frameBytes() + (frameBytes() + 2) / 3) +
+      " at least, and it is " + std::to_string(budgetBytes_));
+}
+
 std::uint64_t PictureMemory::bandBytes() const
 {
   return bytesOfRows(std::min(bandRows_ + 2 * cost_.overlapRows, size_[1]), bandThreads_);
@@ -68,7 +91,7 @@ std::uint64_t PictureMemory::bandBytes() const
 
 std::uint64_t PictureMemory::pointBytesOfFrames() const
 {
-  return budgetBytes_ - std::min(frameBytes(), budgetBytes_ / 2);
+  return budgetBytes_ - std::min(frameBytes(), mostOfFrames(budgetBytes_));
 }
 
 } // namespace pointfront

@@ -19,9 +19,9 @@ struct PictureCost
 };
 
 /// How one limit of memory is shared between the picture, with all that drawing it needs, and the
-/// decoded points: a complete picture that would take more than half is drawn in bands that do not,
+/// decoded points. A complete picture that would take more than half is drawn in bands that do not,
 /// by so many threads that their buffers leave room for rows. Frames that follow each other are
-/// whole, whatever they take; the points then have half.
+/// whole and may take three quarters: by as many threads as fit, and none where one does not.
 /// Threads  a value.
 class PictureMemory
 {
@@ -38,7 +38,11 @@ public:
   /// That draw a band.
   unsigned bandThreads() const { return bandThreads_; }
   int overlapRows() const { return cost_.overlapRows; }
-  std::uint64_t frameBytes() const { return bytesOfRows(size_[1], cost_.threads); }
+  std::uint64_t frameBytes() const { return bytesOfRows(size_[1], frameThreads_); }
+  /// That draw a whole frame; at least one.
+  unsigned frameThreads() const { return frameThreads_; }
+  /// Errors  NoMemory: a whole frame takes more than three quarters, by one thread as well.
+  Result<void> checkFrame() const;
   std::uint64_t bandBytes() const;
   /// For points beside a whole picture; beside a band.
   std::uint64_t pointBytesOfFrames() const;
@@ -55,6 +59,7 @@ private:
   PictureCost cost_;
   int bandRows_ = 0;
   unsigned bandThreads_ = 1;
+  unsigned frameThreads_ = 1;
 };
 
 } // namespace pointfront

@@ -21,12 +21,34 @@ namespace
 using Clock = std::chrono::steady_clock;
 
 constexpr int largestEdge = 8192; // a screen; more would be a mistake of the asking program
+constexpr std::size_t longestRequest = 65536; // bytes; a camera has some 300
 constexpr std::chrono::milliseconds pause{ 2 }; // between two looks at what has arrived
 const char* const requestName = "request";
 
 Error badRequest(const std::string& what)
 {
   return makeError(Error::Kind::BadFormat, std::string(requestName) + ": " + what);
+}
+
+/// The next line of stdin; false when there is none.
+Result<bool> readRequest(std::string& line)
+{
+  line.clear();
+  std::streambuf& input = *std::cin.rdbuf();
+  for (int c = input.sbumpc(); c != '\n'; c = input.sbumpc())
+  {
+    if (c == std::char_traits<char>::eof())
+    {
+      return !line.empty();
+    }
+    if (line.size() == longestRequest)
+    {
+      return badRequest(
+        "a line must not be longer than " + std::to_string(longestRequest) + " bytes");
+    }
+    line += static_cast<char>(c);
+  }
+  return true;
 }
 
 nlohmann::ordered_json cameraJson(const Camera& camera)
@@ -241,14 +263,18 @@ Result<void> StreamCommand::run()
   }
   const double aspect = static_cast<double>(drawing_.size[0]) / drawing_.size[1];
   camera_ = cameraFitting(scene_->bounds(), ViewDirection::Iso, aspect);
-  for (std::string line; std::getline(std::cin, line);)
+  for (std::string line; true;)
   {
+    const Result<bool> more = readRequest(line);
+    if (!more || !*more)
+    {
+      return more ? Result<void>() : Result<void>(more.error());
+    }
     if (Result<void> done = obey(line); !done)
     {
       return done;
     }
   }
-  return {};
 }
 
 } // namespace pointfront

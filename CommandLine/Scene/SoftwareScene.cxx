@@ -160,6 +160,13 @@ Result<void> SoftwareScene::shareMemory()
     return memory.error();
   }
   memory_ = *memory;
+  const unsigned threads = memory_->frameThreads();
+  if (!rasteriser_ || threads != (crew_ ? crew_->threads() : cost.threads))
+  {
+    rasteriser_.reset(); // first, as it works with the crew
+    crew_ = threads == cost.threads ? nullptr : std::make_unique<ThreadCrew>(threads);
+    rasteriser_ = std::make_unique<SoftwareRasteriser>(crew_.get());
+  }
   LoadScheduler::setProcessBudgetBytes(memory_->pointBytesOfFrames());
   return {};
 }
@@ -313,11 +320,15 @@ Result<void> SoftwareScene::outcome()
 
 Result<FrameRecord> SoftwareScene::render(bool complete)
 {
+  if (const Result<void> fits = memory_->checkFrame(); !fits)
+  {
+    return fits.error();
+  }
   reads_.since();
   const auto begin = Clock::now();
   updateFronts(viewOf(camera_), complete);
   FrameRecord frame = record(complete);
-  drawPart(rasteriser_, { 0, 0, camera_.width, camera_.height }, frame);
+  drawPart(*rasteriser_, { 0, 0, camera_.width, camera_.height }, frame);
   if (const Result<void> fine = outcome(); !fine)
   {
     return fine.error();

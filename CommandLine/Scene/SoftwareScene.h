@@ -8,6 +8,8 @@
 #include "SoftwareComposition.h"
 #include "SoftwareRasteriser.h"
 
+#include "pointfront/Threads/ThreadCrew.h"
+
 #include <algorithm>
 #include <memory>
 #include <optional>
@@ -97,7 +99,8 @@ private:
   std::vector<double> ownMs_; ///< of the frame in work, what each store took
   ThreadReads reads_;
   std::vector<std::unique_ptr<DrawnStore>> stores_;
-  SoftwareRasteriser rasteriser_;
+  std::unique_ptr<ThreadCrew> crew_; ///< where memory allows a frame fewer threads than there are
+  std::unique_ptr<SoftwareRasteriser> rasteriser_;
   SoftwareComposition composition_;
   SoftwareTarget target_;
 };

@@ -64,7 +64,7 @@ Result<FrameRecord> SoftwareScene::renderInBands(const std::string& path)
   stores_.front()->residency().scheduler().setBudgetBytes(memory_->pointBytesOfBands());
   ThreadCrew crew(memory_->bandThreads());
   SoftwareRasteriser rasteriser(&crew);
-  rasteriser_.release();
+  rasteriser_->release();
   FrameRecord whole;
   whole.complete = true;
   whole.rasteriseMilliseconds = 0.0;

@@ -37,7 +37,26 @@ TEST(PictureMemory, ALargerOneIsDrawnInBandsOfHalf)
   EXPECT_EQ(memory->bandRows(), 1024 - 4); // with two rows of each neighbour
   EXPECT_EQ(memory->bandBytes(), 32 * MiB);
   EXPECT_EQ(memory->pointBytesOfBands(), 32 * MiB);
-  EXPECT_EQ(memory->pointBytesOfFrames(), 32 * MiB); // frames are whole whatever they take
+  EXPECT_FALSE(memory->checkFrame()); // frames are whole
+}
+
+TEST(PictureMemory, AFrameTakesThreeQuartersAtMostByAsManyThreadsAsFit)
+{
+  PictureCost cost = plainCost(8);
+  cost.threadPixelBytes = 8;
+  cost.threads = 16;
+  const auto share = [&](std::uint64_t budget) {
+    return PictureMemory::share({ 1024, 1024 }, budget * MiB, cost);
+  };
+  EXPECT_EQ(share(1024)->frameThreads(), 16u);
+  EXPECT_EQ(share(64)->frameThreads(), 5u); // 8 + 5 * 8 MiB
+  EXPECT_EQ(share(64)->pointBytesOfFrames(), 16 * MiB);
+  EXPECT_TRUE(share(64)->checkFrame());
+  EXPECT_EQ(share(22)->frameThreads(), 1u);
+  EXPECT_TRUE(share(22)->checkFrame());
+  const Result<void> refused = share(16)->checkFrame();
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().what.find("1024 x 1024"), std::string::npos);
 }
 
 TEST(PictureMemory, ThreadsHaveBuffersWithMargins)

@@ -39,6 +39,12 @@ class Autzen(ToolTest):
         self.assertTrue(filecmp.cmp(store, small, shallow=False), "the stores differ")
         self.assertEqual(self.entries(), ["autzen.pfront", "small.pfront"])
 
+        # A store's points, in the order of its tree: they touch many of a kd-tree's small cells.
+        report = self.succeed("build", store, "-o", self.folder / "kd.pfront", "--structure",
+                              "kdtree", "--memory", "64M", "--threads", "2", "--json").json
+        self.assertLess(report["peak_rss_bytes"], (64 + 64) * MIB)
+        self.assertEqual(report["points_stored"], POINTS)
+
 
 class Exports(ToolTest):
     def compare(self, a, b, *attributes):

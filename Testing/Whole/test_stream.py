@@ -1,5 +1,6 @@
 """`pointfront stream`: frames for another program."""
 
+import contextlib
 import json
 import subprocess
 import unittest
@@ -38,7 +39,8 @@ class Stream:
 
     def end(self):
         """Its status and what it complained of."""
-        self.process.stdin.close()
+        with contextlib.suppress(BrokenPipeError):  # it ended before it had read all
+            self.process.stdin.close()
         said = self.process.stderr.read().decode()
         status = self.process.wait(60)
         self.process.stdout.close()
@@ -56,6 +58,26 @@ class Streams(tool.ToolTest):
         stream = Stream(self.store, *arguments)
         self.addCleanup(stream.process.kill)
         return stream
+
+    def test_memory_is_what_was_allowed(self):
+        # A frame of 8192 x 8192 takes 1.1 GB and more.
+        stream = self.open("--memory", "64M")
+        self.assertIsNotNone(stream.ask()[0])
+        answer, _ = stream.ask(size=[8192, 8192])
+        self.assertIsNone(answer)
+        status, said = stream.end()
+        self.assertEqual(status, 1, said)
+        self.assertIn("8192 x 8192 pixels takes --memory", said)
+
+    def test_a_line_without_end_is_refused(self):
+        stream = self.open()
+        with contextlib.suppress(BrokenPipeError):
+            for _ in range(1000):
+                stream.process.stdin.write(b"x" * 1000000)
+            stream.process.stdin.flush()
+        status, said = stream.end()
+        self.assertEqual(status, 1, said)
+        self.assertIn("longer than", said)
 
     def test_a_view_at_rest_is_what_render_draws(self):
         look = ["--color-by", "intensity", "--technique", "splats", "--background", "0,0,255"]

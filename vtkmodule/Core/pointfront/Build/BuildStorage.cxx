@@ -40,6 +40,8 @@ BuildSize demandOf(
   }
   demand.recordBytes = RecordLayout(pooled).bytes();
   demand.partBytes = constructionBytes(options, pooled);
+  demand.blockBytes = constructionBlockBytes(options);
+  demand.tableBytes = constructionTableBytes(options, demand.points);
   demand.wholePart = constructionPart(options);
   demand.nodePoints = options.nodePoints;
   demand.threads = threadsOr(options.threads);

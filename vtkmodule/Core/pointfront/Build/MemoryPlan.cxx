@@ -26,9 +26,9 @@ std::uint64_t partPointBytes(const BuildSize& demand)
 }
 
 /// A block, its sorted copy, and the cell of each point.
-std::uint64_t blockPointBytes(std::size_t recordBytes)
+std::uint64_t blockPointBytes(const BuildSize& demand)
 {
-  return 2 * recordBytes + 8;
+  return 2 * demand.recordBytes + 8 + demand.blockBytes;
 }
 
 /// Parts much larger than a node: their ancestors are surely inner nodes.
@@ -46,7 +46,7 @@ std::uint64_t batchBytes(const BuildSize& demand)
 /// A batch, and a block of it alone.
 std::uint64_t readBytes(const BuildSize& demand)
 {
-  return batchBytes(demand) + demand.largestChunk * blockPointBytes(demand.recordBytes);
+  return batchBytes(demand) + demand.largestChunk * blockPointBytes(demand);
 }
 
 std::uint64_t leastBytes(const BuildSize& demand)
@@ -69,15 +69,17 @@ MemoryPlan divided(const BuildSize& demand, std::uint64_t available, bool spill)
   MemoryPlan plan;
   plan.spill = spill;
   const std::uint64_t least = std::max<std::uint64_t>(1, leastBytes(demand));
+  const std::uint64_t aThread = std::max(least, readBytes(demand) + demand.tableBytes);
   plan.threads = static_cast<unsigned>(
-    std::clamp<std::uint64_t>(bytes / least, 1, std::max(1u, demand.threads)));
+    std::clamp<std::uint64_t>(bytes / aThread, 1, std::max(1u, demand.threads)));
   const std::uint64_t share = bytes / plan.threads;
   const std::uint64_t forBalance = demand.points / (8ull * plan.threads);
   plan.partPoints = std::clamp(std::min(share / partPointBytes(demand), forBalance),
     leastPartPoints(demand), std::max(mostPartPoints, leastPartPoints(demand)));
-  const std::uint64_t forBlock = share - std::min(share, batchBytes(demand));
-  plan.blockPoints = std::clamp<std::uint64_t>(forBlock / blockPointBytes(demand.recordBytes), 1024,
-    spill ? mostBlockPoints : memoryBlockPoints);
+  const std::uint64_t tables = std::min(share / 2, demand.tableBytes);
+  const std::uint64_t forBlock = share - tables - std::min(share - tables, batchBytes(demand));
+  plan.blockPoints = std::clamp<std::uint64_t>(
+    forBlock / blockPointBytes(demand), 1024, spill ? mostBlockPoints : memoryBlockPoints);
   if (spill) // of what parts leave, so that little memory is still enough
   {
     const std::uint64_t left = share - std::min(share, plan.partPoints * partPointBytes(demand));

@@ -15,6 +15,8 @@ struct BuildSize
   std::uint64_t largestChunk = 0; ///< points of the largest chunk of any source
   std::size_t recordBytes = 0;
   std::size_t partBytes = 0; ///< for each point of a part, beyond what every tree needs
+  std::size_t blockBytes = 0; ///< for each point of a block, beyond what every tree needs
+  std::uint64_t tableBytes = 0; ///< for each thread that reads, to count the points of cells
   std::uint64_t wholePart = 0; ///< points of parts that cannot be cut smaller; 0: there are none
   std::size_t sourceBytes = 0; ///< largest size of a point in a source's batch
   std::uint32_t nodePoints = 0;

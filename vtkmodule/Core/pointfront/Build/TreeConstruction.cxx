@@ -6,6 +6,8 @@
 #include "pointfront/Trees/PartPool.h"
 #include "pointfront/Trees/SubtreeBuilder.h"
 
+#include <algorithm>
+
 namespace pointfront
 {
 namespace
@@ -146,6 +148,23 @@ std::size_t constructionBytes(const BuildOptions& options, const AttributeSchema
   // The inputs of a node, and a representative for every third of them.
   return options.refinement == Refinement::Replace
     ? sizeof(MeanInput) + sizeof(TreePosition) + MeanRecord(TreeSpace(), pooled).bytes() / 2
+    : 0;
+}
+
+std::size_t constructionBlockBytes(const BuildOptions& options)
+{
+  // The cells of a kd-tree's histogram are so small that a block has one for every few points: its
+  // run, in a list that grows by doubling and in the coarser one, and its slot.
+  return options.structure == Structure::KdTree ? 2 * sizeof(CellRun) : 0;
+}
+
+std::uint64_t constructionTableBytes(const BuildOptions& options, std::uint64_t points)
+{
+  // The small cells of a kd-tree fill the table up to its limit, again and again: it has four slots
+  // a cell, and as much again while it becomes a coarser one.
+  constexpr std::uint64_t slotsACell = 8;
+  return options.structure == Structure::KdTree
+    ? std::min<std::uint64_t>(points, CellCounts::limit) * slotsACell * sizeof(CellTable::Entry)
     : 0;
 }
 

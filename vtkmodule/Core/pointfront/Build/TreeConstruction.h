@@ -52,6 +52,10 @@ std::unique_ptr<TreeConstruction> treeConstruction(
 
 /// Memory in bytes for each point of a part, beyond what every tree needs.
 std::size_t constructionBytes(const BuildOptions& options, const AttributeSchema& pooled);
+/// The same for each point of a block, while blocks are read and sorted by cells.
+std::size_t constructionBlockBytes(const BuildOptions& options);
+/// Memory in bytes for each thread that counts the points of cells while blocks are read.
+std::uint64_t constructionTableBytes(const BuildOptions& options, std::uint64_t points);
 /// Points of the largest part that the tree must have in memory at once, whatever memory there is;
 /// 0: parts may be as small as memory wants.
 std::uint64_t constructionPart(const BuildOptions& options);

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <utility>
 #include <zstd.h>
+#include <zstd_errors.h>
 
 namespace pointfront
 {
@@ -27,6 +28,10 @@ Result<std::vector<std::byte>> eptRecords(
   }
   const std::size_t size =
     ::ZSTD_decompress(records.data(), records.size(), file.data(), file.size());
+  if (::ZSTD_getErrorCode(size) == ::ZSTD_error_memory_allocation)
+  {
+    return makeError(Error::Kind::NoMemory, path + ": there is no memory to unpack it");
+  }
   if (::ZSTD_isError(size) != 0)
   {
     return makeError(

@@ -109,6 +109,10 @@ void PNGInput::note(const char* reason)
 
 Result<void> PNGInput::readHeader()
 {
+  if (info_ == nullptr)
+  {
+    return fault(Error::Kind::NoMemory, "no memory for libpng");
+  }
   png_byte signature[signatureBytes] = {};
   const std::size_t present =
     file_->bytes() < signatureBytes ? std::size_t(file_->bytes()) : signatureBytes;

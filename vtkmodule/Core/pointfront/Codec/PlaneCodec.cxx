@@ -3,10 +3,12 @@
 #include "pointfront/Codec/ValueCode.h"
 
 #include <zstd.h>
+#include <zstd_errors.h>
 
 #include <cassert>
 #include <cstring>
 #include <memory>
+#include <new>
 
 namespace pointfront
 {
@@ -20,17 +22,33 @@ struct FreeZstd
   void operator()(ZSTD_DCtx* context) const { ZSTD_freeDCtx(context); }
 };
 
-// One context a thread: making one costs more than a block.
+// One context a thread: making one costs more than a block. Without memory for one both throw, and
+// try again at the next call.
 ZSTD_CCtx* compressor()
 {
-  thread_local std::unique_ptr<ZSTD_CCtx, FreeZstd> context(ZSTD_createCCtx());
-  return context.get();
+  thread_local std::unique_ptr<ZSTD_CCtx, FreeZstd> context;
+  if (!context)
+  {
+    context.reset(ZSTD_createCCtx());
+  }
+  return context ? context.get() : throw std::bad_alloc();
 }
 
 ZSTD_DCtx* decompressor()
 {
-  thread_local std::unique_ptr<ZSTD_DCtx, FreeZstd> context(ZSTD_createDCtx());
-  return context.get();
+  thread_local std::unique_ptr<ZSTD_DCtx, FreeZstd> context;
+  if (!context)
+  {
+    context.reset(ZSTD_createDCtx());
+  }
+  return context ? context.get() : throw std::bad_alloc();
+}
+
+/// What Zstandard answers where it finds no memory is nothing that the bytes are to blame for.
+std::size_t withMemory(std::size_t answer)
+{
+  return ZSTD_getErrorCode(answer) == ZSTD_error_memory_allocation ? throw std::bad_alloc()
+                                                                   : answer;
 }
 
 // Reused by every block of a thread: planes before and after Zstandard.
@@ -104,8 +122,8 @@ std::vector<std::byte> encodePlanes(const std::byte* values, const BlockShape& s
   std::vector<std::byte>& planes = scratch(shape.bytes());
   splitPlanes(values, shape, planes.data());
   std::vector<std::byte> coded(ZSTD_compressBound(shape.bytes()));
-  const std::size_t size = ZSTD_compressCCtx(
-    compressor(), coded.data(), coded.size(), planes.data(), shape.bytes(), zstdLevel);
+  const std::size_t size = withMemory(ZSTD_compressCCtx(
+    compressor(), coded.data(), coded.size(), planes.data(), shape.bytes(), zstdLevel));
   assert(!ZSTD_isError(size));
   coded.resize(size);
   return coded;
@@ -115,8 +133,8 @@ bool decodePlanes(
   const std::byte* coded, std::size_t codedBytes, const BlockShape& shape, std::byte* values)
 {
   std::vector<std::byte>& planes = scratch(shape.bytes());
-  const std::size_t size =
-    ZSTD_decompressDCtx(decompressor(), planes.data(), shape.bytes(), coded, codedBytes);
+  const std::size_t size = withMemory(
+    ZSTD_decompressDCtx(decompressor(), planes.data(), shape.bytes(), coded, codedBytes));
   if (ZSTD_isError(size) || size != shape.bytes())
   {
     return false;

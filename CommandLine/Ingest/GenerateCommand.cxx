@@ -16,7 +16,8 @@ namespace pointfront
 void GenerateCommand::declare(CLI::App& program)
 {
   const std::uint64_t most = 1000000000000; // 10^12
-  app_ = program.add_subcommand("generate", "Make up a realistic airborne survey");
+  app_ = program.add_subcommand(
+    "generate", "Make up an airborne survey: ground, water, vegetation, buildings");
   app_->add_option("--points", points_, "How many")
     ->required()
     ->check(CLI::Range(std::uint64_t(1), most))
@@ -24,7 +25,10 @@ void GenerateCommand::declare(CLI::App& program)
   app_->add_option("-o,--output", outputPath_, "The file to write")
     ->required()
     ->check(sinkExtension());
-  app_->add_option("--seed", seed_, "Another landscape for another number (1)")->type_name("S");
+  app_
+    ->add_option(
+      "--seed", seed_, "Another landscape for another number (24); many lack some of the classes")
+    ->type_name("S");
   app_->add_flag("--force", replace_, "Replace an existing file of the same kind");
   app_->add_option("--progress", progress_, "On stderr: auto, plain, json or none (auto)")
     ->check(availableValues({ "auto", "plain", "json", "none" }, {}));

@@ -31,6 +31,15 @@ void ExportCommand::declare(CLI::App& program)
     ->type_name("EPSG:N|WKTFILE");
   app_->add_flag("--double", sinkChoice_.doubleCoordinates,
     "PCD: coordinates as float64, which PCL's readers of points do not take");
+  app_->final_callback(
+    [this]
+    {
+      if (sinkChoice_.doubleCoordinates && sinkKind(outputPath_) != FileKind::PCD)
+      {
+        throw CLI::ValidationError("--double",
+          "is for PCD, whose coordinates are float32 without it; other formats keep every digit");
+      }
+    });
   app_
     ->add_option("--color-depth", sinkChoice_.colourBits,
       "Bits of 16-bit colours to write: 8 or 16 (8 in PLY and PCD, else 16)")

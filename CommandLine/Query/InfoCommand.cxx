@@ -100,7 +100,8 @@ void InfoCommand::declare(CLI::App& program)
     ->check(CLI::Range(1u, 4096u))
     ->needs(statistics)
     ->type_name("N");
-  addByteSize(*app_, "--memory", memoryBytes_, "Most memory for points that are read (256M)");
+  addByteSize(*app_, "--memory", memoryBytes_, "--stats: most memory for points read (256M)")
+    ->needs(statistics);
 }
 
 Result<void> InfoCommand::run()

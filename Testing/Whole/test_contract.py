@@ -183,7 +183,7 @@ class Reports(ToolTest):
     def test_generated_surveys_repeat(self):
         one, two, other = (self.folder / name for name in ("1.las", "2.las", "3.las"))
         self.succeed("generate", "--points", 50000, "-o", one)
-        self.succeed("generate", "--points", 50000, "--seed", 1, "-o", two)
+        self.succeed("generate", "--points", 50000, "--seed", 24, "-o", two)
         self.succeed("generate", "--points", 50000, "--seed", 2, "-o", other)
         self.assertEqual(one.read_bytes(), two.read_bytes())
         self.assertNotEqual(one.read_bytes(), other.read_bytes())

@@ -103,6 +103,39 @@ class Outputs(ToolTest):
         folder.mkdir()
         self.assertIn("folder", self.refuse(1, "export", store, "-o", folder, "--force").err)
 
+    def test_a_name_says_what_a_file_is(self):
+        las = self.copy()
+        store = self.build(las)
+        names = self.entries()
+        for name in ("b.las", "b.laz", "b.ply", "b.csv", "b.pfindex"):
+            said = self.refuse(1, "build", las, "-o", self.folder / name,
+                               "--assume-crs", "EPSG:2154").err
+            self.assertIn(".pfront", said)
+        self.assertIn(".pfindex", self.refuse(1, "index", las, "-o", self.folder / "b.las").err)
+        said = self.refuse(1, "export", store, "-o", self.folder / "b.copc.laz").err
+        self.assertIn("COPC", said)
+        self.assertEqual(self.entries(), names)
+
+    def test_an_option_that_would_do_nothing_is_refused(self):
+        store = self.build(self.copy())
+        for kind in ("csv", "las", "ply"):
+            out = self.folder / f"d.{kind}"
+            self.assertIn("PCD", self.refuse(2, "export", store, "-o", out, "--double").err)
+        self.assertIn("--stats", self.refuse(2, "info", store, "--memory", "10M").err)
+
+    def test_a_file_with_its_index_beside_it(self):
+        las = self.copy()
+        self.succeed("index", las)
+        said = self.refuse(1, "render", las, "-o", self.folder / "x.png").err
+        self.assertIn(f"'{las}.pfindex'", said)
+
+    def test_a_made_up_survey_has_every_class(self):
+        las = self.folder / "made.las"
+        self.succeed("generate", "--points", 300000, "-o", las)
+        found = self.succeed("info", las, "--stats", "--json").json["stats"]["classes"]
+        self.assertEqual({entry["name"] for entry in found},
+                         {"ground", "low vegetation", "high vegetation", "building", "water"})
+
     def test_force_replaces_what_is_of_the_same_kind(self):
         las = self.copy()
         store = self.build(las)

@@ -104,6 +104,52 @@ Error refusal(const OutputTarget& target, const std::string& why)
 {
   return makeError(Error::Kind::BadArgument, target.path + ": " + why);
 }
+
+bool endsWith(std::string_view text, std::string_view end)
+{
+  return text.size() >= end.size() && text.substr(text.size() - end.size()) == end;
+}
+
+/// What a file of that name is by all who see it; Other: the name says nothing.
+FileKind kindOfName(const std::string& path)
+{
+  struct Ending
+  {
+    const char* text;
+    FileKind kind;
+  };
+  constexpr Ending endings[] = { { ".las", FileKind::LAS }, { ".laz", FileKind::LAS },
+    { ".ply", FileKind::PLY }, { ".pcd", FileKind::PCD }, { ".csv", FileKind::Text },
+    { ".xyz", FileKind::Text }, { ".txt", FileKind::Text }, { ".png", FileKind::Picture },
+    { ".pfront", FileKind::Store }, { ".pfindex", FileKind::SideFile } };
+  for (const Ending& ending : endings)
+  {
+    if (endsWith(path, ending.text))
+    {
+      return ending.kind;
+    }
+  }
+  return FileKind::Other;
+}
+
+/// A name tells programs what to read a file as.
+Result<void> checkName(const OutputTarget& target)
+{
+  if (target.kind == FileKind::LAS && endsWith(target.path, ".copc.laz"))
+  {
+    return refusal(target, "is named as COPC, which is not written; leave out '.copc'");
+  }
+  const FileKind named = kindOfName(target.path);
+  const bool cloud = target.kind == FileKind::Store || target.kind == FileKind::SideFile;
+  const bool index = target.kind == FileKind::SideFile && named == FileKind::Store; // drawn alike
+  if (cloud && !index && named != FileKind::Other && named != target.kind)
+  {
+    return refusal(target,
+      std::string("is named as ") + nameOf(named) + " and would be " + nameOf(target.kind) +
+        "; let the name end in " + (target.kind == FileKind::Store ? ".pfront" : ".pfindex"));
+  }
+  return {};
+}
 } // namespace
 
 bool sameFile(const std::string& one, const std::string& other)
@@ -129,6 +175,10 @@ Result<void> checkApart(const std::string& path, const std::vector<std::string>&
 
 Result<void> checkOutputTarget(const OutputTarget& target, const std::vector<std::string>& reads)
 {
+  if (Result<void> named = checkName(target); !named)
+  {
+    return named;
+  }
   if (Result<void> apart = checkApart(target.path, reads); !apart)
   {
     return apart;

@@ -42,8 +42,10 @@ Result<void> checkApart(const std::string& path, const std::vector<std::string>&
 /// Asked before anything is written and before hours of work. The kernel asks it where it knows
 /// what is read (buildStore, exportStore, indexLASFile); a program also where it knows more.
 /// `reads`  files that the same work reads: checkApart().
-/// Errors   BadArgument: the target is one of `reads`, is a folder or a device, or is a file of
-///          another kind, which is never replaced. Unwritable: it is there and `replace` is false.
+/// Errors   BadArgument: the target is one of `reads`, is a folder or a device, is a file of
+///          another kind, which is never replaced, or is named as one of another kind (a store
+///          *.las, plain LAZ *.copc.laz), which no program would then read. Unwritable: it is there
+///          and `replace` is false.
 Result<void> checkOutputTarget(
   const OutputTarget& target, const std::vector<std::string>& reads = {});
 

@@ -4,12 +4,15 @@
 #include "pointfront/Tiles/TileFormat.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <mutex>
 
 namespace pointfront
 {
 namespace
 {
+const char* const indexExtension = ".pfindex"; // what `pointfront index` adds to a file's name
+
 class StoreFile final : public StoredCloudFormat
 {
 public:
@@ -68,6 +71,12 @@ bool StoredCloudFormats::accepts(const std::string& path) const
 Result<std::shared_ptr<const StoredCloud>> StoredCloudFormats::open(const std::string& path) const
 {
   const std::shared_ptr<const StoredCloudFormat> format = formatOf(path);
+  if (!format && std::filesystem::exists(path) && accepts(path + indexExtension))
+  {
+    return makeError(Error::Kind::BadFormat,
+      "'" + path + "' is not a PointFront store; its index is there, name that: '" + path +
+        indexExtension + "'");
+  }
   return format ? format->open(path) : StoreFile().open(path);
 }
 

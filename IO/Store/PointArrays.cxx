@@ -1,5 +1,7 @@
 #include "PointArrays.h"
 
+#include "pointfront/Query/ChosenRows.h"
+
 #include <vtkDataArray.h>
 #include <vtkDoubleArray.h>
 #include <vtkIdTypeArray.h>
@@ -9,25 +11,12 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cstring>
 #include <numeric>
 
 namespace pointfront
 {
 namespace
 {
-
-/// The bytes of the points at `rows`, `stride` bytes each.
-std::vector<std::byte> gathered(
-  const std::vector<std::byte>& bytes, std::size_t stride, const std::vector<std::uint32_t>& rows)
-{
-  std::vector<std::byte> chosen(rows.size() * stride);
-  for (std::size_t i = 0; i < rows.size(); ++i)
-  {
-    std::memcpy(chosen.data() + i * stride, bytes.data() + rows[i] * stride, stride);
-  }
-  return chosen;
-}
 
 /// More than one value over the store, or a colour that is not black.
 bool showsSomething(const Attribute& attribute, const ColumnRange& range)
@@ -53,7 +42,7 @@ PointArrays::PointArrays(
   {
     const Attribute& attribute = description.schema[column];
     const ColumnRange& range = description.ranges[column];
-    columns_.push_back({ attribute.name, attribute.bytes(), showsSomething(attribute, range),
+    columns_.push_back({ attribute.name, showsSomething(attribute, range),
       AttributeArray(attribute, range, points) });
   }
 }
@@ -64,30 +53,26 @@ void PointArrays::addPrefix(const NodeColumns& node, std::uint32_t count)
 {
   std::vector<std::uint32_t> rows(count);
   std::iota(rows.begin(), rows.end(), 0u);
-  this->addRows(node, rows);
+  this->add(chosenRows(node, rows, description_));
 }
 
-void PointArrays::addRows(const NodeColumns& node, const std::vector<std::uint32_t>& rows)
+void PointArrays::add(const QueryBatch& batch)
 {
-  assert(filled_ + rows.size() <= static_cast<std::size_t>(ids_->GetNumberOfValues()));
-  auto* xyz = static_cast<double*>(points_->GetData()->GetVoidPointer(0));
-  for (std::size_t i = 0; i < rows.size(); ++i)
+  assert(filled_ + batch.size() <= static_cast<std::size_t>(ids_->GetNumberOfValues()));
+  auto* xyz = static_cast<double*>(points_->GetData()->GetVoidPointer(0)) + 3 * filled_;
+  for (std::size_t i = 0; i < batch.size(); ++i)
   {
-    const std::size_t at = filled_ + i;
-    const glm::dvec3 p =
-      description_.grid.toWorld(node.origin + GridPosition(node.positions[rows[i]]));
-    xyz[3 * at] = p.x;
-    xyz[3 * at + 1] = p.y;
-    xyz[3 * at + 2] = p.z;
-    elevation_->SetValue(static_cast<vtkIdType>(at), p.z);
-    ids_->SetValue(static_cast<vtkIdType>(at), static_cast<vtkIdType>(node.firstPoint + rows[i]));
+    const auto at = static_cast<vtkIdType>(filled_ + i);
+    const glm::dvec3& p = batch.points.positions[i];
+    std::copy_n(&p.x, 3, xyz + 3 * i);
+    elevation_->SetValue(at, p.z);
+    ids_->SetValue(at, static_cast<vtkIdType>(batch.ids[i]));
   }
   for (std::size_t k = 0; k < columns_.size(); ++k)
   {
-    const std::vector<std::byte> bytes = gathered(node.columns[k], columns_[k].stride, rows);
-    columns_[k].array.fill(bytes.data(), filled_, rows.size());
+    columns_[k].array.fill(batch.points.columns[k].data(), filled_, batch.size());
   }
-  filled_ += rows.size();
+  filled_ += batch.size();
 }
 
 const char* PointArrays::defaultColours() const

@@ -2,6 +2,7 @@
 
 #include "AttributeArray.h"
 
+#include "pointfront/Query/QueryBatch.h"
 #include "pointfront/Store/NodeReader.h"
 #include "pointfront/Store/StoredCloud.h"
 
@@ -37,8 +38,8 @@ public:
 
   /// The first `count` points of a node, read with the columns of the constructor.
   void addPrefix(const NodeColumns& node, std::uint32_t count);
-  /// The points of a node at those positions in it.
-  void addRows(const NodeColumns& node, const std::vector<std::uint32_t>& rows);
+  /// Points that were read with the columns of the constructor.
+  void add(const QueryBatch& batch);
   /// Called when all promised points have been added.
   void moveTo(vtkPolyData* output);
 
@@ -46,7 +47,6 @@ private:
   struct Column
   {
     std::string name;
-    std::size_t stride; ///< bytes of a point
     bool shows; ///< something: it may colour the points unasked
     AttributeArray array;
   };

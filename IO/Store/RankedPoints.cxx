@@ -2,13 +2,16 @@
 
 #include "PointArrays.h"
 
+#include "pointfront/Query/ChosenRows.h"
 #include "pointfront/Query/NodeOfRank.h"
+#include "pointfront/Query/NodeSweep.h"
 
 #include <vtkPolyData.h>
 
 #include <algorithm>
 #include <numeric>
 #include <optional>
+#include <string>
 
 namespace pointfront
 {
@@ -36,10 +39,13 @@ Result<std::vector<NodeRows>> locatePoints(const Hierarchy& hierarchy,
   {
     const NodeIndex index = nodeOfRank(hierarchy, *rank);
     const Node node = hierarchy.node(index);
-    if (*rank < node.firstPoint || *rank >= node.firstPoint + node.pointCount)
+    if (const std::optional<Error> damage = hierarchy.fault())
     {
-      ++rank; // behind the last point, or in a damaged page, which fault() tells
-      continue;
+      return *damage;
+    }
+    if (*rank >= node.firstPoint + node.pointCount)
+    {
+      break;
     }
     const std::uint32_t known = overviewPoints(overview, index);
     NodeRows rows{ index, {} };
@@ -56,9 +62,10 @@ Result<std::vector<NodeRows>> locatePoints(const Hierarchy& hierarchy,
       found.push_back(std::move(rows));
     }
   }
-  if (const std::optional<Error> damage = hierarchy.fault())
+  if (rank != ranks.end())
   {
-    return *damage;
+    return makeError(
+      Error::Kind::BadArgument, "the cloud has no point of the id " + std::to_string(*rank));
   }
   return found;
 }
@@ -132,17 +139,27 @@ std::vector<NodeRows> shareOf(std::vector<NodeRows> points, int piece, int piece
 }
 
 Result<void> fillPoints(const StoredCloud& store, const std::vector<NodeRows>& points,
-  const ColumnSelection& columns, vtkPolyData* output)
+  const ColumnSelection& columns, const QueryOptions& options, vtkPolyData* output)
 {
-  PointArrays arrays(store.description(), columns, countOf(points));
-  for (const NodeRows& node : points)
+  const StoreDescription& description = store.description();
+  PointArrays arrays(description, columns, countOf(points));
+  NodeSweep sweep;
+  sweep.count = points.size();
+  sweep.columns = columns;
+  sweep.resultBytes = sizeof(std::uint64_t) + sizeof(glm::dvec3) + description.schema.pointBytes();
+  sweep.node = [&](std::size_t i) { return points[i].node; };
+  sweep.points = [&](std::size_t i) { return store.hierarchy()->node(points[i].node).pointCount; };
+  sweep.choose = [&](std::size_t i, NodeColumns&& node)
+  { return chosenRows(node, points[i].rows, description); };
+  const auto add = [&arrays](QueryBatch& batch) -> Result<void>
   {
-    const auto read = store.read(node.node, columns);
-    if (!read)
-    {
-      return read.error();
-    }
-    arrays.addRows(*read, node.rows);
+    arrays.add(batch);
+    return {};
+  };
+  const Result<QueryReport> read = sweepNodes(store, sweep, options, add);
+  if (!read)
+  {
+    return read.error();
   }
   arrays.moveTo(output);
   return {};

@@ -2,6 +2,8 @@
 
 #include "Overview.h"
 
+#include "pointfront/Query/QueryBatch.h"
+
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -17,8 +19,8 @@ struct NodeRows
 };
 
 /// The places of the points with those ranks, except the points of `overview`: in table order, each
-/// once. Ranks beyond the store's points are left out.
-/// Errors  damage of the table that was met.
+/// once.
+/// Errors  BadArgument: a rank beyond the store's points; damage of the table that was met.
 Result<std::vector<NodeRows>> locatePoints(const Hierarchy& hierarchy,
   std::vector<std::uint64_t> ranks, const std::vector<OverviewPart>& overview);
 
@@ -35,8 +37,8 @@ std::uint64_t countOf(const std::vector<NodeRows>& points);
 std::vector<NodeRows> shareOf(std::vector<NodeRows> points, int piece, int pieces);
 
 /// Fills `output` with those points (PointArrays).
-/// Errors  those of NodeReader::read.
+/// Errors  those of sweepNodes().
 Result<void> fillPoints(const StoredCloud& store, const std::vector<NodeRows>& points,
-  const ColumnSelection& columns, vtkPolyData* output);
+  const ColumnSelection& columns, const QueryOptions& options, vtkPolyData* output);
 
 } // namespace pointfront

@@ -281,9 +281,7 @@ bool vtkPointFrontReader::ReadPoints(
     return false;
   }
   const vtkIdType* values = ranks->GetPointer(0);
-  std::vector<std::uint64_t> wanted;
-  std::copy_if(values, values + ranks->GetNumberOfValues(), std::back_inserter(wanted),
-    [](vtkIdType rank) { return rank >= 0; });
+  std::vector<std::uint64_t> wanted(values, values + ranks->GetNumberOfValues()); // -1: far beyond
   const pointfront::Hierarchy& hierarchy = *this->Store->GetStore()->hierarchy();
   return this->Fill({ pointfront::locatePoints(
                       hierarchy, std::move(wanted), overviewOf(hierarchy, this->OverviewPoints)) },
@@ -324,9 +322,23 @@ bool vtkPointFrontReader::Fill(Found&& found, int piece, int pieces, vtkPolyData
     vtkErrorMacro(<< found.points.error().what);
     return false;
   }
+  this->SetAbortExecute(0); // what stopped an earlier run does not stop this one
+  const auto goOn = [this](double share)
+  {
+    this->UpdateProgress(share);
+    return !this->GetAbortExecute();
+  };
+  if (!goOn(0.0))
+  {
+    vtkErrorMacro("stopped before the points were read");
+    return false;
+  }
+  pointfront::QueryOptions options;
+  options.progress = [&goOn](const pointfront::Progress& progress)
+  { return goOn(progress.fraction); };
   const auto filled = pointfront::fillPoints(*this->Store->GetStore(),
     pointfront::shareOf(std::move(*found.points), piece, pieces),
-    chosenColumns(this->Store, this->PointDataArraySelection), output);
+    chosenColumns(this->Store, this->PointDataArraySelection), options, output);
   if (!filled)
   {
     vtkErrorMacro(<< filled.error().what);

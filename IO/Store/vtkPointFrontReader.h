@@ -91,8 +91,9 @@ public:
   /**
    * Reads points of the store by their ranks (which are the global point ids of hardware
    * selections), except those of the overview. `output` has the arrays of the overview and each
-   * point once; it leaves out ranks beyond the store's points. With several `pieces`, each gets its
-   * share. Call it after UpdateInformation(). False, and an error, if a node cannot be read.
+   * point once. With several `pieces`, each gets its share. Call it after UpdateInformation().
+   * False, and an error, if the store has no point of a rank, a node cannot be read, or
+   * AbortExecute is on.
    */
   bool ReadPoints(vtkIdTypeArray* ranks, int piece, int pieces, vtkPolyData* output);
 

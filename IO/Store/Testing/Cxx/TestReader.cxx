@@ -204,9 +204,6 @@ TEST(Reader, PointsThatTheOverviewLacksAreReadByTheirRanks)
     }
   }
   ranks->InsertNextValue(19999); // twice
-  ranks->InsertNextValue(-1); // and what there is not
-  ranks->InsertNextValue(20000);
-  ranks->InsertNextValue(VTK_ID_MAX);
   std::set<vtkIdType> found;
   for (int piece = 0; piece < 3; ++piece)
   {
@@ -219,6 +216,50 @@ TEST(Reader, PointsThatTheOverviewLacksAreReadByTheirRanks)
     found.insert(ids.begin(), ids.end());
   }
   EXPECT_EQ(found, wanted);
+}
+
+TEST(Reader, RanksThatTheStoreHasNotAreAnError)
+{
+  vtkNew<vtkPointFrontReader> reader;
+  reader->SetFileName(storeOf("no_ranks", 20000).c_str());
+  reader->Update();
+  for (const vtkIdType rank : { vtkIdType(-1), vtkIdType(20000), vtkIdType(VTK_ID_MAX) })
+  {
+    vtkNew<vtkIdTypeArray> ranks;
+    ranks->InsertNextValue(7);
+    ranks->InsertNextValue(rank);
+    vtkNew<vtkPolyData> points;
+    vtkNew<ErrorObserver> errors;
+    const auto tag = reader->AddObserver(vtkCommand::ErrorEvent, errors);
+    EXPECT_FALSE(reader->ReadPoints(ranks, 0, 1, points)) << rank;
+    EXPECT_NE(errors->GetErrorMessage().find("no point of the id"), std::string::npos) << rank;
+    reader->RemoveObserver(tag);
+  }
+}
+
+TEST(Reader, ReadingPointsByRankCanBeAborted)
+{
+  vtkNew<vtkPointFrontReader> reader;
+  reader->SetFileName(storeOf("abort_ranks", 20000).c_str());
+  reader->SetOverviewPoints(1);
+  reader->Update();
+  vtkNew<vtkIdTypeArray> ranks;
+  for (vtkIdType rank = 0; rank < 20000; ++rank)
+  {
+    ranks->InsertNextValue(rank);
+  }
+  vtkNew<vtkPolyData> points;
+  vtkNew<vtkCallbackCommand> stop;
+  stop->SetCallback([](vtkObject* caller, unsigned long, void*, void*)
+    { vtkAlgorithm::SafeDownCast(caller)->SetAbortExecute(1); });
+  const auto tag = reader->AddObserver(vtkCommand::ProgressEvent, stop);
+  vtkNew<ErrorObserver> errors;
+  reader->AddObserver(vtkCommand::ErrorEvent, errors);
+  EXPECT_FALSE(reader->ReadPoints(ranks, 0, 1, points));
+  EXPECT_EQ(points->GetNumberOfPoints(), 0);
+  reader->RemoveObserver(tag);
+  EXPECT_TRUE(reader->ReadPoints(ranks, 0, 1, points)); // the next one begins anew
+  EXPECT_GT(points->GetNumberOfPoints(), 10000);
 }
 
 TEST(Reader, TheSelectionChoosesTheArraysAndIsPartOfTheTime)

@@ -1,11 +1,11 @@
 #include "pointfront/Query/PointsById.h"
 
 #include "pointfront/Query/ChosenColumns.h"
+#include "pointfront/Query/ChosenRows.h"
 #include "pointfront/Query/NodeOfRank.h"
 #include "pointfront/Query/NodeSweep.h"
 
 #include <algorithm>
-#include <cstring>
 #include <functional>
 #include <utility>
 
@@ -64,24 +64,12 @@ Result<std::vector<NodeIds>> nodesOf(
 QueryBatch chosen(const NodeIds& of, const std::vector<std::uint64_t>& ids,
   const StoreDescription& description, const NodeColumns& node)
 {
-  QueryBatch batch;
-  batch.node = node.node;
-  const auto first = ids.begin() + static_cast<std::ptrdiff_t>(of.first);
-  batch.ids.assign(first, first + static_cast<std::ptrdiff_t>(of.count));
-  batch.points.resize(of.count, description.schema);
+  std::vector<std::uint32_t> rows(of.count);
   for (std::size_t i = 0; i < of.count; ++i)
   {
-    const auto place = static_cast<std::size_t>(batch.ids[i] - node.firstPoint);
-    batch.points.positions[i] =
-      description.grid.toWorld(node.origin + GridPosition(node.positions[place]));
-    for (std::size_t c = 0; c < node.columns.size(); ++c)
-    {
-      const std::size_t bytes = description.schema[c].bytes();
-      std::memcpy(
-        batch.points.columns[c].data() + i * bytes, node.columns[c].data() + place * bytes, bytes);
-    }
+    rows[i] = static_cast<std::uint32_t>(ids[of.first + i] - node.firstPoint);
   }
-  return batch;
+  return chosenRows(node, rows, description);
 }
 
 } // namespace
@@ -112,7 +100,7 @@ Result<QueryReport> pointsById(const StoredCloud& store, const std::vector<std::
   sweep.node = [&nodes](std::size_t i) { return (*nodes)[i].node; };
   sweep.points = [&nodes](std::size_t i) { return (*nodes)[i].points; };
   sweep.choose = [&](std::size_t i, NodeColumns&& node)
-  { return chosen((*nodes)[i], ids, columns->description, node); };
+  { return chosen((*nodes)[i], ids, store.description(), node); };
   return sweepNodes(store, sweep, options, consume);
 }
 

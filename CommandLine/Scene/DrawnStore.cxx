@@ -138,7 +138,9 @@ bool DrawnStore::needsFrame()
 bool DrawnStore::loads() const
 {
   const ResidencyStatistics now = residency().statistics();
-  return now.loading > 0 || (now.pending > 0 && !residency().exhausted());
+  // What has arrived and waits for the end of a pause is not in the picture either.
+  return now.loading > 0 || (now.pending > 0 && !residency().exhausted()) || ahead_ ||
+    front_->wantsUpdate() || growth_.growing();
 }
 
 Result<void> DrawnStore::outcome()

@@ -53,7 +53,7 @@ public:
   bool needsFrame();
   /// Another update would come to something else.
   bool wantsUpdate() const { return front_->wantsUpdate(); }
-  /// Something is on its way.
+  /// Something is on its way, or is here and waits for the next frame.
   bool loads() const;
   /// What went wrong since the last call: nodes and rows that could not be read.
   Result<void> outcome();

@@ -59,6 +59,21 @@ class Streams(tool.ToolTest):
         self.addCleanup(stream.process.kill)
         return stream
 
+    def test_settled_is_as_fine_as_asked(self):
+        # Frames pause while points arrive; a pause is no end.
+        large = self.folder / "large.pfront"
+        self.succeed("build", tool.DATA / "large/autzen_10653336_rgb_intensity.laz", "-o", large)
+        for turn in range(6):
+            stream = Stream(large)
+            self.addCleanup(stream.process.kill)
+            answer, _ = stream.ask()
+            drawn = answer
+            while not answer["settled"]:
+                answer, pixels = stream.ask(wait_ms=200)
+                drawn = answer if pixels else drawn
+            self.assertTrue(drawn["complete"], (turn, drawn))
+            self.assertEqual(stream.end()[0], 0)
+
     def test_memory_is_what_was_allowed(self):
         # A frame of 8192 x 8192 takes 1.1 GB and more.
         stream = self.open("--memory", "64M")

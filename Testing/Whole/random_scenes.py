@@ -1,21 +1,18 @@
-"""Random scenes: a style and a view drawn from a seed, and the smallest style that still fails.
+"""Random scenes: a style and a view drawn from a seed.
 
 A scene is what `pointfront render` takes: a style (docs/user/styles.md) and a camera file. The same
 seed gives the same scene everywhere.
 """
 
-import copy
 import random
+
+from random_cases import chance
 
 CLASSES = (2, 5, 6, 9)
 COLOURS = ("auto", "rgb", "intensity", "elevation", "classification", "#d08030", "normal.z")
 MAPS = ("viridis", "grey", ["#000080", "#ffff00"])
 TECHNIQUES = ("points", "splats", "spheres", "silhouettes", "ewa")
 TECHNIQUES_WEIGHTS = (4, 4, 3, 2, 2)
-
-
-def chance(rng, share):
-    return rng.random() < share
 
 
 def random_colour(rng):
@@ -155,29 +152,3 @@ def random_scene(seed, bounds, size):
     """(style, name of the view, camera) of a seed."""
     rng = random.Random(seed)
     return (random_sheet(rng, size), *random_camera(rng, bounds))
-
-
-def without_one(style):
-    """Every style that lacks one entry of this one, larger entries first."""
-    if isinstance(style, dict):
-        for key, value in style.items():
-            yield {other: copy.deepcopy(kept) for other, kept in style.items() if other != key}
-        for key, value in style.items():
-            for smaller in without_one(value):
-                yield {**copy.deepcopy(style), key: smaller}
-    elif isinstance(style, list) and style and isinstance(style[0], dict):
-        for place in range(len(style)):
-            yield copy.deepcopy(style[:place] + style[place + 1:])
-        for place, value in enumerate(style):
-            for smaller in without_one(value):
-                yield [*copy.deepcopy(style[:place]), smaller, *copy.deepcopy(style[place + 1:])]
-
-
-def shrunk(style, fails):
-    """The smallest style that still fails: no entry can be left out. A style that is refused does
-    not fail."""
-    while True:
-        smaller = next((one for one in without_one(style) if fails(one)), None)
-        if smaller is None:
-            return style
-        style = smaller

@@ -1,16 +1,16 @@
 """Random scenes by both back ends: the same pictures but for rounding.
 
-Environment: POINTFRONT_RANDOM_FIRST the first seed (1), POINTFRONT_RANDOM_COUNT how many (40). A
-scene that differs is shrunk to the smallest style that still differs, which is printed with its
-seed; docs/developer/random-styles.md says what was found.
+The environment names the seeds: see random_cases.py. A scene that differs is shrunk to the smallest
+style that still differs, which is printed with its seed; docs/developer/random-tests.md says what
+was found.
 """
 
 import json
-import os
 import unittest
 
 from pictures import read_png, share_alike
-from random_scenes import random_scene, shrunk
+from random_cases import seeds, shrunk
+from random_scenes import random_scene
 from scenes import SceneTest
 from tool import DATA, pointfront
 
@@ -24,8 +24,6 @@ SIZE = (320, 240)
 # inside. Half of the largest fixed size of a random style.
 EDGE = 6
 CLOUD = DATA / "classified/lidarprod_rgb_buildings_71k.laz"
-FIRST, COUNT = (int(os.environ.get(f"POINTFRONT_RANDOM_{name}", usual))
-                for name, usual in (("FIRST", "1"), ("COUNT", "40")))
 
 ACROSS = {"position": [870230.0, 6617060.0, 290.0], "focal_point": [870245.0, 6617110.0, 185.0],
           "view_up": [0, 0, 1], "view_angle": 45}
@@ -79,7 +77,7 @@ class RandomStyles(SceneTest):
                 self.assertGreaterEqual(self.alike(style, ACROSS), LEAST_ALIKE)
 
     def test_both_back_ends_draw_random_styles_alike(self):
-        for seed in (*FOUND_SEEDS, *range(FIRST, FIRST + COUNT)):
+        for seed in (*FOUND_SEEDS, *seeds()):
             style, view, camera = random_scene(seed, self.bounds, SIZE)
             with self.subTest(seed=seed, view=view):
                 alike = self.alike(style, camera)

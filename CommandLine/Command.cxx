@@ -1,6 +1,7 @@
 #include "Command.h"
 
-#include <algorithm>
+#include "pointfront/Base/PrintableText.h"
+
 #include <cstdio>
 
 namespace pointfront
@@ -8,11 +9,10 @@ namespace pointfront
 
 namespace
 {
-void printLine(const std::string& prefix, std::string text)
+/// The text may quote a file: what a terminal obeys is not printed.
+void printLine(const std::string& prefix, const std::string& text)
 {
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  std::replace(text.begin(), text.end(), '\r', ' ');
-  std::fprintf(stderr, "%s: %s\n", prefix.c_str(), text.c_str());
+  std::fprintf(stderr, "%s: %s\n", prefix.c_str(), printableText(text).c_str());
 }
 } // namespace
 

@@ -38,7 +38,8 @@ protected:
   CLI::App* app_ = nullptr;
 };
 
-/// One line on stderr: "pointfront COMMAND: TEXT". Line breaks in the text become spaces.
+/// One line on stderr: "pointfront COMMAND: TEXT". Line breaks in the text become spaces,
+/// other control characters '_'.
 void complain(const std::string& command, const std::string& text);
 /// Likewise, as "pointfront COMMAND: warning: TEXT".
 void warn(const std::string& command, const std::string& text);

@@ -47,8 +47,4 @@ inline void storeText(std::byte* to, std::size_t width, std::string_view text)
   std::memcpy(to, text.data(), text.size() < width ? text.size() : width);
 }
 
-/// The same text, safe to print and to put into JSON: tabs and line ends become blanks, other
-/// control characters '_', and so do all bytes above 127 unless the whole is valid UTF-8.
-std::string printableText(std::string text);
-
 } // namespace pointfront

@@ -2,6 +2,8 @@
 
 #include "LASExtraBytes.h"
 
+#include "pointfront/Base/PrintableText.h"
+
 #include <algorithm>
 #include <utility>
 

@@ -1,5 +1,7 @@
 #include "LASRecords.h"
 
+#include "pointfront/Base/PrintableText.h"
+
 namespace pointfront
 {
 namespace

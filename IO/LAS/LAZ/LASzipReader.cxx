@@ -2,6 +2,8 @@
 
 #include "StackGuard.h"
 
+#include "pointfront/Base/PrintableText.h"
+
 #include <laszip/laszip_api.h>
 
 #include <istream>

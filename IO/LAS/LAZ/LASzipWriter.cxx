@@ -3,6 +3,8 @@
 #include "LASBytes.h"
 #include "LASRecords.h"
 
+#include "pointfront/Base/PrintableText.h"
+
 #include <laszip/laszip_api.h>
 
 #include <optional>

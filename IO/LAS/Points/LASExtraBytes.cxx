@@ -1,5 +1,7 @@
 #include "LASExtraBytes.h"
 
+#include "pointfront/Base/PrintableText.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>

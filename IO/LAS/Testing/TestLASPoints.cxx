@@ -236,15 +236,6 @@ TEST(LASExtraBytes, KeepADescriptorThatSaysTheSame)
   EXPECT_EQ(again, original);
 }
 
-TEST(LASText, IsMadePrintable)
-{
-  EXPECT_EQ(printableText("a\tb\nc"), "a b c");
-  EXPECT_EQ(printableText("a\x01z"), "a_z");
-  EXPECT_EQ(printableText("H\xC3\xB6he"), "H\xC3\xB6he"); // UTF-8 stays
-  EXPECT_EQ(printableText("H\xF6he"), "H_he"); // Latin-1 does not
-  EXPECT_EQ(printableText("\xED\xA0\x80"), "___"); // a surrogate is not UTF-8
-}
-
 TEST(LAZIntegerDecoder, StopsWhereTheBytesEnd)
 {
   const std::vector<std::byte> zeros(6);

@@ -1,4 +1,4 @@
-#include "LASBytes.h"
+#include "pointfront/Base/PrintableText.h"
 
 namespace pointfront
 {
@@ -67,9 +67,15 @@ bool isUtf8(const std::string& text)
 std::string printableText(std::string text)
 {
   const bool utf8 = isUtf8(text);
-  for (char& c : text)
+  for (std::size_t i = 0; i < text.size(); ++i)
   {
+    char& c = text[i];
     const auto byte = static_cast<unsigned char>(c);
+    if (utf8 && byte == 0xC2 && static_cast<unsigned char>(text[i + 1]) < 0xA0)
+    {
+      text.replace(i, 2, "_"); // U+0080 to U+009F: what some terminals obey
+      continue;
+    }
     if (byte == '\t' || byte == '\n' || byte == '\r')
     {
       c = ' ';

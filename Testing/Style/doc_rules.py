@@ -52,7 +52,7 @@ def anchors(files):
 
 
 # Pages whose tables of numbers Testing/Benchmarks/tables makes.
-MEASURED = ("README.md", "docs/tradeoffs.md")
+MEASURED = ("README.md", "docs/tradeoffs.md", "docs/papers.md")
 COMMAND = re.compile(r"<!-- table(?: \d+)?(?: by hand)?: (.+) -->")
 CALLED = re.compile(r"Testing/Benchmarks/(\w+(?:\.py)?)|\bpointfront(\w+)Benchmark\b")
 
@@ -66,7 +66,7 @@ def is_of_numbers(rows):
 
 
 def table_commands(files):
-    """A table of numbers in README or tradeoffs.md has its command, which calls what is there."""
+    """A table of numbers of a MEASURED page has its command, which calls what is there."""
     there = {file.path for file in files}
     for file in files:
         for number, line in file.numbered() if file.path in MEASURED else ():

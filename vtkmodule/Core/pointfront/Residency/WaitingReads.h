@@ -61,7 +61,7 @@ public:
   /// What is read next: waits and fits. `oldMayGo`: nothing else can make room, so that the old
   /// points of a node in `cache` that nobody draws may go before its new ones come.
   std::optional<Choice> choose(const NodeCache& cache, bool oldMayGo) const;
-  /// A read begins: it waits no more.
+  /// Removes a request whose read begins.
   void take(const Choice& choice);
   void clear();
 

@@ -192,7 +192,7 @@ void KdPool::append(const KdCut& cut, std::size_t cells)
   }
 }
 
-/// Parts are buckets; behind them each cell that is divided is one.
+/// Each part has a bucket, and behind these each divided cell has one.
 CellTable KdPool::bucketTable(
   const std::vector<CountedCell>& cells, unsigned shift, std::size_t firstPlace) const
 {

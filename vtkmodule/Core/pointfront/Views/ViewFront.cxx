@@ -244,7 +244,7 @@ void ViewFront::tellDemand(const FrameRequest& demand)
   {
     curves.held[step] *= pointBytes_;
   }
-  // Its own change is none for itself; another one's, since the look, is.
+  // What this view changes is no news to itself. What others changed since readShares() is.
   const std::uint64_t before = sharedRevision();
   memory_.set(curves.held);
   window_->points.set(curves.drawn, demand.pointBudget);

@@ -189,7 +189,7 @@ class Cloud:
         cmap        PyVista's or Matplotlib's name of a colour map
         clim        (low, high) of the map; None: the attribute's range in the overview
         show_scalar_bar, scalar_bar_args   as in add_mesh; a bar unless the colours are rgb
-        point_size  pixels; None: discs as large as the points' spacing
+        point_size  pixels; None: `error` and one more, so that neighbours meet
         error       projected point spacing to refine to, in pixels
         complete    a render of a view at rest waits for all of it: for screenshots. False: the
                     view refines before the user's eyes
@@ -234,9 +234,9 @@ class Cloud:
         PointFrontError without a display: use screenshot() there.
         """
         if _in_notebook():
-            from ._page import NotebookView
+            from ._page import view_of_cell
 
-            return NotebookView([self.path], height=size[1])
+            return view_of_cell([self.path], height=size[1])
         from . import _window
 
         _window.show(self.path, size, title or self.path)

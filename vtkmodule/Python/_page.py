@@ -4,21 +4,21 @@ import asyncio
 import html as html_text
 import itertools
 import json
-import secrets
+import math
 import threading
-import urllib.parse
 
 from ._errors import PointFrontError
 from ._pictures import run_tool
 
 try:
-    from aiohttp import web  # trame's server
     from trame.app import get_server
     from trame.ui.html import DivLayout
     from trame.widgets import html, rca
     from trame_rca.view_adapter import RcaViewAdapter
 
-    from ._remote import VIEWS, RemoteView
+    from ._doors import Doors
+    from ._lines import Lines
+    from ._remote import LARGEST_EDGE, VIEWS, RemoteView
 except ImportError as missing:
     raise PointFrontError(
         f"a page needs Python's packages trame, trame-rca and pillow: pip install trame trame-rca "
@@ -32,6 +32,9 @@ _BAR = ("position:absolute; left:8px; top:8px; display:flex; gap:6px; align-item
 _STATUS = ("position:absolute; left:8px; bottom:8px; font:12px sans-serif; color:#aaa; "
            "pointer-events:none;")
 _WHOLE = ("position:absolute; inset:0; overflow:hidden; background:#17191f;")
+# Of another client's size: all of it, not stretched.
+_WHOLE_PICTURE = "{width: '100%', height: '100%', display: 'block', objectFit: 'contain'}"
+CHOSEN_BY_CLIENTS = ("colour", "technique")  # what they may change of the page's state
 _count = itertools.count(1)
 
 
@@ -53,73 +56,38 @@ def _status(facts):
     return text if facts["settled"] else text + " …"
 
 
-class _Doors:
-    """Who may reach the view: those who have the server's secret, from the server's own pages.
+class _Area(RcaViewAdapter):
+    """trame-rca's adapter of an area, which knows one client: here each has a size of its own."""
 
-    secret  of this server alone, a part of the address that is told. trame's page takes it out of
-            the address and opens its socket with it; a cookie keeps it for a page that is loaded
-            anew. The page's code, which is trame's, and nothing else is there without it.
-    """
+    def __init__(self, view, name, client):
+        super().__init__(view, name, scheduler=view, do_schedule_render_on_interaction=True)
+        self._client = client  # whose message is being answered
+        self._ratios = {}  # pixels of the screen for one of the page
 
-    def __init__(self, server):
-        self.secret = "s" + secrets.token_hex(16)  # digits alone would be a number to the page
-        self._server = server
+    def update_size(self, _origin, size):
+        ratio = _within(size.get("p", 1), 0.25, 8.0)
+        edges = [_within(size.get(edge, 300), 10, LARGEST_EDGE) * ratio for edge in ("w", "h")]
+        self._ratios[self._client()] = ratio
+        self._rca.process_resize_event(*edges, self._client())
+        self._scheduler.schedule_render()
 
-    @property
-    def query(self):
-        return f"secret={self.secret}"
+    def on_interaction(self, _origin, event):
+        ratio = self._ratios.get(self._client(), 1.0)
+        event = {**event, **{key: event[key] * ratio for key in ("x", "y") if key in event}}
+        self._rca.process_interaction_event(event, self._client())
+        self._scheduler.schedule_render()
 
-    def bind(self, wslink_server):
-        """Before the server listens."""
-        self._server.protocol.updateSecret(self.secret)
-        app = wslink_server.app
-        app.router.add_post("/paraview/", self._answer_launcher)
-        app.middlewares.append(self._middleware())
-
-    def _cookie(self):
-        return f"pointfront-{self._server.port}"  # browsers have the cookies of all ports in one
-
-    def _knows(self, given):
-        return given is not None and secrets.compare_digest(given.encode(), self.secret.encode())
-
-    async def _answer_launcher(self, request):
-        """trame's page asks for a launcher of servers before it takes the one that it came from,
-        and the browser logs an error where there is none: tell it where that is.
-        """
-        page = urllib.parse.urlsplit(request.headers.get("Referer", "")).path
-        if page.count("/") > 1:  # a proxy is between: the page finds the way by its own address
-            raise web.HTTPNotFound()
-        answer = {"sessionURL": "ws://USE_HOST/ws"}
-        if self._knows(request.cookies.get(self._cookie())):
-            answer["secret"] = self.secret
-        return web.json_response(answer)
-
-    def _middleware(self):
-        @web.middleware
-        async def check(request, handler):
-            _refuse_foreign_pages(request)
-            if request.path not in ("/", "/index.html"):
-                return await handler(request)
-            invited = self._knows(request.query.get("secret"))
-            if not invited and not self._knows(request.cookies.get(self._cookie())):
-                raise web.HTTPForbidden(text="this view opens by the whole address that "
-                                             "`pointfront serve` printed, with its secret")
-            answer = await handler(request)
-            if invited:
-                answer.set_cookie(self._cookie(), self.secret, httponly=True, samesite="Strict")
-            return answer
-
-        return check
+    def forget(self, client):
+        self._ratios.pop(client, None)
+        self._rca.forget(client)
 
 
-def _refuse_foreign_pages(request):
-    """A browser connects any page to any server of its machine, and says which page asks. Only
-    pages of this server, or of a proxy that says whom it stands for, reach the view.
-    """
-    origin = request.headers.get("Origin")
-    hosts = {request.headers.get("Host"), request.headers.get("X-Forwarded-Host")}
-    if origin is not None and urllib.parse.urlsplit(origin).netloc not in hosts:
-        raise web.HTTPForbidden(text="a page of another server asks for this view")
+def _within(number, least, most):
+    """A client's number, or what is nearest to it; ValueError for what is none."""
+    value = float(number)
+    if math.isnan(value):
+        raise ValueError("a client says NaN")
+    return max(least, min(most, value))
 
 
 class CloudPage:
@@ -135,7 +103,8 @@ class CloudPage:
             self._options.setdefault("technique", TECHNIQUES[0])
         self.view = RemoteView(paths, self._arguments(), self._tell)
         self.server = get_server(f"pointfront-{next(_count)}", client_type="vue3")
-        self._doors = _Doors(self.server)
+        self._doors = Doors(self.server)
+        self._lines = Lines(CHOSEN_BY_CLIENTS.__contains__, self._forget)
         state = self.server.state
         state.trame__title = "PointFront"
         state.colour = self._options.get("color-by", "")
@@ -143,7 +112,8 @@ class CloudPage:
         state.status = ""
         state.frames = 0
         state.settled = False
-        self._build(colours_of(paths[0]))
+        self._colours = colours_of(paths[0])
+        self._build(self._colours)
         state.change("colour", "technique")(self._choose)
 
     def _build(self, colours):
@@ -151,10 +121,9 @@ class CloudPage:
             area = rca.RemoteControlledArea(
                 display="image", event_throttle_ms=16, resize_throttle_ms=100,
                 style="position:absolute; inset:0;",
-                image_style=("{width: '100%', height: '100%', display: 'block'}",))
-            adapter = RcaViewAdapter(self.view, area.name, scheduler=self.view,
-                                     do_schedule_render_on_interaction=True)
-            area.add_view_handler(adapter)
+                image_style=(_WHOLE_PICTURE,))
+            self._area = _Area(self.view, area.name, lambda: self._lines.client)
+            area.add_view_handler(self._area)
             with html.Div(style=_BAR):
                 with html.Select(v_model=("colour",), title="colour"):
                     html.Option("colour", value="")
@@ -169,18 +138,17 @@ class CloudPage:
             html.Div("{{ status }}", style=_STATUS, classes="pointfront-status",
                      raw_attrs=[':data-frames="frames"', ':data-settled="settled"'])
         controller = self.server.controller
-        controller.on_server_ready.add(lambda **_: self._watch_network(adapter))
         controller.on_server_bind.add(self._doors.bind)
+        controller.on_server_bind.add(self._lines.bind)
+        self.view.watch_network(self._lines.waiting)
 
     @property
     def query(self):
         """What an address of this page ends with, behind '?'."""
         return self._doors.query
 
-    def _watch_network(self, adapter):
-        if adapter.streamer is not None:
-            monitor = adapter.streamer.coreServer.network_monitor
-            self.view.watch_network(lambda: monitor.pending)
+    def _forget(self, client):
+        self._area.forget(client)
 
     def _arguments(self):
         words = []
@@ -192,6 +160,10 @@ class CloudPage:
         return words
 
     def _choose(self, colour, technique, **_):
+        known = self._options.values()  # of the start, too, which the page may not offer
+        if ((colour and colour not in self._colours and colour not in known)
+                or (technique and technique not in TECHNIQUES and technique not in known)):
+            return
         chosen = {**self._options, "color-by": colour, "technique": technique}
         if any(chosen[name] != self._options.get(name, "") for name in chosen):
             self._options = chosen
@@ -212,8 +184,37 @@ class CloudPage:
             self.view.end()
 
 
+_of_cells = {}  # {cell of a notebook: (run of it, its views)}
+
+
+def view_of_cell(paths, height):
+    """A NotebookView; those that an earlier run of the same cell made are ended."""
+    cell, run = _running_cell()
+    last_run, views = _of_cells.pop(cell, (run, []))
+    if last_run != run:
+        for view in views:
+            view.close()
+        views = []
+    views = [*views, NotebookView(paths, height=height)]
+    _of_cells[cell] = run, views
+    return views[-1]
+
+
+def _running_cell():
+    """What tells a cell from others, and its runs from each other: the name that JupyterLab gives
+    it; without one, its text.
+    """
+    from IPython import get_ipython
+
+    shell = get_ipython()
+    asked = shell.get_parent()
+    name = asked.get("metadata", {}).get("cellId")
+    return name or shell.user_ns["In"][-1], asked.get("header", {}).get("msg_id")
+
+
 class NotebookView:
-    """A view in a notebook's cell, of a server on a thread of its own. close() ends it.
+    """A view in a notebook's cell, of a server on a thread of its own. close() ends it, and so does
+    the next run of the cell.
 
     Where the browser is not on this machine, trame's TRAME_IFRAME_BUILDER says by which way it
     reaches the server (JupyterHub is recognised).
@@ -225,7 +226,9 @@ class NotebookView:
         self._loop = None
         self._page = None
         self._problem = None
-        self._thread = threading.Thread(target=self._run, args=(paths, arguments), daemon=True)
+        self.paths = list(paths)
+        self._thread = threading.Thread(target=self._run, args=(paths, arguments), daemon=True,
+                                        name="pointfront-view")
         self._thread.start()
         if not self._ready.wait(START_SECONDS):
             raise PointFrontError("the server of the view does not start")

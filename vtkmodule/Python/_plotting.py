@@ -95,6 +95,9 @@ def add_cloud(store, path, plotter, *, scalars=None, cmap=None, clim=None, show_
     actor, _ = plotter.add_actor(pyvista.Actor(mapper=mapper), name=name, pickable=pickable,
                                  reset_camera=reset_camera, render=False)
     actor.prop.opacity = opacity
+    if point_size is None:
+        # Neighbours meet, as they are at most `error` apart. The theme's 5 px hide each other.
+        actor.prop.point_size = 1.0 + error
     if mapped and style is None and show_scalar_bar is not False:
         arguments = {"title": scalars or mapper.GetArrayName(), **(scalar_bar_args or {})}
         plotter.add_scalar_bar(mapper=mapper, **arguments)

@@ -13,6 +13,8 @@ class Watch:
             algorithm.Update()
 
     progress  None; a callable (phase, fraction) whose False ends the work; or True: a bar of tqdm
+
+    A KeyboardInterrupt ends the work, too, and is raised when it is over.
     """
 
     def __init__(self, algorithm, event, progress):
@@ -25,7 +27,8 @@ class Watch:
         if progress is True:
             self._bar = _bar()
             progress = self._advance
-        self._progress = progress if progress is not False else None
+        # Python sees an interrupt only when it is called: without a receiver, to do nothing.
+        self._progress = progress if progress not in (None, False) else _say_nothing
 
     def _report(self, caller, _event):
         try:
@@ -44,8 +47,6 @@ class Watch:
         self._algorithm.AbortExecuteOn()
 
     def __enter__(self):
-        if self._progress is None:
-            return self
         self._observer = self._algorithm.AddObserver(self._event, self._report)
         # A KeyboardInterrupt that strikes inside an observer ends the process: VTK's rule.
         if (threading.current_thread() is threading.main_thread()
@@ -55,14 +56,18 @@ class Watch:
         return self
 
     def __exit__(self, kind, *_):
-        if self._progress is not None:  # else a circle of references would keep the result
-            self._algorithm.RemoveObserver(self._observer)
+        # Else a circle of references would keep the result.
+        self._algorithm.RemoveObserver(self._observer)
         if self._before is not None:
             signal.signal(signal.SIGINT, self._before)
         if self._bar is not None:
             self._bar.close()
         if kind is None and self._raised:
             raise self._raised[0]
+
+
+def _say_nothing(_phase, _fraction):
+    return True
 
 
 def _bar():

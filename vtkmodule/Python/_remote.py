@@ -3,6 +3,7 @@
 import asyncio
 import concurrent.futures
 import io
+import math
 import time
 
 from PIL import Image
@@ -21,6 +22,7 @@ VIEWS = ("iso", "top", "front", "back", "left", "right")
 SCALES = (1.0, 0.75, 0.5)  # of the size, in motion
 LARGEST_EDGE = 4096  # pixels
 WAIT_MS = 50  # for what the disk gives; an event waits as long at most
+MOST_TURNS = 50.0  # of a wheel in one event
 SENT_AT_ONCE = 1  # frames that a slow line may be behind
 
 
@@ -31,6 +33,14 @@ def jpeg(pixels, quality):
     file = io.BytesIO()
     picture.save(file, "jpeg", quality=quality)
     return file.getvalue()
+
+
+def _finite(number, most=1e6):
+    """A client's number; ValueError for what is none."""
+    value = float(number)
+    if not abs(value) < math.inf:
+        raise ValueError(f"a client says {value}")
+    return max(-most, min(most, value))
 
 
 def _frame_seconds(arguments):
@@ -64,6 +74,8 @@ class RemoteView:
         self._push = None
         self._pending = lambda: 0
         self._size = (1280, 720)
+        self._sizes = {}  # of each client
+        self._leading = None  # the client whose size pictures have: that which moved last
         self._scale = 0  # which of SCALES
         self._seconds = []  # of the frames of this motion
         self._frame_seconds = _frame_seconds(self._arguments)
@@ -119,15 +131,36 @@ class RemoteView:
     def img_cols_rows(self):
         raise PointFrontError("frames are pushed: none can be asked for")
 
-    def process_resize_event(self, width, height):
+    def process_resize_event(self, width, height, client=None):
+        """Of a client's window. Who only looks sees the whole picture of who moves."""
         largest = max(width, height)
         scale = min(1.0, LARGEST_EDGE / largest)
-        self._size = (max(1, int(width * scale)), max(1, int(height * scale)))
+        self._sizes[client] = (max(1, int(width * scale)), max(1, int(height * scale)))
+        if self._leading not in self._sizes:
+            self._leading = client
+        self._size = self._sizes[self._leading]
 
-    def process_interaction_event(self, event):
+    def forget(self, client):
+        """It has gone."""
+        self._sizes.pop(client, None)
+        if client == self._leading and self._sizes:
+            self._lead(next(iter(self._sizes)))
+            self.schedule_render()
+
+    def _lead(self, client):
+        self._pressed = None
+        self._leading = client
+        self._size = self._sizes.get(client, self._size)
+
+    def process_interaction_event(self, event, client=None):
         kind = event.get("type", "")
+        begins = kind.endswith("ButtonPress") or kind in ("MouseWheel", "StartPinch")
+        if client != self._leading:
+            if not begins:
+                return  # a mouse over a picture of another's
+            self._lead(client)
         width, height = self._size
-        at = (event.get("x", 0) / height, event.get("y", 0) / height)
+        at = (_finite(event.get("x", 0)) / height, _finite(event.get("y", 0)) / height)
         if kind.endswith("ButtonPress"):
             self._pressed = kind[:-len("ButtonPress")]
             self._at = at
@@ -137,11 +170,11 @@ class RemoteView:
             self._drag(at[0] - self._at[0], at[1] - self._at[1], event.get("shiftKey"))
             self._at = at
         elif kind == "MouseWheel":
-            self._zoom(1.1 ** -float(event.get("spinY", 0)), at, width / height)
+            self._zoom(1.1 ** -_finite(event.get("spinY", 0), MOST_TURNS), at, width / height)
         elif kind == "StartPinch":
             self._pinch = 1.0
         elif kind == "Pinch":
-            factor = float(event.get("factor", 1.0)) or 1.0
+            factor = max(1e-3, _finite(event.get("factor", 1.0), 1e3))
             self._zoom(factor / self._pinch, None, 1.0)
             self._pinch = factor
 
@@ -178,7 +211,7 @@ class RemoteView:
         self.schedule_render()
 
     def watch_network(self, pending):
-        """`pending()`: how many messages were not sent yet."""
+        """`pending()`: how many frames the quickest client has not taken yet."""
         self._pending = pending
 
     # Drawing, on its thread

@@ -27,6 +27,21 @@ print(urllib.request.urlopen(view.url).status, 'height: 360px' in view._repr_htm
 view.close()
 """
 
+AGAIN = """
+views = [pointfront.open(view.paths[0]).show(size=(320, 180)) for _ in range(2)]
+"""
+COUNT = """
+import pathlib
+import threading
+
+children = [child for task in pathlib.Path("/proc/self/task").iterdir()
+            for child in (task / "children").read_text().split()]
+tools = [child for child in children
+         if b"stream" in pathlib.Path(f"/proc/{child}/cmdline").read_bytes().split(bytes(1))]
+servers = [thread for thread in threading.enumerate() if thread.name == "pointfront-view"]
+print(len(tools), len(servers))
+"""
+
 
 def execute(notebook, folder):
     client = nbclient.NotebookClient(
@@ -79,6 +94,20 @@ class Notebooks(unittest.TestCase):
             shown, said = (cell.outputs for cell in notebook.cells)
             self.assertIn("<iframe", shown[-1].data["text/html"])
             self.assertEqual(said[-1].text.strip(), "200 True")
+
+    def test_a_cell_that_is_run_again_leaves_no_server(self):
+        with tempfile.TemporaryDirectory(prefix="pointfront-notebook-") as folder:
+            cloud = FOLDER.parents[1] / "Testing/Data/autzen_stadium.laz"
+            build = VIEW.format(cloud=str(cloud), store=os.path.join(folder, "a.pfront"))
+            notebook = nbformat.v4.new_notebook(cells=[
+                nbformat.v4.new_code_cell(source) for source in (build, AGAIN, COUNT)])
+            client = nbclient.NotebookClient(notebook, timeout=LIMIT_SECONDS, kernel_name="python3",
+                                             resources={"metadata": {"path": folder}})
+            with client.setup_kernel():
+                for number in (0, 1, 1, 1, 2):
+                    client.execute_cell(notebook.cells[number], number)
+            # The first cell has one view, the second two, whichever runs went before.
+            self.assertEqual(notebook.cells[2].outputs[-1].text.split(), ["3", "3"])
 
 
 if __name__ == "__main__":

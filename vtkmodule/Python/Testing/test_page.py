@@ -5,101 +5,23 @@ POINTFRONT_SHARED_DATA the public clouds, of which a large one is shown.
 """
 
 import asyncio
-import concurrent.futures
 import io
-import json
 import os
 import pathlib
-import re
-import signal
 import subprocess
 import sys
 import tempfile
 import time
 import unittest
-import urllib.error
-import urllib.request
 
-import aiohttp
-import msgpack
 import numpy
 import pointfront
 from PIL import Image
-from playwright.sync_api import sync_playwright
+from page_trial import CLOUD, LIMIT_MS, SETTLED, InBrowser, Server, without_display
 from pointfront._remote import RemoteView
-from wslink.chunking import UnChunker, generate_chunks
 
-CLOUD = pathlib.Path(__file__).resolve().parents[3] / "Testing/Data/autzen_stadium.laz"
 LARGE = (pathlib.Path(os.environ.get("POINTFRONT_SHARED_DATA", "none"))
          / "large/autzen_10653336_rgb_intensity.laz")
-CHROMIUM = os.environ.get("POINTFRONT_CHROMIUM", "/usr/bin/chromium")
-SETTLED = ".pointfront-status[data-settled=true]"
-STRANGER = "elsewhere.example"
-LIMIT_MS = 30000
-
-
-def without_display():
-    return {name: value for name, value in os.environ.items() if name != "DISPLAY"}
-
-
-class Server:
-    """`pointfront serve` in a process of its own."""
-
-    def __init__(self, *arguments):
-        command = [sys.executable, "-m", "pointfront", "serve", *map(str, arguments)]
-        self.process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                                        text=True, env=without_display())
-        line = self.process.stdout.readline()
-        found = re.search(r"http://\S+", line)
-        if found is None:
-            self.process.kill()
-            raise AssertionError(line + self.process.stderr.read())
-        self.url = found.group(0)
-
-    def tools(self):
-        """Processes that this server started."""
-        threads = pathlib.Path(f"/proc/{self.process.pid}/task").iterdir()
-        return [int(word) for thread in threads
-                for word in (thread / "children").read_text().split()]
-
-    def end(self, with_signal=signal.SIGINT):
-        self.process.send_signal(with_signal)
-        status = self.process.wait(20)
-        self.process.stdout.close()
-        self.process.stderr.close()
-        return status
-
-
-def status_of(url):
-    try:
-        with urllib.request.urlopen(url) as answer:
-            return answer.status
-    except urllib.error.HTTPError as refused:
-        return refused.code
-
-
-def greet(address, secret):
-    with concurrent.futures.ThreadPoolExecutor(1) as thread:  # playwright has this one's event loop
-        return thread.submit(asyncio.run, _greet(address, secret)).result()
-
-
-async def _greet(address, secret):
-    """What a server's socket answers to a greeting, and to a question for the whole state."""
-    said = []
-    async with aiohttp.ClientSession() as session:
-        async with session.ws_connect(f"{address}/ws") as socket:
-            for call, method, arguments in (("system:c0:0", "wslink.hello", [{"secret": secret}]),
-                                            ("rpc:c0:1", "trame.state.get", [])):
-                message = msgpack.packb({"wslink": "1.0", "id": call, "method": method,
-                                         "args": arguments, "kwargs": {}})
-                for chunk in generate_chunks(message, 0):
-                    await socket.send_bytes(chunk)
-                parts, answer = UnChunker(), None
-                parts.set_max_message_size(1 << 20)
-                while answer is None:
-                    answer = parts.process_chunk((await socket.receive(20)).data)
-                said.append(answer)
-    return said
 
 
 class Frames(unittest.TestCase):
@@ -162,58 +84,6 @@ class Frames(unittest.TestCase):
             await view.close()
 
         asyncio.run(err())
-
-
-class InBrowser(unittest.TestCase):
-    """A store, and a browser for it."""
-
-    cloud = CLOUD
-
-    @classmethod
-    def setUpClass(cls):
-        cls.temporary = tempfile.TemporaryDirectory(prefix="pointfront-page-")
-        cls.addClassCleanup(cls.temporary.cleanup)
-        cls.store = pathlib.Path(cls.temporary.name) / "a.pfront"
-        pointfront.build(cls.cloud, cls.store, assumed_crs="EPSG:2994", preview=False)
-        playwright = sync_playwright().start()
-        cls.addClassCleanup(playwright.stop)
-        cls.browser = playwright.chromium.launch(
-            executable_path=CHROMIUM, args=["--no-sandbox", "--disable-gpu"])
-        cls.addClassCleanup(cls.browser.close)
-
-    def open(self, url, width=800, height=500):
-        page = self.browser.new_page(viewport={"width": width, "height": height})
-        self.addCleanup(page.close)
-        self.errors = []
-        page.on("console", lambda said: said.type == "error" and self.errors.append(said.text))
-        page.on("pageerror", lambda error: self.errors.append(str(error)))
-        page.goto(url)
-        self.wait(page)
-        return page
-
-    @staticmethod
-    def wait(page):
-        page.wait_for_selector(SETTLED, state="attached", timeout=LIMIT_MS)
-
-    @staticmethod
-    def frames(page):
-        return int(page.get_attribute(".pointfront-status", "data-frames"))
-
-    def settle(self, page, act):
-        """Does something, waits until the view has a new picture at rest, gives its pixels."""
-        before = self.frames(page)
-        act()
-        page.wait_for_function(f"document.querySelector('.pointfront-status').dataset.frames > "
-                               f"{before}", timeout=LIMIT_MS)
-        self.wait(page)
-        return self.pixels(page)
-
-    @staticmethod
-    def pixels(page):
-        """Below the bar and above the status: height by width by 3."""
-        time.sleep(0.2)  # the browser shows what it got
-        picture = Image.open(io.BytesIO(page.screenshot())).convert("RGB")
-        return numpy.asarray(picture).astype(int)[40:-40]
 
 
 class Page(InBrowser):
@@ -279,42 +149,49 @@ class Page(InBrowser):
             frame.locator(SETTLED).wait_for(state="attached", timeout=LIMIT_MS)
             self.assertGreater(self.pixels(page).std(), 20)
 
-    def test_pages_of_others_are_refused(self):
+    def test_clients_of_different_sizes_see_the_same_undistorted(self):
         server = Server(self.store, "--port", "0")
         self.addCleanup(server.process.kill)
-        own = server.url.split("/?")[0]
-        for origin, status in ((f"http://{STRANGER}", 403), (own, 200)):
-            request = urllib.request.Request(server.url, headers={"Origin": origin})
-            try:
-                with urllib.request.urlopen(request) as answer:
-                    self.assertEqual(answer.status, status)
-            except urllib.error.HTTPError as refused:
-                self.assertEqual(refused.code, status)
+        wide = self.open(server.url, 900, 400)
+        errors = self.errors
+        high = self.open(server.url, 400, 600)
+        self.wait(wide)
+        self.assertEqual(self.size_of_picture(wide), [900, 400], "who came later takes the size")
+        self.assertEqual(self.size_of_picture(high), [900, 400])
+        picture = self.whole(high)
+        self.assertLess(self.contrast(picture[50:200]), 3, "the picture is stretched")
+        self.assertGreater(self.contrast(picture[250:350]), 10)
+        before = self.whole(wide)
+        self.settle(high, lambda: high.mouse.wheel(0, -300))  # who moves it has its size
+        self.wait_for_size(high, [400, 600])
+        self.assertGreater(self.contrast(self.whole(high)[100:180]), 10)
+        self.wait_for_size(wide, [400, 600])
+        after = self.whole(wide)
+        self.assertLess(self.contrast(after[100:300, :250]), 3)
+        self.assertGreater(numpy.abs(after - before).mean(), 5)
+        high.close()
+        self.wait_for_size(wide, [900, 400])
+        self.assertEqual((errors, self.errors), ([], []))
         server.end()
 
-    def test_who_has_not_the_secret_is_refused(self):
-        server = Server(self.store, "--port", "0")
-        self.addCleanup(server.process.kill)
-        own, secret = server.url.split("/?secret=")
-        self.assertGreater(len(secret), 30)
-        other = Server(self.store, "--port", "0")
-        self.addCleanup(other.process.kill)
-        theirs = other.url.split("/?secret=")[1]
-        other.end()
-        self.assertNotEqual(secret, theirs)
-        for query, status in ((f"?secret={secret}", 200), ("", 403), ("?secret=", 403),
-                              ("?secret=wslink-secret", 403), (f"?secret={theirs}", 403),
-                              ("?secret=%C3%A4", 403)):
-            for page in ("/", "/index.html"):
-                self.assertEqual(status_of(own + page + query), status, page + query)
-        asked = urllib.request.Request(f"{own}/paraview/", data=b"{}")
-        with urllib.request.urlopen(asked) as answer:
-            self.assertNotIn("secret", json.loads(answer.read()))
-        said = greet(own, "wslink-secret")
-        self.assertIn("Authentication failed", str(said[0]))
-        self.assertTrue(all("error" in answer for answer in said), said)
-        self.assertTrue(all("result" in answer for answer in greet(own, secret)))
-        server.end()
+    @staticmethod
+    def contrast(pixels):
+        return pixels.std(axis=(0, 1)).max()
+
+    @staticmethod
+    def size_of_picture(page):
+        return page.evaluate("(([image]) => [image.naturalWidth, image.naturalHeight])"
+                             "([...document.images].filter(i => i.naturalWidth > 1))")
+
+    def wait_for_size(self, page, size):
+        page.wait_for_function(
+            f"[...document.images].some(i => i.naturalWidth == {size[0]} && "
+            f"i.naturalHeight == {size[1]})", timeout=LIMIT_MS)
+        self.wait(page)
+
+    def whole(self, page):
+        time.sleep(0.2)
+        return numpy.asarray(Image.open(io.BytesIO(page.screenshot())).convert("RGB")).astype(int)
 
     def test_a_page_that_is_loaded_anew_has_its_view(self):
         server = Server(self.store, "--port", "0")

@@ -44,6 +44,7 @@ class PyVista(unittest.TestCase):
         self.assertTrue(actor.mapper.GetLastComplete())
         self.assertGreater(actor.mapper.GetLastPointsDrawn(), 10000)
         self.assertEqual(len(plotter.scalar_bars), 0)  # its own colours
+        self.assertEqual(actor.prop.point_size, 2.0)  # not the theme's five
         plotter.remove_actor(actor)
         self.assertEqual(int(plotter.screenshot(return_img=True).max()), 0)
 

@@ -1,0 +1,241 @@
+"""Who has not the secret of a page reaches nothing; who has it harms nobody: real sockets, and a
+browser that looks on. Environment: as test_page.py.
+"""
+
+import asyncio
+import concurrent.futures
+import json
+import re
+import socket
+import struct
+import threading
+import unittest
+import urllib.error
+import urllib.parse
+import urllib.request
+
+import aiohttp
+import msgpack
+from page_trial import InBrowser, Server
+from wslink.chunking import UnChunker, generate_chunks
+
+STRANGER = "elsewhere.example"
+
+
+def status_of(url):
+    try:
+        with urllib.request.urlopen(url) as answer:
+            return answer.status
+    except urllib.error.HTTPError as refused:
+        return refused.code
+
+
+def in_loop(work):
+    with concurrent.futures.ThreadPoolExecutor(1) as thread:  # playwright has this one's event loop
+        return thread.submit(asyncio.run, work).result()
+
+
+async def ask(socket, call, method, arguments):
+    """What a server's socket answers to a call."""
+    message = msgpack.packb({"wslink": "1.0", "id": call, "method": method, "args": arguments,
+                             "kwargs": {}})
+    for chunk in generate_chunks(message, 0):
+        await socket.send_bytes(chunk)
+    parts = UnChunker()
+    parts.set_max_message_size(1 << 24)
+    while True:
+        answer = parts.process_chunk((await socket.receive(20)).data)
+        if answer is not None and answer["id"] == call:
+            return answer
+
+
+async def greet(address, secret):
+    """What a server answers to a greeting, and to a question for the whole state."""
+    async with aiohttp.ClientSession() as session:
+        async with session.ws_connect(address) as socket:
+            return [await ask(socket, "system:c0:0", "wslink.hello", [{"secret": secret}]),
+                    await ask(socket, "rpc:c0:1", "trame.state.get", [])]
+
+
+async def status_of_socket(address):
+    async with aiohttp.ClientSession() as session:
+        try:
+            async with session.ws_connect(address):
+                return 101
+        except aiohttp.WSServerHandshakeError as refused:
+            return refused.status
+
+
+def bogus_messages(host, port, count):
+    """Messages of a socket to a server that gave none; what came back besides refusals."""
+    greeting = (f"GET /ws HTTP/1.1\r\nHost: {host}:{port}\r\nUpgrade: websocket\r\n"
+                "Connection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
+                "Sec-WebSocket-Key: AAAAAAAAAAAAAAAAAAAAAA==\r\n\r\n").encode()
+    message = bytes([0x81, 0x80 + 8]) + bytes(4) + b"\x1b[2Jtext"  # a text, unmasked by zeros
+    strange = []
+    for begin in range(0, count, 100):
+        with socket.create_connection((host, port)) as line:
+            try:
+                line.sendall(greeting + message * min(100, count - begin))
+                answer = line.recv(1 << 16)
+            except ConnectionError:
+                continue
+        if answer and not answer.startswith(b"HTTP/1.1 403"):
+            strange.append(answer)
+    return strange
+
+
+async def until_closed(line):
+    """The code that a server gives when it closes a socket."""
+    while (message := await line.receive()).type not in (
+            aiohttp.WSMsgType.CLOSE, aiohttp.WSMsgType.CLOSED, aiohttp.WSMsgType.ERROR):
+        pass
+    return line.close_code
+
+
+def area_of(state):
+    """The name of the area with the picture, out of the page's template."""
+    return re.search(r'name=\\?"(\w+)\\?"', json.dumps(state["result"]["state"])).group(1)
+
+
+class Deaf:
+    """A client that greets and then takes nothing more of what is sent to it."""
+
+    def __init__(self, address, secret):
+        self._address = address
+        self._secret = secret
+        self._loop = asyncio.new_event_loop()
+        self._greeted = threading.Event()
+        self._end = None
+        self._thread = threading.Thread(target=self._loop.run_until_complete, args=(self._stay(),))
+
+    async def _stay(self):
+        self._end = asyncio.Event()
+        async with aiohttp.ClientSession() as session:
+            line = await session.ws_connect(self._address)
+            await ask(line, "system:c0:0", "wslink.hello", [{"secret": self._secret}])
+            line._response.connection.transport.pause_reading()
+            self._greeted.set()
+            await self._end.wait()
+            line._response.connection.transport.abort()
+
+    def __enter__(self):
+        self._thread.start()
+        assert self._greeted.wait(20)
+        return self
+
+    def __exit__(self, *_):
+        self._loop.call_soon_threadsafe(self._end.set)
+        self._thread.join()
+        self._loop.close()
+
+
+class Strangers(InBrowser):
+    def test_pages_of_others_are_refused(self):
+        server = Server(self.store, "--port", "0")
+        self.addCleanup(server.process.kill)
+        own = server.url.split("/?")[0]
+        for origin, status in ((f"http://{STRANGER}", 403), (own, 200)):
+            request = urllib.request.Request(server.url, headers={"Origin": origin})
+            try:
+                with urllib.request.urlopen(request) as answer:
+                    self.assertEqual(answer.status, status)
+            except urllib.error.HTTPError as refused:
+                self.assertEqual(refused.code, status)
+        server.end()
+
+    def test_who_has_not_the_secret_is_refused(self):
+        server = Server(self.store, "--port", "0")
+        self.addCleanup(server.process.kill)
+        own, secret = server.url.split("/?secret=")
+        self.assertGreater(len(secret), 30)
+        other = Server(self.store, "--port", "0")
+        self.addCleanup(other.process.kill)
+        theirs = other.url.split("/?secret=")[1]
+        other.end()
+        self.assertNotEqual(secret, theirs)
+        for query, status in ((f"?secret={secret}", 200), ("", 403), ("?secret=", 403),
+                              ("?secret=wslink-secret", 403), (f"?secret={theirs}", 403),
+                              ("?secret=%C3%A4", 403)):
+            for page in ("/", "/index.html"):
+                self.assertEqual(status_of(own + page + query), status, page + query)
+        asked = urllib.request.Request(f"{own}/paraview/", data=b"{}")
+        with urllib.request.urlopen(asked) as answer:
+            self.assertNotIn("secret", json.loads(answer.read()))
+        said = in_loop(greet(f"{own}/ws?secret={secret}", "wslink-secret"))  # the second door
+        self.assertIn("Authentication failed", str(said[0]))
+        self.assertTrue(all("error" in answer for answer in said), said)
+        said = in_loop(greet(f"{own}/ws?secret={secret}", secret))
+        self.assertTrue(all("result" in answer for answer in said))
+        server.end()
+
+    def test_a_socket_is_refused_without_the_secret(self):
+        """Before it is one: 10,000 messages of somebody who has not the secret reach nothing."""
+        server = Server(self.store, "--port", "0")
+        self.addCleanup(server.process.kill)
+        page = self.open(server.url)
+        own = server.url.split("/?secret=")[0]
+        for query in ("", "?secret=", "?secret=wslink-secret"):
+            self.assertEqual(in_loop(status_of_socket(f"{own}/ws{query}")), 403, query)
+        address = urllib.parse.urlsplit(own)
+        self.assertEqual(bogus_messages(address.hostname, address.port, 10000), [])
+        turned = self.settle(page, lambda: page.click("text=top"))
+        self.assertGreater(turned.std(), 20)
+        self.assertEqual(self.errors, [])
+        self.assertEqual(server.end(), 130)
+        self.assertEqual(server.said, "")
+
+    def test_a_viewer_neither_ends_the_server_nor_stalls_others_nor_fills_memory(self):
+        server = Server(self.store, "--port", "0")
+        self.addCleanup(server.process.kill)
+        page = self.open(server.url)
+        own, secret = server.url.split("/?secret=")
+        in_loop(self.misbehave(f"{own}/ws?secret={secret}", secret))
+        self.assertIsNone(server.process.poll(), "a viewer ended the server")
+        turned = self.settle(page, lambda: page.click("text=top"))
+        self.assertGreater(turned.std(), 20)
+        self.assertEqual(self.errors, [])
+        self.assertEqual(server.end(), 130)
+        self.assertNotIn("\x1b", server.said)
+
+    async def misbehave(self, address, secret):
+        async with aiohttp.ClientSession() as session:
+            async with session.ws_connect(address) as socket:
+                await ask(socket, "system:c0:0", "wslink.hello", [{"secret": secret}])
+                for method in ("application.exit", "application.exit.later", "trame.rca.push",
+                               "trame.force.push"):
+                    answer = await ask(socket, "rpc:c0:1", method, [])
+                    self.assertIn("Unregistered", str(answer["error"]), method)
+                changes = [{"key": f"k{i}", "value": "x" * 100} for i in range(100)]
+                await ask(socket, "rpc:c0:2", "trame.state.update",
+                          [[*changes, {"key": "colour", "value": "--style"}]])
+                state = await ask(socket, "rpc:c0:3", "trame.state.get", [])
+                self.assertNotIn("k1", state["result"]["state"])
+                for size in ({"w": float("nan"), "h": 1}, {"w": 1e300, "h": -5, "p": 1e9},
+                             {"w": "\x1b[2J", "h": None}):
+                    await ask(socket, "rpc:c0:4", "trame.rca.size", [area_of(state), "", size])
+                event = {"type": "MouseWheel", "x": float("inf"), "y": 0, "spinY": 1e308}
+                await ask(socket, "rpc:c0:5", "trame.rca.event", [area_of(state), "", event])
+                await socket.send_str("\x1b[2J a text")
+                closed = await asyncio.wait_for(until_closed(socket), 20)
+                self.assertEqual(closed, 1007)
+            async with session.ws_connect(address) as socket:  # one that claims four gigabytes
+                await ask(socket, "system:c0:0", "wslink.hello", [{"secret": secret}])
+                await socket.send_bytes(struct.pack("<III", 7, 0, 0xffffffff) + b"x")
+                self.assertEqual(await asyncio.wait_for(until_closed(socket), 20), 1007)
+
+    def test_a_client_that_reads_nothing_stalls_nobody(self):
+        server = Server(self.store, "--port", "0")
+        self.addCleanup(server.process.kill)
+        page = self.open(server.url)
+        own, secret = server.url.split("/?secret=")
+        with Deaf(f"{own}/ws?secret={secret}", secret):
+            for view in ("top", "front", "iso", "left") * 5:
+                before = self.frames(page)
+                self.settle(page, lambda view=view: page.click(f"text={view}"))
+                self.assertGreater(self.frames(page), before)
+        self.assertEqual(server.end(), 130)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

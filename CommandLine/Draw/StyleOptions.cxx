@@ -12,6 +12,7 @@
 #include <memory>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace pointfront
@@ -29,7 +30,15 @@ struct StyleArguments
   std::string file;
   std::string quality;
   std::string technique;
+  std::string orientation;
   std::string where;
+};
+
+/// What a style may say of orientation in one word.
+const std::vector<std::pair<std::string, SplatOrientation>> orientations{
+  { "auto", SplatOrientation::Automatic },
+  { "normal", SplatOrientation::Normal },
+  { "view", SplatOrientation::View },
 };
 
 StyleSheet readStyle(const std::string& path)
@@ -71,6 +80,13 @@ StyleSheet makeStyle(const CLI::App& app, const StyleArguments& arguments, Drawi
   {
     sheet.standard.technique = techniqueOf(arguments.technique);
   }
+  for (const auto& [name, mode] : orientations)
+  {
+    if (name == arguments.orientation)
+    {
+      sheet.standard.orientation = StyleOrientation{ mode, {} };
+    }
+  }
   if (!options.colourBy.empty())
   {
     sheet.standard.colour = ColourSource::ofAttribute(options.colourBy);
@@ -89,6 +105,7 @@ StyleSheet makeStyle(const CLI::App& app, const StyleArguments& arguments, Drawi
   {
     sheet.shading.eyeDomeStrength = usualEyeDomeStrength;
   }
+  sheet.shading.lit = sheet.shading.lit || options.lit;
   const Result<FilterExpression> where = FilterExpression::parse(arguments.where);
   if (!where)
   {
@@ -124,6 +141,17 @@ void declareStyle(CLI::App& app, DrawingOptions& options)
     ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
   app.add_option("--technique", arguments->technique, "How points become pixels (points)")
     ->check(availableValues(techniques, {}))
+    ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+  std::vector<std::string> words;
+  for (const auto& [name, mode] : orientations)
+  {
+    words.push_back(name);
+  }
+  app
+    .add_option("--orientation", arguments->orientation,
+      "Discs face their normal or the eye (auto: normals that must be computed while nodes load "
+      "are so only for ewa and --lit)")
+    ->check(availableValues(words, {}))
     ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
   app
     .add_option("--where", arguments->where,

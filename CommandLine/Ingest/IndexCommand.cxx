@@ -2,6 +2,7 @@
 
 #include "ByteSize.h"
 #include "CancelSignal.h"
+#include "ChosenPasses.h"
 #include "InputFaults.h"
 #include "InputFiles.h"
 #include "PeakMemory.h"
@@ -56,8 +57,19 @@ void IndexCommand::declare(CLI::App& program)
   app_->add_option("--node-points", options_.leafPoints, "Most points of a leaf (16384)")
     ->check(CLI::Range(256u, 1u << 20))
     ->type_name("N");
+  app_
+    ->add_option("--normals", normals_,
+      "Keep normals in the side file: from neighbours in the scan (scanline) or planes through "
+      "neighbours (pca) (none: they are computed while nodes load)")
+    ->check(availableValues({ "none", "scanline", "pca" }, {}));
+  neighboursOption_ = app_
+                        ->add_option("--normals-k", normalsNeighbours_,
+                          "Neighbours of a plane, with the point itself (16)")
+                        ->check(CLI::Range(3u, 4096u))
+                        ->type_name("N");
   addByteSize(*app_, "--memory", options_.memoryBytes,
-    "Most memory for lists of runs; beyond it they are spilled to disk (256M)");
+    "Most memory for lists of runs, and for computing normals; beyond it they are spilled to disk "
+    "(256M)");
   app_->add_option("--threads", options_.threads, "Threads (one a core)")
     ->check(CLI::Range(1u, 1024u))
     ->type_name("N");
@@ -69,6 +81,36 @@ void IndexCommand::declare(CLI::App& program)
   app_->add_option("--progress", progress_, "On stderr: auto, plain, json or none (auto)")
     ->check(availableValues({ "auto", "plain", "json", "none" }, {}));
   app_->add_flag("--json", json_, "Print the report as one JSON object");
+  app_->parse_complete_callback(
+    [this]()
+    {
+      if (neighboursOption_->count() > 0 && normals_ != "pca")
+      {
+        throw CLI::ValidationError("--normals-k", "needs --normals pca");
+      }
+    });
+}
+
+Result<void> IndexCommand::chooseNormals()
+{
+  if (normals_ == "none")
+  {
+    return {};
+  }
+  const bool pca = normals_ == "pca";
+  PassChoice choice;
+  choice.normals = pca ? PassChoice::Normals::PCA : PassChoice::Normals::ScanLine;
+  choice.normalsNeighbours = normalsNeighbours_;
+  Result<AttributePasses> passes = chosenPasses(choice);
+  if (!passes)
+  {
+    return passes.error();
+  }
+  options_.normals = std::move(passes->back());
+  options_.normalsOrigin = pca
+    ? "of planes through " + std::to_string(normalsNeighbours_) + " neighbours in the whole file"
+    : "of triangles with scan-line neighbours";
+  return {};
 }
 
 /// Of files that are no point files at all the family is not asked for first: a LAS file may have
@@ -119,6 +161,10 @@ Result<void> IndexCommand::run()
   if (!files)
   {
     return files.error();
+  }
+  if (Result<void> chosen = chooseNormals(); !chosen)
+  {
+    return chosen;
   }
   LASIndexReport all;
   std::size_t indexed = 0;

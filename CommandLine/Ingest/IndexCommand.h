@@ -4,6 +4,7 @@
 
 #include "LASIndexing.h"
 #include "pointfront/Ingest/OpenedInputs.h"
+#include "pointfront/Points/PassChoice.h"
 
 #include <cstdint>
 #include <string>
@@ -25,7 +26,13 @@ private:
 
   std::vector<std::string> inputs_;
   std::string sidePath_;
+  /// The pass that `--normals` asks for.
+  Result<void> chooseNormals();
+
   LASIndexOptions options_;
+  std::string normals_ = "none";
+  CLI::Option* neighboursOption_ = nullptr;
+  std::uint32_t normalsNeighbours_ = PassChoice().normalsNeighbours;
   OnFault onFault_ = OnFault::Stop;
   std::string progress_ = "auto";
   bool json_ = false;

@@ -3,6 +3,7 @@
 #include "ByteSize.h"
 #include "CloudFacts.h"
 
+#include "pointfront/Points/NormalAttribute.h"
 #include "pointfront/Points/SplatRadius.h"
 #include "pointfront/Preview/PreviewRecord.h"
 
@@ -52,6 +53,38 @@ bool olderThanSplats(const StoreDescription& store)
   return store.version < (store.structure == "inplace" ? 2u : 3u);
 }
 
+/// The attributes that files hold, without those that are computed while nodes load.
+AttributeSchema heldSchema(const StoreDescription& store)
+{
+  AttributeSchema held;
+  for (std::size_t c = 0; c < store.schema.size(); ++c)
+  {
+    if (!store.isComputed(c))
+    {
+      held.add(store.schema[c]);
+    }
+  }
+  return held;
+}
+
+/// What normals there are and where they come from.
+struct NormalFacts
+{
+  std::string source; ///< "stored", "computed while nodes load", "none"
+  std::string of; ///< what the attribute's description says
+};
+
+NormalFacts normalFacts(const StoreDescription& store)
+{
+  const std::optional<std::size_t> column = store.schema.find(normalAttribute().name);
+  if (!column)
+  {
+    return { "none", "" };
+  }
+  return { store.isComputed(*column) ? "computed while nodes load" : "stored",
+    store.schema[*column].description };
+}
+
 const char* nameOf(SplatMeasure measure)
 {
   return measure == SplatMeasure::PerPoint ? "per point"
@@ -73,7 +106,9 @@ nlohmann::ordered_json storeJson(const StoreDescription& store, const Hierarchy&
   object["nodes"] = hierarchy.nodeCount();
   object["levels"] = store.levels;
   object["bytes"] = store.fileBytes;
-  object["attributes"] = attributesJson(store.schema);
+  object["attributes"] = attributesJson(heldSchema(store));
+  const NormalFacts normals = normalFacts(store);
+  object["normals"] = { { "source", normals.source }, { "of", normals.of } };
   object["layers"] = nlohmann::ordered_json::array();
   for (const Layer& layer : store.layers)
   {
@@ -119,7 +154,9 @@ std::string storeText(const StoreDescription& store, const Hierarchy& hierarchy)
       : measure == SplatMeasure::PerNode     ? "measured per node"
       : olderThanSplats(store)               ? "not measured (built by an older version)"
                                              : "not measured (no two places)");
-  text << "\n  attributes  " << attributesText(store.schema);
+  text << "\n  attributes  " << attributesText(heldSchema(store));
+  const NormalFacts normals = normalFacts(store);
+  text << "\n  normals     " << normals.source << (normals.of.empty() ? "" : ": ") << normals.of;
   for (const Layer& layer : store.layers)
   {
     text << "\n  layer       " << layer.name << " (class " << layer.objectClass

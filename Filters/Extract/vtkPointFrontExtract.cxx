@@ -88,13 +88,15 @@ std::vector<std::string> vtkPointFrontExtract::Content::Attributes(
   const vtkPointFrontExtract& filter) const
 {
   std::vector<std::string> names;
-  for (const pointfront::Attribute& attribute : this->Store->GetStore()->description().schema)
+  const pointfront::StoreDescription& store = this->Store->GetStore()->description();
+  vtkDataArraySelection* const chosen = filter.PointDataArraySelection;
+  for (std::size_t c = 0; c < store.schema.size(); ++c)
   {
-    vtkDataArraySelection* const chosen = filter.PointDataArraySelection;
-    if (!chosen->ArrayExists(attribute.name.c_str()) ||
-      chosen->ArrayIsEnabled(attribute.name.c_str()))
+    const std::string& name = store.schema[c].name;
+    const bool known = chosen->ArrayExists(name.c_str()) != 0;
+    if (known ? chosen->ArrayIsEnabled(name.c_str()) != 0 : !store.isComputed(c))
     {
-      names.push_back(attribute.name);
+      names.push_back(name);
     }
   }
   return names;
@@ -328,7 +330,8 @@ int vtkPointFrontExtract::RequestInformation(
   {
     if (!this->PointDataArraySelection->ArrayExists(store.GetAttributeName(i)))
     {
-      this->PointDataArraySelection->AddArray(store.GetAttributeName(i));
+      const bool computed = store.GetStore()->description().isComputed(static_cast<std::size_t>(i));
+      this->PointDataArraySelection->AddArray(store.GetAttributeName(i), !computed);
     }
   }
   return 1;

@@ -132,8 +132,9 @@ public:
 
   ///@{
   /**
-   * Which attributes come with the points. All by default. Names are known after
-   * UpdateInformation() where FileName is set; others can be disabled by name before.
+   * Which attributes come with the points. By default all that the cloud holds, without those that
+   * are computed while it loads (normals of LAS files in place, COPC and EPT). Names are known
+   * after UpdateInformation() where FileName is set; others can be disabled by name before.
    */
   vtkDataArraySelection* GetPointDataArraySelection();
   int GetNumberOfPointArrays();

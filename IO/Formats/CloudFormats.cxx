@@ -5,6 +5,7 @@
 #include "IndexedLASFile.h"
 #include "LASFormat.h"
 #include "LAZGlance.h"
+#include "NormalsOnLoad.h"
 
 #include "pointfront/Store/StoredCloudFormats.h"
 
@@ -17,9 +18,9 @@ namespace pointfront
 void addCloudFormats()
 {
   StoredCloudFormats& formats = StoredCloudFormats::ofProcess();
-  formats.add(std::make_shared<LASIndexFormat>());
-  formats.add(std::make_shared<COPCFormat>());
-  formats.add(std::make_shared<EPTTreeFormat>(&LASFormat::openBytes));
+  formats.add(withNormalsOnLoad(std::make_shared<LASIndexFormat>()));
+  formats.add(withNormalsOnLoad(std::make_shared<COPCFormat>()));
+  formats.add(withNormalsOnLoad(std::make_shared<EPTTreeFormat>(&LASFormat::openBytes)));
   formats.add(std::make_shared<LAZGlanceFormat>()); // last: a folder with nothing better in it
 }
 

@@ -162,12 +162,14 @@ bool vtkPointFrontReader::OpenStore(std::size_t time)
     vtkErrorMacro(<< reason);
     return false;
   }
+  const pointfront::StoreDescription& description = this->Store->GetStore()->description();
   for (int i = 0; i < this->Store->GetNumberOfAttributes(); ++i)
   {
     const char* attribute = this->Store->GetAttributeName(i);
     if (!this->PointDataArraySelection->ArrayExists(attribute))
     {
-      this->PointDataArraySelection->AddArray(attribute);
+      const bool computed = description.isComputed(static_cast<std::size_t>(i));
+      this->PointDataArraySelection->AddArray(attribute, !computed);
     }
   }
   return true;

@@ -206,13 +206,15 @@ StyleOrientation orientationAt(const JSONPlace& place)
   StyleOrientation orientation;
   if (place.isString())
   {
-    orientation.mode = oneOf<SplatOrientation>(
-      place, { { "normal", SplatOrientation::Normal }, { "view", SplatOrientation::View } });
+    orientation.mode = oneOf<SplatOrientation>(place,
+      { { "auto", SplatOrientation::Automatic }, { "normal", SplatOrientation::Normal },
+        { "view", SplatOrientation::View } });
     return orientation;
   }
   if (!place.isArray() || place.value().size() != 3)
   {
-    place.refuse("expected \"normal\", \"view\" or a vector [x, y, z], not " + place.shown());
+    place.refuse(
+      "expected \"auto\", \"normal\", \"view\" or a vector [x, y, z], not " + place.shown());
   }
   orientation.mode = SplatOrientation::Fixed;
   for (int axis = 0; axis < 3; ++axis)

@@ -117,6 +117,8 @@ Json orientation(const StyleOrientation& orientation)
 {
   switch (orientation.mode)
   {
+    case SplatOrientation::Automatic:
+      return "auto";
     case SplatOrientation::Normal:
       return "normal";
     case SplatOrientation::View:

@@ -25,7 +25,7 @@ void seal(std::vector<std::byte>& bytes)
   std::memcpy(&offset, bytes.data() + 24, sizeof offset);
   offset = headerBytes + offset % (bytes.size() - headerBytes + 1);
   std::memcpy(bytes.data(), pointfront::sideFileMagic.data(), pointfront::sideFileMagic.size());
-  put(bytes, 8, pointfront::sideFileVersion);
+  put(bytes, 8, 1 + (std::to_integer<std::uint32_t>(bytes[8]) - 1) % pointfront::sideFileVersion);
   put(bytes, 12, std::uint32_t(0));
   put(bytes, 16, std::uint64_t(bytes.size()));
   put(bytes, 24, offset);
@@ -53,6 +53,12 @@ void openAndRead(const std::vector<std::byte>& bytes)
     }
     const Result<std::vector<std::uint64_t>> points = (*side)->pointsOf(i);
     fuzz::require(!points || points->size() == nodes[i].pointCount, "a node has its points");
+    for (std::uint32_t held = 0; held < (*side)->content().held; ++held)
+    {
+      const Result<RawBytes> coded = (*side)->blockOf(i, held);
+      const bool decoded = coded && (*side)->decodeBlock(i, held, *coded);
+      static_cast<void>(decoded);
+    }
   }
 }
 } // namespace

@@ -3,8 +3,9 @@
     std, GLM <- vtkmodule/Core <- vtkmodule/Common <- IO/* Filters/* Rendering/* <- paraview-plugin
 
 No edge among IO, Filters and Rendering, nor between two modules of IO or of Filters, but that
-IO/Formats knows all readers and Filters/Passes all passes: plain C++, which the VTK modules that
-open files and build stores may know (ASSEMBLY_USERS). A foreign
+IO/Formats knows all readers, and the normals that clouds in place are given while they load
+(ASSEMBLY_NEEDS), and Filters/Passes all passes: plain C++, which the VTK modules that open files
+and build stores may know (ASSEMBLY_USERS). A foreign
 library is known to the .cxx files of exactly one module. Tests may include anything; nothing
 includes tests, examples or the plugin. Examples and consumers see only what is installed.
 """
@@ -29,6 +30,7 @@ TEST_LIBRARY = re.compile(r"^(gtest|gmock|benchmark)/")
 OUTSIDE = ("Examples", "Testing", "docs", "CommandLine")
 LAYERS = ("IO", "Filters", "Rendering")
 ASSEMBLIES = ("IO/Formats", "Filters/Passes")  # put together what their neighbours offer
+ASSEMBLY_NEEDS = {"IO/Formats": ("Filters/Normals",)}  # assembly: rooms beyond its neighbours
 ASSEMBLY_USERS = {  # room: assemblies that it may know
     "vtkmodule/Common": ("IO/Formats",),
     "Filters/Build": ASSEMBLIES,
@@ -57,6 +59,8 @@ def may_know(room, other):
         return False
     if room == "vtkmodule/Common":
         return other in ("vtkmodule/Core", "IO/StyleJSON")  # plain C++: the text of a style
+    if other in ASSEMBLY_NEEDS.get(room, ()):
+        return True
     if room in ASSEMBLIES and other.split("/")[0] == room.split("/")[0]:
         return True
     if room.split("/")[0] in LAYERS:

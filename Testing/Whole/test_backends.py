@@ -1,6 +1,7 @@
 """Real clouds by both back ends: the same pictures but for rounding, in both projections."""
 
 import json
+import shutil
 import unittest
 
 import numpy
@@ -60,6 +61,26 @@ class Backends(SceneTest):
                     self.assertGreater((mine != (255, 0, 255)).any(axis=2).mean(), 0.2, what)
                     alike = (abs(mine - other).max(axis=2) <= TOLERANCE).mean()
                     self.assertGreaterEqual(alike, LEAST_ALIKE, what)
+
+    def test_a_las_file_in_place_has_lit_ellipses(self):
+        """Normals that are computed while nodes load, and those that an index holds."""
+        las = self.folder / "points.las"
+        shutil.copyfile(DATA / "las/real/autzen_trim.las", las)
+        side = self.folder / "points.las.pfindex"
+        for normals in ("none", "scanline"):
+            self.succeed("index", las, "--force", "--normals", normals)
+            for projection, camera in self.cameras(side, None, None, None):
+                words = ("--camera", camera, "--technique", "ewa", "--color-by", "intensity")
+                flat = self.drawn("software", side, *words)
+                mine, other = (self.drawn(backend, side, "--lit", *words)
+                               for backend in ("software", "opengl"))
+                what = f"{normals}, {projection}"
+                seen = (mine != (255, 0, 255)).any(axis=2)
+                self.assertGreater(seen.mean(), 0.2, what)
+                shaded = (abs(mine - flat).max(axis=2) > TOLERANCE)[seen].mean()
+                self.assertGreater(shaded, 0.5, what)
+                alike = (abs(mine - other).max(axis=2) <= TOLERANCE).mean()
+                self.assertGreaterEqual(alike, LEAST_ALIKE, what)
 
 
 if __name__ == "__main__":

@@ -1,5 +1,6 @@
 """A LAS file drawn in place: indexed, described, checked, brought out again, in bounded memory."""
 
+import json
 import os
 import shutil
 import unittest
@@ -81,6 +82,59 @@ class Index(ToolTest):
         self.assertIn("not there", self.refuse(1, "info", side).err)
         self.refuse(1, "verify", las)
 
+    def test_normals_are_stored_or_computed_and_info_says_which(self):
+        las = self.copy()
+        side = self.folder / "points.las.pfindex"
+        stats = self.folder / "stats.json"
+        pictures = {}
+        for choice, source, of in (("none", "computed while nodes load", "16 nearest points"),
+                                   ("scanline", "stored", "scan-line"),
+                                   ("pca", "stored", "whole file")):
+            self.succeed("index", las, "--force", "--normals", choice)
+            normals = self.succeed("info", side, "--json").json["normals"]
+            self.assertEqual(normals["source"], source)
+            self.assertIn(of, normals["of"])
+            self.assertIn(of, self.succeed("info", side).out)
+            self.assertTrue(self.succeed("verify", side, "--json").json["ok"])
+            pictures[choice] = self.folder / f"{choice}.png"
+            self.succeed("render", side, "-o", pictures[choice], "--technique", "ewa", "--lit",
+                         "--stats", stats, "--color-by", "intensity", "--backend", "software")
+            read = json.loads(stats.read_text())["attributes_read"]
+            self.assertEqual(sorted(read), ["intensity", "normal"])
+        for choice in ("none", "scanline"):
+            alike = self.succeed("compare", pictures[choice], pictures["pca"], "--json").json
+            self.assertGreater(alike["psnr"], 15.0, choice)
+        self.assertEqual(las.read_bytes(), TRIM.read_bytes())
+
+    def test_normals_are_computed_only_where_they_are_needed(self):
+        las = self.copy()
+        self.succeed("index", las)
+        side = self.folder / "points.las.pfindex"
+        stats = self.folder / "stats.json"
+
+        def read(*options):
+            self.succeed("render", side, "-o", self.folder / "a.png", "--stats", stats,
+                         "--color-by", "intensity", "--backend", "software", *options)
+            return "normal" in json.loads(stats.read_text())["attributes_read"]
+
+        for options, needed in (
+                ((), False), (("--technique", "splats"), False), (("--technique", "ewa"), True),
+                (("--technique", "spheres", "--lit"), False), (("--lit",), True),
+                (("--technique", "splats", "--orientation", "normal"), True),
+                (("--technique", "ewa", "--orientation", "view"), False),
+                (("--where", "normal.z > 0.9"), True)):
+            self.assertEqual(read(*options), needed, options)
+        everything, level = self.folder / "all.csv", self.folder / "level.csv"
+        self.succeed("export", side, "-o", everything)
+        self.assertNotIn("normal", everything.read_text().splitlines()[0])
+        self.succeed("export", side, "-o", level, "--where", "normal.z > 0.9")
+        lines = [len(file.read_text().splitlines()) for file in (everything, level)]
+        self.assertGreater(lines[0], lines[1])
+        self.assertGreater(lines[1], lines[0] / 2)
+        self.refuse(2, "index", las, "--force", "--normals-k", "8")
+        self.refuse(2, "index", las, "--force", "--normals", "pcl")
+        self.refuse(2, "render", side, "-o", self.folder / "a.png", "--orientation", "up")
+
     def test_memory_does_not_grow_with_the_file(self):
         las = self.folder / "large.las"
         self.succeed("generate", "--points", "4000000", "-o", las)
@@ -90,6 +144,10 @@ class Index(ToolTest):
         self.assertEqual(report["points_indexed"], 4000000)
         if PLAIN:
             self.assertLess(report["peak_rss_bytes"], 64 * MIB)
+        report = self.succeed("index", las, "--memory", "32M", "--threads", "2", "--force",
+                              "--normals", "scanline", "--json").json
+        if PLAIN:
+            self.assertLess(report["peak_rss_bytes"], 96 * MIB)
         side = self.folder / "large.las.pfindex"
         self.assertEqual(self.succeed("verify", side, "--json").json["points_checked"], 4000000)
 

@@ -3,6 +3,7 @@
 #include "LASIndexing.h"
 #include "LASPointDecoder.h"
 
+#include "pointfront/InPlace/NodePoints.h"
 #include "pointfront/InPlace/SampleStream.h"
 #include "pointfront/Statistics/ColumnStatistics.h"
 #include "pointfront/Store/NodeTableSection.h"
@@ -20,60 +21,27 @@ namespace
 {
 constexpr std::size_t pageBytes = 4096;
 constexpr double secondsBetweenReports = 0.1;
-/// Records with at most this many unwanted bytes between them are fetched by one read: the system
-/// reads whole pages, and ahead.
-constexpr std::uint64_t mergeGapBytes = 4 * pageBytes;
-constexpr std::uint64_t readAtOnce = std::uint64_t(1) << 20;
-
-/// The records of some points (ascending), one behind the other: the disk is read forwards.
-Result<RawBytes> recordsAt(
-  const InputFile& file, const GridRecords& records, const std::vector<std::uint64_t>& points)
-{
-  RawBytes gathered(points.size() * records.stride);
-  RawBytes window(static_cast<std::size_t>(readAtOnce) + records.stride);
-  const auto offset = [&](std::size_t i)
-  { return records.fileOffset + points[i] * records.stride; };
-  for (std::size_t first = 0; first < points.size();)
-  {
-    std::size_t end = first + 1;
-    while (end < points.size() && offset(end) - offset(end - 1) <= mergeGapBytes &&
-      offset(end) - offset(first) <= readAtOnce)
-    {
-      ++end;
-    }
-    const std::uint64_t size = offset(end - 1) + records.stride - offset(first);
-    Result<void> done =
-      file.readAt(offset(first), window.data.get(), static_cast<std::size_t>(size));
-    if (!done)
-    {
-      return done.error();
-    }
-    for (std::size_t i = first; i < end; ++i)
-    {
-      std::memcpy(gathered.data.get() + i * records.stride,
-        window.data.get() + (offset(i) - offset(first)), records.stride);
-    }
-    first = end;
-  }
-  return gathered;
-}
-
-/// Each record at its place in the prefix order.
-std::vector<std::byte> inPrefixOrder(
-  const std::byte* records, std::size_t stride, const std::vector<std::uint64_t>& points)
+/// The places of a node's points, which ascend by number, in the prefix order.
+std::vector<std::uint32_t> prefixOrder(const std::vector<std::uint64_t>& points)
 {
   std::vector<RankedHash> ranked(points.size());
   for (std::uint32_t i = 0; i < points.size(); ++i)
   {
     ranked[i] = { i, static_cast<std::uint32_t>(SampleStream::mixed(points[i]) >> 32) };
   }
-  const std::vector<std::uint32_t> order = prefixBatches(std::move(ranked));
-  std::vector<std::byte> ordered(points.size() * stride);
+  return prefixBatches(std::move(ranked));
+}
+
+/// Values of `stride` bytes in that order.
+std::vector<std::byte> ordered(
+  const std::byte* values, std::size_t stride, const std::vector<std::uint32_t>& order)
+{
+  std::vector<std::byte> result(order.size() * stride);
   for (std::size_t rank = 0; rank < order.size(); ++rank)
   {
-    std::memcpy(ordered.data() + rank * stride, records + order[rank] * stride, stride);
+    std::memcpy(result.data() + rank * stride, values + order[rank] * stride, stride);
   }
-  return ordered;
+  return result;
 }
 
 void decodeSteps(const GridRecords& gathered, const glm::ivec3& low, NodeColumns& to)
@@ -164,7 +132,13 @@ Result<void> IndexedLASFile::checkIdentity(const std::string& sidePath) const
       "'" + sidePath + "' is not an index of '" + file_.description.path +
         "' as it is now: " + difference + "; index the file again: pointfront index --force");
   }
-  if (!(file_.layout.schema == side_->content().stored.description.schema))
+  AttributeSchema expected = file_.layout.schema;
+  const AttributeSchema& described = side_->content().stored.description.schema;
+  for (std::size_t c = described.size() - side_->content().held; c < described.size(); ++c)
+  {
+    expected.add(described[c]);
+  }
+  if (!(expected == described))
   {
     return makeError(Error::Kind::Corrupt,
       "'" + sidePath + "' describes other attributes than '" + file_.description.path +
@@ -239,10 +213,29 @@ std::size_t IndexedLASFile::decodedBytes(
   return decodedBytesOf(points, columns, description_.schema);
 }
 
-std::size_t IndexedLASFile::storedBytes(NodeIndex node, const ColumnSelection&) const
+std::size_t IndexedLASFile::storedBytes(NodeIndex node, const ColumnSelection& columns) const
 {
   const InPlaceRow& row = side_->content().table.rows[node];
-  return row.bytes + row.pages * pageBytes;
+  std::size_t bytes = row.bytes + row.pages * pageBytes;
+  for (const std::uint32_t held : heldColumns(columns))
+  {
+    bytes += side_->blockBytes(node, held);
+  }
+  return bytes;
+}
+
+std::vector<std::uint32_t> IndexedLASFile::heldColumns(const ColumnSelection& columns) const
+{
+  const auto first = static_cast<std::uint32_t>(file_.layout.schema.size());
+  std::vector<std::uint32_t> held;
+  for (const std::uint32_t column : columns)
+  {
+    if (column >= first)
+    {
+      held.push_back(column - first);
+    }
+  }
+  return held;
 }
 
 Result<FetchedNode> IndexedLASFile::fetch(NodeIndex node, const ColumnSelection& columns) const
@@ -253,7 +246,11 @@ Result<FetchedNode> IndexedLASFile::fetch(NodeIndex node, const ColumnSelection&
   {
     return points.error();
   }
-  Result<RawBytes> records = recordsAt(*points_, recordsOf(file_), *points);
+  const GridRecords all = recordsOf(file_);
+  Result<RawBytes> records = gatherValues({ all.fileOffset, all.stride,
+                                            [this](std::uint64_t at, std::byte* to, std::size_t n)
+                                            { return points_->readAt(at, to, n); } },
+    *points);
   if (!records)
   {
     return records.error();
@@ -264,6 +261,15 @@ Result<FetchedNode> IndexedLASFile::fetch(NodeIndex node, const ColumnSelection&
   FetchedNode fetched{ node, columns, {}, storedBytes(node, columns), hierarchy_->node(node) };
   fetched.runs.push_back(std::move(records).value());
   fetched.runs.push_back(std::move(numbers));
+  for (const std::uint32_t held : heldColumns(columns))
+  {
+    Result<RawBytes> coded = side_->blockOf(node, held);
+    if (!coded)
+    {
+      return coded.error();
+    }
+    fetched.runs.push_back(std::move(*coded));
+  }
   return fetched;
 }
 
@@ -273,18 +279,31 @@ Result<NodeColumns> IndexedLASFile::decode(const FetchedNode& fetched) const
   std::vector<std::uint64_t> points(numbers.size / sizeof(std::uint64_t));
   std::copy_n(numbers.data.get(), numbers.size, reinterpret_cast<std::byte*>(points.data()));
   GridRecords records = recordsOf(file_);
-  const std::vector<std::byte> bytes =
-    inPrefixOrder(fetched.runs[0].data.get(), records.stride, points);
+  const std::vector<std::uint32_t> order = prefixOrder(points);
+  const std::vector<std::byte> bytes = ordered(fetched.runs[0].data.get(), records.stride, order);
   records.first = bytes.data();
   records.count = points.size();
   NodeColumns result =
     emptyColumns(fetched.node, points.size(), fetched.columns, description_.schema);
   result.describe(fetched.row);
   decodeSteps(records, side_->content().table.rows[fetched.node].low, result);
-  for (std::size_t c = 0; c < fetched.columns.size(); ++c)
+  const std::vector<std::uint32_t> held = heldColumns(fetched.columns);
+  const std::size_t own = fetched.columns.size() - held.size();
+  for (std::size_t c = 0; c < own; ++c)
   {
     decodeLASColumn(
       file_.layout, fetched.columns[c], bytes.data(), points.size(), result.columns[c].data());
+  }
+  for (std::size_t h = 0; h < held.size(); ++h)
+  {
+    const Result<std::vector<std::byte>> values =
+      side_->decodeBlock(fetched.node, held[h], fetched.runs[2 + h]);
+    if (!values)
+    {
+      return values.error();
+    }
+    const std::size_t stride = description_.schema[fetched.columns[own + h]].bytes();
+    result.columns[own + h] = ordered(values->data(), stride, order);
   }
   return result;
 }

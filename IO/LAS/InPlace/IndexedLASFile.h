@@ -8,6 +8,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace pointfront
 {
@@ -35,7 +36,8 @@ public:
   Result<NodeColumns> decode(const FetchedNode& fetched) const override;
   std::size_t decodedBytes(
     NodeIndex node, std::uint32_t points, const ColumnSelection& columns) const override;
-  /// Whole pages, all columns: records lie as they lie.
+  /// Whole pages, all of the file's columns: records lie as they lie. And the side file's columns
+  /// that are wanted.
   std::size_t storedBytes(NodeIndex node, const ColumnSelection& columns) const override;
   std::uint64_t disk() const override { return points_->device(); }
   /// Also that every point of the LAS file is in exactly one node.
@@ -46,6 +48,8 @@ private:
     std::unique_ptr<const SideFile> side, LASFile file, std::unique_ptr<const InputFile> points);
   Result<void> checkIdentity(const std::string& sidePath) const;
   void describe(const std::string& sidePath);
+  /// Of the columns those that the side file holds, by their numbers there.
+  std::vector<std::uint32_t> heldColumns(const ColumnSelection& columns) const;
   Result<std::string> membersFault(const ProgressFunction& progress) const;
 
   std::unique_ptr<const SideFile> side_;

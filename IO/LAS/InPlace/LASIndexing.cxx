@@ -1,15 +1,18 @@
 #include "LASIndexing.h"
 
+#include "IndexedNormals.h"
 #include "LASPointDecoder.h"
 
 #include "pointfront/Codec/Checksum.h"
 #include "pointfront/Export/OutputTarget.h"
+#include "pointfront/InPlace/NodePoints.h"
 #include "pointfront/Statistics/ColumnStatistics.h"
 #include "pointfront/Store/GridBounds.h"
 #include "pointfront/Threads/WorkerThread.h"
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <mutex>
@@ -20,6 +23,8 @@ namespace
 {
 constexpr std::uint64_t blockPoints = 65536;
 constexpr std::uint64_t edgeBytes = 65536;
+constexpr std::uint64_t usualMemory = std::uint64_t(256) << 20;
+constexpr double normalsShare = 0.7; ///< of the time, where normals are computed
 constexpr double readingWeight = 0.3; // the other phases are those of indexInPlace()
 constexpr double manyRuns = 0.25; ///< runs a point from which on an order is called poor
 
@@ -163,6 +168,27 @@ void warnOfOrder(LASIndexReport& report)
   }
 }
 
+LASIndexReport reportOf(const LASFile& file, const SideFileContent& content,
+  const SideFileWriter& writer, const IndexedNormals* normals, double seconds)
+{
+  LASIndexReport report;
+  report.points = content.indexed.points;
+  report.nodes = content.table.nodes.size();
+  report.runs = content.table.leafRuns;
+  report.bytesWritten = writer.bytesWritten();
+  report.spilledBytes = content.table.spilledBytes;
+  report.seconds = seconds;
+  report.warnings = file.description.warnings;
+  warnOfOrder(report);
+  if (normals != nullptr)
+  {
+    report.spilledBytes += normals->spilledBytes();
+    report.warnings.insert(
+      report.warnings.end(), normals->findings().begin(), normals->findings().end());
+  }
+  return report;
+}
+
 Result<LASFile> openToIndex(const std::string& path)
 {
   Result<LASFile> file = LASFile::open(path);
@@ -183,8 +209,52 @@ Result<LASFile> openToIndex(const std::string& path)
   return file;
 }
 
+/// Null where none are asked for.
+Result<std::unique_ptr<IndexedNormals>> normalsOf(const LASFile& file,
+  const LASIndexOptions& options, const std::string& folder, const ProgressFunction& progress)
+{
+  if (!options.normals)
+  {
+    return std::unique_ptr<IndexedNormals>();
+  }
+  if (file.layout.schema.find(normalAttribute().name))
+  {
+    return makeError(Error::Kind::BadArgument,
+      "the file has an attribute 'normal' of its own, which is drawn; index it without --normals");
+  }
+  PassResources resources;
+  resources.memoryBytes = options.memoryBytes;
+  resources.threads = threadsOr(options.threads);
+  resources.temporaryFolder = folder;
+  resources.progress = partOf(progress, 0.0, normalsShare);
+  return IndexedNormals::compute(file.description.path, *options.normals, resources);
+}
+
+/// Appends a node's list and its normals.
+RunListSink appendingTo(
+  SideFileWriter& writer, const IndexedNormals* normals, std::uint64_t count, InPlaceTable& held)
+{
+  return [&writer, normals, count, &held](const InPlaceTable& table, NodeIndex node,
+           const std::vector<std::byte>& list) -> Result<std::uint64_t>
+  {
+    Result<std::uint64_t> offset = writer.append(list);
+    if (normals == nullptr || !offset)
+    {
+      return offset;
+    }
+    const auto points = pointsOfList(table, node, list, count);
+    if (!points)
+    {
+      return makeError(Error::Kind::Corrupt,
+        "the points changed while they were indexed; index again when nobody writes to the file");
+    }
+    const Result<void> done = normals->append(*points, writer, held);
+    return done ? offset : done.error();
+  };
+}
+
 Result<SideFileContent> indexPoints(const LASFile& file, const LASIndexOptions& options,
-  const std::string& folder, WorkCrew& crew, SideFileWriter& writer)
+  const std::string& folder, const IndexedNormals* normals, WorkCrew& crew, SideFileWriter& writer)
 {
   const GridRecords records = recordsOf(file);
   const auto released = [&](std::uint64_t begin, std::uint64_t end) {
@@ -197,10 +267,11 @@ Result<SideFileContent> indexPoints(const LASFile& file, const LASIndexOptions& 
   }
   InPlaceOptions inPlace;
   inPlace.leafPoints = options.leafPoints;
-  inPlace.memoryBytes = options.memoryBytes > 0 ? options.memoryBytes : inPlace.memoryBytes;
+  inPlace.memoryBytes = options.memoryBytes;
   inPlace.temporaryFolder = folder;
+  InPlaceTable held;
   Result<InPlaceTable> table = indexInPlace(records, survey->box, file.header.grid, inPlace, crew,
-    released, [&writer](const std::vector<std::byte>& list) { return writer.append(list); });
+    released, appendingTo(writer, normals, records.count, held));
   if (!table)
   {
     return table.error();
@@ -210,6 +281,12 @@ Result<SideFileContent> indexPoints(const LASFile& file, const LASIndexOptions& 
   content.table = std::move(*table);
   content.leafPoints = options.leafPoints;
   content.stored = describe(file, std::move(*survey));
+  if (normals != nullptr)
+  {
+    normals->describe(content.stored.description, options.normalsOrigin);
+    content.table.blocks = std::move(held.blocks);
+    content.held = 1;
+  }
   return content;
 }
 } // namespace
@@ -248,7 +325,7 @@ IndexedFile identityOf(const LASFile& file)
 }
 
 Result<LASIndexReport> indexLASFile(const std::string& lasPath, const std::string& sidePath,
-  const LASIndexOptions& options, const ProgressFunction& progress)
+  const LASIndexOptions& chosen, const ProgressFunction& progress)
 {
   const FileState before(lasPath);
   Result<LASFile> file = openToIndex(lasPath);
@@ -257,7 +334,7 @@ Result<LASIndexReport> indexLASFile(const std::string& lasPath, const std::strin
     return file.error();
   }
   Result<void> checked =
-    checkOutputTarget({ sidePath, FileKind::SideFile, options.overwrite }, { lasPath });
+    checkOutputTarget({ sidePath, FileKind::SideFile, chosen.overwrite }, { lasPath });
   if (!checked)
   {
     return checked.error();
@@ -267,10 +344,18 @@ Result<LASIndexReport> indexLASFile(const std::string& lasPath, const std::strin
   {
     return writer.error();
   }
+  LASIndexOptions options = chosen;
+  options.memoryBytes = options.memoryBytes > 0 ? options.memoryBytes : usualMemory;
   const std::string beside = std::filesystem::absolute(sidePath).parent_path().string();
-  WorkCrew crew(threadsOr(options.threads), progress);
-  Result<SideFileContent> content = indexPoints(*file, options,
-    options.temporaryFolder.empty() ? beside : options.temporaryFolder, crew, **writer);
+  const std::string& folder = options.temporaryFolder.empty() ? beside : options.temporaryFolder;
+  const auto begin = std::chrono::steady_clock::now();
+  const Result<std::unique_ptr<IndexedNormals>> normals =
+    normalsOf(*file, options, folder, progress);
+  const double first = options.normals ? normalsShare : 0.0;
+  WorkCrew crew(threadsOr(options.threads), partOf(progress, first, 1.0 - first));
+  Result<SideFileContent> content = normals
+    ? indexPoints(*file, options, folder, normals->get(), crew, **writer)
+    : Result<SideFileContent>(normals.error());
   if (!content)
   {
     const bool cancelled = content.error().kind == Error::Kind::Cancelled;
@@ -288,16 +373,8 @@ Result<LASIndexReport> indexLASFile(const std::string& lasPath, const std::strin
   {
     return done.error();
   }
-  LASIndexReport report;
-  report.points = content->indexed.points;
-  report.nodes = content->table.nodes.size();
-  report.runs = content->table.leafRuns;
-  report.bytesWritten = (*writer)->bytesWritten();
-  report.spilledBytes = content->table.spilledBytes;
-  report.seconds = crew.secondsElapsed();
-  report.warnings = file->description.warnings;
-  warnOfOrder(report);
-  return report;
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
+  return reportOf(*file, *content, **writer, normals->get(), elapsed.count());
 }
 
 } // namespace pointfront

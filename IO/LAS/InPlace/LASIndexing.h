@@ -5,8 +5,10 @@
 #include "pointfront/Base/Progress.h"
 #include "pointfront/InPlace/InPlaceTable.h"
 #include "pointfront/InPlace/SideFile.h"
+#include "pointfront/Points/AttributePass.h"
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -23,6 +25,10 @@ struct LASIndexOptions
   unsigned threads = 0; ///< 0: one a core
   std::string temporaryFolder; ///< empty: the side file's
   bool overwrite = false; ///< false: an index that is there is an Error
+  /// Gives the points an attribute "normal", which is kept in the side file (6 bytes a point before
+  /// compression). None: normals are computed while nodes load, for who asks.
+  std::shared_ptr<const AttributePass> normals;
+  std::string normalsOrigin; ///< for the user: "of scan-line neighbours"
 };
 
 struct LASIndexReport
@@ -38,10 +44,12 @@ struct LASIndexReport
 
 /// Makes the in-place quadtree of a LAS file: a side file that tells which runs of its points lie
 /// where. The LAS file is read, never written; nothing of it is copied.
+/// Memory   that of indexInPlace() and of the pass that computes normals, one after the other.
+/// Order    the side file's bytes depend on the LAS file and the options only, not on threads.
 /// Errors   of LASFile::open; Unsupported for LAZ (its points have no places of their own);
-///          those of checkOutputTarget(); Corrupt if the file changes
-///          meanwhile; Unwritable; Cancelled. Nothing is left behind then.
-/// Source   Kovac 2009, sections 2 and 3.1.
+///          those of checkOutputTarget(); BadArgument: normals for a file that has some; Corrupt if
+///          the file changes meanwhile; Unwritable; Cancelled. Nothing is left behind then.
+/// Source   Kovac 2009, sections 2, 3.1 and 3.2.
 Result<LASIndexReport> indexLASFile(const std::string& lasPath, const std::string& sidePath,
   const LASIndexOptions& options, const ProgressFunction& progress = {});
 

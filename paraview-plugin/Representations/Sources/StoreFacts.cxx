@@ -119,7 +119,7 @@ std::string storeFacts(const StoredCloud& store)
   for (std::size_t column = 0; column < about.schema.size(); ++column)
   {
     const Attribute& attribute = about.schema[column];
-    text << attribute.name;
+    text << attribute.name << (about.isComputed(column) ? " (computed while nodes load)" : "");
     for (const Ends& stored : about.ranges[column].components)
     {
       const Ends ends = worldRange(attribute, stored);

@@ -3,6 +3,8 @@
 #include "RegionPlanes.h"
 #include "UpstreamReader.h"
 
+#include "pointfront/Store/StoredCloud.h"
+
 #include "vtkDataArraySelection.h"
 #include "vtkErrorCode.h"
 #include "vtkFieldData.h"
@@ -122,7 +124,8 @@ int vtkPVPointFrontExtract::RequestInformation(
   vtkPointFrontStore* store = reader ? reader->GetStore() : nullptr;
   for (int i = 0; store && i < store->GetNumberOfAttributes(); ++i)
   {
-    this->PointDataArraySelection->AddArray(store->GetAttributeName(i));
+    const bool computed = store->GetStore()->description().isComputed(static_cast<std::size_t>(i));
+    this->PointDataArraySelection->AddArray(store->GetAttributeName(i), !computed);
   }
   return this->Superclass::RequestInformation(request, inputs, outputs);
 }

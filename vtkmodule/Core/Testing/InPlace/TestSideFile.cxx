@@ -5,6 +5,7 @@
 #include "SplatPatterns.h"
 
 #include "pointfront/Codec/Checksum.h"
+#include "pointfront/InPlace/NodePoints.h"
 #include "pointfront/InPlace/SampleStream.h"
 
 #include <glm/vector_relational.hpp>
@@ -25,9 +26,22 @@ struct Made
   std::uint64_t spilled = 0;
 };
 
-/// The side file of these records.
+/// A held attribute: the low bits of each point's number.
+ValueBlock lowBits(const std::vector<std::uint64_t>& points, SideFileWriter& writer)
+{
+  std::vector<std::uint16_t> values(points.begin(), points.end());
+  const CodedBlock coded =
+    encodeBlock(reinterpret_cast<const std::byte*>(values.data()), { values.size(), 1, 2 });
+  const auto offset = writer.append(coded.bytes);
+  EXPECT_TRUE(offset);
+  return { *offset, static_cast<std::uint32_t>(coded.bytes.size()),
+    checksumOf(coded.bytes.data(), coded.bytes.size()), coded.codec };
+}
+
+/// The side file of these records, with or without a held attribute.
 Made index(const MadeUpRecords& records, const std::string& name, unsigned threads = 2,
-  std::uint64_t memoryBytes = std::uint64_t(64) << 20, std::uint32_t leafPoints = 500)
+  std::uint64_t memoryBytes = std::uint64_t(64) << 20, std::uint32_t leafPoints = 500,
+  bool held = false)
 {
   Made made{ temporaryPath(name) };
   auto writer = SideFileWriter::create(made.path);
@@ -38,9 +52,20 @@ Made index(const MadeUpRecords& records, const std::string& name, unsigned threa
   options.temporaryFolder = made.path.substr(0, made.path.rfind('/'));
   WorkCrew crew(threads, {});
   const GridRecords view = records.view();
+  std::vector<ValueBlock> blocks;
   auto table = indexInPlace(
     view, records.box(), grid, options, crew, [](auto, auto) {},
-    [&](const std::vector<std::byte>& list) { return (*writer)->append(list); });
+    [&](const InPlaceTable& nodes, NodeIndex node, const std::vector<std::byte>& list)
+    {
+      const auto offset = (*writer)->append(list);
+      if (held)
+      {
+        const auto points = pointsOfList(nodes, node, list, view.count);
+        EXPECT_TRUE(points);
+        blocks.push_back(lowBits(*points, **writer));
+      }
+      return offset;
+    });
   EXPECT_TRUE(table) << table.error().what;
   SideFileContent content;
   content.indexed.name = "points.las";
@@ -51,6 +76,13 @@ Made index(const MadeUpRecords& records, const std::string& name, unsigned threa
   content.leafPoints = leafPoints;
   made.spilled = table->spilledBytes;
   content.table = std::move(*table);
+  if (held)
+  {
+    content.table.blocks = std::move(blocks);
+    content.held = 1;
+    content.stored.description.schema.add({ "low_bits", ScalarType::UInt16, 1 });
+    content.stored.description.ranges.push_back({ { { 0.0, 65535.0 } } });
+  }
   EXPECT_TRUE((*writer)->commit(content));
   made.bytes = (*writer)->bytesWritten();
   return made;
@@ -287,8 +319,92 @@ TEST(SideFile, ANewerVersionIsRefusedWithAdvice)
   const auto side = SideFile::open(path);
   ASSERT_FALSE(side);
   EXPECT_EQ(side.error().kind, Error::Kind::Unsupported);
-  EXPECT_NE(side.error().what.find("version 3"), std::string::npos);
+  EXPECT_NE(side.error().what.find("up to version 3"), std::string::npos);
   EXPECT_NE(side.error().what.find("update PointFront"), std::string::npos);
+}
+
+// A program that knows no held attributes reads a file that has none.
+TEST(SideFile, AVersionIsNoNewerThanWhatTheFileHolds)
+{
+  const MadeUpRecords records = MadeUpRecords::strips(20000, 9);
+  const std::string without = index(records, "without.pfindex").path;
+  const std::string with =
+    index(records, "with.pfindex", 2, std::uint64_t(64) << 20, 500, true).path;
+  EXPECT_EQ(fileBytes(without)[8], std::byte(2));
+  EXPECT_EQ(fileBytes(with)[8], std::byte(3));
+  expectWhole(records, with);
+}
+
+TEST(SideFile, AHeldAttributeIsThatOfEachPoint)
+{
+  const MadeUpRecords records = MadeUpRecords::scattered(100000, 10);
+  std::vector<std::vector<std::byte>> files;
+  for (const unsigned threads : { 1u, 2u, 7u })
+  {
+    const std::string path =
+      index(records, "held.pfindex", threads, std::uint64_t(1) << 20, 500, true).path;
+    files.push_back(fileBytes(path));
+    EXPECT_EQ(files.back(), files.front()) << threads;
+    const auto side = SideFile::open(path);
+    ASSERT_TRUE(side) << side.error().what;
+    for (NodeIndex i = 0; i < (*side)->content().table.nodes.size(); ++i)
+    {
+      const auto points = (*side)->pointsOf(i);
+      const auto coded = (*side)->blockOf(i, 0);
+      ASSERT_TRUE(points && coded);
+      EXPECT_EQ(coded->size, (*side)->blockBytes(i, 0));
+      const auto values = (*side)->decodeBlock(i, 0, *coded);
+      ASSERT_TRUE(values) << values.error().what;
+      const std::vector<std::uint16_t> expected(points->begin(), points->end());
+      ASSERT_EQ(values->size(), 2 * expected.size());
+      EXPECT_EQ(std::memcmp(values->data(), expected.data(), values->size()), 0) << i;
+    }
+  }
+}
+
+TEST(SideFile, DamageOfHeldAttributesIsTold)
+{
+  const MadeUpRecords records = MadeUpRecords::strips(20000, 11);
+  const std::string path =
+    index(records, "held.pfindex", 2, std::uint64_t(64) << 20, 500, true).path;
+  const std::vector<std::byte> whole = fileBytes(path);
+  const auto sound = SideFile::open(path);
+  ASSERT_TRUE(sound);
+  const ValueBlock block = (*sound)->content().table.blocks[3];
+  const std::size_t nodes = (*sound)->content().table.nodes.size();
+
+  std::vector<std::byte> flipped = whole;
+  flipped[block.offset + block.bytes / 2] ^= std::byte(1);
+  writeFile(path, flipped);
+  const auto side = SideFile::open(path);
+  ASSERT_TRUE(side);
+  const auto coded = (*side)->blockOf(3, 0);
+  ASSERT_TRUE(coded);
+  const auto values = (*side)->decodeBlock(3, 0, *coded);
+  ASSERT_FALSE(values);
+  EXPECT_EQ(values.error().kind, Error::Kind::Corrupt);
+  EXPECT_NE(values.error().what.find("node 3, attribute 'low_bits'"), std::string::npos);
+
+  // Somebody who keeps the checksums: rows of 24 bytes and the count before them end the file.
+  const auto sealed = [&](std::size_t behindEnd, std::uint8_t value)
+  {
+    std::vector<std::byte> bytes = whole;
+    bytes[bytes.size() - behindEnd] = std::byte(value);
+    std::uint64_t table = 0;
+    std::memcpy(&table, bytes.data() + 24, sizeof table);
+    const std::uint32_t ofTable = checksumOf(bytes.data() + table, bytes.size() - table);
+    std::memcpy(bytes.data() + 40, &ofTable, sizeof ofTable);
+    const std::uint32_t ofHeader = checksumOf(bytes.data(), 60);
+    std::memcpy(bytes.data() + 60, &ofHeader, sizeof ofHeader);
+    writeFile(path, bytes);
+    const auto opened = SideFile::open(path);
+    return opened ? std::string("opens") : opened.error().what;
+  };
+  EXPECT_NE(sealed(24 * nodes + 4, 2).find("are not those"), std::string::npos);
+  EXPECT_NE(sealed(24 * nodes + 4, 0).find("are not those"), std::string::npos);
+  EXPECT_NE(sealed(17, 1).find("outside the file"), std::string::npos); // of an offset
+  EXPECT_NE(sealed(13, 255).find("outside the file"), std::string::npos); // of a size
+  EXPECT_NE(sealed(8, 99).find("unknown way"), std::string::npos);
 }
 
 TEST(SideFile, ADamagedListNamesItsNode)

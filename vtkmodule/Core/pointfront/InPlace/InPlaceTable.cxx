@@ -260,7 +260,7 @@ Result<InPlaceTable> indexInPlace(const GridRecords& records, const RecordBox& b
       {
         return makeError(Error::Kind::Unsupported, "a node's list of runs exceeds 4 GiB");
       }
-      const Result<std::uint64_t> offset = sink(list);
+      const Result<std::uint64_t> offset = sink(table, i, list);
       if (!offset)
       {
         return offset.error();

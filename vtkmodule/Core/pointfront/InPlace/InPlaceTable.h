@@ -1,6 +1,7 @@
 #pragma once
 
 #include "pointfront/Base/Result.h"
+#include "pointfront/Codec/BlockCodec.h"
 #include "pointfront/InPlace/GridRecords.h"
 #include "pointfront/Points/QuantisationGrid.h"
 #include "pointfront/Store/Hierarchy.h"
@@ -25,6 +26,16 @@ struct InPlaceRow
   std::uint8_t logStep = 0; ///< inner nodes: the list is of strata of the stream of 2^logStep
 };
 
+/// Where a node's values of one attribute lie in the side file, and how they are coded. In the
+/// order of the points' numbers.
+struct ValueBlock
+{
+  std::uint64_t offset = 0;
+  std::uint32_t bytes = 0;
+  std::uint32_t checksum = 0;
+  BlockCodec codec = BlockCodec::Raw;
+};
+
 struct InPlaceOptions
 {
   std::uint32_t leafPoints = 16384; ///< 256 to 2^20; Kovac has 5,000 for each draw call
@@ -40,6 +51,8 @@ struct InPlaceTable
 {
   std::vector<Node> nodes;
   std::vector<InPlaceRow> rows;
+  /// Of the attributes that the side file holds: those of nodes[0], of nodes[1] ... Empty: none.
+  std::vector<ValueBlock> blocks;
   std::uint64_t leafRuns = 0; ///< runs of consecutive points, over all leaves
   std::uint64_t spilledBytes = 0;
 };
@@ -47,8 +60,10 @@ struct InPlaceTable
 /// Steps of the streams that the ancestors of a node hold, coarsest first.
 std::vector<std::uint8_t> stepsAbove(const InPlaceTable& table, NodeIndex node);
 
-/// Receives each node's list, in the order of the nodes; tells where it lies.
-using RunListSink = std::function<Result<std::uint64_t>(const std::vector<std::byte>&)>;
+/// Receives each node's list, in the order of the nodes; tells where it lies. Of the table shape,
+/// counts and steps are final.
+using RunListSink = std::function<Result<std::uint64_t>(
+  const InPlaceTable&, NodeIndex, const std::vector<std::byte>&)>;
 
 /// Indexes records in two passes (more where cells are very dense): counts them in a grid of the
 /// plane, cuts the plane into a quadtree, finds the runs. `box` is that of all records.

@@ -3,7 +3,8 @@
 #include "pointfront/Codec/ByteStream.h"
 #include "pointfront/Codec/Checksum.h"
 #include "pointfront/Codec/SealedHeader.h"
-#include "pointfront/InPlace/SampleStream.h"
+#include "pointfront/InPlace/HeldAttributes.h"
+#include "pointfront/InPlace/NodePoints.h"
 #include "pointfront/Store/NodeTableSection.h"
 
 #include <algorithm>
@@ -15,6 +16,8 @@ namespace
 {
 constexpr std::size_t headerBytes = 64;
 constexpr std::size_t rowBytes = 40;
+/// Of files without attributes of their own: programs that know no such read them.
+constexpr std::uint32_t versionWithoutBlocks = 2;
 constexpr unsigned largestLogStep = 40;
 constexpr const char* again = "; index the file again: pointfront index --force";
 
@@ -105,14 +108,14 @@ std::vector<std::byte> encodeTable(const SideFileContent& content)
   {
     putRow(out, row);
   }
+  putHeldAttributes(out, content);
   return out.bytes();
 }
 
-std::string rowFault(const InPlaceTable& table, NodeIndex i, std::uint64_t payloadEnd)
+std::string rowFault(const InPlaceTable& table, NodeIndex i, const SideFilePayload& payload)
 {
   const InPlaceRow& row = table.rows[i];
-  const bool inside =
-    row.offset >= headerBytes && row.offset <= payloadEnd && row.bytes <= payloadEnd - row.offset;
+  const bool inside = payload.holds(row.offset, row.bytes);
   const NodeIndex parent = table.nodes[i].parent;
   const bool stepsFall = row.logStep <= largestLogStep &&
     (table.nodes[i].leaf() ? row.logStep == 0
@@ -124,6 +127,7 @@ std::string rowFault(const InPlaceTable& table, NodeIndex i, std::uint64_t paylo
 std::string tableFault(
   const std::byte* data, std::size_t size, const Header& header, SideFileContent& content)
 {
+  const SideFilePayload payload{ headerBytes, header.tableOffset };
   const NodeRowForm form = header.version < 2 ? NodeRowForm::Plain : NodeRowForm::WithSplatRadius;
   ByteReader in(data, size);
   IndexedFile& file = content.indexed;
@@ -150,7 +154,9 @@ std::string tableFault(
   content.stored = std::move(*stored);
   ByteReader rest(data + in.position() + described, in.remaining() - described);
   const std::uint64_t nodes = rest.get<std::uint32_t>();
-  if (!rest.ok() || rest.remaining() != nodes * (nodeRowBytes(form) + rowBytes))
+  const std::uint64_t rowsBytes = nodes * (nodeRowBytes(form) + rowBytes);
+  const bool blocks = header.version > versionWithoutBlocks;
+  if (!rest.ok() || (blocks ? rest.remaining() < rowsBytes : rest.remaining() != rowsBytes))
   {
     return "the node table's size is wrong";
   }
@@ -161,8 +167,13 @@ std::string tableFault(
   for (NodeIndex i = 0; i < nodes && fault.empty(); ++i)
   {
     content.table.rows.push_back(getRow(inPlace));
-    const std::string row = rowFault(content.table, i, header.tableOffset);
+    const std::string row = rowFault(content.table, i, payload);
     fault = row.empty() ? "" : "node " + std::to_string(i) + ": " + row;
+  }
+  if (fault.empty() && blocks)
+  {
+    ByteReader further(rows + rowsBytes, rest.remaining() - rowsBytes);
+    fault = heldAttributesFault(further, payload, content);
   }
   return fault;
 }
@@ -244,14 +255,14 @@ Result<std::unique_ptr<SideFileWriter>> SideFileWriter::create(const std::string
   return writer;
 }
 
-Result<std::uint64_t> SideFileWriter::append(const std::vector<std::byte>& list)
+Result<std::uint64_t> SideFileWriter::append(const std::vector<std::byte>& bytes)
 {
   const std::uint64_t offset = bytes_;
-  if (Result<void> done = file_->append(list.data(), list.size()); !done)
+  if (Result<void> done = file_->append(bytes.data(), bytes.size()); !done)
   {
     return done.error();
   }
-  bytes_ += list.size();
+  bytes_ += bytes.size();
   return offset;
 }
 
@@ -259,6 +270,7 @@ Result<void> SideFileWriter::commit(const SideFileContent& content)
 {
   const std::vector<std::byte> table = encodeTable(content);
   Header header;
+  header.version = content.held > 0 ? sideFileVersion : versionWithoutBlocks;
   header.tableOffset = bytes_;
   header.tableBytes = table.size();
   header.tableChecksum = checksumOf(table.data(), table.size());
@@ -339,37 +351,46 @@ Result<std::vector<std::uint64_t>> SideFile::pointsOf(NodeIndex node) const
   {
     return list.error();
   }
-  const Node& row = content_.table.nodes[node];
-  const std::uint64_t count = content_.indexed.points;
-  const SampleStream own{ content_.table.rows[node].logStep };
-  const std::vector<std::uint8_t> above =
-    row.leaf() ? stepsAbove(content_.table, node) : std::vector<std::uint8_t>();
-  std::vector<std::uint64_t> points;
-  points.reserve(row.pointCount);
-  RunListReader runs(list->data(), list->size());
-  bool sound = true;
-  for (Run run; sound && runs.next(run);)
-  {
-    sound = run.first + run.count <= (row.leaf() ? count : (count >> own.logStep) + 1);
-    for (std::uint64_t i = run.first; sound && i < run.first + run.count; ++i)
-    {
-      const std::uint64_t point = row.leaf() ? i : own.sample(i);
-      const bool heldAbove = std::any_of(above.begin(), above.end(),
-        [point](std::uint8_t step) { return SampleStream{ step }.contains(point); });
-      if (!heldAbove)
-      {
-        sound = point < count && points.size() < row.pointCount;
-        points.push_back(point);
-      }
-    }
-  }
-  if (!sound || !runs.sound() || points.size() != row.pointCount)
+  std::optional<std::vector<std::uint64_t>> points =
+    pointsOfList(content_.table, node, *list, content_.indexed.points);
+  if (!points)
   {
     return corrupt(file_->path(), content_.table.rows[node].offset,
       "the runs of node " + std::to_string(node) + " do not give its " +
-        std::to_string(row.pointCount) + " points");
+        std::to_string(content_.table.nodes[node].pointCount) + " points");
   }
-  return points;
+  return std::move(*points);
+}
+
+Result<RawBytes> SideFile::blockOf(NodeIndex node, std::uint32_t held) const
+{
+  const ValueBlock& where = block(node, held);
+  RawBytes coded(where.bytes);
+  if (Result<void> done = file_->readAt(where.offset, coded.data.get(), coded.size); !done)
+  {
+    return done.error();
+  }
+  return coded;
+}
+
+Result<std::vector<std::byte>> SideFile::decodeBlock(
+  NodeIndex node, std::uint32_t held, const RawBytes& coded) const
+{
+  const ValueBlock& where = block(node, held);
+  const AttributeSchema& schema = content_.stored.description.schema;
+  const Attribute& attribute = schema[schema.size() - content_.held + held];
+  const BlockShape shape{ content_.table.nodes[node].pointCount, attribute.components,
+    static_cast<unsigned>(sizeOf(attribute.type)) };
+  std::vector<std::byte> values(shape.bytes());
+  const bool whole = matchesChecksum(coded.data.get(), coded.size, where.checksum);
+  if (!whole ||
+    !pointfront::decodeBlock(where.codec, coded.data.get(), coded.size, shape, values.data()))
+  {
+    return corrupt(file_->path(), where.offset,
+      "node " + std::to_string(node) + ", attribute '" + attribute.name + "': " +
+        (whole ? "its values cannot be decoded" : "the checksum of its values does not match"));
+  }
+  return values;
 }
 
 } // namespace pointfront

@@ -16,7 +16,9 @@
 namespace pointfront
 {
 
-constexpr std::uint32_t sideFileVersion = 2; ///< written by this program, and the newest it reads
+/// The newest that this program reads and writes; it writes 2 where no attribute is in the file.
+constexpr std::uint32_t sideFileVersion = 3;
+constexpr std::uint32_t mostHeldAttributes = 16;
 constexpr std::array<unsigned char, 8> sideFileMagic{ 0x89, 'P', 'F', 'I', 'D', 'X', 0x0d, 0x0a };
 
 /// The file that an index describes, with checksums that show whether it is still the same.
@@ -38,9 +40,13 @@ struct SideFileContent
   StoredDescription stored; ///< path, sizes and counts are not set
   InPlaceTable table;
   std::uint32_t leafPoints = 0;
+  /// So many attributes, the last of the description's, are those that the side file holds; the
+  /// others are the indexed file's.
+  std::uint32_t held = 0;
 };
 
-/// Writes a side file: lists of runs one after another, then all the rest. Whole or absent.
+/// Writes a side file: lists of runs and blocks of values one after another, then all the rest.
+/// Whole or absent.
 /// Threads  one thread.
 /// Errors   Unwritable.
 class SideFileWriter
@@ -48,8 +54,8 @@ class SideFileWriter
 public:
   static Result<std::unique_ptr<SideFileWriter>> create(const std::string& path);
 
-  /// Appends a node's list; gives its place, for InPlaceRow::offset.
-  Result<std::uint64_t> append(const std::vector<std::byte>& list);
+  /// Appends a node's list or block; gives its place.
+  Result<std::uint64_t> append(const std::vector<std::byte>& bytes);
   Result<void> commit(const SideFileContent& content);
   std::uint64_t bytesWritten() const { return bytes_; }
 
@@ -77,10 +83,23 @@ public:
   std::uint64_t bytes() const { return file_->bytes(); }
   /// Numbers in the file of the points that a node holds, ascending.
   Result<std::vector<std::uint64_t>> pointsOf(NodeIndex node) const;
+  /// The coded values of a node, of held attribute `held`.
+  Result<RawBytes> blockOf(NodeIndex node, std::uint32_t held) const;
+  /// Decodes them, in the order of pointsOf().
+  Result<std::vector<std::byte>> decodeBlock(
+    NodeIndex node, std::uint32_t held, const RawBytes& coded) const;
+  std::uint32_t blockBytes(NodeIndex node, std::uint32_t held) const
+  {
+    return block(node, held).bytes;
+  }
 
 private:
   SideFile() = default;
   Result<std::vector<std::byte>> readList(NodeIndex node) const;
+  const ValueBlock& block(NodeIndex node, std::uint32_t held) const
+  {
+    return content_.table.blocks[std::size_t(node) * content_.held + held];
+  }
 
   std::unique_ptr<const InputFile> file_;
   SideFileContent content_;

@@ -3,7 +3,6 @@
 #include "pointfront/Points/EnclosingRadius.h"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 namespace pointfront
@@ -15,6 +14,7 @@ ChosenColumns described(const StoreDescription& store, ColumnSelection columns)
 {
   ChosenColumns chosen{ std::move(columns), store };
   chosen.description.schema = {};
+  chosen.description.computed.clear(); // they are computed for these points
   chosen.description.ranges.clear();
   for (const std::uint32_t column : chosen.columns)
   {
@@ -27,10 +27,17 @@ ChosenColumns described(const StoreDescription& store, ColumnSelection columns)
   return chosen;
 }
 
+/// All that the cloud holds.
 ColumnSelection allColumns(const StoreDescription& store)
 {
-  ColumnSelection columns(store.schema.size());
-  std::iota(columns.begin(), columns.end(), 0u);
+  ColumnSelection columns;
+  for (std::uint32_t c = 0; c < store.schema.size(); ++c)
+  {
+    if (!store.isComputed(c))
+    {
+      columns.push_back(c);
+    }
+  }
   return columns;
 }
 

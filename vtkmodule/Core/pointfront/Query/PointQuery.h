@@ -28,8 +28,8 @@ struct PointQuery
   /// Of a store with mean representatives these come out where they are dense enough, and nothing
   /// of what they stand for.
   double spacing = 0.0;
-  /// Names of those that come with each point, in the store's order. Default: all (but the
-  /// enclosing radius of representatives where only points of the input come).
+  /// Names of those that come with each point, in the store's order. Default: all that the cloud
+  /// holds (but the enclosing radius of representatives where only points of the input come).
   std::optional<std::vector<std::string>> attributes;
 };
 

@@ -10,6 +10,7 @@
 #include "pointfront/Store/NodeRanges.h"
 #include "pointfront/Store/NodeReader.h"
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <string>
@@ -55,6 +56,9 @@ struct StoreDescription
   /// The ranges are those of some points: others may lie beyond (files of others, read in place).
   /// certainRange() is what holds for all.
   bool rangesAreSampled = false;
+  /// Columns, ascending, that no file holds: they are computed while a node is decoded, for those
+  /// who name them. Who asks for all attributes does not mean these.
+  ColumnSelection computed;
   std::vector<Layer> layers;
   std::vector<MetadataRecord> metadata;
   std::string generator; ///< "pointfront 0.1.0"
@@ -65,6 +69,10 @@ struct StoreDescription
   /// full sentences.
   std::vector<std::string> warnings;
 
+  bool isComputed(std::size_t column) const
+  {
+    return std::find(computed.begin(), computed.end(), column) != computed.end();
+  }
   std::uint64_t missingPoints() const
   {
     return wholeCount > pointCount ? wholeCount - pointCount : 0;

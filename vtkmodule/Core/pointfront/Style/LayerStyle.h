@@ -30,7 +30,7 @@ struct StyleSize
 /// Which way discs face.
 struct StyleOrientation
 {
-  SplatOrientation mode = SplatOrientation::Normal;
+  SplatOrientation mode = SplatOrientation::Automatic;
   glm::dvec3 direction{ 0.0, 0.0, 1.0 }; ///< Fixed: not 0, world axes
 
   friend bool operator==(const StyleOrientation& a, const StyleOrientation& b)

@@ -64,7 +64,10 @@ enum class SplatOrientation : std::uint8_t
 {
   Normal, ///< the point's normal if it has one, else View
   View, ///< towards the eye
-  Fixed ///< one vector for all
+  Fixed, ///< one vector for all
+  /// In a LayerStyle alone: Normal, but by normals that are computed while nodes load only where
+  /// they are worth it: for Technique::Ewa and for light.
+  Automatic
 };
 
 /// The second colour of a point, and how both are combined.

@@ -84,7 +84,9 @@ private:
   {
     // An orientation is of discs: all else has the points' normals for its light.
     const bool disc = traitsOf(resolved_.technique).facing;
-    resolved_.orientation = disc ? style_.orientation->mode : SplatOrientation::Normal;
+    const SplatOrientation wanted = style_.orientation->mode;
+    const bool automatic = wanted == SplatOrientation::Automatic;
+    resolved_.orientation = disc && !automatic ? wanted : SplatOrientation::Normal;
     const bool fixed = resolved_.orientation == SplatOrientation::Fixed;
     resolved_.fixedNormal =
       fixed ? glm::vec3(glm::normalize(style_.orientation->direction)) : glm::vec3(0, 0, 1);
@@ -92,7 +94,10 @@ private:
     const bool lit = sheet_.shading.lit && resolved_.technique != Technique::Spheres;
     if (resolved_.orientation == SplatOrientation::Normal && (disc || lit))
     {
-      resolved_.normalColumn = normalColumn(store_);
+      const std::optional<std::uint32_t> column = normalColumn(store_);
+      const bool worth = lit || !automatic || resolved_.technique == Technique::Ewa;
+      resolved_.normalColumn =
+        column && (worth || !store_.isComputed(*column)) ? column : std::nullopt;
     }
   }
 

@@ -127,6 +127,26 @@ void compareColumns(StoreDescription& whole, const std::vector<TileColumns>& col
   }
 }
 
+/// Columns that no tile holds, and some tiles compute.
+ColumnSelection computedColumns(const StoreDescription& whole, const Tiles& tiles)
+{
+  ColumnSelection computed;
+  for (std::uint32_t c = 0; c < whole.schema.size(); ++c)
+  {
+    const bool held = std::any_of(tiles.begin(), tiles.end(),
+      [&](const StoreDescription* tile)
+      {
+        const auto own = tile->schema.find(whole.schema[c].name);
+        return own && !tile->isComputed(*own);
+      });
+    if (!held)
+    {
+      computed.push_back(c);
+    }
+  }
+  return computed;
+}
+
 std::vector<TilePlacing> chooseGrid(StoreDescription& whole, const Tiles& tiles)
 {
   std::vector<QuantisationGrid> grids;
@@ -296,6 +316,7 @@ Result<TileDescription> TileDescription::of(
       addRange(whole.ranges[c], (*columns)[t].range(*tiles[t], c, whole.schema[c]));
     }
   }
+  whole.computed = computedColumns(whole, tiles);
   std::vector<std::vector<std::uint16_t>> layers = addLayers(whole, tiles);
   for (std::size_t t = 0; t < tiles.size(); ++t)
   {

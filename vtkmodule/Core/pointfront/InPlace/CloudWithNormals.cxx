@@ -1,0 +1,115 @@
+#include "pointfront/InPlace/CloudWithNormals.h"
+
+#include "pointfront/Statistics/ColumnStatistics.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cstring>
+#include <utility>
+
+namespace pointfront
+{
+
+std::shared_ptr<const StoredCloud> CloudWithNormals::over(
+  std::shared_ptr<const StoredCloud> cloud, std::shared_ptr<const NodeNormals> normals)
+{
+  if (cloud->description().schema.find(normalAttribute().name))
+  {
+    return cloud;
+  }
+  return std::shared_ptr<const StoredCloud>(
+    new CloudWithNormals(std::move(cloud), std::move(normals)));
+}
+
+CloudWithNormals::CloudWithNormals(
+  std::shared_ptr<const StoredCloud> cloud, std::shared_ptr<const NodeNormals> normals)
+  : cloud_(std::move(cloud))
+  , normals_(std::move(normals))
+  , description_(cloud_->description())
+  , column_(static_cast<std::uint32_t>(description_.schema.size()))
+{
+  Attribute attribute = normalAttribute();
+  attribute.description = "unit normal; zero where there is none; " + normals_->origin();
+  description_.schema.add(std::move(attribute));
+  const double most = normalSteps;
+  description_.ranges.push_back({ { { -most, most }, { -most, most }, { -most, most } } });
+  description_.computed.push_back(column_);
+}
+
+bool CloudWithNormals::wanted(const ColumnSelection& columns) const
+{
+  return !columns.empty() && columns.back() == column_; // ascending, and it is the last
+}
+
+Result<FetchedNode> CloudWithNormals::fetch(NodeIndex node, const ColumnSelection& columns) const
+{
+  if (!wanted(columns))
+  {
+    return cloud_->fetch(node, columns);
+  }
+  Result<FetchedNode> inner =
+    cloud_->fetch(node, ColumnSelection(columns.begin(), columns.end() - 1));
+  if (!inner)
+  {
+    return inner;
+  }
+  FetchedNode fetched{ node, columns, {}, inner->bytesRead, inner->row };
+  fetched.inner = std::make_shared<const FetchedNode>(std::move(*inner));
+  return fetched;
+}
+
+Result<NodeColumns> CloudWithNormals::decode(const FetchedNode& fetched) const
+{
+  if (!wanted(fetched.columns))
+  {
+    return cloud_->decode(fetched);
+  }
+  Result<NodeColumns> node = cloud_->decode(*fetched.inner);
+  if (!node)
+  {
+    return node;
+  }
+  std::vector<glm::dvec3> positions(node->size());
+  for (std::size_t i = 0; i < positions.size(); ++i)
+  {
+    positions[i] = description_.grid.toWorld(node->origin + GridPosition(node->positions[i]));
+  }
+  std::vector<PackedNormal> normals;
+  normals_->compute(positions, normals);
+  assert(normals.size() == positions.size());
+  std::vector<std::byte> values(normals.size() * sizeof(PackedNormal));
+  std::copy_n(reinterpret_cast<const std::byte*>(normals.data()), values.size(), values.data());
+  node->selection = fetched.columns;
+  node->columns.push_back(std::move(values));
+  return node;
+}
+
+std::size_t CloudWithNormals::decodedBytes(
+  NodeIndex node, std::uint32_t points, const ColumnSelection& columns) const
+{
+  return wanted(columns) ? decodedBytesOf(points, columns, description_.schema)
+                         : cloud_->decodedBytes(node, points, columns);
+}
+
+std::size_t CloudWithNormals::storedBytes(NodeIndex node, const ColumnSelection& columns) const
+{
+  return wanted(columns)
+    ? cloud_->storedBytes(node, ColumnSelection(columns.begin(), columns.end() - 1))
+    : cloud_->storedBytes(node, columns);
+}
+
+Result<std::shared_ptr<const NodeRanges>> CloudWithNormals::nodeRanges(
+  std::uint32_t component, NodeIndex most) const
+{
+  return component < rangeComponents(cloud_->description().schema)
+    ? cloud_->nodeRanges(component, most)
+    : std::shared_ptr<const NodeRanges>();
+}
+
+Result<std::shared_ptr<const StoredCloud>> FormatWithNormals::open(const std::string& path) const
+{
+  Result<std::shared_ptr<const StoredCloud>> cloud = format_->open(path);
+  return cloud ? CloudWithNormals::over(std::move(*cloud), normals_) : cloud;
+}
+
+} // namespace pointfront

@@ -1,12 +1,14 @@
 #include "BuildThread.h"
 
 #include "ChosenPasses.h"
+#include "InputFiles.h"
 #include "SourceFormats.h"
 
 #include "pointfront/Threads/WorkerThread.h"
 
 #include <chrono>
 #include <new>
+#include <utility>
 
 namespace pointfront
 {
@@ -21,6 +23,26 @@ bool BuildThread::report(const Progress& progress)
   return !cancelled_;
 }
 
+namespace
+{
+/// Of files, patterns and folders, as the tool takes them.
+Result<OpenedInputs> opened(const BuildThread::Order& order, std::vector<std::string>& findings)
+{
+  const SourceFormats formats;
+  const auto holdsPoints = [&formats](const std::string& path)
+  { return formats.mayHoldPoints(path); };
+  std::vector<InputFault> absent;
+  Result<InputFileList> files =
+    findInputFiles(order.files, formats.extensions(), holdsPoints, &absent, SourceFormats::isStore);
+  if (!files)
+  {
+    return files.error();
+  }
+  findings = std::move(files->warnings);
+  return openInputs(files->paths, formats, order.options.onFault, {}, absent);
+}
+} // namespace
+
 Result<BuildReport> BuildThread::build(const Order& order)
 {
   const Result<AttributePasses> passes = chosenPasses(order.passes);
@@ -28,9 +50,9 @@ Result<BuildReport> BuildThread::build(const Order& order)
   {
     return passes.error();
   }
-  Result<OpenedInputs> inputs = order.made
-    ? OpenedInputs{ order.made(), {} }
-    : openInputs(order.files, SourceFormats(), order.options.onFault);
+  std::vector<std::string> findings;
+  Result<OpenedInputs> inputs =
+    order.made ? OpenedInputs{ order.made(), {} } : opened(order, findings);
   if (!inputs)
   {
     return inputs.error();
@@ -41,7 +63,6 @@ Result<BuildReport> BuildThread::build(const Order& order)
     const std::lock_guard<std::mutex> lock(mutex_);
     news_.preview = true;
   };
-  std::vector<std::string> findings;
   BuildRun run(order.options, preview,
     [&findings](const std::string& finding) { findings.push_back(finding); });
   Result<BuildReport> built =

@@ -34,7 +34,8 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{
-  /// The files to read.
+  /// The files to read; a folder stands for the point files below it, a pattern (*, ?) for what it
+  /// matches. Their order does not matter.
   void AddFileName(VTK_FILEPATH const char* fileName);
   void ClearFileNames();
   int GetNumberOfFileNames();

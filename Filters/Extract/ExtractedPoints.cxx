@@ -16,7 +16,8 @@ namespace
 constexpr std::uint64_t firstRoom = 1 << 16; // points
 } // namespace
 
-ExtractedPoints::ExtractedPoints(const StoreDescription& description, std::uint64_t mostPoints)
+ExtractedPoints::ExtractedPoints(
+  const StoreDescription& description, std::uint64_t mostPoints, bool coloursAsStored)
   : mostPoints_(mostPoints)
 {
   positions_->SetDataTypeToDouble();
@@ -24,7 +25,7 @@ ExtractedPoints::ExtractedPoints(const StoreDescription& description, std::uint6
   for (std::size_t c = 0; c < description.schema.size(); ++c)
   {
     const ColumnRange range = c < description.ranges.size() ? description.ranges[c] : ColumnRange();
-    attributes_.emplace_back(description.schema[c], range, 0);
+    attributes_.emplace_back(description.schema[c], range, 0, coloursAsStored);
   }
 }
 

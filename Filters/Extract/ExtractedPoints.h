@@ -24,8 +24,9 @@ namespace pointfront
 class ExtractedPoints
 {
 public:
-  /// `description` has the schema of the batches.
-  ExtractedPoints(const StoreDescription& description, std::uint64_t mostPoints);
+  /// `description` has the schema of the batches; `coloursAsStored` as AttributeArray's.
+  ExtractedPoints(
+    const StoreDescription& description, std::uint64_t mostPoints, bool coloursAsStored);
 
   /// NoMemory where they would be more than `mostPoints`.
   Result<void> add(const QueryBatch& batch);

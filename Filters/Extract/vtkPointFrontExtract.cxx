@@ -147,7 +147,7 @@ Result<QueryReport> vtkPointFrontExtract::Content::Run(
                        const auto& run) -> Result<QueryReport>
   {
     pointfront::ExtractedPoints points(
-      description, static_cast<std::uint64_t>(filter.MaximumNumberOfPoints));
+      description, static_cast<std::uint64_t>(filter.MaximumNumberOfPoints), filter.ColorsAsStored);
     Result<QueryReport> report = run([&](const pointfront::QueryBatch& batch)
       { return filter.CountOnly ? Result<void>() : points.add(batch); });
     report ? points.moveTo(output, filter.VertexCells) : void();
@@ -412,5 +412,6 @@ void vtkPointFrontExtract::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "MaximumNumberOfPoints: " << this->MaximumNumberOfPoints << "\n";
   os << indent << "CountOnly: " << this->CountOnly << "\n";
   os << indent << "VertexCells: " << this->VertexCells << "\n";
+  os << indent << "ColorsAsStored: " << this->ColorsAsStored << "\n";
   os << indent << "MemoryLimit: " << this->MemoryLimit << "\n";
 }

@@ -114,8 +114,9 @@ public:
 
   ///@{
   /**
-   * World units between neighbouring points: gives a coarser subset that is as dense as this or a
-   * little denser. 0, the default: all points.
+   * World units between neighbouring points: gives a coarser subset, of the first whole levels of
+   * the tree whose spacing is at most this. Each level halves the spacing, so the subset is as
+   * dense as this or up to twice as dense along a line. 0, the default: all points.
    */
   vtkSetClampMacro(Spacing, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(Spacing, double);
@@ -180,6 +181,17 @@ public:
   vtkBooleanMacro(VertexCells, bool);
   ///@}
 
+  ///@{
+  /**
+   * On: "rgb" has the type and the values that the store has, 16 bits where it has 16, and is an
+   * array like others. Off, the default: it is the active scalars, three bytes, which VTK takes as
+   * colours.
+   */
+  vtkSetMacro(ColorsAsStored, bool);
+  vtkGetMacro(ColorsAsStored, bool);
+  vtkBooleanMacro(ColorsAsStored, bool);
+  ///@}
+
   /// Points of the last update and its piece that meet all conditions.
   vtkGetMacro(NumberOfPointsChosen, vtkIdType);
 
@@ -217,6 +229,7 @@ protected:
   vtkTypeInt64 MemoryLimit = 268435456;
   bool CountOnly = false;
   bool VertexCells = true;
+  bool ColorsAsStored = false;
   vtkIdType NumberOfPointsChosen = 0;
   vtkIdType NumberOfNodesRead = 0;
   vtkIdType NumberOfPointsRead = 0;

@@ -138,7 +138,7 @@ def write_points(store, file):
     import numpy
     import pointfront
 
-    points = pointfront.open(store).points(attributes=["rgb"])
+    points = pointfront.open(store).points(attributes=["rgb"], colors_as_stored=False)
     centred = points["position"] - points["position"].mean(axis=0)
     numpy.savez(file, position=centred.astype(numpy.float32), rgb=points["rgb"],
                 centre=points["position"].mean(axis=0))

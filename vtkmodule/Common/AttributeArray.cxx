@@ -62,10 +62,10 @@ T valueAt(const std::byte* values, std::size_t i)
 } // namespace
 
 AttributeArray::AttributeArray(
-  const Attribute& attribute, const ColumnRange& range, std::size_t points)
+  const Attribute& attribute, const ColumnRange& range, std::size_t points, bool coloursAsStored)
   : attribute_(attribute)
   , scaled_(attribute.scale != 1.0 || attribute.offset != 0.0)
-  , colour_(isColour(attribute))
+  , colour_(isColour(attribute) && !coloursAsStored)
 {
   const int type = colour_ ? VTK_UNSIGNED_CHAR : scaled_ ? VTK_DOUBLE : vtkTypeOf(attribute.type);
   array_.TakeReference(vtkDataArray::CreateDataArray(type));

@@ -20,14 +20,16 @@ namespace pointfront
 /// One attribute of stored points on its way into a VTK array.
 /// Values   an attribute with a scale or an offset becomes double with both applied; every other
 ///          keeps its type. "rgb" becomes UInt8 x 3 and is a colour: 16-bit colour is reduced to 8
-///          bits, because VTK takes only bytes as colours without a lookup table.
+///          bits, because VTK takes only bytes as colours without a lookup table. Unless colours
+///          are asked for as they are stored: then "rgb" is an attribute like another.
 /// Threads  one.
 class POINTFRONTCOMMON_EXPORT AttributeArray
 {
 public:
   /// For so many points. `range` is the attribute's over the whole store: it tells 8-bit colours in
   /// 16-bit fields from wide ones.
-  AttributeArray(const Attribute& attribute, const ColumnRange& range, std::size_t points);
+  AttributeArray(const Attribute& attribute, const ColumnRange& range, std::size_t points,
+    bool coloursAsStored = false);
 
   /// For so many points from now on; values that are there stay.
   void resize(std::size_t points);

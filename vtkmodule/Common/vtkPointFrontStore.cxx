@@ -7,6 +7,7 @@
 #include "pointfront/Preview/PreviewRecord.h"
 #include "pointfront/Residency/LoadScheduler.h"
 #include "pointfront/Store/StoredCloudFormats.h"
+#include "pointfront/Threads/OfProcess.h"
 
 #include <vtkDataObject.h>
 #include <vtkFieldData.h>
@@ -64,9 +65,10 @@ bool identify(const std::string& fileName, FileIdentity& identity, std::string& 
   return true;
 }
 
-/// The open stores of this process, and those that a thread is opening. Weak: an entry leaves
-/// before the last reference to its store does. The lock is never held while a file is read or a
-/// store is closed: a disk that hangs stops who wants the store that lies on it, and nobody else.
+/// The open stores of this process (a child of fork() opens its own), and those that a thread is
+/// opening. Weak: an entry leaves before the last reference to its store does. The lock is never
+/// held while a file is read or a store is closed: a disk that hangs stops who wants the store that
+/// lies on it, and nobody else.
 struct Registry
 {
   std::mutex mutex;
@@ -94,8 +96,9 @@ std::size_t bytesOf(vtkTypeInt64 bytes)
 
 Registry& registry()
 {
-  static Registry* instance = new Registry; // never deleted: stores may outlive static objects
-  return *instance;
+  // Never deleted: stores may outlive static objects.
+  static auto* const instance = new pointfront::OfProcess<Registry>;
+  return instance->get([] { return std::make_unique<Registry>(); });
 }
 
 } // namespace

@@ -26,7 +26,7 @@ _host.require_vtk()  # before what would only say which library it misses
 from ._calls import BuildReport, build, index
 from ._classes import *
 from ._clouds import Cloud, open
-from ._errors import PointFrontError
+from ._errors import PointFrontError, PointFrontWarning
 from ._host import VTK_PACKAGE
 from ._pictures import Picture
 from ._version import __version__

@@ -1,5 +1,5 @@
 from os import PathLike
-from typing import Any, Callable, Dict, Iterable, List, Optional, Sequence, Tuple, Union
+from typing import Any, Callable, Dict, Iterable, Iterator, List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy
 
@@ -22,6 +22,7 @@ __version__: str
 VTK_PACKAGE: str
 
 class PointFrontError(RuntimeError): ...
+class PointFrontWarning(UserWarning): ...
 
 class BuildReport:
     path: str
@@ -34,7 +35,7 @@ class BuildReport:
     warnings: List[str]
 
 def build(
-    inputs: Union[_Path, Iterable[_Path]],
+    inputs: Union[_Path, Iterable[_Path], Mapping[str, Any], numpy.ndarray],
     output: _Path,
     *,
     structure: str = ...,
@@ -74,6 +75,8 @@ class Cloud:
     def classes(self) -> Dict[int, str]: ...
     @property
     def info(self) -> Dict[str, Any]: ...
+    @property
+    def crs(self) -> Optional[str]: ...
     def extract(
         self,
         *,
@@ -100,6 +103,20 @@ class Cloud:
         progress: _Progress = ...,
         **options: Any,
     ) -> Dict[str, numpy.ndarray]: ...
+    def chunks(self, size: int = ..., **query: Any) -> Iterator[Dict[str, numpy.ndarray]]: ...
+    def export(
+        self,
+        path: _Path,
+        *,
+        box: Optional[_Box] = ...,
+        sphere: Optional[Tuple[_Point, float]] = ...,
+        classes: _Classes = ...,
+        where: Optional[str] = ...,
+        spacing: Optional[float] = ...,
+        crs: Optional[str] = ...,
+        overwrite: bool = ...,
+        **options: Any,
+    ) -> int: ...
     def to_pyvista(self, **query: Any) -> Any: ...
     def add_to(
         self,
@@ -127,9 +144,9 @@ class Cloud:
         size: Tuple[int, int] = ...,
         color_by: Optional[str] = ...,
         view: Optional[str] = ...,
-        camera: Optional[_Path] = ...,
+        camera: Union[None, _Path, Dict[str, Any]] = ...,
         technique: Optional[str] = ...,
-        style: Optional[_Path] = ...,
+        style: Union[None, _Path, Dict[str, Any]] = ...,
         classes: _Classes = ...,
         where: Optional[str] = ...,
         error: Optional[float] = ...,

@@ -2,8 +2,8 @@
 
 import os
 
-from . import _host
-from ._errors import PointFrontError
+from . import _arrays, _host
+from ._errors import PointFrontError, warn
 from ._progress import Watch
 from .pointfrontFiltersBuild import vtkPointFrontBuilder
 from .pointfrontIOLASIndex import vtkPointFrontLASIndexer
@@ -95,7 +95,10 @@ def build(inputs, output, *, structure="octree", refinement="add", layers="auto"
           attributes=None, color_from=(), progress=None, **options):
     """Build a store from point files and stores.
 
-    inputs      a path, or several: LAS, LAZ, PLY, PCD, text, ept.json, .pfront, .pfindex
+    inputs      a path, or several: LAS, LAZ, PLY, PCD, text, ept.json, .pfront, .pfindex, folders
+                of them; or points: {"position": n by 3, "intensity": n, ...}, as Cloud.points()
+                gives them, an array with such fields, or "x", "y", "z" for "position". Types are
+                kept; "id" is not an attribute
     output      path of the store (.pfront); overwrite=True replaces one that is there
     structure   "octree" or "kdtree"
     refinement  "add" (inner nodes hold a subset) or "replace" (mean points)
@@ -108,13 +111,19 @@ def build(inputs, output, *, structure="octree", refinement="add", layers="auto"
     options     other properties of vtkPointFrontBuilder in snake case: memory_limit,
                 number_of_threads, precision, crs ... (CRS is written crs)
 
-    Returns a BuildReport. Raises PointFrontError; KeyboardInterrupt at once when the user
-    interrupts. Nothing is left behind then. Other threads run meanwhile.
+    Returns a BuildReport. What was wrong and survived is a PointFrontWarning. Raises
+    PointFrontError; ValueError and TypeError for arrays that are no points; KeyboardInterrupt at
+    once when the user interrupts. Nothing is left behind then. Other threads run meanwhile.
     """
     builder = vtkPointFrontBuilder()
     messages = _Messages(builder)
-    for path in _paths(inputs):
-        builder.AddFileName(path)
+    if _arrays.is_table(inputs):
+        points = _arrays.as_dictionary(inputs)
+        data = _arrays.point_set(points)
+        builder.SetPoints(data)
+    else:
+        for path in _paths(inputs):
+            builder.AddFileName(path)
     path = os.fspath(output)
     builder.SetOutputFileName(path)
     _choose(builder, _STRUCTURES, "structure", structure)
@@ -136,6 +145,7 @@ def build(inputs, output, *, structure="octree", refinement="add", layers="auto"
         written = builder.Write()
     if not written:
         raise messages.error(f"{path}: the build was stopped")
+    warn(messages.warnings)
     return BuildReport(path, builder, messages.warnings)
 
 

@@ -1,12 +1,13 @@
 """Stores as Python objects: what they hold, points of them as NumPy arrays, and pictures."""
 
+import html
 import json
 import operator
 import os
 
-from . import _host, _pictures
+from . import _arrays, _host, _pictures
 from ._calls import _Messages
-from ._errors import PointFrontError
+from ._errors import PointFrontError, warn
 from ._progress import Watch
 from .pointfrontFiltersExtract import vtkPointFrontExtract
 from .pointfrontIOStore import vtkPointFrontReader
@@ -23,9 +24,11 @@ class Cloud:
     attributes  names
     classes     {number: name} of object classes with a tree of their own
     info        what `pointfront info --json` tells, as a dictionary
+    crs         coordinate reference system as well-known text; None: the cloud names none
     len(cloud)  how many points
 
-    Opening reads no points. A cloud is a context manager: leaving it lets go of the file.
+    Opening reads no points. A cloud is a context manager: leaving it lets go of the file. Pickled,
+    it is its absolute path, and is opened again where it is unpickled. A notebook shows a table.
     """
 
     def __init__(self, path):
@@ -85,6 +88,29 @@ class Cloud:
         self._opened()
         return json.loads(_pictures.run_tool(["info", "--json", self.path]))
 
+    @property
+    def crs(self):
+        return self.info.get("crs") or None
+
+    def __reduce__(self):
+        self._opened()
+        return open, (os.path.abspath(self._path),)
+
+    def _repr_html_(self):
+        if self._store is None:
+            return html.escape(repr(self))
+        low, high = self.bounds
+        crs = self.crs
+        rows = {"points": f"{len(self):,}",
+                "bounds": " – ".join(str(tuple(round(v, 3) for v in end)) for end in (low, high)),
+                "crs": "none" if crs is None else crs.split('"')[1] if '"' in crs else crs,
+                "attributes": ", ".join(self.attributes)}
+        if self.classes:
+            rows["classes"] = ", ".join(f"{n} {name}" for n, name in self.classes.items())
+        cells = "".join(f"<tr><th>{name}</th><td>{html.escape(text)}</td></tr>"
+                        for name, text in rows.items())
+        return f"<table><caption>{html.escape(self.path)}</caption>{cells}</table>"
+
     def __repr__(self):
         if self._store is None:
             return f"<{self._path}: closed>"
@@ -100,8 +126,10 @@ class Cloud:
         area        polygons or lines as well-known text, for all heights
         classes     a number of an object class, or several; None: all
         where       a condition: "classification in {2, 6} and intensity > 20"
-        spacing     distance of neighbouring points in units of the coordinates, for a coarser
-                    subset; it is as dense as that or a little denser. None: all points
+        spacing     how far apart points may be, in units of the coordinates, for a coarser subset:
+                    the fewest whole levels of the tree whose own spacing is at most that. Each
+                    level halves the spacing, so neighbours are between that far apart and half of
+                    it, some closer still: no least distance is kept. None: all points
         attributes  names of those to read; None: all
         progress    called with (phase, fraction); False ends it. True: a bar, by tqdm
         options     other properties of vtkPointFrontExtract in snake case: line_distance,
@@ -111,6 +139,13 @@ class Cloud:
         ValueError for an argument that cannot be meant (a box of other than six numbers or with its
         corners swapped, no class); KeyboardInterrupt at once. Other threads run meanwhile.
         """
+        extract, messages = self._query(box, sphere, area, classes, where, spacing, attributes,
+                                        options)
+        return self._answer(extract, messages, progress)
+
+    def _query(self, box=None, sphere=None, area=None, classes=None, where=None, spacing=None,
+               attributes=None, options=None):
+        """A vtkPointFrontExtract, and what it will say."""
         self._opened()
         extract = vtkPointFrontExtract()
         messages = _Messages(extract)
@@ -133,9 +168,15 @@ class Cloud:
         if spacing is not None:
             extract.SetSpacing(spacing)
         self._choose_attributes(extract, attributes)
-        _set_options(extract, options)
+        _set_options(extract, options or {})
+        return extract, messages
+
+    def _answer(self, extract, messages, progress, piece=0, pieces=1):
         with Watch(extract, vtkCommand.ProgressEvent, progress):
-            extract.Update()
+            extract.UpdatePiece(piece, pieces, 0)
+        said = messages.warnings[:]
+        messages.warnings.clear()
+        warn(said)
         if messages.errors:
             raise messages.error("the query failed")
         if extract.GetAbortExecute():
@@ -159,21 +200,51 @@ class Cloud:
 
         "position" n by 3, float64, in the store's coordinates; "id" n, int64: the rank in the
         store; each attribute n, or n by its components, in its type, or float64 if it has a scale.
+        "rgb" is as it is stored, too, of 16 bits where the store has 16; colors_as_stored=False
+        gives bytes, as extract() and to_pyvista() do: the upper ones if any value has 16 bits.
         The cloud's own attributes "position" and "id" are "position_" and "id_".
         Nothing is copied: an array keeps VTK's memory alive.
         """
-        output = self.extract(vertex_cells=False, **query)
-        data = output.GetPointData()
-        arrays = {"position": vtk_to_numpy(output.GetPoints().GetData())}
-        for i in range(data.GetNumberOfArrays()):
-            array = data.GetArray(i)
-            name = array.GetName()
-            if name == "point_id":
-                name = "id"
-            elif name in ("position", "id"):
-                name += "_"
-            arrays[name] = vtk_to_numpy(array)
-        return arrays
+        return _arrays_of(self.extract(vertex_cells=False, **{"colors_as_stored": True, **query}))
+
+    def chunks(self, size=1_000_000, **query):
+        """The same points as points(**query), as an iterator of such dictionaries with `size`
+        points each, the last with fewer: for more than memory holds. A chunk is read when it is
+        asked for. `progress` is of each chunk.
+        """
+        size = operator.index(size)
+        if size < 1:
+            raise ValueError("a chunk has at least one point")
+        progress = query.pop("progress", None)
+        named = {name: query.pop(name) for name in _CONDITIONS if name in query}
+        options = {"vertex_cells": False, "colors_as_stored": True, **query}
+        extract, messages = self._query(**named, options=options)
+        pieces = max(1, -(-len(self) // size))
+
+        def parts():
+            for piece in range(pieces):
+                yield _arrays_of(self._answer(extract, messages, progress, piece, pieces))
+
+        return _arrays.joined(parts(), size)
+
+    def export(self, path, *, box=None, sphere=None, classes=None, where=None, spacing=None,
+               crs=None, overwrite=False, **options):
+        """Write points to a LAS, LAZ, PLY, PCD, XYZ or CSV file; its name says which.
+
+        box, sphere, classes, where, spacing   as for extract()
+        crs        to transform into: "EPSG:25832", or a file of well-known text
+        overwrite  replace a file that is there
+        options    others of `pointfront export` in snake case: color_depth=16, polygon="a.geojson"
+
+        Returns how many points were written. What was wrong and survived is a PointFrontWarning.
+        Raises PointFrontError; KeyboardInterrupt, with nothing left behind.
+        """
+        self._opened()
+        chosen = {"box": None if box is None else _six(box), "crs": crs, "where": where,
+                  "sphere": None if sphere is None else [*map(float, sphere[0]), float(sphere[1])],
+                  "classes": _numbers_of(classes) or None, "spacing": spacing, "force": overwrite,
+                  **options}
+        return _pictures.export(self.path, os.fspath(path), chosen)
 
     def to_pyvista(self, **query):
         """Points of a region as pyvista.PolyData; `query` as for extract()."""
@@ -193,7 +264,7 @@ class Cloud:
         error       projected point spacing to refine to, in pixels
         complete    a render of a view at rest waits for all of it: for screenshots. False: the
                     view refines before the user's eyes
-        style       JSON of classes and techniques, or a vtkPointFrontStyle
+        style       classes and techniques: JSON, a dictionary of that, or a vtkPointFrontStyle
         name, opacity, pickable, reset_camera, render   as in add_mesh
 
         Returns the pyvista.Actor; its mapper is a vtkPointFrontMapper.
@@ -211,9 +282,9 @@ class Cloud:
         size        (width, height) in pixels
         color_by    an attribute, "rgb", "elevation" ...
         view        "iso", "top", "front", "back", "left" or "right"
-        camera      instead of view: a camera file (JSON)
+        camera      instead of view: a camera file (JSON), or a dictionary of that
         technique   "points", "splats", "spheres" or "ewa"
-        style       a file of styles (JSON)
+        style       a file of styles (JSON), or a dictionary of that
         classes     numbers of object classes
         where       a condition on attributes
         error       projected point spacing to refine to, in pixels
@@ -241,6 +312,24 @@ class Cloud:
 
         _window.show(self.path, size, title or self.path)
         return None
+
+
+_CONDITIONS = ("box", "sphere", "area", "classes", "where", "spacing", "attributes")
+
+
+def _arrays_of(output):
+    """NumPy arrays by name of vtkPolyData that extract() gave."""
+    data = output.GetPointData()
+    arrays = {"position": vtk_to_numpy(output.GetPoints().GetData())}
+    for i in range(data.GetNumberOfArrays()):
+        array = data.GetArray(i)
+        name = array.GetName()
+        if name == "point_id":
+            name = "id"
+        elif name in ("position", "id"):
+            name += "_"
+        arrays[name] = vtk_to_numpy(array)
+    return arrays
 
 
 def _in_notebook():

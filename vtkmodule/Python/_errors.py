@@ -1,5 +1,24 @@
-"""The one exception of the package."""
+"""The exception and the warning of the package."""
+
+import pathlib
+import sys
+import warnings
+
+_PACKAGE = str(pathlib.Path(__file__).parent)
 
 
 class PointFrontError(RuntimeError):
     """Something asked of PointFront did not happen. The message says what, where, what to try."""
+
+
+class PointFrontWarning(UserWarning):
+    """Something was not as it should be, and the work went on. A full sentence says what."""
+
+
+def warn(texts):
+    """Raises each as a PointFrontWarning, at the first caller outside of this package."""
+    level, frame = 2, sys._getframe(1)
+    while frame is not None and frame.f_code.co_filename.startswith(_PACKAGE):
+        level, frame = level + 1, frame.f_back
+    for text in texts:
+        warnings.warn(text, PointFrontWarning, stacklevel=level)

@@ -1,6 +1,8 @@
 """Pictures drawn by the tool: in software, without a display and without OpenGL."""
 
+import json
 import pathlib
+import re
 import signal
 import subprocess
 import tempfile
@@ -8,7 +10,7 @@ import zlib
 
 import numpy
 
-from ._errors import PointFrontError
+from ._errors import PointFrontError, warn
 from ._host import TOOL
 
 _SIGNATURE = b"\x89PNG\r\n\x1a\n"
@@ -67,8 +69,11 @@ def _rows_of(png):
     return width, height, 3 if kind == 2 else 4, zlib.decompress(b"".join(data))
 
 
-def run_tool(arguments):
-    """What the tool prints. Raises PointFrontError with what it says; Ctrl-C ends it, too."""
+def run_tool(arguments, heard=None):
+    """What the tool prints. Raises PointFrontError with what it says; Ctrl-C ends it, too.
+
+    heard  called with what it says while it succeeds
+    """
     try:
         tool = subprocess.Popen([TOOL, *map(str, arguments)], stdin=subprocess.DEVNULL,
                                 stdout=subprocess.PIPE, stderr=subprocess.PIPE)
@@ -83,26 +88,57 @@ def run_tool(arguments):
     if tool.returncode != 0:
         text = said.decode(errors="replace").strip()
         raise PointFrontError(text or f"the tool ended with status {tool.returncode}")
+    if heard is not None:
+        heard(said.decode(errors="replace"))
     return output
+
+
+def export(path, output, options):
+    """Writes points of a stored cloud to a file; how many. See Cloud.export."""
+    said = []
+    printed = run_tool(["export", path, "-o", output, "--progress", "none", *_flags(options)],
+                       said.append)
+    warn(line.split("warning: ", 1)[-1] for line in said[0].splitlines() if line)
+    return int(re.search(r": ([0-9]+) points", printed.decode()).group(1))
+
+
+def _flags(options, folder=None):
+    """Of the command line; a dictionary becomes a JSON file in `folder`."""
+    words = []
+    for name, value in options.items():
+        if value is None or value is False:
+            continue
+        flag = "--" + name.replace("_", "-")
+        if value is True:
+            words.append(flag)
+        elif isinstance(value, dict) and folder is not None:
+            file = pathlib.Path(folder) / f"{name}.json"
+            file.write_text(json.dumps(value, default=_plain))
+            words += [flag, file]
+        elif isinstance(value, (tuple, list)):
+            words += [flag, ",".join(map(_word, value))]
+        else:
+            words += [flag, _word(value)]
+    return words
+
+
+def _plain(value):
+    """NumPy's numbers and arrays, for JSON."""
+    return value.tolist()
+
+
+def _word(value):
+    """A floating number with all its digits, NumPy's, too."""
+    return repr(float(value)) if isinstance(value, (float, numpy.floating)) else str(value)
 
 
 def draw(path, output, size, options):
     """A Picture of a stored cloud; also written to `output` unless that is None."""
     width, height = size
     arguments = ["render", path, "--size", f"{int(width)}x{int(height)}"]
-    for name, value in options.items():
-        if value is None or value is False:
-            continue
-        flag = "--" + name.replace("_", "-")
-        if value is True:
-            arguments.append(flag)
-        elif isinstance(value, (tuple, list)):
-            arguments += [flag, ",".join(map(str, value))]
-        else:
-            arguments += [flag, value]
     with tempfile.TemporaryDirectory(prefix="pointfront-") as folder:
         file = pathlib.Path(folder) / "picture.png"
-        run_tool([*arguments, "-o", file])
+        run_tool([*arguments, *_flags(options, folder), "-o", file])
         picture = Picture(file.read_bytes())
     if output is not None:
         picture.save(output)

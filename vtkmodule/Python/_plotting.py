@@ -1,5 +1,7 @@
 """Stored clouds in PyVista: a mapper that a Plotter knows how to treat."""
 
+import json
+
 import pyvista
 from pyvista.plotting.mapper import _BaseMapper
 
@@ -87,8 +89,9 @@ def add_cloud(store, path, plotter, *, scalars=None, cmap=None, clim=None, show_
         mapper.SetPointSize(point_size)
     mapped = _colour(mapper, plotter, scalars, cmap, clim)
     if style is not None:
-        if isinstance(style, str):
-            text, style = style, vtkPointFrontStyle()
+        if isinstance(style, (str, dict)):
+            text = style if isinstance(style, str) else json.dumps(style)
+            style = vtkPointFrontStyle()
             if not style.LoadJSON(text):
                 raise PointFrontError("the style is no JSON of styles; see LoadJSON")
         mapper.SetStyle(style)

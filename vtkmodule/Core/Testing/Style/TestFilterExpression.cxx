@@ -38,26 +38,39 @@ std::string failure(const std::string& text)
 TEST(FilterExpression, RangesHaveOpenAndClosedEnds)
 {
   const AttributeCondition closed = only("gps_time in [1.5, 2e3]");
-  EXPECT_EQ(closed.range, (std::array<double, 2>{ 1.5, 2000.0 }));
+  EXPECT_EQ(closed.range, (std::array<ConditionNumber, 2>{ 1.5, 2000.0 }));
   EXPECT_FALSE(closed.lowOpen || closed.highOpen || closed.inverted);
   const AttributeCondition halfOpen = only("t in [-1,+2)");
-  EXPECT_EQ(halfOpen.range, (std::array<double, 2>{ -1.0, 2.0 }));
+  EXPECT_EQ(halfOpen.range, (std::array<ConditionNumber, 2>{ -1.0, 2.0 }));
   EXPECT_TRUE(!halfOpen.lowOpen && halfOpen.highOpen);
   const AttributeCondition open = only("t in(-inf , 3]");
-  EXPECT_EQ(open.range, (std::array<double, 2>{ -infinity, 3.0 }));
+  EXPECT_EQ(open.range, (std::array<ConditionNumber, 2>{ -infinity, 3.0 }));
   EXPECT_TRUE(open.lowOpen && !open.highOpen);
+}
+
+TEST(FilterExpression, WholeNumbersOf64BitsAreTakenExactly)
+{
+  EXPECT_EQ(only("a == 4611686018427387905").values.front(),
+    static_cast<ConditionNumber>(4611686018427387905));
+  EXPECT_EQ(
+    only("a > -9223372036854775807").range[0], static_cast<ConditionNumber>(-9223372036854775807));
+  EXPECT_EQ(
+    only("a < 18446744073709551615").range[1], static_cast<ConditionNumber>(18446744073709551615u));
+  EXPECT_EQ(only("a in {9007199254740993, 9007199254740992}").values.size(), 2u);
+  EXPECT_EQ(only("a < 18446744073709551616").range[1], 18446744073709551616.0L); // a double
+  EXPECT_EQ(only("a == 0.1").values.front(), static_cast<ConditionNumber>(0.1)); // a double
 }
 
 TEST(FilterExpression, SetsAreSortedAndComparisonsAreRanges)
 {
-  EXPECT_EQ(only("a in {7, 3,3}").values, (std::vector<double>{ 3.0, 7.0 }));
+  EXPECT_EQ(only("a in {7, 3,3}").values, (std::vector<ConditionNumber>{ 3.0, 7.0 }));
   EXPECT_TRUE(only("a not in {7}").inverted);
-  EXPECT_EQ(only("a==1").values, std::vector<double>{ 1.0 });
+  EXPECT_EQ(only("a==1").values, std::vector<ConditionNumber>{ 1.0 });
   EXPECT_TRUE(only("a != 1").inverted);
-  EXPECT_EQ(only("a < 1").range, (std::array<double, 2>{ -infinity, 1.0 }));
+  EXPECT_EQ(only("a < 1").range, (std::array<ConditionNumber, 2>{ -infinity, 1.0 }));
   EXPECT_TRUE(only("a < 1").highOpen);
   EXPECT_FALSE(only("a <= 1").highOpen);
-  EXPECT_EQ(only("a > 1").range, (std::array<double, 2>{ 1.0, infinity }));
+  EXPECT_EQ(only("a > 1").range, (std::array<ConditionNumber, 2>{ 1.0, infinity }));
   EXPECT_TRUE(only("a > 1").lowOpen);
   EXPECT_FALSE(only("a >= 1").lowOpen);
 }

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <limits>
 #include <random>
 
@@ -55,7 +56,7 @@ std::vector<AttributeCondition> someConditions()
   range(5.25, unbounded, true, false);
   range(1e30, 1e31, false, false);
   range(-unbounded, unbounded, false, false);
-  const auto set = [&](std::vector<double> values)
+  const auto set = [&](std::vector<ConditionNumber> values)
   {
     AttributeCondition condition;
     condition.values = std::move(values);
@@ -63,7 +64,7 @@ std::vector<AttributeCondition> someConditions()
   };
   set({ 7.0 });
   set({ -3.0, 2.0, 4.5, 9.0, 30.0 });
-  std::vector<double> many;
+  std::vector<ConditionNumber> many;
   for (int value = 0; value < 40; value += 2)
   {
     many.push_back(value);
@@ -176,6 +177,75 @@ TEST(PointFilter, AllConditionsHaveToHold)
   std::uint8_t keep[4];
   PointFilter{ { least, notOne } }.evaluate(node, schema, 0, 4, keep);
   EXPECT_EQ(std::vector<std::uint8_t>(keep, keep + 4), (std::vector<std::uint8_t>{ 0, 0, 0, 1 }));
+}
+
+template <typename T>
+void expectKept(const std::vector<T>& values, const AttributeCondition& condition,
+  const std::function<bool(T)>& truth)
+{
+  AttributeSchema schema;
+  schema.add({ "k", T(-1) < T(0) ? ScalarType::Int64 : ScalarType::UInt64, 1 });
+  NodeColumns node;
+  node.positions.resize(values.size());
+  node.selection = { 0 };
+  node.columns.emplace_back(values.size() * sizeof(T));
+  std::memcpy(node.columns[0].data(), values.data(), values.size() * sizeof(T));
+  std::vector<std::uint8_t> keep(values.size());
+  PointFilter{ { condition } }.evaluate(
+    node, schema, 0, static_cast<std::uint32_t>(values.size()), keep.data());
+  for (std::size_t i = 0; i < values.size(); ++i)
+  {
+    EXPECT_EQ(keep[i] != 0, truth(values[i])) << values[i];
+    // A node that holds nothing but this point is not left out if the point passes.
+    const auto rounded = static_cast<double>(values[i]);
+    EXPECT_TRUE(!truth(values[i]) || condition.mayPass(rounded, rounded)) << values[i];
+  }
+}
+
+template <typename T>
+void expectExactComparisons(T around)
+{
+  std::vector<T> values;
+  for (int step = -3; step <= 3; ++step)
+  {
+    values.push_back(static_cast<T>(around + static_cast<T>(step)));
+  }
+  for (const T bound : values)
+  {
+    for (const bool inverted : { false, true })
+    {
+      AttributeCondition equal;
+      equal.values = { static_cast<ConditionNumber>(bound) };
+      equal.inverted = inverted;
+      expectKept<T>(values, equal, [=](T value) { return (value == bound) != inverted; });
+      for (const bool open : { false, true })
+      {
+        AttributeCondition least;
+        least.range[0] = static_cast<ConditionNumber>(bound);
+        least.lowOpen = open;
+        least.inverted = inverted;
+        expectKept<T>(values, least,
+          [=](T value) { return (open ? value > bound : value >= bound) != inverted; });
+        AttributeCondition most;
+        most.range[1] = static_cast<ConditionNumber>(bound);
+        most.highOpen = open;
+        most.inverted = inverted;
+        expectKept<T>(values, most,
+          [=](T value) { return (open ? value < bound : value <= bound) != inverted; });
+      }
+    }
+  }
+}
+
+/// Whole numbers around 2^53, 2^62, 2^63 and 2^64, of which no double has every one.
+TEST(PointFilter, IntegersOf64BitsAreComparedExactly)
+{
+  expectExactComparisons<std::int64_t>(std::int64_t(1) << 53);
+  expectExactComparisons<std::int64_t>(std::int64_t(1) << 62);
+  expectExactComparisons<std::int64_t>(std::numeric_limits<std::int64_t>::max() - 3);
+  expectExactComparisons<std::int64_t>(std::numeric_limits<std::int64_t>::min() + 3);
+  expectExactComparisons<std::uint64_t>(std::uint64_t(1) << 63);
+  expectExactComparisons<std::uint64_t>(std::numeric_limits<std::uint64_t>::max() - 3);
 }
 
 /// A node of that range is left out only if no value in it could pass: tried value by value.

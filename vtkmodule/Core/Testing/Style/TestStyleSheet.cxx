@@ -149,7 +149,7 @@ TEST(StyleSheet, ShownClassesHideAllOthers)
   EXPECT_FALSE(layered[2].visible());
   const auto unlayered = all(sheet, styledStore({}));
   ASSERT_EQ(unlayered[0].styles.size(), 1u);
-  EXPECT_EQ(unlayered[0].styles[0]->filter.conditions[0].values, std::vector<double>{ 2.0 });
+  EXPECT_EQ(unlayered[0].styles[0]->filter.conditions[0].values, std::vector<long double>{ 2.0 });
   StoreDescription without = styledStore({});
   without.schema = AttributeSchema();
   without.ranges.clear();
@@ -163,7 +163,7 @@ TEST(StyleSheet, AHiddenDefaultDrawsOnlyTheClassesThatAreVisible)
   sheet.classes[6].visible = true;
   const auto unlayered = all(sheet, styledStore({}));
   ASSERT_EQ(unlayered[0].styles.size(), 1u);
-  EXPECT_EQ(unlayered[0].styles[0]->filter.conditions[0].values, std::vector<double>{ 6.0 });
+  EXPECT_EQ(unlayered[0].styles[0]->filter.conditions[0].values, std::vector<long double>{ 6.0 });
   const auto layered = all(sheet, styledStore({ 2, 6 }));
   EXPECT_FALSE(layered[0].visible());
   EXPECT_TRUE(layered[1].visible());

@@ -5,6 +5,8 @@
 #include <atomic>
 #include <numeric>
 #include <stdexcept>
+#include <sys/wait.h>
+#include <unistd.h>
 #include <vector>
 
 using namespace pointfront;
@@ -69,3 +71,26 @@ TEST(ThreadCrew, AnExceptionComesOutAndTheCrewGoesOn)
     EXPECT_EQ(done, 50);
   }
 }
+
+#if !defined(__SANITIZE_THREAD__) // which ends a child of fork() that starts threads
+TEST(ThreadCrew, AChildOfForkHasACrewOfItsOwn)
+{
+  const auto sum = []
+  {
+    std::atomic<std::size_t> total{ 0 };
+    ThreadCrew::ofProcess().run(100, [&](std::size_t piece, unsigned) { total += piece; });
+    return total.load();
+  };
+  EXPECT_EQ(sum(), 4950u);
+  const ::pid_t child = ::fork();
+  if (child == 0)
+  {
+    ::alarm(20); // ends a child that waits for threads which are not there
+    ::_exit(sum() == 4950u ? 0 : 1);
+  }
+  int status = -1;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  EXPECT_EQ(status, 0);
+  EXPECT_EQ(sum(), 4950u);
+}
+#endif

@@ -3,6 +3,7 @@
 #include "pointfront/Residency/LoadSchedulerContent.h"
 
 #include <algorithm>
+#include <atomic>
 #include <mutex>
 #include <optional>
 #include <utility>
@@ -12,13 +13,20 @@ namespace pointfront
 namespace
 {
 
+/// What the process's budget was set to: a child of fork() begins with that.
+std::atomic<std::size_t>& processBudgetLimit()
+{
+  static std::atomic<std::size_t> bytes{ LoadSchedulerOptions().budgetBytes };
+  return bytes;
+}
+
 /// The process's: bytes stay on it while anyone holds points, whatever schedulers come and go.
 const std::shared_ptr<MemoryBudget>& processBudget()
 {
-  static const auto* const budget = // never deleted: points may outlive static objects
-    new std::shared_ptr<MemoryBudget>(
-      std::make_shared<MemoryBudget>(LoadSchedulerOptions().budgetBytes));
-  return *budget;
+  using Shared = std::shared_ptr<MemoryBudget>;
+  static auto* const budget = new OfProcess<Shared>; // never deleted: points may outlive statics
+  return budget->get(
+    [] { return std::make_unique<Shared>(std::make_shared<MemoryBudget>(processBudgetLimit())); });
 }
 
 struct ProcessScheduler
@@ -29,8 +37,9 @@ struct ProcessScheduler
 
 ProcessScheduler& processScheduler()
 {
-  static auto* const instance = new ProcessScheduler;
-  return *instance;
+  // Never deleted, as the budget.
+  static auto* const instance = new OfProcess<ProcessScheduler>;
+  return instance->get([] { return std::make_unique<ProcessScheduler>(); });
 }
 
 } // namespace
@@ -86,6 +95,11 @@ LoadScheduler::LoadScheduler(
 
 LoadScheduler::~LoadScheduler()
 {
+  if (mark_.left())
+  {
+    static_cast<void>(new std::shared_ptr<Content>(content_)); // its threads will not let go of it
+    return;
+  }
   Content& c = *content_;
   {
     const std::lock_guard<std::mutex> lock(c.mutex);
@@ -131,6 +145,7 @@ void LoadScheduler::setProcessBudgetBytes(std::size_t bytes)
     ProcessScheduler& process = processScheduler();
     const std::lock_guard<std::mutex> lock(process.mutex);
     running = process.running.lock();
+    processBudgetLimit() = bytes;
     processBudget()->setLimit(bytes);
   }
   if (running)
@@ -188,6 +203,10 @@ void LoadScheduler::join(const std::shared_ptr<StoreNodes>& store, std::uint64_t
 
 void LoadScheduler::leave(const std::shared_ptr<StoreNodes>& store)
 {
+  if (mark_.left())
+  {
+    return;
+  }
   {
     const std::lock_guard<std::mutex> lock(content_->mutex);
     Content::Member* member = content_->memberOf(*store);

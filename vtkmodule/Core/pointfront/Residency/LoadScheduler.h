@@ -3,6 +3,7 @@
 #include "pointfront/Front/SharedDemand.h"
 #include "pointfront/Residency/MemoryBudget.h"
 #include "pointfront/Residency/NodeCache.h"
+#include "pointfront/Threads/OfProcess.h"
 
 #include <chrono>
 #include <cstddef>
@@ -63,7 +64,8 @@ public:
   LoadScheduler(const LoadScheduler&) = delete;
   LoadScheduler& operator=(const LoadScheduler&) = delete;
 
-  /// The scheduler of this process: it begins with its first user and ends with the last.
+  /// The scheduler of this process: it begins with its first user and ends with the last. A child
+  /// of fork() has one of its own; stores that its parent opened load nothing there.
   static std::shared_ptr<LoadScheduler> ofProcess();
   /// Its budget, whether it runs or not.
   static void setProcessBudgetBytes(std::size_t bytes);
@@ -98,6 +100,7 @@ public:
 private:
   LoadScheduler(const LoadSchedulerOptions& options, std::shared_ptr<MemoryBudget> budget);
   struct Content;
+  const ProcessMark mark_; ///< in a child of fork() there are no threads to tell or to wait for
   const std::shared_ptr<SharedDemand> demand_ = std::make_shared<SharedDemand>();
   std::shared_ptr<Content> content_; ///< shared with threads that hang in a read at the end
 };

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
+#include <optional>
 
 namespace pointfront
 {
@@ -149,7 +151,25 @@ private:
     }
   }
 
-  double readNumber()
+  /// What is written without point and exponent, exactly, if it has 64 bits at most.
+  static std::optional<ConditionNumber> wholeNumber(const char* begin, const char* end)
+  {
+    std::int64_t negative = 0;
+    std::uint64_t positive = 0;
+    const auto all = [end](const std::from_chars_result& read)
+    { return read.ec == std::errc() && read.ptr == end; };
+    if (all(std::from_chars(begin, end, positive)))
+    {
+      return static_cast<ConditionNumber>(positive);
+    }
+    if (all(std::from_chars(begin, end, negative)))
+    {
+      return static_cast<ConditionNumber>(negative);
+    }
+    return std::nullopt;
+  }
+
+  ConditionNumber readNumber()
   {
     skipSpace();
     const std::size_t begin = at_;
@@ -158,15 +178,16 @@ private:
       ++at_;
     }
     double number = 0.0;
+    const char* const from = text_.data() + at_;
     const char* const end = text_.data() + text_.size();
-    const auto [stop, failure] = std::from_chars(text_.data() + at_, end, number);
+    const auto [stop, failure] = std::from_chars(from, end, number);
     if (failure != std::errc() || std::isnan(number) || (stop != end && isWord(*stop)))
     {
       fail("expected a number", begin);
       return 0.0;
     }
     at_ = static_cast<std::size_t>(stop - text_.data());
-    return number;
+    return wholeNumber(from, stop).value_or(number);
   }
 
   void readRange(AttributeCondition& condition, bool lowOpen)

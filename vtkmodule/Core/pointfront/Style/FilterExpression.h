@@ -33,7 +33,9 @@ struct FilterTerm
 ///          x, y, z and elevation are coordinates unless the store has an attribute of that name.
 ///          Names with spaces stand in "double quotes".
 /// Units    world values: after the attribute's scale and offset, metres of the store's system.
-/// Numbers  as in C, without regard to the locale; inf and -inf too. NaN never passes.
+/// Numbers  as in C, without regard to the locale; inf and -inf too. NaN never passes. Whole
+/// numbers
+///          of 64 bits are taken exactly (AttributeCondition).
 /// Threads  a value.
 struct FilterExpression
 {

@@ -226,8 +226,10 @@ void keepOfPositions(const NodeColumns& node, const AttributeCondition& conditio
 std::array<double, 2> AttributeCondition::closedRange() const
 {
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  return { lowOpen ? std::nextafter(range[0], infinity) : range[0],
-    highOpen ? std::nextafter(range[1], -infinity) : range[1] };
+  const auto low = static_cast<double>(range[0]);
+  const auto high = static_cast<double>(range[1]);
+  return { lowOpen ? std::nextafter(low, infinity) : low,
+    highOpen ? std::nextafter(high, -infinity) : high };
 }
 
 bool AttributeCondition::passes(double value) const
@@ -236,29 +238,43 @@ bool AttributeCondition::passes(double value) const
   {
     return false;
   }
-  const bool inside = !values.empty() ? std::binary_search(values.begin(), values.end(), value)
-                                      : (lowOpen ? value > range[0] : value >= range[0]) &&
-      (highOpen ? value < range[1] : value <= range[1]);
+  const auto asDouble = [](ConditionNumber number) { return static_cast<double>(number); };
+  if (!values.empty())
+  {
+    const auto least = std::partition_point(values.begin(), values.end(),
+      [&](ConditionNumber number) { return asDouble(number) < value; });
+    return (least != values.end() && asDouble(*least) == value) != inverted;
+  }
+  const double low = asDouble(range[0]);
+  const double high = asDouble(range[1]);
+  const bool inside =
+    (lowOpen ? value > low : value >= low) && (highOpen ? value < high : value <= high);
   return inside != inverted;
 }
 
 bool AttributeCondition::mayPass(double low, double high) const
 {
+  // Beyond, a double stands for several whole numbers of the store: at an end it tells nothing.
+  constexpr double wholeDoubles = 9007199254740992.0; // 2^53
+  const bool vague = std::abs(low) >= wholeDoubles || std::abs(high) >= wholeDoubles;
   if (!values.empty())
   {
-    const auto first = std::lower_bound(values.begin(), values.end(), low);
-    const bool some = first != values.end() && *first <= high;
+    const auto first = std::partition_point(values.begin(), values.end(),
+      [low](ConditionNumber number) { return static_cast<double>(number) < low; });
+    const bool some = first != values.end() && static_cast<double>(*first) <= high;
     // Inverted, only a range of one value that is excluded can be left out.
-    return inverted ? !(some && low == high) : some;
+    return inverted ? !(some && low == high && !vague) : some;
   }
+  const auto from = static_cast<double>(range[0]);
+  const auto to = static_cast<double>(range[1]);
   if (inverted)
   {
-    const bool lowInside = lowOpen ? low > range[0] : low >= range[0];
-    const bool highInside = highOpen ? high < range[1] : high <= range[1];
+    const bool lowInside = lowOpen || vague ? low > from : low >= from;
+    const bool highInside = highOpen || vague ? high < to : high <= to;
     return !(lowInside && highInside);
   }
-  return (lowOpen ? high > range[0] : high >= range[0]) &&
-    (highOpen ? low < range[1] : low <= range[1]);
+  return (lowOpen && !vague ? high > from : high >= from) &&
+    (highOpen && !vague ? low < to : low <= to);
 }
 
 ColumnSelection PointFilter::columns() const

@@ -11,9 +11,14 @@
 namespace pointfront
 {
 
+/// A number of a condition: a double, or a whole number of 64 bits, of which a double loses digits.
+using ConditionNumber = long double;
+
 /// One condition on one attribute of a store, or on a coordinate: within a range, or one of some
 /// values.
-/// Units  world values: stored * scale + offset.
+/// Units    world values: stored * scale + offset.
+/// Numbers  integers of 64 bits without scale and offset are compared exactly. Everything else is a
+///          double, and is compared with the doubles of the condition's numbers.
 struct AttributeCondition
 {
   std::uint32_t column = 0;
@@ -21,15 +26,16 @@ struct AttributeCondition
   int axis = -1; ///< 0 x, 1 y, 2 z: of the position, which needs no column
   double axisScale = 1.0; ///< of the store's grid, along `axis`
   double axisOffset = 0.0;
-  std::array<double, 2> range{ -std::numeric_limits<double>::infinity(),
+  std::array<ConditionNumber, 2> range{ -std::numeric_limits<double>::infinity(),
     std::numeric_limits<double>::infinity() };
   bool lowOpen = false; ///< range[0] itself does not pass
   bool highOpen = false; ///< range[1] itself does not pass
-  std::vector<double> values; ///< ascending; not empty: one of these, whatever the range
+  std::vector<ConditionNumber> values; ///< ascending; not empty: one of these, whatever the range
   bool inverted = false; ///< what would pass does not, and the other way round; NaN never does
 
   bool passes(double value) const;
-  /// False when no value of [low, high] passes: a node of that range need not be read.
+  /// False when no value passes whose double lies in [low, high]: a node of that range need not be
+  /// read. True where doubles cannot tell.
   bool mayPass(double low, double high) const;
   bool usesColumn() const { return axis < 0; }
   /// The range with both ends closed: the same doubles pass.

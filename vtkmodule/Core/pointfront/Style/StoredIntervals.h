@@ -82,25 +82,51 @@ std::optional<StoredInterval<T>> storedInterval(
     static_cast<Unsigned>(static_cast<Unsigned>(last) - static_cast<Unsigned>(*first)) };
 }
 
+/// Integers of 64 bits that are the world values themselves, in the condition's range, without
+/// rounding.
+template <typename T>
+std::optional<StoredInterval<T>> wholeInterval(
+  ConditionNumber low, bool lowOpen, ConditionNumber high, bool highOpen)
+{
+  using Unsigned = typename StoredInterval<T>::Unsigned;
+  const auto number = [](T stored) { return static_cast<ConditionNumber>(stored); };
+  const std::optional<T> first =
+    firstThatMeets<T>([&](T s) { return lowOpen ? number(s) > low : number(s) >= low; });
+  const std::optional<T> beyond =
+    firstThatMeets<T>([&](T s) { return highOpen ? number(s) >= high : number(s) > high; });
+  if (!first || (beyond && *beyond <= *first))
+  {
+    return std::nullopt;
+  }
+  const T last = beyond ? static_cast<T>(*beyond - 1) : std::numeric_limits<T>::max();
+  return StoredInterval<T>{ *first,
+    static_cast<Unsigned>(static_cast<Unsigned>(last) - static_cast<Unsigned>(*first)) };
+}
+
 /// All stored integers that lie within the condition's range or are among its values (`inverted` is
 /// not looked at), ascending and disjoint.
 template <typename T>
 std::vector<StoredInterval<T>> storedIntervals(
   const AttributeCondition& condition, double scale, double offset)
 {
+  const bool whole = sizeof(T) == 8 && scale == 1.0 && offset == 0.0;
   std::vector<StoredInterval<T>> intervals;
   if (condition.values.empty())
   {
     const std::array<double, 2> range = condition.closedRange();
-    if (const auto interval = storedInterval<T>(range[0], range[1], scale, offset))
+    if (const auto interval = whole ? wholeInterval<T>(condition.range[0], condition.lowOpen,
+                                        condition.range[1], condition.highOpen)
+                                    : storedInterval<T>(range[0], range[1], scale, offset))
     {
       intervals.push_back(*interval);
     }
     return intervals;
   }
-  for (const double value : condition.values)
+  for (const ConditionNumber number : condition.values)
   {
-    if (const auto interval = storedInterval<T>(value, value, scale, offset))
+    const auto value = static_cast<double>(number);
+    if (const auto interval = whole ? wholeInterval<T>(number, false, number, false)
+                                    : storedInterval<T>(value, value, scale, offset))
     {
       intervals.push_back(*interval);
     }
@@ -164,9 +190,9 @@ std::vector<StoredInterval<OrderedKey<T>>> floatingIntervals(const AttributeCond
       intervals.push_back(*interval);
     }
   };
-  for (const double value : condition.values)
+  for (const ConditionNumber number : condition.values)
   {
-    add(value, value);
+    add(static_cast<double>(number), static_cast<double>(number));
   }
   if (condition.values.empty())
   {

@@ -1,5 +1,6 @@
 #include "pointfront/Threads/ThreadCrew.h"
 
+#include "pointfront/Threads/OfProcess.h"
 #include "pointfront/Threads/WorkerThread.h"
 
 #include <algorithm>
@@ -88,14 +89,15 @@ struct ThreadCrew::Content
 
 ThreadCrew& ThreadCrew::ofProcess()
 {
-  static ThreadCrew crew(
+  static OfProcess<ThreadCrew> crew;
+  return crew.get(
     []
     {
       const char* const text = std::getenv("POINTFRONT_THREADS");
       const unsigned long wanted = text ? std::strtoul(text, nullptr, 10) : 0;
-      return wanted > 0 ? static_cast<unsigned>(std::min(wanted, 256ul)) : threadsOr(0);
-    }());
-  return crew;
+      return std::make_unique<ThreadCrew>(
+        wanted > 0 ? static_cast<unsigned>(std::min(wanted, 256ul)) : threadsOr(0));
+    });
 }
 
 ThreadCrew::ThreadCrew(unsigned threads)

@@ -20,7 +20,8 @@ class ThreadCrew
 {
 public:
   /// The one that the process shares, for work that is over within a frame: as many threads as
-  /// processors, the caller's included; with POINTFRONT_THREADS in the environment that many.
+  /// processors, the caller's included; with POINTFRONT_THREADS in the environment that many. A
+  /// child of fork() has one of its own.
   static ThreadCrew& ofProcess();
 
   /// `threads` with the caller's; 0 is taken as 1.

@@ -11,6 +11,7 @@ bool WorkerThread::start(std::function<void()> work) noexcept
 {
   try
   {
+    mark_ = ProcessMark();
     thread_ = std::thread(
       [kept = std::move(work)]
       {
@@ -33,7 +34,12 @@ bool WorkerThread::start(std::function<void()> work) noexcept
 
 void WorkerThread::join()
 {
-  if (thread_.joinable())
+  if (thread_.joinable() && mark_.left())
+  {
+    // The handle may be that of another thread here, which has the same stack.
+    static_cast<void>(new std::thread(std::move(thread_)));
+  }
+  else if (thread_.joinable())
   {
     thread_.join();
   }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "pointfront/Threads/OfProcess.h"
+
 #include <functional>
 #include <thread>
 
@@ -11,6 +13,7 @@ namespace pointfront
 /// Errors    start() is false where the system gives no thread: who starts it does the work. An
 ///           exception that leaves the work ends the thread and nothing else; work that others
 ///           wait for catches its own and tells them.
+/// Fork      a child process has not the thread: there, nobody waits for it.
 /// Threads   called by one thread. Destruction waits for the work to end.
 class WorkerThread
 {
@@ -31,6 +34,7 @@ public:
 
 private:
   std::thread thread_;
+  ProcessMark mark_; ///< of the process that started it
 };
 
 /// Threads for work of its own: as many as asked for; 0: as there are processors.

@@ -1,0 +1,153 @@
+"""Points as NumPy arrays: what is stored, in each type; conditions; thinning; forks."""
+
+import importlib
+import multiprocessing
+import os
+import pathlib
+import shutil
+import struct
+import tempfile
+import time
+import unittest
+
+import numpy
+import pointfront
+
+ROOT = pathlib.Path(__file__).resolve().parents[3]
+CLOUD = ROOT / "Testing/Data/autzen_stadium.laz"
+LIMIT_SECONDS = 60.0
+
+
+def colourful_las(path, colours):
+    """A LAS file of points along a line, with these colours of 16 bits."""
+    count = len(colours)
+    header = bytearray(227)
+    struct.pack_into("<4s20xBB68xHIIBHI", header, 0, b"LASF", 1, 2, 227, 227, 0, 2, 26, count)
+    struct.pack_into("<6d", header, 131, 0.01, 0.01, 0.01, 0.0, 0.0, 0.0)
+    struct.pack_into("<6d", header, 179, 0.01 * count, 0.0, 0.0, 0.0, 0.0, 0.0)
+    rows = numpy.zeros(count, [("x", "<i4"), ("rest", "V16"), ("rgb", "<u2", 3)])
+    rows["x"] = numpy.arange(count)
+    rows["rgb"] = colours
+    path.write_bytes(bytes(header) + rows.tobytes())
+
+
+def query_in_child(path):
+    return len(pointfront.open(path).points(attributes=[])["id"])
+
+
+class Points(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = pathlib.Path(tempfile.mkdtemp(prefix="pointfront-points-"))
+        cls.addClassCleanup(shutil.rmtree, cls.folder)
+        cls.stores = {}
+        for refinement in ("add", "replace"):
+            cls.stores[refinement] = cls.folder / f"{refinement}.pfront"
+            pointfront.build(CLOUD, cls.stores[refinement], preview=False, node_points=1000,
+                             refinement=refinement)
+
+    def test_colours_are_what_is_stored(self):
+        random = numpy.random.default_rng(1)
+        wide = random.integers(0, 65536, (1000, 3), numpy.uint16)
+        dark = random.integers(0, 256, (1000, 3), numpy.uint16)
+        for name, colours, kind in (("wide", wide, numpy.uint16), ("dark", dark, numpy.uint8)):
+            colourful_las(self.folder / f"{name}.las", colours)
+            store = self.folder / f"{name}.pfront"
+            pointfront.build(self.folder / f"{name}.las", store, preview=False)
+            with pointfront.open(store) as cloud:
+                told = {a["name"]: a["type"] for a in cloud.info["attributes"]}
+                self.assertEqual(told["rgb"], numpy.dtype(kind).name)
+                points = cloud.points(attributes=["rgb"])
+                self.assertEqual(points["rgb"].dtype, kind)
+                order = numpy.rint(points["position"][:, 0] / 0.01).astype(int)
+                numpy.testing.assert_array_equal(points["rgb"], colours[order])
+                bytes_of = cloud.points(attributes=["rgb"], colors_as_stored=False)["rgb"]
+                self.assertEqual(bytes_of.dtype, numpy.uint8)
+                shift = 8 if name == "wide" else 0
+                numpy.testing.assert_array_equal(bytes_of, points["rgb"] >> shift)
+
+    def test_integers_of_64_bits_are_compared_exactly(self):
+        core = importlib.import_module(pointfront.VTK_PACKAGE + ".vtkCommonCore")
+        model = importlib.import_module(pointfront.VTK_PACKAGE + ".vtkCommonDataModel")
+        convert = importlib.import_module(pointfront.VTK_PACKAGE + ".util.numpy_support")
+        keys = numpy.concatenate([numpy.int64(2) ** 62 + numpy.arange(-600, 600),
+                                  numpy.int64(2) ** 53 + numpy.arange(-600, 600)])
+        data, places = model.vtkPolyData(), core.vtkPoints()
+        xyz = numpy.zeros((len(keys), 3))
+        xyz[:, 0] = numpy.arange(len(keys))
+        places.SetData(convert.numpy_to_vtk(xyz))
+        data.SetPoints(places)
+        array = convert.numpy_to_vtk(keys, array_type=core.vtkTypeInt64Array().GetDataType())
+        array.SetName("k")
+        data.GetPointData().AddArray(array)
+        builder = pointfront.vtkPointFrontBuilder()
+        builder.SetPoints(data)
+        builder.SetOutputFileName(str(self.folder / "keys.pfront"))
+        self.assertTrue(builder.Write())
+        compare = {"==": numpy.equal, "!=": numpy.not_equal, "<": numpy.less,
+                   "<=": numpy.less_equal, ">": numpy.greater, ">=": numpy.greater_equal}
+        with pointfront.open(self.folder / "keys.pfront") as cloud:
+            self.assertEqual(cloud.points()["k"].dtype, numpy.int64)
+            for bound in (2**62, 2**62 + 1, 2**62 - 3, 2**53 + 1, 2**53):
+                for sign, truth in compare.items():
+                    found = cloud.points(where=f"k {sign} {bound}")["k"]
+                    expected = keys[truth(keys, numpy.int64(bound))]
+                    numpy.testing.assert_array_equal(numpy.sort(found), numpy.sort(expected),
+                                                     f"k {sign} {bound}")
+            found = cloud.points(where=f"k in {{{2**62 + 1}, {2**62 + 2}}}")["k"]
+            self.assertEqual(sorted(found), [2**62 + 1, 2**62 + 2])
+
+    def test_thinning_is_as_help_says(self):
+        """At most a 20th of the places is farther from a chosen point than was asked; the levels
+        are nested, and between two of them nothing changes.
+        """
+        random = numpy.random.default_rng(1)
+        for refinement, store in self.stores.items():
+            with pointfront.open(store) as cloud:
+                everything = cloud.points(attributes=[])
+                some = everything["position"][random.integers(0, len(everything["id"]), 300)]
+                before = set()
+                for spacing in (100, 50, 40, 20, 10):
+                    chosen = cloud.points(spacing=spacing, attributes=[])
+                    far = [numpy.linalg.norm(chosen["position"] - place, axis=1).min() > spacing
+                           for place in some]
+                    self.assertLess(numpy.mean(far), 0.05, (refinement, spacing))
+                    if refinement == "add":
+                        self.assertLessEqual(before, set(chosen["id"]))
+                    before = set(chosen["id"])
+                self.assertLess(len(before), 0.9 * len(everything["id"]))
+
+    def test_a_forked_child_asks_as_its_parent_did(self):
+        with pointfront.open(self.stores["add"]) as cloud:
+            count = len(cloud.points(attributes=[])["id"])
+            for of_parent in (True, False):
+                child = os.fork()
+                if child == 0:
+                    own = cloud if of_parent else pointfront.open(self.stores["add"])
+                    same = len(own.points(attributes=[])["id"]) == count
+                    own.close()
+                    os._exit(0 if same else 1)
+                self.assertEqual(self.end_of(child), 0, "it hangs, or has other points")
+            self.assertEqual(len(cloud.points(attributes=[])["id"]), count)
+
+    def end_of(self, child):
+        end = time.monotonic() + LIMIT_SECONDS
+        while time.monotonic() < end:
+            pid, status = os.waitpid(child, os.WNOHANG)
+            if pid:
+                return status
+            time.sleep(0.02)
+        os.kill(child, 9)
+        os.waitpid(child, 0)
+        return None
+
+    def test_a_pool_of_forked_processes_asks(self):
+        with pointfront.open(self.stores["add"]) as cloud:
+            count = len(cloud.points(attributes=[])["id"])
+        with multiprocessing.get_context("fork").Pool(2) as pool:
+            counts = pool.map_async(query_in_child, [self.stores["add"]] * 4).get(LIMIT_SECONDS)
+        self.assertEqual(counts, [count] * 4)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

@@ -1,0 +1,181 @@
+"""Points out of NumPy and back, in chunks and as files; clouds in notebooks and other processes."""
+
+import multiprocessing
+import pathlib
+import pickle
+import shutil
+import tempfile
+import unittest
+import warnings
+
+import numpy
+import pointfront
+
+CLOUD = pathlib.Path(__file__).resolve().parents[3] / "Testing/Data/autzen_stadium.laz"
+TYPES = ("i1", "u1", "i2", "u2", "i4", "u4", "i8", "u8", "f4", "f8")
+
+
+def count_in_child(cloud):
+    return len(cloud.points(attributes=[])["id"])
+
+
+class Writing(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = pathlib.Path(tempfile.mkdtemp(prefix="pointfront-writing-"))
+        cls.addClassCleanup(shutil.rmtree, cls.folder)
+        cls.store = cls.folder / "a.pfront"
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            pointfront.build(CLOUD, cls.store, preview=False, node_points=5000)
+        cls.cloud = pointfront.open(cls.store)
+
+    def test_arrays_come_back(self):
+        random = numpy.random.default_rng(1)
+        count = 5000
+        points = {"position": random.integers(0, 10000, (count, 3)) / 8.0,
+                  "rank": numpy.arange(count, dtype=numpy.int32),
+                  "rgb": random.integers(0, 65536, (count, 3), numpy.uint16),
+                  "flag": random.integers(0, 2, count).astype(bool),
+                  "strided": numpy.arange(2 * count, dtype=numpy.float32)[::2],
+                  "big": numpy.arange(count, dtype=">i4"),
+                  "classification": random.integers(0, 10, count, numpy.uint8)}
+        for name in TYPES:
+            info = numpy.iinfo(name) if name[0] != "f" else numpy.finfo(name)
+            points[name] = numpy.full(count, info.min, name)
+            points[name][::2] = info.max
+        fields = numpy.zeros(count, [("x", "f8"), ("y", "f8"), ("z", "f8"), ("rank", "i4")])
+        for axis, name in enumerate("xyz"):
+            fields[name] = points["position"][:, axis]
+        fields["rank"] = points["rank"]
+        for inputs in (points, fields):
+            store = self.folder / "own.pfront"
+            report = pointfront.build(inputs, store, overwrite=True, assumed_crs="EPSG:2994",
+                                      precision=0.001)
+            self.assertEqual(report.points_stored, count)
+            with pointfront.open(store) as cloud:
+                back = cloud.points()
+                self.assertIn("2994", cloud.crs)
+            order = back["rank"]
+            self.assertEqual(sorted(order), list(range(count)))
+            numpy.testing.assert_allclose(back["position"], points["position"][order], atol=1e-6)
+            if inputs is points:
+                self.assertEqual(set(back) - {"id"}, set(points))
+                for name in set(points) - {"position"}:
+                    numpy.testing.assert_array_equal(back[name], points[name][order], name)
+                for name in (*TYPES, "rgb"):
+                    self.assertEqual(back[name].dtype, points[name].dtype, name)
+        again = pointfront.build(back, self.folder / "again.pfront", assumed_crs="EPSG:2994",
+                                 precision=0.001)
+        self.assertEqual(again.points_stored, count)
+
+    def test_what_is_no_cloud_is_refused(self):
+        xyz = numpy.zeros((3, 3))
+        for points, problem, says in (
+                ({"intensity": [1]}, ValueError, "position"),
+                ({"position": [[1, 2]]}, ValueError, "n by 3"),
+                ({"position": xyz, "a": [1, 2]}, ValueError, "'a'.*3 points"),
+                ({"position": xyz, "a": ["x", "y", "z"]}, TypeError, "'a'"),
+                ({"position": xyz, "a": [1j, 2, 3]}, TypeError, "'a'"),
+                ({"position": xyz, "a": numpy.zeros((3, 17))}, ValueError, "17 components")):
+            with self.assertRaisesRegex(problem, says):
+                pointfront.build(points, self.folder / "none.pfront")
+        self.assertFalse((self.folder / "none.pfront").exists())
+
+    def test_chunks_are_the_points(self):
+        whole = self.cloud.points(attributes=["intensity"])
+        for size in (1, 1000, 70000, 10**7):
+            if size == 1:
+                box = (whole["position"][:5].min(axis=0), whole["position"][:5].max(axis=0))
+                expected = self.cloud.points(box=box, attributes=["intensity"])
+                chunks = list(self.cloud.chunks(100, box=box, attributes=["intensity"]))
+                size = 100
+            else:
+                expected = whole
+                chunks = list(self.cloud.chunks(size, attributes=["intensity"]))
+            lengths = [len(chunk["id"]) for chunk in chunks]
+            self.assertEqual(set(lengths[:-1]) | {size}, {size})
+            self.assertLessEqual(lengths[-1], size)
+            for name, array in expected.items():
+                joined = numpy.concatenate([chunk[name] for chunk in chunks])
+                self.assertEqual(joined.dtype, array.dtype)
+                numpy.testing.assert_array_equal(joined, array)
+        self.assertEqual(list(self.cloud.chunks(where="intensity > 65000")), [])
+        with self.assertRaises(ValueError):
+            self.cloud.chunks(0)
+        with self.assertRaises(pointfront.PointFrontError):
+            next(self.cloud.chunks(where="nothing > 1"))
+
+    def test_points_are_exported(self):
+        low, high = map(numpy.array, self.cloud.bounds)
+        box = (low, (low + high) / 2)
+        expected = self.cloud.points(box=box, classes=0, where="intensity > 50")
+        self.assertGreater(len(expected["id"]), 1000)
+        target = self.folder / "part.las"
+        count = self.cloud.export(target, box=box, classes=0, where="intensity > 50")
+        self.assertEqual(count, len(expected["id"]))
+        with self.assertRaisesRegex(pointfront.PointFrontError, "part.las"):
+            self.cloud.export(target)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            pointfront.build(target, self.folder / "part.pfront")
+        back = pointfront.open(self.folder / "part.pfront").points()
+        self.assertEqual(sorted(back["intensity"]), sorted(expected["intensity"]))
+        center = (low + high) / 2
+        near = self.cloud.points(sphere=(center, 300), attributes=[])
+        count = self.cloud.export(target, sphere=(center, 300), overwrite=True)
+        self.assertEqual(count, len(near["id"]))
+        with self.assertWarnsRegex(pointfront.PointFrontWarning, "no point"):
+            self.assertEqual(self.cloud.export(target, where="intensity > 65000", overwrite=True),
+                             0)
+
+    def test_warnings_are_pythons(self):
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            report = pointfront.build(CLOUD, self.folder / "w.pfront", preview=False)
+        self.assertEqual([str(w.message) for w in caught], report.warnings)
+        self.assertTrue(caught)
+        self.assertEqual({w.filename for w in caught}, {__file__})
+        self.assertTrue(issubclass(caught[0].category, pointfront.PointFrontWarning))
+
+    def test_a_folder_of_files_is_an_input(self):
+        folder = self.folder / "files"
+        (folder / "deeper").mkdir(parents=True)
+        for name in ("a.laz", "deeper/b.laz"):
+            shutil.copyfile(CLOUD, folder / name)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            report = pointfront.build(folder, self.folder / "folder.pfront", preview=False)
+        self.assertEqual(report.points_stored, 2 * len(self.cloud))
+
+    def test_dictionaries_are_styles_and_cameras(self):
+        low, high = map(numpy.array, self.cloud.bounds)
+        camera = {"position": (low + high) / 2 + [0, 0, 3000], "focal_point": (low + high) / 2,
+                  "view_up": [0, 1, 0], "view_angle": numpy.float64(30)}
+        style = {"default": {"color": "#ff0000"}}
+        pixels = self.cloud.screenshot(size=(64, 48), camera=camera, style=style,
+                                       background=(0, 0, 0)).pixels.astype(int)
+        drawn = pixels.max(axis=2) > 30
+        self.assertGreater(drawn.mean(), 0.1)
+        self.assertTrue((pixels[drawn][:, 0] > 2 * pixels[drawn][:, 1]).all())
+
+    def test_a_cloud_is_pickled_and_shown(self):
+        again = pickle.loads(pickle.dumps(self.cloud))
+        self.assertEqual(len(again), len(self.cloud))
+        with multiprocessing.get_context("spawn").Pool(1) as pool:
+            counts = pool.map(count_in_child, [self.cloud])
+        self.assertEqual(counts, [len(self.cloud)])
+        table = self.cloud._repr_html_()
+        self.assertIn(f"{len(self.cloud):,}", table)
+        self.assertIn("intensity", table)
+        odd = self.folder / "<b>.pfront"
+        shutil.copyfile(self.store, odd)
+        with pointfront.open(odd) as cloud:
+            self.assertNotIn("<b>", cloud._repr_html_())
+        self.assertIn("closed", cloud._repr_html_())
+        with self.assertRaisesRegex(pointfront.PointFrontError, "closed"):
+            pickle.dumps(cloud)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

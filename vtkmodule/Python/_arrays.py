@@ -1,0 +1,94 @@
+"""NumPy arrays on their way into a store, and points of a store in chunks."""
+
+import numpy
+
+from . import _host
+
+_OWN = ("position", "id")  # of Cloud.points: places and ranks, which are no attributes
+_MOST_COMPONENTS = 16
+
+
+def is_table(inputs):
+    """Whether these are points, and not names of files."""
+    fields = getattr(getattr(inputs, "dtype", None), "names", None)
+    return isinstance(inputs, dict) or fields is not None
+
+
+def as_dictionary(inputs):
+    """{name: array} of a dictionary or of an array with fields."""
+    return inputs if isinstance(inputs, dict) else {name: inputs[name]
+                                                    for name in inputs.dtype.names}
+
+
+def _places(arrays):
+    if "position" in arrays:
+        places = numpy.asarray(arrays["position"], numpy.float64)
+        if places.ndim != 2 or places.shape[1] != 3:
+            raise ValueError(f"'position' is n by 3, not {places.shape}")
+        return numpy.ascontiguousarray(places)
+    if not {"x", "y", "z"} <= set(arrays):
+        raise ValueError("points have 'position', n by 3, or 'x', 'y' and 'z'")
+    return numpy.stack([numpy.asarray(arrays[axis], numpy.float64) for axis in "xyz"], axis=1)
+
+
+def _column(name, values, count):
+    column = numpy.asarray(values)
+    if column.ndim not in (1, 2) or len(column) != count:
+        raise ValueError(f"'{name}' has the shape {column.shape}, and there are {count} points")
+    if column.ndim == 2 and not 1 <= column.shape[1] <= _MOST_COMPONENTS:
+        raise ValueError(f"'{name}' has {column.shape[1]} components, at most {_MOST_COMPONENTS}")
+    if column.dtype.kind == "b":
+        column = column.view(numpy.uint8) if column.flags.c_contiguous else column.astype("u1")
+    elif column.dtype == numpy.float16:
+        column = column.astype(numpy.float32)
+    elif column.dtype.kind not in "iuf" or column.dtype.itemsize > 8:
+        raise TypeError(f"'{name}' has the type {column.dtype}: a store holds integers and "
+                        f"floating numbers of at most 64 bits")
+    return numpy.ascontiguousarray(column, column.dtype.newbyteorder("="))
+
+
+def _vtk_type(dtype):
+    core = _host.vtk("vtkCommonCore")
+    sign = {"i": "Int", "u": "UInt", "f": "Float"}[dtype.kind]
+    return getattr(core, f"vtkType{sign}{8 * dtype.itemsize}Array")().GetDataType()
+
+
+def point_set(arrays):
+    """vtkPolyData of {name: array}; it shares their memory, so they have to stay."""
+    to_vtk = _host.vtk("util.numpy_support").numpy_to_vtk
+    places = _places(arrays)
+    by_axis = "position" not in arrays
+    data = _host.vtk("vtkCommonDataModel").vtkPolyData()
+    points = _host.vtk("vtkCommonCore").vtkPoints()
+    points.SetData(to_vtk(places))
+    data.SetPoints(points)
+    for name, values in arrays.items():
+        if name in _OWN or (by_axis and name in ("x", "y", "z")):
+            continue
+        column = _column(name, values, len(places))
+        array = to_vtk(column, array_type=_vtk_type(column.dtype))
+        # As Cloud.points names attributes that are called as its own arrays.
+        array.SetName(name[:-1] if name in ("position_", "id_") else name)
+        data.GetPointData().AddArray(array)
+    return data
+
+
+def joined(parts, size):
+    """Dictionaries of arrays, of `size` points each, out of smaller ones; the last has fewer."""
+    waiting, count = [], 0
+    for part in parts:
+        waiting.append(part)
+        count += len(part["id"])
+        while count >= size:
+            whole = _concatenated(waiting)
+            yield {name: array[:size] for name, array in whole.items()}
+            waiting = [{name: array[size:] for name, array in whole.items()}]
+            count -= size
+    if count:
+        yield _concatenated(waiting)
+
+
+def _concatenated(parts):
+    if len(parts) == 1:
+        return parts[0]
+    return {name: numpy.concatenate([part[name] for part in parts]) for name in parts[0]}

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "pointfront/Base/RawBytes.h"
 #include "pointfront/Base/Result.h"
 #include "pointfront/InPlace/InPlaceTable.h"
 

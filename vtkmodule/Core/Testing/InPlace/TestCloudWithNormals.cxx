@@ -16,7 +16,7 @@ namespace pointfront
 namespace
 {
 /// Each normal tells the number of its point.
-class Numbers final : public NodeNormals
+class CountedNormals final : public NodeNormals
 {
 public:
   std::string origin() const override { return "of the test"; }
@@ -36,7 +36,7 @@ public:
 struct Wrapped
 {
   std::shared_ptr<const StoredCloud> inner;
-  std::shared_ptr<const Numbers> numbers = std::make_shared<const Numbers>();
+  std::shared_ptr<const CountedNormals> numbers = std::make_shared<const CountedNormals>();
   std::shared_ptr<const StoredCloud> cloud;
 
   Wrapped()

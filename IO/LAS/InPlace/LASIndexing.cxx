@@ -6,6 +6,7 @@
 #include "pointfront/Codec/Checksum.h"
 #include "pointfront/Export/OutputTarget.h"
 #include "pointfront/InPlace/NodePoints.h"
+#include "pointfront/Points/NormalAttribute.h"
 #include "pointfront/Statistics/ColumnStatistics.h"
 #include "pointfront/Store/GridBounds.h"
 #include "pointfront/Threads/WorkerThread.h"

@@ -215,7 +215,7 @@ void expectExactComparisons(T around)
     for (const bool inverted : { false, true })
     {
       AttributeCondition equal;
-      equal.values = { static_cast<ConditionNumber>(bound) };
+      equal.values.push_back(static_cast<ConditionNumber>(bound));
       equal.inverted = inverted;
       expectKept<T>(values, equal, [=](T value) { return (value == bound) != inverted; });
       for (const bool open : { false, true })

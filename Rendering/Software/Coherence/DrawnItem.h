@@ -1,5 +1,6 @@
 #pragma once
 
+#include "RasterItems.h"
 #include "TechniquePasses.h"
 
 #include "pointfront/Store/NodeReader.h"
@@ -20,11 +21,10 @@ struct DrawnItem
   std::uint32_t base = 0; ///< index of the node's first point in the keys
   std::uint32_t first = 0;
   std::uint32_t last = 0;
-  float radius = 0.0f;
-  float radiusScale = 1.0f;
-  bool refined = false;
+  SizeTerms size;
+  bool refined = false; ///< from here on as PlanItem's
   bool unfinished = false;
-  float closingRadius = 0.0f; ///< these as PlanItem's
+  float closingRadius = 0.0f;
   float sparsestRadius = 0.0f;
   float itemRadiusScale = 1.0f;
   PointGrowth growth;

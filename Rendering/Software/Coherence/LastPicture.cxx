@@ -17,15 +17,14 @@ bool contains(const RasterWindow& window, const RasterWindow& other)
   return window.rectangle().contains(other.rectangle());
 }
 
-/// The item is what was drawn before, or that and more of its points.
+/// The item is what was drawn before, or that and more of its points. Only what pixels are made of
+/// counts: a tree that is being loaded changes what its nodes say of each other frame by frame.
 bool continues(const RasterItem& item, const DrawnItem& drawn)
 {
   return item.item->node == drawn.node &&
     (item.style == drawn.style || *item.style == *drawn.style) && item.passes == drawn.passes &&
     item.item->first == drawn.first && item.item->last >= drawn.last &&
-    item.radius == drawn.radius && item.radiusScale == drawn.radiusScale &&
-    item.item->refined == drawn.refined && item.item->sparsestRadius == drawn.sparsestRadius &&
-    item.item->growth == drawn.growth;
+    item.sizeTerms() == drawn.size;
 }
 
 } // namespace
@@ -144,10 +143,10 @@ void LastPicture::note(const RasterItems& items, const RasterWindow& window)
   items_.clear();
   for (const RasterItem& item : items.items())
   {
-    items_.push_back({ item.item->node, item.style, item.passes, item.base, item.item->first,
-      item.item->last, item.radius, item.radiusScale, item.item->refined, item.item->unfinished,
-      item.item->closingRadius, item.item->sparsestRadius, item.item->radiusScale,
-      item.item->growth });
+    items_.push_back(
+      { item.item->node, item.style, item.passes, item.base, item.item->first, item.item->last,
+        item.sizeTerms(), item.item->refined, item.item->unfinished, item.item->closingRadius,
+        item.item->sparsestRadius, item.item->radiusScale, item.item->growth });
   }
   styles_.clear();
   for (const DrawBatch& batch : plan.batches)

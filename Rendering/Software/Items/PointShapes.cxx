@@ -144,8 +144,7 @@ void PointShapes::fillBy(
     stored.scale = item.radiusScale * share;
     stored.unknown = item.radius * share;
     stored.most = mostOfClosing * item.sparsestRadius * share;
-    // Its own radius is for all points: too small where finer nodes are there and not drawn.
-    stored.least = item.item->refined || item.node().leaf ? 0.0f : item.radius * share;
+    stored.least = item.radiusBounded() ? item.radius * share : 0.0f;
     kernels_.loadRadii(stored, count, batch);
   }
   else

@@ -72,6 +72,29 @@ std::array<double, 2> depthRange(const FrameCamera& camera)
 
 } // namespace
 
+/// As PointShapes reads them.
+SizeTerms RasterItem::sizeTerms() const
+{
+  SizeTerms terms;
+  if (passes.squares)
+  {
+    return terms; // of a number of pixels, whatever the tree shows
+  }
+  terms.growth = item->growth;
+  if (style->size.mode == SplatSize::Mode::Pixels || sizes)
+  {
+    return terms;
+  }
+  terms.radius = radius;
+  if (radiusCodes)
+  {
+    terms.radiusScale = radiusScale;
+    terms.sparsestRadius = sparsestRadius;
+    terms.bounded = radiusBounded();
+  }
+  return terms;
+}
+
 RasterItems::RasterItems(const FramePlan& plan, std::size_t from)
   : plan_(plan)
   , first_(from == 0)

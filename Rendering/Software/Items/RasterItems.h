@@ -20,6 +20,23 @@
 namespace pointfront
 {
 
+/// What of a frame's plan decides how large an item's points are, beside its passes; 0 what nothing
+/// reads. Equal terms give equal splats.
+struct SizeTerms
+{
+  PointGrowth growth;
+  float radius = 0.0f;
+  float radiusScale = 0.0f; ///< where points have radii of their own, as RasterItem's
+  float sparsestRadius = 0.0f; ///< likewise
+  bool bounded = false; ///< likewise: no radius is less than `radius`
+};
+
+inline bool operator==(const SizeTerms& a, const SizeTerms& b)
+{
+  return a.growth == b.growth && a.radius == b.radius && a.radiusScale == b.radiusScale &&
+    a.sparsestRadius == b.sparsestRadius && a.bounded == b.bounded;
+}
+
 /// One node of a plan as the loops want it; where its style is solid there is one more, of the
 /// walls below its points.
 struct RasterItem
@@ -43,6 +60,9 @@ struct RasterItem
   const Attribute* heightAttribute = nullptr;
 
   const NodeColumns& node() const { return *item->node; }
+  /// A splat's own radius is for all points: too small where finer nodes are there and not drawn.
+  bool radiusBounded() const { return !item->refined && !node().leaf; }
+  SizeTerms sizeTerms() const;
   /// Asks for what these points are drawn by, one after the other.
   void fetchAhead(PointRange points) const
   {

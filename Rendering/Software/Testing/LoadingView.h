@@ -1,0 +1,139 @@
+#pragma once
+
+#include "BuiltStore.h"
+#include "SoftwareRasteriser.h"
+
+#include "pointfront/Generate/TerrainSource.h"
+#include "pointfront/Plan/FramePlanner.h"
+#include "pointfront/Residency/ResidencyShare.h"
+#include "pointfront/Store/PointStore.h"
+#include "pointfront/Style/StyleSheet.h"
+#include "pointfront/Views/ViewFront.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <thread>
+#include <utility>
+
+namespace pointfront::test
+{
+
+/// A store on a disk that takes a millisecond for each node: frames see it load.
+class SlowStore final : public NodeReader
+{
+public:
+  explicit SlowStore(std::shared_ptr<const PointStore> store)
+    : store_(std::move(store))
+  {
+  }
+  Result<FetchedNode> fetch(NodeIndex node, const ColumnSelection& columns) const override
+  {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    return store_->fetch(node, columns);
+  }
+  Result<NodeColumns> decode(const FetchedNode& fetched) const override
+  {
+    return store_->decode(fetched);
+  }
+  std::size_t decodedBytes(
+    NodeIndex node, std::uint32_t points, const ColumnSelection& columns) const override
+  {
+    return store_->decodedBytes(node, points, columns);
+  }
+  std::size_t storedBytes(NodeIndex node, const ColumnSelection& columns) const override
+  {
+    return store_->storedBytes(node, columns);
+  }
+  MissingRows* missingRows() const override { return store_->missingRows(); }
+
+private:
+  std::shared_ptr<const PointStore> store_;
+};
+
+inline std::shared_ptr<const PointStore> openedStore(const std::string& path)
+{
+  auto store = PointStore::open(path);
+  EXPECT_TRUE(store.ok()) << (store.ok() ? "" : store.error().what);
+  return store.ok() ? std::move(store).value() : nullptr;
+}
+
+/// A view that is at rest while a store is being loaded, frame by frame, as DrawnStore and
+/// vtkPointFrontMapper do it: front, plan, rasteriser.
+class LoadingView
+{
+public:
+  static constexpr int width = 480;
+  static constexpr int height = 320;
+
+  LoadingView(const std::shared_ptr<const PointStore>& store, const StyleSheet& sheet)
+    : store_(store)
+    , share_(std::make_shared<SlowStore>(store), store->hierarchy()->nodeCount(),
+        ResidencyOptions{ std::size_t(1) << 30, 1 })
+    , front_(std::make_shared<HierarchyPiece>(store->hierarchy(), 0, 1), share_,
+        store->description().schema, std::make_shared<WindowDemand>())
+  {
+    const auto layers = sheet.resolveAll(store->description());
+    EXPECT_TRUE(layers.ok()) << (layers.ok() ? "" : layers.error().what);
+    for (const LayerStyling& layer : *layers)
+    {
+      request_.styles.emplace_back();
+      request_.styles.back().assign(layer.styles.begin(), layer.styles.end());
+      demand.columns.layers.push_back(layer.columns());
+    }
+    request_.shading = sheet.frameShading();
+    const Bounds box = store->description().bounds;
+    const glm::dvec3 middle = 0.5 * (box.low + box.high);
+    const double across = std::max(box.high.x - box.low.x, box.high.y - box.low.y);
+    lookAt(middle, across);
+  }
+
+  /// From the south, from above; about `across` is seen.
+  void lookAt(const glm::dvec3& at, double across)
+  {
+    camera = FrameCamera::perspective(at + across * glm::dvec3(0.1, -0.5, 0.6), at, { 0, 0, 1 },
+      0.8, 1e-3 * across, 10.0 * across, width, height);
+  }
+
+  /// One frame. `complete`: at one go.
+  RasterStatistics frame(bool complete = false)
+  {
+    demand.view = View::fromMatrix(camera.storeToClip(), width, height);
+    demand.complete = complete;
+    front_.update(demand);
+    PlanRequest request = request_;
+    request.camera = camera;
+    request.keepsVisible = leavesOut(front_.last(), demand);
+    plan = planFrame(front_, store_->description(), std::move(request));
+    target.reset(width, height);
+    return rasteriser_.draw(plan, target);
+  }
+  /// Whether no further frame of the view differs.
+  bool isComplete() const { return front_.last().complete; }
+  /// Until something is there that the last frame did not have, or a little while.
+  void waitForNews()
+  {
+    for (int waits = 0; waits < 2000 && !front_.wantsUpdate(); ++waits)
+    {
+      std::this_thread::sleep_for(std::chrono::microseconds(500));
+    }
+  }
+
+  FrameRequest demand;
+  FrameCamera camera;
+  FramePlan plan; ///< of the last frame
+  SoftwareTarget target;
+
+private:
+  std::shared_ptr<const PointStore> store_;
+  ResidencyShare share_;
+  ViewFront front_;
+  PlanRequest request_;
+  SoftwareRasteriser rasteriser_;
+};
+
+} // namespace pointfront::test

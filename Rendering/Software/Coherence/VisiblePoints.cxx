@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cstring>
+#include <iterator>
 #include <map>
-#include <unordered_map>
+#include <utility>
 
 namespace pointfront
 {
@@ -30,15 +30,14 @@ std::unordered_map<NodeIndex, std::uint32_t> prefixesOf(const FramePlan& plan)
   return prefixes;
 }
 
-/// The style that a layer's points are drawn with is one that they were drawn with.
-bool drawsAlike(const FramePlan& plan, const DrawnItem& item)
+/// The style of the plan that a layer's points are drawn with as before; null: there is none.
+std::shared_ptr<const ResolvedStyle> styleAlike(
+  const FramePlan& plan, std::uint16_t layer, const ResolvedStyle& style)
 {
-  return std::any_of(plan.batches.begin(), plan.batches.end(),
+  const auto found = std::find_if(plan.batches.begin(), plan.batches.end(),
     [&](const DrawBatch& batch)
-    {
-      return batch.layer == item.node->layer &&
-        (batch.style.get() == item.style || *batch.style == *item.style);
-    });
+    { return batch.layer == layer && (batch.style.get() == &style || *batch.style == style); });
+  return found == plan.batches.end() ? nullptr : found->style;
 }
 
 std::uint32_t wordsOf(const DrawnItem& item)
@@ -48,19 +47,12 @@ std::uint32_t wordsOf(const DrawnItem& item)
 
 } // namespace
 
-/// A visible point, and where its values are.
-struct VisiblePoints::Place
-{
-  std::uint32_t indexInNode;
-  std::uint32_t point;
-  const NodeColumns* from;
-};
-
 /// What of a drawn item was visible, a bit a point.
 struct VisiblePoints::Source
 {
   const DrawnItem* drawn = nullptr;
-  const Kept* kept = nullptr; ///< it is not a node but points of one
+  const KeptNode* kept = nullptr; ///< it is not a node but points of one
+  std::shared_ptr<const ResolvedStyle> style; ///< of the plan
   bool wanted = true;
   std::uint32_t planned = 0; ///< that many of the node's points are drawn anyway
   std::uint32_t full = 0; ///< points from there on were not of their size yet, or no more
@@ -68,7 +60,7 @@ struct VisiblePoints::Source
 
   std::uint32_t indexInNode(std::uint32_t point) const
   {
-    return kept ? kept->indices[point] : point;
+    return kept ? kept->indices()[point] : point;
   }
 };
 
@@ -79,6 +71,7 @@ void VisiblePoints::clear()
 {
   marked_.clear(); // they are of what is kept
   kept_.clear();
+  frame_ = 0;
 }
 
 void VisiblePoints::unmark()
@@ -89,34 +82,30 @@ void VisiblePoints::unmark()
 std::vector<VisiblePoints::Source> VisiblePoints::sourcesOf(
   const std::vector<DrawnItem>& drawn) const
 {
-  std::unordered_map<const NodeColumns*, const Kept*> known;
-  for (const Kept& kept : kept_)
-  {
-    known[kept.columns.get()] = &kept;
-  }
   std::vector<Source> sources(drawn.size());
   for (std::size_t i = 0; i < drawn.size(); ++i)
   {
     sources[i].drawn = &drawn[i];
-    const auto kept = known.find(drawn[i].node.get());
-    sources[i].kept = kept == known.end() ? nullptr : kept->second;
+    const auto kept = kept_.find(drawn[i].node->node);
+    const bool isKept = kept != kept_.end() && kept->second.columns() == drawn[i].node;
+    sources[i].kept = isKept ? &kept->second : nullptr;
     sources[i].full = drawn[i].growth.fullPoints(drawn[i].last);
   }
   return sources;
 }
 
 /// What the plan draws anyway, or in another way; false: it lacks nothing.
-bool VisiblePoints::leaveOutPlanned(const FramePlan& plan, std::vector<Source>& sources)
+bool VisiblePoints::leaveOutPlanned(
+  const FramePlan& plan, const Prefixes& prefixes, std::vector<Source>& sources)
 {
-  const std::unordered_map<NodeIndex, std::uint32_t> prefixes = prefixesOf(plan);
   bool any = false;
   for (Source& source : sources)
   {
     const DrawnItem& drawn = *source.drawn;
     const auto planned = prefixes.find(drawn.node->node);
-    source.planned = planned == prefixes.end() ? 0 : planned->second;
-    const bool all = !source.kept && source.planned >= drawn.last;
-    source.wanted = !all && drawn.last > 0 && drawsAlike(plan, drawn);
+    source.planned = source.kept || planned == prefixes.end() ? 0 : planned->second;
+    source.style = styleAlike(plan, drawn.node->layer, *drawn.style);
+    source.wanted = source.planned < drawn.last && source.style;
     any = any || source.wanted;
   }
   return any;
@@ -125,20 +114,20 @@ bool VisiblePoints::leaveOutPlanned(const FramePlan& plan, std::vector<Source>& 
 void VisiblePoints::choose(const Drawn& drawn, const FramePlan& plan, ThreadCrew& crew)
 {
   std::vector<Source> sources = sourcesOf(drawn.items);
-  if (!leaveOutPlanned(plan, sources))
+  const Prefixes prefixes = prefixesOf(plan);
+  if (leaveOutPlanned(plan, prefixes, sources))
   {
-    clear();
-    return;
-  }
-  for (Source& source : sources)
-  {
-    if (source.wanted)
+    for (Source& source : sources)
     {
-      source.visible.reset(new std::atomic<std::uint32_t>[wordsOf(*source.drawn)]());
+      if (source.wanted)
+      {
+        source.visible.reset(new std::atomic<std::uint32_t>[wordsOf(*source.drawn)]());
+      }
     }
+    markVisible(drawn, sources, crew);
+    gather(sources, plan, crew);
   }
-  markVisible(drawn, sources, crew);
-  gather(sources, crew);
+  leaveOutPlanned(plan, prefixes);
 }
 
 void VisiblePoints::mark(const Drawn& drawn, ThreadCrew& crew)
@@ -153,13 +142,13 @@ void VisiblePoints::mark(const Drawn& drawn, ThreadCrew& crew)
 
 void VisiblePoints::chooseMarked(const FramePlan& plan, ThreadCrew& crew)
 {
-  const std::vector<Source> marked = [&]
+  std::vector<Source> marked = std::exchange(marked_, {});
+  const Prefixes prefixes = prefixesOf(plan);
+  if (leaveOutPlanned(plan, prefixes, marked))
   {
-    const bool any = leaveOutPlanned(plan, marked_);
-    return any ? std::move(marked_) : std::vector<Source>();
-  }();
-  marked_.clear();
-  gather(marked, crew);
+    gather(marked, plan, crew);
+  }
+  leaveOutPlanned(plan, prefixes);
 }
 
 void VisiblePoints::markVisible(
@@ -212,9 +201,11 @@ void VisiblePoints::markRow(
 }
 
 /// Visible points of one node come from the node or from what was kept of it, or both.
-void VisiblePoints::gather(const std::vector<Source>& sources, ThreadCrew& crew)
+void VisiblePoints::gather(
+  const std::vector<Source>& sources, const FramePlan& plan, ThreadCrew& crew)
 {
-  std::map<NodeIndex, std::vector<const Source*>> byNode;
+  ++frame_;
+  std::map<NodeIndex, Parts> byNode;
   for (const Source& source : sources)
   {
     if (source.wanted && source.visible)
@@ -222,116 +213,89 @@ void VisiblePoints::gather(const std::vector<Source>& sources, ThreadCrew& crew)
       byNode[source.drawn->node->node].push_back(&source);
     }
   }
-  std::vector<const std::vector<const Source*>*> nodes;
+  std::vector<std::pair<KeptNode*, const Parts*>> nodes;
   nodes.reserve(byNode.size());
   for (const auto& [node, parts] : byNode)
   {
-    nodes.push_back(&parts);
+    KeptNode& kept = kept_[node];
+    kept.style = kept.style ? kept.style : parts.front()->style;
+    nodes.emplace_back(&kept, &parts);
   }
-  std::vector<Kept> gathered(nodes.size());
   crew.run(nodes.size(),
-    [&](std::size_t number, unsigned)
-    {
-      const DrawnItem& drawn = *nodes[number]->front()->drawn;
-      const std::vector<Place> places = placesOf(*nodes[number]);
-      Kept& kept = gathered[number];
-      for (const Place& place : places)
-      {
-        kept.indices.push_back(place.indexInNode);
-      }
-      kept.columns = copied(*drawn.node, places);
-      kept.item.node = kept.columns;
-      kept.item.last = static_cast<std::uint32_t>(places.size());
-      kept.item.radiusScale = drawn.itemRadiusScale;
-      kept.item.closingRadius = drawn.closingRadius;
-      kept.item.sparsestRadius = drawn.sparsestRadius;
-      kept.item.refined = drawn.refined;
-      kept.item.unfinished = drawn.unfinished;
-    });
-  gathered.erase(std::remove_if(gathered.begin(), gathered.end(),
-                   [](const Kept& kept) { return kept.indices.empty(); }),
-    gathered.end());
-  kept_ = std::move(gathered);
+    [&](std::size_t number, unsigned) { update(*nodes[number].first, *nodes[number].second); });
+  for (auto node = kept_.begin(); node != kept_.end();)
+  {
+    node = node->second.indices().empty() ? kept_.erase(node) : std::next(node);
+  }
+  bound(kept_, std::uint64_t(plan.camera.width) * static_cast<std::uint64_t>(plan.camera.height));
 }
 
-/// The visible points of one node, each once, in the node's order.
-std::vector<VisiblePoints::Place> VisiblePoints::placesOf(const std::vector<const Source*>& parts)
+/// The visible points of one node.
+void VisiblePoints::update(KeptNode& kept, const Parts& parts) const
 {
-  std::vector<Place> places;
-  const ColumnSelection& selection = parts.front()->drawn->node->selection;
+  std::vector<VisiblePoint> points;
+  const Source* first = nullptr; // of the node's own
   for (const Source* part : parts)
   {
     const DrawnItem& drawn = *part->drawn;
-    if (drawn.node->selection != selection)
-    {
-      continue;
-    }
+    first = first || part->kept ? first : part;
     for (std::uint32_t word = 0; word < wordsOf(drawn); ++word)
     {
       for (std::uint32_t bits = part->visible[word]; bits != 0; bits &= bits - 1)
       {
         const auto point = 32 * word + static_cast<std::uint32_t>(__builtin_ctz(bits));
-        if (part->indexInNode(point) >= part->planned)
+        if (part->kept)
         {
-          places.push_back({ part->indexInNode(point), point, drawn.node.get() });
+          kept.sawPoint(point, frame_);
+        }
+        else if (point >= part->planned && drawn.node->selection == first->drawn->node->selection)
+        {
+          points.push_back({ point, point, drawn.node.get() });
         }
       }
     }
   }
-  if (parts.size() > 1) // one part's are in order
+  if (!first)
   {
-    std::sort(places.begin(), places.end(),
-      [](const Place& a, const Place& b) { return a.indexInNode < b.indexInNode; });
+    return;
   }
-  const auto end = std::unique(places.begin(), places.end(),
-    [](const Place& a, const Place& b) { return a.indexInNode == b.indexInNode; });
-  places.erase(end, places.end());
-  return places;
+  const auto before = [](const VisiblePoint& a, const VisiblePoint& b)
+  { return a.indexInNode < b.indexInNode; };
+  std::stable_sort(points.begin(), points.end(), before); // several styles draw the same node
+  const auto same = [](const VisiblePoint& a, const VisiblePoint& b)
+  { return a.indexInNode == b.indexInNode; };
+  points.erase(std::unique(points.begin(), points.end(), same), points.end());
+  PlanItem as;
+  as.radiusScale = first->drawn->itemRadiusScale;
+  as.closingRadius = first->drawn->closingRadius;
+  as.sparsestRadius = first->drawn->sparsestRadius;
+  as.refined = first->drawn->refined;
+  as.unfinished = first->drawn->unfinished;
+  kept.add(points, as, frame_);
 }
 
-/// A node of these points only; all else is as in `model`.
-std::shared_ptr<const NodeColumns> VisiblePoints::copied(
-  const NodeColumns& model, const std::vector<Place>& places)
+/// What the plan draws anyway waits until it no longer does. What it draws in another style goes.
+void VisiblePoints::leaveOutPlanned(const FramePlan& plan, const Prefixes& prefixes)
 {
-  auto columns = std::make_shared<NodeColumns>();
-  columns->node = model.node;
-  columns->origin = model.origin;
-  columns->firstPoint = model.firstPoint;
-  columns->halfSize = model.halfSize;
-  columns->spacing = model.spacing;
-  columns->splatRadius = model.splatRadius;
-  columns->layer = model.layer;
-  columns->parent = model.parent;
-  columns->leaf = model.leaf;
-  columns->selection = model.selection;
-  columns->columns.resize(model.columns.size());
-  columns->positions.reserve(places.size());
-  for (const Place& place : places)
+  for (auto node = kept_.begin(); node != kept_.end();)
   {
-    columns->positions.push_back(place.from->positions[place.point]);
+    KeptNode& kept = node->second;
+    const auto planned = prefixes.find(node->first);
+    kept.setPlanned(planned == prefixes.end() ? 0 : planned->second);
+    kept.style = styleAlike(plan, kept.columns()->layer, *kept.style);
+    node = kept.style ? std::next(node) : kept_.erase(node);
   }
-  for (std::size_t c = 0; c < model.columns.size(); ++c)
-  {
-    const std::size_t bytes = model.columns[c].size() / std::max<std::size_t>(1, model.size());
-    columns->columns[c].resize(places.size() * bytes);
-    for (std::size_t i = 0; i < places.size(); ++i)
-    {
-      std::memcpy(columns->columns[c].data() + i * bytes,
-        places[i].from->columns[c].data() + places[i].point * bytes, bytes);
-    }
-  }
-  return columns;
 }
 
 void VisiblePoints::addTo(FramePlan& plan) const
 {
   for (DrawBatch& batch : plan.batches)
   {
-    for (const Kept& kept : kept_)
+    for (const auto& [node, kept] : kept_)
     {
-      if (kept.columns->layer == batch.layer)
+      if (kept.columns()->layer == batch.layer && kept.item().first < kept.item().last)
       {
-        batch.items.push_back(kept.item);
+        batch.items.push_back(kept.item());
       }
     }
   }
@@ -340,9 +304,9 @@ void VisiblePoints::addTo(FramePlan& plan) const
 std::uint64_t VisiblePoints::count() const
 {
   std::uint64_t points = 0;
-  for (const Kept& kept : kept_)
+  for (const auto& [node, kept] : kept_)
   {
-    points += kept.indices.size();
+    points += kept.item().last - kept.item().first;
   }
   return points;
 }

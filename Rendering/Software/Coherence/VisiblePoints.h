@@ -2,21 +2,23 @@
 
 #include "DrawnItem.h"
 #include "ItemNumbers.h"
+#include "KeptPoints.h"
 #include "RasterBatch.h"
 
 #include "pointfront/Plan/FramePlan.h"
 
 #include <cstdint>
 #include <memory>
+#include <unordered_map>
 #include <vector>
 
 namespace pointfront
 {
 class ThreadCrew;
 
-/// What the last picture showed, kept while the view moves: points that were visible, at most one a
-/// pixel, and that the next plan does not draw. They are copied together, so that the nodes they
-/// come from may leave the memory (SMOOTH-7).
+/// What pictures of a motion showed, kept as long as the motion lasts: points that were visible and
+/// that the next plan does not draw, at most as many as there are pixels. They are copied together,
+/// so that the nodes they come from may leave the memory (SMOOTH-7).
 /// Threads  one thread at a time; works with those of a crew.
 class VisiblePoints
 {
@@ -40,34 +42,30 @@ public:
   void chooseMarked(const FramePlan& plan, ThreadCrew& crew);
   /// Forgets what was marked.
   void unmark();
-  /// Adds them to the plan's batches, as nodes of their own.
+  /// Adds those that the chosen plan lacks to its batches, as nodes of their own.
   void addTo(FramePlan& plan) const;
-  bool empty() const { return kept_.empty(); }
+  bool empty() const { return count() == 0; }
+  /// Of those that are added to a plan.
   std::uint64_t count() const;
   void clear();
 
 private:
-  /// Points of one node.
-  struct Kept
-  {
-    std::shared_ptr<const NodeColumns> columns;
-    std::vector<std::uint32_t> indices; ///< in the node, ascending
-    PlanItem item; ///< how it was drawn
-  };
   struct Source;
-  struct Place;
+  using Prefixes = std::unordered_map<NodeIndex, std::uint32_t>;
+  using Parts = std::vector<const Source*>;
   std::vector<Source> sourcesOf(const std::vector<DrawnItem>& drawn) const;
-  static bool leaveOutPlanned(const FramePlan& plan, std::vector<Source>& sources);
+  static bool leaveOutPlanned(
+    const FramePlan& plan, const Prefixes& prefixes, std::vector<Source>& sources);
   static void markVisible(const Drawn& drawn, const std::vector<Source>& sources, ThreadCrew& crew);
   static void markRow(const RasterKey* row, int width, const ItemNumbers& numbers,
     const std::vector<Source>& sources);
-  void gather(const std::vector<Source>& sources, ThreadCrew& crew);
-  static std::vector<Place> placesOf(const std::vector<const Source*>& parts);
-  static std::shared_ptr<const NodeColumns> copied(
-    const NodeColumns& model, const std::vector<Place>& places);
+  void gather(const std::vector<Source>& sources, const FramePlan& plan, ThreadCrew& crew);
+  void update(KeptNode& kept, const Parts& parts) const;
+  void leaveOutPlanned(const FramePlan& plan, const Prefixes& prefixes);
 
-  std::vector<Kept> kept_;
+  KeptNodes kept_;
   std::vector<Source> marked_;
+  std::uint32_t frame_ = 0; ///< of the motion
 };
 
 } // namespace pointfront

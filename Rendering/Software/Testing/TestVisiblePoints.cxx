@@ -1,10 +1,14 @@
+#include "KeptPoints.h"
 #include "PlanOfPoints.h"
 
 #include "pointfront/Threads/ThreadCrew.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <vector>
 
 using namespace pointfront;
 using namespace pointfront::test;
@@ -102,6 +106,102 @@ TEST(VisiblePoints, AreKeptFromFrameToFrame)
     scene.draw(0.05, true, rasteriser);
   }
   EXPECT_GE(PanOverSurface::coverage(scene.target, panWidth - 20), 0.97);
+}
+
+/// Who is hidden for a frame, by another point of its pixel, is there in the next one: what was
+/// captured lives as long as the motion.
+TEST(VisiblePoints, LastAsLongAsTheMotion)
+{
+  PanOverSurface scene;
+  SoftwareRasteriser rasteriser;
+  scene.draw(1.0, true, rasteriser);
+  const double before = PanOverSurface::coverage(scene.target, panWidth);
+  std::uint64_t first = 0;
+  for (int frame = 1; frame <= 60; ++frame)
+  {
+    scene.pan(0.06 * frame);
+    scene.draw(0.05, true, rasteriser);
+    first = frame == 1 ? scene.statistics.keptVisible : first;
+    ASSERT_GE(scene.statistics.keptVisible, first) << frame;
+  }
+  EXPECT_GE(PanOverSurface::coverage(scene.target, panWidth - 4), 0.99 * before);
+  scene.pan(0.06 * 61);
+  scene.draw(1.0, false, rasteriser); // the motion ends
+  scene.draw(0.05, true, rasteriser);
+  EXPECT_EQ(scene.statistics.keptVisible, 0u);
+}
+
+/// What the camera turned away from is there when it comes back, and what a plan drew in between
+/// when it no longer does.
+TEST(VisiblePoints, ComeBack)
+{
+  PanOverSurface scene;
+  SoftwareRasteriser rasteriser;
+  scene.draw(1.0, true, rasteriser);
+  const double before = PanOverSurface::coverage(scene.target, panWidth);
+  for (const double pixels : { 60.0, 120.0, 60.0, 0.5 })
+  {
+    scene.pan(pixels);
+    scene.draw(pixels == 120.0 ? 0.4 : 0.05, true, rasteriser);
+  }
+  EXPECT_GE(PanOverSurface::coverage(scene.target, panWidth), 0.98 * before);
+}
+
+TEST(VisiblePoints, AreNoMoreThanPixels)
+{
+  PanOverSurface scene;
+  SoftwareRasteriser rasteriser;
+  scene.draw(1.0, true, rasteriser);
+  const double before = PanOverSurface::coverage(scene.target, panWidth);
+  constexpr std::uint64_t pixels = std::uint64_t(panWidth) * panHeight;
+  std::uint64_t most = 0;
+  for (int frame = 0; frame <= 40; ++frame)
+  {
+    scene.pan(1.3 * (frame % 10));
+    scene.draw(frame % 2 ? 0.05 : 1.0, true, rasteriser);
+    most = std::max(most, scene.statistics.keptVisible);
+    ASSERT_LE(scene.statistics.keptVisible, pixels) << frame;
+    EXPECT_GE(PanOverSurface::coverage(scene.target, panWidth), 0.98 * before) << frame;
+  }
+  EXPECT_GT(most, pixels / 2);
+}
+
+/// Beyond a number of points those go that were not seen for the longest time.
+TEST(KeptPoints, GoWhenTheyAreTooMany)
+{
+  PlanOfPoints scene;
+  const PlanItem& drawn = scene.add(wavySurface(100, 3));
+  const auto points = [&](std::uint32_t first, std::uint32_t last)
+  {
+    std::vector<VisiblePoint> visible;
+    for (std::uint32_t point = first; point < last; ++point)
+    {
+      visible.push_back({ point, point, drawn.node.get() });
+    }
+    return visible;
+  };
+  KeptNodes nodes;
+  nodes[0].add(points(20, 60), PlanItem(), 1);
+  nodes[0].add(points(0, 40), PlanItem(), 2); // 20 of them are there
+  nodes[1].add(points(0, 20), PlanItem(), 3);
+  EXPECT_EQ(nodes[0].indices().size(), 60u);
+  EXPECT_EQ(nodes[0].columns()->positions[30], drawn.node->positions[30]);
+  nodes[0].sawPoint(50, 3);
+  bound(nodes, 80);
+  EXPECT_EQ(nodes[0].indices().size(), 60u);
+  bound(nodes, 48); // 42 stay: 21 of frame 3, 20 of frame 2, one of frame 1
+  EXPECT_EQ(nodes[1].indices().size(), 20u);
+  std::vector<std::uint32_t> expected(21);
+  std::iota(expected.begin(), expected.end(), 0u);
+  expected.push_back(50);
+  EXPECT_EQ(nodes[0].indices(), expected);
+  EXPECT_EQ(nodes[0].columns()->positions.back(), drawn.node->positions[50]);
+  nodes[0].setPlanned(10);
+  EXPECT_EQ(nodes[0].item().first, 10u);
+  EXPECT_EQ(nodes[0].item().last, 22u);
+  bound(nodes, 8); // 7 of frame 3
+  EXPECT_EQ(nodes.count(0) + nodes.count(1), 2u);
+  EXPECT_EQ(nodes[0].indices().size() + nodes[1].indices().size(), 7u);
 }
 
 TEST(VisiblePoints, ACompletePictureShowsWhatItsPlanSays)

@@ -9,6 +9,8 @@
 #include <memory>
 #include <string>
 
+#include <unistd.h>
+
 using namespace pointfront;
 using namespace pointfront::test;
 
@@ -20,8 +22,8 @@ constexpr double mostDrawnAgain = 1.1; ///< times the points of the complete pic
 
 std::shared_ptr<const PointStore> refiningTown()
 {
-  static const std::string path =
-    builtStore("refinement", std::make_unique<TerrainSource>(300000, 11));
+  static const std::string path = builtStore(
+    "refinement-" + std::to_string(getpid()), std::make_unique<TerrainSource>(300000, 11));
   return openedStore(path);
 }
 

@@ -19,8 +19,14 @@ public:
   ErrorListener()
   {
     command_->SetClientData(this);
-    command_->SetCallback([](vtkObject*, unsigned long, void* self, void* text)
-      { static_cast<ErrorListener*>(self)->hear(static_cast<const char*>(text)); });
+    command_->SetCallback(
+      [](vtkObject*, unsigned long, void* self, void* text)
+      {
+        if (self != nullptr) // what is observed may outlive this object
+        {
+          static_cast<ErrorListener*>(self)->hear(static_cast<const char*>(text));
+        }
+      });
   }
   ~ErrorListener() { command_->SetClientData(nullptr); }
   ErrorListener(const ErrorListener&) = delete;
@@ -30,6 +36,14 @@ public:
   Result<void> outcome() const
   {
     return first_.empty() ? Result<void>() : makeError(Error::Kind::Corrupt, first_);
+  }
+
+  /// The same, and forgets it: the next error is the first one again.
+  Result<void> take()
+  {
+    Result<void> heard = outcome();
+    first_.clear();
+    return heard;
   }
 
 private:

@@ -98,6 +98,10 @@ std::string manPage(const CLI::App& program, const std::string& version)
     synopsis += synopsisOf(*command, name) + "\n.br\n";
     commands += ".SS " + roff(command->get_name()) + "\n" + roff(command->get_description()) + "\n";
     commands += optionsOf(*command);
+    if (const std::string footer = command->get_footer(); !footer.empty())
+    {
+      commands += ".PP\n.nf\n" + roff(footer) + "\n.fi\n";
+    }
   }
   return ".TH POINTFRONT 1 \"\" \"" + name + " " + version + "\" \"User Commands\"\n" +
     ".SH NAME\n" + name + " \\- " + roff(program.get_description()) + "\n" + //

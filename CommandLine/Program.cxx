@@ -12,6 +12,7 @@
 #include "StreamCommand.h"
 #include "Unavailable.h"
 #include "VerifyCommand.h"
+#include "ViewCommand.h"
 
 #include "CloudFormats.h"
 #include "LeftOut.h"
@@ -82,6 +83,7 @@ Program::Program()
   commands_.push_back(std::make_unique<RenderCommand>());
   commands_.push_back(std::make_unique<BenchCommand>());
   commands_.push_back(std::make_unique<CompareCommand>());
+  commands_.push_back(std::make_unique<ViewCommand>());
   commands_.push_back(std::make_unique<StreamCommand>());
   for (const auto& command : commands_)
   {
@@ -92,7 +94,6 @@ Program::Program()
 
 void Program::declareUnavailableCommands()
 {
-  declareUnavailableCommand(app_, "view", "there is no window; use render, or ParaView");
   declareUnavailableCommand(
     app_, "serve", "it belongs to the Python package: python3 -m pointfront serve");
 }

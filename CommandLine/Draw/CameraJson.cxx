@@ -118,4 +118,22 @@ Result<Camera> cameraFromJson(const nlohmann::json& object, const std::string& w
   return camera;
 }
 
+nlohmann::ordered_json jsonOf(const Camera& camera)
+{
+  const auto numbers = [](const glm::dvec3& v) { return nlohmann::ordered_json{ v.x, v.y, v.z }; };
+  nlohmann::ordered_json object;
+  object["position"] = numbers(camera.position);
+  object["focal_point"] = numbers(camera.focalPoint);
+  object["view_up"] = numbers(camera.viewUp);
+  if (camera.parallelScale)
+  {
+    object["parallel_scale"] = *camera.parallelScale;
+  }
+  else
+  {
+    object["view_angle"] = camera.viewAngleDegrees;
+  }
+  return object;
+}
+
 } // namespace pointfront

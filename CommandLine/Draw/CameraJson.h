@@ -14,5 +14,7 @@ Result<nlohmann::json> readJsonFile(const std::string& path);
 
 /// `where` begins the message of an Error: the file, and which entry of it.
 Result<Camera> cameraFromJson(const nlohmann::json& object, const std::string& where);
+/// As cameraFromJson() reads it: the same camera, to the last bit.
+nlohmann::ordered_json jsonOf(const Camera& camera);
 
 } // namespace pointfront

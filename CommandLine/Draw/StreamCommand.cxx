@@ -51,24 +51,6 @@ Result<bool> readRequest(std::string& line)
   return true;
 }
 
-nlohmann::ordered_json cameraJson(const Camera& camera)
-{
-  const auto numbers = [](const glm::dvec3& v) { return nlohmann::ordered_json{ v.x, v.y, v.z }; };
-  nlohmann::ordered_json object;
-  object["position"] = numbers(camera.position);
-  object["focal_point"] = numbers(camera.focalPoint);
-  object["view_up"] = numbers(camera.viewUp);
-  if (camera.parallelScale)
-  {
-    object["parallel_scale"] = *camera.parallelScale;
-  }
-  else
-  {
-    object["view_angle"] = camera.viewAngleDegrees;
-  }
-  return object;
-}
-
 nlohmann::ordered_json boundsJson(const Bounds& bounds)
 {
   if (bounds.empty())
@@ -194,7 +176,7 @@ Result<void> StreamCommand::answer(const FrameRecord* frame)
   }
   // At rest, and nothing to come: a view may end short of its error where a budget holds it.
   head["settled"] = frame != nullptr ? frame->complete : settled_;
-  head["camera"] = cameraJson(camera_);
+  head["camera"] = jsonOf(camera_);
   head["bounds"] = boundsJson(scene_->bounds());
   const std::string line = head.dump() + "\n";
   bool written = std::fwrite(line.data(), 1, line.size(), stdout) == line.size();

@@ -7,9 +7,7 @@
 namespace pointfront
 {
 
-/// The library that draws through VTK and OpenGL. It is loaded when somebody asks for that back end
-/// and not before: no other picture needs VTK, X or a GL, and a tool that was built without them is
-/// the same program.
+/// The library that draws pictures through VTK and OpenGL (see moduleSymbol()).
 class OpenGLModule
 {
 public:

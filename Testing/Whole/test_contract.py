@@ -58,7 +58,7 @@ class Usage(ToolTest):
         self.refuse(2, "build", SMALL)
 
     def test_commands_of_the_contract_that_are_not_there_say_so(self):
-        outcome = self.refuse(2, "view", "a", "-o", "b", "--points", "3")
+        outcome = self.refuse(2, "serve", "a", "-o", "b", "--points", "3")
         self.assertIn("not available", outcome.err)
 
     def test_help_names_values_as_words(self):

@@ -16,7 +16,7 @@ USER = ROOT / "docs/user"
 
 # Commands that other tests run: what a new machine sets up, servers, installed packages.
 ELSEWHERE = ("scripts/", "cmake ", "python3 -m ", "apt-get ", "env/bin/", "pip ", "PYTHONPATH=",
-             "xvfb-run ", "p.build(", "pointfront serve")
+             "xvfb-run ", "p.build(", "pointfront serve", "pointfront view")
 
 
 def commands(path):

@@ -38,7 +38,7 @@ if (POINTFRONT_HOST STREQUAL "VTK")
   find_package(VTK 9.1 REQUIRED COMPONENTS
     CommonCore CommonDataModel CommonExecutionModel CommonMath CommonTransforms
     FiltersCore ImagingCore InteractionStyle IOImage
-    RenderingAnnotation RenderingCore RenderingOpenGL2 RenderingUI
+    RenderingAnnotation RenderingCore RenderingFreeType RenderingOpenGL2 RenderingUI
     WrappingPythonCore Python WrappingTools
     OPTIONAL_COMPONENTS glad glew opengl) # glad since VTK 9.4, the two others before
   # The Python package that VTK's own classes are in: vtkmodules, or another build's name.

@@ -16,14 +16,14 @@ XConnection::~XConnection()
   }
 }
 
-Result<void> XConnection::open()
+Result<void> XConnection::open(const std::string& what, const std::string& instead)
 {
   const char* const name = std::getenv("DISPLAY");
-  const std::string hint = "; run it under xvfb-run -a";
+  const std::string hint = "; " + instead;
   if (name == nullptr || *name == '\0')
   {
     return makeError(
-      Error::Kind::Unsupported, "drawing needs an X server and DISPLAY is not set" + hint);
+      Error::Kind::Unsupported, what + " needs an X server and DISPLAY is not set" + hint);
   }
   display_ = XOpenDisplay(nullptr);
   if (display_ == nullptr)

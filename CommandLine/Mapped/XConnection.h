@@ -2,6 +2,8 @@
 
 #include "pointfront/Base/Result.h"
 
+#include <string>
+
 struct _XDisplay; // NOLINT(bugprone-reserved-identifier): of Xlib, whose macros stay out of here
 
 namespace pointfront
@@ -18,7 +20,8 @@ public:
   XConnection(const XConnection&) = delete;
   XConnection& operator=(const XConnection&) = delete;
 
-  Result<void> open();
+  /// Errors  Unsupported: `what` needs a server and there is none, and what to do instead.
+  Result<void> open(const std::string& what, const std::string& instead);
 
 private:
   _XDisplay* display_ = nullptr;

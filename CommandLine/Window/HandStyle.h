@@ -1,0 +1,67 @@
+#pragma once
+
+#include "KeyTable.h"
+
+#include <vtkInteractorStyle.h>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+namespace pointfront
+{
+
+class ViewCamera;
+
+/// What mouse and keyboard ask the window for, beside moving the camera.
+class HandTarget
+{
+public:
+  virtual ~HandTarget() = default;
+  virtual void obey(KeyAction action) = 0;
+  /// The left button was pressed and let go at one place.
+  virtual void click(const glm::ivec2& pixel) = 0;
+  /// The camera makes a single step, as by the wheel: it moves, and rests soon.
+  virtual void step() = 0;
+};
+
+/// Mouse and keyboard of the window: keyTable and mouseTable say what they do.
+class HandStyle final : public vtkInteractorStyle
+{
+public:
+  static HandStyle* New();
+  vtkTypeMacro(HandStyle, vtkInteractorStyle);
+  /// Before the first event.
+  void connect(ViewCamera* camera, HandTarget* target);
+
+  void OnLeftButtonDown() override;
+  void OnLeftButtonUp() override;
+  void OnMiddleButtonDown() override;
+  void OnMiddleButtonUp() override { this->release(); }
+  void OnRightButtonDown() override;
+  void OnRightButtonUp() override { this->release(); }
+  void OnMouseMove() override;
+  void OnMouseWheelForward() override { this->wheel(-1.0); }
+  void OnMouseWheelBackward() override { this->wheel(1.0); }
+  void OnKeyPress() override;
+  void OnChar() override {} // VTK's own keys
+  void OnTimer() override {}
+  void OnConfigure() override;
+
+protected:
+  HandStyle() = default;
+
+private:
+  glm::ivec2 mouse() const;
+  void press(void (HandStyle::*start)());
+  void release();
+  void wheel(double steps);
+
+  ViewCamera* camera_ = nullptr;
+  HandTarget* target_ = nullptr;
+  glm::ivec2 pressed_{ 0 }; ///< where the button was
+  glm::ivec2 last_{ 0 };
+  glm::dvec3 anchor_{ 0.0 }; ///< what was there
+  bool dragged_ = false;
+};
+
+} // namespace pointfront

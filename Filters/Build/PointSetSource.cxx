@@ -10,6 +10,7 @@
 #include <vtkStringArray.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <optional>
 #include <string>
@@ -84,6 +85,44 @@ std::string referenceSystemOf(vtkPointSet* points)
   return wkt.find('[') != std::string::npos ? wkt : "";
 }
 
+/// The grid that vtkPointFrontReader's output names in ParaView, if all points still lie on it: a
+/// filter hands the name on and may move the points.
+std::optional<QuantisationGrid> gridOf(vtkPointSet* points)
+{
+  constexpr double rounding = 1e-3; // steps; what doubles round is far less
+  auto* told = vtkDataArray::SafeDownCast(points->GetFieldData()->GetAbstractArray("store_grid"));
+  if (!told || told->GetNumberOfTuples() != 1 || told->GetNumberOfComponents() != 6)
+  {
+    return std::nullopt;
+  }
+  const double* const values = told->GetTuple6(0);
+  QuantisationGrid grid;
+  grid.scale = { values[0], values[1], values[2] };
+  grid.offset = { values[3], values[4], values[5] };
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    if (!(grid.scale[axis] > 0.0) || !std::isfinite(grid.scale[axis]) ||
+      !std::isfinite(grid.offset[axis]))
+    {
+      return std::nullopt;
+    }
+  }
+  for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
+  {
+    double place[3];
+    points->GetPoint(i, place);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const double steps = (place[axis] - grid.offset[axis]) / grid.scale[axis];
+      if (!(std::abs(steps) < mostStepsInDouble) || std::abs(steps - std::round(steps)) > rounding)
+      {
+        return std::nullopt;
+      }
+    }
+  }
+  return grid;
+}
+
 } // namespace
 
 PointSetSource::PointSetSource(vtkPointSet* points)
@@ -97,6 +136,7 @@ PointSetSource::PointSetSource(vtkPointSet* points)
     return;
   }
   description_.pointCount = static_cast<std::uint64_t>(points_->GetNumberOfPoints());
+  description_.grid = gridOf(points);
   vtkPointData* attributes = points->GetPointData();
   for (int i = 0; i < attributes->GetNumberOfArrays(); ++i)
   {

@@ -68,6 +68,14 @@ ColourMapChoice sampled(vtkScalarsToColors& table)
   return map;
 }
 
+StyleSize sizeOf(const PointLook& look, bool closes)
+{
+  StyleSize size;
+  size.mode = closes ? SplatSize::Mode::Spacing : SplatSize::Mode::Pixels;
+  size.value = std::max(closes ? look.factor : look.pixels, 0.01);
+  return size;
+}
+
 ColourSource sourceOf(const LookColour& colour)
 {
   if (colour.array.empty())
@@ -95,19 +103,58 @@ ColourSource sourceOf(const LookColour& colour)
 
 } // namespace
 
+std::optional<NamedTechnique> namedTechnique(const std::string& name)
+{
+  if (name == "blended")
+  {
+    return NamedTechnique{ Technique::Splats, true };
+  }
+  const auto technique = techniqueOf(name);
+  if (!technique)
+  {
+    return std::nullopt;
+  }
+  NamedTechnique named{ *technique, std::nullopt };
+  if (*technique != Technique::Ewa)
+  {
+    named.blended = false;
+  }
+  return named;
+}
+
+std::string namedTechniques()
+{
+  return techniqueList() + ", blended";
+}
+
+bool PointLook::closes() const
+{
+  return !quality.empty() || closing == ALWAYS ||
+    (closing == BY_TECHNIQUE && technique != "points");
+}
+
+LayerStyle PointLook::sized(LayerStyle differs) const
+{
+  if (closing == BY_TECHNIQUE && differs.technique && !differs.size)
+  {
+    differs.size = sizeOf(*this, *differs.technique != Technique::Points);
+  }
+  return differs;
+}
+
 bool PointLook::plain() const
 {
   return technique == "points" && !closes() && eyeDomeStrength == 0.0 && !lit && !fillHoles &&
-    where.empty();
+    where.empty() && !(translucentSurface && opacity < 1.0);
 }
 
 bool applyLook(
   const PointLook& look, const LookColour& colour, StyleSheet& sheet, std::string& error)
 {
-  const auto technique = techniqueOf(look.technique);
-  if (!technique)
+  const auto named = namedTechnique(look.technique);
+  if (!named)
   {
-    error = "\"" + look.technique + "\" is no technique: choose " + techniqueList();
+    error = "\"" + look.technique + "\" is no technique: choose " + namedTechniques();
     return false;
   }
   const QualityPreset* preset = look.quality.empty() ? nullptr : qualityPresetOf(look.quality);
@@ -122,16 +169,14 @@ bool applyLook(
     error = where.error().what;
     return false;
   }
-  sheet.standard.technique = *technique;
+  sheet.standard.technique = named->technique;
+  sheet.standard.blended = named->blended;
   if (preset)
   {
     preset->applyTo(sheet.standard);
   }
   sheet.standard.colour = sourceOf(colour);
-  StyleSize size;
-  size.mode = look.closes() ? SplatSize::Mode::Spacing : SplatSize::Mode::Pixels;
-  size.value = std::max(look.size, 0.01);
-  sheet.standard.size = size;
+  sheet.standard.size = sizeOf(look, look.closes());
   sheet.standard.opacity = std::clamp(look.opacity, 0.0, 1.0);
   sheet.where = std::move(*where);
   sheet.shading.lit = look.lit;

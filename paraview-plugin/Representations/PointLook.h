@@ -1,6 +1,9 @@
 #pragma once
 
+#include "pointfront/Style/LayerStyle.h"
+
 #include <array>
+#include <optional>
 #include <string>
 
 class vtkScalarsToColors;
@@ -10,22 +13,45 @@ namespace pointfront
 
 struct StyleSheet;
 
+/// A technique as the properties name it: a style sheet's name, or "blended": splats in two passes.
+struct NamedTechnique
+{
+  Technique technique = Technique::Points;
+  std::optional<bool> blended; ///< nothing: as the technique has it
+};
+std::optional<NamedTechnique> namedTechnique(const std::string& name);
+/// "points, splats ... blended".
+std::string namedTechniques();
+
 /// How a representation's properties say that points look: what ParaView's own properties cannot.
 /// Threads  a value.
 struct PointLook
 {
-  std::string technique = "points"; ///< as style sheets name it
-  bool closing = false; ///< size: what closes the surface times `size`, else pixels
-  double size = 2.0; ///< > 0
+  /// Where points are as large as it takes to close the surface, times `factor`; else `pixels`.
+  enum Closing
+  {
+    NEVER = 0,
+    ALWAYS = 1,
+    BY_TECHNIQUE = 2 ///< with every technique but points
+  };
+  std::string technique = "points"; ///< namedTechnique()
+  int closing = BY_TECHNIQUE;
+  double pixels = 2.0; ///< > 0
+  double factor = 1.0; ///< > 0
   double eyeDomeStrength = 0.0; ///< 0: off
   std::string quality; ///< a preset, in the place of technique and closing; empty: none
   bool lit = false;
   bool fillHoles = false;
   double opacity = 1.0;
+  /// Opacity is that of a surface, which the style draws: what else draws it is opaque. Else the
+  /// actor has it, and the style where there is one.
+  bool translucentSurface = false;
   std::string where; ///< a condition; empty: all points
 
   /// The size counts in what closes the surface.
-  bool closes() const { return closing || !quality.empty(); }
+  bool closes() const;
+  /// The same for what differs, where a technique is named and no size.
+  LayerStyle sized(LayerStyle differs) const;
   /// Nothing but squares of some pixels: drawn without a style sheet.
   bool plain() const;
 };

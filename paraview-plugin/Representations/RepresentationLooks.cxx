@@ -95,8 +95,12 @@ void vtkPointFrontRepresentation::PrepareStyle()
   colour.table = this->Mapper->GetLookupTable();
   std::copy_n(this->Property->GetColor(), 3, colour.flat.begin());
   pointfront::PointLook& look = this->Choice->look;
-  look.size = look.closes() ? this->SizeFactor : this->PointSize;
-  look.opacity = this->Property->GetOpacity();
+  look.pixels = this->PointSize;
+  // By depth, which translucent actors do not write, ranks put their pictures together.
+  look.opacity = this->Opacity;
+  look.translucentSurface = this->Mapper->GetNumberOfStorePieces() > 1;
+  this->Property->SetOpacity(look.translucentSurface ? 1.0 : this->Opacity);
+  this->TellLensOfRanks();
   std::string error;
   const int* const size = view->GetRenderer()->GetSize();
   this->Mapper->SetStyle(this->Choice->style(colour, size[0], size[1], error));
@@ -107,9 +111,23 @@ void vtkPointFrontRepresentation::PrepareStyle()
 }
 
 //------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::TellLensOfRanks()
+{
+  const pointfront::LensChoice& lens = this->Choice->lens;
+  const bool parted = lens.shows() && lens.place.shape == pointfront::LensPlace::AROUND_CLASS &&
+    this->Mapper->GetNumberOfStorePieces() > 1;
+  if (parted && !this->ToldOfRanks && this->Mapper->GetStorePiece() == 0)
+  {
+    vtkWarningMacro("a lens around a class covers, on each rank, what that rank has of the class: "
+                    "where ranks meet it has gaps. On one rank it has none.");
+  }
+  this->ToldOfRanks = parted;
+}
+
+//------------------------------------------------------------------------------
 void vtkPointFrontRepresentation::PlaceLens()
 {
-  if (this->GetVisibility() && this->Choice->lens.shape != pointfront::LensPlace::NONE)
+  if (this->GetVisibility() && this->Choice->lens.place.shape != pointfront::LensPlace::NONE)
   {
     this->PrepareStyle();
   }

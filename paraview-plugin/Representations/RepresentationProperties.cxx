@@ -121,7 +121,7 @@ void vtkPointFrontRepresentation::SetQuality(const char* name)
 }
 
 //------------------------------------------------------------------------------
-void vtkPointFrontRepresentation::SetClosingSize(bool closing)
+void vtkPointFrontRepresentation::SetClosingSize(int closing)
 {
   this->Choice->look.closing = closing;
 }
@@ -129,7 +129,7 @@ void vtkPointFrontRepresentation::SetClosingSize(bool closing)
 //------------------------------------------------------------------------------
 void vtkPointFrontRepresentation::SetSizeFactor(double factor)
 {
-  this->SizeFactor = factor;
+  this->Choice->look.factor = factor;
 }
 
 //------------------------------------------------------------------------------
@@ -184,38 +184,56 @@ void vtkPointFrontRepresentation::AddClassStyle(
 //------------------------------------------------------------------------------
 void vtkPointFrontRepresentation::SetLensShape(int shape)
 {
-  this->Choice->lens.shape = shape;
+  this->Choice->lens.place.shape = shape;
 }
 
 //------------------------------------------------------------------------------
 void vtkPointFrontRepresentation::SetLensCenter(double x, double y)
 {
-  this->Choice->lens.centre = { { x, y } };
+  this->Choice->lens.place.centre = { { x, y } };
 }
 
 //------------------------------------------------------------------------------
 void vtkPointFrontRepresentation::SetLensRadius(double radius)
 {
-  this->Choice->lens.radius = radius;
+  this->Choice->lens.place.radius = radius;
 }
 
 //------------------------------------------------------------------------------
 void vtkPointFrontRepresentation::SetLensSize(double width, double height)
 {
-  this->Choice->lens.size = { { width, height } };
+  this->Choice->lens.place.size = { { width, height } };
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetLensMask(const char* fileName)
+{
+  this->Choice->lens.setMaskFile(textOf(fileName));
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetLensClass(int classCode)
+{
+  this->Choice->lens.place.aroundClass = classCode;
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetLensClassRadius(double radius)
+{
+  this->Choice->lens.place.aroundRadius = radius;
 }
 
 //------------------------------------------------------------------------------
 void vtkPointFrontRepresentation::ClearLensStyles()
 {
-  this->Choice->lensClasses.clear();
+  this->Choice->lens.classes.clear();
 }
 
 //------------------------------------------------------------------------------
 void vtkPointFrontRepresentation::AddLensStyle(
   const char* classCode, const char* technique, const char* color, const char* size)
 {
-  this->Choice->lensClasses.add(
+  this->Choice->lens.classes.add(
     textOf(classCode), textOf(technique), textOf(color), textOf(size), true);
 }
 
@@ -228,7 +246,7 @@ void vtkPointFrontRepresentation::SetGrowthTime(double milliseconds)
 //------------------------------------------------------------------------------
 void vtkPointFrontRepresentation::SetOpacity(double opacity)
 {
-  this->Property->SetOpacity(opacity);
+  this->Opacity = opacity;
 }
 
 //------------------------------------------------------------------------------

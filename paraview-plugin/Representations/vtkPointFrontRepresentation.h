@@ -125,8 +125,9 @@ public:
   ///@{
   /**
    * How points look, as style sheets have it (docs/user/styles.md): "points" (default), "splats",
-   * "spheres", "silhouettes", "solid" or "ewa"; the diameter in pixels (PointSize) or the one that
-   * closes the surface times a factor; eye-dome lighting (0, the default: off); light on points
+   * "spheres", "silhouettes", "solid", "ewa", or "blended" (splats in two passes); the diameter in
+   * pixels (PointSize) or the one that closes the surface times a factor (PointLook::Closing says
+   * when); eye-dome lighting (0, the default: off); light on points
    * that have a normal; holes between points filled; a condition for the points that are drawn. Who
    * draws: see vtkPointFrontMapper::SetBackend.
    */
@@ -135,7 +136,7 @@ public:
   /// vtkPointFrontMapper::SetQuality has them, whatever is set of these. "custom" (default): what
   /// is set.
   void SetQuality(const char* name);
-  void SetClosingSize(bool closing);
+  void SetClosingSize(int closing);
   void SetSizeFactor(double factor);
   void SetEyeDomeStrength(double strength);
   void SetLit(bool lit);
@@ -174,13 +175,17 @@ public:
   /**
    * A lens that shows what it covers in other styles: its shape (LensPlace::Shape); its centre as
    * parts of the picture's width and height, from the lower left corner; a circle's radius as a
-   * part of the height; a rectangle's size as parts of width and height. Inside, as for classes;
-   * without a code for all classes.
+   * part of the height; a rectangle's size as parts of width and height; a mask as an image file,
+   * as the server sees it; the code of a class and a radius around its points, in units of the
+   * coordinates. Inside, as for classes; without a code for all classes.
    */
   void SetLensShape(int shape);
   void SetLensCenter(double x, double y);
   void SetLensRadius(double radius);
   void SetLensSize(double width, double height);
+  void SetLensMask(const char* fileName);
+  void SetLensClass(int classCode);
+  void SetLensClassRadius(double radius);
   void ClearLensStyles();
   void AddLensStyle(
     const char* classCode, const char* technique, const char* color, const char* size);
@@ -191,7 +196,8 @@ public:
 
   ///@{
   /**
-   * Of the property and the actor, as in vtkGeometryRepresentation.
+   * Of the property and the actor, as in vtkGeometryRepresentation. On several ranks a translucent
+   * cloud is one surface: the nearest points over what is behind the cloud.
    */
   void SetPointSize(double pixels);
   void SetOpacity(double opacity);
@@ -271,6 +277,7 @@ private:
   /// When the renderer starts: its size and camera are known.
   void BeginFrame();
   void PlaceLens();
+  void TellLensOfRanks();
   /// Ranks add up the colours of blended splats, if all of them can.
   void AgreeOnExchange();
   /// Greys over the heights of the cloud; null without a store.
@@ -303,6 +310,7 @@ private:
   bool DirectColors = true;
   std::vector<vtkWeakPointer<vtkPVLODActor>> HiddenMarks;
   bool ToldOfNames = false; ///< that they are no colours
+  bool ToldOfRanks = false; ///< that each has its part of a lens
   bool CrispPoints = true;
   bool InMotion = false; ///< the last frame
   vtkWeakPointer<vtkPVRenderView> SuspendedView; ///< whose FXAA is off for a frame
@@ -313,7 +321,7 @@ private:
   const std::unique_ptr<pointfront::StyleChoice> Choice;
   const std::unique_ptr<pointfront::RankExchange> Exchange;
   double PointSize = 2.0;
-  double SizeFactor = 1.0;
+  double Opacity = 1.0;
   vtkSmartPointer<vtkScalarsToColors> Table;
   vtkSmartPointer<vtkScalarsToColors> Heights;
 };

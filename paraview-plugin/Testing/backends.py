@@ -27,6 +27,14 @@ for backend in ("OpenGL", "Software"):
             scene.save(picture)
             require(scene.frame()[1], picture + " is not complete")
 
+# Translucent: on ranks one surface, whose points are those of the opaque picture.
+scene.display.Technique, scene.display.ClosingSize, scene.display.TargetError = "points", 0, 0.01
+scene.save(name + "-opaque")
+scene.display.Opacity = 0.5
+scene.save(name + "-translucent")
+require(scene.frame()[1], "translucent points are not complete")
+scene.display.Opacity = 1
+
 # Blended splats by a preset; from within the cloud; from where nothing of it is seen.
 scene.display.Quality = "balanced"
 camera = scene.view.SMProxy.GetActiveCamera()

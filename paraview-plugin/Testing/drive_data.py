@@ -75,7 +75,9 @@ def refusals(programs):
             told = open(log).read()
             print(told)
         steps = dict(part.split("\n", 1) for part in told.split("== ")[1:])
-        for step, words in (("id", None), ("beside", "lies beside the cloud"),
+        for step, words in (("id", None), ("malformed", "cannot be evaluated"),
+                            ("no name", "cannot be evaluated"), ("sound", None),
+                            ("beside", "lies beside the cloud"),
                             ("too many", "PointFront Extract"), ("enough", None),
                             ("unnamed", "Most Selection Points"),
                             ("damaged", "cannot be read")):

@@ -4,6 +4,7 @@ import glob
 import json
 import os
 
+import pictures
 from expected import STOCK_SHARE, compare
 from programs import HERE, mpi, python_client, tool, with_server
 
@@ -70,7 +71,17 @@ def backends(programs):
             way = picture[len("backends-1-"):-len(".png")]
             if way.endswith("away"):
                 continue  # it is enough that no rank waits for the others
+            if way == "translucent":
+                continue  # one process blends all points of a pixel
             compare("backends-%d-%s" % (count, way), "backends-1-" + way, channel=2)
+        if count > 1:
+            # Half of the opaque picture's colour, over black.
+            opaque = pictures.load("backends-%d-opaque.png" % count)
+            translucent = pictures.load("backends-%d-translucent.png" % count)
+            share = pictures.differing(translucent, opaque // 2, 2)
+            print("translucent on %d ranks: %.3f %% not half as bright" % (count, 100 * share))
+            if pictures.covered(opaque) < 0.1 or share > 0.001:
+                raise AssertionError("translucent points on %d ranks" % count)
 
 
 def server(programs):
@@ -145,9 +156,18 @@ def looks(programs):
 def lens(programs):
     for count in (1, 2):
         name = "lens-%d" % count
-        programs.run(*mpi(count, os.environ["POINTFRONT_PVBATCH"],
-                          os.path.join(HERE, "lens.py"), name))
-    for way in ("Circle", "Rectangle", "hidden"):
+        log = name + ".log"
+        with open(log, "w") as output:
+            done = programs.start(*mpi(count, os.environ["POINTFRONT_PVBATCH"],
+                                       os.path.join(HERE, "lens.py"), name), output=output)
+        try:
+            programs.finish(done)
+        finally:
+            told = open(log).read()
+            print(told)
+        if told.count("where ranks meet it has gaps") != (2 if count > 1 else 0):
+            raise AssertionError("what is told of a lens around a class on %d ranks" % count)
+    for way in ("Circle", "Rectangle", "Mask", "hidden"):
         compare("lens-2-" + way, "lens-1-" + way, channel=2)
 
 
@@ -171,6 +191,20 @@ def application(programs):
     if drawn["at rest again"][-1] != points:
         raise AssertionError("all points come back at rest, not %s" % drawn["at rest again"])
     compare("application", "tool")
+
+
+def applied(programs):
+    """A filter that ParaView puts in the place of a surface takes that of a cloud."""
+    script = os.path.join(HERE, "applied")
+    programs.run(os.environ["POINTFRONT_PARAVIEW"], "--dr", "--script=%s.py" % script,
+                 "--test-script=%s.xml" % script, "--exit")
+    with open("applied.json") as file:
+        found = json.load(file)
+    print(found)
+    if found["failure"] or "Clip" not in found["filters"]:
+        raise AssertionError("no filter is applied")
+    if not found["shown"][0] or found["shown"][-1]:
+        raise AssertionError("the cloud is in view behind the filter")
 
 
 def panel(programs):

@@ -7,7 +7,8 @@ import re
 import shlex
 import shutil
 
-from expected import compare
+import numpy
+from expected import compare, exported
 from programs import HERE, mpi, tool, with_server
 
 
@@ -56,8 +57,29 @@ def written(programs):
     for ranks_ in (1, 2):
         name = "written-%d" % ranks_
         command = [os.environ["POINTFRONT_PVBATCH"], os.path.join(HERE, "written.py"), name]
-        programs.run(*(command if ranks_ == 1 else mpi(ranks_, *command)))
+        with open(name + ".log", "w") as log:
+            done = programs.start(*(command if ranks_ == 1 else mpi(ranks_, *command)), output=log)
+        try:
+            programs.finish(done)
+        finally:
+            told = open(name + ".log").read()
+            print(told)
         compare(name, "tool")
+        if told.split("== kept")[1].split("== done")[0].count("is no file that") > 1:
+            raise AssertionError("more than one error for one file")
+        # The tool reads what was written: the points of the store, to the last bit, and the places
+        # of a surface.
+        wanted = exported("all")
+        for ending in ("laz", "las"):
+            path = os.path.abspath("%s-points.%s" % (name, ending))
+            tool("build", path, "-o", name + "-points.pfront", "--force")
+            got = exported("written", store=name + "-points.pfront")
+            if not numpy.array_equal(got, wanted):
+                raise AssertionError("%s has other points: %s, not %s"
+                                     % (path, got.shape, wanted.shape))
+            described = json.loads(tool("info", path, "--json"))
+            if described["precision"] != 0.01:
+                raise AssertionError("the grid is not kept: %s" % described)
 
 
 def state(programs):
@@ -140,6 +162,8 @@ def preview(programs):
                 raise AssertionError("cancelled, and there is %s, %s" % (last, left))
         elif last["drawn_of"] != points or last["store_points"] != points:
             raise AssertionError(way + ": not the store in the end: %s" % last)
+        elif not seen["panel"].startswith("{:,} points".format(points)):
+            raise AssertionError("%s: the panel of the store says %s" % (way, seen["panel"][:30]))
         elif left != [name + ".pfront"]:
             raise AssertionError("left behind: %s" % left)
         else:

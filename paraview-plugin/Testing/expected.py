@@ -32,10 +32,10 @@ def compare(one, other, share=SHARE, channel=CHANNEL):
         raise AssertionError(one + " and " + other + " differ")
 
 
-def exported(name, *conditions):
-    """What the tool exports: rows of x, y, z and intensity, in order."""
+def exported(name, *conditions, store=None):
+    """What the tool exports of a store: rows of x, y, z and intensity, in order."""
     path = os.path.abspath(name + ".csv")
-    tool("export", os.environ["POINTFRONT_STORE"], "-o", path, "--force", *conditions)
+    tool("export", store or os.environ["POINTFRONT_STORE"], "-o", path, "--force", *conditions)
     table = numpy.genfromtxt(path, delimiter=",", names=True)
     print(name, table.dtype.names, len(table))
     rows = numpy.stack([table[column] for column in ("x", "y", "z", "intensity")], axis=1)

@@ -16,7 +16,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 
 simple.LoadPlugin(os.environ["POINTFRONT_PLUGIN"], remote=False, ns=globals())
 
-from scene import OUTPUT, POINTS, SIZE, Scene, require
+from scene import OUTPUT, POINTS, SIZE, STORE, Scene, require
 
 name, box, sphere = sys.argv[1], json.loads(sys.argv[2]), json.loads(sys.argv[3])
 RANKS = servermanager.ActiveConnection.GetNumberOfDataPartitions()
@@ -50,6 +50,11 @@ suggested = PointFrontExtract(Input=scene.reader)
 require(len(points_of(suggested)) == POINTS,
         "the suggested box has %d of %d points" % (len(points_of(suggested)), POINTS))
 simple.Delete(suggested)
+# So it is where nobody has updated the reader.
+early = PointFrontExtract(Input=simple.OpenDataFile(STORE), Classes=[0])
+require(len(points_of(early)) == POINTS, "of a reader not yet updated: %d points of %d"
+        % (len(points_of(early)), POINTS))
+simple.Delete(early)
 
 found = {}
 extract = PointFrontExtract(Input=scene.reader)

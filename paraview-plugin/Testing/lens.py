@@ -8,6 +8,9 @@ import sys
 
 import numpy
 from paraview import simple
+from vtkmodules.util.numpy_support import numpy_to_vtk
+from vtkmodules.vtkCommonDataModel import vtkImageData
+from vtkmodules.vtkIOImage import vtkPNGWriter
 
 simple.LoadPlugin(os.environ["POINTFRONT_PLUGIN"], remote=False, ns=globals())
 
@@ -32,9 +35,9 @@ def check(name, size, inside):
     without = picture(name + "-off", size)
     display.LensShape = name
     found = picture(name, size)
-    # Rows from the top; the centres of the pixels as parts of width and height, from below.
+    # Rows from below; the centres of the pixels as parts of width and height.
     rows, columns = numpy.mgrid[0:size[1], 0:size[0]]
-    mask = inside((columns + 0.5) / size[0], 1 - (rows + 0.5) / size[1], size)
+    mask = inside((columns + 0.5) / size[0], (rows + 0.5) / size[1], size)
     changed = (found != without).any(axis=2)
     require(not changed[~mask].any(), "%s: %d pixels outside differ" % (name, changed[~mask].sum()))
     colours = numpy.unique(found[mask], axis=0).tolist()
@@ -49,6 +52,36 @@ for size in (SIZE, [480, 300]):
     check("Circle", size, lambda x, y, size: numpy.hypot(
         (x - 0.4) * size[0], (y - 0.5) * size[1]) <= 0.2 * size[1])
     check("Rectangle", size, lambda x, y, _: (abs(x - 0.4) <= 0.15) & (abs(y - 0.5) <= 0.2))
+
+# A mask is an image: a triangle, in the corner of the picture.
+mask_file = os.path.join(OUTPUT, sys.argv[1] + "-mask.png")
+rows, columns = numpy.mgrid[0:64, 0:64]
+triangle = rows + columns < 50  # rows from below
+image = vtkImageData()
+image.SetDimensions(64, 64, 1)
+image.GetPointData().SetScalars(numpy_to_vtk((triangle * 255).astype(numpy.uint8).ravel(), True))
+writer = vtkPNGWriter()
+writer.SetFileName(mask_file)
+writer.SetInputData(image)
+writer.Write()
+display.LensMask = mask_file
+for size in (SIZE, [480, 300]):
+    scene.view.ViewSize = size
+    # A pixel has what its lower left corner is in.
+    check("Mask", size, lambda x, y, size: triangle[tuple(
+        numpy.floor(64 * (place - 0.5 / length) + 1e-6).astype(int)
+        for place, length in ((y, size[1]), (x, size[0])))])
+
+# Around the points of a class, this cloud's only one: wherever there is something.
+display.LensShape, display.LensClass, display.LensClassRadius = "Around a class", 0, 5.0
+colours = numpy.unique(picture("around").reshape(-1, 3), axis=0).tolist()
+require(colours == [[0, 0, 0], [255, 0, 0]], "around a class: %s" % colours[:5])
+display.LensClass = 6
+display.LensShape = "Off"
+without = picture("around-off")
+display.LensShape = "Around a class"
+require((picture("around-none") == without).all(), "a lens around a class that is not there")
+display.LensStyles = ["", "", "#ff0000", ""]
 
 # Another technique, and nothing at all.
 display.LensShape = "Circle"

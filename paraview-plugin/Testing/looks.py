@@ -50,6 +50,51 @@ for technique in ("spheres", "ewa"):
     require(pictures.differing(others[-1], splats, 8) > 0.02, technique + " looks like splats")
 display.Technique, display.ClosingSize = "points", 0
 
+# A technique alone closes the surface, unless it is not to; points alone do not.
+display.ClosingSize = "Unless they are points"
+require(pictures.differing(plain, picture("alone-points"), 0) == 0, "points have another size")
+display.Technique = "splats"
+require(pictures.differing(splats, picture("alone-splats"), 0) == 0, "splats alone close nothing")
+display.ClosingSize = "Never"
+require(pictures.differing(splats, picture("never"), 8) > 0.02, "splats cannot be small")
+display.Technique = "points"
+# So does the technique of a class, and points stay points.
+display.ClosingSize = "Unless they are points"
+display.ClassStyles = ["0", "splats", "", ""]
+require(pictures.differing(splats, picture("class-splats"), 0) == 0, "a class's splats are small")
+display.Technique, display.ClassStyles = "splats", ["0", "points", "", ""]
+require(pictures.differing(plain, picture("class-points"), 2) < 0.001, "a class's points are large")
+display.ClassStyles = []
+
+
+def widgets():
+    """What the panel says of quality."""
+    return [display.Quality, display.Technique, display.TargetError, display.ClosingSize]
+
+
+# A quality sets what it stands for; what is set of that afterwards ends it.
+closing = "Unless they are points"
+for quality, technique, error in (("draft", "splats", 2.0), ("balanced", "blended", 1.0),
+                                  ("exact", "ewa", 0.5)):
+    display.Quality = quality
+    require(widgets() == [quality, technique, error, closing], "%s says %s" % (quality, widgets()))
+for name, value in (("Technique", "points"), ("TargetError", 0.7), ("ClosingSize", "Never")):
+    display.Quality = "balanced"
+    setattr(display, name, value)
+    require(display.Quality == "custom", "%s, and still %s" % (name, widgets()))
+display.Quality = "balanced"
+balanced = picture("balanced")
+display.Quality = "custom"
+require(widgets()[1:] == ["blended", 1.0, closing], "custom changes something: %s" % widgets())
+require(pictures.differing(balanced, picture("blended"), 0) == 0, "blended is not balanced")
+
+# Tables say what their columns are.
+proxy = display.SMProxy
+heads = [proxy.GetPropertyGroup(i).GetXMLLabel() for i in range(proxy.GetNumberOfPropertyGroups())]
+for table in ("Styles of Classes: ", "Inside the Lens: "):
+    require(any(head and head.startswith(table) and "| Technique | Color | Size" in head
+                for head in heads), "no head of %s: %s" % (table, heads))
+
 # A quality is what its parts are, whatever is set of them.
 display.Technique, display.ClosingSize, display.TargetError = "splats", 1, 2
 parts = picture("parts")

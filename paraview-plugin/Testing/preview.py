@@ -78,6 +78,8 @@ def start():
                 reader.SMProxy.InvokeCommand("CancelBuild")
         whole = stored is not None and total == int(stored.GetValue(0))
         if not building and name == os.path.basename(STORE) and complete and whole:
+            # As the panel has it, which nobody here has brought up to date.
+            seen["panel"] = reader.SMProxy.GetProperty("StoreFacts").GetElement(0)
             save(view, "preview")
             end()
         if CANCEL and not building and seen["while"] and not names:

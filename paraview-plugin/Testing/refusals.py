@@ -57,6 +57,14 @@ settings = simple.GetSettingsProxy("PointFrontSettings")
 step("id")
 require(selected(reader, "(id == 7)") == POINTS // 10, "an attribute that is called id")
 
+# What is no query is an error, and the program goes on.
+for name, query in (("malformed", "(id >"), ("no name", "(no_such_attribute > 1)")):
+    step(name)
+    require(selected(reader, query) == 0, "%s selects something" % query)
+step("sound")
+require(selected(reader, "(id == 7)") == POINTS // 10, "after a malformed query")
+simple.ClearSelection(reader)
+
 # A region that misses the cloud: that there are no points is told, not left to be found out.
 step("beside")
 beside = PointFrontExtract(Input=reader, UseRegion=1)

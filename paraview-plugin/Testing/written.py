@@ -46,6 +46,26 @@ require(all(abs(a - b) < 0.002 for a, b in zip(wanted, found)), "%s, not %s" % (
 require("RTData" in reader.PointData.keys(), "without the contour's value")
 require("normal" in reader.PointData.keys(), "asked for, and without normals")
 
+# LAS and LAZ: what the filter gives is in the file, coordinates to the last step. A file of another
+# kind stays.
+extract = PointFrontExtract(Input=scene.reader)
+for ending in ("laz", "las"):
+    path = os.path.join(OUTPUT, "%s-points.%s" % (name, ending))
+    simple.SaveData(path, proxy=extract)
+    require(os.path.exists(path), "not saved: " + path)
+points_of(surface)
+simple.SaveData(os.path.join(OUTPUT, name + "-surface.las"), proxy=surface, Precision=0.001)
+kept = os.path.join(OUTPUT, name + "-kept.las")
+with open(kept, "w") as file:
+    file.write("no points\n")
+print("== kept", flush=True)
+try:
+    simple.SaveData(kept, proxy=extract)
+except RuntimeError:
+    pass
+print("== done", flush=True)
+require(open(kept).read() == "no points\n", "a file of another kind is replaced")
+
 # All points of a store, as the pipeline has them: the same picture as the store's.
 scene.reader.OverviewPoints = POINTS
 require(points_of(scene.reader) == POINTS, "%d points in memory" % points_of(scene.reader))

@@ -2,6 +2,7 @@
 
 #include "HostVTK.h"
 #include "QueryCandidates.h"
+#include "QuerySelector.h"
 #include "UpstreamReader.h"
 
 #include "pointfront/Store/StoredCloud.h"
@@ -312,6 +313,20 @@ int vtkPointFrontExtractSelection::RequestData(
     }
   }
   return done;
+}
+
+//------------------------------------------------------------------------------
+vtkSmartPointer<vtkSelector> vtkPointFrontExtractSelection::NewSelectionOperator(
+  vtkSelectionNode::SelectionContent type)
+{
+  const vtkSmartPointer<vtkSelector> selector = this->Superclass::NewSelectionOperator(type);
+  if (!selector || type != vtkSelectionNode::QUERY)
+  {
+    return selector;
+  }
+  vtkNew<pointfront::QuerySelector> checked;
+  checked->wrap(selector, this);
+  return checked;
 }
 
 //------------------------------------------------------------------------------

@@ -54,6 +54,10 @@ protected:
 
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
+  /// For queries one that a malformed query does not end.
+  vtkSmartPointer<vtkSelector> NewSelectionOperator(
+    vtkSelectionNode::SelectionContent type) override;
+
 private:
   vtkPointFrontExtractSelection(const vtkPointFrontExtractSelection&) = delete;
   void operator=(const vtkPointFrontExtractSelection&) = delete;

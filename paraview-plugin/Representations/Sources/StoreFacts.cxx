@@ -135,6 +135,20 @@ std::string storeFacts(const StoredCloud& store)
   return text.str();
 }
 
+void addStoreFrame(const StoredCloud& store, vtkPolyData* output)
+{
+  const StoreDescription& about = store.description();
+  addTexts(output, "store_crs", { about.crsWkt.empty() ? "not stated" : about.crsWkt });
+  vtkNew<vtkDoubleArray> grid;
+  grid->SetName("store_grid");
+  grid->SetNumberOfComponents(6);
+  const glm::dvec3& scale = about.grid.scale;
+  const glm::dvec3& offset = about.grid.offset;
+  const double steps[6] = { scale.x, scale.y, scale.z, offset.x, offset.y, offset.z };
+  grid->InsertNextTuple(steps);
+  output->GetFieldData()->AddArray(grid);
+}
+
 void addStoreFacts(const StoredCloud& store, vtkIdType mostOverviewPoints, vtkPolyData* output)
 {
   const StoreDescription& about = store.description();
@@ -147,7 +161,7 @@ void addStoreFacts(const StoredCloud& store, vtkIdType mostOverviewPoints, vtkPo
   const double ends[6] = { box.low.x, box.high.x, box.low.y, box.high.y, box.low.z, box.high.z };
   bounds->InsertNextTuple(ends);
   output->GetFieldData()->AddArray(bounds);
-  addTexts(output, "store_crs", { about.crsWkt.empty() ? "not stated" : about.crsWkt });
+  addStoreFrame(store, output);
   addTexts(output, "store_structure", { structureOf(store) });
   std::vector<std::string> names;
   std::vector<vtkIdType> counts;

@@ -19,8 +19,12 @@ std::string groupedDigits(std::uint64_t number);
 /// classes with their points (of a store with a tree for each class), attributes' ranges.
 std::string storeFacts(const StoredCloud& store);
 
-/// The same as field data of the reader's output, and "output_is": what the points of the output
-/// are. `mostOverviewPoints` is the reader's limit.
+/// The frame of the coordinates as field data: "store_crs", and "store_grid", the scales and
+/// offsets of the grid that they lie on. Writers keep both.
+void addStoreFrame(const StoredCloud& store, vtkPolyData* output);
+
+/// storeFacts() and the frame as field data of the reader's output, and "output_is": what the
+/// points of the output are. `mostOverviewPoints` is the reader's limit.
 void addStoreFacts(const StoredCloud& store, vtkIdType mostOverviewPoints, vtkPolyData* output);
 
 /// Puts point arrays that tell the ranges of the whole store in place of an overview's, so that

@@ -1,6 +1,7 @@
 #include "vtkPVPointFrontExtract.h"
 
 #include "RegionPlanes.h"
+#include "StoreFacts.h"
 #include "UpstreamReader.h"
 
 #include "pointfront/Store/StoredCloud.h"
@@ -233,6 +234,8 @@ int vtkPVPointFrontExtract::RequestData(
   if (done)
   {
     vtkPolyData* output = vtkPolyData::GetData(outputs, 0);
+    vtkPointFrontReader* reader = pointfront::upstreamReaderOf(this);
+    pointfront::addStoreFrame(*reader->GetStore()->GetStore(), output);
     addCount(output, "points_chosen", this->GetNumberOfPointsChosen());
     addCount(output, "points_read", this->GetNumberOfPointsRead());
     addCount(output, "bytes_read", static_cast<vtkIdType>(this->GetNumberOfBytesRead()));

@@ -1,8 +1,13 @@
 #include "pointfront/Export/SourceExport.h"
 
+#include "pointfront/Export/SourceSurvey.h"
 #include "pointfront/Generate/TerrainSource.h"
+#include "pointfront/Points/DescribedSource.h"
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
 
 namespace pointfront
 {
@@ -93,6 +98,52 @@ TEST(SourceExport, ErrorOfTheSourceComesThrough)
   ASSERT_FALSE(written);
   EXPECT_EQ(written.error().kind, Error::Kind::Truncated);
   EXPECT_FALSE(sink.finished);
+}
+
+/// A source that says neither a box nor a grid is told of as it is, and written as it was.
+TEST(SourceExport, SurveyTellsWhatTheSourceDoesNot)
+{
+  const auto source = std::make_shared<const TerrainSource>(20000, 3);
+  SourceDescription silent = source->description();
+  silent.grid.reset();
+  silent.declaredBounds = Bounds();
+  const auto quiet = std::make_shared<const DescribedSource>(source, silent);
+  const auto told = surveyed(quiet);
+  ASSERT_TRUE(told);
+  Bounds box;
+  double highestClass = 0.0;
+  const auto classes = silent.schema.find("classification");
+  ASSERT_TRUE(classes);
+  PointBatch batch;
+  for (std::uint64_t chunk = 0; chunk < source->chunkCount(); ++chunk)
+  {
+    ASSERT_TRUE(source->read(chunk, batch));
+    for (const glm::dvec3& p : batch.positions)
+    {
+      box.add(p);
+    }
+    for (const std::byte code : batch.columns[*classes])
+    {
+      highestClass = std::max(highestClass, static_cast<double>(code));
+    }
+  }
+  EXPECT_EQ(told->bounds.low, box.low);
+  EXPECT_EQ(told->bounds.high, box.high);
+  EXPECT_EQ(told->pointCount, 20000u);
+  EXPECT_EQ(told->largest[*classes], highestClass);
+  EXPECT_LE(told->grid.scale.x, 0.001); // a millionth of 1 km at most
+  CountingSink sink;
+  ASSERT_TRUE(exportSource(*quiet, *told, sink));
+  EXPECT_EQ(sink.points, 20000u);
+  // Where there is a grid, it stays.
+  EXPECT_EQ(surveyed(source)->grid, *source->description().grid);
+}
+
+TEST(SourceExport, SurveyOfABrokenSourceIsItsError)
+{
+  const auto told = surveyed(std::make_shared<const Broken>());
+  ASSERT_FALSE(told);
+  EXPECT_EQ(told.error().kind, Error::Kind::Truncated);
 }
 
 } // namespace pointfront

@@ -38,10 +38,6 @@ Result<std::uint64_t> exportSource(
     return makeError(Error::Kind::BadArgument,
       from.path + ": its coordinates are on no grid of integers that a file could keep");
   }
-  if (Result<void> apart = checkApart(sink.path(), { from.path }); !apart)
-  {
-    return apart.error();
-  }
   SinkDescription to;
   to.schema = from.schema;
   to.grid = *from.grid;
@@ -49,7 +45,18 @@ Result<std::uint64_t> exportSource(
   to.pointCount = from.pointCount;
   to.crsWkt = from.crsWkt;
   to.metadata = from.metadata;
-  if (Result<void> begun = sink.begin(to); !begun)
+  return exportSource(source, to, sink, progress);
+}
+
+Result<std::uint64_t> exportSource(const PointSource& source, const SinkDescription& told,
+  PointSink& sink, const ProgressFunction& progress)
+{
+  const SourceDescription& from = source.description();
+  if (Result<void> apart = checkApart(sink.path(), { from.path }); !apart)
+  {
+    return apart.error();
+  }
+  if (Result<void> begun = sink.begin(told); !begun)
   {
     return begun.error();
   }

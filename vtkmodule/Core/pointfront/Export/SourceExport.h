@@ -17,5 +17,9 @@ namespace pointfront
 /// Threads  called from one thread; makes the next chunk on one of its own.
 Result<std::uint64_t> exportSource(
   const PointSource& source, PointSink& sink, const ProgressFunction& progress = {});
+/// The same for a source of which the caller knows more than it says: `told` is what the sink is
+/// told (SourceSurvey.h). Its schema is the source's.
+Result<std::uint64_t> exportSource(const PointSource& source, const SinkDescription& told,
+  PointSink& sink, const ProgressFunction& progress = {});
 
 } // namespace pointfront

@@ -49,6 +49,9 @@ protected:
   /// so (pvbatch, Python).
   void CreateVTKObjects() override;
 
+  /// Keeps Quality and the properties that it stands for alike.
+  void SetPropertyModifiedFlag(const char* name, int flag) override;
+
   /// PointsDrawn, NodesDrawn, ProjectedSpacing, LimitedBy and FrameComplete are of all processes,
   /// not of the server's root.
   void UpdatePropertyInformationInternal(vtkSMProperty* property) override;
@@ -60,6 +63,8 @@ private:
   /// Asks the server for the classes of the store; all are shown where nothing else was chosen.
   void GatherClasses();
   void TellClasses();
+  /// What the reader's panel says of a store that is built meanwhile.
+  void TellStore();
   /// Sets what the panel shows of a frame.
   void TellFrame(vtkPVPointFrontFrame* frame);
   void Follow(vtkSMViewProxy* view);
@@ -79,6 +84,7 @@ private:
   unsigned long StartObserver = 0;
   unsigned long RenderObserver = 0;
   unsigned long TimerObserver = 0;
+  bool Agreeing = false; ///< properties are being set here
   int Timer = 0; ///< of the interactor; 0: none
   int Delay = 0; ///< milliseconds, of the last timer started
 };

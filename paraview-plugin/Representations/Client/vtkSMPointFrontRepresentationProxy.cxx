@@ -2,6 +2,8 @@
 
 #include "ClassCategories.h"
 #include "ColourLegends.h"
+#include "QualityWidgets.h"
+#include "ReplacedCloud.h"
 
 #include "vtkCommand.h"
 #include "vtkNew.h"
@@ -53,6 +55,7 @@ void vtkSMPointFrontRepresentationProxy::ViewUpdated(vtkSMProxy* view)
 {
   this->Superclass::ViewUpdated(view);
   this->GatherClasses();
+  this->TellStore();
   this->Follow(vtkSMViewProxy::SafeDownCast(view));
   this->OnRender(view, vtkCommand::StartEvent, nullptr);
 }
@@ -70,6 +73,19 @@ void vtkSMPointFrontRepresentationProxy::CreateVTKObjects()
     vtkSMProxy* representation = this->GetTrueParentProxy();
     vtkSMProperty* size = representation ? representation->GetProperty("PointSize") : nullptr;
     size ? size->SetPanelVisibility("default") : void();
+    pointfront::letFiltersReplaceClouds(this->GetSessionProxyManager());
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkSMPointFrontRepresentationProxy::SetPropertyModifiedFlag(const char* name, int flag)
+{
+  this->Superclass::SetPropertyModifiedFlag(name, flag);
+  if (flag != 0 && name && this->ObjectsCreated && !this->Agreeing)
+  {
+    this->Agreeing = true;
+    pointfront::agreeOnQuality(this, name);
+    this->Agreeing = false;
   }
 }
 
@@ -85,6 +101,19 @@ void vtkSMPointFrontRepresentationProxy::GatherClasses()
   {
     shown->ResetToDomainDefaults();
     this->UpdateVTKObjects();
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkSMPointFrontRepresentationProxy::TellStore()
+{
+  // Apply has told the panel of the reader what there was then: of a build the preview.
+  vtkSMProxy* representation = this->GetTrueParentProxy();
+  vtkSMProperty* input = representation ? representation->GetProperty("Input") : nullptr;
+  vtkSMProxy* reader = input ? vtkSMPropertyHelper(input).GetAsProxy() : nullptr;
+  if (reader && reader->GetXMLName() == std::string("PointFrontFiles"))
+  {
+    reader->UpdatePropertyInformation(reader->GetProperty("StoreFacts"));
   }
 }
 

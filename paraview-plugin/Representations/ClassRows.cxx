@@ -1,0 +1,80 @@
+#include "ClassRows.h"
+
+#include "PointLook.h"
+
+#include "pointfront/Style/StyleSheet.h"
+#include "pointfront/Style/TechniqueNames.h"
+
+#include "vtkPointFrontStyle.h"
+
+#include <cstdlib>
+
+namespace pointfront
+{
+namespace
+{
+
+/// A whole number of 0 to 255, else -1.
+int classOf(const std::string& code)
+{
+  char* end = nullptr;
+  const long number = std::strtol(code.c_str(), &end, 10);
+  return !code.empty() && *end == '\0' && number >= 0 && number <= 255 ? static_cast<int>(number)
+                                                                       : -1;
+}
+
+} // namespace
+
+ClassRows::ClassRows() = default;
+
+ClassRows::~ClassRows() = default;
+
+void ClassRows::clear()
+{
+  style_->Reset();
+  filled_ = false;
+  wrong_.clear();
+}
+
+const StyleSheet& ClassRows::sheet() const
+{
+  return style_->GetStyleSheet();
+}
+
+void ClassRows::add(const std::string& code, const std::string& technique,
+  const std::string& colour, const std::string& size, bool forAll)
+{
+  const bool all = forAll && code.empty();
+  const int number = all ? vtkPointFrontStyle::DEFAULT_CLASS : classOf(code);
+  if (code.empty() && technique.empty() && colour.empty() && size.empty())
+  {
+    return; // a row that is not filled in yet
+  }
+  char* end = nullptr;
+  const double pixels = std::strtod(size.c_str(), &end);
+  const bool known =
+    technique.empty() || technique == "hidden" || namedTechnique(technique).has_value();
+  if ((number < 0 && !all) || !known || *end != '\0' || (!size.empty() && !(pixels > 0.0)))
+  {
+    wrong_ = "the class style \"" + code + "\", \"" + technique + "\", \"" + colour + "\", \"" +
+      size + "\" is none: a code of 0 to 255, hidden or one of " + namedTechniques() +
+      ", a colour, a size above 0";
+    return;
+  }
+  filled_ = true;
+  bool right = true;
+  if (technique == "hidden")
+  {
+    right = style_->SetVisibility(false, number);
+  }
+  else if (const auto named = namedTechnique(technique))
+  {
+    right = style_->SetTechnique(traitsOf(named->technique).name, number) &&
+      (!named->blended || style_->SetBlended(*named->blended, number));
+  }
+  right = (colour.empty() || style_->SetColor(colour, number)) && right;
+  right = (size.empty() || style_->SetSizePixels(pixels, number)) && right;
+  static_cast<void>(right); // the style itself has said what is wrong
+}
+
+} // namespace pointfront

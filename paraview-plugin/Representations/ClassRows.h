@@ -1,0 +1,37 @@
+#pragma once
+
+#include "vtkNew.h"
+
+#include <string>
+
+class vtkPointFrontStyle;
+
+namespace pointfront
+{
+
+struct StyleSheet;
+
+/// Rows of a table: what differs for each class.
+/// Threads  one.
+class ClassRows
+{
+public:
+  ClassRows();
+  ~ClassRows();
+  void clear();
+  /// By code, or "" for all classes where `forAll` allows it: a technique, "blended" (splats, in
+  /// two passes), "hidden" or ""; an attribute, "#rrggbb" or ""; pixels or "".
+  void add(const std::string& code, const std::string& technique, const std::string& colour,
+    const std::string& size, bool forAll = false);
+  bool empty() const { return !filled_; }
+  const std::string& wrong() const { return wrong_; } ///< of the last row that is; or empty
+  /// What the rows say: of all classes, and of each.
+  const StyleSheet& sheet() const;
+
+private:
+  bool filled_ = false;
+  std::string wrong_;
+  vtkNew<vtkPointFrontStyle> style_;
+};
+
+} // namespace pointfront

@@ -84,7 +84,9 @@ Result<void> MappedStores::open(const DrawingOptions& options)
 Result<void> MappedStores::hideOtherClasses(const DrawingOptions& options)
 {
   std::uint64_t points = 0;
-  for (std::size_t i = 0; i < stores_.size() && !options.classes.empty(); ++i)
+  const bool all = options.classes.empty() && !hidden_;
+  hidden_ = !options.classes.empty();
+  for (std::size_t i = 0; i < stores_.size() && !all; ++i)
   {
     const StoreDescription& store = stores_[i]->store->GetStore()->description();
     if (!isLayered(store))
@@ -117,6 +119,10 @@ Result<void> MappedStores::show(const DrawingOptions& options, int backend, vtkR
   if (!colour)
   {
     return colour.error();
+  }
+  if (Result<void> hidden = hideOtherClasses(options); !hidden)
+  {
+    return hidden;
   }
   const bool layered = std::all_of(stores.begin(), stores.end(),
     [](const auto& store) { return isLayered(store->description()); });
@@ -154,6 +160,14 @@ std::vector<std::shared_ptr<const StoredCloud>> MappedStores::clouds() const
     clouds.push_back(mapped->store->GetStore());
   }
   return clouds;
+}
+
+std::shared_ptr<const StoredCloud> MappedStores::cloudOf(const vtkProp* prop) const
+{
+  const auto found = std::find_if(stores_.begin(), stores_.end(),
+    [prop](const auto& mapped) { return mapped->actor.Get() == prop; });
+  vtkPointFrontStore* const drawn = found == stores_.end() ? nullptr : (*found)->mapper->GetStore();
+  return drawn ? drawn->GetStore() : nullptr;
 }
 
 std::vector<std::string> MappedStores::warnings() const

@@ -13,6 +13,7 @@
 #include <vector>
 
 class vtkCamera;
+class vtkProp;
 class vtkRenderer;
 class vtkRenderWindow;
 
@@ -36,14 +37,17 @@ public:
   /// Opens the stores of the options and hides the classes that are not asked for.
   /// Errors  of the stores; BadArgument: no store has any of the classes.
   Result<void> open(const DrawingOptions& options);
-  /// Sets how they are drawn, colours and styles and budgets, and adds them to the renderer. Can be
-  /// called again with other options of the same stores.
-  /// `backend`  one of vtkPointFrontMapper::Backends.
-  /// Errors     BadArgument: no store has the attribute that gives the colour.
+  /// Sets how they are drawn, colours and styles, classes and budgets, and adds them to the
+  /// renderer. Can be called again with other options of the same stores. `backend`  one of
+  /// vtkPointFrontMapper::Backends. Errors     BadArgument: no store has the attribute that gives
+  /// the colour, or any of the
+  ///            classes.
   Result<void> show(const DrawingOptions& options, int backend, vtkRenderer* renderer);
 
   const Bounds& bounds() const { return bounds_; }
   std::vector<std::shared_ptr<const StoredCloud>> clouds() const;
+  /// What the actor draws now; null for another prop.
+  std::shared_ptr<const StoredCloud> cloudOf(const vtkProp* prop) const;
   /// What the clouds say of themselves, with their paths.
   std::vector<std::string> warnings() const;
   /// The camera, with clipping planes that hold all stores.
@@ -71,6 +75,7 @@ private:
   Result<void> hideOtherClasses(const DrawingOptions& options);
 
   ErrorListener errors_;
+  bool hidden_ = false; ///< some classes are, by their trees
   Bounds bounds_;
   std::vector<std::unique_ptr<MappedStore>> stores_;
 };

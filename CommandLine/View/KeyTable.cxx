@@ -1,6 +1,7 @@
 #include "KeyTable.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace pointfront
 {
@@ -8,9 +9,15 @@ namespace pointfront
 namespace
 {
 /// Keysyms that differ from what the table shows.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 2> keysyms{ {
+constexpr std::array<std::pair<std::string_view, std::string_view>, 8> keysyms{ {
   { "question", "?" },
   { "F1", "?" },
+  { "plus", "+" },
+  { "minus", "-" },
+  { "KP_Add", "+" },
+  { "KP_Subtract", "-" },
+  { "KP_Enter", "Return" },
+  { "space", "Return" },
 } };
 
 template <typename Table>

@@ -13,6 +13,20 @@ enum class KeyAction
   None,
   Help,
   Facts,
+  Pick,
+  Measure,
+  NextColour,
+  LastColour,
+  NextTechnique,
+  LastTechnique,
+  NextQuality,
+  EyeDome,
+  Larger,
+  Smaller,
+  Classes,
+  Up,
+  Down,
+  Toggle,
   ShowAll,
   ViewIso,
   ViewTop,
@@ -36,9 +50,23 @@ struct KeyBinding
 };
 
 /// All keys of the window, in the order of the help.
-constexpr std::array<KeyBinding, 15> keyTable{ {
+constexpr std::array<KeyBinding, 29> keyTable{ {
   { "?", KeyAction::Help, "this help" },
   { "f", KeyAction::Facts, "frame rate, points and error" },
+  { "p", KeyAction::Pick, "what the store holds of the point under the mouse" },
+  { "m", KeyAction::Measure, "measure from the point under the mouse to a second one" },
+  { "c", KeyAction::NextColour, "colour by the next attribute" },
+  { "C", KeyAction::LastColour, "... the one before" },
+  { "t", KeyAction::NextTechnique, "draw by the next technique" },
+  { "T", KeyAction::LastTechnique, "... the one before" },
+  { "x", KeyAction::NextQuality, "draft, balanced, exact" },
+  { "l", KeyAction::EyeDome, "eye-dome lighting on and off" },
+  { "+", KeyAction::Larger, "larger points" },
+  { "-", KeyAction::Smaller, "smaller points" },
+  { "k", KeyAction::Classes, "the list of classes" },
+  { "Up", KeyAction::Up, "in the list: the class above" },
+  { "Down", KeyAction::Down, "in the list: the class below" },
+  { "Return", KeyAction::Toggle, "in the list: show or hide the class" },
   { "r", KeyAction::ShowAll, "show all" },
   { "1", KeyAction::ViewIso, "look from the south-east, from above" },
   { "2", KeyAction::ViewTop, "look straight down" },
@@ -55,7 +83,8 @@ constexpr std::array<KeyBinding, 15> keyTable{ {
 } };
 
 /// What the mouse does, a line each.
-constexpr std::array<KeyBinding, 4> mouseTable{ {
+constexpr std::array<KeyBinding, 5> mouseTable{ {
+  { "click", KeyAction::None, "what the store holds of the point" },
   { "left drag", KeyAction::None, "turn around the point under the mouse" },
   { "middle drag", KeyAction::None, "move the picture (also Shift and left drag)" },
   { "right drag", KeyAction::None, "turn the head" },

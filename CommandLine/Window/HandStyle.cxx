@@ -119,7 +119,7 @@ void HandStyle::OnKeyPress()
   const KeyAction action = keysym != nullptr ? keyActionOf(keysym) : KeyAction::None;
   if (action != KeyAction::None)
   {
-    target_->obey(action);
+    target_->obey(action, this->mouse());
   }
 }
 

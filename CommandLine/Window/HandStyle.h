@@ -17,7 +17,8 @@ class HandTarget
 {
 public:
   virtual ~HandTarget() = default;
-  virtual void obey(KeyAction action) = 0;
+  /// `pixel`  where the mouse is.
+  virtual void obey(KeyAction action, const glm::ivec2& pixel) = 0;
   /// The left button was pressed and let go at one place.
   virtual void click(const glm::ivec2& pixel) = 0;
   /// The camera makes a single step, as by the wheel: it moves, and rests soon.

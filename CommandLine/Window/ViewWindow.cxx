@@ -2,10 +2,13 @@
 
 #include "CameraJson.h"
 #include "CameraMotion.h"
+#include "ClassList.h"
 #include "CloudFormats.h"
 #include "FrameFacts.h"
 #include "FreshName.h"
 #include "HandStyle.h"
+#include "Inspection.h"
+#include "Looks.h"
 #include "MappedStores.h"
 #include "Redraw.h"
 #include "TextPanel.h"
@@ -27,6 +30,7 @@
 #include <cstdio>
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace pointfront
 {
@@ -58,6 +62,7 @@ class ViewWindow final : private HandTarget
 public:
   explicit ViewWindow(const ViewRequest& request)
     : request_(request)
+    , looks_(request.drawing)
   {
   }
 
@@ -66,11 +71,19 @@ public:
   void run() { interactor_->Start(); }
 
 private:
-  void obey(KeyAction action) override;
-  void click(const glm::ivec2&) override {}
+  void obey(KeyAction action, const glm::ivec2& pixel) override;
+  void click(const glm::ivec2& pixel) override;
   void step() override;
 
   void look(KeyAction action);
+  /// True if the key is about how points are drawn.
+  bool restyle(KeyAction action);
+  /// The same for the list of classes.
+  bool listClasses(KeyAction action);
+  void draw(const Looks& looks, const std::string& sentence);
+  void inspect(bool measure, const glm::ivec2& pixel);
+  /// Text over the upper left corner, in the place of what was there.
+  void layOver(const std::string& text);
   Redraw::Pause redraw();
   void takePicture();
   void saveCamera();
@@ -88,7 +101,11 @@ private:
   MappedStores stores_;
   ViewCamera camera_{ renderer_, stores_ };
   Camera saved_;
-  TextPanel help_{ renderer_, TextPanel::Corner::UpperLeft };
+  Looks looks_;
+  ClassList classes_;
+  bool listed_ = false; ///< the classes lie over the picture
+  Inspection inspection_{ renderer_, stores_ };
+  TextPanel sheet_{ renderer_, TextPanel::Corner::UpperLeft };
   TextPanel notice_{ renderer_, TextPanel::Corner::LowerLeft };
   Redraw redraw_{ interactor_, [this] { return redraw(); } };
   FrameFacts facts_{ window_, renderer_, stores_, [this] { redraw_.wake(loadingPause); } };
@@ -123,7 +140,9 @@ Result<void> ViewWindow::open()
   interactor_->SetRenderWindow(window_);
   interactor_->SetInteractorStyle(style_);
   style_->connect(&camera_, this);
-  if (Result<void> shown = stores_.show(drawing, backendOf(drawing.backend), renderer_); !shown)
+  looks_.choose(stores_.clouds());
+  if (Result<void> shown = stores_.show(looks_.drawing(), backendOf(drawing.backend), renderer_);
+      !shown)
   {
     return shown;
   }
@@ -218,7 +237,94 @@ void ViewWindow::look(KeyAction action)
   }
 }
 
-void ViewWindow::obey(KeyAction action)
+bool ViewWindow::restyle(KeyAction action)
+{
+  Looks looks = looks_;
+  const std::optional<std::string> sentence = looks.obey(action);
+  if (sentence)
+  {
+    draw(looks, *sentence);
+  }
+  return sentence.has_value();
+}
+
+bool ViewWindow::listClasses(KeyAction action)
+{
+  if (action == KeyAction::Classes && listed_)
+  {
+    layOver("");
+    return true;
+  }
+  if (action == KeyAction::Classes)
+  {
+    Result<ClassList> classes = ClassList::of(stores_.clouds(), looks_.drawing().classes);
+    if (!classes)
+    {
+      complain(classes.error().what);
+      return true;
+    }
+    classes_ = std::move(*classes);
+  }
+  else if (action == KeyAction::Up || action == KeyAction::Down)
+  {
+    classes_.move(action == KeyAction::Up ? -1 : 1);
+  }
+  else if (action == KeyAction::Toggle && listed_)
+  {
+    Looks looks = looks_;
+    classes_.toggle();
+    looks.showClasses(classes_.shown());
+    draw(looks, "");
+  }
+  else
+  {
+    return false;
+  }
+  if (action == KeyAction::Classes || listed_)
+  {
+    layOver(classes_.empty() ? "no point has a class" : classes_.text());
+    listed_ = true;
+  }
+  return true;
+}
+
+void ViewWindow::draw(const Looks& looks, const std::string& sentence)
+{
+  const int backend = backendOf(request_.drawing.backend);
+  if (Result<void> shown = stores_.show(looks.drawing(), backend, renderer_); !shown)
+  {
+    complain(shown.error().what);
+    return;
+  }
+  looks_ = looks;
+  notice_.set(sentence);
+}
+
+void ViewWindow::inspect(bool measure, const glm::ivec2& pixel)
+{
+  const Result<std::string> text = measure ? inspection_.measure(pixel) : inspection_.pick(pixel);
+  if (!text)
+  {
+    complain(text.error().what);
+    return;
+  }
+  layOver(*text);
+}
+
+void ViewWindow::click(const glm::ivec2& pixel)
+{
+  notice_.set("");
+  inspect(inspection_.measuring(), pixel);
+  interactor_->Render();
+}
+
+void ViewWindow::layOver(const std::string& text)
+{
+  listed_ = false;
+  sheet_.set(text);
+}
+
+void ViewWindow::obey(KeyAction action, const glm::ivec2& pixel)
 {
   notice_.set("");
   switch (action)
@@ -227,13 +333,18 @@ void ViewWindow::obey(KeyAction action)
       interactor_->TerminateApp();
       return;
     case KeyAction::Help:
-      help_.set(help_.text().empty() ? keyHelp() : "");
+      layOver(sheet_.text() == keyHelp() ? "" : keyHelp());
       break;
     case KeyAction::Escape:
-      help_.set("");
+      layOver("");
+      inspection_.clear();
       break;
     case KeyAction::Facts:
       facts_.toggle();
+      break;
+    case KeyAction::Pick:
+    case KeyAction::Measure:
+      inspect(action == KeyAction::Measure, pixel);
       break;
     case KeyAction::Screenshot:
       takePicture();
@@ -242,21 +353,24 @@ void ViewWindow::obey(KeyAction action)
       saveCamera();
       break;
     default:
-      look(action);
+      if (!restyle(action) && !listClasses(action))
+      {
+        look(action);
+      }
   }
   interactor_->Render();
 }
 
 void ViewWindow::takePicture()
 {
-  for (TextPanel* const panel : { &help_, &notice_, &facts_.panel() })
+  for (TextPanel* const panel : { &sheet_, &notice_, &facts_.panel() })
   {
     panel->setVisible(false);
   }
   stores_.draw(window_, true);
   const std::string file = freshName("pointfront", ".png");
   tell(writeWindowPicture(window_, file), file);
-  for (TextPanel* const panel : { &help_, &notice_, &facts_.panel() })
+  for (TextPanel* const panel : { &sheet_, &notice_, &facts_.panel() })
   {
     panel->setVisible(true);
   }

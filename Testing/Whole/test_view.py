@@ -1,6 +1,7 @@
 """`pointfront view`: a walk through the window by mouse and keyboard."""
 
 import json
+import math
 import os
 import pathlib
 import queue
@@ -12,7 +13,7 @@ import unittest
 import numpy
 from hands import Hands
 from pictures import read_png
-from tool import DATA, SLOWNESS, TOOL, ToolTest
+from tool import DATA, SLOWNESS, TOOL, ToolTest, write_las
 
 CLOUD = DATA / "las/real/autzen_trim.las"
 SIZE = (640, 480)
@@ -199,6 +200,154 @@ class Walk(WindowTest):
         window = self.open("--camera", self.folder / "c.json")
         self.assertEqual(window.camera(), camera)
         self.assertEqual(window.end(), (0, ""))
+
+
+class Questions(ToolTest):
+    """Of points whose places in the picture are known: a grid, seen from above, 4 px a unit."""
+
+    def setUp(self):
+        super().setUp()
+        self.points = [(x, y, 0.25 * x, 256 * x, 256 * y, 7)
+                       for y in range(100) for x in range(100)]
+        write_las(self.folder / "grid.las", self.points)
+        self.store = self.build(self.folder / "grid.las")
+        camera = {"position": [50, 50, 500], "focal_point": [50, 50, 0], "view_up": [0, 1, 0],
+                  "parallel_scale": 60}
+        (self.folder / "above.json").write_text(json.dumps(camera))
+
+    @staticmethod
+    def pixel(x, y):
+        return 320 + 4 * (x - 50), 240 - 4 * (y - 50)
+
+    def open(self, *arguments):
+        window = Window(self.folder, self.store, "--camera", self.folder / "above.json",
+                        "--point-size", "1", *arguments)
+        self.addCleanup(lambda: window.process.poll() is None and window.close())
+        window.picture()  # complete
+        return window
+
+    def test_a_click_names_the_point_that_is_drawn_there(self):
+        for backend in ("software", "opengl"):
+            window = self.open("--backend", backend)
+            for x, y in ((10, 20), (77, 3), (99, 99), (0, 50)):
+                window.hands.click(*self.pixel(x, y))
+                point = json.loads(window.said())
+                self.assertEqual((point["x"], point["y"], point["z"]), (x, y, 0.25 * x))
+                self.assertEqual(point["rgb"], [256 * x, 256 * y, 7])
+                self.assertEqual(point["intensity"], 0)
+                self.assertEqual(pathlib.Path(point["store"]).name, "cloud.pfront")
+            window.hands.move(*self.pixel(33, 44))
+            window.hands.press("p")
+            self.assertEqual(json.loads(window.said())["y"], 44)
+            window.hands.click(5, 5)  # background: no answer
+            window.hands.click(*self.pixel(1, 2))
+            self.assertEqual(json.loads(window.said())["y"], 2)
+            self.assertEqual(window.end(), (0, ""))
+
+    def test_two_points_have_a_distance_and_a_height(self):
+        window = self.open()
+        window.hands.move(*self.pixel(10, 20))
+        window.hands.press("m")
+        window.hands.move(*self.pixel(50, 50))
+        window.hands.press("m")
+        self.assertEqual(json.loads(window.said()), {
+            "distance": math.sqrt(50.0 ** 2 + 10.0 ** 2), "horizontal": 50.0, "height": 10.0,
+            "from": [10.0, 20.0, 2.5], "to": [50.0, 50.0, 12.5]})
+        window.hands.move(*self.pixel(60, 20))
+        window.hands.press("m")  # begins anew
+        window.hands.click(*self.pixel(20, 20))  # a click ends it
+        measured = json.loads(window.said())
+        self.assertEqual((measured["horizontal"], measured["height"]), (40.0, -10.0))
+        window.hands.move(*self.pixel(60, 20))
+        window.hands.press("m")
+        window.hands.press("Escape")
+        window.hands.click(*self.pixel(20, 20))
+        self.assertIn("rgb", json.loads(window.said()))  # a click asks again
+        self.assertEqual(window.end(), (0, ""))
+
+    def test_marks_are_drawn_where_the_points_are(self):
+        window = self.open("--background", "0,0,0")
+        plain = window.picture()
+        window.hands.move(*self.pixel(10, 30))
+        window.hands.press("m")
+        window.hands.click(*self.pixel(90, 30))
+        window.said()
+        marked = window.picture()
+        rows, columns = numpy.nonzero(numpy.any(marked != plain, axis=2))
+        self.assertLessEqual(abs(columns.min() - self.pixel(10, 30)[0]), 6)
+        self.assertLessEqual(abs(columns.max() - self.pixel(90, 30)[0]), 6)
+        self.assertLess(max(abs(rows - self.pixel(10, 30)[1])), 7)
+        window.hands.press("Escape")
+        self.assertEqual(share_of_difference(window.picture(), plain), 0.0)
+        self.assertEqual(window.end(), (0, ""))
+
+
+class Styles(WindowTest):
+    """What a key changes is what an option of `render` asks for."""
+
+    def setUp(self):
+        ToolTest.setUp(self)
+        self.succeed("generate", "--points", "30000", "-o", self.folder / "survey.las")
+        self.store = self.build(self.folder / "survey.las")
+
+    def expect(self, window, *arguments):
+        picture = window.picture()
+        rendered = self.folder / "expected.png"
+        self.succeed("render", self.store, "-o", rendered,
+                     "--size", f"{SIZE[0]}x{SIZE[1]}", *arguments)
+        self.assertLess(share_of_difference(picture, read_png(rendered)), 0.001, arguments)
+
+    def test_colours(self):
+        window = self.open()
+        for key, name in (("c", "classification"), ("c", "intensity"), ("c", "elevation"),
+                          ("C", "intensity"), ("C", "classification"), ("C", "rgb")):
+            window.hands.press(key)
+            self.expect(window, "--color-by", name)
+        self.assertEqual(window.end(), (0, ""))
+
+    def test_techniques(self):
+        window = self.open()
+        for key, name in (("t", "splats"), ("t", "spheres"), ("T", "splats"), ("T", "points")):
+            window.hands.press(key)
+            self.expect(window, "--technique", name)
+        window.hands.press("T")
+        self.expect(window, "--technique", "ewa")
+        self.assertEqual(window.end(), (0, ""))
+
+    def test_presets_sizes_and_light(self):
+        window = self.open()
+        for name in ("draft", "balanced", "exact", "draft"):
+            window.hands.press("x")
+            self.expect(window, "--quality", name)
+        window.hands.press("l")
+        self.expect(window, "--quality", "draft", "--edl")
+        self.assertEqual(window.end(), (0, ""))
+        window = self.open("--point-size", "4")
+        window.hands.press("plus")
+        self.expect(window, "--point-size", "5")
+        window.hands.press("minus")
+        self.expect(window, "--point-size", "4")
+        self.assertEqual(window.end(), (0, ""))
+
+    def test_classes(self):
+        classes = [layer["class"] for layer in
+                   self.succeed("info", self.store, "--json").json["layers"]]
+        self.assertGreater(len(classes), 2)
+        for layers in ("class", "none"):
+            self.succeed("build", self.folder / "survey.las", "-o", self.store, "--force",
+                         "--layers", layers)
+            window = self.open()
+            window.hands.press("k")
+            window.hands.press("Return")
+            self.expect(window, "--classes", ",".join(map(str, classes[1:])))
+            window.hands.press("Up")  # to the last one
+            window.hands.press("Return")
+            self.expect(window, "--classes", ",".join(map(str, classes[1:-1])))
+            window.hands.press("Return")
+            window.hands.press("Down")
+            window.hands.press("Return")
+            self.expect(window)
+            self.assertEqual(window.end(), (0, ""))
 
 
 class Refusals(WindowTest):

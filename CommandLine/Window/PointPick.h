@@ -1,0 +1,25 @@
+#pragma once
+
+#include "PickedPoint.h"
+
+#include "pointfront/Base/Result.h"
+
+#include <glm/vec2.hpp>
+
+#include <optional>
+
+class vtkRenderer;
+
+namespace pointfront
+{
+
+class MappedStores;
+
+/// The point that is drawn at a pixel, or next to it within some pixels. The window's picture is
+/// lost: it has to be drawn again.
+/// Gives   nothing where there is background.
+/// Errors  those of readPoint().
+Result<std::optional<PickedPoint>> pointAt(
+  const glm::ivec2& pixel, vtkRenderer* renderer, const MappedStores& stores);
+
+} // namespace pointfront

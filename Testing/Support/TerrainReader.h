@@ -105,6 +105,7 @@ public:
   {
     NodeColumns result;
     result.node = fetched.node;
+    result.selection = fetched.columns;
     return result;
   }
   std::size_t decodedBytes(NodeIndex, std::uint32_t, const ColumnSelection&) const override

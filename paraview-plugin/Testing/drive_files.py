@@ -1,5 +1,6 @@
 """Ways to run ParaView that open and write files. Each function is a test: see drive.py."""
 
+import csv
 import glob
 import json
 import os
@@ -116,7 +117,7 @@ def first_hour(programs):
     # One process comes last: its pictures are those of the documentation.
     for ranks_, command in ((2, mpi(2, os.environ["POINTFRONT_PVBATCH"])),
                             (1, [os.environ["POINTFRONT_PVBATCH"]])):
-        for old in glob.glob("flight*.png") + wanted:
+        for old in glob.glob("flight*.png") + glob.glob("buildings*.*") + wanted:
             if os.path.exists(old):
                 os.remove(old)
         programs.run(*command, "hour.py")
@@ -124,6 +125,17 @@ def first_hour(programs):
             found = glob.glob(name.replace(".", "*."))
             if not found or min(os.path.getsize(path) for path in found) < 5000:
                 raise AssertionError("%s on %d ranks: %s" % (name, ranks_, found))
+        # Each building's points have places of their own, inside the box.
+        places = []
+        for path in glob.glob("buildings*.csv"):
+            with open(path) as table:
+                places += [[float(row["Points:%d" % axis]) for axis in range(3)]
+                           for row in csv.DictReader(table)]
+        places = numpy.array(places)
+        sides = places.max(axis=0) - places.min(axis=0)
+        if len(numpy.unique(places, axis=0)) < 0.99 * len(places) or sides[:2].max() > 200.01:
+            raise AssertionError("coordinates are lost: %d places of %d points, sides %s"
+                                 % (len(numpy.unique(places, axis=0)), len(places), sides))
         if len(glob.glob("flight*.png")) != 4:
             raise AssertionError("frames: %s" % glob.glob("flight*.png"))
 

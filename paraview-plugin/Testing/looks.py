@@ -5,6 +5,7 @@ Saves looks-*.png.
 
 import json
 import os
+import time
 
 import numpy
 from paraview import simple
@@ -150,6 +151,27 @@ display.StyleFile = sheet
 green = colours(picture("sheet"))
 require(len(green) == 2 and green[-1].tolist() == [0, 255, 0], "not the sheet's: %s" % green)
 display.StyleFile = ""
+
+# In a view that waits for nothing, a new colour or filter is complete when its points are there,
+# and not before: no further frame shows more.
+display.CompleteStillRenders = "Never"
+for name, change in (("Where", "scan_angle < 5"), ("Where", "user_data < 200 and z > 420"),
+                     ("Where", ""), ("colour", "point_source_id"), ("colour", "rgb")):
+    if name == "Where":
+        display.Where = change
+    else:
+        scene.color_by(display, change)
+    for attempt in range(200):
+        scene.view.SMProxy.StillRender()
+        if scene.frame()[1]:
+            break
+        time.sleep(0.02)
+    found = pictures.shown(scene.view)
+    time.sleep(0.5)
+    scene.view.SMProxy.StillRender()
+    share = pictures.differing(found, pictures.shown(scene.view), 8)
+    require(share == 0, "%s %s: %.2f %% come after what is complete" % (name, change, 100 * share))
+display.CompleteStillRenders = "When unattended"
 
 # Both back ends draw points.
 scene.color_by(display, "rgb")

@@ -3,6 +3,7 @@
 import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOImage import vtkPNGReader
+from vtkmodules.vtkRenderingCore import vtkWindowToImageFilter
 
 
 def load(path):
@@ -13,6 +14,19 @@ def load(path):
         raise AssertionError("no picture: " + path)
     reader.Update()
     image = reader.GetOutput()
+    columns, rows, _ = image.GetDimensions()
+    scalars = vtk_to_numpy(image.GetPointData().GetScalars())
+    return scalars.reshape(rows, columns, -1)[:, :, :3].astype(numpy.int16)
+
+
+def shown(view):
+    """What the window of a render view shows: as load(), without a further frame."""
+    grab = vtkWindowToImageFilter()
+    grab.SetInput(view.SMProxy.GetRenderWindow())
+    grab.ShouldRerenderOff()
+    grab.ReadFrontBufferOff()
+    grab.Update()
+    image = grab.GetOutput()
     columns, rows, _ = image.GetDimensions()
     scalars = vtk_to_numpy(image.GetPointData().GetScalars())
     return scalars.reshape(rows, columns, -1)[:, :, :3].astype(numpy.int16)

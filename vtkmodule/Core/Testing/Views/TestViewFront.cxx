@@ -269,6 +269,38 @@ TEST(ViewFront, WhatArrivesForAnotherLeavesACompleteViewInPeace)
   EXPECT_EQ(cloud.drawn(), wholeTerrain);
 }
 
+// A new colour or filter: what is drawn is read again, and until then it is drawn without.
+TEST(ViewFront, AViewWhosePointsLackANewColumnIsNotComplete)
+{
+  const auto scheduler = std::make_shared<LoadScheduler>(LoadSchedulerOptions());
+  Cloud cloud(scheduler, std::make_shared<WindowDemand>());
+  ASSERT_TRUE(cloud.schema.add({ "intensity", ScalarType::UInt16, 1 }));
+  FrameRequest coarse = everything();
+  coarse.targetErrorPx = 1000.0;
+  coarse.complete = true;
+  cloud.frame(coarse);
+  ASSERT_TRUE(cloud.front.last().complete);
+  cloud.reader->nodes.open(false);
+  FrameRequest coloured = coarse;
+  coloured.complete = false;
+  coloured.columns = LayerColumns(ColumnSelection{ 0 });
+  cloud.frame(coloured);
+  EXPECT_FALSE(cloud.front.last().complete);
+  cloud.reader->nodes.open(true);
+  while (!cloud.front.last().complete)
+  {
+    if (cloud.front.wantsUpdate())
+    {
+      cloud.frame(coloured);
+    }
+  }
+  for (const DrawItem& item : cloud.front.last().draw)
+  {
+    EXPECT_EQ(cloud.front.find(item.node)->selection, ColumnSelection{ 0 }) << item.node;
+  }
+  EXPECT_FALSE(cloud.front.wantsUpdate());
+}
+
 // Every call is made while the disk hangs: one that waited for it would not return.
 TEST(ViewFront, AFrameDoesNotWaitForAPageOfTheTable)
 {

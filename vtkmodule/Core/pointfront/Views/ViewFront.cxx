@@ -83,6 +83,7 @@ std::shared_ptr<const NodeColumns> ViewFront::find(NodeIndex node) const
 const FrontDelta& ViewFront::update(const FrameRequest& demand)
 {
   wish_->setLayerColumns(demand.columns);
+  covered_ = covered_ && columns_ == demand.columns;
   columns_ = demand.columns;
   const std::size_t pointBytes = largestPoint(share_.residency().layerColumns());
   told_ = pointBytes == pointBytes_ ? told_ : 0;
@@ -109,6 +110,7 @@ const FrontDelta& ViewFront::update(const FrameRequest& demand)
     {
       step(demand);
     }
+    noteColumns(demand);
   }
   if (others_ && method_ == DetailMethod::RenderingFront)
   {
@@ -302,6 +304,7 @@ void ViewFront::step(const FrameRequest& demand)
     delta_.complete = made.complete;
     return;
   }
+  covered_ = false;
   told_ = demand.interacting ? 0 : made.number; // in motion it has a margin that goes at rest
   delta_ = made;
   tellDemand(demand);
@@ -333,6 +336,22 @@ bool ViewFront::allCovered() const
       const auto node = share_.residency().find(item.node);
       return node && covers(*node, columns_.of(node->layer));
     });
+}
+
+/// A view at rest is not complete while what it draws is read again with the columns that a new
+/// colour or filter wants: until then those points are drawn without, or not at all.
+void ViewFront::noteColumns(const FrameRequest& demand)
+{
+  if (!delta_.complete || demand.interacting || covered_)
+  {
+    return;
+  }
+  covered_ = allCovered();
+  const Residency& residency = share_.residency();
+  const ResidencyStatistics now = residency.statistics();
+  const bool coming = residency.arrivals() != arrivalsSeen_ || now.loading > 0 ||
+    (now.pending > 0 && !residency.exhausted());
+  delta_.complete = covered_ || !coming;
 }
 
 /// Waits for rows of the table if those are missing, or else for nodes. False: aborted, or there is

@@ -116,6 +116,7 @@ private:
   void step(const FrameRequest& demand);
   void addMargin(const FrameRequest& demand);
   bool allCovered() const;
+  void noteColumns(const FrameRequest& demand);
   bool isSettled() const;
   std::size_t largestPoint(const LayerColumns& columns) const;
   bool movedOn() const;
@@ -154,6 +155,7 @@ private:
   std::uint64_t rowsSeen_ = 0; ///< arrivals of the table's rows
   double thresholdBefore_ = 0.0;
   bool begun_ = false;
+  bool covered_ = false; ///< what delta_ draws has columns_, all of it
 };
 
 } // namespace pointfront

@@ -6,8 +6,8 @@
 // so whatever differs between the two layers on screen comes from their limits.
 
 #include "pointfront/Detail/ViewDetail.h"
-#include "pointfront/Front/ViewMargin.h"
 #include "pointfront/Front/RenderFront.h"
+#include "pointfront/Front/ViewMargin.h"
 
 #include "FrontScene.h"
 

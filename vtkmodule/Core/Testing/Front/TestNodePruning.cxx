@@ -2,8 +2,8 @@
 // without knowing, and it never names those that are left out.
 
 #include "pointfront/Detail/ViewDetail.h"
-#include "pointfront/Front/ViewMargin.h"
 #include "pointfront/Front/RenderFront.h"
+#include "pointfront/Front/ViewMargin.h"
 
 #include "FrontScene.h"
 

@@ -15,7 +15,8 @@ bool vtkPointFrontMapper::AddsUpSplats(vtkActor* actor)
   {
     return false;
   }
-  bool blended = false;
+  // Eye-dome lighting and filled holes look at pixels that other processes draw.
+  bool wanted = sheet->frameShading().reachPx() > 0;
   for (const pointfront::LayerStyling& layer : this->GetStyling(actor))
   {
     for (const auto& style : layer.styles)
@@ -24,11 +25,11 @@ bool vtkPointFrontMapper::AddsUpSplats(vtkActor* actor)
       {
         return false;
       }
-      blended = blended || style->technique == pointfront::Technique::Ewa ||
+      wanted = wanted || style->technique == pointfront::Technique::Ewa ||
         (style->technique == pointfront::Technique::Splats && style->blended);
     }
   }
-  return blended;
+  return wanted;
 }
 
 void vtkPointFrontMapper::SetPictureExchange(pointfront::PictureExchange* exchange)

@@ -180,7 +180,7 @@ public:
 
   ///@{
   /**
-   * Bytes uploaded to the GPU per frame; at rest with Complete there is no limit. Default 16 MiB.
+   * Bytes uploaded to the GPU per frame while interacting. Default 16 MiB.
    */
   vtkSetClampMacro(UploadLimit, vtkTypeInt64, 1 << 16, VTK_TYPE_INT64_MAX);
   vtkGetMacro(UploadLimit, vtkTypeInt64);
@@ -242,9 +242,10 @@ public:
 #ifndef __VTK_WRAP__
   /**
    * For pieces on several processes. Whether the style adds up the colours of splats ("ewa",
-   * blended splats) and nothing else asks for more than one picture: the same on each process,
-   * whatever it draws. And who exchanges these sums during the frames that follow; null (default):
-   * each process has its own. All processes draw these frames, in software, with viewports of one
+   * blended splats) or looks at the pixels around one (eye-dome lighting, filled holes), and
+   * nothing else asks for more than one picture: the same on each process, whatever it draws. And
+   * who exchanges these during the frames that follow; null (default): each process has its own.
+   * All processes draw these frames, in software, with viewports of one
    * size.
    */
   bool AddsUpSplats(vtkActor* actor);

@@ -54,7 +54,7 @@ RasterStatistics SoftwarePicture::draw(
   picture.target.keepDecided = plan.composited;
   const RasterStatistics statistics =
     picture.composition.drawShown(picture.rasteriser, plan, picture.target);
-  picture.composition.finish(plan.camera, plan.shading, picture.target);
+  picture.composition.finish(plan.camera, plan.shading, picture.target, plan.exchange);
   if (plan.composited)
   {
     handDecided(picture.target);

@@ -226,21 +226,19 @@ vtkIdType vtkOpenGLPointFrontMapper::DrawPoints(vtkRenderer* renderer, vtkActor*
 bool vtkOpenGLPointFrontMapper::Upload(
   vtkRenderer* renderer, pointfront::WindowDrawing& drawing, const pointfront::FramePlan& plan)
 {
-  // A still picture waits for all of its points.
-  const bool still = this->Complete && !IsInteracting(renderer);
-  const std::int64_t limit = still ? std::numeric_limits<std::int64_t>::max() : this->UploadLimit;
+  constexpr std::int64_t noLimit = std::numeric_limits<std::int64_t>::max();
   if (!this->IsFirstDrawing(renderer))
   {
     if (this->IsAheadOfFrame(renderer))
     {
-      drawing.upload(plan, limit);
+      drawing.upload(plan, noLimit);
     }
     return false;
   }
   vtkWindow* window = renderer->GetRenderWindow();
   drawing.pool().beginFrame({ static_cast<std::uint64_t>(this->GetPointsOnGPU(window)),
     this->GPUMemoryBudget, this->GetNumberOfViews(window) });
-  return drawing.upload(plan, limit);
+  return drawing.upload(plan, IsInteracting(renderer) ? this->UploadLimit : noLimit);
 }
 
 /// Says once what another back end draws than the one that was asked for.

@@ -4,6 +4,7 @@
 #include <functional>
 #include <limits>
 #include <utility>
+#include <vector>
 
 namespace pointfront
 {
@@ -33,6 +34,45 @@ void shareSums(PictureExchange& others, std::vector<ThreadBuffers>& threads, std
     }
   }
   others.sum(all, static_cast<std::size_t>(count));
+}
+
+void sharePicture(PictureExchange& others, SoftwareTarget& target)
+{
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  constexpr std::uint32_t colourOf = 0x00ffffffu; // 24 bits, which a float holds
+  const std::size_t count = target.depth.size();
+  std::vector<float>& deciding = target.keepDecided ? target.decided : target.depth;
+  std::vector<float> mine = deciding;
+  if (!others.nearest(deciding.data(), count))
+  {
+    return;
+  }
+  // Of those that are nearest the depth, and of those that have it the colour: where processes are
+  // alike in both, so is the pixel.
+  std::vector<float> colours(count, infinity);
+  for (std::size_t pixel = 0; pixel < count; ++pixel)
+  {
+    const bool shown = mine[pixel] == deciding[pixel] && mine[pixel] != infinity;
+    mine[pixel] = shown ? target.depth[pixel] : infinity;
+    colours[pixel] = shown ? static_cast<float>(target.rgba[pixel] & colourOf) : infinity;
+  }
+  if (target.keepDecided)
+  {
+    const std::vector<float> depths = mine;
+    others.nearest(mine.data(), count);
+    for (std::size_t pixel = 0; pixel < count; ++pixel)
+    {
+      colours[pixel] = depths[pixel] == mine[pixel] ? colours[pixel] : infinity;
+    }
+    target.depth = std::move(mine);
+  }
+  others.nearest(colours.data(), count);
+  for (std::size_t pixel = 0; pixel < count; ++pixel)
+  {
+    target.rgba[pixel] = colours[pixel] == infinity
+      ? 0u
+      : (static_cast<std::uint32_t>(colours[pixel]) & colourOf) | ~colourOf;
+  }
 }
 
 } // namespace pointfront

@@ -246,13 +246,13 @@ void SoftwareComposition::putLens(std::int16_t number, const FrameCamera& camera
     });
 }
 
-void SoftwareComposition::finish(
-  const FrameCamera& camera, const FrameShading& shading, SoftwareTarget& target)
+void SoftwareComposition::finish(const FrameCamera& camera, const FrameShading& shading,
+  SoftwareTarget& target, PictureExchange* others)
 {
   // A part may lack highlighted points that another one puts over it.
   const auto mark = [&](SoftwareTarget& drawn)
   { drawn.highlights.resize(shading.highlights.empty() ? 0 : drawn.depth.size()); };
-  shade(camera, shading, target);
+  shade(camera, shading, target, others);
   mark(target);
   for (auto part = parts_.begin(); part != parts_.end();)
   {

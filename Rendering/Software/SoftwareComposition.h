@@ -29,7 +29,9 @@ public:
     SoftwareRasteriser& rasteriser, const FramePlan& plan, SoftwareTarget& target);
   /// Shades the parts and composes them; called once, after all stores. The next draw() begins
   /// another picture.
-  void finish(const FrameCamera& camera, const FrameShading& shading, SoftwareTarget& target);
+  /// `others` as in shade(); only for pictures of one part.
+  void finish(const FrameCamera& camera, const FrameShading& shading, SoftwareTarget& target,
+    PictureExchange* others = nullptr);
 
 private:
   struct Part

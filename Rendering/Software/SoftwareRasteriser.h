@@ -81,7 +81,9 @@ PixelRectangle shownRectangle(const FramePlan& plan);
 
 /// Applies deferred light, eye-dome lighting and the hole filler to the drawn picture, by the
 /// plan's shading; called once, after all stores. Empty pixels stay empty unless a hole is filled.
-/// Highlights come after composition: see highlight().
-void shade(const FrameCamera& camera, const FrameShading& shading, SoftwareTarget& target);
+/// Highlights come after composition: see highlight(). What looks at the pixels around one sees
+/// those of `others`, too; the picture is that of all processes then.
+void shade(const FrameCamera& camera, const FrameShading& shading, SoftwareTarget& target,
+  PictureExchange* others = nullptr);
 
 } // namespace pointfront

@@ -1,4 +1,5 @@
 #include "HoleFiller.h"
+#include "SharedSums.h"
 #include "SoftwareRasteriser.h"
 
 #include "pointfront/Threads/ThreadCrew.h"
@@ -160,7 +161,8 @@ void eyeDome(const FrameCamera& camera, const FrameShading& shading, SoftwareTar
 
 } // namespace
 
-void shade(const FrameCamera& camera, const FrameShading& shading, SoftwareTarget& target)
+void shade(const FrameCamera& camera, const FrameShading& shading, SoftwareTarget& target,
+  PictureExchange* others)
 {
   if (target.width == 0 || target.height == 0)
   {
@@ -169,6 +171,10 @@ void shade(const FrameCamera& camera, const FrameShading& shading, SoftwareTarge
   if (shading.lit && !target.normals.empty())
   {
     light(camera, shading, target);
+  }
+  if (others && shading.reachPx() > 0) // what is around a pixel may be of others
+  {
+    sharePicture(*others, target);
   }
   // From what is lit: a filled pixel has no normal of its own.
   if (shading.fillHoles && !target.keepPoints) // filled pixels are no points

@@ -1,13 +1,11 @@
 #include "pointfront/Query/QueryPlan.h"
 
 #include "pointfront/Query/ChosenColumns.h"
-#include "pointfront/Style/ClassHeights.h"
 #include "pointfront/Style/FilterPruning.h"
 
 #include <algorithm>
 #include <cstring>
 #include <iterator>
-#include <memory>
 #include <utility>
 
 namespace pointfront
@@ -93,19 +91,13 @@ Result<void> QueryPlan::chooseColumns(const StoreDescription& store, const Point
   return {};
 }
 
-Result<void> QueryPlan::chooseConditions(
-  const StoreDescription& store, const Hierarchy& hierarchy, const PointQuery& query)
+Result<void> QueryPlan::chooseConditions(const StoreDescription& store, const PointQuery& query)
 {
   if (!(query.spacing >= 0.0))
   {
     return makeError(Error::Kind::BadArgument, "a spacing is 0 or more");
   }
-  std::shared_ptr<const ClassHeights> heights;
-  if (query.where.wantsHeights(store))
-  {
-    heights = std::make_shared<const ClassHeights>(store, hierarchy);
-  }
-  Result<PointFilter> filter = query.where.resolve(store, heights);
+  Result<PointFilter> filter = query.where.resolve(store);
   if (!filter)
   {
     return filter.error();
@@ -172,13 +164,13 @@ Result<void> QueryPlan::chooseNodes(
 }
 
 Result<QueryPlan> QueryPlan::makeWithoutNodes(
-  const StoreDescription& store, const Hierarchy& hierarchy, const PointQuery& query)
+  const StoreDescription& store, const PointQuery& query)
 {
   QueryPlan plan;
   plan.regions_ = query.regions;
   plan.grid_ = store.grid;
   plan.storeSchema_ = store.schema;
-  if (Result<void> done = plan.chooseConditions(store, hierarchy, query); !done)
+  if (Result<void> done = plan.chooseConditions(store, query); !done)
   {
     return done.error();
   }
@@ -191,7 +183,7 @@ Result<QueryPlan> QueryPlan::makeWithoutNodes(
 
 Result<QueryPlan> QueryPlan::make(const StoredCloud& store, const PointQuery& query)
 {
-  Result<QueryPlan> plan = makeWithoutNodes(store.description(), *store.hierarchy(), query);
+  Result<QueryPlan> plan = makeWithoutNodes(store.description(), query);
   if (!plan)
   {
     return plan;
@@ -208,7 +200,7 @@ Result<QueryPlan> QueryPlan::make(const StoredCloud& store, const PointQuery& qu
 Result<QueryPlan> QueryPlan::make(
   const StoreDescription& store, const Hierarchy& hierarchy, const PointQuery& query)
 {
-  Result<QueryPlan> plan = makeWithoutNodes(store, hierarchy, query);
+  Result<QueryPlan> plan = makeWithoutNodes(store, query);
   if (!plan)
   {
     return plan;

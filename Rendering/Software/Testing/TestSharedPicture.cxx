@@ -1,0 +1,163 @@
+// A picture that several processes draw, as threads play them.
+
+#include "SharedSums.h"
+#include "SoftwareRasteriser.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <condition_variable>
+#include <cstdint>
+#include <limits>
+#include <mutex>
+#include <random>
+#include <thread>
+#include <vector>
+
+namespace pointfront
+{
+namespace
+{
+
+constexpr float noDepth = std::numeric_limits<float>::infinity();
+
+/// Processes meet in each call.
+class MeetingOfProcesses
+{
+public:
+  explicit MeetingOfProcesses(int processes)
+    : processes_(processes)
+  {
+  }
+  void nearest(float* depths, std::size_t count)
+  {
+    std::unique_lock<std::mutex> lock(mutex_);
+    least_.resize(std::max(least_.size(), count), noDepth);
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      least_[i] = std::min(least_[i], depths[i]);
+    }
+    meet(lock);
+    std::copy_n(least_.begin(), count, depths);
+    meet(lock);
+    least_.clear();
+    meet(lock);
+  }
+
+private:
+  void meet(std::unique_lock<std::mutex>& lock)
+  {
+    const int round = round_;
+    if (++here_ == processes_)
+    {
+      here_ = 0;
+      ++round_;
+      all_.notify_all();
+      return;
+    }
+    all_.wait(lock, [&] { return round_ != round; });
+  }
+
+  const int processes_;
+  int here_ = 0;
+  int round_ = 0;
+  std::mutex mutex_;
+  std::condition_variable all_;
+  std::vector<float> least_;
+};
+
+class ProcessOfMeeting final : public PictureExchange
+{
+public:
+  explicit ProcessOfMeeting(MeetingOfProcesses& meeting)
+    : meeting_(meeting)
+  {
+  }
+  bool nearest(float* depths, std::size_t count) override
+  {
+    meeting_.nearest(depths, count);
+    return true;
+  }
+  void sum(std::uint32_t*, std::size_t) override {}
+
+private:
+  MeetingOfProcesses& meeting_;
+};
+
+void takeNearest(const std::vector<SoftwareTarget>& parts, std::size_t pixel, SoftwareTarget& whole)
+{
+  for (const SoftwareTarget& part : parts)
+  {
+    const bool nearer = part.decided[pixel] < whole.decided[pixel] ||
+      (part.decided[pixel] == whole.decided[pixel] &&
+        (part.depth[pixel] < whole.depth[pixel] ||
+          (part.depth[pixel] == whole.depth[pixel] && part.rgba[pixel] < whole.rgba[pixel])));
+    if (nearer)
+    {
+      whole.decided[pixel] = part.decided[pixel];
+      whole.depth[pixel] = part.depth[pixel];
+      whole.rgba[pixel] = part.rgba[pixel];
+    }
+  }
+}
+
+} // namespace
+
+// What is nearest of three processes' pictures, each with something behind it: the same on all, and
+// so is the light that looks at the pixels around one.
+TEST(SharedPicture, IsThatOfAllProcesses)
+{
+  constexpr int width = 40;
+  constexpr int height = 30;
+  std::mt19937 random(7);
+  SoftwareTarget whole;
+  whole.keepDecided = true;
+  whole.reset(width, height);
+  std::vector<SoftwareTarget> parts(3, whole);
+  for (std::size_t pixel = 0; pixel < whole.depth.size(); ++pixel)
+  {
+    float before = 1.0f;
+    std::uniform_int_distribution<std::size_t> any(0, 3);
+    const std::size_t first = any(random); // 3: none
+    for (std::size_t next = 0; first < 3 && next < 3; ++next)
+    {
+      SoftwareTarget& part = parts[(first + next) % 3];
+      before += 0.1f * static_cast<float>(random() % 50);
+      part.decided[pixel] = before;
+      part.depth[pixel] = before + 0.01f * static_cast<float>(random() % 9);
+      part.rgba[pixel] = (random() & 0xffffffu) | 0xff000000u;
+    }
+    takeNearest(parts, pixel, whole);
+  }
+  FrameCamera camera;
+  camera.width = width;
+  camera.height = height;
+  FrameShading shading;
+  shading.eyeDomeStrength = 0.4f;
+  SoftwareTarget lit = whole;
+  shade(camera, shading, lit);
+  EXPECT_NE(lit.rgba, whole.rgba);
+  MeetingOfProcesses meeting(3);
+  std::vector<std::thread> processes;
+  for (SoftwareTarget& part : parts)
+  {
+    processes.emplace_back(
+      [&]
+      {
+        ProcessOfMeeting here(meeting);
+        shade(camera, shading, part, &here);
+      });
+  }
+  for (std::thread& process : processes)
+  {
+    process.join();
+  }
+  for (const SoftwareTarget& part : parts)
+  {
+    EXPECT_EQ(part.rgba, lit.rgba);
+    EXPECT_EQ(part.depth, whole.depth);
+    EXPECT_EQ(part.decided, whole.decided);
+  }
+}
+
+} // namespace pointfront

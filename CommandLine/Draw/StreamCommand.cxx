@@ -2,13 +2,17 @@
 
 #include "CameraJson.h"
 #include "CancelSignal.h"
+#include "ColourLegend.h"
+#include "PickedPoint.h"
 #include "StoreCompany.h"
 #include "Values.h"
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <iostream>
 #include <thread>
@@ -23,6 +27,7 @@ using Clock = std::chrono::steady_clock;
 constexpr int largestEdge = 8192; // a screen; more would be a mistake of the asking program
 constexpr std::size_t longestRequest = 65536; // bytes; a camera has some 300
 constexpr std::chrono::milliseconds pause{ 2 }; // between two looks at what has arrived
+constexpr int pickReach = 6; // pixels: points that are one pixel large are hard to meet
 const char* const requestName = "request";
 
 Error badRequest(const std::string& what)
@@ -156,8 +161,51 @@ bool StreamCommand::waitForNews(double waitMs)
   }
 }
 
-/// `frame`: that was drawn, or null when there is no other than the last one.
-Result<void> StreamCommand::answer(const FrameRecord* frame)
+/// Null where nothing is seen.
+Result<nlohmann::ordered_json> StreamCommand::pick(const nlohmann::json& place)
+{
+  if (!place.is_array() || place.size() != 2 || !place[0].is_number() || !place[1].is_number())
+  {
+    return badRequest("\"pick\" must be two numbers: a column and a row of the picture");
+  }
+  const auto within = [](double number, int edge)
+  { return static_cast<int>(std::clamp(std::floor(number), -1.0, static_cast<double>(edge))); };
+  const int column = within(place[0].get<double>(), drawing_.size[0]);
+  const int row = within(place[1].get<double>(), drawing_.size[1]);
+  const auto seen = scene_->pick({ column, drawing_.size[1] - 1 - row }, pickReach);
+  if (!seen)
+  {
+    return seen.error();
+  }
+  if (!*seen)
+  {
+    return nlohmann::ordered_json();
+  }
+  const auto point = readPoint(*scene_->store((**seen).store).cloud(), (**seen).id);
+  if (!point)
+  {
+    return point.error();
+  }
+  const glm::dvec3& at = point->position;
+  return nlohmann::ordered_json{ { "store", point->store }, { "id", point->id },
+    { "position", { at.x, at.y, at.z } }, { "attributes", point->attributes } };
+}
+
+/// Of the first store, and there of the first of its classes that is drawn.
+nlohmann::ordered_json StreamCommand::legend() const
+{
+  const DrawnStore& store = scene_->store(0);
+  for (const LayerStyling& layer : store.styles())
+  {
+    if (layer.visible())
+    {
+      return colourLegend(store.cloud()->description(), *layer.styles.front());
+    }
+  }
+  return nullptr;
+}
+
+Result<void> StreamCommand::answer(const FrameRecord* frame, const nlohmann::ordered_json& further)
 {
   const SoftwareTarget& picture = scene_->picture();
   const auto rowBytes = static_cast<std::size_t>(picture.width) * sizeof(std::uint32_t);
@@ -178,6 +226,7 @@ Result<void> StreamCommand::answer(const FrameRecord* frame)
   head["settled"] = frame != nullptr ? frame->complete : settled_;
   head["camera"] = jsonOf(camera_);
   head["bounds"] = boundsJson(scene_->bounds());
+  head.update(further);
   const std::string line = head.dump() + "\n";
   bool written = std::fwrite(line.data(), 1, line.size(), stdout) == line.size();
   for (int y = picture.height - 1; frame != nullptr && written && y >= 0; --y)
@@ -208,7 +257,7 @@ Result<void> StreamCommand::obey(const std::string& line)
     }
     if (!waitForNews(wait->get<double>()))
     {
-      return answer(nullptr);
+      return answer(nullptr, nlohmann::ordered_json::object());
     }
   }
   for (const auto step : { &StreamCommand::resize, &StreamCommand::move })
@@ -218,8 +267,23 @@ Result<void> StreamCommand::obey(const std::string& line)
       return done;
     }
   }
+  nlohmann::ordered_json further = nlohmann::ordered_json::object();
+  if (const auto asks = request.find("legend"); asks != request.end() && *asks == true)
+  {
+    further["legend"] = legend();
+  }
+  if (const auto place = request.find("pick"); place != request.end())
+  {
+    const Result<nlohmann::ordered_json> picked = pick(*place);
+    if (!picked)
+    {
+      return picked.error();
+    }
+    further["picked"] = *picked;
+    return answer(nullptr, further);
+  }
   const Result<FrameRecord> frame = scene_->renderFrame();
-  return frame ? answer(&*frame) : frame.error();
+  return frame ? answer(&*frame, further) : frame.error();
 }
 
 Result<void> StreamCommand::run()

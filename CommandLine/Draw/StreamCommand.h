@@ -29,7 +29,11 @@ private:
   Result<void> move(const nlohmann::json& request);
   /// False when `waitMs` passed and a frame would show what the last one did.
   bool waitForNews(double waitMs);
-  Result<void> answer(const FrameRecord* frame);
+  /// `frame`: that was drawn, or null when there is no other than the last one; `further`: keys of
+  /// what was asked besides.
+  Result<void> answer(const FrameRecord* frame, const nlohmann::ordered_json& further);
+  Result<nlohmann::ordered_json> pick(const nlohmann::json& place);
+  nlohmann::ordered_json legend() const;
 
   DrawingOptions drawing_;
   std::unique_ptr<SoftwareScene> scene_;

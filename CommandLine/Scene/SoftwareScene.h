@@ -11,6 +11,8 @@
 #include "pointfront/Threads/ThreadCrew.h"
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -53,6 +55,16 @@ public:
   Result<void> resize(std::array<int, 2> size);
   /// The last frame: opaque, row 0 is the lowest.
   const SoftwareTarget& picture() const { return target_; }
+  /// A stored point that is seen: of which of the stores, and its rank there.
+  struct SeenPoint
+  {
+    std::size_t store = 0;
+    std::uint64_t id = 0;
+  };
+  /// The point in the pixel, or in the one that is nearest to it and at most `reach` pixels away;
+  /// of what is in memory. Column from the left, row from below. Draws the frame once more.
+  Result<std::optional<SeenPoint>> pick(const std::array<int, 2>& pixel, int reach);
+  const DrawnStore& store(std::size_t number) const { return *stores_[number]; }
   /// Something arrived that the last frame did not have, or that frame left work over. Cheap; moves
   /// the fronts.
   bool needsFrame();

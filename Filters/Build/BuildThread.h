@@ -1,16 +1,12 @@
 #pragma once
 
-#include "pointfront/Build/BuildRun.h"
-#include "pointfront/Points/AttributePass.h"
-#include "pointfront/Points/PassChoice.h"
+#include "BuildOrder.h"
 
 #include <atomic>
 #include <condition_variable>
 #include <functional>
 #include <mutex>
 #include <optional>
-#include <string>
-#include <vector>
 
 namespace pointfront
 {
@@ -29,22 +25,11 @@ public:
   /// Called from the thread that called run(), some ten times a second; false cancels.
   using Watch = std::function<bool(const News&)>;
 
-  /// What to build, of what, and how.
-  struct Order
-  {
-    std::vector<std::string> files;
-    std::function<PointSources()> made; ///< instead of files; called once
-    BuildOptions options;
-    PassChoice passes;
-    PreviewOptions preview;
-  };
-
-  /// Opens the files, makes the passes, builds, returns when all is done. What passes find is among
-  /// the report's warnings.
-  Result<BuildReport> run(const Order& order, const Watch& watch);
+  /// carryOut(), until all is done.
+  Result<BuildReport> run(const BuildOrder& order, const Watch& watch);
 
 private:
-  Result<BuildReport> build(const Order& order);
+  Result<BuildReport> build(BuildOrder order);
   bool report(const Progress& progress);
 
   std::atomic<bool> cancelled_{ false };

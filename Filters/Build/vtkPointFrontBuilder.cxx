@@ -63,16 +63,16 @@ struct vtkPointFrontBuilder::Content
   double PhaseBegan = 0.0; // seconds into the build
   std::uint64_t PhaseDone = 0; // points at that time
 
-  pointfront::BuildThread::Order Order(const vtkPointFrontBuilder& builder) const;
+  pointfront::BuildOrder Order(const vtkPointFrontBuilder& builder) const;
   void Choose(const vtkPointFrontBuilder& builder, pointfront::PassChoice& choice) const;
   void Show(vtkPointFrontBuilder& builder, const pointfront::Progress& state);
   static void Report(vtkPointFrontBuilder& builder, const pointfront::BuildReport& built);
 };
 
-pointfront::BuildThread::Order vtkPointFrontBuilder::Content::Order(
+pointfront::BuildOrder vtkPointFrontBuilder::Content::Order(
   const vtkPointFrontBuilder& builder) const
 {
-  pointfront::BuildThread::Order order;
+  pointfront::BuildOrder order;
   order.files = this->FileNames;
   std::sort(order.files.begin(), order.files.end());
   if (this->Points)

@@ -2,9 +2,6 @@
 
 #include "pointfront/Query/BoxRegion.h"
 #include "pointfront/Query/ConvexRegion.h"
-#include "pointfront/Query/LineCorridor.h"
-#include "pointfront/Query/PolygonPrism.h"
-#include "pointfront/Query/WellKnownText.h"
 
 #include <vtkDataArray.h>
 #include <vtkPlanes.h>
@@ -54,31 +51,6 @@ AnyRegion regionOfPlanes(vtkPlanes* planes)
       normal[0] * origin[0] + normal[1] * origin[1] + normal[2] * origin[2]);
   }
   return anyRegion(ConvexRegion::make(std::move(inward)));
-}
-
-AnyRegion regionOfText(const std::string& text, double distance)
-{
-  const Result<PlanarGeometry> geometry = parseWellKnownText(text);
-  if (!geometry)
-  {
-    return geometry.error();
-  }
-  if (!geometry->crs.empty())
-  {
-    return makeError(Error::Kind::BadArgument,
-      "the text names a coordinate reference system (" + geometry->crs +
-        "); give its coordinates in the store's, without an SRID");
-  }
-  if (geometry->lines.empty())
-  {
-    return anyRegion(PolygonPrism::make(geometry->polygons));
-  }
-  if (!geometry->polygons.empty() || !(distance > 0.0))
-  {
-    return makeError(
-      Error::Kind::BadArgument, "lines want a LineDistance above 0, and no areas beside them");
-  }
-  return anyRegion(LineCorridor::make(geometry->lines, distance));
 }
 
 } // namespace pointfront

@@ -9,6 +9,7 @@
 #include "pointfront/Query/PointsById.h"
 #include "pointfront/Query/QueryPlan.h"
 #include "pointfront/Query/SphereRegion.h"
+#include "pointfront/Query/TextRegion.h"
 #include "vtkPointFrontStore.h"
 
 #include <vtkCommand.h>

@@ -180,7 +180,7 @@ public:
 
   ///@{
   /**
-   * Bytes uploaded to the GPU per frame while interacting. Default 16 MiB.
+   * Bytes uploaded to the GPU per frame; at rest with Complete there is no limit. Default 16 MiB.
    */
   vtkSetClampMacro(UploadLimit, vtkTypeInt64, 1 << 16, VTK_TYPE_INT64_MAX);
   vtkGetMacro(UploadLimit, vtkTypeInt64);

@@ -226,19 +226,21 @@ vtkIdType vtkOpenGLPointFrontMapper::DrawPoints(vtkRenderer* renderer, vtkActor*
 bool vtkOpenGLPointFrontMapper::Upload(
   vtkRenderer* renderer, pointfront::WindowDrawing& drawing, const pointfront::FramePlan& plan)
 {
-  constexpr std::int64_t noLimit = std::numeric_limits<std::int64_t>::max();
+  // A still picture waits for all of its points.
+  const bool still = this->Complete && !IsInteracting(renderer);
+  const std::int64_t limit = still ? std::numeric_limits<std::int64_t>::max() : this->UploadLimit;
   if (!this->IsFirstDrawing(renderer))
   {
     if (this->IsAheadOfFrame(renderer))
     {
-      drawing.upload(plan, noLimit);
+      drawing.upload(plan, limit);
     }
     return false;
   }
   vtkWindow* window = renderer->GetRenderWindow();
   drawing.pool().beginFrame({ static_cast<std::uint64_t>(this->GetPointsOnGPU(window)),
     this->GPUMemoryBudget, this->GetNumberOfViews(window) });
-  return drawing.upload(plan, IsInteracting(renderer) ? this->UploadLimit : noLimit);
+  return drawing.upload(plan, limit);
 }
 
 /// Says once what another back end draws than the one that was asked for.

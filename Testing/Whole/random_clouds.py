@@ -37,7 +37,7 @@ def random_cloud(rng, most_points=8000):
         options["structure"] = rng.choice(("octree", "octree", "kdtree"))
         if rng.random() < 0.3:
             options["layers"] = rng.choice(("none", "class"))
-        if rng.random() < 0.2 and options["structure"] == "octree":
+        if rng.random() < 0.2:
             options["refinement"] = "replace"
     options["node-points"] = rng.choice((256, 300, 1000))
     cloud["options"] = options

@@ -83,6 +83,42 @@ class Queries(ToolTest):
                 self.assertGreater(len(expected), 5, chosen)
                 self.assertEqual(got, expected, (command, options, chosen))
 
+    def test_what_is_derived_of_class_and_normal(self):
+        for layers in ("class", "none"):
+            store = self.folder / f"{layers}.pfront"
+            self.succeed("build", TRIMMED, "-o", store, "--layers", layers, "--normals", "pca")
+            everything, _ = self.rows(store)
+            column = {name: i for i, name in enumerate(self.names)}
+            code = column["classification"] if layers == "class" else None
+            ends = {}
+            for p in everything:
+                own = ends.setdefault(code and p[code], [p[2], p[2]])
+                own[:] = [min(own[0], p[2]), max(own[1], p[2])]
+            self.assertEqual(len(ends) > 1, layers == "class")
+
+            def height(p):
+                low, high = ends[code and p[code]]
+                return (p[2] - low) / (high - low)
+
+            def level(p):
+                return abs(p[column["nz"]])  # four decimals: limits lie between two of them
+
+            for text, passes in (
+                    ("global-height > 0.50001", lambda p: height(p) > 0.50001),
+                    ("horizontality < 0.30005 and global_height in [0.10001, 0.80001]",
+                     lambda p: level(p) < 0.30005 and 0.10001 <= height(p) <= 0.80001),
+                    ("horizontality not in [0.10005, 0.99005)",
+                     lambda p: not 0.10005 <= level(p) < 0.99005)):
+                expected = [p for p in everything if passes(p)]
+                got, _ = self.rows(store, "--where", text)
+                self.assertGreater(len(expected), 100, text)
+                self.assertLess(len(expected), 109000, text)
+                self.assertEqual(got, expected, (layers, text))
+        bare = self.build(TRIMMED, name="bare.pfront")
+        said = self.refuse(1, "export", bare, "-o", self.folder / "y.csv", "--where",
+                           "horizontality > 0.5").err
+        self.assertIn("no attribute 'normal', which horizontality needs", said)
+
     def test_the_files_system_is_heeded(self):
         corner = (500000.0, 5600000.0)
         las = write_las(self.folder / "a.las", [(corner[0] + x, corner[1] + y, 100.0, 0, 0, 0)

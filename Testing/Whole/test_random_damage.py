@@ -1,7 +1,9 @@
-"""Damaged files of every kind: a run of the tool works or ends with an error in one line, in bounded
-time and memory, and leaves nothing behind. POINTFRONT_RANDOM_COUNT and POINTFRONT_RANDOM_FIRST choose
-how many damages of each kind there are, and the first one's seed. A damage that is not taken well is
-printed with its seed and kind; the file stays in the working folder."""
+"""Damaged files of every kind: a run of the tool works or ends with an error in one line, in
+bounded time and memory, and leaves nothing behind. POINTFRONT_RANDOM_COUNT and
+POINTFRONT_RANDOM_FIRST choose how many damages of each kind there are, and the first one's seed.
+A damage that is not taken well is printed with its seed and kind; the file stays in the working
+folder.
+"""
 
 import json
 import os
@@ -109,7 +111,8 @@ class RandomDamage(ToolTest):
         for name, options in (("octree", []), ("replace", ["--refinement", "replace"]),
                               ("kdtree", ["--structure", "kdtree", "--layers", "class"])):
             made[f"store_{name}"] = whole / f"{name}.pfront"
-            self.succeed("build", survey, "-o", made[f"store_{name}"], "--node-points", 256, *options)
+            store = made[f"store_{name}"]
+            self.succeed("build", survey, "-o", store, "--node-points", 256, *options)
         made["laz_1.4"] = small
         made["copc"] = DATA / "copc/lone-star.copc.laz"
         folders = {kind: self.kind(kind, path) for kind, path in made.items()}

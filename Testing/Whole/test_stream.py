@@ -132,6 +132,75 @@ class Streams(tool.ToolTest):
         self.assertIn(nothing["bytes"], (0, 4 * 128 * 96))
         self.assertEqual(stream.end()[0], 0)
 
+    def test_the_point_under_a_pixel_is_told(self):
+        """Random pixels: what is picked is a stored point that is drawn there."""
+        table = self.folder / "a.csv"
+        self.succeed("export", self.store, "-o", table)
+        names, *lines = table.read_text().splitlines()
+        names = names.replace(",", " ").split()
+        rows = [dict(zip(names, map(float, line.replace(",", " ").split()))) for line in lines]
+        random = numpy.random.default_rng(3)
+        stream = self.open("--point-size", "5", "--error", "0.1", "--background", "0,0,0")
+        for view in ("iso", "top"):
+            answer, pixels = stream.settle(size=[160, 90], view=view)
+            camera = answer["camera"]
+            before = numpy.frombuffer(pixels, numpy.uint8).reshape(90, 160, 4)
+            met = 0
+            for column, row in random.integers(0, [160, 90], (40, 2)).tolist():
+                told, nothing = stream.ask(pick=[column, row])
+                self.assertEqual((told["bytes"], nothing), (0, b""))
+                point = told["picked"]
+                if point is None:
+                    near = before[max(0, row - 4):row + 5, max(0, column - 4):column + 5, :3]
+                    self.assertEqual(int(near.max()), 0, "points are there, and none is told")
+                    continue
+                met += 1
+                x, y = self.projected(camera, point["position"], 160, 90)
+                self.assertLess(numpy.hypot(x - column - 0.5, y - row - 0.5), 6 + 5)
+                same = [r for r in rows if max(abs(r[axis] - point["position"][i])
+                                               for i, axis in enumerate("xyz")) < 0.006]
+                self.assertTrue(any(r["intensity"] == point["attributes"]["intensity"]
+                                    and r["red"] == point["attributes"]["rgb"][0]
+                                    for r in same), (point, same))
+                self.assertEqual(point["store"], str(self.store))
+            self.assertGreater(met, 5)
+            again, pixels = stream.settle(view=view)
+            after = numpy.frombuffer(pixels, numpy.uint8).reshape(90, 160, 4)
+            numpy.testing.assert_array_equal(after, before)
+        self.assertIsNone(stream.ask(pick=[-50, 3])[0]["picked"])
+        self.assertEqual(stream.end(), (0, ""))
+
+    @staticmethod
+    def projected(camera, place, width, height):
+        """Pixels from the left and from the top."""
+        eye, focus, up = (numpy.array(camera[name]) for name in
+                          ("position", "focal_point", "view_up"))
+        back = (eye - focus) / numpy.linalg.norm(eye - focus)
+        right = numpy.cross(up, back)
+        right /= numpy.linalg.norm(right)
+        off = numpy.array(place) - eye
+        half = -(off @ back) * numpy.tan(numpy.radians(camera["view_angle"]) / 2)
+        x, y = off @ right / half, off @ numpy.cross(back, right) / half
+        return width / 2 + x * height / 2, height / 2 - y * height / 2
+
+    def test_the_colours_are_told(self):
+        for colour, says in (("intensity", "ramp"), ("elevation", "ramp"),
+                             ("classification", "values"), ("rgb", None)):
+            stream = self.open("--color-by", colour)
+            legend = stream.ask(legend=True)[0]["legend"]
+            self.assertNotIn("legend", stream.ask()[0])
+            self.assertEqual(stream.end()[0], 0)
+            if says is None:
+                self.assertIsNone(legend)
+                continue
+            self.assertEqual(legend["attribute"], colour)
+            if says == "ramp":
+                self.assertLess(*legend["range"])
+                self.assertEqual(len(legend["colours"]), 17)
+                self.assertRegex(legend["colours"][0], "^#[0-9a-f]{6}$")
+            else:
+                self.assertEqual(dict(legend["values"])[2], "#a5784b")  # ground
+
     def test_nothing_new_is_said(self):
         stream = self.open()
         stream.settle(size=[64, 48])
@@ -144,6 +213,7 @@ class Streams(tool.ToolTest):
                            ('{"size": [0, 5]}', "size"), ('{"size": [9000, 5]}', "size"),
                            ('{"size": 5}', "size"), ('{"view": "sideways"}', "view"),
                            ('{"moving": 1}', "moving"), ('{"wait_ms": "long"}', "wait_ms"),
+                           ('{"pick": 3}', "pick"), ('{"pick": ["a", 1]}', "pick"),
                            ('{"camera": {}}', "position")):
             stream = self.open()
             answer, _ = stream.send(line)

@@ -31,21 +31,11 @@ namespace
 /// What makes a file the same file: its canonical path, and what changes when it is built anew.
 using FileIdentity = std::tuple<std::string, std::uintmax_t, std::int64_t>;
 
-/// The name as it is, or that of the finished store for a preview that is gone.
-std::string presentName(const std::string& fileName)
-{
-  std::error_code ignored;
-  const auto finished = pointfront::storePathOfPreview(fileName);
-  return finished && !std::filesystem::exists(fileName, ignored) &&
-      std::filesystem::exists(*finished, ignored)
-    ? *finished
-    : fileName;
-}
-
 bool identify(const std::string& fileName, FileIdentity& identity, std::string& error)
 {
   std::error_code code;
-  const std::filesystem::path path = std::filesystem::canonical(presentName(fileName), code);
+  const std::filesystem::path path =
+    std::filesystem::canonical(pointfront::presentStorePath(fileName), code);
   if (code)
   {
     error = "cannot open the store " + fileName + ": " + code.message() + "; check the path";

@@ -14,19 +14,27 @@
     mapper = pointfront.vtkPointFrontMapper()
     mapper.SetInputConnection(reader.GetOutputPort())
 
-The functions raise PointFrontError. The classes are VTK classes (their C++ headers document them),
-belong to the VTK whose Python package VTK_PACKAGE names, and report errors as VTK does. OpenGL's
-side of VTK is loaded, too: actors and windows that are made after this import can be drawn.
+Clouds, arrays, files and pictures need no VTK. The functions raise PointFrontError. The classes
+vtkPointFront... are VTK classes (their C++ headers document them), belong to the VTK whose Python
+package VTK_PACKAGE names, and report errors as VTK does. Where that VTK is installed, the import
+loads it with its OpenGL side: actors and windows that are made afterwards can be drawn. Where it is
+not, asking for such a class is an ImportError that says what to install.
 """
 
 from . import _host
-
-_host.require_vtk()  # before what would only say which library it misses
-
 from ._calls import BuildReport, build, index
-from ._classes import *
 from ._clouds import Cloud, open
 from ._errors import PointFrontError, PointFrontWarning
 from ._host import VTK_PACKAGE
 from ._pictures import Picture
 from ._version import __version__
+
+if _host.missing_vtk() is None:
+    from ._classes import *
+
+
+def __getattr__(name):
+    missing = _host.missing_vtk() if name.startswith("vtk") else None
+    if missing is not None:
+        raise ImportError(missing)
+    raise AttributeError(f"module 'pointfront' has no attribute '{name}'")

@@ -103,7 +103,20 @@ class Cloud:
         progress: _Progress = ...,
         **options: Any,
     ) -> Dict[str, numpy.ndarray]: ...
-    def chunks(self, size: int = ..., **query: Any) -> Iterator[Dict[str, numpy.ndarray]]: ...
+    def chunks(
+        self,
+        size: int = ...,
+        *,
+        box: Optional[_Box] = ...,
+        sphere: Optional[Tuple[_Point, float]] = ...,
+        area: Optional[str] = ...,
+        classes: _Classes = ...,
+        where: Optional[str] = ...,
+        spacing: Optional[float] = ...,
+        attributes: Union[None, str, Iterable[str]] = ...,
+        progress: _Progress = ...,
+        **options: Any,
+    ) -> Iterator[Dict[str, numpy.ndarray]]: ...
     def export(
         self,
         path: _Path,

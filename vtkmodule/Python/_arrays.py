@@ -2,8 +2,6 @@
 
 import numpy
 
-from . import _host
-
 _OWN = ("position", "id")  # of Cloud.points: places and ranks, which are no attributes
 _MOST_COMPONENTS = 16
 
@@ -47,30 +45,18 @@ def _column(name, values, count):
     return numpy.ascontiguousarray(column, column.dtype.newbyteorder("="))
 
 
-def _vtk_type(dtype):
-    core = _host.vtk("vtkCommonCore")
-    sign = {"i": "Int", "u": "UInt", "f": "Float"}[dtype.kind]
-    return getattr(core, f"vtkType{sign}{8 * dtype.itemsize}Array")().GetDataType()
-
-
-def point_set(arrays):
-    """vtkPolyData of {name: array}; it shares their memory, so they have to stay."""
-    to_vtk = _host.vtk("util.numpy_support").numpy_to_vtk
+def columns_of(arrays):
+    """(places, {name: column}) of {name: array}: contiguous, in the machine's byte order."""
     places = _places(arrays)
     by_axis = "position" not in arrays
-    data = _host.vtk("vtkCommonDataModel").vtkPolyData()
-    points = _host.vtk("vtkCommonCore").vtkPoints()
-    points.SetData(to_vtk(places))
-    data.SetPoints(points)
+    columns = {}
     for name, values in arrays.items():
         if name in _OWN or (by_axis and name in ("x", "y", "z")):
             continue
-        column = _column(name, values, len(places))
-        array = to_vtk(column, array_type=_vtk_type(column.dtype))
         # As Cloud.points names attributes that are called as its own arrays.
-        array.SetName(name[:-1] if name in ("position_", "id_") else name)
-        data.GetPointData().AddArray(array)
-    return data
+        own = name[:-1] if name in ("position_", "id_") else name
+        columns[own] = _column(name, values, len(places))
+    return places, columns
 
 
 def joined(parts, size):

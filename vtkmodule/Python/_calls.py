@@ -1,14 +1,10 @@
 """Building and indexing as Python calls: keyword arguments in, results out, errors raised."""
 
+import operator
 import os
 
-from . import _arrays, _host
+from . import _arrays, _kernel
 from ._errors import PointFrontError, warn
-from ._progress import Watch
-from .pointfrontFiltersBuild import vtkPointFrontBuilder
-from .pointfrontIOLASIndex import vtkPointFrontLASIndexer
-
-vtkCommand = _host.vtk("vtkCommonCore").vtkCommand
 
 
 class BuildReport:
@@ -24,15 +20,15 @@ class BuildReport:
     warnings        what was wrong and survived: full sentences
     """
 
-    def __init__(self, path, builder, warnings):
+    def __init__(self, path, answer):
         self.path = path
-        self.points_read = builder.GetNumberOfPointsRead()
-        self.points_stored = builder.GetNumberOfPointsStored()
-        self.points_rejected = builder.GetNumberOfPointsRejected()
-        self.files_skipped = builder.GetNumberOfFilesSkipped()
-        self.nodes = builder.GetNumberOfNodes()
-        self.bytes_written = builder.GetBytesWritten()
-        self.warnings = warnings
+        self.points_read = answer["points_read"]
+        self.points_stored = answer["points_stored"]
+        self.points_rejected = self.points_read - self.points_stored
+        self.files_skipped = len(answer["skipped"])
+        self.nodes = answer["nodes"]
+        self.bytes_written = answer["bytes_written"]
+        self.warnings = answer["warnings"] + answer["skipped"]
 
     def __repr__(self):
         return f"<{self.path}: {self.points_stored} points in {self.nodes} nodes>"
@@ -44,51 +40,61 @@ def _paths(names):
     return [os.fspath(name) for name in names]
 
 
-class _Messages:
-    """Collects what a VTK object says as errors and warnings, instead of printing it."""
-
-    def __init__(self, algorithm):
-        self.errors = []
-        self.warnings = []
-        self._observe(algorithm, vtkCommand.ErrorEvent, self.errors)
-        self._observe(algorithm, vtkCommand.WarningEvent, self.warnings)
-        if hasattr(algorithm, "GetExecutive"):  # which says once more that something failed
-            algorithm.GetExecutive().AddObserver(vtkCommand.ErrorEvent, lambda *_: None)
-
-    @staticmethod
-    def _observe(algorithm, event, texts):
-        def take(_caller, _event, text):
-            lines = [line.strip() for line in text.strip().splitlines()]
-            said = " ".join(lines[1:]) if len(lines) > 1 else lines[0]  # the first names the source
-            texts.append(said.split("): ", 1)[-1])
-
-        take.CallDataType = "string0"
-        algorithm.AddObserver(event, take)
-
-    def error(self, otherwise):
-        return PointFrontError("; ".join(self.errors) or otherwise)
+def _texts(names):
+    return [names] if isinstance(names, str) else [str(name) for name in names]
 
 
-def _set(algorithm, options):
-    """Calls SetOption(value) for option=value, snake_case; an unknown one is a TypeError."""
+def _class_numbers(classes):
+    numbers = [operator.index(number) for number in classes]
+    for number in numbers:
+        if not 0 <= number <= 255:
+            raise ValueError(f"a class {number} for normals is none of 0 to 255")
+    return numbers
+
+
+def _count(number):
+    number = operator.index(number)
+    if number < 0:
+        raise ValueError(f"{number} is below 0")
+    return number
+
+
+def _depth(bits):
+    if bits not in (0, 8, 16):
+        raise ValueError(f"a color_depth of {bits} bits is none of 0, 8 and 16")
+    return int(bits)
+
+
+# What pointfront.build() takes besides its named arguments, and what makes a value plain.
+_OPTIONS = {
+    "overwrite": bool, "skip_faulty": bool, "skip_faulty_files": bool, "memory_limit": _count,
+    "number_of_threads": _count, "temporary_folder": os.fspath, "node_points": _count,
+    "precision": float, "color_depth": _depth, "crs": os.fspath, "assumed_crs": os.fspath,
+    "normals_neighbors": _count, "normals_radius": float, "normals_error": float,
+    "normals_classes": _class_numbers, "curvature": bool, "splat_radius": bool,
+    "local_height": bool, "local_height_radius": float, "height_above_ground": bool,
+    "ground_cell": float, "attribute_from": _texts, "preview": bool, "preview_points": _count}
+
+
+def _plain(options):
+    """Options for the kernel; an unknown one is a TypeError."""
+    plain = {}
     for name, value in options.items():
-        setter = "Set" + "".join(word.capitalize() for word in name.split("_"))
-        if not hasattr(algorithm, setter):
-            raise TypeError(f"there is no option '{name}', for there is no {setter}")
-        getattr(algorithm, setter)(value)
+        if name not in _OPTIONS:
+            raise TypeError(f"there is no option '{name}' among {', '.join(sorted(_OPTIONS))}")
+        if value is not None:
+            plain["skip_faulty" if name == "skip_faulty_files" else name] = _OPTIONS[name](value)
+    return plain
 
 
-_STRUCTURES = {"octree": "SetStructureToOctree", "kdtree": "SetStructureToKdTree"}
-_REFINEMENTS = {"add": "SetRefinementToAdd", "replace": "SetRefinementToReplace"}
-_LAYERS = {"auto": "SetLayersToAutomatic", "none": "SetLayersToNone", "class": "SetLayersToClass"}
-_NORMALS = {"none": "SetNormalsToNone", "pca": "SetNormalsToPCA",
-            "scanline": "SetNormalsToScanLine"}
+_CHOICES = {"structure": ("octree", "kdtree"), "refinement": ("add", "replace"),
+            "layers": ("auto", "none", "class"), "normals": ("none", "pca", "scanline")}
 
 
-def _choose(algorithm, choices, what, name):
-    if name not in choices:
-        raise ValueError(f"{what} '{name}' is none of {', '.join(choices)}")
-    getattr(algorithm, choices[name])()
+def _chosen(what, name):
+    if name not in _CHOICES[what]:
+        raise ValueError(f"{what} '{name}' is none of {', '.join(_CHOICES[what])}")
+    return name
 
 
 def build(inputs, output, *, structure="octree", refinement="add", layers="auto", normals="none",
@@ -108,45 +114,34 @@ def build(inputs, output, *, structure="octree", refinement="add", layers="auto"
     color_from  georeferenced images
     progress    called with (phase, fraction) some ten times a second; False stops the build.
                 True: a bar, by the package tqdm
-    options     other properties of vtkPointFrontBuilder in snake case: memory_limit,
-                number_of_threads, precision, crs ... (CRS is written crs)
+    options     overwrite, skip_faulty, memory_limit (bytes), number_of_threads, node_points,
+                precision, color_depth (8 or 16), crs, assumed_crs, temporary_folder;
+                normals_neighbors, normals_radius, normals_error, normals_classes, curvature,
+                splat_radius; local_height, local_height_radius, height_above_ground, ground_cell;
+                attribute_from ("NAME=IMAGE"), preview, preview_points: with the meaning of
+                `pointfront build`
 
     Returns a BuildReport. What was wrong and survived is a PointFrontWarning. Raises
     PointFrontError; ValueError and TypeError for arrays that are no points; KeyboardInterrupt at
     once when the user interrupts. Nothing is left behind then. Other threads run meanwhile.
     """
-    builder = vtkPointFrontBuilder()
-    messages = _Messages(builder)
-    if _arrays.is_table(inputs):
-        points = _arrays.as_dictionary(inputs)
-        data = _arrays.point_set(points)
-        builder.SetPoints(data)
-    else:
-        for path in _paths(inputs):
-            builder.AddFileName(path)
     path = os.fspath(output)
-    builder.SetOutputFileName(path)
-    _choose(builder, _STRUCTURES, "structure", structure)
-    _choose(builder, _REFINEMENTS, "refinement", refinement)
-    _choose(builder, _LAYERS, "layers", layers)
-    _choose(builder, _NORMALS, "normals", normals)
-    for name in attributes or ():
-        builder.AddAttribute(name)
-    for image in _paths(color_from):
-        builder.AddColorImage(image)
-    if "skip_faulty" in options:
-        builder.SetSkipFaultyFiles(options.pop("skip_faulty"))
-    if "crs" in options:
-        builder.SetCRS(options.pop("crs"))
-    if "assumed_crs" in options:
-        builder.SetAssumedCRS(options.pop("assumed_crs"))
-    _set(builder, options)
-    with Watch(builder, vtkCommand.ProgressEvent, progress):
-        written = builder.Write()
-    if not written:
-        raise messages.error(f"{path}: the build was stopped")
-    warn(messages.warnings)
-    return BuildReport(path, builder, messages.warnings)
+    request = {"output": path, "structure": _chosen("structure", structure),
+               "refinement": _chosen("refinement", refinement),
+               "layers": _chosen("layers", layers), "normals": _chosen("normals", normals),
+               "color_from": _paths(color_from), **_plain(options)}
+    if attributes is not None:
+        request["attributes"] = _texts(attributes)
+    columns = None
+    if _arrays.is_table(inputs):
+        columns = _arrays.columns_of(_arrays.as_dictionary(inputs))
+    else:
+        request["files"] = _paths(inputs)
+        if not request["files"]:
+            raise PointFrontError("no file names: name the point files to read")
+    report = BuildReport(path, _kernel.build(request, columns, progress))
+    warn(report.warnings)
+    return report
 
 
 def index(las, side=None, *, overwrite=False, node_points=16384):
@@ -157,14 +152,8 @@ def index(las, side=None, *, overwrite=False, node_points=16384):
 
     Raises PointFrontError; KeyboardInterrupt at once. Other threads run meanwhile.
     """
-    indexer = vtkPointFrontLASIndexer()
-    messages = _Messages(indexer)
     path = os.fspath(las)
-    indexer.SetFileName(path)
     target = os.fspath(side) if side is not None else path + ".pfindex"
-    indexer.SetIndexFileName(target)
-    indexer.SetOverwrite(overwrite)
-    indexer.SetNodePoints(node_points)
-    if not indexer.Index():
-        raise messages.error(f"{target}: the indexing was stopped")
+    warn(f"{path}: {text}" for text in
+         _kernel.index(path, target, overwrite, _count(node_points))["warnings"])
     return target

@@ -5,15 +5,9 @@ import json
 import operator
 import os
 
-from . import _arrays, _host, _pictures
-from ._calls import _Messages
-from ._errors import PointFrontError, warn
-from ._progress import Watch
-from .pointfrontFiltersExtract import vtkPointFrontExtract
-from .pointfrontIOStore import vtkPointFrontReader
-
-vtkCommand = _host.vtk("vtkCommonCore").vtkCommand
-vtk_to_numpy = _host.vtk("util.numpy_support").vtk_to_numpy
+from . import _arrays, _host, _kernel, _pictures
+from ._errors import PointFrontError
+from ._queries import Conditions, box_of, class_numbers
 
 
 class Cloud:
@@ -33,19 +27,16 @@ class Cloud:
 
     def __init__(self, path):
         self._store = None
-        reader = vtkPointFrontReader()
-        messages = _Messages(reader)
-        reader.SetFileName(os.fspath(path))
-        reader.UpdateInformation()
-        self._reader = reader
-        self._store = reader.GetStore()
-        if self._store is None:
-            raise messages.error(f"{path}: cannot be opened")
-        self._path = self._store.GetFileName()
+        given = os.fspath(path)
+        self._path = given
+        self._store = _kernel.StoredCloud(given)
+        # As JSON tells it, it has lost what is no UTF-8; it is another for a preview that is gone.
+        self._path = (os.path.realpath(given) if os.path.exists(given)
+                      else self._store.description["path"])
 
     def close(self):
         """Let go of the file. Arrays and pictures stay."""
-        self._store = self._reader = None
+        self._store = None
 
     def __enter__(self):
         return self
@@ -63,25 +54,20 @@ class Cloud:
         return self._path
 
     def __len__(self):
-        return self._opened().GetNumberOfPoints()
+        return self._opened().description["points"]
 
     @property
     def bounds(self):
-        b = [0.0] * 6
-        self._opened().GetBounds(b)
-        return (b[0], b[2], b[4]), (b[1], b[3], b[5])
+        x0, y0, z0, x1, y1, z1 = self._opened().bounds
+        return (x0, y0, z0), (x1, y1, z1)
 
     @property
     def attributes(self):
-        store = self._opened()
-        return [store.GetAttributeName(i) for i in range(store.GetNumberOfAttributes())]
+        return list(self._opened().description["attributes"])
 
     @property
     def classes(self):
-        store = self._opened()
-        return {store.GetObjectClassNumber(i): store.GetObjectClassName(i)
-                for i in range(store.GetNumberOfObjectClasses())
-                if store.GetObjectClassNumber(i) >= 0}
+        return {number: name for number, name in self._opened().description["classes"]}
 
     @property
     def info(self):
@@ -139,91 +125,46 @@ class Cloud:
         ValueError for an argument that cannot be meant (a box of other than six numbers or with its
         corners swapped, no class); KeyboardInterrupt at once. Other threads run meanwhile.
         """
-        extract, messages = self._query(box, sphere, area, classes, where, spacing, attributes,
-                                        options)
-        return self._answer(extract, messages, progress)
-
-    def _query(self, box=None, sphere=None, area=None, classes=None, where=None, spacing=None,
-               attributes=None, options=None):
-        """A vtkPointFrontExtract, and what it will say."""
         self._opened()
-        extract = vtkPointFrontExtract()
-        messages = _Messages(extract)
-        extract.SetFileName(self.path)
-        if box is not None:
-            x0, y0, z0, x1, y1, z1 = _six(box)
-            extract.UseBoxOn()
-            extract.SetBox(x0, x1, y0, y1, z0, z1)
-        if sphere is not None:
-            center, radius = sphere
-            extract.UseSphereOn()
-            extract.SetSphereCenter(*center)
-            extract.SetSphereRadius(radius)
-        if area is not None:
-            extract.SetWellKnownText(area)
-        for number in _numbers_of(classes):
-            extract.AddObjectClass(number)
-        if where is not None:
-            extract.SetWhere(where)
-        if spacing is not None:
-            extract.SetSpacing(spacing)
-        self._choose_attributes(extract, attributes)
-        _set_options(extract, options or {})
-        return extract, messages
+        _host.require_vtk("extract() gives VTK's data; points() gives NumPy arrays")
+        from . import _extracts
 
-    def _answer(self, extract, messages, progress, piece=0, pieces=1):
-        with Watch(extract, vtkCommand.ProgressEvent, progress):
-            extract.UpdatePiece(piece, pieces, 0)
-        said = messages.warnings[:]
-        messages.warnings.clear()
-        warn(said)
-        if messages.errors:
-            raise messages.error("the query failed")
-        if extract.GetAbortExecute():
-            raise PointFrontError(f"{self.path}: the query was stopped")
-        return extract.GetOutput()
+        conditions = Conditions(self, box, sphere, area, classes, where, spacing, attributes)
+        return _extracts.extracted(self.path, conditions, progress, options)
 
-    def _choose_attributes(self, extract, names):
-        if names is None:
-            return
-        known = self.attributes
-        wanted = [names] if isinstance(names, str) else list(names)
-        for name in wanted:
-            if name not in known:
-                raise PointFrontError(f"{self.path}: there is no attribute '{name}' among "
-                                      f"{', '.join(known)}")
-        for name in known:
-            extract.SetPointArrayStatus(name, int(name in wanted))
+    def points(self, *, box=None, sphere=None, area=None, classes=None, where=None, spacing=None,
+               attributes=None, progress=None, **options):
+        """Points as NumPy arrays by name; which, and `progress`, as for extract().
 
-    def points(self, **query):
-        """Points as NumPy arrays by name; `query` as for extract().
+        options  line_distance (of lines in `area`), maximum_number_of_points, memory_limit (bytes
+                 of what is being read), colors_as_stored
 
         "position" n by 3, float64, in the store's coordinates; "id" n, int64: the rank in the
         store; each attribute n, or n by its components, in its type, or float64 if it has a scale.
         "rgb" is as it is stored, too, of 16 bits where the store has 16; colors_as_stored=False
         gives bytes, as extract() and to_pyvista() do: the upper ones if any value has 16 bits.
         The cloud's own attributes "position" and "id" are "position_" and "id_".
-        Nothing is copied: an array keeps VTK's memory alive.
+        Nothing is copied: an array is the memory that the kernel read the points into.
         """
-        return _arrays_of(self.extract(vertex_cells=False, **{"colors_as_stored": True, **query}))
+        conditions = Conditions(self, box, sphere, area, classes, where, spacing, attributes)
+        return conditions.arrays(self._opened(), progress, **options)
 
-    def chunks(self, size=1_000_000, **query):
-        """The same points as points(**query), as an iterator of such dictionaries with `size`
-        points each, the last with fewer: for more than memory holds. A chunk is read when it is
-        asked for. `progress` is of each chunk.
+    def chunks(self, size=1_000_000, *, box=None, sphere=None, area=None, classes=None, where=None,
+               spacing=None, attributes=None, progress=None, **options):
+        """The same points as points(), as an iterator of such dictionaries with `size` points
+        each, the last with fewer: for more than memory holds. A chunk is read when it is asked
+        for. `progress` is of each chunk.
         """
         size = operator.index(size)
         if size < 1:
             raise ValueError("a chunk has at least one point")
-        progress = query.pop("progress", None)
-        named = {name: query.pop(name) for name in _CONDITIONS if name in query}
-        options = {"vertex_cells": False, "colors_as_stored": True, **query}
-        extract, messages = self._query(**named, options=options)
+        conditions = Conditions(self, box, sphere, area, classes, where, spacing, attributes)
+        store = self._opened()
         pieces = max(1, -(-len(self) // size))
 
         def parts():
             for piece in range(pieces):
-                yield _arrays_of(self._answer(extract, messages, progress, piece, pieces))
+                yield conditions.arrays(store, progress, piece=piece, pieces=pieces, **options)
 
         return _arrays.joined(parts(), size)
 
@@ -240,17 +181,19 @@ class Cloud:
         Raises PointFrontError; KeyboardInterrupt, with nothing left behind.
         """
         self._opened()
-        chosen = {"box": None if box is None else _six(box), "crs": crs, "where": where,
+        chosen = {"box": None if box is None else box_of(box), "crs": crs, "where": where,
                   "sphere": None if sphere is None else [*map(float, sphere[0]), float(sphere[1])],
-                  "classes": _numbers_of(classes) or None, "spacing": spacing, "force": overwrite,
+                  "classes": class_numbers(classes) or None, "spacing": spacing, "force": overwrite,
                   **options}
         return _pictures.export(self.path, os.fspath(path), chosen)
 
     def to_pyvista(self, **query):
-        """Points of a region as pyvista.PolyData; `query` as for extract()."""
-        from . import _plotting
+        """Points of a region as pyvista.PolyData, of whichever VTK PyVista runs on; `query` as for
+        points(). Ranks are called "point_id", colours are bytes.
+        """
+        from ._meshes import mesh_of
 
-        return _plotting.wrapped(self.extract(**query))
+        return mesh_of(self.points(**{"colors_as_stored": False, **query}))
 
     def add_to(self, plotter, **options):
         """Add the cloud to a pyvista.Plotter: drawn from the store, however large it is.
@@ -269,9 +212,12 @@ class Cloud:
 
         Returns the pyvista.Actor; its mapper is a vtkPointFrontMapper.
         """
+        self._opened()
+        _host.require_vtk(
+            "add_to() draws by VTK; plotter.add_mesh(cloud.to_pyvista()) does without")
         from . import _plotting
 
-        return _plotting.add_cloud(self._opened(), self.path, plotter, **options)
+        return _plotting.add_cloud(self.path, plotter, **options)
 
     def screenshot(self, path=None, *, size=(1280, 720), color_by=None, view=None, camera=None,
                    technique=None, style=None, classes=None, where=None, error=None,
@@ -295,8 +241,8 @@ class Cloud:
         """
         self._opened()
         options.update(color_by=color_by, view=view, camera=camera, technique=technique,
-                       style=style, classes=_numbers_of(classes) or None, where=where, error=error,
-                       background=background)
+                       style=style, classes=class_numbers(classes) or None, where=where,
+                       error=error, background=background)
         return _pictures.draw(self.path, path, size, options)
 
     def show(self, *, size=(1280, 720), title=None):
@@ -308,28 +254,12 @@ class Cloud:
             from ._page import view_of_cell
 
             return view_of_cell([self.path], height=size[1])
+        self._opened()
+        _host.require_vtk("a window is VTK's; screenshot() and `pointfront serve` do without")
         from . import _window
 
         _window.show(self.path, size, title or self.path)
         return None
-
-
-_CONDITIONS = ("box", "sphere", "area", "classes", "where", "spacing", "attributes")
-
-
-def _arrays_of(output):
-    """NumPy arrays by name of vtkPolyData that extract() gave."""
-    data = output.GetPointData()
-    arrays = {"position": vtk_to_numpy(output.GetPoints().GetData())}
-    for i in range(data.GetNumberOfArrays()):
-        array = data.GetArray(i)
-        name = array.GetName()
-        if name == "point_id":
-            name = "id"
-        elif name in ("position", "id"):
-            name += "_"
-        arrays[name] = vtk_to_numpy(array)
-    return arrays
 
 
 def _in_notebook():
@@ -340,38 +270,6 @@ def _in_notebook():
         return False
     shell = get_ipython()
     return shell is not None and hasattr(shell, "kernel")
-
-
-def _six(box):
-    numbers = [float(number) for corner in box
-               for number in (corner if hasattr(corner, "__len__") else (corner,))]
-    if len(numbers) != 6:
-        raise ValueError(f"a box has six numbers, ((x0, y0, z0), (x1, y1, z1)), not {len(numbers)}")
-    if any(low > high for low, high in zip(numbers, numbers[3:])):
-        raise ValueError(f"a box begins with its lowest corner, ((x0, y0, z0), (x1, y1, z1)): "
-                         f"{numbers} has a lower one behind it")
-    return numbers
-
-
-def _numbers_of(classes):
-    """Numbers of object classes, as int; [] for None: all."""
-    if classes is None:
-        return []
-    try:
-        numbers = list(classes)
-    except TypeError:
-        numbers = [classes]
-    if not numbers:
-        raise ValueError("classes names no class: no point can be meant; None takes all")
-    return [operator.index(number) for number in numbers]
-
-
-def _set_options(algorithm, options):
-    for name, value in options.items():
-        setter = "Set" + "".join(word.capitalize() for word in name.split("_"))
-        if not hasattr(algorithm, setter):
-            raise TypeError(f"there is no option '{name}', for there is no {setter}")
-        getattr(algorithm, setter)(value)
 
 
 def open(path):  # as in gzip.open: the module's name says what

@@ -12,17 +12,51 @@ except ImportError as missing:
     raise PointFrontError(f"a page needs Python's package trame ({missing})") from None
 
 # trame's page opens its socket by an address without the secret, and a cookie does not come from
-# a frame in a page of another site, as a notebook's is.
+# a frame in a page of another site, as a notebook's is. Nor does trame's page open it again.
 _KEY_OF_SOCKETS = """<script>
 (() => {
+  const home = window.location.href;
   const secret = new URLSearchParams(window.location.search).get("secret");
-  if (secret === null) return;
   const Plain = window.WebSocket;
+  let leaving = false;
+  let notice = null;
+  window.addEventListener("pagehide", () => { leaving = true; });
+  const say = (text) => {
+    if (notice === null) {
+      notice = document.createElement("div");
+      notice.className = "pointfront-notice";
+      notice.style.cssText = "position:fixed; inset:0; z-index:10; display:flex; " +
+        "align-items:center; justify-content:center; background:#17191fc0; color:#eee; " +
+        "font:16px sans-serif;";
+      document.body.appendChild(notice);
+    }
+    notice.textContent = text;
+  };
+  const tryAgain = async () => {
+    try {
+      const answer = await fetch(home, { cache: "no-store" });
+      if (answer.ok) {
+        window.location.replace(home);
+        return;
+      }
+      say("This view has ended. A server that runs anew prints another address.");
+    } catch (absent) {
+      window.setTimeout(tryAgain, 1000);
+    }
+  };
   window.WebSocket = class extends Plain {
     constructor(url, protocols) {
-      const whole = new URL(url, window.location.href);
-      whole.searchParams.set("secret", secret);
+      const whole = new URL(url, home);
+      if (secret !== null) {
+        whole.searchParams.set("secret", secret);
+      }
       super(whole.href, protocols);
+      this.addEventListener("close", () => {
+        if (!leaving && notice === null) {
+          say("The connection to the server is lost; trying again ...");
+          window.setTimeout(tryAgain, 500);
+        }
+      });
     }
   };
 })();

@@ -60,3 +60,20 @@ class OrbitCamera:
         self.distance /= min(factor, max(1.0, self.distance / least))
         to_the_right, upwards, _ = self.axes()
         self.focal_point += (before - self._height()) * (right * to_the_right + up * upwards)
+
+
+def projected(camera, place):
+    """Where a place is in a picture by `camera`, {"position" ...}: (right, up) of its centre, parts
+    of its height; None behind the eye.
+    """
+    eye = numpy.array(camera["position"], float)
+    to_eye = eye - numpy.array(camera["focal_point"], float)
+    to_eye /= numpy.linalg.norm(to_eye)
+    right = numpy.cross(camera["view_up"], to_eye)
+    right /= numpy.linalg.norm(right)
+    off = numpy.array(place, float) - eye
+    depth = -float(off @ to_eye)
+    if depth <= 0.0:
+        return None
+    height = 2.0 * depth * math.tan(math.radians(camera["view_angle"]) / 2.0)
+    return float(off @ right) / height, float(off @ numpy.cross(to_eye, right)) / height

@@ -3,12 +3,12 @@
 import asyncio
 import html as html_text
 import itertools
-import json
 import math
 import threading
 
+from ._controls import (CHOSEN_BY_CLIENTS, CLEAR, OVERLAY, POINT_SIZES, TECHNIQUES, TOGGLE, TOOLS,
+                        Classes, Marks, colours_of, legend_state)
 from ._errors import PointFrontError
-from ._pictures import run_tool
 
 try:
     from trame.app import get_server
@@ -24,25 +24,17 @@ except ImportError as missing:
         f"a page needs Python's packages trame, trame-rca and pillow: pip install trame trame-rca "
         f"pillow ({missing})") from None
 
-TECHNIQUES = ("splats", "points", "spheres", "ewa")
 START_SECONDS = 30.0  # for a server of a notebook
 
 _BAR = ("position:absolute; left:8px; top:8px; display:flex; gap:6px; align-items:center; "
         "font:13px sans-serif; color:#ddd;")
 _STATUS = ("position:absolute; left:8px; bottom:8px; font:12px sans-serif; color:#aaa; "
            "pointer-events:none;")
+_OVER = "position:absolute; inset:0; pointer-events:none;"
 _WHOLE = ("position:absolute; inset:0; overflow:hidden; background:#17191f;")
 # Of another client's size: all of it, not stretched.
 _WHOLE_PICTURE = "{width: '100%', height: '100%', display: 'block', objectFit: 'contain'}"
-CHOSEN_BY_CLIENTS = ("colour", "technique")  # what they may change of the page's state
 _count = itertools.count(1)
-
-
-def colours_of(path):
-    """What the first store can be coloured by."""
-    names = [a["name"] for a in json.loads(run_tool(["info", "--json", path]))["attributes"]]
-    computed = ["elevation"] + (["horizontality"] if "normal" in names else [])
-    return names + [name for name in computed if name not in names]
 
 
 def _status(facts):
@@ -99,8 +91,10 @@ class CloudPage:
 
     def __init__(self, paths, arguments=None):
         self._options = dict(arguments or {})
+        self._camera = None  # of the last frame
         if "style" not in self._options and "quality" not in self._options:  # they choose their own
             self._options.setdefault("technique", TECHNIQUES[0])
+        self._classes = Classes(paths)
         self.view = RemoteView(paths, self._arguments(), self._tell)
         self.server = get_server(f"pointfront-{next(_count)}", client_type="vue3")
         self._doors = Doors(self.server)
@@ -109,12 +103,23 @@ class CloudPage:
         state.trame__title = "PointFront"
         state.colour = self._options.get("color-by", "")
         state.technique = self._options.get("technique", "")
+        state.point_size = self._options.get("point-size", "")
+        state.tool = ""
         state.status = ""
         state.frames = 0
         state.settled = False
+        state.progress = 0
+        state.aspect = 16 / 9
         self._colours = colours_of(paths[0])
+        self._marks = Marks()
+        self._legend = self.view.legend
+        self._show_choices()
+        self._show_marks(None)
         self._build(self._colours)
-        state.change("colour", "technique")(self._choose)
+        state.change("colour", "technique", "point_size")(self._choose)
+        state.change("tool")(self._take_up)
+        self.server.trigger(TOGGLE)(self._toggle)
+        self.server.trigger(CLEAR)(self._clear)
 
     def _build(self, colours):
         with DivLayout(self.server, style=_WHOLE) as self.layout:
@@ -133,8 +138,17 @@ class CloudPage:
                     html.Option("technique", value="")
                     for name in TECHNIQUES:
                         html.Option(name, value=name)
+                with html.Select(v_model=("point_size",), title="point size"):
+                    html.Option("size", value="")
+                    for size in POINT_SIZES:
+                        html.Option(f"{size} px", value=size)
                 for name in VIEWS:
                     html.Button(name, click=(self.view.look, f"['{name}']"))
+                for name in TOOLS[1:]:
+                    html.Button(name, click=f"tool = tool == '{name}' ? '' : '{name}'",
+                                raw_attrs=[f":style=\"{{fontWeight: tool == '{name}' ? 'bold' : "
+                                           f"'normal'}}\""])
+            html.Div(OVERLAY, style=_OVER)
             html.Div("{{ status }}", style=_STATUS, classes="pointfront-status",
                      raw_attrs=[':data-frames="frames"', ':data-settled="settled"'])
         controller = self.server.controller
@@ -152,28 +166,83 @@ class CloudPage:
 
     def _arguments(self):
         words = []
-        for name, value in self._options.items():
+        for name, value in self._classes.options(self._options).items():
             if value is True:
                 words.append(f"--{name}")
             elif value not in (None, False, ""):
                 words += [f"--{name}", value]
         return words
 
-    def _choose(self, colour, technique, **_):
+    def _choose(self, colour, technique, point_size, **_):
         known = self._options.values()  # of the start, too, which the page may not offer
-        if ((colour and colour not in self._colours and colour not in known)
-                or (technique and technique not in TECHNIQUES and technique not in known)):
-            return
-        chosen = {**self._options, "color-by": colour, "technique": technique}
+        for chosen, offered in ((colour, self._colours), (technique, TECHNIQUES),
+                                (point_size, POINT_SIZES)):
+            if chosen and chosen not in offered and chosen not in known:
+                return
+        chosen = {**self._options, "color-by": colour, "technique": technique,
+                  "point-size": point_size}
         if any(chosen[name] != self._options.get(name, "") for name in chosen):
             self._options = chosen
-            self.view.draw_with(self._arguments())
+            self._draw_anew()
+
+    def _toggle(self, code, shown):
+        """A client's switch of a class."""
+        with self.server.state:
+            if isinstance(code, int) and self._classes.toggle(code, bool(shown)):
+                self._draw_anew()
+            self._show_choices()
+
+    def _draw_anew(self):
+        self.server.state.settled = False  # whoever looks sees at once that it loads
+        self.server.state.progress = 0
+        self.view.draw_with(self._arguments())
+
+    def _show_choices(self):
+        state = self.server.state
+        state.legend = legend_state(self._legend)
+        state.classes = self._classes.state(self._legend)
+
+    def _take_up(self, tool, **_):
+        """A client's choice of what a click does."""
+        self.view.picked = self._take if tool in TOOLS[1:] else None
+        self._marks.clear()
+        self._show_marks(None)
+
+    def _take(self, point):
+        """What was clicked."""
+        with self.server.state as state:
+            self._marks.take(point, state.tool)
+            self._show_marks(self._camera)
+
+    def _clear(self):
+        with self.server.state:
+            self._marks.clear()
+            self._show_marks(None)
+
+    def _show_marks(self, camera):
+        state = self.server.state
+        state.rows = self._marks.rows
+        state.marks = self._marks.drawn(camera, state.aspect) if camera else []
+
+    def _progress(self, facts):
+        """Percent: how near the picture is to the error that it is to have."""
+        wanted = float(self._options.get("error", 1.0))
+        return round(100 * min(1.0, wanted / max(facts["error_px"], wanted, 1e-9)))
 
     def _tell(self, facts):
         with self.server.state as state:
             state.status = _status(facts)
             state.settled = bool(facts.get("settled"))
             state.frames += 1
+            if "problem" in facts:
+                return
+            state.progress = self._progress(facts)
+            if "legend" in facts:
+                self._legend = facts["legend"]
+                self._show_choices()
+            self._camera = facts["camera"]
+            state.aspect = facts["width"] / facts["height"]
+            self._show_marks(self._camera)
 
     def serve(self, **start):
         """Blocks until it is interrupted; `start` as trame's Server.start."""

@@ -21,13 +21,7 @@ def _same_vtk():
         raise PointFrontError(
             f"PyVista runs on another VTK than PointFront, which was built for "
             f"'{_host.VTK_PACKAGE}': set PYVISTA_VTK_BACKEND={_host.VTK_PACKAGE} before PyVista is "
-            f"imported")
-
-
-def wrapped(data):
-    """vtkPolyData as pyvista.PolyData, without a copy of its arrays."""
-    _same_vtk()
-    return pyvista.wrap(data)
+            f"imported; or take plotter.add_mesh(cloud.to_pyvista(...)), or cloud.screenshot()")
 
 
 class CloudMapper(_BaseMapper, vtkPointFrontMapper):
@@ -77,7 +71,7 @@ def _colour(mapper, plotter, scalars, cmap, clim):
     return True
 
 
-def add_cloud(store, path, plotter, *, scalars=None, cmap=None, clim=None, show_scalar_bar=None,
+def add_cloud(path, plotter, *, scalars=None, cmap=None, clim=None, show_scalar_bar=None,
               scalar_bar_args=None, point_size=None, error=1.0, complete=True, style=None,
               name=None, opacity=1.0, pickable=True, reset_camera=None, render=True):
     """See Cloud.add_to."""

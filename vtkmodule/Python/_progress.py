@@ -1,5 +1,6 @@
 """Progress of long calls: by a callable, or as tqdm's bar."""
 
+import contextlib
 import signal
 import threading
 
@@ -26,7 +27,7 @@ class Watch:
         self._observer = None
         if progress is True:
             self._bar = _bar()
-            progress = self._advance
+            progress = _advancing(self._bar)
         # Python sees an interrupt only when it is called: without a receiver, to do nothing.
         self._progress = progress if progress not in (None, False) else _say_nothing
 
@@ -36,11 +37,6 @@ class Watch:
                 caller.AbortExecuteOn()
         except BaseException as problem:  # VTK prints what an observer raises, and goes on
             self._stop(problem)
-
-    def _advance(self, phase, fraction):
-        self._bar.set_description_str(phase, refresh=False)
-        self._bar.n = fraction
-        self._bar.refresh()
 
     def _stop(self, problem):
         self._raised.append(problem)
@@ -64,6 +60,29 @@ class Watch:
             self._bar.close()
         if kind is None and self._raised:
             raise self._raised[0]
+
+
+@contextlib.contextmanager
+def receiving(progress):
+    """A callable (phase, fraction) for what a caller gives as `progress`; a bar ends with it."""
+    if progress is not True:
+        yield progress if progress not in (None, False) else _say_nothing
+        return
+    bar = _bar()
+    try:
+        yield _advancing(bar)
+    finally:
+        bar.close()
+
+
+def _advancing(bar):
+    def advance(phase, fraction):
+        if phase:
+            bar.set_description_str(phase, refresh=False)
+        bar.n = fraction
+        bar.refresh()
+
+    return advance
 
 
 def _say_nothing(_phase, _fraction):

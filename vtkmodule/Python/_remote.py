@@ -24,6 +24,7 @@ LARGEST_EDGE = 4096  # pixels
 WAIT_MS = 50  # for what the disk gives; an event waits as long at most
 MOST_TURNS = 50.0  # of a wheel in one event
 SENT_AT_ONCE = 1  # frames that a slow line may be behind
+STILL_PIXELS = 4  # a mouse that moved no farther while it was pressed has clicked
 
 
 def jpeg(pixels, quality):
@@ -60,7 +61,10 @@ class RemoteView:
     RemoteControlledAreaProtocol and RcaRenderSchedulerProtocol).
 
     paths, arguments  as FrameStream's
-    told              called with the facts of each frame, or with {"problem": text} at the end
+    told              called with the facts of each frame, or with {"problem": text} at the end;
+                      "legend" is among those of the first after the drawing changed
+    picked            called with what `stream` says of the point that was clicked; None: there is
+                      none. Without it a click does nothing
 
     Threads: the event loop's; frames are drawn and encoded on one of its own.
     """
@@ -71,6 +75,9 @@ class RemoteView:
         self._paths = list(paths)
         self._arguments = list(arguments)
         self._told = told
+        self.picked = None
+        self._clicks = None  # where the mouse was pressed, unless it was dragged since
+        self._asked = []  # places that were clicked: column and row, parts of the height
         self._push = None
         self._pending = lambda: 0
         self._size = (1280, 720)
@@ -92,7 +99,8 @@ class RemoteView:
         self._task = None
         self._drawing = concurrent.futures.ThreadPoolExecutor(1, "pointfront-frames")
         try:
-            self._stream.frame(size=(16, 9))  # what is wrong is said here, not in the browser
+            # What is wrong is said here, not in the browser.
+            self.legend = self._stream.frame(size=(16, 9), legend=True).facts["legend"]
         except PointFrontError:
             self._end_stream()
             raise
@@ -164,9 +172,16 @@ class RemoteView:
         if kind.endswith("ButtonPress"):
             self._pressed = kind[:-len("ButtonPress")]
             self._at = at
+            self._clicks = at if self._pressed == "Left" and not event.get("shiftKey") else None
         elif kind.endswith("ButtonRelease"):
             self._pressed = None
+            if self._clicks is not None and self.picked is not None:
+                self._asked = [(at[0], 1.0 - at[1])]
+            self._clicks = None
         elif kind == "MouseMove" and self._pressed is not None:
+            if self._clicks is not None and math.dist(at, self._clicks) * height <= STILL_PIXELS:
+                return
+            self._clicks = None
             self._drag(at[0] - self._at[0], at[1] - self._at[1], event.get("shiftKey"))
             self._at = at
         elif kind == "MouseWheel":
@@ -241,6 +256,8 @@ class RemoteView:
         while self._pending() > SENT_AT_ONCE:  # a slow line gets fewer frames, not older ones
             await asyncio.sleep(0.002)
         restarts, self._restarts = self._restarts, False
+        if restarts:
+            request["legend"] = True
         begin = time.monotonic()
         quality = MOVING_QUALITY if moving else RESTING_QUALITY
         loop = asyncio.get_running_loop()
@@ -261,6 +278,19 @@ class RemoteView:
         if moving:
             self._seconds.append(time.monotonic() - begin)
         return frame
+
+    async def _pick(self):
+        """Asks for what was clicked, with the camera that is seen."""
+        asked, self._asked = self._asked, []
+        if not asked or self._orbit is None or self._view is not None or self._restarts:
+            return
+        request = self._request(False)
+        height = request["size"][1]
+        request["pick"] = [edge * height for edge in asked[-1]]
+        loop = asyncio.get_running_loop()
+        frame, _ = await loop.run_in_executor(self._drawing, self._draw, request, 0, False)
+        if self.picked is not None:
+            self.picked(frame.facts["picked"])
 
     def _choose_scale(self):
         """By the frames of the last motion, before the next: a size that changes within is ugly."""
@@ -299,6 +329,7 @@ class RemoteView:
             await self._news.wait()
             self._news.clear()
             try:
+                await self._pick()
                 await self._answer_events()
             except Exception as problem:  # all who look are told; the next event begins again
                 self._told({"problem": str(problem) or type(problem).__name__})

@@ -82,8 +82,9 @@ if (POINTFRONT_HOST STREQUAL "VTK" AND POINTFRONT_WRAP_PYTHON)
     configure_file("${from}/${file}.in" "${to}/${file}" @ONLY)
   endforeach ()
   foreach (file IN ITEMS __init__.py __init__.pyi __main__.py _arrays.py _calls.py _classes.py
-      _clouds.py _doors.py _errors.py _lines.py _orbit.py _page.py _pictures.py _plotting.py
-      _progress.py _remote.py _serve.py _stream.py _window.py py.typed)
+      _clouds.py _controls.py _doors.py _errors.py _extracts.py _kernel.py _lines.py _meshes.py
+      _orbit.py _page.py _pictures.py _plotting.py _progress.py _queries.py _remote.py _serve.py
+      _stream.py _window.py py.typed)
     configure_file("${from}/${file}" "${to}/${file}" COPYONLY)
     list(APPEND package_files "${file}")
   endforeach ()
@@ -91,7 +92,7 @@ if (POINTFRONT_HOST STREQUAL "VTK" AND POINTFRONT_WRAP_PYTHON)
   install(FILES ${package_files} DESTINATION "${pointfront_python_folder}/pointfront"
     COMPONENT "${pointfront_python_component}")
   if (POINTFRONT_BUILD_TESTING)
-    foreach (name IN ITEMS Package Points Waiting Writing)
+    foreach (name IN ITEMS Package Points Waiting Without_VTK Writing)
       string(TOLOWER "${name}" test)
       pointfront_add_data_test(NAME Python.${name}
         COMMAND "${CMAKE_COMMAND}" -E env

@@ -54,11 +54,58 @@ try:
 except pointfront.PointFrontError as error:
     assert "POINTFRONT_IMAGE_COLOR" in str(error), error
 maps = pathlib.Path("/proc/self/maps").read_text()
-vtks = {line.split("/")[-1] for line in maps.splitlines() if "libvtkCommon" in line}
-assert len(vtks) == 1, vtks
+assert "libvtk" not in maps, "VTK is loaded"
 assert "libX11" not in maps and "libGL" not in maps, "X or GL is loaded"
 """
 
+# PyVista on Kitware's VTK, and PointFront beside it: each as if it were alone.
+BESIDE_PYVISTA = """
+import sys
+import numpy
+import pyvista
+import vtk
+from vtkmodules.vtkFiltersSources import vtkSphereSource
+
+import pointfront
+
+assert isinstance(pyvista.Sphere(), vtk.vtkPolyData), "PyVista runs on another VTK than `vtk`"
+source = vtkSphereSource()
+source.Update()
+assert pyvista.wrap(source.GetOutput()).n_points == source.GetOutput().GetNumberOfPoints()
+
+pointfront.build(sys.argv[1], "a.pfront", overwrite=True)
+with pointfront.open("a.pfront") as cloud:
+    low, high = map(numpy.array, cloud.bounds)
+    box = (low, (low + high) / 2)
+    mesh = cloud.to_pyvista(box=box)
+    assert isinstance(mesh, vtk.vtkPolyData) and mesh.n_points > 1000
+    points = cloud.points(box=box)
+    assert (mesh.points == points["position"]).all()
+    assert (mesh["intensity"] == points["intensity"]).all()
+    assert (mesh["point_id"] == points["id"]).all()
+    assert mesh["rgb"].dtype == numpy.uint8 and mesh.active_scalars_name == "rgb"
+    assert mesh.threshold((100, 200), scalars="intensity").n_points > 0
+    picture = cloud.screenshot(size=(320, 200))
+    image = pyvista.wrap(numpy.ascontiguousarray(picture.pixels[::-1].reshape(-1, 3)))
+    assert image.n_points == 320 * 200
+    try:
+        cloud.add_to(None)
+        raise SystemExit("a plotter of another VTK was taken")
+    except pointfront.PointFrontError as error:
+        assert "to_pyvista" in str(error) and "pointfront[vtk]" in str(error), error
+maps = open("/proc/self/maps").read()
+assert "cvista" not in maps, "another VTK was loaded"
+"""
+
+# A picture by PyVista's own way, where there is a display.
+DRAWN = """
+import numpy, pyvista, pointfront
+
+mesh = pointfront.open("a.pfront").to_pyvista()
+plotter = pyvista.Plotter(off_screen=True, window_size=(320, 200))
+plotter.add_mesh(mesh, scalars="rgb", rgb=True, point_size=3)
+assert plotter.screenshot(return_img=True).std() > 5
+"""
 
 # Two VTKs in one process, each with objects of its own.
 BESIDE = """
@@ -66,9 +113,10 @@ import sys
 import pointfront
 import vtkmodules.all as kitware
 
-pointfront.build(sys.argv[1], "a.pfront")
+pointfront.build(sys.argv[1], "a.pfront", overwrite=True)
 with pointfront.open("a.pfront") as cloud:
     assert cloud.points()["position"].shape == (174151, 3)
+    assert cloud.extract().GetNumberOfPoints() == 174151
     assert cloud.screenshot(size=(320, 200)).pixels.std() > 5
 assert pointfront.VTK_PACKAGE != kitware.__name__.split(".")[0]
 try:
@@ -94,11 +142,17 @@ class Environment:
     def install(self, *what):
         self.run("python", "-m", "pip", "install", "-q", "--disable-pip-version-check", *what)
 
-    def import_error(self):
-        run = subprocess.run(["python", "-c", "import pointfront"], cwd=self._folder,
-                             env=self._variables, capture_output=True, text=True)
+    def said_of_classes(self):
+        """What an import of a VTK class says that cannot be had."""
+        run = subprocess.run(["python", "-c", "from pointfront import vtkPointFrontReader"],
+                             cwd=self._folder, env=self._variables, capture_output=True, text=True)
         assert run.returncode == 1, run
         return run.stderr.splitlines()[-1]
+
+    def list(self):
+        run = subprocess.run(["python", "-m", "pip", "list", "--format=freeze"], cwd=self._folder,
+                             env=self._variables, capture_output=True, text=True, check=True)
+        return {line.split("==")[0] for line in run.stdout.split()}
 
 
 def check_use(wheel):
@@ -110,29 +164,36 @@ def check_use(wheel):
         environment.run("python", "-c", USE, CLOUD)
 
 
-def check_other_vtks(wheel):
-    """With Kitware's `vtk` alone an import says what to do; with both, both work."""
+def check_beside_pyvista(wheel):
+    """In one environment with Kitware's `vtk` and PyVista, which keeps its VTK; then with the VTK
+    of the classes beside them, in all its states.
+    """
     with tempfile.TemporaryDirectory() as folder:
         environment = Environment(folder)
-        environment.install("vtk", "numpy")
-        environment.install("--no-deps", wheel.resolve())
-        said = environment.import_error()
-        found = re.search(r"ImportError: .* pip install '(cvista\[all\])==([0-9.]+)'", said)
+        environment.install("vtk", "pyvista", wheel.resolve())
+        assert not any(name.startswith("cvista") for name in environment.list())
+        environment.run("python", "-c", BESIDE_PYVISTA, CLOUD)
+        if "DISPLAY" in os.environ:
+            environment.run("env", f"DISPLAY={os.environ['DISPLAY']}", "LIBGL_ALWAYS_SOFTWARE=1",
+                            "python", "-c", DRAWN)
+        said = environment.said_of_classes()
+        found = re.search(
+            r"ImportError: .*'pointfront\[vtk\]', .* (cvista)\[all\]==([0-9.]+)", said)
         assert found, said
         name, version = found.groups()
-        environment.install("--no-deps", f"cvista=={version}")  # a part of it
-        said = environment.import_error()
-        assert "there is no cvista.vtkRenderingOpenGL2" in said, said
+        environment.install("--no-deps", f"{name}=={version}")  # a part of it
+        said = environment.said_of_classes()
+        assert f"there is no {name}.vtkRenderingOpenGL2" in said, said
         older = version[:-1] + str(int(version[-1]) - 1)
-        environment.install(f"{name}=={older}")
-        said = environment.import_error()
-        assert f"built for cvista {version}, and {older} is installed" in said, said
-        environment.install(f"{name}=={version}")
+        environment.install(f"{name}[all]=={older}")
+        said = environment.said_of_classes()
+        assert f"built for {name} {version}, and {older} is installed" in said, said
+        environment.install(f"{wheel.resolve()}[vtk]")
         environment.run("python", "-c", BESIDE, CLOUD)
 
 
 wheel = pathlib.Path(sys.argv[1])
 check_contents(wheel)
 check_use(wheel)
-check_other_vtks(wheel)
+check_beside_pyvista(wheel)
 print("the wheel works")

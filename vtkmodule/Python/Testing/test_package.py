@@ -13,7 +13,6 @@ import sys
 import tempfile
 import threading
 import time
-import traceback
 import unittest
 
 import numpy
@@ -293,20 +292,21 @@ class Package(unittest.TestCase):
         """One that nobody watches, too: it ends the query, which does not run to its end first."""
         store = self.folder / "a.pfront"
         pointfront.build(LARGE, store, preview=False)
+        signal.signal(signal.SIGINT, signal.default_int_handler)
         with pointfront.open(store) as cloud:
             begin = time.monotonic()
             cloud.points()
-            wait = 0.3 * (time.monotonic() - begin)
-            signal.signal(signal.SIGINT, signal.default_int_handler)
-            timer = threading.Timer(wait, os.kill, (os.getpid(), signal.SIGINT))
-            timer.start()
-            raising = None
-            try:
-                cloud.points()
-            except KeyboardInterrupt as interrupt:
-                raising = traceback.extract_tb(interrupt.__traceback__)[-1].name
-            timer.join()
-        self.assertEqual(raising, "__exit__", "it comes from Python's own handler, afterwards")
+            whole = time.monotonic() - begin
+            shares = []
+            while not shares or (min(shares) > 0.7 and len(shares) < 5):  # of a busy machine
+                timer = threading.Timer(0.3 * whole, os.kill, (os.getpid(), signal.SIGINT))
+                timer.start()
+                begin = time.monotonic()
+                with self.assertRaises(KeyboardInterrupt):
+                    cloud.points()
+                shares.append((time.monotonic() - begin) / whole)
+                timer.join()
+        self.assertLess(min(shares), 0.7)
 
     def test_an_interrupt_stops_a_build(self):
         self.interrupted(lambda: pointfront.build(LARGE, self.folder / "a.pfront"))

@@ -156,6 +156,7 @@ class Page(InBrowser):
         errors = self.errors
         high = self.open(server.url, 400, 600)
         self.wait(wide)
+        self.wait_for_size(high, [900, 400])
         self.assertEqual(self.size_of_picture(wide), [900, 400], "who came later takes the size")
         self.assertEqual(self.size_of_picture(high), [900, 400])
         picture = self.whole(high)

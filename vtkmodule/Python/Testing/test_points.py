@@ -97,6 +97,51 @@ class Points(unittest.TestCase):
             found = cloud.points(where=f"k in {{{2**62 + 1}, {2**62 + 2}}}")["k"]
             self.assertEqual(sorted(found), [2**62 + 1, 2**62 + 2])
 
+    def test_arrays_are_what_vtk_extracts(self):
+        """Random queries by the kernel alone and by vtkPointFrontExtract: the same points."""
+        convert = importlib.import_module(pointfront.VTK_PACKAGE + ".util.numpy_support")
+        random = numpy.random.default_rng(7)
+        for store in self.stores.values():
+            with pointfront.open(store) as cloud:
+                low, high = map(numpy.array, cloud.bounds)
+                for _ in range(15):
+                    ends = numpy.sort(random.uniform(low, high, (2, 3)), axis=0)
+                    x0, y0, x1, y1 = ends[0, 0], ends[0, 1], ends[1, 0], ends[1, 1]
+                    possible = {
+                        "box": ((*ends[0, :2], low[2]), (*ends[1, :2], high[2])),
+                        "sphere": (ends[0], random.uniform(100, 1000)),
+                        "area": f"POLYGON (({x0} {y0}, {x1} {y0}, {x1} {y1}, {x0} {y0}))",
+                        "classes": random.integers(0, 10, 3), "where": "intensity > 60",
+                        "spacing": random.uniform(5, 200), "attributes": ["rgb", "intensity"]}
+                    names = random.choice(list(possible), random.integers(1, 4), replace=False)
+                    query = {name: possible[name] for name in names}
+                    arrays = cloud.points(**query)
+                    data = cloud.extract(colors_as_stored=True, **query)
+                    columns = data.GetPointData()
+                    numpy.testing.assert_array_equal(
+                        arrays["position"],
+                        convert.vtk_to_numpy(data.GetPoints().GetData()), str(query))
+                    self.assertEqual(columns.GetNumberOfArrays(), len(arrays) - 1)
+                    for name, array in arrays.items():
+                        if name != "position":
+                            other = convert.vtk_to_numpy(
+                                columns.GetArray("point_id" if name == "id" else name))
+                            self.assertEqual(array.dtype, other.dtype, name)
+                            numpy.testing.assert_array_equal(array, other, f"{name} {query}")
+
+    def test_arrays_are_the_callers_own(self):
+        with pointfront.open(self.stores["add"]) as cloud:
+            points = cloud.points(attributes=["intensity"])
+            before = points["intensity"].copy()
+            points["position"] += 1.0
+            points["intensity"][:] = 0
+            numpy.testing.assert_array_equal(cloud.points()["intensity"], before)
+            view = points["position"][5:, 1]
+            kept = view.copy()
+            del points
+            cloud.points()
+            numpy.testing.assert_array_equal(view, kept)
+
     def test_thinning_is_as_help_says(self):
         """At most a 20th of the places is farther from a chosen point than was asked; the levels
         are nested, and between two of them nothing changes.

@@ -277,10 +277,6 @@ TEST_F(Builder, RefusesWhatDoesNotGoTogether)
   builder->SetColorDepth(12);
   refuses("ColorDepth of 12");
   builder->SetColorDepth(0);
-  builder->SetStructureToKdTree();
-  builder->SetRefinementToReplace();
-  refuses("has no representatives");
-  builder->SetStructureToOctree();
   builder->AddColorImage("no/such.tif");
   refuses("no/such.tif");
   builder->ClearImages();

@@ -83,6 +83,38 @@ TEST(Interaction, AFrameInMotionUploadsNoMoreThanItsLimitAndLosesNothing)
   EXPECT_GT(before, 10000);
 }
 
+// FRONT-8: also where all points are in memory already, and where other colours are wanted.
+TEST(Interaction, AFrameAtRestUploadsNoMoreThanItsLimitAndEndsComplete)
+{
+  const auto store = terrain("rest");
+  Scene scene(store);
+  auto* gl = vtkOpenGLPointFrontMapper::SafeDownCast(scene.mapper);
+  const Picture complete = scene.draw(); // all of it at once
+  const vtkIdType all = scene.mapper->GetLastPointsDrawn();
+  ASSERT_EQ(all, 250000);
+  EXPECT_GE(gl->GetUploadedBytes(), all * 12);
+  scene.mapper->CompleteOff();
+  scene.mapper->SetUploadLimit(1 << 18);
+  const auto frames = [&]
+  {
+    int count = 0;
+    do
+    {
+      const auto uploaded = gl->GetUploadedBytes();
+      scene.window->Render();
+      EXPECT_LE(gl->GetUploadedBytes() - uploaded, (1 << 18) + 2000 * 4 + 12);
+      ++count;
+    } while (scene.mapper->NeedsRender() && count < 1000);
+    EXPECT_TRUE(scene.mapper->GetLastComplete());
+    EXPECT_EQ(scene.mapper->GetLastPointsDrawn(), all);
+    return count;
+  };
+  EXPECT_LT(frames(), 10) << "all of it is there";
+  scene.mapper->ReleaseGraphicsResources(scene.window);
+  EXPECT_GT(frames(), 10);
+  EXPECT_EQ(differing(complete, scene.read()), 0);
+}
+
 TEST(Interaction, AViewIsAnnouncedOnceWhenItIsComplete)
 {
   Scene scene(terrain("announced"));

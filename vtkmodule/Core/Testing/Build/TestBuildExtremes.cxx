@@ -25,6 +25,7 @@ constexpr Shape shapes[] = {
   { "OctreeAdd", Structure::Octree, Refinement::Add, Layering::None },
   { "OctreeReplace", Structure::Octree, Refinement::Replace, Layering::None },
   { "KdTree", Structure::KdTree, Refinement::Add, Layering::None },
+  { "KdTreeReplace", Structure::KdTree, Refinement::Replace, Layering::None },
   { "KdTreeOfClasses", Structure::KdTree, Refinement::Add, Layering::ObjectClass },
   { "OctreeOfClasses", Structure::Octree, Refinement::Replace, Layering::ObjectClass },
 };

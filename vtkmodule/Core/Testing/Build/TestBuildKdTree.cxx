@@ -251,11 +251,6 @@ TEST_F(KdTreeBuild, RefusesWhatItCannotDo)
   const auto noClass = buildStore(one(hills(100, 1000.0)), options_);
   ASSERT_FALSE(noClass);
   EXPECT_NE(noClass.error().what.find("classification"), std::string::npos);
-  options_.layering = Layering::None;
-  options_.refinement = Refinement::Replace;
-  const auto replace = buildStore(one(hills(100, 1000.0)), options_);
-  ASSERT_FALSE(replace);
-  EXPECT_EQ(replace.error().kind, Error::Kind::BadArgument);
   EXPECT_FALSE(fs::exists(options_.outputPath));
 }
 
@@ -267,6 +262,50 @@ std::uint64_t owedBy(const KdCut& cut, std::size_t node)
     points += share.points;
   }
   return points;
+}
+
+TEST(KdCut, OfLeavesOnlyJoinsTwoDivisionsAndOwesNothing)
+{
+  Random random(4);
+  std::vector<KdCell> cells;
+  std::uint64_t total = 0;
+  for (std::uint32_t i = 0; i < 4096; ++i)
+  {
+    const std::uint64_t count = 1 + random.next() % 80;
+    cells.push_back({ { (i % 64) << 8, (i / 64) << 8, 0 }, count });
+    total += count;
+  }
+  KdRule rule;
+  rule.nodePoints = 100;
+  rule.leavesOnly = true;
+  const KdCut cut(cells, rule, 3);
+  std::uint64_t inParts = 0;
+  std::size_t inner = 0;
+  for (std::size_t n = 0; n < cut.tree().size(); ++n)
+  {
+    const PartNode& node = cut.tree()[n];
+    EXPECT_TRUE(cut.shares()[n].empty());
+    if (node.part != PartNode::none)
+    {
+      inParts += node.count;
+      EXPECT_LE(node.count, rule.partPoints());
+      continue;
+    }
+    ++inner;
+    EXPECT_GE(node.children.size(), 2u);
+    EXPECT_LE(node.children.size(), 4u);
+    std::uint64_t below = 0;
+    for (const std::uint32_t child : node.children)
+    {
+      EXPECT_GT(child, n);
+      EXPECT_EQ(cut.tree()[child].parent, n);
+      below += cut.tree()[child].count;
+    }
+    EXPECT_EQ(below, node.count);
+  }
+  EXPECT_EQ(inParts, total);
+  EXPECT_GT(inner, 10u);
+  EXPECT_EQ(cut.shares().size(), cut.tree().size());
 }
 
 TEST(KdCut, PartsHaveWholeNodesAndOweExactlyWhatIsAsked)

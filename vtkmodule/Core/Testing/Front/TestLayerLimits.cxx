@@ -6,8 +6,8 @@
 // so whatever differs between the two layers on screen comes from their limits.
 
 #include "pointfront/Detail/ViewDetail.h"
-#include "pointfront/Front/MotionMargin.h"
 #include "pointfront/Front/RenderFront.h"
+#include "pointfront/Front/ViewMargin.h"
 
 #include "FrontScene.h"
 
@@ -182,11 +182,11 @@ TEST_P(LayerLimitsOf, AHiddenLayerIsNeitherDrawnNorAskedForNorKept)
 TEST(LayerLimits, TheMarginAheadOfTheMotionHasLayersToo)
 {
   Layers l(Way::Front);
-  MotionMargin margin(l.tree);
+  ViewMargin margin(l.tree);
   ScriptedResidency nothing;
   l.limits.layers[0].visible = false;
-  margin.requests(lookingFrom(1000.0), 4.0, nothing, 8.0, 500, l.limits.layers);
-  const auto& ahead = margin.requests(lookingFrom(990.0), 4.0, nothing, 8.0, 500, l.limits.layers);
+  margin.ahead(lookingFrom(1000.0), 4.0, nothing, 8.0, 500, l.limits.layers);
+  const auto& ahead = margin.ahead(lookingFrom(990.0), 4.0, nothing, 8.0, 500, l.limits.layers);
   EXPECT_FALSE(ahead.empty());
   for (const LoadRequest& request : ahead)
   {

@@ -2,8 +2,8 @@
 // without knowing, and it never names those that are left out.
 
 #include "pointfront/Detail/ViewDetail.h"
-#include "pointfront/Front/MotionMargin.h"
 #include "pointfront/Front/RenderFront.h"
+#include "pointfront/Front/ViewMargin.h"
 
 #include "FrontScene.h"
 
@@ -180,10 +180,10 @@ TEST(NodePruning, TheMarginAheadOfTheMotionKnowsItToo)
   const auto from = [](double x) {
     return View::perspective({ x, 300, 200 }, { 0, 0, 0 }, { 0, 0, 1 }, 0.9, 0.1, 1e5, 800, 600);
   };
-  MotionMargin margin(hierarchy);
+  ViewMargin margin(hierarchy);
   ScriptedResidency nothing;
-  margin.requests(from(1000.0), 4.0, nothing, 8.0, 500, layers);
-  const auto& ahead = margin.requests(from(990.0), 4.0, nothing, 8.0, 500, layers);
+  margin.ahead(from(1000.0), 4.0, nothing, 8.0, 500, layers);
+  const auto& ahead = margin.ahead(from(990.0), 4.0, nothing, 8.0, 500, layers);
   EXPECT_FALSE(ahead.empty());
   for (const LoadRequest& request : ahead)
   {

@@ -2,6 +2,7 @@
 #include "QueryOracle.h"
 #include "StoreBuildTest.h"
 
+#include "pointfront/Style/ClassHeights.h"
 #include "pointfront/Threads/ThreadCrew.h"
 
 #include <atomic>
@@ -106,11 +107,49 @@ TEST_F(PointQueries, OfAKdTreeAreThoseOfABruteForceFilter)
 
 TEST_F(PointQueries, OfMeanRepresentativesGivePointsOfTheInput)
 {
-  auto cloud = std::make_unique<OracleCloud>(3000);
-  const OracleCloud copy = *cloud;
-  options_.nodePoints = 96;
-  options_.refinement = Refinement::Replace;
-  expectOracle(*buildOf(std::move(cloud)), copy, 60);
+  for (const Structure structure : { Structure::Octree, Structure::KdTree })
+  {
+    auto cloud = std::make_unique<OracleCloud>(3000);
+    const OracleCloud copy = *cloud;
+    options_.nodePoints = 96;
+    options_.structure = structure;
+    options_.refinement = Refinement::Replace;
+    expectOracle(*buildOf(std::move(cloud)), copy, 60);
+  }
+}
+
+// Of each class, whatever its layer.
+TEST_F(PointQueries, ByGlobalHeightAreThoseOfAFilterByClass)
+{
+  for (const Layering layering : { Layering::None, Layering::ObjectClass })
+  {
+    options_.layering = layering;
+    options_.nodePoints = 100;
+    const auto store = buildOf(std::make_unique<OracleCloud>(8000));
+    const auto heights = std::make_shared<const ClassHeights>(store);
+    const auto chosen = [&](const char* text)
+    {
+      PointQuery query;
+      query.where = FilterExpression::parse(text).value();
+      QueryAnswer answer;
+      EXPECT_TRUE(queryPoints(*store, query, {}, answer.consumer()));
+      return answer.ids;
+    };
+    std::vector<std::uint64_t> low;
+    std::vector<std::uint64_t> high;
+    for (NodeIndex n = 0; n < store->hierarchy()->nodeCount(); ++n)
+    {
+      const auto fetched = store->fetch(n, {});
+      const auto node = store->decode(*fetched);
+      for (std::uint32_t i = 0; i < node->size(); ++i)
+      {
+        const double height = heights->at(*node, i);
+        (height < 0.3 ? low : high).push_back(node->firstPoint + i);
+      }
+    }
+    EXPECT_EQ(chosen("global_height < 0.3"), low);
+    EXPECT_EQ(chosen("global-height not in (-1, 0.3)"), high);
+  }
 }
 
 TEST_F(PointQueries, AreTheSameForAnyThreadsAndAnyMemory)

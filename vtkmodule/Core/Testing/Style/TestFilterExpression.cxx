@@ -1,10 +1,12 @@
 #include "StyledStore.h"
 
+#include "pointfront/Style/ClassHeights.h"
 #include "pointfront/Style/FilterExpression.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <memory>
 
 using namespace pointfront;
 using namespace pointfront::test;
@@ -133,6 +135,55 @@ TEST(FilterExpression, AnAttributeGoesBeforeACoordinateOfItsName)
   ASSERT_TRUE(resolved);
   EXPECT_EQ(resolved->conditions.front().axis, -1);
   EXPECT_EQ(resolved->conditions.front().column, store.schema.size() - 1);
+}
+
+TEST(FilterExpression, WhatNoStoreHoldsIsDerived)
+{
+  const StoreDescription store = styledStore({});
+  const auto level = FilterExpression::parse("Horizontality > 0.9");
+  ASSERT_TRUE(level);
+  EXPECT_FALSE(level->wantsHeights(store));
+  const auto ofNormals = level->resolve(store);
+  ASSERT_TRUE(ofNormals) << ofNormals.error().what;
+  EXPECT_EQ(ofNormals->conditions[0].column, normalsColumn);
+  EXPECT_EQ(ofNormals->conditions[0].component, 2);
+  EXPECT_TRUE(ofNormals->conditions[0].absolute);
+
+  const auto high = FilterExpression::parse("x > 3 and global-height in [0.5, 1]");
+  ASSERT_TRUE(high);
+  ASSERT_TRUE(high->wantsHeights(store));
+  const HierarchyTable table({}, {}, Refinement::Add);
+  const auto heights = std::make_shared<const ClassHeights>(store, table);
+  const auto ofHeights = high->resolve(store, heights);
+  ASSERT_TRUE(ofHeights) << ofHeights.error().what;
+  EXPECT_EQ(ofHeights->conditions[1].heights, heights);
+  EXPECT_TRUE(ofHeights->columns().empty());
+  EXPECT_EQ(ofHeights->conditions[0].heights, nullptr);
+}
+
+TEST(FilterExpression, AnAttributeGoesBeforeWhatIsDerived)
+{
+  StoreDescription store = styledStore({});
+  addColumn(store, { "global_height", ScalarType::Float32, 1 }, 0.0, 1.0);
+  addColumn(store, { "horizontality", ScalarType::Float32, 1 }, 0.0, 1.0);
+  const auto filter = FilterExpression::parse("global-height > 0.5 and horizontality > 0.5");
+  EXPECT_FALSE(filter->wantsHeights(store));
+  const auto resolved = filter->resolve(store);
+  ASSERT_TRUE(resolved);
+  EXPECT_EQ(resolved->conditions[0].column, store.schema.size() - 2);
+  EXPECT_EQ(resolved->conditions[1].column, store.schema.size() - 1);
+  EXPECT_FALSE(resolved->conditions[1].absolute);
+}
+
+TEST(FilterExpression, HorizontalityNeedsNormals)
+{
+  StoreDescription store;
+  store.path = "plain.pfront";
+  const auto resolved = FilterExpression::parse("horizontality > 0.5")->resolve(store);
+  ASSERT_FALSE(resolved);
+  EXPECT_EQ(resolved.error().what,
+    "'horizontality > 0.5', character 1: plain.pfront has no attribute 'normal', which "
+    "horizontality needs: build it with --normals pca");
 }
 
 TEST(FilterExpression, WhatAStoreHasNotIsRefused)

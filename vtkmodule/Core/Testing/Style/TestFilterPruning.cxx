@@ -1,10 +1,12 @@
 #include "SampleStore.h"
 
+#include "pointfront/Style/ClassHeights.h"
 #include "pointfront/Style/FilterPruning.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <memory>
 
 namespace pointfront
 {
@@ -41,12 +43,16 @@ TEST(FilterPruning, NodesWithoutAPointThatPassesAreLeftOut)
   for (const char* text :
     { "classification == 6", "classification != 2", "x > 900", "identity < 3e17", "shift[0] > 5.4",
       "gps_time in {100000}", "classification == 6 and x < 0", "small < -32700",
-      "small not in [-32000, 32700]", "z > 1e9", "rgb.g in [100, 100]" })
+      "small not in [-32000, 32700]", "z > 1e9", "rgb.g in [100, 100]", "global_height > 0.9",
+      "global_height not in [0.05, 0.9]", "global_height > 1", "horizontality <= 0.01",
+      "horizontality > 0.99", "horizontality < 0" })
   {
     SCOPED_TRACE(text);
     StyleSheet sheet;
     sheet.where = *FilterExpression::parse(text);
-    const auto layers = sheet.resolveAll((*store)->description());
+    StoreSurroundings surroundings;
+    surroundings.heights = std::make_shared<const ClassHeights>(*store);
+    const auto layers = sheet.resolveAll((*store)->description(), surroundings);
     ASSERT_TRUE(layers) << layers.error().what;
     const auto pruning = pruningOf(**store, *layers);
     ASSERT_TRUE(pruning) << pruning.error().what;

@@ -125,6 +125,36 @@ TEST(PointFilter, EveryTypeIsJudgedAsItsWorldValueIs)
   }
 }
 
+TEST(PointFilter, ValuesWithoutTheirSignAreJudgedSo)
+{
+  AttributeSchema schema;
+  schema.add({ "normal", ScalarType::Int8, 3, 1.0 / 127.0, 0.0 });
+  NodeColumns node;
+  node.positions.resize(255);
+  node.selection = { 0 };
+  node.columns.resize(1);
+  for (int z = -127; z <= 127; ++z)
+  {
+    for (const int component : { 9, 9, z })
+    {
+      node.columns[0].push_back(static_cast<std::byte>(component));
+    }
+  }
+  for (AttributeCondition condition : someConditions())
+  {
+    condition.component = 2;
+    condition.absolute = true;
+    std::vector<std::uint8_t> keep(255, 2);
+    PointFilter{ { condition } }.evaluate(node, schema, 0, 255, keep.data());
+    for (int z = -127; z <= 127; ++z)
+    {
+      EXPECT_EQ(
+        keep[static_cast<std::size_t>(z + 127)] == 1, condition.passes(std::abs(z * (1.0 / 127.0))))
+        << z;
+    }
+  }
+}
+
 TEST(PointFilter, ConditionsOnCoordinatesNeedNoColumn)
 {
   QuantisationGrid grid;

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <memory>
 #include <thread>
+#include <utility>
 #include <vector>
 
 using namespace pointfront;
@@ -299,6 +300,63 @@ TEST(ViewFront, AViewWhosePointsLackANewColumnIsNotComplete)
     EXPECT_EQ(cloud.front.find(item.node)->selection, ColumnSelection{ 0 }) << item.node;
   }
   EXPECT_FALSE(cloud.front.wantsUpdate());
+}
+
+// The disk hangs from the moment on in which the view begins to move.
+TEST(ViewFront, AtRestItHasWhatASmallMotionShows)
+{
+  const auto above = [](double x, double y)
+  {
+    return View::perspective(
+      { x, y, 20000.0 }, { x, y, 0.0 }, { 0, 1, 0 }, 0.9, 1.0, 1e7, 800, 600);
+  };
+  const double middle = 0.5 * Terrain::sizeMetres;
+  const double width = 2.0 * 20000.0 * std::tan(0.45) * 800 / 600; // of the ground in sight
+  // The rows of the table come from the disk, too.
+  for (const bool still : { false, true })
+  {
+    Cloud cloud(
+      std::make_shared<LoadScheduler>(LoadSchedulerOptions()), std::make_shared<WindowDemand>());
+    FrameRequest demand;
+    demand.view = above(middle, middle);
+    demand.complete = still;
+    const Residency& residency = cloud.share.residency();
+    do
+    {
+      cloud.frame(demand);
+      residency.waitUntilIdle();
+      std::this_thread::sleep_for(milliseconds(1));
+    } while (cloud.front.wantsUpdate());
+    ASSERT_TRUE(cloud.front.last().complete);
+    residency.waitUntilIdle();
+    const auto drawn = static_cast<std::uint32_t>(cloud.front.last().draw.size());
+    const std::uint32_t held = residency.statistics().residentNodes;
+    EXPECT_GT(drawn, 50u);
+    cloud.reader->nodes.open(false);
+    std::size_t missing = 0;
+    for (const auto& [right, up] :
+      { std::pair(0.1, 0.0), std::pair(-0.1, 0.0), std::pair(0.0, 0.07), std::pair(0.07, -0.07) })
+    {
+      demand.view = above(middle + right * width, middle + up * width);
+      demand.interacting = true;
+      demand.complete = false;
+      cloud.frame(demand);
+      missing += static_cast<std::size_t>(std::count_if(cloud.front.last().requests.begin(),
+        cloud.front.last().requests.end(), [](const LoadRequest& r) { return !r.optional; }));
+    }
+    cloud.reader->nodes.open(true);
+    if (still)
+    {
+      EXPECT_EQ(held, drawn) << "a still picture reads nothing else";
+      EXPECT_GT(missing, 10u);
+    }
+    else
+    {
+      EXPECT_GT(held, drawn);
+      EXPECT_LT(held, 2 * drawn);
+      EXPECT_EQ(missing, 0u);
+    }
+  }
 }
 
 // Every call is made while the disk hangs: one that waited for it would not return.

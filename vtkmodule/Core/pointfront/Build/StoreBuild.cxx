@@ -1,11 +1,11 @@
 #include "pointfront/Build/StoreBuild.h"
 
 #include "pointfront/Ingest/GridChoice.h"
+#include "pointfront/Means/MeanRecord.h"
 #include "pointfront/Points/EnclosingRadius.h"
 #include "pointfront/Points/ObjectClass.h"
 #include "pointfront/Points/SplatRadius.h"
 #include "pointfront/Store/StoreAssembly.h"
-#include "pointfront/Trees/MeanRecord.h"
 
 #include <algorithm>
 #include <cmath>

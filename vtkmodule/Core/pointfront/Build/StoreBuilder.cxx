@@ -35,12 +35,6 @@ Result<void> checkOptions(const StoreBuild::Sources& sources, const BuildOptions
       "a node of " + std::to_string(options.nodePoints) +
         " points is not possible; choose 16 to 1048576 points a node");
   }
-  if (options.structure == Structure::KdTree && options.refinement == Refinement::Replace)
-  {
-    return makeError(Error::Kind::BadArgument,
-      "a kd-tree holds each point once and has no representatives: use refinement add, or an "
-      "octree");
-  }
   return checkOutputTarget(
     { options.outputPath, FileKind::Store, options.overwrite }, pathsOf(sources));
 }

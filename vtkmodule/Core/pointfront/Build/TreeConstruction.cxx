@@ -1,8 +1,9 @@
 #include "pointfront/Build/TreeConstruction.h"
 
+#include "pointfront/Means/KdMeanBuilder.h"
+#include "pointfront/Means/MeanSubtreeBuilder.h"
 #include "pointfront/Trees/KdPool.h"
 #include "pointfront/Trees/KdSubtreeBuilder.h"
-#include "pointfront/Trees/MeanSubtreeBuilder.h"
 #include "pointfront/Trees/PartPool.h"
 #include "pointfront/Trees/SubtreeBuilder.h"
 
@@ -72,6 +73,7 @@ KdRule kdRule(const BuildOptions& options)
 {
   KdRule rule;
   rule.nodePoints = options.nodePoints;
+  rule.leavesOnly = options.refinement == Refinement::Replace;
   return rule;
 }
 
@@ -81,6 +83,7 @@ public:
   KdConstruction(const BuildOptions& options, const ConstructionSite& site)
     : rule_(kdRule(options))
     , recordBytes_(site.recordBytes)
+    , pooled_(site.pooled)
     , parts_(site.pool, site.recordBytes, site.plan, site.crew)
   {
   }
@@ -93,26 +96,36 @@ public:
     AssemblyPlan plan;
     plan.tree = parts_.tree();
     plan.load = [this](std::uint32_t part) { return parts_.load(part); };
-    plan.builder = [this, &emitter]
+    plan.builder = [this, &emitter]() -> std::unique_ptr<TreeBuilder>
     {
-      return std::make_unique<KdSubtreeBuilder>(
-        emitter, rule_, recordBytes_, parts_.tree(), parts_.shares());
+      return rule_.leavesOnly ? meanBuilder(emitter)
+                              : std::make_unique<KdSubtreeBuilder>(
+                                  emitter, rule_, recordBytes_, parts_.tree(), parts_.shares());
     };
     return plan;
   }
   std::uint32_t nodeOf(const std::byte* record) const override { return parts_.nodeOf(record); }
   /// A balanced tree needs all points: what is above the finished parts is an octree's sample.
+  /// Means need no balance.
   std::unique_ptr<TreeBuilder> partialBuilder(const NodeEmitter& emitter) const override
   {
+    if (rule_.leavesOnly)
+    {
+      return meanBuilder(emitter);
+    }
     SamplingRule rule;
     rule.nodePoints = rule_.nodePoints;
     return std::make_unique<SubtreeBuilder>(emitter, rule, recordBytes_);
   }
   /// A binary tree of samples would have nearly nothing at its root.
-  std::size_t partialChildren() const override { return 8; }
+  std::size_t partialChildren() const override { return rule_.leavesOnly ? 0 : 8; }
   /// The root has its points; those owed to the nodes above become a node that has them.
   OpenSubtree reopened(OpenSubtree finished) const override
   {
+    if (rule_.leavesOnly)
+    {
+      return finished;
+    }
     constexpr float coarser = 1.5f; // than its child, like any node
     auto above = std::make_unique<BuiltNode>();
     above->row.spacing = coarser * finished.root->row.spacing;
@@ -123,8 +136,15 @@ public:
   double seconds() const override { return parts_.seconds(); }
 
 private:
+  std::unique_ptr<TreeBuilder> meanBuilder(const NodeEmitter& emitter) const
+  {
+    return std::make_unique<KdMeanBuilder>(
+      emitter, rule_, MeanRecord(emitter.space(), pooled_), recordBytes_);
+  }
+
   KdRule rule_;
   std::size_t recordBytes_;
+  const AttributeSchema& pooled_;
   KdPool parts_;
 };
 } // namespace
@@ -141,14 +161,18 @@ std::unique_ptr<TreeConstruction> treeConstruction(
 
 std::size_t constructionBytes(const BuildOptions& options, const AttributeSchema& pooled)
 {
-  if (options.structure == Structure::KdTree)
+  const bool kdTree = options.structure == Structure::KdTree;
+  // Positions and lists of points.
+  const std::size_t lists = kdTree ? sizeof(TreePosition) + 2 * sizeof(std::uint32_t) : 0;
+  if (options.refinement == Refinement::Add)
   {
-    return sizeof(TreePosition) + 2 * sizeof(std::uint32_t); // positions and lists of points
+    return lists;
   }
-  // The inputs of a node, and a representative for every third of them.
-  return options.refinement == Refinement::Replace
-    ? sizeof(MeanInput) + sizeof(TreePosition) + MeanRecord(TreeSpace(), pooled).bytes() / 2
-    : 0;
+  // The inputs of a node, and a representative for every third of them; in a kd-tree for every
+  // second one, and inputs twice while they are sorted.
+  const std::size_t representative = MeanRecord(TreeSpace(), pooled).bytes();
+  return lists + sizeof(TreePosition) +
+    (kdTree ? 2 * sizeof(MeanInput) + representative : sizeof(MeanInput) + representative / 2);
 }
 
 std::size_t constructionBlockBytes(const BuildOptions& options)

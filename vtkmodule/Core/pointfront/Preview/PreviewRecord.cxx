@@ -1,5 +1,8 @@
 #include "pointfront/Preview/PreviewRecord.h"
 
+#include <filesystem>
+#include <system_error>
+
 namespace pointfront
 {
 namespace
@@ -87,6 +90,16 @@ std::optional<std::string> storePathOfPreview(const std::string& previewPath)
     return std::nullopt;
   }
   return previewPath.substr(0, previewPath.size() - previewExtension.size()) + extension;
+}
+
+std::string presentStorePath(const std::string& path)
+{
+  std::error_code ignored;
+  const auto finished = storePathOfPreview(path);
+  return finished && !std::filesystem::exists(path, ignored) &&
+      std::filesystem::exists(*finished, ignored)
+    ? *finished
+    : path;
 }
 
 } // namespace pointfront

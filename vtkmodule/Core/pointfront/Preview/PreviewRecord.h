@@ -32,4 +32,7 @@ std::string previewPathOf(const std::string& storePath);
 /// The other way round; nothing if the path is not named like a preview.
 std::optional<std::string> storePathOfPreview(const std::string& previewPath);
 
+/// The path as it is, or that of the finished store for a preview that is gone.
+std::string presentStorePath(const std::string& path);
+
 } // namespace pointfront

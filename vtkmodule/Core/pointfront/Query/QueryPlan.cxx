@@ -1,11 +1,13 @@
 #include "pointfront/Query/QueryPlan.h"
 
 #include "pointfront/Query/ChosenColumns.h"
+#include "pointfront/Style/ClassHeights.h"
 #include "pointfront/Style/FilterPruning.h"
 
 #include <algorithm>
 #include <cstring>
 #include <iterator>
+#include <memory>
 #include <utility>
 
 namespace pointfront
@@ -91,13 +93,19 @@ Result<void> QueryPlan::chooseColumns(const StoreDescription& store, const Point
   return {};
 }
 
-Result<void> QueryPlan::chooseConditions(const StoreDescription& store, const PointQuery& query)
+Result<void> QueryPlan::chooseConditions(
+  const StoreDescription& store, const Hierarchy& hierarchy, const PointQuery& query)
 {
   if (!(query.spacing >= 0.0))
   {
     return makeError(Error::Kind::BadArgument, "a spacing is 0 or more");
   }
-  Result<PointFilter> filter = query.where.resolve(store);
+  std::shared_ptr<const ClassHeights> heights;
+  if (query.where.wantsHeights(store))
+  {
+    heights = std::make_shared<const ClassHeights>(store, hierarchy);
+  }
+  Result<PointFilter> filter = query.where.resolve(store, heights);
   if (!filter)
   {
     return filter.error();
@@ -164,13 +172,13 @@ Result<void> QueryPlan::chooseNodes(
 }
 
 Result<QueryPlan> QueryPlan::makeWithoutNodes(
-  const StoreDescription& store, const PointQuery& query)
+  const StoreDescription& store, const Hierarchy& hierarchy, const PointQuery& query)
 {
   QueryPlan plan;
   plan.regions_ = query.regions;
   plan.grid_ = store.grid;
   plan.storeSchema_ = store.schema;
-  if (Result<void> done = plan.chooseConditions(store, query); !done)
+  if (Result<void> done = plan.chooseConditions(store, hierarchy, query); !done)
   {
     return done.error();
   }
@@ -183,7 +191,7 @@ Result<QueryPlan> QueryPlan::makeWithoutNodes(
 
 Result<QueryPlan> QueryPlan::make(const StoredCloud& store, const PointQuery& query)
 {
-  Result<QueryPlan> plan = makeWithoutNodes(store.description(), query);
+  Result<QueryPlan> plan = makeWithoutNodes(store.description(), *store.hierarchy(), query);
   if (!plan)
   {
     return plan;
@@ -200,7 +208,7 @@ Result<QueryPlan> QueryPlan::make(const StoredCloud& store, const PointQuery& qu
 Result<QueryPlan> QueryPlan::make(
   const StoreDescription& store, const Hierarchy& hierarchy, const PointQuery& query)
 {
-  Result<QueryPlan> plan = makeWithoutNodes(store, query);
+  Result<QueryPlan> plan = makeWithoutNodes(store, hierarchy, query);
   if (!plan)
   {
     return plan;

@@ -62,8 +62,10 @@ private:
 
   QueryPlan() = default;
   /// All but the nodes.
-  static Result<QueryPlan> makeWithoutNodes(const StoreDescription& store, const PointQuery& query);
-  Result<void> chooseConditions(const StoreDescription& store, const PointQuery& query);
+  static Result<QueryPlan> makeWithoutNodes(
+    const StoreDescription& store, const Hierarchy& hierarchy, const PointQuery& query);
+  Result<void> chooseConditions(
+    const StoreDescription& store, const Hierarchy& hierarchy, const PointQuery& query);
   Result<void> chooseColumns(const StoreDescription& store, const PointQuery& query);
   Result<void> chooseNodes(const Hierarchy& hierarchy, double spacing, const NodePruning* pruning);
   Overlap overlap(const Bounds& box) const;

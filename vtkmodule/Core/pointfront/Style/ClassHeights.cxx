@@ -7,14 +7,19 @@ namespace pointfront
 {
 
 ClassHeights::ClassHeights(std::shared_ptr<const StoredCloud> store)
-  : store_(std::move(store))
+  : ClassHeights(store->description(), *store->hierarchy())
+{
+  store_ = std::move(store);
+}
+
+ClassHeights::ClassHeights(const StoreDescription& store, const Hierarchy& hierarchy)
+  : grid_(store.grid)
 {
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  const std::size_t layers = store_->description().layers.size();
-  ranges_.resize(std::max<std::size_t>(1, layers), { infinity, -infinity });
-  for (const NodeIndex root : store_->hierarchy()->roots())
+  ranges_.resize(std::max<std::size_t>(1, store.layers.size()), { infinity, -infinity });
+  for (const NodeIndex root : hierarchy.roots())
   {
-    const Node node = store_->hierarchy()->node(root);
+    const Node node = hierarchy.node(root);
     if (node.layer < ranges_.size() && node.pointsBelow > 0)
     {
       std::array<double, 2>& range = ranges_[node.layer];
@@ -35,15 +40,25 @@ void ClassHeights::append(const NodeColumns& node, std::uint32_t first, std::uin
 double ClassHeights::at(const NodeColumns& node, std::uint32_t point) const
 {
   const std::size_t layer = ranges_.size() > 1 ? node.layer : std::size_t(0);
-  if (layer >= ranges_.size() || !(ranges_[layer][0] < ranges_[layer][1]))
-  {
-    return 0.5;
-  }
-  const std::array<double, 2>& range = ranges_[layer];
-  const QuantisationGrid& grid = store_->description().grid;
   const double steps = static_cast<double>(node.origin.z) + node.positions[point].z;
-  const double z = grid.offset.z + grid.scale.z * steps;
-  return std::clamp((z - range[0]) / (range[1] - range[0]), 0.0, 1.0);
+  return layer < ranges_.size() ? heightOf(grid_.offset.z + grid_.scale.z * steps, ranges_[layer])
+                                : 0.5;
+}
+
+double ClassHeights::heightOf(double z, const std::array<double, 2>& range)
+{
+  return range[0] < range[1] ? std::clamp((z - range[0]) / (range[1] - range[0]), 0.0, 1.0) : 0.5;
+}
+
+std::array<double, 2> ClassHeights::between(double low, double high) const
+{
+  std::array<double, 2> heights{ 1.0, 0.0 };
+  for (const std::array<double, 2>& range : ranges_)
+  {
+    heights = { std::min(heights[0], heightOf(low, range)),
+      std::max(heights[1], heightOf(high, range)) };
+  }
+  return heights;
 }
 
 } // namespace pointfront

@@ -313,6 +313,12 @@ int axisOf(std::string_view name)
   return -1;
 }
 
+/// What no store holds, unless one has an attribute of that name.
+bool isDerived(const StoreDescription& store, const std::string& name, const char* derived)
+{
+  return sameWithoutCase(withUnderscores(name), derived) && !findComponent(store.schema, name);
+}
+
 Error refusal(const FilterExpression& filter, const FilterTerm& term, const std::string& why)
 {
   return makeError(Error::Kind::BadArgument,
@@ -334,18 +340,31 @@ Result<FilterExpression> FilterExpression::parse(std::string_view text)
   return filter;
 }
 
-Result<PointFilter> FilterExpression::resolve(const StoreDescription& store) const
+bool FilterExpression::wantsHeights(const StoreDescription& store) const
+{
+  return std::any_of(terms.begin(), terms.end(),
+    [&store](const FilterTerm& term) { return isDerived(store, term.name, "global_height"); });
+}
+
+Result<PointFilter> FilterExpression::resolve(
+  const StoreDescription& store, const std::shared_ptr<const ClassHeights>& heights) const
 {
   PointFilter filter;
   for (const FilterTerm& term : terms)
   {
     AttributeCondition condition = term.passing;
-    const std::optional<AttributeComponent> found = findComponent(store.schema, term.name);
-    const int axis = found ? -1 : axisOf(term.name);
+    condition.heights = isDerived(store, term.name, "global_height") ? heights : nullptr;
+    condition.absolute = isDerived(store, term.name, "horizontality");
+    const std::optional<AttributeComponent> found =
+      findComponent(store.schema, condition.absolute ? "normal.z" : term.name);
+    const int axis = found ? -1 : condition.heights ? 2 : axisOf(term.name);
     if (!found && axis < 0)
     {
-      return refusal(
-        *this, term, store.path + " has no attribute '" + term.name + "' (info lists them)");
+      return refusal(*this, term,
+        store.path +
+          (condition.absolute
+              ? " has no attribute 'normal', which horizontality needs: build it with --normals pca"
+              : " has no attribute '" + term.name + "' (info lists them)"));
     }
     if (axis >= 0)
     {

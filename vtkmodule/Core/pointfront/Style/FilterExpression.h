@@ -5,6 +5,7 @@
 #include "pointfront/Style/PointFilter.h"
 
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -30,7 +31,8 @@ struct FilterTerm
 ///     comparison = "==" | "!=" | "<" | "<=" | ">" | ">="
 ///
 /// Names    of attributes without regard to case, "-" for "_"; a component as rgb[0] or normal.z;
-///          x, y, z and elevation are coordinates unless the store has an attribute of that name.
+///          x, y, z and elevation are coordinates unless the store has an attribute of that name;
+///          likewise horizontality and global_height are derived (PointColouring.h).
 ///          Names with spaces stand in "double quotes".
 /// Units    world values: after the attribute's scale and offset, metres of the store's system.
 /// Numbers  as in C, without regard to the locale; inf and -inf too. NaN never passes. Whole
@@ -43,10 +45,14 @@ struct FilterExpression
   std::vector<FilterTerm> terms;
 
   bool empty() const { return terms.empty(); }
+  /// Whether resolve() needs ClassHeights of this store.
+  bool wantsHeights(const StoreDescription& store) const;
   /// BadArgument: what is wrong, and where in the text. An empty text lets all points pass.
   static Result<FilterExpression> parse(std::string_view text);
   /// The filter with the columns of a store; BadArgument names an attribute that the store lacks.
-  Result<PointFilter> resolve(const StoreDescription& store) const;
+  /// `heights` are needed if wantsHeights() is true.
+  Result<PointFilter> resolve(const StoreDescription& store,
+    const std::shared_ptr<const ClassHeights>& heights = nullptr) const;
 
   friend bool operator==(const FilterExpression& a, const FilterExpression& b)
   {

@@ -1,6 +1,10 @@
 #include "pointfront/Style/FilterPruning.h"
 
+#include "pointfront/Style/ClassHeights.h"
+
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 namespace pointfront
 {
@@ -128,7 +132,19 @@ ValueRange inWorldUnits(
     condition.usesColumn() ? schema[condition.column].offset : condition.axisOffset;
   const double a = stored.low * scale + offset;
   const double b = stored.high * scale + offset;
-  return { std::min(a, b), std::max(a, b) };
+  const ValueRange world{ std::min(a, b), std::max(a, b) };
+  if (condition.heights)
+  {
+    const std::array<double, 2> heights = condition.heights->between(world.low, world.high);
+    return { heights[0], heights[1] };
+  }
+  if (condition.absolute)
+  {
+    const bool zero = world.low <= 0.0 && world.high >= 0.0;
+    return { zero ? 0.0 : std::min(std::abs(world.low), std::abs(world.high)),
+      std::max(std::abs(world.low), std::abs(world.high)) };
+  }
+  return world;
 }
 
 Result<std::shared_ptr<const NodePruning>> pruningOf(

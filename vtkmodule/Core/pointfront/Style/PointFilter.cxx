@@ -1,5 +1,6 @@
 #include "pointfront/Style/PointFilter.h"
 
+#include "pointfront/Style/ClassHeights.h"
 #include "pointfront/Style/StoredIntervals.h"
 
 #include <algorithm>
@@ -163,6 +164,16 @@ template <typename T, typename From>
 void keepPassing(const From& from, const Attribute& attribute, const AttributeCondition& condition,
   std::uint32_t count, std::uint8_t* keep)
 {
+  if (condition.absolute)
+  {
+    keepWhere(from, count, keep,
+      [&attribute, &condition](T stored)
+      {
+        return condition.passes(
+          std::abs(static_cast<double>(stored) * attribute.scale + attribute.offset));
+      });
+    return;
+  }
   if constexpr (std::is_floating_point_v<T>)
   {
     if (attribute.scale == 1.0 && attribute.offset == 0.0)
@@ -219,6 +230,16 @@ void keepOfPositions(const NodeColumns& node, const AttributeCondition& conditio
   };
   keepInIntervals(
     Steps{ positions, origin, condition.axis }, steps, condition.inverted, count, keep);
+}
+
+void keepOfHeights(const NodeColumns& node, const AttributeCondition& condition,
+  std::uint32_t first, std::uint32_t count, std::uint8_t* keep)
+{
+  for (std::uint32_t i = 0; i < count; ++i)
+  {
+    const bool passes = condition.passes(condition.heights->at(node, first + i));
+    keep[i] = static_cast<std::uint8_t>(keep[i] & static_cast<std::uint8_t>(passes));
+  }
 }
 
 } // namespace
@@ -298,8 +319,18 @@ void PointFilter::evaluate(const NodeColumns& node, const AttributeSchema& schem
   std::fill(keep, keep + count, std::uint8_t(1));
   for (const AttributeCondition& condition : conditions)
   {
-    condition.usesColumn() ? keepOfColumn(node, schema, condition, first, count, keep)
-                           : keepOfPositions(node, condition, first, count, keep);
+    if (condition.heights)
+    {
+      keepOfHeights(node, condition, first, count, keep);
+    }
+    else if (condition.usesColumn())
+    {
+      keepOfColumn(node, schema, condition, first, count, keep);
+    }
+    else
+    {
+      keepOfPositions(node, condition, first, count, keep);
+    }
   }
 }
 

@@ -6,16 +6,19 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <vector>
 
 namespace pointfront
 {
 
+class ClassHeights;
+
 /// A number of a condition: a double, or a whole number of 64 bits, of which a double loses digits.
 using ConditionNumber = long double;
 
-/// One condition on one attribute of a store, or on a coordinate: within a range, or one of some
-/// values.
+/// One condition on one attribute of a store, on a coordinate, or on what is derived of them
+/// (PointColouring.h): within a range, or one of some values.
 /// Units    world values: stored * scale + offset.
 /// Numbers  integers of 64 bits without scale and offset are compared exactly. Everything else is a
 ///          double, and is compared with the doubles of the condition's numbers.
@@ -26,6 +29,10 @@ struct AttributeCondition
   int axis = -1; ///< 0 x, 1 y, 2 z: of the position, which needs no column
   double axisScale = 1.0; ///< of the store's grid, along `axis`
   double axisOffset = 0.0;
+  /// Of the value without its sign: horizontality is so of the normal's third component.
+  bool absolute = false;
+  /// Global height: `axis` is z, and the value is the point's height in its class.
+  std::shared_ptr<const ClassHeights> heights = nullptr;
   std::array<ConditionNumber, 2> range{ -std::numeric_limits<double>::infinity(),
     std::numeric_limits<double>::infinity() };
   bool lowOpen = false; ///< range[0] itself does not pass
@@ -45,7 +52,7 @@ struct AttributeCondition
     return a.column == b.column && a.component == b.component && a.axis == b.axis &&
       a.axisScale == b.axisScale && a.axisOffset == b.axisOffset && a.range == b.range &&
       a.lowOpen == b.lowOpen && a.highOpen == b.highOpen && a.values == b.values &&
-      a.inverted == b.inverted;
+      a.inverted == b.inverted && a.absolute == b.absolute && a.heights == b.heights;
   }
 };
 

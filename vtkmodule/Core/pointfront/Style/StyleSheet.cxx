@@ -175,12 +175,12 @@ private:
 
   Result<void> filter()
   {
-    const Result<PointFilter> common = sheet_.where.resolve(store_);
+    const Result<PointFilter> common = sheet_.where.resolve(store_, surroundings_.heights);
     if (!common)
     {
       return makeError(common.error().kind, "where: " + common.error().what);
     }
-    const Result<PointFilter> own = style_.where->resolve(store_);
+    const Result<PointFilter> own = style_.where->resolve(store_, surroundings_.heights);
     if (!own)
     {
       return placed(place_, "where", own.error());
@@ -240,11 +240,12 @@ bool StyleSheet::wantsHeights(const StoreDescription& store) const
     return source.kind == ColourSource::Kind::Attribute &&
       PointColouring::wantsHeights(store, request);
   };
-  const auto styleAsks = [&asks](const LayerStyle& style)
+  const auto styleAsks = [&](const LayerStyle& style)
   {
-    return style.colour &&
+    const bool colourAsks = style.colour &&
       (asks(*style.colour) ||
         std::any_of(style.colour->parts.begin(), style.colour->parts.end(), asks));
+    return colourAsks || (style.where && style.where->wantsHeights(store));
   };
   const auto anyAsks = [&styleAsks](const LayerStyle& one, const auto& ofClasses)
   {
@@ -252,7 +253,7 @@ bool StyleSheet::wantsHeights(const StoreDescription& store) const
       std::any_of(ofClasses.begin(), ofClasses.end(),
         [&](const auto& ofClass) { return styleAsks(ofClass.second); });
   };
-  return anyAsks(standard, classes) ||
+  return where.wantsHeights(store) || anyAsks(standard, classes) ||
     std::any_of(lenses.begin(), lenses.end(),
       [&](const StyleLens& lens) { return anyAsks(lens.standard, lens.classes); });
 }

@@ -58,7 +58,7 @@ struct StyleSheet
   bool resolvesAs(const StyleSheet& other) const;
   /// With its lenses and highlights.
   FrameShading frameShading() const;
-  /// Whether any colour asks for ClassHeights of this store.
+  /// Whether any colour or condition asks for ClassHeights of this store.
   bool wantsHeights(const StoreDescription& store) const;
 
   /// Layer number `layer`'s style with the store's columns looked up, visible or not; of an

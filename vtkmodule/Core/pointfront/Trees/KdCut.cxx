@@ -72,11 +72,46 @@ KdCut::KdCut(const std::vector<KdCell>& cells, const KdRule& rule, std::uint16_t
     else
     {
       const std::uint32_t node = addNode(region, count);
-      region.shares.push_back({ node, rule_.nodePoints });
+      if (!rule_.leavesOnly)
+      {
+        region.shares.push_back({ node, rule_.nodePoints });
+      }
       region.parent = node;
-      divide(std::move(region), own - rule_.nodePoints, open);
+      divide(std::move(region), own - rule_.innerPoints(), open);
     }
   }
+  if (rule_.leavesOnly)
+  {
+    joinLevels();
+  }
+}
+
+/// Every second level of inner nodes goes away; their children become those of the nodes above.
+void KdCut::joinLevels()
+{
+  std::vector<PartNode> kept;
+  std::vector<std::uint32_t> place(tree_.size()); // in `kept`, of each node or the one above it
+  std::vector<bool> odd(tree_.size(), false);
+  for (std::size_t i = 0; i < tree_.size(); ++i) // parents come before their children
+  {
+    const std::uint32_t parent = tree_[i].parent;
+    odd[i] = parent != PartNode::none && !odd[parent];
+    if (odd[i] && tree_[i].part == PartNode::none)
+    {
+      place[i] = place[parent];
+      continue;
+    }
+    place[i] = static_cast<std::uint32_t>(kept.size());
+    kept.push_back(std::move(tree_[i]));
+    kept.back().children.clear();
+    if (parent != PartNode::none)
+    {
+      kept.back().parent = place[parent];
+      kept[place[parent]].children.push_back(place[i]);
+    }
+  }
+  tree_ = std::move(kept);
+  shares_.assign(tree_.size(), {});
 }
 
 std::uint32_t KdCut::addNode(const Region& region, std::uint64_t count)

@@ -43,6 +43,11 @@ struct KdRule
   /// A subtree of at most so many nodes is a part, built in memory. Fixed, so that the tree
   /// depends on neither memory nor threads.
   std::uint32_t partNodes = 16;
+  /// Only the leaves have points of the input; inner nodes of the upper tree stand for two
+  /// divisions each (KdMeanBuilder.h), and nothing is owed.
+  bool leavesOnly = false;
+
+  std::uint32_t innerPoints() const { return leavesOnly ? 0 : nodePoints; }
 
   std::uint64_t partPoints() const { return std::uint64_t(nodePoints) * partNodes; }
 };
@@ -102,6 +107,7 @@ private:
   unsigned longestAxis(const Region& region) const;
   void divide(Region region, std::uint64_t own, std::vector<Region>& open);
   Median median(const Region& region, std::uint64_t leftPoints) const;
+  void joinLevels();
 
   const std::vector<KdCell>& cells_;
   KdRule rule_;

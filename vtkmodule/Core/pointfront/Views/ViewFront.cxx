@@ -22,10 +22,6 @@ constexpr std::uint32_t movesToComplete = 1u << 20;
 constexpr double heldShare = 0.85;
 /// Longest that a frame at rest goes on moving its front.
 constexpr std::chrono::milliseconds restTime{ 10 };
-constexpr std::uint32_t requestsAtOnce = 1024;
-/// Frames that a moving view is looked ahead: about what a disk and a decoder take, and half a
-/// second at the rates of interactors.
-constexpr double framesAhead = 8.0;
 /// Between two questions whether a complete frame is to go on waiting.
 constexpr std::chrono::milliseconds betweenAborts{ 50 };
 /// Fewest points of a frame in motion: less is no picture, whatever the machine.
@@ -264,7 +260,7 @@ void ViewFront::setLimits(const FrameRequest& demand)
   const std::uint64_t claims = window_->points.claims();
   limits.sharedSlots.most =
     demand.gpuBytes > 0 ? GpuSlotBytes::slotsWithin(demand.gpuBytes, demand.gpuStreams, claims) : 0;
-  limits.requestLimit = requestsAtOnce;
+  limits.requestLimit = mostRequests;
   limits.interacting = demand.interacting;
   limits.motionErrorPx = demand.targetErrorPx;
   limits.movesPerFrame = demand.complete ? movesToComplete : movesAtRest;
@@ -299,33 +295,20 @@ void ViewFront::step(const FrameRequest& demand)
   rowsSeen_ = piece_->hierarchy()->arrivals();
   setLimits(demand);
   const FrontDelta& made = selection_->update(demand.view, share_.residency(), limits_);
-  if (made.number == told_ && !demand.interacting)
+  const bool sameAgain = made.number == told_ && !demand.interacting;
+  if (sameAgain && !marginGoesOn())
   {
     delta_.complete = made.complete;
     return;
   }
   covered_ = false;
+  marginWalks_ = sameAgain ? marginWalks_ : 0;
   told_ = demand.interacting ? 0 : made.number; // in motion it has a margin that goes at rest
   delta_ = made;
   tellDemand(demand);
   addMargin(demand);
   wish_->request(
     delta_.requests, [this](NodeIndex node) { return selection_->distanceUnderFront(node); });
-}
-
-/// In motion, behind all that the view needs itself.
-void ViewFront::addMargin(const FrameRequest& demand)
-{
-  if (!demand.interacting)
-  {
-    margin_.rest(demand.view);
-    return;
-  }
-  const auto asked = static_cast<std::uint32_t>(delta_.requests.size());
-  const std::vector<LoadRequest>& margin =
-    margin_.requests(demand.view, delta_.thresholdPx, share_.residency(), framesAhead,
-      requestsAtOnce - std::min(requestsAtOnce, asked), demand.layers);
-  delta_.requests.insert(delta_.requests.end(), margin.begin(), margin.end());
 }
 
 bool ViewFront::allCovered() const
@@ -438,7 +421,7 @@ bool ViewFront::wantsUpdate() const
 {
   return !begun_ || (share_.residency().arrivals() != arrivalsSeen_ && !isSettled()) ||
     sharedRevision() != sharedSeen_ ||
-    (delta_.rowsComing && piece_->hierarchy()->arrivals() != rowsSeen_) ||
+    ((delta_.rowsComing || marginGoesOn()) && piece_->hierarchy()->arrivals() != rowsSeen_) ||
     (!delta_.complete && movedOn());
 }
 

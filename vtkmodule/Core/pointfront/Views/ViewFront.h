@@ -6,8 +6,8 @@
 #include "pointfront/Views/WindowDemand.h"
 
 #include "pointfront/Detail/DetailSelection.h"
-#include "pointfront/Front/MotionMargin.h"
 #include "pointfront/Front/View.h"
+#include "pointfront/Front/ViewMargin.h"
 #include "pointfront/Points/AttributeSchema.h"
 
 #include <cstdint>
@@ -112,9 +112,12 @@ public:
   bool expectsMore() const;
 
 private:
+  static constexpr std::uint32_t mostRequests = 1024; ///< at once
+
   void choose(DetailMethod method);
   void step(const FrameRequest& demand);
   void addMargin(const FrameRequest& demand);
+  bool marginGoesOn() const;
   bool allCovered() const;
   void noteColumns(const FrameRequest& demand);
   bool isSettled() const;
@@ -135,7 +138,8 @@ private:
   DetailMethod method_ = DetailMethod::RenderingFront;
   std::unique_ptr<DetailSelection> selection_;
   std::unique_ptr<OtherPieces> others_; ///< null for a whole hierarchy
-  MotionMargin margin_;
+  ViewMargin margin_;
+  std::uint32_t marginWalks_ = 0; ///< at rest, of the present delta
   std::uint64_t beside_ = 0;
   double fillPx_ = 0.0;
   double viewportPx_ = 0.0;

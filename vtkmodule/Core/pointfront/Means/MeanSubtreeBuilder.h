@@ -1,7 +1,7 @@
 #pragma once
 
+#include "pointfront/Means/MeanCells.h"
 #include "pointfront/Trees/EmittingBuilder.h"
-#include "pointfront/Trees/MeanRecord.h"
 #include "pointfront/Trees/NodeSplat.h"
 #include "pointfront/Trees/Partition.h"
 #include "pointfront/Trees/Sampler.h"
@@ -17,9 +17,8 @@ namespace pointfront
 
 /// The octree over some points with `replace` refinement, from the leaves up: the points of the
 /// input are in the leaves, an inner node holds one mean representative for each cell of its grid
-/// (MeanRecord.h). Cells, leaves and merging as in SubtreeBuilder; cells are so coarse that a node
-/// has at most a third of the points that it stands in for, so all inner nodes together add at
-/// most half.
+/// (MeanCells.h). Cells, leaves and merging as in SubtreeBuilder. A node has at most a third of the
+/// points that it stands in for, so all inner nodes together add at most half.
 /// What an open subtree holds are the representatives of its root, or the points of a leaf, as
 /// records of MeanRecord in Morton order.
 /// Source   Richter & Doellner 2010, section 3.1 and figure 3.
@@ -30,7 +29,7 @@ public:
     std::size_t recordBytes, const Partition& partition)
     : EmittingBuilder(emitter)
     , rule_(rule)
-    , form_(std::move(form))
+    , cells_(std::move(form), rule, leastShare)
     , recordBytes_(recordBytes)
     , partition_(partition)
     , splat_(emitter.space())
@@ -41,10 +40,12 @@ public:
   OpenSubtree join(std::vector<OpenSubtree> children, std::uint32_t node) override;
   std::unique_ptr<BuiltNode> close(OpenSubtree subtree) override
   {
-    return emitRoot(std::move(subtree), form_.bytes());
+    return emitRoot(std::move(subtree), cells_.form().bytes());
   }
 
 private:
+  static constexpr unsigned leastShare = 3;
+
   struct Branch
   {
     std::unique_ptr<BuiltNode> node;
@@ -61,14 +62,12 @@ private:
   OpenSubtree opened(Branch branch);
 
   SamplingRule rule_;
-  MeanRecord form_;
+  MeanCells cells_; // of the node at hand
   std::size_t recordBytes_;
   const Partition& partition_;
   NodeSplat splat_;
   // Reused from part to part: fresh memory costs more than what is done with it.
   std::vector<std::byte> sorted_; // records of the part
-  std::vector<MeanInput> inputs_; // of the node at hand
-  std::vector<TreePosition> positions_; // of inputs_
 };
 
 } // namespace pointfront

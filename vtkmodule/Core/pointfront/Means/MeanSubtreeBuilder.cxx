@@ -1,35 +1,14 @@
-#include "pointfront/Trees/MeanSubtreeBuilder.h"
+#include "pointfront/Means/MeanSubtreeBuilder.h"
 
 #include "pointfront/Base/CpuClock.h"
 #include "pointfront/Trees/LeafMerging.h"
 #include "pointfront/Trees/OctreeSplit.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 
 namespace pointfront
 {
-namespace
-{
-/// Points that one representative stands in for, at least on average.
-constexpr std::uint64_t leastShare = 3;
-
-/// log2 of the cells that are represented by one point each: the finest that gives at most twice
-/// the node's capacity, twice as coarse as those of the inner children.
-unsigned meanCell(const CellOccupancy& occupancy, std::uint64_t points, unsigned nodeLog2Side,
-  int coarsestBelow, const SamplingRule& rule)
-{
-  const std::uint64_t most = std::min<std::uint64_t>(2ull * rule.nodePoints, points / leastShare);
-  unsigned cell = static_cast<unsigned>(coarsestBelow + 1);
-  while (cell < nodeLog2Side && occupancy.distinct[cell] > most)
-  {
-    ++cell;
-  }
-  return std::min(cell, nodeLog2Side);
-}
-} // namespace
-
 OpenSubtree MeanSubtreeBuilder::build(
   std::vector<std::byte> records, std::size_t count, std::uint32_t /*node*/)
 {
@@ -88,53 +67,27 @@ void MeanSubtreeBuilder::represent(
   const std::vector<Branch>& children, unsigned log2Side, Branch& joined)
 {
   const CpuStopwatch watch(seconds_.sample);
-  std::size_t count = 0;
-  for (const Branch& child : children)
-  {
-    count += child.held.size();
-  }
-  inputs_.resize(count);
-  positions_.resize(count);
-  std::size_t next = 0;
+  cells_.clear();
   int coarsestBelow = -1;
   CellOccupancy occupancy;
   for (const Branch& child : children)
   {
-    const std::size_t first = next;
-    for (const std::uint32_t i : child.held)
-    {
-      inputs_[next] = { child.view.record(i), child.original };
-      positions_[next++] = child.view.position(i);
-    }
+    const std::size_t first = cells_.size();
+    cells_.add(child.view, child.held, child.original);
     const bool leaf = child.node->samplingQuarters < 0;
     coarsestBelow =
       leaf ? coarsestBelow : std::max(coarsestBelow, child.node->samplingQuarters / 4);
-    if (first < next)
+    if (first < cells_.size())
     {
       occupancy.append(child.occupancy ? *child.occupancy : cellOccupancy(child.view, child.held),
-        first == 0 ? 0 : differingBits(positions_[first - 1], positions_[first]));
+        first == 0 ? 0 : differingBits(cells_.position(first - 1), cells_.position(first)));
     }
   }
-  const unsigned cell = meanCell(occupancy, inputs_.size(), log2Side, coarsestBelow, rule_);
-  joined.node->samplingQuarters = 4 * static_cast<int>(cell);
-  joined.node->row.spacing =
-    static_cast<float>(std::ldexp(space().stepLength(), static_cast<int>(cell)));
-  joined.held.resize(occupancy.distinct[cell]);
+  joined.means = cells_.represent(occupancy, log2Side, static_cast<unsigned>(coarsestBelow + 1),
+    space().stepLength(), *joined.node); // twice as coarse as the inner children
+  joined.view = { joined.means.data(), cells_.form().bytes() };
+  joined.held.resize(joined.means.size() / cells_.form().bytes());
   std::iota(joined.held.begin(), joined.held.end(), 0u);
-  joined.means.resize(joined.held.size() * form_.bytes());
-  joined.view = { joined.means.data(), form_.bytes() };
-  std::byte* out = joined.means.data();
-  for (std::size_t begin = 0; begin < inputs_.size(); out += form_.bytes())
-  {
-    std::size_t end = begin + 1;
-    while (end < inputs_.size() && differingBits(positions_[end], positions_[begin]) <= cell)
-    {
-      ++end;
-    }
-    form_.summarise(inputs_, begin, end, out);
-    form_.forgetSplat(out);
-    begin = end;
-  }
   joined.node->row.splatRadius = splat_.measure(joined.view, joined.held);
 }
 
@@ -155,17 +108,8 @@ MeanSubtreeBuilder::Branch MeanSubtreeBuilder::joinBranches(
 
 OpenSubtree MeanSubtreeBuilder::opened(Branch branch)
 {
-  if (!branch.original)
-  {
-    return { std::move(branch.node), std::move(branch.means) };
-  }
-  inputs_.clear();
-  std::vector<std::byte> records(branch.held.size() * form_.bytes());
-  for (std::size_t i = 0; i < branch.held.size(); ++i)
-  {
-    inputs_.push_back({ branch.view.record(branch.held[i]), true });
-    form_.summarise(inputs_, i, i + 1, records.data() + i * form_.bytes());
-  }
+  std::vector<std::byte> records =
+    branch.original ? cells_.alone(branch.view, branch.held) : std::move(branch.means);
   return { std::move(branch.node), std::move(records) };
 }
 
@@ -182,8 +126,8 @@ OpenSubtree MeanSubtreeBuilder::join(std::vector<OpenSubtree> children, std::uin
   {
     Branch branch;
     branch.node = std::move(child.root);
-    branch.view = { records.data(), form_.bytes() };
-    branch.held.resize(child.records.size() / form_.bytes());
+    branch.view = { records.data(), cells_.form().bytes() };
+    branch.held.resize(child.records.size() / cells_.form().bytes());
     std::iota(branch.held.begin(), branch.held.end(), first);
     first += static_cast<std::uint32_t>(branch.held.size());
     branches.push_back(std::move(branch));

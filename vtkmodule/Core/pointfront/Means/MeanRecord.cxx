@@ -1,4 +1,4 @@
-#include "pointfront/Trees/MeanRecord.h"
+#include "pointfront/Means/MeanRecord.h"
 
 #include "pointfront/Points/SplatRadius.h"
 #include "pointfront/Trees/BuiltTree.h"

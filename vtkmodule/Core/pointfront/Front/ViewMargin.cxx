@@ -1,4 +1,4 @@
-#include "pointfront/Front/MotionMargin.h"
+#include "pointfront/Front/ViewMargin.h"
 
 #include "pointfront/Front/ScreenError.h"
 
@@ -21,6 +21,20 @@ glm::dvec3 turned(const glm::dvec3& before, const glm::dvec3& now, double frames
   const glm::dvec3 ahead = now + frames * (now - before);
   const double length = glm::length(ahead);
   return length > 1e-6 ? ahead / length : now;
+}
+
+/// How fast the distance to the plane grows across the line of sight.
+double acrossSight(const View& view, const glm::dvec4& plane)
+{
+  const glm::dvec3 normal(plane);
+  return glm::length(normal - glm::dot(normal, view.direction) * view.direction);
+}
+
+/// `otherwise` where the normal has no length: frusta that close at once.
+glm::dvec4 unitPlane(const glm::dvec4& plane, const glm::dvec4& otherwise)
+{
+  const double length = glm::length(glm::dvec3(plane));
+  return length > 1e-12 ? plane / length : otherwise;
 }
 
 } // namespace
@@ -53,18 +67,57 @@ View viewAhead(const View& before, const View& now, double frames)
   return ahead;
 }
 
-const std::vector<LoadRequest>& MotionMargin::requests(const View& now, double thresholdPx,
+View widened(const View& now, double share)
+{
+  View wide = now;
+  for (const std::size_t left : { 0, 2 })
+  {
+    const glm::dvec4 a = now.planes[left];
+    const glm::dvec4 b = now.planes[left + 1];
+    // Weights that make their sum the depth, in which both sides of a viewport are equally far.
+    const double ofA = acrossSight(now, b);
+    const double ofB = acrossSight(now, a);
+    const glm::dvec4 depth = ofA * a + ofB * b;
+    wide.planes[left] = unitPlane(ofA * a + share * depth, a);
+    wide.planes[left + 1] = unitPlane(ofB * b + share * depth, b);
+  }
+  return wide;
+}
+
+const std::vector<LoadRequest>& ViewMargin::ahead(const View& now, double thresholdPx,
   const ResidencySnapshot& residency, double frames, std::uint32_t most,
   const std::vector<LayerLimits>& layers)
 {
-  requests_.clear();
-  visits_ = 0;
   const View ahead = first_ ? now : viewAhead(before_, now, frames);
   rest(now);
-  if (ahead == now)
+  if (ahead != now)
   {
-    return requests_;
+    walk(ahead, thresholdPx, residency, most, layers);
   }
+  return requests_;
+}
+
+const std::vector<LoadRequest>& ViewMargin::around(const View& now, double thresholdPx,
+  const ResidencySnapshot& residency, double share, std::uint32_t most,
+  const std::vector<LayerLimits>& layers)
+{
+  rest(now);
+  walk(widened(now, share), thresholdPx, residency, most, layers);
+  return requests_;
+}
+
+void ViewMargin::rest(const View& now)
+{
+  requests_.clear();
+  rowsComing_ = false;
+  before_ = now;
+  first_ = false;
+}
+
+void ViewMargin::walk(const View& shown, double thresholdPx, const ResidencySnapshot& residency,
+  std::uint32_t most, const std::vector<LayerLimits>& layers)
+{
+  visits_ = 0;
   for (const NodeIndex root : hierarchy_->roots())
   {
     const std::uint16_t number = hierarchy_->node(root).layer;
@@ -72,23 +125,16 @@ const std::vector<LoadRequest>& MotionMargin::requests(const View& now, double t
     // Where a lens will be is not known.
     if (layer.visible && layer.windows.empty())
     {
-      visit(root, ahead, layer, thresholdPx, residency);
+      visit(root, shown, layer, thresholdPx, residency);
     }
   }
   const auto sooner = [](const LoadRequest& a, const LoadRequest& b)
   { return a.priority != b.priority ? a.priority > b.priority : a.node < b.node; };
   std::sort(requests_.begin(), requests_.end(), sooner);
   requests_.resize(std::min<std::size_t>(requests_.size(), most));
-  return requests_;
 }
 
-void MotionMargin::rest(const View& now)
-{
-  before_ = now;
-  first_ = false;
-}
-
-void MotionMargin::visit(NodeIndex index, const View& ahead, const LayerLimits& layer,
+void ViewMargin::visit(NodeIndex index, const View& shown, const LayerLimits& layer,
   double thresholdPx, const ResidencySnapshot& residency)
 {
   if (++visits_ > visitLimit)
@@ -96,11 +142,13 @@ void MotionMargin::visit(NodeIndex index, const View& ahead, const LayerLimits& 
     return;
   }
   Node node;
-  if (hierarchy_->peek(index, node) != RowState::Here)
+  const RowState row = hierarchy_->peek(index, node);
+  if (row != RowState::Here)
   {
+    rowsComing_ = rowsComing_ || row == RowState::Coming;
     return; // by the next frame it may be
   }
-  if (sphereVisibility(ahead, node.centre, node.radius) == Visibility::Outside)
+  if (sphereVisibility(shown, node.centre, node.radius) == Visibility::Outside)
   {
     return;
   }
@@ -109,7 +157,7 @@ void MotionMargin::visit(NodeIndex index, const View& ahead, const LayerLimits& 
   {
     return;
   }
-  const double errorPx = screenError(ahead, node) / layer.errorFactor;
+  const double errorPx = screenError(shown, node) / layer.errorFactor;
   if (verdict == NodePruning::Verdict::Draw && node.pointCount > 0 &&
     residency.state(index) == ResidencySnapshot::State::Absent)
   {
@@ -117,7 +165,7 @@ void MotionMargin::visit(NodeIndex index, const View& ahead, const LayerLimits& 
   }
   for (std::uint8_t c = 0; errorPx > thresholdPx && c < node.childCount; ++c)
   {
-    visit(node.firstChild + c, ahead, layer, thresholdPx, residency);
+    visit(node.firstChild + c, shown, layer, thresholdPx, residency);
   }
 }
 

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "pointfront/Base/Progress.h"
+#include "pointfront/Build/BuildRun.h"
+#include "pointfront/Points/AttributePass.h"
+#include "pointfront/Points/PassChoice.h"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace pointfront
+{
+
+/// What to build, of what, and how: as VTK's builder and Python ask for it.
+struct BuildOrder
+{
+  std::vector<std::string> files; ///< and patterns and folders, as the tool takes them
+  std::function<PointSources()> made; ///< instead of files; called once
+  BuildOptions options;
+  PassChoice passes;
+  PreviewOptions preview;
+};
+
+/// Opens the files, makes the passes, builds. What files and passes find is among the report's
+/// warnings.
+/// Threads  called from one thread; BuildRun runs its own.
+Result<BuildReport> carryOut(const BuildOrder& order, const ProgressFunction& progress);
+
+} // namespace pointfront

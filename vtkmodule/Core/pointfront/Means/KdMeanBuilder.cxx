@@ -1,0 +1,167 @@
+#include "pointfront/Means/KdMeanBuilder.h"
+
+#include "pointfront/Base/CpuClock.h"
+#include "pointfront/Trees/MortonOrder.h"
+
+#include <glm/common.hpp>
+
+#include <algorithm>
+#include <numeric>
+
+namespace pointfront
+{
+
+OpenSubtree KdMeanBuilder::build(
+  std::vector<std::byte> records, std::size_t count, std::uint32_t /*node*/)
+{
+  if (count == 0)
+  {
+    return {};
+  }
+  {
+    const CpuStopwatch watch(seconds_.sort);
+    const RecordSpan view{ records.data(), recordBytes_ };
+    sorted_.resize(std::max(sorted_.size(), records.size()));
+    gatherRecords(view, mortonOrder(view, count), sorted_.data());
+    records = {};
+  }
+  active_.resize(count);
+  std::iota(active_.begin(), active_.end(), 0u);
+  return opened(branch({ sorted_.data(), recordBytes_ }, { 0, count }));
+}
+
+KdMeanBuilder::Branch KdMeanBuilder::branch(const RecordSpan& records, const Range& range)
+{
+  const auto fits = [&](const Range& part) { return part.second - part.first <= nodePoints_; };
+  if (fits(range))
+  {
+    return leaf(records, range);
+  }
+  std::vector<Branch> children;
+  for (const Range& half : halves(records, range))
+  {
+    if (fits(half))
+    {
+      children.push_back(leaf(records, half));
+      continue;
+    }
+    for (const Range& quarter : halves(records, half))
+    {
+      children.push_back(branch(records, quarter));
+    }
+  }
+  return joinBranches(std::move(children));
+}
+
+KdMeanBuilder::Branch KdMeanBuilder::leaf(const RecordSpan& records, const Range& range)
+{
+  const CpuStopwatch watch(seconds_.sample);
+  Branch branch;
+  branch.view = records;
+  branch.original = true;
+  branch.held.assign(active_.begin() + static_cast<std::ptrdiff_t>(range.first),
+    active_.begin() + static_cast<std::ptrdiff_t>(range.second));
+  branch.node = std::make_unique<BuiltNode>();
+  const unsigned side =
+    differingBits(records.position(branch.held.front()), records.position(branch.held.back()));
+  const double steps =
+    surfaceSpacing(cellOccupancy(records, branch.held), branch.held.size(), side);
+  branch.node->row.spacing = static_cast<float>(steps * space().stepLength());
+  branch.node->row.splatRadius = splat_.measure(records, branch.held);
+  return branch;
+}
+
+int KdMeanBuilder::longestAxis(const RecordSpan& records, const Range& range) const
+{
+  TreePosition low(UINT32_MAX);
+  TreePosition high(0);
+  for (std::size_t i = range.first; i < range.second; ++i)
+  {
+    low = glm::min(low, records.position(active_[i]));
+    high = glm::max(high, records.position(active_[i]));
+  }
+  const TreePosition size = high - low;
+  return size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+}
+
+/// Puts the points of the left before those of the right, each in Morton order.
+std::array<KdMeanBuilder::Range, 2> KdMeanBuilder::halves(
+  const RecordSpan& records, const Range& range)
+{
+  const CpuStopwatch watch(seconds_.sample);
+  const int axis = longestAxis(records, range);
+  const auto place = [&](std::uint32_t i) { return std::pair(records.position(i)[axis], i); };
+  places_.clear();
+  for (std::size_t i = range.first; i < range.second; ++i)
+  {
+    places_.push_back(place(active_[i]));
+  }
+  const auto wanted =
+    static_cast<std::ptrdiff_t>(kdLeftPoints(range.second - range.first, nodePoints_));
+  std::nth_element(places_.begin(), places_.begin() + wanted, places_.end());
+  const auto first = places_[static_cast<std::size_t>(wanted)]; // of the right
+  const auto middle =
+    std::stable_partition(active_.begin() + static_cast<std::ptrdiff_t>(range.first),
+      active_.begin() + static_cast<std::ptrdiff_t>(range.second),
+      [&](std::uint32_t i) { return place(i) < first; });
+  const auto at = static_cast<std::size_t>(middle - active_.begin());
+  return { Range(range.first, at), Range(at, range.second) };
+}
+
+KdMeanBuilder::Branch KdMeanBuilder::joinBranches(std::vector<Branch> children)
+{
+  Branch joined;
+  joined.node = std::make_unique<BuiltNode>();
+  {
+    const CpuStopwatch watch(seconds_.sample);
+    cells_.clear();
+    int coarsestBelow = 0;
+    for (const Branch& child : children)
+    {
+      cells_.add(child.view, child.held, child.original);
+      coarsestBelow = std::max(coarsestBelow, child.node->samplingQuarters / 4); // a leaf's is -1
+    }
+    cells_.sort(); // regions of a kd-tree are no runs of the curve
+    const unsigned side = differingBits(cells_.position(0), cells_.position(cells_.size() - 1));
+    joined.means =
+      cells_.represent(cells_.occupancy(), side, coarsestBelow, space().stepLength(), *joined.node);
+    joined.view = { joined.means.data(), cells_.form().bytes() };
+    joined.held.resize(joined.means.size() / cells_.form().bytes());
+    std::iota(joined.held.begin(), joined.held.end(), 0u);
+    joined.node->row.splatRadius = splat_.measure(joined.view, joined.held);
+  }
+  for (Branch& child : children)
+  {
+    emit(*child.node, child.view, child.held);
+    joined.node->children.push_back(std::move(child.node));
+  }
+  return joined;
+}
+
+OpenSubtree KdMeanBuilder::opened(Branch branch)
+{
+  std::vector<std::byte> records =
+    branch.original ? cells_.alone(branch.view, branch.held) : std::move(branch.means);
+  return { std::move(branch.node), std::move(records) };
+}
+
+OpenSubtree KdMeanBuilder::join(std::vector<OpenSubtree> children, std::uint32_t /*node*/)
+{
+  std::vector<Branch> branches;
+  for (OpenSubtree& child : children)
+  {
+    if (!child.root)
+    {
+      continue; // of a preview: nothing of it is known yet
+    }
+    Branch branch;
+    branch.node = std::move(child.root);
+    branch.view = { child.records.data(), cells_.form().bytes() };
+    branch.held.resize(child.records.size() / cells_.form().bytes());
+    std::iota(branch.held.begin(), branch.held.end(), 0u);
+    branches.push_back(std::move(branch));
+  }
+  return branches.empty() ? OpenSubtree() : opened(joinBranches(std::move(branches)));
+}
+
+} // namespace pointfront

@@ -1,0 +1,235 @@
+"""The kernel in this process, by the C functions of Kernel/PlainInterface.h: no VTK."""
+
+import ctypes
+import json
+import os
+import pathlib
+import threading
+
+import numpy
+
+from ._errors import PointFrontError
+from ._progress import receiving
+
+_BYTES = ctypes.c_char_p
+_DOUBLES = ctypes.POINTER(ctypes.c_double)
+PROGRESS = ctypes.CFUNCTYPE(ctypes.c_int, _BYTES, ctypes.c_double)
+
+
+class Query(ctypes.Structure):
+    """PointFrontQuery."""
+
+    _fields_ = [("box", _DOUBLES), ("sphere", _DOUBLES), ("area", _BYTES),
+                ("line_distance", ctypes.c_double), ("classes", _BYTES),
+                ("class_count", ctypes.c_size_t), ("where", _BYTES), ("spacing", ctypes.c_double),
+                ("attributes", _BYTES), ("attribute_count", ctypes.c_size_t),
+                ("memory_bytes", ctypes.c_uint64), ("most_points", ctypes.c_uint64),
+                ("piece", ctypes.c_uint32), ("pieces", ctypes.c_uint32)]
+
+
+class _Array(ctypes.Structure):
+    """PointFrontArray."""
+
+    _fields_ = [("name", _BYTES), ("data", ctypes.c_void_p), ("type", ctypes.c_uint8),
+                ("components", ctypes.c_uint8)]
+
+
+_TYPES = {"int8": 1, "uint8": 2, "int16": 3, "uint16": 4, "int32": 5, "uint32": 6, "int64": 7,
+          "uint64": 8, "float32": 9, "float64": 10}  # pointfront::ScalarType
+
+
+def _loaded():
+    library = ctypes.CDLL(str(pathlib.Path(__file__).parent / "libpointfrontPython.so"))
+    pointer = ctypes.c_void_p
+    for name, arguments in (
+            ("Open", [_BYTES, ctypes.POINTER(pointer), _DOUBLES]),
+            ("Points", [pointer, ctypes.POINTER(Query), PROGRESS]),
+            ("Build", [_BYTES, ctypes.POINTER(_Array), ctypes.c_size_t, ctypes.c_uint64, PROGRESS]),
+            ("Index", [_BYTES, _BYTES, ctypes.c_int, ctypes.c_uint32, PROGRESS]),
+            ("ClassNames", []), ("Close", [pointer]), ("Free", [pointer])):
+        function = getattr(library, f"pointfront{name}")
+        function.argtypes = arguments
+        function.restype = None if name in ("Close", "Free") else pointer
+    return library
+
+
+_library = _loaded()
+
+
+def _answer(address):
+    """The dictionary of an answer; raises PointFrontError for one that is an error."""
+    if not address:
+        raise PointFrontError("the system gave no more memory")
+    try:
+        answer = json.loads(ctypes.string_at(address))
+    finally:
+        _library.pointfrontFree(address)
+    if isinstance(answer, dict) and "error" in answer:
+        raise _Stopped() if answer["cancelled"] else PointFrontError(answer["error"])
+    return answer
+
+
+class _Stopped(PointFrontError):
+    """The kernel ended because it was asked to."""
+
+
+class _Call:
+    """A call of the kernel in a thread of its own; the caller's hears of it, and Ctrl-C."""
+
+    def __init__(self, function):
+        self._changed = threading.Event()
+        self._latest = None
+        self._stopped = False
+        self._ended = False
+        self._problem = None
+        self._answer = None
+        self.phase = ""
+        self._report = PROGRESS(self._take)  # as long as the kernel may call it
+        self._thread = threading.Thread(target=self._work, args=(function,), daemon=True)
+
+    def _take(self, phase, fraction):
+        self._latest = phase.decode(errors="replace"), fraction
+        self._changed.set()
+        return 0 if self._stopped else 1
+
+    def _work(self, function):
+        try:
+            self._answer = function(self._report)
+        except BaseException as problem:
+            self._problem = problem
+        self._ended = True
+        self._changed.set()
+
+    def run(self, receive):
+        """Calls `receive` with (phase, fraction) from this thread, whose False ends the work."""
+        raised = None
+        self._thread.start()
+        ended = False
+        try:
+            while not ended:
+                try:
+                    self._changed.wait()
+                    self._changed.clear()
+                    ended = self._ended
+                    latest, self._latest = self._latest, None
+                    if latest is not None and not self._stopped:
+                        self.phase = latest[0]
+                        self._stopped = receive(*latest) is False
+                except BaseException as problem:  # the receiver's, or Ctrl-C
+                    raised = raised or problem
+                    self._stopped = True
+        finally:  # an interrupt that strikes between the lines above
+            self._stopped = True
+            self._thread.join()
+            self._report = None  # a circle of references would keep the answer
+        if raised is not None:
+            raise raised
+        if self._problem is not None:
+            raise self._problem
+        return self._answer
+
+
+def call(function, progress, stopped):
+    """What function(report) gives, while `progress` is told how far it is.
+
+    stopped  what a PointFrontError says if `progress` ends it
+    """
+    with receiving(progress) as receive:
+        try:
+            if receive("", 0.0) is False:
+                raise _Stopped()
+            work = _Call(function)
+            answer = work.run(receive)
+        except _Stopped:
+            raise PointFrontError(stopped) from None
+        receive(work.phase, 1.0)
+    return answer
+
+
+class _Memory:
+    """What the kernel gave, as an array without a copy; freed with its last view."""
+
+    def __init__(self, address, shape, dtype):
+        self._address = address
+        self.__array_interface__ = {"data": (address, False), "shape": shape,
+                                    "typestr": dtype.str, "version": 3}
+
+    def __del__(self):
+        _library.pointfrontFree(self._address)
+
+
+def _arrays(answer):
+    """(name, array) of each column; in the thread that got it, which no interrupt ends."""
+    points = answer["points"]
+    made = []
+    for column in answer["columns"]:
+        count = column["components"]
+        shape = (points,) if count == 1 else (points, count)
+        memory = _Memory(column["address"], shape, numpy.dtype(column["type"]))
+        made.append((column["name"], numpy.asarray(memory)))
+    return made
+
+
+class StoredCloud:
+    """An opened cloud.
+
+    bounds       six numbers: lowest corner, highest corner
+    description  what pointfrontOpen() answers
+
+    A forked child opens its own: it has none of its parent's threads.
+    """
+
+    def __init__(self, path):
+        self._path = os.fsencode(path)
+        self._open()
+
+    def _open(self):
+        self._process = os.getpid()
+        self._handle = ctypes.c_void_p()
+        bounds = (ctypes.c_double * 6)()
+        self.description = _answer(
+            _library.pointfrontOpen(self._path, ctypes.byref(self._handle), bounds))
+        self.bounds = tuple(bounds)
+
+    def points(self, query, progress):
+        """(name, array) of each column: the places, called "", the ranks, the attributes."""
+        if os.getpid() != self._process:
+            self._open()
+        return call(
+            lambda report: _arrays(_answer(
+                _library.pointfrontPoints(self._handle, ctypes.byref(query), report))),
+            progress, f"{os.fsdecode(self._path)}: the query was stopped")
+
+    def __del__(self):
+        if getattr(self, "_handle", None) and os.getpid() == self._process:
+            _library.pointfrontClose(self._handle)
+
+
+def build(request, arrays, progress):
+    """The answer of pointfrontBuild(); `arrays` None, or (places, {name: column})."""
+    given, points = [], 0
+    if arrays is not None:
+        places, columns = arrays
+        points = len(places)
+        given.append(_Array(None, places.ctypes.data, _TYPES["float64"], 3))
+        given += [_Array(name.encode(), column.ctypes.data, _TYPES[column.dtype.name],
+                         1 if column.ndim == 1 else column.shape[1])
+                  for name, column in columns.items()]
+    text = json.dumps(request, allow_nan=False, ensure_ascii=False)
+    text = text.encode(errors="surrogateescape")
+    return call(
+        lambda report: _answer(_library.pointfrontBuild(
+            text, (_Array * len(given))(*given), len(given), points, report)),
+        progress, f"{request['output']}: the build was stopped")
+
+
+def class_names():
+    """Of the classes 0 to 255."""
+    return _answer(_library.pointfrontClassNames())
+
+
+def index(las, side, overwrite, node_points, progress=None):
+    return call(
+        lambda report: _answer(_library.pointfrontIndex(
+            os.fsencode(las), os.fsencode(side), int(overwrite), node_points, report)),
+        progress, f"{side}: the indexing was stopped")

@@ -162,7 +162,7 @@ void vtkOpenGLPointFrontMapper::RenderPiece(vtkRenderer* renderer, vtkActor* act
   const auto drawn = Clock::now();
   const vtkIdType points = host ? this->HandOver(renderer, actor, drawing, *plan)
                                 : this->DrawPoints(renderer, actor, drawing, *plan);
-  if (!host && !this->HasPlainPointsOnly(actor))
+  if (!host && !this->DrawsInTemplate(actor))
   {
     kept = static_cast<std::uint64_t>(drawing.splats().keptPoints());
   }
@@ -193,12 +193,21 @@ vtkIdType vtkOpenGLPointFrontMapper::HandOver(vtkRenderer* renderer, vtkActor* a
   return points;
 }
 
-/// What is on the GPU of the plan: points in VTK's own pass, splats by targets of their own.
+/// VTK's own template. A mapper without a style draws as VTK's; an actor's shader code works there,
+/// and every point of a translucent actor is translucent. It keeps nothing from frame to frame.
+bool vtkOpenGLPointFrontMapper::DrawsInTemplate(vtkActor* actor)
+{
+  return this->HasPlainPointsOnly(actor) &&
+    (!this->GetStyleSheet() || hasOwnShaders(actor) ||
+      actor->HasTranslucentPolygonalGeometry() != 0);
+}
+
+/// What is on the GPU of the plan.
 vtkIdType vtkOpenGLPointFrontMapper::DrawPoints(vtkRenderer* renderer, vtkActor* actor,
   pointfront::WindowDrawing& drawing, pointfront::FramePlan& plan)
 {
   const vtkIdType storePoints = this->GetStore()->GetNumberOfPoints();
-  if (this->HasPlainPointsOnly(actor))
+  if (this->DrawsInTemplate(actor))
   {
     const vtkIdType points = drawing.list(plan);
     if (points > 0)

@@ -49,6 +49,7 @@ private:
   void operator=(const vtkOpenGLPointFrontMapper&) = delete;
 
   void TellFallBack(const char* what);
+  bool DrawsInTemplate(vtkActor* actor);
   bool HasTooManyLights(vtkRenderer* renderer);
   bool DrawsByOpenGL(vtkRenderer* renderer, vtkActor* actor);
   vtkIdType HandOver(vtkRenderer* renderer, vtkActor* actor, pointfront::WindowDrawing& drawing,

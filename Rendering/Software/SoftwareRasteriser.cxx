@@ -378,6 +378,11 @@ RasterStatistics SoftwareRasteriser::Content::draw(const FramePlan& asked, Softw
   Drawing drawing{ target, last[picture], store, fits || target.rectangle().contains(viewport),
     fits };
   const bool keeps = asked.keepsVisible && !asked.exchange && drawing.whole && !target.keepPoints;
+  if (asked.batches.empty() && keeps)
+  {
+    fits ? target.reset(PixelRectangle()) : void();
+    return {}; // other stores have the whole budget for a frame: the next one goes on
+  }
   const VisiblePoints& visible = drawing.picture.visibleFor(asked, keeps, crew);
   RasterStatistics statistics;
   statistics.points = asked.pointCount();

@@ -29,6 +29,8 @@ struct KeptValue
 constexpr KeptValue keptValues[] = { { "keptPlace", 3 }, { "keptRadius", 1 }, { "keptColour", 4 },
   { "keptNormal", 3 }, { "keptId", 2 } };
 constexpr GLsizei keptStride = 13 * sizeof(float);
+/// Each frame of a motion may add one; then they are put together.
+constexpr std::size_t mostSets = 16;
 
 /// Camera space as the shaders have it: the line of sight is z, depths of a parallel view count
 /// from its near plane.
@@ -122,6 +124,36 @@ void KeptSplats::clear()
     glDeleteBuffers(1, &set.buffer);
   }
   sets_.clear();
+  known_.clear();
+}
+
+void KeptSplats::leaveOutKnown(FramePlan& leaving)
+{
+  for (DrawBatch& batch : leaving.batches)
+  {
+    std::vector<PlanItem> fresh;
+    for (const PlanItem& item : batch.items)
+    {
+      const auto known = known_.find(item.node->node);
+      const Range range = known == known_.end() ? Range{ item.last, item.last } : known->second;
+      PlanItem part = item; // before what is known, then behind it
+      part.last = std::min(item.last, range.first);
+      part.first < part.last ? fresh.push_back(part) : void();
+      part.first = std::max(item.first, range.last);
+      part.last = item.last;
+      part.first < part.last ? fresh.push_back(part) : void();
+    }
+    batch.items = std::move(fresh);
+  }
+  for (const DrawBatch& batch : leaving.batches) // several may have the same node
+  {
+    for (const PlanItem& item : batch.items)
+    {
+      const auto [known, isNew] = known_.insert({ item.node->node, { item.first, item.last } });
+      Range& range = known->second;
+      range = { std::min(range.first, item.first), std::max(range.last, item.last) };
+    }
+  }
 }
 
 /// What is drawn from here on is written to the set's buffer in place of the screen; `most` points.
@@ -157,6 +189,40 @@ void KeptSplats::end()
   glBindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, 0);
 }
 
+/// Learns how many points were captured; the buffer becomes as large as these.
+void KeptSplats::count(Set& set)
+{
+  GLuint points = 0;
+  glGetQueryObjectuiv(set.query, GL_QUERY_RESULT, &points);
+  glDeleteQueries(1, &set.query);
+  set.query = 0;
+  set.points = points;
+  GLuint fitting = 0;
+  const auto bytes = static_cast<GLsizeiptr>(set.points * keptStride);
+  glGenBuffers(1, &fitting);
+  glBindBuffer(GL_COPY_READ_BUFFER, set.buffer);
+  glBindBuffer(GL_COPY_WRITE_BUFFER, fitting);
+  glBufferData(GL_COPY_WRITE_BUFFER, bytes, nullptr, GL_STATIC_DRAW);
+  glCopyBufferSubData(GL_COPY_READ_BUFFER, GL_COPY_WRITE_BUFFER, 0, 0, bytes);
+  glBindBuffer(GL_COPY_READ_BUFFER, 0);
+  glBindBuffer(GL_COPY_WRITE_BUFFER, 0);
+  glDeleteBuffers(1, &set.buffer);
+  set.buffer = fitting;
+}
+
+void KeptSplats::dropEmpty()
+{
+  const auto isEmpty = [](const Set& set)
+  {
+    if (set.points == 0)
+    {
+      glDeleteBuffers(1, &set.buffer);
+    }
+    return set.points == 0;
+  };
+  sets_.erase(std::remove_if(sets_.begin(), sets_.end(), isEmpty), sets_.end());
+}
+
 void KeptSplats::setLast(vtkShaderProgram* program, const FramePlan& plan, const LastPicture& last)
 {
   setMatrix(program, "cameraToLastClip",
@@ -166,60 +232,76 @@ void KeptSplats::setLast(vtkShaderProgram* program, const FramePlan& plan, const
   setTexture(program, "lastIds", last.ids);
 }
 
-void KeptSplats::setPlaces(vtkShaderProgram* program, const FrameCamera& now) const
+void KeptSplats::setPlaces(vtkShaderProgram* program, const Set& set, const FrameCamera& now)
 {
-  const glm::dmat4 change = storeToCamera(now) * glm::inverse(storeToCamera(camera_));
+  const glm::dmat4 change = storeToCamera(now) * glm::inverse(storeToCamera(set.camera));
   setMatrix(program, "keptToCamera", change);
   glm::mat3 normals(glm::transpose(glm::inverse(glm::dmat3(change))));
   program->SetUniformMatrix3x3("keptNormals", &normals[0][0]);
 }
 
+/// The plan's own styles; what has none goes.
+void KeptSplats::adopt(const FramePlan& plan)
+{
+  for (Set& set : sets_)
+  {
+    const auto batch = std::find_if(plan.batches.begin(), plan.batches.end(),
+      [&](const DrawBatch& each) { return sameStyle(each.style, set.style.get()); });
+    set.points = batch == plan.batches.end() ? 0 : set.points;
+    set.style = batch == plan.batches.end() ? set.style : batch->style;
+  }
+  dropEmpty();
+}
+
 void KeptSplats::collect(const SplatFrame& frame, SplatTools& tools, const SplatGroups& leaving,
   const FramePlan& plan, const LastPicture& last)
 {
-  std::vector<Set> old = std::exchange(sets_, {});
+  adopt(plan);
   tools.vertices->Bind();
+  const std::size_t before = sets_.size();
   for (const SplatGroups::Group& group : leaving.groups())
   {
     this->collectGroup(frame, tools, group, plan, last);
   }
-  for (std::size_t i = 0; i < old.size(); ++i)
+  std::for_each(sets_.begin() + static_cast<std::ptrdiff_t>(before), sets_.end(), count);
+  dropEmpty();
+  const std::int64_t pixels = std::int64_t(plan.camera.width) * plan.camera.height;
+  const bool tooMany = points() > pixels;
+  if (tooMany || sets_.size() > mostSets)
   {
-    const Set& model = old[i];
-    const auto alike = [&](const Set& other) { return sameStyle(other.style, model.style.get()); };
-    if (std::none_of(old.begin(), old.begin() + static_cast<std::ptrdiff_t>(i), alike))
-    {
-      std::vector<Set> sets;
-      std::copy_if(old.begin(), old.end(), std::back_inserter(sets), alike);
-      this->collectKept(frame, tools, sets, model, plan, last);
-    }
+    gather(frame, tools, plan, last, !tooMany);
+  }
+  while (points() > pixels) // the latest stay
+  {
+    sets_.front().points = 0;
+    dropEmpty();
   }
   tools.vertices->Release();
   if (last.ids->GetTextureUnit() >= 0)
   {
     last.ids->Deactivate();
   }
-  for (Set& set : sets_)
+}
+
+void KeptSplats::gather(const SplatFrame& frame, SplatTools& tools, const FramePlan& plan,
+  const LastPicture& last, bool all)
+{
+  std::vector<Set> old = std::exchange(sets_, {});
+  while (!old.empty())
   {
-    GLuint points = 0;
-    glGetQueryObjectuiv(set.query, GL_QUERY_RESULT, &points);
-    glDeleteQueries(1, &set.query);
-    set.points = points;
-  }
-  std::swap(old, sets_);
-  this->clear();
-  for (Set& set : old)
-  {
-    if (set.points > 0)
-    {
-      sets_.push_back(std::move(set));
-    }
-    else
+    const std::shared_ptr<const ResolvedStyle> style = old.front().style;
+    const auto others = std::stable_partition(
+      old.begin(), old.end(), [&](const Set& set) { return sameStyle(set.style, style.get()); });
+    std::vector<Set> alike(old.begin(), others);
+    old.erase(old.begin(), others);
+    Set one = gathered(frame, tools, alike, plan, last, all);
+    for (const Set& set : alike)
     {
       glDeleteBuffers(1, &set.buffer);
     }
+    one.buffer != 0 ? sets_.push_back(std::move(one)) : void();
   }
-  camera_ = plan.camera;
+  dropEmpty();
 }
 
 void KeptSplats::collectGroup(const SplatFrame& frame, SplatTools& tools,
@@ -242,7 +324,9 @@ void KeptSplats::collectGroup(const SplatFrame& frame, SplatTools& tools,
   set.style = batch->style;
   set.radius = variant.radius;
   set.quads = group.quads;
+  set.camera = plan.camera;
   setLast(program, plan, last);
+  program->SetUniformi("takesAll", 0);
   drawSplatRuns(frame, tools.lastRecords, program, variant, group, group.all);
   end();
   sets_.push_back(std::move(set));
@@ -258,34 +342,37 @@ SplatVariant KeptSplats::variantOfKept(const Set& set, bool parallel)
   return variant;
 }
 
-void KeptSplats::collectKept(const SplatFrame& frame, SplatTools& tools,
-  const std::vector<Set>& kept, const Set& model, const FramePlan& plan, const LastPicture& last)
+/// Without a buffer: GL has no room for it.
+KeptSplats::Set KeptSplats::gathered(const SplatFrame& frame, SplatTools& tools,
+  const std::vector<Set>& kept, const FramePlan& plan, const LastPicture& last, bool all) const
 {
+  const Set& model = kept.front();
   SplatVariant variant = variantOfKept(model, plan.camera.parallel);
   variant.radius = RadiusSource::Node; // handed on as it is
   vtkShaderProgram* const program = tools.programs.useCapture(frame.window, variant);
   const std::int64_t most = std::accumulate(kept.begin(), kept.end(), std::int64_t(0),
     [](std::int64_t sum, const Set& set) { return sum + set.points; });
-  const bool planned = std::any_of(plan.batches.begin(), plan.batches.end(),
-    [&](const DrawBatch& each) { return sameStyle(each.style, model.style.get()); });
   Set set;
-  if (!program || !planned || !begin(set, most))
+  if (!program || !begin(set, most))
   {
-    return;
+    return Set();
   }
   set.style = model.style;
   set.radius = model.radius;
   set.quads = std::any_of(kept.begin(), kept.end(), [](const Set& each) { return each.quads; });
+  set.camera = plan.camera;
   setLast(program, plan, last);
-  this->setPlaces(program, plan.camera);
+  program->SetUniformi("takesAll", all ? 1 : 0);
   program->SetUniformf("keptShare", 1.0f);
   for (const Set& each : kept)
   {
+    setPlaces(program, each, plan.camera);
     const KeptAttributes bound(program, each.buffer);
     glDrawArrays(GL_POINTS, 0, static_cast<GLsizei>(each.points));
   }
   end();
-  sets_.push_back(std::move(set));
+  count(set);
+  return set;
 }
 
 void KeptSplats::draw(const SplatFrame& frame, SplatTools& tools, const SplatGroups& groups,
@@ -314,7 +401,7 @@ void KeptSplats::draw(const SplatFrame& frame, SplatTools& tools, const SplatGro
     }
     const RasterItem& item = *group->first;
     setSplatUniforms(program, *group->items, item, second);
-    this->setPlaces(program, group->items->plan().camera);
+    setPlaces(program, set, group->items->plan().camera);
     program->SetUniformf(
       "keptShare", second ? item.passes.secondRadius / item.passes.firstRadius : 1.0f);
     setTexture(program, "seenDepths", seenDepths);

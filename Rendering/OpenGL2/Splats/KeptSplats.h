@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <unordered_map>
 #include <vector>
 
 class vtkShaderProgram;
@@ -18,10 +19,11 @@ class vtkTextureObject;
 namespace pointfront
 {
 
-/// Splats of the last picture that the next plan lacks, on the GPU (SMOOTH-7): those whose centre's
-/// pixel shows them, at most one a pixel. Transform feedback copies them before the memory of their
-/// nodes goes to others. Each frame of a motion captures them anew, as floats in the camera space
-/// of that frame: the error of a frame is 1e-7 of the depth.
+/// Splats that pictures of a motion showed and the next plan lacks, on the GPU (SMOOTH-7): those
+/// whose centre's pixel shows them, at most one a pixel. Transform feedback copies them before the
+/// memory of their nodes goes to others, as floats in the camera space of that frame: the error is
+/// 1e-7 of the depth. They stay as long as the motion lasts, though others hide them for a while.
+/// Where they are more than pixels, those go that the last picture does not show.
 /// Bytes    52 a point, not part of the GPU budget.
 /// Threads  the thread of the GL context, which is current in all functions but the constructor.
 /// Source   docs/adr/0028. Twin of VisiblePoints.
@@ -43,8 +45,12 @@ public:
   bool empty() const { return sets_.empty(); }
   std::int64_t points() const;
 
-  /// Looks through what is kept and through `leaving`, points of the last picture that are listed
-  /// as the frame's camera sees them, with `records` of their slots; keeps what was seen.
+  /// Leaves out of `leaving` (SplatGroups::leaving) what was looked through before in this motion,
+  /// and notes the rest.
+  void leaveOutKnown(FramePlan& leaving);
+  /// Looks through `leaving`, points of the last picture that are listed as the frame's camera sees
+  /// them, with tools.lastRecords of their slots; adds what was seen. What the plan draws in
+  /// another style goes.
   void collect(const SplatFrame& frame, SplatTools& tools, const SplatGroups& leaving,
     const FramePlan& plan, const LastPicture& last);
   /// Draws them as the plan's groups of the same style are drawn.
@@ -63,19 +69,32 @@ private:
     std::uint32_t buffer = 0; ///< GL's name
     std::int64_t points = 0;
     std::uint32_t query = 0; ///< of the points, while these are being captured
+    FrameCamera camera; ///< whose space they are in
+  };
+  /// Of a node's points, those that were looked through.
+  struct Range
+  {
+    std::uint32_t first;
+    std::uint32_t last;
   };
   static SplatVariant variantOfKept(const Set& set, bool parallel);
   static void setLast(vtkShaderProgram* program, const FramePlan& plan, const LastPicture& last);
   void collectGroup(const SplatFrame& frame, SplatTools& tools, const SplatGroups::Group& group,
     const FramePlan& plan, const LastPicture& last);
-  void collectKept(const SplatFrame& frame, SplatTools& tools, const std::vector<Set>& kept,
-    const Set& model, const FramePlan& plan, const LastPicture& last);
-  void setPlaces(vtkShaderProgram* program, const FrameCamera& now) const;
+  void adopt(const FramePlan& plan);
+  /// All sets of one style become one; `all`: with those that the last picture does not show.
+  void gather(const SplatFrame& frame, SplatTools& tools, const FramePlan& plan,
+    const LastPicture& last, bool all);
+  Set gathered(const SplatFrame& frame, SplatTools& tools, const std::vector<Set>& kept,
+    const FramePlan& plan, const LastPicture& last, bool all) const;
+  static void setPlaces(vtkShaderProgram* program, const Set& set, const FrameCamera& now);
   static bool begin(Set& set, std::int64_t most);
   static void end();
+  static void count(Set& set);
+  void dropEmpty();
 
   std::vector<Set> sets_;
-  FrameCamera camera_; ///< whose space they are in
+  std::unordered_map<NodeIndex, Range> known_;
 };
 
 } // namespace pointfront

@@ -189,12 +189,14 @@ bool SplatGroups::continuesLast(const FramePlan& plan)
   return true;
 }
 
+/// As the software back end: only what pixels are made of counts.
 bool SplatGroups::Listed::continues(const Drawn& old) const
 {
   const RasterItem& item = *group.first;
+  const bool sizesComing = item.sizes && !record.sized; // the node's radius stands in for them
   return item.item->node == old.item.node && *item.style == *old.style &&
     item.passes == old.passes && item.item->first == old.item.first && end >= old.end &&
-    record.radii == old.radii && record.growth == old.item.growth &&
+    item.sizeTerms() == old.size && (!sizesComing || record.radii == old.radii) &&
     record.coloured == old.coloured && record.shaped == old.shaped && record.sized == old.sized;
 }
 
@@ -243,8 +245,8 @@ void SplatGroups::keep(const FramePlan& plan)
   for (const Listed& one : listed_)
   {
     const RasterItem& item = *one.group.first;
-    drawn_.push_back({ *item.item, styles[item.style], item.passes, one.end, one.record.radii,
-      one.record.coloured, one.record.shaped, one.record.sized });
+    drawn_.push_back({ *item.item, styles[item.style], item.passes, one.end, item.sizeTerms(),
+      one.record.radii, one.record.coloured, one.record.shaped, one.record.sized });
   }
   groups_.clear();
   listed_.clear();

@@ -67,6 +67,7 @@ private:
     std::shared_ptr<const ResolvedStyle> style;
     TechniquePasses passes;
     std::uint32_t end;
+    SizeTerms size;
     glm::vec4 radii;
     bool coloured;
     bool shaped;

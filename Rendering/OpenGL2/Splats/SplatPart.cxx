@@ -30,6 +30,13 @@ bool sameRectangle(const PixelRectangle& a, const PixelRectangle& b)
   return a.contains(b) && b.contains(a);
 }
 
+float largestPointPx()
+{
+  float sizes[2] = { 1.0f, 1.0f };
+  glGetFloatv(GL_POINT_SIZE_RANGE, sizes);
+  return sizes[1];
+}
+
 } // namespace
 
 SplatPart::SplatPart(SplatTools& tools)
@@ -42,35 +49,35 @@ SplatPart::~SplatPart() = default;
 std::int64_t SplatPart::draw(const SplatFrame& frame, const FramePlan& plan,
   const std::shared_ptr<SplatTarget>& target, const PixelRectangle* limits)
 {
-  vtkOpenGLRenderWindow* const window = frame.window;
+  if (plan.batches.empty() && plan.keepsVisible && target_ == target)
+  {
+    seen_ = shown_ = {}; // other clouds have the whole budget for a frame: the next one goes on
+    return 0;
+  }
   target_ = target;
-  float sizes[2] = { 1.0f, 1.0f };
-  glGetFloatv(GL_POINT_SIZE_RANGE, sizes);
-  const PixelRectangle whole{ 0, 0, plan.camera.width, plan.camera.height };
-  const PixelRectangle within = limits ? *limits : whole;
+  const float largestPoint = largestPointPx();
+  const PixelRectangle within =
+    limits ? *limits : PixelRectangle{ 0, 0, plan.camera.width, plan.camera.height };
   const bool mine = target_->owner() == this && renderer_ == frame.renderer &&
     parts_.lit == plan.shading.lit && sameRectangle(limits_, within);
-  const std::int64_t points = groups_.list(plan, *frame.pool, sizes[1], mine, tools_.records);
-  // Who was seen is known of whole pictures: the next frame may be of a view that moves.
-  const SplatTarget::Parts parts{ plan.camera.width, plan.camera.height, plan.shading.lit,
-    frame.ids || !limits, groups_.blended() };
-  bool goesOn = groups_.goesOn() && target_->has(parts);
-  const bool keeps = plan.keepsVisible && !limits && mine && target_->has(parts_) && parts_.ids;
+  const std::int64_t points = groups_.list(plan, *frame.pool, largestPoint, mine, tools_.records);
+  // Who was seen is always known: the next frame may be of a view that moves.
+  const SplatTarget::Parts parts{ plan.camera.width, plan.camera.height, plan.shading.lit, true,
+    groups_.blended() };
+  const bool keeps = plan.keepsVisible && mine && target_->has(parts_);
+  const bool goesOn = groups_.goesOn() && target_->has(parts) && (keeps || kept_.empty());
   if (!keeps)
   {
-    goesOn = goesOn && kept_.empty(); // they are in the picture
-    kept_.clear();
+    kept_.clear(); // what was kept is in the last picture
   }
   else if (!goesOn)
   {
-    keepVisible(frame, plan, sizes[1]);
+    keepVisible(frame, plan, largestPoint);
   }
   parts_ = parts;
   limits_ = within;
   const bool fills = plan.shading.fillHoles && !frame.ids; // filled pixels are no points
-  seen_ = !kept_.empty() ? within
-    : fills              ? filledFrom(groups_.shown(), plan.camera)
-                         : groups_.shown();
+  seen_ = placeOf(plan, fills);
   shown_ = limits ? within : seen_;
   selects_ = frame.ids;
   if (!limits && (points == 0 || shown_.empty()))
@@ -78,26 +85,31 @@ std::int64_t SplatPart::draw(const SplatFrame& frame, const FramePlan& plan,
     forget();
     return points;
   }
-  if (!target_->prepare(window, parts_))
+  if (!target_->prepare(frame.window, parts_))
   {
     forget();
     return noTarget;
   }
   target_->setOwner(this);
   renderer_ = frame.renderer;
-  if (!goesOn || !groups_.addsNothing() || !(shading_ == plan.shading) || fills_ != fills)
+  const bool same = goesOn && groups_.addsNothing() && shading_ == plan.shading && fills_ == fills;
+  if (!same && !drawInto(frame, plan, goesOn, fills))
   {
-    tools_.records.upload(window);
-    if (!drawInto(frame, plan, goesOn, fills))
-    {
-      forget();
-      return noTarget;
-    }
-    shading_ = plan.shading;
-    fills_ = fills;
+    forget();
+    return noTarget;
   }
   groups_.keep(plan);
   return points;
+}
+
+/// Where anything can be seen.
+PixelRectangle SplatPart::placeOf(const FramePlan& plan, bool fills) const
+{
+  if (!kept_.empty())
+  {
+    return limits_;
+  }
+  return fills ? filledFrom(groups_.shown(), plan.camera) : groups_.shown();
 }
 
 void SplatPart::forget()
@@ -109,19 +121,23 @@ void SplatPart::forget()
 /// Before anything is drawn into the target: it says who was seen.
 void SplatPart::keepVisible(const SplatFrame& frame, const FramePlan& plan, float largestPointPx)
 {
-  const FramePlan lost = groups_.leaving(plan);
+  FramePlan lost = groups_.leaving(plan);
+  kept_.leaveOutKnown(lost);
   SplatGroups leaving;
   leaving.list(lost, *frame.pool, largestPointPx, false, tools_.lastRecords);
   if (leaving.groups().empty() && kept_.empty())
   {
     return;
   }
-  tools_.lastRecords.upload(frame.window);
+  leaving.groups().empty() ? void() : tools_.lastRecords.upload(frame.window);
   kept_.collect(frame, tools_, leaving, plan, { groups_.lastCamera(), target_->ids() });
 }
 
 bool SplatPart::drawInto(const SplatFrame& frame, const FramePlan& plan, bool goesOn, bool fills)
 {
+  tools_.records.upload(frame.window);
+  shading_ = plan.shading;
+  fills_ = fills;
   vtkOpenGLState* const state = frame.window->GetState();
   const TargetState scope(state);
   state->vtkglViewport(0, 0, parts_.width, parts_.height);

@@ -18,8 +18,8 @@ namespace pointfront
 /// Passes    who is seen in each pixel (the nearest; of splats that overlap the one with the
 ///           nearest centre), then weights and colours of what is not behind it, then light and
 ///           eye-dome lighting.
-/// Motion    what the last picture showed is kept (FramePlan::keepsVisible) where it is the whole
-///           plan's and still there: no other cloud has drawn into the target since.
+/// Motion    what the last pictures showed is kept (FramePlan::keepsVisible) where the last one is
+///           still there: no other cloud has drawn into the target since.
 /// Threads   that of the GL context, current in all functions.
 /// Source    docs/adr/0016, 0028.
 class SplatPart
@@ -47,6 +47,7 @@ public:
 
 private:
   void forget();
+  PixelRectangle placeOf(const FramePlan& plan, bool fills) const;
   void keepVisible(const SplatFrame& frame, const FramePlan& plan, float largestPointPx);
   bool drawInto(const SplatFrame& frame, const FramePlan& plan, bool goesOn, bool fills);
   void drawGroups(const SplatFrame& frame, bool second, bool addedOnly);

@@ -70,11 +70,28 @@ std::int64_t SplatPicture::draw(vtkOpenGLRenderWindow* window, vtkRenderer* rend
   }
   further_.clear();
   composition_.release(window); // what a plan of one part does not need
-  const std::int64_t points = main_.draw(frame, plan, perWindow<SplatTarget>(window), nullptr);
+  const std::int64_t points = main_.draw(frame, plan, mainTarget(frame, plan), nullptr);
   shown_ = points > 0 ? main_.shown() : PixelRectangle();
   picture_ = shown_.empty() ? SplatTextures() : main_.picture();
   // Each point once, though several styles of a layer may draw it.
   return std::min(points, static_cast<std::int64_t>(plan.pointCount()));
+}
+
+std::shared_ptr<SplatTarget> SplatPicture::mainTarget(
+  const SplatFrame& frame, const FramePlan& plan)
+{
+  targets_ = perWindow<SplatTargets>(frame.window);
+  return targets_->of(this, std::int64_t(plan.camera.width) * plan.camera.height);
+}
+
+std::int64_t SplatPicture::keptPoints() const
+{
+  std::int64_t points = main_.keptPoints();
+  for (const FurtherPart& part : further_)
+  {
+    points += part.drawn ? part.part->keptPoints() : 0;
+  }
+  return points;
 }
 
 SplatPicture::FurtherPart& SplatPicture::furtherPart(const PlanPart& like)
@@ -114,6 +131,7 @@ std::int64_t SplatPicture::drawParts(const SplatFrame& frame, const FramePlan& p
     if (part.mask)
     {
       part.plan.shading = FrameShading();
+      part.plan.keepsVisible = false; // where a class is now
     }
     part.plan.shading.lenses.clear(); // these are for the whole
     part.plan.shading.highlights.clear();
@@ -124,8 +142,8 @@ std::int64_t SplatPicture::drawParts(const SplatFrame& frame, const FramePlan& p
       continue;
     }
     SplatPart& drawing = isMain ? main_ : *further->part;
-    const std::int64_t drawn = drawing.draw(
-      frame, part.plan, isMain ? perWindow<SplatTarget>(frame.window) : further->target, &limits);
+    const std::int64_t drawn =
+      drawing.draw(frame, part.plan, isMain ? mainTarget(frame, plan) : further->target, &limits);
     if (drawn == noTarget)
     {
       return noTarget;

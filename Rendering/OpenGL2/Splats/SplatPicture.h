@@ -42,7 +42,7 @@ public:
   void handOver(
     vtkRenderer* renderer, vtkActor* actor, const FramePlan& plan, std::int64_t storePoints);
   /// Of the last drawing: what the picture before showed and the plan lacks.
-  std::int64_t keptPoints() const { return main_.keptPoints(); }
+  std::int64_t keptPoints() const;
   void release(vtkOpenGLRenderWindow* window);
 
 private:
@@ -59,6 +59,7 @@ private:
   };
 
   std::int64_t drawParts(const SplatFrame& frame, const FramePlan& plan);
+  std::shared_ptr<SplatTarget> mainTarget(const SplatFrame& frame, const FramePlan& plan);
   FurtherPart& furtherPart(const PlanPart& like);
   const FurtherPart* find(std::int16_t lens, bool mask) const;
   SplatTextures blended(
@@ -67,6 +68,7 @@ private:
   void putLens(const FrameLens& lens, std::int16_t number, const SplatTextures& inside);
 
   SplatTools tools_;
+  std::shared_ptr<SplatTargets> targets_; ///< the window's
   SplatPart main_;
   std::vector<FurtherPart> further_;
   SplatComposition composition_;

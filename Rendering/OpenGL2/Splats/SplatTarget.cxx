@@ -7,10 +7,15 @@
 #include <vtkOpenGLState.h>
 #include <vtkTextureObject.h>
 
+#include <algorithm>
+
 namespace pointfront
 {
 namespace
 {
+
+/// Of targets that one cloud alone draws into: four of full HD, 300 to 560 MB.
+constexpr std::int64_t mostOwnPixels = std::int64_t(1) << 23;
 
 constexpr float nothing[4] = { 0.0f, 0.0f, 0.0f, 0.0f };
 /// Who is seen where nothing is: all is behind it.
@@ -158,6 +163,36 @@ void SplatTarget::release(vtkOpenGLRenderWindow* window)
   {
     texture->ReleaseGraphicsResources(window);
   }
+}
+
+std::shared_ptr<SplatTarget> SplatTargets::of(const void* owner, std::int64_t pixels)
+{
+  own_.erase(std::remove_if(
+               own_.begin(), own_.end(), [&](const Own& each) { return each.target.expired(); }),
+    own_.end());
+  std::int64_t others = 0;
+  std::shared_ptr<SplatTarget> mine;
+  for (Own& each : own_)
+  {
+    if (each.owner == owner)
+    {
+      mine = each.target.lock();
+      each.pixels = pixels;
+    }
+    others += each.owner == owner ? 0 : each.pixels;
+  }
+  if (!mine && (own_.empty() || others + pixels <= mostOwnPixels))
+  {
+    mine = std::make_shared<SplatTarget>();
+    own_.push_back({ owner, pixels, mine });
+  }
+  if (!mine)
+  {
+    mine = shared_.lock();
+    mine = mine ? mine : std::make_shared<SplatTarget>();
+    shared_ = mine;
+  }
+  return mine;
 }
 
 } // namespace pointfront

@@ -2,6 +2,10 @@
 
 #include <vtkNew.h>
 
+#include <cstdint>
+#include <memory>
+#include <vector>
+
 class vtkOpenGLFramebufferObject;
 class vtkOpenGLRenderWindow;
 class vtkTextureObject;
@@ -71,6 +75,26 @@ private:
   vtkNew<vtkOpenGLFramebufferObject> seen_;
   vtkNew<vtkOpenGLFramebufferObject> summed_;
   vtkNew<vtkOpenGLFramebufferObject> picture_;
+};
+
+/// The targets of a window's clouds: each has one of its own and goes on from its own last picture,
+/// up to a number of pixels; the others draw into one in turn.
+/// Threads  as SplatTarget.
+class SplatTargets
+{
+public:
+  /// For a viewport of so many pixels. `owner` holds it as long as it draws.
+  std::shared_ptr<SplatTarget> of(const void* owner, std::int64_t pixels);
+
+private:
+  struct Own
+  {
+    const void* owner;
+    std::int64_t pixels;
+    std::weak_ptr<SplatTarget> target;
+  };
+  std::vector<Own> own_;
+  std::weak_ptr<SplatTarget> shared_;
 };
 
 } // namespace pointfront

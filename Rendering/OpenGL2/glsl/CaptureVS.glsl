@@ -6,6 +6,7 @@ uniform vec2 cameraScale;
 uniform mat4 cameraToLastClip;
 uniform ivec2 lastSize;    // pixels
 uniform sampler2D lastIds; // of the last picture
+uniform int takesAll;      // 1: seen or not
 
 //POINTFRONT::PointData::Dec
 //POINTFRONT::Point::Dec
@@ -39,5 +40,6 @@ void main()
   captured.colour = vec4(point.colour.rgb, 1.0);
   captured.normal = point.normal;
   captured.id = point.id;
-  captured.seen = point.drawn && point.grown >= 1.0 && wasSeen(point) ? 1.0 : 0.0;
+  bool taken = point.drawn && point.grown >= 1.0 && (takesAll == 1 || wasSeen(point));
+  captured.seen = taken ? 1.0 : 0.0;
 }

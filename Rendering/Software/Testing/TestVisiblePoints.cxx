@@ -147,6 +147,25 @@ TEST(VisiblePoints, ComeBack)
   EXPECT_GE(PanOverSurface::coverage(scene.target, panWidth), 0.98 * before);
 }
 
+/// A plan of a frame in which others have the whole budget says nothing of what was visible.
+TEST(VisiblePoints, OutliveAnEmptyPlan)
+{
+  PanOverSurface scene;
+  SoftwareRasteriser rasteriser;
+  scene.draw(1.0, true, rasteriser);
+  const double before = PanOverSurface::coverage(scene.target, panWidth);
+  scene.pan(5.0);
+  FramePlan nothing = scene.plan;
+  nothing.batches.clear();
+  nothing.keepsVisible = true;
+  scene.target.reset(panWidth, panHeight);
+  rasteriser.draw(nothing, scene.target);
+  EXPECT_EQ(PanOverSurface::coverage(scene.target, panWidth), 0.0);
+  scene.pan(10.0);
+  scene.draw(0.05, true, rasteriser);
+  EXPECT_GE(PanOverSurface::coverage(scene.target, panWidth - 10), 0.99 * before);
+}
+
 TEST(VisiblePoints, AreNoMoreThanPixels)
 {
   PanOverSurface scene;

@@ -21,6 +21,7 @@ const std::map<std::string, std::string> keptStyles = {
   { "turned", R"({"default": {"technique": "splats", "orientation": [0.1, 0.2, 1]}})" },
   { "pixels", R"({"default": {"technique": "points", "size": {"mode": "fixed", "px": 1}},
      "shading": {"mode": "lit"}})" },
+  { "plain", R"({"default": {"technique": "points", "size": {"mode": "fixed", "px": 1}}})" },
 };
 
 constexpr double distance = 10.0;
@@ -159,6 +160,60 @@ TEST(KeptSplats, APanOfTenPixelsKeepsCoverageAndDetail)
     EXPECT_LT(scene.mapper->GetLastPointsDrawn(), all / 10 * 7) << technique;
     EXPECT_LT(difference(moved, complete), 0.8 * difference(fresh, complete)) << technique;
   }
+}
+
+/// Who is hidden for a frame, by another point of its pixel, is there in the next one.
+TEST(KeptSplats, LastAsLongAsTheMotion)
+{
+  const std::string store = patches();
+  for (const std::string technique : { "discs", "blended", "plain" })
+  {
+    Pan scene(store, technique);
+    scene.atRest();
+    scene.mapper->SetTargetFrameTime(0.001);
+    scene.window->SetDesiredUpdateRate(30.0);
+    vtkIdType first = 0;
+    for (int frame = 1; frame <= 40; ++frame)
+    {
+      scene.to(0.06 * frame);
+      scene.draw();
+      first = frame == 1 ? scene.kept() : first;
+      ASSERT_GE(scene.kept(), first) << technique << ", frame " << frame;
+      ASSERT_LE(scene.kept(), 300 * 200) << technique;
+    }
+    EXPECT_GT(first, 10000) << technique;
+    scene.atRest();
+    EXPECT_EQ(scene.kept(), 0) << technique;
+  }
+}
+
+/// Each cloud of a window keeps its own.
+TEST(KeptSplats, OfSeveralCloudsAreKept)
+{
+  const std::string store = patches();
+  Pan alone(store, "discs");
+  alone.atRest();
+  alone.inMotion();
+  const vtkIdType kept = alone.kept();
+  Pan scene(store, "discs");
+  vtkNew<vtkPointFrontReader> reader;
+  reader->SetFileName(store.c_str());
+  vtkNew<vtkPointFrontMapper> second;
+  second->SetInputConnection(reader->GetOutputPort());
+  second->SetBackend(vtkPointFrontMapper::OPENGL);
+  second->SetStyle(scene.style);
+  second->CompleteOff();
+  second->SetGrowthTime(0.0);
+  second->SetTargetError(0.5);
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(second);
+  actor->SetPosition(0.0, 0.0, -0.5);
+  scene.renderer->AddActor(actor);
+  scene.atRest();
+  second->SetTargetFrameTime(0.001);
+  scene.inMotion();
+  EXPECT_GT(scene.kept(), kept / 2);
+  EXPECT_GT(second->GetLastPointsKept(), kept / 2);
 }
 
 /// A camera that turns and comes nearer, with and without perspective, sees the same points as the

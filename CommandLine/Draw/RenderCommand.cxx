@@ -229,6 +229,12 @@ std::string RenderCommand::statistics(const StoreScene& scene, const FrameRecord
   object["time_to_complete_ms"] = orNull(completeMs_);
   object["points_drawn"] = last.points;
   object["nodes_drawn"] = last.nodes;
+  object["classes"] = nlohmann::ordered_json::array();
+  for (const auto& [code, points] : last.classPoints)
+  {
+    object["classes"].push_back({ { "class", code }, { "points_drawn", points },
+      { "budget_share", *drawing_.style.styleOf(code).budgetShare } });
+  }
   object["error_px"] = last.errorPx;
   object["limited_by"] = nlohmann::ordered_json::array();
   if (last.limitedByPoints)

@@ -2,14 +2,18 @@
 
 #include "DrawingOptions.h"
 #include "Unavailable.h"
+#include "Values.h"
 
 #include "StyleJSON.h"
 
 #include "pointfront/Style/QualityPreset.h"
 #include "pointfront/Style/TechniqueNames.h"
 
+#include <cstdint>
 #include <fstream>
+#include <map>
 #include <memory>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -32,7 +36,31 @@ struct StyleArguments
   std::string technique;
   std::string orientation;
   std::string where;
+  std::map<std::uint8_t, double> shares;
 };
+
+/// "6=0.5,2=0.25"
+std::map<std::uint8_t, double> sharesOf(const std::string& text)
+{
+  std::map<std::uint8_t, double> shares;
+  std::istringstream words(text);
+  for (std::string word; std::getline(words, word, ',');)
+  {
+    const std::size_t sign = word.find('=');
+    const auto code = parseClasses(word.substr(0, sign));
+    const auto share =
+      sign == std::string::npos ? std::nullopt : parseNumbers<1>(word.substr(sign + 1));
+    const bool sound = code && code->size() == 1 && share && (*share)[0] >= 0.0 &&
+      (*share)[0] <= 1.0 && shares.count(code->front()) == 0;
+    if (!sound)
+    {
+      throw wrong("--class-share",
+        "'" + text + "' is not a list of classes with shares from 0 to 1: write 6=0.5,2=0.25");
+    }
+    shares[code->front()] = (*share)[0];
+  }
+  return shares;
+}
 
 /// What a style may say of orientation in one word.
 const std::vector<std::pair<std::string, SplatOrientation>> orientations{
@@ -97,6 +125,10 @@ StyleSheet makeStyle(const CLI::App& app, const StyleArguments& arguments, Drawi
       ? StyleSize{ SplatSize::Mode::Pixels, options.pointSizePx, "" }
       : StyleSize();
   }
+  for (const auto& [code, share] : arguments.shares)
+  {
+    sheet.classes[code].budgetShare = share;
+  }
   if (!options.classes.empty())
   {
     sheet.shownClasses = options.classes;
@@ -157,6 +189,12 @@ void declareStyle(CLI::App& app, DrawingOptions& options)
     .add_option("--where", arguments->where,
       "Only points that meet it: 'ATTRIBUTE in [a, b]', 'in {1, 2}', ==, !=, <, <=, >, >=, and")
     ->type_name("CONDITION")
+    ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+  app
+    .add_option_function<std::string>(
+      "--class-share", [arguments](const std::string& text) { arguments->shares = sharesOf(text); },
+      "Shares of --point-budget and --memory that classes have before others, 0 to 1")
+    ->type_name("CLASS=SHARE,...")
     ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
   app.parse_complete_callback(
     [&app, &options, arguments]() { options.style = makeStyle(app, *arguments, options); });

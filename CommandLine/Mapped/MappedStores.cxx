@@ -112,6 +112,12 @@ Result<void> MappedStores::hideOtherClasses(const DrawingOptions& options)
 Result<void> MappedStores::show(const DrawingOptions& options, int backend, vtkRenderer* renderer)
 {
   const std::vector<std::shared_ptr<const StoredCloud>> stores = clouds();
+  if (options.style.wantsShares() &&
+    std::none_of(stores.begin(), stores.end(),
+      [](const auto& store) { return isLayered(store->description()); }))
+  {
+    return noClassTrees(stores.front()->description().path);
+  }
   const std::string attribute = options.colourBy.empty()
     ? defaultColourAttribute(stores.front()->description())
     : options.colourBy;
@@ -228,6 +234,7 @@ FrameRecord MappedStores::record() const
     const ResidencyStatistics residency = mapped->store->GetResidency().statistics();
     frame.frontMilliseconds += mapper->GetLastFrontTime();
     frame.points += mapper->GetLastPointsDrawn();
+    countClasses(mapper->GetLastLayerPoints(), mapped->store->GetStore()->description(), frame);
     frame.nodes += mapper->GetLastNodesDrawn();
     frame.frontLength += mapper->GetLastFrontLength();
     frame.moves += mapper->GetLastMoves();

@@ -49,6 +49,7 @@ Result<void> DrawnStore::setStyles(std::vector<LayerStyling> layers)
     LayerLimits limits;
     limits.visible = layer.visible();
     limits.errorFactor = layer.errorFactor;
+    limits.share = layer.budgetShare;
     limits.pruning = (*pruning)[limits_.size()];
     limits_.push_back(limits);
     columns_.layers.push_back(layer.columns());

@@ -40,4 +40,13 @@ Error noClassShown()
     "--classes: no store here has a point of these classes (info lists them)");
 }
 
+Error noClassTrees(const std::string& store)
+{
+  return makeError(Error::Kind::BadArgument,
+    store +
+      ": a class's share of the budgets (budget_share, --class-share) needs a store with a tree "
+      "for "
+      "each class, and this one has one for all; build it with --layers class");
+}
+
 } // namespace pointfront

@@ -4,6 +4,7 @@
 #include "pointfront/Front/LayerLimits.h"
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace pointfront
@@ -25,5 +26,8 @@ struct ShownClasses
 
 /// --classes names none that any of the stores has.
 Error noClassShown();
+
+/// Shares of classes are asked for, and no store of the scene has a tree for each class.
+Error noClassTrees(const std::string& store);
 
 } // namespace pointfront

@@ -96,6 +96,12 @@ Result<void> SoftwareScene::chooseStyles()
     sheet.standard.colour =
       ColourSource::ofAttribute(defaultColourAttribute(clouds.front()->description()));
   }
+  if (sheet.wantsShares() &&
+    std::none_of(clouds.begin(), clouds.end(),
+      [](const auto& cloud) { return isLayered(cloud->description()); }))
+  {
+    return noClassTrees(clouds.front()->description().path);
+  }
   const auto window = std::make_shared<const WindowDemand>();
   std::uint64_t shown = 0;
   for (const auto& store : stores_)
@@ -291,6 +297,7 @@ void SoftwareScene::drawPart(
     *frame.rasteriseMilliseconds += drawn.milliseconds;
     kept[i] = drawn.keptVisible;
     points[i] = plan.pointCount();
+    countClasses(plan.layerPoints(), stores_[i]->cloud()->description(), frame);
     frame.complete = frame.complete && stores_[i]->isGrown();
     frame.points += static_cast<std::int64_t>(points[i]);
     ownMs_[i] += millisecondsSince(beginOfStore);

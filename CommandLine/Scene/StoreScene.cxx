@@ -3,6 +3,8 @@
 #include "OpenGLModule.h"
 #include "SoftwareScene.h"
 
+#include "pointfront/Style/StyleSheet.h"
+
 #include <algorithm>
 
 namespace pointfront
@@ -15,6 +17,10 @@ void FrameRecord::add(const FrameRecord& part)
   rasteriseMilliseconds =
     rasteriseMilliseconds.value_or(0.0) + part.rasteriseMilliseconds.value_or(0.0);
   points += part.points;
+  for (const auto& [code, drawn] : part.classPoints)
+  {
+    classPoints[code] += drawn;
+  }
   nodes += part.nodes;
   frontLength = std::max(frontLength, part.frontLength);
   moves += part.moves;
@@ -31,6 +37,17 @@ void FrameRecord::add(const FrameRecord& part)
   threadReadBytes += part.threadReadBytes;
   bytesRead = part.bytesRead;
   cancelled = part.cancelled;
+}
+
+void countClasses(
+  const std::vector<std::uint64_t>& layerPoints, const StoreDescription& store, FrameRecord& frame)
+{
+  for (std::size_t layer = 0; isLayered(store) && layer < store.layers.size(); ++layer)
+  {
+    const auto code = static_cast<std::uint8_t>(store.layers[layer].objectClass);
+    frame.classPoints[code] +=
+      layer < layerPoints.size() ? static_cast<std::int64_t>(layerPoints[layer]) : 0;
+  }
 }
 
 Result<std::unique_ptr<StoreScene>> StoreScene::open(const DrawingOptions& options)

@@ -5,9 +5,11 @@
 
 #include "pointfront/Base/Bounds.h"
 #include "pointfront/Base/Result.h"
+#include "pointfront/Store/StoredCloud.h"
 
 #include <chrono>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -24,6 +26,8 @@ struct FrameRecord
   /// From the plans to the pixels, the points alone; nothing where a driver draws beside the rest.
   std::optional<double> rasteriseMilliseconds;
   std::int64_t points = 0;
+  /// The points by class code, of stores with a tree for each class.
+  std::map<std::uint8_t, std::int64_t> classPoints;
   std::int64_t nodes = 0;
   std::int64_t frontLength = 0;
   std::int64_t moves = 0;
@@ -45,6 +49,10 @@ struct FrameRecord
   /// error counts, and what is in memory is what is now.
   void add(const FrameRecord& part);
 };
+
+/// Adds the points of a store's layers, where each layer is a class.
+void countClasses(
+  const std::vector<std::uint64_t>& layerPoints, const StoreDescription& store, FrameRecord& frame);
 
 /// What all the loading of a scene came to so far.
 struct LoadingRecord

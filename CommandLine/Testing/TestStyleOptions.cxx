@@ -95,6 +95,23 @@ TEST(StyleOptions, AQualityIsTechniqueAndErrorTogether)
   EXPECT_NE(refusal({ "--quality", "best" }).find("best"), std::string::npos);
 }
 
+TEST(StyleOptions, SharesOfClassesGoOverThoseOfTheFile)
+{
+  const std::string path = styleFile("shares", R"({"classes": {"6": {"budget_share": 0.1},
+    "9": {"budget_share": 0.2}}})");
+  const StyleSheet sheet = parsed({ "--class-share", "6=0.5,2=.25", "--style", path }).style;
+  EXPECT_EQ(sheet.classes.at(6).budgetShare, 0.5);
+  EXPECT_EQ(sheet.classes.at(2).budgetShare, 0.25);
+  EXPECT_EQ(sheet.classes.at(9).budgetShare, 0.2);
+  EXPECT_TRUE(sheet.wantsShares());
+  EXPECT_FALSE(parsed({ "--class-share", "6=0" }).style.wantsShares());
+  for (const char* text : { "6", "6=2", "6=-1", "=0.5", "6=0.5,6=0.5", "300=0.5", "6=x" })
+  {
+    EXPECT_NE(refusal({ "--class-share", text }).find("write 6=0.5,2=0.25"), std::string::npos)
+      << text;
+  }
+}
+
 TEST(StyleOptions, WhatIsWrongIsNamed)
 {
   EXPECT_EQ(refusal({ "--where", "z = 3" }),

@@ -258,7 +258,7 @@ std::array<Rgba8, 2> wallAt(const JSONPlace& place)
 LayerStyle layerStyleAt(const JSONPlace& place)
 {
   place.expectKeys({ "technique", "color", "size", "orientation", "opacity", "visible",
-    "error_factor", "blended", "accuracy", "rim_color", "wall_color", "where" });
+    "error_factor", "budget_share", "blended", "accuracy", "rim_color", "wall_color", "where" });
   LayerStyle style;
   const auto read = [&place](const char* key, auto& target, auto reader)
   {
@@ -274,6 +274,7 @@ LayerStyle layerStyleAt(const JSONPlace& place)
   read("opacity", style.opacity, [](const JSONPlace& at) { return at.number(0.0, 1.0); });
   read("visible", style.visible, [](const JSONPlace& at) { return at.truth(); });
   read("error_factor", style.errorFactor, [](const JSONPlace& at) { return at.positive(); });
+  read("budget_share", style.budgetShare, [](const JSONPlace& at) { return at.number(0.0, 1.0); });
   read("blended", style.blended, [](const JSONPlace& at) { return at.truth(); });
   read("accuracy", style.accuracy,
     [](const JSONPlace& at)

@@ -155,6 +155,7 @@ Json layerStyle(const LayerStyle& style)
   put("opacity", style.opacity, same);
   put("visible", style.visible, same);
   put("error_factor", style.errorFactor, same);
+  put("budget_share", style.budgetShare, same);
   put("blended", style.blended, same);
   put("accuracy", style.accuracy, accuracy);
   put("rim_color", style.rim, colourCode);

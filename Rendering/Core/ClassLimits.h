@@ -40,8 +40,8 @@ public:
     return layers;
   }
 
-  /// The same, with the error factors of the layers' styles and the nodes that their filters leave
-  /// out; empty if all layers have default limits.
+  /// The same, with the error factors and shares of the layers' styles and the nodes that their
+  /// filters leave out; empty if all layers have default limits.
   std::vector<LayerLimits> layersOf(vtkPointFrontStore& store,
     const std::vector<LayerStyling>& styling,
     const std::vector<std::shared_ptr<const NodePruning>>& pruning) const
@@ -52,6 +52,9 @@ public:
     {
       layers[layer].visible = styling[layer].visible();
       layers[layer].errorFactor *= styling[layer].errorFactor;
+      // A share that the mapper was given counts more.
+      layers[layer].share =
+        layers[layer].share > 0.0 ? layers[layer].share : styling[layer].budgetShare;
       layers[layer].pruning = layer < pruning.size() ? pruning[layer] : nullptr;
     }
     const auto usual = [](const LayerLimits& limits) { return limits == LayerLimits(); };

@@ -83,6 +83,26 @@ double vtkPointFrontMapper::GetClassBudgetShare(int objectClass) const
   return this->Internals->Limits.of(objectClass).share;
 }
 
+const std::vector<std::uint64_t>& vtkPointFrontMapper::GetLastLayerPoints() const
+{
+  return this->GetStatistics().layerPoints;
+}
+
+vtkIdType vtkPointFrontMapper::GetLastClassPointsDrawn(int objectClass)
+{
+  vtkPointFrontStore* const store = this->GetStore();
+  const std::vector<std::uint64_t>& points = this->GetLastLayerPoints();
+  vtkIdType drawn = 0;
+  for (int i = 0; store && i < store->GetNumberOfObjectClasses(); ++i)
+  {
+    const auto layer = static_cast<std::size_t>(i);
+    drawn += store->GetObjectClassNumber(i) == objectClass && layer < points.size()
+      ? static_cast<vtkIdType>(points[layer])
+      : 0;
+  }
+  return drawn;
+}
+
 void vtkPointFrontMapper::ClearClassLimits()
 {
   if (!this->Internals->Limits.empty())

@@ -272,6 +272,12 @@ public:
   /// worked with.
   ///@{
   vtkIdType GetLastPointsDrawn() const;
+  /// Of a class (as in SetClassVisibility()), 0 if the store has no tree of it.
+  vtkIdType GetLastClassPointsDrawn(int objectClass);
+#ifndef __VTK_WRAP__
+  /// By number of the store's layer; layers beyond the list have none.
+  const std::vector<std::uint64_t>& GetLastLayerPoints() const;
+#endif
   /// Points drawn beside these while the view moved: the last picture showed them, and the front
   /// of this frame lacks them.
   vtkIdType GetLastPointsKept() const;

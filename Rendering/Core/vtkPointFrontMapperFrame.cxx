@@ -265,6 +265,8 @@ void vtkPointFrontMapper::FinishFrame(
   statistics.take(delta);
   statistics.frontMilliseconds = frontMilliseconds;
   statistics.points = static_cast<std::uint64_t>(points);
+  statistics.layerPoints =
+    view.Plan ? view.Plan->layerPoints() : std::vector<std::uint64_t>(); // wanted of each
   statistics.keptPoints = static_cast<std::uint64_t>(keptPoints);
   statistics.complete = view.Complete;
   const bool announce = view.Complete && !view.Announced;

@@ -255,7 +255,7 @@ class Refinement(SceneTest):
             "complete", "time_to_first_image_ms", "time_to_complete_ms", "points_drawn",
             "nodes_drawn", "error_px", "peak_rss_bytes", "resident_bytes", "gpu_bytes",
             "bytes_read", "attributes_read", "limited_by", "failed_nodes", "backend",
-            "picture_bytes"})
+            "picture_bytes", "classes"})
         self.assertEqual(statistics["backend"], BACKEND)
         self.assertIs(statistics["complete"], True)
         self.assertLessEqual(statistics["error_px"], 1.01)

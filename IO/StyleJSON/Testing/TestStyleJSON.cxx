@@ -33,6 +33,7 @@ TEST(StyleJSON, EveryKeyIsUnderstood)
   const StyleSheet sheet = parsed(R"({
     "default": { "technique": "splats", "color": "rgb", "size": {"mode": "spacing", "factor": 1.5},
                  "orientation": "view", "opacity": 0.5, "visible": true, "error_factor": 2,
+                 "budget_share": 0.25,
                  "blended": true, "accuracy": "exact", "where": "intensity > 3" },
     "classes": { "5": { "technique": "spheres",
                         "color": {"attribute": "local-height", "map": "viridis", "range": [0, 20]},
@@ -49,6 +50,7 @@ TEST(StyleJSON, EveryKeyIsUnderstood)
   EXPECT_EQ(sheet.standard.opacity, 0.5);
   EXPECT_EQ(sheet.standard.visible, true);
   EXPECT_EQ(sheet.standard.errorFactor, 2.0);
+  EXPECT_EQ(sheet.standard.budgetShare, 0.25);
   EXPECT_EQ(sheet.standard.blended, true);
   EXPECT_EQ(sheet.standard.accuracy, SplatAccuracy::Exact);
   EXPECT_EQ(sheet.standard.where->text, "intensity > 3");
@@ -140,7 +142,7 @@ TEST(StyleJSON, RefusalsBeginWithTheirPlace)
     "classes.6.size.mode: 'big' is unknown: use fixed, spacing, attribute");
   expectRefusal(R"({"classes": {"6": {"colour": "rgb"}}})",
     "classes.6.colour: there is no such key; use technique, color, size, orientation, opacity, "
-    "visible, error_factor, blended, accuracy, rim_color, wall_color, where");
+    "visible, error_factor, budget_share, blended, accuracy, rim_color, wall_color, where");
   expectRefusal(R"({"classes": {"256": {}}})", "classes.256: a class is a code from 0 to 255");
   expectRefusal(R"({"classes": {"06": {}}})", "classes.06: a class is a code from 0 to 255");
   expectRefusal(
@@ -171,7 +173,8 @@ TEST(StyleJSON, RefusalsBeginWithTheirPlace)
          R"({"default": {"color": {"attribute": "a", "map": "jet"}}})",
          R"({"default": {"wall_color": ["#000000"]}})", R"({"show_classes": [2, 300]})",
          R"({"show_classes": 2})", R"({"shading": {"mode": "dark"}})", R"({"classes": []})",
-         R"({"default": {"error_factor": 0}})", R"({"default": {"accuracy": "best"}})" })
+         R"({"default": {"error_factor": 0}})", R"({"classes": {"6": {"budget_share": 1.5}}})",
+         R"({"default": {"accuracy": "best"}})" })
   {
     EXPECT_NE(refusal(text).find(": "), std::string::npos) << text;
   }

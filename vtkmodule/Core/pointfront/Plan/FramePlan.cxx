@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <ostream>
 
 namespace pointfront
@@ -9,7 +10,13 @@ namespace pointfront
 
 std::uint64_t FramePlan::pointCount() const
 {
-  std::uint64_t points = 0;
+  const std::vector<std::uint64_t> layers = layerPoints();
+  return std::accumulate(layers.begin(), layers.end(), std::uint64_t(0));
+}
+
+std::vector<std::uint64_t> FramePlan::layerPoints() const
+{
+  std::vector<std::uint64_t> points;
   // Of a layer's batches the largest: the others are parts of it.
   std::map<std::uint16_t, const DrawBatch*> largest;
   for (const DrawBatch& batch : batches)
@@ -19,9 +26,10 @@ std::uint64_t FramePlan::pointCount() const
   }
   for (const auto& [layer, batch] : largest)
   {
+    points.resize(layer + std::size_t(1), 0);
     for (const PlanItem& item : batch->items)
     {
-      points += item.last - item.first;
+      points[layer] += item.last - item.first;
     }
   }
   return points;

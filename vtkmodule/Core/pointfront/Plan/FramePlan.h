@@ -95,6 +95,8 @@ struct FramePlan : FrameSetting
 
   /// Each point once, however many styles of its layer look at it.
   std::uint64_t pointCount() const;
+  /// The same of each layer by its number; layers beyond the list have none.
+  std::vector<std::uint64_t> layerPoints() const;
   std::size_t nodeCount() const; ///< of all batches
   /// Pixels that splats fill at least where they close the surface, by `spacingPx`, counted as
   /// often as they are filled. An estimate: it counts all points of nodes that are partly in sight.

@@ -3,6 +3,7 @@
 #include "pointfront/Front/FrontDelta.h"
 
 #include <cstdint>
+#include <vector>
 
 namespace pointfront
 {
@@ -11,6 +12,7 @@ namespace pointfront
 struct FrameStatistics
 {
   std::uint64_t points = 0; ///< drawn
+  std::vector<std::uint64_t> layerPoints; ///< FramePlan::layerPoints()
   std::uint64_t nodes = 0; ///< that they are of
   /// Drawn beside the front's, as they were visible in the frame before (SMOOTH-7).
   std::uint64_t keptPoints = 0;

@@ -23,6 +23,7 @@ LayerStyle LayerStyle::over(const LayerStyle& below) const
   style.opacity = either(opacity, below.opacity);
   style.visible = either(visible, below.visible);
   style.errorFactor = either(errorFactor, below.errorFactor);
+  style.budgetShare = either(budgetShare, below.budgetShare);
   style.blended = either(blended, below.blended);
   style.accuracy = either(accuracy, below.accuracy);
   style.rim = either(rim, below.rim);
@@ -41,6 +42,7 @@ LayerStyle standardStyle()
   style.opacity = 1.0;
   style.visible = true;
   style.errorFactor = 1.0;
+  style.budgetShare = 0.0;
   style.blended = false;
   style.accuracy = SplatAccuracy::Affine;
   style.rim = Rgba8{ 0, 0, 0, 255 };

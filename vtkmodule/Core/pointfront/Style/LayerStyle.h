@@ -51,6 +51,8 @@ struct LayerStyle
   std::optional<double> opacity; ///< 0 to 1
   std::optional<bool> visible; ///< false: neither loaded nor drawn
   std::optional<double> errorFactor; ///< > 0: 2 draws half as fine (LayerLimits)
+  /// 0 to 1: of the points and the memory, before other classes (LayerLimits::share).
+  std::optional<double> budgetShare;
   std::optional<bool> blended; ///< splats: two passes with weights
   std::optional<SplatAccuracy> accuracy;
   std::optional<Rgba8> rim; ///< silhouettes
@@ -65,8 +67,8 @@ struct LayerStyle
   {
     return a.technique == b.technique && a.colour == b.colour && a.size == b.size &&
       a.orientation == b.orientation && a.opacity == b.opacity && a.visible == b.visible &&
-      a.errorFactor == b.errorFactor && a.blended == b.blended && a.accuracy == b.accuracy &&
-      a.rim == b.rim && a.wall == b.wall && a.where == b.where;
+      a.errorFactor == b.errorFactor && a.budgetShare == b.budgetShare && a.blended == b.blended &&
+      a.accuracy == b.accuracy && a.rim == b.rim && a.wall == b.wall && a.where == b.where;
   }
   friend bool operator!=(const LayerStyle& a, const LayerStyle& b) { return !(a == b); }
 };

@@ -195,6 +195,7 @@ private:
         resolved->group = resolved->opacity < 1.0 ? groupOf(sheet, objectClass) : 0;
         resolved->highlight = highlightOf(sheet, objectClass);
         put(layers_[number], *style.errorFactor, std::move(*resolved));
+        layers_[number].budgetShare = std::max(layers_[number].budgetShare, *style.budgetShare);
       }
     }
     return {};

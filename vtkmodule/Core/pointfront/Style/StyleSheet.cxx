@@ -258,6 +258,14 @@ bool StyleSheet::wantsHeights(const StoreDescription& store) const
       [&](const StyleLens& lens) { return anyAsks(lens.standard, lens.classes); });
 }
 
+bool StyleSheet::wantsShares() const
+{
+  const auto asks = [](const LayerStyle& style) { return style.budgetShare.value_or(0.0) > 0.0; };
+  return asks(standard) ||
+    std::any_of(
+      classes.begin(), classes.end(), [&](const auto& ofClass) { return asks(ofClass.second); });
+}
+
 Result<StylePointer> StyleSheet::resolve(
   const StoreDescription& store, std::size_t layer, const StoreSurroundings& surroundings) const
 {

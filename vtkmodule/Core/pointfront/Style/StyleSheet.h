@@ -26,6 +26,7 @@ struct LayerStyling
   /// A point passes the filter of one of them at most. Equal styles of a store are one object.
   std::vector<std::shared_ptr<const ResolvedStyle>> styles;
   double errorFactor = 1.0; ///< the smallest of what is visible (LayerLimits)
+  double budgetShare = 0.0; ///< the largest; of a store with one tree for all classes 0
 
   bool visible() const { return !styles.empty(); }
   /// What has to be read for all of them, ascending.
@@ -60,6 +61,8 @@ struct StyleSheet
   FrameShading frameShading() const;
   /// Whether any colour or condition asks for ClassHeights of this store.
   bool wantsHeights(const StoreDescription& store) const;
+  /// Whether a class has a share of the budgets. Stores with one tree for all classes give it none.
+  bool wantsShares() const;
 
   /// Layer number `layer`'s style with the store's columns looked up, visible or not; of an
   /// unlayered store the default.

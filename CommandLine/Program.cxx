@@ -9,8 +9,8 @@
 #include "InfoCommand.h"
 #include "ManPage.h"
 #include "RenderCommand.h"
+#include "ServeCommand.h"
 #include "StreamCommand.h"
-#include "Unavailable.h"
 #include "VerifyCommand.h"
 #include "ViewCommand.h"
 
@@ -84,18 +84,12 @@ Program::Program()
   commands_.push_back(std::make_unique<BenchCommand>());
   commands_.push_back(std::make_unique<CompareCommand>());
   commands_.push_back(std::make_unique<ViewCommand>());
+  commands_.push_back(std::make_unique<ServeCommand>());
   commands_.push_back(std::make_unique<StreamCommand>());
   for (const auto& command : commands_)
   {
     command->declare(app_);
   }
-  declareUnavailableCommands();
-}
-
-void Program::declareUnavailableCommands()
-{
-  declareUnavailableCommand(
-    app_, "serve", "it belongs to the Python package: python3 -m pointfront serve");
 }
 
 std::string Program::commandNamed(int argc, char** argv) const

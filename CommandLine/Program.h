@@ -18,7 +18,6 @@ public:
   int run(int argc, char** argv);
 
 private:
-  void declareUnavailableCommands();
   /// The command that the words name, for messages about the rest of them; may be empty.
   std::string commandNamed(int argc, char** argv) const;
 

@@ -45,15 +45,6 @@ void declareUnavailableFlag(CLI::App& app, const std::string& flag, const std::s
     flag, [flag, why]() { throw refusal(flag, why); }, "(not available yet)");
 }
 
-void declareUnavailableCommand(
-  CLI::App& program, const std::string& command, const std::string& why)
-{
-  CLI::App* app = program.add_subcommand(command, "(not available yet)");
-  app->allow_extras();
-  app->set_help_flag();
-  app->parse_complete_callback([command, why]() { throw refusal("the command", why); });
-}
-
 CLI::Validator availableValues(std::vector<std::string> available, std::vector<std::string> planned)
 {
   const std::string shown = joined(available);

@@ -15,9 +15,6 @@ namespace pointfront
 void declareUnavailable(CLI::App& app, const std::string& option, const std::string& why);
 /// Likewise without a value.
 void declareUnavailableFlag(CLI::App& app, const std::string& flag, const std::string& why);
-/// A whole command.
-void declareUnavailableCommand(
-  CLI::App& program, const std::string& command, const std::string& why);
 
 /// Check for an option of which only some values work: the `available` ones pass; the `planned`
 /// ones are refused as not available, all others as unknown.

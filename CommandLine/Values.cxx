@@ -141,9 +141,20 @@ CLI::Validator wholeNumber()
   const auto check = [](std::string& text) -> std::string
   {
     constexpr std::size_t mostDigits = 15;
-    const bool digits = !text.empty() && text.size() <= mostDigits &&
-      text.find_first_not_of("0123456789") == std::string::npos;
-    return digits ? std::string() : "'" + text.substr(0, 40) + "' is not a count: 0, 1, 2 ...";
+    const auto isCount = [](const std::string& digits)
+    {
+      return !digits.empty() && digits.size() <= mostDigits &&
+        digits.find_first_not_of("0123456789") == std::string::npos;
+    };
+    const std::optional<double> number = parseNumber(text);
+    const bool scientific = number && *number >= 0.0 && *number < 1e15 &&
+      std::floor(*number) == *number && text.find_first_not_of("0123456789.eE+") == text.npos;
+    if (!isCount(text) && scientific)
+    {
+      text = std::to_string(static_cast<std::uint64_t>(*number));
+    }
+    return isCount(text) ? std::string()
+                         : "'" + text.substr(0, 40) + "' is not a count: 0, 1, 2 ... 1e6 ...";
   };
   return CLI::Validator(check, "COUNT");
 }

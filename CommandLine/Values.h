@@ -28,7 +28,7 @@ CLI::Validator positiveNumber();
 /// Check for an option with a smallest and a largest value; what is no number is refused, "nan"
 /// too.
 CLI::Validator numberBetween(double low, double high);
-/// Check for an option that counts: decimal digits only, at most 15.
+/// Transformation for an option that counts: decimal digits, at most 15, of these or of "1e6".
 CLI::Validator wholeNumber();
 
 /// An option of bytes: "512M", "4G". Wrong text is wrong usage.

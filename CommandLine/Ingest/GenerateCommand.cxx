@@ -4,6 +4,7 @@
 #include "ProgressDisplay.h"
 #include "SinkFormats.h"
 #include "Unavailable.h"
+#include "Values.h"
 
 #include "pointfront/Export/SourceExport.h"
 #include "pointfront/Generate/TerrainSource.h"
@@ -20,6 +21,7 @@ void GenerateCommand::declare(CLI::App& program)
     "generate", "Make up an airborne survey: ground, water, vegetation, buildings");
   app_->add_option("--points", points_, "How many")
     ->required()
+    ->transform(wholeNumber())
     ->check(CLI::Range(std::uint64_t(1), most))
     ->type_name("N");
   app_->add_option("-o,--output", outputPath_, "The file to write")

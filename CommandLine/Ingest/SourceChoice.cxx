@@ -54,7 +54,7 @@ void SourceChoice::declare(CLI::App& app)
       availableValues({ "comma", "semicolon", "tab", "blank", ",", ";", " ", "\t", "\\t" }, {})
         .description("{comma, semicolon, tab, blank}"));
   app.add_option("--skip", text_.skip, "Lines at the beginning of text files to pass over (0)")
-    ->check(wholeNumber())
+    ->transform(wholeNumber())
     ->type_name("N");
   app
     .add_option("--color-depth", colourDepth_,

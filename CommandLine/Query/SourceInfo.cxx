@@ -2,6 +2,7 @@
 
 #include "ByteSize.h"
 #include "CloudFacts.h"
+#include "SystemName.h"
 
 #include <nlohmann/json.hpp>
 
@@ -214,7 +215,7 @@ std::string sourceText(const SourceInfo& info)
     text << "floating point";
   }
   text << "\n  crs         "
-       << (!source.crsWkt.empty()            ? source.crsWkt
+       << (!source.crsWkt.empty()            ? systemName(source.crsWkt)
               : hasProjectionRecords(source) ? "GeoTIFF keys"
                                              : "not known")
        << "\n  file        " << byteSizeText(info.fileBytes) << " (" << info.fileBytes

@@ -2,6 +2,7 @@
 
 #include "ByteSize.h"
 #include "CloudFacts.h"
+#include "SystemName.h"
 
 #include "pointfront/Points/NormalAttribute.h"
 #include "pointfront/Points/SplatRadius.h"
@@ -144,7 +145,7 @@ std::string storeText(const StoreDescription& store, const Hierarchy& hierarchy)
   text << "\n  points      " << store.pointCount << "\n  bounds      " << boundsText(store.bounds);
   text << "\n  precision   " << store.grid.scale.x << ' ' << store.grid.scale.y << ' '
        << store.grid.scale.z << "\n  crs         "
-       << (store.crsWkt.empty() ? "not known" : store.crsWkt) << "\n  hierarchy   "
+       << (store.crsWkt.empty() ? "not known" : systemName(store.crsWkt)) << "\n  hierarchy   "
        << store.structure << ", refinement " << refinementName(store.refinement) << ", "
        << hierarchy.nodeCount() << " nodes in " << store.levels << " levels\n  file        "
        << byteSizeText(store.fileBytes) << " (" << store.fileBytes << " bytes), version "

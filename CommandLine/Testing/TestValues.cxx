@@ -56,4 +56,21 @@ TEST(Values, ANumberBetweenTwoIsANumber)
   }
 }
 
+TEST(Values, CountsMayBeWrittenWithAnExponent)
+{
+  const auto counted = [](std::string text)
+  {
+    const std::string problem = wholeNumber()(text);
+    return problem.empty() ? text : "refused";
+  };
+  EXPECT_EQ(counted("0"), "0");
+  EXPECT_EQ(counted("1e6"), "1000000");
+  EXPECT_EQ(counted("2.5E+3"), "2500");
+  EXPECT_EQ(counted("999999999999999"), "999999999999999");
+  for (const char* text : { "", "1e", "1e-3", "2.5", "-1", "1e15", "0x10", "nan", "inf", "1 " })
+  {
+    EXPECT_EQ(counted(text), "refused") << text;
+  }
+}
+
 } // namespace pointfront

@@ -30,7 +30,7 @@ TextPanel::TextPanel(vtkRenderer* renderer, Corner corner)
   low ? look->SetVerticalJustificationToBottom() : look->SetVerticalJustificationToTop();
   actor_->PickableOff();
   actor_->VisibilityOff();
-  renderer->AddActor2D(actor_);
+  renderer->AddViewProp(actor_);
 }
 
 bool TextPanel::set(const std::string& text)

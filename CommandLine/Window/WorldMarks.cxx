@@ -31,7 +31,7 @@ WorldMarks::WorldMarks(vtkRenderer* renderer)
   actor_->GetProperty()->SetPointSize(9.0f);
   actor_->PickableOff();
   actor_->VisibilityOff();
-  renderer_->AddActor2D(actor_);
+  renderer_->AddViewProp(actor_);
   command_->SetClientData(this);
   command_->SetCallback([](vtkObject*, unsigned long, void* self, void*)
     { static_cast<WorldMarks*>(self)->project(); });

@@ -40,6 +40,16 @@ struct FolderRule
   {
     return hasExtension(path, extensions) && (!isPointFile || isPointFile(path.string()));
   }
+  /// For people: ".las, .laz ...".
+  std::string endings() const
+  {
+    std::string text;
+    for (const std::string& extension : extensions)
+    {
+      text += (text.empty() ? "." : ", .") + extension;
+    }
+    return text;
+  }
   /// Point files alone where a folder has both.
   void leaveOutStores(const std::string& folder, std::vector<std::string>& files) const
   {
@@ -85,8 +95,10 @@ Result<std::vector<std::string>> filesBelow(const std::string& folder, const Fol
   }
   if (files.empty())
   {
-    return makeError(
-      Error::Kind::NotFound, folder + ": the folder holds no point file of a known extension");
+    return makeError(Error::Kind::NotFound,
+      folder +
+        ": the folder and those below it hold no point file; names were looked for that end in " +
+        rule.endings());
   }
   rule.leaveOutStores(folder, files);
   return files;

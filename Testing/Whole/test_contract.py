@@ -57,10 +57,6 @@ class Usage(ToolTest):
         self.refuse(2, "info")
         self.refuse(2, "build", SMALL)
 
-    def test_commands_of_the_contract_that_are_not_there_say_so(self):
-        outcome = self.refuse(2, "serve", "a", "-o", "b", "--points", "3")
-        self.assertIn("not available", outcome.err)
-
     def test_help_names_values_as_words(self):
         text = self.succeed("build", "--help").out
         self.assertNotIn("\t", text)

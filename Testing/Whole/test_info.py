@@ -258,6 +258,25 @@ class AnyFile(ToolTest):
         for path, word in ((picture, "not a point file"), (empty, "0 bytes"), (false, "store")):
             self.assertIn(word, self.refuse(1, "info", path).err)
 
+    def test_words_that_people_use(self):
+        """A system by its code, a count with an exponent, and what a folder was looked through for.
+        """
+        cloud = self.folder / "a.las"
+        self.succeed("generate", "--points", "1e3", "-o", cloud)
+        self.succeed("build", cloud, "-o", self.folder / "a.pfront", "--assume-crs", "EPSG:2154",
+                     "--force")
+        told = self.succeed("info", self.folder / "a.pfront")
+        self.assertRegex(told.out, r"crs +EPSG:2154 \(RGF93[^\n]*Lambert-93\)\n")
+        self.assertIn("points      1000\n", told.out)
+        told = self.succeed("info", self.folder / "a.pfront", "--json").json
+        self.assertIn("2154", told["crs"])
+        self.assertGreater(len(told["crs"]), 100)
+        empty = self.folder / "empty"
+        empty.mkdir()
+        refused = self.refuse(1, "build", empty, "-o", self.folder / "b.pfront")
+        for word in (str(empty), ".las", ".ply"):
+            self.assertIn(word, refused.err)
+
 
 if __name__ == "__main__":
     unittest.main(verbosity=2)

@@ -2,7 +2,9 @@
 
 import contextlib
 import json
+import os
 import subprocess
+import sys
 import unittest
 
 import numpy
@@ -227,8 +229,23 @@ class Streams(tool.ToolTest):
         self.refuse(2, "stream")
 
     def test_serve_is_of_python(self):
-        said = self.refuse(2, "serve", self.store)
-        self.assertIn("python3 -m pointfront serve", str(said))
+        """It becomes the page of the Python package, where that is, and says so where it is not."""
+        package = self.folder / "python" / "pointfront"
+        package.mkdir(parents=True)
+        (package / "__init__.py").write_text("")
+        (package / "__main__.py").write_text("import sys\nprint(sys.argv[1:])\nsys.exit(7)\n")
+        plain = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
+        python = {**plain, "POINTFRONT_PYTHON": sys.executable}
+        words = ["serve", self.store, "--port", "0", "--help"]
+        served = tool.pointfront(*words, environment={**python, "PYTHONPATH": str(package.parent)})
+        self.assertEqual(served.status, 7, served)
+        self.assertEqual(served.out.strip(), str(list(map(str, words))))
+        for environment, says in (({**python, "PYTHONPATH": str(self.folder / "none")}, "install"),
+                                  ({**plain, "POINTFRONT_PYTHON": "no-python"}, "no-python")):
+            refused = tool.pointfront(*words, environment=environment)
+            self.assertEqual(refused.status, 1, refused)
+            self.assertIn(says, refused.err)
+            self.assertEqual(len(refused.err.splitlines()), 1)
 
 
 if __name__ == "__main__":

@@ -114,7 +114,12 @@ void DrawingOptions::declare(CLI::App& app)
     ->type_name("PX|auto")
     ->expected(1);
   app.add_flag("--edl", eyeDomeLighting, "Eye-dome lighting: shade by depth");
-  app.add_flag("--lit", lit, "Light from the eye on points that have a normal");
+  CLI::Option* const light = app.add_flag_callback(
+    "--lit", [this] { lit = true; }, "Light from the eye on points that have a normal");
+  app
+    .add_flag_callback(
+      "--unlit", [this] { lit = false; }, "No light, on spheres neither")
+    ->excludes(light);
   app.add_option("--error", errorPx, "Projected point spacing to refine to (1)")
     ->check(numberBetween(0.01, 1000.0))
     ->type_name("PX");

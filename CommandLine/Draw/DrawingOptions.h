@@ -39,7 +39,7 @@ struct DrawingOptions
   bool measureEmptyScene = false; ///< see StoreScene::emptySceneBytes()
   std::vector<std::uint8_t> classes; ///< sorted codes of what is drawn; empty: all
   bool eyeDomeLighting = false;
-  bool lit = false;
+  std::optional<bool> lit;
   /// Of --style, and over it --technique, --color-by, --point-size, --where, --classes and --edl.
   /// Complete when parsing is.
   StyleSheet style;

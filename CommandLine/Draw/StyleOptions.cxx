@@ -133,11 +133,19 @@ StyleSheet makeStyle(const CLI::App& app, const StyleArguments& arguments, Drawi
   {
     sheet.shownClasses = options.classes;
   }
-  if (options.eyeDomeLighting && !(sheet.shading.eyeDomeStrength > 0.0f))
+  if (options.eyeDomeLighting && sheet.standard.eyeDome)
+  {
+    sheet.standard.eyeDome->on = true;
+  }
+  else if (options.eyeDomeLighting && !(sheet.shading.eyeDomeStrength > 0.0f))
   {
     sheet.shading.eyeDomeStrength = usualEyeDomeStrength;
   }
-  sheet.shading.lit = sheet.shading.lit || options.lit;
+  if (options.lit)
+  {
+    sheet.standard.light = sheet.standard.light.value_or(StyleLight());
+    sheet.standard.light->on = *options.lit;
+  }
   const Result<FilterExpression> where = FilterExpression::parse(arguments.where);
   if (!where)
   {

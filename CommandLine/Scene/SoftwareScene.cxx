@@ -146,10 +146,11 @@ Result<void> SoftwareScene::shareMemory()
   const std::uint64_t targets = std::max<std::size_t>(1, parts.size());
   PictureCost cost;
   cost.pixelBytes = sizeof(std::uint32_t) + sizeof(float); // colour and depth
-  cost.pixelBytes += shading_.lit ? 3 * sizeof(float) : 0; // normals
+  cost.pixelBytes += shading_.anyLit() ? 3 * sizeof(float) : 0; // normals
+  cost.pixelBytes += shading_.lookCount() > 1 ? sizeof(std::uint16_t) : 0;
   cost.pixelBytes += shading_.highlights.empty() ? 0 : 4; // who stands out, how far that is
   cost.pixelBytes *= targets;
-  cost.pixelBytes += shading_.eyeDomeStrength > 0.0f ? sizeof(float) : 0; // logarithms of depth
+  cost.pixelBytes += shading_.anyEyeDome() ? sizeof(float) : 0; // logarithms of depth
   cost.pixelBytes += blends ? sizeof(float) : 0; // the nearest depth
   cost.pixelBytes += stores_.size() > 1 // keys of their last pictures
     ? SoftwareRasteriser::keptPictures * sizeof(RasterKey)

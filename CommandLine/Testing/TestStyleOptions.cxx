@@ -78,6 +78,22 @@ TEST(StyleOptions, OptionsChangeTheDefaultOfTheFile)
   EXPECT_EQ(sheet.where.text, "intensity > 2 and z < 9");
   EXPECT_EQ(sheet.where.terms.size(), 2u);
   EXPECT_EQ(sheet.shading.eyeDomeStrength, 0.8f);
+  EXPECT_FALSE(sheet.standard.light) << "nobody asked";
+}
+
+TEST(StyleOptions, LightIsTheDefaults)
+{
+  const std::string path = styleFile("light", R"({"default": {"technique": "spheres",
+    "light": {"ambient": 0.1}, "edl": false}, "classes": {"6": {"light": false}}})");
+  const auto look = [](const StyleSheet& sheet) { return sheet.frameShading().look(0); };
+  EXPECT_TRUE(look(parsed({ "--technique", "spheres" }).style).lit);
+  EXPECT_FALSE(look(parsed({ "--technique", "spheres", "--unlit" }).style).lit);
+  EXPECT_TRUE(look(parsed({ "--technique", "splats", "--lit" }).style).lit);
+  const StyleSheet lit = parsed({ "--style", path, "--lit", "--edl" }).style;
+  EXPECT_EQ(look(lit).ambient, 0.1f);
+  EXPECT_EQ(look(lit).eyeDomeStrength, usualEyeDomeStrength);
+  EXPECT_EQ(lit.classes.at(6).light, (StyleLight{ false, {}, {} }));
+  EXPECT_FALSE(look(parsed({ "--style", path, "--unlit" }).style).lit);
 }
 
 TEST(StyleOptions, AQualityIsTechniqueAndErrorTogether)

@@ -253,12 +253,56 @@ std::array<Rgba8, 2> wallAt(const JSONPlace& place)
   return { colourCodeAt(place.at(std::size_t(0))), colourCodeAt(place.at(std::size_t(1))) };
 }
 
+/// A number of an object, as far as the key is there.
+std::optional<float> numberOf(const JSONPlace& place, const char* key, double most)
+{
+  return place.has(key) ? std::optional<float>(static_cast<float>(place.at(key).number(0.0, most)))
+                        : std::nullopt;
+}
+
+/// Whether it is on: an object is, unless its key `on` is false.
+bool switchAt(const JSONPlace& place)
+{
+  if (!place.value().is_boolean() && !place.isObject())
+  {
+    place.refuse("expected true, false or an object, not " + place.shown());
+  }
+  return place.isObject() ? !place.has("on") || place.at("on").truth() : place.truth();
+}
+
+StyleLight lightAt(const JSONPlace& place)
+{
+  StyleLight light;
+  light.on = switchAt(place);
+  if (place.isObject())
+  {
+    place.expectKeys({ "on", "ambient", "diffuse" });
+    light.ambient = numberOf(place, "ambient", mostLight);
+    light.diffuse = numberOf(place, "diffuse", mostLight);
+  }
+  return light;
+}
+
+StyleEyeDome eyeDomeAt(const JSONPlace& place)
+{
+  StyleEyeDome eyeDome;
+  eyeDome.on = switchAt(place);
+  if (place.isObject())
+  {
+    place.expectKeys({ "on", "strength", "radius_px" });
+    eyeDome.strength = numberOf(place, "strength", mostEyeDomeStrength);
+    eyeDome.radiusPx = numberOf(place, "radius_px", mostEyeDomeRadiusPx);
+  }
+  return eyeDome;
+}
+
 } // namespace
 
 LayerStyle layerStyleAt(const JSONPlace& place)
 {
-  place.expectKeys({ "technique", "color", "size", "orientation", "opacity", "visible",
-    "error_factor", "budget_share", "blended", "accuracy", "rim_color", "wall_color", "where" });
+  place.expectKeys(
+    { "technique", "color", "size", "orientation", "opacity", "visible", "error_factor",
+      "budget_share", "blended", "accuracy", "rim_color", "wall_color", "where", "light", "edl" });
   LayerStyle style;
   const auto read = [&place](const char* key, auto& target, auto reader)
   {
@@ -286,6 +330,8 @@ LayerStyle layerStyleAt(const JSONPlace& place)
   read("rim_color", style.rim, colourCodeAt);
   read("wall_color", style.wall, wallAt);
   read("where", style.where, filterAt);
+  read("light", style.light, lightAt);
+  read("edl", style.eyeDome, eyeDomeAt);
   return style;
 }
 

@@ -71,7 +71,8 @@ void addShadingMode(const JSONPlace& place, bool& lit, bool& eyeDome)
   eyeDome = eyeDome || mode == 2;
 }
 
-FrameShading shadingAt(const JSONPlace& place)
+/// `style`: the default. The mode none says that it has no light, though it may be of spheres.
+FrameShading shadingAt(const JSONPlace& place, LayerStyle& style)
 {
   place.expectKeys({ "mode", "strength", "radius_px", "ambient", "diffuse", "fill_holes" });
   FrameShading shading;
@@ -86,6 +87,10 @@ FrameShading shadingAt(const JSONPlace& place)
     if (!mode.isArray())
     {
       addShadingMode(mode, shading.lit, eyeDome);
+      if (!shading.lit && !eyeDome && !style.light)
+      {
+        style.light = StyleLight{ false, {}, {} };
+      }
     }
   }
   for (const char* key : { "strength", "radius_px" })
@@ -95,22 +100,15 @@ FrameShading shadingAt(const JSONPlace& place)
       place.at(key).refuse("means something with the mode edl only");
     }
   }
-  for (const char* key : { "ambient", "diffuse" })
-  {
-    if (place.has(key) && !shading.lit)
-    {
-      place.at(key).refuse("means something with the mode lit only");
-    }
-  }
   const auto number = [&place](const char* key, double usual, double most)
   { return static_cast<float>(place.has(key) ? place.at(key).number(0.0, most) : usual); };
   if (eyeDome)
   {
-    shading.eyeDomeStrength = number("strength", usualEyeDomeStrength, 100.0);
-    shading.eyeDomeRadiusPx = number("radius_px", shading.eyeDomeRadiusPx, 64.0);
+    shading.eyeDomeStrength = number("strength", usualEyeDomeStrength, mostEyeDomeStrength);
+    shading.eyeDomeRadiusPx = number("radius_px", shading.eyeDomeRadiusPx, mostEyeDomeRadiusPx);
   }
-  shading.ambient = number("ambient", shading.ambient, 10.0);
-  shading.diffuse = number("diffuse", shading.diffuse, 10.0);
+  shading.ambient = number("ambient", shading.ambient, mostLight);
+  shading.diffuse = number("diffuse", shading.diffuse, mostLight);
   shading.fillHoles = place.has("fill_holes") && place.at("fill_holes").truth();
   return shading;
 }
@@ -162,7 +160,7 @@ StyleSheet sheetAt(const JSONPlace& place)
   }
   if (place.has("shading"))
   {
-    sheet.shading = shadingAt(place.at("shading"));
+    sheet.shading = shadingAt(place.at("shading"), sheet.standard);
   }
   if (place.has("lenses"))
   {
@@ -171,6 +169,13 @@ StyleSheet sheetAt(const JSONPlace& place)
   if (place.has("highlight"))
   {
     sheet.highlights = highlightsAt(place.at("highlight"));
+  }
+  for (const char* key : { "ambient", "diffuse" })
+  {
+    if (place.has("shading") && place.at("shading").has(key) && !sheet.frameShading().anyLit())
+    {
+      place.at("shading").at(key).refuse("means something where points are lit only");
+    }
   }
   return sheet;
 }

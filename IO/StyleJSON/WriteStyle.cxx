@@ -6,6 +6,9 @@
 
 #include <array>
 #include <charconv>
+#include <initializer_list>
+#include <optional>
+#include <utility>
 
 namespace pointfront
 {
@@ -137,6 +140,45 @@ const char* accuracy(SplatAccuracy accuracy)
                                            : "full";
 }
 
+/// The double of the fewest digits that becomes this float again: 0.4, not 0.4000000059604645.
+double briefly(float number)
+{
+  std::array<char, 32> text{};
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), number).ptr;
+  double brief = 0.0;
+  std::from_chars(text.data(), end, brief);
+  return brief;
+}
+
+/// `true`, `false`, or the numbers that are set, with `on` where that is false.
+Json switched(bool on, std::initializer_list<std::pair<const char*, std::optional<float>>> numbers)
+{
+  Json result = Json::object();
+  for (const auto& [key, number] : numbers)
+  {
+    if (number)
+    {
+      result[key] = briefly(*number);
+    }
+  }
+  if (!on && !result.empty())
+  {
+    result["on"] = false;
+  }
+  return result.empty() ? Json(on) : result;
+}
+
+Json light(const StyleLight& light)
+{
+  return switched(light.on, { { "ambient", light.ambient }, { "diffuse", light.diffuse } });
+}
+
+Json eyeDome(const StyleEyeDome& eyeDome)
+{
+  return switched(
+    eyeDome.on, { { "strength", eyeDome.strength }, { "radius_px", eyeDome.radiusPx } });
+}
+
 Json layerStyle(const LayerStyle& style)
 {
   Json result = Json::object();
@@ -164,17 +206,9 @@ Json layerStyle(const LayerStyle& style)
       return Json::array({ colourCode(wall[0]), colourCode(wall[1]) });
     });
   put("where", style.where, [](const FilterExpression& filter) { return filter.text; });
+  put("light", style.light, light);
+  put("edl", style.eyeDome, eyeDome);
   return result;
-}
-
-/// The double of the fewest digits that becomes this float again: 0.4, not 0.4000000059604645.
-double briefly(float number)
-{
-  std::array<char, 32> text{};
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), number).ptr;
-  double brief = 0.0;
-  std::from_chars(text.data(), end, brief);
-  return brief;
 }
 
 Json shading(const FrameShading& shading)
@@ -184,7 +218,13 @@ Json shading(const FrameShading& shading)
   if (shading.lit)
   {
     modes.push_back("lit");
+  }
+  if (shading.lit || shading.ambient != FrameLook().ambient)
+  {
     result["ambient"] = briefly(shading.ambient);
+  }
+  if (shading.lit || shading.diffuse != FrameLook().diffuse)
+  {
     result["diffuse"] = briefly(shading.diffuse);
   }
   if (shading.eyeDomeStrength > 0.0f)
@@ -296,7 +336,7 @@ std::string writeStyleSheet(const StyleSheet& sheet)
     result["where"] = sheet.where.text;
   }
   const FrameShading& shade = sheet.shading;
-  if (shade.lit || shade.eyeDomeStrength > 0.0f || shade.fillHoles)
+  if (!(shade == FrameShading()))
   {
     result["shading"] = shading(shade);
   }

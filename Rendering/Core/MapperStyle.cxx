@@ -114,7 +114,7 @@ bool hasPlainPointsOnly(const FrameShading& shading, const std::vector<LayerStyl
       style->group == 0 && style->size.mode == SplatSize::Mode::Pixels &&
       style->second.combination == ColourCombination::None;
   };
-  return !shading.lit && shading.eyeDomeStrength == 0.0f && !shading.fillHoles &&
+  return !shading.anyLit() && !shading.anyEyeDome() && !shading.fillHoles &&
     shading.lenses.empty() && shading.highlights.empty() &&
     std::all_of(layers.begin(), layers.end(),
       [&](const LayerStyling& layer)

@@ -68,6 +68,10 @@ void PosterTile::enlarge(FrameShading& shading) const
 {
   const auto larger = static_cast<float>(std::max(scale_.x, scale_.y));
   shading.eyeDomeRadiusPx *= larger;
+  for (FrameLook& look : shading.furtherLooks)
+  {
+    look.eyeDomeRadiusPx *= larger;
+  }
   for (FrameHighlight& highlight : shading.highlights)
   {
     highlight.haloPx *= larger;

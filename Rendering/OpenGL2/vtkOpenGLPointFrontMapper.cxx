@@ -285,30 +285,38 @@ bool vtkOpenGLPointFrontMapper::DrawsFromHostMemory(vtkRenderer* renderer, vtkAc
         : "the software back end does not draw translucent points: OpenGL does");
     return false;
   }
-  if (onlyOpenGL && this->HasTooManyLights(renderer))
+  if (onlyOpenGL && this->HasTooMuchLight(renderer))
   {
-    this->TellFallBack("OpenGL has at most 48 lights, and draws what the software back end does "
-                       "not: further lights do not shine");
+    this->TellFallBack("OpenGL has at most 48 lights and 32 kinds of light and eye-dome lighting "
+                       "in a style, and draws what the software back end does not: further lights "
+                       "do not shine, and further kinds are drawn as the last one");
   }
   if (!asked && !onlyOpenGL && !this->DrawsByOpenGL(renderer, actor))
   {
-    this->TellFallBack("OpenGL has at most 4 lenses, 4 translucent styles and 48 lights, and draws "
-                       "at most 254 styles of a layer with one attribute of sizes: this frame is "
-                       "drawn by the software back end");
+    this->TellFallBack("OpenGL has at most 4 lenses, 4 translucent styles, 48 lights and 32 kinds "
+                       "of light and eye-dome lighting in a style, and draws at most 254 styles of "
+                       "a layer with one attribute of sizes: this frame is drawn by the software "
+                       "back end");
     return true;
   }
   return asked;
 }
 
-bool vtkOpenGLPointFrontMapper::HasTooManyLights(vtkRenderer* renderer)
+bool vtkOpenGLPointFrontMapper::HasTooMuchLight(vtkRenderer* renderer)
 {
   const auto sheet = this->GetStyleSheet();
-  return sheet && sheet->frameShading().lit && lightsThatAreOn(renderer) > pointfront::mostLights;
+  if (!sheet)
+  {
+    return false;
+  }
+  const pointfront::FrameShading shading = sheet->frameShading();
+  return shading.lookCount() > pointfront::mostLooks ||
+    (shading.anyLit() && lightsThatAreOn(renderer) > pointfront::mostLights);
 }
 
 bool vtkOpenGLPointFrontMapper::DrawsByOpenGL(vtkRenderer* renderer, vtkActor* actor)
 {
-  if (this->HasTooManyLights(renderer))
+  if (this->HasTooMuchLight(renderer))
   {
     return false;
   }

@@ -50,7 +50,7 @@ private:
 
   void TellFallBack(const char* what);
   bool DrawsInTemplate(vtkActor* actor);
-  bool HasTooManyLights(vtkRenderer* renderer);
+  bool HasTooMuchLight(vtkRenderer* renderer);
   bool DrawsByOpenGL(vtkRenderer* renderer, vtkActor* actor);
   vtkIdType HandOver(vtkRenderer* renderer, vtkActor* actor, pointfront::WindowDrawing& drawing,
     const pointfront::FramePlan& plan);

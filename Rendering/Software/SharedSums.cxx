@@ -66,7 +66,23 @@ void sharePicture(PictureExchange& others, SoftwareTarget& target)
     }
     target.depth = std::move(mine);
   }
+  const std::vector<float> own = colours;
   others.nearest(colours.data(), count);
+  std::vector<float> looks(target.looks.empty() ? 0 : count, infinity);
+  for (std::size_t pixel = 0; pixel < looks.size(); ++pixel)
+  {
+    const bool shown = own[pixel] == colours[pixel] && own[pixel] != infinity;
+    looks[pixel] = shown ? static_cast<float>(target.looks[pixel]) : infinity;
+  }
+  if (!looks.empty())
+  {
+    others.nearest(looks.data(), count);
+  }
+  for (std::size_t pixel = 0; pixel < looks.size(); ++pixel)
+  {
+    const bool none = looks[pixel] == infinity;
+    target.looks[pixel] = static_cast<std::uint16_t>(none ? 0.0f : looks[pixel]);
+  }
   for (std::size_t pixel = 0; pixel < count; ++pixel)
   {
     target.rgba[pixel] = colours[pixel] == infinity

@@ -224,21 +224,18 @@ void SoftwareRasteriser::Content::drawPoints(const RasterItems& items, const Ras
 void SoftwareRasteriser::Content::resolve(
   const RasterItems& items, const RasterWindow& now, std::uint16_t store, SoftwareTarget& target)
 {
-  if (items.plan().shading.lit && target.normals.empty())
-  {
-    target.normals.assign(3 * target.depth.size(), 0.0f);
-  }
-  if (!items.plan().shading.highlights.empty() && target.highlights.empty())
-  {
-    target.highlights.assign(target.depth.size(), 0);
-  }
+  const FrameShading& shading = items.plan().shading;
+  const std::size_t pixels = target.depth.size(); // what is there already has that size
+  target.normals.resize(shading.anyLit() ? 3 * pixels : target.normals.size());
+  target.highlights.resize(shading.highlights.empty() ? target.highlights.size() : pixels);
+  target.looks.resize(shading.lookCount() > 1 ? pixels : target.looks.size());
   WinnerResolve::Source source;
   source.kernels = loops;
   source.items = &items;
   source.window = now;
   source.merged = buffers[0].keys.data();
   source.store = store;
-  source.normals = items.plan().shading.lit;
+  source.normals = shading.anyLit();
   for (const ThreadBuffers& one : buffers)
   {
     if (one.keysDrawn)

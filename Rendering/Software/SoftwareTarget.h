@@ -44,6 +44,8 @@ struct SoftwareTarget
   std::vector<float> normals;
   /// ResolvedStyle::highlight of who is in each pixel; empty unless a plan has highlights.
   std::vector<std::uint8_t> highlights;
+  /// ResolvedStyle::look of who is in each pixel; empty unless a plan has several looks.
+  std::vector<std::uint16_t> looks;
   /// Who is in each pixel; empty unless `keepPoints`.
   std::vector<PixelPoint> points;
   bool keepPoints = false;
@@ -64,6 +66,7 @@ struct SoftwareTarget
     decided.assign(keepDecided ? pixels : 0, std::numeric_limits<float>::infinity());
     normals.clear();
     highlights.clear();
+    looks.clear();
     points.assign(keepPoints ? pixels : 0, PixelPoint());
   }
 };

@@ -120,6 +120,29 @@ def random_sheet(rng, size):
     return sheet
 
 
+def random_light(rng):
+    return rng.choice((True, False, {"ambient": rng.choice((0.0, 0.1, 0.6))},
+                       {"ambient": 0.2, "diffuse": rng.choice((0.3, 0.9))}))
+
+
+def random_eye_dome(rng):
+    return rng.choice((True, False, {"radius_px": rng.choice((2, 4))},
+                       {"strength": rng.choice((0.1, 0.2, 1.0)), "radius_px": rng.choice((1, 3))}))
+
+
+def add_looks(rng, sheet):
+    """Light and eye-dome lighting of their own for some styles of a sheet and its lenses."""
+    insides = [lens["inside"] for lens in sheet.get("lenses", ())]
+    of_lenses = [style for inside in insides for style in inside.values()]
+    for style in (sheet["default"], *sheet.get("classes", {}).values(), *of_lenses):
+        if chance(rng, 0.35):
+            style["light"] = random_light(rng)
+        if chance(rng, 0.25):
+            style["edl"] = random_eye_dome(rng)
+    if chance(rng, 0.1):
+        sheet.setdefault("shading", {}).setdefault("mode", "none")
+
+
 VIEWS = ("oblique", "top", "near", "far", "grazing", "inside")
 
 
@@ -148,7 +171,12 @@ def random_camera(rng, bounds):
     return view, camera
 
 
-def random_scene(seed, bounds, size):
-    """(style, name of the view, camera) of a seed."""
+def random_scene(seed, bounds, size, looks=True):
+    """(style, name of the view, camera) of a seed. `looks`: styles have light and eye-dome lighting
+    of their own, in half of the seeds; all else of the scene is as without."""
     rng = random.Random(seed)
-    return (random_sheet(rng, size), *random_camera(rng, bounds))
+    sheet, view, camera = random_sheet(rng, size), *random_camera(rng, bounds)
+    of_looks = random.Random(f"looks of {seed}")
+    if looks and chance(of_looks, 0.5):
+        add_looks(of_looks, sheet)
+    return sheet, view, camera

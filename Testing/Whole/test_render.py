@@ -167,11 +167,14 @@ class Styles(SceneTest):
         self.assertGreater(int((points.max(axis=2) == 0).sum()), SIZE[0] * SIZE[1] // 2)
         pictures = []
         for technique in ("points", "splats", "spheres", "ewa", "silhouettes"):
-            picture = self.picture(*self.near, "--technique", technique)
+            picture = self.picture(*self.near, "--technique", technique, "--unlit")
             self.assertEqual(int((picture.max(axis=2) == 0).sum()), 0, technique)
             corners = picture[[-5, -5, 5, 5], [5, -5, 5, -5]].tolist()
             self.assertEqual(list(map(tuple, corners)), [RED, GREEN, BLUE, WHITE], technique)
             pictures.append(picture)
+        # Spheres are lit unless told otherwise.
+        lit = self.picture(*self.near, "--technique", "spheres")
+        self.assertLess(int(lit.sum()), 0.95 * int(pictures[2].sum()))
         # Splats that are blended mix colours where they meet.
         self.assertEqual(len(numpy.unique(pictures[1].reshape(-1, 3), axis=0)), 4)
         self.assertGreater(len(numpy.unique(pictures[3].reshape(-1, 3), axis=0)), 20)

@@ -320,36 +320,6 @@ std::string vtkPointFrontStyle::GetCommonFilter() const
   return this->Sheet->where.text;
 }
 
-bool vtkPointFrontStyle::SetLit(bool lit)
-{
-  pointfront::StyleSheet sheet = *this->Sheet;
-  sheet.shading.lit = lit;
-  return this->SetStyleSheet(sheet);
-}
-
-bool vtkPointFrontStyle::GetLit() const
-{
-  return this->Sheet->shading.lit;
-}
-
-bool vtkPointFrontStyle::SetEyeDomeStrength(double strength)
-{
-  constexpr double most = 100.0;
-  if (!(strength >= 0.0 && strength <= most))
-  {
-    vtkErrorMacro("a strength is from 0 to " << most << ", not " << strength);
-    return false;
-  }
-  pointfront::StyleSheet sheet = *this->Sheet;
-  sheet.shading.eyeDomeStrength = static_cast<float>(strength);
-  return this->SetStyleSheet(sheet);
-}
-
-double vtkPointFrontStyle::GetEyeDomeStrength() const
-{
-  return this->Sheet->shading.eyeDomeStrength;
-}
-
 bool vtkPointFrontStyle::SetFillHoles(bool fill)
 {
   pointfront::StyleSheet sheet = *this->Sheet;

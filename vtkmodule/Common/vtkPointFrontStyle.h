@@ -22,6 +22,7 @@
 namespace pointfront
 {
 struct FrameLens;
+struct FrameLook;
 struct LayerStyle;
 struct StyleLens;
 struct StyleSheet;
@@ -132,13 +133,32 @@ public:
 
   ///@{
   /**
-   * Light on points that have a normal; eye-dome lighting (0 turns it off, 0.4 is usual); filling
-   * of holes between points. All are off by default.
+   * Light on points that have a normal, and how much of it comes from everywhere and from the
+   * lights. By default only spheres are lit, by 0.3 and 0.7.
    */
-  bool SetLit(bool lit);
-  bool GetLit() const;
-  bool SetEyeDomeStrength(double strength);
-  double GetEyeDomeStrength() const;
+  bool SetLit(bool lit, int objectClass = -1);
+  bool GetLit(int objectClass = -1) const;
+  bool SetAmbient(double share, int objectClass = -1);
+  double GetAmbient(int objectClass = -1) const;
+  bool SetDiffuse(double share, int objectClass = -1);
+  double GetDiffuse(int objectClass = -1) const;
+  ///@}
+
+  ///@{
+  /**
+   * Eye-dome lighting: its strength (0, the default, turns it off, 0.4 is usual), and how far it
+   * looks.
+   */
+  bool SetEyeDomeStrength(double strength, int objectClass = -1);
+  double GetEyeDomeStrength(int objectClass = -1) const;
+  bool SetEyeDomeRadius(double pixels, int objectClass = -1);
+  double GetEyeDomeRadius(int objectClass = -1) const;
+  ///@}
+
+  ///@{
+  /**
+   * Filling of holes between points; off by default.
+   */
   bool SetFillHoles(bool fill);
   bool GetFillHoles() const;
   ///@}
@@ -241,13 +261,19 @@ private:
 
   template <typename Change>
   bool ChangeStyle(int objectClass, const Change& change);
+  template <typename Change>
+  bool ChangeLight(int objectClass, const Change& change);
+  template <typename Change>
+  bool ChangeEyeDome(int objectClass, const Change& change);
   bool ChangeByJSON(int objectClass, const std::string& key, const std::string& json);
   bool IsClass(int objectClass);
+  bool IsNumber(double value, double most, const char* what, int objectClass);
   const pointfront::StyleLens* LensOf(int lens) const;
   int AddLens(const pointfront::StyleLens& lens);
   template <typename Change>
   bool ChangeLens(int lens, const Change& change);
   pointfront::LayerStyle StyleOf(int objectClass) const;
+  pointfront::FrameLook LookOf(int objectClass) const;
 
   std::shared_ptr<const pointfront::StyleSheet> Sheet;
 };

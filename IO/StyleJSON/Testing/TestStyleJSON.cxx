@@ -106,7 +106,35 @@ TEST(StyleJSON, NothingSaidIsAnEmptySheet)
 {
   EXPECT_EQ(parsed("{}"), StyleSheet());
   EXPECT_EQ(writeStyleSheet({}), "{}");
-  EXPECT_EQ(parsed(R"({"default": {}, "shading": {"mode": "none"}})"), StyleSheet());
+  EXPECT_EQ(parsed(R"({"default": {}, "shading": {"mode": []}})"), StyleSheet());
+  EXPECT_EQ(parsed(R"({"shading": {"mode": "none"}})"), parsed(R"({"default": {"light": false}})"));
+}
+
+TEST(StyleJSON, LightAndEyeDomeLightingOfAClassAreWrittenAsTheyAreRead)
+{
+  const StyleSheet sheet = parsed(R"({
+    "default": {"technique": "spheres", "edl": true},
+    "classes": {
+      "2": {"light": true, "edl": false},
+      "5": {"light": {"ambient": 0.1}, "edl": {"strength": 0.7, "radius_px": 3}},
+      "6": {"light": false, "edl": {}},
+      "9": {"light": {"on": false, "ambient": 0.2}}},
+    "shading": {"ambient": 0.5}})");
+  EXPECT_EQ(sheet.standard.eyeDome, StyleEyeDome());
+  EXPECT_EQ(sheet.classes.at(2).light, StyleLight());
+  EXPECT_EQ(sheet.classes.at(2).eyeDome, (StyleEyeDome{ false, {}, {} }));
+  EXPECT_EQ(sheet.classes.at(5).light, (StyleLight{ true, 0.1f, {} }));
+  EXPECT_EQ(sheet.classes.at(5).eyeDome, (StyleEyeDome{ true, 0.7f, 3.0f }));
+  EXPECT_EQ(sheet.classes.at(6).light, (StyleLight{ false, {}, {} }));
+  EXPECT_EQ(sheet.classes.at(9).light, (StyleLight{ false, 0.2f, {} }));
+  EXPECT_EQ(sheet.frameShading().ambient, 0.5f) << "of spheres that nobody asked light for";
+  EXPECT_EQ(parsed(writeStyleSheet(sheet)), sheet);
+  expectRefusal(
+    R"({"default": {"light": 1}})", "default.light: expected true, false or an object, not 1");
+  expectRefusal(R"({"classes": {"5": {"edl": {"radius": 1}}}})",
+    "classes.5.edl.radius: there is no such key; use on, strength, radius_px");
+  expectRefusal(R"({"shading": {"ambient": 0.5}})",
+    "shading.ambient: means something where points are lit only");
 }
 
 TEST(StyleJSON, LensesAndHighlightsAreWrittenAsTheyAreRead)
@@ -142,7 +170,8 @@ TEST(StyleJSON, RefusalsBeginWithTheirPlace)
     "classes.6.size.mode: 'big' is unknown: use fixed, spacing, attribute");
   expectRefusal(R"({"classes": {"6": {"colour": "rgb"}}})",
     "classes.6.colour: there is no such key; use technique, color, size, orientation, opacity, "
-    "visible, error_factor, budget_share, blended, accuracy, rim_color, wall_color, where");
+    "visible, error_factor, budget_share, blended, accuracy, rim_color, wall_color, where, "
+    "light, edl");
   expectRefusal(R"({"classes": {"256": {}}})", "classes.256: a class is a code from 0 to 255");
   expectRefusal(R"({"classes": {"06": {}}})", "classes.06: a class is a code from 0 to 255");
   expectRefusal(

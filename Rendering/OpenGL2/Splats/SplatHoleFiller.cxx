@@ -37,13 +37,14 @@ struct HolesSource
   vtkTextureObject* texture;
 };
 
-vtkShaderProgram* useHoles(vtkOpenGLRenderWindow* window, HolesStep step, bool blended, bool lit)
+vtkShaderProgram* useHoles(
+  vtkOpenGLRenderWindow* window, HolesStep step, bool blended, bool lit, int looks)
 {
   std::string fragment = HolesFSGLSL;
   vtkShaderProgram::Substitute(fragment, "//POINTFRONT::Define::Dec",
     "#define POINTFRONT_STEP " + std::to_string(static_cast<int>(step)) +
       "\n#define POINTFRONT_BLENDED " + (blended ? "1" : "0") + "\n#define POINTFRONT_LIT " +
-      (lit ? "1\n" : "0\n"));
+      (lit ? "1" : "0") + "\n#define POINTFRONT_LOOKS " + std::to_string(looks) + "\n");
   vtkShaderProgram::Substitute(fragment, "//POINTFRONT::Lights::Dec", LightsGLSL);
   return window->GetShaderCache()->ReadyShaderProgram(PictureVSGLSL, fragment.c_str(), "");
 }
@@ -88,7 +89,8 @@ std::vector<HolesSource> seenOf(SplatTarget& target, const SplatTarget::Parts& p
 SplatHoleFiller::SplatHoleFiller() = default;
 SplatHoleFiller::~SplatHoleFiller() = default;
 
-bool SplatHoleFiller::allocate(vtkOpenGLRenderWindow* window, Level& level, int width, int height)
+bool SplatHoleFiller::allocate(
+  vtkOpenGLRenderWindow* window, Level& level, int width, int height, bool looks)
 {
   level.width = width;
   level.height = height;
@@ -103,7 +105,7 @@ bool SplatHoleFiller::allocate(vtkOpenGLRenderWindow* window, Level& level, int 
       static_cast<unsigned int>(width), static_cast<unsigned int>(height), components, type);
   };
   make(level.colours, 4, VTK_UNSIGNED_CHAR);
-  make(level.depths, 2, VTK_FLOAT);
+  make(level.depths, looks ? 4 : 2, VTK_FLOAT);
   level.framebuffer->SetContext(window);
   level.framebuffer->Bind();
   level.framebuffer->AddColorAttachment(0, level.colours);
@@ -111,21 +113,22 @@ bool SplatHoleFiller::allocate(vtkOpenGLRenderWindow* window, Level& level, int 
   return level.framebuffer->CheckFrameBufferStatus(GL_FRAMEBUFFER) != 0;
 }
 
-bool SplatHoleFiller::prepare(vtkOpenGLRenderWindow* window, int width, int height)
+bool SplatHoleFiller::prepare(vtkOpenGLRenderWindow* window, int width, int height, bool looks)
 {
-  if (gathered_[0].width == width && gathered_[0].height == height)
+  if (gathered_[0].width == width && gathered_[0].height == height && looks_ == looks)
   {
     return true;
   }
   release(window);
+  looks_ = looks;
   window->GetState()->PushFramebufferBindings();
   bool whole = true;
   for (std::size_t level = 0; level < gathered_.size(); ++level)
   {
-    whole = whole && allocate(window, gathered_[level], width, height);
+    whole = whole && allocate(window, gathered_[level], width, height, looks);
     if (level < filled_.size())
     {
-      whole = whole && allocate(window, filled_[level], width, height);
+      whole = whole && allocate(window, filled_[level], width, height, looks);
     }
     width = (width + 1) / 2;
     height = (height + 1) / 2;
@@ -155,7 +158,7 @@ bool SplatHoleFiller::fill(vtkOpenGLRenderWindow* window, SplatTarget& target,
   const SplatTarget::Parts& parts, const FramePlan& plan, const PixelRectangle& place)
 {
   const FrameCamera& camera = plan.camera;
-  if (!prepare(window, camera.width, camera.height))
+  if (!prepare(window, camera.width, camera.height, parts.looks))
   {
     return false;
   }
@@ -172,7 +175,7 @@ bool SplatHoleFiller::fill(vtkOpenGLRenderWindow* window, SplatTarget& target,
   {
     const bool first = step == HolesStep::Begin;
     vtkShaderProgram* const program =
-      useHoles(window, step, first && parts.blended, first && parts.lit);
+      useHoles(window, step, first && parts.blended, first && parts.lit, looksOf(plan.shading));
     if (!program)
     {
       return; // VTK has told why
@@ -180,6 +183,7 @@ bool SplatHoleFiller::fill(vtkOpenGLRenderWindow* window, SplatTarget& target,
     if (first && parts.lit)
     {
       program->SetUniformf("depthShift", depthShiftOf(camera));
+      setLooks(program, plan.shading);
       setLights(program, plan);
     }
     into.framebuffer->Bind();

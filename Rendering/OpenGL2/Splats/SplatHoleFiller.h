@@ -18,7 +18,7 @@ namespace pointfront
 {
 
 /// Fills the holes of what splats show, on the GPU: the twin of fillHoles().
-/// Bytes    40 a pixel, while pictures are filled.
+/// Bytes    40 a pixel, while pictures are filled; with several looks 60.
 /// Threads  that of the GL context, which is current in all functions but the constructor.
 class SplatHoleFiller
 {
@@ -47,12 +47,14 @@ private:
   };
   static constexpr int levels = 3; ///< of HoleFiller.cxx
 
-  bool prepare(vtkOpenGLRenderWindow* window, int width, int height);
+  bool prepare(vtkOpenGLRenderWindow* window, int width, int height, bool looks);
   void clear(vtkOpenGLState* state);
-  static bool allocate(vtkOpenGLRenderWindow* window, Level& level, int width, int height);
+  static bool allocate(
+    vtkOpenGLRenderWindow* window, Level& level, int width, int height, bool looks);
 
   std::array<Level, levels + 1> gathered_; ///< the way down
   std::array<Level, levels> filled_; ///< the way up
+  bool looks_ = false; ///< depths have one
 };
 
 } // namespace pointfront

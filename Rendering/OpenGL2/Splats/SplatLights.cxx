@@ -1,11 +1,14 @@
 #include "SplatLights.h"
 
+#include "SoftwareRasteriser.h"
+
 #include <vtkMatrix4x4.h>
 #include <vtkNew.h>
 #include <vtkShaderProgram.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <vector>
 
 namespace pointfront
@@ -18,11 +21,29 @@ float depthShiftOf(const FrameCamera& camera)
                          : 0.0f;
 }
 
+int looksOf(const FrameShading& shading)
+{
+  return shading.lookCount() > 1 ? static_cast<int>(mostLooks) : 1;
+}
+
+void setLooks(vtkShaderProgram* program, const FrameShading& shading)
+{
+  std::array<float[4], mostLooks> looks;
+  const std::size_t count = std::min(shading.lookCount(), mostLooks);
+  for (std::size_t number = 0; number < count; ++number)
+  {
+    const FrameLook& look = shading.look(number);
+    looks[number][0] = look.lit ? look.ambient : -1.0f;
+    looks[number][1] = look.diffuse;
+    looks[number][2] = eyeDomeGain * look.eyeDomeStrength;
+    looks[number][3] = std::max(1.0f, std::round(look.eyeDomeRadiusPx));
+  }
+  program->SetUniform4fv("looks", static_cast<int>(count), looks.data());
+}
+
 void setLights(vtkShaderProgram* program, const FramePlan& plan)
 {
   const FrameShading& shading = plan.shading;
-  const float ambientDiffuse[2] = { shading.ambient, shading.diffuse };
-  program->SetUniform2f("ambientDiffuse", ambientDiffuse);
   std::vector<FrameLight> lights = shading.lights;
   lights.resize(std::clamp<std::size_t>(lights.size(), 1, mostLights)); // none: one at the eye
   std::array<float[4], mostLights> places, colours, aims;

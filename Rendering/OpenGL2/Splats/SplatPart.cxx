@@ -59,11 +59,11 @@ std::int64_t SplatPart::draw(const SplatFrame& frame, const FramePlan& plan,
   const PixelRectangle within =
     limits ? *limits : PixelRectangle{ 0, 0, plan.camera.width, plan.camera.height };
   const bool mine = target_->owner() == this && renderer_ == frame.renderer &&
-    parts_.lit == plan.shading.lit && sameRectangle(limits_, within);
+    parts_.lit == plan.shading.anyLit() && sameRectangle(limits_, within);
   const std::int64_t points = groups_.list(plan, *frame.pool, largestPoint, mine, tools_.records);
   // Who was seen is always known: the next frame may be of a view that moves.
-  const SplatTarget::Parts parts{ plan.camera.width, plan.camera.height, plan.shading.lit, true,
-    groups_.blended() };
+  const SplatTarget::Parts parts{ plan.camera.width, plan.camera.height, plan.shading.anyLit(),
+    true, groups_.blended(), plan.shading.lookCount() > 1 };
   const bool keeps = plan.keepsVisible && mine && target_->has(parts_);
   const bool goesOn = groups_.goesOn() && target_->has(parts) && (keeps || kept_.empty());
   if (!keeps)
@@ -207,10 +207,9 @@ void SplatPart::drawGroup(
 void SplatPart::resolve(vtkOpenGLRenderWindow* window, const FramePlan& plan, bool fills)
 {
   const FrameShading& shading = plan.shading;
-  const bool eyeDome = shading.eyeDomeStrength > 0.0f;
   const bool lit = parts_.lit && !fills; // what is filled is lit before
-  vtkShaderProgram* const program =
-    tools_.programs.useResolve(window, parts_.blended && !fills, lit, eyeDome);
+  vtkShaderProgram* const program = tools_.programs.useResolve(
+    window, { parts_.blended && !fills, lit, shading.anyEyeDome(), looksOf(shading) });
   if (!program)
   {
     return;
@@ -222,9 +221,7 @@ void SplatPart::resolve(vtkOpenGLRenderWindow* window, const FramePlan& plan, bo
   program->SetUniformi("composited", plan.composited ? 1 : 0);
   program->SetUniformf("octaveShift",
     parallel ? static_cast<float>(plan.camera.wholeWorldHeight() - nearDepth) : 0.0f);
-  program->SetUniformf("eyeDomeStrength", eyeDomeGain * shading.eyeDomeStrength);
-  program->SetUniformi(
-    "eyeDomeReach", std::max(1, static_cast<int>(std::lround(shading.eyeDomeRadiusPx))));
+  setLooks(program, shading);
   const int size[2] = { parts_.width, parts_.height };
   program->SetUniform2i("pictureSize", size);
   lit ? setLights(program, plan) : void();

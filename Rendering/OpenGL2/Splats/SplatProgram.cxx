@@ -126,11 +126,11 @@ vtkShaderProgram* SplatPrograms::useCapture(
     sources.vertex.c_str(), sources.fragment.c_str(), sources.geometry.c_str(), written);
 }
 
-vtkShaderProgram* SplatPrograms::useResolve(
-  vtkOpenGLRenderWindow* window, bool blended, bool lit, bool eyeDome)
+vtkShaderProgram* SplatPrograms::useResolve(vtkOpenGLRenderWindow* window, const Resolve& variant)
 {
   Content content;
-  content.defines = define("BLENDED", blended) + define("LIT", lit) + define("EYE_DOME", eyeDome);
+  content.defines = define("BLENDED", variant.blended) + define("LIT", variant.lit) +
+    define("EYE_DOME", variant.eyeDome) + define("LOOKS", variant.looks);
   const std::string fragment = filled(ResolveFSGLSL, content);
   return window->GetShaderCache()->ReadyShaderProgram(PictureVSGLSL, fragment.c_str(), "");
 }

@@ -60,7 +60,14 @@ public:
   /// The same points, but these are looked for in the last picture, and written to a buffer.
   vtkShaderProgram* useCapture(vtkOpenGLRenderWindow* window, const SplatVariant& variant);
   /// Of the pass that makes a picture of what was drawn.
-  vtkShaderProgram* useResolve(vtkOpenGLRenderWindow* window, bool blended, bool lit, bool eyeDome);
+  struct Resolve
+  {
+    bool blended = false;
+    bool lit = false;
+    bool eyeDome = false;
+    int looks = 1;
+  };
+  vtkShaderProgram* useResolve(vtkOpenGLRenderWindow* window, const Resolve& variant);
 
 private:
   struct Sources

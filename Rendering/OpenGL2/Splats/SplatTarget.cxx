@@ -51,7 +51,8 @@ SplatTarget::~SplatTarget() = default;
 bool SplatTarget::has(const Parts& parts) const
 {
   return ready_ && parts.width == parts_.width && parts.height == parts_.height &&
-    parts.lit == parts_.lit && parts.ids == parts_.ids && parts.blended == parts_.blended;
+    parts.lit == parts_.lit && parts.ids == parts_.ids && parts.blended == parts_.blended &&
+    parts.looks == parts_.looks;
 }
 
 bool SplatTarget::prepare(vtkOpenGLRenderWindow* window, const Parts& parts)
@@ -63,7 +64,7 @@ bool SplatTarget::prepare(vtkOpenGLRenderWindow* window, const Parts& parts)
   release(window);
   parts_ = parts;
   allocate(window, seenColours_, parts, 4, VTK_UNSIGNED_CHAR);
-  allocate(window, seenDepths_, parts, 2, VTK_FLOAT);
+  allocate(window, seenDepths_, parts, parts.looks ? 4 : 2, VTK_FLOAT);
   depthBuffer_->SetContext(window);
   depthBuffer_->AllocateDepth(static_cast<unsigned int>(parts.width),
     static_cast<unsigned int>(parts.height), vtkTextureObject::Float32);

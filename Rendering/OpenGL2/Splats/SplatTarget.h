@@ -14,7 +14,8 @@ namespace pointfront
 {
 
 /// The textures that splats are drawn into, and the picture that is made of them.
-/// Bytes    16 a pixel for who is seen; with light 16, with ids 8, with blending 16 more; 12 for
+/// Bytes    16 a pixel for who is seen; with several looks 8, with light 16, with ids 8, with
+/// blending 16 more; 12 for
 ///          the picture.
 /// Threads  that of the GL context, which is current in all functions but the constructor.
 class SplatTarget
@@ -28,6 +29,7 @@ public:
     bool lit = false;
     bool ids = false;
     bool blended = false;
+    bool looks = false; ///< several
   };
 
   SplatTarget();
@@ -49,7 +51,8 @@ public:
   void beginPicture();
 
   vtkTextureObject* seenColours() { return seenColours_; }
-  /// r: the depth that decided, g: that of the splat; camera units.
+  /// r: the depth that decided, g: that of the splat; camera units. b: its look, where there are
+  /// several.
   vtkTextureObject* seenDepths() { return seenDepths_; }
   vtkTextureObject* normals() { return normals_; }
   vtkTextureObject* ids() { return ids_; }

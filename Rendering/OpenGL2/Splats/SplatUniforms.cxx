@@ -121,6 +121,7 @@ void setSplatUniforms(
   // down is its highlight. 0 is nothing.
   const int mark = (item.passes.blended ? 255 : 127) - item.style->highlight;
   program->SetUniformf("seenMark", static_cast<float>(mark) / 255.0f);
+  program->SetUniformf("seenLook", static_cast<float>(item.style->look));
   program->SetUniformf("rimFrom", pass.rimFrom);
   program->SetUniformf("rimRadii", pass.rimRadii);
   program->SetUniformf("mostAtCentre", pass.mostAtCentre());

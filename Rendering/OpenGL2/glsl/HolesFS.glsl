@@ -7,7 +7,7 @@ const float nothing = 3.4e38;
 const float nothingThere = 3.0e38;
 
 uniform sampler2D fineColours; // POINTFRONT_STEP 0: of who is seen
-uniform sampler2D fineDepths;  // r: what decided, g: of the splat
+uniform sampler2D fineDepths;  // r: what decided, g: of the splat; b: look
 #if POINTFRONT_BLENDED
 uniform sampler2D colourSums;
 #endif
@@ -51,12 +51,13 @@ void main()
     seen.rgb = floor((sums.rgb + floor(0.5 * sums.a)) / sums.a) / 255.0;
   }
 #endif
-  vec2 depths = texelFetch(fineDepths, at, 0).rg;
+  vec3 depths = texelFetch(fineDepths, at, 0).rgb;
 #if POINTFRONT_LIT
-  seen.rgb = seen.a > 0.0 ? litColour(seen.rgb, at, depths.g + depthShift) : seen.rgb;
+  vec4 look = lookOf(depths.b);
+  seen.rgb = seen.a > 0.0 ? litColour(seen.rgb, at, depths.g + depthShift, look) : seen.rgb;
 #endif
   gl_FragData[0] = seen;
-  gl_FragData[1] = vec4(seen.a > 0.0 ? depths : vec2(nothing), 0.0, 0.0);
+  gl_FragData[1] = vec4(seen.a > 0.0 ? depths : vec3(nothing, nothing, 0.0), 0.0);
 }
 
 #elif POINTFRONT_STEP == 1
@@ -83,17 +84,21 @@ void main()
   ivec3 sum = ivec3(0);
   int parts = 0;
   float alpha = 0.0; // with the highlight of the first that agrees
+  float look = 0.0; // of the same
   for (int k = 0; k < 4; ++k)
   {
     if (depths[k] <= most)
     {
-      vec4 colour = texelFetch(fineColours, 2 * at + ivec2(k & 1, k >> 1), 0);
+      ivec2 place = 2 * at + ivec2(k & 1, k >> 1);
+      vec4 colour = texelFetch(fineColours, place, 0);
       sum += bytesOf(colour);
       alpha = parts == 0 ? colour.a : alpha;
+      look = parts == 0 ? texelFetch(fineDepths, place, 0).b : look;
       ++parts;
     }
   }
   gl_FragData[0] = meanOf(sum, parts, alpha);
+  gl_FragData[1] = vec4(least, least, look, 0.0);
 }
 
 #else
@@ -116,7 +121,7 @@ void main()
     least = min(least, depths[k]);
   }
   vec4 colour = texelFetch(fineColours, at, 0);
-  vec2 depth = texelFetch(fineDepths, at, 0).rg;
+  vec3 depth = texelFetch(fineDepths, at, 0).rgb;
   float most = agreeing(least, 4.0 * levelFactor);
   if (least < nothingThere && depth.g > most)
   {
@@ -132,13 +137,14 @@ void main()
     }
     if (parts >= leastParts)
     {
-      // With so many parts the nearest corner is one that agrees: its highlight is the pixel's.
+      // With so many parts the nearest corner is one that agrees: the pixel has its marks.
       colour = meanOf(sum, parts, texelFetch(coarseColours, near, 0).a);
       // What decided stays where something is: that is compared with other processes' pictures.
-      depth = vec2(depth.r < nothingThere ? depth.r : least, least);
+      float look = texelFetch(coarseDepths, near, 0).b;
+      depth = vec3(depth.r < nothingThere ? depth.r : least, least, look);
     }
   }
   gl_FragData[0] = colour;
-  gl_FragData[1] = vec4(depth, 0.0, 0.0);
+  gl_FragData[1] = vec4(depth, 0.0);
 }
 #endif

@@ -6,9 +6,17 @@ vec3 inBytes(vec3 colour)
   return floor(clamp(colour * 255.0 + 0.5, 0.0, 255.0)) / 255.0;
 }
 
+/// FrameShading::look(): ambient, -1 without light; diffuse; strength of eye-dome lighting with its
+/// gain, 0 without; its radius in pixels.
+uniform vec4 looks[POINTFRONT_LOOKS];
+
+vec4 lookOf(float number)
+{
+  return looks[POINTFRONT_LOOKS == 1 ? 0 : clamp(int(number + 0.5), 0, POINTFRONT_LOOKS - 1)];
+}
+
 #if POINTFRONT_LIT
 uniform sampler2D seenNormals;
-uniform vec2 ambientDiffuse;
 uniform int lightCount;
 uniform vec4 lightPlaces[48];     // a = 0: towards the light, unit; 1: where it is in view space
 uniform vec4 lightColours[48];    // a: exponent of the cone
@@ -44,17 +52,17 @@ float brightness(int i, float depth, vec3 normal)
 }
 
 /// `depth`: from the eye's plane.
-vec3 litColour(vec3 colour, ivec2 at, float depth)
+vec3 litColour(vec3 colour, ivec2 at, float depth, vec4 look)
 {
   vec3 n = texelFetch(seenNormals, at, 0).xyz;
-  if (n == vec3(0.0))
+  if (n == vec3(0.0) || look.x < 0.0)
   {
     return colour;
   }
-  vec3 sum = vec3(ambientDiffuse.x);
+  vec3 sum = vec3(look.x);
   for (int i = 0; i < lightCount; ++i)
   {
-    sum += lightColours[i].rgb * (ambientDiffuse.y * brightness(i, depth, n));
+    sum += lightColours[i].rgb * (look.y * brightness(i, depth, n));
   }
   return inBytes(colour * sum);
 }

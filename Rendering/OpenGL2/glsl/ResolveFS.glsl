@@ -5,7 +5,7 @@
 //VTK::Output::Dec
 
 uniform sampler2D seenColours; // alpha: 255 or 127 less the highlight, above 127 for sums
-uniform sampler2D seenDepths;  // r: what decided, g: of the splat
+uniform sampler2D seenDepths;  // r: what decided, g: of the splat; b: look, where there are several
 #if POINTFRONT_BLENDED
 uniform sampler2D colourSums;
 #endif
@@ -13,8 +13,6 @@ uniform sampler2D colourSums;
 uniform float depthShift;       // parallel: of the near plane
 uniform bool composited;        // with other processes' pictures, by what decided
 #if POINTFRONT_EYE_DOME
-uniform float eyeDomeStrength;  // with its gain
-uniform int eyeDomeReach;       // pixels
 uniform float octaveShift;      // parallel: see Shading.cxx
 uniform ivec2 pictureSize;
 
@@ -33,10 +31,10 @@ float octaveAt(ivec2 at, float own)
     ? octaveOf(texelFetch(seenDepths, at, 0).g + depthShift) : own;
 }
 
-float eyeDomeShade(ivec2 at, float depth)
+float eyeDomeShade(ivec2 at, float depth, vec4 look)
 {
   float own = octaveOf(depth);
-  int r = eyeDomeReach;
+  int r = int(look.a);
   ivec2 pairs[4] = ivec2[4](ivec2(r, 0), ivec2(0, r), ivec2(r, r), ivec2(r, -r));
   float response = 0.0;
   for (int i = 0; i < 4; ++i)
@@ -44,7 +42,7 @@ float eyeDomeShade(ivec2 at, float depth)
     float between = octaveAt(at + pairs[i], own) + octaveAt(at - pairs[i], own);
     response += max(0.0, own - 0.5 * between);
   }
-  return exp(-eyeDomeStrength * 0.25 * response);
+  return exp(-look.b * 0.25 * response);
 }
 #endif
 
@@ -66,15 +64,20 @@ void main()
     colour = floor((sums.rgb + floor(0.5 * sums.a)) / sums.a) / 255.0;
   }
 #endif
-  float depth = texelFetch(seenDepths, at, 0).g + depthShift;
+  vec3 depths = texelFetch(seenDepths, at, 0).rgb;
+  float depth = depths.g + depthShift;
+  vec4 look = lookOf(depths.b);
 #if POINTFRONT_LIT
-  colour = litColour(colour, at, depth);
+  colour = litColour(colour, at, depth, look);
 #endif
 #if POINTFRONT_EYE_DOME
-  colour = inBytes(colour * eyeDomeShade(at, depth));
+  if (look.b > 0.0)
+  {
+    colour = inBytes(colour * eyeDomeShade(at, depth, look));
+  }
 #endif
   gl_FragData[0] = vec4(colour, 1.0);
-  float decided = texelFetch(seenDepths, at, 0).r + depthShift;
+  float decided = depths.r + depthShift;
   float mark = floor(seen.a * 255.0 + 0.5);
   mark = (mark > 127.0 ? 255.0 : 127.0) - mark;
   gl_FragData[1] = vec4(composited ? decided : depth, mark, 0.0, 0.0);

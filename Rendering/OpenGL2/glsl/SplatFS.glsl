@@ -13,7 +13,7 @@ uniform float rimFrom;     // q beyond which a splat is its rim
 uniform float rimRadii;    // that the rim lies further back
 uniform float mostAtCentre;
 uniform vec3 rimColour;
-uniform float seenMark;    // alpha of who is seen: see SplatUniforms.cxx
+uniform float seenMark, seenLook; // alpha of who is seen (SplatUniforms.cxx), its look
 #if POINTFRONT_PASS == 2
 uniform sampler2D seenDepths;
 uniform float slackRadii;
@@ -137,7 +137,7 @@ void main()
   }
   gl_FragDepth = key * depthScale;
   gl_FragData[0] = vec4(colour, seenMark);
-  gl_FragData[1] = vec4(key, s.y, 0.0, 0.0);
+  gl_FragData[1] = vec4(key, s.y, seenLook, 0.0);
 #if POINTFRONT_LIT
   gl_FragData[2] = vec4(normalAt(s.y), 0.0);
 #if POINTFRONT_PICKING

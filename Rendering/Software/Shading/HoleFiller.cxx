@@ -32,6 +32,7 @@ struct Level
   std::vector<float> depth;
   std::vector<std::uint32_t> rgba;
   std::vector<std::uint8_t> highlights; ///< empty: nothing stands out
+  std::vector<std::uint16_t> looks; ///< empty: all have one
 
   std::size_t at(int x, int y) const
   {
@@ -81,6 +82,19 @@ void eachRow(int rows, const std::function<void(int)>& work)
     static_cast<std::size_t>(rows), [&](std::size_t y, unsigned) { work(static_cast<int>(y)); });
 }
 
+/// Highlight and look.
+void handOn(const Level& from, std::size_t source, Level& to, std::size_t place)
+{
+  if (!from.highlights.empty())
+  {
+    to.highlights[place] = from.highlights[source];
+  }
+  if (!from.looks.empty())
+  {
+    to.looks[place] = from.looks[source];
+  }
+}
+
 void pull(const Level& fine, Level& coarse, const Agreement& agreement, int factor)
 {
   eachRow(coarse.height,
@@ -115,9 +129,9 @@ void pull(const Level& fine, Level& coarse, const Agreement& agreement, int fact
         {
           if (fine.depth[places[k]] <= most)
           {
-            if (parts == 0 && !fine.highlights.empty()) // of the first that agrees
+            if (parts == 0) // of the first that agrees
             {
-              coarse.highlights[place] = fine.highlights[places[k]];
+              handOn(fine, places[k], coarse, place);
             }
             add(sum, fine.rgba[places[k]], 1);
             ++parts;
@@ -168,10 +182,7 @@ void push(Level& fine, const Level& coarse, const Agreement& agreement, int fact
           fine.depth[place] = least;
           fine.rgba[place] = mean(sum, parts);
           // With so many parts the nearest corner is one that agrees.
-          if (!fine.highlights.empty())
-          {
-            fine.highlights[place] = coarse.highlights[corners[0]];
-          }
+          handOn(coarse, corners[0], fine, place);
         }
       }
     });
@@ -205,6 +216,7 @@ void fillHoles(const FrameCamera& camera, SoftwareTarget& target)
   pyramid[0].depth.swap(target.depth);
   pyramid[0].rgba.swap(target.rgba);
   pyramid[0].highlights.swap(target.highlights);
+  pyramid[0].looks.swap(target.looks);
   for (int level = 1; level <= levels; ++level)
   {
     const Level& fine = pyramid[static_cast<std::size_t>(level - 1)];
@@ -217,6 +229,7 @@ void fillHoles(const FrameCamera& camera, SoftwareTarget& target)
     coarse.depth.resize(pixels);
     coarse.rgba.resize(pixels);
     coarse.highlights.resize(fine.highlights.empty() ? 0 : pixels);
+    coarse.looks.resize(fine.looks.empty() ? 0 : pixels);
     pull(fine, coarse, agreement, 1 << level);
   }
   for (auto level = static_cast<std::size_t>(levels); level-- > 0;)
@@ -226,6 +239,7 @@ void fillHoles(const FrameCamera& camera, SoftwareTarget& target)
   pyramid[0].depth.swap(target.depth);
   pyramid[0].rgba.swap(target.rgba);
   pyramid[0].highlights.swap(target.highlights);
+  pyramid[0].looks.swap(target.looks);
 }
 
 } // namespace pointfront

@@ -17,6 +17,13 @@ namespace pointfront
 namespace
 {
 
+/// Of who is in the pixel.
+const FrameLook& lookAt(
+  const FrameShading& shading, const SoftwareTarget& target, std::size_t pixel)
+{
+  return target.looks.empty() ? shading : shading.look(target.looks[pixel]);
+}
+
 /// Changes the colour of each pixel that shows something by `factors(pixel, x, y)`.
 template <typename Factors>
 void scaleColours(SoftwareTarget& target, const Factors& factors)
@@ -87,11 +94,12 @@ void light(const FrameCamera& camera, const FrameShading& shading, SoftwareTarge
     [&](std::size_t pixel, int x, int y)
     {
       const float* const n = &target.normals[3 * pixel];
-      if (n[0] == 0.0f && n[1] == 0.0f && n[2] == 0.0f)
+      const FrameLook& look = lookAt(shading, target, pixel);
+      if (!look.lit || (n[0] == 0.0f && n[1] == 0.0f && n[2] == 0.0f))
       {
         return glm::vec3(1.0f);
       }
-      glm::vec3 sum(shading.ambient);
+      glm::vec3 sum(look.ambient);
       for (const FrameLight& one : lights)
       {
         const float facing = n[0] * one.towards.x + n[1] * one.towards.y + n[2] * one.towards.z;
@@ -100,7 +108,7 @@ void light(const FrameCamera& camera, const FrameShading& shading, SoftwareTarge
               placeAt(camera, target.left + x, target.bottom + y, target.depth[pixel]),
               { n[0], n[1], n[2] })
           : std::max(facing, 0.0f);
-        sum += one.colour * (shading.diffuse * share);
+        sum += one.colour * (look.diffuse * share);
       }
       return sum;
     });
@@ -132,8 +140,6 @@ std::vector<float> octavesOf(const FrameCamera& camera, const SoftwareTarget& ta
 void eyeDome(const FrameCamera& camera, const FrameShading& shading, SoftwareTarget& target)
 {
   const std::vector<float> octaves = octavesOf(camera, target);
-  const int reach = std::max(1, static_cast<int>(std::lround(shading.eyeDomeRadiusPx)));
-  const int pairs[4][2] = { { reach, 0 }, { 0, reach }, { reach, reach }, { reach, -reach } };
   const auto octaveAt = [&](int x, int y, float own)
   {
     if (x < 0 || y < 0 || x >= target.width || y >= target.height)
@@ -147,6 +153,13 @@ void eyeDome(const FrameCamera& camera, const FrameShading& shading, SoftwareTar
   scaleColours(target,
     [&](std::size_t pixel, int x, int y)
     {
+      const FrameLook& look = lookAt(shading, target, pixel);
+      if (!(look.eyeDomeStrength > 0.0f))
+      {
+        return glm::vec3(1.0f);
+      }
+      const int reach = std::max(1, static_cast<int>(std::lround(look.eyeDomeRadiusPx)));
+      const int pairs[4][2] = { { reach, 0 }, { 0, reach }, { reach, reach }, { reach, -reach } };
       const float own = octaves[pixel];
       float response = 0.0f;
       for (const auto& pair : pairs)
@@ -155,7 +168,7 @@ void eyeDome(const FrameCamera& camera, const FrameShading& shading, SoftwareTar
           octaveAt(x + pair[0], y + pair[1], own) + octaveAt(x - pair[0], y - pair[1], own);
         response += std::max(0.0f, own - 0.5f * between);
       }
-      return glm::vec3(std::exp(-eyeDomeGain * shading.eyeDomeStrength * 0.25f * response));
+      return glm::vec3(std::exp(-eyeDomeGain * look.eyeDomeStrength * 0.25f * response));
     });
 }
 
@@ -168,12 +181,14 @@ void shade(const FrameCamera& camera, const FrameShading& shading, SoftwareTarge
   {
     return;
   }
-  if (shading.lit && !target.normals.empty())
+  if (shading.anyLit() && !target.normals.empty())
   {
     light(camera, shading, target);
   }
   if (others && shading.reachPx() > 0) // what is around a pixel may be of others
   {
+    // Also where this process drew nothing: all exchange the same.
+    target.looks.resize(shading.lookCount() > 1 ? target.depth.size() : 0);
     sharePicture(*others, target);
   }
   // From what is lit: a filled pixel has no normal of its own.
@@ -181,7 +196,7 @@ void shade(const FrameCamera& camera, const FrameShading& shading, SoftwareTarge
   {
     fillHoles(camera, target);
   }
-  if (shading.eyeDomeStrength > 0.0f)
+  if (shading.anyEyeDome())
   {
     eyeDome(camera, shading, target);
   }

@@ -199,6 +199,10 @@ void WinnerResolve::put(const RasterItem& item, int j, const Winner& winner, flo
   {
     target.highlights[pixel] = item.style->highlight;
   }
+  if (!target.looks.empty())
+  {
+    target.looks[pixel] = item.style->look;
+  }
   if (target.keepPoints)
   {
     target.points[pixel] = { source_.store, item.node().node, winner.index };

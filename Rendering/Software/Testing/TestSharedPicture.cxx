@@ -97,6 +97,7 @@ void takeNearest(const std::vector<SoftwareTarget>& parts, std::size_t pixel, So
       whole.decided[pixel] = part.decided[pixel];
       whole.depth[pixel] = part.depth[pixel];
       whole.rgba[pixel] = part.rgba[pixel];
+      whole.looks[pixel] = part.looks[pixel];
     }
   }
 }
@@ -113,6 +114,7 @@ TEST(SharedPicture, IsThatOfAllProcesses)
   SoftwareTarget whole;
   whole.keepDecided = true;
   whole.reset(width, height);
+  whole.looks.assign(whole.depth.size(), 0);
   std::vector<SoftwareTarget> parts(3, whole);
   for (std::size_t pixel = 0; pixel < whole.depth.size(); ++pixel)
   {
@@ -126,6 +128,7 @@ TEST(SharedPicture, IsThatOfAllProcesses)
       part.decided[pixel] = before;
       part.depth[pixel] = before + 0.01f * static_cast<float>(random() % 9);
       part.rgba[pixel] = (random() & 0xffffffu) | 0xff000000u;
+      part.looks[pixel] = static_cast<std::uint16_t>(random() % 3);
     }
     takeNearest(parts, pixel, whole);
   }
@@ -134,6 +137,8 @@ TEST(SharedPicture, IsThatOfAllProcesses)
   camera.height = height;
   FrameShading shading;
   shading.eyeDomeStrength = 0.4f;
+  shading.furtherLooks.resize(2); // the first of these without
+  shading.furtherLooks[1].eyeDomeStrength = 0.01f;
   SoftwareTarget lit = whole;
   shade(camera, shading, lit);
   EXPECT_NE(lit.rgba, whole.rgba);
@@ -157,6 +162,7 @@ TEST(SharedPicture, IsThatOfAllProcesses)
     EXPECT_EQ(part.rgba, lit.rgba);
     EXPECT_EQ(part.depth, whole.depth);
     EXPECT_EQ(part.decided, whole.decided);
+    EXPECT_EQ(part.looks, whole.looks);
   }
 }
 

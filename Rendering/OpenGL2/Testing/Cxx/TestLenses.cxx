@@ -135,6 +135,14 @@ TEST(Lenses, AreAlikeInBothBackEnds)
     { "wide halos", R"({"classes": {"5": {"where": "x in [-0.5, 0.4]"}, "2": {"where": "y < 0"}},
       "highlight": [{"class": 5, "color": "#ffcc00", "halo_px": 15.5, "tint": 0.3},
         {"class": 2, "color": "#00ffcc", "halo_px": 7}]})" },
+    { "looks", R"({"default": {"technique": "splats", "edl": {"strength": 0.1}},
+      "classes": {"5": {"technique": "spheres", "size": {"mode": "fixed", "px": 9}, "edl": false},
+        "2": {"light": {"ambient": 0.1}, "edl": {"radius_px": 3}}}})" },
+    { "looks of holes, glass and a lens", R"({"default": {"size": {"mode": "fixed", "px": 1},
+      "light": {"ambient": 0.6}}, "classes": {"5": {"edl": {"radius_px": 2}, "opacity": 0.5}},
+      "lenses": [{"shape": "circle", "center_px": [90, 80], "radius_px": 50,
+        "inside": {"2": {"light": false, "edl": true}, "5": {"opacity": 1}}}],
+      "shading": {"fill_holes": true}})" },
   };
   Meadow scene(meadowStore("alike"));
   scene.lookFrom({ 1.5, -3.0, 4.0 }, { 0.0, 0.0, 0.2 });

@@ -190,6 +190,25 @@ TEST(Lights, MoreThanOpenGLTakesShineAllTheSame)
   EXPECT_EQ(warnings, 1);
 }
 
+/// OpenGL takes 32 looks: the software back end draws a frame with more, and says so once.
+TEST(Lights, MoreLooksThanOpenGLTakesAreDrawnAllTheSame)
+{
+  LitSphere scene;
+  addYellowAndMagenta(scene, 1);
+  const Picture few = scene.by(vtkPointFrontMapper::SOFTWARE);
+  for (int code = 100; code < 140; ++code)
+  {
+    scene.style->SetAmbient(0.01 * code, code);
+  }
+  int warnings = 0;
+  countEvents(scene.mapper, vtkCommand::WarningEvent, warnings);
+  for (int frame = 0; frame < 2; ++frame)
+  {
+    EXPECT_EQ(differing(scene.by(vtkPointFrontMapper::OPENGL), few, 0), 0);
+  }
+  EXPECT_EQ(warnings, 1);
+}
+
 /// Only OpenGL draws a translucent actor.
 TEST(Lights, BeyondWhatOpenGLTakesAreToldOf)
 {

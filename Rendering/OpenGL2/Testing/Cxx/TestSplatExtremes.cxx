@@ -299,7 +299,7 @@ TEST(SplatExtremes, AConstantColourStaysWhereSplatsAreBlended)
   scene.lookFrom({ 0.5, -3.0, 2.0 }, { 0.0, 0.0, 0.0 });
   for (const std::string& technique : techniqueWords)
   {
-    const Picture picture = scene.with(technique, 0.1);
+    const Picture picture = scene.with(technique + R"(, "light": false)", 0.1);
     EXPECT_GT(picture.lit(), 10000) << technique;
     for (std::size_t i = 0; i < picture.rgb.size(); i += 3)
     {

@@ -1,6 +1,7 @@
 // Each program of splats compiles and links by itself: no picture needs to be asked for first.
 
 #include "Scene.h"
+#include "SplatLights.h"
 #include "SplatProgram.h"
 
 #include <vtkOpenGLShaderCache.h>
@@ -102,7 +103,10 @@ TEST(SplatPrograms, EachOneCompiles)
     {
       for (const bool eyeDome : bothWays)
       {
-        EXPECT_NE(programs.useResolve(gl, blended, lit, eyeDome), nullptr);
+        for (const int looks : { 1, static_cast<int>(mostLooks) })
+        {
+          EXPECT_NE(programs.useResolve(gl, { blended, lit, eyeDome, looks }), nullptr);
+        }
       }
     }
   }

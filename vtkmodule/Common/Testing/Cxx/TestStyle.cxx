@@ -153,6 +153,33 @@ TEST(Style, TextGoesInAndComesOut)
   EXPECT_NE(printed.str().find("\"technique\": \"splats\""), std::string::npos);
 }
 
+TEST(Style, LightAndEyeDomeLightingBelongToAClass)
+{
+  Observed o;
+  EXPECT_FALSE(o.Style->GetLit());
+  ASSERT_TRUE(o.Style->SetTechnique("spheres", 5));
+  EXPECT_TRUE(o.Style->GetLit(5)) << "spheres are lit";
+  ASSERT_TRUE(o.Style->SetAmbient(0.1, 5));
+  EXPECT_TRUE(o.Style->GetLit(5)) << "and stay so";
+  EXPECT_NEAR(o.Style->GetAmbient(5), 0.1, 1e-6);
+  EXPECT_NEAR(o.Style->GetAmbient(), 0.3, 1e-6);
+  ASSERT_TRUE(o.Style->SetLit(false, 5));
+  EXPECT_FALSE(o.Style->GetLit(5));
+  ASSERT_TRUE(o.Style->SetEyeDomeStrength(0.4));
+  ASSERT_TRUE(o.Style->SetEyeDomeStrength(0.0, 6));
+  ASSERT_TRUE(o.Style->SetEyeDomeRadius(3.0, 2));
+  EXPECT_NEAR(o.Style->GetEyeDomeStrength(2), 0.4, 1e-6);
+  EXPECT_EQ(o.Style->GetEyeDomeRadius(2), 3.0);
+  EXPECT_EQ(o.Style->GetEyeDomeRadius(), 1.0);
+  EXPECT_EQ(o.Style->GetEyeDomeStrength(6), 0.0);
+  vtkNew<vtkPointFrontStyle> other;
+  ASSERT_TRUE(other->LoadJSON(o.Style->SaveJSON()));
+  EXPECT_EQ(other->GetStyleSheet(), o.Style->GetStyleSheet());
+  EXPECT_FALSE(o.Style->SetDiffuse(-0.1, 6));
+  EXPECT_NE(o.Error.find("class 6: diffuse light is from 0 to 10"), std::string::npos) << o.Error;
+  EXPECT_FALSE(o.Style->SetLit(true, 256));
+}
+
 TEST(Style, LensesAreNumberedMovedAndStyled)
 {
   Observed o;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <vector>
 
 namespace pointfront
@@ -49,19 +50,33 @@ struct FrameHighlight
 /// A filled pixel depends on its own block of that many pixels a side and on the blocks around.
 constexpr int holeFillerReach = 8;
 
-/// The work on a frame's pixels after all points are drawn.
-struct FrameShading
+/// How the pixels of a style's points are shaded.
+struct FrameLook
 {
   /// Diffuse light on pixels with a normal (two-sided); pixels without a normal keep their colour.
   bool lit = false;
   float ambient = 0.3f;
   float diffuse = 0.7f;
-  std::vector<FrameLight> lights; ///< empty: one at the eye
   /// Eye-dome lighting on log2 of depth (after Boucheny 2009): 0 is off. Pixels darken by exp(-300
   /// * strength * response): the response is how far, in octaves of depth, a pixel lies behind the
-  /// mean of two neighbours on opposite sides, over four such pairs: 0 on planes.
+  /// mean of two neighbours on opposite sides, over four such pairs: 0 on planes. The neighbours
+  /// may be of any look.
   float eyeDomeStrength = 0.0f;
   float eyeDomeRadiusPx = 1.0f;
+
+  friend bool operator==(const FrameLook& a, const FrameLook& b)
+  {
+    return a.lit == b.lit && a.ambient == b.ambient && a.diffuse == b.diffuse &&
+      a.eyeDomeStrength == b.eyeDomeStrength && a.eyeDomeRadiusPx == b.eyeDomeRadiusPx;
+  }
+};
+
+/// The work on a frame's pixels after all points are drawn. Its own look is number 0.
+struct FrameShading : FrameLook
+{
+  /// Looks 1, 2, ...: ResolvedStyle::look says which one a style's points have.
+  std::vector<FrameLook> furtherLooks;
+  std::vector<FrameLight> lights; ///< empty: one at the eye
   /// Pull-push over depth and colour: pixels that no point covers, and those through which a
   /// farther surface shows, take their neighbours' colour where these agree in depth.
   bool fillHoles = false;
@@ -70,11 +85,36 @@ struct FrameShading
   std::vector<FrameLens> lenses;
   std::vector<FrameHighlight> highlights; ///< at most mostHighlights
 
+  std::size_t lookCount() const { return 1 + furtherLooks.size(); }
+  const FrameLook& look(std::size_t number) const
+  {
+    return number == 0 || number > furtherLooks.size() ? *this : furtherLooks[number - 1];
+  }
+  bool anyLit() const
+  {
+    return lit ||
+      std::any_of(
+        furtherLooks.begin(), furtherLooks.end(), [](const FrameLook& one) { return one.lit; });
+  }
+  bool anyEyeDome() const
+  {
+    return eyeDomeStrength > 0.0f ||
+      std::any_of(furtherLooks.begin(), furtherLooks.end(),
+        [](const FrameLook& one) { return one.eyeDomeStrength > 0.0f; });
+  }
+
   /// How far from a pixel light, highlights and hole filling look. Light and highlights look at
   /// filled pixels, too.
   int reachPx() const
   {
-    int reach = eyeDomeStrength > 0.0f ? static_cast<int>(std::ceil(eyeDomeRadiusPx)) + 1 : 0;
+    int reach = 0;
+    for (std::size_t number = 0; number < lookCount(); ++number)
+    {
+      const FrameLook& one = look(number);
+      reach = one.eyeDomeStrength > 0.0f
+        ? std::max(reach, static_cast<int>(std::ceil(one.eyeDomeRadiusPx)) + 1)
+        : reach;
+    }
     for (const FrameHighlight& one : highlights)
     {
       reach = std::max(reach, static_cast<int>(std::ceil(one.haloPx)) + 1);
@@ -84,9 +124,8 @@ struct FrameShading
 
   friend bool operator==(const FrameShading& a, const FrameShading& b)
   {
-    return a.lit == b.lit && a.ambient == b.ambient && a.diffuse == b.diffuse &&
-      a.lights == b.lights && a.eyeDomeStrength == b.eyeDomeStrength &&
-      a.eyeDomeRadiusPx == b.eyeDomeRadiusPx && a.fillHoles == b.fillHoles;
+    return static_cast<const FrameLook&>(a) == static_cast<const FrameLook&>(b) &&
+      a.furtherLooks == b.furtherLooks && a.lights == b.lights && a.fillHoles == b.fillHoles;
   }
 };
 

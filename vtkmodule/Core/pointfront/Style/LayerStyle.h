@@ -39,6 +39,36 @@ struct StyleOrientation
   }
 };
 
+constexpr double mostLight = 10.0; ///< ambient, diffuse
+constexpr double mostEyeDomeStrength = 100.0;
+constexpr double mostEyeDomeRadiusPx = 64.0;
+
+/// Light on a style's points; what is unset is as in StyleSheet::shading.
+struct StyleLight
+{
+  bool on = true;
+  std::optional<float> ambient;
+  std::optional<float> diffuse;
+
+  friend bool operator==(const StyleLight& a, const StyleLight& b)
+  {
+    return a.on == b.on && a.ambient == b.ambient && a.diffuse == b.diffuse;
+  }
+};
+
+/// Eye-dome lighting of a style's points; what is unset is as in StyleSheet::shading.
+struct StyleEyeDome
+{
+  bool on = true;
+  std::optional<float> strength;
+  std::optional<float> radiusPx;
+
+  friend bool operator==(const StyleEyeDome& a, const StyleEyeDome& b)
+  {
+    return a.on == b.on && a.strength == b.strength && a.radiusPx == b.radiusPx;
+  }
+};
+
 /// How one object class is drawn, before any store is known. Unset members come from the style
 /// below it: below a class is the sheet's default, below that standardStyle().
 /// Threads  a value.
@@ -58,6 +88,8 @@ struct LayerStyle
   std::optional<Rgba8> rim; ///< silhouettes
   std::optional<std::array<Rgba8, 2>> wall; ///< solid: upper and lower end; else as the points
   std::optional<FilterExpression> where; ///< in the place of the default's
+  std::optional<StyleLight> light; ///< else StyleSheet::shading's; spheres are lit
+  std::optional<StyleEyeDome> eyeDome; ///< else StyleSheet::shading's
 
   /// The style with its unset members taken from `below`.
   LayerStyle over(const LayerStyle& below) const;
@@ -68,13 +100,14 @@ struct LayerStyle
     return a.technique == b.technique && a.colour == b.colour && a.size == b.size &&
       a.orientation == b.orientation && a.opacity == b.opacity && a.visible == b.visible &&
       a.errorFactor == b.errorFactor && a.budgetShare == b.budgetShare && a.blended == b.blended &&
-      a.accuracy == b.accuracy && a.rim == b.rim && a.wall == b.wall && a.where == b.where;
+      a.accuracy == b.accuracy && a.rim == b.rim && a.wall == b.wall && a.where == b.where &&
+      a.light == b.light && a.eyeDome == b.eyeDome;
   }
   friend bool operator!=(const LayerStyle& a, const LayerStyle& b) { return !(a == b); }
 };
 
 /// The style without any setting: points that close the surface, in the colour that tells most.
-/// Every member but `wall` is set.
+/// Every member but `wall`, `light` and `eyeDome` is set.
 LayerStyle standardStyle();
 
 } // namespace pointfront

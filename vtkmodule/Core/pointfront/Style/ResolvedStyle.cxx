@@ -57,7 +57,8 @@ bool operator==(const ResolvedStyle& a, const ResolvedStyle& b)
     a.heightColumn == b.heightColumn && a.colouring == b.colouring && sameMap(a.map, b.map) &&
     a.flat == b.flat && a.second == b.second && a.rim == b.rim && a.wall == b.wall &&
     a.opacity == b.opacity && a.filter == b.filter && a.lens == b.lens &&
-    a.lensMask == b.lensMask && a.group == b.group && a.highlight == b.highlight;
+    a.lensMask == b.lensMask && a.group == b.group && a.highlight == b.highlight &&
+    a.look == b.look;
 }
 
 } // namespace pointfront

@@ -110,6 +110,7 @@ struct ResolvedStyle
   /// translucent group: its points are one surface, drawn with `opacity` over everything behind it.
   std::uint16_t group = 0;
   std::uint8_t highlight = 0; ///< 1 + number in FrameShading::highlights; 0: none
+  std::uint16_t look = 0; ///< FrameShading::look(): how its pixels are shaded
 
   /// What has to be read for it, ascending.
   ColumnSelection columns() const;

@@ -1,3 +1,4 @@
+#include "pointfront/Looks/StyleLooks.h"
 #include "pointfront/Style/ComponentName.h"
 #include "pointfront/Style/StyleResolution.h"
 #include "pointfront/Style/StyleSheet.h"
@@ -142,9 +143,11 @@ std::vector<ClassGroup> classGroups(const StyleSheet& sheet)
 class SheetResolution
 {
 public:
-  SheetResolution(const StoreDescription& store, const StoreSurroundings& surroundings)
+  SheetResolution(
+    const StyleSheet& sheet, const StoreDescription& store, const StoreSurroundings& surroundings)
     : store_(store)
     , surroundings_(surroundings)
+    , looks_(sheet)
     , classColumn_(classColumnOf(store))
     , layers_(std::max<std::size_t>(isLayered(store) ? 0 : 1, store.layers.size()))
   {
@@ -274,6 +277,7 @@ private:
     if (resolved)
     {
       resolved->lens = lens;
+      resolved->look = looks_.numberOf(style);
     }
     return resolved;
   }
@@ -287,6 +291,7 @@ private:
 
   const StoreDescription& store_;
   const StoreSurroundings& surroundings_;
+  StyleLooks looks_;
   std::optional<std::uint32_t> classColumn_;
   DistinctStyles distinct_;
   std::vector<LayerStyling> layers_;
@@ -297,7 +302,7 @@ private:
 Result<std::vector<LayerStyling>> StyleSheet::resolveAll(
   const StoreDescription& store, const StoreSurroundings& surroundings) const
 {
-  return SheetResolution(store, surroundings).run(*this);
+  return SheetResolution(*this, store, surroundings).run(*this);
 }
 
 } // namespace pointfront

@@ -1,5 +1,6 @@
 #include "pointfront/Style/StyleSheet.h"
 
+#include "pointfront/Looks/StyleLooks.h"
 #include "pointfront/Points/EnclosingRadius.h"
 #include "pointfront/Style/ComponentName.h"
 #include "pointfront/Style/StyleResolution.h"
@@ -91,7 +92,8 @@ private:
     resolved_.fixedNormal =
       fixed ? glm::vec3(glm::normalize(style_.orientation->direction)) : glm::vec3(0, 0, 1);
     // Light falls on the disc that is drawn: one with an orientation of its own needs no normal.
-    const bool lit = sheet_.shading.lit && resolved_.technique != Technique::Spheres;
+    const bool lit =
+      lookOf(style_, sheet_.shading).lit && resolved_.technique != Technique::Spheres;
     if (resolved_.orientation == SplatOrientation::Normal && (disc || lit))
     {
       const std::optional<std::uint32_t> column = normalColumn(store_);
@@ -279,6 +281,7 @@ Result<StylePointer> StyleSheet::resolve(
   {
     return resolved.error();
   }
+  resolved->look = StyleLooks(*this).numberOf(style);
   return StylePointer(std::make_shared<const ResolvedStyle>(std::move(*resolved)));
 }
 
@@ -316,12 +319,15 @@ bool StyleSheet::resolvesAs(const StyleSheet& other) const
     }
     return sheet;
   };
-  return rest(*this) == rest(other);
+  return rest(*this) == rest(other) && StyleLooks(*this).numbers() == StyleLooks(other).numbers();
 }
 
 FrameShading StyleSheet::frameShading() const
 {
   FrameShading frame = shading;
+  const std::vector<FrameLook> looks = StyleLooks(*this).looks();
+  static_cast<FrameLook&>(frame) = looks.front();
+  frame.furtherLooks.assign(looks.begin() + 1, looks.end());
   for (const StyleLens& lens : lenses)
   {
     frame.lenses.push_back(lens.place);

@@ -46,7 +46,9 @@ struct StyleSheet
   /// all.
   std::optional<std::vector<std::uint8_t>> shownClasses;
   FilterExpression where; ///< points have to pass it besides their style's own
-  FrameShading shading; ///< lights are the renderer's; lenses and highlights those below
+  /// Its light and eye-dome lighting are for styles that say nothing of them; lights are the
+  /// renderer's; lenses and highlights those below.
+  FrameShading shading;
   std::vector<StyleLens> lenses;
   std::vector<StyleHighlight> highlights; ///< one for a class at most
 
@@ -57,7 +59,7 @@ struct StyleSheet
   /// Whether resolveAll() gives the same for both sheets: they differ at most in the places of
   /// lenses and in the work on pixels.
   bool resolvesAs(const StyleSheet& other) const;
-  /// With its lenses and highlights.
+  /// With its looks (StyleLooks.h), lenses and highlights.
   FrameShading frameShading() const;
   /// Whether any colour or condition asks for ClassHeights of this store.
   bool wantsHeights(const StoreDescription& store) const;

@@ -79,6 +79,7 @@ Result<void> SoftwareScene::openStores()
     allPoints_ += store.value()->cloud()->description().pointCount;
     stores_.push_back(std::move(store).value());
   }
+  target_.keepDecided = stores_.size() > 1;
   return {};
 }
 
@@ -149,6 +150,7 @@ Result<void> SoftwareScene::shareMemory()
   cost.pixelBytes += shading_.anyLit() ? 3 * sizeof(float) : 0; // normals
   cost.pixelBytes += shading_.lookCount() > 1 ? sizeof(std::uint16_t) : 0;
   cost.pixelBytes += shading_.highlights.empty() ? 0 : 4; // who stands out, how far that is
+  cost.pixelBytes += target_.keepDecided ? sizeof(float) : 0;
   cost.pixelBytes *= targets;
   cost.pixelBytes += shading_.anyEyeDome() ? sizeof(float) : 0; // logarithms of depth
   cost.pixelBytes += blends ? sizeof(float) : 0; // the nearest depth

@@ -36,8 +36,9 @@ struct SoftwareTarget
   int height = 0;
   std::vector<std::uint32_t> rgba;
   std::vector<float> depth;
-  /// What decided who is seen, in the units of depth; empty unless `keepDecided`. Pixels that were
-  /// filled later have none: infinity.
+  /// What decided who is seen, in the units of depth; empty unless `keepDecided`. Of several plans
+  /// that are drawn into one target it decides, too: splats of two clouds meet as those of one.
+  /// Pixels that were filled later have none: infinity.
   std::vector<float> decided;
   /// View-space normal, 3 x float a pixel, 0 where there is none; empty unless a plan asks for
   /// light.

@@ -14,6 +14,7 @@ import sys
 import drive_data
 import drive_drawing
 import drive_files
+import drive_random
 from programs import Programs, tool
 
 
@@ -28,7 +29,7 @@ def main(way):
          "--camera", os.environ["POINTFRONT_CAMERA"], "--color-by", "rgb", "--point-size", "2",
          "--error", "0.01", "--background", "0,0,0")
     ways = {name.replace("_", "-"): function
-            for module in (drive_data, drive_drawing, drive_files)
+            for module in (drive_data, drive_drawing, drive_files, drive_random)
             for name, function in vars(module).items()
             if getattr(function, "__module__", "") == module.__name__}
     with Programs() as programs:

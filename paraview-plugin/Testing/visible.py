@@ -24,7 +24,7 @@ def winners(places, depths, size):
     covered, points = numpy.concatenate(covered), numpy.concatenate(points)
     order = numpy.lexsort((points, depths[points], covered))
     covered, points = covered[order], points[order]
-    nearest = numpy.r_[True, covered[1:] != covered[:-1]]
+    nearest = numpy.r_[True, covered[1:] != covered[:-1]][:len(covered)]
     picture = numpy.full(width * height, -1)
     picture[covered[nearest]] = points[nearest]
     return picture.reshape(height, width)

@@ -185,13 +185,23 @@ bool WinnerResolve::blendedColour(const Winner& winner, std::uint32_t& rgba) con
   return true;
 }
 
-void WinnerResolve::put(const RasterItem& item, int j, const Winner& winner, float depth,
+/// False where what was drawn before is nearer, by what decides who is seen.
+bool WinnerResolve::put(const RasterItem& item, int j, const Winner& winner, float depth,
   SoftwareTarget& target, std::size_t pixel)
 {
   const float eyeDepth = fromEye(*source_.items, depth);
-  if (!(eyeDepth < target.depth[pixel]))
+  if (target.keepDecided)
   {
-    return;
+    const float decided = fromEye(*source_.items, winner.keyDepth);
+    if (!(decided < target.decided[pixel]))
+    {
+      return false;
+    }
+    target.decided[pixel] = decided;
+  }
+  else if (!(eyeDepth < target.depth[pixel]))
+  {
+    return false;
   }
   target.depth[pixel] = eyeDepth;
   target.rgba[pixel] = colourOf(item, j, winner, depth);
@@ -207,6 +217,7 @@ void WinnerResolve::put(const RasterItem& item, int j, const Winner& winner, flo
   {
     target.points[pixel] = { source_.store, item.node().node, winner.index };
   }
+  return true;
 }
 
 std::uint32_t WinnerResolve::colourOf(
@@ -344,14 +355,7 @@ void WinnerResolve::resolve(
     const std::int64_t row = winner.y + source_.window.bottom - target.bottom;
     const auto pixel =
       static_cast<std::size_t>(row * target.width + winner.x + source_.window.left - target.left);
-    const float eyeDepth = fromEye(*source_.items, depth);
-    const bool nearer = eyeDepth < target.depth[pixel];
-    put(item, j, winner, depth, target, pixel);
-    if (nearer && target.keepDecided)
-    {
-      target.decided[pixel] = fromEye(*source_.items, winner.keyDepth);
-    }
-    if (nearer && source_.normals)
+    if (put(item, j, winner, depth, target, pixel) && source_.normals)
     {
       putNormal(item, j, winner, depth, &target.normals[3 * pixel]);
     }

@@ -44,7 +44,7 @@ private:
   void resolveFound(SoftwareTarget& target);
   void sortByItem();
   void resolve(const RasterItem& item, const Winner* winners, int count, SoftwareTarget& target);
-  void put(const RasterItem& item, int j, const Winner& winner, float depth, SoftwareTarget& target,
+  bool put(const RasterItem& item, int j, const Winner& winner, float depth, SoftwareTarget& target,
     std::size_t pixel);
   std::uint32_t colourOf(const RasterItem& item, int j, const Winner& winner, float depth) const;
   glm::vec3 fromCentre(const RasterItem& item, int j, const Winner& winner, float depth) const;

@@ -346,3 +346,38 @@ TEST(Composition, OneRasteriserGoesOnWithEachPart)
   }
   EXPECT_EQ(first, sheets.draw().rgba);
 }
+
+TEST(Composition, SplatsOfSeveralCloudsMeetAsThoseOfOne)
+{
+  PlanOfPoints one;
+  one.look({ 0.0, -3.0, 1.5 }, { 0.0, 0.0, 0.0 }, 0.7, size, size);
+  one.style->technique = Technique::Splats;
+  one.add(wavySurface(300, 1), 0.1);
+  one.add(wavySurface(300, 2), 0.1);
+  SoftwareRasteriser rasteriser;
+  SoftwareComposition composition;
+  SoftwareTarget whole, meeting;
+  const auto drawInto = [&](SoftwareTarget& target, std::vector<FramePlan> plans)
+  {
+    target.reset(size, size);
+    for (const FramePlan& plan : plans)
+    {
+      composition.draw(rasteriser, plan, target);
+    }
+    composition.finish(one.plan.camera, one.plan.shading, target);
+  };
+  FramePlan first = one.plan, second = one.plan;
+  first.batches[0].items.pop_back();
+  second.batches[0].items.erase(second.batches[0].items.begin());
+  drawInto(whole, { one.plan });
+  for (const bool fronts : { true, false })
+  {
+    meeting.keepDecided = true;
+    drawInto(meeting, fronts ? std::vector{ first, second } : std::vector{ second, first });
+    EXPECT_EQ(meeting.rgba, whole.rgba);
+    EXPECT_EQ(meeting.depth, whole.depth);
+  }
+  meeting.keepDecided = false;
+  drawInto(meeting, { first, second });
+  EXPECT_NE(meeting.rgba, whole.rgba) << "discs cut each other: nothing was tested above";
+}

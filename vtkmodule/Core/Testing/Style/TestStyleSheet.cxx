@@ -395,9 +395,10 @@ TEST(StyleOpacity, ZeroIsHiddenAndLessThanOneIsAGroup)
   sheet.standard.opacity = 0.5;
   sheet.classes[5].opacity = 0.0;
   sheet.classes[6].opacity = 1.0;
+  sheet.classes[9].opacity = 0.5; // the default's, but a surface of its own
   for (const bool layered : { true, false })
   {
-    const auto layers = all(sheet, layered ? styledStore({ 2, 5, 6, 9 }) : styledStore({}));
+    const auto layers = all(sheet, layered ? styledStore({ 2, 3, 5, 6, 9 }) : styledStore({}));
     std::vector<std::uint16_t> groups;
     for (const LayerStyling& layer : layers)
     {
@@ -406,8 +407,8 @@ TEST(StyleOpacity, ZeroIsHiddenAndLessThanOneIsAGroup)
         groups.push_back(style->group);
       }
     }
-    const std::vector<std::uint16_t> expected =
-      layered ? std::vector<std::uint16_t>{ 257, 0, 257 } : std::vector<std::uint16_t>{ 257, 0 };
+    std::vector<std::uint16_t> expected{ 257, 257, 0, 10 };
+    expected.erase(expected.begin(), expected.begin() + (layered ? 0 : 1));
     EXPECT_EQ(groups, expected) << "one surface of all that have no style of their own";
   }
 }

@@ -88,10 +88,17 @@ std::uint16_t groupOf(const StyleSheet& sheet, std::uint8_t objectClass)
                                               : groupOfOthers;
 }
 
+/// ResolvedStyle::group of a class with that style.
+std::uint16_t surfaceOf(const StyleSheet& sheet, const LayerStyle& style, std::uint8_t objectClass)
+{
+  return style.opacity && *style.opacity < 1.0 ? groupOf(sheet, objectClass) : std::uint16_t(0);
+}
+
 /// Classes of an unlayered store that are drawn in one way.
 struct ClassGroup
 {
   LayerStyle style; ///< complete
+  std::uint16_t surface = 0;
   std::uint8_t highlight = 0;
   std::string place;
   std::vector<std::uint8_t> codes; ///< ascending; of the first group, `inverted`, those it has not
@@ -101,28 +108,32 @@ struct ClassGroup
 /// The default's group, if any class is left to it, and those of classes that differ.
 std::vector<ClassGroup> classGroups(const StyleSheet& sheet)
 {
-  ClassGroup others{ sheet.standard.over(standardStyle()), 0, "default", {}, true };
+  ClassGroup others{ sheet.standard.over(standardStyle()), 0, 0, "default", {}, true };
+  const bool translucent = others.style.opacity && *others.style.opacity < 1.0;
+  others.surface = translucent ? groupOfOthers : std::uint16_t(0);
   std::vector<ClassGroup> groups;
   const auto join = [&](const LayerStyle& style, std::uint8_t code)
   {
     const std::uint8_t highlight = highlightOf(sheet, code);
+    const std::uint16_t surface = surfaceOf(sheet, style, code);
     const auto same = std::find_if(groups.begin(), groups.end(),
       [&](const ClassGroup& group)
-      { return group.style == style && group.highlight == highlight; });
+      { return group.style == style && group.surface == surface && group.highlight == highlight; });
     if (same != groups.end())
     {
       same->codes.push_back(code);
       return;
     }
-    groups.push_back({ style, highlight, placeOf(sheet, code), { code }, false });
+    groups.push_back({ style, surface, highlight, placeOf(sheet, code), { code }, false });
   };
   for (int code = 0; code < 256; ++code)
   {
     const auto objectClass = static_cast<std::uint8_t>(code);
     const LayerStyle style = sheet.styleOf(objectClass);
     const bool shown = isShown(sheet, objectClass) && isSeen(style);
-    const bool differs =
-      style != others.style || sheet.shownClasses || highlightOf(sheet, objectClass) > 0;
+    const bool differs = style != others.style ||
+      surfaceOf(sheet, style, objectClass) != others.surface || sheet.shownClasses ||
+      highlightOf(sheet, objectClass) > 0;
     if (shown && differs)
     {
       join(style, objectClass);
@@ -195,7 +206,7 @@ private:
         {
           return resolved.error();
         }
-        resolved->group = resolved->opacity < 1.0 ? groupOf(sheet, objectClass) : 0;
+        resolved->group = surfaceOf(sheet, style, objectClass);
         resolved->highlight = highlightOf(sheet, objectClass);
         put(layers_[number], *style.errorFactor, std::move(*resolved));
         layers_[number].budgetShare = std::max(layers_[number].budgetShare, *style.budgetShare);
@@ -229,9 +240,7 @@ private:
         condition.inverted = group.inverted;
         resolved->filter.conditions.push_back(std::move(condition));
       }
-      const std::uint16_t number =
-        group.inverted ? groupOfOthers : groupOf(sheet, group.codes.front());
-      resolved->group = resolved->opacity < 1.0 ? number : 0;
+      resolved->group = group.surface;
       resolved->highlight = group.highlight;
       for (LayerStyling& layer : layers_)
       {

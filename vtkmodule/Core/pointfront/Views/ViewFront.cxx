@@ -99,11 +99,14 @@ const FrontDelta& ViewFront::update(const FrameRequest& demand)
     step(demand);
     // At rest the threshold falls on at once until requests pile up (FRONT-7): no frame shows less
     // than what is loaded, and what is missing is asked for together, the largest errors first. One
-    // update a drawing would ask for it in waves, each as long as a drawing.
+    // update a drawing would ask for it in waves, each as long as a drawing. After a step without
+    // a move there is one more: what another view had asked for may have kept the threshold.
     const auto begin = std::chrono::steady_clock::now();
-    while (!demand.interacting && !delta_.complete && movedOn() &&
-      std::chrono::steady_clock::now() - begin < restTime)
+    const auto inTime = [&] { return std::chrono::steady_clock::now() - begin < restTime; };
+    bool moved = true;
+    while (!demand.interacting && !delta_.complete && (movedOn() ? inTime() : moved))
     {
+      moved = movedOn();
       step(demand);
     }
     noteColumns(demand);

@@ -1,0 +1,227 @@
+"""Random scenes drawn by the tool and by windows of VTK, which must give the same picture.
+
+Environment: POINTFRONT_PYTHON_PACKAGE the folder of the Python package; the seeds: see
+random_cases.py; docs/developer/random-tests.md says what was found. It needs a display.
+usage: test_random_windows.py [RandomWindows.test_KIND]
+"""
+
+import importlib
+import json
+import os
+import sys
+import time
+import unittest
+
+import numpy
+
+from pair_test import PairTest
+from pictures import share_alike
+from random_cases import chance
+from random_pairs import Alike, Refused, Threads
+from random_scenes import random_camera
+
+sys.path.insert(0, os.environ["POINTFRONT_PYTHON_PACKAGE"])
+pointfront = importlib.import_module("pointfront")
+core = importlib.import_module("vtkmodules.vtkRenderingCore")
+numpy_support = importlib.import_module("vtkmodules.util.numpy_support")
+
+BACKENDS = ("Software", "OpenGL")
+# As test_random_styles.py says.
+EDGE = 6
+USUAL_STRENGTH, STRONG_TOLERANCE = 0.4, 8
+LIMIT = 60  # seconds until a view must have settled
+# (kind, case): the smallest cases that once differed.
+FOUND = ()
+
+
+def same_camera(camera, way):
+    camera.SetPosition(way["position"])
+    camera.SetFocalPoint(way["focal_point"])
+    camera.SetViewUp(way["view_up"])
+    camera.SetParallelProjection("parallel_scale" in way)
+    if "parallel_scale" in way:
+        camera.SetParallelScale(way["parallel_scale"])
+    else:
+        camera.SetViewAngle(way["view_angle"])
+
+
+class Window:
+    """A window, used for one case after the other, that shows one store."""
+
+    def __init__(self, size):
+        self.renderer = core.vtkRenderer()
+        self.renderer.SetBackground(0.2, 0.1, 0.3)
+        self.window = core.vtkRenderWindow()
+        self.window.SetOffScreenRendering(1)
+        self.window.SetMultiSamples(0)
+        self.window.SetSize(*size)
+        self.window.AddRenderer(self.renderer)
+
+    def show(self, store, case, backend):
+        """The mapper. A style that the tool takes is one that VTK takes."""
+        self.renderer.RemoveAllViewProps()
+        style = pointfront.vtkPointFrontStyle()
+        if not style.LoadJSON(json.dumps(case["style"])):
+            raise AssertionError(f"VTK refuses a style that the tool draws: {json.dumps(case)}")
+        self.reader = pointfront.vtkPointFrontReader()
+        self.reader.SetFileName(str(store))
+        mapper = pointfront.vtkPointFrontMapper()
+        mapper.SetInputConnection(self.reader.GetOutputPort())
+        mapper.SetStyle(style)
+        mapper.SetTargetError(float(case["error"]))
+        mapper.SetPointBudget(0)
+        getattr(mapper, f"SetBackendTo{backend}")()
+        actor = core.vtkActor()
+        actor.SetMapper(mapper)
+        self.renderer.AddActor(actor)
+        self.look(case["camera"])
+        return mapper
+
+    def look(self, camera):
+        same_camera(self.renderer.GetActiveCamera(), camera)
+        self.renderer.ResetCameraClippingRange()
+
+    def pixels(self, scale=1):
+        grab = core.vtkWindowToImageFilter()
+        grab.SetInput(self.window)
+        grab.SetScale(scale)
+        grab.ReadFrontBufferOff()
+        grab.Update()
+        image = grab.GetOutput()
+        columns, rows, _ = image.GetDimensions()
+        values = numpy_support.vtk_to_numpy(image.GetPointData().GetScalars())
+        return values.reshape(rows, columns, 3)[::-1]
+
+
+class Windows(Threads):
+    """The tool, and a window of each back end."""
+
+    least_alike, tolerance = Alike.least_alike, Alike.tolerance
+
+    def __init__(self, folder):
+        super().__init__(folder)
+        self.windows = {backend: Window(self.size) for backend in BACKENDS}
+
+    def whole(self, case, backend):
+        self.windows[backend].show(self.store, case, backend).CompleteOn()
+        self.windows[backend].window.Render()
+        return self.windows[backend].pixels()
+
+    def ways(self, case):
+        """Of a case that the tool draws."""
+        for backend in BACKENDS:
+            yield f"window, {backend}", lambda backend=backend: self.whole(case, backend)
+
+    def pictures(self, case):
+        try:
+            usual = self.drawn(self.store, case)
+        except Refused:
+            return
+        yield "tool", lambda: usual
+        yield from self.ways(case)
+
+    def compared(self, usual, first, what, picture, case):
+        strong = case["style"].get("shading", {}).get("strength", 0) > USUAL_STRENGTH
+        tolerance = STRONG_TOLERANCE if strong else self.tolerance
+        inner = slice(EDGE, -EDGE)
+        alike = share_alike(first[inner, inner], picture[inner, inner], tolerance)
+        if alike < self.least_alike:
+            return f"{usual} and {what}: {alike:.5f} of the pixels are alike"
+        return None
+
+
+class NodeByNode(Windows):
+    """The tool's picture, and frames while nodes load, after frames of another view."""
+
+    def choose(self, rng):
+        return {**super().choose(rng), "before": random_camera(rng, self.bounds)[1],
+                "moving": chance(rng, 0.5)}
+
+    def settled(self, case, backend):
+        window = self.windows[backend]
+        mapper = window.show(self.store, case, backend)
+        window.look(case["before"])
+        window.window.SetDesiredUpdateRate(15.0 if case["moving"] else 0.0001)
+        window.window.Render()
+        window.window.SetDesiredUpdateRate(0.0001)
+        window.look(case["camera"])
+        window.window.Render()
+        end = time.monotonic() + LIMIT
+        while not mapper.GetLastComplete():
+            if time.monotonic() > end:
+                raise AssertionError(f"{backend}: not settled in a minute: {json.dumps(case)}")
+            if mapper.NeedsRender():
+                window.window.Render()
+            else:
+                time.sleep(0.001)
+        return window.pixels()
+
+    def ways(self, case):
+        for backend in BACKENDS:
+            yield f"node by node, {backend}", lambda backend=backend: self.settled(case, backend)
+
+
+def scaled(sheet, by):
+    """With what grows as a poster does: lenses, halos, the radius of eye-dome lighting."""
+    sheet = json.loads(json.dumps(sheet))
+    for lens in sheet.get("lenses", ()):
+        for key in ("center_px", "size_px"):
+            if key in lens:
+                lens[key] = [by * edge for edge in lens[key]]
+        if "radius_px" in lens:
+            lens["radius_px"] *= by
+    for highlight in sheet.get("highlight", ()):
+        highlight["halo_px"] = by * highlight.get("halo_px", 2)
+    if "edl" in sheet.get("shading", {}).get("mode", ()):
+        sheet["shading"]["radius_px"] = by * sheet["shading"].get("radius_px", 1)
+    return sheet
+
+
+class Posters(Windows):
+    """The tool's picture, and one put together of tiles of a window half as wide and high. Sizes by
+    spacing follow the nodes in sight, of which a tile has fewer."""
+
+    fixed_sizes = 0.3
+
+    def __init__(self, folder):
+        super().__init__(folder)
+        self.windows = {backend: Window([edge // 2 for edge in self.size]) for backend in BACKENDS}
+
+    def poster(self, case, backend):
+        small = {**case, "style": scaled(case["style"], 0.5)}
+        self.windows[backend].show(self.store, small, backend).CompleteOn()
+        self.windows[backend].window.Render()
+        return self.windows[backend].pixels(2)
+
+    def styled(self, sheet):
+        """What can be halved."""
+        sheet = super().styled(sheet)
+        for highlight in sheet.get("highlight", ()):
+            highlight["halo_px"] = 2 * (highlight.get("halo_px", 2) // 2)
+        if "edl" in sheet.get("shading", {}).get("mode", ()):
+            sheet["shading"]["radius_px"] = 2
+        return sheet
+
+    def ways(self, case):
+        for backend in BACKENDS:
+            yield f"poster, {backend}", lambda backend=backend: self.poster(case, backend)
+
+
+KINDS = (Windows, NodeByNode, Posters)
+
+
+class RandomWindows(PairTest):
+    def test_pairs_that_once_differed(self):
+        for number, (kind, case) in enumerate(FOUND):
+            folder = self.folder / str(number)
+            folder.mkdir()
+            with self.subTest(kind=kind.__name__, case=json.dumps(case)):
+                self.assertIsNone(kind(folder).difference(case))
+
+
+for one in KINDS:
+    setattr(RandomWindows, f"test_{one.__name__}", lambda self, kind=one: self.check(kind))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -33,6 +33,12 @@ public:
   ErrorListener& operator=(const ErrorListener&) = delete;
 
   void observe(vtkObject* object) { object->AddObserver(vtkCommand::ErrorEvent, command_); }
+  /// Its warnings are told otherwise: VTK then prints none.
+  void ignoreWarnings(vtkObject* object)
+  {
+    vtkNew<vtkCallbackCommand> nothing;
+    object->AddObserver(vtkCommand::WarningEvent, nothing);
+  }
   Result<void> outcome() const
   {
     return first_.empty() ? Result<void>() : makeError(Error::Kind::Corrupt, first_);

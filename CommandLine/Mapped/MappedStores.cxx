@@ -24,6 +24,7 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 namespace pointfront
 {
@@ -54,31 +55,83 @@ struct MappedStores::MappedStore
 MappedStores::MappedStores() = default;
 MappedStores::~MappedStores() = default;
 
+Result<std::unique_ptr<MappedStores::MappedStore>> MappedStores::openStore(
+  const std::string& path, ErrorListener& errors)
+{
+  auto mapped = std::make_unique<MappedStore>();
+  vtkStdString why;
+  mapped->store = vtkPointFrontStore::Open(path.c_str(), why);
+  if (!mapped->store)
+  {
+    return makeError(Error::Kind::BadFormat, why);
+  }
+  errors.observe(mapped->reader);
+  errors.ignoreWarnings(mapped->reader); // they are those of warnings()
+  errors.observe(mapped->mapper);
+  mapped->reader->SetFileName(path.c_str());
+  mapped->reader->SetOverviewPoints(0); // the mapper alone draws
+  mapped->mapper->SetInputConnection(mapped->reader->GetOutputPort());
+  mapped->actor->SetMapper(mapped->mapper);
+  return mapped;
+}
+
 Result<void> MappedStores::open(const DrawingOptions& options)
 {
   if (options.memoryBytes > 0)
   {
     vtkPointFrontStore::SetProcessMemoryBudget(static_cast<vtkTypeInt64>(options.memoryBytes));
   }
+  std::vector<std::unique_ptr<MappedStore>> stores;
+  Bounds bounds;
   for (const std::string& path : options.stores)
   {
-    auto mapped = std::make_unique<MappedStore>();
-    vtkStdString why;
-    mapped->store = vtkPointFrontStore::Open(path.c_str(), why);
-    if (!mapped->store)
+    Result<std::unique_ptr<MappedStore>> mapped = openStore(path, errors_);
+    if (!mapped)
     {
-      return makeError(Error::Kind::BadFormat, why);
+      return mapped.error();
     }
-    errors_.observe(mapped->reader);
-    errors_.observe(mapped->mapper);
-    mapped->reader->SetFileName(path.c_str());
-    mapped->reader->SetOverviewPoints(0); // the mapper alone draws
-    mapped->mapper->SetInputConnection(mapped->reader->GetOutputPort());
-    mapped->actor->SetMapper(mapped->mapper);
-    bounds_.add(mapped->store->GetStore()->description().bounds);
-    stores_.push_back(std::move(mapped));
+    bounds.add((*mapped)->store->GetStore()->description().bounds);
+    stores.push_back(std::move(*mapped));
   }
-  return hideOtherClasses(options);
+  stores_.swap(stores);
+  std::swap(bounds_, bounds);
+  const Result<void> hidden = hideOtherClasses(options);
+  if (!hidden)
+  {
+    stores_.swap(stores);
+    std::swap(bounds_, bounds);
+  }
+  return hidden;
+}
+
+bool MappedStores::growing() const
+{
+  return std::any_of(
+    stores_.begin(), stores_.end(), [](const auto& mapped) { return mapped->store->IsPreview(); });
+}
+
+bool MappedStores::follow()
+{
+  bool other = false;
+  for (const auto& mapped : stores_)
+  {
+    vtkPointFrontStore* const drawn =
+      mapped->store->IsPreview() ? mapped->mapper->GetStore() : nullptr;
+    if (drawn != nullptr && drawn != mapped->store)
+    {
+      mapped->store = drawn;
+      other = true;
+    }
+  }
+  if (other)
+  {
+    bounds_ = Bounds();
+    for (const auto& mapped : stores_)
+    {
+      bounds_.add(mapped->store->GetStore()->description().bounds);
+    }
+  }
+  return other;
 }
 
 Result<void> MappedStores::hideOtherClasses(const DrawingOptions& options)

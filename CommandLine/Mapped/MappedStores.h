@@ -34,8 +34,9 @@ public:
   MappedStores(const MappedStores&) = delete;
   MappedStores& operator=(const MappedStores&) = delete;
 
-  /// Opens the stores of the options and hides the classes that are not asked for.
-  /// Errors  of the stores; BadArgument: no store has any of the classes.
+  /// Opens the stores of the options in the place of those of before, and hides the classes that
+  /// are not asked for.
+  /// Errors  of the stores; BadArgument: no store has any of the classes. Those of before stay.
   Result<void> open(const DrawingOptions& options);
   /// Sets how they are drawn, colours and styles, classes and budgets, and adds them to the
   /// renderer. Can be called again with other options of the same stores. `backend`  one of
@@ -45,6 +46,11 @@ public:
   Result<void> show(const DrawingOptions& options, int backend, vtkRenderer* renderer);
 
   const Bounds& bounds() const { return bounds_; }
+  /// Some store is the preview of a running build.
+  bool growing() const;
+  /// True if a preview has become its next version, or the finished store, since the last call: the
+  /// mapper draws that now, and the bounds may be others.
+  bool follow();
   std::vector<std::shared_ptr<const StoredCloud>> clouds() const;
   /// What the actor draws now; null for another prop.
   std::shared_ptr<const StoredCloud> cloudOf(const vtkProp* prop) const;
@@ -72,6 +78,8 @@ public:
 
 private:
   struct MappedStore;
+  static Result<std::unique_ptr<MappedStore>> openStore(
+    const std::string& path, ErrorListener& errors);
   Result<void> hideOtherClasses(const DrawingOptions& options);
 
   ErrorListener errors_;

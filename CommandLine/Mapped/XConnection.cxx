@@ -1,5 +1,6 @@
 #include "XConnection.h"
 
+#include <X11/XKBlib.h>
 #include <X11/Xlib.h>
 
 #include <cstdlib>
@@ -32,6 +33,18 @@ Result<void> XConnection::open(const std::string& what, const std::string& inste
       Error::Kind::Unsupported, std::string("no X server answers at DISPLAY=") + name + hint);
   }
   return {};
+}
+
+void forgiveLostWindows()
+{
+  static const XErrorHandler others = XSetErrorHandler(nullptr);
+  XSetErrorHandler([](Display* display, XErrorEvent* event)
+    { return event->error_code == BadWindow ? 0 : others(display, event); });
+}
+
+void tellHeldKeys(void* display)
+{
+  XkbSetDetectableAutoRepeat(static_cast<Display*>(display), True, nullptr);
 }
 
 } // namespace pointfront

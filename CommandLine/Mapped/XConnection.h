@@ -27,4 +27,12 @@ private:
   _XDisplay* display_ = nullptr;
 };
 
+/// A request about a window that has just gone is no reason to end the process, as Xlib would:
+/// while a window closes VTK asks where the mouse is in it.
+void forgiveLostWindows();
+
+/// A key that is held sends presses and no releases to the owner of that connection, as it does
+/// where there is no X.
+void tellHeldKeys(void* display);
+
 } // namespace pointfront

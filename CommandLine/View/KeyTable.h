@@ -82,13 +82,15 @@ constexpr std::array<KeyBinding, 29> keyTable{ {
   { "q", KeyAction::Quit, "end" },
 } };
 
-/// What the mouse does, a line each.
-constexpr std::array<KeyBinding, 5> mouseTable{ {
+/// What the mouse does and keys that are held (Flight), a line each.
+constexpr std::array<KeyBinding, 7> mouseTable{ {
   { "click", KeyAction::None, "what the store holds of the point" },
   { "left drag", KeyAction::None, "turn around the point under the mouse" },
   { "middle drag", KeyAction::None, "move the picture (also Shift and left drag)" },
   { "right drag", KeyAction::None, "turn the head" },
   { "wheel", KeyAction::None, "nearer to or farther from the point under the mouse" },
+  { "w a s d", KeyAction::None, "fly forward, left, back, right; Shift: faster" },
+  { "PgUp PgDn", KeyAction::None, "fly up, down" },
 } };
 
 /// `keysym`: the X name of a key ("question", "c"). None for a key without a meaning.

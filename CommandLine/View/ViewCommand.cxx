@@ -7,12 +7,14 @@
 #include "Unavailable.h"
 #include "ViewWindow.h"
 
+#include <optional>
+
 namespace pointfront
 {
 
 void ViewCommand::declare(CLI::App& program)
 {
-  app_ = program.add_subcommand("view", "Show stores in a window");
+  app_ = program.add_subcommand("view", "Show stores, or LAS and LAZ files, in a window");
   request_.drawing.declare(*app_);
   CLI::Option* const view =
     app_->add_option("--view", view_, "Where from at first, showing all (iso)")
@@ -20,12 +22,25 @@ void ViewCommand::declare(CLI::App& program)
   app_->add_option("--camera", cameraPath_, "Camera file to begin with")
     ->type_name("FILE.json")
     ->excludes(view);
+  app_
+    ->add_option("--store", request_.keep,
+      "Where the store of LAS and LAZ files is built (it goes with the window)")
+    ->type_name("OUT.pfront");
   app_->footer("Mouse and keys in the window:\n" + keyHelp());
 }
 
 Result<void> ViewCommand::run()
 {
-  const CancelSignal signal(CancelSignal::Mode::Leave);
+  const CancelSignal leaving(CancelSignal::Mode::Leave);
+  std::optional<CancelSignal> finishing;
+  request_.signalled = [&finishing]
+  {
+    if (!finishing)
+    {
+      finishing.emplace(CancelSignal::Mode::Finish);
+    }
+    return CancelSignal::requested();
+  };
   request_.direction = *namedView(view_);
   if (!cameraPath_.empty())
   {

@@ -5,6 +5,7 @@
 
 #include <vtkObjectFactory.h>
 #include <vtkRenderWindowInteractor.h>
+#include <vtkStringArray.h>
 
 #include <glm/common.hpp>
 #include <glm/gtc/constants.hpp>
@@ -116,16 +117,40 @@ void HandStyle::wheel(double steps)
 void HandStyle::OnKeyPress()
 {
   const char* const keysym = this->Interactor->GetKeySym();
-  const KeyAction action = keysym != nullptr ? keyActionOf(keysym) : KeyAction::None;
-  if (action != KeyAction::None)
+  if (keysym == nullptr || target_->hold(keysym, true))
+  {
+    return;
+  }
+  if (const KeyAction action = keyActionOf(keysym); action != KeyAction::None)
   {
     target_->obey(action, this->mouse());
+  }
+}
+
+void HandStyle::OnKeyRelease()
+{
+  if (const char* const keysym = this->Interactor->GetKeySym())
+  {
+    target_->hold(keysym, false);
   }
 }
 
 void HandStyle::OnConfigure()
 {
   this->Interactor->Render();
+}
+
+void HandStyle::OnDropFiles(vtkStringArray* files)
+{
+  std::vector<std::string> names;
+  for (vtkIdType i = 0; files != nullptr && i < files->GetNumberOfValues(); ++i)
+  {
+    names.push_back(files->GetValue(i));
+  }
+  if (!names.empty())
+  {
+    target_->drop(names);
+  }
 }
 
 } // namespace pointfront

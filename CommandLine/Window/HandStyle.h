@@ -7,6 +7,9 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include <string>
+#include <vector>
+
 namespace pointfront
 {
 
@@ -21,8 +24,14 @@ public:
   virtual void obey(KeyAction action, const glm::ivec2& pixel) = 0;
   /// The left button was pressed and let go at one place.
   virtual void click(const glm::ivec2& pixel) = 0;
+  /// A key goes down or up; false if nothing happens as long as it is held.
+  virtual bool hold(const char* keysym, bool down) = 0;
+  /// No key is held any more.
+  virtual void letGo() = 0;
   /// The camera makes a single step, as by the wheel: it moves, and rests soon.
   virtual void step() = 0;
+  /// Files were dragged into the window.
+  virtual void drop(const std::vector<std::string>& files) = 0;
 };
 
 /// Mouse and keyboard of the window: keyTable and mouseTable say what they do.
@@ -44,9 +53,12 @@ public:
   void OnMouseWheelForward() override { this->wheel(-1.0); }
   void OnMouseWheelBackward() override { this->wheel(1.0); }
   void OnKeyPress() override;
+  void OnKeyRelease() override;
+  void OnLeave() override { target_->letGo(); }
   void OnChar() override {} // VTK's own keys
   void OnTimer() override {}
   void OnConfigure() override;
+  void OnDropFiles(vtkStringArray* files) override;
 
 protected:
   HandStyle() = default;

@@ -32,6 +32,7 @@ ViewCamera::ViewCamera(vtkRenderer* renderer, const MappedStores& stores)
 void ViewCamera::set(const Camera& camera)
 {
   camera_ = camera;
+  all_.reset();
   stores_.aim(camera_, renderer_->GetActiveCamera());
 }
 
@@ -39,6 +40,45 @@ void ViewCamera::showAll(ViewDirection direction)
 {
   const glm::ivec2 pixels = size();
   set(cameraFitting(stores_.bounds(), direction, static_cast<double>(pixels.x) / pixels.y));
+  all_ = direction;
+}
+
+void ViewCamera::follow()
+{
+  all_ ? showAll(*all_) : set(camera_);
+}
+
+bool ViewCamera::obey(KeyAction action, ViewDirection home)
+{
+  switch (action)
+  {
+    case KeyAction::ShowAll:
+      showAll(home);
+      return true;
+    case KeyAction::ViewIso:
+      showAll(ViewDirection::Iso);
+      return true;
+    case KeyAction::ViewTop:
+      showAll(ViewDirection::Top);
+      return true;
+    case KeyAction::ViewFront:
+      showAll(ViewDirection::Front);
+      return true;
+    case KeyAction::ViewBack:
+      showAll(ViewDirection::Back);
+      return true;
+    case KeyAction::ViewLeft:
+      showAll(ViewDirection::Left);
+      return true;
+    case KeyAction::ViewRight:
+      showAll(ViewDirection::Right);
+      return true;
+    case KeyAction::Projection:
+      set(otherProjection(camera_));
+      return true;
+    default:
+      return false;
+  }
 }
 
 glm::ivec2 ViewCamera::size() const

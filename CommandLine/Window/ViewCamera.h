@@ -1,6 +1,7 @@
 #pragma once
 
 #include "Camera.h"
+#include "KeyTable.h"
 
 #include "pointfront/Base/Bounds.h"
 
@@ -26,6 +27,12 @@ public:
   void set(const Camera& camera);
   /// The whole of the stores.
   void showAll(ViewDirection direction);
+  /// The stores may lie elsewhere than before: shows all if that is what was shown, else holds the
+  /// camera.
+  void follow();
+
+  /// Looks as the key asks; false if the key is for something else. `home`: of ShowAll.
+  bool obey(KeyAction action, ViewDirection home);
 
   /// Pixels of the view.
   glm::ivec2 size() const;
@@ -42,6 +49,7 @@ private:
   vtkRenderer* renderer_; // of the window, which has this object
   const MappedStores& stores_;
   Camera camera_;
+  std::optional<ViewDirection> all_; ///< the camera shows all from there
 };
 
 } // namespace pointfront

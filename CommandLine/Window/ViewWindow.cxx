@@ -1,25 +1,23 @@
 #include "ViewWindow.h"
 
+#include "Appearance.h"
 #include "CameraJson.h"
-#include "CameraMotion.h"
-#include "ClassList.h"
 #include "CloudFormats.h"
 #include "FrameFacts.h"
 #include "FreshName.h"
 #include "HandStyle.h"
 #include "Inspection.h"
-#include "Looks.h"
 #include "MappedStores.h"
 #include "Redraw.h"
+#include "ShownFiles.h"
 #include "TextPanel.h"
+#include "Travel.h"
 #include "ViewCamera.h"
 #include "WholeFile.h"
 #include "WindowPicture.h"
 #include "XConnection.h"
 
 #include "pointfront/Base/PrintableText.h"
-
-#include "vtkPointFrontMapper.h"
 
 #include <vtkNew.h>
 #include <vtkRenderer.h>
@@ -31,30 +29,16 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace pointfront
 {
 
 namespace
 {
-constexpr double stillRate = 0.0001; // frames a second: VTK's value for a view at rest
 constexpr std::chrono::milliseconds loadingPause{ 10 }; // between two looks at what has arrived
+constexpr std::chrono::milliseconds watchingPause{ 250 }; // of files that grow
 constexpr std::chrono::milliseconds strandedPause{ 200 }; // where a view is not complete, and rests
-constexpr std::chrono::milliseconds rest{ 250 }; // after a single step the camera is at rest
-
-int backendOf(DrawingBackend backend)
-{
-  switch (backend)
-  {
-    case DrawingBackend::Software:
-      return vtkPointFrontMapper::SOFTWARE;
-    case DrawingBackend::OpenGL:
-      return vtkPointFrontMapper::OPENGL;
-    case DrawingBackend::Auto:
-      break;
-  }
-  return vtkPointFrontMapper::AUTOMATIC;
-}
 
 /// The window, put together: what a key does, and when a frame is drawn.
 class ViewWindow final : private HandTarget
@@ -62,7 +46,6 @@ class ViewWindow final : private HandTarget
 public:
   explicit ViewWindow(const ViewRequest& request)
     : request_(request)
-    , looks_(request.drawing)
   {
   }
 
@@ -74,25 +57,29 @@ private:
   void obey(KeyAction action, const glm::ivec2& pixel) override;
   void click(const glm::ivec2& pixel) override;
   void step() override;
+  bool hold(const char* keysym, bool down) override;
+  void letGo() override { travel_.stop(); }
+  void drop(const std::vector<std::string>& files) override;
 
-  void look(KeyAction action);
-  /// True if the key is about how points are drawn.
+  /// True if the key is about how points are drawn, or about the list of classes.
   bool restyle(KeyAction action);
-  /// The same for the list of classes.
-  bool listClasses(KeyAction action);
-  void draw(const Looks& looks, const std::string& sentence);
+  void toggleList();
   void inspect(bool measure, const glm::ivec2& pixel);
   /// Text over the upper left corner, in the place of what was there.
   void layOver(const std::string& text);
   Redraw::Pause redraw();
+  /// Opens the stores that the files stand for at this moment, drawn like that.
+  Result<void> openStores(const DrawingOptions& drawing);
+  /// Looks at files that grow; true if a frame is due.
+  bool follow();
   void takePicture();
   void saveCamera();
   /// Says at the lower edge and on stdout what became of a file.
   void tell(const Result<void>& written, const std::string& file);
   void complain(const std::string& what);
 
-  using Clock = std::chrono::steady_clock;
   const ViewRequest request_;
+  ShownFiles files_{ request_.keep, request_.signalled };
   XConnection connection_; // outlives the window
   vtkNew<vtkRenderWindow> window_;
   vtkNew<vtkRenderer> renderer_;
@@ -100,29 +87,28 @@ private:
   vtkNew<HandStyle> style_;
   MappedStores stores_;
   ViewCamera camera_{ renderer_, stores_ };
+  Travel travel_{ window_, camera_ };
   Camera saved_;
-  Looks looks_;
-  ClassList classes_;
+  Appearance appearance_{ renderer_, stores_ };
   bool listed_ = false; ///< the classes lie over the picture
   Inspection inspection_{ renderer_, stores_ };
   TextPanel sheet_{ renderer_, TextPanel::Corner::UpperLeft };
   TextPanel notice_{ renderer_, TextPanel::Corner::LowerLeft };
   Redraw redraw_{ interactor_, [this] { return redraw(); } };
   FrameFacts facts_{ window_, renderer_, stores_, [this] { redraw_.wake(loadingPause); } };
-  std::optional<Clock::time_point> restDue_; ///< of a camera that made a single step
   std::string complaint_; ///< the last one
 };
 
 Result<void> ViewWindow::open()
 {
   const DrawingOptions& drawing = request_.drawing;
-  if (Result<void> opened = stores_.open(drawing); !opened)
+  if (Result<void> named = files_.name(drawing.stores); !named)
+  {
+    return named;
+  }
+  if (Result<void> opened = openStores(drawing); !opened)
   {
     return opened;
-  }
-  for (const std::string& warning : stores_.warnings())
-  {
-    std::fprintf(stderr, "pointfront view: warning: %s\n", printableText(warning).c_str());
   }
   if (Result<void> connected = connection_.open(
         "a window", "use render, or python3 -m pointfront serve, which draws for a browser");
@@ -130,22 +116,16 @@ Result<void> ViewWindow::open()
   {
     return connected;
   }
+  forgiveLostWindows();
   renderer_->SetBackground(drawing.background.data());
   window_->SetMultiSamples(0);
   window_->SetSize(drawing.size[0], drawing.size[1]);
   window_->SetWindowName("PointFront");
-  window_->SetDesiredUpdateRate(stillRate);
   window_->AddRenderer(renderer_);
   stores_.errors().observe(window_);
   interactor_->SetRenderWindow(window_);
   interactor_->SetInteractorStyle(style_);
   style_->connect(&camera_, this);
-  looks_.choose(stores_.clouds());
-  if (Result<void> shown = stores_.show(looks_.drawing(), backendOf(drawing.backend), renderer_);
-      !shown)
-  {
-    return shown;
-  }
   if (request_.camera)
   {
     camera_.set(*request_.camera);
@@ -155,31 +135,102 @@ Result<void> ViewWindow::open()
     camera_.showAll(request_.direction);
   }
   saved_ = camera_.camera();
-  notice_.set("? for help");
+  notice_.set(files_.building() ? "a first look: a store is being built" : "? for help");
   interactor_->Initialize();
   window_->Render();
+  tellHeldKeys(window_->GetGenericDisplayId());
   window_->SetWindowName(("PointFront: " + drawing.stores.front()).c_str()); // it obeys from now on
   return stores_.errors().outcome();
 }
 
+Result<void> ViewWindow::openStores(const DrawingOptions& drawing)
+{
+  DrawingOptions named = drawing;
+  named.stores = files_.stores();
+  if (Result<void> opened = appearance_.open(named); !opened)
+  {
+    return opened;
+  }
+  for (const std::string& warning : stores_.warnings())
+  {
+    std::fprintf(stderr, "pointfront view: warning: %s\n", printableText(warning).c_str());
+  }
+  return {};
+}
+
+void ViewWindow::drop(const std::vector<std::string>& files)
+{
+  notice_.set("");
+  layOver("");
+  inspection_.clear();
+  Result<void> opened = files_.name(files);
+  if (opened && !(opened = openStores(appearance_.drawing())))
+  {
+    DrawingOptions plain = request_.drawing; // what one store has another may lack
+    plain.style = StyleSheet();
+    plain.classes.clear();
+    plain.colourBy.clear();
+    opened = openStores(plain);
+  }
+  if (opened)
+  {
+    camera_.showAll(request_.direction);
+    saved_ = camera_.camera();
+    window_->SetWindowName(("PointFront: " + files.front()).c_str());
+    notice_.set(files_.building() ? "a first look: a store is being built" : "");
+  }
+  else
+  {
+    complain(opened.error().what);
+  }
+  interactor_->Render();
+}
+
+bool ViewWindow::follow()
+{
+  const Result<std::optional<std::string>> news = files_.look();
+  if (!news)
+  {
+    complain(news.error().what);
+    return true;
+  }
+  const bool other = *news && !(*news)->empty();
+  if (other)
+  {
+    if (const Result<void> opened = openStores(appearance_.drawing()); opened)
+    {
+      notice_.set(**news);
+    }
+    else
+    {
+      complain(opened.error().what);
+    }
+  }
+  if (!other && !stores_.follow())
+  {
+    return false;
+  }
+  camera_.follow();
+  return true;
+}
+
 Redraw::Pause ViewWindow::redraw()
 {
+  if (files_.holdsFiles() && request_.signalled())
+  {
+    interactor_->TerminateApp();
+    return {};
+  }
   if (const Result<void> heard = stores_.errors().take(); !heard)
   {
     complain(heard.error().what);
   }
-  const bool rests = restDue_ && Clock::now() >= *restDue_;
-  if (rests)
-  {
-    restDue_.reset();
-    window_->SetDesiredUpdateRate(stillRate);
-  }
-  if (rests || stores_.needsRender())
+  if (follow() || travel_.advance() || stores_.needsRender())
   {
     interactor_->Render();
     return loadingPause;
   }
-  if (restDue_ || stores_.loading() != nullptr)
+  if (travel_.underway() || stores_.loading() != nullptr)
   {
     return loadingPause;
   }
@@ -191,113 +242,56 @@ Redraw::Pause ViewWindow::redraw()
   {
     interactor_->Render();
   }
-  return {};
+  return files_.holdsFiles() || stores_.growing() ? Redraw::Pause(watchingPause) : Redraw::Pause();
 }
 
 void ViewWindow::step()
 {
-  window_->SetDesiredUpdateRate(interactor_->GetDesiredUpdateRate());
-  restDue_ = Clock::now() + rest;
+  travel_.step();
   interactor_->Render();
 }
 
-void ViewWindow::look(KeyAction action)
+bool ViewWindow::hold(const char* keysym, bool down)
 {
-  switch (action)
-  {
-    case KeyAction::ShowAll:
-      camera_.showAll(request_.direction);
-      break;
-    case KeyAction::ViewIso:
-      camera_.showAll(ViewDirection::Iso);
-      break;
-    case KeyAction::ViewTop:
-      camera_.showAll(ViewDirection::Top);
-      break;
-    case KeyAction::ViewFront:
-      camera_.showAll(ViewDirection::Front);
-      break;
-    case KeyAction::ViewBack:
-      camera_.showAll(ViewDirection::Back);
-      break;
-    case KeyAction::ViewLeft:
-      camera_.showAll(ViewDirection::Left);
-      break;
-    case KeyAction::ViewRight:
-      camera_.showAll(ViewDirection::Right);
-      break;
-    case KeyAction::Projection:
-      camera_.set(otherProjection(camera_.camera()));
-      break;
-    case KeyAction::RestoreCamera:
-      camera_.set(saved_);
-      break;
-    default:
-      break;
-  }
+  const bool mine = travel_.hold(keysym, down);
+  redraw_.wake();
+  return mine;
 }
 
 bool ViewWindow::restyle(KeyAction action)
 {
-  Looks looks = looks_;
-  const std::optional<std::string> sentence = looks.obey(action);
-  if (sentence)
+  const Result<std::optional<std::string>> list =
+    listed_ ? appearance_.obeyInList(action) : std::optional<std::string>();
+  if (list && *list)
   {
-    draw(looks, *sentence);
-  }
-  return sentence.has_value();
-}
-
-bool ViewWindow::listClasses(KeyAction action)
-{
-  if (action == KeyAction::Classes && listed_)
-  {
-    layOver("");
+    sheet_.set(**list);
     return true;
   }
-  if (action == KeyAction::Classes)
+  const Result<std::optional<std::string>> changed = list ? appearance_.obey(action) : list;
+  if (!changed)
   {
-    Result<ClassList> classes = ClassList::of(stores_.clouds(), looks_.drawing().classes);
-    if (!classes)
-    {
-      complain(classes.error().what);
-      return true;
-    }
-    classes_ = std::move(*classes);
+    complain(changed.error().what);
+    return true;
   }
-  else if (action == KeyAction::Up || action == KeyAction::Down)
+  if (*changed)
   {
-    classes_.move(action == KeyAction::Up ? -1 : 1);
+    notice_.set(**changed);
   }
-  else if (action == KeyAction::Toggle && listed_)
-  {
-    Looks looks = looks_;
-    classes_.toggle();
-    looks.showClasses(classes_.shown());
-    draw(looks, "");
-  }
-  else
-  {
-    return false;
-  }
-  if (action == KeyAction::Classes || listed_)
-  {
-    layOver(classes_.empty() ? "no point has a class" : classes_.text());
-    listed_ = true;
-  }
-  return true;
+  return changed->has_value();
 }
 
-void ViewWindow::draw(const Looks& looks, const std::string& sentence)
+void ViewWindow::toggleList()
 {
-  const int backend = backendOf(request_.drawing.backend);
-  if (Result<void> shown = stores_.show(looks.drawing(), backend, renderer_); !shown)
+  const Result<std::string> list =
+    listed_ ? Result<std::string>(std::string()) : appearance_.listClasses();
+  if (!list)
   {
-    complain(shown.error().what);
+    complain(list.error().what);
     return;
   }
-  looks_ = looks;
-  notice_.set(sentence);
+  const bool listed = !listed_;
+  layOver(*list);
+  listed_ = listed;
 }
 
 void ViewWindow::inspect(bool measure, const glm::ivec2& pixel)
@@ -339,6 +333,9 @@ void ViewWindow::obey(KeyAction action, const glm::ivec2& pixel)
       layOver("");
       inspection_.clear();
       break;
+    case KeyAction::Classes:
+      toggleList();
+      break;
     case KeyAction::Facts:
       facts_.toggle();
       break;
@@ -352,10 +349,13 @@ void ViewWindow::obey(KeyAction action, const glm::ivec2& pixel)
     case KeyAction::SaveCamera:
       saveCamera();
       break;
+    case KeyAction::RestoreCamera:
+      camera_.set(saved_);
+      break;
     default:
-      if (!restyle(action) && !listClasses(action))
+      if (!restyle(action))
       {
-        look(action);
+        camera_.obey(action, request_.direction);
       }
   }
   interactor_->Render();
@@ -417,6 +417,10 @@ void pointfrontShowWindow(const ViewRequest& request, Result<void>& outcome)
   if (outcome)
   {
     window.run();
+  }
+  if (request.signalled()) // which may have made something fail, too
+  {
+    outcome = makeError(Error::Kind::Cancelled, "ended by a signal");
   }
 }
 

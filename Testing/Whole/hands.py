@@ -2,9 +2,35 @@
 
 import ctypes
 import os
+import pathlib
 import time
 
 _CLICK_BUTTONS = {"left": 1, "middle": 2, "right": 3, "wheel up": 4, "wheel down": 5}
+
+
+_SELECTION_REQUEST, _SELECTION_NOTIFY, _CLIENT_MESSAGE = 30, 31, 33
+_HEAD = [("type", ctypes.c_int), ("serial", ctypes.c_ulong), ("send_event", ctypes.c_int),
+         ("display", ctypes.c_void_p)]
+
+
+class _ClientMessage(ctypes.Structure):
+    _fields_ = [*_HEAD, ("window", ctypes.c_ulong), ("message", ctypes.c_ulong),
+                ("format", ctypes.c_int), ("data", ctypes.c_long * 5)]
+
+
+class _Request(ctypes.Structure):
+    _fields_ = [*_HEAD, *((name, ctypes.c_ulong) for name in
+                          ("owner", "requestor", "selection", "target", "property", "time"))]
+
+
+class _Notification(ctypes.Structure):
+    _fields_ = [*_HEAD, *((name, ctypes.c_ulong) for name in
+                          ("requestor", "selection", "target", "property", "time"))]
+
+
+class _Event(ctypes.Union):
+    _fields_ = [("type", ctypes.c_int), ("client", _ClientMessage), ("request", _Request),
+                ("notification", _Notification), ("pad", ctypes.c_long * 24)]
 
 
 def _library(name):
@@ -27,6 +53,18 @@ def _library(name):
              [ctypes.c_void_p, ctypes.c_ubyte, ctypes.c_int, ctypes.c_int]),
             ("XInternAtom", ctypes.c_ulong, [ctypes.c_void_p, ctypes.c_char_p, ctypes.c_int]),
             ("XSync", ctypes.c_int, [ctypes.c_void_p, ctypes.c_int]),
+            ("XPending", ctypes.c_int, [ctypes.c_void_p]),
+            ("XNextEvent", ctypes.c_int, [ctypes.c_void_p, ctypes.c_void_p]),
+            ("XSendEvent", ctypes.c_int,
+             [ctypes.c_void_p, ctypes.c_ulong, ctypes.c_int, ctypes.c_long, ctypes.c_void_p]),
+            ("XCreateSimpleWindow", ctypes.c_ulong,
+             [ctypes.c_void_p, ctypes.c_ulong, *[ctypes.c_int] * 2, *[ctypes.c_uint] * 3,
+              *[ctypes.c_ulong] * 2]),
+            ("XSetSelectionOwner", ctypes.c_int,
+             [ctypes.c_void_p, *[ctypes.c_ulong] * 3]),
+            ("XChangeProperty", ctypes.c_int,
+             [ctypes.c_void_p, *[ctypes.c_ulong] * 3, *[ctypes.c_int] * 2, ctypes.c_char_p,
+              ctypes.c_int]),
             ("XCloseDisplay", ctypes.c_int, [ctypes.c_void_p]),
             ("XTestFakeMotionEvent", ctypes.c_int,
              [ctypes.c_void_p, *[ctypes.c_int] * 3, ctypes.c_ulong]),
@@ -125,3 +163,41 @@ class Hands:
         self.hold(keysym, False)
         if shifted:
             self.hold("Shift_L", False)
+
+    def drop(self, files, limit=20.0):
+        """Drags files in, as a file manager does (Xdnd 5), and waits until they are taken."""
+        atom = {name: self.x11.XInternAtom(self.display, name.encode(), 0) for name in (
+            "XdndEnter", "XdndPosition", "XdndDrop", "XdndFinished", "XdndSelection",
+            "XdndActionCopy", "text/uri-list")}
+        source = self.x11.XCreateSimpleWindow(self.display, self.root, 0, 0, 1, 1, 0, 0, 0)
+        self.x11.XSetSelectionOwner(self.display, atom["XdndSelection"], source, 0)
+        for message, data in (
+                ("XdndEnter", (5 << 24, atom["text/uri-list"], 0, 0)),
+                ("XdndPosition", (0, self.corner[0] << 16 | self.corner[1], 0,
+                                  atom["XdndActionCopy"])),
+                ("XdndDrop", (0, 0, 0, 0))):
+            event = _Event(client=_ClientMessage(
+                type=_CLIENT_MESSAGE, display=self.display, window=self.window,
+                message=atom[message], format=32, data=(source, *data)))
+            self.x11.XSendEvent(self.display, self.window, 0, 0, ctypes.byref(event))
+        self._sync()
+        text = "".join(f"{pathlib.Path(file).resolve().as_uri()}\r\n" for file in files).encode()
+        end = time.monotonic() + limit
+        while time.monotonic() < end:
+            if not self.x11.XPending(self.display):
+                time.sleep(0.01)
+                continue
+            event = _Event()
+            self.x11.XNextEvent(self.display, ctypes.byref(event))
+            if event.type == _SELECTION_REQUEST:
+                asked = event.request
+                self.x11.XChangeProperty(self.display, asked.requestor, asked.property,
+                                         asked.target, 8, 0, text, len(text))
+                answer = _Event(notification=_Notification(
+                    type=_SELECTION_NOTIFY, display=self.display, requestor=asked.requestor,
+                    selection=asked.selection, target=asked.target, property=asked.property))
+                self.x11.XSendEvent(self.display, asked.requestor, 0, 0, ctypes.byref(answer))
+                self._sync()
+            elif event.type == _CLIENT_MESSAGE and event.client.message == atom["XdndFinished"]:
+                return
+        raise TimeoutError("nobody took the files")

@@ -1,0 +1,108 @@
+"""`pointfront view`: files that are dragged in, and point files that become stores meanwhile."""
+
+import os
+import pathlib
+import time
+import unittest
+
+from pictures import read_png
+from tool import SLOWNESS
+from windows import PATIENCE, SIZE, Window, WindowTest, share_of_difference
+
+
+class Files(WindowTest):
+    """Stores that are dragged in, and point files that become stores meanwhile."""
+
+    def temporary(self):
+        return sorted(pathlib.Path(self.folder / "tmp").glob("pointfront-view-*"))
+
+    def show(self, *arguments):
+        (self.folder / "tmp").mkdir(exist_ok=True)
+        window = Window(self.folder, *arguments,
+                        environment=dict(os.environ, TMPDIR=str(self.folder / "tmp")))
+        self.addCleanup(lambda: window.process.poll() is None and window.close())
+        return window
+
+    def complete(self, window, expected, limit=60.0):
+        """Waits until the window shows that picture."""
+        end = time.monotonic() + limit * SLOWNESS
+        while share_of_difference(window.picture(), expected) >= 0.001:
+            self.assertLess(time.monotonic(), end, "the picture does not come")
+            time.sleep(0.2)
+
+    def expected(self, store):
+        rendered = self.folder / "expected.png"
+        self.succeed("render", store, "-o", rendered, "--size", f"{SIZE[0]}x{SIZE[1]}")
+        return read_png(rendered)
+
+    def test_a_store_that_is_dragged_in_is_shown(self):
+        self.succeed("generate", "--points", "30000", "-o", self.folder / "survey.las")
+        other = self.build(self.folder / "survey.las", name="the other one.pfront")
+        window = self.show(self.store, "--color-by", "intensity")
+        window.picture()
+        window.hands.drop([other])
+        rendered = self.folder / "expected.png"
+        self.succeed("render", other, "-o", rendered, "--size", f"{SIZE[0]}x{SIZE[1]}",
+                     "--color-by", "intensity")
+        self.complete(window, read_png(rendered))
+        (self.folder / "none.txt").write_text("nothing")
+        window.hands.drop([self.folder / "none.txt"])
+        self.complete(window, read_png(rendered))  # as before
+        status, complaint = window.end()
+        self.assertEqual(status, 0)
+        self.assertEqual(len(complaint.splitlines()), 1, complaint)
+        self.assertIn("none.txt", complaint)
+
+    def test_a_laz_file_is_shown_at_once_and_becomes_a_store(self):
+        laz = self.folder / "trim.laz"
+        self.succeed("export", self.store, "-o", laz)
+        built = self.folder / "built.pfront"
+        self.succeed("build", laz, "-o", built)
+        window = self.show(laz)
+        self.assertEqual(len(self.temporary()), 1)
+        self.complete(window, self.expected(built))
+        status, complaint = window.end()
+        self.assertEqual(status, 0, complaint)
+        self.assertEqual(complaint.count("A first look"), 1, complaint)
+        self.assertEqual(self.temporary(), [])
+
+    def test_the_store_is_kept_where_the_user_says(self):
+        kept = self.folder / "kept.pfront"
+        self.succeed("export", self.store, "-o", self.folder / "trim.laz")
+        window = self.show(self.folder / "trim.laz", "--store", kept)
+        end = time.monotonic() + 60 * SLOWNESS
+        while not kept.exists():
+            self.assertLess(time.monotonic(), end)
+            time.sleep(0.1)
+        self.complete(window, self.expected(kept))
+        self.assertEqual(window.end()[0], 0)
+        self.assertEqual(self.temporary(), [])
+        self.succeed("verify", kept)
+
+    def test_a_signal_leaves_nothing_behind(self):
+        self.succeed("generate", "--points", "5000000", "-o", self.folder / "large.laz")
+        for wait in (0.0, 2.0):
+            window = self.show(self.folder / "large.laz")
+            self.assertEqual(len(self.temporary()), 1)
+            time.sleep(wait)
+            window.process.terminate()
+            status = window.process.wait(PATIENCE)
+            self.assertEqual(status, 130, window.process.stderr.read())
+            self.assertEqual(self.temporary(), [])
+            window.close()
+
+    def test_a_build_that_fails_says_so_and_the_first_look_stays(self):
+        laz = self.folder / "cut.laz"
+        self.succeed("export", self.store, "-o", laz)
+        window = self.show(laz, "--store", self.store)  # which is there
+        first = window.picture()
+        time.sleep(2.0 * SLOWNESS)
+        self.assertLess(share_of_difference(window.picture(), first), 0.001)
+        status, complaint = window.end()
+        self.assertEqual(status, 0)
+        self.assertIn("pointfront build: ", complaint)
+        self.assertIn("--force", complaint)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -290,7 +290,7 @@ TEST_F(Extract, SaysWhatIsWrong)
   filter->SetWellKnownText("POLYGON ((0 0, 1 0))");
   said("well-known text");
   filter->SetWellKnownText("LINESTRING (0 0, 1 0)");
-  said("LineDistance");
+  said("line distance");
   filter->SetWellKnownText("SRID=4326;POLYGON ((0 0, 1 0, 1 1, 0 0))");
   said("EPSG:4326");
   filter->SetWellKnownText(nullptr);

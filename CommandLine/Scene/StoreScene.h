@@ -2,57 +2,19 @@
 
 #include "Camera.h"
 #include "DrawingOptions.h"
+#include "FrameRecord.h"
 
 #include "pointfront/Base/Bounds.h"
 #include "pointfront/Base/Result.h"
-#include "pointfront/Store/StoredCloud.h"
 
 #include <chrono>
 #include <cstdint>
-#include <map>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
 namespace pointfront
 {
-
-/// What one frame drew, and where the loading stands after it; sums over the stores.
-struct FrameRecord
-{
-  double milliseconds = 0.0; ///< of the whole frame, drawing finished
-  double frontMilliseconds = 0.0; ///< of the fronts' updates
-  /// From the plans to the pixels, the points alone; nothing where a driver draws beside the rest.
-  std::optional<double> rasteriseMilliseconds;
-  std::int64_t points = 0;
-  /// The points by class code, of stores with a tree for each class.
-  std::map<std::uint8_t, std::int64_t> classPoints;
-  std::int64_t nodes = 0;
-  std::int64_t frontLength = 0;
-  std::int64_t moves = 0;
-  std::int64_t requests = 0;
-  double thresholdPx = 0.0; ///< largest
-  double errorPx = 0.0; ///< largest
-  bool complete = false; ///< no further frame will change the picture
-  bool limitedByPoints = false; ///< --point-budget kept the error above --error
-  bool limitedByGpu = false; ///< --gpu-memory did
-  bool limitedByMemory = false; ///< --memory did
-  std::int64_t failedNodes = 0; ///< that could not be read
-  std::int64_t gpuBytes = 0;
-  std::uint64_t residentBytes = 0;
-  std::uint64_t threadReadBytes = 0; ///< that the rendering thread read from files in this frame
-  std::uint64_t bytesRead = 0; ///< from the disk, ever
-  std::uint64_t cancelled = 0; ///< requests withdrawn, ever
-
-  /// One part of a picture more, drawn after this one: what it took and asked adds up, the worst
-  /// error counts, and what is in memory is what is now.
-  void add(const FrameRecord& part);
-};
-
-/// Adds the points of a store's layers, where each layer is a class.
-void countClasses(
-  const std::vector<std::uint64_t>& layerPoints, const StoreDescription& store, FrameRecord& frame);
 
 /// What all the loading of a scene came to so far.
 struct LoadingRecord

@@ -117,7 +117,7 @@ class Messages(ToolTest):
         for option, value in (("--memory", "99999999999999G"), ("--memory", "0"),
                               ("--memory", "1e300"), ("--precision", "1e300"),
                               ("--precision", "1e309"),
-                              ("--precision", "nan"), ("--skip", "-1"), ("--skip", "1e3"),
+                              ("--precision", "nan"), ("--skip", "-1"), ("--skip", "1e99"),
                               ("--local-height-radius", "1e300")):
             outcome = pointfront("build", SMALL, *out, "--local-height", option, value)
             self.assertIn(outcome.status, (1, 2))

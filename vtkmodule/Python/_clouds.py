@@ -7,7 +7,7 @@ import os
 
 from . import _arrays, _host, _kernel, _pictures
 from ._errors import PointFrontError
-from ._queries import Conditions, box_of, class_numbers
+from ._queries import KERNEL_OPTIONS, Conditions, box_of, class_numbers
 
 
 class Cloud:
@@ -137,7 +137,8 @@ class Cloud:
         """Points as NumPy arrays by name; which, and `progress`, as for extract().
 
         options  line_distance (of lines in `area`), maximum_number_of_points, memory_limit (bytes
-                 of what is being read), colors_as_stored
+                 of what is being read), colors_as_stored; those of extract() that are objects of
+                 VTK, frustum and point_ids among them, where a VTK is installed
 
         "position" n by 3, float64, in the store's coordinates; "id" n, int64: the rank in the
         store; each attribute n, or n by its components, in its type, or float64 if it has a scale.
@@ -147,7 +148,17 @@ class Cloud:
         Nothing is copied: an array is the memory that the kernel read the points into.
         """
         conditions = Conditions(self, box, sphere, area, classes, where, spacing, attributes)
-        return conditions.arrays(self._opened(), progress, **options)
+        return self._arrays(conditions, progress, options)
+
+    def _arrays(self, conditions, progress, options, piece=0, pieces=1):
+        """By the kernel, or by VTK where an option is one of VTK's objects."""
+        store = self._opened()
+        if KERNEL_OPTIONS.issuperset(options):
+            return conditions.arrays(store, progress, piece=piece, pieces=pieces, **options)
+        _host.require_vtk(f"{', '.join(sorted(set(options) - KERNEL_OPTIONS))}: VTK's objects")
+        from . import _extracts
+
+        return _extracts.arrays_of(self.path, conditions, progress, options, piece, pieces)
 
     def chunks(self, size=1_000_000, *, box=None, sphere=None, area=None, classes=None, where=None,
                spacing=None, attributes=None, progress=None, **options):
@@ -159,12 +170,12 @@ class Cloud:
         if size < 1:
             raise ValueError("a chunk has at least one point")
         conditions = Conditions(self, box, sphere, area, classes, where, spacing, attributes)
-        store = self._opened()
+        self._opened()
         pieces = max(1, -(-len(self) // size))
 
         def parts():
             for piece in range(pieces):
-                yield conditions.arrays(store, progress, piece=piece, pieces=pieces, **options)
+                yield self._arrays(conditions, progress, options, piece, pieces)
 
         return _arrays.joined(parts(), size)
 

@@ -6,6 +6,7 @@ from ._progress import Watch
 from .pointfrontFiltersExtract import vtkPointFrontExtract
 
 vtkCommand = _host.vtk("vtkCommonCore").vtkCommand
+vtk_to_numpy = _host.vtk("util.numpy_support").vtk_to_numpy
 
 
 class _Messages:
@@ -39,7 +40,24 @@ def _set_options(algorithm, options):
         getattr(algorithm, setter)(value)
 
 
-def extracted(path, conditions, progress, options):
+def arrays_of(path, conditions, progress, options, piece=0, pieces=1):
+    """As Conditions.arrays, by options that vtkPointFrontExtract alone has: frustum, point_ids."""
+    options = {"vertex_cells": False, "colors_as_stored": True, **options}
+    output = extracted(path, conditions, progress, options, piece, pieces)
+    data = output.GetPointData()
+    arrays = {"position": vtk_to_numpy(output.GetPoints().GetData())}
+    for i in range(data.GetNumberOfArrays()):
+        array = data.GetArray(i)
+        name = array.GetName()
+        if name == "point_id":
+            name = "id"
+        elif name in ("position", "id"):
+            name += "_"
+        arrays[name] = vtk_to_numpy(array)
+    return arrays
+
+
+def extracted(path, conditions, progress, options, piece=0, pieces=1):
     """See Cloud.extract."""
     extract = vtkPointFrontExtract()
     messages = _Messages(extract)
@@ -67,7 +85,7 @@ def extracted(path, conditions, progress, options):
             extract.SetPointArrayStatus(name, int(name in conditions.attributes))
     _set_options(extract, options)
     with Watch(extract, vtkCommand.ProgressEvent, progress):
-        extract.Update()
+        extract.UpdatePiece(piece, pieces, 0)
     warn(messages.warnings)
     if messages.errors:
         raise PointFrontError("; ".join(messages.errors))

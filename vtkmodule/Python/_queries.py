@@ -10,6 +10,9 @@ _MOST = (1 << 63) - 1  # points
 _SixNumbers = ctypes.c_double * 6  # types that are made anew would wait for the collector
 _FourNumbers = ctypes.c_double * 4
 _ARRAYS_OWN = ("position", "id")
+# Of Conditions.arrays; what else vtkPointFrontExtract knows takes objects of VTK.
+KERNEL_OPTIONS = frozenset(
+    ("line_distance", "maximum_number_of_points", "memory_limit", "colors_as_stored"))
 
 
 def box_of(box):

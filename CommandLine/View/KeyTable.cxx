@@ -9,10 +9,12 @@ namespace pointfront
 namespace
 {
 /// Keysyms that differ from what the table shows.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 8> keysyms{ {
+constexpr std::array<std::pair<std::string_view, std::string_view>, 10> keysyms{ {
   { "question", "?" },
+  { "slash", "?" }, // where a VTK names a key as if Shift was not held
   { "F1", "?" },
   { "plus", "+" },
+  { "equal", "+" }, // likewise
   { "minus", "-" },
   { "KP_Add", "+" },
   { "KP_Subtract", "-" },

@@ -11,6 +11,7 @@
 #include <glm/gtc/constants.hpp>
 
 #include <cmath>
+#include <string>
 
 namespace pointfront
 {
@@ -121,7 +122,13 @@ void HandStyle::OnKeyPress()
   {
     return;
   }
-  if (const KeyAction action = keyActionOf(keysym); action != KeyAction::None)
+  // VTK 9.2 names a key as if Shift was not held.
+  std::string typed = keysym;
+  if (typed.size() == 1 && typed[0] >= 'a' && typed[0] <= 'z' && this->Interactor->GetShiftKey())
+  {
+    typed[0] = static_cast<char>(typed[0] - 'a' + 'A');
+  }
+  if (const KeyAction action = keyActionOf(typed); action != KeyAction::None)
   {
     target_->obey(action, this->mouse());
   }

@@ -357,7 +357,9 @@ TEST(SideFile, AHeldAttributeIsThatOfEachPoint)
       ASSERT_TRUE(values) << values.error().what;
       const std::vector<std::uint16_t> expected(points->begin(), points->end());
       ASSERT_EQ(values->size(), 2 * expected.size());
-      EXPECT_EQ(std::memcmp(values->data(), expected.data(), values->size()), 0) << i;
+      EXPECT_TRUE(expected.empty() || // memcmp() takes no null
+        std::memcmp(values->data(), expected.data(), values->size()) == 0)
+        << i;
     }
   }
 }

@@ -2,6 +2,7 @@
 
 import json
 import os
+import random
 
 import numpy
 from expected import compare, exported, surveys
@@ -160,6 +161,21 @@ def rectangles(programs):
         command = [os.environ["POINTFRONT_PVBATCH"], os.path.join(HERE, "selection.py")]
         programs.run(*command)
         programs.run(*mpi(2, *command))
+
+
+def through(programs):
+    """A millimetre, where the coordinates are those of a map."""
+    rng = random.Random(1)
+    with open("fine.ply", "w") as ply:
+        ply.write("ply\nformat ascii 1.0\nelement vertex 160000\n"
+                  "property double x\nproperty double y\nproperty double z\nend_header\n")
+        for place in rng.sample(range(7000 * 4000), 160000):
+            ply.write("%.3f %.3f 100\n" % (600000 + 0.001 * (place % 7000),
+                                           5600000 + 0.001 * (place // 7000)))
+    store = os.environ["POINTFRONT_STORE"] = os.path.abspath("fine.pfront")
+    tool("build", "fine.ply", "-o", store, "--force", "--node-points", "1000")
+    os.environ["POINTFRONT_POINTS"], os.environ["POINTFRONT_CAMERA"] = "160000", ""
+    programs.run(os.environ["POINTFRONT_PVBATCH"], os.path.join(HERE, "through.py"))
 
 
 def rubber_band(programs):

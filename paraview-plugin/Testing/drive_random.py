@@ -3,7 +3,6 @@ is a test: see drive.py."""
 
 import json
 import os
-import pathlib
 import random
 import subprocess
 import sys
@@ -14,7 +13,6 @@ from programs import HERE, tool
 sys.path.append(os.path.join(HERE, "..", "..", "Testing", "Whole"))
 
 from random_cases import seeds, shrunk
-from random_forms import Points
 from random_scenes import random_camera, random_sheet
 
 SIZE = [320, 240]
@@ -23,15 +21,10 @@ USUAL_STRENGTH, EDGE = 0.4, 6
 AT_ONCE = 200  # scenes of one process, and seeds that share a cloud
 
 
-def town(number, here=False):
-    """A store of a made-up town, which is the environment's from now on; its bounds. `here`: near
-    the origin of coordinates."""
+def town(number):
+    """A store of a made-up town, which is the environment's from now on; its bounds."""
     store = os.environ["POINTFRONT_STORE"] = os.path.abspath("town%d.pfront" % number)
     tool("generate", "--points", "20000", "--seed", str(number + 2), "-o", "town.las", "--force")
-    if here:
-        points = Points.read(pathlib.Path("town.las"))
-        points.offset = (0.0, 0.0, 0.0)
-        points.write(pathlib.Path("town.las"))
     tool("build", "town.las", "-o", store, "--force", "--normals", "pca", "--node-points", "500")
     described = json.loads(tool("info", store, "--json"))
     os.environ["POINTFRONT_POINTS"] = str(described["points"])
@@ -105,8 +98,6 @@ def random_scenes(programs):
 
 
 def random_selections(programs):
-    """Near the origin: ParaView keeps the planes of a frustum in 32 bits, which are half a metre at
-    5,600 km."""
-    town(1, here=True)
+    town(1)
     os.environ["POINTFRONT_CAMERA"] = ""
     programs.run(os.environ["POINTFRONT_PVBATCH"], os.path.join(HERE, "random_selections.py"))

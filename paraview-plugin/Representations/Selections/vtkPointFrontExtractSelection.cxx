@@ -1,26 +1,27 @@
 #include "vtkPointFrontExtractSelection.h"
 
+#include "FrustumSelector.h"
 #include "HostVTK.h"
 #include "QueryCandidates.h"
 #include "QuerySelector.h"
+#include "RegionPlanes.h"
 #include "UpstreamReader.h"
 
 #include "pointfront/Store/StoredCloud.h"
+
 #include "vtkAbstractArray.h"
 #include "vtkAppendFilter.h"
 #include "vtkCellArray.h"
 #include "vtkCommunicator.h"
 #include "vtkDataSet.h"
-
-#include "vtkDoubleArray.h"
 #include "vtkErrorCode.h"
-#include "vtkExtractSelectedFrustum.h"
 #include "vtkIdTypeArray.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkMultiProcessController.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
+#include "vtkPlanes.h"
 #include "vtkPointData.h"
 #include "vtkPointFrontReader.h"
 #include "vtkPointFrontSettings.h"
@@ -34,7 +35,6 @@
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
-#include <array>
 #include <map>
 #include <string>
 #include <vector>
@@ -59,22 +59,6 @@ void appendNamedPoints(vtkSelection* selection, vtkIdTypeArray* ranks)
       ranks->InsertTuples(ranks->GetNumberOfTuples(), ids->GetNumberOfTuples(), 0, ids);
     }
   }
-}
-
-/// The view frustum that a selection consists of, if it has one.
-vtkDoubleArray* frustumOf(vtkSelection* selection)
-{
-  for (unsigned int i = 0; i < selection->GetNumberOfNodes(); ++i)
-  {
-    vtkSelectionNode* node = selection->GetNode(i);
-    auto* corners = vtkDoubleArray::SafeDownCast(node->GetSelectionList());
-    if (node->GetContentType() == vtkSelectionNode::FRUSTUM && corners &&
-      corners->GetNumberOfValues() == 32)
-    {
-      return corners;
-    }
-  }
-  return nullptr;
 }
 
 /// Whether it is so on all ranks: those that went on alone would wait for the others.
@@ -248,16 +232,11 @@ vtkSmartPointer<vtkPolyData> vtkPointFrontExtractSelection::GetCandidates(
   vtkNew<vtkIdTypeArray> ranks;
   appendNamedPoints(selection, ranks);
   bool read = true;
-  if (vtkDoubleArray* corners = frustumOf(selection))
+  if (const double* corners = pointfront::frustumOf(selection))
   {
-    vtkNew<vtkExtractSelectedFrustum> frustum;
-    frustum->CreateFrustum(corners->GetPointer(0));
+    const auto sides = pointfront::planesOf(corners);
     const auto overlaps = [&](const double bounds[6])
-    {
-      std::array<double, 6> box;
-      std::copy_n(bounds, 6, box.begin());
-      return frustum->OverallBoundsTest(box.data()) != 0;
-    };
+    { return pointfront::mayOverlap(corners, sides, bounds); };
     read = reader->ReadRegion(overlaps, mostPoints, piece, pieces, further);
   }
   else if (ranks->GetNumberOfTuples() > 0)
@@ -319,6 +298,10 @@ int vtkPointFrontExtractSelection::RequestData(
 vtkSmartPointer<vtkSelector> vtkPointFrontExtractSelection::NewSelectionOperator(
   vtkSelectionNode::SelectionContent type)
 {
+  if (type == vtkSelectionNode::FRUSTUM)
+  {
+    return vtkSmartPointer<pointfront::FrustumSelector>::New();
+  }
   const vtkSmartPointer<vtkSelector> selector = this->Superclass::NewSelectionOperator(type);
   if (!selector || type != vtkSelectionNode::QUERY)
   {

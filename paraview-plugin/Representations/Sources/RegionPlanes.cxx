@@ -3,7 +3,6 @@
 #include "vtkAbstractTransform.h"
 #include "vtkBox.h"
 #include "vtkDoubleArray.h"
-#include "vtkExtractSelectedFrustum.h"
 #include "vtkMath.h"
 #include "vtkNew.h"
 #include "vtkPlane.h"
@@ -12,6 +11,7 @@
 #include "vtkSelection.h"
 #include "vtkSelectionNode.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 
@@ -92,7 +92,7 @@ vtkSmartPointer<vtkPlanes> planesOf(vtkPlane* plane)
   return planesOf(origins, normals);
 }
 
-vtkSmartPointer<vtkPlanes> planesOf(vtkSelection* selection)
+const double* frustumOf(vtkSelection* selection)
 {
   for (unsigned int i = 0; i < selection->GetNumberOfNodes(); ++i)
   {
@@ -101,12 +101,95 @@ vtkSmartPointer<vtkPlanes> planesOf(vtkSelection* selection)
     if (node->GetContentType() == vtkSelectionNode::FRUSTUM && corners &&
       corners->GetNumberOfValues() == 32)
     {
-      vtkNew<vtkExtractSelectedFrustum> frustum;
-      frustum->CreateFrustum(corners->GetPointer(0));
-      return frustum->GetFrustum();
+      return corners->GetPointer(0);
     }
   }
   return nullptr;
+}
+
+vtkSmartPointer<vtkPlanes> planesOf(const double frustum[32])
+{
+  Vector middle = { 0.0, 0.0, 0.0 };
+  for (std::size_t corner = 0; corner < 8; ++corner)
+  {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      middle[axis] += frustum[4 * corner + axis] / 8.0;
+    }
+  }
+  vtkNew<vtkPoints> origins;
+  origins->SetDataTypeToDouble();
+  vtkNew<vtkDoubleArray> normals;
+  normals->SetNumberOfComponents(3);
+  // A corner's number has a bit for far, one for up and one for right.
+  for (std::size_t side = 0; side < 6; ++side)
+  {
+    const std::size_t bit = std::size_t(1) << side / 2;
+    std::array<const double*, 4> corners;
+    for (std::size_t corner = 0, found = 0; corner < 8; ++corner)
+    {
+      if (((corner & bit) != 0) == (side % 2 == 1))
+      {
+        corners[found++] = frustum + 4 * corner;
+      }
+    }
+    // Its diagonals are long where the near end is tiny, too.
+    Vector diagonals[2];
+    Vector normal;
+    vtkMath::Subtract(corners[3], corners[0], diagonals[0].data());
+    vtkMath::Subtract(corners[2], corners[1], diagonals[1].data());
+    vtkMath::Cross(diagonals[0].data(), diagonals[1].data(), normal.data());
+    vtkMath::Normalize(normal.data());
+    const auto outwards = [&](const double* corner)
+    {
+      Vector from;
+      vtkMath::Subtract(corner, middle.data(), from.data());
+      return vtkMath::Dot(from.data(), normal.data());
+    };
+    if (outwards(corners[0]) < 0.0)
+    {
+      vtkMath::MultiplyScalar(normal.data(), -1.0);
+    }
+    origins->InsertNextPoint(*std::max_element(corners.begin(), corners.end(),
+      [&](const double* a, const double* b) { return outwards(a) < outwards(b); }));
+    normals->InsertNextTuple(normal.data());
+  }
+  return planesOf(origins, normals);
+}
+
+bool mayOverlap(const double frustum[32], vtkPlanes* sides, const double box[6])
+{
+  for (int side = 0; side < sides->GetNumberOfPlanes(); ++side)
+  {
+    double normal[3];
+    double origin[3];
+    sides->GetNormals()->GetTuple(side, normal);
+    sides->GetPoints()->GetPoint(side, origin);
+    double nearest = 0.0; // how far the box's innermost corner lies outside
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      nearest += normal[axis] * (box[2 * axis + (normal[axis] < 0.0 ? 1 : 0)] - origin[axis]);
+    }
+    if (nearest > 0.0)
+    {
+      return false;
+    }
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    bool below = true;
+    bool above = true;
+    for (std::size_t corner = 0; corner < 8; ++corner)
+    {
+      below = below && frustum[4 * corner + axis] < box[2 * axis];
+      above = above && frustum[4 * corner + axis] > box[2 * axis + 1];
+    }
+    if (below || above)
+    {
+      return false;
+    }
+  }
+  return true;
 }
 
 } // namespace pointfront

@@ -160,7 +160,7 @@ bool vtkPVPointFrontExtract::ChooseRegion(vtkSelection* selection)
   {
     return true;
   }
-  const auto frustum = pointfront::planesOf(selection);
+  const double* const frustum = pointfront::frustumOf(selection);
   if (!frustum)
   {
     vtkErrorMacro("the selection names points and is no region: use Extract Selection for it, or "
@@ -173,7 +173,7 @@ bool vtkPVPointFrontExtract::ChooseRegion(vtkSelection* selection)
                   "off, or do without the selection");
     return false;
   }
-  this->Frustum = frustum;
+  this->Frustum = pointfront::planesOf(frustum);
   return true;
 }
 

@@ -8,6 +8,7 @@
 #include "vtkPointFrontStyle.h"
 
 #include <cstdlib>
+#include <optional>
 
 namespace pointfront
 {
@@ -21,6 +22,15 @@ int classOf(const std::string& code)
   const long number = std::strtol(code.c_str(), &end, 10);
   return !code.empty() && *end == '\0' && number >= 0 && number <= 255 ? static_cast<int>(number)
                                                                        : -1;
+}
+
+/// From 0 on; nothing: the text is no such number.
+std::optional<double> numberOf(const std::string& text, double most)
+{
+  char* end = nullptr;
+  const double number = std::strtod(text.c_str(), &end);
+  return *end == '\0' && number >= 0.0 && number <= most ? std::optional<double>(number)
+                                                         : std::nullopt;
 }
 
 } // namespace
@@ -75,6 +85,39 @@ void ClassRows::add(const std::string& code, const std::string& technique,
   right = (colour.empty() || style_->SetColor(colour, number)) && right;
   right = (size.empty() || style_->SetSizePixels(pixels, number)) && right;
   static_cast<void>(right); // the style itself has said what is wrong
+}
+
+void ClassRows::addLight(
+  const std::string& code, const std::string& light, const std::string& eyeDomeStrength)
+{
+  if (code.empty() && light.empty() && eyeDomeStrength.empty())
+  {
+    return; // a row that is not filled in yet
+  }
+  const int number = classOf(code);
+  const bool word = light.empty() || light == "on" || light == "off";
+  const std::optional<double> ambient = word ? 0.0 : numberOf(light, mostLight);
+  const std::optional<double> strength =
+    eyeDomeStrength.empty() ? 0.0 : numberOf(eyeDomeStrength, mostEyeDomeStrength);
+  if (number < 0 || !ambient || !strength)
+  {
+    wrong_ = "the light of a class \"" + code + "\", \"" + light + "\", \"" + eyeDomeStrength +
+      "\" is none: a code of 0 to 255; on, off or a number of 0 to 10; a number of 0 to 100";
+    return;
+  }
+  filled_ = true;
+  if (!light.empty())
+  {
+    style_->SetLit(light != "off", number);
+  }
+  if (!word)
+  {
+    style_->SetAmbient(*ambient, number);
+  }
+  if (!eyeDomeStrength.empty())
+  {
+    style_->SetEyeDomeStrength(*strength, number);
+  }
 }
 
 } // namespace pointfront

@@ -23,6 +23,9 @@ public:
   /// two passes), "hidden" or ""; an attribute, "#rrggbb" or ""; pixels or "".
   void add(const std::string& code, const std::string& technique, const std::string& colour,
     const std::string& size, bool forAll = false);
+  /// By code: "on", "off", how much comes from everywhere, or ""; a strength, 0 for off, or "".
+  void addLight(
+    const std::string& code, const std::string& light, const std::string& eyeDomeStrength);
   bool empty() const { return !filled_; }
   const std::string& wrong() const { return wrong_; } ///< of the last row that is; or empty
   /// What the rows say: of all classes, and of each.

@@ -144,8 +144,8 @@ LayerStyle PointLook::sized(LayerStyle differs) const
 
 bool PointLook::plain() const
 {
-  return technique == "points" && !closes() && eyeDomeStrength == 0.0 && !lit && !fillHoles &&
-    where.empty() && !(translucentSurface && opacity < 1.0);
+  return technique == "points" && !closes() && eyeDomeStrength == 0.0 && light != ALL &&
+    !fillHoles && where.empty() && !(translucentSurface && opacity < 1.0);
 }
 
 bool applyLook(
@@ -179,7 +179,11 @@ bool applyLook(
   sheet.standard.size = sizeOf(look, look.closes());
   sheet.standard.opacity = std::clamp(look.opacity, 0.0, 1.0);
   sheet.where = std::move(*where);
-  sheet.shading.lit = look.lit;
+  sheet.shading.lit = look.light == PointLook::ALL;
+  if (look.light == PointLook::NONE)
+  {
+    sheet.standard.light = StyleLight{ false, {}, {} };
+  }
   sheet.shading.fillHoles = look.fillHoles;
   sheet.shading.eyeDomeStrength = static_cast<float>(std::max(look.eyeDomeStrength, 0.0));
   return true;

@@ -40,7 +40,13 @@ struct PointLook
   double factor = 1.0; ///< > 0
   double eyeDomeStrength = 0.0; ///< 0: off
   std::string quality; ///< a preset, in the place of technique and closing; empty: none
-  bool lit = false;
+  enum Light
+  {
+    SPHERES = 0,
+    ALL = 1,
+    NONE = 2
+  };
+  int light = SPHERES; ///< what it falls on, of that which has a normal
   bool fillHoles = false;
   double opacity = 1.0;
   /// Opacity is that of a surface, which the style draws: what else draws it is opaque. Else the

@@ -139,9 +139,9 @@ void vtkPointFrontRepresentation::SetEyeDomeStrength(double strength)
 }
 
 //------------------------------------------------------------------------------
-void vtkPointFrontRepresentation::SetLit(bool lit)
+void vtkPointFrontRepresentation::SetLit(int light)
 {
-  this->Choice->look.lit = lit;
+  this->Choice->look.light = light;
 }
 
 //------------------------------------------------------------------------------
@@ -179,6 +179,19 @@ void vtkPointFrontRepresentation::AddClassStyle(
   const char* classCode, const char* technique, const char* color, const char* size)
 {
   this->Choice->classes.add(textOf(classCode), textOf(technique), textOf(color), textOf(size));
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::ClearClassLights()
+{
+  this->Choice->lights.clear();
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::AddClassLight(
+  const char* classCode, const char* light, const char* eyeDomeStrength)
+{
+  this->Choice->lights.addLight(textOf(classCode), textOf(light), textOf(eyeDomeStrength));
 }
 
 //------------------------------------------------------------------------------

@@ -48,9 +48,14 @@ bool StyleChoice::readFile(std::string& error)
 vtkPointFrontStyle* StyleChoice::style(
   const LookColour& colour, int width, int height, std::string& error)
 {
-  std::string wrong = classes.wrong().empty() ? lens.classes.wrong() : classes.wrong();
+  std::string wrong;
+  for (const ClassRows* rows : { &classes, &lights, &lens.classes })
+  {
+    wrong = wrong.empty() ? rows->wrong() : wrong;
+  }
   StyleSheet sheet;
-  bool needed = !classes.empty() || lens.shows() || !file_.empty() || !look.plain();
+  bool needed =
+    !classes.empty() || !lights.empty() || lens.shows() || !file_.empty() || !look.plain();
   if (!file_.empty())
   {
     if (readFile(wrong))
@@ -69,6 +74,11 @@ vtkPointFrontStyle* StyleChoice::style(
   {
     LayerStyle& own = sheet.classes[number];
     own = sized(differs).over(own);
+  }
+  for (const auto& [number, differs] : lights.sheet().classes)
+  {
+    LayerStyle& own = sheet.classes[number];
+    own = differs.over(own);
   }
   if (auto seen = lens.lens(width, height, wrong))
   {

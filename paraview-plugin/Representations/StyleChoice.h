@@ -27,6 +27,7 @@ public:
   /// As the process that draws sees it; read when it is needed first. Empty: none.
   void setFile(const std::string& fileName);
   ClassRows classes; ///< errors are said by `style()`
+  ClassRows lights; ///< of classes
   LensChoice lens;
 
   /// `width`, `height`: of the picture, pixels. Null where points are plain: then no style is

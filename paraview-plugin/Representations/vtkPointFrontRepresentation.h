@@ -139,7 +139,7 @@ public:
   void SetClosingSize(int closing);
   void SetSizeFactor(double factor);
   void SetEyeDomeStrength(double strength);
-  void SetLit(bool lit);
+  void SetLit(int light);
   void SetFillHoles(bool fill);
   void SetWhere(const char* condition);
   void SetBackend(int backend);
@@ -169,6 +169,15 @@ public:
   void ClearClassStyles();
   void AddClassStyle(
     const char* classCode, const char* technique, const char* color, const char* size);
+  ///@}
+
+  ///@{
+  /**
+   * Light and eye-dome lighting of a class, given by its code: "on", "off", the share of ambient
+   * light or "" (as the others); a strength or "".
+   */
+  void ClearClassLights();
+  void AddClassLight(const char* classCode, const char* light, const char* eyeDomeStrength);
   ///@}
 
   ///@{

@@ -139,6 +139,14 @@ blue = colours(picture("class"))
 shades = blue[(blue[:, :2] == 0).all(axis=1)]  # spheres are lit, no pixel is in the middle of one
 require(len(blue) - len(shades) <= 1 and len(shades) > 2 and shades[-1][2] > 220,
         "a class in blue: %s ... %s" % (blue[:5], blue[-5:]))
+display.ClassLights = ["0", "off", ""]
+flat = colours(picture("class-flat"))
+require(len(flat) <= 2 and flat[-1].tolist() == [0, 0, 255], "a class without light: %s" % flat[:5])
+display.ClassLights = ["0", "off", "0.4"]
+require(len(colours(picture("class-eye-dome"))) > 8, "a class has no eye-dome lighting")
+display.ClassLights, display.Lit = [], 2
+require(len(colours(picture("class-unlit"))) <= 2, "spheres are lit though light is off")
+display.Lit = 0
 display.ClassStyles = ["0", "hidden", "", ""]
 scene.view.SMProxy.StillRender()
 require(scene.frame()[0] == 0, "a hidden class is drawn: %d points" % scene.frame()[0])

@@ -9,9 +9,7 @@
 #include <vtkPointSet.h>
 #include <vtkStringArray.h>
 
-#include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <optional>
 #include <string>
 
@@ -20,7 +18,6 @@ namespace pointfront
 namespace
 {
 
-constexpr std::uint64_t pointsOfChunk = 65536;
 constexpr int mostComponents = 16;
 
 std::optional<ScalarType> typeOf(int vtkType)
@@ -178,56 +175,29 @@ void PointSetSource::add(vtkDataArray* array)
   {
     attribute.name = "normal";
   }
-  if (!description_.schema.add(attribute))
-  {
-    description_.warnings.push_back(
-      "The point data \"" + attribute.name + "\" are there twice: the first are stored.");
-    return;
-  }
   vtkSmartPointer<vtkDataArray> column = array;
   if (!array->HasStandardMemoryLayout())
   {
     column.TakeReference(vtkDataArray::CreateDataArray(array->GetDataType()));
     column->DeepCopy(array);
   }
-  columns_.push_back(column);
-}
-
-std::uint64_t PointSetSource::chunkCount() const
-{
-  return (description_.pointCount + pointsOfChunk - 1) / pointsOfChunk;
-}
-
-std::uint64_t PointSetSource::chunkPoints(std::uint64_t chunk) const
-{
-  return std::min(pointsOfChunk, description_.pointCount - chunk * pointsOfChunk);
-}
-
-Result<void> PointSetSource::read(std::uint64_t chunk, PointBatch& batch) const
-{
-  const std::uint64_t first = chunk * pointsOfChunk;
-  const std::uint64_t count = chunkPoints(chunk);
-  batch.resize(count, description_.schema);
-  for (std::uint64_t i = 0; i < count; ++i)
+  // A colour's column may have an alpha, which stays behind.
+  const auto stride =
+    static_cast<std::size_t>(column->GetNumberOfComponents() * column->GetDataTypeSize());
+  if (!addColumn(attribute, column->GetVoidPointer(0), stride))
   {
-    double place[3];
-    points_->GetPoint(static_cast<vtkIdType>(first + i), place);
-    batch.positions[i] = { place[0], place[1], place[2] };
+    description_.warnings.push_back(
+      "The point data \"" + attribute.name + "\" are there twice: the first are stored.");
+    return;
   }
-  for (std::size_t c = 0; c < columns_.size(); ++c)
-  {
-    // An alpha that a colour may have stays behind.
-    const std::size_t bytes = description_.schema[c].bytes();
-    const auto stride = static_cast<std::size_t>(
-      columns_[c]->GetNumberOfComponents() * columns_[c]->GetDataTypeSize());
-    const auto* from =
-      static_cast<const std::byte*>(columns_[c]->GetVoidPointer(0)) + first * stride;
-    for (std::uint64_t i = 0; i < count; ++i)
-    {
-      std::memcpy(batch.columns[c].data() + i * bytes, from + i * stride, bytes);
-    }
-  }
-  return {};
+  arrays_.push_back(column);
+}
+
+glm::dvec3 PointSetSource::position(std::uint64_t point) const
+{
+  double place[3];
+  points_->GetPoint(static_cast<vtkIdType>(point), place);
+  return { place[0], place[1], place[2] };
 }
 
 } // namespace pointfront

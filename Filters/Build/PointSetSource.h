@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pointfront/Points/PointSource.h"
+#include "pointfront/Points/ColumnSource.h"
 
 #include <vtkSmartPointer.h>
 
@@ -20,23 +20,18 @@ namespace pointfront
 /// Left out  ghost marks, "point_id" (a rank in another store) and "elevation" where it is z,
 ///           without a word; arrays that hold no numbers, or more than 16 components, with a
 ///           warning.
-class PointSetSource final : public PointSource
+class PointSetSource final : public ColumnSource
 {
 public:
   explicit PointSetSource(vtkPointSet* points);
   ~PointSetSource() override;
 
-  const SourceDescription& description() const override { return description_; }
-  std::uint64_t chunkCount() const override;
-  std::uint64_t chunkPoints(std::uint64_t chunk) const override;
-  Result<void> read(std::uint64_t chunk, PointBatch& batch) const override;
-
 private:
   void add(vtkDataArray* array);
+  glm::dvec3 position(std::uint64_t point) const override;
 
-  SourceDescription description_;
   vtkSmartPointer<vtkPoints> points_;
-  std::vector<vtkSmartPointer<vtkDataArray>> columns_; ///< as in the schema, of contiguous tuples
+  std::vector<vtkSmartPointer<vtkDataArray>> arrays_; ///< kept alive; of contiguous tuples
 };
 
 } // namespace pointfront

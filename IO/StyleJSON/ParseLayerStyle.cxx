@@ -270,30 +270,44 @@ bool switchAt(const JSONPlace& place)
   return place.isObject() ? !place.has("on") || place.at("on").truth() : place.truth();
 }
 
-StyleLight lightAt(const JSONPlace& place)
+/// A number of what can be switched on: its key, its place in the value, and its largest value.
+template <typename Switched>
+struct SwitchedNumber
 {
-  StyleLight light;
-  light.on = switchAt(place);
+  const char* key;
+  std::optional<float> Switched::*number;
+  double most;
+};
+
+/// A switch, or an object with two numbers of what it switches on.
+template <typename Switched>
+Switched switchedAt(const JSONPlace& place, const SwitchedNumber<Switched>& first,
+  const SwitchedNumber<Switched>& second)
+{
+  Switched switched;
+  switched.on = switchAt(place);
   if (place.isObject())
   {
-    place.expectKeys({ "on", "ambient", "diffuse" });
-    light.ambient = numberOf(place, "ambient", mostLight);
-    light.diffuse = numberOf(place, "diffuse", mostLight);
+    place.expectKeys({ "on", first.key, second.key });
+    for (const SwitchedNumber<Switched>& one : { first, second })
+    {
+      switched.*one.number = numberOf(place, one.key, one.most);
+    }
   }
-  return light;
+  return switched;
+}
+
+StyleLight lightAt(const JSONPlace& place)
+{
+  return switchedAt<StyleLight>(place, { "ambient", &StyleLight::ambient, mostLight },
+    { "diffuse", &StyleLight::diffuse, mostLight });
 }
 
 StyleEyeDome eyeDomeAt(const JSONPlace& place)
 {
-  StyleEyeDome eyeDome;
-  eyeDome.on = switchAt(place);
-  if (place.isObject())
-  {
-    place.expectKeys({ "on", "strength", "radius_px" });
-    eyeDome.strength = numberOf(place, "strength", mostEyeDomeStrength);
-    eyeDome.radiusPx = numberOf(place, "radius_px", mostEyeDomeRadiusPx);
-  }
-  return eyeDome;
+  return switchedAt<StyleEyeDome>(place,
+    { "strength", &StyleEyeDome::strength, mostEyeDomeStrength },
+    { "radius_px", &StyleEyeDome::radiusPx, mostEyeDomeRadiusPx });
 }
 
 } // namespace

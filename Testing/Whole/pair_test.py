@@ -8,6 +8,14 @@ from tool import ToolTest
 
 
 class PairTest(ToolTest):
+    def check_found(self, found):
+        """`found`: kinds, each with a case that once differed."""
+        for number, (kind, case) in enumerate(found):
+            folder = self.folder / str(number)
+            folder.mkdir()
+            with self.subTest(kind=kind.__name__, case=json.dumps(case)):
+                self.assertIsNone(kind(folder).difference(case))
+
     def check(self, kind):
         pair, begin, drawn = kind(self.folder), time.monotonic(), 0
         for seed in seeds():

@@ -4,7 +4,6 @@ The environment names the seeds: see random_cases.py; docs/developer/random-test
 found. usage: test_random_pairs.py [RandomPairs.test_KIND]
 """
 
-import json
 import unittest
 
 from pair_test import PairTest
@@ -39,11 +38,7 @@ FOUND = (
 
 class RandomPairs(PairTest):
     def test_pairs_that_once_differed(self):
-        for number, (kind, case) in enumerate(FOUND):
-            folder = self.folder / str(number)
-            folder.mkdir()
-            with self.subTest(kind=kind.__name__, case=json.dumps(case)):
-                self.assertIsNone(kind(folder).difference(case))
+        self.check_found(FOUND)
 
 
 for one in KINDS:

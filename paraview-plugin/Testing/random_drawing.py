@@ -25,22 +25,11 @@ view.UseLight = 0
 light = simple.AddLight(view=view)
 light.Coords = "Headlight"
 
-
-def look(camera):
-    view.CameraPosition, view.CameraFocalPoint = camera["position"], camera["focal_point"]
-    view.CameraViewUp = camera["view_up"]
-    view.CameraParallelProjection = int("parallel_scale" in camera)
-    if "parallel_scale" in camera:
-        view.CameraParallelScale = camera["parallel_scale"]
-    else:
-        view.CameraViewAngle = camera["view_angle"]
-
-
 simple.Render(view)  # the first one resets the camera
 for case in known["cases"]:
     display.StyleFile = case["style"]
     display.TargetError = float(case["error"])
-    look(case["camera"])
+    scene.look_as(case["camera"])
     for backend in ("OpenGL", "Software"):
         display.Backend = backend
         name = "%s-%s" % (case["name"], backend.lower())

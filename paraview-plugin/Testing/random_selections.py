@@ -65,15 +65,8 @@ SCALARS = sorted(name for name, values in columns.items()
 
 
 def look(camera):
-    view = scene.view
-    view.CameraPosition, view.CameraFocalPoint = camera["position"], camera["focal_point"]
-    view.CameraViewUp = camera["view_up"]
-    view.CameraParallelProjection = int("parallel_scale" in camera)
-    if "parallel_scale" in camera:
-        view.CameraParallelScale = camera["parallel_scale"]
-    else:
-        view.CameraViewAngle = camera["view_angle"]
-    simple.Render(view)
+    scene.look_as(camera)
+    simple.Render(scene.view)
 
 
 def on_screen():

@@ -77,6 +77,17 @@ class Scene:
         self.view.CameraViewUp = camera["view_up"]
         self.view.CameraViewAngle = camera["view_angle"]
 
+    def look_as(self, camera):
+        """As a camera file of the tool says."""
+        view = self.view
+        view.CameraPosition, view.CameraFocalPoint = camera["position"], camera["focal_point"]
+        view.CameraViewUp = camera["view_up"]
+        view.CameraParallelProjection = int("parallel_scale" in camera)
+        if "parallel_scale" in camera:
+            view.CameraParallelScale = camera["parallel_scale"]
+        else:
+            view.CameraViewAngle = camera["view_angle"]
+
     def move(self, by):
         """Cloud and camera, so that the picture stays the same."""
         # The property has been called Translation since ParaView 5.13.

@@ -1,32 +1,37 @@
 #pragma once
 
-#include "pointfront/Points/PointSource.h"
-
-#include <cstddef>
-#include <vector>
+#include "pointfront/Points/ColumnSource.h"
 
 namespace pointfront
 {
 
-/// Points whose places and attributes lie in plain arrays of the caller, who keeps them.
-class ArraySource final : public PointSource
+/// Points whose positions and attributes lie in plain arrays of the caller, who keeps them.
+class ArraySource final : public ColumnSource
 {
 public:
   /// `places`  three doubles for each of `points` points.
-  ArraySource(const double* places, std::uint64_t points);
+  ArraySource(const double* places, std::uint64_t points)
+    : places_(places)
+  {
+    description_.path = "the arrays";
+    description_.format = "NumPy arrays";
+    description_.pointCount = points;
+  }
 
   /// An attribute, `values` as many as there are points. False if there is one of that name.
-  bool add(const Attribute& attribute, const void* values);
-
-  const SourceDescription& description() const override { return description_; }
-  std::uint64_t chunkCount() const override;
-  std::uint64_t chunkPoints(std::uint64_t chunk) const override;
-  Result<void> read(std::uint64_t chunk, PointBatch& batch) const override;
+  bool add(const Attribute& attribute, const void* values)
+  {
+    return addColumn(attribute, values, attribute.bytes());
+  }
 
 private:
-  SourceDescription description_;
+  glm::dvec3 position(std::uint64_t point) const override
+  {
+    const double* const place = places_ + 3 * point;
+    return { place[0], place[1], place[2] };
+  }
+
   const double* places_;
-  std::vector<const std::byte*> columns_; ///< as in the schema
 };
 
 } // namespace pointfront

@@ -18,16 +18,10 @@ OpenSubtree KdMeanBuilder::build(
   {
     return {};
   }
-  {
-    const CpuStopwatch watch(seconds_.sort);
-    const RecordSpan view{ records.data(), recordBytes_ };
-    sorted_.resize(std::max(sorted_.size(), records.size()));
-    gatherRecords(view, mortonOrder(view, count), sorted_.data());
-    records = {};
-  }
+  const RecordSpan sorted = sortedRecords(std::move(records), count);
   active_.resize(count);
   std::iota(active_.begin(), active_.end(), 0u);
-  return opened(branch({ sorted_.data(), recordBytes_ }, { 0, count }));
+  return opened(branch(sorted, { 0, count }));
 }
 
 KdMeanBuilder::Branch KdMeanBuilder::branch(const RecordSpan& records, const Range& range)
@@ -35,14 +29,14 @@ KdMeanBuilder::Branch KdMeanBuilder::branch(const RecordSpan& records, const Ran
   const auto fits = [&](const Range& part) { return part.second - part.first <= nodePoints_; };
   if (fits(range))
   {
-    return leaf(records, range);
+    return leafOf(records, range);
   }
   std::vector<Branch> children;
   for (const Range& half : halves(records, range))
   {
     if (fits(half))
     {
-      children.push_back(leaf(records, half));
+      children.push_back(leafOf(records, half));
       continue;
     }
     for (const Range& quarter : halves(records, half))
@@ -53,22 +47,11 @@ KdMeanBuilder::Branch KdMeanBuilder::branch(const RecordSpan& records, const Ran
   return joinBranches(std::move(children));
 }
 
-KdMeanBuilder::Branch KdMeanBuilder::leaf(const RecordSpan& records, const Range& range)
+KdMeanBuilder::Branch KdMeanBuilder::leafOf(const RecordSpan& records, const Range& range)
 {
-  const CpuStopwatch watch(seconds_.sample);
-  Branch branch;
-  branch.view = records;
-  branch.original = true;
-  branch.held.assign(active_.begin() + static_cast<std::ptrdiff_t>(range.first),
-    active_.begin() + static_cast<std::ptrdiff_t>(range.second));
-  branch.node = std::make_unique<BuiltNode>();
-  const unsigned side =
-    differingBits(records.position(branch.held.front()), records.position(branch.held.back()));
-  const double steps =
-    surfaceSpacing(cellOccupancy(records, branch.held), branch.held.size(), side);
-  branch.node->row.spacing = static_cast<float>(steps * space().stepLength());
-  branch.node->row.splatRadius = splat_.measure(records, branch.held);
-  return branch;
+  return leaf(records,
+    { active_.begin() + static_cast<std::ptrdiff_t>(range.first),
+      active_.begin() + static_cast<std::ptrdiff_t>(range.second) });
 }
 
 int KdMeanBuilder::longestAxis(const RecordSpan& records, const Range& range) const
@@ -111,7 +94,6 @@ std::array<KdMeanBuilder::Range, 2> KdMeanBuilder::halves(
 KdMeanBuilder::Branch KdMeanBuilder::joinBranches(std::vector<Branch> children)
 {
   Branch joined;
-  joined.node = std::make_unique<BuiltNode>();
   {
     const CpuStopwatch watch(seconds_.sample);
     cells_.clear();
@@ -123,26 +105,10 @@ KdMeanBuilder::Branch KdMeanBuilder::joinBranches(std::vector<Branch> children)
     }
     cells_.sort(); // regions of a kd-tree are no runs of the curve
     const unsigned side = differingBits(cells_.position(0), cells_.position(cells_.size() - 1));
-    joined.means =
-      cells_.represent(cells_.occupancy(), side, coarsestBelow, space().stepLength(), *joined.node);
-    joined.view = { joined.means.data(), cells_.form().bytes() };
-    joined.held.resize(joined.means.size() / cells_.form().bytes());
-    std::iota(joined.held.begin(), joined.held.end(), 0u);
-    joined.node->row.splatRadius = splat_.measure(joined.view, joined.held);
+    joined = represented(cells_.occupancy(), side, static_cast<unsigned>(coarsestBelow));
   }
-  for (Branch& child : children)
-  {
-    emit(*child.node, child.view, child.held);
-    joined.node->children.push_back(std::move(child.node));
-  }
+  adopt(joined, std::move(children));
   return joined;
-}
-
-OpenSubtree KdMeanBuilder::opened(Branch branch)
-{
-  std::vector<std::byte> records =
-    branch.original ? cells_.alone(branch.view, branch.held) : std::move(branch.means);
-  return { std::move(branch.node), std::move(records) };
 }
 
 OpenSubtree KdMeanBuilder::join(std::vector<OpenSubtree> children, std::uint32_t /*node*/)
@@ -150,16 +116,10 @@ OpenSubtree KdMeanBuilder::join(std::vector<OpenSubtree> children, std::uint32_t
   std::vector<Branch> branches;
   for (OpenSubtree& child : children)
   {
-    if (!child.root)
+    if (child.root) // one of a preview may not have any points yet
     {
-      continue; // of a preview: nothing of it is known yet
+      branches.push_back(reopened(child, { child.records.data(), meanBytes() }, 0));
     }
-    Branch branch;
-    branch.node = std::move(child.root);
-    branch.view = { child.records.data(), cells_.form().bytes() };
-    branch.held.resize(child.records.size() / cells_.form().bytes());
-    std::iota(branch.held.begin(), branch.held.end(), 0u);
-    branches.push_back(std::move(branch));
   }
   return branches.empty() ? OpenSubtree() : opened(joinBranches(std::move(branches)));
 }

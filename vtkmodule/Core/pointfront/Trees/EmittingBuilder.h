@@ -2,8 +2,11 @@
 
 #include "pointfront/Base/CpuClock.h"
 #include "pointfront/Trees/NodeEmitter.h"
+#include "pointfront/Trees/NodeSplat.h"
+#include "pointfront/Trees/Sampler.h"
 #include "pointfront/Trees/TreeBuilder.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -14,8 +17,8 @@
 namespace pointfront
 {
 
-/// What builders of every kind of tree do with finished nodes: encode them, and keep them until
-/// they are taken.
+/// What builders of every kind of tree do: they sort the records of a part, measure leaves, encode
+/// finished nodes and keep these until they are taken.
 class EmittingBuilder : public TreeBuilder
 {
 public:
@@ -23,12 +26,36 @@ public:
   const SubtreeSeconds& seconds() const final { return seconds_; }
 
 protected:
-  explicit EmittingBuilder(const NodeEmitter& emitter)
-    : emitter_(emitter)
+  /// `recordBytes`: of a record of the pool.
+  EmittingBuilder(const NodeEmitter& emitter, std::size_t recordBytes)
+    : recordBytes_(recordBytes)
+    , splat_(emitter.space())
+    , emitter_(emitter)
   {
   }
 
   const TreeSpace& space() const { return emitter_.space(); }
+  /// The records in Morton order, until the next call. `seen(i, record)` is called for each of
+  /// them in that order.
+  template <typename Seen>
+  RecordSpan sorted(std::vector<std::byte> records, std::size_t count, const Seen& seen)
+  {
+    const CpuStopwatch watch(seconds_.sort);
+    const RecordSpan view{ records.data(), recordBytes_ };
+    sorted_.resize(std::max(sorted_.size(), records.size()));
+    gatherRecords(view, mortonOrder(view, count), sorted_.data(), seen);
+    return { sorted_.data(), recordBytes_ };
+  }
+  /// The node of a leaf with these points, in Morton order, in a cell of 2^log2Side steps.
+  std::unique_ptr<BuiltNode> leafNode(const RecordSpan& positions,
+    const std::vector<std::uint32_t>& held, const CellOccupancy& occupancy, unsigned log2Side)
+  {
+    auto node = std::make_unique<BuiltNode>();
+    const double steps = surfaceSpacing(occupancy, held.size(), log2Side);
+    node->row.spacing = static_cast<float>(steps * space().stepLength());
+    node->row.splatRadius = splat_.measure(positions, held);
+    return node;
+  }
   /// `points` in Morton order; the children of `node` are finished.
   void emit(BuiltNode& node, const RecordSpan& records, const std::vector<std::uint32_t>& points)
   {
@@ -49,11 +76,15 @@ protected:
     return std::move(subtree.root);
   }
 
+  std::size_t recordBytes_;
+  NodeSplat splat_;
   SubtreeSeconds seconds_;
 
 private:
   const NodeEmitter& emitter_;
   std::vector<EmittedNode> emitted_;
+  // Reused from part to part: fresh memory costs more than what is done with it.
+  std::vector<std::byte> sorted_;
 };
 
 } // namespace pointfront

@@ -22,15 +22,11 @@ RecordSpan viewOf(const std::vector<TreePosition>& positions)
 }
 } // namespace
 
-RecordSpan KdSubtreeBuilder::sorted(const std::vector<std::byte>& records, std::size_t count)
+RecordSpan KdSubtreeBuilder::sortedPoints(std::vector<std::byte> records, std::size_t count)
 {
-  const CpuStopwatch watch(seconds_.sort);
-  const RecordSpan view{ records.data(), recordBytes_ };
-  sorted_.resize(std::max(sorted_.size(), records.size()));
   positions_.resize(std::max(positions_.size(), count));
-  gatherRecords(view, mortonOrder(view, count), sorted_.data(),
+  return sorted(std::move(records), count,
     [&](std::size_t i, const std::byte* record) { positions_[i] = positionOf(record); });
-  return { sorted_.data(), recordBytes_ };
 }
 
 OpenSubtree KdSubtreeBuilder::build(
@@ -40,8 +36,7 @@ OpenSubtree KdSubtreeBuilder::build(
   {
     return {};
   }
-  const RecordSpan view = sorted(records, count);
-  records = {};
+  const RecordSpan view = sortedPoints(std::move(records), count);
   active_.resize(count);
   std::iota(active_.begin(), active_.end(), 0u);
   countSteps(active_);
@@ -292,7 +287,7 @@ OpenSubtree KdSubtreeBuilder::join(std::vector<OpenSubtree> children, std::uint3
     joined.root->children.push_back(std::move(child.root));
   }
   const std::size_t count = own.size() / recordBytes_;
-  const RecordSpan records = sorted(own, count);
+  const RecordSpan records = sortedPoints(std::move(own), count);
   points_.resize(count);
   std::iota(points_.begin(), points_.end(), 0u);
   occupancy_ = cellOccupancy(viewOf(positions_), points_);

@@ -3,7 +3,6 @@
 #include "pointfront/Trees/EmittingBuilder.h"
 #include "pointfront/Trees/ExactSampler.h"
 #include "pointfront/Trees/KdCut.h"
-#include "pointfront/Trees/NodeSplat.h"
 
 #include <cstdint>
 #include <memory>
@@ -29,12 +28,10 @@ public:
   /// `tree` and `shares`: the upper tree, and what each of its nodes owes (KdCut.h).
   KdSubtreeBuilder(const NodeEmitter& emitter, const KdRule& rule, std::size_t recordBytes,
     const std::vector<PartNode>& tree, const std::vector<std::vector<KdShare>>& shares)
-    : EmittingBuilder(emitter)
+    : EmittingBuilder(emitter, recordBytes)
     , rule_(rule)
-    , recordBytes_(recordBytes)
     , tree_(tree)
     , shares_(shares)
-    , splat_(emitter.space())
   {
   }
 
@@ -51,7 +48,7 @@ private:
     double above = 0.0;
   };
   /// The records in Morton order, with their positions_; until the next call.
-  RecordSpan sorted(const std::vector<std::byte>& records, std::size_t count);
+  RecordSpan sortedPoints(std::vector<std::byte> records, std::size_t count);
   /// The bits that each of some points differs in from the one before.
   void countSteps(const std::vector<std::uint32_t>& points);
   /// Moves `wanted` evenly spread points of a region to held_; the others stay, in order. Leaves
@@ -66,13 +63,10 @@ private:
   float splatRadius(const std::vector<std::uint32_t>& own, double drawn);
 
   KdRule rule_;
-  std::size_t recordBytes_;
   const std::vector<PartNode>& tree_;
   const std::vector<std::vector<KdShare>>& shares_;
   ExactSampler sampler_;
-  NodeSplat splat_;
   // Reused from part to part: fresh memory costs more than what is done with it.
-  std::vector<std::byte> sorted_; // records of the part
   std::vector<TreePosition> positions_; // of the sorted records
   std::vector<std::uint32_t> active_; // numbers of those that no node has yet, region by region
   std::vector<std::uint8_t> steps_; // bits that each of active_ differs in from the one before

@@ -1,5 +1,8 @@
 #pragma once
 
+#include "pointfront/Trees/MortonOrder.h"
+
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -44,6 +47,15 @@ std::vector<IndexRange> splitRange(IndexRange all, unsigned log2Side, const Octa
     begin = high;
   }
   return ranges;
+}
+
+/// The same of points in Morton order.
+inline std::vector<IndexRange> splitPoints(
+  const RecordSpan& positions, IndexRange all, unsigned log2Side)
+{
+  const auto octant = [&](std::uint64_t i)
+  { return octantOf(positions.position(static_cast<std::size_t>(i)), log2Side); };
+  return splitRange(all, log2Side, octant);
 }
 
 } // namespace pointfront

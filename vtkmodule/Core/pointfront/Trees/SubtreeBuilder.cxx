@@ -17,17 +17,10 @@ OpenSubtree SubtreeBuilder::build(
   {
     return {};
   }
-  {
-    const CpuStopwatch watch(seconds_.sort);
-    const RecordSpan view{ records.data(), recordBytes_ };
-    sorted_.resize(std::max(sorted_.size(), records.size()));
-    positions_.resize(std::max(positions_.size(), count));
-    gatherRecords(view, mortonOrder(view, count), sorted_.data(),
-      [&](std::size_t i, const std::byte* record) { positions_[i] = positionOf(record); });
-    records = {};
-  }
-  const SortedPoints sorted{ { sorted_.data(), recordBytes_ }, positionsView() };
-  return opened(sorted.records, branch(sorted, 0, static_cast<std::uint32_t>(count)));
+  positions_.resize(std::max(positions_.size(), count));
+  const RecordSpan view = sorted(std::move(records), count,
+    [&](std::size_t i, const std::byte* record) { positions_[i] = positionOf(record); });
+  return opened(view, branch({ view, positionsView() }, 0, static_cast<std::uint32_t>(count)));
 }
 
 SubtreeBuilder::SortedPoints SubtreeBuilder::sortedPoints(
@@ -57,9 +50,7 @@ SubtreeBuilder::Branch SubtreeBuilder::branch(
     return leaf(points, begin, end, side);
   }
   std::vector<Branch> children;
-  const auto octant = [&](std::uint64_t i)
-  { return octantOf(positions.position(static_cast<std::size_t>(i)), side); };
-  for (const IndexRange& range : splitRange({ begin, end }, side, octant))
+  for (const IndexRange& range : splitPoints(positions, { begin, end }, side))
   {
     children.push_back(branch(
       points, static_cast<std::uint32_t>(range.begin), static_cast<std::uint32_t>(range.end)));
@@ -74,11 +65,8 @@ SubtreeBuilder::Branch SubtreeBuilder::leaf(
   Branch branch;
   branch.held.resize(end - begin);
   std::iota(branch.held.begin(), branch.held.end(), begin);
-  branch.node = std::make_unique<BuiltNode>();
   branch.occupancy = cellOccupancy(points.positions, branch.held);
-  const double steps = surfaceSpacing(*branch.occupancy, branch.held.size(), side);
-  branch.node->row.spacing = static_cast<float>(steps * space().stepLength());
-  branch.node->row.splatRadius = splat_.measure(points.positions, branch.held);
+  branch.node = leafNode(points.positions, branch.held, *branch.occupancy, side);
   return branch;
 }
 

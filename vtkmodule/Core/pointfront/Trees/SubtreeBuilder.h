@@ -1,7 +1,6 @@
 #pragma once
 
 #include "pointfront/Trees/EmittingBuilder.h"
-#include "pointfront/Trees/NodeSplat.h"
 #include "pointfront/Trees/Sampler.h"
 
 #include <cstdint>
@@ -35,10 +34,8 @@ class SubtreeBuilder final : public EmittingBuilder
 {
 public:
   SubtreeBuilder(const NodeEmitter& emitter, const SamplingRule& rule, std::size_t recordBytes)
-    : EmittingBuilder(emitter)
+    : EmittingBuilder(emitter, recordBytes)
     , rule_(rule)
-    , recordBytes_(recordBytes)
-    , splat_(emitter.space())
   {
   }
 
@@ -73,11 +70,8 @@ private:
   RecordSpan positionsView() const;
 
   SamplingRule rule_;
-  std::size_t recordBytes_;
   SubsetSampler sampler_;
-  NodeSplat splat_;
   // Reused from part to part: fresh memory costs more than what is done with it.
-  std::vector<std::byte> sorted_; // records
   std::vector<TreePosition> positions_; // of the sorted points
   std::vector<std::uint32_t> candidates_;
   std::vector<std::uint32_t> chosen_;

@@ -46,7 +46,7 @@ def same_camera(camera, way):
 
 
 class Window:
-    """A window, used for one case after the other, that shows one store."""
+    """A window, used for one case after the other."""
 
     def __init__(self, size):
         self.renderer = core.vtkRenderer()
@@ -57,34 +57,40 @@ class Window:
         self.window.SetSize(*size)
         self.window.AddRenderer(self.renderer)
 
-    def show(self, store, case, backend):
-        """The mapper. A style that the tool takes is one that VTK takes."""
+    def show(self, stores, case, backend):
+        """The mappers of the stores, an actor each. VTK takes a style that the tool takes."""
         self.renderer.RemoveAllViewProps()
-        style = pointfront.vtkPointFrontStyle()
-        if not style.LoadJSON(json.dumps(case["style"])):
+        self.style = pointfront.vtkPointFrontStyle()
+        if not self.style.LoadJSON(json.dumps(case["style"])):
             raise AssertionError(f"VTK refuses a style that the tool draws: {json.dumps(case)}")
-        self.reader = pointfront.vtkPointFrontReader()
-        self.reader.SetFileName(str(store))
+        mappers = [self.add(store, float(case["error"]), backend) for store in stores]
+        self.look(case["camera"])
+        return mappers
+
+    def add(self, store, error, backend):
+        reader = pointfront.vtkPointFrontReader()
+        reader.SetFileName(str(store))
         mapper = pointfront.vtkPointFrontMapper()
-        mapper.SetInputConnection(self.reader.GetOutputPort())
-        mapper.SetStyle(style)
-        mapper.SetTargetError(float(case["error"]))
+        mapper.SetInputConnection(reader.GetOutputPort())
+        mapper.SetStyle(self.style)
+        mapper.SetTargetError(error)
         mapper.SetPointBudget(0)
         getattr(mapper, f"SetBackendTo{backend}")()
         actor = core.vtkActor()
         actor.SetMapper(mapper)
         self.renderer.AddActor(actor)
-        self.look(case["camera"])
         return mapper
 
     def look(self, camera):
         same_camera(self.renderer.GetActiveCamera(), camera)
         self.renderer.ResetCameraClippingRange()
 
-    def pixels(self, scale=1):
+    def pixels(self, scale=1, again=True):
+        """`again`: of one more frame."""
         grab = core.vtkWindowToImageFilter()
         grab.SetInput(self.window)
         grab.SetScale(scale)
+        grab.SetShouldRerender(again)
         grab.ReadFrontBufferOff()
         grab.Update()
         image = grab.GetOutput()
@@ -103,7 +109,8 @@ class Windows(Threads):
         self.windows = {backend: Window(self.size) for backend in BACKENDS}
 
     def whole(self, case, backend):
-        self.windows[backend].show(self.store, case, backend).CompleteOn()
+        for mapper in self.windows[backend].show([self.store], case, backend):
+            mapper.CompleteOn()
         self.windows[backend].window.Render()
         return self.windows[backend].pixels()
 
@@ -139,7 +146,7 @@ class NodeByNode(Windows):
 
     def settled(self, case, backend):
         window = self.windows[backend]
-        mapper = window.show(self.store, case, backend)
+        mapper, = window.show([self.store], case, backend)
         window.look(case["before"])
         window.window.SetDesiredUpdateRate(15.0 if case["moving"] else 0.0001)
         window.window.Render()
@@ -189,7 +196,7 @@ class Posters(Windows):
 
     def poster(self, case, backend):
         small = {**case, "style": scaled(case["style"], 0.5)}
-        self.windows[backend].show(self.store, small, backend).CompleteOn()
+        self.windows[backend].show([self.store], small, backend)[0].CompleteOn()
         self.windows[backend].window.Render()
         return self.windows[backend].pixels(2)
 

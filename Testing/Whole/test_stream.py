@@ -7,6 +7,7 @@ import subprocess
 import sys
 import unittest
 
+import halves
 import numpy
 import pictures
 import tool
@@ -75,6 +76,26 @@ class Streams(tool.ToolTest):
                 drawn = answer if pixels else drawn
             self.assertTrue(drawn["complete"], (turn, drawn))
             self.assertEqual(stream.end()[0], 0)
+
+    def test_no_cloud_vanishes_when_a_motion_begins(self):
+        stores, camera = halves.halves_of_a_town(self)
+        style = self.folder / "white.json"
+        style.write_text(json.dumps(halves.WHITE))
+        stream = Stream(*stores, "--style", style, "--background", "0,0,0", "--error", "0.5",
+                        "--frame-ms", "1")
+        self.addCleanup(stream.process.kill)
+
+        def shown(answer, pixels):
+            return halves.lit(numpy.frombuffer(pixels, numpy.uint8).reshape(
+                answer["height"], answer["width"], 4))
+
+        rest = shown(*stream.settle(size=halves.SIZE, camera=camera))
+        self.assertGreater(min(rest), 1000)
+        for frame in range(1, 4):
+            moving = shown(*stream.ask(camera=halves.moved(camera, frame), moving=True))
+            for before, now in zip(rest, moving):
+                self.assertGreater(now, before / 10, (frame, rest, moving))
+        self.assertEqual(stream.end(), (0, ""))
 
     def test_memory_is_what_was_allowed(self):
         # A frame of 8192 x 8192 takes 1.1 GB and more.

@@ -1,9 +1,6 @@
 // The front of a view and what it shares with those of other clouds, without a window.
 
-#include "pointfront/Views/ViewFront.h"
-#include "TerrainReader.h"
-
-#include "pointfront/Residency/LoadScheduler.h"
+#include "TerrainWindow.h"
 
 #include <gtest/gtest.h>
 
@@ -16,232 +13,14 @@
 #include <vector>
 
 using namespace pointfront;
-using pointfront::test::Terrain;
-using pointfront::test::TerrainReader;
-using pointfront::test::Traffic;
+using namespace pointfront::test;
 using std::chrono::milliseconds;
-
-namespace
-{
-
-View overview()
-{
-  const double s = Terrain::sizeMetres;
-  return View::perspective(
-    { 0.5 * s, 0.5 * s, s }, { 0.5 * s, 0.51 * s, 0 }, { 0, 0, 1 }, 0.9, 1.0, 1e7, 800, 600);
-}
-
-/// 13.6 million points, all of which the view wants.
-FrameRequest everything()
-{
-  FrameRequest demand;
-  demand.view = overview();
-  demand.targetErrorPx = 0.01;
-  return demand;
-}
-
-/// A cloud in a window whose machine takes the same for each point.
-struct Cloud
-{
-  Cloud(const std::shared_ptr<LoadScheduler>& scheduler,
-    const std::shared_ptr<const WindowDemand>& window, std::uint64_t disk = 0)
-    : reader(std::make_shared<TerrainReader>(std::make_shared<Traffic>(), disk))
-    , share(reader, reader->table->nodeCount(), scheduler, Terrain::pointsOfNode)
-    , front(std::make_shared<HierarchyPiece>(reader->table, 0, 1), share, schema, window)
-  {
-  }
-  void frame(const FrameRequest& demand)
-  {
-    const FrontDelta& delta = front.update(demand);
-    front.recordFrame(
-      delta.pointsDrawn, delta.moves, millisecondsPerPoint * double(delta.pointsDrawn));
-  }
-  std::uint64_t drawn() const { return front.last().pointsDrawn; }
-
-  static constexpr double millisecondsPerPoint = 1e-4;
-  std::shared_ptr<TerrainReader> reader;
-  AttributeSchema schema;
-  ResidencyShare share;
-  ViewFront front;
-};
-
-struct Window
-{
-  explicit Window(int clouds)
-  {
-    for (int c = 0; c < clouds; ++c)
-    {
-      all.push_back(std::make_unique<Cloud>(scheduler, demand, std::uint64_t(c)));
-    }
-    FrameRequest complete = everything();
-    complete.complete = true;
-    frames(1, complete);
-  }
-  void frames(int count, const FrameRequest& wanted)
-  {
-    for (int frame = 0; frame < count; ++frame)
-    {
-      for (const auto& cloud : all)
-      {
-        cloud->frame(wanted);
-      }
-    }
-  }
-  std::uint64_t drawn() const
-  {
-    std::uint64_t sum = 0;
-    for (const auto& cloud : all)
-    {
-      sum += cloud->drawn();
-    }
-    return sum;
-  }
-
-  std::shared_ptr<LoadScheduler> scheduler =
-    std::make_shared<LoadScheduler>(LoadSchedulerOptions());
-  std::shared_ptr<WindowDemand> demand = std::make_shared<WindowDemand>();
-  std::vector<std::unique_ptr<Cloud>> all;
-};
-
-constexpr std::uint64_t wholeTerrain = 13650000;
-
-} // namespace
-
-// 50 ms at 0.1 us a point: half a million points, however many clouds there are.
-TEST(ViewFront, AFrameTimeIsSharedByTheCloudsOfAWindow)
-{
-  FrameRequest motion = everything();
-  motion.interacting = true;
-  motion.frameMs = 50.0;
-  for (const int clouds : { 1, 2, 5 })
-  {
-    Window window(clouds);
-    EXPECT_EQ(window.drawn(), wholeTerrain * std::uint64_t(clouds));
-    window.frames(60, motion);
-    EXPECT_LE(window.drawn(), 550000u) << clouds;
-    EXPECT_GE(window.drawn(), 250000u) << clouds;
-    std::uint64_t least = wholeTerrain;
-    for (const auto& cloud : window.all)
-    {
-      least = std::min(least, cloud->drawn());
-    }
-    EXPECT_GT(least, window.drawn() / std::uint64_t(2 * clouds)) << "at one error";
-    // Half the time, half the points; and at rest time is no limit.
-    const std::uint64_t before = window.drawn();
-    FrameRequest faster = motion;
-    faster.frameMs = 25.0;
-    window.frames(60, faster);
-    EXPECT_LT(window.drawn(), before * 7 / 10);
-    window.frames(60, everything());
-    EXPECT_EQ(window.drawn(), wholeTerrain * std::uint64_t(clouds));
-  }
-}
-
-// VTK divides a frame's time among its actors: each has its part, and together they have the whole.
-TEST(ViewFront, TheTimesOfTheCloudsAreAddedUpWhereTheFrameHasNone)
-{
-  Window window(4);
-  FrameRequest motion = everything();
-  motion.interacting = true;
-  motion.cloudMs = 12.5;
-  window.frames(60, motion);
-  EXPECT_LE(window.drawn(), 550000u);
-  EXPECT_GE(window.drawn(), 250000u);
-  // What one leaves the others have.
-  window.all[0]->front.leave();
-  window.all[1]->front.leave();
-  for (int frame = 0; frame < 60; ++frame)
-  {
-    window.all[2]->frame(motion);
-    window.all[3]->frame(motion);
-  }
-  const std::uint64_t two = window.all[2]->drawn() + window.all[3]->drawn();
-  EXPECT_LE(two, 550000u);
-  EXPECT_GE(two, 250000u);
-}
-
-// Of 50 ms two clouds take 10, and .05 us a point: a million points fit. What the far one shows
-// takes .1 ms a point, and says nothing of what points cost.
-TEST(ViewFront, ACloudThatShowsLittleIsAsFineAsTheOthers)
-{
-  Window window(2);
-  FrameRequest near = everything();
-  near.targetErrorPx = 2.0;
-  near.interacting = true;
-  near.frameMs = 50.0;
-  FrameRequest far = near;
-  const double s = Terrain::sizeMetres;
-  far.view = View::perspective(
-    { 0.5 * s, 0.5 * s, 40 * s }, { 0.5 * s, 0.51 * s, 0 }, { 0, 0, 1 }, 0.9, 1.0, 1e7, 800, 600);
-  const auto draw = [](Cloud& cloud, const FrameRequest& wanted)
-  {
-    const FrontDelta& delta = cloud.front.update(wanted);
-    cloud.front.recordFrame(
-      delta.pointsDrawn, delta.moves, 5.0 + 5e-5 * static_cast<double>(delta.pointsDrawn));
-  };
-  for (int frame = 0; frame < 100; ++frame)
-  {
-    draw(*window.all[0], near);
-    draw(*window.all[1], far);
-  }
-  const FrontDelta& many = window.all[0]->front.last();
-  const FrontDelta& few = window.all[1]->front.last();
-  EXPECT_GT(many.pointsDrawn, 100000u);
-  EXPECT_LT(few.pointsDrawn, 10000u);
-  EXPECT_EQ(many.thresholdPx, 2.0);
-  EXPECT_EQ(few.thresholdPx, 2.0);
-}
-
-// Low over the terrain the front's threshold is that of the ground below the eye. A hundred
-// thousand points are as large as it allows, and fill more than ten times as many fine ones do.
-TEST(ViewFront, WhereSplatsFillFewerPointsAreNotWanted)
-{
-  Window window(1);
-  ViewFront& front = window.all[0]->front;
-  FrameRequest low = everything();
-  const double s = Terrain::sizeMetres;
-  low.view = View::perspective({ 0.5 * s, 0.2 * s, 0.01 * s }, { 0.5 * s, 0.5 * s, 0.0 },
-    { 0, 0, 1 }, 0.9, 1.0, 1e7, 800, 600);
-  low.targetErrorPx = 1.0;
-  low.interacting = true;
-  low.frameMs = 15.0;
-  constexpr double viewport = 800.0 * 600.0;
-  double longest = 0.0;
-  for (int frame = 0; frame < 100; ++frame)
-  {
-    const FrontDelta& delta = front.update(low);
-    const auto points = static_cast<double>(delta.pointsDrawn);
-    const double spacing = std::min(delta.thresholdPx, 4.0 * std::sqrt(viewport / points));
-    const double fill = 3.14 * spacing * spacing * points;
-    front.fills(fill, viewport);
-    const double milliseconds = 1.0 + 1e-5 * points + 1e-6 * fill;
-    longest = frame < 50 ? 0.0 : std::max(longest, milliseconds);
-    front.recordFrame(delta.pointsDrawn, delta.moves, milliseconds);
-  }
-  EXPECT_LT(front.last().thresholdPx, 4.0);
-  EXPECT_LT(longest, 2.0 * low.frameMs);
-}
-
-TEST(ViewFront, TheBudgetOfPointsHoldsInMotionToo)
-{
-  Window window(2);
-  FrameRequest motion = everything();
-  motion.interacting = true;
-  motion.frameMs = 1000.0; // ten million
-  motion.pointBudget = 300000;
-  for (int frame = 0; frame < 30; ++frame)
-  {
-    window.frames(1, motion);
-    EXPECT_LE(window.drawn(), 300000u) << frame;
-  }
-  EXPECT_GT(window.drawn(), 200000u);
-}
 
 // It would be drawn again for nothing, and a test or a user that waits for rest would not see it.
 TEST(ViewFront, WhatArrivesForAnotherLeavesACompleteViewInPeace)
 {
   const auto scheduler = std::make_shared<LoadScheduler>(LoadSchedulerOptions());
-  Cloud cloud(scheduler, std::make_shared<WindowDemand>());
+  TerrainCloud cloud(scheduler, std::make_shared<WindowDemand>());
   FrameRequest coarse = everything();
   coarse.targetErrorPx = 1000.0;
   coarse.complete = true;
@@ -274,7 +53,7 @@ TEST(ViewFront, WhatArrivesForAnotherLeavesACompleteViewInPeace)
 TEST(ViewFront, AViewWhosePointsLackANewColumnIsNotComplete)
 {
   const auto scheduler = std::make_shared<LoadScheduler>(LoadSchedulerOptions());
-  Cloud cloud(scheduler, std::make_shared<WindowDemand>());
+  TerrainCloud cloud(scheduler, std::make_shared<WindowDemand>());
   ASSERT_TRUE(cloud.schema.add({ "intensity", ScalarType::UInt16, 1 }));
   FrameRequest coarse = everything();
   coarse.targetErrorPx = 1000.0;
@@ -315,7 +94,7 @@ TEST(ViewFront, AtRestItHasWhatASmallMotionShows)
   // The rows of the table come from the disk, too.
   for (const bool still : { false, true })
   {
-    Cloud cloud(
+    TerrainCloud cloud(
       std::make_shared<LoadScheduler>(LoadSchedulerOptions()), std::make_shared<WindowDemand>());
     FrameRequest demand;
     demand.view = above(middle, middle);
@@ -365,7 +144,7 @@ TEST(ViewFront, AFrameDoesNotWaitForAPageOfTheTable)
   LoadSchedulerOptions options;
   options.overdueAfter = milliseconds(30);
   const auto scheduler = std::make_shared<LoadScheduler>(options);
-  Cloud cloud(scheduler, std::make_shared<WindowDemand>());
+  TerrainCloud cloud(scheduler, std::make_shared<WindowDemand>());
   cloud.reader->pages->open(false);
   FrameRequest demand = everything();
   for (int frame = 0; frame < 60; ++frame)
@@ -398,7 +177,7 @@ TEST(ViewFront, ACompleteFrameEndsWhenItIsAborted)
     LoadSchedulerOptions options;
     options.overdueAfter = milliseconds(30);
     const auto scheduler = std::make_shared<LoadScheduler>(options);
-    Cloud cloud(scheduler, std::make_shared<WindowDemand>());
+    TerrainCloud cloud(scheduler, std::make_shared<WindowDemand>());
     FrameRequest demand = everything();
     demand.targetErrorPx = 1000.0;
     cloud.frame(demand); // the root
@@ -433,11 +212,11 @@ TEST(ViewFront, FirstFramesOfManyCloudsWaitForASecondAtMost)
   options.overdueAfter = milliseconds(30);
   const auto scheduler = std::make_shared<LoadScheduler>(options);
   const auto window = std::make_shared<WindowDemand>();
-  std::vector<std::unique_ptr<Cloud>> clouds;
+  std::vector<std::unique_ptr<TerrainCloud>> clouds;
   const auto begin = std::chrono::steady_clock::now();
   for (std::uint64_t disk = 0; disk < 8; ++disk)
   {
-    clouds.push_back(std::make_unique<Cloud>(scheduler, window, disk));
+    clouds.push_back(std::make_unique<TerrainCloud>(scheduler, window, disk));
     clouds.back()->reader->nodes.open(false);
     clouds.back()->frame(everything());
   }

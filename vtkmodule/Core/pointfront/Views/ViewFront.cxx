@@ -207,20 +207,22 @@ void ViewFront::loadRoots()
   window_->window->roots->spend(begin, std::chrono::steady_clock::now());
 }
 
-/// What the other views take now, of the memory and of the window.
+/// What the other views take now, of the memory and of the window. Where this update may draw fewer
+/// points than the last one, as when a motion begins, those who are yet to come down do not count
+/// with what they have on screen (SharedDemand).
 void ViewFront::readShares(const FrameRequest& demand)
 {
   const LoadScheduler& scheduler = share_.residency().scheduler();
   const std::uint64_t revision = sharedRevision();
-  const bool otherBudgets =
-    demand.pointBudget != pointBudgetSeen_ || demand.gpuBytes != gpuBytesSeen_;
+  const std::uint64_t points = limits_.sharedDrawn.most;
+  const bool otherBudgets = points != pointBudgetSeen_ || demand.gpuBytes != gpuBytesSeen_;
   if (revision != sharedSeen_ || otherBudgets)
   {
     sharedSeen_ = revision;
     told_ = otherBudgets ? 0 : told_;
-    pointBudgetSeen_ = demand.pointBudget;
+    pointBudgetSeen_ = points;
     gpuBytesSeen_ = demand.gpuBytes;
-    window_->points.elsewhere(elsewhere_.drawn, demand.pointBudget);
+    window_->points.elsewhere(elsewhere_.drawn, points);
     window_->slots.elsewhere(elsewhere_.slots, static_cast<std::uint64_t>(demand.gpuBytes));
     memory_.elsewhere(elsewhere_.held);
     for (std::size_t step = 0; step < DemandCurve::size; ++step)
@@ -248,7 +250,7 @@ void ViewFront::tellDemand(const FrameRequest& demand)
   // What this view changes is no news to itself. What others changed since readShares() is.
   const std::uint64_t before = sharedRevision();
   memory_.set(curves.held);
-  window_->points.set(curves.drawn, demand.pointBudget);
+  window_->points.set(curves.drawn, limits_.sharedDrawn.most);
   window_->slots.set(curves.slots, static_cast<std::uint64_t>(demand.gpuBytes));
   sharedSeen_ += sharedRevision() - before;
 }

@@ -2,6 +2,7 @@
 #include "MapperContent.h"
 #include "MapperProperties.h"
 #include "PosterTile.h"
+#include "RendererClouds.h"
 #include "RendererLights.h"
 
 #include "pointfront/Detail/DetailLevel.h"
@@ -78,7 +79,7 @@ pointfront::PlanRequest vtkPointFrontMapper::GetRequest(vtkRenderer* renderer, v
   pointfront::PlanRequest request;
   this->Place(renderer, actor, request);
   request.clippingPlanes = pointfront::clippingPlanesOf(*this, actor);
-  request.composited = this->NumberOfStorePieces > 1;
+  request.composited = this->NumberOfStorePieces > 1 || pointfront::hasSeveralClouds(renderer);
   request.exchange = this->Exchange;
   if (this->GetStyleSheet())
   {

@@ -92,7 +92,8 @@ std::int64_t SplatPart::draw(const SplatFrame& frame, const FramePlan& plan,
   }
   target_->setOwner(this);
   renderer_ = frame.renderer;
-  const bool same = goesOn && groups_.addsNothing() && shading_ == plan.shading && fills_ == fills;
+  const bool same = goesOn && groups_.addsNothing() && shading_ == plan.shading &&
+    fills_ == fills && composited_ == plan.composited;
   if (!same && !drawInto(frame, plan, goesOn, fills))
   {
     forget();
@@ -138,6 +139,7 @@ bool SplatPart::drawInto(const SplatFrame& frame, const FramePlan& plan, bool go
   tools_.records.upload(frame.window);
   shading_ = plan.shading;
   fills_ = fills;
+  composited_ = plan.composited;
   vtkOpenGLState* const state = frame.window->GetState();
   const TargetState scope(state);
   state->vtkglViewport(0, 0, parts_.width, parts_.height);

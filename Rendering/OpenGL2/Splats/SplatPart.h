@@ -64,6 +64,7 @@ private:
   bool selects_ = false; ///< the last picture is for a selection
   FrameShading shading_; ///< of the last picture
   bool fills_ = false; ///< the last picture's holes are filled
+  bool composited_ = false; ///< likewise: it has the depths that decided
   vtkRenderer* renderer_ = nullptr; ///< compared, not used
   PixelRectangle limits_;
   PixelRectangle shown_; ///< the pixels that get a value

@@ -11,7 +11,7 @@ uniform sampler2D colourSums;
 #endif
 //POINTFRONT::Lights::Dec
 uniform float depthShift;       // parallel: of the near plane
-uniform bool composited;        // with other processes' pictures, by what decided
+uniform bool composited;        // with pictures of others, by what decided
 #if POINTFRONT_EYE_DOME
 uniform float octaveShift;      // parallel: see Shading.cxx
 uniform ivec2 pictureSize;

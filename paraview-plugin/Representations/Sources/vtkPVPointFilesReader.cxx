@@ -315,14 +315,6 @@ void vtkPVPointFilesReader::CancelBuild()
 }
 
 //------------------------------------------------------------------------------
-void vtkPVPointFilesReader::CloseStore()
-{
-  this->Running.reset();
-  this->Previewing = false;
-  this->Superclass::CloseStore();
-}
-
-//------------------------------------------------------------------------------
 std::string vtkPVPointFilesReader::GetBuildState() const
 {
   if (!this->Running)

@@ -75,9 +75,9 @@ struct FrameSetting
   /// last picture showed and this plan lacks (SMOOTH-7). A complete view never keeps points: its
   /// picture does not depend on earlier pictures.
   bool keepsVisible = false;
-  /// Other processes draw the rest of the cloud, and the nearest point of all is shown. The picture
-  /// then has the depths that decide which splat is seen; they lie behind a splat's plane towards
-  /// its rim.
+  /// Other processes draw the rest of the cloud, or the renderer shows other clouds, and the
+  /// nearest point of all is shown. The picture then has the depths that decide which splat is
+  /// seen; they lie behind a splat's plane towards its rim.
   bool composited = false;
   /// Not null: those processes draw at the same time, and blended splats of all of them are added
   /// up. Outlives the drawing.

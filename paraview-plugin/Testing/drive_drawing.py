@@ -207,6 +207,20 @@ def applied(programs):
         raise AssertionError("the cloud is in view behind the filter")
 
 
+def deleted(programs):
+    """A deleted cloud's file is closed."""
+    script = os.path.join(HERE, "deleted")
+    programs.run(os.environ["POINTFRONT_PARAVIEW"], "--dr", "--script=%s.py" % script,
+                 "--test-script=%s.xml" % script, "--exit")
+    with open("deleted.json") as file:
+        found = json.load(file)
+    print(found)
+    if found["failure"] or not found["open"][0] or found["sources"][-1]:
+        raise AssertionError("the cloud is not opened and deleted")
+    if found["open"][-1]:
+        raise AssertionError("the file of a cloud that is deleted stays open")
+
+
 def panel(programs):
     try:
         programs.run(os.environ["POINTFRONT_PARAVIEW"], "--dr",

@@ -140,16 +140,15 @@ def first_hour(programs):
             raise AssertionError("frames: %s" % glob.glob("flight*.png"))
 
 
-def preview(programs):
-    """In the application a preview is in view while a store is built; so it is on a server."""
+def previewed(programs, *ways):
     points = 4000000  # some seconds of work, in which some pictures are drawn
-    for way in ("alone", "cancelled", "ranks"):
+    for way in ways:
         name = "large-%s.las" % way
         for old in glob.glob("large-%s*" % way) + glob.glob("preview*.*"):
             os.remove(old)
         tool("generate", "--points", str(points), "--seed", "5", "-o", name)
         os.environ["POINTFRONT_FILES"] = json.dumps([os.path.abspath(name)])
-        os.environ["POINTFRONT_CANCEL"] = "1" if way == "cancelled" else ""
+        os.environ["POINTFRONT_CANCEL"] = way if way in ("cancelled", "deleted") else ""
         command = [os.environ["POINTFRONT_PARAVIEW"], "--dr",
                    "--script=" + os.path.join(HERE, "preview.py")]
         try:
@@ -163,13 +162,16 @@ def preview(programs):
                 print(way, open("preview.json").read())
         with open("preview.json") as file:
             seen = json.load(file)
-        begun, last = seen["while"], seen["after"][-1]
+        begun, last = seen["while"], (seen["after"] or [None])[-1]
         if len(begun) < 3 or begun[0]["there"] or not begun[0]["drawn"] > 1000:
             raise AssertionError(way + ": no preview, or not before the store: %s" % begun)
         if not all(frame["store"].endswith(".preview.pfront") for frame in begun[:3]):
             raise AssertionError(way + ": not a preview: %s" % begun)
         left = sorted(os.path.basename(path) for path in glob.glob(name + ".*"))
-        if way == "cancelled":
+        if way == "deleted":
+            if left:
+                raise AssertionError("deleted, and there is %s" % left)
+        elif way == "cancelled":
             if last["store"] or last["drawn"] or left:
                 raise AssertionError("cancelled, and there is %s, %s" % (last, left))
         elif last["drawn_of"] != points or last["store_points"] != points:
@@ -181,4 +183,14 @@ def preview(programs):
         else:
             shutil.copyfile("preview.png", way + ".png")
         os.remove(name)
+
+
+def preview(programs):
+    """In the application a preview is in view while a store is built; so it is on a server."""
+    previewed(programs, "alone", "cancelled", "ranks")
     compare("ranks", "alone")
+
+
+def preview_deleted(programs):
+    """The build of a cloud that is deleted ends."""
+    previewed(programs, "deleted")

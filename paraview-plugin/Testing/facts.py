@@ -7,6 +7,7 @@ import json
 import os
 import sys
 
+import numpy
 from paraview import simple
 
 simple.LoadPlugin(os.environ["POINTFRONT_PLUGIN"], remote=False, ns=globals())
@@ -51,6 +52,14 @@ reader.UpdatePropertyInformation()
 facts = reader.SMProxy.GetProperty("StoreFacts").GetElement(0)
 print(facts)
 require("{:,} points".format(POINTS) in facts, "points of the store: " + facts)
+require("Information counts an overview of at most 5,000 of them" in facts, facts)
+# The Information panel has the box of the store, and its count beside that of the overview.
+information = reader.GetDataInformation()
+box = numpy.reshape(told["bounds"], (2, 3)).T.ravel()
+require(numpy.allclose(information.GetBounds(), box, 0, 1e-9), "bounds: %s, not %s"
+        % (information.GetBounds(), box))
+counted = information.GetFieldDataInformation().GetArrayInformation("store_points")
+require(counted.GetComponentRange(0) == (POINTS, POINTS), "points of the store, as field data")
 intensity = values["intensity"]
 require("intensity  %d to %d" % (intensity["minimum"], intensity["maximum"]) in facts, facts)
 

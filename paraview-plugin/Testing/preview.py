@@ -3,7 +3,8 @@
 Runs as `paraview --dr --script=preview.py`: chooses the files as File > Open does and, a while
 later, shows them as Apply does. Each render is looked at until the store is there. Writes
 preview.json. Saves preview-while.png, preview-cancelled.png and preview.png.
-Told by the environment: POINTFRONT_FILES, and POINTFRONT_CANCEL if the build is to be cancelled.
+Told by the environment: POINTFRONT_FILES, and POINTFRONT_CANCEL if the build is to be cancelled, or
+"deleted" if the cloud is to be deleted meanwhile.
 """
 
 import json
@@ -54,7 +55,7 @@ def start():
     reader.PreviewPoints = 1000
     reader.Normals = "By PCA"  # so that the build takes some seconds
     simple.SetActiveSource(reader)
-    looking = []
+    looking, deleted = [], []
 
     def look():
         display = simple.GetDisplayProperties(reader, view)
@@ -74,7 +75,7 @@ def start():
              "there": os.path.exists(STORE)})
         if building and len(seen["while"]) == 3:
             save(view, "preview-while")
-            if CANCEL:
+            if CANCEL and CANCEL != "deleted":
                 reader.SMProxy.InvokeCommand("CancelBuild")
         whole = stored is not None and total == int(stored.GetValue(0))
         if not building and name == os.path.basename(STORE) and complete and whole:
@@ -88,7 +89,7 @@ def start():
 
     @guarded
     def rendered():
-        if looking or not simple.servermanager.GetRepresentation(reader, view):
+        if looking or deleted or not simple.servermanager.GetRepresentation(reader, view):
             return  # it renders itself, or nothing is shown yet
         looking.append(True)
         look()
@@ -96,10 +97,21 @@ def start():
 
     begun, shown = [], []
 
+    def delete():
+        """Once three previews are in view; and some time later all is to be said."""
+        if deleted:
+            end()
+        if len(seen["while"]) >= 3:
+            deleted.append(True)
+            simple.Delete(reader)
+        interactor.CreateOneShotTimer(2000 if deleted else 50)
+
     @guarded
     def tick():
         """After a while: by then the application has asked the reader whether it has news."""
         if shown:
+            if CANCEL == "deleted":
+                delete()
             return
         begun.append(time.monotonic())
         if begun[-1] - begun[0] < 2:
@@ -109,6 +121,7 @@ def start():
         simple.Show(reader, view)
         simple.ResetCamera(view)
         simple.Render(view)
+        interactor.CreateOneShotTimer(50)
 
     view.SMProxy.AddObserver("EndEvent", rendered)
     interactor = view.SMProxy.GetInteractor()

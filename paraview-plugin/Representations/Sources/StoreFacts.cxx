@@ -96,14 +96,19 @@ std::string groupedDigits(std::uint64_t number)
   return digits;
 }
 
-std::string storeFacts(const StoredCloud& store)
+std::string storeFacts(const StoredCloud& store, std::int64_t mostOverviewPoints)
 {
   const StoreDescription& about = store.description();
   const Bounds& box = about.bounds;
   std::ostringstream text;
   text.imbue(std::locale::classic());
-  text << std::setprecision(12) << groupedDigits(about.pointCount) << " points\n"
-       << "x " << box.low.x << " to " << box.high.x << "\n"
+  text << std::setprecision(12) << groupedDigits(about.pointCount) << " points\n";
+  const auto most = static_cast<std::uint64_t>(std::max<std::int64_t>(mostOverviewPoints, 0));
+  if (most < about.pointCount)
+  {
+    text << "(Information counts an overview of at most " << groupedDigits(most) << " of them)\n";
+  }
+  text << "x " << box.low.x << " to " << box.high.x << "\n"
        << "y " << box.low.y << " to " << box.high.y << "\n"
        << "z " << box.low.z << " to " << box.high.z << "\n"
        << "CRS: " << nameOfCrs(about.crsWkt) << "\n"

@@ -16,8 +16,10 @@ class StoredCloud;
 std::string groupedDigits(std::uint64_t number);
 
 /// What the store is, in lines for a panel: points, bounds, coordinate reference system, structure,
-/// classes with their points (of a store with a tree for each class), attributes' ranges.
-std::string storeFacts(const StoredCloud& store);
+/// classes with their points (of a store with a tree for each class), attributes' ranges; and that
+/// the output, whose points the Information panel counts, is an overview, if it is one.
+/// `mostOverviewPoints` is the reader's limit.
+std::string storeFacts(const StoredCloud& store, std::int64_t mostOverviewPoints);
 
 /// The frame of the coordinates as field data: "store_crs", and "store_grid", the scales and
 /// offsets of the grid that they lie on. Writers keep both.

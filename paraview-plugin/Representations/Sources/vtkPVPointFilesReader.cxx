@@ -315,6 +315,14 @@ void vtkPVPointFilesReader::CancelBuild()
 }
 
 //------------------------------------------------------------------------------
+void vtkPVPointFilesReader::CloseStore()
+{
+  this->Running.reset();
+  this->Previewing = false;
+  this->Superclass::CloseStore();
+}
+
+//------------------------------------------------------------------------------
 std::string vtkPVPointFilesReader::GetBuildState() const
 {
   if (!this->Running)

@@ -87,6 +87,8 @@ public:
   /// Ends a build that is going on. The next update gives nothing, and those after it as well until
   /// a property that the build depends on is changed.
   void CancelBuild();
+  /// Ends such a build, too.
+  void CloseStore() override;
   /// What is going on: "sorting, 43 %"; empty where nothing is built.
   std::string GetBuildState() const;
 

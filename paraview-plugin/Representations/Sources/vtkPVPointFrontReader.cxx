@@ -42,8 +42,16 @@ int vtkPVPointFrontReader::RequestData(
 const char* vtkPVPointFrontReader::GetStoreFacts()
 {
   vtkPointFrontStore* store = this->GetStore();
-  this->StoreFacts = store ? pointfront::storeFacts(*store->GetStore()) : std::string();
+  this->StoreFacts =
+    store ? pointfront::storeFacts(*store->GetStore(), this->GetOverviewPoints()) : std::string();
   return this->StoreFacts.c_str();
+}
+
+//------------------------------------------------------------------------------
+void vtkPVPointFrontReader::CloseStore()
+{
+  this->Store = nullptr;
+  this->Modified();
 }
 
 //------------------------------------------------------------------------------

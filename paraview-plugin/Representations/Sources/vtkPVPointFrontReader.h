@@ -26,6 +26,9 @@ public:
   /// What the store is, in lines for a panel; empty without a store.
   const char* GetStoreFacts();
 
+  /// Closes the file; the next update opens it again. Others that draw or read it keep it open.
+  virtual void CloseStore();
+
 protected:
   vtkPVPointFrontReader();
   ~vtkPVPointFrontReader() override;

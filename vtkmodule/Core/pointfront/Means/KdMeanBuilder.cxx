@@ -97,15 +97,13 @@ KdMeanBuilder::Branch KdMeanBuilder::joinBranches(std::vector<Branch> children)
   {
     const CpuStopwatch watch(seconds_.sample);
     cells_.clear();
-    int coarsestBelow = 0;
     for (const Branch& child : children)
     {
       cells_.add(child.view, child.held, child.original);
-      coarsestBelow = std::max(coarsestBelow, child.node->samplingQuarters / 4); // a leaf's is -1
     }
     cells_.sort(); // regions of a kd-tree are no runs of the curve
     const unsigned side = differingBits(cells_.position(0), cells_.position(cells_.size() - 1));
-    joined = represented(cells_.occupancy(), side, static_cast<unsigned>(coarsestBelow));
+    joined = represented(cells_.occupancy(), side, children);
   }
   adopt(joined, std::move(children));
   return joined;

@@ -1,5 +1,6 @@
 #include "pointfront/Means/MeanBuilder.h"
 
+#include <algorithm>
 #include <numeric>
 #include <utility>
 
@@ -44,8 +45,14 @@ MeanBuilder::Branch MeanBuilder::reopened(
 }
 
 MeanBuilder::Branch MeanBuilder::represented(
-  const CellOccupancy& occupancy, unsigned log2Side, unsigned finest)
+  const CellOccupancy& occupancy, unsigned log2Side, const std::vector<Branch>& children)
 {
+  unsigned finest = 0;
+  for (const Branch& child : children)
+  {
+    const int quarters = child.node->samplingQuarters; // a leaf has points as they come
+    finest = quarters < 0 ? finest : std::max(finest, static_cast<unsigned>(quarters) / 4 + 1);
+  }
   Branch branch;
   branch.node = std::make_unique<BuiltNode>();
   branch.means = cells_.represent(occupancy, log2Side, finest, space().stepLength(), *branch.node);

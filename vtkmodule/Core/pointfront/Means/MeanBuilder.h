@@ -47,9 +47,11 @@ protected:
   /// The branch of a finished subtree: `view` shows its representatives, the first one is number
   /// `first`.
   Branch reopened(OpenSubtree& subtree, const RecordSpan& view, std::uint32_t first) const;
-  /// Makes the representatives of what is in cells_; the arguments are those of
-  /// MeanCells::represent().
-  Branch represented(const CellOccupancy& occupancy, unsigned log2Side, unsigned finest);
+  /// Makes the representatives of what is in cells_, which is what the children hold: at least
+  /// twice as far apart as those of any child, so that the spacing of each node is the edge of its
+  /// cells. The other arguments are those of MeanCells::represent().
+  Branch represented(
+    const CellOccupancy& occupancy, unsigned log2Side, const std::vector<Branch>& children);
   /// Emits the children, which become those of the node of `parent`.
   void adopt(Branch& parent, std::vector<Branch> children);
   OpenSubtree opened(Branch branch);

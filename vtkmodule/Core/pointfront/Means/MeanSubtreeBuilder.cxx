@@ -44,23 +44,18 @@ MeanSubtreeBuilder::Branch MeanSubtreeBuilder::represent(
 {
   const CpuStopwatch watch(seconds_.sample);
   cells_.clear();
-  int coarsestBelow = -1;
   CellOccupancy occupancy;
   for (const Branch& child : children)
   {
     const std::size_t first = cells_.size();
     cells_.add(child.view, child.held, child.original);
-    const bool leaf = child.node->samplingQuarters < 0;
-    coarsestBelow =
-      leaf ? coarsestBelow : std::max(coarsestBelow, child.node->samplingQuarters / 4);
     if (first < cells_.size())
     {
       occupancy.append(child.occupancy ? *child.occupancy : cellOccupancy(child.view, child.held),
         first == 0 ? 0 : differingBits(cells_.position(first - 1), cells_.position(first)));
     }
   }
-  // Twice as coarse as the inner children.
-  return represented(occupancy, log2Side, static_cast<unsigned>(coarsestBelow + 1));
+  return represented(occupancy, log2Side, children);
 }
 
 MeanSubtreeBuilder::Branch MeanSubtreeBuilder::joinBranches(

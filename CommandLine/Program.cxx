@@ -16,7 +16,8 @@
 
 #include "CloudFormats.h"
 #include "LeftOut.h"
-#include "Suggestion.h"
+
+#include "pointfront/Base/NearestName.h"
 
 #include <cerrno>
 #include <cstdio>
@@ -113,9 +114,9 @@ std::string Program::commandsText(int argc, char** argv) const
   {
     known.push_back(command->name());
   }
-  if (const std::string meant = argc > 1 ? suggestionFor(argv[1], known) : ""; !meant.empty())
+  if (const std::string meant = argc > 1 ? didYouMean(argv[1], known) : ""; !meant.empty())
   {
-    return std::string("there is no command '") + argv[1] + "'; did you mean '" + meant + "'?";
+    return std::string("there is no command '") + argv[1] + "'" + meant;
   }
   std::string names;
   for (const auto& command : commands_)
@@ -141,9 +142,9 @@ std::string Program::usageText(const std::string& command, const CLI::ParseError
   for (const std::string& word : app->remaining())
   {
     const std::string name = word.substr(0, word.find('='));
-    if (const std::string meant = suggestionFor(name, known); name[0] == '-' && !meant.empty())
+    if (const std::string meant = didYouMean(name, known); name[0] == '-' && !meant.empty())
     {
-      return "there is no option " + name + "; did you mean " + meant + "?";
+      return "there is no option '" + name + "'" + meant;
     }
   }
   return text.size() > longest ? text.substr(0, longest) + "..." : text;

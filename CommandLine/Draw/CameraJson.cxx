@@ -1,5 +1,6 @@
 #include "CameraJson.h"
 
+#include "pointfront/Base/NearestName.h"
 #include "pointfront/Points/QuantisationGrid.h"
 
 #include <glm/geometric.hpp>
@@ -7,15 +8,32 @@
 #include <cmath>
 #include <fstream>
 #include <sstream>
+#include <vector>
 
 namespace pointfront
 {
 
 namespace
 {
-Error badKey(const std::string& where, const char* key, const char* expected)
+const std::vector<std::string> cameraKeys{ "position", "focal_point", "view_up", "view_angle",
+  "parallel_scale", "frames" };
+
+/// The key at fault is there, or missing, or there under a name that is nearly its own.
+Error badKey(const nlohmann::json& object, const std::string& where, const JSONText* text,
+  const char* key, const char* expected)
 {
-  return makeError(Error::Kind::BadFormat, where + ": \"" + key + "\" must be " + expected);
+  const nlohmann::json* faulty = object.contains(key) ? &object.at(key) : &object;
+  std::string fault = std::string("\"") + key + "\" must be " + expected;
+  for (const auto& [name, value] : object.items())
+  {
+    if (!object.contains(key) && nearestName(name, cameraKeys) == key)
+    {
+      faulty = &value;
+      fault = "there is no key '" + name + "'" + didYouMean(name, cameraKeys);
+    }
+  }
+  return makeError(
+    Error::Kind::BadFormat, where + ": " + (text ? text->lineOf(*faulty) : std::string()) + fault);
 }
 
 bool readVector(const nlohmann::json& object, const char* key, glm::dvec3& vector)
@@ -55,7 +73,7 @@ bool readPositive(const nlohmann::json& object, const char* key, std::optional<d
 }
 } // namespace
 
-Result<nlohmann::json> readJsonFile(const std::string& path)
+Result<JSONText> readJsonFile(const std::string& path)
 {
   std::ifstream file(path);
   std::ostringstream text;
@@ -63,23 +81,12 @@ Result<nlohmann::json> readJsonFile(const std::string& path)
   {
     return makeError(Error::Kind::Unreadable, path + ": cannot read the file");
   }
-  try
-  {
-    return nlohmann::json::parse(text.str());
-  }
-  catch (const nlohmann::json::parse_error& failure)
-  {
-    return makeError(
-      Error::Kind::BadFormat, path + ": not JSON, at byte " + std::to_string(failure.byte));
-  }
-  catch (const nlohmann::json::out_of_range&)
-  {
-    return makeError(Error::Kind::BadFormat,
-      path + ": a number in it is too large for double precision; write one below 1e308");
-  }
+  Result<JSONText> json = JSONText::parse(text.str());
+  return json ? std::move(json) : makeError(json.error().kind, path + ": " + json.error().what);
 }
 
-Result<Camera> cameraFromJson(const nlohmann::json& object, const std::string& where)
+Result<Camera> cameraFromJson(
+  const nlohmann::json& object, const std::string& where, const JSONText* text)
 {
   if (!object.is_object())
   {
@@ -88,24 +95,24 @@ Result<Camera> cameraFromJson(const nlohmann::json& object, const std::string& w
   Camera camera;
   if (!readVector(object, "position", camera.position))
   {
-    return badKey(where, "position", "three numbers of at most 1e15");
+    return badKey(object, where, text, "position", "three numbers of at most 1e15");
   }
   if (!readVector(object, "focal_point", camera.focalPoint))
   {
-    return badKey(where, "focal_point", "three numbers of at most 1e15");
+    return badKey(object, where, text, "focal_point", "three numbers of at most 1e15");
   }
   if (!readVector(object, "view_up", camera.viewUp))
   {
-    return badKey(where, "view_up", "three numbers of at most 1e15");
+    return badKey(object, where, text, "view_up", "three numbers of at most 1e15");
   }
   std::optional<double> angle;
   if (!readPositive(object, "view_angle", angle) || (angle && *angle >= 180.0))
   {
-    return badKey(where, "view_angle", "degrees between 0 and 180");
+    return badKey(object, where, text, "view_angle", "degrees between 0 and 180");
   }
   if (!readPositive(object, "parallel_scale", camera.parallelScale))
   {
-    return badKey(where, "parallel_scale", "a positive number of at most 1e15");
+    return badKey(object, where, text, "parallel_scale", "a positive number of at most 1e15");
   }
   camera.viewAngleDegrees = angle.value_or(camera.viewAngleDegrees);
   const glm::dvec3 sight = camera.focalPoint - camera.position;
@@ -113,7 +120,8 @@ Result<Camera> cameraFromJson(const nlohmann::json& object, const std::string& w
         1.0e-9 * glm::length(sight) * glm::length(camera.viewUp)))
   {
     return makeError(Error::Kind::BadFormat,
-      where + ": \"view_up\" must not be parallel to the direction of sight, nor any of them zero");
+      where + ": " + (text ? text->lineOf(object.at("view_up")) : std::string()) +
+        "\"view_up\" must not be parallel to the direction of sight, nor any of them zero");
   }
   return camera;
 }

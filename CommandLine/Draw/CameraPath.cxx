@@ -60,9 +60,10 @@ struct KeyCamera
   int frames = 1;
 };
 
-Result<KeyCamera> keyCameraFromJson(const nlohmann::json& entry, const std::string& where)
+Result<KeyCamera> keyCameraFromJson(
+  const nlohmann::json& entry, const std::string& where, const JSONText& text)
 {
-  const Result<Camera> camera = cameraFromJson(entry, where);
+  const Result<Camera> camera = cameraFromJson(entry, where, &text);
   if (!camera)
   {
     return camera.error();
@@ -75,8 +76,8 @@ Result<KeyCamera> keyCameraFromJson(const nlohmann::json& entry, const std::stri
       frames->get<std::uint64_t>() <= 1000000;
     if (!positive)
     {
-      return makeError(
-        Error::Kind::BadFormat, where + ": \"frames\" must be a count from 1 to 1000000");
+      return makeError(Error::Kind::BadFormat,
+        where + ": " + text.lineOf(*frames) + "\"frames\" must be a count from 1 to 1000000");
     }
     key.frames = frames->get<int>();
   }
@@ -145,20 +146,21 @@ CameraPath flightPath(const PathSubject& subject, int frames)
 
 Result<CameraPath> readPathFile(const std::string& path, int frames)
 {
-  const Result<nlohmann::json> json = readJsonFile(path);
+  const Result<JSONText> json = readJsonFile(path);
   if (!json)
   {
     return json.error();
   }
-  if (!json->is_array() || json->empty())
+  const nlohmann::json& list = json->value();
+  if (!list.is_array() || list.empty())
   {
     return makeError(Error::Kind::BadFormat, path + ": a camera path is a list of cameras");
   }
   std::vector<KeyCamera> keys;
-  for (std::size_t i = 0; i < json->size(); ++i)
+  for (std::size_t i = 0; i < list.size(); ++i)
   {
     const Result<KeyCamera> key =
-      keyCameraFromJson(json.value()[i], path + ": camera " + std::to_string(i));
+      keyCameraFromJson(list[i], path + ": camera " + std::to_string(i), *json);
     if (!key)
     {
       return key.error();

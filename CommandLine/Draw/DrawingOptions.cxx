@@ -1,7 +1,7 @@
 #include "DrawingOptions.h"
 
+#include "KnownWords.h"
 #include "StyleOptions.h"
-#include "Unavailable.h"
 #include "Values.h"
 
 #include <algorithm>
@@ -131,7 +131,7 @@ void DrawingOptions::declare(CLI::App& app)
   app
     .add_option("--detail", detail,
       "front: each part as fine as it projects; view: one level that fills the view (front)")
-    ->check(availableValues({ "front", "view" }, {}));
+    ->check(knownWords({ "front", "view" }));
   addByteSize(app, "--memory", memoryBytes, "Most memory for decoded points and the picture (1G)");
   const auto shown = word("--classes", "a list of class codes: write 2,6",
     [this](const std::string& text)

@@ -2,9 +2,9 @@
 
 #include "CancelSignal.h"
 #include "DrawnFiles.h"
+#include "KnownWords.h"
 #include "PeakMemory.h"
 #include "StoreCompany.h"
-#include "Unavailable.h"
 #include "WholeFile.h"
 
 #include <nlohmann/json.hpp>
@@ -34,7 +34,7 @@ void RenderCommand::declare(CLI::App& program)
     ->check(CLI::Validator(checkPng, "OUT.png"));
   CLI::Option* const view =
     app_->add_option("--view", view_, "Where from, showing all (iso)")
-      ->check(availableValues({ "iso", "top", "front", "back", "left", "right" }, {}));
+      ->check(knownWords({ "iso", "top", "front", "back", "left", "right" }));
   app_->add_option("--camera", cameraPath_, "Camera file")->type_name("FILE.json")->excludes(view);
   CLI::Option* const complete = app_->add_flag(
     "--complete", "Wait for all that the error and the budgets allow (this is the default)");

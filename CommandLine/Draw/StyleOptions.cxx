@@ -1,7 +1,7 @@
 #include "StyleOptions.h"
 
 #include "DrawingOptions.h"
-#include "Unavailable.h"
+#include "KnownWords.h"
 #include "Values.h"
 
 #include "StyleJSON.h"
@@ -177,10 +177,10 @@ void declareStyle(CLI::App& app, DrawingOptions& options)
   app
     .add_option("--quality", arguments->quality,
       "Technique and --error together, from fast to accurate (none)")
-    ->check(availableValues(presets, {}))
+    ->check(knownWords(presets))
     ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
   app.add_option("--technique", arguments->technique, "How points become pixels (points)")
-    ->check(availableValues(techniques, {}))
+    ->check(knownWords(techniques))
     ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
   std::vector<std::string> words;
   for (const auto& [name, mode] : orientations)
@@ -191,7 +191,7 @@ void declareStyle(CLI::App& app, DrawingOptions& options)
     .add_option("--orientation", arguments->orientation,
       "Discs face their normal or the eye (auto: normals that must be computed while nodes load "
       "are so only for ewa and --lit)")
-    ->check(availableValues(words, {}))
+    ->check(knownWords(words))
     ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
   app
     .add_option("--where", arguments->where,

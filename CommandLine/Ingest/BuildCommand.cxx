@@ -4,9 +4,9 @@
 #include "CancelSignal.h"
 #include "InputFaults.h"
 #include "InputFiles.h"
+#include "KnownWords.h"
 #include "PeakMemory.h"
 #include "ProgressDisplay.h"
-#include "Unavailable.h"
 #include "Values.h"
 
 #include <nlohmann/json.hpp>
@@ -27,13 +27,13 @@ void BuildCommand::declare(CLI::App& program)
     ->required()
     ->type_name("OUT.pfront");
   app_->add_option("--structure", structure_, "Shape of the hierarchy (octree)")
-    ->check(availableValues({ "octree", "kdtree" }, {}));
+    ->check(knownWords({ "octree", "kdtree" }));
   app_->add_option("--refinement", refinement_, "Inner nodes hold a subset, or mean points (add)")
-    ->check(availableValues({ "add", "replace" }, {}));
+    ->check(knownWords({ "add", "replace" }));
   app_
     ->add_option("--layers", layers_,
       "One tree for all points, or for each class (class if any point is classified)")
-    ->check(availableValues({ "none", "class" }, {}));
+    ->check(knownWords({ "none", "class" }));
   app_->add_option("--node-points", options_.nodePoints, "Most points of a leaf (16384)")
     ->check(CLI::Range(256u, 1u << 20))
     ->type_name("N");
@@ -54,11 +54,11 @@ void BuildCommand::declare(CLI::App& program)
     ->type_name("DIR");
   app_->add_flag("--force", options_.overwrite, "Replace an existing output");
   app_->add_option("--progress", progress_, "On stderr: auto, plain, json or none (auto)")
-    ->check(availableValues({ "auto", "plain", "json", "none" }, {}));
+    ->check(knownWords({ "auto", "plain", "json", "none" }));
   app_
     ->add_option("--preview", preview_,
       "A small store beside the output, to look at while it is built: auto or none (auto)")
-    ->check(availableValues({ "auto", "none" }, {}));
+    ->check(knownWords({ "auto", "none" }));
   app_->add_flag("--json", json_, "Print the report as one JSON object");
   addOnError(*app_, options_.onFault, &options_.wholeInputs);
   sourceChoice_.declare(*app_);

@@ -1,9 +1,9 @@
 #include "GenerateCommand.h"
 
 #include "CancelSignal.h"
+#include "KnownWords.h"
 #include "ProgressDisplay.h"
 #include "SinkFormats.h"
-#include "Unavailable.h"
 #include "Values.h"
 
 #include "pointfront/Export/SourceExport.h"
@@ -33,7 +33,7 @@ void GenerateCommand::declare(CLI::App& program)
     ->type_name("S");
   app_->add_flag("--force", replace_, "Replace an existing file of the same kind");
   app_->add_option("--progress", progress_, "On stderr: auto, plain, json or none (auto)")
-    ->check(availableValues({ "auto", "plain", "json", "none" }, {}));
+    ->check(knownWords({ "auto", "plain", "json", "none" }));
 }
 
 Result<void> GenerateCommand::run()

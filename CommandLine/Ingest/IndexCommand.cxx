@@ -5,9 +5,9 @@
 #include "ChosenPasses.h"
 #include "InputFaults.h"
 #include "InputFiles.h"
+#include "KnownWords.h"
 #include "PeakMemory.h"
 #include "ProgressDisplay.h"
-#include "Unavailable.h"
 #include "Values.h"
 
 #include <nlohmann/json.hpp>
@@ -61,7 +61,7 @@ void IndexCommand::declare(CLI::App& program)
     ->add_option("--normals", normals_,
       "Keep normals in the side file: from neighbours in the scan (scanline) or planes through "
       "neighbours (pca) (none: they are computed while nodes load)")
-    ->check(availableValues({ "none", "scanline", "pca" }, {}));
+    ->check(knownWords({ "none", "scanline", "pca" }));
   neighboursOption_ = app_
                         ->add_option("--normals-k", normalsNeighbours_,
                           "Neighbours of a plane, with the point itself (16)")
@@ -79,7 +79,7 @@ void IndexCommand::declare(CLI::App& program)
   addOnError(*app_, onFault_);
   app_->add_flag("--force", options_.overwrite, "Replace an existing index");
   app_->add_option("--progress", progress_, "On stderr: auto, plain, json or none (auto)")
-    ->check(availableValues({ "auto", "plain", "json", "none" }, {}));
+    ->check(knownWords({ "auto", "plain", "json", "none" }));
   app_->add_flag("--json", json_, "Print the report as one JSON object");
   app_->parse_complete_callback(
     [this]()

@@ -1,6 +1,6 @@
 #include "InputFaults.h"
 
-#include "Unavailable.h"
+#include "KnownWords.h"
 
 namespace pointfront
 {
@@ -19,7 +19,7 @@ void addOnError(CLI::App& app, OnFault& onFault, bool* stopAtCut)
   app.add_option("--on-error", parse, "Of inputs that cannot be used: stop, or skip them (stop)")
     ->type_name("TEXT")
     ->expected(1)
-    ->check(availableValues({ "stop", "skip" }, {}));
+    ->check(knownWords({ "stop", "skip" }));
 }
 
 std::string skippedText(const std::vector<InputFault>& skipped)

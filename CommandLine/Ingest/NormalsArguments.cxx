@@ -1,6 +1,6 @@
 #include "NormalsArguments.h"
 
-#include "Unavailable.h"
+#include "KnownWords.h"
 #include "Values.h"
 
 #include <limits>
@@ -14,7 +14,7 @@ void NormalsArguments::declare(CLI::App& app)
     .add_option("--normals", method_,
       "Estimate normals: from planes through neighbours (pca; pcl: as the Point Cloud Library fits "
       "them) or neighbours in the scan (scanline) (none)")
-    ->check(availableValues({ "none", "scanline", "pca", "pcl" }, {}));
+    ->check(knownWords({ "none", "scanline", "pca", "pcl" }));
   CLI::Option* neighbours =
     app.add_option("--normals-k", neighbours_, "Neighbours of a plane, with the point itself (16)")
       ->check(CLI::Range(3u, 4096u))

@@ -1,7 +1,7 @@
 #include "SourceChoice.h"
 
 #include "CancelSignal.h"
-#include "Unavailable.h"
+#include "KnownWords.h"
 #include "Values.h"
 
 namespace pointfront
@@ -34,7 +34,7 @@ void SourceChoice::declare(CLI::App& app)
     .add_option("--decimal", decimal, "Decimal mark of text files: point or comma (by their rows)")
     ->type_name("TEXT")
     ->expected(1)
-    ->check(availableValues({ "point", "comma", ".", "," }, {}).description("{point, comma}"));
+    ->check(knownWords({ "point", "comma", ".", "," }).description("{point, comma}"));
   const auto separator = [this](const CLI::results_t& words)
   {
     const std::string& word = words.back();
@@ -50,16 +50,15 @@ void SourceChoice::declare(CLI::App& app)
       "Between columns of text files: comma, semicolon, tab or blank (by their rows)")
     ->type_name("TEXT")
     ->expected(1)
-    ->check(
-      availableValues({ "comma", "semicolon", "tab", "blank", ",", ";", " ", "\t", "\\t" }, {})
-        .description("{comma, semicolon, tab, blank}"));
+    ->check(knownWords({ "comma", "semicolon", "tab", "blank", ",", ";", " ", "\t", "\\t" })
+              .description("{comma, semicolon, tab, blank}"));
   app.add_option("--skip", text_.skip, "Lines at the beginning of text files to pass over (0)")
     ->transform(wholeNumber())
     ->type_name("N");
   app
     .add_option("--color-depth", colourDepth_,
       "Bits of 16-bit colours: by each file's largest (auto), 8 or 16")
-    ->check(availableValues({ "auto", "8", "16" }, {}));
+    ->check(knownWords({ "auto", "8", "16" }));
 }
 
 ColourDepth SourceChoice::colourDepth() const

@@ -1,9 +1,9 @@
 #include "ExportCommand.h"
 
 #include "CancelSignal.h"
+#include "KnownWords.h"
 #include "ProgressDisplay.h"
 #include "SinkFormats.h"
-#include "Unavailable.h"
 
 #include "pointfront/Store/StoredCloudFormats.h"
 
@@ -47,7 +47,7 @@ void ExportCommand::declare(CLI::App& program)
     ->check(CLI::IsMember({ 8U, 16U }));
   app_->add_flag("--force", replace_, "Replace an existing file of the same kind");
   app_->add_option("--progress", progress_, "On stderr: auto, plain, json or none (auto)")
-    ->check(availableValues({ "auto", "plain", "json", "none" }, {}));
+    ->check(knownWords({ "auto", "plain", "json", "none" }));
 }
 
 Result<void> ExportCommand::checkTarget(const StoredCloud& store) const

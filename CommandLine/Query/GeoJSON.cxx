@@ -1,5 +1,9 @@
 #include "GeoJSON.h"
 
+#include "JSONText.h"
+
+#include "pointfront/Base/NearestName.h"
+
 #include <nlohmann/json.hpp>
 
 #include <cmath>
@@ -23,12 +27,14 @@ public:
   bool object(const json& value, const std::string& place, int depth);
   PlanarGeometry geometry;
   std::string fault;
+  const json* faulty = nullptr; ///< the value that the fault is of
 
 private:
-  bool fail(const std::string& place, const std::string& what)
+  bool fail(const json& value, const std::string& place, const std::string& what)
   {
     if (fault.empty())
     {
+      faulty = &value;
       fault = (place.empty() ? std::string("the document") : place) + " " + what;
     }
     return false;
@@ -39,7 +45,7 @@ private:
   {
     if (!list.is_array())
     {
-      return fail(place, "is no list");
+      return fail(list, place, "is no list");
     }
     for (std::size_t i = 0; i < list.size(); ++i)
     {
@@ -65,11 +71,11 @@ bool Reader::line(const json& value, const std::string& place, PlanarLine& verti
       if (!position.is_array() || position.size() < 2 || !position[0].is_number() ||
         !position[1].is_number())
       {
-        return fail(here, "is no position of two numbers");
+        return fail(position, here, "is no position of two numbers");
       }
       vertices.emplace_back(position[0].get<double>(), position[1].get<double>());
       return (std::isfinite(vertices.back().x) && std::isfinite(vertices.back().y)) ||
-        fail(here, "is not finite");
+        fail(position, here, "is not finite");
     });
 }
 
@@ -100,7 +106,8 @@ bool Reader::addPolygon(const json& value, const std::string& place)
       }
       if (vertices.size() < 4 || vertices.front() != vertices.back())
       {
-        return fail(here, "has fewer than four vertices, or does not return to its first one");
+        return fail(
+          ring, here, "has fewer than four vertices, or does not return to its first one");
       }
       polygon.rings.push_back(std::move(vertices));
       return true;
@@ -119,7 +126,7 @@ bool Reader::reference(const json& value, const std::string& place)
   const json::json_pointer name("/properties/name");
   if (!value.is_object() || !value.contains(name) || !value.at(name).is_string())
   {
-    return fail(place, "names no coordinate reference system");
+    return fail(value, place, "names no coordinate reference system");
   }
   geometry.crs = value.at(name).get<std::string>();
   return true;
@@ -130,7 +137,7 @@ bool Reader::member(const json& value, const std::string& place, const char* nam
   const std::string here = place.empty() ? name : place + "." + name;
   if (!value.contains(name))
   {
-    return fail(here, "is missing");
+    return fail(value, here, "is missing");
   }
   return value.at(name).is_array()
     ? each(value.at(name), here,
@@ -142,11 +149,11 @@ bool Reader::object(const json& value, const std::string& place, int depth)
 {
   if (!value.is_object() || !value.contains("type") || !value.at("type").is_string())
   {
-    return fail(place, "is no GeoJSON object with a \"type\"");
+    return fail(value, place, "is no GeoJSON object with a \"type\"");
   }
   if (depth > deepestCollection)
   {
-    return fail(place, "lies too deep");
+    return fail(value, place, "lies too deep");
   }
   if (value.contains("crs") && !reference(value.at("crs"), place + "crs"))
   {
@@ -172,26 +179,32 @@ bool Reader::object(const json& value, const std::string& place, int depth)
   const auto lineOf = [this](const json& one, const std::string& at) { return addLine(one, at); };
   const auto polygonOf = [this](const json& one, const std::string& at)
   { return addPolygon(one, at); };
-  return type == "Polygon"      ? addPolygon(coordinates, here)
-    : type == "MultiPolygon"    ? each(coordinates, here, polygonOf)
-    : type == "LineString"      ? addLine(coordinates, here)
-    : type == "MultiLineString" ? each(coordinates, here, lineOf)
-                                : fail(place, "is a " + type + ": neither an area nor a line");
+  return type == "Polygon"   ? addPolygon(coordinates, here)
+    : type == "MultiPolygon" ? each(coordinates, here, polygonOf)
+    : type == "LineString"   ? addLine(coordinates, here)
+    : type == "MultiLineString"
+    ? each(coordinates, here, lineOf)
+    : fail(value, place,
+        "is a " + type + ": neither an area nor a line" +
+          didYouMean(type,
+            { "FeatureCollection", "Feature", "GeometryCollection", "Polygon", "MultiPolygon",
+              "LineString", "MultiLineString" }));
 }
 
 } // namespace
 
 Result<PlanarGeometry> parseGeoJSON(const std::string& text)
 {
-  const json document = json::parse(text, nullptr, false);
-  Reader reader;
-  if (document.is_discarded())
+  const Result<JSONText> document = JSONText::parse(text);
+  if (!document)
   {
-    return makeError(Error::Kind::BadFormat, "not JSON");
+    return document.error();
   }
-  if (!reader.object(document, "", 0))
+  Reader reader;
+  if (!reader.object(document->value(), "", 0))
   {
-    return makeError(Error::Kind::BadFormat, "not GeoJSON of areas or lines: " + reader.fault);
+    return makeError(Error::Kind::BadFormat,
+      "not GeoJSON of areas or lines: " + document->lineOf(*reader.faulty) + reader.fault);
   }
   return std::move(reader.geometry);
 }

@@ -1,10 +1,10 @@
 #include "SinkFormats.h"
 
 #include "KnownSystems.h"
+#include "KnownWords.h"
 #include "LASWriter.h"
 #include "PCDWriter.h"
 #include "PLYWriter.h"
-#include "Unavailable.h"
 #include "XYZWriter.h"
 
 #include "pointfront/Export/EightBitColourSink.h"
@@ -28,8 +28,7 @@ std::string extensionOf(const std::string& path)
 
 std::string checkExtension(std::string& path)
 {
-  const CLI::Validator check =
-    availableValues({ ".las", ".laz", ".xyz", ".csv", ".ply", ".pcd" }, {});
+  const CLI::Validator check = knownWords({ ".las", ".laz", ".xyz", ".csv", ".ply", ".pcd" });
   std::string extension = extensionOf(path);
   return check(extension);
 }

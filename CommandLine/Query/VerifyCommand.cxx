@@ -1,8 +1,8 @@
 #include "VerifyCommand.h"
 
 #include "CancelSignal.h"
+#include "KnownWords.h"
 #include "ProgressDisplay.h"
-#include "Unavailable.h"
 
 #include "pointfront/Store/StoredCloudFormats.h"
 
@@ -32,7 +32,7 @@ void VerifyCommand::declare(CLI::App& program)
   app_ = program.add_subcommand("verify", "Check every checksum, count and invariant of a store");
   app_->add_option("store", path_, "The store")->required()->type_name("STORE");
   app_->add_option("--progress", progress_, "On stderr: auto, plain, json or none (auto)")
-    ->check(availableValues({ "auto", "plain", "json", "none" }, {}));
+    ->check(knownWords({ "auto", "plain", "json", "none" }));
   app_->add_flag("--json", json_, "Print one JSON object");
 }
 

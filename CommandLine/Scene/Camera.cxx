@@ -111,12 +111,12 @@ Camera cameraFitting(const Bounds& bounds, ViewDirection view, double aspect)
 
 Result<Camera> readCameraFile(const std::string& path)
 {
-  const Result<nlohmann::json> json = readJsonFile(path);
+  const Result<JSONText> json = readJsonFile(path);
   if (!json)
   {
     return json.error();
   }
-  return cameraFromJson(json.value(), path);
+  return cameraFromJson(json->value(), path, &*json);
 }
 
 } // namespace pointfront

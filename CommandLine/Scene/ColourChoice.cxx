@@ -1,5 +1,6 @@
 #include "ColourChoice.h"
 
+#include "pointfront/Points/AttributeNames.h"
 #include "pointfront/Style/AttributeRanges.h"
 
 #include <algorithm>
@@ -33,10 +34,19 @@ const Attribute* findIn(
   return nullptr;
 }
 
-Error missing(const std::string& attribute)
+Error missing(
+  const std::string& attribute, const std::vector<std::shared_ptr<const StoredCloud>>& stores)
 {
   const std::string name = withUnderscores(attribute);
-  std::string hint = " (info lists them)";
+  AttributeSchema all;
+  for (const std::shared_ptr<const StoredCloud>& store : stores)
+  {
+    for (const Attribute& one : store->description().schema)
+    {
+      all.add(one);
+    }
+  }
+  std::string hint = " (info lists them)" + meantAttribute(all, attribute);
   if (name == "normal" || name == "horizontality")
   {
     hint = ", which --color-by " + attribute + " needs: build it with --normals pca";
@@ -61,14 +71,14 @@ Result<ColourChoice> chooseColour(
   {
     if (choice.attribute == "horizontality" && !findIn(stores, "normal"))
     {
-      return missing(attribute);
+      return missing(attribute, stores);
     }
     choice.table = viridisTable();
     return choice; // from 0 to 1
   }
   if (!found && choice.attribute != "elevation")
   {
-    return missing(attribute);
+    return missing(attribute, stores);
   }
   if (choice.attribute == "rgb")
   {

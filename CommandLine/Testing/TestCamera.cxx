@@ -119,7 +119,12 @@ TEST(Camera, WrongFilesAreErrorsThatNameTheKey)
     { R"({"position":[1e300,0,1],"focal_point":[0,0,0],"view_up":[0,1,0]})", "position" },
     { R"({"position":[0,0,1],"focal_point":[0,0,0],"view_up":[0,1,0],"parallel_scale":1e99})",
       "parallel_scale" },
-    { "[1,2", "not JSON, at byte" }, { "[]", "object" }
+    { "[1,2", "wrong.json: not JSON: line 1, column 5: " },
+    { "{\"position\":[0,0,1],\n\"focal_pont\":[0,0,0],\n\"view_up\":[0,1,0]}",
+      "wrong.json: line 2: there is no key 'focal_pont'; did you mean 'focal_point'?" },
+    { "{\"position\":[0,0,1],\n\"focal_point\":[0,0,0],\n\"view_up\":[0,1]}",
+      "wrong.json: line 3: \"view_up\"" },
+    { "[]", "object" }
   };
   for (const auto& [text, expected] : cases)
   {

@@ -41,7 +41,12 @@ TEST(GeoJSON, FeaturesAndGeometries)
 
 TEST(GeoJSON, FaultsAreNamedWithTheirPlace)
 {
-  EXPECT_EQ(faultOf("{"), "not JSON");
+  EXPECT_EQ(faultOf("{").rfind("not JSON: line 1, column ", 0), 0u);
+  EXPECT_EQ(faultOf("{\"type\": \"Poligon\",\n\"coordinates\": []}"),
+    "not GeoJSON of areas or lines: line 1: the document is a Poligon: neither an area nor a line; "
+    "did you mean 'Polygon'?");
+  EXPECT_EQ(faultOf("{\"type\": \"LineString\",\n\"coordinates\": [[0, 0],\n [1, \"2\"]]}"),
+    "not GeoJSON of areas or lines: line 3: coordinates[1] is no position of two numbers");
   EXPECT_NE(faultOf("[]").find("type"), std::string::npos);
   EXPECT_NE(
     faultOf(R"({"type": "Point", "coordinates": [1, 2]})").find("Point"), std::string::npos);

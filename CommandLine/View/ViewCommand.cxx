@@ -2,9 +2,9 @@
 
 #include "CancelSignal.h"
 #include "KeyTable.h"
+#include "KnownWords.h"
 #include "ModuleSymbol.h"
 #include "StoreCompany.h"
-#include "Unavailable.h"
 #include "ViewWindow.h"
 
 #include <optional>
@@ -18,7 +18,7 @@ void ViewCommand::declare(CLI::App& program)
   request_.drawing.declare(*app_);
   CLI::Option* const view =
     app_->add_option("--view", view_, "Where from at first, showing all (iso)")
-      ->check(availableValues({ "iso", "top", "front", "back", "left", "right" }, {}));
+      ->check(knownWords({ "iso", "top", "front", "back", "left", "right" }));
   app_->add_option("--camera", cameraPath_, "Camera file to begin with")
     ->type_name("FILE.json")
     ->excludes(view);

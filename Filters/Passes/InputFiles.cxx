@@ -44,9 +44,10 @@ struct FolderRule
   std::string endings() const
   {
     std::string text;
-    for (const std::string& extension : extensions)
+    for (auto extension = extensions.begin(); extension != extensions.end(); ++extension)
     {
-      text += (text.empty() ? "." : ", .") + extension;
+      const bool said = std::find(extensions.begin(), extension, *extension) != extension;
+      text += said ? "" : (text.empty() ? "." : ", .") + *extension;
     }
     return text;
   }

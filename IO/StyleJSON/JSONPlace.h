@@ -1,6 +1,7 @@
 #pragma once
 
 #include "pointfront/Base/Error.h"
+#include "pointfront/Base/NearestName.h"
 
 #include <nlohmann/json.hpp>
 
@@ -16,6 +17,7 @@ namespace pointfront
 struct JSONRefusal
 {
   std::string what;
+  const nlohmann::json* value = nullptr; ///< at fault
 };
 
 /// A value of a JSON text and where it stands, "classes.6.size": reads what is expected there and
@@ -38,7 +40,7 @@ public:
 
   [[noreturn]] void refuse(const std::string& why) const
   {
-    throw JSONRefusal{ (path_.empty() ? std::string("the file") : path_) + ": " + why };
+    throw JSONRefusal{ (path_.empty() ? std::string("the file") : path_) + ": " + why, &value_ };
   }
 
   JSONPlace at(const std::string& key) const
@@ -77,7 +79,7 @@ public:
         {
           list += (list.empty() ? "" : ", ") + known;
         }
-        at(key).refuse("there is no such key; use " + list);
+        at(key).refuse("there is no such key; use " + list + didYouMean(key, keys));
       }
     }
   }

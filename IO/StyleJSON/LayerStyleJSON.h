@@ -18,6 +18,7 @@ template <typename T>
 T oneOf(const JSONPlace& place, const std::vector<std::pair<const char*, T>>& words)
 {
   std::string list;
+  std::vector<std::string> known;
   const std::string text = place.text("a word");
   for (const auto& [word, value] : words)
   {
@@ -26,8 +27,9 @@ T oneOf(const JSONPlace& place, const std::vector<std::pair<const char*, T>>& wo
       return value;
     }
     list += (list.empty() ? "" : ", ") + std::string(word);
+    known.emplace_back(word);
   }
-  place.refuse("'" + text + "' is unknown: use " + list);
+  place.refuse("'" + text + "' is unknown: use " + list + didYouMean(text, known));
 }
 
 Rgba8 colourCodeAt(const JSONPlace& place);

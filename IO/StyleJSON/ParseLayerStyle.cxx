@@ -7,6 +7,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace pointfront
 {
@@ -234,7 +235,12 @@ Technique techniqueAt(const JSONPlace& place)
   const std::optional<Technique> technique = techniqueOf(name);
   if (!technique)
   {
-    place.refuse("'" + name + "' is unknown: use " + techniqueList());
+    std::vector<std::string> known;
+    for (const TechniqueTraits& traits : techniqueTraits)
+    {
+      known.emplace_back(traits.name);
+    }
+    place.refuse("'" + name + "' is unknown: use " + techniqueList() + didYouMean(name, known));
   }
   return *technique;
 }

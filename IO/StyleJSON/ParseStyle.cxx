@@ -1,48 +1,35 @@
 #include "StyleJSON.h"
 
+#include "JSONText.h"
 #include "LayerStyleJSON.h"
 
 #include <charconv>
 #include <set>
+#include <utility>
 
 namespace pointfront
 {
 namespace
 {
 
-using nlohmann::json;
-
-/// Text to JSON; a key that stands twice in one object is refused, where the parser alone would
-/// keep the last.
-json parseStrictly(std::string_view text)
+/// `read`: what a place means; its refusals get the line they are of.
+template <typename Meaning>
+auto readFrom(std::string_view text, const Meaning& read)
+  -> Result<decltype(read(std::declval<JSONPlace>()))>
 {
-  std::vector<std::set<std::string>> keys;
-  const auto watch = [&keys](int, json::parse_event_t event, json& parsed)
+  const Result<JSONText> parsed = JSONText::parse(std::string(text), JSONText::Keys::Unique);
+  if (!parsed)
   {
-    if (event == json::parse_event_t::object_start)
-    {
-      keys.emplace_back();
-    }
-    else if (event == json::parse_event_t::object_end)
-    {
-      keys.pop_back();
-    }
-    else if (event == json::parse_event_t::key &&
-      !keys.back().insert(parsed.get<std::string>()).second)
-    {
-      throw JSONRefusal{ "the key " + parsed.dump() + " stands twice in one object" };
-    }
-    return true;
-  };
+    return makeError(Error::Kind::BadArgument, parsed.error().what);
+  }
   try
   {
-    return json::parse(text.begin(), text.end(), watch);
+    return read(JSONPlace(parsed->value(), ""));
   }
-  catch (const json::exception& failure)
+  catch (const JSONRefusal& refusal)
   {
-    const auto* const place = dynamic_cast<const json::parse_error*>(&failure);
-    throw JSONRefusal{ "not JSON" +
-      (place ? ", at byte " + std::to_string(place->byte) : std::string()) };
+    return makeError(Error::Kind::BadArgument,
+      (refusal.value ? parsed->lineOf(*refusal.value) : std::string()) + refusal.what);
   }
 }
 
@@ -184,28 +171,12 @@ StyleSheet sheetAt(const JSONPlace& place)
 
 Result<LayerStyle> parseLayerStyle(std::string_view text)
 {
-  try
-  {
-    const json parsed = parseStrictly(text);
-    return layerStyleAt(JSONPlace(parsed, ""));
-  }
-  catch (const JSONRefusal& refusal)
-  {
-    return makeError(Error::Kind::BadArgument, refusal.what);
-  }
+  return readFrom(text, layerStyleAt);
 }
 
 Result<StyleSheet> parseStyleSheet(std::string_view text)
 {
-  try
-  {
-    const json parsed = parseStrictly(text);
-    return sheetAt(JSONPlace(parsed, ""));
-  }
-  catch (const JSONRefusal& refusal)
-  {
-    return makeError(Error::Kind::BadArgument, refusal.what);
-  }
+  return readFrom(text, sheetAt);
 }
 
 } // namespace pointfront

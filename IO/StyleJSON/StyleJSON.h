@@ -12,7 +12,9 @@ namespace pointfront
 /// A style sheet from the text of docs/user/styles.md.
 /// Strict   a key that does not exist or stands there twice, a class that is none, a value of the
 ///          wrong type or outside its range is an Error of kind BadArgument that begins with its
-///          place: "classes.6.size.mode: ...". Nothing is ignored.
+///          place: "classes.6.size.mode: ...", behind the line where the text has several:
+///          "line 4: classes.6...". A name that is nearly right gets the one that was meant.
+///          Nothing is ignored.
 /// Later    lenses, highlights and techniques that no back end draws are recognised and refused as
 ///          not available.
 Result<StyleSheet> parseStyleSheet(std::string_view json);

@@ -1,6 +1,7 @@
 #include "MapperStyle.h"
 
 #include "MapperProperties.h"
+#include "pointfront/Points/AttributeNames.h"
 #include "pointfront/Style/ClassHeights.h"
 #include "pointfront/Style/FilterPruning.h"
 
@@ -206,7 +207,8 @@ PointColouring MapperStyle::colouringOf(
   {
     unknownArray_ = request.name;
     warning_ = "the store " + description.path + " has no attribute \"" + request.name +
-      "\"; its points are drawn in the property's colour";
+      "\"; its points are drawn in the property's colour" +
+      meantAttribute(description.schema, request.name);
   }
   return colouring.value_or(PointColouring{});
 }

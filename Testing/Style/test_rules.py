@@ -8,6 +8,7 @@ import shutil
 import sys
 import unittest
 
+import quick_tests
 from check_style import RULES
 from source_tree import read_tree
 
@@ -265,6 +266,19 @@ class RulesTest(unittest.TestCase):
             "IO/Store/vtk.module": store,
         }
         self.assertEqual(self.faults("ModuleEdges", tree), [("IO/Store/vtk.module", 4)])
+
+
+    def test_quick_tests(self):
+        tests = ["Whole.Long", "Whole.Short", "Suite.One", "Suite.Two"]
+        self.assertEqual(list(quick_tests.faults("# why\nWhole[.]Long Whole.Short Suite\n", tests)),
+                         [])
+        for line, fault in (("Whole[.]Longer Whole.Short", "no test is called"),
+                            ("Whole[.]Long", "name the tests"),
+                            ("Whole[.]Long Whole.Shorter", "there is no test"),
+                            ("Whole[.].* Whole.Short", "is left out itself")):
+            found = list(quick_tests.faults(line + "\n", tests))
+            self.assertEqual(len(found), 1, found)
+            self.assertIn(fault, found[0])
 
 
 if __name__ == "__main__":

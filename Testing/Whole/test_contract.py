@@ -57,6 +57,60 @@ class Usage(ToolTest):
         self.refuse(2, "info")
         self.refuse(2, "build", SMALL)
 
+    def refusal(self, *arguments):
+        outcome = pointfront(*arguments)
+        self.assertIn(outcome.status, (1, 2), outcome)
+        self.assertEqual(len(outcome.err.splitlines()), 1, outcome)
+        return outcome.err.rstrip()
+
+    def test_misspelt_names_get_the_nearest_one(self):
+        store, picture = self.folder / "a.pfront", self.folder / "a.png"
+        self.succeed("build", SMALL, "-o", store)
+        render = ("render", store, "-o", picture)
+        export = ("export", store, "-o", self.folder / "a.csv")
+        for meant, arguments in (
+                ("render", ("rendr", store)), ("--technique", (*render, "--technque", "splats")),
+                ("splats", (*render, "--technique", "slpats")),
+                ("balanced", (*render, "--quality", "balnced")),
+                ("top", (*render, "--view", "tpo")),
+                ("octree", ("build", SMALL, "-o", self.folder / "b", "--structure", "octre")),
+                ("intensity", (*render, "--color-by", "intensty")),
+                ("elevation", (*render, "--color-by", "elevatoin")),
+                ("gps_time", (*render, "--where", "gps-tmie > 3")),
+                ("gps_time", (*export, "--where", "gps_tme > 3")),
+                ("intensity", ("build", SMALL, "-o", self.folder / "b", "--attributes",
+                               "intensty"))):
+            with self.subTest(arguments=arguments):
+                self.assertTrue(self.refusal(*arguments).endswith(f"; did you mean '{meant}'?"),
+                                self.refusal(*arguments))
+        self.assertNotIn("did you mean", self.refusal(*render, "--technique", "dots"))
+
+    def test_faults_in_json_have_file_line_and_reason(self):
+        store = self.folder / "a.pfront"
+        self.succeed("build", SMALL, "-o", store)
+        area, camera = '{"type":"Polygon",\n"coordinates":', '{"position":[0,0,1],\n"focal_pont":3}'
+        for text, arguments, said in (
+                ('{\n "default": {"technique": "splats",\n}\n}', ("render", "--style"),
+                 "not JSON: line 3, column 1: syntax error"),
+                ('{\n "classes": {"6": {\n  "opacity": 2}}\n}', ("render", "--style"),
+                 "line 3: classes.6.opacity: expected a number from 0.0 to 1.0, not 2"),
+                ('{\n "clases": {}\n}', ("render", "--style"),
+                 "line 2: clases: there is no such key"),
+                (camera, ("render", "--camera"), "line 2: there is no key 'focal_pont'"),
+                (f"[{camera}]", ("bench", "--stats", self.folder / "s.json", "--path"),
+                 "camera 0: line 2: there is no key 'focal_pont'"),
+                (area + '[[[0,0],[1,"a"],[1,1],[0,0]]]}', ("export", "--polygon"),
+                 "line 2: coordinates[0][1] is no position"),
+                (area + "[[[0,0}", ("export", "--polygon"), "not JSON: line 2, column ")):
+            with self.subTest(text=text):
+                file = self.folder / "fault.json"
+                file.write_text(text)
+                output = {"render": ("-o", self.folder / "a.png"), "bench": (),
+                          "export": ("-o", self.folder / "a.csv")}[arguments[0]]
+                error = self.refusal(arguments[0], store, *output, *arguments[1:], file)
+                self.assertIn(f"{file}: ", error)
+                self.assertIn(said, error)
+
     def test_help_names_values_as_words(self):
         text = self.succeed("build", "--help").out
         self.assertNotIn("\t", text)

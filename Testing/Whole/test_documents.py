@@ -56,7 +56,7 @@ class Commands(ToolTest):
         self.run_file(USER / "command-line.md")
 
     def test_other_pages(self):
-        for name in ("paraview.md", "python.md", "cmake.md"):
+        for name in ("README.md", "paraview.md", "python.md", "cmake.md"):
             self.workplace = getattr(self, "workplace", None) or Workplace(self.folder)
             for begin, text in commands(USER / name):
                 with self.subTest(block=f"{name}:{begin}"):

@@ -24,7 +24,7 @@ not, asking for such a class is an ImportError that says what to install.
 from . import _host
 from ._calls import BuildReport, build, index
 from ._clouds import Cloud, open
-from ._errors import PointFrontError, PointFrontWarning
+from ._errors import PointFrontError, PointFrontWarning, did_you_mean
 from ._host import VTK_PACKAGE
 from ._pictures import Picture
 from ._version import __version__
@@ -37,4 +37,5 @@ def __getattr__(name):
     missing = _host.missing_vtk() if name.startswith("vtk") else None
     if missing is not None:
         raise ImportError(missing)
-    raise AttributeError(f"module 'pointfront' has no attribute '{name}'")
+    raise AttributeError(f"module 'pointfront' has no attribute '{name}'"
+                         f"{did_you_mean(name, globals())}")

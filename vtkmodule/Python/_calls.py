@@ -4,7 +4,7 @@ import operator
 import os
 
 from . import _arrays, _kernel
-from ._errors import PointFrontError, warn
+from ._errors import PointFrontError, did_you_mean, warn
 
 
 class BuildReport:
@@ -81,7 +81,8 @@ def _plain(options):
     plain = {}
     for name, value in options.items():
         if name not in _OPTIONS:
-            raise TypeError(f"there is no option '{name}' among {', '.join(sorted(_OPTIONS))}")
+            raise TypeError(f"there is no option '{name}' among {', '.join(sorted(_OPTIONS))}"
+                            f"{did_you_mean(name, _OPTIONS)}")
         if value is not None:
             plain["skip_faulty" if name == "skip_faulty_files" else name] = _OPTIONS[name](value)
     return plain
@@ -93,7 +94,8 @@ _CHOICES = {"structure": ("octree", "kdtree"), "refinement": ("add", "replace"),
 
 def _chosen(what, name):
     if name not in _CHOICES[what]:
-        raise ValueError(f"{what} '{name}' is none of {', '.join(_CHOICES[what])}")
+        raise ValueError(f"{what} '{name}' is none of {', '.join(_CHOICES[what])}"
+                         f"{did_you_mean(name, _CHOICES[what])}")
     return name
 
 

@@ -1,5 +1,6 @@
 """The exception and the warning of the package."""
 
+import difflib
 import pathlib
 import sys
 import warnings
@@ -13,6 +14,12 @@ class PointFrontError(RuntimeError):
 
 class PointFrontWarning(UserWarning):
     """Something was not as it should be, and the work went on. A full sentence says what."""
+
+
+def did_you_mean(name, known):
+    """The end of every message about a name that does not exist, empty if no known one is near."""
+    near = difflib.get_close_matches(name, list(known), n=1, cutoff=0.7)
+    return f"; did you mean '{near[0]}'?" if near else ""
 
 
 def warn(texts):

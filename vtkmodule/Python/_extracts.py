@@ -1,7 +1,9 @@
 """Points of a stored cloud as VTK's data, by vtkPointFrontExtract."""
 
+import re
+
 from . import _host
-from ._errors import PointFrontError, warn
+from ._errors import PointFrontError, did_you_mean, warn
 from ._progress import Watch
 from .pointfrontFiltersExtract import vtkPointFrontExtract
 
@@ -36,7 +38,10 @@ def _set_options(algorithm, options):
     for name, value in options.items():
         setter = "Set" + "".join(word.capitalize() for word in name.split("_"))
         if not hasattr(algorithm, setter):
-            raise TypeError(f"there is no option '{name}', for there is no {setter}")
+            known = [re.sub("(?<!^)([A-Z])", r"_\1", known[3:]).lower()
+                     for known in dir(algorithm) if known.startswith("Set")]
+            raise TypeError(f"there is no option '{name}', for there is no {setter}"
+                            f"{did_you_mean(name, known)}")
         getattr(algorithm, setter)(value)
 
 

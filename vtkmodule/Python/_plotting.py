@@ -6,7 +6,7 @@ import pyvista
 from pyvista.plotting.mapper import _BaseMapper
 
 from . import _host
-from ._errors import PointFrontError
+from ._errors import PointFrontError, did_you_mean
 from .pointfrontCommon import vtkPointFrontStyle
 from .pointfrontIOStore import vtkPointFrontReader
 from .pointfrontRenderingCore import vtkPointFrontMapper
@@ -60,7 +60,8 @@ def _colour(mapper, plotter, scalars, cmap, clim):
         default = computed[name]
     else:
         raise PointFrontError(f"the cloud has no attribute '{name}' among "
-                              f"{', '.join(sorted(overview.point_data.keys()))}")
+                              f"{', '.join(sorted(overview.point_data.keys()))}"
+                              f"{did_you_mean(name, [*overview.point_data.keys(), *computed])}")
     mapper.lookup_table.cmap = cmap or plotter.theme.cmap
     mapper.ScalarVisibilityOn()
     mapper.SetScalarModeToUsePointFieldData()

@@ -4,7 +4,7 @@ import ctypes
 import operator
 
 from . import _kernel
-from ._errors import PointFrontError
+from ._errors import PointFrontError, did_you_mean
 
 _MOST = (1 << 63) - 1  # points
 _SixNumbers = ctypes.c_double * 6  # types that are made anew would wait for the collector
@@ -78,7 +78,7 @@ class Conditions:
             for name in self.attributes:
                 if name not in known:
                     raise PointFrontError(f"{cloud.path}: there is no attribute '{name}' among "
-                                          f"{', '.join(known)}")
+                                          f"{', '.join(known)}{did_you_mean(name, known)}")
 
     @classmethod
     def of_all(cls, *, spacing=None, attributes=None):

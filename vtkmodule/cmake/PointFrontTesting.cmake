@@ -61,14 +61,16 @@ function (pointfront_suites executable)
 endfunction ()
 
 # pointfront_discover_tests(<executable> TEST_PREFIX <prefix> [READS_DATA <suite>.<test>...]
-#   [WITHOUT_THREADS <suite>.<test>...] <as gtest_discover_tests>...)
+#   [WITHOUT_THREADS <suite>.<test>...] [MEASURES <suite>.<test>...] <as gtest_discover_tests>...)
 # READS_DATA: those that read the public clouds, or patterns of such. A TEST_FILTER may only begin
 # with "-".
 # WITHOUT_THREADS: those of what runs in one thread and takes seconds under ThreadSanitizer, which
 # has nothing to see in them: they are left out there.
+# MEASURES: those that measure times, counts or many pictures of code that other tests run, too. A
+# sanitizer sees nothing else in them, and they take it a minute each: they are left out there.
 function (pointfront_discover_tests executable)
   cmake_parse_arguments(PARSE_ARGV 1
-    test "" "TEST_PREFIX;TEST_FILTER;DISCOVERY_TIMEOUT" "READS_DATA;WITHOUT_THREADS")
+    test "" "TEST_PREFIX;TEST_FILTER;DISCOVERY_TIMEOUT" "READS_DATA;WITHOUT_THREADS;MEASURES")
   string(REGEX REPLACE "^-" "" left_out "${test_TEST_FILTER}")
   if (test_READS_DATA AND NOT pointfront_has_shared_data)
     list(APPEND left_out ${test_READS_DATA})
@@ -79,6 +81,9 @@ function (pointfront_discover_tests executable)
   endif ()
   if (POINTFRONT_SANITIZE STREQUAL "thread")
     list(APPEND left_out ${test_WITHOUT_THREADS})
+  endif ()
+  if (POINTFRONT_SANITIZE)
+    list(APPEND left_out ${test_MEASURES})
   endif ()
   list(JOIN left_out ":" left_out)
   if (POINTFRONT_SANITIZE)
@@ -135,11 +140,11 @@ function (pointfront_name_leaks executable)
 endfunction ()
 
 # pointfront_add_module_test(<executable> MODULES <module>... [SUITES <suite>...]
-#   [READS_DATA <suite>.<test>...])
+#   [READS_DATA <suite>.<test>...] [MEASURES <suite>.<test>...])
 # One executable of all Cxx/*.cxx of the calling folder. With SUITES its tests draw: each is one
 # test on an X server; without, each test is found by itself.
 function (pointfront_add_module_test name)
-  cmake_parse_arguments(PARSE_ARGV 1 test "" "" "MODULES;SUITES;READS_DATA")
+  cmake_parse_arguments(PARSE_ARGV 1 test "" "" "MODULES;SUITES;READS_DATA;MEASURES")
   find_package(GTest REQUIRED)
   include(GoogleTest)
   file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/Cxx/*.cxx")
@@ -151,12 +156,17 @@ function (pointfront_add_module_test name)
   vtk_module_autoinit(TARGETS ${name} MODULES ${test_MODULES})
   if (test_SUITES)
     pointfront_name_leaks(${name})
+    set(left_out "")
+    if (POINTFRONT_SANITIZE AND test_MEASURES)
+      list(JOIN test_MEASURES ":" left_out)
+      string(PREPEND left_out "-")
+    endif ()
     foreach (suite IN LISTS test_SUITES)
       pointfront_add_display_test(NAME "${name}.${suite}"
-        COMMAND "$<TARGET_FILE:${name}>" "--gtest_filter=${suite}.*")
+        COMMAND "$<TARGET_FILE:${name}>" "--gtest_filter=${suite}.*${left_out}")
     endforeach ()
   else ()
     pointfront_discover_tests(${name} TEST_PREFIX "${POINTFRONT_TEST_PREFIX}${name}."
-      DISCOVERY_TIMEOUT 60 READS_DATA ${test_READS_DATA})
+      DISCOVERY_TIMEOUT 60 READS_DATA ${test_READS_DATA} MEASURES ${test_MEASURES})
   endif ()
 endfunction ()

@@ -132,7 +132,8 @@ TEST(StyleJSON, LightAndEyeDomeLightingOfAClassAreWrittenAsTheyAreRead)
   expectRefusal(
     R"({"default": {"light": 1}})", "default.light: expected true, false or an object, not 1");
   expectRefusal(R"({"classes": {"5": {"edl": {"radius": 1}}}})",
-    "classes.5.edl.radius: there is no such key; use on, strength, radius_px");
+    "classes.5.edl.radius: there is no such key; use on, strength, radius_px; did you mean "
+    "'radius_px'?");
   expectRefusal(R"({"shading": {"ambient": 0.5}})",
     "shading.ambient: means something where points are lit only");
 }
@@ -171,7 +172,7 @@ TEST(StyleJSON, RefusalsBeginWithTheirPlace)
   expectRefusal(R"({"classes": {"6": {"colour": "rgb"}}})",
     "classes.6.colour: there is no such key; use technique, color, size, orientation, opacity, "
     "visible, error_factor, budget_share, blended, accuracy, rim_color, wall_color, where, "
-    "light, edl");
+    "light, edl; did you mean 'color'?");
   expectRefusal(R"({"classes": {"256": {}}})", "classes.256: a class is a code from 0 to 255");
   expectRefusal(R"({"classes": {"06": {}}})", "classes.06: a class is a code from 0 to 255");
   expectRefusal(
@@ -241,8 +242,48 @@ TEST(StyleJSON, TextThatIsNoSheetIsRefused)
     "the key \"opacity\" stands twice in one object");
   expectRefusal("[]", "the file: expected an object, not []");
   expectRefusal(R"({"default": 3})", "default: expected an object, not 3");
-  for (const char* text : { "", "{", R"({"default")", "{\"a\": 1e999}", "nan", "\xff" })
+  expectRefusal(
+    "{\"a\": 1e999}", "a number in it is too large for double precision; write one below 1e308");
+  for (const char* text : { "", "{", R"({"default")", "nan", "\xff" })
   {
-    EXPECT_EQ(refusal(text).rfind("not JSON", 0), 0u) << text << ": " << refusal(text);
+    EXPECT_EQ(refusal(text).rfind("not JSON: line 1, column ", 0), 0u)
+      << text << ": " << refusal(text);
+  }
+}
+
+TEST(StyleJSON, RefusalsOfTextsOfSeveralLinesNameTheLine)
+{
+  expectRefusal("{\n \"default\": {\"opacity\": 2}\n}\n",
+    "line 2: default.opacity: expected a number from 0.0 to 1.0, not 2");
+  expectRefusal("{\n \"classes\": {\"2\": {}, \"6\": {\n\n  \"opacity\":\n 2}}}\n",
+    "line 4: classes.6.opacity: expected a number from 0.0 to 1.0, not 2");
+  expectRefusal("{\"show_classes\": [2,\n 3,\n 300]}",
+    "line 3: show_classes[2]: a class is a code from 0 to 255");
+  expectRefusal("{\"lenses\": [\n{\"shape\": \"circle\",\n\"inside\": {}}]}",
+    "line 2: lenses[0]: expected the key center_px"); // of the object that lacks it
+  expectRefusal("{\"where\": \"a > 1\",\n\"classes\": {},\n\"where\": \"a > 2\"}",
+    "line 3: the key \"where\" stands twice in one object");
+  expectRefusal("{\"default\": {\n\"technique\": \"dots\",\n}\n}",
+    "not JSON: line 3, column 1: syntax error while parsing object key - unexpected '}'; expected "
+    "string literal");
+  // Brackets, quotes and line ends within strings do not count.
+  expectRefusal("{\"where\": \"\\\"} a\\n\",\n\"shading\": 3}",
+    "line 1: where: '\"} a\n', character 1: "
+    "expected a name and a closing \", not '\"} a\n'");
+}
+
+TEST(StyleJSON, MisspeltNamesGetTheNearestOne)
+{
+  for (const auto& [text, meant] :
+    { std::pair{ R"({"default": {"technique": "slpats"}})", "splats" },
+      std::pair{ R"({"default": {"colour": "rgb"}})", "color" },
+      std::pair{ R"({"clases": {}})", "classes" },
+      std::pair{ R"({"classes": {"6": {"size": {"mode": "fixd", "px": 1}}}})", "fixed" },
+      std::pair{ R"({"default": {"color": {"attribute": "z", "map": "virdis"}}})", "viridis" },
+      std::pair{ R"({"shading": {"mode": "eld"}})", "edl" },
+      std::pair{ R"({"highlight": [{"clas": 6}]})", "class" } })
+  {
+    EXPECT_NE(refusal(text).find("; did you mean '" + std::string(meant) + "'?"), std::string::npos)
+      << refusal(text);
   }
 }

@@ -66,6 +66,24 @@ class Points(unittest.TestCase):
                 shift = 8 if name == "wide" else 0
                 numpy.testing.assert_array_equal(bytes_of, points["rgb"] >> shift)
 
+    def test_misspelt_names_get_the_nearest_one(self):
+        cloud = pointfront.open(self.stores["add"])
+        for problem, meant, ask in (
+                (pointfront.PointFrontError, "intensity",
+                 lambda: cloud.points(attributes=["intensty"])),
+                (pointfront.PointFrontError, "intensity",
+                 lambda: cloud.points(where="intenity > 3")),
+                (TypeError, "overwrite",
+                 lambda: pointfront.build(CLOUD, self.folder / "a.pfront", overwrit=True)),
+                (ValueError, "octree",
+                 lambda: pointfront.build(CLOUD, self.folder / "a.pfront", structure="octre")),
+                (pointfront.PointFrontError, "splats",
+                 lambda: cloud.screenshot(self.folder / "a.png", technique="slpats")),
+                (AttributeError, "build", lambda: pointfront.biuld)):
+            with self.subTest(meant=meant):
+                with self.assertRaisesRegex(problem, f"did you mean '{meant}'"):
+                    ask()
+
     def test_integers_of_64_bits_are_compared_exactly(self):
         core = importlib.import_module(pointfront.VTK_PACKAGE + ".vtkCommonCore")
         model = importlib.import_module(pointfront.VTK_PACKAGE + ".vtkCommonDataModel")

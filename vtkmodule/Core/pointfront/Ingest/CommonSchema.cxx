@@ -1,5 +1,7 @@
 #include "pointfront/Ingest/CommonSchema.h"
 
+#include "pointfront/Base/NearestName.h"
+#include "pointfront/Points/AttributeNames.h"
 #include "pointfront/Points/SplatRadius.h"
 
 #include <algorithm>
@@ -137,7 +139,8 @@ Result<AttributeSchema> selected(const AttributeSchema& all, const std::vector<s
     if (!column)
     {
       return makeError(Error::Kind::BadArgument,
-        "no input has an attribute " + quoted(name) + "; there are: " + listOf(all));
+        "no input has an attribute " + quoted(name) + "; there are: " + listOf(all) +
+          didYouMean(name, attributeNames(all)));
     }
     keep[*column] = true;
   }

@@ -1,5 +1,7 @@
 #include "pointfront/Query/ChosenColumns.h"
 
+#include "pointfront/Base/NearestName.h"
+#include "pointfront/Points/AttributeNames.h"
 #include "pointfront/Points/EnclosingRadius.h"
 
 #include <algorithm>
@@ -57,7 +59,8 @@ Result<ChosenColumns> ChosenColumns::make(
     if (!column)
     {
       return makeError(Error::Kind::BadArgument,
-        store.path + ": no attribute is called '" + name + "' (info lists them)");
+        store.path + ": no attribute is called '" + name + "' (info lists them)" +
+          didYouMean(name, attributeNames(store.schema)));
     }
     columns.push_back(static_cast<std::uint32_t>(*column));
   }

@@ -2,6 +2,7 @@
 
 #include "pointfront/Base/Infinity.h"
 
+#include "pointfront/Points/AttributeNames.h"
 #include "pointfront/Style/ComponentName.h"
 #include "pointfront/Style/StandardColours.h"
 
@@ -36,7 +37,7 @@ bool varies(const StoreDescription& store, const char* attribute)
 
 Error missing(const StoreDescription& store, const std::string& name)
 {
-  std::string hint = " (info lists them)";
+  std::string hint = " (info lists them)" + meantAttribute(store.schema, name);
   const std::string plain = withUnderscores(name);
   if (sameWithoutCase(plain, "horizontality") || sameWithoutCase(plain, "normal"))
   {

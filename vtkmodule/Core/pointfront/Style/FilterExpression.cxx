@@ -1,5 +1,6 @@
 #include "pointfront/Style/FilterExpression.h"
 
+#include "pointfront/Points/AttributeNames.h"
 #include "pointfront/Style/ComponentName.h"
 
 #include <algorithm>
@@ -364,7 +365,8 @@ Result<PointFilter> FilterExpression::resolve(
         store.path +
           (condition.absolute
               ? " has no attribute 'normal', which horizontality needs: build it with --normals pca"
-              : " has no attribute '" + term.name + "' (info lists them)"));
+              : " has no attribute '" + term.name + "' (info lists them)" +
+                meantAttribute(store.schema, term.name)));
     }
     if (axis >= 0)
     {

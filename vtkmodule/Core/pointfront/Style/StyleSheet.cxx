@@ -1,6 +1,7 @@
 #include "pointfront/Style/StyleSheet.h"
 
 #include "pointfront/Looks/StyleLooks.h"
+#include "pointfront/Points/AttributeNames.h"
 #include "pointfront/Points/EnclosingRadius.h"
 #include "pointfront/Style/ComponentName.h"
 #include "pointfront/Style/StyleResolution.h"
@@ -150,8 +151,9 @@ private:
       {
         return makeError(Error::Kind::BadArgument,
           place_ + ".size.attribute: " + store_.path +
-            (column || store_.schema.find(name) ? ": '" + name + "' has several components"
-                                                : " has no attribute '" + name + "'"));
+            (column || store_.schema.find(name)
+                ? ": '" + name + "' has several components"
+                : " has no attribute '" + name + "'" + meantAttribute(store_.schema, name)));
       }
       resolved_.size.column = *column;
     }

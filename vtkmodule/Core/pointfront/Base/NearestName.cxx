@@ -1,9 +1,22 @@
-#include "Suggestion.h"
+#include "pointfront/Base/NearestName.h"
 
 #include <algorithm>
+#include <cctype>
 
 namespace pointfront
 {
+
+namespace
+{
+/// The word as it is compared: "--Color_By" is "--color-by".
+std::string plain(const std::string& word)
+{
+  std::string result = word;
+  std::transform(result.begin(), result.end(), result.begin(),
+    [](unsigned char c) { return c == '_' ? '-' : static_cast<char>(std::tolower(c)); });
+  return result;
+}
+} // namespace
 
 std::size_t editDistance(const std::string& one, const std::string& other)
 {
@@ -29,27 +42,40 @@ std::size_t editDistance(const std::string& one, const std::string& other)
   return cost[one.size()][other.size()];
 }
 
-std::string suggestionFor(const std::string& word, const std::vector<std::string>& known)
+std::string nearestName(const std::string& word, const std::vector<std::string>& known)
 {
+  constexpr std::size_t longest = 64; // a whole text in the place of a name is near to none
+  if (word.size() > longest)
+  {
+    return {};
+  }
   const std::size_t letters = word.size() - std::min(word.size(), word.find_first_not_of('-'));
+  const std::string typed = plain(word);
   std::string nearest;
   std::size_t least = std::max<std::size_t>(1, letters / 3) + 1;
   std::string longer;
   std::size_t begun = 0;
   for (const std::string& candidate : known)
   {
-    if (const std::size_t distance = editDistance(word, candidate); distance < least)
+    const std::string name = plain(candidate);
+    if (const std::size_t distance = editDistance(typed, name); distance < least)
     {
       least = distance;
       nearest = candidate;
     }
-    if (candidate.compare(0, word.size(), word) == 0 && letters >= 2)
+    if (name.compare(0, typed.size(), typed) == 0 && letters >= 2)
     {
       longer = candidate;
       ++begun;
     }
   }
   return nearest.empty() && begun == 1 ? longer : nearest;
+}
+
+std::string didYouMean(const std::string& word, const std::vector<std::string>& known)
+{
+  const std::string meant = nearestName(word, known);
+  return meant.empty() ? std::string() : "; did you mean '" + meant + "'?";
 }
 
 } // namespace pointfront

@@ -37,7 +37,8 @@ Result<ShownClasses> ShownClasses::choose(
 Error noClassShown()
 {
   return makeError(Error::Kind::BadArgument,
-    "--classes: no store here has a point of these classes (info lists them)");
+    "no store here has a point of these classes (info lists them): --classes, or the style by "
+    "show_classes and visible, hides all others");
 }
 
 Error noClassTrees(const std::string& store)

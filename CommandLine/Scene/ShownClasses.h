@@ -24,7 +24,7 @@ struct ShownClasses
     const std::vector<std::uint8_t>& codes, const StoreDescription& store);
 };
 
-/// --classes names none that any of the stores has.
+/// Options and style leave no class that any of the stores has.
 Error noClassShown();
 
 /// Shares of classes are asked for, and no store of the scene has a tree for each class.

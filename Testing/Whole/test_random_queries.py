@@ -49,7 +49,8 @@ class OpenedCloud:
         self.positions, self.columns = world(records, self.scale, self.offset), columns_of(records)
         self.means = cloud.get("options", {}).get("refinement") == "replace"
         # An index has the points of a node in the order of the file: as many as asked, not evenly.
-        self.most_gap = 4.0 if cloud.get("form") == "index" else 1.1
+        # A store's spacing is the usual distance of neighbours: TrueGaps.* knows gaps of 2.2.
+        self.most_gap = 4.0 if cloud.get("form") == "index" else 2.2
         self.levels = {}
 
     def grid(self, positions):

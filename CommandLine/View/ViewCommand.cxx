@@ -14,7 +14,7 @@ namespace pointfront
 
 void ViewCommand::declare(CLI::App& program)
 {
-  app_ = program.add_subcommand("view", "Show stores, or LAS and LAZ files, in a window");
+  app_ = program.add_subcommand("view", "Show stores or point files in a window");
   request_.drawing.declare(*app_);
   CLI::Option* const view =
     app_->add_option("--view", view_, "Where from at first, showing all (iso)")
@@ -23,8 +23,8 @@ void ViewCommand::declare(CLI::App& program)
     ->type_name("FILE.json")
     ->excludes(view);
   app_
-    ->add_option("--store", request_.keep,
-      "Where the store of LAS and LAZ files is built (it goes with the window)")
+    ->add_option(
+      "--store", request_.keep, "Where the store of point files is built (it goes with the window)")
     ->type_name("OUT.pfront");
   app_->footer("Mouse and keys in the window:\n" + keyHelp());
 }

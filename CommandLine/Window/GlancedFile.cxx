@@ -3,22 +3,62 @@
 #include "COPCFile.h"
 #include "LASFormat.h"
 #include "LAZGlance.h"
+#include "SourceFormats.h"
 
+#include "pointfront/InPlace/FirstLook.h"
+#include "pointfront/Tiles/TileFormat.h"
+
+#include <algorithm>
+#include <cctype>
 #include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace pointfront
 {
+namespace
+{
+
+/// Its name ends as those of point files do. What else the user drags in is refused as no cloud,
+/// and not read as text from end to end.
+bool hasEndingOfPoints(const std::string& path)
+{
+  std::string extension = std::filesystem::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::vector<std::string> known = SourceFormats().extensions();
+  return !extension.empty() &&
+    std::find(known.begin(), known.end(), extension.substr(1)) != known.end();
+}
+
+} // namespace
 
 bool GlancedFileFormat::isPointFile(const std::string& path)
 {
   std::error_code failure;
-  return std::filesystem::is_regular_file(path, failure) && LASFormat().accepts(path) &&
-    !COPCFormat().accepts(path);
+  if (!std::filesystem::is_regular_file(path, failure) || COPCFormat().accepts(path))
+  {
+    return false;
+  }
+  return LASFormat().accepts(path) ||
+    (hasEndingOfPoints(path) && !SourceFormats::isStore(path) &&
+      SourceFormats().mayHoldPoints(path));
+}
+
+bool GlancedFileFormat::isFolderOfPoints(const std::string& path)
+{
+  return LAZGlanceFormat().accepts(path) && !TileFormat().accepts(path);
 }
 
 Result<std::shared_ptr<const StoredCloud>> GlancedFileFormat::open(const std::string& path) const
 {
-  return glanceAtLAS(path, { path });
+  if (LASFormat().accepts(path))
+  {
+    return glanceAtLAS(path, { path });
+  }
+  Result<std::unique_ptr<PointSource>> source = SourceFormats().open(path);
+  return source ? firstLookAt(std::move(*source)) : source.error();
 }
 
 } // namespace pointfront

@@ -29,7 +29,9 @@ Result<void> ShownFiles::name(const std::vector<std::string>& files)
     {
       return makeError(Error::Kind::BadFormat, why);
     }
-    (GlancedFileFormat::isPointFile(file) ? points : own).push_back(file);
+    const bool built =
+      GlancedFileFormat::isPointFile(file) || GlancedFileFormat::isFolderOfPoints(file);
+    (built ? points : own).push_back(file);
   }
   std::unique_ptr<StoreInTheMaking> making;
   if (!points.empty())
@@ -69,7 +71,8 @@ Result<std::optional<std::string>> ShownFiles::look()
     return makeError(Error::Kind::Unwritable, making_->failure());
   }
   opened_.clear();
-  const bool follows = before == State::Preview; // a preview's view goes over to the store itself
+  const bool follows =
+    before == State::Preview; // the view of a preview shows the store itself next
   stores_ = own_;
   stores_.push_back(making_->path());
   return std::optional<std::string>(follows ? ""

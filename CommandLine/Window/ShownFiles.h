@@ -17,9 +17,9 @@
 namespace pointfront
 {
 
-/// What stands for the files that the user names. Stores stand for themselves. LAS and LAZ files
-/// are shown at a glance, while a store of them is built; then by the store's preview, and at last
-/// by the store.
+/// What stands for the files that the user names. Stores stand for themselves. Point files, and
+/// folders of LAS and LAZ files, are shown at a glance, while a store of them is built; then by the
+/// store's preview, and at last by the store.
 class ShownFiles
 {
 public:

@@ -66,6 +66,32 @@ class Files(WindowTest):
         self.assertEqual(complaint.count("A first look"), 1, complaint)
         self.assertEqual(self.temporary(), [])
 
+    def test_point_files_of_other_families_are_shown_at_once_and_become_stores(self):
+        for name in ("trim.ply", "trim.pcd", "trim.csv"):
+            with self.subTest(name=name):
+                file, built = self.folder / name, self.folder / f"{name}.pfront"
+                self.succeed("export", self.store, "-o", file)
+                self.succeed("build", file, "-o", built)
+                window = self.show(file)
+                self.complete(window, self.expected(built))
+                status, complaint = window.end()
+                self.assertEqual(status, 0, complaint)
+                self.assertEqual(self.temporary(), [])
+
+    def test_a_folder_of_laz_files_becomes_a_store(self):
+        folder = self.folder / "tiles"
+        folder.mkdir()
+        for name, box in (("west", "0,0,0,637000,1e7,1e5"), ("east", "637000,0,0,1e7,1e7,1e5")):
+            self.succeed("export", self.store, "-o", folder / f"{name}.laz", "--box", box)
+        built = self.folder / "built.pfront"
+        self.succeed("build", folder, "-o", built)
+        window = self.show(self.store)
+        window.picture()
+        window.hands.drop([folder])
+        self.complete(window, self.expected(built))
+        self.assertEqual(window.end()[0], 0)
+        self.assertEqual(self.temporary(), [])
+
     def test_the_store_is_kept_where_the_user_says(self):
         kept = self.folder / "kept.pfront"
         self.succeed("export", self.store, "-o", self.folder / "trim.laz")

@@ -8,13 +8,12 @@
 #include "pointfront/Ingest/CommonSchema.h"
 #include "pointfront/Ingest/GridChoice.h"
 #include "pointfront/Ingest/ReferenceSystem.h"
-#include "pointfront/InPlace/ForeignTree.h"
+#include "pointfront/InPlace/FirstLook.h"
 #include "pointfront/Points/AttributePass.h"
 #include "pointfront/Threads/ThreadCrew.h"
 
 #include <algorithm>
 #include <cctype>
-#include <cmath>
 #include <filesystem>
 #include <optional>
 #include <utility>
@@ -122,29 +121,6 @@ Result<std::unique_ptr<PointSource>> glanceAt(const std::string& path, std::size
     std::make_unique<GlancedFile>(std::move(description), std::move(points)));
 }
 
-/// All points in the memory of this process.
-class GlancedPoints final : public ForeignNodes
-{
-public:
-  GlancedPoints(PointBatch points, std::vector<std::string> files)
-    : points_(std::move(points))
-    , files_(std::move(files))
-  {
-  }
-  Result<RawBytes> fetch(std::uint64_t) const override { return RawBytes(0); }
-  std::size_t storedBytes(std::uint64_t) const override { return 0; }
-  Result<void> decode(const Part&, const RawBytes&, PointBatch& batch) const override
-  {
-    batch = points_;
-    return {};
-  }
-  std::vector<std::string> files() const override { return files_; }
-
-private:
-  PointBatch points_;
-  std::vector<std::string> files_;
-};
-
 /// The points of all files in the columns of all.
 PointBatch joined(const PointSources& files, const CommonSchema& common)
 {
@@ -239,12 +215,6 @@ Result<std::vector<std::string>> lasFilesBelow(const std::string& folder)
   return files;
 }
 
-double spacingOf(const Bounds& bounds, std::size_t points)
-{
-  const glm::dvec3 size = bounds.size();
-  const double area = std::max({ size.x * size.y, size.x * size.z, size.y * size.z });
-  return std::sqrt(area / static_cast<double>(points));
-}
 /// Of files whose points are `points` in the columns `schema`. The warnings say what is missing.
 SourceDescription describeGlances(
   const PointSources& glances, const PointBatch& points, const AttributeSchema& schema)
@@ -260,10 +230,6 @@ SourceDescription describeGlances(
   {
     all += glance->description().pointCount;
   }
-  for (const glm::dvec3& p : points.positions)
-  {
-    source.declaredBounds.add(p);
-  }
   source.headerPointCount = all;
   source.warnings.push_back("A first look: " + std::to_string(points.size()) + " of " +
     std::to_string(all) + " points, one of each chunk of " + std::to_string(glances.size()) +
@@ -275,28 +241,6 @@ SourceDescription describeGlances(
   return source;
 }
 
-std::uint64_t bytesOf(const std::vector<std::string>& files)
-{
-  std::uint64_t sum = 0;
-  for (const std::string& file : files)
-  {
-    std::error_code failure;
-    const std::uintmax_t bytes = fs::file_size(file, failure);
-    sum += failure ? 0 : bytes;
-  }
-  return sum;
-}
-
-/// A tree of one node around all points.
-void enclose(ForeignTreeContent& content, std::size_t points)
-{
-  const Bounds& bounds = content.source.declaredBounds;
-  const glm::dvec3 step = content.source.grid->scale;
-  content.setCube(bounds);
-  content.side = std::max({ content.side, step.x, step.y, step.z });
-  content.spacing = spacingOf(bounds, points);
-  content.nodes.push_back({ 0, 0, 0, 0, static_cast<std::uint32_t>(points), 0 });
-}
 } // namespace
 
 Result<std::shared_ptr<const StoredCloud>> glanceAtLAS(
@@ -322,14 +266,10 @@ Result<std::shared_ptr<const StoredCloud>> glanceAtLAS(
   {
     return makeError(Error::Kind::NotFound, path + ": its files hold no points");
   }
-  ForeignTreeContent content;
-  content.source = describeGlances(*glances, points, common->schema);
-  content.source.path = path;
-  content.source.grid = grid->grid;
-  content.fileBytes = bytesOf(files);
-  enclose(content, points.size());
-  content.reader = std::make_shared<const GlancedPoints>(std::move(points), files);
-  return ForeignTree::make(std::move(content));
+  SourceDescription source = describeGlances(*glances, points, common->schema);
+  source.path = path;
+  source.grid = grid->grid;
+  return cloudOfPoints(std::move(source), std::move(points), files);
 }
 
 bool LAZGlanceFormat::accepts(const std::string& path) const

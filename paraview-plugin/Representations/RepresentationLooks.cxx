@@ -5,10 +5,13 @@
 #include "StyleChoice.h"
 
 #include "vtkDataObject.h"
+#include "vtkDiscretizableColorTransferFunction.h"
 #include "vtkInformation.h"
 #include "vtkLookupTable.h"
+#include "vtkNew.h"
 #include "vtkPointFrontMapper.h"
 #include "vtkPointFrontStore.h"
+#include "vtkPointFrontStyle.h"
 #include "vtkProperty.h"
 #include "vtkPVRenderView.h"
 #include "vtkRenderer.h"
@@ -58,7 +61,7 @@ void vtkPointFrontRepresentation::PrepareColors()
     vtkWarningMacro("\"" << array << "\" names points and is no colour: they are shown by height");
   }
   this->ToldOfNames = !color;
-  this->Mapper->SetLookupTable(color ? this->Table.Get() : this->HeightTable());
+  this->Mapper->SetLookupTable(color ? this->DrawnTable() : this->HeightTable());
   this->Mapper->ScalarVisibilityOn();
   this->Mapper->SetScalarModeToUsePointFieldData();
   this->Mapper->SelectColorArray(color ? array : "elevation");
@@ -103,11 +106,47 @@ void vtkPointFrontRepresentation::PrepareStyle()
   this->TellLensOfRanks();
   std::string error;
   const int* const size = view->GetRenderer()->GetSize();
-  this->Mapper->SetStyle(this->Choice->style(colour, size[0], size[1], error));
+  vtkPointFrontStyle* const style = this->Choice->style(colour, size[0], size[1], error);
+  this->Mapper->SetStyle(style);
+  this->TellOpaqueMap(style != nullptr);
   if (!error.empty() && this->Mapper->GetStorePiece() == 0)
   {
     vtkErrorMacro(<< error);
   }
+}
+
+//------------------------------------------------------------------------------
+vtkScalarsToColors* vtkPointFrontRepresentation::DrawnTable()
+{
+  auto* map = vtkDiscretizableColorTransferFunction::SafeDownCast(this->Table);
+  if (!map || !map->GetEnableOpacityMapping() || this->Mapper->GetNumberOfStorePieces() < 2)
+  {
+    return this->Table;
+  }
+  // Translucent actors write no depth, by which ranks put their pictures together.
+  if (!this->OpaqueMap || this->OpaqueMap->GetMTime() < map->GetMTime())
+  {
+    vtkNew<vtkDiscretizableColorTransferFunction> opaque;
+    opaque->DeepCopy(map);
+    opaque->EnableOpacityMappingOff();
+    opaque->Build();
+    this->OpaqueMap = opaque;
+  }
+  return this->OpaqueMap;
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::TellOpaqueMap(bool styled)
+{
+  auto* map = vtkDiscretizableColorTransferFunction::SafeDownCast(this->Table);
+  const bool lost = map && map->GetEnableOpacityMapping() && !this->DrawnArray.empty() &&
+    !this->DrawnDirectly && (styled || this->Mapper->GetNumberOfStorePieces() > 1);
+  if (lost && !this->ToldOfOpaqueMap && this->Mapper->GetStorePiece() == 0)
+  {
+    vtkWarningMacro("the opacities of the color map are left out: only points in no style, on one "
+                    "process, have them. Opacity (Styling) holds for all.");
+  }
+  this->ToldOfOpaqueMap = lost;
 }
 
 //------------------------------------------------------------------------------

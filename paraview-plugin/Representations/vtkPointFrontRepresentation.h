@@ -291,6 +291,9 @@ private:
   void AgreeOnExchange();
   /// Greys over the heights of the cloud; null without a store.
   vtkScalarsToColors* HeightTable();
+  /// The table of the colours; on several ranks without its opacities.
+  vtkScalarsToColors* DrawnTable();
+  void TellOpaqueMap(bool styled);
   bool WantsComplete(vtkPVRenderView* view) const;
   /// While the view selects, what cannot be picked is not drawn: above all the marks of what is
   /// selected, which hide what is to be deselected.
@@ -319,6 +322,7 @@ private:
   bool DirectColors = true;
   std::vector<vtkWeakPointer<vtkPVLODActor>> HiddenMarks;
   bool ToldOfNames = false; ///< that they are no colours
+  bool ToldOfOpaqueMap = false; ///< that its opacities are not drawn
   bool ToldOfRanks = false; ///< that each has its part of a lens
   bool CrispPoints = true;
   bool InMotion = false; ///< the last frame
@@ -332,6 +336,7 @@ private:
   double PointSize = 2.0;
   double Opacity = 1.0;
   vtkSmartPointer<vtkScalarsToColors> Table;
+  vtkSmartPointer<vtkScalarsToColors> OpaqueMap; ///< DrawnTable()
   vtkSmartPointer<vtkScalarsToColors> Heights;
 };
 

@@ -51,4 +51,18 @@ for place, way in (("all", None), ("inside", lambda: camera.Dolly(4)),
                    ("edge", lambda: camera.Yaw(28)), ("away", lambda: camera.Yaw(150))):
     if way:
         way()
-    scene.save("%s-balanced-%s" % (name, place))
+    for look, strength, fill in (("", 0, 0), ("-edl", 0.4, 0), ("-filled", 0.4, 1)):
+        scene.display.EyeDomeStrength, scene.display.FillHoles = strength, fill
+        scene.save("%s-balanced%s-%s" % (name, look, place))
+scene.display.EyeDomeStrength, scene.display.FillHoles = 0, 0
+
+# A color map's opacities, which ranks leave out.
+scene.look()
+scene.display.Quality, scene.display.Technique = "custom", "points"
+scene.display.TargetError = 0.01
+scene.color_by(scene.display, "intensity")
+scene.display.RescaleTransferFunctionToDataRange(False)
+scene.save(name + "-mapped")
+simple.GetOpacityTransferFunction("intensity").Points = [0, 0, 0.5, 0, 255, 1, 0.5, 0]
+simple.GetColorTransferFunction("intensity").EnableOpacityMapping = 1
+scene.save(name + "-map-translucent")

@@ -65,16 +65,28 @@ def backends(programs):
     for old in glob.glob("backends-*.png"):
         os.remove(old)
     for count in (1, 2, 4):
-        programs.run(*mpi(count, os.environ["POINTFRONT_PVBATCH"],
-                          os.path.join(HERE, "backends.py"), "backends-%d" % count))
+        log = "backends-%d.log" % count
+        with open(log, "w") as output:
+            done = programs.start(*mpi(count, os.environ["POINTFRONT_PVBATCH"],
+                                       os.path.join(HERE, "backends.py"), "backends-%d" % count),
+                                  output=output)
+        try:
+            programs.finish(done)
+        finally:
+            told = open(log).read()
+            print(told)
+        if told.count("opacities of the color map") != (1 if count > 1 else 0):
+            raise AssertionError("what is told of a color map's opacities on %d ranks" % count)
         for picture in sorted(glob.glob("backends-1-*.png")):
             way = picture[len("backends-1-"):-len(".png")]
             if way.endswith("away"):
                 continue  # it is enough that no rank waits for the others
-            if way == "translucent":
+            if way in ("translucent", "map-translucent"):
                 continue  # one process blends all points of a pixel
             compare("backends-%d-%s" % (count, way), "backends-1-" + way, channel=2)
         if count > 1:
+            # A color map's opacities are left out, and somebody says so.
+            compare("backends-%d-map-translucent" % count, "backends-%d-mapped" % count, channel=2)
             # Half of the opaque picture's colour, over black.
             opaque = pictures.load("backends-%d-opaque.png" % count)
             translucent = pictures.load("backends-%d-translucent.png" % count)

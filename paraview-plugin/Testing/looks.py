@@ -92,9 +92,11 @@ require(pictures.differing(balanced, picture("blended"), 0) == 0, "blended is no
 # Tables say what their columns are.
 proxy = display.SMProxy
 heads = [proxy.GetPropertyGroup(i).GetXMLLabel() for i in range(proxy.GetNumberOfPropertyGroups())]
-for table in ("Styles of Classes: ", "Inside the Lens: "):
-    require(any(head and head.startswith(table) and "| Technique | Color | Size" in head
-                for head in heads), "no head of %s: %s" % (table, heads))
+for table in ("Styles: Class, Technique, Color, px", "Light: Class, Light, Eye-Dome",
+              "Lens: Class, Technique, Color, px"):
+    require(table in heads, "no head of %s: %s" % (table, heads))
+# The panel is narrow at first.
+require(max(len(head or "") for head in heads) <= 36, "long heads: %s" % heads)
 
 # A quality is what its parts are, whatever is set of them.
 display.Technique, display.ClosingSize, display.TargetError = "splats", 1, 2

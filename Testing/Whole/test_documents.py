@@ -62,6 +62,11 @@ class Commands(ToolTest):
                 with self.subTest(block=f"{name}:{begin}"):
                     self.run_block(f"{name}:{begin}", text)
 
+    def test_the_viewer_of_the_page_is_the_example_that_is_built(self):
+        shown = [text for language, _, text in blocks(USER / "cmake.md") if language == "cpp"]
+        built = (ROOT / "Examples/Cxx/ViewStore/main.cxx").read_text()
+        self.assertTrue(any(text in built and "int main" in text for text in shown))
+
     def test_commands_stand_in_blocks_that_are_run(self):
         for path in (ROOT / "README.md", *sorted(USER.glob("*.md"))):
             for language, begin, text in blocks(path):

@@ -5,10 +5,14 @@ browser that looks on. Environment: as test_page.py.
 import asyncio
 import concurrent.futures
 import json
+import pathlib
 import re
 import socket
 import struct
+import subprocess
+import sys
 import threading
+import time
 import unittest
 import urllib.error
 import urllib.parse
@@ -170,7 +174,8 @@ class Strangers(InBrowser):
         server.end()
 
     def test_a_socket_is_refused_without_the_secret(self):
-        """Before it is one: 10,000 messages of somebody who has not the secret reach nothing."""
+        """Before it is one: 100,000 messages of somebody who has not the secret reach nothing, and a
+        view turns as before."""
         server = Server(self.store, "--port", "0")
         self.addCleanup(server.process.kill)
         page = self.open(server.url)
@@ -178,12 +183,35 @@ class Strangers(InBrowser):
         for query in ("", "?secret=", "?secret=wslink-secret"):
             self.assertEqual(in_loop(status_of_socket(f"{own}/ws{query}")), 403, query)
         address = urllib.parse.urlsplit(own)
-        self.assertEqual(bogus_messages(address.hostname, address.port, 10000), [])
+        before = self.turned_frames(page, lambda seconds: seconds > 3)
+        sender = subprocess.Popen(
+            [sys.executable, "-c", "import sys, test_strangers as t; "
+             "sys.exit(str(t.bogus_messages(sys.argv[1], int(sys.argv[2]), 100000)) != '[]')",
+             address.hostname, str(address.port)], cwd=pathlib.Path(__file__).parent)
+        during = self.turned_frames(page, lambda _: sender.poll() is not None)
+        self.assertEqual(sender.wait(), 0)
+        after = self.turned_frames(page, lambda seconds: seconds > 3)
+        print("frames a second: %.1f, with strangers %.1f, then %.1f" % (before, during, after))
+        # Who sends takes one of the machine's cores, which may have no more than two.
+        self.assertGreater(during, 0.4 * min(before, after))
         turned = self.settle(page, lambda: page.click("text=top"))
         self.assertGreater(turned.std(), 20)
         self.assertEqual(self.errors, [])
         self.assertEqual(server.end(), 130)
         self.assertEqual(server.said, "")
+
+    def turned_frames(self, page, ended):
+        """Frames a second, while the mouse turns the view until ended(seconds)."""
+        page.mouse.move(400, 250)
+        page.mouse.down()
+        begun, before, step = time.monotonic(), self.frames(page), 0
+        while not ended(time.monotonic() - begun):
+            page.mouse.move(400 + 3 * min(step % 100, 100 - step % 100), 250)
+            page.wait_for_timeout(10)
+            step += 1
+        rate = (self.frames(page) - before) / (time.monotonic() - begun)
+        page.mouse.up()
+        return rate
 
     def test_a_viewer_neither_ends_the_server_nor_stalls_others_nor_fills_memory(self):
         server = Server(self.store, "--port", "0")

@@ -174,8 +174,8 @@ class Strangers(InBrowser):
         server.end()
 
     def test_a_socket_is_refused_without_the_secret(self):
-        """Before it is one: 100,000 messages of somebody who has not the secret reach nothing, and a
-        view turns as before."""
+        """Before it is one: 100,000 messages of somebody who has not the secret reach nothing, and
+        a view turns meanwhile."""
         server = Server(self.store, "--port", "0")
         self.addCleanup(server.process.kill)
         page = self.open(server.url)

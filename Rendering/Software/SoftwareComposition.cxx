@@ -119,6 +119,8 @@ RasterStatistics SoftwareComposition::draw(SoftwareRasteriser& rasteriser, const
   {
     return rasteriser.draw(plan, target, store);
   }
+  const PixelRectangle viewport{ 0, 0, plan.camera.width, plan.camera.height };
+  const bool complete = target.rectangle().contains(viewport);
   RasterStatistics all;
   for (PlanPart& part : partsOf(plan))
   {
@@ -131,7 +133,8 @@ RasterStatistics SoftwareComposition::draw(SoftwareRasteriser& rasteriser, const
     }
     if (!own.rectangle().empty())
     {
-      const RasterStatistics drawn = rasteriser.draw(part.plan, own, store, numberOf(part));
+      const RasterStatistics drawn =
+        rasteriser.draw(part.plan, own, store, { numberOf(part), complete && !part.mask });
       all.points += drawn.points;
       all.reused += drawn.reused;
       all.keptVisible += drawn.keptVisible;
@@ -148,7 +151,10 @@ RasterStatistics SoftwareComposition::drawShown(
   {
     return rasteriser.drawShown(plan, target);
   }
-  target.reset(wider(shownRectangle(plan), plan.shading.reachPx(), plan.camera));
+  // What is kept may lie anywhere.
+  target.reset(plan.keepsVisible
+      ? PixelRectangle{ 0, 0, plan.camera.width, plan.camera.height }
+      : wider(shownRectangle(plan), plan.shading.reachPx(), plan.camera));
   return target.rectangle().empty() ? RasterStatistics() : draw(rasteriser, plan, target);
 }
 

@@ -1,6 +1,6 @@
 #include "SoftwareRasteriser.h"
 
-#include "LastPicture.h"
+#include "LastPictures.h"
 #include "PointShapes.h"
 #include "RasterBuffers.h"
 #include "RasterItems.h"
@@ -16,7 +16,6 @@
 #include <chrono>
 #include <cstring>
 #include <limits>
-#include <map>
 #include <utility>
 #include <vector>
 
@@ -62,6 +61,7 @@ struct SoftwareRasteriser::Content
     LastPicture& picture;
     std::uint16_t store = 0;
     bool whole = false; ///< all of the viewport is wanted
+    bool known = false; ///< all that is wanted of the part is in the target
     bool fits = false; ///< the target is made as large as what is shown
     std::uint64_t reused = 0;
   };
@@ -75,10 +75,10 @@ struct SoftwareRasteriser::Content
   const RasterKernels* loops = &rasterKernels();
   std::vector<ThreadBuffers> buffers;
   RasterBuffer<float> nearest;
-  std::map<std::uint32_t, LastPicture> last; ///< by part and store
+  LastPictures last;
 
   RasterStatistics draw(const FramePlan& asked, SoftwareTarget& target, std::uint16_t store,
-    std::uint16_t part, bool fits);
+    const RasterPart& part, bool fits);
   void drawRound(const RasterItems& items, Drawing& drawing);
   void drawAtOnce(const RasterItems& items, RasterWindow window, Drawing& drawing);
   void keep(const RasterItems& items, const RasterWindow& window, LastPicture& picture);
@@ -271,11 +271,7 @@ void SoftwareRasteriser::Content::keep(
 {
   const FrameCamera& camera = items.plan().camera;
   const RasterWindow viewport = windowOf({ 0, 0, camera.width, camera.height });
-  std::int64_t pixels = window.pixels();
-  for (const auto& [store, other] : last)
-  {
-    pixels += other.keyPixels();
-  }
+  const std::int64_t pixels = window.pixels() + last.keyPixels();
   if (pixels <= mostKeptPictures * viewport.pixels())
   {
     picture.keep(items, window, std::move(buffers[0].keys));
@@ -311,6 +307,10 @@ void SoftwareRasteriser::Content::drawAtOnce(
   if (drawing.whole)
   {
     keep(items, window, picture);
+  }
+  else if (drawing.known)
+  {
+    picture.keepVisible(items, window, buffers[0].keys.data(), crew);
   }
   else
   {
@@ -366,15 +366,15 @@ void SoftwareRasteriser::Content::drawRound(const RasterItems& items, Drawing& d
 }
 
 RasterStatistics SoftwareRasteriser::Content::draw(const FramePlan& asked, SoftwareTarget& target,
-  std::uint16_t store, std::uint16_t part, bool fits)
+  std::uint16_t store, const RasterPart& part, bool fits)
 {
   const auto begin = std::chrono::steady_clock::now();
   buffers.resize(crew.threads());
   const PixelRectangle viewport{ 0, 0, asked.camera.width, asked.camera.height };
-  const std::uint32_t picture = std::uint32_t(part) << 16 | store;
-  Drawing drawing{ target, last[picture], store, fits || target.rectangle().contains(viewport),
+  const bool whole = fits || target.rectangle().contains(viewport);
+  Drawing drawing{ target, last.of(store, part.number), store, whole, whole || part.complete,
     fits };
-  const bool keeps = asked.keepsVisible && !asked.exchange && drawing.whole && !target.keepPoints;
+  const bool keeps = asked.keepsVisible && !asked.exchange && drawing.known && !target.keepPoints;
   if (asked.batches.empty() && keeps)
   {
     fits ? target.reset(PixelRectangle()) : void();
@@ -414,7 +414,7 @@ PixelRectangle shownRectangle(const FramePlan& plan)
 }
 
 RasterStatistics SoftwareRasteriser::draw(
-  const FramePlan& plan, SoftwareTarget& target, std::uint16_t store, std::uint16_t part)
+  const FramePlan& plan, SoftwareTarget& target, std::uint16_t store, const RasterPart& part)
 {
   return content_->draw(plan, target, store, part, false);
 }
@@ -422,7 +422,7 @@ RasterStatistics SoftwareRasteriser::draw(
 RasterStatistics SoftwareRasteriser::drawShown(
   const FramePlan& plan, SoftwareTarget& target, std::uint16_t store)
 {
-  return content_->draw(plan, target, store, 0, true);
+  return content_->draw(plan, target, store, {}, true);
 }
 
 void SoftwareRasteriser::release()

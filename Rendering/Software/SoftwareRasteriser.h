@@ -22,6 +22,15 @@ struct RasterStatistics
   double milliseconds = 0.0; ///< wall time
 };
 
+/// What a plan is of a picture that is put together of several (PlanPart).
+struct RasterPart
+{
+  std::uint16_t number = 0;
+  /// The target has all that is wanted of the part, though not the whole viewport: the inside of a
+  /// lens. The next picture can then keep what was visible in it.
+  bool complete = false;
+};
+
 /// Draws plans without GL, driver or VTK: the back end for machines without a GPU, and the
 /// reference that shaders are compared with.
 /// Determinism  the same plan gives the same bits for any number of threads, any order of batches
@@ -49,9 +58,10 @@ public:
   /// Draws the points of the plan that are nearer than the target's pixels; ties leave the pixels
   /// as they are. The target is the camera's viewport or a part of it: a large picture is drawn in
   /// bands, each with the splat sizes of the whole. `store` becomes PixelPoint::store; each store
-  /// goes on from its own last picture, and so does each `part` of its plans.
-  RasterStatistics draw(
-    const FramePlan& plan, SoftwareTarget& target, std::uint16_t store = 0, std::uint16_t part = 0);
+  /// goes on from its own last picture, and so does each part of its plans, of which number 0 is
+  /// the first of a picture.
+  RasterStatistics draw(const FramePlan& plan, SoftwareTarget& target, std::uint16_t store = 0,
+    const RasterPart& part = {});
   /// Makes the target that part of the viewport in which the plan can show anything, empty if there
   /// is none, and draws into it.
   RasterStatistics drawShown(

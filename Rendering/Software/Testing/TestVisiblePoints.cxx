@@ -1,5 +1,6 @@
 #include "KeptPoints.h"
 #include "PlanOfPoints.h"
+#include "SoftwareComposition.h"
 
 #include "pointfront/Threads/ThreadCrew.h"
 
@@ -129,6 +130,59 @@ TEST(VisiblePoints, LastAsLongAsTheMotion)
   scene.draw(1.0, false, rasteriser); // the motion ends
   scene.draw(0.05, true, rasteriser);
   EXPECT_EQ(scene.statistics.keptVisible, 0u);
+}
+
+/// A lens shows the surface in a style of its own, and keeps what was visible in it: its picture is
+/// as large as the lens.
+TEST(VisiblePoints, InsideOfALensTheyLastAsLong)
+{
+  PanOverSurface scene;
+  auto inside = std::make_shared<ResolvedStyle>(*scene.style);
+  inside->lens = 0;
+  FrameLens lens;
+  lens.shape = LensShape::Rectangle;
+  lens.centrePx = { 160.0f, 100.0f };
+  lens.halfSizePx = { 60.0f, 50.0f };
+  scene.plan.shading.lenses = { lens };
+  scene.plan.batches.push_back(scene.plan.batches[0]);
+  scene.plan.batches[1].style = inside;
+  SoftwareRasteriser rasteriser;
+  SoftwareComposition composition;
+  const auto draw = [&](double share)
+  {
+    for (DrawBatch& batch : scene.plan.batches)
+    {
+      batch.items[0].last = static_cast<std::uint32_t>(share * scene.all);
+    }
+    scene.target.reset(panWidth, panHeight);
+    scene.statistics = composition.draw(rasteriser, scene.plan, scene.target);
+    composition.finish(scene.plan.camera, scene.plan.shading, scene.target);
+    int covered = 0;
+    for (int y = 52; y < 148; ++y)
+    {
+      for (int x = 102; x < 218; ++x)
+      {
+        covered += std::isfinite(scene.target.depth[static_cast<std::size_t>(y * panWidth + x)]);
+      }
+    }
+    return covered / (96.0 * 116.0);
+  };
+  scene.plan.keepsVisible = true;
+  const double before = draw(1.0);
+  EXPECT_GT(before, 0.99);
+  for (int frame = 1; frame <= 20; ++frame)
+  {
+    scene.pan(0.06 * frame);
+    EXPECT_GT(draw(0.05), 0.97 * before) << frame;
+  }
+  // A lens that moves away shows what the plan has, and what was visible there outside of it.
+  const std::uint64_t kept = scene.statistics.keptVisible;
+  scene.plan.batches.pop_back();
+  scene.pan(2.0);
+  draw(0.05);
+  EXPECT_LT(scene.statistics.keptVisible, kept) << "of the inside nothing is kept any more";
+  scene.plan.keepsVisible = false;
+  EXPECT_LT(draw(0.05), 0.6);
 }
 
 /// What the camera turned away from is there when it comes back, and what a plan drew in between

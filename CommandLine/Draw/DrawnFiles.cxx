@@ -2,7 +2,7 @@
 
 #include "WholeFile.h"
 
-#include "pointfront/Store/StoredCloudFormats.h"
+#include "pointfront/Tiles/StoredCloudFormats.h"
 
 #include <filesystem>
 

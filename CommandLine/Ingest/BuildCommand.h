@@ -4,9 +4,9 @@
 #include "Command.h"
 #include "SourceChoice.h"
 
-#include "pointfront/Build/BuildRun.h"
 #include "pointfront/Build/StoreBuilder.h"
 #include "pointfront/Points/PointSource.h"
+#include "pointfront/Preview/BuildRun.h"
 
 #include <memory>
 #include <string>

@@ -3,7 +3,7 @@
 #include "Command.h"
 
 #include "LASIndexing.h"
-#include "pointfront/Ingest/OpenedInputs.h"
+#include "pointfront/Build/OpenedInputs.h"
 #include "pointfront/Points/PassChoice.h"
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pointfront/Ingest/OpenedInputs.h"
+#include "pointfront/Build/OpenedInputs.h"
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>

@@ -5,7 +5,7 @@
 #include "ProgressDisplay.h"
 #include "SinkFormats.h"
 
-#include "pointfront/Store/StoredCloudFormats.h"
+#include "pointfront/Tiles/StoredCloudFormats.h"
 
 #include <cstdio>
 #include <memory>

@@ -9,7 +9,7 @@
 #include "Values.h"
 
 #include "pointfront/Query/StoredPoints.h"
-#include "pointfront/Store/StoredCloudFormats.h"
+#include "pointfront/Tiles/StoredCloudFormats.h"
 
 #include <nlohmann/json.hpp>
 

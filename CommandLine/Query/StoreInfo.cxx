@@ -6,7 +6,7 @@
 
 #include "pointfront/Points/NormalAttribute.h"
 #include "pointfront/Points/SplatRadius.h"
-#include "pointfront/Preview/PreviewRecord.h"
+#include "pointfront/Store/PreviewRecord.h"
 
 #include <nlohmann/json.hpp>
 

@@ -4,7 +4,7 @@
 #include "KnownWords.h"
 #include "ProgressDisplay.h"
 
-#include "pointfront/Store/StoredCloudFormats.h"
+#include "pointfront/Tiles/StoredCloudFormats.h"
 
 #include <nlohmann/json.hpp>
 

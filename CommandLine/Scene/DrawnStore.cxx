@@ -1,9 +1,9 @@
 #include "DrawnStore.h"
 
+#include "pointfront/Plan/LensWindows.h"
 #include "pointfront/Residency/LoadScheduler.h"
-#include "pointfront/Store/StoredCloudFormats.h"
 #include "pointfront/Style/FilterPruning.h"
-#include "pointfront/Views/LensWindows.h"
+#include "pointfront/Tiles/StoredCloudFormats.h"
 #include "pointfront/Views/WallReach.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #include "Ground.h"
 
+#include "pointfront/Statistics/StoreSample.h"
 #include "pointfront/Store/StoredCloud.h"
-#include "pointfront/Store/StoreSample.h"
 
 namespace pointfront
 {

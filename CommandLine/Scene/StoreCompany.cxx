@@ -2,7 +2,7 @@
 
 #include "KnownSystems.h"
 
-#include "pointfront/Store/StoredCloudFormats.h"
+#include "pointfront/Tiles/StoredCloudFormats.h"
 
 #include <glm/geometric.hpp>
 

@@ -1,7 +1,7 @@
 #include "ClassList.h"
 
 #include "pointfront/Points/ObjectClass.h"
-#include "pointfront/Store/StoreSample.h"
+#include "pointfront/Statistics/StoreSample.h"
 #include "pointfront/Style/StyleSheet.h"
 
 #include <algorithm>

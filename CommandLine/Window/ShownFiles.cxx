@@ -2,7 +2,7 @@
 
 #include "GlancedFile.h"
 
-#include "pointfront/Store/StoredCloudFormats.h"
+#include "pointfront/Tiles/StoredCloudFormats.h"
 
 #include <utility>
 

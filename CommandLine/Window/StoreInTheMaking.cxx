@@ -1,6 +1,6 @@
 #include "StoreInTheMaking.h"
 
-#include "pointfront/Preview/PreviewRecord.h"
+#include "pointfront/Store/PreviewRecord.h"
 
 #include <cerrno>
 #include <csignal>

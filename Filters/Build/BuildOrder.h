@@ -1,9 +1,9 @@
 #pragma once
 
 #include "pointfront/Base/Progress.h"
-#include "pointfront/Build/BuildRun.h"
 #include "pointfront/Points/AttributePass.h"
 #include "pointfront/Points/PassChoice.h"
+#include "pointfront/Preview/BuildRun.h"
 
 #include <functional>
 #include <string>

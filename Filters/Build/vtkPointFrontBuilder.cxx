@@ -4,7 +4,7 @@
 #include "InterpreterPause.h"
 #include "PointSetSource.h"
 
-#include "pointfront/Preview/PreviewRecord.h"
+#include "pointfront/Store/PreviewRecord.h"
 
 #include <vtkCommand.h>
 #include <vtkErrorCode.h>

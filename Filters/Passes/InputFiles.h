@@ -1,7 +1,7 @@
 #pragma once
 
 #include "pointfront/Base/Result.h"
-#include "pointfront/Ingest/OpenedInputs.h"
+#include "pointfront/Build/OpenedInputs.h"
 
 #include <functional>
 #include <string>

@@ -7,7 +7,7 @@
 #include "LAZGlance.h"
 #include "NormalsOnLoad.h"
 
-#include "pointfront/Store/StoredCloudFormats.h"
+#include "pointfront/Tiles/StoredCloudFormats.h"
 
 #include <memory>
 #include <string>

@@ -4,7 +4,7 @@
 #include "Overview.h"
 #include "RankedPoints.h"
 
-#include "pointfront/Store/StoredCloudFormats.h"
+#include "pointfront/Tiles/StoredCloudFormats.h"
 #include "vtkPointFrontStore.h"
 
 #include <vtkDataArraySelection.h>

@@ -1,6 +1,6 @@
 #include "PosterTile.h"
 
-#include "pointfront/Views/LensWindows.h"
+#include "pointfront/Plan/LensWindows.h"
 
 #include <glm/common.hpp>
 

@@ -7,8 +7,8 @@
 
 #include "pointfront/Detail/DetailLevel.h"
 #include "pointfront/Plan/FramePlanner.h"
+#include "pointfront/Plan/LensWindows.h"
 #include "pointfront/Style/GpuStreams.h"
-#include "pointfront/Views/LensWindows.h"
 #include "pointfront/Views/WallReach.h"
 
 #include <vtkActor.h>

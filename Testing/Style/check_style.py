@@ -29,6 +29,7 @@ RULES = {
     "LinkedNames": doc_rules.linked_names,
     "TableCommands": doc_rules.table_commands,
     "Includes": include_rules.includes,
+    "KernelOrder": include_rules.kernel_order,
     "ModuleEdges": include_rules.module_edges,
     "OneVersion": version_rules.one_version,
 }

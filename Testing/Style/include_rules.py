@@ -10,6 +10,7 @@ library is known to the .cxx files of exactly one module. Tests may include anyt
 includes tests, examples or the plugin. Examples and consumers see only what is installed.
 """
 
+import math
 import re
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
@@ -147,3 +148,38 @@ def module_edges(files):
             other = rooms.get(line.strip())
             if other and not may_know(room, other):
                 yield file.path, number, f"{line.strip()}: {room} must not depend on {other}"
+
+
+KERNEL = "vtkmodule/Core/pointfront/"
+ROOMS_PAGE = "docs/developer/rooms.md"
+FLOOR = re.compile(r"^ *(\d+)((?: +[A-Z]\w+)+)$")
+
+
+def floors_of(files):
+    """Room of the kernel: its floor, as the page of the rooms draws it."""
+    lines = [line for file in files if file.path == ROOMS_PAGE for line in file.lines]
+    return {room: int(match.group(1)) for match in map(FLOOR.match, lines) if match
+            for room in match.group(2).split()}
+
+
+def kernel_order(files):
+    """A room of the kernel includes by name, and only rooms of lower floors (ROOMS_PAGE)."""
+    floors, built = floors_of(files), set()
+    for file in files:
+        if not file.path.startswith(KERNEL) or not file.is_cpp:
+            continue
+        room = file.path[len(KERNEL):].split("/")[0]
+        if room not in floors and room not in built:
+            yield file.path, 1, f"{ROOMS_PAGE} does not show the room {room}"
+        built.add(room)
+        for number, line in file.numbered():
+            match = INCLUDE.match(line)
+            if not match or match.group(1) == "<":
+                continue
+            parts = match.group(2).split("/")
+            if parts[0] != "pointfront" or len(parts) != 3:
+                yield file.path, number, f"{match.group(2)}: an include names its room"
+            elif parts[1] != room and not floors.get(parts[1], math.inf) < floors.get(room, 0):
+                yield file.path, number, f"{match.group(2)}: {parts[1]} is not below {room}"
+    for room in sorted(set(floors) - built):
+        yield ROOMS_PAGE, 1, f"there is no room {room}"

@@ -256,6 +256,34 @@ class RulesTest(unittest.TestCase):
             with self.subTest(path=path, header=header):
                 self.assertEqual(self.include_faults(path, header), 0)
 
+    def test_kernel_order(self):
+        floors = "```\n floor   files     pictures\n\n  2                Front\n" \
+                 "  1      Store     Style\n  0      Base\n```\n"
+        core = "vtkmodule/Core/pointfront/"
+        tree = {
+            "docs/developer/rooms.md": floors,
+            core + "Base/A.h": "#include <array>\n",
+            core + "Store/B.h": '#include "pointfront/Base/A.h"\n#include "pointfront/Store/D.h"\n',
+            core + "Style/C.h": '#include "pointfront/Base/A.h"\n',
+            core + "Front/E.cxx": '#include "pointfront/Store/B.h"\n',
+        }
+        self.assertEqual(self.faults("KernelOrder", tree), [])
+        for room, text in (
+            ("Base", '#include "pointfront/Store/B.h"'),  # closes a circle
+            ("Store", '#include "pointfront/Style/C.h"'),  # of the same floor
+            ("Store", '#include "pointfront/Front/E.h"'),
+            ("Front", '#include "B.h"'),
+            ("Front", '#include "pointfront/Attic/B.h"'),
+        ):
+            with self.subTest(room=room, text=text):
+                path = f"{core}{room}/F.cxx"
+                faults = self.faults("KernelOrder", {**tree, path: f"int f;\n{text}\n"})
+                self.assertEqual(faults, [(path, 2)])
+        self.assertEqual(self.faults("KernelOrder", {**tree, core + "Attic/F.cxx": "int f;\n"}),
+                         [(core + "Attic/F.cxx", 1)])
+        del tree[core + "Front/E.cxx"]
+        self.assertEqual(self.faults("KernelOrder", tree), [("docs/developer/rooms.md", 1)])
+
     def test_module_edges(self):
         core = "NAME\n  PointFront::RenderingCore\nDEPENDS\n  VTK::RenderingCore\n"
         store = "NAME\n  PointFront::IOStore\nDEPENDS\n  PointFront::RenderingCore\n"

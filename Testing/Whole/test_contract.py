@@ -243,16 +243,6 @@ class Reports(ToolTest):
 
 
 class Failures(ToolTest):
-    def test_an_empty_folder_says_what_was_looked_for(self):
-        folder = self.folder / "empty"
-        folder.mkdir()
-        for arguments in (("build", folder, "-o", self.folder / "a.pfront"), ("info", folder)):
-            said = pointfront(*arguments)
-            self.assertEqual(said.status, 1, said)
-            endings = said.err.split("names were looked for that end in ")[1].strip().split(", ")
-            self.assertLess({".las", ".laz", ".ply", ".pcd", ".csv"}, set(endings))
-            self.assertEqual(len(endings), len(set(endings)), said)
-
     def test_missing_inputs(self):
         for words in (("build", "no/such.las", "-o", self.folder / "x.pfront"),
                       ("build", self.folder / "*.las", "-o", self.folder / "x.pfront"),

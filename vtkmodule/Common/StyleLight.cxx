@@ -1,6 +1,6 @@
 #include "vtkPointFrontStyle.h"
 
-#include "pointfront/Looks/StyleLooks.h"
+#include "pointfront/Style/StyleLooks.h"
 #include "pointfront/Style/StyleSheet.h"
 
 #include <string>

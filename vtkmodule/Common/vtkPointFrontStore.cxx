@@ -4,10 +4,10 @@
 
 #include "pointfront/Residency/ResidencyShare.h"
 
-#include "pointfront/Preview/PreviewRecord.h"
 #include "pointfront/Residency/LoadScheduler.h"
-#include "pointfront/Store/StoredCloudFormats.h"
+#include "pointfront/Store/PreviewRecord.h"
 #include "pointfront/Threads/OfProcess.h"
+#include "pointfront/Tiles/StoredCloudFormats.h"
 
 #include <vtkDataObject.h>
 #include <vtkFieldData.h>

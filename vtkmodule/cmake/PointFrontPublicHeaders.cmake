@@ -15,7 +15,7 @@ set(pointfront_public_core
   Query/SphereRegion.h Query/StoredPoints.h Query/WellKnownText.h
   Reference/CoordinateSystems.h Reference/GeoKeys.h
   Statistics/PointStatistics.h
-  Store/PointStore.h Store/StoreVerification.h Store/StoredCloud.h Store/StoredCloudFormats.h
+  Store/PointStore.h Store/StoreVerification.h Store/StoredCloud.h Tiles/StoredCloudFormats.h
   Style/ColourMap.h Style/FilterExpression.h Style/LayerStyle.h Style/PointColouring.h
   Style/PointFilter.h Style/QualityPreset.h Style/StandardColours.h Style/StyleLens.h
   Style/StyleSheet.h Style/TechniqueNames.h

@@ -5,7 +5,7 @@
 
 #include "pointfront/InPlace/NodePoints.h"
 #include "pointfront/InPlace/SampleStream.h"
-#include "pointfront/Statistics/ColumnStatistics.h"
+#include "pointfront/Store/ColumnStatistics.h"
 #include "pointfront/Store/NodeTableSection.h"
 #include "pointfront/Store/StoreVerification.h"
 #include "pointfront/Trees/PrefixOrder.h"

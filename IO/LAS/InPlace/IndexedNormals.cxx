@@ -6,7 +6,7 @@
 #include "pointfront/InPlace/NodePoints.h"
 #include "pointfront/Neighbourhood/InputOrder.h"
 #include "pointfront/Points/NormalAttribute.h"
-#include "pointfront/Statistics/ColumnStatistics.h"
+#include "pointfront/Store/ColumnStatistics.h"
 #include "pointfront/Threads/WorkCrew.h"
 
 #include <atomic>

@@ -7,7 +7,7 @@
 #include "pointfront/Export/OutputTarget.h"
 #include "pointfront/InPlace/NodePoints.h"
 #include "pointfront/Points/NormalAttribute.h"
-#include "pointfront/Statistics/ColumnStatistics.h"
+#include "pointfront/Store/ColumnStatistics.h"
 #include "pointfront/Store/GridBounds.h"
 #include "pointfront/Threads/WorkerThread.h"
 

@@ -41,7 +41,7 @@ struct StyleColours
 /// The colouring of the points of one node: the place of their values and the way from values to
 /// colours.
 /// Shapes   colours are bytes r, g, b, a in memory order, a = 255.
-/// Meaning  as appendColours() of the kernel; the flat colour where the node was read without the
+/// Meaning  as referenceColours() of the tests; the flat colour where the node was read without the
 ///          column.
 /// Threads  const functions from any thread; the node, the style and the table outlive it.
 class PointColours

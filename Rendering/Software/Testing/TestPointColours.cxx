@@ -1,9 +1,8 @@
-// Colours of points, against the kernel's own.
+// Colours of points, against a reference.
 
 #include "PlanOfPoints.h"
 #include "PointColours.h"
-
-#include "pointfront/Style/PointColours.h"
+#include "ReferenceColours.h"
 
 #include <gtest/gtest.h>
 
@@ -57,7 +56,7 @@ std::vector<std::pair<const char*, ResolvedStyle>> colourings()
 
 } // namespace
 
-TEST(SoftwareColours, AreTheKernels)
+TEST(SoftwareColours, AreThoseOfTheReference)
 {
   PlanOfPoints scene;
   const std::vector<TestPoint> points = wavySurface(200, 8);
@@ -66,8 +65,8 @@ TEST(SoftwareColours, AreTheKernels)
   for (const auto& [name, style] : colourings())
   {
     SCOPED_TRACE(name);
-    std::vector<std::uint32_t> expected;
-    appendColours(style, node, *scene.plan.schema, scene.plan.grid, 0, 200, expected);
+    const std::vector<std::uint32_t> expected =
+      referenceColours(style, node, *scene.plan.schema, scene.plan.grid);
     const StyleColours tables(style, *scene.plan.schema);
     const PointColours colours(scene.plan, style, tables, node);
     std::vector<std::uint32_t> filled(200);

@@ -2,9 +2,9 @@
 
 #include "PointFileNames.h"
 
-#include "pointfront/Preview/PreviewRecord.h"
+#include "pointfront/Store/PreviewRecord.h"
 #include "pointfront/Store/StoredCloud.h"
-#include "pointfront/Store/StoredCloudFormats.h"
+#include "pointfront/Tiles/StoredCloudFormats.h"
 
 #include "vtkErrorCode.h"
 #include "vtkInformation.h"

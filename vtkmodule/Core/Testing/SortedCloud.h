@@ -2,8 +2,8 @@
 
 #include "TestBuildClouds.h"
 
-#include "pointfront/Ingest/RecordLayout.h"
-#include "pointfront/Trees/MortonOrder.h"
+#include "pointfront/Records/MortonOrder.h"
+#include "pointfront/Records/RecordLayout.h"
 
 #include <glm/geometric.hpp>
 

@@ -7,12 +7,12 @@
 #include "PlainColumns.h"
 
 #include "pointfront/Points/ObjectClass.h"
-#include "pointfront/Preview/PreviewRecord.h"
 #include "pointfront/Query/BoxRegion.h"
 #include "pointfront/Query/QueryPlan.h"
 #include "pointfront/Query/SphereRegion.h"
 #include "pointfront/Query/TextRegion.h"
-#include "pointfront/Store/StoredCloudFormats.h"
+#include "pointfront/Store/PreviewRecord.h"
+#include "pointfront/Tiles/StoredCloudFormats.h"
 
 #include <nlohmann/json.hpp>
 

@@ -3,7 +3,7 @@
 
 #include "pointfront/Build/StoreBuilder.h"
 #include "pointfront/Preview/BuildPreview.h"
-#include "pointfront/Store/StoredCloudFormats.h"
+#include "pointfront/Tiles/StoredCloudFormats.h"
 #include "vtkPointFrontStore.h"
 
 #include <vtkNew.h>

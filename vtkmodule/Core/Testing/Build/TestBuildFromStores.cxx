@@ -2,8 +2,8 @@
 
 #include "pointfront/Points/EnclosingRadius.h"
 #include "pointfront/Points/SplatRadius.h"
-#include "pointfront/Preview/PreviewRecord.h"
 #include "pointfront/Query/StoredPoints.h"
+#include "pointfront/Store/PreviewRecord.h"
 
 #include <map>
 #include <set>

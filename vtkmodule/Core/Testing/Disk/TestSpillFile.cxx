@@ -1,8 +1,8 @@
 #include "TestBuildClouds.h"
 
-#include "pointfront/Build/MemoryPlan.h"
 #include "pointfront/Disk/SpillFile.h"
-#include "pointfront/Ingest/RecordPool.h"
+#include "pointfront/Ingest/MemoryPlan.h"
+#include "pointfront/Records/RecordPool.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include "SampleStore.h"
 
 #include "pointfront/Query/ChosenColumns.h"
-#include "pointfront/Statistics/ColumnStatistics.h"
+#include "pointfront/Store/ColumnStatistics.h"
 
 #include <gtest/gtest.h>
 

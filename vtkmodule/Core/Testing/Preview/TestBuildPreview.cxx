@@ -2,8 +2,8 @@
 #include "TestBuildClouds.h"
 
 #include "pointfront/Preview/BuildPreview.h"
-#include "pointfront/Preview/PreviewRecord.h"
 #include "pointfront/Store/PointStore.h"
+#include "pointfront/Store/PreviewRecord.h"
 
 #include <gtest/gtest.h>
 

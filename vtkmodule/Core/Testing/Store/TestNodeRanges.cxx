@@ -1,6 +1,6 @@
 #include "SampleStore.h"
 
-#include "pointfront/Statistics/ColumnStatistics.h"
+#include "pointfront/Store/ColumnStatistics.h"
 #include "pointfront/Store/NodeRangesSection.h"
 
 #include <gtest/gtest.h>

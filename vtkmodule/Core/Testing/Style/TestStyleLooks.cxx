@@ -1,6 +1,6 @@
 #include "StyledStore.h"
 
-#include "pointfront/Looks/StyleLooks.h"
+#include "pointfront/Style/StyleLooks.h"
 #include "pointfront/Style/StyleSheet.h"
 #include "pointfront/Style/TechniqueNames.h"
 

@@ -1,6 +1,6 @@
+#include "ReferenceColours.h"
 #include "StyledStore.h"
 
-#include "pointfront/Style/PointColours.h"
 #include "pointfront/Style/StyleSheet.h"
 #include "pointfront/Style/TechniqueNames.h"
 
@@ -269,8 +269,8 @@ TEST(StyleSheet, TwoColoursAreCombinedPointByPoint)
   const std::uint16_t values[] = { 10, 210 };
   node.columns = { std::vector<std::byte>(4) };
   std::memcpy(node.columns[0].data(), values, 4);
-  std::vector<std::uint32_t> colours;
-  appendColours(*style, node, store.schema, store.grid, 0, 2, colours);
+  const std::vector<std::uint32_t> colours =
+    referenceColours(*style, node, store.schema, store.grid);
   ASSERT_EQ(colours.size(), 2u);
   Rgba8 dark;
   Rgba8 light;

@@ -3,7 +3,7 @@
 #include "pointfront/Front/NodePruning.h"
 #include "pointfront/Query/BoxRegion.h"
 #include "pointfront/Query/QueryPlan.h"
-#include "pointfront/Store/StoredCloudFormats.h"
+#include "pointfront/Tiles/StoredCloudFormats.h"
 #include "pointfront/Tiles/TiledCloud.h"
 #include "pointfront/Tiles/TileFormat.h"
 

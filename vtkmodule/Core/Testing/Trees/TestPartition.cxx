@@ -1,8 +1,8 @@
 #include "TestBuildClouds.h"
 
 #include "pointfront/Ingest/CellTable.h"
+#include "pointfront/Records/TreeSpace.h"
 #include "pointfront/Trees/Partition.h"
-#include "pointfront/Trees/TreeSpace.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 #include "pointfront/Build/BuildStorage.h"
 
 #include "pointfront/Build/TreeConstruction.h"
-#include "pointfront/Ingest/RecordLayout.h"
+#include "pointfront/Records/RecordLayout.h"
 #include "pointfront/Threads/WorkerThread.h"
 
 #include <algorithm>

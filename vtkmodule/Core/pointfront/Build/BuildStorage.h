@@ -1,9 +1,9 @@
 #pragma once
 
-#include "pointfront/Build/MemoryPlan.h"
 #include "pointfront/Build/StoreBuilder.h"
 #include "pointfront/Disk/DiskEstimate.h"
-#include "pointfront/Ingest/RecordPool.h"
+#include "pointfront/Ingest/MemoryPlan.h"
+#include "pointfront/Records/RecordPool.h"
 
 #include <memory>
 #include <string>

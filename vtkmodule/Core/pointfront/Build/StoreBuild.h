@@ -1,6 +1,7 @@
 #pragma once
 
 #include "pointfront/Build/BuildStorage.h"
+#include "pointfront/Build/PartialTrees.h"
 #include "pointfront/Build/StoreBuilder.h"
 #include "pointfront/Build/TreeConstruction.h"
 #include "pointfront/Disk/OutputFile.h"
@@ -8,7 +9,6 @@
 #include "pointfront/Ingest/PointIngest.h"
 #include "pointfront/Ingest/RecordColumns.h"
 #include "pointfront/Ingest/ReferenceSystem.h"
-#include "pointfront/Preview/PartialTrees.h"
 #include "pointfront/Trees/TreeAssembly.h"
 
 #include <memory>

@@ -1,11 +1,11 @@
 #include "pointfront/Build/StoreBuilder.h"
 
 #include "pointfront/Base/CpuClock.h"
+#include "pointfront/Build/SampleRecords.h"
 #include "pointfront/Build/StoreBuild.h"
+#include "pointfront/Build/StoredColours.h"
 #include "pointfront/Export/OutputTarget.h"
 #include "pointfront/Ingest/CommonRadii.h"
-#include "pointfront/Ingest/SampleRecords.h"
-#include "pointfront/Ingest/StoredColours.h"
 #include "pointfront/Points/EnclosingRadius.h"
 #include "pointfront/Points/ObjectClass.h"
 #include "pointfront/Points/SplatRadius.h"

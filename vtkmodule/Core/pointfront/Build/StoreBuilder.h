@@ -2,7 +2,7 @@
 
 #include "pointfront/Base/Progress.h"
 #include "pointfront/Base/Result.h"
-#include "pointfront/Ingest/OpenedInputs.h"
+#include "pointfront/Build/OpenedInputs.h"
 #include "pointfront/Points/PointSource.h"
 #include "pointfront/Store/Hierarchy.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "pointfront/Build/StoreBuilder.h"
-#include "pointfront/Ingest/BlockSorter.h"
+#include "pointfront/Trees/BlockSorter.h"
 #include "pointfront/Trees/NodeEmitter.h"
 #include "pointfront/Trees/TreeAssembly.h"
 

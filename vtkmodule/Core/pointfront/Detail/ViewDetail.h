@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pointfront/Detail/DetailSelection.h"
+#include "pointfront/Front/DetailSelection.h"
 
 #include <memory>
 

@@ -1,6 +1,6 @@
 #include "pointfront/Export/SourceExport.h"
 
-#include "pointfront/Export/ExportClock.h"
+#include "pointfront/Base/ExportClock.h"
 #include "pointfront/Export/OutputTarget.h"
 #include "pointfront/Threads/WorkBeside.h"
 

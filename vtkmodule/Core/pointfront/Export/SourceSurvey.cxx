@@ -2,7 +2,7 @@
 
 #include "pointfront/Ingest/GridChoice.h"
 #include "pointfront/Points/DescribedSource.h"
-#include "pointfront/Statistics/ColumnStatistics.h"
+#include "pointfront/Store/ColumnStatistics.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #include "pointfront/Export/OutputTarget.h"
 #include "pointfront/Query/BoxRegion.h"
 #include "pointfront/Query/QueryPlan.h"
-#include "pointfront/Statistics/ColumnStatistics.h"
+#include "pointfront/Store/ColumnStatistics.h"
 
 #include <algorithm>
 #include <memory>

@@ -1,6 +1,6 @@
 #include "pointfront/InPlace/CloudWithNormals.h"
 
-#include "pointfront/Statistics/ColumnStatistics.h"
+#include "pointfront/Store/ColumnStatistics.h"
 
 #include <algorithm>
 #include <cassert>

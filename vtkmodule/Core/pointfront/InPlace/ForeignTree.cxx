@@ -2,7 +2,7 @@
 
 #include "pointfront/InPlace/ForeignTable.h"
 #include "pointfront/InPlace/SampleStream.h"
-#include "pointfront/Statistics/ColumnStatistics.h"
+#include "pointfront/Store/ColumnStatistics.h"
 #include "pointfront/Threads/ThreadCrew.h"
 #include "pointfront/Trees/PrefixOrder.h"
 

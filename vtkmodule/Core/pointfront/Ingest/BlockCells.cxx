@@ -1,6 +1,6 @@
 #include "pointfront/Ingest/BlockCells.h"
 
-#include "pointfront/Trees/MortonOrder.h"
+#include "pointfront/Records/MortonOrder.h"
 
 #include <algorithm>
 #include <numeric>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "pointfront/Ingest/CellTable.h"
-#include "pointfront/Ingest/RecordLayout.h"
+#include "pointfront/Records/RecordLayout.h"
 
 #include <array>
 #include <cstddef>

@@ -1,8 +1,8 @@
 #include "pointfront/Ingest/PointIngest.h"
 
 #include "pointfront/Base/CpuClock.h"
-#include "pointfront/Disk/WriteBehind.h"
 #include "pointfront/Ingest/RecordPacker.h"
+#include "pointfront/Records/WriteBehind.h"
 
 #include <algorithm>
 #include <atomic>

@@ -4,9 +4,9 @@
 #include "pointfront/Ingest/CellTable.h"
 #include "pointfront/Ingest/CommonSchema.h"
 #include "pointfront/Ingest/RecordColumns.h"
-#include "pointfront/Ingest/RecordPool.h"
+#include "pointfront/Records/RecordPool.h"
+#include "pointfront/Records/TreeSpace.h"
 #include "pointfront/Threads/WorkCrew.h"
-#include "pointfront/Trees/TreeSpace.h"
 
 #include <cstdint>
 #include <map>

@@ -3,8 +3,8 @@
 #include "pointfront/Ingest/BlockCells.h"
 #include "pointfront/Ingest/CommonSchema.h"
 #include "pointfront/Ingest/RecordColumns.h"
-#include "pointfront/Ingest/RecordLayout.h"
-#include "pointfront/Trees/TreeSpace.h"
+#include "pointfront/Records/RecordLayout.h"
+#include "pointfront/Records/TreeSpace.h"
 
 #include <array>
 #include <cstdint>

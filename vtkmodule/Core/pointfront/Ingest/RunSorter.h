@@ -1,8 +1,8 @@
 #pragma once
 
 #include "pointfront/Base/Result.h"
-#include "pointfront/Ingest/RecordLayout.h"
-#include "pointfront/Ingest/RecordPool.h"
+#include "pointfront/Records/RecordLayout.h"
+#include "pointfront/Records/RecordPool.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,6 +1,6 @@
 #include "pointfront/Means/MeanCells.h"
 
-#include "pointfront/Trees/MortonOrder.h"
+#include "pointfront/Records/MortonOrder.h"
 
 #include <algorithm>
 #include <cmath>

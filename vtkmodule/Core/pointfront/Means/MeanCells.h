@@ -1,7 +1,7 @@
 #pragma once
 
-#include "pointfront/Ingest/RecordLayout.h"
 #include "pointfront/Means/MeanRecord.h"
+#include "pointfront/Records/RecordLayout.h"
 #include "pointfront/Trees/BuiltTree.h"
 #include "pointfront/Trees/Sampler.h"
 

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "pointfront/Ingest/RecordPool.h"
 #include "pointfront/Neighbourhood/InputOrder.h"
 #include "pointfront/Neighbourhood/TileLayout.h"
+#include "pointfront/Records/RecordPool.h"
 #include "pointfront/Threads/WorkCrew.h"
 
 #include <atomic>

@@ -1,7 +1,7 @@
 #include "pointfront/Preview/BuildPreview.h"
 
 #include "pointfront/Base/CpuClock.h"
-#include "pointfront/Ingest/RecordLayout.h"
+#include "pointfront/Records/RecordLayout.h"
 #include "pointfront/Threads/ThreadCrew.h"
 
 #include <algorithm>

@@ -6,7 +6,7 @@
 #include "pointfront/Build/StoreBuilder.h"
 #include "pointfront/Preview/PointSample.h"
 #include "pointfront/Preview/PreviewFile.h"
-#include "pointfront/Preview/PreviewRecord.h"
+#include "pointfront/Store/PreviewRecord.h"
 #include "pointfront/Threads/WorkerThread.h"
 
 #include <chrono>

@@ -2,8 +2,8 @@
 
 #include "pointfront/Disk/InputFile.h"
 #include "pointfront/Disk/TemporaryFile.h"
-#include "pointfront/Preview/PreviewRecord.h"
 #include "pointfront/Store/PointStore.h"
+#include "pointfront/Store/PreviewRecord.h"
 
 #include <cerrno>
 #include <cstdio>

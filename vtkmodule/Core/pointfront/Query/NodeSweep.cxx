@@ -1,6 +1,6 @@
 #include "pointfront/Query/NodeSweep.h"
 
-#include "pointfront/Export/ExportClock.h"
+#include "pointfront/Base/ExportClock.h"
 #include "pointfront/Threads/ThreadCrew.h"
 #include "pointfront/Threads/WorkBeside.h"
 

@@ -1,7 +1,7 @@
 #include "pointfront/Query/StoredPoints.h"
 
-#include "pointfront/Preview/PreviewRecord.h"
 #include "pointfront/Query/ChosenColumns.h"
+#include "pointfront/Store/PreviewRecord.h"
 
 #include <cstdint>
 #include <limits>

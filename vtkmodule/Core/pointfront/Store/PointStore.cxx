@@ -1,8 +1,8 @@
 #include "pointfront/Store/PointStore.h"
 
 #include "pointfront/Codec/Checksum.h"
-#include "pointfront/Preview/PreviewRecord.h"
-#include "pointfront/Statistics/ColumnStatistics.h"
+#include "pointfront/Store/ColumnStatistics.h"
+#include "pointfront/Store/PreviewRecord.h"
 #include "pointfront/Store/StoreContent.h"
 #include "pointfront/Store/StoredNodeTable.h"
 #include "pointfront/Store/StoreFormat.h"

@@ -1,6 +1,6 @@
 #include "pointfront/Store/StoreVerification.h"
 
-#include "pointfront/Statistics/ColumnStatistics.h"
+#include "pointfront/Store/ColumnStatistics.h"
 #include "pointfront/Store/NodeTableSection.h"
 #include "pointfront/Threads/ThreadCrew.h"
 #include "pointfront/Threads/WorkerThread.h"

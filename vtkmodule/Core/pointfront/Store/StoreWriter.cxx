@@ -1,8 +1,8 @@
 #include "pointfront/Store/StoreWriter.h"
 
 #include "pointfront/Codec/Checksum.h"
-#include "pointfront/Statistics/ColumnStatistics.h"
 #include "pointfront/Store/BlockDirectory.h"
+#include "pointfront/Store/ColumnStatistics.h"
 #include "pointfront/Store/DescriptionSection.h"
 #include "pointfront/Store/NodePage.h"
 #include "pointfront/Store/NodeRangesSection.h"

@@ -2,7 +2,7 @@
 
 #include "pointfront/Base/Infinity.h"
 
-#include "pointfront/Store/StoreSample.h"
+#include "pointfront/Statistics/StoreSample.h"
 #include "pointfront/Style/ComponentName.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "pointfront/Style/PointColouring.h"
 
-#include "pointfront/Statistics/ColumnStatistics.h"
+#include "pointfront/Store/ColumnStatistics.h"
 #include "pointfront/Style/ClassHeights.h"
 
 #include <algorithm>

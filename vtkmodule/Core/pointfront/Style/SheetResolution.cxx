@@ -1,5 +1,5 @@
-#include "pointfront/Looks/StyleLooks.h"
 #include "pointfront/Style/ComponentName.h"
+#include "pointfront/Style/StyleLooks.h"
 #include "pointfront/Style/StyleResolution.h"
 #include "pointfront/Style/StyleSheet.h"
 

@@ -1,9 +1,9 @@
 #include "pointfront/Style/StyleSheet.h"
 
-#include "pointfront/Looks/StyleLooks.h"
 #include "pointfront/Points/AttributeNames.h"
 #include "pointfront/Points/EnclosingRadius.h"
 #include "pointfront/Style/ComponentName.h"
+#include "pointfront/Style/StyleLooks.h"
 #include "pointfront/Style/StyleResolution.h"
 #include "pointfront/Style/TechniqueNames.h"
 

@@ -2,7 +2,7 @@
 
 #include "pointfront/Ingest/CommonRadii.h"
 #include "pointfront/Points/SplatRadius.h"
-#include "pointfront/Statistics/ColumnStatistics.h"
+#include "pointfront/Store/ColumnStatistics.h"
 
 #include <algorithm>
 #include <utility>

@@ -1,7 +1,7 @@
 #include "pointfront/Tiles/TileDescription.h"
 
 #include "pointfront/Points/SplatRadius.h"
-#include "pointfront/Statistics/ColumnStatistics.h"
+#include "pointfront/Store/ColumnStatistics.h"
 
 #include <glm/geometric.hpp>
 

@@ -1,9 +1,9 @@
 #include "pointfront/Tiles/TiledCloud.h"
 
-#include "pointfront/Statistics/ColumnStatistics.h"
-#include "pointfront/Store/StoredCloudFormats.h"
+#include "pointfront/Store/ColumnStatistics.h"
 #include "pointfront/Store/StoreFormat.h"
 #include "pointfront/Threads/ThreadCrew.h"
+#include "pointfront/Tiles/StoredCloudFormats.h"
 #include "pointfront/Tiles/TileRanges.h"
 
 #include <sys/resource.h>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "pointfront/Base/Result.h"
-#include "pointfront/Ingest/BlockSorter.h"
+#include "pointfront/Trees/BlockSorter.h"
 #include "pointfront/Trees/KdCut.h"
 #include "pointfront/Trees/PartTree.h"
 

@@ -1,11 +1,11 @@
 #pragma once
 
 #include "pointfront/Ingest/RecordColumns.h"
-#include "pointfront/Ingest/RecordLayout.h"
 #include "pointfront/Points/AttributeSchema.h"
+#include "pointfront/Records/RecordLayout.h"
+#include "pointfront/Records/TreeSpace.h"
 #include "pointfront/Store/StoreWriter.h"
 #include "pointfront/Trees/BuiltTree.h"
-#include "pointfront/Trees/TreeSpace.h"
 
 #include <cstdint>
 #include <optional>

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "pointfront/Ingest/RecordLayout.h"
 #include "pointfront/Neighbourhood/SplatCell.h"
-#include "pointfront/Trees/MortonOrder.h"
-#include "pointfront/Trees/TreeSpace.h"
+#include "pointfront/Records/MortonOrder.h"
+#include "pointfront/Records/RecordLayout.h"
+#include "pointfront/Records/TreeSpace.h"
 
 #include <glm/vec3.hpp>
 

@@ -1,7 +1,7 @@
 #include "pointfront/Trees/PartPool.h"
 
 #include "pointfront/Base/CpuClock.h"
-#include "pointfront/Trees/MortonOrder.h"
+#include "pointfront/Records/MortonOrder.h"
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pointfront/Trees/MortonOrder.h"
+#include "pointfront/Records/MortonOrder.h"
 #include "pointfront/Trees/PartTree.h"
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pointfront/Ingest/RecordLayout.h"
+#include "pointfront/Records/RecordLayout.h"
 
 #include <cstdint>
 #include <vector>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "pointfront/Ingest/RecordLayout.h"
-#include "pointfront/Trees/MortonOrder.h"
+#include "pointfront/Records/MortonOrder.h"
+#include "pointfront/Records/RecordLayout.h"
 
 #include <array>
 #include <cstdint>

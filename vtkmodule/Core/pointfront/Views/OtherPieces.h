@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pointfront/Detail/DetailSelection.h"
+#include "pointfront/Front/DetailSelection.h"
 #include "pointfront/Views/HierarchyPiece.h"
 
 #include <cstdint>

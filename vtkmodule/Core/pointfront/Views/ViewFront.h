@@ -5,7 +5,7 @@
 #include "pointfront/Views/OtherPieces.h"
 #include "pointfront/Views/WindowDemand.h"
 
-#include "pointfront/Detail/DetailSelection.h"
+#include "pointfront/Front/DetailSelection.h"
 #include "pointfront/Front/View.h"
 #include "pointfront/Front/ViewMargin.h"
 #include "pointfront/Points/AttributeSchema.h"

@@ -1,4 +1,4 @@
-#include "pointfront/Looks/StyleLooks.h"
+#include "pointfront/Style/StyleLooks.h"
 
 #include "pointfront/Style/StyleSheet.h"
 

@@ -1,9 +1,9 @@
 #pragma once
 
 #include "pointfront/Build/StoreBuilder.h"
-#include "pointfront/Ingest/BlockSorter.h"
 #include "pointfront/Ingest/PointIngest.h"
 #include "pointfront/Ingest/RecordColumns.h"
+#include "pointfront/Trees/BlockSorter.h"
 
 #include <optional>
 

@@ -1,4 +1,4 @@
-#include "pointfront/Ingest/RecordPool.h"
+#include "pointfront/Records/RecordPool.h"
 
 #include <cstring>
 

@@ -1,6 +1,6 @@
-#include "pointfront/Build/MemoryPlan.h"
+#include "pointfront/Ingest/MemoryPlan.h"
 
-#include "pointfront/Trees/MortonOrder.h"
+#include "pointfront/Records/MortonOrder.h"
 
 #include <algorithm>
 #include <string>

@@ -1,4 +1,4 @@
-#include "pointfront/Ingest/BlockSorter.h"
+#include "pointfront/Trees/BlockSorter.h"
 
 #include "pointfront/Base/CpuClock.h"
 

@@ -1,4 +1,4 @@
-#include "pointfront/Disk/WriteBehind.h"
+#include "pointfront/Records/WriteBehind.h"
 
 #include "pointfront/Base/CpuClock.h"
 

@@ -1,4 +1,4 @@
-#include "pointfront/Ingest/SampleRecords.h"
+#include "pointfront/Build/SampleRecords.h"
 
 #include "pointfront/Ingest/RecordPacker.h"
 

@@ -1,4 +1,4 @@
-#include "pointfront/Preview/PartialTrees.h"
+#include "pointfront/Build/PartialTrees.h"
 
 #include <map>
 #include <utility>

@@ -1,4 +1,4 @@
-#include "pointfront/Store/StoreSample.h"
+#include "pointfront/Statistics/StoreSample.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "pointfront/Store/StoredCloudFormats.h"
+#include "pointfront/Tiles/StoredCloudFormats.h"
 
 #include "pointfront/Store/PointStore.h"
 #include "pointfront/Tiles/TileFormat.h"

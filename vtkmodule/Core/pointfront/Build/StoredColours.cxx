@@ -1,4 +1,4 @@
-#include "pointfront/Ingest/StoredColours.h"
+#include "pointfront/Build/StoredColours.h"
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 #include "TestBuildClouds.h"
 
-#include "pointfront/Trees/MortonOrder.h"
+#include "pointfront/Records/MortonOrder.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 #include "TestBuildClouds.h"
 
-#include "pointfront/Disk/WriteBehind.h"
+#include "pointfront/Records/WriteBehind.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "pointfront/Trees/MortonOrder.h"
+#include "pointfront/Records/MortonOrder.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "pointfront/Ingest/OpenedInputs.h"
+#include "pointfront/Build/OpenedInputs.h"
 
 #include "pointfront/Export/OutputTarget.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "pointfront/Base/Result.h"
-#include "pointfront/Ingest/RecordPool.h"
+#include "pointfront/Records/RecordPool.h"
 #include "pointfront/Threads/WorkerThread.h"
 
 #include <condition_variable>

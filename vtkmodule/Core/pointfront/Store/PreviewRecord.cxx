@@ -1,4 +1,4 @@
-#include "pointfront/Preview/PreviewRecord.h"
+#include "pointfront/Store/PreviewRecord.h"
 
 #include <filesystem>
 #include <system_error>

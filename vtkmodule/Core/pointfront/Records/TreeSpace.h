@@ -1,7 +1,7 @@
 #pragma once
 
-#include "pointfront/Ingest/RecordLayout.h"
 #include "pointfront/Points/QuantisationGrid.h"
+#include "pointfront/Records/RecordLayout.h"
 
 #include <glm/common.hpp>
 

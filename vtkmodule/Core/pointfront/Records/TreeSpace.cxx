@@ -1,4 +1,4 @@
-#include "pointfront/Trees/TreeSpace.h"
+#include "pointfront/Records/TreeSpace.h"
 
 #include <algorithm>
 

@@ -3,7 +3,7 @@
 #include "pointfront/Codec/BlockCodec.h"
 #include "pointfront/Codec/ByteStream.h"
 #include "pointfront/Codec/Checksum.h"
-#include "pointfront/Statistics/ColumnStatistics.h"
+#include "pointfront/Store/ColumnStatistics.h"
 #include "pointfront/Store/StoreFormat.h"
 
 #include <algorithm>

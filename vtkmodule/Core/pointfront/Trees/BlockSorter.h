@@ -1,16 +1,16 @@
 #pragma once
 
 #include "pointfront/Base/Result.h"
-#include "pointfront/Build/MemoryPlan.h"
 #include "pointfront/Ingest/BlockCells.h"
 #include "pointfront/Ingest/CellTable.h"
 #include "pointfront/Ingest/ClassLayers.h"
-#include "pointfront/Ingest/RecordPool.h"
+#include "pointfront/Ingest/MemoryPlan.h"
 #include "pointfront/Ingest/RunSorter.h"
+#include "pointfront/Records/MortonOrder.h"
+#include "pointfront/Records/RecordPool.h"
+#include "pointfront/Records/TreeSpace.h"
 #include "pointfront/Threads/WorkCrew.h"
-#include "pointfront/Trees/MortonOrder.h"
 #include "pointfront/Trees/Partition.h"
-#include "pointfront/Trees/TreeSpace.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,4 +1,4 @@
-#include "pointfront/Statistics/ColumnStatistics.h"
+#include "pointfront/Store/ColumnStatistics.h"
 
 #include "pointfront/Base/Infinity.h"
 #include "pointfront/Codec/ByteStream.h"

@@ -1,7 +1,7 @@
-#include "pointfront/Build/BuildRun.h"
+#include "pointfront/Preview/BuildRun.h"
 
 #include "pointfront/Export/OutputTarget.h"
-#include "pointfront/Preview/PreviewRecord.h"
+#include "pointfront/Store/PreviewRecord.h"
 
 #include <algorithm>
 #include <chrono>

@@ -1,10 +1,10 @@
 #pragma once
 
-#include "pointfront/Ingest/BlockSorter.h"
 #include "pointfront/Ingest/CommonSchema.h"
 #include "pointfront/Ingest/RecordColumns.h"
 #include "pointfront/Points/AttributePass.h"
-#include "pointfront/Trees/TreeSpace.h"
+#include "pointfront/Records/TreeSpace.h"
+#include "pointfront/Trees/BlockSorter.h"
 
 #include <cstddef>
 #include <optional>

@@ -1,4 +1,4 @@
-#include "pointfront/Views/LensWindows.h"
+#include "pointfront/Plan/LensWindows.h"
 
 #include "pointfront/Views/WallReach.h"
 

@@ -93,6 +93,7 @@ FramePlan DrawnStore::plan(
   request.camera = camera;
   request.shading = shading;
   request.keepsVisible = leavesOut(front_->last(), demand_);
+  request.refines = true;
   request.growth = &growth_;
   request.moment = moment;
   request.moment.moving = demand_.interacting;

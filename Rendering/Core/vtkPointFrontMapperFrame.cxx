@@ -218,6 +218,7 @@ pointfront::FramePlan* vtkPointFrontMapper::PlanFrame(vtkRenderer* renderer, vtk
   if (moved || !view.Plan)
   {
     request.keepsVisible = pointfront::leavesOut(view.Front->last(), view.Demand);
+    request.refines = this->DrawsFromHostMemory(renderer, actor);
     request.growth = &view.Growth;
     request.moment = view.MomentOf(this->GrowthTime);
     view.Plan = pointfront::planFrame(
@@ -236,7 +237,12 @@ pointfront::FramePlan* vtkPointFrontMapper::PlanFrame(vtkRenderer* renderer, vtk
   {
     const pointfront::LayerStyles& styles = request.styles[batch.layer];
     const std::size_t number = styleOf[batch.layer]++;
-    batch.style = number < styles.size() ? styles[number] : batch.style;
+    const std::shared_ptr<const pointfront::ResolvedStyle> before = batch.style;
+    batch.style = number < styles.size() ? styles[number] : before;
+    for (pointfront::DrawBatch& standIns : view.Plan->standIns)
+    {
+      standIns.style = standIns.style == before ? batch.style : standIns.style;
+    }
   }
   return &*view.Plan;
 }

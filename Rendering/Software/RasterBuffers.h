@@ -52,6 +52,15 @@ private:
   std::size_t size_ = 0;
 };
 
+/// The second pass of blended splats: what was added up, for the next picture to go on from.
+struct BlendedSums
+{
+  RasterBuffer<std::uint32_t> sums; ///< as ThreadBuffers'
+  RasterBuffer<float> depths; ///< nearest ones, by which it was decided what is added
+  /// They are those of one go. Else some have, or lack, what a nearer splat has hidden since.
+  bool exact = false;
+};
+
 /// A pixel and the point that won it.
 struct Winner
 {

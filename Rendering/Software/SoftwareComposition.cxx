@@ -137,6 +137,8 @@ RasterStatistics SoftwareComposition::draw(SoftwareRasteriser& rasteriser, const
         rasteriser.draw(part.plan, own, store, { numberOf(part), complete && !part.mask });
       all.points += drawn.points;
       all.reused += drawn.reused;
+      all.standIns += drawn.standIns;
+      all.blended += drawn.blended;
       all.keptVisible += drawn.keptVisible;
       all.milliseconds += drawn.milliseconds;
     }

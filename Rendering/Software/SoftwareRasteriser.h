@@ -16,6 +16,8 @@ struct RasterStatistics
 {
   std::uint64_t points = 0; ///< of the plan, that were looked at
   std::uint64_t reused = 0; ///< of the plan, that the last picture already had
+  std::uint64_t standIns = 0; ///< points drawn in addition, where a refining view has holes
+  std::uint64_t blended = 0; ///< points that went through the second pass, stand-ins too
   /// Points drawn in addition to the plan's, because they were visible before
   /// (FramePlan::keepsVisible).
   std::uint64_t keptVisible = 0;
@@ -46,7 +48,7 @@ class SoftwareRasteriser
 {
 public:
   /// Number of viewports whose keys stay from frame to frame, over all stores. Of further stores
-  /// only marks of visible points stay.
+  /// only marks of visible points stay. Stand-ins of refining views have some beside them.
   static constexpr int keptPictures = 2;
 
   /// Draws with the process's crew, unless another is given; it outlives this object.

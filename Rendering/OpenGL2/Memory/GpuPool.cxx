@@ -142,14 +142,22 @@ const GpuPool::Entry* GpuPool::bring(
   entry.layer = node.layer;
   const auto wanted = std::min(count, static_cast<std::uint32_t>(node.size()));
   entry.wanted = std::max(entry.wanted, wanted);
-  if (entry.points < wanted && bytesLeft > 0)
+  // A point comes with all that it is drawn by: without, it would be drawn now and once more later.
+  std::int64_t pointBytes = GpuSlotBytes::position;
+  const LayerStreams& layer = streamsOf(node.layer);
+  for (std::size_t number = 0; number < gpuStreamCount; ++number)
+  {
+    const auto stream = static_cast<GpuStream>(number);
+    const bool comes = layer.has(stream) && layer.coveredBy(node, stream);
+    pointBytes += comes ? GpuSlotBytes::value : 0;
+  }
+  if (entry.points < wanted && bytesLeft >= pointBytes)
   {
     const auto affordable = static_cast<std::uint32_t>(
-      std::min<std::int64_t>(bytesLeft / GpuSlotBytes::position + 1, wanted));
-    uploadPositions(node, entry, std::min(wanted, entry.points + affordable));
+      std::min<std::int64_t>(bytesLeft / pointBytes, wanted - entry.points));
+    uploadPositions(node, entry, entry.points + affordable);
     bytesLeft -= static_cast<std::int64_t>(affordable) * GpuSlotBytes::position;
   }
-  const LayerStreams& layer = streamsOf(node.layer);
   const std::uint32_t end = std::min(wanted, entry.points);
   for (std::size_t number = 0; number < gpuStreamCount; ++number)
   {

@@ -104,8 +104,9 @@ void setUp(vec3 camera, float radius, float grown, float height)
   splat.form = vec4(0.0);
   splat.slope = vec4(to, 0.0, 0.0);
 #if POINTFRONT_SHAPE == 0
-  vec2 corner = floor(screen - 0.5 * (squareSize - 1.0));
-  splat.rectangle = vec4(corner, corner + squareSize);
+  float edge = floor(squareSize * grown + 0.5); // twin of grownSquare()
+  vec2 corner = floor(screen - 0.5 * (edge - 1.0));
+  splat.rectangle = vec4(corner, corner + edge);
 #else
   vec4 extent = vec4(pixels, pixels, 0.0, 0.0);
 #if POINTFRONT_SHAPE == 1

@@ -12,7 +12,8 @@
 namespace pointfront
 {
 
-/// The points of an item that have been drawn into the kept keys.
+/// The points of an item that have been drawn into the kept keys. While a view is refining these
+/// are the first ones, at full size: those that still grow are drawn anew each time.
 struct DrawnItem
 {
   std::shared_ptr<const NodeColumns> node; ///< kept alive: an address is no identity otherwise

@@ -21,10 +21,20 @@ bool contains(const RasterWindow& window, const RasterWindow& other)
 /// counts: a tree that is being loaded changes what its nodes say of each other frame by frame.
 bool continues(const RasterItem& item, const DrawnItem& drawn)
 {
+  SizeTerms size = item.sizeTerms();
+  const bool atFullSize = size.growth.fullPoints(item.item->last) >= drawn.last;
+  size.growth = atFullSize ? PointGrowth() : size.growth;
   return item.item->node == drawn.node &&
     (item.style == drawn.style || *item.style == *drawn.style) && item.passes == drawn.passes &&
-    item.item->first == drawn.first && item.item->last >= drawn.last &&
-    item.sizeTerms() == drawn.size;
+    item.item->first == drawn.first && item.item->last >= drawn.last && size == drawn.size;
+}
+
+/// Up to where the item's points stay as they are drawn, of which the first ones are there.
+std::uint32_t lastingUpTo(const RasterItem& item, std::uint32_t there)
+{
+  const PlanItem& planned = *item.item;
+  return planned.covered ? there
+                         : std::max(there, item.sizeTerms().growth.fullPoints(planned.last));
 }
 
 } // namespace
@@ -105,23 +115,41 @@ bool LastPicture::renumber(
 }
 
 bool LastPicture::goOn(const RasterItems& items, RasterWindow& window, ThreadCrew& crew,
-  std::vector<RasterPiece>& pieces, std::uint64_t& reused)
+  std::vector<std::uint32_t>& drawnUpTo)
 {
-  std::vector<std::uint32_t> drawnUpTo;
   if (!valid_ || !contains(window_, window) || !isOf(items.plan()) ||
     !renumber(items, crew, drawnUpTo))
   {
     return false;
   }
   window = window_;
+  return true;
+}
+
+LastPicture::Pieces LastPicture::begin(
+  const RasterItems& items, RasterWindow& window, ThreadCrew& crew, bool wanted)
+{
+  Pieces pieces;
+  std::vector<std::uint32_t> drawnUpTo;
+  pieces.goesOn = wanted && goOn(items, window, crew, drawnUpTo);
+  drawnUpTo.resize(items.items().size(), 0u);
+  lastingUpTo_.clear();
   for (std::size_t i = 0; i < items.items().size(); ++i)
   {
     const RasterItem& item = items.items()[i];
-    const std::uint32_t from = std::max(item.item->first, drawnUpTo[i]);
-    reused += item.passes.walls() ? 0 : from - item.item->first;
-    addPieces(item, from, pieces);
+    const PlanItem& planned = *item.item;
+    const std::uint32_t from = std::max(planned.first, pieces.goesOn ? drawnUpTo[i] : 0u);
+    const std::uint32_t end =
+      items.plan().refining ? std::max(from, lastingUpTo(item, from)) : planned.last;
+    pieces.reused += item.passes.walls() ? 0 : from - planned.first;
+    const std::uint32_t last = planned.covered ? end : planned.last;
+    pieces.drawn += item.passes.walls() ? 0 : last - from;
+    addPieces(item, planned.first, from, pieces.there);
+    addPieces(item, from, end, pieces.lasting);
+    addPieces(item, end, last, pieces.passing);
+    lastingUpTo_.push_back(end);
   }
-  return true;
+  return pieces;
 }
 
 RasterBuffer<RasterKey> LastPicture::takeKeys()
@@ -141,12 +169,14 @@ void LastPicture::note(const RasterItems& items, const RasterWindow& window)
   window_ = window;
   numbers_ = items.numbers();
   items_.clear();
-  for (const RasterItem& item : items.items())
+  for (std::size_t i = 0; i < items.items().size(); ++i)
   {
-    items_.push_back(
-      { item.item->node, item.style, item.passes, item.base, item.item->first, item.item->last,
-        item.sizeTerms(), item.item->refined, item.item->unfinished, item.item->closingRadius,
-        item.item->sparsestRadius, item.item->radiusScale, item.item->growth });
+    const RasterItem& item = items.items()[i];
+    SizeTerms size = item.sizeTerms();
+    size.growth = plan.refining ? PointGrowth() : size.growth;
+    items_.push_back({ item.item->node, item.style, item.passes, item.base, item.item->first,
+      lastingUpTo_[i], size, item.item->refined, item.item->unfinished, item.item->closingRadius,
+      item.item->sparsestRadius, item.item->radiusScale, item.item->growth });
   }
   styles_.clear();
   for (const DrawBatch& batch : plan.batches)
@@ -155,12 +185,13 @@ void LastPicture::note(const RasterItems& items, const RasterWindow& window)
   }
 }
 
-void LastPicture::keep(
-  const RasterItems& items, const RasterWindow& window, RasterBuffer<RasterKey> keys)
+void LastPicture::keep(const RasterItems& items, const RasterWindow& window,
+  RasterBuffer<RasterKey> keys, BlendedSums sums)
 {
   visible_.unmark();
   note(items, window);
   keys_ = std::move(keys);
+  sums_ = std::move(sums);
   valid_ = true;
 }
 
@@ -170,6 +201,7 @@ void LastPicture::keepVisible(
   visible_.unmark();
   note(items, window);
   valid_ = false;
+  sums_ = {};
   visible_.mark(drawn(keys), crew);
 }
 
@@ -177,6 +209,7 @@ void LastPicture::forget()
 {
   known_ = false;
   valid_ = false;
+  sums_ = {};
   visible_.clear();
 }
 

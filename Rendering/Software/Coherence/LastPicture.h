@@ -11,6 +11,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace pointfront
@@ -27,19 +28,33 @@ public:
   /// for them (FramePlan::keepsVisible).
   const VisiblePoints& visibleFor(const FramePlan& plan, bool wanted, ThreadCrew& crew);
 
+  /// What is to be drawn of a picture.
+  struct Pieces
+  {
+    bool goesOn = false; ///< into the last picture's keys
+    std::vector<RasterPiece> there; ///< that are in the keys
+    std::vector<RasterPiece> lasting;
+    /// Into a copy of the keys, which the next picture does not go on from: points that grow while
+    /// a view is refining.
+    std::vector<RasterPiece> passing;
+    std::uint64_t reused = 0; ///< points that are in the keys
+    std::uint64_t drawn = 0; ///< points of the pieces
+  };
   /// If the keys are those of the same view: takes the pieces that are not in them yet, gives the
-  /// keys the new items' numbers, adds to `reused` the points that are there, and makes the window
-  /// that of the keys.
-  bool goOn(const RasterItems& items, RasterWindow& window, ThreadCrew& crew,
-    std::vector<RasterPiece>& pieces, std::uint64_t& reused);
+  /// keys the new items' numbers, and makes the window that of the keys. Else, and unless `wanted`,
+  /// all pieces.
+  Pieces begin(const RasterItems& items, RasterWindow& window, ThreadCrew& crew, bool wanted);
 
   /// The keys' memory, for the next picture to be drawn into.
   RasterBuffer<RasterKey> takeKeys();
   bool hasKeys() const { return keys_.data() != nullptr; }
+  /// The sums that belong to the keys, if there are any.
+  BlendedSums takeSums() { return std::move(sums_); }
   /// Of a picture that is kept.
   std::int64_t keyPixels() const { return hasKeys() ? window_.pixels() : 0; }
   /// What was drawn, all of a view.
-  void keep(const RasterItems& items, const RasterWindow& window, RasterBuffer<RasterKey> keys);
+  void keep(const RasterItems& items, const RasterWindow& window, RasterBuffer<RasterKey> keys,
+    BlendedSums sums);
   /// The same, but that the keys do not stay.
   void keepVisible(
     const RasterItems& items, const RasterWindow& window, const RasterKey* keys, ThreadCrew& crew);
@@ -49,16 +64,20 @@ public:
 private:
   VisiblePoints::Drawn drawn(const RasterKey* keys) const;
   bool isOf(const FramePlan& plan) const;
+  bool goOn(const RasterItems& items, RasterWindow& window, ThreadCrew& crew,
+    std::vector<std::uint32_t>& drawnUpTo);
   void note(const RasterItems& items, const RasterWindow& window);
   bool renumber(const RasterItems& items, ThreadCrew& crew, std::vector<std::uint32_t>& drawnUpTo);
 
   bool known_ = false; ///< what was drawn, all of a view
   bool valid_ = false; ///< and its keys are here
   RasterBuffer<RasterKey> keys_;
+  BlendedSums sums_;
   FrameCamera camera_;
   std::vector<glm::dvec4> clippingPlanes_;
   RasterWindow window_;
   std::vector<DrawnItem> items_;
+  std::vector<std::uint32_t> lastingUpTo_; ///< of each item of the picture that was begun
   ItemNumbers numbers_;
   std::vector<std::shared_ptr<const ResolvedStyle>> styles_; ///< alive, as the nodes
   QuantisationGrid grid_;

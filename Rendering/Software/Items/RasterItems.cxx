@@ -76,12 +76,8 @@ std::array<double, 2> depthRange(const FrameCamera& camera)
 SizeTerms RasterItem::sizeTerms() const
 {
   SizeTerms terms;
-  if (passes.squares)
-  {
-    return terms; // of a number of pixels, whatever the tree shows
-  }
   terms.growth = item->growth;
-  if (style->size.mode == SplatSize::Mode::Pixels || sizes)
+  if (passes.squares || style->size.mode == SplatSize::Mode::Pixels || sizes)
   {
     return terms;
   }
@@ -194,7 +190,7 @@ Thinning thinningOf(const PlanItem& item)
   {
     return Thinning::Even;
   }
-  const bool inPart = item.last < item.node->size();
+  const bool inPart = std::max(item.last, item.sizedFor) < item.node->size();
   return !inPart ? Thinning::None : item.node->parent == noNode ? Thinning::Random : Thinning::Even;
 }
 } // namespace

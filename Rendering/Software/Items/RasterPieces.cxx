@@ -10,9 +10,9 @@ constexpr std::uint32_t pointsOfPiece = 1u << 14;
 
 } // namespace
 
-void addPieces(const RasterItem& item, std::uint32_t first, std::vector<RasterPiece>& pieces)
+void addPieces(
+  const RasterItem& item, std::uint32_t first, std::uint32_t last, std::vector<RasterPiece>& pieces)
 {
-  const std::uint32_t last = item.item->last;
   for (; first < last; first += std::min(pointsOfPiece, last - first))
   {
     pieces.push_back({ &item, first, first + std::min(pointsOfPiece, last - first) });
@@ -24,7 +24,7 @@ std::vector<RasterPiece> piecesOf(const RasterItems& items)
   std::vector<RasterPiece> pieces;
   for (const RasterItem& item : items.items())
   {
-    addPieces(item, item.item->first, pieces);
+    addPieces(item, item.item->first, item.item->last, pieces);
   }
   return pieces;
 }

@@ -18,8 +18,9 @@ struct RasterPiece
   std::uint32_t last;
 };
 
-/// All of an item's points from `first` on.
-void addPieces(const RasterItem& item, std::uint32_t first, std::vector<RasterPiece>& pieces);
+/// An item's points [first, last).
+void addPieces(const RasterItem& item, std::uint32_t first, std::uint32_t last,
+  std::vector<RasterPiece>& pieces);
 /// All points of all items.
 std::vector<RasterPiece> piecesOf(const RasterItems& items);
 

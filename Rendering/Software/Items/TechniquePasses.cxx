@@ -106,6 +106,11 @@ int squareSizeOf(double pixels)
   return std::clamp(static_cast<int>(std::lround(pixels)), 1, mostSquare);
 }
 
+int grownSquare(int size, float grown)
+{
+  return static_cast<int>(std::floor(static_cast<float>(size) * grown + 0.5f));
+}
+
 TechniquePasses passesOf(const ResolvedStyle& style, const PassConditions& demand)
 {
   const bool hasNormals = demand.hasNormals;

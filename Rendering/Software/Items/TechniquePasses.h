@@ -43,6 +43,8 @@ struct PassConditions
 
 /// Edge of a square of a point, in whole pixels: every point has as many.
 int squareSizeOf(double pixels);
+/// The edge of one that grows (PointGrowth); 0: it is not drawn. Twin: setUp() in SplatSetUp.glsl.
+int grownSquare(int size, float grown);
 
 /// Constants  as measured against ground truth: docs/adr/0016.
 TechniquePasses passesOf(const ResolvedStyle& style, const PassConditions& demand);

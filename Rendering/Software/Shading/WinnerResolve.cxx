@@ -16,6 +16,7 @@ constexpr std::uint32_t mostWeight = 16843009u;
 
 /// Winners that are found before they are resolved: what is fetched for them fits in a cache.
 constexpr std::size_t winnersAtOnce = 4096;
+constexpr float standInRadii = 2.0f;
 
 float depthOf(RasterKey key)
 {
@@ -36,6 +37,15 @@ float fromEye(const RasterItems& items, float depth)
   }
   const glm::dmat4& clip = camera.viewToClip;
   return depth + static_cast<float>((clip[3][2] + clip[3][3]) / (clip[2][2] + clip[2][3]));
+}
+
+/// How far a stand-in has to be in front of what is drawn at its final size: splats as coarse as
+/// that say no more about where the surface is.
+float standInSlack(const RasterItem& item, float depth)
+{
+  const float reach = item.camera.parallel ? 1.0f : depth;
+  const float pixels = item.passes.first.leastRadius * reach / item.camera.scaleY;
+  return standInRadii * std::max(item.radius, pixels);
 }
 
 /// Of a colour and another, that share from the first one; opaque.
@@ -93,6 +103,10 @@ void WinnerResolve::find(int y)
       item = numbers.itemOf(index);
       begin = numbers.beginOf(item);
       end = numbers.endOf(item);
+    }
+    if (source_.standIns && items[item].item->covered)
+    {
+      continue;
     }
     if (index != fetched) // else the splat of the pixel before
     {
@@ -190,6 +204,10 @@ bool WinnerResolve::put(const RasterItem& item, int j, const Winner& winner, flo
   SoftwareTarget& target, std::size_t pixel)
 {
   const float eyeDepth = fromEye(*source_.items, depth);
+  if (source_.standIns && !(eyeDepth + standInSlack(item, depth) < target.depth[pixel]))
+  {
+    return false;
+  }
   if (target.keepDecided)
   {
     const float decided = fromEye(*source_.items, winner.keyDepth);

@@ -27,6 +27,7 @@ public:
     std::vector<const std::uint32_t*> sums; ///< of those that drew any
     std::uint16_t store = 0;
     bool normals = false; ///< the target has them
+    bool standIns = false; ///< what is drawn shows only far in front of the target's pixels
   };
 
   WinnerResolve(const Source& source, ThreadBuffers& buffers)

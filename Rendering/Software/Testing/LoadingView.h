@@ -4,6 +4,7 @@
 #include "SoftwareRasteriser.h"
 
 #include "pointfront/Generate/TerrainSource.h"
+#include "pointfront/Plan/DetailGrowth.h"
 #include "pointfront/Plan/FramePlanner.h"
 #include "pointfront/Residency/ResidencyShare.h"
 #include "pointfront/Store/PointStore.h"
@@ -108,21 +109,28 @@ public:
     PlanRequest request = request_;
     request.camera = camera;
     request.keepsVisible = leavesOut(front_.last(), demand);
+    request.refines = refines;
+    request.growth = growthStep > 0.0 ? &growth_ : nullptr;
+    clock_ += growthStep;
+    request.moment = { clock_, 0.25, false };
     plan = planFrame(front_, store_->description(), std::move(request));
     target.reset(width, height);
     return rasteriser_.draw(plan, target);
   }
   /// Whether no further frame of the view differs.
-  bool isComplete() const { return front_.last().complete; }
+  bool isComplete() const { return front_.last().complete && growth_.whole(); }
   /// Until something is there that the last frame did not have, or a little while.
   void waitForNews()
   {
-    for (int waits = 0; waits < 2000 && !front_.wantsUpdate(); ++waits)
+    const auto hasNews = [&] { return front_.wantsUpdate() || growth_.growing(); };
+    for (int waits = 0; waits < 2000 && !hasNews(); ++waits)
     {
       std::this_thread::sleep_for(std::chrono::microseconds(500));
     }
   }
 
+  bool refines = true; ///< as PlanRequest's
+  double growthStep = 0.0; ///< seconds from a frame to the next; 0: nothing grows
   FrameRequest demand;
   FrameCamera camera;
   FramePlan plan; ///< of the last frame
@@ -132,6 +140,8 @@ private:
   std::shared_ptr<const PointStore> store_;
   ResidencyShare share_;
   ViewFront front_;
+  DetailGrowth growth_;
+  double clock_ = 0.0;
   PlanRequest request_;
   SoftwareRasteriser rasteriser_;
 };

@@ -26,6 +26,7 @@ struct GrowingStyle
   Technique technique;
   bool blended;
   bool normals;
+  SplatSize size = { SplatSize::Mode::Spacing, 1.0, 0 };
 };
 const GrowingStyle styles[] = {
   { "paraboloids", Technique::Splats, false, false },
@@ -33,6 +34,7 @@ const GrowingStyle styles[] = {
   { "blended_paraboloids", Technique::Splats, true, false },
   { "spheres", Technique::Spheres, false, false },
   { "ewa", Technique::Ewa, true, true },
+  { "squares", Technique::Points, false, false, { SplatSize::Mode::Pixels, 5.0, 0 } },
 };
 
 /// Two nodes of a surface, one behind the other's points in the order of drawing.
@@ -41,7 +43,7 @@ PlanOfPoints surface(const GrowingStyle& style)
   PlanOfPoints scene;
   scene.style->technique = style.technique;
   scene.style->blended = style.blended;
-  scene.style->size = { SplatSize::Mode::Spacing, 1.0, 0 };
+  scene.style->size = style.size;
   scene.style->colouring.column = 0;
   if (style.normals)
   {

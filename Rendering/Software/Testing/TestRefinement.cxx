@@ -5,9 +5,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <unistd.h>
 
@@ -19,6 +23,11 @@ namespace
 
 constexpr int mostRefiningFrames = 5000;
 constexpr double mostDrawnAgain = 1.1; ///< times the points of the complete picture
+/// Once as it comes, by what is nearest at that time, and once more when all is there.
+constexpr double mostBlendedAgain = 2.15;
+constexpr double mostDrawnGrowing = 2.5; ///< likewise: what grows has another size in each frame
+/// Of the pixels of the complete picture, in each frame; splats that close the surface.
+constexpr double leastCovered = 0.98;
 
 std::shared_ptr<const PointStore> refiningTown()
 {
@@ -38,6 +47,9 @@ const RefiningStyle refiningStyles[] = {
   { "squares", Technique::Points, SplatSize::Mode::Pixels, 2.0 },
   { "discs_in_pixels", Technique::Splats, SplatSize::Mode::Pixels, 3.0 },
   { "spheres_in_metres", Technique::Spheres, SplatSize::Mode::World, 0.4 },
+  { "closing_discs", Technique::Splats, SplatSize::Mode::Spacing, 1.0 },
+  { "closing_spheres", Technique::Spheres, SplatSize::Mode::Spacing, 1.0 },
+  { "closing_ewa", Technique::Ewa, SplatSize::Mode::Spacing, 1.0 },
 };
 
 class RefiningView : public testing::TestWithParam<RefiningStyle>
@@ -53,35 +65,106 @@ StyleSheet refiningSheet(const RefiningStyle& style)
   return sheet;
 }
 
+/// What the frames of a view showed until it was complete.
+struct SeenFrames
+{
+  std::uint64_t points = 0; ///< of the complete picture
+  std::uint64_t drawn = 0; ///< in all frames together
+  std::uint64_t blended = 0; ///< likewise, through the second pass
+  int frames = 0;
+  int gained = 0; ///< frames after the first with more points than the one before
+  std::vector<std::vector<float>> depths; ///< of each frame
+
+  double drawnPerPoint() const { return double(drawn) / double(points); }
+  double blendedPerPoint() const { return double(blended) / double(points); }
+  /// The worst frame's share of the pixels that the complete picture covers.
+  double leastCovered(const SoftwareTarget& complete) const
+  {
+    double least = 1.0;
+    for (const std::vector<float>& depth : depths)
+    {
+      double covered = 0.0, all = 0.0;
+      for (std::size_t pixel = 0; pixel < depth.size(); ++pixel)
+      {
+        const bool counts = std::isfinite(complete.depth[pixel]);
+        all += counts ? 1.0 : 0.0;
+        covered += counts && std::isfinite(depth[pixel]) ? 1.0 : 0.0;
+      }
+      least = std::min(least, covered / all);
+    }
+    return least;
+  }
+};
+
+SeenFrames refine(LoadingView& view)
+{
+  SeenFrames seen;
+  do
+  {
+    view.waitForNews();
+    const RasterStatistics one = view.frame();
+    seen.drawn += one.points + one.standIns + one.keptVisible - one.reused;
+    seen.gained += seen.frames > 0 && one.points > seen.points;
+    seen.blended += one.blended;
+    seen.points = one.points;
+    seen.depths.push_back(view.target.depth);
+  } while (!view.isComplete() && ++seen.frames < mostRefiningFrames);
+  return seen;
+}
+
+/// Splats of a given size leave holes until all are there.
+double coverageOf(const RefiningStyle& style)
+{
+  return style.size == SplatSize::Mode::Spacing ? leastCovered : 0.0;
+}
+
+void expectAsAtOneGo(const LoadingView& view, const RefiningStyle& style)
+{
+  LoadingView atOnce(refiningTown(), refiningSheet(style));
+  atOnce.frame(true);
+  EXPECT_EQ(view.target.rgba, atOnce.target.rgba);
+  EXPECT_EQ(view.target.depth, atOnce.target.depth);
+}
+
 } // namespace
 
 TEST_P(RefiningView, DrawsNothingTwice)
 {
   const std::shared_ptr<const PointStore> store = refiningTown();
   ASSERT_TRUE(store);
+  LoadingView(store, refiningSheet(GetParam())).frame(true); // the table's rows are there then
   LoadingView view(store, refiningSheet(GetParam()));
-  std::uint64_t drawn = 0;
-  int frames = 0, gained = 0;
-  std::uint64_t before = 0;
-  do
-  {
-    view.waitForNews();
-    const RasterStatistics one = view.frame();
-    drawn += one.points + one.keptVisible - one.reused;
-    gained += frames > 0 && one.points > before;
-    before = one.points;
-  } while (!view.isComplete() && ++frames < mostRefiningFrames);
+  const SeenFrames seen = refine(view);
   ASSERT_TRUE(view.isComplete());
-  EXPECT_GE(gained, 3); // it was seen to load; a slow machine draws few frames meanwhile
-  EXPECT_LE(static_cast<double>(drawn), mostDrawnAgain * static_cast<double>(before))
-    << frames << " frames";
-  RecordProperty("frames", frames);
-  RecordProperty("drawn_per_point", std::to_string(double(drawn) / double(before)));
+  EXPECT_GE(seen.gained, 3); // it was seen to load; a slow machine draws few frames meanwhile
+  EXPECT_LE(seen.drawnPerPoint(), mostDrawnAgain) << seen.frames << " frames";
+  EXPECT_LE(seen.blendedPerPoint(), mostBlendedAgain) << seen.frames << " frames";
+  EXPECT_GE(seen.leastCovered(view.target), coverageOf(GetParam()));
+  RecordProperty("frames", seen.frames);
+  RecordProperty("drawn_per_point", std::to_string(seen.drawnPerPoint()));
+  RecordProperty("blended_per_point", std::to_string(seen.blendedPerPoint()));
+  RecordProperty("least_covered", std::to_string(seen.leastCovered(view.target)));
+  expectAsAtOneGo(view, GetParam());
+}
 
-  LoadingView atOnce(store, refiningSheet(GetParam()));
-  atOnce.frame(true);
-  EXPECT_EQ(view.target.rgba, atOnce.target.rgba);
-  EXPECT_EQ(view.target.depth, atOnce.target.depth);
+/// As windows show it: what arrives grows (SMOOTH-6). What grows is drawn each time; what has grown
+/// is not.
+TEST_P(RefiningView, DrawsWhatGrowsAndNothingElse)
+{
+  const std::shared_ptr<const PointStore> store = refiningTown();
+  ASSERT_TRUE(store);
+  LoadingView(store, refiningSheet(GetParam())).frame(true); // the table's rows are there then
+  LoadingView view(store, refiningSheet(GetParam()));
+  view.growthStep = 0.05;
+  const SeenFrames seen = refine(view);
+  ASSERT_TRUE(view.isComplete());
+  EXPECT_LE(seen.drawnPerPoint(), mostDrawnGrowing) << seen.frames << " frames";
+  EXPECT_GE(seen.leastCovered(view.target), coverageOf(GetParam()));
+  RecordProperty("frames", seen.frames);
+  RecordProperty("drawn_per_point", std::to_string(seen.drawnPerPoint()));
+  RecordProperty("blended_per_point", std::to_string(seen.blendedPerPoint()));
+  RecordProperty("least_covered", std::to_string(seen.leastCovered(view.target)));
+  expectAsAtOneGo(view, GetParam());
 }
 
 INSTANTIATE_TEST_SUITE_P(Techniques, RefiningView, testing::ValuesIn(refiningStyles),

@@ -18,6 +18,7 @@ const std::map<std::string, std::string> growingStyles = {
   { "opaque", R"({"default": {"technique": "splats"}})" },
   { "blended", R"({"default": {"technique": "splats", "blended": true}})" },
   { "spheres", R"({"default": {"technique": "spheres"}})" },
+  { "squares", R"({"default": {"technique": "points", "size": {"mode": "fixed", "px": 6}}})" },
 };
 
 std::string hillsStore()

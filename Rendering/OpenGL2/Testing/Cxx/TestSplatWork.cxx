@@ -8,8 +8,10 @@
 #include <vtkSelection.h>
 #include <vtkSelectionNode.h>
 
+#include <chrono>
 #include <cstddef>
 #include <set>
+#include <string>
 
 using namespace pointfront;
 using namespace pointfront::test;
@@ -113,6 +115,46 @@ TEST(Techniques, AtRestNothingIsDrawnTwice)
     EXPECT_GT(primitivesOf(scene), points / 2) << name << ": another view";
     scene.renderer->GetActiveCamera()->Azimuth(-5.0);
     EXPECT_EQ(differing(first, scene.draw()), 0) << name;
+  }
+}
+
+/// A view at rest whose points come to the GPU frame by frame (SMOOTH-5). The squares are a quad or
+/// so of the window's beside the points.
+TEST(Techniques, AViewThatLoadsDrawsNothingTwice)
+{
+  const std::string store = surfaceStore("loading", stairsAt);
+  for (const char* const json : { R"({"default": {"technique": "points",
+           "size": {"mode": "fixed", "px": 2}}})",
+         R"({"default": {"technique": "points", "size": {"mode": "fixed", "metres": 0.05}}})",
+         R"({"default": {"technique": "splats", "size": {"mode": "fixed", "px": 4}}})",
+         R"({"default": {"technique": "spheres", "size": {"mode": "fixed", "metres": 0.05}}})" })
+  {
+    Splats scene(store);
+    ASSERT_TRUE(scene.style->LoadJSON(json));
+    scene.mapper->SetTargetError(0.5);
+    scene.mapper->CompleteOff();
+    scene.mapper->SetGrowthTime(0.0);
+    scene.mapper->SetUploadLimit(1 << 16);
+    scene.window->Start(); // there is a context before the first frame
+    double drawn = 0.0;
+    int gained = 0;
+    vtkTypeInt64 before = 0;
+    const auto begin = std::chrono::steady_clock::now();
+    do
+    {
+      drawn += primitivesOf(scene);
+      gained += scene.mapper->GetLastPointsDrawn() > before;
+      before = scene.mapper->GetLastPointsDrawn();
+    } while ((scene.mapper->NeedsRender() || scene.mapper->GetLastRequests() > 0) &&
+      std::chrono::steady_clock::now() - begin < std::chrono::seconds(20));
+    EXPECT_TRUE(scene.mapper->GetLastComplete()) << json;
+    EXPECT_GE(gained, 3) << json;
+    EXPECT_LE(drawn, 1.1 * static_cast<double>(before)) << json << ", " << gained << " frames";
+    const Picture last = scene.read();
+    Splats whole(store);
+    ASSERT_TRUE(whole.style->LoadJSON(json));
+    whole.mapper->SetTargetError(0.5);
+    EXPECT_LE(differing(whole.draw(), last, 2), 60) << json; // equally near: who came first
   }
 }
 

@@ -57,6 +57,12 @@ std::vector<DrawnNode> nodesOf(const std::vector<DrawBatch>& batches, const Quan
   const std::vector<NodeElsewhere>& elsewhere)
 {
   std::vector<DrawnNode> nodes;
+  for (const NodeElsewhere& other : elsewhere)
+  {
+    nodes.push_back(
+      { other.node, other.parent, other.layer, other.points, other.closingRadius, other.unfinished,
+        { { other.box.low.x, other.box.low.y }, { other.box.high.x, other.box.high.y } } });
+  }
   for (const DrawBatch& batch : batches)
   {
     for (const PlanItem& item : batch.items)
@@ -64,12 +70,6 @@ std::vector<DrawnNode> nodesOf(const std::vector<DrawBatch>& batches, const Quan
       nodes.push_back({ item.node->node, item.node->parent, batch.layer, item.last - item.first,
         item.closingRadius, item.unfinished, groundOf(item, grid), 0.0f, item.growingSpacingPx });
     }
-  }
-  for (const NodeElsewhere& other : elsewhere)
-  {
-    nodes.push_back(
-      { other.node, other.parent, other.layer, other.points, other.closingRadius, other.unfinished,
-        { { other.box.low.x, other.box.low.y }, { other.box.high.x, other.box.high.y } } });
   }
   std::stable_sort(nodes.begin(), nodes.end(),
     [](const DrawnNode& a, const DrawnNode& b) { return a.node < b.node; });

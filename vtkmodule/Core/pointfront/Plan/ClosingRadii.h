@@ -10,7 +10,8 @@
 namespace pointfront
 {
 
-/// A node that another process draws of the same view (sort-last rendering).
+/// A node of the same view that another process draws (sort-last rendering), or that is drawn when
+/// the view is complete.
 struct NodeElsewhere
 {
   NodeIndex node = noNode;
@@ -22,8 +23,8 @@ struct NodeElsewhere
   Bounds box; ///< world units
 };
 
-/// Makes the closing radii of a plan's items agree with each other, and with those of what other
-/// processes draw.
+/// Makes the closing radii of a plan's items agree with each other, and with those of what is drawn
+/// elsewhere; of a node that is in both lists the latter counts.
 /// Levels  splats of a node are as large as those of the finer nodes drawn among them are on the
 ///         whole: not as far-away coarse ones, nor as a few strays.
 /// Layers  where another layer's nodes lie in the same place and are denser, splats are at most

@@ -44,9 +44,14 @@ struct PlanItem
   bool refined = false;
   /// The store has more points in this node's place than are drawn.
   bool unfinished = false;
+  /// Points of the prefix that the sizes are for, if those are more than are drawn.
+  std::uint32_t sizedFor = 0;
   /// Pixels between the points on screen while this node or finer nodes among its points grow, if
   /// more than FramePlan::spacingPx, which assumes that growth is over.
   float growingSpacingPx = 0.0f;
+  /// Of a stand-in (FramePlan::standIns): finer splats close the surface in its place, so it is
+  /// not to be seen any more.
+  bool covered = false;
 };
 
 /// Nodes of one layer that are drawn in one style.
@@ -55,6 +60,7 @@ struct DrawBatch
   std::uint16_t layer = 0;
   std::shared_ptr<const ResolvedStyle> style; ///< never null
   std::vector<PlanItem> items; ///< near to far, ties by node
+  std::uint8_t level = 0; ///< of stand-ins: that of their nodes
 };
 
 /// The settings of a whole frame, whatever nodes it draws.
@@ -75,6 +81,9 @@ struct FrameSetting
   /// last picture showed and this plan lacks (SMOOTH-7). A complete view never keeps points: its
   /// picture does not depend on earlier pictures.
   bool keepsVisible = false;
+  /// A view at rest is being loaded, and its splats have the sizes of the complete view: a point
+  /// that is drawn once stays as it is (SMOOTH-5).
+  bool refining = false;
   /// Other processes draw the rest of the cloud, or the renderer shows other clouds, and the
   /// nearest point of all is shown. The picture then has the depths that decide which splat is
   /// seen; they lie behind a splat's plane towards its rim.
@@ -92,6 +101,11 @@ struct FrameSetting
 struct FramePlan : FrameSetting
 {
   std::vector<DrawBatch> batches;
+  /// While the view is refining: large splats of nodes whose finer nodes are not there yet, seen
+  /// where the batches leave holes, and those of coarse levels where those of finer ones do. Finest
+  /// level first. Of a node that stays in sight an item only ever changes from not covered to
+  /// covered, or back.
+  std::vector<DrawBatch> standIns;
 
   /// Each point once, however many styles of its layer look at it.
   std::uint64_t pointCount() const;

@@ -3,9 +3,12 @@
 #include "pointfront/Front/PointPrefix.h"
 #include "pointfront/Plan/ClosingRadii.h"
 #include "pointfront/Plan/LensCulling.h"
+#include "pointfront/Plan/MeasuredRadius.h"
+#include "pointfront/Plan/StandIns.h"
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 namespace pointfront
@@ -13,10 +16,6 @@ namespace pointfront
 namespace
 {
 
-/// A node whose few points stand farther apart than its level can see has strays in it, no surface.
-constexpr float mostSpacings = 2.0f;
-/// A whole layer of fewer points is no surface: its points are as small as can be.
-constexpr std::size_t fewestOfSurface = 64;
 /// Of how far points of a node that grows are apart.
 constexpr double stepsAnOctave = 16.0;
 
@@ -48,28 +47,6 @@ float growingSpacing(const NodeColumns& node, std::uint32_t spread, float spacin
   const double most = std::max(mostGrowingPx, spacingPx);
   return inSteps(std::min(most, prefixErrorPx(points, spread, whole, spacingRatio)));
 }
-
-/// What closes the surface among the first `drawn` points of a node, before its neighbours are
-/// looked at.
-struct MeasuredRadius
-{
-  float spacing = 0.0f; ///< between the points on screen
-  float radiusScale = 1.0f; ///< as PlanItem's
-  float closing = 0.0f;
-  bool unfinished = false;
-
-  template <typename Row> // Node or NodeColumns
-  MeasuredRadius(
-    const Row& row, std::uint32_t points, std::uint32_t drawn, bool leaf, float spacingRatio)
-    : spacing(static_cast<float>(prefixErrorPx(points, drawn, row.spacing, spacingRatio)))
-    , radiusScale(row.spacing > 0.0f ? std::max(1.0f, spacing / row.spacing) : 1.0f)
-    , unfinished(!leaf || drawn < points)
-  {
-    const float measured = std::min(row.splatRadius, mostSpacings * row.spacing);
-    const bool strays = row.parent == noNode && points < fewestOfSurface;
-    closing = strays ? 0.0f : measured > 0.0f ? measured * radiusScale : spacing;
-  }
-};
 
 /// Of what is seen in a lens only, what can be.
 void keepWhatIsSeen(const FramePlan& plan, DrawBatch& batch)
@@ -107,10 +84,34 @@ PlanItem itemOf(std::shared_ptr<const NodeColumns> node, const DetailGrowth::Sho
   return item;
 }
 
+/// Of a refining view (FramePlan::refining) the nodes of the complete view; null: of any other.
+const ExpectedNodes* expectedOf(const ViewFront& front, const PlanRequest& request)
+{
+  const ExpectedNodes* const expected = front.expected();
+  const bool usable = request.refines && !request.exchange && expected && expected->points() > 0 &&
+    front.refinement() == Refinement::Add;
+  const FrontDelta& last = front.last();
+  // Its nodes may all be there and still grow.
+  const bool grows = request.growth && !request.growth->whole() && expected &&
+    expected->points() == last.pointsDrawn && expected->thresholdPx() == last.thresholdPx;
+  return usable && (!last.complete || grows) ? expected : nullptr;
+}
+
 /// FramePlan::spacingPx. Without a bound by how many points there are, a coarse view around the eye
 /// would draw each point hundreds of pixels large: the fewer points, the longer the frame.
-double thinnedSpacingPx(const ViewFront& front, const FrameCamera& camera)
+double thinnedSpacingPx(
+  const ViewFront& front, const FrameCamera& camera, const ExpectedNodes* expected)
 {
+  const double pixels = double(camera.width) * double(camera.height);
+  const auto among = [&](double thresholdPx, std::uint64_t points)
+  {
+    const double even = std::sqrt(pixels / static_cast<double>(points));
+    return std::min(thresholdPx, std::max(smallSpacingPx, mostEvenSpacings * even));
+  };
+  if (expected)
+  {
+    return among(expected->thresholdPx(), 1 + expected->points());
+  }
   std::uint64_t points = 1;
   for (const DrawItem& item : front.last().draw)
   {
@@ -120,14 +121,34 @@ double thinnedSpacingPx(const ViewFront& front, const FrameCamera& camera)
   {
     points += drawn.item.pointCount;
   }
-  const double pixels = double(camera.width) * double(camera.height);
-  const double even = std::sqrt(pixels / static_cast<double>(points));
-  return std::min(front.last().thresholdPx, std::max(smallSpacingPx, mostEvenSpacings * even));
+  return among(front.last().thresholdPx, points);
 }
 
-/// The items of each layer that has a style, near to far.
-std::vector<std::vector<PlanItem>> itemsByLayer(
-  const ViewFront& front, const PlanRequest& request, double spacingPx)
+/// A batch's items and stand-ins of each layer, near to far.
+struct LayerItems
+{
+  std::vector<std::vector<PlanItem>> items;
+  std::vector<DrawBatch> standIns; ///< without a style
+};
+
+/// Of a refining view: what is drawn of a node that has the size of the complete view.
+PlanItem expectedItem(std::shared_ptr<const NodeColumns> node, DetailGrowth::Shown shown,
+  const DrawItem& complete, double spacingPx)
+{
+  shown.spread = complete.pointCount;
+  const auto points = static_cast<std::uint32_t>(node->size());
+  const bool unfinished = !node->leaf || complete.pointCount < points;
+  PlanItem item =
+    itemOf(std::move(node), shown, complete.spacingRatio, complete.errorPx, spacingPx);
+  item.growingSpacingPx = 0.0f; // stand-ins close the surface meanwhile
+  item.sizedFor = complete.pointCount;
+  item.unfinished = unfinished;
+  return item;
+}
+
+/// Those that have a style.
+LayerItems itemsByLayer(const ViewFront& front, const PlanRequest& request, double spacingPx,
+  const ExpectedNodes* expected)
 {
   const std::vector<LayerStyles>& styles = request.styles;
   const auto shows = [&](const std::shared_ptr<const NodeColumns>& node)
@@ -136,7 +157,14 @@ std::vector<std::vector<PlanItem>> itemsByLayer(
   DetailGrowth& growth = request.growth ? *request.growth : still;
   growth.begin(
     request.growth ? request.moment : GrowthMoment(), front.refinement() == Refinement::Add);
-  std::vector<std::vector<PlanItem>> items(styles.size());
+  LayerItems layers;
+  std::vector<std::vector<PlanItem>>& items = layers.items;
+  items.resize(styles.size());
+  std::optional<StandIns> standIns;
+  if (expected)
+  {
+    standIns.emplace(*expected);
+  }
   for (const DrawItem& item : front.last().draw)
   {
     std::shared_ptr<const NodeColumns> node = front.find(item.node);
@@ -145,10 +173,16 @@ std::vector<std::vector<PlanItem>> itemsByLayer(
       const auto points = std::min(item.pointCount, static_cast<std::uint32_t>(node->size()));
       const DetailGrowth::Shown shown = growth.grow(node, points);
       const std::uint16_t layer = node->layer;
+      const TabledNode* const complete = expected ? expected->find(item.node) : nullptr;
+      if (complete && shown.growth.whole() && shown.points >= complete->item.pointCount)
+      {
+        standIns->noteWhole(node, *complete);
+      }
       if (shown.points > 0)
       {
-        items[layer].push_back(
-          itemOf(std::move(node), shown, item.spacingRatio, item.errorPx, spacingPx));
+        items[layer].push_back(complete
+            ? expectedItem(std::move(node), shown, complete->item, spacingPx)
+            : itemOf(std::move(node), shown, item.spacingRatio, item.errorPx, spacingPx));
       }
     }
   }
@@ -161,31 +195,30 @@ std::vector<std::vector<PlanItem>> itemsByLayer(
         { leaving.points, leaving.points, leaving.growth }, 0.0f, 0.0f, spacingPx));
     }
   }
-  return items;
+  layers.standIns = standIns ? standIns->batches() : layers.standIns;
+  return layers;
 }
 
 /// One batch each, without a style; layers of which nothing is in sight have none.
-std::vector<DrawBatch> batchesOfLayers(
-  const ViewFront& front, const PlanRequest& request, double spacingPx)
+std::vector<DrawBatch> batchesOf(std::vector<std::vector<PlanItem>> items)
 {
-  std::vector<std::vector<PlanItem>> items = itemsByLayer(front, request, spacingPx);
   std::vector<DrawBatch> batches;
   for (std::size_t layer = 0; layer < items.size(); ++layer)
   {
     if (!items[layer].empty())
     {
-      batches.push_back({ static_cast<std::uint16_t>(layer), nullptr, std::move(items[layer]) });
+      batches.push_back({ static_cast<std::uint16_t>(layer), nullptr, std::move(items[layer]), 0 });
     }
   }
   return batches;
 }
 
-/// What other processes draw of layers that have a style.
+/// Of nodes that others draw, or that are drawn later, those of layers that have a style.
 std::vector<NodeElsewhere> nodesElsewhere(
-  const ViewFront& front, const std::vector<LayerStyles>& styles)
+  const std::vector<TabledNode>& tabled, const std::vector<LayerStyles>& styles)
 {
   std::vector<NodeElsewhere> nodes;
-  for (const OtherPieces::Drawn& drawn : front.drawnElsewhere())
+  for (const TabledNode& drawn : tabled)
   {
     const Node& row = drawn.row;
     if (row.layer < styles.size() && !styles[row.layer].empty())
@@ -197,6 +230,26 @@ std::vector<NodeElsewhere> nodesElsewhere(
     }
   }
   return nodes;
+}
+
+/// A batch for each style of each layer. Stand-ins are splats that close the surface.
+void addStyled(const std::vector<DrawBatch>& layers, const std::vector<LayerStyles>& styles,
+  const FramePlan& plan, std::vector<DrawBatch>& batches)
+{
+  const bool standIns = &batches == &plan.standIns;
+  for (const DrawBatch& layer : layers)
+  {
+    for (const std::shared_ptr<const ResolvedStyle>& style : styles[layer.layer])
+    {
+      DrawBatch batch{ layer.layer, style, layer.items, layer.level };
+      keepWhatIsSeen(plan, batch);
+      const bool wanted = !standIns || style->size.mode == SplatSize::Mode::Spacing;
+      if (wanted && !batch.items.empty())
+      {
+        batches.push_back(std::move(batch));
+      }
+    }
+  }
 }
 
 } // namespace
@@ -223,26 +276,21 @@ FramePlan planFrame(
   plan.grid = description.grid;
   plan.schema = std::make_shared<const AttributeSchema>(description.schema);
   plan.splatRadiusBase = description.splatRadiusBase;
-  const double spacingPx = thinnedSpacingPx(front, request.camera);
+  const ExpectedNodes* const expected = expectedOf(front, request);
+  const double spacingPx = thinnedSpacingPx(front, request.camera, expected);
   plan.spacingPx = static_cast<float>(spacingPx);
   plan.keepsVisible = request.keepsVisible;
   plan.composited = request.composited;
   plan.exchange = request.exchange;
   plan.shading = std::move(request.shading);
-  std::vector<DrawBatch> layers = batchesOfLayers(front, request, spacingPx);
-  matchNeighbours(layers, plan.grid, nodesElsewhere(front, request.styles));
-  for (const DrawBatch& layer : layers)
-  {
-    for (const std::shared_ptr<const ResolvedStyle>& style : request.styles[layer.layer])
-    {
-      DrawBatch batch{ layer.layer, style, layer.items };
-      keepWhatIsSeen(plan, batch);
-      if (!batch.items.empty())
-      {
-        plan.batches.push_back(std::move(batch));
-      }
-    }
-  }
+  LayerItems items = itemsByLayer(front, request, spacingPx, expected);
+  const bool whole = front.last().complete && (!request.growth || request.growth->whole());
+  plan.refining = expected && !whole;
+  std::vector<DrawBatch> layers = batchesOf(std::move(items.items));
+  matchNeighbours(layers, plan.grid,
+    nodesElsewhere(plan.refining ? expected->nodes() : front.drawnElsewhere(), request.styles));
+  addStyled(layers, request.styles, plan, plan.batches);
+  addStyled(items.standIns, request.styles, plan, plan.standIns);
   return plan;
 }
 

@@ -34,6 +34,8 @@ struct PlanRequest
   FrameShading shading;
   bool keepsVisible = false; ///< as FramePlan's: see leavesOut()
   bool composited = false; ///< as FramePlan's
+  /// The back end draws FramePlan::standIns, so that a view that is being loaded can be refining.
+  bool refines = false;
   PictureExchange* exchange = nullptr; ///< as FramePlan's
   /// Not null: detail grows. The object knows what that view showed so far, and learns what this
   /// plan shows.

@@ -50,6 +50,10 @@ std::vector<PlanPart> partsOf(const FramePlan& plan)
     opaque.opacity = 1.0;
     find(opaque);
   }
+  for (const DrawBatch& batch : plan.standIns)
+  {
+    find(partOf(*batch.style)).plan.standIns.push_back(batch);
+  }
   return parts;
 }
 

@@ -111,6 +111,7 @@ const FrontDelta& ViewFront::update(const FrameRequest& demand)
     }
     noteColumns(demand);
   }
+  expect(demand);
   if (others_ && method_ == DetailMethod::RenderingFront)
   {
     std::function<bool()> waits;

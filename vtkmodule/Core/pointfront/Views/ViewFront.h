@@ -1,6 +1,7 @@
 #pragma once
 
 #include "pointfront/Residency/ResidencyShare.h"
+#include "pointfront/Views/ExpectedNodes.h"
 #include "pointfront/Views/HierarchyPiece.h"
 #include "pointfront/Views/OtherPieces.h"
 #include "pointfront/Views/WindowDemand.h"
@@ -69,6 +70,11 @@ public:
   /// whole hierarchy, and with DetailMethod::ViewSpecific, whose pieces choose levels of their own.
   const std::vector<OtherPieces::Drawn>& drawnElsewhere() const;
 
+  /// The nodes of the complete view, while a view at rest is being loaded and as long as it rests;
+  /// null: it is in motion, was complete from the first, or they are not known. Not known are those
+  /// of pieces of a hierarchy and of DetailMethod::ViewSpecific.
+  const ExpectedNodes* expected() const { return expected_.get(); }
+
   /// Tells that nobody sees the view until the next update. Its part of all shared budgets goes to
   /// the others; its loaded nodes stay as long as nobody wants the memory.
   void leave();
@@ -116,6 +122,7 @@ private:
 
   void choose(DetailMethod method);
   void step(const FrameRequest& demand);
+  void expect(const FrameRequest& demand);
   void addMargin(const FrameRequest& demand);
   bool marginGoesOn() const;
   bool allCovered() const;
@@ -138,6 +145,7 @@ private:
   DetailMethod method_ = DetailMethod::RenderingFront;
   std::unique_ptr<DetailSelection> selection_;
   std::unique_ptr<OtherPieces> others_; ///< null for a whole hierarchy
+  std::unique_ptr<ExpectedNodes> expected_;
   ViewMargin margin_;
   std::uint32_t marginWalks_ = 0; ///< at rest, of the present delta
   std::uint64_t beside_ = 0;

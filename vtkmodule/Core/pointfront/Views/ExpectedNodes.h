@@ -1,0 +1,51 @@
+#pragma once
+
+#include "pointfront/Views/WholeFront.h"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace pointfront
+{
+
+/// The nodes that a view at rest draws when it is complete, from the table alone, while they are
+/// being loaded. With them a point's splat has its final size as soon as the point is there
+/// (SMOOTH-5).
+/// Promise  none: where memory ends, nodes fail or rows of the table are missing the complete view
+///          draws other nodes.
+/// Time     as WholeFront's.
+/// Threads  one.
+class ExpectedNodes
+{
+public:
+  explicit ExpectedNodes(std::shared_ptr<const Hierarchy> hierarchy);
+
+  /// `thresholdPx`: where the threshold of the view will stop.
+  void update(const View& view, const FrontLimits& limits, double thresholdPx);
+  /// The view is complete: frees what only an update needs.
+  void finish();
+
+  const std::vector<TabledNode>& nodes() const { return nodes_; } ///< by node
+  /// The node among them; null: it is none of them.
+  const TabledNode* find(NodeIndex node) const;
+  /// In force in the complete view, pixels.
+  double thresholdPx() const { return thresholdPx_; }
+  std::uint64_t points() const { return points_; }
+  /// Of the points, those of nodes among which finer nodes are drawn, by level.
+  const std::vector<std::uint64_t>& refinedPoints() const { return refinedPoints_; }
+  /// How many of them lie right below a node.
+  std::uint32_t finerNodes(NodeIndex node) const;
+
+private:
+  std::shared_ptr<const Hierarchy> hierarchy_;
+  std::unique_ptr<WholeFront> front_; ///< null: finished
+  std::uint64_t seen_ = 0; ///< number of the delta that nodes_ are made of
+  std::vector<TabledNode> nodes_;
+  std::vector<NodeIndex> parents_; ///< of each of them; sorted
+  double thresholdPx_ = 0.0;
+  std::uint64_t points_ = 0;
+  std::vector<std::uint64_t> refinedPoints_;
+};
+
+} // namespace pointfront

@@ -31,6 +31,7 @@ BACKENDS = ("Software", "OpenGL")
 # As test_random_styles.py says.
 EDGE = 6
 USUAL_STRENGTH, STRONG_TOLERANCE = 0.4, 8
+NEAREST = 1e-3  # metres: VTK's nearest plane cuts off what the tool draws just before the eye
 LIMIT = 60  # seconds until a view must have settled
 
 
@@ -84,6 +85,8 @@ class Window:
     def look(self, camera):
         same_camera(self.renderer.GetActiveCamera(), camera)
         self.renderer.ResetCameraClippingRange()
+        near, far = self.renderer.GetActiveCamera().GetClippingRange()
+        self.renderer.GetActiveCamera().SetClippingRange(min(near, NEAREST), far)
 
     def pixels(self, scale=1, again=True):
         """`again`: of one more frame."""

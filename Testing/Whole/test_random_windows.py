@@ -17,10 +17,10 @@ import numpy
 from pair_test import PairTest
 from pictures import share_alike
 from random_cases import chance
-from random_forms import PLY_TYPES, write_ply
-from random_pairs import (EVERYTHING, Alike, Refused, Threads, styles_of, with_known_ranges,
-                          without_sums)
+from random_forms import PLY_TYPES, Points, write_ply
+from random_pairs import EVERYTHING, Alike, Refused, Threads
 from random_scenes import random_camera
+from sheets import styles_of, with_known_ranges, without_sums
 
 sys.path.insert(0, os.environ["POINTFRONT_PYTHON_PACKAGE"])
 pointfront = importlib.import_module("pointfront")
@@ -31,7 +31,7 @@ BACKENDS = ("Software", "OpenGL")
 # As test_random_styles.py says.
 EDGE = 6
 USUAL_STRENGTH, STRONG_TOLERANCE = 0.4, 8
-NEAREST = 1e-3  # metres: VTK's nearest plane cuts off what the tool draws just before the eye
+NEAREST = 0.3  # metres: VTK's nearest plane cuts off what the tool draws just before the eye
 LIMIT = 60  # seconds until a view must have settled
 
 
@@ -85,8 +85,6 @@ class Window:
     def look(self, camera):
         same_camera(self.renderer.GetActiveCamera(), camera)
         self.renderer.ResetCameraClippingRange()
-        near, far = self.renderer.GetActiveCamera().GetClippingRange()
-        self.renderer.GetActiveCamera().SetClippingRange(min(near, NEAREST), far)
 
     def pixels(self, scale=1, again=True):
         """`again`: of one more frame."""
@@ -110,6 +108,16 @@ class Windows(Threads):
     def __init__(self, folder):
         super().__init__(folder)
         self.windows = {backend: Window(self.size) for backend in BACKENDS}
+
+    def case(self, seed):
+        """With an eye that is raised until no point is just before it."""
+        case = super().case(seed)
+        points = Points.read(self.folder / f"{self.cloud}.las").positions()
+        camera = case["camera"]
+        while numpy.linalg.norm(points - camera["position"], axis=1).min() < NEAREST:
+            for end in ("position", "focal_point"):
+                camera[end] = [*camera[end][:2], camera[end][2] + NEAREST]
+        return case
 
     def whole(self, case, backend):
         for mapper in self.windows[backend].show([self.store], case, backend):

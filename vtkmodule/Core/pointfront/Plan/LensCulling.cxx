@@ -14,7 +14,7 @@ namespace
 /// Of what closes a surface, more than any technique draws.
 constexpr double mostOfClosing = 4.0;
 /// Pixels beyond that: the centre's own, a low-pass, rounding.
-constexpr double marginPx = 8.0;
+constexpr double culledMarginPx = 8.0;
 
 /// Pixels that a point's splat reaches however far away it is.
 double leastReachPx(const FramePlan& plan, const SplatSize& size)
@@ -48,7 +48,7 @@ bool mayReach(
   const FrameCamera& camera = plan.camera;
   const std::array<int, 4> extent = lens.extent(camera.width, camera.height);
   const double width = std::max(1, camera.width), height = std::max(1, camera.height);
-  const double margin = marginPx + plan.shading.reachPx() + leastReachPx(plan, style.size);
+  const double margin = culledMarginPx + plan.shading.reachPx() + leastReachPx(plan, style.size);
   const double left = 2.0 * (extent[0] - margin) / width - 1.0;
   const double right = 2.0 * (extent[2] + margin) / width - 1.0;
   const double bottom = 2.0 * (extent[1] - margin) / height - 1.0;

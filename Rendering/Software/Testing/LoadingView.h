@@ -14,6 +14,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <memory>
@@ -24,18 +25,32 @@
 namespace pointfront::test
 {
 
-/// A store on a disk that takes a millisecond for each node: frames see it load.
+/// A store on a disk that takes a millisecond for each node and gives no more than those granted:
+/// frames see it load, however long they take.
 class SlowStore final : public NodeReader
 {
 public:
+  static constexpr int allNodes = 1 << 30;
+
   explicit SlowStore(std::shared_ptr<const PointStore> store)
     : store_(std::move(store))
   {
   }
   Result<FetchedNode> fetch(NodeIndex node, const ColumnSelection& columns) const override
   {
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    do
+    {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    } while (granted_.load() <= 0);
+    --granted_;
     return store_->fetch(node, columns);
+  }
+  void grant(int nodes)
+  {
+    if (granted_.load() < allNodes / 2) // or all are granted
+    {
+      granted_ += nodes;
+    }
   }
   Result<NodeColumns> decode(const FetchedNode& fetched) const override
   {
@@ -54,6 +69,8 @@ public:
 
 private:
   std::shared_ptr<const PointStore> store_;
+  std::shared_ptr<SlowStore> disk_;
+  mutable std::atomic<int> granted_{ 0 };
 };
 
 inline std::shared_ptr<const PointStore> openedStore(const std::string& path)
@@ -70,10 +87,12 @@ class LoadingView
 public:
   static constexpr int width = 480;
   static constexpr int height = 320;
+  static constexpr int nodesAFrame = 8;
 
   LoadingView(const std::shared_ptr<const PointStore>& store, const StyleSheet& sheet)
     : store_(store)
-    , share_(std::make_shared<SlowStore>(store), store->hierarchy()->nodeCount(),
+    , disk_(std::make_shared<SlowStore>(store))
+    , share_(disk_, store->hierarchy()->nodeCount(),
         ResidencyOptions{ std::size_t(1) << 30, 1 })
     , front_(std::make_shared<HierarchyPiece>(store->hierarchy(), 0, 1), share_,
         store->description().schema, std::make_shared<WindowDemand>())
@@ -93,6 +112,10 @@ public:
     lookAt(middle, across);
   }
 
+  ~LoadingView() { disk_->grant(SlowStore::allNodes); } // no read waits for ever
+  LoadingView(const LoadingView&) = delete;
+  LoadingView& operator=(const LoadingView&) = delete;
+
   /// From the south, from above; about `across` is seen.
   void lookAt(const glm::dvec3& at, double across)
   {
@@ -105,6 +128,7 @@ public:
   {
     demand.view = View::fromMatrix(camera.storeToClip(), width, height);
     demand.complete = complete;
+    disk_->grant(complete ? SlowStore::allNodes : nodesAFrame);
     front_.update(demand);
     PlanRequest request = request_;
     request.camera = camera;
@@ -126,6 +150,10 @@ public:
     for (int waits = 0; waits < 2000 && !hasNews(); ++waits)
     {
       std::this_thread::sleep_for(std::chrono::microseconds(500));
+      if (waits % 16 == 15) // what came was of no use for the picture
+      {
+        disk_->grant(nodesAFrame);
+      }
     }
   }
 
@@ -138,6 +166,7 @@ public:
 
 private:
   std::shared_ptr<const PointStore> store_;
+  std::shared_ptr<SlowStore> disk_;
   ResidencyShare share_;
   ViewFront front_;
   DetailGrowth growth_;

@@ -28,7 +28,7 @@ enum class ColourDepth
 enum class Structure : std::uint8_t
 {
   Octree,
-  KdTree ///< balanced, all nodes but one a tree with nodePoints points; Refinement::Add only
+  KdTree ///< balanced, all nodes but one a tree with nodePoints points
 };
 
 /// Which points share a tree.

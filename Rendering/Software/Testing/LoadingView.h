@@ -92,8 +92,7 @@ public:
   LoadingView(const std::shared_ptr<const PointStore>& store, const StyleSheet& sheet)
     : store_(store)
     , disk_(std::make_shared<SlowStore>(store))
-    , share_(disk_, store->hierarchy()->nodeCount(),
-        ResidencyOptions{ std::size_t(1) << 30, 1 })
+    , share_(disk_, store->hierarchy()->nodeCount(), ResidencyOptions{ std::size_t(1) << 30, 1 })
     , front_(std::make_shared<HierarchyPiece>(store->hierarchy(), 0, 1), share_,
         store->description().schema, std::make_shared<WindowDemand>())
   {

@@ -118,8 +118,16 @@ double coverageOf(const RefiningStyle& style)
   return style.size == SplatSize::Mode::Spacing ? leastCovered : 0.0;
 }
 
-void expectAsAtOneGo(const LoadingView& view, const RefiningStyle& style)
+/// In each frame, and at the end; what was seen goes into the report.
+void expectCoveredAndAsAtOneGo(
+  const LoadingView& view, const SeenFrames& seen, const RefiningStyle& style)
 {
+  const double covered = seen.leastCovered(view.target);
+  EXPECT_GE(covered, coverageOf(style));
+  testing::Test::RecordProperty("frames", seen.frames);
+  testing::Test::RecordProperty("drawn_per_point", std::to_string(seen.drawnPerPoint()));
+  testing::Test::RecordProperty("blended_per_point", std::to_string(seen.blendedPerPoint()));
+  testing::Test::RecordProperty("least_covered", std::to_string(covered));
   LoadingView atOnce(refiningTown(), refiningSheet(style));
   atOnce.frame(true);
   EXPECT_EQ(view.target.rgba, atOnce.target.rgba);
@@ -139,12 +147,7 @@ TEST_P(RefiningView, DrawsNothingTwice)
   EXPECT_GE(seen.gained, 3); // it was seen to load; a slow machine draws few frames meanwhile
   EXPECT_LE(seen.drawnPerPoint(), mostDrawnAgain) << seen.frames << " frames";
   EXPECT_LE(seen.blendedPerPoint(), mostBlendedAgain) << seen.frames << " frames";
-  EXPECT_GE(seen.leastCovered(view.target), coverageOf(GetParam()));
-  RecordProperty("frames", seen.frames);
-  RecordProperty("drawn_per_point", std::to_string(seen.drawnPerPoint()));
-  RecordProperty("blended_per_point", std::to_string(seen.blendedPerPoint()));
-  RecordProperty("least_covered", std::to_string(seen.leastCovered(view.target)));
-  expectAsAtOneGo(view, GetParam());
+  expectCoveredAndAsAtOneGo(view, seen, GetParam());
 }
 
 /// As windows show it: what arrives grows (SMOOTH-6). What grows is drawn each time; what has grown
@@ -159,12 +162,7 @@ TEST_P(RefiningView, DrawsWhatGrowsAndNothingElse)
   const SeenFrames seen = refine(view);
   ASSERT_TRUE(view.isComplete());
   EXPECT_LE(seen.drawnPerPoint(), mostDrawnGrowing) << seen.frames << " frames";
-  EXPECT_GE(seen.leastCovered(view.target), coverageOf(GetParam()));
-  RecordProperty("frames", seen.frames);
-  RecordProperty("drawn_per_point", std::to_string(seen.drawnPerPoint()));
-  RecordProperty("blended_per_point", std::to_string(seen.blendedPerPoint()));
-  RecordProperty("least_covered", std::to_string(seen.leastCovered(view.target)));
-  expectAsAtOneGo(view, GetParam());
+  expectCoveredAndAsAtOneGo(view, seen, GetParam());
 }
 
 INSTANTIATE_TEST_SUITE_P(Techniques, RefiningView, testing::ValuesIn(refiningStyles),

@@ -65,16 +65,9 @@ def refusals(programs):
     with open(damaged, "wb") as file:
         file.write(content)
     for count in (1, 2):
-        log = "refusals-%d.log" % count
-        with open(log, "w") as output:
-            done = programs.start(*mpi(count, os.environ["POINTFRONT_PVBATCH"],
-                                       os.path.join(HERE, "refusals.py"), store, damaged),
-                                  output=output)
-        try:
-            programs.finish(done)
-        finally:
-            told = open(log).read()
-            print(told)
+        told = programs.told("refusals-%d.log" % count, *mpi(
+            count, os.environ["POINTFRONT_PVBATCH"], os.path.join(HERE, "refusals.py"), store,
+            damaged))
         steps = dict(part.split("\n", 1) for part in told.split("== ")[1:])
         for step, words in (("id", None), ("malformed", "cannot be evaluated"),
                             ("no name", "cannot be evaluated"), ("sound", None),
@@ -187,12 +180,7 @@ def rubber_band(programs):
             ply.write("%d %d 0\n" % (i % 200, i // 200))
     store = os.environ["POINTFRONT_STORE"] = os.path.abspath("flat.pfront")
     tool("build", "flat.ply", "-o", store, "--force")
-    script = os.path.join(HERE, "rubber_band")
-    programs.run(os.environ["POINTFRONT_PARAVIEW"], "--dr", "--script=%s.py" % script,
-                 "--test-script=%s.xml" % script, "--exit")
-    with open("rubber_band.json") as file:
-        found = json.load(file)
-    print(found)
+    found = programs.by_mouse("rubber_band")
     selected = found["selected"]
     if found["failure"] or found["extracted"] != selected:
         raise AssertionError("extracted is not what was selected")

@@ -65,16 +65,9 @@ def backends(programs):
     for old in glob.glob("backends-*.png"):
         os.remove(old)
     for count in (1, 2, 4):
-        log = "backends-%d.log" % count
-        with open(log, "w") as output:
-            done = programs.start(*mpi(count, os.environ["POINTFRONT_PVBATCH"],
-                                       os.path.join(HERE, "backends.py"), "backends-%d" % count),
-                                  output=output)
-        try:
-            programs.finish(done)
-        finally:
-            told = open(log).read()
-            print(told)
+        told = programs.told("backends-%d.log" % count, *mpi(
+            count, os.environ["POINTFRONT_PVBATCH"], os.path.join(HERE, "backends.py"),
+            "backends-%d" % count))
         if told.count("opacities of the color map") != (1 if count > 1 else 0):
             raise AssertionError("what is told of a color map's opacities on %d ranks" % count)
         for picture in sorted(glob.glob("backends-1-*.png")):
@@ -207,12 +200,7 @@ def application(programs):
 
 def applied(programs):
     """A filter that ParaView puts in the place of a surface takes that of a cloud."""
-    script = os.path.join(HERE, "applied")
-    programs.run(os.environ["POINTFRONT_PARAVIEW"], "--dr", "--script=%s.py" % script,
-                 "--test-script=%s.xml" % script, "--exit")
-    with open("applied.json") as file:
-        found = json.load(file)
-    print(found)
+    found = programs.by_mouse("applied")
     if found["failure"] or "Clip" not in found["filters"]:
         raise AssertionError("no filter is applied")
     if not found["shown"][0] or found["shown"][-1]:
@@ -221,12 +209,7 @@ def applied(programs):
 
 def deleted(programs):
     """A deleted cloud's file is closed."""
-    script = os.path.join(HERE, "deleted")
-    programs.run(os.environ["POINTFRONT_PARAVIEW"], "--dr", "--script=%s.py" % script,
-                 "--test-script=%s.xml" % script, "--exit")
-    with open("deleted.json") as file:
-        found = json.load(file)
-    print(found)
+    found = programs.by_mouse("deleted")
     if found["failure"] or not found["open"][0] or found["sources"][-1]:
         raise AssertionError("the cloud is not opened and deleted")
     if found["open"][-1]:

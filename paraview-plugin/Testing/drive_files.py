@@ -35,15 +35,8 @@ def files(programs):
             file.write(header % (3, "element face 1\nproperty list uchar int vertex_indices\n"))
             file.write("0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")
         command = [os.environ["POINTFRONT_PVBATCH"], os.path.join(HERE, "files.py"), folder]
-        log = "files-%d.log" % ranks_
-        with open(log, "w") as output:
-            done = programs.start(*(command if ranks_ == 1 else mpi(ranks_, *command)),
-                                  output=output)
-        try:
-            programs.finish(done)
-        finally:
-            told = open(log).read()
-            print(told)
+        told = programs.told(
+            "files-%d.log" % ranks_, *(command if ranks_ == 1 else mpi(ranks_, *command)))
         steps = dict(part.split("\n", 1) for part in told.split("== ")[1:])
         for step, words in (("an older store", ["is older than", "Replace Store"]),
                             ("no place", ["/proc/none/points.pfront", "Store File"]),

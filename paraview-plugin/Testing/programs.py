@@ -1,5 +1,6 @@
 """Starts ParaView's programs and ours, and ends what is left of them."""
 
+import json
 import os
 import shutil
 import signal
@@ -63,6 +64,28 @@ class Programs:
 
     def run(self, *command):
         self.finish(self.start(*command))
+
+    def told(self, log, *command):
+        """Runs a program; gives what it said, and prints it however the program ended."""
+        with open(log, "w") as output:
+            program = self.start(*command, output=output)
+        try:
+            self.finish(program)
+        finally:
+            with open(log) as file:
+                said = file.read()
+            print(said)
+        return said
+
+    def by_mouse(self, name):
+        """What NAME.json says after ParaView's application ran NAME.py and NAME.xml."""
+        script = os.path.join(HERE, name)
+        self.run(os.environ["POINTFRONT_PARAVIEW"], "--dr", "--script=%s.py" % script,
+                 "--test-script=%s.xml" % script, "--exit")
+        with open(name + ".json") as file:
+            found = json.load(file)
+        print(found)
+        return found
 
 
 def mpi(ranks, program, *arguments):

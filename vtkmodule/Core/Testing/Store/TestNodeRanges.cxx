@@ -1,5 +1,6 @@
 #include "SampleStore.h"
 
+#include "pointfront/Disk/InputFile.h"
 #include "pointfront/Store/ColumnStatistics.h"
 #include "pointfront/Store/NodeRangesSection.h"
 

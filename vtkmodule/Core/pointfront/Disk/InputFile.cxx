@@ -1,5 +1,6 @@
 #include "pointfront/Disk/InputFile.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
@@ -25,9 +26,8 @@ Error notReadable(const std::string& path, int error)
 } // namespace
 
 InputFile::InputFile(std::string path, int descriptor, std::uint64_t bytes, std::uint64_t device)
-  : path_(std::move(path))
+  : ByteSource(std::move(path), bytes)
   , descriptor_(descriptor)
-  , bytes_(bytes)
   , device_(device)
 {
 }
@@ -76,16 +76,28 @@ bool InputFile::isStillNamed() const
 {
   struct stat opened = {};
   struct stat named = {};
-  return ::fstat(descriptor_, &opened) == 0 && ::stat(path_.c_str(), &named) == 0 &&
+  return ::fstat(descriptor_, &opened) == 0 && ::stat(path().c_str(), &named) == 0 &&
     opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
 }
 
-Result<void> InputFile::readAt(std::uint64_t offset, std::byte* target, std::size_t size) const
+Result<void> InputFile::read(const ByteRange* ranges, std::size_t count) const
 {
-  while (size != 0)
+  for (std::size_t i = 0; i < count; ++i)
   {
-    const ssize_t count = ::pread(
-      descriptor_, target, size < maxReadBytes ? size : maxReadBytes, static_cast<off_t>(offset));
+    if (Result<void> done = readOne(ranges[i]); !done)
+    {
+      return done;
+    }
+  }
+  return {};
+}
+
+Result<void> InputFile::readOne(ByteRange range) const
+{
+  while (range.size != 0)
+  {
+    const ssize_t count = ::pread(descriptor_, range.target, std::min(range.size, maxReadBytes),
+      static_cast<off_t>(range.offset));
     if (count < 0 && errno == EINTR)
     {
       continue;
@@ -93,38 +105,20 @@ Result<void> InputFile::readAt(std::uint64_t offset, std::byte* target, std::siz
     if (count < 0)
     {
       return makeError(Error::Kind::Unreadable,
-        "cannot read '" + path_ + "' at byte " + std::to_string(offset) + ": " +
+        "cannot read '" + path() + "' at byte " + std::to_string(range.offset) + ": " +
           std::strerror(errno));
     }
     if (count == 0)
     {
       return makeError(Error::Kind::Truncated,
-        "'" + path_ + "' ends at byte " + std::to_string(offset) + ", " + std::to_string(size) +
-          " bytes too early; copy the file again");
+        "'" + path() + "' ends at byte " + std::to_string(range.offset) + ", " +
+          std::to_string(range.size) + " bytes too early; copy the file again");
     }
-    target += count;
-    size -= static_cast<std::size_t>(count);
-    offset += static_cast<std::uint64_t>(count);
+    range.target += count;
+    range.size -= static_cast<std::size_t>(count);
+    range.offset += static_cast<std::uint64_t>(count);
   }
   return {};
-}
-
-Result<RawBytes> InputFile::readAt(std::uint64_t offset, std::size_t size) const
-{
-  RawBytes bytes(size);
-  const Result<void> done = readAt(offset, bytes.data.get(), size);
-  return done ? Result<RawBytes>(std::move(bytes)) : done.error();
-}
-
-bool fileBeginsWith(const std::string& path, const void* bytes, std::size_t size)
-{
-  const Result<std::unique_ptr<const InputFile>> file = InputFile::open(path);
-  if (!file || (*file)->bytes() < size)
-  {
-    return false;
-  }
-  const Result<RawBytes> beginning = (*file)->readAt(0, size);
-  return beginning && std::memcmp(beginning->data.get(), bytes, size) == 0;
 }
 
 } // namespace pointfront

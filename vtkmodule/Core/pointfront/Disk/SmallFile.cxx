@@ -1,15 +1,21 @@
 #include "pointfront/Disk/SmallFile.h"
 
-#include "pointfront/Disk/InputFile.h"
+#include "pointfront/Disk/ByteSource.h"
 
 #include <algorithm>
 
 namespace pointfront
 {
+namespace
+{
+constexpr std::uint64_t atOnceBytes = std::uint64_t(1) << 20;
+} // namespace
 
 Result<RawBytes> readSmallFile(const std::string& path, std::uint64_t most)
 {
-  const Result<std::unique_ptr<const InputFile>> file = InputFile::open(path);
+  // A far file of this size comes with its first answer.
+  const Result<std::shared_ptr<const ByteSource>> file =
+    openBytes(path, { static_cast<std::size_t>(std::min(most, atOnceBytes)), 0 });
   if (!file)
   {
     return file.error();
@@ -33,7 +39,7 @@ Result<std::string> readSmallText(const std::string& path, std::uint64_t most)
 
 std::string beginningOf(const std::string& path, std::size_t bytes)
 {
-  const Result<std::unique_ptr<const InputFile>> file = InputFile::open(path);
+  const Result<std::shared_ptr<const ByteSource>> file = openBytes(path, { bytes, 0 });
   if (!file)
   {
     return {};

@@ -10,13 +10,14 @@
 namespace pointfront
 {
 
-/// The content of a regular file that is small by its nature: a description, a page of a hierarchy.
+/// The content of a regular file, or of what lies behind an address (openBytes), that is small by
+/// its nature: a description, a page of a hierarchy.
 /// Errors  NotFound; Unreadable: no regular file (a folder, a pipe), or no permission; BadFormat:
 ///         more than `most` bytes, which no such file has; Truncated: it became shorter meanwhile.
 Result<RawBytes> readSmallFile(const std::string& path, std::uint64_t most);
 Result<std::string> readSmallText(const std::string& path, std::uint64_t most);
 
-/// The first bytes of a regular file, fewer if it has fewer; none if it cannot be read. Never waits
+/// The first bytes of such a file, fewer if it has fewer; none if it cannot be read. Never waits
 /// for the other end of a pipe.
 std::string beginningOf(const std::string& path, std::size_t bytes);
 

@@ -178,7 +178,7 @@ std::string tableFault(
   return fault;
 }
 
-Result<Header> readHeader(const InputFile& file)
+Result<Header> readHeader(const ByteSource& file)
 {
   std::byte bytes[headerBytes] = {};
   const auto size = static_cast<std::size_t>(std::min<std::uint64_t>(file.bytes(), headerBytes));
@@ -212,7 +212,7 @@ Result<Header> readHeader(const InputFile& file)
   return header;
 }
 
-Result<void> checkHeader(const Header& header, const InputFile& file)
+Result<void> checkHeader(const Header& header, const ByteSource& file)
 {
   const std::string& path = file.path();
   if (header.version == 0 || header.version > sideFileVersion || header.requiredFeatures != 0)
@@ -289,12 +289,12 @@ Result<void> SideFileWriter::commit(const SideFileContent& content)
 
 bool SideFile::looksLikeSideFile(const std::string& path)
 {
-  return fileBeginsWith(path, sideFileMagic.data(), sideFileMagic.size());
+  return beginsWith(path, sideFileMagic.data(), sideFileMagic.size());
 }
 
 Result<std::unique_ptr<const SideFile>> SideFile::open(const std::string& path)
 {
-  Result<std::unique_ptr<const InputFile>> file = InputFile::open(path);
+  Result<std::shared_ptr<const ByteSource>> file = openBytes(path);
   if (!file)
   {
     return file.error();

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "pointfront/Base/Result.h"
-#include "pointfront/Disk/InputFile.h"
+#include "pointfront/Disk/ByteSource.h"
 #include "pointfront/Disk/OutputFile.h"
 #include "pointfront/InPlace/InPlaceTable.h"
 #include "pointfront/InPlace/RunList.h"
@@ -101,7 +101,7 @@ private:
     return content_.table.blocks[std::size_t(node) * content_.held + held];
   }
 
-  std::unique_ptr<const InputFile> file_;
+  std::shared_ptr<const ByteSource> file_;
   SideFileContent content_;
 };
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "pointfront/Base/Result.h"
-#include "pointfront/Disk/InputFile.h"
+#include "pointfront/Disk/ByteSource.h"
 #include "pointfront/Store/NodeRanges.h"
 #include "pointfront/Store/StoreFormat.h"
 #include "pointfront/Store/StoreWriter.h"
@@ -51,7 +51,7 @@ private:
 class NodeRangesFile
 {
 public:
-  NodeRangesFile(std::shared_ptr<const InputFile> file, const SectionEntry& section,
+  NodeRangesFile(std::shared_ptr<const ByteSource> file, const SectionEntry& section,
     NodeIndex nodes, std::uint32_t components)
     : file_(std::move(file))
     , section_(section)
@@ -67,7 +67,7 @@ private:
   struct Part;
   Result<Part> find(std::uint32_t component) const;
 
-  std::shared_ptr<const InputFile> file_;
+  std::shared_ptr<const ByteSource> file_;
   SectionEntry section_;
   NodeIndex nodes_;
   std::uint32_t components_;

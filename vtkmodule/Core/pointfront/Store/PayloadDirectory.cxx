@@ -79,7 +79,7 @@ private:
 class DirectoryInFile final : public PayloadDirectory
 {
 public:
-  DirectoryInFile(const InputFile& file, std::uint64_t offset, std::uint32_t blocksPerNode,
+  DirectoryInFile(const ByteSource& file, std::uint64_t offset, std::uint32_t blocksPerNode,
     std::uint64_t payloadEnd, std::uint64_t bytesElsewhere)
     : file_(file)
     , offset_(offset)
@@ -164,7 +164,7 @@ private:
     return payload;
   }
 
-  const InputFile& file_;
+  const ByteSource& file_;
   std::uint64_t offset_;
   std::uint32_t blocksPerNode_;
   std::uint64_t payloadEnd_;
@@ -172,7 +172,7 @@ private:
 };
 
 Result<std::unique_ptr<const PayloadDirectory>> openInMemory(
-  const InputFile& file, const SectionEntry& section, const StoreFooter& footer)
+  const ByteSource& file, const SectionEntry& section, const StoreFooter& footer)
 {
   std::vector<std::byte> bytes(static_cast<std::size_t>(section.bytes));
   if (Result<void> done = file.readAt(section.offset, bytes.data(), bytes.size()); !done)
@@ -202,7 +202,7 @@ Result<std::unique_ptr<const PayloadDirectory>> openInMemory(
 }
 } // namespace
 
-Result<std::unique_ptr<const PayloadDirectory>> PayloadDirectory::open(const InputFile& file,
+Result<std::unique_ptr<const PayloadDirectory>> PayloadDirectory::open(const ByteSource& file,
   std::uint32_t version, const StoreFooter& footer, std::uint64_t bytesElsewhere)
 {
   const SectionEntry& section = *footer.find(SectionKind::BlockDirectory);

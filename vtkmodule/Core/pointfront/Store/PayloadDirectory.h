@@ -1,7 +1,7 @@
 #pragma once
 
 #include "pointfront/Base/Result.h"
-#include "pointfront/Disk/InputFile.h"
+#include "pointfront/Disk/ByteSource.h"
 #include "pointfront/Store/BlockDirectory.h"
 #include "pointfront/Store/NodeReader.h"
 #include "pointfront/Store/StoreFormat.h"
@@ -36,7 +36,7 @@ public:
 
   /// That of the store: read as a whole and checked for version 1, a record at a time from version
   /// 2 on. `file` must outlive it. `bytesElsewhere`: of a second file, from version 2 on.
-  static Result<std::unique_ptr<const PayloadDirectory>> open(const InputFile& file,
+  static Result<std::unique_ptr<const PayloadDirectory>> open(const ByteSource& file,
     std::uint32_t version, const StoreFooter& footer, std::uint64_t bytesElsewhere = 0);
 };
 

@@ -9,7 +9,7 @@ namespace pointfront
 {
 namespace
 {
-bool holds(const InputFile& file, const PayloadElsewhere& elsewhere)
+bool holds(const ByteSource& file, const PayloadElsewhere& elsewhere)
 {
   const BlockDirectory::Block& mark = elsewhere.mark;
   if (file.bytes() < elsewhere.bytes || mark.offset > elsewhere.bytes ||

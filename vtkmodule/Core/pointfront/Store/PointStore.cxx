@@ -19,7 +19,7 @@ namespace
 /// and the page cache hand out whole pages anyway.
 constexpr std::uint64_t mergeGapBytes = 4096;
 
-Result<RawBytes> readSection(const InputFile& file, const SectionEntry& section, const char* name)
+Result<RawBytes> readSection(const ByteSource& file, const SectionEntry& section, const char* name)
 {
   // At most the file's size: the footer was checked.
   Result<RawBytes> bytes = file.readAt(section.offset, static_cast<std::size_t>(section.bytes));
@@ -31,7 +31,7 @@ Result<RawBytes> readSection(const InputFile& file, const SectionEntry& section,
   return bytes;
 }
 
-Result<StoreHeader> readHeader(const InputFile& file)
+Result<StoreHeader> readHeader(const ByteSource& file)
 {
   std::byte bytes[storeHeaderBytes] = {};
   const auto size =
@@ -43,14 +43,14 @@ Result<StoreHeader> readHeader(const InputFile& file)
   return decodeHeader(bytes, size, file.bytes(), file.path());
 }
 
-Result<StoreFooter> readFooter(const InputFile& file, const StoreHeader& header)
+Result<StoreFooter> readFooter(const ByteSource& file, const StoreHeader& header)
 {
   const Result<RawBytes> bytes = file.readAt(header.footerOffset, header.footerBytes);
   return bytes ? decodeFooter(bytes->data.get(), header, file.path()) : bytes.error();
 }
 
 Result<StoredDescription> readDescription(
-  const InputFile& file, const StoreHeader& header, const StoreFooter& footer)
+  const ByteSource& file, const StoreHeader& header, const StoreFooter& footer)
 {
   const SectionEntry& section = *footer.find(SectionKind::Description);
   Result<RawBytes> bytes = readSection(file, section, "description");
@@ -68,7 +68,7 @@ Result<StoredDescription> readDescription(
 }
 
 Result<std::optional<PayloadElsewhere>> readElsewhere(
-  const InputFile& file, const StoreHeader& header, const StoreFooter& footer)
+  const ByteSource& file, const StoreHeader& header, const StoreFooter& footer)
 {
   if ((header.requiredFeatures & payloadElsewhere) == 0)
   {
@@ -152,7 +152,7 @@ PointStore::~PointStore() = default;
 
 bool PointStore::looksLikeStore(const std::string& path)
 {
-  return fileBeginsWith(path, storeMagic.data(), storeMagic.size());
+  return beginsWith(path, storeMagic.data(), storeMagic.size());
 }
 
 bool PointStore::looksLikePreview(const std::string& path)
@@ -183,7 +183,7 @@ Result<std::shared_ptr<const PointStore>> PointStore::open(const std::string& pa
   {
     return std::shared_ptr<const PointStore>(std::move(*store));
   }
-  if (!content.file->isStillNamed() && InputFile::open(path))
+  if (!content.file->isStillNamed() && openBytes(path))
   {
     return open(path); // the running build has just replaced it
   }
@@ -198,13 +198,13 @@ Result<std::shared_ptr<const PointStore>> PointStore::open(const std::string& pa
 
 Result<std::shared_ptr<PointStore>> PointStore::openTables(const std::string& path)
 {
-  Result<std::unique_ptr<const InputFile>> opened = InputFile::open(path);
+  Result<std::shared_ptr<const ByteSource>> opened = openBytes(path);
   if (!opened)
   {
     return opened.error();
   }
-  const std::shared_ptr<const InputFile> shared = std::move(*opened);
-  const InputFile& file = *shared;
+  const std::shared_ptr<const ByteSource> shared = *opened;
+  const ByteSource& file = *shared;
   const Result<StoreHeader> header = readHeader(file);
   if (!header)
   {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pointfront/Disk/InputFile.h"
+#include "pointfront/Disk/ByteSource.h"
 #include "pointfront/Store/DescriptionSection.h"
 #include "pointfront/Store/NodeRangesSection.h"
 #include "pointfront/Store/PayloadDirectory.h"
@@ -17,16 +17,16 @@ namespace pointfront
 /// All of an open store but its points; constant once open() has returned.
 struct PointStore::Content
 {
-  std::shared_ptr<const InputFile> file; ///< the hierarchy has a part in it
+  std::shared_ptr<const ByteSource> file; ///< the hierarchy has a part in it
   StoreDescription description;
   GridBounds gridBounds;
   std::shared_ptr<const Hierarchy> hierarchy;
   std::unique_ptr<const PayloadDirectory> directory; ///< reads from `file`
   std::optional<NodeRangesFile> ranges;
   std::optional<PayloadElsewhere> elsewhere;
-  std::unique_ptr<const InputFile> fileElsewhere; ///< with `elsewhere`, unless only looked at
+  std::unique_ptr<const ByteSource> fileElsewhere; ///< with `elsewhere`, unless only looked at
 
-  const InputFile& fileOf(const NodePayload& payload) const
+  const ByteSource& fileOf(const NodePayload& payload) const
   {
     return payload.elsewhere ? *fileElsewhere : *file;
   }

@@ -18,7 +18,7 @@ namespace
 class NodePageFile final : public NodePageSource
 {
 public:
-  NodePageFile(std::shared_ptr<const InputFile> file, std::uint64_t offset, TableLimits limits,
+  NodePageFile(std::shared_ptr<const ByteSource> file, std::uint64_t offset, TableLimits limits,
     NodeRowForm form)
     : file_(std::move(file))
     , offset_(offset)
@@ -41,14 +41,14 @@ public:
   }
 
 private:
-  std::shared_ptr<const InputFile> file_;
+  std::shared_ptr<const ByteSource> file_;
   std::uint64_t offset_;
   TableLimits limits_;
   NodeRowForm form_;
 };
 
 Result<std::shared_ptr<const Hierarchy>> readWhole(
-  const InputFile& file, const StoreFooter& footer, StoreDescription& description)
+  const ByteSource& file, const StoreFooter& footer, StoreDescription& description)
 {
   const SectionEntry& section = *footer.find(SectionKind::NodeTable);
   std::vector<std::byte> bytes(static_cast<std::size_t>(section.bytes));
@@ -112,8 +112,9 @@ std::string summaryFault(
 }
 } // namespace
 
-Result<std::shared_ptr<const Hierarchy>> openNodeTable(const std::shared_ptr<const InputFile>& file,
-  std::uint32_t version, const StoreFooter& footer, StoredDescription& stored)
+Result<std::shared_ptr<const Hierarchy>> openNodeTable(
+  const std::shared_ptr<const ByteSource>& file, std::uint32_t version, const StoreFooter& footer,
+  StoredDescription& stored)
 {
   const SectionEntry& section = *footer.find(SectionKind::NodeTable);
   const NodeRowForm form = version < 3 ? NodeRowForm::Plain : NodeRowForm::WithSplatRadius;

@@ -1,0 +1,88 @@
+#include "pointfront/Disk/ByteOpeners.h"
+
+#include <algorithm>
+#include <cctype>
+#include <mutex>
+#include <utility>
+
+namespace pointfront
+{
+
+ByteOpeners& ByteOpeners::ofProcess()
+{
+  static auto* const openers = new ByteOpeners; // never deleted: static objects may use it
+  return *openers;
+}
+
+void ByteOpeners::add(const std::string& scheme, std::shared_ptr<const ByteOpener> opener)
+{
+  const std::unique_lock<std::shared_mutex> lock(mutex_);
+  openers_[scheme] = std::move(opener);
+}
+
+std::shared_ptr<const ByteOpener> ByteOpeners::find(const std::string& scheme) const
+{
+  const std::shared_lock<std::shared_mutex> lock(mutex_);
+  const auto found = openers_.find(scheme);
+  return found != openers_.end() ? found->second : nullptr;
+}
+
+std::string ByteOpeners::schemesInWords() const
+{
+  const std::shared_lock<std::shared_mutex> lock(mutex_);
+  if (openers_.empty())
+  {
+    return "it opens files only; download the file and name its path";
+  }
+  std::string text = "it opens ";
+  std::size_t number = 0;
+  for (const auto& [scheme, opener] : openers_)
+  {
+    text += number == 0 ? "" : number + 1 == openers_.size() ? " and " : ", ";
+    text += scheme;
+    ++number;
+  }
+  return text + ", and files";
+}
+
+std::string schemeOf(std::string_view path)
+{
+  const std::size_t end = path.find("://");
+  if (end == std::string_view::npos || end == 0)
+  {
+    return {};
+  }
+  std::string scheme(path.substr(0, end));
+  const bool sound = std::isalpha(static_cast<unsigned char>(scheme.front())) != 0 &&
+    std::all_of(scheme.begin(), scheme.end(),
+      [](unsigned char c) { return std::isalnum(c) != 0 || c == '+' || c == '-' || c == '.'; });
+  if (!sound)
+  {
+    return {};
+  }
+  std::transform(scheme.begin(), scheme.end(), scheme.begin(),
+    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return scheme;
+}
+
+std::string beside(const std::string& path, const std::string& name)
+{
+  if (isAddress(name) || (!name.empty() && name.front() == '/'))
+  {
+    return name;
+  }
+  if (!isAddress(path))
+  {
+    const std::size_t slash = path.rfind('/');
+    return slash == std::string::npos ? name : path.substr(0, slash + 1) + name;
+  }
+  const std::size_t query = std::min(path.find('?'), path.find('#'));
+  const std::string place = path.substr(0, query);
+  const std::size_t host = place.find("://") + 3;
+  const std::size_t slash = place.rfind('/');
+  const std::string folder =
+    slash == std::string::npos || slash < host ? place + '/' : place.substr(0, slash + 1);
+  return folder + name + (query == std::string::npos ? std::string() : path.substr(query));
+}
+
+} // namespace pointfront

@@ -1,0 +1,59 @@
+#pragma once
+
+#include "pointfront/Disk/ByteSource.h"
+
+#include <map>
+#include <memory>
+#include <shared_mutex>
+#include <string>
+#include <string_view>
+
+namespace pointfront
+{
+
+/// Opens addresses of one scheme ("https") or several.
+class ByteOpener
+{
+public:
+  virtual ~ByteOpener() = default;
+  /// By the address as the user wrote it, or its public form. A source that somebody holds open is
+  /// the same for all who open its address.
+  /// Errors  those of ByteSource.
+  virtual Result<std::shared_ptr<const ByteSource>> open(
+    const std::string& address, const FirstBytes& first) const = 0;
+};
+
+/// The schemes of addresses that this process opens. The kernel knows none: programs and plugins
+/// add them at their start.
+/// Threads  all functions from any thread.
+class ByteOpeners
+{
+public:
+  static ByteOpeners& ofProcess();
+
+  /// Later openers of a scheme replace earlier ones. `scheme` in small letters, without "://".
+  void add(const std::string& scheme, std::shared_ptr<const ByteOpener> opener);
+  /// Null if there is none.
+  std::shared_ptr<const ByteOpener> find(const std::string& scheme) const;
+  /// For a message: "it opens http, https and s3", or that it opens files only.
+  std::string schemesInWords() const;
+
+private:
+  mutable std::shared_mutex mutex_;
+  std::map<std::string, std::shared_ptr<const ByteOpener>> openers_;
+};
+
+/// The scheme of an address, in small letters: letters, digits, '+', '-' and '.' before "://".
+/// Empty for a path.
+std::string schemeOf(std::string_view path);
+inline bool isAddress(std::string_view path)
+{
+  return !schemeOf(path).empty();
+}
+
+/// The address or path of what lies beside `path`, or below its folder: "a/b/ept.json" and
+/// "ept-data/0-0-0-0.laz" give "a/b/ept-data/0-0-0-0.laz". An address keeps its query. `name` may
+/// be an address itself, or an absolute path: it is the answer then.
+std::string beside(const std::string& path, const std::string& name);
+
+} // namespace pointfront

@@ -12,12 +12,6 @@
 namespace pointfront
 {
 
-namespace
-{
-/// From one frame to the next of a view that is being loaded, in times of a frame.
-constexpr double pauseOfFrames = 3.0;
-} // namespace
-
 Result<std::unique_ptr<DrawnStore>> DrawnStore::open(const std::string& path)
 {
   Result<std::shared_ptr<const StoredCloud>> cloud = StoredCloudFormats::ofProcess().open(path);
@@ -70,8 +64,9 @@ std::uint64_t DrawnStore::pointsShown() const
 
 void DrawnStore::enterWindow(std::shared_ptr<const WindowDemand> window)
 {
-  front_ = std::make_unique<ViewFront>(std::make_shared<HierarchyPiece>(cloud_->hierarchy(), 0, 1),
-    *share_, cloud_->description().schema, std::move(window));
+  view_.open(
+    std::make_unique<ViewFront>(std::make_shared<HierarchyPiece>(cloud_->hierarchy(), 0, 1),
+      *share_, cloud_->description().schema, std::move(window)));
 }
 
 const FrontDelta& DrawnStore::update(
@@ -79,11 +74,10 @@ const FrontDelta& DrawnStore::update(
 {
   demand.columns = columns_;
   demand.layers = limits_;
-  limitToLenses(styles_, shading, camera,
-    std::max(demand.targetErrorPx, front_->last().thresholdPx), tallestWall_, demand.layers);
+  limitToLenses(styles_, shading, camera, std::max(demand.targetErrorPx, last().thresholdPx),
+    tallestWall_, demand.layers);
   demand.view = withWallsFromAbove(demand.view, tallestWall_);
-  demand_ = std::move(demand);
-  return front_->update(demand_);
+  return view_.update(std::move(demand));
 }
 
 FramePlan DrawnStore::plan(
@@ -92,57 +86,27 @@ FramePlan DrawnStore::plan(
   PlanRequest request;
   request.camera = camera;
   request.shading = shading;
-  request.keepsVisible = leavesOut(front_->last(), demand_);
   request.refines = true;
-  request.growth = &growth_;
   request.moment = moment;
-  request.moment.moving = demand_.interacting;
-  request.moment.duration = demand_.complete ? 0.0 : moment.duration;
   for (const LayerStyling& layer : styles_)
   {
     request.styles.emplace_back();
     request.styles.back().assign(layer.styles.begin(), layer.styles.end());
   }
-  FramePlan plan = planFrame(*front_, cloud_->description(), std::move(request));
-  front_->fills(plan.fillPx(), double(camera.width) * double(camera.height));
-  return plan;
+  return view_.plan(cloud_->description(), std::move(request));
 }
 
 void DrawnStore::noteFrame(std::uint64_t points, std::uint64_t keptPoints, double milliseconds)
 {
-  front_->drewBeside(keptPoints);
-  front_->recordFrame(points + keptPoints, front_->last().moves, milliseconds);
-  frameMs_ = milliseconds;
-  drawnAt_ = Clock::now();
-  ahead_ = false;
-  due_ = false;
-}
-
-bool DrawnStore::needsFrame()
-{
-  if (due_)
-  {
-    return true;
-  }
-  const std::chrono::duration<double, std::milli> passed = Clock::now() - drawnAt_;
-  const bool pauses =
-    !demand_.interacting && !demand_.complete && passed.count() < pauseOfFrames * frameMs_;
-  if (pauses && front_->wantsUpdate())
-  {
-    front_->update(demand_);
-    ahead_ = true;
-  }
-  due_ =
-    (ahead_ || front_->wantsUpdate() || growth_.growing()) && !(pauses && front_->expectsMore());
-  return due_;
+  view_.drew(keptPoints);
+  view_.took(points + keptPoints, last().moves, milliseconds);
 }
 
 bool DrawnStore::loads() const
 {
   const ResidencyStatistics now = residency().statistics();
   // What has arrived and waits for the end of a pause is not in the picture either.
-  return now.loading > 0 || (now.pending > 0 && !residency().exhausted()) || ahead_ ||
-    front_->wantsUpdate() || growth_.growing();
+  return now.loading > 0 || (now.pending > 0 && !residency().exhausted()) || view_.hasNews();
 }
 
 Result<void> DrawnStore::outcome()

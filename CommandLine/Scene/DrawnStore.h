@@ -1,12 +1,10 @@
 #pragma once
 
-#include "pointfront/Plan/FramePlanner.h"
+#include "pointfront/Plan/StoreView.h"
 #include "pointfront/Residency/ResidencyShare.h"
 #include "pointfront/Store/StoredCloud.h"
 #include "pointfront/Style/StyleSheet.h"
-#include "pointfront/Views/ViewFront.h"
 
-#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -15,9 +13,8 @@
 namespace pointfront
 {
 
-/// One store of a scene that is drawn without VTK: what is in memory of it, the front of the one
-/// view, and how its points look.
-/// Threads  one thread.
+/// One store of a scene that is drawn without VTK. It has the store's nodes in memory, the one view
+/// of the store, and the style of each layer. Threads  one thread.
 class DrawnStore
 {
 public:
@@ -37,23 +34,21 @@ public:
   /// `camera`, `shading`: of the frame; what is seen in lenses only is loaded for these.
   const FrontDelta& update(
     FrameRequest demand, const FrameCamera& camera, const FrameShading& shading);
-  const FrontDelta& last() const { return front_->last(); }
-  /// What the last update draws; `moment`: how it grows. A view that is to be complete at once does
-  /// not.
+  const FrontDelta& last() const { return view_.front()->last(); }
+  /// Plans the drawing of the last update; `moment` says how detail grows in it.
   FramePlan plan(
     const FrameCamera& camera, const FrameShading& shading, const GrowthMoment& moment);
-  /// The last plan had all that its front draws as it will be.
-  bool isGrown() const { return growth_.whole(); }
-  /// The frame with that plan took so long, of what it has to itself.
+  /// Whether the last plan showed everything that the front draws at full size.
+  bool isGrown() const { return view_.isGrown(); }
+  /// Ends a frame: it drew so many points of this store, and it took that time for this store
+  /// alone.
   void noteFrame(std::uint64_t points, std::uint64_t keptPoints, double milliseconds);
 
-  /// A frame is due: something is there that the last one did not have. While a view at rest is
-  /// being loaded it is drawn a quarter of the time at most; until the next frame is due its front
-  /// is moved here, so that what it asks for next does not wait for a drawing.
-  bool needsFrame();
-  /// Another update would come to something else.
-  bool wantsUpdate() const { return front_->wantsUpdate(); }
-  /// Something is on its way, or is here and waits for the next frame.
+  /// Whether a frame is due, by StoreView's rhythm.
+  bool needsFrame() { return view_.needsFrame(); }
+  /// Whether another update would differ from the last one.
+  bool wantsUpdate() const { return view_.front()->wantsUpdate(); }
+  /// Whether nodes are on their way, or wait for the next frame.
   bool loads() const;
   /// What went wrong since the last call: nodes and rows that could not be read.
   Result<void> outcome();
@@ -61,22 +56,15 @@ public:
   const Residency& residency() const { return share_->residency(); }
 
 private:
-  using Clock = std::chrono::steady_clock;
   DrawnStore() = default;
 
   std::shared_ptr<const StoredCloud> cloud_;
-  std::unique_ptr<ResidencyShare> share_; // before the front, which refers to it
-  std::unique_ptr<ViewFront> front_;
-  DetailGrowth growth_;
+  std::unique_ptr<ResidencyShare> share_; // before the view, which refers to it
+  StoreView view_;
   std::vector<LayerStyling> styles_;
   double tallestWall_ = 0.0; ///< of the styles
   LayerColumns columns_; ///< that the styles read
   std::vector<LayerLimits> limits_; ///< that they set
-  FrameRequest demand_; ///< of the last update
-  Clock::time_point drawnAt_; ///< end of the last frame
-  double frameMs_ = 0.0; ///< what it took
-  bool ahead_ = false; ///< the front was moved since
-  bool due_ = true; ///< needsFrame() said so, and no frame was drawn since
 };
 
 } // namespace pointfront

@@ -67,12 +67,13 @@ RendererFront* MapperFronts::find(vtkRenderer* renderer)
 
 bool MapperFronts::openFront(vtkRenderer* renderer, RendererFront& view)
 {
-  if (view.Front)
+  if (view.View.front())
   {
     return false;
   }
-  view.Front = std::make_unique<ViewFront>(piece_, store_->GetResidencyShare(),
-    store_->GetStore()->description().schema, perWindow<WindowDemand>(renderer->GetRenderWindow()));
+  view.View.open(std::make_unique<ViewFront>(piece_, store_->GetResidencyShare(),
+    store_->GetStore()->description().schema,
+    perWindow<WindowDemand>(renderer->GetRenderWindow())));
   return true;
 }
 
@@ -94,8 +95,9 @@ std::uint64_t MapperFronts::pointsOnGpu(vtkWindow* window, std::uint64_t budget)
   std::uint64_t points = 0;
   for (const auto& [renderer, view] : views_)
   {
-    const bool inside = view.Front && view.Renderer && view.Renderer->GetRenderWindow() == window;
-    points += inside ? view.Front->pointsOnGpu(budget) : 0;
+    const ViewFront* const front = view.View.front();
+    const bool inside = front && view.Renderer && view.Renderer->GetRenderWindow() == window;
+    points += inside ? front->pointsOnGpu(budget) : 0;
   }
   return points;
 }
@@ -138,15 +140,15 @@ bool MapperFronts::follow(
   }
   for (auto& [viewing, view] : views_) // others may not be rendered for a while
   {
-    if (view.Front || viewing == renderer)
+    if (view.View.front() || viewing == renderer)
     {
-      FrameRequest wanted = viewing == renderer ? demand() : view.Demand;
+      FrameRequest wanted = viewing == renderer ? demand() : view.View.request();
       wanted.layers = layersOf(*succession_->store());
       succession_->advance(viewing, std::move(wanted));
     }
   }
   const auto shown = [&](const auto& view)
-  { return !view.second.Front || !view.second.Renderer || succession_->ready(view.first); };
+  { return !view.second.View.front() || !view.second.Renderer || succession_->ready(view.first); };
   const bool all = std::all_of(views_.begin(), views_.end(), shown);
   if (all)
   {
@@ -160,13 +162,12 @@ void MapperFronts::takeSuccessor()
   const std::unique_ptr<StoreSuccession> succession = std::move(succession_);
   for (auto& [renderer, view] : views_)
   {
-    view.Front = succession->take(renderer);
+    view.View.open(succession->take(renderer));
     view.Plan.reset();
-    view.Growth.reset(); // numbers of nodes mean others
     view.Announced = false;
-    if (view.Front && view.Renderer)
+    if (view.View.front() && view.Renderer)
     {
-      view.Front->enterWindow(perWindow<WindowDemand>(view.Renderer->GetRenderWindow()));
+      view.View.front()->enterWindow(perWindow<WindowDemand>(view.Renderer->GetRenderWindow()));
     }
   }
   piece_ = succession->piece();

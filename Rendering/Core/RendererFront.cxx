@@ -12,8 +12,6 @@ namespace pointfront
 namespace
 {
 
-/// From one drawing to the next, in times of a drawing.
-constexpr double pauseOfDrawings = 3.0;
 /// VTK and ParaView set rates of 5 and more in motion, of 0.002 and less at rest.
 constexpr double interactiveRate = 0.01;
 
@@ -61,47 +59,28 @@ void RendererFront::EndFrame()
   }
   const bool before = this->Seen;
   this->Seen = !this->NewFrame;
-  if (before && !this->Seen && this->Front)
+  if (before && !this->Seen && this->View.front())
   {
-    this->Front->leave();
+    this->View.front()->leave();
     this->Unseen();
   }
 }
 
 bool RendererFront::NeedsRender()
 {
-  if (this->Front && !this->Seen)
+  if (this->View.front() && !this->Seen)
   {
     return false;
   }
-  if (!this->Front || this->UploadsLeft || this->Due)
+  if (!this->View.front() || this->UploadsLeft)
   {
     return true;
   }
-  if (this->Demand.interacting && !this->Complete && !isInteracting(this->Renderer))
+  if (this->View.request().interacting && !this->Complete && !isInteracting(this->Renderer))
   {
     return true; // the time of a frame in motion limited the picture; at rest the view shows more
   }
-  const std::chrono::duration<double, std::milli> passed = Clock::now() - this->DrawnAt;
-  const bool paused = !this->NewFrame && !this->Demand.interacting && !this->Demand.complete &&
-    passed.count() < pauseOfDrawings * this->DrawingMs;
-  if (paused && this->Front->wantsUpdate())
-  {
-    this->Front->update(this->Demand);
-    this->Ahead = true;
-  }
-  this->Due = (this->Ahead || this->Front->wantsUpdate() || this->Growth.growing()) &&
-    !(paused && this->Front->expectsMore());
-  return this->Due;
-}
-
-GrowthMoment RendererFront::MomentOf(double growthMilliseconds) const
-{
-  GrowthMoment moment;
-  moment.seconds = std::chrono::duration<double>(Clock::now().time_since_epoch()).count();
-  moment.duration = this->Demand.complete ? 0.0 : 1e-3 * growthMilliseconds;
-  moment.moving = this->Demand.interacting;
-  return moment;
+  return this->View.needsFrame(this->NewFrame);
 }
 
 } // namespace pointfront

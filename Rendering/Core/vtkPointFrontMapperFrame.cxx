@@ -175,10 +175,9 @@ bool vtkPointFrontMapper::MoveFront(vtkRenderer* renderer, vtkActor* actor)
   view.Plan.reset(); // what it pins may be released
 
   const auto begin = Clock::now();
-  const pointfront::FrameRequest demand = this->GetFrameRequest(renderer, actor);
-  view.Announced = view.Announced && view.Demand.view == demand.view;
-  view.Demand = demand;
-  const pointfront::FrontDelta& delta = view.Front->update(demand);
+  pointfront::FrameRequest demand = this->GetFrameRequest(renderer, actor);
+  view.Announced = view.Announced && view.View.request().view == demand.view;
+  const pointfront::FrontDelta& delta = view.View.update(std::move(demand));
   content.Statistics.take(delta);
   content.Statistics.frontMilliseconds = millisecondsSince(begin);
   for (const pointfront::Error& error : store->GetResidency().takeErrors())
@@ -217,14 +216,10 @@ pointfront::FramePlan* vtkPointFrontMapper::PlanFrame(vtkRenderer* renderer, vtk
   pointfront::PlanRequest request = this->GetRequest(renderer, actor);
   if (moved || !view.Plan)
   {
-    request.keepsVisible = pointfront::leavesOut(view.Front->last(), view.Demand);
     request.refines = this->DrawsFromHostMemory(renderer, actor);
-    request.growth = &view.Growth;
-    request.moment = view.MomentOf(this->GrowthTime);
-    view.Plan = pointfront::planFrame(
-      *view.Front, this->GetStore()->GetStore()->description(), std::move(request));
-    const pointfront::FrameCamera& camera = view.Plan->camera;
-    view.Front->fills(view.Plan->fillPx(), double(camera.width) * double(camera.height));
+    request.moment.seconds = std::chrono::duration<double>(Clock::now().time_since_epoch()).count();
+    request.moment.duration = 1e-3 * this->GrowthTime;
+    view.Plan = view.View.plan(this->GetStore()->GetStore()->description(), std::move(request));
     return &*view.Plan;
   }
   // The same nodes, as another actor, eye or pass sees them.
@@ -257,15 +252,12 @@ void vtkPointFrontMapper::FinishFrame(
   vtkRenderer* renderer, vtkIdType points, vtkIdType keptPoints, bool uploadsLeft)
 {
   pointfront::RendererFront& view = this->Internals->Views.of(renderer);
-  const pointfront::FrontDelta& delta = view.Front->last();
-  view.Front->drewBeside(static_cast<std::uint64_t>(keptPoints));
+  const pointfront::FrontDelta& delta = view.View.front()->last();
+  view.View.drew(static_cast<std::uint64_t>(keptPoints));
   view.FirstDrawing = false;
-  view.Ahead = false;
-  view.Due = false;
-  view.DrawnAt = Clock::now();
   view.UploadsLeft = uploadsLeft;
   // In motion the frame time limits the front: at rest the same view may show more.
-  view.Complete = delta.complete && !uploadsLeft && view.Growth.whole() &&
+  view.Complete = delta.complete && !uploadsLeft && view.View.isGrown() &&
     (!IsInteracting(renderer) || delta.errorPx <= this->TargetError);
   pointfront::FrameStatistics& statistics = this->GetStatistics();
   const double frontMilliseconds = statistics.frontMilliseconds;
@@ -288,10 +280,9 @@ void vtkPointFrontMapper::RecordFrame(
   vtkRenderer* renderer, vtkIdType points, vtkIdType moves, double milliseconds)
 {
   pointfront::RendererFront* view = this->Internals->Views.find(renderer);
-  if (view && view->Front)
+  if (view && view->View.front())
   {
-    view->DrawingMs = milliseconds;
-    view->Front->recordFrame(
+    view->View.took(
       static_cast<std::uint64_t>(points), static_cast<std::uint32_t>(moves), milliseconds);
   }
 }
@@ -323,7 +314,7 @@ std::uint32_t vtkPointFrontMapper::GetNumberOfViews(vtkWindow* window) const
 bool vtkPointFrontMapper::IsAheadOfFrame(vtkRenderer* renderer) const
 {
   const pointfront::RendererFront* view = this->Internals->Views.find(renderer);
-  return view && view->Ahead;
+  return view && view->View.isAhead();
 }
 
 bool vtkPointFrontMapper::NeedsRender()

@@ -66,6 +66,23 @@ Fit fit(const glm::dvec3& half, const glm::dvec3& axis, const glm::dvec3& away, 
   }
   return { (high - low) / (2.0 * tangent), 0.5 * (high + low) };
 }
+
+/// A cloud of one place, or one seen along its only axis, sets no distance of the eye. It must be
+/// one that doubles tell from the cloud's place, and of which floats have the square.
+double leastDistance(const Bounds& bounds)
+{
+  constexpr double ofOnePlace = 1.0e-3;
+  constexpr double ofSmallest = 1.0e-12;
+  const double told = std::ldexp(1.0, -44); // of the farthest coordinate: 8 bits of a direction
+  if (bounds.empty())
+  {
+    return ofOnePlace;
+  }
+  const glm::dvec3 size = bounds.size();
+  const glm::dvec3 reach = glm::max(glm::abs(bounds.low), glm::abs(bounds.high));
+  return std::max({ told * std::max({ reach.x, reach.y, reach.z }), ofSmallest,
+    size == glm::dvec3(0.0) ? ofOnePlace : 0.0 });
+}
 } // namespace
 
 glm::dvec3 Camera::direction() const
@@ -101,8 +118,7 @@ Camera cameraFitting(const Bounds& bounds, ViewDirection view, double aspect)
   const glm::dvec3 half = bounds.empty() ? glm::dvec3(0.5) : 0.5 * bounds.size();
   const Fit sideways = fit(half, right, away, tangent * aspect);
   const Fit upwards = fit(half, camera.viewUp, away, tangent);
-  const double leastDistance = 1.0e-3; // a cloud of one point, or one seen along its only axis
-  const double distance = std::max({ sideways.distance, upwards.distance, leastDistance });
+  const double distance = std::max({ sideways.distance, upwards.distance, leastDistance(bounds) });
   camera.focalPoint = bounds.empty() ? glm::dvec3(0.0) : bounds.centre();
   camera.focalPoint += sideways.shift * right + upwards.shift * camera.viewUp;
   camera.position = camera.focalPoint - distance * away;

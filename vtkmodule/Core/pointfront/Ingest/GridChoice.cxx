@@ -71,10 +71,12 @@ Bounds declaredBounds(const Sources& sources)
   return bounds;
 }
 
-/// Offsets are whole units near the data: a reader of the file can tell what they are.
-glm::dvec3 roundOffset(const Bounds& bounds)
+/// Offsets are whole units near the data, and whole steps where those are larger: a reader of the
+/// file can tell what they are, and coordinates on whole steps are not rounded.
+glm::dvec3 roundOffset(const Bounds& bounds, const glm::dvec3& scale)
 {
-  return bounds.empty() ? glm::dvec3(0.0) : glm::round(bounds.centre());
+  const glm::dvec3 unit = glm::max(scale, glm::dvec3(1.0));
+  return bounds.empty() ? glm::dvec3(0.0) : unit * glm::round(bounds.centre() / unit);
 }
 
 using AxisValues = std::array<std::vector<double>, 3>;
@@ -199,7 +201,6 @@ Result<GridChoice> defaultGrid(const Sources& sources)
   constexpr double outlying = 1000.0; // times what most points have
   const Bounds bounds = declaredBounds(sources);
   GridChoice choice;
-  choice.grid.offset = roundOffset(bounds);
   const glm::dvec3 size = bounds.empty() ? glm::dvec3(0.0) : bounds.size();
   const double extent = largest(size);
   if (extent > 0.0)
@@ -223,6 +224,7 @@ Result<GridChoice> defaultGrid(const Sources& sources)
   {
     choice.grid.scale = glm::max(choice.grid.scale, glm::dvec3(finestStep(farthestOf(bounds))));
   }
+  choice.grid.offset = roundOffset(bounds, choice.grid.scale);
   const glm::dvec3& s = choice.grid.scale;
   choice.warnings.push_back(
     "The input has floating point coordinates; they are rounded to steps of " +
@@ -286,13 +288,13 @@ Result<GridChoice> chosenGrid(const Sources& sources, const std::optional<double
   }
   GridChoice choice;
   choice.grid = finest ? *finest : QuantisationGrid{};
-  if (!finest)
-  {
-    choice.grid.offset = roundOffset(declaredBounds(sources));
-  }
   if (precision)
   {
     choice.grid.scale = glm::dvec3(*precision);
+  }
+  if (!finest)
+  {
+    choice.grid.offset = roundOffset(declaredBounds(sources), choice.grid.scale);
   }
   warnOfRounding(sources, choice);
   return choice;

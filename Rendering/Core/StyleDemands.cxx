@@ -6,30 +6,40 @@
 
 #include "pointfront/Plan/FramePlan.h"
 
-#include <vector>
+#include <algorithm>
+#include <cstdint>
+#include <set>
 
-bool vtkPointFrontMapper::AddsUpSplats(vtkActor* actor)
+bool vtkPointFrontMapper::NeedsPictureExchange(vtkActor* actor)
 {
   const auto sheet = this->GetStore() ? this->GetStyleSheet() : nullptr;
-  if (!sheet || !sheet->frameShading().lenses.empty() || !sheet->frameShading().highlights.empty())
+  if (!sheet)
   {
     return false;
   }
-  // Eye-dome lighting and filled holes look at pixels that other processes draw.
-  bool wanted = sheet->frameShading().reachPx() > 0;
+  const pointfront::FrameShading& shading = sheet->frameShading();
+  // Pixels around one, and what covers it, may be of other processes.
+  if (shading.reachPx() > 0 ||
+    std::any_of(shading.lenses.begin(), shading.lenses.end(),
+      [](const pointfront::FrameLens& lens)
+      { return lens.shape == pointfront::LensShape::AroundClass; }))
+  {
+    return true;
+  }
+  std::set<std::uint16_t> surfaces;
   for (const pointfront::LayerStyling& layer : this->GetStyling(actor))
   {
     for (const auto& style : layer.styles)
     {
-      if (style->opacity < 1.0)
+      if (style->technique == pointfront::Technique::Ewa ||
+        (style->technique == pointfront::Technique::Splats && style->blended))
       {
-        return false;
+        return true;
       }
-      wanted = wanted || style->technique == pointfront::Technique::Ewa ||
-        (style->technique == pointfront::Technique::Splats && style->blended);
+      surfaces.insert(style->group);
     }
   }
-  return wanted;
+  return surfaces.size() > 1; // one that is translucent lies over another
 }
 
 void vtkPointFrontMapper::SetPictureExchange(pointfront::PictureExchange* exchange)

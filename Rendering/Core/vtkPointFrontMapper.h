@@ -241,14 +241,14 @@ public:
 
 #ifndef __VTK_WRAP__
   /**
-   * For pieces on several processes. Whether the style adds up the colours of splats ("ewa",
-   * blended splats) or looks at the pixels around one (eye-dome lighting, filled holes), and
-   * nothing else asks for more than one picture: the same on each process, whatever it draws. And
-   * who exchanges these during the frames that follow; null (default): each process has its own.
-   * All processes draw these frames, in software, with viewports of one
-   * size.
+   * For pieces on several processes. Whether a picture of this style takes more than its nearest
+   * points by depth: it adds up the colours of splats ("ewa", blended splats), looks at the pixels
+   * around one (eye-dome lighting, filled holes, highlights), has a lens around a class, or
+   * translucent classes before others. The same on each process, whatever it draws. And who
+   * exchanges these during the frames that follow; null (default): each process has its own. All
+   * processes draw these frames, in software, with viewports of one size.
    */
-  bool AddsUpSplats(vtkActor* actor);
+  bool NeedsPictureExchange(vtkActor* actor);
   void SetPictureExchange(pointfront::PictureExchange* exchange);
 #endif
 

@@ -8,6 +8,31 @@
 
 namespace pointfront
 {
+namespace
+{
+
+/// Numbers of pixels, of processes that show what is nearest there.
+template <typename Number, typename Shown>
+void shareNumbers(PictureExchange& others, std::vector<Number>& numbers, const Shown& shown)
+{
+  constexpr float none = std::numeric_limits<float>::infinity();
+  if (numbers.empty())
+  {
+    return;
+  }
+  std::vector<float> least(numbers.size(), none);
+  for (std::size_t pixel = 0; pixel < numbers.size(); ++pixel)
+  {
+    least[pixel] = shown(pixel) ? static_cast<float>(numbers[pixel]) : none;
+  }
+  others.nearest(least.data(), least.size());
+  for (std::size_t pixel = 0; pixel < numbers.size(); ++pixel)
+  {
+    numbers[pixel] = static_cast<Number>(least[pixel] == none ? 0.0f : least[pixel]);
+  }
+}
+
+} // namespace
 
 bool shareDepths(PictureExchange& others, float* depths, std::int64_t count)
 {
@@ -68,21 +93,10 @@ void sharePicture(PictureExchange& others, SoftwareTarget& target)
   }
   const std::vector<float> own = colours;
   others.nearest(colours.data(), count);
-  std::vector<float> looks(target.looks.empty() ? 0 : count, infinity);
-  for (std::size_t pixel = 0; pixel < looks.size(); ++pixel)
-  {
-    const bool shown = own[pixel] == colours[pixel] && own[pixel] != infinity;
-    looks[pixel] = shown ? static_cast<float>(target.looks[pixel]) : infinity;
-  }
-  if (!looks.empty())
-  {
-    others.nearest(looks.data(), count);
-  }
-  for (std::size_t pixel = 0; pixel < looks.size(); ++pixel)
-  {
-    const bool none = looks[pixel] == infinity;
-    target.looks[pixel] = static_cast<std::uint16_t>(none ? 0.0f : looks[pixel]);
-  }
+  const auto shown = [&](std::size_t pixel)
+  { return own[pixel] == colours[pixel] && own[pixel] != infinity; };
+  shareNumbers(others, target.looks, shown);
+  shareNumbers(others, target.highlights, shown);
   for (std::size_t pixel = 0; pixel < count; ++pixel)
   {
     target.rgba[pixel] = colours[pixel] == infinity

@@ -21,8 +21,8 @@ bool shareDepths(PictureExchange& others, float* depths, std::int64_t count);
 void shareSums(PictureExchange& others, std::vector<ThreadBuffers>& threads, std::int64_t count);
 
 /// Makes an opaque picture that of all processes: in each pixel what is nearest, by what decided
-/// where the target keeps that. Unchanged if they do not agree in the number of pixels. Looks are
-/// exchanged where the target has them; normals and points stay this process's own.
+/// where the target keeps that. Unchanged if they do not agree in the number of pixels. Looks and
+/// highlights are exchanged where the target has them; normals and points stay this process's own.
 void sharePicture(PictureExchange& others, SoftwareTarget& target);
 
 } // namespace pointfront

@@ -2,6 +2,8 @@
 
 #include "HoleFiller.h"
 #include "PixelRectangle.h"
+#include "SharedParts.h"
+#include "SharedSums.h"
 
 #include "pointfront/Threads/ThreadCrew.h"
 
@@ -9,6 +11,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace pointfront
@@ -115,17 +118,21 @@ SoftwareTarget& SoftwareComposition::begin(const PlanPart& part, const FrameShad
 RasterStatistics SoftwareComposition::draw(SoftwareRasteriser& rasteriser, const FramePlan& plan,
   SoftwareTarget& target, std::uint16_t store)
 {
-  if (!isComposed(plan))
+  if (!plan.exchange && !isComposed(plan))
   {
     return rasteriser.draw(plan, target, store);
   }
+  std::vector<PlanPart> parts = plan.exchange ? partsOfAll(plan) : std::vector<PlanPart>();
+  shared_ = !parts.empty();
+  parts = shared_ ? std::move(parts) : partsOf(plan);
   const PixelRectangle viewport{ 0, 0, plan.camera.width, plan.camera.height };
   const bool complete = target.rectangle().contains(viewport);
   RasterStatistics all;
-  for (PlanPart& part : partsOf(plan))
+  for (PlanPart& part : parts)
   {
     const bool whole = part.lens < 0 && part.group == 0;
     SoftwareTarget& own = whole ? target : begin(part, plan.shading, plan.camera, target);
+    part.plan.exchange = shared_ ? part.plan.exchange : nullptr;
     if (part.mask)
     {
       part.plan.shading = FrameShading();
@@ -149,12 +156,12 @@ RasterStatistics SoftwareComposition::draw(SoftwareRasteriser& rasteriser, const
 RasterStatistics SoftwareComposition::drawShown(
   SoftwareRasteriser& rasteriser, const FramePlan& plan, SoftwareTarget& target)
 {
-  if (!isComposed(plan) && plan.shading.highlights.empty())
+  if (!isComposed(plan) && plan.shading.highlights.empty() && !plan.exchange)
   {
     return rasteriser.drawShown(plan, target);
   }
-  // What is kept may lie anywhere.
-  target.reset(plan.keepsVisible
+  // What is kept, or what other processes draw, may lie anywhere.
+  target.reset(plan.keepsVisible || plan.exchange
       ? PixelRectangle{ 0, 0, plan.camera.width, plan.camera.height }
       : wider(shownRectangle(plan), plan.shading.reachPx(), plan.camera));
   return target.rectangle().empty() ? RasterStatistics() : draw(rasteriser, plan, target);
@@ -257,21 +264,31 @@ void SoftwareComposition::putLens(std::int16_t number, const FrameCamera& camera
 void SoftwareComposition::finish(const FrameCamera& camera, const FrameShading& shading,
   SoftwareTarget& target, PictureExchange* others)
 {
-  // A part may lack highlighted points that another one puts over it.
-  const auto mark = [&](SoftwareTarget& drawn)
-  { drawn.highlights.resize(shading.highlights.empty() ? 0 : drawn.depth.size()); };
-  shade(camera, shading, target, others);
-  mark(target);
   for (auto part = parts_.begin(); part != parts_.end();)
   {
     part = part->second.begun ? std::next(part) : parts_.erase(part);
   }
+  others = shared_ ? others : nullptr;
+  // What is composed of several pictures, and what looks around a pixel, is composed of those of
+  // all: every process has the whole picture then.
+  const bool composed = !parts_.empty() || !shading.highlights.empty();
+  PictureExchange* const all = composed || shading.reachPx() > 0 ? others : nullptr;
+  // A part may lack highlighted points that another one puts over it.
+  const auto mark = [&](SoftwareTarget& drawn)
+  { drawn.highlights.resize(shading.highlights.empty() ? 0 : drawn.depth.size()); };
+  mark(target);
+  shade(camera, shading, target, all);
   for (auto& [place, part] : parts_)
   {
+    std::vector<float>& depths = part.target.depth;
     if (!place.mask)
     {
-      shade(camera, shading, part.target);
       mark(part.target);
+      shade(camera, shading, part.target, all);
+    }
+    else if (all && !depths.empty())
+    {
+      all->nearest(depths.data(), depths.size());
     }
   }
   for (const CompositionStep& step : compositionOf(shading))
@@ -297,6 +314,7 @@ void SoftwareComposition::finish(const FrameCamera& camera, const FrameShading& 
   {
     part.begun = false;
   }
+  shared_ = false;
 }
 
 } // namespace pointfront

@@ -29,7 +29,9 @@ public:
     SoftwareRasteriser& rasteriser, const FramePlan& plan, SoftwareTarget& target);
   /// Shades the parts and composes them; called once, after all stores. The next draw() begins
   /// another picture.
-  /// `others` as in shade(); only for pictures of one part.
+  /// `others` as the plan's exchange: the processes that draw the rest of the cloud. Where the
+  /// picture is composed of several parts, or its shading looks around a pixel, each of them then
+  /// has the picture of all.
   void finish(const FrameCamera& camera, const FrameShading& shading, SoftwareTarget& target,
     PictureExchange* others = nullptr);
 
@@ -61,6 +63,7 @@ private:
     SoftwareTarget& target);
 
   std::map<Place, Part> parts_;
+  bool shared_ = false; ///< all processes have the parts of this picture
 };
 
 /// Draws highlights: tints the pixels of highlighted points, and draws a rim on what lies behind

@@ -103,7 +103,6 @@ void vtkPointFrontRepresentation::PrepareStyle()
   look.opacity = this->Opacity;
   look.translucentSurface = this->Mapper->GetNumberOfStorePieces() > 1;
   this->Property->SetOpacity(look.translucentSurface ? 1.0 : this->Opacity);
-  this->TellLensOfRanks();
   std::string error;
   const int* const size = view->GetRenderer()->GetSize();
   vtkPointFrontStyle* const style = this->Choice->style(colour, size[0], size[1], error);
@@ -150,15 +149,15 @@ void vtkPointFrontRepresentation::TellOpaqueMap(bool styled)
 }
 
 //------------------------------------------------------------------------------
-void vtkPointFrontRepresentation::TellLensOfRanks()
+void vtkPointFrontRepresentation::TellLensOfRanks(bool exchanged)
 {
   const pointfront::LensChoice& lens = this->Choice->lens;
-  const bool parted = lens.shows() && lens.place.shape == pointfront::LensPlace::AROUND_CLASS &&
-    this->Mapper->GetNumberOfStorePieces() > 1;
+  const bool parted =
+    !exchanged && lens.shows() && lens.place.shape == pointfront::LensPlace::AROUND_CLASS;
   if (parted && !this->ToldOfRanks && this->Mapper->GetStorePiece() == 0)
   {
-    vtkWarningMacro("a lens around a class covers, on each rank, what that rank has of the class: "
-                    "where ranks meet it has gaps. On one rank it has none.");
+    vtkWarningMacro("a lens around a class covers, on each rank, what that rank has of the class, "
+                    "because only a corner of the cloud is in view: where ranks meet it has gaps.");
   }
   this->ToldOfRanks = parted;
 }

@@ -302,15 +302,19 @@ void vtkPointFrontRepresentation::AgreeOnExchange()
   {
     return; // alike on all ranks
   }
-  bool wanted = !this->InMotion && this->Actor->GetVisibility() && !SelectionState::Of(view) &&
-    !this->Actor->HasTranslucentPolygonalGeometry() && this->Mapper->AddsUpSplats(this->Actor);
-  if (wanted)
-  {
-    wanted = pointfront::isSurelyInView(view->GetRenderer(), this->Actor->GetBounds());
-  }
-  if (this->Exchange->agreed(vtkMultiProcessController::GetGlobalController(), wanted))
+  const bool atRest = !this->InMotion && this->Actor->GetVisibility() && !SelectionState::Of(view);
+  const bool wanted = atRest && !this->Actor->HasTranslucentPolygonalGeometry() &&
+    this->Mapper->NeedsPictureExchange(this->Actor) &&
+    pointfront::isSurelyInView(view->GetRenderer(), this->Actor->GetBounds());
+  const bool agreed =
+    this->Exchange->agreed(vtkMultiProcessController::GetGlobalController(), wanted);
+  if (agreed)
   {
     this->Mapper->SetPictureExchange(this->Exchange.get());
+  }
+  if (atRest)
+  {
+    this->TellLensOfRanks(agreed);
   }
 }
 

@@ -66,3 +66,23 @@ scene.save(name + "-mapped")
 simple.GetOpacityTransferFunction("intensity").Points = [0, 0, 0.5, 0, 255, 1, 0.5, 0]
 simple.GetColorTransferFunction("intensity").EnableOpacityMapping = 1
 scene.save(name + "-map-translucent")
+scene.color_by(scene.display, "rgb")
+
+# A lens around a class is around the points of all ranks: discs around each 40th point, which a
+# class of its own has.
+if "POINTFRONT_SPARSE" in os.environ:
+    simple.Hide(scene.reader, scene.view)
+    scene.display = scene.show(simple.OpenDataFile(os.environ["POINTFRONT_SPARSE"]))
+    scene.display.TargetError, scene.display.PointBudget = 0.01, 0
+    scene.color_by(scene.display, "rgb")
+    display = scene.display
+    display.LensShape, display.LensClass, display.LensClassRadius = "Around a class", 9, 12.0
+    for backend in ("OpenGL", "Software"):
+        display.Backend = backend
+        for way, inside in (("points", ["", "", "#ff0000", ""]),
+                            ("blended", ["", "blended", "", ""]),
+                            ("hidden", ["2", "hidden", "", ""])):
+            display.LensStyles = inside
+            scene.save("%s-around-%s-%s" % (name, way, backend.lower()))
+    camera.Yaw(150)  # seen from nowhere: no rank waits for the others
+    scene.save(name + "-around-away")

@@ -80,7 +80,9 @@ display.LensClass = 6
 display.LensShape = "Off"
 without = picture("around-off")
 display.LensShape = "Around a class"
-require((picture("around-none") == without).all(), "a lens around a class that is not there")
+# Ranks draw it in software and not in OpenGL, which rounds places to 1/256 of a pixel.
+share = pictures.differing(picture("around-none"), without, 8)
+require(share < 0.001, "a lens around a class that is not there: %.4f differ" % share)
 display.LensStyles = ["", "", "#ff0000", ""]
 
 # Another technique, and nothing at all.

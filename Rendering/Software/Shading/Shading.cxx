@@ -185,10 +185,11 @@ void shade(const FrameCamera& camera, const FrameShading& shading, SoftwareTarge
   {
     light(camera, shading, target);
   }
-  if (others && shading.reachPx() > 0) // what is around a pixel may be of others
+  if (others)
   {
     // Also where this process drew nothing: all exchange the same.
     target.looks.resize(shading.lookCount() > 1 ? target.depth.size() : 0);
+    target.highlights.resize(shading.highlights.empty() ? 0 : target.depth.size());
     sharePicture(*others, target);
   }
   // From what is lit: a filled pixel has no normal of its own.

@@ -1,15 +1,12 @@
 // A picture that several processes draw, as threads play them.
 
+#include "MeetingOfProcesses.h"
 #include "SharedSums.h"
 #include "SoftwareRasteriser.h"
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <condition_variable>
 #include <cstdint>
-#include <limits>
-#include <mutex>
 #include <random>
 #include <thread>
 #include <vector>
@@ -18,71 +15,6 @@ namespace pointfront
 {
 namespace
 {
-
-constexpr float noDepth = std::numeric_limits<float>::infinity();
-
-/// Processes meet in each call.
-class MeetingOfProcesses
-{
-public:
-  explicit MeetingOfProcesses(int processes)
-    : processes_(processes)
-  {
-  }
-  void nearest(float* depths, std::size_t count)
-  {
-    std::unique_lock<std::mutex> lock(mutex_);
-    least_.resize(std::max(least_.size(), count), noDepth);
-    for (std::size_t i = 0; i < count; ++i)
-    {
-      least_[i] = std::min(least_[i], depths[i]);
-    }
-    meet(lock);
-    std::copy_n(least_.begin(), count, depths);
-    meet(lock);
-    least_.clear();
-    meet(lock);
-  }
-
-private:
-  void meet(std::unique_lock<std::mutex>& lock)
-  {
-    const int round = round_;
-    if (++here_ == processes_)
-    {
-      here_ = 0;
-      ++round_;
-      all_.notify_all();
-      return;
-    }
-    all_.wait(lock, [&] { return round_ != round; });
-  }
-
-  const int processes_;
-  int here_ = 0;
-  int round_ = 0;
-  std::mutex mutex_;
-  std::condition_variable all_;
-  std::vector<float> least_;
-};
-
-class ProcessOfMeeting final : public PictureExchange
-{
-public:
-  explicit ProcessOfMeeting(MeetingOfProcesses& meeting)
-    : meeting_(meeting)
-  {
-  }
-  bool nearest(float* depths, std::size_t count) override
-  {
-    meeting_.nearest(depths, count);
-    return true;
-  }
-  void sum(std::uint32_t*, std::size_t) override {}
-
-private:
-  MeetingOfProcesses& meeting_;
-};
 
 void takeNearest(const std::vector<SoftwareTarget>& parts, std::size_t pixel, SoftwareTarget& whole)
 {
@@ -142,14 +74,14 @@ TEST(SharedPicture, IsThatOfAllProcesses)
   SoftwareTarget lit = whole;
   shade(camera, shading, lit);
   EXPECT_NE(lit.rgba, whole.rgba);
-  MeetingOfProcesses meeting(3);
+  test::MeetingOfProcesses meeting(3);
   std::vector<std::thread> processes;
   for (SoftwareTarget& part : parts)
   {
     processes.emplace_back(
       [&]
       {
-        ProcessOfMeeting here(meeting);
+        test::ProcessOfMeeting here(meeting);
         shade(camera, shading, part, &here);
       });
   }

@@ -41,6 +41,8 @@ def random_cloud(rng, most_points=8000):
             options["refinement"] = "replace"
     options["node-points"] = rng.choice((256, 300, 1000))
     cloud["options"] = options
+    if rng.random() < 0.15:
+        cloud["copies"] = rng.choice((2, 3, 40))
     return cloud
 
 
@@ -60,6 +62,8 @@ def grid_positions(cloud, rng):
         grid[:, 2] = (200 * numpy.sin(grid[:, 0] / 500.0) + grid[:, 1] / 10).astype(int)
     copies = rng.integers(0, count, count // 20)
     grid[rng.integers(0, count, count // 20)] = grid[copies]
+    if "copies" in cloud:  # of each place
+        grid = rng.permutation(numpy.resize(grid[:-(-count // cloud["copies"])], (count, 3)))
     return grid
 
 

@@ -101,16 +101,19 @@ class Pair:
         paths = {name: self.folder / f"{name}.json" for name in ("style", "camera")}
         for name, path in paths.items():
             path.write_text(json.dumps(case[name]))
-        picture = self.folder / "picture.png"
+        picture, facts = self.folder / "picture.png", self.folder / "stats.json"
         stores = stores if isinstance(stores, (list, tuple)) else [stores]
         outcome = pointfront(
             "render", *stores, "-o", picture, "--size", "x".join(map(str, self.size)), "--style",
             paths["style"], "--camera", paths["camera"], "--error", case["error"], "--background",
-            "0.2,0.1,0.3", *arguments, environment=environment)
+            "0.2,0.1,0.3", "--stats", facts, *arguments, environment=environment)
         if outcome.status in (1, 2) and any(word in outcome.err for word in REFUSALS):
             raise Refused(outcome.err)
         if outcome.status != 0:
             raise AssertionError(f"{json.dumps(case)}: {outcome}")
+        facts = json.loads(facts.read_text())
+        if facts["error_px"] > 1.000001 * float(case["error"]) and not facts["limited_by"]:
+            raise AssertionError(f"{json.dumps(case)}: {facts}: error_px, and nothing limits it")
         return read_png(picture)
 
     def difference(self, case):

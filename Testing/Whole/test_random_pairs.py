@@ -7,6 +7,7 @@ found. usage: test_random_pairs.py [RandomPairs.test_KIND]
 import unittest
 
 from pair_test import PairTest
+from random_copies import Copies
 from random_pairs import EVERYTHING, KINDS, Forms, NodeByNode, SeveralClouds
 
 # (kind, case): the smallest cases that once differed.
@@ -41,7 +42,7 @@ class RandomPairs(PairTest):
         self.check_found(FOUND)
 
 
-for one in KINDS:
+for one in (*KINDS, Copies):
     setattr(RandomPairs, f"test_{one.__name__}", lambda self, kind=one: self.check(kind))
 
 

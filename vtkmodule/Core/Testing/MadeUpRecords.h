@@ -52,6 +52,12 @@ public:
     }
     return records;
   }
+  MadeUpRecords doubled() const
+  {
+    MadeUpRecords twice = *this;
+    twice.bytes_.insert(twice.bytes_.end(), bytes_.begin(), bytes_.end());
+    return twice;
+  }
 
 private:
   static constexpr std::size_t stride = 20;

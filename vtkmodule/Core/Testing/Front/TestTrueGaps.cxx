@@ -75,6 +75,47 @@ std::unique_ptr<CloudSource> scannerCloud()
     });
 }
 
+/// Positions in millimetres of a cloud, each `copies` times.
+std::unique_ptr<CloudSource> copied(const CloudSource& cloud, std::size_t copies)
+{
+  const std::vector<glm::dvec3>& from = cloud.positions();
+  return test::cloudOf(copies * from.size(), test::millimetres(),
+    [&](std::size_t i)
+    {
+      const glm::dvec3& p = from[i / copies];
+      return inMillimetres(p.x, p.y, p.z);
+    });
+}
+
+std::unique_ptr<CloudSource> doubledCloud()
+{
+  return copied(*test::hills(cloudPoints / 2, 100000.0), 2);
+}
+
+std::unique_ptr<CloudSource> tripledCloud()
+{
+  return copied(*aerialCloud(), 3);
+}
+
+/// Few places, with many points in each.
+std::unique_ptr<CloudSource> heapedCloud()
+{
+  return copied(*test::hills(cloudPoints / 200, 100000.0), 200);
+}
+
+/// Hills with five places that have a thousand points each: more than a node takes.
+std::unique_ptr<CloudSource> heapsOnHills()
+{
+  const std::unique_ptr<CloudSource> hills = test::hills(cloudPoints, 100000.0);
+  const std::vector<glm::dvec3>& from = hills->positions();
+  return test::cloudOf(from.size() + 5000, test::millimetres(),
+    [&](std::size_t i)
+    {
+      const glm::dvec3& p = from[i < from.size() ? i : 97 * ((i - from.size()) / 1000)];
+      return inMillimetres(p.x, p.y, p.z);
+    });
+}
+
 /// Straight down on everything, a thousand pixels wide.
 View fromAbove(const Bounds& bounds)
 {
@@ -146,7 +187,8 @@ private:
 };
 
 const std::pair<const char*, std::unique_ptr<CloudSource> (*)()> clouds[] = { { "even", evenCloud },
-  { "aerial", aerialCloud }, { "scanner", scannerCloud } };
+  { "aerial", aerialCloud }, { "scanner", scannerCloud }, { "doubled", doubledCloud },
+  { "tripled", tripledCloud }, { "heaped", heapedCloud }, { "heaps on hills", heapsOnHills } };
 
 struct StoredForm
 {
@@ -182,6 +224,7 @@ protected:
       delta = &front.update(view, residency, limits);
     }
     EXPECT_TRUE(delta->complete);
+    EXPECT_LE(delta->errorPx, 1.000001 * px);
     errorPx_ = delta->errorPx;
     std::vector<glm::dvec3> points;
     for (const DrawItem& item : delta->draw)
@@ -220,7 +263,7 @@ TEST_P(TrueGaps, AreNoLargerThanTheErrorSays)
     const std::vector<glm::dvec3> all = cloud->positions();
     const auto store = build(std::move(cloud));
     const View view = fromAbove(store->description().bounds);
-    for (const double px : { 8.0, 16.0, 32.0, 64.0 })
+    for (const double px : { 2.0, 8.0, 16.0, 32.0, 64.0 })
     {
       const std::vector<glm::dvec3> points = drawn(*store, view, px);
       if (errorPx_ == 0.0)
@@ -228,7 +271,7 @@ TEST_P(TrueGaps, AreNoLargerThanTheErrorSays)
         EXPECT_EQ(points.size(), all.size());
         continue;
       }
-      const NearestOf nearest(points, px / view.pixelsPerUnit);
+      const NearestOf nearest(points, std::max(px, 8.0) / view.pixelsPerUnit);
       std::vector<double> gaps; // in errors
       for (std::size_t i = 0; i < all.size(); i += 3)
       {
@@ -237,7 +280,8 @@ TEST_P(TrueGaps, AreNoLargerThanTheErrorSays)
       std::sort(gaps.begin(), gaps.end());
       const auto in = std::string(name) + " at " + std::to_string(px);
       EXPECT_LT(gaps[gaps.size() * 99 / 100], means ? 0.9 : 1.6) << in;
-      EXPECT_LT(gaps.back(), means ? 1.1 : 3.0) << in;
+      // Near the scanner's floor one leaf is dense where another part of it is sparse.
+      EXPECT_LT(gaps.back(), means ? 1.1 : px < 8.0 ? 7.0 : 3.0) << in;
     }
   }
 }

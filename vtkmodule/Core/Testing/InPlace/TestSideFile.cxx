@@ -165,6 +165,23 @@ TEST(InPlaceTable, EveryNodeSaysHowLargeSplatsAre)
   }
 }
 
+TEST(InPlaceTable, PointsThatShareAPlaceCountOnce)
+{
+  const MadeUpRecords once = MadeUpRecords::scattered(20000, 12);
+  const auto spacings = [](const MadeUpRecords& records, std::uint32_t leafPoints)
+  {
+    const auto side = SideFile::open(index(records, "d.pfindex", 2, 1u << 26, leafPoints).path);
+    return (*side)->content().table.nodes;
+  };
+  const std::vector<Node> of = spacings(once, 500);
+  const std::vector<Node> twice = spacings(once.doubled(), 1000);
+  ASSERT_EQ(of.size(), twice.size());
+  for (std::size_t i = 0; i < of.size(); ++i)
+  {
+    EXPECT_NEAR(twice[i].spacing / of[i].spacing, of[i].leaf() ? 1.0 : 0.7, 0.13) << i;
+  }
+}
+
 TEST(InPlaceTable, NoOrderIsWholeAndBounded)
 {
   const MadeUpRecords records = MadeUpRecords::scattered(100000, 2);

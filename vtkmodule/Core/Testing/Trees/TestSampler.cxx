@@ -253,8 +253,25 @@ TEST(Sampler, EstimatesTheSpacingOfASurface)
   const std::size_t count = 20000;
   const Cloud cloud = plane(count);
   const double expected = std::sqrt(65536.0 * 65536.0 / static_cast<double>(count));
-  const double estimate = surfaceSpacing(cellOccupancy(cloud.view(), cloud.all), count, 16);
+  const double estimate = surfaceSpacing(cellOccupancy(cloud.view(), cloud.all), 16);
   EXPECT_NEAR(estimate, expected, 0.15 * expected);
+}
+
+TEST(Sampler, SpacingIsThatOfPlaces)
+{
+  const Cloud once = plane(2000);
+  std::vector<TreePosition> positions;
+  for (std::size_t i = 0; i < 7 * once.all.size(); ++i)
+  {
+    positions.push_back(once.view().position(i / 7));
+  }
+  const Cloud copies(positions);
+  const CellOccupancy occupancy = cellOccupancy(copies.view(), copies.all);
+  EXPECT_EQ(occupancy.places(), placesOf(copies.view(), copies.all));
+  EXPECT_EQ(occupancy.places(), cellOccupancy(once.view(), once.all).places());
+  EXPECT_EQ(
+    surfaceSpacing(occupancy, 16), surfaceSpacing(cellOccupancy(once.view(), once.all), 16));
+  EXPECT_EQ(surfaceSpacing(copies.view(), copies.all), surfaceSpacing(once.view(), once.all));
 }
 
 TEST(BuildPrefixOrder, EveryPrefixCoversTheNode)

@@ -32,8 +32,10 @@ inline double prefixFraction(double errorPx, double ratio, double thresholdPx)
   return wanted > above ? (wanted - above) / (1.0 - above) : 0.0;
 }
 
-/// The prefix in points, rounded; all of them for a fraction of 1. Falls with the threshold. Of a
-/// root (ratio 0) at least one: what is in view shows, however few pixels there are.
+/// The prefix in points, rounded up: what is drawn is never sparser than the threshold, and a node
+/// whose parent is too coarse shows a point, however fine its spacing is said to be. Falls with the
+/// threshold. Of a root (ratio 0) at least one: what is in view shows, however few pixels there
+/// are.
 inline std::uint32_t prefixLength(
   std::uint32_t pointCount, double errorPx, double ratio, double thresholdPx)
 {
@@ -41,9 +43,9 @@ inline std::uint32_t prefixLength(
   {
     return pointCount;
   }
-  const auto rounded =
-    static_cast<std::uint32_t>(pointCount * prefixFraction(errorPx, ratio, thresholdPx) + 0.5);
-  return rounded == 0 && ratio == 0.0 && pointCount > 0 ? 1 : rounded;
+  const auto points =
+    static_cast<std::uint32_t>(std::ceil(pointCount * prefixFraction(errorPx, ratio, thresholdPx)));
+  return points == 0 && ratio == 0.0 && pointCount > 0 ? 1 : points;
 }
 
 /// The density on screen when `drawn` of `pointCount` points are drawn, divided by the density of

@@ -128,12 +128,6 @@ Result<void> findRuns(const QuadTree& tree, const CellGrid& cells, const GridRec
     });
 }
 
-/// World units between neighbours when `points` of them are spread over the area.
-float spacingOf(double areaSteps, double points, const QuantisationGrid& grid)
-{
-  return static_cast<float>(std::sqrt(areaSteps * grid.scale.x * grid.scale.y / points));
-}
-
 Result<void> checkPoints(const QuadTree& tree, const RunLedger& ledger, std::uint64_t count)
 {
   std::uint64_t sum = 0;
@@ -196,11 +190,6 @@ InPlaceTable tableOf(const QuadTree& tree, const RunLedger& ledger, const Quanti
     node.firstChild = from.firstChild;
     node.childCount = from.childCount;
     node.level = from.level;
-    node.spacing = spacingOf(from.area, std::ldexp(double(from.points), -from.logStep), grid);
-    if (node.parent != noNode)
-    {
-      node.spacing = std::min(node.spacing, spacingFall * table.nodes[node.parent].spacing);
-    }
     table.nodes.push_back(node);
     InPlaceRow row;
     row.logStep = from.logStep;
@@ -211,6 +200,19 @@ InPlaceTable tableOf(const QuadTree& tree, const RunLedger& ledger, const Quanti
   fillBranch(tree, ledger, grid, table);
   table.spilledBytes = ledger.spilledBytes();
   return table;
+}
+
+void fillSpacing(const LeafSplats& splats, std::vector<Node>& nodes)
+{
+  for (NodeIndex i = 0; i < nodes.size(); ++i)
+  {
+    Node& node = nodes[i];
+    node.spacing = static_cast<float>(splats.spacing(i));
+    if (node.parent != noNode)
+    {
+      node.spacing = std::min(node.spacing, spacingFall * nodes[node.parent].spacing);
+    }
+  }
 }
 } // namespace
 
@@ -276,6 +278,7 @@ Result<InPlaceTable> indexInPlace(const GridRecords& records, const RecordBox& b
   {
     return written.error();
   }
+  fillSpacing(splats, table.nodes);
   splats.fill(table.nodes);
   return table;
 }

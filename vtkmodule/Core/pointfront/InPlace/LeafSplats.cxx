@@ -2,6 +2,7 @@
 
 #include "pointfront/InPlace/RunList.h"
 #include "pointfront/Trees/BuiltTree.h"
+#include "pointfront/Trees/Sampler.h"
 
 #include <algorithm>
 #include <cmath>
@@ -57,11 +58,18 @@ LeafSplats::LeafSplats(const QuadTree& tree, const GridRecords& records,
   ratios_.resize(count, 0.0);
 }
 
-double LeafSplats::spacing(NodeIndex node) const
+double LeafSplats::pointSpacing(NodeIndex node) const
 {
   const QuadNode& from = tree_.nodes()[node];
   const double drawn = std::ldexp(static_cast<double>(from.points), -from.logStep);
   return std::sqrt(from.area * stepArea_ / drawn);
+}
+
+double LeafSplats::spacing(NodeIndex node) const
+{
+  const double copies = points_ > 0 ? double(points_) / double(places_) : 1.0;
+  const double every = std::ldexp(1.0, tree_.nodes()[node].logStep); // a point drawn of so many
+  return pointSpacing(node) * std::sqrt(std::max(1.0, copies / every));
 }
 
 void LeafSplats::look(NodeIndex node, const std::vector<std::byte>& list)
@@ -84,8 +92,11 @@ void LeafSplats::look(NodeIndex node, const std::vector<std::byte>& list)
   }
   const RecordSpan view{ reinterpret_cast<const std::byte*>(positions.data()),
     sizeof(TreePosition) };
-  const float radius = splat_.measure(view, mortonOrder(view, positions.size()));
-  ratios_[static_cast<std::size_t>(found - measured_.begin())] = radius / spacing(node);
+  const std::vector<std::uint32_t> order = mortonOrder(view, positions.size());
+  const float radius = splat_.measure(view, order);
+  ratios_[static_cast<std::size_t>(found - measured_.begin())] = radius / pointSpacing(node);
+  points_ += order.size();
+  places_ += placesOf(view, order);
 }
 
 void LeafSplats::fill(std::vector<Node>& nodes) const
@@ -112,7 +123,7 @@ void LeafSplats::fill(std::vector<Node>& nodes) const
         ++count;
       }
     }
-    nodes[i].splatRadius = count > 0 ? toFloat(sum / count * spacing(i)) : 0.0f;
+    nodes[i].splatRadius = count > 0 ? toFloat(sum / count * pointSpacing(i)) : 0.0f;
   }
 }
 

@@ -14,10 +14,11 @@
 namespace pointfront
 {
 
-/// How large splats of an in-place tree must be.
+/// How large splats of an in-place tree must be, and how many points share a place.
 /// Leaves  some, evenly over the table, are measured (NodeSplat.h): the ratio of radius and spacing
 ///         is a trait of how a scanner works. The others have the ratio of those beside them.
 /// Inner   nodes draw points at random: a constant ratio.
+/// Places  of the measured leaves, against their points: all nodes have that share.
 /// Cost    that of at most `mostMeasured` leaves, whatever the file holds.
 /// Threads one.
 class LeafSplats
@@ -30,11 +31,14 @@ public:
     std::function<void(std::uint64_t, std::uint64_t)> released);
   /// Called with the list of each node, in any order.
   void look(NodeIndex node, const std::vector<std::byte>& list);
-  /// Called after the lists of all nodes.
+  // Called after the lists of all nodes.
   void fill(std::vector<Node>& nodes) const;
+  /// World units between neighbours of what is drawn of a node and those above it.
+  double spacing(NodeIndex node) const;
 
 private:
-  double spacing(NodeIndex node) const;
+  /// As if each point had a place of its own.
+  double pointSpacing(NodeIndex node) const;
 
   const QuadTree& tree_;
   const GridRecords& records_;
@@ -42,7 +46,9 @@ private:
   double stepArea_; ///< of a step by a step of the grid, world units
   NodeSplat splat_;
   std::vector<NodeIndex> measured_; ///< leaves, ascending
-  std::vector<double> ratios_; ///< theirs; 0: none was found
+  std::vector<double> ratios_; ///< theirs, of pointSpacing(); 0: none was found
+  std::uint64_t points_ = 0; ///< theirs
+  std::uint64_t places_ = 0;
 };
 
 } // namespace pointfront

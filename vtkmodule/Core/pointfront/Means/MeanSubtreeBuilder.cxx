@@ -62,7 +62,8 @@ MeanSubtreeBuilder::Branch MeanSubtreeBuilder::joinBranches(
   std::vector<Branch> children, unsigned log2Side)
 {
   Branch joined = represent(children, log2Side);
-  mergeLeaves(children, rule_.nodePoints);
+  mergeLeaves(
+    children, rule_.nodePoints, [](const Branch& leaf) { return leaf.view; }, space().stepLength());
   adopt(joined, std::move(children));
   return joined;
 }

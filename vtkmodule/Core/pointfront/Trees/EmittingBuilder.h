@@ -51,7 +51,7 @@ protected:
     const std::vector<std::uint32_t>& held, const CellOccupancy& occupancy, unsigned log2Side)
   {
     auto node = std::make_unique<BuiltNode>();
-    const double steps = surfaceSpacing(occupancy, held.size(), log2Side);
+    const double steps = surfaceSpacing(occupancy, log2Side);
     node->row.spacing = static_cast<float>(steps * space().stepLength());
     node->row.splatRadius = splat_.measure(positions, held);
     return node;

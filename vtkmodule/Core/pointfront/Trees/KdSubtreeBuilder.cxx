@@ -125,20 +125,30 @@ void KdSubtreeBuilder::take(Region& region, std::uint64_t wanted)
   region.end = left;
 }
 
-/// Of `drawn` points in the region of points_.
-double KdSubtreeBuilder::spacing(double drawn) const
+/// That `drawn` points in the region of points_ have, which are evenly spread: one each, as long as
+/// there are so many, of those that points_ and the points above them have.
+double KdSubtreeBuilder::places(double drawn, double above) const
 {
-  const unsigned side = differingBits(positions_[points_.front()], positions_[points_.back()]);
-  const double all = surfaceSpacing(occupancy_, points_.size(), side);
-  return all * std::sqrt(static_cast<double>(points_.size()) / drawn) * space().stepLength();
+  const auto points = static_cast<double>(points_.size());
+  const double share = static_cast<double>(occupancy_.places()) / points;
+  return std::min(drawn, (points + above) * share);
 }
 
-/// Measured among a node's own points, which are some of those drawn there, evenly spread: discs
-/// shrink as the square root of their number grows.
-float KdSubtreeBuilder::splatRadius(const std::vector<std::uint32_t>& own, double drawn)
+/// Of points with so many places in the region of points_.
+double KdSubtreeBuilder::spacing(double places) const
+{
+  const unsigned side = differingBits(positions_[points_.front()], positions_[points_.back()]);
+  const double all = surfaceSpacing(occupancy_, side);
+  return all * std::sqrt(static_cast<double>(occupancy_.places()) / places) * space().stepLength();
+}
+
+/// Measured among a node's own points, whose places are some of those drawn there, evenly spread:
+/// discs shrink as the square root of their number grows.
+float KdSubtreeBuilder::splatRadius(
+  const std::vector<std::uint32_t>& own, double ownPlaces, double places)
 {
   const CpuStopwatch watch(seconds_.sample);
-  const double share = std::sqrt(static_cast<double>(own.size()) / drawn);
+  const double share = std::sqrt(ownPlaces / places);
   return static_cast<float>(splat_.measure(viewOf(positions_), own) * share);
 }
 
@@ -148,10 +158,12 @@ std::unique_ptr<BuiltNode> KdSubtreeBuilder::node(const RecordSpan& records, Reg
   const std::size_t count = region.end - region.begin;
   take(region, std::min<std::size_t>(count, rule_.nodePoints));
   const double drawn = static_cast<double>(held_.size()) + region.above;
-  built->row.spacing = static_cast<float>(spacing(drawn));
+  const double shown = places(drawn, region.above);
+  built->row.spacing = static_cast<float>(spacing(shown));
   const std::vector<std::uint32_t> own = std::move(held_);
   held_ = {};
-  built->row.splatRadius = splatRadius(own, drawn);
+  const double ownPlaces = places(static_cast<double>(own.size()), region.above);
+  built->row.splatRadius = splatRadius(own, ownPlaces, shown);
   if (region.end > region.begin)
   {
     const double left = static_cast<double>(region.end - region.begin);
@@ -291,13 +303,15 @@ OpenSubtree KdSubtreeBuilder::join(std::vector<OpenSubtree> children, std::uint3
   points_.resize(count);
   std::iota(points_.begin(), points_.end(), 0u);
   occupancy_ = cellOccupancy(viewOf(positions_), points_);
-  double drawn = static_cast<double>(count);
+  double above = 0.0;
   for (const KdShare& share : shares_[node])
   {
-    drawn += static_cast<double>(share.points);
+    above += static_cast<double>(share.points);
   }
-  joined.root->row.spacing = static_cast<float>(spacing(drawn));
-  joined.root->row.splatRadius = splatRadius(points_, drawn);
+  const auto ownPoints = static_cast<double>(count);
+  const double shown = places(ownPoints + above, above);
+  joined.root->row.spacing = static_cast<float>(spacing(shown));
+  joined.root->row.splatRadius = splatRadius(points_, places(ownPoints, above), shown);
   emit(*joined.root, records, points_);
   return joined;
 }

@@ -59,8 +59,9 @@ private:
   std::size_t divide(const Region& region);
   std::size_t separate(const Region& region, const std::pair<std::uint32_t, std::uint32_t>& first);
   unsigned longestAxis(const Region& region, std::uint32_t& low, std::uint32_t& high) const;
-  double spacing(double drawn) const;
-  float splatRadius(const std::vector<std::uint32_t>& own, double drawn);
+  double places(double drawn, double above) const;
+  double spacing(double places) const;
+  float splatRadius(const std::vector<std::uint32_t>& own, double ownPlaces, double places);
 
   KdRule rule_;
   const std::vector<PartNode>& tree_;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "pointfront/Trees/Sampler.h"
+
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -30,9 +32,19 @@ float mergedSplatRadius(const Branch& a, const Branch& b)
 /// GPU as much as a full one. A leaf without points of its own goes away.
 /// A branch has `node` (a BuiltNode) and `held`, numbers of records; those of leaves are numbers in
 /// one and the same array.
-template <typename Branch>
-void mergeLeaves(std::vector<Branch>& children, std::uint32_t nodePoints)
+/// Spacing   of a surface is sqrt(area / places), and areas add up. A leaf of one place has no
+/// area,
+///           so what grows out of a few places is measured again.
+/// `view(branch)`: the array of a leaf's points, which are in Morton order, as those of the
+/// children together are. `stepLength`: of a tree step.
+template <typename Branch, typename View>
+void mergeLeaves(
+  std::vector<Branch>& children, std::uint32_t nodePoints, const View& view, double stepLength)
 {
+  constexpr std::uint64_t fewPlaces = 8;
+  const auto places = [&](const Branch& b) { return placesOf(view(b), b.held); };
+  const auto area = [&](const Branch& b)
+  { return double(b.node->row.spacing) * b.node->row.spacing * double(places(b)); };
   std::vector<Branch> merged;
   std::size_t grown = SIZE_MAX; // the leaf in `merged` that takes in others
   for (Branch& child : children)
@@ -50,13 +62,13 @@ void mergeLeaves(std::vector<Branch>& children, std::uint32_t nodePoints)
       continue;
     }
     Branch& into = merged[grown];
-    // Spacing of a surface is sqrt(area / points), and areas add up.
-    const auto area = [](const Branch& b)
-    { return double(b.node->row.spacing) * b.node->row.spacing * double(b.held.size()); };
     const double all = area(into) + area(child);
     into.node->row.splatRadius = mergedSplatRadius(into, child);
     into.held.insert(into.held.end(), child.held.begin(), child.held.end());
-    into.node->row.spacing = static_cast<float>(std::sqrt(all / double(into.held.size())));
+    const std::uint64_t grownPlaces = places(into);
+    into.node->row.spacing = static_cast<float>(grownPlaces <= fewPlaces
+        ? surfaceSpacing(view(into), into.held) * stepLength
+        : std::sqrt(all / double(grownPlaces)));
   }
   children = std::move(merged);
 }

@@ -67,6 +67,16 @@ CellOccupancy cellOccupancy(const RecordSpan& records, const std::vector<std::ui
   return occupancyOf(stepsAt);
 }
 
+std::uint64_t placesOf(const RecordSpan& records, const std::vector<std::uint32_t>& points)
+{
+  std::uint64_t places = points.empty() ? 0 : 1;
+  for (std::size_t i = 1; i < points.size(); ++i)
+  {
+    places += records.position(points[i]) != records.position(points[i - 1]) ? 1u : 0u;
+  }
+  return places;
+}
+
 CellOccupancy cellOccupancy(const std::uint8_t* steps, std::size_t points)
 {
   if (points == 0)
@@ -235,15 +245,23 @@ void SubsetSampler::choose(const RecordSpan& records, const std::vector<std::uin
   }
 }
 
-double surfaceSpacing(const CellOccupancy& occupancy, std::uint64_t points, unsigned nodeLog2Side)
+double surfaceSpacing(const CellOccupancy& occupancy, unsigned nodeLog2Side)
 {
+  const std::uint64_t places = occupancy.places();
   unsigned level = 0;
-  while (level < nodeLog2Side && points < 4 * occupancy.distinct[level])
+  while (level < nodeLog2Side && places < 4 * occupancy.distinct[level])
   {
     ++level;
   }
   const double cells = static_cast<double>(occupancy.distinct[level]);
-  return std::ldexp(std::sqrt(cells / static_cast<double>(points)), static_cast<int>(level));
+  return std::ldexp(std::sqrt(cells / static_cast<double>(places)), static_cast<int>(level));
+}
+
+double surfaceSpacing(const RecordSpan& records, const std::vector<std::uint32_t>& points)
+{
+  const unsigned side =
+    differingBits(records.position(points.front()), records.position(points.back()));
+  return surfaceSpacing(cellOccupancy(records, points), side);
 }
 
 } // namespace pointfront

@@ -16,12 +16,16 @@ struct CellOccupancy
 {
   std::array<std::uint64_t, 33> distinct{};
 
+  /// Of the points; some may share one.
+  std::uint64_t places() const { return distinct[0]; }
   /// Adds points that come behind these; the last here and the first there differ in so many bits
   /// (differingBits()).
   void append(const CellOccupancy& others, unsigned between);
 };
 
 CellOccupancy cellOccupancy(const RecordSpan& records, const std::vector<std::uint32_t>& points);
+/// How many different places points in Morton order have.
+std::uint64_t placesOf(const RecordSpan& records, const std::vector<std::uint32_t>& points);
 /// The same from how many bits each point differs in from the one before (differingBits()), without
 /// asking where they are. That of the first is not looked at.
 CellOccupancy cellOccupancy(const std::uint8_t* steps, std::size_t points);
@@ -113,9 +117,11 @@ private:
 };
 
 /// Spacing between neighbours in tree steps of a set whose occupancy is known, taken as a
-/// surface: cells that hold four points or more on average are all hit, so their
-/// number is the covered area, and spacing = sqrt(area / points). Never more than the cell of
-/// 2^nodeLog2Side steps that holds them all.
-double surfaceSpacing(const CellOccupancy& occupancy, std::uint64_t points, unsigned nodeLog2Side);
+/// surface: cells that hold four places or more on average are all hit, so their
+/// number is the covered area, and spacing = sqrt(area / places). Never more than the cell of
+/// 2^nodeLog2Side steps that holds them all. Points that share a place count as one.
+double surfaceSpacing(const CellOccupancy& occupancy, unsigned nodeLog2Side);
+/// Of points in Morton order, in the smallest cell that holds them all.
+double surfaceSpacing(const RecordSpan& records, const std::vector<std::uint32_t>& points);
 
 } // namespace pointfront

@@ -79,16 +79,20 @@ SubtreeBuilder::Branch SubtreeBuilder::joinBranches(
     const CpuStopwatch watch(seconds_.sample);
     candidates_.clear();
     int coarsestBelow = -1;
+    float spacingBelow = 0.0f;
     for (const Branch& child : children)
     {
       candidates_.insert(candidates_.end(), child.held.begin(), child.held.end());
+      const bool inner = child.node->samplingQuarters >= 0;
       coarsestBelow = std::max(coarsestBelow, child.node->samplingQuarters);
+      spacingBelow = std::max(spacingBelow, inner ? child.node->row.spacing : 0.0f);
     }
-    const SamplingDistance distance = samplingDistance(
-      occupancyOf(points.positions, children), candidates_.size(), coarsestBelow, rule_);
+    const CellOccupancy occupancy = occupancyOf(points.positions, children);
+    const SamplingDistance distance =
+      samplingDistance(occupancy, candidates_.size(), coarsestBelow, rule_);
     joined.node->samplingQuarters = distance.quarters;
-    joined.node->row.spacing = static_cast<float>(space().stepLength() * distance.steps());
     sampler_.choose(points.positions, candidates_, distance, chosen_);
+    joined.node->row.spacing = std::max(spacingBelow, spacingOf(points, occupancy, distance));
     joined.held.reserve(chosen_.size());
     auto next = chosen_.begin();
     std::size_t first = 0; // of the child, among the candidates
@@ -109,13 +113,27 @@ SubtreeBuilder::Branch SubtreeBuilder::joinBranches(
     }
     joined.node->row.splatRadius = splat_.measure(points.positions, joined.held);
   }
-  mergeLeaves(children, rule_.nodePoints);
+  mergeLeaves(
+    children, rule_.nodePoints, [&](const Branch&) { return points.positions; },
+    space().stepLength());
   for (Branch& child : children)
   {
     emit(*child.node, points.records, child.held);
     joined.node->children.push_back(std::move(child.node));
   }
   return joined;
+}
+
+/// Of an inner node that chose chosen_ of candidates_: the distance that keeps them apart, and
+/// where a point of each place was chosen, that of the places, which may lie much further apart.
+float SubtreeBuilder::spacingOf(const SortedPoints& points, const CellOccupancy& occupancy,
+  const SamplingDistance& distance) const
+{
+  const double apart = distance.steps();
+  const double steps = chosen_.size() < occupancy.places()
+    ? apart
+    : std::max(apart, surfaceSpacing(points.positions, candidates_));
+  return static_cast<float>(space().stepLength() * steps);
 }
 
 /// Of all that the children hold; what a leaf holds was counted already.

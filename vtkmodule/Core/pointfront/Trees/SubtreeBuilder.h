@@ -63,6 +63,8 @@ private:
   Branch branch(const SortedPoints& points, std::uint32_t begin, std::uint32_t end);
   Branch leaf(const SortedPoints& points, std::uint32_t begin, std::uint32_t end, unsigned side);
   Branch joinBranches(const SortedPoints& points, std::vector<Branch> children);
+  float spacingOf(const SortedPoints& points, const CellOccupancy& occupancy,
+    const SamplingDistance& distance) const;
   static CellOccupancy occupancyOf(
     const RecordSpan& positions, const std::vector<Branch>& children);
   static OpenSubtree opened(const RecordSpan& records, Branch branch);

@@ -1,0 +1,461 @@
+"""A web server for tests: ranges, entity tags, and every kind of bad weather.
+
+usage: far_server.py FOLDER [--certificate PEM]
+
+Prints the port that it listens on; ends when its standard input ends. "/NAME" is the file of the
+folder. "/~WEATHER/NAME" is the same file in that weather (Weather below has the list), and
+"/~log" what was asked so far, as JSON. Query strings say nothing. `/~s3/BUCKET/KEY` checks
+signatures of version 4 (signature_v4.py).
+"""
+
+import argparse
+import email.utils
+import gzip
+import hashlib
+import http.server
+import json
+import os
+import pathlib
+import re
+import socket
+import ssl
+import struct
+import sys
+import threading
+import time
+import urllib.parse
+
+import signature_v4
+
+TOKEN = "a-token-of-the-tests"
+
+
+class Weather:
+    """How an answer is spoilt: the names of all functions here are weathers.
+
+    Each gets the handler, the file's bytes and the range [begin, end) that is asked for. `times`
+    counts the requests of one weather and file."""
+
+    @staticmethod
+    def reset(request, data, begin, end, times):
+        """The connection is reset in the middle of the body, each second time."""
+        if times % 2 == 1:
+            request.answer(data, begin, end, send=max(1, (end - begin) // 2), after="reset")
+        else:
+            request.answer(data, begin, end)
+
+    @staticmethod
+    def resets(request, data, begin, end, times):
+        """Always."""
+        request.answer(data, begin, end, send=(end - begin) // 2, after="reset")
+
+    @staticmethod
+    def storm(request, data, begin, end, times):
+        """503, twice of three times."""
+        if times % 3:
+            request.refuse(503)
+        else:
+            request.answer(data, begin, end)
+
+    @staticmethod
+    def storms(request, data, begin, end, times):
+        """Always 503."""
+        request.refuse(503)
+
+    @staticmethod
+    def busy(request, data, begin, end, times):
+        """429 with Retry-After, the first time."""
+        if times == 1:
+            request.refuse(429, {"Retry-After": "1"})
+        else:
+            request.answer(data, begin, end)
+
+    @staticmethod
+    def tomorrow(request, data, begin, end, times):
+        """503 that asks for a day of patience."""
+        request.refuse(503, {"Retry-After": "86400"})
+
+    @staticmethod
+    def stall(request, data, begin, end, times):
+        """The body stops in the middle, the first time."""
+        if times == 1:
+            request.answer(data, begin, end, send=(end - begin) // 2, after="stall")
+        else:
+            request.answer(data, begin, end)
+
+    @staticmethod
+    def stalls(request, data, begin, end, times):
+        """Always."""
+        request.answer(data, begin, end, send=(end - begin) // 2, after="stall")
+
+    @staticmethod
+    def short(request, data, begin, end, times):
+        """The body is shorter than the range that the answer names."""
+        request.answer(data, begin, end, body=data[begin:end - 1] if end > begin + 1 else b"")
+
+    @staticmethod
+    def long(request, data, begin, end, times):
+        """The body is longer than the range that the answer names."""
+        request.answer(data, begin, end, body=data[begin:end] + b"more")
+
+    @staticmethod
+    def elsewhere(request, data, begin, end, times):
+        """The answer names and has another range than was asked for."""
+        request.answer(data, begin + 1, min(end + 1, len(data)))
+
+    @staticmethod
+    def ranges_ignored(request, data, begin, end, times):
+        """200 with the whole file."""
+        request.answer(data, 0, len(data), status=200)
+
+    @staticmethod
+    def replaced(request, data, begin, end, times):
+        """Another file of the same length after two requests; If-Match is obeyed."""
+        request.answer(request.other(data, times > 2), begin, end, obey=True)
+
+    @staticmethod
+    def replaced_deaf(request, data, begin, end, times):
+        """Likewise; the server does not know If-Match."""
+        request.answer(request.other(data, times > 2), begin, end)
+
+    @staticmethod
+    def replaced_dated(request, data, begin, end, times):
+        """Likewise; the server has no entity tags, but dates."""
+        request.answer(request.other(data, times > 2), begin, end, tag=None,
+                       date=1e9 + (60 if times > 2 else 0))
+
+    @staticmethod
+    def replaced_longer(request, data, begin, end, times):
+        """A longer file after two requests; neither tags nor dates."""
+        changed = data + b"x" if times > 2 else data
+        request.answer(changed, begin, end, tag=None, date=None)
+
+    @staticmethod
+    def weak(request, data, begin, end, times):
+        """A weak entity tag, with which If-Match never matches."""
+        request.answer(data, begin, end, tag='W/"1"', obey=True)
+
+    @staticmethod
+    def nameless(request, data, begin, end, times):
+        """Neither tag nor date."""
+        request.answer(data, begin, end, tag=None, date=None)
+
+    @staticmethod
+    def expired(request, data, begin, end, times):
+        """403 after two requests: a signed address that has run out."""
+        if times > 2:
+            request.refuse(403)
+        else:
+            request.answer(data, begin, end)
+
+    @staticmethod
+    def circle(request, data, begin, end, times):
+        """A redirect to itself."""
+        request.redirect(request.path)
+
+    @staticmethod
+    def to_file(request, data, begin, end, times):
+        """A redirect to a file of the reader's machine."""
+        request.redirect("file://" + str(request.server.folder / request.file_name()))
+
+    @staticmethod
+    def to_private(request, data, begin, end, times):
+        """A redirect to an address of the reader's network."""
+        request.redirect(f"http://localhost:{request.server.server_port}/{request.file_name()}")
+
+    @staticmethod
+    def hop(request, data, begin, end, times):
+        """A redirect to the file itself."""
+        request.redirect("/" + request.file_name())
+
+    @staticmethod
+    def gzipped(request, data, begin, end, times):
+        """The body is compressed although nobody asked."""
+        request.answer(data, begin, end, body=gzip.compress(data[begin:end]),
+                       more={"Content-Encoding": "gzip"})
+
+    @staticmethod
+    def endless(request, data, begin, end, times):
+        """A body of no length that does not end."""
+        request.answer(data, begin, end, after="endless")
+
+    @staticmethod
+    def endless_whole(request, data, begin, end, times):
+        """Likewise, and ranges are ignored."""
+        request.answer(data, 0, len(data), status=200, after="endless")
+
+    @staticmethod
+    def lying(request, data, begin, end, times):
+        """The file is said to be as long as no file is."""
+        request.answer(data, begin, end, total="9223372036854775807999")
+
+    @staticmethod
+    def huge(request, data, begin, end, times):
+        """The file is said to be of 2^62 bytes, and each range of it is there."""
+        request.answer(data, begin, end, total=str(2 ** 62))
+
+    @staticmethod
+    def headers(request, data, begin, end, times):
+        """Headers of 100 MB."""
+        request.flood(100 << 20)
+
+    @staticmethod
+    def two(request, data, begin, end, times):
+        """503 while two other requests of the file are under way."""
+        if request.server.under_way > 2:
+            request.refuse(503)
+        else:
+            time.sleep(0.02)
+            request.answer(data, begin, end)
+
+    @staticmethod
+    def bearer(request, data, begin, end, times):
+        """401 without the token of the tests."""
+        if request.headers.get("Authorization") == "Bearer " + TOKEN:
+            request.answer(data, begin, end)
+        else:
+            request.refuse(401)
+
+    @staticmethod
+    def bearer_hop(request, data, begin, end, times):
+        """A redirect to another host, which must not be sent the token."""
+        request.redirect(f"http://localhost:{request.server.server_port}/{request.file_name()}")
+
+    @staticmethod
+    def forbidden(request, data, begin, end, times):
+        """403."""
+        request.refuse(403)
+
+    @staticmethod
+    def s3(request, data, begin, end, times):
+        """403 without a sound signature of the key of the tests."""
+        fault = signature_v4.fault_of(request.command, request.path, request.headers)
+        if fault is None:
+            request.answer(data, begin, end)
+        else:
+            request.server.faults.append(fault)
+            request.refuse(403)
+
+
+def wanted_range(header, size):
+    """[begin, end) of a Range header; None without one; False if it cannot be had."""
+    match = re.fullmatch(r"bytes=(\d*)-(\d*)", header or "")
+    if not match or match.groups() == ("", ""):
+        return None
+    first, last = match.groups()
+    if first == "":
+        return (max(0, size - int(last)), size) if int(last) and size else False
+    begin = int(first)
+    end = min(size, int(last) + 1) if last else size
+    return (begin, end) if begin < min(end, size) else False
+
+
+class Handler(http.server.BaseHTTPRequestHandler):
+    """One connection."""
+
+    protocol_version = "HTTP/1.1"
+
+    def setup(self):
+        super().setup()
+        self.connection.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, True)
+
+    def log_message(self, *_):  # pylint: disable=arguments-differ
+        pass
+
+    def file_name(self):
+        parts = urllib.parse.urlsplit(self.path).path.strip("/").split("/")
+        parts = parts[1:] if parts[0].startswith("~") else parts
+        return urllib.parse.unquote("/".join(parts))
+
+    def weather(self):
+        first = urllib.parse.urlsplit(self.path).path.strip("/").split("/")[0]
+        return first[1:].replace("-", "_") if first.startswith("~") else ""
+
+    def do_GET(self):  # pylint: disable=invalid-name
+        server = self.server
+        with server.lock:
+            server.under_way += 1
+        try:
+            self.serve()
+        except (BrokenPipeError, ConnectionResetError):
+            self.close_connection = True
+        finally:
+            with server.lock:
+                server.under_way -= 1
+
+    def serve(self):
+        if self.weather() == "log":
+            with self.server.lock:
+                text = json.dumps({"requests": self.server.requests,
+                                   "faults": self.server.faults}).encode()
+            self.answer(text, 0, len(text), status=200)
+            return
+        path = (self.server.folder / self.file_name()).resolve()
+        inside = self.server.folder in path.parents
+        key = (self.weather(), self.file_name())
+        with self.server.lock:
+            self.server.requests.append({
+                "path": self.path, "range": self.headers.get("Range"),
+                "host": self.headers.get("Host"), "agent": self.headers.get("User-Agent"),
+                "if_match": self.headers.get("If-Match"),
+                "encoding": self.headers.get("Accept-Encoding"),
+                "authorization": self.headers.get("Authorization") is not None})
+            times = self.server.times[key] = self.server.times.get(key, 0) + 1
+        if not inside or not path.is_file():
+            self.refuse(404)
+            return
+        data = path.read_bytes() if path.stat().st_size < (1 << 22) else FileBytes(path)
+        self.modified = path.stat().st_mtime
+        self.tag = f'"{path.stat().st_mtime_ns:x}-{len(data):x}"'
+        wanted = wanted_range(self.headers.get("Range"), len(data))
+        if wanted is False:
+            self.refuse(416, {"Content-Range": f"bytes */{len(data)}"})
+            return
+        begin, end = wanted or (0, len(data))
+        if self.weather():
+            getattr(Weather, self.weather())(self, data, begin, end, times)
+        else:
+            self.answer(data, begin, end, obey=True)
+
+    @staticmethod
+    def other(data, changed):
+        return bytes(byte ^ 1 for byte in data[0:len(data)]) if changed else data
+
+    def answer(self, data, begin, end, status=None, body=None, send=None, after="", tag="",
+               date=0.0, total="", more=None, obey=False):
+        """tag: "": the file's own; None: none. after: what comes once `send` bytes are sent."""
+        if tag == "":
+            tag = getattr(self, "tag", None)
+            if self.weather().startswith("replaced"):
+                tag = '"' + hashlib.md5(data[0:len(data)]).hexdigest() + '"'
+        condition = self.headers.get("If-Match")
+        if obey and condition and (condition != tag or condition.startswith("W/")):
+            self.refuse(412)
+            return
+        if status is None:
+            status = 206 if self.headers.get("Range") else 200
+        body = data[begin:end] if body is None else body
+        self.send_response(status)
+        if after == "endless":
+            self.close_connection = True
+            self.send_header("Connection", "close")
+        else:
+            self.send_header("Content-Length", str(len(body)))
+        if status == 206:
+            self.send_header("Content-Range", f"bytes {begin}-{end - 1}/{total or len(data)}")
+        self.send_header("Accept-Ranges", "bytes")
+        if tag:
+            self.send_header("ETag", tag)
+        if date is not None:
+            self.send_header("Last-Modified", email.utils.formatdate(
+                date or getattr(self, "modified", 1e9), usegmt=True))
+        for name, value in (more or {}).items():
+            self.send_header(name, value)
+        self.end_headers()
+        self.wfile.write(body if send is None else body[:send])
+        self.then(after)
+
+    def then(self, after):
+        if after == "reset":
+            self.wfile.flush()
+            time.sleep(0.05)
+            self.connection.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER,
+                                       struct.pack("ii", 1, 0))
+            self.close_connection = True
+        elif after == "stall":
+            self.server.ending.wait(60)
+            self.close_connection = True
+        elif after == "endless":
+            while not self.server.ending.is_set():
+                self.wfile.write(bytes(1 << 16))
+
+    def refuse(self, status, more=None):
+        text = b"the server refuses"
+        self.send_response(status)
+        self.send_header("Content-Length", str(len(text)))
+        for name, value in (more or {}).items():
+            self.send_header(name, value)
+        self.end_headers()
+        self.wfile.write(text)
+
+    def redirect(self, target):
+        self.send_response(302)
+        self.send_header("Location", target)
+        self.send_header("Content-Length", "0")
+        self.end_headers()
+
+    def flood(self, size):
+        self.wfile.write(b"HTTP/1.1 206 Partial Content\r\n")
+        line = b"X-Flood: " + b"f" * 1000 + b"\r\n"
+        for _ in range(size // len(line)):
+            self.wfile.write(line)
+        self.wfile.write(b"\r\n")
+        self.close_connection = True
+
+
+class FileBytes:
+    """A large file as bytes: only the slices that are asked for are read."""
+
+    def __init__(self, path):
+        self._file = open(path, "rb")  # pylint: disable=consider-using-with
+        self._size = os.fstat(self._file.fileno()).st_size
+
+    def __len__(self):
+        return self._size
+
+    def __getitem__(self, part):
+        begin, end, _ = part.indices(self._size)
+        return os.pread(self._file.fileno(), max(0, end - begin), begin)
+
+    def __del__(self):
+        self._file.close()
+
+
+class FarServer(http.server.ThreadingHTTPServer):
+    """`with FarServer(folder) as server: server.port, server.requests`."""
+
+    daemon_threads = True
+    request_queue_size = 128
+
+    def __init__(self, folder, certificate=None):
+        super().__init__(("127.0.0.1", 0), Handler)
+        if certificate:
+            context = ssl.SSLContext(ssl.PROTOCOL_TLS_SERVER)
+            context.load_cert_chain(certificate)
+            self.socket = context.wrap_socket(self.socket, server_side=True)
+        self.folder = pathlib.Path(folder).resolve()
+        self.lock = threading.Lock()
+        self.ending = threading.Event()
+        self.requests = []
+        self.faults = []
+        self.times = {}
+        self.under_way = 0
+        self.port = self.server_port
+        self._thread = threading.Thread(target=self.serve_forever, args=(0.05,), daemon=True)
+
+    def handle_error(self, request, client_address):
+        """A client that went away is no news."""
+
+    def __enter__(self):
+        self._thread.start()
+        return self
+
+    def __exit__(self, *_):
+        self.ending.set()
+        self.shutdown()
+        self._thread.join()
+        self.server_close()
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("folder")
+    parser.add_argument("--certificate")
+    options = parser.parse_args()
+    with FarServer(options.folder, options.certificate) as server:
+        print(server.port, flush=True)
+        sys.stdin.read()
+
+
+if __name__ == "__main__":
+    main()

@@ -18,6 +18,7 @@
 #include "LeftOut.h"
 
 #include "pointfront/Base/NearestName.h"
+#include "pointfront/Disk/ByteOpeners.h"
 
 #include <cerrno>
 #include <cstdio>
@@ -150,8 +151,21 @@ std::string Program::usageText(const std::string& command, const CLI::ParseError
   return text.size() > longest ? text.substr(0, longest) + "..." : text;
 }
 
-int Program::run(int argc, char** argv)
+int Program::run(int argc, char** words)
 {
+  // No command sees what is secret in an address, so that none can tell it.
+  std::vector<std::string> named;
+  for (int i = 0; i < argc; ++i)
+  {
+    named.push_back(publicForm(words[i]));
+  }
+  std::vector<char*> pointers;
+  for (std::string& word : named)
+  {
+    pointers.push_back(word.data());
+  }
+  pointers.push_back(nullptr);
+  char** const argv = pointers.data();
   if (argc == 2 && std::strcmp(argv[1], "--help-man") == 0)
   {
     const std::string page = manPage(app_, POINTFRONT_VERSION);

@@ -8,6 +8,7 @@
 #include "StoreInfo.h"
 #include "Values.h"
 
+#include "pointfront/Disk/ByteOpeners.h"
 #include "pointfront/Query/StoredPoints.h"
 #include "pointfront/Tiles/StoredCloudFormats.h"
 
@@ -156,7 +157,7 @@ Result<void> InfoCommand::run()
 Result<void> InfoCommand::tell(
   const std::string& path, const PointFileOpener& opener, nlohmann::ordered_json& reports) const
 {
-  const bool store = SourceFormats::isStore(path) || namedLikeStore(path);
+  const bool store = isAddress(path) || SourceFormats::isStore(path) || namedLikeStore(path);
   return store ? tellStore(path, reports) : tellSource(path, opener, reports);
 }
 

@@ -1,5 +1,7 @@
 #include "InputFiles.h"
 
+#include "pointfront/Disk/ByteOpeners.h"
+
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
@@ -143,6 +145,10 @@ Result<std::vector<std::string>> filesMatching(const std::string& pattern, const
 
 Result<std::vector<std::string>> expand(const std::string& argument, const FolderRule& rule)
 {
+  if (isAddress(argument))
+  {
+    return std::vector<std::string>{ argument }; // servers list nothing
+  }
   std::error_code failure;
   const fs::file_status status = fs::status(argument, failure);
   if (fs::is_directory(status))

@@ -18,6 +18,9 @@ std::vector<LeftOutFamily> leftOutFamilies()
 #ifndef POINTFRONT_WITH_IMAGE_COLOR
   families.push_back({ "images", "POINTFRONT_IMAGE_COLOR" });
 #endif
+#ifndef POINTFRONT_WITH_REMOTE
+  families.push_back({ "clouds behind addresses", "POINTFRONT_REMOTE" });
+#endif
   return families;
 }
 

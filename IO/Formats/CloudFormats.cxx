@@ -7,6 +7,10 @@
 #include "LAZGlance.h"
 #include "NormalsOnLoad.h"
 
+#ifdef POINTFRONT_REMOTE
+#include "RemoteOpener.h"
+#endif
+
 #include "pointfront/Tiles/StoredCloudFormats.h"
 
 #include <memory>
@@ -17,6 +21,9 @@ namespace pointfront
 
 void addCloudFormats()
 {
+#ifdef POINTFRONT_REMOTE
+  addRemoteOpeners();
+#endif
   StoredCloudFormats& formats = StoredCloudFormats::ofProcess();
   formats.add(withNormalsOnLoad(std::make_shared<LASIndexFormat>()));
   formats.add(withNormalsOnLoad(std::make_shared<COPCFormat>()));

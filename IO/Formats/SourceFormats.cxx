@@ -8,11 +8,15 @@
 #include "StoreInputFormat.h"
 #include "TextFormat.h"
 
+#include "pointfront/Disk/ByteOpeners.h"
+#include "pointfront/Query/StoredPoints.h"
 #include "pointfront/Store/PointStore.h"
+#include "pointfront/Tiles/StoredCloudFormats.h"
 
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <utility>
 
 namespace pointfront
 {
@@ -83,6 +87,12 @@ const PointSourceFormat* SourceFormats::named(const std::string& path) const
 
 Result<std::unique_ptr<PointSource>> SourceFormats::open(const std::string& path) const
 {
+  if (isAddress(path))
+  {
+    // Read as it is drawn: piece by piece, never as a whole file.
+    Result<std::shared_ptr<const StoredCloud>> cloud = StoredCloudFormats::ofProcess().open(path);
+    return cloud ? StoredPoints::open(std::move(*cloud)) : cloud.error();
+  }
   std::error_code failure;
   if (!std::filesystem::exists(path, failure))
   {

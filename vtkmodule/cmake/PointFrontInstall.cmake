@@ -7,8 +7,8 @@ include(PointFrontPublicHeaders)
 pointfront_install_headers()
 set(pointfront_kernel_libraries pointfrontCore pointfrontSourceFormats pointfrontAttributePasses
   pointfrontSoftware)
-foreach (library IN ITEMS IOEPT IOLAS IOPCD IOPLY IOPNG IOStyleJSON IOText FiltersAttributes
-    FiltersNormals FiltersProjection)
+foreach (library IN ITEMS IOEPT IOLAS IOPCD IOPLY IOPNG IORemote IOStyleJSON IOText
+    FiltersAttributes FiltersNormals FiltersProjection)
   if (TARGET pointfront${library}) # not left out of this build
     list(APPEND pointfront_kernel_libraries pointfront${library})
   endif ()

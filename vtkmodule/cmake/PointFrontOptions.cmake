@@ -16,6 +16,7 @@ option(POINTFRONT_WHEEL "Lay everything out as one Python package, as pip instal
 option(POINTFRONT_NORMALS "Normals and radii of splats, through FLANN and Eigen" ON)
 option(POINTFRONT_PROJECTION "Coordinate reference systems, through PROJ" ON)
 option(POINTFRONT_IMAGE_COLOR "Colours and values from images, through OpenImageIO" ON)
+option(POINTFRONT_REMOTE "Clouds behind addresses (http, https, s3), through libcurl" ON)
 set(pointfront_pcl_by_default ON)
 if (POINTFRONT_HOST STREQUAL "NONE" OR POINTFRONT_WHEEL) # Debian's PCL brings VTK along
   set(pointfront_pcl_by_default OFF)

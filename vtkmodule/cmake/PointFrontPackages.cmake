@@ -7,6 +7,9 @@ find_package(nlohmann_json REQUIRED)
 find_package(CLI11 CONFIG REQUIRED)
 find_package(LASzip REQUIRED)                # LASzip::LASzip
 find_package(PNG REQUIRED)                   # PNG::PNG
+if (POINTFRONT_REMOTE)
+  find_package(CURL 7.85 REQUIRED)             # CURL::libcurl
+endif ()
 if (POINTFRONT_PROJECTION)
   find_package(PROJ CONFIG REQUIRED)           # PROJ::proj
 endif ()

@@ -65,6 +65,14 @@ std::string schemeOf(std::string_view path)
   return scheme;
 }
 
+std::string publicForm(const std::string& path)
+{
+  const std::string scheme = schemeOf(path);
+  const std::shared_ptr<const ByteOpener> opener =
+    scheme.empty() ? nullptr : ByteOpeners::ofProcess().find(scheme);
+  return opener ? opener->publicForm(path) : path;
+}
+
 std::string beside(const std::string& path, const std::string& name)
 {
   if (isAddress(name) || (!name.empty() && name.front() == '/'))

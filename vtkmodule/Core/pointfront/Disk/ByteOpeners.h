@@ -16,6 +16,9 @@ class ByteOpener
 {
 public:
   virtual ~ByteOpener() = default;
+  /// The public form of an address: without what is secret in it. This process opens it as it opens
+  /// the address.
+  virtual std::string publicForm(const std::string& address) const { return address; }
   /// By the address as the user wrote it, or its public form. A source that somebody holds open is
   /// the same for all who open its address.
   /// Errors  those of ByteSource.
@@ -50,6 +53,11 @@ inline bool isAddress(std::string_view path)
 {
   return !schemeOf(path).empty();
 }
+
+/// A path as it is; the public form of an address, under which this process knows it from now on.
+/// Whoever takes names from users passes them on in this form: no secret then reaches a message, a
+/// file or a picture.
+std::string publicForm(const std::string& path);
 
 /// The address or path of what lies beside `path`, or below its folder: "a/b/ept.json" and
 /// "ept-data/0-0-0-0.laz" give "a/b/ept-data/0-0-0-0.laz". An address keeps its query. `name` may

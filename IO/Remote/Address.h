@@ -1,0 +1,38 @@
+#pragma once
+
+#include "pointfront/Base/Result.h"
+
+#include <string>
+#include <string_view>
+
+namespace pointfront
+{
+
+/// The parts of an address: "https://user:password@host:port/path?query".
+struct Address
+{
+  std::string scheme; ///< in small letters
+  std::string userInfo; ///< secret
+  std::string host; ///< with the port, if one is named
+  std::string path; ///< begins with '/', as it was written
+  std::string query; ///< without '?'; may be secret (signed addresses)
+
+  /// Errors  BadArgument, without the address's secret parts: no host, control characters.
+  static Result<Address> parse(std::string_view text);
+
+  /// All of it, for the request. The fragment ("#...") of what was parsed is gone.
+  std::string text() const;
+  /// Without what may be secret: user and password are left out, a query is replaced by a short
+  /// hash, so that addresses that differ in it stay different. For messages, and as the name of the
+  /// cloud in this process.
+  std::string publicForm() const;
+  /// Requests to the same origin may carry the same secrets.
+  std::string origin() const { return scheme + "://" + host; }
+};
+
+/// Notes an address, so that addressOf() finds it by its public form. Returns the latter.
+std::string rememberAddress(const Address& address);
+/// The full address behind a public form that this process has remembered, or the text itself.
+std::string addressOf(const std::string& text);
+
+} // namespace pointfront

@@ -1,0 +1,104 @@
+#pragma once
+
+#include "RemoteOptions.h"
+
+#include "pointfront/Base/Result.h"
+
+#include <atomic>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pointfront
+{
+
+/// What must not change while a far file is open.
+struct RemoteIdentity
+{
+  std::string tag; ///< ETag, as the server writes it; empty: it gives none
+  std::string changed; ///< Last-Modified
+  std::uint64_t bytes = 0;
+};
+
+/// Bytes of a far file that are wanted, and what has come of them.
+struct WantedBytes
+{
+  std::uint64_t offset = 0; ///< of the first; of a tail it is known afterwards
+  std::uint64_t size = 0; ///< of a tail that is longer than the file: cut down afterwards
+  bool tail = false; ///< the last `size` bytes
+  std::vector<std::byte> bytes;
+  bool complete = false;
+  bool whole = false; ///< the server gave the whole file instead
+};
+
+/// Asks the server of a file for parts of it, again where that may help, and follows redirections.
+/// It lets no byte pass that may be another file's.
+/// Secrets   headers and signatures go to the origin of the request alone, never to one that it is
+///           redirected to.
+/// Threads   all functions from any thread.
+class Conversation
+{
+public:
+  Conversation(std::string name, Request request, const RemoteOptions& options)
+    : name_(std::move(name))
+    , request_(std::move(request))
+    , options_(options)
+  {
+  }
+
+  /// All parts, or an error. Without a known identity, that of the first answer is taken.
+  Result<void> fetch(std::vector<WantedBytes>& wanted, std::optional<RemoteIdentity>& identity,
+    const std::atomic<bool>& cancelled) const;
+  /// The line of the TransferLoop.
+  std::string line() const { return request_.address.origin(); }
+  const std::string& name() const { return name_; }
+
+private:
+  /// Of one answer.
+  enum class Verdict
+  {
+    Good, ///< something has come
+    Again, ///< try again, after a pause
+    Redirected ///< try again at once
+  };
+  /// Of one question for each part that is missing.
+  struct Round
+  {
+    bool news = false; ///< something has come
+    bool again = false; ///< something did not, and may later
+    std::chrono::milliseconds askedPause{ 0 }; ///< by the server
+    std::string reason;
+  };
+  Result<Round> ask(const std::vector<WantedBytes*>& missing,
+    std::optional<RemoteIdentity>& identity, std::chrono::steady_clock::time_point deadline,
+    const std::atomic<bool>& cancelled) const;
+  HttpQuestion questionFor(
+    const WantedBytes& wanted, const std::optional<RemoteIdentity>& identity) const;
+  Result<Verdict> judge(
+    HttpAnswer& answer, WantedBytes& wanted, std::optional<RemoteIdentity>& identity) const;
+  Result<Verdict> judgeStatus(
+    HttpAnswer& answer, WantedBytes& wanted, std::optional<RemoteIdentity>& identity) const;
+  Result<Verdict> takePart(
+    HttpAnswer& answer, WantedBytes& wanted, std::optional<RemoteIdentity>& identity) const;
+  Result<Verdict> takeWhole(
+    HttpAnswer& answer, WantedBytes& wanted, std::optional<RemoteIdentity>& identity) const;
+  Result<void> compare(
+    const HttpAnswer& answer, std::uint64_t bytes, std::optional<RemoteIdentity>& identity) const;
+  Result<Verdict> redirect(const HttpAnswer& answer) const;
+  Error changed() const;
+  Error refused(long status) const;
+  Error failed(Error::Kind kind, const std::string& what) const;
+
+  const std::string name_;
+  const Request request_;
+  const RemoteOptions options_;
+  mutable std::mutex mutex_; ///< of what follows
+  mutable std::optional<Address> elsewhere_; ///< where the address was redirected to
+  mutable unsigned redirects_ = 0; ///< one after another
+};
+
+} // namespace pointfront

@@ -1,0 +1,238 @@
+#include "RemoteOptions.h"
+
+#include "pointfront/Disk/SmallFile.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <map>
+#include <sstream>
+#include <utility>
+
+namespace pointfront
+{
+namespace
+{
+constexpr std::uint64_t mostSettingsBytes = std::uint64_t(1) << 20;
+
+std::string setting(const char* name)
+{
+  const char* const value = std::getenv(name);
+  return value != nullptr ? value : "";
+}
+
+std::string firstOf(std::initializer_list<const char*> names)
+{
+  for (const char* name : names)
+  {
+    if (std::string value = setting(name); !value.empty())
+    {
+      return value;
+    }
+  }
+  return {};
+}
+
+std::string trimmed(const std::string& text)
+{
+  const std::size_t first = text.find_first_not_of(" \t\r");
+  const std::size_t last = text.find_last_not_of(" \t\r");
+  return first == std::string::npos ? std::string() : text.substr(first, last - first + 1);
+}
+
+/// The lines of one "[section]" of a file.
+Result<std::vector<std::string>> sectionOf(const std::string& path, const std::string& section)
+{
+  const Result<std::string> text = readSmallText(path, mostSettingsBytes);
+  if (!text)
+  {
+    return text.error();
+  }
+  std::vector<std::string> lines;
+  bool inside = false;
+  std::istringstream in(*text);
+  for (std::string line; std::getline(in, line);)
+  {
+    line = trimmed(line);
+    if (line.empty() || line.front() == '#' || line.front() == ';')
+    {
+      continue;
+    }
+    if (line.front() == '[')
+    {
+      inside = line == "[" + section + "]";
+    }
+    else if (inside)
+    {
+      lines.push_back(line);
+    }
+  }
+  return lines;
+}
+
+/// "name = value" lines as a map.
+std::map<std::string, std::string> valuesOf(const std::vector<std::string>& lines)
+{
+  std::map<std::string, std::string> values;
+  for (const std::string& line : lines)
+  {
+    const std::size_t equals = line.find('=');
+    if (equals != std::string::npos)
+    {
+      values[trimmed(line.substr(0, equals))] = trimmed(line.substr(equals + 1));
+    }
+  }
+  return values;
+}
+
+/// Keys of an object store, and where it is.
+struct StoreAccess
+{
+  std::string endpoint;
+  std::string region;
+  std::string key;
+  std::string secret;
+  std::string token;
+};
+
+Result<StoreAccess> storeAccess()
+{
+  StoreAccess access;
+  access.endpoint = firstOf({ "AWS_ENDPOINT_URL_S3", "AWS_ENDPOINT_URL" });
+  access.region = firstOf({ "AWS_REGION", "AWS_DEFAULT_REGION" });
+  access.key = setting("AWS_ACCESS_KEY_ID");
+  access.secret = setting("AWS_SECRET_ACCESS_KEY");
+  access.token = setting("AWS_SESSION_TOKEN");
+  const std::string home = setting("HOME");
+  const std::string named = setting("AWS_PROFILE");
+  const std::string profile = named.empty() ? "default" : named;
+  const auto read = [&](const std::string& file, const std::string& section,
+                      bool must) -> Result<std::map<std::string, std::string>>
+  {
+    const Result<std::vector<std::string>> lines = sectionOf(file, section);
+    if (!lines)
+    {
+      return must ? Result<std::map<std::string, std::string>>(lines.error())
+                  : std::map<std::string, std::string>();
+    }
+    return valuesOf(*lines);
+  };
+  if (access.key.empty())
+  {
+    const std::string file = setting("AWS_SHARED_CREDENTIALS_FILE");
+    const auto keys =
+      read(file.empty() ? home + "/.aws/credentials" : file, profile, !file.empty());
+    if (!keys)
+    {
+      return keys.error();
+    }
+    const auto value = [&](const char* name)
+    {
+      const auto found = keys->find(name);
+      return found != keys->end() ? found->second : std::string();
+    };
+    access.key = value("aws_access_key_id");
+    access.secret = value("aws_secret_access_key");
+    access.token = value("aws_session_token");
+    access.region = access.region.empty() ? value("region") : access.region;
+  }
+  if (access.region.empty())
+  {
+    const std::string file = setting("AWS_CONFIG_FILE");
+    const auto values = read(file.empty() ? home + "/.aws/config" : file,
+      profile == "default" ? profile : "profile " + profile, false);
+    const auto found = values->find("region");
+    access.region = found != values->end() ? found->second : "us-east-1";
+  }
+  if (const std::string no = setting("AWS_NO_SIGN_REQUEST"); !no.empty() && no != "NO" && no != "0")
+  {
+    access.key.clear();
+  }
+  return access;
+}
+
+Result<Request> storeRequest(const Address& address)
+{
+  const Result<StoreAccess> access = storeAccess();
+  if (!access)
+  {
+    return access.error();
+  }
+  const std::string& bucket = address.host;
+  std::string url;
+  if (!access->endpoint.empty())
+  {
+    std::string endpoint = access->endpoint;
+    endpoint.erase(endpoint.find_last_not_of('/') + 1);
+    url = endpoint + "/" + bucket + address.path;
+  }
+  else if (bucket.find('.') != std::string::npos) // no certificate covers such a host
+  {
+    url = "https://s3." + access->region + ".amazonaws.com/" + bucket + address.path;
+  }
+  else
+  {
+    url = "https://" + bucket + ".s3." + access->region + ".amazonaws.com" + address.path;
+  }
+  const Result<Address> place = Address::parse(url);
+  if (!place || (place->scheme != "http" && place->scheme != "https"))
+  {
+    return makeError(
+      Error::Kind::BadArgument, "AWS_ENDPOINT_URL is no address of a server; write https://host");
+  }
+  Request request;
+  request.address = *place;
+  request.address.query = address.query;
+  if (!access->key.empty())
+  {
+    request.signature = Signature{ access->region, access->key, access->secret };
+    request.headers.push_back("x-amz-content-sha256: UNSIGNED-PAYLOAD");
+    if (!access->token.empty())
+    {
+      request.headers.push_back("x-amz-security-token: " + access->token);
+    }
+  }
+  if (const std::string payer = setting("AWS_REQUEST_PAYER"); !payer.empty())
+  {
+    request.headers.push_back("x-amz-request-payer: " + payer);
+  }
+  return request;
+}
+} // namespace
+
+RemoteOptions RemoteOptions::ofEnvironment()
+{
+  RemoteOptions options;
+  if (const std::string text = setting("POINTFRONT_REMOTE_TIMEOUT"); !text.empty())
+  {
+    const double seconds = std::strtod(text.c_str(), nullptr);
+    if (seconds > 0.0 && seconds < 1e6)
+    {
+      options.timeLimit = std::chrono::milliseconds(static_cast<long>(1000.0 * seconds));
+    }
+  }
+  options.refusePrivate = setting("POINTFRONT_REMOTE_PRIVATE") == "refuse";
+  return options;
+}
+
+Result<Request> requestOf(const Address& address)
+{
+  if (address.scheme == "s3")
+  {
+    return storeRequest(address);
+  }
+  Request request;
+  request.address = address;
+  const std::string file = setting("POINTFRONT_HTTP_HEADERS");
+  if (!file.empty())
+  {
+    Result<std::vector<std::string>> lines = sectionOf(file, address.origin());
+    if (!lines)
+    {
+      return lines.error();
+    }
+    request.headers = std::move(*lines);
+  }
+  return request;
+}
+
+} // namespace pointfront

@@ -1,0 +1,50 @@
+#pragma once
+
+#include "Address.h"
+#include "HttpTransfer.h"
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace pointfront
+{
+
+/// How a process reads from servers.
+struct RemoteOptions
+{
+  std::chrono::milliseconds timeLimit{ 60000 }; ///< of one read, with all its retries
+  unsigned retries = 12; ///< of a request
+  std::chrono::milliseconds firstPause{ 100 }; ///< before a retry; it doubles, and is jittered
+  unsigned redirects = 8;
+  /// Refuse servers on this machine and in its network: for services that open what users name.
+  bool refusePrivate = false;
+  /// Servers that know no ranges are read whole up to this size.
+  std::uint64_t wholeAtMost = std::uint64_t(64) << 20;
+
+  /// The defaults, with what the environment says: POINTFRONT_REMOTE_TIMEOUT (seconds),
+  /// POINTFRONT_REMOTE_PRIVATE=refuse.
+  static RemoteOptions ofEnvironment();
+};
+
+/// How an address is asked for: with which further headers, and how it is signed.
+struct Request
+{
+  Address address; ///< http or https
+  std::vector<std::string> headers; ///< secret; for address.origin() alone
+  std::optional<Signature> signature; ///< for address.origin() alone
+};
+
+/// The request of an address of any scheme.
+/// http, https  user and password of the address; the lines "Name: value" of the file that
+///              POINTFRONT_HTTP_HEADERS names, below a line "[https://host]" each, for that origin.
+/// s3           "s3://bucket/key", with region, endpoint and keys of the environment (AWS_REGION,
+///              AWS_ENDPOINT_URL, AWS_ACCESS_KEY_ID, AWS_SECRET_ACCESS_KEY, AWS_SESSION_TOKEN,
+///              AWS_REQUEST_PAYER) or of the profile AWS_PROFILE in the credentials file. Without
+///              keys, or with AWS_NO_SIGN_REQUEST, the request is anonymous.
+/// Errors       BadArgument; Unreadable: a file of headers or keys that is named and cannot be
+/// read.
+Result<Request> requestOf(const Address& address);
+
+} // namespace pointfront

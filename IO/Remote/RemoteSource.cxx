@@ -1,0 +1,243 @@
+#include "RemoteSource.h"
+
+#include "TransferLoop.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cstring>
+#include <functional>
+#include <utility>
+
+namespace pointfront
+{
+namespace
+{
+constexpr std::uint64_t leastHead = 4096;
+constexpr std::uint64_t smallRead = 4096; ///< up to here a read brings its whole block
+constexpr std::uint64_t blockBytes = 16384;
+constexpr std::size_t mostBlocks = 256;
+constexpr std::uint64_t largestPiece = std::uint64_t(4) << 20;
+constexpr double leastGap = 4096.0;
+constexpr double largestGap = 262144.0;
+
+/// Bytes that may lie between two ranges of one request: as many as come in the time that one more
+/// request costs beside others.
+std::uint64_t gapOf(const ReadCost& cost)
+{
+  const double bytes = static_cast<double>(cost.bytesAtOnce) / std::max(1u, cost.readsAtOnce);
+  return static_cast<std::uint64_t>(std::clamp(bytes, leastGap, largestGap));
+}
+
+struct Interval
+{
+  std::uint64_t first = 0;
+  std::uint64_t end = 0;
+};
+
+Interval neededFor(const ByteRange& range, std::uint64_t fileBytes)
+{
+  Interval needed{ range.offset, range.offset + range.size };
+  if (range.size <= smallRead)
+  {
+    needed.first = needed.first / blockBytes * blockBytes;
+    needed.end = (needed.end + blockBytes - 1) / blockBytes * blockBytes;
+  }
+  needed.end = std::min(needed.end, fileBytes);
+  return needed;
+}
+
+/// Requests that cover all intervals.
+std::vector<WantedBytes> requestsFor(std::vector<Interval> needed, std::uint64_t gap)
+{
+  std::sort(needed.begin(), needed.end(),
+    [](const Interval& a, const Interval& b) { return a.first < b.first; });
+  std::vector<Interval> merged;
+  for (const Interval& one : needed)
+  {
+    if (!merged.empty() && one.first <= merged.back().end + gap)
+    {
+      merged.back().end = std::max(merged.back().end, one.end);
+    }
+    else
+    {
+      merged.push_back(one);
+    }
+  }
+  std::vector<WantedBytes> requests;
+  for (const Interval& one : merged)
+  {
+    const std::uint64_t size = one.end - one.first;
+    const std::uint64_t parts = (size + largestPiece - 1) / largestPiece;
+    for (std::uint64_t part = 0; part < parts; ++part)
+    {
+      WantedBytes wanted;
+      wanted.offset = one.first + size * part / parts;
+      wanted.size = one.first + size * (part + 1) / parts - wanted.offset;
+      requests.push_back(std::move(wanted));
+    }
+  }
+  return requests;
+}
+
+/// Copies what of [first, first + size) lies in the piece; `target` is for `first`.
+void copyFrom(const WantedBytes& piece, std::uint64_t first, std::uint64_t size, std::byte* target)
+{
+  const std::uint64_t begin = std::max(first, piece.offset);
+  const std::uint64_t end = std::min(first + size, piece.offset + piece.bytes.size());
+  if (begin < end)
+  {
+    std::memcpy(target + (begin - first), piece.bytes.data() + (begin - piece.offset),
+      static_cast<std::size_t>(end - begin));
+  }
+}
+} // namespace
+
+RemoteSource::RemoteSource(
+  std::unique_ptr<const Conversation> conversation, RemoteIdentity identity)
+  : ByteSource(conversation->name(), identity.bytes)
+  , conversation_(std::move(conversation))
+  , identity_(std::move(identity))
+{
+}
+
+std::uint64_t RemoteSource::device() const
+{
+  // No number of a file system has its highest bit.
+  return std::hash<std::string>{}(conversation_->line()) | (std::uint64_t(1) << 63);
+}
+
+ReadCost RemoteSource::cost() const
+{
+  return TransferLoop::ofProcess().cost(conversation_->line());
+}
+
+Result<std::shared_ptr<const RemoteSource>> RemoteSource::open(
+  std::unique_ptr<const Conversation> conversation, const FirstBytes& first)
+{
+  std::vector<WantedBytes> ends(first.tail > 0 ? 2 : 1);
+  ends[0].size = std::max<std::uint64_t>(first.head, leastHead);
+  if (first.tail > 0)
+  {
+    ends[1].size = first.tail;
+    ends[1].tail = true;
+  }
+  std::optional<RemoteIdentity> identity;
+  const std::atomic<bool> cancelled{ false };
+  if (Result<void> done = conversation->fetch(ends, identity, cancelled); !done)
+  {
+    return done.error();
+  }
+  std::shared_ptr<RemoteSource> source(
+    new RemoteSource(std::move(conversation), std::move(*identity)));
+  source->ends_ = std::move(ends);
+  return std::shared_ptr<const RemoteSource>(std::move(source));
+}
+
+/// From the ends of the file, or from a block of an earlier small read.
+bool RemoteSource::takeHeld(const ByteRange& range) const
+{
+  for (const WantedBytes& end : ends_)
+  {
+    if (range.offset >= end.offset && range.offset + range.size <= end.offset + end.bytes.size())
+    {
+      copyFrom(end, range.offset, range.size, range.target);
+      return true;
+    }
+  }
+  if (range.size > smallRead)
+  {
+    return false;
+  }
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const Interval needed = neededFor(range, bytes());
+  for (std::uint64_t at = needed.first; at < needed.end; at += blockBytes)
+  {
+    if (blocks_.count(at) == 0)
+    {
+      return false;
+    }
+  }
+  for (std::uint64_t at = needed.first; at < needed.end; at += blockBytes)
+  {
+    copyFrom(blocks_.at(at), range.offset, range.size, range.target);
+  }
+  return true;
+}
+
+/// Blocks of small reads are kept: what is asked for next often lies beside.
+void RemoteSource::keepBlocks(const WantedBytes& piece, const Interval64& needed) const
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  for (std::uint64_t at = needed.first; at < needed.second; at += blockBytes)
+  {
+    const std::uint64_t end = std::min(at + blockBytes, bytes());
+    if (at < piece.offset || end > piece.offset + piece.bytes.size() || blocks_.count(at) > 0)
+    {
+      continue;
+    }
+    WantedBytes block;
+    block.offset = at;
+    block.size = end - at;
+    block.bytes.resize(static_cast<std::size_t>(block.size));
+    copyFrom(piece, at, block.size, block.bytes.data());
+    blocks_.emplace(at, std::move(block));
+    order_.push_back(at);
+    if (order_.size() > mostBlocks)
+    {
+      blocks_.erase(order_.front());
+      order_.erase(order_.begin());
+    }
+  }
+}
+
+Result<void> RemoteSource::read(const ByteRange* ranges, std::size_t count) const
+{
+  std::vector<const ByteRange*> missing;
+  std::vector<Interval> needed;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const ByteRange& range = ranges[i];
+    if (range.offset > bytes() || range.size > bytes() - range.offset)
+    {
+      return makeError(Error::Kind::Truncated,
+        "'" + path() + "' ends at byte " + std::to_string(bytes()) + ", before byte " +
+          std::to_string(range.offset + range.size) + " that it should have");
+    }
+    if (range.size > 0 && !takeHeld(range))
+    {
+      missing.push_back(&range);
+      needed.push_back(neededFor(range, bytes()));
+    }
+  }
+  if (missing.empty())
+  {
+    return {};
+  }
+  if (changed_)
+  {
+    return makeError(Error::Kind::Unreadable,
+      "'" + path() + "' has changed on its server while it was open; open it again");
+  }
+  std::vector<WantedBytes> pieces = requestsFor(needed, gapOf(cost()));
+  std::optional<RemoteIdentity> identity = identity_;
+  const std::atomic<bool> cancelled{ false };
+  if (Result<void> done = conversation_->fetch(pieces, identity, cancelled); !done)
+  {
+    changed_ = changed_ || done.error().what.find("has changed on its server") != std::string::npos;
+    return done;
+  }
+  for (std::size_t i = 0; i < missing.size(); ++i)
+  {
+    for (const WantedBytes& piece : pieces)
+    {
+      copyFrom(piece, missing[i]->offset, missing[i]->size, missing[i]->target);
+      if (missing[i]->size <= smallRead)
+      {
+        keepBlocks(piece, { needed[i].first, needed[i].end });
+      }
+    }
+  }
+  return {};
+}
+
+} // namespace pointfront

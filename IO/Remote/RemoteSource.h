@@ -1,0 +1,57 @@
+#pragma once
+
+#include "Conversation.h"
+
+#include "pointfront/Disk/ByteSource.h"
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+namespace pointfront
+{
+
+/// A file behind an address, read by ranges.
+/// Opening   the head and the tail that the reader needs come in one round trip, with the size.
+/// Reads     ranges are sorted; neighbours become one request where the bytes between them cost
+/// less
+///           than a request more, and all requests are on their way at once. A small read brings
+///           the block around it, which is kept.
+/// Identity  length and ETag (or the date of the last change) of the first answer hold for all
+///           later ones. Another one is an error, for this read and all later ones.
+/// Retries   passing refusals (429, 5xx), resets, stalls and short bodies, with growing pauses, as
+///           long as the time limit of a read allows.
+/// Memory    head and tail, and 4 MiB of blocks.
+/// Errors    those of ByteSource. Messages name the public form of the address alone.
+class RemoteSource final : public ByteSource
+{
+public:
+  static Result<std::shared_ptr<const RemoteSource>> open(
+    std::unique_ptr<const Conversation> conversation, const FirstBytes& first);
+
+  std::uint64_t device() const override;
+  ReadCost cost() const override;
+  Result<void> read(const ByteRange* ranges, std::size_t count) const override;
+
+private:
+  using Interval64 = std::pair<std::uint64_t, std::uint64_t>;
+
+  RemoteSource(std::unique_ptr<const Conversation> conversation, RemoteIdentity identity);
+  bool takeHeld(const ByteRange& range) const;
+  void keepBlocks(const WantedBytes& piece, const Interval64& needed) const;
+
+  const std::unique_ptr<const Conversation> conversation_;
+  const RemoteIdentity identity_;
+  std::vector<WantedBytes> ends_; ///< head and tail, or the whole file
+  mutable std::atomic<bool> changed_{ false }; ///< somebody has replaced the file
+  mutable std::mutex mutex_; ///< of what follows
+  mutable std::map<std::uint64_t, WantedBytes> blocks_; ///< of small reads, by offset
+  mutable std::vector<std::uint64_t> order_; ///< of blocks_, the oldest first
+};
+
+} // namespace pointfront

@@ -4,6 +4,7 @@
     Testing/Benchmarks/papers.py build TOOL WORK CLOUD.las      FRONT section 4
     Testing/Benchmarks/papers.py levels TOOL WORK CLOUD.las     FRONT figure 8
     Testing/Benchmarks/papers.py techniques TOOL WORK STORE     LAYERS table 2
+    Testing/Benchmarks/papers.py points TOOL WORK STORE         LAYERS figure 8
     Testing/Benchmarks/papers.py text TOOL WORK CLOUD.las       SMOOTH table 1
     Testing/Benchmarks/papers.py frames TOOL WORK STORE         SMOOTH section 4: frame rates
     Testing/Benchmarks/papers.py ewa TOOL WORK STORE            EWA table 2
@@ -152,6 +153,33 @@ TECHNIQUES = {
 }
 
 
+# LAYERS, figure 8: frames a second over the number of points, a chart without numbers. Table 2 has
+# numbers for so many million points, far, of its three data sets.
+MILLIONS = (2.32, 3.42, 4.85)
+FAR_RATES = {"points of 3 px": (86.39, 60.02, 40.24), "splats": (51.84, 32.27, 23.01),
+             "spheres": (49.57, 28.31, 22.35), "silhouettes": (46.07, 26.66, 22.18),
+             "solid": (27.32, 20.22, 18.74)}
+ALL_MILLIONS = (0.5, 1.0, *MILLIONS, 6.0)
+
+
+def over_points(tool, store):
+    head("ms a frame, LAYERS; CPU ms a frame, here; points", *(f"{m:.2f} M" for m in ALL_MILLIONS),
+         "ns a point more, LAYERS", "here")
+    for name, rates_there in FAR_RATES.items():
+        there = [1e3 / rate for rate in rates_there]
+        beside = ["" if m not in MILLIONS else f"{there[MILLIONS.index(m)]:.0f}"
+                  for m in ALL_MILLIONS]
+        slope = (there[-1] - there[0]) / (MILLIONS[-1] - MILLIONS[0])
+        row(f"{name}, LAYERS", *beside, f"{slope:.1f}", "")
+        style = dict(TECHNIQUES.get(name, TECHNIQUES["`GL_POINTS`; here points of 3 px"])[2])
+        sheet = tool.work / "style.json"
+        sheet.write_text(json.dumps(style))
+        here = [tool.frame(store, "--style", sheet, "--error", 0.01, "--path", "orbit",
+                           "--point-budget", round(1e6 * m)) for m in ALL_MILLIONS]
+        slope = (here[-1][0] - here[0][0]) / (here[-1][1] - here[0][1]) * 1e6
+        row(f"{name}, here", *(f"{ms:.0f}" for ms, _ in here), "", f"{slope:.1f}")
+
+
 def techniques(tool, store):
     head("frames a second, or CPU ms a frame (speed against the first row)", "LAYERS, far, 2.32 M",
          "here, far", "LAYERS, close, 0.50 M", "here, close", "M points here")
@@ -247,8 +275,8 @@ def images(tool, cloud, image):
         *rates(points, told["seconds"], cpu), f"{coloured['bytes_written'] / points:.2f}")
 
 
-TABLES = {"build": build, "levels": levels, "techniques": techniques, "text": text,
-          "frames": frames, "ewa": ewa, "images": images}
+TABLES = {"build": build, "levels": levels, "techniques": techniques, "points": over_points,
+          "text": text, "frames": frames, "ewa": ewa, "images": images}
 
 
 def main():

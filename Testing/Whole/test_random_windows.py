@@ -278,10 +278,17 @@ class Actors(Windows):
 
 KINDS = (Windows, NodeByNode, Posters, Actors)
 # (kind, case): the smallest cases that once differed.
-FOUND = tuple((Actors, {"cloud": 1, "style": {"default": {"technique": technique}}, "camera": {
+FOUND = (*((Actors, {"cloud": 1, "style": {"default": {"technique": technique}}, "camera": {
     "position": [400081.734, 5599986.876, 73.175], "focal_point": [400060.267, 5600006.421, 70.775],
     "view_up": [0, 0, 1], "view_angle": 90}, "error": EVERYTHING})
-              for technique in ("silhouettes", "splats"))
+           for technique in ("silhouettes", "splats")),
+         *((kind, {"cloud": 3503, "style": {"lenses": [{
+             "shape": "rectangle", "center_px": [196, 230], "size_px": [184, 134],
+             "inside": {"default": {"technique": "splats", "size": {
+                 "mode": "fixed", "metres": 0.3}}}}]}, "camera": {
+                     "position": [400022.966, 5600007.208, 38.312],
+                     "focal_point": [400039.194, 5600026.001, 38.312], "view_up": [0, 0, 1],
+                     "view_angle": 90}, "error": EVERYTHING}) for kind in (Windows, Actors)))
 
 
 class RandomWindows(PairTest):

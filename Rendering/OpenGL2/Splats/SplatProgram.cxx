@@ -9,6 +9,7 @@
 #include "PictureVSGLSL.h"
 #include "PointDataGLSL.h"
 #include "ResolveFSGLSL.h"
+#include "SphereSampleGLSL.h"
 #include "SplatDataGLSL.h"
 #include "SplatFSGLSL.h"
 #include "SplatGSGLSL.h"
@@ -66,6 +67,7 @@ std::string filled(const char* source, const Content& content)
     { "//POINTFRONT::Point::Dec", content.kept ? KeptPointGLSL : StoredPointGLSL },
     { "//POINTFRONT::ColourMapTexture::Dec", content.table ? ColourMapTextureGLSL : "" },
     { "//POINTFRONT::SplatSetUp::Dec", SplatSetUpGLSL },
+    { "//POINTFRONT::SphereSample::Dec", SphereSampleGLSL },
     { "//POINTFRONT::WallSetUp::Dec", content.walls ? WallSetUpGLSL : "" },
     { "//POINTFRONT::WallSample::Dec", content.walls ? WallSampleGLSL : "" },
   };

@@ -56,24 +56,7 @@ vec2 sampleExact(vec2 d)
   return onDisc ? vec2(min(q, near), t) : vec2(near, depth);
 }
 
-vec2 sampleSphere(vec2 d)
-{
-  vec2 ray = d / cameraScale;
-  vec2 to = splat.slope.xy;
-  float depth = splat.centre.z;
-  float aside = dot(to, ray), offset2 = dot(ray, ray);
-  float ray2 = POINTFRONT_PARALLEL == 1 ? 1.0 : 1.0 + dot(to, to) + 2.0 * aside + offset2;
-  float nearest = POINTFRONT_PARALLEL == 1 ? 0.0 : -depth * (aside + offset2) / ray2;
-  float t = depth + nearest;
-  vec2 p = POINTFRONT_PARALLEL == 1 ? ray : nearest * to + t * ray;
-  float distance2 = dot(p, p) + nearest * nearest;
-  float within = max(splat.centre.w * splat.centre.w - distance2, 0.0);
-  float front = t - sqrt(within / ray2);
-  float q = distance2 * splat.form.x;
-  q = inCentrePixel(d) ? min(q, 1.0) : q;
-  return vec2(front >= 1.0e-30 ? q : 2.0, front);
-}
-
+//POINTFRONT::SphereSample::Dec
 //POINTFRONT::WallSample::Dec
 
 /// View space, towards the eye; 0: none.
@@ -103,6 +86,7 @@ void main()
   vec2 s = vec2(splat.form.x * dot(d, d), splat.centre.z);
 #elif POINTFRONT_SHAPE == 2
   vec2 s = sampleEllipse(d);
+  s.x = POINTFRONT_PARALLEL == 1 || isNearSphere(d) ? s.x : 2.0;
 #elif POINTFRONT_SHAPE == 3
   vec2 s = sampleExact(d);
 #elif POINTFRONT_SHAPE == 5

@@ -34,7 +34,7 @@ vec2 setUpEllipse(vec2 to, float reach, float pixels)
   float varianceY = xx * area + lowPass * lowPass;
   float back = 1.0 / (varianceX * varianceY - covariance * covariance);
   splat.form = vec4(varianceY * back, -2.0 * covariance * back, varianceX * back, 0.0);
-  splat.slope = vec4(g, 0.0, 0.0);
+  splat.slope = vec4(g, to);
   float size = pixels * width.y;
   float bent = POINTFRONT_PARALLEL == 1 ? 1.0 : 1.0 + 5.27 * min(size * size, 0.81);
   vec2 most = size * cameraScale * (1.0 + 0.5 * to * to) * bent + 1.0;

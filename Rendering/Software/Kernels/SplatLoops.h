@@ -113,7 +113,7 @@ void drawShapeBy(const RasterCamera& camera, const RasterWindow& window, const S
   for (int i = 0; i < large; ++i)
   {
     const int j = batch.list[i];
-    const SplatAt<Shape, Parallel> splat(camera, pass, batch, OneSplat{ j });
+    const LargeSplatAt<Shape, Parallel> splat(camera, pass, batch, j);
     const KeyDepth<Rimmed> keyDepth(pass, all(batch.radius[j]));
     const std::uint32_t id = index + static_cast<std::uint32_t>(j);
     visitLarge(window, batch, j, splat,
@@ -164,7 +164,7 @@ void addShape(const RasterCamera& camera, const RasterWindow& window, const Spla
   for (int i = 0; i < large; ++i)
   {
     const int j = batch.list[i];
-    const SplatAt<Shape, Parallel> splat(camera, pass, batch, OneSplat{ j });
+    const LargeSplatAt<Shape, Parallel> splat(camera, pass, batch, j);
     const Lanes rim = all(pass.paraboloid * batch.radius[j]), slack = slackOf(j);
     const Lanes centre = all(batch.weight[j]);
     const LaneColour colour = colourOf(batch.colour[j]);

@@ -2,6 +2,7 @@
 
 #include "RasterBatch.h"
 #include "RasterKernels.h"
+#include "SplatSetUp.h"
 
 namespace pointfront
 {
@@ -243,6 +244,48 @@ struct SplatAt<SplatShape::Wall, Parallel>
   }
   LanePlane<Parallel> plane;
   Lanes rightX, rightY, rightZ, radius, height, upX, upY, upZ, nearest, farthest;
+};
+
+/// The affine map is good near a splat's centre. Of a splat near the eye it reaches far beyond what
+/// the disc can cover, even above the horizon, so pixels count whose rays come near the splat's
+/// sphere. What cullBesidePyramid() leaves out has no such pixel: a picture of a part of the
+/// viewport is that part of the whole picture.
+template <SplatShape Shape, bool Parallel>
+struct LargeSplatAt : SplatAt<Shape, Parallel>
+{
+  using Splat = SplatAt<Shape, Parallel>;
+  /// Radii a unit of depth: from there on.
+  static constexpr float nearEye = 0.02f;
+
+  LargeSplatAt(const RasterCamera& camera, const SplatPass& pass, const RasterBatch& batch, int j)
+    : Splat(camera, pass, batch, OneSplat{ j })
+    , bounded(
+        Shape == SplatShape::Ellipse && !Parallel && batch.radius[j] > nearEye * batch.depth[j])
+    , widthX(all(1.0f / camera.scaleX))
+    , widthY(all(1.0f / camera.scaleY))
+  {
+    const LaneDirection to = laneDirection<Parallel>(camera, batch, OneSplat{ j });
+    toX = to.x;
+    toY = to.y;
+    length2 = all(1.0f) + to.x * to.x + to.y * to.y;
+    const float reach = splatReach(batch.radius[j], batch.depth[j], 1.0f / camera.scaleX);
+    share2 = all(reach / batch.depth[j] * (reach / batch.depth[j]));
+  }
+  SplatSample at(Lanes dx, Lanes dy) const
+  {
+    SplatSample sample = Splat::at(dx, dy);
+    if (bounded)
+    {
+      const Lanes x = dx * widthX, y = dy * widthY;
+      const Lanes aside = toX * x + toY * y;
+      const Lanes offset2 = x * x + y * y;
+      const Lanes ray2 = length2 + aside + aside + offset2;
+      sample.covered = sample.covered & (length2 * offset2 - aside * aside <= share2 * ray2);
+    }
+    return sample;
+  }
+  bool bounded;
+  Lanes widthX, widthY, toX, toY, length2, share2;
 };
 
 } // namespace

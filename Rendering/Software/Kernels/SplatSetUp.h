@@ -20,6 +20,13 @@ constexpr float leastGrown = 0.05f;
 /// Of a splat that is everywhere: larger than any viewport.
 constexpr float everywhere = 1.0e5f;
 
+/// World units from a splat's centre within which it is seen: a little more than its radius,
+/// because what covers its centre's pixel reaches over the edge.
+inline float splatReach(float radius, float depth, float pixelWidth)
+{
+  return radius * 1.01f + depth * pixelWidth;
+}
+
 struct Direction
 {
   float x;
@@ -308,8 +315,7 @@ inline void cullBesidePyramid(
     const float depth = batch.depth[j];
     const float x = (batch.screenX[j] - camera.centreX) * widthX;
     const float y = (batch.screenY[j] - camera.centreY) * widthY;
-    // A little more than the radius: what covers its centre's pixel reaches over the edge.
-    const float reach = batch.radius[j] * 1.01f + depth * widthX;
+    const float reach = splatReach(batch.radius[j], depth, widthX);
     const int seen = ((x - right) * depth <= reach * lengthRight) &
       ((-left - x) * depth <= reach * lengthLeft) & ((y - up) * depth <= reach * lengthUp) &
       ((-down - y) * depth <= reach * lengthDown);

@@ -93,6 +93,38 @@ TEST(RasterExtremes, AnEyeOnASplatInsideASphereAndPointsBehind)
   }
 }
 
+/// Splats near the eye reach behind it and over the edges of the picture.
+TEST(RasterExtremes, AroundTheEyeAPartOfAViewIsThatPartOfTheWhole)
+{
+  const PixelRectangle part{ 30, 40, 75, 60 };
+  for (const ResolvedStyle& style : allStyles(0.3))
+  {
+    PlanOfPoints scene;
+    scene.plan.batches[0].style = std::make_shared<ResolvedStyle>(style);
+    scene.add(wavySurface(2000, 7));
+    scene.look({ 0.1, 0.05, 0.25 }, { 0.6, 0.7, 0.25 }, 1.6, 120, 80);
+    const SoftwareTarget whole = scene.draw();
+    EXPECT_GT(pixelsCovered(whole), 1000u);
+    SoftwareTarget target;
+    target.reset(part);
+    SoftwareRasteriser().draw(scene.plan, target);
+    int others = 0;
+    for (int y = part.bottom; y < part.top; ++y)
+    {
+      for (int x = part.left; x < part.right; ++x)
+      {
+        const std::size_t there = static_cast<std::size_t>(y * 120 + x);
+        const auto here =
+          static_cast<std::size_t>((y - part.bottom) * part.width() + x - part.left);
+        others +=
+          whole.rgba[there] != target.rgba[here] || whole.depth[there] != target.depth[here];
+      }
+    }
+    EXPECT_EQ(others, 0) << int(style.technique) << ' ' << int(style.accuracy) << ' '
+                         << style.normalColumn.has_value();
+  }
+}
+
 TEST(RasterExtremes, CoordinatesOfTenThousandKilometresChangeNoBit)
 {
   // Steps of 2^-12, offsets that doubles hold exactly with them: the same numbers after the eye's

@@ -5,6 +5,7 @@ import secrets
 import urllib.parse
 
 from ._errors import PointFrontError
+from ._gate import Gate
 
 try:
     from aiohttp import web  # trame's server
@@ -70,13 +71,15 @@ class Doors:
     secret  of this server alone, a part of the address that is told. trame's page takes it out of
             the address and opens its socket with it; a cookie keeps it for a page that is loaded
             anew. The page's code, which is trame's, and nothing else is there without it: a socket
-            is refused before it is one.
+            is refused before it is one. Requests without it wait for their turn (Gate).
     """
 
     def __init__(self, server):
         self.secret = "s" + secrets.token_hex(16)  # digits alone would be a number to the page
         self._server = server
         self._page = None
+        self._gate = Gate()
+        self._listener = None
 
     @property
     def query(self):
@@ -86,9 +89,14 @@ class Doors:
         """Before the server listens."""
         self._server.protocol.updateSecret(self.secret)
         self._page = pathlib.Path(wslink_server.config["static"]["/"]) / "index.html"
+        self._listener = wslink_server
         app = wslink_server.app
         app.router.add_post("/paraview/", self._answer_launcher)
         app.middlewares.append(self._middleware())
+
+    def open(self, **_):
+        """When the server listens."""
+        self._gate.open(self._listener)
 
     def _cookie(self):
         return f"pointfront-{self._server.port}"  # browsers have the cookies of all ports in one
@@ -111,12 +119,15 @@ class Doors:
     def _middleware(self):
         @web.middleware
         async def check(request, handler):
+            invited = self._knows(request.query.get("secret"))
+            known = invited or self._knows(request.cookies.get(self._cookie()))
+            if not known:
+                await self._gate.turn()
             _refuse_foreign_pages(request)
             socket = "Upgrade" in request.headers or request.path == "/ws"
             if not socket and request.path not in ("/", "/index.html"):
                 return await handler(request)
-            invited = self._knows(request.query.get("secret"))
-            if not invited and not self._knows(request.cookies.get(self._cookie())):
+            if not known:
                 _refuse("this view opens by the whole address that `pointfront serve` printed, "
                         "with its secret")
             if socket:

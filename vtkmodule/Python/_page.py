@@ -154,6 +154,7 @@ class CloudPage:
         controller = self.server.controller
         controller.on_server_bind.add(self._doors.bind)
         controller.on_server_bind.add(self._lines.bind)
+        controller.on_server_ready.add(self._doors.open)
         self.view.watch_network(self._lines.waiting)
 
     @property

@@ -38,7 +38,7 @@ scene.display.Opacity = 1
 # What looks at the pixels around one sees those of all ranks.
 for technique, error in (("points", 0.01), ("splats", 1), ("blended", 1)):
     scene.display.Technique, scene.display.TargetError = technique, error
-    scene.display.ClosingSize = "Unless they are points"
+    scene.display.ClosingSize = "All but points"
     for way, strength, fill in (("edl", 0.4, 0), ("filled", 0.2, 1)):
         scene.display.EyeDomeStrength, scene.display.FillHoles = strength, fill
         scene.save("%s-%s-%s" % (name, way, technique))

@@ -240,3 +240,33 @@ def panel(programs):
     finally:
         if os.path.exists("panel.json"):
             print(open("panel.json").read())
+
+
+def panel_width(programs):
+    """A cloud's panel needs no more width than a sphere's, and no property of ours more than there
+    is at first; tables say what their columns are.
+    """
+    try:
+        programs.run(os.environ["POINTFRONT_PARAVIEW"], "--dr",
+                     "--script=" + os.path.join(HERE, "panel_width.py"))
+    finally:
+        if os.path.exists("panel_width.json"):
+            print(open("panel_width.json").read())
+    with open("panel_width.json") as file:
+        told = json.load(file)
+    sphere, found = told["sphere"], told["cloud"]
+    heads = {name: table["heads"] for name, table in found["tables"].items()}
+    style = ["Class", "Technique", "Color", "px"]
+    if heads != {"ClassStyles": style, "ClassLights": ["Class", "Light", "Eye-Dome"],
+                 "LensStyles": style}:
+        raise AssertionError("heads of the tables: %s" % heads)
+    if [found["tables"][name]["rows"] for name in sorted(heads)] != [1, 3, 1]:
+        raise AssertionError("rows that are there, and one to write in: %s" % found["tables"])
+    if not all(table["whole"] for table in found["tables"].values()):
+        raise AssertionError("a head is cut off: %s" % found["tables"])
+    if told["written"] != ["6", "splats", "#ff0000", "3", "5", "hidden", "", ""]:
+        raise AssertionError("what is written into a table: %s" % told["written"])
+    # ParaView 5.11's own panel scrolls sideways here: the heads "Display (...)" are too wide.
+    wide = [one for one in found["wide"] if one["property"] not in ("", "ColorEditor")]
+    if wide or found["content"] > sphere["content"]:
+        raise AssertionError("too wide: %s" % wide)

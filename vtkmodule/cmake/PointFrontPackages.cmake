@@ -56,6 +56,7 @@ elseif (POINTFRONT_HOST STREQUAL "ParaView")
     "${CMAKE_CURRENT_SOURCE_DIR}/.deps/paraview/usr/lib/*/cmake/paraview-*")
   find_package(ParaView 5.11 COMPONENTS RemotingCore RemotingViews RemotingServerManager
     RemotingClientServerStream VTKExtensionsCore WrapClientServer ProcessXML
+    OPTIONAL_COMPONENTS pqComponents # where there is a panel; with its Qt
     HINTS ${pointfront_paraview_prefix})
   if (NOT ParaView_FOUND)
     message(FATAL_ERROR "ParaView 5.11 is not usable: ${ParaView_NOT_FOUND_MESSAGE}\n"

@@ -29,6 +29,7 @@
 
 #include <cstdint> // for counts
 #include <memory> // for its content
+#include <optional> // for the look of a frame
 #include <string> // for names
 // for the views
 #include <vector> // for layers
@@ -40,6 +41,7 @@ class vtkWindow;
 namespace pointfront
 {
 class PictureExchange;
+struct FrameLook;
 struct FrameRequest;
 struct FramePlan;
 struct FrameStatistics;
@@ -344,12 +346,18 @@ protected:
 
 #ifndef __VTK_WRAP__
   /**
-   * For the OpenGL side, at each RenderPiece: the plan of what that renderer draws. The first call
-   * of a frame moves the front; all other calls (peeling, selection and shadow passes draw one
-   * frame several times) get the same nodes. Valid until the next call or the end of the renderer's
-   * frame. Null, and an error once a cause, without a store.
+   * Begins a drawing: the OpenGL side calls it in each RenderPiece. It goes over to the next
+   * version of a store that is being built, and says how the cloud looks. None, and an error once a
+   * cause, without a store.
    */
-  pointfront::FramePlan* PlanFrame(vtkRenderer* renderer, vtkActor* actor);
+  std::optional<pointfront::FrameLook> BeginFrame(vtkRenderer* renderer, vtkActor* actor);
+  /**
+   * Plans what the renderer draws, after BeginFrame(). The first call of a frame moves the front;
+   * all other calls (peeling, selection and shadow passes draw one frame several times) get the
+   * same nodes. The plan is valid until the next call or the end of the renderer's frame.
+   */
+  pointfront::FramePlan& PlanFrame(
+    vtkRenderer* renderer, vtkActor* actor, const pointfront::FrameLook& look);
   /// True from PlanFrame() to FinishFrame(): the frame's first drawing, which uploads.
   bool IsFirstDrawing(vtkRenderer* renderer) const;
   /// True when the front was moved since the renderer's last frame (see NeedsRender()): a further
@@ -365,16 +373,12 @@ protected:
   /// Called when a renderer drew a frame and no renderer shows this mapper any more: its GPU memory
   /// is idle.
   virtual void LeaveScreen();
-  /// Whether points are drawn from host memory and take no GPU memory.
-  virtual bool DrawsFromHostMemory(vtkRenderer*, vtkActor*)
+  /// Chooses the back end of a drawing: whether points are drawn from host memory, and take no GPU
+  /// memory. BeginFrame() asks once.
+  virtual bool DrawsFromHostMemory(vtkRenderer*, vtkActor*, const pointfront::FrameLook&)
   {
     return false;
   }
-  /// Whether the style is plain: every point is drawn with a size of some pixels in one colour, and
-  /// nothing is done to the finished picture.
-  bool HasPlainPointsOnly(vtkActor* actor);
-  /// How the store's layers are drawn, by their numbers.
-  std::vector<pointfront::LayerStyling> GetStyling(vtkActor* actor);
   static bool IsInteracting(vtkRenderer* renderer);
   /// The part of PointBudget that this mapper may have on the GPU of a window, beside the other
   /// clouds of the window; 0: no limit.
@@ -402,11 +406,13 @@ protected:
 
 private:
   struct Content;
-  pointfront::FrameRequest GetFrameRequest(vtkRenderer* renderer, vtkActor* actor);
-  pointfront::PlanRequest GetRequest(vtkRenderer* renderer, vtkActor* actor);
-  pointfront::ViewportMargin GetMargin(vtkRenderer* renderer, vtkActor* actor);
-  void Place(vtkRenderer* renderer, vtkActor* actor, pointfront::PlanRequest& request);
-  bool MoveFront(vtkRenderer* renderer, vtkActor* actor);
+  std::vector<pointfront::LayerStyling> GetStyling(vtkActor* actor);
+  pointfront::FrameLook GetLook(vtkRenderer* renderer, vtkActor* actor);
+  pointfront::FrameRequest GetFrameRequest(
+    vtkRenderer* renderer, vtkActor* actor, const pointfront::FrameLook& look);
+  pointfront::PlanRequest GetRequest(
+    vtkRenderer* renderer, vtkActor* actor, const pointfront::FrameLook& look);
+  bool MoveFront(vtkRenderer* renderer, vtkActor* actor, const pointfront::FrameLook& look);
   bool Announce();
   std::unique_ptr<Content> Internals;
 

@@ -1,4 +1,5 @@
 // What a mapper does in a frame: it asks the front for points, and makes the plan for the back end.
+#include "FrameLook.h"
 #include "MapperContent.h"
 #include "MapperProperties.h"
 #include "PosterTile.h"
@@ -32,6 +33,33 @@ double millisecondsSince(Clock::time_point begin)
   return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
 }
 
+/// What is drawn around the viewport. Plain points go straight into it.
+pointfront::ViewportMargin marginOf(vtkRenderer* renderer, const pointfront::FrameLook& look)
+{
+  if (look.plain || !look.shading)
+  {
+    return {};
+  }
+  pointfront::FrameShading shading = *look.shading;
+  const pointfront::PosterTile tile(renderer);
+  tile.enlarge(shading);
+  return tile.margin(shading);
+}
+
+/// Sets camera and shading of the part of the picture that is drawn.
+void place(vtkRenderer* renderer, vtkActor* actor, const pointfront::FrameLook& look,
+  pointfront::PlanRequest& request)
+{
+  request.camera = pointfront::cameraOf(renderer, actor);
+  if (look.shading)
+  {
+    request.shading = *look.shading;
+    const pointfront::PosterTile tile(renderer);
+    tile.enlarge(request.shading);
+    tile.place(request, marginOf(renderer, look));
+  }
+}
+
 } // namespace
 
 std::vector<pointfront::LayerStyling> vtkPointFrontMapper::GetStyling(vtkActor* actor)
@@ -54,38 +82,32 @@ std::vector<pointfront::LayerStyling> vtkPointFrontMapper::GetStyling(vtkActor* 
   return layers;
 }
 
-bool vtkPointFrontMapper::HasPlainPointsOnly(vtkActor* actor)
+pointfront::FrameLook vtkPointFrontMapper::GetLook(vtkRenderer* renderer, vtkActor* actor)
 {
-  const auto sheet = this->GetStyleSheet();
-  return !sheet || pointfront::hasPlainPointsOnly(sheet->frameShading(), this->GetStyling(actor));
-}
-
-/// Camera and shading, for what is drawn of the picture.
-void vtkPointFrontMapper::Place(
-  vtkRenderer* renderer, vtkActor* actor, pointfront::PlanRequest& request)
-{
-  request.camera = pointfront::cameraOf(renderer, actor);
+  pointfront::FrameLook look;
+  look.layers = this->GetStyling(actor);
   if (const auto sheet = this->GetStyleSheet())
   {
-    request.shading = sheet->frameShading();
-    const pointfront::PosterTile tile(renderer);
-    tile.enlarge(request.shading);
-    tile.place(request, this->GetMargin(renderer, actor));
+    look.shading = sheet->frameShading();
+    look.plain = pointfront::hasPlainPointsOnly(*look.shading, look.layers);
   }
+  look.inHostMemory = this->DrawsFromHostMemory(renderer, actor, look);
+  return look;
 }
 
-pointfront::PlanRequest vtkPointFrontMapper::GetRequest(vtkRenderer* renderer, vtkActor* actor)
+pointfront::PlanRequest vtkPointFrontMapper::GetRequest(
+  vtkRenderer* renderer, vtkActor* actor, const pointfront::FrameLook& look)
 {
   pointfront::PlanRequest request;
-  this->Place(renderer, actor, request);
+  place(renderer, actor, look, request);
   request.clippingPlanes = pointfront::clippingPlanesOf(*this, actor);
   request.composited = this->NumberOfStorePieces > 1 || pointfront::hasSeveralClouds(renderer);
   request.exchange = this->Exchange;
-  if (this->GetStyleSheet())
+  if (look.shading)
   {
     request.shading.lights = pointfront::lightsOf(renderer, request.camera);
   }
-  for (const pointfront::LayerStyling& layer : this->GetStyling(actor))
+  for (const pointfront::LayerStyling& layer : look.layers)
   {
     request.styles.emplace_back();
     request.styles.back().assign(layer.styles.begin(), layer.styles.end());
@@ -93,38 +115,25 @@ pointfront::PlanRequest vtkPointFrontMapper::GetRequest(vtkRenderer* renderer, v
   return request;
 }
 
-/// What is drawn around the viewport. Plain points go straight into it.
-pointfront::ViewportMargin vtkPointFrontMapper::GetMargin(vtkRenderer* renderer, vtkActor* actor)
-{
-  if (this->HasPlainPointsOnly(actor))
-  {
-    return {};
-  }
-  pointfront::FrameShading shading = this->GetStyleSheet()->frameShading();
-  const pointfront::PosterTile tile(renderer);
-  tile.enlarge(shading);
-  return tile.margin(shading);
-}
-
 pointfront::FrameRequest vtkPointFrontMapper::GetFrameRequest(
-  vtkRenderer* renderer, vtkActor* actor)
+  vtkRenderer* renderer, vtkActor* actor, const pointfront::FrameLook& look)
 {
   pointfront::FrameRequest demand;
-  const auto styling = this->GetStyling(actor);
+  const std::vector<pointfront::LayerStyling>& styling = look.layers;
   const double walls =
     pointfront::tallestWall(this->GetStore()->GetStore()->description(), styling);
   const pointfront::PosterTile tile(renderer);
-  const pointfront::ViewportMargin margin = this->GetMargin(renderer, actor);
+  const pointfront::ViewportMargin margin = marginOf(renderer, look);
   const auto viewWith = [&](const pointfront::ViewportMargin& around)
   { return pointfront::withWallsFromAbove(pointfront::viewOf(renderer, actor, around), walls); };
   demand.view = viewWith(tile.sight(margin, styling));
   demand.layers = this->Internals->Limits.layersOf(*this->GetStore(), styling,
-    this->GetStyleSheet() ? this->Internals->Style.pruning()
-                          : std::vector<std::shared_ptr<const pointfront::NodePruning>>());
-  if (const auto sheet = this->GetStyleSheet(); sheet && !sheet->lenses.empty())
+    look.shading ? this->Internals->Style.pruning()
+                 : std::vector<std::shared_ptr<const pointfront::NodePruning>>());
+  if (look.shading && !look.shading->lenses.empty())
   {
     pointfront::PlanRequest request;
-    this->Place(renderer, actor, request);
+    place(renderer, actor, look, request);
     pointfront::limitToLenses(styling, request.shading, request.camera,
       std::max(this->TargetError, this->GetStatistics().thresholdPx), walls, demand.layers);
   }
@@ -138,7 +147,7 @@ pointfront::FrameRequest vtkPointFrontMapper::GetFrameRequest(
   demand.gpuStreams = streams.count();
   demand.targetErrorPx = this->TargetError;
   demand.pointBudget = static_cast<std::uint64_t>(this->PointBudget);
-  demand.gpuBytes = this->DrawsFromHostMemory(renderer, actor) ? 0 : this->GPUMemoryBudget;
+  demand.gpuBytes = look.inHostMemory ? 0 : this->GPUMemoryBudget;
   demand.method = this->DetailSelection == VIEW_SPECIFIC ? pointfront::DetailMethod::ViewSpecific
                                                          : pointfront::DetailMethod::RenderingFront;
   if (this->DetailSelection == VIEW_SPECIFIC) // it looks at every open store
@@ -160,7 +169,8 @@ pointfront::FrameRequest vtkPointFrontMapper::GetFrameRequest(
 }
 
 /// Once a frame. True when it did.
-bool vtkPointFrontMapper::MoveFront(vtkRenderer* renderer, vtkActor* actor)
+bool vtkPointFrontMapper::MoveFront(
+  vtkRenderer* renderer, vtkActor* actor, const pointfront::FrameLook& look)
 {
   Content& content = *this->Internals;
   vtkPointFrontStore* store = this->GetStore();
@@ -175,7 +185,7 @@ bool vtkPointFrontMapper::MoveFront(vtkRenderer* renderer, vtkActor* actor)
   view.Plan.reset(); // what it pins may be released
 
   const auto begin = Clock::now();
-  pointfront::FrameRequest demand = this->GetFrameRequest(renderer, actor);
+  pointfront::FrameRequest demand = this->GetFrameRequest(renderer, actor, look);
   view.Announced = view.Announced && view.View.request().view == demand.view;
   const pointfront::FrontDelta& delta = view.View.update(std::move(demand));
   content.Statistics.take(delta);
@@ -191,7 +201,8 @@ bool vtkPointFrontMapper::MoveFront(vtkRenderer* renderer, vtkActor* actor)
   return true;
 }
 
-pointfront::FramePlan* vtkPointFrontMapper::PlanFrame(vtkRenderer* renderer, vtkActor* actor)
+std::optional<pointfront::FrameLook> vtkPointFrontMapper::BeginFrame(
+  vtkRenderer* renderer, vtkActor* actor)
 {
   Content& content = *this->Internals;
   if (!this->GetStore())
@@ -201,26 +212,34 @@ pointfront::FramePlan* vtkPointFrontMapper::PlanFrame(vtkRenderer* renderer, vtk
       vtkErrorMacro("the input names no store (field data \""
         << vtkPointFrontStore::FieldName() << "\"); connect a vtkPointFrontReader");
     }
-    return nullptr;
+    return std::nullopt;
   }
+  pointfront::FrameLook look = this->GetLook(renderer, actor);
   // A frame in motion has no time for a second front, nor for bringing all points to the GPU again.
   if (!renderer->GetSelector() && !IsInteracting(renderer) &&
     content.Views.follow(
-      renderer, [&] { return this->GetFrameRequest(renderer, actor); },
+      renderer, [&] { return this->GetFrameRequest(renderer, actor, look); },
       [&](vtkPointFrontStore& next) { return content.Limits.layersOf(next); }))
   {
     this->Modified();
+    look = this->GetLook(renderer, actor); // the next version's layers
   }
-  const bool moved = this->MoveFront(renderer, actor);
-  pointfront::RendererFront& view = content.Views.of(renderer);
-  pointfront::PlanRequest request = this->GetRequest(renderer, actor);
+  return look;
+}
+
+pointfront::FramePlan& vtkPointFrontMapper::PlanFrame(
+  vtkRenderer* renderer, vtkActor* actor, const pointfront::FrameLook& look)
+{
+  const bool moved = this->MoveFront(renderer, actor, look);
+  pointfront::RendererFront& view = this->Internals->Views.of(renderer);
+  pointfront::PlanRequest request = this->GetRequest(renderer, actor, look);
   if (moved || !view.Plan)
   {
-    request.refines = this->DrawsFromHostMemory(renderer, actor);
+    request.refines = look.inHostMemory;
     request.moment.seconds = std::chrono::duration<double>(Clock::now().time_since_epoch()).count();
     request.moment.duration = 1e-3 * this->GrowthTime;
     view.Plan = view.View.plan(this->GetStore()->GetStore()->description(), std::move(request));
-    return &*view.Plan;
+    return *view.Plan;
   }
   // The same nodes, as another actor, eye or pass sees them.
   view.Plan->camera = request.camera;
@@ -239,7 +258,7 @@ pointfront::FramePlan* vtkPointFrontMapper::PlanFrame(vtkRenderer* renderer, vtk
       standIns.style = standIns.style == before ? batch.style : standIns.style;
     }
   }
-  return &*view.Plan;
+  return *view.Plan;
 }
 
 bool vtkPointFrontMapper::IsFirstDrawing(vtkRenderer* renderer) const

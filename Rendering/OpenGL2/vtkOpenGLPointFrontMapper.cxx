@@ -1,6 +1,7 @@
 #include "vtkOpenGLPointFrontMapper.h"
 
 #include "DrawBatches.h"
+#include "FrameLook.h"
 #include "LayerStreams.h"
 #include "SplatLights.h"
 #include "WindowDrawing.h"
@@ -26,6 +27,7 @@
 #include <chrono>
 #include <limits>
 #include <map>
+#include <optional>
 #include <set>
 #include <utility>
 #include <vector>
@@ -79,6 +81,32 @@ std::size_t lightsThatAreOn(vtkRenderer* renderer)
     lights += light->GetSwitch() ? 1 : 0;
   }
   return lights;
+}
+
+/// VTK's own template. A mapper without a style draws as VTK's; an actor's shader code works there,
+/// and every point of a translucent actor is translucent. It keeps nothing from frame to frame.
+bool drawsInTemplate(vtkActor* actor, const pointfront::FrameLook& look)
+{
+  return look.plain &&
+    (!look.shading || hasOwnShaders(actor) || actor->HasTranslucentPolygonalGeometry() != 0);
+}
+
+bool hasTooMuchLight(vtkRenderer* renderer, const pointfront::FrameLook& look)
+{
+  return look.shading &&
+    (look.shading->lookCount() > pointfront::mostLooks ||
+      (look.shading->anyLit() && lightsThatAreOn(renderer) > pointfront::mostLights));
+}
+
+/// Whether OpenGL draws the frame as the software back end does.
+bool drawsByOpenGL(vtkRenderer* renderer, const pointfront::FrameLook& look)
+{
+  return !hasTooMuchLight(renderer, look) &&
+    (!look.shading ||
+      (!hasTooManyGroups(look.layers) &&
+        std::all_of(look.layers.begin(), look.layers.end(),
+          [](const pointfront::LayerStyling& layer)
+          { return pointfront::LayerStreams::canDraw(layer.styles); })));
 }
 
 } // namespace
@@ -136,21 +164,23 @@ void vtkOpenGLPointFrontMapper::RenderPiece(vtkRenderer* renderer, vtkActor* act
   drawing.enter(renderer, actor);
   const auto begin = Clock::now();
   this->ReadTimer(renderer, drawing.timerOf(renderer));
-  pointfront::FramePlan* plan = this->PlanFrame(renderer, actor);
-  if (!plan)
+  const std::optional<pointfront::FrameLook> look = this->BeginFrame(renderer, actor);
+  if (!look)
   {
     return;
   }
+  pointfront::FramePlan& plan = this->PlanFrame(renderer, actor, *look);
   drawing.setStore(this->GetStore());
   const bool first = this->IsFirstDrawing(renderer);
-  const bool host = this->DrawsFromHostMemory(renderer, actor);
-  const bool ids = renderer->GetSelector() != nullptr;
+  const bool host = look->inHostMemory;
   std::uint64_t kept = 0;
   if (host)
   {
-    kept = drawing.softwarePicture().draw(window, renderer, *plan, ids).keptVisible;
+    kept = drawing.softwarePicture()
+             .draw(window, renderer, plan, renderer->GetSelector() != nullptr)
+             .keptVisible;
   }
-  const bool uploadsLeft = !host && this->Upload(renderer, drawing, *plan);
+  const bool uploadsLeft = !host && this->Upload(renderer, drawing, plan);
   if (drawing.pool().takeRefused())
   {
     vtkWarningMacro("the GPU has less memory than the budget of this window: not all points of the "
@@ -158,11 +188,11 @@ void vtkOpenGLPointFrontMapper::RenderPiece(vtkRenderer* renderer, vtkActor* act
   }
   pointfront::FrameTimer& timer = drawing.timerOf(renderer);
   const bool timed =
-    first && plan->pointCount() > 0 && timer.begin(millisecondsSince(begin), this->GetLastMoves());
+    first && plan.pointCount() > 0 && timer.begin(millisecondsSince(begin), this->GetLastMoves());
   const auto drawn = Clock::now();
-  const vtkIdType points = host ? this->HandOver(renderer, actor, drawing, *plan)
-                                : this->DrawPoints(renderer, actor, drawing, *plan);
-  if (!host && !this->DrawsInTemplate(actor))
+  const vtkIdType points = host ? this->HandOver(renderer, actor, drawing, plan)
+                                : this->DrawPoints(renderer, actor, *look, drawing, plan);
+  if (!host && !drawsInTemplate(actor, *look))
   {
     kept = static_cast<std::uint64_t>(drawing.splats().keptPoints());
   }
@@ -179,7 +209,7 @@ void vtkOpenGLPointFrontMapper::RenderPiece(vtkRenderer* renderer, vtkActor* act
   this->UpdateProgress(1.0);
 }
 
-/// What threads have drawn.
+/// Hands over the picture that threads have drawn.
 vtkIdType vtkOpenGLPointFrontMapper::HandOver(vtkRenderer* renderer, vtkActor* actor,
   pointfront::WindowDrawing& drawing, const pointfront::FramePlan& plan)
 {
@@ -193,21 +223,13 @@ vtkIdType vtkOpenGLPointFrontMapper::HandOver(vtkRenderer* renderer, vtkActor* a
   return points;
 }
 
-/// VTK's own template. A mapper without a style draws as VTK's; an actor's shader code works there,
-/// and every point of a translucent actor is translucent. It keeps nothing from frame to frame.
-bool vtkOpenGLPointFrontMapper::DrawsInTemplate(vtkActor* actor)
-{
-  return this->HasPlainPointsOnly(actor) &&
-    (!this->GetStyleSheet() || hasOwnShaders(actor) ||
-      actor->HasTranslucentPolygonalGeometry() != 0);
-}
-
-/// What is on the GPU of the plan.
+/// Draws the points of the plan that are on the GPU.
 vtkIdType vtkOpenGLPointFrontMapper::DrawPoints(vtkRenderer* renderer, vtkActor* actor,
-  pointfront::WindowDrawing& drawing, pointfront::FramePlan& plan)
+  const pointfront::FrameLook& look, pointfront::WindowDrawing& drawing,
+  pointfront::FramePlan& plan)
 {
   const vtkIdType storePoints = this->GetStore()->GetNumberOfPoints();
-  if (this->DrawsInTemplate(actor))
+  if (drawsInTemplate(actor, look))
   {
     const vtkIdType points = drawing.list(plan);
     if (points > 0)
@@ -231,7 +253,7 @@ vtkIdType vtkOpenGLPointFrontMapper::DrawPoints(vtkRenderer* renderer, vtkActor*
   return points;
 }
 
-/// What a frame's first drawing brings to the GPU. True when something is left over.
+/// Uploads points for a frame's first drawing. True when something is left over.
 bool vtkOpenGLPointFrontMapper::Upload(
   vtkRenderer* renderer, pointfront::WindowDrawing& drawing, const pointfront::FramePlan& plan)
 {
@@ -262,15 +284,15 @@ void vtkOpenGLPointFrontMapper::TellFallBack(const char* what)
 }
 
 /// Asked while the window's context is current.
-bool vtkOpenGLPointFrontMapper::DrawsFromHostMemory(vtkRenderer* renderer, vtkActor* actor)
+bool vtkOpenGLPointFrontMapper::DrawsFromHostMemory(
+  vtkRenderer* renderer, vtkActor* actor, const pointfront::FrameLook& look)
 {
   if (this->Exchange)
   {
     return true; // sums of weights are those of the software back end
   }
-  const bool plain = this->HasPlainPointsOnly(actor);
-  const bool ownShaders = plain && hasOwnShaders(actor);
-  if (!plain && hasOwnShaders(actor) && !std::exchange(this->Internals->OwnShadersTold, true))
+  const bool ownShaders = look.plain && hasOwnShaders(actor);
+  if (!look.plain && hasOwnShaders(actor) && !std::exchange(this->Internals->OwnShadersTold, true))
   {
     vtkWarningMacro("the actor's own shader code is not used: it draws points of a fixed number of "
                     "pixels, and the style asks for more (a technique, a filter, light, lenses)");
@@ -285,13 +307,13 @@ bool vtkOpenGLPointFrontMapper::DrawsFromHostMemory(vtkRenderer* renderer, vtkAc
         : "the software back end does not draw translucent points: OpenGL does");
     return false;
   }
-  if (onlyOpenGL && this->HasTooMuchLight(renderer))
+  if (onlyOpenGL && hasTooMuchLight(renderer, look))
   {
     this->TellFallBack("OpenGL has at most 48 lights and 32 kinds of light and eye-dome lighting "
                        "in a style, and draws what the software back end does not: further lights "
                        "do not shine, and further kinds are drawn as the last one");
   }
-  if (!asked && !onlyOpenGL && !this->DrawsByOpenGL(renderer, actor))
+  if (!asked && !onlyOpenGL && !drawsByOpenGL(renderer, look))
   {
     this->TellFallBack("OpenGL has at most 4 lenses, 4 translucent styles, 48 lights and 32 kinds "
                        "of light and eye-dome lighting in a style, and draws at most 254 styles of "
@@ -300,36 +322,6 @@ bool vtkOpenGLPointFrontMapper::DrawsFromHostMemory(vtkRenderer* renderer, vtkAc
     return true;
   }
   return asked;
-}
-
-bool vtkOpenGLPointFrontMapper::HasTooMuchLight(vtkRenderer* renderer)
-{
-  const auto sheet = this->GetStyleSheet();
-  if (!sheet)
-  {
-    return false;
-  }
-  const pointfront::FrameShading shading = sheet->frameShading();
-  return shading.lookCount() > pointfront::mostLooks ||
-    (shading.anyLit() && lightsThatAreOn(renderer) > pointfront::mostLights);
-}
-
-bool vtkOpenGLPointFrontMapper::DrawsByOpenGL(vtkRenderer* renderer, vtkActor* actor)
-{
-  if (this->HasTooMuchLight(renderer))
-  {
-    return false;
-  }
-  const auto sheet = this->GetStyleSheet();
-  if (!sheet)
-  {
-    return true;
-  }
-  const std::vector<pointfront::LayerStyling> layers = this->GetStyling(actor);
-  return !hasTooManyGroups(layers) &&
-    std::all_of(layers.begin(), layers.end(),
-      [](const pointfront::LayerStyling& layer)
-      { return pointfront::LayerStreams::canDraw(layer.styles); });
 }
 
 void vtkOpenGLPointFrontMapper::LeaveScreen()

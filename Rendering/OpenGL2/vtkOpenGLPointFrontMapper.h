@@ -42,20 +42,18 @@ protected:
   vtkOpenGLPointFrontMapper();
   ~vtkOpenGLPointFrontMapper() override;
   void LeaveScreen() override;
-  bool DrawsFromHostMemory(vtkRenderer* renderer, vtkActor* actor) override;
+  bool DrawsFromHostMemory(
+    vtkRenderer* renderer, vtkActor* actor, const pointfront::FrameLook& look) override;
 
 private:
   vtkOpenGLPointFrontMapper(const vtkOpenGLPointFrontMapper&) = delete;
   void operator=(const vtkOpenGLPointFrontMapper&) = delete;
 
   void TellFallBack(const char* what);
-  bool DrawsInTemplate(vtkActor* actor);
-  bool HasTooMuchLight(vtkRenderer* renderer);
-  bool DrawsByOpenGL(vtkRenderer* renderer, vtkActor* actor);
   vtkIdType HandOver(vtkRenderer* renderer, vtkActor* actor, pointfront::WindowDrawing& drawing,
     const pointfront::FramePlan& plan);
-  vtkIdType DrawPoints(vtkRenderer* renderer, vtkActor* actor, pointfront::WindowDrawing& drawing,
-    pointfront::FramePlan& plan);
+  vtkIdType DrawPoints(vtkRenderer* renderer, vtkActor* actor, const pointfront::FrameLook& look,
+    pointfront::WindowDrawing& drawing, pointfront::FramePlan& plan);
   bool Upload(
     vtkRenderer* renderer, pointfront::WindowDrawing& drawing, const pointfront::FramePlan& plan);
   void ReadTimer(vtkRenderer* renderer, pointfront::FrameTimer& timer);

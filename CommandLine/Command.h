@@ -9,7 +9,7 @@
 namespace pointfront
 {
 
-/// What a command tells the shell. The numbers are part of the contract with scripts.
+/// A command's answer to the shell. The numbers are part of the contract with scripts.
 enum ExitStatus : int
 {
   Done = 0,

@@ -22,7 +22,7 @@ public:
     command_->SetCallback(
       [](vtkObject*, unsigned long, void* self, void* text)
       {
-        if (self != nullptr) // what is observed may outlive this object
+        if (self != nullptr) // the observed object may outlive this one
         {
           static_cast<ErrorListener*>(self)->hear(static_cast<const char*>(text));
         }

@@ -40,7 +40,7 @@ std::string versionText()
   return text;
 }
 
-/// What the command has printed has arrived: a full disk behind stdout is known here at the latest.
+/// All printed text has arrived: a full disk behind stdout is known here at the latest.
 Result<void> flushedOutput()
 {
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)

@@ -22,7 +22,7 @@ private:
   std::string commandNamed(int argc, char** argv) const;
 
   std::string commandsText(int argc, char** argv) const;
-  /// What is wrong, with the option that may have been meant.
+  /// Says why the command line is wrong, and which option may have been meant.
   std::string usageText(const std::string& command, const CLI::ParseError& wrong) const;
 
   CLI::App app_;

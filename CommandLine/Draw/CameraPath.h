@@ -8,12 +8,12 @@
 namespace pointfront
 {
 
-/// What a camera path is laid around.
+/// The thing that a camera path is laid around.
 struct PathSubject
 {
   Bounds bounds;
   double ground = 0.0; ///< a typical z of the points
-  double aspect = 1.0; ///< of the picture
+  double aspect = 1.0; ///< width by height of the picture
 };
 
 /// One camera a frame.

@@ -13,7 +13,7 @@
 namespace pointfront
 {
 
-/// What draws the points.
+/// The back end that draws the points.
 enum class DrawingBackend : std::uint8_t
 {
   Auto, ///< Software
@@ -21,7 +21,7 @@ enum class DrawingBackend : std::uint8_t
   OpenGL ///< VTK, in a window that is not shown
 };
 
-/// What `render` and `bench` have in common: which stores, and how they are drawn.
+/// The options that `render` and `bench` share: which stores, and how they are drawn.
 struct DrawingOptions
 {
   std::vector<std::string> stores;
@@ -40,7 +40,7 @@ struct DrawingOptions
   std::vector<std::uint8_t> classes; ///< sorted codes of what is drawn; empty: all
   bool eyeDomeLighting = false;
   std::optional<bool> lit;
-  /// Of --style, and over it --technique, --color-by, --point-size, --where, --classes and --edl.
+  /// --style, changed by --technique, --color-by, --point-size, --where, --classes and --edl.
   /// Complete when parsing is.
   StyleSheet style;
   std::string detail = "front"; ///< or "view": how the detail of a view is chosen

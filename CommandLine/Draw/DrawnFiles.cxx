@@ -37,7 +37,7 @@ Result<void> checkDrawnFiles(const std::vector<OutputTarget>& targets,
   const std::vector<std::string>& clouds, const std::vector<std::string>& others)
 {
   std::vector<OutputTarget> written;
-  bool some = false; // of them are there: only then what is read matters
+  bool some = false; // some files are there: only then the attributes that are read matter
   for (OutputTarget target : targets)
   {
     std::error_code notThere;

@@ -5,7 +5,7 @@
 namespace pointfront
 {
 
-/// What is reported of many measurements of one thing.
+/// The numbers that are reported for many measurements of one thing.
 struct Percentiles
 {
   double p50 = 0.0;

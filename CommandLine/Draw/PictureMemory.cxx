@@ -11,7 +11,7 @@ namespace
 /// Fewer rows than the margins have cost more than they draw: rather fewer threads.
 constexpr int leastRowsOfSeveral = 128;
 
-/// What a whole frame may take: the rest is for points, or there is nothing to see.
+/// The most that a whole frame may take: the rest is for points, or there is nothing to see.
 std::uint64_t mostOfFrames(std::uint64_t budgetBytes)
 {
   return budgetBytes - budgetBytes / 4;

@@ -8,13 +8,13 @@
 namespace pointfront
 {
 
-/// What drawing takes, of each pixel and of each thread.
+/// The memory that drawing takes, for each pixel and for each thread.
 struct PictureCost
 {
-  std::uint64_t pixelBytes = 0; ///< of the picture, whatever threads there are
-  std::uint64_t threadPixelBytes = 0; ///< of each thread's buffers
-  int marginPixels = 0; ///< of each thread's buffers, on all sides of what is drawn
-  int overlapRows = 0; ///< of a band, that it draws of its neighbours on each side
+  std::uint64_t pixelBytes = 0; ///< for the picture, whatever threads there are
+  std::uint64_t threadPixelBytes = 0; ///< for the buffers of each thread
+  int marginPixels = 0; ///< around the drawn part, on all sides, in each thread's buffers
+  int overlapRows = 0; ///< rows of its neighbours that a band draws on each side
   unsigned threads = 1; ///< that draw, at most
 };
 

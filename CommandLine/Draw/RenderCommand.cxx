@@ -82,7 +82,7 @@ Result<FrameRecord> RenderCommand::drawFrames(StoreScene& scene)
 
 Result<FrameRecord> RenderCommand::drawComplete(StoreScene& scene)
 {
-  // What a user sees first, for the time it takes; then all the rest.
+  // First the frame that a user sees first, for the time it takes; then all the rest.
   Result<FrameRecord> frame = scene.renderFrame();
   while (frame && frame->points == 0 && scene.waitForArrival())
   {
@@ -110,7 +110,7 @@ Result<FrameRecord> RenderCommand::draw(StoreScene& scene)
   return frame;
 }
 
-/// What the last frame lacks; one without a point is no picture of a cloud.
+/// Says why the last frame is incomplete; one without a point is no picture of a cloud.
 Result<void> RenderCommand::judge(const FrameRecord& last) const
 {
   if (frames_ == 0 && last.points == 0)

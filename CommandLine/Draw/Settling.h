@@ -52,7 +52,7 @@ private:
   LoadingRecord after_;
   FrameRecord last_;
   double completeMs_ = 0.0;
-  double drawingMs_ = 0.0; ///< of it, spent in frames
+  double drawingMs_ = 0.0; ///< the part of it that was spent in frames
   int frames_ = 0;
 };
 

@@ -191,7 +191,7 @@ Result<nlohmann::ordered_json> StreamCommand::pick(const nlohmann::json& place)
     { "position", { at.x, at.y, at.z } }, { "attributes", point->attributes } };
 }
 
-/// Of the first store, and there of the first of its classes that is drawn.
+/// The legend of the first store, and there of the first class that is drawn.
 nlohmann::ordered_json StreamCommand::legend() const
 {
   const DrawnStore& store = scene_->store(0);

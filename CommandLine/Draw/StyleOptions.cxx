@@ -62,7 +62,7 @@ std::map<std::uint8_t, double> sharesOf(const std::string& text)
   return shares;
 }
 
-/// What a style may say of orientation in one word.
+/// The words by which a style names an orientation.
 const std::vector<std::pair<std::string, SplatOrientation>> orientations{
   { "auto", SplatOrientation::Automatic },
   { "normal", SplatOrientation::Normal },

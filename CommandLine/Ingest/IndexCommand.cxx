@@ -113,7 +113,7 @@ Result<void> IndexCommand::chooseNormals()
   return {};
 }
 
-/// Of files that are no point files at all the family is not asked for first: a LAS file may have
+/// The family of files that are no point files is not asked for first: a LAS file may have
 /// any name.
 Result<std::vector<std::string>> IndexCommand::findFiles(std::vector<InputFault>& skipped) const
 {

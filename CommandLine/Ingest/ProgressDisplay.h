@@ -38,9 +38,9 @@ public:
   /// To hand to the operation; refers to this object.
   ProgressFunction function();
 
-  /// What Line and Plain print for one report, without the line's end.
+  /// The text that Line and Plain print for one report, without the line's end.
   static std::string text(const Progress& progress, double pointsPerSecond);
-  /// What Json prints.
+  /// The text that Json prints.
   static std::string json(const Progress& progress, double pointsPerSecond);
 
 private:

@@ -19,7 +19,7 @@ public:
   void declare(CLI::App& app);
   /// How colours of 16 bits are taken.
   ColourDepth colourDepth() const;
-  /// What the formats are opened with; threads and temporary folder are those of the build.
+  /// The options of all formats; threads and temporary folder are those of the build.
   SourceOptions options(const BuildOptions& build) const;
 
 private:

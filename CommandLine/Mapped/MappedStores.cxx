@@ -31,7 +31,7 @@ namespace pointfront
 
 namespace
 {
-constexpr int mostRounds = 64; // of a complete render
+constexpr int mostRounds = 64; // rounds of a complete render
 }
 
 /// One store with what draws it.

@@ -52,9 +52,9 @@ public:
   /// mapper draws that now, and the bounds may be others.
   bool follow();
   std::vector<std::shared_ptr<const StoredCloud>> clouds() const;
-  /// What the actor draws now; null for another prop.
+  /// The cloud that the actor draws now; null for another prop.
   std::shared_ptr<const StoredCloud> cloudOf(const vtkProp* prop) const;
-  /// What the clouds say of themselves, with their paths.
+  /// Warnings of the clouds about themselves, with their paths.
   std::vector<std::string> warnings() const;
   /// The camera, with clipping planes that hold all stores.
   void aim(const Camera& camera, vtkCamera* target) const;
@@ -63,7 +63,7 @@ public:
   /// Draws a frame of the window, which must have the renderer, and waits for the driver.
   /// `complete`  waits for all that the error and the budgets allow; else draws what is there.
   void draw(vtkRenderWindow* window, bool complete);
-  /// What the last frame drew, but its times.
+  /// The counts of the last frame, without its times.
   FrameRecord record() const;
   /// Another frame would show something that the last one did not.
   bool needsRender() const;
@@ -71,7 +71,7 @@ public:
   const Residency* loading() const;
   /// Attributes that were read, by name.
   std::vector<std::string> attributesRead() const;
-  /// Of all stores: one scheduler loads them.
+  /// The one scheduler that loads all stores.
   const LoadScheduler& scheduler() const;
   /// Hears the errors of readers and mappers.
   ErrorListener& errors() { return errors_; }

@@ -12,7 +12,7 @@
 namespace pointfront
 {
 
-/// What --color-by chose, as the mapper's properties.
+/// Sets the mapper's properties to the choice of --color-by.
 inline void applyColour(const ColourChoice& colour, vtkPointFrontMapper* mapper)
 {
   mapper->ScalarVisibilityOn();

@@ -9,7 +9,7 @@ class vtkRenderWindow;
 namespace pointfront
 {
 
-/// What the window drew last, as PNG; whole or absent.
+/// Writes the window's last picture as PNG; the file is whole or absent.
 Result<void> writeWindowPicture(vtkRenderWindow* window, const std::string& path);
 
 } // namespace pointfront

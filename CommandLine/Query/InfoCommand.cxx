@@ -67,7 +67,7 @@ void print(const std::string& text)
   std::printf("%s\n", text.c_str());
 }
 
-/// What is wrong with some of several inputs; the others were told.
+/// The faults of some of several inputs; the others were told.
 Error faultsOf(const std::vector<Error>& faults, std::size_t inputs)
 {
   if (inputs == 1)

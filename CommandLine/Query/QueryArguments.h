@@ -21,7 +21,7 @@ public:
   void declare(CLI::App& app);
   /// Files that they name, for checkOutputTarget().
   std::vector<std::string> files() const;
-  /// What they mean for a store. `notes` gets sentences that the user should know.
+  /// The query that they mean for a store. `notes` gets sentences that the user should know.
   Result<PointQuery> query(const StoreDescription& store, std::vector<std::string>& notes) const;
 
 private:
@@ -32,7 +32,7 @@ private:
   Result<void> addCorridor(
     const StoreDescription& store, PointQuery& query, std::vector<std::string>& notes) const;
 
-  PointQuery query_; ///< what needs no store
+  PointQuery query_; ///< the part that needs no store
   std::optional<Bounds> box_;
   std::optional<std::array<double, 4>> sphere_;
   std::string polygonPath_;

@@ -14,7 +14,7 @@ namespace pointfront
 
 /// The kinds of point files that this program writes, named by their extension.
 
-/// What may be asked of a file that is written.
+/// The choices that a user has for a file that is written.
 struct SinkChoice
 {
   bool doubleCoordinates = false; ///< PCD
@@ -24,10 +24,10 @@ struct SinkChoice
   std::string crs; ///< the system to transform into; empty: as they are
 };
 
-/// What writes a file of that name; the extension has passed the check.
+/// Makes the writer of a file of that name; the extension has passed the check.
 /// Errors   Unsupported: another system, in a build without PROJ.
 Result<std::unique_ptr<PointSink>> makeSink(const std::string& path, const SinkChoice& choice);
-/// What such a file is, for checkOutputTarget().
+/// The kind of such a file, for checkOutputTarget().
 FileKind sinkKind(const std::string& path);
 /// Check for an option that names such a file.
 CLI::Validator sinkExtension();

@@ -13,11 +13,11 @@
 namespace pointfront
 {
 
-/// What `info` tells of a point file: what its header says, and what was counted.
+/// The facts that `info` tells of a point file: those in its header, and those that were counted.
 struct SourceInfo
 {
   SourceDescription description;
-  std::uint64_t fileBytes = 0; ///< of the file that was named
+  std::uint64_t fileBytes = 0; ///< size of the file that was named
   std::optional<PointCount> counted; ///< where all points were read
 
   /// Opens nothing more: counts where the header gives no bounds.
@@ -29,7 +29,7 @@ struct SourceInfo
   Bounds bounds() const;
   bool pointsFromHeader() const;
   bool boundsFromHeader() const { return !counted; }
-  /// What the header claims; nothing: no box.
+  /// The box that the header claims; nothing: no box.
   std::optional<Bounds> headerBounds() const;
   /// From what was counted, by more than the header rounds.
   bool boundsDiffer() const;

@@ -68,11 +68,11 @@ AttributeSchema heldSchema(const StoreDescription& store)
   return held;
 }
 
-/// What normals there are and where they come from.
+/// Which normals there are and where they come from.
 struct NormalFacts
 {
   std::string source; ///< "stored", "computed while nodes load", "none"
-  std::string of; ///< what the attribute's description says
+  std::string of; ///< the attribute's description says so
 };
 
 NormalFacts normalFacts(const StoreDescription& store)

@@ -9,7 +9,7 @@
 namespace pointfront
 {
 
-/// What a store says of itself, without reading points: the keys of `info --json`.
+/// Facts of a store about itself, without reading points: the keys of `info --json`.
 nlohmann::ordered_json storeJson(const StoreDescription& store, const Hierarchy& hierarchy);
 /// For people: one line a fact.
 std::string storeText(const StoreDescription& store, const Hierarchy& hierarchy);

@@ -47,7 +47,7 @@ Axes axesOf(ViewDirection view)
 struct Fit
 {
   double distance = 0.0;
-  double shift = 0.0; ///< of the eye along the axis
+  double shift = 0.0; ///< way of the eye along the axis
 };
 
 /// A corner at (c, z) is inside if |c - shift| <= tangent (distance + z): near corners push the
@@ -73,7 +73,7 @@ double leastDistance(const Bounds& bounds)
 {
   constexpr double ofOnePlace = 1.0e-3;
   constexpr double ofSmallest = 1.0e-12;
-  const double told = std::ldexp(1.0, -44); // of the farthest coordinate: 8 bits of a direction
+  const double told = std::ldexp(1.0, -44); // times the farthest coordinate: 8 bits of a direction
   if (bounds.empty())
   {
     return ofOnePlace;

@@ -89,7 +89,7 @@ Result<ColourChoice> chooseColour(
   {
     choice.vector = true;
     choice.range = { -1.0, 1.0 };
-    choice.table = greyTable(); // of what a mapper would do with one component
+    choice.table = greyTable(); // as a mapper would draw one component
     return choice;
   }
   if (found && found->components != 1)

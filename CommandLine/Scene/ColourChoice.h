@@ -17,7 +17,7 @@ namespace pointfront
 /// How the points of one picture get their colour.
 struct ColourChoice
 {
-  std::string attribute; ///< of the store, or "elevation"
+  std::string attribute; ///< an attribute of the store, or "elevation"
   bool direct = false; ///< rgb: the values are the colours
   bool vector = false; ///< normal: components over the range are the colours
   ColourTable table = {}; ///< else: from range[0] to range[1]

@@ -105,7 +105,7 @@ void DrawnStore::noteFrame(std::uint64_t points, std::uint64_t keptPoints, doubl
 bool DrawnStore::loads() const
 {
   const ResidencyStatistics now = residency().statistics();
-  // What has arrived and waits for the end of a pause is not in the picture either.
+  // Nodes that have arrived and wait for the end of a pause are not in the picture either.
   return now.loading > 0 || (now.pending > 0 && !residency().exhausted()) || view_.hasNews();
 }
 

@@ -25,7 +25,7 @@ public:
   /// One for each layer of the store. Errors of reading which nodes their filters leave out.
   Result<void> setStyles(std::vector<LayerStyling> layers);
   const std::vector<LayerStyling>& styles() const { return styles_; }
-  /// Of the layers that their styles show.
+  /// Number of points in the layers that their styles show.
   std::uint64_t pointsShown() const;
   /// From then on it is drawn, beside others of the same window. Styles first.
   void enterWindow(std::shared_ptr<const WindowDemand> window);
@@ -50,7 +50,7 @@ public:
   bool wantsUpdate() const { return view_.front()->wantsUpdate(); }
   /// Whether nodes are on their way, or wait for the next frame.
   bool loads() const;
-  /// What went wrong since the last call: nodes and rows that could not be read.
+  /// The faults since the last call: nodes and rows that could not be read.
   Result<void> outcome();
 
   const Residency& residency() const { return share_->residency(); }
@@ -62,7 +62,7 @@ private:
   std::unique_ptr<ResidencyShare> share_; // before the view, which refers to it
   StoreView view_;
   std::vector<LayerStyling> styles_;
-  double tallestWall_ = 0.0; ///< of the styles
+  double tallestWall_ = 0.0; ///< the tallest wall of all styles
   LayerColumns columns_; ///< that the styles read
   std::vector<LayerLimits> limits_; ///< that they set
 };

@@ -10,11 +10,11 @@
 namespace pointfront
 {
 
-/// What one frame drew, and where the loading stands after it; sums over the stores.
+/// A record of one frame: its counts, and where the loading stands after it; sums over the stores.
 struct FrameRecord
 {
-  double milliseconds = 0.0; ///< of the whole frame, drawing finished
-  double frontMilliseconds = 0.0; ///< of the fronts' updates
+  double milliseconds = 0.0; ///< time of the whole frame, drawing finished
+  double frontMilliseconds = 0.0; ///< time of the fronts' updates
   /// From the plans to the pixels, the points alone; nothing where a driver draws beside the rest.
   std::optional<double> rasteriseMilliseconds;
   std::int64_t points = 0;

@@ -11,9 +11,9 @@ namespace pointfront
 
 namespace
 {
-constexpr double smallestNear = 0.001; // of the farthest
+constexpr double smallestNear = 0.001; // share of the farthest distance
 constexpr double roundingRoom = 0.01;
-constexpr double depthRoom = 0.5; // of the box's depth, before and behind it
+constexpr double depthRoom = 0.5; // share of the box's depth, before and behind it
 constexpr double thinnest = 0.2; // depth, of half the height of the picture where the box ends
 } // namespace
 

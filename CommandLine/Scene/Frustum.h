@@ -19,7 +19,7 @@ std::array<double, 2> clippingRange(const Camera& camera, const Bounds& bounds);
 /// The camera of a frame that shows the box.
 FrameCamera frameCameraOf(const Camera& camera, const Bounds& bounds, int width, int height);
 
-/// What a front needs to know of it.
+/// The frustum as fronts need it.
 View viewOf(const FrameCamera& camera);
 /// The same for rows [bottom, top) of the viewport: what lies in another part of the picture is out
 /// of sight. Errors in pixels are those of the whole.

@@ -16,7 +16,7 @@ struct StoreDescription;
 struct ShownClasses
 {
   std::vector<LayerLimits> layers; ///< by number of the store's layer
-  std::uint64_t points = 0; ///< of those that are drawn
+  std::uint64_t points = 0; ///< number of points that are drawn
 
   /// `codes`: sorted codes 0 to 255; empty: all that the store has.
   /// Errors  BadArgument: the store keeps no tree a class.

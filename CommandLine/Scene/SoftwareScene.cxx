@@ -29,7 +29,7 @@ using Clock = std::chrono::steady_clock;
 
 /// One store's arrivals are waited for that long before the others are looked at.
 constexpr std::chrono::milliseconds lookAtOthers{ 20 };
-constexpr int mostRounds = 64; // of the fronts of a complete picture
+constexpr int mostRounds = 64; // rounds in which the fronts of a complete picture move
 constexpr double frameMsInMotion = 1000.0 / 15; // that VTK allots to a moving view
 constexpr std::uint64_t framePointBudget = 5000000; // as vtkPointFrontMapper's
 constexpr std::uint64_t overviewPoints = 2000000; // likewise
@@ -249,7 +249,7 @@ void SoftwareScene::updateFronts(const View& view, bool complete)
   } while (complete && ++rounds < mostRounds && wantsUpdate());
 }
 
-/// What the fronts say of the frame that is about to be drawn.
+/// Records the state of the fronts before the frame is drawn.
 FrameRecord SoftwareScene::record(bool complete) const
 {
   FrameRecord frame;
@@ -308,7 +308,7 @@ void SoftwareScene::drawPart(
   }
   composition_.finish(camera_, shading_, target_);
   putBackground(options_.background, target_);
-  // What no store has to itself is shared out, or frames of a given time would be longer.
+  // All stores share the rest of the time, or frames of a given time would be longer.
   const double shared = (millisecondsSince(begin) - own) / static_cast<double>(stores_.size());
   for (std::size_t i = 0; i < stores_.size(); ++i)
   {

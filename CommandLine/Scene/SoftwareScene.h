@@ -76,7 +76,7 @@ private:
   explicit SoftwareScene(const DrawingOptions& options);
   Result<void> openStores();
   Result<void> chooseStyles();
-  /// Of all that is drawn in one way.
+  /// Visits each style that draws anything.
   template <typename Visit>
   void forEachStyle(const Visit& visit) const
   {
@@ -107,8 +107,8 @@ private:
   FrameCamera camera_;
   bool interactive_ = false;
   std::uint64_t emptySceneBytes_ = 0;
-  std::uint64_t allPoints_ = 0; ///< of all stores
-  std::vector<double> ownMs_; ///< of the frame in work, what each store took
+  std::uint64_t allPoints_ = 0; ///< number of points in all stores
+  std::vector<double> ownMs_; ///< time that each store took of the frame in work
   ThreadReads reads_;
   std::vector<std::unique_ptr<DrawnStore>> stores_;
   std::unique_ptr<ThreadCrew> crew_; ///< where memory allows a frame fewer threads than there are

@@ -24,10 +24,10 @@ using Clock = std::chrono::steady_clock;
 constexpr int splatReachRows = 64;
 } // namespace
 
-/// What bands have drawn, each node once: neighbours share many.
+/// The nodes that bands have drawn, each node once: neighbours share many.
 struct SoftwareScene::DrawnNodes
 {
-  std::vector<std::unordered_map<NodeIndex, std::uint32_t>> points; ///< of nodes, by store
+  std::vector<std::unordered_map<NodeIndex, std::uint32_t>> points; ///< by node, for each store
 
   void add(std::size_t store, const FrontDelta& delta)
   {

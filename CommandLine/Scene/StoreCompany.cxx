@@ -24,7 +24,7 @@ bool sameSystem(const std::string& one, const std::string& other)
 {
   if (one == other || one.empty() || other.empty())
   {
-    return true; // what is not known is not different
+    return true; // two systems that are not known do not differ
   }
   const std::shared_ptr<const CoordinateSystems> known = knownSystems();
   const auto a = known->parse(one);

@@ -16,7 +16,7 @@
 namespace pointfront
 {
 
-/// What all the loading of a scene came to so far.
+/// The state of all loading of a scene so far.
 struct LoadingRecord
 {
   std::uint64_t fetchedBytes = 0;
@@ -40,7 +40,7 @@ public:
 
   virtual const char* backend() const = 0; ///< "software" or "opengl"
   virtual const Bounds& bounds() const = 0;
-  /// What the clouds say of themselves: that they are a part, or made of parts that differ.
+  /// Warnings of the clouds about themselves: that they are a part, or made of parts that differ.
   virtual std::vector<std::string> warnings() const = 0;
   /// Median z of a sample of the first store's points.
   virtual Result<double> ground() const = 0;

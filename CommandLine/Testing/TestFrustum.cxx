@@ -38,7 +38,7 @@ bool inSight(const View& view, const glm::dvec3& point)
 }
 } // namespace
 
-// What vtkRenderer::ResetCameraClippingRange() of VTK 9.1 gives for these cameras and boxes.
+// Values of vtkRenderer::ResetCameraClippingRange() of VTK 9.1 for these cameras and boxes.
 TEST(Frustum, ClippingRangeIsVTKs)
 {
   Bounds cube;

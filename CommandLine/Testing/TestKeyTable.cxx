@@ -36,7 +36,7 @@ TEST(FreshName, NamesWhatIsNotThere)
   }
   EXPECT_EQ(freshName(stem, ".png"), stem + "-1.png");
   std::ofstream(stem + "-1.png") << "x";
-  fs::create_symlink("nothing", stem + "-2.png"); // of something that may come back
+  fs::create_symlink("nothing", stem + "-2.png"); // its target may come back
   EXPECT_EQ(freshName(stem, ".png"), stem + "-3.png");
 }
 

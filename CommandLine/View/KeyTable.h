@@ -7,7 +7,7 @@
 namespace pointfront
 {
 
-/// What a key does in the window of `view`.
+/// The action of a key in the window of `view`.
 enum class KeyAction
 {
   None,
@@ -82,7 +82,7 @@ constexpr std::array<KeyBinding, 29> keyTable{ {
   { "q", KeyAction::Quit, "end" },
 } };
 
-/// What the mouse does and keys that are held (Flight), a line each.
+/// Actions of the mouse and of keys that are held (Flight), a line each.
 constexpr std::array<KeyBinding, 7> mouseTable{ {
   { "click", KeyAction::None, "what the store holds of the point" },
   { "left drag", KeyAction::None, "turn around the point under the mouse" },

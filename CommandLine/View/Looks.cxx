@@ -15,7 +15,7 @@ namespace
 {
 constexpr double sizeStep = 1.25;
 constexpr double largestPx = 255.0;
-constexpr double largestFactor = 64.0; // of the points' spacing, and its inverse the smallest
+constexpr double largestFactor = 64.0; // times the points' spacing; the smallest is its inverse
 
 /// Whether any component of the column has several values.
 bool varies(const StoreDescription& store, std::size_t column)

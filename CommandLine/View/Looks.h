@@ -31,7 +31,7 @@ public:
   /// Sorted codes; empty: all classes.
   void showClasses(std::vector<std::uint8_t> codes);
 
-  /// What tells points of the stores apart, in the order of the colours: the best known attributes
+  /// Attributes that tell points of the stores apart, in the order of colours: the best known
   /// first, none that has the same value everywhere.
   const std::vector<std::string>& colours() const { return colours_; }
 

@@ -10,7 +10,7 @@
 namespace pointfront
 {
 
-/// What `view` shows first.
+/// The first view that `view` shows.
 struct ViewRequest
 {
   DrawingOptions drawing;

@@ -48,7 +48,7 @@ private:
   bool stale_ = false; ///< a frame was drawn since the text was written
   bool own_ = false; ///< the next frame is drawn for the text
   Clock::time_point begin_;
-  double milliseconds_ = 0.0; ///< of the last frame
+  double milliseconds_ = 0.0; ///< time of the last frame
 };
 
 } // namespace pointfront

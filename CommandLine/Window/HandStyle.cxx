@@ -18,7 +18,7 @@ namespace pointfront
 
 namespace
 {
-constexpr double wheelStep = 1.2; // of the distance
+constexpr double wheelStep = 1.2; // factor of the distance
 constexpr int stillPx = 3; // a hand that clicks moves the mouse that far
 } // namespace
 

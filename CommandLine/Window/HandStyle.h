@@ -15,7 +15,7 @@ namespace pointfront
 
 class ViewCamera;
 
-/// What mouse and keyboard ask the window for, beside moving the camera.
+/// The window, as mouse and keyboard ask it for more than a movement of the camera.
 class HandTarget
 {
 public:
@@ -73,7 +73,7 @@ private:
   HandTarget* target_ = nullptr;
   glm::ivec2 pressed_{ 0 }; ///< where the button was
   glm::ivec2 last_{ 0 };
-  glm::dvec3 anchor_{ 0.0 }; ///< what was there
+  glm::dvec3 anchor_{ 0.0 }; ///< the point that was there
   bool dragged_ = false;
 };
 

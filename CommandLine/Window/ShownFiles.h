@@ -17,9 +17,9 @@
 namespace pointfront
 {
 
-/// What stands for the files that the user names. Stores stand for themselves. Point files, and
-/// folders of LAS and LAZ files, are shown at a glance, while a store of them is built; then by the
-/// store's preview, and at last by the store.
+/// Chooses the stores that stand for the user's files. Stores stand for themselves. Point files,
+/// and folders of LAS and LAZ files, are shown at a glance, while a store of them is built; then by
+/// the store's preview, and at last by the store.
 class ShownFiles
 {
 public:
@@ -30,7 +30,7 @@ public:
   /// Shows these from now on. A build of earlier ones ends.
   /// Errors  of a file that is no cloud: those of before stay.
   Result<void> name(const std::vector<std::string>& files);
-  /// What is to be opened.
+  /// The stores that the window opens.
   const std::vector<std::string>& stores() const { return stores_; }
   /// Looks at the build. Nothing: the stores are those of before; else a sentence about the new
   /// ones.

@@ -65,7 +65,7 @@ Result<void> StoreInTheMaking::start(const std::vector<std::string>& files)
   {
     return failed("no process for the build");
   }
-  if (process_ == 0) // what may be called here is async-signal-safe
+  if (process_ == 0) // a child process may call async-signal-safe functions only
   {
     ::prctl(PR_SET_PDEATHSIG, SIGTERM); // however the window ends, the build does
     const int output = ::open(log.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600);

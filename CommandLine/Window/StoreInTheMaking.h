@@ -34,9 +34,9 @@ public:
 
   /// Looks at the disk and at the process.
   State look();
-  /// Of the store, or of its preview.
+  /// The path of the store, or of its preview.
   std::string path() const;
-  /// What the build said when it failed.
+  /// The message of the build when it failed.
   std::string failure() const;
 
 private:

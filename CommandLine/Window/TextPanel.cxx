@@ -10,7 +10,7 @@ namespace pointfront
 namespace
 {
 constexpr int fontSize = 15;
-constexpr double margin = 0.012; // of the view
+constexpr double margin = 0.012; // share of the view
 constexpr double dim = 0.65; // opacity behind the text
 } // namespace
 

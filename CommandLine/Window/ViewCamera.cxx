@@ -20,7 +20,7 @@ namespace
 {
 constexpr int reachPx = 6; // beside the mouse: points are small
 constexpr float background = 1.0f; // depth
-constexpr double leastScale = 1.0e-6; // of a parallel view
+constexpr double leastScale = 1.0e-6; // smallest scale of a parallel view
 } // namespace
 
 ViewCamera::ViewCamera(vtkRenderer* renderer, const MappedStores& stores)

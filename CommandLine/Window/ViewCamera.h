@@ -46,7 +46,7 @@ public:
   void zoom(const glm::dvec3& anchor, double factor);
 
 private:
-  vtkRenderer* renderer_; // of the window, which has this object
+  vtkRenderer* renderer_; // the renderer of the window that has this object
   const MappedStores& stores_;
   Camera camera_;
   std::optional<ViewDirection> all_; ///< the camera shows all from there

@@ -37,7 +37,7 @@ namespace pointfront
 namespace
 {
 constexpr std::chrono::milliseconds loadingPause{ 10 }; // between two looks at what has arrived
-constexpr std::chrono::milliseconds watchingPause{ 250 }; // of files that grow
+constexpr std::chrono::milliseconds watchingPause{ 250 }; // between two looks at files that grow
 constexpr std::chrono::milliseconds strandedPause{ 200 }; // where a view is not complete, and rests
 
 /// The window, put together: what a key does, and when a frame is drawn.
@@ -166,7 +166,7 @@ void ViewWindow::drop(const std::vector<std::string>& files)
   Result<void> opened = files_.name(files);
   if (opened && !(opened = openStores(appearance_.drawing())))
   {
-    DrawingOptions plain = request_.drawing; // what one store has another may lack
+    DrawingOptions plain = request_.drawing; // an attribute of one store may be missing in another
     plain.style = StyleSheet();
     plain.classes.clear();
     plain.colourBy.clear();

@@ -50,7 +50,7 @@ void WorldMarks::set(std::vector<glm::dvec3> places)
   project();
 }
 
-/// What lies behind the eye would be drawn in front of it: lines end at the clipping plane.
+/// Points behind the eye would be drawn in front of it: lines end at the clipping plane.
 void WorldMarks::project()
 {
   if (places_.empty())

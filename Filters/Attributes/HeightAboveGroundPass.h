@@ -37,7 +37,7 @@ private:
   Result<PointSources> aboveLowest(PointSources sources, const PassResources& resources) const;
 
   GroundOptions options_;
-  mutable std::atomic<std::uint64_t> cells_{ 0 }; ///< of lowest points; 0: ground is known
+  mutable std::atomic<std::uint64_t> cells_{ 0 }; ///< cells with a lowest point; 0: ground is known
 };
 
 } // namespace pointfront

@@ -9,7 +9,7 @@ namespace pointfront
 {
 namespace
 {
-constexpr int middle = 9; // of a window
+constexpr int middle = 9; // the middle cell of a window
 } // namespace
 
 std::int64_t LocalMean::cellOf(double coordinate) const

@@ -27,8 +27,8 @@ public:
   static constexpr std::uint64_t bytesOfCell = 200; ///< with the index that is made of it
   PositionSet positions() const; ///< by cell
 
-  /// Of all sources, by all threads of the crew. Error NoMemory when there are more cells than fit
-  /// in `memoryBytes`.
+  /// Finds them for all sources, by all threads of the crew. Error NoMemory when there are more
+  /// cells than fit in `memoryBytes`.
   static Result<PositionSet> of(const PointSources& sources, const InputOrder& order, double cell,
     std::uint64_t memoryBytes, WorkCrew& crew);
 

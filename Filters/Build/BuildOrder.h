@@ -12,7 +12,7 @@
 namespace pointfront
 {
 
-/// What to build, of what, and how: as VTK's builder and Python ask for it.
+/// An order to build, as VTK's builder and Python give it: the inputs, the output and the options.
 struct BuildOrder
 {
   std::vector<std::string> files; ///< and patterns and folders, as the tool takes them

@@ -16,7 +16,7 @@ namespace pointfront
 class BuildThread
 {
 public:
-  /// What the caller sees between two looks.
+  /// The caller's news between two looks.
   struct News
   {
     Progress progress;

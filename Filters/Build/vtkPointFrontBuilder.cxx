@@ -302,7 +302,7 @@ void vtkPointFrontBuilder::ClearImages()
   this->Modified();
 }
 
-/// What the kernel's types cannot even express; it checks the rest.
+/// Checks values that the kernel's types cannot even express; the kernel checks the rest.
 bool vtkPointFrontBuilder::CheckProperties()
 {
   const bool files = !this->Internals->FileNames.empty();

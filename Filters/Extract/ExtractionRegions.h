@@ -11,7 +11,7 @@ class vtkPlanes;
 namespace pointfront
 {
 
-/// What VTK objects mean as regions of a query. Errors are those of the regions.
+/// Turns VTK objects into regions of a query. Errors are those of the regions.
 
 /// In VTK's order xmin, xmax, ymin, ymax, zmin, zmax.
 Result<std::shared_ptr<const Region>> regionOfBounds(const double bounds[6]);

@@ -371,7 +371,7 @@ int vtkPointFrontExtract::RequestData(
   {
     if (report.error().kind == Error::Kind::Cancelled)
     {
-      return 1; // what the user asked for: an empty output
+      return 1; // the user asked for an empty output
     }
     const bool damaged =
       report.error().kind == Error::Kind::Corrupt || report.error().kind == Error::Kind::Truncated;

@@ -11,7 +11,7 @@
 namespace pointfront
 {
 
-/// What a TIFF says of its place on the ground, which OpenImageIO does not hand on.
+/// The place of a TIFF on the ground, by tags that OpenImageIO does not hand on.
 /// Source   OGC GeoTIFF 1.1, sections 7.1 to 7.3; GDAL's tag 42113 for pixels without data.
 struct GeoTiffTags
 {

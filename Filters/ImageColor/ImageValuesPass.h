@@ -44,17 +44,17 @@ public:
   /// Tiles decoded for the sources of the last apply() so far, those decoded again included.
   std::uint64_t tilesRead() const;
 
-  /// What all sources share while they are read.
+  /// State that all sources share while they are read.
   struct Images;
 
 private:
-  using Inputs = std::vector<std::vector<RasterSourceInput>>; ///< of each source
+  using Inputs = std::vector<std::vector<RasterSourceInput>>; ///< the images of each source
   Result<PointSources> wrapped(PointSources sources, Inputs inputs,
     std::vector<AttributeSchema> schemas, const PassResources& resources) const;
 
   std::vector<RasterInput> inputs_;
   std::shared_ptr<const CoordinateSystems> systems_;
-  mutable std::shared_ptr<Images> images_; ///< of the last apply()
+  mutable std::shared_ptr<Images> images_; ///< the images of the last apply()
 };
 
 } // namespace pointfront

@@ -200,7 +200,7 @@ RasterColumn::Outcome RasterColumn::storeValues(
 {
   const std::size_t from = sizeOf(file.type);
   const std::size_t step = sizeOf(attribute_.type);
-  std::array<std::byte, 16 * 8> values; // of all components: all are stored, or none
+  std::array<std::byte, 16 * 8> values; // values of all components: all are stored, or none
   std::size_t component = 0;
   for (int channel = 0; channel < file.channels; ++channel)
   {

@@ -13,7 +13,7 @@
 namespace pointfront
 {
 
-/// What the pixels of an image are wanted for.
+/// The use of an image's pixels.
 enum class RasterUse
 {
   Colour, ///< palettes are looked up; 8 or 16 bits a channel, grey or red, green, blue
@@ -32,7 +32,7 @@ struct RasterFile
   int height = 0;
   int channels = 1; ///< in a pixel as it is read, alpha included
   int alphaChannel = -1; ///< -1: none
-  ScalarType type = ScalarType::UInt8; ///< of one channel
+  ScalarType type = ScalarType::UInt8; ///< type of one channel
   bool tiff = false;
   bool palette = false; ///< a TIFF with a table of colours
   GeoTransform transform;
@@ -42,7 +42,7 @@ struct RasterFile
 
   int dataChannels() const { return channels - (alphaChannel >= 0 ? 1 : 0); }
   std::size_t pixelBytes() const { return sizeOf(type) * static_cast<std::size_t>(channels); }
-  Bounds ground() const; ///< of all pixels; z is 0
+  Bounds ground() const; ///< the box of all pixels; z is 0
 
   /// Errors  NotFound, BadFormat, Truncated; Unsupported: no georeference, a type of pixel that is
   ///         not read.

@@ -19,8 +19,8 @@ struct RasterTally
   std::atomic<std::uint64_t> notHeld{ 0 }; ///< the value does not fit the column's type
 };
 
-/// What all sources share while they are read: tiles, mosaics, counts. Lives as long as the pass
-/// or any of its sources.
+/// State that all sources share while they are read: tiles, mosaics, counts. Lives as long as the
+/// pass or any of its sources.
 struct ImageValuesPass::Images
 {
   explicit Images(std::uint64_t bytes)
@@ -32,7 +32,7 @@ struct ImageValuesPass::Images
   RasterTiles tiles;
   std::vector<RasterMosaic> mosaics; ///< one for each input
   std::vector<std::unique_ptr<RasterTally>> tallies;
-  std::uint64_t points = 0; ///< of all sources: counts are told when all have been read
+  std::uint64_t points = 0; ///< points of all sources: counts are told when all have been read
   std::vector<std::string> warnings; ///< known before the first point
 };
 

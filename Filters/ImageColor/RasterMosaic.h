@@ -90,7 +90,7 @@ private:
 
   RasterTiles* tiles_ = nullptr;
   std::vector<RasterFile> files_;
-  std::vector<std::uint32_t> numbers_; ///< of each file in tiles_
+  std::vector<std::uint32_t> numbers_; ///< numbers of the files in tiles_
   std::vector<Group> groups_;
 };
 

@@ -30,7 +30,7 @@ public:
   RasterSource(std::unique_ptr<PointSource> original,
     std::shared_ptr<ImageValuesPass::Images> images, std::vector<Input> inputs,
     AttributeSchema schema);
-  /// What was looked up before for all sources, of which this is `number`.
+  /// Takes values that were looked up before for all sources, of which this is `number`.
   void use(std::shared_ptr<const SortedRasterValues> sorted, std::size_t number);
 
   const SourceDescription& description() const override { return description_; }

@@ -242,7 +242,7 @@ Result<RasterTiles::Tile> RasterTiles::tile(std::uint32_t image, int column, int
     images.get_tile(file.handle, images.get_perthread_info(), 0, 0, column, row, 0);
   OIIO::TypeDesc format;
   const void* pixels = tile != nullptr ? images.tile_pixels(tile, format) : nullptr;
-  if (pixels == nullptr || images.has_error()) // of this thread; a tile may come all the same
+  if (pixels == nullptr || images.has_error()) // this thread's errors; a tile may come all the same
   {
     if (tile != nullptr)
     {

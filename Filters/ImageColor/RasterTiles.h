@@ -29,7 +29,7 @@ public:
   /// How an image is cut into tiles, pixels.
   struct Layout
   {
-    int width = 1; ///< of a tile
+    int width = 1; ///< width of a tile
     int height = 1;
     int across = 1; ///< tiles in a row
   };

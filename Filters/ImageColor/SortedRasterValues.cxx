@@ -16,7 +16,7 @@ constexpr std::uint64_t askedChunks = 8;
 /// Decoding a tile so often costs more than two readings of the points.
 constexpr double worthwhile = 2.0;
 constexpr std::uint64_t mostTilePoints = 1u << 17;
-/// What a point needs while its tile is looked up: itself, its places, its hit, its value.
+/// A point takes them while its tile is looked up: for itself, its places, its hit, its value.
 constexpr std::uint64_t lookupBytes = 256;
 
 // Shares of the whole, for the progress fraction.
@@ -140,7 +140,7 @@ private:
   const Inputs& inputs_;
   const ImageValuesPass::Images& images_;
   WorkCrew& crew_;
-  std::vector<std::uint64_t> ends_; ///< of each source's points, in input order
+  std::vector<std::uint64_t> ends_; ///< number of the last point of each source, in input order
   /// For each mosaic and source: the first source with the same ways to the mosaic. Their points
   /// are looked up together: a tile is wanted by all of them.
   std::vector<std::vector<std::size_t>> likeIt_;
@@ -158,7 +158,7 @@ Result<void> SortedRasterValues::Lookup::lookUp(std::size_t tile) const
     [](const TilePoint& a, const TilePoint& b) { return a.number() < b.number(); });
   std::vector<std::byte> values(own->size() * values_.bytes_);
   std::vector<std::uint64_t> numbers;
-  std::vector<std::size_t> sources; // of each point
+  std::vector<std::size_t> sources; // the source of each point
   std::size_t source = 0;
   for (const TilePoint& point : *own)
   {

@@ -11,7 +11,7 @@
 namespace pointfront
 {
 
-/// What the pixels give to all points of all sources, looked up with the points sorted by place:
+/// The pixel values of all points of all sources, looked up with the points sorted by place:
 /// each tile of an image is then decoded about once however the points are ordered (TEXTURE-1:
 /// "the cloud is sorted by the tiles of the aerial images"). The values wait in an unnamed file,
 /// by input order.

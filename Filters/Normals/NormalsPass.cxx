@@ -29,7 +29,7 @@ Attribute curvatureAttribute()
     "smallest eigenvalue of the neighbours' covariance over the sum of all" };
 }
 
-/// What of a neighbourhood is wanted, in this order.
+/// The values that are wanted of a neighbourhood, in this order.
 struct SurfaceValues
 {
   bool normal = true;

@@ -17,7 +17,7 @@ struct NormalsOptions
 {
   std::uint32_t neighbours = 16; ///< k, the point itself included; 3 or more
   double radius = 0.0; ///< if > 0: instead all points within, world units
-  double eps = 0.0; ///< of FLANN's approximate search, 0: exact
+  double eps = 0.0; ///< bound of FLANN's approximate search; 0: exact
   bool curvature = false; ///< also give attribute "curvature"
   /// Planes are PCL's (PCLFit.h), in single precision, not those of SurfaceFit.h.
   bool byPCL = false;

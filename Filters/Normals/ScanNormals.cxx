@@ -14,7 +14,7 @@ namespace
 constexpr double jumpSteps = 10.0; // to another line
 constexpr double turnSteps = 3.0; // behind the farthest point of a line
 constexpr std::size_t window = 6; // points to either side of where the last search ended
-constexpr double leastSine = 0.05; // of the angle between a triangle's edges: 3 degrees
+constexpr double leastSine = 0.05; // sine of the angle between a triangle's edges: 3 degrees
 
 glm::dvec2 flat(const glm::dvec3& p)
 {
@@ -143,7 +143,7 @@ std::vector<std::size_t> scanLines(const std::vector<glm::dvec3>& positions)
       }
       if (glm::length(p - start) > turnSteps * step && direction == glm::dvec2(0.0))
       {
-        direction = glm::normalize(p - start); // of the first few steps
+        direction = glm::normalize(p - start); // the direction of the first few steps
       }
       const double reached = glm::dot(p - start, direction);
       if (reached >= farthest)

@@ -9,7 +9,7 @@ namespace pointfront
 {
 namespace
 {
-/// Of radius 1. Codes 1 to 4095 are radii of 2^-128 to 2^127.9.
+/// The code of radius 1. Codes 1 to 4095 are radii of 2^-128 to 2^127.9.
 constexpr int codeOfOne = 2048;
 constexpr int lastByte = 255;
 } // namespace

@@ -70,8 +70,8 @@ Moments momentsOf(const std::vector<NearPoint>& points, const glm::dvec3& origin
   return moments;
 }
 
-/// Of a matrix with non-negative eigenvalues whose sum is 1, smallest first. Nothing where the two
-/// smallest are too close to one another for that way.
+/// The eigenvalues, smallest first, of a matrix that has no negative ones and a sum of 1. Nothing
+/// where the two smallest are too close to one another for that way.
 /// Way     the smallest root of the characteristic polynomial by Newton's steps from 0, which do
 ///         not pass it: less time than the closed form, with its arctangent and two sines.
 std::optional<glm::dvec3> separateEigenvalues(const glm::dvec3& squares, const glm::dvec3& products)

@@ -10,7 +10,7 @@ namespace pointfront
 /// A plane through neighbouring points.
 struct SurfaceFit
 {
-  glm::dvec3 normal{ 0.0 }; ///< of length 1; its sign has no meaning
+  glm::dvec3 normal{ 0.0 }; ///< unit vector; its sign has no meaning
   double curvature = 0.0; ///< smallest eigenvalue over the sum of all three: 0 flat, 1/3 a ball
   double width = 0.0; ///< middle eigenvalue over the largest
   glm::dvec3 centre{ 0.0 }; ///< mean of the points

@@ -10,7 +10,7 @@
 namespace pointfront
 {
 
-/// What the arguments of `build` stand for.
+/// The files that the arguments of `build` stand for.
 struct InputFileList
 {
   std::vector<std::string> paths; ///< sorted bytewise: the same for any order of the arguments

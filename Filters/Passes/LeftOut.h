@@ -12,10 +12,10 @@ namespace pointfront
 struct LeftOutFamily
 {
   std::string name; ///< "images"
-  std::string option; ///< of CMake, which brings it back: "POINTFRONT_IMAGE_COLOR"
+  std::string option; ///< the CMake option that brings it back: "POINTFRONT_IMAGE_COLOR"
 };
 
-/// What this library was built without.
+/// The families that this library was built without.
 std::vector<LeftOutFamily> leftOutFamilies();
 
 /// Unsupported: `what` needs a family that this build leaves out.

@@ -33,7 +33,7 @@ public:
   }
 };
 
-/// What an input says of its system: WKT, else the records that hold GeoTIFF keys.
+/// The system that an input states: WKT, else the records that hold GeoTIFF keys.
 std::string statedSystem(const SourceDescription& description)
 {
   std::string stated = description.crsWkt;

@@ -1,4 +1,4 @@
-// What GeoTIFF keys mean to PROJ: the part of ProjCoordinateSystems that knows their codes.
+// The meaning of GeoTIFF keys to PROJ: the part of ProjCoordinateSystems that knows their codes.
 // Source   OGC GeoTIFF 1.1, annex B; GeoTIFF 1.0, section 6.3.4 for the old vertical codes.
 #include "ProjCoordinateSystems.h"
 

@@ -20,7 +20,7 @@ public:
   ProjContext& operator=(const ProjContext&) = delete;
 
   pj_ctx* get() const { return context_; }
-  /// What PROJ said since the last call, "" if nothing; forgets it.
+  /// PROJ's message since the last call, "" if there is none; forgets it.
   std::string takeMessage() const;
 
 private:

@@ -42,7 +42,7 @@ struct Axes
 {
   int count = 0;
   double first = 1.0; ///< unit of the first axis: metres or radians
-  double last = 1.0; ///< of the last
+  double last = 1.0; ///< unit of the last axis
 };
 
 Axes axesOf(const ProjContext& context, const PJconsts* crs)

@@ -10,7 +10,7 @@
 namespace pointfront
 {
 
-/// What is asked of one CRS in PROJ's hands. All objects belong to `context`.
+/// Questions about one CRS in PROJ's hands. All objects belong to `context`.
 
 /// Without the link to WGS 84 that TOWGS84 of WKT 1 adds, if the system has a code of its own:
 /// PROJ's database knows better ones.

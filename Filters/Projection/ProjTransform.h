@@ -27,7 +27,7 @@ public:
   const std::vector<std::string>& warnings() const override { return warnings_; }
 
 private:
-  /// What one thread works with.
+  /// The objects that one thread works with.
   struct Copy
   {
     ProjContext context;

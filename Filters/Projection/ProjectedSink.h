@@ -29,7 +29,7 @@ private:
   std::string target_;
   std::unique_ptr<CoordinateTransform> transform_; ///< since begin(); null: the same system
   AttributeSchema schema_;
-  PointBatch batch_; ///< what is left of the last one
+  PointBatch batch_; ///< the rest of the last batch
   std::uint64_t lost_ = 0;
 };
 

@@ -249,7 +249,7 @@ Result<ProjectionPass::Way> ProjectionPass::wayFrom(const std::string& path,
 Result<std::vector<ProjectionPass::Way>> ProjectionPass::waysTo(const CoordinateSystem& target,
   const PointSources& sources, const std::vector<Known>& systems) const
 {
-  std::map<std::string, Bounds> extents; // of all points of each system: one choice for all
+  std::map<std::string, Bounds> extents; // box of all points of each system: one choice for all
   for (std::size_t s = 0; s < sources.size(); ++s)
   {
     if (systems[s])
@@ -291,7 +291,7 @@ Result<PointSources> ProjectionPass::inOneSystem(
     return ways.error();
   }
   std::vector<SourceDescription> descriptions;
-  std::optional<QuantisationGrid> resident; // of the first that is in the target already
+  std::optional<QuantisationGrid> resident; // grid of the first input that is in the target already
   Bounds extent;
   for (std::size_t s = 0; s < sources.size(); ++s)
   {

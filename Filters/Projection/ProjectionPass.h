@@ -12,11 +12,11 @@
 namespace pointfront
 {
 
-/// What a user says of coordinate reference systems.
+/// The user's choices of coordinate reference systems.
 struct ProjectionOptions
 {
-  /// What all points are to be in: a code, a definition, the path of a file that holds one, or
-  /// "utm": the zone that the first input lies in. Empty: the system of the first that names one.
+  /// The system of the output: a code, a definition, the path of a file that holds one, or "utm":
+  /// the zone that the first input lies in. Empty: the system of the first that names one.
   std::string target;
   std::string assumed; ///< likewise without "utm": what inputs are in that name none
 };
@@ -37,7 +37,7 @@ public:
   }
   Result<PointSources> apply(PointSources sources, const PassResources& resources) const override;
   std::vector<std::string> findings() const override { return findings_; }
-  /// What names a system may be a file.
+  /// The name of a system may be a file.
   std::vector<std::string> filesRead() const override
   {
     return { options_.target, options_.assumed };
@@ -75,7 +75,7 @@ private:
 
   ProjectionOptions options_;
   ProjCoordinateSystems known_;
-  mutable std::vector<std::string> findings_; ///< of the last apply()
+  mutable std::vector<std::string> findings_; ///< sentences of the last apply()
 };
 
 } // namespace pointfront

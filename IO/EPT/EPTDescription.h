@@ -38,8 +38,8 @@ struct EPTDescription
 {
   EPTEncoding encoding = EPTEncoding::Laszip;
   std::vector<EPTDimension> dimensions;
-  Bounds bounds; ///< of the points, as the file says
-  Bounds cube; ///< of the root's cell
+  Bounds bounds; ///< box of the points, as the file says
+  Bounds cube; ///< cell of the root
   double ticks = 0.0; ///< points along a side of a cell ("span"); 0: not said
   std::uint64_t points = 0;
   std::string wkt; ///< or a code, or a PROJ string; empty: not known

@@ -10,7 +10,7 @@ namespace pointfront
 namespace
 {
 constexpr std::uint64_t mostDescriptionBytes = std::uint64_t(16) << 20;
-/// Of a node's file beside its points: header, coordinate system, chunk table.
+/// Bytes in a node's file beside its points: header, coordinate system, chunk table.
 constexpr std::uint64_t mostBesidePoints = std::uint64_t(16) << 20;
 } // namespace
 

@@ -15,7 +15,7 @@ namespace pointfront
 /// An Entwine tree on the disk: its description, and its nodes with points.
 struct EPTFolder
 {
-  std::string path; ///< of the ept.json
+  std::string path; ///< path of the ept.json
   std::string folder; ///< that holds it, absolute
   std::uint64_t descriptionBytes = 0;
   EPTDescription description;

@@ -34,10 +34,10 @@ public:
   /// By the name "ept.json".
   bool accepts(const std::string& path) const override;
   Result<std::unique_ptr<PointSource>> open(const std::string& path) const override;
-  /// Of the nodes of a tree that has some.
+  /// The decoder of the nodes, for a tree that has some.
   Result<std::shared_ptr<const EPTNodeDecoder>> decoderOf(
     std::shared_ptr<const EPTFolder> tree) const;
-  /// What the nodes say, and what the tree says of them.
+  /// Describes the source, by the nodes and by the tree.
   static SourceDescription describe(const EPTNodeDecoder& nodes, const EPTFolder& tree);
 
 private:

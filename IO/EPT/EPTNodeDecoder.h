@@ -8,13 +8,13 @@
 namespace pointfront
 {
 
-/// What the files of an Entwine tree's nodes hold. Who has read a file asks for its points.
+/// Decodes the files of an Entwine tree's nodes. Who has read a file asks for its points.
 /// Threads  all functions from any thread.
 class EPTNodeDecoder
 {
 public:
   virtual ~EPTNodeDecoder() = default;
-  /// Of all nodes.
+  /// The description that holds for all nodes.
   virtual const SourceDescription& description() const = 0;
   /// The points of a node, by its place in EPTFolder::nodes and the bytes of its file.
   /// Errors  of the file's format; BadFormat, Truncated: not the points that the hierarchy says.

@@ -11,7 +11,7 @@
 namespace pointfront
 {
 
-/// What a file of a node holds: its records, unpacked if need be.
+/// The content of a node's file: its records, unpacked if need be.
 /// Errors  Truncated, BadFormat with `path`: not as many bytes as `expected`, damaged zstd.
 Result<std::vector<std::byte>> eptRecords(
   std::string_view file, EPTEncoding encoding, std::size_t expected, const std::string& path);

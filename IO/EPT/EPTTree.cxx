@@ -60,7 +60,7 @@ private:
 ForeignNode cellOf(const EPTNode& node, std::uint64_t chunk)
 {
   ForeignNode cell;
-  long long level = -1, x = -1, y = -1, z = -1; // of a key that is no cell: refused by the tree
+  long long level = -1, x = -1, y = -1, z = -1; // a key that is no cell: the tree refuses it
   std::sscanf(node.key.c_str(), "%lld-%lld-%lld-%lld", &level, &x, &y, &z);
   const auto number = [](long long value)
   { return value >= 0 && value <= INT32_MAX ? static_cast<std::int32_t>(value) : -1; };

@@ -13,7 +13,7 @@ namespace pointfront
 class RefusedFormat final : public PointSourceFormat
 {
 public:
-  /// What a file of the family begins with, or is called.
+  /// A mark of the family: the beginning of a file, or its name.
   struct Mark
   {
     std::string signature; ///< empty: by file name

@@ -12,12 +12,12 @@
 namespace pointfront
 {
 
-/// What the user says about how point files are opened.
+/// The user's choices of how point files are opened.
 struct SourceOptions
 {
-  std::vector<std::string> columns; ///< of text files; empty: by header or guess
-  TextChoice text; ///< of text files
-  SurveyOptions survey; ///< of files that are looked through when they are opened
+  std::vector<std::string> columns; ///< for text files; empty: by header or guess
+  TextChoice text; ///< for text files
+  SurveyOptions survey; ///< for files that are looked through when they are opened
   std::string temporaryFolder; ///< for what must be unpacked; empty: the system's
 };
 

@@ -14,7 +14,7 @@
 namespace pointfront
 {
 
-/// What the header of a LAS file being written will say of its points; counted as they come.
+/// The totals in the header of a LAS file being written; counted as the points come.
 struct LASTotals
 {
   std::uint64_t points = 0;
@@ -42,7 +42,7 @@ struct LASExport
   struct Origin
   {
     std::size_t column = 0;
-    std::size_t byte = 0; ///< of the column's element, for one component taken alone
+    std::size_t byte = 0; ///< offset in the column's element, for one component taken alone
     ScalarType type = ScalarType::UInt8;
   };
 

@@ -59,7 +59,7 @@ std::string wktOf(const std::vector<LASRecord>& records, const char* owner)
   return {};
 }
 
-/// What the standard's record says, else what libLAS wrote before the standard knew WKT; not beside
+/// The standard's record, else the one that libLAS wrote before the standard knew WKT; not beside
 /// GeoTIFF keys, which are the standard's way to say it then.
 std::string wktOf(const std::vector<LASRecord>& records)
 {

@@ -36,7 +36,7 @@ struct LASFile
   ///          attributes.
   static Result<LASFile> open(
     const std::string& path, MemoryMap::Access access = MemoryMap::Access::Sequential);
-  /// Of the bytes of such a file. Errors  as open().
+  /// Reads the bytes of such a file. Errors  as open().
   static Result<LASFile> of(const std::string& path, MemoryMap map);
 
   /// Sets description.pointCount to the whole records that are there, with a warning if the header

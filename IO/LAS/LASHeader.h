@@ -34,7 +34,7 @@ struct LASHeader
   std::uint32_t recordCount = 0; ///< VLRs, as claimed
   std::uint8_t pointFormat = 0; ///< 0 to 10
   bool compressed = false; ///< LAZ
-  std::uint16_t pointBytes = 0; ///< of one point record, at least the format's minimum
+  std::uint16_t pointBytes = 0; ///< size of one point record, at least the format's minimum
   std::uint64_t pointCount = 0; ///< as claimed
   QuantisationGrid grid;
   Bounds bounds; ///< as claimed; empty when it is no box

@@ -29,7 +29,7 @@ struct LASWriter::State
   LASTotals totals;
   std::unique_ptr<OutputFile> file;
   std::optional<LASzipWriter> laszip; ///< after `file`: ends before it
-  std::vector<std::byte> records; ///< of the current block
+  std::vector<std::byte> records; ///< the records of the current block
   std::uint32_t recordCount = 0;
   std::uint32_t pointOffset = 0;
   std::uint64_t end = 0; ///< bytes in `file`

@@ -19,7 +19,7 @@ Error corrupt(std::size_t at, const char* what)
     "the LZF block is damaged at its byte " + std::to_string(at) + ": " + what);
 }
 
-/// What is unpacked and not yet handed on, behind the last bytes that are.
+/// The unpacked bytes that are not yet handed on, behind the last bytes that are.
 class Window
 {
 public:
@@ -63,7 +63,7 @@ public:
 private:
   const std::function<Result<void>(const std::byte*, std::size_t)>& write_;
   std::vector<std::byte> bytes_;
-  std::size_t begin_ = 0; ///< of what is not handed on
+  std::size_t begin_ = 0; ///< offset of the first byte that is not handed on
   std::size_t end_ = 0;
   std::uint64_t handedOn_ = 0;
 };

@@ -16,7 +16,7 @@ namespace
 constexpr std::uint64_t pointsPerChunk = 32768;
 constexpr std::uint64_t mostInMemory = 64ull << 20;
 constexpr std::size_t sizesBytes = 8; // packed and unpacked size before the block
-constexpr std::uint64_t mostExpansion = 264 / 3; // of LZF: 264 bytes from three
+constexpr std::uint64_t mostExpansion = 264 / 3; // LZF's limit: 264 bytes from three
 
 std::uint32_t littleEndian32(const std::byte* from)
 {

@@ -9,7 +9,7 @@ namespace pointfront
 {
 namespace
 {
-constexpr std::size_t mostComponents = 16; // of an attribute, see Attribute
+constexpr std::size_t mostComponents = 16; // components of an attribute, see Attribute
 
 std::string formatName(PCDEncoding encoding)
 {

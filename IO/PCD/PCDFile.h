@@ -18,7 +18,7 @@ struct PCDFile
   /// Where the numbers of one TableField are in a point.
   struct Element
   {
-    std::size_t field = 0; ///< of the header
+    std::size_t field = 0; ///< number of the header's field
     std::size_t byte = 0; ///< within that field
     ScalarType type = ScalarType::Float32;
   };
@@ -31,7 +31,7 @@ struct PCDFile
   /// One for each element of each field, but not padding and not fields of more than 16. A packed
   /// colour is three of 8 bits: red, green, blue; its alpha is left out.
   std::vector<TableField> fields;
-  std::vector<Element> elements; ///< of each of `fields`
+  std::vector<Element> elements; ///< elements of each of `fields`
 
   /// Errors  of MemoryMap::open and PCDHeader::parse.
   static Result<PCDFile> open(const std::string& path);

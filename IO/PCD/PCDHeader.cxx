@@ -13,7 +13,7 @@ namespace
 {
 constexpr std::size_t mostHeaderBytes = 1 << 20;
 constexpr std::size_t mostFields = 1000;
-constexpr std::uint64_t mostElements = 1 << 20; // of a field, and of all fields of a point
+constexpr std::uint64_t mostElements = 1 << 20; // elements of a field, and of all fields of a point
 constexpr std::uint64_t mostPoints = 1ull << 48;
 
 using Words = std::vector<std::string_view>;

@@ -50,11 +50,11 @@ struct PCDHeader
   /// four, moves nothing.
   std::optional<glm::dvec3> viewpoint;
   bool viewpointDamaged = false; ///< there is such a line, but without seven numbers
-  /// What the coordinates are relative to: a comment "# ORIGIN x y z", which PCDWriter writes.
+  /// The origin of the coordinates: a comment "# ORIGIN x y z", which PCDWriter writes.
   std::optional<glm::dvec3> origin;
-  std::uint64_t lines = 0; ///< of the header
+  std::uint64_t lines = 0; ///< number of the header's lines
 
-  std::size_t pointBytes() const; ///< of one point in a binary file
+  std::size_t pointBytes() const; ///< size of one point in a binary file
   /// Errors  BadFormat, Truncated, Unsupported: what, with `path` and the line.
   static Result<PCDHeader> parse(std::string_view text, const std::string& path);
 };

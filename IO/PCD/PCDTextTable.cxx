@@ -33,7 +33,7 @@ double unpacked(double number, ScalarType type, std::size_t byte)
 TextLayout PCDTextTable::layOut()
 {
   TextLayout layout;
-  std::size_t next = 0; // of file_.fields
+  std::size_t next = 0; // number of the next of file_.fields
   for (std::size_t f = 0; f < file_.header.fields.size(); ++f)
   {
     const PCDField& field = file_.header.fields[f];

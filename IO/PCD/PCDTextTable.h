@@ -42,7 +42,7 @@ private:
   TextLayout layOut();
 
   PCDFile file_;
-  std::vector<std::size_t> columns_; ///< of each field: which number of a row it is taken from
+  std::vector<std::size_t> columns_; ///< for each field the number of a row that it is taken from
 };
 
 } // namespace pointfront

@@ -106,7 +106,7 @@ CoordinateCoding PCDWriter::coordinates(const SinkDescription& description)
   {
     return coding;
   }
-  constexpr double half = 0x1p-24; // of a float32's last place, as a share of the number
+  constexpr double half = 0x1p-24; // half of a float32's last place, as a share of the number
   const auto rounding = [&](const glm::dvec3& origin)
   { return half * glm::max(glm::abs(bounds.low - origin), glm::abs(bounds.high - origin)); };
   const auto tellsApart = [&](const glm::dvec3& by)

@@ -10,7 +10,7 @@ namespace
 {
 constexpr std::size_t mostHeaderBytes = 1 << 20;
 constexpr std::size_t mostElements = 256;
-constexpr std::size_t mostProperties = 1000; // of one element
+constexpr std::size_t mostProperties = 1000; // properties of one element
 
 struct TypeName
 {

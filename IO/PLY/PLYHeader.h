@@ -23,7 +23,7 @@ enum class PLYEncoding
 struct PLYProperty
 {
   std::string name;
-  ScalarType type = ScalarType::Float32; ///< of the value, or of each value of a list
+  ScalarType type = ScalarType::Float32; ///< type of the value, or of each value of a list
   std::optional<ScalarType> listCount; ///< integer; the property is a list
 };
 
@@ -46,7 +46,7 @@ struct PLYHeader
   PLYEncoding encoding = PLYEncoding::Ascii;
   std::vector<PLYElement> elements; ///< in the order of the body
   std::size_t bodyOffset = 0;
-  std::uint64_t lines = 0; ///< of the header
+  std::uint64_t lines = 0; ///< number of the header's lines
 
   /// Errors  BadFormat, Truncated, Unsupported: what, with `path` and the line.
   static Result<PLYHeader> parse(std::string_view text, const std::string& path);

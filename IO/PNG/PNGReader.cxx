@@ -70,7 +70,7 @@ private:
     static_cast<PNGInput*>(png_get_error_ptr(png))->note(reason);
     png_longjmp(png, 1);
   }
-  static void onWarning(png_structp, png_const_charp) {} // of chunks that are not pixels
+  static void onWarning(png_structp, png_const_charp) {} // warnings name chunks that are not pixels
 
   std::unique_ptr<const InputFile> file_;
   std::uint64_t offset_ = 0;

@@ -9,7 +9,7 @@
 namespace pointfront
 {
 
-/// What a file may ask for.
+/// The most that a file may ask for.
 struct PNGLimits
 {
   std::uint64_t pixels = std::uint64_t(1) << 29; ///< 2 GiB of Picture: 20000 x 20000 fits

@@ -12,7 +12,7 @@ namespace pointfront
 namespace
 {
 
-/// Of a node's own points at most this share is taken where more lie below: finer parts follow the
+/// A node gives at most this share of its own points where more lie below: finer parts follow the
 /// cloud's density more closely, and more nodes are read.
 constexpr std::uint64_t ownShare = 2;
 

@@ -233,7 +233,7 @@ int vtkPointFrontReader::RequestData(
   const double asked = info->Has(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP())
     ? info->Get(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP())
     : 0.0;
-  // What is there at a time between two steps is the earlier one.
+  // Between two steps the earlier one is shown.
   const double time = std::clamp(std::floor(asked), 0.0, last);
   if (!this->OpenStore(static_cast<std::size_t>(time)))
   {
@@ -258,7 +258,7 @@ int vtkPointFrontReader::RequestData(
   {
     if (filled.error().kind == pointfront::Error::Kind::Cancelled)
     {
-      return 1; // what the user asked for: an empty output
+      return 1; // the user asked for an empty output
     }
     this->SetErrorCode(vtkErrorCode::FileFormatError);
     vtkErrorMacro(<< filled.error().what);
@@ -324,7 +324,7 @@ bool vtkPointFrontReader::Fill(Found&& found, int piece, int pieces, vtkPolyData
     vtkErrorMacro(<< found.points.error().what);
     return false;
   }
-  this->SetAbortExecute(0); // what stopped an earlier run does not stop this one
+  this->SetAbortExecute(0); // the stop of an earlier run does not stop this one
   const auto goOn = [this](double share)
   {
     this->UpdateProgress(share);

@@ -52,7 +52,7 @@ public:
     return JSONPlace(value_.at(index), path_ + "[" + std::to_string(index) + "]");
   }
 
-  /// Of an object that must have it.
+  /// The place of an object that must have it.
   JSONPlace required(const char* key) const
   {
     if (!has(key))

@@ -16,7 +16,7 @@ class JSONText
 public:
   enum class Keys
   {
-    Any, ///< of two equal keys in one object the last one counts
+    Any, ///< the last of two equal keys in one object counts
     Unique ///< two equal keys in one object are an Error
   };
   /// Errors  BadFormat: "not JSON: line 3, column 12: " and what the parser expected there.

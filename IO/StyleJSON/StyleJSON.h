@@ -23,7 +23,7 @@ Result<StyleSheet> parseStyleSheet(std::string_view json);
 std::string writeStyleSheet(const StyleSheet& sheet);
 /// The values of the keys "color" and "size", on one line.
 std::string writeColour(const ColourSource& source);
-/// What `default` or a class has in a sheet.
+/// Parses the part that `default` or a class has in a sheet.
 Result<LayerStyle> parseLayerStyle(std::string_view text);
 std::string writeLayerStyle(const LayerStyle& style);
 std::string writeSize(const StyleSize& size);

@@ -64,7 +64,7 @@ private:
   std::vector<TableField> fields_;
   std::vector<std::string> warnings_;
   std::vector<Scan> scans_;
-  std::vector<Chunk> chunks_; ///< of all scans
+  std::vector<Chunk> chunks_; ///< chunks of all scans
 };
 
 } // namespace pointfront

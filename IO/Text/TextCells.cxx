@@ -31,7 +31,7 @@ std::vector<std::string_view> cellsOf(std::string_view line, char separator)
   for (std::size_t begin = line.find_first_not_of(blanks); begin < line.size();)
   {
     std::size_t from = begin;
-    if (line[begin] == '"') // what is quoted may hold separators
+    if (line[begin] == '"') // quoted text may hold separators
     {
       const std::size_t close = line.find('"', begin + 1);
       from = close == std::string_view::npos ? begin : close;

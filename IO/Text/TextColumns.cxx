@@ -58,7 +58,7 @@ bool isCountText(std::string_view line)
   return cells.size() == 1 && cells[0].find_first_not_of("0123456789") == std::string_view::npos;
 }
 
-/// What share of the cells are numbers; 0 for a line that is no row.
+/// The share of the cells that are numbers; 0 for a line that is no row.
 double numericShare(std::string_view line, const Dialect& dialect)
 {
   if (!isRow(line, dialect))
@@ -157,7 +157,7 @@ Result<void> checkHeight(const std::vector<std::string>& names, const std::strin
   return {};
 }
 
-/// What stands in front of the first row.
+/// The lines in front of the first row.
 struct Beginning
 {
   std::optional<Dialect> dialect;

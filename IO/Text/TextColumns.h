@@ -14,7 +14,7 @@ namespace pointfront
 /// How the lines of a point file are to be read: found by looking at its beginning.
 struct TextColumns
 {
-  std::vector<std::string> names; ///< of each column; "-": left out
+  std::vector<std::string> names; ///< name of each column; "-": left out
   char separator = ' '; ///< as in TextLayout
   char decimalPoint = '.';
   char lineEnd = '\n';

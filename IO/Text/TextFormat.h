@@ -11,7 +11,7 @@
 namespace pointfront
 {
 
-/// What the user says of text files; zero: found by looking at their beginning.
+/// The user's choices for text files; zero: found by looking at their beginning.
 struct TextChoice
 {
   char separator = '\0'; ///< as in TextLayout

@@ -13,7 +13,7 @@
 namespace pointfront
 {
 
-/// What the user says of a text file.
+/// The user's wishes for a text file.
 struct TextWishes
 {
   const std::vector<std::string>& columns;

@@ -51,7 +51,7 @@ struct XYZWriter::State
   char separator = ' ';
   std::unique_ptr<OutputFile> file;
   std::vector<Column> columns;
-  int decimals[3] = { 0, 0, 0 }; ///< of x, y and z
+  int decimals[3] = { 0, 0, 0 }; ///< decimals of x, y and z
   std::string text; ///< not yet written
 
   Result<void> flush()

@@ -14,7 +14,7 @@
 #include <memory>
 #include <string>
 
-/// What a mapper owns.
+/// The members of a mapper.
 struct vtkPointFrontMapper::Content
 {
   explicit Content(vtkPointFrontMapper* owner)

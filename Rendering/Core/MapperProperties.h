@@ -14,7 +14,7 @@ class vtkRenderer;
 namespace pointfront
 {
 
-// What the properties of VTK's own objects ask of a point cloud.
+// The properties of VTK's own objects, as a point cloud follows them.
 // Threads  the renderer's.
 
 /// The colouring by the array that vtkMapper's scalar properties name. If they name none: the

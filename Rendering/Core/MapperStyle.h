@@ -58,7 +58,7 @@ public:
 
   PointColouring colouringOf(
     vtkPolyDataMapper& mapper, const std::shared_ptr<const StoredCloud>& store);
-  /// What the user should know, once each; empty: nothing.
+  /// A warning for the user, once each; empty: nothing.
   std::string takeWarning() { return std::exchange(warning_, {}); }
 
 private:
@@ -70,9 +70,9 @@ private:
   std::shared_ptr<const ResolvedStyle> style_;
   std::optional<StyleSheet> sheet_; ///< that layers_ are of
   std::shared_ptr<const StoredCloud> sheetStore_;
-  std::shared_ptr<const AttributeRanges> ranges_; ///< of sheetStore_
+  std::shared_ptr<const AttributeRanges> ranges_; ///< ranges in sheetStore_
   std::optional<std::vector<LayerStyling>> layers_;
-  std::vector<std::shared_ptr<const NodePruning>> pruning_; ///< of layers_
+  std::vector<std::shared_ptr<const NodePruning>> pruning_; ///< pruning of layers_
   std::string error_;
   std::shared_ptr<const ColourMap> map_;
   PointColouring mapColouring_; ///< that map_ is for

@@ -29,12 +29,12 @@ public:
 
   /// Changes widths in pixels of the window into those of the poster.
   void enlarge(FrameShading& shading) const;
-  /// What must be drawn around the tile so that its own pixels are those of the poster: light,
-  /// halos and hole filling look at neighbours, and splats reach over borders. None beyond the
-  /// poster. `shading`  enlarged.
+  /// The part around the tile that must be drawn so that its own pixels are those of the poster:
+  /// light, halos and hole filling look at neighbours, and splats reach over borders. None beyond
+  /// the poster. `shading`  enlarged.
   ViewportMargin margin(const FrameShading& shading) const;
-  /// What must be in sight around the tile: of points further away than the margin, splats may
-  /// reach into it. `margin`  of the tile. Those that `styling` makes large in world units may
+  /// The part around the tile that must be in sight: splats of points further away than the margin
+  /// may reach into it. `margin`  of the tile. Those that `styling` makes large in world units may
   /// reach further, and are missing then.
   ViewportMargin sight(
     const ViewportMargin& margin, const std::vector<LayerStyling>& styling) const;
@@ -53,9 +53,9 @@ private:
   bool isTile() const { return scale_.x > 1 || scale_.y > 1; }
 
   glm::ivec2 scale_{ 1 };
-  glm::ivec2 whole_{ 1 }; ///< of the renderer in the poster, pixels
-  glm::ivec2 shift_{ 0 }; ///< of the tile in it
-  glm::ivec2 size_{ 1 }; ///< of the tile
+  glm::ivec2 whole_{ 1 }; ///< the renderer's size in the poster, pixels
+  glm::ivec2 shift_{ 0 }; ///< the tile's place in it
+  glm::ivec2 size_{ 1 }; ///< the tile's size
 };
 
 } // namespace pointfront

@@ -1,4 +1,4 @@
-/// Of vtkPointFrontMapper: what its style demands of who draws.
+/// The part of vtkPointFrontMapper that says what its style demands of who draws.
 
 #include "vtkPointFrontMapper.h"
 

@@ -41,7 +41,7 @@ class vtkWindow;
 namespace pointfront
 {
 class PictureExchange;
-struct FrameLook;
+struct CloudLook;
 struct FrameRequest;
 struct FramePlan;
 struct FrameStatistics;
@@ -274,7 +274,7 @@ public:
   /// worked with.
   ///@{
   vtkIdType GetLastPointsDrawn() const;
-  /// Of a class (as in SetClassVisibility()), 0 if the store has no tree of it.
+  /// Points drawn of a class (as in SetClassVisibility()), 0 if the store has no tree of it.
   vtkIdType GetLastClassPointsDrawn(int objectClass);
 #ifndef __VTK_WRAP__
   /// By number of the store's layer; layers beyond the list have none.
@@ -350,14 +350,14 @@ protected:
    * version of a store that is being built, and says how the cloud looks. None, and an error once a
    * cause, without a store.
    */
-  std::optional<pointfront::FrameLook> BeginFrame(vtkRenderer* renderer, vtkActor* actor);
+  std::optional<pointfront::CloudLook> BeginFrame(vtkRenderer* renderer, vtkActor* actor);
   /**
    * Plans what the renderer draws, after BeginFrame(). The first call of a frame moves the front;
    * all other calls (peeling, selection and shadow passes draw one frame several times) get the
    * same nodes. The plan is valid until the next call or the end of the renderer's frame.
    */
   pointfront::FramePlan& PlanFrame(
-    vtkRenderer* renderer, vtkActor* actor, const pointfront::FrameLook& look);
+    vtkRenderer* renderer, vtkActor* actor, const pointfront::CloudLook& look);
   /// True from PlanFrame() to FinishFrame(): the frame's first drawing, which uploads.
   bool IsFirstDrawing(vtkRenderer* renderer) const;
   /// True when the front was moved since the renderer's last frame (see NeedsRender()): a further
@@ -367,15 +367,15 @@ protected:
   /// front's, because they were visible before. `uploadsLeft`: not all points of the front are on
   /// the GPU yet.
   void FinishFrame(vtkRenderer* renderer, vtkIdType points, vtkIdType keptPoints, bool uploadsLeft);
-  /// What an earlier frame of that renderer drew, and its time on CPU and GPU; called as soon as
-  /// the time is known.
+  /// Records the work of an earlier frame of that renderer, and its time on CPU and GPU; called as
+  /// soon as the time is known.
   void RecordFrame(vtkRenderer* renderer, vtkIdType points, vtkIdType moves, double milliseconds);
   /// Called when a renderer drew a frame and no renderer shows this mapper any more: its GPU memory
   /// is idle.
   virtual void LeaveScreen();
   /// Chooses the back end of a drawing: whether points are drawn from host memory, and take no GPU
   /// memory. BeginFrame() asks once.
-  virtual bool DrawsFromHostMemory(vtkRenderer*, vtkActor*, const pointfront::FrameLook&)
+  virtual bool DrawsFromHostMemory(vtkRenderer*, vtkActor*, const pointfront::CloudLook&)
   {
     return false;
   }
@@ -385,7 +385,7 @@ protected:
   vtkIdType GetPointsOnGPU(vtkWindow* window) const;
   /// Number of renderers in a window that show this mapper.
   std::uint32_t GetNumberOfViews(vtkWindow* window) const;
-  /// Of the last frame.
+  /// Statistics of the last frame.
   pointfront::FrameStatistics& GetStatistics() const;
 #endif
 
@@ -407,12 +407,12 @@ protected:
 private:
   struct Content;
   std::vector<pointfront::LayerStyling> GetStyling(vtkActor* actor);
-  pointfront::FrameLook GetLook(vtkRenderer* renderer, vtkActor* actor);
+  pointfront::CloudLook GetLook(vtkRenderer* renderer, vtkActor* actor);
   pointfront::FrameRequest GetFrameRequest(
-    vtkRenderer* renderer, vtkActor* actor, const pointfront::FrameLook& look);
+    vtkRenderer* renderer, vtkActor* actor, const pointfront::CloudLook& look);
   pointfront::PlanRequest GetRequest(
-    vtkRenderer* renderer, vtkActor* actor, const pointfront::FrameLook& look);
-  bool MoveFront(vtkRenderer* renderer, vtkActor* actor, const pointfront::FrameLook& look);
+    vtkRenderer* renderer, vtkActor* actor, const pointfront::CloudLook& look);
+  bool MoveFront(vtkRenderer* renderer, vtkActor* actor, const pointfront::CloudLook& look);
   bool Announce();
   std::unique_ptr<Content> Internals;
 

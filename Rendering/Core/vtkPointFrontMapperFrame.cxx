@@ -1,5 +1,5 @@
-// What a mapper does in a frame: it asks the front for points, and makes the plan for the back end.
-#include "FrameLook.h"
+// A mapper's work in a frame: it asks the front for points, and makes the plan for the back end.
+#include "CloudLook.h"
 #include "MapperContent.h"
 #include "MapperProperties.h"
 #include "PosterTile.h"
@@ -33,8 +33,8 @@ double millisecondsSince(Clock::time_point begin)
   return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
 }
 
-/// What is drawn around the viewport. Plain points go straight into it.
-pointfront::ViewportMargin marginOf(vtkRenderer* renderer, const pointfront::FrameLook& look)
+/// The margin that is drawn around the viewport. Plain points go straight into it.
+pointfront::ViewportMargin marginOf(vtkRenderer* renderer, const pointfront::CloudLook& look)
 {
   if (look.plain || !look.shading)
   {
@@ -47,7 +47,7 @@ pointfront::ViewportMargin marginOf(vtkRenderer* renderer, const pointfront::Fra
 }
 
 /// Sets camera and shading of the part of the picture that is drawn.
-void place(vtkRenderer* renderer, vtkActor* actor, const pointfront::FrameLook& look,
+void place(vtkRenderer* renderer, vtkActor* actor, const pointfront::CloudLook& look,
   pointfront::PlanRequest& request)
 {
   request.camera = pointfront::cameraOf(renderer, actor);
@@ -82,9 +82,9 @@ std::vector<pointfront::LayerStyling> vtkPointFrontMapper::GetStyling(vtkActor* 
   return layers;
 }
 
-pointfront::FrameLook vtkPointFrontMapper::GetLook(vtkRenderer* renderer, vtkActor* actor)
+pointfront::CloudLook vtkPointFrontMapper::GetLook(vtkRenderer* renderer, vtkActor* actor)
 {
-  pointfront::FrameLook look;
+  pointfront::CloudLook look;
   look.layers = this->GetStyling(actor);
   if (const auto sheet = this->GetStyleSheet())
   {
@@ -96,7 +96,7 @@ pointfront::FrameLook vtkPointFrontMapper::GetLook(vtkRenderer* renderer, vtkAct
 }
 
 pointfront::PlanRequest vtkPointFrontMapper::GetRequest(
-  vtkRenderer* renderer, vtkActor* actor, const pointfront::FrameLook& look)
+  vtkRenderer* renderer, vtkActor* actor, const pointfront::CloudLook& look)
 {
   pointfront::PlanRequest request;
   place(renderer, actor, look, request);
@@ -116,7 +116,7 @@ pointfront::PlanRequest vtkPointFrontMapper::GetRequest(
 }
 
 pointfront::FrameRequest vtkPointFrontMapper::GetFrameRequest(
-  vtkRenderer* renderer, vtkActor* actor, const pointfront::FrameLook& look)
+  vtkRenderer* renderer, vtkActor* actor, const pointfront::CloudLook& look)
 {
   pointfront::FrameRequest demand;
   const std::vector<pointfront::LayerStyling>& styling = look.layers;
@@ -170,7 +170,7 @@ pointfront::FrameRequest vtkPointFrontMapper::GetFrameRequest(
 
 /// Once a frame. True when it did.
 bool vtkPointFrontMapper::MoveFront(
-  vtkRenderer* renderer, vtkActor* actor, const pointfront::FrameLook& look)
+  vtkRenderer* renderer, vtkActor* actor, const pointfront::CloudLook& look)
 {
   Content& content = *this->Internals;
   vtkPointFrontStore* store = this->GetStore();
@@ -182,7 +182,7 @@ bool vtkPointFrontMapper::MoveFront(
   }
   view.NewFrame = false;
   view.FirstDrawing = true;
-  view.Plan.reset(); // what it pins may be released
+  view.Plan.reset(); // the nodes that it pins may be released
 
   const auto begin = Clock::now();
   pointfront::FrameRequest demand = this->GetFrameRequest(renderer, actor, look);
@@ -201,7 +201,7 @@ bool vtkPointFrontMapper::MoveFront(
   return true;
 }
 
-std::optional<pointfront::FrameLook> vtkPointFrontMapper::BeginFrame(
+std::optional<pointfront::CloudLook> vtkPointFrontMapper::BeginFrame(
   vtkRenderer* renderer, vtkActor* actor)
 {
   Content& content = *this->Internals;
@@ -214,7 +214,7 @@ std::optional<pointfront::FrameLook> vtkPointFrontMapper::BeginFrame(
     }
     return std::nullopt;
   }
-  pointfront::FrameLook look = this->GetLook(renderer, actor);
+  pointfront::CloudLook look = this->GetLook(renderer, actor);
   // A frame in motion has no time for a second front, nor for bringing all points to the GPU again.
   if (!renderer->GetSelector() && !IsInteracting(renderer) &&
     content.Views.follow(
@@ -228,7 +228,7 @@ std::optional<pointfront::FrameLook> vtkPointFrontMapper::BeginFrame(
 }
 
 pointfront::FramePlan& vtkPointFrontMapper::PlanFrame(
-  vtkRenderer* renderer, vtkActor* actor, const pointfront::FrameLook& look)
+  vtkRenderer* renderer, vtkActor* actor, const pointfront::CloudLook& look)
 {
   const bool moved = this->MoveFront(renderer, actor, look);
   pointfront::RendererFront& view = this->Internals->Views.of(renderer);

@@ -175,7 +175,7 @@ bool WindowDrawing::upload(const FramePlan& plan, std::int64_t bytes)
     const auto* entry = pool_.bring(*item->node, item->last, plan, bytes);
     left = left || !entry || !pool_.isFilled(*entry, item->last);
   }
-  // What has no room does not come with another frame, unless clouds that are drawn after this one
+  // Points without room do not come with another frame, unless clouds that are drawn after this one
   // have yet to come down to a budget that was lowered.
   return left && (room || bytes <= 0 || pool_.lowered());
 }

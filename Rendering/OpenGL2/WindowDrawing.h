@@ -121,13 +121,13 @@ private:
   GpuPool pool_;
   SlotRecords records_;
   std::vector<LayerStreams> streams_; ///< by layer
-  std::vector<std::unique_ptr<ColourMapTexture>> tables_; ///< of the maps of the last frame
+  std::vector<std::unique_ptr<ColourMapTexture>> tables_; ///< tables of the last frame's maps
   std::array<vtkSmartPointer<vtkOpenGLPointFrontPoints>, 4> passes_; ///< by kind of colouring
   SoftwarePicture picture_;
   SplatPicture splats_;
   std::map<vtkRenderer*, FrameTimer> timers_;
-  GpuPool::DrawList order_; ///< of the plan, near to far
-  std::vector<const ResolvedStyle*> styles_; ///< of the items of order_
+  GpuPool::DrawList order_; ///< items of the plan, near to far
+  std::vector<const ResolvedStyle*> styles_; ///< styles of the items of order_
   std::vector<StyleGroup> groups_;
 };
 

@@ -1,7 +1,7 @@
 #include "vtkOpenGLPointFrontMapper.h"
 
+#include "CloudLook.h"
 #include "DrawBatches.h"
-#include "FrameLook.h"
 #include "LayerStreams.h"
 #include "SplatLights.h"
 #include "WindowDrawing.h"
@@ -85,13 +85,13 @@ std::size_t lightsThatAreOn(vtkRenderer* renderer)
 
 /// VTK's own template. A mapper without a style draws as VTK's; an actor's shader code works there,
 /// and every point of a translucent actor is translucent. It keeps nothing from frame to frame.
-bool drawsInTemplate(vtkActor* actor, const pointfront::FrameLook& look)
+bool drawsInTemplate(vtkActor* actor, const pointfront::CloudLook& look)
 {
   return look.plain &&
     (!look.shading || hasOwnShaders(actor) || actor->HasTranslucentPolygonalGeometry() != 0);
 }
 
-bool hasTooMuchLight(vtkRenderer* renderer, const pointfront::FrameLook& look)
+bool hasTooMuchLight(vtkRenderer* renderer, const pointfront::CloudLook& look)
 {
   return look.shading &&
     (look.shading->lookCount() > pointfront::mostLooks ||
@@ -99,7 +99,7 @@ bool hasTooMuchLight(vtkRenderer* renderer, const pointfront::FrameLook& look)
 }
 
 /// Whether OpenGL draws the frame as the software back end does.
-bool drawsByOpenGL(vtkRenderer* renderer, const pointfront::FrameLook& look)
+bool drawsByOpenGL(vtkRenderer* renderer, const pointfront::CloudLook& look)
 {
   return !hasTooMuchLight(renderer, look) &&
     (!look.shading ||
@@ -164,7 +164,7 @@ void vtkOpenGLPointFrontMapper::RenderPiece(vtkRenderer* renderer, vtkActor* act
   drawing.enter(renderer, actor);
   const auto begin = Clock::now();
   this->ReadTimer(renderer, drawing.timerOf(renderer));
-  const std::optional<pointfront::FrameLook> look = this->BeginFrame(renderer, actor);
+  const std::optional<pointfront::CloudLook> look = this->BeginFrame(renderer, actor);
   if (!look)
   {
     return;
@@ -176,16 +176,10 @@ void vtkOpenGLPointFrontMapper::RenderPiece(vtkRenderer* renderer, vtkActor* act
   std::uint64_t kept = 0;
   if (host)
   {
-    kept = drawing.softwarePicture()
-             .draw(window, renderer, plan, renderer->GetSelector() != nullptr)
-             .keptVisible;
+    const bool ids = renderer->GetSelector() != nullptr;
+    kept = drawing.softwarePicture().draw(window, renderer, plan, ids).keptVisible;
   }
   const bool uploadsLeft = !host && this->Upload(renderer, drawing, plan);
-  if (drawing.pool().takeRefused())
-  {
-    vtkWarningMacro("the GPU has less memory than the budget of this window: not all points of the "
-                    "view are drawn; set a smaller GPUMemoryBudget");
-  }
   pointfront::FrameTimer& timer = drawing.timerOf(renderer);
   const bool timed =
     first && plan.pointCount() > 0 && timer.begin(millisecondsSince(begin), this->GetLastMoves());
@@ -225,9 +219,14 @@ vtkIdType vtkOpenGLPointFrontMapper::HandOver(vtkRenderer* renderer, vtkActor* a
 
 /// Draws the points of the plan that are on the GPU.
 vtkIdType vtkOpenGLPointFrontMapper::DrawPoints(vtkRenderer* renderer, vtkActor* actor,
-  const pointfront::FrameLook& look, pointfront::WindowDrawing& drawing,
+  const pointfront::CloudLook& look, pointfront::WindowDrawing& drawing,
   pointfront::FramePlan& plan)
 {
+  if (drawing.pool().takeRefused())
+  {
+    vtkWarningMacro("the GPU has less memory than the budget of this window: not all points of the "
+                    "view are drawn; set a smaller GPUMemoryBudget");
+  }
   const vtkIdType storePoints = this->GetStore()->GetNumberOfPoints();
   if (drawsInTemplate(actor, look))
   {
@@ -285,7 +284,7 @@ void vtkOpenGLPointFrontMapper::TellFallBack(const char* what)
 
 /// Asked while the window's context is current.
 bool vtkOpenGLPointFrontMapper::DrawsFromHostMemory(
-  vtkRenderer* renderer, vtkActor* actor, const pointfront::FrameLook& look)
+  vtkRenderer* renderer, vtkActor* actor, const pointfront::CloudLook& look)
 {
   if (this->Exchange)
   {

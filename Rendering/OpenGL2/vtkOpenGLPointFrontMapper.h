@@ -43,7 +43,7 @@ protected:
   ~vtkOpenGLPointFrontMapper() override;
   void LeaveScreen() override;
   bool DrawsFromHostMemory(
-    vtkRenderer* renderer, vtkActor* actor, const pointfront::FrameLook& look) override;
+    vtkRenderer* renderer, vtkActor* actor, const pointfront::CloudLook& look) override;
 
 private:
   vtkOpenGLPointFrontMapper(const vtkOpenGLPointFrontMapper&) = delete;
@@ -52,7 +52,7 @@ private:
   void TellFallBack(const char* what);
   vtkIdType HandOver(vtkRenderer* renderer, vtkActor* actor, pointfront::WindowDrawing& drawing,
     const pointfront::FramePlan& plan);
-  vtkIdType DrawPoints(vtkRenderer* renderer, vtkActor* actor, const pointfront::FrameLook& look,
+  vtkIdType DrawPoints(vtkRenderer* renderer, vtkActor* actor, const pointfront::CloudLook& look,
     pointfront::WindowDrawing& drawing, pointfront::FramePlan& plan);
   bool Upload(
     vtkRenderer* renderer, pointfront::WindowDrawing& drawing, const pointfront::FramePlan& plan);

@@ -27,9 +27,9 @@ struct PictureDrawing
   vtkTextureObject* depth = nullptr;
   vtkTextureObject* ids = nullptr; ///< in selections
   const FrameCamera* camera = nullptr;
-  int originPx[2] = { 0, 0 }; ///< of the viewport in the framebuffer
+  int originPx[2] = { 0, 0 }; ///< corner of the viewport in the framebuffer
   PixelRectangle textures; ///< where they lie in the viewport
-  PixelRectangle place; ///< what is handed over of them
+  PixelRectangle place; ///< the pixels that are handed over
   vtkIdType storePoints = 0; ///< ids are below it
 };
 } // namespace pointfront

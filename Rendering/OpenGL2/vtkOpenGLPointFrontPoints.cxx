@@ -39,7 +39,7 @@ vtkStandardNewMacro(vtkOpenGLPointFrontPoints);
 namespace
 {
 
-/// What vtkOpenGLPolyDataMapper adds to the coincident offset of points in selections.
+/// vtkOpenGLPolyDataMapper adds it to the coincident offset of points in selections.
 constexpr float selectionOffset = -2.0f;
 
 bool selectsPoints(vtkRenderer* renderer)
@@ -229,7 +229,7 @@ void vtkOpenGLPointFrontPoints::SetCameraShaderParameters(
     cellBO.Program->SetUniformf("cOffset", offset - selectionOffset);
   }
 
-  // What the superclass set takes world coordinates; ours are relative to the reference point, and
+  // The superclass's matrices take world coordinates; ours are relative to the reference point, and
   // all that is large is folded in here, in double.
   vtkMatrix4x4 *wcvc, *vcdc, *wcdc; // stored transposed
   vtkMatrix3x3* normals;

@@ -36,7 +36,7 @@ struct PointDrawing
   double pointSize = 0.0; ///< pixels; 0: the property's
   vtkIdType storePoints = 0; ///< ids are below it
   const DrawRuns* runs = nullptr;
-  Rgba8 flat{ 255, 255, 255, 255 }; ///< of points without a value
+  Rgba8 flat{ 255, 255, 255, 255 }; ///< colour of points without a value
 };
 } // namespace pointfront
 

@@ -19,7 +19,7 @@ std::uint32_t mixed(std::uint32_t rgba, const glm::vec3& colour, float share)
 {
   std::uint8_t bytes[4];
   std::memcpy(bytes, &rgba, 4);
-  // Of a pixel that shows nothing the colour counts alone.
+  // Over an empty pixel the colour counts alone.
   const float own = bytes[3] == 0 ? 0.0f : 1.0f - share;
   const float other = bytes[3] == 0 ? 1.0f : share;
   for (int c = 0; c < 3; ++c)
@@ -34,7 +34,7 @@ std::uint32_t mixed(std::uint32_t rgba, const glm::vec3& colour, float share)
   return result;
 }
 
-/// Of one highlight: pixels in the row from each pixel to the nearest that it marks.
+/// Distances for one highlight: pixels in the row from each pixel to the nearest that it marks.
 class RowDistances
 {
 public:

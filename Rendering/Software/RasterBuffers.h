@@ -74,14 +74,14 @@ struct Winner
 struct WinnerLists
 {
   RasterBuffer<Winner> found; ///< as they lie in the picture
-  RasterBuffer<std::uint32_t> item; ///< of each that was found
-  std::size_t count = 0; ///< of them
+  RasterBuffer<std::uint32_t> item; ///< item of each that was found
+  std::size_t count = 0; ///< number of items
   RasterBuffer<Winner> sorted; ///< by item
-  std::vector<std::uint32_t> places; ///< of each item: how many, then where; 0 between uses
+  std::vector<std::uint32_t> places; ///< places of each item: how many, then where; 0 between uses
   std::vector<std::uint32_t> touched; ///< items with a winner, in the order they were found
 };
 
-/// What one thread draws into.
+/// The buffers that one thread draws into.
 struct ThreadBuffers
 {
   RasterBuffer<RasterKey> keys;

@@ -343,7 +343,7 @@ void RasterPasses::resolve(
 {
   SoftwareTarget& target = destination.target;
   const FrameShading& shading = items.plan().shading;
-  const std::size_t pixels = target.depth.size(); // what is there already has that size
+  const std::size_t pixels = target.depth.size(); // the target has that size already
   target.normals.resize(shading.anyLit() ? 3 * pixels : target.normals.size());
   target.highlights.resize(shading.highlights.empty() ? target.highlights.size() : pixels);
   target.looks.resize(shading.lookCount() > 1 ? pixels : target.looks.size());

@@ -33,7 +33,7 @@ public:
   {
   }
 
-  /// What the next picture can go on from.
+  /// The state that the next picture can go on from.
   struct Lasting
   {
     RasterBuffer<RasterKey> keys; ///< without what is passing, if they differ from the drawn ones

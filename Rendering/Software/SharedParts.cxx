@@ -76,7 +76,7 @@ std::vector<PlanPart> partsOfAll(const FramePlan& plan)
     PlanPart& part = all.back();
     static_cast<FrameSetting&>(part.plan) = plan;
     part.opacity = static_cast<double>(agreed[0]);
-    part.plan.keepsVisible = false; // what is kept is of this process alone
+    part.plan.keepsVisible = false; // the kept points are those of this process alone
     part.plan.exchange = agreed[1] == 0.0f ? plan.exchange : nullptr;
   }
   return all;

@@ -72,7 +72,7 @@ void sharePicture(PictureExchange& others, SoftwareTarget& target)
   {
     return;
   }
-  // Of those that are nearest the depth, and of those that have it the colour: where processes are
+  // The nearest have the depth, and among those that have it the least colour: where processes are
   // alike in both, so is the pixel.
   std::vector<float> colours(count, infinity);
   for (std::size_t pixel = 0; pixel < count; ++pixel)

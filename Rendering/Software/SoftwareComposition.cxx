@@ -47,7 +47,7 @@ std::uint32_t over(std::uint32_t front, float opacity, std::uint32_t behind)
   return result;
 }
 
-/// What is in one pixel of a translucent part.
+/// The content of one pixel of a translucent part.
 struct TranslucentPixel
 {
   float depth;
@@ -160,14 +160,14 @@ RasterStatistics SoftwareComposition::drawShown(
   {
     return rasteriser.drawShown(plan, target);
   }
-  // What is kept, or what other processes draw, may lie anywhere.
+  // Kept points, and those of other processes, may lie anywhere.
   target.reset(plan.keepsVisible || plan.exchange
       ? PixelRectangle{ 0, 0, plan.camera.width, plan.camera.height }
       : wider(shownRectangle(plan), plan.shading.reachPx(), plan.camera));
   return target.rectangle().empty() ? RasterStatistics() : draw(rasteriser, plan, target);
 }
 
-/// What is translucent, and not behind what is opaque.
+/// Blends the translucent parts that are not behind opaque ones.
 void SoftwareComposition::blendGroups(std::int16_t lens, SoftwareTarget& target)
 {
   std::vector<const Part*> groups;
@@ -269,8 +269,8 @@ void SoftwareComposition::finish(const FrameCamera& camera, const FrameShading& 
     part = part->second.begun ? std::next(part) : parts_.erase(part);
   }
   others = shared_ ? others : nullptr;
-  // What is composed of several pictures, and what looks around a pixel, is composed of those of
-  // all: every process has the whole picture then.
+  // A composition of several pictures, and effects that look around a pixel, take those of all
+  // processes: each has the whole picture then.
   const bool composed = !parts_.empty() || !shading.highlights.empty();
   PictureExchange* const all = composed || shading.reachPx() > 0 ? others : nullptr;
   // A part may lack highlighted points that another one puts over it.

@@ -23,7 +23,7 @@ namespace pointfront
 namespace
 {
 
-/// Of stand-ins, levels times viewports whose keys stay beside those.
+/// Levels times viewports of stand-ins whose keys stay beside those.
 constexpr std::int64_t keptStandIns = 6;
 /// Buffers of a picture take that much at most, over all threads: a larger one is drawn in bands.
 constexpr std::int64_t mostBytes = std::int64_t(768) << 20;
@@ -53,7 +53,7 @@ struct SoftwareRasteriser::Content
     bool known = false; ///< all that is wanted of the part is in the target
     bool fits = false; ///< the target is made as large as what is shown
     std::uint64_t reused = 0;
-    std::uint64_t drawn = 0; ///< of what the last picture did not have
+    std::uint64_t drawn = 0; ///< points that the last picture did not have
     std::uint64_t blended = 0;
   };
 
@@ -64,8 +64,8 @@ struct SoftwareRasteriser::Content
 
   RasterPasses passes;
   LastPictures last;
-  /// Of stand-ins, by part and store, those of each level: what is not to be seen any more hides
-  /// nothing coarser.
+  /// Last pictures of stand-ins, by part and store, for each level: a point that is no longer seen
+  /// hides nothing coarser.
   std::map<std::uint32_t, std::map<std::uint8_t, LastPicture>> lastStandIns;
 
   RasterStatistics draw(const FramePlan& asked, SoftwareTarget& target, std::uint16_t store,
@@ -163,7 +163,7 @@ void SoftwareRasteriser::Content::drawRound(const RasterItems& items, Drawing& d
     drawAtOnce(items, windowOf(viewport), drawing); // every process has all of the same pixels
     return;
   }
-  // What arrives makes the place larger, and a larger one would be begun anew.
+  // New points make the place larger, and a larger one would be begun anew.
   PixelRectangle place = plan.refining ? viewport : shownRectangle(items);
   if (drawing.fits)
   {

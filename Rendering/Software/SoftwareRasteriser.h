@@ -14,8 +14,8 @@ class ThreadCrew;
 /// The results of a drawing.
 struct RasterStatistics
 {
-  std::uint64_t points = 0; ///< of the plan, that were looked at
-  std::uint64_t reused = 0; ///< of the plan, that the last picture already had
+  std::uint64_t points = 0; ///< points of the plan that were looked at
+  std::uint64_t reused = 0; ///< points of the plan that the last picture already had
   std::uint64_t standIns = 0; ///< points drawn in addition, where a refining view has holes
   std::uint64_t blended = 0; ///< points that went through the second pass, stand-ins too
   /// Points drawn in addition to the plan's, because they were visible before
@@ -24,7 +24,7 @@ struct RasterStatistics
   double milliseconds = 0.0; ///< wall time
 };
 
-/// What a plan is of a picture that is put together of several (PlanPart).
+/// The part that a plan draws of a picture that is put together of several (PlanPart).
 struct RasterPart
 {
   std::uint16_t number = 0;

@@ -11,7 +11,7 @@
 namespace pointfront
 {
 
-/// What a pixel shows: point `index` of node `node` of the store that was drawn as number `store`.
+/// The point that a pixel shows: number `index` in node `node` of the store drawn as `store`.
 struct PixelPoint
 {
   static constexpr std::uint16_t nothing = 0xffff;
@@ -36,9 +36,9 @@ struct SoftwareTarget
   int height = 0;
   std::vector<std::uint32_t> rgba;
   std::vector<float> depth;
-  /// What decided who is seen, in the units of depth; empty unless `keepDecided`. Of several plans
-  /// that are drawn into one target it decides, too: splats of two clouds meet as those of one.
-  /// Pixels that were filled later have none: infinity.
+  /// The depth that decided who is seen, in the units of depth; empty unless `keepDecided`. Among
+  /// several plans that are drawn into one target it decides, too: splats of two clouds meet as
+  /// those of one. Pixels that were filled later have none: infinity.
   std::vector<float> decided;
   /// View-space normal, 3 x float a pixel, 0 where there is none; empty unless a plan asks for
   /// light.

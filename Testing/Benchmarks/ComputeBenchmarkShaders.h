@@ -104,7 +104,7 @@ void main()
 }
 )";
 
-/// What compute shaders and the pass over the picture share.
+/// Buffers that compute shaders and the pass over the picture share.
 const std::string buffers = R"(
 layout(std430, binding = 0) readonly buffer Points { uvec4 points[]; };
 layout(std430, binding = 1) buffer Nearest { uint nearest[]; };

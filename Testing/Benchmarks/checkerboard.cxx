@@ -35,7 +35,7 @@ bool isWhite(double x, double y)
   return (column + row) % 2 == 0;
 }
 
-/// Of a ray through the viewport: the square that it meets. False: it misses the board.
+/// Finds the square that a ray through the viewport meets. False: it misses the board.
 bool meets(double px, double py, bool& white)
 {
   const glm::dvec3 ahead = glm::normalize(focus - eye);

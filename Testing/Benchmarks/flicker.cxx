@@ -192,7 +192,7 @@ struct Flicker
   double squares = 0.0;
 };
 
-/// Of frames that follow each other: how much more changes than with all points.
+/// Adds two frames that follow each other: how much more changes than with all points.
 void add(Flicker& flicker, const std::vector<float>& before, const std::vector<float>& now,
   const std::vector<float>& allBefore, const std::vector<float>& all)
 {

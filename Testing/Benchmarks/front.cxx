@@ -1,4 +1,4 @@
-// What an update of the rendering front costs, and that neither it nor memory grows with the table:
+// Costs of an update of the rendering front, and that neither it nor memory grows with the table:
 // made-up terrain quadtrees of 10^4 to 10^8 nodes (10^12 points), paged as those of a store are.
 // Besides the mean, each case reports p50_ms and p99_ms of its updates, the pages that were read,
 // the memory of those kept and of the process; at the end the ratios to the smallest table, also of
@@ -119,7 +119,7 @@ double errorFor2000(const std::shared_ptr<const Hierarchy>& table, Motion motion
   return 0.01;
 }
 
-/// Of one case, for the ratios; milliseconds.
+/// The outcome of one case, for the ratios; milliseconds.
 struct Outcome
 {
   double p50;

@@ -183,7 +183,7 @@ FrameCamera cameraAt(const Bounds& box, Path path, int frame, int frames)
     at + eye, at, { 0, 0, 1 }, angle, 1e-3 * away, 10.0 * away, width, height);
 }
 
-/// Of one way through a path.
+/// The measures of one way through a path.
 struct Measured
 {
   double coverage = 0.0;

@@ -207,7 +207,7 @@ struct Angles
   }
 };
 
-/// What a way gives for all nodes of an index.
+/// A way's estimate for all nodes of an index.
 struct Estimate
 {
   Angles leaves;

@@ -144,7 +144,7 @@ struct Estimate
 {
   Vectors normals;
   double seconds = 0.0;
-  double cpuSeconds = 0.0; ///< of all threads: what a busy machine does not change much
+  double cpuSeconds = 0.0; ///< time of all threads: a busy machine does not change it much
 };
 
 /// Measures its life.
@@ -288,7 +288,7 @@ Vectors lasPositions(const std::string& path)
   return positions;
 }
 
-/// What PCL gives for the exact k nearest, in its own float relative to the middle of the cloud.
+/// PCL's normals by the exact k nearest, in its own float relative to the middle of the cloud.
 Estimate estimatedByPCL(const Vectors& positions, int neighbours)
 {
   Bounds bounds;

@@ -47,10 +47,10 @@ T orExit(Result<T> result)
 struct Cost
 {
   std::vector<double> seconds;
-  std::vector<double> processorSeconds; ///< of all threads
+  std::vector<double> processorSeconds; ///< time of all threads
 };
 
-/// What earlier work left to the disk is removed or written first: nobody waits for another's
+/// Earlier work that waits for the disk is removed or written first: nobody waits for another's
 /// bytes.
 void measure(Cost& cost, const std::string& target, const std::function<void()>& work)
 {

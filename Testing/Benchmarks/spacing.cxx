@@ -28,7 +28,7 @@ using namespace pointfront;
 using Points = std::vector<glm::dvec3>;
 
 constexpr std::size_t mostNodes = 12;
-constexpr std::size_t fewestPoints = 2000; ///< of a node that is measured
+constexpr std::size_t fewestPoints = 2000; ///< points of a node that is measured
 constexpr unsigned seed = 1;
 
 [[noreturn]] void fail(const std::string& what)
@@ -78,7 +78,7 @@ private:
   std::unordered_map<std::uint64_t, Points> cells_;
 };
 
-/// Of each point to its nearest other one, ascending; equal points count as one.
+/// Distances from each point to its nearest other one, ascending; equal points count as one.
 std::vector<double> nearestDistances(const Points& points, const Bounds& box, double guess)
 {
   std::vector<double> distances;

@@ -34,7 +34,7 @@ void openAndRead(const std::vector<std::byte>& bytes)
   for (NodeIndex node = 0; node < store.hierarchy()->nodeCount(); ++node)
   {
     const std::uint32_t count = store.hierarchy()->node(node).pointCount;
-    if (store.decodedBytes(node, count, columns) > (std::size_t(1) << 28)) // of no bytes each
+    if (store.decodedBytes(node, count, columns) > (std::size_t(1) << 28)) // columns without bytes
     {
       continue;
     }

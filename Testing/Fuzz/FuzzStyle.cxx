@@ -4,7 +4,7 @@
 
 #include <string_view>
 
-/// What parses is written as text that parses to an equal sheet.
+/// A parsed sheet is written as text that parses to an equal sheet.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
   using namespace pointfront;

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <string_view>
 
-/// What is read has closed rings of finite vertices.
+/// A polygon that was read has closed rings of finite vertices.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
   const auto geometry =

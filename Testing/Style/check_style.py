@@ -19,6 +19,7 @@ RULES = {
     "Formatting": text_rules.formatting,
     "LineLength": text_rules.line_length,
     "FunctionLength": text_rules.function_length,
+    "CommentSubjects": text_rules.comment_subjects,
     "MachinePaths": text_rules.machine_paths,
     "Addresses": text_rules.addresses,
     "Unfinished": text_rules.unfinished,

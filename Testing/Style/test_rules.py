@@ -87,6 +87,17 @@ class RulesTest(unittest.TestCase):
         tree = {"IO/LAS/A.cxx": "x" * 100 + "\n" + "x" * 101 + "\n", "docs/a.md": "x" * 200}
         self.assertEqual(self.faults("LineLength", tree), [("IO/LAS/A.cxx", 2)])
 
+    def test_comment_subjects(self):
+        tree = {
+            "IO/LAS/A.cxx": "/// Of a node.\nint a; ///< what it holds\nint b; // end of a\n",
+            "IO/LAS/B.cxx": "// It is the end\n// of a sentence.\nauto c = \"// of text\";\n",
+            "IO/LAS/C.glsl": "float share; // of its size\n",
+        }
+        self.assertEqual(
+            self.faults("CommentSubjects", tree),
+            [("IO/LAS/A.cxx", 1), ("IO/LAS/A.cxx", 2), ("IO/LAS/C.glsl", 1)],
+        )
+
     def test_function_length(self):
         at = "  call();\n" * 57  # and a line of head and two of braces
         more = at + "  call();\n"

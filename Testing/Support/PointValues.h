@@ -12,7 +12,7 @@
 #include <unistd.h>
 #include <vector>
 
-/// What tests of point sources share.
+/// Helpers that tests of point sources share.
 namespace pointfront::test
 {
 

@@ -110,7 +110,7 @@ private:
   std::vector<OraclePoint> points_;
 };
 
-/// What a query means. `near` says that a point is too close to a boundary that is no integer.
+/// The meaning of a query. `near` says that a point is too close to a boundary that is no integer.
 struct OracleQuery
 {
   PointQuery query;
@@ -344,7 +344,7 @@ private:
 /// Everything that a query hands over.
 struct QueryAnswer
 {
-  std::vector<NodeIndex> nodes; ///< of each batch
+  std::vector<NodeIndex> nodes; ///< node of each batch
   std::vector<std::uint64_t> ids;
   std::vector<glm::dvec3> positions;
   std::vector<std::vector<std::byte>> columns;

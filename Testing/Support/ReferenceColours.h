@@ -24,7 +24,7 @@ inline Rgba8 fromBytes(std::uint32_t value)
   return colour;
 }
 
-/// Of one of the two sources of a style's colours; appended.
+/// Appends one of the two sources of a style's colours.
 inline void appendOne(const PointColouring& colouring, const ColourMap* map, const Rgba8& flat,
   const NodeColumns& node, const AttributeSchema& schema, const QuantisationGrid& grid,
   std::vector<std::uint32_t>& colours)

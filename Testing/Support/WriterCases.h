@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-/// What every writer of a foreign format must do, as cases for the tests of each.
+/// Duties of every writer of a foreign format, as cases for the tests of each.
 namespace pointfront::test
 {
 
@@ -82,7 +82,7 @@ void expectReadAsWritten(const WriterCase& writerCase, const std::string& schema
   EXPECT_NEAR(columnOf<double>(*source, all, "width")[0], 1000.3, 1e-9);
 }
 
-/// What was there before stays when a writer is destroyed before finish().
+/// An earlier file stays when a writer is destroyed before finish().
 inline void expectNothingLeftUnfinished(const WriterCase& writerCase)
 {
   PointBatch batch;

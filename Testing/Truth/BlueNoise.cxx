@@ -10,8 +10,8 @@ namespace pointfront::truth
 {
 namespace
 {
-constexpr double candidatesPerSquare = 6.0; // of the spacing
-constexpr double radiusPerSpacing = 0.713; // what comes to one point a square, by experiment
+constexpr double candidatesPerSquare = 6.0; // candidates in a square of the spacing
+constexpr double radiusPerSpacing = 0.713; // gives one point a square, by experiment
 
 /// A place on a triangle, as Hit has it.
 struct Place

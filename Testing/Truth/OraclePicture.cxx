@@ -14,7 +14,7 @@ namespace
 {
 constexpr std::uint32_t neighbours = 12;
 constexpr double radiusSpacings = 1.5;
-constexpr double nearestWeighs = 1.05; // of its distance: a point alone has some weight
+constexpr double nearestWeighs = 1.05; // times its distance: a point alone has some weight
 
 glm::dvec3 meanColour(const NeighbourList& near, const TruthPoints& points, double radius)
 {

@@ -21,7 +21,7 @@ public:
   std::uint32_t height() const { return height_; }
   const glm::dvec3& eye() const { return eye_; }
   const glm::dvec3& forward() const { return forward_; }
-  double focalPx() const { return focalPx_; } ///< what is 1 m wide at depth 1 m, in pixels
+  double focalPx() const { return focalPx_; } ///< width in pixels of 1 m at depth 1 m
   /// Not of unit length: a hit's distance along it is its depth.
   glm::dvec3 through(double x, double y) const;
   /// (x, y, depth); means nothing where the depth is not positive.

@@ -152,7 +152,7 @@ std::vector<std::uint32_t> poissonOrder(
     ++steps;
   }
   std::vector<std::vector<Candidate>> waiting = bySteps(candidates, radii, first, steps, random);
-  std::vector<glm::dvec3> places; // of what was picked
+  std::vector<glm::dvec3> places; // places of the picked points
   for (std::size_t step = 0; step < steps; ++step)
   {
     const double radius = radiusAt(step, first);

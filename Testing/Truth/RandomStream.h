@@ -32,7 +32,7 @@ public:
     const double length = std::sqrt(-2.0 * std::log(std::max(uniform(), 0x1.0p-53)));
     return length * std::cos(2.0 * pi * uniform());
   }
-  glm::dvec3 direction() ///< of length 1, all alike likely
+  glm::dvec3 direction() ///< unit vector, all alike likely
   {
     const double x = gaussian();
     const double y = gaussian();

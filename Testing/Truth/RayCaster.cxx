@@ -25,7 +25,7 @@ double halfArea(const Bounds& box)
   return box.empty() ? 0.0 : size.x * size.y + size.y * size.z + size.z * size.x;
 }
 
-/// Of a ray, made ready to be tested against many boxes.
+/// A ray that is ready to be tested against many boxes.
 struct BoxRay
 {
   BoxRay(const glm::dvec3& from, const glm::dvec3& direction)

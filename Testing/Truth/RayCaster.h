@@ -29,7 +29,7 @@ struct Hit
 void intersect(const TriangleMesh& mesh, std::uint32_t triangle, const glm::dvec3& origin,
   const glm::dvec3& direction, double leastDistance, Hit& hit);
 
-/// What rays meet first, through a bounding volume hierarchy.
+/// Finds the first triangle that a ray meets, by a bounding volume hierarchy.
 /// Exact    the same hit as intersect() of all triangles, one after the other, to the last bit.
 /// Threads  cast() from any; the mesh must live as long and not change.
 /// Source   binned surface area heuristic: Wald 2007.
@@ -46,8 +46,8 @@ private:
   struct Node
   {
     Bounds box;
-    std::uint32_t first = 0; ///< of a leaf: into order_; else the second child (the first follows)
-    std::uint32_t count = 0; ///< of a leaf; 0: an inner node
+    std::uint32_t first = 0; ///< a leaf: in order_; else the second child (the first follows)
+    std::uint32_t count = 0; ///< triangles of a leaf; 0: an inner node
   };
 
   void divide(std::vector<Bounds>& boxes, std::uint32_t begin, std::uint32_t end);

@@ -11,13 +11,13 @@ namespace pointfront::truth
 namespace
 {
 constexpr double linesPerPoints = 2.0; // distance of two lines over that of two points in one
-constexpr double alongJitter = 0.08; // of the distance of points, standard deviation
-constexpr double acrossJitter = 0.03; // of the distance of lines
-constexpr double lineSway = 0.1; // of the distance of lines
-constexpr double rangeNoise = 0.1; // of the spacing
+constexpr double alongJitter = 0.08; // share of the distance of points, standard deviation
+constexpr double acrossJitter = 0.03; // share of the distance of lines
+constexpr double lineSway = 0.1; // share of the distance of lines
+constexpr double rangeNoise = 0.1; // share of the spacing
 constexpr double outlierShare = 0.01;
-constexpr double outlierNoise = 1.0; // of the spacing
-constexpr double leastCosine = 0.35; // of a single object: flatter hits are lost
+constexpr double outlierNoise = 1.0; // share of the spacing
+constexpr double leastCosine = 0.35; // flatter hits on a single object are lost
 
 /// Parallel beams over the whole scene.
 struct Flight
@@ -25,7 +25,7 @@ struct Flight
   glm::dvec3 beam;
   glm::dvec3 along; ///< direction of a scan line
   glm::dvec3 across; ///< from one line to the next
-  double widening; ///< of the spacing: less than 1 where several flights meet
+  double widening; ///< times the spacing: less than 1 where several flights meet
 };
 
 Flight makeFlight(const glm::dvec3& beam, double widening, bool turned)

@@ -10,8 +10,8 @@
 namespace pointfront::truth
 {
 
-/// What a photograph would show of a surface, wherever it is taken from: colour with detail over
-/// several octaves, and the light of one sun, baked in.
+/// The colour that a photograph would show of a surface, wherever it is taken from: with detail
+/// over several octaves, and the light of one sun, baked in.
 /// Units    metres in; red, green, blue out, 0 to 255.
 /// Depends  on place and outward normal only (a leaf: also on which triangle it is), so a point
 ///          that was sampled there has the colour that its pixel has in the true picture.

@@ -137,7 +137,7 @@ void addPlots(MeshBuilder& mesh, RandomStream& random)
 void addPowerLine(MeshBuilder& mesh, double y)
 {
   const double height = 8.0;
-  const int pieces = 12; // of a wire between two poles
+  const int pieces = 12; // pieces of a wire between two poles
   std::optional<glm::dvec3> before;
   for (int pole = 0; pole < 8; ++pole)
   {

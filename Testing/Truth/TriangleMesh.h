@@ -21,7 +21,7 @@ enum class Material : std::uint8_t
   Metal,
   Leaf,
   Trunk,
-  Marble ///< of single objects
+  Marble ///< single objects
 };
 
 /// A surface of triangles: the scene whose picture is known.
@@ -29,7 +29,7 @@ struct TriangleMesh
 {
   std::vector<glm::dvec3> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles; ///< anticlockwise from outside
-  std::vector<Material> materials; ///< of each triangle
+  std::vector<Material> materials; ///< material of each triangle
   std::vector<glm::dvec3> vertexNormals; ///< empty: each triangle is flat to the eye as well
 
   std::size_t size() const { return triangles.size(); }

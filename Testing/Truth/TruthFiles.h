@@ -22,7 +22,7 @@ Result<void> writePicture(const std::string& path, const Picture& picture);
 Result<void> writeDepth(const std::string& path, const std::vector<float>& depth);
 /// As `pointfront render --camera` reads it.
 Result<void> writeCamera(const std::string& path, const TruthCamera& camera);
-/// What a script has to know: points, spacing_px, spacing, median_depth, graded, focal_px,
+/// Writes facts for scripts: points, spacing_px, spacing, median_depth, graded, focal_px,
 /// background.
 Result<void> writeFacts(const std::string& path, const PixelRays& pixels, const SpacingGrade& grade,
   const TruthPoints& points);

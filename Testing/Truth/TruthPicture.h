@@ -17,7 +17,7 @@ namespace pointfront::truth
 /// Dark, and of no surface in the scenes.
 constexpr std::array<std::uint8_t, 3> background = { 39, 42, 47 };
 
-/// What the surface itself looks like from a camera.
+/// The surface itself as a camera sees it.
 /// Shapes  one value a pixel, rows from the top.
 struct TruthPicture
 {
@@ -25,9 +25,9 @@ struct TruthPicture
   /// Share of the samples that met the surface: 0 none, 255 all, 1 to 254 some.
   std::vector<std::uint8_t> coverage;
   std::vector<float> depth; ///< at the pixel's centre; infinity where there is nothing
-  std::vector<float> nearest; ///< of the samples
-  std::vector<float> farthest; ///< of those that met the surface
-  std::vector<glm::vec3> normal; ///< of the triangle at the centre, towards the eye; 0: nothing
+  std::vector<float> nearest; ///< nearest of the samples
+  std::vector<float> farthest; ///< farthest of the samples that met the surface
+  std::vector<glm::vec3> normal; ///< the triangle's at the centre, towards the eye; 0: nothing
 
   Picture mask() const; ///< the coverage as grey
 };

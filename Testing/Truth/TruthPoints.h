@@ -18,7 +18,7 @@ namespace pointfront::truth
 struct TruthPoints
 {
   std::vector<glm::dvec3> positions;
-  std::vector<std::array<std::uint8_t, 3>> colours; ///< of the texture, light included
+  std::vector<std::array<std::uint8_t, 3>> colours; ///< colours of the texture, light included
   std::vector<glm::vec3> normals; ///< unit
 
   std::size_t size() const { return positions.size(); }
@@ -27,8 +27,8 @@ struct TruthPoints
   void append(const TruthPoints& more);
 };
 
-/// What of a scene is sampled, and how densely: what shows in the picture of a view, and a little
-/// around it, on front and back sides alike.
+/// The part of a scene that is sampled, and how densely: it shows in the picture of a view, and a
+/// little around it, on front and back sides alike.
 struct SamplingRegion
 {
   const RayCaster& rays;

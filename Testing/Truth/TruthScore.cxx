@@ -18,7 +18,7 @@ constexpr double toleranceSpacings = 2.0;
 constexpr double leastCosine = 0.25;
 constexpr double mostDepthError = 4.0; // spacings
 
-/// Of the angle between the surface at a pixel's centre and its ray; 1 where nothing is there.
+/// Cosine between the surface at a pixel's centre and its ray; 1 where nothing is there.
 double cosineAt(const TruthPicture& truth, const PixelRays& pixels, std::size_t index)
 {
   if (truth.normal[index] == glm::vec3(0.0f))

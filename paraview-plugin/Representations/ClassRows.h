@@ -27,8 +27,8 @@ public:
   void addLight(
     const std::string& code, const std::string& light, const std::string& eyeDomeStrength);
   bool empty() const { return !filled_; }
-  const std::string& wrong() const { return wrong_; } ///< of the last row that is; or empty
-  /// What the rows say: of all classes, and of each.
+  const std::string& wrong() const { return wrong_; } ///< the last row that is wrong; or empty
+  /// The style of the rows: for all classes, and for each.
   const StyleSheet& sheet() const;
 
 private:

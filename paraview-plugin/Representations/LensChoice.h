@@ -24,15 +24,15 @@ struct LensPlace
     NONE = 0,
     CIRCLE = 1,
     RECTANGLE = 2,
-    MASK = 3, ///< of an image file
+    MASK = 3, ///< mask in an image file
     AROUND_CLASS = 4 ///< discs around the points of a class
   };
   int shape = NONE;
   std::array<double, 2> centre{ { 0.5, 0.5 } }; ///< parts of the picture's width and height
-  double radius = 0.25; ///< of a circle: part of the picture's height
-  std::array<double, 2> size{ { 0.5, 0.5 } }; ///< of a rectangle: parts of width and height
+  double radius = 0.25; ///< radius of a circle: part of the picture's height
+  std::array<double, 2> size{ { 0.5, 0.5 } }; ///< size of a rectangle: parts of width and height
   int aroundClass = 6;
-  double aroundRadius = 2.0; ///< of a disc around a point, units of the coordinates
+  double aroundRadius = 2.0; ///< radius of a disc around a point, units of the coordinates
 };
 
 /// A lens and what is drawn inside it.

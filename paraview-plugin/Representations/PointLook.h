@@ -46,7 +46,7 @@ struct PointLook
     ALL = 1,
     NONE = 2
   };
-  int light = SPHERES; ///< what it falls on, of that which has a normal
+  int light = SPHERES; ///< which points with normals are lit
   bool fillHoles = false;
   double opacity = 1.0;
   /// Opacity is that of a surface, which the style draws: what else draws it is opaque. Else the

@@ -1,4 +1,4 @@
-/// Of vtkPointFrontRepresentation: what the last frame of this process was.
+/// The part of vtkPointFrontRepresentation that tells of this process's last frame.
 
 #include "vtkPointFrontRepresentation.h"
 

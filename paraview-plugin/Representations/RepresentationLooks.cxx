@@ -1,4 +1,4 @@
-/// Of vtkPointFrontRepresentation: colours, styles and classes of the frame that comes.
+/// The part of vtkPointFrontRepresentation for colours, styles and classes of the frame that comes.
 
 #include "vtkPointFrontRepresentation.h"
 

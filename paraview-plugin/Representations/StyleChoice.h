@@ -13,7 +13,7 @@ class vtkPointFrontStyle;
 namespace pointfront
 {
 
-/// What a representation's properties say of the style, put together: a style sheet's file or a
+/// Puts the style together from a representation's properties: a style sheet's file or a
 /// look, what differs for each class, and a lens.
 /// Threads  one.
 class StyleChoice
@@ -27,7 +27,7 @@ public:
   /// As the process that draws sees it; read when it is needed first. Empty: none.
   void setFile(const std::string& fileName);
   ClassRows classes; ///< errors are said by `style()`
-  ClassRows lights; ///< of classes
+  ClassRows lights; ///< lights of classes
   LensChoice lens;
 
   /// `width`, `height`: of the picture, pixels. Null where points are plain: then no style is

@@ -38,8 +38,8 @@ public:
   /// "412,345 of 697,721": points drawn and points of the store.
   std::string GetPointsInView() const;
 
-  /// Of all processes together: bits of vtkPointFrontRepresentation::FrameLimits, and the same in
-  /// words.
+  /// The limits of all processes together: bits of vtkPointFrontRepresentation::FrameLimits, and
+  /// the same in words.
   vtkGetMacro(Limits, int);
   std::string GetLimitedBy() const;
 

@@ -171,7 +171,7 @@ void vtkPointFrontRepresentation::PrepareMarks(vtkPVRenderView* view)
 //------------------------------------------------------------------------------
 void vtkPointFrontRepresentation::SuspendFXAA(vtkPVRenderView* view)
 {
-  this->ResumeFXAA(); // of a frame that was not rendered here
+  this->ResumeFXAA(); // a frame that was not rendered here
   if (this->CrispPoints && view->GetUseFXAA())
   {
     view->SetUseFXAA(false);
@@ -199,7 +199,7 @@ void vtkPointFrontRepresentation::ProvideData(vtkInformation* inInfo)
   vtkPVRenderView::SetRequiresDistributedRendering(inInfo, this, true);
   if (this->Store)
   {
-    // Of the whole cloud on every rank: they set the camera's reset and its clipping range.
+    // Bounds of the whole cloud on every rank: they set the camera's reset and its clipping range.
     double bounds[6];
     this->Store->GetBounds(bounds);
     vtkNew<vtkMatrix4x4> matrix;
@@ -214,7 +214,7 @@ void vtkPointFrontRepresentation::PrepareFrame(vtkInformation* inInfo, vtkPVRend
   const bool lod = inInfo->Has(vtkPVRenderView::USE_LOD()) != 0;
   this->Mapper->SetInputDataObject(lod ? vtkPVView::GetDeliveredPieceLOD(inInfo, this)
                                        : vtkPVView::GetDeliveredPiece(inInfo, this));
-  // What has no store to draw has been told of, or was cancelled.
+  // A cloud without a store to draw has been told of, or was cancelled.
   const bool named =
     !vtkPointFrontStore::GetStoreName(this->Mapper->GetInputDataObject(0, 0)).empty();
   this->Actor->SetVisibility(named && this->GetVisibility());

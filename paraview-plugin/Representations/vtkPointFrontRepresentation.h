@@ -242,7 +242,7 @@ public:
     POINT_BUDGET = 1,
     GPU_MEMORY = 2,
     HOST_MEMORY = 4,
-    FRAME_TIME = 8, ///< of a frame in motion
+    FRAME_TIME = 8, ///< time of a frame in motion
     LOADING = 16, ///< not all points are there yet
     UNREADABLE = 32 ///< nodes that cannot be read
   };
@@ -255,7 +255,7 @@ public:
   /// come.
   bool GetFrameComplete();
 
-  /// What the build of the preview that is drawn is at: "sorting, 43 %". Empty if there is none,
+  /// The state of the drawn preview's build: "sorting, 43 %". Empty if there is none,
   /// and on all processes but the first of the data server.
   std::string GetBuildState();
 

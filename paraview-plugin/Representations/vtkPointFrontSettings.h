@@ -35,7 +35,7 @@ public:
    */
   void SetMostSelectionPoints(vtkIdType points);
   vtkIdType GetMostSelectionPoints();
-  /// Of this process; 50 million until one is set.
+  /// The limit of this process; 50 million until one is set.
   static vtkIdType MostSelectionPoints();
   ///@}
 

@@ -6,7 +6,7 @@ namespace pointfront
 {
 namespace
 {
-/// Of Python's C API, stable since 3.4.
+/// Functions of Python's C API, stable since 3.4.
 struct Interpreter
 {
   int (*isInitialized)() = nullptr;

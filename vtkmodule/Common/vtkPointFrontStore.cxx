@@ -28,7 +28,7 @@
 namespace
 {
 
-/// What makes a file the same file: its canonical path, and what changes when it is built anew.
+/// The identity of a file: its canonical path, and values that change when it is built anew.
 using FileIdentity = std::tuple<std::string, std::uintmax_t, std::int64_t>;
 
 bool identify(const std::string& fileName, FileIdentity& identity, std::string& error)
@@ -41,7 +41,7 @@ bool identify(const std::string& fileName, FileIdentity& identity, std::string& 
     error = "cannot open the store " + fileName + ": " + code.message() + "; check the path";
     return false;
   }
-  const bool folder = std::filesystem::is_directory(path, code); // of tiles: no bytes of its own
+  const bool folder = std::filesystem::is_directory(path, code); // a folder of tiles has no bytes
   const auto bytes = folder ? std::uintmax_t(0) : std::filesystem::file_size(path, code);
   if (code)
   {

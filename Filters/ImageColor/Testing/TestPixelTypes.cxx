@@ -1,4 +1,4 @@
-// What an attribute gets from pixels of each type: exact numbers, palettes, alpha, wide colours.
+// Attributes from pixels of each type: exact numbers, palettes, alpha, wide colours.
 
 #include "ColouredCloud.h"
 #include "WrittenTiff.h"

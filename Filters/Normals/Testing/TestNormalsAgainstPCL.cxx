@@ -12,7 +12,7 @@ namespace
 using namespace pointfront;
 using namespace pointfront::test;
 
-/// What pcl::NormalEstimation gives for the k nearest points, in float relative to the first point.
+/// Normals of pcl::NormalEstimation by the k nearest points, in float relative to the first point.
 Positions normalsByPCL(const Positions& positions, int neighbours)
 {
   const auto cloud = pcl::make_shared<pcl::PointCloud<pcl::PointXYZ>>();

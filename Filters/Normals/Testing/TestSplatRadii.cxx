@@ -194,7 +194,7 @@ TEST(SplatRadii, Extremes)
   EXPECT_GE(broken[2], 1.25f);
 }
 
-// What is too fine or too coarse for a byte is what is far from the usual.
+// A radius is too fine or too coarse for a byte only if it is far from the usual one.
 TEST(SplatRadii, TheBaseIsThatOfMost)
 {
   SplatCodes codes;

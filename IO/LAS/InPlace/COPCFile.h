@@ -21,7 +21,7 @@ struct COPCInfo
   glm::dvec3 centre{ 0.0 };
   double halfSize = 0.0;
   double spacing = 0.0;
-  std::uint64_t rootOffset = 0; ///< of the first page of the hierarchy
+  std::uint64_t rootOffset = 0; ///< offset of the first page of the hierarchy
   std::uint64_t rootBytes = 0;
 };
 

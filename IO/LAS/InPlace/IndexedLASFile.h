@@ -48,7 +48,7 @@ private:
     std::unique_ptr<const SideFile> side, LASFile file, std::unique_ptr<const InputFile> points);
   Result<void> checkIdentity(const std::string& sidePath) const;
   void describe(const std::string& sidePath);
-  /// Of the columns those that the side file holds, by their numbers there.
+  /// Chooses the columns that the side file holds, by their numbers there.
   std::vector<std::uint32_t> heldColumns(const ColumnSelection& columns) const;
   Result<std::string> membersFault(const ProgressFunction& progress) const;
 

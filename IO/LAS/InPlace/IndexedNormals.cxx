@@ -18,7 +18,7 @@ namespace pointfront
 namespace
 {
 constexpr std::size_t normalBytes = sizeof(PackedNormal);
-constexpr double passShare = 0.5; ///< of the progress; the other half reads what the pass gives
+constexpr double passShare = 0.5; ///< share of the progress; the other half reads the pass's values
 
 Result<PointSources> withNormals(
   const std::string& lasPath, const AttributePass& pass, const PassResources& resources)
@@ -78,7 +78,7 @@ Result<std::unique_ptr<IndexedNormals>> IndexedNormals::compute(
   WorkCrew crew(resources.threads, partOf(resources.progress, passShare, 1.0 - passShare));
   crew.beginPhase("normals", order.points(), 1.0);
   std::atomic<std::uint64_t> next{ 0 };
-  std::mutex mutex; // of the range
+  std::mutex mutex; // guards the range
   Result<void> done = crew.run(
     [&]() -> Result<void>
     {

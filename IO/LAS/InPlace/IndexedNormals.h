@@ -33,7 +33,7 @@ public:
 
   /// The attribute and its range, behind those of a description.
   void describe(StoreDescription& description, const std::string& origin) const;
-  /// What the pass met, in full sentences.
+  /// The findings of the pass, in full sentences.
   const std::vector<std::string>& findings() const { return findings_; }
   std::uint64_t spilledBytes() const { return spilledBytes_; }
 

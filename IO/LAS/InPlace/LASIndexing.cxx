@@ -25,11 +25,11 @@ namespace
 constexpr std::uint64_t blockPoints = 65536;
 constexpr std::uint64_t edgeBytes = 65536;
 constexpr std::uint64_t usualMemory = std::uint64_t(256) << 20;
-constexpr double normalsShare = 0.7; ///< of the time, where normals are computed
+constexpr double normalsShare = 0.7; ///< share of the time, where normals are computed
 constexpr double readingWeight = 0.3; // the other phases are those of indexInPlace()
 constexpr double manyRuns = 0.25; ///< runs a point from which on an order is called poor
 
-/// What a pass over all points learns of them.
+/// Facts that a pass over all points learns.
 struct Survey
 {
   RecordBox box;

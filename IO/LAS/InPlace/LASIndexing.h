@@ -15,7 +15,7 @@
 namespace pointfront
 {
 
-/// What a LAS file's index is called when it is given no name: beside the file, with this behind.
+/// The name of a LAS file's index that is given no other: beside the file, with this behind.
 constexpr const char* lasIndexSuffix = ".pfindex";
 
 struct LASIndexOptions
@@ -35,8 +35,8 @@ struct LASIndexReport
 {
   std::uint64_t points = 0;
   std::uint64_t nodes = 0;
-  std::uint64_t runs = 0; ///< of consecutive points, over all leaves
-  std::uint64_t bytesWritten = 0; ///< of the side file
+  std::uint64_t runs = 0; ///< runs of consecutive points, over all leaves
+  std::uint64_t bytesWritten = 0; ///< size of the side file
   std::uint64_t spilledBytes = 0;
   double seconds = 0.0;
   std::vector<std::string> warnings;

@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t pointsApart = 50000; ///< in LAS files: as the chunks of LAZ
 
-/// What was taken of one file.
+/// The part that was taken of one file.
 class GlancedFile final : public PointSource
 {
 public:
@@ -215,7 +215,7 @@ Result<std::vector<std::string>> lasFilesBelow(const std::string& folder)
   return files;
 }
 
-/// Of files whose points are `points` in the columns `schema`. The warnings say what is missing.
+/// Describes files whose points are `points` in the columns `schema`; warnings say what is missing.
 SourceDescription describeGlances(
   const PointSources& glances, const PointBatch& points, const AttributeSchema& schema)
 {

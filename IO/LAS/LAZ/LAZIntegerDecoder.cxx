@@ -10,7 +10,7 @@ constexpr std::uint32_t minimumLength = 0x01000000u; // interval below which byt
 constexpr std::uint32_t bitShift = 13; // precision of bit probabilities
 constexpr std::uint32_t symbolShift = 15; // precision of symbol probabilities
 constexpr std::uint32_t integerBits = 32;
-constexpr std::uint32_t modelledBits = 8; // of a difference; bits below them are stored as they are
+constexpr std::uint32_t modelledBits = 8; // bits with a model; lower ones are stored
 } // namespace
 
 LAZIntegerDecoder::Model::Model(std::uint32_t symbols)

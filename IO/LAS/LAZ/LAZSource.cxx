@@ -79,7 +79,7 @@ Result<std::unique_ptr<PointSource>> LAZSource::open(LASFile file)
   {
     return done.error();
   }
-  file.map.release(0, file.map.size()); // what the search for chunks has looked at
+  file.map.release(0, file.map.size()); // the pages that the search for chunks has looked at
   return std::unique_ptr<PointSource>(
     new LAZSource(std::move(file), std::move(*compression), std::move(*chunks)));
 }

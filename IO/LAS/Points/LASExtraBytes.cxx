@@ -22,14 +22,14 @@ constexpr std::size_t textBytes = 32;
 constexpr unsigned hasScale = 8;
 constexpr unsigned hasOffset = 16;
 
-constexpr std::size_t mostComponents = 16; // of an Attribute
+constexpr std::size_t mostComponents = 16; // components of an Attribute
 
 /// Data types 1 to 10; 11 to 20 are pairs of them, 21 to 30 triples.
 constexpr std::array<ScalarType, 10> scalarTypes{ ScalarType::UInt8, ScalarType::Int8,
   ScalarType::UInt16, ScalarType::Int16, ScalarType::UInt32, ScalarType::Int32, ScalarType::UInt64,
   ScalarType::Int64, ScalarType::Float32, ScalarType::Float64 };
 
-/// What one descriptor says.
+/// The content of one descriptor.
 struct Descriptor
 {
   std::string name;

@@ -10,7 +10,7 @@ namespace pointfront
 {
 namespace
 {
-/// What all the functions below need.
+/// Values that all the functions below need.
 struct Work
 {
   const LASExport& plan;

@@ -126,7 +126,7 @@ LASPointLayout makeLASPointLayout(int pointFormat, const std::vector<Attribute>&
   {
     addWavePacket(layout, parts.wave);
   }
-  std::map<std::string, int> copies; // of each name: a hostile file may repeat one for ever
+  std::map<std::string, int> copies; // copies of each name: a hostile file may repeat one for ever
   for (const Attribute& attribute : extra)
   {
     LASField field;

@@ -18,13 +18,13 @@ std::size_t lasMinimumPointBytes(int pointFormat);
 /// Where the optional parts of a point format begin; 0: it has none.
 struct LASFormatParts
 {
-  std::uint16_t bytes; ///< of a record without extra bytes, which follow
+  std::uint16_t bytes; ///< size of a record without extra bytes, which follow
   std::uint16_t gpsTime;
   std::uint16_t rgb;
   std::uint16_t nir;
   std::uint16_t wave;
 };
-/// Of a format from 0 to 10.
+/// The parts of a format from 0 to 10.
 const LASFormatParts& lasFormatParts(int pointFormat);
 
 /// How one column lies in a point record.
@@ -52,7 +52,7 @@ struct LASField
 struct LASPointLayout
 {
   int pointFormat = 0;
-  std::size_t pointBytes = 0; ///< of one record, extra bytes and all
+  std::size_t pointBytes = 0; ///< size of one record, extra bytes and all
   AttributeSchema schema;
   std::vector<LASField> fields;
 };

@@ -8,7 +8,7 @@
 namespace pointfront::test
 {
 
-/// What is known of a real file from its owners and two independent decoders (MANIFEST.md there).
+/// Facts of a real file from its owners and two independent decoders (MANIFEST.md there).
 struct RealFile
 {
   const char* path; ///< under shared/data

@@ -260,7 +260,7 @@ TEST(StyleJSON, RefusalsOfTextsOfSeveralLinesNameTheLine)
   expectRefusal("{\"show_classes\": [2,\n 3,\n 300]}",
     "line 3: show_classes[2]: a class is a code from 0 to 255");
   expectRefusal("{\"lenses\": [\n{\"shape\": \"circle\",\n\"inside\": {}}]}",
-    "line 2: lenses[0]: expected the key center_px"); // of the object that lacks it
+    "line 2: lenses[0]: expected the key center_px"); // the line of the object
   expectRefusal("{\"where\": \"a > 1\",\n\"classes\": {},\n\"where\": \"a > 2\"}",
     "line 3: the key \"where\" stands twice in one object");
   expectRefusal("{\"default\": {\n\"technique\": \"dots\",\n}\n}",

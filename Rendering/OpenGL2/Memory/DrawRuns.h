@@ -16,7 +16,7 @@ public:
   struct Stretch
   {
     std::size_t block;
-    std::size_t begin; ///< of the runs
+    std::size_t begin; ///< number of the first run
     std::size_t end;
   };
 

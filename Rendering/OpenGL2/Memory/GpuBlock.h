@@ -39,7 +39,7 @@ public:
   /// Makes missing buffers, as far as the GPU has room, and gives unwanted ones back.
   void setStreams(const GpuStreams& wanted);
 
-  // Of `count` points from point `offset` on of a slot of the pool.
+  // Writes `count` points from point `offset` on of a slot of the pool.
   void writePositions(
     std::uint32_t slot, std::uint32_t offset, std::uint32_t count, const void* steps) const;
   void writeValues(GpuStream stream, std::uint32_t slot, std::uint32_t offset, std::uint32_t count,

@@ -57,7 +57,7 @@ public:
   struct Limits
   {
     std::uint64_t points = 0; ///< drawn at a time; 0: no limit
-    std::int64_t bytes = 0; ///< of all pools of the window; 0: no limit
+    std::int64_t bytes = 0; ///< bytes of all pools of the window; 0: no limit
     std::uint32_t views = 1; ///< that take turns
   };
 
@@ -89,7 +89,7 @@ public:
     const NodeColumns& node, std::uint32_t count, const FramePlan& plan, std::int64_t& bytesLeft);
   /// Points [first, end) of a node, to be drawn.
   void addRuns(const Entry& entry, std::uint32_t first, std::uint32_t end, DrawRuns& runs) const;
-  /// Of a layer by its number.
+  /// The streams of a layer, by its number.
   const LayerStreams& streamsOf(std::uint16_t layer) const;
   /// Whether the positions and all streams of the node's first `count` points are on the GPU.
   bool isFilled(const Entry& entry, std::uint32_t count) const;
@@ -143,7 +143,7 @@ private:
   Limits limits_;
   bool lowered_ = false;
   bool refused_ = false;
-  std::uint32_t slotLimit_ = 0; ///< of `points`: grows beyond for what is on screen; 0: none
+  std::uint32_t slotLimit_ = 0; ///< for `points`: grows beyond for what is on screen; 0: none
   std::uint64_t frame_ = 0;
   std::uint64_t uploaded_ = 0;
   std::int64_t bytes_ = 0;

@@ -33,7 +33,7 @@ bool GpuPool::makeRoom(const DrawList& draw)
 {
   if (lowered_)
   {
-    leaveScreen(); // of other views, too: they bring theirs again
+    leaveScreen(); // other views, too, bring theirs again
   }
   mark(draw);
   keepWithin(draw);
@@ -49,7 +49,7 @@ bool GpuPool::makeRoom(const DrawList& draw)
   return makeFree(missing);
 }
 
-/// What this frame draws is on the screen.
+/// Marks the nodes of this frame as drawn.
 void GpuPool::mark(const DrawList& draw)
 {
   for (const PlanItem* item : draw)
@@ -261,7 +261,7 @@ bool GpuPool::giveBack()
   return true;
 }
 
-/// What it has goes to free slots of the others, of which there are enough.
+/// Its nodes move to free slots of the other blocks, of which there are enough.
 void GpuPool::dropLast()
 {
   GpuBlock& last = blocks_.back();

@@ -42,7 +42,7 @@ bool coloursAs(const ResolvedStyle& a, const ResolvedStyle& b)
     a.second == b.second && a.filter == b.filter;
 }
 
-/// What a marked layer's colours are made of.
+/// The columns that a marked layer's colours are made of.
 ColumnSelection markedColumns(const LayerStreams::Styles& styles)
 {
   ColumnSelection all;

@@ -50,7 +50,7 @@ void SlotRecords::begin(std::uint32_t slots)
 void SlotRecords::set(const std::vector<std::uint32_t>& slots, const Record& record)
 {
   std::uint64_t id = record.firstId;
-  float first = record.growth.first; // of the slot's first point
+  float first = record.growth.first; // growth of the slot's first point
   const SlotOrigin& origin = record.origin;
   const std::int32_t flags = (record.coloured ? colouredFlag : 0) |
     (record.shaped ? shapedFlag : 0) | (record.sized ? sizedFlag : 0);

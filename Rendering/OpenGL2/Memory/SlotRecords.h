@@ -26,7 +26,7 @@ namespace pointfront
 class SlotRecords
 {
 public:
-  /// Of one node.
+  /// The record of one node.
   struct Record
   {
     SlotOrigin origin;

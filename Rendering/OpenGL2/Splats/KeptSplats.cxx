@@ -156,13 +156,13 @@ void KeptSplats::leaveOutKnown(FramePlan& leaving)
   }
 }
 
-/// What is drawn from here on is written to the set's buffer in place of the screen; `most` points.
+/// From here on drawing goes to the set's buffer in place of the screen; `most` points.
 /// False where GL has no room for it.
 bool KeptSplats::begin(Set& set, std::int64_t most)
 {
   for (int errors = 0; errors < 16 && glGetError() != GL_NO_ERROR; ++errors)
   {
-    // Of others. A lost context never runs out of them.
+    // Errors of earlier calls. A lost context never runs out of them.
   }
   glGenBuffers(1, &set.buffer);
   glBindBuffer(GL_TRANSFORM_FEEDBACK_BUFFER, set.buffer);

@@ -30,7 +30,7 @@ namespace pointfront
 class KeptSplats
 {
 public:
-  /// What the last picture says.
+  /// Facts of the last picture.
   struct LastPicture
   {
     const FrameCamera& camera;
@@ -60,18 +60,18 @@ public:
   void clear();
 
 private:
-  /// Of one style.
+  /// The points of one style.
   struct Set
   {
     std::shared_ptr<const ResolvedStyle> style;
-    RadiusSource radius = RadiusSource::Node; ///< what splats of this style have
+    RadiusSource radius = RadiusSource::Node; ///< source of the radii of this style's splats
     bool quads = false;
     std::uint32_t buffer = 0; ///< GL's name
     std::int64_t points = 0;
-    std::uint32_t query = 0; ///< of the points, while these are being captured
+    std::uint32_t query = 0; ///< query of the points, while these are being captured
     FrameCamera camera; ///< whose space they are in
   };
-  /// Of a node's points, those that were looked through.
+  /// The range of a node's points that was looked through.
   struct Range
   {
     std::uint32_t first;

@@ -206,7 +206,7 @@ SplatTextures SplatComposition::putLens(const SplatTextures& base, const SplatTe
       const_cast<std::uint8_t*>(lens.mask->values.data()));
     loadedMask_ = lens.mask;
   }
-  // What a sampler reads must be there, whether it is looked at or not.
+  // A sampler's texture must be there, whether it is looked at or not.
   vtkTextureObject* const mask = lens.shape == LensShape::Mask ? mask_.GetPointer()
     : lens.shape == LensShape::AroundClass                     ? around
                                                                : base.depths;

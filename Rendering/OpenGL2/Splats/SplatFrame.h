@@ -24,7 +24,7 @@ struct SplatTools
 {
   SplatPrograms programs;
   SlotRecords records;
-  SlotRecords lastRecords; ///< of points that the last picture has and this one lacks
+  SlotRecords lastRecords; ///< records of points that the last picture has and this one lacks
   SplatHoleFiller holes;
   vtkNew<vtkOpenGLVertexArrayObject> vertices;
 };

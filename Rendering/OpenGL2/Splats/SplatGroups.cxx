@@ -122,7 +122,7 @@ std::int64_t SplatGroups::add(const RasterItems& items, const RasterItem& item, 
   const GpuPool::Entry* const entry = pool.find(node.node);
   const LayerStreams& layer = pool.streamsOf(node.layer);
   std::uint32_t end = entry ? std::min(item.item->last, entry->points) : 0;
-  // What a mark is missing of is not shown unasked.
+  // Points without the values of a mark are not shown unasked.
   const GpuStream values = valueStreamOf(valueSetOf(*item.style));
   const int mark = layer.markOf(*item.style);
   end = mark >= 0 && entry ? std::min(end, entry->values(values)) : end;

@@ -96,7 +96,7 @@ private:
   bool goesOn_ = false;
   bool addsNothing_ = false;
   bool blended_ = false;
-  // Of the last picture:
+  // State of the last picture:
   FrameCamera camera_;
   std::vector<glm::dvec4> clippingPlanes_;
   std::vector<Drawn> drawn_;

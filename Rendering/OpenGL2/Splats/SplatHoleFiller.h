@@ -30,7 +30,7 @@ public:
   /// are; nothing is seen beside it. False if GL has no room. `parts`: what the target has.
   bool fill(vtkOpenGLRenderWindow* window, SplatTarget& target, const SplatTarget::Parts& parts,
     const FramePlan& plan, const PixelRectangle& place);
-  /// Of the last filling, in place of SplatTarget's: sums and light are part of the colours.
+  /// Colours of the last filling, in place of SplatTarget's: sums and light are part of them.
   vtkTextureObject* seenColours() { return filled_[0].colours; }
   vtkTextureObject* seenDepths() { return filled_[0].depths; }
 
@@ -45,7 +45,7 @@ private:
     int width = 0;
     int height = 0;
   };
-  static constexpr int levels = 3; ///< of HoleFiller.cxx
+  static constexpr int levels = 3; ///< levels of HoleFiller.cxx
 
   bool prepare(vtkOpenGLRenderWindow* window, int width, int height, bool looks);
   void clear(vtkOpenGLState* state);

@@ -68,7 +68,7 @@ std::int64_t SplatPart::draw(const SplatFrame& frame, const FramePlan& plan,
   const bool goesOn = groups_.goesOn() && target_->has(parts) && (keeps || kept_.empty());
   if (!keeps)
   {
-    kept_.clear(); // what was kept is in the last picture
+    kept_.clear(); // the kept points are in the last picture
   }
   else if (!goesOn)
   {
@@ -209,7 +209,7 @@ void SplatPart::drawGroup(
 void SplatPart::resolve(vtkOpenGLRenderWindow* window, const FramePlan& plan, bool fills)
 {
   const FrameShading& shading = plan.shading;
-  const bool lit = parts_.lit && !fills; // what is filled is lit before
+  const bool lit = parts_.lit && !fills; // filled pixels are lit before
   vtkShaderProgram* const program = tools_.programs.useResolve(
     window, { parts_.blended && !fills, lit, shading.anyEyeDome(), looksOf(shading) });
   if (!program)

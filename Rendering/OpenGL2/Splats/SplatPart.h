@@ -62,7 +62,7 @@ private:
   SplatGroups groups_;
   KeptSplats kept_;
   bool selects_ = false; ///< the last picture is for a selection
-  FrameShading shading_; ///< of the last picture
+  FrameShading shading_; ///< shading of the last picture
   bool fills_ = false; ///< the last picture's holes are filled
   bool composited_ = false; ///< likewise: it has the depths that decided
   vtkRenderer* renderer_ = nullptr; ///< compared, not used

@@ -69,7 +69,7 @@ std::int64_t SplatPicture::draw(vtkOpenGLRenderWindow* window, vtkRenderer* rend
     part.part->release(window);
   }
   further_.clear();
-  composition_.release(window); // what a plan of one part does not need
+  composition_.release(window); // a plan of one part does not need it
   const std::int64_t points = main_.draw(frame, plan, mainTarget(frame, plan), nullptr);
   shown_ = points > 0 ? main_.shown() : PixelRectangle();
   picture_ = shown_.empty() ? SplatTextures() : main_.picture();
@@ -195,7 +195,7 @@ SplatTextures SplatPicture::blended(
 void SplatPicture::compose(const FramePlan& plan)
 {
   picture_ = main_.picture();
-  SplatTextures inside; // of the lens that is put next
+  SplatTextures inside; // textures inside the lens that is put next
   for (const CompositionStep& step : compositionOf(plan.shading))
   {
     switch (step.kind)

@@ -41,7 +41,7 @@ public:
   /// Hands over the last drawing, as if it were geometry of the actor.
   void handOver(
     vtkRenderer* renderer, vtkActor* actor, const FramePlan& plan, std::int64_t storePoints);
-  /// Of the last drawing: what the picture before showed and the plan lacks.
+  /// Kept points of the last drawing: the picture before showed them and the plan lacks them.
   std::int64_t keptPoints() const;
   void release(vtkOpenGLRenderWindow* window);
 

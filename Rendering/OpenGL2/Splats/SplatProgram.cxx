@@ -46,7 +46,7 @@ std::string definitions(const SplatVariant& variant)
     define("PICKING", variant.ids) + define("QUADS", variant.quads);
 }
 
-/// What a shader is put together of, beside its own text.
+/// The parts of a shader, beside its own text.
 struct Content
 {
   std::string defines;

@@ -40,7 +40,7 @@ struct SplatVariant
   bool lit = false;
   bool ids = false;
   bool quads = false; ///< for splats that are larger than points can be
-  bool kept = false; ///< of points that were visible in an earlier picture
+  bool kept = false; ///< points that were visible in an earlier picture
 
   auto key() const
   {
@@ -59,7 +59,7 @@ public:
   vtkShaderProgram* use(vtkOpenGLRenderWindow* window, const SplatVariant& variant);
   /// The same points, but these are looked for in the last picture, and written to a buffer.
   vtkShaderProgram* useCapture(vtkOpenGLRenderWindow* window, const SplatVariant& variant);
-  /// Of the pass that makes a picture of what was drawn.
+  /// Choices of the pass that makes a picture of the drawn sums.
   struct Resolve
   {
     bool blended = false;

@@ -14,7 +14,7 @@ namespace pointfront
 namespace
 {
 
-/// Of targets that one cloud alone draws into: four of full HD, 300 to 560 MB.
+/// Pixels of targets that one cloud alone draws into: four of full HD, 300 to 560 MB.
 constexpr std::int64_t mostOwnPixels = std::int64_t(1) << 23;
 
 constexpr float nothing[4] = { 0.0f, 0.0f, 0.0f, 0.0f };

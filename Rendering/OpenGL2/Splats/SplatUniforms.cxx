@@ -57,7 +57,7 @@ void setCamera(vtkShaderProgram* program, const FramePlan& plan, const RasterIte
   program->SetUniformi("clipCount", item.positions.clippingPlanes);
 }
 
-/// What a radius of the store, or of the style, is multiplied with.
+/// The factor of a radius of the store, or of the style.
 float radiusFactorOf(const RasterItems& items, const RasterItem& item, float share)
 {
   const auto value = static_cast<float>(item.style->size.value);

@@ -16,7 +16,7 @@ RadiusSource radiusSourceOf(const RasterItem& item, bool shaped, bool sized);
 void setSplatUniforms(
   vtkShaderProgram* program, const RasterItems& items, const RasterItem& item, bool second);
 
-/// What keys of depths are multiplied with so that they are below 1: a power of two, so that none
+/// The factor that makes keys of depths smaller than 1: a power of two, so that none
 /// of their digits is lost.
 float depthScaleOf(const RasterCamera& camera);
 

@@ -5,7 +5,7 @@
 uniform vec2 cameraScale;
 uniform mat4 cameraToLastClip;
 uniform ivec2 lastSize;    // pixels
-uniform sampler2D lastIds; // of the last picture
+uniform sampler2D lastIds; // ids of the last picture
 uniform int takesAll;      // 1: seen or not
 
 //POINTFRONT::PointData::Dec

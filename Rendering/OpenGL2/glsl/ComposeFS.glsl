@@ -69,7 +69,7 @@ void main()
 }
 
 #elif POINTFRONT_STEP == 1
-// What a lens covers shows what lies inside it.
+// A lens shows what lies inside it.
 uniform sampler2D insideColours;
 uniform sampler2D insideDepths;
 #if POINTFRONT_IDS
@@ -118,6 +118,6 @@ void main()
 }
 
 #else
-// What stands out: its pixels are tinted, and it has a rim on what lies behind it.
+// A highlight: its pixels are tinted, and it has a rim on everything behind it.
 //POINTFRONT::Highlight::Dec
 #endif

@@ -1,6 +1,6 @@
 vec4 mixedWith(vec4 own, vec3 colour, float share)
 {
-  float most = own.a == 0.0 ? 1.0 : share; // of what shows nothing the colour counts alone
+  float most = own.a == 0.0 ? 1.0 : share; // over an empty pixel the colour counts alone
   return inBytes(vec4(mix(own.rgb, colour, most), own.a + (1.0 - own.a) * share));
 }
 

@@ -38,7 +38,7 @@ vec4 meanOf(ivec3 sum, int parts, float alpha)
 }
 
 #if POINTFRONT_STEP == 0
-// What the levels begin with: colours of who is seen, sums divided, in the light of the frame, for
+// The levels begin with: colours of who is seen, sums divided, in the light of the frame, for
 // a filled pixel has no normal of its own; depths of nothing are far.
 void main()
 {
@@ -84,7 +84,7 @@ void main()
   ivec3 sum = ivec3(0);
   int parts = 0;
   float alpha = 0.0; // with the highlight of the first that agrees
-  float look = 0.0; // of the same
+  float look = 0.0; // look of the same pixel
   for (int k = 0; k < 4; ++k)
   {
     if (depths[k] <= most)
@@ -139,7 +139,7 @@ void main()
     {
       // With so many parts the nearest corner is one that agrees: the pixel has its marks.
       colour = meanOf(sum, parts, texelFetch(coarseColours, near, 0).a);
-      // What decided stays where something is: that is compared with other processes' pictures.
+      // The deciding depth stays where something is: it is compared with other processes' pictures.
       float look = texelFetch(coarseDepths, near, 0).b;
       depth = vec3(depth.r < nothingThere ? depth.r : least, least, look);
     }

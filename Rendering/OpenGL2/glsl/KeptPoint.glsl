@@ -7,7 +7,7 @@ in vec2 keptId;
 
 uniform mat4 keptToCamera;
 uniform mat3 keptNormals;    // the same of normals
-uniform float keptShare;     // of its radius, in this pass
+uniform float keptShare;     // share of its radius, in this pass
 uniform float radiusFactor;
 
 Point pointOf()

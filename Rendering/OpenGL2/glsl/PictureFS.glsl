@@ -11,9 +11,9 @@ uniform sampler2D pictureDepth;   // world units from the eye's plane; infinite 
 #if POINTFRONT_PICKING
 uniform sampler2D pictureIds;     // low and high 24 bits
 #endif
-uniform ivec2 pictureOrigin;      // of the viewport, pixels of the framebuffer
-uniform ivec2 pictureCorner;      // of the textures in the viewport, pixels
-uniform vec2 pictureSize;         // of the viewport, pixels
+uniform ivec2 pictureOrigin;      // corner of the viewport, pixels of the framebuffer
+uniform ivec2 pictureCorner;      // corner of the textures in the viewport, pixels
+uniform vec2 pictureSize;         // size of the viewport, pixels
 uniform mat4 pictureViewToClip;
 
 uniform float ambientIntensity;

@@ -3,7 +3,7 @@ struct Point
 {
   vec3 camera;  // camera space, world units
   float radius; // world units, before bounds in pixels
-  float grown;  // of its size
+  float grown;  // share of its size
   vec4 colour;
   vec3 normal;  // camera space, any length; 0: none
   vec2 id;      // low and high 24 bits

@@ -20,15 +20,15 @@ in float pointValue; // world value - the colouring's base
 #endif
 
 uniform int slotPoints;            // vertices of a slot
-uniform int firstSlot;             // of the buffers that are drawn from
+uniform int firstSlot;             // first slot of the buffers that are drawn from
 uniform isamplerBuffer slotSteps;  // xyz: the reference in the node's steps; w: shift, flag << 8
 uniform samplerBuffer slotBase;    // xyz: what rounding of the reference left over, MC
 uniform vec3 stepSize;             // MC units of a grid step
 
-uniform vec4 flatColour;           // of points without a value
+uniform vec4 flatColour;           // colour of points without a value
 
 out vec4 vertexColorVSOutput;
-invariant gl_Position;             // of all variants: passes compare depths of each other
+invariant gl_Position;             // in all variants: passes compare depths of each other
 
 #if POINTFRONT_PICKING
 uniform isamplerBuffer slotIds;    // x, y: low and high 24 bits of the id of the slot's first point

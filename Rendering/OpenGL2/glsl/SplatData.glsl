@@ -1,4 +1,4 @@
-// What a splat is, from the vertex to its pixels. Camera space: x to the right, y up, z along the
+// A splat from the vertex to its pixels. Camera space: x to the right, y up, z along the
 // line of sight, world units; pixels: the viewport's, y up. Twin of RasterBatch.
 // POINTFRONT_SHAPE     0 square, 1 disc, 2 affine ellipse, 3 exact ellipse, 4 sphere, 5 wall
 // POINTFRONT_PARALLEL  rays are parallel

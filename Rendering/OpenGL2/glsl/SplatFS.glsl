@@ -8,7 +8,7 @@ uniform vec2 cameraScale;
 uniform vec2 cameraCentre;
 uniform float lowPass;     // pixels; 0: none
 uniform float paraboloid;  // radii that the rim lies behind the centre
-uniform float depthScale;  // of the depth buffer
+uniform float depthScale;  // scale of the depth buffer
 uniform float rimFrom;     // q beyond which a splat is its rim
 uniform float rimRadii;    // that the rim lies further back
 uniform float mostAtCentre;

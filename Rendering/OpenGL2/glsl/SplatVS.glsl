@@ -31,7 +31,7 @@ void main()
   }
   float grown = point.grown;
 #if POINTFRONT_PASS == 2
-  splat.colour.a = grown; // of its weight
+  splat.colour.a = grown; // share of its weight
   grown = 1.0;
 #endif
   float height = 0.0;

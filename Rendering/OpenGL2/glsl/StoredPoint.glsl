@@ -13,7 +13,7 @@ in float pointSize;     // radius, store units
 #endif
 
 uniform int slotPoints;            // vertices of a slot
-uniform int firstSlot;             // of the buffers that are drawn from
+uniform int firstSlot;             // first slot of the buffers that are drawn from
 uniform isamplerBuffer slotSteps;  // xyz: the reference in the node's steps; w: shift and flags
 uniform samplerBuffer slotPlaces;  // camera space of the reference; w: size of the first point
 uniform samplerBuffer slotRadii;   // closing radius, scale of own ones, 1: none below, sparsest
@@ -25,10 +25,10 @@ uniform vec3 stepSize;
 uniform mat3 stepsToCamera;
 uniform mat3 normalToCamera;
 uniform vec3 fixedNormal;          // camera space, of points without one; 0: none
-uniform vec4 flatColour;           // of points without a value
+uniform vec4 flatColour;           // colour of points without a value
 uniform int styleMark;
-uniform float radiusFactor;        // of what the store says, of splats of this pass
-uniform float radiusBase;          // of codes, store units
+uniform float radiusFactor;        // factor of the store's radius, for splats of this pass
+uniform float radiusBase;          // base of codes, store units
 
 //POINTFRONT::ColourMapTexture::Dec
 

@@ -11,8 +11,8 @@ namespace pointfront
 namespace
 {
 
-/// Of the most points, what is left when there are more: copying takes its time, and more come with
-/// each frame.
+/// The share of the most points that is left when there are more: copying takes its time, and more
+/// come with each frame.
 constexpr double leftShare = 0.875;
 
 /// A node of these points only; all else is as in `model`.

@@ -37,7 +37,7 @@ public:
   const std::vector<std::uint32_t>& indices() const { return indices_; }
   /// The number of the frame in which each was visible last.
   const std::vector<std::uint32_t>& seen() const { return seen_; }
-  /// What is drawn of them.
+  /// The item that draws them.
   const PlanItem& item() const { return item_; }
 
   std::shared_ptr<const ResolvedStyle> style; ///< that they were drawn in
@@ -51,9 +51,9 @@ private:
   PlanItem item_;
 };
 
-/// What is kept of a motion, by node. Whoever was visible once stays until the motion ends, though
-/// another point may hide it for a while; beyond a number of points those go that were not seen for
-/// the longest time.
+/// The kept points of a motion, by node. Whoever was visible once stays until the motion ends,
+/// though another point may hide it for a while; beyond a number of points those go that were not
+/// seen for the longest time.
 using KeptNodes = std::map<NodeIndex, KeptNode>;
 
 /// Leaves at most so many points.

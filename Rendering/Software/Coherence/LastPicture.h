@@ -28,7 +28,7 @@ public:
   /// for them (FramePlan::keepsVisible).
   const VisiblePoints& visibleFor(const FramePlan& plan, bool wanted, ThreadCrew& crew);
 
-  /// What is to be drawn of a picture.
+  /// The pieces of a picture that are to be drawn.
   struct Pieces
   {
     bool goesOn = false; ///< into the last picture's keys
@@ -50,9 +50,9 @@ public:
   bool hasKeys() const { return keys_.data() != nullptr; }
   /// The sums that belong to the keys, if there are any.
   BlendedSums takeSums() { return std::move(sums_); }
-  /// Of a picture that is kept.
+  /// Pixels of the picture that is kept.
   std::int64_t keyPixels() const { return hasKeys() ? window_.pixels() : 0; }
-  /// What was drawn, all of a view.
+  /// Keeps all that was drawn of a view.
   void keep(const RasterItems& items, const RasterWindow& window, RasterBuffer<RasterKey> keys,
     BlendedSums sums);
   /// The same, but that the keys do not stay.
@@ -69,7 +69,7 @@ private:
   void note(const RasterItems& items, const RasterWindow& window);
   bool renumber(const RasterItems& items, ThreadCrew& crew, std::vector<std::uint32_t>& drawnUpTo);
 
-  bool known_ = false; ///< what was drawn, all of a view
+  bool known_ = false; ///< all that was drawn of a view is known
   bool valid_ = false; ///< and its keys are here
   RasterBuffer<RasterKey> keys_;
   BlendedSums sums_;
@@ -77,7 +77,7 @@ private:
   std::vector<glm::dvec4> clippingPlanes_;
   RasterWindow window_;
   std::vector<DrawnItem> items_;
-  std::vector<std::uint32_t> lastingUpTo_; ///< of each item of the picture that was begun
+  std::vector<std::uint32_t> lastingUpTo_; ///< for each item of the picture that was begun
   ItemNumbers numbers_;
   std::vector<std::shared_ptr<const ResolvedStyle>> styles_; ///< alive, as the nodes
   QuantisationGrid grid_;

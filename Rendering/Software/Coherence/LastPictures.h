@@ -27,7 +27,7 @@ public:
     last.drawn = true;
     return last.picture;
   }
-  /// Of the keys that are kept.
+  /// Pixels of the keys that are kept.
   std::int64_t keyPixels() const
   {
     std::int64_t pixels = 0;

@@ -47,12 +47,12 @@ std::uint32_t wordsOf(const DrawnItem& item)
 
 } // namespace
 
-/// What of a drawn item was visible, a bit a point.
+/// The visible points of a drawn item, a bit a point.
 struct VisiblePoints::Source
 {
   const DrawnItem* drawn = nullptr;
   const KeptNode* kept = nullptr; ///< it is not a node but points of one
-  std::shared_ptr<const ResolvedStyle> style; ///< of the plan
+  std::shared_ptr<const ResolvedStyle> style; ///< the plan's style
   bool wanted = true;
   std::uint32_t planned = 0; ///< that many of the node's points are drawn anyway
   std::uint32_t full = 0; ///< points from there on were not of their size yet, or no more
@@ -94,7 +94,7 @@ std::vector<VisiblePoints::Source> VisiblePoints::sourcesOf(
   return sources;
 }
 
-/// What the plan draws anyway, or in another way; false: it lacks nothing.
+/// Leaves out points that the plan draws anyway, or in another way; false: it lacks nothing.
 bool VisiblePoints::leaveOutPlanned(
   const FramePlan& plan, const Prefixes& prefixes, std::vector<Source>& sources)
 {
@@ -234,7 +234,7 @@ void VisiblePoints::gather(
 void VisiblePoints::update(KeptNode& kept, const Parts& parts) const
 {
   std::vector<VisiblePoint> points;
-  const Source* first = nullptr; // of the node's own
+  const Source* first = nullptr; // the first source of the node's own
   for (const Source* part : parts)
   {
     const DrawnItem& drawn = *part->drawn;
@@ -274,7 +274,7 @@ void VisiblePoints::update(KeptNode& kept, const Parts& parts) const
   kept.add(points, as, frame_);
 }
 
-/// What the plan draws anyway waits until it no longer does. What it draws in another style goes.
+/// Points that the plan draws anyway wait until it no longer does; those it restyles go.
 void VisiblePoints::leaveOutPlanned(const FramePlan& plan, const Prefixes& prefixes)
 {
   for (auto node = kept_.begin(); node != kept_.end();)

@@ -16,14 +16,14 @@ namespace pointfront
 {
 class ThreadCrew;
 
-/// What pictures of a motion showed, kept as long as the motion lasts: points that were visible and
+/// Points that pictures of a motion showed, kept as long as the motion lasts: they were visible and
 /// that the next plan does not draw, at most as many as there are pixels. They are copied together,
 /// so that the nodes they come from may leave the memory (SMOOTH-7).
 /// Threads  one thread at a time; works with those of a crew.
 class VisiblePoints
 {
 public:
-  /// What was drawn: the keys of the last picture, and what their indices mean, an item each.
+  /// The keys of the last picture, and the meaning of their indices, an item each.
   struct Drawn
   {
     const RasterKey* keys;
@@ -45,7 +45,7 @@ public:
   /// Adds those that the chosen plan lacks to its batches, as nodes of their own.
   void addTo(FramePlan& plan) const;
   bool empty() const { return count() == 0; }
-  /// Of those that are added to a plan.
+  /// Number of points that are added to a plan.
   std::uint64_t count() const;
   void clear();
 
@@ -65,7 +65,7 @@ private:
 
   KeptNodes kept_;
   std::vector<Source> marked_;
-  std::uint32_t frame_ = 0; ///< of the motion
+  std::uint32_t frame_ = 0; ///< number of the motion's frame
 };
 
 } // namespace pointfront

@@ -67,7 +67,7 @@ public:
     }
   }
   std::uint32_t at(std::uint32_t point) const { return one_(*this, point); }
-  /// Of points [first, first + count).
+  /// Colours points [first, first + count).
   void fill(std::uint32_t first, int count, std::uint32_t* colours) const
   {
     many_(*this, first, count, colours);

@@ -12,7 +12,7 @@ namespace
 /// A point's own radius counts up to that many times what closes its node: a stray point far from
 /// all others is no surface.
 constexpr float mostOfClosing = 4.0f;
-/// Of a blended splat's centre: six bits.
+/// Weight of a blended splat's centre: six bits.
 constexpr float weightOfCentre = 63.0f;
 
 /// Points one after the other: columns are read where they lie.

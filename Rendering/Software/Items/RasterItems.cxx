@@ -40,7 +40,7 @@ glm::dmat3 cameraAxes(const FrameCamera& camera)
   return axes;
 }
 
-/// What every item's camera has in common: the projection.
+/// The camera of the projection, which all items share.
 RasterCamera projectionOf(const FrameCamera& camera)
 {
   const glm::dmat4& clip = camera.viewToClip;

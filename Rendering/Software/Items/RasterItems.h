@@ -20,8 +20,8 @@
 namespace pointfront
 {
 
-/// What of a frame's plan decides how large an item's points are, beside its passes; 0 what nothing
-/// reads. Equal terms give equal splats.
+/// The terms by which a frame's plan decides how large an item's points are, beside its passes; 0
+/// where nothing reads. Equal terms give equal splats.
 struct SizeTerms
 {
   PointGrowth growth;
@@ -45,7 +45,7 @@ struct RasterItem
   const ResolvedStyle* style = nullptr;
   std::uint32_t base = 0; ///< index of the node's first point in keys
   RasterCamera camera;
-  RasterPositions positions; ///< of the node's first point
+  RasterPositions positions; ///< positions from the node's first point on
   TechniquePasses passes;
   std::shared_ptr<const PointColours> colours;
   float radius = 0.0f; ///< world units, of all points without one of their own
@@ -103,11 +103,11 @@ struct RasterItem
 class RasterItems
 {
 public:
-  /// Of the plan's items, in the order of their nodes, those from `from` on that fit into 32 bits.
-  /// The plan outlives this object.
+  /// Takes the plan's items, in the order of their nodes, those from `from` on that fit into 32
+  /// bits. The plan outlives this object.
   RasterItems(const FramePlan& plan, std::size_t from);
 
-  /// Of the plan's items, how many are in this or earlier rounds.
+  /// Number of the plan's items that are in this or earlier rounds.
   std::size_t end() const { return end_; }
   bool first() const { return first_; }
   bool last() const { return end_ == ordered_.size(); }
@@ -134,7 +134,7 @@ private:
     const PlanItem* item;
     const DrawBatch* batch;
   };
-  /// What `place` is drawn as, without its place.
+  /// The item that draws `place`, without its place.
   RasterItem itemOf(const Place& place);
   RasterItem wallsOf(const RasterItem& item) const;
   PassConditions demandOf(const RasterItem& item) const;

@@ -29,7 +29,7 @@ struct CornerRange
   double farthest = std::numeric_limits<double>::lowest();
 };
 
-/// Of the box of the node's points; of walls, down to the lowest end of any.
+/// Corners of the box of the node's points; for walls, down to the lowest end of any.
 CornerRange cornersOf(const RasterItem& item, const FramePlan& plan)
 {
   const FrameCamera& camera = plan.camera;

@@ -9,7 +9,7 @@ namespace
 {
 
 // Against ground truth (docs/adr/0016):
-constexpr float visibleShare = 0.85f; ///< of the closing radius, for what decides who is seen
+constexpr float visibleShare = 0.85f; ///< the share by which splats decide who is seen
 constexpr float blendedShare = 1.25f; ///< for what is blended
 constexpr float leastDisc = 0.71f; ///< pixels: reaches a pixel's centre wherever it lies
 constexpr float leastEllipse = 0.5f; ///< its low-pass and its centre's pixel do the rest
@@ -18,8 +18,8 @@ constexpr float lowPassPixels = 0.5f;
 constexpr float opaqueParaboloid = 8.0f; ///< radii at the rim
 constexpr float blendedParaboloid = 4.0f;
 constexpr float slackPixels = 2.0f;
-/// What closes an evenly thinned surface, in spacings: half of the inner nodes of Autzen and of
-/// generated ground say less, 1.52 is the middle of ahn3_261k.
+/// Radius that closes an evenly thinned surface, in spacings: half of the inner nodes of Autzen and
+/// of generated ground say less, 1.52 is the middle of ahn3_261k.
 constexpr float thinnedSpacings = 1.4f;
 /// The same of points chosen at random: 1.58 / 1.25 times as much, as docs/adr/0017 has it.
 constexpr float randomSpacings = 1.8f;
@@ -30,8 +30,8 @@ constexpr int mostSquare = 255;
 constexpr float rimReach = 1.5f;
 constexpr float rimRadii = 2.0f;
 constexpr float innerParaboloid = 3.0f; ///< radii of the inner part, of discs that face the eye
-/// Of a solid's discs that face the eye; its walls are pushed back as far, so that the roof that is
-/// in front of them is seen.
+/// Paraboloid of a solid's discs that face the eye; its walls are pushed back as far, so that the
+/// roof that is in front of them is seen.
 constexpr float solidParaboloid = 2.0f;
 
 SplatPass ellipsePass(SplatAccuracy accuracy)

@@ -7,13 +7,13 @@
 namespace pointfront
 {
 
-/// What a style comes to in the loops: one pass over the points, or two where splats are blended.
+/// A style as the loops draw it: one pass over the points, or two where splats are blended.
 struct TechniquePasses
 {
-  bool squares = false; ///< of `squareSize` pixels; else splats by `first`
+  bool squares = false; ///< squares of `squareSize` pixels; else splats by `first`
   int squareSize = 1;
   SplatPass first;
-  float firstRadius = 1.0f; ///< of the radius that closes the surface
+  float firstRadius = 1.0f; ///< factor of the radius that closes the surface
   bool blended = false;
   SplatPass second;
   float secondRadius = 1.0f;
@@ -32,13 +32,13 @@ enum class Thinning
   Random ///< from a root, whose first points have nothing between them
 };
 
-/// What of a frame decides about passes, beside a style.
+/// The conditions of a frame that decide about passes, beside a style.
 struct PassConditions
 {
-  bool hasNormals = false; ///< of the node that is drawn
+  bool hasNormals = false; ///< the drawn node has normals
   float spacingPx = 0.0f; ///< FramePlan's
   Thinning thinning = Thinning::None;
-  int heightPx = 1; ///< of the viewport
+  int heightPx = 1; ///< height of the viewport
 };
 
 /// Edge of a square of a point, in whole pixels: every point has as many.

@@ -147,7 +147,7 @@ inline void keepNearest4x2(
   keepNearest(upper, depth, index, m, 4, 4);
 }
 
-/// What is not drawn: a NaN whose sign is set.
+/// The mark of points that are not drawn: a NaN whose sign is set.
 inline float notDrawn()
 {
   const std::uint32_t bits = ~0u;
@@ -191,7 +191,7 @@ inline LaneMask equal8(const std::int32_t* values, std::int32_t wanted)
   }
   return m;
 }
-/// Of eight splats, numbered from `index`, one pixel each, those in the mask: behind the first
+/// Lists one pixel each of eight splats, numbered from `index`, those in the mask: behind the first
 /// `listed` of the batch's fragments. Gives how many there are then.
 inline int listFragments(RasterBatch& batch, int listed, const std::int32_t* offsets,
   std::int32_t further, const Lanes& depth, std::uint32_t index, const LaneMask& m)

@@ -119,7 +119,7 @@ inline void loadNormals(const StoredNormals& stored, int count, RasterBatch& bat
   }
 }
 
-/// What is culled is drawn too, into a pixel of the margin that nobody looks at: a branch costs
+/// Culled points are drawn too, into a pixel of the margin that nobody looks at: a branch costs
 /// more.
 inline void drawPixels(
   const RasterWindow& window, RasterBatch& batch, int count, std::uint32_t index, RasterKey* keys)

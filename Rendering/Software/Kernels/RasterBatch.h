@@ -17,7 +17,7 @@ constexpr RasterKey emptyKey = INT64_MAX;
 ///         units. Pixels: the viewport's, y up.
 struct RasterBatch
 {
-  /// Of 512 points, arrays and pixels do not fit into a first-level cache together.
+  /// With 512 points, arrays and pixels do not fit into a first-level cache together.
   static constexpr int size = 128;
   /// How large a splat is on screen, by half its larger edge: which kernel draws it.
   enum Extent : std::int32_t
@@ -34,8 +34,8 @@ struct RasterBatch
   alignas(64) float depth[size]; ///< camera z; negative: culled
   alignas(64) float inverseReach[size]; ///< 1 / depth; parallel: 1
   alignas(64) float radius[size]; ///< world units; after the set-up: at least what a pixel needs
-  alignas(64) float grown[size]; ///< of its radius, once that is at least what a pixel needs
-  alignas(64) float weight[size]; ///< of a blended splat's centre, 0 to 63
+  alignas(64) float grown[size]; ///< share of its radius, once that is at least a pixel's
+  alignas(64) float weight[size]; ///< weight of a blended splat's centre, 0 to 63
   alignas(64) float normalX[size]; ///< camera space, any length
   alignas(64) float normalY[size];
   alignas(64) float normalZ[size];
@@ -56,7 +56,7 @@ struct RasterBatch
   alignas(64) float middleY[size];
   alignas(64) float firstX[size]; ///< first pixel centre of the rectangle less the centre
   alignas(64) float firstY[size];
-  alignas(64) std::int32_t offset[size]; ///< of the rectangle's first pixel in the buffers
+  alignas(64) std::int32_t offset[size]; ///< offset of the rectangle's first pixel in the buffers
   alignas(64) std::int32_t rows[size];
   alignas(64) std::int32_t columns[size];
   alignas(64) std::int32_t extent[size];
@@ -64,8 +64,8 @@ struct RasterBatch
   alignas(64) std::uint8_t keep[size]; ///< 0: filtered out
   alignas(64) std::int32_t list[size + 16]; ///< and what a vector writes behind it
 
-  alignas(64) RasterKey key[size]; ///< of squares of one pixel
-  // Of splats within 2 x 2 pixels, the pixels that they cover:
+  alignas(64) RasterKey key[size]; ///< keys of squares of one pixel
+  // Splats within 2 x 2 pixels cover these pixels:
   alignas(64) std::int32_t fragmentOffset[4 * size + 16];
   alignas(64) float fragmentDepth[4 * size + 16];
   alignas(64) std::uint32_t fragmentIndex[4 * size + 16];
@@ -88,7 +88,7 @@ struct RasterCamera
 {
   /// Camera space from steps: z is along the line of sight.
   float matrix[3][4] = {};
-  /// Of the store's z axis, unit.
+  /// Unit vector of the store's z axis.
   float up[3] = { 0.0f, 1.0f, 0.0f };
   float scaleX = 1.0f; ///< pixels per unit at depth 1; parallel: at any depth
   float scaleY = 1.0f;
@@ -113,7 +113,7 @@ struct RasterWindow
   {
     return (y + rasterMargin) * stride + x + rasterMargin;
   }
-  std::int64_t pixels() const ///< of a buffer
+  std::int64_t pixels() const ///< pixels of a buffer
   {
     return std::int64_t(stride) * (height + 2 * rasterMargin) + 16;
   }
@@ -122,7 +122,7 @@ struct RasterWindow
 /// Points of one node as they lie in memory.
 struct RasterPositions
 {
-  const std::uint32_t* xyz = nullptr; ///< of the batch's first point: three a point
+  const std::uint32_t* xyz = nullptr; ///< from the batch's first point on: three a point
   std::uint32_t shift = 0; ///< SlotOrigin
   std::int32_t steps[3] = {};
   float clipping[6][4] = {}; ///< camera space planes: n . p + d >= 0 is drawn

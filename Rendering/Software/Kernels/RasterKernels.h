@@ -40,7 +40,7 @@ struct SplatPass
 /// Radii as codes of a byte (SplatRadius.h), and the radii that they stand for.
 struct RadiusCodes
 {
-  const std::uint8_t* codes = nullptr; ///< of the batch's first point
+  const std::uint8_t* codes = nullptr; ///< codes from the batch's first point on
   const float* radii = nullptr; ///< 256; 0: not known
   float scale = 1.0f;
   float unknown = 0.0f; ///< taken where it is not known; all are after `scale`
@@ -51,7 +51,7 @@ struct RadiusCodes
 /// Normals of three 16-bit numbers, and the matrix that turns them into camera space.
 struct StoredNormals
 {
-  const std::int16_t* xyz = nullptr; ///< of the batch's first point
+  const std::int16_t* xyz = nullptr; ///< from the batch's first point on
   float matrix[3][3] = {}; ///< rows
 };
 

@@ -29,7 +29,7 @@ inline void visitSmall(
   take(offset + 2 * stride, offset + 3 * stride, splat.at(dx, dy + all(2.0f)));
 }
 
-/// Of a splat that may be larger than the margin: its rectangle inside the window.
+/// The rectangle inside the window of a splat that may be larger than the margin.
 struct SplatRectangle
 {
   std::int32_t offset;

@@ -9,7 +9,7 @@ namespace pointfront
 namespace
 {
 
-// What a splat is at a pixel, for eight pixels or eight splats at a time, on the Lanes that were
+// A splat's value at a pixel, for eight pixels or eight splats at a time, on the Lanes that were
 // included before.
 
 /// Splats at pixels, in eight lanes.

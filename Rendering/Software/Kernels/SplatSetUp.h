@@ -17,7 +17,7 @@ namespace
 constexpr float leastCosine = 0.05f;
 /// Pixels: what grows from nothing has that radius at least, so that nothing is divided by 0.
 constexpr float leastGrown = 0.05f;
-/// Of a splat that is everywhere: larger than any viewport.
+/// Radius of a splat that is everywhere: larger than any viewport.
 constexpr float everywhere = 1.0e5f;
 
 /// World units from a splat's centre within which it is seen: a little more than its radius,

@@ -17,7 +17,7 @@ inline LaneWeights weightsOf(const SplatSample& s, Lanes centre, LaneMask added)
   return weights(fall * fall * centre + all(0.5f), added);
 }
 
-/// What decides who is seen.
+/// Draws the depths that decide who is seen.
 template <bool Rimmed>
 struct KeyDepth
 {

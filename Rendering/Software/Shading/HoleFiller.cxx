@@ -18,14 +18,14 @@ constexpr float nothing = std::numeric_limits<float>::infinity();
 /// Holes of up to 2^levels pixels.
 constexpr int levels = 3;
 static_assert(holeFillerReach == 1 << levels, "a coarsest pixel");
-/// Of 16 parts of bilinear weight, those that have to agree.
+/// Parts of 16 of bilinear weight that have to agree.
 constexpr std::uint32_t leastParts = 10;
 
 /// Cells count from the viewport's corner, wherever the picture begins: what fills a hole does not
 /// depend on how much of the viewport is drawn.
 struct Level
 {
-  int left = 0; ///< of the first cell
+  int left = 0; ///< column of the first cell
   int bottom = 0;
   int width = 0;
   int height = 0;
@@ -129,7 +129,7 @@ void pull(const Level& fine, Level& coarse, const Agreement& agreement, int fact
         {
           if (fine.depth[places[k]] <= most)
           {
-            if (parts == 0) // of the first that agrees
+            if (parts == 0) // the first that agrees
             {
               handOn(fine, places[k], coarse, place);
             }

@@ -12,8 +12,8 @@ namespace pointfront
 /// Depths agree within that many pixels' size.
 constexpr float holeFillerAgreePx = 3.0f;
 
-/// What the pixels of `place` and holes beside them are filled from: whole blocks, which count from
-/// the viewport's corner, and those around them.
+/// The rectangle from which the pixels of `place` and holes beside them are filled: whole blocks,
+/// counted from the viewport's corner, and those around them.
 PixelRectangle filledFrom(const PixelRectangle& place, const FrameCamera& camera);
 
 /// Fills pixels that no splat covers, and those through which a farther surface shows, from the

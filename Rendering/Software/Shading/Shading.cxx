@@ -17,7 +17,7 @@ namespace pointfront
 namespace
 {
 
-/// Of who is in the pixel.
+/// The look of the style that is in the pixel.
 const FrameLook& lookAt(
   const FrameShading& shading, const SoftwareTarget& target, std::size_t pixel)
 {
@@ -66,7 +66,7 @@ glm::vec3 placeAt(const FrameCamera& camera, int x, int y, float depth)
 /// A light that nothing weakens, by its numbers, is as bright as can be where it shines.
 constexpr float leastFall = 1.0e-30f;
 
-/// What a positional light gives to a surface: 0 on the side that it does not reach.
+/// The light that a positional lamp gives to a surface: 0 on the side that it does not reach.
 float brightness(const FrameLight& light, const glm::vec3& place, const glm::vec3& normal)
 {
   const glm::vec3 from = place - light.place;

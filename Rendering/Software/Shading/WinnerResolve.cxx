@@ -48,7 +48,7 @@ float standInSlack(const RasterItem& item, float depth)
   return standInRadii * std::max(item.radius, pixels);
 }
 
-/// Of a colour and another, that share from the first one; opaque.
+/// Mixes a colour and another, that share from the first one; opaque.
 std::uint32_t bytesOf(const Rgba8& from, const Rgba8& to, float share)
 {
   std::uint8_t bytes[4] = { 0, 0, 0, 255 };
@@ -264,7 +264,7 @@ std::uint32_t WinnerResolve::colourOf(
   return item.colours->at(winner.index);
 }
 
-/// What a pixel shows of a splat, view space, from the splat's centre.
+/// The place of a splat that a pixel shows, in view space, from the splat's centre.
 glm::vec3 WinnerResolve::fromCentre(
   const RasterItem& item, int j, const Winner& winner, float depth) const
 {

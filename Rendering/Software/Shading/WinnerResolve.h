@@ -22,12 +22,12 @@ public:
     const RasterKernels* kernels = nullptr;
     const RasterItems* items = nullptr;
     RasterWindow window;
-    std::vector<const RasterKey*> keys; ///< of all threads; the first takes the smallest of all
+    std::vector<const RasterKey*> keys; ///< from all threads; the first takes the smallest of all
     RasterKey* merged = nullptr;
-    std::vector<const std::uint32_t*> sums; ///< of those that drew any
+    std::vector<const std::uint32_t*> sums; ///< sums of the threads that drew any
     std::uint16_t store = 0;
     bool normals = false; ///< the target has them
-    bool standIns = false; ///< what is drawn shows only far in front of the target's pixels
+    bool standIns = false; ///< stand-ins are shown only far in front of the target's pixels
   };
 
   WinnerResolve(const Source& source, ThreadBuffers& buffers)

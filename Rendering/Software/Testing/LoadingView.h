@@ -149,7 +149,7 @@ public:
     for (int waits = 0; waits < 2000 && !hasNews(); ++waits)
     {
       std::this_thread::sleep_for(std::chrono::microseconds(500));
-      if (waits % 16 == 15) // what came was of no use for the picture
+      if (waits % 16 == 15) // the arrivals were of no use for the picture
       {
         disk_->grant(nodesAFrame);
       }
@@ -160,7 +160,7 @@ public:
   double growthStep = 0.0; ///< seconds from a frame to the next; 0: nothing grows
   FrameRequest demand;
   FrameCamera camera;
-  FramePlan plan; ///< of the last frame
+  FramePlan plan; ///< plan of the last frame
   SoftwareTarget target;
 
 private:

@@ -23,7 +23,7 @@ constexpr std::uint32_t white = 0xffffffffu;
 struct Ray
 {
   glm::dvec3 from;
-  glm::dvec3 along; ///< of length 1 along the line of sight
+  glm::dvec3 along; ///< unit vector along the line of sight
 };
 
 /// View space.
@@ -56,7 +56,7 @@ std::shared_ptr<ResolvedStyle> styleOf(Technique technique, double size, bool no
   return style;
 }
 
-/// Of a technique, in the view from aside, perspective or parallel.
+/// A scene for a technique, in the view from aside, perspective or parallel.
 PlanOfPoints sceneOf(Technique technique, double size, bool normals, bool parallel = false)
 {
   PlanOfPoints scene;

@@ -1,4 +1,4 @@
-// What is drawn, against the same computed pixel by pixel in double precision.
+// Pictures against the same computed pixel by pixel in double precision.
 
 #include "PlanOfPoints.h"
 

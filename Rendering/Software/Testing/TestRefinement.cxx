@@ -26,7 +26,7 @@ constexpr double mostDrawnAgain = 1.1; ///< times the points of the complete pic
 /// Once as it comes, by what is nearest at that time, and once more when all is there.
 constexpr double mostBlendedAgain = 2.15;
 constexpr double mostDrawnGrowing = 2.5; ///< likewise: what grows has another size in each frame
-/// Of the pixels of the complete picture, in each frame; splats that close the surface.
+/// Share of the complete picture's pixels in each frame; splats that close the surface.
 constexpr double leastCovered = 0.98;
 
 std::shared_ptr<const PointStore> refiningTown()
@@ -65,15 +65,15 @@ StyleSheet refiningSheet(const RefiningStyle& style)
   return sheet;
 }
 
-/// What the frames of a view showed until it was complete.
+/// The frames of a view until it was complete.
 struct SeenFrames
 {
-  std::uint64_t points = 0; ///< of the complete picture
+  std::uint64_t points = 0; ///< points of the complete picture
   std::uint64_t drawn = 0; ///< in all frames together
   std::uint64_t blended = 0; ///< likewise, through the second pass
   int frames = 0;
   int gained = 0; ///< frames after the first with more points than the one before
-  std::vector<std::vector<float>> depths; ///< of each frame
+  std::vector<std::vector<float>> depths; ///< depths of each frame
 
   double drawnPerPoint() const { return double(drawn) / double(points); }
   double blendedPerPoint() const { return double(blended) / double(points); }

@@ -36,7 +36,7 @@ void takeNearest(const std::vector<SoftwareTarget>& parts, std::size_t pixel, So
 
 } // namespace
 
-// What is nearest of three processes' pictures, each with something behind it: the same on all, and
+// The nearest of three processes' pictures, each with something behind it: the same on all, and
 // so is the light that looks at the pixels around one.
 TEST(SharedPicture, IsThatOfAllProcesses)
 {

@@ -55,7 +55,7 @@ public:
     target.reset(panWidth, panHeight);
     statistics = with.draw(plan, target);
   }
-  /// Of the first columns of pixels the share in which something was drawn.
+  /// The share of the first columns of pixels in which something was drawn.
   static double coverage(const SoftwareTarget& picture, int columns)
   {
     int covered = 0;
@@ -185,8 +185,8 @@ TEST(VisiblePoints, InsideOfALensTheyLastAsLong)
   EXPECT_LT(draw(0.05), 0.6);
 }
 
-/// What the camera turned away from is there when it comes back, and what a plan drew in between
-/// when it no longer does.
+/// Points that the camera turned away from are there when it comes back, and those that a plan drew
+/// in between when it no longer does.
 TEST(VisiblePoints, ComeBack)
 {
   PanOverSurface scene;

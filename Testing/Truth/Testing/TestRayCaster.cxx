@@ -83,7 +83,7 @@ TEST(RayCaster, OneTriangleSaysWhereItIsMet)
   const TriangleMesh mesh = builder.take();
   const Hit hit = RayCaster(mesh).cast({ 1, 0.5, 0 }, { 0, 0, 0.5 });
   ASSERT_TRUE(hit);
-  EXPECT_EQ(hit.distance, 2.0); // of half a metre
+  EXPECT_EQ(hit.distance, 2.0); // in units of half a metre
   EXPECT_EQ(hit.b, 0.25);
   EXPECT_EQ(hit.c, 0.25);
 }

@@ -57,7 +57,7 @@ TEST(TruthScene, TheGroundLooksUpAndTheKnotOutwards)
       ASSERT_GT(town.mesh.faceNormal(t).z, 0.0) << t;
     }
   }
-  // What a closed surface encloses is positive when it looks outwards.
+  // The volume inside a closed surface is positive when the surface looks outwards.
   const TruthScene knot = makeKnot();
   double sixVolumes = 0.0;
   for (std::size_t t = 0; t < knot.mesh.size(); ++t)

@@ -73,7 +73,7 @@ std::string textOf(vtkSMProxy* map)
   return text;
 }
 
-/// What a map has, with the colours that a user may have changed.
+/// The categories of a map, with the colours that a user may have changed.
 Categories categoriesOf(vtkSMProxy* map)
 {
   Categories categories;

@@ -238,7 +238,7 @@ void vtkSMPointFrontRepresentationProxy::OnTimer(vtkObject*, unsigned long, void
 {
   if (!timer || *static_cast<int*>(timer) != this->Timer || this->Timer == 0)
   {
-    return; // of somebody else
+    return; // somebody else's property
   }
   this->Timer = 0;
   if (!this->IsActive())

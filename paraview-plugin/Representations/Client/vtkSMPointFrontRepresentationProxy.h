@@ -63,7 +63,7 @@ private:
   /// Asks the server for the classes of the store; all are shown where nothing else was chosen.
   void GatherClasses();
   void TellClasses();
-  /// What the reader's panel says of a store that is built meanwhile.
+  /// Tells the reader's panel about a store that is built meanwhile.
   void TellStore();
   /// Sets what the panel shows of a frame.
   void TellFrame(vtkPVPointFrontFrame* frame);
@@ -78,14 +78,14 @@ private:
   void OnRendered(vtkObject* view, unsigned long event, void* interactive);
   void OnTimer(vtkObject* interactor, unsigned long event, void* timer);
 
-  std::vector<std::string> Classes; ///< of the store
+  std::vector<std::string> Classes; ///< classes of the store
   vtkWeakPointer<vtkSMViewProxy> View;
   vtkWeakPointer<vtkRenderWindowInteractor> Interactor;
   unsigned long StartObserver = 0;
   unsigned long RenderObserver = 0;
   unsigned long TimerObserver = 0;
   bool Agreeing = false; ///< properties are being set here
-  int Timer = 0; ///< of the interactor; 0: none
+  int Timer = 0; ///< number of the interactor's timer; 0: none
   int Delay = 0; ///< milliseconds, of the last timer started
 };
 

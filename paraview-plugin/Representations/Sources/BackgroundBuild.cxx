@@ -18,8 +18,8 @@ namespace
 /// builders as processors they got nothing to see before the build's end.
 constexpr int niceness = 10;
 
-/// What an event says: without the source line and the object that VTK puts before it, and with the
-/// property's name for the tool's option.
+/// The message of an event: without the source line and the object that VTK puts before it, and
+/// with the property's name for the tool's option.
 std::string messageOf(const void* data)
 {
   std::string text = static_cast<const char*>(data);

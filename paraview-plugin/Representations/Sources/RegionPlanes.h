@@ -10,7 +10,7 @@ class vtkSelection;
 namespace pointfront
 {
 
-/// What ParaView's widgets and selections mean as planes whose normals point outwards.
+/// ParaView's widgets and selections as planes whose normals point outwards.
 
 /// The six sides of a box, turned by its transform.
 vtkSmartPointer<vtkPlanes> planesOf(vtkBox* box);

@@ -15,10 +15,10 @@ class StoredCloud;
 /// A number for people: 10,653,336.
 std::string groupedDigits(std::uint64_t number);
 
-/// What the store is, in lines for a panel: points, bounds, coordinate reference system, structure,
-/// classes with their points (of a store with a tree for each class), attributes' ranges; and that
-/// the output, whose points the Information panel counts, is an overview, if it is one.
-/// `mostOverviewPoints` is the reader's limit.
+/// Describes the store, in lines for a panel: points, bounds, coordinate reference system,
+/// structure, classes with their points (of a store with a tree for each class), attributes'
+/// ranges; and that the output, whose points the Information panel counts, is an overview, if it is
+/// one. `mostOverviewPoints` is the reader's limit.
 std::string storeFacts(const StoredCloud& store, std::int64_t mostOverviewPoints);
 
 /// The frame of the coordinates as field data: "store_crs", and "store_grid", the scales and

@@ -224,7 +224,7 @@ vtkPVPointFilesReader::Outcome vtkPVPointFilesReader::EndBuild(
 {
   if (ended.cancelled)
   {
-    // What was cancelled beside is not begun again by the next render.
+    // The next render does not begin again a build that was cancelled beside.
     this->Cancelled = this->Previewing ? this->Running->order() : std::string();
   }
   this->Running.reset();
@@ -272,7 +272,7 @@ vtkPVPointFilesReader::Outcome vtkPVPointFilesReader::BuildOrWait(const std::str
     state = this->Running->waitFor(std::chrono::milliseconds(100));
     this->SetProgressText(state.phase.c_str());
     this->UpdateProgress(state.fraction);
-    // What the application sets while it shows progress.
+    // The application sets these while it shows progress.
     if (this->CheckAbort() || this->GetAbortExecute())
     {
       this->Running->cancel();

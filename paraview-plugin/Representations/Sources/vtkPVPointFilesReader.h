@@ -89,7 +89,7 @@ public:
   void CancelBuild();
   /// Ends such a build, too.
   void CloseStore() override;
-  /// What is going on: "sorting, 43 %"; empty where nothing is built.
+  /// The state of the build: "sorting, 43 %"; empty where nothing is built.
   std::string GetBuildState() const;
 
   /// While a preview is shown, every update looks what has become of the build.
@@ -126,7 +126,7 @@ private:
   std::string Misfit(const std::string& store) const;
   /// The same of what can be seen of the store.
   std::string VisibleMisfit(const std::string& store) const;
-  /// What an update gives.
+  /// The outcome of an update.
   enum Outcome
   {
     NOTHING,
@@ -148,7 +148,7 @@ private:
   std::vector<std::string> PointFileNames;
   std::unique_ptr<pointfront::BackgroundBuild> Running; ///< first rank
   std::string Cancelled; ///< the order that is not to be built again
-  std::string Shown; ///< what was wanted of the store that is the output
+  std::string Shown; ///< the wishes for the store that is the output
   std::chrono::steady_clock::time_point Asked; ///< GetNeedsUpdate()
   bool Followed = false; ///< the running build has a preview to return with
   bool Previewing = false; ///< on all ranks: the output is a preview's

@@ -23,7 +23,7 @@ public:
   vtkTypeMacro(vtkPVPointFrontReader, vtkPointFrontReader);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  /// What the store is, in lines for a panel; empty without a store.
+  /// Describes the store, in lines for a panel; empty without a store.
   const char* GetStoreFacts();
 
   /// Closes the file; the next update opens it again. Others that draw or read it keep it open.

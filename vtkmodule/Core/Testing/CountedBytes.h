@@ -30,7 +30,7 @@ public:
   mutable std::atomic<std::uint64_t> reads{ 0 }; ///< calls, that is round trips
   mutable std::atomic<std::uint64_t> ranges{ 0 };
   mutable std::atomic<std::uint64_t> bytes{ 0 };
-  ReadCost cost; ///< of all sources that are opened later
+  ReadCost cost; ///< cost of all sources that are opened later
 };
 
 } // namespace pointfront

@@ -22,8 +22,8 @@ struct TreeShape
   int roots = 1;
   double rootSize = 1000.0; ///< edge of a root's cube, world units
   std::uint32_t pointsMax = 1000;
-  double childChance = 0.7; ///< of each of the eight cells to be occupied
-  double emptyChance = 0.05; ///< of an inner node to have no points of its own
+  double childChance = 0.7; ///< chance of each of the eight cells to be occupied
+  double emptyChance = 0.05; ///< chance of an inner node to have no points of its own
   Refinement refinement = Refinement::Add;
 };
 
@@ -121,7 +121,7 @@ public:
   State otherwise = State::Absent;
   bool full = false;
   mutable std::uint64_t asked = 0;
-  std::function<void(NodeIndex)> afterAsked; ///< what other threads do in the middle of an update
+  std::function<void(NodeIndex)> afterAsked; ///< work of other threads in the middle of an update
 
 private:
   std::unordered_map<NodeIndex, State> states_;

@@ -125,7 +125,7 @@ public:
   }
 
   std::uint64_t diskNumber = 0;
-  std::size_t promised = 0; ///< what decodedBytes() says, if not the truth
+  std::size_t promised = 0; ///< answer of decodedBytes(), if not the truth
   std::size_t varyBy = 0; ///< points more in nodes 1 to 6 of each seven
 
 private:

@@ -19,7 +19,7 @@ struct SampleStore
 {
   std::vector<Node> nodes;
   std::vector<NodeIndex> roots;
-  std::vector<NodeColumns> points; ///< of node i
+  std::vector<NodeColumns> points; ///< points of node i
   StoreDescription description; ///< as a builder gives it to commit()
 };
 

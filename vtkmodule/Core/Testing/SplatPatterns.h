@@ -113,7 +113,7 @@ double holesOf(const std::vector<glm::dvec3>& points, const Radius& radius)
   return holes / (0.64 * side * side);
 }
 
-/// What of a stored radius decides depth (docs/adr/0017-splat-radius.md): that must cover.
+/// Share of a stored radius that decides depth (docs/adr/0017-splat-radius.md): that must cover.
 constexpr double visibleShare = 0.85;
 
 } // namespace pointfront::test

@@ -10,7 +10,7 @@
 namespace pointfront::test
 {
 
-/// What a store with some attributes says of itself; no points.
+/// Adds a column to the description of a store without points.
 inline void addColumn(StoreDescription& store, Attribute attribute, double low, double high)
 {
   ColumnRange range;

@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <cstdint>
 
-// What Python calls through `ctypes` (vtkmodule/Python/_kernel.py declares the same): no types of
-// C++ or of Python, so that one library serves every version of Python.
+// The functions that Python calls through `ctypes` (vtkmodule/Python/_kernel.py declares the same):
+// no types of C++ or of Python, so that one library serves every version of Python.
 //
 // Answers  text of JSON, which the caller gives to pointfrontFree(): what was asked for, or
 //          {"error": sentence, "cancelled": bool}. Null: the system gave no memory for it.
@@ -23,17 +23,17 @@ extern "C"
     const double* box; ///< null, or lowest corner and highest corner
     const double* sphere; ///< null, or centre and radius
     const char* area; ///< null, or well-known text
-    double lineDistance; ///< of the area's lines
+    double lineDistance; ///< distance from the area's lines
     const std::uint8_t* classes;
     std::size_t classCount; ///< 0: all
     const char* where; ///< null, or a condition
     double spacing; ///< 0: all points
     const char* attributes; ///< names, each with a zero byte behind it, as many as follow
     std::size_t attributeCount;
-    std::uint64_t memoryBytes; ///< of what is being read; 0: the usual
+    std::uint64_t memoryBytes; ///< memory of the nodes that are being read; 0: the usual
     std::uint64_t mostPoints; ///< more are an error
     std::uint32_t piece; ///< this share of the points
-    std::uint32_t pieces; ///< of so many
+    std::uint32_t pieces; ///< number of pieces
   };
 
   /// An attribute of points that Python has, or the places of them.

@@ -156,7 +156,7 @@ TEST_F(Extract, TakesClassesConditionsPlanesAndAreas)
   filter->ClearObjectClasses();
   filter->AddObjectClass(5);
   EXPECT_EQ(updated()->GetNumberOfPoints(), 0);
-  EXPECT_TRUE(filter->GetOutput()->GetPointData()->GetArray("intensity")); // of no values
+  EXPECT_TRUE(filter->GetOutput()->GetPointData()->GetArray("intensity")); // without values
 }
 
 TEST_F(Extract, ASpacingThinsOutAndALimitIsKept)

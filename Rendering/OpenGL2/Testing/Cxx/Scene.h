@@ -33,7 +33,7 @@
 namespace pointfront::test
 {
 
-/// What a made-up point carries beside its position.
+/// The values of a made-up point beside its position.
 struct Sample
 {
   GridPosition position{ 0 }; ///< millimetres from the grid's offset

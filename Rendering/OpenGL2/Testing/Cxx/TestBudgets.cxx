@@ -1,4 +1,4 @@
-// What the clouds of a window, the stores of a process and the classes of a store share.
+// Budgets that the clouds of a window, the stores of a process and the classes of a store share.
 
 #include "Clouds.h"
 

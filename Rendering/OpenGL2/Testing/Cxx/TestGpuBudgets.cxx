@@ -29,7 +29,7 @@ TEST(GpuBudgets, TheCloudsOfAWindowShareItsGpuMemory)
     EXPECT_TRUE(mapper->GetLastComplete());
     EXPECT_GT(mapper->GetLastPointsDrawn(), 2000);
   }
-  // What one cloud leaves idle, another takes.
+  // One cloud takes the memory that another leaves idle.
   scene.first.lookFrom({ -6.0, -3.0, 5.0 }, { -6.0, -3.0, 0.0 });
   scene.settle();
   const vtkIdType near = scene.first.mapper->GetLastPointsDrawn();
@@ -178,7 +178,7 @@ TEST(GpuBudgets, APoolGivesBackWhatItMayNotKeep)
   scene.mapper->SetPointBudget(20000);
   scene.draw();
   EXPECT_LE(scene.mapper->GetLastPointsDrawn(), 20000);
-  scene.draw(); // what the frame before still drew can go now
+  scene.draw(); // the points that the frame before still drew can go now
   const Picture few = scene.draw();
   EXPECT_LT(scene.mapper->GetLastGPUBytes(), large / 2);
   Scene fresh(scene.reader->GetFileName());

@@ -57,7 +57,7 @@ struct Growing : Scene
     do
     {
       window->Render();
-    } while ((mapper->NeedsRender() || mapper->GetLastRequests() > 0) && // what is still under way
+    } while ((mapper->NeedsRender() || mapper->GetLastRequests() > 0) && // still under way
       std::chrono::steady_clock::now() - begin < std::chrono::seconds(20));
     EXPECT_FALSE(mapper->NeedsRender());
     return read();

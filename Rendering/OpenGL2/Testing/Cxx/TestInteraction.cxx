@@ -203,7 +203,7 @@ TEST(Interaction, TheHostMemoryBudgetHoldsAndSettles)
 {
   Scene scene(terrain("host_budget"));
   scene.mapper->GetBounds();
-  constexpr std::size_t budget = 1200000; // of 250,000 * 15 bytes
+  constexpr std::size_t budget = 1200000; // memory of 250,000 points of 15 bytes
   scene.mapper->GetStore()->SetHostMemoryBudget(budget);
   scene.draw();
   const auto statistics = scene.mapper->GetStore()->GetResidency().statistics();
@@ -244,8 +244,8 @@ public:
     options_.nodePoints = 512;
     options_.threads = 1;
     wish_.leastPoints = 1000;
-    wish_.leastSeconds = 1e9; // no version that shows no parts: they would come from a thread
-    wish_.shareOfTime = 1e9; // of their own, and while it writes one the parts are left out
+    wish_.leastSeconds = 1e9; // a version without parts would come from another
+    wish_.shareOfTime = 1e9; // thread, and leave parts out while it is written
     wish_.shown = [this](const std::string& path)
     {
       const auto store = PointStore::open(path);

@@ -1,4 +1,4 @@
-// What was visible is kept while the view moves (SMOOTH-7), by OpenGL.
+// OpenGL keeps visible points while the view moves (SMOOTH-7).
 
 #include "Scene.h"
 
@@ -27,7 +27,7 @@ const std::map<std::string, std::string> keptStyles = {
 constexpr double distance = 10.0;
 constexpr double angle = 30.0;
 constexpr int height = 200;
-/// Of a pixel at the surface.
+/// The size of a pixel at the surface.
 const double pixel = 2.0 * distance * std::tan(0.5 * angle * 3.14159265358979 / 180.0) / height;
 
 /// A surface that fills the picture, complete at rest.
@@ -79,7 +79,7 @@ struct Pan : Scene
   vtkIdType kept() const { return mapper->GetLastPointsKept(); }
 };
 
-/// Of all but the right edge, where the pan shows what was not in view.
+/// All columns but the right edge, where the pan shows new parts of the scene.
 constexpr int columns = 280;
 
 double coverage(const Picture& picture)

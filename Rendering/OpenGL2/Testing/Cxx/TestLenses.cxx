@@ -46,7 +46,7 @@ std::string meadowStore(
       const bool above = i >= static_cast<std::size_t>(across) * across;
       const auto column = static_cast<int>(i % across);
       const auto row = static_cast<int>(i / across % across);
-      const int half = 1200 / across; // of the distance between points, millimetres
+      const int half = 1200 / across; // half of the distance between points, millimetres
       Sample sample;
       sample.position = { (2 * column - across + 1) * half, (2 * row - across + 1) * half,
         above ? 500 : 0 };

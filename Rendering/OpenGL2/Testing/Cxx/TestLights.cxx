@@ -222,7 +222,7 @@ TEST(Lights, BeyondWhatOpenGLTakesAreToldOf)
   EXPECT_EQ(warnings, 1);
 }
 
-/// What is turned away from such a lamp is not lit, whatever its numbers say.
+/// A surface that is turned away from such a lamp is not lit, whatever its numbers say.
 TEST(Lights, ThatNothingWeakensAreNoNumbersBeyondFloats)
 {
   LitSphere scene;
@@ -257,7 +257,7 @@ TEST(Lights, WithAPlaceShineAsOnVTKsOwnSurfaces)
   scene.renderer->AddActor(own);
   vtkLight* const light = scene.add({ 0, 0, 5 }, { 1.0, 0.8, 0.4 });
   light->PositionalOn();
-  vtkNew<vtkTransform> aside; // what is seen lies beside the middle of the view
+  vtkNew<vtkTransform> aside; // the scene lies beside the middle of the view
   aside->Translate(0.5, 0.2, 0.0);
   const std::pair<bool, vtkTransform*> views[] = { { false, nullptr }, { true, nullptr },
     { false, aside } };

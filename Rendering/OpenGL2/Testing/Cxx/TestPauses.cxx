@@ -1,4 +1,4 @@
-// What a renderer adds to the rhythm of a view (Core's StoreViews).
+// A renderer adds these rules to the rhythm of a view (Core's StoreViews).
 
 #include "LoadingView.h"
 #include "RendererFront.h"

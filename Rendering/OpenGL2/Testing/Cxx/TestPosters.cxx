@@ -143,7 +143,7 @@ TEST(Posters, OfLargeSplatsNeedFewPointsBesideTheTile)
   {
     EXPECT_TRUE(scene.style->LoadJSON(json));
     scene.poster(vtkPointFrontMapper::SOFTWARE, 600, 400, 4);
-    return scene.mapper->GetLastPointsDrawn(); // of the last tile
+    return scene.mapper->GetLastPointsDrawn(); // points of the last tile
   };
   const vtkIdType small = pointsOf(R"({"default": {"size": {"mode": "fixed", "px": 1}}, )"
                                    R"("shading": {"mode": "edl"}})");

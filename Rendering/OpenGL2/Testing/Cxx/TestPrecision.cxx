@@ -59,7 +59,7 @@ TEST(Precision, NothingJittersWhenTheCameraMovesByFractionsOfAMillimetre)
     scene.lookFrom(eye, far + glm::dvec3(x, 0.0, 0.0));
     scene.renderer->GetActiveCamera()->SetClippingRange(0.001, 1.0);
     const Picture picture = scene.draw();
-    // What the pixel columns must be, computed relative to the eye.
+    // The right pixel columns, computed relative to the eye.
     const double pixels = 100.0 / std::tan(15.0 * 3.14159265358979323846 / 180.0) / 0.03125;
     int wrong = 0;
     int seen = 0;

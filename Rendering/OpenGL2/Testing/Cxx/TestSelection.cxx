@@ -47,7 +47,7 @@ struct NumberedSheet : Scene
         return sample;
       });
   }
-  /// Of the point that each pixel shows, by its colour; 0: another actor's, or none.
+  /// Number of the point that each pixel shows, by its colour; 0: another actor's, or none.
   std::vector<int> shown()
   {
     const Picture picture = draw();
@@ -59,7 +59,7 @@ struct NumberedSheet : Scene
     }
     return numbers;
   }
-  /// Of the point that a selection finds in each pixel.
+  /// Number of the point that a selection finds in each pixel.
   std::vector<int> selected()
   {
     auto* ranks = vtkIdTypeArray::SafeDownCast(all->GetPointData()->GetGlobalIds());

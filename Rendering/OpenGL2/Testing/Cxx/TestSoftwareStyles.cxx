@@ -160,7 +160,7 @@ TEST(SoftwareBackend, KeepsToTheTimeOfAFrame)
   EXPECT_EQ(scene.mapper->GetLastPointsDrawn(), 1500 * 1500);
   scene.mapper->CompleteOff();
   scene.window->SetDesiredUpdateRate(15.0);
-  scene.mapper->SetTargetFrameTime(1.0); // what no machine draws 2.25 million points in
+  scene.mapper->SetTargetFrameTime(1.0); // no machine draws 2.25 million points in that time
   for (int frame = 0; frame < 40; ++frame)
   {
     scene.window->Render();

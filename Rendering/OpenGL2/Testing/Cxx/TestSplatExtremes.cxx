@@ -110,7 +110,7 @@ TEST(SplatExtremes, AnEyeOnASplatAndPointsBehind)
   }
 }
 
-/// Of coordinates of ten thousand kilometres the picture is that of the origin.
+/// At coordinates of ten thousand kilometres the picture is that of the origin.
 TEST(SplatExtremes, CoordinatesOfTenThousandKilometres)
 {
   std::vector<NormalPoint> points = plane(30, 0.1);
@@ -286,7 +286,7 @@ TEST(SplatExtremes, TenThousandSplatsOnOnePixel)
   }
 }
 
-/// What is drawn in one colour has it wherever it is drawn.
+/// A surface of one colour has it wherever it is drawn.
 TEST(SplatExtremes, AConstantColourStaysWhereSplatsAreBlended)
 {
   std::vector<NormalPoint> points = plane(100, 0.03);

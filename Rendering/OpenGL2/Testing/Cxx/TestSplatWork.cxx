@@ -1,5 +1,5 @@
-// What drawing splats on OpenGL costs and leaves behind: uploads, primitives, names; and which
-// points a selection finds in them.
+// The costs of drawing splats on OpenGL, and what it leaves behind: uploads, primitives, names; and
+// which points a selection finds in them.
 
 #include "Splats.h"
 

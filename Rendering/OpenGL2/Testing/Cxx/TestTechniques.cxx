@@ -93,7 +93,7 @@ TEST(Techniques, OtherActorsIntersectSplats)
 {
   Splats scene(surfaceStore("beside", sphereAt));
   ASSERT_TRUE(scene.style->LoadJSON(techniques.at("blended")));
-  vtkNew<vtkPoints> corners; // of a wall through the surface
+  vtkNew<vtkPoints> corners; // corners of a wall through the surface
   for (const glm::dvec2& corner :
     { glm::dvec2(-2.0, -1.0), { 2.0, -1.0 }, { 2.0, 1.8 }, { -2.0, 1.8 } })
   {

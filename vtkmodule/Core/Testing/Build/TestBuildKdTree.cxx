@@ -151,7 +151,7 @@ TEST_F(KdTreeBuild, ABorderCrossesNoMoreThanACell)
   const Bounds right = store->hierarchy()->node(root.firstChild + 1).box();
   const double overlapX = left.high.x - right.low.x;
   const double overlapY = left.high.y - right.low.y;
-  EXPECT_LT(std::min(overlapX, overlapY), 1.0); // of 100 m
+  EXPECT_LT(std::min(overlapX, overlapY), 1.0); // the cloud is 100 m wide
 }
 
 /// hills() with a class each: most 2, every tenth 5, one single point 6.
@@ -247,7 +247,7 @@ TEST_F(KdTreeBuild, PointsThatNobodyClassifiedShareATree)
 
 TEST_F(KdTreeBuild, RefusesWhatItCannotDo)
 {
-  options_.layering = Layering::ObjectClass; // of a cloud without classes
+  options_.layering = Layering::ObjectClass; // a cloud without classes
   const auto noClass = buildStore(one(hills(100, 1000.0)), options_);
   ASSERT_FALSE(noClass);
   EXPECT_NE(noClass.error().what.find("classification"), std::string::npos);

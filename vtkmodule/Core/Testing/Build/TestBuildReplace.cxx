@@ -181,7 +181,7 @@ TEST_P(ReplaceBuild, RepresentativesAreMeansOfTheInput)
   ASSERT_TRUE(root);
   if (isKdTree())
   {
-    EXPECT_LE(root->size(), 4u); // of ten leaves; the octree has more levels
+    EXPECT_LE(root->size(), 4u); // there are ten leaves; the octree has more levels
     return;
   }
   ASSERT_EQ(root->size(), 1u);

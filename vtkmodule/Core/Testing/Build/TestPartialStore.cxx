@@ -36,11 +36,11 @@ std::unique_ptr<test::CloudSource> classified()
   return cloud;
 }
 
-/// What a store holds of a cloud with ids.
+/// The points that a store holds of a cloud with ids.
 struct Contents
 {
   std::set<std::uint32_t> ids;
-  std::uint64_t points = 0; ///< of the input; more than ids: some are there twice
+  std::uint64_t points = 0; ///< points of the input; more than ids: some are there twice
 };
 
 Contents contentsOf(const PointStore& store)
@@ -203,7 +203,7 @@ TEST_P(PartialStores, AreJoinedSoThatEveryLevelCoversTheCloud)
       top.add(middle.description().grid.toWorld(points->origin + GridPosition(p)));
     }
   }
-  EXPECT_GT(top.size().x, 800.0); // of 1000; representatives lie inside
+  EXPECT_GT(top.size().x, 800.0); // the cloud has 1000; representatives lie inside
   EXPECT_GT(top.size().y, 800.0);
 }
 

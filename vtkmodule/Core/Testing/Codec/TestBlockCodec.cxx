@@ -22,7 +22,7 @@ struct NamedPattern
   Pattern value;
 };
 
-// Of each the low bytes are used.
+// The patterns use the low bytes of each value.
 const std::vector<NamedPattern> patterns{
   { "zero", [](std::size_t, std::mt19937_64&) { return 0; } },
   { "constant", [](std::size_t, std::mt19937_64&) { return 0xfedcba9876543210ull; } },
@@ -131,7 +131,7 @@ TEST(BlockCodec, ChoosesByWhatItSaves)
   EXPECT_EQ(codecOf({ 5000, 3, 4 }, patterns[1].value), BlockCodec::Constant);
   EXPECT_EQ(codecOf({ 5000, 1, 8 }, patterns[3].value), BlockCodec::Raw);
   EXPECT_EQ(codecOf({ 5000, 3, 4 }, patterns[4].value), BlockCodec::Packed);
-  // What repeats at a distance is what Zstandard is for.
+  // Zstandard is for values that repeat at a distance.
   EXPECT_EQ(codecOf({ 5000, 1, 1 }, [](std::size_t i, std::mt19937_64&) { return i % 50 * 181; }),
     BlockCodec::PlanesZstd);
 }

@@ -1,4 +1,4 @@
-// What must hold of every selection of detail (rendering front, view-specific detail), for every
+// Rules of every selection of detail (rendering front, view-specific detail), for every
 // tree, camera path, projection and order of arrival (fixed seeds).
 
 #include "pointfront/Detail/ViewDetail.h"
@@ -206,7 +206,7 @@ struct Trip
   std::unique_ptr<DetailSelection> selection;
   std::mt19937 random;
   std::uint64_t points = 0;
-  std::uint64_t slots = 0; ///< of GPU memory
+  std::uint64_t slots = 0; ///< slots of GPU memory
   DemandCurve nobody; ///< shares
   ScriptedResidency residency;
   FrontLimits limits;

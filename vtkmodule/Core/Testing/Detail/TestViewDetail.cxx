@@ -185,7 +185,7 @@ TEST(ViewDetail, TheOverviewIsKeptForEveryViewAndComesFirst)
     EXPECT_EQ(detail.distanceUnderFront(node), 0u) << "never released";
   }
   EXPECT_GT(detail.distanceUnderFront(table->nodeCount() - 1), 0u);
-  // What is in sight of another view at once.
+  // The nodes that another view sees at once.
   delta = &detail.update(fromAbove(1.0, 0.9), residency, limits);
   EXPECT_GT(delta->pointsDrawn, 50000u);
 }

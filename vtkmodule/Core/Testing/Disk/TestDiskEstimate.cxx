@@ -121,7 +121,7 @@ int withFileLimit(rlim_t bytes, const std::function<int()>& work)
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
-/// Of so many bytes, where no file may grow beyond a third of them.
+/// Spills so many bytes where no file may grow beyond a third of them.
 void spillMeetsTheLimit(std::size_t bytes, SpillFile::Way way)
 {
   const fs::path folder = test::freshFolder("spill-limit");

@@ -71,7 +71,7 @@ TEST(TemporaryFile, OneProcessAtATime)
   ASSERT_FALSE(second);
   EXPECT_EQ(filesInTheMaking(path), std::vector<std::string>{ (*first)->pathMeanwhile() });
   EXPECT_FALSE(removeLeftOvers(path));
-  EXPECT_TRUE(OutputFile::create(path + "2")); // of another file
+  EXPECT_TRUE(OutputFile::create(path + "2")); // another file
   ASSERT_TRUE(publish(first));
   EXPECT_TRUE(OutputFile::create(path));
 }

@@ -11,7 +11,7 @@ namespace pointfront
 namespace
 {
 
-/// What a sink was given.
+/// The points that a sink was given.
 struct GivenPoints
 {
   SinkDescription description;

@@ -1,4 +1,4 @@
-// What must hold for every tree, camera path and order of arrival (fixed seeds).
+// Rules for every tree, camera path and order of arrival (fixed seeds).
 
 #include "pointfront/Front/RenderFront.h"
 

@@ -21,7 +21,7 @@ View seenFrom(double x)
   return View::perspective({ x, 300, 200 }, { 0, 0, 0 }, { 0, 0, 1 }, 0.9, 0.1, 1e5, 800, 600);
 }
 
-/// What all clouds share.
+/// State that all clouds share.
 struct Shared
 {
   std::shared_ptr<SharedDemand> memory = std::make_shared<SharedDemand>();

@@ -209,7 +209,7 @@ protected:
     options_.refinement = GetParam().refinement;
     options_.nodePoints = 500;
   }
-  /// What a view shows of a store whose nodes are all there.
+  /// The points that a view shows of a store whose nodes are all there.
   std::vector<glm::dvec3> drawn(const PointStore& store, const View& view, double px)
   {
     test::ScriptedResidency residency;
@@ -286,7 +286,7 @@ TEST_P(TrueGaps, AreNoLargerThanTheErrorSays)
   }
 }
 
-// What is stored as the spacing of an inner node's means is the edge of their cells.
+// The stored spacing of an inner node's means is the edge of their cells.
 TEST_P(TrueGaps, OfMeansAreTheirCells)
 {
   if (GetParam().refinement == Refinement::Add)

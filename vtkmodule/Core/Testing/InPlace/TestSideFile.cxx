@@ -421,8 +421,8 @@ TEST(SideFile, DamageOfHeldAttributesIsTold)
   };
   EXPECT_NE(sealed(24 * nodes + 4, 2).find("are not those"), std::string::npos);
   EXPECT_NE(sealed(24 * nodes + 4, 0).find("are not those"), std::string::npos);
-  EXPECT_NE(sealed(17, 1).find("outside the file"), std::string::npos); // of an offset
-  EXPECT_NE(sealed(13, 255).find("outside the file"), std::string::npos); // of a size
+  EXPECT_NE(sealed(17, 1).find("outside the file"), std::string::npos); // an offset
+  EXPECT_NE(sealed(13, 255).find("outside the file"), std::string::npos); // a size
   EXPECT_NE(sealed(8, 99).find("unknown way"), std::string::npos);
 }
 

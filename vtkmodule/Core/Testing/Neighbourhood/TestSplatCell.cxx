@@ -14,7 +14,7 @@ namespace pointfront
 namespace
 {
 using Points = std::vector<glm::dvec3>;
-constexpr double margin = 1.25; ///< of the stored radius over the farthest vertex
+constexpr double margin = 1.25; ///< times the farthest vertex is the stored radius
 
 std::vector<double> radiiOf(const Points& points)
 {

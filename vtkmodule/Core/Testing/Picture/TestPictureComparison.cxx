@@ -106,7 +106,7 @@ TEST(PictureComparison, EightLevelsAreWithinNineAreNot)
   ASSERT_TRUE(compared);
   EXPECT_DOUBLE_EQ(compared->shareOver8, 3.0 / 20.0);
   const double greys = 8.0 * (0.587 - 0.299) + 9.0 * 0.587 + 9.0 * 0.114 +
-    (205.0 * 0.587 - 50.0 * 0.299 - 50.0 * 0.114); // of each of the four, without its sign
+    (205.0 * 0.587 - 50.0 * 0.299 - 50.0 * 0.114); // the difference of each, without its sign
   EXPECT_NEAR(compared->meanDifference, greys / 20.0, 1e-12);
 }
 

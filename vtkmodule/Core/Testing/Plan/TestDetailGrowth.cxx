@@ -219,7 +219,7 @@ TEST(DetailGrowth, ANodeThatIsAllThereIsWholeInMotion)
   EXPECT_TRUE(scene.whole(0, allPoints));
 }
 
-/// What comes into view with its branch is no detail of what was seen.
+/// A branch that comes into view is no detail of nodes that were seen.
 TEST(DetailGrowth, ABranchThatComesIntoViewIsThereAtOnce)
 {
   Growing scene(true);

@@ -34,7 +34,7 @@ protected:
   }
   void TearDown() override { fs::remove_all(folder_); }
 
-  /// What a program does: overview, watched sources, build.
+  /// Builds as a program does: overview, watched sources, build.
   Result<BuildReport> buildWithPreview(const ProgressFunction& progress = {})
   {
     auto preview = BuildPreview::create(cloud_, build_, wish_);
@@ -290,7 +290,7 @@ TEST_F(BuildPreviews, KeepToTheirShareOfTheTime)
   build_.overwrite = true;
   ASSERT_TRUE(buildWithPreview());
   EXPECT_GE(finishing, 1);
-  EXPECT_LT(finishing, 20); // of some 60 parts
+  EXPECT_LT(finishing, 20); // there are some 60 parts
 }
 
 TEST_F(BuildPreviews, OfAKilledBuildWithFinishedPartsGoWithTheNext)

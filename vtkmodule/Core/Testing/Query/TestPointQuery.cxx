@@ -118,7 +118,7 @@ TEST_F(PointQueries, OfMeanRepresentativesGivePointsOfTheInput)
   }
 }
 
-// Of each class, whatever its layer.
+// The global height counts in each class, whatever its layer.
 TEST_F(PointQueries, ByGlobalHeightAreThoseOfAFilterByClass)
 {
   for (const Layering layering : { Layering::None, Layering::ObjectClass })
@@ -243,7 +243,7 @@ TEST_F(PointQueries, ReadOnlyTheColumnsThatAreAskedFor)
     });
   ASSERT_TRUE(one);
   EXPECT_LT(positions->bytesRead, one->bytesRead);
-  // What a condition needs is read, and does not come out.
+  // An attribute that only a condition needs is read, and does not come out.
   query.where = FilterExpression::parse("id < 10").value();
   QueryAnswer few;
   ASSERT_TRUE(queryPoints(*store, query, {}, few.consumer()));

@@ -110,7 +110,7 @@ TEST(WriteBehind, WritesAllBlocksWhateverTheirThreadsAndBuffers)
   fs::remove_all(folder);
 }
 
-/// What a cancelled build handed over is written, and nobody waits for it for ever.
+/// The buffers that a cancelled build handed over are written, and nobody waits for them for ever.
 TEST(WriteBehind, EndsWithoutFinish)
 {
   const fs::path folder = test::freshFolder("write-behind-end");

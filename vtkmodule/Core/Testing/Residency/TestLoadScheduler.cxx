@@ -203,7 +203,7 @@ TEST(LoadScheduler, MemoryIsTakenFromTheFarthestOfAllStores)
   EXPECT_EQ(scene.stores[1]->state(2), State::Absent);
   EXPECT_EQ(scene.stores[1]->state(1), State::Absent);
   EXPECT_EQ(scene.stores[1]->state(0), State::Resident);
-  // What any front needs stays, whoever asks.
+  // A node that any front needs stays, whoever asks.
   for (int again = 0; again < 2; ++again)
   {
     scene.stores[2]->request(wish(3, 9));

@@ -120,7 +120,7 @@ public:
     EXPECT_LE(all.threads, 3u + 8u);
     for (int wait = 0; wait < 2000 && scheduler_->statistics().residentBytes != sum; ++wait)
     {
-      std::this_thread::sleep_for(std::chrono::milliseconds(1)); // of removed stores that hung
+      std::this_thread::sleep_for(std::chrono::milliseconds(1)); // removed stores hung
     }
     EXPECT_EQ(scheduler_->statistics().residentBytes, sum) << "nothing is lost on the account";
     // Every store still loads.

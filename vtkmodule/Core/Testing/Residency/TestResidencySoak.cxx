@@ -29,8 +29,8 @@ std::uint32_t below(std::uint32_t end, std::mt19937& random)
 
 using HeldNodes = std::vector<std::shared_ptr<const NodeColumns>>;
 
-/// What views, styles and the end of views do to a residency, in any order. Gives what is drawn
-/// at the end.
+/// Does to a residency, in any order, all that views, styles and the end of views do. Gives the
+/// nodes that are drawn at the end.
 HeldNodes doAnything(Residency& residency, std::mt19937& random)
 {
   HeldNodes held(8);

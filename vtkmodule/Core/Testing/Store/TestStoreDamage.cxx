@@ -269,7 +269,7 @@ TEST(StoreDamage, HugeClaimsAreRefused)
     });
 }
 
-// What open() does not read: found when the node is.
+// Parts that open() does not read: a fault is found when the node is read.
 TEST(StoreDamage, HugeClaimsOfANodeAreRefusedWhenItIsRead)
 {
   const std::string sound = soundStore();

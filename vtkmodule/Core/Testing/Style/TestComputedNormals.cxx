@@ -19,7 +19,7 @@ std::shared_ptr<const ResolvedStyle> resolvedIn(
 }
 } // namespace
 
-/// What must be computed while nodes load is read for those who are worth it, or who name it.
+/// Attributes that nodes compute while they load are read for who is worth it, or names them.
 TEST(ComputedNormals, AreForEwaForLightAndForWhoNamesThem)
 {
   StoreDescription store = styledStore({ 2 });

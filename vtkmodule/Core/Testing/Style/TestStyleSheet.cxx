@@ -80,7 +80,7 @@ TEST(StyleSheet, ClassesSayOnlyWhatDiffers)
   sheet.classes[5].colour = ColourSource::ofAttribute(
     "local-height", { ColourMapChoice::Kind::Viridis, {}, { { 0, 20 } } });
   sheet.classes[6].visible = false;
-  sheet.classes[77].colour = ColourSource::ofAttribute("no such attribute"); // of no layer here
+  sheet.classes[77].colour = ColourSource::ofAttribute("no such attribute"); // no layer has it
   const auto layers = all(sheet, styledStore({ 2, 5, 6 }));
   ASSERT_EQ(layers.size(), 3u);
   ASSERT_EQ(layers[0].styles.size(), 1u);

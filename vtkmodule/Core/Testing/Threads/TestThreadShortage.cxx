@@ -1,4 +1,4 @@
-// What becomes of work where the system gives no thread, or no memory.
+// Work goes on where the system gives no thread, or no memory.
 
 #include "pointfront/Residency/LoadScheduler.h"
 #include "pointfront/Residency/Residency.h"
@@ -30,8 +30,8 @@ using namespace pointfront;
 
 namespace
 {
-/// Of this process from now on: no address space for the stack of a further thread (8 MiB), some
-/// for all else.
+/// Limits this process from now on: no address space for the stack of a further thread (8 MiB),
+/// some for all else.
 bool takeThreadsAway()
 {
   std::FILE* const file = std::fopen("/proc/self/statm", "r");

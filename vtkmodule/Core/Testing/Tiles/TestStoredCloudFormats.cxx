@@ -45,7 +45,7 @@ TEST(StoredCloudFormats, AsksTheKindThatAcceptsTheFile)
 {
   StoredCloudFormats formats;
   formats.add(std::make_shared<ForeignKind>("first"));
-  formats.add(std::make_shared<ForeignKind>("second")); // of the same name: replaces
+  formats.add(std::make_shared<ForeignKind>("second")); // replaces the one of that name
   EXPECT_TRUE(formats.accepts("cloud.foreign"));
   EXPECT_EQ(formats.open("cloud.foreign").error().what, "second");
 }

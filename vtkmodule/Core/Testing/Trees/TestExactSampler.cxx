@@ -23,7 +23,7 @@ std::vector<std::uint32_t> exactly(const SortedCloud& cloud, std::uint64_t wante
     cloud.view(), cloud.all, cellOccupancy(cloud.view(), cloud.all), wanted, places);
   EXPECT_TRUE(std::is_sorted(places.begin(), places.end()));
   EXPECT_EQ(std::adjacent_find(places.begin(), places.end()), places.end());
-  return places; // of all points: these are their numbers
+  return places; // places of all points: these are their numbers
 }
 
 TEST(ExactSampler, ChoosesExactlyAsManyAsWanted)

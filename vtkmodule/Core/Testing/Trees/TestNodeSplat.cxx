@@ -14,8 +14,8 @@ namespace
 {
 using test::SplatPatterns;
 using Points = std::vector<glm::dvec3>;
-constexpr double extent = 100.0; ///< of the patterns' unit square, metres
-constexpr double step = 1e-4; ///< of the grid
+constexpr double extent = 100.0; ///< side of the patterns' unit square, metres
+constexpr double step = 1e-4; ///< step of the grid
 
 float radiusOf(const std::vector<TreePosition>& positions, const glm::dvec3& scale)
 {
@@ -178,7 +178,7 @@ double holesAround(const PointStore& store, NodeIndex index, const Points& drawn
 }
 } // namespace
 
-// Of every node of every kind of tree, drawn with those above it.
+// Every node of every kind of tree, drawn with those above it, closes its surface.
 TEST_F(SplatStore, EveryNodeSaysWhatClosesIt)
 {
   options_.nodePoints = 1000;

@@ -57,7 +57,7 @@ TEST(Sampler, CountsOccupiedCellsOfEverySize)
   }
 }
 
-/// Of two points on the curve, the largest step between them is theirs.
+/// Between two points on the curve, the largest step is the one between them alone.
 TEST(Sampler, CountsOccupiedCellsByStepsAlone)
 {
   const Cloud cloud = plane(3000);
@@ -207,7 +207,7 @@ TEST(Sampler, SpreadsPointsAsDartsThatKeepTheirDistance)
       darts.push_back(i);
     }
   }
-  // Of the same number of points: the mean distance in units of what the number allows.
+  // The mean distance in units of the largest that so many points allow.
   const auto spread = [&](const std::vector<std::uint32_t>& set)
   { return meanNearestDistance(cloud, set) * std::sqrt(static_cast<double>(set.size())); };
   EXPECT_GT(spread(points), 1.5 * spread({ picked.begin(), picked.end() }));

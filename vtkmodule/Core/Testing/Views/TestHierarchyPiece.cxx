@@ -37,7 +37,7 @@ std::shared_ptr<const HierarchyTable> fourLevels(Refinement refinement = Refinem
     std::move(nodes), std::vector<NodeIndex>{ 0 }, refinement);
 }
 
-/// What one meets walking down, each parent naming its children.
+/// The nodes that one meets walking down, each parent naming its children.
 std::vector<NodeIndex> nodesOf(const Hierarchy& part)
 {
   std::vector<NodeIndex> nodes(part.roots());

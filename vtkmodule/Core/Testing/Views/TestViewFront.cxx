@@ -90,7 +90,7 @@ TEST(ViewFront, AtRestItHasWhatASmallMotionShows)
       { x, y, 20000.0 }, { x, y, 0.0 }, { 0, 1, 0 }, 0.9, 1.0, 1e7, 800, 600);
   };
   const double middle = 0.5 * Terrain::sizeMetres;
-  const double width = 2.0 * 20000.0 * std::tan(0.45) * 800 / 600; // of the ground in sight
+  const double width = 2.0 * 20000.0 * std::tan(0.45) * 800 / 600; // width of the ground in sight
   // The rows of the table come from the disk, too.
   for (const bool still : { false, true })
   {

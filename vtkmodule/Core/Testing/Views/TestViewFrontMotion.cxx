@@ -1,4 +1,4 @@
-// What the clouds of a window draw while the camera moves.
+// The clouds of a window draw these points while the camera moves.
 
 #include "TerrainWindow.h"
 
@@ -77,7 +77,7 @@ TEST(ViewFront, TheTimesOfTheCloudsAreAddedUpWhereTheFrameHasNone)
   window.frames(60, motion);
   EXPECT_LE(window.drawn(), 550000u);
   EXPECT_GE(window.drawn(), 250000u);
-  // What one leaves the others have.
+  // The others have the budget that one leaves.
   window.all[0]->front.leave();
   window.all[1]->front.leave();
   for (int frame = 0; frame < 60; ++frame)
@@ -90,7 +90,7 @@ TEST(ViewFront, TheTimesOfTheCloudsAreAddedUpWhereTheFrameHasNone)
   EXPECT_GE(two, 250000u);
 }
 
-// Of 50 ms two clouds take 10, and .05 us a point: a million points fit. What the far one shows
+// Two clouds take 10 of 50 ms, and .05 us a point: a million points fit. The far one's points
 // takes .1 ms a point, and says nothing of what points cost.
 TEST(ViewFront, ACloudThatShowsLittleIsAsFineAsTheOthers)
 {

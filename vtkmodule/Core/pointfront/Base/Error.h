@@ -19,13 +19,13 @@ struct Error
     Truncated, ///< the bytes end before what they promise
     Corrupt, ///< a checksum or an invariant of a store does not hold
     Unsupported, ///< well-formed, but of a kind or a version we do not read
-    BadArgument, ///< what the user asked for cannot be done with this input
+    BadArgument, ///< the user's request cannot be done with this input
     NoMemory, ///< the memory limit is too small for the work
     Cancelled ///< the user asked to stop
   };
 
   Kind kind = Kind::BadFormat;
-  /// What happened, where (path, byte offset, node), what to try. One line, no full stop needed.
+  /// The fault, where it is (path, byte offset, node), what to try. One line, no full stop needed.
   std::string what;
 };
 

@@ -57,7 +57,7 @@ private:
   std::string path_;
   const std::byte* data_ = nullptr;
   std::size_t size_ = 0;
-  std::uint64_t device_ = 0; ///< of the file, and its inode
+  std::uint64_t device_ = 0; ///< device of the file, and its inode
   std::uint64_t inode_ = 0;
   std::unique_ptr<WatchedPages> pages_; ///< none: empty, or bytes of somebody else
 };

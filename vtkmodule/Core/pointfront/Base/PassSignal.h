@@ -5,7 +5,7 @@
 namespace pointfront
 {
 
-/// What a handler does with a signal that is not its own: calls the handler that was there
+/// Passes on a signal that is not the handler's own: calls the handler that was there
 /// `before`, or gives the signal back its usual meaning, so that the access, tried again, ends the
 /// process. Only what a signal handler may call.
 inline void passSignal(const struct sigaction& before, int signal, siginfo_t* info, void* context)

@@ -13,7 +13,7 @@ struct Progress
   const char* phase = ""; ///< "reading", "building", "writing", "verifying" ...
   std::uint64_t done = 0; ///< points of this phase handled so far
   std::uint64_t total = 0; ///< points of this phase, 0 if not known yet
-  double fraction = 0.0; ///< of the whole operation, 0 to 1, never falls
+  double fraction = 0.0; ///< part of the whole operation that is done, 0 to 1, never falls
   double secondsElapsed = 0.0; ///< since the operation began
   std::string notice = {}; ///< a sentence that cannot wait for the end; empty: none
 };

@@ -30,7 +30,7 @@ bool giveZeros(std::uintptr_t address)
     {
       continue;
     }
-    // What is gone is the end of the file: one fault for all of it.
+    // A missing page is the end of the file: one fault for all of it.
     const std::uintptr_t page = address / pageBytes * pageBytes;
     range->lost.store(true);
     return ::mmap(reinterpret_cast<void*>(page), end - page, PROT_READ,

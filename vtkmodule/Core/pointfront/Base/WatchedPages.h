@@ -23,7 +23,7 @@ public:
 
   bool lost() const;
 
-  /// What the handler reads. Ranges are used again and never freed: a handler may look at any time.
+  /// The ranges that the handler reads. They are never freed: a handler may look at any time.
   struct Range
   {
     std::atomic<std::uintptr_t> begin{ 0 };

@@ -10,7 +10,7 @@
 namespace pointfront
 {
 
-/// What a build does if an input is no point file, is damaged or holds no position.
+/// The behaviour of a build if an input is no point file, is damaged or holds no position.
 enum class OnFault
 {
   Stop, ///< nothing is written; the Error names all inputs that are wrong
@@ -30,7 +30,7 @@ struct OpenedInputs
   std::vector<InputFault> skipped;
 };
 
-/// What is wrong with some of `inputs` inputs as one Error, of the first one's kind: each is named.
+/// The faults of some of `inputs` inputs as one Error, of the first one's kind: each is named.
 Error faultyInputs(const std::vector<Error>& faults, std::size_t inputs);
 /// For a list: what begins with the path does not name it twice.
 InputFault inputFault(const std::string& path, const Error& error);

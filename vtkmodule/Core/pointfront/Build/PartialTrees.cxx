@@ -5,7 +5,7 @@
 
 namespace pointfront
 {
-/// What one call of show() shows.
+/// The store that one call of show() shows.
 class PartialTrees::Snapshot final : public PartialStore
 {
 public:
@@ -90,8 +90,8 @@ std::uint64_t PartialTrees::pointsOf(const Progress& progress) const
   return points;
 }
 
-/// Of each part that is not finished. What belongs to a node above parts goes to the first of them:
-/// where it is built does not matter as long as none of them is finished.
+/// A sample of each part that is not finished. Records of a node above parts go to the first of
+/// them: where it is built does not matter as long as none of them is finished.
 std::vector<std::vector<std::byte>> PartialTrees::sampleOf(const Progress& progress) const
 {
   std::vector<std::vector<std::byte>> sample(tree_.size());

@@ -20,7 +20,7 @@ struct PartialTreesSite
   const TreeConstruction& construction;
   const NodeEmitter& emitter;
   std::size_t recordBytes = 0;
-  StoreDescription description; ///< of the store being built, but for counts
+  StoreDescription description; ///< description of the store being built, without counts
 };
 
 /// The trees of a build for a watch: finished subtrees as they are, each other part built from its
@@ -57,7 +57,7 @@ private:
 
   PartialTreesSite site_;
   std::vector<PartNode> tree_;
-  std::vector<std::vector<std::byte>> sample_; // of each node of tree_: records that belong there
+  std::vector<std::vector<std::byte>> sample_; // for each node of tree_: records that belong there
   BuildWatch& watch_;
 };
 

@@ -14,7 +14,7 @@ namespace pointfront
 {
 namespace
 {
-/// Of the whole, for the progress fraction; measured on LAS and LAZ.
+/// Share of the whole, for the progress fraction; measured on LAS and LAZ.
 constexpr double readShare = 0.35;
 
 void append(std::vector<std::string>& all, const std::vector<std::string>& more)
@@ -110,7 +110,7 @@ Result<void> StoreBuild::prepare()
   if (ready && !storage_.diskWarning.empty())
   {
     report_.warnings.push_back(storage_.diskWarning);
-    crew_.tell(storage_.diskWarning); // what takes hours should not end with this
+    crew_.tell(storage_.diskWarning); // a full disk should not end work of hours
   }
   return ready;
 }

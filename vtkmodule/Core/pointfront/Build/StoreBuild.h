@@ -24,7 +24,7 @@ class StoreBuild
 {
 public:
   using Sources = std::vector<std::unique_ptr<PointSource>>;
-  using Trees = std::vector<std::unique_ptr<BuiltNode>>; ///< of each layer
+  using Trees = std::vector<std::unique_ptr<BuiltNode>>; ///< the tree of each layer
 
   StoreBuild(const Sources& sources, const BuildOptions& options, ProgressFunction progress,
     BuildWatch* watch)

@@ -17,7 +17,7 @@ namespace pointfront
 {
 class BuildWatch;
 
-/// What the 16 bits of a colour hold. Files do not say: many have values of 8 bits in them.
+/// The depth of the values in a colour's 16 bits. Files do not say: many have values of 8 bits.
 enum class ColourDepth
 {
   ByFile, ///< a file whose largest value is at most 255 has 8 bits; beside others it is widened
@@ -56,7 +56,7 @@ struct BuildOptions
   std::optional<std::vector<std::string>> attributes;
   ColourDepth colourDepth = ColourDepth::ByFile;
   bool overwrite = false; ///< false: an existing output is an Error
-  /// Of an input that has points of which none can be stored.
+  /// Behaviour for an input that has points of which none can be stored.
   OnFault onFault = OnFault::Stop;
   /// An input that was cut short is an Error. Otherwise what is there is stored, and what its
   /// header promised beyond that is counted as missing.
@@ -70,14 +70,14 @@ struct BuildReport
   /// Reason -> count; a warning tells it too. "missing" counts the points that a header promises
   /// and its file lacks: they were not read.
   std::map<std::string, std::uint64_t> pointsRejected;
-  std::vector<InputFault> inputsSkipped; ///< of which no point could be stored (OnFault::Skip)
+  std::vector<InputFault> inputsSkipped; ///< they have no point to store (OnFault::Skip)
   double seconds = 0.0;
   std::uint64_t bytesWritten = 0;
   std::uint64_t spilledBytes = 0;
   std::uint64_t nodes = 0;
-  std::vector<std::string> warnings; ///< of the sources and of the build; full sentences
+  std::vector<std::string> warnings; ///< warnings of the sources and of the build; full sentences
   std::map<std::string, double> phaseSeconds; ///< phase -> CPU seconds over all threads
-  double cpuSeconds = 0.0; ///< of the process while it built: the phases and what is between them
+  double cpuSeconds = 0.0; ///< time of the process: the phases and the work between them
 };
 
 /// "68125 not a number, 3 infinite"; empty if no point was rejected.

@@ -14,7 +14,7 @@ namespace pointfront
 struct StoredColours
 {
   AttributeSchema schema; ///< the common schema as it is stored
-  std::optional<ColourWidening> widening; ///< of records, while they are loaded
+  std::optional<ColourWidening> widening; ///< widening of records, while they are loaded
 };
 
 /// Whether the 16-bit colours of a source hold 8 bits.

@@ -194,7 +194,7 @@ std::uint64_t constructionTableBytes(const BuildOptions& options, std::uint64_t 
 
 std::uint64_t constructionPart(const BuildOptions& options)
 {
-  // What a part owes to the nodes above it is about as much as one node has.
+  // A part owes about as much to the nodes above it as one node has.
   return options.structure == Structure::KdTree
     ? kdRule(options).partPoints() + 2ull * options.nodePoints
     : 0;

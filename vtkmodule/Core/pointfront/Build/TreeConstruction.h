@@ -17,7 +17,7 @@ struct ConstructionSite
   std::size_t recordBytes = 0;
   const MemoryPlan& plan;
   WorkCrew& crew;
-  const AttributeSchema& pooled; ///< of the records
+  const AttributeSchema& pooled; ///< columns of the records
 };
 
 /// One kind of tree, from the pool's records to nodes: the only place that knows which.
@@ -46,7 +46,7 @@ public:
   virtual double seconds() const = 0;
 };
 
-/// Of options.structure and options.refinement.
+/// Makes the construction for options.structure and options.refinement.
 std::unique_ptr<TreeConstruction> treeConstruction(
   const BuildOptions& options, const ConstructionSite& site);
 

@@ -10,7 +10,7 @@ namespace pointfront
 /// Finds accidents (a flipped bit, a lost page), not forgeries: decoders stay safe without it.
 std::uint32_t checksumOf(const std::byte* data, std::size_t size);
 
-/// What every reader asks. Always true in a build for fuzzing: a fuzzer cannot guess checksums, and
+/// Every reader asks this. Always true in a build for fuzzing: a fuzzer cannot guess checksums, and
 /// what lies behind them must be safe without.
 bool matchesChecksum(const std::byte* data, std::size_t size, std::uint32_t checksum);
 

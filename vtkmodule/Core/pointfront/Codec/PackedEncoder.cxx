@@ -49,7 +49,7 @@ public:
   const T* plane(unsigned c) const { return values_.data() + c * stride() + 1; }
   T* plane(unsigned c) { return values_.data() + c * stride() + 1; }
 
-  /// What all values are multiples of; 0 when all are zero. Colours of 8 bits that were stretched
+  /// The factor that all values have; 0 when all are zero. Colours of 8 bits that were stretched
   /// to 16, coordinates of a scale finer than their instrument, doubles that once were floats.
   T commonFactor() const
   {
@@ -153,7 +153,7 @@ void codesOf(const ComponentPlanes<T>& planes, std::size_t begin, unsigned c, bo
   }
   else
   {
-    for (std::size_t i = 0; i < codesPerGroup; ++i) // of fixed length: vectors without a rest
+    for (std::size_t i = 0; i < codesPerGroup; ++i) // a fixed number: vectors without a rest
     {
       codes[i] = zigzag(static_cast<T>(values[i] - before[i]));
     }
@@ -179,7 +179,7 @@ std::size_t groupsBytes(
   return sum;
 }
 
-/// What the last points of a block say about its predictors.
+/// The choice of predictors that the last points of a block speak for.
 struct PredictorChoice
 {
   Predictor predictor = Predictor::Zero;

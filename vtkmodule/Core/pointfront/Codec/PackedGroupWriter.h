@@ -69,7 +69,7 @@ struct GroupPlan
 {
   unsigned width = 0;
   unsigned exceptions = 0; ///< codes of more than `width` bits
-  unsigned exceptionBytes = 0; ///< of the upper part of each
+  unsigned exceptionBytes = 0; ///< size of the upper part of each
   std::size_t bytes = 0;
 };
 
@@ -95,7 +95,7 @@ inline void countLonger(const GroupLengths& lengths, unsigned longest, LongerTha
   }
 }
 
-/// Of bytes, by eight comparisons of each: the fewest operations in vectors.
+/// Counts bytes by eight comparisons of each: the fewest operations in vectors.
 inline void countLonger(const CodeGroup<std::uint8_t>& codes, LongerThan& longer)
 {
   for (unsigned bit = 0; bit < 8; ++bit)
@@ -199,7 +199,7 @@ void packRows(const CodeGroup<T>& codes, unsigned width, std::byte* rows)
   std::memcpy(rows, words.data(), rowBytes * width);
 }
 
-/// Of eight codes from `first` on, the highest bit of the byte of each that has more than `width`
+/// For eight codes from `first` on, the highest bit of the byte of each that has more than `width`
 /// bits. `lengths` is filled unless the codes are bytes: these are looked at themselves.
 template <typename T>
 std::uint64_t longerThan(

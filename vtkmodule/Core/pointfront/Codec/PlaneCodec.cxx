@@ -44,7 +44,7 @@ ZSTD_DCtx* decompressor()
   return context ? context.get() : throw std::bad_alloc();
 }
 
-/// What Zstandard answers where it finds no memory is nothing that the bytes are to blame for.
+/// Zstandard's answer where it finds no memory is no fault of the bytes.
 std::size_t withMemory(std::size_t answer)
 {
   return ZSTD_getErrorCode(answer) == ZSTD_error_memory_allocation ? throw std::bad_alloc()

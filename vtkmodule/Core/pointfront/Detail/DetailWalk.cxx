@@ -24,7 +24,7 @@ std::uint32_t prefixOf(double quota, std::uint32_t count)
 
 } // namespace
 
-/// What a subtree shows: points of its layer's share that fall to it, less those that its
+/// The points that a subtree shows: those of its layer's share that fall to it, less those that its
 /// ancestors draw.
 struct DetailWalk::Quota
 {
@@ -38,16 +38,16 @@ struct DetailWalk::Visit
 {
   NodeIndex index = noNode;
   Node row;
-  std::uint32_t points = 0; ///< of its own, 0 where none would be drawn (NodePruning)
+  std::uint32_t points = 0; ///< its own points, 0 where none would be drawn (NodePruning)
   Quota quota;
-  double ratio = 0.0; ///< of its spacing to its parent's
-  double errorWeight = 1.0; ///< of its layer
+  double ratio = 0.0; ///< its spacing divided by its parent's
+  double errorWeight = 1.0; ///< weight of its layer's errors
   bool inSight = true; ///< its parent is
   bool drawable = true; ///< all that must be there before it is
   bool standIn = true; ///< Replace: it is resident and may be drawn for its branch
 };
 
-/// What children take over from their parent.
+/// The values that children take over from their parent.
 struct DetailWalk::Descent
 {
   bool inSight;
@@ -241,7 +241,7 @@ bool DetailWalk::childrenReady(const Visit& at, double priority)
   return ready;
 }
 
-/// What is left goes to the children in proportion to their points.
+/// The rest goes to the children in proportion to their points.
 void DetailWalk::descend(const Visit& at, const Quota& left, const Descent& descent)
 {
   const std::uint64_t own = originalPoints(at.row, hierarchy_.refinement());

@@ -44,7 +44,7 @@ public:
 
   std::size_t layerCount() const { return layerCount_; }
   bool visible(std::size_t layer) const { return limitsOf(layer).visible; }
-  /// Of all roots, points below them; hidden layers too.
+  /// Number of points below all roots; hidden layers too.
   double points() const { return points_; }
 
   /// The demand of a visible layer: the points that it would draw and hold.
@@ -54,7 +54,7 @@ public:
   /// as much as the limits allow. `shown` is by layer.
   void plan(const ResidencySnapshot& residency, const std::vector<Shown>& shown, FrontDelta& delta);
 
-  // Of the last plan.
+  // Counts of the last plan:
   std::uint32_t missing() const { return requests_.missing(); } ///< neither resident nor failed
   std::uint64_t held() const { return sum_.held; } ///< points of all nodes needed
   const NodeSlots& needed() const { return needed_; }

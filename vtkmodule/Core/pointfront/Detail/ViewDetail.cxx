@@ -24,7 +24,7 @@ struct ViewDetail::State
   DetailLevels levels;
   FrontDelta delta;
 
-  // What the last update saw and left.
+  // State of the last update:
   View view;
   FrontLimits limits;
   SeenResidency residencySeen;

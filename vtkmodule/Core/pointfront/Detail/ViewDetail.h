@@ -38,8 +38,8 @@ public:
   std::uint32_t distanceUnderFront(NodeIndex node) const override;
   void reset() override;
 
-  /// Of the last update, the lowest of its layers', as log2 of the points that the whole store
-  /// would show.
+  /// The level of the last update, the lowest of its layers', as log2 of the points that the whole
+  /// store would show.
   double level() const;
 
 private:

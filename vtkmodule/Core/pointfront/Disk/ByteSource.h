@@ -19,12 +19,12 @@ struct ByteRange
   std::byte* target = nullptr;
 };
 
-/// What reads from a source cost, as far as it is known. Who reads chooses by it how much to ask
+/// The cost of reads from a source, as far as it is known. Who reads chooses by it how much to ask
 /// for at once. The values of a disk are the defaults.
 struct ReadCost
 {
   double roundTripSeconds = 0.0; ///< from a request to its first byte
-  double bytesPerSecond = 0.0; ///< of all requests together; 0: faster than who reads
+  double bytesPerSecond = 0.0; ///< rate of all requests together; 0: faster than who reads
   unsigned readsAtOnce = 1; ///< more than that at a time are slower in total
   std::size_t bytesAtOnce = 0; ///< that one read should ask for if so much is wanted; 0: any
 };

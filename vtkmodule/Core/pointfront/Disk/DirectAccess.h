@@ -23,7 +23,7 @@ class DirectAccess
 {
 public:
   static constexpr std::size_t bufferBytes = std::size_t(1) << 20;
-  /// Of places in the file, of memory: the largest block of a disk, and a page.
+  /// Alignment of places in the file and of memory: the largest block of a disk, and a page.
   static constexpr std::size_t alignment = 4096;
 
   /// For an existing file; nullptr where files cannot be accessed that way.

@@ -11,7 +11,7 @@ namespace pointfront
 {
 namespace
 {
-/// Of memory and of places in the file: the largest block of a disk, and a page.
+/// Alignment of memory and of places in the file: the largest block of a disk, and a page.
 constexpr std::size_t alignment = 4096;
 
 std::byte* alignedMemory()

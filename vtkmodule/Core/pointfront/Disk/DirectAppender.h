@@ -47,8 +47,8 @@ public:
   /// Hands over the buffer, which is full, to be written; the other one is gathered in then. False
   /// when the one before was not written, or not as a whole: both are still here.
   bool write();
-  /// What was taken and is not in the file, in its order: of a buffer that could not be written,
-  /// and of the one that is gathered in. Waits for what is being written.
+  /// The bytes that were taken and are not in the file, in its order: those of a buffer that could
+  /// not be written, and of the one that is gathered in. Waits for what is being written.
   std::array<Span, 2> unwritten();
 
 private:

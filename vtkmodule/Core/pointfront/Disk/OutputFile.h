@@ -34,10 +34,10 @@ public:
   virtual ~OutputFile() = default;
 
   virtual const std::string& path() const = 0;
-  /// Of the file until publish().
+  /// The path of the file until publish().
   virtual const std::string& pathMeanwhile() const { return path(); }
   virtual Result<void> append(const std::byte* data, std::size_t size) = 0;
-  /// What was appended can be read from the file now.
+  /// Makes appended bytes readable from the file.
   virtual Result<void> settle() { return {}; }
   /// Overwrites bytes that were appended before.
   virtual Result<void> overwrite(std::uint64_t offset, const std::byte* data, std::size_t size) = 0;

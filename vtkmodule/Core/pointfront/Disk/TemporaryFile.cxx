@@ -51,11 +51,11 @@ std::string hexadecimal(std::uint64_t number)
 
 std::uint64_t randomNumber()
 {
-  std::random_device device; // of the operating system: nobody guesses it
+  std::random_device device; // the operating system's: nobody guesses it
   return std::uint64_t(device()) << 32 | device();
 }
 
-/// What stands between the name of the file and the ending.
+/// The mark between the name of the file and the ending.
 std::string markOf(ino_t inode, const std::string& random)
 {
   return "." + hexadecimal(inode) + "-" + random;

@@ -110,7 +110,7 @@ bool endsWith(std::string_view text, std::string_view end)
   return text.size() >= end.size() && text.substr(text.size() - end.size()) == end;
 }
 
-/// What a file of that name is by all who see it; Other: the name says nothing.
+/// The kind that all see in a file of that name; Other: the name says nothing.
 FileKind kindOfName(const std::string& path)
 {
   struct Ending

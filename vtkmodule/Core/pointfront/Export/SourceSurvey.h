@@ -10,9 +10,9 @@
 namespace pointfront
 {
 
-/// What a sink has to know of a source that says little of itself, as points in memory do: the grid
-/// that chooseGrid() chooses for it alone, the box of its points and the largest value of each
-/// column. Reads all points once.
+/// Facts that a sink has to know of a source that says little of itself, as points in memory do:
+/// the grid that chooseGrid() chooses for it alone, the box of its points and the largest value of
+/// each column. Reads all points once.
 /// Errors   of reading; of chooseGrid(); BadArgument for a coordinate that is not finite.
 /// Threads  one thread.
 Result<SinkDescription> surveyed(

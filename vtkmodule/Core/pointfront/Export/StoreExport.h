@@ -26,7 +26,7 @@ struct ExportSelection : PointQuery
 struct ExportReport
 {
   std::uint64_t pointsRead = 0; ///< decoded
-  std::uint64_t pointsWritten = 0; ///< of those, selected
+  std::uint64_t pointsWritten = 0; ///< number of those that were selected
 };
 
 /// Brings the selected points of a store into a sink.

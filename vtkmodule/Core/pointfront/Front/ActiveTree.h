@@ -25,7 +25,7 @@ struct ActiveNode
   float spacing = 0.0f; ///< > 0: half the parent's where the table has none
   float spacingRatio = 0.0f; ///< to the parent's spacing; 0 for a root
   std::uint32_t storedPoints = 0; ///< in the table
-  std::uint32_t pointCount = 0; ///< of these, 0 where none would be drawn (NodePruning)
+  std::uint32_t pointCount = 0; ///< its points, 0 where none would be drawn (NodePruning)
   NodeIndex node = noNode; ///< noNode: the slot is free
   NodeIndex firstChild = noNode;
   SlotIndex parent = noSlot;

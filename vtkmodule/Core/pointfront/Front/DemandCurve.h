@@ -27,7 +27,7 @@ public:
     const double step = std::floor((std::log2(px) - lowestOctave) * stepsPerOctave);
     return static_cast<std::size_t>(std::clamp(step, 0.0, double(size - 1)));
   }
-  /// Of a step, in px.
+  /// Size of a step, in px.
   static double pxOf(std::size_t step)
   {
     return std::exp2(lowestOctave + double(step) / stepsPerOctave);
@@ -72,7 +72,7 @@ private:
 struct DemandCurves
 {
   DemandCurve drawn; ///< points on screen
-  DemandCurve slots; ///< of GPU memory (GpuSlots.h)
+  DemandCurve slots; ///< slots of GPU memory (GpuSlots.h)
   DemandCurve held; ///< points in memory, whole nodes
 };
 

@@ -163,7 +163,7 @@ std::uint32_t FrameCostModel::movesFor(double targetMs, std::uint64_t points) co
   double pointsMs = predictMs(points, 0);
   if (frames_ > 0)
   {
-    // What the fit still holds of a slower time must not stop the front.
+    // The slower times that the fit still holds must not stop the front.
     pointsMs = std::min(pointsMs, 2.0 * recentPerPoint() * double(points));
   }
   const double moves = (targetMs - pointsMs) / perMove;

@@ -27,7 +27,7 @@ namespace pointfront
 class FrameCostModel
 {
 public:
-  /// What a frame contained and how long it took (CPU + GPU, milliseconds). Times that are not
+  /// Records a frame: its content and its time (CPU + GPU, milliseconds). Times that are not
   /// positive and finite are left out.
   void record(std::uint64_t points, std::uint32_t moves, double milliseconds);
   double predictMs(std::uint64_t points, std::uint32_t moves) const;

@@ -15,7 +15,7 @@ namespace pointfront
 struct Demand
 {
   std::uint64_t drawn = 0; ///< points on screen
-  std::uint64_t slots = 0; ///< of GPU memory, for them
+  std::uint64_t slots = 0; ///< slots of GPU memory for them
   std::uint64_t held = 0; ///< points of the nodes that must be in memory for that, whole nodes
 
   Demand& operator+=(const Demand& more)
@@ -46,7 +46,7 @@ inline bool limited(const FrontLimits& limits)
     limits.sharedSlots.most > 0 || limits.sharedHeld.most > 0;
 }
 
-/// Of a layer, 0 to 1; shares of the visible layers that come to more than 1 are cut down.
+/// Share of a layer, 0 to 1; shares of the visible layers that come to more than 1 are cut down.
 inline double shareOf(const std::vector<LayerLimits>& layers, std::size_t layer)
 {
   double sum = 0.0;

@@ -34,9 +34,9 @@ public:
 /// GPU memory.
 struct SharedLimit
 {
-  std::uint64_t most = 0; ///< of all together; 0: no limit
-  /// What the others take; step 0 is what they have at this moment. Not null where there is a
-  /// limit, and alive while the limits are in use.
+  std::uint64_t most = 0; ///< the limit of all together; 0: no limit
+  /// The demand of the others; step 0 is the amount that they have at this moment. Not null where
+  /// there is a limit, and alive while the limits are in use.
   const DemandCurve* elsewhere = nullptr;
 
   std::uint64_t leftAt(double px) const
@@ -59,7 +59,7 @@ struct FrontLimits
   /// with some room to spare, makes a view that needs more settle at the best error that fits.
   std::uint64_t heldPointBudget = 0;
   SharedLimit sharedDrawn; ///< as pointBudget, over all clouds of a window
-  SharedLimit sharedSlots; ///< of GPU memory (GpuSlots.h), over all clouds of a window
+  SharedLimit sharedSlots; ///< slots of GPU memory (GpuSlots.h), over all clouds of a window
   SharedLimit sharedHeld; ///< as heldPointBudget, over all stores of a process
   /// Changes whenever one of the curves of the shared limits does.
   std::uint64_t sharedRevision = 0;
@@ -118,7 +118,7 @@ struct FrontDelta
   /// All nodes that are wanted now: optional ones last, highest priority first, ties by node.
   std::vector<LoadRequest> requests;
   std::uint64_t pointsDrawn = 0;
-  std::uint64_t slotsDrawn = 0; ///< of GPU memory (GpuSlots.h), that they take
+  std::uint64_t slotsDrawn = 0; ///< slots of GPU memory (GpuSlots.h) that they take
   std::uint32_t moves = 0; ///< expansions + collapses of this update
   std::uint32_t frontLength = 0; ///< nodes in the cut, culled ones too
   double thresholdPx = 0.0; ///< in force for this update; the largest of the layers'

@@ -174,7 +174,7 @@ void FrontPlan::noteError(const ActiveNode& node, std::uint32_t drawn, bool refi
   const bool everything = node.leaf() && drawn == node.pointCount && !node.lost;
   if (!refined && !everything)
   {
-    // Of 2,000 nodes a dozen are the largest so far: no root for the others.
+    // Among 2,000 nodes a dozen are the largest so far: no root for the others.
     const double density = prefixDensity(node.pointCount, drawn, node.spacingRatio);
     const double errorPx = node.errorPx;
     if (errorPx * errorPx > delta_->errorPx * delta_->errorPx * density)

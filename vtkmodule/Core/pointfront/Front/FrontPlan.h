@@ -50,7 +50,7 @@ private:
   NodeRequests requests_;
   DrawOrder order_;
   DrawAllowance allowance_;
-  double thresholdPx_ = 0.0; ///< of the layer being visited
+  double thresholdPx_ = 0.0; ///< threshold of the layer being visited
   std::uint32_t update_ = 0;
   bool clipped_ = false;
 };

@@ -111,8 +111,8 @@ FrontThreshold::Left FrontThreshold::sharedLeft(double px) const
   return { leftOf(limits_.sharedDrawn), leftOf(limits_.sharedSlots), leftOf(limits_.sharedHeld) };
 }
 
-/// Of any shared limit, since a threshold proved too low: others take less. Each counts by itself:
-/// the memory's may be a thousand times the window's.
+/// Whether any shared limit has more left since a threshold proved too low: others take less. Each
+/// counts by itself: the memory's may be a thousand times the window's.
 bool FrontThreshold::moreLeft() const
 {
   const Left now = sharedLeft(ladder_.at(common_.lowest));
@@ -193,7 +193,7 @@ void FrontThreshold::settle(Rung& state, int highest, FitsAt fitsAt)
   state.bound = true;
   if (rises)
   {
-    // What grew beyond the budget at a lower threshold will do so again.
+    // Nodes that grew beyond the budget at a lower threshold will do so again.
     state.lowest = fit;
   }
 }

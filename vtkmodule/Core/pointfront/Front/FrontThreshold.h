@@ -57,7 +57,7 @@ private:
   struct Rung
   {
     int rung = 0;
-    int goal = 0; ///< of this update
+    int goal = 0; ///< goal of this update
     int lowest = 0; ///< proved too low for this view and these limits below it
     bool bound = false;
   };
@@ -75,7 +75,7 @@ private:
   void settle(Rung& state, int highest, FitsAt fitsAt);
   int highestOf(const ActiveTree& tree) const;
   void adoptLayers(const ActiveTree& tree);
-  /// Of the shared limits, drawn, slots and held; 0 where there is none.
+  /// Rest of the shared limits, drawn, slots and held; 0 where there is none.
   using Left = std::array<std::uint64_t, 3>;
   Left sharedLeft(double px) const;
   bool moreLeft() const;

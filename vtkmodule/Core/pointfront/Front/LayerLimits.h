@@ -44,14 +44,14 @@ struct LayerLimits
   }
 };
 
-/// Of a layer by its number; layers beyond the list are as by default.
+/// Limits of a layer by its number; layers beyond the list have the default.
 inline const LayerLimits& limitsOfLayer(const std::vector<LayerLimits>& layers, std::size_t layer)
 {
   static const LayerLimits byDefault;
   return layer < layers.size() ? layers[layer] : byDefault;
 }
 
-/// Of `points` of a node those that its pruning leaves; nothing where its whole subtree has none.
+/// Those of a node's `points` that its pruning leaves; nothing where its whole subtree has none.
 inline std::optional<std::uint32_t> drawablePoints(
   const LayerLimits& limits, NodeIndex node, std::uint32_t points)
 {

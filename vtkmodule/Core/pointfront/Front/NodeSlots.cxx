@@ -46,7 +46,7 @@ void NodeSlots::erase(NodeIndex node)
     assert(entries_[hole].node != noNode);
     hole = next(hole);
   }
-  // What follows without a gap moves up, unless that would put it before its home.
+  // Entries that follow without a gap move up, unless that would put one before its home.
   for (std::size_t at = next(hole); entries_[at].node != noNode; at = next(at))
   {
     const std::size_t mask = entries_.size() - 1;

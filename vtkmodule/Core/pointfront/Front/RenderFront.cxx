@@ -36,13 +36,13 @@ struct RenderFront::State
   FrontThreshold threshold;
   std::uint32_t update = 0; ///< number of this update; 0 before the first
 
-  // What the last update saw.
+  // The view of the last update.
   View view;
   FrontLimits limits;
   SeenResidency residencySeen;
   bool inputChanged = true; ///< other view or limits than in the update before
 
-  // What the last update left behind.
+  // The state that the last update left behind.
   bool atRest = false; ///< the same input would give the same output
   bool movesUsedUp = false; ///< FRONT-6: expansions are left for the next update
   std::uint32_t expansions = 0;
@@ -65,7 +65,7 @@ struct RenderFront::State
   void finish(const ResidencySnapshot& residency);
 };
 
-/// What others take of a shared limit is no input: it may change with every update of theirs.
+/// The part of a shared limit that others take is no input: each update of theirs may change it.
 void RenderFront::State::adopt(const View& newView, const FrontLimits& newLimits)
 {
   inputChanged = update == 0 || view != newView || !(limits == newLimits);

@@ -7,8 +7,8 @@
 namespace pointfront
 {
 
-/// What the updates of a selection saw of the residency, and whether it can still bring what they
-/// miss.
+/// The state of the residency that the updates of a selection saw, and whether it can still bring
+/// the nodes that they miss.
 /// Threads  one.
 class SeenResidency
 {
@@ -35,7 +35,7 @@ public:
       sameView && sameRevision_ && missing > 0 && now.exhausted() && now.revision() == revision_;
   }
 
-  /// Of the requests of the last update nothing more can come.
+  /// Whether no node that the last update requested can come any more.
   bool exhausted() const { return exhausted_; }
 
 private:

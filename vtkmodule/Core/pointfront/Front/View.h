@@ -24,7 +24,7 @@ struct View
   /// shows it larger. Perspective: at depth 1; parallel: at any depth.
   double pixelsPerUnit = 1.0;
   double nearDistance = 0.1; ///< along `direction`, > 0
-  int width = 1; ///< of the viewport, pixels
+  int width = 1; ///< width of the viewport, pixels
   int height = 1;
   /// Left, right, bottom, top, near, far: (n, d) with n unit length and n.p + d >= 0 inside. A far
   /// plane beyond what the matrix can resolve (far / near > 1e14) has d of the largest double.

@@ -12,7 +12,7 @@ namespace
 constexpr double waterLevel = 38.0; // metres; about a tenth of the ground lies below
 constexpr double plotSize = 36.0; // a building plot
 constexpr double treeCell = 7.0; // at most one tree a cell
-constexpr double townWavelength = 900.0; // of the noise that decides between town and country
+constexpr double townWavelength = 900.0; // decides between town and country
 constexpr double woodWavelength = 260.0;
 
 // Streams of random numbers that must not repeat each other.

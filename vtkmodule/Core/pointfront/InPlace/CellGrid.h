@@ -84,7 +84,7 @@ private:
   unsigned topBits_;
   std::vector<Cells> levels_;
   std::vector<std::size_t> sizes_;
-  std::vector<unsigned> logSides_; ///< of a cell, by level
+  std::vector<unsigned> logSides_; ///< for each level, log2 of a cell's side
 };
 
 } // namespace pointfront

@@ -37,7 +37,7 @@ public:
   /// Null for the normals: nobody knows them before they are computed.
   Result<std::shared_ptr<const NodeRanges>> nodeRanges(
     std::uint32_t component, NodeIndex most = noNode) const override;
-  /// Of what the files hold.
+  /// Verifies the content of the files.
   Result<VerifyReport> verify(const ProgressFunction& progress = {}) const override
   {
     return cloud_->verify(progress);
@@ -51,7 +51,7 @@ private:
   std::shared_ptr<const StoredCloud> cloud_;
   std::shared_ptr<const NodeNormals> normals_;
   StoreDescription description_;
-  std::uint32_t column_ = 0; ///< of the normals
+  std::uint32_t column_ = 0; ///< number of the normals' column
 };
 
 /// Opens clouds as another format does, each with computed normals if it has none of its own.

@@ -45,7 +45,7 @@ std::vector<std::uint32_t> sortedByKey(const std::vector<std::uint32_t>& keys)
   std::vector<std::uint32_t> next(keys.size());
   for (unsigned shift = 0; shift < 3 * digitBits; shift += digitBits)
   {
-    std::array<std::uint32_t, mask + 2> begin{}; // of each digit in `next`
+    std::array<std::uint32_t, mask + 2> begin{}; // first of each digit in `next`
     for (const std::uint32_t key : keys)
     {
       ++begin[(key >> shift & mask) + 1];

@@ -52,8 +52,8 @@ struct ForeignTreeContent
 {
   SourceDescription source; ///< with a grid
   std::uint64_t fileBytes = 0;
-  glm::dvec3 low{ 0.0 }; ///< of the root's cube
-  double side = 0.0; ///< of it
+  glm::dvec3 low{ 0.0 }; ///< lowest corner of the root's cube
+  double side = 0.0; ///< side of the root's cube
   double spacing = 0.0; ///< between points of the root; not positive: a 128th of the side
   std::vector<ForeignNode> nodes; ///< in any order
   std::shared_ptr<const ForeignNodes> reader;
@@ -110,7 +110,7 @@ private:
   /// The first node, with the columns of the last request. Colours are chosen from its points
   /// before it is drawn, and reading it again would take as long as the rest of the first picture.
   mutable std::unique_ptr<const NodeColumns> kept_;
-  mutable std::mutex mutex_; ///< of kept_
+  mutable std::mutex mutex_; ///< guards kept_
 };
 
 } // namespace pointfront

@@ -18,7 +18,7 @@ struct GridRecords
   const std::byte* first = nullptr;
   std::size_t stride = 0; ///< bytes from one record to the next, at least 12
   std::uint64_t count = 0;
-  std::uint64_t fileOffset = 0; ///< of the first record: tells which pages a record lies on
+  std::uint64_t fileOffset = 0; ///< offset of the first record: tells which pages a record lies on
 
   const std::byte* record(std::uint64_t index) const { return first + index * stride; }
   glm::ivec3 position(std::uint64_t index) const

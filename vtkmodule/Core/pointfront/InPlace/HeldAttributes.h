@@ -25,7 +25,7 @@ struct SideFilePayload
 /// values lie. Nothing where it holds none.
 void putHeldAttributes(ByteWriter& out, const SideFileContent& content);
 
-/// What is wrong with the rest of a table's bytes, or an empty text with `content` filled, whose
+/// The fault of the rest of a table's bytes, or an empty text with `content` filled, whose
 /// nodes and description are there.
 std::string heldAttributesFault(
   ByteReader& in, const SideFilePayload& payload, SideFileContent& content);

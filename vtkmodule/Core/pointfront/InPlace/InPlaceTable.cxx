@@ -90,7 +90,7 @@ Result<void> countCells(CellGrid& cells, const GridRecords& records, std::uint32
     {
       return done;
     }
-    weight = 0.0; // of passes that few files need
+    weight = 0.0; // few files need these passes
   } while (cells.refine(leafPoints));
   return {};
 }

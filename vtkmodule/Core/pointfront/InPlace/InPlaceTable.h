@@ -18,11 +18,11 @@ namespace pointfront
 /// The facts about a node in the side file that the node table's row lacks.
 struct InPlaceRow
 {
-  std::uint64_t offset = 0; ///< of its list of runs in the side file
-  std::uint32_t bytes = 0; ///< of the list
-  std::uint32_t checksum = 0; ///< of the list
+  std::uint64_t offset = 0; ///< offset of its list of runs in the side file
+  std::uint32_t bytes = 0; ///< size of the list
+  std::uint32_t checksum = 0; ///< checksum of the list
   glm::ivec3 low{ 0 }; ///< lowest grid position of its points and of all below
-  std::uint32_t pages = 0; ///< of 4096 bytes that its points lie on in the points' file
+  std::uint32_t pages = 0; ///< pages of 4096 bytes that its points lie on in the points' file
   std::uint8_t logStep = 0; ///< inner nodes: the list is of strata of the stream of 2^logStep
 };
 
@@ -51,7 +51,7 @@ struct InPlaceTable
 {
   std::vector<Node> nodes;
   std::vector<InPlaceRow> rows;
-  /// Of the attributes that the side file holds: those of nodes[0], of nodes[1] ... Empty: none.
+  /// Blocks of the side file's attributes: those of nodes[0], of nodes[1] ... Empty: none.
   std::vector<ValueBlock> blocks;
   std::uint64_t leafRuns = 0; ///< runs of consecutive points, over all leaves
   std::uint64_t spilledBytes = 0;

@@ -13,8 +13,8 @@ namespace pointfront
 {
 namespace
 {
-/// Of radius and spacing of points that are chosen at random: the quantile that NodeSplat takes, of
-/// a white noise on a plane (docs/adr/0017).
+/// Ratio of radius to spacing of points that are chosen at random: the quantile that NodeSplat
+/// takes, of a white noise on a plane (docs/adr/0017).
 constexpr double randomRatio = 1.58;
 /// A leaf of more points is one of many slices of a place: its points lie over one another.
 constexpr std::uint64_t mostPoints = std::uint64_t(1) << 20;
@@ -108,7 +108,7 @@ void LeafSplats::fill(std::vector<Node>& nodes) const
       nodes[i].splatRadius = toFloat(randomRatio * spacing(i));
       continue;
     }
-    // Of the measured leaf before and the one behind.
+    // The measured leaf before, and the one behind.
     const auto behind = static_cast<std::size_t>(
       std::lower_bound(measured_.begin(), measured_.end(), i) - measured_.begin());
     double sum = 0.0;

@@ -43,7 +43,7 @@ private:
   const QuadTree& tree_;
   const GridRecords& records_;
   std::function<void(std::uint64_t, std::uint64_t)> released_;
-  double stepArea_; ///< of a step by a step of the grid, world units
+  double stepArea_; ///< area of a step by a step of the grid, world units
   NodeSplat splat_;
   std::vector<NodeIndex> measured_; ///< leaves, ascending
   std::vector<double> ratios_; ///< theirs, of pointSpacing(); 0: none was found

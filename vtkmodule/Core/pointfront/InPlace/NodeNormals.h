@@ -17,7 +17,7 @@ class NodeNormals
 {
 public:
   virtual ~NodeNormals() = default;
-  /// What they are made of, for the user: "of planes through 16 points of the node".
+  /// Their origin, for the user: "of planes through 16 points of the node".
   virtual std::string origin() const = 0;
   /// `normals[i]` is that of `positions[i]`, facing up; zero where there is none. Pure: the same
   /// positions, in any order, give the same normals.

@@ -128,7 +128,7 @@ void QuadTree::slice(Draft& draft)
 
 void QuadTree::arrange(std::uint32_t root)
 {
-  std::vector<std::uint32_t> drafts{ root }; // of nodes_, in its order
+  std::vector<std::uint32_t> drafts{ root }; // numbers in nodes_, in its order
   nodes_.push_back(drafts_[root].node);
   for (std::size_t i = 0; i < nodes_.size(); ++i)
   {

@@ -20,9 +20,9 @@ struct QuadNode
   bool sliced = false; ///< its children share its square: they are slices of the file's order
   std::uint64_t points = 0; ///< in its square, as counted
   std::uint64_t sliceStep = 0; ///< sliced only: points of each child but the last
-  double area = 0.0; ///< of the cells in its square that hold points, square steps
+  double area = 0.0; ///< area of the cells in its square that hold points, square steps
   Square square;
-  CellGrid::Range range; ///< of a leaf, and of a sliced node: its cells
+  CellGrid::Range range; ///< cells of a leaf, and of a sliced node
 
   bool leaf() const { return childCount == 0; }
 };

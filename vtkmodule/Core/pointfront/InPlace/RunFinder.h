@@ -14,7 +14,7 @@ struct LeafRun
   NodeIndex leaf = noNode; ///< or a sliced node
   std::uint64_t first = 0;
   std::uint64_t count = 0;
-  RecordBox box; ///< of exactly these points
+  RecordBox box; ///< box of exactly these points
 };
 
 /// Cuts a stretch of a file into runs by stepping and bisection.

@@ -18,7 +18,7 @@ namespace pointfront
 struct HeldSample
 {
   NodeIndex holder = noNode;
-  std::uint64_t stratum = 0; ///< of the holder's stream
+  std::uint64_t stratum = 0; ///< stratum of the holder's stream
   std::uint64_t point = 0;
 };
 
@@ -27,7 +27,7 @@ struct RunBatch
 {
   std::vector<LeafRun> runs;
   std::vector<HeldSample> samples; ///< ascending by point
-  std::vector<std::size_t> sampleEnd; ///< of run i in `samples`; they begin where i - 1 ends
+  std::vector<std::size_t> sampleEnd; ///< end of run i in `samples`; it begins where i - 1 ends
 };
 
 /// Tells which points of runs are held above their leaves. Constant once made: for all threads.
@@ -56,7 +56,7 @@ public:
     RunListWriter list;
     std::uint64_t points = 0; ///< that the node holds
     RecordBox box; ///< leaves only: of the points in its runs
-    std::uint64_t pages = 0; ///< of 4096 bytes of the file that its points lie on
+    std::uint64_t pages = 0; ///< pages of 4096 bytes of the file that its points lie on
     std::uint64_t lastPage = UINT64_MAX;
   };
 
@@ -77,7 +77,7 @@ private:
   struct Spill
   {
     std::unique_ptr<SpillFile> file;
-    std::vector<std::uint64_t> ends; ///< of each node's bytes
+    std::vector<std::uint64_t> ends; ///< end of each node's bytes
   };
   void enter(const LeafRun& run, const HeldSample* samples, std::size_t sampleCount);
   void enterSlices(const LeafRun& run, const HeldSample* samples, std::size_t sampleCount);

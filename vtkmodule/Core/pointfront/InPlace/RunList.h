@@ -43,7 +43,7 @@ private:
 
   std::vector<std::byte> bytes_;
   Run pending_;
-  std::uint64_t end_ = 0; ///< of the last run coded
+  std::uint64_t end_ = 0; ///< end of the last run coded
   std::uint64_t runs_ = 0;
 };
 

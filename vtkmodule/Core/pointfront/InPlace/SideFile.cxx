@@ -16,7 +16,7 @@ namespace
 {
 constexpr std::size_t headerBytes = 64;
 constexpr std::size_t rowBytes = 40;
-/// Of files without attributes of their own: programs that know no such read them.
+/// Version of files without attributes of their own: programs that know no such read them.
 constexpr std::uint32_t versionWithoutBlocks = 2;
 constexpr unsigned largestLogStep = 40;
 constexpr const char* again = "; index the file again: pointfront index --force";
@@ -123,7 +123,7 @@ std::string rowFault(const InPlaceTable& table, NodeIndex i, const SideFilePaylo
   return !inside ? "its list lies outside the file" : !stepsFall ? "its step is impossible" : "";
 }
 
-/// What is wrong with the table's bytes, or an empty text with `content` filled.
+/// The fault of the table's bytes, or an empty text with `content` filled.
 std::string tableFault(
   const std::byte* data, std::size_t size, const Header& header, SideFileContent& content)
 {

@@ -29,8 +29,8 @@ struct IndexedFile
   std::uint64_t points = 0;
   std::uint64_t firstRecord = 0; ///< byte offset
   std::uint32_t recordBytes = 0;
-  std::uint32_t headerChecksum = 0; ///< of all bytes before the first record
-  std::uint32_t edgesChecksum = 0; ///< of the first and the last 64 KiB of the records
+  std::uint32_t headerChecksum = 0; ///< checksum of all bytes before the first record
+  std::uint32_t edgesChecksum = 0; ///< checksum of the first and the last 64 KiB of the records
 };
 
 /// The content of a side file except its lists of runs.

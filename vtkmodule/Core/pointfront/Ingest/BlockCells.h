@@ -23,7 +23,7 @@ struct CellRun
 /// cells. Those of one class and cell keep their input order.
 struct PoolBlock
 {
-  std::uint64_t first = 0; ///< of its records
+  std::uint64_t first = 0; ///< number of the first of its records
   std::uint64_t count = 0;
   unsigned shift = 0;
   std::vector<CellRun> runs; ///< they follow each other without a gap
@@ -63,7 +63,7 @@ public:
 
   /// Runs of the block, by class and then along the Morton curve.
   std::vector<CellRun> order();
-  unsigned runShift() const { return runShift_; } ///< of order()
+  unsigned runShift() const { return runShift_; } ///< shift of order()
   /// After order(): each record to its place.
   void scatter(const std::byte* records, std::size_t recordBytes, std::byte* to);
 
@@ -84,7 +84,7 @@ private:
   std::vector<CellRun> cells_; // in the order in which they were met
   std::size_t met_ = 0; // cells of the last block that was ordered
   std::size_t records_ = 0;
-  std::vector<std::uint32_t> numbers_; // of each record's cell
+  std::vector<std::uint32_t> numbers_; // number of each record's cell
   std::vector<std::uint32_t> slots_; // hash table of numbers in cells_, plus one
   std::vector<std::uint32_t> places_; // where the next record of each cell goes
 };

@@ -28,7 +28,7 @@ public:
   }
 
   bool byClass() const { return offset_.has_value(); }
-  const std::vector<std::uint8_t>& classes() const { return classes_; } ///< of each layer
+  const std::vector<std::uint8_t>& classes() const { return classes_; } ///< class of each layer
   std::size_t layerOf(const std::byte* record) const
   {
     return offset_ ? layerOf_[std::to_integer<std::uint8_t>(record[*offset_])] : 0u;

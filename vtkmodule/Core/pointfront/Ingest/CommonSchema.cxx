@@ -273,7 +273,7 @@ void convertColumn(const Attribute& from, const std::byte* in, const Attribute& 
       return convertTo<std::int64_t>(from, in, to, out, values);
     case ScalarType::UInt64:
       return convertTo<std::uint64_t>(from, in, to, out, values);
-    // What follows is no wider than what a source has; the type alone says how much may be written.
+    // A range is no wider than that of a source; the type alone says how much may be written.
     case ScalarType::Int8:
       return convertTo<std::int8_t>(from, in, to, out, values);
     case ScalarType::UInt8:

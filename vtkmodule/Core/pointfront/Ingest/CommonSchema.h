@@ -16,7 +16,7 @@ namespace pointfront
 /// Where one source has the values of one common column.
 struct ColumnMapping
 {
-  std::optional<std::size_t> column; ///< of the source; nothing: the source lacks it, zeros
+  std::optional<std::size_t> column; ///< column of the source; nothing: the source lacks it, zeros
   bool converted = false; ///< type, scale or offset differ from the common column
 };
 
@@ -37,8 +37,8 @@ struct CommonSchema
 Result<CommonSchema> commonSchema(const std::vector<std::unique_ptr<PointSource>>& sources,
   const std::optional<std::vector<std::string>>& wanted);
 
-/// What the codes in the column `splat_radius` of the sources are multiples of; 0 where there is no
-/// such column, where sources that have it do not say, or say different things.
+/// The base that the codes in the column `splat_radius` of the sources are multiples of; 0 where
+/// there is no such column, where sources that have it do not say, or say different things.
 double commonSplatRadiusBase(const std::vector<std::unique_ptr<PointSource>>& sources);
 
 /// `count` values of `from` (packed) as `to`; components are equal in number.

@@ -118,7 +118,7 @@ AxisValues sampledValues(const Sources& sources)
   return values;
 }
 
-/// What the points occupy on one axis: the extent of nine tenths of them without the widest gaps
+/// The length that points occupy on one axis: the extent of nine tenths without the widest gaps
 /// between two neighbours. Two clouds that lie far apart occupy what each has, not their distance.
 double occupied(const std::vector<double>& sorted)
 {
@@ -131,7 +131,7 @@ double occupied(const std::vector<double>& sorted)
     gaps.push_back(sorted[i] - sorted[i - 1]);
     sum += gaps.back();
   }
-  const std::size_t left = std::min(mostGaps, twentieth); // of a few points every gap is a wide one
+  const std::size_t left = std::min(mostGaps, twentieth); // few points: every gap is a wide one
   std::partial_sort(
     gaps.begin(), gaps.begin() + static_cast<std::ptrdiff_t>(left), gaps.end(), std::greater<>());
   if (left == 0)
@@ -141,7 +141,7 @@ double occupied(const std::vector<double>& sorted)
   return std::accumulate(gaps.begin() + static_cast<std::ptrdiff_t>(left), gaps.end(), 0.0);
 }
 
-/// What most points occupy on each axis, in world units; nothing if no point could be read.
+/// The size that most points occupy on each axis, world units; nothing if no point could be read.
 std::optional<glm::dvec3> bulkSize(const Sources& sources)
 {
   const AxisValues values = sampledValues(sources);
@@ -183,7 +183,7 @@ double largest(const glm::dvec3& size)
 Result<double> stepAmongOutliers(double extent, double bulk)
 {
   constexpr double mostSteps = 2.0e9; // 32 bits, less what the tree's alignment takes
-  constexpr double leastSteps = 1.0e4; // of what most points have
+  constexpr double leastSteps = 1.0e4; // steps of the extent of most points
   const double step = std::pow(10.0, std::ceil(std::log10(extent / mostSteps)));
   if (bulk < leastSteps * step)
   {

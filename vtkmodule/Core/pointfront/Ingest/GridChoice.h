@@ -15,7 +15,7 @@ namespace pointfront
 struct GridChoice
 {
   QuantisationGrid grid;
-  GridPosition low{ 0 }; ///< of the declared extent, in steps; a hint
+  GridPosition low{ 0 }; ///< low corner of the declared extent, in steps; a hint
   GridPosition high{ 0 };
   std::vector<std::string> warnings; ///< which source is rounded, by how much at most
 };

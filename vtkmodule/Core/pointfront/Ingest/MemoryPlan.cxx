@@ -55,8 +55,8 @@ std::uint64_t leastBytes(const BuildSize& demand)
     readBytes(demand), std::min(demand.points, leastPartPoints(demand)) * partPointBytes(demand));
 }
 
-/// What the allocator keeps, tables of cells and nodes, decoders, the pages of mapped inputs, the
-/// buffers of a spill.
+/// Takes off the allocator's rest, tables of cells and nodes, decoders, the pages of mapped inputs,
+/// the buffers of a spill.
 std::uint64_t withoutOverhead(std::uint64_t bytes)
 {
   return bytes - bytes / 4;
@@ -80,7 +80,7 @@ MemoryPlan divided(const BuildSize& demand, std::uint64_t available, bool spill)
   const std::uint64_t forBlock = share - tables - std::min(share - tables, batchBytes(demand));
   plan.blockPoints = std::clamp<std::uint64_t>(
     forBlock / blockPointBytes(demand), 1024, spill ? mostBlockPoints : memoryBlockPoints);
-  if (spill) // of what parts leave, so that little memory is still enough
+  if (spill) // from the rest of the parts, so that little memory is still enough
   {
     const std::uint64_t left = share - std::min(share, plan.partPoints * partPointBytes(demand));
     const std::uint64_t part = std::max<std::uint64_t>(1, plan.partPoints * demand.recordBytes);

@@ -8,7 +8,7 @@
 namespace pointfront
 {
 
-/// What a build needs to know to divide its memory.
+/// The sizes by which a build divides its memory.
 struct BuildSize
 {
   std::uint64_t points = 0; ///< at most

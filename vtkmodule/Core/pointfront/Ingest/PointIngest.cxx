@@ -98,7 +98,7 @@ public:
   Result<IngestedPoints> finish();
 
 private:
-  /// What one thread did.
+  /// The work of one thread.
   struct Share
   {
     std::uint64_t points = 0; ///< read
@@ -115,7 +115,7 @@ private:
   std::optional<std::size_t> classOffset_;
   unsigned shift_;
   std::vector<ChunkRun> runs_;
-  std::vector<bool> onGrid_; // of each source: its grid is the store's
+  std::vector<bool> onGrid_; // whether the grid of each source is the store's
   std::optional<WriteBehind> behind_; // for a pool on disk
   std::atomic<std::size_t> nextRun_{ 0 };
   std::atomic<bool> guessedWrong_{ false };

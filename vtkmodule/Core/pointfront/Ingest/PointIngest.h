@@ -25,7 +25,7 @@ struct IngestSite
   const CommonSchema& common;
   const RecordColumns& columns;
   const TreeSpace& space;
-  RecordPool& pool; ///< of records with those columns
+  RecordPool& pool; ///< pool of records with those columns
   std::uint64_t blockPoints = 0;
   unsigned leastCellsLog2 = 0; ///< cells along the extent, at least; if bounds are what they say
   WorkCrew& crew;
@@ -40,16 +40,16 @@ struct IngestedPoints
   GridPosition low{ INT64_MAX }; ///< grid steps
   GridPosition high{ INT64_MIN };
   ClassCounts counts{ 0 };
-  std::vector<PoolBlock> blocks; ///< of the pool, in input order
+  std::vector<PoolBlock> blocks; ///< blocks of the pool, in input order
   std::vector<std::uint64_t> sourceEnd; ///< end of each source's records in the pool
-  std::vector<std::uint16_t> largestColour; ///< of each source's "rgb", 0 without one
-  unsigned hintedShift = 0; ///< of the cells before any were joined
+  std::vector<std::uint16_t> largestColour; ///< largest value of each source's "rgb", 0 without one
+  unsigned hintedShift = 0; ///< shift of the cells before any were joined
   double readSeconds = 0.0; ///< CPU, over all threads
   double quantiseSeconds = 0.0;
   /// A guess about a column that was left out of the records was wrong. Nothing else here is
   /// complete: the points must be read again with the wrong columns carried.
   bool guessedWrong = false;
-  std::vector<bool> wrong; ///< of the common columns
+  std::vector<bool> wrong; ///< for each common column
 };
 
 /// Reads every chunk of every source once: decodes, rejects what is no position, rounds to the

@@ -12,7 +12,7 @@ using Sources = std::vector<std::unique_ptr<PointSource>>;
 /// Decoded twice: a fraction of a percent of the clouds for which it matters.
 constexpr std::uint64_t guessedChunks = 6;
 
-/// What the chunks seen so far have in common.
+/// The columns that all chunks seen so far have in common.
 class Candidates
 {
 public:

@@ -27,7 +27,7 @@ public:
   RecordColumns(const AttributeSchema& common, std::vector<std::optional<ConstantValue>> constants,
     std::optional<std::size_t> narrow);
 
-  const AttributeSchema& schema() const { return schema_; } ///< of the columns carried
+  const AttributeSchema& schema() const { return schema_; } ///< schema of the columns carried
   /// The place of a common column in schema(); nothing for a constant one.
   const std::optional<std::size_t>& place(std::size_t column) const { return places_[column]; }
   const std::optional<ConstantValue>& constant(std::size_t column) const
@@ -47,7 +47,7 @@ private:
   std::optional<std::size_t> narrowed_;
 };
 
-/// What may be left out of records, and is told apart from what must not.
+/// The columns that may be left out of records, told apart from those that must not.
 struct ColumnGuess
 {
   std::vector<bool> mayBeConstant; ///< for each common column

@@ -182,7 +182,7 @@ bool RecordPacker::append(
 {
   assert((count_ + batch.size()) * layout_.bytes() <= records_.size());
   bool right = true;
-  std::size_t kept = 0; // of the batch, at its beginning
+  std::size_t kept = 0; // number kept of the batch, at its beginning
   for (std::size_t begin = 0; begin < batch.size(); begin += scatteredPoints)
   {
     const std::size_t end = std::min(batch.size(), begin + scatteredPoints);

@@ -43,8 +43,8 @@ public:
   /// Common columns that must be carried after all.
   const std::vector<bool>& wrong() const { return wrong_; }
 
-  std::size_t count() const { return count_; } ///< of the block
-  std::uint16_t largestColour() const { return largestColour_; } ///< of the block
+  std::size_t count() const { return count_; } ///< records of the block
+  std::uint16_t largestColour() const { return largestColour_; } ///< largest colour of the block
   /// After the last append() of a block, which is counted then.
   std::vector<CellRun> order();
   unsigned runShift() const { return cells_.runShift(); }

@@ -8,7 +8,7 @@ namespace
 {
 constexpr const char* projectionOwner = "LASF_Projection";
 
-/// What a source says of its system, comparable: WKT, else its projection records byte by byte.
+/// The system that a source states, comparable: WKT, else its projection records byte by byte.
 std::vector<std::byte> statedSystem(const SourceDescription& source)
 {
   std::vector<std::byte> stated;

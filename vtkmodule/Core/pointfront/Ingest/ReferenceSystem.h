@@ -14,7 +14,7 @@ namespace pointfront
 struct ReferenceSystem
 {
   std::string wkt;
-  std::vector<MetadataRecord> metadata; ///< of the first source that has any
+  std::vector<MetadataRecord> metadata; ///< metadata of the first source that has any
   std::vector<std::string> warnings;
 };
 

@@ -82,7 +82,7 @@ std::array<KdMeanBuilder::Range, 2> KdMeanBuilder::halves(
   const auto wanted =
     static_cast<std::ptrdiff_t>(kdLeftPoints(range.second - range.first, nodePoints_));
   std::nth_element(places_.begin(), places_.begin() + wanted, places_.end());
-  const auto first = places_[static_cast<std::size_t>(wanted)]; // of the right
+  const auto first = places_[static_cast<std::size_t>(wanted)]; // first of the right half
   const auto middle =
     std::stable_partition(active_.begin() + static_cast<std::ptrdiff_t>(range.first),
       active_.begin() + static_cast<std::ptrdiff_t>(range.second),

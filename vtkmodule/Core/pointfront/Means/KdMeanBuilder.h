@@ -41,7 +41,7 @@ private:
   /// nodes of all levels about as many points.
   static constexpr unsigned leastShare = 2;
 
-  using Range = std::pair<std::size_t, std::size_t>; ///< of active_
+  using Range = std::pair<std::size_t, std::size_t>; ///< range in active_
 
   Branch branch(const RecordSpan& records, const Range& range);
   Branch leafOf(const RecordSpan& records, const Range& range);

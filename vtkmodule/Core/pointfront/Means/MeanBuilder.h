@@ -13,8 +13,8 @@
 namespace pointfront
 {
 
-/// What builders of trees with `replace` refinement do, whatever divides the tree: the points of
-/// the input are in the leaves, an inner node holds mean representatives (MeanCells.h).
+/// Common part of builders of trees with `replace` refinement, whatever divides the tree: the
+/// points of the input are in the leaves, an inner node holds mean representatives (MeanCells.h).
 /// An open subtree holds the representatives of its root, or the points of a leaf, as records of
 /// MeanRecord in Morton order.
 class MeanBuilder : public EmittingBuilder
@@ -29,11 +29,11 @@ protected:
   struct Branch
   {
     std::unique_ptr<BuiltNode> node;
-    std::vector<std::byte> means; ///< what `view` shows of an inner node built here
+    std::vector<std::byte> means; ///< the records that `view` shows of an inner node built here
     RecordSpan view;
     bool original = false; ///< the view shows records of the pool
     std::vector<std::uint32_t> held; ///< numbers in the view, Morton order
-    std::optional<CellOccupancy> occupancy; ///< of `held`, where it is known already
+    std::optional<CellOccupancy> occupancy; ///< occupancy of `held`, where it is known already
   };
 
   /// `leastShare`: as MeanCells has it.
@@ -56,7 +56,7 @@ protected:
   void adopt(Branch& parent, std::vector<Branch> children);
   OpenSubtree opened(Branch branch);
 
-  MeanCells cells_; ///< of the node at hand
+  MeanCells cells_; ///< cells of the node at hand
 };
 
 } // namespace pointfront

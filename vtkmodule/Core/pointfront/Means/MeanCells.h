@@ -13,9 +13,9 @@
 namespace pointfront
 {
 
-/// What the children of a node hold, and the representatives that the node makes of it: one for
-/// each cell of its grid (MeanRecord.h). Cells are so coarse that a representative stands in for
-/// `leastShare` points or representatives at least, on average.
+/// Makes a node's representatives from the points or representatives that its children hold: one
+/// for each cell of its grid (MeanRecord.h). Cells are so coarse that a representative stands in
+/// for `leastShare` points or representatives at least, on average.
 /// Threads  one a thread.
 /// Source   Richter & Doellner 2010, section 3.1 and figure 3.
 class MeanCells
@@ -38,7 +38,7 @@ public:
   /// Puts all of them into Morton order: needed where what was added lies in between each other.
   /// Equal positions keep their order.
   void sort();
-  /// Of all of them, in Morton order.
+  /// Occupancy of all of them, in Morton order.
   CellOccupancy occupancy() const;
 
   /// The representatives, packed, in Morton order. `log2Side`: of the cell of the tree that holds
@@ -54,7 +54,7 @@ private:
   SamplingRule rule_;
   unsigned leastShare_;
   std::vector<MeanInput> inputs_;
-  std::vector<TreePosition> positions_; // of inputs_
+  std::vector<TreePosition> positions_; // positions of inputs_
 };
 
 } // namespace pointfront

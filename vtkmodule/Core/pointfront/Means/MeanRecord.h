@@ -55,7 +55,7 @@ public:
 private:
   struct Mean
   {
-    std::size_t offset = 0; ///< of the component in the record
+    std::size_t offset = 0; ///< offset of the component in the record
     ScalarType type = ScalarType::UInt8;
     bool normal = false; ///< the first of three components that have length 1 together
     double sum = 0.0;
@@ -70,11 +70,11 @@ private:
   void addMeans(const MeanInput* first, const MeanInput* last);
   void writeMeans(std::byte* out);
 
-  glm::dvec3 stepLength_; ///< of a tree step on each axis, world units
+  glm::dvec3 stepLength_; ///< length of a tree step on each axis, world units
   TreePosition gridStep_; ///< tree steps between positions that can be stored
   std::size_t recordBytes_;
   std::size_t radiusOffset_;
-  std::optional<std::size_t> splatOffset_; ///< of the byte, if there is one
+  std::optional<std::size_t> splatOffset_; ///< offset of the byte, if there is one
   std::size_t meansOffset_; ///< behind weight and mean position
   std::vector<Mean> means_;
 };

@@ -82,7 +82,7 @@ public:
     }
   }
 
-  /// Of the farthest vertex.
+  /// Squared distance of the farthest vertex.
   double squaredExtent() const
   {
     float squared = 0.0f;
@@ -118,7 +118,7 @@ private:
   static constexpr float halfSide = 2.0f;
   static constexpr std::size_t mostVertices = 4 + NearOffsets::most + 1;
   static constexpr std::size_t fours = (mostVertices + 3) / 4;
-  std::array<FourFloats, fours> x_; ///< of the vertices, counter-clockwise
+  std::array<FourFloats, fours> x_; ///< coordinates of the vertices, counter-clockwise
   std::array<FourFloats, fours> y_;
   std::size_t count_ = 4;
 };

@@ -177,7 +177,7 @@ private:
     return static_cast<int>(std::max_element(along.begin(), along.end()) - along.begin());
   }
 
-  std::array<float, 16> x_; ///< of the lines, one a neighbour
+  std::array<float, 16> x_; ///< coordinates of the lines, one a neighbour
   std::array<float, 16> y_;
   bool tooNear_ = false;
 };

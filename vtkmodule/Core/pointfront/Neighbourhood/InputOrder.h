@@ -14,7 +14,7 @@ namespace pointfront
 struct SourceChunk
 {
   std::size_t source = 0;
-  std::uint64_t chunk = 0; ///< of that source
+  std::uint64_t chunk = 0; ///< number of the chunk in that source
 };
 
 /// Numbers the points of several sources in input order: by source, chunk, position in the chunk.
@@ -38,7 +38,7 @@ public:
 
   std::uint64_t points() const { return points_; }
   std::uint64_t largestChunk() const { return largestChunk_; } ///< points
-  std::uint64_t chunks() const { return chunkBegin_.size(); } ///< of all sources
+  std::uint64_t chunks() const { return chunkBegin_.size(); } ///< chunks of all sources
   SourceChunk chunk(std::uint64_t number) const
   {
     // Sources without a chunk begin where the next one does: the last that begins here owns it.

@@ -21,7 +21,7 @@ private:
     double cut = 0.0;
     std::int32_t axis = -1; ///< -1: a leaf
     std::uint32_t above = 0; ///< child beyond the cut; the one below follows its parent
-    std::uint32_t begin = 0; ///< of a leaf
+    std::uint32_t begin = 0; ///< first of a leaf
     std::uint32_t end = 0;
   };
   std::uint32_t divide(std::uint32_t begin, std::uint32_t end);

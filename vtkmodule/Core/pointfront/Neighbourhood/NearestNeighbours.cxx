@@ -18,8 +18,8 @@ namespace
 constexpr double readShare = 0.1; // twice
 constexpr double searchShare = 0.8;
 
-/// What a point of a tile needs while it is searched: itself, its place and the tree over it, its
-/// order, its value on the way to the column.
+/// Memory that a point of a tile takes while it is searched: for itself, its place and the tree
+/// over it, its order, its value on the way to the column.
 constexpr std::uint64_t tilePointBytes = sizeof(TilePoint) + 2 * sizeof(glm::dvec3) + 64;
 
 /// Points in a row along the curve that share what an index gives, and, of those, the ones that
@@ -119,7 +119,7 @@ Result<void> Search::run(std::size_t mostUnfinished)
   return {};
 }
 
-/// What one tile is searched with.
+/// The objects that search one tile.
 struct Search::TileWork
 {
   TileWork(GatheredPoints gatheredPoints, const Bounds& gatheredBox, std::size_t valueBytes)
@@ -133,7 +133,7 @@ struct Search::TileWork
   Bounds box; ///< that they were gathered from
   PlaceOrder queries;
   PositionSet references;
-  std::vector<std::byte> values; ///< of points[i]
+  std::vector<std::byte> values; ///< value of points[i]
   std::vector<bool> finished; ///< points[i]
   std::vector<UnfinishedPoint> unfinished;
   std::vector<std::uint32_t> places; ///< near one point

@@ -24,7 +24,7 @@ class NeighbourhoodFeature
 {
 public:
   virtual ~NeighbourhoodFeature() = default;
-  virtual std::size_t bytes() const = 0; ///< of a value
+  virtual std::size_t bytes() const = 0; ///< size of a value
   /// True if the value has the same bytes in whatever order the neighbours come: then they are not
   /// sorted, which is much of the time of a search.
   virtual bool orderFree() const { return false; }

@@ -142,7 +142,7 @@ void NeighbourCluster::search(const glm::dvec3& from, NeighbourList& list)
   {
     return;
   }
-  list.begin(set_, list.bound()); // what was found is far enough away for all neighbours
+  list.begin(set_, list.bound()); // the found ones are far enough away for all neighbours
   index_.search(from, list);
 }
 

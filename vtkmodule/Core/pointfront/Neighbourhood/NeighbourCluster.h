@@ -59,7 +59,7 @@ private:
   PlaceBall group_;
   PlaceBall few_;
   const PlaceBall* around_ = &group_; ///< that points choose from
-  NeighbourList nearest_; ///< of a middle
+  NeighbourList nearest_; ///< nearest of a middle
   NeighbourList within_; ///< a ball
   float likely_ = 0.0f; ///< squared distance to the last neighbour
   PlaceSelection selection_;

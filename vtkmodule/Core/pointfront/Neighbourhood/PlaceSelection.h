@@ -59,16 +59,16 @@ public:
   void rank();
 
   const Distances& measured() const { return measured_; }
-  /// Of those selected, in the order of the ball.
+  /// Distances of those selected, in the order of the ball.
   const Distances& distances() const { return distances_; }
   std::size_t size() const { return distances_.count; }
   /// Where in the ball a selected one is.
   std::uint32_t operator[](std::size_t i) const { return selected_[i]; }
   /// The one at a rank.
   std::uint32_t ranked(std::size_t rank) const { return order_[rank]; }
-  float limit() const { return limit_; } ///< of select()
+  float limit() const { return limit_; } ///< limit of select()
 
-  /// What a squared distance may be wrong in the order of rank().
+  /// Possible error of a squared distance in the order of rank().
   static constexpr float rankError = 3e-5f;
   /// A limit within which there are `fewest` to `most` of the distances; where ties or too few of
   /// them leave none, one with more, or `everything`. `likely`: about where it is.

@@ -80,7 +80,7 @@ private:
   std::size_t number_;
   ValueSource values_;
   SourceDescription description_;
-  std::vector<std::size_t> columns_; // of the new attributes
+  std::vector<std::size_t> columns_; // columns of the new attributes
   std::vector<std::size_t> bytes_;
   std::size_t valueBytes_ = 0;
 };

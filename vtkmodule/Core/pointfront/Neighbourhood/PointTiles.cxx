@@ -177,7 +177,7 @@ Result<void> PointTiles::Distribution::write(std::vector<Placed>& block)
   }
   std::partial_sum(end.begin(), end.end(), end.begin());
   std::vector<TilePoint> points(block.size());
-  for (const Placed& placed : block) // what begins a kind moves on to its end
+  for (const Placed& placed : block) // the first point of a kind moves on to its end
   {
     points[end[kindOf(placed)]++] = placed.point;
   }

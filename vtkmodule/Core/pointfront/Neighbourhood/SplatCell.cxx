@@ -21,20 +21,20 @@ namespace
 constexpr double overReach = 1.25;
 /// Farthest Voronoi vertex over the median distance to 15 neighbours: median over a surface.
 constexpr double vertexOfMedianDistance = 0.5;
-constexpr double mostScales = 4.0; ///< of a closed cell on a surface
-constexpr double openScales = 1.1; ///< of a cell at the rim: distances grow there, too
-constexpr double lineWidth = 0.1; ///< of eigenvalues: narrower is a line
+constexpr double mostScales = 4.0; ///< scales of a closed cell on a surface
+constexpr double openScales = 1.1; ///< scales of a cell at the rim: distances grow there, too
+constexpr double lineWidth = 0.1; ///< ratio of eigenvalues: narrower is a line
 constexpr double planeFlatness = 0.05; ///< thicker is a volume
-constexpr double volumeFourth = 0.6; ///< of the distance to the fourth neighbour
+constexpr double volumeFourth = 0.6; ///< share of the distance to the fourth neighbour
 constexpr double noVertexFourth = 0.55; ///< likewise, of a cell without a vertex
 constexpr std::size_t lineNeighbours = 8;
 constexpr std::size_t fewestBeforeGap = 3;
-constexpr double gapRatio = 2.0; ///< of distances of neighbours that follow each other
+constexpr double gapRatio = 2.0; ///< ratio of distances of neighbours that follow each other
 constexpr std::size_t fewestAround = 6; ///< neighbours, to call a point a stray
 constexpr double strayNearest = 0.5; ///< distance of the second over that of the last
 constexpr double strayDirection = 0.8; ///< length of the sum of offsets over the sum of lengths
 constexpr double scaleOfSpread = 0.5; ///< local scale over the spread of points of a surface
-constexpr std::size_t firstCheck = 6; ///< of whether more neighbours can cut a cell
+constexpr std::size_t firstCheck = 6; ///< neighbours before the first check whether more cut a cell
 
 double squaredLength(const glm::dvec3& v)
 {
@@ -48,7 +48,7 @@ struct Covariance
   glm::dvec3 products{ 0.0 }; ///< xy, xz, yz
 };
 
-/// Of the point and the first `count` of its neighbours, in units of `length`.
+/// Covariance of the point and the first `count` of its neighbours, in units of `length`.
 Covariance covarianceOf(const NearOffsets& near, std::size_t count, double length)
 {
   glm::dvec3 sum(0.0);
@@ -163,7 +163,7 @@ void rotate(double (&matrix)[3][3], double (&vectors)[3][3], int p, int q)
     vectors[k][q] = sine * v + cosine * vectors[k][q];
   }
 }
-/// Of the cell among neighbours in a plane, in units of 1 / share, which the axes' lengths are.
+/// Reach of the cell among neighbours in a plane, in units of 1 / share, the axes' lengths.
 CellPolygon::Reach reachOf(
   const NearOffsets& near, const glm::dvec3& first, const glm::dvec3& second, double share)
 {
@@ -213,7 +213,7 @@ NeighbourPlane neighbourPlane(const NearOffsets& near)
     rotate(matrix, vectors, 0, 2);
     rotate(matrix, vectors, 1, 2);
   }
-  std::array<int, 3> order{ 0, 1, 2 }; // of eigenvalues
+  std::array<int, 3> order{ 0, 1, 2 }; // order of eigenvalues
   std::sort(order.begin(), order.end(), [&](int a, int b) { return matrix[a][a] < matrix[b][b]; });
   const auto value = [&](std::size_t i) { return std::max(0.0, matrix[order[i]][order[i]]); };
   const double sum = value(0) + value(1) + value(2);
@@ -248,7 +248,7 @@ double splatRadius(const NearOffsets& near, const NeighbourPlane& plane, bool* r
     }
     return splatRadius(group, neighbourPlane(group), rim);
   }
-  // Of neighbour number n, or of the last one.
+  // Distance of neighbour number n, or of the last one.
   const auto distance = [&](std::size_t n)
   { return std::sqrt(near.squaredDistance(std::min(n, count) - 1)); };
   const double scale = vertexOfMedianDistance * distance((count + 1) / 2);

@@ -10,12 +10,12 @@ namespace pointfront
 /// The plane of a neighbourhood, and how plane it is. Eigenvalues are of the covariance.
 struct NeighbourPlane
 {
-  glm::dvec3 normal{ 0.0, 0.0, 1.0 }; ///< of length 1; its sign has no meaning
+  glm::dvec3 normal{ 0.0, 0.0, 1.0 }; ///< unit vector; its sign has no meaning
   double flatness = 1.0; ///< smallest eigenvalue over the sum: 0 a plane, 1/3 a ball
   double width = 0.0; ///< middle eigenvalue over the largest: 0 a line
 };
 
-/// Of the point and its neighbours.
+/// Fits a plane to the point and its neighbours.
 NeighbourPlane neighbourPlane(const NearOffsets& near);
 
 /// How large a disc at a point must be for the surface to close, from its nearest places:

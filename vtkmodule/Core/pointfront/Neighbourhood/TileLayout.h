@@ -68,7 +68,7 @@ private:
   TilingOptions options_;
   double edge_;
   double largestHalo_ = 0.0;
-  std::vector<double> halos_; // of each tile
+  std::vector<double> halos_; // halo of each tile
   std::vector<Tile> tiles_;
   std::vector<Node> nodes_;
 };

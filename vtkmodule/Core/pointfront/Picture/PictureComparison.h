@@ -17,8 +17,8 @@ struct PictureComparison
   std::uint64_t pixels = 0; ///< compared: those of the mask, or all
   double psnrDecibels = 0.0; ///< over red, green and blue; infinite where none differs
   double ssim = 0.0; ///< mean of structuralSimilarity()
-  double shareOver8 = 0.0; ///< of the pixels that differ by more than 8 of 255 in a channel
-  double meanDifference = 0.0; ///< of the grey pictures (0.299 R + 0.587 G + 0.114 B), 0 to 255
+  double shareOver8 = 0.0; ///< share of the pixels that differ by more than 8 of 255 in a channel
+  double meanDifference = 0.0; ///< mean of grey pictures (0.299 R + 0.587 G + 0.114 B), 0 to 255
   std::optional<double> holes; ///< % of the mask's pixels; none without a mask
   std::optional<double> bloat; ///< likewise
   std::optional<std::array<std::uint8_t, 3>> background; ///< that holes and bloat were told by

@@ -11,13 +11,13 @@ namespace pointfront
 {
 namespace
 {
-constexpr int radius = 5; // of a window of 11 pixels
+constexpr int radius = 5; // radius of a window of 11 pixels
 constexpr std::size_t windowRows = 2 * std::size_t(radius) + 1;
 constexpr double sigma = 1.5;
 constexpr double stabiliser1 = (0.01 * 255.0) * (0.01 * 255.0);
 constexpr double stabiliser2 = (0.03 * 255.0) * (0.03 * 255.0);
 
-/// What is averaged over a window.
+/// The moments that are averaged over a window.
 enum Moment : std::size_t
 {
   One,

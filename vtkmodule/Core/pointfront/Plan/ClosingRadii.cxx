@@ -16,7 +16,7 @@ namespace
 
 constexpr float mostOfDenser = 2.0f;
 constexpr double mostOfMean = 2.0;
-/// Of a node's ground, what another has to share to say how dense it is there.
+/// Share of a node's ground that another has to share to say how dense it is there.
 constexpr double leastShare = 0.25;
 
 /// A node's ground in world units.
@@ -79,15 +79,15 @@ std::vector<DrawnNode> nodesOf(const std::vector<DrawBatch>& batches, const Quan
   return nodes;
 }
 
-/// What closes the surface among finer nodes, from those that are drawn: the largest of those that
-/// are all there, but at most twice the mean over their points, as a few strays are no surface.
-/// Without such nodes the smallest: how far apart points are where some are left out is a matter of
-/// pixels (FramePlan::spacingPx), and what is far away, where nodes are coarse, says nothing about
-/// what is near.
+/// The radius that closes the surface among finer nodes, from those that are drawn: the largest of
+/// nodes that are all there, but at most twice the mean over their points, as a few strays are no
+/// surface. Without such nodes the smallest: how far apart points are where some are left out is a
+/// matter of pixels (FramePlan::spacingPx), and what is far away, where nodes are coarse, says
+/// nothing about what is near.
 struct FinerRadii
 {
-  double points = 0.0; ///< of nodes that are all there
-  double sum = 0.0; ///< of their radii
+  double points = 0.0; ///< points in nodes that are all there
+  double sum = 0.0; ///< sum of their radii
   float largestFinished = 0.0f;
   float leastUnfinished = 0.0f; ///< 0: there is none
   float sparsest = 0.0f;

@@ -9,9 +9,9 @@ namespace pointfront
 namespace
 {
 
-/// Of a prefix, over which sizes fall from full to nothing.
+/// Share of a prefix over which sizes fall from full to nothing.
 constexpr double fallingShare = 0.2;
-/// Of the time that nodes change places in: the new ones are whole from its half on, the old ones
+/// Share of the time that nodes change places in: the new ones are whole from it on, the old ones
 /// until then.
 constexpr double halfway = 0.5;
 constexpr double longestStep = 0.5;

@@ -15,7 +15,7 @@ namespace pointfront
 /// The time of a frame, and how detail grows in it.
 struct GrowthMoment
 {
-  double seconds = 0.0; ///< of any clock that does not go back: only differences count
+  double seconds = 0.0; ///< time of any clock that does not go back: only differences count
   double duration = 0.0; ///< seconds that a node takes to grow; 0: all is whole at once
   bool moving = false; ///< the view is in motion
 };
@@ -41,11 +41,11 @@ struct GrowthMoment
 class DetailGrowth
 {
 public:
-  /// What is drawn of a node.
+  /// The drawn prefix of a node.
   struct Shown
   {
     std::uint32_t points = 0; ///< a prefix, not longer than asked for
-    /// Of these, those that count when it is asked how far points are apart.
+    /// Number of these that count when it is asked how far points are apart.
     std::uint32_t spread = 0;
     PointGrowth growth;
   };
@@ -78,7 +78,7 @@ private:
     NodeIndex parent = noNode;
     std::weak_ptr<const NodeColumns> node; ///< not pinned from frame to frame
   };
-  /// What a frame shows, and the parents of it.
+  /// Nodes that a frame shows, and their parents.
   struct States
   {
     std::unordered_map<NodeIndex, State> nodes;
@@ -86,7 +86,7 @@ private:
 
     const State* find(NodeIndex node) const;
     State& add(NodeIndex node, NodeIndex parent);
-    /// What the node is made from, or what is made from it.
+    /// Whether the node's source, or a node made from it, is there.
     bool hasRelatives(NodeIndex node, NodeIndex parent) const;
   };
   Shown growOrdered(State& now, const NodeColumns& node);
@@ -97,7 +97,7 @@ private:
   bool begun_ = false;
   bool growing_ = false;
   bool whole_ = true;
-  double step_ = 0.0; ///< of `duration`, since the last frame; half of it at most
+  double step_ = 0.0; ///< share of `duration` since the last frame; half of it at most
   States before_;
   States now_;
 };

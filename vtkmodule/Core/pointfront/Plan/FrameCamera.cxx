@@ -88,7 +88,7 @@ void FrameCamera::setViewport(int viewportWidth, int viewportHeight, const Viewp
     {
       glm::dvec4& column = viewToClip[i];
       const glm::dvec2 alone = (glm::dvec2(column) * drawn - column.w * (low - high)) /
-        (drawn - low - high); // what the column is without a margin
+        (drawn - low - high); // the column's place without a margin
       const glm::dvec2 wider =
         (alone * shown + column.w * (newLow - newHigh)) / (shown + newLow + newHigh);
       column.x = wider.x;

@@ -36,7 +36,7 @@ struct FrameCamera
   /// camera's view space is moved by this into the eye's.
   glm::dvec3 cameraInView{ 0.0 };
   bool parallel = false;
-  int width = 1; ///< of the viewport and its margin, pixels
+  int width = 1; ///< width of the viewport and its margin, pixels
   int height = 1;
   ViewportMargin margin; ///< part of width, height and viewToClip; set by setViewport()
   int pictureHeight = 0; ///< pixels; of the picture of which the viewport is a tile; 0: it is all
@@ -54,9 +54,9 @@ struct FrameCamera
   void setViewport(int viewportWidth, int viewportHeight, const ViewportMargin& around);
 
   glm::dmat4 storeToClip() const { return viewToClip * storeToView; }
-  /// What depends on the height of a picture is the same in all of its tiles, pixels.
+  /// Lengths that depend on the height of a picture are the same in all of its tiles, pixels.
   int wholeHeight() const;
-  /// What the whole picture shows from bottom to top, world units; of a parallel view.
+  /// Height of the whole picture from bottom to top, world units; for a parallel view.
   double wholeWorldHeight() const;
 };
 

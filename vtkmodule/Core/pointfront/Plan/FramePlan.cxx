@@ -17,7 +17,7 @@ std::uint64_t FramePlan::pointCount() const
 std::vector<std::uint64_t> FramePlan::layerPoints() const
 {
   std::vector<std::uint64_t> points;
-  // Of a layer's batches the largest: the others are parts of it.
+  // The largest of a layer's batches: the others are parts of it.
   std::map<std::uint16_t, const DrawBatch*> largest;
   for (const DrawBatch& batch : batches)
   {

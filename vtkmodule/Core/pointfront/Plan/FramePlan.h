@@ -49,7 +49,7 @@ struct PlanItem
   /// Pixels between the points on screen while this node or finer nodes among its points grow, if
   /// more than FramePlan::spacingPx, which assumes that growth is over.
   float growingSpacingPx = 0.0f;
-  /// Of a stand-in (FramePlan::standIns): finer splats close the surface in its place, so it is
+  /// For a stand-in (FramePlan::standIns): finer splats close the surface in its place, so it is
   /// not to be seen any more.
   bool covered = false;
 };
@@ -60,7 +60,7 @@ struct DrawBatch
   std::uint16_t layer = 0;
   std::shared_ptr<const ResolvedStyle> style; ///< never null
   std::vector<PlanItem> items; ///< near to far, ties by node
-  std::uint8_t level = 0; ///< of stand-ins: that of their nodes
+  std::uint8_t level = 0; ///< level of a stand-in's nodes
 };
 
 /// The settings of a whole frame, whatever nodes it draws.
@@ -70,8 +70,8 @@ struct FrameSetting
   /// (n, d) in store coordinates: points with n . p + d < 0 for any of them are not drawn.
   std::vector<glm::dvec4> clippingPlanes;
   QuantisationGrid grid;
-  std::shared_ptr<const AttributeSchema> schema; ///< of the nodes' columns; never null
-  double splatRadiusBase = 0.0; ///< of the store's radii (SplatRadius.h); 0: none
+  std::shared_ptr<const AttributeSchema> schema; ///< schema of the nodes' columns; never null
+  double splatRadiusBase = 0.0; ///< base of the store's radii (SplatRadius.h); 0: none
   /// Pixels between the points on screen wherever the store has more points than are drawn: the
   /// front's threshold, or less where that is coarse and the points share the viewport more closely
   /// (docs/adr/0036). No splat need be smaller than this, whatever its measured radius. So a
@@ -111,7 +111,7 @@ struct FramePlan : FrameSetting
   std::uint64_t pointCount() const;
   /// The same of each layer by its number; layers beyond the list have none.
   std::vector<std::uint64_t> layerPoints() const;
-  std::size_t nodeCount() const; ///< of all batches
+  std::size_t nodeCount() const; ///< nodes of all batches
   /// Pixels that splats fill at least where they close the surface, by `spacingPx`, counted as
   /// often as they are filled. An estimate: it counts all points of nodes that are partly in sight.
   double fillPx() const;

@@ -16,7 +16,7 @@ namespace pointfront
 namespace
 {
 
-/// Of how far points of a node that grows are apart.
+/// Steps in which the distance of a growing node's points changes.
 constexpr double stepsAnOctave = 16.0;
 
 /// No splat is made larger than this, in pixels, to bridge what grows: a node around the eye is
@@ -30,7 +30,7 @@ constexpr double mostEvenSpacings = 4.0;
 /// Up to there the threshold is taken at its word.
 constexpr double smallSpacingPx = 8.0;
 
-/// Of the next step of a ladder: what differs by less is drawn alike, so in one group.
+/// Rounds to the next step of a ladder: smaller differences are drawn alike, so in one group.
 float inSteps(double spacingPx)
 {
   return static_cast<float>(
@@ -48,7 +48,7 @@ float growingSpacing(const NodeColumns& node, std::uint32_t spread, float spacin
   return inSteps(std::min(most, prefixErrorPx(points, spread, whole, spacingRatio)));
 }
 
-/// Of what is seen in a lens only, what can be.
+/// Keeps the nodes that can be seen, for a batch that is seen in a lens only.
 void keepWhatIsSeen(const FramePlan& plan, DrawBatch& batch)
 {
   const auto lens = static_cast<std::size_t>(std::max<std::int16_t>(batch.style->lens, 0));
@@ -84,7 +84,7 @@ PlanItem itemOf(std::shared_ptr<const NodeColumns> node, const DetailGrowth::Sho
   return item;
 }
 
-/// Of a refining view (FramePlan::refining) the nodes of the complete view; null: of any other.
+/// The nodes of the complete view, for a refining view (FramePlan::refining); null: for any other.
 const ExpectedNodes* expectedOf(const ViewFront& front, const PlanRequest& request)
 {
   const ExpectedNodes* const expected = front.expected();
@@ -131,7 +131,7 @@ struct LayerItems
   std::vector<DrawBatch> standIns; ///< without a style
 };
 
-/// Of a refining view: what is drawn of a node that has the size of the complete view.
+/// The item of a node in a refining view: it has the size of the complete view.
 PlanItem expectedItem(std::shared_ptr<const NodeColumns> node, DetailGrowth::Shown shown,
   const DrawItem& complete, double spacingPx)
 {
@@ -213,7 +213,7 @@ std::vector<DrawBatch> batchesOf(std::vector<std::vector<PlanItem>> items)
   return batches;
 }
 
-/// Of nodes that others draw, or that are drawn later, those of layers that have a style.
+/// Lists nodes that others draw, or that are drawn later, if their layers have a style.
 std::vector<NodeElsewhere> nodesElsewhere(
   const std::vector<TabledNode>& tabled, const std::vector<LayerStyles>& styles)
 {

@@ -23,12 +23,12 @@ struct FrameStatistics
   double thresholdPx = 0.0; ///< that the front worked with
   double frontMilliseconds = 0.0;
   std::int64_t gpuBytes = 0;
-  std::int64_t windowGpuBytes = 0; ///< of all clouds of the window
+  std::int64_t windowGpuBytes = 0; ///< memory of all clouds of the window
   /// Nothing is missing: no further frame of the same view differs.
   bool complete = false;
   bool limitedByPoints = false; ///< the budget of points, or a frame's time
   bool limitedByGpuMemory = false;
-  bool limitedByMemory = false; ///< of the host
+  bool limitedByMemory = false; ///< by the host's memory
   std::uint32_t failedNodes = 0; ///< that could not be read
 
   /// Takes the results of an update of the front. Points and nodes are those that the front names;

@@ -11,7 +11,7 @@ namespace pointfront
 namespace
 {
 
-/// Of what closes a surface, more than any technique draws.
+/// Factor of the closing radius, more than any technique draws.
 constexpr double mostOfClosing = 4.0;
 /// Pixels beyond that: the centre's own, a low-pass, rounding.
 constexpr double culledMarginPx = 8.0;

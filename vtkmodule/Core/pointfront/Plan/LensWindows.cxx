@@ -12,7 +12,7 @@ namespace pointfront
 namespace
 {
 
-/// Of a node's spacing, more than the splats of any technique reach.
+/// Times a node's spacing, more than the splats of any technique reach.
 constexpr double mostOfSpacing = 8.0;
 /// Pixels beyond that: the centre's own, a low-pass, rounding.
 constexpr double marginPx = 8.0;

@@ -10,8 +10,8 @@
 namespace pointfront
 {
 
-/// What closes the surface among the first `drawn` points of a node, before its neighbours are
-/// looked at.
+/// The radius that closes the surface among the first `drawn` points of a node, before its
+/// neighbours are looked at.
 struct MeasuredRadius
 {
   /// A node whose few points stand farther apart than its level can see has strays in it, no

@@ -12,8 +12,8 @@ namespace pointfront
 /// (LAYERS-9).
 struct PlanPart
 {
-  std::int16_t lens = -1; ///< of FrameShading::lenses, the one it is seen in; -1: outside all
-  bool mask = false; ///< what it covers is what the lens covers
+  std::int16_t lens = -1; ///< the lens in FrameShading::lenses that it is seen in; -1: outside all
+  bool mask = false; ///< the covered pixels are those of the lens
   std::uint16_t group = 0; ///< 0: opaque
   double opacity = 1.0;
   FramePlan plan; ///< its batches; all else as the whole's
@@ -40,7 +40,7 @@ struct CompositionStep
   enum class Kind
   {
     BlendGroups, ///< translucent groups over the opaque picture of the same place, far to near
-    PutLens, ///< what lies inside of a lens in place of what it covers
+    PutLens, ///< the inside of a lens in place of the pixels that it covers
     Highlight ///< tints, then rims
   };
   Kind kind;

@@ -12,7 +12,7 @@ namespace pointfront
 /// Twin  growthOf() in SplatVS.glsl.
 struct PointGrowth
 {
-  float first = 1.0f; ///< of the node's first point, before it is bounded to [0, 1]
+  float first = 1.0f; ///< share of the node's first point, before it is bounded to [0, 1]
   float perPoint = 0.0f; ///< that it falls from a point to the next
 
   /// Whether all points have their full size.

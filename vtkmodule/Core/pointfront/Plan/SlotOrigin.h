@@ -21,7 +21,7 @@ struct SlotOrigin
 {
   glm::ivec3 steps{ 0 }; ///< reference in (shifted) steps from the node's origin, within +-2^30
   int shift = 0; ///< bits dropped of positions of nodes of more than 2^30 steps
-  glm::vec3 base{ 0.0f }; ///< what rounding and clamping left over, store units
+  glm::vec3 base{ 0.0f }; ///< rest of rounding and clamping, store units
 
   static SlotOrigin of(const QuantisationGrid& grid, const glm::vec3& halfSize,
     const GridPosition& origin, const glm::dvec3& reference)

@@ -10,7 +10,7 @@ namespace pointfront
 namespace
 {
 
-/// Of the points of the complete view, drawn in addition.
+/// Share of the points of the complete view that are drawn in addition.
 constexpr double standInBudget = 0.05;
 
 } // namespace

@@ -11,7 +11,7 @@
 namespace pointfront
 {
 
-/// What a refining view shows of nodes whose finer nodes are not there yet, where the splats of the
+/// Items that a refining view draws for nodes whose finer nodes are missing, where splats of the
 /// final sizes leave holes: their points, or an even share of them, as large as closes the surface.
 /// Share     all stand-ins of a view are a few percent of the points of the complete view: all
 ///           points of the coarse levels, a share of those of the next one, and none of finer ones.

@@ -24,7 +24,7 @@ struct Attribute
   double offset = 0.0;
   std::string description = {}; ///< from the source, may be empty
 
-  std::size_t bytes() const { return sizeOf(type) * components; } ///< of one point
+  std::size_t bytes() const { return sizeOf(type) * components; } ///< size of one point
   friend bool operator==(const Attribute& a, const Attribute& b)
   {
     return a.name == b.name && a.type == b.type && a.components == b.components &&

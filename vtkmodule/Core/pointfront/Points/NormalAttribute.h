@@ -32,7 +32,7 @@ inline PackedNormal packNormal(const glm::dvec3& normal)
   return { packed(normal.x), packed(normal.y), packed(normal.z) };
 }
 
-/// Of length 1, or 0.
+/// Unit vector, or 0.
 inline glm::dvec3 unpackNormal(const PackedNormal& packed)
 {
   const glm::dvec3 normal(packed.x, packed.y, packed.z);

@@ -25,15 +25,15 @@ struct PassChoice
   };
 
   std::string targetCrs; ///< a code, a definition, a file with one, "utm"; empty: the inputs'
-  std::string assumedCrs; ///< of inputs that name none; empty: unknown
+  std::string assumedCrs; ///< system of inputs that name none; empty: unknown
 
   std::vector<std::string> colourFrom; ///< georeferenced images: files, patterns, folders
   std::vector<std::string> attributeFrom; ///< likewise, NAME=IMAGE; without NAME= as the one before
 
   Normals normals = Normals::None;
-  std::uint32_t normalsNeighbours = 16; ///< of a plane, with the point itself; 3 to 4096
+  std::uint32_t normalsNeighbours = 16; ///< points of a plane, with the point itself; 3 to 4096
   double normalsRadius = 0.0; ///< if > 0, instead: all points within
-  double normalsEps = 0.0; ///< of an approximate search, 0 (exact) to 1000
+  double normalsEps = 0.0; ///< bound of an approximate search, 0 (exact) to 1000
   bool curvature = false; ///< attribute "curvature" too; of planes only
   /// Classes that get normals; nothing: all.
   std::optional<std::vector<std::uint8_t>> normalsClasses;

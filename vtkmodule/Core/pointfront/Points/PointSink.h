@@ -18,7 +18,7 @@ namespace pointfront
 /// SourceDescription both hold these facts, so either can be passed on member by member.
 struct SinkDescription
 {
-  AttributeSchema schema; ///< of every batch that follows
+  AttributeSchema schema; ///< schema of every batch that follows
   /// The grid that the coordinates live on. A file of integers (LAS) is written on this grid, so
   /// that integers stay the same; a text file prints as many digits as this grid needs.
   QuantisationGrid grid;

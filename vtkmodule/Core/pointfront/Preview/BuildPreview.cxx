@@ -19,7 +19,7 @@ constexpr std::uint64_t fewestPoints = 10000;
 constexpr std::uint64_t leastShareOfPoints = 256; ///< the sample has at most a 256th of all
 constexpr std::uint64_t mostMemory = std::uint64_t(1) << 30;
 constexpr std::uint64_t shareOfMemory = 16;
-/// Of that: the rest is for what finished parts hold for the nodes above them.
+/// Share of that memory: the rest is for records that finished parts hold for the nodes above them.
 constexpr double sampleShareOfMemory = 0.65;
 /// A version copies what finished parts hold, and joins it level by level.
 constexpr std::uint64_t copiesOfHeld = 2;
@@ -373,7 +373,7 @@ PointSources BuildPreview::sample()
   began_ = processSeconds();
   estimate_ = firstEstimate * double(sample_.points());
   PointSources taken = sample_.snapshot(*sources_, {});
-  sample_.clear(); // what the refiner still has at hand, it keeps
+  sample_.clear(); // the refiner keeps the points that it still has at hand
   return taken;
 }
 

@@ -106,14 +106,14 @@ private:
   std::uint64_t chunks_ = 0;
   std::uint64_t memoryBytes_ = 0; ///< for the sample, building from it, and finished parts
   std::uint64_t capacity_ = 0; ///< points of the sample; 0: silent
-  const PointSource* firstShown_ = nullptr; ///< of the sources that showOverview() was given
+  const PointSource* firstShown_ = nullptr; ///< first source that showOverview() was given
   /// When the last version was there. One thread at a time: who shows parts waits for refining_.
   std::chrono::steady_clock::time_point shownAt_;
   bool mixed_ = false; ///< the sample still holds points of the overview
   PointSample sample_;
   const PointSources* sources_ = nullptr; ///< that the build reads
   WorkerThread refiner_;
-  // Of the trees' time:
+  // Times of the trees:
   double began_ = 0.0; ///< CPU seconds of the process when they were
   double spent_ = 0.0; ///< CPU seconds for versions with finished parts
   double estimate_ = 0.0; ///< for the next one

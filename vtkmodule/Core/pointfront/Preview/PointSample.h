@@ -26,7 +26,7 @@ public:
   void clear();
 
   std::uint64_t points() const;
-  /// What is kept now, as one source for each original (`metadata` is added to theirs). Later
+  /// The kept points as one source for each original (`metadata` is added to theirs). Later
   /// calls of keep() do not change it.
   PointSources snapshot(const PointSources& originals, const MetadataRecord& metadata) const;
 

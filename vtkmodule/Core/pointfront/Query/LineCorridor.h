@@ -40,7 +40,7 @@ private:
   };
 
   LineCorridor() = default;
-  /// Of the segment against a rectangle of that centre and half diagonal; sure despite rounding.
+  /// Overlap of the segment with a rectangle of that centre and half diagonal; safe from rounding.
   Overlap overlapSegment(
     const Segment& segment, const glm::dvec2& centre, double halfDiagonal) const;
 

@@ -38,7 +38,7 @@ struct Wave
   std::size_t bytes = 0; ///< set aside for it while it is read
 };
 
-/// What one thread needs while it reads a node and chooses, without the result.
+/// Memory that one thread takes while it reads a node and chooses, without the result.
 std::size_t workBytes(const NodeReader& reader, const NodeSweep& nodes, std::size_t task)
 {
   const NodeIndex node = nodes.node(task);
@@ -102,7 +102,7 @@ Wave Sweep::nextWave(std::size_t first, std::size_t memory) const
   Wave wave{ first, 0, 0 };
   std::size_t points = 0;
   std::size_t results = 0;
-  std::size_t largest = 0; // of what one thread needs
+  std::size_t largest = 0; // the most that one thread takes
   for (std::size_t i = first; i < nodes_.count && points < threads * pointsOfThread; ++i)
   {
     points += nodes_.points(i);

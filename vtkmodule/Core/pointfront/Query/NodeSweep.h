@@ -15,7 +15,7 @@ struct NodeSweep
   ColumnSelection columns; ///< to read
   std::size_t resultBytes = 0; ///< at most, of one point of a result
   std::function<NodeIndex(std::size_t)> node;
-  std::function<std::uint32_t(std::size_t)> points; ///< of the node, as its row says
+  std::function<std::uint32_t(std::size_t)> points; ///< the node's points, as its row says
   /// Chooses. From any thread of the crew, several at once.
   std::function<QueryBatch(std::size_t, NodeColumns&&)> choose;
 };

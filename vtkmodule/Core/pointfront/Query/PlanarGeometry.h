@@ -19,7 +19,7 @@ struct PlanarPolygon
 /// Areas and lines on the map, as GIS programs write them (WKT, GeoJSON).
 struct PlanarGeometry
 {
-  std::string crs; ///< of its coordinates: "EPSG:25832" or a definition; empty: not said
+  std::string crs; ///< system of its coordinates: "EPSG:25832" or a definition; empty: not said
   std::vector<PlanarPolygon> polygons;
   std::vector<PlanarLine> lines;
 };

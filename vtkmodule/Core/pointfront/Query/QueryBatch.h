@@ -43,13 +43,13 @@ struct QueryOptions
   const char* phase = "reading";
 };
 
-/// What a query cost.
+/// The cost of a query.
 struct QueryReport
 {
   std::uint64_t nodesRead = 0;
   std::uint64_t bytesRead = 0; ///< from the disk
   std::uint64_t pointsRead = 0; ///< decoded
-  std::uint64_t pointsChosen = 0; ///< of those, handed over
+  std::uint64_t pointsChosen = 0; ///< number of these points that were handed over
   std::size_t peakBytes = 0; ///< most memory that was set aside at once
 };
 

@@ -33,7 +33,7 @@ public:
 
   /// The description of the cloud with the requested attributes only.
   const StoreDescription& description() const { return description_; }
-  /// Of batches.
+  /// Schema of the batches.
   const AttributeSchema& schema() const { return description_.schema; }
 
   std::size_t nodeCount() const { return nodes_.size(); }
@@ -80,7 +80,7 @@ private:
   QuantisationGrid grid_;
   std::vector<std::shared_ptr<const Region>> regions_;
   PointFilter filter_; ///< classes too
-  ColumnSelection read_; ///< of the store
+  ColumnSelection read_; ///< columns of the store
   std::vector<std::size_t> out_; ///< place in read_ of each column that comes out
   std::vector<PlannedNode> nodes_;
 };

@@ -9,7 +9,7 @@
 namespace pointfront
 {
 
-/// What a well-known text means as a region of a query: points above and below its areas, or within
+/// Reads a well-known text as a region of a query: points above and below its areas, or within
 /// `distance` of its lines on the map.
 /// Errors  those of parseWellKnownText(); BadArgument: a text that names a coordinate reference
 ///         system, lines without a distance above 0, or areas beside lines.

@@ -95,7 +95,7 @@ void radixSort(std::vector<std::uint64_t>& words, unsigned lowest, unsigned bits
   }
   const unsigned digitBits = (bits + passes - 1) / passes;
   const std::uint64_t mask = (std::uint64_t(1) << digitBits) - 1;
-  // Of all digits in one pass over the words; the highest digit may reach above the key: zeros.
+  // Starts of all digits in one pass over the words; the highest may reach above the key: zeros.
   std::vector<std::array<std::uint32_t, mostDigits>> starts(passes);
   for (const std::uint64_t word : words)
   {

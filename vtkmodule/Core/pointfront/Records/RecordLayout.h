@@ -31,7 +31,7 @@ public:
   }
 
   static constexpr std::size_t positionBytes = 3 * sizeof(std::uint32_t);
-  std::size_t bytes() const { return bytes_; } ///< of one record
+  std::size_t bytes() const { return bytes_; } ///< size of one record
   std::size_t offset(std::size_t column) const { return offsets_[column]; }
 
 private:

@@ -25,7 +25,7 @@ std::array<unsigned, 3> axisShifts(const glm::dvec3& scale)
 std::array<unsigned, 3> fittingShifts(
   std::array<unsigned, 3> shift, const GridPosition& low, const GridPosition& high)
 {
-  // Of 2^32, what is lost when the origin is rounded down to a cell.
+  // The part of 2^32 that stays when the origin is rounded down to a cell.
   constexpr double room = 4294967296.0 * (1.0 - 1.0 / (1u << rootCellsLog2));
   for (int axis = 0; axis < 3; ++axis)
   {

@@ -22,7 +22,7 @@ struct TreeSpace
 {
   QuantisationGrid grid;
   std::array<unsigned, 3> shift{ 0, 0, 0 }; ///< tree step = grid step / 2^shift
-  GridPosition origin{ 0 }; ///< of the root cube, in tree steps
+  GridPosition origin{ 0 }; ///< origin of the root cube, in tree steps
 
   /// Low 32 bits of the tree coordinates of a grid position.
   TreePosition absoluteSteps(const GridPosition& g) const

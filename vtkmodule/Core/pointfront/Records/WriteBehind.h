@@ -31,7 +31,7 @@ public:
   WriteBehind(const WriteBehind&) = delete;
   WriteBehind& operator=(const WriteBehind&) = delete;
 
-  /// Of at least `bytes`, with anything in it; each goes back by write(). Waits for one.
+  /// A buffer of at least `bytes`, with anything in it; each goes back by write(). Waits for one.
   Result<Buffer> buffer(std::size_t bytes);
   /// The first `count` records of the buffer, to `first` and on.
   void write(std::uint64_t first, std::uint64_t count, Buffer records);

@@ -14,7 +14,7 @@
 namespace pointfront
 {
 
-/// Of a file that defines a coordinate reference system.
+/// Limit for a file that defines a coordinate reference system.
 constexpr std::uint64_t mostDefinitionBytes = 1 << 20;
 
 /// A coordinate reference system (CRS) as far as the kernel cares. Coordinates are always x, y, z
@@ -55,7 +55,7 @@ public:
   virtual ~CoordinateSystems() = default;
   /// A code ("EPSG:32632", "EPSG:32632+5773") or a definition (WKT 1 or 2, PROJJSON, PROJ string).
   virtual Result<CoordinateSystem> parse(const std::string& definition) const = 0;
-  /// What GeoTIFF keys name. User-defined systems are Unsupported. `warnings` gets sentences.
+  /// The system that GeoTIFF keys name; user-defined ones are Unsupported. Adds to `warnings`.
   virtual Result<CoordinateSystem> fromGeoKeys(
     const GeoKeys& keys, std::vector<std::string>& warnings) const = 0;
   /// The same coordinates mean the same place: names, order of axes and codes do not count.

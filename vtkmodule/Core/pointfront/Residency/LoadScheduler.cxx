@@ -13,7 +13,7 @@ namespace pointfront
 namespace
 {
 
-/// What the process's budget was set to: a child of fork() begins with that.
+/// The size that the process's budget was set to: a child of fork() begins with that.
 std::atomic<std::size_t>& processBudgetLimit()
 {
   static std::atomic<std::size_t> bytes{ LoadSchedulerOptions().budgetBytes };
@@ -58,7 +58,7 @@ std::size_t LoadScheduler::Content::bytesWanted() const
   std::size_t sum = 0;
   for (const Member& member : members)
   {
-    // What a store's own budget does not let in needs no room here.
+    // Nodes that a store's own budget does not let in need no room here.
     const std::size_t staying = member.store->stayingBytes();
     const std::size_t own = std::max(member.store->budget().ownLimit(), staying);
     sum += std::min(member.store->waitingBytes() + staying, own);

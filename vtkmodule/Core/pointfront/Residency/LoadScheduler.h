@@ -17,7 +17,7 @@ class StoreNodes;
 
 struct LoadSchedulerOptions
 {
-  /// Of decoded nodes in host memory, over all stores. Hard.
+  /// Bytes of decoded nodes in host memory, over all stores. Hard.
   std::size_t budgetBytes = std::size_t(1) << 30;
   /// That fetch and decode; 0: one less than there are processors, 2 to 16.
   unsigned threads = 0;
@@ -34,10 +34,10 @@ struct LoadSchedulerStatistics
   std::uint32_t overdueReads = 0;
   std::size_t residentBytes = 0;
   std::size_t residentBytesMax = 0;
-  // Of all that was loaded so far:
+  // Sums over all that was loaded so far:
   std::uint64_t fetchedBytes = 0;
   std::uint64_t decodedBytes = 0; ///< in memory
-  double fetchSeconds = 0.0; ///< of the disk lane: one read at a time
+  double fetchSeconds = 0.0; ///< time of the disk lane: one read at a time
   double decodeSeconds = 0.0; ///< CPU time of all threads together
   std::chrono::steady_clock::time_point lastLoaded; ///< when the last of it was there
 };

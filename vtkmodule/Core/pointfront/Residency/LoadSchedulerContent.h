@@ -40,7 +40,7 @@ struct LoadScheduler::Content : std::enable_shared_from_this<LoadScheduler::Cont
   {
     WorkerThread thread;
     bool fetching = false;
-    Clock::time_point since; ///< of its read
+    Clock::time_point since; ///< when its read began
     bool ended = false;
   };
 
@@ -57,7 +57,7 @@ struct LoadScheduler::Content : std::enable_shared_from_this<LoadScheduler::Cont
   const LoadSchedulerOptions options;
   const std::shared_ptr<MemoryBudget> budget;
 
-  mutable std::mutex mutex; ///< of all below; taken before a store's own
+  mutable std::mutex mutex; ///< guards all below; taken before a store's own
   std::vector<Member> members;
   DiskLane lane;
   const unsigned steadyThreads;

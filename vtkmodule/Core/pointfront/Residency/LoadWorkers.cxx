@@ -24,7 +24,7 @@ constexpr int failuresThatStarve = 30;
 /// FRONT-9: loading must not disturb the drawing.
 constexpr int niceness = 5;
 
-/// What `step` gives; what it throws becomes an Error that names the node.
+/// Calls `step`; an exception becomes an Error that names the node.
 template <typename Step>
 auto guarded(NodeIndex node, const Step& step) -> decltype(step())
 {

@@ -17,7 +17,7 @@ namespace pointfront
 struct CachedNode
 {
   std::shared_ptr<const NodeColumns> points; ///< null: not in memory
-  std::size_t bytes = 0; ///< of `points` on the account
+  std::size_t bytes = 0; ///< bytes of `points` on the account
   bool loading = false; ///< a loader is reading it; `points` are then those it replaces
   bool stale = false; ///< lacks a column that is wanted now; waits to be read again
   bool drawn = false; ///< stale, and was asked for since
@@ -49,7 +49,7 @@ public:
   /// Takes a node's points out.
   std::shared_ptr<const NodeColumns> remove(NodeIndex node);
 
-  /// Of the nodes in here; what was taken out and is still held somewhere is not among them.
+  /// Bytes of the nodes in here, without those that were taken out and are held elsewhere.
   std::size_t bytes() const { return bytes_; }
   std::uint32_t count() const { return count_; }
 

@@ -18,7 +18,7 @@ namespace pointfront
 class LoadScheduler;
 class StoreNodes;
 
-/// Of a residency with a scheduler of its own.
+/// Options of a residency with a scheduler of its own.
 struct ResidencyOptions
 {
   std::size_t budgetBytes = std::size_t(1) << 30; ///< hard: decoded nodes never hold more

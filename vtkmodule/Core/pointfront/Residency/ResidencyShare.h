@@ -24,7 +24,7 @@ public:
   /// Levels that a node lies below a front; 0: the front needs it.
   using Distance = std::function<std::uint32_t(NodeIndex)>;
 
-  /// What one front wants now. Destruction withdraws it.
+  /// The present wish of one front. Destruction withdraws it.
   class Wish
   {
   public:

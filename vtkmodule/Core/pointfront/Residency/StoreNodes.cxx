@@ -44,7 +44,7 @@ bool StoreNodes::rowsNext(const std::optional<WaitingReads::Choice>& choice) con
   return rows_ != nullptr && rows_->waiting() && !(rowsLast_ && choice);
 }
 
-/// What should be read next and fits.
+/// The node that should be read next and fits.
 std::optional<WaitingReads::Choice> StoreNodes::choose() const
 {
   return waiting_.choose(cache_, nothingToRelease_ && loading_ == 0);
@@ -174,7 +174,7 @@ bool StoreNodes::finish(const Task& task, Result<NodeColumns> result, std::size_
     markLacking(cached);
     return true;
   }
-  // What has come may be what can go: a node that was wanted when its read began.
+  // The new node may be one that can go: it was wanted when its read began.
   nothingToRelease_ = nothingToRelease_ && task.reread;
   if (news)
   {

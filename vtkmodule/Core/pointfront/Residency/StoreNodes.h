@@ -32,9 +32,9 @@ public:
     NodeIndex node = noNode; ///< none: rows of the node table
     ColumnSelection columns;
     std::size_t bytes = 0; ///< reserved for it
-    bool reread = false; ///< of a node that is or was in memory with other columns
+    bool reread = false; ///< the node is or was in memory with other columns
   };
-  /// What waits longest for is compared across stores by this: lower ranks first, then larger
+  /// The urgency by which waiting nodes are compared across stores: lower ranks first, then larger
   /// priorities (projected errors).
   struct Urgency
   {
@@ -52,7 +52,7 @@ public:
   const NodeReader& reader() const { return *reader_; }
   MemoryBudget& budget() const { return *budget_; }
 
-  // What Residency does.
+  // The functions that Residency calls.
   bool setColumns(const LayerColumns& columns); ///< false: no change
   LayerColumns columns() const;
   bool request(const std::vector<LoadRequest>& requests); ///< false: no change
@@ -68,8 +68,8 @@ public:
   /// The budget has changed: what was too large for it may be no more.
   void reconsider();
 
-  // What the scheduler does.
-  std::optional<Urgency> next() const; ///< of what waits and fits
+  // The functions that the scheduler calls.
+  std::optional<Urgency> next() const; ///< urgency of the first that waits and fits
   std::optional<Task> begin(); ///< takes that; none when it does not fit any more
   /// A read has ended. True when there is something new: then tell() is called.
   bool finish(const Task& task, Result<NodeColumns> result, std::size_t bytesRead);
@@ -80,13 +80,13 @@ public:
   /// Its requests are withdrawn and its nodes leave; nobody is told of anything any more.
   void close();
 
-  std::size_t waitingBytes() const; ///< of what is asked for and does not wait for free memory
+  std::size_t waitingBytes() const; ///< bytes of requests that do not wait for free memory
   std::size_t stayingBytes() const; ///< in memory or on its way
   void offer(std::uint32_t number, const NodeCache::Distance& distance, ReleasePlan& plan) const;
   using Gone = std::vector<std::shared_ptr<const NodeColumns>>;
   /// Takes a node out; who calls drops the points after all locks.
   void release(NodeIndex node, Gone& gone);
-  /// What the last release found; true when that is a change.
+  /// Notes the outcome of the last release; true when that is a change.
   bool noteRelease(bool nothingFound);
   bool loading() const; ///< rows included
 
@@ -107,14 +107,14 @@ private:
   /// Shared with the points that are out: they may be dropped after this object is gone.
   const std::shared_ptr<MemoryBudget> budget_;
 
-  mutable std::mutex mutex_; ///< of all below
+  mutable std::mutex mutex_; ///< guards all below
   NodeCache cache_;
   WaitingReads waiting_;
   std::vector<Error> errors_;
   std::size_t loadingBytes_ = 0;
   std::uint32_t loading_ = 0; ///< nodes
   std::uint32_t loadingRows_ = 0; ///< pages
-  bool rowsLast_ = false; ///< what began last were rows
+  bool rowsLast_ = false; ///< the last read that began was for rows
   bool nothingToRelease_ = false; ///< found by the last release that room was wanted from
   bool fileFailed_ = false; ///< told already that the file cannot be read
   std::uint64_t requested_ = 0;

@@ -17,7 +17,7 @@
 namespace pointfront
 {
 
-/// What of one store waits to be read: requests of its front, and nodes in memory that lack a
+/// The reads of one store that wait: requests of its front, and nodes in memory that lack a
 /// column that is wanted now. It knows how many bytes each needs and chooses what is read next.
 /// Order    needed requests by priority, then re-reads for new columns, then optional requests; a
 ///          request that does not fit waits, smaller ones behind it go on. Nodes that are drawn
@@ -36,7 +36,7 @@ public:
     bool reread = false;
     bool inPlaceOfOld = false; ///< fits only after the node's old points are gone
   };
-  /// What a wish list has changed. A node that is larger than the whole budget would wait for ever
+  /// The changes of a wish list. A node that is larger than the whole budget would wait for ever
   /// and in silence: it waits no more, and is listed with its bytes.
   struct Replaced
   {
@@ -58,7 +58,7 @@ public:
   void readAgain(const LoadRequest& request);
   /// A node leaves the memory: its columns are of no interest any more.
   void cancelReread(NodeIndex node);
-  /// What is read next: waits and fits. `oldMayGo`: nothing else can make room, so that the old
+  /// The next read: it waits and fits. `oldMayGo`: nothing else can make room, so that the old
   /// points of a node in `cache` that nobody draws may go before its new ones come.
   std::optional<Choice> choose(const NodeCache& cache, bool oldMayGo) const;
   /// Removes a request whose read begins.
@@ -73,7 +73,7 @@ public:
   bool mayFit(NodeIndex node, std::size_t limit) const;
 
   std::size_t size() const { return queue_.size() + rereads_.size(); }
-  std::size_t bytes() const; ///< of all that does not wait for free memory
+  std::size_t bytes() const; ///< bytes of all that does not wait for free memory
 
 private:
   void noteLeastNeed();

@@ -55,7 +55,7 @@ void addEach(std::vector<T>& to, const std::vector<T>& from)
   }
 }
 
-/// What the first reading finds of a group.
+/// A group's ranges, found in the first reading.
 struct RangeGroup
 {
   explicit RangeGroup(std::size_t components)
@@ -73,7 +73,7 @@ struct RangeGroup
   std::vector<ValueSpan> ranges;
 };
 
-/// What the second reading finds of a group. Shapes: bins[component][bin].
+/// A group's sums, found in the second reading. Shapes: bins[component][bin].
 struct SumGroup
 {
   explicit SumGroup(std::size_t components)
@@ -103,7 +103,7 @@ struct RangeTally
   std::uint64_t read = 0;
   RejectionCounts rejected{};
   GroupTable<RangeGroup> groups;
-  std::vector<std::int16_t> groupOfPoint; ///< of the batch at hand
+  std::vector<std::int16_t> groupOfPoint; ///< group of each point of the batch at hand
 
   void add(const RangeTally& other)
   {
@@ -120,7 +120,7 @@ struct SumTally
 {
   RejectionCounts rejected{}; ///< as the first reading found them
   GroupTable<SumGroup> groups;
-  std::vector<std::int16_t> groupOfPoint; ///< of the batch at hand
+  std::vector<std::int16_t> groupOfPoint; ///< group of each point of the batch at hand
 };
 
 std::vector<ComponentName> namesOf(const AttributeSchema& schema)

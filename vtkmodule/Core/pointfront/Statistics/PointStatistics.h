@@ -20,9 +20,9 @@ namespace pointfront
 struct PointCount
 {
   std::uint64_t read = 0;
-  std::map<std::string, std::uint64_t> rejected; ///< what is no position: reason -> points
+  std::map<std::string, std::uint64_t> rejected; ///< points without a position: reason -> points
   std::uint64_t points = 0; ///< the others
-  Bounds bounds; ///< of these
+  Bounds bounds; ///< bounds of the positions
 };
 
 /// One component of an attribute, or a coordinate.
@@ -63,11 +63,11 @@ struct GroupStatistics
 struct PointStatistics
 {
   PointCount counted;
-  std::vector<ComponentName> names; ///< of `bins` and of every group's components
+  std::vector<ComponentName> names; ///< names of `bins` and of every group's components
   std::vector<ComponentBins> bins;
   GroupStatistics all;
   std::map<std::uint8_t, GroupStatistics> classes; ///< empty without a classification
-  double cellSize = 0.0; ///< of GroundCells; 0: no ground
+  double cellSize = 0.0; ///< side of GroundCells; 0: no ground
   std::uint64_t occupiedCells = 0;
 
   /// Points per square unit of the ground cells that hold one; nothing without ground.
@@ -77,7 +77,7 @@ struct PointStatistics
 struct StatisticsOptions
 {
   ScanOptions scan;
-  std::size_t bins = 32; ///< of a histogram, at least 1
+  std::size_t bins = 32; ///< bins of a histogram, at least 1
 };
 
 /// Counts points and takes their bounds: reads all of them once.

@@ -11,7 +11,7 @@ namespace pointfront
 namespace
 {
 constexpr std::size_t enoughPoints = 10000;
-/// Of one node: its first points are a fair subset of it. Trees of others have large roots.
+/// Most points of one node: its first points are a fair subset. Trees of others have large roots.
 constexpr std::size_t mostOfNode = 20000;
 
 template <typename T>
@@ -27,7 +27,7 @@ double valueAt(ScalarType type, const std::byte* bytes)
   return visitScalar(type, [bytes](auto zero) { return valueAt<decltype(zero)>(bytes); });
 }
 
-/// Of the first points of a node.
+/// Appends the values of the first points of a node.
 void appendValues(const Attribute& attribute, const std::vector<std::byte>& bytes,
   std::size_t points, std::vector<std::vector<double>>& components)
 {

@@ -13,7 +13,7 @@ struct ValueSpan
   std::uint64_t count = 0; ///< finite ones
   std::uint64_t notANumber = 0;
   std::uint64_t infinite = 0;
-  std::uint64_t low = UINT64_MAX; ///< of the finite ones
+  std::uint64_t low = UINT64_MAX; ///< lowest of the finite ones
   std::uint64_t high = 0;
 
   void add(std::uint64_t key)

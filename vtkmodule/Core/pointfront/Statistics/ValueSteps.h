@@ -36,7 +36,7 @@ struct StepSums
 struct ValueMoments
 {
   double mean = 0.0;
-  double deviation = 0.0; ///< of the values as they are all: divided by their number
+  double deviation = 0.0; ///< deviation of all values, divided by their number
 };
 
 /// Divides the range that was found for a component into steps to sum and bins to count.
@@ -53,7 +53,7 @@ public:
   /// `bins` >= 1. Without a value in `range` there is no bin.
   ValueSteps(ValueKind kind, const ValueSpan& range, std::size_t bins);
 
-  /// Of a key inside the range.
+  /// Step of a key inside the range.
   std::uint64_t step(std::uint64_t key) const;
   std::size_t bin(std::uint64_t key) const;
   std::size_t bins() const { return bins_; }
@@ -62,7 +62,7 @@ public:
   ValueMoments moments(const StepSums& sums) const;
 
 private:
-  double fraction(std::uint64_t key) const; ///< of the range; Real only
+  double fraction(std::uint64_t key) const; ///< place in the range; Real only
 
   ValueKind kind_ = ValueKind::Real;
   std::uint64_t low_ = 0; ///< key

@@ -62,7 +62,7 @@ public:
     std::uint64_t end = 0;
     std::uint64_t endElsewhere = 0;
   };
-  /// What is wrong, or an empty text: every payload lies within the limits, no origin is out of
+  /// The fault, or an empty text: every payload lies within the limits, no origin is out of
   /// range. `unknownCodec` is set when the fault is a codec that this program lacks.
   std::string fault(const Limits& limits, bool& unknownCodec) const;
 

@@ -24,8 +24,8 @@ ColumnRange emptyRange(const Attribute& attribute);
 /// Smallest and largest value of each component of `points` values; NaN is left out.
 ColumnRange rangeOf(const std::byte* values, const Attribute& attribute, std::size_t points);
 void addRange(ColumnRange& range, const ColumnRange& other);
-/// What no value of a column lies beyond: its range in the store; where that is of some points
-/// only, the range of its type.
+/// A range that no value of a column lies beyond: its range in the store; where that is of some
+/// points only, the range of its type.
 ColumnRange certainRange(const StoreDescription& store, std::size_t column);
 /// True when `inner` adds nothing to `outer`.
 bool encloses(const ColumnRange& outer, const ColumnRange& inner);

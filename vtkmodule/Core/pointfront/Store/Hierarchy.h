@@ -24,9 +24,9 @@ constexpr NodeIndex noNode = 0xffffffffu;
 /// Units  world units of the store's CRS (metres unless it says otherwise).
 struct Node
 {
-  glm::dvec3 centre{ 0.0 }; ///< of the box, world
-  glm::vec3 halfSize{ 0.0f }; ///< of the box of this node's points and all below; rounded up
-  float radius = 0.0f; ///< of the sphere around `centre` with all those points; rounded up
+  glm::dvec3 centre{ 0.0 }; ///< centre of the box, world
+  glm::vec3 halfSize{ 0.0f }; ///< half of the box of this node's points and all below; rounded up
+  float radius = 0.0f; ///< radius of the sphere around `centre` with all those points; rounded up
   float spacing = 0.0f; ///< between points when this node and all above it are drawn
   /// Radius of the discs that close the surface when all points of this node and of the nodes above
   /// it are drawn; 0 if it was not measured.

@@ -26,7 +26,7 @@ struct LayerColumns
   }
 
   std::vector<ColumnSelection> layers; ///< by number of the layer
-  ColumnSelection others; ///< of layers beyond the list
+  ColumnSelection others; ///< columns of layers beyond the list
 
   const ColumnSelection& of(std::uint16_t layer) const
   {

@@ -20,7 +20,7 @@ constexpr std::uint32_t nodePageRowsOf(NodeRowForm form)
 {
   return form == NodeRowForm::Plain ? 60 : 56;
 }
-/// Of the tables that are written.
+/// Rows a page in tables that are written.
 constexpr std::uint32_t nodePageRows = nodePageRowsOf(NodeRowForm::WithSplatRadius);
 
 /// Room for a page of either form.
@@ -55,7 +55,7 @@ void encodeNodePage(const Node* rows, std::uint32_t count, std::uint32_t page, s
 std::string decodeNodePage(const std::byte* data, std::uint32_t page, const TableLimits& limits,
   NodePage& rows, NodeRowForm form = NodeRowForm::WithSplatRadius);
 
-/// What is wrong with a row by itself, or an empty text: sizes finite and not negative, parent
+/// The fault of a row by itself, or an empty text: sizes finite and not negative, parent
 /// before it, children behind it and inside the table, layer and counts in range.
 /// Walks up a table of such rows end, and walks down never leave it.
 std::string rowFault(const Node& row, NodeIndex index, const TableLimits& limits);

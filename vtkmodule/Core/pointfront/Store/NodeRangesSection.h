@@ -26,7 +26,7 @@ class NodeRangesWriter
 public:
   explicit NodeRangesWriter(const AttributeSchema& schema);
 
-  /// Of the next payload.
+  /// Adds the ranges of the next payload.
   void add(const EncodedNode& node);
   /// The section of a sound table; payloads[i] belongs to nodes[i].
   std::vector<std::byte> encode(
@@ -60,7 +60,7 @@ public:
   {
   }
 
-  /// Of the first `most` nodes, or of all. Errors: Unreadable, Corrupt.
+  /// Reads those of the first `most` nodes, or of all. Errors: Unreadable, Corrupt.
   Result<std::shared_ptr<const NodeRanges>> read(std::uint32_t component, NodeIndex most) const;
 
 private:

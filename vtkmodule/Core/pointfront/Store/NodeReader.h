@@ -70,7 +70,7 @@ struct FetchedNode
   ColumnSelection columns;
   std::vector<RawBytes> runs; ///< their meaning is the reader's
   std::size_t bytesRead = 0; ///< from the disk
-  Node row{}; ///< of the node table
+  Node row{}; ///< row of the node table
   /// Instead of runs: the bytes that a cloud made of others has fetched from one of them.
   std::shared_ptr<const FetchedNode> inner = nullptr;
 };

@@ -15,7 +15,7 @@ class ByteReader;
 class ByteWriter;
 struct StoreDescription;
 
-/// What a row of a table has: stores since version 3 and side files since version 2 say how large
+/// The form of a table's rows: stores since version 3 and side files since version 2 say how large
 /// splats are.
 enum class NodeRowForm : std::uint8_t
 {
@@ -54,7 +54,7 @@ private:
   Refinement refinement_;
 };
 
-/// What is wrong with a table, or an empty text: parents before children, children neighbours and
+/// The fault of a table, or an empty text: parents before children, children neighbours and
 /// linked both ways, levels, layers, counts and their sums (of points of the input), sizes finite
 /// and not negative, roots those without a parent; or what a paged table itself calls its fault.
 /// Time  linear in the nodes, from the first to the last; takes no memory.

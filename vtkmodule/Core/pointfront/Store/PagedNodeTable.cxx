@@ -77,7 +77,7 @@ private:
   }
 };
 
-/// What stands in for a row that is lost.
+/// The row in place of one that is lost.
 Node hollowRow()
 {
   return Node();

@@ -29,7 +29,7 @@ class PayloadDirectory
 {
 public:
   virtual ~PayloadDirectory() = default;
-  /// What the file says of a node, with the number of points of its row in front of it.
+  /// Reads a node's bytes in the file, with the number of points of its row in front of it.
   virtual Result<RawBytes> fetch(std::uint32_t node, std::uint32_t pointCount) const = 0;
   /// Checks and reads what fetch() gave. Touches no file.
   virtual Result<NodePayload> decode(std::uint32_t node, const RawBytes& fetched) const = 0;

@@ -22,7 +22,7 @@ bool holds(const ByteSource& file, const PayloadElsewhere& elsewhere)
     matchesChecksum(bytes.data(), bytes.size(), mark.checksum);
 }
 
-/// Of a file in the same folder.
+/// Whether it names a file in the same folder.
 bool isPlainName(const std::string& name)
 {
   return !name.empty() && name.find('/') == std::string::npos &&

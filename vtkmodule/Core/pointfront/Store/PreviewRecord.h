@@ -15,9 +15,9 @@ namespace pointfront
 struct PreviewRecord
 {
   std::string storeName; ///< file name of the finished store, in the preview's folder
-  std::uint64_t pointsExpected = 0; ///< of the finished store, as the inputs announce them
+  std::uint64_t pointsExpected = 0; ///< points of the finished store, as the inputs announce them
   std::uint64_t pointsRead = 0; ///< that the build had read when the preview was written
-  std::uint64_t pointsFinished = 0; ///< of parts that the preview shows in full
+  std::uint64_t pointsFinished = 0; ///< points of parts that the preview shows in full
 };
 
 MetadataRecord previewMetadata(const PreviewRecord& record);

@@ -56,7 +56,7 @@ std::string sectionFault(const StoreFooter& footer, const StoreHeader& header)
   }
   return {};
 }
-/// What a header with the right checksum may still say: another version, another size.
+/// Checks a header with the right checksum: it may still have another version, another size.
 Result<void> checkHeader(
   const StoreHeader& header, std::uint64_t fileBytes, const std::string& path)
 {

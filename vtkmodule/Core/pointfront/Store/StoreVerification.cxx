@@ -107,7 +107,7 @@ void SeenPoints::add(const SeenPoints& other)
   }
 }
 
-/// What the threads of one run share.
+/// State that the threads of one run share.
 struct StoreVerification::Walk
 {
   Walk(SeenPoints nothing, const ProgressFunction& progress, std::uint64_t total)
@@ -119,7 +119,7 @@ struct StoreVerification::Walk
   std::atomic<NodeIndex> faulty{ noNode }; ///< the lowest so far: nodes beyond it do not matter
   std::atomic<bool> cancelled{ false };
   std::mutex mutex; ///< guards what follows
-  std::string fault; ///< of node `faulty`
+  std::string fault; ///< fault of node `faulty`
   SeenPoints seen;
   std::uint64_t done = 0;
   Pace pace;
@@ -248,7 +248,7 @@ std::string StoreVerification::readNodeRanges()
   return {};
 }
 
-/// What nodes are said to have below them holds what they and their children are said to have.
+/// The range below a node must hold the ranges of its children and of the nodes below these.
 std::string StoreVerification::rangesFault(NodeIndex index, const Node& node) const
 {
   const auto holds = [](const ValueRange& outer, const ValueRange& inner)

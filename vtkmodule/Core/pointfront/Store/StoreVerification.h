@@ -10,7 +10,7 @@
 namespace pointfront
 {
 
-/// What the points of some nodes add up to.
+/// The sums over the points of some nodes.
 struct SeenPoints
 {
   GridBounds bounds;

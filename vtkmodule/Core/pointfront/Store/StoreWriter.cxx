@@ -267,7 +267,7 @@ StoredDescription FileStoreWriter::describe(const StoreDescription& description,
   return stored;
 }
 
-/// What a reader must know of payloads beside their places: the ranges of those that are here, the
+/// Writes facts of payloads beside their places: the ranges of those that are here, the
 /// file that holds those that are not.
 Result<void> FileStoreWriter::putPayloadFacts(const std::vector<Node>& nodes,
   const std::vector<PayloadId>& payloads, const BlockDirectory& directory, StoreFooter& footer)

@@ -22,14 +22,14 @@ struct EncodedNode
   {
     std::vector<std::byte> bytes;
     std::uint8_t codec = 0;
-    std::uint32_t checksum = 0; ///< of `bytes`
+    std::uint32_t checksum = 0; ///< checksum of `bytes`
   };
   Block positions;
   std::vector<Block> columns; ///< one for each column of the schema
   GridPosition origin{ 0 };
   std::uint32_t pointCount = 0;
-  GridBounds bounds; ///< of the points, not relative to the origin
-  std::vector<ColumnRange> ranges; ///< of the points, one for each column
+  GridBounds bounds; ///< bounds of the points, not relative to the origin
+  std::vector<ColumnRange> ranges; ///< range of the points, one for each column
 
   std::size_t bytes() const;
 };
@@ -45,16 +45,16 @@ using ColumnConstants = std::vector<std::optional<std::vector<std::byte>>>;
 EncodedNode encodeNode(
   const NodeColumns& points, const AttributeSchema& schema, const ColumnConstants& constants);
 
-/// What a writer has written so far, for stores that refer to it.
+/// The payloads that a writer has written so far, for stores that refer to it.
 struct WrittenPayloads
 {
   std::string storeName; ///< file name of the store
   std::string nameMeanwhile; ///< the file's name while it is written
-  std::uint64_t bytes = 0; ///< of that file, to be relied on from now on
+  std::uint64_t bytes = 0; ///< bytes of that file, to be relied on from now on
   BlockDirectory directory{ 1 }; ///< by PayloadId, like the next one
   std::vector<std::uint32_t> pointCounts;
   GridBounds bounds;
-  std::vector<ColumnRange> ranges; ///< of all their points, one for each column
+  std::vector<ColumnRange> ranges; ///< range of all their points, one for each column
 };
 
 /// Writes a store: payloads one after another, then the table. Whole or absent: writes an

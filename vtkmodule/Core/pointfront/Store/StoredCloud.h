@@ -42,8 +42,8 @@ struct StoreDescription
   std::uint32_t version = 0;
   std::uint64_t fileBytes = 0;
   std::uint64_t pointCount = 0;
-  /// Of the cloud that it shows a part of: a first look, the preview of a running build, a tree
-  /// that lacks points of its file. At most pointCount, as here: nothing is missing.
+  /// Number of points in the cloud that it shows a part of: a first look, the preview of a running
+  /// build, a tree that lacks points of its file. At most pointCount, as here: nothing is missing.
   std::uint64_t wholeCount = 0;
   Bounds bounds; ///< tight, of the stored points
   QuantisationGrid grid;

@@ -74,7 +74,7 @@ Result<std::shared_ptr<const Hierarchy>> readWhole(
   return std::shared_ptr<const Hierarchy>(std::move(table));
 }
 
-/// What the roots, the layers and the footer say of each other.
+/// The fault between the roots, the layers and the footer.
 std::string summaryFault(
   const Hierarchy& table, const StoreFooter& footer, const StoreDescription& description)
 {

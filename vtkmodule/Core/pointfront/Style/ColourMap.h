@@ -15,7 +15,7 @@ using Rgba8 = std::array<std::uint8_t, 4>;
 struct ColourMap
 {
   std::vector<Rgba8> entries; ///< at least one
-  std::array<double, 2> range{ 0.0, 1.0 }; ///< of the first entry's low, the last one's high end
+  std::array<double, 2> range{ 0.0, 1.0 }; ///< low end of the first entry, high end of the last one
   bool logarithmic = false; ///< equal steps of log10; range > 0 then
   /// Whole numbers from range[0] on have an entry each; nothing lies between two.
   bool indexed = false;

@@ -49,11 +49,11 @@ struct ColourSource
 {
   enum class Kind : std::uint8_t
   {
-    Automatic, ///< what says most of the store: defaultColourAttribute()
+    Automatic, ///< the attribute that says most of the store: defaultColourAttribute()
     Constant,
     Attribute, ///< a name: an attribute, a component (ComponentName.h), elevation, horizontality
                ///< or global_height
-    Combination ///< of two, neither of them a combination
+    Combination ///< two sources, neither of them a combination
   };
   Kind kind = Kind::Automatic;
   Rgba8 constant{ 255, 255, 255, 255 };
@@ -61,7 +61,7 @@ struct ColourSource
   ColourMapChoice map;
   ColourCombination combination = ColourCombination::None;
   double share = 0.5; ///< Mix: of the second, 0 to 1
-  std::vector<ColourSource> parts; ///< of a combination: two
+  std::vector<ColourSource> parts; ///< the two parts of a combination
 
   static ColourSource ofAttribute(std::string name, ColourMapChoice map = {});
   static ColourSource ofConstant(const Rgba8& colour);
@@ -79,7 +79,7 @@ struct ColourSource
 /// Facts that a style may ask for and that a store's description lacks.
 struct StoreSurroundings
 {
-  /// Of the store: for global_height.
+  /// Heights in the store: for global_height.
   std::shared_ptr<const ClassHeights> heights;
   /// The ranges over all stores of the picture. Missing ranges come from it, and an attribute that
   /// another store has and this store lacks leaves this store white. Null: the store stands alone,

@@ -152,7 +152,7 @@ private:
     }
   }
 
-  /// What is written without point and exponent, exactly, if it has 64 bits at most.
+  /// Reads a number without point and exponent, exactly, if it has 64 bits at most.
   static std::optional<ConditionNumber> wholeNumber(const char* begin, const char* end)
   {
     std::int64_t negative = 0;
@@ -314,7 +314,7 @@ int axisOf(std::string_view name)
   return -1;
 }
 
-/// What no store holds, unless one has an attribute of that name.
+/// Whether no store holds it, unless one has an attribute of that name.
 bool isDerived(const StoreDescription& store, const std::string& name, const char* derived)
 {
   return sameWithoutCase(withUnderscores(name), derived) && !findComponent(store.schema, name);

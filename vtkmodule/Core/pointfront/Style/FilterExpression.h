@@ -17,7 +17,7 @@ namespace pointfront
 struct FilterTerm
 {
   std::string name; ///< attribute, component or coordinate
-  std::size_t position = 0; ///< of the name in the text, bytes
+  std::size_t position = 0; ///< offset of the name in the text, bytes
   AttributeCondition passing; ///< column, component and axis are not set
 };
 

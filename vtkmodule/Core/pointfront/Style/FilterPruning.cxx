@@ -13,7 +13,7 @@ namespace
 
 using Verdict = NodePruning::Verdict;
 
-/// What is known of a node: whether its own points may pass, and those below it.
+/// Whether a node's own points may pass, and those below it.
 struct MayPass
 {
   bool own = true;
@@ -62,8 +62,8 @@ Result<std::vector<KnownCondition>> knownConditions(
   return known;
 }
 
-/// Of the nodes that all conditions know; a point passes one filter if it meets all conditions of
-/// it, so a node does if none of its conditions excludes it.
+/// Judges the nodes that all conditions know; a point passes one filter if it meets all conditions
+/// of it, so a node does if none of its conditions excludes it.
 std::vector<MayPass> judged(
   const std::vector<KnownCondition>& conditions, const AttributeSchema& schema, NodeIndex nodes)
 {

@@ -30,7 +30,7 @@ enum class LensShape : std::uint8_t
   Circle,
   Rectangle,
   Mask, ///< any set of pixels
-  AroundClass ///< what points of a class cover, each with a disc of some world units
+  AroundClass ///< covered by points of a class, each with a disc of some world units
 };
 
 /// A lens of one frame: inside it each layer is drawn in another style (ResolvedStyle::lens).

@@ -22,7 +22,7 @@ struct FrameLight
   bool positional = false; ///< it shines from `place`; what follows is for such lights
   glm::vec3 place{ 0.0f };
   glm::vec3 aim{ 0.0f, 0.0f, -1.0f }; ///< unit: the middle of its cone
-  float coneCosine = noCone; ///< of the angle between aim and the cone's rim
+  float coneCosine = noCone; ///< cosine of the angle between aim and the cone's rim
   float exponent = 1.0f; ///< in a cone it fades as the cosine of the angle from aim, to this power
   glm::vec3 attenuation{ 1.0f, 0.0f, 0.0f }; ///< divides by a + b * distance + c * distance^2
 

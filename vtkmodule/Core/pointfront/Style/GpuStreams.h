@@ -16,7 +16,7 @@ namespace pointfront
 /// exists only if a style reads it.
 enum class GpuStream : std::uint8_t
 {
-  Value, ///< what its colour is made of
+  Value, ///< value of its colour
   Shape, ///< its normal and the code of its radius
   Size, ///< a radius of its own as a float, world units
   Height, ///< above the ground as a float, world units

@@ -24,7 +24,7 @@ struct ColourRequest
     Table, ///< everything through the table
     Direct ///< whatever has three or four components is a colour
   };
-  std::string name; ///< of the attribute; empty: the property's colour
+  std::string name; ///< name of the attribute; empty: the property's colour
   Mode mode = Mode::Default;
   int component = -1; ///< -1: the magnitude of several
   /// Direct: the values of floating or scaled components that are black and full (a lookup table
@@ -42,7 +42,7 @@ struct ColourScale
   ColourScale(const Attribute& attribute, bool wide, const std::array<double, 2>& range);
 };
 
-/// What colours the points: which column is read, and how a point's bytes become the one 32-bit
+/// The colouring of points: which column is read, and how a point's bytes become the one 32-bit
 /// value that it has on the GPU. "Model only what a scene requires": flat colour and elevation need
 /// no column and no value.
 /// Derived  three attributes that no store holds are made of what it has, unless it has one of
@@ -81,7 +81,7 @@ struct PointColouring
   bool hasValues() const { return kind == Kind::Direct || kind == Kind::Table; }
   bool usesColumn() const { return hasValues() && !heights; }
   bool usesTable() const { return kind == Kind::Table || kind == Kind::Elevation; }
-  /// What has to be read for it.
+  /// The columns that it reads.
   ColumnSelection columns() const;
   /// True if `node` was read with what this colouring needs.
   bool coveredBy(const NodeColumns& node) const;

@@ -27,9 +27,9 @@ struct AttributeCondition
   std::uint32_t column = 0;
   int component = 0;
   int axis = -1; ///< 0 x, 1 y, 2 z: of the position, which needs no column
-  double axisScale = 1.0; ///< of the store's grid, along `axis`
+  double axisScale = 1.0; ///< scale of the store's grid, along `axis`
   double axisOffset = 0.0;
-  /// Of the value without its sign: horizontality is so of the normal's third component.
+  /// Whether the value's sign is left out: horizontality is so of the normal's third component.
   bool absolute = false;
   /// Global height: `axis` is z, and the value is the point's height in its class.
   std::shared_ptr<const ClassHeights> heights = nullptr;
@@ -38,7 +38,7 @@ struct AttributeCondition
   bool lowOpen = false; ///< range[0] itself does not pass
   bool highOpen = false; ///< range[1] itself does not pass
   std::vector<ConditionNumber> values; ///< ascending; not empty: one of these, whatever the range
-  bool inverted = false; ///< what would pass does not, and the other way round; NaN never does
+  bool inverted = false; ///< values pass that would not, and the other way round; NaN never does
 
   bool passes(double value) const;
   /// False when no value passes whose double lies in [low, high]: a node of that range need not be
@@ -63,7 +63,7 @@ struct PointFilter
   std::vector<AttributeCondition> conditions;
 
   bool empty() const { return conditions.empty(); }
-  /// What has to be read for it, ascending.
+  /// The columns that it reads, ascending.
   ColumnSelection columns() const;
   /// keep[i] = 1 for points of [first, first + count) of the node that pass, else 0. The node has
   /// the columns. Exactly AttributeCondition::passes() of each point's world values.

@@ -38,7 +38,7 @@ enum class SplatAccuracy : std::uint8_t
 /// How large a splat is (docs/user/styles.md).
 struct SplatSize
 {
-  /// What closes a surface is drawn no larger than that share of the picture's height: nearer to
+  /// A surface's splats are drawn no larger than that share of the picture's height: nearer to
   /// the eye there is no surface to be seen.
   static constexpr float mostOfHeight = 0.125f;
 
@@ -104,7 +104,7 @@ struct ResolvedStyle
   double opacity = 1.0; ///< 0 to 1
   PointFilter filter; ///< points that do not pass are not drawn
   // Where in the picture its points are seen (PlanParts.h):
-  std::int16_t lens = -1; ///< of FrameShading::lenses, the one they are seen in; -1: outside all
+  std::int16_t lens = -1; ///< the lens in FrameShading::lenses that shows them; -1: outside all
   bool lensMask = false; ///< they are not seen: what they cover is what the lens covers
   /// 0: opaque; the nearest opaque point of all such styles is seen. Else the number of a
   /// translucent group: its points are one surface, drawn with `opacity` over everything behind it.
@@ -112,7 +112,7 @@ struct ResolvedStyle
   std::uint8_t highlight = 0; ///< 1 + number in FrameShading::highlights; 0: none
   std::uint16_t look = 0; ///< FrameShading::look(): how its pixels are shaded
 
-  /// What has to be read for it, ascending.
+  /// The columns that it reads, ascending.
   ColumnSelection columns() const;
 };
 

@@ -250,7 +250,7 @@ private:
     return {};
   }
 
-  /// What points of the class cover, each with a disc that faces the eye.
+  /// Adds the mask of points of the class, each with a disc that faces the eye.
   Result<void> addMask(const StyleLens& lens, std::int16_t number)
   {
     ResolvedStyle mask;

@@ -21,10 +21,10 @@ class StyleLooks
 public:
   explicit StyleLooks(const StyleSheet& sheet);
 
-  /// Of a complete style of the sheet or of one of its lenses.
+  /// Number of a complete style of the sheet or of one of its lenses.
   std::uint16_t numberOf(const LayerStyle& style) const;
   const std::vector<FrameLook>& looks() const { return looks_; }
-  /// Of all styles in order: the default, the classes, then the same of each lens.
+  /// Numbers of all styles in order: the default, the classes, then the same of each lens.
   const std::vector<std::uint16_t>& numbers() const { return numbers_; }
 
 private:

@@ -29,7 +29,7 @@ struct LayerStyling
   double budgetShare = 0.0; ///< the largest; of a store with one tree for all classes 0
 
   bool visible() const { return !styles.empty(); }
-  /// What has to be read for all of them, ascending.
+  /// The columns that all of them read, ascending.
   ColumnSelection columns() const;
 };
 
@@ -41,7 +41,7 @@ struct LayerStyling
 struct StyleSheet
 {
   LayerStyle standard; ///< the default
-  std::map<std::uint8_t, LayerStyle> classes; ///< what differs, by class code
+  std::map<std::uint8_t, LayerStyle> classes; ///< differences by class code
   /// Codes that are drawn, ascending; the others are hidden, whatever their styles say. Nothing:
   /// all.
   std::optional<std::vector<std::uint8_t>> shownClasses;

@@ -10,7 +10,7 @@ namespace pointfront
 {
 namespace
 {
-constexpr std::size_t mostComponents = 16; // of an attribute, see Attribute
+constexpr std::size_t mostComponents = 16; // components of an attribute, see Attribute
 constexpr double largestExactInteger = 9007199254740992.0; // 2^53
 
 bool isFloat(ScalarType type)
@@ -110,7 +110,7 @@ std::optional<ColourCoding> colourCoding(
   }
   if (fraction && values.high <= 1.0)
   {
-    constexpr double mostOff = 0.15; // what rounding to three decimals does to a 255th
+    constexpr double mostOff = 0.15; // error of a 255th that is rounded to three decimals
     const bool eightBit = values.off255 <= mostOff || values.high * 65535.0 <= 255.0;
     return eightBit ? ColourCoding{ ScalarType::UInt8, 255.0 }
                     : ColourCoding{ ScalarType::UInt16, 65535.0 };

@@ -23,7 +23,7 @@ class DecimalStep
 public:
   static constexpr int mostDecimals = 12;
 
-  /// Of float32 or float64.
+  /// For values of float32 or float64.
   explicit DecimalStep(ScalarType type = ScalarType::Float64)
     : rounding_(type == ScalarType::Float32 ? 0x1p-24 : 0x1p-51)
   {
@@ -36,7 +36,7 @@ public:
       return;
     }
     farthest_ = std::max(farthest_, std::abs(value));
-    // What is a multiple of a step is one of every smaller step.
+    // A multiple of a step is one of every smaller step.
     while (decimals_ <= mostDecimals && !isMultiple(value))
     {
       ++decimals_;

@@ -29,7 +29,7 @@ struct FieldRole
   std::string attribute;
   unsigned component = 0;
   std::optional<ScalarType> type = {}; ///< the type of a well-known attribute
-  /// Of a position, how sure the name is: 0 x, y, z; 1 easting, longitude, Points:0 ...; 2 names
+  /// How sure the name of a position is: 0 x, y, z; 1 easting, longitude, Points:0 ...; 2 names
   /// that also stand for other things: e, n, h, height.
   unsigned rank = 0;
 };

@@ -39,7 +39,7 @@ private:
   RecordEncoder encoder_;
   Header header_;
   std::unique_ptr<OutputFile> file_;
-  std::vector<std::byte> records_; ///< of one batch
+  std::vector<std::byte> records_; ///< records of one batch
   std::uint64_t points_ = 0;
 };
 

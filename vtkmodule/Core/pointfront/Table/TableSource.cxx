@@ -15,7 +15,7 @@ namespace pointfront
 namespace
 {
 constexpr std::uint64_t sampledChunks = 64;
-constexpr double mostSteps = 2147483647.0; // of an extent: 32 bits in a store
+constexpr double mostSteps = 2147483647.0; // steps of an extent: 32 bits in a store
 constexpr int mostDecimals = 15;
 
 bool isInteger(const TableField& field)
@@ -23,7 +23,7 @@ bool isInteger(const TableField& field)
   return field.type && *field.type != ScalarType::Float32 && *field.type != ScalarType::Float64;
 }
 
-/// What is known of the values of a table's fields.
+/// Facts of the values of a table's fields.
 struct Survey
 {
   std::vector<FieldStatistics> statistics; ///< a field each

@@ -48,7 +48,7 @@ public:
   }
   void skip()
   {
-    if (p_ != end_ && *p_ == '"') // what is quoted may hold separators
+    if (p_ != end_ && *p_ == '"') // quoted text may hold separators
     {
       const char* const open = p_++;
       while (p_ != end_ && *p_ != '"')

@@ -16,7 +16,7 @@ namespace pointfront
 /// How lines are rows of numbers.
 struct TextLayout
 {
-  /// What one cell of a row is.
+  /// The kind of one cell of a row.
   struct Cell
   {
     std::optional<std::size_t> field; ///< nothing: skipped, whatever it says
@@ -75,7 +75,7 @@ private:
     std::size_t end = 0;
     std::uint64_t rows = 0;
   };
-  struct Findings; ///< of one chunk, see TextRows.cxx
+  struct Findings; ///< the findings of one chunk, see TextRows.cxx
 
   explicit TextRows(const MemoryMap& map, TextLayout layout)
     : map_(&map)
@@ -97,7 +97,7 @@ private:
   std::uint64_t badRows_ = 0;
   std::uint64_t promisedRows_ = 0;
   std::uint64_t firstBadLine_ = 0;
-  std::string firstBad_; ///< what it says, shortened
+  std::string firstBad_; ///< its text, shortened
 };
 
 /// The first `count` lines of `text` that are not blank end at the offset returned; `lines` counts

@@ -33,7 +33,7 @@ struct ThreadCrew::Content
   unsigned working = 0; ///< that have not ended this round
   bool leaving = false;
   std::exception_ptr failure;
-  // Of the round:
+  // State of the round:
   const std::function<void(std::size_t, unsigned)>* work = nullptr;
   std::size_t pieces = 0;
   std::atomic<std::size_t> next{ 0 };

@@ -37,7 +37,7 @@ public:
   void beginPhase(const char* name, std::uint64_t total, double weight);
   /// Hands a sentence to the user's function at once; between two run().
   void tell(const std::string& notice);
-  /// What was done of the phase was in vain.
+  /// Begins the phase again: its work so far was in vain.
   void repeatPhase() { done_ = 0; }
   /// Adds to what is done; from any thread. May call the user's function.
   void advance(std::uint64_t points);

@@ -34,7 +34,7 @@ public:
 
 private:
   std::thread thread_;
-  ProcessMark mark_; ///< of the process that started it
+  ProcessMark mark_; ///< mark of the process that started it
 };
 
 /// Threads for work of its own: as many as asked for; 0: as there are processors.

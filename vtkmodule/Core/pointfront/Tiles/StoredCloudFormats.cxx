@@ -11,7 +11,7 @@ namespace pointfront
 {
 namespace
 {
-const char* const indexExtension = ".pfindex"; // what `pointfront index` adds to a file's name
+const char* const indexExtension = ".pfindex"; // `pointfront index` adds it to a file's name
 
 class StoreFile final : public StoredCloudFormat
 {

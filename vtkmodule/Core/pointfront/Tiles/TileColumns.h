@@ -33,11 +33,11 @@ public:
   /// A node of the tile that was read with own(wanted), as one with the common columns `wanted`.
   void adapt(NodeColumns& node, const ColumnSelection& wanted, const AttributeSchema& common) const;
 
-  /// What a component of the tile is for the component of a common column; nothing: it is lacking.
+  /// The tile's component for the component of a common column; nothing: it is lacking.
   std::optional<std::uint32_t> ownComponent(std::size_t column, std::uint32_t component) const;
   /// Values of the tile as stored, as values of the common column.
   ValueRange adapted(const ValueRange& range, std::size_t column, const Attribute& common) const;
-  /// Of all its points; zeros where it lacks the column.
+  /// Range of all its points; zeros where it lacks the column.
   ColumnRange range(const StoreDescription& own, std::size_t column, const Attribute& common) const;
 
 private:

@@ -16,7 +16,7 @@ namespace
 {
 using Tiles = std::vector<const StoreDescription*>;
 
-/// What commonSchema() asks a source for.
+/// A tile as a source for commonSchema().
 class DescribedTile final : public PointSource
 {
 public:
@@ -248,7 +248,7 @@ void compareDistances(StoreDescription& whole, const Tiles& tiles)
   }
 }
 
-/// Of all tiles, in the order of their classes.
+/// Adds the layers of all tiles, in the order of their classes.
 std::vector<std::vector<std::uint16_t>> addLayers(StoreDescription& whole, const Tiles& tiles)
 {
   std::map<std::pair<std::uint16_t, std::string>, Layer> layers;

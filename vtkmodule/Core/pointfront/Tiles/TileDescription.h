@@ -11,8 +11,8 @@
 namespace pointfront
 {
 
-/// What several stores are as one cloud, and what each of them has to become for that. From their
-/// descriptions alone; nothing is read.
+/// Describes several stores as one cloud, and the change that each of them needs for that. From
+/// their descriptions alone; nothing is read.
 struct TileDescription
 {
   /// How one of them becomes a part of the whole.
@@ -23,7 +23,7 @@ struct TileDescription
     std::vector<std::uint16_t> layers; ///< which of the common ones its own are
   };
 
-  StoreDescription whole; ///< what differs is in its warnings
+  StoreDescription whole; ///< its warnings name the differences
   std::vector<Part> parts;
 
   /// `path` names the whole.

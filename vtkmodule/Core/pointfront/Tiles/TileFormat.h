@@ -17,12 +17,12 @@ Result<std::vector<std::string>> readTileList(const std::string& path);
 /// The lines that are names, as they stand there. BadFormat: as above.
 Result<std::vector<std::string>> parseTileList(std::string_view text, const std::string& path);
 
-/// What a folder stands for: its stores; if it has none, its indices; if it has neither, its
-/// COPC files. Below it, too; sorted. Previews of builds are left out.
+/// The stores that a folder stands for: its own; if it has none, its indices; if it has neither,
+/// its COPC files. Below it, too; sorted. Previews of builds are left out.
 struct TileFolder
 {
   std::vector<std::string> files;
-  std::vector<std::string> warnings; ///< of what else is there
+  std::vector<std::string> warnings; ///< warnings about other files there
 
   /// Errors  Unreadable.
   static Result<TileFolder> of(const std::string& folder);

@@ -9,7 +9,7 @@
 namespace pointfront
 {
 
-/// What all tables wait for; one page after another, whichever asked.
+/// The signal that all tables wait for; one page after another, whichever asked.
 /// Cost  nothing while nobody has asked: a reader looks here before each node that it takes, and
 ///       there may be ten thousand tables.
 class TileTable::Rows final : public MissingRows

@@ -77,7 +77,7 @@ private:
   using CutRoots = std::vector<NodeIndex>;
 
   CutRoots rootsToCut(const Hierarchy& table) const;
-  /// Of a cloud's own node that is whole, or the head of it.
+  /// Number of a cloud's own node that is whole, or the head of it.
   NodeIndex indexOf(std::size_t tile, NodeIndex own) const;
   NodeIndex bodyIndexOf(std::size_t tile, NodeIndex own) const; ///< its own index if it is whole
   Node unshifted(const Place& place, Node row) const;
@@ -87,7 +87,7 @@ private:
   std::vector<CutRoots> cut_; ///< by tile
   std::uint32_t headPoints_;
   NodeIndex headCount_ = 0;
-  std::vector<NodeIndex> firstNodes_; ///< of each tile; the last entry is behind all
+  std::vector<NodeIndex> firstNodes_; ///< first node of each tile; the last entry is behind all
   std::vector<std::uint64_t> firstPoints_;
   std::vector<NodeIndex> roots_;
   Refinement refinement_ = Refinement::Add;

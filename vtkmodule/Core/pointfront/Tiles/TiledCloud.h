@@ -48,11 +48,11 @@ public:
     NodeIndex node, std::uint32_t points, const ColumnSelection& columns) const override;
   std::size_t storedBytes(NodeIndex node, const ColumnSelection& columns) const override;
   std::uint64_t disk() const override { return tiles_.front()->disk(); }
-  /// Of all tiles, in common values. Nodes of a tile that knows none may have any value.
+  /// Ranges of all tiles, in common values. Nodes of a tile that knows none may have any value.
   Result<std::shared_ptr<const NodeRanges>> nodeRanges(
     std::uint32_t component, NodeIndex most = noNode) const override;
   MissingRows* missingRows() const override { return table_->missingRows(); }
-  /// Of all tiles, one after the other.
+  /// Verifies all tiles, one after the other.
   Result<VerifyReport> verify(const ProgressFunction& progress = {}) const override;
 
 private:

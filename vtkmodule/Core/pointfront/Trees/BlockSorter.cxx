@@ -96,7 +96,7 @@ private:
   const BucketTables& buckets_;
   const PoolPreparation& points_;
   std::array<std::size_t, 256> layerOf_{};
-  std::vector<std::map<unsigned, CellTable>> coarse_; // of each layer, by shift
+  std::vector<std::map<unsigned, CellTable>> coarse_; // tables of each layer, by shift
 };
 
 /// Divides blocks into pieces of one bucket each. One instance a thread.
@@ -178,7 +178,7 @@ private:
   RunBuckets bucketOf_;
   BucketFinder finder_;
   RunSorter sorter_;
-  std::vector<PartPiece> pieces_; // of the block, up to mixed_
+  std::vector<PartPiece> pieces_; // pieces of the block, up to mixed_
   Piece mixed_; // runs whose buckets are not known yet
 };
 } // namespace

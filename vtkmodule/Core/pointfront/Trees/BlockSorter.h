@@ -24,7 +24,7 @@ namespace pointfront
 /// Colours of files with 8 bits among files with 16 bits: those records are multiplied by 257.
 struct ColourWidening
 {
-  std::size_t offset = 0; ///< of the column in the record
+  std::size_t offset = 0; ///< offset of the column in the record
   std::size_t components = 0;
   std::vector<Piece> runs; ///< records to be widened, ascending
 
@@ -45,8 +45,8 @@ struct PoolPreparation
 {
   std::uint64_t points = 0; ///< records 0 to points - 1
   TreeSpace space; ///< with its origin; positions in the pool are absolute steps
-  unsigned rootLog2 = 0; ///< of the root cube's side
-  std::vector<PoolBlock> blocks; ///< of the pool
+  unsigned rootLog2 = 0; ///< log2 of the root cube's side
+  std::vector<PoolBlock> blocks; ///< blocks of the pool
   std::optional<ColourWidening> widening;
   ClassLayers layers;
   bool findable = false; ///< TreeConstruction::nodeOf() will be called
@@ -90,7 +90,7 @@ private:
   const BucketTables& tables_;
   const ClassLayers& layers_;
   const TreeSpace& space_;
-  std::vector<Last> last_; // of each layer
+  std::vector<Last> last_; // the last cell of each layer
 };
 
 /// Walks over the whole pool, block by block, on all threads.

@@ -15,7 +15,7 @@ namespace pointfront
 struct BuiltNode
 {
   Node row; ///< box, spacing and counts; links and level come from nodeTable()
-  int samplingQuarters = -1; ///< of its SamplingDistance; -1 for a leaf
+  int samplingQuarters = -1; ///< quarters of its SamplingDistance; -1 for a leaf
   StoreWriter::PayloadId payload = 0;
   std::vector<std::unique_ptr<BuiltNode>> children; ///< in the order of their octants
 };

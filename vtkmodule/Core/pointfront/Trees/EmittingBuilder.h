@@ -17,8 +17,8 @@
 namespace pointfront
 {
 
-/// What builders of every kind of tree do: they sort the records of a part, measure leaves, encode
-/// finished nodes and keep these until they are taken.
+/// Common part of builders of every kind of tree: they sort the records of a part, measure leaves,
+/// encode finished nodes and keep these until they are taken.
 class EmittingBuilder : public TreeBuilder
 {
 public:

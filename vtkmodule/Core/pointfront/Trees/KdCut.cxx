@@ -139,7 +139,7 @@ void KdCut::addPart(const Region& region, std::uint64_t count)
   ++parts_;
 }
 
-/// Of the box of the region's cells. A single cell is divided along each axis in turn.
+/// Longest axis of the box of the region's cells. A single cell is divided along each axis in turn.
 unsigned KdCut::longestAxis(const Region& region) const
 {
   TreePosition low(UINT32_MAX);

@@ -20,7 +20,7 @@ struct KdCell
 /// Points that a part or a subtree owes to a node above it.
 struct KdShare
 {
-  std::uint32_t node = 0; ///< of KdCut::tree()
+  std::uint32_t node = 0; ///< number in KdCut::tree()
   std::uint64_t points = 0;
 };
 
@@ -39,7 +39,7 @@ struct KdPlace
 /// Sizes of a tree's nodes.
 struct KdRule
 {
-  std::uint32_t nodePoints = 16384; ///< of each node but one a tree
+  std::uint32_t nodePoints = 16384; ///< points of each node but one a tree
   /// A subtree of at most so many nodes is a part, built in memory. Fixed, so that the tree
   /// depends on neither memory nor threads.
   std::uint32_t partNodes = 16;
@@ -77,7 +77,7 @@ public:
   /// PartNode::count of a part is the points that are moved to it, those that it owes included.
   const std::vector<PartNode>& tree() const { return tree_; }
   std::uint32_t partCount() const { return parts_; }
-  /// What each node of tree() owes to those above it, from the root down.
+  /// Shares that each node of tree() owes to those above it, from the root down.
   const std::vector<std::vector<KdShare>>& shares() const { return shares_; }
   /// The first ones belong to the cells, in their order.
   const std::vector<KdPlace>& places() const { return places_; }

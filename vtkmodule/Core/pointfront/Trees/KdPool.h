@@ -34,7 +34,7 @@ public:
     const PoolPreparation& points, ClassCounts counts, unsigned hintedShift, const KdRule& rule);
 
   const std::vector<PartNode>& tree() const { return tree_; }
-  /// What each node of tree() owes to those above it, from the root down.
+  /// Shares that each node of tree() owes to those above it, from the root down.
   const std::vector<std::vector<KdShare>>& shares() const { return shares_; }
   /// The records of a part.
   Result<std::vector<std::byte>> load(std::uint32_t part) const;
@@ -59,11 +59,11 @@ private:
   const PoolPreparation* points_ = nullptr;
   std::vector<PartNode> tree_;
   std::vector<std::vector<KdShare>> shares_;
-  std::vector<KdPlace> places_; // of all layers
+  std::vector<KdPlace> places_; // places of all layers
   std::vector<std::uint32_t> divided_; // places of cells that are divided
-  std::vector<std::vector<Piece>> pieces_; // of each part
-  std::vector<std::uint64_t> counts_; // of each part
-  // Of findable points:
+  std::vector<std::vector<Piece>> pieces_; // pieces of each part
+  std::vector<std::uint64_t> counts_; // points of each part
+  // Order of findable points:
   ClassLayers layers_;
   BucketTables buckets_;
   std::vector<std::uint32_t> nodeOfPart_;

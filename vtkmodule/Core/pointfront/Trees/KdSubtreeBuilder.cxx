@@ -125,8 +125,8 @@ void KdSubtreeBuilder::take(Region& region, std::uint64_t wanted)
   region.end = left;
 }
 
-/// That `drawn` points in the region of points_ have, which are evenly spread: one each, as long as
-/// there are so many, of those that points_ and the points above them have.
+/// The places of `drawn` points in the region of points_, which are evenly spread: one each, as long
+/// as there are so many among those of points_ and of the points above them.
 double KdSubtreeBuilder::places(double drawn, double above) const
 {
   const auto points = static_cast<double>(points_.size());
@@ -134,7 +134,7 @@ double KdSubtreeBuilder::places(double drawn, double above) const
   return std::min(drawn, (points + above) * share);
 }
 
-/// Of points with so many places in the region of points_.
+/// Spacing of points with so many places in the region of points_.
 double KdSubtreeBuilder::spacing(double places) const
 {
   const unsigned side = differingBits(positions_[points_.front()], positions_[points_.back()]);
@@ -239,7 +239,7 @@ std::size_t KdSubtreeBuilder::divide(const Region& region)
   }
   const auto at = inside.begin() + static_cast<std::ptrdiff_t>(rank);
   std::nth_element(inside.begin(), at, inside.end());
-  const std::pair<std::uint32_t, std::uint32_t> first = *at; // of the right
+  const std::pair<std::uint32_t, std::uint32_t> first = *at; // the first of the right half
   return separate(region, first);
 }
 

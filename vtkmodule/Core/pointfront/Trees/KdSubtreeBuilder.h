@@ -68,13 +68,13 @@ private:
   const std::vector<std::vector<KdShare>>& shares_;
   ExactSampler sampler_;
   // Reused from part to part: fresh memory costs more than what is done with it.
-  std::vector<TreePosition> positions_; // of the sorted records
+  std::vector<TreePosition> positions_; // positions of the sorted records
   std::vector<std::uint32_t> active_; // numbers of those that no node has yet, region by region
   std::vector<std::uint8_t> steps_; // bits that each of active_ differs in from the one before
-  std::vector<std::uint32_t> points_; // of the region at hand
-  CellOccupancy occupancy_; // of points_
-  std::vector<std::uint32_t> held_; // what take() took
-  std::vector<std::uint32_t> coordinates_; // of active_, along the axis at hand
+  std::vector<std::uint32_t> points_; // points of the region at hand
+  CellOccupancy occupancy_; // occupancy of points_
+  std::vector<std::uint32_t> held_; // points that take() took
+  std::vector<std::uint32_t> coordinates_; // coordinates of active_, along the axis at hand
   std::vector<std::uint32_t> right_;
   std::vector<std::uint8_t> rightSteps_;
   std::vector<std::uint32_t> chosen_; // places in points_

@@ -18,7 +18,7 @@ namespace pointfront
 struct StoredColumn
 {
   std::optional<std::size_t> offset; ///< in the record; nothing: it is not carried
-  std::size_t bytes = 0; ///< of one point in the store
+  std::size_t bytes = 0; ///< size of one point in the store
   bool narrowed = false; ///< two bytes a component in the record, one in the store
 };
 

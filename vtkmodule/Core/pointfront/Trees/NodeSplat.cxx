@@ -24,7 +24,7 @@ constexpr double likelyFarther = 1.7;
 /// Points of a cell around which neighbours are looked for in the cells beside it: on a surface as
 /// in a volume, the nearest 15 are not farther than its side.
 constexpr std::size_t pointsOfCell = 12;
-/// Of all these cells together: fewer have not enough neighbours, more take long.
+/// Points in all these cells together: fewer have not enough neighbours, more take long.
 constexpr std::size_t leastAround = 2 * NearOffsets::most;
 constexpr std::size_t mostAround = 1024;
 constexpr unsigned largestLog2 = 31;
@@ -156,7 +156,7 @@ std::size_t NodeSplat::cellsAround(const Points& points, std::size_t from, unsig
   for (std::size_t c = 0; c < cells_.size(); ++c)
   {
     TreePosition origin = own;
-    bool inside = true; // of 32 bits
+    bool inside = true; // it fits into 32 bits
     for (int axis = 0, number = static_cast<int>(c); axis < 3; ++axis, number /= 3)
     {
       const bool below = number % 3 == 0;

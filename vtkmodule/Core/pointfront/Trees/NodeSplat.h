@@ -35,7 +35,7 @@ private:
   void nearOf(const std::vector<glm::dvec3>& around, const glm::dvec3& from, double bound);
 
   std::vector<double> radii_;
-  std::vector<double> rims_; ///< of points at the rim of what is known, for want of others
+  std::vector<double> rims_; ///< distances at the rim of the known part, for want of others
   NearOffsets near_;
 };
 
@@ -48,7 +48,7 @@ class NodeSplat
 {
 public:
   explicit NodeSplat(const TreeSpace& space);
-  /// Of the points with these numbers, in Morton order: all that are drawn of a region. World
+  /// Measures the points with these numbers, in Morton order: all that are drawn of a region. World
   /// units; 0 for a single place.
   float measure(const RecordSpan& positions, const std::vector<std::uint32_t>& points);
 
@@ -72,7 +72,7 @@ private:
   std::size_t cellsAround(const Points& points, std::size_t from, unsigned log2Side);
   void lookAround(const Points& points, std::size_t from);
 
-  glm::dvec3 stepLengths_; ///< of a tree step on each axis, world units
+  glm::dvec3 stepLengths_; ///< length of a tree step on each axis, world units
   SplatQuantile quantile_;
   std::array<Range, 27> cells_; ///< around a point, its own in the middle
   std::vector<glm::dvec3> around_;

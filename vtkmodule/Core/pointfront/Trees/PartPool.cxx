@@ -105,7 +105,7 @@ Result<void> PartPool::refine(std::uint32_t part)
     countedCells(counts.table(), TreeSpace()); // relative to the root
   std::vector<std::uint32_t> partOf;
   const Partition finer(cells, counts.table().shift(), sorter_.plan().partPoints, partOf);
-  const ClassLayers layer; // of the part: there is no other in it
+  const ClassLayers layer; // the part's layer: there is no other in it
   const BucketTables table{ partTable(cells, counts.table().shift(), partOf, 0) };
   const std::vector<std::uint32_t> numbers = partition_->refine(part, finer);
   pieces_.resize(partition_->partCount());

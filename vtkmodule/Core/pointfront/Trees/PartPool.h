@@ -35,7 +35,7 @@ private:
   BlockSorter sorter_;
   const PoolPreparation* points_ = nullptr;
   std::optional<Partition> partition_;
-  std::vector<std::vector<Piece>> pieces_; // of each part
+  std::vector<std::vector<Piece>> pieces_; // pieces of each part
   double seconds_ = 0.0;
 };
 

@@ -14,7 +14,7 @@ struct PartNode
   std::uint64_t count = 0; ///< points inside
   std::uint32_t parent = none; ///< none for a root
   std::uint32_t part = none; ///< number of the part; none for an inner node
-  std::uint16_t layer = 0; ///< of the store; each layer has a tree of its own
+  std::uint16_t layer = 0; ///< layer of the store; each layer has a tree of its own
   std::vector<std::uint32_t> children;
 };
 

@@ -27,7 +27,7 @@ public:
 
   struct Node : PartNode
   {
-    OctreeCell cell; ///< of a part: a cell around its points, not always the smallest
+    OctreeCell cell; ///< cell of a part: around its points, not always the smallest
   };
 
   Partition() = default;
@@ -37,7 +37,7 @@ public:
     std::vector<std::uint32_t>& partOf);
 
   const std::vector<Node>& nodes() const { return nodes_; }
-  std::uint32_t root() const { return 0; } ///< of layer 0; none when nodes() is empty
+  std::uint32_t root() const { return 0; } ///< root of layer 0; none when nodes() is empty
   std::uint32_t partCount() const { return static_cast<std::uint32_t>(parts_.size()); }
   const Node& part(std::uint32_t number) const { return nodes_[parts_[number]]; }
 

@@ -16,7 +16,7 @@ struct CellOccupancy
 {
   std::array<std::uint64_t, 33> distinct{};
 
-  /// Of the points; some may share one.
+  /// Number of places of the points; some may share one.
   std::uint64_t places() const { return distinct[0]; }
   /// Adds points that come behind these; the last here and the first there differ in so many bits
   /// (differingBits()).
@@ -41,7 +41,7 @@ struct SamplingDistance
   double steps() const;
 };
 
-/// What an inner node may hold.
+/// The limits of an inner node's points.
 struct SamplingRule
 {
   std::uint32_t nodePoints = 16384;
@@ -103,7 +103,7 @@ private:
   {
     Pair xy;
     Pair z; ///< twice
-    Pair squared; ///< of the distance in steps, twice
+    Pair squared; ///< square of the distance in steps, twice
   };
   /// Two points at a time, in the halves of vectors; the same sums as one by one.
   static Mask near(const Query& query, const Taken& a, const Taken& b);
@@ -113,7 +113,7 @@ private:
 
   std::vector<std::uint32_t> slots_; // heads of lists in taken_
   std::vector<Taken> taken_;
-  double cellsPerStep_ = 0.0; // of the table's cells
+  double cellsPerStep_ = 0.0; // cells of the table in a step
 };
 
 /// Spacing between neighbours in tree steps of a set whose occupancy is known, taken as a
@@ -121,7 +121,7 @@ private:
 /// number is the covered area, and spacing = sqrt(area / places). Never more than the cell of
 /// 2^nodeLog2Side steps that holds them all. Points that share a place count as one.
 double surfaceSpacing(const CellOccupancy& occupancy, unsigned nodeLog2Side);
-/// Of points in Morton order, in the smallest cell that holds them all.
+/// Spacing of points in Morton order, in the smallest cell that holds them all.
 double surfaceSpacing(const RecordSpan& records, const std::vector<std::uint32_t>& points);
 
 } // namespace pointfront

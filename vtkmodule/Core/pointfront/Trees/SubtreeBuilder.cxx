@@ -95,7 +95,7 @@ SubtreeBuilder::Branch SubtreeBuilder::joinBranches(
     joined.node->row.spacing = std::max(spacingBelow, spacingOf(points, occupancy, distance));
     joined.held.reserve(chosen_.size());
     auto next = chosen_.begin();
-    std::size_t first = 0; // of the child, among the candidates
+    std::size_t first = 0; // the child's first, among the candidates
     for (Branch& child : children)
     {
       auto left = child.held.begin();
@@ -124,8 +124,8 @@ SubtreeBuilder::Branch SubtreeBuilder::joinBranches(
   return joined;
 }
 
-/// Of an inner node that chose chosen_ of candidates_: the distance that keeps them apart, and
-/// where a point of each place was chosen, that of the places, which may lie much further apart.
+/// Spacing of an inner node that chose chosen_ of candidates_: the distance that keeps them apart,
+/// and where a point of each place was chosen, that of the places, which may lie much further apart.
 float SubtreeBuilder::spacingOf(const SortedPoints& points, const CellOccupancy& occupancy,
   const SamplingDistance& distance) const
 {
@@ -136,7 +136,7 @@ float SubtreeBuilder::spacingOf(const SortedPoints& points, const CellOccupancy&
   return static_cast<float>(space().stepLength() * steps);
 }
 
-/// Of all that the children hold; what a leaf holds was counted already.
+/// Occupancy of all points that the children hold; those of a leaf were counted already.
 CellOccupancy SubtreeBuilder::occupancyOf(
   const RecordSpan& positions, const std::vector<Branch>& children)
 {

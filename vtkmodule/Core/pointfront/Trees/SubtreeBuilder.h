@@ -58,7 +58,7 @@ private:
   {
     std::unique_ptr<BuiltNode> node;
     std::vector<std::uint32_t> held; ///< indices into the sorted points, Morton order
-    std::optional<CellOccupancy> occupancy; ///< of `held`, where it is known already
+    std::optional<CellOccupancy> occupancy; ///< occupancy of `held`, where it is known already
   };
   Branch branch(const SortedPoints& points, std::uint32_t begin, std::uint32_t end);
   Branch leaf(const SortedPoints& points, std::uint32_t begin, std::uint32_t end, unsigned side);
@@ -74,7 +74,7 @@ private:
   SamplingRule rule_;
   SubsetSampler sampler_;
   // Reused from part to part: fresh memory costs more than what is done with it.
-  std::vector<TreePosition> positions_; // of the sorted points
+  std::vector<TreePosition> positions_; // positions of the sorted points
   std::vector<std::uint32_t> candidates_;
   std::vector<std::uint32_t> chosen_;
 };

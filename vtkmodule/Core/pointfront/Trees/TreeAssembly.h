@@ -33,7 +33,7 @@ struct AssemblyPlan
 /// A finished subtree of the upper tree. Without a parent above it is closed, its root written.
 struct FinishedSubtree
 {
-  std::uint32_t node = 0; ///< of the upper tree (PartTree.h)
+  std::uint32_t node = 0; ///< number in the upper tree (PartTree.h)
   OpenSubtree subtree;
 };
 
@@ -88,7 +88,7 @@ private:
   WorkCrew& crew_;
   AssemblyWatch* watch_;
   std::vector<std::uint32_t> order_; // partition nodes in the order of the file
-  std::vector<std::uint32_t> rank_; // of each partition node in order_
+  std::vector<std::uint32_t> rank_; // place of each partition node in order_
   std::vector<std::uint32_t> partNodes_; // the parts among order_
 
   std::mutex mutex_; // guards what follows
@@ -98,10 +98,10 @@ private:
   bool writing_ = false;
   bool watched_ = false; // watch_ is being shown something
   std::uint32_t shown_ = 0; // turn_ of what it was shown last
-  std::vector<OpenSubtree> open_; // of each partition node
+  std::vector<OpenSubtree> open_; // open subtree of each partition node
   std::vector<std::uint8_t> missing_; // children not finished, of each partition node
   std::map<std::uint32_t, std::vector<EmittedNode>> waiting_; // by rank
-  std::vector<std::unique_ptr<BuiltNode>> roots_; // of each layer
+  std::vector<std::unique_ptr<BuiltNode>> roots_; // root of each layer
   SubtreeSeconds seconds_;
   double loadSeconds_ = 0.0;
   double writeSeconds_ = 0.0;

@@ -22,7 +22,7 @@ struct EmittedNode
 struct OpenSubtree
 {
   std::unique_ptr<BuiltNode> root; ///< null for an empty set of points
-  std::vector<std::byte> records; ///< what the levels above may take or summarise, packed
+  std::vector<std::byte> records; ///< packed points that the levels above may take or summarise
 };
 
 /// CPU seconds by phase.
@@ -48,9 +48,9 @@ public:
   virtual OpenSubtree join(std::vector<OpenSubtree> children, std::uint32_t node) = 0;
   /// There is nothing above.
   virtual std::unique_ptr<BuiltNode> close(OpenSubtree subtree) = 0;
-  /// What was emitted since the last call.
+  /// The nodes that were emitted since the last call.
   virtual std::vector<EmittedNode> takeEmitted() = 0;
-  /// Of all calls.
+  /// Times of all calls.
   virtual const SubtreeSeconds& seconds() const = 0;
 };
 

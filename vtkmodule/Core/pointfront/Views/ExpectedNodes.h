@@ -32,7 +32,7 @@ public:
   /// In force in the complete view, pixels.
   double thresholdPx() const { return thresholdPx_; }
   std::uint64_t points() const { return points_; }
-  /// Of the points, those of nodes among which finer nodes are drawn, by level.
+  /// Points of nodes among which finer nodes are drawn, by level.
   const std::vector<std::uint64_t>& refinedPoints() const { return refinedPoints_; }
   /// How many of them lie right below a node.
   std::uint32_t finerNodes(NodeIndex node) const;
@@ -42,7 +42,7 @@ private:
   std::unique_ptr<WholeFront> front_; ///< null: finished
   std::uint64_t seen_ = 0; ///< number of the delta that nodes_ are made of
   std::vector<TabledNode> nodes_;
-  std::vector<NodeIndex> parents_; ///< of each of them; sorted
+  std::vector<NodeIndex> parents_; ///< parent of each of them; sorted
   double thresholdPx_ = 0.0;
   std::uint64_t points_ = 0;
   std::vector<std::uint64_t> refinedPoints_;

@@ -12,9 +12,9 @@ namespace pointfront
 /// Units  bytes.
 struct GpuSlotBytes
 {
-  static constexpr std::int64_t position = 12; ///< of a point: three unsigned grid steps
-  static constexpr std::int64_t value = 4; ///< of a point, in each stream (GpuStreams.h)
-  static constexpr std::int64_t record = 80; ///< of a slot, what the vertex shader knows of it
+  static constexpr std::int64_t position = 12; ///< bytes of a point: three unsigned grid steps
+  static constexpr std::int64_t value = 4; ///< bytes of a point, in each stream (GpuStreams.h)
+  static constexpr std::int64_t record = 80; ///< bytes of a slot, for the vertex shader
 
   static constexpr std::int64_t of(int streams)
   {

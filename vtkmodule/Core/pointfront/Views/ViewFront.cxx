@@ -18,7 +18,7 @@ namespace
 constexpr std::uint32_t movesAtRest = 4096;
 /// Moves of an update inside a complete render.
 constexpr std::uint32_t movesToComplete = 1u << 20;
-/// Of the memory budget that a view's nodes may fill: some room stays for what is being decoded.
+/// Share of the memory budget for a view's nodes: some room stays for nodes being decoded.
 constexpr double heldShare = 0.85;
 /// Longest that a frame at rest goes on moving its front.
 constexpr std::chrono::milliseconds restTime{ 10 };
@@ -26,7 +26,7 @@ constexpr std::chrono::milliseconds restTime{ 10 };
 constexpr std::chrono::milliseconds betweenAborts{ 50 };
 /// Fewest points of a frame in motion: less is no picture, whatever the machine.
 constexpr std::uint64_t fewestPoints = 100000;
-/// Of a front in a frame.
+/// Moves of a front in a frame.
 constexpr std::uint32_t fewestMoves = 8;
 
 bool covers(const NodeColumns& node, const ColumnSelection& columns)
@@ -208,9 +208,9 @@ void ViewFront::loadRoots()
   window_->window->roots->spend(begin, std::chrono::steady_clock::now());
 }
 
-/// What the other views take now, of the memory and of the window. Where this update may draw fewer
-/// points than the last one, as when a motion begins, those who are yet to come down do not count
-/// with what they have on screen (SharedDemand).
+/// Reads the demand of the other views, for the memory and the window. Where this update may draw
+/// fewer points than the last one, as when a motion begins, those who are yet to come down do not
+/// count with what they have on screen (SharedDemand).
 void ViewFront::readShares(const FrameRequest& demand)
 {
   const LoadScheduler& scheduler = share_.residency().scheduler();
@@ -239,7 +239,7 @@ void ViewFront::readShares(const FrameRequest& demand)
     static_cast<double>(scheduler.budget()->limit()) / static_cast<double>(pointBytes_));
 }
 
-/// What this view takes, for the others.
+/// Tells the others this view's demand.
 void ViewFront::tellDemand(const FrameRequest& demand)
 {
   DemandCurves curves;
@@ -248,7 +248,7 @@ void ViewFront::tellDemand(const FrameRequest& demand)
   {
     curves.held[step] *= pointBytes_;
   }
-  // What this view changes is no news to itself. What others changed since readShares() is.
+  // This view's own changes are no news to itself. Changes of others since readShares() are.
   const std::uint64_t before = sharedRevision();
   memory_.set(curves.held);
   window_->points.set(curves.drawn, limits_.sharedDrawn.most);

@@ -153,7 +153,7 @@ private:
   double viewportPx_ = 0.0;
   FrontDelta delta_;
   FrontLimits limits_;
-  // What this view shares with others: memory (in bytes), and the window's.
+  // Claims on budgets that this view shares with others: memory (in bytes), and the window's.
   SharedDemand::Claim memory_;
   std::unique_ptr<WindowClaims> window_;
   DemandCurves elsewhere_; ///< in points of this store and slots
@@ -162,12 +162,12 @@ private:
   std::int64_t gpuBytesSeen_ = 0;
   std::uint64_t told_ = 0; ///< number of the delta that was told and asked for; 0: none
   LayerColumns columns_;
-  std::size_t pointBytes_ = 0; ///< of a decoded point with columns_
+  std::size_t pointBytes_ = 0; ///< size of a decoded point with columns_
   std::uint64_t arrivalsSeen_ = 0;
   std::uint64_t rowsSeen_ = 0; ///< arrivals of the table's rows
   double thresholdBefore_ = 0.0;
   bool begun_ = false;
-  bool covered_ = false; ///< what delta_ draws has columns_, all of it
+  bool covered_ = false; ///< all nodes that delta_ draws have all of columns_
 };
 
 } // namespace pointfront

@@ -1,4 +1,4 @@
-// What a view at rest draws when it is complete.
+// The nodes that a view at rest draws when it is complete.
 
 #include "pointfront/Views/ViewFront.h"
 

@@ -1,4 +1,4 @@
-// What a view loads ahead: ViewFront::addMargin().
+// The nodes that a view loads ahead: ViewFront::addMargin().
 
 #include "pointfront/Views/ViewFront.h"
 
@@ -12,10 +12,10 @@ namespace
 /// Frames that a moving view is looked ahead: about what a disk and a decoder take, and half a
 /// second at the rates of interactors.
 constexpr double framesAhead = 8.0;
-/// Of the viewport's width and height, that a view at rest has in memory beyond each of its sides:
-/// so far a hand moves it in the first eight frames.
+/// Share of the viewport's width and height that a view at rest has in memory beyond each of its
+/// sides: so far a hand moves it in the first eight frames.
 constexpr double marginAtRest = 0.125;
-/// Of one view: each goes on where rows of the table were missing.
+/// Walks of one view: each goes on where rows of the table were missing.
 constexpr std::uint32_t mostMarginWalks = 16;
 
 } // namespace

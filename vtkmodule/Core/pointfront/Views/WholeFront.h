@@ -32,7 +32,7 @@ public:
   /// are on their way.
   const FrontDelta& update(const View& view, const FrontLimits& limits, double thresholdPx,
     const std::function<bool()>& waits);
-  /// What the last update draws, by node: the nodes whose rows are here, and that are `wanted`.
+  /// The nodes that the last update draws, by node: their rows are here, and they are `wanted`.
   std::vector<TabledNode> drawn(const std::function<bool(NodeIndex)>& wanted) const;
 
 private:

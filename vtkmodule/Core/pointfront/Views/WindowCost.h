@@ -10,18 +10,18 @@
 namespace pointfront
 {
 
-/// What one cloud had in a frame of its window.
+/// The points of one cloud in a frame of its window.
 struct CloudCost
 {
   std::uint64_t points = 0; ///< all that were drawn
-  std::uint64_t beside = 0; ///< of these, not the front's
+  std::uint64_t beside = 0; ///< the part of these that the front did not choose
   std::uint32_t moves = 0;
   double milliseconds = 0.0; ///< CPU + GPU
   double fillPx = 0.0; ///< as FramePlan's
   double viewportPx = 0.0; ///< all of the window's view
 };
 
-/// What the frames of a window cost with all of its clouds. The clouds share a frame's points, so
+/// The costs of a window's frames with all of its clouds. The clouds share a frame's points, so
 /// they need one cost of a point: a cloud that shows ten points takes nearly as long as one that
 /// shows ten thousand, and judged alone it would believe that points are expensive.
 /// Fill     of splats: where few points are drawn around the eye, each is large, and a frame takes
@@ -69,7 +69,7 @@ public:
     const std::lock_guard<std::mutex> lock(mutex_);
     return model_.movesFor(targetMs, last_.points + fillPoints());
   }
-  /// What the fronts of the last frame did not choose.
+  /// Points that the fronts of the last frame did not choose.
   std::uint64_t beside() const
   {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -101,7 +101,7 @@ private:
       held_ -= held_ / 20; // slowly: one that rose and fell with each frame would be seen
     }
   }
-  /// Of the last frame: what its splats filled too much, in points that cost the same.
+  /// The pixels that the last frame's splats filled too much, in points that cost the same.
   std::uint64_t fillPoints() const
   {
     const double most = closedSurface * last_.viewportPx;
@@ -115,7 +115,7 @@ private:
 
   mutable std::mutex mutex_;
   FrameCostModel model_;
-  std::unordered_map<const void*, CloudCost> frame_; ///< of those that told
+  std::unordered_map<const void*, CloudCost> frame_; ///< costs of the clouds that told theirs
   CloudCost last_;
   std::uint64_t held_ = 0; ///< points that a frame may have because fewer would not be faster
 };

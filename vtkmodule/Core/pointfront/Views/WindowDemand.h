@@ -15,9 +15,9 @@ namespace pointfront
 struct WindowDemand
 {
   std::shared_ptr<SharedDemand> points = std::make_shared<SharedDemand>(); ///< on screen
-  std::shared_ptr<SharedDemand> slots = std::make_shared<SharedDemand>(); ///< of GPU memory
+  std::shared_ptr<SharedDemand> slots = std::make_shared<SharedDemand>(); ///< slots of GPU memory
   std::shared_ptr<WindowCost> cost = std::make_shared<WindowCost>();
-  std::shared_ptr<RootWait> roots = std::make_shared<RootWait>(); ///< of first frames
+  std::shared_ptr<RootWait> roots = std::make_shared<RootWait>(); ///< for the roots of first frames
 };
 
 /// One view's part.

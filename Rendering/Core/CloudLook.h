@@ -11,7 +11,7 @@ namespace pointfront
 
 /// How a mapper's cloud looks in a frame, and which memory it is drawn from. The mapper makes it
 /// once, at the beginning of a frame, and passes it on.
-struct FrameLook
+struct CloudLook
 {
   std::optional<FrameShading> shading; ///< none: the actor's property and the mapper say all
   std::vector<LayerStyling> layers; ///< by number of the store's layer

@@ -55,7 +55,7 @@ public:
   Result<void> resize(std::array<int, 2> size);
   /// The last frame: opaque, row 0 is the lowest.
   const SoftwareTarget& picture() const { return target_; }
-  /// A stored point that is seen: of which of the stores, and its rank there.
+  /// A stored point that is seen: of which of the stores, and its number there.
   struct SeenPoint
   {
     std::size_t store = 0;

@@ -17,7 +17,7 @@ namespace pointfront
 struct PickedPoint
 {
   std::string store; ///< path
-  std::uint64_t id = 0; ///< rank in the store
+  std::uint64_t id = 0; ///< number in the store
   glm::dvec3 position{ 0.0 }; ///< world
   /// Name -> value, or list of values, with scale and offset applied; in the store's order.
   nlohmann::ordered_json attributes = nlohmann::ordered_json::object();

@@ -17,7 +17,7 @@ namespace pointfront
 /// Names     unsigned char arrays "RGB", "RGBA" or "Colors" are "rgb", "Normals" of floats are
 ///           "normal"; all others keep theirs.
 /// Grid      the one of the field data "store_grid" (scales, offsets), if all points lie on it.
-/// Left out  ghost marks, "point_id" (a rank in another store) and "elevation" where it is z,
+/// Left out  ghost marks, "point_id" (a number in another store) and "elevation" where it is z,
 ///           without a word; arrays that hold no numbers, or more than 16 components, with a
 ///           warning.
 class PointSetSource final : public ColumnSource

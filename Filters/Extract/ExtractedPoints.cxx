@@ -89,10 +89,10 @@ void ExtractedPoints::moveTo(vtkPolyData* output, bool vertexCells)
 std::vector<std::uint64_t> ascendingIds(vtkIdTypeArray* ids)
 {
   const vtkIdType* const from = ids->GetPointer(0);
-  std::vector<std::uint64_t> ranks(from, from + ids->GetNumberOfValues());
-  std::sort(ranks.begin(), ranks.end());
-  ranks.erase(std::unique(ranks.begin(), ranks.end()), ranks.end());
-  return ranks;
+  std::vector<std::uint64_t> numbers(from, from + ids->GetNumberOfValues());
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+  return numbers;
 }
 
 std::vector<std::uint64_t> pieceOf(

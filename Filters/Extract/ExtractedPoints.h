@@ -31,7 +31,7 @@ public:
   /// NoMemory where they would be more than `mostPoints`.
   Result<void> add(const QueryBatch& batch);
   /// Double points, a vertex cell each if they are wanted, their attributes (AttributeArray), and
-  /// ranks in the store as global ids called "point_id".
+  /// numbers in the store as global ids called "point_id".
   void moveTo(vtkPolyData* output, bool vertexCells);
 
 private:
@@ -46,7 +46,7 @@ private:
   std::vector<AttributeArray> attributes_;
 };
 
-/// Ranks out of a VTK array: ascending, each once; negative ones are left to the query to refuse.
+/// Ids out of a VTK array: ascending, each once; negative ones are left to the query to refuse.
 std::vector<std::uint64_t> ascendingIds(vtkIdTypeArray* ids);
 /// The share of a list that a piece has: neighbours, about as many in each.
 std::vector<std::uint64_t> pieceOf(

@@ -11,7 +11,7 @@
  *
  * Output: double points in the store's order, one vertex cell each, the chosen attributes as point
  * data (as vtkPointFrontReader gives them: "rgb" is the active scalars, three bytes; attributes
- * with a scale or an offset are doubles with both applied), and ranks in the store as global ids,
+ * with a scale or an offset are doubles with both applied), and numbers in the store as global ids,
  * the 64-bit array "point_id": the ids of hardware selections.
  *
  * Pieces: each piece reads its own nodes, with about as many points as any other; together they are
@@ -124,8 +124,8 @@ public:
 
   ///@{
   /**
-   * Ranks of picked or selected points in the store, in any order. The output has these points, and
-   * all conditions above are ignored. Null: none.
+   * Numbers of picked or selected points in the store, in any order. The output has these points,
+   * and all conditions above are ignored. Null: none.
    */
   virtual void SetPointIds(vtkIdTypeArray* ids);
   vtkIdTypeArray* GetPointIds();

@@ -28,7 +28,7 @@ namespace pointfront
 /// Colours     the active scalars are the first chosen array of rgb, classification, intensity and
 ///             elevation that shows something: rgb unless it is black, the others if their values
 ///             differ.
-/// Identity    global point ids are ranks in the store: (node, position in the node).
+/// Identity    global point ids are numbers in the store: (node, position in the node).
 class PointArrays
 {
 public:

@@ -1,8 +1,8 @@
 #include "vtkPointFrontReader.h"
 
 #include "HostVTK.h"
+#include "LocatedPoints.h"
 #include "Overview.h"
-#include "RankedPoints.h"
 
 #include "pointfront/Tiles/StoredCloudFormats.h"
 #include "vtkPointFrontStore.h"
@@ -275,15 +275,15 @@ struct vtkPointFrontReader::Found
 };
 
 bool vtkPointFrontReader::ReadPoints(
-  vtkIdTypeArray* ranks, int piece, int pieces, vtkPolyData* output)
+  vtkIdTypeArray* ids, int piece, int pieces, vtkPolyData* output)
 {
   if (!this->Store)
   {
     vtkErrorMacro("no store is open: call UpdateInformation() first");
     return false;
   }
-  const vtkIdType* values = ranks->GetPointer(0);
-  std::vector<std::uint64_t> wanted(values, values + ranks->GetNumberOfValues()); // -1: far beyond
+  const vtkIdType* values = ids->GetPointer(0);
+  std::vector<std::uint64_t> wanted(values, values + ids->GetNumberOfValues()); // -1: far beyond
   const pointfront::Hierarchy& hierarchy = *this->Store->GetStore()->hierarchy();
   return this->Fill({ pointfront::locatePoints(
                       hierarchy, std::move(wanted), overviewOf(hierarchy, this->OverviewPoints)) },

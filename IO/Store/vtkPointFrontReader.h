@@ -12,7 +12,7 @@
  * has three bytes: 16-bit colour is reduced, for VTK takes only bytes as colours without a lookup
  * table. "elevation" (z) is always there. The active scalars are the first of "rgb" (unless it is
  * black), "classification", "intensity" and "elevation" (unless they are the same everywhere).
- * Global point ids ("point_id") are ranks in the store, as hardware selections of
+ * Global point ids ("point_id") are numbers in the store, as hardware selections of
  * vtkPointFrontMapper give them.
  * An aborted update leaves an empty output.
  *
@@ -89,13 +89,13 @@ public:
   ///@}
 
   /**
-   * Reads points of the store by their ranks (which are the global point ids of hardware
+   * Reads points of the store by their numbers (which are the global point ids of hardware
    * selections), except those of the overview. `output` has the arrays of the overview and each
    * point once. With several `pieces`, each gets its share. Call it after UpdateInformation().
-   * False, and an error, if the store has no point of a rank, a node cannot be read, or
+   * False, and an error, if the store has no point of a number, a node cannot be read, or
    * AbortExecute is on.
    */
-  bool ReadPoints(vtkIdTypeArray* ranks, int piece, int pieces, vtkPolyData* output);
+  bool ReadPoints(vtkIdTypeArray* ids, int piece, int pieces, vtkPolyData* output);
 
 #ifndef __VTK_WRAP__
   /**

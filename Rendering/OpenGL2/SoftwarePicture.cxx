@@ -68,7 +68,7 @@ RasterStatistics SoftwarePicture::draw(
   return statistics;
 }
 
-/// Ranks in the store: the same ids as points have that GL draws.
+/// Numbers in the store: the same ids as points have that GL draws.
 void SoftwarePicture::numberPoints(const FramePlan& plan)
 {
   std::unordered_map<NodeIndex, std::uint64_t> firstPoints;

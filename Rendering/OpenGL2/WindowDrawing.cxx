@@ -131,13 +131,13 @@ void WindowDrawing::setStore(const void* store)
 /// Batches have their items near to far each; those of several are put together by distance.
 void WindowDrawing::order(const FramePlan& plan)
 {
-  struct Place
+  struct PlacedItem
   {
     float distance;
     const PlanItem* item;
     const ResolvedStyle* style;
   };
-  std::vector<Place> places;
+  std::vector<PlacedItem> places;
   for (const DrawBatch& batch : plan.batches)
   {
     for (const PlanItem& item : batch.items)
@@ -149,7 +149,7 @@ void WindowDrawing::order(const FramePlan& plan)
   if (plan.batches.size() > 1)
   {
     std::sort(places.begin(), places.end(),
-      [](const Place& a, const Place& b)
+      [](const PlacedItem& a, const PlacedItem& b)
       {
         return a.distance != b.distance ? a.distance < b.distance
                                         : a.item->node->node < b.item->node->node;
@@ -157,7 +157,7 @@ void WindowDrawing::order(const FramePlan& plan)
   }
   order_.clear();
   styles_.clear();
-  for (const Place& place : places)
+  for (const PlacedItem& place : places)
   {
     order_.push_back(place.item);
     styles_.push_back(place.style);

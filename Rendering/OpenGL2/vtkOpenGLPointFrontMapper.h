@@ -7,7 +7,7 @@
  * neither residency nor table. Host nodes become slots of a GpuPool (bounded bytes a frame while
  * interacting). Points of some pixels are drawings of vtkOpenGLPointFrontPoints, in VTK's own pass;
  * splats are drawn into targets of their own (SplatPicture) and handed over as one picture. Each
- * window has its own (WindowDrawing). Hardware selection gives ids that are ranks in the store:
+ * window has its own (WindowDrawing). Hardware selection gives ids that are numbers in the store:
  * (node, position in the node), 48 bits.
  */
 #ifndef vtkOpenGLPointFrontMapper_h

@@ -171,9 +171,9 @@ RasterStatistics SoftwareComposition::drawShown(
 void SoftwareComposition::blendGroups(std::int16_t lens, SoftwareTarget& target)
 {
   std::vector<const Part*> groups;
-  for (const auto& [place, part] : parts_)
+  for (const auto& [key, part] : parts_)
   {
-    if (place.lens == lens && place.group > 0 && part.begun)
+    if (key.lens == lens && key.group > 0 && part.begun)
     {
       groups.push_back(&part);
     }
@@ -278,10 +278,10 @@ void SoftwareComposition::finish(const FrameCamera& camera, const FrameShading& 
   { drawn.highlights.resize(shading.highlights.empty() ? 0 : drawn.depth.size()); };
   mark(target);
   shade(camera, shading, target, all);
-  for (auto& [place, part] : parts_)
+  for (auto& [key, part] : parts_)
   {
     std::vector<float>& depths = part.target.depth;
-    if (!place.mask)
+    if (!key.mask)
     {
       mark(part.target);
       shade(camera, shading, part.target, all);
@@ -310,7 +310,7 @@ void SoftwareComposition::finish(const FrameCamera& camera, const FrameShading& 
         break;
     }
   }
-  for (auto& [place, part] : parts_)
+  for (auto& [key, part] : parts_)
   {
     part.begun = false;
   }

@@ -42,13 +42,13 @@ private:
     bool begun = false; ///< in this picture
     SoftwareTarget target;
   };
-  /// The place of a part: PlanPart without its plan.
-  struct Place
+  /// The key of a part: PlanPart without its plan.
+  struct PartKey
   {
     std::int16_t lens;
     bool mask;
     std::uint16_t group;
-    friend bool operator<(const Place& a, const Place& b)
+    friend bool operator<(const PartKey& a, const PartKey& b)
     {
       return a.lens != b.lens ? a.lens < b.lens
         : a.mask != b.mask    ? a.mask < b.mask
@@ -62,7 +62,7 @@ private:
   void putLens(std::int16_t number, const FrameCamera& camera, const FrameShading& shading,
     SoftwareTarget& target);
 
-  std::map<Place, Part> parts_;
+  std::map<PartKey, Part> parts_;
   bool shared_ = false; ///< all processes have the parts of this picture
 };
 

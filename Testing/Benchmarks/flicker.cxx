@@ -100,18 +100,18 @@ public:
     for (const LayerStyling& layer : *layers)
     {
       request_.styles.push_back(layer.styles.front());
-      demand_.columns.layers.push_back(layer.columns());
+      request_.columns.layers.push_back(layer.columns());
     }
     errorPx_ = technique.errorPx;
-    demand_.complete = true;
+    request_.complete = true;
   }
 
   /// The grey picture of the next frame; `seconds` of drawing are added.
   std::vector<float> frame(const FrameCamera& camera, int number, double times, bool fixedSizes)
   {
-    demand_.targetErrorPx = way_ == Way::AllPoints ? allPointsPx : times * errorPx_;
-    demand_.view = View::fromMatrix(camera.storeToClip(), camera.width, camera.height);
-    front_.update(demand_);
+    request_.targetErrorPx = way_ == Way::AllPoints ? allPointsPx : times * errorPx_;
+    request_.view = View::fromMatrix(camera.storeToClip(), camera.width, camera.height);
+    front_.update(request_);
     PlanRequest request = request_;
     request.camera = camera;
     request.growth = way_ == Way::Growing ? &growth_ : nullptr;
@@ -178,7 +178,7 @@ private:
   double errorPx_ = 1.0;
   ResidencyShare share_;
   ViewFront front_;
-  FrameRequest demand_;
+  FrameRequest request_;
   PlanRequest request_;
   DetailGrowth growth_;
   SoftwareRasteriser rasteriser_;

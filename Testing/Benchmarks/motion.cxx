@@ -107,17 +107,17 @@ public:
     for (const LayerStyling& layer : *layers)
     {
       request_.styles.push_back(layer.styles.front());
-      demand_.columns.layers.push_back(layer.columns());
+      request_.columns.layers.push_back(layer.columns());
     }
-    demand_.complete = true;
+    request_.complete = true;
   }
 
   Shown frame(const FrameCamera& camera, bool moving)
   {
     const bool few = moving && way_ != Way::AllPoints;
-    demand_.pointBudget = few ? points_ : 0;
-    demand_.view = View::fromMatrix(camera.storeToClip(), camera.width, camera.height);
-    front_.update(demand_);
+    request_.pointBudget = few ? points_ : 0;
+    request_.view = View::fromMatrix(camera.storeToClip(), camera.width, camera.height);
+    front_.update(request_);
     PlanRequest request = request_;
     request.camera = camera;
     request.keepsVisible = moving && way_ == Way::WithKept;
@@ -142,7 +142,7 @@ private:
   std::uint64_t points_;
   ResidencyShare share_;
   ViewFront front_;
-  FrameRequest demand_;
+  FrameRequest request_;
   PlanRequest request_;
   SoftwareRasteriser rasteriser_;
 };

@@ -121,7 +121,7 @@ class Cloud:
         options     other properties of vtkPointFrontExtract in snake case: line_distance,
                     maximum_number_of_points, memory_limit ...
 
-        Point data: the attributes, and "point_id", the rank in the store. Raises PointFrontError;
+        Point data: the attributes, and "point_id", the number in the store. Raises PointFrontError;
         ValueError for an argument that cannot be meant (a box of other than six numbers or with its
         corners swapped, no class); KeyboardInterrupt at once. Other threads run meanwhile.
         """

@@ -19,13 +19,13 @@ struct Work
   std::size_t first;
   std::size_t count;
   std::byte* records;
-  std::uint64_t rank; ///< in the file, of point `first`
+  std::uint64_t number; ///< in the file, of point `first`
 };
 
 Error cannotHold(const Work& work, std::size_t i, const std::string& what)
 {
   return makeError(Error::Kind::BadArgument,
-    work.path + ": point " + std::to_string(work.rank + i) + " has " + what +
+    work.path + ": point " + std::to_string(work.number + i) + " has " + what +
       ", which LAS point format " + std::to_string(work.plan.layout.pointFormat) + " cannot hold");
 }
 

@@ -14,7 +14,7 @@ namespace pointfront
 
 /// Turns points [first, first + count) of `batch` into LAS records, one behind the other, and
 /// counts them in `totals`: the inverse of decodeLASPoints.
-/// Errors   BadArgument with `path` and the point's rank in the file: a coordinate beyond 32 bits
+/// Errors   BadArgument with `path` and the point's number in the file: a coordinate beyond 32 bits
 ///          or not finite, a value that the field has not enough bits for, an angle that point
 ///          formats 0 to 5 cannot hold (whole degrees).
 /// Rounding angles of formats 6 to 10 go to the nearest 0.006 degrees.

@@ -103,7 +103,8 @@ RasterItems::RasterItems(const FramePlan& plan, std::size_t from)
     }
   }
   std::stable_sort(ordered_.begin(), ordered_.end(),
-    [](const Place& a, const Place& b) { return a.item->node->node < b.item->node->node; });
+    [](const PlannedItem& a, const PlannedItem& b)
+    { return a.item->node->node < b.item->node->node; });
   const double volume = std::abs(glm::determinant(glm::dmat3(plan.camera.storeToView)));
   radiusFactor_ = static_cast<float>(std::cbrt(volume));
   for (std::size_t code = 0; code < radii_.size(); ++code)
@@ -117,14 +118,14 @@ RasterItems::RasterItems(const FramePlan& plan, std::size_t from)
   constexpr std::uint64_t most = std::numeric_limits<std::uint32_t>::max();
   for (end_ = from; end_ < ordered_.size(); ++end_)
   {
-    const Place& place = ordered_[end_];
-    const bool twice = columnOf(*place.item->node, place.batch->style->heightColumn) != nullptr;
-    const std::uint64_t points = (twice ? 2 : 1) * place.item->node->size();
+    const PlannedItem& planned = ordered_[end_];
+    const bool twice = columnOf(*planned.item->node, planned.batch->style->heightColumn) != nullptr;
+    const std::uint64_t points = (twice ? 2 : 1) * planned.item->node->size();
     if (base + points > most && end_ > from)
     {
       break;
     }
-    append(itemOf(place));
+    append(itemOf(planned));
     if (twice)
     {
       append(wallsOf(items_.back()));
@@ -141,10 +142,10 @@ void RasterItems::append(RasterItem item)
   items_.push_back(std::move(item));
 }
 
-RasterItem RasterItems::itemOf(const Place& place)
+RasterItem RasterItems::itemOf(const PlannedItem& planned)
 {
-  const NodeColumns& node = *place.item->node;
-  const ResolvedStyle& style = *place.batch->style;
+  const NodeColumns& node = *planned.item->node;
+  const ResolvedStyle& style = *planned.batch->style;
   auto table = std::find_if(
     tables_.begin(), tables_.end(), [&](const auto& known) { return known.first == &style; });
   if (table == tables_.end())
@@ -153,7 +154,7 @@ RasterItem RasterItems::itemOf(const Place& place)
     table = tables_.end() - 1;
   }
   RasterItem item;
-  item.item = place.item;
+  item.item = planned.item;
   item.style = &style;
   item.colours = std::make_shared<PointColours>(plan_, style, *table->second, node);
   const bool own = style.orientation == SplatOrientation::Normal;
@@ -164,14 +165,15 @@ RasterItem RasterItems::itemOf(const Place& place)
   item.radiusCodes = reinterpret_cast<const std::uint8_t*>(codes);
   const auto value = static_cast<float>(style.size.value) * radiusFactor_;
   const bool spacing = style.size.mode == SplatSize::Mode::Spacing;
-  item.radiusScale = place.item->radiusScale * static_cast<float>(style.size.value);
-  item.radius = spacing ? place.item->closingRadius * value : 0.5f * value;
-  item.sparsestRadius = std::max(item.radius, spacing ? place.item->sparsestRadius * value : 0.0f);
+  item.radiusScale = planned.item->radiusScale * static_cast<float>(style.size.value);
+  item.radius = spacing ? planned.item->closingRadius * value : 0.5f * value;
+  item.sparsestRadius =
+    std::max(item.radius, spacing ? planned.item->sparsestRadius * value : 0.0f);
   if (style.size.mode == SplatSize::Mode::Attribute)
   {
     item.sizes = columnOf(node, style.size.column);
     item.sizeAttribute = item.sizes ? &(*plan_.schema)[style.size.column] : nullptr;
-    item.radius = place.item->closingRadius * value;
+    item.radius = planned.item->closingRadius * value;
   }
   setPlace(item);
   item.positions.filtered = !style.filter.empty();

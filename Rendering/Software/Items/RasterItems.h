@@ -129,13 +129,13 @@ public:
     RasterBatch& batch);
 
 private:
-  struct Place
+  struct PlannedItem
   {
     const PlanItem* item;
     const DrawBatch* batch;
   };
-  /// The item that draws `place`, without its place.
-  RasterItem itemOf(const Place& place);
+  /// The item that draws `planned`, without its place.
+  RasterItem itemOf(const PlannedItem& planned);
   RasterItem wallsOf(const RasterItem& item) const;
   PassConditions demandOf(const RasterItem& item) const;
   void append(RasterItem item);
@@ -145,7 +145,7 @@ private:
     RasterPositions& positions) const;
 
   const FramePlan& plan_;
-  std::vector<Place> ordered_;
+  std::vector<PlannedItem> ordered_;
   std::vector<RasterItem> items_;
   ItemNumbers numbers_;
   std::vector<std::pair<const ResolvedStyle*, std::unique_ptr<StyleColours>>> tables_;

@@ -9,7 +9,7 @@ namespace
 {
 
 constexpr std::uint64_t firstRoom = 1 << 16; // points
-constexpr std::size_t ownColumns = 2; // places and ranks
+constexpr std::size_t ownColumns = 2; // places and ids
 
 bool isScaled(const Attribute& attribute)
 {

@@ -13,7 +13,7 @@
 namespace pointfront
 {
 
-/// Chosen points as plain columns: places, ranks in the store, attributes. Values are what is
+/// Chosen points as plain columns: places, ids in the store, attributes. Values are what is
 /// stored, in their type; those of an attribute with a scale become float64.
 /// Memory   each point once. While columns grow they are larger than what is in them; the system
 ///          gives memory to what was written only.
@@ -28,7 +28,7 @@ public:
   };
   struct Column
   {
-    std::string name; ///< empty: places; "id": ranks, unless it is behind these two
+    std::string name; ///< empty: places; "id": numbers in the store, unless it is behind these two
     ScalarType type = ScalarType::Float64;
     std::size_t components = 1;
     std::unique_ptr<void, Free> memory = {};
@@ -53,7 +53,7 @@ private:
   std::uint64_t mostPoints_;
   std::uint64_t points_ = 0;
   std::uint64_t room_ = 0;
-  std::vector<Column> columns_; ///< places, ranks, the schema's
+  std::vector<Column> columns_; ///< places, ids, the schema's
 };
 
 } // namespace pointfront

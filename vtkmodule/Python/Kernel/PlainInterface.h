@@ -57,7 +57,8 @@ extern "C"
   void pointfrontClose(PointFrontCloud* cloud);
 
   /// Answers "points" and "columns": {"name", "type", "components", "address"} each, of memory that
-  /// the caller gives to pointfrontFree(). The places have the name "", the ranks are called "id".
+  /// the caller gives to pointfrontFree(). The places have the name "", the numbers in the store
+  /// are called "id".
   char* pointfrontPoints(
     const PointFrontCloud* cloud, const PointFrontQuery* query, PointFrontProgress progress);
 

@@ -181,22 +181,22 @@ void ActiveTree::collapse(SlotIndex slot)
   frontLength_ -= parent.childCount - 1u;
 }
 
-ActiveTree::Place ActiveTree::find(NodeIndex node) const
+ActiveTree::Nearest ActiveTree::find(NodeIndex node) const
 {
-  Place place;
+  Nearest nearest;
   NodeIndex above = node;
   while (above != noNode)
   {
-    place.slot = slotOf_.find(above);
+    nearest.slot = slotOf_.find(above);
     Node row;
-    if (place.slot != noSlot || hierarchy_.peek(above, row) != RowState::Here)
+    if (nearest.slot != noSlot || hierarchy_.peek(above, row) != RowState::Here)
     {
-      return place;
+      return nearest;
     }
     above = row.parent; // comes before it in the table: this ends
-    ++place.levelsAbove;
+    ++nearest.levelsAbove;
   }
-  return place;
+  return nearest;
 }
 
 void ActiveTree::evaluate(ActiveNode& node, const View& view, std::uint32_t update) const

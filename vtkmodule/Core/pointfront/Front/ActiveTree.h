@@ -88,12 +88,12 @@ public:
 
   /// The slot of the node's nearest active ancestor (or its own) and how many levels that lies
   /// above it; noSlot when that cannot be told without waiting for the table.
-  struct Place
+  struct Nearest
   {
     SlotIndex slot = noSlot;
     std::uint32_t levelsAbove = 0;
   };
-  Place find(NodeIndex node) const;
+  Nearest find(NodeIndex node) const;
 
   /// Sets visibility, error and distance of a node, of this tree or of childOf(), for a view.
   void evaluate(ActiveNode& node, const View& view, std::uint32_t update) const;

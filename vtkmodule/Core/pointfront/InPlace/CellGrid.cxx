@@ -89,38 +89,38 @@ unsigned CellGrid::bitsOf(std::uint32_t level) const
   return level == 0 ? topBits_ : logSides_[level - 1] - logSides_[level];
 }
 
-CellGrid::Place CellGrid::find(const glm::ivec3& position) const
+CellGrid::CellNumber CellGrid::find(const glm::ivec3& position) const
 {
   // Modulo the frame: a file that somebody changes while it is read cannot lead outside.
   const std::uint64_t frame = (std::uint64_t(1) << frameBits_) - 1;
   const auto x = static_cast<std::uint64_t>(std::int64_t(position.x) - box_.low.x) & frame;
   const auto y = static_cast<std::uint64_t>(std::int64_t(position.y) - box_.low.y) & frame;
-  Place place{ 0,
+  CellNumber number{ 0,
     morton(static_cast<std::uint32_t>(x >> logSides_[0]),
       static_cast<std::uint32_t>(y >> logSides_[0])) };
-  for (std::uint32_t value = cell(0, place.index); (value & cutFlag) != 0;
-       value = cell(place.level, place.index))
+  for (std::uint32_t value = cell(0, number.index); (value & cutFlag) != 0;
+       value = cell(number.level, number.index))
   {
-    ++place.level;
-    const std::uint32_t mask = (1u << bitsOf(place.level)) - 1;
-    const unsigned side = logSides_[place.level];
-    place.index = (value & ~cutFlag) * (1u << (2 * cutBits)) +
+    ++number.level;
+    const std::uint32_t mask = (1u << bitsOf(number.level)) - 1;
+    const unsigned side = logSides_[number.level];
+    number.index = (value & ~cutFlag) * (1u << (2 * cutBits)) +
       morton(
         static_cast<std::uint32_t>(x >> side) & mask, static_cast<std::uint32_t>(y >> side) & mask);
   }
-  return place;
+  return number;
 }
 
 std::uint32_t CellGrid::at(const glm::ivec3& position) const
 {
-  const Place place = find(position);
-  return cell(place.level, place.index);
+  const CellNumber number = find(position);
+  return cell(number.level, number.index);
 }
 
 void CellGrid::count(const GridRecords& records, std::uint64_t begin, std::uint64_t end)
 {
   const auto newest = static_cast<std::uint32_t>(levels_.size() - 1);
-  Place last{ 0, 0 };
+  CellNumber last{ 0, 0 };
   std::uint32_t same = 0; // neighbours in the file mostly fall into one cell: one addition for all
   const auto flush = [&]()
   {
@@ -132,11 +132,11 @@ void CellGrid::count(const GridRecords& records, std::uint64_t begin, std::uint6
   };
   for (std::uint64_t i = begin; i < end; ++i)
   {
-    const Place place = find(records.position(i));
-    if (place.index != last.index || place.level != last.level || same == mostCounted / 64)
+    const CellNumber number = find(records.position(i));
+    if (number.index != last.index || number.level != last.level || same == mostCounted / 64)
     {
       flush();
-      last = place;
+      last = number;
     }
     ++same;
   }

@@ -69,14 +69,14 @@ public:
 
 private:
   using Cells = std::unique_ptr<std::atomic<std::uint32_t>[]>;
-  struct Place
+  struct CellNumber
   {
     std::uint32_t level;
     std::uint32_t index;
   };
   std::uint32_t cell(std::uint32_t level, std::uint32_t index) const;
   unsigned bitsOf(std::uint32_t level) const;
-  Place find(const glm::ivec3& position) const;
+  CellNumber find(const glm::ivec3& position) const;
   void addLevel(std::size_t cells);
 
   RecordBox box_;

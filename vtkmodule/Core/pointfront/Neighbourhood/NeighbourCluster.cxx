@@ -30,11 +30,11 @@ float safely(double squaredBound, double extent)
 } // namespace
 
 NeighbourCluster::NeighbourCluster(
-  const PositionSet& set, const NeighbourIndex& index, const NeighbourSearch& demand)
+  const PositionSet& set, const NeighbourIndex& index, const NeighbourSearch& search)
   : set_(set)
   , index_(index)
-  , demand_(demand)
-  , nearest_(demand.neighbours)
+  , search_(search)
+  , nearest_(search.neighbours)
   , within_(0)
 {
 }
@@ -48,8 +48,8 @@ void NeighbourCluster::gather(const glm::dvec3& middle, double reach)
 void NeighbourCluster::lookUp(
   const glm::dvec3& middle, double reach, double widened, PlaceBall& ball)
 {
-  double around = demand_.radius;
-  if (demand_.neighbours > 0)
+  double around = search_.radius;
+  if (search_.neighbours > 0)
   {
     nearest_.begin(set_);
     index_.search(middle, nearest_);
@@ -70,7 +70,7 @@ void NeighbourCluster::lookUp(
     const glm::dvec3 place = set_.positions[ball.places[i]] - middle;
     ball.x[i] = static_cast<float>(place.x);
     ball.y[i] = static_cast<float>(place.y);
-    ball.z[i] = demand_.axes > 2 ? static_cast<float>(place.z) : 0.0f;
+    ball.z[i] = search_.axes > 2 ? static_cast<float>(place.z) : 0.0f;
   }
 }
 
@@ -82,11 +82,11 @@ void NeighbourCluster::focus(const glm::dvec3& middle, double reach)
     return;
   }
   const double known = group_.searched - std::sqrt(squaredDistance(middle, group_.middle));
-  double around = demand_.radius;
-  selection_.measure(group_, middle, demand_.axes);
-  if (demand_.neighbours > 0)
+  double around = search_.radius;
+  selection_.measure(group_, middle, search_.axes);
+  if (search_.neighbours > 0)
   {
-    likely_ = limitAmongAll(demand_.neighbours, demand_.neighbours + demand_.neighbours / 8);
+    likely_ = limitAmongAll(search_.neighbours, search_.neighbours + search_.neighbours / 8);
     around = std::sqrt(double(likely_)) + floatError * group_.extent;
     if (around + usualReach * reach > known)
     {
@@ -125,11 +125,11 @@ void NeighbourCluster::pick()
 
 void NeighbourCluster::search(const glm::dvec3& from, NeighbourList& list)
 {
-  if (demand_.neighbours == 0)
+  if (search_.neighbours == 0)
   {
-    const double squared = demand_.radius * demand_.radius;
+    const double squared = search_.radius * search_.radius;
     list.begin(set_, squared);
-    selection_.measure(*around_, from, demand_.axes);
+    selection_.measure(*around_, from, search_.axes);
     selection_.select(safely(squared, around_->extent));
     for (std::size_t i = 0; i < selection_.size(); ++i)
     {
@@ -151,8 +151,8 @@ bool NeighbourCluster::searchBall(
   const PlaceBall& ball, const glm::dvec3& from, NeighbourList& list)
 {
   list.begin(set_);
-  selection_.measure(ball, from, demand_.axes);
-  selection_.select(limitAmongAll(demand_.neighbours, demand_.neighbours + demand_.neighbours / 4));
+  selection_.measure(ball, from, search_.axes);
+  selection_.select(limitAmongAll(search_.neighbours, search_.neighbours + search_.neighbours / 4));
   chooseNearest(ball, from, list);
   if (list.full())
   {
@@ -189,7 +189,7 @@ void NeighbourCluster::chooseNearest(
     const std::uint32_t place = ball.places[selection_[next]];
     const NeighbourList::Entry entry{ squaredDistance(set_.positions[place], from), place,
       set_.counts[place] };
-    const bool enough = chosen_.size() == demand_.neighbours;
+    const bool enough = chosen_.size() == search_.neighbours;
     if (enough && !list.less(entry, chosen_.back()))
     {
       continue;
@@ -205,7 +205,7 @@ void NeighbourCluster::chooseNearest(
       chosen_[at] = chosen_[at - 1];
     }
     chosen_[at] = entry;
-    if (chosen_.size() == demand_.neighbours) // none farther than these can be among them
+    if (chosen_.size() == search_.neighbours) // none farther than these can be among them
     {
       cut =
         safely(chosen_.back().squaredDistance, ball.extent) * (1.0f + PlaceSelection::rankError);
@@ -217,7 +217,7 @@ void NeighbourCluster::chooseNearest(
 bool NeighbourCluster::searchUnordered(
   const glm::dvec3& from, std::vector<std::uint32_t>& places, double& squaredReach)
 {
-  return demand_.neighbours > 0 &&
+  return search_.neighbours > 0 &&
     (chooseExactly(*around_, from, places, squaredReach) ||
       (around_ == &few_ && chooseExactly(group_, from, places, squaredReach)));
 }
@@ -227,8 +227,8 @@ bool NeighbourCluster::searchUnordered(
 bool NeighbourCluster::chooseExactly(const PlaceBall& ball, const glm::dvec3& from,
   std::vector<std::uint32_t>& places, double& squaredReach)
 {
-  const std::size_t wanted = demand_.neighbours;
-  selection_.measure(ball, from, demand_.axes);
+  const std::size_t wanted = search_.neighbours;
+  selection_.measure(ball, from, search_.axes);
   const std::size_t most = wanted + std::max<std::size_t>(1, wanted / 2);
   // As places grow on a surface.
   const float more = 0.5f * float(wanted + 1 + most) / float(wanted);
@@ -263,7 +263,7 @@ double NeighbourCluster::squaredDistance(const glm::dvec3& a, const glm::dvec3& 
 {
   // As the indices do: the same products in the same order.
   const glm::dvec3 d = a - b;
-  return demand_.axes > 2 ? d.x * d.x + d.y * d.y + d.z * d.z : d.x * d.x + d.y * d.y;
+  return search_.axes > 2 ? d.x * d.x + d.y * d.y + d.z * d.z : d.x * d.x + d.y * d.y;
 }
 
 } // namespace pointfront

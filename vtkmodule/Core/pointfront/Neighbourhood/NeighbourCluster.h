@@ -28,10 +28,10 @@ class NeighbourCluster
 {
 public:
   NeighbourCluster(
-    const PositionSet& set, const NeighbourIndex& index, const NeighbourSearch& demand);
+    const PositionSet& set, const NeighbourIndex& index, const NeighbourSearch& search);
 
   /// Looks up the places around a group. All points that are searched next lie within `reach` of
-  /// the middle, over the axes of the demand.
+  /// the middle, over the axes of the search.
   void gather(const glm::dvec3& middle, double reach);
   /// Picks the places around some points of the group, which are the points that are searched next.
   void focus(const glm::dvec3& middle, double reach);
@@ -55,7 +55,7 @@ private:
 
   const PositionSet& set_;
   const NeighbourIndex& index_;
-  const NeighbourSearch demand_;
+  const NeighbourSearch search_;
   PlaceBall group_;
   PlaceBall few_;
   const PlaceBall* around_ = &group_; ///< that points choose from

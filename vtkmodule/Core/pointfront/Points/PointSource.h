@@ -79,7 +79,7 @@ struct SourceDescription
 /// A readable cloud, cut into chunks that can be read in any order by any thread.
 /// Threads   description(), chunkCount() and chunkPoints() are constant; read() is thread-safe.
 /// Errors    read() gives Truncated or BadFormat with path and byte offset.
-/// Order     the input index of a point is its rank in (chunk, position in chunk); results that
+/// Order     the input index of a point is its number in (chunk, position in chunk); results that
 ///           depend on order use it, so they do not depend on which thread came first.
 class PointSource
 {

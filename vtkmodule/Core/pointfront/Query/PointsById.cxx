@@ -2,7 +2,7 @@
 
 #include "pointfront/Query/ChosenColumns.h"
 #include "pointfront/Query/ChosenRows.h"
-#include "pointfront/Query/NodeOfRank.h"
+#include "pointfront/Query/NodeOfPoint.h"
 #include "pointfront/Query/NodeSweep.h"
 
 #include <algorithm>
@@ -40,7 +40,7 @@ Result<std::vector<NodeIds>> nodesOf(
     {
       return notInCloud(store.description(), ids[i]);
     }
-    const NodeIndex index = nodeOfRank(hierarchy, ids[i]);
+    const NodeIndex index = nodeOfPoint(hierarchy, ids[i]);
     const Node row = hierarchy.node(index);
     if (std::optional<Error> damage = hierarchy.fault())
     {

@@ -16,7 +16,8 @@ namespace pointfront
 class ThreadCrew;
 
 /// Chosen points of one node, in the node's order.
-/// Shapes  ids[n] are ranks in the store: (node, position in the node), as picking and the reader's
+/// Shapes  ids[n] are numbers in the store: (node, position in the node), as picking and the
+/// reader's
 ///         overview give them; positions[n] world coordinates; columns as QueryPlan::schema().
 struct QueryBatch
 {

@@ -34,7 +34,7 @@ struct Node
   std::uint32_t pointCount = 0; ///< the node's own points; may be 0 for an inner node
   /// Points of the input in this node and all its descendants: representatives do not count.
   std::uint64_t pointsBelow = 0;
-  /// Number of own points of all nodes before it in the table: the rank of its first point in the
+  /// Number of own points of all nodes before it in the table: the number of its first point in the
   /// store.
   std::uint64_t firstPoint = 0;
   NodeIndex parent = noNode;

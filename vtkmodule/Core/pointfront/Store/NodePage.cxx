@@ -111,7 +111,7 @@ std::string decodeNodePage(const std::byte* data, std::uint32_t page, const Tabl
   const std::string name = "node table, node " + std::to_string(first) + " to node " +
     std::to_string(first + count - 1) + ": ";
   ByteReader end(data + rankAt, 16);
-  auto rank = end.get<std::uint64_t>();
+  auto firstPoint = end.get<std::uint64_t>();
   const auto number = end.get<std::uint32_t>();
   if (!matchesChecksum(data, checksumAt, end.get<std::uint32_t>()))
   {
@@ -126,8 +126,8 @@ std::string decodeNodePage(const std::byte* data, std::uint32_t page, const Tabl
   for (std::uint32_t r = 0; r < count; ++r)
   {
     rows[r] = decodeNodeRow(form, in);
-    rows[r].firstPoint = rank;
-    rank += rows[r].pointCount;
+    rows[r].firstPoint = firstPoint;
+    firstPoint += rows[r].pointCount;
     if (const std::string fault = rowFault(rows[r], first + r, limits); !fault.empty())
     {
       return "node " + std::to_string(first + r) + ": " + fault;
@@ -140,18 +140,18 @@ std::vector<std::byte> encodeNodePages(const std::vector<Node>& nodes)
 {
   const auto count = static_cast<NodeIndex>(nodes.size());
   std::vector<std::byte> bytes(std::size_t(nodePageCount(count)) * nodePageBytes);
-  std::uint64_t rank = 0;
+  std::uint64_t firstPoint = 0;
   for (std::uint32_t page = 0; page < nodePageCount(count); ++page)
   {
     const std::uint32_t length = nodePageLength(count, page);
     const Node* rows = nodes.data() + std::size_t(page) * nodePageRows;
     NodePage ranked;
     std::copy(rows, rows + length, ranked.begin());
-    ranked[0].firstPoint = rank;
+    ranked[0].firstPoint = firstPoint;
     encodeNodePage(ranked.data(), length, page, bytes.data() + std::size_t(page) * nodePageBytes);
     for (std::uint32_t r = 0; r < length; ++r)
     {
-      rank += rows[r].pointCount;
+      firstPoint += rows[r].pointCount;
     }
   }
   return bytes;

@@ -46,8 +46,8 @@ struct TableLimits
   std::uint32_t layers = 1;
 };
 
-/// Appends page number `page`: rows, rank of its first point, its number and a checksum. The rank
-/// is that of rows[0].firstPoint.
+/// Appends page number `page`: rows, number of its first point, its number and a checksum. That
+/// number is that of rows[0].firstPoint.
 void encodeNodePage(const Node* rows, std::uint32_t count, std::uint32_t page, std::byte* target);
 
 /// Fills the page's rows (those behind the last are left alone). What is wrong, or an empty text:

@@ -201,17 +201,17 @@ std::string StoreVerification::tableFault() const
   {
     return "'" + description_.path + "', " + fault;
   }
-  std::uint64_t rank = 0;
+  std::uint64_t number = 0;
   for (NodeIndex i = 0; i < hierarchy_.nodeCount(); ++i)
   {
     const Node node = hierarchy_.node(i);
-    if (node.firstPoint != rank)
+    if (node.firstPoint != number)
     {
       return "'" + description_.path + "', node " + std::to_string(i) +
-        ": the rank of its first point is " + std::to_string(node.firstPoint) + " instead of " +
-        std::to_string(rank);
+        ": the number of its first point is " + std::to_string(node.firstPoint) + " instead of " +
+        std::to_string(number);
     }
-    rank += node.pointCount;
+    number += node.pointCount;
   }
   StoreDescription counted = description_;
   countLayers(hierarchy_, counted);

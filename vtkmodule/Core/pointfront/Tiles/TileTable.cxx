@@ -137,7 +137,7 @@ NodeIndex TileTable::bodyIndexOf(std::size_t tile, NodeIndex own) const
   return indexOf(tile, own) + (std::binary_search(cut.begin(), cut.end(), own) ? 1 : 0);
 }
 
-TileTable::Place TileTable::placeOf(NodeIndex node) const
+TileTable::TileNode TileTable::tileNodeOf(NodeIndex node) const
 {
   const auto behind = std::upper_bound(firstNodes_.begin(), firstNodes_.end(), node);
   const auto tile = static_cast<std::size_t>(behind - firstNodes_.begin()) - 1;
@@ -168,10 +168,10 @@ TileTable::Place TileTable::placeOf(NodeIndex node) const
   return { tile, local - heads, head ? Cut::Head : Cut::Whole };
 }
 
-Node TileTable::shifted(const Place& place, Node row) const
+Node TileTable::shifted(const TileNode& at, Node row) const
 {
-  const std::size_t tile = place.tile;
-  const NodeIndex index = indexOf(tile, place.node);
+  const std::size_t tile = at.tile;
+  const NodeIndex index = indexOf(tile, at.node);
   row.parent = row.parent == noNode ? noNode : bodyIndexOf(tile, row.parent);
   row.firstChild = row.firstChild == noNode ? noNode : indexOf(tile, row.firstChild);
   row.firstPoint += firstPoints_[tile];
@@ -182,7 +182,7 @@ Node TileTable::shifted(const Place& place, Node row) const
     return row;
   }
   const std::uint32_t head = std::min(row.pointCount, headPoints_);
-  if (place.cut == Cut::Head)
+  if (at.cut == Cut::Head)
   {
     // Fewer points of the same surface lie that much further apart.
     const auto sparser =
@@ -194,7 +194,7 @@ Node TileTable::shifted(const Place& place, Node row) const
     row.childCount = 1;
     return row;
   }
-  if (place.cut == Cut::Body)
+  if (at.cut == Cut::Body)
   {
     row.parent = index;
     row.pointCount -= head;
@@ -206,31 +206,31 @@ Node TileTable::shifted(const Place& place, Node row) const
 }
 
 /// Links and level only: what a table needs to find a row's child.
-Node TileTable::unshifted(const Place& place, Node row) const
+Node TileTable::unshifted(const TileNode& at, Node row) const
 {
-  const bool below = !cut_[place.tile].empty() && row.parent != noNode;
+  const bool below = !cut_[at.tile].empty() && row.parent != noNode;
   row.level = static_cast<std::uint8_t>(row.level - (below ? 1 : 0));
-  row.parent = place.cut == Cut::Body || row.parent == noNode ? noNode : placeOf(row.parent).node;
-  row.firstChild = row.firstChild == noNode ? noNode : placeOf(row.firstChild).node;
-  row.firstPoint -= firstPoints_[place.tile];
+  row.parent = at.cut == Cut::Body || row.parent == noNode ? noNode : tileNodeOf(row.parent).node;
+  row.firstChild = row.firstChild == noNode ? noNode : tileNodeOf(row.firstChild).node;
+  row.firstPoint -= firstPoints_[at.tile];
   return row;
 }
 
 Node TileTable::node(NodeIndex index) const
 {
-  const Place at = placeOf(index);
+  const TileNode at = tileNodeOf(index);
   return shifted(at, tiles_[at.tile].table->node(at.node));
 }
 
 Node TileTable::childOf(NodeIndex parent, const Node& row, std::uint8_t child) const
 {
-  const Place at = placeOf(parent);
+  const TileNode at = tileNodeOf(parent);
   if (at.cut == Cut::Head)
   {
     return node(parent + 1);
   }
   const Node found = tiles_[at.tile].table->childOf(at.node, unshifted(at, row), child);
-  return shifted(placeOf(row.firstChild + child), found);
+  return shifted(tileNodeOf(row.firstChild + child), found);
 }
 
 RowState TileTable::asked(RowState state) const
@@ -244,7 +244,7 @@ RowState TileTable::asked(RowState state) const
 
 RowState TileTable::peek(NodeIndex index, Node& row) const
 {
-  const Place at = placeOf(index);
+  const TileNode at = tileNodeOf(index);
   const RowState state = asked(tiles_[at.tile].table->peek(at.node, row));
   if (state == RowState::Here)
   {
@@ -256,7 +256,7 @@ RowState TileTable::peek(NodeIndex index, Node& row) const
 RowState TileTable::peekChild(
   NodeIndex parent, const Node& row, std::uint8_t child, Node& found) const
 {
-  const Place at = placeOf(parent);
+  const TileNode at = tileNodeOf(parent);
   if (at.cut == Cut::Head)
   {
     return peek(parent + 1, found);
@@ -265,7 +265,7 @@ RowState TileTable::peekChild(
     asked(tiles_[at.tile].table->peekChild(at.node, unshifted(at, row), child, found));
   if (state == RowState::Here)
   {
-    found = shifted(placeOf(row.firstChild + child), found);
+    found = shifted(tileNodeOf(row.firstChild + child), found);
   }
   return state;
 }

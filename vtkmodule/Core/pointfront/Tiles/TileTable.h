@@ -13,7 +13,7 @@ namespace pointfront
 
 /// The node tables of several clouds, one behind the other, as one. Pages of each stay on its disk.
 /// Roots    of all clouds, in their order.
-/// Ranks    the points of a cloud follow those of the clouds before it.
+/// Numbers  the points of a cloud follow those of the clouds before it.
 /// Heads    where roots have many points and there are many of them, a root is cut in two: its
 ///          first points, a fair subset (NodeColumns), are the root, the others its only child. A
 ///          tile that is small on screen is in memory with its head alone.
@@ -42,17 +42,17 @@ public:
     Body ///< the others
   };
   /// A node of one of the clouds.
-  struct Place
+  struct TileNode
   {
     std::size_t tile = 0;
     NodeIndex node = noNode; ///< in that cloud's own table
     Cut cut = Cut::Whole;
   };
-  Place placeOf(NodeIndex node) const;
+  TileNode tileNodeOf(NodeIndex node) const;
   /// The first node behind those of a cloud.
   NodeIndex nodesBehind(std::size_t tile) const { return firstNodes_[tile + 1]; }
   /// The row of that node, as it stands in its cloud, as it stands in this table.
-  Node shifted(const Place& place, Node row) const;
+  Node shifted(const TileNode& at, Node row) const;
   std::uint32_t headPoints() const { return headPoints_; }
   NodeIndex headCount() const { return headCount_; }
 
@@ -80,7 +80,7 @@ private:
   /// Number of a cloud's own node that is whole, or the head of it.
   NodeIndex indexOf(std::size_t tile, NodeIndex own) const;
   NodeIndex bodyIndexOf(std::size_t tile, NodeIndex own) const; ///< its own index if it is whole
-  Node unshifted(const Place& place, Node row) const;
+  Node unshifted(const TileNode& at, Node row) const;
   RowState asked(RowState state) const; ///< the same; readers are told of a row that is coming
 
   std::vector<Tile> tiles_;

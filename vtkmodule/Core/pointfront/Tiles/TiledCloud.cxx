@@ -184,13 +184,13 @@ std::size_t TiledCloud::decodedBytes(
 
 std::size_t TiledCloud::storedBytes(NodeIndex node, const ColumnSelection& columns) const
 {
-  const TileTable::Place at = table_->placeOf(node);
+  const TileTable::TileNode at = table_->tileNodeOf(node);
   return tiles_[at.tile]->storedBytes(at.node, described_.parts[at.tile].columns.own(columns));
 }
 
 Result<FetchedNode> TiledCloud::fetch(NodeIndex node, const ColumnSelection& columns) const
 {
-  const TileTable::Place at = table_->placeOf(node);
+  const TileTable::TileNode at = table_->tileNodeOf(node);
   Result<FetchedNode> inner =
     tiles_[at.tile]->fetch(at.node, described_.parts[at.tile].columns.own(columns));
   if (!inner)
@@ -204,7 +204,7 @@ Result<FetchedNode> TiledCloud::fetch(NodeIndex node, const ColumnSelection& col
 
 Result<NodeColumns> TiledCloud::decode(const FetchedNode& fetched) const
 {
-  const TileTable::Place at = table_->placeOf(fetched.node);
+  const TileTable::TileNode at = table_->tileNodeOf(fetched.node);
   const StoredCloud& tile = *tiles_[at.tile];
   const TileDescription::Part& part = described_.parts[at.tile];
   Result<NodeColumns> inner = tile.decode(*fetched.inner);
@@ -239,7 +239,7 @@ Result<std::shared_ptr<const NodeRanges>> TiledCloud::nodeRanges(
   const NodeIndex nodes = std::min(most, table_->nodeCount());
   for (NodeIndex first = 0; first < nodes;)
   {
-    const std::size_t t = table_->placeOf(first).tile;
+    const std::size_t t = table_->tileNodeOf(first).tile;
     const NodeIndex end = std::min(nodes, table_->nodesBehind(t));
     const TileDescription::Part& part = described_.parts[t];
     const std::optional<std::uint32_t> own = wanted.attribute == nullptr
@@ -248,7 +248,7 @@ Result<std::shared_ptr<const NodeRanges>> TiledCloud::nodeRanges(
     std::shared_ptr<const NodeRanges> ranges;
     if (own)
     {
-      auto read = tiles_[t]->nodeRanges(*own, table_->placeOf(end - 1).node + 1);
+      auto read = tiles_[t]->nodeRanges(*own, table_->tileNodeOf(end - 1).node + 1);
       if (!read)
       {
         return read.error();
@@ -264,7 +264,7 @@ Result<std::shared_ptr<const NodeRanges>> TiledCloud::nodeRanges(
     };
     for (; first < end; ++first)
     {
-      const NodeIndex node = table_->placeOf(first).node;
+      const NodeIndex node = table_->tileNodeOf(first).node;
       if (!own)
       {
         all.add({ 0.0, 0.0 }, { 0.0, 0.0 }); // a column that the tile lacks

@@ -7,17 +7,17 @@
 namespace pointfront
 {
 
-/// The node that holds the point of that rank, if there is one: the last node whose first point has
-/// that rank or a lower one. Rows ascend by their first points; a node without points has the first
+/// The node that holds the point of that id, if there is one: the last node whose first point has
+/// that id or a lower one. Rows ascend by their first points; a node without points has the first
 /// point of the next one. The hierarchy has at least one node.
-inline NodeIndex nodeOfRank(const Hierarchy& hierarchy, std::uint64_t rank)
+inline NodeIndex nodeOfPoint(const Hierarchy& hierarchy, std::uint64_t id)
 {
   NodeIndex low = 0;
   NodeIndex behind = hierarchy.nodeCount();
   while (behind - low > 1)
   {
     const NodeIndex middle = low + (behind - low) / 2;
-    (hierarchy.node(middle).firstPoint <= rank ? low : behind) = middle;
+    (hierarchy.node(middle).firstPoint <= id ? low : behind) = middle;
   }
   return low;
 }

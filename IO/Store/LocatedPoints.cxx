@@ -1,9 +1,9 @@
-#include "RankedPoints.h"
+#include "LocatedPoints.h"
 
 #include "PointArrays.h"
 
 #include "pointfront/Query/ChosenRows.h"
-#include "pointfront/Query/NodeOfRank.h"
+#include "pointfront/Query/NodeOfPoint.h"
 #include "pointfront/Query/NodeSweep.h"
 
 #include <vtkPolyData.h>
@@ -29,29 +29,29 @@ std::uint32_t overviewPoints(const std::vector<OverviewPart>& overview, NodeInde
 } // namespace
 
 Result<std::vector<NodeRows>> locatePoints(const Hierarchy& hierarchy,
-  std::vector<std::uint64_t> ranks, const std::vector<OverviewPart>& overview)
+  std::vector<std::uint64_t> ids, const std::vector<OverviewPart>& overview)
 {
-  std::sort(ranks.begin(), ranks.end());
-  ranks.erase(std::unique(ranks.begin(), ranks.end()), ranks.end());
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
   std::vector<NodeRows> found;
-  auto rank = ranks.begin();
-  while (rank != ranks.end() && hierarchy.nodeCount() > 0)
+  auto id = ids.begin();
+  while (id != ids.end() && hierarchy.nodeCount() > 0)
   {
-    const NodeIndex index = nodeOfRank(hierarchy, *rank);
+    const NodeIndex index = nodeOfPoint(hierarchy, *id);
     const Node node = hierarchy.node(index);
     if (const std::optional<Error> damage = hierarchy.fault())
     {
       return *damage;
     }
-    if (*rank >= node.firstPoint + node.pointCount)
+    if (*id >= node.firstPoint + node.pointCount)
     {
       break;
     }
     const std::uint32_t known = overviewPoints(overview, index);
     NodeRows rows{ index, {} };
-    for (; rank != ranks.end() && *rank < node.firstPoint + node.pointCount; ++rank)
+    for (; id != ids.end() && *id < node.firstPoint + node.pointCount; ++id)
     {
-      const auto row = static_cast<std::uint32_t>(*rank - node.firstPoint);
+      const auto row = static_cast<std::uint32_t>(*id - node.firstPoint);
       if (row >= known)
       {
         rows.rows.push_back(row);
@@ -62,10 +62,10 @@ Result<std::vector<NodeRows>> locatePoints(const Hierarchy& hierarchy,
       found.push_back(std::move(rows));
     }
   }
-  if (rank != ranks.end())
+  if (id != ids.end())
   {
     return makeError(
-      Error::Kind::BadArgument, "the cloud has no point of the id " + std::to_string(*rank));
+      Error::Kind::BadArgument, "the cloud has no point of the id " + std::to_string(*id));
   }
   return found;
 }

@@ -18,11 +18,11 @@ struct NodeRows
   std::vector<std::uint32_t> rows;
 };
 
-/// The places of the points with those ranks, except the points of `overview`: in table order, each
+/// The places of the points with those ids, except the points of `overview`: in table order, each
 /// once.
-/// Errors  BadArgument: a rank beyond the store's points; damage of the table that was met.
+/// Errors  BadArgument: an id beyond the store's points; damage of the table that was met.
 Result<std::vector<NodeRows>> locatePoints(const Hierarchy& hierarchy,
-  std::vector<std::uint64_t> ranks, const std::vector<OverviewPart>& overview);
+  std::vector<std::uint64_t> ids, const std::vector<OverviewPart>& overview);
 
 /// The points of the input in all nodes whose box satisfies `overlaps`, except the points of
 /// `overview`. They contain all points of the region that `overlaps` describes. In table order.

@@ -1,6 +1,7 @@
 #include "PCDHeader.h"
 
 #include "pointfront/Table/DecimalNumber.h"
+#include "pointfront/Table/HeaderLines.h"
 
 #include <algorithm>
 #include <charconv>
@@ -11,25 +12,11 @@ namespace pointfront
 {
 namespace
 {
-constexpr std::size_t mostHeaderBytes = 1 << 20;
 constexpr std::size_t mostFields = 1000;
 constexpr std::uint64_t mostElements = 1 << 20; // elements of a field, and of all fields of a point
 constexpr std::uint64_t mostPoints = 1ull << 48;
 
-using Words = std::vector<std::string_view>;
-
-Words wordsOf(std::string_view line)
-{
-  Words words;
-  constexpr std::string_view blanks = " \t\r";
-  for (std::size_t begin = line.find_first_not_of(blanks); begin != std::string_view::npos;)
-  {
-    const std::size_t end = std::min(line.find_first_of(blanks, begin), line.size());
-    words.push_back(line.substr(begin, end - begin));
-    begin = line.find_first_not_of(blanks, end);
-  }
-  return words;
-}
+using Words = HeaderLines::Words;
 
 std::optional<std::uint64_t> countOf(std::string_view word, std::uint64_t most)
 {
@@ -71,46 +58,25 @@ class HeaderReader
 {
 public:
   HeaderReader(std::string_view text, const std::string& path)
-    : text_(text.substr(0, mostHeaderBytes))
-    , path_(path)
+    : lines_(text, path)
   {
   }
   Result<PCDHeader> read();
 
 private:
-  bool nextLine();
-  Error fault(Error::Kind kind, const std::string& what) const
-  {
-    return makeError(kind, path_ + ": line " + std::to_string(header_.lines) + ": " + what);
-  }
+  Error fault(Error::Kind kind, const std::string& what) const { return lines_.fault(kind, what); }
   Result<void> take(const Words& words);
   void takeOrigin(const Words& words);
   Result<void> takeData(const Words& words);
   Result<void> assembleFields();
   Result<void> checkCounts();
 
-  std::string_view text_;
-  const std::string& path_;
-  std::string_view line_;
+  HeaderLines lines_;
   PCDHeader header_;
   Words names_, sizes_, types_, counts_;
   std::optional<std::uint64_t> width_, height_, points_;
   bool dataSeen_ = false;
 };
-
-bool HeaderReader::nextLine()
-{
-  const std::size_t begin = header_.dataOffset;
-  const std::size_t end = text_.find('\n', begin);
-  if (end == std::string_view::npos)
-  {
-    return false;
-  }
-  line_ = text_.substr(begin, end - begin);
-  header_.dataOffset = end + 1;
-  ++header_.lines;
-  return true;
-}
 
 Result<void> HeaderReader::takeData(const Words& words)
 {
@@ -190,14 +156,15 @@ Result<void> HeaderReader::assembleFields()
   if (n == 0 || sizes_.size() != n || types_.size() != n || !counted)
   {
     return makeError(Error::Kind::BadFormat,
-      path_ + ": FIELDS, SIZE, TYPE and COUNT of the PCD header do not name as many fields (" +
+      lines_.path() +
+        ": FIELDS, SIZE, TYPE and COUNT of the PCD header do not name as many fields (" +
         std::to_string(n) + ", " + std::to_string(sizes_.size()) + ", " +
         std::to_string(types_.size()) + ", " + std::to_string(counts_.size()) + ")");
   }
   if (n > mostFields)
   {
-    return makeError(
-      Error::Kind::Unsupported, path_ + ": more than " + std::to_string(mostFields) + " fields");
+    return makeError(Error::Kind::Unsupported,
+      lines_.path() + ": more than " + std::to_string(mostFields) + " fields");
   }
   std::uint64_t elements = 0;
   for (std::size_t f = 0; f < n; ++f)
@@ -209,7 +176,7 @@ Result<void> HeaderReader::assembleFields()
     if (!type || !count || *count == 0)
     {
       return makeError(Error::Kind::BadFormat,
-        path_ + ": field '" + std::string(names_[f].substr(0, 40)) +
+        lines_.path() + ": field '" + std::string(names_[f].substr(0, 40)) +
           "' of the PCD header has no type that there is (TYPE I or U with SIZE 1, 2, 4, 8; F "
           "with 4, 8; COUNT 1 or more)");
     }
@@ -217,7 +184,7 @@ Result<void> HeaderReader::assembleFields()
     if (elements > mostElements)
     {
       return makeError(Error::Kind::Unsupported,
-        path_ + ": a point of more than " + std::to_string(mostElements) + " numbers");
+        lines_.path() + ": a point of more than " + std::to_string(mostElements) + " numbers");
     }
     header_.fields.push_back({ std::string(names_[f]), *type, static_cast<std::size_t>(*count) });
   }
@@ -229,7 +196,7 @@ Result<void> HeaderReader::checkCounts()
   if (!points_ && !width_)
   {
     return makeError(Error::Kind::BadFormat,
-      path_ + ": the PCD header says neither POINTS nor WIDTH: how many points there are");
+      lines_.path() + ": the PCD header says neither POINTS nor WIDTH: how many points there are");
   }
   const std::uint64_t height = height_.value_or(1);
   const std::uint64_t width = width_.value_or(points_.value_or(0));
@@ -238,7 +205,7 @@ Result<void> HeaderReader::checkCounts()
   if (overflow || width * height != header_.points)
   {
     return makeError(Error::Kind::BadFormat,
-      path_ + ": the PCD header contradicts itself: WIDTH " + std::to_string(width) +
+      lines_.path() + ": the PCD header contradicts itself: WIDTH " + std::to_string(width) +
         " times HEIGHT " + std::to_string(height) + " is not POINTS " +
         std::to_string(header_.points));
   }
@@ -269,9 +236,9 @@ void HeaderReader::takeOrigin(const Words& words)
 
 Result<PCDHeader> HeaderReader::read()
 {
-  while (!dataSeen_ && nextLine())
+  while (!dataSeen_ && lines_.next())
   {
-    const Words words = wordsOf(line_);
+    const Words words = lines_.words();
     if (words.empty() || words[0].front() == '#')
     {
       takeOrigin(words);
@@ -285,9 +252,11 @@ Result<PCDHeader> HeaderReader::read()
   if (!dataSeen_)
   {
     return makeError(Error::Kind::Truncated,
-      path_ + ": the PCD header does not end (no DATA line in the first " +
-        std::to_string(text_.size()) + " bytes); get a whole copy");
+      lines_.path() + ": the PCD header does not end (no DATA line in the first " +
+        std::to_string(lines_.size()) + " bytes); get a whole copy");
   }
+  header_.lines = lines_.number();
+  header_.dataOffset = lines_.behind();
   if (Result<void> fields = assembleFields(); !fields)
   {
     return fields.error();

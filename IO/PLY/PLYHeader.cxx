@@ -1,5 +1,7 @@
 #include "PLYHeader.h"
 
+#include "pointfront/Table/HeaderLines.h"
+
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -8,7 +10,6 @@ namespace pointfront
 {
 namespace
 {
-constexpr std::size_t mostHeaderBytes = 1 << 20;
 constexpr std::size_t mostElements = 256;
 constexpr std::size_t mostProperties = 1000; // properties of one element
 
@@ -37,66 +38,29 @@ std::optional<ScalarType> typeOf(std::string_view name)
   return std::nullopt;
 }
 
-std::vector<std::string_view> wordsOf(std::string_view line)
-{
-  std::vector<std::string_view> words;
-  constexpr std::string_view blanks = " \t\r";
-  for (std::size_t begin = line.find_first_not_of(blanks); begin != std::string_view::npos;)
-  {
-    const std::size_t end = std::min(line.find_first_of(blanks, begin), line.size());
-    words.push_back(line.substr(begin, end - begin));
-    begin = line.find_first_not_of(blanks, end);
-  }
-  return words;
-}
-
-using Words = std::vector<std::string_view>;
+using Words = HeaderLines::Words;
 
 /// The lines of one header, one by one.
 class HeaderReader
 {
 public:
   HeaderReader(std::string_view text, const std::string& path)
-    : text_(text.substr(0, mostHeaderBytes))
-    , path_(path)
+    : lines_(text, path)
   {
   }
   Result<PLYHeader> read();
 
 private:
-  /// False at the end of the text.
-  bool nextLine();
-  Error fault(Error::Kind kind, const std::string& what) const;
+  Error fault(Error::Kind kind, const std::string& what) const { return lines_.fault(kind, what); }
   Result<void> take(const Words& words);
   Result<void> takeFormat(const Words& words);
   Result<void> takeElement(const Words& words);
   Result<void> takeProperty(const Words& words);
 
-  std::string_view text_;
-  const std::string& path_;
-  std::string_view line_;
+  HeaderLines lines_;
   bool formatSeen_ = false;
   PLYHeader header_;
 };
-
-bool HeaderReader::nextLine()
-{
-  const std::size_t begin = header_.bodyOffset;
-  const std::size_t end = text_.find('\n', begin);
-  if (end == std::string_view::npos)
-  {
-    return false;
-  }
-  line_ = text_.substr(begin, end - begin);
-  header_.bodyOffset = end + 1;
-  ++header_.lines;
-  return true;
-}
-
-Error HeaderReader::fault(Error::Kind kind, const std::string& what) const
-{
-  return makeError(kind, path_ + ": line " + std::to_string(header_.lines) + ": " + what);
-}
 
 Result<void> HeaderReader::takeFormat(const Words& words)
 {
@@ -214,21 +178,23 @@ Result<void> HeaderReader::take(const Words& words)
 
 Result<PLYHeader> HeaderReader::read()
 {
-  const Words signature = nextLine() ? wordsOf(line_) : Words{};
+  const Words signature = lines_.next() ? lines_.words() : Words{};
   if (signature != Words{ "ply" })
   {
     return makeError(
-      Error::Kind::BadFormat, path_ + ": not a PLY file: its first line is not 'ply'");
+      Error::Kind::BadFormat, lines_.path() + ": not a PLY file: its first line is not 'ply'");
   }
-  while (nextLine())
+  while (lines_.next())
   {
-    const Words words = wordsOf(line_);
+    const Words words = lines_.words();
     if (words == Words{ "end_header" })
     {
       if (!formatSeen_)
       {
         return fault(Error::Kind::BadFormat, "the header has no format line");
       }
+      header_.lines = lines_.number();
+      header_.bodyOffset = lines_.behind();
       return std::move(header_);
     }
     if (Result<void> taken = take(words); !taken)
@@ -237,8 +203,8 @@ Result<PLYHeader> HeaderReader::read()
     }
   }
   return makeError(Error::Kind::Truncated,
-    path_ + ": the PLY header does not end (no 'end_header' in the first " +
-      std::to_string(text_.size()) + " bytes); get a whole copy");
+    lines_.path() + ": the PLY header does not end (no 'end_header' in the first " +
+      std::to_string(lines_.size()) + " bytes); get a whole copy");
 }
 } // namespace
 

@@ -19,8 +19,9 @@ import json
 import math
 import pathlib
 import resource
-import subprocess
 import sys
+
+import programs
 
 FEW, MANY = 10, 40  # frames of the two runs
 MIB = 1 << 20
@@ -29,13 +30,10 @@ MIB = 1 << 20
 def call(*words):
     """Runs a command; its CPU seconds and what it printed."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    done = subprocess.run([str(word) for word in words], capture_output=True, text=True,
-                          check=False)
-    if done.returncode != 0:
-        sys.exit(f"{' '.join(map(str, words))}: status {done.returncode}\n{done.stderr}")
+    printed = programs.call(*words)
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     cpu = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-    return cpu, done.stdout
+    return cpu, printed
 
 
 def head(*cells):

@@ -23,9 +23,10 @@ import argparse
 import json
 import os
 import pathlib
-import subprocess
 import sys
 import time
+
+import programs
 
 SIZE = [1280, 720]
 STEPS = ("open", "first picture", "still frame", "selection", "extract of 1 %",
@@ -123,11 +124,8 @@ def inside_run(way, path, plugin):
 
 def call(*words):
     begin = time.perf_counter()
-    done = subprocess.run([str(word) for word in words], capture_output=True, text=True,
-                          check=False)
-    if done.returncode != 0:
-        sys.exit(f"{' '.join(map(str, words))}: status {done.returncode}\n{done.stderr}")
-    return time.perf_counter() - begin, done.stdout
+    printed = programs.call(*words)
+    return time.perf_counter() - begin, printed
 
 
 def measured(options):

@@ -18,13 +18,14 @@ import json
 import math
 import pathlib
 import statistics
-import subprocess
 import sys
 import time
 
 import numpy
 import vtk
 from vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+
+from programs import call
 
 SIZE = (1280, 720)
 TECHNIQUES = {
@@ -39,14 +40,6 @@ TECHNIQUES = {
 DISC = """//VTK::Color::Impl
 if (dot(offsetVCVSOutput.xy, offsetVCVSOutput.xy) > 1.0) { discard; }
 """
-
-
-def call(*words):
-    finished = subprocess.run([str(word) for word in words], capture_output=True, text=True,
-                              check=False)
-    if finished.returncode != 0:
-        sys.exit(f"{' '.join(map(str, words))}: status {finished.returncode}\n{finished.stderr}")
-    return finished.stdout
 
 
 class PointFront:

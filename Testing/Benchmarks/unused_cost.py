@@ -19,22 +19,15 @@ runs counts. No display is needed.
 import argparse
 import json
 import pathlib
-import subprocess
 import sys
 
 import numpy
 
+from programs import call
+
 ROUNDS = 7
 POINTS = 1_000_000  # of the made-up cloud with further attributes
 FURTHER = 20
-
-
-def call(*words):
-    finished = subprocess.run([str(word) for word in words], capture_output=True, text=True,
-                              check=False)
-    if finished.returncode != 0:
-        sys.exit(f"{' '.join(map(str, words))}: status {finished.returncode}\n{finished.stderr}")
-    return finished.stdout
 
 
 class Runs:

@@ -122,3 +122,44 @@ function (pointfront_compile_by_folder target)
     set_source_files_properties("${source}" PROPERTIES UNITY_GROUP "${folder}_sources")
   endforeach ()
 endfunction ()
+
+# pointfront_add_library(<name> [SHARED] [INSTALL <folder>] [ROOMS <folder>...] [SOURCES <file>...]
+#                        [LINK <library>...])
+# A library of plain C++ over the kernel: the target pointfront<name>, called PointFront::<name>.
+# Its sources are those of the current folder and of its ROOMS, unless SOURCES names them; its
+# headers are installed below pointfront/<INSTALL>; it links to LINK in private.
+function (pointfront_add_library name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "SHARED" "INSTALL" "ROOMS;SOURCES;LINK")
+  set(target "pointfront${name}")
+  set(folders "${CMAKE_CURRENT_SOURCE_DIR}")
+  foreach (room IN LISTS arg_ROOMS)
+    list(APPEND folders "${CMAKE_CURRENT_SOURCE_DIR}/${room}")
+  endforeach ()
+  if (NOT arg_SOURCES)
+    list(TRANSFORM folders APPEND "/*.cxx" OUTPUT_VARIABLE patterns)
+    file(GLOB arg_SOURCES CONFIGURE_DEPENDS ${patterns})
+  endif ()
+  set(kind "")
+  if (arg_SHARED)
+    set(kind SHARED)
+  endif ()
+  add_library(${target} ${kind} ${arg_SOURCES})
+  pointfront_compile_by_folder(${target})
+  add_library(PointFront::${name} ALIAS ${target})
+  target_include_directories(${target} PUBLIC "$<BUILD_INTERFACE:${folders}>")
+  if (arg_INSTALL)
+    target_include_directories(${target} PUBLIC
+      $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/pointfront/${arg_INSTALL}>)
+  endif ()
+  target_link_libraries(${target}
+    PUBLIC PointFront::Core PRIVATE $<BUILD_INTERFACE:pointfrontWarnings> ${arg_LINK})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name}
+    VERSION "${PROJECT_VERSION}" SOVERSION "${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}")
+endfunction ()
+
+# pointfront_add_tests(): the tests of the folder's library, where a build tests the kernel.
+macro (pointfront_add_tests)
+  if (POINTFRONT_BUILD_TESTING AND POINTFRONT_TEST_KERNEL)
+    add_subdirectory(Testing)
+  endif ()
+endmacro ()

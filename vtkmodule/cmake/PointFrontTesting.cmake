@@ -139,6 +139,31 @@ function (pointfront_name_leaks executable)
   endif ()
 endfunction ()
 
+# pointfront_add_unit_tests(<library> PREFIX <prefix> [KNOWS_DATA] LINK <library>...
+#   [SOURCES <file>...] [INCLUDE <folder>...] [DISCOVER <as pointfront_discover_tests>...])
+# The executable pointfront<library>Tests of all *.cxx of the calling folder, or of SOURCES.
+# KNOWS_DATA: it is told where the public clouds are; a path in every command line keeps ccache from
+# sharing between checkouts.
+function (pointfront_add_unit_tests library)
+  cmake_parse_arguments(PARSE_ARGV 1 test "KNOWS_DATA" "PREFIX" "SOURCES;LINK;INCLUDE;DISCOVER")
+  find_package(GTest REQUIRED)
+  include(GoogleTest)
+  if (NOT test_SOURCES)
+    file(GLOB test_SOURCES CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*.cxx")
+  endif ()
+  set(name "pointfront${library}Tests")
+  add_executable(${name} ${test_SOURCES})
+  pointfront_compile_by_folder(${name} TESTS)
+  target_link_libraries(${name} PRIVATE ${test_LINK} pointfrontWarnings GTest::gtest_main)
+  target_include_directories(${name} PRIVATE
+    "${CMAKE_CURRENT_SOURCE_DIR}" "${PROJECT_SOURCE_DIR}/Testing/Support" ${test_INCLUDE})
+  if (test_KNOWS_DATA)
+    target_compile_definitions(${name} PRIVATE POINTFRONT_SHARED_DATA="${POINTFRONT_SHARED_DATA}")
+  endif ()
+  pointfront_discover_tests(${name} TEST_PREFIX "${POINTFRONT_TEST_PREFIX}${test_PREFIX}."
+    DISCOVERY_TIMEOUT 60 ${test_DISCOVER})
+endfunction ()
+
 # pointfront_add_module_test(<executable> MODULES <module>... [SUITES <suite>...]
 #   [READS_DATA <suite>.<test>...] [MEASURES <suite>.<test>...])
 # One executable of all Cxx/*.cxx of the calling folder. With SUITES its tests draw: each is one

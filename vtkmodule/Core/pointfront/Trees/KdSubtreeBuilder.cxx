@@ -125,8 +125,8 @@ void KdSubtreeBuilder::take(Region& region, std::uint64_t wanted)
   region.end = left;
 }
 
-/// The places of `drawn` points in the region of points_, which are evenly spread: one each, as long
-/// as there are so many among those of points_ and of the points above them.
+/// Places of `drawn` points in the region of points_, which are evenly spread: one each, as long as
+/// there are so many among those of points_ and of the points above them.
 double KdSubtreeBuilder::places(double drawn, double above) const
 {
   const auto points = static_cast<double>(points_.size());

@@ -124,8 +124,8 @@ SubtreeBuilder::Branch SubtreeBuilder::joinBranches(
   return joined;
 }
 
-/// Spacing of an inner node that chose chosen_ of candidates_: the distance that keeps them apart,
-/// and where a point of each place was chosen, that of the places, which may lie much further apart.
+/// Spacing of an inner node that chose chosen_ of candidates_: the distance that keeps them apart;
+/// where a point of each place was chosen, that of the places, which may lie much further apart.
 float SubtreeBuilder::spacingOf(const SortedPoints& points, const CellOccupancy& occupancy,
   const SamplingDistance& distance) const
 {

@@ -219,7 +219,7 @@ std::int64_t WindowDrawing::list(const FramePlan& plan)
   {
     this->runsOf(batch.style); // in the order of the batches
   }
-  records_.begin(pool_.slotCount());
+  records_.begin(pool_.memory().slotCount());
   std::int64_t drawn = 0;
   for (std::size_t i = 0; i < order_.size(); ++i)
   {

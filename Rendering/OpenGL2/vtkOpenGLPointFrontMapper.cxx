@@ -196,8 +196,8 @@ void vtkOpenGLPointFrontMapper::RenderPiece(vtkRenderer* renderer, vtkActor* act
   }
   if (first)
   {
-    this->GetStatistics().gpuBytes = drawing.pool().bytes();
-    this->GetStatistics().windowGpuBytes = drawing.pool().windowBytes();
+    this->GetStatistics().gpuBytes = drawing.pool().memory().bytes();
+    this->GetStatistics().windowGpuBytes = drawing.pool().memory().windowBytes();
     this->FinishFrame(renderer, points, static_cast<vtkIdType>(kept), uploadsLeft);
   }
   this->UpdateProgress(1.0);
@@ -329,8 +329,8 @@ void vtkOpenGLPointFrontMapper::LeaveScreen()
   for (const auto& [window, drawing] : this->Internals->Windows)
   {
     drawing->leaveScreen();
-    this->GetStatistics().gpuBytes = drawing->pool().bytes();
-    this->GetStatistics().windowGpuBytes = drawing->pool().windowBytes();
+    this->GetStatistics().gpuBytes = drawing->pool().memory().bytes();
+    this->GetStatistics().windowGpuBytes = drawing->pool().memory().windowBytes();
   }
 }
 

@@ -304,7 +304,7 @@ void vtkOpenGLPointFrontPoints::DrawBlocks(vtkOpenGLHelper& cellBO)
   const pointfront::DrawRuns& runs = *this->Drawing->runs;
   for (const pointfront::DrawRuns::Stretch& stretch : runs.stretches())
   {
-    const pointfront::GpuBlock& block = this->Drawing->pool->blocks()[stretch.block];
+    const pointfront::GpuBlock& block = this->Drawing->pool->memory().blocks()[stretch.block];
     if (positions >= 0) // a user's own vertex shader may do without
     {
       glBindBuffer(GL_ARRAY_BUFFER, block.positionBuffer());

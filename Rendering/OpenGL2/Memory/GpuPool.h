@@ -1,7 +1,7 @@
 #pragma once
 
 #include "DrawRuns.h"
-#include "GpuBlock.h"
+#include "GpuMemory.h"
 #include "LayerStreams.h"
 
 #include "pointfront/Plan/FramePlan.h"
@@ -19,12 +19,12 @@ namespace pointfront
 
 class GpuAccount;
 
-/// GPU memory of one cloud in one GL context: equal slots in blocks of vertex buffers. Blocks come
-/// and go, so growing copies nothing and takes no extra memory. A node takes as many slots as its
-/// drawn prefix fills. A node that is no longer drawn stays until its slots are wanted; the least
-/// recently drawn node goes first. The clouds of a window share its budgets. A pool gives memory
-/// back if its limit is less than half of its size, or if another pool wants its idle memory.
-/// Guarantees  a node that any view has drawn within the last `views` frames is never evicted, even
+/// The nodes of one cloud that are on the GPU, in the slots of a GpuMemory. A node takes as many
+/// slots as its drawn prefix fills. A node that is no longer drawn stays until its slots are
+/// wanted; the least recently drawn node goes first. The clouds of a window share its budgets. A
+/// pool gives memory back if its limit is less than half of its size, or if another pool wants its
+/// idle memory. Guarantees  a node that any view has drawn within the last `views` frames is never
+/// evicted, even
 ///             if that exceeds the limit of points. The limit of bytes always holds: in the first
 ///             frame after it was lowered only nodes that this frame draws stay, the nearest ones
 ///             if not all fit.
@@ -96,15 +96,9 @@ public:
   /// The entry of a node on the GPU, or null.
   const Entry* find(NodeIndex node) const;
 
-  const std::vector<GpuBlock>& blocks() const { return blocks_; }
-  /// Number of the block that has a slot.
-  std::size_t blockOf(std::uint32_t slot) const;
-  std::uint32_t slotCount() const { return blocks_.empty() ? 0 : blocks_.back().end(); }
-  std::int64_t bytes() const { return bytes_; }
+  const GpuMemory& memory() const { return memory_; }
   /// True once after the GPU had less memory than the budgets allow.
-  bool takeRefused() { return std::exchange(refused_, false); }
-  /// Bytes of all pools of the window.
-  std::int64_t windowBytes() const;
+  bool takeRefused() { return memory_.takeRefused(); }
   /// All bytes uploaded so far: positions and values.
   std::uint64_t uploadedBytes() const { return uploaded_; }
 
@@ -124,29 +118,21 @@ private:
   bool evictOne();
   bool trim();
   bool grow(std::uint64_t slots);
-  void dropLast();
-  bool tooMuch(std::int64_t more) const;
-  void charge(std::int64_t bytes);
   void uploadPositions(const NodeColumns& node, Entry& entry, std::uint32_t end);
   void uploadStream(GpuStream stream, const NodeColumns& node, const FramePlan& plan, Entry& entry,
     std::uint32_t end);
 
-  std::shared_ptr<GpuAccount> account_;
+  GpuMemory memory_;
   std::vector<LayerStreams> streams_; ///< by layer
-  GpuStreams wanted_; ///< by one of them
-  std::vector<GpuBlock> blocks_; ///< each goes on where the one before ends
   std::unordered_map<NodeIndex, Entry> entries_;
-  std::vector<std::uint32_t> free_; ///< slots
   /// Last drawn, node: the oldest at the end, of those drawn last together the deepest.
   std::vector<std::pair<std::uint64_t, NodeIndex>> idle_;
   std::vector<std::uint32_t> staging_;
   Limits limits_;
   bool lowered_ = false;
-  bool refused_ = false;
   std::uint32_t slotLimit_ = 0; ///< for `points`: grows beyond for what is on screen; 0: none
   std::uint64_t frame_ = 0;
   std::uint64_t uploaded_ = 0;
-  std::int64_t bytes_ = 0;
 };
 
 } // namespace pointfront

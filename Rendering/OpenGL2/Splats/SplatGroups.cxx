@@ -84,7 +84,7 @@ std::int64_t SplatGroups::list(const FramePlan& plan, const GpuPool& pool, float
   listed_.clear();
   shown_ = {};
   blended_ = false;
-  records.begin(pool.slotCount());
+  records.begin(pool.memory().slotCount());
   std::int64_t points = 0;
   do
   {

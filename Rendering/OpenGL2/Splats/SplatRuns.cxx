@@ -72,7 +72,7 @@ void drawSplatRuns(const SplatFrame& frame, SlotRecords& records, vtkShaderProgr
     DrawBatches batches;
     for (const DrawRuns::Stretch& stretch : runs.stretches())
     {
-      const GpuBlock& block = frame.pool->blocks()[stretch.block];
+      const GpuBlock& block = frame.pool->memory().blocks()[stretch.block];
       attributes.read(block);
       program->SetUniformi("firstSlot", static_cast<int>(block.first()));
       batches.draw(

@@ -1,18 +1,44 @@
 #include "pointfront/Store/PointStore.h"
 
 #include "pointfront/Codec/Checksum.h"
+#include "pointfront/Disk/ByteSource.h"
 #include "pointfront/Store/ColumnStatistics.h"
+#include "pointfront/Store/DescriptionSection.h"
+#include "pointfront/Store/NodeRangesSection.h"
+#include "pointfront/Store/PayloadDirectory.h"
+#include "pointfront/Store/PayloadElsewhere.h"
 #include "pointfront/Store/PreviewRecord.h"
-#include "pointfront/Store/StoreContent.h"
 #include "pointfront/Store/StoredNodeTable.h"
 #include "pointfront/Store/StoreFormat.h"
 #include "pointfront/Store/StoreVerification.h"
 
 #include <algorithm>
 #include <cassert>
+#include <memory>
+#include <optional>
+#include <string>
 
 namespace pointfront
 {
+
+/// All of an open store but its points; constant once open() has returned.
+struct PointStore::Content
+{
+  std::shared_ptr<const ByteSource> file; ///< the hierarchy has a part in it
+  StoreDescription description;
+  GridBounds gridBounds;
+  std::shared_ptr<const Hierarchy> hierarchy;
+  std::unique_ptr<const PayloadDirectory> directory; ///< reads from `file`
+  std::optional<NodeRangesFile> ranges;
+  std::optional<PayloadElsewhere> elsewhere;
+  std::unique_ptr<const ByteSource> fileElsewhere; ///< with `elsewhere`, unless only looked at
+
+  const ByteSource& fileOf(const NodePayload& payload) const
+  {
+    return payload.elsewhere ? *fileElsewhere : *file;
+  }
+};
+
 namespace
 {
 /// Blocks with at most this many unwanted bytes between them are fetched by one read: the disk
@@ -134,14 +160,15 @@ std::string decodeFault(const BlockDirectory::Block& block, const std::byte* dat
     ? ""
     : ": the block cannot be decoded";
 }
-} // namespace
 
+/// "node 12, positions" or "node 12, attribute 'rgb'", for messages.
 std::string blockName(const StoreDescription& description, NodeIndex node, std::uint32_t block)
 {
   return "node " + std::to_string(node) +
     (block == 0 ? std::string(", positions")
                 : ", attribute '" + description.schema[block - 1].name + "'");
 }
+} // namespace
 
 PointStore::PointStore()
   : content_(std::make_unique<Content>())

@@ -5,20 +5,20 @@
 #include "Ground.h"
 #include "PeakMemory.h"
 #include "PicturePixels.h"
-#include "ShownClasses.h"
 
 #include "RasterBatch.h"
 
-#include "pointfront/Detail/DetailLevel.h"
 #include "pointfront/Residency/LoadScheduler.h"
-#include "pointfront/Style/ClassHeights.h"
 #include "pointfront/Style/TechniqueNames.h"
 #include "pointfront/Threads/ThreadCrew.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
 #include <set>
 #include <tuple>
+#include <unordered_map>
 
 namespace pointfront
 {
@@ -27,12 +27,11 @@ namespace
 {
 using Clock = std::chrono::steady_clock;
 
-/// One store's arrivals are waited for that long before the others are looked at.
-constexpr std::chrono::milliseconds lookAtOthers{ 20 };
-constexpr int mostRounds = 64; // rounds in which the fronts of a complete picture move
 constexpr double frameMsInMotion = 1000.0 / 15; // that VTK allots to a moving view
 constexpr std::uint64_t framePointBudget = 5000000; // as vtkPointFrontMapper's
-constexpr std::uint64_t overviewPoints = 2000000; // likewise
+/// How far a splat reaches beyond the rows that its centre lies in, where its size is no number of
+/// pixels.
+constexpr int splatReachRows = 64;
 
 double millisecondsSince(Clock::time_point begin)
 {
@@ -55,82 +54,16 @@ Result<std::unique_ptr<SoftwareScene>> SoftwareScene::open(const DrawingOptions&
     scene->target_.reset(options.size[0], options.size[1]);
     scene->emptySceneBytes_ = residentBytesNow();
   }
-  for (const auto step :
-    { &SoftwareScene::openStores, &SoftwareScene::chooseStyles, &SoftwareScene::shareMemory })
+  if (Result<void> opened = scene->stores_.open(options.stores, options.style); !opened)
   {
-    if (Result<void> done = (scene.get()->*step)(); !done)
-    {
-      return done.error();
-    }
+    return opened.error();
+  }
+  scene->target_.keepDecided = scene->stores_.count() > 1;
+  if (Result<void> shared = scene->shareMemory(); !shared)
+  {
+    return shared.error();
   }
   return scene;
-}
-
-Result<void> SoftwareScene::openStores()
-{
-  for (const std::string& path : options_.stores)
-  {
-    Result<std::unique_ptr<DrawnStore>> store = DrawnStore::open(path);
-    if (!store)
-    {
-      return store.error();
-    }
-    bounds_.add(store.value()->cloud()->description().bounds);
-    allPoints_ += store.value()->cloud()->description().pointCount;
-    stores_.push_back(std::move(store).value());
-  }
-  target_.keepDecided = stores_.size() > 1;
-  return {};
-}
-
-Result<void> SoftwareScene::chooseStyles()
-{
-  std::vector<std::shared_ptr<const StoredCloud>> clouds;
-  for (const auto& store : stores_)
-  {
-    clouds.push_back(store->cloud());
-  }
-  const AttributeRanges ranges(clouds);
-  StyleSheet sheet = options_.style;
-  if (!sheet.standard.colour) // the first store decides for all
-  {
-    sheet.standard.colour =
-      ColourSource::ofAttribute(defaultColourAttribute(clouds.front()->description()));
-  }
-  if (sheet.wantsShares() &&
-    std::none_of(clouds.begin(), clouds.end(),
-      [](const auto& cloud) { return isLayered(cloud->description()); }))
-  {
-    return noClassTrees(clouds.front()->description().path);
-  }
-  const auto window = std::make_shared<const WindowDemand>();
-  std::uint64_t shown = 0;
-  for (const auto& store : stores_)
-  {
-    const StoreDescription& description = store->cloud()->description();
-    StoreSurroundings surroundings;
-    surroundings.ranges = &ranges;
-    if (sheet.wantsHeights(description))
-    {
-      surroundings.heights = std::make_shared<const ClassHeights>(store->cloud());
-    }
-    Result<std::vector<LayerStyling>> layers = sheet.resolveAll(description, surroundings);
-    if (!layers)
-    {
-      return layers.error();
-    }
-    if (const Result<void> set = store->setStyles(std::move(layers).value()); !set)
-    {
-      return set;
-    }
-    store->enterWindow(window);
-    shown += store->pointsShown();
-  }
-  if (sheet.shownClasses && shown == 0)
-  {
-    return noClassShown();
-  }
-  return {};
 }
 
 /// Before anything is loaded.
@@ -138,7 +71,7 @@ Result<void> SoftwareScene::shareMemory()
 {
   bool blends = false;
   std::set<std::tuple<int, bool, int>> parts; // that have targets of their own
-  forEachStyle(
+  stores_.forEachStyle(
     [&](const ResolvedStyle& style)
     {
       blends = blends || style.blended || style.technique == Technique::Ewa;
@@ -154,7 +87,7 @@ Result<void> SoftwareScene::shareMemory()
   cost.pixelBytes *= targets;
   cost.pixelBytes += shading_.anyEyeDome() ? sizeof(float) : 0; // logarithms of depth
   cost.pixelBytes += blends ? sizeof(float) : 0; // the nearest depth
-  cost.pixelBytes += stores_.size() > 1 // keys of their last pictures
+  cost.pixelBytes += stores_.count() > 1 // keys of their last pictures
     ? SoftwareRasteriser::keptPictures * sizeof(RasterKey)
     : 0;
   cost.threadPixelBytes = sizeof(RasterKey) + (blends ? 4 * sizeof(std::uint32_t) : 0);
@@ -180,28 +113,14 @@ Result<void> SoftwareScene::shareMemory()
   return {};
 }
 
-std::vector<std::string> SoftwareScene::warnings() const
-{
-  std::vector<std::string> all;
-  for (const auto& store : stores_)
-  {
-    const StoreDescription& description = store->cloud()->description();
-    for (const std::string& warning : description.warnings)
-    {
-      all.push_back(description.path + ": " + warning);
-    }
-  }
-  return all;
-}
-
 Result<double> SoftwareScene::ground() const
 {
-  return groundOf(*stores_.front()->cloud());
+  return groundOf(*stores_.first().cloud());
 }
 
 void SoftwareScene::setCamera(const Camera& camera)
 {
-  camera_ = frameCameraOf(camera, bounds_, options_.size[0], options_.size[1]);
+  camera_ = frameCameraOf(camera, stores_.bounds(), options_.size[0], options_.size[1]);
 }
 
 /// But for what each store adds of its own.
@@ -223,58 +142,15 @@ FrameRequest SoftwareScene::demand(const View& view, bool complete) const
   return demand;
 }
 
-/// Milliseconds that each store's front took are left in `ownMs_`.
-void SoftwareScene::updateFronts(const View& view, bool complete)
+/// Moves the fronts, and records their state before the frame is drawn.
+FrameRecord SoftwareScene::updateFronts(const View& view, bool complete)
 {
-  const FrameRequest common = demand(view, complete);
-  ownMs_.assign(stores_.size(), 0.0);
-  const auto wantsUpdate = [&]
-  {
-    return std::any_of(
-      stores_.begin(), stores_.end(), [](const auto& store) { return store->wantsUpdate(); });
-  };
-  // Stores that share a budget come to one error within a few rounds.
-  int rounds = 0;
-  do
-  {
-    for (std::size_t i = 0; i < stores_.size(); ++i)
-    {
-      const auto begin = Clock::now();
-      FrameRequest own = common;
-      own.overviewPoints =
-        overviewShare(overviewPoints, stores_[i]->cloud()->description().pointCount, allPoints_);
-      stores_[i]->update(std::move(own), camera_, shading_);
-      ownMs_[i] += millisecondsSince(begin);
-    }
-  } while (complete && ++rounds < mostRounds && wantsUpdate());
-}
-
-/// Records the state of the fronts before the frame is drawn.
-FrameRecord SoftwareScene::record(bool complete) const
-{
-  FrameRecord frame;
-  frame.complete = true;
-  for (std::size_t i = 0; i < stores_.size(); ++i)
-  {
-    const FrontDelta& delta = stores_[i]->last();
-    const ResidencyStatistics residency = stores_[i]->residency().statistics();
-    frame.frontMilliseconds += ownMs_[i];
-    frame.nodes += static_cast<std::int64_t>(delta.draw.size());
-    frame.frontLength += delta.frontLength;
-    frame.moves += delta.moves;
-    frame.requests += static_cast<std::int64_t>(delta.requests.size());
-    frame.thresholdPx = std::max(frame.thresholdPx, delta.thresholdPx);
-    frame.errorPx = std::max(frame.errorPx, delta.errorPx);
-    // In motion the frame time limits the front: at rest the same view may show more.
-    const bool limited = interactive_ && !complete && delta.errorPx > options_.errorPx;
-    frame.complete = frame.complete && delta.complete && !limited;
-    frame.limitedByPoints = frame.limitedByPoints || delta.limitedByBudget;
-    frame.limitedByMemory = frame.limitedByMemory || delta.limitedByMemory;
-    frame.failedNodes += delta.failedNodes;
-    frame.residentBytes += residency.residentBytes;
-    frame.bytesRead += residency.bytesRead;
-    frame.cancelled += residency.cancelled;
-  }
+  ownMs_ = stores_.update(demand(view, complete), camera_, shading_);
+  FrameRecord frame = stores_.record();
+  frame.frontMilliseconds = std::accumulate(ownMs_.begin(), ownMs_.end(), 0.0);
+  // In motion the frame time limits the front: at rest the same view may show more.
+  const bool limited = interactive_ && !complete && frame.errorPx > options_.errorPx;
+  frame.complete = frame.complete && !limited;
   return frame;
 }
 
@@ -286,22 +162,22 @@ void SoftwareScene::drawPart(
   const auto begin = Clock::now();
   target_.reset(place);
   frame.rasteriseMilliseconds = 0.0;
-  std::vector<std::uint64_t> points(stores_.size()), kept(stores_.size());
+  std::vector<std::uint64_t> points(stores_.count()), kept(stores_.count());
   double own = 0.0;
   GrowthMoment moment;
   moment.seconds = std::chrono::duration<double>(begin.time_since_epoch()).count();
   moment.duration = 1e-3 * options_.growthMs;
-  for (std::size_t i = 0; i < stores_.size(); ++i)
+  for (std::size_t i = 0; i < stores_.count(); ++i)
   {
     const auto beginOfStore = Clock::now();
-    const FramePlan plan = stores_[i]->plan(camera_, shading_, moment);
+    const FramePlan plan = stores_[i].plan(camera_, shading_, moment);
     const RasterStatistics drawn =
       composition_.draw(rasteriser, plan, target_, static_cast<std::uint16_t>(i));
     *frame.rasteriseMilliseconds += drawn.milliseconds;
     kept[i] = drawn.keptVisible;
     points[i] = plan.pointCount();
-    countClasses(plan.layerPoints(), stores_[i]->cloud()->description(), frame);
-    frame.complete = frame.complete && stores_[i]->isGrown();
+    countClasses(plan.layerPoints(), stores_[i].cloud()->description(), frame);
+    frame.complete = frame.complete && stores_[i].isGrown();
     frame.points += static_cast<std::int64_t>(points[i]);
     ownMs_[i] += millisecondsSince(beginOfStore);
     own += millisecondsSince(beginOfStore);
@@ -309,23 +185,11 @@ void SoftwareScene::drawPart(
   composition_.finish(camera_, shading_, target_);
   putBackground(options_.background, target_);
   // All stores share the rest of the time, or frames of a given time would be longer.
-  const double shared = (millisecondsSince(begin) - own) / static_cast<double>(stores_.size());
-  for (std::size_t i = 0; i < stores_.size(); ++i)
+  const double shared = (millisecondsSince(begin) - own) / static_cast<double>(stores_.count());
+  for (std::size_t i = 0; i < stores_.count(); ++i)
   {
-    stores_[i]->noteFrame(points[i], kept[i], ownMs_[i] + shared);
+    stores_[i].noteFrame(points[i], kept[i], ownMs_[i] + shared);
   }
-}
-
-Result<void> SoftwareScene::outcome()
-{
-  for (const auto& store : stores_)
-  {
-    if (Result<void> fine = store->outcome(); !fine)
-    {
-      return fine;
-    }
-  }
-  return {};
 }
 
 Result<FrameRecord> SoftwareScene::render(bool complete)
@@ -336,10 +200,9 @@ Result<FrameRecord> SoftwareScene::render(bool complete)
   }
   reads_.since();
   const auto begin = Clock::now();
-  updateFronts(viewOf(camera_), complete);
-  FrameRecord frame = record(complete);
+  FrameRecord frame = updateFronts(viewOf(camera_), complete);
   drawPart(*rasteriser_, { 0, 0, camera_.width, camera_.height }, frame);
-  if (const Result<void> fine = outcome(); !fine)
+  if (const Result<void> fine = stores_.outcome(); !fine)
   {
     return fine.error();
   }
@@ -348,30 +211,158 @@ Result<FrameRecord> SoftwareScene::render(bool complete)
   return frame;
 }
 
-bool SoftwareScene::needsFrame()
+/// The nodes that bands have drawn, each node once: neighbours share many.
+struct SoftwareScene::DrawnNodes
 {
-  bool needed = false;
-  for (const auto& store : stores_)
+  std::vector<std::unordered_map<NodeIndex, std::uint32_t>> points; ///< by node, for each store
+
+  void add(std::size_t store, const FrontDelta& delta)
   {
-    needed = store->needsFrame() || needed; // each is asked: it moves its front
+    for (const DrawItem& item : delta.draw)
+    {
+      std::uint32_t& most = points[store][item.node];
+      most = std::max(most, item.pointCount);
+    }
   }
-  return needed;
+  void countIn(FrameRecord& frame) const
+  {
+    frame.points = 0;
+    frame.nodes = 0;
+    for (const auto& store : points)
+    {
+      frame.nodes += static_cast<std::int64_t>(store.size());
+      for (const auto& [node, count] : store)
+      {
+        frame.points += count;
+      }
+    }
+  }
+};
+
+Result<FrameRecord> SoftwareScene::renderInBands(const std::string& path)
+{
+  const CancelSignal finishing(CancelSignal::Mode::Finish);
+  const auto begin = Clock::now();
+  Result<std::unique_ptr<PNGWriter>> png = pngOf(path, options_.size);
+  if (!png)
+  {
+    return png.error();
+  }
+  stores_.scheduler().setBudgetBytes(memory_->pointBytesOfBands());
+  ThreadCrew crew(memory_->bandThreads());
+  SoftwareRasteriser rasteriser(&crew);
+  rasteriser_->release();
+  FrameRecord whole;
+  whole.complete = true;
+  whole.rasteriseMilliseconds = 0.0;
+  DrawnNodes drawn;
+  drawn.points.resize(stores_.count());
+  reads_.since();
+  for (int top = camera_.height; top > 0; top -= memory_->bandRows())
+  {
+    const int bottom = std::max(0, top - memory_->bandRows());
+    const PixelRectangle rows{ 0, std::max(0, bottom - memory_->overlapRows()), camera_.width,
+      std::min(camera_.height, top + memory_->overlapRows()) };
+    const Result<FrameRecord> band = renderBand(rasteriser, rows, drawn);
+    if (!band)
+    {
+      return band;
+    }
+    if (!band->complete && !CancelSignal::requested())
+    {
+      return makeError(Error::Kind::NoMemory,
+        "there is no memory to load the points; close other programs, raise the limit, or ask for "
+        "less (--memory, --size)");
+    }
+    whole.add(*band);
+    Result<void> fine = appendRows(**png, target_, bottom - rows.bottom, top - rows.bottom);
+    if (fine && CancelSignal::requested())
+    {
+      fine = makeError(Error::Kind::Cancelled, "stopped; nothing was written");
+    }
+    if (!fine)
+    {
+      return fine.error();
+    }
+  }
+  if (Result<void> written = (*png)->finish(); !written)
+  {
+    return written.error();
+  }
+  drawn.countIn(whole);
+  whole.milliseconds = millisecondsSince(begin);
+  whole.threadReadBytes = reads_.since();
+  return whole;
 }
 
-bool SoftwareScene::waitForArrival()
+Result<FrameRecord> SoftwareScene::renderBand(
+  SoftwareRasteriser& rasteriser, const PixelRectangle& rows, DrawnNodes& drawn)
 {
-  while (!needsFrame())
+  // Points outside the rows may reach into them.
+  const int reach = static_cast<int>(std::ceil(reachRows()));
+  const int bottom = std::max(0, rows.bottom - reach);
+  const int top = std::min(camera_.height, rows.top + reach);
+  FrameRecord frame = updateFronts(viewOfRows(camera_, bottom, top), true);
+  drawPart(rasteriser, rows, frame);
+  rasteriser.release(); // it holds what it has drawn, and the next band needs the memory
+  for (std::size_t i = 0; i < stores_.count(); ++i)
   {
-    const auto loading = std::find_if(
-      stores_.begin(), stores_.end(), [](const auto& store) { return store->loads(); });
-    if (loading == stores_.end())
-    {
-      return false;
-    }
-    const Residency& residency = (*loading)->residency();
-    residency.waitForArrival(residency.arrivals(), lookAtOthers);
+    drawn.add(i, stores_[i].last());
   }
-  return true;
+  if (const Result<void> fine = stores_.outcome(); !fine)
+  {
+    return fine.error();
+  }
+  return frame;
+}
+
+double SoftwareScene::reachRows() const
+{
+  double reach = 0.0;
+  stores_.forEachStyle(
+    [&reach](const ResolvedStyle& style)
+    {
+      const bool pixels = style.size.mode == SplatSize::Mode::Pixels;
+      reach = std::max<double>(reach, pixels ? 0.5 * style.size.value + 1.0 : splatReachRows);
+    });
+  return reach;
+}
+
+Result<std::optional<SoftwareScene::SeenPoint>> SoftwareScene::pick(
+  const std::array<int, 2>& pixel, int reach)
+{
+  target_.keepPoints = true;
+  const Result<FrameRecord> drawn = renderFrame();
+  target_.keepPoints = false;
+  const std::vector<PixelPoint> points = std::move(target_.points);
+  target_.points = {};
+  if (!drawn)
+  {
+    return drawn.error();
+  }
+  std::optional<SeenPoint> nearest;
+  int least = std::numeric_limits<int>::max();
+  for (int y = std::max(0, pixel[1] - reach); y <= std::min(target_.height - 1, pixel[1] + reach);
+       ++y)
+  {
+    for (int x = std::max(0, pixel[0] - reach); x <= std::min(target_.width - 1, pixel[0] + reach);
+         ++x)
+    {
+      const auto at = static_cast<std::size_t>(y) * static_cast<std::size_t>(target_.width) +
+        static_cast<std::size_t>(x);
+      const int dx = x - pixel[0];
+      const int dy = y - pixel[1];
+      const int distance = dx * dx + dy * dy;
+      const PixelPoint& seen = points[at];
+      if (seen.store != PixelPoint::nothing && distance <= reach * reach && distance < least)
+      {
+        const Hierarchy& hierarchy = *stores_[seen.store].cloud()->hierarchy();
+        least = distance;
+        nearest = SeenPoint{ seen.store, hierarchy.node(seen.node).firstPoint + seen.index };
+      }
+    }
+  }
+  return nearest;
 }
 
 Result<void> SoftwareScene::resize(std::array<int, 2> size)
@@ -380,39 +371,14 @@ Result<void> SoftwareScene::resize(std::array<int, 2> size)
   return shareMemory();
 }
 
-bool SoftwareScene::loads() const
-{
-  return std::any_of(
-    stores_.begin(), stores_.end(), [](const auto& store) { return store->loads(); });
-}
-
-std::vector<std::string> SoftwareScene::attributesRead() const
-{
-  std::set<std::string> names;
-  for (const auto& store : stores_)
-  {
-    for (const std::uint32_t column : store->residency().columns())
-    {
-      names.insert(store->cloud()->description().schema[column].name);
-    }
-  }
-  return { names.begin(), names.end() };
-}
-
 std::uint64_t SoftwareScene::residentBytesMax() const
 {
-  return stores_.front()->residency().scheduler().statistics().residentBytesMax;
+  return stores_.scheduler().statistics().residentBytesMax;
 }
 
 std::uint64_t SoftwareScene::pictureBytes() const
 {
   return target_.height == options_.size[1] ? memory_->frameBytes() : memory_->bandBytes();
-}
-
-LoadingRecord SoftwareScene::loading() const
-{
-  const LoadSchedulerStatistics s = stores_.front()->residency().scheduler().statistics();
-  return { s.fetchedBytes, s.decodedBytes, s.fetchSeconds, s.decodeSeconds, s.lastLoaded };
 }
 
 Result<void> SoftwareScene::writePicture(const std::string& path)

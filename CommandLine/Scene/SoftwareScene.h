@@ -1,6 +1,6 @@
 #pragma once
 
-#include "DrawnStore.h"
+#include "DrawnStores.h"
 #include "PictureMemory.h"
 #include "StoreScene.h"
 #include "ThreadReads.h"
@@ -10,7 +10,6 @@
 
 #include "pointfront/Threads/ThreadCrew.h"
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -31,8 +30,8 @@ public:
   static Result<std::unique_ptr<SoftwareScene>> open(const DrawingOptions& options);
 
   const char* backend() const override { return "software"; }
-  const Bounds& bounds() const override { return bounds_; }
-  std::vector<std::string> warnings() const override;
+  const Bounds& bounds() const override { return stores_.bounds(); }
+  std::vector<std::string> warnings() const override { return stores_.warnings(); }
   Result<double> ground() const override;
   void setCamera(const Camera& camera) override;
   void setInteractive(bool interactive) override { interactive_ = interactive; }
@@ -40,11 +39,11 @@ public:
   Result<FrameRecord> renderComplete() override { return render(true); }
   bool needsBands() const override { return memory_->needsBands(); }
   Result<FrameRecord> renderInBands(const std::string& path) override;
-  bool waitForArrival() override;
-  std::vector<std::string> attributesRead() const override;
+  bool waitForArrival() override { return stores_.waitForArrival(); }
+  std::vector<std::string> attributesRead() const override { return stores_.attributesRead(); }
   std::uint64_t budgetBytes() const override { return memory_->budgetBytes(); }
   std::uint64_t residentBytesMax() const override;
-  LoadingRecord loading() const override;
+  LoadingRecord loading() const override { return stores_.loading(); }
   std::uint64_t emptySceneBytes() const override { return emptySceneBytes_; }
   std::uint64_t pictureBytes() const override;
   Result<void> writePicture(const std::string& path) override;
@@ -64,53 +63,34 @@ public:
   /// The point in the pixel, or in the one that is nearest to it and at most `reach` pixels away;
   /// of what is in memory. Column from the left, row from below. Draws the frame once more.
   Result<std::optional<SeenPoint>> pick(const std::array<int, 2>& pixel, int reach);
-  const DrawnStore& store(std::size_t number) const { return *stores_[number]; }
+  const DrawnStore& store(std::size_t number) const { return stores_[number]; }
   /// Something arrived that the last frame did not have, or that frame left work over. Cheap; moves
   /// the fronts.
-  bool needsFrame();
+  bool needsFrame() { return stores_.needsFrame(); }
   /// Something is on its way from the disk.
-  bool loads() const;
+  bool loads() const { return stores_.loads(); }
 
 private:
   struct DrawnNodes;
   explicit SoftwareScene(const DrawingOptions& options);
-  Result<void> openStores();
-  Result<void> chooseStyles();
-  /// Visits each style that draws anything.
-  template <typename Visit>
-  void forEachStyle(const Visit& visit) const
-  {
-    for (const auto& store : stores_)
-    {
-      for (const LayerStyling& layer : store->styles())
-      {
-        std::for_each(
-          layer.styles.begin(), layer.styles.end(), [&visit](const auto& style) { visit(*style); });
-      }
-    }
-  }
   Result<void> shareMemory();
   FrameRequest demand(const View& view, bool complete) const;
-  void updateFronts(const View& view, bool complete);
-  FrameRecord record(bool complete) const;
+  FrameRecord updateFronts(const View& view, bool complete);
   void drawPart(SoftwareRasteriser& rasteriser, const PixelRectangle& place, FrameRecord& frame);
   Result<FrameRecord> render(bool complete);
   Result<FrameRecord> renderBand(
     SoftwareRasteriser& rasteriser, const PixelRectangle& rows, DrawnNodes& drawn);
   double reachRows() const;
-  Result<void> outcome();
 
   DrawingOptions options_;
   std::optional<PictureMemory> memory_; ///< once it is open
-  Bounds bounds_;
   FrameShading shading_;
   FrameCamera camera_;
   bool interactive_ = false;
   std::uint64_t emptySceneBytes_ = 0;
-  std::uint64_t allPoints_ = 0; ///< number of points in all stores
   std::vector<double> ownMs_; ///< time that each store took of the frame in work
   ThreadReads reads_;
-  std::vector<std::unique_ptr<DrawnStore>> stores_;
+  DrawnStores stores_;
   std::unique_ptr<ThreadCrew> crew_; ///< where memory allows a frame fewer threads than there are
   std::unique_ptr<SoftwareRasteriser> rasteriser_;
   SoftwareComposition composition_;

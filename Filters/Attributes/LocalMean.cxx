@@ -23,12 +23,12 @@ LocalMean::LocalMean(const std::vector<TilePoint>& points, double radius)
   , order_(points.size())
 {
   static_assert(span == 2 * middle + 1);
-  struct Cell
+  struct CellKey
   {
     std::int64_t row;
     std::int64_t column;
   };
-  std::vector<Cell> places(points.size());
+  std::vector<CellKey> places(points.size());
   for (std::size_t i = 0; i < points.size(); ++i)
   {
     places[i] = { cellOf(points[i].position.y), cellOf(points[i].position.x) };

@@ -38,7 +38,7 @@ milliseconds jittered(milliseconds pause)
   return milliseconds(static_cast<long>(share(chance) * static_cast<double>(pause.count())));
 }
 
-/// What a server asks to be waited for; dates are not read, since its clock is not ours.
+/// The pause that a server asks for; dates are not read, since its clock is not ours.
 milliseconds askedPause(const HttpAnswer& answer)
 {
   const std::string text = answer.header("retry-after");
@@ -281,7 +281,7 @@ Result<Conversation::Verdict> Conversation::judge(
       }
       return Verdict::Again;
     case Outcome::Broken:
-      // What came in front of the break is right.
+      // The bytes in front of the break are right.
       return answer.status == 206 ? takePart(answer, wanted, identity)
                                   : Result<Verdict>(Verdict::Again);
     case Outcome::Answered:
@@ -323,7 +323,7 @@ Result<Conversation::Verdict> Conversation::judgeStatus(
   const std::lock_guard<std::mutex> lock(mutex_);
   if (elsewhere_ && redirects_ == 0)
   {
-    elsewhere_.reset(); // what it was redirected to earlier may have expired
+    elsewhere_.reset(); // an earlier redirection may have expired
     return Verdict::Again;
   }
   return refused(answer.status);

@@ -16,7 +16,7 @@
 namespace pointfront
 {
 
-/// What must not change while a far file is open.
+/// The facts of a far file that must not change while it is open.
 struct RemoteIdentity
 {
   std::string tag; ///< ETag, as the server writes it; empty: it gives none
@@ -27,8 +27,8 @@ struct RemoteIdentity
 /// Bytes of a far file that are wanted, and what has come of them.
 struct WantedBytes
 {
-  std::uint64_t offset = 0; ///< of the first; of a tail it is known afterwards
-  std::uint64_t size = 0; ///< of a tail that is longer than the file: cut down afterwards
+  std::uint64_t offset = 0; ///< offset of the first byte; for a tail it is known afterwards
+  std::uint64_t size = 0; ///< for a tail longer than the file: cut down afterwards
   bool tail = false; ///< the last `size` bytes
   std::vector<std::byte> bytes;
   bool complete = false;
@@ -58,14 +58,14 @@ public:
   const std::string& name() const { return name_; }
 
 private:
-  /// Of one answer.
+  /// The verdict on one answer.
   enum class Verdict
   {
     Good, ///< something has come
     Again, ///< try again, after a pause
     Redirected ///< try again at once
   };
-  /// Of one question for each part that is missing.
+  /// One question for each part that is missing.
   struct Round
   {
     bool news = false; ///< something has come
@@ -96,7 +96,7 @@ private:
   const std::string name_;
   const Request request_;
   const RemoteOptions options_;
-  mutable std::mutex mutex_; ///< of what follows
+  mutable std::mutex mutex_; ///< guards all that follows
   mutable std::optional<Address> elsewhere_; ///< where the address was redirected to
   mutable unsigned redirects_ = 0; ///< one after another
 };

@@ -44,7 +44,7 @@ struct HttpQuestion
   std::uint64_t wholeAtMost = 0;
 };
 
-/// What became of it.
+/// The outcome of a question.
 struct HttpAnswer
 {
   enum class Outcome
@@ -57,11 +57,11 @@ struct HttpAnswer
   };
   Outcome outcome = Outcome::Cancelled;
   bool final = false; ///< no use in trying again (an unknown name, a certificate)
-  std::string text; ///< of the library, without secrets
+  std::string text; ///< the library's text, without secrets
   long status = 0;
   std::map<std::string, std::string> headers; ///< names in small letters; the last of a name
-  std::optional<ContentRange> range; ///< of status 206 and 416
-  std::vector<std::byte> body; ///< of status 206 and 200, as far as it came
+  std::optional<ContentRange> range; ///< range of status 206 and 416
+  std::vector<std::byte> body; ///< body of status 206 and 200, as far as it came
   double firstByteSeconds = 0.0; ///< from the request, connected, to the first byte
 
   std::string header(const std::string& name) const

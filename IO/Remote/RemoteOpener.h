@@ -37,7 +37,7 @@ private:
   std::shared_ptr<const ByteSource> known(const std::string& name) const;
 
   const RemoteOptions options_;
-  mutable std::mutex mutex_; ///< of what follows
+  mutable std::mutex mutex_; ///< guards all that follows
   mutable std::map<std::string, Known> sources_; ///< by their public forms
 };
 

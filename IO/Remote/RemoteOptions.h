@@ -14,8 +14,8 @@ namespace pointfront
 /// How a process reads from servers.
 struct RemoteOptions
 {
-  std::chrono::milliseconds timeLimit{ 60000 }; ///< of one read, with all its retries
-  unsigned retries = 12; ///< of a request
+  std::chrono::milliseconds timeLimit{ 60000 }; ///< for one read, with all its retries
+  unsigned retries = 12; ///< retries of a request
   std::chrono::milliseconds firstPause{ 100 }; ///< before a retry; it doubles, and is jittered
   unsigned redirects = 8;
   /// Refuse servers on this machine and in its network: for services that open what users name.

@@ -49,9 +49,9 @@ private:
   const RemoteIdentity identity_;
   std::vector<WantedBytes> ends_; ///< head and tail, or the whole file
   mutable std::atomic<bool> changed_{ false }; ///< somebody has replaced the file
-  mutable std::mutex mutex_; ///< of what follows
-  mutable std::map<std::uint64_t, WantedBytes> blocks_; ///< of small reads, by offset
-  mutable std::vector<std::uint64_t> order_; ///< of blocks_, the oldest first
+  mutable std::mutex mutex_; ///< guards all that follows
+  mutable std::map<std::uint64_t, WantedBytes> blocks_; ///< blocks of small reads, by offset
+  mutable std::vector<std::uint64_t> order_; ///< order of blocks_, the oldest first
 };
 
 } // namespace pointfront

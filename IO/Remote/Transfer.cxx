@@ -17,7 +17,7 @@ namespace pointfront
 namespace
 {
 constexpr std::size_t mostHeaderBytes = std::size_t(256) << 10;
-constexpr std::size_t mostUnwantedBytes = std::size_t(64) << 10; ///< of a body that is no answer
+constexpr std::size_t mostUnwantedBytes = std::size_t(64) << 10; ///< for a body without an answer
 constexpr std::uint64_t mostReservedBytes = std::uint64_t(8) << 20;
 constexpr long connectSeconds = 10;
 constexpr long stallSeconds = 10; ///< without a byte
@@ -36,7 +36,7 @@ std::string trimmed(std::string_view text)
   return std::string(text);
 }
 
-/// Of this machine or its network: no server that the public reaches.
+/// Whether it is of this machine or its network: no server that the public reaches.
 bool isPrivate(const sockaddr* address)
 {
   const auto privateIPv4 = [](std::uint32_t host)
@@ -102,7 +102,7 @@ std::size_t onBody(char* data, std::size_t, std::size_t size, void* transfer)
   }
 }
 
-/// What the environment says about certificates; the library itself does not look there.
+/// The environment's word on certificates; the library itself does not look there.
 const char* certificates()
 {
   for (const char* name : { "CURL_CA_BUNDLE", "SSL_CERT_FILE" })
@@ -147,7 +147,7 @@ std::size_t Transfer::takeHeader(std::string_view text)
   }
   if (text.compare(0, 5, "HTTP/") == 0)
   {
-    answer_->headers.clear(); // of a proxy, or of an interim answer
+    answer_->headers.clear(); // headers of a proxy, or of an interim answer
     return text.size();
   }
   const std::size_t colon = text.find(':');

@@ -40,13 +40,13 @@ struct TransferLoop::Content
     unsigned successes = 0; ///< since atOnce changed
     double roundTrip = 0.0; ///< 0: not known
     double bytesPerSecond = 0.0;
-    // Of the present time during which transfers were active:
+    // The time during which transfers were active lately:
     Clock::time_point busySince;
     std::uint64_t busyBytes = 0;
   };
 
   CURLM* multi = nullptr;
-  mutable std::mutex mutex; ///< of all below
+  mutable std::mutex mutex; ///< guards all below
   std::condition_variable answered;
   std::map<std::string, Line> lines;
   std::vector<Transfer*> active;
@@ -124,7 +124,7 @@ void TransferLoop::Content::begin(std::unique_lock<std::mutex>&)
 
 void TransferLoop::Content::measure(Line& line, const HttpAnswer& answer)
 {
-  constexpr double share = 0.3; // of the newest value
+  constexpr double share = 0.3; // share of the newest value
   const bool right = answer.outcome == HttpAnswer::Outcome::Answered && answer.status < 300;
   if (!right)
   {
@@ -212,7 +212,7 @@ void TransferLoop::Content::work()
   answered.notify_all();
 }
 
-/// What has not come: the loop must not know it when its question returns.
+/// Withdraws a transfer that has not come: the loop must not know it when its question returns.
 void TransferLoop::Content::withdraw(const std::string& line, const Transfers& transfers)
 {
   std::deque<Transfer*>& waiting = lines[line].waiting;

@@ -14,11 +14,11 @@
 namespace pointfront
 {
 
-/// What this process has asked of servers so far.
+/// The requests of this process to servers so far.
 struct RemoteStatistics
 {
   std::uint64_t requests = 0;
-  std::uint64_t bytes = 0; ///< of bodies
+  std::uint64_t bytes = 0; ///< bytes of bodies
   std::uint64_t retries = 0;
 };
 

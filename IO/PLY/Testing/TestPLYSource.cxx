@@ -1,5 +1,5 @@
 #include "PLYFormat.h"
-#include "PointValues.h"
+#include "RealPoints.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -11,21 +11,9 @@ namespace pointfront::test
 {
 namespace
 {
-std::string shared(const std::string& path)
-{
-  return POINTFRONT_SHARED_DATA "/" + path;
-}
-
-struct RealPLY
-{
-  const char* path;
-  std::uint64_t points;
-  const char* schema;
-};
-
 // Counts: MANIFEST.md beside the data.
-const RealPLY realFiles[] = { { "ply/simple_text.ply", 3, "" }, { "ply/simple_binary.ply", 3, "" },
-  { "ply/sized_dims.ply", 1, "j int32, intensity float64" },
+const RealPoints realFiles[] = { { "ply/simple_text.ply", 3, "" },
+  { "ply/simple_binary.ply", 3, "" }, { "ply/sized_dims.ply", 1, "j int32, intensity float64" },
   { "ply/unsized_dims.ply", 1, "intensity float64, j int32" },
   { "ply/text_extradim.ply", 1, "normal float32x3, rgb uint8x3, alpha uint8, omg int32" },
   { "ply/platonic_shelf.ply", 50, "" }, { "ply/platonic_shelf_ascii.ply", 50, "" },
@@ -50,19 +38,10 @@ const RealPLY realFiles[] = { { "ply/simple_text.ply", 3, "" }, { "ply/simple_bi
 TEST(RealPLYFile, GivesItsPointsAndAttributes)
 {
   const PLYFormat format;
-  for (const RealPLY& expected : realFiles)
+  for (const RealPoints& expected : realFiles)
   {
     SCOPED_TRACE(expected.path);
-    EXPECT_TRUE(format.accepts(shared(expected.path)));
-    const auto source = openPoints(format, shared(expected.path));
-    ASSERT_TRUE(source);
-    EXPECT_EQ(source->description().pointCount, expected.points);
-    EXPECT_EQ(schemaText(*source), expected.schema);
-    for (const glm::dvec3& p : readPoints(*source).positions)
-    {
-      EXPECT_TRUE(std::isfinite(p.x + p.y + p.z));
-      EXPECT_TRUE(source->description().declaredBounds.contains(p));
-    }
+    ASSERT_TRUE(expectRealPoints(format, expected));
   }
 }
 

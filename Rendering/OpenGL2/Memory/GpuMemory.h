@@ -33,7 +33,7 @@ public:
   /// Whether the window would have more than its budget with `more` bytes.
   bool exceeds(std::int64_t more = 0) const;
   std::int64_t bytes() const { return bytes_; }
-  std::int64_t windowBytes() const; ///< of all clouds of the window
+  std::int64_t windowBytes() const; ///< bytes of all clouds of the window
   /// True once after the GPU had less memory than the budgets allow.
   bool takeRefused() { return std::exchange(refused_, false); }
 

@@ -1,5 +1,5 @@
-/// What ParaView's properties panel shows, for a test that runs inside of ParaView (panel.py): its
-/// Python knows no Qt.
+/// Tells what ParaView's properties panel shows, for a test that runs inside of ParaView
+/// (panel.py): its Python knows no Qt.
 
 #include <QApplication>
 #include <QByteArray>
@@ -51,7 +51,7 @@ QString propertyOf(const QWidget* widget, const QWidget& content)
   return QString();
 }
 
-/// What would have to be narrower: how far it reaches at least, with what it shows.
+/// Widgets that would have to be narrower: how far each reaches at least, with what it shows.
 QJsonArray wideWidgets(const QWidget& content, int width)
 {
   QJsonArray wide;

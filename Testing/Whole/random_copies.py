@@ -35,14 +35,14 @@ class Copies(Forms):
         return self.stores["each place once"]
 
     def choose(self, rng):
-        return {**super().choose(rng), "coarser": rng.choice(("1", "3", "10"))}
+        return {**super().choose(rng), "coarser": rng.choice(("1", "3", "10")),
+                "of": rng.choice(list(self.stores))}
 
     def pictures(self, case):
         for name, store in self.stores.items():
             yield name, lambda store=store: self.drawn(store, case)
         # Not alike, but drawn() tells where a reported error is larger than the one asked for.
-        for store in self.stores.values():
-            try:
-                self.drawn(store, {**case, "error": case["coarser"]})
-            except Refused:
-                pass  # too few points: none is in the picture
+        try:
+            self.drawn(self.stores[case["of"]], {**case, "error": case["coarser"]})
+        except Refused:
+            pass  # too few points: none is in the picture

@@ -24,7 +24,7 @@ uniform float depthShift;      // parallel: of the near plane
 
 float agreeing(float depth, float factor)
 {
-  return depth + (agreement.x * depth + agreement.y) * factor;
+  return depth + (agreement.x * abs(depth) + agreement.y) * factor;
 }
 
 ivec3 bytesOf(vec4 colour)

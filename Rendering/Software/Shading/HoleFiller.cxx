@@ -65,14 +65,14 @@ std::uint32_t mean(const Channels& sum, std::uint32_t weight)
   return rgba;
 }
 
-/// How far two depths may differ at a level.
+/// How far two depths may differ at a level. What reaches behind the eye has a depth below 0.
 struct Agreement
 {
   float perDepth = 0.0f;
   float always = 0.0f;
   float at(float depth, int factor) const
   {
-    return depth + (perDepth * depth + always) * static_cast<float>(factor);
+    return depth + (perDepth * std::abs(depth) + always) * static_cast<float>(factor);
   }
 };
 

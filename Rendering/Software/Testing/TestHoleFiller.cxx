@@ -72,3 +72,21 @@ TEST(HoleFiller, FillsAPartOfAViewportAsTheWhole)
   }
   EXPECT_GT(filled, 9 * 400);
 }
+
+/// A mean is of one pixel at least, however large the splat beside the eye.
+TEST(HoleFiller, TakesDepthsBehindTheEye)
+{
+  const FrameCamera camera = FrameCamera::perspective(
+    { 0, 0, 5 }, { 0, 0, 0 }, { 0, 1, 0 }, 0.6, 0.1, 100.0, holesWidth, holesHeight);
+  SoftwareTarget target = slopeWithHoles({ 0, 0, holesWidth, holesHeight });
+  const SoftwareTarget before = target;
+  for (float& depth : target.depth)
+  {
+    depth = depth < 100.0f ? -0.01f * depth : depth;
+  }
+  fillHoles(camera, target);
+  for (std::size_t pixel = 0; pixel < before.rgba.size(); ++pixel)
+  {
+    EXPECT_TRUE(before.rgba[pixel] == 0 || target.rgba[pixel] == before.rgba[pixel]) << pixel;
+  }
+}

@@ -87,9 +87,8 @@ Result<void> SoftwareScene::shareMemory()
   cost.pixelBytes *= targets;
   cost.pixelBytes += shading_.anyEyeDome() ? sizeof(float) : 0; // logarithms of depth
   cost.pixelBytes += blends ? sizeof(float) : 0; // the nearest depth
-  cost.pixelBytes += stores_.count() > 1 // keys of their last pictures
-    ? SoftwareRasteriser::keptPictures * sizeof(RasterKey)
-    : 0;
+  const auto kept = std::min<std::size_t>(SoftwareRasteriser::keptPictures, stores_.count());
+  cost.pixelBytes += stores_.count() > 1 ? kept * sizeof(RasterKey) : 0; // keys of last pictures
   cost.threadPixelBytes = sizeof(RasterKey) + (blends ? 4 * sizeof(std::uint32_t) : 0);
   cost.marginPixels = rasterMargin;
   cost.threads = ThreadCrew::ofProcess().threads();

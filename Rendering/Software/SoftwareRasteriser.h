@@ -49,7 +49,7 @@ class SoftwareRasteriser
 public:
   /// Number of viewports whose keys stay from frame to frame, over all stores. Of further stores
   /// only marks of visible points stay. Stand-ins of refining views have some beside them.
-  static constexpr int keptPictures = 2;
+  static constexpr int keptPictures = 4;
 
   /// Draws with the process's crew, unless another is given; it outlives this object.
   explicit SoftwareRasteriser(ThreadCrew* crew = nullptr);

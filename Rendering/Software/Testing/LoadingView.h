@@ -125,6 +125,14 @@ public:
   /// One frame. `complete`: at one go.
   RasterStatistics frame(bool complete = false)
   {
+    planNext(complete);
+    target.keepDecided = composited;
+    target.reset(width, height);
+    return rasteriser_.draw(plan, target);
+  }
+  /// The plan of the next frame alone.
+  void planNext(bool complete = false)
+  {
     demand.view = View::fromMatrix(camera.storeToClip(), width, height);
     demand.complete = complete;
     disk_->grant(complete ? SlowStore::allNodes : nodesAFrame);
@@ -133,12 +141,11 @@ public:
     request.camera = camera;
     request.keepsVisible = leavesOut(front_.last(), demand);
     request.refines = refines;
+    request.composited = composited;
     request.growth = growthStep > 0.0 ? &growth_ : nullptr;
     clock_ += growthStep;
     request.moment = { clock_, 0.25, false };
     plan = planFrame(front_, store_->description(), std::move(request));
-    target.reset(width, height);
-    return rasteriser_.draw(plan, target);
   }
   /// Whether no further frame of the view differs.
   bool isComplete() const { return front_.last().complete && growth_.whole(); }
@@ -157,6 +164,7 @@ public:
   }
 
   bool refines = true; ///< as PlanRequest's
+  bool composited = false; ///< likewise: it is one of several clouds
   double growthStep = 0.0; ///< seconds from a frame to the next; 0: nothing grows
   FrameRequest demand;
   FrameCamera camera;

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -34,6 +35,21 @@ std::shared_ptr<const PointStore> refiningTown()
   static const std::string path = builtStore(
     "refinement-" + std::to_string(getpid()), std::make_unique<TerrainSource>(300000, 11));
   return openedStore(path);
+}
+
+/// Clouds whose points lie among each other.
+std::vector<std::shared_ptr<const PointStore>> refiningTowns()
+{
+  std::vector<std::shared_ptr<const PointStore>> stores;
+  for (const unsigned seed : { 11u, 12u, 13u })
+  {
+    const std::string name = "refinement-" + std::to_string(getpid()) + "-" + std::to_string(seed);
+    static std::map<unsigned, std::string> paths;
+    std::string& path = paths[seed];
+    path = path.empty() ? builtStore(name, std::make_unique<TerrainSource>(100000, seed)) : path;
+    stores.push_back(openedStore(path));
+  }
+  return stores;
 }
 
 struct RefiningStyle
@@ -163,6 +179,107 @@ TEST_P(RefiningView, DrawsWhatGrowsAndNothingElse)
   ASSERT_TRUE(view.isComplete());
   EXPECT_LE(seen.drawnPerPoint(), mostDrawnGrowing) << seen.frames << " frames";
   expectCoveredAndAsAtOneGo(view, seen, GetParam());
+}
+
+namespace
+{
+
+/// Several clouds of one view that are being loaded side by side: `together`, into one picture as
+/// the tool draws them, or each into its own, as the actors of a window are drawn.
+struct RefiningClouds
+{
+  RefiningClouds(const RefiningStyle& style, bool drawnTogether)
+    : together(drawnTogether)
+  {
+    for (const std::shared_ptr<const PointStore>& store : refiningTowns())
+    {
+      views.push_back(std::make_unique<LoadingView>(store, refiningSheet(style)));
+      views.back()->composited = true;
+      views.back()->camera = views.front()->camera;
+    }
+  }
+  void frame(bool complete)
+  {
+    if (together)
+    {
+      picture.keepDecided = true;
+      picture.reset(LoadingView::width, LoadingView::height);
+    }
+    points = 0;
+    for (std::size_t number = 0; number < views.size(); ++number)
+    {
+      LoadingView& view = *views[number];
+      RasterStatistics one;
+      if (together)
+      {
+        view.planNext(complete);
+        one = rasteriser.draw(view.plan, picture, static_cast<std::uint16_t>(number));
+      }
+      else
+      {
+        one = view.frame(complete);
+      }
+      points += one.points;
+      drawn += one.points + one.standIns + one.keptVisible - one.reused;
+      blended += one.blended;
+    }
+  }
+  bool isComplete() const
+  {
+    return std::all_of(
+      views.begin(), views.end(), [](const auto& view) { return view->isComplete(); });
+  }
+  void expectAlike(const RefiningClouds& other) const
+  {
+    EXPECT_EQ(picture.rgba, other.picture.rgba);
+    EXPECT_EQ(picture.depth, other.picture.depth);
+    EXPECT_EQ(picture.decided, other.picture.decided);
+    for (std::size_t number = 0; number < views.size(); ++number)
+    {
+      EXPECT_EQ(views[number]->target.rgba, other.views[number]->target.rgba) << number;
+      EXPECT_EQ(views[number]->target.depth, other.views[number]->target.depth) << number;
+      EXPECT_EQ(views[number]->target.decided, other.views[number]->target.decided) << number;
+    }
+  }
+
+  bool together;
+  std::vector<std::unique_ptr<LoadingView>> views;
+  SoftwareRasteriser rasteriser;
+  SoftwareTarget picture;
+  std::uint64_t points = 0; ///< the last frame has
+  std::uint64_t drawn = 0; ///< in all frames together
+  std::uint64_t blended = 0; ///< likewise, through the second pass
+};
+
+} // namespace
+
+TEST_P(RefiningView, OfSeveralCloudsDrawsNothingTwice)
+{
+  for (const bool together : { false, true })
+  {
+    RefiningClouds atOnce(GetParam(), together);
+    atOnce.frame(true); // the tables' rows are there then
+    RefiningClouds clouds(GetParam(), together);
+    int frames = 0, gained = 0;
+    do
+    {
+      const std::uint64_t before = clouds.points;
+      for (const auto& view : clouds.views)
+      {
+        view->isComplete() ? void() : view->waitForNews();
+      }
+      clouds.frame(false);
+      gained += frames > 0 && clouds.points > before;
+    } while (!clouds.isComplete() && ++frames < mostRefiningFrames);
+    ASSERT_TRUE(clouds.isComplete()) << together;
+    EXPECT_GE(gained, 3) << together;
+    const auto points = static_cast<double>(clouds.points);
+    RecordProperty(
+      together ? "one_picture" : "a_picture_each", std::to_string(double(clouds.drawn) / points));
+    EXPECT_LE(double(clouds.drawn) / points, mostDrawnAgain) << together << ", " << frames;
+    EXPECT_LE(double(clouds.blended) / points, mostBlendedAgain) << together << ", " << frames;
+    clouds.expectAlike(atOnce);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Techniques, RefiningView, testing::ValuesIn(refiningStyles),

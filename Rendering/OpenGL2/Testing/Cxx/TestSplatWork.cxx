@@ -8,10 +8,12 @@
 #include <vtkSelection.h>
 #include <vtkSelectionNode.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstddef>
 #include <set>
 #include <string>
+#include <vector>
 
 using namespace pointfront;
 using namespace pointfront::test;
@@ -155,6 +157,99 @@ TEST(Techniques, AViewThatLoadsDrawsNothingTwice)
     ASSERT_TRUE(whole.style->LoadJSON(json));
     whole.mapper->SetTargetError(0.5);
     EXPECT_LE(differing(whole.draw(), last, 2), 60) << json; // equally near: who came first
+  }
+}
+
+/// Further clouds of a scene's window, in the scene's style: an actor each.
+struct SeveralSplats : Splats
+{
+  struct Cloud
+  {
+    vtkNew<vtkPointFrontReader> reader;
+    vtkNew<vtkPointFrontMapper> mapper;
+    vtkNew<vtkActor> actor;
+  };
+  SeveralSplats(const std::vector<std::string>& stores, const char* json)
+    : Splats(stores.front())
+    , clouds(stores.size() - 1)
+  {
+    EXPECT_TRUE(style->LoadJSON(json));
+    mappers.push_back(mapper);
+    for (std::size_t i = 0; i < clouds.size(); ++i)
+    {
+      Cloud& cloud = clouds[i];
+      cloud.reader->SetFileName(stores[i + 1].c_str());
+      cloud.mapper->SetInputConnection(cloud.reader->GetOutputPort());
+      cloud.mapper->SetStyle(style);
+      cloud.mapper->CompleteOn();
+      cloud.mapper->SetBackendToOpenGL();
+      cloud.actor->SetMapper(cloud.mapper);
+      renderer->AddActor(cloud.actor);
+      mappers.push_back(cloud.mapper);
+    }
+    for (vtkPointFrontMapper* each : mappers)
+    {
+      each->SetTargetError(0.5);
+      each->SetGrowthTime(0.0);
+    }
+  }
+  vtkTypeInt64 points() const
+  {
+    vtkTypeInt64 sum = 0;
+    for (vtkPointFrontMapper* each : mappers)
+    {
+      sum += each->GetLastPointsDrawn();
+    }
+    return sum;
+  }
+  bool needsRender() const
+  {
+    return std::any_of(mappers.begin(), mappers.end(),
+      [](vtkPointFrontMapper* each) { return each->NeedsRender() || each->GetLastRequests() > 0; });
+  }
+
+  std::vector<Cloud> clouds;
+  std::vector<vtkPointFrontMapper*> mappers;
+};
+
+/// Clouds of one window meet by what decided who is seen, and each goes on from its own picture.
+TEST(Techniques, SeveralCloudsThatLoadDrawNothingTwice)
+{
+  const std::vector<std::string> stores = { surfaceStore("loading-0", stairsAt),
+    surfaceStore("loading-1", sphereAt), surfaceStore("loading-2", planeAt) };
+  for (const char* const json : { R"({"default": {"technique": "points",
+           "size": {"mode": "fixed", "px": 2}}})",
+         R"({"default": {"technique": "splats", "size": {"mode": "fixed", "metres": 0.05}}})",
+         R"({"default": {"technique": "spheres", "size": {"mode": "fixed", "metres": 0.05}}})" })
+  {
+    SeveralSplats scene(stores, json);
+    for (vtkPointFrontMapper* each : scene.mappers)
+    {
+      each->CompleteOff();
+      each->SetUploadLimit(1 << 16);
+    }
+    scene.window->Start(); // there is a context before the first frame
+    double drawn = 0.0;
+    int gained = 0;
+    vtkTypeInt64 before = 0;
+    const auto begin = std::chrono::steady_clock::now();
+    do
+    {
+      drawn += primitivesOf(scene);
+      gained += scene.points() > before;
+      before = scene.points();
+    } while (
+      scene.needsRender() && std::chrono::steady_clock::now() - begin < std::chrono::seconds(60));
+    for (vtkPointFrontMapper* each : scene.mappers)
+    {
+      EXPECT_TRUE(each->GetLastComplete()) << json;
+    }
+    EXPECT_GE(gained, 3) << json;
+    EXPECT_LE(drawn, 1.1 * static_cast<double>(before)) << json << ", " << gained << " frames";
+    const Picture last = scene.read();
+    SeveralSplats whole(stores, json);
+    EXPECT_LE(differing(whole.draw(), last, 2), 60) << json; // equally near: who came first
+    EXPECT_EQ(whole.points(), before) << json;
   }
 }
 

@@ -2,8 +2,10 @@
 
 #include "BenchCommand.h"
 #include "BuildCommand.h"
+#include "CacheCommand.h"
 #include "CompareCommand.h"
 #include "ExportCommand.h"
+#include "FarOptions.h"
 #include "GenerateCommand.h"
 #include "IndexCommand.h"
 #include "InfoCommand.h"
@@ -88,9 +90,15 @@ Program::Program()
   commands_.push_back(std::make_unique<ViewCommand>());
   commands_.push_back(std::make_unique<ServeCommand>());
   commands_.push_back(std::make_unique<StreamCommand>());
+  commands_.push_back(std::make_unique<CacheCommand>());
   for (const auto& command : commands_)
   {
     command->declare(app_);
+  }
+  for (const char* const reader :
+    { "build", "info", "verify", "export", "render", "bench", "view", "stream" })
+  {
+    declareFarOptions(*app_.get_subcommand(reader));
   }
 }
 

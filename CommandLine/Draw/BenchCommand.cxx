@@ -2,6 +2,7 @@
 
 #include "CancelSignal.h"
 #include "DrawnFiles.h"
+#include "FarOptions.h"
 #include "PeakMemory.h"
 #include "Percentiles.h"
 #include "Settling.h"
@@ -170,6 +171,7 @@ Result<void> BenchCommand::run()
   statistics["bytes_read"] = frames->empty() ? 0 : frames->back().bytesRead;
   statistics["empty_scene_rss_bytes"] = (*scene)->emptySceneBytes();
   statistics["peak_rss_bytes"] = peakResidentBytes();
+  addTraffic(statistics);
   return write(**scene, statistics.dump(2), frames.value());
 }
 

@@ -2,6 +2,7 @@
 
 #include "CancelSignal.h"
 #include "DrawnFiles.h"
+#include "FarOptions.h"
 #include "KnownWords.h"
 #include "PeakMemory.h"
 #include "StoreCompany.h"
@@ -260,6 +261,7 @@ std::string RenderCommand::statistics(const StoreScene& scene, const FrameRecord
   object["picture_bytes"] = scene.pictureBytes();
   object["bytes_read"] = last.bytesRead;
   object["attributes_read"] = scene.attributesRead();
+  addTraffic(object);
   return object.dump(2);
 }
 

@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <map>
 #include <mutex>
+#include <random>
+#include <set>
 
 namespace pointfront
 {
@@ -25,16 +27,54 @@ std::uint64_t hashOf(const std::string& text)
   return hash;
 }
 
+/// Names of a query's parts that are keys or change with each signature: Amazon's, Google's and
+/// Azure's, and what others call theirs.
+bool isKey(std::string name)
+{
+  std::transform(name.begin(), name.end(), name.begin(),
+    [](unsigned char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : char(c); });
+  static const std::set<std::string> names{ "sig", "signature", "expires", "policy", "key-pair-id",
+    "awsaccesskeyid", "googleaccessid", "se", "sp", "sv", "sr", "st", "spr", "sip", "skoid",
+    "sktid", "skt", "ske", "sks", "skv", "sdd", "ss", "srt", "token", "access_token", "auth",
+    "authorization", "key", "apikey", "api_key", "api-key", "password", "secret" };
+  return name.rfind("x-amz-", 0) == 0 || name.rfind("x-goog-", 0) == 0 || names.count(name) > 0;
+}
+
 struct Remembered
 {
+  struct Secret
+  {
+    std::string userInfo;
+    std::string query;
+  };
   std::mutex mutex;
   std::map<std::string, std::string> addresses; ///< by their public forms
+  std::map<std::string, Secret> secrets; ///< by origin and mark: of what lies beside an address
 };
 
 Remembered& remembered()
 {
   static auto* const table = new Remembered; // never deleted: static objects may use it
   return *table;
+}
+
+/// Stands for the secrets of an address. It is another one in each process, so that nobody finds a
+/// weak password by it.
+std::string markOf(const Address& address)
+{
+  static const std::string salt = []
+  {
+    std::random_device chance;
+    return std::to_string(chance()) + ' ' + std::to_string(chance()) + ' ';
+  }();
+  if (address.query.empty() && address.userInfo.empty())
+  {
+    return {};
+  }
+  char hash[24];
+  std::snprintf(hash, sizeof hash, "%016llx",
+    static_cast<unsigned long long>(hashOf(salt + address.userInfo + '\n' + address.query)));
+  return hashMark + std::string(hash);
 }
 } // namespace
 
@@ -84,14 +124,31 @@ std::string Address::text() const
 
 std::string Address::publicForm() const
 {
-  std::string form = scheme + "://" + host + path;
-  if (!query.empty())
+  const std::string mark = markOf(*this);
+  return scheme + "://" + host + path + (mark.empty() ? "" : "?" + mark);
+}
+
+std::string Address::place() const
+{
+  std::string others;
+  for (std::size_t begin = 0; begin < query.size();)
+  {
+    const std::size_t end = std::min(query.find('&', begin), query.size());
+    const std::string one = query.substr(begin, end - begin);
+    if (!isKey(one.substr(0, one.find('='))))
+    {
+      others += one + '&';
+    }
+    begin = end + 1;
+  }
+  std::string text = scheme + "://" + host + path;
+  if (!others.empty())
   {
     char hash[24];
-    std::snprintf(hash, sizeof hash, "%08x", static_cast<unsigned>(hashOf(query)));
-    form += std::string("?") + hashMark + hash;
+    std::snprintf(hash, sizeof hash, "%016llx", static_cast<unsigned long long>(hashOf(others)));
+    text += std::string("?") + hashMark + hash;
   }
-  return form;
+  return text;
 }
 
 std::string rememberAddress(const Address& address)
@@ -99,11 +156,16 @@ std::string rememberAddress(const Address& address)
   const std::string form = address.publicForm();
   if (address.query.compare(0, 1, hashMark) == 0)
   {
-    return address.text(); // a public form that this process does not know
+    // A public form that this process does not know.
+    return address.scheme + "://" + address.host + address.path + '?' + address.query;
   }
   Remembered& table = remembered();
   const std::lock_guard<std::mutex> lock(table.mutex);
   table.addresses[form] = address.text();
+  if (const std::string mark = markOf(address); !mark.empty())
+  {
+    table.secrets[address.origin() + ' ' + mark] = { address.userInfo, address.query };
+  }
   return form;
 }
 
@@ -112,7 +174,20 @@ std::string addressOf(const std::string& text)
   Remembered& table = remembered();
   const std::lock_guard<std::mutex> lock(table.mutex);
   const auto found = table.addresses.find(text);
-  return found != table.addresses.end() ? found->second : text;
+  if (found != table.addresses.end())
+  {
+    return found->second;
+  }
+  Result<Address> address = Address::parse(text);
+  const auto secret =
+    address ? table.secrets.find(address->origin() + ' ' + address->query) : table.secrets.end();
+  if (secret == table.secrets.end())
+  {
+    return text;
+  }
+  address->userInfo = secret->second.userInfo;
+  address->query = secret->second.query;
+  return address->text();
 }
 
 } // namespace pointfront

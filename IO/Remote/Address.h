@@ -22,17 +22,21 @@ struct Address
 
   /// All of it, for the request. The fragment ("#...") of what was parsed is gone.
   std::string text() const;
-  /// Without what may be secret: user and password are left out, a query is replaced by a short
-  /// hash, so that addresses that differ in it stay different. For messages, and as the name of the
-  /// cloud in this process.
+  /// Without what may be secret: instead of user, password and query it has a short mark ("?~..."),
+  /// so that addresses that differ in them stay different. The mark is another one in each process.
+  /// For messages, and as the name of the cloud in this process.
   std::string publicForm() const;
   /// Requests to the same origin may carry the same secrets.
   std::string origin() const { return scheme + "://" + host; }
+  /// Where the bytes are, whoever asks for them: without user, password, and what of the query is a
+  /// key or a signature. What else is in the query ("?version=2") counts as a hash of 64 bits.
+  std::string place() const;
 };
 
 /// Notes an address, so that addressOf() finds it by its public form. Returns the latter.
 std::string rememberAddress(const Address& address);
-/// The full address behind a public form that this process has remembered, or the text itself.
+/// The full address behind a public form that this process has remembered, or the text itself. What
+/// lies beside a remembered address, with the same mark, has the same user, password and query.
 std::string addressOf(const std::string& text);
 
 } // namespace pointfront

@@ -56,6 +56,7 @@ public:
   /// The line of the TransferLoop.
   std::string line() const { return request_.address.origin(); }
   const std::string& name() const { return name_; }
+  std::string place() const { return request_.address.place(); }
 
 private:
   /// The verdict on one answer.

@@ -2,10 +2,12 @@
 
 #include "TransferLoop.h"
 
+#include "pointfront/Disk/FarSegment.h"
+
 #include <algorithm>
-#include <cassert>
 #include <cstring>
 #include <functional>
+#include <optional>
 #include <utility>
 
 namespace pointfront
@@ -15,6 +17,7 @@ namespace
 constexpr std::uint64_t leastHead = 4096;
 constexpr std::uint64_t smallRead = 4096; ///< up to here a read brings its whole block
 constexpr std::uint64_t blockBytes = 16384;
+constexpr std::uint64_t keptBytes = FarSegment::blockBytes;
 constexpr std::size_t mostBlocks = 256;
 constexpr std::uint64_t largestPiece = std::uint64_t(4) << 20;
 constexpr double leastGap = 4096.0;
@@ -34,14 +37,13 @@ struct Interval
   std::uint64_t end = 0;
 };
 
-Interval neededFor(const ByteRange& range, std::uint64_t fileBytes)
+/// kept: whole blocks of the cache on the disk.
+Interval neededFor(const ByteRange& range, std::uint64_t fileBytes, bool kept)
 {
   Interval needed{ range.offset, range.offset + range.size };
-  if (range.size <= smallRead)
-  {
-    needed.first = needed.first / blockBytes * blockBytes;
-    needed.end = (needed.end + blockBytes - 1) / blockBytes * blockBytes;
-  }
+  const std::uint64_t step = range.size <= smallRead ? blockBytes : kept ? keptBytes : 1;
+  needed.first = needed.first / step * step;
+  needed.end = (needed.end + step - 1) / step * step;
   needed.end = std::min(needed.end, fileBytes);
   return needed;
 }
@@ -92,11 +94,13 @@ void copyFrom(const WantedBytes& piece, std::uint64_t first, std::uint64_t size,
 }
 } // namespace
 
-RemoteSource::RemoteSource(
-  std::unique_ptr<const Conversation> conversation, RemoteIdentity identity)
+RemoteSource::RemoteSource(std::unique_ptr<const Conversation> conversation,
+  RemoteIdentity identity, std::shared_ptr<const FarCache> cache)
   : ByteSource(conversation->name(), identity.bytes)
   , conversation_(std::move(conversation))
   , identity_(std::move(identity))
+  , cache_(std::move(cache))
+  , kept_{ conversation_->place(), identity_.bytes, identity_.tag, identity_.changed }
 {
 }
 
@@ -114,11 +118,18 @@ ReadCost RemoteSource::cost() const
 Result<std::shared_ptr<const RemoteSource>> RemoteSource::open(
   std::unique_ptr<const Conversation> conversation, const FirstBytes& first)
 {
+  std::shared_ptr<const FarCache> cache = FarCache::ofProcess();
+  if (FarCache::offline())
+  {
+    return openOffline(std::move(conversation), std::move(cache));
+  }
+  // Whole blocks, so that they can be kept.
   std::vector<WantedBytes> ends(first.tail > 0 ? 2 : 1);
   ends[0].size = std::max<std::uint64_t>(first.head, leastHead);
+  ends[0].size = (ends[0].size + keptBytes - 1) / keptBytes * keptBytes;
   if (first.tail > 0)
   {
-    ends[1].size = first.tail;
+    ends[1].size = first.tail + (cache ? keptBytes : 0);
     ends[1].tail = true;
   }
   std::optional<RemoteIdentity> identity;
@@ -128,9 +139,40 @@ Result<std::shared_ptr<const RemoteSource>> RemoteSource::open(
     return done.error();
   }
   std::shared_ptr<RemoteSource> source(
-    new RemoteSource(std::move(conversation), std::move(*identity)));
+    new RemoteSource(std::move(conversation), std::move(*identity), std::move(cache)));
   source->ends_ = std::move(ends);
+  if (source->cache_)
+  {
+    source->cache_->note(source->kept_);
+  }
+  for (const WantedBytes& end : source->ends_)
+  {
+    source->keepOnDisk(end);
+  }
   return std::shared_ptr<const RemoteSource>(std::move(source));
+}
+
+/// As its server named it last.
+Result<std::shared_ptr<const RemoteSource>> RemoteSource::openOffline(
+  std::unique_ptr<const Conversation> conversation, std::shared_ptr<const FarCache> cache)
+{
+  const std::optional<FarIdentity> last = cache ? cache->last(conversation->place()) : std::nullopt;
+  if (!last)
+  {
+    return makeError(Error::Kind::NotFound,
+      "'" + conversation->name() + "' is not in the cache, and no server is asked (offline)");
+  }
+  RemoteIdentity identity{ last->tag, last->date, last->bytes };
+  return std::shared_ptr<const RemoteSource>(
+    new RemoteSource(std::move(conversation), std::move(identity), std::move(cache)));
+}
+
+void RemoteSource::keepOnDisk(const WantedBytes& piece) const
+{
+  if (cache_)
+  {
+    cache_->keep(kept_, piece.offset, piece.bytes.data(), piece.bytes.size());
+  }
 }
 
 /// From the ends of the file, or from a block of an earlier small read.
@@ -149,7 +191,7 @@ bool RemoteSource::takeHeld(const ByteRange& range) const
     return false;
   }
   const std::lock_guard<std::mutex> lock(mutex_);
-  const Interval needed = neededFor(range, bytes());
+  const Interval needed = neededFor(range, bytes(), cache_ != nullptr);
   for (std::uint64_t at = needed.first; at < needed.end; at += blockBytes)
   {
     if (blocks_.count(at) == 0)
@@ -203,10 +245,11 @@ Result<void> RemoteSource::read(const ByteRange* ranges, std::size_t count) cons
         "'" + path() + "' ends at byte " + std::to_string(bytes()) + ", before byte " +
           std::to_string(range.offset + range.size) + " that it should have");
     }
-    if (range.size > 0 && !takeHeld(range))
+    if (range.size > 0 && !takeHeld(range) &&
+      !(cache_ && !changed_ && cache_->read(kept_, range.offset, range.size, range.target)))
     {
       missing.push_back(&range);
-      needed.push_back(neededFor(range, bytes()));
+      needed.push_back(neededFor(range, bytes(), cache_ != nullptr));
     }
   }
   if (missing.empty())
@@ -218,6 +261,11 @@ Result<void> RemoteSource::read(const ByteRange* ranges, std::size_t count) cons
     return makeError(Error::Kind::Unreadable,
       "'" + path() + "' has changed on its server while it was open; open it again");
   }
+  if (FarCache::offline())
+  {
+    return makeError(Error::Kind::Unreadable,
+      "'" + path() + "' is in the cache in part only, and no server is asked (offline)");
+  }
   std::vector<WantedBytes> pieces = requestsFor(needed, gapOf(cost()));
   std::optional<RemoteIdentity> identity = identity_;
   const std::atomic<bool> cancelled{ false };
@@ -225,6 +273,10 @@ Result<void> RemoteSource::read(const ByteRange* ranges, std::size_t count) cons
   {
     changed_ = changed_ || done.error().what.find("has changed on its server") != std::string::npos;
     return done;
+  }
+  for (const WantedBytes& piece : pieces)
+  {
+    keepOnDisk(piece);
   }
   for (std::size_t i = 0; i < missing.size(); ++i)
   {

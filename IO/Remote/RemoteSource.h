@@ -3,6 +3,7 @@
 #include "Conversation.h"
 
 #include "pointfront/Disk/ByteSource.h"
+#include "pointfront/Disk/FarCache.h"
 
 #include <atomic>
 #include <cstddef>
@@ -26,6 +27,8 @@ namespace pointfront
 ///           later ones. Another one is an error, for this read and all later ones.
 /// Retries   passing refusals (429, 5xx), resets, stalls and short bodies, with growing pauses, as
 ///           long as the time limit of a read allows.
+/// Cache     what came is kept on the disk (FarCache), in blocks of 4 KiB. Opening asks the server
+///           nevertheless whether the file is still the same; offline, nothing is asked.
 /// Memory    head and tail, and 4 MiB of blocks.
 /// Errors    those of ByteSource. Messages name the public form of the address alone.
 class RemoteSource final : public ByteSource
@@ -41,12 +44,18 @@ public:
 private:
   using Interval64 = std::pair<std::uint64_t, std::uint64_t>;
 
-  RemoteSource(std::unique_ptr<const Conversation> conversation, RemoteIdentity identity);
+  RemoteSource(std::unique_ptr<const Conversation> conversation, RemoteIdentity identity,
+    std::shared_ptr<const FarCache> cache);
+  static Result<std::shared_ptr<const RemoteSource>> openOffline(
+    std::unique_ptr<const Conversation> conversation, std::shared_ptr<const FarCache> cache);
+  void keepOnDisk(const WantedBytes& piece) const;
   bool takeHeld(const ByteRange& range) const;
   void keepBlocks(const WantedBytes& piece, const Interval64& needed) const;
 
   const std::unique_ptr<const Conversation> conversation_;
   const RemoteIdentity identity_;
+  const std::shared_ptr<const FarCache> cache_; ///< may be null
+  const FarIdentity kept_; ///< the same identity, in the cache
   std::vector<WantedBytes> ends_; ///< head and tail, or the whole file
   mutable std::atomic<bool> changed_{ false }; ///< somebody has replaced the file
   mutable std::mutex mutex_; ///< guards all that follows

@@ -2,6 +2,7 @@
 
 #include "Transfer.h"
 
+#include "pointfront/Disk/ByteTraffic.h"
 #include "pointfront/Threads/OfProcess.h"
 #include "pointfront/Threads/WorkerThread.h"
 
@@ -117,6 +118,7 @@ void TransferLoop::Content::begin(std::unique_lock<std::mutex>&)
       }
       active.push_back(transfer);
       ++counts.requests;
+      ByteTraffic::ofProcess().requests += 1;
       curl_multi_add_handle(multi, transfer->easy());
     }
   }
@@ -156,6 +158,7 @@ void TransferLoop::Content::remove(Transfer& transfer)
   active.erase(std::find(active.begin(), active.end(), &transfer));
   --lines[transfer.line()].active;
   counts.bytes += transfer.answer().body.size();
+  ByteTraffic::ofProcess().bytes += transfer.answer().body.size();
   transfer.over = true;
 }
 
@@ -302,6 +305,7 @@ void TransferLoop::noteRetry()
 {
   const std::lock_guard<std::mutex> lock(content_->mutex);
   ++content_->counts.retries;
+  ByteTraffic::ofProcess().retries += 1;
 }
 
 RemoteStatistics TransferLoop::statistics() const

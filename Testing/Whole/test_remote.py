@@ -1,8 +1,10 @@
 """Clouds behind addresses, in every weather: the points of the local file, or an error."""
 
 import concurrent.futures
+import json
 import os
 import pathlib
+import subprocess
 import sys
 import unittest
 
@@ -25,7 +27,7 @@ def environment(**more):
     clean = {name: value for name, value in os.environ.items()
              if not name.startswith(("AWS_", "POINTFRONT_HTTP", "POINTFRONT_REMOTE")) and
              "proxy" not in name.lower()}
-    return {**clean, "HOME": "/nonexistent", **more}
+    return {**clean, "HOME": "/nonexistent", "POINTFRONT_CACHE": "off", **more}
 
 
 class RemoteTest(ToolTest):
@@ -125,6 +127,91 @@ class GoodServers(RemoteTest):
         self.assertNotIn("VERY-SECRET", outcome.out + outcome.err)
 
 
+class Cache(RemoteTest):
+    """What was fetched once lies on the disk."""
+
+    def setUp(self):
+        super().setUp()
+        self.cache = self.folder / "cache"
+        self.with_cache = environment(POINTFRONT_CACHE=str(self.cache))
+
+    def draw(self, cloud, *options, **more):
+        picture, facts = self.folder / "cached.png", self.folder / "cached.json"
+        self.succeed("render", cloud, "-o", picture, "--size", "320x240", "--backend", "software",
+                     "--stats", facts, *options, environment={**self.with_cache, **more})
+        return read_png(picture), json.loads(facts.read_text())
+
+    def test_the_second_picture_asks_only_whether_the_file_changed(self):
+        near, facts = self.draw(self.store)
+        self.assertEqual((facts["requests"], facts["cache_hits"]), (0, 0))
+        first, facts = self.draw(self.address(""))
+        self.assertGreater(facts["requests"], 0)
+        self.assertGreater(facts["bytes_fetched"], 10000)
+        fetched = facts["bytes_fetched"]
+        second, facts = self.draw(f"{self.address('')}?X-Amz-Signature=another")
+        self.assertLessEqual(facts["requests"], 2, facts)  # head and tail, at once
+        self.assertLess(facts["bytes_fetched"], fetched / 4)
+        self.assertGreater(facts["cache_hits"], 0)
+        self.assertTrue((near == first).all() and (near == second).all())
+
+    def test_offline(self):
+        self.refuse(1, "info", self.address(""), "--offline", environment=self.with_cache)
+        online, _ = self.draw(self.address(""))
+        self.server.requests.clear()
+        offline, facts = self.draw(self.address(""), "--offline")
+        self.assertEqual(facts["requests"], 0)
+        self.assertEqual(self.server.requests, [])
+        self.assertTrue((online == offline).all())
+        refused = self.refuse(1, "info", self.address("weak"), "--offline",
+                              environment=self.with_cache)
+        self.assertIn("offline", refused.err)
+
+    def test_a_file_that_was_replaced_is_fetched_again(self):
+        self.points(self.address(""), environment=self.with_cache)
+        self.succeed("build", STADIUM, "-o", self.store, "--force", "--node-points", "5000")
+        self.assertEqual(sorted(self.points(self.address(""),
+                                            environment=self.with_cache).splitlines()),
+                         sorted(self.expected.splitlines()))
+        self.assertEqual(self.points(self.address(""), environment=self.with_cache),
+                         self.points(self.store))
+
+    def test_damage_is_seen_and_nothing_secret_lies_there(self):
+        address = f"{self.address('')}?{SECRET}"
+        self.points(address, environment=self.with_cache)
+        files = [path for path in self.cache.rglob("*") if path.is_file()]
+        self.assertTrue(files)
+        self.assertEqual(self.cache.stat().st_mode & 0o77, 0)
+        for path in files:
+            self.assertNotIn("VERY-SECRET", str(path))
+            self.assertNotIn(b"VERY-SECRET", path.read_bytes())
+        for path in self.cache.glob("segments/*/*"):
+            content = bytearray(path.read_bytes())
+            content[len(content) // 2] ^= 1
+            path.write_bytes(content)
+        self.assertEqual(self.points(address, environment=self.with_cache), self.expected)
+
+    def test_the_command(self):
+        self.points(self.address(""), environment=self.with_cache)
+        facts = self.succeed("cache", "info", "--json", environment=self.with_cache).json
+        self.assertEqual(facts["folder"], str(self.cache))
+        self.assertGreater(facts["bytes"], 10000)
+        self.assertTrue(self.succeed("cache", "verify", "--json",
+                                     environment=self.with_cache).json["ok"])
+        segment = next(self.cache.glob("segments/*/*"))
+        segment.write_bytes(segment.read_bytes()[:-1])
+        refused = self.refuse(1, "cache", "verify", environment=self.with_cache)
+        self.assertIn("damaged", refused.err)
+        self.succeed("cache", "clear", environment=self.with_cache)
+        facts = self.succeed("cache", "info", "--json", environment=self.with_cache).json
+        self.assertEqual(facts["bytes"], 0)
+        self.refuse(1, "cache", "info", environment=environment())
+        self.refuse(2, "info", self.address(""), "--cache-size", "much")
+        self.points(self.address(""), environment=self.with_cache)
+        outcome = self.succeed("info", self.address(""), "--cache-size", "0", "--json",
+                               environment=self.with_cache)
+        self.assertEqual(outcome.json["points"], len(self.expected.splitlines()) - 1)
+
+
 class BadWeather(RemoteTest):
     def test_faults_that_pass(self):
         for weather in ("reset", "storm", "busy", "two", "ranges_ignored"):
@@ -143,6 +230,21 @@ class BadWeather(RemoteTest):
         with concurrent.futures.ThreadPoolExecutor(8) as several:  # they wait most of the time
             list(several.map(lambda case: self.assert_refused(*case), lasting))
         self.assert_refused("", "404", name="missing.pfront")
+
+    def test_a_certificate_that_nobody_vouches_for(self):
+        own = self.folder / "own.pem"
+        subprocess.run(["openssl", "req", "-x509", "-newkey", "rsa:2048", "-nodes", "-days", "2",
+                        "-subj", "/CN=localhost", "-addext",
+                        f"subjectAltName=IP:{HERE},DNS:localhost", "-keyout", own, "-out",
+                        self.folder / "public.pem"], check=True, capture_output=True)
+        own.write_text(own.read_text() + (self.folder / "public.pem").read_text())
+        with FarServer(self.folder, str(own)) as server:
+            address = f"https://{HERE}:{server.port}/cloud.pfront"
+            refused = self.refuse(1, "info", f"{address}?{SECRET}", environment=environment())
+            self.assertIn("certificate", refused.err)
+            self.assertNotIn("VERY-SECRET", refused.err)
+            trusting = environment(SSL_CERT_FILE=str(self.folder / "public.pem"), CURL_CA_BUNDLE="")
+            self.assertEqual(self.points(address, environment=trusting), self.expected)
 
     def test_no_server_and_no_name(self):
         for host in (f"{HERE}:9", "no.such.host.invalid"):

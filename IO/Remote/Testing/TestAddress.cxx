@@ -1,0 +1,66 @@
+#include "Address.h"
+
+#include "pointfront/Disk/ByteOpeners.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace pointfront
+{
+namespace
+{
+std::string remembered(const std::string& text)
+{
+  const Result<Address> address = Address::parse(text);
+  EXPECT_TRUE(address) << text;
+  return address ? rememberAddress(*address) : std::string();
+}
+
+std::string placeOf(const std::string& text)
+{
+  const Result<Address> address = Address::parse(text);
+  return address ? address->place() : std::string();
+}
+} // namespace
+
+TEST(Address, ThePublicFormHasNoSecretAndLeadsBack)
+{
+  const std::string whole = "https://me:pass@Example.org/a/b.pfront?X-Amz-Signature=hidden";
+  const std::string form = remembered(whole);
+  for (const char* const secret : { "me:", "pass", "hidden", "Amz" })
+  {
+    EXPECT_EQ(form.find(secret), std::string::npos) << form;
+  }
+  EXPECT_EQ(addressOf(form), "https://me:pass@example.org/a/b.pfront?X-Amz-Signature=hidden");
+  EXPECT_EQ(remembered(addressOf(form)), form);
+}
+
+TEST(Address, WhatLiesBesideHasTheSameSecrets)
+{
+  const std::string tree = remembered("https://host/a/ept.json?token=x");
+  EXPECT_EQ(
+    addressOf(beside(tree, "ept-data/0-0-0-0.laz")), "https://host/a/ept-data/0-0-0-0.laz?token=x");
+  const std::string folder = remembered("https://me:pass@host/a/list.pfronts");
+  EXPECT_EQ(addressOf(beside(folder, "one.pfront")), "https://me:pass@host/a/one.pfront");
+  // Not those of another host.
+  const std::string mark = tree.substr(tree.find('?'));
+  EXPECT_EQ(addressOf("https://other/a/ept.json" + mark), "https://other/a/ept.json" + mark);
+}
+
+TEST(Address, OtherSecretsAreOtherClouds)
+{
+  EXPECT_NE(remembered("https://host/a?v=1"), remembered("https://host/a?v=2"));
+  EXPECT_NE(remembered("https://me:one@host/a"), remembered("https://me:other@host/a"));
+  EXPECT_EQ(remembered("https://host/a"), "https://host/a");
+}
+
+TEST(Address, APlaceIsTheSameWhoeverSignsForIt)
+{
+  EXPECT_EQ(placeOf("https://me:pass@host/a?X-Amz-Signature=1&sig=2"), "https://host/a");
+  EXPECT_EQ(placeOf("https://host/a?v=2&Token=1"), placeOf("https://host/a?token=3&v=2"));
+  EXPECT_NE(placeOf("https://host/a?v=2"), placeOf("https://host/a?v=3"));
+  EXPECT_EQ(placeOf("https://host/a?v=hidden").find("hidden"), std::string::npos);
+}
+
+} // namespace pointfront

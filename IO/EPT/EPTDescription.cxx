@@ -1,5 +1,6 @@
 #include "EPTDescription.h"
 
+#include "pointfront/Disk/ByteOpeners.h"
 #include "pointfront/Disk/SmallFile.h"
 #include "pointfront/Points/QuantisationGrid.h"
 
@@ -7,7 +8,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
+#include <utility>
 
 namespace pointfront
 {
@@ -135,14 +138,6 @@ bool isKey(const std::string& key)
   return numbers == 4;
 }
 
-/// A page of a hierarchy of ten million nodes.
-constexpr std::uint64_t mostPageBytes = std::uint64_t(256) << 20;
-
-Result<std::string> contentOf(const std::string& path)
-{
-  Result<std::string> text = readSmallText(path, mostPageBytes);
-  return text ? text : makeError(text.error().kind, text.error().what + "; the tree refers to it");
-}
 } // namespace
 
 std::size_t EPTDescription::recordBytes() const
@@ -245,41 +240,76 @@ Result<EPTPage> parseEPTPage(std::string_view text, const std::string& path)
   return page;
 }
 
-Result<std::vector<EPTNode>> readEPTHierarchy(const std::string& folder)
+std::string pathOfEPTPage(const std::string& path, const std::string& key)
+{
+  return beside(path, "ept-hierarchy/" + key + ".json");
+}
+
+namespace
+{
+/// Its nodes, and the pages that it refers to. The key of a page that was seen before.
+std::optional<std::string> addPage(const EPTPage& page, std::map<std::string, std::uint32_t>& nodes,
+  std::set<std::string>& seen, std::vector<std::string>& below)
+{
+  for (const auto& [key, count] : page)
+  {
+    if (count >= 0)
+    {
+      nodes[key] = static_cast<std::uint32_t>(count);
+    }
+    else if (!seen.insert(key).second)
+    {
+      return key;
+    }
+    else
+    {
+      below.push_back(key);
+    }
+  }
+  return std::nullopt;
+}
+} // namespace
+
+Result<std::vector<EPTNode>> readEPTHierarchy(
+  const std::string& eptPath, std::optional<std::string> first)
 {
   std::map<std::string, std::uint32_t> nodes;
   std::set<std::string> seen{ "0-0-0-0" };
-  std::vector<std::string> open{ "0-0-0-0" };
-  while (!open.empty())
+  std::vector<std::string> level{ "0-0-0-0" };
+  while (!level.empty())
   {
-    const std::string pageKey = open.back();
-    open.pop_back();
-    const std::string path = folder + "/ept-hierarchy/" + pageKey + ".json";
-    const Result<std::string> text = contentOf(path);
-    if (!text)
+    std::vector<SmallFile> files;
+    for (const std::string& key : level)
     {
-      return text.error();
+      files.push_back({ pathOfEPTPage(eptPath, key), mostEPTPageBytes });
     }
-    const Result<EPTPage> page = parseEPTPage(*text, path);
-    if (!page)
+    const ReadStop never{ false };
+    const std::vector<Result<RawBytes>> pages =
+      first ? std::vector<Result<RawBytes>>() : readSmallFiles(files, never);
+    std::vector<std::string> below;
+    for (std::size_t p = 0; p < level.size(); ++p)
     {
-      return page.error();
+      const std::string& path = files[p].path;
+      if (!first && !pages[p])
+      {
+        return makeError(pages[p].error().kind, pages[p].error().what + "; the tree refers to it");
+      }
+      const std::string_view text = first
+        ? std::string_view(*first)
+        : std::string_view(reinterpret_cast<const char*>(pages[p]->data.get()), pages[p]->size);
+      const Result<EPTPage> page = parseEPTPage(text, path);
+      if (!page)
+      {
+        return page.error();
+      }
+      const std::optional<std::string> twice = addPage(*page, nodes, seen, below);
+      if (twice)
+      {
+        return bad(path, "the page '" + *twice + "' is referred to twice");
+      }
     }
-    for (const auto& [key, count] : page.value())
-    {
-      if (count >= 0)
-      {
-        nodes[key] = static_cast<std::uint32_t>(count);
-      }
-      else if (!seen.insert(key).second)
-      {
-        return bad(path, "the page '" + key + "' is referred to twice");
-      }
-      else
-      {
-        open.push_back(key);
-      }
-    }
+    first.reset();
+    level = std::move(below);
   }
   std::vector<EPTNode> list;
   for (const auto& [key, count] : nodes)

@@ -64,9 +64,16 @@ struct EPTNode
   std::uint32_t points = 0;
 };
 
-/// All nodes of the hierarchy below `folder` (that of ept.json), sorted by their keys.
-/// Errors  of its pages: NotFound, Unreadable, BadFormat (a page that refers to itself, more points
+/// All nodes of the hierarchy beside the ept.json at `path`, sorted by their keys. Pages of one
+/// level are read together. `first`: the text of its first page, if that was read already. Errors
+/// of its pages: NotFound, Unreadable, BadFormat (a page that refers to itself, more points
 ///         in a node than its file could have).
-Result<std::vector<EPTNode>> readEPTHierarchy(const std::string& folder);
+Result<std::vector<EPTNode>> readEPTHierarchy(
+  const std::string& path, std::optional<std::string> first = std::nullopt);
+
+/// The place of the hierarchy's first page, and of others by their keys.
+std::string pathOfEPTPage(const std::string& path, const std::string& key = "0-0-0-0");
+/// No page has more.
+constexpr std::uint64_t mostEPTPageBytes = std::uint64_t(256) << 20; ///< ten million nodes
 
 } // namespace pointfront

@@ -1,8 +1,11 @@
 #include "EPTFolder.h"
 
+#include "pointfront/Disk/ByteOpeners.h"
 #include "pointfront/Disk/SmallFile.h"
 
+#include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <utility>
 
 namespace pointfront
@@ -12,11 +15,30 @@ namespace
 constexpr std::uint64_t mostDescriptionBytes = std::uint64_t(16) << 20;
 /// Bytes in a node's file beside its points: header, coordinate system, chunk table.
 constexpr std::uint64_t mostBesidePoints = std::uint64_t(16) << 20;
+constexpr std::size_t firstBytes = std::size_t(64) << 10;
+
+Result<std::string> textOf(const Result<RawBytes>& file)
+{
+  return file
+    ? Result<std::string>(std::string(reinterpret_cast<const char*>(file->data.get()), file->size))
+    : file.error();
+}
 } // namespace
 
 Result<std::shared_ptr<const EPTFolder>> EPTFolder::open(const std::string& path)
 {
-  const Result<std::string> text = readSmallText(path, mostDescriptionBytes);
+  auto tree = std::make_shared<EPTFolder>();
+  tree->path = path;
+  tree->place = isAddress(path) ? path : std::filesystem::absolute(path).string();
+  std::vector<SmallFile> files{ { path, mostDescriptionBytes } };
+  if (isAddress(path))
+  {
+    // Both are needed in any case: one round trip.
+    files.push_back({ pathOfEPTPage(path), mostEPTPageBytes });
+  }
+  const ReadStop never{ false };
+  const std::vector<Result<RawBytes>> read = readSmallFiles(files, never);
+  const Result<std::string> text = textOf(read.front());
   if (!text)
   {
     return text.error();
@@ -26,17 +48,35 @@ Result<std::shared_ptr<const EPTFolder>> EPTFolder::open(const std::string& path
   {
     return description.error();
   }
-  auto tree = std::make_shared<EPTFolder>();
-  tree->path = path;
-  tree->folder = std::filesystem::absolute(path).parent_path().string();
   tree->descriptionBytes = text->size();
   tree->description = std::move(*description);
-  Result<std::vector<EPTNode>> nodes = readEPTHierarchy(tree->folder);
+  Result<std::shared_ptr<const ByteSource>> source = openBytes(path, { firstBytes, 0 });
+  if (!source)
+  {
+    return source.error();
+  }
+  tree->source = std::move(*source);
+  const Result<std::string> page = read.size() > 1 ? textOf(read.back()) : std::string();
+  if (!page)
+  {
+    return makeError(page.error().kind, page.error().what + "; the tree refers to it");
+  }
+  Result<std::vector<EPTNode>> nodes = readEPTHierarchy(
+    tree->place, read.size() > 1 ? std::optional<std::string>(*page) : std::nullopt);
   if (!nodes)
   {
     return nodes.error();
   }
   tree->nodes = std::move(*nodes);
+  if (isAddress(path) && !tree->nodes.empty())
+  {
+    Result<RawBytes> first = tree->readNode(0);
+    if (!first)
+    {
+      return first.error();
+    }
+    tree->first = std::move(*first);
+  }
   return std::shared_ptr<const EPTFolder>(std::move(tree));
 }
 
@@ -45,13 +85,49 @@ std::string EPTFolder::fileOf(std::uint64_t node) const
   const char* const ending = description.encoding == EPTEncoding::Laszip ? ".laz"
     : description.encoding == EPTEncoding::Binary                        ? ".bin"
                                                                          : ".zst";
-  return folder + "/ept-data/" + nodes[static_cast<std::size_t>(node)].key + ending;
+  return beside(place, "ept-data/" + nodes[static_cast<std::size_t>(node)].key + ending);
+}
+
+std::uint64_t EPTFolder::mostBytesOf(std::uint64_t node) const
+{
+  const std::uint64_t points = nodes[static_cast<std::size_t>(node)].points;
+  return mostBesidePoints + 2 * points * description.recordBytes();
 }
 
 Result<RawBytes> EPTFolder::readNode(std::uint64_t node) const
 {
-  const std::uint64_t points = nodes[static_cast<std::size_t>(node)].points;
-  return readSmallFile(fileOf(node), mostBesidePoints + 2 * points * description.recordBytes());
+  const ReadStop never{ false };
+  return std::move(readNodes({ node }, never).front());
+}
+
+std::vector<Result<RawBytes>> EPTFolder::readNodes(
+  const std::vector<std::uint64_t>& wanted, const ReadStop& stop) const
+{
+  const auto held = [this](std::uint64_t node) { return node == 0 && first.size > 0; };
+  std::vector<SmallFile> files;
+  for (const std::uint64_t node : wanted)
+  {
+    if (!held(node))
+    {
+      files.push_back({ fileOf(node), mostBytesOf(node) });
+    }
+  }
+  std::vector<Result<RawBytes>> read = readSmallFiles(files, stop);
+  std::vector<Result<RawBytes>> all;
+  all.reserve(wanted.size());
+  auto next = read.begin();
+  for (const std::uint64_t node : wanted)
+  {
+    if (!held(node))
+    {
+      all.push_back(std::move(*next++));
+      continue;
+    }
+    RawBytes copy(first.size);
+    std::copy_n(first.data.get(), first.size, copy.data.get());
+    all.emplace_back(std::move(copy));
+  }
+  return all;
 }
 
 } // namespace pointfront

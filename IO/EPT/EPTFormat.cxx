@@ -5,7 +5,8 @@
 #include "EPTRecordNodes.h"
 #include "EPTSource.h"
 
-#include <filesystem>
+#include "pointfront/Disk/ByteOpeners.h"
+
 #include <utility>
 
 namespace pointfront
@@ -13,7 +14,7 @@ namespace pointfront
 
 bool EPTFormat::accepts(const std::string& path) const
 {
-  return std::filesystem::path(path).filename() == "ept.json";
+  return fileNameOf(path) == "ept.json";
 }
 
 SourceDescription EPTFormat::describe(const EPTNodeDecoder& nodes, const EPTFolder& folder)

@@ -3,6 +3,7 @@
 #include "EPTFolder.h"
 #include "EPTSource.h"
 
+#include "pointfront/Disk/ByteOpeners.h"
 #include "pointfront/Ingest/GridChoice.h"
 #include "pointfront/InPlace/ForeignTree.h"
 #include "pointfront/Points/DescribedSource.h"
@@ -16,6 +17,8 @@ namespace pointfront
 namespace
 {
 namespace fs = std::filesystem;
+
+constexpr unsigned batchesAtOnce = 3;
 
 std::string descriptionOf(const std::string& path)
 {
@@ -32,8 +35,30 @@ public:
   {
   }
   Result<RawBytes> fetch(std::uint64_t chunk) const override { return tree_->readNode(chunk); }
+  std::vector<Result<RawBytes>> fetchAll(
+    const std::vector<std::uint64_t>& chunks, const ReadStop& stop) const override
+  {
+    return tree_->readNodes(chunks, stop);
+  }
+  std::uint64_t disk() const override { return tree_->source->device(); }
+  /// Each node is a file: those of one batch are read beside each other, so a few batches are
+  /// enough.
+  ReadCost readCost() const override
+  {
+    ReadCost cost = tree_->source->cost();
+    if (cost.far())
+    {
+      cost.readsAtOnce = batchesAtOnce;
+    }
+    return cost;
+  }
+  /// 0 of a far tree: each would be a round trip.
   std::size_t storedBytes(std::uint64_t chunk) const override
   {
+    if (isAddress(tree_->place))
+    {
+      return 0;
+    }
     std::error_code failure;
     const std::uintmax_t bytes = fs::file_size(tree_->fileOf(chunk), failure);
     return failure ? 0 : static_cast<std::size_t>(bytes);
@@ -99,8 +124,8 @@ bool EPTTreeFormat::accepts(const std::string& path) const
 {
   std::error_code failure;
   const std::string description = descriptionOf(path);
-  return fs::path(description).filename() == "ept.json" &&
-    fs::is_regular_file(description, failure);
+  return fileNameOf(description) == "ept.json" &&
+    (isAddress(description) || fs::is_regular_file(description, failure));
 }
 
 Result<std::shared_ptr<const StoredCloud>> EPTTreeFormat::open(const std::string& named) const

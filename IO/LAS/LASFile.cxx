@@ -3,6 +3,7 @@
 #include "LASExtraBytes.h"
 
 #include "pointfront/Base/PrintableText.h"
+#include "pointfront/Disk/ByteOpeners.h"
 
 #include <algorithm>
 #include <utility>
@@ -91,6 +92,62 @@ void dropOverlappingRecords(
   }
 }
 
+/// First bytes of a far file: header and records of most files, and the tables at the end of many.
+constexpr std::size_t headBytes = std::size_t(64) << 10;
+constexpr std::size_t tailBytes = std::size_t(256) << 10;
+/// Extended records, up to the end of the file, that are read without a look at them.
+constexpr std::uint64_t recordsAtOnceBytes = std::uint64_t(1) << 20;
+/// More of them are read one after the other, a round trip each.
+constexpr std::uint32_t mostFarRecords = 64;
+
+/// Header and records of a far file; of extended ones behind each other the payload that travels.
+Result<void> wantRecords(SparseBytes& far, const LASHeader& header)
+{
+  std::vector<HeldBytes::Part> parts;
+  if (header.pointOffset > headBytes)
+  {
+    parts.push_back({ headBytes, header.pointOffset - headBytes });
+  }
+  std::uint64_t at = header.extendedRecordCount > 0 ? header.extendedRecordOffset : far.size();
+  const bool all = at < far.size() && far.size() - at <= recordsAtOnceBytes;
+  if (all)
+  {
+    parts.push_back({ at, static_cast<std::size_t>(far.size() - at) });
+  }
+  Result<void> done = far.want(parts);
+  for (std::uint32_t i = 0; done && !all && i < header.extendedRecordCount; ++i)
+  {
+    if (at > far.size() || far.size() - at < lasExtendedRecordHeaderBytes)
+    {
+      break; // readLASRecords() says what is lost
+    }
+    if (i == mostFarRecords)
+    {
+      return makeError(Error::Kind::Unsupported,
+        "'" + far.source()->path() + "' has " + std::to_string(header.extendedRecordCount) +
+          " extended variable length records, too many to read them from afar; copy the file");
+    }
+    done = far.want({ { at, lasExtendedRecordHeaderBytes } });
+    const std::byte* const head = far.data() + at;
+    const auto length = loadNumber<std::uint64_t>(head + 20);
+    LASRecord record;
+    record.owner = loadText(head + 2, 16);
+    record.id = loadNumber<std::uint16_t>(head + 18);
+    at += lasExtendedRecordHeaderBytes;
+    const bool wanted = travels(record) || record.owner == "liblas";
+    if (done && wanted)
+    {
+      done = far.want({ { at, static_cast<std::size_t>(std::min(length, far.size() - at)) } });
+    }
+    if (length > far.size() - at)
+    {
+      break;
+    }
+    at += length;
+  }
+  return done;
+}
+
 /// Points may reach to the EVLRs behind them, or to the end of the file.
 std::uint64_t endOfPoints(const LASFile& file)
 {
@@ -109,8 +166,44 @@ bool waveformsFollow(const LASHeader& header)
 
 Result<LASFile> LASFile::open(const std::string& path, MemoryMap::Access access)
 {
+  if (isAddress(path))
+  {
+    Result<std::shared_ptr<const ByteSource>> source = openBytes(path, { headBytes, tailBytes });
+    return source ? of(std::move(*source)) : source.error();
+  }
   Result<MemoryMap> map = MemoryMap::open(path, access);
   return map ? of(path, std::move(*map)) : map.error();
+}
+
+Result<LASFile> LASFile::of(std::shared_ptr<const ByteSource> source)
+{
+  const std::string path = source->path();
+  const Result<std::shared_ptr<SparseBytes>> made = SparseBytes::over(std::move(source));
+  if (!made)
+  {
+    return made.error();
+  }
+  SparseBytes& far = **made;
+  if (Result<void> done = far.want({ { 0, headBytes } }); !done)
+  {
+    return done.error();
+  }
+  std::vector<std::string> warnings; // told when the file is read as a whole
+  const Result<LASHeader> header = parseLASHeader({ far.data(), far.size() }, path, warnings);
+  if (!header)
+  {
+    return header.error();
+  }
+  if (Result<void> done = wantRecords(far, *header); !done)
+  {
+    return done.error();
+  }
+  Result<LASFile> file = of(path, MemoryMap::ofBytes(path, far.data(), far.size()));
+  if (file)
+  {
+    file->far = *made;
+  }
+  return file;
 }
 
 Result<LASFile> LASFile::of(const std::string& path, MemoryMap map)

@@ -4,7 +4,7 @@
 #include "LASzipReader.h"
 #include "LAZChunk.h"
 
-#include "pointfront/Disk/InputFile.h"
+#include "pointfront/Disk/ByteSource.h"
 #include "pointfront/Disk/SmallFile.h"
 
 #include <algorithm>
@@ -29,11 +29,23 @@ Error corrupt(const LASFile& file, std::uint64_t byte, const std::string& what)
       what + "; build a store from the file, which does not need it");
 }
 
+/// Its cell and its place, without counts.
+COPCEntry entryAt(const std::byte* entry)
+{
+  COPCEntry found;
+  found.node.level = loadNumber<std::int32_t>(entry);
+  found.node.x = loadNumber<std::int32_t>(entry + 4);
+  found.node.y = loadNumber<std::int32_t>(entry + 8);
+  found.node.z = loadNumber<std::int32_t>(entry + 12);
+  found.offset = loadNumber<std::uint64_t>(entry + 16);
+  return found;
+}
+
 /// The chunks of a COPC file. Bytes are read at their places: a disk that goes away gives errors.
 class COPCNodes final : public ForeignNodes
 {
 public:
-  COPCNodes(LASFile file, LAZCompression compression, std::unique_ptr<const InputFile> points,
+  COPCNodes(LASFile file, LAZCompression compression, std::shared_ptr<const ByteSource> points,
     std::vector<COPCEntry> entries)
     : file_(std::move(file))
     , compression_(std::move(compression))
@@ -47,11 +59,35 @@ public:
     const COPCEntry& entry = entries_[static_cast<std::size_t>(chunk)];
     return points_->readAt(entry.offset, entry.bytes);
   }
+  std::vector<Result<RawBytes>> fetchAll(
+    const std::vector<std::uint64_t>& chunks, const ReadStop& stop) const override
+  {
+    std::vector<Result<RawBytes>> fetched;
+    std::vector<ByteRange> ranges;
+    fetched.reserve(chunks.size());
+    for (const std::uint64_t chunk : chunks)
+    {
+      const COPCEntry& entry = entries_[static_cast<std::size_t>(chunk)];
+      RawBytes bytes(entry.bytes);
+      ranges.push_back({ entry.offset, bytes.size, bytes.data.get() });
+      fetched.emplace_back(std::move(bytes));
+    }
+    const Result<void> together = points_->readUntil(stop, ranges.data(), ranges.size());
+    for (std::size_t i = 0; !together && i < fetched.size(); ++i)
+    {
+      // A file that ends early still has what comes before.
+      const bool alone = together.error().kind == Error::Kind::Truncated && fetched.size() > 1;
+      const Result<void> done = alone ? points_->readUntil(stop, &ranges[i], 1) : together;
+      fetched[i] = done ? std::move(fetched[i]) : Result<RawBytes>(done.error());
+    }
+    return fetched;
+  }
   std::size_t storedBytes(std::uint64_t chunk) const override
   {
     return entries_[static_cast<std::size_t>(chunk)].bytes;
   }
   std::uint64_t disk() const override { return points_->device(); }
+  ReadCost readCost() const override { return points_->cost(); }
   std::vector<std::string> files() const override { return { file_.description.path }; }
 
   Result<void> decode(const Part& part, const RawBytes& bytes, PointBatch& batch) const override
@@ -116,7 +152,7 @@ private:
 
   LASFile file_;
   LAZCompression compression_;
-  std::unique_ptr<const InputFile> points_;
+  std::shared_ptr<const ByteSource> points_;
   std::vector<COPCEntry> entries_;
 };
 } // namespace
@@ -157,46 +193,51 @@ Result<std::vector<COPCEntry>> readCOPCHierarchy(const LASFile& file, const COPC
   { return offset <= bytes.size && size <= bytes.size - offset; };
   std::vector<COPCEntry> entries;
   std::set<std::uint64_t> seen;
-  std::vector<std::pair<std::uint64_t, std::uint64_t>> pages{ { info.rootOffset, info.rootBytes } };
-  while (!pages.empty())
+  std::vector<HeldBytes::Part> level{ { info.rootOffset,
+    static_cast<std::size_t>(info.rootBytes) } };
+  while (!level.empty())
   {
-    const auto [offset, size] = pages.back();
-    pages.pop_back();
-    if (!inside(offset, size) || size % entryBytes != 0)
+    for (const auto& [offset, size] : level)
     {
-      return corrupt(file, offset, "a page of the hierarchy does not lie in the file");
+      if (!inside(offset, size) || size % entryBytes != 0)
+      {
+        return corrupt(file, offset, "a page of the hierarchy does not lie in the file");
+      }
     }
-    // Pages that overlap would give entries without end.
-    for (std::uint64_t at = offset; at < offset + size; at += entryBytes)
+    if (Result<void> there = file.want(level); !there)
     {
-      if (!seen.insert(at).second)
-      {
-        return corrupt(file, at, "a page of the hierarchy is referred to twice");
-      }
-      const std::byte* entry = bytes.data + at;
-      COPCEntry found;
-      found.node.level = loadNumber<std::int32_t>(entry);
-      found.node.x = loadNumber<std::int32_t>(entry + 4);
-      found.node.y = loadNumber<std::int32_t>(entry + 8);
-      found.node.z = loadNumber<std::int32_t>(entry + 12);
-      found.offset = loadNumber<std::uint64_t>(entry + 16);
-      const auto byteCount = loadNumber<std::int32_t>(entry + 24);
-      const auto points = loadNumber<std::int32_t>(entry + 28);
-      if (points == -1 && byteCount > 0)
-      {
-        pages.emplace_back(found.offset, static_cast<std::uint64_t>(byteCount));
-        continue;
-      }
-      if (points < 0 || byteCount < 0 || (points > 0 && byteCount == 0) ||
-        (points > 0 && !inside(found.offset, static_cast<std::uint64_t>(byteCount))))
-      {
-        return corrupt(file, at, "a node's points do not lie in the file");
-      }
-      found.bytes = static_cast<std::uint32_t>(byteCount);
-      found.node.points = static_cast<std::uint32_t>(points);
-      found.node.chunk = entries.size();
-      entries.push_back(found);
+      return there.error();
     }
+    std::vector<HeldBytes::Part> below;
+    for (const auto& [offset, size] : level)
+    {
+      // Pages that overlap would give entries without end.
+      for (std::uint64_t at = offset; at < offset + size; at += entryBytes)
+      {
+        if (!seen.insert(at).second)
+        {
+          return corrupt(file, at, "a page of the hierarchy is referred to twice");
+        }
+        COPCEntry found = entryAt(bytes.data + at);
+        const auto byteCount = loadNumber<std::int32_t>(bytes.data + at + 24);
+        const auto points = loadNumber<std::int32_t>(bytes.data + at + 28);
+        if (points == -1 && byteCount > 0)
+        {
+          below.push_back({ found.offset, static_cast<std::size_t>(byteCount) });
+          continue;
+        }
+        if (points < 0 || byteCount < 0 || (points > 0 && byteCount == 0) ||
+          (points > 0 && !inside(found.offset, static_cast<std::uint64_t>(byteCount))))
+        {
+          return corrupt(file, at, "a node's points do not lie in the file");
+        }
+        found.bytes = static_cast<std::uint32_t>(byteCount);
+        found.node.points = static_cast<std::uint32_t>(points);
+        found.node.chunk = entries.size();
+        entries.push_back(found);
+      }
+    }
+    level = std::move(below);
   }
   return entries;
 }
@@ -242,7 +283,8 @@ Result<std::shared_ptr<const StoredCloud>> COPCFormat::open(const std::string& p
   {
     return entries.error();
   }
-  Result<std::unique_ptr<const InputFile>> points = InputFile::open(path);
+  Result<std::shared_ptr<const ByteSource>> points =
+    file->far ? file->far->source() : openBytes(path);
   if (!points)
   {
     return points.error();

@@ -35,7 +35,7 @@ struct COPCEntry
 
 /// Errors  Unsupported: no COPC file; Corrupt: a record of another size.
 Result<COPCInfo> readCOPCInfo(const LASFile& file);
-/// All entries with points or without, of all pages.
+/// All entries with points or without, of all pages. Pages of one level are read together.
 /// Errors  Corrupt, with the byte: pages outside of the file or referred to twice, chunks outside,
 ///         counts that are none.
 Result<std::vector<COPCEntry>> readCOPCHierarchy(const LASFile& file, const COPCInfo& info);

@@ -3,6 +3,7 @@
 #include "LASIndexing.h"
 #include "LASPointDecoder.h"
 
+#include "pointfront/Disk/ByteOpeners.h"
 #include "pointfront/InPlace/NodePoints.h"
 #include "pointfront/InPlace/SampleStream.h"
 #include "pointfront/Store/ColumnStatistics.h"
@@ -166,6 +167,14 @@ void IndexedLASFile::describe(const std::string& sidePath)
 
 Result<std::shared_ptr<const IndexedLASFile>> IndexedLASFile::open(const std::string& sidePath)
 {
+  if (isAddress(sidePath))
+  {
+    // The points of a node lie all over the file: thousands of pieces of some bytes each.
+    return makeError(Error::Kind::Unsupported,
+      "'" + sidePath +
+        "' is an index of a LAS file, which is read from a disk only; build a store from the file, "
+        "or write it as COPC");
+  }
   Result<std::unique_ptr<const SideFile>> side = SideFile::open(sidePath);
   if (!side)
   {

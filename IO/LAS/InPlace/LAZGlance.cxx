@@ -94,6 +94,13 @@ Result<std::unique_ptr<PointSource>> glanceAt(const std::string& path, std::size
   {
     return file.error();
   }
+  if (file->far)
+  {
+    return makeError(Error::Kind::Unsupported,
+      "'" + path +
+        "' is no COPC file, so all of it would be read from afar; build a store from a copy, or "
+        "write it as COPC");
+  }
   const Result<std::vector<std::uint64_t>> offsets = plainRecords(*file);
   if (!offsets)
   {

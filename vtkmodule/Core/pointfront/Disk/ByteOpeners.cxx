@@ -73,6 +73,15 @@ std::string publicForm(const std::string& path)
   return opener ? opener->publicForm(path) : path;
 }
 
+std::string fileNameOf(std::string_view path)
+{
+  if (isAddress(path))
+  {
+    path = path.substr(0, path.find_first_of("?#"));
+  }
+  return std::string(path.substr(path.rfind('/') + 1)); // all of it without one
+}
+
 std::string beside(const std::string& path, const std::string& name)
 {
   if (isAddress(name) || (!name.empty() && name.front() == '/'))

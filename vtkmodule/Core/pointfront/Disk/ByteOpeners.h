@@ -59,6 +59,9 @@ inline bool isAddress(std::string_view path)
 /// file or a picture.
 std::string publicForm(const std::string& path);
 
+/// The last part of a path or an address, without what an address asks for ("?...").
+std::string fileNameOf(std::string_view path);
+
 /// The address or path of what lies beside `path`, or below its folder: "a/b/ept.json" and
 /// "ept-data/0-0-0-0.laz" give "a/b/ept-data/0-0-0-0.laz". An address keeps its query. `name` may
 /// be an address itself, or an absolute path: it is the answer then.

@@ -15,6 +15,13 @@ ByteSource::ByteSource(std::string path, std::uint64_t bytes)
 {
 }
 
+Result<void> ByteSource::readUntil(
+  const ReadStop& stop, const ByteRange* ranges, std::size_t count) const
+{
+  return stop ? makeError(Error::Kind::Cancelled, "nobody wants this part of '" + path_ + "' now")
+              : read(ranges, count);
+}
+
 Result<void> ByteSource::readAt(std::uint64_t offset, std::byte* target, std::size_t size) const
 {
   const ByteRange range{ offset, size, target };

@@ -3,6 +3,7 @@
 #include "pointfront/Base/RawBytes.h"
 #include "pointfront/Base/Result.h"
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -27,7 +28,13 @@ struct ReadCost
   double bytesPerSecond = 0.0; ///< rate of all requests together; 0: faster than who reads
   unsigned readsAtOnce = 1; ///< more than that at a time are slower in total
   std::size_t bytesAtOnce = 0; ///< that one read should ask for if so much is wanted; 0: any
+
+  /// Not on a disk here: each read costs a round trip, and several at once cost no more than one.
+  bool far() const { return roundTripSeconds > 0.0 || readsAtOnce > 1; }
 };
+
+/// Set by who does not want the bytes any more; looked at by the source that reads them.
+using ReadStop = std::atomic<bool>;
 
 /// The parts of a source that its reader needs in any case. A far source fetches them together with
 /// its size: they then cost no round trip of their own.
@@ -63,6 +70,10 @@ public:
   /// Reads all ranges, in any order, together where that is faster. After an error the targets may
   /// be filled in part.
   virtual Result<void> read(const ByteRange* ranges, std::size_t count) const = 0;
+  /// As read(), but a source that can give up in the middle does so with Cancelled soon after
+  /// `stop` is set, from any thread. Others finish.
+  virtual Result<void> readUntil(
+    const ReadStop& stop, const ByteRange* ranges, std::size_t count) const;
   Result<void> readAt(std::uint64_t offset, std::byte* target, std::size_t size) const;
   Result<RawBytes> readAt(std::uint64_t offset, std::size_t size) const;
 

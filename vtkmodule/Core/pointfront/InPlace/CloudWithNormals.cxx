@@ -41,20 +41,42 @@ bool CloudWithNormals::wanted(const ColumnSelection& columns) const
   return !columns.empty() && columns.back() == column_; // ascending, and it is the last
 }
 
-Result<FetchedNode> CloudWithNormals::fetch(NodeIndex node, const ColumnSelection& columns) const
+/// Those that the cloud has.
+ColumnSelection CloudWithNormals::own(const ColumnSelection& columns) const
 {
-  if (!wanted(columns))
-  {
-    return cloud_->fetch(node, columns);
-  }
-  Result<FetchedNode> inner =
-    cloud_->fetch(node, ColumnSelection(columns.begin(), columns.end() - 1));
-  if (!inner)
+  return ColumnSelection(columns.begin(), columns.end() - (wanted(columns) ? 1 : 0));
+}
+
+Result<FetchedNode> CloudWithNormals::wrapped(
+  const WantedNode& want, Result<FetchedNode> inner) const
+{
+  if (!inner || !wanted(want.columns))
   {
     return inner;
   }
-  FetchedNode fetched{ node, columns, {}, inner->bytesRead, inner->row };
+  FetchedNode fetched{ want.node, want.columns, {}, inner->bytesRead, inner->row };
   fetched.inner = std::make_shared<const FetchedNode>(std::move(*inner));
+  return fetched;
+}
+
+Result<FetchedNode> CloudWithNormals::fetch(NodeIndex node, const ColumnSelection& columns) const
+{
+  return wrapped({ node, columns }, cloud_->fetch(node, own(columns)));
+}
+
+std::vector<Result<FetchedNode>> CloudWithNormals::fetchAll(
+  const std::vector<WantedNode>& wants, const ReadStop& stop) const
+{
+  std::vector<WantedNode> inner;
+  for (const WantedNode& want : wants)
+  {
+    inner.push_back({ want.node, own(want.columns) });
+  }
+  std::vector<Result<FetchedNode>> fetched = cloud_->fetchAll(inner, stop);
+  for (std::size_t i = 0; i < wants.size(); ++i)
+  {
+    fetched[i] = wrapped(wants[i], std::move(fetched[i]));
+  }
   return fetched;
 }
 
@@ -93,9 +115,7 @@ std::size_t CloudWithNormals::decodedBytes(
 
 std::size_t CloudWithNormals::storedBytes(NodeIndex node, const ColumnSelection& columns) const
 {
-  return wanted(columns)
-    ? cloud_->storedBytes(node, ColumnSelection(columns.begin(), columns.end() - 1))
-    : cloud_->storedBytes(node, columns);
+  return cloud_->storedBytes(node, own(columns));
 }
 
 Result<std::shared_ptr<const NodeRanges>> CloudWithNormals::nodeRanges(

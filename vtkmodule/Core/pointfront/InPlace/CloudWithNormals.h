@@ -28,11 +28,14 @@ public:
   const std::shared_ptr<const Hierarchy>& hierarchy() const override { return cloud_->hierarchy(); }
   std::vector<std::string> files() const override { return cloud_->files(); }
   Result<FetchedNode> fetch(NodeIndex node, const ColumnSelection& columns) const override;
+  std::vector<Result<FetchedNode>> fetchAll(
+    const std::vector<WantedNode>& wanted, const ReadStop& stop) const override;
   Result<NodeColumns> decode(const FetchedNode& fetched) const override;
   std::size_t decodedBytes(
     NodeIndex node, std::uint32_t points, const ColumnSelection& columns) const override;
   std::size_t storedBytes(NodeIndex node, const ColumnSelection& columns) const override;
   std::uint64_t disk() const override { return cloud_->disk(); }
+  ReadCost readCost() const override { return cloud_->readCost(); }
   MissingRows* missingRows() const override { return cloud_->missingRows(); }
   /// Null for the normals: nobody knows them before they are computed.
   Result<std::shared_ptr<const NodeRanges>> nodeRanges(
@@ -47,6 +50,8 @@ private:
   CloudWithNormals(
     std::shared_ptr<const StoredCloud> cloud, std::shared_ptr<const NodeNormals> normals);
   bool wanted(const ColumnSelection& columns) const;
+  ColumnSelection own(const ColumnSelection& columns) const;
+  Result<FetchedNode> wrapped(const WantedNode& want, Result<FetchedNode> inner) const;
 
   std::shared_ptr<const StoredCloud> cloud_;
   std::shared_ptr<const NodeNormals> normals_;

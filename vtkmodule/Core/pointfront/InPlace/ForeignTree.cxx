@@ -204,38 +204,37 @@ void ForeignTree::describe(const ForeignTreeContent& content)
 Result<void> ForeignTree::lookAtFirstPoints()
 {
   description_.rangesAreSampled = true;
-  ColumnSelection all;
-  for (std::uint32_t c = 0; c < description_.schema.size(); ++c)
-  {
-    all.push_back(c);
-  }
+  ColumnSelection all(description_.schema.size());
+  std::iota(all.begin(), all.end(), 0u);
   const Hierarchy& table = *hierarchy_;
-  std::optional<std::uint8_t> level;
-  constexpr NodeIndex most = 8;
-  NodeIndex looked = 0;
-  for (NodeIndex i = 0; i < table.nodeCount() && looked < most; ++i)
+  std::vector<NodeIndex> looked;
+  constexpr std::size_t most = 8;
+  std::vector<std::uint64_t> chunks;
+  for (NodeIndex i = 0; i < table.nodeCount() && looked.size() < most; ++i)
   {
     const Node row = table.node(i);
-    if (level && row.level > *level)
+    if (!looked.empty() && row.level > table.node(looked.front()).level)
     {
       break;
     }
-    if (row.pointCount == 0)
+    if (row.pointCount > 0)
     {
-      continue;
+      looked.push_back(i);
+      chunks.push_back(chunks_[i]);
     }
-    first_ = looked == 0 ? i : first_;
-    level = row.level;
-    ++looked;
-    const Result<RawBytes> bytes = reader_->fetch(chunks_[i]);
-    if (!bytes)
+  }
+  const ReadStop never{ false };
+  std::vector<Result<RawBytes>> bytes = reader_->fetchAll(chunks, never);
+  for (std::size_t n = 0; n < looked.size(); ++n)
+  {
+    if (!bytes[n])
     {
-      return bytes.error();
+      return bytes[n].error();
     }
+    const std::uint32_t points = table.node(looked[n]).pointCount;
     PointBatch batch;
-    const ForeignNodes::Part part{ chunks_[i], row.pointCount,
-      std::min(mostLookedAt, row.pointCount), all };
-    if (Result<void> decoded = reader_->decode(part, *bytes, batch); !decoded)
+    const ForeignNodes::Part part{ chunks[n], points, std::min(mostLookedAt, points), all };
+    if (Result<void> decoded = reader_->decode(part, *bytes[n], batch); !decoded)
     {
       return decoded;
     }
@@ -248,6 +247,11 @@ Result<void> ForeignTree::lookAtFirstPoints()
     {
       description_.bounds.add(description_.grid.toWorld(step));
     }
+  }
+  if (!looked.empty())
+  {
+    first_ = looked.front();
+    firstBytes_ = reader_->readCost().far() ? std::move(*bytes.front()) : RawBytes();
   }
   return {};
 }
@@ -270,22 +274,59 @@ std::size_t ForeignTree::storedBytes(NodeIndex node, const ColumnSelection&) con
   return hierarchy_->node(node).pointCount > 0 ? reader_->storedBytes(chunks_[node]) : 0;
 }
 
+std::vector<Result<RawBytes>> ForeignNodes::fetchAll(
+  const std::vector<std::uint64_t>& chunks, const ReadStop& stop) const
+{
+  std::vector<Result<RawBytes>> fetched;
+  for (const std::uint64_t chunk : chunks)
+  {
+    fetched.push_back(
+      stop ? makeError(Error::Kind::Cancelled, "nobody wants this node now") : fetch(chunk));
+  }
+  return fetched;
+}
+
 Result<FetchedNode> ForeignTree::fetch(NodeIndex node, const ColumnSelection& columns) const
 {
-  assert(node < hierarchy_->nodeCount());
-  FetchedNode fetched{ node, columns, {}, 0, hierarchy_->node(node) };
-  if (fetched.row.pointCount == 0)
+  const ReadStop never{ false };
+  return std::move(fetchAll({ { node, columns } }, never).front());
+}
+
+std::vector<Result<FetchedNode>> ForeignTree::fetchAll(
+  const std::vector<WantedNode>& wanted, const ReadStop& stop) const
+{
+  std::vector<Result<FetchedNode>> results;
+  std::vector<std::uint64_t> chunks;
+  std::vector<std::size_t> places; ///< in `wanted`, of the chunks
+  for (const auto& [node, columns] : wanted)
   {
-    return fetched;
+    assert(node < hierarchy_->nodeCount());
+    FetchedNode fetched{ node, columns, {}, 0, hierarchy_->node(node) };
+    if (node == first_ && firstBytes_.size > 0)
+    {
+      fetched.runs.emplace_back(firstBytes_.size);
+      std::copy_n(firstBytes_.data.get(), firstBytes_.size, fetched.runs[0].data.get());
+    }
+    else if (fetched.row.pointCount > 0)
+    {
+      chunks.push_back(chunks_[node]);
+      places.push_back(results.size());
+    }
+    results.push_back(std::move(fetched));
   }
-  Result<RawBytes> bytes = reader_->fetch(chunks_[node]);
-  if (!bytes)
+  std::vector<Result<RawBytes>> bytes = reader_->fetchAll(chunks, stop);
+  for (std::size_t i = 0; i < places.size(); ++i)
   {
-    return bytes.error();
+    Result<FetchedNode>& result = results[places[i]];
+    if (!bytes[i])
+    {
+      result = bytes[i].error();
+      continue;
+    }
+    result->bytesRead = bytes[i]->size;
+    result->runs.push_back(std::move(*bytes[i]));
   }
-  fetched.bytesRead = bytes->size;
-  fetched.runs.push_back(std::move(*bytes));
-  return fetched;
+  return results;
 }
 
 Result<NodeColumns> ForeignTree::decode(const FetchedNode& fetched) const

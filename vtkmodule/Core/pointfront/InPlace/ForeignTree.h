@@ -31,6 +31,10 @@ public:
   virtual ~ForeignNodes() = default;
   /// Bytes of a chunk as they lie on the disk.
   virtual Result<RawBytes> fetch(std::uint64_t chunk) const = 0;
+  /// Several chunks, in as few round trips as possible; one after the other if there is no better
+  /// way.
+  virtual std::vector<Result<RawBytes>> fetchAll(
+    const std::vector<std::uint64_t>& chunks, const ReadStop& stop) const;
   virtual std::size_t storedBytes(std::uint64_t chunk) const = 0;
   /// The part of a chunk that is wanted.
   struct Part
@@ -44,6 +48,7 @@ public:
   /// may be filled or empty.
   virtual Result<void> decode(const Part& part, const RawBytes& bytes, PointBatch& batch) const = 0;
   virtual std::uint64_t disk() const { return 0; }
+  virtual ReadCost readCost() const { return {}; }
   virtual std::vector<std::string> files() const = 0;
 };
 
@@ -87,11 +92,14 @@ public:
   const std::shared_ptr<const Hierarchy>& hierarchy() const override { return hierarchy_; }
   std::vector<std::string> files() const override { return reader_->files(); }
   Result<FetchedNode> fetch(NodeIndex node, const ColumnSelection& columns) const override;
+  std::vector<Result<FetchedNode>> fetchAll(
+    const std::vector<WantedNode>& wanted, const ReadStop& stop) const override;
   Result<NodeColumns> decode(const FetchedNode& fetched) const override;
   std::size_t decodedBytes(
     NodeIndex node, std::uint32_t points, const ColumnSelection& columns) const override;
   std::size_t storedBytes(NodeIndex node, const ColumnSelection& columns) const override;
   std::uint64_t disk() const override { return reader_->disk(); }
+  ReadCost readCost() const override { return reader_->readCost(); }
   /// Every node is read: its points are as many as the hierarchy says, and lie in its box.
   Result<VerifyReport> verify(const ProgressFunction& progress = {}) const override;
 
@@ -107,6 +115,7 @@ private:
   StoreDescription description_;
   std::shared_ptr<const Hierarchy> hierarchy_;
   NodeIndex first_ = noNode; ///< with points
+  RawBytes firstBytes_; ///< its chunk in a far tree, which was read to describe the tree
   /// The first node, with the columns of the last request. Colours are chosen from its points
   /// before it is drawn, and reading it again would take as long as the rest of the first picture.
   mutable std::unique_ptr<const NodeColumns> kept_;

@@ -76,6 +76,26 @@ void LoadScheduler::Content::releaseFrom(
   }
 }
 
+/// Whether a thread stays in its read. One that waits for a far source has been told to stop and
+/// gets until `patience` for it.
+bool LoadScheduler::Content::hangsAtTheEnd(const Worker& worker, Clock::time_point patience)
+{
+  while (true)
+  {
+    const std::uint64_t seen = budget->changes();
+    {
+      const std::lock_guard<std::mutex> lock(mutex);
+      const Clock::time_point now = Clock::now();
+      const bool late = worker.far ? now >= patience : now - worker.since >= options.overdueAfter;
+      if (!worker.fetching || !worker.far || late)
+      {
+        return worker.fetching && late;
+      }
+    }
+    budget->waitForChange(seen, patience);
+  }
+}
+
 LoadScheduler::LoadScheduler(const LoadSchedulerOptions& options)
   : LoadScheduler(options, std::make_shared<MemoryBudget>(options.budgetBytes))
 {
@@ -104,17 +124,14 @@ LoadScheduler::~LoadScheduler()
   {
     const std::lock_guard<std::mutex> lock(c.mutex);
     c.stopped = true;
+    c.farLanes.stopAll();
   }
   c.budget->announceChange();
+  const DiskLane::Clock::time_point patience = DiskLane::Clock::now() + c.options.overdueAfter;
   // A worker's address is known to its thread: the list keeps its elements until they have ended.
   for (Content::Worker& worker : c.workers)
   {
-    bool hangs = false;
-    {
-      const std::lock_guard<std::mutex> lock(c.mutex);
-      hangs = worker.fetching && DiskLane::Clock::now() - worker.since >= c.options.overdueAfter;
-    }
-    if (hangs)
+    if (c.hangsAtTheEnd(worker, patience))
     {
       worker.thread.detach(); // it holds all it needs, and ends when its disk answers
     }
@@ -198,7 +215,9 @@ void LoadScheduler::loadWithoutThreads()
 void LoadScheduler::join(const std::shared_ptr<StoreNodes>& store, std::uint64_t points)
 {
   const std::lock_guard<std::mutex> lock(content_->mutex);
-  content_->members.push_back({ store, points, {} });
+  const bool far = store->reader().readCost().far();
+  content_->farMembers += far ? 1 : 0;
+  content_->members.push_back({ store, points, {}, far });
 }
 
 void LoadScheduler::leave(const std::shared_ptr<StoreNodes>& store)
@@ -210,8 +229,12 @@ void LoadScheduler::leave(const std::shared_ptr<StoreNodes>& store)
   {
     const std::lock_guard<std::mutex> lock(content_->mutex);
     Content::Member* member = content_->memberOf(*store);
+    content_->farMembers -= member->far ? 1 : 0;
+    content_->farLanes.stop(store.get());
     content_->members.erase(content_->members.begin() + (member - content_->members.data()));
   }
+  const DiskLane::Clock::time_point patience =
+    DiskLane::Clock::now() + content_->options.overdueAfter;
   while (true)
   {
     const std::uint64_t seen = content_->budget->changes();
@@ -219,11 +242,12 @@ void LoadScheduler::leave(const std::shared_ptr<StoreNodes>& store)
     {
       const std::lock_guard<std::mutex> lock(content_->mutex);
       const DiskLane::Clock::time_point now = DiskLane::Clock::now();
-      if (!store->loading() || content_->lane.overdue(store.get(), now))
+      const bool far = content_->farLanes.count(store.get()) > 0;
+      if (!store->loading() || content_->lane.overdue(store.get(), now) || (far && now >= patience))
       {
         break;
       }
-      overdueAt = content_->lane.freeAt(now);
+      overdueAt = far ? patience : content_->lane.freeAt(now);
     }
     if (overdueAt)
     {

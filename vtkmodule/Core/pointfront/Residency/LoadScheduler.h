@@ -37,7 +37,7 @@ struct LoadSchedulerStatistics
   // Sums over all that was loaded so far:
   std::uint64_t fetchedBytes = 0;
   std::uint64_t decodedBytes = 0; ///< in memory
-  double fetchSeconds = 0.0; ///< time of the disk lane: one read at a time
+  double fetchSeconds = 0.0; ///< time of all lanes; a far one's reads beside each other count once
   double decodeSeconds = 0.0; ///< CPU time of all threads together
   std::chrono::steady_clock::time_point lastLoaded; ///< when the last of it was there
 };
@@ -50,6 +50,10 @@ struct LoadSchedulerStatistics
 /// Disk        one read at a time over all stores, decoding beside it on the other threads; a read
 ///             that hangs is passed by others (DiskLane). Bytes fetched and not yet decoded, at
 ///             most one node a thread, are not on the account.
+/// Far         stores whose reader says so (NodeReader::readCost) have a lane for each server
+///             beside that of the disks (FarLanes): several batches of nodes at a time, each in the
+///             order of requests, each with a thread of its own that is made when it is needed. A
+///             batch of which no node is wanted any more is told to stop (FRONT-9).
 /// Memory      release() frees by distance under the fronts of all stores together (FRONT-10).
 /// Threads     its own for loading, at a lower priority. release() and the distance functions that
 ///             were given to it: one thread (the renderer's) for all residencies of a scheduler.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "pointfront/Residency/DiskLane.h"
+#include "pointfront/Residency/FarLanes.h"
 #include "pointfront/Residency/LoadScheduler.h"
 #include "pointfront/Residency/StoreNodes.h"
 #include "pointfront/Threads/WorkerThread.h"
@@ -29,17 +30,29 @@ struct LoadScheduler::Content : std::enable_shared_from_this<LoadScheduler::Cont
     std::shared_ptr<StoreNodes> store;
     std::uint64_t points = 0;
     NodeCache::Distance distance; ///< null until its first release()
+    bool far = false; ///< read on a lane of its server
   };
+  /// A job of a disk has one task.
   struct Job
   {
     std::shared_ptr<StoreNodes> store;
-    StoreNodes::Task task;
-    DiskLane::Ticket ticket = 0;
+    std::vector<StoreNodes::Task> tasks;
+    DiskLane::Ticket ticket = 0; ///< or of FarLanes
+    std::shared_ptr<ReadStop> stop; ///< null: of a disk
+  };
+  /// How far a job is: the rest is still to be done if it breaks off.
+  struct Progress
+  {
+    Clock::time_point begin;
+    bool fetching = true; ///< its lane is not free yet
+    std::size_t kept = 0; ///< tasks of which the store has the node, or knows why not
+    std::size_t left = 0; ///< tasks that are no longer loading
   };
   struct Worker
   {
     WorkerThread thread;
     bool fetching = false;
+    bool far = false; ///< its fetch is that of a far source
     Clock::time_point since; ///< when its read began
     bool ended = false;
   };
@@ -60,23 +73,31 @@ struct LoadScheduler::Content : std::enable_shared_from_this<LoadScheduler::Cont
   mutable std::mutex mutex; ///< guards all below; taken before a store's own
   std::vector<Member> members;
   DiskLane lane;
+  FarLanes farLanes;
+  std::size_t farMembers = 0;
   const unsigned steadyThreads;
   std::list<Worker> workers;
   bool stopped = false;
   std::atomic<bool> starving{ false };
   LoadSchedulerStatistics loaded; ///< its sums over all loads
 
+  std::size_t alive() const;
   bool addWorker();
   bool surplus(Clock::time_point now) const;
   void replaceHanging(Clock::time_point now);
+  bool mayRead(const Member& member, Clock::time_point now) const;
+  std::size_t batchBytes(const ReadCost& cost) const;
   std::optional<Job> take(Clock::time_point now);
+  std::optional<Job> begin(const Member& member, Clock::time_point now);
   void work(Worker& self);
   void takeTurn(Worker& self, std::uint64_t seen);
   void loadHere();
   void perform(Worker& self, const Job& job);
-  void load(Worker& self, const Job& job, Clock::time_point begin, bool& fetching, bool& kept);
+  void load(Worker& self, const Job& job, Progress& progress);
+  void finish(const Job& job, Result<FetchedNode> fetched, Progress& progress);
   void readRows(Worker& self, const Job& job);
   void freeLane(Worker& self, const Job& job, Clock::time_point begin, std::size_t bytesRead);
+  bool hangsAtTheEnd(const Worker& worker, Clock::time_point patience);
   Member* memberOf(const StoreNodes& store);
   std::size_t bytesWanted() const;
   void releaseFrom(ReleasePlan& plan, std::size_t bytes, StoreNodes::Gone& gone);

@@ -9,6 +9,7 @@
 #include <new>
 #include <string>
 #include <tuple>
+#include <utility>
 
 namespace pointfront
 {
@@ -23,6 +24,12 @@ constexpr int failuresThatStarve = 30;
 
 /// FRONT-9: loading must not disturb the drawing.
 constexpr int niceness = 5;
+
+/// Nodes of one batch at most.
+constexpr std::size_t mostOfABatch = 64;
+
+/// A batch of a source that does not say how much it should be has so many bytes.
+constexpr std::size_t usualBatchBytes = std::size_t(1) << 20;
 
 /// Calls `step`; an exception becomes an Error that names the node.
 template <typename Step>
@@ -64,16 +71,22 @@ bool LoadScheduler::Content::addWorker()
   return true;
 }
 
-/// More threads than there should be, now that a read that hung has come back.
-bool LoadScheduler::Content::surplus(Clock::time_point now) const
+std::size_t LoadScheduler::Content::alive() const
 {
-  const auto alive = static_cast<std::size_t>(
+  return static_cast<std::size_t>(
     std::count_if(workers.begin(), workers.end(), [](const Worker& w) { return !w.ended; }));
-  return alive > steadyThreads + lane.overdue(now);
 }
 
-/// A thread that hangs in an overdue read is replaced, as far as spare ones go; those that have
-/// ended are gathered in.
+/// More threads than there should be, now that a read that hung has come back, or the last far
+/// store is gone.
+bool LoadScheduler::Content::surplus(Clock::time_point now) const
+{
+  const std::size_t far = farMembers > 0 ? FarLanes::mostOnAll : farLanes.count();
+  return alive() > steadyThreads + lane.overdue(now) + far;
+}
+
+/// A thread that hangs in an overdue read is replaced, as far as spare ones go, and so is one that
+/// waits for a far source; those that have ended are gathered in.
 void LoadScheduler::Content::replaceHanging(Clock::time_point now)
 {
   for (auto worker = workers.begin(); worker != workers.end();)
@@ -88,17 +101,41 @@ void LoadScheduler::Content::replaceHanging(Clock::time_point now)
       ++worker;
     }
   }
-  const std::size_t wanted =
-    steadyThreads + std::min<std::size_t>(lane.overdue(now), options.spareThreads);
+  const std::size_t wanted = steadyThreads + farLanes.count() +
+    std::min<std::size_t>(lane.overdue(now), options.spareThreads);
   while (workers.size() < wanted && addWorker())
   {
   }
 }
 
+/// Whether the lane of this store takes a read now. A far one leaves a thread to the others.
+bool LoadScheduler::Content::mayRead(const Member& member, Clock::time_point now) const
+{
+  const NodeReader& reader = member.store->reader();
+  if (!member.far)
+  {
+    return !lane.busy(now) && !lane.barred(member.store.get(), reader.disk(), now);
+  }
+  const std::size_t threads = alive();
+  return farLanes.open(reader.disk(), reader.readCost()) &&
+    (threads <= 1 || farLanes.count() + 1 < threads);
+}
+
+/// Bytes in memory of the nodes that make a batch, by what nodes took so far.
+std::size_t LoadScheduler::Content::batchBytes(const ReadCost& cost) const
+{
+  constexpr double usualGrowth = 3.0;
+  const double growth = loaded.fetchedBytes > 0 && loaded.decodedBytes > loaded.fetchedBytes
+    ? static_cast<double>(loaded.decodedBytes) / static_cast<double>(loaded.fetchedBytes)
+    : usualGrowth;
+  const std::size_t bytes = cost.bytesAtOnce > 0 ? cost.bytesAtOnce : usualBatchBytes;
+  return static_cast<std::size_t>(growth * static_cast<double>(bytes));
+}
+
 /// The most urgent request of all stores that may be read now.
 std::optional<LoadScheduler::Content::Job> LoadScheduler::Content::take(Clock::time_point now)
 {
-  if (lane.busy(now))
+  if (farMembers == 0 && lane.busy(now))
   {
     return std::nullopt;
   }
@@ -106,7 +143,7 @@ std::optional<LoadScheduler::Content::Job> LoadScheduler::Content::take(Clock::t
   StoreNodes::Urgency most;
   for (const Member& member : members)
   {
-    if (lane.barred(member.store.get(), member.store->reader().disk(), now))
+    if (!mayRead(member, now))
     {
       continue;
     }
@@ -119,13 +156,33 @@ std::optional<LoadScheduler::Content::Job> LoadScheduler::Content::take(Clock::t
       most = *next;
     }
   }
-  std::optional<StoreNodes::Task> task = best != nullptr ? best->store->begin() : std::nullopt;
-  if (!task)
+  return best != nullptr ? begin(*best, now) : std::nullopt;
+}
+
+/// None when nothing fits any more: that is a change that wakes us.
+std::optional<LoadScheduler::Content::Job> LoadScheduler::Content::begin(
+  const Member& member, Clock::time_point now)
+{
+  StoreNodes& store = *member.store;
+  const NodeReader& reader = store.reader();
+  Job job;
+  job.store = member.store;
+  if (member.far)
   {
-    return std::nullopt; // nothing fits; or not any more, and that is a change that wakes us
+    job.stop = std::make_shared<ReadStop>(false);
+    job.tasks = store.beginBatch(batchBytes(reader.readCost()), mostOfABatch, job.stop);
   }
-  const DiskLane::Ticket ticket = lane.enter(best->store.get(), best->store->reader().disk(), now);
-  return Job{ best->store, std::move(*task), ticket };
+  else if (std::optional<StoreNodes::Task> task = store.begin())
+  {
+    job.tasks.push_back(std::move(*task));
+  }
+  if (job.tasks.empty())
+  {
+    return std::nullopt;
+  }
+  job.ticket = member.far ? farLanes.enter(&store, reader.disk(), job.stop)
+                          : lane.enter(&store, reader.disk(), now);
+  return job;
 }
 
 void LoadScheduler::Content::freeLane(
@@ -133,9 +190,18 @@ void LoadScheduler::Content::freeLane(
 {
   {
     const std::lock_guard<std::mutex> lock(mutex);
-    lane.leave(job.ticket);
+    double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+    if (job.stop)
+    {
+      seconds /= static_cast<double>(farLanes.count()); // the time is that of all of them
+      farLanes.leave(job.ticket);
+    }
+    else
+    {
+      lane.leave(job.ticket);
+    }
     self.fetching = false;
-    loaded.fetchSeconds += std::chrono::duration<double>(Clock::now() - begin).count();
+    loaded.fetchSeconds += seconds;
     loaded.fetchedBytes += bytesRead;
   }
   budget->announceChange();
@@ -148,7 +214,7 @@ void LoadScheduler::Content::readRows(Worker& self, const Job& job)
   const auto end = [&](std::size_t bytesRead)
   {
     freeLane(self, job, begin, bytesRead);
-    job.store->leave(job.task);
+    job.store->leave(job.tasks.front());
     budget->announceChange();
   };
   try
@@ -164,49 +230,84 @@ void LoadScheduler::Content::readRows(Worker& self, const Job& job)
 
 void LoadScheduler::Content::perform(Worker& self, const Job& job)
 {
-  if (job.task.node == noNode)
+  if (job.tasks.front().node == noNode)
   {
     readRows(self, job);
     return;
   }
-  bool fetching = true, kept = false;
-  const Clock::time_point begin = Clock::now();
+  Progress progress;
+  progress.begin = Clock::now();
   // Whatever runs out of memory here, be it the words of an Error: who waits for the end of the
   // loading must not wait for ever.
   try
   {
-    load(self, job, begin, fetching, kept);
+    load(self, job, progress);
   }
   catch (...)
   {
-    if (fetching)
+    if (progress.fetching)
     {
-      freeLane(self, job, begin, 0);
+      freeLane(self, job, progress.begin, 0);
     }
-    if (!kept)
+    for (; progress.kept < job.tasks.size(); ++progress.kept)
     {
-      job.store->abandon(job.task);
+      job.store->abandon(job.tasks[progress.kept]);
     }
-    job.store->leave(job.task);
+    for (; progress.left < job.tasks.size(); ++progress.left)
+    {
+      job.store->leave(job.tasks[progress.left]);
+    }
     budget->announceChange();
     throw;
   }
-  // Only now: who waits until nothing is loading may count on all having been told.
-  job.store->leave(job.task);
-  budget->announceChange();
 }
 
-/// `fetching`: the lane is not free yet. `kept`: the store has the node, or knows why not.
-void LoadScheduler::Content::load(
-  Worker& self, const Job& job, Clock::time_point begin, bool& fetching, bool& kept)
+void LoadScheduler::Content::load(Worker& self, const Job& job, Progress& progress)
 {
   const NodeReader& reader = job.store->reader();
-  const StoreNodes::Task& task = job.task;
-  Result<FetchedNode> fetched =
-    guarded(task.node, [&] { return reader.fetch(task.node, task.columns); });
+  const StoreNodes::Task& first = job.tasks.front();
+  std::vector<Result<FetchedNode>> fetched;
+  if (job.stop)
+  {
+    std::vector<WantedNode> wanted;
+    for (const StoreNodes::Task& task : job.tasks)
+    {
+      wanted.push_back({ task.node, task.columns });
+    }
+    using All = Result<std::vector<Result<FetchedNode>>>;
+    All all = guarded(first.node, [&] { return All(reader.fetchAll(wanted, *job.stop)); });
+    if (all)
+    {
+      fetched = std::move(*all);
+    }
+    while (fetched.size() < job.tasks.size())
+    {
+      fetched.emplace_back(all.error());
+    }
+  }
+  else
+  {
+    fetched.push_back(guarded(first.node, [&] { return reader.fetch(first.node, first.columns); }));
+  }
+  std::size_t bytesRead = 0;
+  for (const Result<FetchedNode>& node : fetched)
+  {
+    bytesRead += node ? node->bytesRead : 0;
+  }
+  progress.fetching = false;
+  freeLane(self, job, progress.begin, bytesRead);
+  for (Result<FetchedNode>& node : fetched)
+  {
+    finish(job, std::exchange(node, makeError(Error::Kind::Cancelled, "decoded")), progress);
+  }
+}
+
+/// Decodes the next node of a job.
+void LoadScheduler::Content::finish(const Job& job, Result<FetchedNode> fetched, Progress& progress)
+{
+  const NodeReader& reader = job.store->reader();
+  const StoreNodes::Task& task = job.tasks[progress.kept];
   const std::size_t bytesRead = fetched ? fetched->bytesRead : 0;
-  fetching = false;
-  freeLane(self, job, begin, bytesRead);
   double decodeSeconds = -threadSeconds();
   Result<NodeColumns> result = fetched ? guarded(task.node, [&] { return reader.decode(*fetched); })
                                        : Result<NodeColumns>(fetched.error());
@@ -218,13 +319,17 @@ void LoadScheduler::Content::load(
     loaded.lastLoaded = Clock::now();
     loaded.decodedBytes += result ? result->bytes() : 0;
   }
-  kept = true;
+  ++progress.kept;
   const bool news = job.store->finish(task, std::move(result), bytesRead);
   budget->announceChange();
   if (news)
   {
     job.store->tell();
   }
+  // Only now: who waits until nothing is loading may count on all having been told.
+  job.store->leave(task);
+  ++progress.left;
+  budget->announceChange();
 }
 
 void LoadScheduler::Content::work(Worker& self)
@@ -264,7 +369,12 @@ void LoadScheduler::Content::takeTurn(Worker& self, std::uint64_t seen)
     replaceHanging(now);
     job = take(now);
     self.fetching = job.has_value();
+    self.far = job && job->stop;
     self.since = now;
+    if (self.far)
+    {
+      replaceHanging(now);
+    }
     lookAgain = lane.freeAt(now);
   }
   if (job)

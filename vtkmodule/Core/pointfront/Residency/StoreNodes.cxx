@@ -71,14 +71,16 @@ std::optional<StoreNodes::Task> StoreNodes::begin()
     ++loadingRows_;
     return Task();
   }
-  if (!choice)
-  {
-    return std::nullopt;
-  }
-  const NodeIndex node = choice->request.node;
-  Task task{ node, waiting_.columns().of(choice->request.layer), waiting_.need(choice->request),
-    choice->reread };
-  if (choice->inPlaceOfOld)
+  return choice ? beginNode(*choice) : std::nullopt;
+}
+
+/// Under the lock.
+std::optional<StoreNodes::Task> StoreNodes::beginNode(const WaitingReads::Choice& choice)
+{
+  const NodeIndex node = choice.request.node;
+  Task task{ node, waiting_.columns().of(choice.request.layer), waiting_.need(choice.request),
+    choice.reread };
+  if (choice.inPlaceOfOld)
   {
     cache_.remove(node);
     ++revision_;
@@ -87,7 +89,7 @@ std::optional<StoreNodes::Task> StoreNodes::begin()
   {
     return std::nullopt; // another store on the same budget was faster
   }
-  waiting_.take(*choice);
+  waiting_.take(choice);
   CachedNode& cached = cache_[node];
   cached.loading = true;
   cached.stale = cached.drawn = false;
@@ -152,6 +154,11 @@ bool StoreNodes::finish(const Task& task, Result<NodeColumns> result, std::size_
   CachedNode& cached = cache_[task.node];
   cached.loading = false;
   loadingBytes_ -= task.bytes;
+  if (!result.ok() && result.error().kind == Error::Kind::Cancelled)
+  {
+    forgetCancelled(task);
+    return true;
+  }
   if (!result.ok())
   {
     budget_->giveBack(task.bytes);
@@ -305,6 +312,7 @@ LayerColumns StoreNodes::columns() const
 bool StoreNodes::request(const std::vector<LoadRequest>& requests)
 {
   const std::lock_guard<std::mutex> lock(mutex_);
+  stopUnwanted(requests);
   std::vector<LoadRequest> wanted;
   wanted.reserve(requests.size());
   for (const LoadRequest& request : requests)

@@ -71,7 +71,13 @@ public:
   // The functions that the scheduler calls.
   std::optional<Urgency> next() const; ///< urgency of the first that waits and fits
   std::optional<Task> begin(); ///< takes that; none when it does not fit any more
-  /// A read has ended. True when there is something new: then tell() is called.
+  /// Takes what begin() takes and what comes behind it, for a source that is better read so: nodes
+  /// up to `bytes` in memory or `most` of them, or one page of rows. `stop` is set when nobody
+  /// wants any of them any more.
+  std::vector<Task> beginBatch(
+    std::size_t bytes, std::size_t most, const std::shared_ptr<ReadStop>& stop);
+  /// A read has ended. True when there is something new: then tell() is called. A node whose read
+  /// was Cancelled is as if it had never been asked for.
   bool finish(const Task& task, Result<NodeColumns> result, std::size_t bytesRead);
   /// A read that ended in an exception: the node has failed for lack of memory.
   void abandon(const Task& task);
@@ -91,7 +97,17 @@ public:
   bool loading() const; ///< rows included
 
 private:
+  /// Nodes that are read together, and are wanted as long as one of them is.
+  struct Batch
+  {
+    std::vector<NodeIndex> nodes;
+    std::weak_ptr<ReadStop> stop;
+  };
+
   std::optional<WaitingReads::Choice> choose() const;
+  std::optional<Task> beginNode(const WaitingReads::Choice& choice);
+  void stopUnwanted(const std::vector<LoadRequest>& requests);
+  void forgetCancelled(const Task& task);
   bool rowsNext(const std::optional<WaitingReads::Choice>& choice) const;
   void countFailed(CachedNode& cached);
   void markFailed(CachedNode& cached, Error error);
@@ -110,6 +126,7 @@ private:
   mutable std::mutex mutex_; ///< guards all below
   NodeCache cache_;
   WaitingReads waiting_;
+  std::vector<Batch> batches_; ///< that may be under way
   std::vector<Error> errors_;
   std::size_t loadingBytes_ = 0;
   std::uint32_t loading_ = 0; ///< nodes

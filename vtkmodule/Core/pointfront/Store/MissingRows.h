@@ -15,8 +15,8 @@ public:
   virtual ~MissingRows() = default;
   /// Whether rows are asked for and nobody reads them.
   virtual bool waiting() const = 0;
-  /// Reads the page of the rows that were asked for first. May wait for the disk. Returns the bytes
-  /// read; 0 when no row waits.
+  /// Reads the page of the rows that were asked for first; several where that takes no longer (a
+  /// far source). May wait for the disk. Returns the bytes read; 0 when no row waits.
   virtual std::size_t readNext() = 0;
 
   /// Sets the `reader` of the rows: `wanted` is called, on the asking thread, when a first row is

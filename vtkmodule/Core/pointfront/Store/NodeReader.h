@@ -2,6 +2,7 @@
 
 #include "pointfront/Base/RawBytes.h"
 #include "pointfront/Base/Result.h"
+#include "pointfront/Disk/ByteSource.h"
 #include "pointfront/Points/QuantisationGrid.h"
 #include "pointfront/Store/Hierarchy.h"
 #include "pointfront/Store/MissingRows.h"
@@ -75,6 +76,13 @@ struct FetchedNode
   std::shared_ptr<const FetchedNode> inner = nullptr;
 };
 
+/// A node and the columns that are wanted of it.
+struct WantedNode
+{
+  NodeIndex node = noNode;
+  ColumnSelection columns;
+};
+
 /// Reads nodes of a store, or makes them up in tests. It works in two steps, so that the disk
 /// serves one node at a time while processors decode others (SMOOTH-8).
 /// Threads  all functions are called from several loader threads at once.
@@ -88,6 +96,11 @@ public:
   {
     return FetchedNode{ node, columns, {}, 0 };
   }
+  /// The same for several nodes, in as few round trips as the reader can: the answers are in the
+  /// order of `wanted`. An error of one node leaves the others alone; Cancelled where `stop` was
+  /// set before the node was read. One after the other if the reader has no better way.
+  virtual std::vector<Result<FetchedNode>> fetchAll(
+    const std::vector<WantedNode>& wanted, const ReadStop& stop) const;
   /// The processor's part: checks and decodes. Touches no file.
   virtual Result<NodeColumns> decode(const FetchedNode& fetched) const = 0;
   /// Both, one after the other.
@@ -107,8 +120,10 @@ public:
     NodeIndex node, std::uint32_t points, const ColumnSelection& columns) const = 0;
   /// Bytes that fetch() reads from the disk.
   virtual std::size_t storedBytes(NodeIndex node, const ColumnSelection& columns) const = 0;
-  /// The number of the disk (file system): equal for readers on the same disk.
+  /// The number of the disk (file system) or server: equal for readers on the same one.
   virtual std::uint64_t disk() const { return 0; }
+  /// The cost of its reads: a disk's, or those of a far source, which is better read by fetchAll().
+  virtual ReadCost readCost() const { return {}; }
   /// The rows of its table that are read on demand; null if all rows are in memory.
   virtual MissingRows* missingRows() const { return nullptr; }
 };

@@ -23,6 +23,7 @@ constexpr std::size_t mostWanted = 1024;
 class PageSet
 {
 public:
+  PageSet() { pages_.fill(noPage); }
   bool copyRow(std::uint32_t page, std::uint32_t row, Node& target)
   {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -64,24 +65,14 @@ public:
 
 private:
   std::mutex mutex_;
-  std::array<std::uint32_t, waysPerSet> pages_ = filled();
+  std::array<std::uint32_t, waysPerSet> pages_{};
   std::array<std::uint64_t, waysPerSet> used_{};
   std::array<std::unique_ptr<NodePage>, waysPerSet> rows_;
   std::uint64_t clock_ = 0;
-
-  static std::array<std::uint32_t, waysPerSet> filled()
-  {
-    std::array<std::uint32_t, waysPerSet> pages{};
-    pages.fill(noPage);
-    return pages;
-  }
 };
 
-/// The row in place of one that is lost.
-Node hollowRow()
-{
-  return Node();
-}
+/// Stands in for a row that is lost.
+const Node hollowRow{};
 } // namespace
 
 struct PagedNodeTable::Content final : MissingRows
@@ -103,6 +94,7 @@ struct PagedNodeTable::Content final : MissingRows
   PageSet& setOf(std::uint32_t page) { return sets[page % sets.size()]; }
   bool isLost(std::uint32_t page);
   bool load(std::uint32_t page, NodePage& rows);
+  bool keep(std::uint32_t page, const NodePage& rows, const Result<void>& done);
   void noteFault(Error error);
   bool linked(NodeIndex parent, const Node& parentRow, NodeIndex child, const Node& row);
   const Node* rootRow(NodeIndex index) const;
@@ -157,23 +149,14 @@ void PagedNodeTable::Content::noteFault(Error error)
   damaged = true;
 }
 
-/// Reads a page and keeps it; false when it is lost.
-bool PagedNodeTable::Content::load(std::uint32_t page, NodePage& rows)
+/// Keeps a page that was read; false when it is lost.
+bool PagedNodeTable::Content::keep(
+  std::uint32_t page, const NodePage& rows, const Result<void>& done)
 {
-  Result<void> done;
-  try
+  if (done)
   {
-    done = source->read(page, rows);
-    ++pagesRead;
-    if (done)
-    {
-      pagesHeld += setOf(page).insert(page, rows) ? 1 : 0;
-      return true;
-    }
-  }
-  catch (const std::bad_alloc&)
-  {
-    done = makeError(Error::Kind::NoMemory, "no memory for a page of the node table");
+    pagesHeld += setOf(page).insert(page, rows) ? 1 : 0;
+    return true;
   }
   const std::lock_guard<std::mutex> lock(faultMutex);
   if (lost.insert(page).second)
@@ -181,6 +164,22 @@ bool PagedNodeTable::Content::load(std::uint32_t page, NodePage& rows)
     noteFault(done.error());
   }
   return false;
+}
+
+/// Reads a page and keeps it; false when it is lost.
+bool PagedNodeTable::Content::load(std::uint32_t page, NodePage& rows)
+{
+  try
+  {
+    const Result<void> done = source->read(page, rows);
+    ++pagesRead;
+    return keep(page, rows, done);
+  }
+  catch (const std::bad_alloc&)
+  {
+    return keep(
+      page, rows, makeError(Error::Kind::NoMemory, "no memory for a page of the node table"));
+  }
 }
 
 bool PagedNodeTable::Content::linked(
@@ -231,37 +230,47 @@ void PagedNodeTable::Content::want(std::uint32_t page)
 
 std::size_t PagedNodeTable::Content::readNext()
 {
-  std::uint32_t page = noPage;
+  std::vector<std::uint32_t> pages;
   {
     const std::lock_guard<std::mutex> lock(wantedMutex);
     if (wanted.empty())
     {
       return 0;
     }
-    page = wanted.front();
-    beingRead.push_back(page);
-    wanted.erase(wanted.begin());
+    const auto end =
+      wanted.begin() + static_cast<std::ptrdiff_t>(std::min(wanted.size(), source->pagesAtOnce()));
+    pages.assign(wanted.begin(), end);
+    beingRead.insert(beingRead.end(), pages.begin(), pages.end());
+    wanted.erase(wanted.begin(), end);
     anyWanted = !wanted.empty();
   }
   const auto end = [&]
   {
     const std::lock_guard<std::mutex> lock(wantedMutex);
-    beingRead.erase(std::find(beingRead.begin(), beingRead.end(), page));
+    for (const std::uint32_t page : pages)
+    {
+      beingRead.erase(std::find(beingRead.begin(), beingRead.end(), page));
+    }
     ++arrivals;
     changed.notify_all();
   };
   try
   {
-    NodePage rows;
-    load(page, rows);
+    std::vector<NodePage> rows(pages.size());
+    const std::vector<Result<void>> done = source->readAll(pages, rows);
+    pagesRead += pages.size();
+    for (std::size_t p = 0; p < pages.size(); ++p)
+    {
+      keep(pages[p], rows[p], done[p]);
+    }
   }
   catch (...)
   {
-    end(); // the page can be asked for again
+    end(); // the pages can be asked for again
     throw;
   }
   end();
-  return nodePageBytes;
+  return pages.size() * nodePageBytes;
 }
 
 void PagedNodeTable::Content::attach(const void* reader, std::function<void()> tell)
@@ -325,7 +334,7 @@ Node PagedNodeTable::node(NodeIndex index) const
   }
   NodePage rows;
   const bool sound = !content_->isLost(page) && content_->load(page, rows);
-  return sound ? rows[index % content_->pageRows] : hollowRow();
+  return sound ? rows[index % content_->pageRows] : hollowRow;
 }
 
 Node PagedNodeTable::childOf(NodeIndex parent, const Node& row, std::uint8_t child) const
@@ -333,7 +342,7 @@ Node PagedNodeTable::childOf(NodeIndex parent, const Node& row, std::uint8_t chi
   const NodeIndex index = row.firstChild + child;
   const Node found = node(index);
   const bool lost = content_->isLost(index / content_->pageRows);
-  return !lost && content_->linked(parent, row, index, found) ? found : hollowRow();
+  return !lost && content_->linked(parent, row, index, found) ? found : hollowRow;
 }
 
 RowState PagedNodeTable::peekChild(
@@ -343,7 +352,7 @@ RowState PagedNodeTable::peekChild(
   const RowState state = peek(index, found);
   if (state == RowState::Here && !content_->linked(parent, row, index, found))
   {
-    found = hollowRow();
+    found = hollowRow;
     return RowState::Lost;
   }
   return state;
@@ -364,7 +373,7 @@ RowState PagedNodeTable::peek(NodeIndex index, Node& row) const
   }
   if (content_->isLost(page))
   {
-    row = hollowRow();
+    row = hollowRow;
     return RowState::Lost;
   }
   content_->want(page);

@@ -22,6 +22,11 @@ public:
   virtual std::uint32_t pageRows() const { return nodePageRows; }
   /// Fills the page's rows, each of them sound by itself (rowFault). May wait for the disk.
   virtual Result<void> read(std::uint32_t page, NodePage& rows) const = 0;
+  /// How many pages it reads in the time of one: 1 on a disk.
+  virtual std::size_t pagesAtOnce() const { return 1; }
+  /// Several pages; `rows` has as many. An error of one leaves the others alone.
+  virtual std::vector<Result<void>> readAll(
+    const std::vector<std::uint32_t>& pages, std::vector<NodePage>& rows) const;
 };
 
 /// A node table of any size of which only the pages that were touched last are in memory.

@@ -4,6 +4,7 @@
 #include "pointfront/Codec/Checksum.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cstring>
 #include <string>
 #include <utility>
@@ -12,6 +13,10 @@ namespace pointfront
 {
 namespace
 {
+/// Blocks with at most this many unwanted bytes between them are fetched by one read: the disk
+/// and the page cache hand out whole pages anyway.
+constexpr std::uint64_t mergeGapBytes = 4096;
+
 /// Payloads lie between the header and the first section.
 std::uint64_t payloadEndOf(const StoreFooter& footer)
 {
@@ -55,7 +60,7 @@ public:
     : directory_(std::move(directory))
   {
   }
-  Result<RawBytes> fetch(std::uint32_t, std::uint32_t pointCount) const override
+  RawBytes prepare(std::uint32_t, std::uint32_t pointCount, std::vector<ByteRange>&) const override
   {
     return begun(pointCount, 0);
   }
@@ -89,12 +94,12 @@ public:
   {
   }
 
-  Result<RawBytes> fetch(std::uint32_t node, std::uint32_t pointCount) const override
+  RawBytes prepare(
+    std::uint32_t node, std::uint32_t pointCount, std::vector<ByteRange>& reads) const override
   {
     RawBytes bytes = begun(pointCount, payloadRecordBytes(blocksPerNode_));
-    Result<void> done =
-      file_.readAt(placeOf(node), bytes.data.get() + countBytes, bytes.size - countBytes);
-    return done ? Result<RawBytes>(std::move(bytes)) : done.error();
+    reads.push_back({ placeOf(node), bytes.size - countBytes, bytes.data.get() + countBytes });
+    return bytes;
   }
 
   Result<NodePayload> decode(std::uint32_t node, const RawBytes& fetched) const override
@@ -201,6 +206,36 @@ Result<std::unique_ptr<const PayloadDirectory>> openInMemory(
     std::make_unique<DirectoryInMemory>(std::move(directory)));
 }
 } // namespace
+
+BlockRuns::BlockRuns(const NodePayload& payload, const ColumnSelection& columns)
+  : blocks{ payload.blocks[0] }
+{
+  for (const std::uint32_t column : columns)
+  {
+    assert(column + 1 < payload.blocks.size());
+    blocks.push_back(payload.blocks[column + 1]);
+  }
+  for (std::size_t b = 0; b < blocks.size(); ++b)
+  {
+    const std::uint64_t end = runs.empty() ? 0 : runs.back().offset + runs.back().bytes;
+    if (runs.empty() || blocks[b].offset - end > mergeGapBytes)
+    {
+      runs.push_back({ b, b, blocks[b].offset, 0 });
+    }
+    Run& run = runs.back();
+    run.end = b + 1;
+    run.bytes = static_cast<std::size_t>(blocks[b].offset + blocks[b].bytes - run.offset);
+  }
+}
+
+Result<RawBytes> PayloadDirectory::fetch(
+  const ByteSource& file, std::uint32_t node, std::uint32_t pointCount) const
+{
+  std::vector<ByteRange> reads;
+  RawBytes bytes = prepare(node, pointCount, reads);
+  const Result<void> done = file.read(reads.data(), reads.size());
+  return done ? Result<RawBytes>(std::move(bytes)) : done.error();
+}
 
 Result<std::unique_ptr<const PayloadDirectory>> PayloadDirectory::open(const ByteSource& file,
   std::uint32_t version, const StoreFooter& footer, std::uint64_t bytesElsewhere)

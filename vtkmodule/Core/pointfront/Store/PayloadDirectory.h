@@ -23,14 +23,36 @@ struct NodePayload
   std::vector<BlockDirectory::Block> blocks;
 };
 
+/// The blocks of one node that are wanted, the positions first, and the runs of neighbours among
+/// them: a run is read as a whole.
+struct BlockRuns
+{
+  struct Run
+  {
+    std::size_t first = 0; ///< index of its first block
+    std::size_t end = 0; ///< past the last
+    std::uint64_t offset = 0; ///< in the file
+    std::size_t bytes = 0;
+  };
+  BlockRuns(const NodePayload& payload, const ColumnSelection& columns);
+
+  std::vector<BlockDirectory::Block> blocks;
+  std::vector<Run> runs;
+};
+
 /// Tells where nodes' payloads lie in the file of an open store.
 /// Threads  from any thread.
 class PayloadDirectory
 {
 public:
   virtual ~PayloadDirectory() = default;
-  /// Reads a node's bytes in the file, with the number of points of its row in front of it.
-  virtual Result<RawBytes> fetch(std::uint32_t node, std::uint32_t pointCount) const = 0;
+  /// Room for what the file says of a node, with the number of points of its row in front of it.
+  /// Appends to `reads` what is still to be read into it.
+  virtual RawBytes prepare(
+    std::uint32_t node, std::uint32_t pointCount, std::vector<ByteRange>& reads) const = 0;
+  /// The same, read.
+  Result<RawBytes> fetch(
+    const ByteSource& file, std::uint32_t node, std::uint32_t pointCount) const;
   /// Checks and reads what fetch() gave. Touches no file.
   virtual Result<NodePayload> decode(std::uint32_t node, const RawBytes& fetched) const = 0;
 

@@ -2,8 +2,7 @@
 
 #include "pointfront/Codec/ByteStream.h"
 #include "pointfront/Codec/Checksum.h"
-
-#include <filesystem>
+#include "pointfront/Disk/ByteOpeners.h"
 
 namespace pointfront
 {
@@ -74,14 +73,13 @@ std::optional<PayloadElsewhere> decodeElsewhere(const std::byte* data, std::size
   return elsewhere;
 }
 
-Result<std::unique_ptr<const InputFile>> openElsewhere(
+Result<std::shared_ptr<const ByteSource>> openElsewhere(
   const std::string& path, const PayloadElsewhere& elsewhere)
 {
-  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
   // In this order: a build that ends in between has renamed the first to the second.
   for (const std::string& name : { elsewhere.nameMeanwhile, elsewhere.storeName })
   {
-    Result<std::unique_ptr<const InputFile>> file = InputFile::open((folder / name).string());
+    Result<std::shared_ptr<const ByteSource>> file = openBytes(beside(path, name));
     if (file && holds(**file, elsewhere))
     {
       return file;

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "pointfront/Base/Result.h"
-#include "pointfront/Disk/InputFile.h"
+#include "pointfront/Disk/ByteSource.h"
 #include "pointfront/Store/BlockDirectory.h"
 
 #include <cstddef>
@@ -35,7 +35,7 @@ PayloadElsewhere describeElsewhere(PayloadElsewhere elsewhere, const BlockDirect
 /// Opens the file that the store at `path` refers to: the one being written, or what has become of
 /// it. Another file that has taken its name is told by the mark.
 /// Errors  Truncated: it is gone, because its build was killed or cancelled.
-Result<std::unique_ptr<const InputFile>> openElsewhere(
+Result<std::shared_ptr<const ByteSource>> openElsewhere(
   const std::string& path, const PayloadElsewhere& elsewhere);
 
 } // namespace pointfront

@@ -1,49 +1,28 @@
 #include "pointfront/Store/PointStore.h"
 
 #include "pointfront/Codec/Checksum.h"
-#include "pointfront/Disk/ByteSource.h"
+#include "pointfront/Disk/HeldBytes.h"
 #include "pointfront/Store/ColumnStatistics.h"
-#include "pointfront/Store/DescriptionSection.h"
-#include "pointfront/Store/NodeRangesSection.h"
-#include "pointfront/Store/PayloadDirectory.h"
-#include "pointfront/Store/PayloadElsewhere.h"
+#include "pointfront/Store/NodePage.h"
 #include "pointfront/Store/PreviewRecord.h"
-#include "pointfront/Store/StoredNodeTable.h"
+#include "pointfront/Store/StoreContent.h"
 #include "pointfront/Store/StoreFormat.h"
 #include "pointfront/Store/StoreVerification.h"
 
 #include <algorithm>
-#include <cassert>
-#include <memory>
-#include <optional>
-#include <string>
+#include <numeric>
 
 namespace pointfront
 {
-
-/// All of an open store but its points; constant once open() has returned.
-struct PointStore::Content
-{
-  std::shared_ptr<const ByteSource> file; ///< the hierarchy has a part in it
-  StoreDescription description;
-  GridBounds gridBounds;
-  std::shared_ptr<const Hierarchy> hierarchy;
-  std::unique_ptr<const PayloadDirectory> directory; ///< reads from `file`
-  std::optional<NodeRangesFile> ranges;
-  std::optional<PayloadElsewhere> elsewhere;
-  std::unique_ptr<const ByteSource> fileElsewhere; ///< with `elsewhere`, unless only looked at
-
-  const ByteSource& fileOf(const NodePayload& payload) const
-  {
-    return payload.elsewhere ? *fileElsewhere : *file;
-  }
-};
-
 namespace
 {
-/// Blocks with at most this many unwanted bytes between them are fetched by one read: the disk
-/// and the page cache hand out whole pages anyway.
-constexpr std::uint64_t mergeGapBytes = 4096;
+/// Bytes of each table of a far store that are read with its description and kept: all of a small
+/// store, the rows of the upper levels of a large one, since nodes lie breadth first.
+constexpr std::uint64_t heldTableBytes = std::uint64_t(192) * nodePageBytes;
+
+/// Bytes at its end that a far store is asked for when it is opened: in most of them they hold all
+/// that is needed before the first node.
+constexpr std::size_t tailBytes = std::size_t(256) << 10;
 
 Result<RawBytes> readSection(const ByteSource& file, const SectionEntry& section, const char* name)
 {
@@ -118,36 +97,57 @@ Result<std::optional<PayloadElsewhere>> readElsewhere(
   return elsewhere;
 }
 
-/// The blocks of one node that are wanted: the positions and the columns selected.
-std::vector<BlockDirectory::Block> wantedBlocks(
-  const NodePayload& payload, const ColumnSelection& columns)
+/// A far store with its description, its second file's name and the beginnings of its tables in
+/// memory, by one read.
+Result<std::shared_ptr<const ByteSource>> holdTables(
+  std::shared_ptr<const ByteSource> file, const StoreFooter& footer)
 {
-  std::vector<BlockDirectory::Block> blocks{ payload.blocks[0] };
-  for (const std::uint32_t column : columns)
+  std::vector<HeldBytes::Part> parts;
+  for (const SectionEntry& section : footer.sections)
   {
-    assert(column + 1 < payload.blocks.size());
-    blocks.push_back(payload.blocks[column + 1]);
+    const bool whole =
+      section.kind == SectionKind::Description || section.kind == SectionKind::Elsewhere;
+    const bool table =
+      section.kind == SectionKind::NodeTable || section.kind == SectionKind::BlockDirectory;
+    if (whole || table)
+    {
+      parts.push_back({ section.offset,
+        static_cast<std::size_t>(
+          whole ? section.bytes : std::min(section.bytes, heldTableBytes)) });
+    }
   }
-  return blocks;
+  return HeldBytes::hold(std::move(file), parts);
 }
 
-/// Past the last block of the run that begins at `first`: blocks that one read fetches.
-std::size_t runEnd(const std::vector<BlockDirectory::Block>& blocks, std::size_t first)
+/// A file and the parts of it that are read before anything else can be.
+struct OpenedFile
 {
-  std::size_t end = first + 1;
-  while (end < blocks.size() &&
-    blocks[end].offset - (blocks[end - 1].offset + blocks[end - 1].bytes) <= mergeGapBytes)
+  std::shared_ptr<const ByteSource> file;
+  StoreHeader header;
+  StoreFooter footer;
+};
+
+Result<OpenedFile> openFile(const std::string& path)
+{
+  Result<std::shared_ptr<const ByteSource>> file = openBytes(path, { storeHeaderBytes, tailBytes });
+  if (!file)
   {
-    ++end;
+    return file.error();
   }
-  return end;
+  const Result<StoreHeader> header = readHeader(**file);
+  if (!header)
+  {
+    return header.error();
+  }
+  const Result<StoreFooter> footer = readFooter(**file, *header);
+  if (!footer)
+  {
+    return footer.error();
+  }
+  file = (*file)->cost().far() ? holdTables(*file, *footer) : std::move(file);
+  return file ? Result<OpenedFile>({ *file, *header, *footer }) : file.error();
 }
 
-std::uint64_t runBytes(
-  const std::vector<BlockDirectory::Block>& blocks, std::size_t first, std::size_t end)
-{
-  return blocks[end - 1].offset + blocks[end - 1].bytes - blocks[first].offset;
-}
 /// Checks and decodes one block; what is wrong, or an empty text.
 std::string decodeFault(const BlockDirectory::Block& block, const std::byte* data,
   const BlockShape& shape, std::byte* values)
@@ -203,7 +203,7 @@ Result<std::shared_ptr<const PointStore>> PointStore::open(const std::string& pa
   if (content.elsewhere)
   {
     auto file = openElsewhere(path, *content.elsewhere);
-    content.fileElsewhere = file ? std::move(*file) : nullptr;
+    content.fileElsewhere = file ? *file : nullptr;
     whole = file ? Result<void>{} : Result<void>(file.error());
   }
   if (whole && running)
@@ -225,41 +225,31 @@ Result<std::shared_ptr<const PointStore>> PointStore::open(const std::string& pa
 
 Result<std::shared_ptr<PointStore>> PointStore::openTables(const std::string& path)
 {
-  Result<std::shared_ptr<const ByteSource>> opened = openBytes(path);
+  const Result<OpenedFile> opened = openFile(path);
   if (!opened)
   {
     return opened.error();
   }
-  const std::shared_ptr<const ByteSource> shared = *opened;
+  const auto& [shared, header, footer] = *opened;
   const ByteSource& file = *shared;
-  const Result<StoreHeader> header = readHeader(file);
-  if (!header)
-  {
-    return header.error();
-  }
-  const Result<StoreFooter> footer = readFooter(file, *header);
-  if (!footer)
-  {
-    return footer.error();
-  }
-  Result<StoredDescription> stored = readDescription(file, *header, *footer);
+  Result<StoredDescription> stored = readDescription(file, header, footer);
   if (!stored)
   {
     return stored.error();
   }
   Result<std::shared_ptr<const Hierarchy>> table =
-    openNodeTable(shared, header->version, *footer, *stored);
+    openNodeTable(shared, header.version, footer, *stored);
   if (!table)
   {
     return table.error();
   }
-  const auto elsewhere = readElsewhere(file, *header, *footer);
+  const auto elsewhere = readElsewhere(file, header, footer);
   if (!elsewhere)
   {
     return elsewhere.error();
   }
   auto directory =
-    PayloadDirectory::open(file, header->version, *footer, *elsewhere ? (*elsewhere)->bytes : 0);
+    PayloadDirectory::open(file, header.version, footer, *elsewhere ? (*elsewhere)->bytes : 0);
   if (!directory)
   {
     return directory.error();
@@ -268,17 +258,17 @@ Result<std::shared_ptr<PointStore>> PointStore::openTables(const std::string& pa
   Content& content = *store->content_;
   content.description = std::move(stored->description);
   content.description.path = path;
-  content.description.version = header->version;
-  content.description.fileBytes = header->fileBytes;
-  content.description.pointCount = footer->pointCount;
+  content.description.version = header.version;
+  content.description.fileBytes = header.fileBytes;
+  content.description.pointCount = footer.pointCount;
   content.gridBounds = stored->gridBounds;
   content.hierarchy = std::move(*table);
   content.directory = std::move(*directory);
   content.elsewhere = *elsewhere;
-  if (const SectionEntry* ranges = footer->find(SectionKind::NodeRanges))
+  if (const SectionEntry* ranges = footer.find(SectionKind::NodeRanges))
   {
     content.ranges.emplace(
-      shared, *ranges, footer->nodeCount, rangeComponents(content.description.schema));
+      shared, *ranges, footer.nodeCount, rangeComponents(content.description.schema));
   }
   content.file = shared;
   return store;
@@ -307,7 +297,7 @@ MissingRows* PointStore::missingRows() const
 
 std::size_t PointStore::storedBytes(NodeIndex node, const ColumnSelection& columns) const
 {
-  const Result<RawBytes> record = content_->directory->fetch(node, 0);
+  const Result<RawBytes> record = content_->directory->fetch(*content_->file, node, 0);
   if (!record)
   {
     return 0; // read() says why
@@ -317,13 +307,9 @@ std::size_t PointStore::storedBytes(NodeIndex node, const ColumnSelection& colum
   {
     return 0;
   }
-  const auto blocks = wantedBlocks(*payload, columns);
-  std::uint64_t sum = 0;
-  for (std::size_t first = 0; first < blocks.size(); first = runEnd(blocks, first))
-  {
-    sum += runBytes(blocks, first, runEnd(blocks, first));
-  }
-  return static_cast<std::size_t>(sum);
+  const std::vector<BlockRuns::Run> runs = BlockRuns(*payload, columns).runs;
+  return std::accumulate(runs.begin(), runs.end(), std::size_t(0),
+    [](std::size_t sum, const BlockRuns::Run& run) { return sum + run.bytes; });
 }
 
 std::uint64_t PointStore::disk() const
@@ -331,41 +317,9 @@ std::uint64_t PointStore::disk() const
   return content_->file->device();
 }
 
-Result<FetchedNode> PointStore::fetch(NodeIndex node, const ColumnSelection& columns) const
+ReadCost PointStore::readCost() const
 {
-  assert(node < content_->hierarchy->nodeCount());
-  Node row = content_->hierarchy->node(node); // waits for it
-  if (content_->hierarchy->peek(node, row) == RowState::Lost)
-  {
-    return makeError(Error::Kind::Corrupt,
-      "'" + content_->description.path + "' is damaged: the row of node " + std::to_string(node) +
-        " in the node table cannot be read; copy the file again or build the store again");
-  }
-  Result<RawBytes> record = content_->directory->fetch(node, row.pointCount);
-  if (!record)
-  {
-    return record.error();
-  }
-  const Result<NodePayload> payload = content_->directory->decode(node, *record);
-  if (!payload)
-  {
-    return payload.error();
-  }
-  const auto blocks = wantedBlocks(*payload, columns);
-  FetchedNode fetched{ node, columns, {}, record->size, row };
-  fetched.runs.push_back(std::move(*record));
-  for (std::size_t first = 0; first < blocks.size(); first = runEnd(blocks, first))
-  {
-    Result<RawBytes> run = content_->fileOf(*payload).readAt(blocks[first].offset,
-      static_cast<std::size_t>(runBytes(blocks, first, runEnd(blocks, first))));
-    if (!run)
-    {
-      return run.error();
-    }
-    fetched.bytesRead += run->size;
-    fetched.runs.push_back(std::move(*run));
-  }
-  return fetched;
+  return content_->file->cost();
 }
 
 Result<NodeColumns> PointStore::decode(const FetchedNode& fetched) const
@@ -379,15 +333,15 @@ Result<NodeColumns> PointStore::decode(const FetchedNode& fetched) const
     return payload.error();
   }
   const std::size_t points = payload->pointCount;
-  const auto blocks = wantedBlocks(*payload, columns);
+  const BlockRuns wanted(*payload, columns);
+  const auto& blocks = wanted.blocks;
   NodeColumns result = emptyColumns(node, points, columns, description.schema);
   result.origin = payload->origin;
   result.describe(fetched.row);
-  auto run = fetched.runs.begin() + 1;
-  for (std::size_t first = 0; first < blocks.size(); ++run)
+  auto bytes = fetched.runs.begin() + 1;
+  for (auto run = wanted.runs.begin(); run != wanted.runs.end(); ++run, ++bytes)
   {
-    const std::size_t end = runEnd(blocks, first);
-    for (std::size_t b = first; b < end; ++b)
+    for (std::size_t b = run->first; b < run->end; ++b)
     {
       BlockShape shape = positionShape(points);
       auto* values = reinterpret_cast<std::byte*>(result.positions.data());
@@ -396,7 +350,7 @@ Result<NodeColumns> PointStore::decode(const FetchedNode& fetched) const
         shape = columnShape(description.schema[columns[b - 1]], points);
         values = result.columns[b - 1].data();
       }
-      const std::byte* data = run->data.get() + (blocks[b].offset - blocks[first].offset);
+      const std::byte* data = bytes->data.get() + (blocks[b].offset - run->offset);
       const std::string fault = decodeFault(blocks[b], data, shape, values);
       if (!fault.empty())
       {
@@ -405,7 +359,6 @@ Result<NodeColumns> PointStore::decode(const FetchedNode& fetched) const
           blockName(description, node, block) + fault);
       }
     }
-    first = end;
   }
   return result;
 }

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace pointfront
 {
@@ -29,12 +30,15 @@ public:
   const std::shared_ptr<const Hierarchy>& hierarchy() const override;
 
   Result<FetchedNode> fetch(NodeIndex node, const ColumnSelection& columns) const override;
+  std::vector<Result<FetchedNode>> fetchAll(
+    const std::vector<WantedNode>& wanted, const ReadStop& stop) const override;
   Result<NodeColumns> decode(const FetchedNode& fetched) const override;
   std::size_t decodedBytes(
     NodeIndex node, std::uint32_t points, const ColumnSelection& columns) const override;
   MissingRows* missingRows() const override;
   std::size_t storedBytes(NodeIndex node, const ColumnSelection& columns) const override;
   std::uint64_t disk() const override;
+  ReadCost readCost() const override;
 
   Result<std::shared_ptr<const NodeRanges>> nodeRanges(
     std::uint32_t component, NodeIndex most = noNode) const override;

@@ -1,17 +1,23 @@
 #include "pointfront/Tiles/StoredCloudFormats.h"
 
+#include "pointfront/Disk/ByteOpeners.h"
 #include "pointfront/Store/PointStore.h"
 #include "pointfront/Tiles/TileFormat.h"
 
 #include <algorithm>
 #include <filesystem>
 #include <mutex>
+#include <utility>
 
 namespace pointfront
 {
 namespace
 {
 const char* const indexExtension = ".pfindex"; // `pointfront index` adds it to a file's name
+
+/// First bytes of a far file: all that most kinds need to tell which kind it is and to describe it,
+/// 30 ms of a line of 100 Mbit/s.
+constexpr FirstBytes firstOfFar{ std::size_t(64) << 10, std::size_t(256) << 10 };
 
 class StoreFile final : public StoredCloudFormat
 {
@@ -70,8 +76,18 @@ bool StoredCloudFormats::accepts(const std::string& path) const
 
 Result<std::shared_ptr<const StoredCloud>> StoredCloudFormats::open(const std::string& path) const
 {
+  std::shared_ptr<const ByteSource> held; // a source that is open is the same for all
+  if (isAddress(path))
+  {
+    Result<std::shared_ptr<const ByteSource>> source = openBytes(path, firstOfFar);
+    if (!source)
+    {
+      return source.error();
+    }
+    held = std::move(*source);
+  }
   const std::shared_ptr<const StoredCloudFormat> format = formatOf(path);
-  if (!format && std::filesystem::exists(path) && accepts(path + indexExtension))
+  if (!format && !held && std::filesystem::exists(path) && accepts(path + indexExtension))
   {
     return makeError(Error::Kind::BadFormat,
       "'" + path + "' is not a PointFront store; its index is there, name that: '" + path +

@@ -31,7 +31,7 @@ public:
   /// True if some kind takes the file by its content. Cheap, silent.
   bool accepts(const std::string& path) const;
   /// Opens with the kind that accepts the file's content. If none does, our store's reader says
-  /// why it is not a store.
+  /// why it is not a store. What lies behind an address is opened once for all who look at it.
   Result<std::shared_ptr<const StoredCloud>> open(const std::string& path) const;
 
 private:

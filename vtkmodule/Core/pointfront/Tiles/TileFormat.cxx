@@ -1,5 +1,6 @@
 #include "pointfront/Tiles/TileFormat.h"
 
+#include "pointfront/Disk/ByteOpeners.h"
 #include "pointfront/Disk/SmallFile.h"
 #include "pointfront/Store/PointStore.h"
 #include "pointfront/Tiles/TiledCloud.h"
@@ -49,12 +50,17 @@ std::vector<std::string> matching(const std::string& pattern)
   return found;
 }
 
-/// Keeps the first name of each file. How many others there were.
+/// Keeps the first name of each file, and each address once. How many others there were.
 std::size_t dropSameFiles(std::vector<std::string>& files)
 {
   std::set<std::pair<dev_t, ino_t>> seen;
-  const auto isSame = [&seen](const std::string& file)
+  std::set<std::string> addresses;
+  const auto isSame = [&](const std::string& file)
   {
+    if (isAddress(file))
+    {
+      return !addresses.insert(file).second;
+    }
     struct stat state = {};
     return ::stat(file.c_str(), &state) == 0 && !seen.insert({ state.st_dev, state.st_ino }).second;
   };
@@ -109,12 +115,12 @@ Result<std::vector<std::string>> readTileList(const std::string& path)
   {
     return names;
   }
-  const fs::path folder = fs::path(path).parent_path();
   std::vector<std::string> files;
   for (const std::string& name : *names)
   {
-    const std::string at = (folder / name).string(); // an absolute name stays as it is
-    const bool pattern = !fs::exists(at, failure) && name.find_first_of("*?[") != std::string::npos;
+    const std::string at = beside(path, name); // an absolute name or an address stays as it is
+    const bool pattern =
+      !isAddress(at) && !fs::exists(at, failure) && name.find_first_of("*?[") != std::string::npos;
     const std::vector<std::string> found = pattern ? matching(at) : std::vector<std::string>{ at };
     if (found.empty())
     {
@@ -122,7 +128,7 @@ Result<std::vector<std::string>> readTileList(const std::string& path)
     }
     for (const std::string& each : found)
     {
-      if (endsWith(each, listExtension))
+      if (endsWith(fileNameOf(each), listExtension))
       {
         return makeError(
           Error::Kind::BadFormat, path + ": names '" + each + "', a list; a list names stores");
@@ -198,9 +204,9 @@ Result<TileFolder> TileFolder::of(const std::string& folder)
 bool TileFormat::accepts(const std::string& path) const
 {
   std::error_code failure;
-  if (endsWith(path, listExtension))
+  if (endsWith(fileNameOf(path), listExtension))
   {
-    return fs::is_regular_file(path, failure);
+    return isAddress(path) || fs::is_regular_file(path, failure);
   }
   if (!fs::is_directory(path, failure) || fs::exists(fs::path(path) / "ept.json", failure))
   {
@@ -212,7 +218,7 @@ bool TileFormat::accepts(const std::string& path) const
 
 Result<std::shared_ptr<const StoredCloud>> TileFormat::open(const std::string& path) const
 {
-  if (endsWith(path, listExtension))
+  if (endsWith(fileNameOf(path), listExtension))
   {
     const Result<std::vector<std::string>> files = readTileList(path);
     return files ? TiledCloud::open(path, *files) : files.error();

@@ -9,6 +9,8 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <map>
+#include <optional>
 #include <utility>
 
 namespace pointfront
@@ -121,6 +123,10 @@ Result<std::shared_ptr<const StoredCloud>> TiledCloud::make(const std::string& p
     return described.error();
   }
   std::shared_ptr<TiledCloud> cloud(new TiledCloud(std::move(tiles), std::move(described.value())));
+  const auto far = std::find_if(cloud->tiles_.begin(), cloud->tiles_.end(),
+    [](const auto& tile) { return tile->readCost().far(); });
+  cloud->costliest_ =
+    far != cloud->tiles_.end() ? static_cast<std::size_t>(far - cloud->tiles_.begin()) : 0;
   if (Result<void> done = cloud->makeTable(overviewPoints); !done)
   {
     return done.error();
@@ -191,15 +197,56 @@ std::size_t TiledCloud::storedBytes(NodeIndex node, const ColumnSelection& colum
 Result<FetchedNode> TiledCloud::fetch(NodeIndex node, const ColumnSelection& columns) const
 {
   const TileTable::TileNode at = table_->tileNodeOf(node);
-  Result<FetchedNode> inner =
-    tiles_[at.tile]->fetch(at.node, described_.parts[at.tile].columns.own(columns));
+  return wrapped(
+    node, columns, tiles_[at.tile]->fetch(at.node, described_.parts[at.tile].columns.own(columns)));
+}
+
+Result<FetchedNode> TiledCloud::wrapped(
+  NodeIndex node, const ColumnSelection& columns, Result<FetchedNode> inner) const
+{
   if (!inner)
   {
     return inner;
   }
+  const TileTable::TileNode at = table_->tileNodeOf(node);
   FetchedNode fetched{ node, columns, {}, inner->bytesRead, table_->shifted(at, inner->row) };
   fetched.inner = std::make_shared<const FetchedNode>(std::move(*inner));
   return fetched;
+}
+
+std::vector<Result<FetchedNode>> TiledCloud::fetchAll(
+  const std::vector<WantedNode>& wanted, const ReadStop& stop) const
+{
+  struct Own
+  {
+    std::vector<WantedNode> nodes;
+    std::vector<std::size_t> places; ///< in `wanted`
+  };
+  std::map<std::size_t, Own> tiles;
+  for (std::size_t i = 0; i < wanted.size(); ++i)
+  {
+    const TileTable::TileNode at = table_->tileNodeOf(wanted[i].node);
+    Own& own = tiles[at.tile];
+    own.nodes.push_back({ at.node, described_.parts[at.tile].columns.own(wanted[i].columns) });
+    own.places.push_back(i);
+  }
+  std::vector<std::optional<Result<FetchedNode>>> found(wanted.size());
+  for (const auto& [tile, own] : tiles)
+  {
+    std::vector<Result<FetchedNode>> inner = tiles_[tile]->fetchAll(own.nodes, stop);
+    for (std::size_t i = 0; i < own.places.size(); ++i)
+    {
+      const WantedNode& want = wanted[own.places[i]];
+      found[own.places[i]] = wrapped(want.node, want.columns, std::move(inner[i]));
+    }
+  }
+  std::vector<Result<FetchedNode>> results;
+  results.reserve(found.size());
+  for (std::optional<Result<FetchedNode>>& each : found)
+  {
+    results.push_back(std::move(*each));
+  }
+  return results;
 }
 
 Result<NodeColumns> TiledCloud::decode(const FetchedNode& fetched) const

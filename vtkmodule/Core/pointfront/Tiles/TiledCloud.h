@@ -43,12 +43,17 @@ public:
   const std::shared_ptr<const Hierarchy>& hierarchy() const override { return hierarchy_; }
   std::vector<std::string> files() const override;
   Result<FetchedNode> fetch(NodeIndex node, const ColumnSelection& columns) const override;
+  /// The wanted nodes of each tile together.
+  std::vector<Result<FetchedNode>> fetchAll(
+    const std::vector<WantedNode>& wanted, const ReadStop& stop) const override;
   Result<NodeColumns> decode(const FetchedNode& fetched) const override;
   std::size_t decodedBytes(
     NodeIndex node, std::uint32_t points, const ColumnSelection& columns) const override;
   std::size_t storedBytes(NodeIndex node, const ColumnSelection& columns) const override;
-  std::uint64_t disk() const override { return tiles_.front()->disk(); }
-  /// Ranges of all tiles, in common values. Nodes of a tile that knows none may have any value.
+  /// That of the first far tile, if there is one.
+  std::uint64_t disk() const override { return costliest().disk(); }
+  ReadCost readCost() const override { return costliest().readCost(); }
+  /// Ranges over all tiles, in common values. Nodes of a tile that knows none may have any value.
   Result<std::shared_ptr<const NodeRanges>> nodeRanges(
     std::uint32_t component, NodeIndex most = noNode) const override;
   MissingRows* missingRows() const override { return table_->missingRows(); }
@@ -62,8 +67,12 @@ private:
   {
   }
   Result<void> makeTable(std::uint64_t overviewPoints);
+  const StoredCloud& costliest() const { return *tiles_[costliest_]; }
+  Result<FetchedNode> wrapped(
+    NodeIndex node, const ColumnSelection& columns, Result<FetchedNode> inner) const;
 
   Tiles tiles_;
+  std::size_t costliest_ = 0;
   TileDescription described_;
   std::shared_ptr<const TileTable> table_;
   std::shared_ptr<const Hierarchy> hierarchy_; ///< the same

@@ -4,9 +4,11 @@
 #include "KnownWords.h"
 #include "ProgressDisplay.h"
 #include "SinkFormats.h"
+#include "Values.h"
 
 #include "pointfront/Tiles/StoredCloudFormats.h"
 
+#include <cstdint>
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -21,9 +23,8 @@ void ExportCommand::declare(CLI::App& program)
 {
   app_ = program.add_subcommand("export", "Write points of a store to a point file");
   app_->add_option("store", storePath_, "The store")->required()->type_name("STORE");
-  app_->add_option("-o,--output", outputPath_, "The file to write")
-    ->required()
-    ->check(sinkExtension());
+  app_->add_option("-o,--output", outputPath_, "The file to write")->check(sinkExtension());
+  declareCOPC();
   arguments_.declare(*app_);
   app_
     ->add_option(
@@ -31,15 +32,7 @@ void ExportCommand::declare(CLI::App& program)
     ->type_name("EPSG:N|WKTFILE");
   app_->add_flag("--double", sinkChoice_.doubleCoordinates,
     "PCD: coordinates as float64, which PCL's readers of points do not take");
-  app_->final_callback(
-    [this]
-    {
-      if (sinkChoice_.doubleCoordinates && sinkKind(outputPath_) != FileKind::PCD)
-      {
-        throw CLI::ValidationError("--double",
-          "is for PCD, whose coordinates are float32 without it; other formats keep every digit");
-      }
-    });
+  app_->final_callback([this] { checkOptions(); });
   app_
     ->add_option("--color-depth", sinkChoice_.colourBits,
       "Bits of 16-bit colours to write: 8 or 16 (8 in PLY and PCD, else 16)")
@@ -48,6 +41,48 @@ void ExportCommand::declare(CLI::App& program)
   app_->add_flag("--force", replace_, "Replace an existing file of the same kind");
   app_->add_option("--progress", progress_, "On stderr: auto, plain, json or none (auto)")
     ->check(knownWords({ "auto", "plain", "json", "none" }));
+}
+
+void ExportCommand::declareCOPC()
+{
+  app_->add_option("--copc", copcPath_, "The file to write, as COPC: as -o with that name")
+    ->type_name("OUT.copc.laz")
+    ->excludes("--output");
+  addByteSize(*app_, "--memory", memoryBytes_,
+    "COPC: most memory for points; beyond it they are spilled to disk (512M)");
+  app_
+    ->add_option(
+      "--temp", sinkChoice_.temporaryFolder, "COPC: folder of temporary files (the output's own)")
+    ->type_name("DIR")
+    ->check(CLI::ExistingDirectory);
+}
+
+void ExportCommand::checkOptions()
+{
+  if (!copcPath_.empty() && !isCOPCName(copcPath_))
+  {
+    throw CLI::ValidationError("--copc", copcPath_ + ": the name of COPC ends in .copc.laz");
+  }
+  outputPath_ = copcPath_.empty() ? outputPath_ : copcPath_;
+  if (outputPath_.empty())
+  {
+    throw CLI::RequiredError("--output");
+  }
+  const FileKind kind = sinkKind(outputPath_);
+  if (sinkChoice_.doubleCoordinates && kind != FileKind::PCD)
+  {
+    throw CLI::ValidationError("--double",
+      "is for PCD, whose coordinates are float32 without it; other formats keep every digit");
+  }
+  if (kind != FileKind::COPC && (memoryBytes_ != 0 || !sinkChoice_.temporaryFolder.empty()))
+  {
+    throw CLI::ValidationError(memoryBytes_ != 0 ? "--memory" : "--temp",
+      "is for COPC, whose points are sorted; other formats are written as points come");
+  }
+  if (memoryBytes_ != 0)
+  {
+    sinkChoice_.memoryBytes = memoryBytes_;
+  }
 }
 
 Result<void> ExportCommand::checkTarget(const StoredCloud& store) const
@@ -64,7 +99,10 @@ Result<void> ExportCommand::checkTarget(const StoredCloud& store) const
 Result<std::uint64_t> ExportCommand::write(
   const StoredCloud& store, const ExportSelection& selection)
 {
-  const Result<std::unique_ptr<PointSink>> made = makeSink(outputPath_, sinkChoice_);
+  std::optional<ProgressDisplay> shown(std::in_place, *ProgressDisplay::styleOf(progress_));
+  SinkChoice choice = sinkChoice_;
+  choice.progress = shown->function();
+  const Result<std::unique_ptr<PointSink>> made = makeSink(outputPath_, choice);
   if (!made)
   {
     return made.error();
@@ -72,14 +110,14 @@ Result<std::uint64_t> ExportCommand::write(
   PointSink& sink = **made;
   std::uint64_t written = 0;
   {
-    ProgressDisplay display(*ProgressDisplay::styleOf(progress_));
-    const Result<ExportReport> report = exportStore(store, selection, sink, display.function());
+    const Result<ExportReport> report = exportStore(store, selection, sink, choice.progress);
     if (!report)
     {
       return report.error();
     }
     written = report->pointsWritten;
   }
+  shown.reset(); // its line ends before warnings begin
   for (const std::string& finding : sink.findings())
   {
     warn(name(), outputPath_ + ": " + finding);

@@ -20,6 +20,9 @@ public:
   Result<void> run() override;
 
 private:
+  void declareCOPC();
+  /// Throws what CLI11 knows as wrong usage.
+  void checkOptions();
   /// The file can be written, and is none of those that are read.
   Result<void> checkTarget(const StoredCloud& store) const;
   /// Gives how many points the file has; warns of what it could not keep.
@@ -28,7 +31,9 @@ private:
   std::string storePath_;
   std::string outputPath_;
   QueryArguments arguments_;
+  std::string copcPath_; ///< --copc, which is --output by another name
   SinkChoice sinkChoice_;
+  std::uint64_t memoryBytes_ = 0; ///< 0: not given
   bool replace_ = false;
   std::string progress_ = "auto";
 };

@@ -1,5 +1,6 @@
 #include "SinkFormats.h"
 
+#include "COPCWriter.h"
 #include "KnownSystems.h"
 #include "KnownWords.h"
 #include "LASWriter.h"
@@ -12,6 +13,7 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <utility>
 
 namespace pointfront
 {
@@ -53,6 +55,15 @@ std::unique_ptr<PointSink> makeFile(const std::string& path, const SinkChoice& c
     return std::make_unique<PCDWriter>(path,
       choice.doubleCoordinates ? PCDWriter::Coordinates::Float64 : PCDWriter::Coordinates::Float32);
   }
+  if (isCOPCName(path))
+  {
+    COPCWriter::Options options;
+    options.memoryBytes = choice.memoryBytes.value_or(options.memoryBytes);
+    options.temporaryFolder = choice.temporaryFolder;
+    options.created = choice.dated ? LASDate::today() : LASDate();
+    options.progress = choice.progress;
+    return std::make_unique<COPCWriter>(path, std::move(options));
+  }
   return std::make_unique<LASWriter>(path,
     extension == ".laz" ? LASWriter::Encoding::Laz : LASWriter::Encoding::Las,
     choice.dated ? LASDate::today() : LASDate());
@@ -72,8 +83,18 @@ Result<std::unique_ptr<PointSink>> makeSink(const std::string& path, const SinkC
                             : sinkInSystem(std::move(file), choice.crs);
 }
 
+bool isCOPCName(const std::string& path)
+{
+  const std::filesystem::path name(path);
+  return extensionOf(path) == ".laz" && extensionOf(name.stem().string()) == ".copc";
+}
+
 FileKind sinkKind(const std::string& path)
 {
+  if (isCOPCName(path))
+  {
+    return FileKind::COPC;
+  }
   const std::string extension = extensionOf(path);
   return extension == ".xyz" || extension == ".csv" ? FileKind::Text
     : extension == ".ply"                           ? FileKind::PLY
@@ -83,7 +104,7 @@ FileKind sinkKind(const std::string& path)
 
 CLI::Validator sinkExtension()
 {
-  return CLI::Validator(checkExtension, "OUT.las|.laz|.xyz|.csv|.ply|.pcd");
+  return CLI::Validator(checkExtension, "OUT.las|.laz|.copc.laz|.xyz|.csv|.ply|.pcd");
 }
 
 } // namespace pointfront

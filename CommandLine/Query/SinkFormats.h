@@ -1,10 +1,12 @@
 #pragma once
 
+#include "pointfront/Base/Progress.h"
 #include "pointfront/Export/OutputTarget.h"
 #include "pointfront/Points/PointSink.h"
 
 #include <CLI/CLI.hpp>
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -22,6 +24,9 @@ struct SinkChoice
   std::optional<unsigned> colourBits;
   bool dated = true; ///< LAS: its header tells the day
   std::string crs; ///< the system to transform into; empty: as they are
+  std::optional<std::uint64_t> memoryBytes; ///< COPC: for points that are sorted
+  std::string temporaryFolder; ///< COPC: for more points than that; empty: the file's own
+  ProgressFunction progress = {}; ///< COPC: of its end, which is half of the work
 };
 
 /// Makes the writer of a file of that name; the extension has passed the check.
@@ -29,6 +34,8 @@ struct SinkChoice
 Result<std::unique_ptr<PointSink>> makeSink(const std::string& path, const SinkChoice& choice);
 /// The kind of such a file, for checkOutputTarget().
 FileKind sinkKind(const std::string& path);
+/// Whether a name ends in .copc.laz, in any case of its letters.
+bool isCOPCName(const std::string& path);
 /// Check for an option that names such a file.
 CLI::Validator sinkExtension();
 

@@ -22,6 +22,7 @@ constexpr std::size_t mostRecordPayload = 65535;
 struct Needs
 {
   const SinkDescription& description;
+  bool copc = false;
 
   std::optional<std::size_t> column(const char* name) const
   {
@@ -43,7 +44,7 @@ struct Needs
   }
   bool modern() const
   {
-    return has("scanner_channel") || has("nir") || exceeds("classification", 31) ||
+    return copc || has("scanner_channel") || has("nir") || exceeds("classification", 31) ||
       exceeds("classification_flags", 7) || exceeds("return_number", 7) ||
       exceeds("return_count", 7);
   }
@@ -63,7 +64,7 @@ struct Needs
 int pointFormatFor(const Needs& needs)
 {
   const bool rgb = needs.has("rgb");
-  const bool wave = needs.has("wave_descriptor");
+  const bool wave = needs.has("wave_descriptor") && !needs.copc;
   if (!needs.modern())
   {
     if (wave)
@@ -179,6 +180,15 @@ MetadataRecord record(
   return { owner, id, what, std::move(payload) };
 }
 
+/// A record that a COPC file must not have, or has anew.
+bool isForeignToCOPC(const MetadataRecord& candidate)
+{
+  constexpr std::uint16_t geoTextRecord = geoKeysRecord + 2;
+  const bool geoKeys = candidate.owner == "LASF_Projection" && candidate.id >= geoKeysRecord &&
+    candidate.id <= geoTextRecord;
+  return geoKeys || candidate.owner == "copc" || candidate.owner == "laszip encoded";
+}
+
 /// CRS and the other records that came with the points, each once; the extra bytes' new.
 void collectRecords(const Needs& needs, const std::vector<Attribute>& extra, LASExport& plan)
 {
@@ -193,7 +203,8 @@ void collectRecords(const Needs& needs, const std::vector<Attribute>& extra, LAS
     {
       descriptors.push_back({ candidate.payload.data(), candidate.payload.size() });
     }
-    else if (candidate.owner != lasKeptOwner && !taken)
+    else if (candidate.owner != lasKeptOwner && !taken &&
+      !(needs.copc && isForeignToCOPC(candidate)))
     {
       all.push_back(candidate);
     }
@@ -243,7 +254,13 @@ void chooseVersion(const Needs& needs, bool extra, LASExport& plan)
       static_cast<std::uint16_t>(loadNumber<std::uint16_t>(kept->payload.data()) &
         (lasGpsStandardTime | externalWaveforms | syntheticReturns));
   }
-  if (wkt && latest)
+  plan.lostGeoKeys =
+    needs.copc && !wkt && needs.record("LASF_Projection", geoKeysRecord) != nullptr;
+  if (needs.copc)
+  {
+    plan.globalEncoding &= static_cast<std::uint16_t>(~externalWaveforms);
+  }
+  if ((wkt && latest) || needs.copc)
   {
     plan.globalEncoding |= lasWktBit;
   }
@@ -299,9 +316,10 @@ std::size_t LASExport::headerBytes() const
                            : (versionMinor == 3 ? lasHeaderBytes13 : lasHeaderBytes12);
 }
 
-Result<LASExport> LASExport::plan(const SinkDescription& description, const std::string& path)
+Result<LASExport> LASExport::plan(
+  const SinkDescription& description, const std::string& path, Formats formats)
 {
-  const Needs needs{ description };
+  const Needs needs{ description, formats == Formats::OfCOPC };
   LASExport plan;
   if (auto done = placeGrid(description, path, plan); !done)
   {

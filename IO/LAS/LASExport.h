@@ -46,6 +46,13 @@ struct LASExport
     ScalarType type = ScalarType::UInt8;
   };
 
+  /// Which point formats may be chosen.
+  enum class Formats
+  {
+    Smallest, ///< that holds all attributes, of any version
+    OfCOPC ///< 6, 7 or 8 in LAS 1.4, reference systems as WKT
+  };
+
   int versionMinor = 2;
   LASPointLayout layout;
   std::vector<std::optional<Origin>> origins; ///< one for each column of `layout`
@@ -55,9 +62,13 @@ struct LASExport
   std::vector<MetadataRecord> records; ///< written before the points
   std::vector<MetadataRecord> extendedRecords; ///< payloads above 65,535 bytes, behind them
 
+  /// OfCOPC: the reference system was known by GeoTIFF keys only, which are left out.
+  bool lostGeoKeys = false;
+
   std::size_t headerBytes() const;
   /// Errors   BadArgument with `path`: coordinates or attributes that no LAS record can hold.
-  static Result<LASExport> plan(const SinkDescription& description, const std::string& path);
+  static Result<LASExport> plan(const SinkDescription& description, const std::string& path,
+    Formats formats = Formats::Smallest);
   /// The public header block. `points` begin at `pointOffset`; `extendedOffset` is where the
   /// extended records begin, 0 if there are none.
   std::vector<std::byte> header(const LASTotals& totals, std::uint32_t recordCount,

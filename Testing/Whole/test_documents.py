@@ -16,7 +16,7 @@ USER = ROOT / "docs/user"
 
 # Commands that other tests run: what a new machine sets up, servers, installed packages.
 ELSEWHERE = ("scripts/", "cmake ", "python3 -m ", "apt-get ", "env/bin/", "pip ", "PYTHONPATH=",
-             "xvfb-run ", "p.build(", "pointfront serve", "pointfront view")
+             "xvfb-run ", "p.build(", "pointfront serve", "pointfront view", "curl ")
 
 
 def commands(path):
@@ -56,7 +56,7 @@ class Commands(ToolTest):
         self.run_file(USER / "command-line.md")
 
     def test_other_pages(self):
-        for name in ("README.md", "paraview.md", "python.md", "cmake.md"):
+        for name in ("README.md", "paraview.md", "python.md", "cmake.md", "publishing.md"):
             self.workplace = getattr(self, "workplace", None) or Workplace(self.folder)
             for begin, text in commands(USER / name):
                 with self.subTest(block=f"{name}:{begin}"):

@@ -112,8 +112,8 @@ class Outputs(ToolTest):
                                "--assume-crs", "EPSG:2154").err
             self.assertIn(".pfront", said)
         self.assertIn(".pfindex", self.refuse(1, "index", las, "-o", self.folder / "b.las").err)
-        said = self.refuse(1, "export", store, "-o", self.folder / "b.copc.laz").err
-        self.assertIn("COPC", said)
+        said = self.refuse(2, "export", store, "--copc", self.folder / "b.laz").err
+        self.assertIn(".copc.laz", said)
         self.assertEqual(self.entries(), names)
 
     def test_an_option_that_would_do_nothing_is_refused(self):

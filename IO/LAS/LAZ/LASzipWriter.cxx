@@ -9,7 +9,9 @@
 
 #include <optional>
 #include <ostream>
+#include <sstream>
 #include <streambuf>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -111,6 +113,9 @@ private:
   std::vector<std::byte> pending_;
 };
 
+/// LASzip's word for chunks that end where the writer says so: here, at the end.
+constexpr laszip_U32 variableChunks = 0xFFFFFFFFu;
+
 /// The 30 bytes of formats 6 to 10 into LASzip's point. Its old fields must repeat the flags.
 void loadPoint14(const std::byte* from, laszip_point& point)
 {
@@ -185,6 +190,18 @@ struct LASzipWriter::Handle
     laszip_destroy(laszip);
   }
 
+  Result<void> open()
+  {
+    constexpr laszip_BOOL compress = 1;
+    constexpr laszip_BOOL withoutHeader = 1;
+    opened = laszip_open_writer_stream(laszip, *stream, compress, withoutHeader) == 0;
+    if (!opened || laszip_get_point_pointer(laszip, &point) != 0)
+    {
+      return error("begin");
+    }
+    return {};
+  }
+
   Error error(const std::string& what) const
   {
     if (buffer && buffer->error())
@@ -200,7 +217,8 @@ struct LASzipWriter::Handle
 
   std::string path;
   const LASPointLayout* layout = nullptr;
-  std::unique_ptr<FileBuffer> buffer;
+  std::unique_ptr<FileBuffer> buffer; ///< or
+  std::unique_ptr<std::stringbuf> chunk; ///< in memory
   std::unique_ptr<std::ostream> stream;
   laszip_POINTER laszip = nullptr;
   laszip_point_struct* point = nullptr;
@@ -215,7 +233,8 @@ LASzipWriter::LASzipWriter(LASzipWriter&&) noexcept = default;
 LASzipWriter& LASzipWriter::operator=(LASzipWriter&&) noexcept = default;
 LASzipWriter::~LASzipWriter() = default;
 
-Result<LASzipWriter> LASzipWriter::create(const LASPointLayout& layout, const std::string& path)
+Result<LASzipWriter> LASzipWriter::create(
+  const LASPointLayout& layout, const std::string& path, Chunks chunks)
 {
   auto handle = std::make_unique<Handle>();
   handle->path = path;
@@ -227,7 +246,8 @@ Result<LASzipWriter> LASzipWriter::create(const LASPointLayout& layout, const st
   const auto format = static_cast<laszip_U8>(layout.pointFormat);
   const auto bytes = static_cast<laszip_U16>(layout.pointBytes);
   if (laszip_set_point_type_and_size(handle->laszip, format, bytes) != 0 ||
-    laszip_request_native_extension(handle->laszip, 1) != 0)
+    laszip_request_native_extension(handle->laszip, 1) != 0 ||
+    (chunks == Chunks::Variable && laszip_set_chunk_size(handle->laszip, variableChunks) != 0))
   {
     return handle->error("compress these points");
   }
@@ -251,15 +271,14 @@ Result<void> LASzipWriter::begin(OutputFile& file, std::uint64_t offset)
 {
   handle_->buffer = std::make_unique<FileBuffer>(file, offset);
   handle_->stream = std::make_unique<std::ostream>(handle_->buffer.get());
-  constexpr laszip_BOOL compress = 1;
-  constexpr laszip_BOOL withoutHeader = 1;
-  handle_->opened =
-    laszip_open_writer_stream(handle_->laszip, *handle_->stream, compress, withoutHeader) == 0;
-  if (!handle_->opened || laszip_get_point_pointer(handle_->laszip, &handle_->point) != 0)
-  {
-    return handle_->error("begin");
-  }
-  return {};
+  return handle_->open();
+}
+
+Result<void> LASzipWriter::beginChunk()
+{
+  handle_->chunk = std::make_unique<std::stringbuf>(std::ios_base::in | std::ios_base::out);
+  handle_->stream = std::make_unique<std::ostream>(handle_->chunk.get());
+  return handle_->open();
 }
 
 Result<void> LASzipWriter::append(const std::byte* records, std::size_t count)
@@ -273,7 +292,8 @@ Result<void> LASzipWriter::append(const std::byte* records, std::size_t count)
       return handle_->error("compress a point");
     }
   }
-  return handle_->buffer->error() ? Result<void>(*handle_->buffer->error()) : Result<void>();
+  const bool failed = handle_->buffer && handle_->buffer->error();
+  return failed ? Result<void>(*handle_->buffer->error()) : Result<void>();
 }
 
 Result<std::uint64_t> LASzipWriter::finish()
@@ -286,6 +306,22 @@ Result<std::uint64_t> LASzipWriter::finish()
     return handle_->error("finish");
   }
   return handle_->buffer->end();
+}
+
+/// LASzip wrote the address of a chunk table, the chunk and the table.
+Result<std::vector<std::byte>> LASzipWriter::finishChunk()
+{
+  handle_->opened = false;
+  const bool closed = laszip_close_writer(handle_->laszip) == 0;
+  const std::string text = handle_->chunk->str();
+  const auto* bytes = reinterpret_cast<const std::byte*>(text.data());
+  constexpr std::uint64_t begin = sizeof(std::uint64_t);
+  const std::uint64_t end = text.size() < begin ? 0 : loadNumber<std::uint64_t>(bytes);
+  if (!closed || end < begin || end > text.size())
+  {
+    return handle_->error("finish a chunk");
+  }
+  return std::vector<std::byte>(bytes + begin, bytes + end);
 }
 
 } // namespace pointfront

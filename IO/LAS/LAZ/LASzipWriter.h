@@ -10,18 +10,26 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace pointfront
 {
 
-/// Compresses LAS records through LASzip to the end of an OutputFile, in chunks of 50,000 points
-/// with a chunk table behind them. Header and records are the caller's.
+/// Compresses LAS records through LASzip: to the end of an OutputFile in chunks of 50,000 points
+/// with a chunk table behind them, or one chunk in memory. Header and records are the caller's.
 /// Threads   one thread.
 class LASzipWriter
 {
 public:
+  enum class Chunks
+  {
+    Fixed,
+    Variable ///< the chunk table says how many points each has
+  };
+
   /// `layout` outlives the writer.
-  static Result<LASzipWriter> create(const LASPointLayout& layout, const std::string& path);
+  static Result<LASzipWriter> create(
+    const LASPointLayout& layout, const std::string& path, Chunks chunks = Chunks::Fixed);
 
   LASzipWriter(LASzipWriter&&) noexcept;
   LASzipWriter& operator=(LASzipWriter&&) noexcept;
@@ -34,6 +42,11 @@ public:
   Result<void> append(const std::byte* records, std::size_t count);
   /// Writes the chunk table; gives the byte behind it.
   Result<std::uint64_t> finish();
+
+  /// Instead of begin() and finish(), of variable chunks: all points become one chunk, whose bytes
+  /// finishChunk() gives.
+  Result<void> beginChunk();
+  Result<std::vector<std::byte>> finishChunk();
 
 private:
   struct Handle;

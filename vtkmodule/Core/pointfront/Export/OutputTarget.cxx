@@ -82,6 +82,8 @@ const char* nameOf(FileKind kind)
       return "an index";
     case FileKind::LAS:
       return "a LAS or LAZ file";
+    case FileKind::COPC:
+      return "COPC";
     case FileKind::PLY:
       return "a PLY file";
     case FileKind::PCD:
@@ -135,9 +137,14 @@ FileKind kindOfName(const std::string& path)
 /// A name tells programs what to read a file as.
 Result<void> checkName(const OutputTarget& target)
 {
-  if (target.kind == FileKind::LAS && endsWith(target.path, ".copc.laz"))
+  const bool copc = endsWith(target.path, ".copc.laz");
+  if (target.kind == FileKind::LAS && copc)
   {
-    return refusal(target, "is named as COPC, which is not written; leave out '.copc'");
+    return refusal(target, "is named as COPC, which is not written here; leave out '.copc'");
+  }
+  if (target.kind == FileKind::COPC && !copc)
+  {
+    return refusal(target, "would be COPC; let the name end in .copc.laz");
   }
   const FileKind named = kindOfName(target.path);
   const bool cloud = target.kind == FileKind::Store || target.kind == FileKind::SideFile;
@@ -197,7 +204,7 @@ Result<void> checkOutputTarget(const OutputTarget& target, const std::vector<std
   if (state.st_size > 0)
   {
     const FileKind there = kindOf(target.path);
-    if (there != target.kind)
+    if (there != (target.kind == FileKind::COPC ? FileKind::LAS : target.kind))
     {
       return refusal(target,
         std::string("is there already and is ") + nameOf(there) + ", which " + nameOf(target.kind) +

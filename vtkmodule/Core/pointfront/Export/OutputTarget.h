@@ -14,7 +14,8 @@ enum class FileKind
 {
   Store,
   SideFile,
-  LAS, ///< LAZ too
+  LAS, ///< LAZ too, and COPC where a file is there already
+  COPC, ///< a target
   PLY,
   PCD,
   Text, ///< rows of numbers, as far as anyone can tell: text that is none of the others

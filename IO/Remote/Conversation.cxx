@@ -329,6 +329,23 @@ Result<Conversation::Verdict> Conversation::judgeStatus(
   return refused(answer.status);
 }
 
+namespace
+{
+/// One answer had the whole file: the others lie in it.
+void skipOthers(const std::vector<WantedBytes*>& missing, std::size_t whole)
+{
+  for (std::size_t i = 0; i < missing.size(); ++i)
+  {
+    if (i != whole)
+    {
+      missing[i]->size = 0;
+      missing[i]->bytes.clear();
+      missing[i]->complete = true;
+    }
+  }
+}
+} // namespace
+
 /// Asks once for all that is missing.
 Result<Conversation::Round> Conversation::ask(const std::vector<WantedBytes*>& missing,
   std::optional<RemoteIdentity>& identity, Clock::time_point deadline,
@@ -350,6 +367,12 @@ Result<Conversation::Round> Conversation::ask(const std::vector<WantedBytes*>& m
       return verdict.error();
     }
     round.news = round.news || *verdict == Verdict::Good;
+    if (missing[i]->whole)
+    {
+      skipOthers(missing, i);
+      round.again = false;
+      break;
+    }
     if (*verdict == Verdict::Again)
     {
       round.again = true;

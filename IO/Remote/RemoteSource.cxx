@@ -123,11 +123,13 @@ Result<std::shared_ptr<const RemoteSource>> RemoteSource::open(
   {
     return openOffline(std::move(conversation), std::move(cache));
   }
+  // A file that was kept is asked only whether it is still the same.
+  const bool known = cache && cache->last(conversation->place());
   // Whole blocks, so that they can be kept.
-  std::vector<WantedBytes> ends(first.tail > 0 ? 2 : 1);
-  ends[0].size = std::max<std::uint64_t>(first.head, leastHead);
+  std::vector<WantedBytes> ends(first.tail > 0 && !known ? 2 : 1);
+  ends[0].size = known ? leastHead : std::max<std::uint64_t>(first.head, leastHead);
   ends[0].size = (ends[0].size + keptBytes - 1) / keptBytes * keptBytes;
-  if (first.tail > 0)
+  if (ends.size() > 1)
   {
     ends[1].size = first.tail + (cache ? keptBytes : 0);
     ends[1].tail = true;

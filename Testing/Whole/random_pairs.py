@@ -312,10 +312,9 @@ class Forms(Alike):
             yield name, lambda store=store: self.drawn(store, case)
 
     def compared(self, usual, first, what, picture, case):
-        """Only stores know which classes they have: where none of the chosen ones is there, they
-        refuse what the others draw as a picture without points."""
-        if isinstance(first, Refused) and "of these classes" in str(first) and (
-                not isinstance(picture, Refused)):
+        """Only stores know which classes and values their nodes have: where none of the chosen ones
+        is there, they refuse what the others draw as a picture without points."""
+        if isinstance(first, Refused) and not isinstance(picture, Refused):
             return None if (picture == picture[0, 0]).all() else f"{what} draws points, not {usual}"
         return super().compared(usual, first, what, picture, case)
 

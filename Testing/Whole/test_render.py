@@ -258,7 +258,7 @@ class Refinement(SceneTest):
             "complete", "time_to_first_image_ms", "time_to_complete_ms", "points_drawn",
             "nodes_drawn", "error_px", "peak_rss_bytes", "resident_bytes", "gpu_bytes",
             "bytes_read", "attributes_read", "limited_by", "failed_nodes", "backend",
-            "picture_bytes", "classes"})
+            "picture_bytes", "classes", "requests", "bytes_fetched", "retries", "cache_hits"})
         self.assertEqual(statistics["backend"], BACKEND)
         self.assertIs(statistics["complete"], True)
         self.assertLessEqual(statistics["error_px"], 1.01)
@@ -382,7 +382,8 @@ class Refinement(SceneTest):
                 "frames", "frame_ms", "front_update_ms", "points_drawn", "resident_bytes_max",
                 "gpu_bytes_max", "gpu_budget_bytes", "budget_bytes", "bytes_read",
                 "frames_that_read_files", "loading", "backend", "rasterise_ms", "picture_bytes",
-                "empty_scene_rss_bytes", "peak_rss_bytes"})
+                "empty_scene_rss_bytes", "peak_rss_bytes",
+                "requests", "bytes_fetched", "retries", "cache_hits"})
             self.assertEqual(result["backend"], BACKEND)
             self.assertGreater(result["peak_rss_bytes"], result["empty_scene_rss_bytes"])
             self.assertEqual(result["frames"], 6)

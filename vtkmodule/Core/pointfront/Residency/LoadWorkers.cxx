@@ -167,21 +167,39 @@ std::optional<LoadScheduler::Content::Job> LoadScheduler::Content::begin(
   const NodeReader& reader = store.reader();
   Job job;
   job.store = member.store;
-  if (member.far)
+  // A node counts as loading from here on. So nothing may run out of memory before somebody sees
+  // to it that this ends.
+  job.tasks.reserve(member.far ? mostOfABatch : 1);
+  try
   {
-    job.stop = std::make_shared<ReadStop>(false);
-    job.tasks = store.beginBatch(batchBytes(reader.readCost()), mostOfABatch, job.stop);
+    if (member.far)
+    {
+      job.stop = std::make_shared<ReadStop>(false);
+      store.beginBatch(batchBytes(reader.readCost()), mostOfABatch, job.stop, job.tasks);
+    }
+    else if (std::optional<StoreNodes::Task> task = store.begin())
+    {
+      job.tasks.push_back(std::move(*task));
+    }
+    if (job.tasks.empty())
+    {
+      return std::nullopt;
+    }
+    job.ticket = member.far ? farLanes.enter(&store, reader.disk(), job.stop)
+                            : lane.enter(&store, reader.disk(), now);
   }
-  else if (std::optional<StoreNodes::Task> task = store.begin())
+  catch (...)
   {
-    job.tasks.push_back(std::move(*task));
+    for (const StoreNodes::Task& task : job.tasks)
+    {
+      if (task.node != noNode)
+      {
+        store.abandon(task);
+      }
+      store.leave(task);
+    }
+    throw;
   }
-  if (job.tasks.empty())
-  {
-    return std::nullopt;
-  }
-  job.ticket = member.far ? farLanes.enter(&store, reader.disk(), job.stop)
-                          : lane.enter(&store, reader.disk(), now);
   return job;
 }
 

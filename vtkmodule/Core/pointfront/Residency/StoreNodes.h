@@ -74,8 +74,10 @@ public:
   /// Takes what begin() takes and what comes behind it, for a source that is better read so: nodes
   /// up to `bytes` in memory or `most` of them, or one page of rows. `stop` is set when nobody
   /// wants any of them any more.
-  std::vector<Task> beginBatch(
-    std::size_t bytes, std::size_t most, const std::shared_ptr<ReadStop>& stop);
+  /// They are added to `tasks`, which has room for `most`; what was added counts as begun even if
+  /// this runs out of memory.
+  void beginBatch(std::size_t bytes, std::size_t most, const std::shared_ptr<ReadStop>& stop,
+    std::vector<Task>& tasks);
   /// A read has ended. True when there is something new: then tell() is called. A node whose read
   /// was Cancelled is as if it had never been asked for.
   bool finish(const Task& task, Result<NodeColumns> result, std::size_t bytesRead);

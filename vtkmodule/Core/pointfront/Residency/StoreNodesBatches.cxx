@@ -7,19 +7,19 @@
 namespace pointfront
 {
 
-std::vector<StoreNodes::Task> StoreNodes::beginBatch(
-  std::size_t bytes, std::size_t most, const std::shared_ptr<ReadStop>& stop)
+void StoreNodes::beginBatch(std::size_t bytes, std::size_t most,
+  const std::shared_ptr<ReadStop>& stop, std::vector<Task>& tasks)
 {
-  std::vector<Task> tasks;
-  std::optional<Task> task = begin();
-  if (!task)
+  Batch batch{ {}, stop };
+  batch.nodes.reserve(most);
   {
-    return tasks;
+    const std::lock_guard<std::mutex> lock(mutex_);
+    batches_.reserve(batches_.size() + 1);
   }
+  std::optional<Task> task = begin();
   const std::lock_guard<std::mutex> lock(mutex_);
   std::size_t sum = 0;
   bool rereads = false;
-  Batch batch{ {}, stop };
   while (task)
   {
     sum += task->bytes;
@@ -30,17 +30,16 @@ std::vector<StoreNodes::Task> StoreNodes::beginBatch(
     task.reset();
     if (rows)
     {
-      return tasks;
+      return;
     }
     const auto choice = sum < bytes && tasks.size() < most ? choose() : std::nullopt;
     // A node that gives up old points for it is read by itself.
     task = choice && !choice->inPlaceOfOld ? beginNode(*choice) : std::nullopt;
   }
-  if (!rereads) // those nodes are in memory, and so in no list of requests
+  if (!rereads && !batch.nodes.empty()) // those nodes are in memory, and so in no list of requests
   {
     batches_.push_back(std::move(batch));
   }
-  return tasks;
 }
 
 /// Under the lock. FRONT-9, for what is under way.

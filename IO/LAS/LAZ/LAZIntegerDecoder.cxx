@@ -4,69 +4,13 @@
 
 namespace pointfront
 {
-namespace
-{
-constexpr std::uint32_t minimumLength = 0x01000000u; // interval below which bytes are shifted in
-constexpr std::uint32_t bitShift = 13; // precision of bit probabilities
-constexpr std::uint32_t symbolShift = 15; // precision of symbol probabilities
-constexpr std::uint32_t integerBits = 32;
-constexpr std::uint32_t modelledBits = 8; // bits with a model; lower ones are stored
-} // namespace
-
-LAZIntegerDecoder::Model::Model(std::uint32_t symbols)
-  : counts(symbols, 1)
-  , distribution(symbols)
-  , cycle(symbols)
-{
-  update();
-  untilUpdate = cycle = (symbols + 6) >> 1;
-}
-
-void LAZIntegerDecoder::Model::update()
-{
-  const auto symbols = static_cast<std::uint32_t>(counts.size());
-  total += cycle;
-  if (total > (1u << symbolShift))
-  {
-    total = 0;
-    for (std::uint32_t& count : counts)
-    {
-      count = (count + 1) >> 1;
-      total += count;
-    }
-  }
-  const std::uint32_t scale = 0x80000000u / total;
-  std::uint32_t sum = 0;
-  for (std::uint32_t k = 0; k < symbols; ++k)
-  {
-    distribution[k] = (scale * sum) >> (31 - symbolShift);
-    sum += counts[k];
-  }
-  cycle = std::min((5 * cycle) >> 2, (symbols + 6) << 3);
-  untilUpdate = cycle;
-}
-
-void LAZIntegerDecoder::BitModel::update()
-{
-  total += cycle;
-  if (total > (1u << bitShift))
-  {
-    total = (total + 1) >> 1;
-    zeroCount = (zeroCount + 1) >> 1;
-    total += zeroCount == total ? 1 : 0;
-  }
-  zeroProbability = (zeroCount * (0x80000000u / total)) >> (31 - bitShift);
-  cycle = std::min((5 * cycle) >> 2, 64u);
-  untilUpdate = cycle;
-}
-
 LAZIntegerDecoder::LAZIntegerDecoder(ByteSpan bytes)
   : bytes_(bytes)
-  , widths_{ Model(integerBits + 1), Model(integerBits + 1) }
+  , widths_{ LAZSymbolModel(lazIntegerBits + 1), LAZSymbolModel(lazIntegerBits + 1) }
 {
-  for (std::uint32_t width = 1; width <= integerBits; ++width)
+  for (std::uint32_t width = 1; width <= lazIntegerBits; ++width)
   {
-    highBits_.emplace_back(1u << std::min(width, modelledBits));
+    highBits_.emplace_back(1u << std::min(width, lazModelledBits));
   }
   for (int i = 0; i < 4; ++i)
   {
@@ -92,7 +36,7 @@ std::uint32_t LAZIntegerDecoder::byte()
 
 void LAZIntegerDecoder::renormalise()
 {
-  while (length_ < minimumLength)
+  while (length_ < lazLeastInterval)
   {
     value_ = (value_ << 8) | byte();
     length_ <<= 8;
@@ -104,10 +48,10 @@ void LAZIntegerDecoder::renormalise()
   }
 }
 
-std::uint32_t LAZIntegerDecoder::symbol(Model& model)
+std::uint32_t LAZIntegerDecoder::symbol(LAZSymbolModel& model)
 {
   std::uint32_t upper = length_;
-  length_ >>= symbolShift;
+  length_ >>= LAZSymbolModel::shift;
   std::uint32_t lower = 0;
   std::uint32_t found = 0;
   auto end = static_cast<std::uint32_t>(model.counts.size());
@@ -136,9 +80,9 @@ std::uint32_t LAZIntegerDecoder::symbol(Model& model)
   return found;
 }
 
-std::uint32_t LAZIntegerDecoder::bit(BitModel& model)
+std::uint32_t LAZIntegerDecoder::bit(LAZBitModel& model)
 {
-  const std::uint32_t bound = model.zeroProbability * (length_ >> bitShift);
+  const std::uint32_t bound = model.zeroProbability * (length_ >> LAZBitModel::shift);
   const bool one = value_ >= bound;
   if (one)
   {
@@ -175,21 +119,21 @@ std::uint32_t LAZIntegerDecoder::bits(std::uint32_t count)
 
 /// The difference lies in [-(2^w - 1), 2^w], outside the interval of the next smaller width w.
 /// Arithmetic is modulo 2^32, as the encoder's.
-std::uint32_t LAZIntegerDecoder::difference(Model& widthModel)
+std::uint32_t LAZIntegerDecoder::difference(LAZSymbolModel& widthModel)
 {
   const std::uint32_t width = symbol(widthModel);
   if (width == 0)
   {
     return bit(zeroOrOne_);
   }
-  if (width >= integerBits)
+  if (width >= lazIntegerBits)
   {
     return 0x80000000u;
   }
   std::uint32_t position = symbol(highBits_[width - 1]);
-  if (width > modelledBits)
+  if (width > lazModelledBits)
   {
-    const std::uint32_t lowBits = width - modelledBits;
+    const std::uint32_t lowBits = width - lazModelledBits;
     position = (position << lowBits) | bits(lowBits);
   }
   return position >= (1u << (width - 1)) ? position + 1 : position - ((1u << width) - 1);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "LASBytes.h"
+#include "LAZIntegerModel.h"
 
 #include <array>
 #include <cstdint>
@@ -25,35 +26,10 @@ public:
   std::optional<std::uint32_t> next(std::uint32_t prediction, int context);
 
 private:
-  /// Probabilities of a small alphabet, learnt while decoding.
-  struct Model
-  {
-    explicit Model(std::uint32_t symbols);
-    void update();
-
-    std::vector<std::uint32_t> counts;
-    std::vector<std::uint32_t> distribution;
-    std::uint32_t total = 0;
-    std::uint32_t cycle = 0;
-    std::uint32_t untilUpdate = 0;
-  };
-
-  /// The same for one bit.
-  struct BitModel
-  {
-    void update();
-
-    std::uint32_t zeroCount = 1;
-    std::uint32_t total = 2;
-    std::uint32_t zeroProbability = 1u << 12;
-    std::uint32_t cycle = 4;
-    std::uint32_t untilUpdate = 4;
-  };
-
-  std::uint32_t symbol(Model& model);
-  std::uint32_t bit(BitModel& model);
+  std::uint32_t symbol(LAZSymbolModel& model);
+  std::uint32_t bit(LAZBitModel& model);
   std::uint32_t bits(std::uint32_t count);
-  std::uint32_t difference(Model& width);
+  std::uint32_t difference(LAZSymbolModel& width);
   void renormalise();
   std::uint32_t byte();
 
@@ -62,9 +38,9 @@ private:
   bool sound_ = true;
   std::uint32_t value_ = 0;
   std::uint32_t length_ = 0xFFFFFFFFu;
-  std::array<Model, 2> widths_; ///< how many bits a difference has, for each context
-  BitModel zeroOrOne_; ///< differences of width 0
-  std::vector<Model> highBits_; ///< upper bits of a difference, for each width from 1
+  std::array<LAZSymbolModel, 2> widths_; ///< how many bits a difference has, for each context
+  LAZBitModel zeroOrOne_; ///< differences of width 0
+  std::vector<LAZSymbolModel> highBits_; ///< upper bits of a difference, for each width from 1
 };
 
 } // namespace pointfront

@@ -7,13 +7,6 @@ namespace pointfront
 {
 namespace
 {
-constexpr std::uint32_t minimumLength = 0x01000000u; // interval below which bytes are shifted out
-constexpr std::uint32_t bitShift = 13; // precision of bit probabilities
-constexpr std::uint32_t symbolShift = 15; // precision of symbol probabilities
-constexpr std::uint32_t integerBits = 32;
-constexpr std::uint32_t modelledBits =
-  8; // the upper bits of a difference; those below are as they are
-
 /// The smallest width w so that `difference` lies in [-(2^w - 1), 2^w].
 std::uint32_t widthOf(std::int32_t difference)
 {
@@ -28,59 +21,12 @@ std::uint32_t widthOf(std::int32_t difference)
 }
 } // namespace
 
-LAZIntegerEncoder::Model::Model(std::uint32_t symbols)
-  : counts(symbols, 1)
-  , distribution(symbols)
-  , cycle(symbols)
-{
-  update();
-  untilUpdate = cycle = (symbols + 6) >> 1;
-}
-
-void LAZIntegerEncoder::Model::update()
-{
-  const auto symbols = static_cast<std::uint32_t>(counts.size());
-  total += cycle;
-  if (total > (1u << symbolShift))
-  {
-    total = 0;
-    for (std::uint32_t& count : counts)
-    {
-      count = (count + 1) >> 1;
-      total += count;
-    }
-  }
-  const std::uint32_t scale = 0x80000000u / total;
-  std::uint32_t sum = 0;
-  for (std::uint32_t k = 0; k < symbols; ++k)
-  {
-    distribution[k] = (scale * sum) >> (31 - symbolShift);
-    sum += counts[k];
-  }
-  cycle = std::min((5 * cycle) >> 2, (symbols + 6) << 3);
-  untilUpdate = cycle;
-}
-
-void LAZIntegerEncoder::BitModel::update()
-{
-  total += cycle;
-  if (total > (1u << bitShift))
-  {
-    total = (total + 1) >> 1;
-    zeroCount = (zeroCount + 1) >> 1;
-    total += zeroCount == total ? 1 : 0;
-  }
-  zeroProbability = (zeroCount * (0x80000000u / total)) >> (31 - bitShift);
-  cycle = std::min((5 * cycle) >> 2, 64u);
-  untilUpdate = cycle;
-}
-
 LAZIntegerEncoder::LAZIntegerEncoder()
-  : widths_{ Model(integerBits + 1), Model(integerBits + 1) }
+  : widths_{ LAZSymbolModel(lazIntegerBits + 1), LAZSymbolModel(lazIntegerBits + 1) }
 {
-  for (std::uint32_t width = 1; width <= integerBits; ++width)
+  for (std::uint32_t width = 1; width <= lazIntegerBits; ++width)
   {
-    highBits_.emplace_back(1u << std::min(width, modelledBits));
+    highBits_.emplace_back(1u << std::min(width, lazModelledBits));
   }
 }
 
@@ -104,7 +50,7 @@ void LAZIntegerEncoder::advance(std::uint32_t step)
 
 void LAZIntegerEncoder::renormalise()
 {
-  while (length_ < minimumLength)
+  while (length_ < lazLeastInterval)
   {
     bytes_.push_back(static_cast<std::byte>(base_ >> 24));
     base_ <<= 8;
@@ -112,9 +58,9 @@ void LAZIntegerEncoder::renormalise()
   }
 }
 
-void LAZIntegerEncoder::symbol(Model& model, std::uint32_t value)
+void LAZIntegerEncoder::symbol(LAZSymbolModel& model, std::uint32_t value)
 {
-  const std::uint32_t unit = length_ >> symbolShift;
+  const std::uint32_t unit = length_ >> LAZSymbolModel::shift;
   const std::uint32_t lower = unit * model.distribution[value];
   const bool last = value + 1 == model.counts.size();
   const std::uint32_t upper = last ? length_ : unit * model.distribution[value + 1];
@@ -128,9 +74,9 @@ void LAZIntegerEncoder::symbol(Model& model, std::uint32_t value)
   }
 }
 
-void LAZIntegerEncoder::bit(BitModel& model, bool one)
+void LAZIntegerEncoder::bit(LAZBitModel& model, bool one)
 {
-  const std::uint32_t bound = model.zeroProbability * (length_ >> bitShift);
+  const std::uint32_t bound = model.zeroProbability * (length_ >> LAZBitModel::shift);
   if (one)
   {
     advance(bound);
@@ -171,13 +117,13 @@ void LAZIntegerEncoder::add(std::uint32_t prediction, std::uint32_t integer, int
     bit(zeroOrOne_, difference == 1);
     return;
   }
-  if (width >= integerBits)
+  if (width >= lazIntegerBits)
   {
     return; // there is one such difference
   }
   const auto plain = static_cast<std::uint32_t>(difference);
   const std::uint32_t position = difference < 0 ? plain + ((1u << width) - 1) : plain - 1;
-  const std::uint32_t lowBits = width > modelledBits ? width - modelledBits : 0;
+  const std::uint32_t lowBits = width > lazModelledBits ? width - lazModelledBits : 0;
   symbol(highBits_[width - 1], position >> lowBits);
   if (lowBits > 0)
   {
@@ -188,9 +134,9 @@ void LAZIntegerEncoder::add(std::uint32_t prediction, std::uint32_t integer, int
 /// As few bytes of the interval as tell it apart, then what the decoder reads ahead.
 std::vector<std::byte> LAZIntegerEncoder::finish()
 {
-  const bool wide = length_ > 2 * minimumLength;
-  advance(wide ? minimumLength : minimumLength >> 1);
-  length_ = wide ? minimumLength >> 1 : minimumLength >> 9;
+  const bool wide = length_ > 2 * lazLeastInterval;
+  advance(wide ? lazLeastInterval : lazLeastInterval >> 1);
+  length_ = wide ? lazLeastInterval >> 1 : lazLeastInterval >> 9;
   renormalise();
   bytes_.resize(bytes_.size() + (wide ? 3 : 2));
   return std::move(bytes_);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "LAZIntegerModel.h"
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -22,33 +24,8 @@ public:
   std::vector<std::byte> finish();
 
 private:
-  /// Probabilities of a small alphabet, learnt while encoding.
-  struct Model
-  {
-    explicit Model(std::uint32_t symbols);
-    void update();
-
-    std::vector<std::uint32_t> counts;
-    std::vector<std::uint32_t> distribution;
-    std::uint32_t total = 0;
-    std::uint32_t cycle = 0;
-    std::uint32_t untilUpdate = 0;
-  };
-
-  /// The same for one bit.
-  struct BitModel
-  {
-    void update();
-
-    std::uint32_t zeroCount = 1;
-    std::uint32_t total = 2;
-    std::uint32_t zeroProbability = 1u << 12;
-    std::uint32_t cycle = 4;
-    std::uint32_t untilUpdate = 4;
-  };
-
-  void symbol(Model& model, std::uint32_t value);
-  void bit(BitModel& model, bool one);
+  void symbol(LAZSymbolModel& model, std::uint32_t value);
+  void bit(LAZBitModel& model, bool one);
   void bits(std::uint32_t value, std::uint32_t count);
   void advance(std::uint32_t step);
   void renormalise();
@@ -56,9 +33,9 @@ private:
   std::vector<std::byte> bytes_;
   std::uint32_t base_ = 0;
   std::uint32_t length_ = 0xFFFFFFFFu;
-  std::array<Model, 2> widths_;
-  BitModel zeroOrOne_;
-  std::vector<Model> highBits_;
+  std::array<LAZSymbolModel, 2> widths_;
+  LAZBitModel zeroOrOne_;
+  std::vector<LAZSymbolModel> highBits_;
 };
 
 } // namespace pointfront

@@ -14,6 +14,9 @@ option(POINTFRONT_TEST_KERNEL "Test the kernel, the readers and the tool" ON)
 
 find_program(POINTFRONT_XVFB_RUN xvfb-run)
 
+# Here, not in a function: the module keeps its script in a variable of the scope that includes it.
+include(GoogleTest)
+
 # Where tests write: a folder for each build tree, since the same tests of several trees run at one
 # time, and one for each program that draws.
 set(pointfront_test_files "${CMAKE_BINARY_DIR}/Testing/Files")
@@ -147,7 +150,6 @@ endfunction ()
 function (pointfront_add_unit_tests library)
   cmake_parse_arguments(PARSE_ARGV 1 test "KNOWS_DATA" "PREFIX" "SOURCES;LINK;INCLUDE;DISCOVER")
   find_package(GTest REQUIRED)
-  include(GoogleTest)
   if (NOT test_SOURCES)
     file(GLOB test_SOURCES CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*.cxx")
   endif ()
@@ -171,7 +173,6 @@ endfunction ()
 function (pointfront_add_module_test name)
   cmake_parse_arguments(PARSE_ARGV 1 test "" "" "MODULES;SUITES;READS_DATA;MEASURES")
   find_package(GTest REQUIRED)
-  include(GoogleTest)
   file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/Cxx/*.cxx")
   add_executable(${name} ${sources})
   pointfront_compile_by_folder(${name} TESTS)

@@ -114,11 +114,9 @@ Result<FrameRecord> RenderCommand::draw(StoreScene& scene)
 /// Says why the last frame is incomplete; one without a point is no picture of a cloud.
 Result<void> RenderCommand::judge(const FrameRecord& last) const
 {
-  if (frames_ == 0 && last.points == 0)
+  if (frames_ == 0 && last.complete && !last.showsPoints)
   {
-    return makeError(Error::Kind::BadArgument,
-      "no point is in the picture, which is not written; "
-      "look elsewhere (--camera, --view), or choose other points");
+    return noPointShown();
   }
   if (frames_ == 0 && !last.complete)
   {

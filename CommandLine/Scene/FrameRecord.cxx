@@ -25,6 +25,7 @@ void FrameRecord::add(const FrameRecord& part)
   thresholdPx = std::max(thresholdPx, part.thresholdPx);
   errorPx = std::max(errorPx, part.errorPx);
   complete = complete && part.complete;
+  showsPoints = showsPoints || part.showsPoints;
   limitedByPoints = limitedByPoints || part.limitedByPoints;
   limitedByGpu = limitedByGpu || part.limitedByGpu;
   limitedByMemory = limitedByMemory || part.limitedByMemory;
@@ -34,6 +35,13 @@ void FrameRecord::add(const FrameRecord& part)
   threadReadBytes += part.threadReadBytes;
   bytesRead = part.bytesRead;
   cancelled = part.cancelled;
+}
+
+Error noPointShown()
+{
+  return makeError(Error::Kind::BadArgument,
+    "no point is in the picture, which is not written; "
+    "look elsewhere (--camera, --view), or choose other points");
 }
 
 void countClasses(

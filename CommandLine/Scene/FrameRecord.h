@@ -1,5 +1,6 @@
 #pragma once
 
+#include "pointfront/Base/Result.h"
 #include "pointfront/Store/StoredCloud.h"
 
 #include <cstdint>
@@ -27,6 +28,9 @@ struct FrameRecord
   double thresholdPx = 0.0; ///< largest
   double errorPx = 0.0; ///< largest
   bool complete = false; ///< no further frame will change the picture
+  /// A complete picture shows a point in a pixel at least. Points that were drawn may all be hidden
+  /// by a condition, or lie beside the view.
+  bool showsPoints = false;
   bool limitedByPoints = false; ///< --point-budget kept the error above --error
   bool limitedByGpu = false; ///< --gpu-memory did
   bool limitedByMemory = false; ///< --memory did
@@ -41,6 +45,9 @@ struct FrameRecord
   /// error counts, and what is in memory is what is now.
   void add(const FrameRecord& part);
 };
+
+/// A complete picture without a point (FrameRecord::showsPoints) is none.
+Error noPointShown();
 
 /// Adds the points of a store's layers, where each layer is a class.
 void countClasses(

@@ -132,6 +132,7 @@ Result<FrameRecord> OffscreenScene::render(bool complete)
     return heard.error();
   }
   FrameRecord frame = stores_.record();
+  frame.showsPoints = complete && showsPoints(window_);
   frame.milliseconds = taken.count();
   frame.threadReadBytes = reads_.since();
   return frame;

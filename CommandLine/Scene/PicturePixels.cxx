@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace pointfront
@@ -23,6 +24,12 @@ void putBackground(const std::array<double, 3>& colour, SoftwareTarget& target)
     }
     bytes[3] = 255;
   }
+}
+
+bool showsPoints(const SoftwareTarget& target)
+{
+  return std::any_of(target.depth.begin(), target.depth.end(),
+    [](float depth) { return depth < std::numeric_limits<float>::infinity(); });
 }
 
 Result<void> appendRows(PNGWriter& png, const SoftwareTarget& target, int bottom, int top)

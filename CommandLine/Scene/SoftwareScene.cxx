@@ -201,6 +201,7 @@ Result<FrameRecord> SoftwareScene::render(bool complete)
   const auto begin = Clock::now();
   FrameRecord frame = updateFronts(viewOf(camera_), complete);
   drawPart(*rasteriser_, { 0, 0, camera_.width, camera_.height }, frame);
+  frame.showsPoints = complete && showsPoints(target_);
   if (const Result<void> fine = stores_.outcome(); !fine)
   {
     return fine.error();
@@ -284,7 +285,7 @@ Result<FrameRecord> SoftwareScene::renderInBands(const std::string& path)
       return fine.error();
     }
   }
-  if (Result<void> written = (*png)->finish(); !written)
+  if (Result<void> written = whole.showsPoints ? (*png)->finish() : noPointShown(); !written)
   {
     return written.error();
   }
@@ -303,6 +304,7 @@ Result<FrameRecord> SoftwareScene::renderBand(
   const int top = std::min(camera_.height, rows.top + reach);
   FrameRecord frame = updateFronts(viewOfRows(camera_, bottom, top), true);
   drawPart(rasteriser, rows, frame);
+  frame.showsPoints = showsPoints(target_);
   rasteriser.release(); // it holds what it has drawn, and the next band needs the memory
   for (std::size_t i = 0; i < stores_.count(); ++i)
   {

@@ -82,6 +82,41 @@ class Backends(SceneTest):
                 alike = (abs(mine - other).max(axis=2) <= TOLERANCE).mean()
                 self.assertGreaterEqual(alike, LEAST_ALIKE, what)
 
+    def test_pictures_without_a_point(self):
+        """Of clouds in place nobody knows before what their nodes have; of stores that points lie
+        beside the view, or meet two conditions apart."""
+        las, png = self.folder / "points.las", self.folder / "x.png"
+        shutil.copyfile(DATA / "las/real/autzen_trim.las", las)
+        self.succeed("index", las)
+        index = self.folder / "points.las.pfindex"
+        store = self.build(las)
+        bounds = self.succeed("info", store, "--json").json["bounds"]
+        # Centimetres between points: a node's sphere is in view, and no point.
+        beside, at = self.folder / "beside.json", [bounds[0] + 1, bounds[1] + 1, bounds[5]]
+        beside.write_text(json.dumps({
+            "position": [*at[:2], at[2] + 10], "view_up": [0, 1, 0], "focal_point": at,
+            "parallel_scale": 0.02}))
+        # What is translucent is there.
+        style = self.folder / "style.json"
+        style.write_text('{"default": {"opacity": 0.01}}')
+
+        def refused(cloud, *arguments):
+            told = self.refuse(1, "render", cloud, "-o", png, *arguments).err
+            self.assertRegex(told, "no point is in the picture|no store here has a point")
+            self.assertFalse(png.exists())
+
+        for backend in ("software", "opengl"):
+            small = ("--size", "64x48", "--backend", backend)
+            for cloud in (index, store, DATA / "copc/1.2-with-color.copc.laz",
+                          DATA / "ept/lone-star-laszip"):
+                for filtered in (("--classes", "77"), ("--where", "x < 0"),
+                                 ("--where", "intensity < 1 and intensity > 1")):
+                    refused(cloud, *filtered, *small)
+            refused(store, "--camera", beside, *small)
+            self.succeed("render", store, "-o", self.folder / f"{backend}.png", "--style", style,
+                         *small)
+        refused(index, "--where", "x < 0", "--size", "1200x900", "--memory", "16M")  # in bands
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -47,10 +47,10 @@ milliseconds askedPause(const HttpAnswer& answer)
     milliseconds(1000 * std::clamp(seconds, 0L, 3600L)), milliseconds(0), longestAskedPause);
 }
 
-/// Waits, and looks ten times a second whether it is cancelled.
+/// Waits, and looks again and again whether it is cancelled.
 void pauseFor(milliseconds pause, Clock::time_point deadline, const std::atomic<bool>& cancelled)
 {
-  constexpr milliseconds step{ 100 };
+  constexpr milliseconds step{ 25 };
   const Clock::time_point end = std::min(deadline, Clock::now() + pause);
   while (!cancelled && Clock::now() < end)
   {
@@ -265,8 +265,6 @@ Result<Conversation::Verdict> Conversation::judge(
   using Outcome = HttpAnswer::Outcome;
   switch (answer.outcome)
   {
-    case Outcome::Cancelled:
-      return Verdict::Again; // who asks looks at the time
     case Outcome::TooMuch:
       return failed(Error::Kind::Unreadable,
         answer.status == 200
@@ -280,6 +278,7 @@ Result<Conversation::Verdict> Conversation::judge(
         return failed(Error::Kind::Unreadable, "cannot be reached: " + answer.text);
       }
       return Verdict::Again;
+    case Outcome::Cancelled: // who asks looks at the time
     case Outcome::Broken:
       // The bytes in front of the break are right.
       return answer.status == 206 ? takePart(answer, wanted, identity)
@@ -348,7 +347,7 @@ void skipOthers(const std::vector<WantedBytes*>& missing, std::size_t whole)
 
 /// Asks once for all that is missing.
 Result<Conversation::Round> Conversation::ask(const std::vector<WantedBytes*>& missing,
-  std::optional<RemoteIdentity>& identity, Clock::time_point deadline,
+  std::optional<RemoteIdentity>& identity, ReadPatience& patience,
   const std::atomic<bool>& cancelled) const
 {
   TransferLoop& loop = TransferLoop::ofProcess();
@@ -357,8 +356,9 @@ Result<Conversation::Round> Conversation::ask(const std::vector<WantedBytes*>& m
   {
     questions.push_back(questionFor(*one, identity));
   }
-  std::vector<HttpAnswer> answers = loop.run(line(), questions, deadline, cancelled);
+  std::vector<HttpAnswer> answers = loop.run(line(), questions, patience, cancelled);
   Round round;
+  bool refused = false;
   for (std::size_t i = 0; i < answers.size(); ++i)
   {
     const Result<Verdict> verdict = judge(answers[i], *missing[i], identity);
@@ -381,8 +381,12 @@ Result<Conversation::Round> Conversation::ask(const std::vector<WantedBytes*>& m
         ? "the server answers " + std::to_string(answers[i].status)
         : answers[i].text.empty() ? round.reason
                                   : answers[i].text;
-      loop.noteRefusal(line());
+      refused = refused || answers[i].outcome != HttpAnswer::Outcome::Cancelled;
     }
+  }
+  if (refused)
+  {
+    loop.noteRefusal(line());
   }
   if (round.news)
   {
@@ -395,7 +399,7 @@ Result<Conversation::Round> Conversation::ask(const std::vector<WantedBytes*>& m
 Result<void> Conversation::fetch(std::vector<WantedBytes>& wanted,
   std::optional<RemoteIdentity>& identity, const std::atomic<bool>& cancelled) const
 {
-  const Clock::time_point deadline = Clock::now() + options_.timeLimit;
+  ReadPatience patience(options_.timeLimit, Clock::now());
   milliseconds pause = options_.firstPause;
   std::string reason = "no answer";
   for (unsigned tries = 0;;)
@@ -412,28 +416,31 @@ Result<void> Conversation::fetch(std::vector<WantedBytes>& wanted,
     {
       return {};
     }
-    const Result<Round> round = ask(missing, identity, deadline, cancelled);
+    const Result<Round> round = ask(missing, identity, patience, cancelled);
     if (!round)
     {
       return round.error();
     }
     if (cancelled)
     {
-      return failed(Error::Kind::Cancelled, "is closed");
+      return failed(Error::Kind::Cancelled, "is not wanted any more");
     }
     tries = round->news ? 0 : tries;
-    reason = round->reason.empty() ? reason : round->reason;
+    const bool late = patience.over(Clock::now());
+    reason = !round->reason.empty()  ? round->reason
+      : late && patience.bytes() > 0 ? "less than 1 KiB a second comes"
+                                     : reason;
     if (!round->again)
     {
       continue;
     }
-    if (Clock::now() >= deadline || ++tries > options_.retries)
+    if (late || ++tries > options_.retries)
     {
       return failed(Error::Kind::Unreadable,
         "cannot be read at the moment: " + reason + "; check the network and try again");
     }
     TransferLoop::ofProcess().noteRetry();
-    pauseFor(std::max(round->askedPause, jittered(pause)), deadline, cancelled);
+    pauseFor(std::max(round->askedPause, jittered(pause)), patience.deadline(), cancelled);
     pause = std::min(2 * pause, longestPause);
   }
 }

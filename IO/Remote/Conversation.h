@@ -1,5 +1,6 @@
 #pragma once
 
+#include "ReadPatience.h"
 #include "RemoteOptions.h"
 
 #include "pointfront/Base/Result.h"
@@ -50,7 +51,9 @@ public:
   {
   }
 
-  /// All parts, or an error. Without a known identity, that of the first answer is taken.
+  /// All parts, or an error. After Cancelled, which comes soon after `cancelled` is set, some parts
+  /// may be there, or the beginnings of some. Without a known identity, that of the first answer is
+  /// taken.
   Result<void> fetch(std::vector<WantedBytes>& wanted, std::optional<RemoteIdentity>& identity,
     const std::atomic<bool>& cancelled) const;
   /// The line of the TransferLoop.
@@ -75,7 +78,7 @@ private:
     std::string reason;
   };
   Result<Round> ask(const std::vector<WantedBytes*>& missing,
-    std::optional<RemoteIdentity>& identity, std::chrono::steady_clock::time_point deadline,
+    std::optional<RemoteIdentity>& identity, ReadPatience& patience,
     const std::atomic<bool>& cancelled) const;
   HttpQuestion questionFor(
     const WantedBytes& wanted, const std::optional<RemoteIdentity>& identity) const;

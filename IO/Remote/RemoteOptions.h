@@ -14,7 +14,7 @@ namespace pointfront
 /// How a process reads from servers.
 struct RemoteOptions
 {
-  std::chrono::milliseconds timeLimit{ 60000 }; ///< for one read, with all its retries
+  std::chrono::milliseconds timeLimit{ 60000 }; ///< for a read while (nearly) no bytes come
   unsigned retries = 12; ///< retries of a request
   std::chrono::milliseconds firstPause{ 100 }; ///< before a retry; it doubles, and is jittered
   unsigned redirects = 8;

@@ -31,11 +31,8 @@ std::uint64_t gapOf(const ReadCost& cost)
   return static_cast<std::uint64_t>(std::clamp(bytes, leastGap, largestGap));
 }
 
-struct Interval
-{
-  std::uint64_t first = 0;
-  std::uint64_t end = 0;
-};
+/// The first byte, and the one behind the last.
+using Interval = std::pair<std::uint64_t, std::uint64_t>;
 
 /// kept: whole blocks of the cache on the disk.
 Interval neededFor(const ByteRange& range, std::uint64_t fileBytes, bool kept)
@@ -43,8 +40,8 @@ Interval neededFor(const ByteRange& range, std::uint64_t fileBytes, bool kept)
   Interval needed{ range.offset, range.offset + range.size };
   const std::uint64_t step = range.size <= smallRead ? blockBytes : kept ? keptBytes : 1;
   needed.first = needed.first / step * step;
-  needed.end = (needed.end + step - 1) / step * step;
-  needed.end = std::min(needed.end, fileBytes);
+  needed.second = (needed.second + step - 1) / step * step;
+  needed.second = std::min(needed.second, fileBytes);
   return needed;
 }
 
@@ -56,9 +53,9 @@ std::vector<WantedBytes> requestsFor(std::vector<Interval> needed, std::uint64_t
   std::vector<Interval> merged;
   for (const Interval& one : needed)
   {
-    if (!merged.empty() && one.first <= merged.back().end + gap)
+    if (!merged.empty() && one.first <= merged.back().second + gap)
     {
-      merged.back().end = std::max(merged.back().end, one.end);
+      merged.back().second = std::max(merged.back().second, one.second);
     }
     else
     {
@@ -68,7 +65,7 @@ std::vector<WantedBytes> requestsFor(std::vector<Interval> needed, std::uint64_t
   std::vector<WantedBytes> requests;
   for (const Interval& one : merged)
   {
-    const std::uint64_t size = one.end - one.first;
+    const std::uint64_t size = one.second - one.first;
     const std::uint64_t parts = (size + largestPiece - 1) / largestPiece;
     for (std::uint64_t part = 0; part < parts; ++part)
     {
@@ -194,14 +191,14 @@ bool RemoteSource::takeHeld(const ByteRange& range) const
   }
   const std::lock_guard<std::mutex> lock(mutex_);
   const Interval needed = neededFor(range, bytes(), cache_ != nullptr);
-  for (std::uint64_t at = needed.first; at < needed.end; at += blockBytes)
+  for (std::uint64_t at = needed.first; at < needed.second; at += blockBytes)
   {
     if (blocks_.count(at) == 0)
     {
       return false;
     }
   }
-  for (std::uint64_t at = needed.first; at < needed.end; at += blockBytes)
+  for (std::uint64_t at = needed.first; at < needed.second; at += blockBytes)
   {
     copyFrom(blocks_.at(at), range.offset, range.size, range.target);
   }
@@ -236,6 +233,12 @@ void RemoteSource::keepBlocks(const WantedBytes& piece, const Interval64& needed
 
 Result<void> RemoteSource::read(const ByteRange* ranges, std::size_t count) const
 {
+  return readUntil(ReadStop{ false }, ranges, count);
+}
+
+Result<void> RemoteSource::readUntil(
+  const ReadStop& stop, const ByteRange* ranges, std::size_t count) const
+{
   std::vector<const ByteRange*> missing;
   std::vector<Interval> needed;
   for (std::size_t i = 0; i < count; ++i)
@@ -268,10 +271,16 @@ Result<void> RemoteSource::read(const ByteRange* ranges, std::size_t count) cons
     return makeError(Error::Kind::Unreadable,
       "'" + path() + "' is in the cache in part only, and no server is asked (offline)");
   }
+  return ask(missing, needed, stop);
+}
+
+Result<void> RemoteSource::ask(const std::vector<const ByteRange*>& missing,
+  const std::vector<Interval64>& needed, const ReadStop& stop) const
+{
   std::vector<WantedBytes> pieces = requestsFor(needed, gapOf(cost()));
   std::optional<RemoteIdentity> identity = identity_;
-  const std::atomic<bool> cancelled{ false };
-  if (Result<void> done = conversation_->fetch(pieces, identity, cancelled); !done)
+  const Result<void> done = conversation_->fetch(pieces, identity, stop);
+  if (!done && done.error().kind != Error::Kind::Cancelled)
   {
     changed_ = changed_ || done.error().what.find("has changed on its server") != std::string::npos;
     return done;
@@ -280,6 +289,10 @@ Result<void> RemoteSource::read(const ByteRange* ranges, std::size_t count) cons
   {
     keepOnDisk(piece);
   }
+  if (!done)
+  {
+    return done;
+  }
   for (std::size_t i = 0; i < missing.size(); ++i)
   {
     for (const WantedBytes& piece : pieces)
@@ -287,7 +300,7 @@ Result<void> RemoteSource::read(const ByteRange* ranges, std::size_t count) cons
       copyFrom(piece, missing[i]->offset, missing[i]->size, missing[i]->target);
       if (missing[i]->size <= smallRead)
       {
-        keepBlocks(piece, { needed[i].first, needed[i].end });
+        keepBlocks(piece, needed[i]);
       }
     }
   }

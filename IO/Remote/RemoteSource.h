@@ -26,7 +26,7 @@ namespace pointfront
 /// Identity  length and ETag (or the date of the last change) of the first answer hold for all
 ///           later ones. Another one is an error, for this read and all later ones.
 /// Retries   passing refusals (429, 5xx), resets, stalls and short bodies, with growing pauses, as
-///           long as the time limit of a read allows.
+///           long as the patience of a read allows (ReadPatience).
 /// Cache     what came is kept on the disk (FarCache), in blocks of 4 KiB. Opening asks the server
 ///           nevertheless whether the file is still the same; offline, nothing is asked.
 /// Memory    head and tail, and 4 MiB of blocks.
@@ -40,6 +40,9 @@ public:
   std::uint64_t device() const override;
   ReadCost cost() const override;
   Result<void> read(const ByteRange* ranges, std::size_t count) const override;
+  /// The cache keeps those bytes that have come when `stop` is set.
+  Result<void> readUntil(
+    const ReadStop& stop, const ByteRange* ranges, std::size_t count) const override;
 
 private:
   using Interval64 = std::pair<std::uint64_t, std::uint64_t>;
@@ -48,6 +51,9 @@ private:
     std::shared_ptr<const FarCache> cache);
   static Result<std::shared_ptr<const RemoteSource>> openOffline(
     std::unique_ptr<const Conversation> conversation, std::shared_ptr<const FarCache> cache);
+  /// Asks the server for those ranges. `needed`: what a request should have of each.
+  Result<void> ask(const std::vector<const ByteRange*>& missing,
+    const std::vector<Interval64>& needed, const ReadStop& stop) const;
   void keepOnDisk(const WantedBytes& piece) const;
   bool takeHeld(const ByteRange& range) const;
   void keepBlocks(const WantedBytes& piece, const Interval64& needed) const;

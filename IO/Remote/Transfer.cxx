@@ -186,6 +186,7 @@ std::size_t Transfer::takeBody(const char* data, std::size_t size)
   }
   const auto* first = reinterpret_cast<const std::byte*>(data);
   answer_->body.insert(answer_->body.end(), first, first + size);
+  received += size;
   return size;
 }
 
@@ -208,6 +209,10 @@ void Transfer::prepare()
   curl_easy_setopt(easy, CURLOPT_LOW_SPEED_LIMIT, 1L);
   curl_easy_setopt(easy, CURLOPT_LOW_SPEED_TIME, stallSeconds);
   curl_easy_setopt(easy, CURLOPT_PIPEWAIT, 0L);
+#if LIBCURL_VERSION_NUM >= 0x075700
+  // A name that nobody resolves must not hold the other transfers when this one is given up.
+  curl_easy_setopt(easy, CURLOPT_QUICK_EXIT, 1L);
+#endif
   curl_easy_setopt(easy, CURLOPT_HTTP_VERSION, static_cast<long>(CURL_HTTP_VERSION_2TLS));
   curl_easy_setopt(easy, CURLOPT_HEADERFUNCTION, &onHeader);
   curl_easy_setopt(easy, CURLOPT_HEADERDATA, this);
@@ -268,6 +273,13 @@ void Transfer::conclude(CURLcode code)
     code == CURLE_UNSUPPORTED_PROTOCOL || code == CURLE_URL_MALFORMAT ||
     (code == CURLE_COULDNT_CONNECT && question_->refusePrivate);
   answer.outcome = early ? Outcome::NoConnection : Outcome::Broken;
+}
+
+void Transfer::giveUp()
+{
+  conclude(CURLE_ABORTED_BY_CALLBACK);
+  answer_->outcome = HttpAnswer::Outcome::Cancelled;
+  answer_->text.clear();
 }
 
 std::optional<ContentRange> ContentRange::parse(const std::string& text)

@@ -4,7 +4,9 @@
 
 #include <curl/curl.h>
 
+#include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -27,7 +29,12 @@ public:
   /// Fills the answer from how the transfer ended.
   void conclude(CURLcode code);
 
+  /// Fills the answer of a transfer that nobody waits for any more with what has come.
+  void giveUp();
+
+  bool begun = false; ///< it has left its line's queue; guarded by the loop's lock
   bool over = false; ///< its answer is there; guarded by the loop's lock
+  std::atomic<std::uint64_t> received{ 0 }; ///< bytes of the body that were wanted
 
   // For the library's callbacks.
   std::size_t takeHeader(std::string_view text);

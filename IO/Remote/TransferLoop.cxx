@@ -11,6 +11,7 @@
 #include <deque>
 #include <map>
 #include <mutex>
+#include <numeric>
 #include <utility>
 
 namespace pointfront
@@ -29,6 +30,17 @@ bool allOver(const Transfers& transfers)
 {
   return std::all_of(transfers.begin(), transfers.end(), [](const auto& t) { return t->over; });
 }
+
+bool anyBegun(const Transfers& transfers)
+{
+  return std::any_of(transfers.begin(), transfers.end(), [](const auto& t) { return t->begun; });
+}
+
+std::uint64_t receivedBy(const Transfers& transfers)
+{
+  return std::accumulate(transfers.begin(), transfers.end(), std::uint64_t(0),
+    [](std::uint64_t sum, const auto& transfer) { return sum + transfer->received; });
+}
 } // namespace
 
 struct TransferLoop::Content
@@ -44,6 +56,7 @@ struct TransferLoop::Content
     // The time during which transfers were active lately:
     Clock::time_point busySince;
     std::uint64_t busyBytes = 0;
+    std::uint64_t received = 0; ///< by transfers that are over
   };
 
   CURLM* multi = nullptr;
@@ -63,6 +76,7 @@ struct TransferLoop::Content
   void remove(Transfer& transfer);
   void withdraw(const std::string& line, const Transfers& transfers);
   void measure(Line& line, const HttpAnswer& answer);
+  std::uint64_t receivedOn(const std::string& line) const;
   bool ensureThread();
 };
 
@@ -117,6 +131,7 @@ void TransferLoop::Content::begin(std::unique_lock<std::mutex>&)
         line.busyBytes = 0;
       }
       active.push_back(transfer);
+      transfer->begun = true;
       ++counts.requests;
       ByteTraffic::ofProcess().requests += 1;
       curl_multi_add_handle(multi, transfer->easy());
@@ -156,7 +171,9 @@ void TransferLoop::Content::remove(Transfer& transfer)
 {
   curl_multi_remove_handle(multi, transfer.easy());
   active.erase(std::find(active.begin(), active.end(), &transfer));
-  --lines[transfer.line()].active;
+  Line& line = lines[transfer.line()];
+  --line.active;
+  line.received += transfer.received;
   counts.bytes += transfer.answer().body.size();
   ByteTraffic::ofProcess().bytes += transfer.answer().body.size();
   transfer.over = true;
@@ -178,6 +195,7 @@ void TransferLoop::Content::work()
     {
       if (!transfer->over)
       {
+        transfer->giveUp();
         remove(*transfer);
       }
     }
@@ -235,11 +253,21 @@ void TransferLoop::Content::withdraw(const std::string& line, const Transfers& t
   curl_multi_wakeup(multi);
 }
 
+std::uint64_t TransferLoop::Content::receivedOn(const std::string& line) const
+{
+  std::uint64_t sum = lines.at(line).received;
+  for (const Transfer* const transfer : active)
+  {
+    sum += transfer->line() == line ? transfer->received.load() : 0;
+  }
+  return sum;
+}
+
 std::vector<HttpAnswer> TransferLoop::run(const std::string& line,
-  const std::vector<HttpQuestion>& questions, Clock::time_point deadline,
+  const std::vector<HttpQuestion>& questions, ReadPatience& patience,
   const std::atomic<bool>& cancelled)
 {
-  constexpr std::chrono::milliseconds lookAgain{ 100 }; // whether it is cancelled
+  constexpr std::chrono::milliseconds lookAgain{ 25 }; // whether it is cancelled
   Content& c = *content_;
   std::vector<HttpAnswer> answers(questions.size());
   Transfers transfers;
@@ -263,12 +291,28 @@ std::vector<HttpAnswer> TransferLoop::run(const std::string& line,
     c.lines[line].waiting.push_back(transfer.get());
   }
   curl_multi_wakeup(c.multi);
-  while (!allOver(transfers) && !c.stopped && !cancelled && Clock::now() < deadline)
+  const std::uint64_t earlier = patience.bytes();
+  bool begun = false;
+  const Clock::time_point queued = Clock::now();
+  ReadPatience queue(patience.limit(), queued);
+  queue.restart(c.receivedOn(line), queued);
+  while (!allOver(transfers) && !c.stopped && !cancelled &&
+    !(begun ? patience : queue).over(Clock::now()))
   {
-    c.answered.wait_until(lock, std::min(deadline, Clock::now() + lookAgain));
+    c.answered.wait_until(lock, Clock::now() + lookAgain);
+    const Clock::time_point now = Clock::now();
+    const std::uint64_t sum = earlier + receivedBy(transfers);
+    if (!begun && anyBegun(transfers))
+    {
+      begun = true;
+      patience.extend(now - queued);
+    }
+    patience.note(sum, now);
+    queue.note(c.receivedOn(line), now);
   }
   c.withdraw(line, transfers);
   c.answered.wait(lock, [&] { return allOver(transfers); });
+  patience.note(earlier + receivedBy(transfers), Clock::now());
   return answers;
 }
 

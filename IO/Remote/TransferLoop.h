@@ -1,11 +1,11 @@
 #pragma once
 
 #include "HttpTransfer.h"
+#include "ReadPatience.h"
 
 #include "pointfront/Disk/ByteSource.h"
 
 #include <atomic>
-#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -39,10 +39,11 @@ public:
   TransferLoop(const TransferLoop&) = delete;
   TransferLoop& operator=(const TransferLoop&) = delete;
 
-  /// Asks all and waits for all answers, at most until `deadline` or until `cancelled` is true.
-  /// Questions of one call go to one line, in their order.
+  /// Asks all and waits for all answers, as long as `patience` lasts and `cancelled` is false: a
+  /// few hundredths of a second later the transfers are ended. Questions of one call go to one
+  /// line, in their order. While none of them has begun, bytes of others on the line count.
   std::vector<HttpAnswer> run(const std::string& line, const std::vector<HttpQuestion>& questions,
-    std::chrono::steady_clock::time_point deadline, const std::atomic<bool>& cancelled);
+    ReadPatience& patience, const std::atomic<bool>& cancelled);
 
   ReadCost cost(const std::string& line) const;
   /// The server has asked for patience: fewer at once.

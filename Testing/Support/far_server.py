@@ -154,6 +154,9 @@ class Handler(http.server.BaseHTTPRequestHandler):
         elif after == "stall":
             self.server.ending.wait(60)
             self.close_connection = True
+        elif after == "trickle":
+            while not self.server.ending.wait(0.1):
+                self.wfile.write(b"x")
         elif after == "endless":
             while not self.server.ending.is_set():
                 self.wfile.write(bytes(1 << 16))

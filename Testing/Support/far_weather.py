@@ -67,6 +67,11 @@ class Weather:
         request.answer(data, begin, end, send=(end - begin) // 2, after="stall")
 
     @staticmethod
+    def trickle(request, data, begin, end, times):
+        """Ten bytes a second: never a stall, and no end."""
+        request.answer(data, begin, end, send=1, after="trickle")
+
+    @staticmethod
     def short(request, data, begin, end, times):
         """The body is shorter than the range that the answer names."""
         request.answer(data, begin, end, body=data[begin:end - 1] if end > begin + 1 else b"")

@@ -53,7 +53,8 @@ class SlowLine:
         server.close()
         for task in asyncio.all_tasks(self._loop):
             task.cancel()
-        self._loop.run_until_complete(asyncio.sleep(0))
+        for _ in range(3):  # tasks end, then their transports
+            self._loop.run_until_complete(asyncio.sleep(0))
         self._loop.close()
 
     async def _serve(self, client_in, client_out):
@@ -63,6 +64,7 @@ class SlowLine:
             return
         self._open += 1
         self.opened += 1
+        server_out = None
         try:
             await asyncio.sleep(self.round_trip)
             server_in, server_out = await asyncio.open_connection("127.0.0.1", self.target)
@@ -72,6 +74,9 @@ class SlowLine:
             client_out.transport.abort()
         finally:
             self._open -= 1
+            client_out.transport.abort()
+            if server_out:
+                server_out.transport.abort()
 
     async def _carry(self, source, target, down):
         """Bytes leave half a round trip after they came, as fast as the line is."""

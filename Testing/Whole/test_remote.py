@@ -18,6 +18,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "Support"))
 from far_server import FarServer
 from far_weather import TOKEN
 from signature_v4 import KEY, KEY_ID
+from slow_line import SlowLine
 
 HERE = "127.0.0.1"
 SECRET = "sig=VERY-SECRET"
@@ -221,7 +222,8 @@ class BadWeather(RemoteTest):
     def test_faults_that_stay(self):
         lasting = (
                 ("forbidden", "403"), ("storms", "503"), ("tomorrow", "503"), ("resets",),
-                ("stalls",), ("short",), ("long",), ("elsewhere", "wrongly"),
+                ("stalls",), ("trickle", "1 KiB a second"), ("short",), ("long", "wrongly"),
+                ("elsewhere", "wrongly"),
                 ("replaced", "changed"), ("replaced_deaf", "changed"),
                 ("replaced_dated", "changed"), ("replaced_longer", "changed"),
                 ("expired", "403"), ("circle", "redirected"), ("to_file", "redirected"),
@@ -230,6 +232,18 @@ class BadWeather(RemoteTest):
         with concurrent.futures.ThreadPoolExecutor(8) as several:  # they wait most of the time
             list(several.map(lambda case: self.assert_refused(*case), lasting))
         self.assert_refused("", "404", name="missing.pfront")
+
+    def test_a_slow_line_is_waited_for_while_bytes_come(self):
+        """The time limit is one of silence: one body takes three times as long."""
+        seconds, limit = 2.5, 1.5  # head and tail are asked for at once: twice the file
+        bits = 8 * self.store.stat().st_size / seconds
+        with SlowLine(self.server.port, 0.02, bits) as line:
+            out = self.folder / "slow.csv"
+            outcome = self.succeed(
+                "export", f"http://{HERE}:{line.port}/~ranges_ignored/cloud.pfront", "-o", out,
+                environment=environment(POINTFRONT_REMOTE_TIMEOUT=str(limit)))
+        self.assertEqual(out.read_bytes(), self.expected)
+        self.assertGreater(outcome.seconds, 2 * limit)
 
     def test_a_certificate_that_nobody_vouches_for(self):
         own = self.folder / "own.pem"

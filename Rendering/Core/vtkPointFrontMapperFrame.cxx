@@ -235,7 +235,7 @@ pointfront::FramePlan& vtkPointFrontMapper::PlanFrame(
   pointfront::PlanRequest request = this->GetRequest(renderer, actor, look);
   if (moved || !view.Plan)
   {
-    request.refines = look.inHostMemory;
+    request.refines = look.inHostMemory || look.shading; // else VTK's template draws it
     request.moment.seconds = std::chrono::duration<double>(Clock::now().time_since_epoch()).count();
     request.moment.duration = 1e-3 * this->GrowthTime;
     view.Plan = view.View.plan(this->GetStore()->GetStore()->description(), std::move(request));

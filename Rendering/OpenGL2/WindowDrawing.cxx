@@ -259,12 +259,14 @@ void WindowDrawing::dropTables(const FramePlan& plan)
   tables_.erase(std::remove_if(tables_.begin(), tables_.end(), unused), tables_.end());
 }
 
-std::int64_t WindowDrawing::drawSplats(vtkRenderer* renderer, FramePlan& plan, bool ids)
+std::int64_t WindowDrawing::drawSplats(
+  vtkRenderer* renderer, FramePlan& plan, bool ids, bool unfinished)
 {
   this->dropTables(plan);
   return splats_.draw(
     window_, renderer, plan, pool_,
-    [this](const std::shared_ptr<const ColourMap>& map) { return this->tableOf(map); }, ids);
+    [this](const std::shared_ptr<const ColourMap>& map) { return this->tableOf(map); }, ids,
+    unfinished);
 }
 
 ColourMapTexture* WindowDrawing::tableOf(const std::shared_ptr<const ColourMap>& map)

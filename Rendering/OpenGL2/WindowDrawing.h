@@ -86,7 +86,8 @@ public:
 
   /// Replaces list() and draw() for splats: draws into targets of their own. Returns the number of
   /// points.
-  std::int64_t drawSplats(vtkRenderer* renderer, FramePlan& plan, bool ids);
+  /// `unfinished`: another frame follows, with more points on the GPU.
+  std::int64_t drawSplats(vtkRenderer* renderer, FramePlan& plan, bool ids, bool unfinished);
   SplatPicture& splats() { return splats_; }
 
   /// Replaces all of these: threads of this process draw from host memory. GPU memory of points is

@@ -184,8 +184,9 @@ void vtkOpenGLPointFrontMapper::RenderPiece(vtkRenderer* renderer, vtkActor* act
   const bool timed =
     first && plan.pointCount() > 0 && timer.begin(millisecondsSince(begin), this->GetLastMoves());
   const auto drawn = Clock::now();
-  const vtkIdType points = host ? this->HandOver(renderer, actor, drawing, plan)
-                                : this->DrawPoints(renderer, actor, *look, drawing, plan);
+  const vtkIdType points = host
+    ? this->HandOver(renderer, actor, drawing, plan)
+    : this->DrawPoints(renderer, actor, *look, drawing, plan, uploadsLeft);
   if (!host && !drawsInTemplate(actor, *look))
   {
     kept = static_cast<std::uint64_t>(drawing.splats().keptPoints());
@@ -220,7 +221,7 @@ vtkIdType vtkOpenGLPointFrontMapper::HandOver(vtkRenderer* renderer, vtkActor* a
 /// Draws the points of the plan that are on the GPU.
 vtkIdType vtkOpenGLPointFrontMapper::DrawPoints(vtkRenderer* renderer, vtkActor* actor,
   const pointfront::CloudLook& look, pointfront::WindowDrawing& drawing,
-  pointfront::FramePlan& plan)
+  pointfront::FramePlan& plan, bool uploadsLeft)
 {
   if (drawing.pool().takeRefused())
   {
@@ -237,7 +238,8 @@ vtkIdType vtkOpenGLPointFrontMapper::DrawPoints(vtkRenderer* renderer, vtkActor*
     }
     return points;
   }
-  const vtkIdType points = drawing.drawSplats(renderer, plan, renderer->GetSelector() != nullptr);
+  const vtkIdType points =
+    drawing.drawSplats(renderer, plan, renderer->GetSelector() != nullptr, uploadsLeft);
   if (points == pointfront::SplatPicture::noTarget)
   {
     vtkErrorMacro("OpenGL cannot draw splats into textures of "

@@ -53,7 +53,7 @@ private:
   vtkIdType HandOver(vtkRenderer* renderer, vtkActor* actor, pointfront::WindowDrawing& drawing,
     const pointfront::FramePlan& plan);
   vtkIdType DrawPoints(vtkRenderer* renderer, vtkActor* actor, const pointfront::CloudLook& look,
-    pointfront::WindowDrawing& drawing, pointfront::FramePlan& plan);
+    pointfront::WindowDrawing& drawing, pointfront::FramePlan& plan, bool uploadsLeft);
   bool Upload(
     vtkRenderer* renderer, pointfront::WindowDrawing& drawing, const pointfront::FramePlan& plan);
   void ReadTimer(vtkRenderer* renderer, pointfront::FrameTimer& timer);

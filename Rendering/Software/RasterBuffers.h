@@ -52,6 +52,9 @@ private:
   std::size_t size_ = 0;
 };
 
+/// Sums of a refining view forget what lies that many pixels' size behind what came.
+constexpr float forgottenPixels = 8.0f;
+
 /// The second pass of blended splats: what was added up, for the next picture to go on from.
 struct BlendedSums
 {

@@ -17,8 +17,6 @@ namespace
 {
 
 constexpr int rowsOfPiece = 8;
-/// Sums of a refining view forget what lies that many pixels' size behind what came.
-constexpr float forgottenPixels = 8.0f;
 
 /// Squares of points that grow have a whole number of pixels, too. Along a node's order sizes fall,
 /// so a batch has few of them.

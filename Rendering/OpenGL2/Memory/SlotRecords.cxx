@@ -70,6 +70,14 @@ void SlotRecords::set(const std::vector<std::uint32_t>& slots, const Record& rec
   }
 }
 
+void SlotRecords::setNumber(const std::vector<std::uint32_t>& slots, std::int32_t number)
+{
+  for (const std::uint32_t slot : slots)
+  {
+    columns_[2].values[std::size_t(4) * slot + 2] = number;
+  }
+}
+
 void SlotRecords::load(vtkOpenGLRenderWindow* window, Column& column, bool integers)
 {
   const std::size_t values = column.values.size();

@@ -47,6 +47,8 @@ public:
   /// Begins a frame; `slots` is the pool's number of slots.
   void begin(std::uint32_t slots);
   void set(const std::vector<std::uint32_t>& slots, const Record& record);
+  /// Gives the node in these slots a number (StoredPoint.glsl: of stand-ins).
+  void setNumber(const std::vector<std::uint32_t>& slots, std::int32_t number);
   /// Uploads the records.
   void upload(vtkOpenGLRenderWindow* window);
 

@@ -3,6 +3,7 @@
 #include "SlotRecords.h"
 #include "SplatHoleFiller.h"
 #include "SplatProgram.h"
+#include "SplatTarget.h"
 
 #include <vtkNew.h>
 #include <vtkOpenGLVertexArrayObject.h>
@@ -26,7 +27,17 @@ struct SplatTools
   SlotRecords records;
   SlotRecords lastRecords; ///< records of points that the last picture has and this one lacks
   SplatHoleFiller holes;
+  // Refining views have these:
+  SplatTarget together[2]; ///< who is seen, with layers (SplatLayer)
+  SplatTarget growing; ///< points that have not grown to their size
   vtkNew<vtkOpenGLVertexArrayObject> vertices;
+
+  void releaseTogether(vtkOpenGLRenderWindow* window)
+  {
+    together[0].release(window);
+    together[1].release(window);
+    growing.release(window);
+  }
 };
 
 /// One drawing of a picture.
@@ -39,6 +50,7 @@ struct SplatFrame
   const GpuPool* pool = nullptr;
   TableOf tableOf;
   bool ids = false; ///< for a selection
+  bool unfinished = false; ///< more points come to the GPU, and another frame with them
 };
 
 } // namespace pointfront

@@ -69,6 +69,23 @@ SlotRecords::Record recordOf(const RasterItem& item, const FramePlan& plan)
   return record;
 }
 
+/// How many of the first points have their full size, a little more than that: numbers of growth
+/// are rounded on their way through the slots.
+std::uint32_t fullPoints(const RasterItem& item, std::uint32_t end)
+{
+  const PointGrowth& growth = item.item->growth;
+  return growth.whole() ? end
+                        : PointGrowth{ growth.first - 1e-4f, growth.perPoint }.fullPoints(end);
+}
+
+/// The size of an item's first `points` points.
+SizeTerms sizeOnceDrawn(const RasterItem& item, std::uint32_t points)
+{
+  SizeTerms size = item.sizeTerms();
+  size.growth = fullPoints(item, points) >= points ? PointGrowth() : size.growth;
+  return size;
+}
+
 } // namespace
 
 SplatGroups::SplatGroups() = default;
@@ -77,7 +94,7 @@ SplatGroups::~SplatGroups() = default;
 /// In the order of the nodes: of two points at one depth the first one is seen, as in the software
 /// back end.
 std::int64_t SplatGroups::list(const FramePlan& plan, const GpuPool& pool, float largestPointPx,
-  bool samePicture, SlotRecords& records)
+  bool samePicture, SlotRecords& records, bool growsApart)
 {
   groups_.clear();
   rounds_.clear();
@@ -99,17 +116,28 @@ std::int64_t SplatGroups::list(const FramePlan& plan, const GpuPool& pool, float
   } while (!rounds_.back()->last());
   goesOn_ = samePicture && continuesLast(plan);
   addsNothing_ = true;
-  for (const Listed& one : listed_)
+  grows_ = false;
+  for (Listed& one : listed_)
   {
     Group& group = groupOf(one.group);
     blended_ = blended_ || one.group.first->passes.blended;
     const std::uint32_t first = one.group.first->item->first;
     const std::uint32_t from = goesOn_ ? std::max(first, one.drawnUpTo) : first;
-    pool.addRuns(*one.entry, first, one.end, group.all);
+    const std::uint32_t end = one.end;
+    one.end = growsApart ? std::max(from, fullPoints(*one.group.first, end)) : end;
+    if (first < one.end)
+    {
+      pool.addRuns(*one.entry, first, one.end, group.all);
+    }
     if (from < one.end)
     {
       pool.addRuns(*one.entry, from, one.end, group.added);
       addsNothing_ = false;
+    }
+    if (one.end < end)
+    {
+      pool.addRuns(*one.entry, one.end, end, group.growing);
+      grows_ = true;
     }
   }
   return points;
@@ -143,9 +171,18 @@ std::int64_t SplatGroups::add(const RasterItems& items, const RasterItem& item, 
     return 0; // heights are on their way
   }
   const bool quads = walls || largestSplat(item, items) > largestPointPx;
-  listed_.push_back(
-    { { &items, &item, record.shaped, record.sized, quads, mark, {}, {} }, entry, record, end, 0 });
+  listed_.push_back({ { &items, &item, record.shaped, record.sized, quads, mark, {}, {}, {} },
+    entry, record, end, 0 });
   return walls ? 0 : end - item.item->first;
+}
+
+void SplatGroups::forEach(
+  const std::function<void(const RasterItem&, const GpuPool::Entry&)>& visit) const
+{
+  for (const Listed& one : listed_)
+  {
+    visit(*one.group.first, *one.entry);
+  }
 }
 
 SplatGroups::Group& SplatGroups::groupOf(const Group& like)
@@ -189,14 +226,16 @@ bool SplatGroups::continuesLast(const FramePlan& plan)
   return true;
 }
 
-/// As the software back end: only what pixels are made of counts.
+/// As the software back end: only what pixels are made of counts. What has grown to its full size
+/// is as if it never grew.
 bool SplatGroups::Listed::continues(const Drawn& old) const
 {
   const RasterItem& item = *group.first;
+  const SizeTerms size = sizeOnceDrawn(item, old.end);
   const bool sizesComing = item.sizes && !record.sized; // the node's radius stands in for them
   return item.item->node == old.item.node && *item.style == *old.style &&
     item.passes == old.passes && item.item->first == old.item.first && end >= old.end &&
-    item.sizeTerms() == old.size && (!sizesComing || record.radii == old.radii) &&
+    size == old.size && (!sizesComing || record.radii == old.radii) &&
     record.coloured == old.coloured && record.shaped == old.shaped && record.sized == old.sized;
 }
 
@@ -245,8 +284,9 @@ void SplatGroups::keep(const FramePlan& plan)
   for (const Listed& one : listed_)
   {
     const RasterItem& item = *one.group.first;
-    drawn_.push_back({ *item.item, styles[item.style], item.passes, one.end, item.sizeTerms(),
-      one.record.radii, one.record.coloured, one.record.shaped, one.record.sized });
+    drawn_.push_back(
+      { *item.item, styles[item.style], item.passes, one.end, sizeOnceDrawn(item, one.end),
+        one.record.radii, one.record.coloured, one.record.shaped, one.record.sized });
   }
   groups_.clear();
   listed_.clear();

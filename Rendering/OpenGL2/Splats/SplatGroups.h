@@ -9,6 +9,7 @@
 #include "pointfront/Plan/FramePlan.h"
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <vector>
@@ -30,24 +31,30 @@ public:
     bool sized;
     bool quads; ///< larger than points of GL can be, or far from square
     int mark; ///< GpuStreams; -1: the layer has none
-    DrawRuns all;
-    DrawRuns added; ///< that the last picture does not have
+    DrawRuns all; ///< but what grows apart
+    DrawRuns added; ///< those of them that the last picture does not have
+    DrawRuns growing; ///< apart from the others
   };
 
   SplatGroups();
   ~SplatGroups();
 
   /// Fills the records of the drawn nodes and returns the number of their points. `samePicture`:
-  /// the last picture is still in its target.
+  /// the last picture is still in its target. `growsApart`: points that have not grown to their
+  /// size are no part of the picture that the next one goes on from.
   std::int64_t list(const FramePlan& plan, const GpuPool& pool, float largestPointPx,
-    bool samePicture, SlotRecords& records);
+    bool samePicture, SlotRecords& records, bool growsApart = false);
   /// Whether the list contains all points of the last picture, unchanged.
   bool goesOn() const { return goesOn_; }
   bool addsNothing() const { return addsNothing_; }
+  /// Whether points grow apart.
+  bool grows() const { return grows_; }
   bool blended() const { return blended_; }
   /// The rectangle in which the points can show anything.
   const PixelRectangle& shown() const { return shown_; }
   const std::vector<Group>& groups() const { return groups_; }
+  /// Calls with each item of the list, in the order of the nodes.
+  void forEach(const std::function<void(const RasterItem&, const GpuPool::Entry&)>& visit) const;
 
   /// Points of the last picture that `plan` lacks, as the plan's camera sees them. Points that had
   /// not grown to their size are left out, and so are those that no style of the plan draws as they
@@ -78,7 +85,7 @@ private:
     Group group;
     const GpuPool::Entry* entry;
     SlotRecords::Record record;
-    std::uint32_t end;
+    std::uint32_t end; ///< from list() on: of those that do not grow apart
     std::uint32_t drawnUpTo;
 
     bool continues(const Drawn& old) const;
@@ -95,6 +102,7 @@ private:
   PixelRectangle shown_;
   bool goesOn_ = false;
   bool addsNothing_ = false;
+  bool grows_ = false;
   bool blended_ = false;
   // State of the last picture:
   FrameCamera camera_;

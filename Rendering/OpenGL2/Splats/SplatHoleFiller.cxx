@@ -69,19 +69,20 @@ void drawLevel(vtkShaderProgram* program, int factor, const float (&agreement)[2
   }
 }
 
-std::vector<HolesSource> seenOf(SplatTarget& target, const SplatTarget::Parts& parts)
+std::vector<HolesSource> sourcesOf(
+  const SeenTextures& seen, vtkTextureObject* sums, const SplatTarget::Parts& parts)
 {
-  std::vector<HolesSource> seen{ { "fineColours", target.seenColours() },
-    { "fineDepths", target.seenDepths() } };
+  std::vector<HolesSource> sources{ { "fineColours", seen.colours },
+    { "fineDepths", seen.depths } };
   if (parts.blended)
   {
-    seen.push_back({ "colourSums", target.sums() });
+    sources.push_back({ "colourSums", sums });
   }
   if (parts.lit)
   {
-    seen.push_back({ "seenNormals", target.normals() });
+    sources.push_back({ "seenNormals", seen.normals });
   }
-  return seen;
+  return sources;
 }
 
 } // namespace
@@ -154,8 +155,9 @@ void SplatHoleFiller::clear(vtkOpenGLState* state)
   state->vtkglEnable(GL_SCISSOR_TEST);
 }
 
-bool SplatHoleFiller::fill(vtkOpenGLRenderWindow* window, SplatTarget& target,
-  const SplatTarget::Parts& parts, const FramePlan& plan, const PixelRectangle& place)
+bool SplatHoleFiller::fill(vtkOpenGLRenderWindow* window, const SeenTextures& seen,
+  vtkTextureObject* sums, const SplatTarget::Parts& parts, const FramePlan& plan,
+  const PixelRectangle& place)
 {
   const FrameCamera& camera = plan.camera;
   if (!prepare(window, camera.width, camera.height, parts.looks))
@@ -196,7 +198,7 @@ bool SplatHoleFiller::fill(vtkOpenGLRenderWindow* window, SplatTarget& target,
       (place.top + block - 1) / block - place.bottom / block);
     drawLevel(program, block, agreement, sources);
   };
-  draw(HolesStep::Begin, 0, gathered_[0], seenOf(target, parts));
+  draw(HolesStep::Begin, 0, gathered_[0], sourcesOf(seen, sums, parts));
   for (std::size_t level = 1; level <= levels; ++level)
   {
     draw(HolesStep::Gather, level, gathered_[level],

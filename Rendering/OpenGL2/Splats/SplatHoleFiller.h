@@ -26,10 +26,10 @@ public:
   SplatHoleFiller();
   ~SplatHoleFiller();
 
-  /// Fills the pixels of `place` of what is seen in the target, whose framebuffers stay as they
-  /// are; nothing is seen beside it. False if GL has no room. `parts`: what the target has.
-  bool fill(vtkOpenGLRenderWindow* window, SplatTarget& target, const SplatTarget::Parts& parts,
-    const FramePlan& plan, const PixelRectangle& place);
+  /// Fills the pixels of `place` of what is seen, which stays as it is; nothing is seen beside it.
+  /// False if GL has no room. `parts`: what there is of it.
+  bool fill(vtkOpenGLRenderWindow* window, const SeenTextures& seen, vtkTextureObject* sums,
+    const SplatTarget::Parts& parts, const FramePlan& plan, const PixelRectangle& place);
   /// Colours of the last filling, in place of SplatTarget's: sums and light are part of them.
   vtkTextureObject* seenColours() { return filled_[0].colours; }
   vtkTextureObject* seenDepths() { return filled_[0].depths; }

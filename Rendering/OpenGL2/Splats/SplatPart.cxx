@@ -3,8 +3,10 @@
 #include "GpuPool.h"
 #include "HoleFiller.h"
 #include "OpenGLFunctions.h"
+#include "RasterBuffers.h"
 #include "RasterItems.h"
 #include "SoftwareRasteriser.h"
+#include "SplatLayer.h"
 #include "SplatLights.h"
 #include "SplatRuns.h"
 #include "SplatUniforms.h"
@@ -55,29 +57,11 @@ std::int64_t SplatPart::draw(const SplatFrame& frame, const FramePlan& plan,
     return 0;
   }
   target_ = target;
-  const float largestPoint = largestPointPx();
   const PixelRectangle within =
     limits ? *limits : PixelRectangle{ 0, 0, plan.camera.width, plan.camera.height };
-  const bool mine = target_->owner() == this && renderer_ == frame.renderer &&
-    parts_.lit == plan.shading.anyLit() && sameRectangle(limits_, within);
-  const std::int64_t points = groups_.list(plan, *frame.pool, largestPoint, mine, tools_.records);
-  // Who was seen is always known: the next frame may be of a view that moves.
-  const SplatTarget::Parts parts{ plan.camera.width, plan.camera.height, plan.shading.anyLit(),
-    true, groups_.blended(), plan.shading.lookCount() > 1 };
-  const bool keeps = plan.keepsVisible && mine && target_->has(parts_);
-  const bool goesOn = groups_.goesOn() && target_->has(parts) && (keeps || kept_.empty());
-  if (!keeps)
-  {
-    kept_.clear(); // the kept points are in the last picture
-  }
-  else if (!goesOn)
-  {
-    keepVisible(frame, plan, largestPoint);
-  }
-  parts_ = parts;
-  limits_ = within;
-  const bool fills = plan.shading.fillHoles && !frame.ids; // filled pixels are no points
-  seen_ = placeOf(plan, fills);
+  Demand demand;
+  const std::int64_t points = list(frame, plan, within, demand);
+  seen_ = placeOf(plan, demand.fills, demand.standIns);
   shown_ = limits ? within : seen_;
   selects_ = frame.ids;
   if (!limits && (points == 0 || shown_.empty()))
@@ -92,9 +76,7 @@ std::int64_t SplatPart::draw(const SplatFrame& frame, const FramePlan& plan,
   }
   target_->setOwner(this);
   renderer_ = frame.renderer;
-  const bool same = goesOn && groups_.addsNothing() && shading_ == plan.shading &&
-    fills_ == fills && composited_ == plan.composited;
-  if (!same && !drawInto(frame, plan, goesOn, fills))
+  if (!isSame(plan, demand) && !drawInto(frame, plan, demand))
   {
     forget();
     return noTarget;
@@ -103,19 +85,68 @@ std::int64_t SplatPart::draw(const SplatFrame& frame, const FramePlan& plan,
   return points;
 }
 
+/// The points of the frame, and those that stay of the last one.
+std::int64_t SplatPart::list(
+  const SplatFrame& frame, const FramePlan& plan, const PixelRectangle& within, Demand& demand)
+{
+  const float largestPoint = largestPointPx();
+  const bool samePlace = renderer_ == frame.renderer && sameRectangle(limits_, within);
+  const bool mine = target_->owner() == this && samePlace && parts_.lit == plan.shading.anyLit();
+  demand.standIns = !plan.standIns.empty() && !frame.ids;
+  demand.fills = plan.shading.fillHoles && !frame.ids; // filled pixels are no points
+  demand.mayChange = plan.refining || frame.unfinished;
+  const bool growsApart = plan.refining && !frame.ids;
+  const std::int64_t points =
+    groups_.list(plan, *frame.pool, largestPoint, mine, tools_.records, growsApart);
+  if (!frame.ids)
+  {
+    standIns_.list(frame, plan, largestPoint, samePlace, plan.shading.anyLit());
+  }
+  // Who was seen is always known: the next frame may be of a view that moves.
+  const SplatTarget::Parts parts{ plan.camera.width, plan.camera.height, plan.shading.anyLit(),
+    true, groups_.blended(), plan.shading.lookCount() > 1 };
+  const bool keeps = plan.keepsVisible && mine && target_->has(parts_);
+  demand.goesOn = groups_.goesOn() && target_->has(parts) && (keeps || kept_.empty());
+  if (!keeps)
+  {
+    kept_.clear(); // the kept points are in the last picture
+  }
+  else if (!demand.goesOn)
+  {
+    keepVisible(frame, plan, largestPoint);
+  }
+  parts_ = parts;
+  limits_ = within;
+  return points;
+}
+
+/// Whether the last picture is this one, too.
+bool SplatPart::isSame(const FramePlan& plan, const Demand& demand) const
+{
+  const bool sums = !parts_.blended || (summed_ && (exact_ || demand.mayChange));
+  const bool layers = hasStandIns_ == demand.standIns &&
+    !(demand.standIns && standIns_.changed()) && !hasGrowing_ && !groups_.grows();
+  return demand.goesOn && groups_.addsNothing() && sums && layers && shading_ == plan.shading &&
+    fills_ == demand.fills && composited_ == plan.composited;
+}
+
 /// Where anything can be seen.
-PixelRectangle SplatPart::placeOf(const FramePlan& plan, bool fills) const
+PixelRectangle SplatPart::placeOf(const FramePlan& plan, bool fills, bool standIns) const
 {
   if (!kept_.empty())
   {
     return limits_;
   }
-  return fills ? filledFrom(groups_.shown(), plan.camera) : groups_.shown();
+  const PixelRectangle shown =
+    standIns ? around(groups_.shown(), standIns_.shown()) : groups_.shown();
+  return fills ? filledFrom(shown, plan.camera) : shown;
 }
 
 void SplatPart::forget()
 {
   groups_.forget();
+  standIns_.forget();
+  summed_ = false;
   kept_.clear();
 }
 
@@ -134,23 +165,33 @@ void SplatPart::keepVisible(const SplatFrame& frame, const FramePlan& plan, floa
   kept_.collect(frame, tools_, leaving, plan, { groups_.lastCamera(), target_->ids() });
 }
 
-bool SplatPart::drawInto(const SplatFrame& frame, const FramePlan& plan, bool goesOn, bool fills)
+bool SplatPart::drawInto(const SplatFrame& frame, const FramePlan& plan, const Demand& demand)
 {
   tools_.records.upload(frame.window);
   shading_ = plan.shading;
-  fills_ = fills;
+  fills_ = demand.fills;
   composited_ = plan.composited;
+  hasStandIns_ = demand.standIns;
+  hasGrowing_ = groups_.grows();
   vtkOpenGLState* const state = frame.window->GetState();
   const TargetState scope(state);
   state->vtkglViewport(0, 0, parts_.width, parts_.height);
   tools_.vertices->Bind();
-  target_->beginSeen(!goesOn);
+  const bool unchanged = exact_ && groups_.addsNothing();
+  const bool sumsGoOn = demand.goesOn && summed_ && (demand.mayChange || unchanged);
+  summed_ = false;
+  if (parts_.blended && sumsGoOn && !groups_.addsNothing())
+  {
+    target_->keepDepths(frame.window);
+  }
+  target_->beginSeen(!demand.goesOn);
   state->vtkglEnable(GL_SCISSOR_TEST);
   state->vtkglScissor(limits_.left, limits_.bottom, limits_.width(), limits_.height());
   state->vtkglEnable(GL_DEPTH_TEST);
   state->vtkglDepthFunc(GL_LESS);
-  drawGroups(frame, false, goesOn);
-  if (!goesOn)
+  const auto runs = demand.goesOn ? &SplatGroups::Group::added : &SplatGroups::Group::all;
+  drawGroups(frame, { runs, parts_, nullptr });
+  if (!demand.goesOn)
   {
     kept_.draw(frame, tools_, groups_, parts_, false, target_->seenDepths());
   }
@@ -159,54 +200,136 @@ bool SplatPart::drawInto(const SplatFrame& frame, const FramePlan& plan, bool go
   state->vtkglScissor(shown_.left, shown_.bottom, shown_.width(), shown_.height());
   if (parts_.blended)
   {
-    target_->beginSums();
-    state->vtkglEnable(GL_BLEND);
-    state->vtkglBlendFuncSeparate(GL_ONE, GL_ONE, GL_ONE, GL_ONE);
-    drawGroups(frame, true, false);
-    kept_.draw(frame, tools_, groups_, parts_, true, target_->seenDepths());
-    state->vtkglDisable(GL_BLEND);
+    addSums(frame, sumsGoOn);
   }
-  const bool filled = !fills || tools_.holes.fill(frame.window, *target_, parts_, plan, shown_);
+  SeenTextures seen = target_->seen();
+  vtkTextureObject* const sums = groups_.grows() ? addGrowing(frame, seen) : target_->sums();
+  if (demand.standIns)
+  {
+    seen = standIns_.over(frame, tools_, parts_, limits_, seen);
+  }
+  state->vtkglDisable(GL_DEPTH_TEST);
+  state->vtkglDepthMask(GL_FALSE);
+  state->vtkglScissor(shown_.left, shown_.bottom, shown_.width(), shown_.height());
+  const bool filled =
+    !demand.fills || tools_.holes.fill(frame.window, seen, sums, parts_, plan, shown_);
   if (filled)
   {
     state->vtkglScissor(shown_.left, shown_.bottom, shown_.width(), shown_.height());
     target_->beginPicture();
-    resolve(frame.window, plan, fills);
+    resolve(frame.window, plan, seen, sums, demand.fills);
   }
   tools_.vertices->Release();
   return filled;
 }
 
-void SplatPart::drawGroups(const SplatFrame& frame, bool second, bool addedOnly)
+/// The second pass. Where something is much nearer than before, what lies behind it is forgotten
+/// while more is to come.
+void SplatPart::addSums(const SplatFrame& frame, bool goesOn)
+{
+  vtkOpenGLState* const state = frame.window->GetState();
+  const bool adds = !groups_.addsNothing();
+  target_->beginSums(!goesOn);
+  if (goesOn && adds)
+  {
+    forgetHidden(frame);
+  }
+  state->vtkglEnable(GL_BLEND);
+  state->vtkglBlendFuncSeparate(GL_ONE, GL_ONE, GL_ONE, GL_ONE);
+  const auto runs = goesOn ? &SplatGroups::Group::added : &SplatGroups::Group::all;
+  drawGroups(frame, { runs, parts_, target_->seenDepths() });
+  if (!goesOn)
+  {
+    kept_.draw(frame, tools_, groups_, parts_, true, target_->seenDepths());
+  }
+  state->vtkglDisable(GL_BLEND);
+  exact_ = goesOn ? exact_ && !adds : true;
+  summed_ = true;
+}
+
+void SplatPart::forgetHidden(const SplatFrame& frame)
+{
+  const RasterCamera& camera = groups_.groups().front().first->camera;
+  vtkShaderProgram* const program = tools_.programs.useForget(frame.window, camera.parallel);
+  if (!program)
+  {
+    return; // VTK has told why
+  }
+  setTexture(program, "seenDepths", target_->seenDepths());
+  setTexture(program, "lastDepths", target_->lastDepths());
+  program->SetUniformf("forgottenDepth", forgottenPixels / camera.scaleY);
+  const float edges[4] = { -1.0f, -1.0f, 1.0f, 1.0f };
+  program->SetUniform4f("pictureEdges", edges);
+  glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+  target_->seenDepths()->Deactivate();
+  target_->lastDepths()->Deactivate();
+}
+
+/// Where GL has no room for it, points are not seen before they have grown.
+vtkTextureObject* SplatPart::addGrowing(const SplatFrame& frame, SeenTextures& seen)
+{
+  SplatTarget& growing = tools_.growing;
+  SplatTarget::Parts own = parts_;
+  own.ids = own.picture = false;
+  vtkOpenGLState* const state = frame.window->GetState();
+  if (!growing.prepare(frame.window, own))
+  {
+    return target_->sums();
+  }
+  state->vtkglDisable(GL_SCISSOR_TEST);
+  state->vtkglDepthMask(GL_TRUE);
+  growing.beginSeen(true);
+  state->vtkglEnable(GL_SCISSOR_TEST);
+  state->vtkglScissor(limits_.left, limits_.bottom, limits_.width(), limits_.height());
+  state->vtkglEnable(GL_DEPTH_TEST);
+  drawGroups(frame, { &SplatGroups::Group::growing, own, nullptr });
+  const bool parallel = groups_.groups().front().first->camera.parallel;
+  if (!putLayer(frame, tools_, parts_, limits_, { growing.seen(), nullptr, parallel }, seen) ||
+    !parts_.blended)
+  {
+    return target_->sums();
+  }
+  growing.takeSums(*target_);
+  growing.beginSums(false);
+  state->vtkglEnable(GL_BLEND);
+  state->vtkglBlendFuncSeparate(GL_ONE, GL_ONE, GL_ONE, GL_ONE);
+  drawGroups(frame, { &SplatGroups::Group::growing, own, seen.depths });
+  state->vtkglDisable(GL_BLEND);
+  return growing.sums();
+}
+
+void SplatPart::drawGroups(const SplatFrame& frame, const Pass& pass)
 {
   for (const SplatGroups::Group& group : groups_.groups())
   {
-    const DrawRuns& runs = addedOnly ? group.added : group.all;
-    if (!runs.stretches().empty() && (!second || group.first->passes.blended))
+    const DrawRuns& runs = group.*pass.runs;
+    if (!runs.stretches().empty() && (!pass.seenDepths || group.first->passes.blended))
     {
-      drawGroup(frame, group, runs, second);
+      drawGroup(frame, group, pass);
     }
   }
 }
 
 void SplatPart::drawGroup(
-  const SplatFrame& frame, const SplatGroups::Group& group, const DrawRuns& runs, bool second)
+  const SplatFrame& frame, const SplatGroups::Group& group, const Pass& pass)
 {
-  const SplatVariant variant = variantOf(group, parts_, second);
+  const bool second = pass.seenDepths != nullptr;
+  const SplatVariant variant = variantOf(group, pass.parts, second);
   vtkShaderProgram* const program = tools_.programs.use(frame.window, variant);
   if (!program)
   {
     return;
   }
-  setTexture(program, "seenDepths", target_->seenDepths());
-  drawSplatRuns(frame, tools_.records, program, variant, group, runs);
+  second ? setTexture(program, "seenDepths", pass.seenDepths) : void();
+  drawSplatRuns(frame, tools_.records, program, variant, group, group.*pass.runs);
   if (second)
   {
-    target_->seenDepths()->Deactivate();
+    pass.seenDepths->Deactivate();
   }
 }
 
-void SplatPart::resolve(vtkOpenGLRenderWindow* window, const FramePlan& plan, bool fills)
+void SplatPart::resolve(vtkOpenGLRenderWindow* window, const FramePlan& plan,
+  const SeenTextures& seen, vtkTextureObject* sums, bool fills)
 {
   const FrameShading& shading = plan.shading;
   const bool lit = parts_.lit && !fills; // filled pixels are lit before
@@ -227,10 +350,8 @@ void SplatPart::resolve(vtkOpenGLRenderWindow* window, const FramePlan& plan, bo
   const int size[2] = { parts_.width, parts_.height };
   program->SetUniform2i("pictureSize", size);
   lit ? setLights(program, plan) : void();
-  vtkTextureObject* const textures[] = {
-    fills ? tools_.holes.seenColours() : target_->seenColours(),
-    fills ? tools_.holes.seenDepths() : target_->seenDepths(), target_->sums(), target_->normals()
-  };
+  vtkTextureObject* const textures[] = { fills ? tools_.holes.seenColours() : seen.colours,
+    fills ? tools_.holes.seenDepths() : seen.depths, sums, seen.normals };
   const char* const names[] = { "seenColours", "seenDepths", "colourSums", "seenNormals" };
   for (int i = 0; i < 4; ++i)
   {
@@ -261,6 +382,7 @@ void SplatPart::release(vtkOpenGLRenderWindow* window)
     target_ = nullptr;
   }
   forget();
+  standIns_.release(window);
 }
 
 } // namespace pointfront

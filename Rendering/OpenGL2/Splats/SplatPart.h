@@ -4,6 +4,7 @@
 #include "SplatComposition.h"
 #include "SplatFrame.h"
 #include "SplatGroups.h"
+#include "SplatStandIns.h"
 #include "SplatTarget.h"
 
 #include "pointfront/Plan/FramePlan.h"
@@ -20,6 +21,7 @@ namespace pointfront
 ///           eye-dome lighting.
 /// Motion    what the last pictures showed is kept (FramePlan::keepsVisible) where the last one is
 ///           still there: no other cloud has drawn into the target since.
+/// Loading   a refining view has stand-ins (FramePlan::standIns), but for selections.
 /// Threads   that of the GL context, current in all functions.
 /// Source    docs/adr/0016, 0028.
 class SplatPart
@@ -46,24 +48,51 @@ public:
   void release(vtkOpenGLRenderWindow* window);
 
 private:
+  /// The needs of a picture.
+  struct Demand
+  {
+    bool goesOn = false; ///< with what is in the target
+    bool fills = false;
+    bool standIns = false;
+    bool mayChange = false; ///< sums of blended splats need not be those of one go
+  };
+  std::int64_t list(
+    const SplatFrame& frame, const FramePlan& plan, const PixelRectangle& within, Demand& demand);
   void forget();
-  PixelRectangle placeOf(const FramePlan& plan, bool fills) const;
+  PixelRectangle placeOf(const FramePlan& plan, bool fills, bool standIns) const;
   void keepVisible(const SplatFrame& frame, const FramePlan& plan, float largestPointPx);
-  bool drawInto(const SplatFrame& frame, const FramePlan& plan, bool goesOn, bool fills);
-  void drawGroups(const SplatFrame& frame, bool second, bool addedOnly);
-  void drawGroup(
-    const SplatFrame& frame, const SplatGroups::Group& group, const DrawRuns& runs, bool second);
+  /// One pass over the points.
+  struct Pass
+  {
+    DrawRuns SplatGroups::Group::*runs;
+    SplatTarget::Parts parts;
+    vtkTextureObject* seenDepths; ///< null: the first pass
+  };
+  bool isSame(const FramePlan& plan, const Demand& demand) const;
+  bool drawInto(const SplatFrame& frame, const FramePlan& plan, const Demand& demand);
+  void drawGroups(const SplatFrame& frame, const Pass& pass);
+  void drawGroup(const SplatFrame& frame, const SplatGroups::Group& group, const Pass& pass);
+  void addSums(const SplatFrame& frame, bool goesOn);
+  void forgetHidden(const SplatFrame& frame);
+  /// Puts what has not grown to its size over what is seen; returns the sums with it.
+  vtkTextureObject* addGrowing(const SplatFrame& frame, SeenTextures& seen);
   /// `fills`: what was seen is SplatTools::holes'.
-  void resolve(vtkOpenGLRenderWindow* window, const FramePlan& plan, bool fills);
+  void resolve(vtkOpenGLRenderWindow* window, const FramePlan& plan, const SeenTextures& seen,
+    vtkTextureObject* sums, bool fills);
 
   SplatTools& tools_;
   std::shared_ptr<SplatTarget> target_; ///< all clouds of the window may draw into it in turn
   SplatTarget::Parts parts_;
   SplatGroups groups_;
   KeptSplats kept_;
+  SplatStandIns standIns_;
   bool selects_ = false; ///< the last picture is for a selection
   FrameShading shading_; ///< shading of the last picture
   bool fills_ = false; ///< the last picture's holes are filled
+  bool hasStandIns_ = false; ///< likewise: it has stand-ins
+  bool hasGrowing_ = false; ///< likewise: it has points that have not grown to their size
+  bool summed_ = false; ///< the target has the sums of the last picture
+  bool exact_ = false; ///< they are those of one go
   bool composited_ = false; ///< likewise: it has the depths that decided
   vtkRenderer* renderer_ = nullptr; ///< compared, not used
   PixelRectangle limits_;

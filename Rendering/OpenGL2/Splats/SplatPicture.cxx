@@ -48,17 +48,21 @@ SplatPicture::SplatPicture()
 SplatPicture::~SplatPicture() = default;
 
 std::int64_t SplatPicture::draw(vtkOpenGLRenderWindow* window, vtkRenderer* renderer,
-  FramePlan& plan, const GpuPool& pool, const TableOf& tableOf, bool ids)
+  FramePlan& plan, const GpuPool& pool, const TableOf& tableOf, bool ids, bool unfinished)
 {
   int viewport[4];
   window->GetState()->vtkglGetIntegerv(GL_VIEWPORT, viewport);
   originPx_[0] = viewport[0];
   originPx_[1] = viewport[1];
   plan.camera.setViewport(std::max(1, viewport[2]), std::max(1, viewport[3]), plan.camera.margin);
-  const SplatFrame frame{ window, renderer, &pool, tableOf, ids };
+  const SplatFrame frame{ window, renderer, &pool, tableOf, ids, unfinished };
   if (!plan.shading.fillHoles)
   {
     tools_.holes.release(window);
+  }
+  if (!plan.refining && !ids)
+  {
+    tools_.releaseTogether(window);
   }
   if (isSeveral(plan))
   {
@@ -267,6 +271,7 @@ void SplatPicture::release(vtkOpenGLRenderWindow* window)
   tools_.records.release(window);
   tools_.lastRecords.release(window);
   tools_.holes.release(window);
+  tools_.releaseTogether(window);
   tools_.vertices->ReleaseGraphicsResources();
   if (mapper_)
   {

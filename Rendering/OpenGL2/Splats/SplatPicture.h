@@ -36,8 +36,9 @@ public:
 
   /// Draws the points of the plan that are on the GPU, except those that the last picture has, and
   /// returns their number. The plan's camera gets the size of the viewport. `ids`: for a selection.
+  /// `unfinished`: another frame follows, with more points on the GPU.
   std::int64_t draw(vtkOpenGLRenderWindow* window, vtkRenderer* renderer, FramePlan& plan,
-    const GpuPool& pool, const TableOf& tableOf, bool ids);
+    const GpuPool& pool, const TableOf& tableOf, bool ids, bool unfinished);
   /// Hands over the last drawing, as if it were geometry of the actor.
   void handOver(
     vtkRenderer* renderer, vtkActor* actor, const FramePlan& plan, std::int64_t storePoints);

@@ -4,7 +4,9 @@
 #include "CaptureGSGLSL.h"
 #include "CaptureVSGLSL.h"
 #include "ColourMapTextureGLSL.h"
+#include "ForgetFSGLSL.h"
 #include "KeptPointGLSL.h"
+#include "LayerFSGLSL.h"
 #include "LightsGLSL.h"
 #include "PictureVSGLSL.h"
 #include "PointDataGLSL.h"
@@ -43,7 +45,8 @@ std::string definitions(const SplatVariant& variant)
     define("COLOUR", static_cast<int>(variant.colour)) + define("MARKED", variant.marked) +
     define("SHAPED", variant.shaped) + define("NORMALS", variant.normals) +
     define("RADIUS", static_cast<int>(variant.radius)) + define("LIT", variant.lit) +
-    define("PICKING", variant.ids) + define("QUADS", variant.quads);
+    define("PICKING", variant.ids) + define("QUADS", variant.quads) +
+    define("STAND_IN", variant.standIn);
 }
 
 /// The parts of a shader, beside its own text.
@@ -134,6 +137,24 @@ vtkShaderProgram* SplatPrograms::useResolve(vtkOpenGLRenderWindow* window, const
   content.defines = define("BLENDED", variant.blended) + define("LIT", variant.lit) +
     define("EYE_DOME", variant.eyeDome) + define("LOOKS", variant.looks);
   const std::string fragment = filled(ResolveFSGLSL, content);
+  return window->GetShaderCache()->ReadyShaderProgram(PictureVSGLSL, fragment.c_str(), "");
+}
+
+vtkShaderProgram* SplatPrograms::useLayer(
+  vtkOpenGLRenderWindow* window, bool standIns, bool parallel, bool lit)
+{
+  Content content;
+  content.defines =
+    define("STAND_INS", standIns) + define("PARALLEL", parallel) + define("LIT", lit);
+  const std::string fragment = filled(LayerFSGLSL, content);
+  return window->GetShaderCache()->ReadyShaderProgram(PictureVSGLSL, fragment.c_str(), "");
+}
+
+vtkShaderProgram* SplatPrograms::useForget(vtkOpenGLRenderWindow* window, bool parallel)
+{
+  Content content;
+  content.defines = define("PARALLEL", parallel);
+  const std::string fragment = filled(ForgetFSGLSL, content);
   return window->GetShaderCache()->ReadyShaderProgram(PictureVSGLSL, fragment.c_str(), "");
 }
 

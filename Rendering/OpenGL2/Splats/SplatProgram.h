@@ -41,11 +41,12 @@ struct SplatVariant
   bool ids = false;
   bool quads = false; ///< for splats that are larger than points can be
   bool kept = false; ///< points that were visible in an earlier picture
+  bool standIn = false; ///< points of a refining view without ids
 
   auto key() const
   {
     return std::make_tuple(square, shape, parallel, second, colour, marked, shaped, normals, radius,
-      lit, ids, quads, kept);
+      lit, ids, quads, kept, standIn);
   }
   friend bool operator<(const SplatVariant& a, const SplatVariant& b) { return a.key() < b.key(); }
 };
@@ -68,6 +69,10 @@ public:
     int looks = 1;
   };
   vtkShaderProgram* useResolve(vtkOpenGLRenderWindow* window, const Resolve& variant);
+  /// The pass that puts a layer, of stand-ins or of what grows, into what is seen.
+  vtkShaderProgram* useLayer(vtkOpenGLRenderWindow* window, bool standIns, bool parallel, bool lit);
+  /// The pass that empties sums where something came that is much nearer.
+  vtkShaderProgram* useForget(vtkOpenGLRenderWindow* window, bool parallel);
 
 private:
   struct Sources

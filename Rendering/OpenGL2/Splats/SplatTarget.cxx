@@ -43,6 +43,17 @@ void bind(vtkOpenGLFramebufferObject* framebuffer, unsigned int outputs)
   glDrawBuffers(static_cast<GLsizei>(outputs), all);
 }
 
+/// The whole of what a framebuffer has there becomes a texture's, of its size.
+void copyTo(vtkTextureObject* texture, vtkOpenGLFramebufferObject* from, unsigned int attachment,
+  const SplatTarget::Parts& parts)
+{
+  from->Bind();
+  glReadBuffer(attachment);
+  texture->Activate();
+  glCopyTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, 0, 0, parts.width, parts.height);
+  texture->Deactivate();
+}
+
 } // namespace
 
 SplatTarget::SplatTarget() = default;
@@ -52,7 +63,7 @@ bool SplatTarget::has(const Parts& parts) const
 {
   return ready_ && parts.width == parts_.width && parts.height == parts_.height &&
     parts.lit == parts_.lit && parts.ids == parts_.ids && parts.blended == parts_.blended &&
-    parts.looks == parts_.looks;
+    parts.looks == parts_.looks && parts.picture == parts_.picture;
 }
 
 bool SplatTarget::prepare(vtkOpenGLRenderWindow* window, const Parts& parts)
@@ -80,8 +91,11 @@ bool SplatTarget::prepare(vtkOpenGLRenderWindow* window, const Parts& parts)
   {
     allocate(window, sums_, parts, 4, VTK_FLOAT);
   }
-  allocate(window, pictureColour_, parts, 4, VTK_UNSIGNED_CHAR);
-  allocate(window, pictureDepth_, parts, 2, VTK_FLOAT);
+  if (parts.picture)
+  {
+    allocate(window, pictureColour_, parts, 4, VTK_UNSIGNED_CHAR);
+    allocate(window, pictureDepth_, parts, 2, VTK_FLOAT);
+  }
   ready_ = attach(window);
   return ready_;
 }
@@ -114,11 +128,14 @@ bool SplatTarget::attach(vtkOpenGLRenderWindow* window)
     summed_->AddColorAttachment(0, sums_);
     whole = whole && isWhole(summed_);
   }
-  picture_->SetContext(window);
-  picture_->Bind();
-  picture_->AddColorAttachment(0, pictureColour_);
-  picture_->AddColorAttachment(1, pictureDepth_);
-  whole = whole && isWhole(picture_);
+  if (parts_.picture)
+  {
+    picture_->SetContext(window);
+    picture_->Bind();
+    picture_->AddColorAttachment(0, pictureColour_);
+    picture_->AddColorAttachment(1, pictureDepth_);
+    whole = whole && isWhole(picture_);
+  }
   state->PopFramebufferBindings();
   return whole;
 }
@@ -138,10 +155,27 @@ void SplatTarget::beginSeen(bool empty)
   }
 }
 
-void SplatTarget::beginSums()
+void SplatTarget::beginSums(bool empty)
 {
   bind(summed_, 1);
-  glClearBufferfv(GL_COLOR, 0, nothing);
+  if (empty)
+  {
+    glClearBufferfv(GL_COLOR, 0, nothing);
+  }
+}
+
+void SplatTarget::keepDepths(vtkOpenGLRenderWindow* window)
+{
+  if (lastDepths_->GetHandle() == 0)
+  {
+    allocate(window, lastDepths_, parts_, 1, VTK_FLOAT);
+  }
+  copyTo(lastDepths_, seen_, GL_COLOR_ATTACHMENT1, parts_);
+}
+
+void SplatTarget::takeSums(SplatTarget& other)
+{
+  copyTo(sums_, other.summed_, GL_COLOR_ATTACHMENT0, parts_);
 }
 
 void SplatTarget::beginPicture()
@@ -160,7 +194,7 @@ void SplatTarget::release(vtkOpenGLRenderWindow* window)
   }
   for (vtkTextureObject* texture : { seenColours_.GetPointer(), seenDepths_.GetPointer(),
          depthBuffer_.GetPointer(), normals_.GetPointer(), ids_.GetPointer(), sums_.GetPointer(),
-         pictureColour_.GetPointer(), pictureDepth_.GetPointer() })
+         lastDepths_.GetPointer(), pictureColour_.GetPointer(), pictureDepth_.GetPointer() })
   {
     texture->ReleaseGraphicsResources(window);
   }

@@ -13,10 +13,17 @@ class vtkTextureObject;
 namespace pointfront
 {
 
+/// Who is seen in each pixel.
+struct SeenTextures
+{
+  vtkTextureObject* colours = nullptr;
+  vtkTextureObject* depths = nullptr; ///< as SplatTarget::seenDepths()
+  vtkTextureObject* normals = nullptr; ///< without textures where nothing is lit
+};
+
 /// The textures that splats are drawn into, and the picture that is made of them.
 /// Bytes    16 a pixel for who is seen; with several looks 8, with light 16, with ids 8, with
-/// blending 16 more; 12 for
-///          the picture.
+///          blending 16 more, and 4 while it is refined; 12 for the picture.
 /// Threads  that of the GL context, which is current in all functions but the constructor.
 class SplatTarget
 {
@@ -30,6 +37,7 @@ public:
     bool ids = false;
     bool blended = false;
     bool looks = false; ///< several
+    bool picture = true; ///< that is made of who is seen
   };
 
   SplatTarget();
@@ -47,16 +55,20 @@ public:
 
   // Framebuffers: bound and empty. The window's state is the caller's to restore.
   void beginSeen(bool empty); ///< false: with what is there
-  void beginSums();
+  void beginSums(bool empty); ///< likewise
   void beginPicture();
+  /// The depths that decide go into lastDepths().
+  void keepDepths(vtkOpenGLRenderWindow* window);
+  /// The sums of another target of the same size become those of this one.
+  void takeSums(SplatTarget& other);
 
-  vtkTextureObject* seenColours() { return seenColours_; }
+  SeenTextures seen() { return { seenColours_, seenDepths_, normals_ }; }
   /// r: the depth that decided, g: that of the splat; camera units. b: its look, where there are
-  /// several.
+  /// several; a: the number of its node, of stand-ins.
   vtkTextureObject* seenDepths() { return seenDepths_; }
-  vtkTextureObject* normals() { return normals_; }
   vtkTextureObject* ids() { return ids_; }
   vtkTextureObject* sums() { return sums_; }
+  vtkTextureObject* lastDepths() { return lastDepths_; }
   vtkTextureObject* pictureColour() { return pictureColour_; }
   /// r: depth, g: highlight.
   vtkTextureObject* pictureDepth() { return pictureDepth_; }
@@ -73,6 +85,7 @@ private:
   vtkNew<vtkTextureObject> normals_;
   vtkNew<vtkTextureObject> ids_;
   vtkNew<vtkTextureObject> sums_;
+  vtkNew<vtkTextureObject> lastDepths_;
   vtkNew<vtkTextureObject> pictureColour_;
   vtkNew<vtkTextureObject> pictureDepth_;
   vtkNew<vtkOpenGLFramebufferObject> seen_;

@@ -121,7 +121,7 @@ void main()
   }
   gl_FragDepth = key * depthScale;
   gl_FragData[0] = vec4(colour, seenMark);
-  gl_FragData[1] = vec4(key, s.y, seenLook, 0.0);
+  gl_FragData[1] = vec4(key, s.y, seenLook, POINTFRONT_STAND_IN == 1 ? splat.id.x : 0.0);
 #if POINTFRONT_LIT
   gl_FragData[2] = vec4(normalAt(s.y), 0.0);
 #if POINTFRONT_PICKING

@@ -17,7 +17,8 @@ uniform int firstSlot;             // first slot of the buffers that are drawn f
 uniform isamplerBuffer slotSteps;  // xyz: the reference in the node's steps; w: shift and flags
 uniform samplerBuffer slotPlaces;  // camera space of the reference; w: size of the first point
 uniform samplerBuffer slotRadii;   // closing radius, scale of own ones, 1: none below, sparsest
-uniform isamplerBuffer slotIds;    // low and high 24 bits of the id of the slot's first point
+uniform isamplerBuffer slotIds;    // low and high 24 bits of the id of the slot's first point; z:
+                                   // number of its node, of stand-ins
 uniform samplerBuffer slotBase;    // store units; w: what sizes fall by from a point to the next
 #if POINTFRONT_COLOUR == 3
 uniform vec3 stepSize;
@@ -100,9 +101,13 @@ Point pointOf()
   point.drawn = (steps.w & 256) != 0 && int(point.colour.a * 255.0 + 0.5) == styleMark;
 #endif
   point.normal = normalOf(steps.w);
-  ivec2 id = texelFetch(slotIds, slot).xy;
+  ivec3 id = texelFetch(slotIds, slot).xyz;
+#if POINTFRONT_STAND_IN
+  point.id = vec2(float(id.z), 0.0);
+#else
   int low = id.x + gl_VertexID % slotPoints;
   point.id = vec2(float(low & 0xffffff), float(id.y + (low >> 24)));
+#endif
   point.radius = radiusOf(steps.w, slot, point.camera.z);
   return point;
 }

@@ -1,7 +1,7 @@
 // A view at rest while its store is being loaded (SMOOTH-5): each frame draws what is new, nothing
 // is drawn twice, and the complete picture has the bits of one that was drawn at one go.
 
-#include "LoadingView.h"
+#include "SlowView.h"
 
 #include <gtest/gtest.h>
 
@@ -112,7 +112,7 @@ struct SeenFrames
   }
 };
 
-SeenFrames refine(LoadingView& view)
+SeenFrames refine(SlowView& view)
 {
   SeenFrames seen;
   do
@@ -136,7 +136,7 @@ double coverageOf(const RefiningStyle& style)
 
 /// In each frame, and at the end; what was seen goes into the report.
 void expectCoveredAndAsAtOneGo(
-  const LoadingView& view, const SeenFrames& seen, const RefiningStyle& style)
+  const SlowView& view, const SeenFrames& seen, const RefiningStyle& style)
 {
   const double covered = seen.leastCovered(view.target);
   EXPECT_GE(covered, coverageOf(style));
@@ -144,7 +144,7 @@ void expectCoveredAndAsAtOneGo(
   testing::Test::RecordProperty("drawn_per_point", std::to_string(seen.drawnPerPoint()));
   testing::Test::RecordProperty("blended_per_point", std::to_string(seen.blendedPerPoint()));
   testing::Test::RecordProperty("least_covered", std::to_string(covered));
-  LoadingView atOnce(refiningTown(), refiningSheet(style));
+  SlowView atOnce(refiningTown(), refiningSheet(style));
   atOnce.frame(true);
   EXPECT_EQ(view.target.rgba, atOnce.target.rgba);
   EXPECT_EQ(view.target.depth, atOnce.target.depth);
@@ -156,8 +156,8 @@ TEST_P(RefiningView, DrawsNothingTwice)
 {
   const std::shared_ptr<const PointStore> store = refiningTown();
   ASSERT_TRUE(store);
-  LoadingView(store, refiningSheet(GetParam())).frame(true); // the table's rows are there then
-  LoadingView view(store, refiningSheet(GetParam()));
+  SlowView(store, refiningSheet(GetParam())).frame(true); // the table's rows are there then
+  SlowView view(store, refiningSheet(GetParam()));
   const SeenFrames seen = refine(view);
   ASSERT_TRUE(view.isComplete());
   EXPECT_GE(seen.gained, 3); // it was seen to load; a slow machine draws few frames meanwhile
@@ -172,8 +172,8 @@ TEST_P(RefiningView, DrawsWhatGrowsAndNothingElse)
 {
   const std::shared_ptr<const PointStore> store = refiningTown();
   ASSERT_TRUE(store);
-  LoadingView(store, refiningSheet(GetParam())).frame(true); // the table's rows are there then
-  LoadingView view(store, refiningSheet(GetParam()));
+  SlowView(store, refiningSheet(GetParam())).frame(true); // the table's rows are there then
+  SlowView view(store, refiningSheet(GetParam()));
   view.growthStep = 0.05;
   const SeenFrames seen = refine(view);
   ASSERT_TRUE(view.isComplete());
@@ -193,7 +193,7 @@ struct RefiningClouds
   {
     for (const std::shared_ptr<const PointStore>& store : refiningTowns())
     {
-      views.push_back(std::make_unique<LoadingView>(store, refiningSheet(style)));
+      views.push_back(std::make_unique<SlowView>(store, refiningSheet(style)));
       views.back()->composited = true;
       views.back()->camera = views.front()->camera;
     }
@@ -203,12 +203,12 @@ struct RefiningClouds
     if (together)
     {
       picture.keepDecided = true;
-      picture.reset(LoadingView::width, LoadingView::height);
+      picture.reset(SlowView::width, SlowView::height);
     }
     points = 0;
     for (std::size_t number = 0; number < views.size(); ++number)
     {
-      LoadingView& view = *views[number];
+      SlowView& view = *views[number];
       RasterStatistics one;
       if (together)
       {
@@ -243,7 +243,7 @@ struct RefiningClouds
   }
 
   bool together;
-  std::vector<std::unique_ptr<LoadingView>> views;
+  std::vector<std::unique_ptr<SlowView>> views;
   SoftwareRasteriser rasteriser;
   SoftwareTarget picture;
   std::uint64_t points = 0; ///< the last frame has

@@ -82,14 +82,14 @@ inline std::shared_ptr<const PointStore> openedStore(const std::string& path)
 
 /// A view that is at rest while a store is being loaded, frame by frame, as DrawnStore and
 /// vtkPointFrontMapper do it: front, plan, rasteriser.
-class LoadingView
+class SlowView
 {
 public:
   static constexpr int width = 480;
   static constexpr int height = 320;
   static constexpr int nodesAFrame = 8;
 
-  LoadingView(const std::shared_ptr<const PointStore>& store, const StyleSheet& sheet)
+  SlowView(const std::shared_ptr<const PointStore>& store, const StyleSheet& sheet)
     : store_(store)
     , disk_(std::make_shared<SlowStore>(store))
     , share_(disk_, store->hierarchy()->nodeCount(), ResidencyOptions{ std::size_t(1) << 30, 1 })
@@ -111,9 +111,9 @@ public:
     lookAt(middle, across);
   }
 
-  ~LoadingView() { disk_->grant(SlowStore::allNodes); } // no read waits for ever
-  LoadingView(const LoadingView&) = delete;
-  LoadingView& operator=(const LoadingView&) = delete;
+  ~SlowView() { disk_->grant(SlowStore::allNodes); } // no read waits for ever
+  SlowView(const SlowView&) = delete;
+  SlowView& operator=(const SlowView&) = delete;
 
   /// From the south, from above; about `across` is seen.
   void lookAt(const glm::dvec3& at, double across)

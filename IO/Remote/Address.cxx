@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <map>
 #include <mutex>
+#include <pthread.h>
 #include <random>
 #include <set>
 
@@ -52,9 +53,19 @@ struct Remembered
   std::map<std::string, Secret> secrets; ///< by origin and mark: of what lies beside an address
 };
 
+Remembered& remembered();
+
+/// A child of fork() knows the addresses of its parent, so no other thread may hold the lock then.
+Remembered* rememberedAcrossForks()
+{
+  ::pthread_atfork([] { remembered().mutex.lock(); }, [] { remembered().mutex.unlock(); },
+    [] { remembered().mutex.unlock(); });
+  return new Remembered; // never deleted: static objects may use it
+}
+
 Remembered& remembered()
 {
-  static auto* const table = new Remembered; // never deleted: static objects may use it
+  static Remembered* const table = rememberedAcrossForks();
   return *table;
 }
 

@@ -1,34 +1,159 @@
 #include "RemoteOpener.h"
 
+#include "TransferLoop.h"
+
+#include <chrono>
+#include <exception>
+#include <future>
+#include <map>
+#include <mutex>
+#include <optional>
 #include <utility>
 
 namespace pointfront
 {
 namespace
 {
-constexpr std::chrono::seconds heldFor{ 3 };
-}
+using Clock = std::chrono::steady_clock;
 
-std::shared_ptr<const ByteSource> RemoteOpener::known(const std::string& name) const
+constexpr std::chrono::seconds heldFor{ 3 };
+constexpr std::chrono::seconds failedFor{ 1 };
+
+template <typename Entries>
+void dropPast(Entries& entries, Clock::time_point now)
 {
-  const auto now = std::chrono::steady_clock::now();
-  const std::lock_guard<std::mutex> lock(mutex_);
-  for (auto one = sources_.begin(); one != sources_.end();)
+  for (auto one = entries.begin(); one != entries.end();)
+  {
+    one = one->second.until < now ? entries.erase(one) : std::next(one);
+  }
+}
+} // namespace
+
+/// All by public forms of addresses, but for servers: by their origins.
+struct RemoteOpener::Tables
+{
+  struct Known
+  {
+    std::weak_ptr<const ByteSource> source;
+    std::shared_ptr<const ByteSource> held; ///< until `until`
+    Clock::time_point until;
+  };
+  struct Failed
+  {
+    Error error;
+    Clock::time_point until;
+  };
+  struct Silent
+  {
+    Clock::time_point until;
+  };
+
+  std::mutex mutex; ///< guards all that follows
+  std::map<std::string, Known> sources;
+  std::map<std::string, Failed> failed;
+  std::map<std::string, Silent> silent; ///< servers of which no answer came
+  std::map<std::string, std::shared_future<Opened>> opening;
+
+  std::optional<Opened> find(const std::string& name, const std::string& server);
+  void note(const std::string& name, const Opened& opened);
+};
+
+/// The outcome of an opening a moment ago, if it still counts. The caller has the lock.
+std::optional<RemoteOpener::Opened> RemoteOpener::Tables::find(
+  const std::string& name, const std::string& server)
+{
+  const Clock::time_point now = Clock::now();
+  dropPast(failed, now);
+  dropPast(silent, now);
+  for (auto one = sources.begin(); one != sources.end();)
   {
     if (one->second.held && one->second.until < now)
     {
       one->second.held.reset();
     }
-    one = one->second.source.expired() ? sources_.erase(one) : std::next(one);
+    one = one->second.source.expired() ? sources.erase(one) : std::next(one);
   }
-  const auto found = sources_.find(name);
-  return found != sources_.end() ? found->second.source.lock() : nullptr;
+  const auto found = sources.find(name);
+  std::shared_ptr<const ByteSource> source =
+    found != sources.end() ? found->second.source.lock() : nullptr;
+  if (source && source->isStillNamed())
+  {
+    return Opened(std::move(source));
+  }
+  if (source)
+  {
+    // Who opens it in several steps hears of the change in each; later ones get the new file.
+    failed.insert_or_assign(name,
+      Failed{ makeError(Error::Kind::Unreadable,
+                "'" + name + "' has changed on its server while it was open; open it again"),
+        now + failedFor });
+    sources.erase(found);
+  }
+  if (const auto known = failed.find(name); known != failed.end())
+  {
+    return Opened(known->second.error);
+  }
+  if (silent.count(server) > 0)
+  {
+    return Opened(makeError(Error::Kind::Unreadable,
+      "'" + name +
+        "' cannot be read at the moment: its server gave no answer a moment ago; check the "
+        "network and try again"));
+  }
+  return std::nullopt;
 }
+
+void RemoteOpener::Tables::note(const std::string& name, const Opened& opened)
+{
+  const Clock::time_point now = Clock::now();
+  if (opened)
+  {
+    sources[name] = { *opened, *opened, now + heldFor };
+  }
+  else
+  {
+    failed.insert_or_assign(name, Failed{ opened.error(), now + failedFor });
+  }
+}
+
+RemoteOpener::RemoteOpener(RemoteOptions options)
+  : options_(options)
+  , tables_(std::make_unique<OfProcess<Tables>>())
+{
+}
+
+RemoteOpener::~RemoteOpener() = default;
 
 std::string RemoteOpener::publicForm(const std::string& text) const
 {
   const Result<Address> address = Address::parse(addressOf(text));
   return address ? rememberAddress(*address) : text;
+}
+
+RemoteOpener::Opened RemoteOpener::openNow(
+  const std::string& name, const Address& address, const FirstBytes& first, Tables& tables) const
+{
+  Result<Request> request = requestOf(address);
+  if (!request)
+  {
+    return request.error();
+  }
+  const Clock::time_point begin = Clock::now();
+  const std::string server = request->address.origin();
+  const Result<std::shared_ptr<const RemoteSource>> opened = RemoteSource::open(
+    std::make_unique<const Conversation>(name, std::move(*request), options_), first);
+  if (opened)
+  {
+    return std::shared_ptr<const ByteSource>(*opened);
+  }
+  if (opened.error().kind == Error::Kind::Unreadable &&
+    !TransferLoop::ofProcess().answeredSince(server, begin))
+  {
+    const Clock::time_point now = Clock::now();
+    const std::lock_guard<std::mutex> lock(tables.mutex);
+    tables.silent[address.origin()] = { now + (now - begin) };
+  }
+  return opened.error();
 }
 
 Result<std::shared_ptr<const ByteSource>> RemoteOpener::open(
@@ -40,25 +165,47 @@ Result<std::shared_ptr<const ByteSource>> RemoteOpener::open(
     return address.error();
   }
   const std::string name = rememberAddress(*address);
-  if (std::shared_ptr<const ByteSource> source = known(name))
+  Tables& tables = tables_->get([] { return std::make_unique<Tables>(); });
+  std::promise<Opened> promise;
   {
-    return source;
+    std::unique_lock<std::mutex> lock(tables.mutex);
+    if (std::optional<Opened> known = tables.find(name, address->origin()))
+    {
+      return std::move(*known);
+    }
+    if (const auto other = tables.opening.find(name); other != tables.opening.end())
+    {
+      const std::shared_future<Opened> outcome = other->second;
+      lock.unlock();
+      return outcome.get();
+    }
+    tables.opening.emplace(name, promise.get_future().share());
   }
-  Result<Request> request = requestOf(*address);
-  if (!request)
+  std::optional<Opened> opened;
+  std::exception_ptr failure;
+  try
   {
-    return request.error();
+    opened = openNow(name, *address, first, tables);
   }
-  Result<std::shared_ptr<const RemoteSource>> opened = RemoteSource::open(
-    std::make_unique<const Conversation>(name, std::move(*request), options_), first);
-  if (!opened)
+  catch (...)
   {
-    return opened.error();
+    failure = std::current_exception();
   }
-  const std::shared_ptr<const ByteSource> source = *opened;
-  const std::lock_guard<std::mutex> lock(mutex_);
-  sources_[name] = { source, source, std::chrono::steady_clock::now() + heldFor };
-  return source;
+  {
+    const std::lock_guard<std::mutex> lock(tables.mutex);
+    tables.opening.erase(name);
+    if (opened)
+    {
+      tables.note(name, *opened);
+    }
+  }
+  if (failure)
+  {
+    promise.set_exception(failure);
+    std::rethrow_exception(failure);
+  }
+  promise.set_value(*opened);
+  return std::move(*opened);
 }
 
 void addRemoteOpeners()

@@ -3,11 +3,9 @@
 #include "RemoteSource.h"
 
 #include "pointfront/Disk/ByteOpeners.h"
+#include "pointfront/Threads/OfProcess.h"
 
-#include <chrono>
-#include <map>
 #include <memory>
-#include <mutex>
 #include <string>
 
 namespace pointfront
@@ -15,30 +13,29 @@ namespace pointfront
 
 /// Opens addresses of http, https and s3. A source that somebody holds, or that was opened a moment
 /// ago, is the same for all who open its address: whoever asks which format a file has, and then
-/// opens it, asks the server once.
+/// opens it, asks the server once. Several who open one address at a time wait for one opening.
+/// Failures  are those of the next second, too. A server of which no answer comes is not asked
+///           again, for any of its files, for as long as it took to find that out: a list of 1,000
+///           files of a dead server waits once.
+/// Fork      a child process has tables of its own.
 class RemoteOpener final : public ByteOpener
 {
 public:
-  explicit RemoteOpener(RemoteOptions options)
-    : options_(options)
-  {
-  }
+  explicit RemoteOpener(RemoteOptions options);
+  ~RemoteOpener() override;
   std::string publicForm(const std::string& address) const override;
   Result<std::shared_ptr<const ByteSource>> open(
     const std::string& address, const FirstBytes& first) const override;
 
 private:
-  struct Known
-  {
-    std::weak_ptr<const ByteSource> source;
-    std::shared_ptr<const ByteSource> held; ///< until `until`
-    std::chrono::steady_clock::time_point until;
-  };
-  std::shared_ptr<const ByteSource> known(const std::string& name) const;
+  struct Tables;
+  using Opened = Result<std::shared_ptr<const ByteSource>>;
+
+  Opened openNow(
+    const std::string& name, const Address& address, const FirstBytes& first, Tables& tables) const;
 
   const RemoteOptions options_;
-  mutable std::mutex mutex_; ///< guards all that follows
-  mutable std::map<std::string, Known> sources_; ///< by their public forms
+  const std::unique_ptr<OfProcess<Tables>> tables_;
 };
 
 /// Makes this process open http, https and s3. Again is once.

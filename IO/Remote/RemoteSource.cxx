@@ -89,6 +89,11 @@ void copyFrom(const WantedBytes& piece, std::uint64_t first, std::uint64_t size,
       static_cast<std::size_t>(end - begin));
   }
 }
+
+bool tellsOfChange(const Error& error)
+{
+  return error.what.find("has changed on its server") != std::string::npos;
+}
 } // namespace
 
 RemoteSource::RemoteSource(std::unique_ptr<const Conversation> conversation,
@@ -131,9 +136,18 @@ Result<std::shared_ptr<const RemoteSource>> RemoteSource::open(
     ends[1].size = first.tail + (cache ? keptBytes : 0);
     ends[1].tail = true;
   }
+  const std::vector<WantedBytes> asked = ends;
   std::optional<RemoteIdentity> identity;
   const std::atomic<bool> cancelled{ false };
-  if (Result<void> done = conversation->fetch(ends, identity, cancelled); !done)
+  Result<void> done = conversation->fetch(ends, identity, cancelled);
+  if (!done && tellsOfChange(done.error()))
+  {
+    // Head and tail are of two files: it was replaced just now, and the new one can be had.
+    ends = asked;
+    identity.reset();
+    done = conversation->fetch(ends, identity, cancelled);
+  }
+  if (!done)
   {
     return done.error();
   }
@@ -282,7 +296,7 @@ Result<void> RemoteSource::ask(const std::vector<const ByteRange*>& missing,
   const Result<void> done = conversation_->fetch(pieces, identity, stop);
   if (!done && done.error().kind != Error::Kind::Cancelled)
   {
-    changed_ = changed_ || done.error().what.find("has changed on its server") != std::string::npos;
+    changed_ = changed_ || tellsOfChange(done.error());
     return done;
   }
   for (const WantedBytes& piece : pieces)

@@ -43,6 +43,8 @@ public:
   /// The cache keeps those bytes that have come when `stop` is set.
   Result<void> readUntil(
     const ReadStop& stop, const ByteRange* ranges, std::size_t count) const override;
+  /// False once a read has found another file at the address.
+  bool isStillNamed() const override { return !changed_; }
 
 private:
   using Interval64 = std::pair<std::uint64_t, std::uint64_t>;

@@ -57,6 +57,7 @@ struct TransferLoop::Content
     Clock::time_point busySince;
     std::uint64_t busyBytes = 0;
     std::uint64_t received = 0; ///< by transfers that are over
+    Clock::time_point answered; ///< when it had answered last
   };
 
   CURLM* multi = nullptr;
@@ -174,6 +175,10 @@ void TransferLoop::Content::remove(Transfer& transfer)
   Line& line = lines[transfer.line()];
   --line.active;
   line.received += transfer.received;
+  if (transfer.answer().status != 0)
+  {
+    line.answered = Clock::now();
+  }
   counts.bytes += transfer.answer().body.size();
   ByteTraffic::ofProcess().bytes += transfer.answer().body.size();
   transfer.over = true;
@@ -314,6 +319,13 @@ std::vector<HttpAnswer> TransferLoop::run(const std::string& line,
   c.answered.wait(lock, [&] { return allOver(transfers); });
   patience.note(earlier + receivedBy(transfers), Clock::now());
   return answers;
+}
+
+bool TransferLoop::answeredSince(const std::string& line, Clock::time_point when) const
+{
+  const std::lock_guard<std::mutex> lock(content_->mutex);
+  const auto found = content_->lines.find(line);
+  return found != content_->lines.end() && found->second.answered >= when;
 }
 
 ReadCost TransferLoop::cost(const std::string& line) const

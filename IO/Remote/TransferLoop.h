@@ -6,6 +6,7 @@
 #include "pointfront/Disk/ByteSource.h"
 
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -45,6 +46,8 @@ public:
   std::vector<HttpAnswer> run(const std::string& line, const std::vector<HttpQuestion>& questions,
     ReadPatience& patience, const std::atomic<bool>& cancelled);
 
+  /// Whether the line's server has answered anything since then, be it a refusal.
+  bool answeredSince(const std::string& line, std::chrono::steady_clock::time_point when) const;
   ReadCost cost(const std::string& line) const;
   /// The server has asked for patience: fewer at once.
   void noteRefusal(const std::string& line);

@@ -63,6 +63,7 @@ public:
 
   std::atomic<bool> silent{ false }; ///< takes requests and answers none
   std::atomic<bool> refuses{ false }; ///< 503
+  std::atomic<unsigned> state{ 1 }; ///< another number is another file of the same length
   std::atomic<unsigned> requests{ 0 };
   std::atomic<unsigned> left{ 0 }; ///< connections that the client has closed
   std::chrono::milliseconds pause{ 0 }; ///< before an answer
@@ -120,9 +121,10 @@ private:
     }
     last = std::min(last, file_.size() - 1);
     const std::string body = file_.substr(first, last - first + 1);
-    return "HTTP/1.1 206 part\r\nETag: \"one\"\r\nContent-Length: " + std::to_string(body.size()) +
-      "\r\nContent-Range: bytes " + std::to_string(first) + "-" + std::to_string(last) + "/" +
-      std::to_string(file_.size()) + "\r\n\r\n" + body;
+    return "HTTP/1.1 206 part\r\nETag: \"" + std::to_string(state) +
+      "\"\r\nContent-Length: " + std::to_string(body.size()) + "\r\nContent-Range: bytes " +
+      std::to_string(first) + "-" + std::to_string(last) + "/" + std::to_string(file_.size()) +
+      "\r\n\r\n" + body;
   }
 
   const std::string file_;

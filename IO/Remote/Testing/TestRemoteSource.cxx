@@ -10,7 +10,9 @@
 #include <chrono>
 #include <memory>
 #include <string>
+#include <sys/wait.h>
 #include <thread>
+#include <unistd.h>
 #include <vector>
 
 namespace pointfront
@@ -78,6 +80,140 @@ TEST(RemoteSource, AStopEndsTheTransfers)
   server.silent = false;
   EXPECT_TRUE((*source)->read(ranges.data(), ranges.size()));
 }
+
+TEST(RemoteOpener, SeveralWhoOpenOneAddressGetOneSource)
+{
+  SmallServer server(words(1 << 16));
+  server.pause = milliseconds(50);
+  const RemoteOpener opener(RemoteOptions{});
+  std::vector<std::shared_ptr<const ByteSource>> sources(8);
+  std::vector<std::thread> threads;
+  for (auto& source : sources)
+  {
+    threads.emplace_back(
+      [&]
+      {
+        const auto opened = opener.open(server.address(), { 4096, 0 });
+        source = opened ? *opened : nullptr;
+      });
+  }
+  for (std::thread& thread : threads)
+  {
+    thread.join();
+  }
+  EXPECT_EQ(server.requests, 1u);
+  ASSERT_TRUE(sources.front());
+  for (const auto& source : sources)
+  {
+    EXPECT_EQ(source, sources.front());
+  }
+}
+
+TEST(RemoteOpener, ADeadServerIsWaitedForOnce)
+{
+  SmallServer server(words(1 << 16));
+  server.silent = true;
+  RemoteOptions options;
+  options.timeLimit = milliseconds(500);
+  const RemoteOpener opener(options);
+  const Clock::time_point begin = Clock::now();
+  const auto first = opener.open(server.address("0"), { 4096, 0 });
+  ASSERT_FALSE(first);
+  EXPECT_GE(Clock::now() - begin, milliseconds(500));
+  for (int tile = 1; tile < 1000; ++tile)
+  {
+    const auto opened = opener.open(server.address(std::to_string(tile)), { 4096, 0 });
+    ASSERT_FALSE(opened);
+    EXPECT_EQ(opened.error().kind, Error::Kind::Unreadable);
+    EXPECT_NE(opened.error().what.find('/' + std::to_string(tile)), std::string::npos);
+  }
+  EXPECT_LT(Clock::now() - begin, std::chrono::seconds(5)); // 500 before
+  server.silent = false;
+  EXPECT_TRUE(comes([&] { return bool(opener.open(server.address("1"), { 4096, 0 })); }));
+}
+
+TEST(RemoteOpener, AFailureIsThatOfTheNextMoment)
+{
+  SmallServer server(words(1 << 16));
+  server.refuses = true;
+  RemoteOptions options;
+  options.retries = 1;
+  const RemoteOpener opener(options);
+  const auto first = opener.open(server.address("0"), { 4096, 0 });
+  const unsigned asked = server.requests;
+  const auto again = opener.open(server.address("0"), { 4096, 0 });
+  ASSERT_FALSE(first || again);
+  EXPECT_EQ(first.error().what, again.error().what);
+  EXPECT_EQ(server.requests, asked);
+  server.refuses = false;
+  // It answers, so its other files are asked for.
+  EXPECT_TRUE(opener.open(server.address("1"), { 4096, 0 }));
+  EXPECT_TRUE(comes([&] { return bool(opener.open(server.address("0"), { 4096, 0 })); }));
+}
+
+TEST(RemoteSource, AFileThatWasReplacedIsOpenedAnew)
+{
+  SmallServer server(words(1 << 20));
+  const RemoteOpener opener(RemoteOptions{});
+  const auto source = opener.open(server.address(), { 4096, 0 });
+  ASSERT_TRUE(source);
+  server.state = 2;
+  std::byte byte;
+  const Result<void> read = (*source)->readAt(500000, &byte, 1);
+  ASSERT_FALSE(read);
+  EXPECT_NE(read.error().what.find("has changed on its server"), std::string::npos);
+  EXPECT_FALSE((*source)->isStillNamed());
+  auto again = opener.open(server.address(), { 4096, 0 });
+  ASSERT_FALSE(again); // who opens it in several steps hears of the change
+  EXPECT_EQ(again.error().what, read.error().what);
+  EXPECT_TRUE(comes(
+    [&]
+    {
+      again = opener.open(server.address(), { 4096, 0 });
+      return bool(again);
+    }));
+  ASSERT_TRUE(again);
+  EXPECT_NE(*again, *source);
+  EXPECT_TRUE((*again)->readAt(500000, &byte, 1));
+}
+
+#if !defined(__SANITIZE_THREAD__) // which ends a child of fork() that starts threads
+TEST(RemoteOpener, AChildOfForkOpensAddressesToo)
+{
+  SmallServer server(words(1 << 16));
+  const RemoteOpener opener(RemoteOptions{});
+  std::atomic<bool> over{ false };
+  std::vector<std::thread> others; // hold the tables' locks most of the time
+  for (int t = 0; t < 2; ++t)
+  {
+    others.emplace_back(
+      [&]
+      {
+        while (!over)
+        {
+          static_cast<void>(opener.open(server.address(), { 4096, 0 }));
+        }
+      });
+  }
+  for (int round = 0; round < 20; ++round)
+  {
+    const ::pid_t child = ::fork();
+    if (child == 0)
+    {
+      ::alarm(20); // ends a child that waits for a lock of a thread which is not there
+      ::_exit(opener.open(server.address("child"), { 4096, 0 }) ? 0 : 1);
+    }
+    int status = -1;
+    ASSERT_EQ(::waitpid(child, &status, 0), child);
+    ASSERT_EQ(status, 0);
+  }
+  over = true;
+  for (std::thread& other : others)
+  {
+    other.join();
+  }
+}
+#endif
 
 TEST(ReadPatience, LastsWhileBytesCome)
 {

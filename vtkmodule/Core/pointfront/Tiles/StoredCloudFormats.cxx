@@ -93,7 +93,15 @@ Result<std::shared_ptr<const StoredCloud>> StoredCloudFormats::open(const std::s
       "'" + path + "' is not a PointFront store; its index is there, name that: '" + path +
         indexExtension + "'");
   }
-  return format ? format->open(path) : StoreFile().open(path);
+  Result<std::shared_ptr<const StoredCloud>> cloud =
+    format ? format->open(path) : StoreFile().open(path);
+  if (!cloud && held && !held->isStillNamed())
+  {
+    // Whatever was made of a part that could not be read: this is why.
+    return makeError(Error::Kind::Unreadable,
+      "'" + path + "' has changed on its server while it was open; open it again");
+  }
+  return cloud;
 }
 
 } // namespace pointfront

@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <set>
 
-bool vtkPointFrontMapper::NeedsPictureExchange(vtkActor* actor)
+bool vtkPointFrontMapper::NeedsPictureExchange(vtkActor* actor, bool inMotion)
 {
   const auto sheet = this->GetStore() ? this->GetStyleSheet() : nullptr;
   if (!sheet)
@@ -18,11 +18,11 @@ bool vtkPointFrontMapper::NeedsPictureExchange(vtkActor* actor)
     return false;
   }
   const pointfront::FrameShading& shading = sheet->frameShading();
+  const auto isAroundClass = [](const pointfront::FrameLens& lens)
+  { return lens.shape == pointfront::LensShape::AroundClass; };
   // Pixels around one, and what covers it, may be of other processes.
-  if (shading.reachPx() > 0 ||
-    std::any_of(shading.lenses.begin(), shading.lenses.end(),
-      [](const pointfront::FrameLens& lens)
-      { return lens.shape == pointfront::LensShape::AroundClass; }))
+  if ((shading.reachPx() > 0 && !inMotion) || !shading.highlights.empty() ||
+    std::any_of(shading.lenses.begin(), shading.lenses.end(), isAroundClass))
   {
     return true;
   }
@@ -31,8 +31,9 @@ bool vtkPointFrontMapper::NeedsPictureExchange(vtkActor* actor)
   {
     for (const auto& style : layer.styles)
     {
-      if (style->technique == pointfront::Technique::Ewa ||
-        (style->technique == pointfront::Technique::Splats && style->blended))
+      const bool blends = style->technique == pointfront::Technique::Ewa ||
+        (style->technique == pointfront::Technique::Splats && style->blended);
+      if (blends && !inMotion)
       {
         return true;
       }

@@ -246,11 +246,12 @@ public:
    * For pieces on several processes. Whether a picture of this style takes more than its nearest
    * points by depth: it adds up the colours of splats ("ewa", blended splats), looks at the pixels
    * around one (eye-dome lighting, filled holes, highlights), has a lens around a class, or
-   * translucent classes before others. The same on each process, whatever it draws. And who
-   * exchanges these during the frames that follow; null (default): each process has its own. All
-   * processes draw these frames, in software, with viewports of one size.
+   * translucent classes before others. In motion only what shows other things without it:
+   * highlights, lenses around a class and translucent classes. The same on each process, whatever
+   * it draws. And who exchanges these during the frames that follow; null (default): each process
+   * has its own. All processes draw these frames, in software, with viewports of one size.
    */
-  bool NeedsPictureExchange(vtkActor* actor);
+  bool NeedsPictureExchange(vtkActor* actor, bool inMotion);
   void SetPictureExchange(pointfront::PictureExchange* exchange);
 #endif
 

@@ -8,8 +8,8 @@ class vtkRenderer;
 namespace pointfront
 {
 
-/// Whether the box is in that view for sure: a ray of it hits the box, or a point of the box lies
-/// in it. Who culls by bounds then draws what is in the box.
+/// Whether the box is in that view for sure: a part of it lies in the view, and not just at an
+/// edge. Who culls by bounds then draws what is in the box.
 bool isSurelyInView(vtkRenderer* renderer, const double bounds[6]);
 
 /// The ranks of a server, as they draw a picture together.

@@ -149,15 +149,15 @@ void vtkPointFrontRepresentation::TellOpaqueMap(bool styled)
 }
 
 //------------------------------------------------------------------------------
-void vtkPointFrontRepresentation::TellLensOfRanks(bool exchanged)
+void vtkPointFrontRepresentation::TellLensOfRanks(bool oneSurface)
 {
   const pointfront::LensChoice& lens = this->Choice->lens;
   const bool parted =
-    !exchanged && lens.shows() && lens.place.shape == pointfront::LensPlace::AROUND_CLASS;
+    oneSurface && lens.shows() && lens.place.shape == pointfront::LensPlace::AROUND_CLASS;
   if (parted && !this->ToldOfRanks && this->Mapper->GetStorePiece() == 0)
   {
     vtkWarningMacro("a lens around a class covers, on each rank, what that rank has of the class, "
-                    "because only a corner of the cloud is in view: where ranks meet it has gaps.");
+                    "because the cloud as a whole is translucent: where ranks meet it has gaps.");
   }
   this->ToldOfRanks = parted;
 }

@@ -302,9 +302,10 @@ void vtkPointFrontRepresentation::AgreeOnExchange()
   {
     return; // alike on all ranks
   }
-  const bool atRest = !this->InMotion && this->Actor->GetVisibility() && !SelectionState::Of(view);
-  const bool wanted = atRest && !this->Actor->HasTranslucentPolygonalGeometry() &&
-    this->Mapper->NeedsPictureExchange(this->Actor) &&
+  const bool seen = this->Actor->GetVisibility() && !SelectionState::Of(view);
+  const bool oneSurface = this->Actor->HasTranslucentPolygonalGeometry() != 0;
+  const bool wanted = seen && !oneSurface &&
+    this->Mapper->NeedsPictureExchange(this->Actor, this->InMotion) &&
     pointfront::isSurelyInView(view->GetRenderer(), this->Actor->GetBounds());
   const bool agreed =
     this->Exchange->agreed(vtkMultiProcessController::GetGlobalController(), wanted);
@@ -312,9 +313,9 @@ void vtkPointFrontRepresentation::AgreeOnExchange()
   {
     this->Mapper->SetPictureExchange(this->Exchange.get());
   }
-  if (atRest)
+  if (seen)
   {
-    this->TellLensOfRanks(agreed);
+    this->TellLensOfRanks(oneSurface);
   }
 }
 

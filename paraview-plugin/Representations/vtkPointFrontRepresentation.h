@@ -286,7 +286,7 @@ private:
   /// When the renderer starts: its size and camera are known.
   void BeginFrame();
   void PlaceLens();
-  void TellLensOfRanks(bool exchanged);
+  void TellLensOfRanks(bool oneSurface);
   /// Ranks add up the colours of blended splats, if all of them can.
   void AgreeOnExchange();
   /// Greys over the heights of the cloud; null without a store.

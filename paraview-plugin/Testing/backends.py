@@ -3,6 +3,7 @@
 usage: pvbatch backends.py NAME      saves NAME-TECHNIQUE-ERROR-BACKEND.png
 """
 
+import json
 import os
 import sys
 
@@ -10,7 +11,8 @@ from paraview import simple
 
 simple.LoadPlugin(os.environ["POINTFRONT_PLUGIN"], remote=False, ns=globals())
 
-from scene import SIZE, Scene, require
+import pictures
+from scene import OUTPUT, SIZE, Scene, require
 
 name = sys.argv[1]
 scene = Scene()
@@ -84,5 +86,44 @@ if "POINTFRONT_SPARSE" in os.environ:
                             ("hidden", ["2", "hidden", "", ""])):
             display.LensStyles = inside
             scene.save("%s-around-%s-%s" % (name, way, backend.lower()))
+    # In motion, with the time and pixels of a picture at rest: what is shown is what is shown then.
+    display.TargetFrameTime, display.GrowthTime = 10000, 0
+    scene.view.ImageReductionFactor = 1
+
+    def save_moving(way):
+        scene.save("%s-%s-rest" % (name, way))
+        for _ in range(3):
+            scene.view.SMProxy.InteractiveRender()
+        pictures.save(os.path.join(OUTPUT, "%s-%s-moving.png" % (name, way)),
+                      pictures.shown(scene.view))
+
+    for backend in ("OpenGL", "Software"):
+        display.Backend = backend
+        display.LensShape, display.LensStyles = "Around a class", ["", "", "#ff0000", ""]
+        save_moving("around-" + backend.lower())
+        display.LensShape = "Off"
+        with open(name + ".json", "w") as file:
+            json.dump({"classes": {"9": {"technique": "splats", "opacity": 0.4,
+                                         "size": {"mode": "fixed", "metres": 8}}},
+                       "highlight": [{"class": 2, "halo_px": 3}]}, file)
+        display.StyleFile = os.path.abspath(name + ".json")
+        save_moving("translucent-" + backend.lower())
+        display.StyleFile = ""
+
+    # Only a corner of the cloud is in view, or just its edge.
+    display.LensShape = "Around a class"
+    low, high = (json.loads(os.environ["POINTFRONT_SPARSE_BOUNDS"])[i:i + 3] for i in (0, 3))
+    height = high[1] - low[1]
+    width = height * SIZE[0] / SIZE[1]
+    for way, up in (("edge", 0), ("corner", 0.8 * height)):
+        at = [high[0] + 0.485 * width, 0.5 * (low[1] + high[1]) + up, high[2]]
+        scene.look_as({"position": [*at[:2], at[2] + 1000], "focal_point": at,
+                       "view_up": [0, 1, 0], "parallel_scale": 0.5 * height})
+        for style, inside in (("points", ["", "", "#ff0000", ""]),
+                              ("blended", ["", "blended", "", ""])):
+            display.LensStyles = inside
+            scene.save("%s-small-%s-%s" % (name, style, way))
+    scene.view.CameraParallelProjection = 0
+    scene.look()
     camera.Yaw(150)  # seen from nowhere: no rank waits for the others
     scene.save(name + "-around-away")

@@ -78,7 +78,9 @@ def backends(programs):
     """
     store = os.environ["POINTFRONT_STORE"] = os.path.abspath("small-nodes.pfront")
     tool("build", os.environ["POINTFRONT_CLOUD"], "-o", store, "--node-points", "1000", "--force")
-    os.environ["POINTFRONT_SPARSE"] = sparse_class()
+    sparse = os.environ["POINTFRONT_SPARSE"] = sparse_class()
+    os.environ["POINTFRONT_SPARSE_BOUNDS"] = json.dumps(
+        json.loads(tool("info", sparse, "--json"))["bounds"])
     for old in glob.glob("backends-*.png"):
         os.remove(old)
     for count in (1, 2, 4):
@@ -93,7 +95,14 @@ def backends(programs):
                 continue  # it is enough that no rank waits for the others
             if way in ("translucent", "map-translucent"):
                 continue  # one process blends all points of a pixel
-            compare("backends-%d-%s" % (count, way), "backends-1-" + way, channel=2)
+            ours, alone = "backends-%d-%s" % (count, way), "backends-1-" + way
+            if way.startswith("small-"):
+                # IceT cuts off what points at the cloud's edge cover outside of its box: a column.
+                compare(ours, alone, share=0.0005, channel=2, least=0.001)
+                continue
+            compare(ours, alone, channel=2)
+            if way.endswith("-moving") and count > 1:
+                compare(ours, ours.replace("-moving", "-rest"), share=0, channel=0)
         if count > 1:
             # A color map's opacities are left out, and somebody says so.
             compare("backends-%d-map-translucent" % count, "backends-%d-mapped" % count, channel=2)

@@ -19,14 +19,15 @@ SHARE = 0.001
 STOCK_SHARE = 0.005
 
 
-def compare(one, other, share=SHARE, channel=CHANNEL):
+def compare(one, other, share=SHARE, channel=CHANNEL, least=0.1):
+    """`least`: share of the pixels that show something, for an empty picture agrees with an empty
+    one."""
     first, second = pictures.load(one + ".png"), pictures.load(other + ".png")
     covered = pictures.covered(first)
     found = pictures.differing(first, second, channel)
     print("%s, %s: %.3f %% of pixels differ by more than %d (limit %.3f %%), %.1f %% covered"
           % (one, other, 100 * found, channel, 100 * share, 100 * covered))
-    # An empty picture agrees with an empty one.
-    if covered < 0.1:
+    if covered < least:
         raise AssertionError(one + " shows next to nothing")
     if found > share:
         raise AssertionError(one + " and " + other + " differ")

@@ -1,8 +1,9 @@
 """Pictures as arrays, and how much two of them differ."""
 
 import numpy
-from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkIOImage import vtkPNGReader
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonDataModel import vtkImageData
+from vtkmodules.vtkIOImage import vtkPNGReader, vtkPNGWriter
 from vtkmodules.vtkRenderingCore import vtkWindowToImageFilter
 
 
@@ -30,6 +31,19 @@ def shown(view):
     columns, rows, _ = image.GetDimensions()
     scalars = vtk_to_numpy(image.GetPointData().GetScalars())
     return scalars.reshape(rows, columns, -1)[:, :, :3].astype(numpy.int16)
+
+
+def save(path, picture):
+    """As load() gives it."""
+    rows, columns, _ = picture.shape
+    image = vtkImageData()
+    image.SetDimensions(columns, rows, 1)
+    image.GetPointData().SetScalars(
+        numpy_to_vtk(picture.reshape(-1, 3).astype(numpy.uint8), deep=True))
+    writer = vtkPNGWriter()
+    writer.SetFileName(path)
+    writer.SetInputData(image)
+    writer.Write()
 
 
 def covered(picture):

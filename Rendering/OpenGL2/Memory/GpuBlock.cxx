@@ -63,7 +63,11 @@ GpuBlock::GpuBlock(std::uint32_t first, std::uint32_t slots, const GpuStreams& s
   , slots_(slots)
   , positions_(makeBuffer(std::int64_t(slots) * gpuSlotPoints * GpuSlotBytes::position))
 {
-  setStreams(streams);
+  // Drivers that reserve addresses only may grant a stream where they refused the positions.
+  if (positions_ != 0)
+  {
+    setStreams(streams);
+  }
 }
 
 void GpuBlock::release()

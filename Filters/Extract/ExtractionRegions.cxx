@@ -7,6 +7,8 @@
 #include <vtkPlanes.h>
 #include <vtkPoints.h>
 
+#include <iomanip>
+#include <sstream>
 #include <vector>
 
 namespace pointfront
@@ -26,6 +28,19 @@ AnyRegion anyRegion(const Result<std::shared_ptr<const T>>& region)
 
 AnyRegion regionOfBounds(const double bounds[6])
 {
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const double low = bounds[2 * axis];
+    const double high = bounds[2 * axis + 1];
+    if (low > high)
+    {
+      std::ostringstream message;
+      message << std::setprecision(12) << "the box has its lower end above its upper one along "
+              << "xyz"[axis] << " (" << low << " above " << high
+              << "): give xmin, xmax, ymin, ymax, zmin, zmax";
+      return makeError(Error::Kind::BadArgument, message.str());
+    }
+  }
   return anyRegion(BoxRegion::make(
     Bounds{ { bounds[0], bounds[2], bounds[4] }, { bounds[1], bounds[3], bounds[5] } }));
 }

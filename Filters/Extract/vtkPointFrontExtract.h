@@ -49,8 +49,8 @@ public:
 
   ///@{
   /**
-   * Points inside or on a box: xmin, xmax, ymin, ymax, zmin, zmax; ends may be infinite. Off by
-   * default.
+   * Points inside or on a box: xmin, xmax, ymin, ymax, zmin, zmax; ends may be infinite. A lower
+   * end above the upper one is an error. Off by default.
    */
   vtkSetMacro(UseBox, bool);
   vtkGetMacro(UseBox, bool);

@@ -294,6 +294,10 @@ TEST_F(Extract, SaysWhatIsWrong)
   filter->SetWellKnownText("SRID=4326;POLYGON ((0 0, 1 0, 1 1, 0 0))");
   said("EPSG:4326");
   filter->SetWellKnownText(nullptr);
+  filter->UseBoxOn();
+  filter->SetBox(0.0, 1.0, 2.0, 1.5, 0.0, 1.0);
+  said("along y (2 above 1.5)");
+  filter->UseBoxOff();
   filter->UseSphereOn();
   filter->SetSphereRadius(-1.0);
   said("radius");

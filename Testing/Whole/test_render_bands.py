@@ -27,10 +27,12 @@ class Bands(SceneTest):
         return path.read_bytes(), json.loads(stats.read_text())
 
     def test_bands_are_the_picture(self):
-        for view in (("--view", "iso", "--point-size", "3"),
-                     ("--view", "top", "--edl", "--point-size", "6"),
-                     ("--view", "iso", "--point-size", "31"),
-                     ("--error", "4", "--point-size", "9")):
+        views = (("--view", "top", "--edl", "--point-size", "6"),
+                 ("--view", "iso", "--point-size", "3"),
+                 ("--view", "iso", "--point-size", "31"),
+                 ("--error", "4", "--point-size", "9"))
+        # Bands of every view run the same code: a sanitizer sees it in the first.
+        for view in views if SLOWNESS == 1 else views[:1]:
             whole, statistics = self.drawn("1G", "1600x1200", *view)
             banded, of_bands = self.drawn("24M", "1600x1200", *view)
             self.assertLessEqual(of_bands["picture_bytes"], 12 << 20)
@@ -44,7 +46,8 @@ class Bands(SceneTest):
 
     def test_memory_holds_the_picture(self):
         limit = 48 << 20
-        _, statistics = self.drawn("48M", "6000x5000")
+        size = "6000x5000" if SLOWNESS == 1 else "3000x2000"
+        _, statistics = self.drawn("48M", size)
         _, small = self.drawn("48M", "64x64")
         self.assertTrue(statistics["complete"])
         self.assertLessEqual(statistics["picture_bytes"] + statistics["resident_bytes"], limit)

@@ -64,16 +64,20 @@ function (pointfront_suites executable)
 endfunction ()
 
 # pointfront_discover_tests(<executable> TEST_PREFIX <prefix> [READS_DATA <suite>.<test>...]
-#   [WITHOUT_THREADS <suite>.<test>...] [MEASURES <suite>.<test>...] <as gtest_discover_tests>...)
+#   [WITHOUT_THREADS <suite>.<test>...] [SAME_THREADS <suite>.<test>...]
+#   [MEASURES <suite>.<test>...] <as gtest_discover_tests>...)
 # READS_DATA: those that read the public clouds, or patterns of such. A TEST_FILTER may only begin
 # with "-".
 # WITHOUT_THREADS: those of what runs in one thread and takes seconds under ThreadSanitizer, which
 # has nothing to see in them: they are left out there.
+# SAME_THREADS: those that run the threads of a test that stays, over other data: they are left out
+# under ThreadSanitizer, too.
 # MEASURES: those that measure times, counts or many pictures of code that other tests run, too. A
 # sanitizer sees nothing else in them, and they take it a minute each: they are left out there.
 function (pointfront_discover_tests executable)
   cmake_parse_arguments(PARSE_ARGV 1
-    test "" "TEST_PREFIX;TEST_FILTER;DISCOVERY_TIMEOUT" "READS_DATA;WITHOUT_THREADS;MEASURES")
+    test "" "TEST_PREFIX;TEST_FILTER;DISCOVERY_TIMEOUT"
+    "READS_DATA;WITHOUT_THREADS;SAME_THREADS;MEASURES")
   string(REGEX REPLACE "^-" "" left_out "${test_TEST_FILTER}")
   if (test_READS_DATA AND NOT pointfront_has_shared_data)
     list(APPEND left_out ${test_READS_DATA})
@@ -83,7 +87,7 @@ function (pointfront_discover_tests executable)
     pointfront_leave_out(${test_READS_DATA})
   endif ()
   if (POINTFRONT_SANITIZE STREQUAL "thread")
-    list(APPEND left_out ${test_WITHOUT_THREADS})
+    list(APPEND left_out ${test_WITHOUT_THREADS} ${test_SAME_THREADS})
   endif ()
   if (POINTFRONT_SANITIZE)
     list(APPEND left_out ${test_MEASURES})

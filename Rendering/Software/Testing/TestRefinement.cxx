@@ -30,10 +30,19 @@ constexpr double mostDrawnGrowing = 2.5; ///< likewise: what grows has another s
 /// Share of the complete picture's pixels in each frame; splats that close the surface.
 constexpr double leastCovered = 0.98;
 
+#if defined(__SANITIZE_THREAD__)
+// As many nodes and frames, with a fifth of the points in each.
+constexpr std::uint64_t townPoints = 50000;
+constexpr std::uint32_t townNodePoints = 400;
+#else
+constexpr std::uint64_t townPoints = 300000;
+constexpr std::uint32_t townNodePoints = 2000;
+#endif
+
 std::shared_ptr<const PointStore> refiningTown()
 {
-  static const std::string path = builtStore(
-    "refinement-" + std::to_string(getpid()), std::make_unique<TerrainSource>(300000, 11));
+  static const std::string path = builtStore("refinement-" + std::to_string(getpid()),
+    std::make_unique<TerrainSource>(townPoints, 11), nodesOf(townNodePoints));
   return openedStore(path);
 }
 

@@ -34,11 +34,11 @@ std::vector<std::byte> pattern(std::size_t size)
 
 std::vector<std::byte> contentOf(const std::string& path)
 {
-  std::ifstream in(path, std::ios::binary);
-  const std::vector<char> chars{ std::istreambuf_iterator<char>(in), {} };
-  std::vector<std::byte> bytes(chars.size());
-  std::transform(
-    chars.begin(), chars.end(), bytes.begin(), [](char c) { return static_cast<std::byte>(c); });
+  std::ifstream in(path, std::ios::binary | std::ios::ate);
+  std::vector<std::byte> bytes(in ? static_cast<std::size_t>(in.tellg()) : 0);
+  in.seekg(0);
+  in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  EXPECT_TRUE(in) << path;
   return bytes;
 }
 

@@ -9,7 +9,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 
 namespace
@@ -103,7 +105,7 @@ std::vector<Signature> computed(const Positions& positions, NeighbourhoodOptions
   return values;
 }
 
-/// One by one, with nothing but a sort.
+/// One by one, with nothing but a partial sort.
 std::vector<Signature> byBruteForce(const Positions& positions, const NeighbourhoodOptions& options,
   const std::vector<std::uint8_t>& classes = {})
 {
@@ -124,22 +126,21 @@ std::vector<Signature> byBruteForce(const Positions& positions, const Neighbourh
         const glm::dvec3 d = positions[j] - positions[i];
         const double squared =
           options.axes > 2 ? d.x * d.x + d.y * d.y + d.z * d.z : d.x * d.x + d.y * d.y;
-        all.push_back({ positions[j], squared, 1 });
+        if (options.neighbours > 0 || squared <= options.radius * options.radius)
+        {
+          all.push_back({ positions[j], squared, 1 });
+        }
       }
     }
-    std::sort(all.begin(), all.end(),
+    const std::size_t wanted = options.neighbours > 0 ? options.neighbours : all.size();
+    const auto last = all.begin() + std::ptrdiff_t(std::min(wanted, all.size()));
+    std::partial_sort(all.begin(), last, all.end(),
       [](const NearPoint& a, const NearPoint& b)
       {
         return a.squaredDistance != b.squaredDistance ? a.squaredDistance < b.squaredDistance
                                                       : positionLess(a.position, b.position);
       });
-    const std::size_t wanted = options.neighbours > 0 ? options.neighbours : all.size();
-    while (all.size() > wanted ||
-      (options.neighbours == 0 && !all.empty() &&
-        all.back().squaredDistance > options.radius * options.radius))
-    {
-      all.pop_back();
-    }
+    all.erase(last, all.end());
     // Points at one place are one neighbour that counts several times.
     std::vector<NearPoint> places;
     for (const NearPoint& point : all)

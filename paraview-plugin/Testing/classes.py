@@ -41,7 +41,7 @@ for shown in (names[:1], names[1:], names):
     wanted = sum(classes[name] for name in shown)
     require(drawn() == wanted, "%s: %d points, not %d" % (shown, drawn(), wanted))
 
-# A threshold for one class alone. With an error of 1 px for all, a hundred for it are a few points.
+# A threshold for one class alone: its points may be 100 pixels apart, those of the others 1 pixel.
 largest = max(names, key=lambda name: classes[name])
 scene.display.ClassTargetErrorFactors = [largest, "100"]
 scene.display.TargetError = 1.0

@@ -37,7 +37,7 @@ public:
     bool inPlaceOfOld = false; ///< fits only after the node's old points are gone
   };
   /// The changes of a wish list. A node that is larger than the whole budget would wait for ever
-  /// and in silence: it waits no more, and is listed with its bytes.
+  /// and in silence: it is taken off the list, and told with its bytes.
   struct Replaced
   {
     RequestQueue::Change change;

@@ -151,12 +151,21 @@ Result<void> fillPoints(const StoredCloud& store, const std::vector<NodeRows>& p
   sweep.points = [&](std::size_t i) { return store.hierarchy()->node(points[i].node).pointCount; };
   sweep.choose = [&](std::size_t i, NodeColumns&& node)
   { return chosenRows(node, points[i].rows, description); };
-  const auto add = [&arrays](QueryBatch& batch) -> Result<void>
+  Progress done;
+  done.phase = options.phase;
+  done.total = countOf(points);
+  const auto goesOn = [&] { return !options.progress || options.progress(done); };
+  const auto add = [&](QueryBatch& batch) -> Result<void>
   {
     arrays.add(batch);
-    return {};
+    done.done += batch.size();
+    done.fraction = static_cast<double>(done.done) / static_cast<double>(done.total);
+    return goesOn() ? Result<void>() : makeError(Error::Kind::Cancelled, "reading was stopped");
   };
-  const Result<QueryReport> read = sweepNodes(store, sweep, options, add);
+  QueryOptions roomy = options; // one node at a time goes, however large it is
+  roomy.memoryBytes = std::max(options.memoryBytes, leastSweepBytes(store, sweep));
+  roomy.progress = [&](const Progress&) { return goesOn(); }; // also while nothing comes
+  const Result<QueryReport> read = sweepNodes(store, sweep, roomy, add);
   if (!read)
   {
     return read.error();

@@ -1,10 +1,11 @@
 #include "Overview.h"
 
-#include "PointArrays.h"
+#include "LocatedPoints.h"
 
 #include <vtkPolyData.h>
 
 #include <algorithm>
+#include <numeric>
 #include <optional>
 
 namespace pointfront
@@ -126,34 +127,24 @@ std::vector<OverviewPart> overviewPiece(
 Result<void> fillOverview(const StoredCloud& store, const std::vector<OverviewPart>& parts,
   const ColumnSelection& columns, vtkPolyData* output, const std::function<bool(double)>& advance)
 {
-  const StoreDescription& description = store.description();
   if (std::optional<Error> damage = store.hierarchy()->fault()) // met while parts were chosen
   {
     return *damage;
   }
-  std::size_t total = 0;
+  if (!advance(0.0))
+  {
+    return makeError(Error::Kind::Cancelled, "reading of the overview was stopped");
+  }
+  std::vector<NodeRows> points;
+  points.reserve(parts.size());
   for (const OverviewPart& part : parts)
   {
-    total += part.pointCount;
+    points.push_back({ part.node, std::vector<std::uint32_t>(part.pointCount) });
+    std::iota(points.back().rows.begin(), points.back().rows.end(), 0u);
   }
-  PointArrays arrays(description, columns, total);
-  std::size_t first = 0;
-  for (const OverviewPart& part : parts)
-  {
-    if (!advance(static_cast<double>(first) / static_cast<double>(std::max<std::size_t>(total, 1))))
-    {
-      return makeError(Error::Kind::Cancelled, "reading of the overview was stopped");
-    }
-    const auto read = store.read(part.node, columns);
-    if (!read)
-    {
-      return read.error();
-    }
-    arrays.addPrefix(*read, part.pointCount);
-    first += part.pointCount;
-  }
-  arrays.moveTo(output);
-  return {};
+  QueryOptions options;
+  options.progress = [&advance](const Progress& progress) { return advance(progress.fraction); };
+  return fillPoints(store, points, columns, options, output);
 }
 
 } // namespace pointfront

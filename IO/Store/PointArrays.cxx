@@ -1,7 +1,5 @@
 #include "PointArrays.h"
 
-#include "pointfront/Query/ChosenRows.h"
-
 #include <vtkDataArray.h>
 #include <vtkDoubleArray.h>
 #include <vtkIdTypeArray.h>
@@ -11,7 +9,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <numeric>
 
 namespace pointfront
 {
@@ -48,13 +45,6 @@ PointArrays::PointArrays(
 }
 
 PointArrays::~PointArrays() = default;
-
-void PointArrays::addPrefix(const NodeColumns& node, std::uint32_t count)
-{
-  std::vector<std::uint32_t> rows(count);
-  std::iota(rows.begin(), rows.end(), 0u);
-  this->add(chosenRows(node, rows, description_));
-}
 
 void PointArrays::add(const QueryBatch& batch)
 {

@@ -36,8 +36,6 @@ public:
     const StoreDescription& description, const ColumnSelection& columns, std::size_t points);
   ~PointArrays();
 
-  /// The first `count` points of a node, read with the columns of the constructor.
-  void addPrefix(const NodeColumns& node, std::uint32_t count);
   /// Points that were read with the columns of the constructor.
   void add(const QueryBatch& batch);
   /// Called when all promised points have been added.

@@ -4,6 +4,7 @@
 #include "LocatedPoints.h"
 #include "Overview.h"
 
+#include "pointfront/Disk/ByteOpeners.h"
 #include "pointfront/Tiles/StoredCloudFormats.h"
 #include "vtkPointFrontStore.h"
 
@@ -20,7 +21,9 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <memory>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 vtkStandardNewMacro(vtkPointFrontReader);
@@ -105,7 +108,22 @@ const char* vtkPointFrontReader::GetFileName(int time) const
 
 int vtkPointFrontReader::CanReadFile(const char* fileName)
 {
-  return fileName && *fileName && vtkPointFrontStore::GetFormats().accepts(fileName) ? 1 : 0;
+  if (!fileName || !*fileName)
+  {
+    return 0;
+  }
+  const pointfront::StoredCloudFormats& formats = vtkPointFrontStore::GetFormats();
+  std::shared_ptr<const pointfront::ByteSource> held; // all kinds look at it
+  if (pointfront::isAddress(fileName))
+  {
+    auto source = pointfront::StoredCloudFormats::openFar(fileName);
+    if (!source)
+    {
+      return 0;
+    }
+    held = std::move(*source);
+  }
+  return formats.accepts(fileName) ? 1 : 0;
 }
 
 vtkDataArraySelection* vtkPointFrontReader::GetPointDataArraySelection()
@@ -157,8 +175,9 @@ bool vtkPointFrontReader::OpenStore(std::size_t time)
   this->Store = vtkPointFrontStore::Open(name.c_str(), reason);
   if (!this->Store)
   {
-    this->SetErrorCode(CanReadFile(name.c_str()) ? vtkErrorCode::FileFormatError
-                                                 : vtkErrorCode::CannotOpenFileError);
+    const bool far = pointfront::isAddress(name); // asked twice, a server may take twice its time
+    this->SetErrorCode(!far && CanReadFile(name.c_str()) ? vtkErrorCode::FileFormatError
+                                                         : vtkErrorCode::CannotOpenFileError);
     vtkErrorMacro(<< reason);
     return false;
   }
@@ -351,7 +370,8 @@ bool vtkPointFrontReader::Fill(Found&& found, int piece, int pieces, vtkPolyData
 void vtkPointFrontReader::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "FileName: " << (this->FileNames.empty() ? "(none)" : this->FileNames.front())
+  os << indent << "FileName: "
+     << (this->FileNames.empty() ? "(none)" : pointfront::publicForm(this->FileNames.front()))
      << "\n";
   os << indent << "NumberOfFileNames: " << this->FileNames.size() << "\n";
   os << indent << "OverviewPoints: " << this->OverviewPoints << "\n";

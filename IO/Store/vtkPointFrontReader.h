@@ -21,6 +21,10 @@
  * files, EPTs (`ept.json`) and folders of LAS and LAZ files at a glance. A WarningEvent tells what
  * differs among the parts of a cloud, and what is left out.
  *
+ * A name may be an address: "https://host/city.pfront", "s3://bucket/key". Messages, PrintSelf()
+ * and the name that travels the pipeline are without what is secret in it. docs/user/remote.md says
+ * how servers are asked.
+ *
  * RequestInformation gives the bounds and array names of the whole cloud without reading points. Of
  * several time steps it gives the bounds of the first and the arrays of all. Pieces: the overview
  * is cut by nodes. Errors (ErrorCode, vtkErrorMacro): no file name, a missing, truncated or corrupt
@@ -49,7 +53,7 @@ public:
   vtkTypeMacro(vtkPointFrontReader, vtkPolyDataAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  /// @{ The store's file; if there are several, the first.
+  /// @{ The store's file or address; if there are several, the first.
   void SetFileName(VTK_FILEPATH const char* fileName);
   VTK_FILEPATH const char* GetFileName() const;
   ///@}
@@ -65,7 +69,7 @@ public:
   VTK_FILEPATH const char* GetFileName(int time) const;
   ///@}
 
-  /// 1 if the file begins like a store. Cheap, by content, silent.
+  /// 1 if the file begins like a store. Cheap, by content, silent. An address is asked for.
   static int CanReadFile(VTK_FILEPATH const char* fileName);
 
   ///@{

@@ -2,9 +2,9 @@
 
 #include "CloudFormats.h"
 
-#include "pointfront/Residency/ResidencyShare.h"
-
+#include "pointfront/Disk/ByteOpeners.h"
 #include "pointfront/Residency/LoadScheduler.h"
+#include "pointfront/Residency/ResidencyShare.h"
 #include "pointfront/Store/PreviewRecord.h"
 #include "pointfront/Threads/OfProcess.h"
 #include "pointfront/Tiles/StoredCloudFormats.h"
@@ -17,19 +17,38 @@
 
 #include <chrono>
 #include <condition_variable>
+#include <cstdint>
 #include <exception>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <new>
 #include <string>
 #include <tuple>
+#include <utility>
 
 namespace
 {
 
-/// The identity of a file: its canonical path, and values that change when it is built anew.
+/// The identity of a file: its canonical path, and values that change when it is built anew. Of an
+/// address: its public form, and the source that is open for it.
 using FileIdentity = std::tuple<std::string, std::uintmax_t, std::int64_t>;
+
+/// Asks the server, unless the address is open. `source` is what came.
+bool identifyFar(const std::string& address, FileIdentity& identity,
+  std::shared_ptr<const pointfront::ByteSource>& source, std::string& error)
+{
+  auto opened = pointfront::StoredCloudFormats::openFar(address);
+  if (!opened)
+  {
+    error = opened.error().what;
+    return false;
+  }
+  source = std::move(*opened); // another one once somebody has replaced the file on its server
+  identity = { pointfront::publicForm(address), reinterpret_cast<std::uintptr_t>(source.get()), 0 };
+  return true;
+}
 
 bool identify(const std::string& fileName, FileIdentity& identity, std::string& error)
 {
@@ -98,6 +117,7 @@ constexpr std::chrono::milliseconds betweenLooks{ 250 };
 struct vtkPointFrontStore::Content
 {
   FileIdentity identity;
+  std::shared_ptr<const pointfront::ByteSource> source; ///< behind an address; null for files
   bool preview = false;
   std::chrono::steady_clock::time_point looked;
   std::shared_ptr<const pointfront::StoredCloud> store;
@@ -140,8 +160,13 @@ vtkSmartPointer<vtkPointFrontStore> vtkPointFrontStore::Open(
     error = "no store is named; set a file name";
     return nullptr;
   }
+  GetFormats(); // with them come the schemes of addresses
   FileIdentity identity;
-  if (!identify(fileName, identity, error))
+  std::shared_ptr<const pointfront::ByteSource> source;
+  const bool found = pointfront::isAddress(fileName)
+    ? identifyFar(fileName, identity, source, error)
+    : identify(fileName, identity, error);
+  if (!found)
   {
     return nullptr;
   }
@@ -160,24 +185,13 @@ vtkSmartPointer<vtkPointFrontStore> vtkPointFrontStore::Open(
     }
     all.stores.emplace(identity, nullptr);
   }
-  vtkSmartPointer<vtkPointFrontStore> made;
-  try
-  {
-    made = OpenFile(std::get<0>(identity), error);
-  }
-  catch (const std::bad_alloc&)
-  {
-    error = "not enough memory to open the store " + std::get<0>(identity);
-  }
-  catch (const std::exception& problem) // else all who open it later would wait for ever
-  {
-    error = "cannot open the store " + std::get<0>(identity) + ": " + problem.what();
-  }
+  vtkSmartPointer<vtkPointFrontStore> made = OpenFile(std::get<0>(identity), error);
   {
     const std::lock_guard<std::mutex> lock(all.mutex);
     if (made)
     {
       made->Internals->identity = identity;
+      made->Internals->source = std::move(source);
       all.stores[identity] = made;
     }
     else
@@ -197,6 +211,24 @@ pointfront::StoredCloudFormats& vtkPointFrontStore::GetFormats()
 }
 
 vtkSmartPointer<vtkPointFrontStore> vtkPointFrontStore::OpenFile(
+  const std::string& path, std::string& error)
+{
+  try
+  {
+    return Made(path, error);
+  }
+  catch (const std::bad_alloc&)
+  {
+    error = "not enough memory to open the store " + path;
+  }
+  catch (const std::exception& problem) // else all who open it later would wait for ever
+  {
+    error = "cannot open the store " + path + ": " + problem.what();
+  }
+  return nullptr;
+}
+
+vtkSmartPointer<vtkPointFrontStore> vtkPointFrontStore::Made(
   const std::string& path, std::string& error)
 {
   auto opened = GetFormats().open(path);
@@ -242,7 +274,8 @@ bool vtkPointFrontStore::IsPreview() const
 bool vtkPointFrontStore::HasSuccessor()
 {
   const auto now = std::chrono::steady_clock::now();
-  if (!this->Internals->preview || now - this->Internals->looked < betweenLooks)
+  if (!this->Internals->preview || this->Internals->source ||
+    now - this->Internals->looked < betweenLooks)
   {
     return false;
   }
@@ -256,8 +289,8 @@ vtkSmartPointer<vtkPointFrontStore> vtkPointFrontStore::GetSuccessor()
 {
   FileIdentity identity;
   std::string error;
-  if (!this->Internals->preview || !identify(this->GetFileName(), identity, error) ||
-    identity == this->Internals->identity)
+  if (!this->Internals->preview || this->Internals->source ||
+    !identify(this->GetFileName(), identity, error) || identity == this->Internals->identity)
   {
     return nullptr;
   }

@@ -40,8 +40,9 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /**
-   * The open store of that file: the one that is open already, or a new one. Null on failure; the
-   * reason (what, where, what to try) is then in `error`.
+   * The open store of that file or address ("https://..."): the one that is open already, or a new
+   * one. Null on failure; the reason (what, where, what to try) is then in `error`, without what is
+   * secret in an address.
    */
   static vtkSmartPointer<vtkPointFrontStore> Open(
     VTK_FILEPATH const char* fileName, vtkStdString& error);
@@ -67,7 +68,8 @@ public:
   vtkSmartPointer<vtkPointFrontStore> GetSuccessor();
   ///@}
 
-  /// Absolute path of the file.
+  /// Absolute path of the file, or the address without user, password and query: a mark stands for
+  /// them, and Open() takes it in this process.
   const char* GetFileName() const;
   /// Bounds of all points (world, tight), without reading any of them.
   void GetBounds(double bounds[6]) const;
@@ -127,6 +129,7 @@ private:
   void operator=(const vtkPointFrontStore&) = delete;
 
   static vtkSmartPointer<vtkPointFrontStore> OpenFile(const std::string& path, std::string& error);
+  static vtkSmartPointer<vtkPointFrontStore> Made(const std::string& path, std::string& error);
 
   struct Content;
   std::unique_ptr<Content> Internals;

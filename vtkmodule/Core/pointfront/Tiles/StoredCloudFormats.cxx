@@ -74,12 +74,17 @@ bool StoredCloudFormats::accepts(const std::string& path) const
   return formatOf(path) != nullptr;
 }
 
+Result<std::shared_ptr<const ByteSource>> StoredCloudFormats::openFar(const std::string& address)
+{
+  return openBytes(address, firstOfFar);
+}
+
 Result<std::shared_ptr<const StoredCloud>> StoredCloudFormats::open(const std::string& path) const
 {
   std::shared_ptr<const ByteSource> held; // a source that is open is the same for all
   if (isAddress(path))
   {
-    Result<std::shared_ptr<const ByteSource>> source = openBytes(path, firstOfFar);
+    Result<std::shared_ptr<const ByteSource>> source = openFar(path);
     if (!source)
     {
       return source.error();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "pointfront/Disk/ByteSource.h"
 #include "pointfront/Store/StoredCloud.h"
 
 #include <memory>
@@ -33,6 +34,10 @@ public:
   /// Opens with the kind that accepts the file's content. If none does, our store's reader says
   /// why it is not a store. What lies behind an address is opened once for all who look at it.
   Result<std::shared_ptr<const StoredCloud>> open(const std::string& path) const;
+
+  /// Opens what an address names, with the first bytes that most kinds need: as long as somebody
+  /// holds it, accepts() and open() ask for none of them again.
+  static Result<std::shared_ptr<const ByteSource>> openFar(const std::string& address);
 
 private:
   std::shared_ptr<const StoredCloudFormat> formatOf(const std::string& path) const;

@@ -27,14 +27,14 @@ constexpr double mostDrawnAgain = 1.1; ///< times the points of the complete pic
 /// Once as it comes, by what is nearest at that time, and once more when all is there.
 constexpr double mostBlendedAgain = 2.15;
 constexpr double mostDrawnGrowing = 2.5; ///< likewise: what grows has another size in each frame
-/// Share of the complete picture's pixels in each frame; splats that close the surface.
-constexpr double leastCovered = 0.98;
-
 #if defined(__SANITIZE_THREAD__)
-// As many nodes and frames, with a fifth of the points in each.
+// As many nodes and frames, with a sixth of the points: coarse nodes leave more holes.
+constexpr double leastCovered = 0.9;
 constexpr std::uint64_t townPoints = 50000;
 constexpr std::uint32_t townNodePoints = 400;
 #else
+/// Share of the complete picture's pixels in each frame; splats that close the surface.
+constexpr double leastCovered = 0.98;
 constexpr std::uint64_t townPoints = 300000;
 constexpr std::uint32_t townNodePoints = 2000;
 #endif

@@ -12,8 +12,9 @@ from ._queries import KERNEL_OPTIONS, Conditions, box_of, class_numbers
 
 class Cloud:
     """A stored cloud: a store, an index, a COPC file, an EPT tree, a list (.pfronts) or a folder.
+    Stores, COPC, EPT and lists may lie behind an address of http, https or s3.
 
-    path        as it was found
+    path        as it was found; an address without user, password and query
     bounds      ((x0, y0, z0), (x1, y1, z1)) in the units of the coordinate system, tight
     attributes  names
     classes     {number: name} of object classes with a tree of their own
@@ -29,10 +30,16 @@ class Cloud:
         self._store = None
         given = os.fspath(path)
         self._path = given
+        self._given = given  # the tool is another process: it knows no public form of this one's
         self._store = _kernel.StoredCloud(given)
         # As JSON tells it, it has lost what is no UTF-8; it is another for a preview that is gone.
         self._path = (os.path.realpath(given) if os.path.exists(given)
                       else self._store.description["path"])
+
+    @property
+    def _named(self):
+        """As the tool takes it."""
+        return self._given if _is_address(self._given) else self._path
 
     def close(self):
         """Let go of the file. Arrays and pictures stay."""
@@ -72,7 +79,7 @@ class Cloud:
     @property
     def info(self):
         self._opened()
-        return json.loads(_pictures.run_tool(["info", "--json", self.path]))
+        return json.loads(_pictures.run_tool(["info", "--json", self._named]))
 
     @property
     def crs(self):
@@ -80,7 +87,8 @@ class Cloud:
 
     def __reduce__(self):
         self._opened()
-        return open, (os.path.abspath(self._path),)
+        named = self._named
+        return open, (named if _is_address(named) else os.path.abspath(named),)
 
     def _repr_html_(self):
         if self._store is None:
@@ -196,7 +204,7 @@ class Cloud:
                   "sphere": None if sphere is None else [*map(float, sphere[0]), float(sphere[1])],
                   "classes": class_numbers(classes) or None, "spacing": spacing, "force": overwrite,
                   **options}
-        return _pictures.export(self.path, os.fspath(path), chosen)
+        return _pictures.export(self._named, os.fspath(path), chosen)
 
     def to_pyvista(self, **query):
         """Points of a region as pyvista.PolyData, of whichever VTK PyVista runs on; `query` as for
@@ -254,7 +262,7 @@ class Cloud:
         options.update(color_by=color_by, view=view, camera=camera, technique=technique,
                        style=style, classes=class_numbers(classes) or None, where=where,
                        error=error, background=background)
-        return _pictures.draw(self.path, path, size, options)
+        return _pictures.draw(self._named, path, size, options)
 
     def show(self, *, size=(1280, 720), title=None):
         """Show the cloud in a window until the user closes it; in a notebook, as a view in the
@@ -264,13 +272,17 @@ class Cloud:
         if _in_notebook():
             from ._page import view_of_cell
 
-            return view_of_cell([self.path], height=size[1])
+            return view_of_cell([self._named], height=size[1])
         self._opened()
         _host.require_vtk("a window is VTK's; screenshot() and `pointfront serve` do without")
         from . import _window
 
         _window.show(self.path, size, title or self.path)
         return None
+
+
+def _is_address(name):
+    return isinstance(name, str) and "://" in name
 
 
 def _in_notebook():

@@ -92,7 +92,11 @@ if (POINTFRONT_HOST STREQUAL "VTK" AND POINTFRONT_WRAP_PYTHON)
   install(FILES ${package_files} DESTINATION "${pointfront_python_folder}/pointfront"
     COMPONENT "${pointfront_python_component}")
   if (POINTFRONT_BUILD_TESTING)
-    foreach (name IN ITEMS Package Points Waiting Without_VTK Writing)
+    set(python_tests Package Points Waiting Without_VTK Writing)
+    if (POINTFRONT_REMOTE)
+      list(APPEND python_tests Addresses)
+    endif ()
+    foreach (name IN LISTS python_tests)
       string(TOLOWER "${name}" test)
       pointfront_add_data_test(NAME Python.${name}
         COMMAND "${CMAKE_COMMAND}" -E env

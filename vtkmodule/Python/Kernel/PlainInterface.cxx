@@ -6,6 +6,7 @@
 #include "LASIndexing.h"
 #include "PlainColumns.h"
 
+#include "pointfront/Disk/ByteOpeners.h"
 #include "pointfront/Points/ObjectClass.h"
 #include "pointfront/Query/BoxRegion.h"
 #include "pointfront/Query/QueryPlan.h"
@@ -82,6 +83,10 @@ pointfront::ProgressFunction reporting(PointFrontProgress progress)
 
 Result<std::string> canonicalPath(const std::string& path)
 {
+  if (pointfront::isAddress(path))
+  {
+    return pointfront::publicForm(path);
+  }
   std::error_code code;
   const auto found = std::filesystem::canonical(pointfront::presentStorePath(path), code);
   if (code)

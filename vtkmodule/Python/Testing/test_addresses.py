@@ -1,0 +1,65 @@
+"""Clouds by their address: points, pictures and files are those of the local file."""
+
+import os
+import pathlib
+import pickle
+import shutil
+import sys
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[3]
+sys.path.insert(0, str(ROOT / "Testing/Support"))
+for name in [name for name in os.environ if name.lower().endswith("_proxy")]:
+    del os.environ[name]
+os.environ["POINTFRONT_CACHE"] = "off"
+os.environ["POINTFRONT_REMOTE_TIMEOUT"] = "3"
+
+# pylint: disable=wrong-import-position
+import numpy
+import pointfront
+from far_server import FarServer
+
+HERE = "127.0.0.1"
+SECRET = "sig=VERY-SECRET"
+
+
+class Addresses(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="pointfront-addresses-"))
+        self.addCleanup(shutil.rmtree, self.folder)
+        self.store = self.folder / "a.pfront"
+        pointfront.build(ROOT / "Testing/Data/autzen_stadium.laz", self.store, preview=False)
+        server = FarServer(self.folder)
+        server.__enter__()
+        self.addCleanup(server.__exit__)
+        self.origin = f"http://{HERE}:{server.port}"
+
+    def test_all_answers_are_those_of_the_file(self):
+        near = pointfront.open(self.store)
+        for address in (f"{self.origin}/a.pfront", f"{self.origin}/a.pfront?{SECRET}"):
+            far = pointfront.open(address)
+            self.assertNotIn("VERY-SECRET", far.path + repr(far) + far._repr_html_())
+            self.assertEqual(far.bounds, near.bounds)
+            self.assertEqual(far.info["points"], len(near))
+            expected, points = near.points(), far.points()
+            self.assertEqual(points.keys(), expected.keys())
+            for array in expected:
+                numpy.testing.assert_array_equal(points[array], expected[array])
+            pictures = [cloud.screenshot(size=(160, 120)).pixels for cloud in (near, far)]
+            self.assertTrue((pictures[0] == pictures[1]).all())
+            files = [self.folder / "near.las", self.folder / "far.las"]
+            for cloud, file in zip((near, far), files):
+                cloud.export(file, overwrite=True)
+            self.assertEqual(files[0].read_bytes(), files[1].read_bytes())
+            self.assertEqual(len(pickle.loads(pickle.dumps(far))), len(near))
+
+    def test_errors_are_raised_without_secrets(self):
+        for weather, words in (("~forbidden/", "403"), ("none/", "404"), ("~gzipped/", "compress")):
+            with self.assertRaisesRegex(pointfront.PointFrontError, words) as raised:
+                pointfront.open(f"{self.origin}/{weather}a.pfront?{SECRET}")
+            self.assertNotIn("VERY-SECRET", str(raised.exception))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -97,6 +97,16 @@ TEST(PointGrowth, FallsAlongTheOrder)
   EXPECT_EQ(growth.fullPoints(9), 9u);
   EXPECT_EQ((PointGrowth{ 0.5f, 0.25f }).fullPoints(9), 0u);
   EXPECT_EQ((PointGrowth{ 0.5f, 0.0f }).fullPoints(9), 0u);
+  // A point that counts as full has its full size to the last bit.
+  for (int falling = 1; falling <= 400; ++falling)
+  {
+    for (int shown = falling; shown <= 6 * falling; shown += 1 + falling / 50)
+    {
+      const PointGrowth some{ float(shown) / float(falling), 1.0f / float(falling) };
+      const std::uint32_t full = some.fullPoints(5u * unsigned(falling));
+      ASSERT_TRUE(full == 0 || some.of(full - 1) == 1.0f) << shown << " of " << falling;
+    }
+  }
 }
 
 TEST(DetailGrowth, WhatIsSeenFirstIsThereAtOnce)

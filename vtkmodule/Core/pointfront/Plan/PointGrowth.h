@@ -29,7 +29,13 @@ struct PointGrowth
       return first >= 1.0f ? last : 0;
     }
     const float full = (first - 1.0f) / perPoint;
-    return std::min(last, full > 0.0f ? static_cast<std::uint32_t>(full) + 1 : 0);
+    std::uint32_t count = full > 0.0f ? static_cast<std::uint32_t>(full) + 1 : 0;
+    // The quotient is rounded, and so is of(): a point of .9999999 would be kept as it is.
+    while (count > 0 && of(count - 1) < 1.0f)
+    {
+      --count;
+    }
+    return std::min(last, count);
   }
 };
 

@@ -162,8 +162,9 @@ Result<void> COPCRecords::sort(const COPCGrid& grid, const Advance& advance)
       return cancelled(options_.folder);
     }
   }
-  memory_ = {};
-  order_ = {};
+  // Assigning {} would keep what they have reserved.
+  memory_ = std::vector<std::byte>();
+  order_ = std::vector<Place>();
   for (std::size_t run = 0; run < runs_.size(); ++run)
   {
     if (auto done = push(run); !done)
@@ -188,7 +189,7 @@ Result<bool> COPCRecords::fill(Run& run)
     std::min<std::uint64_t>(run.points - run.read, std::max<std::size_t>(1, share / width));
   if (points == 0)
   {
-    run.buffer = {};
+    run.buffer = std::vector<std::byte>();
     return false;
   }
   run.buffer.resize(points * width);

@@ -1,6 +1,7 @@
 #include "ExportCommand.h"
 
 #include "CancelSignal.h"
+#include "COPCMemory.h"
 #include "KnownWords.h"
 #include "ProgressDisplay.h"
 #include "SinkFormats.h"
@@ -8,6 +9,7 @@
 
 #include "pointfront/Tiles/StoredCloudFormats.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdio>
 #include <memory>
@@ -96,6 +98,23 @@ Result<void> ExportCommand::checkTarget(const StoredCloud& store) const
   return checkOutputTarget({ outputPath_, sinkKind(outputPath_), replace_ }, reads);
 }
 
+Result<void> ExportCommand::shareMemory(const StoredCloud& store, ExportSelection& selection)
+{
+  if (sinkKind(outputPath_) != FileKind::COPC)
+  {
+    return {};
+  }
+  const Result<std::size_t> least = leastExportBytes(store, selection);
+  if (!least)
+  {
+    return least.error();
+  }
+  sinkChoice_.readBytes = *least;
+  selection.memoryBytes = static_cast<std::size_t>(
+    std::min<std::uint64_t>(selection.memoryBytes, COPCMemory::ofReading(sinkChoice_.memoryBytes)));
+  return {};
+}
+
 Result<std::uint64_t> ExportCommand::write(
   const StoredCloud& store, const ExportSelection& selection)
 {
@@ -153,7 +172,12 @@ Result<void> ExportCommand::run()
   {
     warn(name(), note);
   }
-  const Result<std::uint64_t> points = write(**store, { std::move(*query), std::nullopt });
+  ExportSelection selection{ std::move(*query), std::nullopt };
+  if (Result<void> shared = shareMemory(**store, selection); !shared)
+  {
+    return shared;
+  }
+  const Result<std::uint64_t> points = write(**store, selection);
   if (!points)
   {
     return points.error();

@@ -25,6 +25,8 @@ private:
   void checkOptions();
   /// The file can be written, and is none of those that are read.
   Result<void> checkTarget(const StoredCloud& store) const;
+  /// COPC: the reading's part of --memory.
+  Result<void> shareMemory(const StoredCloud& store, ExportSelection& selection);
   /// Gives how many points the file has; warns of what it could not keep.
   Result<std::uint64_t> write(const StoredCloud& store, const ExportSelection& selection);
 

@@ -58,7 +58,8 @@ std::unique_ptr<PointSink> makeFile(const std::string& path, const SinkChoice& c
   if (isCOPCName(path))
   {
     COPCWriter::Options options;
-    options.memoryBytes = choice.memoryBytes.value_or(options.memoryBytes);
+    options.memoryBytes = choice.memoryBytes;
+    options.readBytes = choice.readBytes;
     options.temporaryFolder = choice.temporaryFolder;
     options.created = choice.dated ? LASDate::today() : LASDate();
     options.progress = choice.progress;
@@ -69,6 +70,11 @@ std::unique_ptr<PointSink> makeFile(const std::string& path, const SinkChoice& c
     choice.dated ? LASDate::today() : LASDate());
 }
 } // namespace
+
+std::uint64_t usualCOPCMemoryBytes()
+{
+  return COPCWriter::Options::usualMemoryBytes;
+}
 
 Result<std::unique_ptr<PointSink>> makeSink(const std::string& path, const SinkChoice& choice)
 {

@@ -16,6 +16,9 @@ namespace pointfront
 
 /// The kinds of point files that this program writes, named by their extension.
 
+/// SinkChoice::memoryBytes where the user names none.
+std::uint64_t usualCOPCMemoryBytes();
+
 /// The choices that a user has for a file that is written.
 struct SinkChoice
 {
@@ -24,7 +27,8 @@ struct SinkChoice
   std::optional<unsigned> colourBits;
   bool dated = true; ///< LAS: its header tells the day
   std::string crs; ///< the system to transform into; empty: as they are
-  std::optional<std::uint64_t> memoryBytes; ///< COPC: for points that are sorted
+  std::uint64_t memoryBytes = usualCOPCMemoryBytes(); ///< COPC: for points
+  std::uint64_t readBytes = 0; ///< COPC: of it, what the reading of points needs
   std::string temporaryFolder; ///< COPC: for more points than that; empty: the file's own
   ProgressFunction progress = {}; ///< COPC: of its end, which is half of the work
 };

@@ -2,6 +2,7 @@
 
 import os
 import random
+import re
 import signal
 import struct
 import subprocess
@@ -76,10 +77,32 @@ class Publish(ToolTest):
         dated = dict(os.environ, SOURCE_DATE_EPOCH="86400")
         one, two = self.folder / "one.copc.laz", self.folder / "two.copc.laz"
         self.succeed("export", store, "-o", one, environment=dated)
-        self.succeed("export", store, "--copc", two, "--memory", "1M", "--temp", self.folder,
+        self.succeed("export", store, "--copc", two, "--memory", "12M", "--temp", self.folder,
                      environment=dated)
         self.assertEqual(one.read_bytes(), two.read_bytes())
         self.assertEqual(self.entries(), ["cloud.pfront", "one.copc.laz", "two.copc.laz"])
+
+    def peak(self, *arguments):
+        """Bytes of memory that a run took, which worked."""
+        with subprocess.Popen([TOOL, *map(str, arguments)], stdout=subprocess.DEVNULL,
+                              stderr=subprocess.DEVNULL) as running:
+            _, status, used = os.wait4(running.pid, 0)
+            running.returncode = os.waitstatus_to_exitcode(status)
+        self.assertEqual(running.returncode, 0)
+        return used.ru_maxrss * 1024
+
+    def test_memory_is_kept_or_refused(self):
+        """A run takes what the program takes without points, and at most --memory."""
+        store = self.build(DATA / "large/autzen_10653336_rgb_intensity.laz")
+        out = self.folder / "out.copc.laz"
+        said = self.refuse(1, "export", store, "--copc", out, "--memory", "1M").err
+        least = int(re.search(r"at least (\d+) KiB", said)[1])
+        self.refuse(1, "export", store, "--copc", out, "--memory", (least - 1) * 1024)
+        self.assertEqual(self.entries(), ["cloud.pfront"])
+        empty = self.peak("export", store, "--copc", out, "--box", "0,0,0,1,1,1")
+        for memory in (least * 1024, 48 << 20):
+            taken = self.peak("export", store, "--copc", out, "--memory", memory, "--force")
+            self.assertLess(taken, empty + memory)
 
     def test_a_part(self):
         store = self.build(DATA / "las/real/autzen_trim.las")
@@ -145,7 +168,7 @@ class Publish(ToolTest):
         for blocks in (0, 100, 2000):
             limited = run("/bin/sh", "-c",
                           f"ulimit -f {blocks}; trap '' XFSZ; '{TOOL}' export '{store}' -o '{out}'"
-                          " --memory 4M")
+                          " --memory 12M")
             self.assertEqual(limited.status, 1, limited)
             self.assertEqual(self.entries(), ["cloud.pfront"])
 

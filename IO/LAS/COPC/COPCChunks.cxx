@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <limits>
 #include <memory>
-#include <thread>
 #include <utility>
 
 namespace pointfront
@@ -45,13 +44,14 @@ Result<std::vector<std::byte>> compressed(
 }
 } // namespace
 
-COPCChunks::COPCChunks(
-  const LASPointLayout& layout, const std::string& path, OutputFile& file, std::uint64_t offset)
+COPCChunks::COPCChunks(const LASPointLayout& layout, const std::string& path, OutputFile& file,
+  std::uint64_t offset, const COPCMemory& memory)
   : layout_(layout)
   , path_(path)
   , file_(file)
   , end_(offset)
-  , threads_(std::clamp(std::thread::hardware_concurrency(), 1u, 16u))
+  , nodeBytes_(memory.nodeBytes)
+  , threads_(memory.threads)
 {
 }
 
@@ -83,14 +83,19 @@ Result<void> COPCChunks::add(int level, const glm::uvec3& cell, const std::byte*
   {
     return compressMeanwhile(open, record, 1);
   }
+  const std::size_t size = open.raw.size() + layout_.pointBytes;
+  if (size > open.raw.capacity())
+  {
+    open.raw.reserve(std::max(size, std::min(2 * size, nodeBytes_ + layout_.pointBytes)));
+  }
   open.raw.insert(open.raw.end(), record, record + layout_.pointBytes);
-  if (open.raw.size() < rawBytes)
+  if (open.raw.size() < nodeBytes_)
   {
     return {};
   }
   const Result<void> done =
     compressMeanwhile(open, open.raw.data(), open.raw.size() / layout_.pointBytes);
-  open.raw.clear();
+  open.raw = std::vector<std::byte>(); // clear() would keep its memory
   return done;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "COPCMemory.h"
 #include "COPCPages.h"
 #include "LASPointLayout.h"
 #include "LASzipWriter.h"
@@ -21,19 +22,19 @@ namespace pointfront
 
 /// Writes the nodes of an octree, each as one LAZ chunk, to the end of a file. Points come in an
 /// order in which the points of every cell follow each other; a node is written when its cell ends.
-/// Memory   a node of up to rawBytes is compressed as a whole, on another thread; a larger one
-///          while its points come. Open are one node of each level and as many as there are
-///          threads.
+/// Memory   a node of up to memory.nodeBytes is compressed as a whole, on another thread; a larger
+///          one while its points come, as its compressed bytes. Open are one node of each level and
+///          as many as there are threads.
 /// Threads  one thread calls.
 class COPCChunks
 {
 public:
   static constexpr std::size_t levels = 16; ///< 0 to 15
-  static constexpr std::size_t rawBytes = std::size_t{ 2 } << 20;
+  static constexpr std::size_t rawBytes = std::size_t{ 2 } << 20; ///< nodeBytes, at most
 
   /// The file's end is at `offset`. All that is referred to outlives this.
-  COPCChunks(
-    const LASPointLayout& layout, const std::string& path, OutputFile& file, std::uint64_t offset);
+  COPCChunks(const LASPointLayout& layout, const std::string& path, OutputFile& file,
+    std::uint64_t offset, const COPCMemory& memory);
 
   /// Nodes from this level on have no further points.
   Result<void> close(int level);
@@ -71,6 +72,7 @@ private:
   std::string path_;
   OutputFile& file_;
   std::uint64_t end_;
+  std::size_t nodeBytes_;
   std::size_t threads_;
   std::array<Open, levels> open_;
   std::deque<Pending> pending_;

@@ -13,8 +13,6 @@ namespace pointfront
 namespace
 {
 constexpr std::size_t blockBytes = std::size_t{ 1 } << 20;
-constexpr std::size_t leastBufferBytes = std::size_t{ 64 }
-  << 10; ///< a run's, while runs are merged
 constexpr std::size_t leastPointsInMemory = 4096;
 
 Error cancelled(const std::string& folder)
@@ -62,18 +60,24 @@ Result<void> COPCRecords::append(const std::byte* records, std::size_t count)
 /// The records in memory become a run, not yet sorted: the cube is known when all points have come.
 Result<void> COPCRecords::spill()
 {
-  Result<std::unique_ptr<SpillFile>> file = SpillFile::create(options_.folder, memory_.size());
-  if (!file)
+  if (!file_)
   {
-    return file.error();
+    Result<std::unique_ptr<SpillFile>> file = SpillFile::create(options_.folder,
+      std::max<std::uint64_t>(memory_.size(), options_.expected * options_.recordBytes));
+    if (!file)
+    {
+      return file.error();
+    }
+    file_ = std::move(*file);
   }
-  if (auto done = (*file)->write(0, memory_.data(), memory_.size()); !done)
+  if (auto done = file_->write(fileBytes_, memory_.data(), memory_.size()); !done)
   {
     return done;
   }
   Run run;
-  run.file = std::move(*file);
+  run.offset = fileBytes_;
   run.points = memory_.size() / options_.recordBytes;
+  fileBytes_ += memory_.size();
   runs_.push_back(std::move(run));
   memory_.clear();
   return {};
@@ -109,21 +113,21 @@ Result<void> COPCRecords::sortRun(Run& run, const COPCGrid& grid)
 {
   const std::size_t width = options_.recordBytes;
   memory_.resize(run.points * width);
-  if (auto done = run.file->read(0, memory_.data(), memory_.size()); !done)
+  if (auto done = file_->read(run.offset, memory_.data(), memory_.size()); !done)
   {
     return done;
   }
   sortMemory(grid);
   std::vector<std::byte> block;
   block.reserve(blockBytes + width);
-  std::uint64_t offset = 0;
+  std::uint64_t offset = run.offset;
   for (std::size_t i = 0; i < order_.size(); ++i)
   {
     const std::byte* record = memory_.data() + order_[i].index * width;
     block.insert(block.end(), record, record + width);
     if (block.size() >= blockBytes || i + 1 == order_.size())
     {
-      if (auto done = run.file->write(offset, block.data(), block.size()); !done)
+      if (auto done = file_->write(offset, block.data(), block.size()); !done)
       {
         return done;
       }
@@ -183,8 +187,7 @@ Result<bool> COPCRecords::fill(Run& run)
     run.key = grid_->key(run.buffer.data() + run.at);
     return true;
   }
-  const std::size_t share =
-    std::max<std::size_t>(leastBufferBytes, options_.memoryBytes / runs_.size());
+  const std::size_t share = options_.mergeBytes / runs_.size();
   const std::uint64_t points =
     std::min<std::uint64_t>(run.points - run.read, std::max<std::size_t>(1, share / width));
   if (points == 0)
@@ -193,7 +196,8 @@ Result<bool> COPCRecords::fill(Run& run)
     return false;
   }
   run.buffer.resize(points * width);
-  if (auto done = run.file->read(run.read * width, run.buffer.data(), run.buffer.size()); !done)
+  if (auto done = file_->read(run.offset + run.read * width, run.buffer.data(), run.buffer.size());
+      !done)
   {
     return done.error();
   }

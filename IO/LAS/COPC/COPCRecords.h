@@ -18,9 +18,10 @@ namespace pointfront
 {
 
 /// LAS records that come in any order and go in that of COPCGrid::key(), equal keys as they came.
-/// More than memory holds: runs of them lie in temporary files without names, are sorted one by one
-/// and then merged.
-/// Memory   `memoryBytes`, and 64 KiB for each run where that is more.
+/// More than memory holds: runs of them lie in one temporary file without a name, are sorted one by
+/// one and then merged.
+/// Memory   `memoryBytes` and a block of 1 MiB, but at least 4096 records; while runs are merged
+///          `mergeBytes`, but at least a record of each run.
 /// Errors   Unwritable: the folder takes no temporary file, its disk is full. Cancelled.
 /// Threads  one thread.
 class COPCRecords
@@ -29,8 +30,9 @@ public:
   struct Options
   {
     std::size_t recordBytes = 0;
-    std::uint64_t memoryBytes = 0;
-    std::string folder; ///< for temporary files
+    std::uint64_t memoryBytes = 0; ///< while records come and are sorted
+    std::uint64_t mergeBytes = 0; ///< for all runs while they are merged
+    std::string folder; ///< for the temporary file
     std::uint64_t expected = 0; ///< records that will come, at most; 0: not known
   };
   /// Told how many records are sorted; false cancels.
@@ -59,7 +61,7 @@ private:
   };
   struct Run
   {
-    std::unique_ptr<SpillFile> file;
+    std::uint64_t offset = 0; ///< in the file
     std::uint64_t points = 0;
     std::uint64_t read = 0; ///< points that came into `buffer`
     std::vector<std::byte> buffer;
@@ -79,6 +81,8 @@ private:
   std::vector<std::byte> memory_;
   std::vector<Place> order_;
   std::size_t nextInMemory_ = 0;
+  std::unique_ptr<SpillFile> file_; ///< all runs lie in it
+  std::uint64_t fileBytes_ = 0;
   std::vector<Run> runs_;
   std::vector<std::pair<std::uint64_t, std::size_t>> heap_; ///< keys and runs, the least in front
   std::optional<std::size_t> given_; ///< the run whose record is out

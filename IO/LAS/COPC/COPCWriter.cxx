@@ -3,6 +3,7 @@
 #include "COPCChunks.h"
 #include "COPCGrid.h"
 #include "COPCLevels.h"
+#include "COPCMemory.h"
 #include "COPCPages.h"
 #include "COPCRecords.h"
 #include "LASBytes.h"
@@ -17,6 +18,7 @@
 #include <cassert>
 #include <cstring>
 #include <optional>
+#include <thread>
 #include <utility>
 
 namespace pointfront
@@ -91,6 +93,7 @@ struct COPCWriter::State
   std::string path;
   Options options;
   LASExport plan;
+  COPCMemory memory;
   LASTotals totals;
   double firstTime = 0.0; ///< least and largest GPS time
   double lastTime = 0.0;
@@ -153,6 +156,14 @@ Result<void> COPCWriter::begin(const SinkDescription& description)
   state.plan = std::move(*plan);
   state.plan.created = state.options.created;
   state.lostSystem = state.plan.lostGeoKeys;
+  const Result<COPCMemory> memory =
+    COPCMemory::share(state.options.memoryBytes, state.options.readBytes,
+      state.plan.layout.pointBytes, std::min(std::thread::hardware_concurrency(), 16u), state.path);
+  if (!memory)
+  {
+    return memory.error();
+  }
+  state.memory = *memory;
   Result<std::unique_ptr<OutputFile>> file = OutputFile::create(state.path);
   if (!file)
   {
@@ -160,9 +171,8 @@ Result<void> COPCWriter::begin(const SinkDescription& description)
   }
   state.file = std::move(*file);
   const std::string& folder = state.options.temporaryFolder;
-  state.records.emplace(
-    COPCRecords::Options{ state.plan.layout.pointBytes, state.options.memoryBytes,
-      folder.empty() ? folderOf(state.path) : folder, description.pointCount });
+  state.records.emplace(COPCRecords::Options{ state.plan.layout.pointBytes, memory->recordBytes,
+    memory->mergeBytes, folder.empty() ? folderOf(state.path) : folder, description.pointCount });
   return {};
 }
 
@@ -341,6 +351,8 @@ Result<void> COPCWriter::finish()
   State& state = *state_;
   assert(state.file);
   const COPCGrid grid(state.totals, state.plan.grid);
+  state.block = std::vector<std::byte>();
+  COPCMemory::giveBack();
   ExportClock clock(state.options.progress, state.totals.points, "sorting");
   if (auto done =
         state.records->sort(grid, [&clock](std::uint64_t sorted) { return clock.report(sorted); });
@@ -352,7 +364,8 @@ Result<void> COPCWriter::finish()
   {
     return done;
   }
-  COPCChunks chunks(state.plan.layout, state.path, *state.file, state.end);
+  COPCMemory::giveBack();
+  COPCChunks chunks(state.plan.layout, state.path, *state.file, state.end, state.memory);
   if (auto done = state.writeNodes(grid, chunks); !done)
   {
     return done;

@@ -20,19 +20,23 @@ namespace pointfront
 ///             must be WKT: GeoTIFF keys are left out, with a finding where there is no WKT.
 /// Rounding    scan angles of point formats 0 to 5 are whole degrees, those here steps of 0.006
 ///             degrees.
-/// Memory      Options::memoryBytes, and 2 MiB for each level and thread.
+/// Memory      Options::memoryBytes, of which the query that brings the points has its part
+///             (COPCMemory); and the compressed bytes of nodes larger than 2 MiB, while they come.
 /// Disk        more points than that lie in temporary files meanwhile: as many bytes as a LAS file.
 /// Order       the same points give the same bytes if they come in the same order, whatever the
 ///             memory.
 /// Source      COPC 1.0, copc.io; how points find their nodes: docs/adr/0047.
-/// Errors      as in PointSink; Cancelled.
+/// Errors      as in PointSink; Cancelled; BadArgument where memoryBytes is too little, with the
+///             least amount that works.
 /// Threads     one thread calls; nodes are compressed on others.
 class COPCWriter final : public PointSink
 {
 public:
   struct Options
   {
-    std::uint64_t memoryBytes = std::uint64_t{ 512 } << 20; ///< for points that are being sorted
+    static constexpr std::uint64_t usualMemoryBytes = std::uint64_t{ 512 } << 20;
+    std::uint64_t memoryBytes = usualMemoryBytes; ///< for points, read, sorted and written
+    std::uint64_t readBytes = 0; ///< the part that the query needs that brings the points
     std::string temporaryFolder; ///< empty: the file's own
     LASDate created = LASDate::today();
     /// Told of finish(), which is half of the work; false cancels.

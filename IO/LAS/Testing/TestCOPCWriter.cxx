@@ -229,7 +229,7 @@ TEST(COPCRecords, AreInTheSameOrderWhateverTheMemory)
   std::vector<std::vector<std::byte>> orders;
   for (const std::uint64_t memory : { std::uint64_t{ 1 } << 24, std::uint64_t{ 1 } << 10 })
   {
-    COPCRecords sorted({ 12, memory, std::filesystem::temp_directory_path().string() });
+    COPCRecords sorted({ 12, memory, memory, std::filesystem::temp_directory_path().string() });
     ASSERT_TRUE(sorted.append(records.data(), 10000).ok());
     ASSERT_TRUE(sorted.append(records.data() + 12 * 10000, 20000).ok());
     ASSERT_TRUE(sorted.sort(grid, [](std::uint64_t) { return true; }).ok());

@@ -63,14 +63,15 @@ Result<PointQuery> queryOf(const ExportSelection& selection)
 }
 
 Result<ExportReport> exportPlanned(const QueryPlan& plan, const PointQuery& query,
-  const NodeReader& reader, PointSink& sink, const ProgressFunction& progress)
+  const NodeReader& reader, std::size_t memoryBytes, PointSink& sink,
+  const ProgressFunction& progress)
 {
   if (Result<void> begun = sink.begin(sinkDescription(plan.description(), query)); !begun)
   {
     return begun.error();
   }
   QueryOptions options;
-  options.memoryBytes = std::max(options.memoryBytes, plan.leastMemoryBytes(reader));
+  options.memoryBytes = std::max(memoryBytes, plan.leastMemoryBytes(reader));
   options.progress = progress;
   options.phase = "exporting";
   const Result<QueryReport> report =
@@ -98,7 +99,8 @@ Result<ExportReport> exportPoints(const StoreDescription& store, const Hierarchy
     return query.error();
   }
   const Result<QueryPlan> plan = QueryPlan::make(store, hierarchy, *query);
-  return plan ? exportPlanned(*plan, *query, reader, sink, progress) : plan.error();
+  return plan ? exportPlanned(*plan, *query, reader, selection.memoryBytes, sink, progress)
+              : plan.error();
 }
 
 Result<ExportReport> exportStore(const StoredCloud& store, const ExportSelection& selection,
@@ -123,7 +125,19 @@ Result<ExportReport> exportStore(const StoredCloud& store, const ExportSelection
     return query.error();
   }
   const Result<QueryPlan> plan = QueryPlan::make(store, *query);
-  return plan ? exportPlanned(*plan, *query, store, sink, progress) : plan.error();
+  return plan ? exportPlanned(*plan, *query, store, selection.memoryBytes, sink, progress)
+              : plan.error();
+}
+
+Result<std::size_t> leastExportBytes(const StoredCloud& store, const ExportSelection& selection)
+{
+  const Result<PointQuery> query = queryOf(selection);
+  if (!query)
+  {
+    return query.error();
+  }
+  const Result<QueryPlan> plan = QueryPlan::make(store, *query);
+  return plan ? Result<std::size_t>(plan->leastMemoryBytes(store)) : plan.error();
 }
 
 } // namespace pointfront

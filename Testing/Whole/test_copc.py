@@ -10,7 +10,7 @@ import time
 import unittest
 
 from copc_file import CopcFile
-from tool import DATA, TOOL, ToolTest, run, write_las
+from tool import DATA, SLOWNESS, TOOL, ToolTest, run, write_las
 
 CLOUDS = {  # a cloud and the point format that it needs
     "classified/lidarhd_rgb_nir_698k.laz": 8,
@@ -99,6 +99,8 @@ class Publish(ToolTest):
         least = int(re.search(r"at least (\d+) KiB", said)[1])
         self.refuse(1, "export", store, "--copc", out, "--memory", (least - 1) * 1024)
         self.assertEqual(self.entries(), ["cloud.pfront"])
+        if SLOWNESS > 1:
+            return  # a sanitizer keeps what the program frees
         empty = self.peak("export", store, "--copc", out, "--box", "0,0,0,1,1,1")
         for memory in (least * 1024, 48 << 20):
             taken = self.peak("export", store, "--copc", out, "--memory", memory, "--force")

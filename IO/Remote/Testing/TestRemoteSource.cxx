@@ -177,7 +177,9 @@ TEST(RemoteSource, AFileThatWasReplacedIsOpenedAnew)
   EXPECT_TRUE((*again)->readAt(500000, &byte, 1));
 }
 
-#if !defined(__SANITIZE_THREAD__) // which ends a child of fork() that starts threads
+// ThreadSanitizer ends a child of fork() that starts threads; in that of AddressSanitizer a lock of
+// its allocator may be held for ever by a thread which is not there.
+#if !defined(__SANITIZE_THREAD__) && !defined(__SANITIZE_ADDRESS__)
 TEST(RemoteOpener, AChildOfForkOpensAddressesToo)
 {
   SmallServer server(words(1 << 16));
@@ -195,7 +197,7 @@ TEST(RemoteOpener, AChildOfForkOpensAddressesToo)
         }
       });
   }
-  for (int round = 0; round < 20; ++round)
+  for (int round = 0; round < 5; ++round)
   {
     const ::pid_t child = ::fork();
     if (child == 0)

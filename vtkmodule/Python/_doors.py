@@ -121,6 +121,7 @@ class Doors:
         async def check(request, handler):
             invited = self._knows(request.query.get("secret"))
             known = invited or self._knows(request.cookies.get(self._cookie()))
+            self._gate.heard(request.transport, known)
             if not known:
                 await self._gate.turn()
             _refuse_foreign_pages(request)

@@ -1,12 +1,21 @@
 """How much of a server's time strangers get: whoever has not its secret waits for a turn."""
 
 import asyncio
+import resource
 import socket
 import time
 
 TURNS_A_SECOND = 50.0
 TURNS_AT_ONCE = 100.0  # a page and what it is made of takes about twenty
 NO_FILES_SECONDS = 1.0  # where the process may open no more files
+SILENT_SECONDS = 10.0  # from a connection to the end of its first request's head
+STRANGERS = 512  # connections at a time: as many as say their head late, and come at that rate
+
+
+def most_strangers():
+    """Connections that strangers may have at a time: half of the process's files at most."""
+    files, _ = resource.getrlimit(resource.RLIMIT_NOFILE)
+    return STRANGERS if files == resource.RLIM_INFINITY else min(STRANGERS, files // 2)
 
 
 class Gate:
@@ -14,7 +23,9 @@ class Gate:
 
     While all turns are taken no connection is accepted: whoever floods the server waits in the
     kernel and takes none of its time, and clients that are there already are not slowed down. New
-    ones wait with the others. Threads: the event loop's.
+    ones wait with the others. A connection that brings no whole head of a request is ended, and so
+    is the oldest stranger's where there are too many: files are left for those with the secret.
+    Threads: the event loop's.
     """
 
     def __init__(self, clock=time.monotonic):
@@ -22,6 +33,8 @@ class Gate:
         self._turns = TURNS_AT_ONCE
         self._at = clock()
         self._opening = set()
+        self._strangers = {}  # connections, in their order; what ends them if they stay silent
+        self._most = most_strangers()
 
     def open(self, wslink_server):
         """Accepts connections in the server's place; when it listens."""
@@ -37,6 +50,13 @@ class Gate:
         wait = self._take()
         if wait > 0.0:
             await asyncio.sleep(wait)
+
+    def heard(self, transport, invited):
+        """A connection has brought the whole head of a request; `invited`: with the secret."""
+        if transport in self._strangers:
+            self._strangers[transport].cancel()
+            if invited:
+                del self._strangers[transport]
 
     def _take(self):
         """One turn; how many seconds it is until that comes."""
@@ -59,13 +79,29 @@ class Gate:
             wait = NO_FILES_SECONDS
         else:
             line.setblocking(False)
-            task = loop.create_task(loop.connect_accepted_socket(factory, line))
+            task = loop.create_task(self._begin(factory, line))
             self._opening.add(task)
             task.add_done_callback(self._opened)
             wait = self._take()
         if wait > 0.0:
             loop.remove_reader(listener)
             loop.call_later(wait, self._listen, listener, factory)
+
+    async def _begin(self, factory, line):
+        loop = asyncio.get_running_loop()
+        transport, _ = await loop.connect_accepted_socket(factory, line)
+        if len(self._strangers) >= self._most:
+            self._strangers = {one: silence for one, silence in self._strangers.items()
+                               if not one.is_closing()}
+        if len(self._strangers) >= self._most:
+            self._end(next(iter(self._strangers)))
+        self._strangers[transport] = loop.call_later(SILENT_SECONDS, self._end, transport)
+
+    def _end(self, transport):
+        silence = self._strangers.pop(transport, None)
+        if silence is not None:
+            silence.cancel()
+            transport.abort()
 
     def _opened(self, task):
         self._opening.discard(task)

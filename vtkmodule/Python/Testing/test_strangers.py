@@ -27,6 +27,7 @@ from wslink.chunking import UnChunker, generate_chunks
 STRANGER = "elsewhere.example"
 MESSAGES_IN_A_TRY = 400
 TURNS_A_SECOND, TURNS_AT_ONCE = 50, 100  # as the page's Gate says; a refusal takes two
+CONNECTIONS_OF_STRANGERS = 512
 
 
 def status_of(url):
@@ -114,6 +115,50 @@ def tries(host, port, seconds, together=16):
     for thread in threads:
         thread.join()
     return sum(answered)
+
+
+async def say_nothing(host, port, count):
+    """How many of so many connections, of which every other one says half a request's head, the
+    server ended, and the seconds that it took for the last one. They come hardly slower than the
+    server takes them: what its kernel drops from a full queue is told nothing.
+    """
+    begun = time.monotonic()
+
+    async def stay(place):
+        await asyncio.sleep(max(0, place - TURNS_AT_ONCE) / (0.9 * TURNS_A_SECOND))
+        reader, writer = await asyncio.open_connection(host, port)
+        if place % 2:
+            writer.write(f"GET / HTTP/1.1\r\nHost: {host}:{port}\r\n".encode())
+        try:
+            await reader.read()
+        except ConnectionError:
+            pass
+        writer.close()
+        return time.monotonic() - begun
+
+    staying = [asyncio.ensure_future(stay(place)) for place in range(count)]
+    ended, others = await asyncio.wait(staying, timeout=90.0)
+    for one in others:
+        one.cancel()
+    return len(ended), max((one.result() for one in ended), default=0.0)
+
+
+def speak_slowly(url, seconds):
+    """What a server answers to an honest request whose head takes so long."""
+    address = urllib.parse.urlsplit(url)
+    head = (f"GET /index.html?{address.query} HTTP/1.1\r\nHost: {address.netloc}\r\n"
+            "Connection: close\r\n\r\n").encode()
+    with socket.create_connection((address.hostname, address.port), 20.0) as line:
+        for part in range(0, len(head), 10):
+            line.sendall(head[part:part + 10])
+            time.sleep(seconds * 10 / len(head))
+        with line.makefile("rb") as answer:
+            return answer.read()
+
+
+def files_of(process):
+    """How many the process has open."""
+    return len(os.listdir(f"/proc/{process.pid}/fd"))
 
 
 def seconds_of(process):
@@ -260,6 +305,47 @@ class Strangers(InBrowser):
         self.assertLess(share, 0.1)
         self.assertLess(waited, 6.0)
         self.assertEqual(server.end(), 130)
+
+    def test_silent_connections_end(self):
+        """A thousand that say nothing, or half a request: the server ends each after some seconds
+        and holds few at a time, a view turns meanwhile, and whoever speaks slowly comes in.
+        """
+        server = Server(self.store, "--port", "0")
+        self.addCleanup(server.process.kill)
+        page = self.open(server.url)
+        address = urllib.parse.urlsplit(server.url)
+        before = self.turned_frames(page, lambda seconds: seconds > 3)
+        files = files_of(server.process)
+        sender = subprocess.Popen(
+            [sys.executable, "-c", "import asyncio, sys, test_strangers as t; "
+             "print(*asyncio.run(t.say_nothing(sys.argv[1], int(sys.argv[2]), 1000)))",
+             address.hostname, str(address.port)],
+            cwd=pathlib.Path(__file__).parent, stdout=subprocess.PIPE, text=True)
+        self.addCleanup(sender.kill)
+        held = []
+
+        def sent(_):
+            held.append(files_of(server.process) - files)
+            return sender.poll() is not None
+
+        with concurrent.futures.ThreadPoolExecutor(1) as thread:
+            slow = thread.submit(speak_slowly, server.url, 6.0)
+            during = self.turned_frames(page, sent)
+            self.assertIn(b" 200 ", slow.result()[:20])
+        ended, last = sender.communicate()[0].split()
+        after = self.turned_frames(page, lambda seconds: seconds > 3)
+        print("frames a second: %.1f, with silent connections %.1f, then %.1f; %d files at most, "
+              "the last ended after %.1f s" % (before, during, after, max(held), float(last)))
+        self.assertEqual(int(ended), 1000)
+        self.assertLess(max(held), CONNECTIONS_OF_STRANGERS + 50)
+        self.assertLess(files_of(server.process) - files, 20)
+        self.assertGreater(during, 0.75 * min(before, after))
+        self.open(server.url)
+        turned = self.settle(page, lambda: page.click("text=top"))
+        self.assertGreater(turned.std(), 20)
+        self.assertEqual(self.errors, [])
+        self.assertEqual(server.end(), 130)
+        self.assertEqual(server.said, "")
 
     def turned_frames(self, page, ended):
         """Frames a second, while the mouse turns the view until ended(seconds)."""

@@ -164,6 +164,12 @@ class Reports(ToolTest):
         for key in ("points_per_second", "peak_rss_bytes", "bytes_written"):
             self.assertIsInstance(report[key], int)
 
+    def test_peak_memory_is_the_tools_not_its_parents(self):
+        """A program that starts another hands its own peak on to it, by getrusage's count."""
+        held = b"x" * (768 << 20)
+        report = self.succeed("build", SMALL, "-o", self.folder / "x.pfront", "--json").json
+        self.assertLess(report["peak_rss_bytes"], len(held) / 2)
+
     def test_info(self):
         store = self.build(DATA / "las/real/1.2-with-color.las")
         report = self.succeed("info", store, "--json").json

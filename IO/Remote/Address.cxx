@@ -1,15 +1,14 @@
 #include "Address.h"
 
 #include "pointfront/Disk/ByteOpeners.h"
+#include "pointfront/Threads/ForkHold.h"
 
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
 #include <map>
-#include <mutex>
-#include <pthread.h>
 #include <random>
-#include <set>
+#include <string_view>
 
 namespace pointfront
 {
@@ -34,13 +33,15 @@ bool isKey(std::string name)
 {
   std::transform(name.begin(), name.end(), name.begin(),
     [](unsigned char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : char(c); });
-  static const std::set<std::string> names{ "sig", "signature", "expires", "policy", "key-pair-id",
-    "awsaccesskeyid", "googleaccessid", "se", "sp", "sv", "sr", "st", "spr", "sip", "skoid",
-    "sktid", "skt", "ske", "sks", "skv", "sdd", "ss", "srt", "token", "access_token", "auth",
-    "authorization", "key", "apikey", "api_key", "api-key", "password", "secret" };
-  return name.rfind("x-amz-", 0) == 0 || name.rfind("x-goog-", 0) == 0 || names.count(name) > 0;
+  static constexpr std::string_view names[] = { "sig", "signature", "expires", "policy",
+    "key-pair-id", "awsaccesskeyid", "googleaccessid", "se", "sp", "sv", "sr", "st", "spr", "sip",
+    "skoid", "sktid", "skt", "ske", "sks", "skv", "sdd", "ss", "srt", "token", "access_token",
+    "auth", "authorization", "key", "apikey", "api_key", "api-key", "password", "secret" };
+  return name.rfind("x-amz-", 0) == 0 || name.rfind("x-goog-", 0) == 0 ||
+    std::find(std::begin(names), std::end(names), name) != std::end(names);
 }
 
+/// A child of fork() knows the addresses of its parent.
 struct Remembered
 {
   struct Secret
@@ -48,43 +49,39 @@ struct Remembered
     std::string userInfo;
     std::string query;
   };
-  std::mutex mutex;
   std::map<std::string, std::string> addresses; ///< by their public forms
   std::map<std::string, Secret> secrets; ///< by origin and mark: of what lies beside an address
 };
 
-Remembered& remembered();
-
-/// A child of fork() knows the addresses of its parent, so no other thread may hold the lock then.
-Remembered* rememberedAcrossForks()
+Remembered& remembered(const ForkHold&)
 {
-  ::pthread_atfork([] { remembered().mutex.lock(); }, [] { remembered().mutex.unlock(); },
-    [] { remembered().mutex.unlock(); });
-  return new Remembered; // never deleted: static objects may use it
+  static auto* const table = new Remembered; // never deleted: static objects may use it
+  return *table;
 }
 
-Remembered& remembered()
+const std::string& saltOfProcess()
 {
-  static Remembered* const table = rememberedAcrossForks();
-  return *table;
+  const ForkHold hold;
+  static auto* const salt = []
+  {
+    std::random_device chance;
+    return new std::string(std::to_string(chance()) + ' ' + std::to_string(chance()) + ' ');
+  }();
+  return *salt;
 }
 
 /// Stands for the secrets of an address. It is another one in each process, so that nobody finds a
 /// weak password by it.
 std::string markOf(const Address& address)
 {
-  static const std::string salt = []
-  {
-    std::random_device chance;
-    return std::to_string(chance()) + ' ' + std::to_string(chance()) + ' ';
-  }();
   if (address.query.empty() && address.userInfo.empty())
   {
     return {};
   }
   char hash[24];
   std::snprintf(hash, sizeof hash, "%016llx",
-    static_cast<unsigned long long>(hashOf(salt + address.userInfo + '\n' + address.query)));
+    static_cast<unsigned long long>(
+      hashOf(saltOfProcess() + address.userInfo + '\n' + address.query)));
   return hashMark + std::string(hash);
 }
 } // namespace
@@ -125,6 +122,23 @@ Result<Address> Address::parse(std::string_view text)
     return makeError(Error::Kind::BadArgument, "an address without a host: scheme://host/path");
   }
   return address;
+}
+
+Result<Address> Address::redirected(const std::string& location) const
+{
+  if (location.find("://") != std::string::npos)
+  {
+    return parse(location);
+  }
+  if (location.compare(0, 2, "//") == 0)
+  {
+    return parse(scheme + ":" + location);
+  }
+  if (!location.empty() && location.front() == '/')
+  {
+    return parse(origin() + location);
+  }
+  return parse(origin() + path.substr(0, path.rfind('/') + 1) + location);
 }
 
 std::string Address::text() const
@@ -170,10 +184,11 @@ std::string rememberAddress(const Address& address)
     // A public form that this process does not know.
     return address.scheme + "://" + address.host + address.path + '?' + address.query;
   }
-  Remembered& table = remembered();
-  const std::lock_guard<std::mutex> lock(table.mutex);
+  const std::string mark = markOf(address);
+  const ForkHold hold;
+  Remembered& table = remembered(hold);
   table.addresses[form] = address.text();
-  if (const std::string mark = markOf(address); !mark.empty())
+  if (!mark.empty())
   {
     table.secrets[address.origin() + ' ' + mark] = { address.userInfo, address.query };
   }
@@ -182,8 +197,8 @@ std::string rememberAddress(const Address& address)
 
 std::string addressOf(const std::string& text)
 {
-  Remembered& table = remembered();
-  const std::lock_guard<std::mutex> lock(table.mutex);
+  const ForkHold hold;
+  const Remembered& table = remembered(hold);
   const auto found = table.addresses.find(text);
   if (found != table.addresses.end())
   {

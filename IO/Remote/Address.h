@@ -20,6 +20,8 @@ struct Address
   /// Errors  BadArgument, without the address's secret parts: no host, control characters.
   static Result<Address> parse(std::string_view text);
 
+  /// The address that a redirection from this one names ("Location: ../b").
+  Result<Address> redirected(const std::string& location) const;
   /// All of it, for the request. The fragment ("#...") of what was parsed is gone.
   std::string text() const;
   /// Without what may be secret: instead of user, password and query it has a short mark ("?~..."),

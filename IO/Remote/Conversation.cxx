@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdlib>
+#include <memory>
 #include <random>
 #include <thread>
 #include <utility>
@@ -59,25 +60,6 @@ void pauseFor(milliseconds pause, Clock::time_point deadline, const std::atomic<
   }
 }
 
-/// The address that a redirection from `from` names.
-Result<Address> resolved(const Address& from, const std::string& location)
-{
-  if (location.find("://") != std::string::npos)
-  {
-    return Address::parse(location);
-  }
-  if (location.compare(0, 2, "//") == 0)
-  {
-    return Address::parse(from.scheme + ":" + location);
-  }
-  if (!location.empty() && location.front() == '/')
-  {
-    return Address::parse(from.origin() + location);
-  }
-  const std::string folder = from.path.substr(0, from.path.rfind('/') + 1);
-  return Address::parse(from.origin() + folder + location);
-}
-
 std::string rangeOf(const WantedBytes& wanted)
 {
   if (wanted.tail && wanted.bytes.empty())
@@ -92,6 +74,11 @@ std::string rangeOf(const WantedBytes& wanted)
 Error Conversation::failed(Error::Kind kind, const std::string& what) const
 {
   return makeError(kind, "'" + name_ + "' " + what);
+}
+
+Conversation::Redirection& Conversation::redirection() const
+{
+  return redirection_.get([] { return std::make_unique<Redirection>(); });
 }
 
 Error Conversation::changed() const
@@ -123,8 +110,9 @@ HttpQuestion Conversation::questionFor(
   HttpQuestion question;
   Address place = request_.address;
   {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    place = elsewhere_.value_or(place);
+    Redirection& known = redirection();
+    const std::lock_guard<std::mutex> lock(known.mutex);
+    place = known.elsewhere.value_or(place);
   }
   question.url = place.text();
   if (place.origin() == request_.address.origin())
@@ -242,20 +230,21 @@ Result<Conversation::Verdict> Conversation::takeWhole(
 
 Result<Conversation::Verdict> Conversation::redirect(const HttpAnswer& answer) const
 {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  if (++redirects_ > options_.redirects)
+  Redirection& known = redirection();
+  const std::lock_guard<std::mutex> lock(known.mutex);
+  if (++known.inSequence > options_.redirects)
   {
     return failed(Error::Kind::Unreadable,
       "is redirected more than " + std::to_string(options_.redirects) +
         " times, perhaps in a circle");
   }
   const Result<Address> next =
-    resolved(elsewhere_.value_or(request_.address), answer.header("location"));
+    known.elsewhere.value_or(request_.address).redirected(answer.header("location"));
   if (!next || (next->scheme != "http" && next->scheme != "https"))
   {
     return failed(Error::Kind::Unreadable, "is redirected to what is no http or https address");
   }
-  elsewhere_ = *next;
+  known.elsewhere = *next;
   return Verdict::Redirected;
 }
 
@@ -319,10 +308,11 @@ Result<Conversation::Verdict> Conversation::judgeStatus(
   {
     return Verdict::Again;
   }
-  const std::lock_guard<std::mutex> lock(mutex_);
-  if (elsewhere_ && redirects_ == 0)
+  Redirection& known = redirection();
+  const std::lock_guard<std::mutex> lock(known.mutex);
+  if (known.elsewhere && known.inSequence == 0)
   {
-    elsewhere_.reset(); // an earlier redirection may have expired
+    known.elsewhere.reset(); // an earlier redirection may have expired
     return Verdict::Again;
   }
   return refused(answer.status);
@@ -390,8 +380,9 @@ Result<Conversation::Round> Conversation::ask(const std::vector<WantedBytes*>& m
   }
   if (round.news)
   {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    redirects_ = 0;
+    Redirection& known = redirection();
+    const std::lock_guard<std::mutex> lock(known.mutex);
+    known.inSequence = 0;
   }
   return round;
 }

@@ -4,6 +4,7 @@
 #include "RemoteOptions.h"
 
 #include "pointfront/Base/Result.h"
+#include "pointfront/Threads/OfProcess.h"
 
 #include <atomic>
 #include <chrono>
@@ -40,7 +41,7 @@ struct WantedBytes
 /// It lets no byte pass that may be another file's.
 /// Secrets   headers and signatures go to the origin of the request alone, never to one that it is
 ///           redirected to.
-/// Threads   all functions from any thread.
+/// Threads   all functions from any thread; a child of fork() goes on with it.
 class Conversation
 {
 public:
@@ -69,6 +70,12 @@ private:
     Again, ///< try again, after a pause
     Redirected ///< try again at once
   };
+  struct Redirection
+  {
+    std::mutex mutex; ///< guards all that follows
+    std::optional<Address> elsewhere; ///< where the address was redirected to
+    unsigned inSequence = 0;
+  };
   /// One question for each part that is missing.
   struct Round
   {
@@ -93,6 +100,7 @@ private:
   Result<void> compare(
     const HttpAnswer& answer, std::uint64_t bytes, std::optional<RemoteIdentity>& identity) const;
   Result<Verdict> redirect(const HttpAnswer& answer) const;
+  Redirection& redirection() const;
   Error changed() const;
   Error refused(long status) const;
   Error failed(Error::Kind kind, const std::string& what) const;
@@ -100,9 +108,7 @@ private:
   const std::string name_;
   const Request request_;
   const RemoteOptions options_;
-  mutable std::mutex mutex_; ///< guards all that follows
-  mutable std::optional<Address> elsewhere_; ///< where the address was redirected to
-  mutable unsigned redirects_ = 0; ///< one after another
+  mutable OfProcess<Redirection> redirection_;
 };
 
 } // namespace pointfront

@@ -2,6 +2,8 @@
 
 #include "TransferLoop.h"
 
+#include "pointfront/Threads/ForkHold.h"
+
 #include <chrono>
 #include <exception>
 #include <future>
@@ -26,6 +28,14 @@ void dropPast(Entries& entries, Clock::time_point now)
   {
     one = one->second.until < now ? entries.erase(one) : std::next(one);
   }
+}
+
+std::shared_ptr<const ByteOpener> openerOfProcess()
+{
+  const ForkHold hold;
+  static auto* const opener = new std::shared_ptr<const ByteOpener>(
+    std::make_shared<const RemoteOpener>(RemoteOptions::ofEnvironment()));
+  return *opener;
 }
 } // namespace
 
@@ -210,16 +220,11 @@ Result<std::shared_ptr<const ByteSource>> RemoteOpener::open(
 
 void addRemoteOpeners()
 {
-  static const bool added = []
+  const std::shared_ptr<const ByteOpener> opener = openerOfProcess();
+  for (const char* scheme : { "http", "https", "s3" })
   {
-    const auto opener = std::make_shared<const RemoteOpener>(RemoteOptions::ofEnvironment());
-    for (const char* scheme : { "http", "https", "s3" })
-    {
-      ByteOpeners::ofProcess().add(scheme, opener);
-    }
-    return true;
-  }();
-  static_cast<void>(added);
+    ByteOpeners::ofProcess().add(scheme, opener);
+  }
 }
 
 } // namespace pointfront

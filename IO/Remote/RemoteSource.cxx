@@ -188,6 +188,11 @@ void RemoteSource::keepOnDisk(const WantedBytes& piece) const
   }
 }
 
+RemoteSource::Blocks& RemoteSource::blocks() const
+{
+  return blocks_.get([] { return std::make_unique<Blocks>(); });
+}
+
 /// From the ends of the file, or from a block of an earlier small read.
 bool RemoteSource::takeHeld(const ByteRange& range) const
 {
@@ -203,18 +208,19 @@ bool RemoteSource::takeHeld(const ByteRange& range) const
   {
     return false;
   }
-  const std::lock_guard<std::mutex> lock(mutex_);
+  Blocks& held = blocks();
+  const std::lock_guard<std::mutex> lock(held.mutex);
   const Interval needed = neededFor(range, bytes(), cache_ != nullptr);
   for (std::uint64_t at = needed.first; at < needed.second; at += blockBytes)
   {
-    if (blocks_.count(at) == 0)
+    if (held.byOffset.count(at) == 0)
     {
       return false;
     }
   }
   for (std::uint64_t at = needed.first; at < needed.second; at += blockBytes)
   {
-    copyFrom(blocks_.at(at), range.offset, range.size, range.target);
+    copyFrom(held.byOffset.at(at), range.offset, range.size, range.target);
   }
   return true;
 }
@@ -222,11 +228,12 @@ bool RemoteSource::takeHeld(const ByteRange& range) const
 /// Blocks of small reads are kept: what is asked for next often lies beside.
 void RemoteSource::keepBlocks(const WantedBytes& piece, const Interval64& needed) const
 {
-  const std::lock_guard<std::mutex> lock(mutex_);
+  Blocks& held = blocks();
+  const std::lock_guard<std::mutex> lock(held.mutex);
   for (std::uint64_t at = needed.first; at < needed.second; at += blockBytes)
   {
     const std::uint64_t end = std::min(at + blockBytes, bytes());
-    if (at < piece.offset || end > piece.offset + piece.bytes.size() || blocks_.count(at) > 0)
+    if (at < piece.offset || end > piece.offset + piece.bytes.size() || held.byOffset.count(at) > 0)
     {
       continue;
     }
@@ -235,12 +242,12 @@ void RemoteSource::keepBlocks(const WantedBytes& piece, const Interval64& needed
     block.size = end - at;
     block.bytes.resize(static_cast<std::size_t>(block.size));
     copyFrom(piece, at, block.size, block.bytes.data());
-    blocks_.emplace(at, std::move(block));
-    order_.push_back(at);
-    if (order_.size() > mostBlocks)
+    held.byOffset.emplace(at, std::move(block));
+    held.order.push_back(at);
+    if (held.order.size() > mostBlocks)
     {
-      blocks_.erase(order_.front());
-      order_.erase(order_.begin());
+      held.byOffset.erase(held.order.front());
+      held.order.erase(held.order.begin());
     }
   }
 }

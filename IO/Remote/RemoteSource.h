@@ -4,6 +4,7 @@
 
 #include "pointfront/Disk/ByteSource.h"
 #include "pointfront/Disk/FarCache.h"
+#include "pointfront/Threads/OfProcess.h"
 
 #include <atomic>
 #include <cstddef>
@@ -30,6 +31,7 @@ namespace pointfront
 /// Cache     what came is kept on the disk (FarCache), in blocks of 4 KiB. Opening asks the server
 ///           nevertheless whether the file is still the same; offline, nothing is asked.
 /// Memory    head and tail, and 4 MiB of blocks.
+/// Fork      a child reads on, over connections of its own.
 /// Errors    those of ByteSource. Messages name the public form of the address alone.
 class RemoteSource final : public ByteSource
 {
@@ -49,6 +51,14 @@ public:
 private:
   using Interval64 = std::pair<std::uint64_t, std::uint64_t>;
 
+  /// Small reads brought these.
+  struct Blocks
+  {
+    std::mutex mutex; ///< guards all that follows
+    std::map<std::uint64_t, WantedBytes> byOffset;
+    std::vector<std::uint64_t> order; ///< their offsets, the oldest first
+  };
+
   RemoteSource(std::unique_ptr<const Conversation> conversation, RemoteIdentity identity,
     std::shared_ptr<const FarCache> cache);
   static Result<std::shared_ptr<const RemoteSource>> openOffline(
@@ -57,6 +67,7 @@ private:
   Result<void> ask(const std::vector<const ByteRange*>& missing,
     const std::vector<Interval64>& needed, const ReadStop& stop) const;
   void keepOnDisk(const WantedBytes& piece) const;
+  Blocks& blocks() const;
   bool takeHeld(const ByteRange& range) const;
   void keepBlocks(const WantedBytes& piece, const Interval64& needed) const;
 
@@ -66,9 +77,7 @@ private:
   const FarIdentity kept_; ///< the same identity, in the cache
   std::vector<WantedBytes> ends_; ///< head and tail, or the whole file
   mutable std::atomic<bool> changed_{ false }; ///< somebody has replaced the file
-  mutable std::mutex mutex_; ///< guards all that follows
-  mutable std::map<std::uint64_t, WantedBytes> blocks_; ///< blocks of small reads, by offset
-  mutable std::vector<std::uint64_t> order_; ///< order of blocks_, the oldest first
+  mutable OfProcess<Blocks> blocks_;
 };
 
 } // namespace pointfront

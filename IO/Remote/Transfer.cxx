@@ -1,5 +1,7 @@
 #include "Transfer.h"
 
+#include "pointfront/Threads/ForkHold.h"
+
 #include <algorithm>
 #include <arpa/inet.h>
 #include <cctype>
@@ -116,13 +118,18 @@ const char* certificates()
   return nullptr;
 }
 
+CURL* newEasy()
+{
+  const ForkHold hold; // the library has a lock for this
+  return curl_easy_init();
+}
 } // namespace
 
 Transfer::Transfer(std::string line, const HttpQuestion& question, HttpAnswer& answer)
   : line_(std::move(line))
   , question_(&question)
   , answer_(&answer)
-  , easy_(curl_easy_init())
+  , easy_(newEasy())
 {
   if (easy_ == nullptr)
   {

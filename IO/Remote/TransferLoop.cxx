@@ -3,6 +3,7 @@
 #include "Transfer.h"
 
 #include "pointfront/Disk/ByteTraffic.h"
+#include "pointfront/Threads/ForkHold.h"
 #include "pointfront/Threads/OfProcess.h"
 #include "pointfront/Threads/WorkerThread.h"
 
@@ -23,6 +24,20 @@ using Clock = std::chrono::steady_clock;
 constexpr unsigned firstAtOnce = 8;
 constexpr unsigned mostAtOnce = 32;
 constexpr double usualRoundTrip = 0.05;
+
+OfProcess<TransferLoop>& loops()
+{
+  const ForkHold hold;
+  static auto* const all = new OfProcess<TransferLoop>; // never deleted: statics may read
+  return *all;
+}
+
+CURLM* newMulti()
+{
+  const ForkHold hold; // the library sets itself up, and OpenSSL
+  static const CURLcode ready = curl_global_init(CURL_GLOBAL_DEFAULT);
+  return ready == CURLE_OK ? curl_multi_init() : nullptr;
+}
 
 using Transfers = std::vector<std::unique_ptr<Transfer>>;
 
@@ -83,15 +98,13 @@ struct TransferLoop::Content
 
 TransferLoop& TransferLoop::ofProcess()
 {
-  static auto* const loop = new OfProcess<TransferLoop>; // never deleted: statics may read
-  return loop->get([] { return std::make_unique<TransferLoop>(); });
+  return loops().get([] { return std::make_unique<TransferLoop>(); });
 }
 
 TransferLoop::TransferLoop()
   : content_(std::make_unique<Content>())
 {
-  static const CURLcode ready = curl_global_init(CURL_GLOBAL_DEFAULT);
-  content_->multi = ready == CURLE_OK ? curl_multi_init() : nullptr;
+  content_->multi = newMulti();
 }
 
 TransferLoop::~TransferLoop()

@@ -1,8 +1,9 @@
 #include "pointfront/Disk/ByteOpeners.h"
 
+#include "pointfront/Threads/ForkHold.h"
+
 #include <algorithm>
 #include <cctype>
-#include <mutex>
 #include <utility>
 
 namespace pointfront
@@ -10,26 +11,27 @@ namespace pointfront
 
 ByteOpeners& ByteOpeners::ofProcess()
 {
+  const ForkHold hold;
   static auto* const openers = new ByteOpeners; // never deleted: static objects may use it
   return *openers;
 }
 
 void ByteOpeners::add(const std::string& scheme, std::shared_ptr<const ByteOpener> opener)
 {
-  const std::unique_lock<std::shared_mutex> lock(mutex_);
-  openers_[scheme] = std::move(opener);
+  const ForkHold hold;
+  openers_[scheme].swap(opener); // an earlier one goes when the hold is over
 }
 
 std::shared_ptr<const ByteOpener> ByteOpeners::find(const std::string& scheme) const
 {
-  const std::shared_lock<std::shared_mutex> lock(mutex_);
+  const ForkHold hold;
   const auto found = openers_.find(scheme);
   return found != openers_.end() ? found->second : nullptr;
 }
 
 std::string ByteOpeners::schemesInWords() const
 {
-  const std::shared_lock<std::shared_mutex> lock(mutex_);
+  const ForkHold hold;
   if (openers_.empty())
   {
     return "it opens files only; download the file and name its path";

@@ -4,7 +4,6 @@
 
 #include <map>
 #include <memory>
-#include <shared_mutex>
 #include <string>
 #include <string_view>
 
@@ -28,7 +27,7 @@ public:
 
 /// The schemes of addresses that this process opens. The kernel knows none: programs and plugins
 /// add them at their start.
-/// Threads  all functions from any thread.
+/// Threads  all functions from any thread; a child of fork() has those of its parent.
 class ByteOpeners
 {
 public:
@@ -42,8 +41,7 @@ public:
   std::string schemesInWords() const;
 
 private:
-  mutable std::shared_mutex mutex_;
-  std::map<std::string, std::shared_ptr<const ByteOpener>> openers_;
+  std::map<std::string, std::shared_ptr<const ByteOpener>> openers_; ///< guarded by ForkHold
 };
 
 /// The scheme of an address, in small letters: letters, digits, '+', '-' and '.' before "://".

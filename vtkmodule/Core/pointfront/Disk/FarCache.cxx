@@ -2,6 +2,7 @@
 
 #include "pointfront/Disk/ByteTraffic.h"
 #include "pointfront/Disk/FarSegment.h"
+#include "pointfront/Threads/ForkHold.h"
 
 #define XXH_INLINE_ALL
 #include <xxhash.h>
@@ -123,6 +124,7 @@ std::string FarIdentity::text() const
 
 std::shared_ptr<const FarCache> FarCache::ofProcess()
 {
+  const ForkHold hold;
   // Never deleted: sources may outlive static objects.
   static auto* const cache = new std::shared_ptr<const FarCache>(cacheOfSettings());
   return *cache;

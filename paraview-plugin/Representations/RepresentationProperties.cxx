@@ -1,13 +1,13 @@
 // The properties of vtkPointFrontRepresentation that are handed on as they are.
 #include "vtkPointFrontRepresentation.h"
 
+#include "CloudActor.h"
 #include "StyleChoice.h"
 
 #include "vtkNew.h"
 #include "vtkPointFrontMapper.h"
 #include "vtkPointFrontStore.h"
 #include "vtkProperty.h"
-#include "vtkPVLODActor.h"
 #include "vtkScalarsToColors.h"
 #include "vtkTransform.h"
 

@@ -1,5 +1,6 @@
 #include "vtkPointFrontRepresentation.h"
 
+#include "CloudActor.h"
 #include "RankExchange.h"
 #include "StyleChoice.h"
 #include "UpstreamReader.h"
@@ -52,7 +53,8 @@ struct SelectionState : vtkPVRenderView
 
 //------------------------------------------------------------------------------
 vtkPointFrontRepresentation::vtkPointFrontRepresentation()
-  : Choice(new pointfront::StyleChoice)
+  : Actor(vtkSmartPointer<pointfront::CloudActor>::New())
+  , Choice(new pointfront::StyleChoice)
   , Exchange(new pointfront::RankExchange)
 {
   this->Property->SetRepresentationToPoints();
@@ -268,6 +270,8 @@ bool vtkPointFrontRepresentation::AddToView(vtkView* view)
   // when the renderer starts, with priority 0. Behind that a lens knows its place.
   this->StartObserver = renderView->GetRenderer()->AddObserver(
     vtkCommand::StartEvent, this, &vtkPointFrontRepresentation::BeginFrame, -1.0f);
+  this->UncoverObserver = renderView->GetRenderer()->AddObserver(
+    vtkCommand::EndEvent, this, &vtkPointFrontRepresentation::UncoverView);
   return this->Superclass::AddToView(view);
 }
 
@@ -281,6 +285,7 @@ bool vtkPointFrontRepresentation::RemoveFromView(vtkView* view)
   }
   this->ResumeFXAA();
   renderView->GetRenderer()->RemoveObserver(this->StartObserver);
+  renderView->GetRenderer()->RemoveObserver(this->UncoverObserver);
   renderView->GetRenderer()->RemoveActor(this->Actor);
   renderView->UnRegisterPropForHardwareSelection(this, this->Actor);
   return this->Superclass::RemoveFromView(view);
@@ -291,6 +296,21 @@ void vtkPointFrontRepresentation::BeginFrame()
 {
   this->PlaceLens();
   this->AgreeOnExchange();
+  this->CoverView();
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::CoverView()
+{
+  auto* view = vtkPVRenderView::SafeDownCast(this->GetView());
+  const bool shared = view && this->GetVisibility() && this->Mapper->GetNumberOfStorePieces() > 1;
+  this->Actor->CoverView(shared ? view->GetRenderer() : nullptr);
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::UncoverView()
+{
+  this->Actor->CoverView(nullptr);
 }
 
 //------------------------------------------------------------------------------
@@ -306,7 +326,7 @@ void vtkPointFrontRepresentation::AgreeOnExchange()
   const bool oneSurface = this->Actor->HasTranslucentPolygonalGeometry() != 0;
   const bool wanted = seen && !oneSurface &&
     this->Mapper->NeedsPictureExchange(this->Actor, this->InMotion) &&
-    pointfront::isSurelyInView(view->GetRenderer(), this->Actor->GetBounds());
+    pointfront::isSurelyInView(view->GetRenderer(), this->Actor->GetCloudBounds());
   const bool agreed =
     this->Exchange->agreed(vtkMultiProcessController::GetGlobalController(), wanted);
   if (agreed)

@@ -44,6 +44,7 @@ class vtkScalarsToColors;
 
 namespace pointfront
 {
+class CloudActor;
 class RankExchange;
 class StyleChoice;
 } // namespace pointfront
@@ -285,6 +286,10 @@ private:
   void PrepareStyle();
   /// When the renderer starts: its size and camera are known.
   void BeginFrame();
+  /// IceT composites points beyond the cloud's box, too, during a frame. Between frames the view
+  /// takes boxes of actors for its clipping range, so that they are those of the clouds again.
+  void CoverView();
+  void UncoverView();
   void PlaceLens();
   void TellLensOfRanks(bool oneSurface);
   /// Ranks add up the colours of blended splats, if all of them can.
@@ -306,7 +311,7 @@ private:
 
   vtkNew<vtkPointFrontMapper> Mapper;
   vtkNew<vtkProperty> Property;
-  vtkNew<vtkPVLODActor> Actor;
+  const vtkSmartPointer<pointfront::CloudActor> Actor;
   vtkNew<vtkPolyData> Overview; ///< data server: the input
   vtkSmartPointer<vtkPointFrontStore> Store; ///< data server: for the bounds of the whole cloud
 
@@ -329,6 +334,7 @@ private:
   vtkWeakPointer<vtkPVRenderView> SuspendedView; ///< whose FXAA is off for a frame
   unsigned long EndObserver = 0;
   unsigned long StartObserver = 0;
+  unsigned long UncoverObserver = 0;
   std::string DrawnArray; ///< empty: one colour
   bool DrawnDirectly = false; ///< its components are the colour
   const std::unique_ptr<pointfront::StyleChoice> Choice;

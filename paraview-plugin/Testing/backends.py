@@ -123,6 +123,16 @@ if "POINTFRONT_SPARSE" in os.environ:
                               ("blended", ["", "blended", "", ""])):
             display.LensStyles = inside
             scene.save("%s-small-%s-%s" % (name, style, way))
+    # What is drawn beyond the cloud's box, by half a point or splat, is of all ranks, too.
+    display.LensShape, display.PointSize = "Off", 15
+    at = [*(0.5 * (low[i] + high[i]) for i in (0, 1)), high[2]]
+    scene.look_as({"position": [*at[:2], at[2] + 1000], "focal_point": at,
+                   "view_up": [0, 1, 0], "parallel_scale": 0.6 * height})
+    for technique, backend in (("points", "OpenGL"), ("points", "Software"),
+                               ("spheres", "Software")):
+        display.Technique, display.Backend = technique, backend
+        scene.save("%s-beyond-%s-%s" % (name, technique, backend.lower()))
+    display.Technique, display.PointSize, display.LensShape = "points", 2, "Around a class"
     scene.view.CameraParallelProjection = 0
     scene.look()
     camera.Yaw(150)  # seen from nowhere: no rank waits for the others

@@ -1,9 +1,12 @@
-/// Tells what ParaView's properties panel shows, for a test that runs inside of ParaView
-/// (panel.py): its Python knows no Qt.
+/// Tells what ParaView's properties panel shows, and uses its window as who sits before it, for
+/// tests that run inside of ParaView (panel.py, opened.py): its Python knows no Qt.
 
+#include <QAbstractButton>
+#include <QAction>
 #include <QApplication>
 #include <QByteArray>
 #include <QHeaderView>
+#include <QItemSelectionModel>
 #include <QJsonArray>
 #include <QJsonDocument>
 #include <QJsonObject>
@@ -11,7 +14,10 @@
 #include <QScrollArea>
 #include <QScrollBar>
 #include <QString>
+#include <QStringList>
 #include <QTableWidget>
+#include <QTimer>
+#include <QTreeView>
 #include <QWidget>
 
 namespace
@@ -69,7 +75,92 @@ QJsonArray wideWidgets(const QWidget& content, int width)
   return wide;
 }
 
+/// The first one that is shown, of that class and name.
+template <typename Widget>
+Widget* shown(const QWidget& among, const char* name)
+{
+  for (auto* one : among.findChildren<Widget*>(name))
+  {
+    if (one->isVisible())
+    {
+      return one;
+    }
+  }
+  return nullptr;
+}
+
+/// Selects the lines of a file dialog that have these names; how many there are.
+int selectLines(QTreeView& files, const QStringList& names)
+{
+  int chosen = 0;
+  const QAbstractItemModel& lines = *files.model();
+  for (int row = 0; row < lines.rowCount(files.rootIndex()); ++row)
+  {
+    const QModelIndex line = lines.index(row, 0, files.rootIndex());
+    if (names.contains(line.data().toString()))
+    {
+      files.selectionModel()->select(line,
+        (chosen == 0 ? QItemSelectionModel::ClearAndSelect : QItemSelectionModel::Select) |
+          QItemSelectionModel::Rows);
+      ++chosen;
+    }
+  }
+  return chosen;
+}
+
 } // namespace
+
+/// Chooses an action of a menu, once this call is back; false if there is none of that name.
+extern "C" Q_DECL_EXPORT bool pointfrontAct(const char* action)
+{
+  for (const QWidget* window : QApplication::topLevelWidgets())
+  {
+    if (auto* const found = window->findChild<QAction*>(action))
+    {
+      QTimer::singleShot(0, found, &QAction::trigger);
+      return true;
+    }
+  }
+  return false;
+}
+
+/// Selects lines of the open file dialog, whose names are separated by "/", and presses OK once
+/// this call is back. How many lines were found: all are needed. -1 while there is no dialog.
+extern "C" Q_DECL_EXPORT int pointfrontChoose(const char* names)
+{
+  for (QWidget* dialog : QApplication::topLevelWidgets())
+  {
+    if (!dialog->isVisible() || !dialog->inherits("pqFileDialog"))
+    {
+      continue;
+    }
+    const QStringList wanted = QString(names).split('/');
+    auto* const files = shown<QTreeView>(*dialog, "Files");
+    auto* const accept = shown<QAbstractButton>(*dialog, "OK");
+    const int chosen = files && accept ? selectLines(*files, wanted) : 0;
+    if (chosen == wanted.size())
+    {
+      QTimer::singleShot(100, accept, &QAbstractButton::click);
+    }
+    return chosen;
+  }
+  return -1;
+}
+
+/// Presses a button of the main window; false if none is shown that can be pressed.
+extern "C" Q_DECL_EXPORT bool pointfrontPress(const char* name)
+{
+  for (const QWidget* window : QApplication::topLevelWidgets())
+  {
+    auto* const button = shown<QAbstractButton>(*window, name);
+    if (button && button->isEnabled())
+    {
+      QTimer::singleShot(0, button, &QAbstractButton::click);
+      return true;
+    }
+  }
+  return false;
+}
 
 /// JSON, until the next call; "{}" while there is no panel. Called by the thread of the window.
 extern "C" Q_DECL_EXPORT const char* pointfrontPanel()

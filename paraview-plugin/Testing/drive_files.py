@@ -9,6 +9,7 @@ import shlex
 import shutil
 
 import numpy
+import pictures
 from expected import compare, exported
 from programs import HERE, mpi, tool, with_server
 
@@ -45,6 +46,40 @@ def files(programs):
                                   not all(word in steps[step] for word in words)):
                 raise AssertionError("what is said of %s: %s" % (step, steps[step]))
         compare("files-%d" % ranks_, "tool")
+
+
+def opened(programs):
+    """Lines chosen in File > Open are a cloud each; a group, which is one line, is one cloud."""
+    for old in glob.glob("*.las*"):
+        os.remove(old)
+    tiles = {}
+    for number, name in enumerate(
+            "north east south west tile_1 tile_2 tile_3 tile_4".split()):
+        tool("generate", "--points", str(2000 + 1000 * number), "--seed", str(number),
+             "-o", name + ".las")
+        tiles[name + ".las"] = json.loads(tool("info", name + ".las", "--json"))["points"]
+    single = [name for name in sorted(tiles) if "_" not in name]
+    group = sorted(set(tiles) - set(single))
+    os.environ["POINTFRONT_LINES"] = json.dumps([single, ["tile_..las"]])
+    try:
+        programs.run(os.environ["POINTFRONT_PARAVIEW"], "--dr",
+                     "--script=" + os.path.join(HERE, "opened.py"))
+    finally:
+        if os.path.exists("opened.json"):
+            print(open("opened.json").read())
+    with open("opened.json") as file:
+        rounds = json.load(file)["rounds"]
+    wanted = [[["PointFrontFiles", [name], tiles[name]] for name in single],
+              [["PointFrontFiles", group, sum(tiles[name] for name in group)]]]
+    if rounds != wanted:
+        raise AssertionError("opened are %s, not %s" % (rounds, wanted))
+    stores = sorted(glob.glob("*.las*.pfront"))
+    if sorted(name.split(".las")[0] + ".las" for name in stores) != sorted([*single, group[0]]):
+        raise AssertionError("the stores are %s" % stores)
+    for number in (0, 1):
+        picture = pictures.load("opened-%d.png" % number)
+        if (picture != picture[-1, -1]).any(axis=2).mean() < 0.02:
+            raise AssertionError("nothing is shown")
 
 
 def written(programs):

@@ -1,0 +1,99 @@
+"""The ParaView application, by its own dialog: several files chosen in File > Open.
+
+Runs as `paraview --dr --script=opened.py` in a folder with the files of POINTFRONT_LINES, which are
+lists of lines of the dialog. Chooses one list after the other, presses OK and Apply, and writes
+opened.json: for each list the sources that came, as [reader, file names, points of the store], and
+saves opened-NUMBER.png.
+"""
+
+import ctypes
+import json
+import os
+import time
+import traceback
+
+from paraview import simple
+
+found = {"rounds": [], "failure": None}
+lines = json.loads(os.environ["POINTFRONT_LINES"])
+LONGEST = 100  # seconds
+
+
+def end():
+    with open(os.path.join(os.environ["POINTFRONT_OUTPUT"], "opened.json"), "w") as file:
+        json.dump(found, file, indent=1)
+    os._exit(1 if found["failure"] else 0)
+
+
+def guarded(action):
+    def run(*_):
+        try:
+            action()
+        except BaseException:
+            found["failure"] = traceback.format_exc()
+            end()
+    return run
+
+
+def stored(source):
+    told = source.GetDataInformation().DataInformation.GetFieldDataInformation()
+    array = told.GetArrayInformation("store_points")
+    return int(array.GetComponentRange(0)[0]) if array else 0
+
+
+@guarded
+def start():
+    simple.GetSettingsProxy("GeneralSettings").ShowWelcomeDialog = 0
+    probe = ctypes.CDLL(os.environ["POINTFRONT_PANEL_PROBE"])
+    probe.pointfrontAct.restype = probe.pointfrontPress.restype = ctypes.c_bool
+    simple.LoadPlugin(os.environ["POINTFRONT_PLUGIN"], remote=False, ns=globals())
+    view = simple.GetActiveViewOrCreate("RenderView")
+    interactor = view.SMProxy.GetInteractor()
+    begun, steps, known = time.monotonic(), [], set()
+
+    def opens():
+        if not probe.pointfrontAct(b"actionFileOpen"):
+            raise AssertionError("no File > Open")
+        steps.append(chooses)
+
+    def chooses():
+        if probe.pointfrontChoose("/".join(lines[len(found["rounds"])]).encode()) > 0:
+            steps.append(applies)
+
+    def applies():
+        if simple.GetSources().keys() - known and probe.pointfrontPress(b"Accept"):
+            steps.append(looks)
+
+    def looks():
+        came = {key: source for key, source in simple.GetSources().items() if key not in known}
+        rows = [[source.GetXMLName(), [os.path.basename(name) for name in source.FileName],
+                 stored(source)] for source in came.values()]
+        if not all(points for _, _, points in rows):
+            return
+        number = len(found["rounds"])
+        found["rounds"].append(sorted(rows))
+        known.update(simple.GetSources())
+        simple.ResetCamera(view)
+        simple.SaveScreenshot(
+            os.path.join(os.environ["POINTFRONT_OUTPUT"], "opened-%d.png" % number), view)
+        for source in came.values():
+            simple.Hide(source, view)
+        if len(found["rounds"]) == len(lines):
+            end()
+        steps.append(opens)
+
+    steps.append(opens)
+
+    @guarded
+    def tick():
+        steps[-1]()
+        if time.monotonic() - begun > LONGEST:
+            raise AssertionError("stopped at %s: %s" % (steps[-1].__name__, found))
+        interactor.CreateOneShotTimer(200)
+
+    interactor.AddObserver("TimerEvent", tick)
+    interactor.CreateOneShotTimer(200)
+    view.SMProxy.StillRender()
+
+
+start()
